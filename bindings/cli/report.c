@@ -237,7 +237,7 @@ static void print_changes(const options *o, const outcome *result) {
   putchar('\n');
   if (o->input)
     printf(
-        "  the file  is not judged: '%s' is the end state, after the crunch moved spheres by up to %.2g diameters. "
+        "  the file  is not tested: '%s' is the end state, after the crunch moved spheres by up to %.2g diameters. "
         "See: %s check %s\n",
         verdict(r), r->displacement_max, program, o->input);
 }

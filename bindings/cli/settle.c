@@ -85,7 +85,7 @@ static int settle_files(const options *o) {
       return -1;
     }
     if (o->no_crunch && a->flags & AFTER_CRUNCH) {
-      complain("%s needs the crunch that %s leaves out", a->name,
+      complain("%s needs the crunch, which %s omits", a->name,
                isfinite(o->porosity)           ? "--porosity"
                : isfinite(o->packing_fraction) ? "--packing-fraction"
                                                : "--no-crunch");
@@ -223,11 +223,11 @@ static int settle_formats(const options *o) {
     }
     if (o->strain != JAM_STRAIN_NONE && !host &&
         (!is_one_of(ending, packings) || !strcmp(ending, "dat") || !strcmp(ending, "txt") || !*ending)) {
-      complain("--strain needs an --output in another format: plain text holds cubes alone");
+      complain("--strain needs an --output in another format: plain text has cubes alone");
       return -1;
     }
     if (o->non_additivity != 0 && strcmp(ending, "xyz") && strcmp(ending, "extxyz")) {
-      complain("--non-additivity needs an --output that ends in .xyz or .extxyz: no other format can hold it");
+      complain("--non-additivity needs an --output that ends in .xyz or .extxyz: no other format has a place for it");
       return -1;
     }
   }
@@ -294,12 +294,12 @@ int check_formats(const options *o, const jam_system *sys) {
     return -1;
   }
   if (o->vtk && info.dim > 3) {
-    complain("--vtk: such files hold d = 2 and d = 3, this packing has d = %d", (int)info.dim);
+    complain("--vtk: such files have d = 2 or d = 3, this packing has d = %d", (int)info.dim);
     return -1;
   }
   if (is_host_format(o, o->output)) {
     if (info.dim > 3) {
-      complain("--output %s: such files hold d = 2 and d = 3, this packing has d = %d", o->output, (int)info.dim);
+      complain("--output %s: such files have d = 2 or d = 3, this packing has d = %d", o->output, (int)info.dim);
       return -1;
     }
   } else if (o->output) {
@@ -312,6 +312,6 @@ int check_formats(const options *o, const jam_system *sys) {
   if (!o->contacts || info.dim <= 3) return 0;
   ending_of(o->contacts, ending);
   if (strcmp(ending, "dump") && strcmp(ending, "vtp")) return 0;
-  complain("--contacts %s: such files hold d = 2 and d = 3, this packing has d = %d", o->contacts, (int)info.dim);
+  complain("--contacts %s: such files have d = 2 or d = 3, this packing has d = %d", o->contacts, (int)info.dim);
   return -1;
 }

@@ -89,7 +89,7 @@ int make_diameters(const options *o, double **out, int64_t *n) {
   if (o->given.diameters_file) {
     if (read_diameters(o->given.diameters_file, out, &k)) return -1;
     if (o->given.n && k != *n) {
-      complain("%s holds %lld diameters, --n is %lld", o->given.diameters_file, (long long)k, (long long)*n);
+      complain("%s has %lld diameters, --n is %lld", o->given.diameters_file, (long long)k, (long long)*n);
       return -1;
     }
     *n = k;

@@ -24,7 +24,9 @@ include_patterns = [
     "examples/studies/ensembles/README.md",
     "src/README.md",
     "src/crunch/README.md",
+    "ensemble_tables.md",
     "tests/bench/README.md",
+    "tests/bench/tried.md",
 ]
 exclude_patterns = ["bindings/docs/index.md"]  # site.py puts it at the top
 myst_heading_anchors = 3

@@ -4,6 +4,7 @@ usage: site.py ROOT FOLDER      then: sphinx-build -c ROOT/bindings/docs FOLDER/
 """
 import re
 import shutil
+import subprocess
 import sys
 from pathlib import Path
 
@@ -134,6 +135,8 @@ def main():
         "```{doxygennamespace} jam\n:members:\n:undoc-members:\n:content-only:\n```\n"
     )
     (source / "api" / "python.md").write_text(PYTHON)
+    tables = root / "examples/studies/ensembles/tables.py"
+    subprocess.run([sys.executable, "-B", str(tables), str(source / "ensemble_tables.md")], check=True)
 
 
 if __name__ == "__main__":

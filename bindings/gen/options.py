@@ -116,7 +116,7 @@ TABLE = {
             "frame",
             "integer",
             "K",
-            "which packing of an --input that holds several: 0 is the first, -1 the last (-1)",
+            "which packing of an --input with several: 0 is the first, -1 the last (-1)",
             -1,
             -INT32_MAX,
             INT32_MAX,
@@ -185,7 +185,7 @@ TABLE = {
             "resume",
             "input",
             "FILE",
-            "go on from a checkpoint. Dynamics: to the same bits, the stage that was cut off, then those stages whose "
+            "continue from a checkpoint. Dynamics: to the same bits, the stage that was cut off, then those stages whose "
             "pressure lies beyond. A crunch: from the packing of its last step",
         ),
     ),
@@ -251,13 +251,13 @@ TABLE = {
             "page",
             "output",
             "FILE.html",
-            "the packing to look at in a browser, with forces, certificate and distributions; needs no network",
+            "a page that shows the packing in a browser, with forces, certificate and distributions; needs no network",
         ),
         Option(
             "page-steps",
             "integer",
             "K",
-            "--page gets a slider over at most K states of the crunch before its end, each 16 bytes a sphere in d = 3 (0)",
+            "--page gets a slider over at most K states of the crunch before its end, each 16 bytes per sphere in d = 3 (0)",
             0,
             0,
             1000,
@@ -295,14 +295,14 @@ TABLE = {
             "structure",
             "output",
             "FILE.csv",
-            "a line a sphere: coordination, class, sums of contact vectors and forces, Q6, local packing fraction",
+            "one line per sphere: coordination, class, sums of contact vectors and forces, Q6, local packing fraction",
             after_crunch=True,
         ),
         Option(
             "prove",
             "switch",
             "",
-            "a theorem about the jammed packing, in spite of rounding; the summary and the report say what was proved",
+            "a theorem about the jammed packing, valid despite rounding; the summary and the report say what was proved",
             without=("no-crunch",),
         ),
         Option(
@@ -339,11 +339,11 @@ ABOUT = (
 )
 EXAMPLE = "--n 1024 --seed 1 --output packing.xyz --page packing.html --report -"
 NOTES = (
-    "Ctrl-C stops the computation, and what was asked for is still written. Into a pipe or a file progress goes as a line "
+    "Ctrl-C stops the computation, and the requested files are still written. Into a pipe or a file progress goes as a line "
     "every ten seconds, on a terminal as one line that changes.",
     "Exit status 0: done, and jammed unless --no-crunch. 1: stopped early, a stage stalled, or not jammed; the valid state reached is written. "
     "2: wrong command line. 3: request or input refused, or the computation failed. 4: an output cannot be written.",
-    "With --input the verdict is that of the end state, after the crunch. 'check FILE' judges the packing of a file as it "
+    "With --input the verdict is that of the end state, after the crunch. 'check FILE' tests the packing of a file as it "
     "is and moves nothing. It takes --box, --frame, --non-additivity, --prove, --proof, --wall-time and --quiet. One paragraph says whether it is jammed, strictly jammed, not jammed or undecided, and why. Exit status of check 0: jammed. 1: not. "
     "3: undecided. 2: wrong command line, or the file is refused.",
 )

@@ -55,7 +55,7 @@ inline jam_hessian_options take_hessian_options(const jam_hessian_options *h) {
 // of `expected` becomes NaN.
 inline void check_output(const void *out, size_t len, size_t expected, const char *name) {
   if (!out && len != 0) fail(JAM_E_NULL, "%s is NULL but its length is %zu", name, len);
-  if (out && len < expected) fail(JAM_E_BUFFER, "%s holds %zu elements, %zu are needed", name, len, expected);
+  if (out && len < expected) fail(JAM_E_BUFFER, "%s has %zu elements, %zu are needed", name, len, expected);
 }
 template <class T>
 void put_output(const std::vector<T> &data, T *out, size_t expected) {

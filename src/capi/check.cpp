@@ -49,8 +49,9 @@ void prove_tested(const CheckResult &result, jam_check_report &r) {
 std::string paragraph(const jam_check_report &r) {
   const bool tried = r.theorem != JAM_THEOREM_NONE || r.proof_cause != JAM_CAUSE_NONE;
   if (!tried) return text_of(r);
-  return text_of(r) + " In spite of rounding: " +
-         proof_text(r.theorem, r.proof_cause, r.proof_radius, r.proof_value, r.proof_bound) + ".";
+  return text_of(r) +
+         " Despite rounding: " + proof_text(r.theorem, r.proof_cause, r.proof_radius, r.proof_value, r.proof_bound) +
+         ".";
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ template <class F>
 jam_status with_step(const jam_system *sys, F &&f) noexcept {
   return guard_read(sys, [&]() -> jam_status {
     if (!sys->crunching || !sys->crunching->step().shown)
-      fail(JAM_E_STATE, "no step to look at: call this from the progress callback of jam_crunch with steps = 1");
+      fail(JAM_E_STATE, "no step to return: call this from the progress callback of jam_crunch with steps = 1");
     return f(sys->crunching->step());
   });
 }

@@ -58,7 +58,7 @@ class Reading {
   explicit Reading(const jam_system *sys, const char *name = "sys") {
     if (!sys) fail(JAM_E_NULL, "%s is NULL", name);
     if (sys->gate.owned()) return;
-    if (!sys->gate.enter_const()) fail(JAM_E_BUSY, "another thread runs a call on this handle");
+    if (!sys->gate.enter_const()) fail(JAM_E_BUSY, "another thread is in a call on this handle");
     gate_ = &sys->gate;
   }
   ~Reading() {
@@ -188,7 +188,7 @@ inline void need(const void *pointer, const char *name) {
 template <class T>
 void check_struct_size(size_t size, const char *name) {
   if (size < sizeof(uint32_t) || size > sizeof(T))
-    fail(JAM_E_STRUCT_SIZE, "%s is %zu, this library knows up to %zu", name, size, sizeof(T));
+    fail(JAM_E_STRUCT_SIZE, "%s is %zu, the largest of this library is %zu", name, size, sizeof(T));
   if (size % alignof(T) != 0) fail(JAM_E_STRUCT_SIZE, "%s is %zu, which cuts a field in two", name, size);
 }
 
@@ -217,7 +217,7 @@ template <class T>
 void check_out_struct(const T *out, const char *name) {
   if (!out) return;
   if (out->struct_size < sizeof(uint32_t) || out->struct_size > sizeof(T) || out->struct_size % alignof(T) != 0)
-    fail(JAM_E_STRUCT_SIZE, "%s->struct_size is %u, this library knows %zu", name, out->struct_size, sizeof(T));
+    fail(JAM_E_STRUCT_SIZE, "%s->struct_size is %u, in this library it is %zu", name, out->struct_size, sizeof(T));
 }
 template <class T>
 void give_struct(const T &full, T *out) {
@@ -264,7 +264,7 @@ jam_status give_array(const T *data, size_t count, T *out, size_t out_len, size_
   if (!out && !needed) fail(JAM_E_NULL, "needed is NULL and there is no output array");
   if (needed) *needed = count;
   if (!out) return JAM_OK;
-  if (out_len < count) fail(JAM_E_BUFFER, "output array holds %zu elements, %zu are needed", out_len, count);
+  if (out_len < count) fail(JAM_E_BUFFER, "output array has %zu elements, %zu are needed", out_len, count);
   if (count) std::memcpy(out, data, count * sizeof(T));
   return JAM_OK;
 }

@@ -20,7 +20,7 @@ jam_status with_runs(const jam_system *sys, F &&f) noexcept {
 void give_scaled(const char *name, const std::vector<double> &data, double unit, double *out, size_t out_len) {
   if (!out && out_len != 0) fail(JAM_E_NULL, "%s is NULL but its length is %zu", name, out_len);
   if (!out) return;
-  if (out_len < data.size()) fail(JAM_E_BUFFER, "%s holds %zu elements, %zu are needed", name, out_len, data.size());
+  if (out_len < data.size()) fail(JAM_E_BUFFER, "%s has %zu elements, %zu are needed", name, out_len, data.size());
   for (size_t k = 0; k < data.size(); ++k) out[k] = data[k] * unit;
 }
 

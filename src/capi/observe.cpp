@@ -23,7 +23,7 @@ void give(const std::vector<T> &data, T *out, size_t out_len) {
 template <class T>
 void check_room(const char *name, size_t count, const T *out, size_t out_len) {
   if (!out && out_len != 0) fail(JAM_E_NULL, "%s is NULL but its length is %zu", name, out_len);
-  if (out && out_len < count) fail(JAM_E_BUFFER, "%s holds %zu elements, %zu are needed", name, out_len, count);
+  if (out && out_len < count) fail(JAM_E_BUFFER, "%s has %zu elements, %zu are needed", name, out_len, count);
 }
 
 std::vector<double> column(const std::vector<Sample> &samples, double Sample::*member) {

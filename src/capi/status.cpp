@@ -16,7 +16,8 @@ const char *meaning_of(jam_status status) {
     case JAM_CANCELLED:
       return "jam_cancel or a callback stopped the call; the state is valid";
     case JAM_LIMIT:
-      return "a limit on work or time was reached first; the state is valid: raise the limit, or call again to go on";
+      return "a limit on work or time was reached first; the state is valid: raise the limit, or call again to "
+             "continue";
     case JAM_NOT_CONVERGED:
       return "the method made no more progress; its result is the best so far";
     case JAM_PRECISION:
@@ -35,20 +36,19 @@ const char *meaning_of_stop(int32_t reason) {
   switch (reason) {
     case JAM_STOP_COLLISIONS:
       return "collisions_per_particle came before the target; the packing reached is kept: raise it, or call again to "
-             "go "
-             "on";
+             "continue";
     case JAM_STOP_TIME:
       return "the limit of simulated time came before the target; the packing reached is kept: raise it, or call again "
-             "to go on";
+             "to continue";
     case JAM_STOP_WALL_TIME:
-      return "wall_time came before the end; the packing reached is kept: raise wall_time, or call again to go on";
+      return "wall_time came before the end; the packing reached is kept: raise wall_time, or call again to continue";
     case JAM_STOP_CANCELLED:
-      return "jam_cancel or a callback stopped the call; the packing reached is kept: call again to go on";
+      return "jam_cancel or a callback stopped the call; the packing reached is kept: call again to continue";
     case JAM_STOP_PRECISION:
       return "gaps are at the resolution of the coordinates, the limit of double precision; the packing reached is "
              "kept";
     case JAM_STOP_LP_LIMIT:
-      return "max_lps came before convergence; the packing reached is kept: raise max_lps, or crunch again to go on";
+      return "max_lps came before convergence; the packing reached is kept: raise max_lps, or crunch again to continue";
     case JAM_STOP_SOLVER:
       return "no answer of the LP solver passed the checks; the packing reached is kept, without a certificate";
     case JAM_STOP_UNJAMMED:
@@ -58,9 +58,9 @@ const char *meaning_of_stop(int32_t reason) {
       return "contact forces balance, but a motion opens contacts (a saddle), and steps along it do not leave the "
              "saddle: take another seed, or compress the packing further first";
     case JAM_STOP_EVALUATIONS:
-      return "max_evaluations came before the minimum; the state reached is kept: raise it, or call again to go on";
+      return "max_evaluations came before the minimum; the state reached is kept: raise it, or call again to continue";
     case JAM_STOP_STEPS:
-      return "max_steps came before the end; the state reached is kept: raise it, or call again to go on";
+      return "max_steps came before the end; the state reached is kept: raise it, or call again to continue";
     default:
       return nullptr;
   }
@@ -75,7 +75,7 @@ Answer stopped(jam_status status, int32_t stop_reason) {
 Answer stopped_run(jam_status status, int32_t stop_reason) {
   const bool cancelled = stop_reason == JAM_STOP_CANCELLED;
   if (status <= 0 || (!cancelled && stop_reason != JAM_STOP_WALL_TIME)) return stopped(status, stop_reason);
-  return {status, sentence("%s; what was made is kept, and resume = 1 goes on; without it a call begins anew",
+  return {status, sentence("%s; what was made is kept, and resume = 1 continues; without it a call starts again",
                            cancelled ? "jam_cancel or a callback stopped the call" : "wall_time came before the end")};
 }
 

@@ -12,7 +12,7 @@ inline bool table_wanted(size_t rows, size_t columns, const double *table, size_
   const size_t count = rows * columns;
   if (needed) *needed = count;
   if (table && table_len < count)
-    fail(JAM_E_BUFFER, "table holds %zu elements, %zu are needed (%zu rows of %zu)", table_len, count, rows, columns);
+    fail(JAM_E_BUFFER, "table has %zu elements, %zu are needed (%zu rows of %zu)", table_len, count, rows, columns);
   return table != nullptr;
 }
 

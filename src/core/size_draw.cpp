@@ -104,9 +104,9 @@ class Drawing {
   }
   static void check_count(double n, double wanted) {
     if (n < 1.0)
-      fail(JAM_E_ARGUMENT, "the cell is too small: a volume of %g holds less than half a mean sphere", wanted);
+      fail(JAM_E_ARGUMENT, "the cell is too small: a volume of %g has room for less than half a mean sphere", wanted);
     if (n > static_cast<double>(limits::n_max))
-      fail(JAM_E_ARGUMENT, "a volume of %g holds %.3g spheres of this law, more than 2^31-1", wanted, n);
+      fail(JAM_E_ARGUMENT, "a volume of %g has room for %.3g spheres of this law, more than 2^31-1", wanted, n);
   }
   const SizeDistribution &law_;
   int dim_;
@@ -130,7 +130,7 @@ void adjust_last(const Drawing &drawing, int dim, double wanted, std::vector<dou
   std::rotate(s.begin() + static_cast<std::ptrdiff_t>(taken), s.begin() + static_cast<std::ptrdiff_t>(taken) + 1,
               s.end());
   const double volume = drawing.volume(s.back()) + more;
-  if (!(volume > 0.0)) fail(JAM_E_ARGUMENT, "the cell is too small: it does not hold the spheres of this law");
+  if (!(volume > 0.0)) fail(JAM_E_ARGUMENT, "the cell is too small for the spheres of this law");
   s.back() = math::pow(volume / unit_sphere_volume(dim), 1.0 / dim);
 }
 

@@ -49,7 +49,7 @@ void take_item(std::string_view item, jam_diameters_options &o, std::vector<doub
   else if (key == "draw")
     o.draw = one_of(item, value, {"quantiles", "random"}, JAM_DRAW_QUANTILES);
   else if (!is_number(value, y))
-    refuse(item, "what stands behind = must be a number");
+    refuse(item, "the value after = must be a number");
   else if (is_number(key, x))
     curve.insert(curve.end(), {x, y});
   else if (double *const place = size_field(o, std::string(key).c_str()))

@@ -175,7 +175,7 @@ Packing read_checkpoint(const char *path, std::string &beside) {
   beside.assign(at, static_cast<size_t>(h.beside));
   check_dim(h.dim);
   reduce_cell(h.dim, h.cell);  // for its checks
-  if (!has_searchable_cell(h)) fail(JAM_E_FORMAT, "%s holds a cell that is far from reduced", path);
+  if (!has_searchable_cell(h)) fail(JAM_E_FORMAT, "%s contains a cell that is far from reduced", path);
   p.cell = Cell::from_triangle(h.dim, h.cell);
   check_packing(p, JAM_E_FORMAT);
   bool good = (h.model == JAM_MODEL_EUCLID || h.model == JAM_MODEL_MK) &&
@@ -188,7 +188,7 @@ Packing read_checkpoint(const char *path, std::string &beside) {
            (!last || last->i < r.i || (last->i == r.i && last->j < r.j));
     last = &r;
   }
-  if (!good) fail(JAM_E_FORMAT, "%s holds values that no packing has", path);
+  if (!good) fail(JAM_E_FORMAT, "%s contains values that no packing has", path);
   return p;
 }
 

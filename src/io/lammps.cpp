@@ -5,7 +5,7 @@
 namespace jam {
 
 LammpsBox lammps_box(const Packing &p, const char *format) {
-  if (p.dim > 3) fail(JAM_E_UNSUPPORTED, "%s holds d = 2 and d = 3, this packing has d = %d", format, p.dim);
+  if (p.dim > 3) fail(JAM_E_UNSUPPORTED, "%s has d = 2 or d = 3, this packing has d = %d", format, p.dim);
   LammpsBox box;
   for (int c = 0; c < p.dim; ++c) box.high[c] = p.cell.edge(c);
   if (p.dim == 2) {

@@ -55,7 +55,7 @@ FileContent read_file(const char *path, const ReadOptions &options) {
   if (!known->read) fail(JAM_E_FORMAT, "%s is %s: %s", path, known->name, known->way_out);
   const bool frames = known->read == read_xyz || known->read == read_dump;
   if (!frames && options.frame != -1 && options.frame != 0)
-    fail(JAM_E_ARGUMENT, "%s: frame is %lld, but %s holds one packing", path, static_cast<long long>(options.frame),
+    fail(JAM_E_ARGUMENT, "%s: frame is %lld, but %s contains one packing", path, static_cast<long long>(options.frame),
          known->name);
   FileContent content = known->read(in, options);
   say_wrapped(content, options.box);

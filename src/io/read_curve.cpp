@@ -20,7 +20,7 @@ void read_curve(const char *path, std::vector<double> &curve) {
     if (words.size() != 2) in.fail(JAM_E_FORMAT, "a row of a curve has two numbers, this one %zu words", words.size());
     for (const std::string_view word : words) curve.push_back(parse_number(in, word));
   }
-  if (curve.empty()) in.fail(JAM_E_FORMAT, "the file holds no row of two numbers");
+  if (curve.empty()) in.fail(JAM_E_FORMAT, "the file has no row of two numbers");
 }
 
 }  // namespace jam

@@ -153,24 +153,24 @@ bool read_frame(LineReader &in, FileContent &content) {
   bool begun = false, has_box = false;
   while (next_words(in, line, words)) {
     if (words[0] != "ITEM:" || words.size() < 2)
-      in.fail(JAM_E_FORMAT, "'%s' stands where a line of ITEM: is needed%s", shown(line).c_str(),
+      in.fail(JAM_E_FORMAT, "'%s' where a line of ITEM: is needed%s", shown(line).c_str(),
               begun ? "" : "; there may be more atoms than NUMBER OF ATOMS says");
     const std::string item(words[1]);
     begun = true;
     if (item == "TIMESTEP" || item == "TIME" || item == "UNITS") {
       if (!in.next(line)) in.fail(JAM_E_FORMAT, "the file ends after ITEM: %s", item.c_str());
     } else if (item == "NUMBER" && words.size() == 4 && words[3] == "ATOMS") {
-      if (n >= 0) in.fail(JAM_E_FORMAT, "NUMBER OF ATOMS stands twice in one frame");
+      if (n >= 0) in.fail(JAM_E_FORMAT, "NUMBER OF ATOMS is given twice in one frame");
       if (!next_words(in, line, words)) in.fail(JAM_E_FORMAT, "the file ends before the number of atoms");
       n = take_count(in, parse_count(in, words[0], "a number of atoms"));
     } else if (item == "BOX" && words.size() >= 3 && words[2] == "BOUNDS") {
-      if (has_box) in.fail(JAM_E_FORMAT, "BOX BOUNDS stand twice in one frame");
+      if (has_box) in.fail(JAM_E_FORMAT, "BOX BOUNDS are given twice in one frame");
       const std::string kept(line);
       split(kept, words);
       box = read_box(in, Words(words.begin() + 3, words.end()));
       has_box = true;
     } else if (item == "ATOMS") {
-      if (n < 0 || !has_box) in.fail(JAM_E_FORMAT, "NUMBER OF ATOMS and BOX BOUNDS must stand before ITEM: ATOMS");
+      if (n < 0 || !has_box) in.fail(JAM_E_FORMAT, "NUMBER OF ATOMS and BOX BOUNDS must come before ITEM: ATOMS");
       const std::string names(line);
       split(names, words);
       const Columns columns = read_columns(in, Words(words.begin() + 2, words.end()));

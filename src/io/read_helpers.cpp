@@ -66,7 +66,7 @@ bool SizeColumn::take(const LineReader &in, std::string_view name, size_t column
   const std::string word = lower(name);
   const bool radius = word == "radius", diameter = word == "diameter";
   if (!radius && !diameter) return false;
-  if (found_) in.fail(JAM_E_FORMAT, "two columns hold sizes: keep one of radius and diameter");
+  if (found_) in.fail(JAM_E_FORMAT, "two columns give sizes: keep one of radius and diameter");
   found_ = true;
   radius_ = radius;
   column_ = column;

@@ -130,9 +130,8 @@ FileContent choose_frame(LineReader &in, int64_t frame, ReadOne &&read_one) {
     if (count == frame) return std::move(kept.back());
   }
   if (frame >= 0 || kept.size() < most)
-    jam::fail(JAM_E_ARGUMENT, "%s: frame is %lld, the file holds %lld (0 to %lld, or -1 for the last)",
-              in.path().c_str(), static_cast<long long>(frame), static_cast<long long>(count),
-              static_cast<long long>(count - 1));
+    jam::fail(JAM_E_ARGUMENT, "%s: frame is %lld, the file has %lld (0 to %lld, or -1 for the last)", in.path().c_str(),
+              static_cast<long long>(frame), static_cast<long long>(count), static_cast<long long>(count - 1));
   FileContent &chosen = kept.front();
   if (count > 1 && frame == -1)
     chosen.notes.say("the last of %lld frames was read; frame=0 to %lld read others", static_cast<long long>(count),

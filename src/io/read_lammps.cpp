@@ -32,7 +32,7 @@ bool matches(const Words &words, size_t at, std::initializer_list<std::string_vi
 }
 
 void once(const LineReader &in, bool already, const char *what) {
-  if (already) in.fail(JAM_E_FORMAT, "%s stands in the header twice", what);
+  if (already) in.fail(JAM_E_FORMAT, "%s is given twice in the header", what);
 }
 
 // Takes a line of the header. Returns how many of its words were understood, 0 for none: LAMMPS takes text behind them.
@@ -269,7 +269,7 @@ FileContent read_lammps(LineReader &in, const ReadOptions &) {
     std::string name;
     for (const std::string_view word : words) name += (name.empty() ? "" : " ") + std::string(word);
     if (name == "Atoms") {
-      if (header.atoms < 0) in.fail(JAM_E_FORMAT, "no line '<N> atoms' stands before the atoms");
+      if (header.atoms < 0) in.fail(JAM_E_FORMAT, "there is no line '<N> atoms' before the atoms");
       if (!atoms.empty()) in.fail(JAM_E_FORMAT, "the file has a second section Atoms");
       bool named = false;
       const Style &style = find_style(in, line, named);

@@ -157,7 +157,7 @@ void read_cells(const LineReader &in, Keys &keys, FileContent &content) {
   for (size_t k = 0; k < 9 && same; ++k)
     same = parse_number(in, of_lattice[k]) == parse_number(in, of_cell[d * (k / 3) + k % 3]);
   if (!same)
-    in.fail(JAM_E_FORMAT, "Lattice and cell differ: Lattice holds three components of the first three vectors");
+    in.fail(JAM_E_FORMAT, "Lattice and cell differ: Lattice gives three components of the first three vectors");
 }
 
 // Where the corner of the cell is, as OVITO writes it.
@@ -227,7 +227,7 @@ void read_rows(LineReader &in, int64_t n, const Columns &columns, FileContent &c
     before = id;
   }
   if (!sorted) content.notes.say("the ids of the file do not count up: spheres keep its order, ids are not kept");
-  if (height != 0.0) content.notes.say("the third coordinate, %g of every disk, was left out", height);
+  if (height != 0.0) content.notes.say("the third coordinate, %g of every disk, was omitted", height);
   measure_from_corner(columns.origin.data(), content);
 }
 

@@ -74,8 +74,7 @@ constexpr const char *unpack = "unpack it, then read the content; only gzip is u
 constexpr const char *with_keys =
     "make line 2 Lattice=\"Lx 0 0 0 Ly 0 0 0 Lz\" Properties=species:S:1:pos:R:3:radius:R:1, with the box and the "
     "columns of the file";
-constexpr const char *no_diameters =
-    "it holds no diameters and few digits; jam.files.read_ase of Python takes diameters";
+constexpr const char *no_diameters = "it has no diameters and few digits; jam.files.read_ase of Python takes diameters";
 
 // Order: bytes that are no text; then text, the particular before the general.
 constexpr KnownFile table[] = {
@@ -86,7 +85,7 @@ constexpr KnownFile table[] = {
     {"GSD of HOOMD-blue", [](const Head &h) { return begins(h, "\xdf\x65\xdf\x65\xdf\x65\xdf\x65"); }, nullptr,
      "System.read of Python reads it where its name ends in .gsd, with Python's package gsd"},
     {"a checkpoint of libjam", [](const Head &h) { return begins(h, "jamstat"); }, nullptr,
-     "jam_read_checkpoint reads it; jam-pack --resume goes on from it"},
+     "jam_read_checkpoint reads it; jam-pack --resume continues from it"},
     {"an array of numpy (npy)", [](const Head &h) { return begins(h, "\x93NUMPY"); }, nullptr, own_arrays},
     {"a zip archive (or npz of numpy)", [](const Head &h) { return begins(h, "PK\x03\x04"); }, nullptr,
      "unpack it; arrays of an npz go to System.from_arrays in Python"},
@@ -114,10 +113,10 @@ constexpr KnownFile table[] = {
     {"a restart file of LAMMPS", [](const Head &h) { return begins(h, "LammpS RestartT"); }, nullptr,
      "turn it into data: lmp -restart2data FILE out.data"},
     {"a picture or a document", [](const Head &h) { return begins(h, "\x89PNG") || begins(h, "%PDF"); }, nullptr,
-     "it holds no packing"},
+     "it contains no packing"},
     {"text in UTF-16", [](const Head &h) { return begins(h, "\xff\xfe") || begins(h, "\xfe\xff"); }, nullptr,
      "save it as plain text (ASCII or UTF-8)"},
-    {"a binary file that no reader knows", is_binary, nullptr, own_arrays},
+    {"a binary file of an unknown format", is_binary, nullptr, own_arrays},
     {"a LAMMPS dump", [](const Head &h) { return first_word_is_one_of(h, {"ITEM:"}); }, read_dump, nullptr},
     {"LAMMPS data", is_lammps_data, read_lammps, nullptr},
     {"extended XYZ", has_keys, read_xyz, nullptr},
@@ -137,7 +136,7 @@ constexpr KnownFile table[] = {
     {"a page in HTML", [](const Head &h) { return begins(h, "<!") || begins(h, "<html"); }, nullptr,
      "a page only shows a packing: read the packing file that was written with it"},
     {"JSON", [](const Head &h) { return begins(h, "{") || begins(h, "["); }, nullptr,
-     "it holds no packing to read: read the packing file that was written with it"},
+     "it contains no packing: read the packing file that was written with it"},
     {"a table of columns", is_table, read_table, nullptr},
     {"LAMMPS data", [](const Head &h) { return h.ending == "data" || h.ending == "lmp"; }, read_lammps, nullptr},
 };

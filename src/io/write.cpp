@@ -89,7 +89,7 @@ void write_xyz(const Packing &p, const std::vector<int32_t> *coordination, Outpu
 
 // Contacts of each sphere as classes: 0 rattler, 1 buckler, 2 other.
 void write_points(const Packing &p, const std::vector<int32_t> *coordination, OutputFile &file) {
-  if (p.dim > 3) fail(JAM_E_UNSUPPORTED, "VTP holds d = 2 and d = 3, this packing has d = %d", p.dim);
+  if (p.dim > 3) fail(JAM_E_UNSUPPORTED, "VTP has d = 2 or d = 3, this packing has d = %d", p.dim);
   const size_t d = static_cast<size_t>(p.dim);
   std::vector<double> points;
   for (size_t i = 0; i < p.n(); ++i)
@@ -156,10 +156,10 @@ int32_t format_by_name(const char *path) {
 // What a format cannot hold is refused, not left out.
 void check_fits(const Packing &p, int32_t format) {
   if (format != JAM_FORMAT_XYZ && p.non_additivity != 0.0)
-    fail(JAM_E_UNSUPPORTED, "only extended XYZ and checkpoints can hold non_additivity = %g", p.non_additivity);
+    fail(JAM_E_UNSUPPORTED, "only extended XYZ and checkpoints can store non_additivity = %g", p.non_additivity);
   if (format == JAM_FORMAT_PLAIN && !p.cell.cube())
     fail(JAM_E_UNSUPPORTED,
-         "plain text cannot hold a cell that is no cube: write extended XYZ, LAMMPS data or a checkpoint");
+         "plain text cannot store a cell that is no cube: write extended XYZ, LAMMPS data or a checkpoint");
 }
 
 }  // namespace

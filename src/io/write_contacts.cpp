@@ -63,7 +63,7 @@ void write_dump(const Packing &p, const ContactNetwork &net, OutputFile &file) {
 }
 
 void write_lines(const Packing &p, const ContactNetwork &net, OutputFile &file) {
-  if (p.dim > 3) fail(JAM_E_UNSUPPORTED, "VTP holds d = 2 and d = 3, this packing has d = %d", p.dim);
+  if (p.dim > 3) fail(JAM_E_UNSUPPORTED, "VTP has d = 2 or d = 3, this packing has d = %d", p.dim);
   const size_t d = static_cast<size_t>(p.dim);
   std::vector<double> points, force, gap;
   std::vector<int64_t> contact;

@@ -103,7 +103,7 @@ std::string why_undecided(const PackingVerdict &v) {
         "the network is left empty",
         v.contacts.size());
   else if (v.result.spheres == 1)
-    std::snprintf(line, sizeof line, "undecided: only own images hold sphere and cell, and not in every strain");
+    std::snprintf(line, sizeof line, "undecided: only own images fix sphere and cell, and not in every strain");
   else
     std::snprintf(line, sizeof line,
                   "undecided: doubles do not resolve a flex from a soft mode here, or a weak force from none (smallest "

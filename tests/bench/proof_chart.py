@@ -8,20 +8,17 @@ The JSON holds machine and commit beside the runs. Times are of the processor.
 """
 import argparse
 import json
-import platform
-import subprocess
 import sys
+from pathlib import Path
 
 import matplotlib
 import numpy as np
 
 matplotlib.use("Agg")
-import matplotlib.pyplot as plt
+import matplotlib.pyplot as plt  # noqa: E402
 
-
-def machine():
-    with open("/proc/cpuinfo", encoding="ascii") as file:
-        return next((line.split(":")[1].strip() for line in file if line.startswith("model name")), platform.machine())
+sys.path.append(str(Path(__file__).resolve().parents[2] / "bindings/docs"))
+import figures  # noqa: E402
 
 
 def draw(runs, picture):
@@ -61,8 +58,7 @@ parser.add_argument("--picture", required=True)
 parser.add_argument("--only-draw", action="store_true")
 options = parser.parse_args()
 if not options.only_draw:
-    commit = subprocess.run(["git", "rev-parse", "--short", "HEAD"], capture_output=True, text=True).stdout.strip()
-    found = {"command": "proof SIZES SEEDS", "machine": machine(), "commit": commit, "runs": json.load(sys.stdin)}
+    found = {"command": "proof SIZES SEEDS", **figures.made_by(), "runs": json.load(sys.stdin)}
     with open(options.results, "w", encoding="ascii") as file:
         file.write(json.dumps({**found, "runs": None})[:-6] + "\n [" + ",\n  ".join(map(json.dumps, found["runs"])) + "]}\n")
 with open(options.results, encoding="ascii") as file:

@@ -336,7 +336,7 @@ class Program(unittest.TestCase):
             fluid(64).write(str(path))
             done = self.pack("--input", path, "--output", Path(folder) / "end.xyz")
             self.assertRegex(done.stdout, r"moved     phi 0\.55\d+ -> 0\.6\d+, spheres by up to 0\.\d+ diameters")
-            self.assertIn("the file  is not judged: 'jammed' is the end state", done.stdout)
+            self.assertIn("the file  is not tested: 'jammed' is the end state", done.stdout)
             self.assertIn(f"jam-pack check {path}", done.stdout)
             self.assertEqual(self.pack("check", path).returncode, 1)
             self.assertEqual(self.pack("check", Path(folder) / "end.xyz").returncode, 0)

@@ -67,7 +67,7 @@ class Options(unittest.TestCase):
             s.contacts_from_geometry()
             self.assertEqual(s.rigidity("strict").jammed, jam.Verdict.YES)
             refused = self.pack("--strain", "free", "--output", f"{folder}/s.dat")
-            self.assertEqual((refused.returncode, "plain text holds cubes" in refused.stderr), (2, True))
+            self.assertEqual((refused.returncode, "plain text has cubes" in refused.stderr), (2, True))
 
     def test_log(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -127,7 +127,7 @@ class Gsd(Folder):
         for k, size in ((0, 0.5), (2, 0.75), (-1, 0.75), (-3, 0.5)):
             self.assertEqual(jam.System.read(self.path, frame=k).diameters[0], size)
         for k in (3, -4):
-            self.refused([f"frame {k}", "holds 3"], jam.System.read, self.path, frame=k, kind=IndexError)
+            self.refused([f"frame {k}", "has 3"], jam.System.read, self.path, frame=k, kind=IndexError)
 
     def test_no_doubles_of_another_frame(self):
         """GSD hands out frame 0's log for every later frame."""
@@ -200,7 +200,7 @@ class Gsd(Folder):
         f.particles.diameter = np.full(16, 0.5)
         f.particles.position[:, 2] = 0.25
         self.write(f)
-        self.assertIn("the third coordinate, 0.25 of every disk, was left out", jam.System.read(self.path).notes)
+        self.assertIn("the third coordinate, 0.25 of every disk, was omitted", jam.System.read(self.path).notes)
 
     def test_notes_are_of_what_is_new(self):
         """A file of libjam comes back to the bit; copies, pickles and files keep the notes of others."""
@@ -305,7 +305,7 @@ class Ase(Folder):
         path = self.file("a.xyz", frames=at, cell=np.eye(3))
         for frame, x in ((-1, 0.12), (0, 0.1), (1, 0.11)):
             self.assertAlmostEqual(jam.files.read_ase(path, frame=frame).positions[0, 0], x, 12)
-        self.refused(["frame 3", "holds 3"], jam.files.read_ase, path, frame=3, kind=IndexError)
+        self.refused(["frame 3", "has 3"], jam.files.read_ase, path, frame=3, kind=IndexError)
 
     def test_names_of_sizes(self):
         x = [[[0.1, 0.2, 0.3], [0.6, 0.7, 0.8]]]
@@ -326,7 +326,7 @@ class Ase(Folder):
             [
                 "the last of 2 frames was read; frame=0 to 1 read others",
                 "columns of the file that were not read: numbers",
-                "the third coordinate, 0.5 of every disk, was left out",
+                "the third coordinate, 0.5 of every disk, was omitted",
                 "1 of 2 spheres lay outside the cell and were wrapped into it",
             ],
         )

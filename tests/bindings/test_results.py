@@ -178,12 +178,12 @@ class Statuses(unittest.TestCase):
     def test_sentences_of_runs_say_how_they_go_on(self):
         s = jam.System.random(n=60, dim=3, seed=1)
         first = s.isoconfigurational([50], runs=100000, wall_time=0.3, density_ratio=0.9)
-        self.assertIn("resume = 1 goes on", s.status_text)
+        self.assertIn("resume = 1 continues", s.status_text)
         self.assertIn("begins anew", s.status_text)
         again = s.isoconfigurational([50], runs=100000, wall_time=0.3, density_ratio=0.9, resume=1)
         self.assertGreater(again.runs, first.runs)
         s.monte_carlo(sweeps=10**7, wall_time=0.2)
-        self.assertIn("resume = 1 goes on", s.status_text)
+        self.assertIn("resume = 1 continues", s.status_text)
 
     def test_packings_without_a_network_have_no_number_of_contacts(self):
         a = jam.System.random(n=64, dim=3, seed=1)

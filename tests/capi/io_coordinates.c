@@ -29,7 +29,7 @@ static void keys_of_xyz(void **state) {
   sys = read_text("1\n" BOX P "dim=2 Origin=\"-0.5 -0.5 0\"\n-.25 .25 2 .1\n");
   jam_view_positions(sys, &x, &len);
   assert_true(len == 2 && x[0] == 0.25 && x[1] == 0.75);
-  assert_non_null(strstr(jam_notes(sys), "the third coordinate, 2 of every disk, was left out"));
+  assert_non_null(strstr(jam_notes(sys), "the third coordinate, 2 of every disk, was omitted"));
   jam_destroy(sys);
   expect_refused("1\n" BOX P "Origin=\"0 1\"\n.1 .2 .3 .1\n", JAM_E_FORMAT, "line 2: Origin has 2 numbers");
   expect_refused("1\n" BOX P "Origin=\"0 x 1\"\n.1 .2 .3 .1\n", JAM_E_FORMAT, "line 2: 'x' is not a number");

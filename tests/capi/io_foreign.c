@@ -132,7 +132,7 @@ static void odd_xyz(void **state) {
   expect_refused("1\n" BOX BOX "Properties=pos:R:3:radius:R:1\n.1 .2 .3 .1\n", JAM_E_FORMAT,
                  "'Lattice=' is there twice");
   expect_refused("1\n" BOX "Properties=pos:R:3:radius:R:1:radius:R:1\n.1 .2 .3 .1 .2\n", JAM_E_FORMAT,
-                 "two columns hold");
+                 "two columns give");
   expect_refused("1\n" BOX "Properties=pos:R:3:radius:R:1:diameter:R:1\n.1 .2 .3 .1 .2\n", JAM_E_FORMAT, "two columns");
   expect_refused("1\n" BOX "Properties=pos:R:3:radius:R:1 dim=2\n.1 .2 .3 .1\nmore\n", JAM_E_FORMAT,
                  "there is more after");
@@ -169,11 +169,11 @@ static void frames(void **state) {
     assert_true(x[0] == 0.125 * (double)((o.frame + 3) % 3 + 1));
     jam_destroy(sys);
   }
-  expect_refused_with(text, &o, JAM_E_ARGUMENT, "frame is 3, the file holds 3 (0 to 2");
+  expect_refused_with(text, &o, JAM_E_ARGUMENT, "frame is 3, the file has 3 (0 to 2");
   o.frame = -4;
-  expect_refused_with(text, &o, JAM_E_ARGUMENT, "frame is -4, the file holds 3");
+  expect_refused_with(text, &o, JAM_E_ARGUMENT, "frame is -4, the file has 3");
   o.frame = 1;
-  expect_refused_with("2\n1\n0.1\n0.5 0.5\n", &o, JAM_E_ARGUMENT, "frame is 1, but plain text holds one packing");
+  expect_refused_with("2\n1\n0.1\n0.5 0.5\n", &o, JAM_E_ARGUMENT, "frame is 1, but plain text contains one packing");
   snprintf(cut, sizeof cut, "%.*s", (int)len - 5, text); /* a job that was killed amid a frame */
   expect_refused(cut, JAM_E_FORMAT, "frame=1 is the last whole one");
   jam_destroy(read_with(cut, strlen(cut), &o));
@@ -203,9 +203,9 @@ static void known_by_their_beginning(void **state) {
               "3\0\n\0",
               "UTF-16"),
       FILE_OF("\x89PNG\r\n", "picture"),
-      FILE_OF("ab\0cd", "binary file that no reader knows"),
-      FILE_OF("CRYST1   10.0\nATOM      1\n", "PDB: it holds no diameters"),
-      FILE_OF("data_x\nloop_\n", "CIF: it holds no diameters"),
+      FILE_OF("ab\0cd", "binary file of an unknown format"),
+      FILE_OF("CRYST1   10.0\nATOM      1\n", "PDB: it has no diameters"),
+      FILE_OF("data_x\nloop_\n", "CIF: it has no diameters"),
       FILE_OF("# vtk DataFile Version 3.0\n", "VTK: such files are written only"),
       FILE_OF("<!DOCTYPE html>\n", "a page in HTML"),
       FILE_OF("{\n", "JSON"),

@@ -110,8 +110,9 @@ static void data_that_cannot_be_read(void **state) {
   expect_refused(HEAD "1 ellipsoids\n" BOX ROWS, JAM_E_UNSUPPORTED, "line 5: ellipsoids are no spheres");
   expect_refused(HEAD BOX ROWS "4 1 0.2 1 0.7 0.7 0.7\n", JAM_E_FORMAT, "line 14: there is more after the 3 atoms");
   expect_refused(HEAD BOX ROWS ROWS, JAM_E_FORMAT, "second section Atoms");
-  expect_refused(HEAD BOX "0 3 xlo xhi\n" ROWS, JAM_E_FORMAT, "line 8: a bound of the box stands in the header twice");
-  expect_refused(HEAD "4 atoms\n" BOX ROWS, JAM_E_FORMAT, "line 5: the number of atoms stands in the header twice");
+  expect_refused(HEAD BOX "0 3 xlo xhi\n" ROWS, JAM_E_FORMAT,
+                 "line 8: a bound of the box is given twice in the header");
+  expect_refused(HEAD "4 atoms\n" BOX ROWS, JAM_E_FORMAT, "line 5: the number of atoms is given twice in the header");
   expect_refused(HEAD BOX "\nAtoms # sphere\n\n1 1 0.2 1 0.1 0.2 0.3 7\n", JAM_E_FORMAT, "line 11: 8 columns");
   expect_refused(HEAD BOX "\nAtoms # sphere\n\n1 1 0.2 0 0.1 0.2 0.3\n", JAM_E_FORMAT, "line 11: the density is '0'");
   expect_refused(HEAD BOX "\nAtoms # full\n\n1 1 1 0.5 1 2 3\n", JAM_E_UNSUPPORTED, "'full' has no diameters");
@@ -190,16 +191,16 @@ static void dumps_that_cannot_be_read(void **state) {
                  "line 5: the boundary is 'fs'");
   expect_refused(DUMP BOUNDS "ITEM: ATOMS id x y z\n1 0 0 0\n", JAM_E_FORMAT, "no sizes: dump id radius x y z");
   expect_refused(DUMP BOUNDS "ITEM: ATOMS id radius\n1 0.1\n", JAM_E_FORMAT, "no positions");
-  expect_refused(DUMP BOUNDS "ITEM: ATOMS x y z radius diameter\n1 0.1\n", JAM_E_FORMAT, "two columns hold sizes");
+  expect_refused(DUMP BOUNDS "ITEM: ATOMS x y z radius diameter\n1 0.1\n", JAM_E_FORMAT, "two columns give sizes");
   expect_refused(DUMP BOUNDS NAMES "1 0.1 0 0 1\n1 0.1 0.5 0.5 2\n2 0.1 0.2 1 2\n", JAM_E_FORMAT,
                  "atom 1 is there twice");
   expect_refused(DUMP BOUNDS NAMES "1 0.1 0 0 1\n2 0.1 0.5 0.5\n", JAM_E_FORMAT,
                  "line 11: 4 columns, ITEM: ATOMS names 5");
   expect_refused(DUMP BOUNDS NAMES "1 0.1 0 0 1\n2 0.1 0.5 0.5 2\n", JAM_E_FORMAT, "ends after 2 of 3");
-  expect_refused(DUMP NAMES "1 0.1 0 0 1\n", JAM_E_FORMAT, "must stand before ITEM: ATOMS");
+  expect_refused(DUMP NAMES "1 0.1 0 0 1\n", JAM_E_FORMAT, "must come before ITEM: ATOMS");
   expect_refused("ITEM: TIMESTEP\n1\nITEM: NUMBER OF ENTRIES\n1\n", JAM_E_UNSUPPORTED, "no part of a dump of atoms");
   expect_refused(DUMP BOUNDS, JAM_E_FORMAT, "ends before ITEM: ATOMS");
-  expect_refused(DUMP BOUNDS BOUNDS, JAM_E_FORMAT, "line 9: BOX BOUNDS stand twice in one frame");
+  expect_refused(DUMP BOUNDS BOUNDS, JAM_E_FORMAT, "line 9: BOX BOUNDS are given twice in one frame");
 #undef NAMES
 }
 

@@ -6,6 +6,7 @@ import re
 import sys
 
 sys.dont_write_bytecode = True  # in the source tree
+import pages  # noqa: E402
 import python_layers as python_package  # noqa: E402
 
 root = pathlib.Path(sys.argv[2])
@@ -40,8 +41,6 @@ GUESTS = {
     r"[ds]mumps_c\.h": ["src/linalg/"],
     r"Eigen/": ["src/lp/", "src/network/", "src/analysis/", "src/crunch/", "src/soft/"],
 }
-# A sentence of prose has at most so many words; numbers, symbols and formulas are none, a code span is one.
-MAX_WORDS = 25
 GENERATED = ["bindings/fortran/jam.f90", "tests/bindings/layout.c"]
 # Layers whose steering numbers all stand in their tuning.hpp, and files of them whose numbers are physics.
 TUNED = {"dynamics": ["equation_of_state.cpp"]}
@@ -302,71 +301,16 @@ def plain_words():
                 problem(path, number, "a path of one machine")
 
 
-def markdown_blocks(text):
-    """(line, text) of every paragraph, list item, heading and table cell; code blocks and display formulas are left out."""
-    block, start, fence, after_blank = [], 1, None, True
-    for number, line in enumerate(text.splitlines() + [""], 1):
-        bare = line.strip()
-        marker = re.match(r"(`{3,}|~{3,}|\$\$)", bare)
-        if fence:
-            fence = None if bare.startswith(fence) else fence
-            continue
-        code = after_blank and not block and re.match(r" {4}", line)
-        item = re.match(r"([-*+]|\d+\.) ", bare)
-        if block and (marker or not bare or item or bare[0] in "#|"):
-            yield start, " ".join(block)
-            block = []
-        after_blank = not bare
-        if marker:
-            fence = marker.group(1) if bare.count("$$") != 2 else None
-        elif bare.startswith("|"):
-            for cell in re.split(r"(?<!\\)\|", bare):
-                yield number, cell
-        elif bare and not code:
-            start = number if not block else start
-            block.append(re.sub(r"^(#+|[-*+]|\d+\.|>) ", "", bare))
-        elif code:
-            after_blank = True  # the lines of an indented block follow one another
+def avoided_words():
+    pages.avoided_words(root, problem)
 
 
-def comment_blocks(text):
-    """(line, text) of every part of the comments of a C header; its tags are left out."""
-    for found in re.finditer(r"/\*(.*?)\*/", text, flags=re.S):
-        line = text.count("\n", 0, found.start()) + 1
-        body = re.sub(r"\n\s*\* ?", "\n", found.group(1))
-        for part in re.split(r"\n\s*\n|\n- |(?=Status:|Example:|@enum|@shape|@errors)", body):
-            if not part.startswith(("@shape", "@errors")):
-                yield line, part.removeprefix("@enum")
+def figures():
+    pages.figures(root, problem)
 
 
-def sentences(text):
-    """The sentences of a block of prose as lists of words."""
-    text = re.sub(r"``.+?``|`[^`]+`", " code ", text)
-    text = re.sub(r"\$[^$]+\$|<[^<>]*>", " ", text)
-    text = re.sub(r"!?\[([^\]]*)\]\([^)]*\)", r"\1", text)
-    text = re.sub(r"https?://\S+", " link ", text)
-    text = re.sub(r"\b(et al|e\.g|i\.e|cf|vs|Phys|Rev|Lett|Comput|Chem|Stat|Fig|Eq|Sec|Ref|[A-Z])\.", r"\1", text)
-    for sentence in re.split(r"[.!?:]['\")*_]*(?:\s+|$)", text):
-        yield re.findall(r"\S*[A-Za-z]\S*", sentence)
-
-
-def sentence_length():
-    """One idea a sentence: in all Markdown files and in the public header no sentence has more than MAX_WORDS words."""
-    probe = " ".join(["word"] * MAX_WORDS)
-    if (
-        max(map(len, sentences(probe + " more. Short."))) != MAX_WORDS + 1
-        or len(next(sentences(probe + "."))) != MAX_WORDS
-    ):
-        problem("tests/lint/lint.py", 0, "this rule is broken")
-    for path in files("*.md", "*/**/*.md", "include/jam/jam.h"):
-        relative = str(path.relative_to(root))
-        if relative.startswith((".", "build")):
-            continue
-        blocks = comment_blocks if path.suffix == ".h" else markdown_blocks
-        for line, block in blocks(path.read_text()):
-            for words in sentences(block):
-                if len(words) > MAX_WORDS:
-                    problem(path, line, f"a sentence of {len(words)} words: {' '.join(words[:8])} ...")
+def links():
+    pages.links(root, problem)
 
 
 def columns():
@@ -381,7 +325,7 @@ def columns():
 
 
 RULES = [layers, python_layers, private_headers, doc_comments, names, table_of_calls, file_sizes, no_side_effects, own_math]
-RULES += [steering_numbers, plain_words, sentence_length, columns]
+RULES += [steering_numbers, plain_words, avoided_words, figures, links, columns]
 for rule in RULES:
     if sys.argv[1] in ("all", rule.__name__):
         rule()

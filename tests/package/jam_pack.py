@@ -152,7 +152,7 @@ class JamPack(unittest.TestCase):
         file = self.dir / "a.xyz"
         file.write_text('1\nLattice="1 0 0 0 1 0 0 0 1" Properties=pos:R:3:radius:R:1\n.1 .2 .3 .1\n' * 2)
         self.refuse(2, "the option box is 5, but the file has 1", "--input", file, "--box", 5)
-        self.refuse(2, "frame is 2, the file holds 2", "--input", file, "--frame", 2)
+        self.refuse(2, "frame is 2, the file has 2", "--input", file, "--frame", 2)
         self.assertEqual(self.report("--input", file, "--frame", 0, "--no-crunch")["notes"], [])
         said = run("--input", file, "--no-crunch").stdout
         self.assertIn("  start     the last of 2 frames was read; frame=0 to 1 read others\n", said)
@@ -444,7 +444,7 @@ class JamPack(unittest.TestCase):
             (["--porosity", "1.2"], "above 0 and below 1"),
             (["--porosity", "0.4", "--packing-fraction", "0.6"], "no effect beside"),
             (["--porosity", "0.4", "--lp", "clp"], "--lp has no effect beside --porosity"),
-            (["--porosity", "0.4", "--contacts", "a"], "the crunch that --porosity leaves out"),
+            (["--porosity", "0.4", "--contacts", "a"], "the crunch, which --porosity omits"),
             (["--porosity", "0.4", "--no-md"], "beside --no-md"),
             (["--porosity", "0.8", "--phi0", "0.3"], "lies above"),
             (["--cell", "1,2"], "--cell has 2 numbers"),

@@ -13,6 +13,9 @@ import numpy as np
 import jam
 
 HERE = Path(__file__).resolve().parent
+sys.path.append(str(HERE.parents[2] / "bindings/docs"))
+import figures  # noqa: E402  # machine, commit and date of a result
+
 G_OF_KAPPA = 2 * 3**0.5  # growth rate of the diameter over the radius rate of the thesis
 THETA_E, GAMMA, THETA_L = 0.42311, 0.41269, 0.17462  # mean field; theta_l is empirical
 SOURCE = "R. Diaz Hernandez Rojas, PhD thesis, Sapienza 2021"
@@ -101,7 +104,7 @@ class Results:
         """results/<name>.json and pictures/<name>.png."""
         (self.out / "results").mkdir(parents=True, exist_ok=True)
         (self.out / "pictures").mkdir(parents=True, exist_ok=True)
-        made = {"source": SOURCE, "command": command(sys.argv), "sets": self.sets, "rows": self.rows}
+        made = {"source": SOURCE, "command": command(sys.argv), **figures.made_by(), "sets": self.sets, "rows": self.rows}
         (self.out / "results" / f"{self.name}.json").write_text(json.dumps(made, indent=1) + "\n", encoding="utf-8")
         if figure is not None:
             figure.tight_layout()

@@ -1,43 +1,39 @@
 #!/usr/bin/env python3
-"""Tables of README.md from results/*.json: published value, ours, error, sigma between, and the command that makes the row.
+"""All rows of results/*.json as a page of Markdown: published value, ours, error, errors between, and the command.
 
-usage: tables.py [--write]     without --write they are printed; the last line counts rows with a published figure
+usage: tables.py [PAGE.md]     without PAGE.md the page is printed. The target `docs` makes a page of the site of it.
 """
 import json
 import sys
+from pathlib import Path
 
-from common import HERE
+HEAD = "| section | quantity | published | ours | error | errors between |\n|---|---|---|---|---|---|"
+INTRO = """# All rows of the ensembles
 
-MARK = "## Tables\n"
-HEAD = "| section | quantity | published | ours | error | sigma | command |\n|---|---|---|---|---|---|---|"
+Every row of `examples/studies/ensembles/results`. An empty error means that the quantity is a count or has no error over
+packings. {known} of the rows have a published value.
+"""
 
 
 def text(value):
     return "" if value is None else value if isinstance(value, str) else f"{value:.4g}"
 
 
-def tables():
+def page(folder):
     lines, known = [], 0
-    for path in sorted((HERE / "results").glob("*.json")):
+    for path in sorted(folder.glob("*.json")):
         found = json.loads(path.read_text(encoding="utf-8"))
-        lines += [f"\n### {path.stem}\n", HEAD]
+        lines += [f"\n## {path.stem}\n", f"`{found['command']}`, commit {found['commit']}, {found['date']}\n", HEAD]
         for row in found["rows"]:
             cells = [row["figure"], row["quantity"].replace("|", "\\|")]
-            cells += [text(row[k]) for k in ("published", "ours", "error", "sigma")] + [f"`{found['command']}`"]
-            lines.append("| " + " | ".join(cells) + " |")
+            lines.append("| " + " | ".join(cells + [text(row[k]) for k in ("published", "ours", "error", "sigma")]) + " |")
             known += row["published"] != "none"
-    return "\n".join(lines) + "\n", known
+    return INTRO.format(known=known) + "\n".join(lines) + "\n"
 
 
-made, known = tables()
-if "--write" in sys.argv[1:]:
-    page = HERE / "README.md"
-    before = page.read_text(encoding="utf-8").split(MARK)[0]
-    intro = (
-        f"All rows come from `results/*.json`, which also hold protocols and numbers of packings. {known} have a published value.\n"
-        "An empty error means that the quantity is a count or has no error over packings. Write them anew with `tables.py --write`.\n"
-    )
-    page.write_text(before + MARK + "\n" + intro + made, encoding="utf-8")
-else:
-    print(made)
-print(f"{known} rows with a published value")
+if __name__ == "__main__":
+    made = page(Path(__file__).resolve().parent / "results")
+    if len(sys.argv) > 1:
+        Path(sys.argv[1]).write_text(made, encoding="utf-8")
+    else:
+        print(made)

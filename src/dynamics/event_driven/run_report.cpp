@@ -149,11 +149,11 @@ std::string EventDrivenRun::text() const {
                     pressure_, phi);
       break;
     case JAM_STOP_WALL_TIME:
-      std::snprintf(line, sizeof line, "wall_time ended at packing fraction %.6g; resume = 1 goes on", phi);
+      std::snprintf(line, sizeof line, "wall_time ended at packing fraction %.6g; resume = 1 continues", phi);
       break;
     case JAM_STOP_CANCELLED:
       std::snprintf(line, sizeof line,
-                    "cancelled by jam_cancel or a callback at packing fraction %.6g; resume = 1 goes on", phi);
+                    "cancelled by jam_cancel or a callback at packing fraction %.6g; resume = 1 continues", phi);
       break;
     case JAM_STOP_TIME:
     case JAM_STOP_COLLISIONS:

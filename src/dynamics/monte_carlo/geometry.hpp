@@ -125,7 +125,7 @@ class MonteCarloGeometry {
     double images = 1.0;
     for (int c = 0; c < D; ++c) images *= 2.0 * most_cells(c) + 1.0;
     if (!(images <= limits::images_max))
-      fail(JAM_E_UNSUPPORTED, "each pair has %.3g images in reach in this cell, Monte Carlo looks at %g", images,
+      fail(JAM_E_UNSUPPORTED, "each pair has %.3g images in reach in this cell, Monte Carlo allows %g", images,
            limits::images_max);
   }
   void add_images(int c, const std::array<double, D> &above) {

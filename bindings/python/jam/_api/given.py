@@ -66,7 +66,7 @@ def positions_of(given: Any, diameters: Any, radii: Any, dim: int | None) -> Arr
     if x.ndim != 2:
         raise ValueError(f"positions must have shape (n, d), not {x.shape}")
     if len(x) == 0:
-        raise ValueError("positions hold no sphere")
+        raise ValueError("positions have no sphere")
     sizes = diameters if radii is None else radii
     count = np.size(sizes)
     turned = x.shape[1] > JAM_MAX_DIM and 2 <= len(x) <= JAM_MAX_DIM
@@ -79,14 +79,14 @@ def positions_of(given: Any, diameters: Any, radii: Any, dim: int | None) -> Arr
     last = x.shape[1] - 1
     columns = f"positions[:, :{last}], radii=positions[:, {last}]"
     if sizes is None:
-        hint = f". If the last column holds radii, pass {columns}" if last >= 2 else ""
+        hint = f". If the last column contains radii, pass {columns}" if last >= 2 else ""
         raise TypeError(f"give either diameters or radii{hint}")
     if last >= 2 and len(x) > 1 and count in (1, len(x)):
         name = "diameters" if radii is None else "radii"
         size = np.broadcast_to(as_array(sizes, name=name).reshape(-1), len(x))
         if any(np.array_equal(x[:, last], factor * size) for factor in (0.5, 1.0, 2.0)):
             raise ValueError(
-                f"the last column of positions {x.shape} holds the sizes of the spheres: pass {columns}. "
+                f"the last column of positions {x.shape} contains the sizes of the spheres: pass {columns}. "
                 f"If it is a coordinate, pass dim={x.shape[1]}"
             )
     return x

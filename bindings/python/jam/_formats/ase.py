@@ -38,7 +38,7 @@ def arguments(
     at = in_range(name, frame, len(frames))
     atoms = frames[at]
     if len(atoms) == 0:
-        raise bad(name, "the frame holds no sphere")
+        raise bad(name, "the frame has no sphere")
     if not all(atoms.pbc[:dim]):
         hint = "; dim=2 reads a packing of disks" if dim == 3 and all(atoms.pbc[:2]) else ""
         raise bad(name, f"the cell must be periodic in every direction, pbc is {[bool(p) for p in atoms.pbc]}{hint}")

@@ -22,14 +22,14 @@ def bad(path: str, text: str) -> Exception:
 def refuse_cell(options: dict[str, Any], path: str) -> None:
     for name in ("box", "cell", "dim"):
         if options.get(name) is not None:
-            raise TypeError(f"{name}={options[name]!r} would be without effect: {path} holds it")
+            raise TypeError(f"{name}={options[name]!r} would be without effect: {path} gives it")
 
 
 def in_range(path: str, frame: int, count: int) -> int:
     if count == 0:
-        raise bad(path, "the file holds no frame")
+        raise bad(path, "the file has no frame")
     if not -count <= frame < count:
-        raise IndexError(f"{path}: frame {frame} is out of range, the file holds {count}: 0 to {count - 1}, or -1 for the last")
+        raise IndexError(f"{path}: frame {frame} is out of range, the file has {count}: 0 to {count - 1}, or -1 for the last")
     return int(frame) % count
 
 
@@ -51,7 +51,7 @@ def plane(path: str, x: Array, cell: Array, dim: int, notes: list[str]) -> Array
             if not abs(cell[k, 2]) <= room:
                 raise bad(path, f"cell vector {k} is {cell[k].tolist()} and leaves the plane z = const of d = 2")
         if x[0, 2] != 0.0:
-            notes.append(f"the third coordinate, {x[0, 2]:g} of every disk, was left out")
+            notes.append(f"the third coordinate, {x[0, 2]:g} of every disk, was omitted")
     return np.asarray(x[:, :dim], float)
 
 

@@ -49,7 +49,7 @@ def write(path: str | os.PathLike[str], positions: Array, diameters: Array, cell
     import gsd.hoomd
 
     if len(cell) > 3:
-        raise ValueError(f"GSD holds two or three dimensions, this packing has d = {len(cell)}")
+        raise ValueError(f"GSD has two or three dimensions, this packing has d = {len(cell)}")
     frame = gsd.hoomd.Snapshot()
     frame.configuration.dimensions = len(cell)
     frame.configuration.box = _box(cell)
@@ -125,7 +125,7 @@ def _read(file: Any, frame: int, bad: Bad, sizes: bool, doubles: bool) -> Found:
     if d not in (2, 3):
         raise bad(f"configuration/dimensions is {d}, it must be 2 or 3")
     if n == 0:
-        raise bad(f"frame {frame} holds no sphere")
+        raise bad(f"frame {frame} has no sphere")
     if n > 1 and _chunk(file, frame, "particles/position") is None:
         raise bad(f"frame {frame} has no chunk particles/position")
     lx, ly, lz, xy, xz, yz = (float(v) for v in one.configuration.box)
@@ -206,7 +206,7 @@ def _diameters(file: Any, frame: int, one: Any, bad: Bad) -> tuple[Array, set[st
         if values is None:
             continue
         if kinds.min() < 0 or kinds.max() >= len(values):
-            raise bad(f"{name} holds {len(values)} types, and particles/typeid reaches {kinds.max()}")
+            raise bad(f"{name} has {len(values)} types, and particles/typeid reaches {kinds.max()}")
         found[name] = values[kinds]
     if not found:
         raise bad(

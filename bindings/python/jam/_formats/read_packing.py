@@ -19,10 +19,10 @@ def jam_of(file: Group | Shard, path: Any) -> Group:
     if isinstance(file, Shard):
         raise StoreError(22, f"{path} is a shard of {len(file)} packings: name one, e.g. name={next(iter(file))!r}")
     if "jam" not in file or "schema" not in file["jam"].attrs:
-        raise StoreError(22, f"{path} holds no packing of jam (no group `jam`)")
+        raise StoreError(22, f"{path} contains no packing of jam (no group `jam`)")
     found: Group = file["jam"]
     if int(found.attrs["schema"]) > SCHEMA:
-        raise StoreError(22, f"{path}: schema {found.attrs['schema']} is newer than this jam, which knows {SCHEMA}")
+        raise StoreError(22, f"{path}: schema {found.attrs['schema']} is newer than the schema {SCHEMA} of this jam")
     return found
 
 

@@ -103,7 +103,7 @@ class _File:
             raise StoreError(22, f"{self.path} {_what_it_is(head)}")
         found = re.search(rb"index (\d{20}) (\d{20})\nindex sha256 ([0-9a-f]{64})\nsha256 ([0-9a-f]{64})\n", head)
         if not found:
-            raise damaged(self.path, "its first 512 bytes are not a seal that this version of jam knows")
+            raise damaged(self.path, "its first 512 bytes are not a seal of this version of jam")
         place, whole = [int(found[1]), int(found[2]), found[3].decode()], found[4].decode()
         if head != head_of(self.length, place, whole):
             raise damaged(self.path, f"its seal does not fit a file of {self.length} bytes")

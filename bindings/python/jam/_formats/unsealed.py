@@ -56,7 +56,7 @@ class _Walk:
             found = np.array(node[()])  # text of older files
             size = found.nbytes
         elif node.dtype.hasobject:
-            raise self.refuse(name, "holds references or parts of any length")
+            raise self.refuse(name, "contains references or parts of any length")
         else:
             size = math.prod(node.shape) * node.dtype.itemsize
         self.left -= size

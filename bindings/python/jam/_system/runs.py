@@ -103,7 +103,7 @@ class Runs:
     def halves(self) -> tuple[Array, Array]:
         """Weights of two halves of the blocks, even and odd."""
         if self.blocks < 2:
-            raise ValueError("one block has no halves: ask for smaller blocks")
+            raise ValueError("one block has no halves: choose smaller blocks")
         odd = np.arange(self.blocks) % 2
         return 1.0 - odd, odd.astype(float)
 
@@ -131,7 +131,7 @@ class Runs:
                 f"runs {other.first_run} ... do not follow {self.first_run} ... {self.first_run + self.runs - 1}"
             )
         if other.first_run % self.block:
-            raise ValueError(f"run {other.first_run} is amid a block of {self.block}: split at multiples of it")
+            raise ValueError(f"run {other.first_run} is inside a block of {self.block}: split at multiples of it")
         joined = {name: np.concatenate([getattr(self, name), getattr(other, name)]) for name in _SUMS + ("counts",)}
         return replace(
             self,
@@ -263,7 +263,7 @@ def campaign(
     times, origin = np.asarray(instants, float), _origin(system, options)
     done = Runs.load(path) if os.path.exists(path) else None
     if done is not None and (not np.array_equal(done.instants, times) or done.origin != origin):
-        raise ValueError(f"{path} holds runs of another campaign: its packing, instants or options differ")
+        raise ValueError(f"{path} contains runs of another campaign: its packing, instants or options differ")
     if done is not None and done.runs < runs:
         done = done.whole_blocks()  # one that was stopped ends amid a block, which is made again
     while done is None or done.runs < runs:

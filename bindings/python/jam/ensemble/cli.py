@@ -61,7 +61,7 @@ def parser() -> argparse.ArgumentParser:
         v.add_argument(
             "--protocol",
             metavar="FILE.json|NAME",
-            help="the protocol, or the name of one of DIR; default that of DIR, if it holds one only",
+            help="the protocol, or the name of one of DIR; default that of DIR, if it has one only",
         )
         v.add_argument("--n", type=int, help="spheres: with the default protocol instead of a file")
         v.add_argument("--dim", type=int, help="dimension: with the default protocol instead of a file")
@@ -141,7 +141,7 @@ def main(arguments: list[str] | None = None) -> int:
         print(f"jam: the executor broke: {error}. What was finished is kept: run again", file=sys.stderr)
         return PARTIAL
     except KeyboardInterrupt:
-        print("jam: interrupted; what was finished is kept: run again to go on", file=sys.stderr)
+        print("jam: interrupted; what was finished is kept: run again to continue", file=sys.stderr)
         return PARTIAL
     except (ValueError, OSError, ImportError) as error:
         print(f"jam: {error}", file=sys.stderr)

@@ -53,7 +53,7 @@ class Ensemble:
             if len(known) != 1:
                 asked = "" if protocol is None else f", {len(known)} of them begin with {protocol!r}"
                 raise ProtocolError(
-                    f"{folder} holds {len(names)} protocols ({', '.join(names) or 'none'}){asked}: give one, or its name"
+                    f"{folder} contains {len(names)} protocols ({', '.join(names) or 'none'}){asked}: give one, or its name"
                 )
             protocol = self.files.protocol(known[0])  # as it was written: later options have their defaults in it
         else:

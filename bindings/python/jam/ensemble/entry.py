@@ -55,7 +55,7 @@ class Entry:
         place = self._PLACES.get(name, "analysis/" + name)
         if place not in file["jam"]:
             there = list(self._PLACES) + ["positions"] + list(file["jam/analysis"])
-            raise KeyError(f"{self.path} holds no {name!r}; there may be {', '.join(there)}")
+            raise KeyError(f"{self.path} contains no {name!r}; there may be {', '.join(there)}")
         return plain(file["jam/" + place])
 
     def __getattr__(self, name: str) -> Any:

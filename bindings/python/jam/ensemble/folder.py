@@ -136,7 +136,7 @@ class Folder:
             if identity(found) != name:
                 raise StoreError(
                     22,
-                    f"{path} does not hold the protocol of its name: it was changed, or this version has other "
+                    f"{path} does not contain the protocol of its name: it was changed, or this version has other "
                     "defaults. Give the protocol itself",
                 )
         return found

@@ -15,7 +15,7 @@ def warn(left_out: Iterable[str]) -> None:
     texts = list(left_out)
     if texts:
         more = f"; and {len(texts) - 5} more" if len(texts) > 5 else ""
-        warnings.warn(f"{len(texts)} files are left out: " + "; ".join(texts[:5]) + more, DamagedWarning, stacklevel=3)
+        warnings.warn(f"{len(texts)} files are omitted: " + "; ".join(texts[:5]) + more, DamagedWarning, stacklevel=3)
 
 
 @dataclass(frozen=True)
@@ -42,7 +42,7 @@ class Status:
             f"{self.missing} to be made"
         )
         if self.damaged:
-            text += f"; {len(self.damaged)} damaged and left out: " + "; ".join(self.damaged[:3])
+            text += f"; {len(self.damaged)} damaged and omitted: " + "; ".join(self.damaged[:3])
         if len(self.builds) > 1:
             text += f"; made by {len(self.builds)} builds: " + ", ".join(self.builds)
         return text

@@ -1,0 +1,201 @@
+#!/usr/bin/env python3
+"""Makes a table of the bench page from what a benchmark printed: results/NAME.json, with machine, commit and date of now.
+
+usage: results.py NAME RAW.json [RAW.json ...]     NAME: a function below, whose first line is the command of the benchmark
+Then `bindings/docs/figures.py ROOT` writes the page.
+"""
+import json
+import statistics
+import sys
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+sys.path.append(str(HERE.parents[1] / "bindings/docs"))
+import figures  # noqa: E402
+
+
+def span(values):
+    return {"from": min(values), "to": max(values)}
+
+
+def spread(values):
+    """median (least to most), the most to two digits"""
+    low, high = f"{min(values):.2g}", f"{max(values):.2g}"
+    middle = f"{statistics.median(values):.2g}"
+    return middle if low == high else f"{middle} ({low} to {high})"
+
+
+def whole(values):
+    return f"{statistics.median(values):.0f} ({min(values)} to {max(values)})" if len(values) > 1 else values[0]
+
+
+def crunch(raw):
+    """crunch_cases.py FILE"""
+    columns = ["start", "seeds", "factorisations", "crunch (s)", "with growth (s)", "phi_J", "isostatic", "largest force residual"]
+    rows = []
+    for case in raw["cases"]:
+        runs = case["runs"]
+        of = {key: [run[key] for run in runs] for key in runs[0]}
+        total = [a + b for a, b in zip(of["dynamics"], of["crunch"])]
+        phi = [f"{min(of['phi']):.4f}", f"{max(of['phi']):.4f}"]
+        isostatic = sum(run["jammed"] and run["excess"] == 0 for run in runs)
+        rows.append(
+            [case["case"], len(runs), whole(of["factorisations"]), spread(of["crunch"]), spread(total)]
+            + [" to ".join(dict.fromkeys(phi)), f"{isostatic} of {len(runs)}", max(of["residual"])]
+        )
+    return columns, rows
+
+
+def size(raw):
+    """size_chart.py --sizes 256,512,1024,2048,4096 --seeds 3 --growth 3e-4 --pressure 1e7"""
+    rows = []
+    for n in sorted({run["n"] for run in raw}):
+        cells = [n]
+        for method in ("barrier_path", "sequential_lp"):
+            runs = [run for run in raw if run["n"] == n and run["method"] == method]
+            cells += [whole([run["factorisations"] for run in runs]), spread([run["seconds"] for run in runs])]
+        rows.append(cells)
+    return ["N", "barrier path: factorisations", "barrier path (s)", "sequential LPs: factorisations", "sequential LPs (s)"], rows
+
+
+def clp(raw):
+    """clp_race FILE 3 30"""
+    rows = []
+    for row in raw["solvers"]:
+        answer = row["solved"] == 1
+        rows.append(
+            [row["solver"] + ("" if answer else " (no answer)"), row["seconds"], row["ratio"], row["gain_error"] if answer else None]
+        )
+    return ["solver", "processor time (s)", "over the interior point", "error of the gain"], rows
+
+
+def resume(*raws):
+    """crunch_resume.py FILE.json 500 5 [PRESSURE]"""
+    rows = []
+    for raw in raws:
+        start = f"growth at G = 1e-2 to p = {raw['pressure']:g}" if raw["pressure"] else "random points at 0.3"
+        runs = raw["rows"]
+        cost = sum(r["stopped"] for r in runs) / sum(r["whole"] for r in runs)
+        rows.append([start, len(runs), cost, sum(r["same"] for r in runs), sum(r["jammed"] for r in runs)])
+    return ["start", "stops", "factorisations with the stop over without", "same packing", "jammed"], rows
+
+
+def disks(*raws):
+    """disks.py N 50"""
+    rows = []
+    for raw in raws:
+        kinds = raw["kinds"]
+        jammed = kinds.get("jammed", 0)
+        rows.append(
+            [raw["n"], len(raw["rows"]), jammed, jammed - raw["not_confirmed"], kinds.get("wrong", 0)]
+            + [raw["median_factorisations"], raw["median_seconds"], max(r["seconds"] for r in raw["rows"])]
+        )
+    return ["N", "seeds", "jammed", "confirmed by HiGHS", "wrong", "median of factorisations", "median (s)", "longest (s)"], rows
+
+
+def proofs(raw):
+    """proof 64,256,1024 3; proof 4096 1"""
+    rows = []
+    for n, dim in sorted({(r["n"], r["dim"]) for r in raw["runs"]}, key=lambda x: (x[1], x[0])):
+        runs = [r for r in raw["runs"] if (r["n"], r["dim"], r["steps"]) == (n, dim, 2)]
+        good = [r for r in runs if r["exact"]]
+        median = [
+            statistics.median(f(r) for r in good) if good else None
+            for f in (
+                lambda r: r["radius"],
+                lambda r: r["force_error"] / r["least_force"],
+                lambda r: r["rounding"] / r["eigenvalue"],
+                lambda r: r["seconds"],
+                lambda r: r["seconds"] / r["crunch"],
+            )
+        ]
+        rows.append([dim, n, f"{len(good)} of {len(runs)}", *median])
+    return ["d", "N", "proved exact", "radius", "force error over least force", "rounding over eigenvalue", "time (s)", "over the time of the crunch"], rows
+
+
+def strict(raw):
+    """strict.py --seeds 3 --sizes2 256,1024 --sizes3 256,1024"""
+    rows = []
+    for dim, n in sorted({(r["dim"], r["n"]) for r in raw}):
+        runs = [r for r in raw if (r["dim"], r["n"]) == (dim, n)]
+        for_cell = []
+        for cell in ("fixed", "free"):
+            for_cell += [whole([r[cell]["factorisations"] for r in runs]), spread([r[cell]["seconds"] for r in runs])]
+        ratio = statistics.median(r["free"]["seconds"] / r["fixed"]["seconds"] for r in runs)
+        gain = spread([r["free"]["phi"] - r["fixed"]["phi"] for r in runs])
+        rows.append([dim, n, *for_cell, ratio, gain, f"{sum(all(r['jammed']) for r in runs)} of {len(runs)}"])
+    return ["d", "N", "fixed cell: factorisations", "fixed cell (s)", "free cell: factorisations", "free cell (s)", "ratio of times", "gain of packing fraction", "strictly jammed"], rows  # fmt: skip
+
+
+def md(raw):
+    """md_speed"""
+    rows = []
+    for fraction in sorted({r["packing_fraction"] for r in raw["nve"]}):
+        runs = {r["n"]: r["collisions_per_second"] / 1e6 for r in raw["nve"] if r["packing_fraction"] == fraction}
+        rows.append([f"packing fraction {fraction:g}, millions of collisions per second", *(runs[n] for n in (1024, 16384, 100000))])
+    for name, text in (("observed: series", "with `jam_observe`, series"), ("observed: collisions of pairs", "with `jam_observe`, collisions of all pairs")):  # fmt: skip
+        found = {r["n"]: r["rate_ratio"] for r in raw["against"] if r["rival"] == name}
+        rows.append([f"{text}: rate over the plain rate", *(found[n] for n in (1024, 16384, 100000))])
+    return ["what", "N = 1024", "N = 16384", "N = 1e5"], rows
+
+
+def cells(raw):
+    """cells.py --sizes 1000,8000 --seconds 4"""
+    rows = []
+    for name in dict.fromkeys(r["cell"] for r in raw):
+        line = [name]
+        for method in ("molecular_dynamics", "monte_carlo"):
+            for n in (1000, 8000):
+                runs = [r for r in raw if (r["cell"], r["method"], r["n"]) == (name, method, n)]
+                line.append(max(runs, key=lambda r: r["seconds"])["rate"] / 1e6)
+        rows.append(line)
+    return ["cell", "millions of collisions per second, N = 1000", "N = 8000", "millions of Monte Carlo trials per second, N = 1000", "N = 8000 "], rows  # fmt: skip
+
+
+def monte_carlo(raw):
+    """monte_carlo"""
+    rows = [
+        [r["scene"] + (f", alpha = {r['alpha']:g}, T = {r['temperature']:g}" if r["alpha"] else ""), r["step"], r["trials_a_second"] / 1e6, r["ratio"]]
+        for r in raw
+    ]  # fmt: skip
+    return ["system (N = 1024)", "step in diameters", "millions of trials per second", "over a plain cell-list code"], rows
+
+
+def near_jamming(raw):
+    """near_jamming_accuracy.py PICTURE.png 1000"""
+    rows = [
+        [r["scene"], r["instant"], r["runs"], r["seconds"], {"value": r["k"], "error": r["error"]}]
+        for r in raw
+        if r["runs"] in (100, 1000)
+    ]
+    return ["dynamics", "collisions or sweeps", "runs", "processor time (s)", "K"], rows
+
+
+def soft(*raws):
+    """soft_minimise.py FILE.json 512; soft_cell.py FILE.json 512"""
+    rows = []
+    for raw in raws:
+        key = "distance" if "distance" in raw["race"][0] else "pressure"
+        text = "fixed cell, ln(R / R_J) = " if key == "distance" else "free cell at pressure "
+        for value in sorted({r[key] for r in raw["race"]}, reverse=True):
+            line = [f"{text}{value:g}"]
+            for minimiser in ("newton", "fire", "lbfgs"):
+                runs = [r for r in raw["race"] if r[key] == value and r["minimiser"] == minimiser]
+                runs = [r for r in runs if r.get("precision", "reference") == "reference"]
+                best = [r for r in runs if r["residual"] < 1e-12]
+                line.append(min(best, key=lambda r: r["residual"])["seconds"] if best else None)
+            rows.append(line)
+    return ["start (N = 512)", "Newton (s)", "FIRE (s)", "L-BFGS (s)"], rows
+
+
+def main():
+    name, raws = sys.argv[1], [json.loads(Path(path).read_text(encoding="utf-8")) for path in sys.argv[2:]]
+    made = {f.__name__: f for f in (crunch, size, clp, resume, disks, proofs, strict, md, cells, monte_carlo, near_jamming, soft)}[name]
+    columns, rows = made(*raws)
+    old = raws[0] if isinstance(raws[0], dict) and "commit" in raws[0] else None  # a result that was kept with its source
+    source = old and {key: old[key] for key in ("machine", "commit", "date")}
+    figures.save(HERE / "results" / f"{name}.json", made.__doc__.strip(), columns, rows, source)
+
+
+if __name__ == "__main__":
+    main()

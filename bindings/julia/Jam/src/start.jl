@@ -33,7 +33,7 @@ function check_positions(x, count, sizes, given)
         get(given, name, value) == value || throw(ArgumentError("$name is $(given[name]), and positions are $d-by-$n"))
     end
     if d > 2 && n > 1 && count in (1, n) && !haskey(given, :dim) && any(f -> all(x[d, :] .== f .* sizes), (0.5, 1.0, 2.0))
-        throw(ArgumentError("the last row of positions holds the sizes of the spheres: pass positions[1:$(d - 1), :]. " *
+        throw(ArgumentError("the last row of positions contains the sizes of the spheres: pass positions[1:$(d - 1), :]. " *
                             "If it is a coordinate, pass dim = $d"))
     end
     (haskey(given, :box) || haskey(given, :cell)) && return nothing

@@ -66,7 +66,7 @@ function System(positions::Union{AbstractMatrix, AbstractVector}, diameters = no
 end
 
 function System(path::AbstractString; given...)
-    refuse(given, (:packing_fraction, :porosity), "the file holds it")
+    refuse(given, (:packing_fraction, :porosity), "the file gives it")
     refuse(given, (:diameters, :radii, :cell), "files give sizes and cell")
     out = Ref{Ptr{Cvoid}}(C_NULL)
     written(jam_read(path, options(jam_create_options, given), nothing, nothing, out))

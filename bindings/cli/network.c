@@ -24,24 +24,27 @@ static int missing(jam_status status, const char *path) {
 static int write_spectrum(jam_system *sys, int64_t count, const char *path) {
   jam_modes_options o;
   size_t m = 0, k;
-  double *lambda;
+  double *mode;
   output out;
   int bad;
   jam_modes_options_init(&o, sizeof o);
   if (count == 0) o.which = JAM_MODES_ALL;
   o.count = count < 0 ? 100 : count;
-  bad = missing(jam_modes(sys, NULL, &o, NULL, 0, NULL, 0, NULL, 0, &m), path);
+  bad = missing(jam_modes(sys, NULL, &o, NULL, 0, NULL, 0, &m), path);
   if (bad) return bad;
-  lambda = malloc((2 * m + 1) * sizeof *lambda);
-  if (!lambda) return no_memory(path);
-  bad = missing(jam_modes(sys, NULL, &o, lambda, m, NULL, 0, lambda + m, m, NULL), path);
+  mode = malloc((2 * m + 1) * sizeof *mode);
+  if (!mode) return no_memory(path);
+  bad = missing(jam_modes(sys, NULL, &o, mode, 2 * m, NULL, 0, &m), path);
   if (!bad && (bad = open_output(&out, path)) == 0) {
     fputs("mode,lambda,omega,participation\n", out.file);
-    for (k = 0; k < m && isfinite(lambda[k]); ++k)
-      fprintf(out.file, "%zu,%.17g,%.17g,%.17g\n", k, lambda[k], sqrt(fmax(lambda[k], 0)), lambda[m + k]);
+    for (k = 0; k < m && isfinite(mode[2 * k + JAM_MODE_LAMBDA]); ++k) {
+      const double lambda = mode[2 * k + JAM_MODE_LAMBDA];
+      fprintf(out.file, "%zu,%.17g,%.17g,%.17g\n", k, lambda, sqrt(fmax(lambda, 0)),
+              mode[2 * k + JAM_MODE_PARTICIPATION]);
+    }
     bad = close_output(&out);
   }
-  free(lambda);
+  free(mode);
   return bad;
 }
 

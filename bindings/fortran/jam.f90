@@ -37,7 +37,7 @@ module jam
   integer(c_int32_t), parameter :: JAM_E_UNSUPPORTED = -16
   integer(c_int32_t), parameter :: JAM_E_INTERNAL = -17
 
-  ! jam_stop_reason: Why a run ended (jam_md_report.stop_reason, jam_crunch_report.stop_reason).
+  ! jam_stop_reason: Why a run ended: stop_reason of the reports.
   integer(c_int32_t), parameter :: JAM_STOP_NONE = 0
   integer(c_int32_t), parameter :: JAM_STOP_PRESSURE = 1
   integer(c_int32_t), parameter :: JAM_STOP_PACKING_FRACTION = 2
@@ -111,7 +111,10 @@ module jam
   integer(c_int32_t), parameter :: JAM_LOG_INFO = 2
   integer(c_int32_t), parameter :: JAM_LOG_DEBUG = 3
 
-  ! jam_format: File formats.
+  ! jam_format: File formats. Behind any ending .gz compresses the file. PLAIN: line 1: d. Line 2: N. Line 3: the diameter, or the
+  ! word `diameters`; then, when it is not 1, the box as `box <L>`. Then a line a sphere: its position, and its diameter
+  ! after `diameters`, with 17 digits. XYZ: Lattice, dim, Properties=id:I:1:pos:R:d:radius:R:1 and, after a crunch,
+  ! contacts:I:1. VTP: points with diameter, and after a crunch contacts and kind (0 rattler, 1 buckler, 2 other).
   integer(c_int32_t), parameter :: JAM_FORMAT_AUTO = 0
   integer(c_int32_t), parameter :: JAM_FORMAT_PLAIN = 1
   integer(c_int32_t), parameter :: JAM_FORMAT_XYZ = 2
@@ -135,6 +138,16 @@ module jam
   integer(c_int32_t), parameter :: JAM_SERIES_PRESSURE = 3
   integer(c_int32_t), parameter :: JAM_SERIES_ERROR = 4
   integer(c_int32_t), parameter :: JAM_SERIES_MSD = 5
+
+  ! jam_gap_column: Columns of jam_observed_gaps, a row a bin.
+  integer(c_int32_t), parameter :: JAM_GAP_LOW = 0
+  integer(c_int32_t), parameter :: JAM_GAP_HIGH = 1
+  integer(c_int32_t), parameter :: JAM_GAP_DENSITY = 2
+  integer(c_int32_t), parameter :: JAM_GAP_ERROR = 3
+
+  ! jam_correlation_column: Columns of jam_observed_correlation, a row a bin.
+  integer(c_int32_t), parameter :: JAM_CORRELATION_R = 0
+  integer(c_int32_t), parameter :: JAM_CORRELATION_G = 1
 
   ! jam_eos_form: Equations of state p(phi) in closed form.
   integer(c_int32_t), parameter :: JAM_EOS_CARNAHAN_STARLING = 0
@@ -166,12 +179,15 @@ module jam
   integer(c_int32_t), parameter :: JAM_ISOCONF_VELOCITY = 10
   integer(c_int32_t), parameter :: JAM_ISOCONF_COLLISIONS = 11
   integer(c_int32_t), parameter :: JAM_ISOCONF_PRESSURE = 12
+  integer(c_int32_t), parameter :: JAM_ISOCONF_RUNS = 13
 
   ! jam_lp_solver: How the LPs are solved.
   integer(c_int32_t), parameter :: JAM_LP_IPM = 0
   integer(c_int32_t), parameter :: JAM_LP_CLP = 1
 
-  ! jam_crunch_method: Which quench leads to the jamming point. Both end with fully solved LPs in which no sphere moves any more.
+  ! jam_crunch_method: Which quench leads to the jamming point. Both end with fully solved LPs in which no sphere moves any more. The
+  ! barrier path: LPs far from jamming, then a path whose constraints are linearised again after each Newton step, then
+  ! LPs.
   integer(c_int32_t), parameter :: JAM_CRUNCH_BARRIER_PATH = 0
   integer(c_int32_t), parameter :: JAM_CRUNCH_SEQUENTIAL_LP = 1
 
@@ -191,7 +207,7 @@ module jam
   integer(c_int32_t), parameter :: JAM_STEP_POLISH = 3
 
   ! jam_history_column: Columns of the history of a crunch, a row a step. Displacements are those of all spheres, their mean taken out, in
-  ! mean diameters after the step. NaN where a column has no meaning.
+  ! mean diameters after the step.
   integer(c_int32_t), parameter :: JAM_HISTORY_PHASE = 0
   integer(c_int32_t), parameter :: JAM_HISTORY_GAIN = 1
   integer(c_int32_t), parameter :: JAM_HISTORY_PHI = 2
@@ -218,7 +234,8 @@ module jam
   integer(c_int32_t), parameter :: JAM_SOFT_ABSOLUTE = 1
   integer(c_int32_t), parameter :: JAM_SOFT_BARE = 2
 
-  ! jam_minimiser: How the energy is minimised. Methods end in different minima of the same start: each is a protocol.
+  ! jam_minimiser: How the energy is minimised. Methods end in different minima of the same start: each is a protocol. NEWTON: FIRE
+  ! (alpha < 2: L-BFGS) until contacts settle, then Newton's method with pre-stress.
   integer(c_int32_t), parameter :: JAM_MINIMISER_NEWTON = 0
   integer(c_int32_t), parameter :: JAM_MINIMISER_FIRE = 1
   integer(c_int32_t), parameter :: JAM_MINIMISER_LBFGS = 2
@@ -240,7 +257,8 @@ module jam
   integer(c_int32_t), parameter :: JAM_SOFT_FACTORISATIONS = 9
   integer(c_int32_t), parameter :: JAM_SOFT_SECONDS = 10
 
-  ! jam_stiffness: Stiffness k of a contact, 1 at the mean force.
+  ! jam_stiffness: Stiffness k of a contact, 1 at the mean force. SOFT: after jam_relax or jam_decompress; prestress is then the share
+  ! of the pre-stress f / r that is kept, 0..1.
   integer(c_int32_t), parameter :: JAM_STIFFNESS_HARMONIC = 0
   integer(c_int32_t), parameter :: JAM_STIFFNESS_POWER = 1
   integer(c_int32_t), parameter :: JAM_STIFFNESS_HARD = 2
@@ -251,6 +269,10 @@ module jam
   integer(c_int32_t), parameter :: JAM_MODES_HIGHEST = 1
   integer(c_int32_t), parameter :: JAM_MODES_NEAR = 2
   integer(c_int32_t), parameter :: JAM_MODES_ALL = 3
+
+  ! jam_mode_column: Columns of jam_modes, a row a mode.
+  integer(c_int32_t), parameter :: JAM_MODE_LAMBDA = 0
+  integer(c_int32_t), parameter :: JAM_MODE_PARTICIPATION = 1
 
   ! jam_candidate_column: Columns of jam_contact_candidates.
   integer(c_int32_t), parameter :: JAM_CANDIDATE_LIMIT = 0
@@ -278,7 +300,8 @@ module jam
   integer(c_int32_t), parameter :: JAM_CHECK_GAPS = 6
   integer(c_int32_t), parameter :: JAM_CHECK_MARGIN = 7
 
-  ! jam_theorem: What was proved.
+  ! jam_theorem: What was proved. TRAPPED: no motion without overlap takes a stable sphere farther than inner, but translations of
+  ! all. No packing as dense lies between inner and outer.
   integer(c_int32_t), parameter :: JAM_THEOREM_NONE = 0
   integer(c_int32_t), parameter :: JAM_THEOREM_TRAPPED = 1
   integer(c_int32_t), parameter :: JAM_THEOREM_EXACT = 2
@@ -292,7 +315,7 @@ module jam
   integer(c_int32_t), parameter :: JAM_CAUSE_RATTLER = 5
   integer(c_int32_t), parameter :: JAM_CAUSE_IMAGES = 6
 
-  ! jam_contact_class: Flags of a contact.
+  ! jam_contact_class: Flags of a contact. A buckler is a stable sphere with d + 1 contacts.
   integer(c_int32_t), parameter :: JAM_CONTACT_LOCALISED = 1
   integer(c_int32_t), parameter :: JAM_CONTACT_SMALLEST = 2
   integer(c_int32_t), parameter :: JAM_CONTACT_MEDIAN = 4
@@ -314,7 +337,13 @@ module jam
   integer(c_int32_t), parameter :: JAM_POPULATION_SMALLEST = 3
   integer(c_int32_t), parameter :: JAM_POPULATION_MEDIAN = 4
 
-  ! jam_floppy_column: Columns of jam_floppy_modes, a row a contact; dr is the field of jam_floppy_mode.
+  ! jam_structure_column: Columns of jam_structure_factor.
+  integer(c_int32_t), parameter :: JAM_STRUCTURE_Q = 0
+  integer(c_int32_t), parameter :: JAM_STRUCTURE_S = 1
+
+  ! jam_floppy_column: Columns of jam_floppy_modes, a row a contact; dr is the field of jam_floppy_mode, and F the mean force. Openings have
+  ! the unit of positions: divide by the diameter to compare packings of different N. B = sum_k f_k |dr_perp|^2 / r_k.
+  ! S_RETURN is s* of R. Diaz Hernandez Rojas, PhD thesis, Sapienza 2021, whose index is twice stability.
   integer(c_int32_t), parameter :: JAM_FLOPPY_MEDIAN = 0
   integer(c_int32_t), parameter :: JAM_FLOPPY_WEIGHT = 1
   integer(c_int32_t), parameter :: JAM_FLOPPY_S_PLUS = 2
@@ -330,15 +359,15 @@ module jam
   integer(c_int32_t), parameter :: JAM_DOS_CUMULATIVE = 4
   integer(c_int32_t), parameter :: JAM_DOS_CUMULATIVE_ERROR = 5
 
-  ! Given to the progress callback; valid during the call only.
+  ! Given to the progress callback; valid during the call only. NaN: not known.
   type, bind(c) :: jam_progress
-    ! sizeof(jam_progress) as the library knows it
+    ! as the library knows it
     integer(c_int32_t) :: struct_size = 104
     ! jam_phase
     integer(c_int32_t) :: phase = 0
     ! now
     real(c_double) :: packing_fraction = 0
-    ! MD: reduced pressure of the last window, NaN before
+    ! MD: reduced pressure of the last window
     real(c_double) :: pressure = 0
     ! crunch: sqrt(Gamma) - 1 of the last LP; on the barrier path its duality gap
     real(c_double) :: gain = 0
@@ -346,71 +375,67 @@ module jam
     real(c_double) :: max_step = 0
     ! since the call began
     real(c_double) :: seconds = 0
-    ! of the call, 0..1: never falls, an estimate where the length of the way is not known (growth, crunch); NaN before the first estimate and in calls without one. wall_time is not in it
+    ! of the call, 0..1: never falls, may be an estimate, leaves wall_time out
     real(c_double) :: fraction = 0
     ! MD: so far in this call
     integer(c_int64_t) :: collisions = 0
-    ! crunch: LPs so far; analysis: items done
+    ! crunch: LPs so far, analysis: items done
     integer(c_int64_t) :: steps = 0
     ! crunch: so far
     integer(c_int64_t) :: factorisations = 0
-    ! number of the snapshot (jam_observe) that the views show now; 0: an ordinary report
+    ! number of the snapshot (jam_observe) that the views show now; 0: no snapshot
     integer(c_int64_t) :: snapshot = 0
-    ! until the aim, from how `fraction` grew; NaN before a few reports
+    ! until the aim, from how `fraction` grew
     real(c_double) :: seconds_left = 0
-    ! a factor above 1: at least two of three calls end between seconds_left divided by it and seconds_left times it; NaN with seconds_left
+    ! two of three calls end between seconds_left over and times this factor > 1
     real(c_double) :: seconds_left_spread = 0
   end type jam_progress
 
-  ! Options of jam_create and jam_read.
+  ! Options of jam_create and jam_read. An option whose value a file gives must be the default or agree with the file.
   type, bind(c) :: jam_create_options
-    ! sizeof(jam_create_options)
     integer(c_int32_t) :: struct_size = 0
-    ! 2..8, default 3; with a file: 3 or the file's dimension
+    ! 2..8, default 3
     integer(c_int32_t) :: dim = 0
-    ! number of spheres, 1..2^31-1; default 0: taken from the arrays
+    ! spheres, default 0: as many as the arrays have
     integer(c_int64_t) :: n = 0
-    ! of every random stream, default 1; recorded
+    ! of every random stream, default 1
     integer(c_int64_t) :: seed = 0
     ! side of the cube, > 0, default 1
     real(c_double) :: box = 0
     ! of a random start, > 0; default 0: by dim, 0.2 halved for each dimension above 3
     real(c_double) :: packing_fraction = 0
-    ! jam_overlap_policy for given positions, default REFUSE
+    ! jam_overlap_policy, default REFUSE
     integer(c_int32_t) :: overlap = 0
     ! jam_model, default EUCLID
     integer(c_int32_t) :: model = 0
-    ! MK: strength of the shifts, 0..1e15; default infinity: uniform shifts. A random start is planted in equilibrium
+    ! MK: strength of shifts, 0..1e15; default infinity: uniform. Random starts: planted
     real(c_double) :: mk_zeta = 0
     ! jam_masses, default EQUAL
     integer(c_int32_t) :: masses = 0
-    ! 0
     integer(c_int32_t) :: reserved = 0
-    ! Delta in (-1, 1]: spheres of unequal diameters touch at (1 + Delta) (sigma_i + sigma_j) / 2; default 0. With a file that gives a value: 0 or that value
+    ! Delta in (-1, 1]: unequal spheres touch at (1 + Delta) (sigma_i + sigma_j) / 2; default 0
     real(c_double) :: non_additivity = 0
-    ! limit in seconds for reading a file, a random start and the search for overlaps, > 0, default infinity; beyond it JAM_LIMIT
+    ! of reading, of a random start and of the search for overlaps
     real(c_double) :: wall_time = 0
     ! as jam_set_memory_limit, also while a file is read; default 0: half the machine's memory
     real(c_double) :: memory_limit = 0
     ! which packing of a file with several, from 0; negative: from the end; default -1, the last
     integer(c_int64_t) :: frame = 0
-    ! smallest factor that JAM_OVERLAP_SHRINK may apply to diameters, 0..1, default 1e-3. A smaller one is refused: it points to duplicate spheres or wrong units
+    ! JAM_OVERLAP_SHRINK: least factor, 0..1, default 1e-3; below: duplicates, or wrong units?
     real(c_double) :: shrink_min = 0
   end type jam_create_options
 
   ! Where a system starts. NULL in place of it: a random sequential start of equal spheres in a cube.
   type, bind(c) :: jam_start
-    ! sizeof(jam_start)
     integer(c_int32_t) :: struct_size = 72
-    ! 0
     integer(c_int32_t) :: reserved = 0
-    ! (n, d), Cartesian, unit of `box`, any finite value (wrapped into the cell); NULL: a random sequential start at the packing_fraction of the options
+    ! (n, d), Cartesian, any finite value (wrapped into the cell); NULL: a random start
     type(c_ptr) :: positions = c_null_ptr
     integer(c_size_t) :: positions_len = 0
-    ! n values, or 1 for all; NULL: all equal. With positions they must be given and are taken as they are. For a random start only their ratios count
+    ! n values, or 1 for all; NULL: equal. Random start: only ratios count; else not NULL
     type(c_ptr) :: diameters = c_null_ptr
     integer(c_size_t) :: diameters_len = 0
-    ! (d, d), of any positive determinant; `box` must then be 1, the default. A left-handed, singular or flat cell is refused. NULL: a cube
+    ! (d, d), beside the default box of 1; left-handed, singular, flat: refused. NULL: a cube
     type(c_ptr) :: cell = c_null_ptr
     integer(c_size_t) :: cell_len = 0
     ! or NULL; a non-zero return ends the call. The new system has no callback
@@ -421,7 +446,6 @@ module jam
 
   ! What the system is now.
   type, bind(c) :: jam_info
-    ! set by the caller: sizeof(jam_info)
     integer(c_int32_t) :: struct_size = 80
     ! d
     integer(c_int32_t) :: dim = 0
@@ -433,63 +457,60 @@ module jam
     real(c_double) :: box = 0
     ! sum of sphere volumes over V
     real(c_double) :: packing_fraction = 0
-    ! mean diameter, unit of box
+    ! unit of box
     real(c_double) :: diameter_mean = 0
     ! reduced pressure p last measured by MD, NaN before
     real(c_double) :: pressure = 0
     ! jam_model
     integer(c_int32_t) :: model = 0
-    ! 1 when all diameters are equal
+    ! 1: all diameters are equal
     integer(c_int32_t) :: monodisperse = 0
     ! jam_masses
     integer(c_int32_t) :: masses = 0
-    ! jam_phase of what was stopped early and can go on, or 0; JAM_PHASE_CRUNCH: by jam_crunch
+    ! jam_phase of what was stopped early and can go on (crunch: by jam_crunch), or 0
     integer(c_int32_t) :: paused = 0
     ! Delta of a non-additive mixture, 0 for additive diameters
     real(c_double) :: non_additivity = 0
   end type jam_info
 
-  ! Options of jam_diameters. Lengths are in the user's unit.
+  ! Options of jam_diameters. Lengths are in the user's unit. NaN and 0 stand for what is not given.
   type, bind(c) :: jam_diameters_options
-    ! sizeof(jam_diameters_options)
     integer(c_int32_t) :: struct_size = 0
-    ! default EQUAL. jam_size_law
+    ! jam_size_law, default EQUAL
     integer(c_int32_t) :: law = 0
-    ! default USUAL. jam_size_share
+    ! jam_size_share, default USUAL
     integer(c_int32_t) :: share = 0
-    ! default QUANTILES. jam_size_draw
+    ! jam_size_draw, default QUANTILES
     integer(c_int32_t) :: draw = 0
     ! 2..8, default 3: of volumes
     integer(c_int32_t) :: dim = 0
-    ! 0
     integer(c_int32_t) :: reserved = 0
-    ! number of spheres; default 0: it follows from packing_fraction
+    ! number of spheres, default 0: by packing_fraction
     integer(c_int64_t) :: n = 0
     ! of RANDOM, default 1
     integer(c_int64_t) :: seed = 0
     ! diameter, > 0, default 1
     real(c_double) :: mean = 0
-    ! standard deviation of the diameter, > 0; default NaN: not given
+    ! its standard deviation, > 0, default NaN
     real(c_double) :: deviation = 0
-    ! smallest diameter, default 0: not given
+    ! smallest diameter, default 0
     real(c_double) :: low = 0
     ! largest diameter, default infinity: not given
     real(c_double) :: high = 0
-    ! default NaN: not given
+    ! default NaN
     real(c_double) :: exponent = 0
     ! > 0, default 1
     real(c_double) :: scale = 0
-    ! > 0, default NaN: not given
+    ! > 0, default NaN
     real(c_double) :: shape = 0
-    ! default 0: not given. Spheres of more volume are refused
+    ! default 0. Spheres of more volume are refused
     real(c_double) :: cell_volume = 0
-    ! of the spheres in cell_volume, in place of n; default 0: not given. More than these sizes reach in disorder is refused
+    ! in cell_volume, in place of n; default 0. More than reached in disorder is refused
     real(c_double) :: packing_fraction = 0
   end type jam_diameters_options
 
-  ! What a set of diameters is.
+  ! What a set of diameters is. sequential_fraction: Zhang and Torquato, Phys. Rev. E 88, 053312 (2013).
   type, bind(c) :: jam_size_report
-    ! set by the caller: sizeof(jam_size_report)
     integer(c_int32_t) :: struct_size = 112
     ! jam_reach_source
     integer(c_int32_t) :: source = 0
@@ -497,7 +518,7 @@ module jam
     integer(c_int64_t) :: n = 0
     ! diameter, by number
     real(c_double) :: mean = 0
-    ! standard deviation, by number
+    ! its standard deviation, by number
     real(c_double) :: deviation = 0
     ! deviation / mean
     real(c_double) :: polydispersity = 0
@@ -515,33 +536,32 @@ module jam
     real(c_double) :: volume = 0
     ! of the volume, of the largest sphere: how closely a curve can be followed
     real(c_double) :: largest_share = 0
-    ! where random sequential addition of equal spheres ends (Zhang and Torquato, Phys. Rev. E 88, 053312 (2013)); mixtures go beyond
+    ! where random sequential addition of equal spheres ends; mixtures go beyond
     real(c_double) :: sequential_fraction = 0
     ! estimate of the packing fraction at which these sizes jam in disorder
     real(c_double) :: jammed_fraction = 0
   end type jam_size_report
 
-  ! Limits of jam_run (NVE). Whichever comes first ends the run.
+  ! Limits of jam_run (NVE). Whichever comes first ends the run. All but wall_time count since the run began.
   type, bind(c) :: jam_run_options
-    ! sizeof(jam_run_options)
     integer(c_int32_t) :: struct_size = 0
     ! 1: go on with the run that stopped early; default 0
     integer(c_int32_t) :: resume = 0
-    ! to make since the run began, > 0, default 100
+    ! to make, > 0, default 100
     real(c_double) :: collisions_per_particle = 0
-    ! seconds of this call, > 0, default infinity
+    ! seconds of this call
     real(c_double) :: wall_time = 0
-    ! to simulate (to the last event before it) since the run began, unit box / sqrt(kT/m), > 0, default infinity
+    ! to simulate (to the last event before it), > 0, default infinity
     real(c_double) :: time = 0
   end type jam_run_options
 
   ! Lubachevsky-Stillinger growth: one stage at a given growth rate, or the two stages of jam_compress. Whichever target
-  ! is reached first ends it. A growth_rate selects one stage. Without it, targets, limits and growth_law apply to the
-  ! two stages.
+  ! is reached first ends it. Targets, limits and growth_law apply to the two stages too. Limits count from the start of
+  ! each stage. The same growth_rate by JAM_GROWTH_DENSITY, in steps of half a per cent of sigma, means the same protocol
+  ! at every n.
   type, bind(c) :: jam_compress_options
-    ! sizeof(jam_compress_options)
     integer(c_int32_t) :: struct_size = 0
-    ! 1: go on with the stage that stopped early, of which all but the limits is kept; default 0
+    ! 1: go on with the stage that stopped early, with all but the limits; default 0
     integer(c_int32_t) :: resume = 0
     ! G > 0: one stage at this rate; 0, the default: the two stages of jam_compress
     real(c_double) :: growth_rate = 0
@@ -549,23 +569,21 @@ module jam
     real(c_double) :: pressure = 0
     ! target, > 0, default infinity
     real(c_double) :: packing_fraction = 0
-    ! limit, counted from the start of each stage, > 0, default infinity
+    ! limit, > 0, default infinity
     real(c_double) :: collisions_per_particle = 0
-    ! limit in seconds of this call, > 0, default infinity
+    ! limit of this call
     real(c_double) :: wall_time = 0
-    ! limit of simulated time, counted from the start of each stage, > 0, default infinity
+    ! limit of simulated time, > 0, default infinity
     real(c_double) :: time = 0
-    ! quasi-static: the rate falls as a power of p to this one at the target pressure; in [0, growth_rate], default 0: constant
+    ! in [0, growth_rate]: the rate at the target, a power of p; 0, the default: constant
     real(c_double) :: growth_rate_end = 0
     ! jam_growth_law, default DIAMETER
     integer(c_int32_t) :: growth_law = 0
-    ! 0
     integer(c_int32_t) :: reserved = 0
   end type jam_compress_options
 
-  ! What MD did.
+  ! What MD did. Pressure: P V / (N kT) without the part of the growth, kT = sum m v^2 / (d (N - 1)).
   type, bind(c) :: jam_md_report
-    ! set by the caller: sizeof(jam_md_report)
     integer(c_int32_t) :: struct_size = 96
     ! jam_stop_reason
     integer(c_int32_t) :: stop_reason = 0
@@ -575,13 +593,13 @@ module jam
     integer(c_int64_t) :: events = 0
     ! of wall time
     real(c_double) :: collisions_per_second = 0
-    ! reduced, P V / (N kT), without the part of the growth. jam_run: mean over the call; jam_compress: last window. kT = sum m v^2 / (d (N - 1))
+    ! reduced. jam_run: mean over the call; jam_compress: last window
     real(c_double) :: pressure = 0
     ! standard error of that mean from its windows; NaN with too few
     real(c_double) :: pressure_error = 0
     ! at the end
     real(c_double) :: packing_fraction = 0
-    ! simulated, unit box / sqrt(kT/m)
+    ! simulated
     real(c_double) :: time = 0
     ! jam_run: |K_end/K_start - 1|
     real(c_double) :: energy_drift = 0
@@ -595,7 +613,6 @@ module jam
 
   ! What jam_observe records.
   type, bind(c) :: jam_observe_options
-    ! sizeof(jam_observe_options)
     integer(c_int32_t) :: struct_size = 0
     ! 1: collisions of each sphere, and collisions and momentum of each pair; default 0
     integer(c_int32_t) :: collisions = 0
@@ -605,9 +622,9 @@ module jam
     integer(c_int32_t) :: r_bins = 0
     ! collisions per particle between samples of the series, gaps and g(r), > 0, default 10
     real(c_double) :: sample_every = 0
-    ! the first bin is [0, gap_min], > 0, default 1e-8; the others have equal ratios
+    ! the first bin is [0, gap_min], > 0, default 1e-8
     real(c_double) :: gap_min = 0
-    ! up to here, in (gap_min, 10], default 1
+    ! up to here by equal ratios, <= 10, 1
     real(c_double) :: gap_max = 0
     ! of g(r), mean diameters, > 0, default 4
     real(c_double) :: r_max = 0
@@ -617,19 +634,17 @@ module jam
     real(c_double) :: snapshot_factor = 0
   end type jam_observe_options
 
-  ! A fit of the glass branch p = d' / (1 - phi/phi_J).
+  ! A fit of the glass branch p = d' / (1 - phi/phi_J). Errors are standard errors.
   type, bind(c) :: jam_glass
-    ! set by the caller: sizeof(jam_glass)
     integer(c_int32_t) :: struct_size = 48
-    ! 0
     integer(c_int32_t) :: reserved = 0
     ! phi_J
     real(c_double) :: jammed_fraction = 0
-    ! its standard error
+    ! its error
     real(c_double) :: jammed_error = 0
-    ! d', free; near d for a good glass
+    ! d', free, near d for a good glass
     real(c_double) :: dimension = 0
-    ! its standard error
+    ! its error
     real(c_double) :: dimension_error = 0
     ! of the straight line 1/p against phi
     real(c_double) :: r_squared = 0
@@ -637,15 +652,13 @@ module jam
 
   ! Metropolis Monte Carlo at constant volume. A sweep is one trial of each sphere.
   type, bind(c) :: jam_monte_carlo_options
-    ! sizeof(jam_monte_carlo_options)
     integer(c_int32_t) :: struct_size = 0
     ! 1: continue the run that stopped early; default 0
     integer(c_int32_t) :: resume = 0
     ! jam_energy_unit, default LENGTH
     integer(c_int32_t) :: energy_unit = 0
-    ! 0
     integer(c_int32_t) :: reserved = 0
-    ! 0, the default: hard spheres; > 1: the energy of an overlap x is energy_scale x^alpha
+    ! 0, default: hard, or > 1: overlaps x cost energy_scale x^alpha
     real(c_double) :: alpha = 0
     ! > 0, default 1
     real(c_double) :: energy_scale = 0
@@ -661,17 +674,16 @@ module jam
     integer(c_int64_t) :: sweeps = 0
     ! number of the random stream beside the seed, >= 0, default 0
     integer(c_int64_t) :: run = 0
-    ! number of the first sweep, by which the stream goes; -1, the default: after those made before
+    ! number of the first sweep in its stream; -1, the default: after those made before
     integer(c_int64_t) :: first_sweep = 0
-    ! seconds of this call, > 0, default infinity
+    ! seconds of this call
     real(c_double) :: wall_time = 0
   end type jam_monte_carlo_options
 
   ! What Monte Carlo did.
   type, bind(c) :: jam_monte_carlo_report
-    ! set by the caller: sizeof(jam_monte_carlo_report)
     integer(c_int32_t) :: struct_size = 104
-    ! jam_stop_reason; COLLISIONS: all sweeps were made
+    ! jam_stop_reason, COLLISIONS when all sweeps were made
     integer(c_int32_t) :: stop_reason = 0
     ! since the run began
     integer(c_int64_t) :: sweeps = 0
@@ -685,9 +697,9 @@ module jam
     real(c_double) :: step = 0
     ! mean energy a sphere
     real(c_double) :: energy = 0
-    ! standard error of it from 20 parts of the run, NaN with too few sweeps
+    ! its standard error from 20 parts, NaN with few sweeps
     real(c_double) :: energy_error = 0
-    ! reduced p: soft, from the virial; hard, from the density of pairs at contact
+    ! reduced p: from the virial, of hard spheres from pairs at contact
     real(c_double) :: pressure = 0
     ! likewise
     real(c_double) :: pressure_error = 0
@@ -701,7 +713,6 @@ module jam
 
   ! Options of jam_isoconfigurational.
   type, bind(c) :: jam_isoconf_options
-    ! sizeof(jam_isoconf_options)
     integer(c_int32_t) :: struct_size = 0
     ! 1 or 2, default 1; the bits are the same
     integer(c_int32_t) :: threads = 0
@@ -725,19 +736,18 @@ module jam
     real(c_double) :: overlap_length = 0
     ! bytes, default 2e9: past it JAM_E_MEMORY with the estimate before any run
     real(c_double) :: memory_limit = 0
-    ! seconds of this call, > 0, default infinity
+    ! seconds of this call
     real(c_double) :: wall_time = 0
   end type jam_isoconf_options
 
   ! What the runs gave so far.
   type, bind(c) :: jam_isoconf_report
-    ! set by the caller: sizeof(jam_isoconf_report)
     integer(c_int32_t) :: struct_size = 80
-    ! jam_stop_reason; COLLISIONS: all runs were made; STALLED: run first_run + runs cannot move
+    ! jam_stop_reason, COLLISIONS: all made; STALLED: the next run cannot move
     integer(c_int32_t) :: stop_reason = 0
     ! number of the first run
     integer(c_int64_t) :: first_run = 0
-    ! that are in the sums
+    ! runs in the sums
     integer(c_int64_t) :: runs = 0
     ! that these runs fill or touch
     integer(c_int64_t) :: blocks = 0
@@ -749,104 +759,109 @@ module jam
     real(c_double) :: max_overlap = 0
     ! Monte Carlo: half side of the trial cube, mean diameters
     real(c_double) :: step = 0
-    ! Monte Carlo: mean over runs
+    ! mean over runs
     real(c_double) :: acceptance = 0
     ! wall time over all calls
     real(c_double) :: seconds = 0
   end type jam_isoconf_report
 
-  ! Options of jam_crunch. Lengths are in mean diameters, so nothing depends on the box. Brackets name the parameter of
-  ! CALiPPSO.jl (Artiaco et al. 2022) that does the same; lengths there are in units of the box or radii. Its parameters
-  ! sqrGamma0, thresholds_bounds and ratio_sl_update have no counterpart: radius and bound follow phi and the last step.
-  ! Neither has zero_force: a pair is a contact when its relative force exceeds its relative gap. Overlaps are searched
-  ! after every step (tol_overlap, interval_overlaps_check). The progress callback replaces verbose and monitor_step;
-  ! jam_crunch_report.excess_contacts replaces non_iso_warn and non_iso_break.
+  ! Options of jam_crunch. Lengths are in mean diameters. The guide's page "Coming from other programs" names the
+  ! parameter of CALiPPSO.jl beside each.
+  ! - polish: then a crunch also ends where LPs below gain_tolerance still move rattlers. 0 keeps the LP's answer.
+  ! - full_lps: else an LP that gains more than 1e-7 ends at a duality gap of 0.02 of its gain.
+  ! - strain: the cell deforms at fixed volume after the fixed cell's optimum; FREE ends strictly jammed. One sphere
+  ! alone needs a strain: its contacts are its own images, which only strains move.
+  ! - keep_steps: where there are more states, or more than 2^24 coordinates in all, every second, fourth, ... is kept.
+  ! - duality_gap: for packings too large for the jamming point. The barrier path ends at this duality gap, and an LP
+  !   names contacts. Their forces balance. Their own duality gap e is in the report. To first order no motion lets Gamma
+  !   grow by more than e, so that phi_J is about phi (1 + e)^(d/2). Contacts that a smaller gap may change are counted
+  !   as undecided. Needs BARRIER_PATH and no strain.
   type, bind(c) :: jam_crunch_options
-    ! sizeof(jam_crunch_options)
     integer(c_int32_t) :: struct_size = 0
-    ! jam_lp_solver, default IPM (optimizer)
+    ! jam_lp_solver, default IPM
     integer(c_int32_t) :: lp_solver = 0
-    ! jam_crunch_method, default BARRIER_PATH; SEQUENTIAL_LP is what CALiPPSO does
+    ! jam_crunch_method, default BARRIER_PATH
     integer(c_int32_t) :: method = 0
-    ! 1: close the contacts at the end and balance the forces to rounding, default 1. A crunch then also ends where LPs below gain_tolerance still move rattlers. 0: keep the LP's answer (tol_mechanical_equilibrium: the extra LP past it)
+    ! 1: contacts closed, forces balanced to rounding, 1
     integer(c_int32_t) :: polish = 0
-    ! >= 1, default 1000 (max_iters)
+    ! >= 1, default 1000
     integer(c_int32_t) :: max_lps = 0
-    ! 1 or 2, default 1; bits are reproducible on 1 (threads)
+    ! 1 or 2, default 1; bits are reproducible on 1
     integer(c_int32_t) :: threads = 0
-    ! on sqrt(Gamma) - 1, > 0, default 1e-12 (tol_Gamma_convergence)
+    ! on sqrt(Gamma) - 1, > 0, default 1e-12
     real(c_double) :: gain_tolerance = 0
-    ! on max |s_i| of non-rattlers, > 0, default 1e-9 (tol_S_convergence, in box units)
+    ! on max |s_i| of non-rattlers, > 0, default 1e-9
     real(c_double) :: step_tolerance = 0
-    ! relative complementarity and residual of one LP, default 1e-15 (solver_attributes)
+    ! relative complementarity and residual of one LP, default 1e-15
     real(c_double) :: lp_tolerance = 0
-    ! largest pair distance in an LP; 0, the default: adapts (l0, default 4 R)
+    ! largest pair distance in an LP; 0, the default: adapts
     real(c_double) :: neighbour_radius = 0
-    ! bound on each |s_i| component, 1e-15 .. 1000; 0, the default: adapts (sbound, in radii)
+    ! bound on each |s_i| component, 1e-15 .. 1000; 0, the default: adapts
     real(c_double) :: step_bound = 0
-    ! limit in seconds, > 0, default infinity
+    ! limit of the call
     real(c_double) :: wall_time = 0
-    ! 1: the callback hears of every step and may call jam_crunch_step_*. 0, the default
+    ! 1: the callback hears of every step and may call jam_crunch_step_*; default 0
     integer(c_int32_t) :: steps = 0
-    ! 1: every LP is solved to lp_tolerance, so that its linear network balances. 0, the default: an LP that gains more than 1e-7 ends at a duality gap of 0.02 of its gain
+    ! 1: every LP is solved to lp_tolerance, so that its network balances; default 0
     integer(c_int32_t) :: full_lps = 0
-    ! jam_free_strain, default NONE. Else the cell deforms at fixed volume after the fixed cell's optimum; FREE ends strictly jammed. One sphere alone needs a strain: its contacts are its own images, which only strains move
+    ! jam_free_strain, default NONE
     integer(c_int32_t) :: strain = 0
-    ! states before the end that are kept for jam_write_page, 0 .. 1000, default 0. Where there are more, or more than 2^24 coordinates in all, every second, fourth, ... is kept
+    ! states before the end that are kept for jam_write_page, 0 .. 1000, default 0
     integer(c_int32_t) :: keep_steps = 0
-    ! 0, the default: to the jamming point. Else 1e-12 .. 1e-2, for packings too large for that: the barrier path ends at this duality gap, and an LP names contacts. Their forces balance. Their own duality gap e is in the report. To first order no motion lets Gamma grow by more than e, so that phi_J is about phi (1 + e)^(d/2). Contacts that a smaller gap may change are counted as undecided. Needs BARRIER_PATH and no strain
+    ! 0, the default: to the jamming point; or 1e-12 .. 1e-2
     real(c_double) :: duality_gap = 0
     ! 1: a packing that ends jammed is proved as by jam_prove, into the report; default 0
     integer(c_int32_t) :: prove = 0
-    ! 0
     integer(c_int32_t) :: reserved = 0
   end type jam_crunch_options
 
-  ! Result and certificate of jam_crunch. All gaps, overlaps and lengths relative to sigma_ij.
+  ! Result and certificate of jam_crunch. All gaps, overlaps and lengths relative to sigma_ij. Counts are -1 where
+  ! contacts are unknown, for example after an early stop; calls that need the network then return JAM_E_STATE. The
+  ! numbers from packing_fraction_start to contacts_kept say what the crunch did to the packing that it was given:
+  ! displacements in mean diameters without their mean over these spheres; rattlers count, and so does a strain of the
+  ! cell. They are NaN or -1 where no crunch made the report.
   type, bind(c) :: jam_crunch_report
-    ! set by the caller: sizeof(jam_crunch_report)
     integer(c_int32_t) :: struct_size = 368
-    ! 1: collectively jammed by the test of jam_rigidity; 0: not, undecided or not tested
+    ! 1: collectively jammed by the test of jam_rigidity; 0: not, undecided, untested
     integer(c_int32_t) :: jammed = 0
     ! jam_stop_reason
     integer(c_int32_t) :: stop_reason = 0
     ! jam_lp_solver that gave the last LP
     integer(c_int32_t) :: lp_solver = 0
-    ! jam_crunch_method that led here: BARRIER_PATH if the path was followed, SEQUENTIAL_LP if only LPs ran
+    ! jam_crunch_method that led here: BARRIER_PATH if the path was followed
     integer(c_int32_t) :: method = 0
-    ! 1: non-negative contact forces balance, so no small motion lets the diameters grow
+    ! 1: non-negative contact forces balance: no small motion lets diameters grow
     integer(c_int32_t) :: stationary = 0
     ! jam_verdict of the strict test; UNTESTED until jam_rigidity runs it
     integer(c_int32_t) :: strictly_jammed = 0
-    ! 0
     integer(c_int32_t) :: reserved = 0
     ! phi_J when jammed
     real(c_double) :: packing_fraction = 0
     ! unit of box
     real(c_double) :: diameter_mean = 0
-    ! pairs with a force, rattlers left out; -1: stopped before contacts were known
+    ! pairs with a force, rattlers left out
     integer(c_int64_t) :: contacts = 0
-    ! spheres that no force-carrying contact touches; -1 likewise. Calls that need the network then return JAM_E_STATE
+    ! spheres that no force-carrying contact touches
     integer(c_int64_t) :: rattlers = 0
-    ! n - rattlers = N'; 0 where contacts are unknown
+    ! n - rattlers = N', or 0
     integer(c_int64_t) :: stable = 0
-    ! stable spheres with exactly d+1 contacts; -1 likewise
+    ! stable spheres with exactly d+1 contacts
     integer(c_int64_t) :: bucklers = 0
     ! d (N' - 1) + 1: contacts of a single state of self-stress
     integer(c_int64_t) :: isostatic_contacts = 0
-    ! contacts - isostatic_contacts: 0 isostatic and for an empty network, > 0 hyperstatic. Amorphous packings have 0, but disks of two sizes one for each disk whose six neighbours are its equals: the seven close twelve contacts, and eleven fix them
+    ! contacts - isostatic_contacts: 0 isostatic or no network, > 0 hyperstatic
     integer(c_int64_t) :: excess_contacts = 0
-    ! motions of stable spheres, beyond translations, that keep force-carrying contacts closed
+    ! motions of stable spheres, but translations, that keep contacts with force closed
     integer(c_int64_t) :: flexes = 0
     ! closed pairs without force in every state of self-stress, those of rattlers too
     integer(c_int64_t) :: zero_force_contacts = 0
-    ! pairs with gaps of 1e-10 to 1e-7. After JAM_STOP_DUALITY_GAP: pairs whose force on the path over the mean is within a factor of 1e4 of twice their gap
+    ! gaps of 1e-10 to 1e-7; after DUALITY_GAP: force / 2 gap within a factor of 1e4
     integer(c_int64_t) :: undecided_contacts = 0
     ! stable spheres with d force-carrying contacts or fewer
     integer(c_int64_t) :: undercoordinated = 0
     ! d (N' - 1) + d (d + 1) / 2: fewest contacts of a strictly jammed packing
     integer(c_int64_t) :: strict_contacts_needed = 0
-    ! smallest eigenvalue of S^T S on force-carrying contacts that is no translation
+    ! least eigenvalue of S^T S on contacts with force that is no translation
     real(c_double) :: rigidity_margin = 0
     ! LPs solved in full
     integer(c_int64_t) :: lp_solves = 0
@@ -864,7 +879,7 @@ module jam
     real(c_double) :: gamma_residual = 0
     ! smallest contact force over the mean
     real(c_double) :: min_force = 0
-    ! smallest h of a pair of stable spheres that is no contact; after a free cell own images count as pairs
+    ! least h of stable spheres that is no contact; own images count in a free cell
     real(c_double) :: min_gap = 0
     ! largest |h| of a contact
     real(c_double) :: max_contact_gap = 0
@@ -884,35 +899,35 @@ module jam
     integer(c_int32_t) :: status = 0
     ! 0
     integer(c_int32_t) :: reserved_end = 0
-    ! before this call. This and the next six say what the crunch did to the packing that it was given; NaN or -1 where no crunch made the report
+    ! before this call
     real(c_double) :: packing_fraction_start = 0
-    ! largest displacement since then, over the mean diameter, without the mean displacement of all spheres; rattlers count, and so does a strain of the cell
+    ! largest displacement
     real(c_double) :: displacement_max = 0
-    ! root of the mean square of the same
+    ! root of the mean square
     real(c_double) :: displacement_rms = 0
-    ! both over the spheres that end with contacts, without their mean; NaN without any
+    ! the same of spheres that end with contacts
     real(c_double) :: displacement_max_stable = 0
+    ! the same of spheres that end with contacts
     real(c_double) :: displacement_rms_stable = 0
     ! pairs that touched before, as far as the digits of the coordinates show
     integer(c_int64_t) :: contacts_start = 0
-    ! of these the contacts of this report; -1 where contacts are unknown
+    ! of these the contacts of this report
     integer(c_int64_t) :: contacts_kept = 0
-    ! jam_theorem, with the option prove; NONE without
+    ! jam_theorem, by prove, else NONE
     integer(c_int32_t) :: theorem = 0
-    ! jam_proof_cause: why the theorem is not EXACT
+    ! jam_proof_cause it is not EXACT
     integer(c_int32_t) :: proof_cause = 0
-    ! unit of the box: radius of EXACT, inner of TRAPPED, see jam_proof_report; else infinite
+    ! unit of the box: radius of EXACT, inner of TRAPPED (jam_proof_report), or infinite
     real(c_double) :: proof_radius = 0
     ! the two numbers of the cause
     real(c_double) :: proof_value = 0
+    ! the two numbers of the cause
     real(c_double) :: proof_bound = 0
   end type jam_crunch_report
 
   ! Memory and time of a crunch, estimated from the graph of pairs and its elimination tree.
   type, bind(c) :: jam_estimate
-    ! set by the caller: sizeof(jam_estimate)
     integer(c_int32_t) :: struct_size = 64
-    ! 0
     integer(c_int32_t) :: reserved = 0
     ! of the longest neighbour list
     integer(c_int64_t) :: pairs = 0
@@ -930,9 +945,8 @@ module jam
     real(c_double) :: seconds = 0
   end type jam_estimate
 
-  ! Options of jam_relax.
+  ! Options of jam_relax. A free cell is minimised after the minimum of the fixed one.
   type, bind(c) :: jam_relax_options
-    ! sizeof(jam_relax_options)
     integer(c_int32_t) :: struct_size = 0
     ! jam_minimiser, default NEWTON
     integer(c_int32_t) :: minimiser = 0
@@ -946,11 +960,10 @@ module jam
     real(c_double) :: force_tolerance = 0
     ! of the forces, >= 1, default 1e6
     integer(c_int64_t) :: max_evaluations = 0
-    ! limit in seconds, > 0, default infinity
+    ! limit of the call
     real(c_double) :: wall_time = 0
-    ! jam_free_strain, default NONE: what of the cell is free after the minimum of the fixed one
+    ! jam_free_strain, default NONE: what of the cell is free
     integer(c_int32_t) :: strain = 0
-    ! 0
     integer(c_int32_t) :: reserved = 0
     ! P > 0 with JAM_STRAIN_VOLUME: U + P V is minimised, also from no contacts; else 0, the default
     real(c_double) :: pressure = 0
@@ -958,10 +971,8 @@ module jam
     integer(c_int64_t) :: components = 0
   end type jam_relax_options
 
-  ! What jam_relax found. F_i: total force on sphere i. Rattlers are spheres with fewer than d + 1 contacts, removed
-  ! again and again; stable spheres are the others.
+  ! What jam_relax found.
   type, bind(c) :: jam_relax_report
-    ! set by the caller: sizeof(jam_relax_report)
     integer(c_int32_t) :: struct_size = 152
     ! 1: both residuals are below force_tolerance, or no spheres overlap
     integer(c_int32_t) :: converged = 0
@@ -971,9 +982,9 @@ module jam
     integer(c_int32_t) :: minimiser = 0
     ! max |F_i| of stable spheres over the mean contact force; 0 without contacts
     real(c_double) :: force_residual = 0
-    ! U, unit epsilon
+    ! U
     real(c_double) :: energy = 0
-    ! sum of f r over d V, unit epsilon / length^d
+    ! sum of f r over d V
     real(c_double) :: pressure = 0
     ! of the diameters, overlaps counted twice
     real(c_double) :: packing_fraction = 0
@@ -983,9 +994,8 @@ module jam
     real(c_double) :: jammed_fraction = 0
     ! mean number of contacts of a stable sphere
     real(c_double) :: coordination = 0
-    ! mean of (sigma - r) / sigma over contacts of stable spheres
     real(c_double) :: mean_overlap = 0
-    ! largest of all pairs
+    ! mean of (sigma - r) / sigma over contacts of stable spheres; largest of all pairs
     real(c_double) :: max_overlap = 0
     ! overlapping pairs of stable spheres
     integer(c_int64_t) :: contacts = 0
@@ -1005,9 +1015,11 @@ module jam
     real(c_double) :: stress_residual = 0
   end type jam_relax_report
 
-  ! Options of jam_decompress. Targets: the first that is reached ends it.
+  ! Options of jam_decompress. Targets: the first that is reached ends it. With crunch, the packing is crunched from just
+  ! below contact, and the decompression goes on until both have one network. The system ends as that jammed packing,
+  ! without crunch as the soft one. max_evaluations: a later step may take 4 times what all steps before it took, at
+  ! least a 20th of this limit, and never more than it.
   type, bind(c) :: jam_decompress_options
-    ! sizeof(jam_decompress_options)
     integer(c_int32_t) :: struct_size = 0
     ! jam_minimiser, default NEWTON
     integer(c_int32_t) :: minimiser = 0
@@ -1019,41 +1031,39 @@ module jam
     real(c_double) :: alpha = 0
     ! as in jam_relax_options, default 1e-12
     real(c_double) :: force_tolerance = 0
-    ! U falls by this factor a step, in (0, 1), default 0.01; nearer 1 after a step that failed
+    ! U falls by this factor a step, in (0, 1), default 0.01; nearer 1 after a failed step
     real(c_double) :: energy_factor = 0
-    ! target, as jam_relax_report.pressure, >= 0, default 0: none
+    ! targets, as in jam_relax_report, >= 0, default 0: none
     real(c_double) :: pressure = 0
-    ! target, as jam_relax_report.distance, >= 0, default 0: none
+    ! targets, as in jam_relax_report, >= 0, default 0: none
     real(c_double) :: distance = 0
-    ! 1 (default): end where contacts are those of one state of self-stress and the Hessian has d zero modes
+    ! 1: end at contacts of one self-stress and d zero modes of the Hessian; default 1
     integer(c_int32_t) :: isostatic = 0
-    ! 1 (default): then crunch from just below contact, and go on until both have one network; the system ends as that jammed packing. 0: it ends as the soft packing
+    ! 1: then crunch; default 1
     integer(c_int32_t) :: crunch = 0
     ! >= 1, default 1000
     integer(c_int32_t) :: max_steps = 0
-    ! 0
     integer(c_int32_t) :: reserved = 0
-    ! of the forces, in one step, >= 1, default 1e6. A later step may take 4 times what all steps before it took: at least a 20th of this limit, and never more than it
+    ! of the forces, in one step, >= 1, default 1e6
     integer(c_int64_t) :: max_evaluations = 0
-    ! limit in seconds, > 0, default infinity
+    ! limit of the call
     real(c_double) :: wall_time = 0
   end type jam_decompress_options
 
-  ! What jam_decompress found.
+  ! What jam_decompress found: numbers of the last soft packing as in jam_relax_report, and what crunch made of it.
   type, bind(c) :: jam_decompress_report
-    ! set by the caller: sizeof(jam_decompress_report)
     integer(c_int32_t) :: struct_size = 168
     ! jam_stop_reason
     integer(c_int32_t) :: stop_reason = 0
     ! 1: contacts of one state of self-stress and d zero modes of the Hessian
     integer(c_int32_t) :: isostatic = 0
-    ! 1: crunch ended with the same contacts; -1: crunch was not run
+    ! 1: crunch ended with the same contacts; 0: with others; -1: not run
     integer(c_int32_t) :: same_network = 0
-    ! these as in jam_relax_report, of the last soft packing
+    ! max |F_i| of stable spheres over the mean contact force
     real(c_double) :: force_residual = 0
     ! U
     real(c_double) :: energy = 0
-    ! epsilon / length^d
+    ! sum of f r over d V
     real(c_double) :: pressure = 0
     ! of the soft packing
     real(c_double) :: packing_fraction = 0
@@ -1061,9 +1071,9 @@ module jam
     real(c_double) :: distance = 0
     ! estimate of phi_J
     real(c_double) :: jammed_fraction = 0
-    ! phi_J by crunch; NaN when it was not run
+    ! phi_J by crunch, NaN when it was not run
     real(c_double) :: crunch_fraction = 0
-    ! largest |f_soft - f_crunch| over the mean force; NaN without the same network
+    ! largest |f_soft - f_crunch| over the mean; NaN without the same network
     real(c_double) :: force_difference = 0
     ! mean number of contacts of a stable sphere
     real(c_double) :: coordination = 0
@@ -1089,21 +1099,20 @@ module jam
     real(c_double) :: seconds_crunch = 0
   end type jam_decompress_report
 
-  ! Options of all calls that use a Hessian.
+  ! Options of all calls that use a Hessian. The block of a contact is
+  ! k n n^T - prestress f <sigma> / ((alpha-1) r) (1 - n n^T).
   type, bind(c) :: jam_hessian_options
-    ! sizeof(jam_hessian_options)
     integer(c_int32_t) :: struct_size = 0
     ! jam_stiffness, default HARMONIC
     integer(c_int32_t) :: stiffness = 0
     ! POWER: > 1, default 2
     real(c_double) :: alpha = 0
-    ! overlap (HARD: gap) of a contact of mean force over mean diameter, in [0, 1): the block of a contact is k n n^T - prestress f <sigma> / ((alpha-1) r) (1 - n n^T); default 0
+    ! overlap (HARD: gap) at the mean force over mean diameter, in [0, 1), default 0
     real(c_double) :: prestress = 0
   end type jam_hessian_options
 
   ! Options of jam_modes.
   type, bind(c) :: jam_modes_options
-    ! sizeof(jam_modes_options)
     integer(c_int32_t) :: struct_size = 0
     ! jam_modes_which, default LOWEST
     integer(c_int32_t) :: which = 0
@@ -1119,9 +1128,7 @@ module jam
 
   ! Options of jam_contacts_from_geometry.
   type, bind(c) :: jam_geometry_options
-    ! sizeof(jam_geometry_options)
     integer(c_int32_t) :: struct_size = 0
-    ! 0
     integer(c_int32_t) :: reserved = 0
     ! contacts have |h| <= tolerance; 0, the default: set at the largest jump of the sorted gaps
     real(c_double) :: tolerance = 0
@@ -1129,27 +1136,27 @@ module jam
     real(c_double) :: window = 0
   end type jam_geometry_options
 
-  ! What jam_contacts_from_geometry found; gaps relative to sigma_ij.
+  ! What jam_contacts_from_geometry found; gaps relative to sigma_ij. second_*: the next candidate that could be rigid;
+  ! its jump is 1 and its contacts -1 when there is none.
   type, bind(c) :: jam_geometry_report
-    ! set by the caller: sizeof(jam_geometry_report)
     integer(c_int32_t) :: struct_size = 136
-    ! contacts of spheres with their own images, which constrain nothing in a fixed cell: left out of the network
+    ! with own images: no constraint in a fixed cell, so left out of the network
     integer(c_int32_t) :: self_contacts = 0
     ! used
     real(c_double) :: tolerance = 0
     ! largest |h| within it, rattlers included
     real(c_double) :: gap_below = 0
-    ! smallest |h| beyond it (window when there is none)
+    ! least beyond it, window without one
     real(c_double) :: gap_above = 0
     ! gap_above / gap_below, the latter no smaller than resolution
     real(c_double) :: jump = 0
-    ! of gaps, from the digits that the coordinates have: 1e-15, or far more after a file with few of them
+    ! of gaps: 1e-15, or far more after a file whose coordinates have few digits
     real(c_double) :: resolution = 0
-    ! of the next candidate that could be rigid, 1 when there is none
+    ! of the next candidate
     real(c_double) :: second_jump = 0
     ! its tolerance
     real(c_double) :: second_tolerance = 0
-    ! its contacts, -1 when there is none
+    ! its contacts
     integer(c_int64_t) :: second_contacts = 0
     ! pairs with |h| <= tolerance, rattlers included
     integer(c_int64_t) :: pairs_within = 0
@@ -1170,9 +1177,10 @@ module jam
   end type jam_geometry_report
 
   ! What jam_rigidity found. K+ are the contacts that carry force in some balance of non-negative forces, B the spheres
-  ! that they touch, N' their number.
+  ! that they touch, N' their number. undecided_contacts: also pairs that the digits of the coordinates cannot
+  ! distinguish from contacts. rigidity_margin below 1e-12: a flex; of a sphere that touches its own images alone: with
+  ! strains.
   type, bind(c) :: jam_rigidity_report
-    ! set by the caller: sizeof(jam_rigidity_report)
     integer(c_int32_t) :: struct_size = 96
     ! jam_rigidity_kind that was tested
     integer(c_int32_t) :: kind = 0
@@ -1194,9 +1202,9 @@ module jam
     integer(c_int64_t) :: undercoordinated = 0
     ! closed pairs that are not in K+
     integer(c_int64_t) :: zero_force_contacts = 0
-    ! pairs with gaps of 1e-10 to 1e-7. Also those that the digits of the coordinates cannot distinguish from contacts
+    ! pairs with gaps of 1e-10 to 1e-7
     integer(c_int64_t) :: undecided_contacts = 0
-    ! smallest eigenvalue on K+ that is no translation; below 1e-12: a flex. Of a sphere that touches its own images alone: with strains
+    ! smallest eigenvalue on K+ that is no translation
     real(c_double) :: rigidity_margin = 0
     ! largest |sum_j f_ij n_ij| over the mean force, of the forces in the proof
     real(c_double) :: force_residual = 0
@@ -1204,22 +1212,19 @@ module jam
 
   ! Options of jam_check_packing.
   type, bind(c) :: jam_check_options
-    ! sizeof(jam_check_options)
     integer(c_int32_t) :: struct_size = 0
     ! 1: an undecided packing is crunched, as a copy, to say what that changes; default 1
     integer(c_int32_t) :: crunch = 0
-    ! limit for this crunch in seconds, > 0, default infinity
+    ! limit for this crunch
     real(c_double) :: wall_time = 0
     ! 1: a jammed packing is proved as by jam_prove, into the report; default 0
     integer(c_int32_t) :: prove = 0
-    ! 0
     integer(c_int32_t) :: reserved = 0
   end type jam_check_options
 
   ! Verdict on a packing as it is. Gaps are relative to sigma_ij, displacements in mean diameters without their mean.
-  ! NaN: not known.
+  ! Closed pairs have gaps below 1e-10. NaN, and -1 for contacts: not known. crunch_*: of the crunched copy.
   type, bind(c) :: jam_check_report
-    ! set by the caller: sizeof(jam_check_report)
     integer(c_int32_t) :: struct_size = 248
     ! jam_verdict: collectively jammed
     integer(c_int32_t) :: jammed = 0
@@ -1233,17 +1238,17 @@ module jam
     integer(c_int32_t) :: dim = 0
     ! decimal digits that coordinates, diameters or cell seem to have; 0: all
     integer(c_int32_t) :: digits = 0
-    ! jam_verdict of the crunched copy; UNTESTED without one
+    ! jam_verdict; UNTESTED without a copy
     integer(c_int32_t) :: crunch_jammed = 0
     ! number of spheres
     integer(c_int64_t) :: n = 0
-    ! closed pairs (gaps below 1e-10) that carry force
+    ! closed pairs that carry force
     integer(c_int64_t) :: contacts = 0
     ! contacts - (d (N' - 1) + 1), 0 without contacts
     integer(c_int64_t) :: excess_contacts = 0
     ! n - N': spheres without force
     integer(c_int64_t) :: rattlers = 0
-    ! pairs with gaps below 1e-10, those of rattlers among them
+    ! those of rattlers among them
     integer(c_int64_t) :: closed_pairs = 0
     ! of the pairs that were tested, those without force in every state
     integer(c_int64_t) :: zero_force_contacts = 0
@@ -1251,11 +1256,11 @@ module jam
     integer(c_int64_t) :: undecided_contacts = 0
     ! independent balances of forces; with more than one forces are not unique
     integer(c_int64_t) :: self_stresses = 0
-    ! motions beyond translations that keep all contacts with force closed
+    ! motions but translations that keep force contacts closed
     integer(c_int64_t) :: flexes = 0
-    ! likewise with strains of the cell; 0 where that was not tested
+    ! with strains, if tested
     integer(c_int64_t) :: strict_flexes = 0
-    ! contacts of the crunched copy; -1 without one
+    ! contacts of the copy
     integer(c_int64_t) :: crunch_contacts = 0
     ! of the packing as it is
     real(c_double) :: packing_fraction = 0
@@ -1275,45 +1280,46 @@ module jam
     real(c_double) :: resolution = 0
     ! diameters were tested times this, so that no pair overlaps; 1: as they are
     real(c_double) :: diameter_factor = 0
-    ! of the crunched copy
+    ! of the copy
     real(c_double) :: crunch_packing_fraction = 0
     ! largest displacement in it of a sphere that ends with contacts
     real(c_double) :: crunch_displacement_max = 0
     ! root of the mean square of the same
     real(c_double) :: crunch_displacement_rms = 0
-    ! jam_theorem, with the option prove; NONE without
+    ! jam_theorem, by prove, else NONE
     integer(c_int32_t) :: theorem = 0
-    ! jam_proof_cause: why the theorem is not EXACT
+    ! jam_proof_cause it is not EXACT
     integer(c_int32_t) :: proof_cause = 0
-    ! unit of the box: radius of EXACT, inner of TRAPPED, see jam_proof_report; else infinite
+    ! unit of the box: radius of EXACT, inner of TRAPPED (jam_proof_report), or infinite
     real(c_double) :: proof_radius = 0
     ! the two numbers of the cause
     real(c_double) :: proof_value = 0
+    ! the two numbers of the cause
     real(c_double) :: proof_bound = 0
   end type jam_check_report
 
-  ! What jam_prove found. Bounds are rounded outward; NaN where they do not apply.
+  ! What jam_prove found. Bounds are rounded outward; NaN where they do not apply. The exact diameters are sqrt(Gamma)
+  ! ratio_i times the power of two at or below V^(1/d). Where no ratios are given, equal spheres have 1.
   type, bind(c) :: jam_proof_report
-    ! set by the caller: sizeof(jam_proof_report)
     integer(c_int32_t) :: struct_size = 152
     ! jam_theorem
     integer(c_int32_t) :: theorem = 0
     ! jam_proof_cause: why theorem is not JAM_THEOREM_EXACT
     integer(c_int32_t) :: cause = 0
-    ! 0
     integer(c_int32_t) :: reserved = 0
     ! spheres with contacts, N'
     integer(c_int64_t) :: stable = 0
-    ! equations; d (N' - 1) + 1 unknowns
+    ! equations: d (N' - 1) + 1 unknowns
     integer(c_int64_t) :: contacts = 0
     ! see jam_proof_cause
     real(c_double) :: cause_value = 0
+    ! see jam_proof_cause
     real(c_double) :: cause_bound = 0
     ! unit of the box: no refined centre is farther from the exact one
     real(c_double) :: radius = 0
-    ! exact diameters are sqrt(Gamma) ratio_i times the power of two at or below V^(1/d), and
+    ! Gamma is about the sum of both
     real(c_double) :: gamma = 0
-    ! Gamma is about gamma + gamma_low. Where no ratios are given, equal spheres have 1
+    ! Gamma is about the sum of both
     real(c_double) :: gamma_low = 0
     ! of the exact packing, rounded to double
     real(c_double) :: packing_fraction = 0
@@ -1325,8 +1331,9 @@ module jam
     real(c_double) :: force_error = 0
     ! relative, of pairs that are no contacts; 1e-3 if none is smaller
     real(c_double) :: least_gap = 0
-    ! unit of the box: see JAM_THEOREM_TRAPPED
+    ! unit of the box: see jam_theorem
     real(c_double) :: inner = 0
+    ! unit of the box: see jam_theorem
     real(c_double) :: outer = 0
     ! below the smallest singular value of the rows 2 r_c, in units of that power of two
     real(c_double) :: singular = 0
@@ -1336,9 +1343,22 @@ module jam
     real(c_double) :: rounding = 0
   end type jam_proof_report
 
+  ! Options of jam_pair_correlation.
+  type, bind(c) :: jam_correlation_options
+    integer(c_int32_t) :: struct_size = 0
+    ! labels of the spheres, default -1: any
+    integer(c_int32_t) :: a = 0
+    ! labels of the spheres, default -1: any
+    integer(c_int32_t) :: b = 0
+    integer(c_int32_t) :: reserved = 0
+    ! mean diameters, > 0, default 4
+    real(c_double) :: r_max = 0
+    ! equal ones from 0 to r_max, 1 .. 1e8, default 200
+    integer(c_int64_t) :: bins = 0
+  end type jam_correlation_options
+
   ! Options of jam_density_of_states.
   type, bind(c) :: jam_dos_options
-    ! sizeof(jam_dos_options)
     integer(c_int32_t) :: struct_size = 0
     ! Chebyshev moments, 8..1e6, default 512: resolution in omega about 1.6 omega_max / moments
     integer(c_int32_t) :: moments = 0
@@ -1350,11 +1370,9 @@ module jam
     integer(c_int64_t) :: seed = 0
   end type jam_dos_options
 
-  ! Elastic moduli, unit: stiffness at the mean force times length^(2-d); non-affine part included.
+  ! Elastic moduli, unit: stiffness at the mean force times length^(2-d). Affine: without the non-affine part.
   type, bind(c) :: jam_moduli_report
-    ! set by the caller: sizeof(jam_moduli_report)
     integer(c_int32_t) :: struct_size = 56
-    ! 0
     integer(c_int32_t) :: reserved = 0
     ! K
     real(c_double) :: bulk = 0
@@ -1362,36 +1380,35 @@ module jam
     real(c_double) :: bulk_affine = 0
     ! G for simple shear, mean over the d (d-1) coordinate directions
     real(c_double) :: shear = 0
-    ! G without the non-affine part
+    ! affine G
     real(c_double) :: shear_affine = 0
-    ! smallest of the planes, both directions averaged
+    ! smallest G of the planes, both directions averaged
     real(c_double) :: shear_min = 0
     ! largest of them
     real(c_double) :: shear_max = 0
   end type jam_moduli_report
 
-  ! What jam_compare found.
+  ! What jam_compare found between sys, a, and other, b. Contacts are -1 and overlaps NaN where one has no network.
   type, bind(c) :: jam_comparison
-    ! set by the caller: sizeof(jam_comparison)
     integer(c_int32_t) :: struct_size = 80
-    ! 0
     integer(c_int32_t) :: reserved = 0
+    ! of sys
     integer(c_int64_t) :: contacts_a = 0
-    ! of sys and of other; -1 without a network
+    ! of other
     integer(c_int64_t) :: contacts_b = 0
-    ! pairs in both; -1 unless both have a network
+    ! pairs in both
     integer(c_int64_t) :: common_contacts = 0
     ! spheres that are rattlers in neither
     integer(c_int64_t) :: stable_in_both = 0
-    ! common over union; NaN unless both have a network
+    ! common over union
     real(c_double) :: overlap = 0
-    ! common over contacts_a: sys as the reference; NaN likewise
+    ! common over contacts_a: sys as the reference
     real(c_double) :: overlap_a = 0
     ! phi of other minus phi of sys
     real(c_double) :: packing_fraction_change = 0
-    ! of these spheres (or all) without their mean, in mean diameters of sys
+    ! of these (or all) without their mean, in mean diameters of sys
     real(c_double) :: displacement_rms = 0
-    ! likewise
+    ! of these (or all) without their mean, in mean diameters of sys
     real(c_double) :: displacement_max = 0
   end type jam_comparison
 
@@ -1401,7 +1418,8 @@ module jam
       default_compress_options, default_observe_options, default_monte_carlo_options, &
       default_isoconf_options, default_crunch_options, default_relax_options, &
       default_decompress_options, default_hessian_options, default_modes_options, &
-      default_geometry_options, default_check_options, default_dos_options
+      default_geometry_options, default_check_options, default_correlation_options, &
+      default_dos_options
   end interface jam_defaults
 
   abstract interface
@@ -1427,15 +1445,15 @@ module jam
 
   interface
 
-    ! Version of the library, e.g. "0.1.0". Static storage.
+    ! Version of the library, e.g. "0.1.0". Static storage, as the texts of the next five calls.
     function jam_version() &
         bind(c, name="jam_version") result(status)
       import
       type(c_ptr) :: status
     end function jam_version
 
-    ! Commit of the source that the library was built from, 12 hex digits, e.g. "d1afac7c0de5". "" when the build did not
-    ! find a commit. It does not show uncommitted changes. Static storage.
+    ! Commit of the source that the library was built from, 12 hex digits, without uncommitted changes; "" when the build
+    ! did not find one.
     function jam_commit() &
         bind(c, name="jam_commit") result(status)
       import
@@ -1450,14 +1468,14 @@ module jam
     end function jam_abi_version
 
     ! Name of the kernel that OpenBLAS chose for this processor, e.g. "Haswell". If another BLAS library, loaded earlier,
-    ! computes in place of OpenBLAS: the path of that library. Static storage.
+    ! computes in place of OpenBLAS: the path of that library.
     function jam_blas_kernel() &
         bind(c, name="jam_blas_kernel") result(status)
       import
       type(c_ptr) :: status
     end function jam_blas_kernel
 
-    ! One-line text of a status code ("unknown status" for others). Static storage.
+    ! One-line text of a status code ("unknown status" for others).
     function jam_status_string(code) &
         bind(c, name="jam_status_string") result(status)
       import
@@ -1465,7 +1483,7 @@ module jam
       type(c_ptr) :: status
     end function jam_status_string
 
-    ! One-word name of a jam_stop_reason, e.g. "converged". Static storage.
+    ! One-word name of a jam_stop_reason, e.g. "converged".
     function jam_stop_string(reason) &
         bind(c, name="jam_stop_string") result(status)
       import
@@ -1481,7 +1499,7 @@ module jam
       type(c_ptr) :: status
     end function jam_last_error
 
-    ! Fills *o with the defaults. size = sizeof *o as the caller compiled it.
+    ! Fills *o with the defaults. size = sizeof *o as the caller compiled it. So do all calls of this name.
     function jam_create_options_init(o, size) &
         bind(c, name="jam_create_options_init") result(status)
       import
@@ -1490,9 +1508,8 @@ module jam
       integer(c_int32_t) :: status
     end function jam_create_options_init
 
-    ! Deep copy of src with its results and observations, without its callbacks. If jam_observe is on for src, it is on for
-    ! the copy. The copy has the seed of src: where both draw velocities, they draw the same ones. For independent runs
-    ! give the copy its own velocities by jam_set_velocities.
+    ! Deep copy of src with its results and observations (jam_observe stays on), without its callbacks. The copy has the
+    ! seed of src: where both draw velocities, they draw the same ones. For independent runs use jam_set_velocities.
     function jam_copy(src, out) &
         bind(c, name="jam_copy") result(status)
       import
@@ -1558,7 +1575,6 @@ module jam
       integer(c_int32_t) :: status
     end function jam_scale_diameters
 
-    ! Fills *o with the defaults.
     function jam_diameters_options_init(o, size) &
         bind(c, name="jam_diameters_options_init") result(status)
       import
@@ -1613,8 +1629,7 @@ module jam
 
     ! What was changed or assumed when sys was made, one sentence per line; "" when nothing was. Examples: shrunk
     ! diameters, wrapped or sorted spheres, columns and frames that were not read. A warning begins with `warning: `.
-    ! jam_set_log sends these lines to its callback. Valid until jam_add_note or jam_destroy; "" for NULL. Checkpoints
-    ! hold it.
+    ! jam_set_log logs these lines too. Valid until jam_add_note or jam_destroy; "" for NULL. Checkpoints hold it.
     function jam_notes(sys) &
         bind(c, name="jam_notes") result(status)
       import
@@ -1638,14 +1653,14 @@ module jam
       integer(c_int32_t) :: status
     end function jam_compress_options_init
 
-    ! Event-driven NVE dynamics (Alder and Wainwright, J. Chem. Phys. 31, 459 (1959)). Velocities are drawn at first use:
-    ! Maxwell-Boltzmann, zero total momentum, sum m v^2 = d N. The draw depends on the seed alone. A run or stage that ends
-    ! with JAM_CANCELLED or JAM_LIMIT stays with the handle, and in its checkpoints, until the next call that changes
-    ! spheres. So does one that was stopped while its lists were made, when nothing has moved. With resume = 1 it goes on
-    ! to the same bits as if it had not stopped; JAM_E_STATE when there is none. Splitting a run by wall_time therefore
-    ! does not change its result. A failure while it goes on loses the stage, not the packing. Status: JAM_OK when the
-    ! collisions were made, JAM_PRECISION, JAM_NOT_CONVERGED (no collision can happen: one sphere, zero velocities, or
-    ! paths that never meet). The log gives the reason of the last two.
+    ! Event-driven NVE dynamics (Alder and Wainwright, J. Chem. Phys. 31, 459 (1959)). Velocities are drawn at first use,
+    ! by the seed alone. They are Maxwell-Boltzmann, with sum m v^2 = d N and zero total momentum. A run or stage that ends
+    ! with JAM_CANCELLED or JAM_LIMIT, even while its lists were made, stays with the handle. Its checkpoints have it too,
+    ! until the next call that changes spheres. With resume = 1 it goes on to the same bits as if it had not stopped;
+    ! JAM_E_STATE when there is none. Splitting a run by wall_time therefore does not change its result. A failure while it
+    ! goes on loses the stage, not the packing. Status: JAM_OK when the collisions were made, JAM_PRECISION,
+    ! JAM_NOT_CONVERGED (no collision can happen: one sphere, zero velocities, or paths that never meet). The log gives the
+    ! reason of the last two.
     ! Errors: JAM_E_OVERLAP.
     function jam_run(sys, o, report) &
         bind(c, name="jam_run") result(status)
@@ -1808,11 +1823,10 @@ module jam
       integer(c_int32_t) :: status
     end function jam_relax_options_init
 
-    ! Minimises the energy of overlapping spheres at fixed diameters, and at a fixed cell unless `strain` frees it. Then
-    ! the minimum of the fixed cell comes first. A free cell ends when stresses too are below force_tolerance. Keeps the
-    ! contact network with its forces and stiffnesses for jam_contacts, jam_forces, jam_hessian (JAM_STIFFNESS_SOFT) and
-    ! the like. The system must have been made with JAM_OVERLAP_ALLOW. Positions are rounded to doubles at the end; the
-    ! network holds the digits beyond. Status: JAM_OK converged. JAM_NOT_JAMMED converged to energy 0: no overlaps.
+    ! Minimises the energy of overlapping spheres at fixed diameters, and at a fixed cell unless `strain` frees it. A free
+    ! cell ends when stresses too are below force_tolerance. Keeps the contact network with its forces and stiffnesses for
+    ! jam_contacts, jam_forces, jam_hessian (JAM_STIFFNESS_SOFT) and the like. Positions are rounded to doubles at the end;
+    ! the network holds the digits beyond. Status: JAM_OK converged. JAM_NOT_JAMMED converged to energy 0: no overlaps.
     ! JAM_PRECISION converged, but overlaps are smaller than the rounding of the positions. JAM_NOT_CONVERGED. Example:
     ! examples/c/soft.c
     ! Errors: JAM_E_STATE (made without JAM_OVERLAP_ALLOW).
@@ -1896,10 +1910,9 @@ module jam
     ! spheres have too few of them. A sphere and its own image are a contact in the strict test, and in the collective one
     ! where the network lists them. There a sphere that they alone hold needs forces on the cell to balance. Let S v be the
     ! opening of contacts by a motion v, and E eps that by a strain eps. Collectively jammed: S v >= 0 only for
-    ! translations of B. Strictly jammed: S v + E eps >= 0 with tr eps <= 0 only for those and eps = 0. Sources: Donev,
-    ! Torquato, Stillinger, Connelly, J. Comput. Phys. 197, 139 (2004); Connelly 1988; Connelly, Shen, Smith,
-    ! arXiv:1301.0664; Roth and Whiteley 1981. Both hold for this cell: several copies of it together may unjam. Status:
-    ! JAM_OK jammed, JAM_NOT_JAMMED, JAM_AMBIGUOUS undecided.
+    ! translations of B. Strictly jammed: S v + E eps >= 0 with tr eps <= 0 only for those and eps = 0. Both hold for this
+    ! cell, not for several copies of it. Source: Donev et al., J. Comput. Phys. 197, 139 (2004); the guide's page "Jammed
+    ! or not" has more. Status: JAM_OK jammed, JAM_NOT_JAMMED, JAM_AMBIGUOUS undecided.
     ! Errors: JAM_E_SOLVER.
     function jam_rigidity(sys, kind, report) &
         bind(c, name="jam_rigidity") result(status)
@@ -1968,6 +1981,14 @@ module jam
       real(c_double), value :: bound
       type(c_ptr) :: status
     end function jam_proof_text
+
+    function jam_correlation_options_init(o, size) &
+        bind(c, name="jam_correlation_options_init") result(status)
+      import
+      type(jam_correlation_options), intent(inout), optional :: o
+      integer(c_size_t), value :: size
+      integer(c_int32_t) :: status
+    end function jam_correlation_options_init
 
     ! Crystal score: g at sqrt 2 over its mean in 1.2..1.6 (mean diameters); below 1 in a good glass of equal spheres,
     ! about 10 in a perfect FCC crystal.
@@ -2193,28 +2214,22 @@ module jam
       integer(c_size_t), intent(out), optional :: rows
       integer(c_int32_t) :: status
     end function c_jam_observed_pairs
-    function c_jam_observed_gaps(sys, edge, edge_len, density, density_len, error, error_len, rows) &
+    function c_jam_observed_gaps(sys, table, table_len, needed) &
         bind(c, name="jam_observed_gaps") result(status)
       import
       type(c_ptr), value :: sys
-      type(c_ptr), value :: edge
-      integer(c_size_t), value :: edge_len
-      type(c_ptr), value :: density
-      integer(c_size_t), value :: density_len
-      type(c_ptr), value :: error
-      integer(c_size_t), value :: error_len
-      integer(c_size_t), intent(out), optional :: rows
+      type(c_ptr), value :: table
+      integer(c_size_t), value :: table_len
+      integer(c_size_t), intent(out), optional :: needed
       integer(c_int32_t) :: status
     end function c_jam_observed_gaps
-    function c_jam_observed_correlation(sys, r, r_len, g, g_len, rows) &
+    function c_jam_observed_correlation(sys, table, table_len, needed) &
         bind(c, name="jam_observed_correlation") result(status)
       import
       type(c_ptr), value :: sys
-      type(c_ptr), value :: r
-      integer(c_size_t), value :: r_len
-      type(c_ptr), value :: g
-      integer(c_size_t), value :: g_len
-      integer(c_size_t), intent(out), optional :: rows
+      type(c_ptr), value :: table
+      integer(c_size_t), value :: table_len
+      integer(c_size_t), intent(out), optional :: needed
       integer(c_int32_t) :: status
     end function c_jam_observed_correlation
     function c_jam_glass_fit(fraction, fraction_len, pressure, pressure_len, fit) &
@@ -2240,9 +2255,18 @@ module jam
       type(jam_isoconf_report), intent(inout), optional :: report
       integer(c_int32_t) :: status
     end function c_jam_isoconfigurational
-    function c_jam_isoconf_sums(sys, block, displacement, displacement_len, square, square_len, distance2, &
-      distance2_len, distance4, distance4_len, runs, needed) &
-        bind(c, name="jam_isoconf_sums") result(status)
+    function c_jam_isoconf_series(sys, block, table, table_len, needed) &
+        bind(c, name="jam_isoconf_series") result(status)
+      import
+      type(c_ptr), value :: sys
+      integer(c_int64_t), value :: block
+      type(c_ptr), value :: table
+      integer(c_size_t), value :: table_len
+      integer(c_size_t), intent(out), optional :: needed
+      integer(c_int32_t) :: status
+    end function c_jam_isoconf_series
+    function c_jam_isoconf_displacements(sys, block, displacement, displacement_len, square, square_len, rows) &
+        bind(c, name="jam_isoconf_displacements") result(status)
       import
       type(c_ptr), value :: sys
       integer(c_int64_t), value :: block
@@ -2250,25 +2274,21 @@ module jam
       integer(c_size_t), value :: displacement_len
       type(c_ptr), value :: square
       integer(c_size_t), value :: square_len
+      integer(c_size_t), intent(out), optional :: rows
+      integer(c_int32_t) :: status
+    end function c_jam_isoconf_displacements
+    function c_jam_isoconf_distances(sys, block, distance2, distance2_len, distance4, distance4_len, rows) &
+        bind(c, name="jam_isoconf_distances") result(status)
+      import
+      type(c_ptr), value :: sys
+      integer(c_int64_t), value :: block
       type(c_ptr), value :: distance2
       integer(c_size_t), value :: distance2_len
       type(c_ptr), value :: distance4
       integer(c_size_t), value :: distance4_len
-      integer(c_int64_t), intent(out), optional :: runs
-      integer(c_size_t), intent(out), optional :: needed
+      integer(c_size_t), intent(out), optional :: rows
       integer(c_int32_t) :: status
-    end function c_jam_isoconf_sums
-    function c_jam_isoconf_series(sys, block, column, out, out_len, needed) &
-        bind(c, name="jam_isoconf_series") result(status)
-      import
-      type(c_ptr), value :: sys
-      integer(c_int64_t), value :: block
-      integer(c_int32_t), value :: column
-      type(c_ptr), value :: out
-      integer(c_size_t), value :: out_len
-      integer(c_size_t), intent(out), optional :: needed
-      integer(c_int32_t) :: status
-    end function c_jam_isoconf_series
+    end function c_jam_isoconf_distances
     function c_jam_isoconf_kept(sys, instant, out, out_len, needed) &
         bind(c, name="jam_isoconf_kept") result(status)
       import
@@ -2279,13 +2299,12 @@ module jam
       integer(c_size_t), intent(out), optional :: needed
       integer(c_int32_t) :: status
     end function c_jam_isoconf_kept
-    function c_jam_crunch_history(sys, column, out, out_len, needed) &
+    function c_jam_crunch_history(sys, table, table_len, needed) &
         bind(c, name="jam_crunch_history") result(status)
       import
       type(c_ptr), value :: sys
-      integer(c_int32_t), value :: column
-      type(c_ptr), value :: out
-      integer(c_size_t), value :: out_len
+      type(c_ptr), value :: table
+      integer(c_size_t), value :: table_len
       integer(c_size_t), intent(out), optional :: needed
       integer(c_int32_t) :: status
     end function c_jam_crunch_history
@@ -2325,13 +2344,12 @@ module jam
       integer(c_size_t), intent(out), optional :: needed
       integer(c_int32_t) :: status
     end function c_jam_crunch_step_duals
-    function c_jam_decompress_history(sys, column, out, out_len, needed) &
+    function c_jam_decompress_history(sys, table, table_len, needed) &
         bind(c, name="jam_decompress_history") result(status)
       import
       type(c_ptr), value :: sys
-      integer(c_int32_t), value :: column
-      type(c_ptr), value :: out
-      integer(c_size_t), value :: out_len
+      type(c_ptr), value :: table
+      integer(c_size_t), value :: table_len
       integer(c_size_t), intent(out), optional :: needed
       integer(c_int32_t) :: status
     end function c_jam_decompress_history
@@ -2403,19 +2421,16 @@ module jam
       integer(c_size_t), intent(out), optional :: rows
       integer(c_int32_t) :: status
     end function c_jam_hessian
-    function c_jam_modes(sys, h, o, lambda, lambda_len, vector, vector_len, participation, &
-      participation_len, rows) &
+    function c_jam_modes(sys, h, o, table, table_len, vector, vector_len, rows) &
         bind(c, name="jam_modes") result(status)
       import
       type(c_ptr), value :: sys
       type(jam_hessian_options), intent(in), optional :: h
       type(jam_modes_options), intent(in), optional :: o
-      type(c_ptr), value :: lambda
-      integer(c_size_t), value :: lambda_len
+      type(c_ptr), value :: table
+      integer(c_size_t), value :: table_len
       type(c_ptr), value :: vector
       integer(c_size_t), value :: vector_len
-      type(c_ptr), value :: participation
-      integer(c_size_t), value :: participation_len
       integer(c_size_t), intent(out), optional :: rows
       integer(c_int32_t) :: status
     end function c_jam_modes
@@ -2555,31 +2570,26 @@ module jam
       integer(c_size_t), intent(out), optional :: needed
       integer(c_int32_t) :: status
     end function c_jam_histogram
-    function c_jam_pair_correlation(sys, kind, kind_len, a, b, r_max, bins, out, out_len, needed) &
+    function c_jam_pair_correlation(sys, o, kind, kind_len, out, out_len, needed) &
         bind(c, name="jam_pair_correlation") result(status)
       import
       type(c_ptr), value :: sys
+      type(jam_correlation_options), intent(in), optional :: o
       type(c_ptr), value :: kind
       integer(c_size_t), value :: kind_len
-      integer(c_int32_t), value :: a
-      integer(c_int32_t), value :: b
-      real(c_double), value :: r_max
-      integer(c_int64_t), value :: bins
       type(c_ptr), value :: out
       integer(c_size_t), value :: out_len
       integer(c_size_t), intent(out), optional :: needed
       integer(c_int32_t) :: status
     end function c_jam_pair_correlation
-    function c_jam_structure_factor(sys, q_max, q, q_len, s, s_len, rows) &
+    function c_jam_structure_factor(sys, q_max, table, table_len, needed) &
         bind(c, name="jam_structure_factor") result(status)
       import
       type(c_ptr), value :: sys
       real(c_double), value :: q_max
-      type(c_ptr), value :: q
-      integer(c_size_t), value :: q_len
-      type(c_ptr), value :: s
-      integer(c_size_t), value :: s_len
-      integer(c_size_t), intent(out), optional :: rows
+      type(c_ptr), value :: table
+      integer(c_size_t), value :: table_len
+      integer(c_size_t), intent(out), optional :: needed
       integer(c_int32_t) :: status
     end function c_jam_structure_factor
     function c_jam_bond_order(sys, l, cutoff, out, out_len, needed) &
@@ -2719,24 +2729,6 @@ module jam
     module procedure l_jam_observed_pairs
   end interface jam_observed_pairs
 
-  ! Histogram of gaps h, *rows = bins: density is pairs over those of an ideal gas, error is over samples. Samples are
-  ! taken between collisions: at one, a pair more would touch. At h = 0 density tends to g(sigma), which is (p - 1) / (4
-  ! phi) for equal spheres in d = 3.
-  ! Shapes: edge (bins + 1), density (bins), error (bins).
-  ! Errors: JAM_E_STATE.
-  interface jam_observed_gaps
-    module procedure f_jam_observed_gaps
-    module procedure l_jam_observed_gaps
-  end interface jam_observed_gaps
-
-  ! g(r), sampled likewise, *rows = bins: r is the middle of each, mean diameters.
-  ! Shapes: r (bins), g (bins).
-  ! Errors: JAM_E_STATE.
-  interface jam_observed_correlation
-    module procedure f_jam_observed_correlation
-    module procedure l_jam_observed_correlation
-  end interface jam_observed_correlation
-
   ! Least squares on 1/pressure against fraction, at least 3 points; the line must fall.
   ! Shapes: fraction (m), pressure (m).
   ! Errors: JAM_E_TOO_FEW.
@@ -2759,14 +2751,22 @@ module jam
     module procedure l_jam_isoconfigurational
   end interface jam_isoconfigurational
 
-  ! Sums over the runs of one block, or of all for block = -1: displacement and square of dr_c, unit of the box;
-  ! distance2 and distance4 of |dr|^2 and |dr|^4; *runs in them. *needed = instants n.
-  ! Shapes: displacement (instants, n, d), square (instants, n, d), distance2 (instants, n), distance4 (instants, n).
+  ! For that block, sums over runs of the displacement dr_c of each sphere, unit of the box, and of its square. *rows =
+  ! instants.
+  ! Shapes: displacement (instants, n, d), square (instants, n, d).
   ! Errors: JAM_E_STATE.
-  interface jam_isoconf_sums
-    module procedure f_jam_isoconf_sums
-    module procedure l_jam_isoconf_sums
-  end interface jam_isoconf_sums
+  interface jam_isoconf_displacements
+    module procedure f_jam_isoconf_displacements
+    module procedure l_jam_isoconf_displacements
+  end interface jam_isoconf_displacements
+
+  ! Likewise of |dr|^2 and |dr|^4.
+  ! Shapes: distance2 (instants, n), distance4 (instants, n).
+  ! Errors: JAM_E_STATE.
+  interface jam_isoconf_distances
+    module procedure f_jam_isoconf_distances
+    module procedure l_jam_isoconf_distances
+  end interface jam_isoconf_distances
 
   ! Hessian in compressed rows, both triangles, *rows = entries. Unit: stiffness at the mean force.
   ! Shapes: row_start (d N' + 1), column (entries), value (entries).
@@ -2776,9 +2776,9 @@ module jam
     module procedure l_jam_hessian
   end interface jam_hessian
 
-  ! Modes of the Hessian, *rows = their number m: lambda = omega^2 ascending, vector of unit length, participation = sum
-  ! |v_i|^4 / (sum |v_i|^2)^2. When fewer converge the rest is NaN. Status: JAM_NOT_CONVERGED.
-  ! Shapes: lambda (m), vector (m, N', d), participation (m).
+  ! Modes of the Hessian, *rows = their number m, lambda ascending, vector of unit length. When fewer converge the rest
+  ! is NaN. Status: JAM_NOT_CONVERGED.
+  ! Shapes: table (m, jam_mode_column), vector (m, N', d).
   ! Errors: JAM_E_STATE, JAM_E_SOLVER.
   interface jam_modes
     module procedure f_jam_modes
@@ -2814,7 +2814,7 @@ module jam
     module procedure l_jam_refined_positions
   end interface jam_refined_positions
 
-  ! Gaps h of all pairs below h_max (every image), contacts left out, ascending; *rows = gaps. With stable_only = 0
+  ! Gaps h of all pairs below h_max (every image), contacts left out, ascending; *rows = gaps. Without stable_only
   ! rattlers count too and no network is needed.
   ! Shapes: gap (gaps), pair (gaps, 2).
   ! Errors: JAM_E_STATE.
@@ -2839,21 +2839,12 @@ module jam
     module procedure l_jam_contact_dots
   end interface jam_contact_dots
 
-  ! g_ab(r) of spheres with labels a and b (-1: any; kind: the labels, or NULL), in `bins` equal bins up to r_max mean
-  ! diameters.
+  ! g_ab(r) of spheres with labels a and b. kind: the labels, or NULL.
   ! Shapes: kind (n), out (bins).
   interface jam_pair_correlation
     module procedure f_jam_pair_correlation
     module procedure l_jam_pair_correlation
   end interface jam_pair_correlation
-
-  ! S(q) on the wave vectors of the cell (in a cube 2 pi n / box), averaged over each |q| <= q_max; q per mean diameter,
-  ! ascending. Lengths that differ by less than 5e-13 of |q| are one.
-  ! Shapes: q (m), s (m).
-  interface jam_structure_factor
-    module procedure f_jam_structure_factor
-    module procedure l_jam_structure_factor
-  end interface jam_structure_factor
 
   ! Projections u . v of a displacement u on the modes `vector` of jam_modes. Over all d N' modes their squares add up to
   ! |u|^2.
@@ -2874,9 +2865,10 @@ module jam
     module procedure l_jam_elastic_tensor
   end interface jam_elastic_tensor
 
-  ! Makes a system of d = o->dim. The caller frees *out by jam_destroy; after JAM_CANCELLED or JAM_LIMIT it is NULL. The
-  ! call takes long when many pairs of spheres are close together, and in the Mari-Kurchan model, where all pairs are
-  ! compared. Example: examples/c/first.c
+  ! Makes a system of d = o->dim. Without positions spheres are added one by one at random, to the packing_fraction of
+  ! the options. The caller frees *out by jam_destroy; after JAM_CANCELLED or JAM_LIMIT it is NULL. The call takes long
+  ! when many pairs of spheres are close together, and in the Mari-Kurchan model, where all pairs are compared. Example:
+  ! examples/c/first.c
   ! Errors: JAM_E_DIMENSION, JAM_E_OVERLAP, JAM_E_UNPLACEABLE (the text gives the fraction in reach).
   interface jam_create
     procedure c_jam_create
@@ -2908,8 +2900,9 @@ module jam
   private :: c_jam_observed_correlation
   private :: c_jam_glass_fit
   private :: c_jam_isoconfigurational
-  private :: c_jam_isoconf_sums
   private :: c_jam_isoconf_series
+  private :: c_jam_isoconf_displacements
+  private :: c_jam_isoconf_distances
   private :: c_jam_isoconf_kept
   private :: c_jam_crunch_history
   private :: c_jam_crunch_step_displacements
@@ -2958,16 +2951,14 @@ module jam
   private :: l_jam_observed_spheres
   private :: f_jam_observed_pairs
   private :: l_jam_observed_pairs
-  private :: f_jam_observed_gaps
-  private :: l_jam_observed_gaps
-  private :: f_jam_observed_correlation
-  private :: l_jam_observed_correlation
   private :: f_jam_glass_fit
   private :: l_jam_glass_fit
   private :: f_jam_isoconfigurational
   private :: l_jam_isoconfigurational
-  private :: f_jam_isoconf_sums
-  private :: l_jam_isoconf_sums
+  private :: f_jam_isoconf_displacements
+  private :: l_jam_isoconf_displacements
+  private :: f_jam_isoconf_distances
+  private :: l_jam_isoconf_distances
   private :: f_jam_hessian
   private :: l_jam_hessian
   private :: f_jam_modes
@@ -2986,8 +2977,6 @@ module jam
   private :: l_jam_contact_dots
   private :: f_jam_pair_correlation
   private :: l_jam_pair_correlation
-  private :: f_jam_structure_factor
-  private :: l_jam_structure_factor
   private :: f_jam_project
   private :: l_jam_project
   private :: f_jam_elastic_tensor
@@ -3470,9 +3459,8 @@ contains
   ! Reads plain text, extended XYZ, LAMMPS data and dumps with diameters, or a table of columns. It recognises the format
   ! by the content. For a file of another format the error names that format and what to do. o: overlap policy, seed,
   ! model, frame; box and dim where the file gives none. A line that does not fit the format is an error; jam_notes lists
-  ! what was not kept. An option whose value the file gives must be the default or agree with the file. Spheres keep the
-  ! order of the file; LAMMPS data are sorted by id. A last line without newline is refused if its last number may have
-  ! lost digits. callback, user: as in jam_start.
+  ! what was not kept. Spheres keep the order of the file; LAMMPS data are sorted by id. A last line without newline is
+  ! refused if its last number may have lost digits. callback, user: as in jam_start.
   ! Errors: JAM_E_IO, JAM_E_FORMAT (line named), JAM_E_UNSUPPORTED (a box that is not periodic), JAM_E_DIMENSION, JAM_E_OVERLAP, JAM_E_UNPLACEABLE.
   function jam_read(path, o, callback, user, out) result(status)
     character(*), intent(in) :: path
@@ -3525,8 +3513,8 @@ contains
 
   ! Writes one HTML file that shows the packing in a browser without a network: spheres and forces to turn and to slice,
   ! numbers of each sphere, certificate and distributions. After a crunch with keep_steps it has a slider over its steps.
-  ! title: its heading, or "". small: 1 for the picture alone, 0 for all. values: numbers to colour spheres by, or NULL;
-  ! names: k names, one a line, or "".
+  ! title: its heading, or "". small: the picture alone. values: numbers to colour spheres by, or NULL; names: k names,
+  ! one a line, or "".
   ! Shapes: values (k, n).
   ! Errors: JAM_E_IO.
   function jam_write_page(sys, path, title, small, names, values, values_len) result(status)
@@ -3790,173 +3778,56 @@ contains
       count_momentum, time, rows)
   end function l_jam_observed_pairs
 
-  function f_jam_observed_gaps(sys, edge, density, error, rows) result(status)
+  ! Histogram of gaps h. Samples are taken between collisions: at one, a pair more would touch. At h = 0 density tends to
+  ! g(sigma), which is (p - 1) / (4 phi) for equal spheres in d = 3.
+  ! Shapes: table (bins, jam_gap_column).
+  ! Errors: JAM_E_STATE.
+  function jam_observed_gaps(sys, table, table_len, needed) result(status)
     type(c_ptr), intent(in) :: sys
-    real(c_double), intent(inout), target, contiguous, optional :: edge(..)
-    real(c_double), intent(inout), target, contiguous, optional :: density(..)
-    real(c_double), intent(inout), target, contiguous, optional :: error(..)
-    integer(c_size_t), intent(out), optional :: rows
+    real(c_double), intent(inout), target, contiguous, optional :: table(..)
+    integer(c_size_t), intent(in), optional :: table_len
+    integer(c_size_t), intent(out), optional :: needed
     integer(c_int32_t) :: status
-    type(c_ptr) :: at_edge
-    integer(c_size_t) :: count_edge
-    type(c_ptr) :: at_density
-    integer(c_size_t) :: count_density
-    type(c_ptr) :: at_error
-    integer(c_size_t) :: count_error
-    at_edge = c_null_ptr
-    count_edge = 0
-    if (present(edge)) then
-      at_edge = c_loc(edge)
-      count_edge = size(edge, kind=c_size_t)
+    type(c_ptr) :: at_table
+    integer(c_size_t) :: count_table
+    at_table = c_null_ptr
+    count_table = 0
+    if (present(table)) then
+      at_table = c_loc(table)
+      count_table = size(table, kind=c_size_t)
     end if
-    if (present(edge)) then
-      status = checked('edge', shape(edge, kind=c_size_t), 0_c_size_t, count_edge)
+    if (present(table_len)) count_table = table_len
+    if (present(table)) then
+      status = checked('table', shape(table, kind=c_size_t), 4_c_size_t, count_table)
       if (status /= JAM_OK) return
     end if
-    at_density = c_null_ptr
-    count_density = 0
-    if (present(density)) then
-      at_density = c_loc(density)
-      count_density = size(density, kind=c_size_t)
-    end if
-    if (present(density)) then
-      status = checked('density', shape(density, kind=c_size_t), 0_c_size_t, count_density)
-      if (status /= JAM_OK) return
-    end if
-    at_error = c_null_ptr
-    count_error = 0
-    if (present(error)) then
-      at_error = c_loc(error)
-      count_error = size(error, kind=c_size_t)
-    end if
-    if (present(error)) then
-      status = checked('error', shape(error, kind=c_size_t), 0_c_size_t, count_error)
-      if (status /= JAM_OK) return
-    end if
-    status = c_jam_observed_gaps(sys, at_edge, count_edge, at_density, count_density, at_error, count_error, rows)
-  end function f_jam_observed_gaps
+    status = c_jam_observed_gaps(sys, at_table, count_table, needed)
+  end function jam_observed_gaps
 
-  function l_jam_observed_gaps(sys, edge, edge_len, density, density_len, error, error_len, rows) result(status)
+  ! g(r), sampled likewise.
+  ! Shapes: table (bins, jam_correlation_column).
+  ! Errors: JAM_E_STATE.
+  function jam_observed_correlation(sys, table, table_len, needed) result(status)
     type(c_ptr), intent(in) :: sys
-    real(c_double), intent(inout), target, contiguous, optional :: edge(..)
-    integer(c_size_t), intent(in) :: edge_len
-    real(c_double), intent(inout), target, contiguous, optional :: density(..)
-    integer(c_size_t), intent(in) :: density_len
-    real(c_double), intent(inout), target, contiguous, optional :: error(..)
-    integer(c_size_t), intent(in) :: error_len
-    integer(c_size_t), intent(out), optional :: rows
+    real(c_double), intent(inout), target, contiguous, optional :: table(..)
+    integer(c_size_t), intent(in), optional :: table_len
+    integer(c_size_t), intent(out), optional :: needed
     integer(c_int32_t) :: status
-    type(c_ptr) :: at_edge
-    integer(c_size_t) :: count_edge
-    type(c_ptr) :: at_density
-    integer(c_size_t) :: count_density
-    type(c_ptr) :: at_error
-    integer(c_size_t) :: count_error
-    at_edge = c_null_ptr
-    count_edge = 0
-    if (present(edge)) then
-      at_edge = c_loc(edge)
-      count_edge = size(edge, kind=c_size_t)
+    type(c_ptr) :: at_table
+    integer(c_size_t) :: count_table
+    at_table = c_null_ptr
+    count_table = 0
+    if (present(table)) then
+      at_table = c_loc(table)
+      count_table = size(table, kind=c_size_t)
     end if
-    count_edge = edge_len
-    if (present(edge)) then
-      status = checked('edge', shape(edge, kind=c_size_t), 0_c_size_t, count_edge)
+    if (present(table_len)) count_table = table_len
+    if (present(table)) then
+      status = checked('table', shape(table, kind=c_size_t), 2_c_size_t, count_table)
       if (status /= JAM_OK) return
     end if
-    at_density = c_null_ptr
-    count_density = 0
-    if (present(density)) then
-      at_density = c_loc(density)
-      count_density = size(density, kind=c_size_t)
-    end if
-    count_density = density_len
-    if (present(density)) then
-      status = checked('density', shape(density, kind=c_size_t), 0_c_size_t, count_density)
-      if (status /= JAM_OK) return
-    end if
-    at_error = c_null_ptr
-    count_error = 0
-    if (present(error)) then
-      at_error = c_loc(error)
-      count_error = size(error, kind=c_size_t)
-    end if
-    count_error = error_len
-    if (present(error)) then
-      status = checked('error', shape(error, kind=c_size_t), 0_c_size_t, count_error)
-      if (status /= JAM_OK) return
-    end if
-    status = c_jam_observed_gaps(sys, at_edge, count_edge, at_density, count_density, at_error, count_error, rows)
-  end function l_jam_observed_gaps
-
-  function f_jam_observed_correlation(sys, r, g, rows) result(status)
-    type(c_ptr), intent(in) :: sys
-    real(c_double), intent(inout), target, contiguous, optional :: r(..)
-    real(c_double), intent(inout), target, contiguous, optional :: g(..)
-    integer(c_size_t), intent(out), optional :: rows
-    integer(c_int32_t) :: status
-    type(c_ptr) :: at_r
-    integer(c_size_t) :: count_r
-    type(c_ptr) :: at_g
-    integer(c_size_t) :: count_g
-    at_r = c_null_ptr
-    count_r = 0
-    if (present(r)) then
-      at_r = c_loc(r)
-      count_r = size(r, kind=c_size_t)
-    end if
-    if (present(r)) then
-      status = checked('r', shape(r, kind=c_size_t), 0_c_size_t, count_r)
-      if (status /= JAM_OK) return
-    end if
-    at_g = c_null_ptr
-    count_g = 0
-    if (present(g)) then
-      at_g = c_loc(g)
-      count_g = size(g, kind=c_size_t)
-    end if
-    if (present(g)) then
-      status = checked('g', shape(g, kind=c_size_t), 0_c_size_t, count_g)
-      if (status /= JAM_OK) return
-    end if
-    status = c_jam_observed_correlation(sys, at_r, count_r, at_g, count_g, rows)
-  end function f_jam_observed_correlation
-
-  function l_jam_observed_correlation(sys, r, r_len, g, g_len, rows) result(status)
-    type(c_ptr), intent(in) :: sys
-    real(c_double), intent(inout), target, contiguous, optional :: r(..)
-    integer(c_size_t), intent(in) :: r_len
-    real(c_double), intent(inout), target, contiguous, optional :: g(..)
-    integer(c_size_t), intent(in) :: g_len
-    integer(c_size_t), intent(out), optional :: rows
-    integer(c_int32_t) :: status
-    type(c_ptr) :: at_r
-    integer(c_size_t) :: count_r
-    type(c_ptr) :: at_g
-    integer(c_size_t) :: count_g
-    at_r = c_null_ptr
-    count_r = 0
-    if (present(r)) then
-      at_r = c_loc(r)
-      count_r = size(r, kind=c_size_t)
-    end if
-    count_r = r_len
-    if (present(r)) then
-      status = checked('r', shape(r, kind=c_size_t), 0_c_size_t, count_r)
-      if (status /= JAM_OK) return
-    end if
-    at_g = c_null_ptr
-    count_g = 0
-    if (present(g)) then
-      at_g = c_loc(g)
-      count_g = size(g, kind=c_size_t)
-    end if
-    count_g = g_len
-    if (present(g)) then
-      status = checked('g', shape(g, kind=c_size_t), 0_c_size_t, count_g)
-      if (status /= JAM_OK) return
-    end if
-    status = c_jam_observed_correlation(sys, at_r, count_r, at_g, count_g, rows)
-  end function l_jam_observed_correlation
+    status = c_jam_observed_correlation(sys, at_table, count_table, needed)
+  end function jam_observed_correlation
 
   function f_jam_glass_fit(fraction, pressure, fit) result(status)
     real(c_double), intent(in), target, contiguous, optional :: fraction(..)
@@ -4100,24 +3971,43 @@ contains
     status = c_jam_isoconfigurational(sys, o, m, at_instant, count_instant, at_kept, count_kept, report)
   end function l_jam_isoconfigurational
 
-  function f_jam_isoconf_sums(sys, block, displacement, square, distance2, distance4, runs, needed) result(status)
+  ! Sums over the runs of one block, or of all for block = -1.
+  ! Shapes: table (instants, jam_isoconf_column).
+  ! Errors: JAM_E_STATE.
+  function jam_isoconf_series(sys, block, table, table_len, needed) result(status)
+    type(c_ptr), intent(in) :: sys
+    integer(c_int64_t), intent(in) :: block
+    real(c_double), intent(inout), target, contiguous, optional :: table(..)
+    integer(c_size_t), intent(in), optional :: table_len
+    integer(c_size_t), intent(out), optional :: needed
+    integer(c_int32_t) :: status
+    type(c_ptr) :: at_table
+    integer(c_size_t) :: count_table
+    at_table = c_null_ptr
+    count_table = 0
+    if (present(table)) then
+      at_table = c_loc(table)
+      count_table = size(table, kind=c_size_t)
+    end if
+    if (present(table_len)) count_table = table_len
+    if (present(table)) then
+      status = checked('table', shape(table, kind=c_size_t), 14_c_size_t, count_table)
+      if (status /= JAM_OK) return
+    end if
+    status = c_jam_isoconf_series(sys, block, at_table, count_table, needed)
+  end function jam_isoconf_series
+
+  function f_jam_isoconf_displacements(sys, block, displacement, square, rows) result(status)
     type(c_ptr), intent(in) :: sys
     integer(c_int64_t), intent(in) :: block
     real(c_double), intent(inout), target, contiguous, optional :: displacement(..)
     real(c_double), intent(inout), target, contiguous, optional :: square(..)
-    real(c_double), intent(inout), target, contiguous, optional :: distance2(..)
-    real(c_double), intent(inout), target, contiguous, optional :: distance4(..)
-    integer(c_int64_t), intent(out), optional :: runs
-    integer(c_size_t), intent(out), optional :: needed
+    integer(c_size_t), intent(out), optional :: rows
     integer(c_int32_t) :: status
     type(c_ptr) :: at_displacement
     integer(c_size_t) :: count_displacement
     type(c_ptr) :: at_square
     integer(c_size_t) :: count_square
-    type(c_ptr) :: at_distance2
-    integer(c_size_t) :: count_distance2
-    type(c_ptr) :: at_distance4
-    integer(c_size_t) :: count_distance4
     integer(c_size_t) :: n_of_c, d_of_c
     call sizes_of(sys, n_of_c, d_of_c)
     at_displacement = c_null_ptr
@@ -4140,53 +4030,22 @@ contains
       status = checked('square', shape(square, kind=c_size_t), d_of_c, count_square)
       if (status /= JAM_OK) return
     end if
-    at_distance2 = c_null_ptr
-    count_distance2 = 0
-    if (present(distance2)) then
-      at_distance2 = c_loc(distance2)
-      count_distance2 = size(distance2, kind=c_size_t)
-    end if
-    if (present(distance2)) then
-      status = checked('distance2', shape(distance2, kind=c_size_t), n_of_c, count_distance2)
-      if (status /= JAM_OK) return
-    end if
-    at_distance4 = c_null_ptr
-    count_distance4 = 0
-    if (present(distance4)) then
-      at_distance4 = c_loc(distance4)
-      count_distance4 = size(distance4, kind=c_size_t)
-    end if
-    if (present(distance4)) then
-      status = checked('distance4', shape(distance4, kind=c_size_t), n_of_c, count_distance4)
-      if (status /= JAM_OK) return
-    end if
-    status = c_jam_isoconf_sums(sys, block, at_displacement, count_displacement, at_square, count_square, &
-      at_distance2, count_distance2, at_distance4, count_distance4, runs, needed)
-  end function f_jam_isoconf_sums
+    status = c_jam_isoconf_displacements(sys, block, at_displacement, count_displacement, at_square, count_square, rows)
+  end function f_jam_isoconf_displacements
 
-  function l_jam_isoconf_sums(sys, block, displacement, displacement_len, square, square_len, distance2, &
-    distance2_len, distance4, distance4_len, runs, needed) result(status)
+  function l_jam_isoconf_displacements(sys, block, displacement, displacement_len, square, square_len, rows) result(status)
     type(c_ptr), intent(in) :: sys
     integer(c_int64_t), intent(in) :: block
     real(c_double), intent(inout), target, contiguous, optional :: displacement(..)
     integer(c_size_t), intent(in) :: displacement_len
     real(c_double), intent(inout), target, contiguous, optional :: square(..)
     integer(c_size_t), intent(in) :: square_len
-    real(c_double), intent(inout), target, contiguous, optional :: distance2(..)
-    integer(c_size_t), intent(in) :: distance2_len
-    real(c_double), intent(inout), target, contiguous, optional :: distance4(..)
-    integer(c_size_t), intent(in) :: distance4_len
-    integer(c_int64_t), intent(out), optional :: runs
-    integer(c_size_t), intent(out), optional :: needed
+    integer(c_size_t), intent(out), optional :: rows
     integer(c_int32_t) :: status
     type(c_ptr) :: at_displacement
     integer(c_size_t) :: count_displacement
     type(c_ptr) :: at_square
     integer(c_size_t) :: count_square
-    type(c_ptr) :: at_distance2
-    integer(c_size_t) :: count_distance2
-    type(c_ptr) :: at_distance4
-    integer(c_size_t) :: count_distance4
     integer(c_size_t) :: n_of_c, d_of_c
     call sizes_of(sys, n_of_c, d_of_c)
     at_displacement = c_null_ptr
@@ -4211,6 +4070,60 @@ contains
       status = checked('square', shape(square, kind=c_size_t), d_of_c, count_square)
       if (status /= JAM_OK) return
     end if
+    status = c_jam_isoconf_displacements(sys, block, at_displacement, count_displacement, at_square, count_square, rows)
+  end function l_jam_isoconf_displacements
+
+  function f_jam_isoconf_distances(sys, block, distance2, distance4, rows) result(status)
+    type(c_ptr), intent(in) :: sys
+    integer(c_int64_t), intent(in) :: block
+    real(c_double), intent(inout), target, contiguous, optional :: distance2(..)
+    real(c_double), intent(inout), target, contiguous, optional :: distance4(..)
+    integer(c_size_t), intent(out), optional :: rows
+    integer(c_int32_t) :: status
+    type(c_ptr) :: at_distance2
+    integer(c_size_t) :: count_distance2
+    type(c_ptr) :: at_distance4
+    integer(c_size_t) :: count_distance4
+    integer(c_size_t) :: n_of_c, d_of_c
+    call sizes_of(sys, n_of_c, d_of_c)
+    at_distance2 = c_null_ptr
+    count_distance2 = 0
+    if (present(distance2)) then
+      at_distance2 = c_loc(distance2)
+      count_distance2 = size(distance2, kind=c_size_t)
+    end if
+    if (present(distance2)) then
+      status = checked('distance2', shape(distance2, kind=c_size_t), n_of_c, count_distance2)
+      if (status /= JAM_OK) return
+    end if
+    at_distance4 = c_null_ptr
+    count_distance4 = 0
+    if (present(distance4)) then
+      at_distance4 = c_loc(distance4)
+      count_distance4 = size(distance4, kind=c_size_t)
+    end if
+    if (present(distance4)) then
+      status = checked('distance4', shape(distance4, kind=c_size_t), n_of_c, count_distance4)
+      if (status /= JAM_OK) return
+    end if
+    status = c_jam_isoconf_distances(sys, block, at_distance2, count_distance2, at_distance4, count_distance4, rows)
+  end function f_jam_isoconf_distances
+
+  function l_jam_isoconf_distances(sys, block, distance2, distance2_len, distance4, distance4_len, rows) result(status)
+    type(c_ptr), intent(in) :: sys
+    integer(c_int64_t), intent(in) :: block
+    real(c_double), intent(inout), target, contiguous, optional :: distance2(..)
+    integer(c_size_t), intent(in) :: distance2_len
+    real(c_double), intent(inout), target, contiguous, optional :: distance4(..)
+    integer(c_size_t), intent(in) :: distance4_len
+    integer(c_size_t), intent(out), optional :: rows
+    integer(c_int32_t) :: status
+    type(c_ptr) :: at_distance2
+    integer(c_size_t) :: count_distance2
+    type(c_ptr) :: at_distance4
+    integer(c_size_t) :: count_distance4
+    integer(c_size_t) :: n_of_c, d_of_c
+    call sizes_of(sys, n_of_c, d_of_c)
     at_distance2 = c_null_ptr
     count_distance2 = 0
     if (present(distance2)) then
@@ -4233,36 +4146,8 @@ contains
       status = checked('distance4', shape(distance4, kind=c_size_t), n_of_c, count_distance4)
       if (status /= JAM_OK) return
     end if
-    status = c_jam_isoconf_sums(sys, block, at_displacement, count_displacement, at_square, count_square, &
-      at_distance2, count_distance2, at_distance4, count_distance4, runs, needed)
-  end function l_jam_isoconf_sums
-
-  ! One column of that block (or -1: all), a sum over runs at each instant.
-  ! Shapes: out (instants).
-  ! Errors: JAM_E_STATE.
-  function jam_isoconf_series(sys, block, column, out, out_len, needed) result(status)
-    type(c_ptr), intent(in) :: sys
-    integer(c_int64_t), intent(in) :: block
-    integer(c_int32_t), intent(in) :: column
-    real(c_double), intent(inout), target, contiguous, optional :: out(..)
-    integer(c_size_t), intent(in), optional :: out_len
-    integer(c_size_t), intent(out), optional :: needed
-    integer(c_int32_t) :: status
-    type(c_ptr) :: at_out
-    integer(c_size_t) :: count_out
-    at_out = c_null_ptr
-    count_out = 0
-    if (present(out)) then
-      at_out = c_loc(out)
-      count_out = size(out, kind=c_size_t)
-    end if
-    if (present(out_len)) count_out = out_len
-    if (present(out)) then
-      status = checked('out', shape(out, kind=c_size_t), 0_c_size_t, count_out)
-      if (status /= JAM_OK) return
-    end if
-    status = c_jam_isoconf_series(sys, block, column, at_out, count_out, needed)
-  end function jam_isoconf_series
+    status = c_jam_isoconf_distances(sys, block, at_distance2, count_distance2, at_distance4, count_distance4, rows)
+  end function l_jam_isoconf_distances
 
   ! Displacements at one kept instant, given by its index.
   ! Shapes: out (runs, n, d).
@@ -4292,30 +4177,29 @@ contains
     status = c_jam_isoconf_kept(sys, instant, at_out, count_out, needed)
   end function jam_isoconf_kept
 
-  ! One column of the last crunch, a value a step.
-  ! Shapes: out (steps).
+  ! Steps of the last crunch.
+  ! Shapes: table (steps, jam_history_column).
   ! Errors: JAM_E_STATE.
-  function jam_crunch_history(sys, column, out, out_len, needed) result(status)
+  function jam_crunch_history(sys, table, table_len, needed) result(status)
     type(c_ptr), intent(in) :: sys
-    integer(c_int32_t), intent(in) :: column
-    real(c_double), intent(inout), target, contiguous, optional :: out(..)
-    integer(c_size_t), intent(in), optional :: out_len
+    real(c_double), intent(inout), target, contiguous, optional :: table(..)
+    integer(c_size_t), intent(in), optional :: table_len
     integer(c_size_t), intent(out), optional :: needed
     integer(c_int32_t) :: status
-    type(c_ptr) :: at_out
-    integer(c_size_t) :: count_out
-    at_out = c_null_ptr
-    count_out = 0
-    if (present(out)) then
-      at_out = c_loc(out)
-      count_out = size(out, kind=c_size_t)
+    type(c_ptr) :: at_table
+    integer(c_size_t) :: count_table
+    at_table = c_null_ptr
+    count_table = 0
+    if (present(table)) then
+      at_table = c_loc(table)
+      count_table = size(table, kind=c_size_t)
     end if
-    if (present(out_len)) count_out = out_len
-    if (present(out)) then
-      status = checked('out', shape(out, kind=c_size_t), 0_c_size_t, count_out)
+    if (present(table_len)) count_table = table_len
+    if (present(table)) then
+      status = checked('table', shape(table, kind=c_size_t), 20_c_size_t, count_table)
       if (status /= JAM_OK) return
     end if
-    status = c_jam_crunch_history(sys, column, at_out, count_out, needed)
+    status = c_jam_crunch_history(sys, at_table, count_table, needed)
   end function jam_crunch_history
 
   ! Displacements of all spheres in the step that has just ended, unit of box, images followed. Their sum over the steps
@@ -4425,30 +4309,29 @@ contains
     status = c_jam_crunch_step_duals(sys, at_out, count_out, needed)
   end function jam_crunch_step_duals
 
-  ! One column of the last decompression.
-  ! Shapes: out (steps).
+  ! Minima of the last decompression.
+  ! Shapes: table (minima, jam_soft_column).
   ! Errors: JAM_E_STATE.
-  function jam_decompress_history(sys, column, out, out_len, needed) result(status)
+  function jam_decompress_history(sys, table, table_len, needed) result(status)
     type(c_ptr), intent(in) :: sys
-    integer(c_int32_t), intent(in) :: column
-    real(c_double), intent(inout), target, contiguous, optional :: out(..)
-    integer(c_size_t), intent(in), optional :: out_len
+    real(c_double), intent(inout), target, contiguous, optional :: table(..)
+    integer(c_size_t), intent(in), optional :: table_len
     integer(c_size_t), intent(out), optional :: needed
     integer(c_int32_t) :: status
-    type(c_ptr) :: at_out
-    integer(c_size_t) :: count_out
-    at_out = c_null_ptr
-    count_out = 0
-    if (present(out)) then
-      at_out = c_loc(out)
-      count_out = size(out, kind=c_size_t)
+    type(c_ptr) :: at_table
+    integer(c_size_t) :: count_table
+    at_table = c_null_ptr
+    count_table = 0
+    if (present(table)) then
+      at_table = c_loc(table)
+      count_table = size(table, kind=c_size_t)
     end if
-    if (present(out_len)) count_out = out_len
-    if (present(out)) then
-      status = checked('out', shape(out, kind=c_size_t), 0_c_size_t, count_out)
+    if (present(table_len)) count_table = table_len
+    if (present(table)) then
+      status = checked('table', shape(table, kind=c_size_t), 11_c_size_t, count_table)
       if (status /= JAM_OK) return
     end if
-    status = c_jam_decompress_history(sys, column, at_out, count_out, needed)
+    status = c_jam_decompress_history(sys, at_table, count_table, needed)
   end function jam_decompress_history
 
   ! Contact pairs, i < j save for images of one sphere (i = j). Hard spheres have those only after a crunch with a free
@@ -4709,31 +4592,28 @@ contains
       count_value, rows)
   end function l_jam_hessian
 
-  function f_jam_modes(sys, h, o, lambda, vector, participation, rows) result(status)
+  function f_jam_modes(sys, h, o, table, vector, rows) result(status)
     type(c_ptr), intent(in) :: sys
     type(jam_hessian_options), intent(in), optional :: h
     type(jam_modes_options), intent(in), optional :: o
-    real(c_double), intent(inout), target, contiguous, optional :: lambda(..)
+    real(c_double), intent(inout), target, contiguous, optional :: table(..)
     real(c_double), intent(inout), target, contiguous, optional :: vector(..)
-    real(c_double), intent(inout), target, contiguous, optional :: participation(..)
     integer(c_size_t), intent(out), optional :: rows
     integer(c_int32_t) :: status
-    type(c_ptr) :: at_lambda
-    integer(c_size_t) :: count_lambda
+    type(c_ptr) :: at_table
+    integer(c_size_t) :: count_table
     type(c_ptr) :: at_vector
     integer(c_size_t) :: count_vector
-    type(c_ptr) :: at_participation
-    integer(c_size_t) :: count_participation
     integer(c_size_t) :: n_of_c, d_of_c
     call sizes_of(sys, n_of_c, d_of_c)
-    at_lambda = c_null_ptr
-    count_lambda = 0
-    if (present(lambda)) then
-      at_lambda = c_loc(lambda)
-      count_lambda = size(lambda, kind=c_size_t)
+    at_table = c_null_ptr
+    count_table = 0
+    if (present(table)) then
+      at_table = c_loc(table)
+      count_table = size(table, kind=c_size_t)
     end if
-    if (present(lambda)) then
-      status = checked('lambda', shape(lambda, kind=c_size_t), 0_c_size_t, count_lambda)
+    if (present(table)) then
+      status = checked('table', shape(table, kind=c_size_t), 2_c_size_t, count_table)
       if (status /= JAM_OK) return
     end if
     at_vector = c_null_ptr
@@ -4746,50 +4626,34 @@ contains
       status = checked('vector', shape(vector, kind=c_size_t), d_of_c, count_vector)
       if (status /= JAM_OK) return
     end if
-    at_participation = c_null_ptr
-    count_participation = 0
-    if (present(participation)) then
-      at_participation = c_loc(participation)
-      count_participation = size(participation, kind=c_size_t)
-    end if
-    if (present(participation)) then
-      status = checked('participation', shape(participation, kind=c_size_t), 0_c_size_t, count_participation)
-      if (status /= JAM_OK) return
-    end if
-    status = c_jam_modes(sys, h, o, at_lambda, count_lambda, at_vector, count_vector, at_participation, &
-      count_participation, rows)
+    status = c_jam_modes(sys, h, o, at_table, count_table, at_vector, count_vector, rows)
   end function f_jam_modes
 
-  function l_jam_modes(sys, h, o, lambda, lambda_len, vector, vector_len, participation, &
-    participation_len, rows) result(status)
+  function l_jam_modes(sys, h, o, table, table_len, vector, vector_len, rows) result(status)
     type(c_ptr), intent(in) :: sys
     type(jam_hessian_options), intent(in), optional :: h
     type(jam_modes_options), intent(in), optional :: o
-    real(c_double), intent(inout), target, contiguous, optional :: lambda(..)
-    integer(c_size_t), intent(in) :: lambda_len
+    real(c_double), intent(inout), target, contiguous, optional :: table(..)
+    integer(c_size_t), intent(in) :: table_len
     real(c_double), intent(inout), target, contiguous, optional :: vector(..)
     integer(c_size_t), intent(in) :: vector_len
-    real(c_double), intent(inout), target, contiguous, optional :: participation(..)
-    integer(c_size_t), intent(in) :: participation_len
     integer(c_size_t), intent(out), optional :: rows
     integer(c_int32_t) :: status
-    type(c_ptr) :: at_lambda
-    integer(c_size_t) :: count_lambda
+    type(c_ptr) :: at_table
+    integer(c_size_t) :: count_table
     type(c_ptr) :: at_vector
     integer(c_size_t) :: count_vector
-    type(c_ptr) :: at_participation
-    integer(c_size_t) :: count_participation
     integer(c_size_t) :: n_of_c, d_of_c
     call sizes_of(sys, n_of_c, d_of_c)
-    at_lambda = c_null_ptr
-    count_lambda = 0
-    if (present(lambda)) then
-      at_lambda = c_loc(lambda)
-      count_lambda = size(lambda, kind=c_size_t)
+    at_table = c_null_ptr
+    count_table = 0
+    if (present(table)) then
+      at_table = c_loc(table)
+      count_table = size(table, kind=c_size_t)
     end if
-    count_lambda = lambda_len
-    if (present(lambda)) then
-      status = checked('lambda', shape(lambda, kind=c_size_t), 0_c_size_t, count_lambda)
+    count_table = table_len
+    if (present(table)) then
+      status = checked('table', shape(table, kind=c_size_t), 2_c_size_t, count_table)
       if (status /= JAM_OK) return
     end if
     at_vector = c_null_ptr
@@ -4803,19 +4667,7 @@ contains
       status = checked('vector', shape(vector, kind=c_size_t), d_of_c, count_vector)
       if (status /= JAM_OK) return
     end if
-    at_participation = c_null_ptr
-    count_participation = 0
-    if (present(participation)) then
-      at_participation = c_loc(participation)
-      count_participation = size(participation, kind=c_size_t)
-    end if
-    count_participation = participation_len
-    if (present(participation)) then
-      status = checked('participation', shape(participation, kind=c_size_t), 0_c_size_t, count_participation)
-      if (status /= JAM_OK) return
-    end if
-    status = c_jam_modes(sys, h, o, at_lambda, count_lambda, at_vector, count_vector, at_participation, &
-      count_participation, rows)
+    status = c_jam_modes(sys, h, o, at_table, count_table, at_vector, count_vector, rows)
   end function l_jam_modes
 
   ! Candidates for the contact tolerance, for packings where no jump is clear; m is at most 12. A candidate is a jump of
@@ -5456,13 +5308,10 @@ contains
     status = c_jam_histogram(sys, quantity, population, low, high, bins, at_out, count_out, needed)
   end function jam_histogram
 
-  function f_jam_pair_correlation(sys, kind, a, b, r_max, bins, out, needed) result(status)
+  function f_jam_pair_correlation(sys, o, kind, out, needed) result(status)
     type(c_ptr), intent(in) :: sys
+    type(jam_correlation_options), intent(in), optional :: o
     integer(c_int32_t), intent(in), target, contiguous, optional :: kind(..)
-    integer(c_int32_t), intent(in) :: a
-    integer(c_int32_t), intent(in) :: b
-    real(c_double), intent(in) :: r_max
-    integer(c_int64_t), intent(in) :: bins
     real(c_double), intent(inout), target, contiguous, optional :: out(..)
     integer(c_size_t), intent(out), optional :: needed
     integer(c_int32_t) :: status
@@ -5490,17 +5339,14 @@ contains
       status = checked('out', shape(out, kind=c_size_t), 0_c_size_t, count_out)
       if (status /= JAM_OK) return
     end if
-    status = c_jam_pair_correlation(sys, at_kind, count_kind, a, b, r_max, bins, at_out, count_out, needed)
+    status = c_jam_pair_correlation(sys, o, at_kind, count_kind, at_out, count_out, needed)
   end function f_jam_pair_correlation
 
-  function l_jam_pair_correlation(sys, kind, kind_len, a, b, r_max, bins, out, out_len, needed) result(status)
+  function l_jam_pair_correlation(sys, o, kind, kind_len, out, out_len, needed) result(status)
     type(c_ptr), intent(in) :: sys
+    type(jam_correlation_options), intent(in), optional :: o
     integer(c_int32_t), intent(in), target, contiguous, optional :: kind(..)
     integer(c_size_t), intent(in) :: kind_len
-    integer(c_int32_t), intent(in) :: a
-    integer(c_int32_t), intent(in) :: b
-    real(c_double), intent(in) :: r_max
-    integer(c_int64_t), intent(in) :: bins
     real(c_double), intent(inout), target, contiguous, optional :: out(..)
     integer(c_size_t), intent(in) :: out_len
     integer(c_size_t), intent(out), optional :: needed
@@ -5531,80 +5377,34 @@ contains
       status = checked('out', shape(out, kind=c_size_t), 0_c_size_t, count_out)
       if (status /= JAM_OK) return
     end if
-    status = c_jam_pair_correlation(sys, at_kind, count_kind, a, b, r_max, bins, at_out, count_out, needed)
+    status = c_jam_pair_correlation(sys, o, at_kind, count_kind, at_out, count_out, needed)
   end function l_jam_pair_correlation
 
-  function f_jam_structure_factor(sys, q_max, q, s, rows) result(status)
+  ! S(q) on the wave vectors of the cell (in a cube 2 pi n / box) with |q| <= q_max. Lengths that differ by less than
+  ! 5e-13 of |q| are one.
+  ! Shapes: table (m, jam_structure_column).
+  function jam_structure_factor(sys, q_max, table, table_len, needed) result(status)
     type(c_ptr), intent(in) :: sys
     real(c_double), intent(in) :: q_max
-    real(c_double), intent(inout), target, contiguous, optional :: q(..)
-    real(c_double), intent(inout), target, contiguous, optional :: s(..)
-    integer(c_size_t), intent(out), optional :: rows
+    real(c_double), intent(inout), target, contiguous, optional :: table(..)
+    integer(c_size_t), intent(in), optional :: table_len
+    integer(c_size_t), intent(out), optional :: needed
     integer(c_int32_t) :: status
-    type(c_ptr) :: at_q
-    integer(c_size_t) :: count_q
-    type(c_ptr) :: at_s
-    integer(c_size_t) :: count_s
-    at_q = c_null_ptr
-    count_q = 0
-    if (present(q)) then
-      at_q = c_loc(q)
-      count_q = size(q, kind=c_size_t)
+    type(c_ptr) :: at_table
+    integer(c_size_t) :: count_table
+    at_table = c_null_ptr
+    count_table = 0
+    if (present(table)) then
+      at_table = c_loc(table)
+      count_table = size(table, kind=c_size_t)
     end if
-    if (present(q)) then
-      status = checked('q', shape(q, kind=c_size_t), 0_c_size_t, count_q)
+    if (present(table_len)) count_table = table_len
+    if (present(table)) then
+      status = checked('table', shape(table, kind=c_size_t), 2_c_size_t, count_table)
       if (status /= JAM_OK) return
     end if
-    at_s = c_null_ptr
-    count_s = 0
-    if (present(s)) then
-      at_s = c_loc(s)
-      count_s = size(s, kind=c_size_t)
-    end if
-    if (present(s)) then
-      status = checked('s', shape(s, kind=c_size_t), 0_c_size_t, count_s)
-      if (status /= JAM_OK) return
-    end if
-    status = c_jam_structure_factor(sys, q_max, at_q, count_q, at_s, count_s, rows)
-  end function f_jam_structure_factor
-
-  function l_jam_structure_factor(sys, q_max, q, q_len, s, s_len, rows) result(status)
-    type(c_ptr), intent(in) :: sys
-    real(c_double), intent(in) :: q_max
-    real(c_double), intent(inout), target, contiguous, optional :: q(..)
-    integer(c_size_t), intent(in) :: q_len
-    real(c_double), intent(inout), target, contiguous, optional :: s(..)
-    integer(c_size_t), intent(in) :: s_len
-    integer(c_size_t), intent(out), optional :: rows
-    integer(c_int32_t) :: status
-    type(c_ptr) :: at_q
-    integer(c_size_t) :: count_q
-    type(c_ptr) :: at_s
-    integer(c_size_t) :: count_s
-    at_q = c_null_ptr
-    count_q = 0
-    if (present(q)) then
-      at_q = c_loc(q)
-      count_q = size(q, kind=c_size_t)
-    end if
-    count_q = q_len
-    if (present(q)) then
-      status = checked('q', shape(q, kind=c_size_t), 0_c_size_t, count_q)
-      if (status /= JAM_OK) return
-    end if
-    at_s = c_null_ptr
-    count_s = 0
-    if (present(s)) then
-      at_s = c_loc(s)
-      count_s = size(s, kind=c_size_t)
-    end if
-    count_s = s_len
-    if (present(s)) then
-      status = checked('s', shape(s, kind=c_size_t), 0_c_size_t, count_s)
-      if (status /= JAM_OK) return
-    end if
-    status = c_jam_structure_factor(sys, q_max, at_q, count_q, at_s, count_s, rows)
-  end function l_jam_structure_factor
+    status = c_jam_structure_factor(sys, q_max, at_table, count_table, needed)
+  end function jam_structure_factor
 
   ! Bond order Q_l of each sphere (d = 2: |psi_l|) over neighbours with |r| < cutoff sigma_ij; l in 1..64, cutoff in (0,
   ! 3] (1.2 is usual).
@@ -6061,6 +5861,12 @@ contains
     integer(c_int32_t) :: status
     status = jam_check_options_init(o, c_sizeof(o))
   end subroutine default_check_options
+
+  subroutine default_correlation_options(o)
+    type(jam_correlation_options), intent(out) :: o
+    integer(c_int32_t) :: status
+    status = jam_correlation_options_init(o, c_sizeof(o))
+  end subroutine default_correlation_options
 
   subroutine default_dos_options(o)
     type(jam_dos_options), intent(out) :: o

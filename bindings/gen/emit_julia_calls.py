@@ -28,7 +28,7 @@ COUNTS = {  # whole numbers that are none
 NOT_EXPORTED = ("histogram", "project")
 # Bodies in system.jl and network.jl, which call by the same table.
 BY_HAND = SKIP | {"jam_modes", "jam_hessian", "jam_crunch_history", "jam_decompress_history", "jam_write_checkpoint",
-                  "jam_isoconf_sums", "jam_isoconf_series", "jam_get_isoconf_report"}
+                  "jam_isoconf_displacements", "jam_isoconf_distances", "jam_isoconf_series", "jam_get_isoconf_report"}
 
 
 def is_index(f, a):

@@ -63,6 +63,8 @@ def _hint(f, arg):
         return "Any"
     if enum_of_argument(f, arg):
         return "int | str"
+    if arg.name in f.bools:
+        return "bool"
     return TYPES[arg.type.scalar][3] if arg.role == "scalar" else "str"
 
 

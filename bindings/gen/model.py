@@ -59,6 +59,7 @@ class Function:
     prose: str = ""
     shapes: dict = field(default_factory=dict)  # {array: extents}
     enums: dict = field(default_factory=dict)  # {argument: enum}
+    bools: list = field(default_factory=list)  # arguments that are 1 or 0
     errors: list = field(default_factory=list)  # (name without JAM_E_, why)
 
 
@@ -198,9 +199,14 @@ def _comments(text):
     ):
         docs[next(g for g in m.groups()[1:] if g)] = _clean(m.group(1))
     for m in re.finditer(r"typedef (struct|enum) (jam_\w+) \{(.*?)\n\}", text, re.S):
-        pattern = r"\b(\w+);" if m.group(1) == "struct" else r"\b(JAM_\w+)\s*=\s*-?\d+,?"
+        pattern = r"\b(\w+(?:, \w+)*);" if m.group(1) == "struct" else r"\b(JAM_\w+)\s*=\s*-?\d+,?"
         for item in re.finditer(pattern + r"[ \t]*/\*((?:(?!\*/).)*)\*/", m.group(3), re.S):
-            docs[m.group(2), item.group(1)] = " ".join(_clean(item.group(2)).split())
+            names, said = item.group(1).split(", "), " ".join(_clean(item.group(2)).split())
+            parts = said.split("; ")
+            if len(names) > 1 and len(parts) not in (1, len(names)):
+                raise HeaderError(f"{m.group(2)}: {item.group(1)} share a comment of {len(parts)} parts: {said}")
+            docs.update(zip(((m.group(2), n) for n in names), parts * len(names) if len(parts) == 1 else parts)
+                        if len(names) > 1 else {(m.group(2), names[0]): said}.items())
     return docs
 
 

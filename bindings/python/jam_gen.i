@@ -20,11 +20,6 @@
 %apply (int32_t *FILL, size_t FILL_LEN) {(int32_t *pair, size_t pair_len)};
 %apply (double *FILL, size_t FILL_LEN) {(double *momentum, size_t momentum_len)};
 %apply double *RESULT {double *time};
-%apply (double *FILL, size_t FILL_LEN) {(double *edge, size_t edge_len)};
-%apply (double *FILL, size_t FILL_LEN) {(double *density, size_t density_len)};
-%apply (double *FILL, size_t FILL_LEN) {(double *error, size_t error_len)};
-%apply (double *FILL, size_t FILL_LEN) {(double *r, size_t r_len)};
-%apply (double *FILL, size_t FILL_LEN) {(double *g, size_t g_len)};
 %apply double *RESULT {double *pressure};
 %apply (const double *IN, size_t IN_LEN) {(const double *fraction, size_t fraction_len)};
 %apply (const double *IN, size_t IN_LEN) {(const double *pressure, size_t pressure_len)};
@@ -33,14 +28,11 @@
 %apply (double *FILL, size_t FILL_LEN) {(double *square, size_t square_len)};
 %apply (double *FILL, size_t FILL_LEN) {(double *distance2, size_t distance2_len)};
 %apply (double *FILL, size_t FILL_LEN) {(double *distance4, size_t distance4_len)};
-%apply int64_t *RESULT {int64_t *runs};
 %apply (int32_t *FILL, size_t FILL_LEN) {(int32_t *out, size_t out_len)};
 %apply (int32_t *FILL, size_t FILL_LEN) {(int32_t *row_start, size_t row_start_len)};
 %apply (int32_t *FILL, size_t FILL_LEN) {(int32_t *column, size_t column_len)};
 %apply (double *FILL, size_t FILL_LEN) {(double *value, size_t value_len)};
-%apply (double *FILL, size_t FILL_LEN) {(double *lambda, size_t lambda_len)};
 %apply (double *FILL, size_t FILL_LEN) {(double *vector, size_t vector_len)};
-%apply (double *FILL, size_t FILL_LEN) {(double *participation, size_t participation_len)};
 %apply (double *FILL, size_t FILL_LEN) {(double *force, size_t force_len)};
 %apply (double *FILL, size_t FILL_LEN) {(double *basis, size_t basis_len)};
 %apply double *RESULT {double *residual};
@@ -54,7 +46,6 @@
 %apply (double *FILL, size_t FILL_LEN) {(double *dot, size_t dot_len)};
 %apply (int32_t *FILL, size_t FILL_LEN) {(int32_t *sphere, size_t sphere_len)};
 %apply (const int32_t *IN, size_t IN_LEN) {(const int32_t *kind, size_t kind_len)};
-%apply (double *FILL, size_t FILL_LEN) {(double *q, size_t q_len)};
 %apply double *RESULT {double *score};
 %apply (const double *IN, size_t IN_LEN) {(const double *vector, size_t vector_len)};
 %apply (const double *IN, size_t IN_LEN) {(const double *u, size_t u_len)};
@@ -73,7 +64,7 @@
   }
   ~jam_progress() { free($self); }
 }
-%feature("docstring") jam_progress "Given to the progress callback; valid during the call only."
+%feature("docstring") jam_progress "Given to the progress callback; valid during the call only. NaN: not known."
 %extend jam_create_options {
   jam_create_options() {
     jam_create_options *made = (jam_create_options *)calloc(1, sizeof *made);
@@ -82,7 +73,7 @@
   }
   ~jam_create_options() { free($self); }
 }
-%feature("docstring") jam_create_options "Options of jam_create and jam_read."
+%feature("docstring") jam_create_options "Options of jam_create and jam_read. An option whose value a file gives must be the default or agree with the file."
 %extend jam_info {
   jam_info() {
     jam_info *made = (jam_info *)calloc(1, sizeof *made);
@@ -100,7 +91,7 @@
   }
   ~jam_diameters_options() { free($self); }
 }
-%feature("docstring") jam_diameters_options "Options of jam_diameters. Lengths are in the user's unit."
+%feature("docstring") jam_diameters_options "Options of jam_diameters. Lengths are in the user's unit. NaN and 0 stand for what is not given."
 %extend jam_size_report {
   jam_size_report() {
     jam_size_report *made = (jam_size_report *)calloc(1, sizeof *made);
@@ -109,7 +100,7 @@
   }
   ~jam_size_report() { free($self); }
 }
-%feature("docstring") jam_size_report "What a set of diameters is."
+%feature("docstring") jam_size_report "What a set of diameters is. sequential_fraction: Zhang and Torquato, Phys. Rev. E 88, 053312 (2013)."
 %extend jam_run_options {
   jam_run_options() {
     jam_run_options *made = (jam_run_options *)calloc(1, sizeof *made);
@@ -118,7 +109,7 @@
   }
   ~jam_run_options() { free($self); }
 }
-%feature("docstring") jam_run_options "Limits of jam_run (NVE). Whichever comes first ends the run."
+%feature("docstring") jam_run_options "Limits of jam_run (NVE). Whichever comes first ends the run. All but wall_time count since the run began."
 %extend jam_compress_options {
   jam_compress_options() {
     jam_compress_options *made = (jam_compress_options *)calloc(1, sizeof *made);
@@ -128,8 +119,9 @@
   ~jam_compress_options() { free($self); }
 }
 %feature("docstring") jam_compress_options "Lubachevsky-Stillinger growth: one stage at a given growth rate, or the two stages of jam_compress. Whichever target
-is reached first ends it. A growth_rate selects one stage. Without it, targets, limits and growth_law apply to the
-two stages."
+is reached first ends it. Targets, limits and growth_law apply to the two stages too. Limits count from the start of
+each stage. The same growth_rate by JAM_GROWTH_DENSITY, in steps of half a per cent of sigma, means the same protocol
+at every n."
 %extend jam_md_report {
   jam_md_report() {
     jam_md_report *made = (jam_md_report *)calloc(1, sizeof *made);
@@ -138,7 +130,7 @@ two stages."
   }
   ~jam_md_report() { free($self); }
 }
-%feature("docstring") jam_md_report "What MD did."
+%feature("docstring") jam_md_report "What MD did. Pressure: P V / (N kT) without the part of the growth, kT = sum m v^2 / (d (N - 1))."
 %extend jam_observe_options {
   jam_observe_options() {
     jam_observe_options *made = (jam_observe_options *)calloc(1, sizeof *made);
@@ -156,7 +148,7 @@ two stages."
   }
   ~jam_glass() { free($self); }
 }
-%feature("docstring") jam_glass "A fit of the glass branch p = d' / (1 - phi/phi_J)."
+%feature("docstring") jam_glass "A fit of the glass branch p = d' / (1 - phi/phi_J). Errors are standard errors."
 %extend jam_monte_carlo_options {
   jam_monte_carlo_options() {
     jam_monte_carlo_options *made = (jam_monte_carlo_options *)calloc(1, sizeof *made);
@@ -201,12 +193,17 @@ two stages."
   }
   ~jam_crunch_options() { free($self); }
 }
-%feature("docstring") jam_crunch_options "Options of jam_crunch. Lengths are in mean diameters, so nothing depends on the box. Brackets name the parameter of
-CALiPPSO.jl (Artiaco et al. 2022) that does the same; lengths there are in units of the box or radii. Its parameters
-sqrGamma0, thresholds_bounds and ratio_sl_update have no counterpart: radius and bound follow phi and the last step.
-Neither has zero_force: a pair is a contact when its relative force exceeds its relative gap. Overlaps are searched
-after every step (tol_overlap, interval_overlaps_check). The progress callback replaces verbose and monitor_step;
-jam_crunch_report.excess_contacts replaces non_iso_warn and non_iso_break."
+%feature("docstring") jam_crunch_options "Options of jam_crunch. Lengths are in mean diameters. The guide's page \"Coming from other programs\" names the
+parameter of CALiPPSO.jl beside each.
+- polish: then a crunch also ends where LPs below gain_tolerance still move rattlers. 0 keeps the LP's answer.
+- full_lps: else an LP that gains more than 1e-7 ends at a duality gap of 0.02 of its gain.
+- strain: the cell deforms at fixed volume after the fixed cell's optimum; FREE ends strictly jammed. One sphere
+alone needs a strain: its contacts are its own images, which only strains move.
+- keep_steps: where there are more states, or more than 2^24 coordinates in all, every second, fourth, ... is kept.
+- duality_gap: for packings too large for the jamming point. The barrier path ends at this duality gap, and an LP
+  names contacts. Their forces balance. Their own duality gap e is in the report. To first order no motion lets Gamma
+  grow by more than e, so that phi_J is about phi (1 + e)^(d/2). Contacts that a smaller gap may change are counted
+  as undecided. Needs BARRIER_PATH and no strain."
 %extend jam_crunch_report {
   jam_crunch_report() {
     jam_crunch_report *made = (jam_crunch_report *)calloc(1, sizeof *made);
@@ -215,7 +212,11 @@ jam_crunch_report.excess_contacts replaces non_iso_warn and non_iso_break."
   }
   ~jam_crunch_report() { free($self); }
 }
-%feature("docstring") jam_crunch_report "Result and certificate of jam_crunch. All gaps, overlaps and lengths relative to sigma_ij."
+%feature("docstring") jam_crunch_report "Result and certificate of jam_crunch. All gaps, overlaps and lengths relative to sigma_ij. Counts are -1 where
+contacts are unknown, for example after an early stop; calls that need the network then return JAM_E_STATE. The
+numbers from packing_fraction_start to contacts_kept say what the crunch did to the packing that it was given:
+displacements in mean diameters without their mean over these spheres; rattlers count, and so does a strain of the
+cell. They are NaN or -1 where no crunch made the report."
 %extend jam_estimate {
   jam_estimate() {
     jam_estimate *made = (jam_estimate *)calloc(1, sizeof *made);
@@ -233,7 +234,7 @@ jam_crunch_report.excess_contacts replaces non_iso_warn and non_iso_break."
   }
   ~jam_relax_options() { free($self); }
 }
-%feature("docstring") jam_relax_options "Options of jam_relax."
+%feature("docstring") jam_relax_options "Options of jam_relax. A free cell is minimised after the minimum of the fixed one."
 %extend jam_relax_report {
   jam_relax_report() {
     jam_relax_report *made = (jam_relax_report *)calloc(1, sizeof *made);
@@ -242,8 +243,7 @@ jam_crunch_report.excess_contacts replaces non_iso_warn and non_iso_break."
   }
   ~jam_relax_report() { free($self); }
 }
-%feature("docstring") jam_relax_report "What jam_relax found. F_i: total force on sphere i. Rattlers are spheres with fewer than d + 1 contacts, removed
-again and again; stable spheres are the others."
+%feature("docstring") jam_relax_report "What jam_relax found."
 %extend jam_decompress_options {
   jam_decompress_options() {
     jam_decompress_options *made = (jam_decompress_options *)calloc(1, sizeof *made);
@@ -252,7 +252,10 @@ again and again; stable spheres are the others."
   }
   ~jam_decompress_options() { free($self); }
 }
-%feature("docstring") jam_decompress_options "Options of jam_decompress. Targets: the first that is reached ends it."
+%feature("docstring") jam_decompress_options "Options of jam_decompress. Targets: the first that is reached ends it. With crunch, the packing is crunched from just
+below contact, and the decompression goes on until both have one network. The system ends as that jammed packing,
+without crunch as the soft one. max_evaluations: a later step may take 4 times what all steps before it took, at
+least a 20th of this limit, and never more than it."
 %extend jam_decompress_report {
   jam_decompress_report() {
     jam_decompress_report *made = (jam_decompress_report *)calloc(1, sizeof *made);
@@ -261,7 +264,7 @@ again and again; stable spheres are the others."
   }
   ~jam_decompress_report() { free($self); }
 }
-%feature("docstring") jam_decompress_report "What jam_decompress found."
+%feature("docstring") jam_decompress_report "What jam_decompress found: numbers of the last soft packing as in jam_relax_report, and what crunch made of it."
 %extend jam_hessian_options {
   jam_hessian_options() {
     jam_hessian_options *made = (jam_hessian_options *)calloc(1, sizeof *made);
@@ -270,7 +273,8 @@ again and again; stable spheres are the others."
   }
   ~jam_hessian_options() { free($self); }
 }
-%feature("docstring") jam_hessian_options "Options of all calls that use a Hessian."
+%feature("docstring") jam_hessian_options "Options of all calls that use a Hessian. The block of a contact is
+k n n^T - prestress f <sigma> / ((alpha-1) r) (1 - n n^T)."
 %extend jam_modes_options {
   jam_modes_options() {
     jam_modes_options *made = (jam_modes_options *)calloc(1, sizeof *made);
@@ -297,7 +301,8 @@ again and again; stable spheres are the others."
   }
   ~jam_geometry_report() { free($self); }
 }
-%feature("docstring") jam_geometry_report "What jam_contacts_from_geometry found; gaps relative to sigma_ij."
+%feature("docstring") jam_geometry_report "What jam_contacts_from_geometry found; gaps relative to sigma_ij. second_*: the next candidate that could be rigid;
+its jump is 1 and its contacts -1 when there is none."
 %extend jam_rigidity_report {
   jam_rigidity_report() {
     jam_rigidity_report *made = (jam_rigidity_report *)calloc(1, sizeof *made);
@@ -307,7 +312,9 @@ again and again; stable spheres are the others."
   ~jam_rigidity_report() { free($self); }
 }
 %feature("docstring") jam_rigidity_report "What jam_rigidity found. K+ are the contacts that carry force in some balance of non-negative forces, B the spheres
-that they touch, N' their number."
+that they touch, N' their number. undecided_contacts: also pairs that the digits of the coordinates cannot
+distinguish from contacts. rigidity_margin below 1e-12: a flex; of a sphere that touches its own images alone: with
+strains."
 %extend jam_check_options {
   jam_check_options() {
     jam_check_options *made = (jam_check_options *)calloc(1, sizeof *made);
@@ -326,7 +333,7 @@ that they touch, N' their number."
   ~jam_check_report() { free($self); }
 }
 %feature("docstring") jam_check_report "Verdict on a packing as it is. Gaps are relative to sigma_ij, displacements in mean diameters without their mean.
-NaN: not known."
+Closed pairs have gaps below 1e-10. NaN, and -1 for contacts: not known. crunch_*: of the crunched copy."
 %extend jam_proof_report {
   jam_proof_report() {
     jam_proof_report *made = (jam_proof_report *)calloc(1, sizeof *made);
@@ -335,7 +342,17 @@ NaN: not known."
   }
   ~jam_proof_report() { free($self); }
 }
-%feature("docstring") jam_proof_report "What jam_prove found. Bounds are rounded outward; NaN where they do not apply."
+%feature("docstring") jam_proof_report "What jam_prove found. Bounds are rounded outward; NaN where they do not apply. The exact diameters are sqrt(Gamma)
+ratio_i times the power of two at or below V^(1/d). Where no ratios are given, equal spheres have 1."
+%extend jam_correlation_options {
+  jam_correlation_options() {
+    jam_correlation_options *made = (jam_correlation_options *)calloc(1, sizeof *made);
+    if (made) { jam_correlation_options_init(made, sizeof *made); }
+    return made;
+  }
+  ~jam_correlation_options() { free($self); }
+}
+%feature("docstring") jam_correlation_options "Options of jam_pair_correlation."
 %extend jam_dos_options {
   jam_dos_options() {
     jam_dos_options *made = (jam_dos_options *)calloc(1, sizeof *made);
@@ -353,7 +370,7 @@ NaN: not known."
   }
   ~jam_moduli_report() { free($self); }
 }
-%feature("docstring") jam_moduli_report "Elastic moduli, unit: stiffness at the mean force times length^(2-d); non-affine part included."
+%feature("docstring") jam_moduli_report "Elastic moduli, unit: stiffness at the mean force times length^(2-d). Affine: without the non-affine part."
 %extend jam_comparison {
   jam_comparison() {
     jam_comparison *made = (jam_comparison *)calloc(1, sizeof *made);
@@ -362,27 +379,27 @@ NaN: not known."
   }
   ~jam_comparison() { free($self); }
 }
-%feature("docstring") jam_comparison "What jam_compare found."
-%feature("docstring") jam_version "Version of the library, e.g. \"0.1.0\". Static storage."
-%feature("docstring") jam_commit "Commit of the source that the library was built from, 12 hex digits, e.g. \"d1afac7c0de5\". \"\" when the build did not
-find a commit. It does not show uncommitted changes. Static storage."
+%feature("docstring") jam_comparison "What jam_compare found between sys, a, and other, b. Contacts are -1 and overlaps NaN where one has no network."
+%feature("docstring") jam_version "Version of the library, e.g. \"0.1.0\". Static storage, as the texts of the next five calls."
+%feature("docstring") jam_commit "Commit of the source that the library was built from, 12 hex digits, without uncommitted changes; \"\" when the build
+did not find one."
 %feature("docstring") jam_abi_version "JAM_ABI of the library that is loaded."
 %feature("docstring") jam_blas_kernel "Name of the kernel that OpenBLAS chose for this processor, e.g. \"Haswell\". If another BLAS library, loaded earlier,
-computes in place of OpenBLAS: the path of that library. Static storage."
-%feature("docstring") jam_status_string "One-line text of a status code (\"unknown status\" for others). Static storage."
-%feature("docstring") jam_stop_string "One-word name of a jam_stop_reason, e.g. \"converged\". Static storage."
+computes in place of OpenBLAS: the path of that library."
+%feature("docstring") jam_status_string "One-line text of a status code (\"unknown status\" for others)."
+%feature("docstring") jam_stop_string "One-word name of a jam_stop_reason, e.g. \"converged\"."
 %feature("docstring") jam_last_error "Reason for the last status other than JAM_OK on this thread, with the name and value at fault; \"\" when there was
 none. The log callback receives the same sentence. Valid until the next status other than JAM_OK on this thread."
 %feature("docstring") jam_set_error "Sets the text that jam_last_error() returns on this thread; NULL sets \"\". For language bindings that check arguments
 themselves. Long texts are truncated."
-%feature("docstring") jam_create_options_init "Fills *o with the defaults. size = sizeof *o as the caller compiled it."
-%feature("docstring") jam_create "Makes a system of d = o->dim. The caller frees *out by jam_destroy; after JAM_CANCELLED or JAM_LIMIT it is NULL. The
-call takes long when many pairs of spheres are close together, and in the Mari-Kurchan model, where all pairs are
-compared. Example: examples/c/first.c
+%feature("docstring") jam_create_options_init "Fills *o with the defaults. size = sizeof *o as the caller compiled it. So do all calls of this name."
+%feature("docstring") jam_create "Makes a system of d = o->dim. Without positions spheres are added one by one at random, to the packing_fraction of
+the options. The caller frees *out by jam_destroy; after JAM_CANCELLED or JAM_LIMIT it is NULL. The call takes long
+when many pairs of spheres are close together, and in the Mari-Kurchan model, where all pairs are compared. Example:
+examples/c/first.c
 Errors: JAM_E_DIMENSION, JAM_E_OVERLAP, JAM_E_UNPLACEABLE (the text gives the fraction in reach)."
-%feature("docstring") jam_copy "Deep copy of src with its results and observations, without its callbacks. If jam_observe is on for src, it is on for
-the copy. The copy has the seed of src: where both draw velocities, they draw the same ones. For independent runs
-give the copy its own velocities by jam_set_velocities."
+%feature("docstring") jam_copy "Deep copy of src with its results and observations (jam_observe stays on), without its callbacks. The copy has the
+seed of src: where both draw velocities, they draw the same ones. For independent runs use jam_set_velocities."
 %feature("docstring") jam_destroy "Frees a system; NULL is fine."
 %feature("docstring") jam_get_info "Fills *info."
 %feature("docstring") jam_view_positions "View of positions (n, d) in [0, box), in other cells in the brick. The pointer stays valid as long as the handle. Its
@@ -409,7 +426,7 @@ Errors: JAM_E_OVERLAP."
 reduced: a simple shear of any size is one call. Velocities stay, but for the rotation of a reduction.
 Shapes: strain (d, d).
 Errors: JAM_E_OVERLAP, JAM_E_UNSUPPORTED (Mari-Kurchan shifts, where the reduction changes the vectors)."
-%feature("docstring") jam_diameters_options_init "Fills *o with the defaults."
+%feature("docstring") jam_diameters_options_init ""
 %feature("docstring") jam_diameters "Diameters of a law. Quantiles ascend. curve: of LIST and SIEVE, else NULL. Where n follows from packing_fraction, the
 last sphere is adjusted, so that the volumes add up to packing_fraction * cell_volume, to 1e-13 of it. The largest
 sphere that stays below the largest of all is taken for this. UNPLACEABLE gives the packing fraction in reach.
@@ -440,14 +457,12 @@ default is half the machine's memory. An option memory_limit can lower the limit
 %feature("docstring") jam_read "Reads plain text, extended XYZ, LAMMPS data and dumps with diameters, or a table of columns. It recognises the format
 by the content. For a file of another format the error names that format and what to do. o: overlap policy, seed,
 model, frame; box and dim where the file gives none. A line that does not fit the format is an error; jam_notes lists
-what was not kept. An option whose value the file gives must be the default or agree with the file. Spheres keep the
-order of the file; LAMMPS data are sorted by id. A last line without newline is refused if its last number may have
-lost digits. callback, user: as in jam_start.
+what was not kept. Spheres keep the order of the file; LAMMPS data are sorted by id. A last line without newline is
+refused if its last number may have lost digits. callback, user: as in jam_start.
 Errors: JAM_E_IO, JAM_E_FORMAT (line named), JAM_E_UNSUPPORTED (a box that is not periodic), JAM_E_DIMENSION, JAM_E_OVERLAP, JAM_E_UNPLACEABLE."
 %feature("docstring") jam_notes "What was changed or assumed when sys was made, one sentence per line; \"\" when nothing was. Examples: shrunk
 diameters, wrapped or sorted spheres, columns and frames that were not read. A warning begins with `warning: `.
-jam_set_log sends these lines to its callback. Valid until jam_add_note or jam_destroy; \"\" for NULL. Checkpoints
-hold it."
+jam_set_log logs these lines too. Valid until jam_add_note or jam_destroy; \"\" for NULL. Checkpoints hold it."
 %feature("docstring") jam_add_note "Adds one sentence to jam_notes, for programs that read other formats: what they changed or assumed. text is one line,
 not empty."
 %feature("docstring") jam_write "Writes the packing with 17 digits, so that reading gives the same bits. The file is written under another name and
@@ -460,20 +475,20 @@ Errors: JAM_E_UNSUPPORTED, JAM_E_IO."
 Errors: JAM_E_STATE, JAM_E_UNSUPPORTED, JAM_E_IO."
 %feature("docstring") jam_write_page "Writes one HTML file that shows the packing in a browser without a network: spheres and forces to turn and to slice,
 numbers of each sphere, certificate and distributions. After a crunch with keep_steps it has a slider over its steps.
-title: its heading, or \"\". small: 1 for the picture alone, 0 for all. values: numbers to colour spheres by, or NULL;
-names: k names, one a line, or \"\".
+title: its heading, or \"\". small: the picture alone. values: numbers to colour spheres by, or NULL; names: k names,
+one a line, or \"\".
 Shapes: values (k, n).
 Errors: JAM_E_IO."
 %feature("docstring") jam_run_options_init ""
 %feature("docstring") jam_compress_options_init ""
-%feature("docstring") jam_run "Event-driven NVE dynamics (Alder and Wainwright, J. Chem. Phys. 31, 459 (1959)). Velocities are drawn at first use:
-Maxwell-Boltzmann, zero total momentum, sum m v^2 = d N. The draw depends on the seed alone. A run or stage that ends
-with JAM_CANCELLED or JAM_LIMIT stays with the handle, and in its checkpoints, until the next call that changes
-spheres. So does one that was stopped while its lists were made, when nothing has moved. With resume = 1 it goes on
-to the same bits as if it had not stopped; JAM_E_STATE when there is none. Splitting a run by wall_time therefore
-does not change its result. A failure while it goes on loses the stage, not the packing. Status: JAM_OK when the
-collisions were made, JAM_PRECISION, JAM_NOT_CONVERGED (no collision can happen: one sphere, zero velocities, or
-paths that never meet). The log gives the reason of the last two.
+%feature("docstring") jam_run "Event-driven NVE dynamics (Alder and Wainwright, J. Chem. Phys. 31, 459 (1959)). Velocities are drawn at first use,
+by the seed alone. They are Maxwell-Boltzmann, with sum m v^2 = d N and zero total momentum. A run or stage that ends
+with JAM_CANCELLED or JAM_LIMIT, even while its lists were made, stays with the handle. Its checkpoints have it too,
+until the next call that changes spheres. With resume = 1 it goes on to the same bits as if it had not stopped;
+JAM_E_STATE when there is none. Splitting a run by wall_time therefore does not change its result. A failure while it
+goes on loses the stage, not the packing. Status: JAM_OK when the collisions were made, JAM_PRECISION,
+JAM_NOT_CONVERGED (no collision can happen: one sphere, zero velocities, or paths that never meet). The log gives the
+reason of the last two.
 Errors: JAM_E_OVERLAP."
 %feature("docstring") jam_compress "Lubachevsky-Stillinger compression (J. Stat. Phys. 60, 561 (1990)). Without a growth_rate, and with o NULL, it runs
 the two-stage protocol that avoids crystals in d = 3: G = 1e-2 to p = 500, then G = 3e-3 to the pressure of o, 1e7 by
@@ -508,13 +523,12 @@ Errors: JAM_E_STATE."
 the growth. momentum over *time, the simulated time, is the mean force.
 Shapes: pair (m, 2), collisions (m), momentum (m).
 Errors: JAM_E_STATE."
-%feature("docstring") jam_observed_gaps "Histogram of gaps h, *rows = bins: density is pairs over those of an ideal gas, error is over samples. Samples are
-taken between collisions: at one, a pair more would touch. At h = 0 density tends to g(sigma), which is (p - 1) / (4
-phi) for equal spheres in d = 3.
-Shapes: edge (bins + 1), density (bins), error (bins).
+%feature("docstring") jam_observed_gaps "Histogram of gaps h. Samples are taken between collisions: at one, a pair more would touch. At h = 0 density tends to
+g(sigma), which is (p - 1) / (4 phi) for equal spheres in d = 3.
+Shapes: table (bins, jam_gap_column).
 Errors: JAM_E_STATE."
-%feature("docstring") jam_observed_correlation "g(r), sampled likewise, *rows = bins: r is the middle of each, mean diameters.
-Shapes: r (bins), g (bins).
+%feature("docstring") jam_observed_correlation "g(r), sampled likewise.
+Shapes: table (bins, jam_correlation_column).
 Errors: JAM_E_STATE."
 %feature("docstring") jam_eos "pressure of an equation of state at a packing fraction; jammed_fraction is used by FREE_VOLUME only.
 Errors: JAM_E_DIMENSION, JAM_E_UNSUPPORTED (form not of this dim)."
@@ -539,12 +553,15 @@ Shapes: instant (instants), kept (k).
 Errors: JAM_E_STATE (nothing to resume, or not the same), JAM_E_OVERLAP, JAM_E_UNSUPPORTED."
 %feature("docstring") jam_get_isoconf_report "The report of these runs as they are now.
 Errors: JAM_E_STATE (no runs)."
-%feature("docstring") jam_isoconf_sums "Sums over the runs of one block, or of all for block = -1: displacement and square of dr_c, unit of the box;
-distance2 and distance4 of |dr|^2 and |dr|^4; *runs in them. *needed = instants n.
-Shapes: displacement (instants, n, d), square (instants, n, d), distance2 (instants, n), distance4 (instants, n).
+%feature("docstring") jam_isoconf_series "Sums over the runs of one block, or of all for block = -1.
+Shapes: table (instants, jam_isoconf_column).
 Errors: JAM_E_STATE."
-%feature("docstring") jam_isoconf_series "One column of that block (or -1: all), a sum over runs at each instant.
-Shapes: out (instants).
+%feature("docstring") jam_isoconf_displacements "For that block, sums over runs of the displacement dr_c of each sphere, unit of the box, and of its square. *rows =
+instants.
+Shapes: displacement (instants, n, d), square (instants, n, d).
+Errors: JAM_E_STATE."
+%feature("docstring") jam_isoconf_distances "Likewise of |dr|^2 and |dr|^4.
+Shapes: distance2 (instants, n), distance4 (instants, n).
 Errors: JAM_E_STATE."
 %feature("docstring") jam_isoconf_kept "Displacements at one kept instant, given by its index.
 Shapes: out (runs, n, d).
@@ -562,8 +579,8 @@ same at JAM_LOG_INFO. Takes as long as a few steps.
 Errors: JAM_E_OVERLAP, JAM_E_TOO_FEW."
 %feature("docstring") jam_get_crunch_report "The report of the last crunch.
 Errors: JAM_E_STATE."
-%feature("docstring") jam_crunch_history "One column of the last crunch, a value a step.
-Shapes: out (steps).
+%feature("docstring") jam_crunch_history "Steps of the last crunch.
+Shapes: table (steps, jam_history_column).
 Errors: JAM_E_STATE."
 %feature("docstring") jam_crunch_step_displacements "Displacements of all spheres in the step that has just ended, unit of box, images followed. Their sum over the steps
 leads from the start to the end. This call and the next three work only in the progress callback of jam_crunch with
@@ -581,11 +598,10 @@ sigma_ij^2 = 1 with the diameters before the step.
 Shapes: out (m).
 Errors: JAM_E_STATE."
 %feature("docstring") jam_relax_options_init ""
-%feature("docstring") jam_relax "Minimises the energy of overlapping spheres at fixed diameters, and at a fixed cell unless `strain` frees it. Then
-the minimum of the fixed cell comes first. A free cell ends when stresses too are below force_tolerance. Keeps the
-contact network with its forces and stiffnesses for jam_contacts, jam_forces, jam_hessian (JAM_STIFFNESS_SOFT) and
-the like. The system must have been made with JAM_OVERLAP_ALLOW. Positions are rounded to doubles at the end; the
-network holds the digits beyond. Status: JAM_OK converged. JAM_NOT_JAMMED converged to energy 0: no overlaps.
+%feature("docstring") jam_relax "Minimises the energy of overlapping spheres at fixed diameters, and at a fixed cell unless `strain` frees it. A free
+cell ends when stresses too are below force_tolerance. Keeps the contact network with its forces and stiffnesses for
+jam_contacts, jam_forces, jam_hessian (JAM_STIFFNESS_SOFT) and the like. Positions are rounded to doubles at the end;
+the network holds the digits beyond. Status: JAM_OK converged. JAM_NOT_JAMMED converged to energy 0: no overlaps.
 JAM_PRECISION converged, but overlaps are smaller than the rounding of the positions. JAM_NOT_CONVERGED. Example:
 examples/c/soft.c
 Errors: JAM_E_STATE (made without JAM_OVERLAP_ALLOW)."
@@ -596,8 +612,8 @@ taken back and its square root is tried. Status: JAM_OK a target was reached; wi
 lead to one network. JAM_NOT_JAMMED the start has no overlaps at its minimum. JAM_PRECISION overlaps came down to the
 rounding of positions before a target. JAM_NOT_CONVERGED: the last minimum is kept.
 Errors: JAM_E_STATE, JAM_E_TOO_FEW, JAM_E_SOLVER."
-%feature("docstring") jam_decompress_history "One column of the last decompression.
-Shapes: out (steps).
+%feature("docstring") jam_decompress_history "Minima of the last decompression.
+Shapes: table (minima, jam_soft_column).
 Errors: JAM_E_STATE."
 %feature("docstring") jam_contacts "Contact pairs, i < j save for images of one sphere (i = j). Hard spheres have those only after a crunch with a free
 cell. Each stands for both opposite images, so it adds 2 to the coordination.
@@ -626,9 +642,9 @@ Errors: JAM_E_STATE."
 %feature("docstring") jam_hessian "Hessian in compressed rows, both triangles, *rows = entries. Unit: stiffness at the mean force.
 Shapes: row_start (d N' + 1), column (entries), value (entries).
 Errors: JAM_E_STATE."
-%feature("docstring") jam_modes "Modes of the Hessian, *rows = their number m: lambda = omega^2 ascending, vector of unit length, participation = sum
-|v_i|^4 / (sum |v_i|^2)^2. When fewer converge the rest is NaN. Status: JAM_NOT_CONVERGED.
-Shapes: lambda (m), vector (m, N', d), participation (m).
+%feature("docstring") jam_modes "Modes of the Hessian, *rows = their number m, lambda ascending, vector of unit length. When fewer converge the rest
+is NaN. Status: JAM_NOT_CONVERGED.
+Shapes: table (m, jam_mode_column), vector (m, N', d).
 Errors: JAM_E_STATE, JAM_E_SOLVER."
 %feature("docstring") jam_geometry_options_init ""
 %feature("docstring") jam_contacts_from_geometry "Contact network and forces from positions, diameters and box alone, kept as jam_crunch keeps its own; no sphere
@@ -655,10 +671,9 @@ Where coordinates have few digits, pairs within their rounding are undecided, an
 spheres have too few of them. A sphere and its own image are a contact in the strict test, and in the collective one
 where the network lists them. There a sphere that they alone hold needs forces on the cell to balance. Let S v be the
 opening of contacts by a motion v, and E eps that by a strain eps. Collectively jammed: S v >= 0 only for
-translations of B. Strictly jammed: S v + E eps >= 0 with tr eps <= 0 only for those and eps = 0. Sources: Donev,
-Torquato, Stillinger, Connelly, J. Comput. Phys. 197, 139 (2004); Connelly 1988; Connelly, Shen, Smith,
-arXiv:1301.0664; Roth and Whiteley 1981. Both hold for this cell: several copies of it together may unjam. Status:
-JAM_OK jammed, JAM_NOT_JAMMED, JAM_AMBIGUOUS undecided.
+translations of B. Strictly jammed: S v + E eps >= 0 with tr eps <= 0 only for those and eps = 0. Both hold for this
+cell, not for several copies of it. Source: Donev et al., J. Comput. Phys. 197, 139 (2004); the guide's page \"Jammed
+or not\" has more. Status: JAM_OK jammed, JAM_NOT_JAMMED, JAM_AMBIGUOUS undecided.
 Errors: JAM_E_SOLVER."
 %feature("docstring") jam_flex "A motion that a packing which is not jammed can follow: out, unit of the box, and strain, 0 for the collective kind.
 The largest displacement is at most 1 mean diameter. Moving by a small part of both keeps all contacts or opens them.
@@ -698,7 +713,7 @@ Errors: JAM_E_STATE, JAM_E_UNSUPPORTED, JAM_E_IO."
 where they are. ratio: as for jam_prove. Status: JAM_AMBIGUOUS (dependent contacts, nothing is written).
 Shapes: ratio (n), high (n, d), low (n, d).
 Errors: JAM_E_STATE, JAM_E_UNSUPPORTED."
-%feature("docstring") jam_gaps "Gaps h of all pairs below h_max (every image), contacts left out, ascending; *rows = gaps. With stable_only = 0
+%feature("docstring") jam_gaps "Gaps h of all pairs below h_max (every image), contacts left out, ascending; *rows = gaps. Without stable_only
 rattlers count too and no network is needed.
 Shapes: gap (gaps), pair (gaps, 2).
 Errors: JAM_E_STATE."
@@ -718,12 +733,12 @@ Errors: JAM_E_STATE."
 values there.
 Shapes: out (bins).
 Errors: JAM_E_STATE."
-%feature("docstring") jam_pair_correlation "g_ab(r) of spheres with labels a and b (-1: any; kind: the labels, or NULL), in `bins` equal bins up to r_max mean
-diameters.
+%feature("docstring") jam_correlation_options_init ""
+%feature("docstring") jam_pair_correlation "g_ab(r) of spheres with labels a and b. kind: the labels, or NULL.
 Shapes: kind (n), out (bins)."
-%feature("docstring") jam_structure_factor "S(q) on the wave vectors of the cell (in a cube 2 pi n / box), averaged over each |q| <= q_max; q per mean diameter,
-ascending. Lengths that differ by less than 5e-13 of |q| are one.
-Shapes: q (m), s (m)."
+%feature("docstring") jam_structure_factor "S(q) on the wave vectors of the cell (in a cube 2 pi n / box) with |q| <= q_max. Lengths that differ by less than
+5e-13 of |q| are one.
+Shapes: table (m, jam_structure_column)."
 %feature("docstring") jam_bond_order "Bond order Q_l of each sphere (d = 2: |psi_l|) over neighbours with |r| < cutoff sigma_ij; l in 1..64, cutoff in (0,
 3] (1.2 is usual).
 Shapes: out (n)."

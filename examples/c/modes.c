@@ -16,7 +16,7 @@ int main(void) {
   jam_moduli_report moduli;
   jam_start start = {.struct_size = sizeof start};
   jam_system *sys = NULL;
-  double size[N], lambda[K], participation[K];
+  double size[N], mode[K][2];
   size_t m = 0, spheres = 0, k;
 
   for (k = 0; k < N; ++k) size[k] = k < N / 2 ? 1.0 : 1.4; /* two sizes, so that disks do not crystallise */
@@ -31,15 +31,16 @@ int main(void) {
   choose.which = JAM_MODES_LOWEST;
   choose.count = K;
   /* NULL: the harmonic Hessian, stiffness 1 at the mean force. The vectors (K, N', d) are not asked for here. */
-  if (jam_modes(sys, NULL, &choose, lambda, K, NULL, 0, participation, K, &m) < 0) return failed(sys);
+  if (jam_modes(sys, NULL, &choose, &mode[0][0], K * 2, NULL, 0, &m) < 0) return failed(sys);
   jam_hessian_map(sys, NULL, 0, &spheres);
   printf("lowest modes of %zu stable spheres\n  omega    participation (1/N' = all, 1 = one sphere)\n", spheres);
-  for (k = 0; k < m; ++k) printf("  %.5f  %.4f\n", sqrt(fmax(lambda[k], 0.0)), participation[k]);
+  for (k = 0; k < m; ++k)
+    printf("  %.5f  %.4f\n", sqrt(fmax(mode[k][JAM_MODE_LAMBDA], 0.0)), mode[k][JAM_MODE_PARTICIPATION]);
 
   moduli.struct_size = sizeof moduli;
   if (jam_moduli(sys, NULL, &moduli) < 0) return failed(sys);
   printf("bulk modulus %.4f (%.4f were all displacements affine), shear modulus %.4f\n", moduli.bulk,
          moduli.bulk_affine, moduli.shear);
   jam_destroy(sys);
-  return m == K && lambda[0] > 0 ? 0 : 1;
+  return m == K && mode[0][JAM_MODE_LAMBDA] > 0 ? 0 : 1;
 }

@@ -11,12 +11,12 @@ int main() try {
   packing.crunch();
   jam_modes_options o = jam::options(jam_modes_options_init);
   o.count = 8;
-  std::vector<double> lambda(8), participation(8);
+  std::vector<double> table(8 * 2);
   std::size_t m = 0;
-  jam::check(jam_modes(packing.get(), nullptr, &o, lambda.data(), lambda.size(), nullptr, 0, participation.data(),
-                       participation.size(), &m));
+  jam::check(jam_modes(packing.get(), nullptr, &o, table.data(), table.size(), nullptr, 0, &m));
   for (std::size_t k = 0; k < m; ++k)
-    std::printf("omega %.5f  participation %.4f\n", std::sqrt(std::fmax(lambda[k], 0)), participation[k]);
+    std::printf("omega %.5f  participation %.4f\n", std::sqrt(std::fmax(table[2 * k + JAM_MODE_LAMBDA], 0)),
+                table[2 * k + JAM_MODE_PARTICIPATION]);
 
   jam_moduli_report moduli = jam::report<jam_moduli_report>();
   jam::check(jam_moduli(packing.get(), nullptr, &moduli));

@@ -7,7 +7,7 @@ program modes
   type(jam_create_options) :: create
   type(jam_modes_options) :: choose
   type(jam_moduli_report) :: moduli
-  real(c_double) :: sizes(n), lambda(k), participation(k)
+  real(c_double) :: sizes(n), table(2, k)
   real(c_double), allocatable :: vector(:, :, :)
   integer(c_size_t) :: spheres
   integer :: m
@@ -24,13 +24,13 @@ program modes
   call jam_defaults(choose)
   choose%count = k
   allocate (vector(d, spheres, k))
-  call jam_check(jam_modes(sys, o=choose, lambda=lambda, vector=vector, participation=participation))
+  call jam_check(jam_modes(sys, o=choose, table=table, vector=vector))
   print '(a, i0, a)', 'modes of ', spheres, ' stable spheres: omega, participation, largest displacement'
   do m = 1, k
-    print '(f10.5, 2f9.4)', sqrt(max(lambda(m), 0.0_c_double)), participation(m), maxval(norm2(vector(:, :, m), 1))
+    print '(f10.5, 2f9.4)', sqrt(max(table(1, m), 0.0_c_double)), table(2, m), maxval(norm2(vector(:, :, m), 1))
   end do
   call jam_check(jam_moduli(sys, moduli=moduli))
   print '(2(a, f8.4))', 'bulk modulus ', moduli%bulk, ', shear modulus ', moduli%shear
   call jam_destroy(sys)
-  if (.not. (lambda(1) > 0 .and. lambda(k) >= lambda(1))) error stop 'modes are missing'
+  if (.not. (table(1, 1) > 0 .and. table(1, k) >= table(1, 1))) error stop 'modes are missing'
 end program modes

@@ -31,7 +31,7 @@ def main(picture, n=1024, collisions=1000.0):
             p = packing.run(collisions).pressure
             gaps = packing.observed_gaps()
             height = (p - 1) / (4 * packing.packing_fraction)
-            middle = np.sqrt(np.maximum(gaps.edge[:-1], gaps.edge[1] / 4) * gaps.edge[1:])
+            middle = np.sqrt(np.maximum(gaps.low, gaps.high[0] / 4) * gaps.high)
             tail = (middle > 3e3 / target) & (middle < 0.05) & (gaps.density > 0)  # below, pairs with small forces
             slope = (
                 f"{np.polyfit(np.log(middle[tail]), np.log(gaps.density[tail]), 1)[0]:.2f}" if tail.sum() > 5 else ""

@@ -78,8 +78,8 @@ def crunch(seed, n, pressure):
             return False
 
         packing.crunch(method="sequential_lp", steps=1, full_lps=1, progress=look)
-        lp = packing.crunch_history("phase") == 2
-        gains, held = packing.crunch_history("gain")[lp], packing.crunch_history("held")[lp]
+        lps = packing.history[packing.history["phase"] == 2]
+        gains, held = lps["gain"], lps["held"]
     if len(gains) != len(found):
         sys.exit(f"seed {seed}: {len(gains)} LPs in the history, {len(found)} seen")
     return [dict(item, gain=g, held=h > 0) for item, g, h in zip(found, gains, held)]

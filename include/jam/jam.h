@@ -2,103 +2,95 @@
  *
  * The only public header. C99. SPDX-License-Identifier: MIT
  *
- * Typical use: jam_create or jam_read makes a system. jam_run and jam_compress move it by
- * event-driven molecular dynamics. jam_crunch brings it to its jamming point by linear
- * programming. jam_get_crunch_report, jam_contacts, jam_forces, jam_hessian and jam_modes
- * then describe the jammed packing.
+ * Typical use: jam_create or jam_read makes a system. jam_run and jam_compress move it by event-driven molecular
+ * dynamics. jam_crunch brings it to its jamming point by linear programming. jam_get_crunch_report, jam_contacts,
+ * jam_forces, jam_hessian and jam_modes then describe the jammed packing.
  *
  * Units
- * - Lengths are in the user's unit. The box is a periodic cube of side `box` (default 1), or
- *   any periodic cell (jam_start); then `box` is V^(1/d), V its volume.
+ * - Lengths are in the user's unit. The box is a periodic cube of side `box` (default 1), or any periodic cell
+ *   (jam_start); then `box` is V^(1/d), V its volume. Times are in box / sqrt(kT/m).
  * - m = k_B T = 1: a velocity component has unit variance.
- * - Packing fraction, reduced pressure p = beta P / rho, gaps h = r / sigma_ij - 1 and growth
- *   rates are dimensionless.
- * - sigma is always a DIAMETER. The growth rate is G = (d<sigma>/dt) / sqrt(kT/m), with
- *   <sigma> the mean diameter. (Skoge-Donev code: radius rate g at mean v^2 = 1, so
- *   G = 2 sqrt(d) g, 3.464 g in d = 3.)
+ * - Packing fraction, reduced pressure p = beta P / rho, gaps h = r / sigma_ij - 1 and growth rates are dimensionless.
+ * - sigma is always a DIAMETER. The growth rate is G = (d<sigma>/dt) / sqrt(kT/m), with <sigma> the mean diameter.
+ *   (Skoge-Donev code: radius rate g at mean v^2 = 1, so G = 2 sqrt(d) g, 3.464 g in d = 3.)
  *
  * Cells
  * - Cell vectors are the rows of a (d, d) matrix, as in ASE, extended XYZ and H5MD.
- * - libjam keeps them short (Lenstra, Lenstra, Lovasz 1982) and lower-triangular, with a
- *   positive diagonal. A cell given in another form is reduced, and rotated where it must
- *   be. The spheres rotate with it.
+ * - libjam keeps them short (Lenstra, Lenstra, Lovasz 1982) and lower-triangular, with a positive diagonal. A cell
+ * given in another form is reduced, and rotated where it must be. The spheres rotate with it.
  * - Spheres stand in the brick [0, a_00) x [0, a_11) x ..., which repeats as the cell does.
  * - The plain text format holds cubes alone. All else works in any cell.
  *
  * Arrays and pointers
- * - Arrays of shape (n, d) are row-major: the same bytes as numpy (n, d), Fortran x(d, n)
- *   and a Julia d-by-n matrix. Indices are 0-based.
+ * - Arrays of shape (n, d) are row-major: the same bytes as numpy (n, d), Fortran x(d, n) and a Julia d-by-n matrix.
+ *   Indices are 0-based.
  * - Arrays in: pointer and length in elements. The length is checked.
- * - Arrays out: the caller's buffer, its length in elements, and `needed`, in elements too.
- *   NULL and 0 only ask for the size. A buffer that is too short gives JAM_E_BUFFER, sets
- *   `needed` and is not written.
- * - A `table` has shape (rows, columns); an enum names its columns.
- * - A call with several arrays gives `rows` instead of `needed`: the shapes given there, for
- *   that many rows, are the lengths. Each of these arrays may be NULL with length 0.
- * - Option structs begin with struct_size. Fill them with jam_X_options_init(&o, sizeof o),
- *   then change what differs. A NULL option pointer means all defaults. Fields named
+ * - Arrays out: the caller's buffer, its length in elements, and `needed`, in elements too. NULL and 0 only ask for the
+ *   size. A buffer that is too short gives JAM_E_BUFFER, sets `needed` and is not written.
+ * - Several numbers a row are a `table` of shape (rows, columns). An enum names its columns; counts are whole numbers
+ * in it, and NaN stands where a column has no meaning.
+ * - Arrays of several types or shapes have `rows` in place of `needed`: the shapes given there, for that many rows, are
+ *   the lengths. Each of these arrays may be NULL with length 0.
+ * - Options, reports and other structs begin with struct_size, which the caller sets to sizeof. Fill options by
+ *   jam_X_options_init(&o, sizeof o), then change what differs. A NULL option pointer means all defaults. Fields named
  *   `reserved` must be 0.
- * - The `report` of a call that computes may be NULL, and so may a callback. Other pointers
- *   must not be NULL unless the comment says so; where it does, the length is 0.
+ * - The `report` of a call that computes may be NULL, and so may a callback. Other pointers must not be NULL unless the
+ *   comment says so; where it does, the length is 0.
  *
  * Status, for every call unless its comment says otherwise
- * - 0 done; > 0 stopped early, or the answer is negative, imprecise or not unique: the state
- *   is valid and kept; < 0 failed, the state is as before the call. For every status but 0
- *   jam_last_error() gives the reason in one sentence. Outputs are written only when the
- *   status is >= 0.
- * - Calls that work on a system or make one may return JAM_CANCELLED, those with a wall_time
- *   JAM_LIMIT. A setter or a const call that returns one of them has changed nothing and
- *   written no output.
- * - Errors of any call: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT (a value or a length is
- *   out of its range), JAM_E_NONFINITE, JAM_E_BUFFER, JAM_E_MEMORY, JAM_E_BUSY. Comments name
- *   the others.
+ * - 0 done; > 0 stopped early, or the answer is negative, imprecise or not unique: the state is valid and kept; < 0
+ *   failed, the state is as before the call. For every status but 0 jam_last_error() gives the reason in one sentence.
+ *   Outputs are written only when the status is >= 0.
+ * - Calls that work on a system or make one may return JAM_CANCELLED, those with a wall_time JAM_LIMIT. A setter or a
+ *   const call that returns one of them has changed nothing and written no output.
+ * - Errors of any call: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT (a value or a length is out of its range),
+ *   JAM_E_NONFINITE, JAM_E_BUFFER, JAM_E_MEMORY, JAM_E_BUSY. Comments name the others.
  *
  * How a comment here is written
- * - It gives what the call computes, equation, source, unit and range, and leaves out what
- *   stands above: common errors, threads, sizes, null pointers. All is since 0.1 unless `@since` says otherwise.
+ * - It gives what the call computes, equation, source, unit and range, and leaves out what stands above: common errors,
+ *   threads, sizes, null pointers. All is since 0.1 unless `@since` says otherwise.
+ * - Members that share a line share its comment, which has a part for each between semicolons, or one for all.
  * - Tags end it. The bindings are made from declarations and tags alone, prose changes none:
  *   @shape a (n, d), table (m, jam_x_column)   shape of each array; an enum: its columns
  *   @enum kind jam_x, form jam_y               whose values an argument takes
+ *   @bool weighted                             arguments that are 1 or 0
  *   @errors STATE (why), IO                    JAM_E_STATE and JAM_E_IO beside the common ones
  *   A member has `@enum jam_x`, or `@bool` when it is 1 or 0. Text after @bool describes 1.
  *
  * Threads
- * - Distinct handles are independent. On one handle, calls that take it as const may run together.
- *   Any other call must be alone. While it runs, calls of other threads get JAM_E_BUSY, and
- *   its callback may use const calls. jam_cancel may be called from any thread or signal
- *   handler at any time. Calls without a handle may be called from any thread.
- * - The same seed, build, options and processor give the same packing bit for bit on one
- *   thread. On another processor OpenBLAS may choose another kernel (jam_blas_kernel), whose
- *   sums round otherwise. Then a crunch can end at another jamming point. The variable
- *   OPENBLAS_CORETYPE chooses one kernel for all. Molecular dynamics and Monte Carlo give the
- *   same bits on every processor.
- * - While a call factorises a matrix or solves a linear program by Clp, OpenBLAS has one thread
- *   in the whole process. libjam restores the previous number of threads afterwards. Host threads
- *   that use OpenBLAS meanwhile run on one thread each.
- * - Calls compute in the default floating-point environment of C. libjam restores the caller's
- *   environment after each call, and while a callback runs. It consists of rounding mode, traps,
- *   exception flags and the treatment of denormal numbers.
+ * - Distinct handles are independent. On one handle, calls that take it as const may run together. Any other call must
+ * be alone. While it runs, calls of other threads get JAM_E_BUSY, and its callback may use const calls. jam_cancel may
+ * be called from any thread or signal handler at any time. Calls without a handle may be called from any thread.
+ * - The same seed, build, options and processor give the same packing bit for bit on one thread. On another processor
+ *   OpenBLAS may choose another kernel (jam_blas_kernel), whose sums round otherwise. Then a crunch can end at another
+ *   jamming point. The variable OPENBLAS_CORETYPE chooses one kernel for all. Molecular dynamics and Monte Carlo give
+ * the same bits on every processor.
+ * - While a call factorises a matrix or solves a linear program by Clp, OpenBLAS has one thread in the whole process.
+ *   libjam restores the previous number of threads afterwards. Host threads that use OpenBLAS meanwhile run on one
+ *   thread each.
+ * - Calls compute in the default floating-point environment of C: rounding mode, traps, exception flags, treatment of
+ *   denormal numbers. libjam restores the caller's environment after each call, and while a callback runs.
  * - A thread that calls libjam needs a stack of 256 kB plus the stack of its callbacks.
  *
  * Trust
- * - Files, checkpoints, arrays and options are checked before use. None of them can do more
- *   than make a call fail. Pointers, lengths and callbacks are trusted.
+ * - Files, checkpoints, arrays and options are checked before use. None of them can do more than make a call fail.
+ *   Pointers, lengths and callbacks are trusted.
  *
  * Limits, checked wherever a value enters (options, arrays, files, checkpoints):
  * - dimension                 2 .. JAM_MAX_DIM
  * - spheres n                 1 .. 2^31 - 1
  * - box                       1e-30 .. 1e30
  * - cell: distance of faces   at least 1e-3 box, after reduction
- * - diameter                  at least 1e-9 of the longest cell edge (of a cube the box), which
- *                             coordinates resolve to 1e-16; at most the shortest cell vector
+ * - diameter                  at least 1e-9 of the longest cell edge (of a cube the box), which coordinates resolve to
+ *                             1e-16; at most the shortest cell vector
  * - largest / least diameter  1 .. 1e4
  * - non_additivity            above -1, at most 1
  * - mk_zeta                   0 .. 1e15, or infinity
  * - packing fraction          above 0; a random start: below saturation, 0.38 in d = 3
  * - radii of pair searches    at most 1000 mean diameters
  * - growth rate               above 0, at most 1000
- * - velocities                root of sum m v^2 / (d n) at most 1e6. Light spheres among heavy
- *                             ones may be faster
+ * - wall_time, in seconds     above 0, of the call that takes it; infinity, the default: no limit
+ * - velocities                root of sum m v^2 / (d n) at most 1e6. Light spheres among heavy ones may be faster
  */
 #ifndef JAM_JAM_H
 #define JAM_JAM_H
@@ -125,7 +117,6 @@ extern "C" {
 
 /* Status of a call: a jam_status_code. */
 typedef int32_t jam_status;
-
 /* All status codes; values are ABI and never reused. */
 typedef enum jam_status_code {
   JAM_OK = 0,              /* done: the target was reached */
@@ -154,7 +145,7 @@ typedef enum jam_status_code {
   JAM_E_INTERNAL = -17     /* a bug in libjam; please report the text */
 } jam_status_code;
 
-/* Why a run ended (jam_md_report.stop_reason, jam_crunch_report.stop_reason). */
+/* Why a run ended: stop_reason of the reports. */
 typedef enum jam_stop_reason {
   JAM_STOP_NONE = 0,             /* has not run */
   JAM_STOP_PRESSURE = 1,         /* MD reached its pressure */
@@ -175,19 +166,19 @@ typedef enum jam_stop_reason {
   JAM_STOP_DUALITY_GAP = 16      /* crunch: it reached the duality gap of its options */
 } jam_stop_reason;
 
-/* Version of the library, e.g. "0.1.0". Static storage. */
+/* Version of the library, e.g. "0.1.0". Static storage, as the texts of the next five calls. */
 JAM_API const char *jam_version(void);
-/* Commit of the source that the library was built from, 12 hex digits, e.g. "d1afac7c0de5". "" when the build did not
- * find a commit. It does not show uncommitted changes. Static storage. */
+/* Commit of the source that the library was built from, 12 hex digits, without uncommitted changes; "" when the build
+ * did not find one. */
 JAM_API const char *jam_commit(void);
 /* JAM_ABI of the library that is loaded. */
 JAM_API int32_t jam_abi_version(void);
 /* Name of the kernel that OpenBLAS chose for this processor, e.g. "Haswell". If another BLAS library, loaded earlier,
- * computes in place of OpenBLAS: the path of that library. Static storage. */
+ * computes in place of OpenBLAS: the path of that library. */
 JAM_API const char *jam_blas_kernel(void);
-/* One-line text of a status code ("unknown status" for others). Static storage. */
+/* One-line text of a status code ("unknown status" for others). */
 JAM_API const char *jam_status_string(jam_status code);
-/* One-word name of a jam_stop_reason, e.g. "converged". Static storage. */
+/* One-word name of a jam_stop_reason, e.g. "converged". */
 JAM_API const char *jam_stop_string(int32_t reason);
 /* Reason for the last status other than JAM_OK on this thread, with the name and value at fault; "" when there was
  * none. The log callback receives the same sentence. Valid until the next status other than JAM_OK on this thread. */
@@ -212,24 +203,21 @@ typedef enum jam_phase {
   JAM_PHASE_CREATE = 10             /* making a system; steps counts the spheres placed */
 } jam_phase;
 
-/* Given to the progress callback; valid during the call only. */
+/* Given to the progress callback; valid during the call only. NaN: not known. */
 typedef struct jam_progress {
-  uint32_t struct_size;    /* sizeof(jam_progress) as the library knows it */
-  int32_t phase;           /* @enum jam_phase */
-  double packing_fraction; /* now */
-  double pressure;         /* MD: reduced pressure of the last window, NaN before */
-  double gain;             /* crunch: sqrt(Gamma) - 1 of the last LP; on the barrier path its duality gap */
-  double max_step;         /* crunch: largest |s_i| over mean diameter */
-  double seconds;          /* since the call began */
-  double fraction;    /* of the call, 0..1: never falls, an estimate where the length of the way is not known (growth,
-                       * crunch); NaN before the first estimate and in calls without one. wall_time is not in it */
-  int64_t collisions; /* MD: so far in this call */
-  int64_t steps;      /* crunch: LPs so far; analysis: items done */
-  int64_t factorisations;     /* crunch: so far */
-  int64_t snapshot;           /* number of the snapshot (jam_observe) that the views show now; 0: an ordinary report */
-  double seconds_left;        /* until the aim, from how `fraction` grew; NaN before a few reports */
-  double seconds_left_spread; /* a factor above 1: at least two of three calls end between seconds_left divided by it
-                               * and seconds_left times it; NaN with seconds_left */
+  uint32_t struct_size;          /* as the library knows it */
+  int32_t phase;                 /* @enum jam_phase */
+  double packing_fraction;       /* now */
+  double pressure;               /* MD: reduced pressure of the last window */
+  double gain;                   /* crunch: sqrt(Gamma) - 1 of the last LP; on the barrier path its duality gap */
+  double max_step;               /* crunch: largest |s_i| over mean diameter */
+  double seconds;                /* since the call began */
+  double fraction;               /* of the call, 0..1: never falls, may be an estimate, leaves wall_time out */
+  int64_t collisions;            /* MD: so far in this call */
+  int64_t steps, factorisations; /* crunch: LPs so far, analysis: items done; crunch: so far */
+  int64_t snapshot;              /* number of the snapshot (jam_observe) that the views show now; 0: no snapshot */
+  double seconds_left;           /* until the aim, from how `fraction` grew */
+  double seconds_left_spread;    /* two of three calls end between seconds_left over and times this factor > 1 */
 } jam_progress;
 
 /* Progress callback, on the calling thread. A non-zero return stops the call with JAM_CANCELLED and a valid state. It
@@ -241,100 +229,83 @@ typedef int32_t (*jam_progress_fn)(const jam_progress *progress, void *user);
 
 /* N spheres in a periodic cell; opaque. Made by jam_create, jam_read, jam_read_checkpoint or jam_copy. */
 typedef struct jam_system jam_system;
-
 /* What to do with overlaps in given positions. */
 typedef enum jam_overlap_policy {
   JAM_OVERLAP_REFUSE = 0, /* JAM_E_OVERLAP naming the worst pair */
   JAM_OVERLAP_SHRINK = 1, /* scale all diameters down until the worst pair just touches; jam_notes gives the factor */
-  JAM_OVERLAP_ALLOW = 2   /* soft spheres: keep them, also in later calls; starts without positions are uniform points.
-                           * Calls for hard spheres refuse a system that overlaps */
+  JAM_OVERLAP_ALLOW = 2   /* soft spheres: keep them, also later. Random starts are uniform; hard-sphere calls refuse */
 } jam_overlap_policy;
-
 /* Pair distance. */
 typedef enum jam_model {
   JAM_MODEL_EUCLID = 0, /* |r_i - r_j|, nearest images */
   JAM_MODEL_MK = 1      /* Mari-Kurchan: |r_i - r_j + zeta A_ij|, quenched random shifts */
 } jam_model;
-
 /* Masses of the spheres in molecular dynamics; the mean is 1. */
 typedef enum jam_masses {
   JAM_MASSES_EQUAL = 0, /* all 1 */
   JAM_MASSES_VOLUME = 1 /* as the volumes, sigma_i^d */
 } jam_masses;
 
-/* Options of jam_create and jam_read. */
+/* Options of jam_create and jam_read. An option whose value a file gives must be the default or agree with the file. */
 typedef struct jam_create_options {
-  uint32_t struct_size;    /* sizeof(jam_create_options) */
-  int32_t dim;             /* 2..8, default 3; with a file: 3 or the file's dimension */
-  int64_t n;               /* number of spheres, 1..2^31-1; default 0: taken from the arrays */
-  int64_t seed;            /* of every random stream, default 1; recorded */
+  uint32_t struct_size;
+  int32_t dim;             /* 2..8, default 3 */
+  int64_t n, seed;         /* spheres, default 0: as many as the arrays have; of every random stream, default 1 */
   double box;              /* side of the cube, > 0, default 1 */
   double packing_fraction; /* of a random start, > 0; default 0: by dim, 0.2 halved for each dimension above 3 */
-  int32_t overlap;         /* @enum jam_overlap_policy for given positions, default REFUSE */
-  int32_t model;           /* @enum jam_model, default EUCLID */
-  double mk_zeta;   /* MK: strength of the shifts, 0..1e15; default infinity: uniform shifts. A random start is planted
-                       in equilibrium */
-  int32_t masses;   /* @enum jam_masses, default EQUAL */
-  int32_t reserved; /* 0 */
-  double non_additivity; /* Delta in (-1, 1]: spheres of unequal diameters touch at (1 + Delta) (sigma_i + sigma_j) / 2;
-                          * default 0. With a file that gives a value: 0 or that value */
-  double wall_time;    /* limit in seconds for reading a file, a random start and the search for overlaps, > 0, default
-                        * infinity; beyond it JAM_LIMIT */
-  double memory_limit; /* as jam_set_memory_limit, also while a file is read; default 0: half the machine's memory */
-  int64_t frame;       /* which packing of a file with several, from 0; negative: from the end; default -1, the last */
-  double shrink_min;   /* smallest factor that JAM_OVERLAP_SHRINK may apply to diameters, 0..1, default 1e-3. A smaller
-                        * one is refused: it points to duplicate spheres or wrong units */
+  int32_t overlap, model;  /* @enum jam_overlap_policy, default REFUSE; @enum jam_model, default EUCLID */
+  double mk_zeta;          /* MK: strength of shifts, 0..1e15; default infinity: uniform. Random starts: planted */
+  int32_t masses;          /* @enum jam_masses, default EQUAL */
+  int32_t reserved;
+  double non_additivity; /* Delta in (-1, 1]: unequal spheres touch at (1 + Delta) (sigma_i + sigma_j) / 2; default 0 */
+  double wall_time;      /* of reading, of a random start and of the search for overlaps */
+  double memory_limit;   /* as jam_set_memory_limit, also while a file is read; default 0: half the machine's memory */
+  int64_t frame;     /* which packing of a file with several, from 0; negative: from the end; default -1, the last */
+  double shrink_min; /* JAM_OVERLAP_SHRINK: least factor, 0..1, default 1e-3; below: duplicates, or wrong units? */
 } jam_create_options;
-
-/* Fills *o with the defaults. size = sizeof *o as the caller compiled it. */
+/* Fills *o with the defaults. size = sizeof *o as the caller compiled it. So do all calls of this name. */
 JAM_API jam_status jam_create_options_init(jam_create_options *o, size_t size);
 
 /* Where a system starts. NULL in place of it: a random sequential start of equal spheres in a cube. */
 typedef struct jam_start {
-  uint32_t struct_size;    /* sizeof(jam_start) */
-  int32_t reserved;        /* 0 */
-  const double *positions; /* (n, d), Cartesian, unit of `box`, any finite value (wrapped into the cell); NULL: a random
-                            * sequential start at the packing_fraction of the options */
+  uint32_t struct_size;
+  int32_t reserved;
+  const double *positions; /* (n, d), Cartesian, any finite value (wrapped into the cell); NULL: a random start */
   size_t positions_len;
-  const double *diameters; /* n values, or 1 for all; NULL: all equal. With positions they must be given and are taken
-                            * as they are. For a random start only their ratios count */
+  const double *diameters; /* n values, or 1 for all; NULL: equal. Random start: only ratios count; else not NULL */
   size_t diameters_len;
-  const double *cell; /* (d, d), of any positive determinant; `box` must then be 1, the default. A left-handed, singular
-                       * or flat cell is refused. NULL: a cube */
+  const double *cell; /* (d, d), beside the default box of 1; left-handed, singular, flat: refused. NULL: a cube */
   size_t cell_len;
   jam_progress_fn progress; /* or NULL; a non-zero return ends the call. The new system has no callback */
   void *user;               /* given to progress */
 } jam_start;
 
-/* Makes a system of d = o->dim. The caller frees *out by jam_destroy; after JAM_CANCELLED or JAM_LIMIT it is NULL. The
- * call takes long when many pairs of spheres are close together, and in the Mari-Kurchan model, where all pairs are
- * compared. Example: examples/c/first.c @errors DIMENSION, OVERLAP, UNPLACEABLE (the text gives the fraction in reach)
- */
+/* Makes a system of d = o->dim. Without positions spheres are added one by one at random, to the packing_fraction of
+ * the options. The caller frees *out by jam_destroy; after JAM_CANCELLED or JAM_LIMIT it is NULL. The call takes long
+ * when many pairs of spheres are close together, and in the Mari-Kurchan model, where all pairs are compared. Example:
+ * examples/c/first.c @errors DIMENSION, OVERLAP, UNPLACEABLE (the text gives the fraction in reach) */
 JAM_API jam_status jam_create(const jam_create_options *o, const jam_start *start, jam_system **out);
-/* Deep copy of src with its results and observations, without its callbacks. If jam_observe is on for src, it is on for
- * the copy. The copy has the seed of src: where both draw velocities, they draw the same ones. For independent runs
- * give the copy its own velocities by jam_set_velocities. */
+/* Deep copy of src with its results and observations (jam_observe stays on), without its callbacks. The copy has the
+ * seed of src: where both draw velocities, they draw the same ones. For independent runs use jam_set_velocities. */
 JAM_API jam_status jam_copy(const jam_system *src, jam_system **out);
 /* Frees a system; NULL is fine. */
 JAM_API void jam_destroy(jam_system *sys);
 
 /* What the system is now. */
 typedef struct jam_info {
-  uint32_t struct_size;    /* set by the caller: sizeof(jam_info) */
+  uint32_t struct_size;
   int32_t dim;             /* d */
-  int64_t n;               /* number of spheres */
-  int64_t seed;            /* as recorded at creation */
+  int64_t n, seed;         /* number of spheres; as recorded at creation */
   double box;              /* side of the cube, V^(1/d) of another cell */
   double packing_fraction; /* sum of sphere volumes over V */
-  double diameter_mean;    /* mean diameter, unit of box */
+  double diameter_mean;    /* unit of box */
   double pressure;         /* reduced pressure p last measured by MD, NaN before */
   int32_t model;           /* @enum jam_model */
-  int32_t monodisperse;    /* 1 when all diameters are equal */
+  int32_t monodisperse;    /* @bool all diameters are equal */
   int32_t masses;          /* @enum jam_masses */
-  int32_t paused; /* @enum jam_phase of what was stopped early and can go on, or 0; JAM_PHASE_CRUNCH: by jam_crunch */
-  double non_additivity; /* Delta of a non-additive mixture, 0 for additive diameters */
+  int32_t paused;          /* @enum jam_phase of what was stopped early and can go on (crunch: by jam_crunch), or 0 */
+  double non_additivity;   /* Delta of a non-additive mixture, 0 for additive diameters */
 } jam_info;
-
 /* Fills *info. */
 JAM_API jam_status jam_get_info(const jam_system *sys, jam_info *info);
 
@@ -345,9 +316,8 @@ JAM_API jam_status jam_view_positions(const jam_system *sys, const double **view
 JAM_API jam_status jam_view_diameters(const jam_system *sys, const double **view, size_t *view_len);
 /* View of velocities (n, d), kT/m = 1; zero until the first MD call draws them. Lifetime as jam_view_positions. */
 JAM_API jam_status jam_view_velocities(const jam_system *sys, const double **view, size_t *view_len);
-
-/* Replaces the positions, wrapped into the box; results of crunch are dropped. @shape positions (n, d) @errors
- * OVERLAP */
+/* Replaces the positions, wrapped into the box; results of crunch are dropped. @shape positions (n, d)
+ * @errors OVERLAP */
 JAM_API jam_status jam_set_positions(jam_system *sys, const double *positions, size_t positions_len);
 /* Replaces the velocities. Results of a crunch are kept: they do not depend on velocities. jam_run uses the velocities
  * as they are. jam_compress rescales them to kT/m = 1. @shape velocities (n, d) */
@@ -382,99 +352,72 @@ typedef enum jam_size_law {
   JAM_SIZES_LOGNORMAL = 4, /* mean, deviation, both of s, not of its logarithm; may be cut by low and high */
   JAM_SIZES_POWER = 5,     /* exponent, low, high: density s^exponent between them */
   JAM_SIZES_WEIBULL = 6,   /* scale, shape (Rosin-Rammler): share above s is exp(-(s / scale)^shape); may be cut */
-  JAM_SIZES_SIEVE = 7      /* curve: rows (size, share that passes it), from 0 to 1 or to 100 per cent; straight in the
-                            * logarithm of the size between two rows */
+  JAM_SIZES_SIEVE = 7      /* curve: rows (size, share passing, from 0 to 1 or 100 per cent); straight in log size */
 } jam_size_law;
-
 /* What the shares of a law count. */
 typedef enum jam_size_share {
   JAM_SHARE_USUAL = 0,  /* volume for WEIBULL and SIEVE, number for the others */
   JAM_SHARE_NUMBER = 1, /* spheres */
   JAM_SHARE_VOLUME = 2  /* volume: mass at one density */
 } jam_size_share;
-
 /* How diameters are drawn from a law. */
 typedef enum jam_size_draw {
-  JAM_DRAW_QUANTILES = 0, /* one sphere for each n-th of the number, so that few spheres follow the law. By number it is
-                           * the middle one, by volume the one of the mean volume */
+  JAM_DRAW_QUANTILES = 0, /* a sphere for each n-th of the number: the middle one, by volume that of the mean volume */
   JAM_DRAW_RANDOM = 1     /* independent, by the seed */
 } jam_size_draw;
 
-/* Options of jam_diameters. Lengths are in the user's unit. */
+/* Options of jam_diameters. Lengths are in the user's unit. NaN and 0 stand for what is not given. */
 typedef struct jam_diameters_options {
-  uint32_t struct_size;    /* sizeof(jam_diameters_options) */
-  int32_t law;             /* default EQUAL. @enum jam_size_law */
-  int32_t share;           /* default USUAL. @enum jam_size_share */
-  int32_t draw;            /* default QUANTILES. @enum jam_size_draw */
-  int32_t dim;             /* 2..8, default 3: of volumes */
-  int32_t reserved;        /* 0 */
-  int64_t n;               /* number of spheres; default 0: it follows from packing_fraction */
-  int64_t seed;            /* of RANDOM, default 1 */
-  double mean;             /* diameter, > 0, default 1 */
-  double deviation;        /* standard deviation of the diameter, > 0; default NaN: not given */
-  double low;              /* smallest diameter, default 0: not given */
-  double high;             /* largest diameter, default infinity: not given */
-  double exponent;         /* default NaN: not given */
-  double scale;            /* > 0, default 1 */
-  double shape;            /* > 0, default NaN: not given */
-  double cell_volume;      /* default 0: not given. Spheres of more volume are refused */
-  double packing_fraction; /* of the spheres in cell_volume, in place of n; default 0: not given. More than these sizes
-                            * reach in disorder is refused */
+  uint32_t struct_size;
+  int32_t law, share; /* @enum jam_size_law, default EQUAL; @enum jam_size_share, default USUAL */
+  int32_t draw, dim;  /* @enum jam_size_draw, default QUANTILES; 2..8, default 3: of volumes */
+  int32_t reserved;
+  int64_t n, seed;         /* number of spheres, default 0: by packing_fraction; of RANDOM, default 1 */
+  double mean, deviation;  /* diameter, > 0, default 1; its standard deviation, > 0, default NaN */
+  double low, high;        /* smallest diameter, default 0; largest diameter, default infinity: not given */
+  double exponent;         /* default NaN */
+  double scale, shape;     /* > 0, default 1; > 0, default NaN */
+  double cell_volume;      /* default 0. Spheres of more volume are refused */
+  double packing_fraction; /* in cell_volume, in place of n; default 0. More than reached in disorder is refused */
 } jam_diameters_options;
-
-/* Fills *o with the defaults. */
 JAM_API jam_status jam_diameters_options_init(jam_diameters_options *o, size_t size);
 /* Diameters of a law. Quantiles ascend. curve: of LIST and SIEVE, else NULL. Where n follows from packing_fraction, the
  * last sphere is adjusted, so that the volumes add up to packing_fraction * cell_volume, to 1e-13 of it. The largest
  * sphere that stays below the largest of all is taken for this. UNPLACEABLE gives the packing fraction in reach.
- * Example: examples/c/sieve.c
- * @shape curve (rows, 2), out (m)
- * @errors DIMENSION, UNPLACEABLE (packing_fraction) */
+ * Example: examples/c/sieve.c @shape curve (rows, 2), out (m) @errors DIMENSION, UNPLACEABLE (packing_fraction) */
 JAM_API jam_status jam_diameters(const jam_diameters_options *o, const double *curve, size_t curve_len, double *out,
                                  size_t out_len, size_t *needed);
 /* Reads a law from text into *o, whose other fields stay as they are, and gives its curve. The text is `LAW` or
  * `LAW:item,item...`. An item is a field (`deviation=0.3`, `share=volume`, `draw=random`), a row of the curve
- * (`0.5=0.12`), or a file of two columns, with comments behind #.
- * @shape curve (rows, 2)
+ * (`0.5=0.12`), or a file of two columns, with comments behind #. @shape curve (rows, 2)
  * @errors IO, FORMAT (the text names the line) */
 JAM_API jam_status jam_parse_diameters(const char *text, jam_diameters_options *o, double *curve, size_t curve_len,
                                        size_t *needed);
-
-/* *volume of a cell of d = dim vectors, row after row, with a positive determinant. @shape cell (m) @errors DIMENSION
- */
+/* *volume of a cell of d = dim vectors, row after row, with a positive determinant. @shape cell (m)
+ * @errors DIMENSION */
 JAM_API jam_status jam_cell_volume(int32_t dim, const double *cell, size_t cell_len, double *volume);
 
 /* Where jam_size_report.jammed_fraction comes from. */
 typedef enum jam_reach_source {
-  JAM_REACH_FARR_GROOT =
-      1,                  /* d = 3: a line cuts spheres into rods (Farr and Groot, J. Chem. Phys. 131, 244104 (2009)) */
-  JAM_REACH_MEASURED = 2, /* other d: the same map, fitted to packings of libjam: equal spheres, disks 1 : 1.4 */
-  JAM_REACH_CRYSTAL = 3   /* disks of nearly one size, which order: the hexagonal packing */
+  JAM_REACH_FARR_GROOT = 1, /* d = 3: spheres as rods on a line (Farr, Groot, J. Chem. Phys. 131, 244104 (2009)) */
+  JAM_REACH_MEASURED = 2,   /* other d: the same map, fitted to packings of libjam: equal spheres, disks 1 : 1.4 */
+  JAM_REACH_CRYSTAL = 3     /* disks of nearly one size, which order: the hexagonal packing */
 } jam_reach_source;
-
-/* What a set of diameters is. */
+/* What a set of diameters is. sequential_fraction: Zhang and Torquato, Phys. Rev. E 88, 053312 (2013). */
 typedef struct jam_size_report {
-  uint32_t struct_size;       /* set by the caller: sizeof(jam_size_report) */
+  uint32_t struct_size;
   int32_t source;             /* @enum jam_reach_source */
   int64_t n;                  /* number of spheres */
-  double mean;                /* diameter, by number */
-  double deviation;           /* standard deviation, by number */
+  double mean, deviation;     /* diameter, by number; its standard deviation, by number */
   double polydispersity;      /* deviation / mean */
-  double least;               /* diameter */
-  double largest;             /* diameter */
-  double d10;                 /* diameter below which 10 % of the volume lies */
-  double d50;                 /* 50 % */
-  double d90;                 /* 90 % */
+  double least, largest;      /* diameter */
+  double d10, d50, d90;       /* diameter below which 10 % of the volume lies; 50 %; 90 % */
   double volume;              /* of all spheres, unit^d */
   double largest_share;       /* of the volume, of the largest sphere: how closely a curve can be followed */
-  double sequential_fraction; /* where random sequential addition of equal spheres ends (Zhang and Torquato, Phys. Rev.
-                               * E 88, 053312 (2013)); mixtures go beyond */
+  double sequential_fraction; /* where random sequential addition of equal spheres ends; mixtures go beyond */
   double jammed_fraction;     /* estimate of the packing fraction at which these sizes jam in disorder */
 } jam_size_report;
-
-/* Describes diameters > 0 in dimension dim.
- * @shape diameters (n)
- * @errors DIMENSION */
+/* Describes diameters > 0 in dimension dim. @shape diameters (n) @errors DIMENSION */
 JAM_API jam_status jam_get_size_report(int32_t dim, const double *diameters, size_t diameters_len,
                                        jam_size_report *report);
 
@@ -491,11 +434,10 @@ typedef enum jam_log_level {
   JAM_LOG_INFO = 2,    /* a line a stage or LP */
   JAM_LOG_DEBUG = 3    /* solver detail */
 } jam_log_level;
-
 /* Log callback: one line without newline, valid during the call. */
 typedef void (*jam_log_fn)(int32_t level, const char *line, void *user);
-/* Sets (or with NULL removes) the log callback and its level. It first logs the lines of jam_notes. @enum level
- * jam_log_level */
+/* Sets (or with NULL removes) the log callback and its level. It first logs the lines of jam_notes.
+ * @enum level jam_log_level */
 JAM_API jam_status jam_set_log(jam_system *sys, jam_log_fn callback, int32_t level, void *user);
 /* Asks all calls that run on sys to stop soon with JAM_CANCELLED. When no call runs, the next call that must be alone
  * on sys stops, unless it is a setter. jam_cancel only increments an atomic counter. */
@@ -508,33 +450,28 @@ JAM_API jam_status jam_set_memory_limit(jam_system *sys, double bytes);
 
 /* ------------------------------------------------------------------ files */
 
-/* File formats. */
+/* File formats. Behind any ending .gz compresses the file. PLAIN: line 1: d. Line 2: N. Line 3: the diameter, or the
+ * word `diameters`; then, when it is not 1, the box as `box <L>`. Then a line a sphere: its position, and its diameter
+ * after `diameters`, with 17 digits. XYZ: Lattice, dim, Properties=id:I:1:pos:R:d:radius:R:1 and, after a crunch,
+ * contacts:I:1. VTP: points with diameter, and after a crunch contacts and kind (0 rattler, 1 buckler, 2 other). */
 typedef enum jam_format {
-  JAM_FORMAT_AUTO = 0,   /* by name: .xyz, .extxyz are XYZ; .data, .lmp LAMMPS; .vtp VTP; .dat, .txt, no ending PLAIN;
-                          * others are refused. With .gz behind it the file is compressed */
-  JAM_FORMAT_PLAIN = 1,  /* line 1: d. Line 2: N. Line 3: the diameter, or the word `diameters`; then, when it is not 1,
-                          * the box as `box <L>`. Then a line a sphere: its position, and its diameter after
-                          * `diameters`, with 17 digits. */
-  JAM_FORMAT_XYZ = 2,    /* extended XYZ: Lattice, dim, Properties=id:I:1:pos:R:d:radius:R:1 and, after
-                          * a crunch, contacts:I:1; d = 2 gets a third coordinate 0 */
+  JAM_FORMAT_AUTO = 0, /* .xyz, .extxyz: XYZ; .data, .lmp: LAMMPS; .vtp: VTP; .dat, .txt, none: PLAIN; others refused */
+  JAM_FORMAT_PLAIN = 1,  /* text that holds cubes alone */
+  JAM_FORMAT_XYZ = 2,    /* extended XYZ; d = 2 gets a third coordinate 0 */
   JAM_FORMAT_LAMMPS = 3, /* LAMMPS data of atom_style sphere, density 1, d = 2 and 3, any cell. In d = 2 all z are 0 */
-  JAM_FORMAT_VTP = 4     /* VTK PolyData in binary, d = 2 and 3: points with diameter, and after a crunch contacts and
-                          * kind (0 rattler, 1 buckler, 2 other). Written only */
+  JAM_FORMAT_VTP = 4     /* VTK PolyData in binary, d = 2 and 3. Written only */
 } jam_format;
-
 /* Reads plain text, extended XYZ, LAMMPS data and dumps with diameters, or a table of columns. It recognises the format
  * by the content. For a file of another format the error names that format and what to do. o: overlap policy, seed,
  * model, frame; box and dim where the file gives none. A line that does not fit the format is an error; jam_notes lists
- * what was not kept. An option whose value the file gives must be the default or agree with the file. Spheres keep the
- * order of the file; LAMMPS data are sorted by id. A last line without newline is refused if its last number may have
- * lost digits. callback, user: as in jam_start. @errors IO, FORMAT (line named), UNSUPPORTED (a box that is not
- * periodic), DIMENSION, OVERLAP, UNPLACEABLE */
+ * what was not kept. Spheres keep the order of the file; LAMMPS data are sorted by id. A last line without newline is
+ * refused if its last number may have lost digits. callback, user: as in jam_start. @errors IO, FORMAT (line named),
+ * UNSUPPORTED (a box that is not periodic), DIMENSION, OVERLAP, UNPLACEABLE */
 JAM_API jam_status jam_read(const char *path, const jam_create_options *o, jam_progress_fn callback, void *user,
                             jam_system **out);
 /* What was changed or assumed when sys was made, one sentence per line; "" when nothing was. Examples: shrunk
  * diameters, wrapped or sorted spheres, columns and frames that were not read. A warning begins with `warning: `.
- * jam_set_log sends these lines to its callback. Valid until jam_add_note or jam_destroy; "" for NULL. Checkpoints
- * hold it. */
+ * jam_set_log logs these lines too. Valid until jam_add_note or jam_destroy; "" for NULL. Checkpoints hold it. */
 JAM_API const char *jam_notes(const jam_system *sys);
 /* Adds one sentence to jam_notes, for programs that read other formats: what they changed or assumed. text is one line,
  * not empty. */
@@ -543,8 +480,8 @@ JAM_API jam_status jam_add_note(jam_system *sys, const char *text);
  * then renamed. Links are followed. Pipes, devices and open descriptors (/dev/stdout, /dev/fd/N) are written in place;
  * a file opened with >> gets the packing at its end. The shifts of JAM_MODEL_MK are not saved: read the file with the
  * same seed and mk_zeta. Planted shifts are not saved either: use jam_write_checkpoint. Only XYZ can hold
- * non_additivity, and only XYZ, LAMMPS and VTP can hold a cell that is not a cube; others give JAM_E_UNSUPPORTED. @enum
- * format jam_format @errors UNSUPPORTED, IO */
+ * non_additivity, and only XYZ, LAMMPS and VTP can hold a cell that is not a cube; others give JAM_E_UNSUPPORTED.
+ * @enum format jam_format @errors UNSUPPORTED, IO */
 JAM_API jam_status jam_write(const jam_system *sys, const char *path, int32_t format);
 
 /* Formats of contact networks. */
@@ -552,87 +489,78 @@ typedef enum jam_contact_format {
   JAM_CONTACTS_AUTO = 0, /* by name: .csv, .dump, .vtp; with .gz behind it compressed; others are refused */
   JAM_CONTACTS_CSV = 1,  /* a line a contact: i, j, unit vector from j to i, gap, force (mean 1), 17 digits */
   JAM_CONTACTS_DUMP = 2, /* the same as a LAMMPS dump local, whose spheres count from 1; d = 2 and 3 */
-  JAM_CONTACTS_VTP = 3 /* VTK PolyData in binary, d = 2 and 3: each contact as two half lines, so that none crosses the
-                        * cell, with force, gap and number of the contact */
+  JAM_CONTACTS_VTP = 3 /* VTK PolyData in binary, d = 2, 3: two half lines a contact, with force, gap and its number */
 } jam_contact_format;
 /* Writes the contact network of the last crunch. The file appears as of jam_write. @enum format jam_contact_format
  * @errors STATE, UNSUPPORTED, IO */
 JAM_API jam_status jam_write_contacts(const jam_system *sys, const char *path, int32_t format);
 /* Writes one HTML file that shows the packing in a browser without a network: spheres and forces to turn and to slice,
  * numbers of each sphere, certificate and distributions. After a crunch with keep_steps it has a slider over its steps.
- * title: its heading, or "". small: 1 for the picture alone, 0 for all. values: numbers to colour spheres by, or NULL;
- * names: k names, one a line, or "". @shape values (k, n) @errors IO */
+ * title: its heading, or "". small: the picture alone. values: numbers to colour spheres by, or NULL; names: k names,
+ * one a line, or "". @shape values (k, n) @bool small @errors IO */
 JAM_API jam_status jam_write_page(const jam_system *sys, const char *path, const char *title, int32_t small,
                                   const char *names, const double *values, size_t values_len);
 
 /* ------------------------------------------------------------------ molecular dynamics */
 
-/* Limits of jam_run (NVE). Whichever comes first ends the run. */
+/* Limits of jam_run (NVE). Whichever comes first ends the run. All but wall_time count since the run began. */
 typedef struct jam_run_options {
-  uint32_t struct_size;           /* sizeof(jam_run_options) */
+  uint32_t struct_size;
   int32_t resume;                 /* @bool go on with the run that stopped early; default 0 */
-  double collisions_per_particle; /* to make since the run began, > 0, default 100 */
-  double wall_time;               /* seconds of this call, > 0, default infinity */
-  double time; /* to simulate (to the last event before it) since the run began, unit box / sqrt(kT/m), > 0, default
-                  infinity */
+  double collisions_per_particle; /* to make, > 0, default 100 */
+  double wall_time;               /* seconds of this call */
+  double time;                    /* to simulate (to the last event before it), > 0, default infinity */
 } jam_run_options;
 
 /* How the spheres grow. */
 typedef enum jam_growth_law {
   JAM_GROWTH_DIAMETER = 0, /* growth_rate is d<sigma>/dt over sqrt(kT/m), constant */
-  JAM_GROWTH_DENSITY = 1   /* growth_rate is d ln<sigma>/dt over n^(1/d) sqrt(kT/m) / box. It is constant, in steps of
-                            * half a per cent of sigma; d times it is the relative rate of density. The same number
-                            * means the same protocol at every n. */
+  JAM_GROWTH_DENSITY =
+      1 /* growth_rate is d ln<sigma>/dt box / (n^(1/d) sqrt(kT/m)), constant: 1/d of that of density */
 } jam_growth_law;
-
 /* Lubachevsky-Stillinger growth: one stage at a given growth rate, or the two stages of jam_compress. Whichever target
- * is reached first ends it. A growth_rate selects one stage. Without it, targets, limits and growth_law apply to the
- * two stages. */
+ * is reached first ends it. Targets, limits and growth_law apply to the two stages too. Limits count from the start of
+ * each stage. The same growth_rate by JAM_GROWTH_DENSITY, in steps of half a per cent of sigma, means the same protocol
+ * at every n. */
 typedef struct jam_compress_options {
-  uint32_t struct_size; /* sizeof(jam_compress_options) */
-  int32_t resume; /* @bool go on with the stage that stopped early, of which all but the limits is kept; default 0 */
-  double growth_rate;             /* G > 0: one stage at this rate; 0, the default: the two stages of jam_compress */
-  double pressure;                /* target reduced pressure of the last stage, > 1, default 1e7 */
-  double packing_fraction;        /* target, > 0, default infinity */
-  double collisions_per_particle; /* limit, counted from the start of each stage, > 0, default infinity */
-  double wall_time;               /* limit in seconds of this call, > 0, default infinity */
-  double time;                    /* limit of simulated time, counted from the start of each stage, > 0, default
-                                   * infinity */
-  double growth_rate_end;         /* quasi-static: the rate falls as a power of p to this one at the target pressure; in
-                                   * [0, growth_rate], default 0: constant */
-  int32_t growth_law;             /* @enum jam_growth_law, default DIAMETER */
-  int32_t reserved;               /* 0 */
+  uint32_t struct_size;
+  int32_t resume;          /* @bool go on with the stage that stopped early, with all but the limits; default 0 */
+  double growth_rate;      /* G > 0: one stage at this rate; 0, the default: the two stages of jam_compress */
+  double pressure;         /* target reduced pressure of the last stage, > 1, default 1e7 */
+  double packing_fraction; /* target, > 0, default infinity */
+  double collisions_per_particle; /* limit, > 0, default infinity */
+  double wall_time;               /* limit of this call */
+  double time;                    /* limit of simulated time, > 0, default infinity */
+  double growth_rate_end; /* in [0, growth_rate]: the rate at the target, a power of p; 0, the default: constant */
+  int32_t growth_law;     /* @enum jam_growth_law, default DIAMETER */
+  int32_t reserved;
 } jam_compress_options;
-
-/* What MD did. */
+/* What MD did. Pressure: P V / (N kT) without the part of the growth, kT = sum m v^2 / (d (N - 1)). */
 typedef struct jam_md_report {
-  uint32_t struct_size;         /* set by the caller: sizeof(jam_md_report) */
+  uint32_t struct_size;
   int32_t stop_reason;          /* @enum jam_stop_reason */
-  int64_t collisions;           /* in this call */
-  int64_t events;               /* collisions, list updates, stale events */
+  int64_t collisions, events;   /* in this call; collisions, list updates, stale events */
   double collisions_per_second; /* of wall time */
-  double pressure;              /* reduced, P V / (N kT), without the part of the growth. jam_run: mean over the call;
-                                 * jam_compress: last window. kT = sum m v^2 / (d (N - 1)) */
+  double pressure;              /* reduced. jam_run: mean over the call; jam_compress: last window */
   double pressure_error;        /* standard error of that mean from its windows; NaN with too few */
   double packing_fraction;      /* at the end */
-  double time;                  /* simulated, unit box / sqrt(kT/m) */
+  double time;                  /* simulated */
   double energy_drift;          /* jam_run: |K_end/K_start - 1| */
   double max_overlap;           /* largest -h of neighbours whenever one of them had an event, >= 0 */
   double seconds;               /* wall time */
   double growth_rate;           /* d<sigma>/dt over sqrt(kT/m) at the end */
 } jam_md_report;
-
 JAM_API jam_status jam_run_options_init(jam_run_options *o, size_t size);
 JAM_API jam_status jam_compress_options_init(jam_compress_options *o, size_t size);
 
-/* Event-driven NVE dynamics (Alder and Wainwright, J. Chem. Phys. 31, 459 (1959)). Velocities are drawn at first use:
- * Maxwell-Boltzmann, zero total momentum, sum m v^2 = d N. The draw depends on the seed alone. A run or stage that ends
- * with JAM_CANCELLED or JAM_LIMIT stays with the handle, and in its checkpoints, until the next call that changes
- * spheres. So does one that was stopped while its lists were made, when nothing has moved. With resume = 1 it goes on
- * to the same bits as if it had not stopped; JAM_E_STATE when there is none. Splitting a run by wall_time therefore
- * does not change its result. A failure while it goes on loses the stage, not the packing. Status: JAM_OK when the
- * collisions were made, JAM_PRECISION, JAM_NOT_CONVERGED (no collision can happen: one sphere, zero velocities, or
- * paths that never meet). The log gives the reason of the last two. @errors OVERLAP */
+/* Event-driven NVE dynamics (Alder and Wainwright, J. Chem. Phys. 31, 459 (1959)). Velocities are drawn at first use,
+ * by the seed alone. They are Maxwell-Boltzmann, with sum m v^2 = d N and zero total momentum. A run or stage that ends
+ * with JAM_CANCELLED or JAM_LIMIT, even while its lists were made, stays with the handle. Its checkpoints have it too,
+ * until the next call that changes spheres. With resume = 1 it goes on to the same bits as if it had not stopped;
+ * JAM_E_STATE when there is none. Splitting a run by wall_time therefore does not change its result. A failure while it
+ * goes on loses the stage, not the packing. Status: JAM_OK when the collisions were made, JAM_PRECISION,
+ * JAM_NOT_CONVERGED (no collision can happen: one sphere, zero velocities, or paths that never meet). The log gives the
+ * reason of the last two. @errors OVERLAP */
 JAM_API jam_status jam_run(jam_system *sys, const jam_run_options *o, jam_md_report *report);
 /* Lubachevsky-Stillinger compression (J. Stat. Phys. 60, 561 (1990)). Without a growth_rate, and with o NULL, it runs
  * the two-stage protocol that avoids crystals in d = 3: G = 1e-2 to p = 500, then G = 3e-3 to the pressure of o, 1e7 by
@@ -657,18 +585,15 @@ JAM_API jam_status jam_read_checkpoint(const char *path, jam_progress_fn callbac
 
 /* What jam_observe records. */
 typedef struct jam_observe_options {
-  uint32_t struct_size;   /* sizeof(jam_observe_options) */
-  int32_t collisions;     /* @bool collisions of each sphere, and collisions and momentum of each pair; default 0 */
-  int32_t gap_bins;       /* bins of the gap histogram, 0 (default: none) or >= 2 */
-  int32_t r_bins;         /* bins of g(r), default 0: none */
-  double sample_every;    /* collisions per particle between samples of the series, gaps and g(r), > 0, default 10 */
-  double gap_min;         /* the first bin is [0, gap_min], > 0, default 1e-8; the others have equal ratios */
-  double gap_max;         /* up to here, in (gap_min, 10], default 1 */
-  double r_max;           /* of g(r), mean diameters, > 0, default 4 */
-  double snapshot_every;  /* collisions per particle before the first snapshot; 0, the default: none */
-  double snapshot_factor; /* each interval between snapshots is so many times the one before, >= 1, default 1 */
+  uint32_t struct_size;
+  int32_t collisions;       /* @bool collisions of each sphere, and collisions and momentum of each pair; default 0 */
+  int32_t gap_bins, r_bins; /* bins of the gap histogram, 0 (default: none) or >= 2; bins of g(r), default 0: none */
+  double sample_every;      /* collisions per particle between samples of the series, gaps and g(r), > 0, default 10 */
+  double gap_min, gap_max;  /* the first bin is [0, gap_min], > 0, default 1e-8; up to here by equal ratios, <= 10, 1 */
+  double r_max;             /* of g(r), mean diameters, > 0, default 4 */
+  double snapshot_every;    /* collisions per particle before the first snapshot; 0, the default: none */
+  double snapshot_factor;   /* each interval between snapshots is so many times the one before, >= 1, default 1 */
 } jam_observe_options;
-
 JAM_API jam_status jam_observe_options_init(jam_observe_options *o, size_t size);
 /* From now on jam_run and jam_compress record, over all calls, until jam_stop_observing. What was recorded before is
  * dropped. Recording does not change the dynamics. At a snapshot the views show the present state, and the progress
@@ -678,7 +603,7 @@ JAM_API jam_status jam_observe(jam_system *sys, const jam_observe_options *o);
 JAM_API jam_status jam_stop_observing(jam_system *sys);
 /* Columns of jam_observed_series. */
 typedef enum jam_series_column {
-  JAM_SERIES_TIME = 0,       /* simulated time, unit box / sqrt(kT/m) */
+  JAM_SERIES_TIME = 0,       /* simulated time */
   JAM_SERIES_COLLISIONS = 1, /* collisions per particle */
   JAM_SERIES_FRACTION = 2,   /* packing fraction */
   JAM_SERIES_PRESSURE = 3,   /* reduced pressure since the sample before */
@@ -697,15 +622,23 @@ JAM_API jam_status jam_observed_spheres(const jam_system *sys, int64_t *collisio
 JAM_API jam_status jam_observed_pairs(const jam_system *sys, int32_t *pair, size_t pair_len, int64_t *collisions,
                                       size_t collisions_len, double *momentum, size_t momentum_len, double *time,
                                       size_t *rows);
-/* Histogram of gaps h, *rows = bins: density is pairs over those of an ideal gas, error is over samples. Samples are
- * taken between collisions: at one, a pair more would touch. At h = 0 density tends to g(sigma), which is (p - 1) / (4
- * phi) for equal spheres in d = 3. @shape edge (bins + 1), density (bins), error (bins) @errors STATE */
-JAM_API jam_status jam_observed_gaps(const jam_system *sys, double *edge, size_t edge_len, double *density,
-                                     size_t density_len, double *error, size_t error_len, size_t *rows);
-/* g(r), sampled likewise, *rows = bins: r is the middle of each, mean diameters. @shape r (bins), g (bins) @errors
- * STATE */
-JAM_API jam_status jam_observed_correlation(const jam_system *sys, double *r, size_t r_len, double *g, size_t g_len,
-                                            size_t *rows);
+/* Columns of jam_observed_gaps, a row a bin. */
+typedef enum jam_gap_column {
+  JAM_GAP_LOW = 0,     /* smallest gap h of the bin */
+  JAM_GAP_HIGH = 1,    /* largest gap */
+  JAM_GAP_DENSITY = 2, /* pairs over those of an ideal gas */
+  JAM_GAP_ERROR = 3    /* its standard error over samples */
+} jam_gap_column;
+/* Histogram of gaps h. Samples are taken between collisions: at one, a pair more would touch. At h = 0 density tends to
+ * g(sigma), which is (p - 1) / (4 phi) for equal spheres in d = 3. @shape table (bins, jam_gap_column) @errors STATE */
+JAM_API jam_status jam_observed_gaps(const jam_system *sys, double *table, size_t table_len, size_t *needed);
+/* Columns of jam_observed_correlation, a row a bin. */
+typedef enum jam_correlation_column {
+  JAM_CORRELATION_R = 0, /* middle of the bin, mean diameters */
+  JAM_CORRELATION_G = 1  /* g(r) */
+} jam_correlation_column;
+/* g(r), sampled likewise. @shape table (bins, jam_correlation_column) @errors STATE */
+JAM_API jam_status jam_observed_correlation(const jam_system *sys, double *table, size_t table_len, size_t *needed);
 
 /* Equations of state p(phi) in closed form. */
 typedef enum jam_eos_form {
@@ -720,16 +653,13 @@ typedef enum jam_eos_form {
  * jam_eos_form @errors DIMENSION, UNSUPPORTED (form not of this dim) */
 JAM_API jam_status jam_eos(int32_t form, int32_t dim, double packing_fraction, double jammed_fraction,
                            double *pressure);
-
-/* A fit of the glass branch p = d' / (1 - phi/phi_J). */
+/* A fit of the glass branch p = d' / (1 - phi/phi_J). Errors are standard errors. */
 typedef struct jam_glass {
-  uint32_t struct_size;   /* set by the caller: sizeof(jam_glass) */
-  int32_t reserved;       /* 0 */
-  double jammed_fraction; /* phi_J */
-  double jammed_error;    /* its standard error */
-  double dimension;       /* d', free; near d for a good glass */
-  double dimension_error; /* its standard error */
-  double r_squared;       /* of the straight line 1/p against phi */
+  uint32_t struct_size;
+  int32_t reserved;
+  double jammed_fraction, jammed_error; /* phi_J; its error */
+  double dimension, dimension_error;    /* d', free, near d for a good glass; its error */
+  double r_squared;                     /* of the straight line 1/p against phi */
 } jam_glass;
 /* Least squares on 1/pressure against fraction, at least 3 points; the line must fall. @shape fraction (m), pressure
  * (m) @errors TOO_FEW */
@@ -743,44 +673,34 @@ typedef enum jam_energy_unit {
   JAM_ENERGY_LENGTH = 0,  /* x = sigma_ij - r, unit of the box */
   JAM_ENERGY_RELATIVE = 1 /* x = 1 - r / sigma_ij */
 } jam_energy_unit;
-
 /* Metropolis Monte Carlo at constant volume. A sweep is one trial of each sphere. */
 typedef struct jam_monte_carlo_options {
-  uint32_t struct_size; /* sizeof(jam_monte_carlo_options) */
-  int32_t resume;       /* @bool continue the run that stopped early; default 0 */
-  int32_t energy_unit;  /* @enum jam_energy_unit, default LENGTH */
-  int32_t reserved;     /* 0 */
-  double alpha;         /* 0, the default: hard spheres; > 1: the energy of an overlap x is energy_scale x^alpha */
-  double energy_scale;  /* > 0, default 1 */
-  double temperature;   /* of soft spheres, k_B T > 0, default 1 */
-  double step;          /* half side of the cube of trial displacements, mean diameters; 0, the default: tuned */
-  double acceptance;    /* that a tuned step aims at, in (0, 1), default 0.45 */
-  double swap_share;    /* share of trials that exchange two diameters, in [0, 1), default 0 */
-  int64_t sweeps;       /* since the run began, >= 1, default 1000 */
-  int64_t run;          /* number of the random stream beside the seed, >= 0, default 0 */
-  int64_t
-      first_sweep;  /* number of the first sweep, by which the stream goes; -1, the default: after those made before */
-  double wall_time; /* seconds of this call, > 0, default infinity */
+  uint32_t struct_size;
+  int32_t resume;      /* @bool continue the run that stopped early; default 0 */
+  int32_t energy_unit; /* @enum jam_energy_unit, default LENGTH */
+  int32_t reserved;
+  double alpha, energy_scale; /* 0, default: hard, or > 1: overlaps x cost energy_scale x^alpha; > 0, default 1 */
+  double temperature;         /* of soft spheres, k_B T > 0, default 1 */
+  double step;                /* half side of the cube of trial displacements, mean diameters; 0, the default: tuned */
+  double acceptance;          /* that a tuned step aims at, in (0, 1), default 0.45 */
+  double swap_share;          /* share of trials that exchange two diameters, in [0, 1), default 0 */
+  int64_t sweeps;             /* since the run began, >= 1, default 1000 */
+  int64_t run;                /* number of the random stream beside the seed, >= 0, default 0 */
+  int64_t first_sweep;        /* number of the first sweep in its stream; -1, the default: after those made before */
+  double wall_time;           /* seconds of this call */
 } jam_monte_carlo_options;
-
 /* What Monte Carlo did. */
 typedef struct jam_monte_carlo_report {
-  uint32_t struct_size;     /* set by the caller: sizeof(jam_monte_carlo_report) */
-  int32_t stop_reason;      /* @enum jam_stop_reason; COLLISIONS: all sweeps were made */
-  int64_t sweeps;           /* since the run began */
-  int64_t next_sweep;       /* number of the sweep that would come next */
-  double acceptance;        /* of moves */
-  double swap_acceptance;   /* of swaps, NaN without any */
-  double step;              /* used, mean diameters */
-  double energy;            /* mean energy a sphere */
-  double energy_error;      /* standard error of it from 20 parts of the run, NaN with too few sweeps */
-  double pressure;          /* reduced p: soft, from the virial; hard, from the density of pairs at contact */
-  double pressure_error;    /* likewise */
-  double msd;               /* mean-square displacement since the run began, box^2 */
-  double trials_per_second; /* of this call, wall time */
-  double seconds;           /* of this call, wall time */
+  uint32_t struct_size;
+  int32_t stop_reason;                /* @enum jam_stop_reason, COLLISIONS when all sweeps were made */
+  int64_t sweeps, next_sweep;         /* since the run began; number of the sweep that would come next */
+  double acceptance, swap_acceptance; /* of moves; of swaps, NaN without any */
+  double step;                        /* used, mean diameters */
+  double energy, energy_error;        /* mean energy a sphere; its standard error from 20 parts, NaN with few sweeps */
+  double pressure, pressure_error;    /* reduced p: from the virial, of hard spheres from pairs at contact; likewise */
+  double msd;                         /* mean-square displacement since the run began, box^2 */
+  double trials_per_second, seconds;  /* of this call, wall time */
 } jam_monte_carlo_report;
-
 JAM_API jam_status jam_monte_carlo_options_init(jam_monte_carlo_options *o, size_t size);
 /* Metropolis Monte Carlo (J. Chem. Phys. 21, 1087 (1953)) of hard or soft spheres. A step of 0 is tuned in a
  * preliminary run and then frozen; JAM_E_ARGUMENT when no step is accepted. After soft spheres the system allows
@@ -794,40 +714,31 @@ typedef enum jam_clock {
   JAM_CLOCK_COLLISIONS = 0, /* collisions per particle; each collision counts for both of its spheres */
   JAM_CLOCK_TIME = 1        /* simulated time, box / sqrt(kT/m) at T = 1 */
 } jam_clock;
-
 /* Options of jam_isoconfigurational. */
 typedef struct jam_isoconf_options {
-  uint32_t struct_size;  /* sizeof(jam_isoconf_options) */
-  int32_t threads;       /* 1 or 2, default 1; the bits are the same */
-  int32_t clock;         /* @enum jam_clock, default COLLISIONS */
-  int32_t resume;        /* @bool continue the runs that this handle holds; default 0 */
-  int64_t first_run;     /* number of the first run, >= 0, default 0 */
-  int64_t runs;          /* from that number on, >= 1, default 100 */
-  int64_t block;         /* sums are kept of each block of so many run numbers, >= 1, default 20 */
-  double density_ratio;  /* packing fraction of the runs over that of the packing, in (0, 1], default 1 */
-  double temperature;    /* of the velocities, > 0, default 1 */
-  double wave_number;    /* q of F_s, over mean diameters, > 0, default 7 */
-  double overlap_length; /* spheres that moved less count in the overlap, mean diameters, > 0, default 0.3 */
-  double memory_limit;   /* bytes, default 2e9: past it JAM_E_MEMORY with the estimate before any run */
-  double wall_time;      /* seconds of this call, > 0, default infinity */
+  uint32_t struct_size;
+  int32_t threads;         /* 1 or 2, default 1; the bits are the same */
+  int32_t clock;           /* @enum jam_clock, default COLLISIONS */
+  int32_t resume;          /* @bool continue the runs that this handle holds; default 0 */
+  int64_t first_run, runs; /* number of the first run, >= 0, default 0; from that number on, >= 1, default 100 */
+  int64_t block;           /* sums are kept of each block of so many run numbers, >= 1, default 20 */
+  double density_ratio;    /* packing fraction of the runs over that of the packing, in (0, 1], default 1 */
+  double temperature;      /* of the velocities, > 0, default 1 */
+  double wave_number;      /* q of F_s, over mean diameters, > 0, default 7 */
+  double overlap_length;   /* spheres that moved less count in the overlap, mean diameters, > 0, default 0.3 */
+  double memory_limit;     /* bytes, default 2e9: past it JAM_E_MEMORY with the estimate before any run */
+  double wall_time;        /* seconds of this call */
 } jam_isoconf_options;
-
 /* What the runs gave so far. */
 typedef struct jam_isoconf_report {
-  uint32_t struct_size; /* set by the caller: sizeof(jam_isoconf_report) */
-  int32_t stop_reason;  /* @enum jam_stop_reason; COLLISIONS: all runs were made; STALLED: run first_run + runs cannot
-                           move */
-  int64_t first_run;    /* number of the first run */
-  int64_t runs;         /* that are in the sums */
-  int64_t blocks;       /* that these runs fill or touch */
-  int64_t instants;     /* of each run */
-  double energy_drift;  /* largest |K_end/K_start - 1| of a run */
-  double max_overlap;   /* largest -h of a run */
-  double step;          /* Monte Carlo: half side of the trial cube, mean diameters */
-  double acceptance;    /* Monte Carlo: mean over runs */
-  double seconds;       /* wall time over all calls */
+  uint32_t struct_size;
+  int32_t stop_reason;              /* @enum jam_stop_reason, COLLISIONS: all made; STALLED: the next run cannot move */
+  int64_t first_run, runs;          /* number of the first run; runs in the sums */
+  int64_t blocks, instants;         /* that these runs fill or touch; of each run */
+  double energy_drift, max_overlap; /* largest |K_end/K_start - 1| of a run; largest -h of a run */
+  double step, acceptance;          /* Monte Carlo: half side of the trial cube, mean diameters; mean over runs */
+  double seconds;                   /* wall time over all calls */
 } jam_isoconf_report;
-
 /* Columns of jam_isoconf_series: one number a run and instant, summed over runs. */
 typedef enum jam_isoconf_column {
   JAM_ISOCONF_TIME = 0,        /* simulated time, or sweeps */
@@ -842,9 +753,9 @@ typedef enum jam_isoconf_column {
   JAM_ISOCONF_ENERGY2 = 9,     /* its square */
   JAM_ISOCONF_VELOCITY = 10,   /* sum m v(t).v(0) over sum m v(0).v(0) */
   JAM_ISOCONF_COLLISIONS = 11, /* collisions per particle */
-  JAM_ISOCONF_PRESSURE = 12    /* reduced pressure: since the start of the run; soft spheres: at the instant */
+  JAM_ISOCONF_PRESSURE = 12,   /* reduced pressure: since the start of the run; soft spheres: at the instant */
+  JAM_ISOCONF_RUNS = 13        /* runs in these sums and in those of the next two calls, the same at each instant */
 } jam_isoconf_column;
-
 JAM_API jam_status jam_isoconf_options_init(jam_isoconf_options *o, size_t size);
 /* Isoconfigurational ensemble (Widmer-Cooper et al., Phys. Rev. Lett. 93, 135701 (2004)): runs from the packing as it
  * is, with all diameters scaled to density_ratio; one whose gaps are rounding is refused. Run k draws its velocities
@@ -859,16 +770,17 @@ JAM_API jam_status jam_isoconfigurational(jam_system *sys, const jam_isoconf_opt
                                           const int32_t *kept, size_t kept_len, jam_isoconf_report *report);
 /* The report of these runs as they are now. @errors STATE (no runs) */
 JAM_API jam_status jam_get_isoconf_report(const jam_system *sys, jam_isoconf_report *report);
-/* Sums over the runs of one block, or of all for block = -1: displacement and square of dr_c, unit of the box;
- * distance2 and distance4 of |dr|^2 and |dr|^4; *runs in them. *needed = instants n. @shape displacement (instants, n,
- * d), square (instants, n, d), distance2 (instants, n), distance4 (instants, n) @errors STATE */
-JAM_API jam_status jam_isoconf_sums(const jam_system *sys, int64_t block, double *displacement, size_t displacement_len,
-                                    double *square, size_t square_len, double *distance2, size_t distance2_len,
-                                    double *distance4, size_t distance4_len, int64_t *runs, size_t *needed);
-/* One column of that block (or -1: all), a sum over runs at each instant. @shape out (instants) @enum column
- * jam_isoconf_column @errors STATE */
-JAM_API jam_status jam_isoconf_series(const jam_system *sys, int64_t block, int32_t column, double *out, size_t out_len,
+/* Sums over the runs of one block, or of all for block = -1. @shape table (instants, jam_isoconf_column)
+ * @errors STATE */
+JAM_API jam_status jam_isoconf_series(const jam_system *sys, int64_t block, double *table, size_t table_len,
                                       size_t *needed);
+/* For that block, sums over runs of the displacement dr_c of each sphere, unit of the box, and of its square. *rows =
+ * instants. @shape displacement (instants, n, d), square (instants, n, d) @errors STATE */
+JAM_API jam_status jam_isoconf_displacements(const jam_system *sys, int64_t block, double *displacement,
+                                             size_t displacement_len, double *square, size_t square_len, size_t *rows);
+/* Likewise of |dr|^2 and |dr|^4. @shape distance2 (instants, n), distance4 (instants, n) @errors STATE */
+JAM_API jam_status jam_isoconf_distances(const jam_system *sys, int64_t block, double *distance2, size_t distance2_len,
+                                         double *distance4, size_t distance4_len, size_t *rows);
 /* Displacements at one kept instant, given by its index. @shape out (runs, n, d) @errors STATE */
 JAM_API jam_status jam_isoconf_kept(const jam_system *sys, int32_t instant, double *out, size_t out_len,
                                     size_t *needed);
@@ -880,15 +792,13 @@ typedef enum jam_lp_solver {
   JAM_LP_IPM = 0, /* libjam's interior point on the particle graph; Clp if it fails */
   JAM_LP_CLP = 1  /* Clp's simplex: slow, independent */
 } jam_lp_solver;
-
-/* Which quench leads to the jamming point. Both end with fully solved LPs in which no sphere moves any more. */
+/* Which quench leads to the jamming point. Both end with fully solved LPs in which no sphere moves any more. The
+ * barrier path: LPs far from jamming, then a path whose constraints are linearised again after each Newton step, then
+ * LPs. */
 typedef enum jam_crunch_method {
-  JAM_CRUNCH_BARRIER_PATH =
-      0, /* LPs far from jamming, then one barrier path whose constraints are linearised again after
-          * each Newton step, then LPs: fewest factorisations; its packings are mostly denser */
+  JAM_CRUNCH_BARRIER_PATH = 0, /* fewest factorisations; its packings are mostly denser */
   JAM_CRUNCH_SEQUENTIAL_LP = 1 /* LPs alone, as published */
 } jam_crunch_method;
-
 /* What of the cell jam_crunch or jam_relax may change, at fixed volume unless VOLUME is among it. */
 typedef enum jam_free_strain {
   JAM_STRAIN_NONE = 0,         /* a fixed cell */
@@ -901,109 +811,90 @@ typedef enum jam_free_strain {
   JAM_STRAIN_ALL = 7           /* edges, tilts and the volume */
 } jam_free_strain;
 
-/* Options of jam_crunch. Lengths are in mean diameters, so nothing depends on the box. Brackets name the parameter of
- * CALiPPSO.jl (Artiaco et al. 2022) that does the same; lengths there are in units of the box or radii. Its parameters
- * sqrGamma0, thresholds_bounds and ratio_sl_update have no counterpart: radius and bound follow phi and the last step.
- * Neither has zero_force: a pair is a contact when its relative force exceeds its relative gap. Overlaps are searched
- * after every step (tol_overlap, interval_overlaps_check). The progress callback replaces verbose and monitor_step;
- * jam_crunch_report.excess_contacts replaces non_iso_warn and non_iso_break. */
+/* Options of jam_crunch. Lengths are in mean diameters. The guide's page "Coming from other programs" names the
+ * parameter of CALiPPSO.jl beside each.
+ * - polish: then a crunch also ends where LPs below gain_tolerance still move rattlers. 0 keeps the LP's answer.
+ * - full_lps: else an LP that gains more than 1e-7 ends at a duality gap of 0.02 of its gain.
+ * - strain: the cell deforms at fixed volume after the fixed cell's optimum; FREE ends strictly jammed. One sphere
+ * alone needs a strain: its contacts are its own images, which only strains move.
+ * - keep_steps: where there are more states, or more than 2^24 coordinates in all, every second, fourth, ... is kept.
+ * - duality_gap: for packings too large for the jamming point. The barrier path ends at this duality gap, and an LP
+ *   names contacts. Their forces balance. Their own duality gap e is in the report. To first order no motion lets Gamma
+ *   grow by more than e, so that phi_J is about phi (1 + e)^(d/2). Contacts that a smaller gap may change are counted
+ *   as undecided. Needs BARRIER_PATH and no strain. */
 typedef struct jam_crunch_options {
-  uint32_t struct_size; /* sizeof(jam_crunch_options) */
-  int32_t lp_solver;    /* @enum jam_lp_solver, default IPM (optimizer) */
-  int32_t method;       /* @enum jam_crunch_method, default BARRIER_PATH; SEQUENTIAL_LP is what CALiPPSO does */
-  int32_t polish;  /* @bool close the contacts at the end and balance the forces to rounding, default 1. A crunch then
-                      also ends where LPs below gain_tolerance still move rattlers. 0: keep the LP's answer
-                      (tol_mechanical_equilibrium: the extra LP past it) */
-  int32_t max_lps; /* >= 1, default 1000 (max_iters) */
-  int32_t threads; /* 1 or 2, default 1; bits are reproducible on 1 (threads) */
-  double gain_tolerance;   /* on sqrt(Gamma) - 1, > 0, default 1e-12 (tol_Gamma_convergence) */
-  double step_tolerance;   /* on max |s_i| of non-rattlers, > 0, default 1e-9 (tol_S_convergence, in box units) */
-  double lp_tolerance;     /* relative complementarity and residual of one LP, default 1e-15 (solver_attributes) */
-  double neighbour_radius; /* largest pair distance in an LP; 0, the default: adapts (l0, default 4 R) */
-  double step_bound;       /* bound on each |s_i| component, 1e-15 .. 1000; 0, the default: adapts (sbound, in radii) */
-  double wall_time;        /* limit in seconds, > 0, default infinity */
-  int32_t steps;           /* @bool the callback hears of every step and may call jam_crunch_step_*. 0, the default */
-  int32_t full_lps; /* @bool every LP is solved to lp_tolerance, so that its linear network balances. 0, the default: an
-                       LP that gains more than 1e-7 ends at a duality gap of 0.02 of its gain */
-  int32_t strain;   /* @enum jam_free_strain, default NONE. Else the cell deforms at fixed volume after the fixed cell's
-                       optimum; FREE ends strictly jammed. One sphere alone needs a strain: its contacts are its own
-                       images, which only strains move */
-  int32_t keep_steps; /* states before the end that are kept for jam_write_page, 0 .. 1000, default 0. Where there are
-                         more, or more than 2^24 coordinates in all, every second, fourth, ... is kept */
-  double duality_gap; /* 0, the default: to the jamming point. Else 1e-12 .. 1e-2, for packings too large for that: the
-                       * barrier path ends at this duality gap, and an LP names contacts. Their forces balance. Their
-                       * own duality gap e is in the report. To first order no motion lets Gamma grow by more than e,
-                       * so that phi_J is about phi (1 + e)^(d/2). Contacts that a smaller gap may change are counted
-                       * as undecided. Needs BARRIER_PATH and no strain */
-  int32_t prove;      /* @bool a packing that ends jammed is proved as by jam_prove, into the report; default 0 */
-  int32_t reserved;   /* 0 */
+  uint32_t struct_size;
+  int32_t lp_solver;       /* @enum jam_lp_solver, default IPM */
+  int32_t method;          /* @enum jam_crunch_method, default BARRIER_PATH */
+  int32_t polish;          /* @bool contacts closed, forces balanced to rounding, 1 */
+  int32_t max_lps;         /* >= 1, default 1000 */
+  int32_t threads;         /* 1 or 2, default 1; bits are reproducible on 1 */
+  double gain_tolerance;   /* on sqrt(Gamma) - 1, > 0, default 1e-12 */
+  double step_tolerance;   /* on max |s_i| of non-rattlers, > 0, default 1e-9 */
+  double lp_tolerance;     /* relative complementarity and residual of one LP, default 1e-15 */
+  double neighbour_radius; /* largest pair distance in an LP; 0, the default: adapts */
+  double step_bound;       /* bound on each |s_i| component, 1e-15 .. 1000; 0, the default: adapts */
+  double wall_time;        /* limit of the call */
+  int32_t steps;           /* @bool the callback hears of every step and may call jam_crunch_step_*; default 0 */
+  int32_t full_lps;        /* @bool every LP is solved to lp_tolerance, so that its network balances; default 0 */
+  int32_t strain;          /* @enum jam_free_strain, default NONE */
+  int32_t keep_steps;      /* states before the end that are kept for jam_write_page, 0 .. 1000, default 0 */
+  double duality_gap;      /* 0, the default: to the jamming point; or 1e-12 .. 1e-2 */
+  int32_t prove;           /* @bool a packing that ends jammed is proved as by jam_prove, into the report; default 0 */
+  int32_t reserved;
 } jam_crunch_options;
 
-/* Result and certificate of jam_crunch. All gaps, overlaps and lengths relative to sigma_ij. */
+/* Result and certificate of jam_crunch. All gaps, overlaps and lengths relative to sigma_ij. Counts are -1 where
+ * contacts are unknown, for example after an early stop; calls that need the network then return JAM_E_STATE. The
+ * numbers from packing_fraction_start to contacts_kept say what the crunch did to the packing that it was given:
+ * displacements in mean diameters without their mean over these spheres; rattlers count, and so does a strain of the
+ * cell. They are NaN or -1 where no crunch made the report.  */
 typedef struct jam_crunch_report {
-  uint32_t struct_size; /* set by the caller: sizeof(jam_crunch_report) */
-  int32_t jammed;       /* @bool collectively jammed by the test of jam_rigidity; 0: not, undecided or not tested */
-  int32_t stop_reason;  /* @enum jam_stop_reason */
-  int32_t lp_solver;    /* @enum jam_lp_solver that gave the last LP */
-  int32_t method; /* @enum jam_crunch_method that led here: BARRIER_PATH if the path was followed, SEQUENTIAL_LP if only
-                     LPs ran */
-  int32_t stationary;      /* @bool non-negative contact forces balance, so no small motion lets the diameters grow */
+  uint32_t struct_size;
+  int32_t jammed;          /* @bool collectively jammed by the test of jam_rigidity; 0: not, undecided, untested */
+  int32_t stop_reason;     /* @enum jam_stop_reason */
+  int32_t lp_solver;       /* @enum jam_lp_solver that gave the last LP */
+  int32_t method;          /* @enum jam_crunch_method that led here: BARRIER_PATH if the path was followed */
+  int32_t stationary;      /* @bool non-negative contact forces balance: no small motion lets diameters grow */
   int32_t strictly_jammed; /* @enum jam_verdict of the strict test; UNTESTED until jam_rigidity runs it */
-  int32_t reserved;        /* 0 */
-  double packing_fraction; /* phi_J when jammed */
-  double diameter_mean;    /* unit of box */
-  int64_t contacts;        /* pairs with a force, rattlers left out; -1: stopped before contacts were known */
-  int64_t rattlers;        /* spheres that no force-carrying contact touches; -1 likewise. Calls that need the network
-                            * then return JAM_E_STATE */
-  int64_t stable;          /* n - rattlers = N'; 0 where contacts are unknown */
-  int64_t bucklers;        /* stable spheres with exactly d+1 contacts; -1 likewise */
-  int64_t isostatic_contacts; /* d (N' - 1) + 1: contacts of a single state of self-stress */
-  int64_t excess_contacts;    /* contacts - isostatic_contacts: 0 isostatic and for an empty network, > 0 hyperstatic.
-                               * Amorphous packings have 0, but disks of two sizes one for each disk whose six
-                               * neighbours are its equals: the seven close twelve contacts, and eleven fix them */
-  int64_t flexes; /* motions of stable spheres, beyond translations, that keep force-carrying contacts closed */
-  int64_t zero_force_contacts;    /* closed pairs without force in every state of self-stress, those of rattlers too */
-  int64_t undecided_contacts;     /* pairs with gaps of 1e-10 to 1e-7. After JAM_STOP_DUALITY_GAP: pairs whose force on
-                                   * the path over the mean is within a factor of 1e4 of twice their gap */
-  int64_t undercoordinated;       /* stable spheres with d force-carrying contacts or fewer */
-  int64_t strict_contacts_needed; /* d (N' - 1) + d (d + 1) / 2: fewest contacts of a strictly jammed packing */
-  double rigidity_margin;         /* smallest eigenvalue of S^T S on force-carrying contacts that is no translation */
-  int64_t lp_solves;              /* LPs solved in full */
-  int64_t factorisations;         /* Cholesky factorisations */
-  double gain;                    /* sqrt(Gamma) - 1 of the last LP */
-  double max_step;                /* largest |s_i| of a stable sphere in the last LP, mean diameters */
-  double max_overlap;             /* largest -h over all pairs, >= 0 */
-  double force_residual;          /* largest |sum_j f_ij n_ij| over mean force */
-  double gamma_residual;          /* |sum lambda_ij sigma_ij^2 - 1| of the last LP */
-  double min_force;               /* smallest contact force over the mean */
-  double min_gap;                 /* smallest h of a pair of stable spheres that is no contact; after a free
-                                   * cell own images count as pairs */
-  double max_contact_gap;         /* largest |h| of a contact */
+  int32_t reserved;
+  double packing_fraction;     /* phi_J when jammed */
+  double diameter_mean;        /* unit of box */
+  int64_t contacts;            /* pairs with a force, rattlers left out */
+  int64_t rattlers, stable;    /* spheres that no force-carrying contact touches; n - rattlers = N', or 0 */
+  int64_t bucklers;            /* stable spheres with exactly d+1 contacts */
+  int64_t isostatic_contacts;  /* d (N' - 1) + 1: contacts of a single state of self-stress */
+  int64_t excess_contacts;     /* contacts - isostatic_contacts: 0 isostatic or no network, > 0 hyperstatic */
+  int64_t flexes;              /* motions of stable spheres, but translations, that keep contacts with force closed */
+  int64_t zero_force_contacts; /* closed pairs without force in every state of self-stress, those of rattlers too */
+  int64_t undecided_contacts;  /* gaps of 1e-10 to 1e-7; after DUALITY_GAP: force / 2 gap within a factor of 1e4 */
+  int64_t undercoordinated;    /* stable spheres with d force-carrying contacts or fewer */
+  int64_t strict_contacts_needed;    /* d (N' - 1) + d (d + 1) / 2: fewest contacts of a strictly jammed packing */
+  double rigidity_margin;            /* least eigenvalue of S^T S on contacts with force that is no translation */
+  int64_t lp_solves, factorisations; /* LPs solved in full; Cholesky factorisations */
+  double gain;                       /* sqrt(Gamma) - 1 of the last LP */
+  double max_step;                   /* largest |s_i| of a stable sphere in the last LP, mean diameters */
+  double max_overlap;                /* largest -h over all pairs, >= 0 */
+  double force_residual;             /* largest |sum_j f_ij n_ij| over mean force */
+  double gamma_residual;             /* |sum lambda_ij sigma_ij^2 - 1| of the last LP */
+  double min_force;                  /* smallest contact force over the mean */
+  double min_gap;                    /* least h of stable spheres that is no contact; own images count in a free cell */
+  double max_contact_gap;            /* largest |h| of a contact */
   double duality_gap;             /* of the last LP, relative to Gamma; after JAM_STOP_DUALITY_GAP that of the forces */
   double force_scale;             /* mean force in units where sum lambda sigma^2 = 1 (lambda r) */
-  double seconds;                 /* wall time of crunch */
-  double seconds_factor;          /* of it in factorisations */
-  double seconds_assemble;        /* of it in neighbour lists and assembly */
-  double seconds_solve;           /* of it in triangular solves */
-  int32_t status;                 /* @enum jam_status_code of the call that made this report */
-  int32_t reserved_end;           /* 0 */
-  double packing_fraction_start;  /* before this call. This and the next six say what the crunch did to the packing
-                                   * that it was given; NaN or -1 where no crunch made the report */
-  double displacement_max; /* largest displacement since then, over the mean diameter, without the mean displacement of
-                            * all spheres; rattlers count, and so does a strain of the cell */
-  double displacement_rms; /* root of the mean square of the same */
-  double
-      displacement_max_stable; /* both over the spheres that end with contacts, without their mean; NaN without any */
-  double displacement_rms_stable;
-  int64_t contacts_start; /* pairs that touched before, as far as the digits of the coordinates show */
-  int64_t contacts_kept;  /* of these the contacts of this report; -1 where contacts are unknown */
-  int32_t theorem;        /* @enum jam_theorem, with the option prove; NONE without */
-  int32_t proof_cause;    /* @enum jam_proof_cause: why the theorem is not EXACT */
-  double proof_radius;    /* unit of the box: radius of EXACT, inner of TRAPPED, see jam_proof_report; else infinite */
-  double proof_value;     /* the two numbers of the cause */
-  double proof_bound;
+  double seconds, seconds_factor; /* wall time of crunch; of it in factorisations */
+  double seconds_assemble, seconds_solve;    /* of it in neighbour lists and assembly; of it in triangular solves */
+  int32_t status;                            /* @enum jam_status_code of the call that made this report */
+  int32_t reserved_end;                      /* 0 */
+  double packing_fraction_start;             /* before this call */
+  double displacement_max, displacement_rms; /* largest displacement; root of the mean square */
+  double displacement_max_stable, displacement_rms_stable; /* the same of spheres that end with contacts */
+  int64_t contacts_start;       /* pairs that touched before, as far as the digits of the coordinates show */
+  int64_t contacts_kept;        /* of these the contacts of this report */
+  int32_t theorem, proof_cause; /* @enum jam_theorem, by prove, else NONE; @enum jam_proof_cause it is not EXACT */
+  double proof_radius;          /* unit of the box: radius of EXACT, inner of TRAPPED (jam_proof_report), or infinite */
+  double proof_value, proof_bound; /* the two numbers of the cause */
 } jam_crunch_report;
-
 JAM_API jam_status jam_crunch_options_init(jam_crunch_options *o, size_t size);
 /* Brings the packing to its jamming point by iterated linear programming (Artiaco et al., Phys. Rev. E 106, 055310
  * (2022)) and keeps the contact network. No step creates an overlap. An interrupted crunch returns a valid packing:
@@ -1016,8 +907,8 @@ JAM_API jam_status jam_crunch(jam_system *sys, const jam_crunch_options *o, jam_
 
 /* Memory and time of a crunch, estimated from the graph of pairs and its elimination tree. */
 typedef struct jam_estimate {
-  uint32_t struct_size;  /* set by the caller: sizeof(jam_estimate) */
-  int32_t reserved;      /* 0 */
+  uint32_t struct_size;
+  int32_t reserved;
   int64_t pairs;         /* of the longest neighbour list */
   double bytes;          /* peak memory beside what is in use now; for spheres above 20 MB mostly good to 30 % */
   double factor_bytes;   /* of it for the factorisation */
@@ -1026,7 +917,6 @@ typedef struct jam_estimate {
   double step_seconds;   /* of one factorisation and what goes with it, on this core; mean over first LP and path */
   double seconds;        /* the product of both */
 } jam_estimate;
-
 /* Estimates memory and time of jam_crunch with these options (NULL: defaults) without running it; jam_crunch logs the
  * same at JAM_LOG_INFO. Takes as long as a few steps. @errors OVERLAP, TOO_FEW */
 JAM_API jam_status jam_estimate_crunch(const jam_system *sys, const jam_crunch_options *o, jam_estimate *estimated);
@@ -1039,9 +929,8 @@ typedef enum jam_step_phase {
   JAM_STEP_LP = 2,    /* an LP and the move to its solution */
   JAM_STEP_POLISH = 3 /* contacts closed and forces balanced to rounding */
 } jam_step_phase;
-
 /* Columns of the history of a crunch, a row a step. Displacements are those of all spheres, their mean taken out, in
- * mean diameters after the step. NaN where a column has no meaning. */
+ * mean diameters after the step. */
 typedef enum jam_history_column {
   JAM_HISTORY_PHASE = 0,           /* a jam_step_phase */
   JAM_HISTORY_GAIN = 1,            /* sqrt(Gamma) - 1: relative growth of the diameters in this step */
@@ -1058,17 +947,14 @@ typedef enum jam_history_column {
   JAM_HISTORY_FACTORISATIONS = 12, /* in this step */
   JAM_HISTORY_DUALITY_GAP = 13,    /* after the step, in Gamma */
   JAM_HISTORY_PAIRS = 14,          /* rows of the LP */
-  JAM_HISTORY_HELD = 15, /* LP: displacement components at the step bound; forces on these spheres do not balance */
-  JAM_HISTORY_PART =
-      16, /* LP: part of the solution that was followed; below 1 when a pair outside the neighbour list would overlap */
-  JAM_HISTORY_BOUND = 17,           /* LP: step bound */
+  JAM_HISTORY_HELD = 15,           /* LP: displacement components at the step bound, whose forces do not balance */
+  JAM_HISTORY_PART = 16,  /* LP: part of the step that was made; below 1 where an unlisted pair would overlap */
+  JAM_HISTORY_BOUND = 17, /* LP: step bound */
   JAM_HISTORY_STEP_MSD_STABLE = 18, /* LP, polish: STEP_MSD over stable spheres alone, their mean taken out */
   JAM_HISTORY_TOTAL_MSD_STABLE = 19 /* LP, polish: TOTAL_MSD over the spheres that are stable now */
 } jam_history_column;
-
-/* One column of the last crunch, a value a step. @shape out (steps) @enum column jam_history_column @errors STATE */
-JAM_API jam_status jam_crunch_history(const jam_system *sys, int32_t column, double *out, size_t out_len,
-                                      size_t *needed);
+/* Steps of the last crunch. @shape table (steps, jam_history_column) @errors STATE */
+JAM_API jam_status jam_crunch_history(const jam_system *sys, double *table, size_t table_len, size_t *needed);
 /* Displacements of all spheres in the step that has just ended, unit of box, images followed. Their sum over the steps
  * leads from the start to the end. This call and the next three work only in the progress callback of jam_crunch with
  * steps = 1, when a step has just ended. @shape out (n, d) @errors STATE */
@@ -1083,8 +969,10 @@ JAM_API jam_status jam_crunch_step_vectors(const jam_system *sys, double *out, s
 JAM_API jam_status jam_crunch_step_duals(const jam_system *sys, double *out, size_t out_len, size_t *needed);
 
 /* ------------------------------------------------------------------ soft spheres */
-/* Spheres that overlap repel by an energy U = sum of v over overlapping pairs, v = c ((sigma_ij - r) / l)^alpha;
- * energies in units of epsilon. Systems that hold overlaps are made with JAM_OVERLAP_ALLOW. */
+/* Spheres that overlap repel by an energy U = sum of v over overlapping pairs, v = c ((sigma_ij - r) / l)^alpha.
+ * Energies are in units of epsilon, pressures in epsilon / length^d. Systems that hold overlaps are made with
+ * JAM_OVERLAP_ALLOW. F_i: total force on sphere i. Rattlers are spheres with fewer than d + 1 contacts, removed again
+ * and again; stable spheres are the others. */
 
 /* Factor c and length l of the energy. */
 typedef enum jam_soft_scale {
@@ -1092,123 +980,103 @@ typedef enum jam_soft_scale {
   JAM_SOFT_ABSOLUTE = 1, /* c = 1 / alpha, l = 1 in the unit of the box */
   JAM_SOFT_BARE = 2      /* c = 1, l = 1 */
 } jam_soft_scale;
-
-/* How the energy is minimised. Methods end in different minima of the same start: each is a protocol. */
+/* How the energy is minimised. Methods end in different minima of the same start: each is a protocol. NEWTON: FIRE
+ * (alpha < 2: L-BFGS) until contacts settle, then Newton's method with pre-stress. */
 typedef enum jam_minimiser {
-  JAM_MINIMISER_NEWTON = 0, /* FIRE (alpha < 2: L-BFGS) until contacts settle, then Newton's method with pre-stress;
-                             * rattlers are put in the middle of their cages */
+  JAM_MINIMISER_NEWTON = 0, /* Newton's method; rattlers are put in the middle of their cages */
   JAM_MINIMISER_FIRE = 1,   /* FIRE 2.0 alone (Guenole et al., Comput. Mater. Sci. 175, 109584 (2020)) */
   JAM_MINIMISER_LBFGS = 2   /* limited-memory BFGS alone (Nocedal, Math. Comput. 35, 773 (1980)) */
 } jam_minimiser;
-
 /* How the overlap of a pair is computed. */
 typedef enum jam_soft_precision {
-  JAM_SOFT_REFERENCE = 0, /* from a reference in twice the digits and small displacements: forces balance to 1e-14 at
-                           * any overlap */
+  JAM_SOFT_REFERENCE = 0, /* twice the digits and small displacements: forces balance to 1e-14 at any overlap */
   JAM_SOFT_DOUBLE = 1     /* from coordinates in doubles: balance ends near 1e-15 / overlap; for comparison */
 } jam_soft_precision;
 
-/* Options of jam_relax. */
+/* Options of jam_relax. A free cell is minimised after the minimum of the fixed one. */
 typedef struct jam_relax_options {
-  uint32_t struct_size;    /* sizeof(jam_relax_options) */
+  uint32_t struct_size;
   int32_t minimiser;       /* @enum jam_minimiser, default NEWTON */
   int32_t scale;           /* @enum jam_soft_scale, default RELATIVE */
   int32_t precision;       /* @enum jam_soft_precision, default REFERENCE */
   double alpha;            /* exponent of the energy, > 1, default 2 */
   double force_tolerance;  /* on max |F_i| of stable spheres over the mean contact force, > 0, default 1e-12 */
   int64_t max_evaluations; /* of the forces, >= 1, default 1e6 */
-  double wall_time;        /* limit in seconds, > 0, default infinity */
-  int32_t strain; /* @enum jam_free_strain, default NONE: what of the cell is free after the minimum of the fixed one */
-  int32_t reserved; /* 0 */
-  double pressure;  /* P > 0 with JAM_STRAIN_VOLUME: U + P V is minimised, also from no contacts; else 0, the default */
+  double wall_time;        /* limit of the call */
+  int32_t strain;          /* @enum jam_free_strain, default NONE: what of the cell is free */
+  int32_t reserved;
+  double pressure; /* P > 0 with JAM_STRAIN_VOLUME: U + P V is minimised, also from no contacts; else 0, the default */
   int64_t components; /* bit c d + k: component (c, k) of the strain may change, c <= k, default -1: all */
 } jam_relax_options;
-
-/* What jam_relax found. F_i: total force on sphere i. Rattlers are spheres with fewer than d + 1 contacts, removed
- * again and again; stable spheres are the others. */
+/* What jam_relax found. */
 typedef struct jam_relax_report {
-  uint32_t struct_size;    /* set by the caller: sizeof(jam_relax_report) */
+  uint32_t struct_size;
   int32_t converged;       /* @bool both residuals are below force_tolerance, or no spheres overlap */
   int32_t stop_reason;     /* @enum jam_stop_reason */
   int32_t minimiser;       /* @enum jam_minimiser */
   double force_residual;   /* max |F_i| of stable spheres over the mean contact force; 0 without contacts */
-  double energy;           /* U, unit epsilon */
-  double pressure;         /* sum of f r over d V, unit epsilon / length^d */
+  double energy, pressure; /* U; sum of f r over d V */
   double packing_fraction; /* of the diameters, overlaps counted twice */
   double distance;         /* alpha U / sum of f r, an estimate of ln(R / R_J) */
   double jammed_fraction;  /* phi (1 - distance)^d, an estimate of phi_J */
   double coordination;     /* mean number of contacts of a stable sphere */
-  double mean_overlap;     /* mean of (sigma - r) / sigma over contacts of stable spheres */
-  double max_overlap;      /* largest of all pairs */
-  int64_t contacts;        /* overlapping pairs of stable spheres */
-  int64_t excess_contacts; /* contacts - (d (stable - 1) + 1) */
-  int64_t stable;          /* n - rattlers */
-  int64_t rattlers;        /* spheres left out */
-  int64_t evaluations;     /* of the forces */
-  int64_t factorisations;  /* of the Hessian */
-  double seconds;          /* wall time */
-  double stress_residual;  /* largest stress that a free cell leaves, less the target, over the pressure */
+  double mean_overlap,
+      max_overlap; /* mean of (sigma - r) / sigma over contacts of stable spheres; largest of all pairs */
+  int64_t contacts, excess_contacts;   /* overlapping pairs of stable spheres; contacts - (d (stable - 1) + 1) */
+  int64_t stable, rattlers;            /* n - rattlers; spheres left out */
+  int64_t evaluations, factorisations; /* of the forces; of the Hessian */
+  double seconds;                      /* wall time */
+  double stress_residual;              /* largest stress that a free cell leaves, less the target, over the pressure */
 } jam_relax_report;
-
 JAM_API jam_status jam_relax_options_init(jam_relax_options *o, size_t size);
-/* Minimises the energy of overlapping spheres at fixed diameters, and at a fixed cell unless `strain` frees it. Then
- * the minimum of the fixed cell comes first. A free cell ends when stresses too are below force_tolerance. Keeps the
- * contact network with its forces and stiffnesses for jam_contacts, jam_forces, jam_hessian (JAM_STIFFNESS_SOFT) and
- * the like. The system must have been made with JAM_OVERLAP_ALLOW. Positions are rounded to doubles at the end; the
- * network holds the digits beyond. Status: JAM_OK converged. JAM_NOT_JAMMED converged to energy 0: no overlaps.
+/* Minimises the energy of overlapping spheres at fixed diameters, and at a fixed cell unless `strain` frees it. A free
+ * cell ends when stresses too are below force_tolerance. Keeps the contact network with its forces and stiffnesses for
+ * jam_contacts, jam_forces, jam_hessian (JAM_STIFFNESS_SOFT) and the like. Positions are rounded to doubles at the end;
+ * the network holds the digits beyond. Status: JAM_OK converged. JAM_NOT_JAMMED converged to energy 0: no overlaps.
  * JAM_PRECISION converged, but overlaps are smaller than the rounding of the positions. JAM_NOT_CONVERGED. Example:
  * examples/c/soft.c @errors STATE (made without JAM_OVERLAP_ALLOW) */
 JAM_API jam_status jam_relax(jam_system *sys, const jam_relax_options *o, jam_relax_report *report);
 
-/* Options of jam_decompress. Targets: the first that is reached ends it. */
+/* Options of jam_decompress. Targets: the first that is reached ends it. With crunch, the packing is crunched from just
+ * below contact, and the decompression goes on until both have one network. The system ends as that jammed packing,
+ * without crunch as the soft one. max_evaluations: a later step may take 4 times what all steps before it took, at
+ * least a 20th of this limit, and never more than it. */
 typedef struct jam_decompress_options {
-  uint32_t struct_size;   /* sizeof(jam_decompress_options) */
-  int32_t minimiser;      /* @enum jam_minimiser, default NEWTON */
-  int32_t scale;          /* @enum jam_soft_scale, default RELATIVE */
-  int32_t precision;      /* @enum jam_soft_precision, default REFERENCE */
-  double alpha;           /* exponent of the energy, > 1, default 2 */
-  double force_tolerance; /* as in jam_relax_options, default 1e-12 */
-  double energy_factor; /* U falls by this factor a step, in (0, 1), default 0.01; nearer 1 after a step that failed */
-  double pressure;      /* target, as jam_relax_report.pressure, >= 0, default 0: none */
-  double distance;      /* target, as jam_relax_report.distance, >= 0, default 0: none */
-  int32_t isostatic; /* 1 (default): end where contacts are those of one state of self-stress and the Hessian has d zero
-                        modes */
-  int32_t crunch; /* 1 (default): then crunch from just below contact, and go on until both have one network; the system
-                     ends as that jammed packing. 0: it ends as the soft packing */
-  int32_t max_steps;       /* >= 1, default 1000 */
-  int32_t reserved;        /* 0 */
-  int64_t max_evaluations; /* of the forces, in one step, >= 1, default 1e6. A later step may take 4 times what
-                            * all steps before it took: at least a 20th of this limit, and never more than it */
-  double wall_time;        /* limit in seconds, > 0, default infinity */
+  uint32_t struct_size;
+  int32_t minimiser;         /* @enum jam_minimiser, default NEWTON */
+  int32_t scale;             /* @enum jam_soft_scale, default RELATIVE */
+  int32_t precision;         /* @enum jam_soft_precision, default REFERENCE */
+  double alpha;              /* exponent of the energy, > 1, default 2 */
+  double force_tolerance;    /* as in jam_relax_options, default 1e-12 */
+  double energy_factor;      /* U falls by this factor a step, in (0, 1), default 0.01; nearer 1 after a failed step */
+  double pressure, distance; /* targets, as in jam_relax_report, >= 0, default 0: none */
+  int32_t isostatic;         /* @bool end at contacts of one self-stress and d zero modes of the Hessian; default 1 */
+  int32_t crunch;            /* @bool then crunch; default 1 */
+  int32_t max_steps;         /* >= 1, default 1000 */
+  int32_t reserved;
+  int64_t max_evaluations; /* of the forces, in one step, >= 1, default 1e6 */
+  double wall_time;        /* limit of the call */
 } jam_decompress_options;
-
-/* What jam_decompress found. */
+/* What jam_decompress found: numbers of the last soft packing as in jam_relax_report, and what crunch made of it. */
 typedef struct jam_decompress_report {
-  uint32_t struct_size;    /* set by the caller: sizeof(jam_decompress_report) */
+  uint32_t struct_size;
   int32_t stop_reason;     /* @enum jam_stop_reason */
   int32_t isostatic;       /* @bool contacts of one state of self-stress and d zero modes of the Hessian */
-  int32_t same_network;    /* 1: crunch ended with the same contacts; -1: crunch was not run */
-  double force_residual;   /* these as in jam_relax_report, of the last soft packing */
-  double energy;           /* U */
-  double pressure;         /* epsilon / length^d */
+  int32_t same_network;    /* 1: crunch ended with the same contacts; 0: with others; -1: not run */
+  double force_residual;   /* max |F_i| of stable spheres over the mean contact force */
+  double energy, pressure; /* U; sum of f r over d V */
   double packing_fraction; /* of the soft packing */
   double distance;         /* estimate of ln(R / R_J) */
-  double jammed_fraction;  /* estimate of phi_J */
-  double crunch_fraction;  /* phi_J by crunch; NaN when it was not run */
-  double force_difference; /* largest |f_soft - f_crunch| over the mean force; NaN without the same network */
-  double coordination;     /* mean number of contacts of a stable sphere */
-  int64_t contacts;        /* overlapping pairs of stable spheres */
-  int64_t excess_contacts; /* contacts - (d (stable - 1) + 1) */
-  int64_t common_contacts; /* with crunch; -1 when it was not run */
-  int64_t rattlers;        /* spheres left out */
-  int64_t steps;           /* of the decompression */
-  int64_t restored;        /* steps taken back because they lost the network */
-  int64_t evaluations;     /* of the forces */
-  int64_t factorisations;  /* of the Hessian, crunch not counted */
-  double seconds;          /* wall time */
-  double seconds_crunch;   /* of it in crunch */
+  double jammed_fraction, crunch_fraction; /* estimate of phi_J; phi_J by crunch, NaN when it was not run */
+  double force_difference;                 /* largest |f_soft - f_crunch| over the mean; NaN without the same network */
+  double coordination;                     /* mean number of contacts of a stable sphere */
+  int64_t contacts, excess_contacts;       /* overlapping pairs of stable spheres; contacts - (d (stable - 1) + 1) */
+  int64_t common_contacts;                 /* with crunch; -1 when it was not run */
+  int64_t rattlers;                        /* spheres left out */
+  int64_t steps, restored;                 /* of the decompression; steps taken back because they lost the network */
+  int64_t evaluations, factorisations;     /* of the forces; of the Hessian, crunch not counted */
+  double seconds, seconds_crunch;          /* wall time; of it in crunch */
 } jam_decompress_report;
-
 /* Columns of the history of a decompression, a row a minimum. */
 typedef enum jam_soft_column {
   JAM_SOFT_PHI = 0,            /* packing fraction */
@@ -1223,7 +1091,6 @@ typedef enum jam_soft_column {
   JAM_SOFT_FACTORISATIONS = 9, /* in this step */
   JAM_SOFT_SECONDS = 10        /* wall time of the step */
 } jam_soft_column;
-
 JAM_API jam_status jam_decompress_options_init(jam_decompress_options *o, size_t size);
 /* From overlapping spheres down to jamming. Minimises, shrinks all diameters by one factor so that the energy falls by
  * energy_factor, and again (O'Hern et al., Phys. Rev. E 68, 011306 (2003)). A step that leaves too few contacts is
@@ -1231,9 +1098,8 @@ JAM_API jam_status jam_decompress_options_init(jam_decompress_options *o, size_t
  * lead to one network. JAM_NOT_JAMMED the start has no overlaps at its minimum. JAM_PRECISION overlaps came down to the
  * rounding of positions before a target. JAM_NOT_CONVERGED: the last minimum is kept. @errors STATE, TOO_FEW, SOLVER */
 JAM_API jam_status jam_decompress(jam_system *sys, const jam_decompress_options *o, jam_decompress_report *report);
-/* One column of the last decompression. @shape out (steps) @enum column jam_soft_column @errors STATE */
-JAM_API jam_status jam_decompress_history(const jam_system *sys, int32_t column, double *out, size_t out_len,
-                                          size_t *needed);
+/* Minima of the last decompression. @shape table (minima, jam_soft_column) @errors STATE */
+JAM_API jam_status jam_decompress_history(const jam_system *sys, double *table, size_t table_len, size_t *needed);
 
 /* ------------------------------------------------------------------ contact network */
 
@@ -1261,24 +1127,22 @@ JAM_API jam_status jam_coordination(const jam_system *sys, int32_t *out, size_t 
  * or jam_contacts_from_geometry, JAM_NOT_JAMMED when it is empty. */
 
 /* ------------- Hessian, modes */
-/* Stiffness k of a contact, 1 at the mean force. */
+/* Stiffness k of a contact, 1 at the mean force. SOFT: after jam_relax or jam_decompress; prestress is then the share
+ * of the pre-stress f / r that is kept, 0..1. */
 typedef enum jam_stiffness {
   JAM_STIFFNESS_HARMONIC = 0, /* k = 1 */
   JAM_STIFFNESS_POWER = 1,    /* energy |overlap|^alpha: k = f^((alpha-2)/(alpha-1)) */
   JAM_STIFFNESS_HARD = 2,     /* entropic force of hard spheres near jamming: k = f^2 */
-  JAM_STIFFNESS_SOFT = 3      /* after jam_relax or jam_decompress: that of the energy that was minimised, in its units;
-                               * prestress is then the share of the pre-stress f / r that is kept, 0..1 */
+  JAM_STIFFNESS_SOFT = 3      /* that of the energy that was minimised, in its units */
 } jam_stiffness;
-
-/* Options of all calls that use a Hessian. */
+/* Options of all calls that use a Hessian. The block of a contact is
+ * k n n^T - prestress f <sigma> / ((alpha-1) r) (1 - n n^T). */
 typedef struct jam_hessian_options {
-  uint32_t struct_size; /* sizeof(jam_hessian_options) */
-  int32_t stiffness;    /* @enum jam_stiffness, default HARMONIC */
-  double alpha;         /* POWER: > 1, default 2 */
-  double prestress;     /* overlap (HARD: gap) of a contact of mean force over mean diameter, in [0, 1): the block of a
-                         * contact is k n n^T - prestress f <sigma> / ((alpha-1) r) (1 - n n^T); default 0 */
+  uint32_t struct_size;
+  int32_t stiffness; /* @enum jam_stiffness, default HARMONIC */
+  double alpha;      /* POWER: > 1, default 2 */
+  double prestress;  /* overlap (HARD: gap) at the mean force over mean diameter, in [0, 1), default 0 */
 } jam_hessian_options;
-
 /* Which modes. */
 typedef enum jam_modes_which {
   JAM_MODES_LOWEST = 0,  /* smallest eigenvalues, the d translations left out */
@@ -1286,17 +1150,20 @@ typedef enum jam_modes_which {
   JAM_MODES_NEAR = 2,    /* nearest to frequency^2, translations left out */
   JAM_MODES_ALL = 3      /* all d N', translations among them; dense, 24 (d N')^2 bytes */
 } jam_modes_which;
-
 /* Options of jam_modes. */
 typedef struct jam_modes_options {
-  uint32_t struct_size; /* sizeof(jam_modes_options) */
-  int32_t which;        /* @enum jam_modes_which, default LOWEST */
-  int64_t count;        /* how many, >= 1, default 10; not used by ALL */
-  double frequency;     /* NEAR: omega >= 0 */
-  double tolerance;     /* relative, of Lanczos, in (0, 1), default 1e-10 */
-  double memory_limit;  /* bytes, default 2e9: past it JAM_E_MEMORY with the estimate */
+  uint32_t struct_size;
+  int32_t which;       /* @enum jam_modes_which, default LOWEST */
+  int64_t count;       /* how many, >= 1, default 10; not used by ALL */
+  double frequency;    /* NEAR: omega >= 0 */
+  double tolerance;    /* relative, of Lanczos, in (0, 1), default 1e-10 */
+  double memory_limit; /* bytes, default 2e9: past it JAM_E_MEMORY with the estimate */
 } jam_modes_options;
-
+/* Columns of jam_modes, a row a mode. */
+typedef enum jam_mode_column {
+  JAM_MODE_LAMBDA = 0,       /* lambda = omega^2 */
+  JAM_MODE_PARTICIPATION = 1 /* sum |v_i|^4 / (sum |v_i|^2)^2 */
+} jam_mode_column;
 JAM_API jam_status jam_hessian_options_init(jam_hessian_options *o, size_t size);
 JAM_API jam_status jam_modes_options_init(jam_modes_options *o, size_t size);
 /* The N' stable spheres, ascending: row d k + c of the Hessian is component c of sphere out[k]. @shape out (N')
@@ -1307,46 +1174,40 @@ JAM_API jam_status jam_hessian_map(const jam_system *sys, int32_t *out, size_t o
 JAM_API jam_status jam_hessian(const jam_system *sys, const jam_hessian_options *h, int32_t *row_start,
                                size_t row_start_len, int32_t *column, size_t column_len, double *value,
                                size_t value_len, size_t *rows);
-/* Modes of the Hessian, *rows = their number m: lambda = omega^2 ascending, vector of unit length, participation = sum
- * |v_i|^4 / (sum |v_i|^2)^2. When fewer converge the rest is NaN. Status: JAM_NOT_CONVERGED. @shape lambda (m), vector
- * (m, N', d), participation (m) @errors STATE, SOLVER */
-JAM_API jam_status jam_modes(jam_system *sys, const jam_hessian_options *h, const jam_modes_options *o, double *lambda,
-                             size_t lambda_len, double *vector, size_t vector_len, double *participation,
-                             size_t participation_len, size_t *rows);
+/* Modes of the Hessian, *rows = their number m, lambda ascending, vector of unit length. When fewer converge the rest
+ * is NaN. Status: JAM_NOT_CONVERGED. @shape table (m, jam_mode_column), vector (m, N', d) @errors STATE, SOLVER */
+JAM_API jam_status jam_modes(jam_system *sys, const jam_hessian_options *h, const jam_modes_options *o, double *table,
+                             size_t table_len, double *vector, size_t vector_len, size_t *rows);
 
 /* ------------- network from geometry, states of self-stress */
 /* Options of jam_contacts_from_geometry. */
 typedef struct jam_geometry_options {
-  uint32_t struct_size; /* sizeof(jam_geometry_options) */
-  int32_t reserved;     /* 0 */
-  double tolerance;     /* contacts have |h| <= tolerance; 0, the default: set at the largest jump of the sorted gaps */
-  double window;        /* jumps are searched in |h| < window, in (0, 1], default 0.1 */
+  uint32_t struct_size;
+  int32_t reserved;
+  double tolerance; /* contacts have |h| <= tolerance; 0, the default: set at the largest jump of the sorted gaps */
+  double window;    /* jumps are searched in |h| < window, in (0, 1], default 0.1 */
 } jam_geometry_options;
-
-/* What jam_contacts_from_geometry found; gaps relative to sigma_ij. */
+/* What jam_contacts_from_geometry found; gaps relative to sigma_ij. second_*: the next candidate that could be rigid;
+ * its jump is 1 and its contacts -1 when there is none. */
 typedef struct jam_geometry_report {
-  uint32_t struct_size;  /* set by the caller: sizeof(jam_geometry_report) */
-  int32_t self_contacts; /* contacts of spheres with their own images, which constrain nothing in a fixed cell: left out
-                            of the network */
-  double tolerance;      /* used */
-  double gap_below;      /* largest |h| within it, rattlers included */
-  double gap_above;      /* smallest |h| beyond it (window when there is none) */
-  double jump;           /* gap_above / gap_below, the latter no smaller than resolution */
-  double resolution;     /* of gaps, from the digits that the coordinates have: 1e-15, or far more after a file with
-                          * few of them */
-  double second_jump;    /* of the next candidate that could be rigid, 1 when there is none */
-  double second_tolerance; /* its tolerance */
-  int64_t second_contacts; /* its contacts, -1 when there is none */
-  int64_t pairs_within;    /* pairs with |h| <= tolerance, rattlers included */
-  int64_t contacts;        /* of stable spheres */
-  int64_t excess_contacts; /* contacts - (d (N'-1) + 1) */
-  int64_t self_stresses;   /* dimension of the null space of S^T; a lower bound when zero_modes is cut off */
-  int64_t zero_modes;      /* of S^T S, translations among them; no more than 256 others are counted */
-  double force_residual;   /* largest |sum_j f_ij n_ij| over mean force */
-  double min_force;        /* over the mean */
-  int64_t clusters;        /* connected sets of stable spheres; with more than one, each has its own states */
+  uint32_t struct_size;
+  int32_t self_contacts;       /* with own images: no constraint in a fixed cell, so left out of the network */
+  double tolerance;            /* used */
+  double gap_below, gap_above; /* largest |h| within it, rattlers included; least beyond it, window without one */
+  double jump;                 /* gap_above / gap_below, the latter no smaller than resolution */
+  double resolution;           /* of gaps: 1e-15, or far more after a file whose coordinates have few digits */
+  double second_jump;          /* of the next candidate */
+  double second_tolerance;     /* its tolerance */
+  int64_t second_contacts;     /* its contacts */
+  int64_t pairs_within;        /* pairs with |h| <= tolerance, rattlers included */
+  int64_t contacts;            /* of stable spheres */
+  int64_t excess_contacts;     /* contacts - (d (N'-1) + 1) */
+  int64_t self_stresses;       /* dimension of the null space of S^T; a lower bound when zero_modes is cut off */
+  int64_t zero_modes;          /* of S^T S, translations among them; no more than 256 others are counted */
+  double force_residual;       /* largest |sum_j f_ij n_ij| over mean force */
+  double min_force;            /* over the mean */
+  int64_t clusters;            /* connected sets of stable spheres; with more than one, each has its own states */
 } jam_geometry_report;
-
 JAM_API jam_status jam_geometry_options_init(jam_geometry_options *o, size_t size);
 /* Contact network and forces from positions, diameters and box alone, kept as jam_crunch keeps its own; no sphere
  * moves. Rattlers are the spheres that carry no force. Contacts between the others stay, some with force 0. Forces
@@ -1372,8 +1233,8 @@ JAM_API jam_status jam_contact_candidates(const jam_system *sys, double window, 
                                           size_t *needed);
 /* States of self-stress of the network: *rows = their number m; force, mean 1, from the null space of S^T, not from LP
  * duals; basis orthonormal; residual: one number, as force_residual. Status: JAM_AMBIGUOUS (m > 1: force is the centre
- * of the non-negative ones), JAM_NOT_JAMMED (m = 0 or no force of one sign). @shape force (n_c), basis (m, n_c) @errors
- * STATE, SOLVER */
+ * of the non-negative ones), JAM_NOT_JAMMED (m = 0 or no force of one sign). @shape force (n_c), basis (m, n_c)
+ * @errors STATE, SOLVER */
 JAM_API jam_status jam_stress_states(jam_system *sys, double *force, size_t force_len, double *basis, size_t basis_len,
                                      double *residual, size_t *rows);
 
@@ -1383,7 +1244,6 @@ typedef enum jam_rigidity_kind {
   JAM_RIGIDITY_COLLECTIVE = 0, /* all motions of the spheres in a fixed cell */
   JAM_RIGIDITY_STRICT = 1      /* and all symmetric strains of the cell that do not enlarge its volume */
 } jam_rigidity_kind;
-
 /* Answer of a test. */
 typedef enum jam_verdict {
   JAM_VERDICT_UNTESTED = -1, /* the test has not run */
@@ -1391,25 +1251,23 @@ typedef enum jam_verdict {
   JAM_VERDICT_YES = 1,       /* jammed, with a proof: positive forces that balance, and full rank */
   JAM_VERDICT_UNDECIDED = 2  /* double precision cannot decide */
 } jam_verdict;
-
 /* What jam_rigidity found. K+ are the contacts that carry force in some balance of non-negative forces, B the spheres
- * that they touch, N' their number. */
+ * that they touch, N' their number. undecided_contacts: also pairs that the digits of the coordinates cannot
+ * distinguish from contacts. rigidity_margin below 1e-12: a flex; of a sphere that touches its own images alone: with
+ * strains. */
 typedef struct jam_rigidity_report {
-  uint32_t struct_size;        /* set by the caller: sizeof(jam_rigidity_report) */
+  uint32_t struct_size;
   int32_t kind;                /* @enum jam_rigidity_kind that was tested */
   int32_t jammed;              /* @enum jam_verdict */
   int32_t stationary;          /* @enum jam_verdict: K+ is not empty, so no small motion lets the diameters grow */
-  int64_t stable;              /* N' */
-  int64_t contacts;            /* |K+| */
+  int64_t stable, contacts;    /* N'; |K+| */
   int64_t contacts_needed;     /* collective d (N' - 1) + 1, strict d (N' - 1) + d (d + 1) / 2 */
   int64_t self_stresses;       /* independent balances of forces on K+, signs free */
   int64_t flexes;              /* motions beyond translations that keep K+ closed; 0 without K+, 512 at most */
   int64_t undercoordinated;    /* spheres of B with d contacts of K+ or fewer */
   int64_t zero_force_contacts; /* closed pairs that are not in K+ */
-  int64_t undecided_contacts;  /* pairs with gaps of 1e-10 to 1e-7. Also those that the digits of the coordinates cannot
-                                * distinguish from contacts */
-  double rigidity_margin;      /* smallest eigenvalue on K+ that is no translation; below 1e-12: a flex. Of a sphere
-                                * that touches its own images alone: with strains */
+  int64_t undecided_contacts;  /* pairs with gaps of 1e-10 to 1e-7 */
+  double rigidity_margin;      /* smallest eigenvalue on K+ that is no translation */
   double force_residual;       /* largest |sum_j f_ij n_ij| over the mean force, of the forces in the proof */
 } jam_rigidity_report;
 
@@ -1419,16 +1277,16 @@ typedef struct jam_rigidity_report {
  * spheres have too few of them. A sphere and its own image are a contact in the strict test, and in the collective one
  * where the network lists them. There a sphere that they alone hold needs forces on the cell to balance. Let S v be the
  * opening of contacts by a motion v, and E eps that by a strain eps. Collectively jammed: S v >= 0 only for
- * translations of B. Strictly jammed: S v + E eps >= 0 with tr eps <= 0 only for those and eps = 0. Sources: Donev,
- * Torquato, Stillinger, Connelly, J. Comput. Phys. 197, 139 (2004); Connelly 1988; Connelly, Shen, Smith,
- * arXiv:1301.0664; Roth and Whiteley 1981. Both hold for this cell: several copies of it together may unjam. Status:
- * JAM_OK jammed, JAM_NOT_JAMMED, JAM_AMBIGUOUS undecided. @enum kind jam_rigidity_kind @errors SOLVER */
+ * translations of B. Strictly jammed: S v + E eps >= 0 with tr eps <= 0 only for those and eps = 0. Both hold for this
+ * cell, not for several copies of it. Source: Donev et al., J. Comput. Phys. 197, 139 (2004); the guide's page "Jammed
+ * or not" has more. Status: JAM_OK jammed, JAM_NOT_JAMMED, JAM_AMBIGUOUS undecided. @enum kind jam_rigidity_kind
+ * @errors SOLVER
+ */
 JAM_API jam_status jam_rigidity(jam_system *sys, int32_t kind, jam_rigidity_report *report);
 /* A motion that a packing which is not jammed can follow: out, unit of the box, and strain, 0 for the collective kind.
  * The largest displacement is at most 1 mean diameter. Moving by a small part of both keeps all contacts or opens them.
- * Where no pair is near contact, one sphere moves.
- * @shape out (n, d), strain (d, d) @enum kind jam_rigidity_kind @errors SOLVER, STATE (jammed, or undecided without a
- * motion) */
+ * Where no pair is near contact, one sphere moves. @shape out (n, d), strain (d, d) @enum kind jam_rigidity_kind
+ * @errors SOLVER, STATE (jammed, or undecided without a motion) */
 JAM_API jam_status jam_flex(jam_system *sys, int32_t kind, double *out, size_t out_len, double *strain,
                             size_t strain_len, size_t *needed);
 
@@ -1443,57 +1301,51 @@ typedef enum jam_check_reason {
   JAM_CHECK_GAPS = 6,     /* undecided: with pairs closed that are open by 1e-10 or more it would be jammed */
   JAM_CHECK_MARGIN = 7    /* undecided: doubles do not resolve a flex from a soft mode, or a weak force from none */
 } jam_check_reason;
-
 /* Options of jam_check_packing. */
 typedef struct jam_check_options {
-  uint32_t struct_size; /* sizeof(jam_check_options) */
-  int32_t crunch;       /* @bool an undecided packing is crunched, as a copy, to say what that changes; default 1 */
-  double wall_time;     /* limit for this crunch in seconds, > 0, default infinity */
-  int32_t prove;        /* @bool a jammed packing is proved as by jam_prove, into the report; default 0 */
-  int32_t reserved;     /* 0 */
+  uint32_t struct_size;
+  int32_t crunch;   /* @bool an undecided packing is crunched, as a copy, to say what that changes; default 1 */
+  double wall_time; /* limit for this crunch */
+  int32_t prove;    /* @bool a jammed packing is proved as by jam_prove, into the report; default 0 */
+  int32_t reserved;
 } jam_check_options;
-
 /* Verdict on a packing as it is. Gaps are relative to sigma_ij, displacements in mean diameters without their mean.
- * NaN: not known. */
+ * Closed pairs have gaps below 1e-10. NaN, and -1 for contacts: not known. crunch_*: of the crunched copy. */
 typedef struct jam_check_report {
-  uint32_t struct_size;           /* set by the caller: sizeof(jam_check_report) */
-  int32_t jammed;                 /* @enum jam_verdict: collectively jammed */
-  int32_t strictly_jammed;        /* @enum jam_verdict; NO where jammed is NO */
-  int32_t stationary;             /* @enum jam_verdict: non-negative forces balance */
-  int32_t reason;                 /* @enum jam_check_reason of jammed */
-  int32_t dim;                    /* d */
-  int32_t digits;                 /* decimal digits that coordinates, diameters or cell seem to have; 0: all */
-  int32_t crunch_jammed;          /* @enum jam_verdict of the crunched copy; UNTESTED without one */
-  int64_t n;                      /* number of spheres */
-  int64_t contacts;               /* closed pairs (gaps below 1e-10) that carry force */
-  int64_t excess_contacts;        /* contacts - (d (N' - 1) + 1), 0 without contacts */
-  int64_t rattlers;               /* n - N': spheres without force */
-  int64_t closed_pairs;           /* pairs with gaps below 1e-10, those of rattlers among them */
-  int64_t zero_force_contacts;    /* of the pairs that were tested, those without force in every state */
-  int64_t undecided_contacts;     /* pairs that may be contacts or not, by rounding or for lack of digits */
-  int64_t self_stresses;          /* independent balances of forces; with more than one forces are not unique */
-  int64_t flexes;                 /* motions beyond translations that keep all contacts with force closed */
-  int64_t strict_flexes;          /* likewise with strains of the cell; 0 where that was not tested */
-  int64_t crunch_contacts;        /* contacts of the crunched copy; -1 without one */
-  double packing_fraction;        /* of the packing as it is */
-  double nearest_gap;             /* smallest gap of all pairs; negative: an overlap. Infinite: none below 1 */
-  double min_gap;                 /* smallest gap of two spheres with force that is no contact */
-  double max_contact_gap;         /* largest |gap| of a contact with force */
-  double force_residual;          /* largest |sum_j f_ij n_ij| over the mean force */
-  double rigidity_margin;         /* smallest eigenvalue on contacts with force that is no translation */
-  double coordinate_step;         /* the numbers given are multiples of it, unit of the box; 0: all digits are there */
-  double resolution;              /* of gaps: from the digits of the coordinates, and from overlaps */
-  double diameter_factor;         /* diameters were tested times this, so that no pair overlaps; 1: as they are */
-  double crunch_packing_fraction; /* of the crunched copy */
+  uint32_t struct_size;
+  int32_t jammed;                /* @enum jam_verdict: collectively jammed */
+  int32_t strictly_jammed;       /* @enum jam_verdict; NO where jammed is NO */
+  int32_t stationary;            /* @enum jam_verdict: non-negative forces balance */
+  int32_t reason;                /* @enum jam_check_reason of jammed */
+  int32_t dim;                   /* d */
+  int32_t digits;                /* decimal digits that coordinates, diameters or cell seem to have; 0: all */
+  int32_t crunch_jammed;         /* @enum jam_verdict; UNTESTED without a copy */
+  int64_t n;                     /* number of spheres */
+  int64_t contacts;              /* closed pairs that carry force */
+  int64_t excess_contacts;       /* contacts - (d (N' - 1) + 1), 0 without contacts */
+  int64_t rattlers;              /* n - N': spheres without force */
+  int64_t closed_pairs;          /* those of rattlers among them */
+  int64_t zero_force_contacts;   /* of the pairs that were tested, those without force in every state */
+  int64_t undecided_contacts;    /* pairs that may be contacts or not, by rounding or for lack of digits */
+  int64_t self_stresses;         /* independent balances of forces; with more than one forces are not unique */
+  int64_t flexes, strict_flexes; /* motions but translations that keep force contacts closed; with strains, if tested */
+  int64_t crunch_contacts;       /* contacts of the copy */
+  double packing_fraction;       /* of the packing as it is */
+  double nearest_gap;            /* smallest gap of all pairs; negative: an overlap. Infinite: none below 1 */
+  double min_gap;                /* smallest gap of two spheres with force that is no contact */
+  double max_contact_gap;        /* largest |gap| of a contact with force */
+  double force_residual;         /* largest |sum_j f_ij n_ij| over the mean force */
+  double rigidity_margin;        /* smallest eigenvalue on contacts with force that is no translation */
+  double coordinate_step;        /* the numbers given are multiples of it, unit of the box; 0: all digits are there */
+  double resolution;             /* of gaps: from the digits of the coordinates, and from overlaps */
+  double diameter_factor;        /* diameters were tested times this, so that no pair overlaps; 1: as they are */
+  double crunch_packing_fraction; /* of the copy */
   double crunch_displacement_max; /* largest displacement in it of a sphere that ends with contacts */
   double crunch_displacement_rms; /* root of the mean square of the same */
-  int32_t theorem;                /* @enum jam_theorem, with the option prove; NONE without */
-  int32_t proof_cause;            /* @enum jam_proof_cause: why the theorem is not EXACT */
-  double proof_radius; /* unit of the box: radius of EXACT, inner of TRAPPED, see jam_proof_report; else infinite */
-  double proof_value;  /* the two numbers of the cause */
-  double proof_bound;
+  int32_t theorem, proof_cause;   /* @enum jam_theorem, by prove, else NONE; @enum jam_proof_cause it is not EXACT */
+  double proof_radius; /* unit of the box: radius of EXACT, inner of TRAPPED (jam_proof_report), or infinite */
+  double proof_value, proof_bound; /* the two numbers of the cause */
 } jam_check_report;
-
 JAM_API jam_status jam_check_options_init(jam_check_options *o, size_t size);
 /* Judges a packing as it is: by positions, diameters and cell alone, whatever network the handle holds. Nothing on the
  * handle changes. Runs both tests of jam_rigidity. Coordinates with few digits never give a no unless spheres have too
@@ -1504,18 +1356,18 @@ JAM_API jam_status jam_check_packing(jam_system *sys, const jam_check_options *o
 /* The report of jam_check_packing as one paragraph: the verdict, its figures, how sure it is, and what was proved. ""
  * for NULL or a wrong struct_size. Valid until this thread's next call of it. */
 JAM_API const char *jam_check_text(const jam_check_report *report);
+
 /* ------------- proof */
-/* What was proved. */
+/* What was proved. TRAPPED: no motion without overlap takes a stable sphere farther than inner, but translations of
+ * all. No packing as dense lies between inner and outer. */
 typedef enum jam_theorem {
   JAM_THEOREM_NONE = 0,    /* nothing: see cause */
-  JAM_THEOREM_TRAPPED = 1, /* no motion without overlap takes a stable sphere farther than inner, but translations of
-                            * all. No packing as dense lies between inner and outer */
+  JAM_THEOREM_TRAPPED = 1, /* stable spheres cannot leave the radius inner without overlap */
   JAM_THEOREM_EXACT = 2    /* a packing that touches exactly in all contacts lies within radius: jammed, forces > 0 */
 } jam_theorem;
-
 /* Why a packing was not proved exact, with cause_value and cause_bound. */
 typedef enum jam_proof_cause {
-  JAM_CAUSE_NONE = 0,
+  JAM_CAUSE_NONE = 0,     /* it was */
   JAM_CAUSE_EXCESS = 1,   /* contacts, and those of one state of self-stress: more of them need a reason in algebra */
   JAM_CAUSE_FORCE = 2,    /* least force and its error, over the mean force */
   JAM_CAUSE_GAP = 3,      /* least gap of a pair that is no contact, and the radius */
@@ -1523,30 +1375,24 @@ typedef enum jam_proof_cause {
   JAM_CAUSE_RATTLER = 5,  /* as gap, where the pair has a rattler */
   JAM_CAUSE_IMAGES = 6    /* a contact of a sphere with its own image */
 } jam_proof_cause;
-
-/* What jam_prove found. Bounds are rounded outward; NaN where they do not apply. */
+/* What jam_prove found. Bounds are rounded outward; NaN where they do not apply. The exact diameters are sqrt(Gamma)
+ * ratio_i times the power of two at or below V^(1/d). Where no ratios are given, equal spheres have 1. */
 typedef struct jam_proof_report {
-  uint32_t struct_size; /* set by the caller: sizeof(jam_proof_report) */
-  int32_t theorem;      /* @enum jam_theorem */
-  int32_t cause;        /* @enum jam_proof_cause: why theorem is not JAM_THEOREM_EXACT */
-  int32_t reserved;     /* 0 */
-  int64_t stable;       /* spheres with contacts, N' */
-  int64_t contacts;     /* equations; d (N' - 1) + 1 unknowns */
-  double cause_value;   /* see jam_proof_cause */
-  double cause_bound;
-  double radius;           /* unit of the box: no refined centre is farther from the exact one */
-  double gamma;            /* exact diameters are sqrt(Gamma) ratio_i times the power of two at or below V^(1/d), and */
-  double gamma_low;        /* Gamma is about gamma + gamma_low. Where no ratios are given, equal spheres have 1 */
-  double packing_fraction; /* of the exact packing, rounded to double */
-  double fraction_error;   /* relative error of phi_J from gamma + gamma_low */
-  double least_force;      /* over the mean force */
-  double force_error;      /* of every force, over the mean force */
-  double least_gap;        /* relative, of pairs that are no contacts; 1e-3 if none is smaller */
-  double inner;            /* unit of the box: see JAM_THEOREM_TRAPPED */
-  double outer;
-  double singular;   /* below the smallest singular value of the rows 2 r_c, in units of that power of two */
-  double eigenvalue; /* estimate of its square */
-  double rounding;   /* error bound that was taken off the square */
+  uint32_t struct_size;
+  int32_t theorem; /* @enum jam_theorem */
+  int32_t cause;   /* @enum jam_proof_cause: why theorem is not JAM_THEOREM_EXACT */
+  int32_t reserved;
+  int64_t stable, contacts;        /* spheres with contacts, N'; equations: d (N' - 1) + 1 unknowns */
+  double cause_value, cause_bound; /* see jam_proof_cause */
+  double radius;                   /* unit of the box: no refined centre is farther from the exact one */
+  double gamma, gamma_low;         /* Gamma is about the sum of both */
+  double packing_fraction;         /* of the exact packing, rounded to double */
+  double fraction_error;           /* relative error of phi_J from gamma + gamma_low */
+  double least_force, force_error; /* over the mean force; of every force, over the mean force */
+  double least_gap;                /* relative, of pairs that are no contacts; 1e-3 if none is smaller */
+  double inner, outer;             /* unit of the box: see jam_theorem */
+  double singular;             /* below the smallest singular value of the rows 2 r_c, in units of that power of two */
+  double eigenvalue, rounding; /* estimate of its square; error bound that was taken off the square */
 } jam_proof_report;
 
 /* Proves, in spite of rounding, that the packing is jammed. Contacts and forces are those of the network. Newton's
@@ -1576,25 +1422,24 @@ JAM_API jam_status jam_refined_positions(const jam_system *sys, const double *ra
                                          size_t high_len, double *low, size_t low_len, size_t *needed);
 
 /* ------------- gaps, classes and angles of contacts */
-/* Flags of a contact. */
+/* Flags of a contact. A buckler is a stable sphere with d + 1 contacts. */
 typedef enum jam_contact_class {
-  JAM_CONTACT_LOCALISED = 1, /* touches a buckler (a stable sphere with d + 1 contacts); without it: extended */
+  JAM_CONTACT_LOCALISED = 1, /* touches a buckler; without it: extended */
   JAM_CONTACT_SMALLEST = 2,  /* has the smallest force of one of its spheres */
   JAM_CONTACT_MEDIAN = 4     /* has the (lower) median force of one of its spheres */
 } jam_contact_class;
-
-/* Gaps h of all pairs below h_max (every image), contacts left out, ascending; *rows = gaps. With stable_only = 0
- * rattlers count too and no network is needed. @shape gap (gaps), pair (gaps, 2) @errors STATE */
+/* Gaps h of all pairs below h_max (every image), contacts left out, ascending; *rows = gaps. Without stable_only
+ * rattlers count too and no network is needed. @shape gap (gaps), pair (gaps, 2) @bool stable_only @errors STATE */
 JAM_API jam_status jam_gaps(const jam_system *sys, double h_max, int32_t stable_only, double *gap, size_t gap_len,
                             int32_t *pair, size_t pair_len, size_t *rows);
 /* Flags (jam_contact_class) of every contact. @shape out (n_c) @errors STATE */
 JAM_API jam_status jam_contact_classes(const jam_system *sys, int32_t *out, size_t out_len, size_t *needed);
 /* c: C_i = sum_j n_ij, s: S_i = sum_{j<k} n_ij . n_ik, with f n for n when weighted; 0 for rattlers. *rows = n. @shape
- * c (n, d), s (n) @errors STATE */
+ * c (n, d), s (n) @bool weighted @errors STATE */
 JAM_API jam_status jam_sphere_structure(const jam_system *sys, int32_t weighted, double *c, size_t c_len, double *s,
                                         size_t s_len, size_t *rows);
 /* n_ij . n_ik (f_ij f_ik times it when weighted) of every pair of contacts of a sphere, and that sphere; *rows = pairs.
- * @shape dot (pairs), sphere (pairs) @errors STATE */
+ * @shape dot (pairs), sphere (pairs) @bool weighted @errors STATE */
 JAM_API jam_status jam_contact_dots(const jam_system *sys, int32_t weighted, double *dot, size_t dot_len,
                                     int32_t *sphere, size_t sphere_len, size_t *rows);
 /* Quantity of which jam_local_values and jam_histogram take the values. */
@@ -1610,31 +1455,42 @@ typedef enum jam_local_quantity {
 } jam_local_quantity;
 /* The contacts or spheres that count. */
 typedef enum jam_population {
-  JAM_POPULATION_ALL = 0,
+  JAM_POPULATION_ALL = 0,       /* all contacts, all stable spheres */
   JAM_POPULATION_LOCALISED = 1, /* contacts that touch a buckler; spheres and their pairs: the bucklers */
   JAM_POPULATION_EXTENDED = 2,  /* contacts that do not; spheres and their pairs: all other stable ones */
   JAM_POPULATION_SMALLEST = 3,  /* forces only: the smallest of one of its spheres */
   JAM_POPULATION_MEDIAN = 4     /* forces only: the (lower) median of one of its spheres */
 } jam_population;
 /* Values of a quantity in a population, in the order of contacts, spheres or jam_contact_dots. @shape out
- * (values)
- * @enum quantity jam_local_quantity, population jam_population @errors STATE */
+ * (values) @enum quantity jam_local_quantity, population jam_population @errors STATE */
 JAM_API jam_status jam_local_values(const jam_system *sys, int32_t quantity, int32_t population, double *out,
                                     size_t out_len, size_t *needed);
 /* Histogram of the values of jam_local_values: density in `bins` equal bins of [low, high), its integral the share of
  * values there. @shape out (bins) @enum quantity jam_local_quantity, population jam_population @errors STATE */
 JAM_API jam_status jam_histogram(const jam_system *sys, int32_t quantity, int32_t population, double low, double high,
                                  int64_t bins, double *out, size_t out_len, size_t *needed);
+
 /* ------------- structure of the packing */
-/* g_ab(r) of spheres with labels a and b (-1: any; kind: the labels, or NULL), in `bins` equal bins up to r_max mean
- * diameters. @shape kind (n), out (bins) */
-JAM_API jam_status jam_pair_correlation(const jam_system *sys, const int32_t *kind, size_t kind_len, int32_t a,
-                                        int32_t b, double r_max, int64_t bins, double *out, size_t out_len,
-                                        size_t *needed);
-/* S(q) on the wave vectors of the cell (in a cube 2 pi n / box), averaged over each |q| <= q_max; q per mean diameter,
- * ascending. Lengths that differ by less than 5e-13 of |q| are one. @shape q (m), s (m) */
-JAM_API jam_status jam_structure_factor(jam_system *sys, double q_max, double *q, size_t q_len, double *s, size_t s_len,
-                                        size_t *rows);
+/* Options of jam_pair_correlation. */
+typedef struct jam_correlation_options {
+  uint32_t struct_size;
+  int32_t a, b; /* labels of the spheres, default -1: any */
+  int32_t reserved;
+  double r_max; /* mean diameters, > 0, default 4 */
+  int64_t bins; /* equal ones from 0 to r_max, 1 .. 1e8, default 200 */
+} jam_correlation_options;
+JAM_API jam_status jam_correlation_options_init(jam_correlation_options *o, size_t size);
+/* g_ab(r) of spheres with labels a and b. kind: the labels, or NULL. @shape kind (n), out (bins) */
+JAM_API jam_status jam_pair_correlation(const jam_system *sys, const jam_correlation_options *o, const int32_t *kind,
+                                        size_t kind_len, double *out, size_t out_len, size_t *needed);
+/* Columns of jam_structure_factor. */
+typedef enum jam_structure_column {
+  JAM_STRUCTURE_Q = 0, /* |q| times the mean diameter, ascending */
+  JAM_STRUCTURE_S = 1  /* S(q), its average over all q of this length */
+} jam_structure_column;
+/* S(q) on the wave vectors of the cell (in a cube 2 pi n / box) with |q| <= q_max. Lengths that differ by less than
+ * 5e-13 of |q| are one. @shape table (m, jam_structure_column) */
+JAM_API jam_status jam_structure_factor(jam_system *sys, double q_max, double *table, size_t table_len, size_t *needed);
 /* Bond order Q_l of each sphere (d = 2: |psi_l|) over neighbours with |r| < cutoff sigma_ij; l in 1..64, cutoff in (0,
  * 3] (1.2 is usual). @shape out (n) */
 JAM_API jam_status jam_bond_order(const jam_system *sys, int32_t l, double cutoff, double *out, size_t out_len,
@@ -1651,17 +1507,16 @@ JAM_API jam_status jam_local_fraction(const jam_system *sys, double *out, size_t
  * diameters change by the factor 1 - s f / sum f sigma, and there is no net translation. contact in 0..n_c-1. Needs a
  * single state of self-stress (JAM_E_STATE says how many there are). @shape out (N', d) @errors STATE, SOLVER */
 JAM_API jam_status jam_floppy_mode(jam_system *sys, int64_t contact, double *out, size_t out_len, size_t *needed);
-/* Columns of jam_floppy_modes, a row a contact; dr is the field of jam_floppy_mode. */
+/* Columns of jam_floppy_modes, a row a contact; dr is the field of jam_floppy_mode, and F the mean force. Openings have
+ * the unit of positions: divide by the diameter to compare packings of different N. B = sum_k f_k |dr_perp|^2 / r_k.
+ * S_RETURN is s* of R. Diaz Hernandez Rojas, PhD thesis, Sapienza 2021, whose index is twice stability. */
 typedef enum jam_floppy_column {
   JAM_FLOPPY_MEDIAN = 0,    /* b = median |dr_i| / |dr|: far below 1/sqrt(N') when the mode is localised */
   JAM_FLOPPY_WEIGHT = 1,    /* W = f / median |dr_i|: f equals W times the displacement far away */
-  JAM_FLOPPY_S_PLUS = 2,    /* opening at which, to first order, the next contact forms. Openings have the unit of
-                             * positions: divide by the diameter to compare packings of different N */
-  JAM_FLOPPY_S_STAR = 3,    /* opening f / B at which, to second order, the diameters are least; B = sum_k f_k
-                             * |dr_perp|^2 / r_k */
+  JAM_FLOPPY_S_PLUS = 2,    /* opening at which, to first order, the next contact forms */
+  JAM_FLOPPY_S_STAR = 3,    /* opening f / B at which, to second order, the diameters are least */
   JAM_FLOPPY_STABILITY = 4, /* s_star / s_plus = sigma f / (N c F s_plus), F the mean force, c = sigma B / (N F) */
-  JAM_FLOPPY_S_RETURN = 5   /* opening 2 s_star at which, to second order, the diameters are back at their start: s* of
-                             * R. Diaz Hernandez Rojas, PhD thesis, Sapienza 2021; his index is twice stability */
+  JAM_FLOPPY_S_RETURN = 5   /* opening 2 s_star at which, to second order, the diameters are back at their start */
 } jam_floppy_column;
 /* The floppy mode of every contact, measured. @shape table (n_c, jam_floppy_column) @errors STATE, SOLVER */
 JAM_API jam_status jam_floppy_modes(jam_system *sys, double *table, size_t table_len, size_t *needed);
@@ -1669,40 +1524,31 @@ JAM_API jam_status jam_floppy_modes(jam_system *sys, double *table, size_t table
 /* ------------- spectrum, moduli, comparison */
 /* Options of jam_density_of_states. */
 typedef struct jam_dos_options {
-  uint32_t struct_size; /* sizeof(jam_dos_options) */
-  int32_t moments;      /* Chebyshev moments, 8..1e6, default 512: resolution in omega about 1.6 omega_max / moments */
-  int32_t vectors;      /* random vectors, 2..1e5, default 16 */
-  int32_t points;       /* values of omega, default 200 */
-  int64_t seed;         /* of the random vectors, default 1 */
+  uint32_t struct_size;
+  int32_t moments; /* Chebyshev moments, 8..1e6, default 512: resolution in omega about 1.6 omega_max / moments */
+  int32_t vectors; /* random vectors, 2..1e5, default 16 */
+  int32_t points;  /* values of omega, default 200 */
+  int64_t seed;    /* of the random vectors, default 1 */
 } jam_dos_options;
-
-/* Elastic moduli, unit: stiffness at the mean force times length^(2-d); non-affine part included. */
+/* Elastic moduli, unit: stiffness at the mean force times length^(2-d). Affine: without the non-affine part. */
 typedef struct jam_moduli_report {
-  uint32_t struct_size; /* set by the caller: sizeof(jam_moduli_report) */
-  int32_t reserved;     /* 0 */
-  double bulk;          /* K */
-  double bulk_affine;   /* K without the non-affine part */
-  double shear;         /* G for simple shear, mean over the d (d-1) coordinate directions */
-  double shear_affine;  /* G without the non-affine part */
-  double shear_min;     /* smallest of the planes, both directions averaged */
-  double shear_max;     /* largest of them */
+  uint32_t struct_size;
+  int32_t reserved;
+  double bulk, bulk_affine;    /* K; K without the non-affine part */
+  double shear, shear_affine;  /* G for simple shear, mean over the d (d-1) coordinate directions; affine G */
+  double shear_min, shear_max; /* smallest G of the planes, both directions averaged; largest of them */
 } jam_moduli_report;
-
-/* What jam_compare found. */
+/* What jam_compare found between sys, a, and other, b. Contacts are -1 and overlaps NaN where one has no network. */
 typedef struct jam_comparison {
-  uint32_t struct_size;           /* set by the caller: sizeof(jam_comparison) */
-  int32_t reserved;               /* 0 */
-  int64_t contacts_a, contacts_b; /* of sys and of other; -1 without a network */
-  int64_t common_contacts;        /* pairs in both; -1 unless both have a network */
-  int64_t stable_in_both;         /* spheres that are rattlers in neither */
-  double overlap;                 /* common over union; NaN unless both have a network */
-  double overlap_a;               /* common over contacts_a: sys as the reference; NaN likewise */
-  double packing_fraction_change; /* phi of other minus phi of sys */
-  double displacement_rms;        /* of these spheres (or all) without their mean, in mean diameters of sys */
-  double displacement_max;        /* likewise */
+  uint32_t struct_size;
+  int32_t reserved;
+  int64_t contacts_a, contacts_b;            /* of sys; of other */
+  int64_t common_contacts;                   /* pairs in both */
+  int64_t stable_in_both;                    /* spheres that are rattlers in neither */
+  double overlap, overlap_a;                 /* common over union; common over contacts_a: sys as the reference */
+  double packing_fraction_change;            /* phi of other minus phi of sys */
+  double displacement_rms, displacement_max; /* of these (or all) without their mean, in mean diameters of sys */
 } jam_comparison;
-
-JAM_API jam_status jam_dos_options_init(jam_dos_options *o, size_t size);
 /* Columns of jam_density_of_states, a row a bin of the frequency omega. */
 typedef enum jam_dos_column {
   JAM_DOS_OMEGA = 0,           /* middle of the bin */
@@ -1712,6 +1558,7 @@ typedef enum jam_dos_column {
   JAM_DOS_CUMULATIVE = 4,      /* share of modes below the edge */
   JAM_DOS_CUMULATIVE_ERROR = 5 /* its standard error */
 } jam_dos_column;
+JAM_API jam_status jam_dos_options_init(jam_dos_options *o, size_t size);
 /* Density of states D(omega) and its integral by the kernel polynomial method: no modes are computed, translations are
  * left out. With prestress omega starts below 0: unstable modes stand at -sqrt(-lambda), and resolution is lower near
  * 0. @shape table (points, jam_dos_column) @errors STATE, SOLVER, TOO_FEW */

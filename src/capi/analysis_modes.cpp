@@ -2,6 +2,7 @@
 #include <algorithm>
 #include "analysis/modes.hpp"
 #include "capi/analysis.hpp"
+#include "capi/table.hpp"
 
 using namespace jam;
 
@@ -41,9 +42,8 @@ jam_status jam_hessian(const jam_system *sys, const jam_hessian_options *h, int3
   });
 }
 
-jam_status jam_modes(jam_system *sys, const jam_hessian_options *h, const jam_modes_options *o, double *lambda,
-                     size_t lambda_len, double *vector, size_t vector_len, double *participation,
-                     size_t participation_len, size_t *needed) {
+jam_status jam_modes(jam_system *sys, const jam_hessian_options *h, const jam_modes_options *o, double *table,
+                     size_t table_len, double *vector, size_t vector_len, size_t *needed) {
   return guard_verb(sys, [&]() -> jam_status {
     const jam_hessian_options options = take_hessian_options(h);
     jam_modes_options full = default_modes_options();
@@ -54,20 +54,21 @@ jam_status jam_modes(jam_system *sys, const jam_hessian_options *h, const jam_mo
     const size_t n = g.unknowns(), internal = n - std::min<size_t>(n, static_cast<size_t>(g.dim));
     const size_t m = full.which == JAM_MODES_ALL ? n : std::min<size_t>(internal, static_cast<size_t>(full.count));
     if (needed) *needed = m;
-    if (!needed && !lambda && !vector && !participation)
-      fail(JAM_E_NULL, "needed is NULL and there is no output array");
-    check_output(lambda, lambda_len, m, "lambda");
+    constexpr size_t columns = JAM_MODE_PARTICIPATION + 1;
+    if (!needed && !table && !vector) fail(JAM_E_NULL, "needed is NULL and there is no output array");
+    check_output(table, table_len, columns * m, "table");
     check_output(vector, vector_len, m * n, "vector");
-    check_output(participation, participation_len, m, "participation");
     if (m == 0) return JAM_NOT_JAMMED;
-    if (!lambda && !vector && !participation) return JAM_OK;
+    if (!table && !vector) return JAM_OK;
     Modes modes;
     const jam_status status =
         find_modes(g, contact_weights(g, diameter_mean(sys->packing), options), full, sys->monitor, modes);
     if (status == JAM_CANCELLED) return status;
-    put_output(modes.lambda, lambda, m);
     put_output(modes.vector, vector, m * n);
-    put_output(modes.participation, participation, m);
+    if (table) {
+      put_column(modes.lambda, JAM_MODE_LAMBDA, columns, table);
+      put_column(modes.participation, JAM_MODE_PARTICIPATION, columns, table);
+    }
     return status;
   });
 }

@@ -1,8 +1,27 @@
 // Header section "analysis": gaps, classes, structure, correlations.
 #include "analysis/structure.hpp"
 #include "capi/analysis.hpp"
+#include "capi/table.hpp"
 
 using namespace jam;
+
+namespace {
+
+void check_bins(int64_t bins) {
+  if (bins < 1 || bins > 100000000)
+    fail(JAM_E_ARGUMENT, "bins is %lld, it must be in 1..1e8", static_cast<long long>(bins));
+}
+
+jam_correlation_options default_correlation_options() {
+  jam_correlation_options o{};
+  o.struct_size = sizeof o;
+  o.a = o.b = -1;
+  o.r_max = 4.0;
+  o.bins = 200;
+  return o;
+}
+
+}  // namespace
 
 extern "C" {
 
@@ -71,8 +90,7 @@ jam_status jam_local_values(const jam_system *sys, int32_t quantity, int32_t pop
 jam_status jam_histogram(const jam_system *sys, int32_t quantity, int32_t population, double low, double high,
                          int64_t bins, double *out, size_t out_len, size_t *needed) {
   return guard_const(sys, [&]() -> jam_status {
-    if (bins < 1 || bins > 100000000)
-      fail(JAM_E_ARGUMENT, "bins is %lld, it must be in 1..1e8", static_cast<long long>(bins));
+    check_bins(bins);
     need_network(sys);
     const std::vector<double> density = histogram(local_values(sys->packing, sys->contacts, quantity, population), low,
                                                   high, static_cast<size_t>(bins));
@@ -80,29 +98,31 @@ jam_status jam_histogram(const jam_system *sys, int32_t quantity, int32_t popula
   });
 }
 
-jam_status jam_pair_correlation(const jam_system *sys, const int32_t *kind, size_t kind_len, int32_t a, int32_t b,
-                                double r_max, int64_t bins, double *out, size_t out_len, size_t *needed) {
+jam_status jam_correlation_options_init(jam_correlation_options *o, size_t size) {
+  return init_options(o, size, default_correlation_options());
+}
+jam_status jam_pair_correlation(const jam_system *sys, const jam_correlation_options *o, const int32_t *kind,
+                                size_t kind_len, double *out, size_t out_len, size_t *needed) {
   return guard_const(sys, [&]() -> jam_status {
+    jam_correlation_options full = default_correlation_options();
+    take_options(o, full);
     if (kind_len) need(kind, "kind");
-    if (bins < 1 || bins > 100000000)
-      fail(JAM_E_ARGUMENT, "bins is %lld, it must be in 1..1e8", static_cast<long long>(bins));
-    if (!out && needed && out_len == 0) return *needed = static_cast<size_t>(bins), JAM_OK;
+    check_bins(full.bins);
+    if (!out && needed && out_len == 0) return *needed = static_cast<size_t>(full.bins), JAM_OK;
     const std::vector<double> g =
-        pair_correlation(sys->packing, kind, kind_len, a, b, r_max, static_cast<size_t>(bins));
+        pair_correlation(sys->packing, kind, kind_len, full.a, full.b, full.r_max, static_cast<size_t>(full.bins));
     return give_array(g.data(), g.size(), out, out_len, needed);
   });
 }
 
-jam_status jam_structure_factor(jam_system *sys, double q_max, double *q, size_t q_len, double *s, size_t s_len,
-                                size_t *needed) {
+jam_status jam_structure_factor(jam_system *sys, double q_max, double *table, size_t table_len, size_t *needed) {
   return guard_cancellable(sys, [&]() -> jam_status {
-    if (!needed && !q && !s) fail(JAM_E_NULL, "needed is NULL and there is no output array");
-    const StructureFactor f = structure_factor(sys->packing, q_max, !q && !s);
-    if (needed) *needed = f.q.size();
-    check_output(q, q_len, f.q.size(), "q");
-    check_output(s, s_len, f.s.size(), "s");
-    put_output(f.q, q, f.q.size());
-    put_output(f.s, s, f.s.size());
+    if (!needed && !table) fail(JAM_E_NULL, "needed is NULL and there is no output array");
+    constexpr size_t columns = JAM_STRUCTURE_S + 1;
+    const StructureFactor f = structure_factor(sys->packing, q_max, !table);
+    if (!table_wanted(f.q.size(), columns, table, table_len, needed)) return JAM_OK;
+    put_column(f.q, JAM_STRUCTURE_Q, columns, table);
+    put_column(f.s, JAM_STRUCTURE_S, columns, table);
     return JAM_OK;
   });
 }

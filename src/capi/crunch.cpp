@@ -2,6 +2,7 @@
 #include "crunch/crunch.hpp"
 #include "capi/analysis.hpp"
 #include "capi/proof.hpp"
+#include "capi/table.hpp"
 #include "core/checks.hpp"
 
 using namespace jam;
@@ -100,14 +101,10 @@ jam_status jam_get_crunch_report(const jam_system *sys, jam_crunch_report *repor
   });
 }
 
-jam_status jam_crunch_history(const jam_system *sys, int32_t column, double *out, size_t out_len, size_t *needed) {
+jam_status jam_crunch_history(const jam_system *sys, double *table, size_t table_len, size_t *needed) {
   return guard_read(sys, [&]() -> jam_status {
     if (!sys->has_history) fail(JAM_E_STATE, "there is no history: call jam_crunch first");
-    check_enum(column, 0, static_cast<int32_t>(history_columns) - 1, "column", "jam_history_column");
-    std::vector<double> values;
-    values.reserve(sys->history.size());
-    for (const HistoryRow &row : sys->history) values.push_back(row[column]);
-    return give_array(values.data(), values.size(), out, out_len, needed);
+    return give_table(sys->history, table, table_len, needed);
   });
 }
 jam_status jam_crunch_step_displacements(const jam_system *sys, double *out, size_t out_len, size_t *needed) {

@@ -1,8 +1,9 @@
 // Header section "Monte Carlo, runs from one configuration": the ensemble of runs and its sums.
 #include "dynamics/isoconfigurational/isoconfigurational.hpp"
+#include <algorithm>
 #include "core/checks.hpp"
 
-#include "capi/guard.hpp"
+#include "capi/table.hpp"
 
 using namespace jam;
 
@@ -30,6 +31,8 @@ jam_isoconf_report report_of(const Isoconfigurational &runs) {
   if (r.runs == 0) r.energy_drift = r.max_overlap = r.acceptance = NAN;
   return r;
 }
+
+size_t instants_of(const RunSums &sums) { return sums.series.size() / isoconf_columns; }
 
 void take_monte_carlo_options(const jam_monte_carlo_options *m, jam_monte_carlo_options &full) {
   take_options(m, full);
@@ -87,35 +90,45 @@ jam_status jam_get_isoconf_report(const jam_system *sys, jam_isoconf_report *rep
   });
 }
 
-jam_status jam_isoconf_sums(const jam_system *sys, int64_t block, double *displacement, size_t displacement_len,
-                            double *square, size_t square_len, double *distance2, size_t distance2_len,
-                            double *distance4, size_t distance4_len, int64_t *runs, size_t *needed) {
+jam_status jam_isoconf_displacements(const jam_system *sys, int64_t block, double *displacement,
+                                     size_t displacement_len, double *square, size_t square_len, size_t *rows) {
   return with_runs(sys, [&](const Isoconfigurational &made) -> jam_status {
     const RunSums sums = made.sums(block);
     const double box = made.box();
-    if (needed) *needed = sums.distance2.size();
+    if (rows) *rows = instants_of(sums);
     give_scaled("displacement", sums.displacement, box, displacement, displacement_len);
     give_scaled("square", sums.square, box * box, square, square_len);
-    give_scaled("distance2", sums.distance2, box * box, distance2, distance2_len);
-    give_scaled("distance4", sums.distance4, box * box * box * box, distance4, distance4_len);
-    if (runs) *runs = sums.runs;
     return JAM_OK;
   });
 }
 
-jam_status jam_isoconf_series(const jam_system *sys, int64_t block, int32_t column, double *out, size_t out_len,
-                              size_t *needed) {
+jam_status jam_isoconf_distances(const jam_system *sys, int64_t block, double *distance2, size_t distance2_len,
+                                 double *distance4, size_t distance4_len, size_t *rows) {
   return with_runs(sys, [&](const Isoconfigurational &made) -> jam_status {
-    check_enum(column, 0, static_cast<int32_t>(isoconf_columns) - 1, "column", "jam_isoconf_column");
     const RunSums sums = made.sums(block);
     const double box = made.box();
-    const double unit = column == JAM_ISOCONF_MSD    ? box * box
-                        : column == JAM_ISOCONF_MSD2 ? box * box * box * box
-                                                     : 1.0;
-    std::vector<double> values;
-    for (size_t k = static_cast<size_t>(column); k < sums.series.size(); k += isoconf_columns)
-      values.push_back(sums.series[k] * unit);
-    return give_array(values.data(), values.size(), out, out_len, needed);
+    if (rows) *rows = instants_of(sums);
+    give_scaled("distance2", sums.distance2, box * box, distance2, distance2_len);
+    give_scaled("distance4", sums.distance4, box * box * box * box, distance4, distance4_len);
+    return JAM_OK;
+  });
+}
+
+jam_status jam_isoconf_series(const jam_system *sys, int64_t block, double *table, size_t table_len, size_t *needed) {
+  return with_runs(sys, [&](const Isoconfigurational &made) -> jam_status {
+    constexpr size_t columns = JAM_ISOCONF_RUNS + 1;
+    static_assert(columns == isoconf_columns + 1, "the sums of the runs, and their number");
+    const RunSums sums = made.sums(block);
+    const size_t instants = instants_of(sums);
+    if (!table_wanted(instants, columns, table, table_len, needed)) return JAM_OK;
+    const double box = made.box();
+    for (size_t k = 0; k < instants; ++k, table += columns) {
+      std::copy_n(sums.series.begin() + static_cast<ptrdiff_t>(k * isoconf_columns), isoconf_columns, table);
+      table[JAM_ISOCONF_MSD] *= box * box;
+      table[JAM_ISOCONF_MSD2] *= box * box * box * box;
+      table[JAM_ISOCONF_RUNS] = static_cast<double>(sums.runs);
+    }
+    return JAM_OK;
   });
 }
 

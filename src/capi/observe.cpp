@@ -32,17 +32,6 @@ std::vector<double> column(const std::vector<Sample> &samples, double Sample::*m
   return out;
 }
 
-std::vector<double> means(const Histogram &h) {
-  std::vector<double> out;
-  for (size_t k = 0; k < h.bins(); ++k) out.push_back(h.mean(k));
-  return out;
-}
-std::vector<double> errors(const Histogram &h) {
-  std::vector<double> out;
-  for (size_t k = 0; k < h.bins(); ++k) out.push_back(h.error(k));
-  return out;
-}
-
 }  // namespace
 
 extern "C" {
@@ -121,32 +110,30 @@ jam_status jam_observed_pairs(const jam_system *sys, int32_t *pair, size_t pair_
   });
 }
 
-jam_status jam_observed_gaps(const jam_system *sys, double *edge, size_t edge_len, double *density, size_t density_len,
-                             double *error, size_t error_len, size_t *needed) {
+jam_status jam_observed_gaps(const jam_system *sys, double *table, size_t table_len, size_t *needed) {
   return with_observer(sys, [&](const Observer &o) -> jam_status {
+    constexpr size_t columns = JAM_GAP_ERROR + 1;
     const Histogram &h = o.gaps();
-    if (needed) *needed = h.bins();
-    check_room("edge", h.edge.size(), edge, edge_len);
-    check_room("density", h.bins(), density, density_len);
-    check_room("error", h.bins(), error, error_len);
-    give(h.edge, edge, edge_len);
-    give(means(h), density, density_len);
-    give(errors(h), error, error_len);
+    if (!table_wanted(h.bins(), columns, table, table_len, needed)) return JAM_OK;
+    for (size_t k = 0; k < h.bins(); ++k, table += columns) {
+      table[JAM_GAP_LOW] = h.edge[k];
+      table[JAM_GAP_HIGH] = h.edge[k + 1];
+      table[JAM_GAP_DENSITY] = h.mean(k);
+      table[JAM_GAP_ERROR] = h.error(k);
+    }
     return JAM_OK;
   });
 }
 
-jam_status jam_observed_correlation(const jam_system *sys, double *r, size_t r_len, double *g, size_t g_len,
-                                    size_t *needed) {
+jam_status jam_observed_correlation(const jam_system *sys, double *table, size_t table_len, size_t *needed) {
   return with_observer(sys, [&](const Observer &o) -> jam_status {
+    constexpr size_t columns = JAM_CORRELATION_G + 1;
     const Histogram &h = o.correlation();
-    if (needed) *needed = h.bins();
-    check_room("r", h.bins(), r, r_len);
-    check_room("g", h.bins(), g, g_len);
-    std::vector<double> middle;
-    for (size_t k = 0; k < h.bins(); ++k) middle.push_back(0.5 * (h.edge[k] + h.edge[k + 1]));
-    give(middle, r, r_len);
-    give(means(h), g, g_len);
+    if (!table_wanted(h.bins(), columns, table, table_len, needed)) return JAM_OK;
+    for (size_t k = 0; k < h.bins(); ++k, table += columns) {
+      table[JAM_CORRELATION_R] = 0.5 * (h.edge[k] + h.edge[k + 1]);
+      table[JAM_CORRELATION_G] = h.mean(k);
+    }
     return JAM_OK;
   });
 }

@@ -4,7 +4,7 @@
 #include <map>
 #include <utility>
 
-#include "capi/guard.hpp"
+#include "capi/table.hpp"
 #include "core/checks.hpp"
 #include "crunch/crunch.hpp"
 #include "network/certificate.hpp"
@@ -132,13 +132,10 @@ jam_status jam_decompress(jam_system *sys, const jam_decompress_options *o, jam_
   });
 }
 
-jam_status jam_decompress_history(const jam_system *sys, int32_t column, double *out, size_t out_len, size_t *needed) {
+jam_status jam_decompress_history(const jam_system *sys, double *table, size_t table_len, size_t *needed) {
   return guard_read(sys, [&]() -> jam_status {
     if (sys->soft_history.empty()) fail(JAM_E_STATE, "there is no history: call jam_decompress first");
-    check_enum(column, 0, static_cast<int32_t>(soft_columns) - 1, "column", "jam_soft_column");
-    std::vector<double> values;
-    for (const SoftRow &row : sys->soft_history) values.push_back(row[static_cast<size_t>(column)]);
-    return give_array(values.data(), values.size(), out, out_len, needed);
+    return give_table(sys->soft_history, table, table_len, needed);
   });
 }
 

@@ -1,5 +1,7 @@
 // Tables: calls whose result has several columns fill one array of shape (rows, columns).
 #pragma once
+#include <algorithm>
+#include <array>
 #include <vector>
 #include "capi/guard.hpp"
 
@@ -19,6 +21,15 @@ inline bool table_wanted(size_t rows, size_t columns, const double *table, size_
 template <class T>
 void put_column(const std::vector<T> &values, size_t at, size_t columns, double *table) {
   for (size_t k = 0; k < values.size(); ++k) table[k * columns + at] = static_cast<double>(values[k]);
+}
+
+// Rows of columns, as a history keeps them.
+template <class Row>
+jam_status give_table(const std::vector<Row> &rows, double *table, size_t table_len, size_t *needed) {
+  constexpr size_t columns = std::tuple_size<Row>::value;
+  if (!table_wanted(rows.size(), columns, table, table_len, needed)) return JAM_OK;
+  for (const Row &row : rows) table = std::copy(row.begin(), row.end(), table);
+  return JAM_OK;
 }
 
 }  // namespace jam

@@ -60,7 +60,7 @@ class Interrupts(unittest.TestCase):
         s = jam.System.random(n=N, seed=1)
         for call in (
             lambda: s.bond_order(64, 3.0),
-            lambda: s.call("pair_correlation", None, -1, -1, 9.0, 100),
+            lambda: s.call("pair_correlation", r_max=9.0, bins=100),
             lambda: s.estimate_crunch(neighbour_radius=4.0),
         ):
             self.check_interrupted(call)

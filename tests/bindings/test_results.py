@@ -210,9 +210,10 @@ class Statuses(unittest.TestCase):
         runs = s.isoconfigurational([1, 2], runs=3, density_ratio=0.9, keep=[1])
         np.testing.assert_array_equal(s.isoconf_kept(1), runs.kept[1])
         self.assertEqual(s.isoconf_kept(1).shape, (3, 20, 3))
-        sums = s.isoconf_sums(-1)
-        shapes = [getattr(sums, k).shape for k in ("displacement", "square", "distance2", "distance4")]
-        self.assertEqual(shapes, [(2, 20, 3), (2, 20, 3), (2, 20), (2, 20)])
+        sums, distances = s.isoconf_displacements(-1), s.isoconf_distances(-1)
+        self.assertEqual([x.shape for x in sums + distances], [(2, 20, 3), (2, 20, 3), (2, 20), (2, 20)])
+        self.assertEqual(list(s.isoconf_series(-1).runs), [3, 3])
+        np.testing.assert_allclose(sums.square.sum(-1), distances.distance2, rtol=1e-14)
         np.testing.assert_array_equal(sums.displacement[1], runs.kept[1].sum(0))
 
 

@@ -134,7 +134,7 @@ class MolecularDynamics(unittest.TestCase):
         self.assertEqual(seen.spheres.collisions.sum(), 2 * r.collisions)
         self.assertEqual(seen.pairs.collisions.sum(), r.collisions)
         self.assertEqual(
-            (len(seen.gaps.edge), len(seen.correlation.g), seen.spheres.displacement.shape), (21, 30, before.shape)
+            (len(seen.gaps.low), len(seen.correlation.g), seen.spheres.displacement.shape), (20, 30, before.shape)
         )
         msd = (seen.spheres.displacement**2).sum(1).mean()
         self.assertGreater(msd, 0)

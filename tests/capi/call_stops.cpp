@@ -80,7 +80,7 @@ void setters_are_stopped(void **) {
     }
   jam_set_progress(sys, nullptr, nullptr);
   size_t rows = 0;
-  assert_int_equal(jam_structure_factor(sys, 7.0 * s[0], nullptr, 0, nullptr, 0, &rows), JAM_OK);
+  assert_int_equal(jam_structure_factor(sys, 7.0 * s[0], nullptr, 0, &rows), JAM_OK);
   jam_destroy(sys);
 }
 
@@ -132,10 +132,13 @@ void const_calls_are_stopped(void **) {
   jam_crunch_options wide;
   jam_crunch_options_init(&wide, sizeof wide);
   wide.neighbour_radius = 4.0;
+  jam_correlation_options far;
+  jam_correlation_options_init(&far, sizeof far);
+  far.r_max = 8.0, far.bins = 10;
   const std::function<jam_status()> const_calls[] = {
       [&] { return jam_bond_order(sys, 64, 3.0, out.data(), out.size(), &rows); },
       [&] { return jam_gaps(sys, 6.0, 0, nullptr, 0, nullptr, 0, &rows); },
-      [&] { return jam_pair_correlation(sys, nullptr, 0, -1, -1, 8.0, 10, out.data(), out.size(), &rows); },
+      [&] { return jam_pair_correlation(sys, &far, nullptr, 0, out.data(), out.size(), &rows); },
       [&] { return jam_estimate_crunch(sys, &wide, &e); }};
   for (const auto &call : const_calls) {
     jam_set_progress(sys, stop_at_once, &calls);

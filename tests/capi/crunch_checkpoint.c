@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "columns.h"
 #include "test.h"
 
 #include "jam/jam.h"
@@ -117,10 +118,11 @@ static void a_stopped_crunch_is_known(void **state) {
   jam_destroy(sys);
 }
 
-static double history(const jam_system *sys, int32_t column, int last) {
+static double history(const jam_system *sys, size_t column, int last) {
   double rows[200];
   size_t count;
-  assert_int_equal(jam_crunch_history(sys, column, rows, 200, &count), JAM_OK);
+  assert_int_equal(column_of(jam_crunch_history, sys, JAM_HISTORY_TOTAL_MSD_STABLE + 1, column, rows, 200, &count),
+                   JAM_OK);
   assert_true(count > 0);
   return rows[last ? count - 1 : 0];
 }

@@ -115,9 +115,8 @@ void life(Work &w, Seen &seen, int dim, int model) {
     w.call("jam_crunch", [&] { return jam_crunch(copy, &crunch, nullptr); });
     w.keep(copy);
     size_t needed = 0;
-    std::vector<double> lambda(room);
-    w.call("jam_modes",
-           [&] { return jam_modes(copy, nullptr, nullptr, lambda.data(), room, nullptr, 0, nullptr, 0, &needed); });
+    std::vector<double> table(room);
+    w.call("jam_modes", [&] { return jam_modes(copy, nullptr, nullptr, table.data(), room, nullptr, 0, &needed); });
     w.call("jam_rigidity", [&] { return jam_rigidity(copy, JAM_RIGIDITY_STRICT, nullptr); });
     jam_destroy(copy);
   }

@@ -125,7 +125,7 @@ static void series_pairs_and_displacements_agree(void **state) {
 static void histograms_of_gaps_and_distances(void **state) {
   jam_system *sys = fluid(0.3);
   jam_observe_options o;
-  double edge[22], density[21], error[21], r[50], g[50], contact;
+  double gap[21][4], pair[50][2], contact;
   size_t needed, k;
   (void)state;
   jam_observe_options_init(&o, sizeof o);
@@ -139,23 +139,26 @@ static void histograms_of_gaps_and_distances(void **state) {
   assert_int_equal(jam_observe(sys, &o), JAM_OK);
   /* p - 1 = 4 phi g(sigma) (N - 1) / N: a sphere has N - 1 others. */
   contact = (run(sys, 1000).pressure - 1.0) / (4.0 * 0.3) * N / (N - 1.0);
-  assert_int_equal(jam_observed_gaps(sys, edge, 22, density, 21, error, 21, &needed), JAM_OK);
-  assert_int_equal(needed, 21);
-  assert_true(edge[0] == 0.0 && fabs(edge[1] - 0.01) < 1e-15 && fabs(edge[21] - 0.3) < 1e-12);
-  print_message("g(sigma) by pressure %.3f, in [0, 0.01] %.3f(%.3f), at 0.3 %.3f\n", contact, density[0], error[0],
-                density[20]);
+  assert_int_equal(jam_observed_gaps(sys, gap[0], 21 * 4, &needed), JAM_OK);
+  assert_int_equal(needed, 21 * 4);
+  assert_true(gap[0][JAM_GAP_LOW] == 0.0 && fabs(gap[0][JAM_GAP_HIGH] - 0.01) < 1e-15);
+  assert_true(gap[1][JAM_GAP_LOW] == gap[0][JAM_GAP_HIGH] && fabs(gap[20][JAM_GAP_HIGH] - 0.3) < 1e-12);
+  print_message("g(sigma) by pressure %.3f, in [0, 0.01] %.3f(%.3f), at 0.3 %.3f\n", contact, gap[0][JAM_GAP_DENSITY],
+                gap[0][JAM_GAP_ERROR], gap[20][JAM_GAP_DENSITY]);
   /* g falls by about 2 per cent over the first bin. */
-  assert_true(fabs(density[0] / contact - 0.98) < 0.02 + 3.0 * error[0] / contact);
-  assert_true(density[20] < 0.75 * density[0]);
-  assert_int_equal(jam_observed_correlation(sys, r, 50, g, 50, &needed), JAM_OK);
-  assert_int_equal(needed, 50);
+  assert_true(fabs(gap[0][JAM_GAP_DENSITY] / contact - 0.98) < 0.02 + 3.0 * gap[0][JAM_GAP_ERROR] / contact);
+  assert_true(gap[20][JAM_GAP_DENSITY] < 0.75 * gap[0][JAM_GAP_DENSITY]);
+  assert_int_equal(jam_observed_correlation(sys, pair[0], 50 * 2, &needed), JAM_OK);
+  assert_int_equal(needed, 50 * 2);
   for (k = 0; k < 50; ++k) {
-    assert_true(fabs(r[k] - 0.1 * ((double)k + 0.5)) < 1e-12);
-    if (r[k] < 0.9) assert_true(g[k] == 0.0);
-    if (r[k] > 3.0) assert_true(fabs(g[k] - 1.0) < 0.05);
+    const double r = pair[k][JAM_CORRELATION_R], g = pair[k][JAM_CORRELATION_G];
+    assert_true(fabs(r - 0.1 * ((double)k + 0.5)) < 1e-12);
+    if (r < 0.9) assert_true(g == 0.0);
+    if (r > 3.0) assert_true(fabs(g - 1.0) < 0.05);
   }
   /* Both histograms of the same pairs: g of the first full bin beyond contact between the values of its ends. */
-  assert_true(g[10] > density[10] * 0.9 && g[10] < density[0]);
+  assert_true(pair[10][JAM_CORRELATION_G] > gap[10][JAM_GAP_DENSITY] * 0.9 &&
+              pair[10][JAM_CORRELATION_G] < gap[0][JAM_GAP_DENSITY]);
   jam_destroy(sys);
 }
 
@@ -165,7 +168,7 @@ static void histograms_are_not_taken_at_collisions(void **state) {
   const double n = 20.0, fraction = 0.3;
   jam_system *sys = fluid_of(20, fraction);
   jam_observe_options o;
-  double density[3], error[3], contact;
+  double gap[3][4], contact;
   size_t needed;
   (void)state;
   jam_observe_options_init(&o, sizeof o);
@@ -176,10 +179,11 @@ static void histograms_are_not_taken_at_collisions(void **state) {
   run(sys, 50);
   assert_int_equal(jam_observe(sys, &o), JAM_OK);
   contact = (run(sys, 10000).pressure - 1.0) / (4.0 * fraction) * n / (n - 1.0);
-  assert_int_equal(jam_observed_gaps(sys, NULL, 0, density, 3, error, 3, &needed), JAM_OK);
-  print_message("g(sigma) by pressure %.3f, in [0, 0.02] %.3f(%.3f)\n", contact, density[0], error[0]);
-  assert_true(error[0] < 0.03 * contact);
-  assert_true(fabs(density[0] / contact - 0.96) < 0.02 + 4.0 * error[0] / contact);
+  assert_int_equal(jam_observed_gaps(sys, gap[0], 3 * 4, &needed), JAM_OK);
+  print_message("g(sigma) by pressure %.3f, in [0, 0.02] %.3f(%.3f)\n", contact, gap[0][JAM_GAP_DENSITY],
+                gap[0][JAM_GAP_ERROR]);
+  assert_true(gap[0][JAM_GAP_ERROR] < 0.03 * contact);
+  assert_true(fabs(gap[0][JAM_GAP_DENSITY] / contact - 0.96) < 0.02 + 4.0 * gap[0][JAM_GAP_ERROR] / contact);
   jam_destroy(sys);
 }
 
@@ -194,11 +198,14 @@ static int32_t look(const jam_progress *p, void *user) {
   const double *x;
   size_t len, needed;
   double g[20];
+  jam_correlation_options o;
   if (!p->snapshot) return 0;
   assert_int_equal(p->snapshot, s->count + 1);
   s->at[s->count++] = p->collisions;
   jam_view_positions(s->sys, &x, &len);
-  assert_int_equal(jam_pair_correlation(s->sys, NULL, 0, -1, -1, 2.0, 20, g, 20, &needed), JAM_OK);
+  jam_correlation_options_init(&o, sizeof o);
+  o.r_max = 2.0, o.bins = 20;
+  assert_int_equal(jam_pair_correlation(s->sys, &o, NULL, 0, g, 20, &needed), JAM_OK);
   assert_true(g[3] == 0.0 && g[11] > 1.0); /* no overlap in the state shown */
   if (s->count > 1) assert_memory_not_equal(x, s->first, sizeof s->first);
   memcpy(s->first, x, sizeof s->first);
@@ -264,7 +271,7 @@ static void bad_calls_are_refused(void **state) {
   assert_int_equal(jam_create(&c, NULL, &sys), JAM_OK);
   assert_int_equal(jam_observe(NULL, NULL), JAM_E_NULL);
   assert_int_equal(jam_observed_series(sys, NULL, 0, &needed), JAM_E_STATE);
-  assert_int_equal(jam_observed_gaps(sys, NULL, 0, NULL, 0, NULL, 0, &needed), JAM_E_STATE);
+  assert_int_equal(jam_observed_gaps(sys, NULL, 0, &needed), JAM_E_STATE);
   assert_int_equal(needed, 77);
   assert_int_equal(jam_observe_options_init(&o, 3), JAM_E_STRUCT_SIZE);
   for (k = 0; k < 9; ++k) {
@@ -283,7 +290,7 @@ static void bad_calls_are_refused(void **state) {
   assert_int_equal(jam_observe(sys, NULL), JAM_OK); /* the series alone */
   assert_int_equal(jam_observed_spheres(sys, collisions, 8, NULL, 0, &needed), JAM_E_STATE);
   assert_int_equal(jam_observed_pairs(sys, NULL, 0, NULL, 0, NULL, 0, x, &needed), JAM_E_STATE);
-  assert_int_equal(jam_observed_gaps(sys, NULL, 0, NULL, 0, NULL, 0, &needed), JAM_OK);
+  assert_int_equal(jam_observed_gaps(sys, NULL, 0, &needed), JAM_OK);
   assert_int_equal(needed, 0);
   assert_int_equal(jam_observed_series(sys, NULL, 4, &needed), JAM_E_NULL);
   jam_destroy(sys);

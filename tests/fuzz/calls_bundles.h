@@ -47,7 +47,7 @@ static void call_modes(input *in, jam_system *sys) {
   damage(in, &h, sizeof h);
   damage(in, &o, sizeof o);
   o.memory_limit = at_most(o.memory_limit, 1e8);
-  check_status(jam_modes(sys, &h, &o, values[0], many, values[1], many, values[2], many, &rows));
+  check_status(jam_modes(sys, &h, &o, values[0], many, values[1], many, &rows));
   check_status(jam_hessian(sys, &h, NULL, 0, NULL, 0, NULL, 0, &rows));
   memset(&moduli, 0, sizeof moduli);
   moduli.struct_size = sizeof moduli;
@@ -134,7 +134,7 @@ static void call_isoconfigurational(input *in, jam_system *sys) {
   memset(&report, 0, sizeof report);
   report.struct_size = sizeof report;
   check_status(jam_get_isoconf_report(sys, &report));
-  check_status(jam_isoconf_series(sys, byte(in) % 4 - 1, byte(in) % 16, value, 3, &needed));
+  check_status(jam_isoconf_series(sys, byte(in) % 4 - 1, value, 3, &needed));
   check_status(jam_isoconf_kept(sys, kept, NULL, 0, &needed));
 }
 
@@ -164,7 +164,7 @@ static void call_observe(input *in, jam_system *sys) {
   call_run(in, sys);
   check_status(jam_observed_series(sys, NULL, 0, &rows));
   check_status(jam_observed_pairs(sys, NULL, 0, NULL, 0, NULL, 0, NULL, &rows));
-  check_status(jam_observed_gaps(sys, NULL, 0, NULL, 0, NULL, 0, &rows));
+  check_status(jam_observed_gaps(sys, NULL, 0, &rows));
   if (byte(in) % 2) check_status(jam_stop_observing(sys));
 }
 

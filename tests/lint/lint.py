@@ -166,6 +166,9 @@ def names():
         found = re.match(r"\s+(JAM_\w+)\s*(=?)", line)
         if found and not found.group(2):
             problem(path, number, f"{found.group(1)} has no explicit value")
+    for name, arguments in re.findall(r"JAM_API [^;(]*\b(jam_\w+)\(([^;]*)\);", code):
+        if arguments.count(",") > 8:
+            problem(path, 0, f"{name} has {arguments.count(',') + 1} arguments, 9 are allowed: an option struct, or two calls")
     for body in re.findall(r"typedef struct \w+ \{(.*?)\}", code, flags=re.S):
         if not re.match(r"\s*uint32_t struct_size;", body):
             problem(path, 0, "a struct does not begin with struct_size:" + body[:60])
@@ -190,8 +193,8 @@ def file_sizes():
         elif count > 300:
             print(f"note: {path.relative_to(root)} has {count} lines, 300 is the aim")
     header = len((root / "include/jam/jam.h").read_text().splitlines())
-    if header > 1760:
-        problem(root / "include/jam/jam.h", header, "more than 1760 lines")
+    if header > 1600:
+        problem(root / "include/jam/jam.h", header, "more than 1600 lines")
     for path in files(
         "examples/c/*.c", "examples/cpp/*.cpp", "examples/python/*.py", "examples/fortran/*.f90", "examples/julia/*.jl"
     ):

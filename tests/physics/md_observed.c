@@ -69,7 +69,7 @@ static void gap_plateau(void **state) {
     jam_observe_options o;
     jam_md_report report;
     jam_info info;
-    double edge[13], density[12], error[12], height;
+    double bin[12][4], density[12], height;
     size_t needed;
     compress(sys, 3e-3, pressures[k]);
     draw_velocities(sys);
@@ -84,10 +84,11 @@ static void gap_plateau(void **state) {
     info.struct_size = sizeof info;
     jam_get_info(sys, &info);
     height = (report.pressure - 1.0) / (4.0 * info.packing_fraction);
-    assert_int_equal(jam_observed_gaps(sys, edge, 13, density, 12, error, 12, &needed), JAM_OK);
+    assert_int_equal(jam_observed_gaps(sys, bin[0], 12 * 4, &needed), JAM_OK);
+    for (int b = 0; b < 12; ++b) density[b] = bin[b][JAM_GAP_DENSITY];
     print_message("p %.4g: height %.4g, first bin %.4g(%.2g), h in %.2g..%.2g: %.4g, %.2g..%.2g: %.4g\n",
-                  report.pressure, height, density[0], error[0], edge[1], edge[2], density[1], edge[11], edge[12],
-                  density[11]);
+                  report.pressure, height, density[0], bin[0][JAM_GAP_ERROR], bin[1][JAM_GAP_LOW], bin[1][JAM_GAP_HIGH],
+                  density[1], bin[11][JAM_GAP_LOW], bin[11][JAM_GAP_HIGH], density[11]);
     /* A first bin of a tenth of 1/p: about 75 of 800 contacts at a time, 200 samples: noise of one per cent; g falls by
      * some per cent within it, as the force of a contact closes its gap on the scale of 1/p times the mean force over
      * its own. */
@@ -193,7 +194,7 @@ static void crystal_score_tells_crystals_from_glasses(void **state) {
 static void fluid_crystallises(void **state) {
   jam_system *sys = start(500, 0.2, 1.0);
   jam_compress_options c;
-  double p = 99, r[120], g[120], at_sqrt2 = 0, before = 0;
+  double p = 99, pair[120][2], at_sqrt2 = 0, before = 0;
   jam_observe_options o;
   size_t needed;
   int blocks = 0, k;
@@ -210,10 +211,10 @@ static void fluid_crystallises(void **state) {
   o.r_bins = 120, o.r_max = 2.2, o.sample_every = 5;
   assert_int_equal(jam_observe(sys, &o), JAM_OK);
   run(sys, 50);
-  assert_int_equal(jam_observed_correlation(sys, r, 120, g, 120, &needed), JAM_OK);
+  assert_int_equal(jam_observed_correlation(sys, pair[0], 120 * 2, &needed), JAM_OK);
   for (k = 0; k < 120; ++k) {
-    if (fabs(r[k] - 1.4142) < 0.03) at_sqrt2 = fmax(at_sqrt2, g[k]);
-    if (fabs(r[k] - 1.25) < 0.03) before = fmax(before, g[k]);
+    if (fabs(pair[k][JAM_CORRELATION_R] - 1.4142) < 0.03) at_sqrt2 = fmax(at_sqrt2, pair[k][JAM_CORRELATION_G]);
+    if (fabs(pair[k][JAM_CORRELATION_R] - 1.25) < 0.03) before = fmax(before, pair[k][JAM_CORRELATION_G]);
   }
   print_message("crystal after %d x 1000 collisions per sphere, p %.2f; score %.2f, g %.2f at sqrt 2, %.2f at 1.25\n",
                 blocks, p, score(sys), at_sqrt2, before);

@@ -1,4 +1,5 @@
 /* Soft spheres near jamming: the laws of energy and pressure, and forces by |h|^(alpha-1) and by the null vector. */
+#include "columns.h"
 #include "start.h"
 #include "test.h"
 
@@ -20,10 +21,10 @@ static jam_system *soft_start(int64_t n, double phi, int64_t seed) {
   return sys;
 }
 
-static double *column(const jam_system *sys, int32_t which, size_t *n) {
-  assert_int_equal(jam_decompress_history(sys, which, NULL, 0, n), JAM_OK);
+static double *column(const jam_system *sys, size_t which, size_t *n) {
+  assert_int_equal(column_of(jam_decompress_history, sys, JAM_SOFT_SECONDS + 1, which, NULL, 0, n), JAM_OK);
   double *x = malloc(*n * sizeof *x);
-  assert_int_equal(jam_decompress_history(sys, which, x, *n, n), JAM_OK);
+  assert_int_equal(column_of(jam_decompress_history, sys, JAM_SOFT_SECONDS + 1, which, x, *n, n), JAM_OK);
   return x;
 }
 

@@ -54,7 +54,10 @@ C's shape of an array that a call fills, with one extent that the call gave: m i
 array, and of several n for each value of that extent.
 """
 function shape_of(a::Argument, known, counted::Symbol, m::Int, alone::Bool)
-    a.word !== :none && a.name === :table && return (m ÷ length(WORDS[a.word]), length(WORDS[a.word]))
+    if a.word !== :none && a.name === :table
+        columns = length(WORDS[a.word])
+        return (counted === :rows ? m : m ÷ columns, columns)
+    end
     sizes = [extent(e, known) for e in a.extents]
     open = count(isnothing, sizes)
     open > 1 && return (m,)

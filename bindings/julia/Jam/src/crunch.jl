@@ -58,19 +58,13 @@ function report(s::System)
     return Report(made, word(:status_code, made.status), "")
 end
 
-"Columns of a call that gives one at a time, by the words of their enum."
-function by_columns(s, name, enum)
-    names = keys(WORDS[enum])
-    return NamedTuple{names}(Tuple(call(s, name, (n,)) for n in names))
-end
-
 """
     history(s)
 
 Steps of the last crunch as a table: phase, gain, phi, step_max, contacts, pairs, bound, ...
 """
 function history(s::System)
-    rows = by_columns(s, :jam_crunch_history, :history_column)
+    rows = columns(call(s, :jam_crunch_history, ()))
     return Table(merge(rows, (phase = [word(:step_phase, Int(x)) for x in rows.phase],)))
 end
 

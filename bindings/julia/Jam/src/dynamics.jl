@@ -56,7 +56,7 @@ cancel(s::System) = (check(jam_cancel(handle(s))); nothing)
 """
     Observed(s)
 
-What a system has recorded since `observe!`. `series` and `gaps` are tables; `spheres`, `pairs` and `correlation` NamedTuples.
+What a system has recorded since `observe!`. `series`, `gaps` and `correlation` are tables; `spheres` and `pairs` NamedTuples.
 """
 struct Observed
     system::System

@@ -93,8 +93,8 @@ callback is called with `jam_progress`.snapshot > 0: every const call works on t
 - `gap_bins`: bins of the gap histogram, 0 (default: none) or >= 2
 - `r_bins`: bins of g(r), default 0: none
 - `sample_every`: collisions per particle between samples of the series, gaps and g(r), > 0, default 10
-- `gap_min`: the first bin is [0, `gap_min`], > 0, default 1e-8; the others have equal ratios
-- `gap_max`: up to here, in (`gap_min`, 10], default 1
+- `gap_min`: the first bin is [0, `gap_min`], > 0, default 1e-8
+- `gap_max`: up to here by equal ratios, <= 10, 1
 - `r_max`: of g(r), mean diameters, > 0, default 4
 - `snapshot_every`: collisions per particle before the first snapshot; 0, the default: none
 - `snapshot_factor`: each interval between snapshots is so many times the one before, >= 1, default 1
@@ -152,15 +152,11 @@ function observed_pairs(s::System)
 end
 
 """
-    observed_gaps(s) -> (edge, density, error)
+    observed_gaps(s) -> table
 
-Histogram of gaps h: density is pairs over those of an ideal gas, error is over samples. Samples are taken between
-collisions: at one, a pair more would touch. At h = 0 density tends to g(sigma), which is (p - 1) / (4 phi) for equal
-spheres in d = 3.
+Histogram of gaps h. Samples are taken between collisions: at one, a pair more would touch. At h = 0 density tends to
+g(sigma), which is (p - 1) / (4 phi) for equal spheres in d = 3.
 
-- `edge`: array `(bins + 1)`
-- `density`: array `(bins)`
-- `error`: array `(bins)`
 - errors: `:state`
 """
 function observed_gaps(s::System)
@@ -168,12 +164,10 @@ function observed_gaps(s::System)
 end
 
 """
-    observed_correlation(s) -> (r, g)
+    observed_correlation(s) -> table
 
-g(r), sampled likewise: r is the middle of each, mean diameters.
+g(r), sampled likewise.
 
-- `r`: array `(bins)`
-- `g`: array `(bins)`
 - errors: `:state`
 """
 function observed_correlation(s::System)
@@ -215,7 +209,7 @@ gives the displacements. An early stop can be resumed, also from `checkpoint`.
 
 - `resume`: Bool; continue the run that stopped early; default 0
 - `energy_unit`: one of `:length`, `:relative`; default LENGTH
-- `alpha`: 0, the default: hard spheres; > 1: the energy of an overlap x is `energy_scale` x^alpha
+- `alpha`: 0, default: hard, or > 1: overlaps x cost `energy_scale` x^alpha
 - `energy_scale`: > 0, default 1
 - `temperature`: of soft spheres, `k_B` T > 0, default 1
 - `step`: half side of the cube of trial displacements, mean diameters; 0, the default: tuned
@@ -223,8 +217,8 @@ gives the displacements. An early stop can be resumed, also from `checkpoint`.
 - `swap_share`: share of trials that exchange two diameters, in [0, 1), default 0
 - `sweeps`: since the run began, >= 1, default 1000
 - `run`: number of the random stream beside the seed, >= 0, default 0
-- `first_sweep`: number of the first sweep, by which the stream goes; -1, the default: after those made before
-- `wall_time`: seconds of this call, > 0, default infinity
+- `first_sweep`: number of the first sweep in its stream; -1, the default: after those made before
+- `wall_time`: seconds of this call
 - errors: `:state`, `:unsupported` (Mari-Kurchan model)
 """
 function monte_carlo!(s::System; progress = nothing, given...)
@@ -250,31 +244,23 @@ end
 Estimates memory and time of `crunch!` with these options (`nothing`: defaults) without running it; `crunch!` logs the
 same at `:info`. Takes as long as a few steps.
 
-- `lp_solver`: one of `:ipm`, `:clp`; default IPM (optimizer)
-- `method`: one of `:barrier_path`, `:sequential_lp`; default `BARRIER_PATH`; `SEQUENTIAL_LP` is what CALiPPSO does
-- `polish`: Bool; close the contacts at the end and balance the forces to rounding, default 1. A crunch then also ends
-  where LPs below `gain_tolerance` still move rattlers. 0: keep the LP's answer (`tol_mechanical_equilibrium`: the
-  extra LP past it)
-- `max_lps`: >= 1, default 1000 (`max_iters`)
-- `threads`: 1 or 2, default 1; bits are reproducible on 1 (threads)
-- `gain_tolerance`: on sqrt(Gamma) - 1, > 0, default 1e-12 (`tol_Gamma_convergence`)
-- `step_tolerance`: on max |`s_i`| of non-rattlers, > 0, default 1e-9 (`tol_S_convergence`, in box units)
-- `lp_tolerance`: relative complementarity and residual of one LP, default 1e-15 (`solver_attributes`)
-- `neighbour_radius`: largest pair distance in an LP; 0, the default: adapts (l0, default 4 R)
-- `step_bound`: bound on each |`s_i`| component, 1e-15 .. 1000; 0, the default: adapts (sbound, in radii)
-- `wall_time`: limit in seconds, > 0, default infinity
-- `steps`: Bool; the callback hears of every step and may call `jam_crunch_step_`×. 0, the default
-- `full_lps`: Bool; every LP is solved to `lp_tolerance`, so that its linear network balances. 0, the default: an LP
-  that gains more than 1e-7 ends at a duality gap of 0.02 of its gain
+- `lp_solver`: one of `:ipm`, `:clp`; default IPM
+- `method`: one of `:barrier_path`, `:sequential_lp`; default `BARRIER_PATH`
+- `polish`: Bool; contacts closed, forces balanced to rounding, 1
+- `max_lps`: >= 1, default 1000
+- `threads`: 1 or 2, default 1; bits are reproducible on 1
+- `gain_tolerance`: on sqrt(Gamma) - 1, > 0, default 1e-12
+- `step_tolerance`: on max |`s_i`| of non-rattlers, > 0, default 1e-9
+- `lp_tolerance`: relative complementarity and residual of one LP, default 1e-15
+- `neighbour_radius`: largest pair distance in an LP; 0, the default: adapts
+- `step_bound`: bound on each |`s_i`| component, 1e-15 .. 1000; 0, the default: adapts
+- `wall_time`: limit of the call
+- `steps`: Bool; the callback hears of every step and may call `jam_crunch_step_`×; default 0
+- `full_lps`: Bool; every LP is solved to `lp_tolerance`, so that its network balances; default 0
 - `strain`: one of `:none`, `:edges`, `:tilts`, `:free`, `:volume`, `:edges_volume`, `:tilts_volume`, `:all`; default
-  NONE. Else the cell deforms at fixed volume after the fixed cell's optimum; FREE ends strictly jammed. One sphere
-  alone needs a strain: its contacts are its own images, which only strains move
-- `keep_steps`: states before the end that are kept for `page`, 0 .. 1000, default 0. Where there are more, or more
-  than 2^24 coordinates in all, every second, fourth, ... is kept
-- `duality_gap`: 0, the default: to the jamming point. Else 1e-12 .. 1e-2, for packings too large for that: the
-  barrier path ends at this duality gap, and an LP names contacts. Their forces balance. Their own duality gap e is in
-  the report. To first order no motion lets Gamma grow by more than e, so that `phi_J` is about phi (1 + e)^(d/2).
-  Contacts that a smaller gap may change are counted as undecided. Needs `BARRIER_PATH` and no strain
+  NONE
+- `keep_steps`: states before the end that are kept for `page`, 0 .. 1000, default 0
+- `duality_gap`: 0, the default: to the jamming point; or 1e-12 .. 1e-2
 - `prove`: Bool; a packing that ends jammed is proved as by `prove`, into the report; default 0
 - errors: `:overlap`, `:too_few`
 """
@@ -425,10 +411,9 @@ Where coordinates have few digits, pairs within their rounding are undecided, an
 spheres have too few of them. A sphere and its own image are a contact in the strict test, and in the collective one
 where the network lists them. There a sphere that they alone hold needs forces on the cell to balance. Let S v be the
 opening of contacts by a motion v, and E eps that by a strain eps. Collectively jammed: S v >= 0 only for translations
-of B. Strictly jammed: S v + E eps >= 0 with tr eps <= 0 only for those and eps = 0. Sources: Donev, Torquato,
-Stillinger, Connelly, J. Comput. Phys. 197, 139 (2004); Connelly 1988; Connelly, Shen, Smith, arXiv:1301.0664; Roth
-and Whiteley 1981. Both hold for this cell: several copies of it together may unjam. Status: `:ok` jammed,
-`:not_jammed`, `:ambiguous` undecided.
+of B. Strictly jammed: S v + E eps >= 0 with tr eps <= 0 only for those and eps = 0. Both hold for this cell, not for
+several copies of it. Source: Donev et al., J. Comput. Phys. 197, 139 (2004); the guide's page "Jammed or not" has
+more. Status: `:ok` jammed, `:not_jammed`, `:ambiguous` undecided.
 
 - `kind`: one of `:collective`, `:strict`
 - errors: `:solver`
@@ -515,7 +500,7 @@ end
 """
     gaps(s, h_max, stable_only) -> (gap, pair)
 
-Gaps h of all pairs below `h_max` (every image), contacts left out, ascending. With `stable_only` = 0 rattlers count
+Gaps h of all pairs below `h_max` (every image), contacts left out, ascending. Without `stable_only` rattlers count
 too and no network is needed.
 
 - `gap`: array `(gaps)`
@@ -596,13 +581,10 @@ function histogram(s::System, quantity, population, low, high, bins)
 end
 
 """
-    structure_factor(s, q_max; progress) -> (q, s)
+    structure_factor(s, q_max; progress) -> table
 
-S(q) on the wave vectors of the cell (in a cube 2 pi n / box), averaged over each |q| <= `q_max`; q per mean diameter,
-ascending. Lengths that differ by less than 5e-13 of |q| are one.
-
-- `q`: array `(m)`
-- `s`: array `(m)`
+S(q) on the wave vectors of the cell (in a cube 2 pi n / box) with |q| <= `q_max`. Lengths that differ by less than
+5e-13 of |q| are one.
 """
 function structure_factor(s::System, q_max; progress = nothing)
     return call(s, :jam_structure_factor, (q_max, ); progress = progress)
@@ -676,8 +658,7 @@ left out. With prestress omega starts below 0: unstable modes stand at -sqrt(-la
 
 - `stiffness`: one of `:harmonic`, `:power`, `:hard`, `:soft`; default HARMONIC
 - `alpha`: POWER: > 1, default 2
-- `prestress`: overlap (HARD: gap) of a contact of mean force over mean diameter, in [0, 1): the block of a contact is
-  k n n^T - prestress f <sigma> / ((alpha-1) r) (1 - n n^T); default 0
+- `prestress`: overlap (HARD: gap) at the mean force over mean diameter, in [0, 1), default 0
 - `moments`: Chebyshev moments, 8..1e6, default 512: resolution in omega about 1.6 `omega_max` / moments
 - `vectors`: random vectors, 2..1e5, default 16
 - `points`: values of omega, default 200
@@ -711,8 +692,7 @@ value = u . H . u for a displacement u.
 - `u`: array `(d, N')`
 - `stiffness`: one of `:harmonic`, `:power`, `:hard`, `:soft`; default HARMONIC
 - `alpha`: POWER: > 1, default 2
-- `prestress`: overlap (HARD: gap) of a contact of mean force over mean diameter, in [0, 1): the block of a contact is
-  k n n^T - prestress f <sigma> / ((alpha-1) r) (1 - n n^T); default 0
+- `prestress`: overlap (HARD: gap) at the mean force over mean diameter, in [0, 1), default 0
 - errors: `:state`
 """
 function curvature(s::System, u = nothing; given...)
@@ -726,8 +706,7 @@ Elastic moduli; an error `:state` also when prestress makes the network unstable
 
 - `stiffness`: one of `:harmonic`, `:power`, `:hard`, `:soft`; default HARMONIC
 - `alpha`: POWER: > 1, default 2
-- `prestress`: overlap (HARD: gap) of a contact of mean force over mean diameter, in [0, 1): the block of a contact is
-  k n n^T - prestress f <sigma> / ((alpha-1) r) (1 - n n^T); default 0
+- `prestress`: overlap (HARD: gap) at the mean force over mean diameter, in [0, 1), default 0
 - errors: `:state`, `:solver`
 """
 function moduli(s::System; progress = nothing, given...)
@@ -745,8 +724,7 @@ a rotation of stressed contacts counts.
 - `relaxed`: array `(d, d, d, d)`
 - `stiffness`: one of `:harmonic`, `:power`, `:hard`, `:soft`; default HARMONIC
 - `alpha`: POWER: > 1, default 2
-- `prestress`: overlap (HARD: gap) of a contact of mean force over mean diameter, in [0, 1): the block of a contact is
-  k n n^T - prestress f <sigma> / ((alpha-1) r) (1 - n n^T); default 0
+- `prestress`: overlap (HARD: gap) at the mean force over mean diameter, in [0, 1), default 0
 - errors: `:state`, `:solver`
 """
 function elastic_tensor(s::System; progress = nothing, given...)

@@ -22,11 +22,12 @@ end
 
 "Means over all runs that the handle holds."
 function isoconf_means(s)
-    sums = call(s, :jam_isoconf_sums, (-1,))
-    runs = max(sums.runs, 1)
-    names = Tuple(n for n in keys(WORDS.isoconf_column) if !endswith(string(n), "2"))
-    series = NamedTuple{names}(Tuple(call(s, :jam_isoconf_series, (-1, n)) ./ runs for n in names))
-    return merge((displacement = sums.displacement ./ runs, propensity = sums.distance2 ./ runs), series)
+    sums, moved = columns(call(s, :jam_isoconf_series, (-1,))), call(s, :jam_isoconf_displacements, (-1,))
+    runs = max(maximum(sums.runs; init = 0.0), 1.0)
+    names = Tuple(n for n in keys(sums) if n !== :runs && !endswith(string(n), "2"))
+    series = NamedTuple{names}(Tuple(sums[n] ./ runs for n in names))
+    distance = call(s, :jam_isoconf_distances, (-1,))
+    return merge((displacement = moved.displacement ./ runs, propensity = distance.distance2 ./ runs), series)
 end
 
 """

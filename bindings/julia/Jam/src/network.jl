@@ -95,9 +95,10 @@ Vibrational modes: a NamedTuple of `values` (omega^2, ascending), `vectors` (a c
 function modes(s::System, k::Integer = 10; progress = nothing, given...)
     made = call(s, :jam_modes, (); progress = progress, count = k, given...)
     omega(x) = x < 0 ? -sqrt(-x) : sqrt(x)
-    vectors = reshape(made.vector, :, length(made.lambda))
-    return (values = made.lambda, vectors = vectors, participation = made.participation, frequencies = omega.(made.lambda),
-            spheres = hessian_map(s))
+    found = columns(made.table)
+    vectors = reshape(made.vector, :, length(found.lambda))
+    return (values = found.lambda, vectors = vectors, participation = found.participation,
+            frequencies = omega.(found.lambda), spheres = hessian_map(s))
 end
 
 """
@@ -106,6 +107,6 @@ end
 g(r) in equal bins up to `r_max` mean diameters; with `labels`, a whole number a sphere, that of spheres `a` around `b`.
 """
 function pair_correlation(s::System, r_max = 4.0, bins = 200; labels = nothing, a = -1, b = -1)
-    g = call(s, :jam_pair_correlation, (labels, a, b, r_max, bins))
+    g = call(s, :jam_pair_correlation, (labels,); a = a, b = b, r_max = r_max, bins = bins)
     return (r = (collect(1:bins) .- 0.5) .* (r_max / bins), g = g)
 end

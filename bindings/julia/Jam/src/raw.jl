@@ -36,7 +36,7 @@ const JAM_E_BUSY = Int32(-15)  # another call is running on this handle
 const JAM_E_UNSUPPORTED = Int32(-16)  # not available in this build or for this model
 const JAM_E_INTERNAL = Int32(-17)  # a bug in libjam; please report the text
 
-# jam_stop_reason: Why a run ended (jam_md_report.stop_reason, jam_crunch_report.stop_reason).
+# jam_stop_reason: Why a run ended: stop_reason of the reports.
 const JAM_STOP_NONE = Int32(0)  # has not run
 const JAM_STOP_PRESSURE = Int32(1)  # MD reached its pressure
 const JAM_STOP_PACKING_FRACTION = Int32(2)  # MD reached its packing fraction
@@ -70,7 +70,7 @@ const JAM_PHASE_CREATE = Int32(10)  # making a system; steps counts the spheres 
 # jam_overlap_policy: What to do with overlaps in given positions.
 const JAM_OVERLAP_REFUSE = Int32(0)  # JAM_E_OVERLAP naming the worst pair
 const JAM_OVERLAP_SHRINK = Int32(1)  # scale all diameters down until the worst pair just touches; jam_notes gives the factor
-const JAM_OVERLAP_ALLOW = Int32(2)  # soft spheres: keep them, also in later calls; starts without positions are uniform points. Calls for hard spheres refuse a system that overlaps
+const JAM_OVERLAP_ALLOW = Int32(2)  # soft spheres: keep them, also later. Random starts are uniform; hard-sphere calls refuse
 
 # jam_model: Pair distance.
 const JAM_MODEL_EUCLID = Int32(0)  # |r_i - r_j|, nearest images
@@ -88,7 +88,7 @@ const JAM_SIZES_NORMAL = Int32(3)  # mean, deviation; cut at 0, or by low and hi
 const JAM_SIZES_LOGNORMAL = Int32(4)  # mean, deviation, both of s, not of its logarithm; may be cut by low and high
 const JAM_SIZES_POWER = Int32(5)  # exponent, low, high: density s^exponent between them
 const JAM_SIZES_WEIBULL = Int32(6)  # scale, shape (Rosin-Rammler): share above s is exp(-(s / scale)^shape); may be cut
-const JAM_SIZES_SIEVE = Int32(7)  # curve: rows (size, share that passes it), from 0 to 1 or to 100 per cent; straight in the logarithm of the size between two rows
+const JAM_SIZES_SIEVE = Int32(7)  # curve: rows (size, share passing, from 0 to 1 or 100 per cent); straight in log size
 
 # jam_size_share: What the shares of a law count.
 const JAM_SHARE_USUAL = Int32(0)  # volume for WEIBULL and SIEVE, number for the others
@@ -96,11 +96,11 @@ const JAM_SHARE_NUMBER = Int32(1)  # spheres
 const JAM_SHARE_VOLUME = Int32(2)  # volume: mass at one density
 
 # jam_size_draw: How diameters are drawn from a law.
-const JAM_DRAW_QUANTILES = Int32(0)  # one sphere for each n-th of the number, so that few spheres follow the law. By number it is the middle one, by volume the one of the mean volume
+const JAM_DRAW_QUANTILES = Int32(0)  # a sphere for each n-th of the number: the middle one, by volume that of the mean volume
 const JAM_DRAW_RANDOM = Int32(1)  # independent, by the seed
 
 # jam_reach_source: Where jam_size_report.jammed_fraction comes from.
-const JAM_REACH_FARR_GROOT = Int32(1)  # d = 3: a line cuts spheres into rods (Farr and Groot, J. Chem. Phys. 131, 244104 (2009))
+const JAM_REACH_FARR_GROOT = Int32(1)  # d = 3: spheres as rods on a line (Farr, Groot, J. Chem. Phys. 131, 244104 (2009))
 const JAM_REACH_MEASURED = Int32(2)  # other d: the same map, fitted to packings of libjam: equal spheres, disks 1 : 1.4
 const JAM_REACH_CRYSTAL = Int32(3)  # disks of nearly one size, which order: the hexagonal packing
 
@@ -110,30 +110,40 @@ const JAM_LOG_WARNING = Int32(1)  # what a user should know, e.g. a fallback sol
 const JAM_LOG_INFO = Int32(2)  # a line a stage or LP
 const JAM_LOG_DEBUG = Int32(3)  # solver detail
 
-# jam_format: File formats.
-const JAM_FORMAT_AUTO = Int32(0)  # by name: .xyz, .extxyz are XYZ; .data, .lmp LAMMPS; .vtp VTP; .dat, .txt, no ending PLAIN; others are refused. With .gz behind it the file is compressed
-const JAM_FORMAT_PLAIN = Int32(1)  # line 1: d. Line 2: N. Line 3: the diameter, or the word `diameters`; then, when it is not 1, the box as `box <L>`. Then a line a sphere: its position, and its diameter after `diameters`, with 17 digits.
-const JAM_FORMAT_XYZ = Int32(2)  # extended XYZ: Lattice, dim, Properties=id:I:1:pos:R:d:radius:R:1 and, after a crunch, contacts:I:1; d = 2 gets a third coordinate 0
+# jam_format: File formats. Behind any ending .gz compresses the file. PLAIN: line 1: d. Line 2: N. Line 3: the diameter, or the word `diameters`; then, when it is not 1, the box as `box <L>`. Then a line a sphere: its position, and its diameter after `diameters`, with 17 digits. XYZ: Lattice, dim, Properties=id:I:1:pos:R:d:radius:R:1 and, after a crunch, contacts:I:1. VTP: points with diameter, and after a crunch contacts and kind (0 rattler, 1 buckler, 2 other).
+const JAM_FORMAT_AUTO = Int32(0)  # .xyz, .extxyz: XYZ; .data, .lmp: LAMMPS; .vtp: VTP; .dat, .txt, none: PLAIN; others refused
+const JAM_FORMAT_PLAIN = Int32(1)  # text that holds cubes alone
+const JAM_FORMAT_XYZ = Int32(2)  # extended XYZ; d = 2 gets a third coordinate 0
 const JAM_FORMAT_LAMMPS = Int32(3)  # LAMMPS data of atom_style sphere, density 1, d = 2 and 3, any cell. In d = 2 all z are 0
-const JAM_FORMAT_VTP = Int32(4)  # VTK PolyData in binary, d = 2 and 3: points with diameter, and after a crunch contacts and kind (0 rattler, 1 buckler, 2 other). Written only
+const JAM_FORMAT_VTP = Int32(4)  # VTK PolyData in binary, d = 2 and 3. Written only
 
 # jam_contact_format: Formats of contact networks.
 const JAM_CONTACTS_AUTO = Int32(0)  # by name: .csv, .dump, .vtp; with .gz behind it compressed; others are refused
 const JAM_CONTACTS_CSV = Int32(1)  # a line a contact: i, j, unit vector from j to i, gap, force (mean 1), 17 digits
 const JAM_CONTACTS_DUMP = Int32(2)  # the same as a LAMMPS dump local, whose spheres count from 1; d = 2 and 3
-const JAM_CONTACTS_VTP = Int32(3)  # VTK PolyData in binary, d = 2 and 3: each contact as two half lines, so that none crosses the cell, with force, gap and number of the contact
+const JAM_CONTACTS_VTP = Int32(3)  # VTK PolyData in binary, d = 2, 3: two half lines a contact, with force, gap and its number
 
 # jam_growth_law: How the spheres grow.
 const JAM_GROWTH_DIAMETER = Int32(0)  # growth_rate is d<sigma>/dt over sqrt(kT/m), constant
-const JAM_GROWTH_DENSITY = Int32(1)  # growth_rate is d ln<sigma>/dt over n^(1/d) sqrt(kT/m) / box. It is constant, in steps of half a per cent of sigma; d times it is the relative rate of density. The same number means the same protocol at every n.
+const JAM_GROWTH_DENSITY = Int32(1)  # growth_rate is d ln<sigma>/dt box / (n^(1/d) sqrt(kT/m)), constant: 1/d of that of density
 
 # jam_series_column: Columns of jam_observed_series.
-const JAM_SERIES_TIME = Int32(0)  # simulated time, unit box / sqrt(kT/m)
+const JAM_SERIES_TIME = Int32(0)  # simulated time
 const JAM_SERIES_COLLISIONS = Int32(1)  # collisions per particle
 const JAM_SERIES_FRACTION = Int32(2)  # packing fraction
 const JAM_SERIES_PRESSURE = Int32(3)  # reduced pressure since the sample before
 const JAM_SERIES_ERROR = Int32(4)  # its standard error, from eight parts
 const JAM_SERIES_MSD = Int32(5)  # mean-square displacement since jam_observe, unit box^2
+
+# jam_gap_column: Columns of jam_observed_gaps, a row a bin.
+const JAM_GAP_LOW = Int32(0)  # smallest gap h of the bin
+const JAM_GAP_HIGH = Int32(1)  # largest gap
+const JAM_GAP_DENSITY = Int32(2)  # pairs over those of an ideal gas
+const JAM_GAP_ERROR = Int32(3)  # its standard error over samples
+
+# jam_correlation_column: Columns of jam_observed_correlation, a row a bin.
+const JAM_CORRELATION_R = Int32(0)  # middle of the bin, mean diameters
+const JAM_CORRELATION_G = Int32(1)  # g(r)
 
 # jam_eos_form: Equations of state p(phi) in closed form.
 const JAM_EOS_CARNAHAN_STARLING = Int32(0)  # d = 3, as the next three
@@ -165,13 +175,14 @@ const JAM_ISOCONF_ENERGY2 = Int32(9)  # its square
 const JAM_ISOCONF_VELOCITY = Int32(10)  # sum m v(t).v(0) over sum m v(0).v(0)
 const JAM_ISOCONF_COLLISIONS = Int32(11)  # collisions per particle
 const JAM_ISOCONF_PRESSURE = Int32(12)  # reduced pressure: since the start of the run; soft spheres: at the instant
+const JAM_ISOCONF_RUNS = Int32(13)  # runs in these sums and in those of the next two calls, the same at each instant
 
 # jam_lp_solver: How the LPs are solved.
 const JAM_LP_IPM = Int32(0)  # libjam's interior point on the particle graph; Clp if it fails
 const JAM_LP_CLP = Int32(1)  # Clp's simplex: slow, independent
 
-# jam_crunch_method: Which quench leads to the jamming point. Both end with fully solved LPs in which no sphere moves any more.
-const JAM_CRUNCH_BARRIER_PATH = Int32(0)  # LPs far from jamming, then one barrier path whose constraints are linearised again after each Newton step, then LPs: fewest factorisations; its packings are mostly denser
+# jam_crunch_method: Which quench leads to the jamming point. Both end with fully solved LPs in which no sphere moves any more. The barrier path: LPs far from jamming, then a path whose constraints are linearised again after each Newton step, then LPs.
+const JAM_CRUNCH_BARRIER_PATH = Int32(0)  # fewest factorisations; its packings are mostly denser
 const JAM_CRUNCH_SEQUENTIAL_LP = Int32(1)  # LPs alone, as published
 
 # jam_free_strain: What of the cell jam_crunch or jam_relax may change, at fixed volume unless VOLUME is among it.
@@ -189,7 +200,7 @@ const JAM_STEP_PATH = Int32(1)  # a Newton step of the barrier path (the first r
 const JAM_STEP_LP = Int32(2)  # an LP and the move to its solution
 const JAM_STEP_POLISH = Int32(3)  # contacts closed and forces balanced to rounding
 
-# jam_history_column: Columns of the history of a crunch, a row a step. Displacements are those of all spheres, their mean taken out, in mean diameters after the step. NaN where a column has no meaning.
+# jam_history_column: Columns of the history of a crunch, a row a step. Displacements are those of all spheres, their mean taken out, in mean diameters after the step.
 const JAM_HISTORY_PHASE = Int32(0)  # a jam_step_phase
 const JAM_HISTORY_GAIN = Int32(1)  # sqrt(Gamma) - 1: relative growth of the diameters in this step
 const JAM_HISTORY_PHI = Int32(2)  # packing fraction after the step
@@ -205,8 +216,8 @@ const JAM_HISTORY_ITERATIONS = Int32(11)  # of the LP solver; Newton steps elsew
 const JAM_HISTORY_FACTORISATIONS = Int32(12)  # in this step
 const JAM_HISTORY_DUALITY_GAP = Int32(13)  # after the step, in Gamma
 const JAM_HISTORY_PAIRS = Int32(14)  # rows of the LP
-const JAM_HISTORY_HELD = Int32(15)  # LP: displacement components at the step bound; forces on these spheres do not balance
-const JAM_HISTORY_PART = Int32(16)  # LP: part of the solution that was followed; below 1 when a pair outside the neighbour list would overlap
+const JAM_HISTORY_HELD = Int32(15)  # LP: displacement components at the step bound, whose forces do not balance
+const JAM_HISTORY_PART = Int32(16)  # LP: part of the step that was made; below 1 where an unlisted pair would overlap
 const JAM_HISTORY_BOUND = Int32(17)  # LP: step bound
 const JAM_HISTORY_STEP_MSD_STABLE = Int32(18)  # LP, polish: STEP_MSD over stable spheres alone, their mean taken out
 const JAM_HISTORY_TOTAL_MSD_STABLE = Int32(19)  # LP, polish: TOTAL_MSD over the spheres that are stable now
@@ -216,13 +227,13 @@ const JAM_SOFT_RELATIVE = Int32(0)  # c = 1 / alpha, l = sigma_ij: overlaps rela
 const JAM_SOFT_ABSOLUTE = Int32(1)  # c = 1 / alpha, l = 1 in the unit of the box
 const JAM_SOFT_BARE = Int32(2)  # c = 1, l = 1
 
-# jam_minimiser: How the energy is minimised. Methods end in different minima of the same start: each is a protocol.
-const JAM_MINIMISER_NEWTON = Int32(0)  # FIRE (alpha < 2: L-BFGS) until contacts settle, then Newton's method with pre-stress; rattlers are put in the middle of their cages
+# jam_minimiser: How the energy is minimised. Methods end in different minima of the same start: each is a protocol. NEWTON: FIRE (alpha < 2: L-BFGS) until contacts settle, then Newton's method with pre-stress.
+const JAM_MINIMISER_NEWTON = Int32(0)  # Newton's method; rattlers are put in the middle of their cages
 const JAM_MINIMISER_FIRE = Int32(1)  # FIRE 2.0 alone (Guenole et al., Comput. Mater. Sci. 175, 109584 (2020))
 const JAM_MINIMISER_LBFGS = Int32(2)  # limited-memory BFGS alone (Nocedal, Math. Comput. 35, 773 (1980))
 
 # jam_soft_precision: How the overlap of a pair is computed.
-const JAM_SOFT_REFERENCE = Int32(0)  # from a reference in twice the digits and small displacements: forces balance to 1e-14 at any overlap
+const JAM_SOFT_REFERENCE = Int32(0)  # twice the digits and small displacements: forces balance to 1e-14 at any overlap
 const JAM_SOFT_DOUBLE = Int32(1)  # from coordinates in doubles: balance ends near 1e-15 / overlap; for comparison
 
 # jam_soft_column: Columns of the history of a decompression, a row a minimum.
@@ -238,17 +249,21 @@ const JAM_SOFT_EVALUATIONS = Int32(8)  # of the forces, in this step
 const JAM_SOFT_FACTORISATIONS = Int32(9)  # in this step
 const JAM_SOFT_SECONDS = Int32(10)  # wall time of the step
 
-# jam_stiffness: Stiffness k of a contact, 1 at the mean force.
+# jam_stiffness: Stiffness k of a contact, 1 at the mean force. SOFT: after jam_relax or jam_decompress; prestress is then the share of the pre-stress f / r that is kept, 0..1.
 const JAM_STIFFNESS_HARMONIC = Int32(0)  # k = 1
 const JAM_STIFFNESS_POWER = Int32(1)  # energy |overlap|^alpha: k = f^((alpha-2)/(alpha-1))
 const JAM_STIFFNESS_HARD = Int32(2)  # entropic force of hard spheres near jamming: k = f^2
-const JAM_STIFFNESS_SOFT = Int32(3)  # after jam_relax or jam_decompress: that of the energy that was minimised, in its units; prestress is then the share of the pre-stress f / r that is kept, 0..1
+const JAM_STIFFNESS_SOFT = Int32(3)  # that of the energy that was minimised, in its units
 
 # jam_modes_which: Which modes.
 const JAM_MODES_LOWEST = Int32(0)  # smallest eigenvalues, the d translations left out
 const JAM_MODES_HIGHEST = Int32(1)  # largest eigenvalues
 const JAM_MODES_NEAR = Int32(2)  # nearest to frequency^2, translations left out
 const JAM_MODES_ALL = Int32(3)  # all d N', translations among them; dense, 24 (d N')^2 bytes
+
+# jam_mode_column: Columns of jam_modes, a row a mode.
+const JAM_MODE_LAMBDA = Int32(0)  # lambda = omega^2
+const JAM_MODE_PARTICIPATION = Int32(1)  # sum |v_i|^4 / (sum |v_i|^2)^2
 
 # jam_candidate_column: Columns of jam_contact_candidates.
 const JAM_CANDIDATE_LIMIT = Int32(0)  # tolerance on |h|
@@ -276,13 +291,13 @@ const JAM_CHECK_OVERLAP = Int32(5)  # undecided: spheres overlap, so gaps are kn
 const JAM_CHECK_GAPS = Int32(6)  # undecided: with pairs closed that are open by 1e-10 or more it would be jammed
 const JAM_CHECK_MARGIN = Int32(7)  # undecided: doubles do not resolve a flex from a soft mode, or a weak force from none
 
-# jam_theorem: What was proved.
+# jam_theorem: What was proved. TRAPPED: no motion without overlap takes a stable sphere farther than inner, but translations of all. No packing as dense lies between inner and outer.
 const JAM_THEOREM_NONE = Int32(0)  # nothing: see cause
-const JAM_THEOREM_TRAPPED = Int32(1)  # no motion without overlap takes a stable sphere farther than inner, but translations of all. No packing as dense lies between inner and outer
+const JAM_THEOREM_TRAPPED = Int32(1)  # stable spheres cannot leave the radius inner without overlap
 const JAM_THEOREM_EXACT = Int32(2)  # a packing that touches exactly in all contacts lies within radius: jammed, forces > 0
 
 # jam_proof_cause: Why a packing was not proved exact, with cause_value and cause_bound.
-const JAM_CAUSE_NONE = Int32(0)
+const JAM_CAUSE_NONE = Int32(0)  # it was
 const JAM_CAUSE_EXCESS = Int32(1)  # contacts, and those of one state of self-stress: more of them need a reason in algebra
 const JAM_CAUSE_FORCE = Int32(2)  # least force and its error, over the mean force
 const JAM_CAUSE_GAP = Int32(3)  # least gap of a pair that is no contact, and the radius
@@ -290,8 +305,8 @@ const JAM_CAUSE_SINGULAR = Int32(4)  # smallest eigenvalue of the rows, and what
 const JAM_CAUSE_RATTLER = Int32(5)  # as gap, where the pair has a rattler
 const JAM_CAUSE_IMAGES = Int32(6)  # a contact of a sphere with its own image
 
-# jam_contact_class: Flags of a contact.
-const JAM_CONTACT_LOCALISED = Int32(1)  # touches a buckler (a stable sphere with d + 1 contacts); without it: extended
+# jam_contact_class: Flags of a contact. A buckler is a stable sphere with d + 1 contacts.
+const JAM_CONTACT_LOCALISED = Int32(1)  # touches a buckler; without it: extended
 const JAM_CONTACT_SMALLEST = Int32(2)  # has the smallest force of one of its spheres
 const JAM_CONTACT_MEDIAN = Int32(4)  # has the (lower) median force of one of its spheres
 
@@ -306,19 +321,23 @@ const JAM_LOCAL_FORCE_DOT = Int32(6)  # pairs of contacts of a sphere: f_ij f_ik
 const JAM_LOCAL_COORDINATION = Int32(7)  # stable spheres: z_i
 
 # jam_population: The contacts or spheres that count.
-const JAM_POPULATION_ALL = Int32(0)
+const JAM_POPULATION_ALL = Int32(0)  # all contacts, all stable spheres
 const JAM_POPULATION_LOCALISED = Int32(1)  # contacts that touch a buckler; spheres and their pairs: the bucklers
 const JAM_POPULATION_EXTENDED = Int32(2)  # contacts that do not; spheres and their pairs: all other stable ones
 const JAM_POPULATION_SMALLEST = Int32(3)  # forces only: the smallest of one of its spheres
 const JAM_POPULATION_MEDIAN = Int32(4)  # forces only: the (lower) median of one of its spheres
 
-# jam_floppy_column: Columns of jam_floppy_modes, a row a contact; dr is the field of jam_floppy_mode.
+# jam_structure_column: Columns of jam_structure_factor.
+const JAM_STRUCTURE_Q = Int32(0)  # |q| times the mean diameter, ascending
+const JAM_STRUCTURE_S = Int32(1)  # S(q), its average over all q of this length
+
+# jam_floppy_column: Columns of jam_floppy_modes, a row a contact; dr is the field of jam_floppy_mode, and F the mean force. Openings have the unit of positions: divide by the diameter to compare packings of different N. B = sum_k f_k |dr_perp|^2 / r_k. S_RETURN is s* of R. Diaz Hernandez Rojas, PhD thesis, Sapienza 2021, whose index is twice stability.
 const JAM_FLOPPY_MEDIAN = Int32(0)  # b = median |dr_i| / |dr|: far below 1/sqrt(N') when the mode is localised
 const JAM_FLOPPY_WEIGHT = Int32(1)  # W = f / median |dr_i|: f equals W times the displacement far away
-const JAM_FLOPPY_S_PLUS = Int32(2)  # opening at which, to first order, the next contact forms. Openings have the unit of positions: divide by the diameter to compare packings of different N
-const JAM_FLOPPY_S_STAR = Int32(3)  # opening f / B at which, to second order, the diameters are least; B = sum_k f_k |dr_perp|^2 / r_k
+const JAM_FLOPPY_S_PLUS = Int32(2)  # opening at which, to first order, the next contact forms
+const JAM_FLOPPY_S_STAR = Int32(3)  # opening f / B at which, to second order, the diameters are least
 const JAM_FLOPPY_STABILITY = Int32(4)  # s_star / s_plus = sigma f / (N c F s_plus), F the mean force, c = sigma B / (N F)
-const JAM_FLOPPY_S_RETURN = Int32(5)  # opening 2 s_star at which, to second order, the diameters are back at their start: s* of R. Diaz Hernandez Rojas, PhD thesis, Sapienza 2021; his index is twice stability
+const JAM_FLOPPY_S_RETURN = Int32(5)  # opening 2 s_star at which, to second order, the diameters are back at their start
 
 # jam_dos_column: Columns of jam_density_of_states, a row a bin of the frequency omega.
 const JAM_DOS_OMEGA = Int32(0)  # middle of the bin
@@ -331,48 +350,48 @@ const JAM_DOS_CUMULATIVE_ERROR = Int32(5)  # its standard error
 """
     jam_progress
 
-Given to the progress callback; valid during the call only.
+Given to the progress callback; valid during the call only. NaN: not known.
 """
 mutable struct jam_progress
-    struct_size::UInt32  # sizeof(jam_progress) as the library knows it
+    struct_size::UInt32  # as the library knows it
     phase::Int32  # jam_phase
     packing_fraction::Cdouble  # now
-    pressure::Cdouble  # MD: reduced pressure of the last window, NaN before
+    pressure::Cdouble  # MD: reduced pressure of the last window
     gain::Cdouble  # crunch: sqrt(Gamma) - 1 of the last LP; on the barrier path its duality gap
     max_step::Cdouble  # crunch: largest |s_i| over mean diameter
     seconds::Cdouble  # since the call began
-    fraction::Cdouble  # of the call, 0..1: never falls, an estimate where the length of the way is not known (growth, crunch); NaN before the first estimate and in calls without one. wall_time is not in it
+    fraction::Cdouble  # of the call, 0..1: never falls, may be an estimate, leaves wall_time out
     collisions::Int64  # MD: so far in this call
-    steps::Int64  # crunch: LPs so far; analysis: items done
+    steps::Int64  # crunch: LPs so far, analysis: items done
     factorisations::Int64  # crunch: so far
-    snapshot::Int64  # number of the snapshot (jam_observe) that the views show now; 0: an ordinary report
-    seconds_left::Cdouble  # until the aim, from how `fraction` grew; NaN before a few reports
-    seconds_left_spread::Cdouble  # a factor above 1: at least two of three calls end between seconds_left divided by it and seconds_left times it; NaN with seconds_left
+    snapshot::Int64  # number of the snapshot (jam_observe) that the views show now; 0: no snapshot
+    seconds_left::Cdouble  # until the aim, from how `fraction` grew
+    seconds_left_spread::Cdouble  # two of three calls end between seconds_left over and times this factor > 1
     jam_progress() = new(104, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
 end
 
 """
     jam_create_options
 
-Options of `jam_create` and `jam_read`.
+Options of `jam_create` and `jam_read`. An option whose value a file gives must be the default or agree with the file.
 """
 mutable struct jam_create_options
-    struct_size::UInt32  # sizeof(jam_create_options)
-    dim::Int32  # 2..8, default 3; with a file: 3 or the file's dimension
-    n::Int64  # number of spheres, 1..2^31-1; default 0: taken from the arrays
-    seed::Int64  # of every random stream, default 1; recorded
+    struct_size::UInt32
+    dim::Int32  # 2..8, default 3
+    n::Int64  # spheres, default 0: as many as the arrays have
+    seed::Int64  # of every random stream, default 1
     box::Cdouble  # side of the cube, > 0, default 1
     packing_fraction::Cdouble  # of a random start, > 0; default 0: by dim, 0.2 halved for each dimension above 3
-    overlap::Int32  # jam_overlap_policy for given positions, default REFUSE
+    overlap::Int32  # jam_overlap_policy, default REFUSE
     model::Int32  # jam_model, default EUCLID
-    mk_zeta::Cdouble  # MK: strength of the shifts, 0..1e15; default infinity: uniform shifts. A random start is planted in equilibrium
+    mk_zeta::Cdouble  # MK: strength of shifts, 0..1e15; default infinity: uniform. Random starts: planted
     masses::Int32  # jam_masses, default EQUAL
-    reserved::Int32  # 0
-    non_additivity::Cdouble  # Delta in (-1, 1]: spheres of unequal diameters touch at (1 + Delta) (sigma_i + sigma_j) / 2; default 0. With a file that gives a value: 0 or that value
-    wall_time::Cdouble  # limit in seconds for reading a file, a random start and the search for overlaps, > 0, default infinity; beyond it JAM_LIMIT
+    reserved::Int32
+    non_additivity::Cdouble  # Delta in (-1, 1]: unequal spheres touch at (1 + Delta) (sigma_i + sigma_j) / 2; default 0
+    wall_time::Cdouble  # of reading, of a random start and of the search for overlaps
     memory_limit::Cdouble  # as jam_set_memory_limit, also while a file is read; default 0: half the machine's memory
     frame::Int64  # which packing of a file with several, from 0; negative: from the end; default -1, the last
-    shrink_min::Cdouble  # smallest factor that JAM_OVERLAP_SHRINK may apply to diameters, 0..1, default 1e-3. A smaller one is refused: it points to duplicate spheres or wrong units
+    shrink_min::Cdouble  # JAM_OVERLAP_SHRINK: least factor, 0..1, default 1e-3; below: duplicates, or wrong units?
     jam_create_options() = new(104, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
 end
 
@@ -382,13 +401,13 @@ end
 Where a system starts. NULL in place of it: a random sequential start of equal spheres in a cube.
 """
 mutable struct jam_start
-    struct_size::UInt32  # sizeof(jam_start)
-    reserved::Int32  # 0
-    positions::Ptr{Cvoid}  # (n, d), Cartesian, unit of `box`, any finite value (wrapped into the cell); NULL: a random sequential start at the packing_fraction of the options
+    struct_size::UInt32
+    reserved::Int32
+    positions::Ptr{Cvoid}  # (n, d), Cartesian, any finite value (wrapped into the cell); NULL: a random start
     positions_len::Csize_t
-    diameters::Ptr{Cvoid}  # n values, or 1 for all; NULL: all equal. With positions they must be given and are taken as they are. For a random start only their ratios count
+    diameters::Ptr{Cvoid}  # n values, or 1 for all; NULL: equal. Random start: only ratios count; else not NULL
     diameters_len::Csize_t
-    cell::Ptr{Cvoid}  # (d, d), of any positive determinant; `box` must then be 1, the default. A left-handed, singular or flat cell is refused. NULL: a cube
+    cell::Ptr{Cvoid}  # (d, d), beside the default box of 1; left-handed, singular, flat: refused. NULL: a cube
     cell_len::Csize_t
     progress::Ptr{Cvoid}  # or NULL; a non-zero return ends the call. The new system has no callback
     user::Ptr{Cvoid}  # given to progress
@@ -401,18 +420,18 @@ end
 What the system is now.
 """
 mutable struct jam_info
-    struct_size::UInt32  # set by the caller: sizeof(jam_info)
+    struct_size::UInt32
     dim::Int32  # d
     n::Int64  # number of spheres
     seed::Int64  # as recorded at creation
     box::Cdouble  # side of the cube, V^(1/d) of another cell
     packing_fraction::Cdouble  # sum of sphere volumes over V
-    diameter_mean::Cdouble  # mean diameter, unit of box
+    diameter_mean::Cdouble  # unit of box
     pressure::Cdouble  # reduced pressure p last measured by MD, NaN before
     model::Int32  # jam_model
-    monodisperse::Int32  # 1 when all diameters are equal
+    monodisperse::Int32  # 1: all diameters are equal
     masses::Int32  # jam_masses
-    paused::Int32  # jam_phase of what was stopped early and can go on, or 0; JAM_PHASE_CRUNCH: by jam_crunch
+    paused::Int32  # jam_phase of what was stopped early and can go on (crunch: by jam_crunch), or 0
     non_additivity::Cdouble  # Delta of a non-additive mixture, 0 for additive diameters
     jam_info() = new(80, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
 end
@@ -420,40 +439,40 @@ end
 """
     jam_diameters_options
 
-Options of `jam_diameters`. Lengths are in the user's unit.
+Options of `jam_diameters`. Lengths are in the user's unit. NaN and 0 stand for what is not given.
 """
 mutable struct jam_diameters_options
-    struct_size::UInt32  # sizeof(jam_diameters_options)
-    law::Int32  # default EQUAL. jam_size_law
-    share::Int32  # default USUAL. jam_size_share
-    draw::Int32  # default QUANTILES. jam_size_draw
+    struct_size::UInt32
+    law::Int32  # jam_size_law, default EQUAL
+    share::Int32  # jam_size_share, default USUAL
+    draw::Int32  # jam_size_draw, default QUANTILES
     dim::Int32  # 2..8, default 3: of volumes
-    reserved::Int32  # 0
-    n::Int64  # number of spheres; default 0: it follows from packing_fraction
+    reserved::Int32
+    n::Int64  # number of spheres, default 0: by packing_fraction
     seed::Int64  # of RANDOM, default 1
     mean::Cdouble  # diameter, > 0, default 1
-    deviation::Cdouble  # standard deviation of the diameter, > 0; default NaN: not given
-    low::Cdouble  # smallest diameter, default 0: not given
+    deviation::Cdouble  # its standard deviation, > 0, default NaN
+    low::Cdouble  # smallest diameter, default 0
     high::Cdouble  # largest diameter, default infinity: not given
-    exponent::Cdouble  # default NaN: not given
+    exponent::Cdouble  # default NaN
     scale::Cdouble  # > 0, default 1
-    shape::Cdouble  # > 0, default NaN: not given
-    cell_volume::Cdouble  # default 0: not given. Spheres of more volume are refused
-    packing_fraction::Cdouble  # of the spheres in cell_volume, in place of n; default 0: not given. More than these sizes reach in disorder is refused
+    shape::Cdouble  # > 0, default NaN
+    cell_volume::Cdouble  # default 0. Spheres of more volume are refused
+    packing_fraction::Cdouble  # in cell_volume, in place of n; default 0. More than reached in disorder is refused
     jam_diameters_options() = new(112, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
 end
 
 """
     jam_size_report
 
-What a set of diameters is.
+What a set of diameters is. `sequential_fraction`: Zhang and Torquato, Phys. Rev. E 88, 053312 (2013).
 """
 mutable struct jam_size_report
-    struct_size::UInt32  # set by the caller: sizeof(jam_size_report)
+    struct_size::UInt32
     source::Int32  # jam_reach_source
     n::Int64  # number of spheres
     mean::Cdouble  # diameter, by number
-    deviation::Cdouble  # standard deviation, by number
+    deviation::Cdouble  # its standard deviation, by number
     polydispersity::Cdouble  # deviation / mean
     least::Cdouble  # diameter
     largest::Cdouble  # diameter
@@ -462,7 +481,7 @@ mutable struct jam_size_report
     d90::Cdouble  # 90 %
     volume::Cdouble  # of all spheres, unit^d
     largest_share::Cdouble  # of the volume, of the largest sphere: how closely a curve can be followed
-    sequential_fraction::Cdouble  # where random sequential addition of equal spheres ends (Zhang and Torquato, Phys. Rev. E 88, 053312 (2013)); mixtures go beyond
+    sequential_fraction::Cdouble  # where random sequential addition of equal spheres ends; mixtures go beyond
     jammed_fraction::Cdouble  # estimate of the packing fraction at which these sizes jam in disorder
     jam_size_report() = new(112, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
 end
@@ -470,14 +489,14 @@ end
 """
     jam_run_options
 
-Limits of `jam_run` (NVE). Whichever comes first ends the run.
+Limits of `jam_run` (NVE). Whichever comes first ends the run. All but `wall_time` count since the run began.
 """
 mutable struct jam_run_options
-    struct_size::UInt32  # sizeof(jam_run_options)
+    struct_size::UInt32
     resume::Int32  # 1: go on with the run that stopped early; default 0
-    collisions_per_particle::Cdouble  # to make since the run began, > 0, default 100
-    wall_time::Cdouble  # seconds of this call, > 0, default infinity
-    time::Cdouble  # to simulate (to the last event before it) since the run began, unit box / sqrt(kT/m), > 0, default infinity
+    collisions_per_particle::Cdouble  # to make, > 0, default 100
+    wall_time::Cdouble  # seconds of this call
+    time::Cdouble  # to simulate (to the last event before it), > 0, default infinity
     jam_run_options() = new(32, 0, 0, 0, 0)
 end
 
@@ -485,39 +504,40 @@ end
     jam_compress_options
 
 Lubachevsky-Stillinger growth: one stage at a given growth rate, or the two stages of `jam_compress`. Whichever target
-is reached first ends it. A `growth_rate` selects one stage. Without it, targets, limits and `growth_law` apply to the
-two stages.
+is reached first ends it. Targets, limits and `growth_law` apply to the two stages too. Limits count from the start of
+each stage. The same `growth_rate` by `JAM_GROWTH_DENSITY`, in steps of half a per cent of sigma, means the same protocol
+at every n.
 """
 mutable struct jam_compress_options
-    struct_size::UInt32  # sizeof(jam_compress_options)
-    resume::Int32  # 1: go on with the stage that stopped early, of which all but the limits is kept; default 0
+    struct_size::UInt32
+    resume::Int32  # 1: go on with the stage that stopped early, with all but the limits; default 0
     growth_rate::Cdouble  # G > 0: one stage at this rate; 0, the default: the two stages of jam_compress
     pressure::Cdouble  # target reduced pressure of the last stage, > 1, default 1e7
     packing_fraction::Cdouble  # target, > 0, default infinity
-    collisions_per_particle::Cdouble  # limit, counted from the start of each stage, > 0, default infinity
-    wall_time::Cdouble  # limit in seconds of this call, > 0, default infinity
-    time::Cdouble  # limit of simulated time, counted from the start of each stage, > 0, default infinity
-    growth_rate_end::Cdouble  # quasi-static: the rate falls as a power of p to this one at the target pressure; in [0, growth_rate], default 0: constant
+    collisions_per_particle::Cdouble  # limit, > 0, default infinity
+    wall_time::Cdouble  # limit of this call
+    time::Cdouble  # limit of simulated time, > 0, default infinity
+    growth_rate_end::Cdouble  # in [0, growth_rate]: the rate at the target, a power of p; 0, the default: constant
     growth_law::Int32  # jam_growth_law, default DIAMETER
-    reserved::Int32  # 0
+    reserved::Int32
     jam_compress_options() = new(72, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
 end
 
 """
     jam_md_report
 
-What MD did.
+What MD did. Pressure: P V / (N kT) without the part of the growth, kT = sum m v^2 / (d (N - 1)).
 """
 mutable struct jam_md_report
-    struct_size::UInt32  # set by the caller: sizeof(jam_md_report)
+    struct_size::UInt32
     stop_reason::Int32  # jam_stop_reason
     collisions::Int64  # in this call
     events::Int64  # collisions, list updates, stale events
     collisions_per_second::Cdouble  # of wall time
-    pressure::Cdouble  # reduced, P V / (N kT), without the part of the growth. jam_run: mean over the call; jam_compress: last window. kT = sum m v^2 / (d (N - 1))
+    pressure::Cdouble  # reduced. jam_run: mean over the call; jam_compress: last window
     pressure_error::Cdouble  # standard error of that mean from its windows; NaN with too few
     packing_fraction::Cdouble  # at the end
-    time::Cdouble  # simulated, unit box / sqrt(kT/m)
+    time::Cdouble  # simulated
     energy_drift::Cdouble  # jam_run: |K_end/K_start - 1|
     max_overlap::Cdouble  # largest -h of neighbours whenever one of them had an event, >= 0
     seconds::Cdouble  # wall time
@@ -531,13 +551,13 @@ end
 What `jam_observe` records.
 """
 mutable struct jam_observe_options
-    struct_size::UInt32  # sizeof(jam_observe_options)
+    struct_size::UInt32
     collisions::Int32  # 1: collisions of each sphere, and collisions and momentum of each pair; default 0
     gap_bins::Int32  # bins of the gap histogram, 0 (default: none) or >= 2
     r_bins::Int32  # bins of g(r), default 0: none
     sample_every::Cdouble  # collisions per particle between samples of the series, gaps and g(r), > 0, default 10
-    gap_min::Cdouble  # the first bin is [0, gap_min], > 0, default 1e-8; the others have equal ratios
-    gap_max::Cdouble  # up to here, in (gap_min, 10], default 1
+    gap_min::Cdouble  # the first bin is [0, gap_min], > 0, default 1e-8
+    gap_max::Cdouble  # up to here by equal ratios, <= 10, 1
     r_max::Cdouble  # of g(r), mean diameters, > 0, default 4
     snapshot_every::Cdouble  # collisions per particle before the first snapshot; 0, the default: none
     snapshot_factor::Cdouble  # each interval between snapshots is so many times the one before, >= 1, default 1
@@ -547,15 +567,15 @@ end
 """
     jam_glass
 
-A fit of the glass branch p = d' / (1 - phi/`phi_J`).
+A fit of the glass branch p = d' / (1 - phi/`phi_J`). Errors are standard errors.
 """
 mutable struct jam_glass
-    struct_size::UInt32  # set by the caller: sizeof(jam_glass)
-    reserved::Int32  # 0
+    struct_size::UInt32
+    reserved::Int32
     jammed_fraction::Cdouble  # phi_J
-    jammed_error::Cdouble  # its standard error
-    dimension::Cdouble  # d', free; near d for a good glass
-    dimension_error::Cdouble  # its standard error
+    jammed_error::Cdouble  # its error
+    dimension::Cdouble  # d', free, near d for a good glass
+    dimension_error::Cdouble  # its error
     r_squared::Cdouble  # of the straight line 1/p against phi
     jam_glass() = new(48, 0, 0, 0, 0, 0, 0)
 end
@@ -566,11 +586,11 @@ end
 Metropolis Monte Carlo at constant volume. A sweep is one trial of each sphere.
 """
 mutable struct jam_monte_carlo_options
-    struct_size::UInt32  # sizeof(jam_monte_carlo_options)
+    struct_size::UInt32
     resume::Int32  # 1: continue the run that stopped early; default 0
     energy_unit::Int32  # jam_energy_unit, default LENGTH
-    reserved::Int32  # 0
-    alpha::Cdouble  # 0, the default: hard spheres; > 1: the energy of an overlap x is energy_scale x^alpha
+    reserved::Int32
+    alpha::Cdouble  # 0, default: hard, or > 1: overlaps x cost energy_scale x^alpha
     energy_scale::Cdouble  # > 0, default 1
     temperature::Cdouble  # of soft spheres, k_B T > 0, default 1
     step::Cdouble  # half side of the cube of trial displacements, mean diameters; 0, the default: tuned
@@ -578,8 +598,8 @@ mutable struct jam_monte_carlo_options
     swap_share::Cdouble  # share of trials that exchange two diameters, in [0, 1), default 0
     sweeps::Int64  # since the run began, >= 1, default 1000
     run::Int64  # number of the random stream beside the seed, >= 0, default 0
-    first_sweep::Int64  # number of the first sweep, by which the stream goes; -1, the default: after those made before
-    wall_time::Cdouble  # seconds of this call, > 0, default infinity
+    first_sweep::Int64  # number of the first sweep in its stream; -1, the default: after those made before
+    wall_time::Cdouble  # seconds of this call
     jam_monte_carlo_options() = new(96, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
 end
 
@@ -589,16 +609,16 @@ end
 What Monte Carlo did.
 """
 mutable struct jam_monte_carlo_report
-    struct_size::UInt32  # set by the caller: sizeof(jam_monte_carlo_report)
-    stop_reason::Int32  # jam_stop_reason; COLLISIONS: all sweeps were made
+    struct_size::UInt32
+    stop_reason::Int32  # jam_stop_reason, COLLISIONS when all sweeps were made
     sweeps::Int64  # since the run began
     next_sweep::Int64  # number of the sweep that would come next
     acceptance::Cdouble  # of moves
     swap_acceptance::Cdouble  # of swaps, NaN without any
     step::Cdouble  # used, mean diameters
     energy::Cdouble  # mean energy a sphere
-    energy_error::Cdouble  # standard error of it from 20 parts of the run, NaN with too few sweeps
-    pressure::Cdouble  # reduced p: soft, from the virial; hard, from the density of pairs at contact
+    energy_error::Cdouble  # its standard error from 20 parts, NaN with few sweeps
+    pressure::Cdouble  # reduced p: from the virial, of hard spheres from pairs at contact
     pressure_error::Cdouble  # likewise
     msd::Cdouble  # mean-square displacement since the run began, box^2
     trials_per_second::Cdouble  # of this call, wall time
@@ -612,7 +632,7 @@ end
 Options of `jam_isoconfigurational`.
 """
 mutable struct jam_isoconf_options
-    struct_size::UInt32  # sizeof(jam_isoconf_options)
+    struct_size::UInt32
     threads::Int32  # 1 or 2, default 1; the bits are the same
     clock::Int32  # jam_clock, default COLLISIONS
     resume::Int32  # 1: continue the runs that this handle holds; default 0
@@ -624,7 +644,7 @@ mutable struct jam_isoconf_options
     wave_number::Cdouble  # q of F_s, over mean diameters, > 0, default 7
     overlap_length::Cdouble  # spheres that moved less count in the overlap, mean diameters, > 0, default 0.3
     memory_limit::Cdouble  # bytes, default 2e9: past it JAM_E_MEMORY with the estimate before any run
-    wall_time::Cdouble  # seconds of this call, > 0, default infinity
+    wall_time::Cdouble  # seconds of this call
     jam_isoconf_options() = new(88, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
 end
 
@@ -634,16 +654,16 @@ end
 What the runs gave so far.
 """
 mutable struct jam_isoconf_report
-    struct_size::UInt32  # set by the caller: sizeof(jam_isoconf_report)
-    stop_reason::Int32  # jam_stop_reason; COLLISIONS: all runs were made; STALLED: run first_run + runs cannot move
+    struct_size::UInt32
+    stop_reason::Int32  # jam_stop_reason, COLLISIONS: all made; STALLED: the next run cannot move
     first_run::Int64  # number of the first run
-    runs::Int64  # that are in the sums
+    runs::Int64  # runs in the sums
     blocks::Int64  # that these runs fill or touch
     instants::Int64  # of each run
     energy_drift::Cdouble  # largest |K_end/K_start - 1| of a run
     max_overlap::Cdouble  # largest -h of a run
     step::Cdouble  # Monte Carlo: half side of the trial cube, mean diameters
-    acceptance::Cdouble  # Monte Carlo: mean over runs
+    acceptance::Cdouble  # mean over runs
     seconds::Cdouble  # wall time over all calls
     jam_isoconf_report() = new(80, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
 end
@@ -651,64 +671,73 @@ end
 """
     jam_crunch_options
 
-Options of `jam_crunch`. Lengths are in mean diameters, so nothing depends on the box. Brackets name the parameter of
-CALiPPSO.jl (Artiaco et al. 2022) that does the same; lengths there are in units of the box or radii. Its parameters
-sqrGamma0, `thresholds_bounds` and `ratio_sl_update` have no counterpart: radius and bound follow phi and the last step.
-Neither has `zero_force`: a pair is a contact when its relative force exceeds its relative gap. Overlaps are searched
-after every step (`tol_overlap`, `interval_overlaps_check`). The progress callback replaces verbose and `monitor_step`;
-`jam_crunch_report.excess_contacts` replaces `non_iso_warn` and `non_iso_break`.
+Options of `jam_crunch`. Lengths are in mean diameters. The guide's page "Coming from other programs" names the
+parameter of CALiPPSO.jl beside each.
+- polish: then a crunch also ends where LPs below `gain_tolerance` still move rattlers. 0 keeps the LP's answer.
+- `full_lps`: else an LP that gains more than 1e-7 ends at a duality gap of 0.02 of its gain.
+- strain: the cell deforms at fixed volume after the fixed cell's optimum; FREE ends strictly jammed. One sphere
+alone needs a strain: its contacts are its own images, which only strains move.
+- `keep_steps`: where there are more states, or more than 2^24 coordinates in all, every second, fourth, ... is kept.
+- `duality_gap`: for packings too large for the jamming point. The barrier path ends at this duality gap, and an LP
+  names contacts. Their forces balance. Their own duality gap e is in the report. To first order no motion lets Gamma
+  grow by more than e, so that `phi_J` is about phi (1 + e)^(d/2). Contacts that a smaller gap may change are counted
+  as undecided. Needs `BARRIER_PATH` and no strain.
 """
 mutable struct jam_crunch_options
-    struct_size::UInt32  # sizeof(jam_crunch_options)
-    lp_solver::Int32  # jam_lp_solver, default IPM (optimizer)
-    method::Int32  # jam_crunch_method, default BARRIER_PATH; SEQUENTIAL_LP is what CALiPPSO does
-    polish::Int32  # 1: close the contacts at the end and balance the forces to rounding, default 1. A crunch then also ends where LPs below gain_tolerance still move rattlers. 0: keep the LP's answer (tol_mechanical_equilibrium: the extra LP past it)
-    max_lps::Int32  # >= 1, default 1000 (max_iters)
-    threads::Int32  # 1 or 2, default 1; bits are reproducible on 1 (threads)
-    gain_tolerance::Cdouble  # on sqrt(Gamma) - 1, > 0, default 1e-12 (tol_Gamma_convergence)
-    step_tolerance::Cdouble  # on max |s_i| of non-rattlers, > 0, default 1e-9 (tol_S_convergence, in box units)
-    lp_tolerance::Cdouble  # relative complementarity and residual of one LP, default 1e-15 (solver_attributes)
-    neighbour_radius::Cdouble  # largest pair distance in an LP; 0, the default: adapts (l0, default 4 R)
-    step_bound::Cdouble  # bound on each |s_i| component, 1e-15 .. 1000; 0, the default: adapts (sbound, in radii)
-    wall_time::Cdouble  # limit in seconds, > 0, default infinity
-    steps::Int32  # 1: the callback hears of every step and may call jam_crunch_step_*. 0, the default
-    full_lps::Int32  # 1: every LP is solved to lp_tolerance, so that its linear network balances. 0, the default: an LP that gains more than 1e-7 ends at a duality gap of 0.02 of its gain
-    strain::Int32  # jam_free_strain, default NONE. Else the cell deforms at fixed volume after the fixed cell's optimum; FREE ends strictly jammed. One sphere alone needs a strain: its contacts are its own images, which only strains move
-    keep_steps::Int32  # states before the end that are kept for jam_write_page, 0 .. 1000, default 0. Where there are more, or more than 2^24 coordinates in all, every second, fourth, ... is kept
-    duality_gap::Cdouble  # 0, the default: to the jamming point. Else 1e-12 .. 1e-2, for packings too large for that: the barrier path ends at this duality gap, and an LP names contacts. Their forces balance. Their own duality gap e is in the report. To first order no motion lets Gamma grow by more than e, so that phi_J is about phi (1 + e)^(d/2). Contacts that a smaller gap may change are counted as undecided. Needs BARRIER_PATH and no strain
+    struct_size::UInt32
+    lp_solver::Int32  # jam_lp_solver, default IPM
+    method::Int32  # jam_crunch_method, default BARRIER_PATH
+    polish::Int32  # 1: contacts closed, forces balanced to rounding, 1
+    max_lps::Int32  # >= 1, default 1000
+    threads::Int32  # 1 or 2, default 1; bits are reproducible on 1
+    gain_tolerance::Cdouble  # on sqrt(Gamma) - 1, > 0, default 1e-12
+    step_tolerance::Cdouble  # on max |s_i| of non-rattlers, > 0, default 1e-9
+    lp_tolerance::Cdouble  # relative complementarity and residual of one LP, default 1e-15
+    neighbour_radius::Cdouble  # largest pair distance in an LP; 0, the default: adapts
+    step_bound::Cdouble  # bound on each |s_i| component, 1e-15 .. 1000; 0, the default: adapts
+    wall_time::Cdouble  # limit of the call
+    steps::Int32  # 1: the callback hears of every step and may call jam_crunch_step_*; default 0
+    full_lps::Int32  # 1: every LP is solved to lp_tolerance, so that its network balances; default 0
+    strain::Int32  # jam_free_strain, default NONE
+    keep_steps::Int32  # states before the end that are kept for jam_write_page, 0 .. 1000, default 0
+    duality_gap::Cdouble  # 0, the default: to the jamming point; or 1e-12 .. 1e-2
     prove::Int32  # 1: a packing that ends jammed is proved as by jam_prove, into the report; default 0
-    reserved::Int32  # 0
+    reserved::Int32
     jam_crunch_options() = new(104, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
 end
 
 """
     jam_crunch_report
 
-Result and certificate of `jam_crunch`. All gaps, overlaps and lengths relative to `sigma_ij`.
+Result and certificate of `jam_crunch`. All gaps, overlaps and lengths relative to `sigma_ij`. Counts are -1 where
+contacts are unknown, for example after an early stop; calls that need the network then return `JAM_E_STATE`. The
+numbers from `packing_fraction_start` to `contacts_kept` say what the crunch did to the packing that it was given:
+displacements in mean diameters without their mean over these spheres; rattlers count, and so does a strain of the
+cell. They are NaN or -1 where no crunch made the report.
 """
 mutable struct jam_crunch_report
-    struct_size::UInt32  # set by the caller: sizeof(jam_crunch_report)
-    jammed::Int32  # 1: collectively jammed by the test of jam_rigidity; 0: not, undecided or not tested
+    struct_size::UInt32
+    jammed::Int32  # 1: collectively jammed by the test of jam_rigidity; 0: not, undecided, untested
     stop_reason::Int32  # jam_stop_reason
     lp_solver::Int32  # jam_lp_solver that gave the last LP
-    method::Int32  # jam_crunch_method that led here: BARRIER_PATH if the path was followed, SEQUENTIAL_LP if only LPs ran
-    stationary::Int32  # 1: non-negative contact forces balance, so no small motion lets the diameters grow
+    method::Int32  # jam_crunch_method that led here: BARRIER_PATH if the path was followed
+    stationary::Int32  # 1: non-negative contact forces balance: no small motion lets diameters grow
     strictly_jammed::Int32  # jam_verdict of the strict test; UNTESTED until jam_rigidity runs it
-    reserved::Int32  # 0
+    reserved::Int32
     packing_fraction::Cdouble  # phi_J when jammed
     diameter_mean::Cdouble  # unit of box
-    contacts::Int64  # pairs with a force, rattlers left out; -1: stopped before contacts were known
-    rattlers::Int64  # spheres that no force-carrying contact touches; -1 likewise. Calls that need the network then return JAM_E_STATE
-    stable::Int64  # n - rattlers = N'; 0 where contacts are unknown
-    bucklers::Int64  # stable spheres with exactly d+1 contacts; -1 likewise
+    contacts::Int64  # pairs with a force, rattlers left out
+    rattlers::Int64  # spheres that no force-carrying contact touches
+    stable::Int64  # n - rattlers = N', or 0
+    bucklers::Int64  # stable spheres with exactly d+1 contacts
     isostatic_contacts::Int64  # d (N' - 1) + 1: contacts of a single state of self-stress
-    excess_contacts::Int64  # contacts - isostatic_contacts: 0 isostatic and for an empty network, > 0 hyperstatic. Amorphous packings have 0, but disks of two sizes one for each disk whose six neighbours are its equals: the seven close twelve contacts, and eleven fix them
-    flexes::Int64  # motions of stable spheres, beyond translations, that keep force-carrying contacts closed
+    excess_contacts::Int64  # contacts - isostatic_contacts: 0 isostatic or no network, > 0 hyperstatic
+    flexes::Int64  # motions of stable spheres, but translations, that keep contacts with force closed
     zero_force_contacts::Int64  # closed pairs without force in every state of self-stress, those of rattlers too
-    undecided_contacts::Int64  # pairs with gaps of 1e-10 to 1e-7. After JAM_STOP_DUALITY_GAP: pairs whose force on the path over the mean is within a factor of 1e4 of twice their gap
+    undecided_contacts::Int64  # gaps of 1e-10 to 1e-7; after DUALITY_GAP: force / 2 gap within a factor of 1e4
     undercoordinated::Int64  # stable spheres with d force-carrying contacts or fewer
     strict_contacts_needed::Int64  # d (N' - 1) + d (d + 1) / 2: fewest contacts of a strictly jammed packing
-    rigidity_margin::Cdouble  # smallest eigenvalue of S^T S on force-carrying contacts that is no translation
+    rigidity_margin::Cdouble  # least eigenvalue of S^T S on contacts with force that is no translation
     lp_solves::Int64  # LPs solved in full
     factorisations::Int64  # Cholesky factorisations
     gain::Cdouble  # sqrt(Gamma) - 1 of the last LP
@@ -717,7 +746,7 @@ mutable struct jam_crunch_report
     force_residual::Cdouble  # largest |sum_j f_ij n_ij| over mean force
     gamma_residual::Cdouble  # |sum lambda_ij sigma_ij^2 - 1| of the last LP
     min_force::Cdouble  # smallest contact force over the mean
-    min_gap::Cdouble  # smallest h of a pair of stable spheres that is no contact; after a free cell own images count as pairs
+    min_gap::Cdouble  # least h of stable spheres that is no contact; own images count in a free cell
     max_contact_gap::Cdouble  # largest |h| of a contact
     duality_gap::Cdouble  # of the last LP, relative to Gamma; after JAM_STOP_DUALITY_GAP that of the forces
     force_scale::Cdouble  # mean force in units where sum lambda sigma^2 = 1 (lambda r)
@@ -727,18 +756,18 @@ mutable struct jam_crunch_report
     seconds_solve::Cdouble  # of it in triangular solves
     status::Int32  # jam_status_code of the call that made this report
     reserved_end::Int32  # 0
-    packing_fraction_start::Cdouble  # before this call. This and the next six say what the crunch did to the packing that it was given; NaN or -1 where no crunch made the report
-    displacement_max::Cdouble  # largest displacement since then, over the mean diameter, without the mean displacement of all spheres; rattlers count, and so does a strain of the cell
-    displacement_rms::Cdouble  # root of the mean square of the same
-    displacement_max_stable::Cdouble  # both over the spheres that end with contacts, without their mean; NaN without any
-    displacement_rms_stable::Cdouble
+    packing_fraction_start::Cdouble  # before this call
+    displacement_max::Cdouble  # largest displacement
+    displacement_rms::Cdouble  # root of the mean square
+    displacement_max_stable::Cdouble  # the same of spheres that end with contacts
+    displacement_rms_stable::Cdouble  # the same of spheres that end with contacts
     contacts_start::Int64  # pairs that touched before, as far as the digits of the coordinates show
-    contacts_kept::Int64  # of these the contacts of this report; -1 where contacts are unknown
-    theorem::Int32  # jam_theorem, with the option prove; NONE without
-    proof_cause::Int32  # jam_proof_cause: why the theorem is not EXACT
-    proof_radius::Cdouble  # unit of the box: radius of EXACT, inner of TRAPPED, see jam_proof_report; else infinite
+    contacts_kept::Int64  # of these the contacts of this report
+    theorem::Int32  # jam_theorem, by prove, else NONE
+    proof_cause::Int32  # jam_proof_cause it is not EXACT
+    proof_radius::Cdouble  # unit of the box: radius of EXACT, inner of TRAPPED (jam_proof_report), or infinite
     proof_value::Cdouble  # the two numbers of the cause
-    proof_bound::Cdouble
+    proof_bound::Cdouble  # the two numbers of the cause
     jam_crunch_report() = new(368, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
 end
 
@@ -748,8 +777,8 @@ end
 Memory and time of a crunch, estimated from the graph of pairs and its elimination tree.
 """
 mutable struct jam_estimate
-    struct_size::UInt32  # set by the caller: sizeof(jam_estimate)
-    reserved::Int32  # 0
+    struct_size::UInt32
+    reserved::Int32
     pairs::Int64  # of the longest neighbour list
     bytes::Cdouble  # peak memory beside what is in use now; for spheres above 20 MB mostly good to 30 %
     factor_bytes::Cdouble  # of it for the factorisation
@@ -763,19 +792,19 @@ end
 """
     jam_relax_options
 
-Options of `jam_relax`.
+Options of `jam_relax`. A free cell is minimised after the minimum of the fixed one.
 """
 mutable struct jam_relax_options
-    struct_size::UInt32  # sizeof(jam_relax_options)
+    struct_size::UInt32
     minimiser::Int32  # jam_minimiser, default NEWTON
     scale::Int32  # jam_soft_scale, default RELATIVE
     precision::Int32  # jam_soft_precision, default REFERENCE
     alpha::Cdouble  # exponent of the energy, > 1, default 2
     force_tolerance::Cdouble  # on max |F_i| of stable spheres over the mean contact force, > 0, default 1e-12
     max_evaluations::Int64  # of the forces, >= 1, default 1e6
-    wall_time::Cdouble  # limit in seconds, > 0, default infinity
-    strain::Int32  # jam_free_strain, default NONE: what of the cell is free after the minimum of the fixed one
-    reserved::Int32  # 0
+    wall_time::Cdouble  # limit of the call
+    strain::Int32  # jam_free_strain, default NONE: what of the cell is free
+    reserved::Int32
     pressure::Cdouble  # P > 0 with JAM_STRAIN_VOLUME: U + P V is minimised, also from no contacts; else 0, the default
     components::Int64  # bit c d + k: component (c, k) of the strain may change, c <= k, default -1: all
     jam_relax_options() = new(72, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
@@ -784,23 +813,22 @@ end
 """
     jam_relax_report
 
-What `jam_relax` found. `F_i`: total force on sphere i. Rattlers are spheres with fewer than d + 1 contacts, removed
-again and again; stable spheres are the others.
+What `jam_relax` found.
 """
 mutable struct jam_relax_report
-    struct_size::UInt32  # set by the caller: sizeof(jam_relax_report)
+    struct_size::UInt32
     converged::Int32  # 1: both residuals are below force_tolerance, or no spheres overlap
     stop_reason::Int32  # jam_stop_reason
     minimiser::Int32  # jam_minimiser
     force_residual::Cdouble  # max |F_i| of stable spheres over the mean contact force; 0 without contacts
-    energy::Cdouble  # U, unit epsilon
-    pressure::Cdouble  # sum of f r over d V, unit epsilon / length^d
+    energy::Cdouble  # U
+    pressure::Cdouble  # sum of f r over d V
     packing_fraction::Cdouble  # of the diameters, overlaps counted twice
     distance::Cdouble  # alpha U / sum of f r, an estimate of ln(R / R_J)
     jammed_fraction::Cdouble  # phi (1 - distance)^d, an estimate of phi_J
     coordination::Cdouble  # mean number of contacts of a stable sphere
-    mean_overlap::Cdouble  # mean of (sigma - r) / sigma over contacts of stable spheres
-    max_overlap::Cdouble  # largest of all pairs
+    mean_overlap::Cdouble
+    max_overlap::Cdouble  # mean of (sigma - r) / sigma over contacts of stable spheres; largest of all pairs
     contacts::Int64  # overlapping pairs of stable spheres
     excess_contacts::Int64  # contacts - (d (stable - 1) + 1)
     stable::Int64  # n - rattlers
@@ -815,45 +843,48 @@ end
 """
     jam_decompress_options
 
-Options of `jam_decompress`. Targets: the first that is reached ends it.
+Options of `jam_decompress`. Targets: the first that is reached ends it. With crunch, the packing is crunched from just
+below contact, and the decompression goes on until both have one network. The system ends as that jammed packing,
+without crunch as the soft one. `max_evaluations`: a later step may take 4 times what all steps before it took, at
+least a 20th of this limit, and never more than it.
 """
 mutable struct jam_decompress_options
-    struct_size::UInt32  # sizeof(jam_decompress_options)
+    struct_size::UInt32
     minimiser::Int32  # jam_minimiser, default NEWTON
     scale::Int32  # jam_soft_scale, default RELATIVE
     precision::Int32  # jam_soft_precision, default REFERENCE
     alpha::Cdouble  # exponent of the energy, > 1, default 2
     force_tolerance::Cdouble  # as in jam_relax_options, default 1e-12
-    energy_factor::Cdouble  # U falls by this factor a step, in (0, 1), default 0.01; nearer 1 after a step that failed
-    pressure::Cdouble  # target, as jam_relax_report.pressure, >= 0, default 0: none
-    distance::Cdouble  # target, as jam_relax_report.distance, >= 0, default 0: none
-    isostatic::Int32  # 1 (default): end where contacts are those of one state of self-stress and the Hessian has d zero modes
-    crunch::Int32  # 1 (default): then crunch from just below contact, and go on until both have one network; the system ends as that jammed packing. 0: it ends as the soft packing
+    energy_factor::Cdouble  # U falls by this factor a step, in (0, 1), default 0.01; nearer 1 after a failed step
+    pressure::Cdouble  # targets, as in jam_relax_report, >= 0, default 0: none
+    distance::Cdouble  # targets, as in jam_relax_report, >= 0, default 0: none
+    isostatic::Int32  # 1: end at contacts of one self-stress and d zero modes of the Hessian; default 1
+    crunch::Int32  # 1: then crunch; default 1
     max_steps::Int32  # >= 1, default 1000
-    reserved::Int32  # 0
-    max_evaluations::Int64  # of the forces, in one step, >= 1, default 1e6. A later step may take 4 times what all steps before it took: at least a 20th of this limit, and never more than it
-    wall_time::Cdouble  # limit in seconds, > 0, default infinity
+    reserved::Int32
+    max_evaluations::Int64  # of the forces, in one step, >= 1, default 1e6
+    wall_time::Cdouble  # limit of the call
     jam_decompress_options() = new(88, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
 end
 
 """
     jam_decompress_report
 
-What `jam_decompress` found.
+What `jam_decompress` found: numbers of the last soft packing as in `jam_relax_report`, and what crunch made of it.
 """
 mutable struct jam_decompress_report
-    struct_size::UInt32  # set by the caller: sizeof(jam_decompress_report)
+    struct_size::UInt32
     stop_reason::Int32  # jam_stop_reason
     isostatic::Int32  # 1: contacts of one state of self-stress and d zero modes of the Hessian
-    same_network::Int32  # 1: crunch ended with the same contacts; -1: crunch was not run
-    force_residual::Cdouble  # these as in jam_relax_report, of the last soft packing
+    same_network::Int32  # 1: crunch ended with the same contacts; 0: with others; -1: not run
+    force_residual::Cdouble  # max |F_i| of stable spheres over the mean contact force
     energy::Cdouble  # U
-    pressure::Cdouble  # epsilon / length^d
+    pressure::Cdouble  # sum of f r over d V
     packing_fraction::Cdouble  # of the soft packing
     distance::Cdouble  # estimate of ln(R / R_J)
     jammed_fraction::Cdouble  # estimate of phi_J
-    crunch_fraction::Cdouble  # phi_J by crunch; NaN when it was not run
-    force_difference::Cdouble  # largest |f_soft - f_crunch| over the mean force; NaN without the same network
+    crunch_fraction::Cdouble  # phi_J by crunch, NaN when it was not run
+    force_difference::Cdouble  # largest |f_soft - f_crunch| over the mean; NaN without the same network
     coordination::Cdouble  # mean number of contacts of a stable sphere
     contacts::Int64  # overlapping pairs of stable spheres
     excess_contacts::Int64  # contacts - (d (stable - 1) + 1)
@@ -871,13 +902,14 @@ end
 """
     jam_hessian_options
 
-Options of all calls that use a Hessian.
+Options of all calls that use a Hessian. The block of a contact is
+k n n^T - prestress f <sigma> / ((alpha-1) r) (1 - n n^T).
 """
 mutable struct jam_hessian_options
-    struct_size::UInt32  # sizeof(jam_hessian_options)
+    struct_size::UInt32
     stiffness::Int32  # jam_stiffness, default HARMONIC
     alpha::Cdouble  # POWER: > 1, default 2
-    prestress::Cdouble  # overlap (HARD: gap) of a contact of mean force over mean diameter, in [0, 1): the block of a contact is k n n^T - prestress f <sigma> / ((alpha-1) r) (1 - n n^T); default 0
+    prestress::Cdouble  # overlap (HARD: gap) at the mean force over mean diameter, in [0, 1), default 0
     jam_hessian_options() = new(24, 0, 0, 0)
 end
 
@@ -887,7 +919,7 @@ end
 Options of `jam_modes`.
 """
 mutable struct jam_modes_options
-    struct_size::UInt32  # sizeof(jam_modes_options)
+    struct_size::UInt32
     which::Int32  # jam_modes_which, default LOWEST
     count::Int64  # how many, >= 1, default 10; not used by ALL
     frequency::Cdouble  # NEAR: omega >= 0
@@ -902,8 +934,8 @@ end
 Options of `jam_contacts_from_geometry`.
 """
 mutable struct jam_geometry_options
-    struct_size::UInt32  # sizeof(jam_geometry_options)
-    reserved::Int32  # 0
+    struct_size::UInt32
+    reserved::Int32
     tolerance::Cdouble  # contacts have |h| <= tolerance; 0, the default: set at the largest jump of the sorted gaps
     window::Cdouble  # jumps are searched in |h| < window, in (0, 1], default 0.1
     jam_geometry_options() = new(24, 0, 0, 0)
@@ -912,19 +944,20 @@ end
 """
     jam_geometry_report
 
-What `jam_contacts_from_geometry` found; gaps relative to `sigma_ij`.
+What `jam_contacts_from_geometry` found; gaps relative to `sigma_ij`. second_×: the next candidate that could be rigid;
+its jump is 1 and its contacts -1 when there is none.
 """
 mutable struct jam_geometry_report
-    struct_size::UInt32  # set by the caller: sizeof(jam_geometry_report)
-    self_contacts::Int32  # contacts of spheres with their own images, which constrain nothing in a fixed cell: left out of the network
+    struct_size::UInt32
+    self_contacts::Int32  # with own images: no constraint in a fixed cell, so left out of the network
     tolerance::Cdouble  # used
     gap_below::Cdouble  # largest |h| within it, rattlers included
-    gap_above::Cdouble  # smallest |h| beyond it (window when there is none)
+    gap_above::Cdouble  # least beyond it, window without one
     jump::Cdouble  # gap_above / gap_below, the latter no smaller than resolution
-    resolution::Cdouble  # of gaps, from the digits that the coordinates have: 1e-15, or far more after a file with few of them
-    second_jump::Cdouble  # of the next candidate that could be rigid, 1 when there is none
+    resolution::Cdouble  # of gaps: 1e-15, or far more after a file whose coordinates have few digits
+    second_jump::Cdouble  # of the next candidate
     second_tolerance::Cdouble  # its tolerance
-    second_contacts::Int64  # its contacts, -1 when there is none
+    second_contacts::Int64  # its contacts
     pairs_within::Int64  # pairs with |h| <= tolerance, rattlers included
     contacts::Int64  # of stable spheres
     excess_contacts::Int64  # contacts - (d (N'-1) + 1)
@@ -940,10 +973,12 @@ end
     jam_rigidity_report
 
 What `jam_rigidity` found. K+ are the contacts that carry force in some balance of non-negative forces, B the spheres
-that they touch, N' their number.
+that they touch, N' their number. `undecided_contacts`: also pairs that the digits of the coordinates cannot
+distinguish from contacts. `rigidity_margin` below 1e-12: a flex; of a sphere that touches its own images alone: with
+strains.
 """
 mutable struct jam_rigidity_report
-    struct_size::UInt32  # set by the caller: sizeof(jam_rigidity_report)
+    struct_size::UInt32
     kind::Int32  # jam_rigidity_kind that was tested
     jammed::Int32  # jam_verdict
     stationary::Int32  # jam_verdict: K+ is not empty, so no small motion lets the diameters grow
@@ -954,8 +989,8 @@ mutable struct jam_rigidity_report
     flexes::Int64  # motions beyond translations that keep K+ closed; 0 without K+, 512 at most
     undercoordinated::Int64  # spheres of B with d contacts of K+ or fewer
     zero_force_contacts::Int64  # closed pairs that are not in K+
-    undecided_contacts::Int64  # pairs with gaps of 1e-10 to 1e-7. Also those that the digits of the coordinates cannot distinguish from contacts
-    rigidity_margin::Cdouble  # smallest eigenvalue on K+ that is no translation; below 1e-12: a flex. Of a sphere that touches its own images alone: with strains
+    undecided_contacts::Int64  # pairs with gaps of 1e-10 to 1e-7
+    rigidity_margin::Cdouble  # smallest eigenvalue on K+ that is no translation
     force_residual::Cdouble  # largest |sum_j f_ij n_ij| over the mean force, of the forces in the proof
     jam_rigidity_report() = new(96, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
 end
@@ -966,11 +1001,11 @@ end
 Options of `jam_check_packing`.
 """
 mutable struct jam_check_options
-    struct_size::UInt32  # sizeof(jam_check_options)
+    struct_size::UInt32
     crunch::Int32  # 1: an undecided packing is crunched, as a copy, to say what that changes; default 1
-    wall_time::Cdouble  # limit for this crunch in seconds, > 0, default infinity
+    wall_time::Cdouble  # limit for this crunch
     prove::Int32  # 1: a jammed packing is proved as by jam_prove, into the report; default 0
-    reserved::Int32  # 0
+    reserved::Int32
     jam_check_options() = new(24, 0, 0, 0, 0)
 end
 
@@ -978,28 +1013,28 @@ end
     jam_check_report
 
 Verdict on a packing as it is. Gaps are relative to `sigma_ij`, displacements in mean diameters without their mean.
-NaN: not known.
+Closed pairs have gaps below 1e-10. NaN, and -1 for contacts: not known. crunch_×: of the crunched copy.
 """
 mutable struct jam_check_report
-    struct_size::UInt32  # set by the caller: sizeof(jam_check_report)
+    struct_size::UInt32
     jammed::Int32  # jam_verdict: collectively jammed
     strictly_jammed::Int32  # jam_verdict; NO where jammed is NO
     stationary::Int32  # jam_verdict: non-negative forces balance
     reason::Int32  # jam_check_reason of jammed
     dim::Int32  # d
     digits::Int32  # decimal digits that coordinates, diameters or cell seem to have; 0: all
-    crunch_jammed::Int32  # jam_verdict of the crunched copy; UNTESTED without one
+    crunch_jammed::Int32  # jam_verdict; UNTESTED without a copy
     n::Int64  # number of spheres
-    contacts::Int64  # closed pairs (gaps below 1e-10) that carry force
+    contacts::Int64  # closed pairs that carry force
     excess_contacts::Int64  # contacts - (d (N' - 1) + 1), 0 without contacts
     rattlers::Int64  # n - N': spheres without force
-    closed_pairs::Int64  # pairs with gaps below 1e-10, those of rattlers among them
+    closed_pairs::Int64  # those of rattlers among them
     zero_force_contacts::Int64  # of the pairs that were tested, those without force in every state
     undecided_contacts::Int64  # pairs that may be contacts or not, by rounding or for lack of digits
     self_stresses::Int64  # independent balances of forces; with more than one forces are not unique
-    flexes::Int64  # motions beyond translations that keep all contacts with force closed
-    strict_flexes::Int64  # likewise with strains of the cell; 0 where that was not tested
-    crunch_contacts::Int64  # contacts of the crunched copy; -1 without one
+    flexes::Int64  # motions but translations that keep force contacts closed
+    strict_flexes::Int64  # with strains, if tested
+    crunch_contacts::Int64  # contacts of the copy
     packing_fraction::Cdouble  # of the packing as it is
     nearest_gap::Cdouble  # smallest gap of all pairs; negative: an overlap. Infinite: none below 1
     min_gap::Cdouble  # smallest gap of two spheres with force that is no contact
@@ -1009,45 +1044,61 @@ mutable struct jam_check_report
     coordinate_step::Cdouble  # the numbers given are multiples of it, unit of the box; 0: all digits are there
     resolution::Cdouble  # of gaps: from the digits of the coordinates, and from overlaps
     diameter_factor::Cdouble  # diameters were tested times this, so that no pair overlaps; 1: as they are
-    crunch_packing_fraction::Cdouble  # of the crunched copy
+    crunch_packing_fraction::Cdouble  # of the copy
     crunch_displacement_max::Cdouble  # largest displacement in it of a sphere that ends with contacts
     crunch_displacement_rms::Cdouble  # root of the mean square of the same
-    theorem::Int32  # jam_theorem, with the option prove; NONE without
-    proof_cause::Int32  # jam_proof_cause: why the theorem is not EXACT
-    proof_radius::Cdouble  # unit of the box: radius of EXACT, inner of TRAPPED, see jam_proof_report; else infinite
+    theorem::Int32  # jam_theorem, by prove, else NONE
+    proof_cause::Int32  # jam_proof_cause it is not EXACT
+    proof_radius::Cdouble  # unit of the box: radius of EXACT, inner of TRAPPED (jam_proof_report), or infinite
     proof_value::Cdouble  # the two numbers of the cause
-    proof_bound::Cdouble
+    proof_bound::Cdouble  # the two numbers of the cause
     jam_check_report() = new(248, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
 end
 
 """
     jam_proof_report
 
-What `jam_prove` found. Bounds are rounded outward; NaN where they do not apply.
+What `jam_prove` found. Bounds are rounded outward; NaN where they do not apply. The exact diameters are sqrt(Gamma)
+`ratio_i` times the power of two at or below V^(1/d). Where no ratios are given, equal spheres have 1.
 """
 mutable struct jam_proof_report
-    struct_size::UInt32  # set by the caller: sizeof(jam_proof_report)
+    struct_size::UInt32
     theorem::Int32  # jam_theorem
     cause::Int32  # jam_proof_cause: why theorem is not JAM_THEOREM_EXACT
-    reserved::Int32  # 0
+    reserved::Int32
     stable::Int64  # spheres with contacts, N'
-    contacts::Int64  # equations; d (N' - 1) + 1 unknowns
+    contacts::Int64  # equations: d (N' - 1) + 1 unknowns
     cause_value::Cdouble  # see jam_proof_cause
-    cause_bound::Cdouble
+    cause_bound::Cdouble  # see jam_proof_cause
     radius::Cdouble  # unit of the box: no refined centre is farther from the exact one
-    gamma::Cdouble  # exact diameters are sqrt(Gamma) ratio_i times the power of two at or below V^(1/d), and
-    gamma_low::Cdouble  # Gamma is about gamma + gamma_low. Where no ratios are given, equal spheres have 1
+    gamma::Cdouble  # Gamma is about the sum of both
+    gamma_low::Cdouble  # Gamma is about the sum of both
     packing_fraction::Cdouble  # of the exact packing, rounded to double
     fraction_error::Cdouble  # relative error of phi_J from gamma + gamma_low
     least_force::Cdouble  # over the mean force
     force_error::Cdouble  # of every force, over the mean force
     least_gap::Cdouble  # relative, of pairs that are no contacts; 1e-3 if none is smaller
-    inner::Cdouble  # unit of the box: see JAM_THEOREM_TRAPPED
-    outer::Cdouble
+    inner::Cdouble  # unit of the box: see jam_theorem
+    outer::Cdouble  # unit of the box: see jam_theorem
     singular::Cdouble  # below the smallest singular value of the rows 2 r_c, in units of that power of two
     eigenvalue::Cdouble  # estimate of its square
     rounding::Cdouble  # error bound that was taken off the square
     jam_proof_report() = new(152, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
+end
+
+"""
+    jam_correlation_options
+
+Options of `jam_pair_correlation`.
+"""
+mutable struct jam_correlation_options
+    struct_size::UInt32
+    a::Int32  # labels of the spheres, default -1: any
+    b::Int32  # labels of the spheres, default -1: any
+    reserved::Int32
+    r_max::Cdouble  # mean diameters, > 0, default 4
+    bins::Int64  # equal ones from 0 to r_max, 1 .. 1e8, default 200
+    jam_correlation_options() = new(32, 0, 0, 0, 0, 0)
 end
 
 """
@@ -1056,7 +1107,7 @@ end
 Options of `jam_density_of_states`.
 """
 mutable struct jam_dos_options
-    struct_size::UInt32  # sizeof(jam_dos_options)
+    struct_size::UInt32
     moments::Int32  # Chebyshev moments, 8..1e6, default 512: resolution in omega about 1.6 omega_max / moments
     vectors::Int32  # random vectors, 2..1e5, default 16
     points::Int32  # values of omega, default 200
@@ -1067,16 +1118,16 @@ end
 """
     jam_moduli_report
 
-Elastic moduli, unit: stiffness at the mean force times length^(2-d); non-affine part included.
+Elastic moduli, unit: stiffness at the mean force times length^(2-d). Affine: without the non-affine part.
 """
 mutable struct jam_moduli_report
-    struct_size::UInt32  # set by the caller: sizeof(jam_moduli_report)
-    reserved::Int32  # 0
+    struct_size::UInt32
+    reserved::Int32
     bulk::Cdouble  # K
     bulk_affine::Cdouble  # K without the non-affine part
     shear::Cdouble  # G for simple shear, mean over the d (d-1) coordinate directions
-    shear_affine::Cdouble  # G without the non-affine part
-    shear_min::Cdouble  # smallest of the planes, both directions averaged
+    shear_affine::Cdouble  # affine G
+    shear_min::Cdouble  # smallest G of the planes, both directions averaged
     shear_max::Cdouble  # largest of them
     jam_moduli_report() = new(56, 0, 0, 0, 0, 0, 0, 0)
 end
@@ -1084,27 +1135,27 @@ end
 """
     jam_comparison
 
-What `jam_compare` found.
+What `jam_compare` found between sys, a, and other, b. Contacts are -1 and overlaps NaN where one has no network.
 """
 mutable struct jam_comparison
-    struct_size::UInt32  # set by the caller: sizeof(jam_comparison)
-    reserved::Int32  # 0
-    contacts_a::Int64
-    contacts_b::Int64  # of sys and of other; -1 without a network
-    common_contacts::Int64  # pairs in both; -1 unless both have a network
+    struct_size::UInt32
+    reserved::Int32
+    contacts_a::Int64  # of sys
+    contacts_b::Int64  # of other
+    common_contacts::Int64  # pairs in both
     stable_in_both::Int64  # spheres that are rattlers in neither
-    overlap::Cdouble  # common over union; NaN unless both have a network
-    overlap_a::Cdouble  # common over contacts_a: sys as the reference; NaN likewise
+    overlap::Cdouble  # common over union
+    overlap_a::Cdouble  # common over contacts_a: sys as the reference
     packing_fraction_change::Cdouble  # phi of other minus phi of sys
-    displacement_rms::Cdouble  # of these spheres (or all) without their mean, in mean diameters of sys
-    displacement_max::Cdouble  # likewise
+    displacement_rms::Cdouble  # of these (or all) without their mean, in mean diameters of sys
+    displacement_max::Cdouble  # of these (or all) without their mean, in mean diameters of sys
     jam_comparison() = new(80, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
 end
 
 """
     jam_version()
 
-Version of the library, e.g. "0.1.0". Static storage.
+Version of the library, e.g. "0.1.0". Static storage, as the texts of the next five calls.
 """
 function jam_version()
     return ccall((:jam_version, libjam), Cstring, ())
@@ -1113,8 +1164,8 @@ end
 """
     jam_commit()
 
-Commit of the source that the library was built from, 12 hex digits, e.g. "d1afac7c0de5". "" when the build did not
-find a commit. It does not show uncommitted changes. Static storage.
+Commit of the source that the library was built from, 12 hex digits, without uncommitted changes; "" when the build
+did not find one.
 """
 function jam_commit()
     return ccall((:jam_commit, libjam), Cstring, ())
@@ -1133,7 +1184,7 @@ end
     jam_blas_kernel()
 
 Name of the kernel that OpenBLAS chose for this processor, e.g. "Haswell". If another BLAS library, loaded earlier,
-computes in place of OpenBLAS: the path of that library. Static storage.
+computes in place of OpenBLAS: the path of that library.
 """
 function jam_blas_kernel()
     return ccall((:jam_blas_kernel, libjam), Cstring, ())
@@ -1142,7 +1193,7 @@ end
 """
     jam_status_string(code)
 
-One-line text of a status code ("unknown status" for others). Static storage.
+One-line text of a status code ("unknown status" for others).
 """
 function jam_status_string(code)
     return ccall((:jam_status_string, libjam), Cstring, (Int32,), code)
@@ -1151,7 +1202,7 @@ end
 """
     jam_stop_string(reason)
 
-One-word name of a `jam_stop_reason`, e.g. "converged". Static storage.
+One-word name of a `jam_stop_reason`, e.g. "converged".
 """
 function jam_stop_string(reason)
     return ccall((:jam_stop_string, libjam), Cstring, (Int32,), reason)
@@ -1180,7 +1231,7 @@ end
 """
     jam_create_options_init(o, size)
 
-Fills `*o` with the defaults. size = sizeof `*o` as the caller compiled it.
+Fills `*o` with the defaults. size = sizeof `*o` as the caller compiled it. So do all calls of this name.
 """
 function jam_create_options_init(o, size)
     return ccall((:jam_create_options_init, libjam), Int32, (Ref{jam_create_options}, Csize_t), _ref(jam_create_options, o), size)
@@ -1189,9 +1240,10 @@ end
 """
     jam_create(o, start, out)
 
-Makes a system of d = o->dim. The caller frees `*out` by `jam_destroy`; after `JAM_CANCELLED` or `JAM_LIMIT` it is NULL. The
-call takes long when many pairs of spheres are close together, and in the Mari-Kurchan model, where all pairs are
-compared. Example: examples/c/first.c
+Makes a system of d = o->dim. Without positions spheres are added one by one at random, to the `packing_fraction` of
+the options. The caller frees `*out` by `jam_destroy`; after `JAM_CANCELLED` or `JAM_LIMIT` it is NULL. The call takes long
+when many pairs of spheres are close together, and in the Mari-Kurchan model, where all pairs are compared. Example:
+examples/c/first.c
 Errors: `JAM_E_DIMENSION`, `JAM_E_OVERLAP`, `JAM_E_UNPLACEABLE` (the text gives the fraction in reach).
 """
 function jam_create(o, start, out)
@@ -1201,9 +1253,8 @@ end
 """
     jam_copy(src, out)
 
-Deep copy of src with its results and observations, without its callbacks. If `jam_observe` is on for src, it is on for
-the copy. The copy has the seed of src: where both draw velocities, they draw the same ones. For independent runs
-give the copy its own velocities by `jam_set_velocities`.
+Deep copy of src with its results and observations (`jam_observe` stays on), without its callbacks. The copy has the
+seed of src: where both draw velocities, they draw the same ones. For independent runs use `jam_set_velocities`.
 """
 function jam_copy(src, out)
     return ccall((:jam_copy, libjam), Int32, (Ptr{Cvoid}, Ref{Ptr{Cvoid}}), src, out)
@@ -1325,8 +1376,6 @@ end
 
 """
     jam_diameters_options_init(o, size)
-
-Fills `*o` with the defaults.
 """
 function jam_diameters_options_init(o, size)
     return ccall((:jam_diameters_options_init, libjam), Int32, (Ref{jam_diameters_options}, Csize_t), _ref(jam_diameters_options, o), size)
@@ -1429,9 +1478,8 @@ end
 Reads plain text, extended XYZ, LAMMPS data and dumps with diameters, or a table of columns. It recognises the format
 by the content. For a file of another format the error names that format and what to do. o: overlap policy, seed,
 model, frame; box and dim where the file gives none. A line that does not fit the format is an error; `jam_notes` lists
-what was not kept. An option whose value the file gives must be the default or agree with the file. Spheres keep the
-order of the file; LAMMPS data are sorted by id. A last line without newline is refused if its last number may have
-lost digits. callback, user: as in `jam_start`.
+what was not kept. Spheres keep the order of the file; LAMMPS data are sorted by id. A last line without newline is
+refused if its last number may have lost digits. callback, user: as in `jam_start`.
 Errors: `JAM_E_IO`, `JAM_E_FORMAT` (line named), `JAM_E_UNSUPPORTED` (a box that is not periodic), `JAM_E_DIMENSION`, `JAM_E_OVERLAP`, `JAM_E_UNPLACEABLE`.
 """
 function jam_read(path, o, callback, user, out)
@@ -1443,8 +1491,7 @@ end
 
 What was changed or assumed when sys was made, one sentence per line; "" when nothing was. Examples: shrunk
 diameters, wrapped or sorted spheres, columns and frames that were not read. A warning begins with `warning: `.
-`jam_set_log` sends these lines to its callback. Valid until `jam_add_note` or `jam_destroy`; "" for NULL. Checkpoints
-hold it.
+`jam_set_log` logs these lines too. Valid until `jam_add_note` or `jam_destroy`; "" for NULL. Checkpoints hold it.
 """
 function jam_notes(sys)
     return ccall((:jam_notes, libjam), Cstring, (Ptr{Cvoid},), sys)
@@ -1489,8 +1536,8 @@ end
 
 Writes one HTML file that shows the packing in a browser without a network: spheres and forces to turn and to slice,
 numbers of each sphere, certificate and distributions. After a crunch with `keep_steps` it has a slider over its steps.
-title: its heading, or "". small: 1 for the picture alone, 0 for all. values: numbers to colour spheres by, or NULL;
-names: k names, one a line, or "".
+title: its heading, or "". small: the picture alone. values: numbers to colour spheres by, or NULL; names: k names,
+one a line, or "".
 Shapes: values (k, n).
 Errors: `JAM_E_IO`.
 """
@@ -1515,14 +1562,14 @@ end
 """
     jam_run(sys, o, report)
 
-Event-driven NVE dynamics (Alder and Wainwright, J. Chem. Phys. 31, 459 (1959)). Velocities are drawn at first use:
-Maxwell-Boltzmann, zero total momentum, sum m v^2 = d N. The draw depends on the seed alone. A run or stage that ends
-with `JAM_CANCELLED` or `JAM_LIMIT` stays with the handle, and in its checkpoints, until the next call that changes
-spheres. So does one that was stopped while its lists were made, when nothing has moved. With resume = 1 it goes on
-to the same bits as if it had not stopped; `JAM_E_STATE` when there is none. Splitting a run by `wall_time` therefore
-does not change its result. A failure while it goes on loses the stage, not the packing. Status: `JAM_OK` when the
-collisions were made, `JAM_PRECISION`, `JAM_NOT_CONVERGED` (no collision can happen: one sphere, zero velocities, or
-paths that never meet). The log gives the reason of the last two.
+Event-driven NVE dynamics (Alder and Wainwright, J. Chem. Phys. 31, 459 (1959)). Velocities are drawn at first use,
+by the seed alone. They are Maxwell-Boltzmann, with sum m v^2 = d N and zero total momentum. A run or stage that ends
+with `JAM_CANCELLED` or `JAM_LIMIT`, even while its lists were made, stays with the handle. Its checkpoints have it too,
+until the next call that changes spheres. With resume = 1 it goes on to the same bits as if it had not stopped;
+`JAM_E_STATE` when there is none. Splitting a run by `wall_time` therefore does not change its result. A failure while it
+goes on loses the stage, not the packing. Status: `JAM_OK` when the collisions were made, `JAM_PRECISION`,
+`JAM_NOT_CONVERGED` (no collision can happen: one sphere, zero velocities, or paths that never meet). The log gives the
+reason of the last two.
 Errors: `JAM_E_OVERLAP`.
 """
 function jam_run(sys, o, report)
@@ -1633,27 +1680,26 @@ function jam_observed_pairs(sys, pair, pair_len, collisions, collisions_len, mom
 end
 
 """
-    jam_observed_gaps(sys, edge, edge_len, density, density_len, error, error_len, rows)
+    jam_observed_gaps(sys, table, table_len, needed)
 
-Histogram of gaps h, `*rows` = bins: density is pairs over those of an ideal gas, error is over samples. Samples are
-taken between collisions: at one, a pair more would touch. At h = 0 density tends to g(sigma), which is (p - 1) / (4
-phi) for equal spheres in d = 3.
-Shapes: edge (bins + 1), density (bins), error (bins).
+Histogram of gaps h. Samples are taken between collisions: at one, a pair more would touch. At h = 0 density tends to
+g(sigma), which is (p - 1) / (4 phi) for equal spheres in d = 3.
+Shapes: table (bins, `jam_gap_column`).
 Errors: `JAM_E_STATE`.
 """
-function jam_observed_gaps(sys, edge, edge_len, density, density_len, error, error_len, rows)
-    return ccall((:jam_observed_gaps, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(edge), edge_len, _ptr(density), density_len, _ptr(error), error_len, _ref(Csize_t, rows))
+function jam_observed_gaps(sys, table, table_len, needed)
+    return ccall((:jam_observed_gaps, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(table), table_len, _ref(Csize_t, needed))
 end
 
 """
-    jam_observed_correlation(sys, r, r_len, g, g_len, rows)
+    jam_observed_correlation(sys, table, table_len, needed)
 
-g(r), sampled likewise, `*rows` = bins: r is the middle of each, mean diameters.
-Shapes: r (bins), g (bins).
+g(r), sampled likewise.
+Shapes: table (bins, `jam_correlation_column`).
 Errors: `JAM_E_STATE`.
 """
-function jam_observed_correlation(sys, r, r_len, g, g_len, rows)
-    return ccall((:jam_observed_correlation, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(r), r_len, _ptr(g), g_len, _ref(Csize_t, rows))
+function jam_observed_correlation(sys, table, table_len, needed)
+    return ccall((:jam_observed_correlation, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(table), table_len, _ref(Csize_t, needed))
 end
 
 """
@@ -1732,26 +1778,37 @@ function jam_get_isoconf_report(sys, report)
 end
 
 """
-    jam_isoconf_sums(sys, block, displacement, displacement_len, square, square_len, distance2, distance2_len, distance4, distance4_len, runs, needed)
+    jam_isoconf_series(sys, block, table, table_len, needed)
 
-Sums over the runs of one block, or of all for block = -1: displacement and square of `dr_c`, unit of the box;
-distance2 and distance4 of |dr|^2 and |dr|^4; `*runs` in them. `*needed` = instants n.
-Shapes: displacement (instants, n, d), square (instants, n, d), distance2 (instants, n), distance4 (instants, n).
+Sums over the runs of one block, or of all for block = -1.
+Shapes: table (instants, `jam_isoconf_column`).
 Errors: `JAM_E_STATE`.
 """
-function jam_isoconf_sums(sys, block, displacement, displacement_len, square, square_len, distance2, distance2_len, distance4, distance4_len, runs, needed)
-    return ccall((:jam_isoconf_sums, libjam), Int32, (Ptr{Cvoid}, Int64, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Int64}, Ref{Csize_t}), sys, block, _ptr(displacement), displacement_len, _ptr(square), square_len, _ptr(distance2), distance2_len, _ptr(distance4), distance4_len, _ref(Int64, runs), _ref(Csize_t, needed))
+function jam_isoconf_series(sys, block, table, table_len, needed)
+    return ccall((:jam_isoconf_series, libjam), Int32, (Ptr{Cvoid}, Int64, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, block, _ptr(table), table_len, _ref(Csize_t, needed))
 end
 
 """
-    jam_isoconf_series(sys, block, column, out, out_len, needed)
+    jam_isoconf_displacements(sys, block, displacement, displacement_len, square, square_len, rows)
 
-One column of that block (or -1: all), a sum over runs at each instant.
-Shapes: out (instants).
+For that block, sums over runs of the displacement `dr_c` of each sphere, unit of the box, and of its square. `*rows` =
+instants.
+Shapes: displacement (instants, n, d), square (instants, n, d).
 Errors: `JAM_E_STATE`.
 """
-function jam_isoconf_series(sys, block, column, out, out_len, needed)
-    return ccall((:jam_isoconf_series, libjam), Int32, (Ptr{Cvoid}, Int64, Int32, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, block, column, _ptr(out), out_len, _ref(Csize_t, needed))
+function jam_isoconf_displacements(sys, block, displacement, displacement_len, square, square_len, rows)
+    return ccall((:jam_isoconf_displacements, libjam), Int32, (Ptr{Cvoid}, Int64, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, block, _ptr(displacement), displacement_len, _ptr(square), square_len, _ref(Csize_t, rows))
+end
+
+"""
+    jam_isoconf_distances(sys, block, distance2, distance2_len, distance4, distance4_len, rows)
+
+Likewise of |dr|^2 and |dr|^4.
+Shapes: distance2 (instants, n), distance4 (instants, n).
+Errors: `JAM_E_STATE`.
+"""
+function jam_isoconf_distances(sys, block, distance2, distance2_len, distance4, distance4_len, rows)
+    return ccall((:jam_isoconf_distances, libjam), Int32, (Ptr{Cvoid}, Int64, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, block, _ptr(distance2), distance2_len, _ptr(distance4), distance4_len, _ref(Csize_t, rows))
 end
 
 """
@@ -1809,14 +1866,14 @@ function jam_get_crunch_report(sys, report)
 end
 
 """
-    jam_crunch_history(sys, column, out, out_len, needed)
+    jam_crunch_history(sys, table, table_len, needed)
 
-One column of the last crunch, a value a step.
-Shapes: out (steps).
+Steps of the last crunch.
+Shapes: table (steps, `jam_history_column`).
 Errors: `JAM_E_STATE`.
 """
-function jam_crunch_history(sys, column, out, out_len, needed)
-    return ccall((:jam_crunch_history, libjam), Int32, (Ptr{Cvoid}, Int32, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, column, _ptr(out), out_len, _ref(Csize_t, needed))
+function jam_crunch_history(sys, table, table_len, needed)
+    return ccall((:jam_crunch_history, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(table), table_len, _ref(Csize_t, needed))
 end
 
 """
@@ -1876,11 +1933,10 @@ end
 """
     jam_relax(sys, o, report)
 
-Minimises the energy of overlapping spheres at fixed diameters, and at a fixed cell unless `strain` frees it. Then
-the minimum of the fixed cell comes first. A free cell ends when stresses too are below `force_tolerance`. Keeps the
-contact network with its forces and stiffnesses for `jam_contacts`, `jam_forces`, `jam_hessian` (`JAM_STIFFNESS_SOFT`) and
-the like. The system must have been made with `JAM_OVERLAP_ALLOW`. Positions are rounded to doubles at the end; the
-network holds the digits beyond. Status: `JAM_OK` converged. `JAM_NOT_JAMMED` converged to energy 0: no overlaps.
+Minimises the energy of overlapping spheres at fixed diameters, and at a fixed cell unless `strain` frees it. A free
+cell ends when stresses too are below `force_tolerance`. Keeps the contact network with its forces and stiffnesses for
+`jam_contacts`, `jam_forces`, `jam_hessian` (`JAM_STIFFNESS_SOFT`) and the like. Positions are rounded to doubles at the end;
+the network holds the digits beyond. Status: `JAM_OK` converged. `JAM_NOT_JAMMED` converged to energy 0: no overlaps.
 `JAM_PRECISION` converged, but overlaps are smaller than the rounding of the positions. `JAM_NOT_CONVERGED`. Example:
 examples/c/soft.c
 Errors: `JAM_E_STATE` (made without `JAM_OVERLAP_ALLOW`).
@@ -1911,14 +1967,14 @@ function jam_decompress(sys, o, report)
 end
 
 """
-    jam_decompress_history(sys, column, out, out_len, needed)
+    jam_decompress_history(sys, table, table_len, needed)
 
-One column of the last decompression.
-Shapes: out (steps).
+Minima of the last decompression.
+Shapes: table (minima, `jam_soft_column`).
 Errors: `JAM_E_STATE`.
 """
-function jam_decompress_history(sys, column, out, out_len, needed)
-    return ccall((:jam_decompress_history, libjam), Int32, (Ptr{Cvoid}, Int32, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, column, _ptr(out), out_len, _ref(Csize_t, needed))
+function jam_decompress_history(sys, table, table_len, needed)
+    return ccall((:jam_decompress_history, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(table), table_len, _ref(Csize_t, needed))
 end
 
 """
@@ -2017,15 +2073,15 @@ function jam_hessian(sys, h, row_start, row_start_len, column, column_len, value
 end
 
 """
-    jam_modes(sys, h, o, lambda, lambda_len, vector, vector_len, participation, participation_len, rows)
+    jam_modes(sys, h, o, table, table_len, vector, vector_len, rows)
 
-Modes of the Hessian, `*rows` = their number m: lambda = omega^2 ascending, vector of unit length, participation = sum
-|`v_i`|^4 / (sum |`v_i`|^2)^2. When fewer converge the rest is NaN. Status: `JAM_NOT_CONVERGED`.
-Shapes: lambda (m), vector (m, N', d), participation (m).
+Modes of the Hessian, `*rows` = their number m, lambda ascending, vector of unit length. When fewer converge the rest
+is NaN. Status: `JAM_NOT_CONVERGED`.
+Shapes: table (m, `jam_mode_column`), vector (m, N', d).
 Errors: `JAM_E_STATE`, `JAM_E_SOLVER`.
 """
-function jam_modes(sys, h, o, lambda, lambda_len, vector, vector_len, participation, participation_len, rows)
-    return ccall((:jam_modes, libjam), Int32, (Ptr{Cvoid}, Ref{jam_hessian_options}, Ref{jam_modes_options}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ref(jam_hessian_options, h), _ref(jam_modes_options, o), _ptr(lambda), lambda_len, _ptr(vector), vector_len, _ptr(participation), participation_len, _ref(Csize_t, rows))
+function jam_modes(sys, h, o, table, table_len, vector, vector_len, rows)
+    return ccall((:jam_modes, libjam), Int32, (Ptr{Cvoid}, Ref{jam_hessian_options}, Ref{jam_modes_options}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ref(jam_hessian_options, h), _ref(jam_modes_options, o), _ptr(table), table_len, _ptr(vector), vector_len, _ref(Csize_t, rows))
 end
 
 """
@@ -2086,10 +2142,9 @@ Where coordinates have few digits, pairs within their rounding are undecided, an
 spheres have too few of them. A sphere and its own image are a contact in the strict test, and in the collective one
 where the network lists them. There a sphere that they alone hold needs forces on the cell to balance. Let S v be the
 opening of contacts by a motion v, and E eps that by a strain eps. Collectively jammed: S v >= 0 only for
-translations of B. Strictly jammed: S v + E eps >= 0 with tr eps <= 0 only for those and eps = 0. Sources: Donev,
-Torquato, Stillinger, Connelly, J. Comput. Phys. 197, 139 (2004); Connelly 1988; Connelly, Shen, Smith,
-arXiv:1301.0664; Roth and Whiteley 1981. Both hold for this cell: several copies of it together may unjam. Status:
-`JAM_OK` jammed, `JAM_NOT_JAMMED`, `JAM_AMBIGUOUS` undecided.
+translations of B. Strictly jammed: S v + E eps >= 0 with tr eps <= 0 only for those and eps = 0. Both hold for this
+cell, not for several copies of it. Source: Donev et al., J. Comput. Phys. 197, 139 (2004); the guide's page "Jammed
+or not" has more. Status: `JAM_OK` jammed, `JAM_NOT_JAMMED`, `JAM_AMBIGUOUS` undecided.
 Errors: `JAM_E_SOLVER`.
 """
 function jam_rigidity(sys, kind, report)
@@ -2207,7 +2262,7 @@ end
 """
     jam_gaps(sys, h_max, stable_only, gap, gap_len, pair, pair_len, rows)
 
-Gaps h of all pairs below `h_max` (every image), contacts left out, ascending; `*rows` = gaps. With `stable_only` = 0
+Gaps h of all pairs below `h_max` (every image), contacts left out, ascending; `*rows` = gaps. Without `stable_only`
 rattlers count too and no network is needed.
 Shapes: gap (gaps), pair (gaps, 2).
 Errors: `JAM_E_STATE`.
@@ -2273,25 +2328,31 @@ function jam_histogram(sys, quantity, population, low, high, bins, out, out_len,
 end
 
 """
-    jam_pair_correlation(sys, kind, kind_len, a, b, r_max, bins, out, out_len, needed)
-
-`g_ab`(r) of spheres with labels a and b (-1: any; kind: the labels, or NULL), in `bins` equal bins up to `r_max` mean
-diameters.
-Shapes: kind (n), out (bins).
+    jam_correlation_options_init(o, size)
 """
-function jam_pair_correlation(sys, kind, kind_len, a, b, r_max, bins, out, out_len, needed)
-    return ccall((:jam_pair_correlation, libjam), Int32, (Ptr{Cvoid}, Ptr{Int32}, Csize_t, Int32, Int32, Cdouble, Int64, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(kind), kind_len, a, b, r_max, bins, _ptr(out), out_len, _ref(Csize_t, needed))
+function jam_correlation_options_init(o, size)
+    return ccall((:jam_correlation_options_init, libjam), Int32, (Ref{jam_correlation_options}, Csize_t), _ref(jam_correlation_options, o), size)
 end
 
 """
-    jam_structure_factor(sys, q_max, q, q_len, s, s_len, rows)
+    jam_pair_correlation(sys, o, kind, kind_len, out, out_len, needed)
 
-S(q) on the wave vectors of the cell (in a cube 2 pi n / box), averaged over each |q| <= `q_max`; q per mean diameter,
-ascending. Lengths that differ by less than 5e-13 of |q| are one.
-Shapes: q (m), s (m).
+`g_ab`(r) of spheres with labels a and b. kind: the labels, or NULL.
+Shapes: kind (n), out (bins).
 """
-function jam_structure_factor(sys, q_max, q, q_len, s, s_len, rows)
-    return ccall((:jam_structure_factor, libjam), Int32, (Ptr{Cvoid}, Cdouble, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, q_max, _ptr(q), q_len, _ptr(s), s_len, _ref(Csize_t, rows))
+function jam_pair_correlation(sys, o, kind, kind_len, out, out_len, needed)
+    return ccall((:jam_pair_correlation, libjam), Int32, (Ptr{Cvoid}, Ref{jam_correlation_options}, Ptr{Int32}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ref(jam_correlation_options, o), _ptr(kind), kind_len, _ptr(out), out_len, _ref(Csize_t, needed))
+end
+
+"""
+    jam_structure_factor(sys, q_max, table, table_len, needed)
+
+S(q) on the wave vectors of the cell (in a cube 2 pi n / box) with |q| <= `q_max`. Lengths that differ by less than
+5e-13 of |q| are one.
+Shapes: table (m, `jam_structure_column`).
+"""
+function jam_structure_factor(sys, q_max, table, table_len, needed)
+    return ccall((:jam_structure_factor, libjam), Int32, (Ptr{Cvoid}, Cdouble, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, q_max, _ptr(table), table_len, _ref(Csize_t, needed))
 end
 
 """

@@ -32,4 +32,4 @@ function decompress!(s::System; progress = nothing, given...)
 end
 
 "Minima of the last `decompress!` as a table: phi, pressure, energy, coordination, distance, ..."
-soft_history(s::System) = Table(by_columns(s, :jam_decompress_history, :soft_column))
+soft_history(s::System) = call(s, :jam_decompress_history, ())

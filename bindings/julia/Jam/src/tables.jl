@@ -17,10 +17,12 @@ const WORDS = (
     contact_format = (auto = 0, csv = 1, dump = 2, vtp = 3,),
     growth_law = (diameter = 0, density = 1,),
     series_column = (time = 0, collisions = 1, fraction = 2, pressure = 3, error = 4, msd = 5,),
+    gap_column = (low = 0, high = 1, density = 2, error = 3,),
+    correlation_column = (r = 0, g = 1,),
     eos_form = (carnahan_starling = 0, py_virial = 1, py_compressibility = 2, virial = 3, mk = 4, free_volume = 5,),
     energy_unit = (length = 0, relative = 1,),
     clock = (collisions = 0, time = 1,),
-    isoconf_column = (time = 0, time2 = 1, msd = 2, msd2 = 3, scattering = 4, scattering2 = 5, overlap = 6, overlap2 = 7, energy = 8, energy2 = 9, velocity = 10, collisions = 11, pressure = 12,),
+    isoconf_column = (time = 0, time2 = 1, msd = 2, msd2 = 3, scattering = 4, scattering2 = 5, overlap = 6, overlap2 = 7, energy = 8, energy2 = 9, velocity = 10, collisions = 11, pressure = 12, runs = 13,),
     lp_solver = (ipm = 0, clp = 1,),
     crunch_method = (barrier_path = 0, sequential_lp = 1,),
     free_strain = (none = 0, edges = 1, tilts = 2, free = 3, volume = 4, edges_volume = 5, tilts_volume = 6, all = 7,),
@@ -32,6 +34,7 @@ const WORDS = (
     soft_column = (phi = 0, pressure = 1, energy = 2, coordination = 3, distance = 4, excess = 5, rattlers = 6, residual = 7, evaluations = 8, factorisations = 9, seconds = 10,),
     stiffness = (harmonic = 0, power = 1, hard = 2, soft = 3,),
     modes_which = (lowest = 0, highest = 1, near = 2, all = 3,),
+    mode_column = (lambda = 0, participation = 1,),
     candidate_column = (limit = 0, jump = 1, contacts = 2, excess = 3,),
     rigidity_kind = (collective = 0, strict = 1,),
     verdict = (untested = -1, no = 0, yes = 1, undecided = 2,),
@@ -41,6 +44,7 @@ const WORDS = (
     contact_class = (localised = 1, smallest = 2, median = 4,),
     local_quantity = (force = 0, vector_sum = 1, vector_pairs = 2, vector_dot = 3, force_sum = 4, force_pairs = 5, force_dot = 6, coordination = 7,),
     population = (all = 0, localised = 1, extended = 2, smallest = 3, median = 4,),
+    structure_column = (q = 0, s = 1,),
     floppy_column = (median = 0, weight = 1, s_plus = 2, s_star = 3, stability = 4, s_return = 5,),
     dos_column = (omega = 0, density = 1, error = 2, edge = 3, cumulative = 4, cumulative_error = 5,),
 )
@@ -49,7 +53,7 @@ const WORDS = (
 kinds(::Type) = (;)
 kinds(::Type{jam_progress}) = (phase = :phase,)
 kinds(::Type{jam_create_options}) = (overlap = :overlap_policy, model = :model, masses = :masses,)
-kinds(::Type{jam_info}) = (model = :model, masses = :masses, paused = :phase,)
+kinds(::Type{jam_info}) = (model = :model, monodisperse = :bool, masses = :masses, paused = :phase,)
 kinds(::Type{jam_diameters_options}) = (law = :size_law, share = :size_share, draw = :size_draw,)
 kinds(::Type{jam_size_report}) = (source = :reach_source,)
 kinds(::Type{jam_run_options}) = (resume = :bool,)
@@ -64,7 +68,7 @@ kinds(::Type{jam_crunch_options}) = (lp_solver = :lp_solver, method = :crunch_me
 kinds(::Type{jam_crunch_report}) = (jammed = :bool, stop_reason = :stop_reason, lp_solver = :lp_solver, method = :crunch_method, stationary = :bool, strictly_jammed = :verdict, status = :status_code, theorem = :theorem, proof_cause = :proof_cause,)
 kinds(::Type{jam_relax_options}) = (minimiser = :minimiser, scale = :soft_scale, precision = :soft_precision, strain = :free_strain,)
 kinds(::Type{jam_relax_report}) = (converged = :bool, stop_reason = :stop_reason, minimiser = :minimiser,)
-kinds(::Type{jam_decompress_options}) = (minimiser = :minimiser, scale = :soft_scale, precision = :soft_precision,)
+kinds(::Type{jam_decompress_options}) = (minimiser = :minimiser, scale = :soft_scale, precision = :soft_precision, isostatic = :bool, crunch = :bool,)
 kinds(::Type{jam_decompress_report}) = (stop_reason = :stop_reason, isostatic = :bool,)
 kinds(::Type{jam_hessian_options}) = (stiffness = :stiffness,)
 kinds(::Type{jam_modes_options}) = (which = :modes_which,)
@@ -88,6 +92,7 @@ defaults(::Type{jam_hessian_options}) = jam_hessian_options_init
 defaults(::Type{jam_modes_options}) = jam_modes_options_init
 defaults(::Type{jam_geometry_options}) = jam_geometry_options_init
 defaults(::Type{jam_check_options}) = jam_check_options_init
+defaults(::Type{jam_correlation_options}) = jam_correlation_options_init
 defaults(::Type{jam_dos_options}) = jam_dos_options_init
 
 # Arguments of each call in C's order: name, role, type, extents, word, whether it is an index.
@@ -214,20 +219,14 @@ const CALLS = Dict{Symbol, Call}(
         Argument(:rows, :scalar_out, Csize_t, String[], :none, false),
     ]),
     :jam_observed_gaps => Call(jam_observed_gaps, true, true, [
-        Argument(:edge, :array_out, Cdouble, ["bins + 1"], :none, false),
-        Argument(:edge_len, :len, Csize_t, String[], :none, false),
-        Argument(:density, :array_out, Cdouble, ["bins"], :none, false),
-        Argument(:density_len, :len, Csize_t, String[], :none, false),
-        Argument(:error, :array_out, Cdouble, ["bins"], :none, false),
-        Argument(:error_len, :len, Csize_t, String[], :none, false),
-        Argument(:rows, :scalar_out, Csize_t, String[], :none, false),
+        Argument(:table, :array_out, Cdouble, ["bins", "jam_gap_column"], :gap_column, false),
+        Argument(:table_len, :len, Csize_t, String[], :none, false),
+        Argument(:needed, :scalar_out, Csize_t, String[], :none, false),
     ]),
     :jam_observed_correlation => Call(jam_observed_correlation, true, true, [
-        Argument(:r, :array_out, Cdouble, ["bins"], :none, false),
-        Argument(:r_len, :len, Csize_t, String[], :none, false),
-        Argument(:g, :array_out, Cdouble, ["bins"], :none, false),
-        Argument(:g_len, :len, Csize_t, String[], :none, false),
-        Argument(:rows, :scalar_out, Csize_t, String[], :none, false),
+        Argument(:table, :array_out, Cdouble, ["bins", "jam_correlation_column"], :correlation_column, false),
+        Argument(:table_len, :len, Csize_t, String[], :none, false),
+        Argument(:needed, :scalar_out, Csize_t, String[], :none, false),
     ]),
     :jam_eos => Call(jam_eos, false, true, [
         Argument(:form, :scalar, Int32, String[], :eos_form, false),
@@ -259,25 +258,27 @@ const CALLS = Dict{Symbol, Call}(
     :jam_get_isoconf_report => Call(jam_get_isoconf_report, true, true, [
         Argument(:report, :struct_out, jam_isoconf_report, String[], :none, false),
     ]),
-    :jam_isoconf_sums => Call(jam_isoconf_sums, true, true, [
+    :jam_isoconf_series => Call(jam_isoconf_series, true, true, [
+        Argument(:block, :scalar, Int64, String[], :none, false),
+        Argument(:table, :array_out, Cdouble, ["instants", "jam_isoconf_column"], :isoconf_column, false),
+        Argument(:table_len, :len, Csize_t, String[], :none, false),
+        Argument(:needed, :scalar_out, Csize_t, String[], :none, false),
+    ]),
+    :jam_isoconf_displacements => Call(jam_isoconf_displacements, true, true, [
         Argument(:block, :scalar, Int64, String[], :none, false),
         Argument(:displacement, :array_out, Cdouble, ["instants", "n", "d"], :none, false),
         Argument(:displacement_len, :len, Csize_t, String[], :none, false),
         Argument(:square, :array_out, Cdouble, ["instants", "n", "d"], :none, false),
         Argument(:square_len, :len, Csize_t, String[], :none, false),
+        Argument(:rows, :scalar_out, Csize_t, String[], :none, false),
+    ]),
+    :jam_isoconf_distances => Call(jam_isoconf_distances, true, true, [
+        Argument(:block, :scalar, Int64, String[], :none, false),
         Argument(:distance2, :array_out, Cdouble, ["instants", "n"], :none, false),
         Argument(:distance2_len, :len, Csize_t, String[], :none, false),
         Argument(:distance4, :array_out, Cdouble, ["instants", "n"], :none, false),
         Argument(:distance4_len, :len, Csize_t, String[], :none, false),
-        Argument(:runs, :scalar_out, Int64, String[], :none, false),
-        Argument(:needed, :scalar_out, Csize_t, String[], :none, false),
-    ]),
-    :jam_isoconf_series => Call(jam_isoconf_series, true, true, [
-        Argument(:block, :scalar, Int64, String[], :none, false),
-        Argument(:column, :scalar, Int32, String[], :isoconf_column, false),
-        Argument(:out, :array_out, Cdouble, ["instants"], :none, false),
-        Argument(:out_len, :len, Csize_t, String[], :none, false),
-        Argument(:needed, :scalar_out, Csize_t, String[], :none, false),
+        Argument(:rows, :scalar_out, Csize_t, String[], :none, false),
     ]),
     :jam_isoconf_kept => Call(jam_isoconf_kept, true, true, [
         Argument(:instant, :scalar, Int32, String[], :none, true),
@@ -297,9 +298,8 @@ const CALLS = Dict{Symbol, Call}(
         Argument(:report, :struct_out, jam_crunch_report, String[], :none, false),
     ]),
     :jam_crunch_history => Call(jam_crunch_history, true, true, [
-        Argument(:column, :scalar, Int32, String[], :history_column, false),
-        Argument(:out, :array_out, Cdouble, ["steps"], :none, false),
-        Argument(:out_len, :len, Csize_t, String[], :none, false),
+        Argument(:table, :array_out, Cdouble, ["steps", "jam_history_column"], :history_column, false),
+        Argument(:table_len, :len, Csize_t, String[], :none, false),
         Argument(:needed, :scalar_out, Csize_t, String[], :none, false),
     ]),
     :jam_crunch_step_displacements => Call(jam_crunch_step_displacements, true, true, [
@@ -331,9 +331,8 @@ const CALLS = Dict{Symbol, Call}(
         Argument(:report, :struct_out, jam_decompress_report, String[], :none, false),
     ]),
     :jam_decompress_history => Call(jam_decompress_history, true, true, [
-        Argument(:column, :scalar, Int32, String[], :soft_column, false),
-        Argument(:out, :array_out, Cdouble, ["steps"], :none, false),
-        Argument(:out_len, :len, Csize_t, String[], :none, false),
+        Argument(:table, :array_out, Cdouble, ["minima", "jam_soft_column"], :soft_column, false),
+        Argument(:table_len, :len, Csize_t, String[], :none, false),
         Argument(:needed, :scalar_out, Csize_t, String[], :none, false),
     ]),
     :jam_contacts => Call(jam_contacts, true, true, [
@@ -379,12 +378,10 @@ const CALLS = Dict{Symbol, Call}(
     :jam_modes => Call(jam_modes, true, false, [
         Argument(:h, :struct_in, jam_hessian_options, String[], :none, false),
         Argument(:o, :struct_in, jam_modes_options, String[], :none, false),
-        Argument(:lambda, :array_out, Cdouble, ["m"], :none, false),
-        Argument(:lambda_len, :len, Csize_t, String[], :none, false),
+        Argument(:table, :array_out, Cdouble, ["m", "jam_mode_column"], :mode_column, false),
+        Argument(:table_len, :len, Csize_t, String[], :none, false),
         Argument(:vector, :array_out, Cdouble, ["m", "N'", "d"], :none, false),
         Argument(:vector_len, :len, Csize_t, String[], :none, false),
-        Argument(:participation, :array_out, Cdouble, ["m"], :none, false),
-        Argument(:participation_len, :len, Csize_t, String[], :none, false),
         Argument(:rows, :scalar_out, Csize_t, String[], :none, false),
     ]),
     :jam_contacts_from_geometry => Call(jam_contacts_from_geometry, true, false, [
@@ -491,23 +488,18 @@ const CALLS = Dict{Symbol, Call}(
         Argument(:needed, :scalar_out, Csize_t, String[], :none, false),
     ]),
     :jam_pair_correlation => Call(jam_pair_correlation, true, true, [
+        Argument(:o, :struct_in, jam_correlation_options, String[], :none, false),
         Argument(:kind, :array_in, Int32, ["n"], :none, false),
         Argument(:kind_len, :len, Csize_t, String[], :none, false),
-        Argument(:a, :scalar, Int32, String[], :none, false),
-        Argument(:b, :scalar, Int32, String[], :none, false),
-        Argument(:r_max, :scalar, Cdouble, String[], :none, false),
-        Argument(:bins, :scalar, Int64, String[], :none, false),
         Argument(:out, :array_out, Cdouble, ["bins"], :none, false),
         Argument(:out_len, :len, Csize_t, String[], :none, false),
         Argument(:needed, :scalar_out, Csize_t, String[], :none, false),
     ]),
     :jam_structure_factor => Call(jam_structure_factor, true, false, [
         Argument(:q_max, :scalar, Cdouble, String[], :none, false),
-        Argument(:q, :array_out, Cdouble, ["m"], :none, false),
-        Argument(:q_len, :len, Csize_t, String[], :none, false),
-        Argument(:s, :array_out, Cdouble, ["m"], :none, false),
-        Argument(:s_len, :len, Csize_t, String[], :none, false),
-        Argument(:rows, :scalar_out, Csize_t, String[], :none, false),
+        Argument(:table, :array_out, Cdouble, ["m", "jam_structure_column"], :structure_column, false),
+        Argument(:table_len, :len, Csize_t, String[], :none, false),
+        Argument(:needed, :scalar_out, Csize_t, String[], :none, false),
     ]),
     :jam_bond_order => Call(jam_bond_order, true, true, [
         Argument(:l, :scalar, Int32, String[], :none, false),

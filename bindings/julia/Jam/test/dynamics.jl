@@ -10,7 +10,7 @@ end
 @test length(seen.series) >= 9 && issorted(seen.series.time)
 @test sum(seen.pairs.collisions) * 2 == sum(seen.spheres.collisions)
 @test minimum(seen.pairs.pair) >= 1 && maximum(seen.pairs.pair) == 64
-@test length(seen.gaps.edge) == length(seen.gaps.density) + 1
+@test seen.gaps.low[2:end] == seen.gaps.high[1:end-1]
 @test size(seen.spheres.displacement) == (2, 64) && length(seen.correlation.g) == 20
 @test run!(s; wall_time = 1e-9, collisions_per_particle = 1e6).status === :limit
 @test monte_carlo!(s; sweeps = 20).sweeps == 20

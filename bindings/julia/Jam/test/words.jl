@@ -10,6 +10,6 @@ for name in names(Jam; all = true)
     @test occursin(string(name) * "(", shown)
 end
 shown = sprint(show, MIME"text/plain"(), @doc Jam.jam_gaps)
-@test occursin("h_max", shown) && occursin("*rows = gaps", replace(shown, r"\s+" => " ")) && occursin("stable_only = 0", replace(shown, r"\s+" => " "))
+@test occursin("h_max", shown) && occursin("*rows = gaps", replace(shown, r"\s+" => " ")) && occursin("Without stable_only", replace(shown, r"\s+" => " "))
 shown = sprint(show, MIME"text/plain"(), @doc Jam.jam_crunch_options)
 @test occursin("tol_overlap, interval_overlaps_check", replace(shown, r"\s+" => " "))

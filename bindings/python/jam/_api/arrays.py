@@ -16,6 +16,14 @@ def unknown_array(shape: Any, dtype: Any = np.float64) -> Array:
     return found
 
 
+def as_rows(columns: Any) -> Array:
+    """The columns of a table, a named tuple, as a structured array."""
+    rows = np.empty(len(columns[0]), [(name, "f8") for name in columns._fields])
+    for name, values in zip(columns._fields, columns):
+        rows[name] = values
+    return rows
+
+
 def as_array(values: Any, dtype: str = "double", name: str = "array") -> Array:
     """Values as a C-contiguous array of the C type, copied only if needed. Complex, masked numbers and text are refused."""
     if isinstance(values, np.ma.MaskedArray) and (masked := np.count_nonzero(values.mask)):

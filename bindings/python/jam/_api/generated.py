@@ -41,7 +41,7 @@ class StatusCode(IntEnum):
 
 
 class StopReason(IntEnum):
-    """Why a run ended (jam_md_report.stop_reason, jam_crunch_report.stop_reason)."""
+    """Why a run ended: stop_reason of the reports."""
     NONE = 0  # has not run
     PRESSURE = 1  # MD reached its pressure
     PACKING_FRACTION = 2  # MD reached its packing fraction
@@ -79,7 +79,7 @@ class OverlapPolicy(IntEnum):
     """What to do with overlaps in given positions."""
     REFUSE = 0  # JAM_E_OVERLAP naming the worst pair
     SHRINK = 1  # scale all diameters down until the worst pair just touches; jam_notes gives the factor
-    ALLOW = 2  # soft spheres: keep them, also in later calls; starts without positions are uniform points. Calls for hard spheres refuse a system that overlaps
+    ALLOW = 2  # soft spheres: keep them, also later. Random starts are uniform; hard-sphere calls refuse
 
 
 class Model(IntEnum):
@@ -103,7 +103,7 @@ class SizeLaw(IntEnum):
     LOGNORMAL = 4  # mean, deviation, both of s, not of its logarithm; may be cut by low and high
     POWER = 5  # exponent, low, high: density s^exponent between them
     WEIBULL = 6  # scale, shape (Rosin-Rammler): share above s is exp(-(s / scale)^shape); may be cut
-    SIEVE = 7  # curve: rows (size, share that passes it), from 0 to 1 or to 100 per cent; straight in the logarithm of the size between two rows
+    SIEVE = 7  # curve: rows (size, share passing, from 0 to 1 or 100 per cent); straight in log size
 
 
 class SizeShare(IntEnum):
@@ -115,13 +115,13 @@ class SizeShare(IntEnum):
 
 class SizeDraw(IntEnum):
     """How diameters are drawn from a law."""
-    QUANTILES = 0  # one sphere for each n-th of the number, so that few spheres follow the law. By number it is the middle one, by volume the one of the mean volume
+    QUANTILES = 0  # a sphere for each n-th of the number: the middle one, by volume that of the mean volume
     RANDOM = 1  # independent, by the seed
 
 
 class ReachSource(IntEnum):
     """Where jam_size_report.jammed_fraction comes from."""
-    FARR_GROOT = 1  # d = 3: a line cuts spheres into rods (Farr and Groot, J. Chem. Phys. 131, 244104 (2009))
+    FARR_GROOT = 1  # d = 3: spheres as rods on a line (Farr, Groot, J. Chem. Phys. 131, 244104 (2009))
     MEASURED = 2  # other d: the same map, fitted to packings of libjam: equal spheres, disks 1 : 1.4
     CRYSTAL = 3  # disks of nearly one size, which order: the hexagonal packing
 
@@ -135,12 +135,15 @@ class LogLevel(IntEnum):
 
 
 class Format(IntEnum):
-    """File formats."""
-    AUTO = 0  # by name: .xyz, .extxyz are XYZ; .data, .lmp LAMMPS; .vtp VTP; .dat, .txt, no ending PLAIN; others are refused. With .gz behind it the file is compressed
-    PLAIN = 1  # line 1: d. Line 2: N. Line 3: the diameter, or the word `diameters`; then, when it is not 1, the box as `box <L>`. Then a line a sphere: its position, and its diameter after `diameters`, with 17 digits.
-    XYZ = 2  # extended XYZ: Lattice, dim, Properties=id:I:1:pos:R:d:radius:R:1 and, after a crunch, contacts:I:1; d = 2 gets a third coordinate 0
+    """File formats. Behind any ending .gz compresses the file. PLAIN: line 1: d. Line 2: N. Line 3: the diameter, or the
+    word `diameters`; then, when it is not 1, the box as `box <L>`. Then a line a sphere: its position, and its diameter
+    after `diameters`, with 17 digits. XYZ: Lattice, dim, Properties=id:I:1:pos:R:d:radius:R:1 and, after a crunch,
+    contacts:I:1. VTP: points with diameter, and after a crunch contacts and kind (0 rattler, 1 buckler, 2 other)."""
+    AUTO = 0  # .xyz, .extxyz: XYZ; .data, .lmp: LAMMPS; .vtp: VTP; .dat, .txt, none: PLAIN; others refused
+    PLAIN = 1  # text that holds cubes alone
+    XYZ = 2  # extended XYZ; d = 2 gets a third coordinate 0
     LAMMPS = 3  # LAMMPS data of atom_style sphere, density 1, d = 2 and 3, any cell. In d = 2 all z are 0
-    VTP = 4  # VTK PolyData in binary, d = 2 and 3: points with diameter, and after a crunch contacts and kind (0 rattler, 1 buckler, 2 other). Written only
+    VTP = 4  # VTK PolyData in binary, d = 2 and 3. Written only
 
 
 class ContactFormat(IntEnum):
@@ -148,23 +151,37 @@ class ContactFormat(IntEnum):
     AUTO = 0  # by name: .csv, .dump, .vtp; with .gz behind it compressed; others are refused
     CSV = 1  # a line a contact: i, j, unit vector from j to i, gap, force (mean 1), 17 digits
     DUMP = 2  # the same as a LAMMPS dump local, whose spheres count from 1; d = 2 and 3
-    VTP = 3  # VTK PolyData in binary, d = 2 and 3: each contact as two half lines, so that none crosses the cell, with force, gap and number of the contact
+    VTP = 3  # VTK PolyData in binary, d = 2, 3: two half lines a contact, with force, gap and its number
 
 
 class GrowthLaw(IntEnum):
     """How the spheres grow."""
     DIAMETER = 0  # growth_rate is d<sigma>/dt over sqrt(kT/m), constant
-    DENSITY = 1  # growth_rate is d ln<sigma>/dt over n^(1/d) sqrt(kT/m) / box. It is constant, in steps of half a per cent of sigma; d times it is the relative rate of density. The same number means the same protocol at every n.
+    DENSITY = 1  # growth_rate is d ln<sigma>/dt box / (n^(1/d) sqrt(kT/m)), constant: 1/d of that of density
 
 
 class SeriesColumn(IntEnum):
     """Columns of jam_observed_series."""
-    TIME = 0  # simulated time, unit box / sqrt(kT/m)
+    TIME = 0  # simulated time
     COLLISIONS = 1  # collisions per particle
     FRACTION = 2  # packing fraction
     PRESSURE = 3  # reduced pressure since the sample before
     ERROR = 4  # its standard error, from eight parts
     MSD = 5  # mean-square displacement since jam_observe, unit box^2
+
+
+class GapColumn(IntEnum):
+    """Columns of jam_observed_gaps, a row a bin."""
+    LOW = 0  # smallest gap h of the bin
+    HIGH = 1  # largest gap
+    DENSITY = 2  # pairs over those of an ideal gas
+    ERROR = 3  # its standard error over samples
+
+
+class CorrelationColumn(IntEnum):
+    """Columns of jam_observed_correlation, a row a bin."""
+    R = 0  # middle of the bin, mean diameters
+    G = 1  # g(r)
 
 
 class EosForm(IntEnum):
@@ -204,6 +221,7 @@ class IsoconfColumn(IntEnum):
     VELOCITY = 10  # sum m v(t).v(0) over sum m v(0).v(0)
     COLLISIONS = 11  # collisions per particle
     PRESSURE = 12  # reduced pressure: since the start of the run; soft spheres: at the instant
+    RUNS = 13  # runs in these sums and in those of the next two calls, the same at each instant
 
 
 class LpSolver(IntEnum):
@@ -213,8 +231,10 @@ class LpSolver(IntEnum):
 
 
 class CrunchMethod(IntEnum):
-    """Which quench leads to the jamming point. Both end with fully solved LPs in which no sphere moves any more."""
-    BARRIER_PATH = 0  # LPs far from jamming, then one barrier path whose constraints are linearised again after each Newton step, then LPs: fewest factorisations; its packings are mostly denser
+    """Which quench leads to the jamming point. Both end with fully solved LPs in which no sphere moves any more. The
+    barrier path: LPs far from jamming, then a path whose constraints are linearised again after each Newton step, then
+    LPs."""
+    BARRIER_PATH = 0  # fewest factorisations; its packings are mostly denser
     SEQUENTIAL_LP = 1  # LPs alone, as published
 
 
@@ -239,7 +259,7 @@ class StepPhase(IntEnum):
 
 class HistoryColumn(IntEnum):
     """Columns of the history of a crunch, a row a step. Displacements are those of all spheres, their mean taken out, in
-    mean diameters after the step. NaN where a column has no meaning."""
+    mean diameters after the step."""
     PHASE = 0  # a jam_step_phase
     GAIN = 1  # sqrt(Gamma) - 1: relative growth of the diameters in this step
     PHI = 2  # packing fraction after the step
@@ -255,8 +275,8 @@ class HistoryColumn(IntEnum):
     FACTORISATIONS = 12  # in this step
     DUALITY_GAP = 13  # after the step, in Gamma
     PAIRS = 14  # rows of the LP
-    HELD = 15  # LP: displacement components at the step bound; forces on these spheres do not balance
-    PART = 16  # LP: part of the solution that was followed; below 1 when a pair outside the neighbour list would overlap
+    HELD = 15  # LP: displacement components at the step bound, whose forces do not balance
+    PART = 16  # LP: part of the step that was made; below 1 where an unlisted pair would overlap
     BOUND = 17  # LP: step bound
     STEP_MSD_STABLE = 18  # LP, polish: STEP_MSD over stable spheres alone, their mean taken out
     TOTAL_MSD_STABLE = 19  # LP, polish: TOTAL_MSD over the spheres that are stable now
@@ -270,15 +290,16 @@ class SoftScale(IntEnum):
 
 
 class Minimiser(IntEnum):
-    """How the energy is minimised. Methods end in different minima of the same start: each is a protocol."""
-    NEWTON = 0  # FIRE (alpha < 2: L-BFGS) until contacts settle, then Newton's method with pre-stress; rattlers are put in the middle of their cages
+    """How the energy is minimised. Methods end in different minima of the same start: each is a protocol. NEWTON: FIRE
+    (alpha < 2: L-BFGS) until contacts settle, then Newton's method with pre-stress."""
+    NEWTON = 0  # Newton's method; rattlers are put in the middle of their cages
     FIRE = 1  # FIRE 2.0 alone (Guenole et al., Comput. Mater. Sci. 175, 109584 (2020))
     LBFGS = 2  # limited-memory BFGS alone (Nocedal, Math. Comput. 35, 773 (1980))
 
 
 class SoftPrecision(IntEnum):
     """How the overlap of a pair is computed."""
-    REFERENCE = 0  # from a reference in twice the digits and small displacements: forces balance to 1e-14 at any overlap
+    REFERENCE = 0  # twice the digits and small displacements: forces balance to 1e-14 at any overlap
     DOUBLE = 1  # from coordinates in doubles: balance ends near 1e-15 / overlap; for comparison
 
 
@@ -298,11 +319,12 @@ class SoftColumn(IntEnum):
 
 
 class Stiffness(IntEnum):
-    """Stiffness k of a contact, 1 at the mean force."""
+    """Stiffness k of a contact, 1 at the mean force. SOFT: after jam_relax or jam_decompress; prestress is then the share
+    of the pre-stress f / r that is kept, 0..1."""
     HARMONIC = 0  # k = 1
     POWER = 1  # energy |overlap|^alpha: k = f^((alpha-2)/(alpha-1))
     HARD = 2  # entropic force of hard spheres near jamming: k = f^2
-    SOFT = 3  # after jam_relax or jam_decompress: that of the energy that was minimised, in its units; prestress is then the share of the pre-stress f / r that is kept, 0..1
+    SOFT = 3  # that of the energy that was minimised, in its units
 
 
 class ModesWhich(IntEnum):
@@ -311,6 +333,12 @@ class ModesWhich(IntEnum):
     HIGHEST = 1  # largest eigenvalues
     NEAR = 2  # nearest to frequency^2, translations left out
     ALL = 3  # all d N', translations among them; dense, 24 (d N')^2 bytes
+
+
+class ModeColumn(IntEnum):
+    """Columns of jam_modes, a row a mode."""
+    LAMBDA = 0  # lambda = omega^2
+    PARTICIPATION = 1  # sum |v_i|^4 / (sum |v_i|^2)^2
 
 
 class CandidateColumn(IntEnum):
@@ -348,15 +376,16 @@ class CheckReason(IntEnum):
 
 
 class Theorem(IntEnum):
-    """What was proved."""
+    """What was proved. TRAPPED: no motion without overlap takes a stable sphere farther than inner, but translations of
+    all. No packing as dense lies between inner and outer."""
     NONE = 0  # nothing: see cause
-    TRAPPED = 1  # no motion without overlap takes a stable sphere farther than inner, but translations of all. No packing as dense lies between inner and outer
+    TRAPPED = 1  # stable spheres cannot leave the radius inner without overlap
     EXACT = 2  # a packing that touches exactly in all contacts lies within radius: jammed, forces > 0
 
 
 class ProofCause(IntEnum):
     """Why a packing was not proved exact, with cause_value and cause_bound."""
-    NONE = 0
+    NONE = 0  # it was
     EXCESS = 1  # contacts, and those of one state of self-stress: more of them need a reason in algebra
     FORCE = 2  # least force and its error, over the mean force
     GAP = 3  # least gap of a pair that is no contact, and the radius
@@ -366,8 +395,8 @@ class ProofCause(IntEnum):
 
 
 class ContactClass(IntEnum):
-    """Flags of a contact."""
-    LOCALISED = 1  # touches a buckler (a stable sphere with d + 1 contacts); without it: extended
+    """Flags of a contact. A buckler is a stable sphere with d + 1 contacts."""
+    LOCALISED = 1  # touches a buckler; without it: extended
     SMALLEST = 2  # has the smallest force of one of its spheres
     MEDIAN = 4  # has the (lower) median force of one of its spheres
 
@@ -386,21 +415,29 @@ class LocalQuantity(IntEnum):
 
 class Population(IntEnum):
     """The contacts or spheres that count."""
-    ALL = 0
+    ALL = 0  # all contacts, all stable spheres
     LOCALISED = 1  # contacts that touch a buckler; spheres and their pairs: the bucklers
     EXTENDED = 2  # contacts that do not; spheres and their pairs: all other stable ones
     SMALLEST = 3  # forces only: the smallest of one of its spheres
     MEDIAN = 4  # forces only: the (lower) median of one of its spheres
 
 
+class StructureColumn(IntEnum):
+    """Columns of jam_structure_factor."""
+    Q = 0  # |q| times the mean diameter, ascending
+    S = 1  # S(q), its average over all q of this length
+
+
 class FloppyColumn(IntEnum):
-    """Columns of jam_floppy_modes, a row a contact; dr is the field of jam_floppy_mode."""
+    """Columns of jam_floppy_modes, a row a contact; dr is the field of jam_floppy_mode, and F the mean force. Openings have
+    the unit of positions: divide by the diameter to compare packings of different N. B = sum_k f_k |dr_perp|^2 / r_k.
+    S_RETURN is s* of R. Diaz Hernandez Rojas, PhD thesis, Sapienza 2021, whose index is twice stability."""
     MEDIAN = 0  # b = median |dr_i| / |dr|: far below 1/sqrt(N') when the mode is localised
     WEIGHT = 1  # W = f / median |dr_i|: f equals W times the displacement far away
-    S_PLUS = 2  # opening at which, to first order, the next contact forms. Openings have the unit of positions: divide by the diameter to compare packings of different N
-    S_STAR = 3  # opening f / B at which, to second order, the diameters are least; B = sum_k f_k |dr_perp|^2 / r_k
+    S_PLUS = 2  # opening at which, to first order, the next contact forms
+    S_STAR = 3  # opening f / B at which, to second order, the diameters are least
     STABILITY = 4  # s_star / s_plus = sigma f / (N c F s_plus), F the mean force, c = sigma B / (N F)
-    S_RETURN = 5  # opening 2 s_star at which, to second order, the diameters are back at their start: s* of R. Diaz Hernandez Rojas, PhD thesis, Sapienza 2021; his index is twice stability
+    S_RETURN = 5  # opening 2 s_star at which, to second order, the diameters are back at their start
 
 
 class DosColumn(IntEnum):
@@ -426,21 +463,21 @@ class Report:
 
 @dataclass(frozen=True, repr=False)
 class Progress(Report):
-    """Given to the progress callback; valid during the call only.
+    """Given to the progress callback; valid during the call only. NaN: not known.
 
     phase: jam_phase
     packing_fraction: now
-    pressure: MD: reduced pressure of the last window, NaN before
+    pressure: MD: reduced pressure of the last window
     gain: crunch: sqrt(Gamma) - 1 of the last LP; on the barrier path its duality gap
     max_step: crunch: largest |s_i| over mean diameter
     seconds: since the call began
-    fraction: of the call, 0..1: never falls, an estimate where the length of the way is not known (growth, crunch); NaN before the first estimate and in calls without one. wall_time is not in it
+    fraction: of the call, 0..1: never falls, may be an estimate, leaves wall_time out
     collisions: MD: so far in this call
-    steps: crunch: LPs so far; analysis: items done
+    steps: crunch: LPs so far, analysis: items done
     factorisations: crunch: so far
-    snapshot: number of the snapshot (jam_observe) that the views show now; 0: an ordinary report
-    seconds_left: until the aim, from how `fraction` grew; NaN before a few reports
-    seconds_left_spread: a factor above 1: at least two of three calls end between seconds_left divided by it and seconds_left times it; NaN with seconds_left"""
+    snapshot: number of the snapshot (jam_observe) that the views show now; 0: no snapshot
+    seconds_left: until the aim, from how `fraction` grew
+    seconds_left_spread: two of three calls end between seconds_left over and times this factor > 1"""
     phase: Phase
     packing_fraction: float
     pressure: float
@@ -465,12 +502,12 @@ class Info(Report):
     seed: as recorded at creation
     box: side of the cube, V^(1/d) of another cell
     packing_fraction: sum of sphere volumes over V
-    diameter_mean: mean diameter, unit of box
+    diameter_mean: unit of box
     pressure: reduced pressure p last measured by MD, NaN before
     model: jam_model
-    monodisperse: 1 when all diameters are equal
+    monodisperse: 1: all diameters are equal
     masses: jam_masses
-    paused: jam_phase of what was stopped early and can go on, or 0; JAM_PHASE_CRUNCH: by jam_crunch
+    paused: jam_phase of what was stopped early and can go on (crunch: by jam_crunch), or 0
     non_additivity: Delta of a non-additive mixture, 0 for additive diameters"""
     dim: int
     n: int
@@ -480,7 +517,7 @@ class Info(Report):
     diameter_mean: float
     pressure: float
     model: Model
-    monodisperse: int
+    monodisperse: bool
     masses: Masses
     paused: Phase
     non_additivity: float
@@ -488,12 +525,12 @@ class Info(Report):
 
 @dataclass(frozen=True, repr=False)
 class SizeReport(Report):
-    """What a set of diameters is.
+    """What a set of diameters is. sequential_fraction: Zhang and Torquato, Phys. Rev. E 88, 053312 (2013).
 
     source: jam_reach_source
     n: number of spheres
     mean: diameter, by number
-    deviation: standard deviation, by number
+    deviation: its standard deviation, by number
     polydispersity: deviation / mean
     least: diameter
     largest: diameter
@@ -502,7 +539,7 @@ class SizeReport(Report):
     d90: 90 %
     volume: of all spheres, unit^d
     largest_share: of the volume, of the largest sphere: how closely a curve can be followed
-    sequential_fraction: where random sequential addition of equal spheres ends (Zhang and Torquato, Phys. Rev. E 88, 053312 (2013)); mixtures go beyond
+    sequential_fraction: where random sequential addition of equal spheres ends; mixtures go beyond
     jammed_fraction: estimate of the packing fraction at which these sizes jam in disorder"""
     source: ReachSource
     n: int
@@ -522,16 +559,16 @@ class SizeReport(Report):
 
 @dataclass(frozen=True, repr=False)
 class MdReport(Report):
-    """What MD did.
+    """What MD did. Pressure: P V / (N kT) without the part of the growth, kT = sum m v^2 / (d (N - 1)).
 
     stop_reason: jam_stop_reason
     collisions: in this call
     events: collisions, list updates, stale events
     collisions_per_second: of wall time
-    pressure: reduced, P V / (N kT), without the part of the growth. jam_run: mean over the call; jam_compress: last window. kT = sum m v^2 / (d (N - 1))
+    pressure: reduced. jam_run: mean over the call; jam_compress: last window
     pressure_error: standard error of that mean from its windows; NaN with too few
     packing_fraction: at the end
-    time: simulated, unit box / sqrt(kT/m)
+    time: simulated
     energy_drift: jam_run: |K_end/K_start - 1|
     max_overlap: largest -h of neighbours whenever one of them had an event, >= 0
     seconds: wall time
@@ -552,12 +589,12 @@ class MdReport(Report):
 
 @dataclass(frozen=True, repr=False)
 class Glass(Report):
-    """A fit of the glass branch p = d' / (1 - phi/phi_J).
+    """A fit of the glass branch p = d' / (1 - phi/phi_J). Errors are standard errors.
 
     jammed_fraction: phi_J
-    jammed_error: its standard error
-    dimension: d', free; near d for a good glass
-    dimension_error: its standard error
+    jammed_error: its error
+    dimension: d', free, near d for a good glass
+    dimension_error: its error
     r_squared: of the straight line 1/p against phi"""
     jammed_fraction: float
     jammed_error: float
@@ -570,15 +607,15 @@ class Glass(Report):
 class MonteCarloReport(Report):
     """What Monte Carlo did.
 
-    stop_reason: jam_stop_reason; COLLISIONS: all sweeps were made
+    stop_reason: jam_stop_reason, COLLISIONS when all sweeps were made
     sweeps: since the run began
     next_sweep: number of the sweep that would come next
     acceptance: of moves
     swap_acceptance: of swaps, NaN without any
     step: used, mean diameters
     energy: mean energy a sphere
-    energy_error: standard error of it from 20 parts of the run, NaN with too few sweeps
-    pressure: reduced p: soft, from the virial; hard, from the density of pairs at contact
+    energy_error: its standard error from 20 parts, NaN with few sweeps
+    pressure: reduced p: from the virial, of hard spheres from pairs at contact
     pressure_error: likewise
     msd: mean-square displacement since the run began, box^2
     trials_per_second: of this call, wall time
@@ -602,15 +639,15 @@ class MonteCarloReport(Report):
 class IsoconfReport(Report):
     """What the runs gave so far.
 
-    stop_reason: jam_stop_reason; COLLISIONS: all runs were made; STALLED: run first_run + runs cannot move
+    stop_reason: jam_stop_reason, COLLISIONS: all made; STALLED: the next run cannot move
     first_run: number of the first run
-    runs: that are in the sums
+    runs: runs in the sums
     blocks: that these runs fill or touch
     instants: of each run
     energy_drift: largest |K_end/K_start - 1| of a run
     max_overlap: largest -h of a run
     step: Monte Carlo: half side of the trial cube, mean diameters
-    acceptance: Monte Carlo: mean over runs
+    acceptance: mean over runs
     seconds: wall time over all calls"""
     stop_reason: StopReason
     first_run: int
@@ -626,28 +663,32 @@ class IsoconfReport(Report):
 
 @dataclass(frozen=True, repr=False)
 class CrunchReport(Report):
-    """Result and certificate of jam_crunch. All gaps, overlaps and lengths relative to sigma_ij.
+    """Result and certificate of jam_crunch. All gaps, overlaps and lengths relative to sigma_ij. Counts are -1 where
+    contacts are unknown, for example after an early stop; calls that need the network then return JAM_E_STATE. The
+    numbers from packing_fraction_start to contacts_kept say what the crunch did to the packing that it was given:
+    displacements in mean diameters without their mean over these spheres; rattlers count, and so does a strain of the
+    cell. They are NaN or -1 where no crunch made the report.
 
-    jammed: 1: collectively jammed by the test of jam_rigidity; 0: not, undecided or not tested
+    jammed: 1: collectively jammed by the test of jam_rigidity; 0: not, undecided, untested
     stop_reason: jam_stop_reason
     lp_solver: jam_lp_solver that gave the last LP
-    method: jam_crunch_method that led here: BARRIER_PATH if the path was followed, SEQUENTIAL_LP if only LPs ran
-    stationary: 1: non-negative contact forces balance, so no small motion lets the diameters grow
+    method: jam_crunch_method that led here: BARRIER_PATH if the path was followed
+    stationary: 1: non-negative contact forces balance: no small motion lets diameters grow
     strictly_jammed: jam_verdict of the strict test; UNTESTED until jam_rigidity runs it
     packing_fraction: phi_J when jammed
     diameter_mean: unit of box
-    contacts: pairs with a force, rattlers left out; -1: stopped before contacts were known
-    rattlers: spheres that no force-carrying contact touches; -1 likewise. Calls that need the network then return JAM_E_STATE
-    stable: n - rattlers = N'; 0 where contacts are unknown
-    bucklers: stable spheres with exactly d+1 contacts; -1 likewise
+    contacts: pairs with a force, rattlers left out
+    rattlers: spheres that no force-carrying contact touches
+    stable: n - rattlers = N', or 0
+    bucklers: stable spheres with exactly d+1 contacts
     isostatic_contacts: d (N' - 1) + 1: contacts of a single state of self-stress
-    excess_contacts: contacts - isostatic_contacts: 0 isostatic and for an empty network, > 0 hyperstatic. Amorphous packings have 0, but disks of two sizes one for each disk whose six neighbours are its equals: the seven close twelve contacts, and eleven fix them
-    flexes: motions of stable spheres, beyond translations, that keep force-carrying contacts closed
+    excess_contacts: contacts - isostatic_contacts: 0 isostatic or no network, > 0 hyperstatic
+    flexes: motions of stable spheres, but translations, that keep contacts with force closed
     zero_force_contacts: closed pairs without force in every state of self-stress, those of rattlers too
-    undecided_contacts: pairs with gaps of 1e-10 to 1e-7. After JAM_STOP_DUALITY_GAP: pairs whose force on the path over the mean is within a factor of 1e4 of twice their gap
+    undecided_contacts: gaps of 1e-10 to 1e-7; after DUALITY_GAP: force / 2 gap within a factor of 1e4
     undercoordinated: stable spheres with d force-carrying contacts or fewer
     strict_contacts_needed: d (N' - 1) + d (d + 1) / 2: fewest contacts of a strictly jammed packing
-    rigidity_margin: smallest eigenvalue of S^T S on force-carrying contacts that is no translation
+    rigidity_margin: least eigenvalue of S^T S on contacts with force that is no translation
     lp_solves: LPs solved in full
     factorisations: Cholesky factorisations
     gain: sqrt(Gamma) - 1 of the last LP
@@ -656,7 +697,7 @@ class CrunchReport(Report):
     force_residual: largest |sum_j f_ij n_ij| over mean force
     gamma_residual: |sum lambda_ij sigma_ij^2 - 1| of the last LP
     min_force: smallest contact force over the mean
-    min_gap: smallest h of a pair of stable spheres that is no contact; after a free cell own images count as pairs
+    min_gap: least h of stable spheres that is no contact; own images count in a free cell
     max_contact_gap: largest |h| of a contact
     duality_gap: of the last LP, relative to Gamma; after JAM_STOP_DUALITY_GAP that of the forces
     force_scale: mean force in units where sum lambda sigma^2 = 1 (lambda r)
@@ -666,18 +707,18 @@ class CrunchReport(Report):
     seconds_solve: of it in triangular solves
     status: jam_status_code of the call that made this report
     reserved_end: 0
-    packing_fraction_start: before this call. This and the next six say what the crunch did to the packing that it was given; NaN or -1 where no crunch made the report
-    displacement_max: largest displacement since then, over the mean diameter, without the mean displacement of all spheres; rattlers count, and so does a strain of the cell
-    displacement_rms: root of the mean square of the same
-    displacement_max_stable: both over the spheres that end with contacts, without their mean; NaN without any
-    displacement_rms_stable:
+    packing_fraction_start: before this call
+    displacement_max: largest displacement
+    displacement_rms: root of the mean square
+    displacement_max_stable: the same of spheres that end with contacts
+    displacement_rms_stable: the same of spheres that end with contacts
     contacts_start: pairs that touched before, as far as the digits of the coordinates show
-    contacts_kept: of these the contacts of this report; -1 where contacts are unknown
-    theorem: jam_theorem, with the option prove; NONE without
-    proof_cause: jam_proof_cause: why the theorem is not EXACT
-    proof_radius: unit of the box: radius of EXACT, inner of TRAPPED, see jam_proof_report; else infinite
+    contacts_kept: of these the contacts of this report
+    theorem: jam_theorem, by prove, else NONE
+    proof_cause: jam_proof_cause it is not EXACT
+    proof_radius: unit of the box: radius of EXACT, inner of TRAPPED (jam_proof_report), or infinite
     proof_value: the two numbers of the cause
-    proof_bound:"""
+    proof_bound: the two numbers of the cause"""
     jammed: bool
     stop_reason: StopReason
     lp_solver: LpSolver
@@ -752,21 +793,20 @@ class Estimate(Report):
 
 @dataclass(frozen=True, repr=False)
 class RelaxReport(Report):
-    """What jam_relax found. F_i: total force on sphere i. Rattlers are spheres with fewer than d + 1 contacts, removed
-    again and again; stable spheres are the others.
+    """What jam_relax found.
 
     converged: 1: both residuals are below force_tolerance, or no spheres overlap
     stop_reason: jam_stop_reason
     minimiser: jam_minimiser
     force_residual: max |F_i| of stable spheres over the mean contact force; 0 without contacts
-    energy: U, unit epsilon
-    pressure: sum of f r over d V, unit epsilon / length^d
+    energy: U
+    pressure: sum of f r over d V
     packing_fraction: of the diameters, overlaps counted twice
     distance: alpha U / sum of f r, an estimate of ln(R / R_J)
     jammed_fraction: phi (1 - distance)^d, an estimate of phi_J
     coordination: mean number of contacts of a stable sphere
-    mean_overlap: mean of (sigma - r) / sigma over contacts of stable spheres
-    max_overlap: largest of all pairs
+    mean_overlap:
+    max_overlap: mean of (sigma - r) / sigma over contacts of stable spheres; largest of all pairs
     contacts: overlapping pairs of stable spheres
     excess_contacts: contacts - (d (stable - 1) + 1)
     stable: n - rattlers
@@ -799,19 +839,19 @@ class RelaxReport(Report):
 
 @dataclass(frozen=True, repr=False)
 class DecompressReport(Report):
-    """What jam_decompress found.
+    """What jam_decompress found: numbers of the last soft packing as in jam_relax_report, and what crunch made of it.
 
     stop_reason: jam_stop_reason
     isostatic: 1: contacts of one state of self-stress and d zero modes of the Hessian
-    same_network: 1: crunch ended with the same contacts; -1: crunch was not run
-    force_residual: these as in jam_relax_report, of the last soft packing
+    same_network: 1: crunch ended with the same contacts; 0: with others; -1: not run
+    force_residual: max |F_i| of stable spheres over the mean contact force
     energy: U
-    pressure: epsilon / length^d
+    pressure: sum of f r over d V
     packing_fraction: of the soft packing
     distance: estimate of ln(R / R_J)
     jammed_fraction: estimate of phi_J
-    crunch_fraction: phi_J by crunch; NaN when it was not run
-    force_difference: largest |f_soft - f_crunch| over the mean force; NaN without the same network
+    crunch_fraction: phi_J by crunch, NaN when it was not run
+    force_difference: largest |f_soft - f_crunch| over the mean; NaN without the same network
     coordination: mean number of contacts of a stable sphere
     contacts: overlapping pairs of stable spheres
     excess_contacts: contacts - (d (stable - 1) + 1)
@@ -849,17 +889,18 @@ class DecompressReport(Report):
 
 @dataclass(frozen=True, repr=False)
 class GeometryReport(Report):
-    """What jam_contacts_from_geometry found; gaps relative to sigma_ij.
+    """What jam_contacts_from_geometry found; gaps relative to sigma_ij. second_*: the next candidate that could be rigid;
+    its jump is 1 and its contacts -1 when there is none.
 
-    self_contacts: contacts of spheres with their own images, which constrain nothing in a fixed cell: left out of the network
+    self_contacts: with own images: no constraint in a fixed cell, so left out of the network
     tolerance: used
     gap_below: largest |h| within it, rattlers included
-    gap_above: smallest |h| beyond it (window when there is none)
+    gap_above: least beyond it, window without one
     jump: gap_above / gap_below, the latter no smaller than resolution
-    resolution: of gaps, from the digits that the coordinates have: 1e-15, or far more after a file with few of them
-    second_jump: of the next candidate that could be rigid, 1 when there is none
+    resolution: of gaps: 1e-15, or far more after a file whose coordinates have few digits
+    second_jump: of the next candidate
     second_tolerance: its tolerance
-    second_contacts: its contacts, -1 when there is none
+    second_contacts: its contacts
     pairs_within: pairs with |h| <= tolerance, rattlers included
     contacts: of stable spheres
     excess_contacts: contacts - (d (N'-1) + 1)
@@ -890,7 +931,9 @@ class GeometryReport(Report):
 @dataclass(frozen=True, repr=False)
 class RigidityReport(Report):
     """What jam_rigidity found. K+ are the contacts that carry force in some balance of non-negative forces, B the spheres
-    that they touch, N' their number.
+    that they touch, N' their number. undecided_contacts: also pairs that the digits of the coordinates cannot
+    distinguish from contacts. rigidity_margin below 1e-12: a flex; of a sphere that touches its own images alone: with
+    strains.
 
     kind: jam_rigidity_kind that was tested
     jammed: jam_verdict
@@ -902,8 +945,8 @@ class RigidityReport(Report):
     flexes: motions beyond translations that keep K+ closed; 0 without K+, 512 at most
     undercoordinated: spheres of B with d contacts of K+ or fewer
     zero_force_contacts: closed pairs that are not in K+
-    undecided_contacts: pairs with gaps of 1e-10 to 1e-7. Also those that the digits of the coordinates cannot distinguish from contacts
-    rigidity_margin: smallest eigenvalue on K+ that is no translation; below 1e-12: a flex. Of a sphere that touches its own images alone: with strains
+    undecided_contacts: pairs with gaps of 1e-10 to 1e-7
+    rigidity_margin: smallest eigenvalue on K+ that is no translation
     force_residual: largest |sum_j f_ij n_ij| over the mean force, of the forces in the proof"""
     kind: RigidityKind
     jammed: Verdict
@@ -923,7 +966,7 @@ class RigidityReport(Report):
 @dataclass(frozen=True, repr=False)
 class CheckReport(Report):
     """Verdict on a packing as it is. Gaps are relative to sigma_ij, displacements in mean diameters without their mean.
-    NaN: not known.
+    Closed pairs have gaps below 1e-10. NaN, and -1 for contacts: not known. crunch_*: of the crunched copy.
 
     jammed: jam_verdict: collectively jammed
     strictly_jammed: jam_verdict; NO where jammed is NO
@@ -931,18 +974,18 @@ class CheckReport(Report):
     reason: jam_check_reason of jammed
     dim: d
     digits: decimal digits that coordinates, diameters or cell seem to have; 0: all
-    crunch_jammed: jam_verdict of the crunched copy; UNTESTED without one
+    crunch_jammed: jam_verdict; UNTESTED without a copy
     n: number of spheres
-    contacts: closed pairs (gaps below 1e-10) that carry force
+    contacts: closed pairs that carry force
     excess_contacts: contacts - (d (N' - 1) + 1), 0 without contacts
     rattlers: n - N': spheres without force
-    closed_pairs: pairs with gaps below 1e-10, those of rattlers among them
+    closed_pairs: those of rattlers among them
     zero_force_contacts: of the pairs that were tested, those without force in every state
     undecided_contacts: pairs that may be contacts or not, by rounding or for lack of digits
     self_stresses: independent balances of forces; with more than one forces are not unique
-    flexes: motions beyond translations that keep all contacts with force closed
-    strict_flexes: likewise with strains of the cell; 0 where that was not tested
-    crunch_contacts: contacts of the crunched copy; -1 without one
+    flexes: motions but translations that keep force contacts closed
+    strict_flexes: with strains, if tested
+    crunch_contacts: contacts of the copy
     packing_fraction: of the packing as it is
     nearest_gap: smallest gap of all pairs; negative: an overlap. Infinite: none below 1
     min_gap: smallest gap of two spheres with force that is no contact
@@ -952,14 +995,14 @@ class CheckReport(Report):
     coordinate_step: the numbers given are multiples of it, unit of the box; 0: all digits are there
     resolution: of gaps: from the digits of the coordinates, and from overlaps
     diameter_factor: diameters were tested times this, so that no pair overlaps; 1: as they are
-    crunch_packing_fraction: of the crunched copy
+    crunch_packing_fraction: of the copy
     crunch_displacement_max: largest displacement in it of a sphere that ends with contacts
     crunch_displacement_rms: root of the mean square of the same
-    theorem: jam_theorem, with the option prove; NONE without
-    proof_cause: jam_proof_cause: why the theorem is not EXACT
-    proof_radius: unit of the box: radius of EXACT, inner of TRAPPED, see jam_proof_report; else infinite
+    theorem: jam_theorem, by prove, else NONE
+    proof_cause: jam_proof_cause it is not EXACT
+    proof_radius: unit of the box: radius of EXACT, inner of TRAPPED (jam_proof_report), or infinite
     proof_value: the two numbers of the cause
-    proof_bound:"""
+    proof_bound: the two numbers of the cause"""
     jammed: Verdict
     strictly_jammed: Verdict
     stationary: Verdict
@@ -999,24 +1042,25 @@ class CheckReport(Report):
 
 @dataclass(frozen=True, repr=False)
 class ProofReport(Report):
-    """What jam_prove found. Bounds are rounded outward; NaN where they do not apply.
+    """What jam_prove found. Bounds are rounded outward; NaN where they do not apply. The exact diameters are sqrt(Gamma)
+    ratio_i times the power of two at or below V^(1/d). Where no ratios are given, equal spheres have 1.
 
     theorem: jam_theorem
     cause: jam_proof_cause: why theorem is not JAM_THEOREM_EXACT
     stable: spheres with contacts, N'
-    contacts: equations; d (N' - 1) + 1 unknowns
+    contacts: equations: d (N' - 1) + 1 unknowns
     cause_value: see jam_proof_cause
-    cause_bound:
+    cause_bound: see jam_proof_cause
     radius: unit of the box: no refined centre is farther from the exact one
-    gamma: exact diameters are sqrt(Gamma) ratio_i times the power of two at or below V^(1/d), and
-    gamma_low: Gamma is about gamma + gamma_low. Where no ratios are given, equal spheres have 1
+    gamma: Gamma is about the sum of both
+    gamma_low: Gamma is about the sum of both
     packing_fraction: of the exact packing, rounded to double
     fraction_error: relative error of phi_J from gamma + gamma_low
     least_force: over the mean force
     force_error: of every force, over the mean force
     least_gap: relative, of pairs that are no contacts; 1e-3 if none is smaller
-    inner: unit of the box: see JAM_THEOREM_TRAPPED
-    outer:
+    inner: unit of the box: see jam_theorem
+    outer: unit of the box: see jam_theorem
     singular: below the smallest singular value of the rows 2 r_c, in units of that power of two
     eigenvalue: estimate of its square
     rounding: error bound that was taken off the square"""
@@ -1043,13 +1087,13 @@ class ProofReport(Report):
 
 @dataclass(frozen=True, repr=False)
 class ModuliReport(Report):
-    """Elastic moduli, unit: stiffness at the mean force times length^(2-d); non-affine part included.
+    """Elastic moduli, unit: stiffness at the mean force times length^(2-d). Affine: without the non-affine part.
 
     bulk: K
     bulk_affine: K without the non-affine part
     shear: G for simple shear, mean over the d (d-1) coordinate directions
-    shear_affine: G without the non-affine part
-    shear_min: smallest of the planes, both directions averaged
+    shear_affine: affine G
+    shear_min: smallest G of the planes, both directions averaged
     shear_max: largest of them"""
     bulk: float
     bulk_affine: float
@@ -1061,17 +1105,17 @@ class ModuliReport(Report):
 
 @dataclass(frozen=True, repr=False)
 class Comparison(Report):
-    """What jam_compare found.
+    """What jam_compare found between sys, a, and other, b. Contacts are -1 and overlaps NaN where one has no network.
 
-    contacts_a:
-    contacts_b: of sys and of other; -1 without a network
-    common_contacts: pairs in both; -1 unless both have a network
+    contacts_a: of sys
+    contacts_b: of other
+    common_contacts: pairs in both
     stable_in_both: spheres that are rattlers in neither
-    overlap: common over union; NaN unless both have a network
-    overlap_a: common over contacts_a: sys as the reference; NaN likewise
+    overlap: common over union
+    overlap_a: common over contacts_a: sys as the reference
     packing_fraction_change: phi of other minus phi of sys
-    displacement_rms: of these spheres (or all) without their mean, in mean diameters of sys
-    displacement_max: likewise"""
+    displacement_rms: of these (or all) without their mean, in mean diameters of sys
+    displacement_max: of these (or all) without their mean, in mean diameters of sys"""
     contacts_a: int
     contacts_b: int
     common_contacts: int
@@ -1086,53 +1130,53 @@ class Comparison(Report):
 # option structs: {C name: {member: (type, meaning)}}
 OPTIONS = {
     "jam_create_options": {
-        "dim": ("int", "2..8, default 3; with a file: 3 or the file's dimension"),
-        "n": ("int", 'number of spheres, 1..2^31-1; default 0: taken from the arrays'),
-        "seed": ("int", 'of every random stream, default 1; recorded'),
+        "dim": ("int", '2..8, default 3'),
+        "n": ("int", 'spheres, default 0: as many as the arrays have'),
+        "seed": ("int", 'of every random stream, default 1'),
         "box": ("float", 'side of the cube, > 0, default 1'),
         "packing_fraction": ("float", 'of a random start, > 0; default 0: by dim, 0.2 halved for each dimension above 3'),
-        "overlap": ("OverlapPolicy", 'OverlapPolicy for given positions, default REFUSE'),
+        "overlap": ("OverlapPolicy", 'OverlapPolicy, default REFUSE'),
         "model": ("Model", 'Model, default EUCLID'),
-        "mk_zeta": ("float", 'MK: strength of the shifts, 0..1e15; default infinity: uniform shifts. A random start is planted in equilibrium'),
+        "mk_zeta": ("float", 'MK: strength of shifts, 0..1e15; default infinity: uniform. Random starts: planted'),
         "masses": ("Masses", 'Masses, default EQUAL'),
-        "non_additivity": ("float", 'Delta in (-1, 1]: spheres of unequal diameters touch at (1 + Delta) (sigma_i + sigma_j) / 2; default 0. With a file that gives a value: 0 or that value'),
-        "wall_time": ("float", "limit in seconds for reading a file, a random start and the search for overlaps, > 0, default infinity; beyond it 'limit'"),
+        "non_additivity": ("float", 'Delta in (-1, 1]: unequal spheres touch at (1 + Delta) (sigma_i + sigma_j) / 2; default 0'),
+        "wall_time": ("float", 'of reading, of a random start and of the search for overlaps'),
         "memory_limit": ("float", "as set_memory_limit(), also while a file is read; default 0: half the machine's memory"),
         "frame": ("int", 'which packing of a file with several, from 0; negative: from the end; default -1, the last'),
-        "shrink_min": ("float", "smallest factor that 'shrink' may apply to diameters, 0..1, default 1e-3. A smaller one is refused: it points to duplicate spheres or wrong units"),
+        "shrink_min": ("float", "'shrink': least factor, 0..1, default 1e-3; below: duplicates, or wrong units?"),
     },
     "jam_diameters_options": {
-        "law": ("SizeLaw", 'default EQUAL. SizeLaw'),
-        "share": ("SizeShare", 'default USUAL. SizeShare'),
-        "draw": ("SizeDraw", 'default QUANTILES. SizeDraw'),
+        "law": ("SizeLaw", 'SizeLaw, default EQUAL'),
+        "share": ("SizeShare", 'SizeShare, default USUAL'),
+        "draw": ("SizeDraw", 'SizeDraw, default QUANTILES'),
         "dim": ("int", '2..8, default 3: of volumes'),
-        "n": ("int", 'number of spheres; default 0: it follows from packing_fraction'),
+        "n": ("int", 'number of spheres, default 0: by packing_fraction'),
         "seed": ("int", 'of RANDOM, default 1'),
         "mean": ("float", 'diameter, > 0, default 1'),
-        "deviation": ("float", 'standard deviation of the diameter, > 0; default NaN: not given'),
-        "low": ("float", 'smallest diameter, default 0: not given'),
+        "deviation": ("float", 'its standard deviation, > 0, default NaN'),
+        "low": ("float", 'smallest diameter, default 0'),
         "high": ("float", 'largest diameter, default infinity: not given'),
-        "exponent": ("float", 'default NaN: not given'),
+        "exponent": ("float", 'default NaN'),
         "scale": ("float", '> 0, default 1'),
-        "shape": ("float", '> 0, default NaN: not given'),
-        "cell_volume": ("float", 'default 0: not given. Spheres of more volume are refused'),
-        "packing_fraction": ("float", 'of the spheres in cell_volume, in place of n; default 0: not given. More than these sizes reach in disorder is refused'),
+        "shape": ("float", '> 0, default NaN'),
+        "cell_volume": ("float", 'default 0. Spheres of more volume are refused'),
+        "packing_fraction": ("float", 'in cell_volume, in place of n; default 0. More than reached in disorder is refused'),
     },
     "jam_run_options": {
         "resume": ("bool", '1: go on with the run that stopped early; default 0'),
-        "collisions_per_particle": ("float", 'to make since the run began, > 0, default 100'),
-        "wall_time": ("float", 'seconds of this call, > 0, default infinity'),
-        "time": ("float", 'to simulate (to the last event before it) since the run began, unit box / sqrt(kT/m), > 0, default infinity'),
+        "collisions_per_particle": ("float", 'to make, > 0, default 100'),
+        "wall_time": ("float", 'seconds of this call'),
+        "time": ("float", 'to simulate (to the last event before it), > 0, default infinity'),
     },
     "jam_compress_options": {
-        "resume": ("bool", '1: go on with the stage that stopped early, of which all but the limits is kept; default 0'),
+        "resume": ("bool", '1: go on with the stage that stopped early, with all but the limits; default 0'),
         "growth_rate": ("float", 'G > 0: one stage at this rate; 0, the default: the two stages of compress()'),
         "pressure": ("float", 'target reduced pressure of the last stage, > 1, default 1e7'),
         "packing_fraction": ("float", 'target, > 0, default infinity'),
-        "collisions_per_particle": ("float", 'limit, counted from the start of each stage, > 0, default infinity'),
-        "wall_time": ("float", 'limit in seconds of this call, > 0, default infinity'),
-        "time": ("float", 'limit of simulated time, counted from the start of each stage, > 0, default infinity'),
-        "growth_rate_end": ("float", 'quasi-static: the rate falls as a power of p to this one at the target pressure; in [0, growth_rate], default 0: constant'),
+        "collisions_per_particle": ("float", 'limit, > 0, default infinity'),
+        "wall_time": ("float", 'limit of this call'),
+        "time": ("float", 'limit of simulated time, > 0, default infinity'),
+        "growth_rate_end": ("float", 'in [0, growth_rate]: the rate at the target, a power of p; 0, the default: constant'),
         "growth_law": ("GrowthLaw", 'GrowthLaw, default DIAMETER'),
     },
     "jam_observe_options": {
@@ -1140,8 +1184,8 @@ OPTIONS = {
         "gap_bins": ("int", 'bins of the gap histogram, 0 (default: none) or >= 2'),
         "r_bins": ("int", 'bins of g(r), default 0: none'),
         "sample_every": ("float", 'collisions per particle between samples of the series, gaps and g(r), > 0, default 10'),
-        "gap_min": ("float", 'the first bin is [0, gap_min], > 0, default 1e-8; the others have equal ratios'),
-        "gap_max": ("float", 'up to here, in (gap_min, 10], default 1'),
+        "gap_min": ("float", 'the first bin is [0, gap_min], > 0, default 1e-8'),
+        "gap_max": ("float", 'up to here by equal ratios, <= 10, 1'),
         "r_max": ("float", 'of g(r), mean diameters, > 0, default 4'),
         "snapshot_every": ("float", 'collisions per particle before the first snapshot; 0, the default: none'),
         "snapshot_factor": ("float", 'each interval between snapshots is so many times the one before, >= 1, default 1'),
@@ -1149,7 +1193,7 @@ OPTIONS = {
     "jam_monte_carlo_options": {
         "resume": ("bool", '1: continue the run that stopped early; default 0'),
         "energy_unit": ("EnergyUnit", 'EnergyUnit, default LENGTH'),
-        "alpha": ("float", '0, the default: hard spheres; > 1: the energy of an overlap x is energy_scale x^alpha'),
+        "alpha": ("float", '0, default: hard, or > 1: overlaps x cost energy_scale x^alpha'),
         "energy_scale": ("float", '> 0, default 1'),
         "temperature": ("float", 'of soft spheres, k_B T > 0, default 1'),
         "step": ("float", 'half side of the cube of trial displacements, mean diameters; 0, the default: tuned'),
@@ -1157,8 +1201,8 @@ OPTIONS = {
         "swap_share": ("float", 'share of trials that exchange two diameters, in [0, 1), default 0'),
         "sweeps": ("int", 'since the run began, >= 1, default 1000'),
         "run": ("int", 'number of the random stream beside the seed, >= 0, default 0'),
-        "first_sweep": ("int", 'number of the first sweep, by which the stream goes; -1, the default: after those made before'),
-        "wall_time": ("float", 'seconds of this call, > 0, default infinity'),
+        "first_sweep": ("int", 'number of the first sweep in its stream; -1, the default: after those made before'),
+        "wall_time": ("float", 'seconds of this call'),
     },
     "jam_isoconf_options": {
         "threads": ("int", '1 or 2, default 1; the bits are the same'),
@@ -1172,25 +1216,25 @@ OPTIONS = {
         "wave_number": ("float", 'q of F_s, over mean diameters, > 0, default 7'),
         "overlap_length": ("float", 'spheres that moved less count in the overlap, mean diameters, > 0, default 0.3'),
         "memory_limit": ("float", 'bytes, default 2e9: past it MemoryError with the estimate before any run'),
-        "wall_time": ("float", 'seconds of this call, > 0, default infinity'),
+        "wall_time": ("float", 'seconds of this call'),
     },
     "jam_crunch_options": {
-        "lp_solver": ("LpSolver", 'LpSolver, default IPM (optimizer)'),
-        "method": ("CrunchMethod", 'CrunchMethod, default BARRIER_PATH; SEQUENTIAL_LP is what CALiPPSO does'),
-        "polish": ("bool", "1: close the contacts at the end and balance the forces to rounding, default 1. A crunch then also ends where LPs below gain_tolerance still move rattlers. 0: keep the LP's answer (tol_mechanical_equilibrium: the extra LP past it)"),
-        "max_lps": ("int", '>= 1, default 1000 (max_iters)'),
-        "threads": ("int", '1 or 2, default 1; bits are reproducible on 1 (threads)'),
-        "gain_tolerance": ("float", 'on sqrt(Gamma) - 1, > 0, default 1e-12 (tol_Gamma_convergence)'),
-        "step_tolerance": ("float", 'on max |s_i| of non-rattlers, > 0, default 1e-9 (tol_S_convergence, in box units)'),
-        "lp_tolerance": ("float", 'relative complementarity and residual of one LP, default 1e-15 (solver_attributes)'),
-        "neighbour_radius": ("float", 'largest pair distance in an LP; 0, the default: adapts (l0, default 4 R)'),
-        "step_bound": ("float", 'bound on each |s_i| component, 1e-15 .. 1000; 0, the default: adapts (sbound, in radii)'),
-        "wall_time": ("float", 'limit in seconds, > 0, default infinity'),
-        "steps": ("bool", '1: the callback hears of every step and may call crunch_step_*. 0, the default'),
-        "full_lps": ("bool", '1: every LP is solved to lp_tolerance, so that its linear network balances. 0, the default: an LP that gains more than 1e-7 ends at a duality gap of 0.02 of its gain'),
-        "strain": ("FreeStrain", "FreeStrain, default NONE. Else the cell deforms at fixed volume after the fixed cell's optimum; FREE ends strictly jammed. One sphere alone needs a strain: its contacts are its own images, which only strains move"),
-        "keep_steps": ("int", 'states before the end that are kept for write_page(), 0 .. 1000, default 0. Where there are more, or more than 2^24 coordinates in all, every second, fourth, ... is kept'),
-        "duality_gap": ("float", '0, the default: to the jamming point. Else 1e-12 .. 1e-2, for packings too large for that: the barrier path ends at this duality gap, and an LP names contacts. Their forces balance. Their own duality gap e is in the report. To first order no motion lets Gamma grow by more than e, so that phi_J is about phi (1 + e)^(d/2). Contacts that a smaller gap may change are counted as undecided. Needs BARRIER_PATH and no strain'),
+        "lp_solver": ("LpSolver", 'LpSolver, default IPM'),
+        "method": ("CrunchMethod", 'CrunchMethod, default BARRIER_PATH'),
+        "polish": ("bool", '1: contacts closed, forces balanced to rounding, 1'),
+        "max_lps": ("int", '>= 1, default 1000'),
+        "threads": ("int", '1 or 2, default 1; bits are reproducible on 1'),
+        "gain_tolerance": ("float", 'on sqrt(Gamma) - 1, > 0, default 1e-12'),
+        "step_tolerance": ("float", 'on max |s_i| of non-rattlers, > 0, default 1e-9'),
+        "lp_tolerance": ("float", 'relative complementarity and residual of one LP, default 1e-15'),
+        "neighbour_radius": ("float", 'largest pair distance in an LP; 0, the default: adapts'),
+        "step_bound": ("float", 'bound on each |s_i| component, 1e-15 .. 1000; 0, the default: adapts'),
+        "wall_time": ("float", 'limit of the call'),
+        "steps": ("bool", '1: the callback hears of every step and may call crunch_step_*; default 0'),
+        "full_lps": ("bool", '1: every LP is solved to lp_tolerance, so that its network balances; default 0'),
+        "strain": ("FreeStrain", 'FreeStrain, default NONE'),
+        "keep_steps": ("int", 'states before the end that are kept for write_page(), 0 .. 1000, default 0'),
+        "duality_gap": ("float", '0, the default: to the jamming point; or 1e-12 .. 1e-2'),
         "prove": ("bool", '1: a packing that ends jammed is proved as by prove(), into the report; default 0'),
     },
     "jam_relax_options": {
@@ -1200,8 +1244,8 @@ OPTIONS = {
         "alpha": ("float", 'exponent of the energy, > 1, default 2'),
         "force_tolerance": ("float", 'on max |F_i| of stable spheres over the mean contact force, > 0, default 1e-12'),
         "max_evaluations": ("int", 'of the forces, >= 1, default 1e6'),
-        "wall_time": ("float", 'limit in seconds, > 0, default infinity'),
-        "strain": ("FreeStrain", 'FreeStrain, default NONE: what of the cell is free after the minimum of the fixed one'),
+        "wall_time": ("float", 'limit of the call'),
+        "strain": ("FreeStrain", 'FreeStrain, default NONE: what of the cell is free'),
         "pressure": ("float", "P > 0 with 'volume': U + P V is minimised, also from no contacts; else 0, the default"),
         "components": ("int", 'bit c d + k: component (c, k) of the strain may change, c <= k, default -1: all'),
     },
@@ -1211,19 +1255,19 @@ OPTIONS = {
         "precision": ("SoftPrecision", 'SoftPrecision, default REFERENCE'),
         "alpha": ("float", 'exponent of the energy, > 1, default 2'),
         "force_tolerance": ("float", 'as in relax_options, default 1e-12'),
-        "energy_factor": ("float", 'U falls by this factor a step, in (0, 1), default 0.01; nearer 1 after a step that failed'),
-        "pressure": ("float", 'target, as relax_report.pressure, >= 0, default 0: none'),
-        "distance": ("float", 'target, as relax_report.distance, >= 0, default 0: none'),
-        "isostatic": ("int", '1 (default): end where contacts are those of one state of self-stress and the Hessian has d zero modes'),
-        "crunch": ("int", '1 (default): then crunch from just below contact, and go on until both have one network; the system ends as that jammed packing. 0: it ends as the soft packing'),
+        "energy_factor": ("float", 'U falls by this factor a step, in (0, 1), default 0.01; nearer 1 after a failed step'),
+        "pressure": ("float", 'targets, as in relax_report, >= 0, default 0: none'),
+        "distance": ("float", 'targets, as in relax_report, >= 0, default 0: none'),
+        "isostatic": ("bool", '1: end at contacts of one self-stress and d zero modes of the Hessian; default 1'),
+        "crunch": ("bool", '1: then crunch; default 1'),
         "max_steps": ("int", '>= 1, default 1000'),
-        "max_evaluations": ("int", 'of the forces, in one step, >= 1, default 1e6. A later step may take 4 times what all steps before it took: at least a 20th of this limit, and never more than it'),
-        "wall_time": ("float", 'limit in seconds, > 0, default infinity'),
+        "max_evaluations": ("int", 'of the forces, in one step, >= 1, default 1e6'),
+        "wall_time": ("float", 'limit of the call'),
     },
     "jam_hessian_options": {
         "stiffness": ("Stiffness", 'Stiffness, default HARMONIC'),
         "alpha": ("float", 'POWER: > 1, default 2'),
-        "prestress": ("float", 'overlap (HARD: gap) of a contact of mean force over mean diameter, in [0, 1): the block of a contact is k n n^T - prestress f <sigma> / ((alpha-1) r) (1 - n n^T); default 0'),
+        "prestress": ("float", 'overlap (HARD: gap) at the mean force over mean diameter, in [0, 1), default 0'),
     },
     "jam_modes_options": {
         "which": ("ModesWhich", 'ModesWhich, default LOWEST'),
@@ -1238,8 +1282,14 @@ OPTIONS = {
     },
     "jam_check_options": {
         "crunch": ("bool", '1: an undecided packing is crunched, as a copy, to say what that changes; default 1'),
-        "wall_time": ("float", 'limit for this crunch in seconds, > 0, default infinity'),
+        "wall_time": ("float", 'limit for this crunch'),
         "prove": ("bool", '1: a jammed packing is proved as by prove(), into the report; default 0'),
+    },
+    "jam_correlation_options": {
+        "a": ("int", 'labels of the spheres, default -1: any'),
+        "b": ("int", 'labels of the spheres, default -1: any'),
+        "r_max": ("float", 'mean diameters, > 0, default 4'),
+        "bins": ("int", 'equal ones from 0 to r_max, 1 .. 1e8, default 200'),
     },
     "jam_dos_options": {
         "moments": ("int", 'Chebyshev moments, 8..1e6, default 512: resolution in omega about 1.6 omega_max / moments'),
@@ -1277,7 +1327,14 @@ ROWS: dict[str, list[tuple[str, str]]] = {
 # tables: {C name: number of columns}
 TABLES = {
     "jam_observed_series": 6,
+    "jam_observed_gaps": 4,
+    "jam_observed_correlation": 2,
+    "jam_isoconf_series": 14,
+    "jam_crunch_history": 20,
+    "jam_decompress_history": 11,
+    "jam_modes": 2,
     "jam_contact_candidates": 4,
+    "jam_structure_factor": 2,
     "jam_floppy_modes": 6,
     "jam_density_of_states": 6,
 }
@@ -1290,17 +1347,13 @@ EXTENTS: dict[str, dict[str, tuple[str, ...]]] = {
     "jam_parse_diameters": {'curve': ('rows', '2')},
     "jam_observed_spheres": {'collisions': ('n',), 'displacement': ('n', 'd')},
     "jam_observed_pairs": {'pair': ('m', '2'), 'collisions': ('m',), 'momentum': ('m',)},
-    "jam_observed_gaps": {'edge': ('bins + 1',), 'density': ('bins',), 'error': ('bins',)},
-    "jam_observed_correlation": {'r': ('bins',), 'g': ('bins',)},
-    "jam_isoconf_sums": {'displacement': ('instants', 'n', 'd'), 'square': ('instants', 'n', 'd'), 'distance2': ('instants', 'n'), 'distance4': ('instants', 'n')},
-    "jam_isoconf_series": {'out': ('instants',)},
+    "jam_isoconf_displacements": {'displacement': ('instants', 'n', 'd'), 'square': ('instants', 'n', 'd')},
+    "jam_isoconf_distances": {'distance2': ('instants', 'n'), 'distance4': ('instants', 'n')},
     "jam_isoconf_kept": {'out': ('runs', 'n', 'd')},
-    "jam_crunch_history": {'out': ('steps',)},
     "jam_crunch_step_displacements": {'out': ('n', 'd')},
     "jam_crunch_step_contacts": {'out': ('m', '2')},
     "jam_crunch_step_vectors": {'out': ('m', 'd')},
     "jam_crunch_step_duals": {'out': ('m',)},
-    "jam_decompress_history": {'out': ('steps',)},
     "jam_contacts": {'out': ('contacts', '2')},
     "jam_contact_vectors": {'out': ('contacts', 'd')},
     "jam_contact_gaps": {'out': ('contacts',)},
@@ -1308,7 +1361,7 @@ EXTENTS: dict[str, dict[str, tuple[str, ...]]] = {
     "jam_coordination": {'out': ('n',)},
     "jam_hessian_map": {'out': ("N'",)},
     "jam_hessian": {'row_start': ("d N' + 1",), 'column': ('entries',), 'value': ('entries',)},
-    "jam_modes": {'lambda': ('m',), 'vector': ('m', "N'", 'd'), 'participation': ('m',)},
+    "jam_modes": {'vector': ('m', "N'", 'd')},
     "jam_stress_states": {'force': ('n_c',), 'basis': ('m', 'n_c')},
     "jam_flex": {'out': ('n', 'd'), 'strain': ('d', 'd')},
     "jam_refined_positions": {'high': ('n', 'd'), 'low': ('n', 'd')},
@@ -1319,7 +1372,6 @@ EXTENTS: dict[str, dict[str, tuple[str, ...]]] = {
     "jam_local_values": {'out': ('values',)},
     "jam_histogram": {'out': ('bins',)},
     "jam_pair_correlation": {'out': ('bins',)},
-    "jam_structure_factor": {'q': ('m',), 's': ('m',)},
     "jam_bond_order": {'out': ('n',)},
     "jam_local_fraction": {'out': ('n',)},
     "jam_floppy_mode": {'out': ("N'", 'd')},
@@ -1361,27 +1413,28 @@ CALLS = {
     "jam_observed_series": (True, (("table", "array_out", "double"), ("table_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_observed_spheres": (True, (("collisions", "array_out", "int64_t"), ("collisions_len", "len", "size_t"), ("displacement", "array_out", "double"), ("displacement_len", "len", "size_t"), ("rows", "scalar_out", "size_t"))),
     "jam_observed_pairs": (True, (("pair", "array_out", "int32_t"), ("pair_len", "len", "size_t"), ("collisions", "array_out", "int64_t"), ("collisions_len", "len", "size_t"), ("momentum", "array_out", "double"), ("momentum_len", "len", "size_t"), ("time", "scalar_out", "double"), ("rows", "scalar_out", "size_t"))),
-    "jam_observed_gaps": (True, (("edge", "array_out", "double"), ("edge_len", "len", "size_t"), ("density", "array_out", "double"), ("density_len", "len", "size_t"), ("error", "array_out", "double"), ("error_len", "len", "size_t"), ("rows", "scalar_out", "size_t"))),
-    "jam_observed_correlation": (True, (("r", "array_out", "double"), ("r_len", "len", "size_t"), ("g", "array_out", "double"), ("g_len", "len", "size_t"), ("rows", "scalar_out", "size_t"))),
+    "jam_observed_gaps": (True, (("table", "array_out", "double"), ("table_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_observed_correlation": (True, (("table", "array_out", "double"), ("table_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_eos": (False, (("form", "scalar", "EosForm"), ("dim", "scalar", "int32_t"), ("packing_fraction", "scalar", "double"), ("jammed_fraction", "scalar", "double"), ("pressure", "scalar_out", "double"))),
     "jam_glass_fit": (False, (("fraction", "array_in", "double"), ("fraction_len", "len", "size_t"), ("pressure", "array_in", "double"), ("pressure_len", "len", "size_t"), ("fit", "struct_out", "jam_glass"))),
     "jam_monte_carlo": (True, (("o", "struct_in", "jam_monte_carlo_options"), ("report", "struct_out", "jam_monte_carlo_report"))),
     "jam_isoconfigurational": (True, (("o", "struct_in", "jam_isoconf_options"), ("m", "struct_in", "jam_monte_carlo_options"), ("instant", "array_in", "double"), ("instant_len", "len", "size_t"), ("kept", "array_in", "int32_t"), ("kept_len", "len", "size_t"), ("report", "struct_out", "jam_isoconf_report"))),
     "jam_get_isoconf_report": (True, (("report", "struct_out", "jam_isoconf_report"),)),
-    "jam_isoconf_sums": (True, (("block", "scalar", "int64_t"), ("displacement", "array_out", "double"), ("displacement_len", "len", "size_t"), ("square", "array_out", "double"), ("square_len", "len", "size_t"), ("distance2", "array_out", "double"), ("distance2_len", "len", "size_t"), ("distance4", "array_out", "double"), ("distance4_len", "len", "size_t"), ("runs", "scalar_out", "int64_t"), ("needed", "scalar_out", "size_t"))),
-    "jam_isoconf_series": (True, (("block", "scalar", "int64_t"), ("column", "scalar", "IsoconfColumn"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_isoconf_series": (True, (("block", "scalar", "int64_t"), ("table", "array_out", "double"), ("table_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_isoconf_displacements": (True, (("block", "scalar", "int64_t"), ("displacement", "array_out", "double"), ("displacement_len", "len", "size_t"), ("square", "array_out", "double"), ("square_len", "len", "size_t"), ("rows", "scalar_out", "size_t"))),
+    "jam_isoconf_distances": (True, (("block", "scalar", "int64_t"), ("distance2", "array_out", "double"), ("distance2_len", "len", "size_t"), ("distance4", "array_out", "double"), ("distance4_len", "len", "size_t"), ("rows", "scalar_out", "size_t"))),
     "jam_isoconf_kept": (True, (("instant", "scalar", "int32_t"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_crunch": (True, (("o", "struct_in", "jam_crunch_options"), ("report", "struct_out", "jam_crunch_report"))),
     "jam_estimate_crunch": (True, (("o", "struct_in", "jam_crunch_options"), ("estimated", "struct_out", "jam_estimate"))),
     "jam_get_crunch_report": (True, (("report", "struct_out", "jam_crunch_report"),)),
-    "jam_crunch_history": (True, (("column", "scalar", "HistoryColumn"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_crunch_history": (True, (("table", "array_out", "double"), ("table_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_crunch_step_displacements": (True, (("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_crunch_step_contacts": (True, (("out", "array_out", "int32_t"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_crunch_step_vectors": (True, (("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_crunch_step_duals": (True, (("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_relax": (True, (("o", "struct_in", "jam_relax_options"), ("report", "struct_out", "jam_relax_report"))),
     "jam_decompress": (True, (("o", "struct_in", "jam_decompress_options"), ("report", "struct_out", "jam_decompress_report"))),
-    "jam_decompress_history": (True, (("column", "scalar", "SoftColumn"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_decompress_history": (True, (("table", "array_out", "double"), ("table_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_contacts": (True, (("out", "array_out", "int32_t"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_contact_vectors": (True, (("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_contact_gaps": (True, (("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
@@ -1389,7 +1442,7 @@ CALLS = {
     "jam_coordination": (True, (("out", "array_out", "int32_t"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_hessian_map": (True, (("out", "array_out", "int32_t"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_hessian": (True, (("h", "struct_in", "jam_hessian_options"), ("row_start", "array_out", "int32_t"), ("row_start_len", "len", "size_t"), ("column", "array_out", "int32_t"), ("column_len", "len", "size_t"), ("value", "array_out", "double"), ("value_len", "len", "size_t"), ("rows", "scalar_out", "size_t"))),
-    "jam_modes": (True, (("h", "struct_in", "jam_hessian_options"), ("o", "struct_in", "jam_modes_options"), ("lambda", "array_out", "double"), ("lambda_len", "len", "size_t"), ("vector", "array_out", "double"), ("vector_len", "len", "size_t"), ("participation", "array_out", "double"), ("participation_len", "len", "size_t"), ("rows", "scalar_out", "size_t"))),
+    "jam_modes": (True, (("h", "struct_in", "jam_hessian_options"), ("o", "struct_in", "jam_modes_options"), ("table", "array_out", "double"), ("table_len", "len", "size_t"), ("vector", "array_out", "double"), ("vector_len", "len", "size_t"), ("rows", "scalar_out", "size_t"))),
     "jam_contacts_from_geometry": (True, (("o", "struct_in", "jam_geometry_options"), ("report", "struct_out", "jam_geometry_report"))),
     "jam_contact_candidates": (True, (("window", "scalar", "double"), ("table", "array_out", "double"), ("table_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_stress_states": (True, (("force", "array_out", "double"), ("force_len", "len", "size_t"), ("basis", "array_out", "double"), ("basis_len", "len", "size_t"), ("residual", "scalar_out", "double"), ("rows", "scalar_out", "size_t"))),
@@ -1406,8 +1459,8 @@ CALLS = {
     "jam_contact_dots": (True, (("weighted", "scalar", "int32_t"), ("dot", "array_out", "double"), ("dot_len", "len", "size_t"), ("sphere", "array_out", "int32_t"), ("sphere_len", "len", "size_t"), ("rows", "scalar_out", "size_t"))),
     "jam_local_values": (True, (("quantity", "scalar", "LocalQuantity"), ("population", "scalar", "Population"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_histogram": (True, (("quantity", "scalar", "LocalQuantity"), ("population", "scalar", "Population"), ("low", "scalar", "double"), ("high", "scalar", "double"), ("bins", "scalar", "int64_t"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
-    "jam_pair_correlation": (True, (("kind", "array_in", "int32_t"), ("kind_len", "len", "size_t"), ("a", "scalar", "int32_t"), ("b", "scalar", "int32_t"), ("r_max", "scalar", "double"), ("bins", "scalar", "int64_t"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
-    "jam_structure_factor": (True, (("q_max", "scalar", "double"), ("q", "array_out", "double"), ("q_len", "len", "size_t"), ("s", "array_out", "double"), ("s_len", "len", "size_t"), ("rows", "scalar_out", "size_t"))),
+    "jam_pair_correlation": (True, (("o", "struct_in", "jam_correlation_options"), ("kind", "array_in", "int32_t"), ("kind_len", "len", "size_t"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_structure_factor": (True, (("q_max", "scalar", "double"), ("table", "array_out", "double"), ("table_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_bond_order": (True, (("l", "scalar", "int32_t"), ("cutoff", "scalar", "double"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_crystal_score": (True, (("score", "scalar_out", "double"),)),
     "jam_local_fraction": (True, (("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),

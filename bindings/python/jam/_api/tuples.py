@@ -11,7 +11,7 @@ from .shown import by_shapes as _by_shapes
 class ObservedSeriesResult(NamedTuple):
     """What observed_series returns, column by column."""
 
-    time: Array  # simulated time, unit box / sqrt(kT/m)
+    time: Array  # simulated time
     collisions: Array  # collisions per particle
     fraction: Array  # packing fraction
     pressure: Array  # reduced pressure since the sample before
@@ -45,34 +45,111 @@ class ObservedPairsResult(NamedTuple):
 
 
 class ObservedGapsResult(NamedTuple):
-    """What observed_gaps returns."""
+    """What observed_gaps returns, column by column."""
 
-    edge: Array
-    density: Array
-    error: Array
+    low: Array  # smallest gap h of the bin
+    high: Array  # largest gap
+    density: Array  # pairs over those of an ideal gas
+    error: Array  # its standard error over samples
 
     def __repr__(self) -> str:
         return _by_shapes(self)
 
 
 class ObservedCorrelationResult(NamedTuple):
-    """What observed_correlation returns."""
+    """What observed_correlation returns, column by column."""
 
-    r: Array
-    g: Array
+    r: Array  # middle of the bin, mean diameters
+    g: Array  # g(r)
 
     def __repr__(self) -> str:
         return _by_shapes(self)
 
 
-class IsoconfSumsResult(NamedTuple):
-    """What isoconf_sums returns."""
+class IsoconfSeriesResult(NamedTuple):
+    """What isoconf_series returns, column by column."""
+
+    time: Array  # simulated time, or sweeps
+    time2: Array  # its square
+    msd: Array  # mean of |dr|^2 over spheres, box^2
+    msd2: Array  # its square
+    scattering: Array  # mean of cos(q dr_c) over spheres and axes
+    scattering2: Array  # its square
+    overlap: Array  # share of spheres that moved less than overlap_length
+    overlap2: Array  # its square
+    energy: Array  # Monte Carlo: energy a sphere
+    energy2: Array  # its square
+    velocity: Array  # sum m v(t).v(0) over sum m v(0).v(0)
+    collisions: Array  # collisions per particle
+    pressure: Array  # reduced pressure: since the start of the run; soft spheres: at the instant
+    runs: Array  # runs in these sums and in those of the next two calls, the same at each instant
+
+    def __repr__(self) -> str:
+        return _by_shapes(self)
+
+
+class IsoconfDisplacementsResult(NamedTuple):
+    """What isoconf_displacements returns."""
 
     displacement: Array
     square: Array
+
+    def __repr__(self) -> str:
+        return _by_shapes(self)
+
+
+class IsoconfDistancesResult(NamedTuple):
+    """What isoconf_distances returns."""
+
     distance2: Array
     distance4: Array
-    runs: int
+
+    def __repr__(self) -> str:
+        return _by_shapes(self)
+
+
+class CrunchHistoryResult(NamedTuple):
+    """What crunch_history returns, column by column."""
+
+    phase: Array  # a jam_step_phase
+    gain: Array  # sqrt(Gamma) - 1: relative growth of the diameters in this step
+    phi: Array  # packing fraction after the step
+    step_max: Array  # largest displacement in this step
+    step_msd: Array  # mean-square displacement in this step
+    total_max: Array  # largest displacement since the start of the crunch
+    total_msd: Array  # mean-square displacement since then
+    contacts: Array  # LP: pairs of stable spheres that carry force in it
+    excess: Array  # LP: contacts - (d (N' - 1) + 1)
+    rattlers: Array  # LP: spheres left out of that
+    seconds: Array  # wall time of the step
+    iterations: Array  # of the LP solver; Newton steps elsewhere
+    factorisations: Array  # in this step
+    duality_gap: Array  # after the step, in Gamma
+    pairs: Array  # rows of the LP
+    held: Array  # LP: displacement components at the step bound, whose forces do not balance
+    part: Array  # LP: part of the step that was made; below 1 where an unlisted pair would overlap
+    bound: Array  # LP: step bound
+    step_msd_stable: Array  # LP, polish: STEP_MSD over stable spheres alone, their mean taken out
+    total_msd_stable: Array  # LP, polish: TOTAL_MSD over the spheres that are stable now
+
+    def __repr__(self) -> str:
+        return _by_shapes(self)
+
+
+class DecompressHistoryResult(NamedTuple):
+    """What decompress_history returns, column by column."""
+
+    phi: Array  # packing fraction
+    pressure: Array  # epsilon / length^d
+    energy: Array  # U / n
+    coordination: Array  # mean number of contacts of a stable sphere
+    distance: Array  # alpha U / sum of f r
+    excess: Array  # contacts - (d (stable - 1) + 1)
+    rattlers: Array  # spheres left out
+    residual: Array  # max |F_i| over the mean force
+    evaluations: Array  # of the forces, in this step
+    factorisations: Array  # in this step
+    seconds: Array  # wall time of the step
 
     def __repr__(self) -> str:
         return _by_shapes(self)
@@ -152,10 +229,10 @@ class ContactDotsResult(NamedTuple):
 
 
 class StructureFactorResult(NamedTuple):
-    """What structure_factor returns."""
+    """What structure_factor returns, column by column."""
 
-    q: Array
-    s: Array
+    q: Array  # |q| times the mean diameter, ascending
+    s: Array  # S(q), its average over all q of this length
 
     def __repr__(self) -> str:
         return _by_shapes(self)
@@ -166,10 +243,10 @@ class FloppyModesResult(NamedTuple):
 
     median: Array  # b = median |dr_i| / |dr|: far below 1/sqrt(N') when the mode is localised
     weight: Array  # W = f / median |dr_i|: f equals W times the displacement far away
-    s_plus: Array  # opening at which, to first order, the next contact forms. Openings have the unit of positions: divide by the diameter to compare packings of different N
-    s_star: Array  # opening f / B at which, to second order, the diameters are least; B = sum_k f_k |dr_perp|^2 / r_k
+    s_plus: Array  # opening at which, to first order, the next contact forms
+    s_star: Array  # opening f / B at which, to second order, the diameters are least
     stability: Array  # s_star / s_plus = sigma f / (N c F s_plus), F the mean force, c = sigma B / (N F)
-    s_return: Array  # opening 2 s_star at which, to second order, the diameters are back at their start: s* of R. Diaz Hernandez Rojas, PhD thesis, Sapienza 2021; his index is twice stability
+    s_return: Array  # opening 2 s_star at which, to second order, the diameters are back at their start
 
     def __repr__(self) -> str:
         return _by_shapes(self)
@@ -216,7 +293,11 @@ TUPLES: dict[str, type] = {
     "observed_pairs": ObservedPairsResult,
     "observed_gaps": ObservedGapsResult,
     "observed_correlation": ObservedCorrelationResult,
-    "isoconf_sums": IsoconfSumsResult,
+    "isoconf_series": IsoconfSeriesResult,
+    "isoconf_displacements": IsoconfDisplacementsResult,
+    "isoconf_distances": IsoconfDistancesResult,
+    "crunch_history": CrunchHistoryResult,
+    "decompress_history": DecompressHistoryResult,
     "contact_candidates": ContactCandidatesResult,
     "stress_states": StressStatesResult,
     "flex": FlexResult,

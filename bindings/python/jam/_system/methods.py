@@ -91,9 +91,9 @@ class Methods:
         sample_every : float, optional
             collisions per particle between samples of the series, gaps and g(r), > 0, default 10
         gap_min : float, optional
-            the first bin is [0, gap_min], > 0, default 1e-8; the others have equal ratios
+            the first bin is [0, gap_min], > 0, default 1e-8
         gap_max : float, optional
-            up to here, in (gap_min, 10], default 1
+            up to here by equal ratios, <= 10, 1
         r_max : float, optional
             of g(r), mean diameters, > 0, default 4
         snapshot_every : float, optional
@@ -129,7 +129,7 @@ class Methods:
         Returns
         -------
         time : array
-            simulated time, unit box / sqrt(kT/m)
+            simulated time
         collisions : array
             collisions per particle
         fraction : array
@@ -184,16 +184,21 @@ class Methods:
         return answer
 
     def observed_gaps(self) -> ObservedGapsResult:
-        """Histogram of gaps h: density is pairs over those of an ideal gas, error is over samples.
+        """Histogram of gaps h.
 
         Samples are taken between collisions: at one, a pair more would touch. At h = 0 density tends to g(sigma),
         which is (p - 1) / (4 phi) for equal spheres in d = 3.
 
         Returns
         -------
-        edge : array, shape (bins + 1,)
-        density : array, shape (bins,)
-        error : array, shape (bins,)
+        low : array
+            smallest gap h of the bin
+        high : array
+            largest gap
+        density : array
+            pairs over those of an ideal gas
+        error : array
+            its standard error over samples
 
         Raises
         ------
@@ -203,12 +208,14 @@ class Methods:
         return answer
 
     def observed_correlation(self) -> ObservedCorrelationResult:
-        """g(r), sampled likewise: r is the middle of each, mean diameters.
+        """g(r), sampled likewise.
 
         Returns
         -------
-        r : array, shape (bins,)
-        g : array, shape (bins,)
+        r : array
+            middle of the bin, mean diameters
+        g : array
+            g(r)
 
         Raises
         ------
@@ -232,7 +239,7 @@ class Methods:
         energy_unit : {'length', 'relative'}, optional
             EnergyUnit, default LENGTH
         alpha : float, optional
-            0, the default: hard spheres; > 1: the energy of an overlap x is energy_scale x^alpha
+            0, default: hard, or > 1: overlaps x cost energy_scale x^alpha
         energy_scale : float, optional
             > 0, default 1
         temperature : float, optional
@@ -248,9 +255,9 @@ class Methods:
         run : int, optional
             number of the random stream beside the seed, >= 0, default 0
         first_sweep : int, optional
-            number of the first sweep, by which the stream goes; -1, the default: after those made before
+            number of the first sweep in its stream; -1, the default: after those made before
         wall_time : float, optional
-            seconds of this call, > 0, default infinity
+            seconds of this call
         progress : bool or callable, optional
             True: a line that changes. A callable gets a Progress; a true answer stops the call.
 
@@ -279,9 +286,53 @@ class Methods:
         answer: IsoconfReport = self.call('get_isoconf_report')
         return answer
 
-    def isoconf_sums(self, block: int) -> IsoconfSumsResult:
-        """Sums over the runs of one block, or of all for block = -1: displacement and square of dr_c, unit of the box;
-        distance2 and distance4 of |dr|^2 and |dr|^4; runs in them.
+    def isoconf_series(self, block: int) -> IsoconfSeriesResult:
+        """Sums over the runs of one block, or of all for block = -1.
+
+        Parameters
+        ----------
+        block : int
+
+        Returns
+        -------
+        time : array
+            simulated time, or sweeps
+        time2 : array
+            its square
+        msd : array
+            mean of |dr|^2 over spheres, box^2
+        msd2 : array
+            its square
+        scattering : array
+            mean of cos(q dr_c) over spheres and axes
+        scattering2 : array
+            its square
+        overlap : array
+            share of spheres that moved less than overlap_length
+        overlap2 : array
+            its square
+        energy : array
+            Monte Carlo: energy a sphere
+        energy2 : array
+            its square
+        velocity : array
+            sum m v(t).v(0) over sum m v(0).v(0)
+        collisions : array
+            collisions per particle
+        pressure : array
+            reduced pressure: since the start of the run; soft spheres: at the instant
+        runs : array
+            runs in these sums and in those of the next two calls, the same at each instant
+
+        Raises
+        ------
+        ArgumentError, StateError
+        """
+        answer: IsoconfSeriesResult = self.call('isoconf_series', block)
+        return answer
+
+    def isoconf_displacements(self, block: int) -> IsoconfDisplacementsResult:
+        """For that block, sums over runs of the displacement dr_c of each sphere, unit of the box, and of its square.
 
         Parameters
         ----------
@@ -291,34 +342,31 @@ class Methods:
         -------
         displacement : array, shape (instants, n, d)
         square : array, shape (instants, n, d)
-        distance2 : array, shape (instants, n)
-        distance4 : array, shape (instants, n)
-        runs : int
 
         Raises
         ------
         ArgumentError, StateError
         """
-        answer: IsoconfSumsResult = self.call('isoconf_sums', block)
+        answer: IsoconfDisplacementsResult = self.call('isoconf_displacements', block)
         return answer
 
-    def isoconf_series(self, block: int, column: int | str) -> Array:
-        """One column of that block (or -1: all), a sum over runs at each instant.
+    def isoconf_distances(self, block: int) -> IsoconfDistancesResult:
+        """Likewise of |dr|^2 and |dr|^4.
 
         Parameters
         ----------
         block : int
-        column : {'time', 'time2', 'msd', 'msd2', 'scattering', 'scattering2', 'overlap', 'overlap2', 'energy', 'energy2', 'velocity', 'collisions', 'pressure'}
 
         Returns
         -------
-        array, shape (instants,)
+        distance2 : array, shape (instants, n)
+        distance4 : array, shape (instants, n)
 
         Raises
         ------
         ArgumentError, StateError
         """
-        answer: Array = self.call('isoconf_series', block, column)
+        answer: IsoconfDistancesResult = self.call('isoconf_distances', block)
         return answer
 
     def isoconf_kept(self, instant: int) -> Array:
@@ -346,46 +394,37 @@ class Methods:
         Parameters
         ----------
         lp_solver : {'ipm', 'clp'}, optional
-            LpSolver, default IPM (optimizer)
+            LpSolver, default IPM
         method : {'barrier_path', 'sequential_lp'}, optional
-            CrunchMethod, default BARRIER_PATH; SEQUENTIAL_LP is what CALiPPSO does
+            CrunchMethod, default BARRIER_PATH
         polish : bool, optional
-            1: close the contacts at the end and balance the forces to rounding, default 1. A crunch then also ends
-            where LPs below gain_tolerance still move rattlers. 0: keep the LP's answer (tol_mechanical_equilibrium:
-            the extra LP past it)
+            1: contacts closed, forces balanced to rounding, 1
         max_lps : int, optional
-            >= 1, default 1000 (max_iters)
+            >= 1, default 1000
         threads : int, optional
-            1 or 2, default 1; bits are reproducible on 1 (threads)
+            1 or 2, default 1; bits are reproducible on 1
         gain_tolerance : float, optional
-            on sqrt(Gamma) - 1, > 0, default 1e-12 (tol_Gamma_convergence)
+            on sqrt(Gamma) - 1, > 0, default 1e-12
         step_tolerance : float, optional
-            on max |s_i| of non-rattlers, > 0, default 1e-9 (tol_S_convergence, in box units)
+            on max |s_i| of non-rattlers, > 0, default 1e-9
         lp_tolerance : float, optional
-            relative complementarity and residual of one LP, default 1e-15 (solver_attributes)
+            relative complementarity and residual of one LP, default 1e-15
         neighbour_radius : float, optional
-            largest pair distance in an LP; 0, the default: adapts (l0, default 4 R)
+            largest pair distance in an LP; 0, the default: adapts
         step_bound : float, optional
-            bound on each |s_i| component, 1e-15 .. 1000; 0, the default: adapts (sbound, in radii)
+            bound on each |s_i| component, 1e-15 .. 1000; 0, the default: adapts
         wall_time : float, optional
-            limit in seconds, > 0, default infinity
+            limit of the call
         steps : bool, optional
-            1: the callback hears of every step and may call crunch_step_*. 0, the default
+            1: the callback hears of every step and may call crunch_step_*; default 0
         full_lps : bool, optional
-            1: every LP is solved to lp_tolerance, so that its linear network balances. 0, the default: an LP that
-            gains more than 1e-7 ends at a duality gap of 0.02 of its gain
+            1: every LP is solved to lp_tolerance, so that its network balances; default 0
         strain : {'none', 'edges', 'tilts', 'free', 'volume', 'edges_volume', 'tilts_volume', 'all'}, optional
-            FreeStrain, default NONE. Else the cell deforms at fixed volume after the fixed cell's optimum; FREE ends
-            strictly jammed. One sphere alone needs a strain: its contacts are its own images, which only strains move
+            FreeStrain, default NONE
         keep_steps : int, optional
-            states before the end that are kept for write_page(), 0 .. 1000, default 0. Where there are more, or more
-            than 2^24 coordinates in all, every second, fourth, ... is kept
+            states before the end that are kept for write_page(), 0 .. 1000, default 0
         duality_gap : float, optional
-            0, the default: to the jamming point. Else 1e-12 .. 1e-2, for packings too large for that: the barrier
-            path ends at this duality gap, and an LP names contacts. Their forces balance. Their own duality gap e is
-            in the report. To first order no motion lets Gamma grow by more than e, so that phi_J is about phi (1 +
-            e)^(d/2). Contacts that a smaller gap may change are counted as undecided. Needs BARRIER_PATH and no
-            strain
+            0, the default: to the jamming point; or 1e-12 .. 1e-2
         prove : bool, optional
             1: a packing that ends jammed is proved as by prove(), into the report; default 0
 
@@ -400,22 +439,57 @@ class Methods:
         answer: Estimate = self.call('estimate_crunch', lp_solver=lp_solver, method=method, polish=polish, max_lps=max_lps, threads=threads, gain_tolerance=gain_tolerance, step_tolerance=step_tolerance, lp_tolerance=lp_tolerance, neighbour_radius=neighbour_radius, step_bound=step_bound, wall_time=wall_time, steps=steps, full_lps=full_lps, strain=strain, keep_steps=keep_steps, duality_gap=duality_gap, prove=prove)
         return answer
 
-    def crunch_history(self, column: int | str) -> Array:
-        """One column of the last crunch, a value a step.
-
-        Parameters
-        ----------
-        column : {'phase', 'gain', 'phi', 'step_max', 'step_msd', 'total_max', 'total_msd', 'contacts', 'excess', 'rattlers', 'seconds', 'iterations', 'factorisations', 'duality_gap', 'pairs', 'held', 'part', 'bound', 'step_msd_stable', 'total_msd_stable'}
+    def crunch_history(self) -> CrunchHistoryResult:
+        """Steps of the last crunch.
 
         Returns
         -------
-        array, shape (steps,)
+        phase : array
+            a StepPhase
+        gain : array
+            sqrt(Gamma) - 1: relative growth of the diameters in this step
+        phi : array
+            packing fraction after the step
+        step_max : array
+            largest displacement in this step
+        step_msd : array
+            mean-square displacement in this step
+        total_max : array
+            largest displacement since the start of the crunch
+        total_msd : array
+            mean-square displacement since then
+        contacts : array
+            LP: pairs of stable spheres that carry force in it
+        excess : array
+            LP: contacts - (d (N' - 1) + 1)
+        rattlers : array
+            LP: spheres left out of that
+        seconds : array
+            wall time of the step
+        iterations : array
+            of the LP solver; Newton steps elsewhere
+        factorisations : array
+            in this step
+        duality_gap : array
+            after the step, in Gamma
+        pairs : array
+            rows of the LP
+        held : array
+            LP: displacement components at the step bound, whose forces do not balance
+        part : array
+            LP: part of the step that was made; below 1 where an unlisted pair would overlap
+        bound : array
+            LP: step bound
+        step_msd_stable : array
+            LP, polish: STEP_MSD over stable spheres alone, their mean taken out
+        total_msd_stable : array
+            LP, polish: TOTAL_MSD over the spheres that are stable now
 
         Raises
         ------
-        ArgumentError, StateError
+        StateError
         """
-        answer: Array = self.call('crunch_history', column)
+        answer: CrunchHistoryResult = self.call('crunch_history')
         return answer
 
     def crunch_step_displacements(self) -> Array:
@@ -480,22 +554,39 @@ class Methods:
         answer: Array = self.call('crunch_step_duals')
         return answer
 
-    def decompress_history(self, column: int | str) -> Array:
-        """One column of the last decompression.
-
-        Parameters
-        ----------
-        column : {'phi', 'pressure', 'energy', 'coordination', 'distance', 'excess', 'rattlers', 'residual', 'evaluations', 'factorisations', 'seconds'}
+    def decompress_history(self) -> DecompressHistoryResult:
+        """Minima of the last decompression.
 
         Returns
         -------
-        array, shape (steps,)
+        phi : array
+            packing fraction
+        pressure : array
+            epsilon / length^d
+        energy : array
+            U / n
+        coordination : array
+            mean number of contacts of a stable sphere
+        distance : array
+            alpha U / sum of f r
+        excess : array
+            contacts - (d (stable - 1) + 1)
+        rattlers : array
+            spheres left out
+        residual : array
+            max |F_i| over the mean force
+        evaluations : array
+            of the forces, in this step
+        factorisations : array
+            in this step
+        seconds : array
+            wall time of the step
 
         Raises
         ------
-        ArgumentError, StateError
+        StateError
         """
-        answer: Array = self.call('decompress_history', column)
+        answer: DecompressHistoryResult = self.call('decompress_history')
         return answer
 
     def contact_vectors(self) -> Array:
@@ -638,10 +729,9 @@ class Methods:
         of them. A sphere and its own image are a contact in the strict test, and in the collective one where the
         network lists them. There a sphere that they alone hold needs forces on the cell to balance. Let S v be the
         opening of contacts by a motion v, and E eps that by a strain eps. Collectively jammed: S v >= 0 only for
-        translations of B. Strictly jammed: S v + E eps >= 0 with tr eps <= 0 only for those and eps = 0. Sources:
-        Donev, Torquato, Stillinger, Connelly, J. Comput. Phys. 197, 139 (2004); Connelly 1988; Connelly, Shen, Smith,
-        arXiv:1301.0664; Roth and Whiteley 1981. Both hold for this cell: several copies of it together may unjam.
-        Status: 'ok' jammed, 'not_jammed', 'ambiguous' undecided.
+        translations of B. Strictly jammed: S v + E eps >= 0 with tr eps <= 0 only for those and eps = 0. Both hold
+        for this cell, not for several copies of it. Source: Donev et al., J. Comput. Phys. 197, 139 (2004); the
+        guide's page "Jammed or not" has more. Status: 'ok' jammed, 'not_jammed', 'ambiguous' undecided.
 
         Parameters
         ----------
@@ -766,15 +856,15 @@ class Methods:
         answer: RefinedPositionsResult = self.call('refined_positions', ratio)
         return answer
 
-    def gaps(self, h_max: float, stable_only: int) -> GapsResult:
+    def gaps(self, h_max: float, stable_only: bool) -> GapsResult:
         """Gaps h of all pairs below h_max (every image), contacts left out, ascending.
 
-        With stable_only = 0 rattlers count too and no network is needed.
+        Without stable_only rattlers count too and no network is needed.
 
         Parameters
         ----------
         h_max : float
-        stable_only : int
+        stable_only : bool
 
         Returns
         -------
@@ -802,14 +892,14 @@ class Methods:
         answer: Array = self.call('contact_classes')
         return answer
 
-    def sphere_structure(self, weighted: int) -> SphereStructureResult:
+    def sphere_structure(self, weighted: bool) -> SphereStructureResult:
         """c: C_i = sum_j n_ij, s: S_i = sum_{j<k} n_ij.
 
         n_ik, with f n for n when weighted; 0 for rattlers.
 
         Parameters
         ----------
-        weighted : int
+        weighted : bool
 
         Returns
         -------
@@ -823,14 +913,14 @@ class Methods:
         answer: SphereStructureResult = self.call('sphere_structure', weighted)
         return answer
 
-    def contact_dots(self, weighted: int) -> ContactDotsResult:
+    def contact_dots(self, weighted: bool) -> ContactDotsResult:
         """n_ij.
 
         n_ik (f_ij f_ik times it when weighted) of every pair of contacts of a sphere, and that sphere.
 
         Parameters
         ----------
-        weighted : int
+        weighted : bool
 
         Returns
         -------
@@ -887,8 +977,7 @@ class Methods:
         return answer
 
     def structure_factor(self, q_max: float, *, progress: Progressing = None) -> StructureFactorResult:
-        """S(q) on the wave vectors of the cell (in a cube 2 pi n / box), averaged over each |q| <= q_max; q per mean
-        diameter, ascending.
+        """S(q) on the wave vectors of the cell (in a cube 2 pi n / box) with |q| <= q_max.
 
         Lengths that differ by less than 5e-13 of |q| are one.
 
@@ -900,8 +989,10 @@ class Methods:
 
         Returns
         -------
-        q : array, shape (m,)
-        s : array, shape (m,)
+        q : array
+            |q| times the mean diameter, ascending
+        s : array
+            S(q), its average over all q of this length
 
         Raises
         ------
@@ -994,15 +1085,13 @@ class Methods:
         weight : array
             W = f / median |dr_i|: f equals W times the displacement far away
         s_plus : array
-            opening at which, to first order, the next contact forms. Openings have the unit of positions: divide by
-            the diameter to compare packings of different N
+            opening at which, to first order, the next contact forms
         s_star : array
-            opening f / B at which, to second order, the diameters are least; B = sum_k f_k |dr_perp|^2 / r_k
+            opening f / B at which, to second order, the diameters are least
         stability : array
             s_star / s_plus = sigma f / (N c F s_plus), F the mean force, c = sigma B / (N F)
         s_return : array
-            opening 2 s_star at which, to second order, the diameters are back at their start: s* of R. Diaz Hernandez
-            Rojas, PhD thesis, Sapienza 2021; his index is twice stability
+            opening 2 s_star at which, to second order, the diameters are back at their start
 
         Raises
         ------
@@ -1024,8 +1113,7 @@ class Methods:
         alpha : float, optional
             POWER: > 1, default 2
         prestress : float, optional
-            overlap (HARD: gap) of a contact of mean force over mean diameter, in [0, 1): the block of a contact is k
-            n n^T - prestress f <sigma> / ((alpha-1) r) (1 - n n^T); default 0
+            overlap (HARD: gap) at the mean force over mean diameter, in [0, 1), default 0
         moments : int, optional
             Chebyshev moments, 8..1e6, default 512: resolution in omega about 1.6 omega_max / moments
         vectors : int, optional
@@ -1093,8 +1181,7 @@ class Methods:
         alpha : float, optional
             POWER: > 1, default 2
         prestress : float, optional
-            overlap (HARD: gap) of a contact of mean force over mean diameter, in [0, 1): the block of a contact is k
-            n n^T - prestress f <sigma> / ((alpha-1) r) (1 - n n^T); default 0
+            overlap (HARD: gap) at the mean force over mean diameter, in [0, 1), default 0
 
         Returns
         -------
@@ -1117,8 +1204,7 @@ class Methods:
         alpha : float, optional
             POWER: > 1, default 2
         prestress : float, optional
-            overlap (HARD: gap) of a contact of mean force over mean diameter, in [0, 1): the block of a contact is k
-            n n^T - prestress f <sigma> / ((alpha-1) r) (1 - n n^T); default 0
+            overlap (HARD: gap) at the mean force over mean diameter, in [0, 1), default 0
         progress : bool or callable, optional
             True: a line that changes. A callable gets a Progress; a true answer stops the call.
 
@@ -1146,8 +1232,7 @@ class Methods:
         alpha : float, optional
             POWER: > 1, default 2
         prestress : float, optional
-            overlap (HARD: gap) of a contact of mean force over mean diameter, in [0, 1): the block of a contact is k
-            n n^T - prestress f <sigma> / ((alpha-1) r) (1 - n n^T); default 0
+            overlap (HARD: gap) at the mean force over mean diameter, in [0, 1), default 0
         progress : bool or callable, optional
             True: a line that changes. A callable gets a Progress; a true answer stops the call.
 

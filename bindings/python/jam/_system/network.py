@@ -6,9 +6,9 @@ from typing import Any
 import numpy as np
 
 from .. import raw
-from .._api.arrays import Array, unknown_array
+from .._api.arrays import Array, as_rows, unknown_array
 from .._api.calls import freeze, new_report, not_cancelled
-from .._api.generated import CheckReport, CrunchReport, HistoryColumn, ModesWhich, RigidityReport, StatusCode
+from .._api.generated import CheckReport, CrunchReport, ModeColumn, ModesWhich, RigidityReport, StatusCode
 from .._api.options import as_enum, option_struct
 from .._api.results import Contacts, Modes
 from .._api.tuples import FlexResult, RefinedPositionsResult, StressStatesResult
@@ -29,11 +29,7 @@ class Network(Base):
     @property
     def history(self) -> Array:
         """Steps of the last crunch as a structured array: one field for each HistoryColumn, in lower case."""
-        columns = [self._ask("crunch_history", c) for c in HistoryColumn]
-        rows = np.empty(len(columns[0]), [(c.name.lower(), "f8") for c in HistoryColumn])
-        for c, values in zip(HistoryColumn, columns):
-            rows[c.name.lower()] = values
-        return rows
+        return as_rows(self._ask("crunch_history"))
 
     @property
     def contacts(self) -> Contacts:
@@ -147,12 +143,12 @@ class Network(Base):
             if as_enum(which, "ModesWhich") != ModesWhich.ALL
             else self.dim * len(spheres)
         )
-        values, vectors = unknown_array(m), unknown_array((m, len(spheres), self.dim))
-        participation = unknown_array(m)
+        table, vectors = unknown_array((m, len(ModeColumn))), unknown_array((m, len(spheres), self.dim))
         with self._reporting(progress):
-            status, m = raw.jam_modes(handle, h, o, values, vectors.reshape(-1), participation)
+            status, m = raw.jam_modes(handle, h, o, table.reshape(-1), vectors.reshape(-1))
             self._note(not_cancelled(status))
-        return Modes(values[:m], vectors[:m], participation[:m], spheres, self.status)
+        values, participation = np.ascontiguousarray(table[:m].T)
+        return Modes(values, vectors[:m], participation, spheres, self.status)
 
     def pair_correlation(
         self, r_max: float = 4.0, bins: int = 200, *, kind: Any = None, a: int = -1, b: int = -1
@@ -179,7 +175,7 @@ class Network(Base):
         >>> jam.System.radii(2.0, 40)[:2]
         array([0.025, 0.075])
         """
-        found: Array = self.call("pair_correlation", kind, a, b, r_max, bins)
+        found: Array = self.call("pair_correlation", kind, a=a, b=b, r_max=r_max, bins=bins)
         return found
 
     @staticmethod

@@ -5,10 +5,8 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any, Callable, Iterator
 
-import numpy as np
-
 from .. import errors
-from .._api.arrays import Array
+from .._api.arrays import Array, as_rows
 from .._api.tuples import ObservedCorrelationResult, ObservedGapsResult, ObservedPairsResult, ObservedSpheresResult
 from .handle import Base
 
@@ -47,11 +45,7 @@ class Observed:
     @property
     def series(self) -> Array:
         """Structured array with fields time, collisions (per particle), fraction, pressure, error (of the pressure), msd."""
-        columns = self._system._ask("observed_series")
-        rows = np.empty(len(columns.time), [(name, "f8") for name in columns._fields])
-        for name, values in zip(columns._fields, columns):
-            rows[name] = values
-        return rows
+        return as_rows(self._system._ask("observed_series"))
 
     @property
     def spheres(self) -> ObservedSpheresResult:
@@ -67,7 +61,7 @@ class Observed:
 
     @property
     def gaps(self) -> ObservedGapsResult:
-        """edge (bins + 1,), density (bins,), error (bins,)."""
+        """low, high, density, error of each bin, (bins,)."""
         found: ObservedGapsResult = self._system._ask("observed_gaps")
         return found
 

@@ -180,15 +180,19 @@ def take_runs(system: Any) -> Runs:
     m, n, d = report.instants, system.n, system.dim
     sums: dict[str, list[Array]] = {name: [] for name in _SUMS}
     counts: list[int] = []
+    measured: list[Any] = []
     for block in range(report.blocks):
-        one = system._ask("isoconf_sums", block)
-        counts.append(one.runs)
-        for name in _SUMS:
-            sums[name].append(getattr(one, name))
+        found = system._ask("isoconf_series", block)
+        counts.append(int(found.runs[0]))
+        measured.append(found)
+        for one in (system._ask("isoconf_displacements", block), system._ask("isoconf_distances", block)):
+            for name in one._fields:
+                sums[name].append(getattr(one, name))
     shape = {name: (0, m, n, d) if name in ("displacement", "square") else (0, m, n) for name in _SUMS}
     series = {
-        c.name.lower(): np.array([system._ask("isoconf_series", b, c) for b in range(report.blocks)]).reshape(-1, m)
+        c.name.lower(): np.array([getattr(one, c.name.lower()) for one in measured]).reshape(-1, m)
         for c in IsoconfColumn
+        if c != IsoconfColumn.RUNS
     }
     filled: dict[str, Any] = {name: np.array(v) if v else np.empty(shape[name]) for name, v in sums.items()}
     return Runs(

@@ -8,10 +8,10 @@ from typing import Any, Callable, Iterable, Mapping, Sequence
 import numpy as np
 
 from .. import raw
-from .._api.arrays import Array
+from .._api.arrays import Array, as_rows
 from .._api.calls import freeze, new_report
 from .._api.documented import takes
-from .._api.generated import CrunchReport, DecompressReport, MdReport, RelaxReport, SoftColumn, StatusCode, StopReason
+from .._api.generated import CrunchReport, DecompressReport, MdReport, RelaxReport, StatusCode, StopReason
 from .._api.options import as_enum, option_struct, spelled_out
 from .._api.size_laws import density_of
 from .observe import Observing, Step
@@ -249,11 +249,7 @@ class Verbs(Observing):
     @property
     def soft_history(self) -> Array:
         """Minima of the last decompression as a structured array: one field for each SoftColumn, in lower case."""
-        columns = [self._ask("decompress_history", c) for c in SoftColumn]
-        rows = np.empty(len(columns[0]), [(c.name.lower(), "f8") for c in SoftColumn])
-        for c, values in zip(SoftColumn, columns):
-            rows[c.name.lower()] = values
-        return rows
+        return as_rows(self._ask("decompress_history"))
 
     def cancel(self) -> None:
         """Stops the call that runs on this system in another thread. If none runs, it stops the next call."""

@@ -2545,6 +2545,15 @@ module jam
       integer(c_size_t), intent(out), optional :: rows
       integer(c_int32_t) :: status
     end function c_jam_contact_dots
+    function c_jam_fabric_tensor(sys, out, out_len, needed) &
+        bind(c, name="jam_fabric_tensor") result(status)
+      import
+      type(c_ptr), value :: sys
+      type(c_ptr), value :: out
+      integer(c_size_t), value :: out_len
+      integer(c_size_t), intent(out), optional :: needed
+      integer(c_int32_t) :: status
+    end function c_jam_fabric_tensor
     function c_jam_local_values(sys, quantity, population, out, out_len, needed) &
         bind(c, name="jam_local_values") result(status)
       import
@@ -2928,6 +2937,7 @@ module jam
   private :: c_jam_contact_classes
   private :: c_jam_sphere_structure
   private :: c_jam_contact_dots
+  private :: c_jam_fabric_tensor
   private :: c_jam_local_values
   private :: c_jam_histogram
   private :: c_jam_pair_correlation
@@ -5249,6 +5259,34 @@ contains
     end if
     status = c_jam_contact_dots(sys, weighted, at_dot, count_dot, at_sphere, count_sphere, rows)
   end function l_jam_contact_dots
+
+  ! Fabric tensor F_ab = <n_a n_b>, the mean over all contacts: symmetric, of trace 1; delta_ab / d when the contacts
+  ! have no preferred direction. Status: JAM_NOT_JAMMED (no contacts: NaN).
+  ! Shapes: out (d, d).
+  ! Errors: JAM_E_STATE.
+  function jam_fabric_tensor(sys, out, out_len, needed) result(status)
+    type(c_ptr), intent(in) :: sys
+    real(c_double), intent(inout), target, contiguous, optional :: out(..)
+    integer(c_size_t), intent(in), optional :: out_len
+    integer(c_size_t), intent(out), optional :: needed
+    integer(c_int32_t) :: status
+    type(c_ptr) :: at_out
+    integer(c_size_t) :: count_out
+    integer(c_size_t) :: n_of_c, d_of_c
+    call sizes_of(sys, n_of_c, d_of_c)
+    at_out = c_null_ptr
+    count_out = 0
+    if (present(out)) then
+      at_out = c_loc(out)
+      count_out = size(out, kind=c_size_t)
+    end if
+    if (present(out_len)) count_out = out_len
+    if (present(out)) then
+      status = checked('out', shape(out, kind=c_size_t), d_of_c, count_out)
+      if (status /= JAM_OK) return
+    end if
+    status = c_jam_fabric_tensor(sys, at_out, count_out, needed)
+  end function jam_fabric_tensor
 
   ! Values of a quantity in a population, in the order of contacts, spheres or jam_contact_dots.
   ! Shapes: out (values).

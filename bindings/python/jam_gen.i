@@ -726,6 +726,10 @@ Errors: JAM_E_STATE."
 %feature("docstring") jam_contact_dots "n_ij . n_ik (f_ij f_ik times it when weighted) of every pair of contacts of a sphere, and that sphere; *rows = pairs.
 Shapes: dot (pairs), sphere (pairs).
 Errors: JAM_E_STATE."
+%feature("docstring") jam_fabric_tensor "Fabric tensor F_ab = <n_a n_b>, the mean over all contacts: symmetric, of trace 1; delta_ab / d when the contacts
+have no preferred direction. Status: JAM_NOT_JAMMED (no contacts: NaN).
+Shapes: out (d, d).
+Errors: JAM_E_STATE."
 %feature("docstring") jam_local_values "Values of a quantity in a population, in the order of contacts, spheres or jam_contact_dots.
 Shapes: out (values).
 Errors: JAM_E_STATE."

@@ -1442,6 +1442,9 @@ JAM_API jam_status jam_sphere_structure(const jam_system *sys, int32_t weighted,
  * @shape dot (pairs), sphere (pairs) @bool weighted @errors STATE */
 JAM_API jam_status jam_contact_dots(const jam_system *sys, int32_t weighted, double *dot, size_t dot_len,
                                     int32_t *sphere, size_t sphere_len, size_t *rows);
+/* Fabric tensor F_ab = <n_a n_b>, the mean over all contacts: symmetric, of trace 1; delta_ab / d when the contacts
+ * have no preferred direction. Status: JAM_NOT_JAMMED (no contacts: NaN). @shape out (d, d) @errors STATE */
+JAM_API jam_status jam_fabric_tensor(const jam_system *sys, double *out, size_t out_len, size_t *needed);
 /* Quantity of which jam_local_values and jam_histogram take the values. */
 typedef enum jam_local_quantity {
   JAM_LOCAL_FORCE = 0,        /* contacts: f over its mean in the population */

@@ -56,6 +56,16 @@ std::vector<double> sphere_values(const Packing &p, const ContactNetwork &net, i
 
 }  // namespace
 
+std::vector<double> fabric_tensor(const ContactNetwork &network, int dim) {
+  const size_t d = static_cast<size_t>(dim);
+  std::vector<double> out(d * d, network.size() ? 0.0 : NAN);
+  for (size_t k = 0; k < network.size(); ++k)
+    for (size_t a = 0; a < d; ++a)
+      for (size_t b = 0; b < d; ++b)
+        out[d * a + b] += network.vector[d * k + a] * network.vector[d * k + b] / static_cast<double>(network.size());
+  return out;
+}
+
 std::vector<double> local_values(const Packing &p, const ContactNetwork &net, int32_t quantity, int32_t which) {
   check_enum(quantity, JAM_LOCAL_FORCE, JAM_LOCAL_COORDINATION, "quantity", "jam_local_quantity");
   check_enum(which, JAM_POPULATION_ALL, JAM_POPULATION_MEDIAN, "population", "jam_population");

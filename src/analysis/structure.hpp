@@ -35,6 +35,9 @@ struct ContactDots {
 };
 ContactDots contact_dots(const Packing &p, const ContactNetwork &network, bool weighted);
 
+// Mean of n_a n_b over the contacts, (d, d); NaN without contacts.
+std::vector<double> fabric_tensor(const ContactNetwork &network, int dim);
+
 // Values of a jam_local_quantity that belong to a jam_population; JAM_E_ARGUMENT for an unknown combination.
 std::vector<double> local_values(const Packing &p, const ContactNetwork &network, int32_t quantity, int32_t which);
 // Their density in equal bins of [low, high): its integral is the share of values there.

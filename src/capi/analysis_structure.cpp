@@ -78,6 +78,15 @@ jam_status jam_contact_dots(const jam_system *sys, int32_t weighted, double *dot
   });
 }
 
+jam_status jam_fabric_tensor(const jam_system *sys, double *out, size_t out_len, size_t *needed) {
+  return guard_const(sys, [&]() -> jam_status {
+    need_network(sys);
+    const std::vector<double> fabric = fabric_tensor(sys->contacts, sys->packing.dim);
+    const jam_status status = give_array(fabric.data(), fabric.size(), out, out_len, needed);
+    return status == JAM_OK && empty_network(sys) ? JAM_NOT_JAMMED : status;
+  });
+}
+
 jam_status jam_local_values(const jam_system *sys, int32_t quantity, int32_t population, double *out, size_t out_len,
                             size_t *needed) {
   return guard_const(sys, [&]() -> jam_status {

@@ -35,6 +35,7 @@ export cell_volume,
        contact_classes,
        sphere_structure,
        contact_dots,
+       fabric_tensor,
        local_values,
        structure_factor,
        bond_order,
@@ -547,6 +548,19 @@ end
 """
 function contact_dots(s::System, weighted)
     return call(s, :jam_contact_dots, (weighted, ); progress = nothing)
+end
+
+"""
+    fabric_tensor(s)
+
+Fabric tensor `F_ab` = <`n_a` `n_b`>, the mean over all contacts: symmetric, of trace 1; `delta_ab` / d when the
+contacts have no preferred direction. Status: `:not_jammed` (no contacts: NaN).
+
+- `out`: array `(d, d)`
+- errors: `:state`
+"""
+function fabric_tensor(s::System)
+    return call(s, :jam_fabric_tensor, (); progress = nothing)
 end
 
 """

@@ -2305,6 +2305,18 @@ function jam_contact_dots(sys, weighted, dot, dot_len, sphere, sphere_len, rows)
 end
 
 """
+    jam_fabric_tensor(sys, out, out_len, needed)
+
+Fabric tensor `F_ab` = <`n_a` `n_b`>, the mean over all contacts: symmetric, of trace 1; `delta_ab` / d when the contacts
+have no preferred direction. Status: `JAM_NOT_JAMMED` (no contacts: NaN).
+Shapes: out (d, d).
+Errors: `JAM_E_STATE`.
+"""
+function jam_fabric_tensor(sys, out, out_len, needed)
+    return ccall((:jam_fabric_tensor, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(out), out_len, _ref(Csize_t, needed))
+end
+
+"""
     jam_local_values(sys, quantity, population, out, out_len, needed)
 
 Values of a quantity in a population, in the order of contacts, spheres or `jam_contact_dots`.

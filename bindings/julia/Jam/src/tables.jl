@@ -470,6 +470,11 @@ const CALLS = Dict{Symbol, Call}(
         Argument(:sphere_len, :len, Csize_t, String[], :none, false),
         Argument(:rows, :scalar_out, Csize_t, String[], :none, false),
     ]),
+    :jam_fabric_tensor => Call(jam_fabric_tensor, true, true, [
+        Argument(:out, :array_out, Cdouble, ["d", "d"], :none, false),
+        Argument(:out_len, :len, Csize_t, String[], :none, false),
+        Argument(:needed, :scalar_out, Csize_t, String[], :none, false),
+    ]),
     :jam_local_values => Call(jam_local_values, true, true, [
         Argument(:quantity, :scalar, Int32, String[], :local_quantity, false),
         Argument(:population, :scalar, Int32, String[], :population, false),

@@ -934,6 +934,23 @@ class Methods:
         answer: ContactDotsResult = self.call('contact_dots', weighted)
         return answer
 
+    def fabric_tensor(self) -> Array:
+        """Fabric tensor F_ab = <n_a n_b>, the mean over all contacts: symmetric, of trace 1; delta_ab / d when the
+        contacts have no preferred direction.
+
+        Status: 'not_jammed' (no contacts: NaN).
+
+        Returns
+        -------
+        array, shape (d, d)
+
+        Raises
+        ------
+        StateError
+        """
+        answer: Array = self.call('fabric_tensor')
+        return answer
+
     def local_values(self, quantity: int | str, population: int | str) -> Array:
         """Values of a quantity in a population, in the order of contacts, spheres or contact_dots().
 

@@ -5,8 +5,6 @@
 #include <cstdarg>
 #include <cstdio>
 #include <limits>
-#include <map>
-#include <utility>
 
 #include "core/error.hpp"
 
@@ -126,12 +124,7 @@ void compare_contacts(const ContactNetwork *na, const ContactNetwork *nb, Compar
     found.overlap = found.overlap_a = std::numeric_limits<double>::quiet_NaN();
     return;
   }
-  std::map<std::pair<int32_t, int32_t>, int> left;
-  for (size_t k = 0; k < na->size(); ++k) ++left[{na->pairs.i[k], na->pairs.j[k]}];
-  for (size_t k = 0; k < nb->size(); ++k) {
-    auto it = left.find({nb->pairs.i[k], nb->pairs.j[k]});
-    if (it != left.end() && it->second > 0) --it->second, ++found.common_contacts;
-  }
+  found.common_contacts = static_cast<int64_t>(common_contacts(*na, *nb).size());
   const int64_t all = found.contacts_a + found.contacts_b - found.common_contacts;
   const auto common = static_cast<double>(found.common_contacts);
   found.overlap = all > 0 ? common / static_cast<double>(all) : 1.0;

@@ -35,9 +35,7 @@ PairList pairs_without_contacts(const Packing &p, const ContactNetwork *net, dou
     const int32_t i = all.i[k], j = all.j[k];
     if (net && stable_only && (net->coordination[i] == 0 || net->coordination[j] == 0)) continue;
     if (contacts && contacts->holds(all, k)) continue;
-    out.i.push_back(i);
-    out.j.push_back(j);
-    out.offset.insert(out.offset.end(), &all.offset[k * p.dim], &all.offset[k * p.dim] + p.dim);
+    out.append(all, k);
   }
   return out;
 }

@@ -1,13 +1,8 @@
 // Header section "soft spheres": jam_relax, jam_decompress.
-#include <algorithm>
-#include <cmath>
-#include <map>
 #include <utility>
 
 #include "capi/table.hpp"
-#include "core/checks.hpp"
 #include "crunch/crunch.hpp"
-#include "network/certificate.hpp"
 #include "soft/decompression.hpp"
 
 using namespace jam;
@@ -19,17 +14,9 @@ void need_soft(const jam_system *sys) {
     fail(JAM_E_STATE, "the system does not allow overlaps: make it with overlap = JAM_OVERLAP_ALLOW");
 }
 
-// What is known of a soft packing.
 Results soft_results(SoftResult &soft, double seconds) {
-  const double nan = std::nan("");
   Results found;
-  jam_crunch_report &r = found.report;
-  certify(soft.packing, soft.contacts, r);
-  r.jammed = 0;
-  r.stop_reason = JAM_STOP_NONE;
-  r.gain = r.max_step = r.gamma_residual = r.duality_gap = nan;
-  r.seconds = seconds;
-  r.status = soft.status;
+  found.report = soft_certificate(soft, seconds);
   found.contacts = std::move(soft.contacts);
   found.has_report = true;
   return found;
@@ -41,40 +28,14 @@ Answer why_no_minimum(jam_status status, int32_t stop_reason) {
   return stopped(status, stop_reason);
 }
 
-// Contacts that both networks have, and the largest difference of their forces where all are the same.
-SoftVerdict compare(const ContactNetwork &soft, const CrunchResult &hard) {
-  SoftVerdict v;
-  v.packing_fraction = hard.report.packing_fraction;
-  v.force_difference = std::nan("");
-  std::multimap<std::pair<int32_t, int32_t>, double> left;
-  for (size_t k = 0; k < soft.size(); ++k)
-    left.emplace(std::make_pair(soft.pairs.i[k], soft.pairs.j[k]), soft.force[k]);
-  v.common_contacts = 0;
-  double most = 0.0;
-  for (size_t k = 0; k < hard.contacts.size(); ++k) {
-    const auto at = left.find({hard.contacts.pairs.i[k], hard.contacts.pairs.j[k]});
-    if (at == left.end()) continue;
-    most = std::max(most, std::fabs(at->second - hard.contacts.force[k]));
-    left.erase(at);
-    ++v.common_contacts;
-  }
-  v.same_network = hard.report.jammed == 1 && left.empty() && hard.contacts.size() == soft.size();
-  if (v.same_network) v.force_difference = most;
-  return v;
-}
-
-// Crunch from the largest diameters at which no pair of the soft packing overlaps.
 SoftVerdict judge_by_crunch(const SoftResult &soft, Monitor &monitor, CrunchResult &hard) {
   const double begun = monitor.seconds();
-  Packing p = soft.packing;
-  const double factor = (1.0 - soft.report.max_overlap) * (1.0 - 1e-13);
-  for (double &s : p.diameter) s *= factor;
   jam_crunch_options options = default_crunch_options();
   options.wall_time = monitor.wall_time;
-  hard = crunch(p, options, monitor);
+  hard = crunch(just_below_contact(soft), options, monitor);
   if (hard.status < 0)
     fail(hard.status, "crunch from below: %s", hard.text.empty() ? "out of memory" : hard.text.c_str());
-  SoftVerdict v = compare(soft.contacts, hard);
+  SoftVerdict v = compare_with_jammed(soft.contacts, hard.contacts, hard.report);
   v.seconds = monitor.seconds() - begun;
   return v;
 }

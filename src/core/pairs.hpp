@@ -20,6 +20,13 @@ struct PairList {
     j.clear();
     offset.clear();
   }
+  // Pair k of another list of the same packing.
+  void append(const PairList &from, size_t k) {
+    const size_t dim = from.offset.size() / from.size();
+    i.push_back(from.i[k]);
+    j.push_back(from.j[k]);
+    offset.insert(offset.end(), &from.offset[k * dim], &from.offset[k * dim] + dim);
+  }
 };
 
 // All pairs with |r_ij| < reach + slope * sigma_ij, every image, sorted by (i, j) and then image.

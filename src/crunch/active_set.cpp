@@ -64,9 +64,7 @@ ContactNetwork make_contacts(const Packing &p, const PairList &pairs, const LpSo
   double r[JAM_MAX_DIM], sum = 0.0;
   for (const size_t k : active.rows) {
     const int32_t i = pairs.i[k], j = pairs.j[k];
-    out.pairs.i.push_back(i);
-    out.pairs.j.push_back(j);
-    out.pairs.offset.insert(out.pairs.offset.end(), &pairs.offset[k * d], &pairs.offset[k * d] + d);
+    out.pairs.append(pairs, k);
     const double length = std::sqrt(pair_vector(p, pairs, k, r)), sigma = contact_distance(p, i, j);
     for (int c = 0; c < d; ++c) out.vector.push_back(r[c] / length);
     out.gap.push_back(length / sigma - 1.0);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "core/pair_rule.hpp"
 
@@ -27,6 +28,26 @@ void measure_contacts(const Packing &p, ContactNetwork &net) {
   }
 }
 
+void set_force_scale(const Packing &p, ContactNetwork &net) {
+  double sum = 0.0;
+  for (size_t k = 0; k < net.size(); ++k)  // sigma^2 / r = sigma / (1 + h)
+    sum += net.force[k] * contact_distance(p, net.pairs.i[k], net.pairs.j[k]) / (1.0 + net.gap[k]);
+  net.force_scale = sum > 0.0 ? 1.0 / sum : 0.0;
+}
+
+std::vector<std::pair<size_t, size_t>> common_contacts(const ContactNetwork &a, const ContactNetwork &b) {
+  std::multimap<std::pair<int32_t, int32_t>, size_t> left;
+  for (size_t k = 0; k < a.size(); ++k) left.emplace(std::make_pair(a.pairs.i[k], a.pairs.j[k]), k);
+  std::vector<std::pair<size_t, size_t>> out;
+  for (size_t q = 0; q < b.size(); ++q) {
+    const auto at = left.find({b.pairs.i[q], b.pairs.j[q]});
+    if (at == left.end()) continue;
+    out.emplace_back(at->second, q);
+    left.erase(at);
+  }
+  return out;
+}
+
 int64_t stable_spheres(const std::vector<int32_t> &coordination) {
   return std::count_if(coordination.begin(), coordination.end(), [](int32_t z) { return z > 0; });
 }
@@ -42,8 +63,7 @@ ContactNetwork subset(const ContactNetwork &net, const std::vector<char> &on, in
   for (size_t k = 0; k < on.size(); ++k) {
     if (!on[k]) continue;
     ++out.coordination[net.pairs.i[k]], ++out.coordination[net.pairs.j[k]];
-    out.pairs.i.push_back(net.pairs.i[k]), out.pairs.j.push_back(net.pairs.j[k]);
-    out.pairs.offset.insert(out.pairs.offset.end(), &net.pairs.offset[k * dim], &net.pairs.offset[k * dim] + dim);
+    out.pairs.append(net.pairs, k);
     out.vector.insert(out.vector.end(), &net.vector[k * dim], &net.vector[k * dim] + dim);
     out.gap.push_back(net.gap[k]), out.force.push_back(net.force[k]);
     if (!net.stiffness.empty()) out.stiffness.push_back(net.stiffness[k]), out.prestress.push_back(net.prestress[k]);

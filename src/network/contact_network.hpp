@@ -1,6 +1,7 @@
 // The contact network: contacts between force-carrying spheres, their unit vectors, gaps and forces.
 #pragma once
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "core/packing.hpp"
@@ -22,6 +23,13 @@ struct ContactNetwork {
 
 // Directions and gaps at the positions of p, in extended precision.
 void measure_contacts(const Packing &p, ContactNetwork &net);
+
+// Sets the force scale of forces of mean 1: that of lambda r with lambda = c f / r and sum lambda sigma^2 = 1.
+void set_force_scale(const Packing &p, ContactNetwork &net);
+
+// Contacts k of `a` and q of `b` between the same two spheres, in the order of b. Of several images as many as both
+// have.
+std::vector<std::pair<size_t, size_t>> common_contacts(const ContactNetwork &a, const ContactNetwork &b);
 
 // Spheres with a contact.
 int64_t stable_spheres(const std::vector<int32_t> &coordination);

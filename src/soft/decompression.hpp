@@ -50,6 +50,14 @@ DecompressionResult decompress(const Packing &start, const jam_decompress_option
 
 // ---- parts
 
+// What is known of a soft packing, in the report of a crunch.
+jam_crunch_report soft_certificate(const SoftResult &soft, double seconds);
+// With the largest diameters at which no pair overlaps.
+Packing just_below_contact(const SoftResult &soft);
+// Contacts that both have, and the largest difference of their forces where all are the same. report: of the crunch
+// that made `hard`.
+SoftVerdict compare_with_jammed(const ContactNetwork &soft, const ContactNetwork &hard,
+                                const jam_crunch_report &report);
 // Measures a state at its minimum: report without what was spent, network.
 SoftResult measure(SoftState &state, int32_t minimiser);
 // The state of a start; its search for pairs may be left by Cancelled.

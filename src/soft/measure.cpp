@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/math.hpp"
+#include "network/certificate.hpp"
 #include "soft/decompression.hpp"
 
 namespace jam {
@@ -26,8 +27,7 @@ SoftResult measure(SoftState &state, int32_t minimiser) {
     const double sigma = contacts.distance[q] + contacts.overlap[q], h = contacts.overlap[q] / sigma;
     r.max_overlap = std::max(r.max_overlap, h);
     if (!on[q]) continue;
-    net.pairs.i.push_back(i), net.pairs.j.push_back(j);
-    net.pairs.offset.insert(net.pairs.offset.end(), &state.pairs().offset[k * d], &state.pairs().offset[k * d] + d);
+    net.pairs.append(state.pairs(), k);
     net.vector.insert(net.vector.end(), &contacts.normal[q * d], &contacts.normal[q * d] + d);
     net.gap.push_back(-h);
     net.force.push_back(contacts.force[q]);
@@ -38,14 +38,8 @@ SoftResult measure(SoftState &state, int32_t minimiser) {
     overlap += h;
   }
   const auto count = static_cast<double>(net.size());
-  double scale = 0.0;
-  for (size_t k = 0; k < net.size(); ++k) {
-    const double r2 = net.force[k] / net.prestress[k];  // distance
-    const double sigma = r2 / (1.0 + net.gap[k]);
-    net.force[k] *= count / mean;
-    scale += net.force[k] * sigma * sigma / r2;
-  }
-  net.force_scale = scale > 0.0 ? 1.0 / scale : 0.0;
+  for (double &f : net.force) f *= count / mean;
+  set_force_scale(state.base(), net);
 
   double worst = 0.0;
   for (size_t i = 0; i < state.n(); ++i) {
@@ -69,6 +63,39 @@ SoftResult measure(SoftState &state, int32_t minimiser) {
   r.coordination = r.stable > 0 ? 2.0 * count / static_cast<double>(r.stable) : 0.0;
   r.mean_overlap = r.contacts > 0 ? overlap / count : 0.0;
   return out;
+}
+
+jam_crunch_report soft_certificate(const SoftResult &soft, double seconds) {
+  jam_crunch_report r{};
+  certify(soft.packing, soft.contacts, r);
+  r.jammed = 0;
+  r.stop_reason = JAM_STOP_NONE;
+  r.gain = r.max_step = r.gamma_residual = r.duality_gap = std::nan("");
+  r.seconds = seconds;
+  r.status = soft.status;
+  return r;
+}
+
+Packing just_below_contact(const SoftResult &soft) {
+  Packing p = soft.packing;
+  const double factor = (1.0 - soft.report.max_overlap) * (1.0 - 1e-13);
+  for (double &s : p.diameter) s *= factor;
+  return p;
+}
+
+SoftVerdict compare_with_jammed(const ContactNetwork &soft, const ContactNetwork &hard,
+                                const jam_crunch_report &report) {
+  SoftVerdict v;
+  v.packing_fraction = report.packing_fraction;
+  v.force_difference = std::nan("");
+  const auto common = common_contacts(soft, hard);
+  v.common_contacts = static_cast<int64_t>(common.size());
+  v.same_network = report.jammed == 1 && common.size() == hard.size() && common.size() == soft.size();
+  if (!v.same_network) return v;
+  v.force_difference = 0.0;
+  for (const auto &[k, q] : common)
+    v.force_difference = std::max(v.force_difference, std::fabs(soft.force[k] - hard.force[q]));
+  return v;
 }
 
 }  // namespace jam

@@ -8,8 +8,8 @@ import sys
 import time
 
 import jam
+from jam.advice import STAGES
 
-STAGES = [(1e-2, 500), (3e-3, 1e5)]
 ROWS = (
     dict(gain_tolerance=1e-3, step_tolerance=1.0, polish=0),
     dict(gain_tolerance=1e-6, step_tolerance=1e-2, polish=0),

@@ -5,6 +5,8 @@ import math
 from dataclasses import dataclass
 from typing import Any
 
+from ._api.generated import GROWTH_STAGES
+
 # Made by tests/bench/advise.py --table: (dimension, spheres): (seconds of growth, (seconds of crunch, largest error of
 # phi_J) for each of OPTIONS). One thread.
 MEASURED: dict[tuple[int, int], tuple[float, tuple[tuple[float, float], ...]]] = {
@@ -16,7 +18,7 @@ MEASURED: dict[tuple[int, int], tuple[float, tuple[tuple[float, float], ...]]] =
     (4, 128): (0.33, ((0.019, 4.3e-07), (0.029, 6.2e-08), (0.052, 0.0))),
     (4, 256): (0.76, ((0.059, 8.9e-06), (0.097, 8.6e-06), (0.83, 0.0))),
 }
-STAGES = ((1e-2, 500.0), (3e-3, 1e5))
+STAGES = (GROWTH_STAGES[0], (GROWTH_STAGES[1][0], 1e5))  # the library's, to a lower pressure
 OPTIONS: tuple[dict[str, float], ...] = (
     {"gain_tolerance": 1e-3, "step_tolerance": 1.0, "polish": 0},
     {"gain_tolerance": 1e-6, "step_tolerance": 1e-2, "polish": 0},

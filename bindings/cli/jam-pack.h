@@ -64,16 +64,19 @@ int end_progress(terminal *t, const options *o);
 
 /* options.c: returns 0 to go on, or 1 + the exit code when there is nothing left to do. */
 int parse_options(int argc, char **argv, const jam_pack_host *host, options *o);
-/* What stands behind the last dot of a name, without .gz; at most 7 letters of it. */
-void ending_of(const char *path, char ending[8]);
 /* Calls f for every file that will be written, until it returns something else than 0. */
 int each_output(const options *o, int (*f)(const char *path));
 
 /* settle.c: 0, or -1 after a message on stderr. What contradicts itself, and what follows from the rest. */
 int settle(options *o);
+int is_named(const options *o, const char *name); /* whether the command line has this option, without dashes */
+
+/* formats.c: what stands behind the last dot of a name, without .gz; at most 7 letters of it. */
+void ending_of(const char *path, char ending[8]);
 int is_host_format(const options *o, const char *path); /* whether the host reads and writes such a file */
-int is_named(const options *o, const char *name);       /* whether the command line has this option, without dashes */
-/* Whether the formats asked for can hold this packing, and a crunch can take it: said before the work. */
+/* Each returns 0, or -1 after a message on stderr. Whether the library knows the formats of the names; whether the
+ * formats can hold this packing, and a crunch can take it. Both are said before the work. */
+int settle_formats(const options *o);
 int check_formats(const options *o, const jam_system *sys);
 
 /* start.c: start returns 0 or an exit code after a message on stderr. */
@@ -110,6 +113,10 @@ int close_output(output *out);
 /* pack.c: Ctrl-C and SIGTERM cancel the calls on a system, also where they came before; NULL: on none. */
 void cancel_on_signal(jam_system *sys);
 int32_t stop_if_asked(const jam_progress *progress, void *user); /* a progress callback */
+
+/* write.c: all that the options ask for, and the summary; 0, or else after messages on stderr. deadline: on the clock
+ * of seconds_now, of tables that take long. */
+int write_all(jam_system *sys, const options *o, double deadline, outcome *result);
 
 /* check.c: `jam-pack check FILE`; the exit code. */
 int check_file(int argc, char **argv, const jam_pack_host *host);

@@ -52,6 +52,9 @@ typedef struct options {
   given given; /* what has a form of its own */
 } options;
 
+/* Packing fraction of a random start by default. */
+#define START_FRACTION(dim) ldexp(0.2, (dim) > 3 ? 3 - (int)(dim) : 0)
+
 #ifdef JAM_PACK_OPTIONS_TABLE
 enum {
   TAKE_INTEGER,

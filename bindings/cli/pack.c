@@ -29,12 +29,6 @@ int32_t stop_if_asked(const jam_progress *progress, void *user) {
   return interrupted;
 }
 
-/* The same where --wall-time is over too. */
-static int32_t stop_late(const jam_progress *progress, void *user) {
-  (void)progress;
-  return interrupted || seconds_now() > *(const double *)user;
-}
-
 /* ---- the parts of the job; each returns the library's status */
 
 static void add_md(outcome *result, const jam_md_report *md) {
@@ -193,73 +187,6 @@ static jam_status work(jam_system *sys, const options *o, terminal *t, outcome *
   strcpy(name, "crunch");
   return run_crunch(sys, o, LEFT, result);
 #undef LEFT
-}
-
-/* Of a crunch that ended before its contacts were known there is no network to write. */
-static int knows_contacts(const options *o, const outcome *result) {
-  if (!result->has_crunch) return 0;
-  if (result->crunch.rattlers >= 0) return 1;
-  if (o->contacts || o->proof || o->gaps || o->structure || o->spectrum)
-    complain("the crunch stopped before its contacts were known: files of the contact network are not written");
-  return 0;
-}
-
-/* By the ending of the name; a table where there is none. */
-static int write_contacts(const jam_system *sys, const char *path) {
-  char ending[8];
-  ending_of(path, ending);
-  if (!strcmp(path, "-")) path = "/dev/stdout";
-  return has_failed(jam_write_contacts(sys, path, *ending ? JAM_CONTACTS_AUTO : JAM_CONTACTS_CSV));
-}
-
-/* PREFIX.vtp, and PREFIX-forces.vtp where there is a network. */
-static int write_vtk(const jam_system *sys, const char *prefix, int network) {
-  char *const path = malloc(strlen(prefix) + sizeof "-forces.vtp");
-  int bad;
-  if (!path) {
-    complain("cannot write %s.vtp: out of memory", prefix);
-    return 1;
-  }
-  sprintf(path, "%s.vtp", prefix);
-  bad = has_failed(jam_write(sys, path, JAM_FORMAT_VTP));
-  sprintf(path, "%s-forces.vtp", prefix);
-  if (network) bad |= has_failed(jam_write_contacts(sys, path, JAM_CONTACTS_VTP));
-  free(path);
-  return bad;
-}
-
-/* What the host writes and draws, from a copy. */
-static int finish_by_host(const jam_system *sys, const options *o) {
-  const jam_pack_host *const host = o->given.host;
-  const char *const output = is_host_format(o, o->output) ? o->output : NULL;
-  jam_system *copy = NULL;
-  if (!host || !host->finish || (!output && !o->plot)) return 0;
-  if (jam_copy(sys, &copy) != JAM_OK) return has_failed(JAM_E_MEMORY);
-  return host->finish(copy, output, o->plot, host->user) != 0;
-}
-
-static int write_all(jam_system *sys, const options *o, double deadline, outcome *result) {
-  const int known = knows_contacts(o, result);
-  int bad = 0, network = 0;
-  result->info.struct_size = sizeof result->info;
-  jam_get_info(sys, &result->info);
-  result->notes = jam_notes(sys);
-  if (o->output && !is_host_format(o, o->output)) bad |= has_failed(jam_write(sys, o->output, JAM_FORMAT_AUTO));
-  if (o->contacts && known) bad |= write_contacts(sys, o->contacts);
-  if (o->proof && known) bad |= has_failed(jam_write_proof(sys, o->proof, NULL, 0));
-  if (o->page) bad |= has_failed(jam_write_page(sys, o->page, "", 0, "", NULL, 0));
-  cancel_on_signal(sys); /* a large spectrum takes long */
-  jam_set_progress(sys, stop_late, &deadline);
-  if (known) network = write_network(sys, o, &result->info);
-  jam_set_progress(sys, NULL, NULL);
-  cancel_on_signal(NULL);
-  bad |= network < 0;
-  result->cut_short = network > 0;
-  if (o->vtk) bad |= write_vtk(sys, o->vtk, known);
-  bad |= finish_by_host(sys, o);
-  if (o->report) bad |= write_report(o, result, o->report) != 0;
-  if (!o->quiet && !(o->report && !strcmp(o->report, "-"))) print_summary(o, result);
-  return bad || fflush(stdout);
 }
 
 /* Signals stop the work; afterwards those who had them get them back. */

@@ -6,7 +6,7 @@
 
 /* A start below the density that it is to grow to. */
 static double start_fraction(const options *o) {
-  const double usual = ldexp(0.2, o->dim > 3 ? 3 - (int)o->dim : 0);
+  const double usual = START_FRACTION(o->dim);
   return o->phi0 > 0 || !(o->given.density > 0 && o->given.density < usual) ? o->phi0 : o->given.density;
 }
 

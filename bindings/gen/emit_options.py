@@ -2,7 +2,7 @@
 import re
 import textwrap
 
-from options import ABOUT, EXAMPLE, NOTES, STAGES, options, usage
+from options import ABOUT, EXAMPLE, NOTES, STAGES, START, options, usage
 
 MADE = "made by bindings/gen/generate.py from bindings/gen/options.py; do not edit"
 OWN_FORM = ("stage", "sizes", "cell")  # kinds whose values have a form of their own
@@ -82,6 +82,9 @@ typedef struct options {{
 {fields}
   given given; /* what has a form of its own */
 }} options;
+
+/* Packing fraction of a random start by default. */
+#define START_FRACTION(dim) ldexp({START[0]!r}, (dim) > {START[1]} ? {START[1]} - (int)(dim) : 0)
 
 #ifdef JAM_PACK_OPTIONS_TABLE
 enum {{

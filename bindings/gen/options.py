@@ -59,7 +59,16 @@ def growth_stages():
     return ((first_rate, first_pressure), (last_rate, float(last[0])))
 
 
-STAGES = growth_stages()
+def start_fraction():
+    """(packing fraction of a random start, dimension above which it is halved each time), from the library's source."""
+    text = (Path(__file__).resolve().parents[2] / "src/core/tuning.hpp").read_text()
+    found = re.findall(r"halved for each dimension above (\d)\nconstexpr double start_fraction_3d = ([\d.]+);", text)
+    if len(found) != 1:
+        raise ValueError("src/core/tuning.hpp names the packing fraction of a start no more, or twice")
+    return float(found[0][1]), int(found[0][0])
+
+
+STAGES, START = growth_stages(), start_fraction()
 
 NO_CRUNCH = ("no-crunch", "packing-fraction", "porosity")  # what leaves the crunch out
 

@@ -7,6 +7,7 @@
 #include "core/error.hpp"
 #include "core/limits.hpp"
 #include "core/math.hpp"
+#include "core/tuning.hpp"
 
 namespace jam {
 namespace {
@@ -36,13 +37,12 @@ class Reduction {
   }
 
   void run() {
-    constexpr double lovasz = 0.7;  // no crystal meets it exactly: rounding must not decide
-    int64_t left = 100000;          // far above what 8 vectors need; rounding must not turn in circles
+    int64_t left = ReductionTuning::most_steps;
     for (int k = 1; k < d_ && --left > 0;) {
       for (int j = k - 1; j >= 0; --j) shorten(k, j);
       const Orthogonal g(d_, b_);
       const double mu = g.mu[k * d_ + k - 1];
-      if (g.length2[k] >= (lovasz - mu * mu) * g.length2[k - 1]) {
+      if (g.length2[k] >= (ReductionTuning::lovasz - mu * mu) * g.length2[k - 1]) {
         ++k;
         continue;
       }

@@ -18,6 +18,12 @@ double default_packing_fraction(int dim);
 Packing make_packing(const jam_create_options &o, const double *positions, size_t positions_len,
                      const double *diameters, size_t diameters_len, const double *cell = nullptr,
                      Notes *notes = nullptr);
+// An upper bound on the factor by which diameters must shrink to fit at any positions; 1 when they may fit already.
+// Without this test a search for the worst pair would list images without end. Conditions: no sphere is wider than the
+// box; no contact distance exceeds sqrt(d)/2 box, the largest distance of nearest images; the volume of the hard cores,
+// which are (1 + Delta) sigma when Delta < 0, is at most that of the box. Mari-Kurchan spheres share space: there is no
+// such bound on their volume.
+double fitting_factor(const Packing &p);
 // Throws JAM_E_OVERLAP naming the worst pair, or allows overlaps, as `policy` says.
 void settle_overlaps(Packing &p, int32_t policy);
 // JAM_OVERLAP_SHRINK: multiplies all diameters by the factor that brings the worst pair to contact, and notes it.

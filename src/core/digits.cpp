@@ -6,28 +6,24 @@
 #include <limits>
 
 #include "core/math.hpp"
+#include "core/tuning.hpp"
 
 namespace jam {
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
-// Rounding of a coordinate may be this part of a step: then fewer than 1 of 100 other numbers pass as multiples.
-constexpr double most_noise = 0.005;
-constexpr size_t sample = 64, large_sample = 1024;
+using Tuning = DigitsTuning;
 // Which numbers show that they are multiples of a step: at least `count` of them and more than the part `part`, each
-// with an integer of at least `least` times a power of the base. A number of three significant digits, 0.25 or 1.4 say,
-// may have been chosen; one of four was rounded.
+// with an integer of at least `least` times a power of the base.
 struct Rule {
   double least, part;
   size_t count, sample;
 };
-constexpr Rule most_coordinates{0.0, 0.5, 1, sample}, some_coordinates{1000.0, 0.05, 8, large_sample},
-    most_lengths{1000.0, 0.5, 1, sample};
+constexpr Rule most_coordinates{0.0, Tuning::most_part, Tuning::most_count, Tuning::sample},
+    some_coordinates{Tuning::rounded, Tuning::some_part, Tuning::some_count, Tuning::large_sample},
+    most_lengths{Tuning::rounded, Tuning::most_part, Tuning::most_count, Tuning::sample};
 // Doubles above it are integers whatever they came from.
 constexpr double most_digits = 0x1p53;
-// One of ten multiples of a step, or one of two, is a multiple of the next coarser one. The step is the coarsest that
-// has more than this part of the multiples of the next finer one.
-constexpr double kept = 0.75;
 
 // How many of every stride-th number are multiples as the rule asks, and of how many; zeros, and numbers that may have
 // been chosen, are left out.
@@ -61,11 +57,11 @@ double step_of(const std::vector<double> &x, double largest, double widest, int 
   };
   for (double k = std::ceil(-math::log(widest) / math::log(static_cast<double>(base)));; ++k) {
     const double scale = math::pow(static_cast<double>(base), k), finer = scale * base;
-    if (!(noise(scale) <= most_noise)) return 0.0;  // NaN where the scale overflows
+    if (!(noise(scale) <= Tuning::most_noise)) return 0.0;  // NaN where the scale overflows
     const Share s = share(scale, stride);
-    if (!shows(s) || (rule.sample == sample && stride > 1 && !shows(share(scale, 1)))) continue;
-    if (!(noise(finer) <= most_noise) ||
-        static_cast<double>(s.fit) > kept * static_cast<double>(share(finer, stride).fit))
+    if (!shows(s) || (rule.sample == Tuning::sample && stride > 1 && !shows(share(scale, 1)))) continue;
+    if (!(noise(finer) <= Tuning::most_noise) ||
+        static_cast<double>(s.fit) > Tuning::kept * static_cast<double>(share(finer, stride).fit))
       return 1.0 / scale;
   }
 }

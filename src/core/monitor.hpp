@@ -10,6 +10,7 @@
 
 #include "core/floating_point.hpp"
 #include "core/progress.hpp"
+#include "core/tuning.hpp"
 #include "jam/jam.h"
 
 namespace jam {
@@ -61,12 +62,12 @@ class Monitor {
 
   // The fractions that are reported from here on are of this part of the call.
   void span(double first, double last) { first_ = first, last_part_ = last; }
-  // Returns true when the call must stop. Tells the callback at most every 0.05 s, or at once if forced.
+  // Returns true when the call must stop. Calls the callback at most every shortest_interval, or at once if forced.
   bool report(jam_progress p, bool force = false) {
     if (cancelled()) return true;
     if (!progress) return false;
     const double t = now_seconds();
-    if (!force && t - last_ < 0.05) return false;
+    if (!force && t - last_ < ReportTuning::shortest_interval) return false;
     last_ = t;
     p.struct_size = sizeof p;
     p.seconds = t - start_;
@@ -80,9 +81,8 @@ class Monitor {
   // In a long loop between reports: repeats the last one after a silence, so that Ctrl-C is heard. Returns true when
   // the call must stop.
   bool look() {
-    constexpr double longest_silence = 0.1;  // seconds; callers are promised one of 0.2 at most, between two looks
     if (interrupted()) return true;
-    if (now_seconds() - std::max(last_, start_) < longest_silence) return false;
+    if (now_seconds() - std::max(last_, start_) < ReportTuning::longest_silence) return false;
     jam_progress again = last_report_;
     again.snapshot = 0;
     return report(again);

@@ -11,6 +11,7 @@
 #include "core/error.hpp"
 #include "core/math.hpp"
 #include "core/pair_rule.hpp"
+#include "core/tuning.hpp"
 
 namespace jam {
 namespace {
@@ -20,9 +21,7 @@ struct Candidate {
   Cell::Vector offset;
 };
 
-// One list of pairs may take this part of a call's memory. What is made from it takes about ten times as much.
-constexpr double kShareOfMemory = 1.0 / 8.0;
-double list_bytes_max() { return kShareOfMemory * CallScope::memory_limit(); }
+double list_bytes_max() { return PairListTuning::share_of_memory * CallScope::memory_limit(); }
 
 void check_list_size(double pairs, int dim) {
   const double bytes = pairs * static_cast<double>(2 * sizeof(int32_t) + dim * sizeof(double));
@@ -255,8 +254,11 @@ void wrap_positions(Packing &p, PairList &pairs) {
 ClosestPair closest_pair(const Packing &p) {
   // Spheres that overlap massively have many pairs at their contact distance: the closest are found within a part of
   // it.
-  const double many = 100.0 * static_cast<double>(p.n()), expected = expected_pairs({p, 0.0, 1.1});
-  double slope = expected > many ? std::max(1e-30, 1.1 * math::pow(many / expected, 1.0 / p.dim)) : 1.1;
+  const double many = PairListTuning::pairs_per_sphere * static_cast<double>(p.n()),
+               expected = expected_pairs({p, 0.0, PairListTuning::first_slope});
+  double slope = expected > many
+                     ? std::max(1e-30, PairListTuning::first_slope * math::pow(many / expected, 1.0 / p.dim))
+                     : PairListTuning::first_slope;
   for (bool last = false; !last; slope = std::min(2.0, 2.0 * slope)) {
     last = slope >= 2.0;
     const PairList pairs = find_pairs(p, 0.0, slope);

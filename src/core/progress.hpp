@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/math.hpp"
+#include "core/tuning.hpp"
 #include "jam/jam.h"
 
 namespace jam {
@@ -43,7 +44,7 @@ class TimeLeft {
     keep(p.seconds, p.fraction);
     double least = std::numeric_limits<double>::infinity(), most = 0.0, recent = 0.0;
     const double first = seconds_[0], whole = p.seconds - first;
-    if (count_ < fewest) return;
+    if (count_ < TimeLeftTuning::fewest) return;
     for (const double part : {1.0, 0.5, 0.25}) {
       const size_t k = at(p.seconds - part * whole);
       const double gained = p.fraction - fraction_[k];
@@ -55,14 +56,12 @@ class TimeLeft {
     if (!(most > 0.0)) return;
     p.seconds_left = recent > 0.0 ? recent : most;
     const bool unsteady = p.phase == JAM_PHASE_CRUNCH || p.phase == JAM_PHASE_POLISH;
-    p.seconds_left_spread = (unsteady ? crunch : steady) * std::max(most / p.seconds_left, p.seconds_left / least);
+    p.seconds_left_spread = (unsteady ? TimeLeftTuning::crunch : TimeLeftTuning::steady) *
+                            std::max(most / p.seconds_left, p.seconds_left / least);
   }
 
  private:
-  static constexpr size_t most_kept = 64, fewest = 4;
-  // At least two thirds of the true times lie within these, measured on calls of 1 to 20 s: work of steady pace, and a
-  // crunch, which may wait long at a saddle.
-  static constexpr double steady = 1.2, crunch = 3.0;
+  static constexpr size_t most_kept = TimeLeftTuning::most_kept;
   // The last record that is no later; the first one where none is.
   size_t at(double seconds) const {
     size_t k = 0;

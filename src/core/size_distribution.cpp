@@ -6,11 +6,10 @@
 
 #include "core/error.hpp"
 #include "core/math.hpp"
+#include "core/tuning.hpp"
 
 namespace jam {
 namespace {
-
-constexpr double least_share_left = 1e-6;  // of a cut law: shares are known to 1e-16 of the whole
 
 // Integral of s^exponent over a class up to s, in units of low^(exponent + 1).
 double integral(const SizeClass &c, double exponent, double s) {
@@ -105,8 +104,8 @@ class CountByQuadrature final : public Count {
   CountByQuadrature(const SmoothLaw &law, double low, double high, int dim)
       : law_(law), low_(low), dim_(dim), share_low_(law.share(low)), share_all_(law.share(high) - share_low_) {
     x_.push_back(0.0);
-    for (int k = -80; k <= 80; ++k)
-      panels_to(law.quantile(share_low_ + share_all_ * math::normal_share(0.1 * k)), high);
+    for (int k = -SizeTuning::normal_steps; k <= SizeTuning::normal_steps; ++k)
+      panels_to(law.quantile(share_low_ + share_all_ * math::normal_share(SizeTuning::normal_step * k)), high);
     panels_to(high, high);
     sum_.push_back(0.0);
     for (size_t k = 0; k + 1 < x_.size(); ++k) sum_.push_back(sum_[k] + panel(x_[k], x_[k + 1]));
@@ -124,7 +123,7 @@ class CountByQuadrature final : public Count {
       double x = step % 3 == 2 || !(fb > fa) ? 0.5 * (a + b) : a - fa * (b - a) / (fb - fa);
       if (!(x > a && x < b)) x = 0.5 * (a + b);
       const double f = at(x, sum_[first] + panel(x_[first], x)) - target;
-      if (std::fabs(f) <= 2e-16 * target) return low_ * math::exp(x);
+      if (std::fabs(f) <= SizeTuning::same_share * target) return low_ * math::exp(x);
       (f < 0.0 ? a : b) = x;
       (f < 0.0 ? fa : fb) = f;
     }
@@ -136,7 +135,7 @@ class CountByQuadrature final : public Count {
   void panels_to(double s, double high) {
     const double last = x_.back(), step = math::log(std::min(s, high) / low_) - last;
     if (!(step > 1e-12)) return;
-    const int parts = static_cast<int>(std::ceil(step / 0.05));
+    const int parts = static_cast<int>(std::ceil(step / SizeTuning::longest_panel));
     for (int k = 1; k <= parts; ++k) x_.push_back(last + step * k / parts);
   }
   double share(double x) const { return std::max(0.0, (law_.share(low_ * math::exp(x)) - share_low_) / share_all_); }
@@ -165,9 +164,9 @@ class CutLaw final : public SizeDistribution {
   CutLaw(std::unique_ptr<SmoothLaw> law, double low, double high, int dim, bool by_volume)
       : law_(std::move(law)), low_(low), high_(high), share_low_(law_->share(low)) {
     share_all_ = law_->share(high) - share_low_;
-    if (!(share_all_ >= least_share_left))
+    if (!(share_all_ >= SizeTuning::least_share_left))
       fail(JAM_E_ARGUMENT, "low %g and high %g keep a share of %.2g of the law, at least %g is needed", low, high,
-           share_all_, least_share_left);
+           share_all_, SizeTuning::least_share_left);
     if (!by_volume) return;
     SmoothLaw::Counted counted = law_->counted(dim);
     if (counted.law) {

@@ -10,6 +10,7 @@
 #include "core/packing.hpp"
 #include "core/rng.hpp"
 #include "core/size_laws.hpp"
+#include "core/tuning.hpp"
 
 namespace jam {
 namespace {
@@ -70,8 +71,8 @@ class Drawing {
     double sum = 0.0;
     while (sum < wanted) {
       const size_t first = s.size();
-      check_count(static_cast<double>(first) + 64.0, wanted);
-      s.resize(first + std::max<size_t>(64, first));
+      check_count(static_cast<double>(first + SizeTuning::first_draw), wanted);
+      s.resize(first + std::max(SizeTuning::first_draw, first));
       random_from(s, first);
       for (size_t k = first; k < s.size(); ++k) {
         const double v = volume(s[k]);
@@ -90,7 +91,7 @@ class Drawing {
   }
   std::vector<double> quantiles_filling(double wanted) const {
     double n = 0.0, mean = unit_sphere_volume(dim_) * law_.mean_power();
-    if (!law_.by_volume()) mean = total(of(4096)) / 4096.0;
+    if (!law_.by_volume()) mean = total(of(SizeTuning::trial)) / static_cast<double>(SizeTuning::trial);
     std::vector<double> s;
     for (int turn = 0; turn < 32; ++turn) {
       const double next =

@@ -1,6 +1,7 @@
 // See certificate.hpp.
 #include "network/certificate.hpp"
 #include "core/pair_rule.hpp"
+#include "network/tuning.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +19,8 @@ void scan_gaps(const Packing &p, const ContactNetwork &net, bool own_images, jam
   report.min_gap = std::numeric_limits<double>::infinity();
   report.max_overlap = 0.0;
   const bool stable = std::any_of(net.coordination.begin(), net.coordination.end(), [](int32_t z) { return z > 0; });
-  const std::vector<double> slopes = stable ? std::vector<double>{1.2, 2.0} : std::vector<double>{1.0};  // overlaps
+  const std::vector<double> slopes = stable ? std::vector<double>(std::begin(gap_searches), std::end(gap_searches))
+                                            : std::vector<double>{1.0};  // overlaps
   for (const double slope : slopes) {
     const PairList pairs = find_pairs(p, 0.0, slope);
     ContactLookup contacts(p, net);

@@ -9,6 +9,7 @@
 #include "core/pair_rule.hpp"
 #include "network/certificate.hpp"
 #include "network/contacts_from_geometry.hpp"
+#include "network/tuning.hpp"
 
 namespace jam {
 namespace {
@@ -42,7 +43,7 @@ GapResolution take_overlaps(CheckResult &out, bool &unexplained) {
 void scan_pairs(const Packing &p, const std::vector<int32_t> &coordination, jam_check_report &r) {
   double v[JAM_MAX_DIM];
   r.min_gap = nan;
-  for (const double slope : {1.2, 2.0}) {
+  for (const double slope : gap_searches) {
     const PairList pairs = find_pairs(p, 0.0, slope);
     r.closed_pairs = 0;
     for (size_t k = 0; k < pairs.size(); ++k) {

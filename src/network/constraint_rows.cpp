@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "linalg/shifted_factor.hpp"
+#include "network/tuning.hpp"
 
 namespace jam {
 namespace {
@@ -17,8 +18,6 @@ double norm(const std::vector<double> &x) {
   for (const double v : x) s += v * v;
   return std::sqrt(s);
 }
-
-constexpr int most_refinements = 30;
 
 }  // namespace
 

@@ -6,6 +6,7 @@
 #include "core/call_scope.hpp"
 #include "core/error.hpp"
 #include "core/pair_rule.hpp"
+#include "network/tuning.hpp"
 
 namespace jam {
 
@@ -45,9 +46,7 @@ ContactNetwork network_of(const Packing &p, const GapList &g, double tolerance) 
   std::vector<double> r(p.dim);
   for (size_t k = 0; k < g.pairs.size(); ++k) {  // list order: sorted by (i, j) and image
     if (std::fabs(g.gap[k]) > tolerance) continue;
-    net.pairs.i.push_back(g.pairs.i[k]);
-    net.pairs.j.push_back(g.pairs.j[k]);
-    net.pairs.offset.insert(net.pairs.offset.end(), &g.pairs.offset[k * p.dim], &g.pairs.offset[k * p.dim] + p.dim);
+    net.pairs.append(g.pairs, k);
     const double length = std::sqrt(pair_vector(p, g.pairs, k, r.data()));
     for (double x : r) net.vector.push_back(x / length);
     net.gap.push_back(g.gap[k]);
@@ -73,8 +72,6 @@ ContactNetwork between_carrying(const ContactNetwork &net, const std::vector<cha
 
 namespace {
 
-constexpr size_t most_candidates = 12;
-
 struct Jump {
   double ratio, below, above;
 };
@@ -93,7 +90,7 @@ std::vector<Jump> find_jumps(const Packing &p, const GapList &g, double resoluti
     if (static_cast<double>(q + 1) < enough) few = jumps.size();
   }
   const auto best = [&](size_t first, size_t last) {
-    const size_t keep = std::min<size_t>(last - first, most_candidates);
+    const size_t keep = std::min<size_t>(last - first, JumpTuning::most_candidates);
     const auto begin = jumps.begin() + static_cast<std::ptrdiff_t>(first);
     std::partial_sort(begin, begin + static_cast<std::ptrdiff_t>(keep),
                       jumps.begin() + static_cast<std::ptrdiff_t>(last),
@@ -119,7 +116,7 @@ ContactCandidates contact_candidates(const Packing &p, double window) {
   ContactCandidates out;
   const GapList g = pairs_below(p, window);
   for (const Jump &jump : find_jumps(p, g, gap_resolution(p).relative(p), window)) {
-    if (out.limit.size() == most_candidates) break;
+    if (out.limit.size() == JumpTuning::most_candidates) break;
     CallScope::look();
     const ContactNetwork net = network_of(p, g, std::sqrt(jump.below * jump.above));
     if (!can_be_rigid(net, p.dim)) continue;
@@ -166,8 +163,7 @@ GeometryResult contacts_from_geometry(const Packing &p, const jam_geometry_optio
       r.jump = jump.ratio;
     }
     r.second_jump = second;
-    // A true jump separates rounding from real gaps: decades, and far more of them than the next candidate.
-    wide = chosen && r.jump > 100.0;
+    wide = chosen && r.jump > JumpTuning::wide;
     clear = wide && r.jump > second * second;
   }
   r.gap_below = 0.0;
@@ -210,11 +206,7 @@ GeometryResult contacts_from_geometry(const Packing &p, const jam_geometry_optio
     out.status = JAM_NOT_JAMMED;
   else if (stress.dimension > 1 || !clear || closed.jammed == Verdict::undecided || wide_gaps)
     out.status = JAM_AMBIGUOUS;
-  // Scale: mean of lambda r with sum lambda sigma^2 = 1 and lambda = c f / r.
-  double sum = 0.0;
-  for (size_t k = 0; k < graph.contacts(); ++k)
-    sum += out.network.force[k] * graph.sigma[k] * graph.sigma[k] / graph.distance[k];
-  out.network.force_scale = sum > 0.0 ? 1.0 / sum : 0.0;
+  set_force_scale(p, out.network);
   return out;
 }
 

@@ -1,4 +1,5 @@
 #include "network/grounded_solver.hpp"
+#include "network/tuning.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -38,7 +39,8 @@ GroundedSolver::GroundedSolver(const RigidityMatrix &g, const ContactWeights &w)
   for (int32_t i = 0; i < g.nodes; ++i)
     if (root[i] == i) {
       ++clusters_;
-      for (size_t c = 0; c < d; ++c) tied_.diag[static_cast<size_t>(i) * d * d + c * d + c] += 0.1 * scale_;
+      for (size_t c = 0; c < d; ++c)
+        tied_.diag[static_cast<size_t>(i) * d * d + c * d + c] += GroundedTuning::spring * scale_;
     }
   factor_.factorise_from(1e-13 * scale_);
 }
@@ -49,7 +51,7 @@ void GroundedSolver::solve(double *x, int count) const {
   std::vector<double> b(x, x + n * count), r(n * count), y(n);
   factor_.solve_many(x, count);
   double last = std::numeric_limits<double>::infinity(), last_change = 0.0;
-  for (int pass = 0; pass < 20; ++pass) {
+  for (int pass = 0; pass < GroundedTuning::most_passes; ++pass) {
     double residual = 0.0;
     for (int k = 0; k < count; ++k) {
       h_.multiply(x + k * n, y.data());
@@ -59,7 +61,7 @@ void GroundedSolver::solve(double *x, int count) const {
       }
       remove_translation(g_.dim, g_.nodes, &r[k * n]);
     }
-    if (residual == 0.0 || !(residual < 0.3 * last)) break;
+    if (residual == 0.0 || !(residual < GroundedTuning::slow * last)) break;
     last = residual;
     factor_.solve_many(r.data(), count);
     double change = 0.0, size = 0.0;

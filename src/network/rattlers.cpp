@@ -6,13 +6,10 @@
 #include <numeric>
 
 #include "jam/jam.h"
+#include "network/tuning.hpp"
 
 namespace jam {
 namespace {
-
-// Distance of the origin from the convex hull of the contact vectors, above which no forces can balance, while vectors
-// may still change: this rule never takes out a sphere that carries force at the end.
-constexpr double clear_distance = 1e-3;
 
 // The point of the hull of contact vectors nearest to the origin (P. Wolfe, Math. Programming 11, 128 (1976)). It is a
 // sum of unit vectors, so its error is a rounding of 1, however near it is.

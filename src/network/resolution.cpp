@@ -10,20 +10,17 @@
 #include "core/math.hpp"
 #include "core/pair_rule.hpp"
 #include "core/pairs.hpp"
+#include "network/tuning.hpp"
 
 namespace jam {
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
-// A wider error says nothing about contacts at all.
-constexpr double widest_reach = 0.5;
-// Pairs within this part of the mean diameter are the first neighbours of a lattice whose digits are few.
-constexpr double first_neighbours = 0.02;
 
 // As many pairs touch to 1e-10 as hold half of the spheres, and they are three of four that nearly touch: in a lattice
 // of few digits the pairs along an axis may touch exactly, and the others do not.
 bool has_exact_contacts(const Packing &p, double reach) {
-  const double near = std::min(reach, first_neighbours * diameter_mean(p));
+  const double near = std::min(reach, ResolutionTuning::first_neighbours * diameter_mean(p));
   const PairList pairs = find_pairs(p, near, 1.0 + contact_gap_limit);
   double r[JAM_MAX_DIM];
   size_t exact = 0, close = 0;
@@ -48,7 +45,7 @@ int32_t GapResolution::digits(const Packing &p) const {
 }
 
 void widen(GapResolution &resolution, const Packing &p, double error) {
-  const double widest = widest_reach / 8.0 * *std::min_element(p.diameter.begin(), p.diameter.end());
+  const double widest = ResolutionTuning::widest_reach / 8.0 * *std::min_element(p.diameter.begin(), p.diameter.end());
   resolution.error = std::max(resolution.error, std::min(error, widest));
 }
 

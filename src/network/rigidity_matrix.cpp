@@ -63,6 +63,12 @@ RigidityMatrix subset(const RigidityMatrix &g, const std::vector<char> &on) {
   return out;
 }
 
+void scatter(const RigidityMatrix &sub, const double *x, double factor, std::vector<double> &v) {
+  for (int32_t i = 0; i < sub.nodes; ++i)
+    for (int c = 0; c < sub.dim; ++c)
+      v[static_cast<size_t>(sub.sphere[i]) * sub.dim + c] += factor * x[i * sub.dim + c];
+}
+
 std::vector<double> direction_errors(const RigidityMatrix &g) {
   std::vector<double> out(g.contacts(), 4.0 * epsilon);
   for (size_t k = 0; k < g.distance.size(); ++k) out[k] += g.rounding / g.distance[k];

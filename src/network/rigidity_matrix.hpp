@@ -30,6 +30,9 @@ RigidityMatrix make_rigidity_matrix(const Packing &p, const ContactNetwork &netw
 // The rows that are `on`, and the nodes that they touch; its `sphere` are nodes of g, its `node` those of g too.
 RigidityMatrix subset(const RigidityMatrix &g, const std::vector<char> &on);
 
+// Adds factor times the displacements x of the nodes of such a subset to v, those of the nodes of g.
+void scatter(const RigidityMatrix &sub, const double *x, double factor, std::vector<double> &v);
+
 // Largest error of each unit vector.
 std::vector<double> direction_errors(const RigidityMatrix &g);
 

@@ -9,6 +9,7 @@
 #include "core/rng.hpp"
 #include "linalg/blas.hpp"
 #include "network/rigidity_test.hpp"
+#include "network/tuning.hpp"
 
 namespace jam {
 namespace {
@@ -77,7 +78,7 @@ int NullSpace::project(std::vector<double> &f, int refinements) const {
 int64_t NullSpace::zero_modes() const {
   if (zeros_ >= 0) return zeros_;
   const size_t n = g_.unknowns();
-  const double floor = 1e-10 * std::max(solver_.hessian().norm_bound(), 1e-300);
+  const double floor = ZeroModeTuning::curvature * std::max(solver_.hessian().norm_bound(), ZeroModeTuning::least_norm);
   const ContactWeights w = unit_weights(g_);
   std::vector<std::vector<double>> kernel;
   Rng rng(2, Stream::analysis_start);
@@ -94,8 +95,7 @@ int64_t NullSpace::zero_modes() const {
       std::vector<double> v(x.begin() + static_cast<std::ptrdiff_t>(n * b),
                             x.begin() + static_cast<std::ptrdiff_t>(n * (b + 1)));
       const double fresh = orthogonalise(kernel, v), length = norm(v);
-      // A new zero mode has kept a good part of a random vector, and has no curvature.
-      if (fresh < 1e-4 || length < 1e-6) {
+      if (fresh < ZeroModeTuning::kept || length < ZeroModeTuning::independent) {
         more = false;
         continue;
       }

@@ -7,12 +7,10 @@
 
 #include "core/call_scope.hpp"
 #include "core/rng.hpp"
+#include "network/tuning.hpp"
 
 namespace jam {
 namespace {
-
-constexpr int first_block = 4, largest_block = 32, most_passes = 200;
-constexpr double settled = 1e-3;  // relative change of the margin in one pass
 
 class BlockIteration {
  public:
@@ -22,9 +20,9 @@ class BlockIteration {
   SoftestModes run() {
     const size_t dim = static_cast<size_t>(rows_.g.dim);
     const size_t motions = rows_.columns() > dim ? rows_.columns() - dim : 0;  // beyond translations
-    size_t block = first_block;
+    size_t block = SoftestModesTuning::first_block;
     double last = std::numeric_limits<double>::infinity();
-    for (int pass = 0; pass < most_passes; ++pass) {
+    for (int pass = 0; pass < SoftestModesTuning::most_passes; ++pass) {
       const size_t found = out_.flexes.size();
       if (found >= motions) {
         out_.margin = 0.0;  // no eigenvalue is left that could be a margin
@@ -40,10 +38,10 @@ class BlockIteration {
       const size_t flexes = lock();
       if (flexes > 0) {
         last = std::numeric_limits<double>::infinity();
-        if (x_.empty()) block = std::min<size_t>(2 * block, largest_block);
+        if (x_.empty()) block = std::min<size_t>(2 * block, SoftestModesTuning::largest_block);
         continue;
       }
-      if (value_[0] >= limit_ && std::fabs(value_[0] - last) <= settled * value_[0]) break;
+      if (value_[0] >= limit_ && std::fabs(value_[0] - last) <= SoftestModesTuning::settled * value_[0]) break;
       last = value_[0];
     }
     out_.margin = value_.empty() ? 0.0 : value_[0];
@@ -120,7 +118,8 @@ class BlockIteration {
     std::vector<std::vector<double>> rest;
     std::vector<double> values;
     const auto converged = [&](size_t k) {
-      return value_[k] < 1e-8 * limit_ || (value_[k] < limit_ && k < before_.size() && value_[k] > 0.3 * before_[k]);
+      return value_[k] < SoftestModesTuning::zero * limit_ ||
+             (value_[k] < limit_ && k < before_.size() && value_[k] > SoftestModesTuning::converged * before_[k]);
     };
     const std::vector<double> now = value_;
     for (size_t k = 0; k < x_.size(); ++k)

@@ -7,19 +7,12 @@
 #include "core/call_scope.hpp"
 #include "core/rng.hpp"
 #include "network/central_path.hpp"
+#include "network/tuning.hpp"
 
 namespace jam {
 namespace {
 
-// In units of the mean |force|: below the first a force is zero, above the second it is not; between them the digits
-// do not decide.
-constexpr double zero_force = 1e-11, sure_force = 1e-9;
-// The same for the opening of a contact, where the largest displacement is 1.
-constexpr double zero_opening = 1e-11, sure_opening = 1e-9;
-// A motion that opens all contacts by more than this rules out every balance of forces, also near these positions.
-constexpr double clear_opening = 1e-8;
-// Forces of mean 1 that keep less than this in the projection on the balance were no state of self-stress.
-constexpr double least_projection = 1e-6;
+using Tuning = StressConeTuning;
 
 double mean_size(const std::vector<double> &f) {
   double sum = 0.0;
@@ -49,8 +42,8 @@ StressCone of_one_state(const ConstraintRows &rows, const NormalSolver &solver, 
   double push = 0.0, pull = 0.0;
   for (double &v : f) {
     const double size = std::fabs(v);
-    if (size > zero_force && size < sure_force) return out;
-    if (size <= zero_force) v = 0.0;
+    if (size > Tuning::zero_force && size < Tuning::sure_force) return out;
+    if (size <= Tuning::zero_force) v = 0.0;
     (v > 0.0 ? push : pull) += std::fabs(v);
   }
   out.decided = true;
@@ -74,7 +67,7 @@ StressCone of_one_state(const ConstraintRows &rows, const NormalSolver &solver, 
 
 // The step length along dw that minimises - sum log(w + t dw), which is convex in t; inside the boundary.
 double best_length(const std::vector<double> &w, const std::vector<double> &dw) {
-  double low = 0.0, high = 1e3;
+  double low = 0.0, high = Tuning::longest_step;
   for (size_t k = 0; k < w.size(); ++k)
     if (w[k] + high * dw[k] < 0.0) high = -w[k] / dw[k];
   high *= 1.0 - 1e-12;
@@ -138,8 +131,8 @@ Support certify_support(const ConstraintRows &rows, const NormalSolver &solver, 
     for (size_t k = 0; k < m; ++k)
       if (out.carrying[k]) out.force[k] = f[at++] / mean;
     // A guess that carries nothing loses its forces in the projection.
-    if (!(mean > least_projection)) return Support::no;
-    if (!(*std::min_element(f.begin(), f.end()) > zero_force * mean)) return Support::no;
+    if (!(mean > Tuning::least_projection)) return Support::no;
+    if (!(*std::min_element(f.begin(), f.end()) > Tuning::zero_force * mean)) return Support::no;
   }
   if (count == m) return Support::whole;
   // Opens what does not carry; what carries is closed again by the nearest correction.
@@ -165,7 +158,7 @@ Support certify_support(const ConstraintRows &rows, const NormalSolver &solver, 
     else
       least = std::min(least, y[k]);
   out.motion = std::move(x);
-  const bool opens = least > sure_opening * size && closed < zero_opening * size;
+  const bool opens = least > Tuning::sure_opening * size && closed < Tuning::zero_opening * size;
   return opens ? Support::whole : count > 0 ? Support::positive : Support::no;
 }
 
@@ -193,15 +186,13 @@ void keep_positive(const CentralPath &path, const std::vector<char> &guess, Stre
 // step. Returns the forces, balanced to rounding, mean 1; empty when one of them vanishes.
 std::vector<double> centre(const ConstraintRows &rows, const NormalSolver &unit, std::vector<double> w, bool ones,
                            int &factorisations) {
-  constexpr int most_steps = 50;
-  constexpr double largest_ratio = 1e12;  // of two forces
   const size_t m = rows.rows();
   std::vector<double> f(m), step(rows.columns()), dw(m), weight(m);
   NormalSolver solver(rows);
-  for (int pass = 0; pass < most_steps; ++pass) {
+  for (int pass = 0; pass < Tuning::most_steps; ++pass) {
     CallScope::report_share();
     const double widest = *std::max_element(w.begin(), w.end());
-    if (!(widest < largest_ratio * *std::min_element(w.begin(), w.end()))) return {};
+    if (!(widest < Tuning::largest_ratio * *std::min_element(w.begin(), w.end()))) return {};
     for (size_t k = 0; k < m; ++k) f[k] = 1.0 / w[k], weight[k] = f[k] * f[k];
     rows.transpose(f.data(), step.data());
     const std::vector<double> gradient = step;
@@ -215,8 +206,9 @@ std::vector<double> centre(const ConstraintRows &rows, const NormalSolver &unit,
     double decrement = 0.0;
     for (size_t k = 0; k < step.size(); ++k) decrement += gradient[k] * step[k];
     rows.multiply(step.data(), dw.data());
-    double length = decrement > 0.25 ? 1.0 / (1.0 + std::sqrt(decrement)) : 1.0;  // stays inside, goes down for sure
-    if (decrement > 0.25) length = std::max(length, best_length(w, dw));
+    double length =
+        decrement > Tuning::damped ? 1.0 / (1.0 + std::sqrt(decrement)) : 1.0;  // stays inside, goes down for sure
+    if (decrement > Tuning::damped) length = std::max(length, best_length(w, dw));
     for (size_t k = 0; k < m; ++k) w[k] += length * dw[k];
     if (decrement < 1e-12) break;
   }
@@ -226,7 +218,7 @@ std::vector<double> centre(const ConstraintRows &rows, const NormalSolver &unit,
   project_on_balance(rows, unit, f);
   mean = mean_size(f);
   for (double &v : f) v /= mean;
-  if (*std::min_element(f.begin(), f.end()) <= zero_force) f.clear();
+  if (*std::min_element(f.begin(), f.end()) <= Tuning::zero_force) f.clear();
   return f;
 }
 
@@ -234,15 +226,13 @@ std::vector<double> centre(const ConstraintRows &rows, const NormalSolver &unit,
 
 StressCone find_stress_cone(const ConstraintRows &rows, const NormalSolver &solver, int64_t states) {
   if (states == 0 || states == 1) return of_one_state(rows, solver, states);
-  constexpr double first_guess = 1e-2, least_mu = 1e-12;
-  constexpr int most_path_steps = 60;
   const size_t m = rows.rows();
   StressCone out;
   // Equal forces, balanced: where none of them pulls, every contact carries.
   std::vector<double> equal(m, 1.0);
   project_on_balance(rows, solver, equal);
   const double mean = mean_size(equal);
-  if (mean > least_projection && *std::min_element(equal.begin(), equal.end()) > sure_force * mean) {
+  if (mean > Tuning::least_projection && *std::min_element(equal.begin(), equal.end()) > Tuning::sure_force * mean) {
     out.decided = true, out.carrying.assign(m, 1), out.force = equal;
     for (double &v : out.force) v /= mean;
     const std::vector<double> f = centre(rows, solver, std::vector<double>(m, 1.0), true, out.factorisations);
@@ -250,13 +240,13 @@ StressCone find_stress_cone(const ConstraintRows &rows, const NormalSolver &solv
     return out;
   }
   CentralPath path(rows);
-  double next = first_guess, widest = clear_opening;
+  double next = Tuning::first_guess, widest = Tuning::clear_opening;
   std::vector<double> opens_all;
   bool going = true;
-  while (going && !out.decided && path.steps() < most_path_steps && path.mu() > least_mu) {
+  while (going && !out.decided && path.steps() < Tuning::most_path_steps && path.mu() > Tuning::least_mu) {
     going = path.step();
     if (path.mu() > next) continue;
-    next = 0.1 * path.mu();
+    next = Tuning::next_guess * path.mu();
     for (const std::vector<char> &guess : guess_support(path)) {
       if (out.decided) break;
       const Support found = certify_support(rows, solver, path, guess, out);

@@ -7,18 +7,10 @@
 #include "core/math.hpp"
 #include "soft/decompression.hpp"
 #include "soft/soft_hessian.hpp"
+#include "soft/tuning.hpp"
 
 namespace jam {
 namespace {
-
-// A step that failed is tried again with the square root of its factor, up to this one.
-constexpr double last_factor = 0.95;
-// A step may take this many times all evaluations of the call so far, those of failed steps included. A step that takes
-// more follows a weak instability, whose forces fall with the overlaps. A shorter step does the same at larger
-// overlaps.
-constexpr int64_t work_share = 4;
-// It may always take this share of max_evaluations: a start near its minimum takes hardly any and sets no scale.
-constexpr int64_t least_share = 20;
 
 // Contacts of one state of self-stress that hold all stable spheres: the Hessian has d zero modes and no negative one.
 bool is_isostatic(const SoftState &state, const SoftResult &at, int64_t &factorisations) {
@@ -105,8 +97,8 @@ void follow_growth(SoftState &state, double growth, int64_t &factorisations) {
   hessian.solve(u);
   double most = 0.0;
   for (const double x : u) most = std::max(most, std::fabs(x));
-  if (!(most < 0.1 * state.diameter_mean())) {
-    const double part = 0.1 * state.diameter_mean() / most;
+  if (!(most < DecompressTuning::longest_guess * state.diameter_mean())) {
+    const double part = DecompressTuning::longest_guess * state.diameter_mean() / most;
     for (double &x : u) x *= part;
   }
   // The linear answer holds while few contacts change: the part of it that lowers the energy most.
@@ -161,8 +153,9 @@ class Decompression {
   DescentEnd find_minimum(bool near_minimum, SoftResult &now, SoftRow &row) {
     const Effort spent = effort_;
     const double seconds = monitor_.seconds();
-    const int64_t least = std::max<int64_t>(1, o_.max_evaluations / least_share);
-    const int64_t most = effort_.evaluations > 0 ? work_share * effort_.evaluations : o_.max_evaluations;
+    const int64_t least = std::max<int64_t>(1, o_.max_evaluations / DecompressTuning::least_share);
+    const int64_t most =
+        effort_.evaluations > 0 ? DecompressTuning::work_share * effort_.evaluations : o_.max_evaluations;
     effort_.max_evaluations = effort_.evaluations + std::clamp(most, least, o_.max_evaluations);
     Relaxation r(state_, effort_);
     const DescentEnd end = minimise_and_measure(r, o_.minimiser, o_.force_tolerance, near_minimum, now);
@@ -209,7 +202,7 @@ class Decompression {
     ++report_.restored;
     state_ = before_;
     factor_ = std::sqrt(factor_);
-    if (factor_ <= last_factor) return false;
+    if (factor_ <= DecompressTuning::last_factor) return false;
     if (end == DescentEnd::limit) return end_with(JAM_LIMIT, JAM_STOP_EVALUATIONS);
     return end_with(JAM_NOT_CONVERGED, JAM_STOP_STALLED);
   }

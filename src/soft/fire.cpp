@@ -5,36 +5,24 @@
 
 #include "core/math.hpp"
 #include "soft/relaxation.hpp"
+#include "soft/tuning.hpp"
 
 namespace jam {
-namespace {
-
-// Parameters of Guenole et al., except the longest step: in units of 1 / sqrt(stiffness of a contact / mass), 0.35 to
-// 0.5 cost the same and 0.65 five times as much (N = 1024, phi = 0.70; tests/bench/soft_minimise.py).
-constexpr double first_step = 0.05, longest_step = 0.45, shortest_step = 1e-4;
-constexpr double mixing_start = 0.25, mixing_factor = 0.99, step_up = 1.1, step_down = 0.5;
-constexpr int steps_before_growth = 20;
-// Longest displacement in one step, mean diameters.
-constexpr double longest_move = 0.1;
-// Evaluations between two looks at which spheres are stable.
-constexpr int64_t look_every = 64;
-
-}  // namespace
 
 DescentEnd fire(Relaxation &r, double tolerance) {
   SoftState &state = r.state;
   const size_t d = static_cast<size_t>(state.dim()), size = r.force.size();
-  const double mean = state.diameter_mean(), move_limit = longest_move * mean;
+  const double mean = state.diameter_mean(), move_limit = FireTuning::longest_move * mean;
   // Masses go with the stiffness of a sphere's contacts, so that all spheres of a mixture take the same time step.
   std::vector<double> inverse_mass(state.blocks(), 1.0);
   if (state.energy().relative())
     for (size_t i = 0; i < state.n(); ++i) inverse_mass[i] = math::pow(state.base().diameter[i] / mean, 2);
   std::vector<double> v(size, 0.0);
-  double step = first_step, mixing = mixing_start;
+  double step = FireTuning::first_step, mixing = FireTuning::mixing_start;
   int downhill = 0;
   for (int64_t count = 0;; ++count) {
     if (r.at_rest()) return DescentEnd::no_overlaps;
-    if (r.residual() < tolerance || (count % look_every == 0 && r.stable_residual() < tolerance))
+    if (r.residual() < tolerance || (count % evaluations_between_looks == 0 && r.stable_residual() < tolerance))
       return DescentEnd::balanced;
     DescentEnd end;
     if (r.must_stop(end)) return end;
@@ -43,13 +31,14 @@ DescentEnd fire(Relaxation &r, double tolerance) {
     double power = 0.0;
     for (size_t k = 0; k < size; ++k) power += f[k] * v[k];
     if (power > 0.0) {
-      if (++downhill > steps_before_growth) {
-        step = std::min(step * step_up, longest_step);
-        mixing *= mixing_factor;
+      if (++downhill > FireTuning::steps_before_growth) {
+        step = std::min(step * FireTuning::step_up, FireTuning::longest_step);
+        mixing *= FireTuning::mixing_factor;
       }
     } else {
-      if (count > steps_before_growth && step * step_down >= shortest_step) step *= step_down;
-      mixing = mixing_start;
+      if (count > FireTuning::steps_before_growth && step * FireTuning::step_down >= FireTuning::shortest_step)
+        step *= FireTuning::step_down;
+      mixing = FireTuning::mixing_start;
       downhill = 0;
       for (size_t k = 0; k < size; ++k) u[k] -= 0.5 * dt * v[k], v[k] = 0.0;
     }

@@ -5,14 +5,10 @@
 #include <deque>
 
 #include "soft/relaxation.hpp"
+#include "soft/tuning.hpp"
 
 namespace jam {
 namespace {
-
-constexpr size_t memory = 10;         // pairs of steps and changes of force
-constexpr double longest_move = 0.1;  // mean diameters in one step
-constexpr double overshoot = 0.9;     // largest slope behind the minimum of a line, over that at its start
-constexpr int64_t look_every = 64;    // evaluations between two looks at which spheres are stable
 
 double dot(const std::vector<double> &a, const std::vector<double> &b) {
   double s = 0.0;
@@ -46,12 +42,12 @@ void descent_way(const std::deque<Update> &updates, double first_stiffness, std:
 DescentEnd lbfgs(Relaxation &r, double tolerance) {
   SoftState &state = r.state;
   const int d = state.dim();
-  const double move_limit = longest_move * state.diameter_mean();
+  const double move_limit = LbfgsTuning::longest_move * state.diameter_mean();
   std::deque<Update> updates;
   std::vector<double> way, before;
   for (int64_t count = 0;; ++count) {
     if (r.at_rest()) return DescentEnd::no_overlaps;
-    if (r.residual() < tolerance || (count % look_every == 0 && r.stable_residual() < tolerance))
+    if (r.residual() < tolerance || (count % evaluations_between_looks == 0 && r.stable_residual() < tolerance))
       return DescentEnd::balanced;
     DescentEnd end;
     if (r.must_stop(end)) return end;
@@ -82,8 +78,8 @@ DescentEnd lbfgs(Relaxation &r, double tolerance) {
       at = next;
       r.evaluate();
       const double now = dot(r.force, way);
-      if (now > -overshoot * slope) break;
-      next = std::max(0.1 * at, at * slope / (slope - now));
+      if (now > -LbfgsTuning::overshoot * slope) break;
+      next = std::max(LbfgsTuning::least_return * at, at * slope / (slope - now));
     }
     Update made{way, before, 0.0};
     for (size_t k = 0; k < way.size(); ++k) made.s[k] *= at, made.y[k] -= r.force[k];
@@ -91,7 +87,7 @@ DescentEnd lbfgs(Relaxation &r, double tolerance) {
     if (sy > 1e-10 * std::sqrt(dot(made.s, made.s) * dot(made.y, made.y))) {
       made.rho = 1.0 / sy;
       updates.push_back(std::move(made));
-      if (updates.size() > memory) updates.pop_front();
+      if (updates.size() > LbfgsTuning::memory) updates.pop_front();
     }
   }
 }

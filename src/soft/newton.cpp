@@ -5,19 +5,10 @@
 
 #include "soft/relaxation.hpp"
 #include "soft/soft_hessian.hpp"
+#include "soft/tuning.hpp"
 
 namespace jam {
 namespace {
-
-constexpr double settled = 1e-4;            // residual of FIRE from which Newton is tried first
-constexpr double next_target = 0.1;         // after Newton has failed: FIRE goes on to this part of the residual
-constexpr double longest_move = 0.05;       // mean diameters in one step
-constexpr double good_factor = 0.2;         // a step that leaves less of the residual needs no new factor
-constexpr double energy_is_blind = 1e-6;    // residual below which the slope is tested in place of the energy
-constexpr double first_shift = 1e-7;        // in units of the mean stiffness of a contact
-constexpr double leaves_saddle = 100.0;     // a residual that has grown so much: the start was near a saddle
-constexpr double rattlers_balanced = 1e-6;  // forces on rattlers, over the mean: what touches them is done
-constexpr int most_steps = 60;
 
 double dot(const std::vector<double> &a, const std::vector<double> &b) {
   double s = 0.0;
@@ -29,22 +20,23 @@ double dot(const std::vector<double> &a, const std::vector<double> &b) {
 // quadratic model says. `stalled` when the steps do not lead to the tolerance.
 DescentEnd newton(Relaxation &r, double tolerance, SoftHessian &hessian, double shift) {
   SoftState &state = r.state;
-  const double move_limit = longest_move * state.diameter_mean();
+  const double move_limit = NewtonTuning::longest_move * state.diameter_mean();
   bool fresh = false;
   double last = 0.0, start = 0.0;
   std::vector<double> way;
-  for (int step = 0; step < most_steps; ++step) {
+  for (int step = 0; step < NewtonTuning::most_steps; ++step) {
     if (r.at_rest()) return DescentEnd::no_overlaps;
     const SoftContacts contacts = state.contacts();
     const std::vector<char> on = stable_contacts(state, contacts);
     const double now = r.stable_residual();
-    if (now < tolerance && r.residual() < std::max(tolerance, rattlers_balanced)) return DescentEnd::balanced;
+    if (now < tolerance && r.residual() < std::max(tolerance, NewtonTuning::rattlers_balanced))
+      return DescentEnd::balanced;
     if (step == 0) start = now;
-    if (now > leaves_saddle * start) return DescentEnd::stalled;
+    if (now > NewtonTuning::leaves_saddle * start) return DescentEnd::stalled;
     DescentEnd end;
     if (r.must_stop(end, true)) return end;
     if (std::find(on.begin(), on.end(), 1) == on.end()) return DescentEnd::stalled;
-    if (!(fresh && now < good_factor * last && hessian.has_contacts(state, contacts))) {
+    if (!(fresh && now < NewtonTuning::good_factor * last && hessian.has_contacts(state, contacts))) {
       if (!hessian.factorise(state, contacts, on, shift, r.effort.factorisations)) return DescentEnd::stalled;
       fresh = true;
     }
@@ -54,7 +46,7 @@ DescentEnd newton(Relaxation &r, double tolerance, SoftHessian &hessian, double 
     hessian.solve(way);
     double most = 0.0;
     for (const double x : way) most = std::max(most, std::fabs(x));
-    if (!(most < 1e300)) return DescentEnd::stalled;
+    if (!(most < NewtonTuning::diverged)) return DescentEnd::stalled;
     const double part = most > move_limit ? move_limit / most : 1.0;
     for (double &x : way) x *= part;
     const double slope = dot(force, way), model = (part - 0.5 * part * part) / part * slope;
@@ -62,12 +54,12 @@ DescentEnd newton(Relaxation &r, double tolerance, SoftHessian &hessian, double 
     for (size_t k = 0; k < way.size(); ++k) state.displacement()[k] += way[k];
     r.evaluate();
     // Near the minimum the energy has no digits left: then the slope behind the step must have fallen.
-    const double gain =
-        now > energy_is_blind ? (energy - r.sums.enthalpy()) / model : 1.0 - std::fabs(dot(r.force, way)) / slope;
-    if (gain > 0.75 && part == 1.0) {
-      shift = shift < 0.01 * first_shift ? 0.0 : shift * 0.1;
-    } else if (gain < 0.25) {
-      shift = std::max(4.0 * std::max(shift, hessian.shift()), first_shift);
+    const double gain = now > NewtonTuning::energy_is_blind ? (energy - r.sums.enthalpy()) / model
+                                                            : 1.0 - std::fabs(dot(r.force, way)) / slope;
+    if (gain > NewtonTuning::as_modelled && part == 1.0) {
+      shift = shift < NewtonTuning::no_shift ? 0.0 : shift * NewtonTuning::shift_down;
+    } else if (gain < NewtonTuning::too_little) {
+      shift = std::max(NewtonTuning::shift_up * std::max(shift, hessian.shift()), NewtonTuning::first_shift);
       fresh = false;
     }
     if (gain <= 0.0) {
@@ -86,7 +78,7 @@ DescentEnd hybrid(Relaxation &r, double tolerance, bool near_minimum) {
   // Below alpha = 2 the stiffness of a contact grows without bound as it opens. The time step of FIRE follows the mean
   // one, so such contacts chatter: at alpha = 3/2 it stays at a residual of 1e-4, while L-BFGS goes on.
   const bool stiffens_at_contact = r.state.energy().alpha() < 2.0;
-  double target = settled;
+  double target = NewtonTuning::settled;
   for (bool descend = !near_minimum;; descend = true) {
     DescentEnd end;
     if (descend) {
@@ -101,7 +93,7 @@ DescentEnd hybrid(Relaxation &r, double tolerance, bool near_minimum) {
     if (end != DescentEnd::stalled) return end;
     if (!descend) continue;
     if (target <= tolerance) return r.stable_residual() < tolerance ? DescentEnd::balanced : DescentEnd::stalled;
-    target = next_target * std::min(target, r.stable_residual());
+    target = NewtonTuning::next_target * std::min(target, r.stable_residual());
   }
 }
 

@@ -4,16 +4,9 @@
 
 #include "core/pair_rule.hpp"
 #include "soft/relaxation.hpp"
+#include "soft/tuning.hpp"
 
 namespace jam {
-namespace {
-
-// The centre of a cage by steps away from the nearest neighbour, each a little shorter than the one before: in mean
-// diameters, from the first one on. A gap this wide is enough.
-constexpr double first_step = 0.1, step_factor = 0.9, wide_gap = 0.05;
-constexpr int sweeps = 120;
-
-}  // namespace
 
 void centre_rattlers(SoftState &state) {
   const int d = state.dim();
@@ -45,10 +38,10 @@ void centre_rattlers(SoftState &state) {
     }
     return least;
   };
-  double away[JAM_MAX_DIM] = {}, step = first_step * mean;
+  double away[JAM_MAX_DIM] = {}, step = CageTuning::first_step * mean;
   std::vector<double> before(state.n()), best = start, widest(state.n(), -std::numeric_limits<double>::infinity());
   for (size_t i = 0; i < state.n(); ++i) before[i] = nearest(i, away);
-  for (int sweep = 0; sweep < sweeps; ++sweep, step *= step_factor)
+  for (int sweep = 0; sweep < CageTuning::sweeps; ++sweep, step *= CageTuning::step_factor)
     for (size_t i = 0; i < state.n(); ++i) {
       if (of[i].empty()) continue;
       const double least = nearest(i, away);
@@ -56,7 +49,7 @@ void centre_rattlers(SoftState &state) {
         widest[i] = least;
         std::copy_n(&p.position[i * d], d, &best[i * d]);
       }
-      if (least > wide_gap * mean) continue;
+      if (least > CageTuning::wide_gap * mean) continue;
       for (int c = 0; c < d; ++c) p.position[i * d + c] += step * away[c];
     }
   p.position = best;

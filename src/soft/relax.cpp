@@ -6,15 +6,9 @@
 #include "core/checks.hpp"
 #include "core/error.hpp"
 #include "soft/decompression.hpp"
+#include "soft/tuning.hpp"
 
 namespace jam {
-
-// The minimum of a fixed cell is found to this residual before the cell is free. Mean forces below the part weak_part
-// of what the pressure makes of one contact a sphere are none.
-constexpr double before_strain = 1e-6, weak_part = 1e-3;
-// The state that is handed out has rounded positions. Where they do not balance, the descent goes on, at most this
-// many times.
-constexpr int most_roundings = 4;
 
 jam_relax_options default_relax_options() {
   jam_relax_options o{};
@@ -77,7 +71,7 @@ DescentEnd minimise_and_measure(Relaxation &r, int32_t minimiser, double toleran
     out = measure(r.state, minimiser);
     if (end != DescentEnd::balanced) return end;
     if (std::max(out.report.force_residual, out.report.stress_residual) < tolerance) return end;
-    if (attempt == most_roundings) return DescentEnd::stalled;
+    if (attempt == RelaxTuning::most_roundings) return DescentEnd::stalled;
     r.evaluate();
     end = minimise(r, minimiser, tolerance, true);
   }
@@ -138,11 +132,11 @@ SoftResult relax(const Packing &start, const jam_relax_options &o, Monitor &moni
   effort.pressure = std::nan("");
   Relaxation r(state, effort);
   // Forces that are weak beside the pressure to come need no balance yet.
-  r.weak_force =
-      weak_part * o.pressure * start.cell.volume() / (state.diameter_mean() * static_cast<double>(state.n()));
+  r.weak_force = RelaxTuning::weak_part * o.pressure * start.cell.volume() /
+                 (state.diameter_mean() * static_cast<double>(state.n()));
   const bool frees = o.strain != JAM_STRAIN_NONE;
   SoftResult out;
-  DescentEnd end = frees ? minimise(r, o.minimiser, std::max(o.force_tolerance, before_strain), false)
+  DescentEnd end = frees ? minimise(r, o.minimiser, std::max(o.force_tolerance, RelaxTuning::before_strain), false)
                          : minimise_and_measure(r, o.minimiser, o.force_tolerance, false, out);
   // A pressure brings overlaps back where the fixed cell has none.
   if (frees && (end == DescentEnd::balanced || (end == DescentEnd::no_overlaps && o.pressure > 0.0)))

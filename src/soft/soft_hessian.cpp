@@ -1,4 +1,5 @@
 #include "soft/soft_hessian.hpp"
+#include "soft/tuning.hpp"
 
 #include <Eigen/Dense>
 
@@ -6,13 +7,6 @@
 #include <numeric>
 
 namespace jam {
-namespace {
-
-// Of a rattler to its place, in units of the mean stiffness: what touches it can push it away.
-constexpr double rattler_spring = 1e-3;
-
-}  // namespace
-
 // Block of a contact: k n n^T - (f / r) (1 - n n^T), plus on both diagonal blocks, minus off them.
 void SoftHessian::assemble(const SoftState &state, const SoftContacts &contacts, const std::vector<char> &on) {
   const int d = state.dim(), dd = d * d;
@@ -63,7 +57,7 @@ void SoftHessian::assemble(const SoftState &state, const SoftContacts &contacts,
   }
   bool tied = false;
   for (size_t i = 0; i < state.n(); ++i) {
-    const double spring = !stable[i] ? rattler_spring : tied ? 0.0 : 1.0;
+    const double spring = !stable[i] ? SoftHessianTuning::rattler_spring : tied ? 0.0 : 1.0;
     tied = tied || stable[i];
     for (int c = 0; c < d; ++c) diag_[i * dd + c * d + c] += spring * unit_;
   }
@@ -154,7 +148,8 @@ bool SoftHessian::factorise(const SoftState &state, const SoftContacts &contacts
   }
   const int d = state.dim();
   std::vector<double> shifted;
-  for (double s = shift; s<100.0; s = s> 0.0 ? 10.0 * s : 1e-6) {
+  for (double s = shift;
+       s<SoftHessianTuning::last_try; s = s> 0.0 ? SoftHessianTuning::next_try * s : SoftHessianTuning::first_try) {
     shifted = diag_;
     for (size_t i = 0; i < state.n(); ++i)
       for (int c = 0; c < d; ++c) shifted[i * d * d + c * d + c] += s * unit_;

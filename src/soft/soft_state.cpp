@@ -9,25 +9,16 @@
 #include "core/pair_rule.hpp"
 #include "core/rng.hpp"
 #include "network/rattlers.hpp"
+#include "soft/tuning.hpp"
 
 namespace jam {
-namespace {
-
-// Reach of the neighbour list beyond contact, mean diameters: it grows where lists are made anew within few
-// evaluations.
-constexpr double shortest_skin = 0.1, longest_skin = 0.4;
-// Squares of distances up to this one have lost their digits; the distance that then stands for them, in sigma_ij.
-constexpr double tiny = 1e-280, coincident_distance = 1e-16;
-constexpr int64_t few_evaluations = 25, many_evaluations = 250;
-
-}  // namespace
 
 SoftState::SoftState(const Packing &p, const PairEnergy &energy, int32_t precision)
     : base_(p),
       energy_(energy),
       precision_(precision),
       diameter_mean_(jam::diameter_mean(p)),
-      skin_(shortest_skin * diameter_mean_),
+      skin_(SkinTuning::shortest * diameter_mean_),
       displacement_(p.position.size(), 0.0) {
   rebase();
 }
@@ -105,8 +96,10 @@ bool SoftState::moved() {
     rest = std::max(0.0, rest - std::sqrt(e2) * (skin_ + contact_distance_max(base_)));
   }
   if (!(4.0 * most >= rest * rest)) return false;
-  if (uses_ < few_evaluations) skin_ = std::min(1.5 * skin_, longest_skin * diameter_mean_);
-  if (uses_ > many_evaluations) skin_ = std::max(0.5 * skin_, shortest_skin * diameter_mean_);
+  if (uses_ < SkinTuning::few_evaluations)
+    skin_ = std::min(SkinTuning::grow * skin_, SkinTuning::longest * diameter_mean_);
+  if (uses_ > SkinTuning::many_evaluations)
+    skin_ = std::max(SkinTuning::shrink * skin_, SkinTuning::shortest * diameter_mean_);
   rebase();
   return true;
 }
@@ -165,7 +158,7 @@ double SoftState::part_coincident(size_t k, double *r) const {
   }
   double r2 = 0.0;
   for (int c = 0; c < d; ++c) r2 += r[c] * r[c];
-  const double length = coincident_distance * sigma_[k];
+  const double length = CoincidentTuning::distance * sigma_[k];
   for (int c = 0; c < d; ++c) r[c] *= length / std::sqrt(r2);
   return length * length;
 }
@@ -189,7 +182,7 @@ SoftSums SoftState::evaluate_in(std::vector<double> &force, const CellStrain *st
     if (!(q > 0.0)) continue;
     double r2 = 0.0;
     for (int c = 0; c < d; ++c) r2 += r[c] * r[c];
-    if (!(r2 > tiny)) r2 = part_coincident(k, r), ++sums.coincident;
+    if (!(r2 > CoincidentTuning::tiny)) r2 = part_coincident(k, r), ++sums.coincident;
     const double length = std::sqrt(r2), sum = sigma + length, both = 1.0 / (length * sum);
     const double delta = q * length * both, f = energy_.force(delta, inverse_[k]);
     sums.energy += energy_.value_from_force(delta, f);
@@ -236,7 +229,7 @@ SoftContacts SoftState::contacts() const {
     if (!(q > 0.0)) continue;
     double r2 = 0.0;
     for (int c = 0; c < d; ++c) r2 += r[c] * r[c];
-    if (!(r2 > tiny)) r2 = part_coincident(k, r);
+    if (!(r2 > CoincidentTuning::tiny)) r2 = part_coincident(k, r);
     const double length = std::sqrt(r2), delta = q / (sigma_[k] + length);
     out.pair.push_back(k);
     out.overlap.push_back(delta);

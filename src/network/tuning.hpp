@@ -1,0 +1,88 @@
+// Every number that steers the work on contact networks. Limits of gaps stand in resolution.hpp, those of eigenvalues
+// in rigidity_test.hpp: they are part of what a verdict means.
+#pragma once
+#include <cstddef>
+
+namespace jam {
+
+// ---- the smallest gap of a pair that is no contact: radii of search over the contact distance, one after the other
+constexpr double gap_searches[] = {1.2, 2.0};
+
+// ---- interior point to the centre of the balanced forces
+struct CentralPathTuning {
+  // No product f w falls below this part of their mean, so that no contact is stuck at the boundary.
+  static constexpr double neighbourhood = 1e-3, least_step = 1e-3;
+  // Predictor and corrector: mu falls to a part between these; the correction is at most these parts of the target;
+  // steps end at this part of the way to the boundary, and are tried shorter by the last one.
+  static constexpr double steepest = 1e-3, flattest = 0.95, most_down = 10.0, most_up = 0.9, to_boundary = 0.99,
+                          shorter = 0.8;
+};
+
+// ---- contacts from geometry
+struct JumpTuning {
+  static constexpr size_t most_candidates = 12;
+  // A true jump separates rounding from real gaps: decades, and far more of them than the next candidate.
+  static constexpr double wide = 100.0;
+};
+
+// ---- solver of a Hessian whose translations are tied: springs over the norm, and refinement until residuals fall
+// slowly
+struct GroundedTuning {
+  static constexpr double spring = 0.1, slow = 0.3;
+  static constexpr int most_passes = 20;
+};
+
+// ---- rattlers: distance of the origin from the convex hull of the contact vectors, above which no forces can balance,
+// while vectors may still change: this rule never takes out a sphere that carries force at the end
+constexpr double clear_distance = 1e-3;
+
+// ---- resolution of gaps. A wider error says nothing about contacts at all. Pairs within the second part of the mean
+// diameter are the first neighbours of a lattice whose digits are few.
+struct ResolutionTuning {
+  static constexpr double widest_reach = 0.5, first_neighbours = 0.02;
+};
+
+// ---- zero modes: a new one has kept a good part of a random vector, and has no curvature (over the norm)
+struct ZeroModeTuning {
+  static constexpr double kept = 1e-4, independent = 1e-6, curvature = 1e-10, least_norm = 1e-300;
+};
+
+// ---- the softest modes by block iteration
+struct SoftestModesTuning {
+  static constexpr int first_block = 4, largest_block = 32, most_passes = 200;
+  static constexpr double settled = 1e-3;                // relative change of the margin in one pass
+  static constexpr double zero = 1e-8, converged = 0.3;  // of the limit of a flex; part of the value one pass before
+};
+
+// ---- the cone of self-stresses
+struct StressConeTuning {
+  // In units of the mean |force|: below the first a force is zero, above the second it is not; between them the digits
+  // do not decide. The same for the opening of a contact, where the largest displacement is 1.
+  static constexpr double zero_force = 1e-11, sure_force = 1e-9, zero_opening = 1e-11, sure_opening = 1e-9;
+  // A motion that opens all contacts by more than this rules out every balance of forces, also near these positions.
+  static constexpr double clear_opening = 1e-8;
+  // Forces of mean 1 that keep less than this in the projection on the balance were no state of self-stress.
+  static constexpr double least_projection = 1e-6;
+  // The analytic centre: Newton steps, ratio of two forces beyond which it is given up, longest step, and the decrement
+  // above which a step is damped.
+  static constexpr int most_steps = 50, most_path_steps = 60;
+  static constexpr double largest_ratio = 1e12, longest_step = 1e3, damped = 0.25;
+  // The path: mu of the first guess of the support, the part of it at the next one, and its end.
+  static constexpr double first_guess = 1e-2, next_guess = 0.1, least_mu = 1e-12;
+};
+
+// ---- the test of rigidity
+struct RigidityTuning {
+  static constexpr size_t most_flexes = 512;  // that are counted
+  // A flex may close a contact by no more than this, where the largest displacement is 1: a motion of length t closes
+  // it by 1e-8 t and opens it by t^2 / 2, so the overlap on the way stays below the rounding of a gap.
+  static constexpr double flex_rounding = 1e-8;
+  // Forces that balance worse than this, over the mean force, prove nothing; worse than the second they do not even
+  // name the contacts.
+  static constexpr double most_residual = 1e-10, useless_residual = 1e-6;
+};
+
+// ---- refinement of solutions of the rows
+constexpr int most_refinements = 30;
+
+}  // namespace jam

@@ -48,7 +48,7 @@ def save(path, command, columns, rows, source=None):
 
 def number(value):
     if isinstance(value, int) or value == 0:
-        return str(value)
+        return str(int(value))
     return re.sub(r"e([+-])0*", lambda m: "e" + m.group(1).replace("+", ""), f"{value:.3g}")
 
 
@@ -74,7 +74,7 @@ def cell(value):
 
 
 def study_row(row):
-    ours = {"value": row["ours"], "error": row["error"]} if row["error"] else row["ours"]
+    ours = {"value": row["ours"], "error": row["error"]} if row["error"] else f"{row['ours']:.4g}"
     published = f"{row['published']:g}" if isinstance(row["published"], float) else row["published"]
     return [row["quantity"], "" if published == "none" else published, ours, row["sigma"]]
 

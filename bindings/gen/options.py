@@ -143,7 +143,7 @@ TABLE = {
             "shrink",
             "switch",
             "",
-            "multiply all diameters of the file by the factor that brings the worst pair to contact; the summary gives it",
+            "multiply all diameters of the file by the factor that brings the pair of largest overlap to contact; the summary gives the factor",
             needs=("input", "resume"),
         ),
         Option(
@@ -161,7 +161,7 @@ TABLE = {
             "growth",
             "stage",
             "RATE[:P]",
-            "one stage: growth rate G = (d sigma/dt)/sqrt(kT/m) up to reduced pressure P. Give it again for more stages. "
+            "one stage: growth rate G = (d sigma/dt)/sqrt(kT/m) up to reduced pressure P. Repeat the option for more stages. "
             "Default: 1e-2:500, then 3e-3 up to --pressure",
         ),
         Option("pressure", "pressure", "P", "target of stages without :P (1e7)", STAGES[-1][1]),
@@ -170,7 +170,7 @@ TABLE = {
             "fraction",
             "F",
             "grow to exactly this packing fraction, without a crunch, which would change it. With --sizes in the unit of --cell or "
-            "--box, and without --n, the number of spheres follows and the diameters end as the law says",
+            "--box, and without --n, the number of spheres follows from them, and the final diameters are those of the law",
             without=("no-md", "porosity", "plant", "zeta"),
         ),
         Option(
@@ -180,9 +180,9 @@ TABLE = {
             "the same by the void fraction, 1 - F",
             without=("no-md", "plant", "zeta"),
         ),
-        Option("no-md", "switch", "", "none"),
+        Option("no-md", "switch", "", "no molecular dynamics"),
     ),
-    "A job that may be killed": (
+    "Checkpoints": (
         Option(
             "checkpoint",
             "output",
@@ -194,8 +194,8 @@ TABLE = {
             "resume",
             "input",
             "FILE",
-            "continue from a checkpoint. Dynamics: to the same bits, the stage that was cut off, then those stages whose "
-            "pressure lies beyond. A crunch: from the packing of its last step",
+            "continue from a checkpoint. Dynamics: to the same bits, the stage that was interrupted, then the stages "
+            "of higher pressure. A crunch: from the packing of its last step",
         ),
     ),
     "Crunch": (
@@ -254,7 +254,7 @@ TABLE = {
             "output",
             "FILE",
             "the packing. The ending sets the format: extended XYZ (.xyz, .extxyz), LAMMPS (.data, .lmp), ParaView (.vtp), "
-            "plain text (.dat, .txt, none). With .gz behind it the file is compressed",
+            "plain text (.dat, .txt, none). With .gz appended the file is compressed",
         ),
         Option(
             "page",
@@ -328,7 +328,7 @@ TABLE = {
             "log",
             "output",
             "FILE|-",
-            "what the library says of each stage and LP, a line each with its time",
+            "messages of the library on each stage and LP, one line each with its time",
             stdout=True,
         ),
         Option("vtk", "text", "PREFIX", "PREFIX.vtp and PREFIX-forces.vtp for ParaView"),
@@ -348,8 +348,8 @@ ABOUT = (
 )
 EXAMPLE = "--n 1024 --seed 1 --output packing.xyz --page packing.html --report -"
 NOTES = (
-    "Ctrl-C stops the computation, and the requested files are still written. Into a pipe or a file progress goes as a line "
-    "every ten seconds, on a terminal as one line that changes.",
+    "Ctrl-C stops the computation, and the requested files are still written. Progress is one changing line on a terminal, "
+    "and one line every ten seconds in a pipe or a file.",
     "Exit status 0: done, and jammed unless --no-crunch. 1: stopped early, a stage stalled, or not jammed; the valid state reached is written. "
     "2: wrong command line. 3: request or input refused, or the computation failed. 4: an output cannot be written.",
     "With --input the verdict is that of the end state, after the crunch. 'check FILE' tests the packing of a file as it "

@@ -1,8 +1,9 @@
 """What digits of a jammed packing cost: processor time and errors of crunch by tolerance, from grown states.
 
-usage: advise.py [N [SEEDS]]         one size in d = 3; the guide's table "Which digits cost what" is made of its rows
+usage: advise.py [N [SEEDS]]         one size in d = 3, as JSON: the guide's table "Which digits cost what"
        advise.py --table [SEEDS]     sizes and dimensions of jam.advise, as the table in bindings/python/jam/advice.py
 """
+import json
 import statistics
 import sys
 import time
@@ -61,11 +62,12 @@ def main():
     n = int(words[0]) if words else 1024
     seeds = int(words[1]) if len(words) > 1 else 3
     found, _ = measured(n, 3, seeds)
-    print(f"N = {n}, {seeds} seeds, medians: options; seconds; error of phi_J; force residual; overlap; jammed")
+    made = []
     for options, rows in zip(ROWS, found):
-        name = ", ".join(f"{k}={v:g}" for k, v in options.items()) or "the defaults"
-        numbers = [statistics.median(float(row[k]) for row in rows) for k in range(4)]
-        print(f"{name}; " + "; ".join(f"{x:.2g}" for x in numbers) + f"; {sum(bool(row[4]) for row in rows)}")
+        keys = ("seconds", "error", "residual", "overlap")
+        made.append({"options": options, "jammed": sum(bool(row[4]) for row in rows)})
+        made[-1].update((key, statistics.median(float(row[k]) for row in rows)) for k, key in enumerate(keys))
+    print(json.dumps({"n": n, "seeds": seeds, "rows": made}, indent=1))
 
 
 if __name__ == "__main__":

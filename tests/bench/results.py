@@ -85,7 +85,7 @@ def disks(*raws):
     rows = []
     for raw in raws:
         kinds = raw["kinds"]
-        jammed = kinds.get("jammed", 0)
+        jammed = sum(number for kind, number in kinds.items() if kind.startswith("jammed"))
         rows.append(
             [raw["n"], len(raw["rows"]), jammed, jammed - raw["not_confirmed"], kinds.get("wrong", 0)]
             + [raw["median_factorisations"], raw["median_seconds"], max(r["seconds"] for r in raw["rows"])]
@@ -139,19 +139,6 @@ def md(raw):
     return ["what", "N = 1024", "N = 16384", "N = 1e5"], rows
 
 
-def cells(raw):
-    """cells.py --sizes 1000,8000 --seconds 4"""
-    rows = []
-    for name in dict.fromkeys(r["cell"] for r in raw):
-        line = [name]
-        for method in ("molecular_dynamics", "monte_carlo"):
-            for n in (1000, 8000):
-                runs = [r for r in raw if (r["cell"], r["method"], r["n"]) == (name, method, n)]
-                line.append(max(runs, key=lambda r: r["seconds"])["rate"] / 1e6)
-        rows.append(line)
-    return ["cell", "millions of collisions per second, N = 1000", "N = 8000", "millions of Monte Carlo trials per second, N = 1000", "N = 8000 "], rows  # fmt: skip
-
-
 def monte_carlo(raw):
     """monte_carlo"""
     rows = [
@@ -188,9 +175,46 @@ def soft(*raws):
     return ["start (N = 512)", "Newton (s)", "FIRE (s)", "L-BFGS (s)"], rows
 
 
+def factorisation(raw):
+    """single_precision"""
+    rows = []
+    for case in raw["cases"]:
+        doubles = statistics.median(p["seconds"] for p in case["points"] if p["precision"] == "double")
+        row = [case["decades"], doubles]
+        for asked in (1e-2, 1e-10):
+            found = [p for p in case["points"] if p["precision"] == "single" and p["asked"] == asked and p["found"]]
+            row += [found[0]["seconds"] if found else "not converged"]
+        rows.append(row)
+    return ["decades of weights (N = 4096)", "doubles (s)", "floats, error 1e-2 (s)", "floats, error 1e-10 (s)"], rows
+
+
+def advise(raw):
+    """advise.py 512"""
+    rows = []
+    for row in raw["rows"]:
+        name = ", ".join(f"{key}={value:g}" for key, value in row["options"].items())
+        rows.append([f"`{name}`" if name else "the defaults", row["seconds"], row["error"], row["residual"], f"{row['jammed']} of {raw['seeds']}"])
+    return ["options of `crunch`", "processor time (s)", "error of phi_J", "force residual", "jammed"], rows
+
+
+def analysis(raw):
+    """analysis"""
+    forces = {f"{r['method']} {r.get('refinements', '')}".strip(): r for r in raw["forces"]}["null vector 2"]
+    modes = next(r for r in raw["spectrum"] if r["method"] == "lanczos" and r["count"] == 100)
+    rows = [
+        ["contacts, forces, gaps, classes and structure from positions", raw["n"], raw["contacts_forces_gaps_classes_structure"]["cpu"], forces["error"]],
+        ["all modes with vectors", raw["n"], raw["full_spectrum_with_vectors"]["cpu"], raw["spectrum"][0]["error"]],
+        ["lowest 100 modes", raw["n"], raw["lowest_100"]["cpu"], modes["error"]],
+        ["floppy modes of all contacts", raw["n"], raw["floppy_all"]["cpu"], raw["floppy_blocks"]["residual"]],
+        ["contacts and forces", raw["tiled_n"], raw["tiled_forces"]["cpu"], None],
+        ["lowest 100 modes", raw["tiled_n"], raw["tiled_lowest_100"]["cpu"], None],
+    ]
+    return ["task", "N", "processor time (s)", "error"], rows
+
+
 def main():
     name, raws = sys.argv[1], [json.loads(Path(path).read_text(encoding="utf-8")) for path in sys.argv[2:]]
-    made = {f.__name__: f for f in (crunch, size, clp, resume, disks, proofs, strict, md, cells, monte_carlo, near_jamming, soft)}[name]
+    made = {f.__name__: f for f in (crunch, size, clp, resume, disks, proofs, strict, md, monte_carlo, near_jamming, soft, advise, analysis, factorisation)}[name]
     columns, rows = made(*raws)
     old = raws[0] if isinstance(raws[0], dict) and "commit" in raws[0] else None  # a result that was kept with its source
     source = old and {key: old[key] for key in ("machine", "commit", "date")}

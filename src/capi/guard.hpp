@@ -143,8 +143,9 @@ jam_status guard_set(jam_system *sys, F &&f) noexcept {
   });
 }
 
-// A verb on a handle: can be cancelled, also by a cancel that came before it, and takes that cancel with it when it
-// ends.
+// A verb on a handle. jam_cancel stops it,
+// also if it was called before;
+// the cancel flag is cleared when the verb returns.
 template <class F>
 jam_status guard_verb(jam_system *sys, F &&f) noexcept {
   return guard([&] {

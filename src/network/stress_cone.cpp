@@ -20,8 +20,8 @@ double mean_size(const std::vector<double> &f) {
   return f.empty() ? 0.0 : sum / static_cast<double>(f.size());
 }
 
-// No state, or one: the null vector decides by its signs. A f >= 0 state with zeros leaves them to open, one with both
-// signs lets all contacts open.
+// No state of self-stress, or one: the signs of the null vector decide. Where f >= 0 has zeros, those contacts can
+// open. With both signs all contacts can open.
 StressCone of_one_state(const ConstraintRows &rows, const NormalSolver &solver, int64_t states) {
   StressCone out;
   const size_t m = rows.rows();

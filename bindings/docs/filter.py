@@ -7,7 +7,8 @@ RULE = re.compile(r"^/\* (-{10,}) (.*?) (?:-+ )?\*/\n(?:/\* ((?:(?!\*/).)*)\*/\n
 
 
 def header(text):
-    text = RULE.sub("", text).replace("<sigma>", "&lt;sigma&gt;")
+    text = RULE.sub("", text)
+    text = re.sub(r"<([a-z_]+(?: [a-z_]+)*)>", r"&lt;\1&gt;", text)  # a mean such as <n_a n_b> is no tag
     top = text.index("*/")
     text = text[:top].replace("@", "\\@") + text[top:]
     text = re.sub(r"/\* libjam:", "/** @file jam.h\n * libjam:", text, count=1)

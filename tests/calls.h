@@ -95,7 +95,7 @@ OPTIONS(hessian, (void)o, (void)o)
 OPTIONS(modes, o->count = 4, BOUND(memory_limit, 1e8))
 OPTIONS(geometry, (void)o, (void)o)
 OPTIONS(check, (void)o, BOUND(wall_time, SECONDS))
-OPTIONS(correlation, (o->r_max = 2.0, o->bins = 20), BOUND(bins, CALL_ROOM))
+OPTIONS(correlation, (o->r_max = 2.0, o->bins = 20), BOUND(bins, (int64_t)CALL_ROOM))
 OPTIONS(dos, (o->moments = 16, o->vectors = 2, o->points = 10), (void)o)
 static __thread jam_monte_carlo_options options_of_monte_carlo;
 static inline jam_monte_carlo_options *monte_carlo_options(CALL_INPUT *in, double alpha) {

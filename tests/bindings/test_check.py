@@ -2,11 +2,8 @@
 
 Verdicts are judged by jamming_oracle.py, which shares no code with the library.
 """
-import itertools
 import os
-import re
 import subprocess
-import sys
 import tempfile
 import unittest
 from pathlib import Path
@@ -16,52 +13,9 @@ import numpy as np
 import jam
 from jam import CheckReason, Verdict
 from jamming_oracle import contacts, judge
+from packings import fluid, packing, state, lattice, cubic, fcc, triangular, made
 
 PACK = os.environ.get("JAM_PACK")
-
-
-def fluid(n=64, dim=3, seed=1, fraction=0.55):
-    s = jam.System.random(n, dim, seed)
-    s.compress(growth_rate=1e-2, packing_fraction=fraction)
-    return s
-
-
-def packing(n=64, dim=3, seed=1, **more):
-    s = jam.System.random(n, dim, seed, **more)
-    s.compress(growth_rate=3e-2, pressure=500.0)
-    report = s.crunch()
-    assert report.jammed, (n, dim, seed)
-    return s
-
-
-def state(s):
-    return np.array(s.positions), np.array(s.diameters), np.array(s.cell)
-
-
-def lattice(basis, vectors, sizes):
-    """Spheres of diameter 1 on basis + integer combinations of the vectors."""
-    vectors = np.array(vectors, float)
-    cells = np.array(list(itertools.product(*map(range, sizes)))) @ vectors
-    x = (cells[:, None, :] + np.array(basis, float)[None]).reshape(-1, len(vectors))
-    return x, np.diag(sizes) @ vectors
-
-
-def cubic(m, dim=3):
-    return lattice([[0] * dim], np.eye(dim), [m] * dim)
-
-
-def fcc(m):
-    basis = np.array([[0, 0, 0], [0, 1, 1], [1, 0, 1], [1, 1, 0]]) / np.sqrt(2)
-    return lattice(basis, np.sqrt(2) * np.eye(3), [m] * 3)
-
-
-def triangular(m):
-    return lattice([[0, 0]], [[1, 0], [0.5, np.sqrt(3) / 2]], [m, m])
-
-
-def made(x, cell, drop=(), **more):
-    keep = np.delete(np.arange(len(x)), list(drop))
-    return jam.System.from_arrays(x[keep], 1.0, cell=cell, overlap="shrink", **more)
 
 
 class AsItIs(unittest.TestCase):
@@ -145,179 +99,6 @@ class AsItIs(unittest.TestCase):
         self.assertEqual(s.check().jammed, Verdict.YES)
         for dim, n in ((4, 24), (5, 24)):
             self.assertEqual(packing(n, dim, 1).check().jammed, Verdict.YES)
-
-
-class FewDigits(unittest.TestCase):
-    """Rounded coordinates never give a no to a jammed packing, nor a yes to a liquid."""
-
-    def rounded(self, s, digits, shift=0.0):
-        x, diameters, cell = state(s)
-        y = np.float32(x).astype(float) if digits == "single" else np.round(x, digits)
-        return jam.System.from_arrays(y + shift, diameters, cell=cell, overlap="shrink")
-
-    def test_digits(self):
-        s = packing(100, 3, 2)
-        diameter = s.diameters.mean()
-        for digits in (5, 6, 7, 8, "single"):
-            for shift in (0.0, 0.5):
-                t = self.rounded(s, digits, shift)
-                r = t.check()
-                self.assertEqual((r.jammed, r.reason), (Verdict.UNDECIDED, CheckReason.DIGITS), r)
-                step = 2.0**-24 if digits == "single" else 10.0**-digits
-                self.assertTrue(0.4 * step < r.coordinate_step < 2.1 * step, r)
-                self.assertEqual((r.crunch_jammed, r.crunch_contacts), (Verdict.YES, s.report.contacts), r)
-                # the softest mode answers a rounding of every contact
-                soft = 1 / np.sqrt(s.report.rigidity_margin)
-                self.assertLess(r.crunch_displacement_max, 10 * soft * step / diameter)
-                self.assertIn(f"finds {r.crunch_contacts} contacts, jammed", str(r))
-                if digits != "single":
-                    self.assertEqual(r.digits, digits)
-                    self.assertIn(f"seem to have {digits} digits", str(r))
-                for kind in ("collective", "strict"):
-                    self.assertEqual(t.rigidity(kind).jammed, Verdict.UNDECIDED)
-                    self.assertGreaterEqual(t.rigidity(kind).undecided_contacts, s.report.contacts - 1)
-                found = t.contacts_from_geometry()
-                # gaps below 1e-7 of a network that a clear jump names are contacts
-                self.assertIn(t.status, (jam.StatusCode.OK, jam.StatusCode.AMBIGUOUS), found)
-                self.assertTrue(t.status == jam.StatusCode.AMBIGUOUS or found.gap_below < 1e-7, found)
-                self.assertGreater(found.resolution, step)
-
-    def test_digits_of_other_systems(self):
-        half = [1.0] * 20 + [1.4] * 20
-        for n, dim, more in ((40, 2, {"diameters": half}), (40, 2, {"diameters": half, "non_additivity": 0.1}), (40, 4, {})):
-            s = packing(n, dim, 4, **more)
-            x, diameters, cell = state(s)
-            t = jam.System.from_arrays(
-                np.round(x, 6), diameters, cell=cell, overlap="shrink", non_additivity=more.get("non_additivity", 0.0)
-            )
-            self.assertEqual(t.check(crunch=False).jammed, Verdict.UNDECIDED)
-        x, cell = fcc(3)
-        for drop in ((), (5,)):
-            y = np.delete(np.round(x / cell[0, 0], 6), list(drop), axis=0)
-            t = jam.System.from_arrays(y, 1 / cell[0, 0], overlap="shrink")
-            self.assertNotEqual(t.check(crunch=False).jammed, Verdict.NO)
-
-    def test_digits_of_radii_and_cell(self):
-        """Centres with all digits beside rounded radii, a rounded cell, or some rounded centres."""
-        s = packing(60, 3, 4, diameters=np.linspace(1.0, 1.3, 60))
-        x, diameters, cell = state(s)
-        some = x.copy()
-        some[:12] = np.round(some[:12], 5)
-        for digits in (5, 6):
-            down = np.floor(diameters * 10**digits) / 10**digits
-            near = np.round(cell, digits) + np.diag([10.0**-digits] * 3)
-            for what in ((x, down, cell), (x @ np.linalg.inv(cell) @ near, diameters * (1 - 1e-7), near), (some, diameters, cell)):
-                t = jam.System.from_arrays(what[0], what[1], cell=what[2], overlap="allow")
-                r = t.check(crunch=False)
-                self.assertEqual((r.jammed, r.reason), (Verdict.UNDECIDED, CheckReason.DIGITS), r)
-        whole = jam.System.from_arrays(x, diameters, cell=cell, overlap="shrink").check(crunch=False)
-        self.assertEqual(whole.jammed, Verdict.YES)
-
-    def test_digits_of_a_lattice(self):
-        """Pairs along an axis touch exactly whatever the digits are; the others do not."""
-        for digits in range(3, 9):
-            a = np.round(np.diag([1, 3**0.5]), digits)
-            basis = ([0, 0], [0.5, a[1, 1] / 2])
-            x = np.array([np.array([i, k]) @ a + p for i in range(4) for k in range(3) for p in basis])
-            r = jam.System.from_arrays(x, 1.0, cell=a * [[4], [3]], overlap="shrink").check(crunch=False)
-            self.assertNotEqual(r.jammed, Verdict.NO, (digits, r))
-
-    def test_digits_before_a_shift(self):
-        """Digits are those of the numbers given, not of wrapped, shifted or rotated ones; a move leaves none."""
-        s = packing(60, 3, 4)
-        x, diameters, cell = state(s)
-        scale = 12.3456789 / cell[0, 0]
-        y = np.round((x - cell[0, 0] / 2) * scale, 5)
-        t = jam.System.from_arrays(y, diameters * scale * (1 - 4e-6), cell=cell * scale)
-        for u in (t, t.copy()):
-            self.assertEqual(u.check(crunch=False).digits, 6)
-        with tempfile.TemporaryDirectory() as folder:
-            t.write_checkpoint(f"{folder}/c")
-            self.assertEqual(jam.System.from_checkpoint(f"{folder}/c").check(crunch=False).digits, 6)
-            low, high = -cell[0, 0] * scale / 2, cell[0, 0] * scale / 2
-            with open(f"{folder}/dump", "w") as f:
-                f.write("ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n60\nITEM: BOX BOUNDS pp pp pp\n")
-                f.write(f"{low:.16e} {high:.16e}\n" * 3 + "ITEM: ATOMS id x y z diameter\n")
-                for k, (r, sigma) in enumerate(zip(y, diameters * scale * (1 - 4e-6))):
-                    f.write("%d %.6g %.6g %.6g %.17g\n" % (k + 1, *r, sigma))
-            self.assertEqual(jam.System.read(f"{folder}/dump").check(crunch=False).jammed, Verdict.UNDECIDED)
-            irrational = np.pi / cell[0, 0]
-            z = np.round((x - cell[0, 0] / 2) * irrational, 5)
-            u = jam.System.from_arrays(z, diameters * irrational * (1 - 2e-5), cell=cell * irrational)
-            for ending in ("xyz", "data", "dat"):
-                u.write(f"{folder}/u.{ending}")
-                self.assertEqual(jam.System.read(f"{folder}/u.{ending}").check(crunch=False).jammed, Verdict.UNDECIDED)
-        t.run(collisions_per_particle=5)
-        self.assertEqual(t.check(crunch=False).digits, 0)
-
-    def test_liquid_stays_no(self):
-        s = fluid(100, 3, 1, 0.6)
-        for digits in (6, 7, 8, "single"):
-            r = self.rounded(s, digits).check()
-            self.assertEqual((r.jammed, r.reason), (Verdict.NO, CheckReason.APART), r)
-
-    def test_reduced_spheres_are_another_packing(self):
-        """Equal spheres that overlap by more than their digits leave are not called jammed for smaller spheres."""
-        s = packing(64, 3, 1)
-        for factor, right in ((1 + 1e-9, Verdict.YES), (1.01, Verdict.UNDECIDED), (1.8, Verdict.UNDECIDED)):
-            t = jam.System.from_arrays(s.positions, s.diameters * factor, overlap="allow")
-            r = t.check(crunch=False)
-            self.assertEqual(r.jammed, right, r)
-            self.assertEqual(r.reason is CheckReason.OVERLAP, factor > 1.001, r)
-            self.assertNotEqual(r.strictly_jammed, Verdict.YES)
-
-    def test_own_images_that_balance_are_a_saddle(self):
-        h = 3**0.5 / 2
-        body = np.array([[1, 1, -1], [-1, 1, 1], [1, -1, 1]]) / 3**0.5
-        face = np.array([[1, 1, 0], [0, 1, 1], [1, 0, 1]]) / 2**0.5
-        lattices = [(np.eye(2), False), (np.eye(3), False), (body, False), (face, True), ([[1, 0], [0.5, h]], True)]
-        for cell, jammed in lattices:
-            cell = np.array(cell, float)
-            s = jam.System.from_arrays(np.zeros((1, len(cell))), 1.0, cell=cell, overlap="shrink")
-            r = s.check()
-            self.assertEqual(r.jammed, Verdict.YES if jammed else Verdict.NO, r)
-            self.assertEqual(r.reason, CheckReason.PROOF if jammed else CheckReason.FLEX, r)
-            self.assertEqual(s.rigidity("collective").jammed, r.jammed)
-
-    def test_overlaps_are_resolution(self):
-        """A frame that was rotated after rounding shows no digits, but it overlaps."""
-        s = packing(64, 3, 1)
-        x, diameters, cell = state(s)
-        first, then = (np.linalg.qr(np.random.default_rng(k).normal(size=(3, 3)))[0] for k in (1, 2))
-        y = np.round(3**0.5 * x @ first, 6) @ then
-        t = jam.System.from_arrays(y, 3**0.5 * diameters, cell=3**0.5 * cell @ first @ then, overlap="allow")
-        r = t.check()
-        self.assertEqual((r.jammed, r.reason), (Verdict.UNDECIDED, CheckReason.OVERLAP), r)
-        self.assertLess(r.diameter_factor, 1)
-        self.assertEqual(r.crunch_contacts, s.report.contacts)
-
-    @unittest.skipUnless(PACK, "jam-pack is not built")
-    def test_files(self):
-        s = packing(100, 3, 2)
-        liquid = fluid(100, 3, 1, 0.6)
-        with tempfile.TemporaryDirectory() as folder:
-            for ending in (".dat", ".xyz", ".data"):
-                path = Path(folder) / ("p" + ending)
-                for system, codes in ((s, (0, 3)), (liquid, (1, 1))):
-                    system.write(str(path))
-                    self.assertEqual(self.run_both(path)[0], codes[0])
-                    long = path.read_text()
-                    for digits in (6, 7, 8):
-                        short = re.sub(r"\d\.\d{9,}(e[-+]\d+)?", lambda m: f"{float(m[0]):.{digits}f}", long)
-                        path.write_text(short)
-                        code, text = self.run_both(path)
-                        self.assertEqual(code, codes[1], text)
-                        if code == 3:
-                            self.assertIn(f"finds {s.report.contacts} contacts, jammed", text)
-
-    def run_both(self, path):
-        """jam-pack check and python3 -m jam check say the same."""
-        done, other = (
-            subprocess.run([*program, "check", str(path)], capture_output=True, text=True, timeout=120)
-            for program in ([PACK], [sys.executable, "-m", "jam"])
-        )
-        self.assertEqual((other.returncode, other.stdout), (done.returncode, done.stdout), done.stderr)
-        return done.returncode, done.stdout
 
 
 @unittest.skipUnless(PACK, "jam-pack is not built")

@@ -1,7 +1,6 @@
 """Ensembles: protocols, the files of packings, campaigns that are killed, folders that cannot be written."""
 import json
 import os
-import pickle
 import random
 import resource
 import signal
@@ -21,175 +20,10 @@ import numpy as np
 
 import jam
 from jam._formats import replacing
-from jam.ensemble import Ensemble, LocalPool, ProtocolError, StoreError, WorkerDied
+from jam.ensemble import Ensemble, LocalPool, ProtocolError, StoreError
+from packings import same_bits
 
 SMALL = dict(n=24, dim=2, diameters={"law": "bidisperse"}, stages=[{"growth_rate": 0.1, "pressure": 100.0}])
-
-
-def same_bits(a, b):
-    """Compares two packings of one seed: state and network, not times."""
-    for name in ("positions", "diameters", "velocities", "forces", "coordination"):
-        np.testing.assert_array_equal(getattr(a, name), getattr(b, name))
-    np.testing.assert_array_equal(a.contacts.pairs, b.contacts.pairs)
-
-
-class Protocols(unittest.TestCase):
-    def test_every_default_is_spelled_out_and_json_keeps_it(self):
-        full = jam.ensemble.complete(dict(n=128, dim=3))
-        self.assertEqual(json.loads(jam.ensemble.to_json(full)), full)
-        self.assertEqual(jam.ensemble.complete(full), full)
-        self.assertEqual(full["start"]["packing_fraction"], 0.2)
-        self.assertEqual(full["crunch"]["wall_time"], "inf")
-        self.assertEqual([s["pressure"] for s in full["stages"]], [500.0, 1e7])
-        self.assertEqual(full, jam.ensemble.complete({"start": {"n": 128}}))
-
-    def test_what_no_crunch_made_is_unknown(self):
-        with tempfile.TemporaryDirectory() as folder:
-            e = Ensemble(folder, dict(SMALL, crunch=None, analysis={}))
-            self.assertEqual(e.run([1, 2], progress=False, workers=1).jammed, 0)
-            table = e.table()
-            for row, entry in zip(table, e):
-                system = entry.system()
-                self.assertAlmostEqual(row["packing_fraction"], system.packing_fraction, 12)
-                self.assertAlmostEqual(row["diameter_mean"], system.diameters.mean(), 12)
-        for name in ("rattlers", "contacts", "excess_contacts", "strictly_jammed", "lp_solves", "contacts_kept"):
-            self.assertEqual(table[name].tolist(), [-1, -1], name)
-        for name in ("max_overlap", "force_residual", "gain", "min_gap", "seconds", "rigidity_margin"):
-            self.assertTrue(np.isnan(table[name]).all(), name)
-        self.assertEqual(table["status"].tolist(), [jam.StatusCode.E_STATE] * 2)
-        self.assertEqual(table["jammed"].tolist(), [0, 0])
-
-    def test_seeds_are_whole(self):
-        with tempfile.TemporaryDirectory() as folder:
-            for wrong in (1.5, -1, 2**64):
-                with self.assertRaisesRegex(ProtocolError, "seed"):
-                    Ensemble(folder, SMALL).run([wrong], progress=False)
-
-    def test_wrong_entries_are_named(self):
-        for wrong, text in (
-            (dict(n=10, speed=3), "speed"),
-            (dict(n=0), "n = 0"),
-            (dict(n=10, start={"n": 10}), "given twice"),
-            (dict(n=10, diameters=[1.0, 2.0]), "diameters must be 10"),
-            (dict(n=10, diameters={"law": "gauss"}), "gauss"),
-            (dict(n=10, lattice="fcc"), "4 m"),
-            (dict(n=10, stages=[{"verb": "shake"}]), "shake"),
-            (dict(n=10, stages=[{"pressur": 10}]), "pressur"),
-            (dict(n=10, crunch={"method": "guess"}), "guess"),
-            (dict(n=10, analysis={"colour": {}}), "colour"),
-            (dict(n=10, analysis={"gaps": {"h_max": 1.0}}), "stable_only"),
-            (dict(n=10, model="flat"), "flat"),
-        ):
-            with self.assertRaisesRegex(ProtocolError, text):
-                jam.ensemble.complete(wrong)
-
-    def test_names_depend_on_protocol_seed_and_version_alone(self):
-        a, b = Ensemble("x", SMALL), Ensemble("y", dict(SMALL, n=26))
-        self.assertEqual(a.name(1), Ensemble("z", a.protocol).name(1))
-        self.assertNotEqual(a.name(1), a.name(2))
-        self.assertNotEqual(a.name(1), b.name(1))
-        self.assertNotEqual(a.name(1), jam.ensemble.packing_name(a.id, 1, "other version"))
-
-    def test_laws_of_diameters_and_the_lattice(self):
-        s = jam.ensemble.begin(
-            jam.ensemble.complete(
-                dict(n=500, lattice="fcc", packing_fraction=0.7, diameters={"law": "lognormal", "deviation": 0.004})
-            ),
-            3,
-        )
-        self.assertAlmostEqual(s.packing_fraction, 0.7, places=12)
-        # deviation of 500 draws: standard error 3 %; five of them
-        self.assertAlmostEqual(s.diameters.std() / s.diameters.mean(), 0.004, delta=0.0006)
-        self.assertGreater(s.bond_order(6, 1.2).min(), 0.57)  # 0.5745 in an FCC crystal
-
-
-class Files(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.folder = tempfile.TemporaryDirectory()
-        cls.path = Path(cls.folder.name, "a.h5")
-        cls.s = jam.System.random(n=40, dim=3, seed=5)
-        cls.s.compress(growth_rate=0.05)
-        cls.s.crunch()
-        cls.s.save(cls.path)
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.folder.cleanup()
-
-    def test_a_file_and_a_pickle_hold_everything(self):
-        for back in (jam.load(self.path), pickle.loads(pickle.dumps(self.s))):
-            same_bits(back, self.s)
-            self.assertEqual(back.report, self.s.report)
-            np.testing.assert_array_equal(back.contacts.vectors, self.s.contacts.vectors)
-            np.testing.assert_array_equal(back.contacts.gaps, self.s.contacts.gaps)
-            for name in self.s.history.dtype.names:
-                np.testing.assert_array_equal(back.history[name], self.s.history[name])
-            self.assertEqual([c["verb"] for c in back.calls], ["compress", "crunch"])
-            self.assertEqual(back.calls[0]["options"]["growth_rate"], 0.05)
-            self.assertEqual((back.seed, back.box), (5, 1.0))
-            back.save(self.path.with_name("again.h5"))
-            same_bits(jam.load(self.path.with_name("again.h5")), self.s)
-
-    def test_dynamics_go_on_to_the_same_bits(self):
-        a, b = jam.load(self.path), self.s.copy()
-        for s in (a, b):
-            s.scale_diameters(0.99)
-            s.run(5.0)
-        np.testing.assert_array_equal(a.positions, b.positions)
-        with self.assertRaises(RuntimeError):
-            a.forces  # a system that moved has no network
-
-    def test_a_loaded_system_has_its_network(self):
-        back = jam.load(self.path)
-        np.testing.assert_array_equal(back.modes(3).values, self.s.modes(3).values)
-        back.contacts_from_geometry()
-        np.testing.assert_allclose(back.modes(3).values, self.s.modes(3).values, rtol=1e-6)
-        # forces from positions alone are good to the rounding of positions over the smallest singular value
-        np.testing.assert_allclose(back.forces, self.s.forces, atol=1e-8)
-
-    def test_h5md_layout(self):
-        with h5py.File(self.path, "r") as f:
-            spheres = f["particles/spheres"]
-            np.testing.assert_array_equal(f["h5md"].attrs["version"], [1, 1])
-            np.testing.assert_array_equal(spheres["position/value"][0], self.s.positions)
-            np.testing.assert_array_equal(spheres["box/edges/value"][0], np.eye(3))
-            self.assertEqual(list(spheres["box"].attrs["boundary"]), ["periodic"] * 3)
-            self.assertEqual(spheres["position/step"], spheres["box/edges/step"])  # one hard link
-            self.assertEqual(f["jam"].attrs["version"], jam.__version__)
-            for key in ("compiler", "blas_kernel", "machine", "written"):
-                self.assertIn(key, f["jam"].attrs)
-
-    def test_mari_kurchan_shifts_come_back(self):
-        s = jam.System.random(n=30, dim=3, seed=2, model="mk", packing_fraction=1.0)
-        s.compress(growth_rate=0.1, pressure=1e3)
-        s.crunch()
-        s.save(self.path.with_name("mk.h5"))
-        back = jam.load(self.path.with_name("mk.h5"))
-        same_bits(back, s)
-        np.testing.assert_array_equal(back.gaps(1.0, 0).gap, s.gaps(1.0, 0).gap)  # contacts are left out
-        for one in (back, s):
-            one.scale_diameters(0.9)
-        np.testing.assert_array_equal(back.gaps(1.0, 0).gap, s.gaps(1.0, 0).gap)
-
-    def test_a_packing_without_network(self):
-        s = jam.System.random(n=20, dim=2, seed=1)
-        s.save(self.path.with_name("start.h5"))
-        back = jam.load(self.path.with_name("start.h5"))
-        np.testing.assert_array_equal(back.positions, s.positions)
-        with self.assertRaises(RuntimeError):
-            back.report
-
-    def test_other_files_are_refused_with_a_reason(self):
-        text = self.path.with_name("text.h5")
-        text.write_text("no HDF5")
-        with h5py.File(self.path.with_name("other.h5"), "w") as f:
-            f["x"] = 1
-        cut = self.path.with_name("cut.h5")
-        cut.write_bytes(self.path.read_bytes()[:5000])
-        for name in ("text.h5", "other.h5", "missing.h5", "cut.h5"):
-            with self.assertRaisesRegex(StoreError, name):
-                jam.load(self.path.with_name(name))
 
 
 class Campaigns(unittest.TestCase):
@@ -456,54 +290,6 @@ class Campaigns(unittest.TestCase):
             with self.assertRaisesRegex(StoreError, "the disk is full"):
                 e.run([1], progress=False)
         self.assertEqual(list(e.files.parts.iterdir()), [])
-
-
-class Pool(unittest.TestCase):
-    def test_answers_errors_and_dead_workers(self):
-        with LocalPool(2) as pool:
-            self.assertEqual(list(pool.map(abs, [-1, 2, -3])), [1, 2, 3])
-            with self.assertRaises(ZeroDivisionError):
-                pool.submit(divmod, 1, 0).result()
-            with self.assertRaisesRegex(WorkerDied, "exit status 7"):
-                pool.submit(os._exit, 7).result()
-            self.assertEqual(pool.submit(abs, -5).result(), 5)
-        with self.assertRaises(RuntimeError):
-            pool.submit(abs, 1)
-
-    def test_shutdown_kills_what_runs(self):
-        pool = LocalPool(1)
-        running = pool.submit(time.sleep, 100.0)
-        waiting = pool.submit(time.sleep, 100.0)
-        while not running.running():
-            time.sleep(0.01)
-        pool.shutdown(cancel_futures=True)
-        self.assertTrue(waiting.cancelled())
-        self.assertIsInstance(running.exception(), WorkerDied)
-
-
-class Command(unittest.TestCase):
-    def run_jam(self, *arguments):
-        command = [sys.executable, "-m", "jam", "ensemble", *arguments]
-        return subprocess.run(command, capture_output=True, text=True)
-
-    def test_run_status_export_and_exit_codes(self):
-        with tempfile.TemporaryDirectory() as folder:
-            protocol, e = Path(folder, "p.json"), str(Path(folder, "e"))
-            protocol.write_text(json.dumps(SMALL))
-            ran = self.run_jam(
-                "run", e, "--protocol", str(protocol), "--seeds", "1-4", "--part", "1/2", "--workers", "1"
-            )
-            self.assertEqual((ran.returncode, ran.stderr), (0, ""))
-            self.assertIn("2 of 2 packings", ran.stdout)
-            status = self.run_jam("status", e, "--seeds", "1-4", "--json")
-            self.assertEqual(status.returncode, 1)
-            found = json.loads(status.stdout)
-            self.assertEqual((found["asked"], found["done"], found["missing"]), (4, 2, 2))
-            self.assertEqual([x.seed for x in Ensemble(e)], [2, 4])
-            self.assertEqual(self.run_jam("export", e, str(Path(folder, "out"))).returncode, 0)
-            self.assertEqual(self.run_jam("run", e, "--seeds", "x").returncode, 2)
-            self.assertEqual(self.run_jam("run", e, "--n", "-3", "--seeds", "1").returncode, 3)
-            self.assertEqual(self.run_jam("run", "/sys/jam-packings", "--n", "20", "--seeds", "1").returncode, 4)
 
 
 if __name__ == "__main__":

@@ -106,11 +106,11 @@ void getters(void **) {
   once = false;
   for (long k = 0; k < 40; ++k) {
     const long clean = alive;
-    static double table[40000];
+    static int32_t pairs[4000];
     jam_estimate e;
     e.struct_size = sizeof e;
     until_failure = k;
-    const jam_status a = k ? JAM_OK : jam_crunch_history(sys, table, 40000, nullptr);
+    const jam_status a = k ? JAM_OK : jam_contacts(sys, pairs, 4000, nullptr);
     const jam_status b = jam_estimate_crunch(sys, nullptr, &e);
     until_failure = -1;
     assert_true((a == JAM_OK) == (k > 0) && (b == JAM_E_MEMORY || b == JAM_OK));

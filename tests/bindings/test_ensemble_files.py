@@ -1,0 +1,179 @@
+"""Protocols of ensembles, and the files of their packings."""
+import json
+import pickle
+import random
+import tempfile
+import unittest
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+import jam
+from jam.ensemble import Ensemble, ProtocolError, StoreError
+from packings import same_bits
+
+SMALL = dict(n=24, dim=2, diameters={"law": "bidisperse"}, stages=[{"growth_rate": 0.1, "pressure": 100.0}])
+
+
+class Protocols(unittest.TestCase):
+    def test_every_default_is_spelled_out_and_json_keeps_it(self):
+        full = jam.ensemble.complete(dict(n=128, dim=3))
+        self.assertEqual(json.loads(jam.ensemble.to_json(full)), full)
+        self.assertEqual(jam.ensemble.complete(full), full)
+        self.assertEqual(full["start"]["packing_fraction"], 0.2)
+        self.assertEqual(full["crunch"]["wall_time"], "inf")
+        self.assertEqual([s["pressure"] for s in full["stages"]], [500.0, 1e7])
+        self.assertEqual(full, jam.ensemble.complete({"start": {"n": 128}}))
+
+    def test_what_no_crunch_made_is_unknown(self):
+        with tempfile.TemporaryDirectory() as folder:
+            e = Ensemble(folder, dict(SMALL, crunch=None, analysis={}))
+            self.assertEqual(e.run([1, 2], progress=False, workers=1).jammed, 0)
+            table = e.table()
+            for row, entry in zip(table, e):
+                system = entry.system()
+                self.assertAlmostEqual(row["packing_fraction"], system.packing_fraction, 12)
+                self.assertAlmostEqual(row["diameter_mean"], system.diameters.mean(), 12)
+        for name in ("rattlers", "contacts", "excess_contacts", "strictly_jammed", "lp_solves", "contacts_kept"):
+            self.assertEqual(table[name].tolist(), [-1, -1], name)
+        for name in ("max_overlap", "force_residual", "gain", "min_gap", "seconds", "rigidity_margin"):
+            self.assertTrue(np.isnan(table[name]).all(), name)
+        self.assertEqual(table["status"].tolist(), [jam.StatusCode.E_STATE] * 2)
+        self.assertEqual(table["jammed"].tolist(), [0, 0])
+
+    def test_seeds_are_whole(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for wrong in (1.5, -1, 2**64):
+                with self.assertRaisesRegex(ProtocolError, "seed"):
+                    Ensemble(folder, SMALL).run([wrong], progress=False)
+
+    def test_wrong_entries_are_named(self):
+        for wrong, text in (
+            (dict(n=10, speed=3), "speed"),
+            (dict(n=0), "n = 0"),
+            (dict(n=10, start={"n": 10}), "given twice"),
+            (dict(n=10, diameters=[1.0, 2.0]), "diameters must be 10"),
+            (dict(n=10, diameters={"law": "gauss"}), "gauss"),
+            (dict(n=10, lattice="fcc"), "4 m"),
+            (dict(n=10, stages=[{"verb": "shake"}]), "shake"),
+            (dict(n=10, stages=[{"pressur": 10}]), "pressur"),
+            (dict(n=10, crunch={"method": "guess"}), "guess"),
+            (dict(n=10, analysis={"colour": {}}), "colour"),
+            (dict(n=10, analysis={"gaps": {"h_max": 1.0}}), "stable_only"),
+            (dict(n=10, model="flat"), "flat"),
+        ):
+            with self.assertRaisesRegex(ProtocolError, text):
+                jam.ensemble.complete(wrong)
+
+    def test_names_depend_on_protocol_seed_and_version_alone(self):
+        a, b = Ensemble("x", SMALL), Ensemble("y", dict(SMALL, n=26))
+        self.assertEqual(a.name(1), Ensemble("z", a.protocol).name(1))
+        self.assertNotEqual(a.name(1), a.name(2))
+        self.assertNotEqual(a.name(1), b.name(1))
+        self.assertNotEqual(a.name(1), jam.ensemble.packing_name(a.id, 1, "other version"))
+
+    def test_laws_of_diameters_and_the_lattice(self):
+        s = jam.ensemble.begin(
+            jam.ensemble.complete(
+                dict(n=500, lattice="fcc", packing_fraction=0.7, diameters={"law": "lognormal", "deviation": 0.004})
+            ),
+            3,
+        )
+        self.assertAlmostEqual(s.packing_fraction, 0.7, places=12)
+        # deviation of 500 draws: standard error 3 %; five of them
+        self.assertAlmostEqual(s.diameters.std() / s.diameters.mean(), 0.004, delta=0.0006)
+        self.assertGreater(s.bond_order(6, 1.2).min(), 0.57)  # 0.5745 in an FCC crystal
+
+
+class Files(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.path = Path(cls.folder.name, "a.h5")
+        cls.s = jam.System.random(n=40, dim=3, seed=5)
+        cls.s.compress(growth_rate=0.05)
+        cls.s.crunch()
+        cls.s.save(cls.path)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    def test_a_file_and_a_pickle_hold_everything(self):
+        for back in (jam.load(self.path), pickle.loads(pickle.dumps(self.s))):
+            same_bits(back, self.s)
+            self.assertEqual(back.report, self.s.report)
+            np.testing.assert_array_equal(back.contacts.vectors, self.s.contacts.vectors)
+            np.testing.assert_array_equal(back.contacts.gaps, self.s.contacts.gaps)
+            for name in self.s.history.dtype.names:
+                np.testing.assert_array_equal(back.history[name], self.s.history[name])
+            self.assertEqual([c["verb"] for c in back.calls], ["compress", "crunch"])
+            self.assertEqual(back.calls[0]["options"]["growth_rate"], 0.05)
+            self.assertEqual((back.seed, back.box), (5, 1.0))
+            back.save(self.path.with_name("again.h5"))
+            same_bits(jam.load(self.path.with_name("again.h5")), self.s)
+
+    def test_dynamics_go_on_to_the_same_bits(self):
+        a, b = jam.load(self.path), self.s.copy()
+        for s in (a, b):
+            s.scale_diameters(0.99)
+            s.run(5.0)
+        np.testing.assert_array_equal(a.positions, b.positions)
+        with self.assertRaises(RuntimeError):
+            a.forces  # a system that moved has no network
+
+    def test_a_loaded_system_has_its_network(self):
+        back = jam.load(self.path)
+        np.testing.assert_array_equal(back.modes(3).values, self.s.modes(3).values)
+        back.contacts_from_geometry()
+        np.testing.assert_allclose(back.modes(3).values, self.s.modes(3).values, rtol=1e-6)
+        # forces from positions alone are good to the rounding of positions over the smallest singular value
+        np.testing.assert_allclose(back.forces, self.s.forces, atol=1e-8)
+
+    def test_h5md_layout(self):
+        with h5py.File(self.path, "r") as f:
+            spheres = f["particles/spheres"]
+            np.testing.assert_array_equal(f["h5md"].attrs["version"], [1, 1])
+            np.testing.assert_array_equal(spheres["position/value"][0], self.s.positions)
+            np.testing.assert_array_equal(spheres["box/edges/value"][0], np.eye(3))
+            self.assertEqual(list(spheres["box"].attrs["boundary"]), ["periodic"] * 3)
+            self.assertEqual(spheres["position/step"], spheres["box/edges/step"])  # one hard link
+            self.assertEqual(f["jam"].attrs["version"], jam.__version__)
+            for key in ("compiler", "blas_kernel", "machine", "written"):
+                self.assertIn(key, f["jam"].attrs)
+
+    def test_mari_kurchan_shifts_come_back(self):
+        s = jam.System.random(n=30, dim=3, seed=2, model="mk", packing_fraction=1.0)
+        s.compress(growth_rate=0.1, pressure=1e3)
+        s.crunch()
+        s.save(self.path.with_name("mk.h5"))
+        back = jam.load(self.path.with_name("mk.h5"))
+        same_bits(back, s)
+        np.testing.assert_array_equal(back.gaps(1.0, 0).gap, s.gaps(1.0, 0).gap)  # contacts are left out
+        for one in (back, s):
+            one.scale_diameters(0.9)
+        np.testing.assert_array_equal(back.gaps(1.0, 0).gap, s.gaps(1.0, 0).gap)
+
+    def test_a_packing_without_network(self):
+        s = jam.System.random(n=20, dim=2, seed=1)
+        s.save(self.path.with_name("start.h5"))
+        back = jam.load(self.path.with_name("start.h5"))
+        np.testing.assert_array_equal(back.positions, s.positions)
+        with self.assertRaises(RuntimeError):
+            back.report
+
+    def test_other_files_are_refused_with_a_reason(self):
+        text = self.path.with_name("text.h5")
+        text.write_text("no HDF5")
+        with h5py.File(self.path.with_name("other.h5"), "w") as f:
+            f["x"] = 1
+        cut = self.path.with_name("cut.h5")
+        cut.write_bytes(self.path.read_bytes()[:5000])
+        for name in ("text.h5", "other.h5", "missing.h5", "cut.h5"):
+            with self.assertRaisesRegex(StoreError, name):
+                jam.load(self.path.with_name(name))
+
+
+if __name__ == "__main__":
+    unittest.main()

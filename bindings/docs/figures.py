@@ -46,10 +46,10 @@ def save(path, command, columns, rows, source=None):
     Path(path).write_text("{\n" + "".join(lines) + ' "rows": [\n' + body + "\n ]\n}\n", encoding="utf-8")
 
 
-def number(value):
+def number(value, digits=3):
     if isinstance(value, int) or value == 0:
         return str(int(value))
-    return re.sub(r"e([+-])0*", lambda m: "e" + m.group(1).replace("+", ""), f"{value:.3g}")
+    return re.sub(r"e([+-])0*", lambda m: "e" + m.group(1).replace("+", ""), f"{value:.{digits}g}")
 
 
 def with_error(value, error):
@@ -74,8 +74,8 @@ def cell(value):
 
 
 def study_row(row):
-    ours = {"value": row["ours"], "error": row["error"]} if row["error"] else f"{row['ours']:.4g}"
-    published = f"{row['published']:g}" if isinstance(row["published"], float) else row["published"]
+    ours = {"value": row["ours"], "error": row["error"]} if row["error"] else number(row["ours"], 4)
+    published = number(row["published"], 6) if isinstance(row["published"], float) else row["published"]
     return [row["quantity"], "" if published == "none" else published, ours, row["sigma"]]
 
 

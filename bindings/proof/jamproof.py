@@ -5,8 +5,10 @@ Proved is: exactly one packing within the printed radius touches exactly in the 
 forces are positive, all other pairs are open, and its stable spheres are collectively jammed.
 
 Integers of Python decide, nothing else. Forces and inverse are hints: bad ones lose the proof, they cannot make one. A
-file without inverse gets one from numpy, or from floats here; OUT is then the file with this inverse. Exit status: 0
-proved, 1 not proved, 2 the file cannot be read. The guide's page "Proofs" holds the theorem.
+file without inverse gets one from numpy, or from floats here; OUT is then the file with this inverse. Where contacts are
+more than unknowns, as in crystals, it is shown that the stable spheres are trapped: no motion without overlap takes one
+farther than `inner`, and no packing as dense lies between `inner` and `outer`. Exit status: 0 proved, 1 not proved, 2 the
+file cannot be read, 3 trapped but not proved. The guide's page "Proofs" holds the theorems.
 
     F_c(x, G) = |x_i - x_j + n A|^2 - G sigma_c^2 = 0 for every contact c = (i, j, n);  J = F'
 
@@ -21,8 +23,10 @@ import sys
 import zlib
 from array import array
 from fractions import Fraction
+from operator import mul
 
 BITS, CHUNK, BIAS, MOST_IMAGES = 24, 16, 1 << 62, 10**6  # of J; columns summed at once; makes 64-bit digits positive; of a pair
+GAMMA, FORCE = -400, 120  # trapping: exponent of gamma, more binary digits of forces
 
 
 class Refused(Exception):
@@ -222,13 +226,17 @@ def rank(rows, p=(1 << 61) - 1):
 
 
 def float_inverse(rows):
+    """An inverse from the left, (J^T J)^-1 J^T where there are more rows than columns."""
     try:
         import numpy
 
-        return numpy.linalg.inv(numpy.array(rows)).tolist()
+        j = numpy.array(rows)
+        return (numpy.linalg.inv(j) if len(rows) == len(rows[0]) else numpy.linalg.inv(j.T @ j) @ j.T).tolist()
     except ImportError:
-        n = len(rows)
-        a = [row + [float(k == i) for k in range(n)] for i, row in enumerate(rows)]
+        flat = list(zip(*rows))
+        square = [[sum(map(mul, a, b)) for b in flat] for a in flat] if len(rows) > len(flat) else [*map(list, rows)]
+        n = len(square)
+        a = [row + [float(k == i) for k in range(n)] for i, row in enumerate(square)]
         for c in range(n):
             p = max(range(c, n), key=lambda r: abs(a[r][c]))
             a[c], a[p] = a[p], a[c]
@@ -236,32 +244,33 @@ def float_inverse(rows):
             for r in range(n):
                 if r != c and a[r][c]:
                     a[r] = [x - a[r][c] * y for x, y in zip(a[r], a[c])]
-        return [row[n:] for row in a]
+        left = [row[n:] for row in a]
+        return left if len(rows) == n else [[sum(map(mul, a, row)) for row in rows] for a in left]
 
 
-def inverse_of(s, columns):
-    """A without its last row, as (e, columns of 32-bit integers in units of 2^e). A hint."""
-    n = len(columns)
+def inverse_of(s, columns, count, wanted):
+    """The first `wanted` rows of a matrix A near the inverse of J from the left, as (e, columns of 32-bit integers in
+    units of 2^e); `count`: rows of J. A hint."""
     if s.inverse:
         e, flat = s.inverse
-        if len(flat) != n * (n - 1):
+        if len(flat) != count * wanted:
             raise Refused("singular: the inverse has not the size of the equations")
-        return e, [flat[c * (n - 1) : (c + 1) * (n - 1)] for c in range(n)]
-    rows = [[0.0] * n for _ in range(n)]
+        return e, [flat[c * wanted : (c + 1) * wanted] for c in range(count)]
+    rows = [[0.0] * len(columns) for _ in range(count)]
     for l, column in enumerate(columns):
         for c, value in column:
             rows[c][l] += value / 2.0**BITS
     try:
         a = float_inverse(rows)
         e = int(max(abs(v) for row in a for v in row)).bit_length() - 30
-        return e, [array("i", (round(a[k][c] * 2.0**-e) for k in range(n - 1))) for c in range(n)]
+        return e, [array("i", (round(a[k][c] * 2.0**-e) for k in range(wanted))) for c in range(count)]
     except Exception as error:  # of a hint, whoever made it
         raise Refused(f"singular: {error}") from None
 
 
 def bounds(s, f, columns, e, inverse):
-    """delta, eta and alpha of A's rows but the last. (A J)_.l costs 2 z + 1 products: A's columns are long integers."""
-    rows = len(columns) - 1
+    """delta, eta and alpha of A's rows. (A J)_.l costs 2 z + 1 products: A's columns are long integers."""
+    rows = len(inverse[0])
     offset = int.from_bytes(array("Q", [BIAS] * rows).tobytes(), "little")
     packed = [int.from_bytes(array("Q", [v + BIAS for v in c]).tobytes(), "little") - offset for c in inverse]
     alpha, delta, eta = [0] * rows, [0] * rows, [0] * rows
@@ -286,18 +295,23 @@ def bounds(s, f, columns, e, inverse):
     return delta, eta, [fraction(a, e) for a in alpha]
 
 
+def unbalanced(s, kept, stress):
+    """R^T f of whole forces, exactly, in 2^k."""
+    net, pinned = {i: [0] * s.dim for i, yes in enumerate(s.stable) if yes}, s.stable.index(True)
+    for (i, j, n, _), m in zip((s.contacts[c] for c in kept), stress):
+        r = s.vector(i, j, n)
+        for sphere, sign in ((i, 2), (j, -2)):
+            net[sphere] = [a + sign * b * m for a, b in zip(net[sphere], r)]
+    return [v for sphere, row in net.items() if sphere != pinned for v in row]
+
+
 def force_row(s, f, kept, values):
     """The last row of A is minus the stress: that, and its delta, eta and alpha, in exact sums."""
     stress, low = scaled(values)
     sigma2 = [fraction(*s.sigma2(*s.contacts[c][:2])) for c in kept]
     weight = sum(a * m for a, m in zip(sigma2, stress))
     stress = [Fraction(int((m << 90) / weight), 1 << 90) for m in stress]  # sum stress sigma^2 = 1 but for rounding
-    net, pinned = {}, s.stable.index(True)
-    for (i, j, n, _), m in zip((s.contacts[c] for c in kept), stress):
-        r, whole = s.vector(i, j, n), int(m * (1 << 90))
-        for sphere, sign in ((i, 2), (j, -2)):
-            net[sphere] = [a + sign * b * whole for a, b in zip(net.get(sphere, [0] * s.dim), r)]
-    off = sum(abs(v) for sphere, row in net.items() if sphere != pinned for v in row)
+    off = sum(map(abs, unbalanced(s, kept, [int(m * (1 << 90)) for m in stress])))
     delta = fraction(off, s.k - 90) + abs(1 - sum(a * m for a, m in zip(sigma2, stress)))
     return stress, delta, abs(sum(fraction(*v) * m for v, m in zip(f, stress))), sum(map(abs, stress))
 
@@ -324,8 +338,8 @@ def reach_of(s, radius, gamma):
     return reach
 
 
-def least_opening(s, radius, gamma):
-    """Every pair and image that is no contact stays open; the least |r|^2 / sigma^2 of them, or None."""
+def least_opening(s, radius, gamma, part=1):
+    """Every pair and image that is no contact stays open at a part of gamma; the least |r|^2 / (gamma sigma^2), or None."""
     closed, least = {c[:3] for c in s.contacts}, None
     closed |= {(j, i, tuple(-v for v in n)) for i, j, n in closed}
     reach = reach_of(s, radius, gamma)
@@ -337,10 +351,10 @@ def least_opening(s, radius, gamma):
                 r, moving = s.vector(i, j, n), (s.stable[i] + s.stable[j]) * (i != j)
                 have = fraction(sum(v * v for v in r), 2 * s.k)
                 have -= 2 * fraction(sum(map(abs, r)), s.k) * radius * moving
-                need = gamma * fraction(*s.sigma2(i, j))
+                need = part * gamma * fraction(*s.sigma2(i, j))
                 if have <= need:
                     raise Refused(f"gap: spheres {i} and {j} are not open (image {n})")
-                least = min(least or have / need, have / need)
+                least = min(least or part * have / need, part * have / need)
     return least
 
 
@@ -364,7 +378,7 @@ def check(s):
         return closed(s, rows, columns)
     if len(kept) != len(columns):
         raise Refused(f"excess: {len(kept)} contacts, {len(columns)} unknowns")
-    s.hint = e, inverse = inverse_of(s, columns)
+    s.hint = e, inverse = inverse_of(s, columns, len(columns), len(columns) - 1)
     delta, eta, alpha = bounds(s, f, columns, e, inverse)
     row, delta_g, eta_g, alpha_g = force_row(s, f, kept, [s.rows.get(c, s.contacts[c][3]) for c in kept])
     delta, eta, beta = max(delta + [delta_g]), max(eta + [eta_g]), 4 * s.dim * max(alpha + [alpha_g])
@@ -389,23 +403,62 @@ def check(s):
     return {name: float(value) for name, value in found.items()}
 
 
+def trapped(s):
+    """Of any network with positive forces: inner and outer of the theorem "Trapped", and the least gap."""
+    s.ge, every = GAMMA, range(len(s.contacts))
+    size = [fraction(sum(v * v for v in s.vector(i, j, n)), 2 * s.k) / fraction(*s.sigma2(i, j)) for i, j, n, _ in s.contacts]
+    least = least_opening(s, 0, min(size), Fraction(1, 2)) or 2  # pairs without force may be closed too
+    s.g = math.floor(min(size) * min(1, least) / fraction(1, GAMMA))  # no pair overlaps: F >= 0
+    opening, _, columns = equations(s, every)
+    columns.pop()
+    s.hint = e, inverse = inverse_of(s, columns, len(every), len(columns))
+    delta, eta, alpha = map(max, bounds(s, opening, columns, e, inverse))
+    stress, low = scaled([c[3] for c in s.contacts])
+    stress, low = [m << FORCE for m in stress], low - FORCE  # a step of Newton balances them to these digits
+    rest = unbalanced(s, every, stress)
+    stress = [m - shifted(sum(map(mul, column, rest)), s.k + e, 0) for m, column in zip(stress, inverse)]
+    if min(stress) <= 0:
+        raise Refused("force: not all are positive")
+    largest = max(Fraction(max(map(abs, column)), m) for column, m in zip(inverse, stress)) * fraction(1, e - low)
+    left = 1 - delta - largest * fraction(sum(map(abs, unbalanced(s, every, stress))), s.k + low)
+    constant = largest * sum(fraction(*v) * m for v, m in zip(opening, stress)) * fraction(1, low) + eta
+    square = 4 * s.dim * (largest * fraction(sum(stress), low) + alpha)
+    if left <= 0 or 4 * constant * square >= left**2:
+        raise Refused(f"singular: left {float(left):.3g}, 4 a0 a2 {float(4 * constant * square):.3g}")
+    found = {"inner": 2 * constant / left * s.unit, "outer": left / (2 * square) * s.unit}
+    found.update(least_gap=max(0.0, float(least) ** 0.5 - 1.0), delta=delta)
+    return {name: float(value) for name, value in found.items()}
+
+
+def conclusion(s):
+    """Exit status and text."""
+    shown = lambda found: ", ".join(f"{name} {value:.3g}" for name, value in found.items())
+    try:
+        return 0, "proved: " + shown(check(s))
+    except (Refused, OverflowError, ZeroDivisionError) as why:
+        if not str(why).startswith("excess"):
+            return 1, f"not proved: {why}"
+        text = f"not proved: {why}"
+    try:
+        return 3, f"trapped: {shown(trapped(s))}; {text}"
+    except (Refused, OverflowError, ZeroDivisionError) as why:
+        return 1, f"{text}; not trapped: {why}"
+
+
 def main(path, out=None):
     try:
         scene = Scene(path)
     except (OSError, ValueError, LookupError, TypeError, zlib.error) as error:
         print(f"{path}: cannot be read: {error}")
         return 2
-    try:
-        print("proved: " + ", ".join(f"{name} {value:.3g}" for name, value in check(scene).items()))
-    except (Refused, OverflowError, ZeroDivisionError) as why:
-        print(f"not proved: {why}")
-        return 1
+    status, text = conclusion(scene)
+    print(text)
     if out and hasattr(scene, "hint"):
         e, columns = scene.hint
         with open(path, encoding="ascii") as old, open(out, "w", encoding="ascii") as new:
             new.write(old.read() + f"inverse {e} ")
             new.write(base64.b64encode(zlib.compress(b"".join(c.tobytes() for c in columns))).decode() + "\n")
-    return 0
+    return status
 
 
 if __name__ == "__main__":

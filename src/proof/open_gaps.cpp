@@ -48,8 +48,11 @@ OpenGaps open_gaps(const ProofScene &s, double radius, double gamma) {
   const Packing p = rounded(s);
   const size_t d = static_cast<size_t>(s.dim);
   const auto contacts = contact_images(s);
+  Expansion exact(s.gamma);
+  exact.add(s.gamma_low);
   // A pair that the search leaves out has a gap of `near` less rounding; that is open where the radius is far smaller.
-  out.open = radius < 1e-3 * proof_tuning::near * *std::min_element(p.diameter.begin(), p.diameter.end());
+  out.open = out.all_seen =
+      radius < 1e-3 * proof_tuning::near * *std::min_element(p.diameter.begin(), p.diameter.end());
   const PairList pairs = find_pairs(p, 0.0, 1.0 + proof_tuning::near);
   for (size_t k = 0; k < pairs.size(); ++k) {
     const int32_t i = pairs.i[k], j = pairs.j[k];
@@ -73,8 +76,12 @@ OpenGaps open_gaps(const ProofScene &s, double radius, double gamma) {
     const double moving = (s.node[i] >= 0) + (s.node[j] >= 0);
     double ends = moving;
     for (size_t q = 0; s.strict && q < d; ++q) ends += std::abs(n[q]);
-    const double need = mul_up(gamma, up(s.sigma_squared(i, j).value()));
+    const Expansion sigma2 = s.sigma_squared(i, j);
+    const double need = mul_up(gamma, up(sigma2.value()));
     const double have = sub_down(down(sum.value()), mul_up(2.0 * ends, mul_up(one, radius)));
+    Expansion below = sum;
+    below.add_product(exact, sigma2, -1.0);
+    out.overlap = std::max(out.overlap, div_up(-below.value(), sigma2.value()) * (1.0 + 8.0 * half_ulp));
     out.least = std::min(out.least, std::sqrt(std::max(0.0, have) / need) - 1.0);
     if (have > need) continue;
     out.open = false;
@@ -83,7 +90,7 @@ OpenGaps open_gaps(const ProofScene &s, double radius, double gamma) {
   const double widest = *std::max_element(s.ratio.begin(), s.ratio.end());
   if (!(mul_up(gamma, mul_up(widest, widest)) <
         s.cell.shortest() * s.cell.shortest() * (1.0 - (s.strict ? 1e-3 : 1e-12))))
-    out.open = false;
+    out.open = out.all_seen = false;
   return out;
 }
 

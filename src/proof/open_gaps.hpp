@@ -8,6 +8,8 @@ struct OpenGaps {
   bool open = false;
   bool of_rattler = false;  // the pair that is not open has a rattler
   double least = 0.0;       // least relative gap of a pair that is no contact, as far as proof_tuning::near
+  bool all_seen = false;    // no pair was left out, and no sphere reaches its own image
+  double overlap = 0.0;     // largest Gamma - |r|^2 / sigma^2 of these pairs, at the scene's exact numbers; or 0
 };
 // Every image: |r|^2 - 2 |r|_1 radius m > gamma sigma^2, m the number of stable spheres of the pair, strict with the
 // number of cell vectors between them; and no sphere reaches its own image.

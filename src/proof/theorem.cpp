@@ -202,7 +202,10 @@ void prove_existence(const ProofScene &s, const ProofEquations &e, const ForceBo
 // Trapping, for any positive state f: rho (1 - g / (f_min s_min)) <= a0 + a2 rho^2 for every motion rho without
 // overlap.
 void prove_trapping(const ProofScene &s, const ProofEquations &e, const ForceBounds &f, Proof &out) {
-  double drop = 0.0;  // Gamma less this is that of a packing: no contact overlaps
+  // Gamma less this is that of a packing: no pair overlaps. Pairs that carry no force may be closed too.
+  const OpenGaps gaps = open_gaps(s, 0.0, add_up(s.gamma, std::fabs(s.gamma_low)));
+  out.least_gap = gaps.least;
+  double drop = gaps.overlap;
   for (size_t c = 0; c < s.contacts(); ++c)
     drop = std::max(drop, div_up(-e.f[c], e.sigma2[c]) * (1.0 + 8.0 * half_ulp));
   std::vector<double> open, weighted;
@@ -223,9 +226,7 @@ void prove_trapping(const ProofScene &s, const ProofEquations &e, const ForceBou
   out.inner = mul_up(out.inner, 1.0 + 8.0 * half_ulp);
   out.outer = down(down((left + root) / mul_up(2.0, a2)));
   if (s.strict) out.outer = std::min(out.outer, 0.5 * edge);
-  const OpenGaps gaps = open_gaps(s, 0.0, add_up(s.gamma, std::fabs(s.gamma_low)));
-  out.least_gap = gaps.least;
-  out.trapped = gaps.open && out.inner < out.outer;
+  out.trapped = gaps.all_seen && out.inner < out.outer;
 }
 
 }  // namespace

@@ -2,7 +2,8 @@
 import re
 import textwrap
 
-from options import ABOUT, EXAMPLE, NOTES, STAGES, START, options, usage
+from option import STAGES, START, usage
+from options import ABOUT, EXAMPLE, NOTES, options
 
 MADE = "made by bindings/gen/generate.py from bindings/gen/options.py; do not edit"
 OWN_FORM = ("stage", "sizes", "cell")  # kinds whose values have a form of their own

@@ -281,8 +281,7 @@ def read_header(header, swig="swig"):
         + [f.name for f in api.functions]
         + [c.name for c in api.callbacks]
     ]
-    twice = {n for n in lower if lower.count(n) > 1}
-    if twice:
+    if twice := {n for n in lower if lower.count(n) > 1}:
         raise HeaderError(f"names that Fortran cannot distinguish: {sorted(twice)}")
     return api
 

@@ -6,77 +6,9 @@
 
 #include <jam/jam.h>
 #include "columns.h"
-#include "start.h"
-#include "test.h"
+#include "physics/network.h"
 
-enum { ROOM = 40000, MODES = 400, COLUMNS = JAM_FLOPPY_S_RETURN + 1 };
-
-struct network {
-  jam_system *sys;
-  int d;
-  int64_t n, stable, contacts;
-  int32_t *pair, *map;    /* contacts, 2; stable */
-  double *normal, *force; /* contacts, d; contacts */
-  double *diameter;
-  int32_t *node; /* sphere -> row, -1 */
-};
-
-static jam_system *crunched_model(int model, int dim, int64_t n, double phi, int bidisperse,
-                                  jam_crunch_report *report) {
-  jam_create_options o;
-  jam_system *s = NULL;
-  double *d = malloc((size_t)n * sizeof *d);
-  int64_t k;
-  assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
-  o.model = model;
-  o.dim = dim;
-  o.n = n;
-  o.packing_fraction = phi;
-  for (k = 0; k < n; ++k) d[k] = bidisperse && k % 2 ? 1.4 : 1.0;
-  assert_int_equal(create_from(&o, NULL, 0, d, (size_t)n, &s), JAM_OK);
-  free(d);
-  report->struct_size = sizeof *report;
-  assert_int_equal(jam_crunch(s, NULL, report), JAM_OK);
-  return s;
-}
-
-static jam_system *crunched(int dim, int64_t n, double phi, int bidisperse, jam_crunch_report *report) {
-  return crunched_model(JAM_MODEL_EUCLID, dim, n, phi, bidisperse, report);
-}
-
-static struct network open_network(jam_system *s) {
-  struct network w;
-  jam_info info = {.struct_size = sizeof(jam_info)};
-  size_t m;
-  const double *diameters;
-  int64_t k;
-  w.sys = s;
-  assert_int_equal(jam_get_info(s, &info), JAM_OK);
-  w.d = info.dim;
-  w.n = info.n;
-  w.pair = malloc(ROOM * sizeof *w.pair);
-  w.map = malloc(ROOM * sizeof *w.map);
-  w.node = malloc(ROOM * sizeof *w.node);
-  w.normal = malloc(ROOM * sizeof *w.normal);
-  w.force = malloc(ROOM * sizeof *w.force);
-  w.diameter = malloc(ROOM * sizeof *w.diameter);
-  assert_int_equal(jam_contacts(s, w.pair, ROOM, &m), JAM_OK);
-  w.contacts = (int64_t)m / 2;
-  assert_int_equal(jam_contact_vectors(s, w.normal, ROOM, &m), JAM_OK);
-  assert_int_equal(jam_forces(s, w.force, ROOM, &m), JAM_OK);
-  assert_int_equal(jam_hessian_map(s, w.map, ROOM, &m), JAM_OK);
-  w.stable = (int64_t)m;
-  for (k = 0; k < w.n; ++k) w.node[k] = -1;
-  for (k = 0; k < w.stable; ++k) w.node[w.map[k]] = (int32_t)k;
-  assert_int_equal(jam_view_diameters(s, &diameters, &m), JAM_OK);
-  for (k = 0; k < w.n; ++k) w.diameter[k] = diameters[k];
-  return w;
-}
-
-static void close_network(struct network *w) {
-  free(w->pair), free(w->map), free(w->node), free(w->normal), free(w->force), free(w->diameter);
-  jam_destroy(w->sys);
-}
+enum { MODES = 400, COLUMNS = JAM_FLOPPY_S_RETURN + 1 };
 
 static double apply_compatibility(const struct network *w, int64_t k, const double *u) {
   const double *a = u + (int64_t)w->node[w->pair[2 * k]] * w->d, *b = u + (int64_t)w->node[w->pair[2 * k + 1]] * w->d;
@@ -84,9 +16,6 @@ static double apply_compatibility(const struct network *w, int64_t k, const doub
   int c;
   for (c = 0; c < w->d; ++c) s += w->normal[k * w->d + c] * (a[c] - b[c]);
   return s;
-}
-static double sigma(const struct network *w, int64_t k) {
-  return 0.5 * (w->diameter[w->pair[2 * k]] + w->diameter[w->pair[2 * k + 1]]);
 }
 
 /* Forces three ways: multipliers of the LP, null vector on the same network, network and null vector from positions
@@ -341,152 +270,6 @@ static void all_analyses_agree_on_mari_kurchan_networks(void **state) {
   close_network(&w);
 }
 
-/* Spheres pushed about by a part of the smallest gap: contacts and near misses are no longer told apart by a clear
- * jump. The status says so, and the right network is among the candidates. */
-static void unclear_jump_of(double part) {
-  jam_crunch_report report;
-  jam_system *s = crunched(3, 80, 0.2, 0, &report);
-  jam_geometry_report g = {.struct_size = sizeof(jam_geometry_report)};
-  const double *x;
-  double *y, table[48];
-  size_t m, k;
-  int right = 0;
-  const double size = part * report.min_gap * report.diameter_mean;
-  assert_int_equal(jam_view_positions(s, &x, &m), JAM_OK);
-  y = malloc(m * sizeof *y);
-  for (k = 0; k < m; ++k) y[k] = x[k] + 0.2 * size * sin(1.0 + (double)(k * k));
-  assert_int_equal(jam_scale_diameters(s, 1.0 - part * report.min_gap), JAM_OK);
-  assert_int_equal(jam_set_positions(s, y, m), JAM_OK);
-  assert_int_equal(jam_contacts_from_geometry(s, NULL, &g), JAM_AMBIGUOUS);
-  assert_true(g.jump < 100.0 && g.second_contacts > 0);
-  assert_int_equal(jam_contact_candidates(s, 0.1, table, 48, &m), JAM_OK);
-  assert_true(m >= 2 * 4 && m % 4 == 0);
-  for (k = 0; k < m; k += 4)
-    right |= table[k + JAM_CANDIDATE_CONTACTS] == (double)report.contacts && table[k + JAM_CANDIDATE_EXCESS] == 0.0;
-  assert_true(right);
-  assert_int_equal(jam_contact_candidates(s, 0.1, table, 4, &m), JAM_E_BUFFER);
-  assert_int_equal(jam_contact_candidates(s, 0.0, table, 48, &m), JAM_E_ARGUMENT);
-  free(y);
-  jam_destroy(s);
-}
-
-static void an_unclear_gap_jump_is_ambiguous(void **state) {
-  (void)state;
-  unclear_jump_of(0.1);  /* the next jump is nearly as large */
-  unclear_jump_of(0.02); /* one jump stands out, but by less than two decades */
-}
-
-/* Three disks that touch each other: places relative to the first, and numbers; 0 when there are none. */
-static int touching_three(const struct network *w, double place[3][2], int32_t who[3]) {
-  int64_t k, l, m;
-  int c;
-  for (k = 0; k < w->contacts; ++k)
-    for (l = 0; l < w->contacts; ++l) {
-      if (l == k || w->pair[2 * l] != w->pair[2 * k]) continue;
-      for (m = 0; m < w->contacts; ++m) {
-        const int32_t a = w->pair[2 * m], b = w->pair[2 * m + 1], p = w->pair[2 * k + 1], q = w->pair[2 * l + 1];
-        if (!((a == p && b == q) || (a == q && b == p))) continue;
-        who[0] = w->pair[2 * k], who[1] = p, who[2] = q;
-        for (c = 0; c < 2; ++c) {
-          place[0][c] = 0.0;
-          place[1][c] = -sigma(w, k) * w->normal[2 * k + c];
-          place[2][c] = -sigma(w, l) * w->normal[2 * l + c];
-        }
-        return 1;
-      }
-    }
-  return 0;
-}
-
-/* The disk in the hole between three, at the same relative gap from each: Newton's method for its place and radius. */
-static void fill_hole(double place[3][2], const double *radius, double gap, double *p, double *r) {
-  int it, a, c;
-  p[0] = (place[1][0] + place[2][0]) / 3.0, p[1] = (place[1][1] + place[2][1]) / 3.0;
-  *r = 0.2 * radius[0];
-  for (it = 0; it < 50; ++it) {
-    double j[3][4], det;
-    for (a = 0; a < 3; ++a) {
-      const double x = p[0] - place[a][0], y = p[1] - place[a][1], l = sqrt(x * x + y * y);
-      j[a][0] = x / l, j[a][1] = y / l, j[a][2] = -(1.0 + gap), j[a][3] = (1.0 + gap) * (*r + radius[a]) - l;
-    }
-    for (c = 0; c < 3; ++c) /* elimination: the matrix is far from singular inside the triangle */
-      for (a = 0; a < 3; ++a)
-        if (a != c) {
-          int q;
-          det = j[a][c] / j[c][c];
-          for (q = c; q < 4; ++q) j[a][q] -= det * j[c][q];
-        }
-    p[0] += j[0][3] / j[0][0], p[1] += j[1][3] / j[1][1], *r += j[2][3] / j[2][2];
-  }
-}
-
-/* A rattler that nearly touches its neighbours gives a second candidate network, with one contact more than isostatic.
- * The null space shows that the first one is the network, although the second jump is nearly as wide. */
-static void the_null_space_decides_between_two_jumps(void **state) {
-  jam_crunch_report report;
-  struct network w = open_network(crunched(2, 80, 0.3, 1, &report));
-  jam_geometry_report g = {.struct_size = sizeof(jam_geometry_report)};
-  jam_create_options o;
-  jam_system *s = NULL;
-  double place[3][2], radius[3], p[2], r, x[162], d[81], gap, digits, smallest = INFINITY;
-  const double *old;
-  int32_t who[3] = {0, 0, 0};
-  size_t m;
-  int k;
-  (void)state;
-  assert_int_equal(report.excess_contacts, 0);
-  assert_true(touching_three(&w, place, who));
-  for (k = 0; k < 3; ++k) radius[k] = 0.5 * w.diameter[who[k]];
-  for (k = 0; k < 80; ++k) smallest = fmin(smallest, w.diameter[k]);
-  /* The wider jump is to be that below the gaps of the rattler, gap / digits, and less than the square of the next,
-   * above / gap. */
-  assert_int_equal(jam_copy(w.sys, &s), JAM_OK);
-  assert_int_equal(jam_contacts_from_geometry(s, NULL, &g), JAM_OK);
-  jam_destroy(s);
-  fill_hole(place, radius, 0.0, p, &r);
-  digits = fmax(g.resolution * smallest / (2.0 * r), g.gap_below);
-  gap = sqrt(sqrt(digits * g.gap_above) * cbrt(digits * g.gap_above * g.gap_above));
-  fill_hole(place, radius, gap, p, &r);
-  assert_true(r > 0.0 && r < radius[0]);
-  assert_int_equal(jam_view_positions(w.sys, &old, &m), JAM_OK);
-  for (k = 0; k < 160; ++k) x[k] = old[k];
-  for (k = 0; k < 80; ++k) d[k] = w.diameter[k];
-  for (k = 0; k < 2; ++k) x[160 + k] = old[2 * who[0] + k] + p[k];
-  d[80] = 2.0 * r;
-  assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
-  o.dim = 2, o.n = 81;
-  assert_int_equal(create_from(&o, x, 162, d, 81, &s), JAM_OK);
-  assert_int_equal(jam_contacts_from_geometry(s, NULL, &g), JAM_OK);
-  assert_int_equal(g.contacts, report.contacts);
-  assert_int_equal(g.second_contacts, report.contacts + 3);
-  assert_true(g.self_stresses == 1 && g.jump < g.second_jump * g.second_jump);
-  jam_destroy(s);
-  close_network(&w);
-}
-
-static void comparison_counts_contacts_and_displacements(void **state) {
-  jam_crunch_report report;
-  jam_system *a = crunched(3, 60, 0.3, 0, &report), *b = NULL;
-  jam_comparison c = {.struct_size = sizeof(jam_comparison)};
-  const double *x;
-  double *y, *u;
-  size_t m, k;
-  (void)state;
-  assert_int_equal(jam_copy(a, &b), JAM_OK);
-  assert_int_equal(jam_view_positions(a, &x, &m), JAM_OK);
-  y = malloc(m * sizeof *y), u = malloc(m * sizeof *u);
-  for (k = 0; k < m; ++k) y[k] = x[k] + (k % 3 == 0 ? 0.4 : 0.1); /* a translation changes nothing */
-  assert_int_equal(jam_set_positions(b, y, m), JAM_OK);
-  assert_int_equal(jam_contacts_from_geometry(b, NULL, NULL), JAM_OK);
-  assert_int_equal(jam_compare(a, b, &c, u, m, NULL), JAM_OK);
-  assert_true(c.overlap == 1.0);
-  assert_int_equal(c.common_contacts, report.contacts);
-  assert_int_equal(c.stable_in_both, report.stable);
-  assert_true(c.displacement_max < 1e-13 && c.packing_fraction_change == 0.0);
-  free(y), free(u);
-  jam_destroy(a), jam_destroy(b);
-}
-
 static void all_analyses_agree_on_a_foreign_packing(void **state) {
   jam_system *s = NULL;
   jam_crunch_report report = {.struct_size = sizeof(jam_crunch_report)};
@@ -506,9 +289,6 @@ static void all_analyses_agree_on_a_foreign_packing(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(all_analyses_agree_on_small_packings),
                                      cmocka_unit_test(all_analyses_agree_on_mari_kurchan_networks),
-                                     cmocka_unit_test(an_unclear_gap_jump_is_ambiguous),
-                                     cmocka_unit_test(the_null_space_decides_between_two_jumps),
-                                     cmocka_unit_test(comparison_counts_contacts_and_displacements),
                                      cmocka_unit_test(all_analyses_agree_on_a_foreign_packing)};
   return cmocka_run_group_tests_name("network_1ss", tests, NULL, NULL);
 }

@@ -1,17 +1,21 @@
-// What each mechanism of a crunch is worth: named sets of starts, with one mechanism switched off at a time. JSON lines
-// to stdout: set, mechanism, start, factorisations, LPs, processor seconds, phi, jammed, force residual.
-//   ablation [off=MECHANISM] [SET ...] [FILE ...]    sets: n200 n1000 mixtures random disks; default: all of them. A
-//   FILE in any format
-//                                    that jam_read takes is a set of its own (grown states of 4096 spheres and more).
+// What each mechanism of a crunch is worth: named sets of five starts each, with one mechanism switched off at a time.
+// JSON lines to stdout: set, mechanism, start, factorisations, LPs, processor seconds, phi, jammed, force residual.
+//   ablation [off=MECHANISM ...] [SET ...] [FILE ...]
+// sets: table below; default: all of them. A FILE in any format that jam_read takes is a set of its own.
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <ctime>
 #include <limits>
+#include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/create.hpp"
+#include "core/pair_rule.hpp"
 #include "crunch/crunch.hpp"
 #include "jam/jam.h"
 #include "packing_of.hpp"
@@ -25,8 +29,8 @@ struct Start {
   Packing packing;
 };
 
-// Grown by molecular dynamics at G = 1e-2 to reduced pressure 500.
-Packing grown(int n, int dim, int64_t seed) {
+// Grown by molecular dynamics at G = 1e-2 to reduced pressure 500, and on at `rate` to `pressure`.
+Packing grown(int n, int dim, int64_t seed, double rate = 0.0, double pressure = 0.0) {
   jam_create_options o;
   jam_create_options_init(&o, sizeof o);
   o.n = n, o.dim = dim, o.seed = seed;
@@ -34,8 +38,10 @@ Packing grown(int n, int dim, int64_t seed) {
   jam_compress_options md;
   jam_compress_options_init(&md, sizeof md);
   md.growth_rate = 1e-2, md.pressure = 500.0;
-  if (jam_create(&o, nullptr, &sys) < 0 || jam_compress(sys, &md, nullptr) < 0)
-    std::fprintf(stderr, "%s\n", jam_last_error());
+  bool good = jam_create(&o, nullptr, &sys) >= 0 && jam_compress(sys, &md, nullptr) >= 0;
+  md.growth_rate = rate, md.pressure = pressure;
+  if (rate > 0.0) good = good && jam_compress(sys, &md, nullptr) >= 0;
+  if (!good) std::fprintf(stderr, "%s\n", jam_last_error());
   return packing_of(sys);
 }
 
@@ -48,17 +54,61 @@ Packing random_start(int n, int dim, double ratio, double fraction, int64_t seed
   return make_packing(o, nullptr, 0, diameter.data(), diameter.size());
 }
 
+// `side` cells a side, each with a sphere at its corner; with `faces` also on its faces (centred square, fcc). Spheres
+// are moved by up to `noise` cells, and as large as that allows.
+Packing lattice(int side, int dim, bool faces, double noise, uint64_t seed) {
+  Packing p;
+  p.set_cube(dim, 1.0);
+  std::mt19937_64 random(seed);
+  const auto add = [&](std::vector<double> x) {
+    for (double &c : x) c = (c + noise * (std::ldexp(static_cast<double>(random() >> 11), -52) - 1.0)) / side;
+    p.position.insert(p.position.end(), x.begin(), x.end());
+  };
+  for (int k = 0; k < (dim == 2 ? side * side : side * side * side); ++k) {
+    std::vector<double> x = {static_cast<double>(k % side), static_cast<double>(k / side % side)};
+    if (dim == 3) x.push_back(static_cast<double>(k / side / side));
+    add(x);
+    for (int a = 0; a < dim && faces; ++a)
+      for (int b = a + 1; b < dim; ++b) {
+        std::vector<double> y = x;
+        y[a] += 0.5, y[b] += 0.5;
+        add(y);
+      }
+  }
+  p.velocity.assign(p.position.size(), 0.0);
+  p.diameter.assign(p.position.size() / dim, 0.5 / side);
+  const double grows = 1.0 + closest_pair(p).gap;
+  for (double &s : p.diameter) s *= grows * (1.0 - 1e-12);
+  wrap_positions(p);
+  return p;
+}
+
+const char *const sets[] = {"n200",     "n1000",  "fast1024", "fast2048", "fast4096", "slow1024",
+                            "slow4096", "random", "mixtures", "disks",    "lattices"};
+
 void add_set(const std::string &set, std::vector<Start> &starts) {
-  for (int seed = 1; seed <= 8; ++seed) {
+  for (int seed = 1; seed <= 5; ++seed) {
     const std::string name = "seed " + std::to_string(seed);
-    if (set == "n200") starts.push_back({set, name, grown(200, 3, seed)});
-    if (set == "n1000") starts.push_back({set, name, grown(1000, 3, seed)});
-    if (set == "random") starts.push_back({set, name, random_start(512, 3, 1.0, 0.2, seed)});
-    if (set == "disks") starts.push_back({set, name, grown(300, 2, seed)});
-    if (set == "mixtures" && seed <= 4) {
-      starts.push_back({set, "1:4 " + name, random_start(128, 3, 4.0, 0.19, seed)});
-      starts.push_back({set, "1:10 " + name, random_start(128, 3, 10.0, 0.19, seed)});
-      starts.push_back({set, "1:10 d 2 " + name, random_start(128, 2, 10.0, 0.25, seed)});
+    const auto add = [&](const std::string &of, Packing p) { starts.push_back({set, of + name, std::move(p)}); };
+    if (set == "n200") add("", grown(200, 3, seed));
+    if (set == "n1000") add("", grown(1000, 3, seed));
+    if (set == "fast1024") add("", grown(1024, 3, seed, 1e-2, 1e6));
+    if (set == "fast2048") add("", grown(2048, 3, seed, 1e-2, 1e6));
+    if (set == "fast4096") add("", grown(4096, 3, seed, 1e-2, 1e6));
+    if (set == "slow1024") add("", grown(1024, 3, seed, 1e-3, 1e7));
+    if (set == "slow4096") add("", grown(4096, 3, seed, 1e-3, 1e7));
+    if (set == "random") add("", random_start(512, 3, 1.0, 0.2, seed));
+    if (set == "disks") add("", grown(300, 2, seed)), add("p = 1e7, ", grown(300, 2, seed, 1e-2, 1e7));
+    if (set == "mixtures") {
+      add("1:4 ", random_start(128, 3, 4.0, 0.19, seed));
+      add("1:10 ", random_start(128, 3, 10.0, 0.19, seed));
+      add("1:10 d 2 ", random_start(128, 2, 10.0, 0.25, seed));
+    }
+    if (set == "lattices") {
+      const double noise = seed == 1 ? 0.0 : std::ldexp(1.0, -5 * seed);
+      add("square ", lattice(10, 2, false, noise, seed));
+      add("cubic ", lattice(5, 3, false, noise, seed));
+      add("fcc ", lattice(4, 3, true, noise, seed));
     }
   }
 }
@@ -115,21 +165,21 @@ void run(const Start &start, const Mechanism &mechanism) {
 
 int main(int argc, char **argv) {
   std::vector<Start> starts;
-  std::string only;
-  if (argc < 2)
-    for (const char *set : {"n200", "n1000", "mixtures", "random", "disks"}) add_set(set, starts);
+  std::vector<std::string> only;
   for (int k = 1; k < argc; ++k) {
-    const size_t before = starts.size();
     if (std::strncmp(argv[k], "off=", 4) == 0) {
-      only = argv[k] + 4;
+      only.push_back(argv[k] + 4);
       continue;
     }
+    const size_t before = starts.size();
     add_set(argv[k], starts);
     if (starts.size() > before) continue;
     const char *slash = std::strrchr(argv[k], '/');
     starts.push_back({slash ? slash + 1 : argv[k], "", packing_of(argv[k])});
   }
+  if (starts.empty())
+    for (const char *set : sets) add_set(set, starts);
   for (const Mechanism &mechanism : mechanisms)
-    if (only.empty() || only == mechanism.name)
+    if (only.empty() || std::find(only.begin(), only.end(), mechanism.name) != only.end())
       for (const Start &start : starts) run(start, mechanism);
 }

@@ -5,12 +5,13 @@
 #include <limits>
 #include <utility>
 
+#include "core/motion.hpp"
 #include "core/pair_rule.hpp"
-#include "crunch/barrier.hpp"
+#include "lp/barrier_problem.hpp"
 #include "crunch/barrier_schedule.hpp"
 #include "crunch/crunch.hpp"
 #include "crunch/neighbour_selection.hpp"
-#include "crunch/path_matrix.hpp"
+#include "lp/path_matrix.hpp"
 
 namespace jam {
 namespace {
@@ -24,7 +25,7 @@ class BarrierPath {
         monitor_(monitor),
         t_(control.tuning),
         schedule_(control.tuning),
-        matrix_(system, control.threads, control.tuning) {
+        matrix_(system, control.threads, control.tuning.single) {
     b_.strain = control.strain;
   }
 
@@ -176,7 +177,7 @@ class BarrierPath {
   // rows that were slack cut a step short; one triangular solve pulls their products y c back into a band around mu.
   // Returns the length of the best step.
   double correct() {
-    Barrier::Best best = b_.search(main_);
+    BarrierProblem::Best best = b_.search(main_);
     const double band = t_.corrector_band;
     for (correctors_ = 0; correctors_ < t_.max_correctors && best.alpha < t_.whole_step; ++correctors_) {
       const double aim = std::min(1.0, best.alpha + t_.corrector_ahead),
@@ -187,7 +188,7 @@ class BarrierPath {
         target_[k] += std::min(band * b_.mu, std::max(inside - product, -band * b_.mu));
       }
       solve(trial_);
-      const Barrier::Best other = b_.search(trial_);
+      const BarrierProblem::Best other = b_.search(trial_);
       if (!(other.merit < best.merit)) break;
       best = other;
       std::swap(main_, trial_);
@@ -205,11 +206,8 @@ class BarrierPath {
     if (b_.lp.strains > 0) alpha_p_ *= strain_part(p_.dim, b_.strain_of(main_, alpha_p_));
     alpha_d_ = b_.longest_dual(main_);
     for (size_t k = 0; k < b_.y.size(); ++k) b_.y[k] += alpha_d_ * main_.y[k];
-    if (b_.lp.strains > 0) strain_at_fixed_volume(p_, b_.pairs, b_.strain_of(main_, alpha_p_));
-    for (size_t k = 0; k < p_.position.size(); ++k) p_.position[k] += alpha_p_ * b_.unit * main_.s[k];
-    const double factor = std::sqrt(1.0 + alpha_p_ * main_.g);
-    for (double &s : p_.diameter) s *= factor;
-    wrap_positions(p_, b_.pairs);
+    move_packing(p_, b_.pairs, main_.s.data(), alpha_p_ * b_.unit, std::sqrt(1.0 + alpha_p_ * main_.g),
+                 b_.strain_of(main_, alpha_p_));
     const double step = alpha_p_ * length;
     last_step_ = step / b_.unit;
     travelled_ += step;
@@ -237,7 +235,7 @@ class BarrierPath {
   NewtonSystem &system_;
   Monitor &monitor_;
   const Tuning t_;
-  Barrier b_;
+  BarrierProblem b_;
   BarrierStep main_, trial_;
   BarrierSchedule schedule_;
   PathMatrix matrix_;

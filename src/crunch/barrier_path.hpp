@@ -9,7 +9,7 @@
 #include "core/packing.hpp"
 #include "crunch/stage.hpp"
 #include "crunch/tuning.hpp"
-#include "lp/newton_system.hpp"
+#include "linalg/newton_system.hpp"
 #include "lp/packing_lp.hpp"
 
 namespace jam {

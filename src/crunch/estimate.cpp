@@ -12,7 +12,7 @@
 #include "crunch/neighbour_selection.hpp"
 #include "linalg/blas.hpp"
 #include "linalg/block_cholesky.hpp"
-#include "lp/newton_system.hpp"
+#include "linalg/newton_system.hpp"
 #include "lp/working_set.hpp"
 
 namespace jam {

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "core/pair_rule.hpp"
-#include "crunch/gap_rows.hpp"
+#include "network/force_balance.hpp"
 #include "crunch/state.hpp"
 #include "lp/interior_point.hpp"
 #include "network/rigidity_matrix.hpp"

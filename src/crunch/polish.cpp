@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "crunch/gap_rows.hpp"
+#include "core/motion.hpp"
+#include "network/force_balance.hpp"
 
 namespace jam {
 namespace {
@@ -88,7 +89,8 @@ class Polish {
     if (!rows.factorise()) return;
     std::vector<double> wanted(net.gap), got;
     for (double &h : wanted) h = -h;
-    move(p, net.pairs, rows.towards(wanted, got));
+    const Motion motion = rows.towards(wanted, got);
+    move_packing(p, net.pairs, motion.s.data(), diameter_mean(p), 1.0 + motion.g);
     measure_contacts(p, net);
   }
 

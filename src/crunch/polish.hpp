@@ -4,7 +4,7 @@
 #include "core/monitor.hpp"
 #include "core/packing.hpp"
 #include "crunch/tuning.hpp"
-#include "lp/newton_system.hpp"
+#include "linalg/newton_system.hpp"
 #include "network/contact_network.hpp"
 
 namespace jam {

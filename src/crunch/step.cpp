@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/motion.hpp"
 #include "core/pair_rule.hpp"
 #include "crunch/crunch.hpp"
 
@@ -11,11 +12,8 @@ namespace {
 Packing moved(const Packing &p, PairList &pairs, const LpSolution &x, double alpha, double unit,
               const StrainBasis &basis) {
   Packing q = p;
-  if (!x.strain.empty()) strain_at_fixed_volume(q, pairs, strain_matrix(basis, x.strain, alpha));
-  for (size_t k = 0; k < q.position.size(); ++k) q.position[k] += alpha * unit * x.s[k];
-  const double factor = std::sqrt(1.0 + alpha * x.g);
-  for (double &s : q.diameter) s *= factor;
-  wrap_positions(q, pairs);
+  const std::vector<double> strain = x.strain.empty() ? x.strain : strain_matrix(basis, x.strain, alpha);
+  move_packing(q, pairs, x.s.data(), alpha * unit, std::sqrt(1.0 + alpha * x.g), strain);
   return q;
 }
 

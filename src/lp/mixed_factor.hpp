@@ -3,7 +3,7 @@
 #pragma once
 #include <limits>
 
-#include "lp/newton_system.hpp"
+#include "linalg/newton_system.hpp"
 
 namespace jam {
 

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/math.hpp"
-
 namespace jam {
 
 StrainBasis strain_basis(int dim, bool edges, bool tilts) {
@@ -55,25 +53,6 @@ std::vector<double> strain_rows(const StrainBasis &basis, const std::vector<doub
       rows[e * count + k] = scale[e] * product;
     }
   return rows;
-}
-
-void strain_at_fixed_volume(Packing &p, PairList &pairs, const std::vector<double> &strain) {
-  const int d = p.dim;
-  double volume = 1.0;
-  for (int c = 0; c < d; ++c) volume *= 1.0 + strain[c * (d + 1)];
-  const double back = math::pow(volume, -1.0 / d);
-  const auto deform = [&](double *x) {  // upper-triangular: component a needs those from a on
-    for (int a = 0; a < d; ++a) {
-      double sum = x[a];
-      for (int b = a; b < d; ++b) sum += strain[a * d + b] * x[b];
-      x[a] = back * sum;
-    }
-  };
-  for (size_t k = 0; k < p.position.size(); k += d) deform(&p.position[k]);
-  for (size_t k = 0; k < pairs.offset.size(); k += d) deform(&pairs.offset[k]);
-  std::vector<double> rows = p.cell.rows();
-  for (int c = 0; c < d; ++c) deform(&rows[c * d]);
-  p.cell = Cell::from_triangle(d, rows.data());
 }
 
 }  // namespace jam

@@ -5,9 +5,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/packing.hpp"
-#include "core/pairs.hpp"
-
 namespace jam {
 
 struct StrainBasis {
@@ -26,8 +23,5 @@ std::vector<double> strain_matrix(const StrainBasis &basis, const std::vector<do
 // r . (B_k r) of every pair, times scale_e: (pairs, count).
 std::vector<double> strain_rows(const StrainBasis &basis, const std::vector<double> &vectors,
                                 const std::vector<double> &scale);
-// Deforms positions, cell and offsets by 1 + E, divided by det^(1/d): the volume stays. det <= 1 for a traceless E, so
-// this opens gaps.
-void strain_at_fixed_volume(Packing &p, PairList &pairs, const std::vector<double> &strain);
 
 }  // namespace jam

@@ -7,7 +7,7 @@
 #include <ctime>
 #include <functional>
 
-#include "lp/newton_system.hpp"
+#include "linalg/newton_system.hpp"
 #include "neighbour_graphs.hpp"
 
 using namespace jam;

@@ -39,7 +39,7 @@ GUESTS = {
     r"Spectra/": ["src/analysis/modes.cpp"],
     r"(cblas|lapacke|openblas|f77blas)\w*": ["src/linalg/"],
     r"[ds]mumps_c\.h": ["src/linalg/"],
-    r"Eigen/": ["src/lp/", "src/network/", "src/analysis/", "src/crunch/", "src/soft/"],
+    r"Eigen/": ["src/linalg/", "src/network/", "src/analysis/", "src/soft/"],
 }
 GENERATED = ["bindings/fortran/jam.f90", "tests/bindings/layout.c"]
 # Layers whose steering numbers all stand in their tuning.hpp, and files of them whose numbers are physics.

@@ -6,7 +6,7 @@
 #include "test.h"
 
 #include "core/create.hpp"
-#include "crunch/barrier.hpp"
+#include "lp/barrier_problem.hpp"
 #include "crunch/barrier_path.hpp"
 #include "crunch/crunch.hpp"
 #include "lp/interior_point.hpp"
@@ -26,7 +26,7 @@ Packing start(int n, int dim, double phi, double ratio, int64_t seed) {
 
 struct Scene {
   Packing p;
-  Barrier b;
+  BarrierProblem b;
   BarrierStep x;
 };
 
@@ -91,7 +91,7 @@ void merit_is_true(void **) {
         for (double &v : w.x.w) v = -v;
         w.x.g = -w.x.g;
       }
-      const Barrier::Best best = w.b.search(w.x);
+      const BarrierProblem::Best best = w.b.search(w.x);
       assert_true(best.alpha > 0.0 && best.merit < 0.0);
       assert_true(std::fabs(brute(w, best.alpha) - best.merit) < 1e-11 * (1.0 + std::fabs(best.merit)));
       const double h = 1e-6 / length, slope = (brute(w, h) - brute(w, -h)) / (2.0 * h);
@@ -121,7 +121,7 @@ void walls_stop(void **) {
   rows_times(w.b.lp, w.x.s.data(), w.x.w.data());
   w.x.g = 0.1, w.x.w[0] -= w.x.g;
   w.b.y = {1.0};
-  const Barrier::Best best = w.b.search(w.x);
+  const BarrierProblem::Best best = w.b.search(w.x);
   double r[2];
   Packing q = w.p;
   q.position[0] += best.alpha * 0.1;

@@ -6,7 +6,7 @@
 
 #include "core/create.hpp"
 #include "core/pairs.hpp"
-#include "lp/newton_system.hpp"
+#include "linalg/newton_system.hpp"
 
 using namespace jam;
 

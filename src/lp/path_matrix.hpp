@@ -3,21 +3,20 @@
 #include <vector>
 
 #include "core/packing.hpp"
-#include "crunch/barrier.hpp"
-#include "crunch/tuning.hpp"
+#include "lp/barrier_problem.hpp"
 #include "lp/mixed_factor.hpp"
 
 namespace jam {
 
 class PathMatrix {
  public:
-  PathMatrix(NewtonSystem &system, int threads, const Tuning &tuning)
-      : system_(system), factor_(system, tuning.single), threads_(threads) {}
+  PathMatrix(NewtonSystem &system, int threads, const SinglePrecision &single)
+      : system_(system), factor_(system, single), threads_(threads) {}
 
   // Call this when the pair list changes.
   void reset(size_t rows, size_t unknowns);
   // The numbers of the matrix at the present rows, with `proximal` on its diagonal.
-  void weigh(const Packing &p, const Barrier &b, double proximal);
+  void weigh(const Packing &p, const BarrierProblem &b, double proximal);
   // In single precision where that is faster and was good enough so far.
   bool factorise(double gap);
   // Changes ds, dg for the right-hand sides rhs, h. Where single precision does not do, the matrix is factorised again;
@@ -29,7 +28,7 @@ class PathMatrix {
   size_t near() const { return near_.size(); }
 
  private:
-  void choose_near(const Packing &p, const Barrier &b);
+  void choose_near(const Packing &p, const BarrierProblem &b);
 
   NewtonSystem &system_;
   MixedFactor factor_;

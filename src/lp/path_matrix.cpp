@@ -1,4 +1,4 @@
-#include "crunch/path_matrix.hpp"
+#include "lp/path_matrix.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@ void PathMatrix::reset(size_t rows, size_t unknowns) {
 
 // Rows couple spheres up to far_slack times the slack of the carrying rows. They are chosen anew for a new list, when a
 // screened row came near, and when a fifth could go.
-void PathMatrix::choose_near(const Packing &p, const Barrier &b) {
+void PathMatrix::choose_near(const Packing &p, const BarrierProblem &b) {
   const std::vector<double> &c = b.lp.c;
   const double slack = far_slack * carrying_slack(c, p.dim, static_cast<int32_t>(p.n()));
   std::vector<char> coupled(c.size(), 0);
@@ -34,7 +34,7 @@ void PathMatrix::choose_near(const Packing &p, const Barrier &b) {
   system_.set_graph(p.dim, static_cast<int32_t>(p.n()), near_pairs_, threads_);
 }
 
-void PathMatrix::weigh(const Packing &p, const Barrier &b, double proximal) {
+void PathMatrix::weigh(const Packing &p, const BarrierProblem &b, double proximal) {
   choose_near(p, b);
   const int d = p.dim;
   const size_t strains = static_cast<size_t>(b.lp.strains), spheres = b.lp.spheres();

@@ -1,4 +1,4 @@
-#include "lp/newton_system.hpp"
+#include "linalg/newton_system.hpp"
 
 #include <Eigen/Dense>
 

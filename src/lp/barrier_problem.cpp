@@ -1,4 +1,4 @@
-#include "crunch/barrier.hpp"
+#include "lp/barrier_problem.hpp"
 #include "core/math.hpp"
 #include "core/pair_rule.hpp"
 
@@ -13,7 +13,7 @@ constexpr double longest_alpha = 4.0, to_wall = 0.995;
 
 }  // namespace
 
-bool Barrier::measure(const Packing &p) {
+bool BarrierProblem::measure(const Packing &p) {
   lp = make_lp(p, pairs, unit, strain);
   sigma2_.resize(lp.rows());
   vector_.resize(lp.strains > 0 ? lp.rows() * static_cast<size_t>(p.dim) : 0);
@@ -30,19 +30,19 @@ bool Barrier::measure(const Packing &p) {
   return true;
 }
 
-double Barrier::duality_gap() const {
+double BarrierProblem::duality_gap() const {
   double sum = 0.0;
   for (size_t k = 0; k < y.size(); ++k) sum += y[k] * lp.c[k];
   return sum;
 }
 
-double Barrier::decrement(const BarrierStep &x) const {
+double BarrierProblem::decrement(const BarrierStep &x) const {
   double slope = -x.g / mu;
   for (size_t k = 0; k < y.size(); ++k) slope -= x.w[k] / lp.c[k] - x.g;
   return -slope;
 }
 
-double Barrier::longest_move(const BarrierStep &x) const {
+double BarrierProblem::longest_move(const BarrierStep &x) const {
   double largest = 1e-300;
   for (size_t k = 0; k < lp.spheres(); k += lp.dim) {
     double s2 = 0.0;
@@ -52,25 +52,25 @@ double Barrier::longest_move(const BarrierStep &x) const {
   return std::sqrt(largest);
 }
 
-std::vector<double> Barrier::strain_of(const BarrierStep &x, double alpha) const {
+std::vector<double> BarrierProblem::strain_of(const BarrierStep &x, double alpha) const {
   if (lp.strains == 0) return {};
   return strain_matrix(strain, {x.s.end() - lp.strains, x.s.end()}, alpha);
 }
 
-double Barrier::strain_norm(const BarrierStep &x) const {
+double BarrierProblem::strain_norm(const BarrierStep &x) const {
   double e2 = 0.0;
   for (const double e : strain_of(x, 1.0)) e2 += e * e;
   return std::sqrt(e2);
 }
 
-double Barrier::longest_dual(const BarrierStep &x) const {
+double BarrierProblem::longest_dual(const BarrierStep &x) const {
   double alpha = 1.0;
   for (size_t k = 0; k < y.size(); ++k)
     if (x.y[k] < 0.0) alpha = std::min(alpha, -to_wall * y[k] / x.y[k]);
   return alpha;
 }
 
-void Barrier::bend(const BarrierStep &x) {
+void BarrierProblem::bend(const BarrierStep &x) {
   const int d = lp.dim;
   bend_.resize(y.size());
   const std::vector<double> e = strain_of(x, 1.0);
@@ -87,7 +87,7 @@ void Barrier::bend(const BarrierStep &x) {
 }
 
 // Longest alpha at which every true gap and Gamma itself are still positive.
-double Barrier::wall(const BarrierStep &x) const {
+double BarrierProblem::wall(const BarrierStep &x) const {
   double alpha = x.g < 0.0 ? std::min(longest_alpha, -1.0 / x.g) : longest_alpha;
   for (size_t k = 0; k < y.size(); ++k) {
     const double c = lp.c[k], b = x.w[k], disc = b * b - 4.0 * bend_[k] * c;
@@ -96,7 +96,7 @@ double Barrier::wall(const BarrierStep &x) const {
   return alpha;
 }
 
-double Barrier::merit(const BarrierStep &x, double alpha) const {
+double BarrierProblem::merit(const BarrierStep &x, double alpha) const {
   const double g = alpha * x.g;
   if (!(1.0 + g > 0.0)) return std::numeric_limits<double>::infinity();
   double sum = 0.0, product = 1.0;  // one logarithm for many factors
@@ -110,7 +110,7 @@ double Barrier::merit(const BarrierStep &x, double alpha) const {
 }
 
 // Golden sections. The whole Newton step if that is about as good.
-Barrier::Best Barrier::search(const BarrierStep &x) {
+BarrierProblem::Best BarrierProblem::search(const BarrierStep &x) {
   bend(x);
   const double most = to_wall * wall(x), part = 0.6180339887498949;
   double low = 0.0, high = most, a = high - part * (high - low), b = low + part * (high - low);

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/packing.hpp"
-#include "lp/newton_system.hpp"
+#include "linalg/newton_system.hpp"
 #include "network/contact_network.hpp"
 
 namespace jam {
@@ -14,9 +14,6 @@ struct Motion {
   std::vector<double> s;
   double g = 0.0;
 };
-
-// Moves by a part of it; the offsets of pairs follow.
-void move(Packing &p, PairList &pairs, const Motion &motion, double part = 1.0);
 
 // Rows of the relative gaps h = |r| / sigma - 1.
 std::vector<double> relative_rows(const Packing &p, const ContactNetwork &net);

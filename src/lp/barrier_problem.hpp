@@ -16,7 +16,7 @@ struct BarrierStep {
   double g = 0.0;
 };
 
-class Barrier {
+class BarrierProblem {
  public:
   PairList pairs;
   PackingLp lp;           // rows at the present positions

@@ -1,17 +1,10 @@
-#include "crunch/gap_rows.hpp"
+#include "network/force_balance.hpp"
 #include "core/pair_rule.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 namespace jam {
-
-void move(Packing &p, PairList &pairs, const Motion &motion, double part) {
-  const double unit = part * diameter_mean(p);
-  for (size_t k = 0; k < motion.s.size(); ++k) p.position[k] += unit * motion.s[k];
-  for (double &s : p.diameter) s *= 1.0 + part * motion.g;
-  wrap_positions(p, pairs);
-}
 
 std::vector<double> relative_rows(const Packing &p, const ContactNetwork &net) {
   const double unit = diameter_mean(p);

@@ -1,0 +1,34 @@
+#include "core/motion.hpp"
+
+#include "core/math.hpp"
+
+namespace jam {
+
+void strain_at_fixed_volume(Packing &p, PairList &pairs, const std::vector<double> &strain) {
+  const int d = p.dim;
+  double volume = 1.0;
+  for (int c = 0; c < d; ++c) volume *= 1.0 + strain[c * (d + 1)];
+  const double back = math::pow(volume, -1.0 / d);
+  const auto deform = [&](double *x) {  // upper-triangular: component a needs those from a on
+    for (int a = 0; a < d; ++a) {
+      double sum = x[a];
+      for (int b = a; b < d; ++b) sum += strain[a * d + b] * x[b];
+      x[a] = back * sum;
+    }
+  };
+  for (size_t k = 0; k < p.position.size(); k += d) deform(&p.position[k]);
+  for (size_t k = 0; k < pairs.offset.size(); k += d) deform(&pairs.offset[k]);
+  std::vector<double> rows = p.cell.rows();
+  for (int c = 0; c < d; ++c) deform(&rows[c * d]);
+  p.cell = Cell::from_triangle(d, rows.data());
+}
+
+void move_packing(Packing &p, PairList &pairs, const double *s, double length, double growth,
+                  const std::vector<double> &strain) {
+  if (!strain.empty()) strain_at_fixed_volume(p, pairs, strain);
+  for (size_t k = 0; k < p.position.size(); ++k) p.position[k] += length * s[k];
+  for (double &sigma : p.diameter) sigma *= growth;
+  wrap_positions(p, pairs);
+}
+
+}  // namespace jam

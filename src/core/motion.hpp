@@ -1,0 +1,19 @@
+// The one way in which a crunch moves a packing: displacements, growth of all diameters, and a strain of the cell.
+#pragma once
+#include <vector>
+
+#include "core/packing.hpp"
+#include "core/pairs.hpp"
+
+namespace jam {
+
+// Deforms positions, cell and offsets by 1 + E, E upper-triangular (dim, dim), divided by det^(1/d): the volume stays.
+// det <= 1 for a traceless E, so this opens gaps.
+void strain_at_fixed_volume(Packing &p, PairList &pairs, const std::vector<double> &strain);
+
+// Strains the cell (strain empty: it is fixed), moves the spheres by `length` s, s (n, dim), multiplies all diameters by
+// `growth` and wraps. The offsets of the pairs follow.
+void move_packing(Packing &p, PairList &pairs, const double *s, double length, double growth,
+                  const std::vector<double> &strain = {});
+
+}  // namespace jam

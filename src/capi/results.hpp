@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/archive.hpp"
-#include "crunch/history.hpp"
+#include "crunch/record.hpp"
 #include "jam/jam.h"
 #include "network/contact_network.hpp"
 #include "soft/decompression.hpp"

@@ -11,8 +11,8 @@ namespace jam {
 // det <= 1 for a traceless E, so this opens gaps.
 void strain_at_fixed_volume(Packing &p, PairList &pairs, const std::vector<double> &strain);
 
-// Strains the cell (strain empty: it is fixed), moves the spheres by `length` s, s (n, dim), multiplies all diameters by
-// `growth` and wraps. The offsets of the pairs follow.
+// Strains the cell (strain empty: it is fixed), moves the spheres by `length` s, s (n, dim), multiplies all diameters
+// by `growth` and wraps. The offsets of the pairs follow.
 void move_packing(Packing &p, PairList &pairs, const double *s, double length, double growth,
                   const std::vector<double> &strain = {});
 

@@ -9,60 +9,31 @@
 
 #include "core/call_scope.hpp"
 #include "core/error.hpp"
-#include "core/math.hpp"
 #include "core/pairs.hpp"
-#include "crunch/state.hpp"
+#include "crunch/approach/approach.hpp"
+#include "crunch/approach/free_cell.hpp"
+#include "crunch/approach/lp_step.hpp"
+#include "crunch/control.hpp"
+#include "crunch/estimate.hpp"
+#include "crunch/identify/identify.hpp"
+#include "crunch/identify/narrow_lps.hpp"
+#include "crunch/path/phase.hpp"
+#include "crunch/report.hpp"
 
 namespace jam {
 
-double jammed_fraction(int dim) { return dim == 2 ? 0.84 : 0.64 * math::pow(0.7, dim - 3); }
-
-double free_spacing(const Packing &p) {
-  return std::max(0.0, math::pow(packing_fraction(p), -1.0 / p.dim) - math::pow(jammed_fraction(p.dim), -1.0 / p.dim));
-}
-
-CrunchState::CrunchState(const Packing &start, const jam_crunch_options &options, Monitor &monitor_in,
-                         History &history_in, const CrunchHooks &hooks_in)
-    : o(options), tuning(hooks_in.tuning), monitor(monitor_in), history(history_in), hooks(hooks_in) {
+CrunchState::CrunchState(const Packing &start, const jam_crunch_options &options, Monitor &monitor_of_call,
+                         History &history_of_call, const CrunchHooks &hooks_of_call)
+    : o(options),
+      tuning(hooks_of_call.tuning),
+      monitor(monitor_of_call),
+      history(history_of_call),
+      hooks(hooks_of_call) {
   out.packing = start;
-  gain_tolerance = o.gain_tolerance;
   out.contacts.coordination.assign(start.n(), 0);
   out.report.struct_size = sizeof out.report;
+  next.gain_tolerance = o.gain_tolerance;
   history.begin(start, o.steps != 0, o.keep_steps);
-}
-
-bool CrunchState::interrupted() {
-  if (monitor.cancelled()) return stop(JAM_STOP_CANCELLED, JAM_CANCELLED), true;
-  if (monitor.interrupted()) return stop(JAM_STOP_WALL_TIME, JAM_LIMIT), true;
-  return false;
-}
-
-// An estimate for progress bars. The first decades of mu on a path take the longest, so the root of their share.
-// Decades of gain in sequential LPs take about equal times.
-double CrunchState::done(double path, double gain) {
-  const Tuning &t = tuning;
-  if (first_gain == 0.0) first_gain = gain;
-  double part = path_taken ? 1.0 : 0.0;
-  if (!std::isnan(path))
-    part = t.part_before_path + (1.0 - t.part_before_path) * std::sqrt(path);
-  else if (o.method == JAM_CRUNCH_SEQUENTIAL_LP && !std::isnan(log_share(first_gain, gain, gain_tolerance)))
-    part = log_share(first_gain, gain, gain_tolerance);
-  const double rounds = o.strain == JAM_STRAIN_NONE ? 1.0 : 2.0, begun = strain.count() > 0 ? 1.0 : 0.0;
-  return (begun + t.part_before_verdict * part) / rounds;
-}
-
-bool CrunchState::show(jam_phase phase, double gain, double step, bool finished) {
-  jam_progress progress = progress_of(phase);
-  progress.packing_fraction = packing_fraction(out.packing);
-  progress.fraction = done(std::numeric_limits<double>::quiet_NaN(), gain);
-  progress.gain = gain;
-  progress.max_step = step;
-  progress.steps = out.report.lp_solves;
-  progress.factorisations = system.factorisations;
-  history.step().shown = finished && history.details();
-  const bool stopped = monitor.report(progress, true);
-  history.step().shown = false;
-  return stopped;
 }
 
 // Where the stage of a crunch that was stopped leads. Options that ask for another way begin anew.
@@ -72,7 +43,7 @@ static Phase first_phase(CrunchState &s) {
   if (!path || (stage.cell_free && s.o.strain == JAM_STRAIN_NONE)) stage = CrunchStage();
   const CrunchStage from = stage;
   if (from.cell_free) free_cell(s);
-  s.path_taken = stage.path_taken = from.path_taken;
+  stage.path_taken = from.path_taken;
   return from.path.mu > 0.0 ? Phase::barrier_path : Phase::approach;
 }
 
@@ -83,19 +54,8 @@ static bool fills_cell(CrunchState &s) {
   const PairList touching = find_pairs(p, 0.0, 1.0 + contact_gap_limit);
   for (size_t k = 0; k < touching.size(); ++k)
     if (!touching.own_image(k)) return false;
-  s.stop(JAM_STOP_UNJAMMED, JAM_NOT_JAMMED);
+  stop(s, JAM_STOP_UNJAMMED, JAM_NOT_JAMMED);
   return true;
-}
-
-// What stands behind a status above 0.
-static void explain(CrunchState &s) {
-  const Packing &p = s.out.packing;
-  const auto largest = std::max_element(p.diameter.begin(), p.diameter.end());
-  if (s.out.status <= 0 || s.o.strain != JAM_STRAIN_NONE || *largest < p.cell.shortest() * (1.0 - contact_gap_limit))
-    return;
-  s.out.text = "sphere " + std::to_string(largest - p.diameter.begin()) +
-               " touches its own image, nothing can grow here; a free cell (strain) gives way";
-  s.monitor.log(JAM_LOG_WARNING, "%s", s.out.text.c_str());
 }
 
 // Searches for pairs and factorisations may throw Cancelled here.
@@ -105,7 +65,7 @@ static void run_phases(CrunchState &s) {
   s.monitor.expect(begun);
   const LeavingScope scope(CallScope::memory_limit(), &s.monitor);
   if (fills_cell(s)) return;
-  s.bound = first_bound(s.out.packing, s.o, s.tuning);
+  s.next.bound = first_bound(s.out.packing, s.o, s.tuning);
   for (Phase phase = first_phase(s); phase != Phase::done;) {
     switch (phase) {
       case Phase::approach:
@@ -117,8 +77,8 @@ static void run_phases(CrunchState &s) {
       case Phase::identify:
         phase = identify(s);
         break;
-      case Phase::exact_vertex:
-        phase = exact_vertex(s);
+      case Phase::narrow_lps:
+        phase = narrow_lps(s);
         break;
       case Phase::done:
         break;
@@ -129,7 +89,7 @@ static void run_phases(CrunchState &s) {
 // What is known before the first factorisation: the log says it, and what surely exceeds the memory of the call is
 // refused.
 // Small systems fit at any density.
-static void look_ahead(const Packing &start, const jam_crunch_options &o, Monitor &monitor) {
+static void check_estimate(const Packing &start, const jam_crunch_options &o, Monitor &monitor) {
   const bool logs = monitor.log_fn && monitor.log_level >= JAM_LOG_INFO;
   const double unknowns = static_cast<double>(start.position.size()), full_matrix = 8.0 * unknowns * unknowns;
   if (!logs && full_matrix < CallScope::memory_limit()) return;
@@ -153,10 +113,10 @@ CrunchResult crunch(const Packing &start, const jam_crunch_options &o, Monitor &
   Touching touching;
   try {
     const LeavingScope scope(CallScope::memory_limit(), &monitor);
-    look_ahead(start, o, monitor);
+    check_estimate(start, o, monitor);
   } catch (const Cancelled &) {
-    s.interrupted();
-    finish_failed(s);
+    stop_if_interrupted(s);
+    report_failure(s);
     return std::move(s.out);
   }
   try {
@@ -165,19 +125,18 @@ CrunchResult crunch(const Packing &start, const jam_crunch_options &o, Monitor &
       touching = find_touching(start, o.strain != JAM_STRAIN_NONE);
     }
     run_phases(s);
-    finish(s);
-    explain(s);
+    report_end(s);
   } catch (const Cancelled &) {  // in a search for pairs, or a factorisation
-    s.interrupted();
-    finish_failed(s);
+    stop_if_interrupted(s);
+    report_failure(s);
   } catch (const Error &e) {
-    s.stop(JAM_STOP_SOLVER, e.code());
+    stop(s, JAM_STOP_SOLVER, e.code());
     s.out.text = e.what();
-    finish_failed(s);
+    report_failure(s);
   } catch (const std::bad_alloc &) {
     s.out.text.clear();
-    s.stop(JAM_STOP_SOLVER, JAM_E_MEMORY);
-    finish_failed(s);
+    stop(s, JAM_STOP_SOLVER, JAM_E_MEMORY);
+    report_failure(s);
   }
   report_changes(std::move(touching), packing_fraction(start), s);
   return std::move(s.out);

@@ -1,4 +1,5 @@
-// What a crunch will cost, from the particle graph and its elimination tree alone.
+#include "crunch/estimate.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,8 +9,10 @@
 #include "core/math.hpp"
 #include "core/pair_rule.hpp"
 #include "core/pairs.hpp"
-#include "crunch/crunch.hpp"
-#include "crunch/neighbour_selection.hpp"
+#include "crunch/approach/lp_step.hpp"
+#include "crunch/options.hpp"
+#include "crunch/path/neighbours.hpp"
+#include "crunch/spacing.hpp"
 #include "linalg/blas.hpp"
 #include "linalg/block_cholesky.hpp"
 #include "linalg/newton_system.hpp"
@@ -81,15 +84,6 @@ class Edges {
  private:
   std::vector<int32_t> i_, j_;
 };
-
-// h = r / sigma - 1 of each pair.
-std::vector<double> relative_gaps(const Packing &p, const PairList &pairs) {
-  std::vector<double> gap(pairs.size());
-  double r[JAM_MAX_DIM];
-  for (size_t k = 0; k < gap.size(); ++k)
-    gap[k] = std::sqrt(pair_vector(p, pairs, k, r)) / contact_distance(p, pairs.i[k], pairs.j[k]) - 1.0;
-  return gap;
-}
 
 // Factor by which the diameters grow before a list gets shorter: this part of the way to jamming.
 double growth(const Packing &p, double part) {
@@ -175,15 +169,6 @@ double measured_rate(int size) {
 }
 
 }  // namespace
-
-double contact_gap(const Packing &p) {
-  const PairList pairs = find_pairs(p, 0.0, 1.5);
-  const size_t wanted = static_cast<size_t>(p.dim) * p.n() / 2;
-  if (pairs.size() <= wanted) return 0.5;
-  std::vector<double> gap = relative_gaps(p, pairs);
-  std::nth_element(gap.begin(), gap.begin() + wanted, gap.end());
-  return gap[wanted];
-}
 
 jam_estimate estimate(const Packing &p, const jam_crunch_options &o) {
   check_options(p, o);

@@ -1,11 +1,11 @@
-// Options of jam_crunch: defaults and what is refused.
+#include "crunch/options.hpp"
+
 #include <limits>
 
 #include "core/checks.hpp"
 #include "core/create.hpp"
 #include "core/error.hpp"
 #include "core/limits.hpp"
-#include "crunch/crunch.hpp"
 
 namespace jam {
 

@@ -8,6 +8,16 @@
 
 namespace jam {
 
+double add_contact(const Packing &p, const PairList &pairs, size_t k, ContactNetwork &net) {
+  const int d = p.dim;
+  double r[JAM_MAX_DIM];
+  const double length = std::sqrt(pair_vector(p, pairs, k, r));
+  net.pairs.append(pairs, k);
+  for (int c = 0; c < d; ++c) net.vector.push_back(r[c] / length);
+  net.gap.push_back(length / contact_distance(p, pairs.i[k], pairs.j[k]) - 1.0);
+  return length;
+}
+
 void measure_contacts(const Packing &p, ContactNetwork &net) {
   using Wide = long double;
   const int d = p.dim;

@@ -21,6 +21,8 @@ struct ContactNetwork {
   size_t size() const { return pairs.size(); }
 };
 
+// Appends pair k of a list with its direction and gap, without a force. Returns its length.
+double add_contact(const Packing &p, const PairList &pairs, size_t k, ContactNetwork &net);
 // Directions and gaps at the positions of p, in extended precision.
 void measure_contacts(const Packing &p, ContactNetwork &net);
 

@@ -6,7 +6,6 @@
 #include "core/call_scope.hpp"
 #include "core/error.hpp"
 #include "core/pair_rule.hpp"
-#include "network/tuning.hpp"
 
 namespace jam {
 
@@ -43,14 +42,8 @@ GapList pairs_below(const Packing &p, double limit) {
 
 ContactNetwork network_of(const Packing &p, const GapList &g, double tolerance) {
   ContactNetwork net;
-  std::vector<double> r(p.dim);
-  for (size_t k = 0; k < g.pairs.size(); ++k) {  // list order: sorted by (i, j) and image
-    if (std::fabs(g.gap[k]) > tolerance) continue;
-    net.pairs.append(g.pairs, k);
-    const double length = std::sqrt(pair_vector(p, g.pairs, k, r.data()));
-    for (double x : r) net.vector.push_back(x / length);
-    net.gap.push_back(g.gap[k]);
-  }
+  for (size_t k = 0; k < g.pairs.size(); ++k)  // list order: sorted by (i, j) and image
+    if (!(std::fabs(g.gap[k]) > tolerance)) add_contact(p, g.pairs, k, net);
   net.force.assign(net.size(), 0.0);
   net.coordination.assign(p.n(), 0);
   std::vector<char> on(net.size());  // contacts of a sphere with its own image constrain nothing in a fixed cell
@@ -72,6 +65,8 @@ ContactNetwork between_carrying(const ContactNetwork &net, const std::vector<cha
 
 namespace {
 
+constexpr size_t most_candidates = 12;
+
 struct Jump {
   double ratio, below, above;
 };
@@ -90,7 +85,7 @@ std::vector<Jump> find_jumps(const Packing &p, const GapList &g, double resoluti
     if (static_cast<double>(q + 1) < enough) few = jumps.size();
   }
   const auto best = [&](size_t first, size_t last) {
-    const size_t keep = std::min<size_t>(last - first, JumpTuning::most_candidates);
+    const size_t keep = std::min<size_t>(last - first, most_candidates);
     const auto begin = jumps.begin() + static_cast<std::ptrdiff_t>(first);
     std::partial_sort(begin, begin + static_cast<std::ptrdiff_t>(keep),
                       jumps.begin() + static_cast<std::ptrdiff_t>(last),
@@ -116,7 +111,7 @@ ContactCandidates contact_candidates(const Packing &p, double window) {
   ContactCandidates out;
   const GapList g = pairs_below(p, window);
   for (const Jump &jump : find_jumps(p, g, gap_resolution(p).relative(p), window)) {
-    if (out.limit.size() == JumpTuning::most_candidates) break;
+    if (out.limit.size() == most_candidates) break;
     CallScope::look();
     const ContactNetwork net = network_of(p, g, std::sqrt(jump.below * jump.above));
     if (!can_be_rigid(net, p.dim)) continue;
@@ -163,7 +158,8 @@ GeometryResult contacts_from_geometry(const Packing &p, const jam_geometry_optio
       r.jump = jump.ratio;
     }
     r.second_jump = second;
-    wide = chosen && r.jump > JumpTuning::wide;
+    // A true jump separates rounding from real gaps: decades, and far more of them than the next candidate.
+    wide = chosen && r.jump > 100.0;
     clear = wide && r.jump > second * second;
   }
   r.gap_below = 0.0;
@@ -206,7 +202,11 @@ GeometryResult contacts_from_geometry(const Packing &p, const jam_geometry_optio
     out.status = JAM_NOT_JAMMED;
   else if (stress.dimension > 1 || !clear || closed.jammed == Verdict::undecided || wide_gaps)
     out.status = JAM_AMBIGUOUS;
-  set_force_scale(p, out.network);
+  // Scale: mean of lambda r with sum lambda sigma^2 = 1 and lambda = c f / r.
+  double sum = 0.0;
+  for (size_t k = 0; k < graph.contacts(); ++k)
+    sum += out.network.force[k] * graph.sigma[k] * graph.sigma[k] / graph.distance[k];
+  out.network.force_scale = sum > 0.0 ? 1.0 / sum : 0.0;
   return out;
 }
 

@@ -7,7 +7,7 @@
 
 #include "core/create.hpp"
 #include "lp/barrier_problem.hpp"
-#include "crunch/barrier_path.hpp"
+#include "crunch/path/barrier_path.hpp"
 #include "crunch/crunch.hpp"
 #include "lp/interior_point.hpp"
 #include "unit/crunch_scenes.hpp"

@@ -2,8 +2,8 @@
 #include <cmath>
 #include "test.h"
 
-#include "crunch/barrier_path.hpp"
-#include "crunch/neighbour_selection.hpp"
+#include "crunch/path/barrier_path.hpp"
+#include "crunch/path/neighbours.hpp"
 #include "unit/crunch_scenes.hpp"
 
 using namespace jam;

@@ -2,7 +2,7 @@
 #include <cmath>
 #include "test.h"
 
-#include "crunch/barrier_schedule.hpp"
+#include "crunch/path/schedule.hpp"
 
 using namespace jam;
 

@@ -3,7 +3,8 @@
 #include "test.h"
 
 #include "core/create.hpp"
-#include "crunch/barrier_path.hpp"
+#include "crunch/path/barrier_path.hpp"
+#include "crunch/approach/lp_step.hpp"
 #include "crunch/crunch.hpp"
 
 using namespace jam;

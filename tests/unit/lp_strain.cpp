@@ -4,7 +4,7 @@
 #include "test.h"
 
 #include "core/create.hpp"
-#include "crunch/state.hpp"
+#include "crunch/approach/lp_step.hpp"
 #include "lp/interior_point.hpp"
 
 using namespace jam;

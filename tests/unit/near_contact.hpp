@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "crunch/polish.hpp"
+#include "crunch/identify/polish.hpp"
 #include "crunch_scenes.hpp"
 
 namespace jam {

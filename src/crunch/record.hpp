@@ -1,17 +1,52 @@
-// What each step of a crunch did: the rows behind jam_crunch_history, and the details of the last step while a callback
-// looks.
+// The record of a crunch: what each step did, the rows behind jam_crunch_history; the details of the last step while a
+// callback looks; states that the page shows; and the stage at which another call goes on.
 #pragma once
 #include <array>
 #include <cstdint>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "core/packing.hpp"
-#include "crunch/kept_steps.hpp"
-#include "crunch/stage.hpp"
 #include "lp/packing_lp.hpp"
 
 namespace jam {
+
+// On the barrier path multipliers are mu over gap, so mu alone brings them back. mu = 0: not on the path.
+struct PathPoint {
+  double mu = 0.0, first_mu = 0.0;
+};
+
+// Where a crunch stands between two steps. With the packing it is all that another call needs to go on.
+struct CrunchStage {
+  PathPoint path;
+  bool path_taken = false, cell_free = false;
+
+  std::string bytes() const;
+  static CrunchStage of(const std::string &bytes);  // throws JAM_E_FORMAT
+};
+
+// A state that the page shows behind its slider: few enough, and in floats, so that the file stays small.
+struct KeptStep {
+  int64_t step;                 // rows of the history before this state: 0 is the start
+  double diameter;              // of the first sphere; all grow by one factor
+  double fraction;              // packing fraction
+  Cell cell;                    // a free cell changes from step to step
+  std::vector<float> position;  // (n, dim)
+};
+
+class KeptSteps {
+ public:
+  // most: states to keep, the start with them; 0: none. Large packings keep fewer.
+  void begin(const Packing &start, int64_t most);
+  // After each step. Where there is no more room every other state goes.
+  void add(const Packing &now, int64_t step);
+  std::vector<KeptStep> all() && { return std::move(kept_); }
+
+ private:
+  int64_t most_ = 0, every_ = 1;
+  std::vector<KeptStep> kept_;
+};
 
 constexpr size_t history_columns = JAM_HISTORY_TOTAL_MSD_STABLE + 1;
 using HistoryRow = std::array<double, history_columns>;  // by jam_history_column

@@ -1,4 +1,4 @@
-#include "crunch/polish.hpp"
+#include "crunch/identify/polish.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "crunch/barrier_path.hpp"
+#include "crunch/path/barrier_path.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,10 +7,11 @@
 
 #include "core/motion.hpp"
 #include "core/pair_rule.hpp"
+#include "crunch/approach/active_set.hpp"
+#include "crunch/path/neighbours.hpp"
+#include "crunch/path/schedule.hpp"
+#include "crunch/spacing.hpp"
 #include "lp/barrier_problem.hpp"
-#include "crunch/barrier_schedule.hpp"
-#include "crunch/crunch.hpp"
-#include "crunch/neighbour_selection.hpp"
 #include "lp/path_matrix.hpp"
 
 namespace jam {
@@ -44,8 +45,8 @@ class BarrierPath {
                    out.factorisations, gap_, decrement_, balance_, packing_fraction(p_), b_.pairs.size(),
                    matrix_.near(), correctors_, alpha_p_, alpha_d_, last_step_);
       out.reached = balance_ < 1e-2 && gap_ <= end_;
-      const bool crystal =
-          out.increases > 0 && gap_ < t_.crystal_gap && hyperstatic(b_.y, static_cast<double>(p_.position.size()), t_);
+      const bool crystal = out.increases > 0 && gap_ < t_.crystal_gap &&
+                           hyperstatic(b_.y, static_cast<double>(p_.position.size()), t_.crystal_rows);
       if (out.reached || crystal || out.factorisations >= t_.max_path_factorisations || monitor_.interrupted() ||
           report() || !newton())
         break;
@@ -247,11 +248,6 @@ class BarrierPath {
 };
 
 }  // namespace
-
-bool hyperstatic(const std::vector<double> &y, double isostatic, const Tuning &tuning) {
-  const auto strong = std::count_if(y.begin(), y.end(), [&](double v) { return v * isostatic > 0.1; });
-  return static_cast<double>(strong) > tuning.crystal_rows * isostatic;
-}
 
 BarrierPathResult follow_barrier_path(Packing &p, const BarrierPathControl &control, NewtonSystem &system,
                                       Monitor &monitor) {

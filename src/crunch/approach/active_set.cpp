@@ -1,12 +1,13 @@
-// Which rows of an LP carry force, and which spheres they touch.
+#include "crunch/approach/active_set.hpp"
+
 #include <algorithm>
 #include <cmath>
 
 #include "core/pair_rule.hpp"
-#include "crunch/state.hpp"
 #include "network/rattlers.hpp"
 
 namespace jam {
+
 // At a strictly complementary optimum a row has either force or slack. Both are compared in their own units: y times
 // d n, about the number of carrying rows, is a force over the mean force; w is twice a relative gap. A solver that
 // ends at a vertex may leave a closed row without force: no slack counts as well.
@@ -53,27 +54,23 @@ double largest_step(const LpSolution &x, const ActiveSet &active, int dim) {
   return std::sqrt(largest);
 }
 
-int64_t excess_of(const ActiveSet &active, int dim) {
-  return static_cast<int64_t>(active.rows.size()) - isostatic_contacts(active.stable, dim);
-}
-
 ContactNetwork make_contacts(const Packing &p, const PairList &pairs, const LpSolution &x, const ActiveSet &active) {
   ContactNetwork out;
-  const int d = p.dim;
   out.coordination = active.coordination;
-  double r[JAM_MAX_DIM], sum = 0.0;
+  double sum = 0.0;
   for (const size_t k : active.rows) {
-    const int32_t i = pairs.i[k], j = pairs.j[k];
-    out.pairs.append(pairs, k);
-    const double length = std::sqrt(pair_vector(p, pairs, k, r)), sigma = contact_distance(p, i, j);
-    for (int c = 0; c < d; ++c) out.vector.push_back(r[c] / length);
-    out.gap.push_back(length / sigma - 1.0);
+    const double length = add_contact(p, pairs, k, out), sigma = contact_distance(p, pairs.i[k], pairs.j[k]);
     out.force.push_back(x.y[k] / (sigma * sigma) * length);
     sum += out.force.back();
   }
   out.force_scale = out.size() ? sum / static_cast<double>(out.size()) : 0.0;
   for (double &f : out.force) f /= out.force_scale;
   return out;
+}
+
+bool hyperstatic(const std::vector<double> &y, double isostatic, double rows) {
+  const auto strong = std::count_if(y.begin(), y.end(), [&](double v) { return v * isostatic > 0.1; });
+  return static_cast<double>(strong) > rows * isostatic;
 }
 
 }  // namespace jam

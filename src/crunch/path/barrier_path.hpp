@@ -7,7 +7,7 @@
 
 #include "core/monitor.hpp"
 #include "core/packing.hpp"
-#include "crunch/stage.hpp"
+#include "crunch/record.hpp"
 #include "crunch/tuning.hpp"
 #include "linalg/newton_system.hpp"
 #include "lp/packing_lp.hpp"
@@ -33,10 +33,6 @@ struct BarrierPathResult {
   int increases = 0;        // of mu, at saddles
   Multipliers multipliers;  // of the last list
 };
-
-// True when more rows carry a tenth of the mean force than one state of self-stress has: a crystal in the making, whose
-// path meets one saddle after the other. y: multipliers, sum 1; isostatic: d n.
-bool hyperstatic(const std::vector<double> &y, double isostatic, const Tuning &tuning);
 
 // Moves p towards its jamming point, always without overlap.
 BarrierPathResult follow_barrier_path(Packing &p, const BarrierPathControl &control, NewtonSystem &system,

@@ -1,4 +1,4 @@
-#include "crunch/barrier_schedule.hpp"
+#include "crunch/path/schedule.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -1,4 +1,4 @@
-#include "crunch/neighbour_selection.hpp"
+#include "crunch/path/neighbours.hpp"
 
 #include <algorithm>
 #include <cmath>

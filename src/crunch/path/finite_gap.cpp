@@ -1,14 +1,11 @@
-// The end of a crunch at a finite duality gap. On the path y c = mu for every row: a contact has much force and a small
-// gap, another pair the reverse. The linear program at this point parts those in between, from the multipliers of the
-// path in a few iterations. A curved path may still part some of them the other way: they are counted.
-//
-//   multipliers of the path -> LP -> contacts and forces -> forces that balance -> duality gap of these forces
+#include "crunch/path/finite_gap.hpp"
+
 #include <utility>
 
 #include "core/pair_rule.hpp"
-#include "network/force_balance.hpp"
-#include "crunch/state.hpp"
+#include "crunch/control.hpp"
 #include "lp/interior_point.hpp"
+#include "network/force_balance.hpp"
 #include "network/rigidity_matrix.hpp"
 
 namespace jam {
@@ -16,11 +13,11 @@ namespace {
 
 // Pairs of stable spheres whose force on the path and gap are of one size, each in its own unit.
 int64_t count_undecided(const CrunchState &s, const std::vector<double> &path, const std::vector<int32_t> &z) {
-  const double carrying = static_cast<double>(s.lp.spheres()), most = s.tuning.doubt * s.tuning.doubt;
+  const double carrying = static_cast<double>(s.last.lp.spheres()), most = s.tuning.doubt * s.tuning.doubt;
   int64_t count = 0;
-  for (size_t k = 0; k < s.lp.rows(); ++k) {
-    const double force = path[k] * carrying, gap = s.lp.c[k];
-    count += z[s.pairs.i[k]] > 0 && z[s.pairs.j[k]] > 0 && force < most * gap && gap < most * force;
+  for (size_t k = 0; k < s.last.lp.rows(); ++k) {
+    const double force = path[k] * carrying, gap = s.last.lp.c[k];
+    count += z[s.last.pairs.i[k]] > 0 && z[s.last.pairs.j[k]] > 0 && force < most * gap && gap < most * force;
   }
   return count;
 }
@@ -29,16 +26,16 @@ int64_t count_undecided(const CrunchState &s, const std::vector<double> &path, c
 bool name_contacts(CrunchState &s, const std::vector<double> &path, ContactNetwork &net) {
   IpmControl control;
   double gap = 0.0;
-  for (size_t k = 0; k < path.size(); ++k) gap += path[k] * s.lp.c[k];
+  for (size_t k = 0; k < path.size(); ++k) gap += path[k] * s.last.lp.c[k];
   control.tolerance = s.tuning.part_of_gap * gap;
   control.threads = s.o.threads;
   control.doubles_from = s.tuning.doubles_from;
   control.multipliers = &path;
-  s.answer = s.interior_point.solve(s.lp, control, &s.monitor);
-  if (s.hooks.answer) s.hooks.answer(s.answer, JAM_LP_IPM);
-  if (!s.answer.solved) return false;
+  s.last.answer = s.interior_point.solve(s.last.lp, control, &s.monitor);
+  if (s.hooks.answer) s.hooks.answer(s.last.answer, JAM_LP_IPM);
+  if (!s.last.answer.solved) return false;
   ++s.out.report.lp_solves;
-  net = make_contacts(s.out.packing, s.pairs, s.answer, find_active_set(s.lp, s.answer, 0.0));
+  net = make_contacts(s.out.packing, s.last.pairs, s.last.answer, find_active_set(s.last.lp, s.last.answer, 0.0));
   return net.size() > 0 && !s.monitor.interrupted();
 }
 
@@ -69,11 +66,11 @@ double duality_gap(const Packing &p, const ContactNetwork &net) {
 }  // namespace
 
 bool ends_at_gap(CrunchState &s, const Multipliers &path) {
-  s.pairs = path.pairs;
-  s.lp = make_lp(s.out.packing, s.pairs, diameter_mean(s.out.packing));
+  s.last.pairs = path.pairs;
+  s.last.lp = make_lp(s.out.packing, s.last.pairs, diameter_mean(s.out.packing));
   ContactNetwork net;
   const bool balanced = name_contacts(s, path.y, net) && balance(s, net);
-  if (s.interrupted()) return false;
+  if (stop_if_interrupted(s)) return false;
   const double gap = balanced ? duality_gap(s.out.packing, net) : 0.0;
   if (!balanced || gap > s.o.duality_gap) {
     s.monitor.log(JAM_LOG_INFO, "finite gap: %s, the path goes on",
@@ -88,7 +85,7 @@ bool ends_at_gap(CrunchState &s, const Multipliers &path) {
   s.monitor.log(JAM_LOG_INFO, "finite gap: duality gap %.2e, %zu contacts, %lld undecided pairs", r.duality_gap,
                 net.size(), static_cast<long long>(r.undecided_contacts));
   s.out.contacts = std::move(net);
-  s.stop(JAM_STOP_DUALITY_GAP, JAM_OK);
+  stop(s, JAM_STOP_DUALITY_GAP, JAM_OK);
   return true;
 }
 

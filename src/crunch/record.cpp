@@ -1,11 +1,13 @@
-#include "crunch/history.hpp"
+#include "crunch/record.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "core/archive.hpp"
+#include "core/limits.hpp"
 #include "core/pair_rule.hpp"
-#include "crunch/state.hpp"
+#include "crunch/approach/active_set.hpp"
 
 namespace jam {
 namespace {
@@ -111,6 +113,45 @@ void History::take_network(const Packing &p, const PackingLp &lp, const LpSoluti
     step_.vector.insert(step_.vector.end(), r, r + p.dim);
     step_.multiplier.push_back(answer.y[k] / (sigma * sigma));
   }
+}
+
+void KeptSteps::begin(const Packing &start, int64_t most) {
+  const int64_t room = limits::kept_coordinates / static_cast<int64_t>(start.position.size());
+  most_ = std::min(most, std::max<int64_t>(1, room));
+  every_ = 1;
+  kept_.clear();
+  add(start, 0);
+}
+
+void KeptSteps::add(const Packing &now, int64_t step) {
+  if (most_ == 0 || step % every_ != 0) return;
+  kept_.push_back({step, now.diameter.front(), packing_fraction(now), now.cell,
+                   std::vector<float>(now.position.begin(), now.position.end())});
+  while (static_cast<int64_t>(kept_.size()) > most_) {
+    every_ *= 2;
+    kept_.erase(std::remove_if(kept_.begin(), kept_.end(), [&](const KeptStep &k) { return k.step % every_ != 0; }),
+                kept_.end());
+  }
+}
+
+static void archive(CrunchStage &s, Archive &a) {
+  a(s.path.mu), a(s.path.first_mu), a(s.path_taken), a(s.cell_free);
+  Archive::check(s.path.mu >= 0.0 && s.path.mu <= s.path.first_mu && std::isfinite(s.path.first_mu));
+}
+
+std::string CrunchStage::bytes() const {
+  CrunchStage copy = *this;
+  Archive a;
+  archive(copy, a);
+  return a.bytes();
+}
+
+CrunchStage CrunchStage::of(const std::string &bytes) {
+  CrunchStage stage;
+  Archive a(bytes);
+  archive(stage, a);
+  a.end();
+  return stage;
 }
 
 }  // namespace jam

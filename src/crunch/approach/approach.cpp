@@ -1,0 +1,120 @@
+#include "crunch/approach/approach.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/error.hpp"
+#include "crunch/approach/lp_step.hpp"
+#include "crunch/control.hpp"
+#include "lp/interior_point.hpp"
+
+namespace jam {
+namespace {
+
+// What an answer must fulfil to be used. One that ended early leans on bounds that it has not reached: any feasible
+// point is a safe step, if it gains no less than staying does.
+bool acceptable(const CrunchState &s, const LpSolution &x, bool early, LpCheck &check) {
+  check = check_lp(s.last.lp, x);
+  const double balance = early ? std::numeric_limits<double>::infinity() : 1e-3;  // polish balances forces to rounding
+  constexpr double rounding = 1e-9;
+  return x.solved && check.infeasibility < rounding && check.gamma < 1e-6 && check.balance < balance && x.g > -rounding;
+}
+
+enum class Answer { kept, refused, interrupted };
+
+Answer try_solver(CrunchState &s, jam_lp_solver solver, const IpmControl &control) {
+  s.last.answer = solver == JAM_LP_IPM ? s.interior_point.solve(s.last.lp, control, &s.monitor)
+                                       : solve_lp_clp(s.last.lp, clp_tolerance, &s.monitor);
+  if (s.hooks.answer) s.hooks.answer(s.last.answer, solver);
+  LpCheck check;
+  const bool good = acceptable(s, s.last.answer, control.early_fraction > 0.0, check);
+  if (good && !s.monitor.cancelled()) {
+    s.out.report.lp_solver = solver;
+    s.out.report.gamma_residual = check.gamma;
+    s.out.report.duality_gap = std::fabs(check.gap);
+    ++s.out.report.lp_solves;
+    s.last.early = control.early_fraction > 0.0 && std::fabs(check.gap) > 0.1 * s.next.gain_tolerance;
+    return Answer::kept;
+  }
+  if (s.monitor.interrupted()) return Answer::interrupted;
+  s.monitor.log(JAM_LOG_WARNING, "%s: infeasibility %.1e balance %.1e |sum y - 1| %.1e",
+                solver == JAM_LP_IPM ? "interior point" : "Clp", check.infeasibility, check.balance, check.gamma);
+  return Answer::refused;
+}
+
+// The interior point, warm where the forces hardly changed; then a cold one with small steps; then Clp. False when the
+// call was interrupted.
+bool solve(CrunchState &s) {
+  IpmControl control;
+  control.tolerance = s.o.lp_tolerance;
+  control.early_fraction = s.o.full_lps ? 0.0 : s.tuning.early_gap;
+  control.threads = s.o.threads;
+  Answer answer = Answer::refused;
+  if (s.o.lp_solver == JAM_LP_IPM) {
+    std::vector<double> forces;
+    if (s.next.moved <= s.tuning.warm_step && s.last.at_bound == 0) {
+      forces = carry_over(s.next.multipliers.pairs, s.next.multipliers.y, s.last.pairs);
+      control.multipliers = &forces;
+    }
+    answer = try_solver(s, JAM_LP_IPM, control);
+    if (answer == Answer::refused) {
+      control.multipliers = nullptr;
+      control.correctors = 0;
+      control.early_fraction = 0.0;
+      control.max_iterations = 200;
+      answer = try_solver(s, JAM_LP_IPM, control);
+    }
+    if (answer == Answer::refused) s.monitor.log(JAM_LOG_WARNING, "the interior point failed twice; Clp takes over");
+  }
+  control.early_fraction = 0.0;
+  if (answer == Answer::refused) answer = try_solver(s, JAM_LP_CLP, control);
+  if (answer == Answer::refused)
+    fail(JAM_E_SOLVER, "no LP solver gave an answer that checks out; the log has the residuals");
+  return answer == Answer::kept;
+}
+
+// LPs finish at once what is all but jammed. Before it the density rises along a curved valley, where the path needs
+// fewer factorisations. One path at most: a second one after saddles gains nothing.
+bool path_is_shorter(const CrunchState &s, double gain, double step) {
+  const Tuning &t = s.tuning;
+  if (s.o.method != JAM_CRUNCH_BARRIER_PATH || s.history.stage.path_taken) return false;
+  const double isostatic = s.last.lp.dim * static_cast<double>(s.last.lp.n);
+  if (gain < t.crystal_gap && hyperstatic(s.last.answer.y, isostatic, t.crystal_rows)) return false;
+  return step > t.long_step || step * step > std::max(t.curvature_ratio * gain, t.min_opening);
+}
+
+// What follows an LP with this gain and longest step, of which the part alpha was made.
+Phase next_phase(CrunchState &s, double gain, double step, double alpha) {
+  const bool gained = gain > s.next.gain_tolerance || s.last.early;
+  // Contacts that close and forces that balance end a crunch; the bare LP must also move nothing.
+  if (!gained && (s.o.polish || step <= s.o.step_tolerance)) return Phase::identify;
+  if (!gained) ++s.next.stalled;
+  const bool limit = s.out.report.lp_solves >= s.o.max_lps;
+  if (alpha == 0.0 || (s.next.stalled > 0 && s.next.stalled >= s.tuning.max_stalled_lps))
+    return stop(s, JAM_STOP_STALLED, JAM_NOT_CONVERGED), Phase::identify;
+  if (limit) return stop(s, JAM_STOP_LP_LIMIT, JAM_LIMIT), Phase::identify;
+  if (stop_if_interrupted(s)) return Phase::identify;
+  if (s.o.step_bound == 0.0) {
+    const double most = alpha < 1.0 ? 0.7 * s.next.bound : s.tuning.max_bound;
+    s.next.bound = std::min(std::max({s.tuning.bound_per_step * step, gain, s.tuning.min_bound}), most);
+  }
+  return path_is_shorter(s, gain, step) ? Phase::barrier_path : Phase::approach;
+}
+
+}  // namespace
+
+Phase approach(CrunchState &s) {
+  const double reach = build_lp(s, lp_reach(s.out.packing, s.o, s.tuning, s.next.bound));
+  if (!solve(s)) return stop_if_interrupted(s), Phase::done;
+  s.next.multipliers = {s.last.pairs, s.last.answer.y};
+  const LpStep step = make_step(s, reach);
+  if (s.first_gain == 0.0) s.first_gain = step.gain;
+  s.out.report.gain = step.gain;
+  s.out.report.max_step = s.next.moved = step.longest;
+  if (report_step(s, JAM_PHASE_CRUNCH, step.gain, step.longest))
+    return stop(s, JAM_STOP_CANCELLED, JAM_CANCELLED), Phase::identify;
+  return next_phase(s, step.gain, step.longest, step.part);
+}
+
+}  // namespace jam

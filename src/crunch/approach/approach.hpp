@@ -1,0 +1,10 @@
+// Phase 1: sequential LPs. Each LP maximises Gamma over displacements within a bound; the spheres move, the pairs are
+// listed anew (Artiaco et al., Phys. Rev. E 106, 055310 (2022)).
+#pragma once
+#include "crunch/state.hpp"
+
+namespace jam {
+
+Phase approach(CrunchState &s);
+
+}  // namespace jam

@@ -1,0 +1,28 @@
+#include "crunch/approach/free_cell.hpp"
+
+#include "core/cell_reduction.hpp"
+#include "crunch/control.hpp"
+
+namespace jam {
+
+bool frees_cell(const CrunchState &s) {
+  return s.o.strain != JAM_STRAIN_NONE && s.next.strain.count() == 0 && s.out.report.stop_reason == JAM_STOP_NONE;
+}
+
+Phase free_cell(CrunchState &s) {
+  const bool edges = (s.o.strain & JAM_STRAIN_EDGES) != 0, tilts = (s.o.strain & JAM_STRAIN_TILTS) != 0;
+  s.next.strain = strain_basis(s.out.packing.dim, edges, tilts);
+  s.monitor.log(JAM_LOG_INFO, "fixed cell: phi %.12f; %d strains join", packing_fraction(s.out.packing),
+                s.next.strain.count());
+  restart_lps(s, s.tuning.first_bound);
+  s.history.stage.path_taken = false;
+  s.history.stage.cell_free = true;
+  return Phase::approach;
+}
+
+void shorten_cell(Packing &p) {
+  const ReducedCell reduced = reduce_cell(p.dim, p.cell.rows().data());
+  if (keeps_shifts(p, reduced)) enter_cell(p, reduced);
+}
+
+}  // namespace jam

@@ -1,0 +1,143 @@
+#include "crunch/approach/lp_step.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "core/math.hpp"
+#include "core/motion.hpp"
+#include "core/pair_rule.hpp"
+#include "crunch/approach/free_cell.hpp"
+#include "crunch/control.hpp"
+#include "crunch/spacing.hpp"
+
+namespace jam {
+namespace {
+
+Packing moved(const Packing &p, PairList &pairs, const LpSolution &x, double alpha, double unit,
+              const StrainBasis &basis) {
+  Packing q = p;
+  const std::vector<double> strain = x.strain.empty() ? x.strain : strain_matrix(basis, x.strain, alpha);
+  move_packing(q, pairs, x.s.data(), alpha * unit, std::sqrt(1.0 + alpha * x.g), strain);
+  return q;
+}
+
+// Largest part by which a strain can shorten a vector.
+double shortening(const LpSolution &x, const StrainBasis &basis) {
+  double e2 = 0.0;
+  if (!x.strain.empty())
+    for (const double e : strain_matrix(basis, x.strain, 1.0)) e2 += e * e;
+  return std::sqrt(e2);
+}
+
+// Upper bound of how much nearer any two spheres come at fixed cell: the two longest displacements.
+double closest_approach(const LpSolution &x, int dim, double unit) {
+  double first = 0.0, second = 0.0;
+  for (size_t k = 0; k < x.s.size(); k += dim) {
+    double s2 = 0.0;
+    for (int c = 0; c < dim; ++c) s2 += x.s[k + c] * x.s[k + c];
+    const double s = std::sqrt(s2) * unit;
+    if (s > first)
+      second = first, first = s;
+    else if (s > second)
+      second = s;
+  }
+  return first + second;
+}
+
+double gain_of(const LpSolution &x) { return std::sqrt(1.0 + std::max(x.g, 0.0)) - 1.0; }
+
+void add_history_row(CrunchState &s, double alpha, double unit) {
+  std::vector<double> moved = s.last.answer.s;
+  for (double &x : moved) x *= alpha * unit;
+  HistoryRow &row = record_step(s, JAM_STEP_LP, moved.data());
+  row[JAM_HISTORY_GAIN] = math::expm1(0.5 * math::log1p(alpha * s.last.answer.g));
+  row[JAM_HISTORY_ITERATIONS] = s.last.answer.iterations;
+  row[JAM_HISTORY_DUALITY_GAP] = s.out.report.duality_gap;
+  row[JAM_HISTORY_PAIRS] = static_cast<double>(s.last.pairs.size());
+  row[JAM_HISTORY_HELD] = static_cast<double>(s.last.at_bound);
+  row[JAM_HISTORY_PART] = alpha;
+  row[JAM_HISTORY_BOUND] = s.last.lp.bound;
+  record_contacts(s, row, s.last.active.rows.size(), s.last.active.coordination);
+}
+
+}  // namespace
+
+// Listed pairs: the linearised rows are tighter than the true ones (|r + s|^2 = |r|^2 + 2 r.s + |s|^2), and the set of
+// (s, e, g) that obeys them is convex and holds 0, so alpha (s, e, g) is safe for every alpha in [0, 1].
+// Unlisted pairs: |r| >= reach + sigma_ij. The step brings them nearer by at most the sum of the two longest
+// displacements and widens their contact distance by at most the growth of the largest diameter, so they stay apart if
+// these make no more than reach: |r'| - sigma'_ij >= reach - (s_1 + s_2) - growth >= 0. A strain shortens |r| by at
+// most its norm times |r|. If that does not settle it, every pair and image is looked at and alpha halved until none
+// overlaps: at low density, where reach follows the free spacing, no pair can meet unseen.
+double take_step(Packing &p, PairList &pairs, double reach, const LpSolution &x, double unit,
+                 const StrainBasis &basis) {
+  const double widest = contact_distance_max(p), shorter = shortening(x, basis) * (reach + widest),
+               growth = (std::sqrt(1.0 + std::max(x.g, 0.0)) - 1.0) * widest;
+  PairList shifted = pairs;
+  double alpha = x.strain.empty() ? 1.0 : strain_part(p.dim, strain_matrix(basis, x.strain, 1.0));
+  Packing q = moved(p, shifted, x, alpha, unit, basis);
+  if (closest_approach(x, p.dim, unit) + growth + shorter > reach) {
+    while (closest_pair(q).gap < -1e-13) {
+      alpha *= 0.5;
+      if (alpha < 1e-6) return 0.0;
+      shifted = pairs;
+      q = moved(p, shifted, x, alpha, unit, basis);
+    }
+  }
+  p.position.swap(q.position);
+  p.diameter.swap(q.diameter);
+  p.cell = q.cell;
+  pairs.offset.swap(shifted.offset);
+  return alpha;
+}
+
+double build_lp(CrunchState &s, double reach) {
+  s.last.active = ActiveSet();  // it belongs to the list that is replaced: an interrupted LP leaves no contacts
+  if (s.next.strain.count() > 0) shorten_cell(s.out.packing);
+  PairList pairs = find_pairs(s.out.packing, reach, 1.0);
+  // A few spheres, or very unequal ones, may be farther apart than their bound lets them move. Something must bound
+  // their growth: the nearest pair, at last a sphere and its own image.
+  for (; pairs.size() == 0 && s.o.neighbour_radius == 0.0; reach *= 2.0)
+    pairs = find_pairs(s.out.packing, 2.0 * reach, 1.0);
+  if (pairs.size() == 0) fail(JAM_E_ARGUMENT, "no pair within the neighbour radius %g", s.o.neighbour_radius);
+  s.last.pairs = std::move(pairs);
+  s.last.lp = make_lp(s.out.packing, s.last.pairs, diameter_mean(s.out.packing), s.next.strain);
+  s.last.lp.bound = s.next.bound;
+  return reach;
+}
+
+double first_bound(const Packing &p, const jam_crunch_options &o, const Tuning &t) {
+  if (o.step_bound > 0.0) return o.step_bound;
+  const double spacing = t.first_bound + t.bound_per_spacing * free_spacing(p);
+  const double closed = t.bound_per_root_gap * std::sqrt(contact_gap(p));
+  return std::min(spacing, std::max(t.min_bound, closed));
+}
+
+double lp_reach(const Packing &p, const jam_crunch_options &o, const Tuning &t, double bound) {
+  const double unit = diameter_mean(p);
+  if (o.neighbour_radius > 0.0) return std::max(0.0, o.neighbour_radius * unit - contact_distance_max(p));
+  return t.reach_per_bound * bound * unit;
+}
+
+LpStep make_step(CrunchState &s, double reach) {
+  const double unit = diameter_mean(s.out.packing);
+  // What a simplex solver leaves of a closed row, and rounding.
+  s.last.active =
+      find_active_set(s.last.lp, s.last.answer, std::max(2.0 * clp_tolerance * s.next.bound, s.tuning.closed_gap));
+  s.last.at_bound = std::count_if(s.last.answer.s.begin(), s.last.answer.s.end(),
+                                  [&](double x) { return std::fabs(x) > 0.999 * s.last.lp.bound; });
+  if (s.history.details()) s.history.take_network(s.out.packing, s.last.lp, s.last.answer);
+  const double alpha = take_step(s.out.packing, s.last.pairs, reach, s.last.answer, unit, s.next.strain);
+  const double gain = gain_of(s.last.answer), step = largest_step(s.last.answer, s.last.active, s.last.lp.dim);
+  s.monitor.log(
+      JAM_LOG_INFO,
+      "LP %lld: gain %.3e step %.3e alpha %.3f pairs %zu iterations %d contacts %zu stable %lld bound %.3g phi %.12f",
+      static_cast<long long>(s.out.report.lp_solves), gain, step, alpha, s.last.pairs.size(), s.last.answer.iterations,
+      s.last.active.rows.size(), static_cast<long long>(s.last.active.stable), s.last.lp.bound,
+      packing_fraction(s.out.packing));
+  add_history_row(s, alpha, unit);
+  return {gain, step, alpha};
+}
+
+}  // namespace jam

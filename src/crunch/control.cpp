@@ -1,0 +1,69 @@
+#include "crunch/control.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace jam {
+
+void stop(CrunchState &s, jam_stop_reason reason, jam_status status) {
+  s.out.report.stop_reason = reason, s.out.status = status;
+}
+
+bool stop_if_interrupted(CrunchState &s) {
+  if (!s.monitor.interrupted()) return false;
+  if (s.monitor.cancelled())
+    stop(s, JAM_STOP_CANCELLED, JAM_CANCELLED);
+  else
+    stop(s, JAM_STOP_WALL_TIME, JAM_LIMIT);
+  return true;
+}
+
+void restart_lps(CrunchState &s, double bound) {
+  s.next.bound = bound;
+  s.next.moved = 1.0;
+  s.next.stalled = 0;
+  s.found.narrow = s.found.jammed = false;
+}
+
+// An estimate for progress bars. The first decades of mu on a path take the longest, so the root of their share.
+// Decades of gain in sequential LPs take about equal times.
+double part_done(const CrunchState &s, double path, double gain) {
+  const Tuning &t = s.tuning;
+  double part = s.history.stage.path_taken ? 1.0 : 0.0;
+  const double of_gain = log_share(s.first_gain, gain, s.next.gain_tolerance);
+  if (!std::isnan(path))
+    part = t.part_before_path + (1.0 - t.part_before_path) * std::sqrt(path);
+  else if (s.o.method == JAM_CRUNCH_SEQUENTIAL_LP && !std::isnan(of_gain))
+    part = of_gain;
+  const double rounds = s.o.strain == JAM_STRAIN_NONE ? 1.0 : 2.0, begun = s.next.strain.count() > 0 ? 1.0 : 0.0;
+  return (begun + t.part_before_verdict * part) / rounds;
+}
+
+bool report_step(CrunchState &s, jam_phase phase, double gain, double step, bool finished) {
+  jam_progress progress = progress_of(phase);
+  progress.packing_fraction = packing_fraction(s.out.packing);
+  progress.fraction = part_done(s, std::numeric_limits<double>::quiet_NaN(), gain);
+  progress.gain = gain;
+  progress.max_step = step;
+  progress.steps = s.out.report.lp_solves;
+  progress.factorisations = s.system.factorisations;
+  s.history.step().shown = finished && s.history.details();
+  const bool stopped = s.monitor.report(progress, true);
+  s.history.step().shown = false;
+  return stopped;
+}
+
+HistoryRow &record_step(CrunchState &s, jam_step_phase phase, const double *displacement) {
+  return s.history.moved(s.out.packing, phase, s.monitor.seconds(), s.system.factorisations, displacement);
+}
+
+void record_contacts(CrunchState &s, HistoryRow &row, size_t contacts, const std::vector<int32_t> &coordination) {
+  const int dim = s.out.packing.dim;
+  const int64_t stable = stable_spheres(coordination);
+  row[JAM_HISTORY_CONTACTS] = static_cast<double>(contacts);
+  row[JAM_HISTORY_EXCESS] = static_cast<double>(static_cast<int64_t>(contacts) - isostatic_contacts(stable, dim));
+  row[JAM_HISTORY_RATTLERS] = static_cast<double>(static_cast<int64_t>(coordination.size()) - stable);
+  s.history.over_stable(coordination, dim, diameter_mean(s.out.packing));
+}
+
+}  // namespace jam

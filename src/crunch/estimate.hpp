@@ -1,0 +1,11 @@
+// What a crunch will cost, from the particle graph and its elimination tree alone.
+#pragma once
+#include "core/packing.hpp"
+#include "jam/jam.h"
+
+namespace jam {
+
+// Memory and work of a crunch before it runs. Throws for bad options.
+jam_estimate estimate(const Packing &start, const jam_crunch_options &o);
+
+}  // namespace jam

@@ -1,0 +1,124 @@
+#include "crunch/identify/flex_move.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/cell_reduction.hpp"
+#include "core/pair_rule.hpp"
+#include "crunch/approach/lp_step.hpp"
+#include "crunch/control.hpp"
+
+namespace jam {
+namespace {
+
+// The flex or, where nothing is decided, what may be one; or its opposite: where the forces leave a rest, the spheres
+// go where it pushes them.
+std::vector<double> direction_of(const CrunchState &s, const PackingVerdict &verdict) {
+  const size_t d = s.out.packing.dim;
+  std::vector<double> v(s.out.packing.position.size(), 0.0);
+  const std::vector<double> &motion = verdict.result.flex.empty() ? verdict.result.attempt : verdict.result.flex;
+  for (size_t q = 0; q < verdict.sphere.size(); ++q)
+    for (size_t c = 0; c < d; ++c) v[verdict.sphere[q] * d + c] = motion[q * d + c];
+  const ContactNetwork &net = verdict.contacts;
+  double push = 0.0;
+  for (size_t k = 0; k < net.size(); ++k)
+    for (size_t c = 0; c < d; ++c)
+      push += net.force[k] * net.vector[k * d + c] * (v[net.pairs.i[k] * d + c] - v[net.pairs.j[k] * d + c]);
+  if (push < 0.0)
+    for (double &x : v) x = -x;
+  return v;
+}
+
+// r -> r + t (eps r + v) for all vectors r between spheres, then back to the old volume. False where Mari-Kurchan
+// shifts would change.
+bool deform_into(Packing &q, const Packing &p, const std::vector<double> &v, const std::vector<double> &eps, double t) {
+  q = p;
+  const int d = p.dim;
+  std::vector<double> rows = p.cell.rows();
+  const auto deform = [&](double *x) {
+    Cell::Vector y{};
+    for (int a = 0; a < d; ++a)
+      for (int b = 0; b < d; ++b) y[a] += t * eps[a * d + b] * x[b];
+    for (int a = 0; a < d; ++a) x[a] += y[a];
+  };
+  for (int c = 0; c < d; ++c) deform(&rows[c * d]);
+  for (size_t k = 0; k < q.position.size(); k += d) deform(&q.position[k]);
+  for (size_t k = 0; k < v.size(); ++k) q.position[k] += t * v[k];
+  const ReducedCell reduced = reduce_cell(d, rows.data());
+  if (!keeps_shifts(p, reduced)) return false;
+  enter_cell(q, reduced);
+  const double back = p.cell.side() / q.cell.side();
+  rows = q.cell.rows();
+  for (double &x : rows) x *= back;
+  for (double &x : q.position) x *= back;
+  q.cell = Cell::from_triangle(d, rows.data());
+  wrap_positions(q);
+  return true;
+}
+
+}  // namespace
+
+// A vertex of an LP along the flex, with all near pairs as rows: every flex ends at a pair or at the bound.
+FlexMove move_along_flex(CrunchState &s, const PackingVerdict &verdict) {
+  // An attempt is made once narrow LPs have left it open.
+  const RigidityResult &r = verdict.result;
+  if ((r.flex.empty() && (r.attempt.empty() || !s.found.narrow)) || s.found.flex_moves >= s.tuning.max_kicks)
+    return FlexMove::none;
+  ++s.found.flex_moves;
+  Packing &p = s.out.packing;
+  const size_t d = p.dim;
+  const double unit = diameter_mean(p);
+  const std::vector<double> v = direction_of(s, verdict);
+  int32_t fixed = verdict.sphere.front();
+  double longest = 0.0, bound = s.tuning.kick;
+  // Rows hold to a tolerance times the bound: where pairs block early, it narrows.
+  for (bool again = true; again;) {
+    PairList pairs = find_pairs(p, 2.0 * std::sqrt(static_cast<double>(d)) * bound * unit, 1.0);
+    PackingLp lp = make_lp(p, pairs, unit);
+    lp.bound = bound;
+    for (double &c : lp.c) c = std::max(c, 0.0);  // closed ones overlap by rounding
+    LpSolution x = solve_motion_clp(lp, v, fixed, &s.monitor);
+    if (!x.solved || s.monitor.interrupted()) return FlexMove::none;
+    longest = 0.0;
+    for (const int32_t i : verdict.sphere)
+      for (size_t c = 0; c < d; ++c) longest = std::max(longest, std::fabs(x.s[i * d + c]));
+    again = longest < 0.01 * bound && longest > s.tuning.closed_gap;
+    bound = 10.0 * longest;
+    if (!again && longest > s.tuning.closed_gap) take_step(p, pairs, 0.0, x, unit);
+  }
+  s.monitor.log(JAM_LOG_INFO, "saddle at phi %.12f with %lld flexes: moves %.1e diameters along them",
+                packing_fraction(p), static_cast<long long>(verdict.result.flexes), longest);
+  if (!(longest > s.tuning.closed_gap)) return FlexMove::none;
+  // Where no force balances at the end of narrow LPs, diameters can grow, and LPs go on.
+  if (longest < s.tuning.narrow_bound && !(s.found.narrow && r.stressed == Verdict::no)) return FlexMove::blocked;
+  restart_lps(s, first_bound(s.out.packing, s.o, s.tuning));
+  return FlexMove::free;
+}
+
+// |r + t (eps r + v)|^2 = r^2 + 2 t r . (eps r + v) + t^2 |eps r + v|^2: contacts open, so only near pairs can block.
+bool move_along_strained_flex(CrunchState &s, const PackingVerdict &strict) {
+  const RigidityResult &r = strict.result;
+  if (r.flex.empty() || r.strain.empty() || s.found.flex_moves >= s.tuning.max_kicks) return false;
+  ++s.found.flex_moves;
+  Packing &p = s.out.packing;
+  const size_t d = static_cast<size_t>(p.dim);
+  double largest = 0.0;
+  std::vector<double> v(p.position.size(), 0.0), eps = r.strain;
+  for (size_t q = 0; q < strict.sphere.size(); ++q)
+    for (size_t c = 0; c < d; ++c) v[strict.sphere[q] * d + c] = r.flex[q * d + c];
+  const double unit = diameter_mean(p);
+  for (double x : v) largest = std::max(largest, std::fabs(x));
+  for (double x : eps) largest = std::max(largest, unit * std::fabs(x));
+  for (double t = s.tuning.kick * unit / largest; t * largest > 1e-6 * unit; t *= 0.5) {
+    Packing q;
+    if (!deform_into(q, p, v, eps, t) || closest_pair(q).gap < -1e-13) continue;
+    s.monitor.log(JAM_LOG_INFO, "saddle of the free cell at phi %.12f with %lld flexes: moves %.1e diameters",
+                  packing_fraction(p), static_cast<long long>(r.flexes), t * largest / unit);
+    p = std::move(q);
+    restart_lps(s, s.tuning.first_bound);
+    return true;
+  }
+  return false;
+}
+
+}  // namespace jam

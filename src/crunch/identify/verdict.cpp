@@ -1,0 +1,173 @@
+#include "crunch/identify/verdict.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <new>
+
+#include "core/call_scope.hpp"
+#include "core/error.hpp"
+#include "core/pair_rule.hpp"
+#include "crunch/control.hpp"
+#include "crunch/identify/flex_move.hpp"
+#include "crunch/identify/polish.hpp"
+#include "network/rattlers.hpp"
+#include "proof/verdict.hpp"
+
+namespace jam {
+namespace {
+
+const char *text_of(PolishEnd end) {
+  switch (end) {
+    case PolishEnd::open_contact:
+      return "a contact does not close";
+    case PolishEnd::too_few:
+      return "the contacts are too few to balance";
+    case PolishEnd::negative_force:
+      return "a force turns negative";
+    case PolishEnd::overlap:
+      return "another pair would overlap";
+    default:
+      return "";
+  }
+}
+
+void add_history_row(CrunchState &s) {
+  HistoryRow &row = record_step(s, JAM_STEP_POLISH);
+  record_contacts(s, row, s.out.contacts.size(), s.out.contacts.coordination);
+  if (s.history.details()) report_step(s, JAM_PHASE_POLISH, row[JAM_HISTORY_GAIN], row[JAM_HISTORY_STEP_MAX]);
+}
+
+// All closed pairs as contacts, of spheres that they hold; the forces are left to the test.
+ContactNetwork closed_pairs(const Packing &p, bool own_images) {
+  ContactNetwork net;
+  net.pairs = find_pairs(p, 0.0, 1.0 + contact_gap_limit);
+  measure_contacts(p, net);
+  net.coordination.assign(p.n(), 0);
+  net.force.assign(net.size(), 1.0);
+  std::vector<char> on(net.size());
+  for (size_t k = 0; k < net.size(); ++k) on[k] = own_images || !net.pairs.own_image(k);
+  drop_unbalanced(p.dim, p.n(), net.pairs.i, net.pairs.j, net.vector, on);
+  return subset(net, on, p.dim);
+}
+
+void log_verdict(const CrunchState &s, const PackingVerdict &v) {
+  const RigidityResult &r = v.result;
+  const auto wide = [](int64_t x) { return static_cast<long long>(x); };
+  s.monitor.log(JAM_LOG_INFO,
+                "test: jammed %d, stressed %d, contacts %lld of %zu, needed %lld, self-stresses %lld, flexes %lld, "
+                "margin %.1e, undecided contacts %lld, residual %.1e",
+                static_cast<int>(r.jammed), static_cast<int>(r.stressed), wide(r.contacts), s.out.contacts.size(),
+                wide(r.contacts_needed), wide(r.self_stresses), wide(r.flexes), r.margin, wide(v.undecided_contacts),
+                r.force_residual);
+}
+
+// Forces of the test, which are positive and balance as far as any do.
+void take_forces_of(CrunchState &s, const PackingVerdict &verdict) {
+  const double scale = s.out.contacts.force_scale;
+  s.out.contacts = verdict.carrying(s.out.packing.dim);
+  s.out.contacts.force_scale = scale;
+}
+
+// A packing that is not jammed has no negative forces either: polish projects those of its last network. Where polish
+// refused, only the test has forces that balance.
+void take_positive_forces(CrunchState &s, const PackingVerdict &verdict) {
+  const std::vector<double> &f = s.out.contacts.force;
+  const bool refused = s.o.polish && !s.found.polished && verdict.result.contacts > 0;
+  if (refused || std::any_of(f.begin(), f.end(), [](double x) { return x < 0.0; })) take_forces_of(s, verdict);
+}
+
+// The test of the packing as it is. False when the call was interrupted: then its contacts stay untested.
+bool tested(CrunchState &s, Jamming kind, PackingVerdict &verdict) {
+  try {
+    verdict = test_packing(s.out.packing, &s.out.contacts, kind);
+    if (s.found.narrow && kind == Jamming::collective) decide_by_proof(s.out.packing, verdict);
+  } catch (const Cancelled &) {
+    stop_if_interrupted(s);
+    return false;
+  }
+  log_verdict(s, verdict);
+  return true;
+}
+
+// In a free cell the strict test says whether its strains are at rest, and its one stress balances on the cell too.
+Phase decide_strict_jamming(CrunchState &s) {
+  PackingVerdict strict;
+  if (!tested(s, Jamming::strict, strict)) return Phase::done;
+  s.found.strictly_jammed = static_cast<int32_t>(strict.result.jammed);
+  if (strict.result.jammed == Verdict::yes) {
+    take_forces_of(s, strict);
+  } else if (s.o.strain == JAM_STRAIN_FREE) {
+    if (move_along_strained_flex(s, strict)) return stop(s, JAM_STOP_NONE, JAM_OK), Phase::approach;
+    s.out.text = "collectively jammed; strictly: " + why_not_jammed(strict, Jamming::strict);
+    stop(s, strict.result.jammed == Verdict::no ? JAM_STOP_SADDLE : JAM_STOP_PRECISION, JAM_NOT_CONVERGED);
+  }
+  return Phase::done;
+}
+
+Phase end_jammed(CrunchState &s, const PackingVerdict &verdict) {
+  // Forces of several states of self-stress are not unique: those of the test lie in the middle of all. It also
+  // balances forces that polish refused.
+  if (s.o.polish && (!s.found.polished || excess_contacts(s.out.contacts, s.out.packing.dim) > 0))
+    take_forces_of(s, verdict);
+  s.found.jammed = true;
+  report_verdict(verdict, s.out.packing.dim, s.out.report);
+  stop(s, JAM_STOP_CONVERGED, JAM_OK);
+  return s.next.strain.count() > 0 ? decide_strict_jamming(s) : Phase::done;
+}
+
+}  // namespace
+
+bool polish_contacts(CrunchState &s) {
+  if (report_step(s, JAM_PHASE_POLISH, s.out.report.gain, s.out.report.max_step, false))
+    return stop(s, JAM_STOP_CANCELLED, JAM_CANCELLED), false;
+  if (s.hooks.before_polish) s.hooks.before_polish(s.out.packing, s.out.contacts);
+  Tuning tuning = s.tuning;
+  if (s.next.strain.count() > 0) tuning.max_excess = 0;  // a strain may close what motions leave open
+  PolishEnd end = PolishEnd::interrupted;
+  try {
+    end = polish(s.out.packing, s.out.contacts, s.system, s.o.threads, tuning, &s.monitor);
+  } catch (const Cancelled &) {  // it works on copies: the contacts of the last LP stay
+  }
+  s.last.pairs.clear();  // polish left another graph in the system
+  if (end == PolishEnd::interrupted) return stop_if_interrupted(s), false;
+  s.found.polished = end == PolishEnd::done;
+  if (s.found.polished)
+    add_history_row(s);
+  else
+    s.monitor.log(JAM_LOG_WARNING, "polish refused: %s", text_of(end));
+  return true;
+}
+
+bool converged(const CrunchState &s) { return s.out.report.gain <= default_crunch_options().gain_tolerance; }
+
+Phase decide_jamming(CrunchState &s) {
+  for (;;) {
+    s.system.release();  // the test has a factor of its own
+    PackingVerdict verdict;
+    if (!tested(s, Jamming::collective, verdict)) return Phase::done;
+    if (verdict.result.jammed == Verdict::yes) return end_jammed(s, verdict);
+    const FlexMove moved = converged(s) ? move_along_flex(s, verdict) : FlexMove::none;
+    if (moved == FlexMove::free) return Phase::approach;
+    if (moved == FlexMove::blocked && s.o.polish) {
+      s.out.contacts = closed_pairs(s.out.packing, s.next.strain.count() > 0);
+      if (!polish_contacts(s)) return Phase::done;
+      continue;
+    }
+    if (!s.found.narrow && s.o.polish) return Phase::narrow_lps;
+    report_verdict(verdict, s.out.packing.dim, s.out.report);
+    s.out.text = why_not_jammed(verdict);
+    take_positive_forces(s, verdict);
+    if (verdict.result.jammed != Verdict::no)
+      stop(s, JAM_STOP_PRECISION, JAM_NOT_CONVERGED);
+    else if (verdict.result.flexes > 0)
+      stop(s, JAM_STOP_SADDLE, JAM_NOT_CONVERGED);
+    else if (verdict.result.stressed == Verdict::yes)
+      stop(s, JAM_STOP_STALLED, JAM_NOT_CONVERGED);
+    else
+      stop(s, JAM_STOP_UNJAMMED, JAM_NOT_JAMMED);
+    return Phase::done;
+  }
+}
+
+}  // namespace jam

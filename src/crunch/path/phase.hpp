@@ -1,0 +1,9 @@
+// Phase 2: the barrier path, from the LP that hands over to it to the LPs after it.
+#pragma once
+#include "crunch/state.hpp"
+
+namespace jam {
+
+Phase follow_path(CrunchState &s);
+
+}  // namespace jam

@@ -28,15 +28,15 @@ void restart_lps(CrunchState &s, double bound) {
 // An estimate for progress bars. The first decades of mu on a path take the longest, so the root of their share.
 // Decades of gain in sequential LPs take about equal times.
 double part_done(const CrunchState &s, double path, double gain) {
-  const Tuning &t = s.tuning;
+  using T = CrunchProgress;
   double part = s.history.stage.path_taken ? 1.0 : 0.0;
   const double of_gain = log_share(s.first_gain, gain, s.next.gain_tolerance);
   if (!std::isnan(path))
-    part = t.part_before_path + (1.0 - t.part_before_path) * std::sqrt(path);
+    part = T::before_path + (1.0 - T::before_path) * std::sqrt(path);
   else if (s.o.method == JAM_CRUNCH_SEQUENTIAL_LP && !std::isnan(of_gain))
     part = of_gain;
   const double rounds = s.o.strain == JAM_STRAIN_NONE ? 1.0 : 2.0, begun = s.next.strain.count() > 0 ? 1.0 : 0.0;
-  return (begun + t.part_before_verdict * part) / rounds;
+  return (begun + T::before_verdict * part) / rounds;
 }
 
 bool report_step(CrunchState &s, jam_phase phase, double gain, double step, bool finished) {

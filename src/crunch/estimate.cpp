@@ -21,38 +21,21 @@
 namespace jam {
 namespace {
 
-// Pairs a sphere that lists near jamming hold, d = 2..8: measured to d = 5, beyond by the kissing numbers' growth.
-constexpr std::array<double, 9> jammed_pairs = {0, 0, 3.0, 5.0, 7.8, 12.0, 18.0, 27.0, 40.0};
-// Median gap of contacts to be of a packing near jamming. The step bound of its sequential LPs stays near its first
-// value.
-constexpr double close_gap = 3e-5;
-// Factorisations of a path, as a power of N / 1024. Near jamming, grown at 3e-4 or 1e-3, medians are 17 (N = 128), 34
-// (512), 34 and 63 (1024), 83 (2048), 70 (4096), 232 (16384); to a duality gap of 1e-6 to 1e-9, 24 to 75 for all N.
-// From p = 500 they are 82 (1024) and 175 (2048), from random starts 156 and 241 (tests/bench/estimate.py). Single
-// packings scatter by a factor of two and more. Sequential LPs take several times as many.
-constexpr double steps_least = 17.0, steps_near = 45.0, power_near = 0.58, steps_to_gap = 50.0, times_near = 2.0;
-constexpr double steps_far = 120.0, power_far = 0.8, times_far = 10.0;
-// From random starts of 128 to 512 spheres they are 102 to 134. The small spheres of a mixture roam in holes, where the
-// barrier has saddles: at ratios of 3, 10 and 30 a path takes 1.1, 1.8 and 2.2 times as many, with half the spheres
-// small or with equal volumes an octave.
-constexpr double steps_least_far = 90.0, more_per_e_fold = 0.35;
+using T = EstimateTuning;
 
 double ratio_of_diameters(const Packing &p) {
   return diameter_max(p) / *std::min_element(p.diameter.begin(), p.diameter.end());
 }
 
 double steps(const Packing &p, const jam_crunch_options &o) {
-  const bool near = contact_gap(p) < close_gap;
-  const double size = static_cast<double>(p.n()) / 1024.0;
-  const double alike = near ? std::max(steps_least, steps_near * math::pow(size, power_near))
-                            : std::max(steps_least_far, steps_far * math::pow(size, power_far));
-  const double path = alike * (1.0 + more_per_e_fold * math::log(ratio_of_diameters(p)));
-  if (o.method == JAM_CRUNCH_SEQUENTIAL_LP) return path * (near ? times_near : times_far);
-  return near && o.duality_gap > 0.0 ? std::min(path, steps_to_gap) : path;
+  const bool near = contact_gap(p) < T::close_gap;
+  const double size = static_cast<double>(p.n()) / T::size;
+  const double alike = near ? std::max(T::steps_least, T::steps_near * math::pow(size, T::power_near))
+                            : std::max(T::steps_least_far, T::steps_far * math::pow(size, T::power_far));
+  const double path = alike * (1.0 + T::more_per_e_fold * math::log(ratio_of_diameters(p)));
+  if (o.method == JAM_CRUNCH_SEQUENTIAL_LP) return path * (near ? T::times_near : T::times_far);
+  return near && o.duality_gap > 0.0 ? std::min(path, T::steps_to_gap) : path;
 }
-
-// Factorisations of the LP that a path begins with, at most half of all; the later half of them are in doubles.
-constexpr double steps_of_lp = 13.0;
 
 // A list of pairs, and the matrix of those that it couples.
 struct Part {
@@ -63,10 +46,9 @@ struct Part {
   double bytes(double d, double n) const {
     return NewtonSystem::bytes(d, n, rows, edges, static_cast<double>(sizes.factor), static_cast<double>(sizes.fronts));
   }
-  // Fronts run at about half the rate of one large product; the rest of a step goes over all pairs and the factor a few
-  // times.
   double seconds(double rate, int threads) const {
-    return sizes.flops / (0.5 * rate * std::min(threads, 2)) + 6e-9 * static_cast<double>(sizes.factor) + 4e-7 * rows;
+    return sizes.flops / (T::front_rate * rate * std::min(threads, 2)) +
+           T::per_factor * static_cast<double>(sizes.factor) + T::per_pair * rows;
   }
 };
 
@@ -93,9 +75,9 @@ double growth(const Packing &p, double part) {
 // From a start with few neighbours at least as many of the nearest pairs as a list holds near jamming.
 PairList enough_pairs(const Packing &p, const jam_crunch_options &o, PairList pairs, double reach) {
   const double wanted =
-      std::min(jammed_pairs[p.dim], 0.5 * static_cast<double>(p.n() - 1)) * static_cast<double>(p.n());
+      std::min(T::jammed_pairs[p.dim], 0.5 * static_cast<double>(p.n() - 1)) * static_cast<double>(p.n());
   for (int k = 0; k < 40 && o.neighbour_radius == 0.0 && static_cast<double>(pairs.size()) < wanted; ++k) {
-    reach = 1.1 * reach + 0.01 * diameter_mean(p);
+    reach = T::widen * reach + T::widen_at_least * diameter_mean(p);
     pairs = find_pairs(p, reach, 1.0);
   }
   return pairs;
@@ -105,7 +87,7 @@ PairList enough_pairs(const Packing &p, const jam_crunch_options &o, PairList pa
 Part largest_lp(const Packing &p, const jam_crunch_options &o) {
   const Tuning t;
   const bool sequence = o.method == JAM_CRUNCH_SEQUENTIAL_LP;
-  const bool widens = sequence && o.step_bound == 0.0 && contact_gap(p) > close_gap;
+  const bool widens = sequence && o.step_bound == 0.0 && contact_gap(p) > T::close_gap;
   const double bound = widens ? t.max_bound : first_bound(p, o, t), reach = lp_reach(p, o, t, bound);
   const PairList pairs = enough_pairs(p, o, find_pairs(p, reach, sequence ? growth(p, 1.0) : 1.0), reach);
   PackingLp lp = make_lp(p, pairs, diameter_mean(p));
@@ -113,7 +95,7 @@ Part largest_lp(const Packing &p, const jam_crunch_options &o) {
   WorkingSet split;
   split.choose(lp);
   Edges edges;
-  for (size_t k = 0; k < split.near_pairs.size(); ++k) edges.add(split.near_pairs.i[k], split.near_pairs.j[k]);
+  for (size_t k = 0; k < split.pairs.size(); ++k) edges.add(split.pairs.i[k], split.pairs.j[k]);
   return edges.part(p, pairs.size(), o.threads);
 }
 
@@ -122,10 +104,10 @@ Part largest_lp(const Packing &p, const jam_crunch_options &o) {
 Part barrier_path(const Packing &p, const jam_crunch_options &o) {
   const Tuning t;
   const double unit = diameter_mean(p), reach = unit * (t.least_reach + t.reach_per_spacing * free_spacing(p));
-  const double grown = growth(p, diameter_max(p) > 1.3 * unit ? 1.0 : 0.3);  // mixtures shorten it late
+  const double grown = growth(p, diameter_max(p) > T::mixed * unit ? 1.0 : T::grown);  // mixtures shorten it late
   const PairList pairs = enough_pairs(p, o, select_neighbours(p, reach, grown), reach);
   const std::vector<double> gap = relative_gaps(p, pairs);
-  const double slack = far_slack * carrying_slack(gap, p.dim, static_cast<int32_t>(p.n()));
+  const double slack = WorkingSetTuning::far_slack * carrying_slack(gap, p.dim, static_cast<int32_t>(p.n()));
   Edges edges;
   for (size_t k = 0; k < pairs.size(); ++k)
     if (gap[k] <= slack) edges.add(pairs.i[k], pairs.j[k]);
@@ -158,7 +140,7 @@ template <class Real>
 double measured_rate(int size) {
   const BlasSingleThread single_thread;
   const Real one = 1, zero = 0;
-  std::vector<Real> a(static_cast<size_t>(size) * size, Real(1e-3)), c(a.size());
+  std::vector<Real> a(static_cast<size_t>(size) * size, Real(1e-9)), c(a.size());
   double best = 0.0;
   for (int k = 0; k < 3; ++k) {
     const double t0 = thread_seconds();
@@ -184,7 +166,7 @@ jam_estimate estimate(const Packing &p, const jam_crunch_options &o) {
   e.factor_bytes = most.factor_bytes();
   e.bytes = most.bytes(d, n);
   e.factorisations = steps(p, o);
-  const double in_lp = std::min(steps_of_lp / e.factorisations, 0.5);
+  const double in_lp = std::min(T::steps_of_lp / e.factorisations, 0.5);
   e.step_seconds = (1.0 - in_lp) * path.seconds(rate, o.threads) +
                    0.5 * in_lp * (lp.seconds(rate, o.threads) + lp.seconds(full, o.threads));
   if (o.method != JAM_CRUNCH_SEQUENTIAL_LP) e.step_seconds += (1.0 - in_lp) * list_seconds(p);

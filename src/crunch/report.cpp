@@ -73,7 +73,8 @@ void report_end(CrunchState &s) {
   jam_crunch_report &r = s.out.report;
   r.method = s.history.stage.path_taken ? JAM_CRUNCH_BARRIER_PATH : JAM_CRUNCH_SEQUENTIAL_LP;
   certify(s.out.packing, s.out.contacts, r, s.next.strain.count() > 0);
-  r.jammed = s.found.jammed && r.force_residual < (s.o.polish ? 1e-6 : 1e-5) && r.min_force >= 0.0;
+  r.jammed = s.found.jammed && r.force_residual < (s.o.polish ? s.tuning.jammed_balance : s.tuning.lp_jammed_balance) &&
+             r.min_force >= 0.0;
   r.strictly_jammed = s.found.strictly_jammed;
   if (s.found.jammed && !r.jammed) stop(s, JAM_STOP_SOLVER, JAM_NOT_CONVERGED);
   mark_unknown_rattlers(s, r);

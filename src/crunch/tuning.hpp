@@ -1,11 +1,12 @@
-// Every number that steers a crunch. Lengths are in mean diameters; mu and duality gaps are in units of Gamma.
-// README.md holds the table of tests/bench/ablation: what each mechanism is worth on the named sets.
+// Every number that steers a crunch; those of its LPs and line searches stand in lp/tuning.hpp. Lengths are in mean
+// diameters; mu and duality gaps are in units of Gamma. README.md says what each mechanism is worth.
 #pragma once
 #include <algorithm>
-#include <cstddef>
+#include <array>
 
 #include "core/packing.hpp"
 #include "lp/mixed_factor.hpp"
+#include "lp/tuning.hpp"
 
 namespace jam {
 
@@ -16,33 +17,38 @@ struct Tuning {
   double first_bound = 0.1, bound_per_spacing = 0.6, bound_per_root_gap = 100.0;
   // Every LP sees motions up to min_bound, so that one without gain proves that no motion gains.
   double min_bound = 1e-2, max_bound = 0.5;
-  double bound_per_step = 5.0;   // next bound over the longest step of the last LP
-  double reach_per_bound = 2.2;  // listed gaps over the bound: two spheres meet from either side
-  double early_gap = 0.02;       // an LP ends at this share of its gain, or at its optimum
-  double warm_step = 1e-5;       // after a shorter step the next LP starts from the last multipliers
-  int max_stalled_lps = 12;      // LPs below the gain tolerance that lead to no verdict
+  double bound_per_step = 5.0;      // next bound over the longest step of the last LP
+  double shrink = 0.7;              // next bound over the last one where a pair outside the list cut the step
+  double reach_per_bound = 2.2;     // listed gaps over the bound: two spheres meet from either side
+  double early_gap = 0.02;          // an LP ends at this share of its gain, or at its optimum
+  double early_to_tolerance = 0.1;  // it ended early where its gap over the gain tolerance is larger
+  double lp_balance = 1e-3;         // largest net force of an answer, over the mean: polish balances to rounding
+  double warm_step = 1e-5;          // after a shorter step the next LP starts from the last multipliers
+  int max_stalled_lps = 12;         // LPs below the gain tolerance that lead to no verdict
 
   // ---- from LPs to the barrier path and back
-  double long_step = 1e-2;        // longer steps belong to the path
-  double curvature_ratio = 10.0;  // a step l opens contacts by l^2; above so many gains LPs go in circles
-  double min_opening = 1e-10;     // the path opens contacts to this gap at least: rounding blurs smaller ones
+  double long_step = 1e-2;         // longer steps belong to the path
+  double curvature_ratio = 10.0;   // a step l opens contacts by l^2; above so many gains LPs go in circles
+  double min_opening = 1e-10;      // the path opens contacts to this gap at least: rounding blurs smaller ones
+  double opening_per_step2 = 0.1;  // and to this share of the square of the LP's longest step
+  double opening_per_gap = 0.1;    // and to this share of the median gap
   // Free cell: the path at fixed cell ends at this duality gap, and the one with strain begins at this opening.
   double free_gap = 1e-6, free_opening = 1e-4;
-  double crystal_rows = 1.05;  // rows that carry force over d n; above it sequential LPs are cheaper
-  double crystal_gap = 1e-5;   // on the path counted from this gain or duality gap on: a large mu blurs the forces
+  // A crystal: rows with this share of the mean force over d n; above it sequential LPs are cheaper. Counted from this
+  // gain or duality gap on: a large mu blurs the forces.
+  double crystal_force = 0.1, crystal_rows = 1.05, crystal_gap = 1e-5;
 
   // ---- barrier path
-  double end_roundings = 4.0;  // the path ends at a duality gap of so many roundings of a closed contact
+  double end_roundings = 4.0;  // it ends at a duality gap of so many roundings of a closed contact
+  double path_balance = 1e-2;  // and with net forces below this, over the mean
   int max_path_factorisations = 600;
   double centrality = 100.0;  // products y c stay within this factor of mu
   double least_reach = 0.15;  // listed gaps; dilute starts list reach_per_spacing free spacings more
   double reach_per_spacing = 1.5;
-  int max_correctors = 5;  // Gondzio's correctors of one direction
-  double corrector_band = 10.0, corrector_ahead = 0.3;
-  double whole_step = 0.95;  // longer steps need no corrector
-
-  // ---- memory
-  double estimate_too_high = 2.0;  // estimates over what crunches took: to 1.6 in tests/bench/estimate.py, 1.8 in d = 8
+  double reach_per_move = 6.0;  // a new list reaches so many of the recent steps
+  double share_of_reach = 0.9;  // of the way to an unlisted pair that one step may take
+  int max_correctors = 5;       // Gondzio's correctors of one direction
+  double whole_step = 0.95;     // longer steps need no corrector
 
   // ---- factors in single precision, of LPs and of the path (tests/bench/README.md, "Factors in single precision")
   // Below 150 flops a number of the factor, solves eat up what it wins. A direction may be wrong by 1e-3, and take 8
@@ -55,39 +61,76 @@ struct Tuning {
   double nearly_centred = 4.0;  // within this factor of it, mu falls instead of rising
   int max_steps_at_mu = 40;     // more of them, or max_short_steps without progress, are a saddle
   int max_short_steps = 8;
+  double falls = 0.9;      // a decrement below this share of the lowest one falls
   double progress = 0.6;   // the decrement falls by this factor: short steps count anew
   double increase = 10.0;  // of mu at a saddle
 
   // ---- neighbours of spheres in wide holes
   double covered = 0.9;  // a direction is covered by a line to a neighbour within 1/sqrt(d) times this
-  double farthest_reach = 2.4;
+  double least_wider = 0.1, farthest_reach = 2.4;
 
-  // ---- identify: active set, exact vertex, verdict
+  // ---- identify: active set, narrow LPs, verdict
   double closing_gap = 1e-8;                    // a contact that stays wider when all are closed is none
   double closed_gap = 3e-14;                    // rounding of closed contacts in a box of ten diameters
   double narrow_bound = 1e-3, narrower = 0.01;  // of the first narrow LP; where an LP gains nothing, of the next
   int max_narrow_lps = 20;
   int max_excess = 8;  // contacts too many that are dropped where they do not close; a crystal has more
-  // At a finite duality gap a contact is in doubt where its force on the path over the mean is within this factor
-  // squared of twice its gap. An LP that ends at part_of_gap of the path's gap names contacts (finite_gap.py: 1e-2
-  // names one in a thousand more, 1e-4 no fewer).
-  double doubt = 100.0, part_of_gap = 1e-3;
-  double doubles_from = 1e-11;  // gap in that LP from which factors are doubles: floats no longer balance there
-  double lp_over_path = 0.6;    // duality gap of that LP's forces over the gap of the path: 0.50 to 0.59
-  double balanced = 1e-10;      // largest net force on a sphere there, over the mean force
-  // Diagonal that fixes translations beside rows of unit vectors; the second where squared forces weigh the rows.
-  double ground = 1e-12, weighted_ground = 1e-14;
-  int max_kicks = 30;  // motions along a flex
-  double kick = 0.02;  // the longest
+  double jammed_balance = 1e-6, lp_jammed_balance = 1e-5;  // net forces of a jammed packing; of an LP's answer alone
+  int max_flex_moves = 30;
+  double longest_flex_move = 0.02;
 
-  // ---- progress: parts of the time, before the path and until the verdict
-  double part_before_path = 0.05, part_before_verdict = 0.95;
+  // ---- end at a finite duality gap
+  // A contact is undecided where its force on the path over the mean is within the square of ambiguity_ratio of twice
+  // its gap. An LP that ends at lp_gap_fraction of the path's gap names contacts (finite_gap.py: 1e-2 names one in a
+  // thousand more, 1e-4 no fewer).
+  double ambiguity_ratio = 100.0, lp_gap_fraction = 1e-3;
+  double doubles_from = 1e-11;  // gap in that LP from which factors are doubles: floats no longer balance there
+  double lp_to_path_gap = 0.6;  // duality gap of that LP's forces over the gap of the path: 0.50 to 0.59
+  double balanced = 1e-10;      // largest net force on a sphere there, over the mean force
 
   // Rounding of closed contacts grows with the box over the diameter.
   double closed_limit(const Packing &p) const {
     return closed_gap * std::max(1.0, 0.1 * p.cell.side() / diameter_mean(p));
   }
   double path_end(const Packing &p) const { return end_roundings * closed_limit(p); }
+};
+
+// ---- progress: parts of the time, before the path and until the verdict
+struct CrunchProgress {
+  static constexpr double before_path = 0.05, before_verdict = 0.95;
+};
+
+// ---- costs that the estimate of a crunch takes as known
+struct EstimateTuning {
+  // Pairs a sphere that lists near jamming hold, d = 2..8: measured to d = 5, beyond by the kissing numbers' growth.
+  static constexpr std::array<double, 9> jammed_pairs = {0, 0, 3.0, 5.0, 7.8, 12.0, 18.0, 27.0, 40.0};
+  // Lists of fewer pairs are widened: by a tenth and a hundredth of a diameter at a time.
+  static constexpr double widen = 1.1, widen_at_least = 0.01;
+  // Median gap of contacts to be of a packing near jamming. The step bound of its sequential LPs stays near its first
+  // value.
+  static constexpr double close_gap = 3e-5;
+  // Factorisations of a path, as a power of N / 1024. Near jamming, grown at 3e-4 or 1e-3, medians are 17 (N = 128), 34
+  // (512), 34 and 63 (1024), 83 (2048), 70 (4096), 232 (16384); to a duality gap of 1e-6 to 1e-9, 24 to 75 for all N.
+  // From p = 500 they are 82 (1024) and 175 (2048), from random starts 156 and 241 (tests/bench/estimate.py). Single
+  // packings scatter by a factor of two and more. Sequential LPs take several times as many.
+  static constexpr double size = 1024.0;
+  static constexpr double steps_least = 17.0, steps_near = 45.0, power_near = 0.58, steps_to_gap = 50.0,
+                          times_near = 2.0;
+  static constexpr double steps_far = 120.0, power_far = 0.8, times_far = 10.0;
+  // From random starts of 128 to 512 spheres they are 102 to 134. The small spheres of a mixture roam in holes, where
+  // the barrier has saddles: at ratios of 3, 10 and 30 a path takes 1.1, 1.8 and 2.2 times as many, with half the
+  // spheres small or with equal volumes an octave.
+  static constexpr double steps_least_far = 90.0, more_per_e_fold = 0.35;
+  // Factorisations of the LP that a path begins with, at most half of all; the later half of them are in doubles.
+  static constexpr double steps_of_lp = 13.0;
+  // Fronts run at about half the rate of one large product; the rest of a step goes over all pairs and the factor a few
+  // times: seconds a number of the factor, and a pair.
+  static constexpr double front_rate = 0.5, per_factor = 6e-9, per_pair = 4e-7;
+  // A list gets shorter after this part of the growth to jamming; late where the largest diameter is so many means.
+  static constexpr double grown = 0.3, mixed = 1.3;
+  // Over what crunches took: to 1.6 in tests/bench/estimate.py, 1.8 in d = 8. Above the memory limit a crunch is
+  // refused.
+  static constexpr double too_high = 2.0;
 };
 
 }  // namespace jam

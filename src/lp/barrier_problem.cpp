@@ -1,19 +1,16 @@
 #include "lp/barrier_problem.hpp"
 #include "core/math.hpp"
 #include "core/pair_rule.hpp"
+#include "lp/tuning.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 namespace jam {
-namespace {
+using T = LineSearchTuning;
 
-constexpr double longest_alpha = 4.0, to_wall = 0.995;
-
-}  // namespace
-
-bool BarrierProblem::measure(const Packing &p) {
+bool BarrierProblem::linearise(const Packing &p) {
   lp = make_lp(p, pairs, unit, strain);
   sigma2_.resize(lp.rows());
   vector_.resize(lp.strains > 0 ? lp.rows() * static_cast<size_t>(p.dim) : 0);
@@ -66,7 +63,7 @@ double BarrierProblem::strain_norm(const BarrierStep &x) const {
 double BarrierProblem::longest_dual(const BarrierStep &x) const {
   double alpha = 1.0;
   for (size_t k = 0; k < y.size(); ++k)
-    if (x.y[k] < 0.0) alpha = std::min(alpha, -to_wall * y[k] / x.y[k]);
+    if (x.y[k] < 0.0) alpha = std::min(alpha, -T::of_feasible * y[k] / x.y[k]);
   return alpha;
 }
 
@@ -87,8 +84,8 @@ void BarrierProblem::bend(const BarrierStep &x) {
 }
 
 // Longest alpha at which every true gap and Gamma itself are still positive.
-double BarrierProblem::wall(const BarrierStep &x) const {
-  double alpha = x.g < 0.0 ? std::min(longest_alpha, -1.0 / x.g) : longest_alpha;
+double BarrierProblem::max_feasible_alpha(const BarrierStep &x) const {
+  double alpha = x.g < 0.0 ? std::min(T::longest, -1.0 / x.g) : T::longest;
   for (size_t k = 0; k < y.size(); ++k) {
     const double c = lp.c[k], b = x.w[k], disc = b * b - 4.0 * bend_[k] * c;
     if (b < 0.0 && disc > 0.0) alpha = std::min(alpha, 2.0 * c / (-b + std::sqrt(disc)));
@@ -112,10 +109,10 @@ double BarrierProblem::merit(const BarrierStep &x, double alpha) const {
 // Golden sections. The whole Newton step if that is about as good.
 BarrierProblem::Best BarrierProblem::search(const BarrierStep &x) {
   bend(x);
-  const double most = to_wall * wall(x), part = 0.6180339887498949;
+  const double most = T::of_feasible * max_feasible_alpha(x), part = T::golden;
   double low = 0.0, high = most, a = high - part * (high - low), b = low + part * (high - low);
   double at_a = merit(x, a), at_b = merit(x, b);
-  for (int k = 0; k < 14; ++k) {
+  for (int k = 0; k < T::golden_sections; ++k) {
     if (at_a <= at_b) {
       high = b, b = a, at_b = at_a;
       a = high - part * (high - low), at_a = merit(x, a);
@@ -125,7 +122,7 @@ BarrierProblem::Best BarrierProblem::search(const BarrierStep &x) {
     }
   }
   Best best = at_a <= at_b ? Best{a, at_a} : Best{b, at_b};
-  if (std::fabs(best.alpha - 1.0) < 0.1 && most > 1.0) best = {1.0, merit(x, 1.0)};
+  if (std::fabs(best.alpha - 1.0) < T::nearly_whole && most > 1.0) best = {1.0, merit(x, 1.0)};
   return best;
 }
 

@@ -25,7 +25,7 @@ class BarrierProblem {
   StrainBasis strain;  // empty: a fixed cell
 
   // Rows at the true distances of p. False when a gap is no longer positive.
-  bool measure(const Packing &p);
+  bool linearise(const Packing &p);
   double duality_gap() const;
   // Minus the slope of the barrier function along x over mu: the squared Newton decrement.
   double decrement(const BarrierStep &x) const;
@@ -50,7 +50,7 @@ class BarrierProblem {
 
  private:
   void bend(const BarrierStep &x);
-  double wall(const BarrierStep &x) const;
+  double max_feasible_alpha(const BarrierStep &x) const;
   double merit(const BarrierStep &x, double alpha) const;
 
   std::vector<double> bend_, sigma2_, vector_;  // vector_: r_ij in units, of a free cell

@@ -13,9 +13,6 @@
 namespace jam {
 namespace {
 
-// More pivots a row than any packing needed: degenerate LPs can go round.
-constexpr int most_pivots_a_row = 10;
-
 class StopWhenInterrupted : public ClpEventHandler {
  public:
   explicit StopWhenInterrupted(const Monitor *monitor) : monitor_(monitor) {}
@@ -26,9 +23,9 @@ class StopWhenInterrupted : public ClpEventHandler {
   const Monitor *monitor_;
 };
 
-// Clp asserts that all numbers are below 1e100, which ends the host. Far below that its tolerances mean nothing.
+// Clp asserts that all numbers are below 1e100, which ends the host.
 bool clp_can_take(const std::vector<double> &numbers) {
-  return std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::fabs(x) < 1e30; });
+  return std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::fabs(x) < clp_largest; });
 }
 
 // Clp's tolerances are absolute: with a finite bound the LP is scaled by it (s, g and c over the bound), so that they
@@ -72,7 +69,7 @@ class PackingModel {
     model.loadProblem(matrix, low.data(), high.data(), cost.data(), row_low.data(), row_high.data());
     model.setPrimalTolerance(tolerance);
     model.setDualTolerance(tolerance);
-    model.setMaximumIterations(most_pivots_a_row * rows);
+    model.setMaximumIterations(clp_pivots_a_row * rows);
   }
   // Displacements and g, with the slack of every row; where some rows miss the tolerance, all hold for a g less by as
   // much.

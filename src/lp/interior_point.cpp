@@ -6,25 +6,27 @@
 
 namespace jam {
 
+using T = InteriorPointTuning;
+using W = WorkingSetTuning;
+
 // Nothing moved yet: s = 0 and g below the smallest gap, so that the rows hold strictly. Cold, y is on the central path
 // of that point; warm, sum y c with the multipliers of the LP before bounds the gain, and that is how near the end of
 // the path the start is. Returns the mean product.
 double InteriorPoint::first_point() {
-  constexpr double ahead = 3.0,
-                   blurred = 1e-12;  // closer to the end than that rounding of the rows upsets the force balance
   const PackingLp &lp = *lp_;
   const double smallest = *std::min_element(lp.c.begin(), lp.c.end());
   std::vector<double> sorted = lp.c;
   std::nth_element(sorted.begin(), sorted.begin() + sorted.size() / 2, sorted.end());
-  double room = std::max(0.1 * (sorted[sorted.size() / 2] - smallest), 0.01 * (box_ ? std::min(1.0, lp.bound) : 1.0));
+  double slack = std::max(T::first_slack * (sorted[sorted.size() / 2] - smallest),
+                          T::slack_per_bound * (box_ ? std::min(1.0, lp.bound) : 1.0));
   double sum = 0.0, gain = 0.0;
   if (control_.multipliers)
     for (size_t q = 0; q < rows_; ++q) {
       y_[q] = (*control_.multipliers)[split_.index[q]];
       sum += y_[q], gain += y_[q] * (lp.c[q] - smallest);
     }
-  if (sum > 0.0) room = std::min(room, std::max(ahead * gain / sum, blurred));
-  g_ = smallest - room;
+  if (sum > 0.0) slack = std::min(slack, std::max(T::ahead * gain / sum, T::least_slack));
+  g_ = smallest - slack;
   for (size_t q = 0; q < rows_; ++q) w_[q] = lp.c[q] - g_;
   return centre_multipliers(y_, w_, static_cast<double>(rows_));
 }
@@ -32,9 +34,9 @@ double InteriorPoint::first_point() {
 // The bounds share the mean product.
 void InteriorPoint::start() {
   split_.choose(*whole_);
-  lp_ = &split_.near;
+  lp_ = &split_.lp;
   const PackingLp &lp = *lp_;
-  system_.set_graph(lp.dim, lp.n, split_.near_pairs, control_.threads);
+  system_.set_graph(lp.dim, lp.n, split_.pairs, control_.threads);
   system_.set_strain(lp.strain.data(), lp.strains);
   box_ = std::isfinite(lp.bound);
   rows_ = lp.rows();
@@ -49,47 +51,48 @@ void InteriorPoint::start() {
   v_.assign(unknowns_, lp.bound);
   zu_.assign(unknowns_, z);
   zv_.assign(unknowns_, z);
-  measure_far();
+  update_screened();
 }
 
 // a . (s_i - s_j) + b . e of a row that stands outside the normal equations.
-double InteriorPoint::far_row(size_t k, const std::vector<double> &s) const {
+double InteriorPoint::screened_row(size_t k, const std::vector<double> &s) const {
   return whole_->change(k, s.data(), s.data() + s.size() - static_cast<size_t>(whole_->strains));
 }
 
-void InteriorPoint::measure_far() {
-  far_w_.resize(split_.far.size());
-  for (size_t q = 0; q < far_w_.size(); ++q) far_w_[q] = whole_->c[split_.far[q]] - g_ + far_row(split_.far[q], s_);
+void InteriorPoint::update_screened() {
+  screened_w_.resize(split_.screened.size());
+  for (size_t q = 0; q < screened_w_.size(); ++q)
+    screened_w_[q] = whole_->c[split_.screened[q]] - g_ + screened_row(split_.screened[q], s_);
 }
 
-double InteriorPoint::longest_far(const Direction &x, double wanted) {
+double InteriorPoint::longest_screened(const Direction &x, double wanted) {
   double step = wanted;
   crossed_.clear();
-  for (size_t q = 0; q < far_w_.size(); ++q) {
-    const double dw = far_row(split_.far[q], x.s) - x.g;
-    if (!(wanted * dw < -0.9 * far_w_[q])) continue;
-    step = std::min(step, -0.9 * far_w_[q] / dw);
+  for (size_t q = 0; q < screened_w_.size(); ++q) {
+    const double dw = screened_row(split_.screened[q], x.s) - x.g;
+    if (!(wanted * dw < -W::of_screened * screened_w_[q])) continue;
+    step = std::min(step, -W::of_screened * screened_w_[q] / dw);
     crossed_.push_back(q);
   }
-  if (step > 0.5 * wanted) crossed_.clear();
+  if (step > W::blocks * wanted) crossed_.clear();
   return step;
 }
 
-// A far row that lost two thirds of the threshold joins on the central path, and with it all that lost half; and all
-// that the step would have crossed if they cut more than half of it.
-bool InteriorPoint::admit_far() {
-  measure_far();
-  const bool close = !far_w_.empty() && *std::min_element(far_w_.begin(), far_w_.end()) <= 0.3 * split_.threshold;
+// Screened rows that come near join on the central path, and those that the step would have crossed if they blocked it.
+bool InteriorPoint::admit_screened() {
+  update_screened();
+  const bool close =
+      !screened_w_.empty() && *std::min_element(screened_w_.begin(), screened_w_.end()) <= W::joins * split_.threshold;
   if (!close && crossed_.empty()) return false;
   std::vector<char> take(whole_->rows(), 0);
   std::vector<double> w(whole_->rows(), 0.0), y(whole_->rows(), 0.0);
   const double mu = complementarity() / static_cast<double>(rows_ + (box_ ? 2 * unknowns_ : 0));
-  std::vector<char> joins(far_w_.size(), 0);
+  std::vector<char> joins(screened_w_.size(), 0);
   for (const size_t q : crossed_) joins[q] = 1;
-  for (size_t q = 0; q < far_w_.size(); ++q) {
-    if (!joins[q] && !(close && far_w_[q] <= 0.5 * split_.threshold)) continue;
-    const size_t k = split_.far[q];
-    take[k] = 1, w[k] = far_w_[q], y[k] = mu / far_w_[q];
+  for (size_t q = 0; q < screened_w_.size(); ++q) {
+    if (!joins[q] && !(close && screened_w_[q] <= W::joins_too * split_.threshold)) continue;
+    const size_t k = split_.screened[q];
+    take[k] = 1, w[k] = screened_w_[q], y[k] = mu / screened_w_[q];
   }
   for (size_t q = 0; q < rows_; ++q) w[split_.index[q]] = w_[q], y[split_.index[q]] = y_[q];
   split_.join(*whole_, take);
@@ -98,9 +101,9 @@ bool InteriorPoint::admit_far() {
   for (auto *d : {&main_, &extra_, &trial_}) d->resize(rows_, unknowns_);
   w_.resize(rows_), y_.resize(rows_);
   for (size_t q = 0; q < rows_; ++q) w_[q] = w[split_.index[q]], y_[q] = y[split_.index[q]];
-  system_.set_graph(lp_->dim, lp_->n, split_.near_pairs, control_.threads, true);
+  system_.set_graph(lp_->dim, lp_->n, split_.pairs, control_.threads, true);
   system_.set_strain(lp_->strain.data(), lp_->strains);
-  measure_far();
+  update_screened();
   return true;
 }
 
@@ -138,7 +141,8 @@ double InteriorPoint::complementarity() const {
 
 bool InteriorPoint::converged() const {
   const double gap = complementarity();
-  if (dual_norm_ > (gap > control_.tolerance ? 1e-3 : control_.balance) || std::fabs(rg_) > 1e-9) return false;
+  if (dual_norm_ > (gap > control_.tolerance ? T::rough_balance : T::balance) || std::fabs(rg_) > T::unit_sum)
+    return false;
   return gap <= control_.tolerance || (control_.early_fraction > 0 && g_ > 0 && gap <= control_.early_fraction * g_);
 }
 
@@ -149,7 +153,7 @@ LpSolution InteriorPoint::answer() const {
   out.s.resize(s_.size() - out.strain.size());
   out.y.assign(whole_->rows(), 0.0), out.w.assign(whole_->rows(), 0.0);
   for (size_t q = 0; q < rows_; ++q) out.y[split_.index[q]] = y_[q], out.w[split_.index[q]] = w_[q];
-  for (size_t q = 0; q < far_w_.size(); ++q) out.w[split_.far[q]] = far_w_[q];
+  for (size_t q = 0; q < screened_w_.size(); ++q) out.w[split_.screened[q]] = screened_w_[q];
   return out;
 }
 
@@ -161,28 +165,26 @@ LpSolution InteriorPoint::solve(const PackingLp &lp, const IpmControl &control, 
   const int before = system_.factorisations;
   double best_merit = std::numeric_limits<double>::infinity(), best_balance = best_merit;
   int stalled_iterations = 0;
-  const int max_stalled_iterations = control.multipliers ? 3 : 8;  // a cold start is at hand where a warm one stalls
-  bool asked = false;
+  // A cold start is at hand where a warm one stalls.
+  const int max_stalled = control.multipliers ? T::max_stalled_warm : T::max_stalled;
   for (;; ++out.iterations) {
     residuals();
     const double gap = complementarity();
     if (monitor)
       monitor->log(JAM_LOG_DEBUG, "ipm %2d gap %.2e balance %.1e sum_y %.1e g %.15f", out.iterations, gap, dual_norm_,
                    rg_, g_);
-    const bool ask =
-        control.leave && !asked && g_ > 0 && gap <= control.rough * g_ && dual_norm_ <= 1e-3 && std::fabs(rg_) <= 1e-9;
-    asked = asked || ask;
-    if (converged() || (ask && control.leave(answer()))) {
+    if (converged()) {
       out.solved = true;
       break;
     }
     // Nothing more to win: rounding rules. Good enough if the gap is near the tolerance all the same.
     const double merit = gap + std::min(1.0, gap_scale_ * dual_norm_);
-    stalled_iterations = merit < 0.9 * best_merit || dual_norm_ < 0.9 * best_balance ? 0 : stalled_iterations + 1;
+    stalled_iterations =
+        merit < T::progress * best_merit || dual_norm_ < T::progress * best_balance ? 0 : stalled_iterations + 1;
     best_merit = std::min(best_merit, merit), best_balance = std::min(best_balance, dual_norm_);
     if (monitor && monitor->interrupted()) break;
-    if (stalled_iterations >= max_stalled_iterations || out.iterations >= control.max_iterations) {
-      out.solved = gap <= 1e3 * control.tolerance && dual_norm_ <= 1e2 * control.balance;
+    if (stalled_iterations >= max_stalled || out.iterations >= control.max_iterations) {
+      out.solved = gap <= T::near_gap * control.tolerance && dual_norm_ <= T::near_balance * T::balance;
       break;
     }
     if (monitor) monitor->expect_factorisations(system_.factorisations);
@@ -193,9 +195,10 @@ LpSolution InteriorPoint::solve(const PackingLp &lp, const IpmControl &control, 
     if (!predictor_corrector(main_)) break;
     Steps a = longest(main_);
     if (!std::isfinite(main_.g) || !(a.primal > 0.0) || !(a.dual > 0.0)) break;
-    const double keep = 1.0 - std::min(0.05, std::max(1e-6, 0.1 * gap));
-    move(main_, {longest_far(main_, a.primal < 1.0 ? keep * a.primal : 1.0), a.dual < 1.0 ? keep * a.dual : 1.0});
-    if (admit_far() && monitor) monitor->log(JAM_LOG_DEBUG, "ipm: %zu of %zu rows near", rows_, lp.rows());
+    const double keep = 1.0 - std::min(T::max_cut, std::max(T::least_cut, T::cut_per_gap * gap));
+    move(main_, {longest_screened(main_, a.primal < 1.0 ? keep * a.primal : 1.0), a.dual < 1.0 ? keep * a.dual : 1.0});
+    if (admit_screened() && monitor)
+      monitor->log(JAM_LOG_DEBUG, "ipm: %zu of %zu rows in the working set", rows_, lp.rows());
   }
   LpSolution last = answer();
   last.iterations = out.iterations, last.solved = out.solved;

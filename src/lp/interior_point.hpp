@@ -2,7 +2,6 @@
 // Gondzio's multiple centrality correctors (Comput. Optim. Appl. 6, 137 (1996)), since here a triangular solve costs
 // a few percent of a factorisation.
 #pragma once
-#include <functional>
 #include <vector>
 
 #include "core/monitor.hpp"
@@ -13,21 +12,14 @@
 namespace jam {
 
 struct IpmControl {
-  double tolerance = 1e-15;  // on sum of complementarity products, which is the duality gap in units of Gamma
-  double early_fraction =
-      0;  // > 0: enough when that sum is below this fraction of the gain g (an early LP of a sequence)
-  double balance =
-      1e-5;  // on the dual residual, see LpCheck: what rounding of the normal equations leaves; polish takes the rest
-  double doubles_from =
-      -1.0;  // sum at which factors become doubles, which balance to more digits; < 0: tolerance^(1/2)
-  int max_iterations = 80;
-  int correctors = 3;
+  double tolerance = 1e-15;     // on the sum of complementarity products, which is the duality gap in units of Gamma
+  double early_fraction = 0.0;  // > 0: enough when that sum is below this fraction of the gain g (an early LP)
+  double doubles_from = -1.0;   // sum from which factors are doubles, which balance better; < 0: tolerance^(1/2)
+  int max_iterations = InteriorPointTuning::max_iterations;
+  int correctors = InteriorPointTuning::max_correctors;
   int threads = 1;
-  // Asked once, when the sum is below `rough` of the gain: true ends the LP there, with slack left in its rows.
-  std::function<bool(const LpSolution &)> leave;
-  double rough = 0.3;
-  const std::vector<double> *multipliers =
-      nullptr;  // one a row, of an LP with the same carrying rows: a warm start (0: not known)
+  // One a row, of an LP with the same carrying rows: a warm start (0: not known). NULL: cold.
+  const std::vector<double> *multipliers = nullptr;
 };
 
 class InteriorPoint {
@@ -36,7 +28,7 @@ class InteriorPoint {
   explicit InteriorPoint(NewtonSystem &system, const SinglePrecision &single = {})
       : system_(system), factor_(system, single) {}
   // Gives system the graph of the rows that it needs. The answer carries `solved` when the tolerances were met or when
-  // no further digit could be won but the gap is within 1e3 of the tolerance. monitor may be NULL.
+  // no further digit could be won but the gap is near the tolerance. monitor may be NULL.
   LpSolution solve(const PackingLp &lp, const IpmControl &control, Monitor *monitor = nullptr);
 
  private:
@@ -65,16 +57,16 @@ class InteriorPoint {
   bool predictor_corrector(Direction &d);
   void centrality_correctors(Direction &d, double mu_target);
   void move(const Direction &d, const Steps &a);
-  // Rows that stand outside the normal equations: the step may take nine tenths of their slack, and one that comes near
+  // Screened rows stand outside the normal equations: the step leaves part of their slack, and one that comes near
   // joins.
-  double far_row(size_t k, const std::vector<double> &s) const;
-  void measure_far();
-  double longest_far(const Direction &d, double wanted);
-  bool admit_far();
+  double screened_row(size_t k, const std::vector<double> &s) const;
+  void update_screened();
+  double longest_screened(const Direction &d, double wanted);
+  bool admit_screened();
 
   NewtonSystem &system_;
   MixedFactor factor_;
-  const PackingLp *lp_ = nullptr;  // the near rows of *whole_
+  const PackingLp *lp_ = nullptr;  // the working set of *whole_
   const PackingLp *whole_ = nullptr;
   WorkingSet split_;
   IpmControl control_;
@@ -83,8 +75,8 @@ class InteriorPoint {
   double g_ = 0.0, rg_ = 0.0, dual_norm_ = 0.0, gap_scale_ = 1.0;
   std::vector<double> s_, y_, w_, u_, v_, zu_, zv_;
   std::vector<double> rd_, rp_, weight_, diagonal_, rhs_, row_, targets_, targets_u_, targets_v_;
-  std::vector<double> far_w_;
-  std::vector<size_t> crossed_;  // far rows that cut more than half of the last step
+  std::vector<double> screened_w_;
+  std::vector<size_t> crossed_;  // screened rows that cut more than half of the last step
   Direction main_, extra_, trial_;
 };
 

@@ -6,6 +6,9 @@
 
 namespace jam {
 
+using T = InteriorPointTuning;
+using C = CorrectorTuning;
+
 void InteriorPoint::Direction::resize(size_t rows, size_t unknowns) {
   for (auto *v : {&s, &zu, &zv}) v->resize(unknowns);
   for (auto *v : {&y, &w}) v->resize(rows);
@@ -25,7 +28,7 @@ void InteriorPoint::weights() {
   }
   // Without bounds translations (and spheres that no row holds) need a proximal diagonal: it leaves the fixed point
   // alone.
-  const double ridge = 1e-12 * mean / static_cast<double>(unknowns_);
+  const double ridge = T::ridge * mean / static_cast<double>(unknowns_);
   for (size_t k = 0; k < unknowns_; ++k) diagonal_[k] = ridge + (box_ ? zu_[k] / u_[k] + zv_[k] / v_[k] : 0.0);
 }
 
@@ -91,9 +94,9 @@ bool InteriorPoint::predictor_corrector(Direction &d) {
   if (!direction(targets_, targets_u_, targets_v_, true, 0, d)) return false;
   const double mu = complementarity() / static_cast<double>(rows_ + (box_ ? 2 * unknowns_ : 0));
   const double ratio = mu_after(d, longest(d)) / mu;
-  // Below a tenth of the tolerance only rounding is left to win.
-  const double target =
-      std::max(std::max(ratio * ratio * ratio, 1e-8) * mu, 0.1 * control_.tolerance / static_cast<double>(rows_));
+  // Far below the tolerance only rounding is left to win.
+  const double target = std::max(std::max(ratio * ratio * ratio, T::least_ratio) * mu,
+                                 T::of_tolerance * control_.tolerance / static_cast<double>(rows_));
   for (size_t k = 0; k < rows_; ++k) targets_[k] = target - y_[k] * w_[k] - d.w[k] * d.y[k];
   if (box_)
     for (size_t k = 0; k < unknowns_; ++k) {
@@ -105,17 +108,17 @@ bool InteriorPoint::predictor_corrector(Direction &d) {
   return true;
 }
 
-// Each corrector pulls products that a longer step would leave outside [0.1, 10] mu back to that band, and is kept
+// Each corrector pulls products that a longer step would leave outside the band around mu back to it, and is kept
 // only if it lengthens the step.
 void InteriorPoint::centrality_correctors(Direction &d, double mu) {
   const auto pull = [mu](double product) {
-    const double inside = std::min(std::max(product, 0.1 * mu), 10.0 * mu);
-    return std::max(inside - product, -10.0 * mu);
+    const double inside = std::min(std::max(product, 1.0 / C::band * mu), C::band * mu);
+    return std::max(inside - product, -C::band * mu);
   };
   for (int round = 0; round < control_.correctors; ++round) {
     const Steps now = longest(d);
-    if (now.primal > 0.9 && now.dual > 0.9) return;
-    const Steps aim{std::min(1.0, now.primal + 0.3), std::min(1.0, now.dual + 0.3)};
+    if (now.primal > T::whole_step && now.dual > T::whole_step) return;
+    const Steps aim{std::min(1.0, now.primal + C::ahead), std::min(1.0, now.dual + C::ahead)};
     for (size_t k = 0; k < rows_; ++k) targets_[k] = pull((w_[k] + aim.primal * d.w[k]) * (y_[k] + aim.dual * d.y[k]));
     if (box_)
       for (size_t k = 0; k < unknowns_; ++k) {
@@ -126,7 +129,7 @@ void InteriorPoint::centrality_correctors(Direction &d, double mu) {
     trial_ = d;
     trial_.add(extra_);
     const Steps better = longest(trial_);
-    if (better.primal + better.dual < now.primal + now.dual + 0.03) return;
+    if (better.primal + better.dual < now.primal + now.dual + T::least_win) return;
     std::swap(d, trial_);
   }
 }

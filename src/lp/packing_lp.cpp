@@ -36,8 +36,7 @@ PackingLp make_lp(const Packing &p, const PairList &pairs, double sigma_unit, co
 }
 
 double centre_multipliers(std::vector<double> &y, const std::vector<double> &w, double carrying) {
-  constexpr double factor =
-      10.0;  // wider, and weak contacts cut the first steps short; narrower, and the forces are lost
+  constexpr double factor = InteriorPointTuning::multiplier_band;
   double sum = 0.0, products = 0.0, inverse = 0.0;
   for (size_t k = 0; k < y.size(); ++k) sum += y[k], products += y[k] * w[k], inverse += 1.0 / w[k];
   const double mu = sum > 0.0 ? products / (sum * carrying) : 1.0 / inverse;
@@ -69,19 +68,19 @@ LpCheck check_lp(const PackingLp &lp, const LpSolution &x) {
     sum_yc += x.y[k] * lp.c[k];
     sum_ya += x.y[k] * std::sqrt(a2);
   }
-  double unbalanced = 0.0, at_bound = 0.0;
+  double unbalanced = 0.0, held = 0.0;
   for (size_t k = 0; k < force.size(); ++k) {
     const double moved = std::fabs(k < spheres ? x.s[k] : x.strain[k - spheres]);
     out.infeasibility = std::max(out.infeasibility, moved - lp.bound);
-    if (moved > 0.999 * lp.bound)
-      at_bound += std::fabs(force[k]);  // the bound carries it
+    if (moved > at_bound * lp.bound)
+      held += std::fabs(force[k]);  // the bound carries it
     else
       unbalanced = std::max(unbalanced, std::fabs(force[k]));
   }
   const double carrying = static_cast<double>(lp.dim) * lp.n;  // about as many contacts as degrees of freedom
   out.balance = sum_ya > 0.0 ? unbalanced * carrying / sum_ya : 0.0;
   out.gamma = std::fabs(sum_y - 1.0);
-  out.gap = sum_yc + (std::isfinite(lp.bound) ? lp.bound * at_bound : 0.0) - x.g;
+  out.gap = sum_yc + (std::isfinite(lp.bound) ? lp.bound * held : 0.0) - x.g;
   return out;
 }
 

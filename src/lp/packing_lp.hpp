@@ -17,6 +17,7 @@
 #include "core/pairs.hpp"
 #include "linalg/pair_products.hpp"
 #include "lp/strain.hpp"
+#include "lp/tuning.hpp"
 
 namespace jam {
 
@@ -88,8 +89,8 @@ inline void transpose_times(const PackingLp &lp, const double *y, double *out) {
 
 // Clp's simplex on the same LP: slow and independent. threads-safe: one model a call. monitor, which may be NULL,
 // can interrupt it between two pivots. start: a basis from a former answer with rows for this LP (0: not known), or
-// NULL. tolerance: of rows, over the bound; of multipliers, over their mean.
-constexpr double clp_tolerance = 1e-9, basis_inside = 2.0, basis_at_lower = 4.0;
+// NULL.
+constexpr double basis_inside = 2.0, basis_at_lower = 4.0;
 LpSolution solve_lp_clp(const PackingLp &lp, double tolerance = clp_tolerance, const Monitor *monitor = nullptr,
                         const LpSolution *start = nullptr);
 // The vertex farthest along `direction`, g = 0; sphere `fixed` stays.

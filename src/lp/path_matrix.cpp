@@ -7,35 +7,39 @@
 
 namespace jam {
 void PathMatrix::reset(size_t rows, size_t unknowns) {
-  near_.clear();
+  coupled_.clear();
   weight_.resize(rows);
   diagonal_.resize(unknowns);
 }
 
 // Rows couple spheres up to far_slack times the slack of the carrying rows. They are chosen anew for a new list, when a
-// screened row came near, and when a fifth could go.
-void PathMatrix::choose_near(const Packing &p, const BarrierProblem &b) {
+// screened row came near, and when many could go.
+void PathMatrix::choose_coupled(const Packing &p, const BarrierProblem &b) {
   const std::vector<double> &c = b.lp.c;
-  const double slack = far_slack * carrying_slack(c, p.dim, static_cast<int32_t>(p.n()));
+  using T = WorkingSetTuning;
+  const double slack = T::far_slack * carrying_slack(c, p.dim, static_cast<int32_t>(p.n()));
   std::vector<char> coupled(c.size(), 0);
-  for (const size_t k : near_) coupled[k] = 1;
+  for (const size_t k : coupled_) coupled[k] = 1;
   size_t wanted = 0, missing = 0;
-  for (size_t k = 0; k < c.size(); ++k) wanted += c[k] <= slack, missing += !coupled[k] && c[k] <= 0.5 * slack;
-  if (!near_.empty() && missing == 0 && static_cast<double>(wanted) > 0.8 * static_cast<double>(near_.size())) return;
-  near_.clear();
-  near_pairs_ = PairList();
+  for (size_t k = 0; k < c.size(); ++k)
+    wanted += c[k] <= slack, missing += !coupled[k] && c[k] <= T::close_screened * slack;
+  if (!coupled_.empty() && missing == 0 &&
+      static_cast<double>(wanted) > T::still_wanted * static_cast<double>(coupled_.size()))
+    return;
+  coupled_.clear();
+  pairs_ = PairList();
   for (size_t k = 0; k < c.size(); ++k) {
     if (!(c[k] <= slack)) continue;
-    near_.push_back(k);
-    near_pairs_.i.push_back(b.pairs.i[k]), near_pairs_.j.push_back(b.pairs.j[k]);
+    coupled_.push_back(k);
+    pairs_.i.push_back(b.pairs.i[k]), pairs_.j.push_back(b.pairs.j[k]);
   }
-  near_a_.resize(near_.size() * p.dim), near_weight_.resize(near_.size());
-  near_strain_.resize(near_.size() * static_cast<size_t>(b.lp.strains));
-  system_.set_graph(p.dim, static_cast<int32_t>(p.n()), near_pairs_, threads_);
+  a_.resize(coupled_.size() * p.dim), coupled_weight_.resize(coupled_.size());
+  strain_.resize(coupled_.size() * static_cast<size_t>(b.lp.strains));
+  system_.set_graph(p.dim, static_cast<int32_t>(p.n()), pairs_, threads_);
 }
 
 void PathMatrix::weigh(const Packing &p, const BarrierProblem &b, double proximal) {
-  choose_near(p, b);
+  choose_coupled(p, b);
   const int d = p.dim;
   const size_t strains = static_cast<size_t>(b.lp.strains), spheres = b.lp.spheres();
   std::fill(diagonal_.begin(), diagonal_.end(), proximal);
@@ -43,10 +47,10 @@ void PathMatrix::weigh(const Packing &p, const BarrierProblem &b, double proxima
   for (size_t k = 0; k < b.y.size(); ++k) {
     const double *a = &b.lp.a[k * d];
     weight_[k] = b.y[k] / b.lp.c[k];
-    if (q < near_.size() && near_[q] == k) {
-      near_weight_[q] = weight_[k];
-      std::copy_n(b.lp.strain.begin() + k * strains, strains, near_strain_.begin() + q * strains);
-      std::copy(a, a + d, &near_a_[q++ * d]);
+    if (q < coupled_.size() && coupled_[q] == k) {
+      coupled_weight_[q] = weight_[k];
+      std::copy_n(b.lp.strain.begin() + k * strains, strains, strain_.begin() + q * strains);
+      std::copy(a, a + d, &a_[q++ * d]);
       continue;
     }
     double a1 = 0.0;
@@ -59,11 +63,11 @@ void PathMatrix::weigh(const Packing &p, const BarrierProblem &b, double proxima
     for (size_t e = 0; e < strains; ++e)
       diagonal_[spheres + e] += weight_[k] * std::fabs(b.lp.strain[k * strains + e]) * b1;
   }
-  if (strains > 0) system_.set_strain(near_strain_.data(), b.lp.strains);
+  if (strains > 0) system_.set_strain(strain_.data(), b.lp.strains);
 }
 
 bool PathMatrix::factorise(double gap) {
-  return factor_.factorise(near_a_.data(), near_weight_.data(), diagonal_.data(), gap, 0.0);
+  return factor_.factorise(a_.data(), coupled_weight_.data(), diagonal_.data(), gap, 0.0);
 }
 
 bool PathMatrix::solve(const double *rhs, double h, double *ds, double *dg) { return factor_.solve(rhs, h, ds, dg, 1); }

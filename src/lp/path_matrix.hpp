@@ -25,17 +25,17 @@ class PathMatrix {
 
   // y / c of every row.
   const std::vector<double> &weight() const { return weight_; }
-  size_t near() const { return near_.size(); }
+  size_t coupled() const { return coupled_.size(); }
 
  private:
-  void choose_near(const Packing &p, const BarrierProblem &b);
+  void choose_coupled(const Packing &p, const BarrierProblem &b);
 
   NewtonSystem &system_;
   MixedFactor factor_;
   const int threads_;
-  std::vector<size_t> near_;  // rows in the matrix, ascending
-  PairList near_pairs_;
-  std::vector<double> near_a_, near_strain_, near_weight_, weight_, diagonal_;
+  std::vector<size_t> coupled_;  // rows in the matrix, ascending
+  PairList pairs_;
+  std::vector<double> a_, strain_, coupled_weight_, weight_, diagonal_;
 };
 
 }  // namespace jam

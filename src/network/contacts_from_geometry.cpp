@@ -6,6 +6,7 @@
 #include "core/call_scope.hpp"
 #include "core/error.hpp"
 #include "core/pair_rule.hpp"
+#include "network/tuning.hpp"
 
 namespace jam {
 
@@ -65,8 +66,6 @@ ContactNetwork between_carrying(const ContactNetwork &net, const std::vector<cha
 
 namespace {
 
-constexpr size_t most_candidates = 12;
-
 struct Jump {
   double ratio, below, above;
 };
@@ -85,7 +84,7 @@ std::vector<Jump> find_jumps(const Packing &p, const GapList &g, double resoluti
     if (static_cast<double>(q + 1) < enough) few = jumps.size();
   }
   const auto best = [&](size_t first, size_t last) {
-    const size_t keep = std::min<size_t>(last - first, most_candidates);
+    const size_t keep = std::min<size_t>(last - first, JumpTuning::most_candidates);
     const auto begin = jumps.begin() + static_cast<std::ptrdiff_t>(first);
     std::partial_sort(begin, begin + static_cast<std::ptrdiff_t>(keep),
                       jumps.begin() + static_cast<std::ptrdiff_t>(last),
@@ -111,7 +110,7 @@ ContactCandidates contact_candidates(const Packing &p, double window) {
   ContactCandidates out;
   const GapList g = pairs_below(p, window);
   for (const Jump &jump : find_jumps(p, g, gap_resolution(p).relative(p), window)) {
-    if (out.limit.size() == most_candidates) break;
+    if (out.limit.size() == JumpTuning::most_candidates) break;
     CallScope::look();
     const ContactNetwork net = network_of(p, g, std::sqrt(jump.below * jump.above));
     if (!can_be_rigid(net, p.dim)) continue;
@@ -158,8 +157,7 @@ GeometryResult contacts_from_geometry(const Packing &p, const jam_geometry_optio
       r.jump = jump.ratio;
     }
     r.second_jump = second;
-    // A true jump separates rounding from real gaps: decades, and far more of them than the next candidate.
-    wide = chosen && r.jump > 100.0;
+    wide = chosen && r.jump > JumpTuning::wide;
     clear = wide && r.jump > second * second;
   }
   r.gap_below = 0.0;
@@ -202,11 +200,7 @@ GeometryResult contacts_from_geometry(const Packing &p, const jam_geometry_optio
     out.status = JAM_NOT_JAMMED;
   else if (stress.dimension > 1 || !clear || closed.jammed == Verdict::undecided || wide_gaps)
     out.status = JAM_AMBIGUOUS;
-  // Scale: mean of lambda r with sum lambda sigma^2 = 1 and lambda = c f / r.
-  double sum = 0.0;
-  for (size_t k = 0; k < graph.contacts(); ++k)
-    sum += out.network.force[k] * graph.sigma[k] * graph.sigma[k] / graph.distance[k];
-  out.network.force_scale = sum > 0.0 ? 1.0 / sum : 0.0;
+  set_force_scale(p, out.network);
   return out;
 }
 

@@ -6,6 +6,7 @@
 #include "core/packing.hpp"
 #include "linalg/newton_system.hpp"
 #include "network/contact_network.hpp"
+#include "network/tuning.hpp"
 
 namespace jam {
 

@@ -85,4 +85,8 @@ struct RigidityTuning {
 // ---- refinement of solutions of the rows
 constexpr int most_refinements = 30;
 
+// ---- force balance: diagonals that fix translations beside rows of unit vectors, and where squared forces weigh the
+// rows
+constexpr double unit_ground = 1e-12, weighted_ground = 1e-14;
+
 }  // namespace jam

@@ -135,7 +135,7 @@ const Mechanism mechanisms[] = {
     {"end of the path near rounding", [](Tuning &t, jam_crunch_options &) { t.end_roundings = 33.0; }},  // 1e-12
     {"dropped contacts", [](Tuning &t, jam_crunch_options &) { t.max_excess = 0; }},
     {"narrow LPs", [](Tuning &t, jam_crunch_options &) { t.max_narrow_lps = 0; }},
-    {"kicks along flexes", [](Tuning &t, jam_crunch_options &) { t.max_kicks = 0; }},
+    {"moves along flexes", [](Tuning &t, jam_crunch_options &) { t.max_flex_moves = 0; }},
 };
 
 void run(const Start &start, const Mechanism &mechanism) {

@@ -212,9 +212,40 @@ def analysis(raw):
     return ["task", "N", "processor time (s)", "error"], rows
 
 
+def ablation(*raws):
+    """ablation, five seeds per set"""
+    runs = [run for raw in raws for run in raw]
+    nothing = {(r["set"], r["start"]): r for r in runs if r["off"] == "none"}
+    sets = list(dict.fromkeys(r["set"] for r in runs))
+
+    def cell(off, of):
+        some = [r for r in runs if r["off"] == off and r["set"] == of and (of, r["start"]) in nothing]
+        if len(some) < sum(1 for key in nothing if key[0] == of):
+            return None  # not run, or not to its end
+        jammed = sum(r["jammed"] for r in some)
+        rest = f", {jammed} of {len(some)} jammed" if jammed < len(some) else ""
+        if off == "none":
+            middle = statistics.median(r["factorisations"] for r in some)
+            return f"{middle:.0f}, {statistics.median(r['seconds'] for r in some):.2g} s{rest}"
+        pairs = [(r, nothing[of, r["start"]]) for r in some]
+        mean = [
+            statistics.geometric_mean(max(a[key], least) / max(b[key], least) for a, b in pairs)
+            for key, least in (("factorisations", 1), ("seconds", 1e-3))
+        ]
+        return f"{mean[0]:.2f}, {mean[1]:.2f}{rest}"
+
+    rows = [["nothing" if off == "none" else off] + [cell(off, of) for of in sets] for off in dict.fromkeys(r["off"] for r in runs)]
+    return ["off"] + sets, rows
+
+
+def read(path):
+    text = Path(path).read_text(encoding="utf-8")
+    return [json.loads(line) for line in text.splitlines()] if path.endswith(".jsonl") else json.loads(text)
+
+
 def main():
-    name, raws = sys.argv[1], [json.loads(Path(path).read_text(encoding="utf-8")) for path in sys.argv[2:]]
-    made = {f.__name__: f for f in (crunch, size, clp, resume, disks, proofs, strict, md, monte_carlo, near_jamming, soft, advise, analysis, factorisation)}[name]
+    name, raws = sys.argv[1], [read(path) for path in sys.argv[2:]]
+    made = {f.__name__: f for f in (crunch, size, clp, resume, disks, proofs, strict, md, monte_carlo, near_jamming, soft, advise, analysis, factorisation, ablation)}[name]
     columns, rows = made(*raws)
     old = raws[0] if isinstance(raws[0], dict) and "commit" in raws[0] else None  # a result that was kept with its source
     source = old and {key: old[key] for key in ("machine", "commit", "date")}

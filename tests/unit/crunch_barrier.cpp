@@ -36,7 +36,7 @@ void make_scene(Scene &w, int dim, double ratio, double length, int64_t seed, bo
   w.b.unit = diameter_mean(w.p), w.b.mu = 1e-3;
   if (free) w.b.strain = strain_basis(dim, true, true);
   w.b.pairs = find_pairs(w.p, 0.5 * w.b.unit, 1.0);
-  assert_true(w.b.measure(w.p));
+  assert_true(w.b.linearise(w.p));
   std::mt19937_64 random(static_cast<uint64_t>(seed));
   std::uniform_real_distribution<double> one(-1.0, 1.0);
   const size_t rows = w.b.pairs.size();
@@ -116,7 +116,7 @@ void walls_stop(void **) {
   w.p.set_cube(2, 1.0), w.p.position = {0.4, 0.5, 0.55, 0.5}, w.p.diameter = {0.1, 0.1}, w.p.velocity.assign(4, 0.0);
   w.b.unit = 0.1, w.b.mu = 1e-9;
   w.b.pairs = find_pairs(w.p, 0.1, 1.0);
-  assert_true(w.b.measure(w.p) && w.b.pairs.size() == 1);
+  assert_true(w.b.linearise(w.p) && w.b.pairs.size() == 1);
   w.x.s = {1.0, 0.0, 0.0, 0.0}, w.x.w.resize(1), w.x.y = {0.0};
   rows_times(w.b.lp, w.x.s.data(), w.x.w.data());
   w.x.g = 0.1, w.x.w[0] -= w.x.g;

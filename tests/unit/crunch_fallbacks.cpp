@@ -167,7 +167,7 @@ void gaps_larger_than_asked_for(void **) {
   jam_crunch_options o = default_crunch_options();
   o.duality_gap = 1e-6;
   CrunchHooks hooks;
-  hooks.tuning.lp_over_path = 0.01;
+  hooks.tuning.lp_to_path_gap = 0.01;
   const jam_crunch_report r = goes_on(p, o, hooks, "larger than asked for");
   assert_int_equal(r.stop_reason, JAM_STOP_DUALITY_GAP);
   assert_true(r.duality_gap > 0.0 && r.duality_gap <= o.duality_gap);

@@ -68,9 +68,9 @@ ContactNetwork make_contacts(const Packing &p, const PairList &pairs, const LpSo
   return out;
 }
 
-bool hyperstatic(const std::vector<double> &y, double isostatic, double rows) {
-  const auto strong = std::count_if(y.begin(), y.end(), [&](double v) { return v * isostatic > 0.1; });
-  return static_cast<double>(strong) > rows * isostatic;
+bool hyperstatic(const std::vector<double> &y, double isostatic, const Tuning &t) {
+  const auto strong = std::count_if(y.begin(), y.end(), [&](double v) { return v * isostatic > t.crystal_force; });
+  return static_cast<double>(strong) > t.crystal_rows * isostatic;
 }
 
 }  // namespace jam

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/packing.hpp"
+#include "crunch/tuning.hpp"
 #include "lp/packing_lp.hpp"
 #include "network/contact_network.hpp"
 
@@ -23,8 +24,8 @@ double largest_step(const LpSolution &answer, const ActiveSet &active, int dim);
 // The active rows as contacts of p: unit vectors, gaps, forces from the multipliers.
 ContactNetwork make_contacts(const Packing &p, const PairList &pairs, const LpSolution &answer,
                              const ActiveSet &active);
-// True when more than `rows` times d n rows carry a tenth of the mean force: more than one state of self-stress has, a
-// crystal in the making, whose path meets one saddle after the other. y: multipliers, sum 1; isostatic: d n.
-bool hyperstatic(const std::vector<double> &y, double isostatic, double rows);
+// True when more rows carry force than one state of self-stress has: a crystal in the making, whose path meets one
+// saddle after the other. y: multipliers, sum 1; isostatic: d n.
+bool hyperstatic(const std::vector<double> &y, double isostatic, const Tuning &tuning);
 
 }  // namespace jam

@@ -12,11 +12,11 @@
 namespace jam {
 namespace {
 
-// What an answer must fulfil to be used. One that ended early leans on bounds that it has not reached: any feasible
-// point is a safe step, if it gains no less than staying does.
+// What an answer must fulfil to be used. An LP that ended early has no balanced duals yet. Its point is still feasible,
+// so the step is safe if it gains no less than staying does.
 bool acceptable(const CrunchState &s, const LpSolution &x, bool early, LpCheck &check) {
   check = check_lp(s.last.lp, x);
-  const double balance = early ? std::numeric_limits<double>::infinity() : 1e-3;  // polish balances forces to rounding
+  const double balance = early ? std::numeric_limits<double>::infinity() : s.tuning.lp_balance;
   constexpr double rounding = 1e-9;
   return x.solved && check.infeasibility < rounding && check.gamma < 1e-6 && check.balance < balance && x.g > -rounding;
 }
@@ -34,7 +34,8 @@ Answer try_solver(CrunchState &s, jam_lp_solver solver, const IpmControl &contro
     s.out.report.gamma_residual = check.gamma;
     s.out.report.duality_gap = std::fabs(check.gap);
     ++s.out.report.lp_solves;
-    s.last.early = control.early_fraction > 0.0 && std::fabs(check.gap) > 0.1 * s.next.gain_tolerance;
+    s.last.early =
+        control.early_fraction > 0.0 && std::fabs(check.gap) > s.tuning.early_to_tolerance * s.next.gain_tolerance;
     return Answer::kept;
   }
   if (s.monitor.interrupted()) return Answer::interrupted;
@@ -80,7 +81,7 @@ bool path_is_shorter(const CrunchState &s, double gain, double step) {
   const Tuning &t = s.tuning;
   if (s.o.method != JAM_CRUNCH_BARRIER_PATH || s.history.stage.path_taken) return false;
   const double isostatic = s.last.lp.dim * static_cast<double>(s.last.lp.n);
-  if (gain < t.crystal_gap && hyperstatic(s.last.answer.y, isostatic, t.crystal_rows)) return false;
+  if (gain < t.crystal_gap && hyperstatic(s.last.answer.y, isostatic, t)) return false;
   return step > t.long_step || step * step > std::max(t.curvature_ratio * gain, t.min_opening);
 }
 
@@ -96,7 +97,7 @@ Phase next_phase(CrunchState &s, double gain, double step, double alpha) {
   if (limit) return stop(s, JAM_STOP_LP_LIMIT, JAM_LIMIT), Phase::identify;
   if (stop_if_interrupted(s)) return Phase::identify;
   if (s.o.step_bound == 0.0) {
-    const double most = alpha < 1.0 ? 0.7 * s.next.bound : s.tuning.max_bound;
+    const double most = alpha < 1.0 ? s.tuning.shrink * s.next.bound : s.tuning.max_bound;
     s.next.bound = std::min(std::max({s.tuning.bound_per_step * step, gain, s.tuning.min_bound}), most);
   }
   return path_is_shorter(s, gain, step) ? Phase::barrier_path : Phase::approach;

@@ -126,7 +126,7 @@ LpStep make_step(CrunchState &s, double reach) {
   s.last.active =
       find_active_set(s.last.lp, s.last.answer, std::max(2.0 * clp_tolerance * s.next.bound, s.tuning.closed_gap));
   s.last.at_bound = std::count_if(s.last.answer.s.begin(), s.last.answer.s.end(),
-                                  [&](double x) { return std::fabs(x) > 0.999 * s.last.lp.bound; });
+                                  [&](double x) { return std::fabs(x) > at_bound * s.last.lp.bound; });
   if (s.history.details()) s.history.take_network(s.out.packing, s.last.lp, s.last.answer);
   const double alpha = take_step(s.out.packing, s.last.pairs, reach, s.last.answer, unit, s.next.strain);
   const double gain = gain_of(s.last.answer), step = largest_step(s.last.answer, s.last.active, s.last.lp.dim);

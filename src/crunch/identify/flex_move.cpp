@@ -62,7 +62,7 @@ bool deform_into(Packing &q, const Packing &p, const std::vector<double> &v, con
 FlexMove move_along_flex(CrunchState &s, const PackingVerdict &verdict) {
   // An attempt is made once narrow LPs have left it open.
   const RigidityResult &r = verdict.result;
-  if ((r.flex.empty() && (r.attempt.empty() || !s.found.narrow)) || s.found.flex_moves >= s.tuning.max_kicks)
+  if ((r.flex.empty() && (r.attempt.empty() || !s.found.narrow)) || s.found.flex_moves >= s.tuning.max_flex_moves)
     return FlexMove::none;
   ++s.found.flex_moves;
   Packing &p = s.out.packing;
@@ -70,7 +70,7 @@ FlexMove move_along_flex(CrunchState &s, const PackingVerdict &verdict) {
   const double unit = diameter_mean(p);
   const std::vector<double> v = direction_of(s, verdict);
   int32_t fixed = verdict.sphere.front();
-  double longest = 0.0, bound = s.tuning.kick;
+  double longest = 0.0, bound = s.tuning.longest_flex_move;
   // Rows hold to a tolerance times the bound: where pairs block early, it narrows.
   for (bool again = true; again;) {
     PairList pairs = find_pairs(p, 2.0 * std::sqrt(static_cast<double>(d)) * bound * unit, 1.0);
@@ -82,7 +82,7 @@ FlexMove move_along_flex(CrunchState &s, const PackingVerdict &verdict) {
     longest = 0.0;
     for (const int32_t i : verdict.sphere)
       for (size_t c = 0; c < d; ++c) longest = std::max(longest, std::fabs(x.s[i * d + c]));
-    again = longest < 0.01 * bound && longest > s.tuning.closed_gap;
+    again = longest < s.tuning.narrower * bound && longest > s.tuning.closed_gap;
     bound = 10.0 * longest;
     if (!again && longest > s.tuning.closed_gap) take_step(p, pairs, 0.0, x, unit);
   }
@@ -98,7 +98,7 @@ FlexMove move_along_flex(CrunchState &s, const PackingVerdict &verdict) {
 // |r + t (eps r + v)|^2 = r^2 + 2 t r . (eps r + v) + t^2 |eps r + v|^2: contacts open, so only near pairs can block.
 bool move_along_strained_flex(CrunchState &s, const PackingVerdict &strict) {
   const RigidityResult &r = strict.result;
-  if (r.flex.empty() || r.strain.empty() || s.found.flex_moves >= s.tuning.max_kicks) return false;
+  if (r.flex.empty() || r.strain.empty() || s.found.flex_moves >= s.tuning.max_flex_moves) return false;
   ++s.found.flex_moves;
   Packing &p = s.out.packing;
   const size_t d = static_cast<size_t>(p.dim);
@@ -109,7 +109,7 @@ bool move_along_strained_flex(CrunchState &s, const PackingVerdict &strict) {
   const double unit = diameter_mean(p);
   for (double x : v) largest = std::max(largest, std::fabs(x));
   for (double x : eps) largest = std::max(largest, unit * std::fabs(x));
-  for (double t = s.tuning.kick * unit / largest; t * largest > 1e-6 * unit; t *= 0.5) {
+  for (double t = s.tuning.longest_flex_move * unit / largest; t * largest > 1e-6 * unit; t *= 0.5) {
     Packing q;
     if (!deform_into(q, p, v, eps, t) || closest_pair(q).gap < -1e-13) continue;
     s.monitor.log(JAM_LOG_INFO, "saddle of the free cell at phi %.12f with %lld flexes: moves %.1e diameters",

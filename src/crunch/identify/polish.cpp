@@ -85,7 +85,7 @@ class Polish {
   // state of self-stress the system is square and the step is Newton's; with more contacts it is least squares.
   void close_once(Packing &p, ContactNetwork &net) {
     const std::vector<double> a = relative_rows(p, net);
-    GapRows rows(net, p.dim, a, t_.ground, system_);
+    GapRows rows(net, p.dim, a, unit_ground, system_);
     if (!rows.factorise()) return;
     std::vector<double> wanted(net.gap), got;
     for (double &h : wanted) h = -h;
@@ -117,7 +117,7 @@ class Polish {
 
   // The nearest forces that balance on every sphere, in units of their mean.
   void balance_forces(const Packing &p, ContactNetwork &net) {
-    GapRows rows(net, p.dim, net.vector, t_.ground, system_);
+    GapRows rows(net, p.dim, net.vector, unit_ground, system_);
     if (!rows.factorise()) return;
     rows.balance(net.force);
     scale_to_mean(net);

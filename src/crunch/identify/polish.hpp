@@ -11,9 +11,9 @@ namespace jam {
 
 enum class PolishEnd { done, no_contacts, interrupted, open_contact, too_few, negative_force, overlap };
 
-// Changes p and contacts only when it returns done: all contacts closed to rounding, no overlap, and forces that push
-// where they are unique (one state of self-stress). A contact too many that does not close with the others is dropped.
-// Where contacts do not close, balance or push all the same, narrow LPs look for the exact vertex (exact_vertex.cpp).
+// Changes p and contacts only when it returns done: all contacts closed to rounding, no overlap, and for a single
+// self-stress all forces positive. A contact too many that does not close with the others is dropped. Where contacts
+// still do not close, balance or push, narrow LPs find the vertex (narrow_lps.cpp).
 // The graph of `system` is replaced.
 PolishEnd polish(Packing &p, ContactNetwork &contacts, NewtonSystem &system, int threads, const Tuning &tuning,
                  Monitor *monitor = nullptr);

@@ -34,19 +34,19 @@ class BarrierPath {
     BarrierPathResult out;
     const int before = system_.factorisations;
     open();
-    while (measure()) {
+    while (linearise()) {
       out.gap = gap_;
       out.factorisations = system_.factorisations - before;
       out.increases = schedule_.increases();
       if (control_.on_step) control_.on_step(gap_, b_.pairs.size(), {b_.mu, first_mu_});
       monitor_.log(JAM_LOG_DEBUG,
-                   "path %3d gap %.2e decrement %.1e balance %.1e phi %.12f pairs %zu near %zu correctors %d steps "
+                   "path %3d gap %.2e decrement %.1e balance %.1e phi %.12f pairs %zu coupled %zu correctors %d steps "
                    "%.2f %.2f moved %.1e",
                    out.factorisations, gap_, decrement_, balance_, packing_fraction(p_), b_.pairs.size(),
-                   matrix_.near(), correctors_, alpha_p_, alpha_d_, last_step_);
-      out.reached = balance_ < 1e-2 && gap_ <= end_;
-      const bool crystal = out.increases > 0 && gap_ < t_.crystal_gap &&
-                           hyperstatic(b_.y, static_cast<double>(p_.position.size()), t_.crystal_rows);
+                   matrix_.coupled(), correctors_, alpha_p_, alpha_d_, last_step_);
+      out.reached = balance_ < t_.path_balance && gap_ <= end_;
+      const bool crystal =
+          out.increases > 0 && gap_ < t_.crystal_gap && hyperstatic(b_.y, static_cast<double>(p_.position.size()), t_);
       if (out.reached || crystal || out.factorisations >= t_.max_path_factorisations || monitor_.interrupted() ||
           report() || !newton())
         break;
@@ -70,7 +70,7 @@ class BarrierPath {
     for (size_t k = 0; k < b_.y.size(); ++k) b_.y[k] = b_.mu / b_.lp.c[k];
   }
 
-  // Slacks must be strictly positive: open the closest pair by a tenth of the median gap of the d n nearest pairs at
+  // Slacks must be strictly positive: open the closest pair by a share of the median gap of the d n nearest pairs at
   // least.
   void open_gaps() {
     std::vector<double> gaps = make_lp(p_, find_pairs(p_, reach_, 1.0), b_.unit).c;
@@ -78,7 +78,7 @@ class BarrierPath {
       const size_t half = std::min(gaps.size() - 1, static_cast<size_t>(p_.dim) * p_.n() / 2);
       std::nth_element(gaps.begin(), gaps.begin() + half, gaps.end());
       const double smallest = *std::min_element(gaps.begin(), gaps.end());
-      const double opening = std::max(0.1 * std::max(gaps[half], 1e-12), control_.opening);
+      const double opening = std::max(t_.opening_per_gap * std::max(gaps[half], 1e-12), control_.opening);
       if (smallest < opening)
         for (double &s : p_.diameter) s *= std::sqrt((1.0 + smallest) / (1.0 + opening));
     }
@@ -88,7 +88,7 @@ class BarrierPath {
   void list_again() {
     const Multipliers old{std::move(b_.pairs), std::move(b_.y)};
     b_.unit = diameter_mean(p_);
-    reach_ = std::max(t_.least_reach * b_.unit, std::min(reach_, 6.0 * recent_));
+    reach_ = std::max(t_.least_reach * b_.unit, std::min(reach_, t_.reach_per_move * recent_));
     list_pairs();
     b_.y = carry_over(old.pairs, old.y, b_.pairs);
     for (size_t k = 0; k < b_.y.size(); ++k)
@@ -97,7 +97,7 @@ class BarrierPath {
 
   void list_pairs() {
     b_.pairs = select_neighbours(p_, reach_, 1.0, t_);
-    b_.measure(p_);
+    b_.linearise(p_);
     const size_t rows = b_.pairs.size(), unknowns = b_.lp.unknowns();
     travelled_ = grown_ = 0.0;
     matrix_.reset(rows, unknowns);
@@ -107,8 +107,8 @@ class BarrierPath {
   }
 
   // Rows and residuals at the true distances. False when a gap is no longer positive: the caller stops.
-  bool measure() {
-    if (!b_.measure(p_)) return false;
+  bool linearise() {
+    if (!b_.linearise(p_)) return false;
     double sum = 0.0, scale = 0.0, worst = 0.0;
     for (size_t k = 0; k < b_.y.size(); ++k) {
       const double c = b_.lp.c[k], *a = &b_.lp.a[k * p_.dim];
@@ -157,11 +157,11 @@ class BarrierPath {
   // The direction at this mu, or where that is centred at the next. False when not found.
   bool aim() {
     const double rows = static_cast<double>(b_.y.size());
-    for (bool colder = false;; colder = true) {
+    for (bool at_next_mu = false;; at_next_mu = true) {
       for (size_t k = 0; k < b_.y.size(); ++k) target_[k] = b_.mu - b_.y[k] * b_.lp.c[k];
       if (!solve(main_)) return false;
       decrement_ = b_.decrement(main_);
-      if (colder || !schedule_.centred(decrement_, rows)) break;
+      if (at_next_mu || !schedule_.centred(decrement_, rows)) break;
       b_.mu *= t_.reduction;
     }
     return std::isfinite(b_.longest_move(main_)) && std::isfinite(main_.g);
@@ -179,10 +179,9 @@ class BarrierPath {
   // Returns the length of the best step.
   double correct() {
     BarrierProblem::Best best = b_.search(main_);
-    const double band = t_.corrector_band;
+    const double band = CorrectorTuning::band, ahead = CorrectorTuning::ahead;
     for (correctors_ = 0; correctors_ < t_.max_correctors && best.alpha < t_.whole_step; ++correctors_) {
-      const double aim = std::min(1.0, best.alpha + t_.corrector_ahead),
-                   aim_dual = std::min(1.0, b_.longest_dual(main_) + t_.corrector_ahead);
+      const double aim = std::min(1.0, best.alpha + ahead), aim_dual = std::min(1.0, b_.longest_dual(main_) + ahead);
       for (size_t k = 0; k < b_.y.size(); ++k) {
         const double product = b_.gap_after(main_, k, aim) * (b_.y[k] + aim_dual * main_.y[k]);
         const double inside = std::min(std::max(product, b_.mu / band), band * b_.mu);
@@ -203,7 +202,7 @@ class BarrierPath {
   void move(double alpha) {
     const double length = b_.longest_move(main_) * b_.unit, widest = contact_distance_max(p_),
                  growth = std::max(0.0, 0.5 * main_.g) * widest + b_.strain_norm(main_) * (reach_ + widest);
-    alpha_p_ = std::min(alpha, 0.9 * (reach_ - 2.0 * travelled_ - grown_) / (2.0 * length + growth));
+    alpha_p_ = std::min(alpha, t_.share_of_reach * (reach_ - 2.0 * travelled_ - grown_) / (2.0 * length + growth));
     if (b_.lp.strains > 0) alpha_p_ *= strain_part(p_.dim, b_.strain_of(main_, alpha_p_));
     alpha_d_ = b_.longest_dual(main_);
     for (size_t k = 0; k < b_.y.size(); ++k) b_.y[k] += alpha_d_ * main_.y[k];
@@ -215,7 +214,7 @@ class BarrierPath {
     grown_ += alpha_p_ * growth;
     recent_ = std::max(step, 0.5 * recent_);
     if (2.0 * (travelled_ + 2.0 * step) + grown_ + 2.0 * alpha_p_ * growth > reach_) {
-      if (measure()) list_again();
+      if (linearise()) list_again();
     }
   }
 

@@ -13,7 +13,8 @@ namespace {
 
 // Pairs of stable spheres whose force on the path and gap are of one size, each in its own unit.
 int64_t count_undecided(const CrunchState &s, const std::vector<double> &path, const std::vector<int32_t> &z) {
-  const double carrying = static_cast<double>(s.last.lp.spheres()), most = s.tuning.doubt * s.tuning.doubt;
+  const double carrying = static_cast<double>(s.last.lp.spheres()),
+               most = s.tuning.ambiguity_ratio * s.tuning.ambiguity_ratio;
   int64_t count = 0;
   for (size_t k = 0; k < s.last.lp.rows(); ++k) {
     const double force = path[k] * carrying, gap = s.last.lp.c[k];
@@ -27,7 +28,7 @@ bool name_contacts(CrunchState &s, const std::vector<double> &path, ContactNetwo
   IpmControl control;
   double gap = 0.0;
   for (size_t k = 0; k < path.size(); ++k) gap += path[k] * s.last.lp.c[k];
-  control.tolerance = s.tuning.part_of_gap * gap;
+  control.tolerance = s.tuning.lp_gap_fraction * gap;
   control.threads = s.o.threads;
   control.doubles_from = s.tuning.doubles_from;
   control.multipliers = &path;
@@ -46,7 +47,7 @@ bool balance(CrunchState &s, ContactNetwork &net) {
   s.system.set_graph(p.dim, static_cast<int32_t>(p.n()), net.pairs, s.o.threads);
   std::vector<double> weight(net.force);
   for (double &w : weight) w *= w;
-  GapRows rows(net, p.dim, net.vector, s.tuning.weighted_ground, s.system);
+  GapRows rows(net, p.dim, net.vector, weighted_ground, s.system);
   rows.weigh(weight);
   if (!rows.factorise()) return false;
   rows.balance(net.force);

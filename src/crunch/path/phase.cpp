@@ -30,9 +30,10 @@ Phase follow_path(CrunchState &s) {
   control.tuning = s.tuning;
   // Opens the gaps that the LP's own gain and the curvature of its step would close.
   control.opening =
-      std::max({0.5 * s.out.report.gain, 0.1 * s.out.report.max_step * s.out.report.max_step, s.tuning.min_opening});
+      std::max({0.5 * s.out.report.gain, s.tuning.opening_per_step2 * s.out.report.max_step * s.out.report.max_step,
+                s.tuning.min_opening});
   control.strain = s.next.strain;
-  control.least_gap = frees_cell(s) ? s.tuning.free_gap : s.o.duality_gap / s.tuning.lp_over_path;
+  control.least_gap = frees_cell(s) ? s.tuning.free_gap : s.o.duality_gap / s.tuning.lp_to_path_gap;
   if (s.next.strain.count() > 0) control.opening = s.tuning.free_opening;
   control.threads = s.o.threads;
   control.lps = s.out.report.lp_solves;

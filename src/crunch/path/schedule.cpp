@@ -9,7 +9,7 @@ namespace jam {
 // short on any way. At a larger mu the same way is fewer steps.
 double BarrierSchedule::next_factor(const Step &last) {
   if (steps_ == 0) short_steps_ = 0, least_ = mark_ = std::numeric_limits<double>::infinity();
-  const bool falls = last.decrement < 0.9 * least_;
+  const bool falls = last.decrement < t_.falls * least_;
   if (steps_ > 0) {
     least_ = std::min(least_, last.decrement);
     if (last.decrement < t_.progress * mark_) short_steps_ = 0, mark_ = last.decrement;
@@ -18,9 +18,10 @@ double BarrierSchedule::next_factor(const Step &last) {
   ++steps_;
   if (steps_ <= t_.max_steps_at_mu && short_steps_ < t_.max_short_steps) return 1.0;
   steps_ = 0;
-  if (last.decrement < t_.nearly_centred * t_.centred * last.rows) return t_.reduction;  // a few spheres hold it up
+  if (last.decrement < t_.nearly_centred * t_.centred * last.rows)
+    return t_.reduction;  // only a few spheres are not yet centred
   // Its part in Gamma is (1 - mu rows) log Gamma: at a large mu the function grows without bound as all spheres shrink.
-  if (last.room < t_.increase) return t_.reduction;
+  if (last.mu_ratio < t_.increase) return t_.reduction;
   ++increases_;
   return t_.increase;
 }

@@ -13,7 +13,7 @@ class BarrierSchedule {
     double decrement;  // squared Newton decrement over mu at its start
     double rows;       // terms of the barrier
     double part;       // of the whole Newton step that was taken
-    double room;       // the first mu over the present one
+    double mu_ratio;   // the first mu over the present one
   };
   explicit BarrierSchedule(const Tuning &tuning) : t_(tuning) {}
   // Factor of mu before the next Newton step: 1; above 1 at a saddle; tuning.reduction where the rest is centred, and

@@ -1,0 +1,66 @@
+// Every number that steers the interior points and the simplex method. Lengths are in mean diameters; mu and duality
+// gaps are in units of Gamma.
+#pragma once
+#include <cstddef>
+
+namespace jam {
+
+// ---- which rows stand in the matrix
+struct WorkingSetTuning {
+  // About d n rows carry force at the end. Rows slacker than far_slack times the slack of the row of this rank are
+  // screened: what they couple is weak by the square of that, and every step is searched on all rows anyway.
+  static constexpr double carrying_rows = 1.05, far_slack = 2.0;
+  static constexpr double per_bound = 0.1;   // in an LP also those that a step may well close: slack over its bound
+  static constexpr double nearly_all = 0.9;  // where the working set is this share of all rows, it is all
+  static constexpr size_t rows_per_dim = 4;  // a sphere with at most d rows gets so many times d of its tightest
+  // The step may take this share of a screened row's slack. Rows that lost much of the threshold join, and with one of
+  // them all that lost half.
+  static constexpr double of_screened = 0.9, joins = 0.3, joins_too = 0.5;
+  static constexpr double blocks = 0.5;  // a screened row that leaves less of the step joins
+  // On the path the set is chosen anew when a screened row has less than this share of the limit, or when fewer rows
+  // than the second share are wanted.
+  static constexpr double close_screened = 0.5, still_wanted = 0.8;
+};
+
+// ---- the interior point of an LP
+struct InteriorPointTuning {
+  // First slack of the tightest row: shares of the median slack and of the bound; warm, the gain that the multipliers
+  // leave times `ahead`. Nearer to the end rounding of the rows upsets the force balance.
+  static constexpr double first_slack = 0.1, slack_per_bound = 0.01, ahead = 3.0, least_slack = 1e-12;
+  static constexpr double multiplier_band =
+      10.0;  // wider, weak contacts cut first steps short; narrower, forces are lost
+  // Converged: dual residual before the tolerance is reached, and at it (what rounding of the normal equations leaves;
+  // the polish takes the rest); |sum y - 1|.
+  static constexpr double rough_balance = 1e-3, balance = 1e-5, unit_sum = 1e-9;
+  // Steps that better neither gap nor balance by a tenth end it; solved is what comes near the tolerances.
+  static constexpr double progress = 0.9, near_gap = 1e3, near_balance = 1e2;
+  static constexpr int max_stalled = 8, max_stalled_warm = 3;
+  static constexpr int max_iterations = 80, max_correctors = 3;
+  static constexpr double max_cut = 0.05, least_cut = 1e-6, cut_per_gap = 0.1;  // of the step to the boundary
+  static constexpr double least_ratio = 1e-8, of_tolerance = 0.1;               // targets of mu
+  static constexpr double ridge = 1e-12;                                        // over the mean weight
+  static constexpr double whole_step = 0.9, least_win = 0.03;                   // longer steps need no corrector
+};
+
+// ---- correctors of LPs and of the path: products y c are pulled into this band around mu, for a step so much longer
+struct CorrectorTuning {
+  static constexpr double band = 10.0, ahead = 0.3;
+};
+
+// ---- the barrier problem: search along a direction, up to this share of the way to the boundary
+struct LineSearchTuning {
+  static constexpr double longest = 4.0, of_feasible = 0.995;
+  static constexpr int golden_sections = 14;
+  static constexpr double golden = 0.6180339887498949;
+  static constexpr double nearly_whole = 0.1;  // a best step so near to the Newton step is the Newton step
+};
+
+// ---- displacements above this share of the bound are at it
+constexpr double at_bound = 0.999;
+
+// ---- Clp. tolerance: of rows, over the bound; of multipliers, over their mean. More pivots a row than any packing
+// needed: degenerate LPs can go round. Far below the largest number tolerances mean nothing.
+constexpr double clp_tolerance = 1e-9, clp_largest = 1e30;
+constexpr int clp_pivots_a_row = 10;
+
+}  // namespace jam

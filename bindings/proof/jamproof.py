@@ -8,7 +8,7 @@ Integers of Python decide, nothing else. Forces and inverse are hints: bad ones 
 file without inverse gets one from numpy, or from floats here; OUT is then the file with this inverse. Where contacts are
 more than unknowns, as in crystals, it is shown that the stable spheres are trapped: no motion without overlap takes one
 farther than `inner`, and no packing as dense lies between `inner` and `outer`. Exit status: 0 proved, 1 not proved, 2 the
-file cannot be read, 3 trapped but not proved. The guide's page "Proofs" holds the theorems.
+file cannot be read, 3 trapped but not proved. The guide's page "The theorems behind proofs" has them.
 
     F_c(x, G) = |x_i - x_j + n A|^2 - G sigma_c^2 = 0 for every contact c = (i, j, n);  J = F'
 
@@ -420,12 +420,16 @@ def trapped(s):
     if min(stress) <= 0:
         raise Refused("force: not all are positive")
     largest = max(Fraction(max(map(abs, column)), m) for column, m in zip(inverse, stress)) * fraction(1, e - low)
-    left = 1 - delta - largest * fraction(sum(map(abs, unbalanced(s, every, stress))), s.k + low)
-    constant = largest * sum(fraction(*v) * m for v, m in zip(opening, stress)) * fraction(1, low) + eta
+    rest = fraction(sum(map(abs, unbalanced(s, every, stress))), s.k + low)
+    opened = sum(fraction(*v) * m for v, m in zip(opening, stress)) * fraction(1, low)
+    left, constant = 1 - delta - largest * rest, largest * opened + eta
     square = 4 * s.dim * (largest * fraction(sum(stress), low) + alpha)
     if left <= 0 or 4 * constant * square >= left**2:
         raise Refused(f"singular: left {float(left):.3g}, 4 a0 a2 {float(4 * constant * square):.3g}")
-    found = {"inner": 2 * constant / left * s.unit, "outer": left / (2 * square) * s.unit}
+    inner, gamma = 2 * constant / left, fraction(s.g, s.ge)  # of the densest packing within inner, above gamma:
+    above = opened + rest * inner + 4 * s.dim * fraction(sum(stress), low) * inner**2
+    weight = sum(fraction(*s.sigma2(*c[:2])) * m for c, m in zip(s.contacts, stress)) * fraction(1, low)
+    found = {"inner": inner * s.unit, "outer": left / (2 * square) * s.unit, "gamma_error": above / weight / gamma}
     found.update(least_gap=max(0.0, float(least) ** 0.5 - 1.0), delta=delta)
     return {name: float(value) for name, value in found.items()}
 

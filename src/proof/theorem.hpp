@@ -1,5 +1,5 @@
 // What is proved of a packing: that an exactly jammed one lies within a radius of it (existence), or that no motion
-// without overlap leads away from it (trapping). Constants and proofs: bindings/docs/proof.md.
+// without overlap leads away from it (trapping). Constants and proofs: bindings/docs/proof_theory.md.
 //
 //   scene -> Newton -> F, R, f -> [smallest singular value] -> existence -> open gaps
 //                                                           -> trapping

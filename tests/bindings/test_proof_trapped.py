@@ -33,6 +33,19 @@ def trapped(text, program=jamproof):
             return str(why).split(":")[0]
 
 
+def density(text):
+    """Gamma at which no pair of the file overlaps, and what the checker finds."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "a.jamproof"
+        path.write_text(text, encoding="ascii")
+        scene = jamproof.Scene(path)
+    try:
+        found = jamproof.trapped(scene)
+    except jamproof.Refused as why:
+        found = str(why)
+    return jamproof.fraction(scene.g, scene.ge), found
+
+
 def moved(text, by, generator):
     f = File(text)
     f.shift(generator.choice([s for s in f.spheres if s[1] == "1"]), 3, by)
@@ -69,10 +82,14 @@ class Trapped(unittest.TestCase):
         """The denser packing that was moved away from lies within inner, or nothing is claimed."""
         generator = random.Random(1)
         for text in self.texts:
+            gamma, found = density(text)
+            self.assertLess(found["gamma_error"], 1e-28)
             for power in (30, 20, 15, 12, 9, 6, 3):
-                found = trapped(moved(text, Fraction(1, 10**power), generator))
+                lower, found = density(moved(text, Fraction(1, 10**power), generator))
                 if isinstance(found, dict):
                     self.assertGreater(found["inner"], 0.4 * 10.0**-power)
+                    self.assertLess(lower, gamma * (1 + Fraction(1, 10**28)))
+                    self.assertLess(gamma, lower * (1 + Fraction(found["gamma_error"]) * (1 + Fraction(1, 10**9))))
 
     def test_what_is_not_trapped_is_refused(self):
         generator = random.Random(2)

@@ -1,17 +1,36 @@
 #!/usr/bin/python3
 """Verdicts on equal disks, grown at G = 1e-2 to p = 500, then at 3e-3 to 1e7. Each jammed one is checked again from
-positions, contacts and forces, and by HiGHS (`verdict` of failure_map.py). JSON to stdout; exit status 1 if one is wrong.
+positions, contacts and forces. jamproof.py proves or traps it in integers, and up to 300 disks HiGHS looks for a motion
+(`verdict` of failure_map.py). JSON to stdout; exit status 1 if one is wrong.
 
 usage: disks.py N SEEDS [FIRST_SEED]      with PYTHONPATH set to the built module
 """
 import collections
+import importlib.util
 import json
 import statistics
 import sys
+import tempfile
 import time
+from pathlib import Path
 
 import failure_map
 import jam
+
+MOST_FOR_HIGHS = 300  # it needs minutes for a thousand
+
+spec = importlib.util.spec_from_file_location("jamproof", Path(__file__).parents[2] / "bindings/proof/jamproof.py")
+jamproof = importlib.util.module_from_spec(spec)
+spec.loader.exec_module(jamproof)
+
+
+def proof(system):
+    """The first word of what jamproof.py says of the packing: proved, trapped, or not proved."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = folder + "/a.jamproof"
+        system.write_proof(path)
+        return jamproof.conclusion(jamproof.Scene(path))[1].split(":")[0]
+
 
 n, seeds = int(sys.argv[1]), int(sys.argv[2])
 first = int(sys.argv[3]) if len(sys.argv) > 3 else 1
@@ -22,12 +41,14 @@ for seed in range(first, first + seeds):
     began = time.process_time()
     report = s.crunch(wall_time=600)
     seconds = time.process_time() - began
-    kind, reason = failure_map.verdict(s, report)
+    kind, reason = failure_map.verdict(s, report, motion=n <= MOST_FOR_HIGHS)
     rows.append(
         {
             "seed": seed,
             "kind": kind,
             "reason": reason,
+            "proof": proof(s) if report.jammed else "",
+            "rigidity": s.rigidity("collective").jammed.name.lower(),
             "seconds": round(seconds, 3),
             "factorisations": report.factorisations,
             "lps": report.lp_solves,

@@ -25,6 +25,14 @@ def spread(values):
     return middle if low == high else f"{middle} ({low} to {high})"
 
 
+def ranges(numbers):
+    """1 to 50, 101 to 110"""
+    parts = []
+    for x in sorted(numbers):
+        parts = parts[:-1] + [(parts[-1][0], x)] if parts and parts[-1][1] == x - 1 else [*parts, (x, x)]
+    return ", ".join(f"{a} to {b}" if a < b else str(a) for a, b in parts)
+
+
 def whole(values):
     return f"{statistics.median(values):.0f} ({min(values)} to {max(values)})" if len(values) > 1 else values[0]
 
@@ -81,16 +89,20 @@ def resume(*raws):
 
 
 def disks(*raws):
-    """disks.py N 50"""
+    """disks.py N SEEDS FIRST_SEED"""
     rows = []
-    for raw in raws:
-        kinds = raw["kinds"]
-        jammed = sum(number for kind, number in kinds.items() if kind.startswith("jammed"))
+    for n in sorted({raw["n"] for raw in raws}):
+        runs = [run for raw in raws if raw["n"] == n for run in raw["rows"]]
+        jammed = [run for run in runs if run["kind"].startswith("jammed")]
+        highs = sum(run["reason"] != "not confirmed" for run in jammed) or None
+        seconds = [run["seconds"] for run in runs]
         rows.append(
-            [raw["n"], len(raw["rows"]), jammed, jammed - raw["not_confirmed"], kinds.get("wrong", 0)]
-            + [raw["median_factorisations"], raw["median_seconds"], max(r["seconds"] for r in raw["rows"])]
+            [n, ranges(run["seed"] for run in runs), len(jammed), sum(run["proof"] in ("proved", "trapped") for run in jammed), highs]
+            + [sum(run["kind"] == "wrong" for run in runs), sum(run["kind"] == "stopped" for run in runs)]
+            + [statistics.median(run["factorisations"] for run in runs), statistics.median(seconds), max(seconds)]
         )
-    return ["N", "seeds", "jammed", "confirmed by HiGHS", "wrong", "median of factorisations", "median (s)", "longest (s)"], rows
+    columns = ["N", "seeds", "jammed", "proved or trapped by jamproof.py", "confirmed by HiGHS", "wrong", "undecided"]
+    return columns + ["median of factorisations", "median (s)", "longest (s)"], rows
 
 
 def proofs(raw):

@@ -19,7 +19,7 @@ int main(void) {
     jam_destroy(sys);
     return 1;
   }
-  /* ask for the sizes, then fill */
+  /* get the sizes, then fill */
   jam_contacts(sys, NULL, 0, &pairs);
   jam_contact_vectors(sys, NULL, 0, &vectors);
   jam_forces(sys, NULL, 0, &contacts);

@@ -1,4 +1,4 @@
-/* Watching a long call and stopping it: the state reached stays valid, and the work can go on from there. */
+/* Watching a long call and stopping it: the state reached stays valid, and the work can continue from there. */
 #include <jam/jam.h>
 #include <stdio.h>
 

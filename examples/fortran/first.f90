@@ -26,7 +26,7 @@ program first
   call jam_check(jam_compress(sys, compress, md))
   print '(a, i0, a, f8.5)', 'collisions ', md%collisions, ', phi ', md%packing_fraction
 
-  call jam_check(jam_crunch(sys, report=report))  ! options left out: the defaults
+  call jam_check(jam_crunch(sys, report=report))  ! without options: the defaults
   print '(a, f10.7, 3(a, i0))', 'phi_J ', report%packing_fraction, ', contacts ', report%contacts, ', rattlers ', &
     report%rattlers, ', excess ', report%excess_contacts
   call jam_check(jam_view_positions(sys, view, length))  ! the library's own memory, good as long as sys

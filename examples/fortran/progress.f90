@@ -1,4 +1,4 @@
-! Watches a crunch by a callback, stops it after five reports, and goes on from the valid state that is left.
+! Watches a crunch by a callback, stops it after five reports, and continues from the valid state that was reached.
 module watching
   use jam
   implicit none

@@ -1,6 +1,6 @@
 # The linear programs of CALiPPSO.jl and ours, side by side from one file.  usage: calippso.jl START.dat [THEIRS.txt [L0]]
 #
-# START.dat: d, N and the diameter in the first three lines, then a line of coordinates a sphere (both programs read this).
+# START.dat: d, N and the diameter in the first three lines, then one line of coordinates per sphere (both programs read this).
 # THEIRS.txt: a line for each LP with sqrt(Gamma), the largest displacement and whether it was isostatic, which CALiPPSO
 # returns. It is made where CALiPPSO.jl (https://github.com/rdhr/CALiPPSO.jl) is installed:
 #

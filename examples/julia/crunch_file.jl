@@ -1,4 +1,4 @@
-# Brings somebody's packing from a file to its jamming point.  usage: crunch_file.jl IN OUT [PICTURE.svg]
+# Brings the packing of a file to its jamming point.  usage: crunch_file.jl IN OUT [PICTURE.svg]
 using Jam
 
 length(ARGS) in (2, 3) || error("usage: crunch_file.jl IN OUT [PICTURE.svg]")

@@ -19,5 +19,5 @@ cancel(s)  # from any thread; without a running call it stops the next one
 println("stopped by cancel: ", crunch!(s).status)
 
 r = crunch!(s; method = :sequential_lp, max_lps = 1)  # limits are no errors either
-println("stopped by a limit: ", r.status, " (", r.status_text, "), and going on from there is another call")
+println("stopped by a limit: ", r.status, " (", r.status_text, "), and another call continues from there")
 println("then: ", crunch!(s; progress = :log).status)  # a bar, with TerminalLoggers or in Pluto and VS Code

@@ -1,4 +1,4 @@
-"""Brings somebody's packing from a file to its jamming point.  usage: crunch_file.py IN OUT [PICTURE.png]"""
+"""Brings the packing of a file to its jamming point.  usage: crunch_file.py IN OUT [PICTURE.png]"""
 import sys
 
 import jam

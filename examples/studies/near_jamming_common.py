@@ -65,7 +65,7 @@ def make_packing(seed, n=1024, quenched=False):
 
 
 def md_runs(packing, folder, name, ratio, count):
-    """Runs at one density, from the file of an earlier call where it holds them. Those at 0.995 keep all at tau = 20."""
+    """Runs at one density, from the file of an earlier call if it contains them. Those at 0.995 keep all at tau = 20."""
     return nj.campaign(
         packing,
         os.path.join(folder, f"md_{name}_{ratio}.npz"),
@@ -84,7 +84,7 @@ def long_md_runs(packing, folder, name, ratio, count):
 
 
 def mc_runs(packing, folder, name, alpha, temperature, large, count):
-    """Runs at one energy and temperature, from the file of an earlier call where it holds them."""
+    """Runs at one energy and temperature, from the file of an earlier call if it contains them."""
     return nj.campaign(
         packing,
         os.path.join(folder, f"mc_{name}_{alpha}_{temperature}.npz"),

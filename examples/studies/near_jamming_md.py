@@ -5,7 +5,7 @@ usage: near_jamming_md.py FOLDER PICTURE.png [--large] [--quenched] [--runs RUNS
 Default: 100 runs at five densities. --large: 5000 runs at seven densities and 1000 to tau = 1000 at four, some 20 minutes
 of one core. Long runs end beyond the cage's edge: the MSD reaches its plateau.
 --quenched: the packing by sequential linear programs from random spheres, as published, not by growth.
-Runs are saved in FOLDER; a study that was stopped goes on. Small and large ones need folders of their own.
+Runs are saved in FOLDER; a study that was stopped continues. Small and large ones need folders of their own.
 Needs jam, numpy, scipy, matplotlib. Prints tables.
 
 Source: R. Diaz Hernandez Rojas, PhD thesis (Sapienza 2021), chapter 3. Expected: K falls by at most a decade while the MSD grows

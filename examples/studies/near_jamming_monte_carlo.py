@@ -3,7 +3,7 @@
 
 usage: near_jamming_monte_carlo.py FOLDER PICTURE.png [--large] [--mc-runs RUNS] [--seed SEED]
 Default: 40 runs of 120 sweeps for each pair. --large: 1000 runs of 250 sweeps, a quarter of an hour of one core.
-Runs are saved in FOLDER; a study that was stopped goes on. Needs jam, numpy, scipy, matplotlib. Prints a table.
+Runs are saved in FOLDER; a study that was stopped continues. Needs jam, numpy, scipy, matplotlib. Prints a table.
 
 Source: R. Diaz Hernandez Rojas, PhD thesis (Sapienza 2021), chapter 3: U = |2R - r|^alpha. Temperatures are ours but for
 T = 1e-4 at alpha = 2: the three of each alpha give the same typical overlaps T^(1/alpha). Expected: curves of K against

@@ -141,7 +141,7 @@ class System {
     return made;
   }
   std::string notes() const { return jam_notes(get()); }
-  // From a file of checkpoint(): dynamics go on to the same bits.
+  // From a file of checkpoint(): dynamics continue to the same bits.
   static System from_checkpoint(const std::string &path) {
     System made;
     made.adopt([&](jam_system **out) { return jam_read_checkpoint(path.c_str(), nullptr, nullptr, out); });

@@ -38,7 +38,7 @@ def whole(values):
 
 
 def crunch(raw):
-    """crunch_cases.py FILE"""
+    """crunch_cases.py [FILE]"""
     columns = ["start", "seeds", "factorisations", "crunch (s)", "with growth (s)", "phi_J", "isostatic", "largest force residual"]
     rows = []
     for case in raw["cases"]:
@@ -78,7 +78,7 @@ def clp(raw):
 
 
 def resume(*raws):
-    """crunch_resume.py FILE.json 500 5 [PRESSURE]"""
+    """crunch_resume.py FILE.json 500 3 [PRESSURE]"""
     rows = []
     for raw in raws:
         start = f"growth at G = 1e-2 to p = {raw['pressure']:g}" if raw["pressure"] else "random points at 0.3"

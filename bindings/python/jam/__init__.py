@@ -7,7 +7,7 @@
     packing.contacts.forces       # numpy
     jam.plot.packing(packing)     # matplotlib, loaded when it is used
 
-Arrays of shape (n, d) and indices from 0. Errors are subclasses of jam.JamError; jam.raw holds the C functions.
+Arrays of shape (n, d) and indices from 0. Errors are subclasses of jam.JamError; jam.raw has the C functions.
 """
 from __future__ import annotations
 

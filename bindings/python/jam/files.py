@@ -58,7 +58,7 @@ def _axes(d: int) -> list[str]:
 
 
 def write_csv(system: System, path: str | os.PathLike[str]) -> None:
-    """One line a sphere: coordinates, diameter and, after crunch, contacts."""
+    """One line per sphere: coordinates, diameter and, after crunch, contacts."""
     columns, names = [system.positions, system.diameters[:, None]], _axes(system.dim) + ["diameter"]
     if _kinds(system) is not None:
         columns, names = columns + [system.coordination[:, None]], names + ["contacts"]
@@ -67,12 +67,12 @@ def write_csv(system: System, path: str | os.PathLike[str]) -> None:
 
 
 def write_contacts_csv(system: System, path: str | os.PathLike[str]) -> None:
-    """One line a contact: i, j, unit vector, gap, force (mean 1)."""
+    """One line per contact: i, j, unit vector, gap, force (mean 1)."""
     system.write_contacts(path, "csv")
 
 
 def write_spectrum_csv(modes: Modes, path: str | os.PathLike[str]) -> None:
-    """One line a mode that converged: number, lambda = omega^2, omega, participation."""
+    """One line per mode that converged: number, lambda = omega^2, omega, participation."""
     values = modes.values[: np.count_nonzero(np.isfinite(modes.values))]
     rows = np.column_stack(
         [np.arange(len(values)), values, modes.frequencies[: len(values)], modes.participation[: len(values)]]
@@ -99,7 +99,7 @@ def write_gaps_csv(system: System, path: str | os.PathLike[str], h_max: float = 
 
 
 def write_structure_csv(system: System, path: str | os.PathLike[str]) -> None:
-    """One line a sphere: contacts, class, C_i = sum n_ij, S_i and the same with forces, Q6, Voronoi packing fraction (d = 3)."""
+    """One line per sphere: contacts, class, C_i = sum n_ij, S_i and the same with forces, Q6, Voronoi packing fraction (d = 3)."""
     d, z = system.dim, system.coordination
     plain, weighted = system.sphere_structure(0), system.sphere_structure(1)
     q6 = system.bond_order(6, 1.2)
@@ -131,10 +131,10 @@ def read_gsd(
 ) -> System:
     """Reads one frame of a GSD file; the last by default.
 
-    Files that libjam wrote come back to the bit. Others hold float32, so that spheres in contact overlap by 1e-7:
+    Files that libjam wrote come back to the bit. Others store float32, so that spheres in contact overlap by 1e-7:
     overlap='shrink' is then needed.
 
-    Diameters are looked for in particles/diameter, in the spheres of particles/type_shapes and in
+    Diameters are searched in particles/diameter, in the spheres of particles/type_shapes and in
     state/hpmc/sphere/radius. Those found must agree. A file with none of them is refused: GSD leaves out its default,
     diameters of 1, so that such a file may hold spheres of that size or none.
 
@@ -151,7 +151,7 @@ def read_gsd(
     doubles : bool
         False leaves the chunks log/jam out. They are refused where another program changed the frame beside them.
     **options
-        As of System.from_arrays, but for box, cell and dim, which the file holds.
+        As of System.from_arrays, except for box, cell and dim, which the file gives.
     """
     return System._noted(*gsd.arguments(path, frame, diameters=diameters, radii=radii, doubles=doubles, **options))
 

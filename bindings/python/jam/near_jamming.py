@@ -103,7 +103,7 @@ class Prediction(NamedTuple):
 
 
 def prediction(runs: Runs, structure: Predictors, share: float = 0.1) -> Prediction:
-    """Prediction by ranking, rattlers left out."""
+    """Prediction by ranking, without rattlers."""
     use = ~structure.rattlers
     c, s, rows = structure.c[use], structure.s[use], []
     for dr, r2 in zip(runs.mean("displacement")[:, use], runs.mean("distance2")[:, use]):

@@ -68,7 +68,7 @@ def cdf_pooled(samples: Sequence[Array]) -> Cdf:
 def cdf_ranked(samples: Sequence[Array]) -> Cdf:
     """Ranks the values in each packing and averages the k-th over packings: the error is one of x.
 
-    Packings that hold fewer values than others end the average early; c of the k-th is k over the mean number.
+    Packings with fewer values than others end the average early; c of the k-th is k over the mean number.
     """
     ordered = [np.sort(np.asarray(s, float)) for s in samples]
     least, mean = min(map(len, ordered)), np.mean([len(s) for s in ordered])
@@ -138,9 +138,9 @@ def fit_power(
     Parameters
     ----------
     high : float
-        Values above are left out: there the law ends.
+        Values above are omitted: there the law ends.
     low : float, optional
-        Values below are left out too, and the density is normalised on [low, high]. Without it the law is taken to go
+        Values below are omitted too, and the density is normalised on [low, high]. Without it the law is taken to go
         down to 0 (the left-hand form of M. E. J. Newman, Contemp. Phys. 46, 323 (2005)): biased where a plateau sets in.
 
     Raises
@@ -229,7 +229,7 @@ def collapse(
     scaling : callable
         Parameters -> powers (u, v) of N that x and c are multiplied by; default tail_scaling.
     resamples : int
-        Packings of each size are drawn anew so often.
+        Packings of each size are drawn again so often.
     """
     from scipy.optimize import minimize
 

@@ -55,7 +55,7 @@ def load(
     Raises
     ------
     StoreError
-        The file is not there, is damaged, was changed since it was written, or holds no packing. The text names it.
+        The file is not there, is damaged, was changed since it was written, or contains no packing. The text names it.
     """
     with open_file(path, unverified, memory_limit) as file, refusing(path):
         if name is not None and name not in file:

@@ -126,7 +126,7 @@ class System(Verbs, Writing):
         radii : array_like, shape (n,), or float, optional
             Instead of diameters.
         dim : int, optional
-            Confirms d. Without it a last column that equals the sizes is refused: most such arrays hold x, y, z, r.
+            Confirms d. Without it a last column that equals the sizes is refused: most such arrays are x, y, z, r.
         **options
             overlap ('refuse', the default, 'shrink': scales all diameters until no pair overlaps, or 'allow': soft
             spheres), seed, model, mk_zeta, masses, non_additivity, wall_time, memory_limit.

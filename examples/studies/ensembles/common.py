@@ -43,7 +43,7 @@ def ensemble(o: argparse.Namespace, protocol: dict, seeds: int) -> jam.ensemble.
 def kept(o: argparse.Namespace, study: str, key: str, make: Callable[[], dict]) -> dict | None:
     """Arrays by name, from FOLDER/studies/STUDY/KEY.npz where it is there; else make() is called and its result kept.
 
-    For runs that are no packings: a study that was killed goes on. None with --only-read where nothing is there.
+    For runs that are no packings: a study that was killed continues. None with --only-read where nothing is there.
     """
     path = Path(o.folder) / "studies" / study / f"{key}.npz"
     if not path.exists():

@@ -4,7 +4,7 @@
 usage: finite_size.py [--model euclid|mk] [--large] [--folder DIR] [--only-read]
 
 Small: N = 200 and 400, a minute or two. Large: N = 256 to 2048 with 5e4 particles a size and more.
-Forces have mean 1 in each packing before they are told apart: localised forces touch a sphere with d + 1 contacts,
+Forces have mean 1 in each packing before they are separated: localised forces touch a sphere with d + 1 contacts,
 extended ones do not. Packings of spheres with a crystal score of 1.5 and more are left out.
 """
 import sys

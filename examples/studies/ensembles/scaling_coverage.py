@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Does the interval of one standard error hold the true exponent in 68 % of trials? jam.scaling on synthetic packings.
+"""Does the interval of one standard error contain the true exponent in 68 % of trials? jam.scaling on synthetic packings.
 
 usage: scaling_coverage.py [TRIALS]        default 1000; each packing has 6 N values, the plateau of the density is set by N
 """

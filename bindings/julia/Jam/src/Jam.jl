@@ -10,7 +10,7 @@ Jammed packings of hard spheres, made and analysed by libjam.
     forces(s)
 
 Arrays are d-by-n matrices, a column for each sphere: the bytes of C's (n, d). Indices count from 1, except in the functions of
-C, `Jam.jam_...`, which are all there too. Options are keywords under their C names, words stand for enums:
+C, `Jam.jam_...`, which are all there too. Options are keywords under their C names, enums are given as words:
 `crunch!(s; method = :sequential_lp)`. The library is found as libjam.so.0, or by the environment variable JAM_LIBRARY when the
 package is precompiled.
 """

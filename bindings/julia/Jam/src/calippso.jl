@@ -10,7 +10,7 @@ displacements follow its three stages. Each LP is solved to its optimum. `on_lp`
 
 Returns a table with a row for each LP: gain (√Γ - 1), phi, step_max (largest displacement of a stable sphere, unit of the box),
 contacts, excess, rattlers, pairs (rows of the LP), radius and bound (unit of the box), seconds. Equal spheres only, as R is
-one number there; for mixtures the mean radius stands for R. Call `crunch!(s)` after it for contacts, forces and certificate.
+one number there; for mixtures R is the mean radius. Call `crunch!(s)` after it for contacts, forces and certificate.
 
 ```jldoctest
 julia> s = System(n = 64, dim = 3, seed = 1); compress!(s; growth_rate = 0.1, pressure = 1000);

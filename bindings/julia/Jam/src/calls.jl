@@ -97,7 +97,7 @@ end
     call(s, :jam_name, inputs; progress, options...)
 
 Calls a function of the C header: `inputs` in its order, members of its option structs as keywords. Returns its output, or a
-NamedTuple of several. Arrays are asked for their size first. `s` is `nothing` for functions without a system.
+NamedTuple of several. The size of arrays is queried first. `s` is `nothing` for functions without a system.
 """
 function call(s, name::Symbol, inputs::Tuple; progress = nothing, given...)
     c = CALLS[name]

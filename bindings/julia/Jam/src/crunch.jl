@@ -36,7 +36,7 @@ function crunch!(s::System; progress = nothing, on_step = nothing, given...)
     end
 end
 
-"The step that has just ended; nothing amid a step."
+"The step that has just ended; `nothing` during a step."
 function step_of(s)
     try
         return (displacements = crunch_step_displacements(s), pairs = crunch_step_contacts(s), vectors = crunch_step_vectors(s),
@@ -71,7 +71,7 @@ end
 """
     judge(s; crunch, prove, wall_time, progress)
 
-Judges the packing as it is and moves nothing. Returns a Report that prints as its paragraph, `report.text`. `report.status` is
+Tests the packing as it is and moves nothing. Returns a Report that prints as its paragraph, `report.text`. `report.status` is
 `:ok` when jammed, `:not_jammed`, or `:ambiguous` when undecided.
 """
 function judge(s::System; progress = nothing, given...)

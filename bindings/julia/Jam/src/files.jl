@@ -49,7 +49,7 @@ end
 """
     checkpoint(s, path)
 
-Writes all that the dynamics depend on; `from_checkpoint(path)` goes on to the same bits.
+Writes all that the dynamics depend on; `from_checkpoint(path)` continues to the same bits.
 """
 checkpoint(s::System, path::AbstractString) = (written(jam_write_checkpoint(handle(s), path)); nothing)
 

@@ -20,7 +20,7 @@ function isoconfigurational(s::System, instants; kept = nothing, monte_carlo = n
     return merge((report = r, instants = t), isoconf_means(s))
 end
 
-"Means over all runs that the handle holds."
+"Means over all runs of the handle."
 function isoconf_means(s)
     sums, moved = columns(call(s, :jam_isoconf_series, (-1,))), call(s, :jam_isoconf_displacements, (-1,))
     runs = max(maximum(sums.runs; init = 0.0), 1.0)

@@ -16,8 +16,8 @@ const CALIPPSO = Dict(
     :thresholds_bounds => "nothing: radius and bound follow the density",
     :ratio_sl_update => "nothing: distances are exact at every step", :ratio_sℓ_update => "nothing: distances are exact at every step",
     :non_iso_break => "nothing: column excess of history(s) gives it for each LP",
-    :interval_overlaps_check => "nothing: overlaps are looked for after every step",
-    :initial_overlaps_check => "nothing: overlaps are looked for after every step",
+    :interval_overlaps_check => "nothing: every step tests for overlaps",
+    :initial_overlaps_check => "nothing: every step tests for overlaps",
     :add_bridges => "nothing: there is no modelling layer", :L => "box", :R => "radii", :Rs => "radii",
 )
 # Those that calippso! takes under their own names and in their own units.

@@ -11,7 +11,7 @@ end
 
 "Positions as a d-by-n matrix, from a matrix or a vector of points."
 function positions_of(x::AbstractVector)
-    isempty(x) && throw(ArgumentError("positions hold no sphere"))
+    isempty(x) && throw(ArgumentError("positions have no sphere"))
     first(x) isa Number && throw(ArgumentError("positions must be a d-by-n matrix or a vector of points, not a vector of numbers"))
     all(p -> length(p) == length(first(x)), x) || throw(ArgumentError("the points have different numbers of coordinates"))
     return Cdouble[p[k] for k in 1:length(first(x)), p in x]

@@ -60,7 +60,7 @@ function System(positions::Union{AbstractMatrix, AbstractVector}, diameters = no
     x = positions_of(positions)
     sizes, count = radii === nothing ? diameters : radii, length(something(diameters, radii, 0.0))
     sizes === nothing && throw(ArgumentError("give either diameters or radii" *
-        (size(x, 1) > 2 ? ". If the last row holds radii, pass positions[1:$(size(x, 1) - 1), :]; radii = positions[end, :]" : "")))
+        (size(x, 1) > 2 ? ". If the last row contains radii, pass positions[1:$(size(x, 1) - 1), :]; radii = positions[end, :]" : "")))
     check_positions(x, count, sizes isa Number ? sizes : vec(collect(sizes)), given)
     return create((; n = size(x, 2), dim = size(x, 1), given...), x, sizes_of(diameters, radii, size(x, 2)); progress = progress)
 end

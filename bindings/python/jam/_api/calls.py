@@ -81,7 +81,7 @@ def _take_inputs(name: str, table: tuple[Any, ...], args: tuple[Any, ...], named
 def invoke(handle: Any, dim: int, name: str, args: tuple[Any, ...], named: dict[str, Any]) -> tuple[StatusCode, Any]:
     """Calls jam_<name>: inputs by position or keyword, members of option structs by keyword, outputs returned.
 
-    Returns the status and the outputs: None, one result, or a named tuple. Arrays are asked for their size first.
+    Returns the status and the outputs: None, one result, or a named tuple. The size of arrays is queried first.
     """
     on_system, table = CALLS["jam_" + name]
     given = _take_inputs(name, table, args, named)

@@ -85,7 +85,7 @@ class Network(Base):
         Returns
         -------
         scipy.sparse.csr_matrix, shape (d N', d N')
-            Row d k + c is component c of sphere hessian_map()[k]. Rattlers are left out.
+            Row d k + c is component c of sphere hessian_map()[k]. Rattlers are omitted.
         """
         from scipy.sparse import csr_matrix
 
@@ -223,7 +223,7 @@ class Network(Base):
     def check(
         self, *, crunch: bool = True, prove: bool = False, wall_time: float | None = None, progress: Any = None
     ) -> CheckReport:
-        """Judges the packing as it is: by positions, diameters and cell alone. Nothing moves or changes.
+        """Tests the packing as it is: by positions, diameters and cell alone. Nothing moves or changes.
 
         Parameters
         ----------

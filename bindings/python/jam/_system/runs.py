@@ -257,7 +257,7 @@ def _origin(system: Any, options: dict[str, Any]) -> str:
 def campaign(
     system: Any, path: str | os.PathLike[str], instants: Any, runs: int, *, part: int = 100, **options: Any
 ) -> Runs:
-    """Makes `runs` runs in parts and saves them to the .npz file `path` after each: a killed campaign goes on.
+    """Makes `runs` runs in parts and saves them to the .npz file `path` after each: a killed campaign continues.
 
     part: runs between two savings, rounded up to whole blocks. options: those of System.isoconfigurational but first_run.
     A file of another packing, other instants or options is a ValueError, and stays as it is.

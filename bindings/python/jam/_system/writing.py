@@ -61,7 +61,7 @@ class Writing(State, Network):
         values: Mapping[str, Any] | None = None,
         small: bool = False,
     ) -> None:
-        """Writes one HTML file to look at the packing in a browser; it needs no network.
+        """Writes one HTML file that shows the packing in a browser; it needs no network.
 
         It shows spheres and contact forces to turn and to slice, the numbers of each sphere, the certificate and
         distributions.
@@ -109,7 +109,7 @@ class Writing(State, Network):
     def save(self, path: str | os.PathLike[str], *, refined: bool = False) -> None:
         """Writes the packing with all its results to one HDF5 file, which jam.load reads (needs python3-h5py).
 
-        Stored are the state that dynamics go on from, report, contacts, forces, history, the calls made with their
+        Stored are the state from which dynamics continue, report, contacts, forces, history, the calls made with their
         options, and where it was made. What was observed is not. Positions and box have the layout of H5MD.
         refined=True stores the centres of refined_positions() too.
         """

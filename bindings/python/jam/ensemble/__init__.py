@@ -1,10 +1,10 @@
-"""Ensembles: one protocol times many seeds, made by any concurrent.futures.Executor, one file a packing.
+"""Ensembles: one protocol times many seeds, made by any concurrent.futures.Executor, one file for each packing.
 
     import jam
     e = jam.ensemble.Ensemble("folder", dict(n=128, dim=3))
     e.run(range(1, 101))                 # killed? run it again: what is there is not made twice
     e.table()["packing_fraction"]        # reports
-    for forces, gaps in e.each("forces", "gaps"): ...   # one packing after the other, read when asked for
+    for forces, gaps in e.each("forces", "gaps"): ...   # one packing after the other, read on first use
     jam.ensemble.table("folder")         # all protocols of a folder
 """
 

@@ -194,7 +194,7 @@ class Ensemble:
         jammed : bool
             Only packings with a certificate.
         max_crystal_score : float
-            Leaves out packings with more order (1 to 2 is usual for equal spheres).
+            Omits packings with more order (1 to 2 is usual for equal spheres).
         """
         for entry in self:
             if (jammed and not entry.row["jammed"]) or entry.row["crystal_score"] > max_crystal_score:

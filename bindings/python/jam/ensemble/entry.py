@@ -12,7 +12,7 @@ from .folder import FIELDS
 
 
 class Entry:
-    """One packing of an ensemble, read from its file when asked for.
+    """One packing of an ensemble, read from its file on first use.
 
     Attributes are what System calls them: positions, diameters, pairs, vectors, contact_gaps, forces, coordination,
     rattlers (which spheres are), history; `gaps` are those of the protocol's analysis; `analysis(name)` reads any other

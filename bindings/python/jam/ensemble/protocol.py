@@ -140,12 +140,12 @@ def complete(protocol: Mapping[str, Any] | None = None) -> dict[str, Any]:
     Parameters
     ----------
     protocol : mapping
-        Any of `start`, `stages`, `crunch`, `analysis`. Entries of `start` may stand at the top: ``dict(n=128, dim=3)``.
+        Any of `start`, `stages`, `crunch`, `analysis`. Entries of `start` may also be given at the top level: ``dict(n=128, dim=3)``.
 
     Returns
     -------
     dict
-        Plain numbers, text, lists and dicts, as JSON holds them; infinity is the text "inf".
+        Plain numbers, text, lists and dicts, as in JSON; infinity is the text "inf".
 
     Raises
     ------

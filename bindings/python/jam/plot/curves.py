@@ -29,7 +29,7 @@ def _samples(system: System | Iterable[Any]) -> tuple[Any, Any]:
 def trace(system: System | Iterable[Any], ax: Any = None, **style: Any) -> Any:
     """Reduced pressure against packing fraction, while compress or run move the spheres.
 
-    What observing() recorded comes first: its samples stand at fixed numbers of collisions, so the same seed gives the same
+    What observing() recorded comes first: its samples are taken at fixed numbers of collisions, so the same seed gives the same
     points. Without it the points are progress records, which come by the clock.
     """
     phi, pressure = _samples(system)

@@ -1,0 +1,72 @@
+"""The set of certified packings of examples/studies/reference_set: its sums, its proofs and its densities."""
+import csv
+import hashlib
+import math
+import sys
+import unittest
+from fractions import Fraction
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).parent))
+from test_proof import ROOT, jamproof
+
+FOLDER = ROOT / "examples/studies/reference_set"
+# pi^k over the denominator: the volume of a ball of diameter 1
+BALL = {2: (1, 4), 3: (1, 6), 4: (2, 32), 5: (2, 60)}
+
+
+def pi(digits):
+    """Machin's formula in whole numbers: pi 10^digits, off by less than 10^5."""
+    one = 10**digits
+    arctan = lambda x: sum((-1) ** k * (one // x ** (2 * k + 1)) // (2 * k + 1) for k in range(digits))
+    return 4 * (4 * arctan(5) - arctan(239))
+
+
+def phi(scene, digits=60):
+    """The packing fraction of a file times 10^digits, by whole numbers alone."""
+    power, denominator = BALL[scene.dim]
+    spheres = sum(jamproof.fraction(m, scene.se) ** scene.dim for m in scene.ratio)
+    volume = math.prod(jamproof.fraction(scene.cell[k][k], scene.k) for k in range(scene.dim))
+    squared = jamproof.fraction(scene.g, scene.ge) ** scene.dim * (spheres / volume / denominator) ** 2
+    root = math.isqrt(math.floor(squared * 10 ** (2 * digits)))
+    return Fraction(root) * (Fraction(pi(digits)) / 10**digits) ** power
+
+
+class ReferenceSet(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        with open(FOLDER / "index.csv", encoding="ascii") as file:
+            cls.rows = list(csv.DictReader(file))
+
+    def test_every_file_has_its_sum(self):
+        sums = dict(reversed(line.split("  ")) for line in (FOLDER / "SHA256SUMS").read_text(encoding="ascii").splitlines())
+        self.assertEqual(set(sums), {p.name for p in FOLDER.iterdir()} - {"SHA256SUMS"})
+        for name, value in sums.items():
+            self.assertEqual(hashlib.sha256((FOLDER / name).read_bytes()).hexdigest(), value, name)
+        self.assertLess(sum(p.stat().st_size for p in FOLDER.iterdir()), 5e6)
+
+    def test_ten_packings_of_each_kind(self):
+        kinds = {}
+        for row in self.rows:
+            kinds.setdefault((row["d"], row["N"], row["spheres"]), []).append(row["seed"])
+        self.assertEqual({key: len(set(seeds)) for key, seeds in kinds.items()}, {key: 10 for key in kinds})
+        self.assertEqual(len(kinds), 8)
+
+    def test_files_are_proved_and_have_the_density_of_the_index(self):
+        first = {(row["d"], row["spheres"]): row for row in reversed(self.rows)}
+        for row in first.values():
+            with self.subTest(name=row["name"]):
+                scene = jamproof.Scene(FOLDER / (row["name"] + ".jamproof"))
+                status, words = jamproof.conclusion(scene)
+                self.assertEqual((status, words.split(":")[0]), (0, "proved") if row["theorem"] == "exact" else (3, "trapped"))
+                self.assertLess(float(row["error"]), 1e-26)
+                self.assertLess(abs(phi(scene) / Fraction(10) ** 60 - Fraction(row["phi_J"])), Fraction(1, 10**25))
+
+    def test_every_index_row_has_its_density(self):
+        for row in self.rows:
+            scene = jamproof.Scene(FOLDER / (row["name"] + ".jamproof"))
+            self.assertLess(abs(phi(scene) / Fraction(10) ** 60 - Fraction(row["phi_J"])), Fraction(1, 10**25), row["name"])
+
+
+if __name__ == "__main__":
+    unittest.main()

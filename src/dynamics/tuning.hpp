@@ -29,7 +29,7 @@ struct ListTuning {
   static constexpr int64_t collisions_between = 4, exits_between = 2;
   static constexpr double collision = 14.0, exit = 30.0, exit_per_neighbour = 4.0, exits_by_shell = 1.6;
   static constexpr double least_gain = 0.97, most_change = 1.5, step = 1.1;
-  // Cost of a sphere in a search of all: with images, and in vectors (tests/bench/README.md).
+  // Cost of a sphere in a search of all: with images, and in vectors (tests/bench/tried.md).
   static constexpr double look = 4.0, look_in_vectors = 0.125;
   static constexpr size_t first_capacity = 16, spheres_between_looks = 64;
 };

@@ -18,7 +18,7 @@ namespace {
 constexpr size_t worth_a_thread = 200000, worth_a_reader = 1000000;
 // Numbers of a panel that take some 0.1 ms to read: the call may be left between such panels.
 constexpr size_t worth_a_look = 100000;
-// In floats a pivot below this part of its entry in the matrix is rounding alone: 64 roundings (tests/bench/README.md).
+// In floats a pivot below this part of its entry in the matrix is rounding alone: 64 roundings (tests/bench/tried.md).
 constexpr double lost_in_floats = 4e-6;
 constexpr size_t columns_between_looks = 64, blocks_between_looks = 32;
 using BlockSizes = Numbered<1, 2, 3, 4, 5, 6, 7, 8>;

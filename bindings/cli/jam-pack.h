@@ -123,6 +123,6 @@ int check_file(int argc, char **argv, const jam_pack_host *host);
 
 /* network.c: what --spectrum, --gaps and --structure ask for. Returns 0, or after a message on
  * stderr -1, and 1 where a call was stopped before its numbers were there. */
-int write_network(jam_system *sys, const options *o, const jam_info *info);
+int write_network(jam_system *sys, const options *o);
 
 #endif

@@ -19,4 +19,13 @@ typedef struct jam_pack_host {
 /* Runs a command line and returns the exit status. host NULL: that of jam-pack. One call at a time in a process: it
  * takes SIGINT and SIGTERM while it runs. */
 int jam_pack(int argc, char **argv, const jam_pack_host *host);
+
+/* tables.c: tables of the jammed network as text, one header line, 17 digits. The caller frees *text, which stays NULL
+ * where a call has failed or was stopped: its status is returned, jam_last_error says why. */
+/* A line a mode that converged: number, lambda, omega, participation. mode: the table of jam_modes. */
+jam_status jam_pack_modes(const double *mode, size_t mode_len, char **text);
+/* A line a gap below h_max that is no contact: i, j, gap, and 1 when both spheres are stable. */
+jam_status jam_pack_gaps(const jam_system *sys, double h_max, char **text);
+/* A line a sphere: contacts, class, C_i, S_i, S_i with forces, Q6, packing fraction of its Voronoi cell (d = 3). */
+jam_status jam_pack_structure(const jam_system *sys, char **text);
 #endif

@@ -65,7 +65,7 @@ int write_all(jam_system *sys, const options *o, double deadline, outcome *resul
   if (o->page) bad |= has_failed(jam_write_page(sys, o->page, "", 0, "", NULL, 0));
   cancel_on_signal(sys); /* a large spectrum takes long */
   jam_set_progress(sys, stop_late, &deadline);
-  if (known) network = write_network(sys, o, &result->info);
+  if (known) network = write_network(sys, o);
   jam_set_progress(sys, NULL, NULL);
   cancel_on_signal(NULL);
   bad |= network < 0;

@@ -316,4 +316,17 @@ int pack(int argc, char **argv, PyObject *read, PyObject *finish, PyObject *prog
   return jam_pack(argc, argv, &host);
 }
 %}
+// ---- tables of the jammed network as jam-pack writes them: [status, text], None where the call was stopped
+%typemap(in, numinputs=0) char **text (char *made) { made = NULL; $1 = &made; }
+%typemap(argout) char **text {
+  %append_output(*$1 ? PyUnicode_FromString(*$1) : SWIG_Py_Void());
+  free(*$1);
+}
+%apply (const double *IN, size_t IN_LEN) {(const double *mode, size_t mode_len)};
+%rename(table_of_modes) jam_pack_modes;
+%rename(table_of_gaps) jam_pack_gaps;
+%rename(table_of_structure) jam_pack_structure;
+jam_status jam_pack_modes(const double *mode, size_t mode_len, char **text);
+jam_status jam_pack_gaps(const jam_system *sys, double h_max, char **text);
+jam_status jam_pack_structure(const jam_system *sys, char **text);
 %include "jam/jam.h"

@@ -24,6 +24,10 @@ jam_status find_modes(const RigidityMatrix &g, const ContactWeights &w, const ja
 // vectors. `stop` is asked between stages. False when stopped.
 bool dense_eigen(int n, std::vector<double> &a, std::vector<double> &lambda, bool vectors,
                  const std::function<bool(double)> &stop);
+// modes_dense.cpp: eigenvalues and vectors of the whole Hessian; JAM_CANCELLED when stopped.
+jam_status all_modes(const BlockMatrix &h, Monitor &monitor, Modes &out);
+// Reduces them to the modes asked for. The d translations are removed first.
+void select_modes(const RigidityMatrix &g, const jam_modes_options &o, Modes &all);
 // Y = sum |v_i|^4 / (sum |v_i|^2)^2 of a field (nodes, dim).
 double inverse_participation(int dim, int32_t nodes, const double *v);
 

@@ -1,10 +1,10 @@
 // Header section "crunch to the jamming point" and the arrays of the contact network.
 #include "crunch/crunch.hpp"
-#include "crunch/estimate.hpp"
 #include "capi/analysis.hpp"
 #include "capi/proof.hpp"
 #include "capi/table.hpp"
 #include "core/checks.hpp"
+#include "crunch/estimate.hpp"
 
 using namespace jam;
 

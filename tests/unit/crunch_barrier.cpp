@@ -6,9 +6,9 @@
 #include "test.h"
 
 #include "core/create.hpp"
-#include "lp/barrier_problem.hpp"
-#include "crunch/path/barrier_path.hpp"
 #include "crunch/crunch.hpp"
+#include "crunch/path/barrier_path.hpp"
+#include "lp/barrier_problem.hpp"
 #include "lp/interior_point.hpp"
 #include "unit/crunch_scenes.hpp"
 

@@ -3,9 +3,9 @@
 #include "test.h"
 
 #include "core/create.hpp"
-#include "crunch/path/barrier_path.hpp"
 #include "crunch/approach/lp_step.hpp"
 #include "crunch/crunch.hpp"
+#include "crunch/path/barrier_path.hpp"
 
 using namespace jam;
 

@@ -170,21 +170,17 @@ def near_jamming(raw):
     return ["dynamics", "collisions or sweeps", "runs", "processor time (s)", "K"], rows
 
 
-def soft(*raws):
-    """soft_minimise.py FILE.json 512; soft_cell.py FILE.json 512"""
+def soft_cell(raw):
+    """soft_cell.py FILE.json 512"""
     rows = []
-    for raw in raws:
-        key = "distance" if "distance" in raw["race"][0] else "pressure"
-        text = "fixed cell, ln(R / R_J) = " if key == "distance" else "free cell at pressure "
-        for value in sorted({r[key] for r in raw["race"]}, reverse=True):
-            line = [f"{text}{value:g}"]
-            for minimiser in ("newton", "fire", "lbfgs"):
-                runs = [r for r in raw["race"] if r[key] == value and r["minimiser"] == minimiser]
-                runs = [r for r in runs if r.get("precision", "reference") == "reference"]
-                best = [r for r in runs if r["residual"] < 1e-12]
-                line.append(min(best, key=lambda r: r["residual"])["seconds"] if best else None)
-            rows.append(line)
-    return ["start (N = 512)", "Newton (s)", "FIRE (s)", "L-BFGS (s)"], rows
+    for pressure in sorted({r["pressure"] for r in raw["race"]}, reverse=True):
+        line = [pressure]
+        for minimiser in ("newton", "fire", "lbfgs"):
+            runs = [r for r in raw["race"] if (r["pressure"], r["minimiser"]) == (pressure, minimiser)]
+            best = [r for r in runs if r["residual"] < 1e-12]
+            line.append(min(best, key=lambda r: r["residual"])["seconds"] if best else "not reached")
+        rows.append(line)
+    return ["pressure (stiffness over diameter)", "Newton (s)", "FIRE (s)", "L-BFGS (s)"], rows
 
 
 def factorisation(raw):
@@ -257,7 +253,7 @@ def read(path):
 
 def main():
     name, raws = sys.argv[1], [read(path) for path in sys.argv[2:]]
-    made = {f.__name__: f for f in (crunch, size, clp, resume, disks, proofs, strict, md, monte_carlo, near_jamming, soft, advise, analysis, factorisation, ablation)}[name]
+    made = {f.__name__: f for f in (crunch, size, clp, resume, disks, proofs, strict, md, monte_carlo, near_jamming, soft_cell, advise, analysis, factorisation, ablation)}[name]
     columns, rows = made(*raws)
     old = raws[0] if isinstance(raws[0], dict) and "commit" in raws[0] else None  # a result that was kept with its source
     source = old and {key: old[key] for key in ("machine", "commit", "date")}

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import emit_c
 import emit_fortran
+import emit_fortran_packing
 import emit_julia
 import emit_julia_calls
 import emit_methods
@@ -23,6 +24,7 @@ FILES = {
     "bindings/julia/Jam/src/tables.jl": emit_julia_calls.emit_tables,
     "bindings/julia/Jam/src/methods.jl": emit_julia_calls.emit_methods,
     "bindings/fortran/jam.f90": emit_fortran.emit,
+    "bindings/fortran/jam_packing.f90": emit_fortran_packing.emit,
     "bindings/python/jam_gen.i": emit_swig.emit,
     "bindings/python/jam/_api/generated.py": emit_python.emit,
     "bindings/python/jam/_api/exceptions.py": emit_python.emit_errors,

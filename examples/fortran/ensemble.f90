@@ -1,7 +1,7 @@
-! Many seeds, one after the other; mean and standard error of phi_J.  (Images of a coarray program, or MPI ranks, would
-! take a share of the seeds each: handles are independent.)
+! Many seeds; mean and standard error of phi_J.  (Images of a coarray program, or MPI ranks, would take a share of the seeds
+! each: handles are independent.)
 program ensemble
-  use jam
+  use jam_packing
   implicit none
   integer, parameter :: seeds = 6, n = 128
   real(c_double) :: phi(seeds), mean, error
@@ -9,7 +9,7 @@ program ensemble
 
   jammed = 0
   do k = 1, seeds
-    call pack(int(k, c_int64_t))
+    call pack(k)
   end do
   if (jammed < 2) error stop 'too few jammed packings'
   mean = sum(phi(1:jammed))/jammed
@@ -19,26 +19,21 @@ program ensemble
 contains
 
   subroutine pack(seed)
-    integer(c_int64_t), intent(in) :: seed
-    type(c_ptr) :: sys
-    type(jam_create_options) :: create
-    type(jam_compress_options) :: compress
+    integer, intent(in) :: seed
+    type(packing) :: disks  ! freed at the end of this procedure
+    type(jam_compress_options) :: growth
+    type(jam_md_report) :: md
     type(jam_crunch_report) :: report
     real(c_double) :: sizes(n)
     sizes(1:n/2) = 1
     sizes(n/2 + 1:n) = 1.4_c_double
-    call jam_defaults(create)
-    create%dim = 2
-    create%n = n
-    create%seed = seed
-    call jam_defaults(compress)
-    compress%growth_rate = 3e-2_c_double
-    compress%pressure = 1e4_c_double
-    call jam_check(jam_create(create, diameters=sizes, out=sys))
-    call jam_check(jam_compress(sys, compress))
-    call jam_check(jam_crunch(sys, report=report))
+    call disks%random(dim=2, seed=seed, diameters=sizes)
+    call jam_defaults(growth)
+    growth%growth_rate = 3e-2_c_double
+    growth%pressure = 1e4_c_double
+    md = disks%compress(growth)
+    report = disks%crunch()
     print '(a, i0, a, f12.9)', 'seed ', seed, ': phi ', report%packing_fraction
-    call jam_destroy(sys)
     if (report%jammed /= 1) return
     jammed = jammed + 1
     phi(jammed) = report%packing_fraction

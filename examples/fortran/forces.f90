@@ -1,40 +1,32 @@
 ! Reads the contact network of a packing and checks that the forces balance on every sphere.
 program forces
-  use jam
+  use jam_packing
   implicit none
   integer, parameter :: d = 3, n = 128
-  type(c_ptr) :: sys
-  type(jam_create_options) :: create
-  real(c_double), allocatable :: force(:), normal(:, :)
-  integer(c_int32_t), allocatable :: pair(:, :)
+  type(packing) :: spheres
+  type(jam_md_report) :: md
+  type(jam_crunch_report) :: report
+  real(c_double), allocatable :: force(:), normal(:, :), gap(:)
+  integer(c_int32_t), allocatable :: pair(:, :), close(:, :)
   real(c_double) :: net(d, n)
-  integer(c_size_t) :: contacts
-  integer :: k, i, j
+  integer :: k
 
-  call jam_defaults(create)
-  create%dim = d
-  create%n = n
-  call jam_check(jam_create(create, out=sys))
-  call jam_check(jam_compress(sys))
-  call jam_check(jam_crunch(sys))
-
-  call jam_check(jam_forces(sys, out_len=0_c_size_t, needed=contacts))  ! no array: only the size
-  allocate (force(contacts), normal(d, contacts), pair(2, contacts))
-  call jam_check(jam_forces(sys, force))  ! mean 1
-  call jam_check(jam_contact_vectors(sys, normal))  ! unit vectors, from the second to the first
-  call jam_check(jam_contacts(sys, pair))
+  call spheres%random(n=n, dim=d)
+  md = spheres%compress()
+  report = spheres%crunch()
+  force = spheres%forces()            ! mean 1
+  normal = spheres%contact_vectors()  ! (d, contacts): unit vectors, from the second to the first
+  pair = spheres%contacts()           ! (2, contacts)
 
   net = 0
-  do k = 1, int(contacts)
-    i = pair(1, k) + 1  ! indices of the library begin at 0
-    j = pair(2, k) + 1
-    net(:, i) = net(:, i) + force(k)*normal(:, k)
-    net(:, j) = net(:, j) - force(k)*normal(:, k)
+  do k = 1, size(force)
+    net(:, pair(1, k)) = net(:, pair(1, k)) + force(k)*normal(:, k)
+    net(:, pair(2, k)) = net(:, pair(2, k)) - force(k)*normal(:, k)
   end do
   k = maxloc(force, 1)
-  print '(i0, a, f7.3, 2(a, i0), a, es8.1)', contacts, ' forces, the strongest ', force(k), ' between ', &
-    pair(1, k), ' and ', &
-    pair(2, k), ', worst imbalance ', maxval(abs(net))
-  call jam_destroy(sys)
+  print '(i0, a, f7.3, 2(a, i0), a, es8.1)', size(force), ' forces, the strongest ', force(k), ' between ', &
+    pair(1, k), ' and ', pair(2, k), ', worst imbalance ', maxval(abs(net))
+  call spheres%gaps(0.1_c_double, .true., gap, close)  ! below 0.1, of stable spheres, ascending
+  print '(i0, a, es8.1, 2(a, i0))', size(gap), ' gaps, the smallest ', gap(1), ' between ', close(1, 1), ' and ', close(2, 1)
   if (maxval(abs(net)) > 1e-8_c_double) error stop 'no balance'
 end program forces

@@ -1,36 +1,40 @@
-! Lowest vibrational modes of a packing, how far they spread, and its elastic moduli.
+! Lowest vibrational modes of a packing, how far they spread, its elastic moduli, and the Hessian behind them.
 program modes
-  use jam
+  use jam_packing
   implicit none
-  integer, parameter :: d = 2, n = 200, k = 8
-  type(c_ptr) :: sys
-  type(jam_create_options) :: create
+  integer, parameter :: n = 200
+  type(packing) :: disks
+  type(jam_crunch_report) :: report
   type(jam_modes_options) :: choose
   type(jam_moduli_report) :: moduli
-  real(c_double) :: sizes(n), table(2, k)
-  real(c_double), allocatable :: vector(:, :, :)
-  integer(c_size_t) :: spheres
-  integer :: m
+  real(c_double), allocatable :: lambda(:), vector(:, :, :), participation(:), value(:), u(:)
+  integer(c_int32_t), allocatable :: sphere(:), row(:), column(:)
+  real(c_double) :: energy
+  integer :: k, m
 
-  sizes(1:n/2) = 1
-  sizes(n/2 + 1:n) = 1.4_c_double
-  call jam_defaults(create)
-  create%dim = d
-  create%n = n
-  call jam_check(jam_create(create, diameters=sizes, out=sys))
-  call jam_check(jam_crunch(sys))
+  call disks%random(dim=2, diameters=[(1.0_c_double + merge(0.4_c_double, 0.0_c_double, k > n/2), k=1, n)])
+  report = disks%crunch()
 
-  call jam_check(jam_hessian_map(sys, out_len=0_c_size_t, needed=spheres))  ! stable spheres: rattlers have no modes
+  sphere = disks%hessian_map()  ! stable spheres: rattlers have no modes
   call jam_defaults(choose)
-  choose%count = k
-  allocate (vector(d, spheres, k))
-  call jam_check(jam_modes(sys, o=choose, table=table, vector=vector))
-  print '(a, i0, a)', 'modes of ', spheres, ' stable spheres: omega, participation, largest displacement'
-  do m = 1, k
-    print '(f10.5, 2f9.4)', sqrt(max(table(1, m), 0.0_c_double)), table(2, m), maxval(norm2(vector(:, :, m), 1))
+  choose%count = 8
+  call disks%modes(o=choose, lambda=lambda, vector=vector, participation=participation)  ! vector(d, stable, modes)
+  print '(a, i0, a)', 'modes of ', size(sphere), ' stable spheres: omega, participation, largest displacement'
+  do k = 1, size(lambda)
+    print '(f10.5, 2f9.4)', sqrt(max(lambda(k), 0.0_c_double)), participation(k), maxval(norm2(vector(:, :, k), 1))
   end do
-  call jam_check(jam_moduli(sys, moduli=moduli))
+
+  ! u . H . u of the lowest mode, by the compressed rows of the Hessian, which begin at row(k)
+  call disks%hessian(row_start=row, column=column, value=value)
+  m = size(row) - 1
+  u = reshape(vector(:, :, 1), [m])
+  energy = 0
+  do k = 1, m
+    energy = energy + u(k)*dot_product(value(row(k):row(k + 1) - 1), u(column(row(k):row(k + 1) - 1)))
+  end do
+  print '(2(a, i0), 2(a, es12.5))', 'Hessian ', m, ' by ', m, ': u . H . u ', energy, ', eigenvalue ', lambda(1)
+
+  moduli = disks%moduli()
   print '(2(a, f8.4))', 'bulk modulus ', moduli%bulk, ', shear modulus ', moduli%shear
-  call jam_destroy(sys)
-  if (.not. (table(1, 1) > 0 .and. table(1, k) >= table(1, 1))) error stop 'modes are missing'
+  if (abs(energy/lambda(1) - 1) > 1e-6_c_double) error stop 'no mode of this Hessian'
 end program modes

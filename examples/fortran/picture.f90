@@ -1,42 +1,19 @@
-! A packing in d = 2 as a VTK file for ParaView: points with diameter and contacts, shown by the filter Glyph (sphere,
-! scale by diameter, factor 1).  The file is picture.vtk.
+! A packing in d = 2 for ParaView (picture.vtp, filter Glyph: sphere, scale by diameter), its forces (picture-forces.vtp), and a
+! page for a browser (picture.html).
 program picture
-  use jam
+  use jam_packing
   implicit none
-  integer, parameter :: d = 2, n = 200
-  type(c_ptr) :: sys, view
-  type(jam_create_options) :: create
-  real(c_double) :: sizes(n)
-  real(c_double), pointer :: x(:, :), sigma(:)
-  integer(c_int32_t) :: contacts(n)
-  integer(c_size_t) :: length
-  integer :: file, i
+  integer, parameter :: n = 200
+  type(packing) :: disks
+  type(jam_crunch_report) :: report
+  integer(c_int32_t), allocatable :: contacts(:)
+  integer :: k
 
-  sizes(1:n/2) = 1
-  sizes(n/2 + 1:n) = 1.4_c_double
-  call jam_defaults(create)
-  create%dim = d
-  create%n = n
-  call jam_check(jam_create(create, diameters=sizes, out=sys))
-  call jam_check(jam_crunch(sys))
-  call jam_check(jam_view_positions(sys, view, length))  ! no copies
-  call c_f_pointer(view, x, [d, n])
-  call jam_check(jam_view_diameters(sys, view, length))
-  call c_f_pointer(view, sigma, [n])
-  call jam_check(jam_coordination(sys, contacts))
-
-  open (newunit=file, file='picture.vtk', status='replace')
-  write (file, '(a)') '# vtk DataFile Version 3.0', 'packing of disks', 'ASCII', 'DATASET POLYDATA'
-  write (file, '(a, i0, a)') 'POINTS ', n, ' double'
-  write (file, '(3es25.16e3)') (x(:, i), 0.0_c_double, i=1, n)
-  write (file, '(a, i0, 1x, i0)') 'VERTICES ', n, 2*n
-  write (file, '(i0, 1x, i0)') (1, i - 1, i=1, n)
-  write (file, '(a, i0)') 'POINT_DATA ', n
-  write (file, '(a)') 'SCALARS diameter double 1', 'LOOKUP_TABLE default'
-  write (file, '(es25.16e3)') sigma
-  write (file, '(a)') 'SCALARS contacts int 1', 'LOOKUP_TABLE default'
-  write (file, '(i0)') contacts
-  close (file)
-  print '(i0, 2(a, i0))', n, ' disks, ', count(contacts == d + 1), ' bucklers, rattlers ', count(contacts == 0)
-  call jam_destroy(sys)
+  call disks%random(dim=2, diameters=[(1.0_c_double + merge(0.4_c_double, 0.0_c_double, k > n/2), k=1, n)])
+  report = disks%crunch()
+  contacts = disks%coordination()
+  call disks%write_file('picture.vtp')
+  call disks%write_contacts('picture-forces.vtp', JAM_CONTACTS_AUTO)
+  call disks%write_page('picture.html', 'Two hundred disks', .false., 'contacts', real(contacts, c_double))
+  print '(i0, 2(a, i0))', n, ' disks, ', count(contacts == 3), ' bucklers, rattlers ', count(contacts == 0)
 end program picture

@@ -1,6 +1,6 @@
 ! Watches a crunch by a callback, stops it after five reports, and continues from the valid state that was reached.
 module watching
-  use jam
+  use jam_packing
   implicit none
   integer, save :: reports = 0, most = 5
 contains
@@ -13,29 +13,32 @@ contains
       ', gain', progress%gain
     stop_now = merge(1, 0, reports >= most .or. c_associated(user))
   end function watch
+
+  ! What failures do here in place of ending the program.
+  subroutine complain(status, text)
+    integer(c_int32_t), intent(in) :: status
+    character(*), intent(in) :: text
+    print '(a, i0, 2a)', 'failure ', status, ': ', text
+  end subroutine complain
 end module watching
 
 program progress
-  use jam
   use watching
   implicit none
-  type(c_ptr) :: sys
-  type(jam_create_options) :: create
+  type(packing) :: spheres
   type(jam_crunch_report) :: report
-  integer(c_int32_t) :: status
+  real(c_double), allocatable :: force(:)
 
-  call jam_defaults(create)
-  create%n = 300
-  status = jam_create(create, out=sys)
-  if (status < 0) error stop 'create failed'
-  status = jam_set_progress(sys, c_funloc(watch), c_null_ptr)
-  status = jam_crunch(sys, report=report)
-  print '(3a, f9.6)', 'first: ', jam_text(jam_status_string(status)), ', phi ', report%packing_fraction
-  if (status /= JAM_CANCELLED) error stop 'the callback did not stop the call'
+  call jam_on_error(complain)
+  call spheres%random(n=300)
+  force = spheres%forces()  ! no network yet: a failure, and an empty array
+  call spheres%watch(watch)
+  report = spheres%crunch()
+  print '(3a, f9.6)', 'first: ', spheres%why(), ', phi ', report%packing_fraction
+  if (spheres%status /= JAM_CANCELLED) error stop 'the callback did not stop the call'
 
-  status = jam_set_progress(sys, c_null_funptr, c_null_ptr)  ! no more reports
-  status = jam_crunch(sys, report=report)
-  print '(3a, f9.6)', 'second: ', jam_text(jam_status_string(status)), ', phi ', report%packing_fraction
-  if (report%jammed /= 1) error stop 'not jammed'
-  call jam_destroy(sys)
+  call spheres%watch()  ! no more reports
+  report = spheres%crunch()
+  print '(a, f9.6)', 'second: phi ', report%packing_fraction
+  if (report%jammed /= 1 .or. size(force) /= 0) error stop 'not jammed'
 end program progress

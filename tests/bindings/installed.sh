@@ -19,7 +19,9 @@ gfortran "$source/examples/fortran/first.f90" -o f_first $(pkg-config --cflags -
 ./f_first >f.out
 # the installed source serves a compiler whose .mod files differ
 # shellcheck disable=SC2086
-gfortran -J"$work" "$work/p/share/jam/fortran/jam.f90" "$source/examples/fortran/first.f90" -o f_source $link \
+sources=$work/p/share/jam/fortran
+gfortran -J"$work" "$sources/jam.f90" "$sources/jam_base.f90" "$sources/jam_packing.f90" \
+  "$source/examples/fortran/first.f90" -o f_source $link \
   -ljam
 ./f_source >f2.out
 cmp f.out f2.out

@@ -1,0 +1,34 @@
+! Soft spheres from random points to an energy minimum, its moduli, and down to jamming, checked by a crunch.
+program soft
+  use jam_packing
+  implicit none
+  type(packing) :: spheres
+  type(jam_create_options) :: create
+  type(jam_relax_report) :: minimum
+  type(jam_hessian_options) :: of_energy
+  type(jam_moduli_report) :: moduli
+  type(jam_decompress_report) :: down
+  real(c_double), allocatable :: distance(:), pressure(:)
+  integer :: k
+
+  call jam_defaults(create)
+  create%overlap = JAM_OVERLAP_ALLOW  ! uniform points
+  call spheres%random(packing_fraction=0.72_c_double, options=create, &
+                      diameters=[(1.0_c_double + 0.4_c_double*mod(k, 2), k=1, 100)])
+  minimum = spheres%relax()
+  print '(3(a, es12.5))', 'energy ', minimum%energy, ', pressure ', minimum%pressure, ', residual ', minimum%force_residual
+  if (minimum%converged /= 1) error stop 'no minimum'
+
+  call jam_defaults(of_energy)
+  of_energy%stiffness = JAM_STIFFNESS_SOFT
+  of_energy%prestress = 1
+  moduli = spheres%moduli(of_energy)  ! of the energy that was minimised
+  print '(2(a, f8.4))', 'bulk modulus ', moduli%bulk, ', shear modulus ', moduli%shear
+
+  down = spheres%decompress()
+  print '(2(a, f12.9), a)', 'phi_J ', down%jammed_fraction, ' from above, ', down%crunch_fraction, ' by crunch'
+  distance = spheres%decompress_history(JAM_SOFT_DISTANCE)
+  pressure = spheres%decompress_history(JAM_SOFT_PRESSURE)
+  print '(a, es9.2, a, es10.3)', ('  distance ', distance(k), '  pressure ', pressure(k), k=1, size(distance))
+  if (down%same_network /= 1) error stop 'two networks'
+end program soft

@@ -8,6 +8,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import api_layers
 import filter as header_filter
 
 SHOWN = ("README.md", "CHANGELOG.md", "LICENSE", "bindings", "examples", "include", "src", "tests")
@@ -135,6 +136,8 @@ def main():
         "```{doxygennamespace} jam\n:members:\n:undoc-members:\n:content-only:\n```\n"
     )
     (source / "api" / "python.md").write_text(PYTHON)
+    (source / "api" / "julia.md").write_text(api_layers.julia(root / "bindings/julia/Jam/src"))
+    (source / "api" / "fortran.md").write_text(api_layers.fortran(root / "bindings/fortran"))
     tables = root / "examples/studies/ensembles/tables.py"
     subprocess.run([sys.executable, "-B", str(tables), str(source / "ensemble_tables.md")], check=True)
 

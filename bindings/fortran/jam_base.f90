@@ -1,10 +1,12 @@
-! What a packing of the module jam_packing is made of: the handle of C, how one is made and freed, its state, and the one place
-! where failures go. Procedures have text errors, shapes that are checked, results that allocate themselves, indices from 1.
+! What a packing of the module jam_packing is made of: the handle of C, how one is made and freed, its state, and the
+! one place where failures go. Procedures have text errors, shapes that are checked, results that allocate themselves,
+! indices from 1.
 module jam_base
   use jam
   implicit none
 
-  ! Gets every failure: a status below 0 and the library's text. When it returns, results are empty and the system is as before.
+  ! Gets every failure: a status below 0 and the library's text. When it returns, results are empty and the system is as
+  ! before.
   abstract interface
     subroutine jam_error_handler(status, text)
       import :: c_int32_t
@@ -14,10 +16,11 @@ module jam_base
   end interface
   procedure(jam_error_handler), pointer, save, private :: handler => null()
 
-  ! N spheres in a periodic cell. Assignment copies, and frees what was there; a local one is freed at the end of its procedure.
+  ! N spheres in a periodic cell. Assignment copies, and frees what was there; a local one is freed at the end of its
+  ! procedure.
   type :: jam_handle
-    type(c_ptr) :: sys = c_null_ptr         ! for the functions of module jam
-    integer(c_int32_t) :: status = JAM_OK   ! of the last call; above 0: stopped early, or no certain answer
+    type(c_ptr) :: sys = c_null_ptr        ! for the functions of module jam
+    integer(c_int32_t) :: status = JAM_OK  ! of the last call; above 0: stopped early, or no certain answer
   contains
     procedure :: random
     procedure :: from_arrays
@@ -45,7 +48,8 @@ module jam_base
 
 contains
 
-  ! From now on failures call `new`. Without it they print their text on standard error and end the program with status 1.
+  ! From now on failures call `new`. Without it they print their text on standard error and end the program with status
+  ! 1.
   subroutine jam_on_error(new)
     procedure(jam_error_handler), optional :: new
     handler => null()
@@ -117,8 +121,8 @@ contains
     if (self%status /= JAM_OK) text = from_one(jam_message())
   end function why
 
-  ! Random sequential start. Only ratios of diameters count. `options` has everything else; n, dim, seed and packing_fraction
-  ! given beside it win. cell(d, d) has a vector in each column.
+  ! Random sequential start. Only ratios of diameters count. `options` has everything else; n, dim, seed and
+  ! packing_fraction given beside it win. cell(d, d) has a vector in each column.
   subroutine random(self, n, dim, seed, packing_fraction, diameters, cell, options)
     class(jam_handle), intent(inout) :: self
     integer, intent(in), optional :: n, dim, seed
@@ -137,7 +141,8 @@ contains
     call self%done(jam_create(o, diameters=diameters, cell=cell, out=self%sys))
   end subroutine random
 
-  ! Spheres at x(d, n), in the unit of box, which they are wrapped into; diameters: one of each, or an array of one for all.
+  ! Spheres at x(d, n), in the unit of box, which they are wrapped into; diameters: one of each, or an array of one for
+  ! all.
   subroutine from_arrays(self, x, diameters, box, cell, options)
     class(jam_handle), intent(inout) :: self
     real(c_double), intent(in), contiguous, target :: x(:, :), diameters(:)
@@ -312,8 +317,8 @@ contains
     call self%done(jam_cancel(self%sys))
   end subroutine cancel
 
-  ! Diameters of a law given by text, as in 'lognormal:deviation=0.3' or 'sieve:grading.csv'. Fields of `options` beside the
-  ! law's own, such as n, are taken from there.
+  ! Diameters of a law given by text, as in 'lognormal:deviation=0.3' or 'sieve:grading.csv'. Fields of `options` beside
+  ! the law's own, such as n, are taken from there.
   function jam_sizes(law, n, options) result(sigma)
     character(*), intent(in) :: law
     integer, intent(in), optional :: n

@@ -32,8 +32,9 @@ module jam_packing
     procedure :: monte_carlo => do_monte_carlo
     procedure :: isoconfigurational => do_isoconfigurational
     procedure :: isoconf_report => do_isoconf_report
-    procedure :: isoconf_sums => do_isoconf_sums
     procedure :: isoconf_series => do_isoconf_series
+    procedure :: isoconf_displacements => do_isoconf_displacements
+    procedure :: isoconf_distances => do_isoconf_distances
     procedure :: isoconf_kept => do_isoconf_kept
     procedure :: crunch => do_crunch
     procedure :: estimate_crunch => do_estimate_crunch
@@ -68,6 +69,7 @@ module jam_packing
     procedure :: contact_classes => do_contact_classes
     procedure :: sphere_structure => do_sphere_structure
     procedure :: contact_dots => do_contact_dots
+    procedure :: fabric_tensor => do_fabric_tensor
     procedure :: local_values => do_local_values
     procedure :: histogram => do_histogram
     procedure :: pair_correlation => do_pair_correlation
@@ -90,19 +92,20 @@ module jam_packing
     do_write_page, do_run, do_compress, do_write_checkpoint, do_observe, &
     do_stop_observing, do_observed_series, do_observed_spheres, do_observed_pairs, &
     do_observed_gaps, do_observed_correlation, do_monte_carlo, &
-    do_isoconfigurational, do_isoconf_report, do_isoconf_sums, do_isoconf_series, &
-    do_isoconf_kept, do_crunch, do_estimate_crunch, do_report, do_crunch_history, &
-    do_crunch_step_displacements, do_crunch_step_contacts, do_crunch_step_vectors, &
-    do_crunch_step_duals, do_relax, do_decompress, do_decompress_history, &
-    do_contacts, do_contact_vectors, do_contact_gaps, do_forces, do_coordination, &
+    do_isoconfigurational, do_isoconf_report, do_isoconf_series, &
+    do_isoconf_displacements, do_isoconf_distances, do_isoconf_kept, do_crunch, &
+    do_estimate_crunch, do_report, do_crunch_history, do_crunch_step_displacements, &
+    do_crunch_step_contacts, do_crunch_step_vectors, do_crunch_step_duals, &
+    do_relax, do_decompress, do_decompress_history, do_contacts, &
+    do_contact_vectors, do_contact_gaps, do_forces, do_coordination, &
     do_hessian_map, do_hessian, do_modes, do_contacts_from_geometry, &
     do_contact_candidates, do_stress_states, do_rigidity, do_flex, do_check, &
     do_prove, do_prove_strict, do_write_proof, do_refined_positions, do_gaps, &
-    do_contact_classes, do_sphere_structure, do_contact_dots, do_local_values, &
-    do_histogram, do_pair_correlation, do_structure_factor, do_bond_order, &
-    do_crystal_score, do_local_fraction, do_floppy_mode, do_floppy_modes, &
-    do_density_of_states, do_project, do_curvature, do_moduli, do_elastic_tensor, &
-    do_compare
+    do_contact_classes, do_sphere_structure, do_contact_dots, do_fabric_tensor, &
+    do_local_values, do_histogram, do_pair_correlation, do_structure_factor, &
+    do_bond_order, do_crystal_score, do_local_fraction, do_floppy_mode, &
+    do_floppy_modes, do_density_of_states, do_project, do_curvature, do_moduli, &
+    do_elastic_tensor, do_compare
 
 contains
 
@@ -243,8 +246,8 @@ contains
 
   ! Writes one HTML file that shows the packing in a browser without a network: spheres and forces to turn and to slice,
   ! numbers of each sphere, certificate and distributions. After a crunch with keep_steps it has a slider over its steps.
-  ! title: its heading, or "". small: 1 for the picture alone, 0 for all. values: numbers to colour spheres by, or NULL;
-  ! names: k names, one a line, or "".
+  ! title: its heading, or "". small: the picture alone. values: numbers to colour spheres by, or NULL; names: k names,
+  ! one a line, or "".
   ! Shapes: values (k, n).
   ! Errors: JAM_E_IO.
   subroutine do_write_page(self, path, title, small, names, values)
@@ -260,14 +263,14 @@ contains
     call self%done(status)
   end subroutine do_write_page
 
-  ! Event-driven NVE dynamics (Alder and Wainwright, J. Chem. Phys. 31, 459 (1959)). Velocities are drawn at first use:
-  ! Maxwell-Boltzmann, zero total momentum, sum m v^2 = d N. The draw depends on the seed alone. A run or stage that ends
-  ! with JAM_CANCELLED or JAM_LIMIT stays with the handle, and in its checkpoints, until the next call that changes
-  ! spheres. So does one that was stopped while its lists were made, when nothing has moved. With resume = 1 it goes on
-  ! to the same bits as if it had not stopped; JAM_E_STATE when there is none. Splitting a run by wall_time therefore
-  ! does not change its result. A failure while it goes on loses the stage, not the packing. Status: JAM_OK when the
-  ! collisions were made, JAM_PRECISION, JAM_NOT_CONVERGED (no collision can happen: one sphere, zero velocities, or
-  ! paths that never meet). The log gives the reason of the last two.
+  ! Event-driven NVE dynamics (Alder and Wainwright, J. Chem. Phys. 31, 459 (1959)). Velocities are drawn at first use,
+  ! by the seed alone. They are Maxwell-Boltzmann, with sum m v^2 = d N and zero total momentum. A run or stage that ends
+  ! with JAM_CANCELLED or JAM_LIMIT, even while its lists were made, stays with the handle. Its checkpoints have it too,
+  ! until the next call that changes spheres. With resume = 1 it goes on to the same bits as if it had not stopped;
+  ! JAM_E_STATE when there is none. Splitting a run by wall_time therefore does not change its result. A failure while it
+  ! goes on loses the stage, not the packing. Status: JAM_OK when the collisions were made, JAM_PRECISION,
+  ! JAM_NOT_CONVERGED (no collision can happen: one sphere, zero velocities, or paths that never meet). The log gives the
+  ! reason of the last two.
   ! Errors: JAM_E_OVERLAP.
   function do_run(self, o) result(found)
     class(packing), intent(inout) :: self
@@ -415,67 +418,44 @@ contains
     call self%done(status)
   end subroutine do_observed_pairs
 
-  ! Histogram of gaps h, *rows = bins: density is pairs over those of an ideal gas, error is over samples. Samples are
-  ! taken between collisions: at one, a pair more would touch. At h = 0 density tends to g(sigma), which is (p - 1) / (4
-  ! phi) for equal spheres in d = 3.
-  ! Shapes: edge (bins + 1), density (bins), error (bins).
+  ! Histogram of gaps h. Samples are taken between collisions: at one, a pair more would touch. At h = 0 density tends to
+  ! g(sigma), which is (p - 1) / (4 phi) for equal spheres in d = 3.
+  ! Shapes: table (bins, jam_gap_column).
   ! Errors: JAM_E_STATE.
-  subroutine do_observed_gaps(self, edge, density, error)
+  function do_observed_gaps(self) result(found)
     class(packing), intent(inout) :: self
-    real(c_double), allocatable, intent(out), optional :: edge(:)
-    real(c_double), allocatable :: made_edge(:)
-    real(c_double), allocatable, intent(out), optional :: density(:)
-    real(c_double), allocatable :: made_density(:)
-    real(c_double), allocatable, intent(out), optional :: error(:)
-    real(c_double), allocatable :: made_error(:)
+    real(c_double), allocatable :: found(:, :)
     integer(c_int32_t) :: status
     integer(c_size_t) :: given, d_of, n_of
-    allocate (made_edge(0))
-    allocate (made_density(0))
-    allocate (made_error(0))
+    allocate (found(0, 0))
     call self%extents(d_of, n_of)
-    status = jam_observed_gaps(self%sys, rows=given)
+    status = jam_observed_gaps(self%sys, needed=given)
     if (status >= 0) then
-      deallocate (made_edge)
-      allocate (made_edge(given + 1))
-      deallocate (made_density)
-      allocate (made_density(given))
-      deallocate (made_error)
-      allocate (made_error(given))
-      status = jam_observed_gaps(self%sys, edge=made_edge, density=made_density, error=made_error)
+      deallocate (found)
+      allocate (found(4_c_size_t, given/4))
+      status = jam_observed_gaps(self%sys, table=found)
     end if
-    if (present(edge)) call move_alloc(made_edge, edge)
-    if (present(density)) call move_alloc(made_density, density)
-    if (present(error)) call move_alloc(made_error, error)
     call self%done(status)
-  end subroutine do_observed_gaps
+  end function do_observed_gaps
 
-  ! g(r), sampled likewise, *rows = bins: r is the middle of each, mean diameters.
-  ! Shapes: r (bins), g (bins).
+  ! g(r), sampled likewise.
+  ! Shapes: table (bins, jam_correlation_column).
   ! Errors: JAM_E_STATE.
-  subroutine do_observed_correlation(self, r, g)
+  function do_observed_correlation(self) result(found)
     class(packing), intent(inout) :: self
-    real(c_double), allocatable, intent(out), optional :: r(:)
-    real(c_double), allocatable :: made_r(:)
-    real(c_double), allocatable, intent(out), optional :: g(:)
-    real(c_double), allocatable :: made_g(:)
+    real(c_double), allocatable :: found(:, :)
     integer(c_int32_t) :: status
     integer(c_size_t) :: given, d_of, n_of
-    allocate (made_r(0))
-    allocate (made_g(0))
+    allocate (found(0, 0))
     call self%extents(d_of, n_of)
-    status = jam_observed_correlation(self%sys, rows=given)
+    status = jam_observed_correlation(self%sys, needed=given)
     if (status >= 0) then
-      deallocate (made_r)
-      allocate (made_r(given))
-      deallocate (made_g)
-      allocate (made_g(given))
-      status = jam_observed_correlation(self%sys, r=made_r, g=made_g)
+      deallocate (found)
+      allocate (found(2_c_size_t, given/2))
+      status = jam_observed_correlation(self%sys, table=found)
     end if
-    if (present(r)) call move_alloc(made_r, r)
-    if (present(g)) call move_alloc(made_g, g)
     call self%done(status)
-  end subroutine do_observed_correlation
+  end function do_observed_correlation
 
   ! Metropolis Monte Carlo (J. Chem. Phys. 21, 1087 (1953)) of hard or soft spheres. A step of 0 is tuned in a
   ! preliminary run and then frozen; JAM_E_ARGUMENT when no step is accepted. After soft spheres the system allows
@@ -522,73 +502,84 @@ contains
     call self%done(status)
   end function do_isoconf_report
 
-  ! Sums over the runs of one block, or of all for block = -1: displacement and square of dr_c, unit of the box;
-  ! distance2 and distance4 of |dr|^2 and |dr|^4; *runs in them. *needed = instants n.
-  ! Shapes: displacement (instants, n, d), square (instants, n, d), distance2 (instants, n), distance4 (instants, n).
+  ! Sums over the runs of one block, or of all for block = -1.
+  ! Shapes: table (instants, jam_isoconf_column).
   ! Errors: JAM_E_STATE.
-  subroutine do_isoconf_sums(self, block, displacement, square, distance2, distance4, runs)
+  function do_isoconf_series(self, block) result(found)
+    class(packing), intent(inout) :: self
+    integer, intent(in) :: block
+    real(c_double), allocatable :: found(:, :)
+    integer(c_int32_t) :: status
+    integer(c_size_t) :: given, d_of, n_of
+    allocate (found(0, 0))
+    call self%extents(d_of, n_of)
+    status = jam_isoconf_series(self%sys, block=int(block, c_int64_t), needed=given)
+    if (status >= 0) then
+      deallocate (found)
+      allocate (found(14_c_size_t, given/14))
+      status = jam_isoconf_series(self%sys, block=int(block, c_int64_t), table=found)
+    end if
+    call self%done(status)
+  end function do_isoconf_series
+
+  ! For that block, sums over runs of the displacement dr_c of each sphere, unit of the box, and of its square. *rows =
+  ! instants.
+  ! Shapes: displacement (instants, n, d), square (instants, n, d).
+  ! Errors: JAM_E_STATE.
+  subroutine do_isoconf_displacements(self, block, displacement, square)
     class(packing), intent(inout) :: self
     integer, intent(in) :: block
     real(c_double), allocatable, intent(out), optional :: displacement(:, :, :)
     real(c_double), allocatable :: made_displacement(:, :, :)
     real(c_double), allocatable, intent(out), optional :: square(:, :, :)
     real(c_double), allocatable :: made_square(:, :, :)
-    real(c_double), allocatable, intent(out), optional :: distance2(:, :)
-    real(c_double), allocatable :: made_distance2(:, :)
-    real(c_double), allocatable, intent(out), optional :: distance4(:, :)
-    real(c_double), allocatable :: made_distance4(:, :)
-    integer(c_int64_t), intent(out), optional :: runs
-    integer(c_int64_t) :: made_runs
     integer(c_int32_t) :: status
     integer(c_size_t) :: given, d_of, n_of
     allocate (made_displacement(0, 0, 0))
     allocate (made_square(0, 0, 0))
-    allocate (made_distance2(0, 0))
-    allocate (made_distance4(0, 0))
     call self%extents(d_of, n_of)
-    status = jam_isoconf_sums(self%sys, block=int(block, c_int64_t), needed=given)
+    status = jam_isoconf_displacements(self%sys, block=int(block, c_int64_t), rows=given)
     if (status >= 0) then
       deallocate (made_displacement)
-      allocate (made_displacement(d_of, n_of, given/max(n_of, 1_c_size_t)))
+      allocate (made_displacement(d_of, n_of, given))
       deallocate (made_square)
-      allocate (made_square(d_of, n_of, given/max(n_of, 1_c_size_t)))
-      deallocate (made_distance2)
-      allocate (made_distance2(n_of, given/max(n_of, 1_c_size_t)))
-      deallocate (made_distance4)
-      allocate (made_distance4(n_of, given/max(n_of, 1_c_size_t)))
-      status = jam_isoconf_sums(self%sys, block=int(block, c_int64_t), displacement=made_displacement, &
-        square=made_square, distance2=made_distance2, distance4=made_distance4, &
-        runs=made_runs)
+      allocate (made_square(d_of, n_of, given))
+      status = jam_isoconf_displacements(self%sys, block=int(block, c_int64_t), displacement=made_displacement, &
+        square=made_square)
     end if
     if (present(displacement)) call move_alloc(made_displacement, displacement)
     if (present(square)) call move_alloc(made_square, square)
-    if (present(distance2)) call move_alloc(made_distance2, distance2)
-    if (present(distance4)) call move_alloc(made_distance4, distance4)
-    if (present(runs)) runs = made_runs
     call self%done(status)
-  end subroutine do_isoconf_sums
+  end subroutine do_isoconf_displacements
 
-  ! One column of that block (or -1: all), a sum over runs at each instant.
-  ! Shapes: out (instants).
+  ! Likewise of |dr|^2 and |dr|^4.
+  ! Shapes: distance2 (instants, n), distance4 (instants, n).
   ! Errors: JAM_E_STATE.
-  function do_isoconf_series(self, block, column) result(found)
+  subroutine do_isoconf_distances(self, block, distance2, distance4)
     class(packing), intent(inout) :: self
     integer, intent(in) :: block
-    integer, intent(in) :: column
-    real(c_double), allocatable :: found(:)
+    real(c_double), allocatable, intent(out), optional :: distance2(:, :)
+    real(c_double), allocatable :: made_distance2(:, :)
+    real(c_double), allocatable, intent(out), optional :: distance4(:, :)
+    real(c_double), allocatable :: made_distance4(:, :)
     integer(c_int32_t) :: status
     integer(c_size_t) :: given, d_of, n_of
-    allocate (found(0))
+    allocate (made_distance2(0, 0))
+    allocate (made_distance4(0, 0))
     call self%extents(d_of, n_of)
-    status = jam_isoconf_series(self%sys, block=int(block, c_int64_t), column=int(column, c_int32_t), &
-      needed=given)
+    status = jam_isoconf_distances(self%sys, block=int(block, c_int64_t), rows=given)
     if (status >= 0) then
-      deallocate (found)
-      allocate (found(given))
-      status = jam_isoconf_series(self%sys, block=int(block, c_int64_t), column=int(column, c_int32_t), out=found)
+      deallocate (made_distance2)
+      allocate (made_distance2(n_of, given))
+      deallocate (made_distance4)
+      allocate (made_distance4(n_of, given))
+      status = jam_isoconf_distances(self%sys, block=int(block, c_int64_t), distance2=made_distance2, &
+        distance4=made_distance4)
     end if
+    if (present(distance2)) call move_alloc(made_distance2, distance2)
+    if (present(distance4)) call move_alloc(made_distance4, distance4)
     call self%done(status)
-  end function do_isoconf_series
+  end subroutine do_isoconf_distances
 
   ! Displacements at one kept instant, given by its index.
   ! Shapes: out (runs, n, d).
@@ -648,22 +639,21 @@ contains
     call self%done(status)
   end function do_report
 
-  ! One column of the last crunch, a value a step.
-  ! Shapes: out (steps).
+  ! Steps of the last crunch.
+  ! Shapes: table (steps, jam_history_column).
   ! Errors: JAM_E_STATE.
-  function do_crunch_history(self, column) result(found)
+  function do_crunch_history(self) result(found)
     class(packing), intent(inout) :: self
-    integer, intent(in) :: column
-    real(c_double), allocatable :: found(:)
+    real(c_double), allocatable :: found(:, :)
     integer(c_int32_t) :: status
     integer(c_size_t) :: given, d_of, n_of
-    allocate (found(0))
+    allocate (found(0, 0))
     call self%extents(d_of, n_of)
-    status = jam_crunch_history(self%sys, column=int(column, c_int32_t), needed=given)
+    status = jam_crunch_history(self%sys, needed=given)
     if (status >= 0) then
       deallocate (found)
-      allocate (found(given))
-      status = jam_crunch_history(self%sys, column=int(column, c_int32_t), out=found)
+      allocate (found(20_c_size_t, given/20))
+      status = jam_crunch_history(self%sys, table=found)
     end if
     call self%done(status)
   end function do_crunch_history
@@ -748,11 +738,10 @@ contains
     call self%done(status)
   end function do_crunch_step_duals
 
-  ! Minimises the energy of overlapping spheres at fixed diameters, and at a fixed cell unless `strain` frees it. Then
-  ! the minimum of the fixed cell comes first. A free cell ends when stresses too are below force_tolerance. Keeps the
-  ! contact network with its forces and stiffnesses for jam_contacts, jam_forces, jam_hessian (JAM_STIFFNESS_SOFT) and
-  ! the like. The system must have been made with JAM_OVERLAP_ALLOW. Positions are rounded to doubles at the end; the
-  ! network holds the digits beyond. Status: JAM_OK converged. JAM_NOT_JAMMED converged to energy 0: no overlaps.
+  ! Minimises the energy of overlapping spheres at fixed diameters, and at a fixed cell unless `strain` frees it. A free
+  ! cell ends when stresses too are below force_tolerance. Keeps the contact network with its forces and stiffnesses for
+  ! jam_contacts, jam_forces, jam_hessian (JAM_STIFFNESS_SOFT) and the like. Positions are rounded to doubles at the end;
+  ! the network holds the digits beyond. Status: JAM_OK converged. JAM_NOT_JAMMED converged to energy 0: no overlaps.
   ! JAM_PRECISION converged, but overlaps are smaller than the rounding of the positions. JAM_NOT_CONVERGED. Example:
   ! examples/c/soft.c
   ! Errors: JAM_E_STATE (made without JAM_OVERLAP_ALLOW).
@@ -780,22 +769,21 @@ contains
     call self%done(status)
   end function do_decompress
 
-  ! One column of the last decompression.
-  ! Shapes: out (steps).
+  ! Minima of the last decompression.
+  ! Shapes: table (minima, jam_soft_column).
   ! Errors: JAM_E_STATE.
-  function do_decompress_history(self, column) result(found)
+  function do_decompress_history(self) result(found)
     class(packing), intent(inout) :: self
-    integer, intent(in) :: column
-    real(c_double), allocatable :: found(:)
+    real(c_double), allocatable :: found(:, :)
     integer(c_int32_t) :: status
     integer(c_size_t) :: given, d_of, n_of
-    allocate (found(0))
+    allocate (found(0, 0))
     call self%extents(d_of, n_of)
-    status = jam_decompress_history(self%sys, column=int(column, c_int32_t), needed=given)
+    status = jam_decompress_history(self%sys, needed=given)
     if (status >= 0) then
       deallocate (found)
-      allocate (found(given))
-      status = jam_decompress_history(self%sys, column=int(column, c_int32_t), out=found)
+      allocate (found(11_c_size_t, given/11))
+      status = jam_decompress_history(self%sys, table=found)
     end if
     call self%done(status)
   end function do_decompress_history
@@ -956,40 +944,33 @@ contains
     call self%done(status)
   end subroutine do_hessian
 
-  ! Modes of the Hessian, *rows = their number m: lambda = omega^2 ascending, vector of unit length, participation = sum
-  ! |v_i|^4 / (sum |v_i|^2)^2. When fewer converge the rest is NaN. Status: JAM_NOT_CONVERGED.
-  ! Shapes: lambda (m), vector (m, N', d), participation (m).
+  ! Modes of the Hessian, *rows = their number m, lambda ascending, vector of unit length. When fewer converge the rest
+  ! is NaN. Status: JAM_NOT_CONVERGED.
+  ! Shapes: table (m, jam_mode_column), vector (m, N', d).
   ! Errors: JAM_E_STATE, JAM_E_SOLVER.
-  subroutine do_modes(self, h, o, lambda, vector, participation)
+  subroutine do_modes(self, h, o, table, vector)
     class(packing), intent(inout) :: self
     type(jam_hessian_options), intent(in), optional :: h
     type(jam_modes_options), intent(in), optional :: o
-    real(c_double), allocatable, intent(out), optional :: lambda(:)
-    real(c_double), allocatable :: made_lambda(:)
+    real(c_double), allocatable, intent(out), optional :: table(:, :)
+    real(c_double), allocatable :: made_table(:, :)
     real(c_double), allocatable, intent(out), optional :: vector(:, :, :)
     real(c_double), allocatable :: made_vector(:, :, :)
-    real(c_double), allocatable, intent(out), optional :: participation(:)
-    real(c_double), allocatable :: made_participation(:)
     integer(c_int32_t) :: status
     integer(c_size_t) :: given, d_of, n_of, stable_of
-    allocate (made_lambda(0))
+    allocate (made_table(0, 0))
     allocate (made_vector(0, 0, 0))
-    allocate (made_participation(0))
     call self%extents(d_of, n_of, stable=stable_of)
     status = jam_modes(self%sys, h=h, o=o, rows=given)
     if (status >= 0) then
-      deallocate (made_lambda)
-      allocate (made_lambda(given))
+      deallocate (made_table)
+      allocate (made_table(2_c_size_t, given))
       deallocate (made_vector)
       allocate (made_vector(d_of, stable_of, given))
-      deallocate (made_participation)
-      allocate (made_participation(given))
-      status = jam_modes(self%sys, h=h, o=o, lambda=made_lambda, vector=made_vector, &
-        participation=made_participation)
+      status = jam_modes(self%sys, h=h, o=o, table=made_table, vector=made_vector)
     end if
-    if (present(lambda)) call move_alloc(made_lambda, lambda)
+    if (present(table)) call move_alloc(made_table, table)
     if (present(vector)) call move_alloc(made_vector, vector)
-    if (present(participation)) call move_alloc(made_participation, participation)
     call self%done(status)
   end subroutine do_modes
 
@@ -1070,10 +1051,9 @@ contains
   ! spheres have too few of them. A sphere and its own image are a contact in the strict test, and in the collective one
   ! where the network lists them. There a sphere that they alone hold needs forces on the cell to balance. Let S v be the
   ! opening of contacts by a motion v, and E eps that by a strain eps. Collectively jammed: S v >= 0 only for
-  ! translations of B. Strictly jammed: S v + E eps >= 0 with tr eps <= 0 only for those and eps = 0. Sources: Donev,
-  ! Torquato, Stillinger, Connelly, J. Comput. Phys. 197, 139 (2004); Connelly 1988; Connelly, Shen, Smith,
-  ! arXiv:1301.0664; Roth and Whiteley 1981. Both hold for this cell: several copies of it together may unjam. Status:
-  ! JAM_OK jammed, JAM_NOT_JAMMED, JAM_AMBIGUOUS undecided.
+  ! translations of B. Strictly jammed: S v + E eps >= 0 with tr eps <= 0 only for those and eps = 0. Both hold for this
+  ! cell, not for several copies of it. Source: Donev et al., J. Comput. Phys. 197, 139 (2004); the guide's page "Jammed
+  ! or not" has more. Status: JAM_OK jammed, JAM_NOT_JAMMED, JAM_AMBIGUOUS undecided.
   ! Errors: JAM_E_SOLVER.
   function do_rigidity(self, kind) result(found)
     class(packing), intent(inout) :: self
@@ -1201,7 +1181,7 @@ contains
     call self%done(status)
   end subroutine do_refined_positions
 
-  ! Gaps h of all pairs below h_max (every image), contacts left out, ascending; *rows = gaps. With stable_only = 0
+  ! Gaps h of all pairs below h_max (every image), contacts left out, ascending; *rows = gaps. Without stable_only
   ! rattlers count too and no network is needed.
   ! Shapes: gap (gaps), pair (gaps, 2).
   ! Errors: JAM_E_STATE.
@@ -1312,6 +1292,26 @@ contains
     call self%done(status)
   end subroutine do_contact_dots
 
+  ! Fabric tensor F_ab = <n_a n_b>, the mean over all contacts: symmetric, of trace 1; delta_ab / d when the contacts
+  ! have no preferred direction. Status: JAM_NOT_JAMMED (no contacts: NaN).
+  ! Shapes: out (d, d).
+  ! Errors: JAM_E_STATE.
+  function do_fabric_tensor(self) result(found)
+    class(packing), intent(inout) :: self
+    real(c_double), allocatable :: found(:, :)
+    integer(c_int32_t) :: status
+    integer(c_size_t) :: given, d_of, n_of
+    allocate (found(0, 0))
+    call self%extents(d_of, n_of)
+    status = jam_fabric_tensor(self%sys, needed=given)
+    if (status >= 0) then
+      deallocate (found)
+      allocate (found(d_of, d_of))
+      status = jam_fabric_tensor(self%sys, out=found)
+    end if
+    call self%done(status)
+  end function do_fabric_tensor
+
   ! Values of a quantity in a population, in the order of contacts, spheres or jam_contact_dots.
   ! Shapes: out (values).
   ! Errors: JAM_E_STATE.
@@ -1364,59 +1364,45 @@ contains
     call self%done(status)
   end function do_histogram
 
-  ! g_ab(r) of spheres with labels a and b (-1: any; kind: the labels, or NULL), in `bins` equal bins up to r_max mean
-  ! diameters.
+  ! g_ab(r) of spheres with labels a and b. kind: the labels, or NULL.
   ! Shapes: kind (n), out (bins).
-  function do_pair_correlation(self, a, b, r_max, bins, kind) result(found)
+  function do_pair_correlation(self, o, kind) result(found)
     class(packing), intent(inout) :: self
-    integer, intent(in) :: a
-    integer, intent(in) :: b
-    real(c_double), intent(in) :: r_max
-    integer, intent(in) :: bins
+    type(jam_correlation_options), intent(in), optional :: o
     integer(c_int32_t), intent(in), contiguous, target, optional :: kind(..)
     real(c_double), allocatable :: found(:)
     integer(c_int32_t) :: status
     integer(c_size_t) :: given, d_of, n_of
     allocate (found(0))
     call self%extents(d_of, n_of)
-    status = jam_pair_correlation(self%sys, kind=kind, a=int(a, c_int32_t), b=int(b, c_int32_t), r_max=r_max, &
-      bins=int(bins, c_int64_t), needed=given)
+    status = jam_pair_correlation(self%sys, o=o, kind=kind, needed=given)
     if (status >= 0) then
       deallocate (found)
       allocate (found(given))
-      status = jam_pair_correlation(self%sys, kind=kind, a=int(a, c_int32_t), b=int(b, c_int32_t), r_max=r_max, &
-        bins=int(bins, c_int64_t), out=found)
+      status = jam_pair_correlation(self%sys, o=o, kind=kind, out=found)
     end if
     call self%done(status)
   end function do_pair_correlation
 
-  ! S(q) on the wave vectors of the cell (in a cube 2 pi n / box), averaged over each |q| <= q_max; q per mean diameter,
-  ! ascending. Lengths that differ by less than 5e-13 of |q| are one.
-  ! Shapes: q (m), s (m).
-  subroutine do_structure_factor(self, q_max, q, s)
+  ! S(q) on the wave vectors of the cell (in a cube 2 pi n / box) with |q| <= q_max. Lengths that differ by less than
+  ! 5e-13 of |q| are one.
+  ! Shapes: table (m, jam_structure_column).
+  function do_structure_factor(self, q_max) result(found)
     class(packing), intent(inout) :: self
     real(c_double), intent(in) :: q_max
-    real(c_double), allocatable, intent(out), optional :: q(:)
-    real(c_double), allocatable :: made_q(:)
-    real(c_double), allocatable, intent(out), optional :: s(:)
-    real(c_double), allocatable :: made_s(:)
+    real(c_double), allocatable :: found(:, :)
     integer(c_int32_t) :: status
     integer(c_size_t) :: given, d_of, n_of
-    allocate (made_q(0))
-    allocate (made_s(0))
+    allocate (found(0, 0))
     call self%extents(d_of, n_of)
-    status = jam_structure_factor(self%sys, q_max=q_max, rows=given)
+    status = jam_structure_factor(self%sys, q_max=q_max, needed=given)
     if (status >= 0) then
-      deallocate (made_q)
-      allocate (made_q(given))
-      deallocate (made_s)
-      allocate (made_s(given))
-      status = jam_structure_factor(self%sys, q_max=q_max, q=made_q, s=made_s)
+      deallocate (found)
+      allocate (found(2_c_size_t, given/2))
+      status = jam_structure_factor(self%sys, q_max=q_max, table=found)
     end if
-    if (present(q)) call move_alloc(made_q, q)
-    if (present(s)) call move_alloc(made_s, s)
     call self%done(status)
-  end subroutine do_structure_factor
+  end function do_structure_factor
 
   ! Bond order Q_l of each sphere (d = 2: |psi_l|) over neighbours with |r| < cutoff sigma_ij; l in 1..64, cutoff in (0,
   ! 3] (1.2 is usual).

@@ -18,11 +18,10 @@ module jam_packing
 BY_HAND = frozenset("""jam_destroy jam_copy jam_set_progress jam_set_log jam_view_positions jam_view_velocities jam_view_diameters jam_write
     jam_cancel jam_read jam_notes""".split())
 NAMES = {"get_crunch_report": "report", "get_info": "info", "get_cell": "cell", "check_packing": "check", "get_isoconf_report": "isoconf_report"}
-FLAGS = frozenset(("stable_only", "weighted", "small"))  # whole numbers that are 1 or 0
 LETTERS = {"d": "d_of", "n": "n_of", "N'": "stable_of", "n_c": "contacts_of", "contacts": "contacts_of"}
 
 
-def _dummy(a):
+def _dummy(f, a):
     """How a caller gives an argument."""
     if a.role == "handle":
         return f"class(jam_handle), intent(in) :: {a.name}"
@@ -32,7 +31,7 @@ def _dummy(a):
         return f"character(*), intent(in) :: {a.name}"
     if a.role == "array_in":
         return f"{TYPES[a.type.scalar][2]}, intent(in), contiguous, target, optional :: {a.name}(..)"
-    if a.name in FLAGS:
+    if a.name in f.bools:
         return f"logical, intent(in) :: {a.name}"
     return f"{'real(c_double)' if a.type.scalar == 'double' else 'integer'}, intent(in) :: {a.name}"
 
@@ -43,7 +42,7 @@ def _given(f, a):
         return f"{a.name}%sys"
     if a.role != "scalar" or a.type.scalar == "double":
         return a.name
-    if a.name in FLAGS:
+    if a.name in f.bools:
         return f"merge(1_c_int32_t, 0_c_int32_t, {a.name})"
     kind = TYPES[a.type.scalar][2][8:-1]
     return f"int({a.name}, {kind})" + (" - 1" if is_index(f, a) else "")
@@ -62,7 +61,7 @@ def _shape(f, a, counted, alone, api):
     """Extents of an array out in Fortran's order; the one that the call gives follows from `given`."""
     if a.name == "table":
         columns = len(columns_of(f, api).items)
-        return [f"{columns}_c_size_t", f"given/{columns}"]
+        return [f"{columns}_c_size_t", "given" if counted == "rows" else f"given/{columns}"]
     extents = f.shapes[a.name]
     sizes = [_size(e) for e in extents]
     known = [s for s in sizes if s is not None]
@@ -96,7 +95,7 @@ def _procedure(f, name, api):
     lines = _comment(f.doc, "  ")
     lines.append(f"  {kind} {name}({_wrap(names, '  ')})" + (" result(found)" if one else ""))
     lines.append("    class(packing), intent(inout) :: self")
-    lines += ["    " + _dummy(a) for a in dummies]
+    lines += ["    " + _dummy(f, a) for a in dummies]
     for a in outputs:
         shape = colons.get(a.name, "")
         allocatable = ", allocatable" if shape else ""

@@ -1,5 +1,5 @@
-! Many seeds; mean and standard error of phi_J.  (Images of a coarray program, or MPI ranks, would take a share of the seeds
-! each: handles are independent.)
+! Many seeds; mean and standard error of phi_J.  (Images of a coarray program, or MPI ranks, would take a share of the
+! seeds each: handles are independent.)
 program ensemble
   use jam_packing
   implicit none

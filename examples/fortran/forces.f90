@@ -27,6 +27,7 @@ program forces
   print '(i0, a, f7.3, 2(a, i0), a, es8.1)', size(force), ' forces, the strongest ', force(k), ' between ', &
     pair(1, k), ' and ', pair(2, k), ', worst imbalance ', maxval(abs(net))
   call spheres%gaps(0.1_c_double, .true., gap, close)  ! below 0.1, of stable spheres, ascending
-  print '(i0, a, es8.1, 2(a, i0))', size(gap), ' gaps, the smallest ', gap(1), ' between ', close(1, 1), ' and ', close(2, 1)
+  print '(i0, a, es8.1, 2(a, i0))', size(gap), ' gaps, the smallest ', gap(1), ' between ', &
+    close(1, 1), ' and ', close(2, 1)
   if (maxval(abs(net)) > 1e-8_c_double) error stop 'no balance'
 end program forces

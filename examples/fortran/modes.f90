@@ -7,7 +7,7 @@ program modes
   type(jam_crunch_report) :: report
   type(jam_modes_options) :: choose
   type(jam_moduli_report) :: moduli
-  real(c_double), allocatable :: lambda(:), vector(:, :, :), participation(:), value(:), u(:)
+  real(c_double), allocatable :: table(:, :), vector(:, :, :), lambda(:), value(:), u(:)
   integer(c_int32_t), allocatable :: sphere(:), row(:), column(:)
   real(c_double) :: energy
   integer :: k, m
@@ -18,10 +18,12 @@ program modes
   sphere = disks%hessian_map()  ! stable spheres: rattlers have no modes
   call jam_defaults(choose)
   choose%count = 8
-  call disks%modes(o=choose, lambda=lambda, vector=vector, participation=participation)  ! vector(d, stable, modes)
+  call disks%modes(o=choose, table=table, vector=vector)  ! table(columns, modes), vector(d, stable, modes)
+  lambda = table(JAM_MODE_LAMBDA + 1, :)
   print '(a, i0, a)', 'modes of ', size(sphere), ' stable spheres: omega, participation, largest displacement'
   do k = 1, size(lambda)
-    print '(f10.5, 2f9.4)', sqrt(max(lambda(k), 0.0_c_double)), participation(k), maxval(norm2(vector(:, :, k), 1))
+    print '(f10.5, 2f9.4)', sqrt(max(lambda(k), 0.0_c_double)), table(JAM_MODE_PARTICIPATION + 1, k), &
+      maxval(norm2(vector(:, :, k), 1))
   end do
 
   ! u . H . u of the lowest mode, by the compressed rows of the Hessian, which begin at row(k)

@@ -1,5 +1,5 @@
-! A packing in d = 2 for ParaView (picture.vtp, filter Glyph: sphere, scale by diameter), its forces (picture-forces.vtp), and a
-! page for a browser (picture.html).
+! A packing in d = 2 for ParaView (picture.vtp, filter Glyph: sphere, scale by diameter), its forces (picture-
+! forces.vtp), and a page for a browser (picture.html).
 program picture
   use jam_packing
   implicit none

@@ -8,7 +8,7 @@ program soft
   type(jam_hessian_options) :: of_energy
   type(jam_moduli_report) :: moduli
   type(jam_decompress_report) :: down
-  real(c_double), allocatable :: distance(:), pressure(:)
+  real(c_double), allocatable :: minima(:, :)  ! (columns, minima)
   integer :: k
 
   call jam_defaults(create)
@@ -16,7 +16,8 @@ program soft
   call spheres%random(packing_fraction=0.72_c_double, options=create, &
                       diameters=[(1.0_c_double + 0.4_c_double*mod(k, 2), k=1, 100)])
   minimum = spheres%relax()
-  print '(3(a, es12.5))', 'energy ', minimum%energy, ', pressure ', minimum%pressure, ', residual ', minimum%force_residual
+  print '(3(a, es12.5))', 'energy ', minimum%energy, ', pressure ', minimum%pressure, &
+    ', residual ', minimum%force_residual
   if (minimum%converged /= 1) error stop 'no minimum'
 
   call jam_defaults(of_energy)
@@ -27,8 +28,10 @@ program soft
 
   down = spheres%decompress()
   print '(2(a, f12.9), a)', 'phi_J ', down%jammed_fraction, ' from above, ', down%crunch_fraction, ' by crunch'
-  distance = spheres%decompress_history(JAM_SOFT_DISTANCE)
-  pressure = spheres%decompress_history(JAM_SOFT_PRESSURE)
-  print '(a, es9.2, a, es10.3)', ('  distance ', distance(k), '  pressure ', pressure(k), k=1, size(distance))
+  minima = spheres%decompress_history()
+  do k = 1, size(minima, 2)
+    print '(a, es9.2, a, es10.3)', '  distance ', minima(JAM_SOFT_DISTANCE + 1, k), &
+      '  pressure ', minima(JAM_SOFT_PRESSURE + 1, k)
+  end do
   if (down%same_network /= 1) error stop 'two networks'
 end program soft

@@ -1,4 +1,5 @@
-! The type packing: results that allocate themselves, shapes, indices from 1, arguments left out, failures by one handler.
+! The type packing: results that allocate themselves, shapes, indices from 1, arguments left out, failures by one
+! handler.
 module catching
   use jam_packing
   implicit none
@@ -87,7 +88,8 @@ contains
     ! the lowest mode is an eigenvector of the Hessian
     call jam_defaults(which)
     which%count = 3
-    call disks%modes(o=which, lambda=lambda, vector=vector)
+    call disks%modes(o=which, table=table, vector=vector)
+    lambda = table(JAM_MODE_LAMBDA + 1, :)
     call disks%hessian(row_start=row, column=column, value=value)
     spheres = disks%hessian_map()
     m = 2*size(spheres)
@@ -105,7 +107,8 @@ contains
     rigid = disks%rigidity(JAM_RIGIDITY_COLLECTIVE)
     call expect(rigid%jammed == JAM_VERDICT_YES, 'rigidity')
     call expect(size(disks%floppy_mode(1), 2) == size(spheres), 'of the first contact')
-    call expect(size(disks%crunch_history(JAM_HISTORY_PHI)) > 1, 'history')
+    table = disks%crunch_history()
+    call expect(abs(table(JAM_HISTORY_PHI + 1, size(table, 2)) - report%packing_fraction) < 1e-12_c_double, 'history')
   end subroutine network
 
   subroutine copies_and_cells()

@@ -23,7 +23,7 @@ end
 "Means over all runs of the handle."
 function isoconf_means(s)
     sums, moved = columns(call(s, :jam_isoconf_series, (-1,))), call(s, :jam_isoconf_displacements, (-1,))
-    runs = max(maximum(sums.runs; init = 0.0), 1.0)
+    runs = isempty(sums.runs) ? 1.0 : max(maximum(sums.runs), 1.0)  # a block without runs has sums of 0
     names = Tuple(n for n in keys(sums) if n !== :runs && !endswith(string(n), "2"))
     series = NamedTuple{names}(Tuple(sums[n] ./ runs for n in names))
     distance = call(s, :jam_isoconf_distances, (-1,))

@@ -43,8 +43,8 @@ module jam_base
   end type jam_handle
 
   ! Reached through the type; a program may use these names for its own procedures.
-  private :: random, from_arrays, read_file, read_checkpoint, free, free_at_end, copy_of, positions, velocities, diameters, &
-             copy_view, write_file, notes, watch, cancel, why, done, extents, from_one
+  private :: random, from_arrays, read_file, read_checkpoint, free, free_at_end, copy_of, positions, velocities, &
+             diameters, copy_view, write_file, notes, watch, cancel, why, done, extents, from_one
 
 contains
 

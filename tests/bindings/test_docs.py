@@ -13,7 +13,7 @@ import numpy as np
 
 import jam
 
-MODULES = ("system", "_system.verbs", "_system.network", "_system.state", "_system.observe", "_system.writing", "_api.results", "_api.size_laws", "advice")
+MODULES = ("system", "_system.verbs", "_system.network", "_system.state", "_system.observe", "_system.writing", "_system.converting", "plot.motions", "_api.results", "_api.size_laws", "advice")
 
 
 class Examples(unittest.TestCase):

@@ -22,7 +22,7 @@ NAMES = {
     "jam.near_jamming": "Estimate ModeWeights Prediction Predictors Runs campaign clone_distance clone_overlap "
     "collapse_exponent correlation_errors correlations decay_curve is_caged median_over_mean mode_weights overlap prediction "
     "predictors propensity reliability run self_scattering take_runs",
-    "jam.plot": "COLOURS VIEW cdf convergence density_of_states network packing summary trace",
+    "jam.plot": "COLOURS VIEW cdf convergence density_of_states displacements mode network packing summary trace",
     "jam.scaling": "Cdf Collapse Estimate Exponent bootstrap cdf_grid cdf_pooled cdf_ranked collapse crossover "
     "draw_left_power fit_crossover fit_power local_exponent quality tail_scaling",
     "jam.statistics": "Estimate bootstrap collapse collapse_estimate deciles roc_area spearman spearman_components "

@@ -39,6 +39,39 @@ class Pictures(unittest.TestCase):
         self.assertGreaterEqual(sum(len(c.get_offsets()) for c in ax.collections), 60)
         self.assertTrue(all(len(c.get_offsets()) for c in ax.collections))  # an empty one would draw a stray circle
 
+    def test_values_colour_the_spheres(self):
+        for s in (self.flat, self.deep):
+            values = s.coordination.astype(float)
+            values[s.rattlers] = np.nan
+            figure = jam.plot.packing(s, values=values, label="contacts").figure
+            self.assertEqual(figure.axes[1].get_ylabel(), "contacts")
+            self.assertEqual(figure.axes[1].get_ylim(), (np.nanmin(values), np.nanmax(values)))
+            self.assertEqual(len(jam.plot.packing(s, values=values, legend=False).figure.axes), 1)
+        most = [c.get_facecolors() for c in jam.plot.packing(self.flat, values=np.arange(60)).collections]
+        self.assertGreaterEqual(len(np.unique(np.concatenate(most), axis=0)), 60)  # each its own
+        for values in (np.zeros(3), np.full(60, np.nan)):
+            with self.assertRaisesRegex(ValueError, "values"):
+                jam.plot.packing(self.flat, values=values)
+
+    def test_arrows_point_along_the_mode(self):
+        from matplotlib.quiver import Quiver
+
+        for s in (self.flat, self.deep):
+            modes = s.modes(3)
+            ax = jam.plot.mode(s, modes, 1)
+            (arrows,) = [c for c in ax.collections if isinstance(c, Quiver)]
+            self.assertEqual(len(arrows.U), s.report.stable)
+            self.assertIn(f"{modes.frequencies[1]:.4g}", ax.get_title())
+            if s.dim == 2:
+                drawn, u = np.stack([arrows.U, arrows.V], 1), modes.vectors[1]
+                factor = 0.8 * s.diameters.mean() / np.linalg.norm(u, axis=1).max()
+                np.testing.assert_allclose(drawn, factor * u, atol=1e-12)
+                np.testing.assert_allclose(arrows.XY, s.positions[modes.spheres], atol=1e-12)
+            self.assertGreater(ink(ax.figure), 0.1)
+        with self.assertRaisesRegex(ValueError, "shape"):
+            jam.plot.displacements(self.flat, np.zeros((3, 2)))
+        self.assertEqual(len(jam.plot.displacements(self.flat, np.zeros((60, 2))).texts), 0)  # nothing moves
+
     def test_before_crunch_and_wrong_dimension(self):
         self.assertGreater(ink(jam.plot.packing(jam.System.random(n=20, dim=2)).figure), 0.05)
         with self.assertRaises(jam.errors.StateError):

@@ -34,7 +34,7 @@ class Predictors(NamedTuple):
 
 def predictors(system: Any) -> Predictors:
     """Predictors from the contact network. StateError before a crunch; ValueError when all spheres are rattlers."""
-    plain, weighted, contacts = system.sphere_structure(0), system.sphere_structure(1), system.contacts
+    plain, weighted, contacts = system.sphere_structure(False), system.sphere_structure(True), system.contacts
     if len(contacts.pairs) == 0:
         raise ValueError("the packing has rattlers only: there is no contact network to predict from")
     total = np.zeros(system.n)

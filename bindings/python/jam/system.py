@@ -14,7 +14,8 @@ from ._api.given import cell_of, positions_of, refuse_start_options, refuse_unna
 from ._api.options import option_struct
 from ._api.results import Contacts, Modes
 from ._api.size_laws import density_of
-from ._formats import gsd
+from ._formats import ase, gsd
+from ._system.converting import Converting
 from ._system.progress import end, reporter
 from ._system.verbs import Verbs
 from ._system.writing import Writing
@@ -22,7 +23,7 @@ from ._system.writing import Writing
 __all__ = ["Contacts", "Modes", "System"]
 
 
-class System(Verbs, Writing):
+class System(Verbs, Writing, Converting):
     """N spheres in a periodic cube, or in any periodic cell.
 
     Make one by `System.random`, `System.from_arrays` or `System.read`. `run`, `compress` and `crunch` move the spheres.
@@ -179,6 +180,27 @@ class System(Verbs, Writing):
     def from_checkpoint(cls, path: str | os.PathLike[str]) -> "System":
         """Reads a file of `write_checkpoint`. The dynamics continue to the same bits as if they had never stopped."""
         return cls._made(*raw.jam_read_checkpoint(os.fspath(path), None))
+
+    @classmethod
+    def from_ase(
+        cls, atoms: Any, diameters: Any = None, *, radii: Any = None, dim: int = 3, **options: Any
+    ) -> "System":
+        """The spheres of an ase.Atoms that is periodic in all directions; `to_ase` is the way back.
+
+        Parameters
+        ----------
+        atoms : ase.Atoms
+            With an array `radius` or `diameter`, unless sizes are given here.
+        diameters, radii : array_like, optional
+            One for all or one for each sphere.
+        dim : int
+            2 takes a plane z = const, periodic in x and y.
+        **options
+            As of `from_arrays`.
+        """
+        notes: list[str] = []
+        given = ase.of_atoms(atoms, diameters, radii=radii, dim=dim, notes=notes, where="atoms")
+        return cls._noted(dict(given, **options), notes)
 
     @classmethod
     def _noted(cls, arguments: dict[str, Any], notes: list[str]) -> "System":

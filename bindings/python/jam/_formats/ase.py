@@ -37,30 +37,38 @@ def arguments(
     frames = ase.io.read(name, index=":", format=kind)
     at = in_range(name, frame, len(frames))
     atoms = frames[at]
+    notes = notes_of(frame, len(frames))
+    given = of_atoms(atoms, diameters, radii=radii, dim=dim, notes=notes, where=name)
+    if given["diameters"].size > 1 and not (diameters is None and radii is None):
+        _refuse_sorted(name, kind, at, np.asarray(atoms.positions))
+    return dict(given, **options), notes
+
+
+def of_atoms(
+    atoms: Any, diameters: Any, *, radii: Any, dim: int, notes: list[str], where: str
+) -> dict[str, Any]:
+    """What System.from_arrays takes for an ase.Atoms. where: what an error calls it; notes get what was not read."""
     if len(atoms) == 0:
-        raise bad(name, "the frame has no sphere")
+        raise bad(where, "the frame has no sphere")
     if not all(atoms.pbc[:dim]):
         hint = "; dim=2 reads a packing of disks" if dim == 3 and all(atoms.pbc[:2]) else ""
-        raise bad(name, f"the cell must be periodic in every direction, pbc is {[bool(p) for p in atoms.pbc]}{hint}")
-    positions, notes = np.asarray(atoms.positions), notes_of(frame, len(frames))
+        raise bad(where, f"the cell must be periodic in every direction, pbc is {[bool(p) for p in atoms.pbc]}{hint}")
     read = {"positions"}
     if diameters is None and radii is None:
-        sizes, names = _sizes_in(name, atoms.arrays)
+        sizes, names = _sizes_in(where, atoms.arrays)
         read.update(names)
     else:
         sizes = sizes_of(diameters, radii, len(atoms))
-        if sizes.size > 1:
-            _refuse_sorted(name, kind, at, positions)
     say_unread(notes, "columns", (k for k in atoms.arrays if k not in read))
     say_unread(notes, "keys", atoms.info)
     if atoms.constraints:
         notes.append("constraints of the file were not read")
     cell = np.asarray(atoms.cell)
-    x = plane(name, positions, cell, dim, notes)
+    x = plane(where, np.asarray(atoms.positions), cell, dim, notes)
     cell = cell[:dim, :dim]
     x = from_corner(x, np.asarray(atoms.get_celldisp()).reshape(-1)[:dim], notes)
     say_outside(notes, x, cell)
-    return dict(positions=x, diameters=sizes, **box_of(cell), dim=dim, **options), notes
+    return dict(positions=x, diameters=sizes, **box_of(cell), dim=dim)
 
 
 def _sizes_in(path: str, arrays: dict[str, Array]) -> tuple[Array, list[str]]:

@@ -12,9 +12,22 @@ from typing import Any
 from ..errors import StateError
 from ..system import System
 from .curves import cdf, convergence, density_of_states, trace
+from .motions import displacements, mode
 from .packings import COLOURS, VIEW, network, packing
 
-__all__ = ["COLOURS", "VIEW", "cdf", "convergence", "density_of_states", "network", "packing", "summary", "trace"]
+__all__ = [
+    "COLOURS",
+    "VIEW",
+    "cdf",
+    "convergence",
+    "density_of_states",
+    "displacements",
+    "mode",
+    "network",
+    "packing",
+    "summary",
+    "trace",
+]
 
 
 def summary(system: System) -> Any:

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from .._api.arrays import Array
+from .._api.arrays import Array, as_array
 from ..errors import StateError
 from ..files import half_bonds
 from ..system import System
@@ -14,6 +14,24 @@ from .axes import axes_of
 
 COLOURS = {"sphere": "#4c78a8", "buckler": "#f2a541", "rattler": "#c8c8c8", "force": "#b2182b", "line": "#333333"}
 VIEW = (25.0, 20.0)  # degrees: turn about the vertical axis, then tilt
+
+
+def _by_value(values: Any, n: int, colour_map: str) -> tuple[Array, Any]:
+    """Colours of n values, and what a colour bar shows. Values that are not finite are grey."""
+    from matplotlib import colormaps
+    from matplotlib.cm import ScalarMappable
+    from matplotlib.colors import Normalize, to_rgb
+
+    x = as_array(values, name="values").reshape(-1)
+    if len(x) != n:
+        raise ValueError(f"values must have shape ({n},), a number for each sphere, not {np.shape(values)}")
+    finite = np.isfinite(x)
+    if not finite.any():
+        raise ValueError("none of the values is a number")
+    scale = ScalarMappable(Normalize(float(x[finite].min()), float(x[finite].max())), colormaps[colour_map])
+    colours: Array = scale.to_rgba(np.where(finite, x, x[finite][0]))[:, :3]
+    colours[~finite] = to_rgb(COLOURS["rattler"])
+    return colours, scale
 
 
 def _colours(system: System) -> Array:
@@ -111,12 +129,41 @@ def _legend(ax: Any, system: System) -> None:
 
 
 def packing(
-    system: System, ax: Any = None, *, forces: bool = False, view: tuple[float, float] = VIEW, legend: bool = True
+    system: System,
+    ax: Any = None,
+    *,
+    forces: bool = False,
+    values: Any = None,
+    label: str | None = None,
+    colour_map: str = "viridis",
+    view: tuple[float, float] = VIEW,
+    legend: bool = True,
 ) -> Any:
-    """The spheres, bucklers (d + 1 contacts) and rattlers coloured; with forces=True (d = 2) the network over them."""
+    """The spheres, bucklers (d + 1 contacts) and rattlers coloured; with forces=True (d = 2) the network over them.
+
+    Parameters
+    ----------
+    system : System
+        In d = 2 or 3.
+    ax : matplotlib axes, optional
+        Where to draw; default: those of a new figure.
+    forces : bool
+        Draw the contacts as lines, width by force (d = 2).
+    values : array_like, shape (n,), optional
+        Colours the spheres by a number of each instead, with a colour bar; nan is grey.
+    label : str, optional
+        Of the colour bar.
+    colour_map : str
+        Of matplotlib.
+    view : (float, float)
+        Degrees (d = 3): turn about the vertical axis, then tilt.
+    legend : bool
+        Legend or colour bar.
+    """
     dim, ax, cell = _drawable(system), axes_of(ax, True), system.cell
     edges, box = np.diag(cell), system.box
-    x, s, colours = system.positions, system.diameters, _colours(system)
+    colours, scale = (_colours(system), None) if values is None else _by_value(values, system.n, colour_map)
+    x, s = system.positions, system.diameters
     if dim == 2:
         for shift in _IMAGES:
             y = x + shift @ cell
@@ -150,7 +197,9 @@ def packing(
             )
         _brick(ax, edges, view, True)
     _frame(ax, edges)
-    if legend:
+    if legend and scale is not None:
+        ax.figure.colorbar(scale, ax=ax, shrink=0.75, label=label or "")
+    elif legend:
         _legend(ax, system)
     return ax
 

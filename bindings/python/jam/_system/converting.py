@@ -1,0 +1,118 @@
+"""A packing as objects of other packages: pandas, NetworkX, ASE. Each is imported when it is asked for."""
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ..errors import StateError
+from .network import Network
+from .state import State
+
+
+class Converting(State, Network):
+    """What a system is in other packages."""
+
+    def to_pandas(self, what: str = "spheres") -> Any:
+        """A DataFrame with a row for each sphere, contact or step.
+
+        Parameters
+        ----------
+        what : {'spheres', 'contacts', 'history'}
+            'spheres': position, diameter and, after a crunch, contacts and kind (a word). 'contacts': i, j, unit vector
+            from j to i, gap and force. 'history': the steps of the last crunch, their phase as a word.
+
+        Examples
+        --------
+        >>> import jam
+        >>> disks = jam.System.random(n=64, dim=2, seed=1, diameters=[1.0] * 32 + [1.4] * 32)
+        >>> report = disks.crunch()
+        >>> list(disks.to_pandas("contacts"))
+        ['i', 'j', 'nx', 'ny', 'gap', 'force']
+        """
+        import pandas
+
+        makers = {"spheres": self._sphere_columns, "contacts": self._contact_columns, "history": self._step_columns}
+        if what not in makers:
+            raise ValueError(f"{what!r} is none of {', '.join(makers)}")
+        return pandas.DataFrame(makers[what]())
+
+    def to_networkx(self) -> Any:
+        """The contact network as a networkx.MultiGraph: two spheres of a small cell may touch through two images.
+
+        Nodes have position, diameter and kind ('sphere', 'buckler' or 'rattler'), edges force, gap and vector (from j to i,
+        of unit length).
+
+        Examples
+        --------
+        >>> import jam
+        >>> disks = jam.System.random(n=64, dim=2, seed=1, diameters=[1.0] * 32 + [1.4] * 32)
+        >>> report = disks.crunch()
+        >>> disks.to_networkx().number_of_edges() == report.contacts
+        True
+        """
+        import networkx
+
+        graph, contacts, kinds = networkx.MultiGraph(), self.contacts, self._kinds()
+        for i, (x, size) in enumerate(zip(self.positions, self.diameters)):
+            graph.add_node(i, position=tuple(x), diameter=float(size), kind=kinds[i])
+        for (i, j), vector, gap, force in zip(contacts.pairs, contacts.vectors, contacts.gaps, contacts.forces):
+            graph.add_edge(int(i), int(j), vector=tuple(vector), gap=float(gap), force=float(force))
+        return graph
+
+    def to_ase(self, symbol: str = "X") -> Any:
+        """An ase.Atoms with the array `radius`, periodic in the directions of the packing. In d = 2 all z are 0.
+
+        Parameters
+        ----------
+        symbol : str
+            Chemical symbol of every sphere.
+
+        Examples
+        --------
+        >>> import jam
+        >>> disks = jam.System.random(n=8, dim=2, seed=1)
+        >>> again = jam.System.from_ase(disks.to_ase(), dim=2)
+        >>> bool((again.positions == disks.positions).all())
+        True
+        """
+        from ase import Atoms
+
+        if self.dim not in (2, 3):
+            raise ValueError(f"ASE has three dimensions, this system has d = {self.dim}")
+        x, cell = np.zeros((self.n, 3)), np.eye(3)
+        x[:, : self.dim] = self.positions
+        cell[: self.dim, : self.dim] = self.cell
+        atoms = Atoms([symbol] * self.n, positions=x, cell=cell, pbc=[k < self.dim for k in range(3)])
+        atoms.set_array("radius", 0.5 * self.diameters)
+        return atoms
+
+    def _kinds(self) -> Any:
+        kinds = np.full(self.n, "sphere", dtype=object)
+        kinds[self.bucklers] = "buckler"
+        kinds[self.rattlers] = "rattler"
+        return kinds
+
+    def _sphere_columns(self) -> dict[str, Any]:
+        found: dict[str, Any] = dict(zip(self._axes(), self.positions.T.copy()), diameter=self.diameters.copy())
+        try:
+            found.update(contacts=self.coordination, kind=self._kinds())
+        except StateError:
+            pass  # no network yet
+        return found
+
+    def _contact_columns(self) -> dict[str, Any]:
+        c = self.contacts
+        axes = {"n" + axis: c.vectors[:, k].copy() for k, axis in enumerate(self._axes())}
+        return {"i": c.pairs[:, 0].copy(), "j": c.pairs[:, 1].copy(), **axes, "gap": c.gaps, "force": c.forces}
+
+    def _step_columns(self) -> dict[str, Any]:
+        from .._api.generated import StepPhase
+
+        rows = self.history
+        found: dict[str, Any] = {name: rows[name].copy() for name in rows.dtype.names or ()}
+        found["phase"] = [StepPhase(int(p)).name.lower() for p in rows["phase"]]
+        return found
+
+    def _axes(self) -> list[str]:
+        return ["x", "y", "z"][: self.dim] if self.dim <= 3 else [f"x{k}" for k in range(self.dim)]

@@ -1,0 +1,76 @@
+"""A packing as objects of other packages has the numbers of the packing."""
+import unittest
+
+import numpy as np
+
+import jam
+
+
+def disks():
+    packing = jam.System.random(n=64, dim=2, seed=1, diameters=[1.0] * 32 + [1.4] * 32)
+    packing.crunch()
+    return packing
+
+
+class Converting(unittest.TestCase):
+    def test_frames_have_the_numbers_and_words(self):
+        packing = disks()
+        spheres, contacts, steps = (packing.to_pandas(what) for what in ("spheres", "contacts", "history"))
+        np.testing.assert_array_equal(spheres[["x", "y"]], packing.positions)
+        np.testing.assert_array_equal(spheres["diameter"], packing.diameters)
+        self.assertEqual((spheres["kind"] == "rattler").sum(), packing.report.rattlers)
+        self.assertEqual((spheres["kind"] == "buckler").sum(), packing.report.bucklers)
+        np.testing.assert_array_equal(contacts[["i", "j"]], packing.contacts.pairs)
+        np.testing.assert_array_equal(contacts[["nx", "ny"]], packing.contacts.vectors)
+        self.assertEqual((steps["phase"] == "lp").sum(), packing.report.lp_solves)
+        with self.assertRaisesRegex(ValueError, "spheres, contacts, history"):
+            packing.to_pandas("forces")
+
+    def test_before_a_crunch_there_are_spheres_alone(self):
+        loose = jam.System.random(n=8, dim=4)
+        self.assertEqual(list(loose.to_pandas()), ["x0", "x1", "x2", "x3", "diameter"])
+        with self.assertRaises(jam.errors.StateError):
+            loose.to_pandas("contacts")
+
+    def test_a_frame_is_a_copy(self):
+        packing = disks()
+        before = packing.positions.copy()
+        packing.to_pandas()["x"][:] = 0.0
+        np.testing.assert_array_equal(packing.positions, before)
+
+    def test_the_graph_balances(self):
+        packing = disks()
+        graph = packing.to_networkx()
+        self.assertEqual(graph.number_of_edges(), packing.report.contacts)
+        net = np.zeros((64, 2))
+        for i, j, edge in graph.edges(data=True):
+            first, second = (i, j) if i < j else (j, i)  # an edge has no direction, pairs have i < j
+            net[first] += edge["force"] * np.array(edge["vector"])
+            net[second] -= edge["force"] * np.array(edge["vector"])
+        self.assertLess(np.abs(net).max(), 1e-8)
+        alone = [i for i, kind in graph.nodes(data="kind") if kind == "rattler"]
+        self.assertEqual(alone, list(np.flatnonzero(packing.rattlers)))
+
+    def test_ase_and_back_has_the_same_bits(self):
+        cells = {2: [[1.0, 0.0], [0.3, 1.0]], 3: [[1.0, 0.0, 0.0], [0.3, 1.0, 0.0], [0.1, 0.2, 1.0]]}
+        for dim, cell in cells.items():
+            x = np.random.default_rng(dim).random((20, dim))
+            packing = jam.System.from_arrays(x, np.linspace(0.01, 0.02, 20), cell=cell, overlap="allow")
+            atoms = packing.to_ase()
+            self.assertEqual(list(atoms.pbc), [True, True, dim == 3])
+            again = jam.System.from_ase(atoms, dim=dim, overlap="allow")
+            np.testing.assert_array_equal(again.positions, packing.positions)
+            np.testing.assert_array_equal(again.diameters, packing.diameters)
+            np.testing.assert_array_equal(again.cell, packing.cell)
+        with self.assertRaisesRegex(ValueError, "three dimensions"):
+            jam.System.random(n=8, dim=4).to_ase()
+        with self.assertRaisesRegex(ValueError, "dim=2 reads"):
+            jam.System.from_ase(disks().to_ase())
+        atoms.arrays.pop("radius")
+        with self.assertRaisesRegex(ValueError, "give diameters="):
+            jam.System.from_ase(atoms)
+        self.assertEqual(jam.System.from_ase(atoms, radii=0.005).diameters[0], 0.01)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -21,7 +21,7 @@ program first
   md = disks%compress(growth)
   print '(a, i0, a, f8.5)', 'collisions ', md%collisions, ', phi ', md%packing_fraction
 
-  report = disks%crunch()  ! options left out: the defaults
+  report = disks%crunch()  ! without options: the defaults
   print '(a, f10.7, 3(a, i0))', 'phi_J ', report%packing_fraction, ', contacts ', report%contacts, ', rattlers ', &
     report%rattlers, ', excess ', report%excess_contacts
   if (report%jammed /= 1) error stop 'not jammed'

@@ -9,11 +9,13 @@ from typing import Any
 
 import numpy as np
 
+from . import raw
 from ._api.arrays import Array
+from ._api.calls import not_cancelled
 from ._api.results import Modes
 from ._formats import ase, gsd
 from ._formats.replacing import replacing
-from .errors import StateError, UnsupportedError
+from .errors import StateError
 from .system import System
 
 
@@ -58,7 +60,7 @@ def _axes(d: int) -> list[str]:
 
 
 def write_csv(system: System, path: str | os.PathLike[str]) -> None:
-    """One line a sphere: coordinates, diameter and, after crunch, contacts."""
+    """One line per sphere: coordinates, diameter and, after crunch, contacts."""
     columns, names = [system.positions, system.diameters[:, None]], _axes(system.dim) + ["diameter"]
     if _kinds(system) is not None:
         columns, names = columns + [system.coordination[:, None]], names + ["contacts"]
@@ -67,52 +69,30 @@ def write_csv(system: System, path: str | os.PathLike[str]) -> None:
 
 
 def write_contacts_csv(system: System, path: str | os.PathLike[str]) -> None:
-    """One line a contact: i, j, unit vector, gap, force (mean 1)."""
+    """One line per contact: i, j, unit vector, gap, force (mean 1)."""
     system.write_contacts(path, "csv")
 
 
-def write_spectrum_csv(modes: Modes, path: str | os.PathLike[str]) -> None:
-    """One line a mode that converged: number, lambda = omega^2, omega, participation."""
-    values = modes.values[: np.count_nonzero(np.isfinite(modes.values))]
-    rows = np.column_stack(
-        [np.arange(len(values)), values, modes.frequencies[: len(values)], modes.participation[: len(values)]]
-    )
+def _write_table(path: str | os.PathLike[str], made: tuple[int, str]) -> None:
+    """A table as the code of jam-pack has made it."""
+    not_cancelled(made[0])
     with replacing(path, "w") as file:
-        np.savetxt(
-            file, rows, fmt=["%d"] + ["%.17g"] * 3, delimiter=",", header="mode,lambda,omega,participation", comments=""
-        )
+        file.write(made[1])
+
+
+def write_spectrum_csv(modes: Modes, path: str | os.PathLike[str]) -> None:
+    """One line per mode that converged: number, lambda = omega^2, omega, participation."""
+    _write_table(path, raw.table_of_modes(np.column_stack([modes.values, modes.participation]).reshape(-1)))
 
 
 def write_gaps_csv(system: System, path: str | os.PathLike[str], h_max: float = 1.0) -> None:
-    """One line a gap below h_max that is no contact, ascending: i, j, gap, and 1 when both spheres are stable."""
-    gaps, rattlers = system.gaps(h_max, False), system.rattlers
-    stable = ~rattlers[gaps.pair].any(1)
-    with replacing(path, "w") as file:
-        np.savetxt(
-            file,
-            np.column_stack([gaps.pair, gaps.gap, stable]),
-            fmt=["%d", "%d", "%.17g", "%d"],
-            delimiter=",",
-            header="i,j,gap,stable",
-            comments="",
-        )
+    """One line per gap below h_max that is no contact, ascending: i, j, gap, and 1 when both spheres are stable."""
+    _write_table(path, raw.table_of_gaps(system.handle, h_max))
 
 
 def write_structure_csv(system: System, path: str | os.PathLike[str]) -> None:
-    """One line a sphere: contacts, class, C_i = sum n_ij, S_i and the same with forces, Q6, Voronoi packing fraction (d = 3)."""
-    d, z = system.dim, system.coordination
-    plain, weighted = system.sphere_structure(False), system.sphere_structure(True)
-    q6 = system.bond_order(6, 1.2)
-    try:
-        phi = [f"{x:.17g}" for x in system.local_fraction()]
-    except UnsupportedError:  # no Voronoi cells but in d = 3
-        phi = [""] * system.n
-    names = np.where(z == 0, "rattler", np.where(z == d + 1, "buckler", "stable"))
-    with replacing(path, "w") as file:
-        file.write(",".join(["sphere,z,class"] + [f"c{k + 1}" for k in range(d)] + ["s,fs,q6,phi"]) + "\n")
-        for i in range(system.n):
-            numbers = ",".join(f"{x:.17g}" for x in (*plain.c[i], plain.s[i], weighted.s[i], q6[i]))
-            file.write(f"{i},{z[i]},{names[i]},{numbers},{phi[i]}\n")
+    """One line per sphere: contacts, class, C_i = sum n_ij, S_i and the same with forces, Q6, Voronoi packing fraction (d = 3)."""
+    _write_table(path, raw.table_of_structure(system.handle))
 
 
 def write_gsd(system: System, path: str | os.PathLike[str]) -> None:
@@ -131,10 +111,10 @@ def read_gsd(
 ) -> System:
     """Reads one frame of a GSD file; the last by default.
 
-    Files that libjam wrote come back to the bit. Others hold float32, so that spheres in contact overlap by 1e-7:
+    Files that libjam wrote come back to the bit. Others store float32, so that spheres in contact overlap by 1e-7:
     overlap='shrink' is then needed.
 
-    Diameters are looked for in particles/diameter, in the spheres of particles/type_shapes and in
+    Diameters are searched in particles/diameter, in the spheres of particles/type_shapes and in
     state/hpmc/sphere/radius. Those found must agree. A file with none of them is refused: GSD leaves out its default,
     diameters of 1, so that such a file may hold spheres of that size or none.
 
@@ -151,7 +131,7 @@ def read_gsd(
     doubles : bool
         False leaves the chunks log/jam out. They are refused where another program changed the frame beside them.
     **options
-        As of System.from_arrays, but for box, cell and dim, which the file holds.
+        As of System.from_arrays, except for box, cell and dim, which the file gives.
     """
     return System._noted(*gsd.arguments(path, frame, diameters=diameters, radii=radii, doubles=doubles, **options))
 

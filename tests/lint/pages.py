@@ -112,7 +112,9 @@ def links(root, problem):
             if re.match(r"[a-z]+:", name):
                 continue
             target = path if not name else root / name[1:] if name.startswith("/") else path.parent / name
-            if not target.exists():
-                problem(path, number, f"there is no {name}")
+            if not target.is_file():
+                problem(path, number, f"there is no file {name}")
+            elif anchor and name.startswith("/"):
+                problem(path, number, f"{name}#{anchor}: the site finds a heading only by a relative path")
             elif anchor and anchor not in anchors(target.read_text(encoding="utf-8")):
                 problem(path, number, f"{name or path.name} has no heading #{anchor}")

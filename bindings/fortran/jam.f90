@@ -391,7 +391,8 @@ module jam
     real(c_double) :: seconds_left_spread = 0
   end type jam_progress
 
-  ! Options of jam_create and jam_read. An option whose value a file gives must be the default or agree with the file.
+  ! Options of jam_create and jam_read. An option whose value a file gives must be the default or agree with the file. A
+  ! random Mari-Kurchan start is planted in equilibrium.
   type, bind(c) :: jam_create_options
     integer(c_int32_t) :: struct_size = 0
     ! 2..8, default 3
@@ -408,7 +409,7 @@ module jam
     integer(c_int32_t) :: overlap = 0
     ! jam_model, default EUCLID
     integer(c_int32_t) :: model = 0
-    ! MK: strength of shifts, 0..1e15; default infinity: uniform. Random starts: planted
+    ! MK: strength of the shifts, 0..1e15; default infinity: uniform shifts
     real(c_double) :: mk_zeta = 0
     ! jam_masses, default EQUAL
     integer(c_int32_t) :: masses = 0
@@ -421,7 +422,7 @@ module jam
     real(c_double) :: memory_limit = 0
     ! which packing of a file with several, from 0; negative: from the end; default -1, the last
     integer(c_int64_t) :: frame = 0
-    ! JAM_OVERLAP_SHRINK: least factor, 0..1, default 1e-3; below: duplicates, or wrong units?
+    ! JAM_OVERLAP_SHRINK refuses a smaller factor, in 0..1, default 1e-3: it points to wrong units
     real(c_double) :: shrink_min = 0
   end type jam_create_options
 
@@ -432,7 +433,7 @@ module jam
     ! (n, d), Cartesian, any finite value (wrapped into the cell); NULL: a random start
     type(c_ptr) :: positions = c_null_ptr
     integer(c_size_t) :: positions_len = 0
-    ! n values, or 1 for all; NULL: equal. Random start: only ratios count; else not NULL
+    ! n values, or 1 for all; needed with positions. Random start: ratios alone, NULL: equal
     type(c_ptr) :: diameters = c_null_ptr
     integer(c_size_t) :: diameters_len = 0
     ! (d, d), beside the default box of 1; left-handed, singular, flat: refused. NULL: a cube
@@ -575,7 +576,7 @@ module jam
     real(c_double) :: wall_time = 0
     ! limit of simulated time, > 0, default infinity
     real(c_double) :: time = 0
-    ! in [0, growth_rate]: the rate at the target, a power of p; 0, the default: constant
+    ! to which the rate falls as a power of p, in [0, growth_rate]; 0, the default: constant
     real(c_double) :: growth_rate_end = 0
     ! jam_growth_law, default DIAMETER
     integer(c_int32_t) :: growth_law = 0
@@ -624,7 +625,7 @@ module jam
     real(c_double) :: sample_every = 0
     ! the first bin is [0, gap_min], > 0, default 1e-8
     real(c_double) :: gap_min = 0
-    ! up to here by equal ratios, <= 10, 1
+    ! the others end here, <= 10, default 1
     real(c_double) :: gap_max = 0
     ! of g(r), mean diameters, > 0, default 4
     real(c_double) :: r_max = 0
@@ -782,7 +783,7 @@ module jam
     integer(c_int32_t) :: lp_solver = 0
     ! jam_crunch_method, default BARRIER_PATH
     integer(c_int32_t) :: method = 0
-    ! 1: contacts closed, forces balanced to rounding, 1
+    ! 1: contacts are closed and forces balanced to rounding; default 1
     integer(c_int32_t) :: polish = 0
     ! >= 1, default 1000
     integer(c_int32_t) :: max_lps = 0
@@ -819,7 +820,8 @@ module jam
   ! contacts are unknown, for example after an early stop; calls that need the network then return JAM_E_STATE. The
   ! numbers from packing_fraction_start to contacts_kept say what the crunch did to the packing that it was given:
   ! displacements in mean diameters without their mean over these spheres; rattlers count, and so does a strain of the
-  ! cell. They are NaN or -1 where no crunch made the report.
+  ! cell. They are NaN or -1 where no crunch made the report. After JAM_STOP_DUALITY_GAP undecided_contacts are pairs
+  ! whose force on the path over the mean is within a factor of 1e4 of twice their gap.
   type, bind(c) :: jam_crunch_report
     integer(c_int32_t) :: struct_size = 368
     ! 1: collectively jammed by the test of jam_rigidity; 0: not, undecided, untested
@@ -851,11 +853,11 @@ module jam
     integer(c_int64_t) :: isostatic_contacts = 0
     ! contacts - isostatic_contacts: 0 isostatic or no network, > 0 hyperstatic
     integer(c_int64_t) :: excess_contacts = 0
-    ! motions of stable spheres, but translations, that keep contacts with force closed
+    ! motions of stable spheres beyond translations that keep contacts with force closed
     integer(c_int64_t) :: flexes = 0
     ! closed pairs without force in every state of self-stress, those of rattlers too
     integer(c_int64_t) :: zero_force_contacts = 0
-    ! gaps of 1e-10 to 1e-7; after DUALITY_GAP: force / 2 gap within a factor of 1e4
+    ! pairs with gaps of 1e-10 to 1e-7; after JAM_STOP_DUALITY_GAP: see above
     integer(c_int64_t) :: undecided_contacts = 0
     ! stable spheres with d force-carrying contacts or fewer
     integer(c_int64_t) :: undercoordinated = 0
@@ -913,9 +915,9 @@ module jam
     integer(c_int64_t) :: contacts_start = 0
     ! of these the contacts of this report
     integer(c_int64_t) :: contacts_kept = 0
-    ! jam_theorem, by prove, else NONE
+    ! jam_theorem, NONE without prove
     integer(c_int32_t) :: theorem = 0
-    ! jam_proof_cause it is not EXACT
+    ! jam_proof_cause: why it is not EXACT
     integer(c_int32_t) :: proof_cause = 0
     ! unit of the box: radius of EXACT, inner of TRAPPED (jam_proof_report), or infinite
     real(c_double) :: proof_radius = 0
@@ -1256,9 +1258,8 @@ module jam
     integer(c_int64_t) :: undecided_contacts = 0
     ! independent balances of forces; with more than one forces are not unique
     integer(c_int64_t) :: self_stresses = 0
-    ! motions but translations that keep force contacts closed
     integer(c_int64_t) :: flexes = 0
-    ! with strains, if tested
+    ! motions beyond translations that keep contacts with force closed; with strains, 0 untested
     integer(c_int64_t) :: strict_flexes = 0
     ! contacts of the copy
     integer(c_int64_t) :: crunch_contacts = 0
@@ -1286,9 +1287,9 @@ module jam
     real(c_double) :: crunch_displacement_max = 0
     ! root of the mean square of the same
     real(c_double) :: crunch_displacement_rms = 0
-    ! jam_theorem, by prove, else NONE
+    ! jam_theorem, NONE without prove
     integer(c_int32_t) :: theorem = 0
-    ! jam_proof_cause it is not EXACT
+    ! jam_proof_cause: why it is not EXACT
     integer(c_int32_t) :: proof_cause = 0
     ! unit of the box: radius of EXACT, inner of TRAPPED (jam_proof_report), or infinite
     real(c_double) :: proof_radius = 0

@@ -73,7 +73,8 @@
   }
   ~jam_create_options() { free($self); }
 }
-%feature("docstring") jam_create_options "Options of jam_create and jam_read. An option whose value a file gives must be the default or agree with the file."
+%feature("docstring") jam_create_options "Options of jam_create and jam_read. An option whose value a file gives must be the default or agree with the file. A
+random Mari-Kurchan start is planted in equilibrium."
 %extend jam_info {
   jam_info() {
     jam_info *made = (jam_info *)calloc(1, sizeof *made);
@@ -216,7 +217,8 @@ alone needs a strain: its contacts are its own images, which only strains move.
 contacts are unknown, for example after an early stop; calls that need the network then return JAM_E_STATE. The
 numbers from packing_fraction_start to contacts_kept say what the crunch did to the packing that it was given:
 displacements in mean diameters without their mean over these spheres; rattlers count, and so does a strain of the
-cell. They are NaN or -1 where no crunch made the report."
+cell. They are NaN or -1 where no crunch made the report. After JAM_STOP_DUALITY_GAP undecided_contacts are pairs
+whose force on the path over the mean is within a factor of 1e4 of twice their gap."
 %extend jam_estimate {
   jam_estimate() {
     jam_estimate *made = (jam_estimate *)calloc(1, sizeof *made);

@@ -233,7 +233,7 @@ typedef struct jam_system jam_system;
 typedef enum jam_overlap_policy {
   JAM_OVERLAP_REFUSE = 0, /* JAM_E_OVERLAP naming the worst pair */
   JAM_OVERLAP_SHRINK = 1, /* scale all diameters down until the worst pair just touches; jam_notes gives the factor */
-  JAM_OVERLAP_ALLOW = 2   /* soft spheres: keep them, also later. Random starts are uniform; hard-sphere calls refuse */
+  JAM_OVERLAP_ALLOW = 2   /* soft spheres: keep them, also later; random starts are uniform. Hard-sphere calls refuse */
 } jam_overlap_policy;
 /* Pair distance. */
 typedef enum jam_model {
@@ -246,7 +246,8 @@ typedef enum jam_masses {
   JAM_MASSES_VOLUME = 1 /* as the volumes, sigma_i^d */
 } jam_masses;
 
-/* Options of jam_create and jam_read. An option whose value a file gives must be the default or agree with the file. */
+/* Options of jam_create and jam_read. An option whose value a file gives must be the default or agree with the file. A
+ * random Mari-Kurchan start is planted in equilibrium. */
 typedef struct jam_create_options {
   uint32_t struct_size;
   int32_t dim;             /* 2..8, default 3 */
@@ -254,14 +255,14 @@ typedef struct jam_create_options {
   double box;              /* side of the cube, > 0, default 1 */
   double packing_fraction; /* of a random start, > 0; default 0: by dim, 0.2 halved for each dimension above 3 */
   int32_t overlap, model;  /* @enum jam_overlap_policy, default REFUSE; @enum jam_model, default EUCLID */
-  double mk_zeta;          /* MK: strength of shifts, 0..1e15; default infinity: uniform. Random starts: planted */
+  double mk_zeta;          /* MK: strength of the shifts, 0..1e15; default infinity: uniform shifts */
   int32_t masses;          /* @enum jam_masses, default EQUAL */
   int32_t reserved;
   double non_additivity; /* Delta in (-1, 1]: unequal spheres touch at (1 + Delta) (sigma_i + sigma_j) / 2; default 0 */
   double wall_time;      /* of reading, of a random start and of the search for overlaps */
   double memory_limit;   /* as jam_set_memory_limit, also while a file is read; default 0: half the machine's memory */
   int64_t frame;     /* which packing of a file with several, from 0; negative: from the end; default -1, the last */
-  double shrink_min; /* JAM_OVERLAP_SHRINK: least factor, 0..1, default 1e-3; below: duplicates, or wrong units? */
+  double shrink_min; /* JAM_OVERLAP_SHRINK refuses a smaller factor, in 0..1, default 1e-3: it points to wrong units */
 } jam_create_options;
 /* Fills *o with the defaults. size = sizeof *o as the caller compiled it. So do all calls of this name. */
 JAM_API jam_status jam_create_options_init(jam_create_options *o, size_t size);
@@ -272,7 +273,7 @@ typedef struct jam_start {
   int32_t reserved;
   const double *positions; /* (n, d), Cartesian, any finite value (wrapped into the cell); NULL: a random start */
   size_t positions_len;
-  const double *diameters; /* n values, or 1 for all; NULL: equal. Random start: only ratios count; else not NULL */
+  const double *diameters; /* n values, or 1 for all; needed with positions. Random start: ratios alone, NULL: equal */
   size_t diameters_len;
   const double *cell; /* (d, d), beside the default box of 1; left-handed, singular, flat: refused. NULL: a cube */
   size_t cell_len;
@@ -531,7 +532,7 @@ typedef struct jam_compress_options {
   double collisions_per_particle; /* limit, > 0, default infinity */
   double wall_time;               /* limit of this call */
   double time;                    /* limit of simulated time, > 0, default infinity */
-  double growth_rate_end; /* in [0, growth_rate]: the rate at the target, a power of p; 0, the default: constant */
+  double growth_rate_end; /* to which the rate falls as a power of p, in [0, growth_rate]; 0, the default: constant */
   int32_t growth_law;     /* @enum jam_growth_law, default DIAMETER */
   int32_t reserved;
 } jam_compress_options;
@@ -589,10 +590,10 @@ typedef struct jam_observe_options {
   int32_t collisions;       /* @bool collisions of each sphere, and collisions and momentum of each pair; default 0 */
   int32_t gap_bins, r_bins; /* bins of the gap histogram, 0 (default: none) or >= 2; bins of g(r), default 0: none */
   double sample_every;      /* collisions per particle between samples of the series, gaps and g(r), > 0, default 10 */
-  double gap_min, gap_max;  /* the first bin is [0, gap_min], > 0, default 1e-8; up to here by equal ratios, <= 10, 1 */
-  double r_max;             /* of g(r), mean diameters, > 0, default 4 */
-  double snapshot_every;    /* collisions per particle before the first snapshot; 0, the default: none */
-  double snapshot_factor;   /* each interval between snapshots is so many times the one before, >= 1, default 1 */
+  double gap_min, gap_max; /* the first bin is [0, gap_min], > 0, default 1e-8; the others end here, <= 10, default 1 */
+  double r_max;            /* of g(r), mean diameters, > 0, default 4 */
+  double snapshot_every;   /* collisions per particle before the first snapshot; 0, the default: none */
+  double snapshot_factor;  /* each interval between snapshots is so many times the one before, >= 1, default 1 */
 } jam_observe_options;
 JAM_API jam_status jam_observe_options_init(jam_observe_options *o, size_t size);
 /* From now on jam_run and jam_compress record, over all calls, until jam_stop_observing. What was recorded before is
@@ -826,7 +827,7 @@ typedef struct jam_crunch_options {
   uint32_t struct_size;
   int32_t lp_solver;       /* @enum jam_lp_solver, default IPM */
   int32_t method;          /* @enum jam_crunch_method, default BARRIER_PATH */
-  int32_t polish;          /* @bool contacts closed, forces balanced to rounding, 1 */
+  int32_t polish;          /* @bool contacts are closed and forces balanced to rounding; default 1 */
   int32_t max_lps;         /* >= 1, default 1000 */
   int32_t threads;         /* 1 or 2, default 1; bits are reproducible on 1 */
   double gain_tolerance;   /* on sqrt(Gamma) - 1, > 0, default 1e-12 */
@@ -848,7 +849,8 @@ typedef struct jam_crunch_options {
  * contacts are unknown, for example after an early stop; calls that need the network then return JAM_E_STATE. The
  * numbers from packing_fraction_start to contacts_kept say what the crunch did to the packing that it was given:
  * displacements in mean diameters without their mean over these spheres; rattlers count, and so does a strain of the
- * cell. They are NaN or -1 where no crunch made the report.  */
+ * cell. They are NaN or -1 where no crunch made the report. After JAM_STOP_DUALITY_GAP undecided_contacts are pairs
+ * whose force on the path over the mean is within a factor of 1e4 of twice their gap. */
 typedef struct jam_crunch_report {
   uint32_t struct_size;
   int32_t jammed;          /* @bool collectively jammed by the test of jam_rigidity; 0: not, undecided, untested */
@@ -865,9 +867,9 @@ typedef struct jam_crunch_report {
   int64_t bucklers;            /* stable spheres with exactly d+1 contacts */
   int64_t isostatic_contacts;  /* d (N' - 1) + 1: contacts of a single state of self-stress */
   int64_t excess_contacts;     /* contacts - isostatic_contacts: 0 isostatic or no network, > 0 hyperstatic */
-  int64_t flexes;              /* motions of stable spheres, but translations, that keep contacts with force closed */
+  int64_t flexes;              /* motions of stable spheres beyond translations that keep contacts with force closed */
   int64_t zero_force_contacts; /* closed pairs without force in every state of self-stress, those of rattlers too */
-  int64_t undecided_contacts;  /* gaps of 1e-10 to 1e-7; after DUALITY_GAP: force / 2 gap within a factor of 1e4 */
+  int64_t undecided_contacts;  /* pairs with gaps of 1e-10 to 1e-7; after JAM_STOP_DUALITY_GAP: see above */
   int64_t undercoordinated;    /* stable spheres with d force-carrying contacts or fewer */
   int64_t strict_contacts_needed;    /* d (N' - 1) + d (d + 1) / 2: fewest contacts of a strictly jammed packing */
   double rigidity_margin;            /* least eigenvalue of S^T S on contacts with force that is no translation */
@@ -891,7 +893,7 @@ typedef struct jam_crunch_report {
   double displacement_max_stable, displacement_rms_stable; /* the same of spheres that end with contacts */
   int64_t contacts_start;       /* pairs that touched before, as far as the digits of the coordinates show */
   int64_t contacts_kept;        /* of these the contacts of this report */
-  int32_t theorem, proof_cause; /* @enum jam_theorem, by prove, else NONE; @enum jam_proof_cause it is not EXACT */
+  int32_t theorem, proof_cause; /* @enum jam_theorem, NONE without prove; @enum jam_proof_cause: why it is not EXACT */
   double proof_radius;          /* unit of the box: radius of EXACT, inner of TRAPPED (jam_proof_report), or infinite */
   double proof_value, proof_bound; /* the two numbers of the cause */
 } jam_crunch_report;
@@ -1313,37 +1315,38 @@ typedef struct jam_check_options {
  * Closed pairs have gaps below 1e-10. NaN, and -1 for contacts: not known. crunch_*: of the crunched copy. */
 typedef struct jam_check_report {
   uint32_t struct_size;
-  int32_t jammed;                /* @enum jam_verdict: collectively jammed */
-  int32_t strictly_jammed;       /* @enum jam_verdict; NO where jammed is NO */
-  int32_t stationary;            /* @enum jam_verdict: non-negative forces balance */
-  int32_t reason;                /* @enum jam_check_reason of jammed */
-  int32_t dim;                   /* d */
-  int32_t digits;                /* decimal digits that coordinates, diameters or cell seem to have; 0: all */
-  int32_t crunch_jammed;         /* @enum jam_verdict; UNTESTED without a copy */
-  int64_t n;                     /* number of spheres */
-  int64_t contacts;              /* closed pairs that carry force */
-  int64_t excess_contacts;       /* contacts - (d (N' - 1) + 1), 0 without contacts */
-  int64_t rattlers;              /* n - N': spheres without force */
-  int64_t closed_pairs;          /* those of rattlers among them */
-  int64_t zero_force_contacts;   /* of the pairs that were tested, those without force in every state */
-  int64_t undecided_contacts;    /* pairs that may be contacts or not, by rounding or for lack of digits */
-  int64_t self_stresses;         /* independent balances of forces; with more than one forces are not unique */
-  int64_t flexes, strict_flexes; /* motions but translations that keep force contacts closed; with strains, if tested */
-  int64_t crunch_contacts;       /* contacts of the copy */
-  double packing_fraction;       /* of the packing as it is */
-  double nearest_gap;            /* smallest gap of all pairs; negative: an overlap. Infinite: none below 1 */
-  double min_gap;                /* smallest gap of two spheres with force that is no contact */
-  double max_contact_gap;        /* largest |gap| of a contact with force */
-  double force_residual;         /* largest |sum_j f_ij n_ij| over the mean force */
-  double rigidity_margin;        /* smallest eigenvalue on contacts with force that is no translation */
-  double coordinate_step;        /* the numbers given are multiples of it, unit of the box; 0: all digits are there */
-  double resolution;             /* of gaps: from the digits of the coordinates, and from overlaps */
-  double diameter_factor;        /* diameters were tested times this, so that no pair overlaps; 1: as they are */
+  int32_t jammed;              /* @enum jam_verdict: collectively jammed */
+  int32_t strictly_jammed;     /* @enum jam_verdict; NO where jammed is NO */
+  int32_t stationary;          /* @enum jam_verdict: non-negative forces balance */
+  int32_t reason;              /* @enum jam_check_reason of jammed */
+  int32_t dim;                 /* d */
+  int32_t digits;              /* decimal digits that coordinates, diameters or cell seem to have; 0: all */
+  int32_t crunch_jammed;       /* @enum jam_verdict; UNTESTED without a copy */
+  int64_t n;                   /* number of spheres */
+  int64_t contacts;            /* closed pairs that carry force */
+  int64_t excess_contacts;     /* contacts - (d (N' - 1) + 1), 0 without contacts */
+  int64_t rattlers;            /* n - N': spheres without force */
+  int64_t closed_pairs;        /* those of rattlers among them */
+  int64_t zero_force_contacts; /* of the pairs that were tested, those without force in every state */
+  int64_t undecided_contacts;  /* pairs that may be contacts or not, by rounding or for lack of digits */
+  int64_t self_stresses;       /* independent balances of forces; with more than one forces are not unique */
+  int64_t flexes,
+      strict_flexes; /* motions beyond translations that keep contacts with force closed; with strains, 0 untested */
+  int64_t crunch_contacts;        /* contacts of the copy */
+  double packing_fraction;        /* of the packing as it is */
+  double nearest_gap;             /* smallest gap of all pairs; negative: an overlap. Infinite: none below 1 */
+  double min_gap;                 /* smallest gap of two spheres with force that is no contact */
+  double max_contact_gap;         /* largest |gap| of a contact with force */
+  double force_residual;          /* largest |sum_j f_ij n_ij| over the mean force */
+  double rigidity_margin;         /* smallest eigenvalue on contacts with force that is no translation */
+  double coordinate_step;         /* the numbers given are multiples of it, unit of the box; 0: all digits are there */
+  double resolution;              /* of gaps: from the digits of the coordinates, and from overlaps */
+  double diameter_factor;         /* diameters were tested times this, so that no pair overlaps; 1: as they are */
   double crunch_packing_fraction; /* of the copy */
   double crunch_displacement_max; /* largest displacement in it of a sphere that ends with contacts */
   double crunch_displacement_rms; /* root of the mean square of the same */
-  int32_t theorem, proof_cause;   /* @enum jam_theorem, by prove, else NONE; @enum jam_proof_cause it is not EXACT */
-  double proof_radius; /* unit of the box: radius of EXACT, inner of TRAPPED (jam_proof_report), or infinite */
+  int32_t theorem, proof_cause; /* @enum jam_theorem, NONE without prove; @enum jam_proof_cause: why it is not EXACT */
+  double proof_radius;          /* unit of the box: radius of EXACT, inner of TRAPPED (jam_proof_report), or infinite */
   double proof_value, proof_bound; /* the two numbers of the cause */
 } jam_check_report;
 JAM_API jam_status jam_check_options_init(jam_check_options *o, size_t size);

@@ -95,7 +95,7 @@ callback is called with `jam_progress`.snapshot > 0: every const call works on t
 - `r_bins`: bins of g(r), default 0: none
 - `sample_every`: collisions per particle between samples of the series, gaps and g(r), > 0, default 10
 - `gap_min`: the first bin is [0, `gap_min`], > 0, default 1e-8
-- `gap_max`: up to here by equal ratios, <= 10, 1
+- `gap_max`: the others end here, <= 10, default 1
 - `r_max`: of g(r), mean diameters, > 0, default 4
 - `snapshot_every`: collisions per particle before the first snapshot; 0, the default: none
 - `snapshot_factor`: each interval between snapshots is so many times the one before, >= 1, default 1
@@ -247,7 +247,7 @@ same at `:info`. Takes as long as a few steps.
 
 - `lp_solver`: one of `:ipm`, `:clp`; default IPM
 - `method`: one of `:barrier_path`, `:sequential_lp`; default `BARRIER_PATH`
-- `polish`: Bool; contacts closed, forces balanced to rounding, 1
+- `polish`: Bool; contacts are closed and forces balanced to rounding; default 1
 - `max_lps`: >= 1, default 1000
 - `threads`: 1 or 2, default 1; bits are reproducible on 1
 - `gain_tolerance`: on sqrt(Gamma) - 1, > 0, default 1e-12

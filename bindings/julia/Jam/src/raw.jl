@@ -70,7 +70,7 @@ const JAM_PHASE_CREATE = Int32(10)  # making a system; steps counts the spheres 
 # jam_overlap_policy: What to do with overlaps in given positions.
 const JAM_OVERLAP_REFUSE = Int32(0)  # JAM_E_OVERLAP naming the worst pair
 const JAM_OVERLAP_SHRINK = Int32(1)  # scale all diameters down until the worst pair just touches; jam_notes gives the factor
-const JAM_OVERLAP_ALLOW = Int32(2)  # soft spheres: keep them, also later. Random starts are uniform; hard-sphere calls refuse
+const JAM_OVERLAP_ALLOW = Int32(2)  # soft spheres: keep them, also later; random starts are uniform. Hard-sphere calls refuse
 
 # jam_model: Pair distance.
 const JAM_MODEL_EUCLID = Int32(0)  # |r_i - r_j|, nearest images
@@ -373,7 +373,8 @@ end
 """
     jam_create_options
 
-Options of `jam_create` and `jam_read`. An option whose value a file gives must be the default or agree with the file.
+Options of `jam_create` and `jam_read`. An option whose value a file gives must be the default or agree with the file. A
+random Mari-Kurchan start is planted in equilibrium.
 """
 mutable struct jam_create_options
     struct_size::UInt32
@@ -384,14 +385,14 @@ mutable struct jam_create_options
     packing_fraction::Cdouble  # of a random start, > 0; default 0: by dim, 0.2 halved for each dimension above 3
     overlap::Int32  # jam_overlap_policy, default REFUSE
     model::Int32  # jam_model, default EUCLID
-    mk_zeta::Cdouble  # MK: strength of shifts, 0..1e15; default infinity: uniform. Random starts: planted
+    mk_zeta::Cdouble  # MK: strength of the shifts, 0..1e15; default infinity: uniform shifts
     masses::Int32  # jam_masses, default EQUAL
     reserved::Int32
     non_additivity::Cdouble  # Delta in (-1, 1]: unequal spheres touch at (1 + Delta) (sigma_i + sigma_j) / 2; default 0
     wall_time::Cdouble  # of reading, of a random start and of the search for overlaps
     memory_limit::Cdouble  # as jam_set_memory_limit, also while a file is read; default 0: half the machine's memory
     frame::Int64  # which packing of a file with several, from 0; negative: from the end; default -1, the last
-    shrink_min::Cdouble  # JAM_OVERLAP_SHRINK: least factor, 0..1, default 1e-3; below: duplicates, or wrong units?
+    shrink_min::Cdouble  # JAM_OVERLAP_SHRINK refuses a smaller factor, in 0..1, default 1e-3: it points to wrong units
     jam_create_options() = new(104, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
 end
 
@@ -405,7 +406,7 @@ mutable struct jam_start
     reserved::Int32
     positions::Ptr{Cvoid}  # (n, d), Cartesian, any finite value (wrapped into the cell); NULL: a random start
     positions_len::Csize_t
-    diameters::Ptr{Cvoid}  # n values, or 1 for all; NULL: equal. Random start: only ratios count; else not NULL
+    diameters::Ptr{Cvoid}  # n values, or 1 for all; needed with positions. Random start: ratios alone, NULL: equal
     diameters_len::Csize_t
     cell::Ptr{Cvoid}  # (d, d), beside the default box of 1; left-handed, singular, flat: refused. NULL: a cube
     cell_len::Csize_t
@@ -517,7 +518,7 @@ mutable struct jam_compress_options
     collisions_per_particle::Cdouble  # limit, > 0, default infinity
     wall_time::Cdouble  # limit of this call
     time::Cdouble  # limit of simulated time, > 0, default infinity
-    growth_rate_end::Cdouble  # in [0, growth_rate]: the rate at the target, a power of p; 0, the default: constant
+    growth_rate_end::Cdouble  # to which the rate falls as a power of p, in [0, growth_rate]; 0, the default: constant
     growth_law::Int32  # jam_growth_law, default DIAMETER
     reserved::Int32
     jam_compress_options() = new(72, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
@@ -557,7 +558,7 @@ mutable struct jam_observe_options
     r_bins::Int32  # bins of g(r), default 0: none
     sample_every::Cdouble  # collisions per particle between samples of the series, gaps and g(r), > 0, default 10
     gap_min::Cdouble  # the first bin is [0, gap_min], > 0, default 1e-8
-    gap_max::Cdouble  # up to here by equal ratios, <= 10, 1
+    gap_max::Cdouble  # the others end here, <= 10, default 1
     r_max::Cdouble  # of g(r), mean diameters, > 0, default 4
     snapshot_every::Cdouble  # collisions per particle before the first snapshot; 0, the default: none
     snapshot_factor::Cdouble  # each interval between snapshots is so many times the one before, >= 1, default 1
@@ -687,7 +688,7 @@ mutable struct jam_crunch_options
     struct_size::UInt32
     lp_solver::Int32  # jam_lp_solver, default IPM
     method::Int32  # jam_crunch_method, default BARRIER_PATH
-    polish::Int32  # 1: contacts closed, forces balanced to rounding, 1
+    polish::Int32  # 1: contacts are closed and forces balanced to rounding; default 1
     max_lps::Int32  # >= 1, default 1000
     threads::Int32  # 1 or 2, default 1; bits are reproducible on 1
     gain_tolerance::Cdouble  # on sqrt(Gamma) - 1, > 0, default 1e-12
@@ -713,7 +714,8 @@ Result and certificate of `jam_crunch`. All gaps, overlaps and lengths relative 
 contacts are unknown, for example after an early stop; calls that need the network then return `JAM_E_STATE`. The
 numbers from `packing_fraction_start` to `contacts_kept` say what the crunch did to the packing that it was given:
 displacements in mean diameters without their mean over these spheres; rattlers count, and so does a strain of the
-cell. They are NaN or -1 where no crunch made the report.
+cell. They are NaN or -1 where no crunch made the report. After `JAM_STOP_DUALITY_GAP` `undecided_contacts` are pairs
+whose force on the path over the mean is within a factor of 1e4 of twice their gap.
 """
 mutable struct jam_crunch_report
     struct_size::UInt32
@@ -732,9 +734,9 @@ mutable struct jam_crunch_report
     bucklers::Int64  # stable spheres with exactly d+1 contacts
     isostatic_contacts::Int64  # d (N' - 1) + 1: contacts of a single state of self-stress
     excess_contacts::Int64  # contacts - isostatic_contacts: 0 isostatic or no network, > 0 hyperstatic
-    flexes::Int64  # motions of stable spheres, but translations, that keep contacts with force closed
+    flexes::Int64  # motions of stable spheres beyond translations that keep contacts with force closed
     zero_force_contacts::Int64  # closed pairs without force in every state of self-stress, those of rattlers too
-    undecided_contacts::Int64  # gaps of 1e-10 to 1e-7; after DUALITY_GAP: force / 2 gap within a factor of 1e4
+    undecided_contacts::Int64  # pairs with gaps of 1e-10 to 1e-7; after JAM_STOP_DUALITY_GAP: see above
     undercoordinated::Int64  # stable spheres with d force-carrying contacts or fewer
     strict_contacts_needed::Int64  # d (N' - 1) + d (d + 1) / 2: fewest contacts of a strictly jammed packing
     rigidity_margin::Cdouble  # least eigenvalue of S^T S on contacts with force that is no translation
@@ -763,8 +765,8 @@ mutable struct jam_crunch_report
     displacement_rms_stable::Cdouble  # the same of spheres that end with contacts
     contacts_start::Int64  # pairs that touched before, as far as the digits of the coordinates show
     contacts_kept::Int64  # of these the contacts of this report
-    theorem::Int32  # jam_theorem, by prove, else NONE
-    proof_cause::Int32  # jam_proof_cause it is not EXACT
+    theorem::Int32  # jam_theorem, NONE without prove
+    proof_cause::Int32  # jam_proof_cause: why it is not EXACT
     proof_radius::Cdouble  # unit of the box: radius of EXACT, inner of TRAPPED (jam_proof_report), or infinite
     proof_value::Cdouble  # the two numbers of the cause
     proof_bound::Cdouble  # the two numbers of the cause
@@ -1032,8 +1034,8 @@ mutable struct jam_check_report
     zero_force_contacts::Int64  # of the pairs that were tested, those without force in every state
     undecided_contacts::Int64  # pairs that may be contacts or not, by rounding or for lack of digits
     self_stresses::Int64  # independent balances of forces; with more than one forces are not unique
-    flexes::Int64  # motions but translations that keep force contacts closed
-    strict_flexes::Int64  # with strains, if tested
+    flexes::Int64
+    strict_flexes::Int64  # motions beyond translations that keep contacts with force closed; with strains, 0 untested
     crunch_contacts::Int64  # contacts of the copy
     packing_fraction::Cdouble  # of the packing as it is
     nearest_gap::Cdouble  # smallest gap of all pairs; negative: an overlap. Infinite: none below 1
@@ -1047,8 +1049,8 @@ mutable struct jam_check_report
     crunch_packing_fraction::Cdouble  # of the copy
     crunch_displacement_max::Cdouble  # largest displacement in it of a sphere that ends with contacts
     crunch_displacement_rms::Cdouble  # root of the mean square of the same
-    theorem::Int32  # jam_theorem, by prove, else NONE
-    proof_cause::Int32  # jam_proof_cause it is not EXACT
+    theorem::Int32  # jam_theorem, NONE without prove
+    proof_cause::Int32  # jam_proof_cause: why it is not EXACT
     proof_radius::Cdouble  # unit of the box: radius of EXACT, inner of TRAPPED (jam_proof_report), or infinite
     proof_value::Cdouble  # the two numbers of the cause
     proof_bound::Cdouble  # the two numbers of the cause

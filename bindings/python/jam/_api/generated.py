@@ -79,7 +79,7 @@ class OverlapPolicy(IntEnum):
     """What to do with overlaps in given positions."""
     REFUSE = 0  # JAM_E_OVERLAP naming the worst pair
     SHRINK = 1  # scale all diameters down until the worst pair just touches; jam_notes gives the factor
-    ALLOW = 2  # soft spheres: keep them, also later. Random starts are uniform; hard-sphere calls refuse
+    ALLOW = 2  # soft spheres: keep them, also later; random starts are uniform. Hard-sphere calls refuse
 
 
 class Model(IntEnum):
@@ -667,7 +667,8 @@ class CrunchReport(Report):
     contacts are unknown, for example after an early stop; calls that need the network then return JAM_E_STATE. The
     numbers from packing_fraction_start to contacts_kept say what the crunch did to the packing that it was given:
     displacements in mean diameters without their mean over these spheres; rattlers count, and so does a strain of the
-    cell. They are NaN or -1 where no crunch made the report.
+    cell. They are NaN or -1 where no crunch made the report. After JAM_STOP_DUALITY_GAP undecided_contacts are pairs
+    whose force on the path over the mean is within a factor of 1e4 of twice their gap.
 
     jammed: 1: collectively jammed by the test of jam_rigidity; 0: not, undecided, untested
     stop_reason: jam_stop_reason
@@ -683,9 +684,9 @@ class CrunchReport(Report):
     bucklers: stable spheres with exactly d+1 contacts
     isostatic_contacts: d (N' - 1) + 1: contacts of a single state of self-stress
     excess_contacts: contacts - isostatic_contacts: 0 isostatic or no network, > 0 hyperstatic
-    flexes: motions of stable spheres, but translations, that keep contacts with force closed
+    flexes: motions of stable spheres beyond translations that keep contacts with force closed
     zero_force_contacts: closed pairs without force in every state of self-stress, those of rattlers too
-    undecided_contacts: gaps of 1e-10 to 1e-7; after DUALITY_GAP: force / 2 gap within a factor of 1e4
+    undecided_contacts: pairs with gaps of 1e-10 to 1e-7; after JAM_STOP_DUALITY_GAP: see above
     undercoordinated: stable spheres with d force-carrying contacts or fewer
     strict_contacts_needed: d (N' - 1) + d (d + 1) / 2: fewest contacts of a strictly jammed packing
     rigidity_margin: least eigenvalue of S^T S on contacts with force that is no translation
@@ -714,8 +715,8 @@ class CrunchReport(Report):
     displacement_rms_stable: the same of spheres that end with contacts
     contacts_start: pairs that touched before, as far as the digits of the coordinates show
     contacts_kept: of these the contacts of this report
-    theorem: jam_theorem, by prove, else NONE
-    proof_cause: jam_proof_cause it is not EXACT
+    theorem: jam_theorem, NONE without prove
+    proof_cause: jam_proof_cause: why it is not EXACT
     proof_radius: unit of the box: radius of EXACT, inner of TRAPPED (jam_proof_report), or infinite
     proof_value: the two numbers of the cause
     proof_bound: the two numbers of the cause"""
@@ -983,8 +984,8 @@ class CheckReport(Report):
     zero_force_contacts: of the pairs that were tested, those without force in every state
     undecided_contacts: pairs that may be contacts or not, by rounding or for lack of digits
     self_stresses: independent balances of forces; with more than one forces are not unique
-    flexes: motions but translations that keep force contacts closed
-    strict_flexes: with strains, if tested
+    flexes:
+    strict_flexes: motions beyond translations that keep contacts with force closed; with strains, 0 untested
     crunch_contacts: contacts of the copy
     packing_fraction: of the packing as it is
     nearest_gap: smallest gap of all pairs; negative: an overlap. Infinite: none below 1
@@ -998,8 +999,8 @@ class CheckReport(Report):
     crunch_packing_fraction: of the copy
     crunch_displacement_max: largest displacement in it of a sphere that ends with contacts
     crunch_displacement_rms: root of the mean square of the same
-    theorem: jam_theorem, by prove, else NONE
-    proof_cause: jam_proof_cause it is not EXACT
+    theorem: jam_theorem, NONE without prove
+    proof_cause: jam_proof_cause: why it is not EXACT
     proof_radius: unit of the box: radius of EXACT, inner of TRAPPED (jam_proof_report), or infinite
     proof_value: the two numbers of the cause
     proof_bound: the two numbers of the cause"""
@@ -1137,13 +1138,13 @@ OPTIONS = {
         "packing_fraction": ("float", 'of a random start, > 0; default 0: by dim, 0.2 halved for each dimension above 3'),
         "overlap": ("OverlapPolicy", 'OverlapPolicy, default REFUSE'),
         "model": ("Model", 'Model, default EUCLID'),
-        "mk_zeta": ("float", 'MK: strength of shifts, 0..1e15; default infinity: uniform. Random starts: planted'),
+        "mk_zeta": ("float", 'MK: strength of the shifts, 0..1e15; default infinity: uniform shifts'),
         "masses": ("Masses", 'Masses, default EQUAL'),
         "non_additivity": ("float", 'Delta in (-1, 1]: unequal spheres touch at (1 + Delta) (sigma_i + sigma_j) / 2; default 0'),
         "wall_time": ("float", 'of reading, of a random start and of the search for overlaps'),
         "memory_limit": ("float", "as set_memory_limit(), also while a file is read; default 0: half the machine's memory"),
         "frame": ("int", 'which packing of a file with several, from 0; negative: from the end; default -1, the last'),
-        "shrink_min": ("float", "'shrink': least factor, 0..1, default 1e-3; below: duplicates, or wrong units?"),
+        "shrink_min": ("float", "'shrink' refuses a smaller factor, in 0..1, default 1e-3: it points to wrong units"),
     },
     "jam_diameters_options": {
         "law": ("SizeLaw", 'SizeLaw, default EQUAL'),
@@ -1176,7 +1177,7 @@ OPTIONS = {
         "collisions_per_particle": ("float", 'limit, > 0, default infinity'),
         "wall_time": ("float", 'limit of this call'),
         "time": ("float", 'limit of simulated time, > 0, default infinity'),
-        "growth_rate_end": ("float", 'in [0, growth_rate]: the rate at the target, a power of p; 0, the default: constant'),
+        "growth_rate_end": ("float", 'to which the rate falls as a power of p, in [0, growth_rate]; 0, the default: constant'),
         "growth_law": ("GrowthLaw", 'GrowthLaw, default DIAMETER'),
     },
     "jam_observe_options": {
@@ -1185,7 +1186,7 @@ OPTIONS = {
         "r_bins": ("int", 'bins of g(r), default 0: none'),
         "sample_every": ("float", 'collisions per particle between samples of the series, gaps and g(r), > 0, default 10'),
         "gap_min": ("float", 'the first bin is [0, gap_min], > 0, default 1e-8'),
-        "gap_max": ("float", 'up to here by equal ratios, <= 10, 1'),
+        "gap_max": ("float", 'the others end here, <= 10, default 1'),
         "r_max": ("float", 'of g(r), mean diameters, > 0, default 4'),
         "snapshot_every": ("float", 'collisions per particle before the first snapshot; 0, the default: none'),
         "snapshot_factor": ("float", 'each interval between snapshots is so many times the one before, >= 1, default 1'),
@@ -1221,7 +1222,7 @@ OPTIONS = {
     "jam_crunch_options": {
         "lp_solver": ("LpSolver", 'LpSolver, default IPM'),
         "method": ("CrunchMethod", 'CrunchMethod, default BARRIER_PATH'),
-        "polish": ("bool", '1: contacts closed, forces balanced to rounding, 1'),
+        "polish": ("bool", '1: contacts are closed and forces balanced to rounding; default 1'),
         "max_lps": ("int", '>= 1, default 1000'),
         "threads": ("int", '1 or 2, default 1; bits are reproducible on 1'),
         "gain_tolerance": ("float", 'on sqrt(Gamma) - 1, > 0, default 1e-12'),

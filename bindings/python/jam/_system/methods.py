@@ -93,7 +93,7 @@ class Methods:
         gap_min : float, optional
             the first bin is [0, gap_min], > 0, default 1e-8
         gap_max : float, optional
-            up to here by equal ratios, <= 10, 1
+            the others end here, <= 10, default 1
         r_max : float, optional
             of g(r), mean diameters, > 0, default 4
         snapshot_every : float, optional
@@ -398,7 +398,7 @@ class Methods:
         method : {'barrier_path', 'sequential_lp'}, optional
             CrunchMethod, default BARRIER_PATH
         polish : bool, optional
-            1: contacts closed, forces balanced to rounding, 1
+            1: contacts are closed and forces balanced to rounding; default 1
         max_lps : int, optional
             >= 1, default 1000
         threads : int, optional

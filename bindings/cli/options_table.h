@@ -17,6 +17,8 @@ typedef struct options {
   const char *input;
   int64_t frame;
   double box;
+  int64_t walls;
+  int64_t container;
   int shrink;
   double shrink_min;
   double nve;
@@ -114,6 +116,10 @@ static const option_row table[] = {
      "", ""},
     {"--cell", TAKE_CELL, 0, 0, 0, NULL, 0,
      "--input --resume --box", ""},
+    {"--walls", TAKE_CHOICE, offsetof(options, walls), 0, 0, "none x y xy z xz yz xyz", 0,
+     "--input --resume", ""},
+    {"--container", TAKE_CHOICE, offsetof(options, container), 0, 0, "brick cylinder ball", 0,
+     "--input --resume", ""},
     {"--shrink", TAKE_SWITCH, offsetof(options, shrink), 0, 0, NULL, 0,
      "", "--input --resume"},
     {"--shrink-min", TAKE_NOT_NEGATIVE, offsetof(options, shrink_min), 0, 0, NULL, 0,
@@ -194,6 +200,8 @@ static const options defaults = {
     .seed = 1,
     .frame = -1,
     .box = 1.0,
+    .walls = 0,
+    .container = 0,
     .shrink_min = 0.001,
     .nve = 0.0,
     .pressure = 10000000.0,
@@ -246,6 +254,14 @@ static const char *const help[] = {
     "  --box L                side of the box, for a random start or a file that gives no box (1)",
     "  --cell LX,LY,..        sides of a periodic brick for a random start, or all components of",
     "                         its cell vectors, one vector after the other",
+    "  --walls none|x|y|xy|z|xz|yz|xyz",
+    "                         flat walls at both ends of these axes of a random start: none, x,",
+    "                         y, xy, z, xz, yz or xyz (none). A scene with walls needs --no-",
+    "                         crunch, --packing-fraction or --porosity",
+    "  --container brick|cylinder|ball",
+    "                         of a random start: brick, the cell; cylinder, about z, which",
+    "                         --walls z closes; ball, in d = 2 a circle (brick). The diameter is",
+    "                         the edge of the cell",
     "  --shrink               multiply all diameters of the file by the factor that brings the",
     "                         pair of largest overlap to contact; the summary gives the factor",
     "  --shrink-min F         refuse --shrink where its factor is below F <= 1, a sign of",

@@ -184,6 +184,23 @@ static int settle_stages(options *o) {
   return -1;
 }
 
+/* What a scene with walls cannot do yet. */
+static int settle_walls(const options *o) {
+  char ending[8] = "";
+  const char *const name = o->container ? "--container" : "--walls";
+  if (!o->walls && !o->container) return 0;
+  if (o->output) ending_of(o->output, ending);
+  if (!o->no_crunch && !(o->given.density > 0))
+    complain("%s needs --no-crunch, --packing-fraction or --porosity: a scene with walls cannot be crunched yet", name);
+  else if (o->container && o->given.density > 0 && o->n == NOT_GIVEN && (o->given.cell_count || is_named(o, "box")))
+    complain("--container needs --n: the number of spheres follows from the volume of a brick alone");
+  else if (o->output && !is_host_format(o, o->output) && strcmp(ending, "xyz") && strcmp(ending, "extxyz"))
+    complain("%s needs an --output that ends in .xyz or .extxyz: no other format can store walls", name);
+  else
+    return 0;
+  return -1;
+}
+
 int settle(options *o) {
   given *const g = &o->given;
   const int stages_given = g->stage_count;
@@ -200,7 +217,7 @@ int settle(options *o) {
     complain("--model euclid contradicts %s", isfinite(o->zeta) ? "--zeta" : "--plant");
     return -1;
   }
-  if (settle_effects(o) || settle_cell(o) || settle_crunch(o)) return -1;
+  if (settle_effects(o) || settle_cell(o) || settle_walls(o) || settle_crunch(o)) return -1;
   g->n = o->n != NOT_GIVEN;
   if (!g->n) o->n = 1024;
   if (isfinite(o->zeta) || isfinite(o->plant)) o->model = JAM_MODEL_MK;

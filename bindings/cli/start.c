@@ -73,6 +73,8 @@ int start(const options *o, jam_progress_fn stop, jam_system **sys) {
       from.cell = cell;
       from.cell_len = (size_t)(o->dim * o->dim);
     }
+    from.container = (int32_t)o->container;
+    from.walls = (int32_t)o->walls; /* the words of the table stand in the order of the bits */
     status = jam_create(&create, &from, sys);
     free(diameters);
   }

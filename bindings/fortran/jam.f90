@@ -81,6 +81,18 @@ module jam
   integer(c_int32_t), parameter :: JAM_MASSES_EQUAL = 0
   integer(c_int32_t), parameter :: JAM_MASSES_VOLUME = 1
 
+  ! jam_container: What encloses the spheres. The cell is the brick around it. A wall is a mirror: its h is distance / radius - 1.
+  integer(c_int32_t), parameter :: JAM_CONTAINER_BRICK = 0
+  integer(c_int32_t), parameter :: JAM_CONTAINER_CYLINDER = 1
+  integer(c_int32_t), parameter :: JAM_CONTAINER_BALL = 2
+
+  ! jam_wall_column: Columns of jam_walls.
+  integer(c_int32_t), parameter :: JAM_WALL_AXIS = 0
+  integer(c_int32_t), parameter :: JAM_WALL_SIDE = 1
+  integer(c_int32_t), parameter :: JAM_WALL_AREA = 2
+  integer(c_int32_t), parameter :: JAM_WALL_PRESSURE = 3
+  integer(c_int32_t), parameter :: JAM_WALL_GAP = 4
+
   ! jam_size_law: Laws of diameters s. Each takes the fields named here, and no others.
   integer(c_int32_t), parameter :: JAM_SIZES_EQUAL = 0
   integer(c_int32_t), parameter :: JAM_SIZES_LIST = 1
@@ -428,7 +440,7 @@ module jam
 
   ! Where a system starts. NULL in place of it: a random sequential start of equal spheres in a cube.
   type, bind(c) :: jam_start
-    integer(c_int32_t) :: struct_size = 72
+    integer(c_int32_t) :: struct_size = 80
     integer(c_int32_t) :: reserved = 0
     ! (n, d), Cartesian, any finite value (wrapped into the cell); NULL: a random start
     type(c_ptr) :: positions = c_null_ptr
@@ -443,11 +455,15 @@ module jam
     type(c_funptr) :: progress = c_null_funptr
     ! given to progress
     type(c_ptr) :: user = c_null_ptr
+    ! jam_container, default BRICK
+    integer(c_int32_t) :: container = 0
+    ! axes with flat walls: sum of 2^c, default 0
+    integer(c_int32_t) :: walls = 0
   end type jam_start
 
   ! What the system is now.
   type, bind(c) :: jam_info
-    integer(c_int32_t) :: struct_size = 80
+    integer(c_int32_t) :: struct_size = 96
     ! d
     integer(c_int32_t) :: dim = 0
     ! number of spheres
@@ -472,6 +488,12 @@ module jam
     integer(c_int32_t) :: paused = 0
     ! Delta of a non-additive mixture, 0 for additive diameters
     real(c_double) :: non_additivity = 0
+    ! jam_container
+    integer(c_int32_t) :: container = 0
+    ! as in jam_start
+    integer(c_int32_t) :: walls = 0
+    ! V of the container, else of the cell
+    real(c_double) :: volume = 0
   end type jam_info
 
   ! Options of jam_diameters. Lengths are in the user's unit. NaN and 0 stand for what is not given.
@@ -583,7 +605,7 @@ module jam
     integer(c_int32_t) :: reserved = 0
   end type jam_compress_options
 
-  ! What MD did. Pressure: P V / (N kT) without the part of the growth, kT = sum m v^2 / (d (N - 1)).
+  ! What MD did. Pressure: P V / (N kT) without the part of the growth, kT = sum m v^2 / (d N - periodic axes).
   type, bind(c) :: jam_md_report
     integer(c_int32_t) :: struct_size = 96
     ! jam_stop_reason
@@ -2050,6 +2072,15 @@ module jam
       integer(c_size_t), value :: velocities_len
       integer(c_int32_t) :: status
     end function c_jam_set_velocities
+    function c_jam_walls(sys, table, table_len, needed) &
+        bind(c, name="jam_walls") result(status)
+      import
+      type(c_ptr), value :: sys
+      type(c_ptr), value :: table
+      integer(c_size_t), value :: table_len
+      integer(c_size_t), intent(out), optional :: needed
+      integer(c_int32_t) :: status
+    end function c_jam_walls
     function c_jam_get_cell(sys, out, out_len, needed) &
         bind(c, name="jam_get_cell") result(status)
       import
@@ -2889,6 +2920,7 @@ module jam
   private :: checked
   private :: c_jam_set_positions
   private :: c_jam_set_velocities
+  private :: c_jam_walls
   private :: c_jam_get_cell
   private :: c_jam_set_cell
   private :: c_jam_strain
@@ -2996,10 +3028,11 @@ module jam
 contains
 
   ! The second form of jam_create: arrays of any rank, each of which may be left out.
-  function create_from_arrays(o, positions, diameters, cell, out) result(status)
+  function create_from_arrays(o, positions, diameters, cell, out, container, walls) result(status)
     type(jam_create_options), intent(in), optional :: o
     real(c_double), intent(in), target, contiguous, optional :: positions(..), diameters(..), cell(..)
     type(c_ptr), intent(out) :: out
+    integer(c_int32_t), intent(in), optional :: container, walls
     integer(c_int32_t) :: status
     type(jam_start) :: start
     integer(c_size_t) :: d
@@ -3022,6 +3055,8 @@ contains
       status = checked('cell', shape(cell, kind=c_size_t), d, start%cell_len)
       if (status /= JAM_OK) return
     end if
+    if (present(container)) start%container = container
+    if (present(walls)) start%walls = walls
     status = c_jam_create(o, start, out)
   end function create_from_arrays
 
@@ -3161,6 +3196,30 @@ contains
     end if
     status = c_jam_set_velocities(sys, at_velocities, count_velocities)
   end function jam_set_velocities
+
+  ! Walls, axis by axis, then the round one.
+  ! Shapes: table (m, jam_wall_column).
+  function jam_walls(sys, table, table_len, needed) result(status)
+    type(c_ptr), intent(in) :: sys
+    real(c_double), intent(inout), target, contiguous, optional :: table(..)
+    integer(c_size_t), intent(in), optional :: table_len
+    integer(c_size_t), intent(out), optional :: needed
+    integer(c_int32_t) :: status
+    type(c_ptr) :: at_table
+    integer(c_size_t) :: count_table
+    at_table = c_null_ptr
+    count_table = 0
+    if (present(table)) then
+      at_table = c_loc(table)
+      count_table = size(table, kind=c_size_t)
+    end if
+    if (present(table_len)) count_table = table_len
+    if (present(table)) then
+      status = checked('table', shape(table, kind=c_size_t), 5_c_size_t, count_table)
+      if (status /= JAM_OK) return
+    end if
+    status = c_jam_walls(sys, at_table, count_table, needed)
+  end function jam_walls
 
   ! Cell vectors in normal form.
   ! Shapes: out (d, d).

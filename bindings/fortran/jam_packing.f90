@@ -12,6 +12,7 @@ module jam_packing
     procedure :: set_positions => do_set_positions
     procedure :: set_velocities => do_set_velocities
     procedure :: scale_diameters => do_scale_diameters
+    procedure :: walls => do_walls
     procedure :: cell => do_cell
     procedure :: set_cell => do_set_cell
     procedure :: strain => do_strain
@@ -87,11 +88,11 @@ module jam_packing
     procedure :: compare => do_compare
   end type packing
 
-  private :: do_info, do_set_positions, do_set_velocities, do_scale_diameters, do_cell, &
-    do_set_cell, do_strain, do_set_memory_limit, do_add_note, do_write_contacts, &
-    do_write_page, do_run, do_compress, do_write_checkpoint, do_observe, &
-    do_stop_observing, do_observed_series, do_observed_spheres, do_observed_pairs, &
-    do_observed_gaps, do_observed_correlation, do_monte_carlo, &
+  private :: do_info, do_set_positions, do_set_velocities, do_scale_diameters, do_walls, &
+    do_cell, do_set_cell, do_strain, do_set_memory_limit, do_add_note, &
+    do_write_contacts, do_write_page, do_run, do_compress, do_write_checkpoint, &
+    do_observe, do_stop_observing, do_observed_series, do_observed_spheres, &
+    do_observed_pairs, do_observed_gaps, do_observed_correlation, do_monte_carlo, &
     do_isoconfigurational, do_isoconf_report, do_isoconf_series, &
     do_isoconf_displacements, do_isoconf_distances, do_isoconf_kept, do_crunch, &
     do_estimate_crunch, do_report, do_crunch_history, do_crunch_step_displacements, &
@@ -149,6 +150,24 @@ contains
     status = jam_scale_diameters(self%sys, factor=factor)
     call self%done(status)
   end subroutine do_scale_diameters
+
+  ! Walls, axis by axis, then the round one.
+  ! Shapes: table (m, jam_wall_column).
+  function do_walls(self) result(found)
+    class(packing), intent(inout) :: self
+    real(c_double), allocatable :: found(:, :)
+    integer(c_int32_t) :: status
+    integer(c_size_t) :: given, d_of, n_of
+    allocate (found(0, 0))
+    call self%extents(d_of, n_of)
+    status = jam_walls(self%sys, needed=given)
+    if (status >= 0) then
+      deallocate (found)
+      allocate (found(5_c_size_t, given/5))
+      status = jam_walls(self%sys, table=found)
+    end if
+    call self%done(status)
+  end function do_walls
 
   ! Cell vectors in normal form.
   ! Shapes: out (d, d).

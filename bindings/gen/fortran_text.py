@@ -16,10 +16,11 @@ TAIL = '''
 contains
 
   ! The second form of jam_create: arrays of any rank, each of which may be left out.
-  function create_from_arrays(o, positions, diameters, cell, out) result(status)
+  function create_from_arrays(o, positions, diameters, cell, out, container, walls) result(status)
     type(jam_create_options), intent(in), optional :: o
     real(c_double), intent(in), target, contiguous, optional :: positions(..), diameters(..), cell(..)
     type(c_ptr), intent(out) :: out
+    integer(c_int32_t), intent(in), optional :: container, walls
     integer(c_int32_t) :: status
     type(jam_start) :: start
     integer(c_size_t) :: d
@@ -42,6 +43,8 @@ contains
       status = checked('cell', shape(cell, kind=c_size_t), d, start%cell_len)
       if (status /= JAM_OK) return
     end if
+    if (present(container)) start%container = container
+    if (present(walls)) start%walls = walls
     status = c_jam_create(o, start, out)
   end function create_from_arrays
 

@@ -72,6 +72,26 @@ TABLE = {
             without=("input", "resume", "box"),
         ),
         Option(
+            "walls",
+            "choice",
+            "AXES",
+            "flat walls at both ends of these axes of a random start: none, x, y, xy, z, xz, yz or xyz (none). A scene with walls "
+            "needs --no-crunch, --packing-fraction or --porosity",
+            "none",
+            words=("none", "x", "y", "xy", "z", "xz", "yz", "xyz"),
+            without=("input", "resume"),
+        ),
+        Option(
+            "container",
+            "choice",
+            "SHAPE",
+            "of a random start: brick, the cell; cylinder, about z, which --walls z closes; ball, in d = 2 a circle (brick). The "
+            "diameter is the edge of the cell",
+            "brick",
+            words=("brick", "cylinder", "ball"),
+            without=("input", "resume"),
+        ),
+        Option(
             "shrink",
             "switch",
             "",

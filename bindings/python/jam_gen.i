@@ -2,8 +2,9 @@
 %apply (const double **VIEW, size_t *VIEW_LEN) {(const double **view, size_t *view_len)};
 %apply (const double *IN, size_t IN_LEN) {(const double *positions, size_t positions_len)};
 %apply (const double *IN, size_t IN_LEN) {(const double *velocities, size_t velocities_len)};
-%apply (double *FILL, size_t FILL_LEN) {(double *out, size_t out_len)};
+%apply (double *FILL, size_t FILL_LEN) {(double *table, size_t table_len)};
 %apply size_t *RESULT {size_t *needed};
+%apply (double *FILL, size_t FILL_LEN) {(double *out, size_t out_len)};
 %apply (const double *IN, size_t IN_LEN) {(const double *cell, size_t cell_len)};
 %apply (int64_t *FILL, size_t FILL_LEN) {(int64_t *transform, size_t transform_len)};
 %apply (double *FILL, size_t FILL_LEN) {(double *rotation, size_t rotation_len)};
@@ -14,7 +15,6 @@
 %apply double *RESULT {double *volume};
 %apply (const double *IN, size_t IN_LEN) {(const double *diameters, size_t diameters_len)};
 %apply (const double *IN, size_t IN_LEN) {(const double *values, size_t values_len)};
-%apply (double *FILL, size_t FILL_LEN) {(double *table, size_t table_len)};
 %apply (int64_t *FILL, size_t FILL_LEN) {(int64_t *collisions, size_t collisions_len)};
 %apply (double *FILL, size_t FILL_LEN) {(double *displacement, size_t displacement_len)};
 %apply (int32_t *FILL, size_t FILL_LEN) {(int32_t *pair, size_t pair_len)};
@@ -131,7 +131,7 @@ at every n."
   }
   ~jam_md_report() { free($self); }
 }
-%feature("docstring") jam_md_report "What MD did. Pressure: P V / (N kT) without the part of the growth, kT = sum m v^2 / (d (N - 1))."
+%feature("docstring") jam_md_report "What MD did. Pressure: P V / (N kT) without the part of the growth, kT = sum m v^2 / (d N - periodic axes)."
 %extend jam_observe_options {
   jam_observe_options() {
     jam_observe_options *made = (jam_observe_options *)calloc(1, sizeof *made);
@@ -416,6 +416,8 @@ as they are. jam_compress rescales them to kT/m = 1.
 Shapes: velocities (n, d)."
 %feature("docstring") jam_scale_diameters "Multiplies all diameters by factor > 0; results of crunch are dropped.
 Errors: JAM_E_OVERLAP (when growing)."
+%feature("docstring") jam_walls "Walls, axis by axis, then the round one.
+Shapes: table (m, jam_wall_column)."
 %feature("docstring") jam_get_cell "Cell vectors in normal form.
 Shapes: out (d, d)."
 %feature("docstring") jam_set_cell "Replaces the cell; a left-handed, singular or flat one is refused. Positions keep their Cartesian values in the

@@ -144,7 +144,6 @@ typedef enum jam_status_code {
   JAM_E_UNSUPPORTED = -16, /* not available in this build or for this model */
   JAM_E_INTERNAL = -17     /* a bug in libjam; please report the text */
 } jam_status_code;
-
 /* Why a run ended: stop_reason of the reports. */
 typedef enum jam_stop_reason {
   JAM_STOP_NONE = 0,             /* has not run */
@@ -165,7 +164,6 @@ typedef enum jam_stop_reason {
   JAM_STOP_SADDLE = 15,          /* crunch: forces balance, but a flex opens contacts, and kicks lead nowhere */
   JAM_STOP_DUALITY_GAP = 16      /* crunch: it reached the duality gap of its options */
 } jam_stop_reason;
-
 /* Version of the library, e.g. "0.1.0". Static storage, as the texts of the next five calls. */
 JAM_API const char *jam_version(void);
 /* Commit of the source that the library was built from, 12 hex digits, without uncommitted changes; "" when the build
@@ -202,7 +200,6 @@ typedef enum jam_phase {
   JAM_PHASE_ISOCONFIGURATIONAL = 9, /* runs from one configuration; steps counts those that are done */
   JAM_PHASE_CREATE = 10             /* making a system; steps counts the spheres placed */
 } jam_phase;
-
 /* Given to the progress callback; valid during the call only. NaN: not known. */
 typedef struct jam_progress {
   uint32_t struct_size;          /* as the library knows it */
@@ -219,7 +216,6 @@ typedef struct jam_progress {
   double seconds_left;           /* until the aim, from how `fraction` grew */
   double seconds_left_spread;    /* two of three calls end between seconds_left over and times this factor > 1 */
 } jam_progress;
-
 /* Progress callback, on the calling thread. A non-zero return stops the call with JAM_CANCELLED and a valid state. It
  * must not throw or longjmp. On its handle it may call jam_cancel, jam_write_checkpoint (which saves the stage as it
  * runs) and const getters. These show the state before the call, or the last snapshot. */
@@ -245,7 +241,12 @@ typedef enum jam_masses {
   JAM_MASSES_EQUAL = 0, /* all 1 */
   JAM_MASSES_VOLUME = 1 /* as the volumes, sigma_i^d */
 } jam_masses;
-
+/* What encloses the spheres. The cell is the brick around it. A wall is a mirror: its h is distance / radius - 1. */
+typedef enum jam_container {
+  JAM_CONTAINER_BRICK = 0,    /* the cell: flat walls on the axes of `walls`, the other axes periodic */
+  JAM_CONTAINER_CYLINDER = 1, /* d = 3, about z, periodic or between flat walls; its diameter: the edges x and y */
+  JAM_CONTAINER_BALL = 2      /* d = 2 a circle, d = 3 a ball; its diameter: the edge of the cube */
+} jam_container;
 /* Options of jam_create and jam_read. An option whose value a file gives must be the default or agree with the file. A
  * random Mari-Kurchan start is planted in equilibrium. */
 typedef struct jam_create_options {
@@ -266,7 +267,6 @@ typedef struct jam_create_options {
 } jam_create_options;
 /* Fills *o with the defaults. size = sizeof *o as the caller compiled it. So do all calls of this name. */
 JAM_API jam_status jam_create_options_init(jam_create_options *o, size_t size);
-
 /* Where a system starts. NULL in place of it: a random sequential start of equal spheres in a cube. */
 typedef struct jam_start {
   uint32_t struct_size;
@@ -279,8 +279,8 @@ typedef struct jam_start {
   size_t cell_len;
   jam_progress_fn progress; /* or NULL; a non-zero return ends the call. The new system has no callback */
   void *user;               /* given to progress */
+  int32_t container, walls; /* @enum jam_container, default BRICK; axes with flat walls: sum of 2^c, default 0 */
 } jam_start;
-
 /* Makes a system of d = o->dim. Without positions spheres are added one by one at random, to the packing_fraction of
  * the options. The caller frees *out by jam_destroy; after JAM_CANCELLED or JAM_LIMIT it is NULL. The call takes long
  * when many pairs of spheres are close together, and in the Mari-Kurchan model, where all pairs are compared. Example:
@@ -291,25 +291,25 @@ JAM_API jam_status jam_create(const jam_create_options *o, const jam_start *star
 JAM_API jam_status jam_copy(const jam_system *src, jam_system **out);
 /* Frees a system; NULL is fine. */
 JAM_API void jam_destroy(jam_system *sys);
-
 /* What the system is now. */
 typedef struct jam_info {
   uint32_t struct_size;
-  int32_t dim;             /* d */
-  int64_t n, seed;         /* number of spheres; as recorded at creation */
-  double box;              /* side of the cube, V^(1/d) of another cell */
-  double packing_fraction; /* sum of sphere volumes over V */
-  double diameter_mean;    /* unit of box */
-  double pressure;         /* reduced pressure p last measured by MD, NaN before */
-  int32_t model;           /* @enum jam_model */
-  int32_t monodisperse;    /* @bool all diameters are equal */
-  int32_t masses;          /* @enum jam_masses */
-  int32_t paused;          /* @enum jam_phase of what was stopped early and can go on (crunch: by jam_crunch), or 0 */
-  double non_additivity;   /* Delta of a non-additive mixture, 0 for additive diameters */
+  int32_t dim;              /* d */
+  int64_t n, seed;          /* number of spheres; as recorded at creation */
+  double box;               /* side of the cube, V^(1/d) of another cell */
+  double packing_fraction;  /* sum of sphere volumes over V */
+  double diameter_mean;     /* unit of box */
+  double pressure;          /* reduced pressure p last measured by MD, NaN before */
+  int32_t model;            /* @enum jam_model */
+  int32_t monodisperse;     /* @bool all diameters are equal */
+  int32_t masses;           /* @enum jam_masses */
+  int32_t paused;           /* @enum jam_phase of what was stopped early and can go on (crunch: by jam_crunch), or 0 */
+  double non_additivity;    /* Delta of a non-additive mixture, 0 for additive diameters */
+  int32_t container, walls; /* @enum jam_container; as in jam_start */
+  double volume;            /* V of the container, else of the cell */
 } jam_info;
 /* Fills *info. */
 JAM_API jam_status jam_get_info(const jam_system *sys, jam_info *info);
-
 /* View of positions (n, d) in [0, box), in other cells in the brick. The pointer stays valid as long as the handle. Its
  * content changes only at the end of calls that move spheres. */
 JAM_API jam_status jam_view_positions(const jam_system *sys, const double **view, size_t *view_len);
@@ -325,6 +325,16 @@ JAM_API jam_status jam_set_positions(jam_system *sys, const double *positions, s
 JAM_API jam_status jam_set_velocities(jam_system *sys, const double *velocities, size_t velocities_len);
 /* Multiplies all diameters by factor > 0; results of crunch are dropped. @errors OVERLAP (when growing) */
 JAM_API jam_status jam_scale_diameters(jam_system *sys, double factor);
+/* Columns of jam_walls. */
+typedef enum jam_wall_column {
+  JAM_WALL_AXIS = 0,     /* of a flat wall; d: the round wall */
+  JAM_WALL_SIDE = 1,     /* 0: at 0; 1: at the edge of the cell, or round */
+  JAM_WALL_AREA = 2,     /* unit^(d-1) */
+  JAM_WALL_PRESSURE = 3, /* beta P V / N of the last run of MD; NaN before */
+  JAM_WALL_GAP = 4       /* least h of a sphere */
+} jam_wall_column;
+/* Walls, axis by axis, then the round one. @shape table (m, jam_wall_column) */
+JAM_API jam_status jam_walls(const jam_system *sys, double *table, size_t table_len, size_t *needed);
 
 /* ------------------------------------------------------------------ the cell */
 
@@ -366,7 +376,6 @@ typedef enum jam_size_draw {
   JAM_DRAW_QUANTILES = 0, /* a sphere for each n-th of the number: the middle one, by volume that of the mean volume */
   JAM_DRAW_RANDOM = 1     /* independent, by the seed */
 } jam_size_draw;
-
 /* Options of jam_diameters. Lengths are in the user's unit. NaN and 0 stand for what is not given. */
 typedef struct jam_diameters_options {
   uint32_t struct_size;
@@ -397,7 +406,6 @@ JAM_API jam_status jam_parse_diameters(const char *text, jam_diameters_options *
 /* *volume of a cell of d = dim vectors, row after row, with a positive determinant. @shape cell (m)
  * @errors DIMENSION */
 JAM_API jam_status jam_cell_volume(int32_t dim, const double *cell, size_t cell_len, double *volume);
-
 /* Where jam_size_report.jammed_fraction comes from. */
 typedef enum jam_reach_source {
   JAM_REACH_FARR_GROOT = 1, /* d = 3: spheres as rods on a line (Farr, Groot, J. Chem. Phys. 131, 244104 (2009)) */
@@ -484,7 +492,6 @@ JAM_API jam_status jam_add_note(jam_system *sys, const char *text);
  * non_additivity, and only XYZ, LAMMPS and VTP can hold a cell that is not a cube; others give JAM_E_UNSUPPORTED.
  * @enum format jam_format @errors UNSUPPORTED, IO */
 JAM_API jam_status jam_write(const jam_system *sys, const char *path, int32_t format);
-
 /* Formats of contact networks. */
 typedef enum jam_contact_format {
   JAM_CONTACTS_AUTO = 0, /* by name: .csv, .dump, .vtp; with .gz behind it compressed; others are refused */
@@ -512,7 +519,6 @@ typedef struct jam_run_options {
   double wall_time;               /* seconds of this call */
   double time;                    /* to simulate (to the last event before it), > 0, default infinity */
 } jam_run_options;
-
 /* How the spheres grow. */
 typedef enum jam_growth_law {
   JAM_GROWTH_DIAMETER = 0, /* growth_rate is d<sigma>/dt over sqrt(kT/m), constant */
@@ -536,7 +542,7 @@ typedef struct jam_compress_options {
   int32_t growth_law;     /* @enum jam_growth_law, default DIAMETER */
   int32_t reserved;
 } jam_compress_options;
-/* What MD did. Pressure: P V / (N kT) without the part of the growth, kT = sum m v^2 / (d (N - 1)). */
+/* What MD did. Pressure: P V / (N kT) without the part of the growth, kT = sum m v^2 / (d N - periodic axes). */
 typedef struct jam_md_report {
   uint32_t struct_size;
   int32_t stop_reason;          /* @enum jam_stop_reason */
@@ -811,7 +817,6 @@ typedef enum jam_free_strain {
   JAM_STRAIN_TILTS_VOLUME = 6, /* tilts and the volume */
   JAM_STRAIN_ALL = 7           /* edges, tilts and the volume */
 } jam_free_strain;
-
 /* Options of jam_crunch. Lengths are in mean diameters. The guide's page "Coming from other programs" names the
  * parameter of CALiPPSO.jl beside each.
  * - polish: then a crunch also ends where LPs below gain_tolerance still move rattlers. 0 keeps the LP's answer.
@@ -844,7 +849,6 @@ typedef struct jam_crunch_options {
   int32_t prove;           /* @bool a packing that ends jammed is proved as by jam_prove, into the report; default 0 */
   int32_t reserved;
 } jam_crunch_options;
-
 /* Result and certificate of jam_crunch. All gaps, overlaps and lengths relative to sigma_ij. Counts are -1 where
  * contacts are unknown, for example after an early stop; calls that need the network then return JAM_E_STATE. The
  * numbers from packing_fraction_start to contacts_kept say what the crunch did to the packing that it was given:
@@ -994,7 +998,6 @@ typedef enum jam_soft_precision {
   JAM_SOFT_REFERENCE = 0, /* twice the digits and small displacements: forces balance to 1e-14 at any overlap */
   JAM_SOFT_DOUBLE = 1     /* from coordinates in doubles: balance ends near 1e-15 / overlap; for comparison */
 } jam_soft_precision;
-
 /* Options of jam_relax. A free cell is minimised after the minimum of the fixed one. */
 typedef struct jam_relax_options {
   uint32_t struct_size;
@@ -1272,7 +1275,6 @@ typedef struct jam_rigidity_report {
   double rigidity_margin;      /* smallest eigenvalue on K+ that is no translation */
   double force_residual;       /* largest |sum_j f_ij n_ij| over the mean force, of the forces in the proof */
 } jam_rigidity_report;
-
 /* Tests whether the packing is jammed. Nothing changes but strictly_jammed in the stored crunch report. Contacts are
  * pairs with gaps below 1e-10, whether a network lists them or not: none is needed, and the check answers the same.
  * Where coordinates have few digits, pairs within their rounding are undecided, and the answer is a no only where
@@ -1397,7 +1399,6 @@ typedef struct jam_proof_report {
   double singular;             /* below the smallest singular value of the rows 2 r_c, in units of that power of two */
   double eigenvalue, rounding; /* estimate of its square; error bound that was taken off the square */
 } jam_proof_report;
-
 /* Proves, in spite of rounding, that the packing is jammed. Contacts and forces are those of the network. Newton's
  * steps take the centres to two doubles (jam_refined_positions). A factorisation with a bound of its rounding gives the
  * smallest singular value, and Kantorovich's theorem the rest: the guide's page "Proofs" has theorems and limits.

@@ -114,6 +114,9 @@ jam_status jam_compare(const jam_system *sys, const jam_system *other, jam_compa
     if (!comparison && !out && !needed) fail(JAM_E_NULL, "comparison, out and needed are all NULL");
     check_out_struct(comparison, "comparison");
     check_output(out, out_len, sys->packing.position.size(), "out");
+    if (sys->packing.container.kind() != other->packing.container.kind() ||
+        sys->packing.container.flat() != other->packing.container.flat())
+      fail(JAM_E_ARGUMENT, "the two systems have different walls");
     const Comparison c = compare_packings(sys->packing, sys->known_contacts(), other->packing, other->known_contacts());
     if (needed) *needed = c.displacement.size();
     put_output(c.displacement, out, c.displacement.size());

@@ -28,6 +28,7 @@ extern "C" {
 jam_status jam_gaps(const jam_system *sys, double h_max, int32_t stable_only, double *gap, size_t gap_len,
                     int32_t *pair, size_t pair_len, size_t *needed) {
   return guard_const(sys, [&]() -> jam_status {
+    refuse_walls(sys->packing, "searched for gaps of pairs (jam_walls gives those of walls)");
     if (stable_only) need_network(sys);
     const Gaps g = find_gaps(sys->packing, sys->known_contacts(), h_max, stable_only != 0);
     if (!needed && !gap && !pair) fail(JAM_E_NULL, "needed is NULL and there is no output array");
@@ -113,6 +114,7 @@ jam_status jam_correlation_options_init(jam_correlation_options *o, size_t size)
 jam_status jam_pair_correlation(const jam_system *sys, const jam_correlation_options *o, const int32_t *kind,
                                 size_t kind_len, double *out, size_t out_len, size_t *needed) {
   return guard_const(sys, [&]() -> jam_status {
+    refuse_walls(sys->packing, "given a pair correlation");
     jam_correlation_options full = default_correlation_options();
     take_options(o, full);
     if (kind_len) need(kind, "kind");
@@ -126,6 +128,7 @@ jam_status jam_pair_correlation(const jam_system *sys, const jam_correlation_opt
 
 jam_status jam_structure_factor(jam_system *sys, double q_max, double *table, size_t table_len, size_t *needed) {
   return guard_cancellable(sys, [&]() -> jam_status {
+    refuse_walls(sys->packing, "given a structure factor");
     if (!needed && !table) fail(JAM_E_NULL, "needed is NULL and there is no output array");
     constexpr size_t columns = JAM_STRUCTURE_S + 1;
     const StructureFactor f = structure_factor(sys->packing, q_max, !table);
@@ -139,6 +142,7 @@ jam_status jam_structure_factor(jam_system *sys, double q_max, double *table, si
 jam_status jam_bond_order(const jam_system *sys, int32_t l, double cutoff, double *out, size_t out_len,
                           size_t *needed) {
   return guard_const(sys, [&]() -> jam_status {
+    refuse_walls(sys->packing, "given a bond order");
     const std::vector<double> q = bond_order(sys->packing, l, cutoff);
     return give_array(q.data(), q.size(), out, out_len, needed);
   });
@@ -146,6 +150,7 @@ jam_status jam_bond_order(const jam_system *sys, int32_t l, double cutoff, doubl
 
 jam_status jam_crystal_score(const jam_system *sys, double *score) {
   return guard_const(sys, [&]() -> jam_status {
+    refuse_walls(sys->packing, "given a bond order");
     need(score, "score");
     *score = crystal_score(sys->packing);
     return JAM_OK;
@@ -154,6 +159,7 @@ jam_status jam_crystal_score(const jam_system *sys, double *score) {
 
 jam_status jam_local_fraction(const jam_system *sys, double *out, size_t out_len, size_t *needed) {
   return guard_const(sys, [&]() -> jam_status {
+    refuse_walls(sys->packing, "divided into Voronoi cells");
     const std::vector<double> phi = local_fractions(sys->packing);
     return give_array(phi.data(), phi.size(), out, out_len, needed);
   });

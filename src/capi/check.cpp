@@ -64,6 +64,7 @@ jam_status jam_check_options_init(jam_check_options *o, size_t size) {
 
 jam_status jam_check_packing(jam_system *sys, const jam_check_options *o, jam_check_report *report) {
   return guard_cancellable(sys, untested_check(), report, [&]() -> Answer {
+    refuse_walls(sys->packing, "checked");
     jam_check_options full = default_check_options();
     take_options(o, full);
     check_flag(full.crunch, "crunch");

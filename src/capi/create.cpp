@@ -37,6 +37,8 @@ void jam_system::show(const Packing &result) noexcept {
   std::copy(result.diameter.begin(), result.diameter.end(), packing.diameter.begin());
   std::copy(result.velocity.begin(), result.velocity.end(), packing.velocity.begin());
   packing.cell = result.cell;
+  packing.container = result.container;
+  packing.wall_pressure = result.wall_pressure;
   packing.pressure = result.pressure;
   packing.has_velocity = result.has_velocity;
   packing.overlap_allowed = result.overlap_allowed;
@@ -91,7 +93,7 @@ jam_status jam_create(const jam_create_options *o, const jam_start *start, jam_s
     }
     return make_system(full, from.progress, from.user, out, [&](jam_system &sys) {
       sys.packing = make_packing(full, from.positions, from.positions_len, from.diameters, from.diameters_len,
-                                 from.cell, &sys.notes);
+                                 from.cell, &sys.notes, {from.container, from.walls});
     });
   });
 }
@@ -124,6 +126,9 @@ jam_status jam_get_info(const jam_system *sys, jam_info *info) {
     full.monodisperse = sys->monodisperse;
     full.masses = p.masses;
     full.non_additivity = p.non_additivity;
+    full.container = p.container.kind();
+    full.walls = p.container.flat();
+    full.volume = scene_volume(p);
     full.paused = sys->paused ? sys->paused->phase() : sys->crunch_paused ? JAM_PHASE_CRUNCH : 0;
     give_struct(full, info);
     return JAM_OK;

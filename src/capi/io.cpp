@@ -62,8 +62,9 @@ jam_status jam_read(const char *path, const jam_create_options *o, jam_progress_
       settle_options(path, file, full);
       sys.notes = file.notes;
       try {
-        sys.packing = make_packing(full, file.position.data(), file.position.size(), file.diameter.data(),
-                                   file.diameter.size(), file.cell.empty() ? nullptr : file.cell.data(), &sys.notes);
+        sys.packing =
+            make_packing(full, file.position.data(), file.position.size(), file.diameter.data(), file.diameter.size(),
+                         file.cell.empty() ? nullptr : file.cell.data(), &sys.notes, file.enclosure);
         sys.packing.given.take(file.given());
       } catch (const Error &e) {
         refuse(path, e, file.notes);

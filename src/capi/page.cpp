@@ -73,6 +73,7 @@ extern "C" jam_status jam_write_page(const jam_system *sys, const char *path, co
     need(title, "title");
     need(names, "names");
     check_flag(small, "small");
+    refuse_walls(sys->packing, "drawn on a page");
     PageContent content{sys->packing};
     content.title = title;
     content.small = small;

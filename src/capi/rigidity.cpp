@@ -67,6 +67,7 @@ jam_status jam_rigidity(jam_system *sys, int32_t kind, jam_rigidity_report *repo
   untested.jammed = untested.stationary = JAM_VERDICT_UNTESTED;
   untested.rigidity_margin = untested.force_residual = std::numeric_limits<double>::quiet_NaN();
   return guard_cancellable(sys, untested, report, [&]() -> Answer {
+    refuse_walls(sys->packing, "tested for rigidity");
     const Jamming jamming = take_kind(kind);
     const PackingVerdict v = test(sys, jamming);
     if (sys->has_report && jamming == Jamming::strict) sys->report.strictly_jammed = verdict_code(v.result.jammed);
@@ -92,6 +93,7 @@ jam_status jam_rigidity(jam_system *sys, int32_t kind, jam_rigidity_report *repo
 jam_status jam_flex(jam_system *sys, int32_t kind, double *out, size_t out_len, double *strain, size_t strain_len,
                     size_t *needed) {
   return guard_cancellable(sys, [&]() -> jam_status {
+    refuse_walls(sys->packing, "tested for rigidity");
     const Jamming jamming = take_kind(kind);
     const size_t d = static_cast<size_t>(sys->packing.dim), size = sys->packing.position.size();
     if (!needed && !out && !strain) fail(JAM_E_NULL, "needed is NULL and there is no output array");

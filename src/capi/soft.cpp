@@ -50,6 +50,7 @@ jam_status jam_relax_options_init(jam_relax_options *o, size_t size) {
 
 jam_status jam_relax(jam_system *sys, const jam_relax_options *o, jam_relax_report *report) {
   return guard_reporting(sys, report, [&]() -> Answer {
+    refuse_walls(sys->packing, "relaxed");
     jam_relax_options full = default_relax_options();
     take_options(o, full);
     need_soft(sys);
@@ -68,6 +69,7 @@ jam_status jam_decompress_options_init(jam_decompress_options *o, size_t size) {
 
 jam_status jam_decompress(jam_system *sys, const jam_decompress_options *o, jam_decompress_report *report) {
   return guard_reporting(sys, report, [&]() -> Answer {
+    refuse_walls(sys->packing, "decompressed");
     jam_decompress_options full = default_decompress_options();
     take_options(o, full);
     need_soft(sys);

@@ -72,6 +72,7 @@ double Cell::half_diagonal() const {
 void Cell::wrap(double *x, double *shift) const {
   if (shift) std::fill(shift, shift + dim_, 0.0);
   for (int c = dim_ - 1; c >= 0; --c) {
+    if (!repeats(c)) continue;
     const double inside = jam::wrap(x[c], edge(c));
     if (inside == x[c]) continue;
     const double m = std::nearbyint((x[c] - inside) / edge(c));

@@ -41,6 +41,11 @@ class Cell {
   // Distance of the two faces that a_c joins.
   double height(int c) const;
   double height_min() const;
+  // From now on nothing repeats along these axes (bits), which are at right angles to all others: walls bound them
+  // (core/container.hpp). Edges, heights and the shortest vector stay those of the brick.
+  void close(uint32_t axes) { closed_ = axes; }
+  uint32_t closed() const { return closed_; }
+  bool repeats(int c) const { return (closed_ >> c & 1u) == 0; }
   // Length of the shortest lattice vector: a sphere wider than that overlaps its image.
   double shortest() const;
   // No point is farther than this from the nearest image of another.
@@ -69,18 +74,20 @@ class Cell {
   // is shorter than half the shortest edge; for longer vectors images() finds it.
   void nearest(double *x) const {
     for (int c = dim_ - 1; c >= 0; --c) {
+      if (closed_ && !repeats(c)) continue;
       const double m = std::nearbyint(x[c] / rows_[c][c]);
       for (int k = cube_ ? c : 0; k <= c; ++k) x[k] -= m * rows_[c][k];
     }
   }
   // The lattice vector that takes the difference of two points of the brick to the image that nearest() chooses.
   void nearest_shift(const double *dx, double *shift) const {
-    if (cube_) {
+    if (cube_ && !closed_) {
       for (int c = 0; c < dim_; ++c) shift[c] = dx[c] > 0.5 * side_ ? -side_ : dx[c] < -0.5 * side_ ? side_ : 0.0;
       return;
     }
     std::fill(shift, shift + dim_, 0.0);
     for (int c = dim_ - 1; c >= 0; --c) {
+      if (!repeats(c)) continue;
       const double m = -std::nearbyint((dx[c] + shift[c]) / rows_[c][c]);
       for (int k = 0; k <= c; ++k) shift[k] += m * rows_[c][k];
     }
@@ -98,7 +105,8 @@ class Cell {
   void descend(int c, const double *dx, double r2, const Vector &above, F &f) const {
     if (c < 0) return f(above.data());
     const double edge = rows_[c][c], x = dx[c] + above[c];
-    const double centre = -std::nearbyint(x / edge), reach = std::floor(std::sqrt(r2) / edge + 0.5);
+    double centre = -std::nearbyint(x / edge), reach = std::floor(std::sqrt(r2) / edge + 0.5);
+    if (closed_ && !repeats(c)) centre = reach = 0.0;
     for (double m = centre - reach; m <= centre + reach; ++m) {
       Vector shift = above;
       for (int k = cube_ ? c : 0; k <= c; ++k) shift[k] += m * rows_[c][k];
@@ -109,6 +117,7 @@ class Cell {
 
   int dim_;
   bool cube_ = true;
+  uint32_t closed_ = 0;
   double side_, volume_;
   std::array<Vector, JAM_MAX_DIM> rows_{};
 };

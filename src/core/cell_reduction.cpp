@@ -176,6 +176,7 @@ bool keeps_shifts(const Packing &p, const ReducedCell &reduced) {
 }
 
 void strain_affinely(Packing &p, const double *strain) {
+  refuse_walls(p, "strained");
   const int d = p.dim;
   const auto deform = [&](const double *x, double *y) {
     for (int a = 0; a < d; ++a) {

@@ -80,12 +80,15 @@ double fitting_factor(const Packing &p) {
   }
   double scale = widest / p.cell.shortest();
   const double unlike = 0.5 * (1.0 + p.non_additivity) * (widest + other);
-  if (other > 0.0) scale = std::max(scale, unlike / p.cell.half_diagonal());
+  // Nearest images are no farther apart than half the diagonal; in a container points are up to the diagonal apart.
+  const double apart = p.container ? 2.0 * p.cell.half_diagonal() : p.cell.half_diagonal();
+  if (other > 0.0) scale = std::max(scale, unlike / apart);
   if (p.model == JAM_MODEL_EUCLID) {
     double volume = 0.0;  // of the spheres, in units of widest^d: no overflow whatever the diameters are
     for (double s : p.diameter) volume += unit_sphere_volume(p.dim) * math::pow(s / widest, p.dim);
     const double core = 1.0 + std::min(0.0, p.non_additivity);
-    scale = std::max(scale, core * math::pow(volume, 1.0 / p.dim) * widest / p.cell.side());
+    const double side = p.container ? math::pow(scene_volume(p), 1.0 / p.dim) : p.cell.side();
+    scale = std::max(scale, core * math::pow(volume, 1.0 / p.dim) * widest / side);
   }
   return scale > 1.0 + overlap_tolerance ? 1.0 / scale : 1.0;
 }
@@ -114,7 +117,20 @@ void check_create_limits(const jam_create_options &o) {
 // Spheres so near are two lines for one sphere, or the two faces of a box.
 static bool same_centre(const ClosestPair &pair) { return pair.gap <= -1.0 + 1e-12; }
 
+static void refuse_wall_overlaps(const Packing &p, double tolerance) {
+  const ClosestWall worst = closest_wall(p);
+  if (worst.gap >= -tolerance) return;
+  const std::string wall = p.container.name(worst.w);
+  if (p.overlap_allowed)
+    fail(JAM_E_OVERLAP,
+         "sphere %d overlaps %s by %.3g of its radius: this call is for hard spheres; jam_scale_diameters(sys, %.17g) "
+         "leads to contact",
+         worst.sphere, wall.c_str(), -worst.gap, (1.0 + worst.gap) * (1.0 - 1e-15));
+  fail(JAM_E_OVERLAP, "sphere %d overlaps %s by %.3g of its radius", worst.sphere, wall.c_str(), -worst.gap);
+}
+
 void refuse_overlaps(const Packing &p, double tolerance) {
+  if (p.container) refuse_wall_overlaps(p, tolerance);
   const ClosestPair worst = closest_pair(p);
   if (worst.gap >= -tolerance) return;
   if (p.overlap_allowed)
@@ -128,17 +144,20 @@ void refuse_overlaps(const Packing &p, double tolerance) {
 
 void settle_overlaps(Packing &p, int32_t policy) {
   check_diameters(p.diameter, p.cell);
+  if (p.container && !p.position.empty()) refuse_outside(p);
   if (policy == JAM_OVERLAP_ALLOW) {
     if (diameter_max(p) > p.cell.shortest())
       refuse_unfitting(p);  // overlaps of a sphere with its own images are not moved
     return;
   }
+  if (p.container) refuse_too_wide(p, JAM_E_OVERLAP);
   if (fitting_factor(p) < 1.0) refuse_unfitting(p);
   refuse_overlaps(p, overlap_tolerance);
 }
 
 void shrink_to_contact(Packing &p, double least, Notes *notes) {
   check_diameters(p.diameter, p.cell);
+  if (p.container) refuse_outside(p);
   const double before = packing_fraction(p), fit = fitting_factor(p);
   double factor = fit;
   for (double &s : p.diameter) s *= fit;
@@ -153,11 +172,19 @@ void shrink_to_contact(Packing &p, double least, Notes *notes) {
     factor *= 1.0 + worst.gap;
     for (double &s : p.diameter) s *= 1.0 + worst.gap;
   }
+  const ClosestWall wall = closest_wall(p);
+  const bool at_wall = wall.gap < -overlap_tolerance;
+  if (at_wall) {
+    factor *= 1.0 + wall.gap;
+    for (double &s : p.diameter) s *= 1.0 + wall.gap;
+  }
   if (factor == 1.0) return;
   char cause[100] = "they did not fit the cell";
   if (overlap)
     std::snprintf(cause, sizeof cause, "spheres %d and %d overlapped by %.3g of their contact distance", worst.i,
                   worst.j, 1.0 - (1.0 + worst.gap) * fit);
+  if (at_wall)
+    std::snprintf(cause, sizeof cause, "sphere %d overlapped %s", wall.sphere, p.container.name(wall.w).c_str());
   if (factor < least)
     fail(JAM_E_OVERLAP,
          "%s: to shrink means to multiply all diameters by %.3g, less than shrink_min %g; leave one of two duplicates "
@@ -184,8 +211,10 @@ void say_cell(const ReducedCell &reduced, int dim, Notes *notes) {
 }  // namespace
 
 Packing make_packing(const jam_create_options &o, const double *positions, size_t positions_len,
-                     const double *diameters, size_t diameters_len, const double *cell, Notes *notes) {
+                     const double *diameters, size_t diameters_len, const double *cell, Notes *notes,
+                     const Enclosure &enclosure) {
   check_options(o);
+  const bool walled = enclosure.any();
   if (positions_len && !positions) fail(JAM_E_NULL, "positions is NULL but its length is %zu", positions_len);
   if (diameters_len && !diameters) fail(JAM_E_NULL, "diameters is NULL but its length is %zu", diameters_len);
   const size_t n = count_spheres(o, positions_len, diameters_len);
@@ -206,7 +235,11 @@ Packing make_packing(const jam_create_options &o, const double *positions, size_
     p.position.assign(positions, positions + positions_len);
     const std::vector<double> rows = p.cell.rows();
     p.given = digits_of(p.dim, p.position, p.diameter, cell ? std::vector<double>(cell, cell + rows.size()) : rows);
-    if (cell) {
+    if (walled) {
+      if (cell) p.cell = walled_cell(p.dim, cell, enclosure);
+      enclose(p, enclosure);
+      wrap_positions(p);
+    } else if (cell) {
       const ReducedCell reduced = reduce_cell(p.dim, cell);
       say_cell(reduced, p.dim, notes);
       enter_cell(p, reduced);
@@ -218,7 +251,8 @@ Packing make_packing(const jam_create_options &o, const double *positions, size_
     else
       settle_overlaps(p, o.overlap);
   } else {
-    if (cell) p.cell = reduce_cell(p.dim, cell).cell;
+    if (cell) p.cell = walled ? walled_cell(p.dim, cell, enclosure) : reduce_cell(p.dim, cell).cell;
+    if (walled) enclose(p, enclosure);
     if (!(o.packing_fraction >= 0.0) || !std::isfinite(o.packing_fraction))
       fail(JAM_E_ARGUMENT, "packing_fraction is %g, it must be positive and finite, or 0 for the default",
            o.packing_fraction);

@@ -29,8 +29,9 @@ double sum_over(const std::vector<double> &x, const Term &term) {
 }  // namespace
 
 double packing_fraction(const Packing &p) {
-  return unit_sphere_volume(p.dim) *
-         sum_over(p.diameter, [&](double s) { return math::pow(s / p.cell.side(), p.dim); });
+  const double of_cell =
+      unit_sphere_volume(p.dim) * sum_over(p.diameter, [&](double s) { return math::pow(s / p.cell.side(), p.dim); });
+  return p.container ? of_cell * (p.cell.volume() / p.container.volume()) : of_cell;
 }
 
 double diameter_mean(const Packing &p) {

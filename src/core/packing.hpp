@@ -1,4 +1,4 @@
-// The state that every layer works on: spheres in a periodic cell.
+// The state that every layer works on: spheres in a periodic cell or a container.
 #pragma once
 #include <cmath>
 #include <cstddef>
@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 #include "core/cell.hpp"
+#include "core/container.hpp"
 #include "jam/jam.h"
 
 namespace jam {
@@ -27,12 +28,14 @@ struct GivenDigits {
 struct Packing {
   int dim = 3;
   Cell cell;
+  Container container;  // none: the cell repeats along all axes
   int64_t seed = 1;
   int32_t model = JAM_MODEL_EUCLID;
   int32_t masses = JAM_MASSES_EQUAL;
   double mk_zeta = std::numeric_limits<double>::infinity();
   double non_additivity = 0.0;        // Delta of a non-additive mixture (core/pair_rule.hpp)
   std::vector<MkRedrawn> mk_redrawn;  // sorted; all other pairs have attempt 0 (core/pair_rule.hpp)
+  std::vector<double> wall_pressure;  // of each wall, reduced; empty before MD
   std::vector<double> position;       // (n, dim), in the brick of the cell
   std::vector<double> diameter;       // n
   std::vector<double> velocity;       // (n, dim), kT/m = 1; all zero until MD draws them

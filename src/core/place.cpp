@@ -83,9 +83,11 @@ class GrowingCells {
   std::vector<int32_t> head_, next_;
 };
 
-// The brick of the cell repeats as the cell does, so a uniform point of it will do.
-void random_point(const Cell &cell, Rng &rng, double *x) {
-  for (int c = 0; c < cell.dim(); ++c) x[c] = wrap(cell.edge(c) * rng.uniform(), cell.edge(c));
+// The brick of the cell repeats as the cell does, so a uniform point of it will do. Of a container: where a sphere of
+// this radius fits between flat walls.
+void random_point(const Packing &p, Rng &rng, double radius, double *x) {
+  if (p.container) return p.container.random_point(p.cell, rng, radius, x);
+  for (int c = 0; c < p.dim; ++c) x[c] = wrap(p.cell.edge(c) * rng.uniform(), p.cell.edge(c));
 }
 
 // Mixtures pack more densely than equal spheres: they are tried up to the density at which they jam.
@@ -110,6 +112,7 @@ void report_placed(double fraction, int64_t spheres, size_t all) {
 }
 
 void refuse_unplaceable(const Packing &p) {
+  if (p.container) refuse_too_wide(p, JAM_E_UNPLACEABLE);
   if (fitting_factor(p) < 1.0)
     fail(JAM_E_UNPLACEABLE,
          "spheres of packing fraction %g, the largest of diameter %g, do not fit the box %g; packing fraction reached: "
@@ -131,6 +134,7 @@ void place_at_random(Packing &p) {
   GrowingCells cells(p, contact_distance_max(p));
   Rng rng(p.seed, Stream::rsa_positions);
   double placed = 0.0;
+  const double share = p.container ? p.cell.volume() / scene_volume(p) : 1.0;
   const int64_t most_total = PlaceTuning::tries_per_sphere * static_cast<int64_t>(n) + PlaceTuning::most_tries;
   int64_t total = 0, spheres = 0;
   for (int32_t i : order) {
@@ -143,19 +147,24 @@ void place_at_random(Packing &p) {
       // A try takes long where one large sphere leaves few cells, and each of them holds many small ones.
       if (total % PlaceTuning::tries_between_looks == 0) CallScope::look();
       if (total % PlaceTuning::tries_between_reports == 0) report_placed(placed, spheres, n);
-      random_point(p.cell, rng, x);
-    } while (cells.blocked(x, i));
+      random_point(p, rng, 0.5 * p.diameter[i], x);
+    } while (!p.container.holds(x, 0.5 * p.diameter[i]) || cells.blocked(x, i));
     cells.add(i);
     ++spheres;
-    placed += unit_sphere_volume(d) * math::pow(p.diameter[i] / p.cell.side(), d);
+    placed += unit_sphere_volume(d) * math::pow(p.diameter[i] / p.cell.side(), d) * share;
   }
 }
 
 void place_uniformly(Packing &p) {
   settle_overlaps(p, JAM_OVERLAP_ALLOW);
+  refuse_too_wide(p, JAM_E_UNPLACEABLE);
   p.position.resize(p.n() * static_cast<size_t>(p.dim));
   Rng rng(p.seed, Stream::rsa_positions);
-  for (size_t i = 0; i < p.n(); ++i) random_point(p.cell, rng, &p.position[i * static_cast<size_t>(p.dim)]);
+  for (size_t i = 0; i < p.n(); ++i) {
+    double *x = &p.position[i * static_cast<size_t>(p.dim)];
+    do random_point(p, rng, 0.5 * p.diameter[i], x);
+    while (!p.container.holds(x, 0.5 * p.diameter[i]));
+  }
 }
 
 void plant(Packing &p) {
@@ -163,7 +172,7 @@ void plant(Packing &p) {
   refuse_unplaceable(p);
   p.position.resize(p.n() * static_cast<size_t>(d));
   Rng rng(p.seed, Stream::rsa_positions);
-  for (size_t i = 0; i < p.n(); ++i) random_point(p.cell, rng, &p.position[i * static_cast<size_t>(p.dim)]);
+  for (size_t i = 0; i < p.n(); ++i) random_point(p, rng, 0.0, &p.position[i * static_cast<size_t>(p.dim)]);
   p.mk_redrawn.clear();
   const MkShifts quenched(p);
   double shift[JAM_MAX_DIM];

@@ -15,7 +15,9 @@ void check_packing(const Packing &p, jam_status code) {
     fail(code, "%zu diameters, %zu coordinates and %zu velocity components in d = %zu", n, p.position.size(),
          p.velocity.size(), d);
   for (size_t k = 0; k < n * d; ++k)
-    if (!(p.position[k] >= 0.0 && p.position[k] < p.cell.edge(static_cast<int>(k % d))))
+    if (!(p.position[k] >= 0.0 && (p.position[k] < p.cell.edge(static_cast<int>(k % d)) ||
+                                   (p.position[k] == p.cell.edge(static_cast<int>(k % d)) && p.container &&
+                                    !p.cell.repeats(static_cast<int>(k % d))))))
       fail(code, "positions[%zu] is %.17g, outside the box %g", k, p.position[k], p.cell.edge(static_cast<int>(k % d)));
   const double widest = p.cell.shortest() * (1.0 + overlap_tolerance);
   for (size_t i = 0; i < n; ++i)

@@ -101,7 +101,11 @@ int64_t in_all(double per_particle, double n) {
 }  // namespace
 
 Observer::Observer(const Packing &p, const jam_observe_options &o)
-    : options_(o), dim_(static_cast<size_t>(p.dim)), n_(static_cast<double>(p.n())), snapshot_step_(o.snapshot_every) {
+    : options_(o),
+      dim_(static_cast<size_t>(p.dim)),
+      n_(static_cast<double>(p.n())),
+      momentum_kept_(p.container.momentum_kept()),
+      snapshot_step_(o.snapshot_every) {
   next_block_ = in_all(o.sample_every / blocks, n_);
   next_snapshot_ = std::numeric_limits<int64_t>::max();
   if (o.snapshot_every > 0.0) {
@@ -149,10 +153,11 @@ void Observer::take_sample(const Packing &now, const std::vector<double> &displa
   s.packing_fraction = packing_fraction(now);
   PressureSums all;
   for (const PressureSums &block : blocks_) all += block;
-  s.pressure = all.time_has_passed() ? all.reduced_pressure(n_) : std::numeric_limits<double>::quiet_NaN();
+  s.pressure =
+      all.time_has_passed() ? all.reduced_pressure(n_, momentum_kept_) : std::numeric_limits<double>::quiet_NaN();
   double spread = 0.0;
   for (const PressureSums &block : blocks_) {
-    const double p = block.reduced_pressure(n_);
+    const double p = block.reduced_pressure(n_, momentum_kept_);
     spread += (p - s.pressure) * (p - s.pressure);
   }
   s.error = std::sqrt(spread / (blocks * (blocks - 1)));

@@ -64,6 +64,9 @@ class Observer {
     ++collisions_[j];
     pairs_.add(i, j, momentum);
   }
+  void wall_collision(int32_t i) {
+    if (options_.collisions) ++collisions_[i];
+  }
   double *travel(int32_t i) { return &travel_[static_cast<size_t>(i) * dim_]; }
 
   // Called by the stage. Collisions are counted over all calls since jam_observe.
@@ -95,7 +98,7 @@ class Observer {
   static constexpr int blocks = SampleTuning::blocks;
   jam_observe_options options_;
   size_t dim_;
-  double n_;
+  double n_, momentum_kept_;
   int64_t next_block_, next_snapshot_, blocks_made_ = 0, snapshots_ = 0;
   double snapshot_at_ = 0.0, snapshot_step_;
   double sample_time_ = 0.0, histograms_at_ = std::numeric_limits<double>::infinity();

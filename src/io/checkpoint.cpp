@@ -40,7 +40,17 @@ struct Header {
   double cell[JAM_MAX_DIM * JAM_MAX_DIM];  // (dim, dim) cell vectors, the rest 0
 };
 
-constexpr int32_t flag_velocity = 1, flag_overlap_allowed = 2;
+// Flags; above them the container and its flat walls, both 0 without walls. The pressures on walls come last, if any.
+constexpr int32_t flag_velocity = 1, flag_overlap_allowed = 2, flag_wall_pressure = 4;
+constexpr int container_at = 8, walls_at = 16;
+
+Enclosure enclosure_of(const Header &h) { return {h.flags >> container_at & 0xff, h.flags >> walls_at}; }
+size_t walls_of(const Header &h) {
+  const Enclosure e = enclosure_of(h);
+  size_t count = e.container == JAM_CONTAINER_BRICK ? 0 : 1;
+  for (int c = 0; c < h.dim; ++c) count += e.walls >> c & 1 ? 2 : 0;
+  return count;
+}
 
 // A lower triangle with positive edges, tilts in range, and few vectors as short as its shortest row.
 bool has_searchable_cell(const Header &h) {
@@ -111,7 +121,9 @@ void write_checkpoint(const Packing &p, const std::string &beside, const char *p
   h.dim = p.dim;
   h.given_step = p.given.step, h.given_base = p.given.base;
   h.model = p.model;
-  h.flags = (p.has_velocity ? flag_velocity : 0) | (p.overlap_allowed ? flag_overlap_allowed : 0);
+  h.flags = (p.has_velocity ? flag_velocity : 0) | (p.overlap_allowed ? flag_overlap_allowed : 0) |
+            (p.wall_pressure.empty() ? 0 : flag_wall_pressure) | p.container.kind() << container_at |
+            p.container.flat() << walls_at;
   for (int k = 0; k < p.dim; ++k) std::copy(p.cell.row(k), p.cell.row(k) + p.dim, h.cell + k * p.dim);
   h.mk_zeta = p.mk_zeta;
   h.pressure = p.pressure;
@@ -123,6 +135,7 @@ void write_checkpoint(const Packing &p, const std::string &beside, const char *p
   put(text, p.velocity);
   put(text, p.mk_redrawn);
   text += beside;
+  put(text, p.wall_pressure);
   const uint64_t sum = checksum(text.data(), text.size());
   text.append(reinterpret_cast<const char *>(&sum), sizeof sum);
   file.commit();
@@ -147,10 +160,12 @@ Packing read_checkpoint(const char *path, std::string &beside) {
   std::memcpy(&sum, all.data() + all.size() - 8, 8);
   if (sum != checksum(all.data(), all.size() - 8)) fail(JAM_E_FORMAT, "%s is damaged: its checksum does not fit", path);
   const size_t room = all.size() - sizeof h - 8;
+  const size_t pressures =
+      (h.flags & flag_wall_pressure) != 0 && h.dim >= 2 && h.dim <= JAM_MAX_DIM ? walls_of(h) * sizeof(double) : 0;
   if (h.dim < 2 || h.dim > JAM_MAX_DIM || h.n < 1 || h.n > INT32_MAX || h.redrawn < 0 ||
       static_cast<size_t>(h.redrawn) > room || h.beside < 0 || static_cast<size_t>(h.beside) > room ||
-      static_cast<size_t>(h.n) > room ||
-      room - static_cast<size_t>(h.beside) !=
+      static_cast<size_t>(h.n) > room || pressures > room ||
+      room - static_cast<size_t>(h.beside) - pressures !=
           static_cast<size_t>(h.n) * (2 * static_cast<size_t>(h.dim) + 1) * sizeof(double) +
               static_cast<size_t>(h.redrawn) * sizeof(MkRedrawn))
     fail(JAM_E_FORMAT, "%s has the wrong size: %zu bytes for %lld spheres", path, all.size(),
@@ -173,10 +188,17 @@ Packing read_checkpoint(const char *path, std::string &beside) {
   take(at, p.velocity, n * d);
   take(at, p.mk_redrawn, static_cast<size_t>(h.redrawn));
   beside.assign(at, static_cast<size_t>(h.beside));
+  at += h.beside;
+  take(at, p.wall_pressure, pressures / sizeof(double));
   check_dim(h.dim);
   reduce_cell(h.dim, h.cell);  // for its checks
   if (!has_searchable_cell(h)) fail(JAM_E_FORMAT, "%s contains a cell that is far from reduced", path);
   p.cell = Cell::from_triangle(h.dim, h.cell);
+  if (h.flags >> container_at) {
+    enclose(p, enclosure_of(h));
+    if (p.container.count() != static_cast<int>(walls_of(h))) fail(JAM_E_FORMAT, "%s has no such container", path);
+    refuse_outside(p);
+  }
   check_packing(p, JAM_E_FORMAT);
   bool good = (h.model == JAM_MODEL_EUCLID || h.model == JAM_MODEL_MK) &&
               (h.masses == JAM_MASSES_EQUAL || h.masses == JAM_MASSES_VOLUME) &&

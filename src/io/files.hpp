@@ -17,6 +17,7 @@ struct FileContent {
   std::vector<double> cell;     // (dim, dim) vectors of a cell that is no cube, else empty
   double non_additivity = 0.0;  // of a non-additive mixture
   bool has_non_additivity = false;
+  Enclosure enclosure;           // the walls
   std::vector<double> position;  // (n, dim) as written, not wrapped
   std::vector<double> diameter;  // n, or 1 for all
   std::vector<double> origin;    // what the reader has subtracted from the positions of the file; empty: nothing

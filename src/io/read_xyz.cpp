@@ -126,16 +126,37 @@ void read_cell(const LineReader &in, std::string_view text, const char *name, si
   content.box = take_box(in, words[0]);
 }
 
-// Every direction must be periodic, as T, True or 1; in d = 2 the third one is ignored, from d = 4 on three are named.
-void check_periodic(const LineReader &in, std::string_view pbc, int dim) {
+bool is_true(std::string_view word) {
+  const std::string w = lower(word);
+  return w == "t" || w == "true" || w == "1";
+}
+
+// container=, and walls= a word for each axis.
+void read_container(const LineReader &in, Keys &keys, FileContent &content) {
+  std::string_view value;
+  if (!keys.find("container", value)) return;
+  content.enclosure.container = container_of_word(std::string(value).c_str());
+  if (content.enclosure.container < 0)
+    in.fail(JAM_E_FORMAT, "container is '%s', known are brick, cylinder and ball", shown(value).c_str());
+  if (!keys.find("walls", value)) in.fail(JAM_E_FORMAT, "container= without walls=, a word T or F for each axis");
+  std::vector<std::string_view> words;
+  split(value, words);
+  if (words.size() != static_cast<size_t>(content.dim))
+    in.fail(JAM_E_FORMAT, "walls has %zu words, %d are needed", words.size(), content.dim);
+  for (size_t c = 0; c < words.size(); ++c)
+    if (is_true(words[c])) content.enclosure.walls |= 1 << c;
+}
+
+// Every direction without walls must be periodic, as T, True or 1; in d = 2 the third one is ignored, from d = 4 on
+// three are named. Files of other programs do not say whether walls stand where nothing repeats.
+void check_periodic(const LineReader &in, std::string_view pbc, const FileContent &content) {
+  const int dim = content.dim;
   std::vector<std::string_view> words;
   split(pbc, words);
   const size_t needed = static_cast<size_t>(std::min(dim, 3));
   bool periodic = words.size() >= needed;
-  for (size_t k = 0; k < std::min(words.size(), static_cast<size_t>(dim)); ++k) {
-    const std::string word = lower(words[k]);
-    periodic = periodic && (word == "t" || word == "true" || word == "1");
-  }
+  for (size_t k = 0; k < std::min(words.size(), static_cast<size_t>(dim)); ++k)
+    periodic = periodic && (is_true(words[k]) || content.enclosure.closes(static_cast<int>(k)));
   if (periodic) return;
   const bool plane = dim == 3 && words.size() == 3 && lower(words[2])[0] != 't' && words[2] != "1";
   in.fail(JAM_E_UNSUPPORTED, "pbc='%s': the box must be periodic in every direction%s", shown(pbc).c_str(),
@@ -191,7 +212,8 @@ Columns read_keys(const LineReader &in, Keys &keys, const ReadOptions &options, 
     in.fail(JAM_E_FORMAT, "dim is %d but pos has %zu columns", content.dim, columns.pos_count);
   read_cells(in, keys, content);
   columns.origin = read_origin(in, keys, content.dim);
-  if (keys.find("pbc", value)) check_periodic(in, value, content.dim);
+  read_container(in, keys, content);
+  if (keys.find("pbc", value)) check_periodic(in, value, content);
   if (keys.find("non_additivity", value)) {
     content.non_additivity = parse_number(in, value);
     content.has_non_additivity = true;

@@ -63,8 +63,17 @@ void write_xyz(const Packing &p, const std::vector<int32_t> *coordination, Outpu
   }
   out += "\" Properties=id:I:1:pos:R:" + std::to_string(columns) + ":radius:R:1";
   if (coordination) out += ":contacts:I:1";
-  out += p.dim == 2 ? " pbc=\"T T F\"" : " pbc=\"T T T\"";
-  out += " dim=" + std::to_string(p.dim);
+  out += " pbc=\"";
+  for (int c = 0; c < 3; ++c) {
+    if (c) out += ' ';
+    out += c < p.dim && p.cell.repeats(c) ? 'T' : 'F';
+  }
+  out += "\" dim=" + std::to_string(p.dim);
+  if (p.container) {  // `walls` names what pbc cannot: axes beyond three, and the caps of a cylinder
+    out += std::string(" container=") + p.container.word() + " walls=\"";
+    for (int c = 0; c < p.dim; ++c) out += std::string(c ? " " : "") + (p.container.flat() >> c & 1 ? 'T' : 'F');
+    out += '"';
+  }
   if (p.non_additivity != 0.0) {
     out += " non_additivity=";
     append_number(out, p.non_additivity);
@@ -157,6 +166,8 @@ int32_t format_by_name(const char *path) {
 void check_fits(const Packing &p, int32_t format) {
   if (format != JAM_FORMAT_XYZ && p.non_additivity != 0.0)
     fail(JAM_E_UNSUPPORTED, "only extended XYZ and checkpoints can store non_additivity = %g", p.non_additivity);
+  if (format != JAM_FORMAT_XYZ && p.container)
+    fail(JAM_E_UNSUPPORTED, "only extended XYZ and checkpoints can store a scene with walls");
   if (format == JAM_FORMAT_PLAIN && !p.cell.cube())
     fail(JAM_E_UNSUPPORTED,
          "plain text cannot store a cell that is no cube: write extended XYZ, LAMMPS data or a checkpoint");

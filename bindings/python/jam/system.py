@@ -10,7 +10,7 @@ from . import errors, raw
 from ._api.arrays import as_array
 from ._api.calls import freeze
 from ._api.errors import METHODS
-from ._api.given import cell_of, positions_of, refuse_start_options, refuse_unnamed_box, side_of, sizes_of
+from ._api.given import cell_of, enclosure_of, positions_of, refuse_start_options, refuse_unnamed_box, side_of, sizes_of
 from ._api.options import option_struct
 from ._api.results import Contacts, Modes
 from ._api.size_laws import density_of
@@ -80,8 +80,8 @@ class System(Verbs, Writing, Converting):
         progress : bool or callable, optional
             As of `compress`. A true answer of the callable ends the call with StoppedError, as wall_time does.
         **options
-            box or cell as of `from_arrays`, model ('euclid' or 'mk'), mk_zeta, masses, non_additivity, wall_time,
-            memory_limit.
+            box or cell as of `from_arrays`, walls and container as there, model ('euclid' or 'mk'), mk_zeta, masses,
+            non_additivity, wall_time, memory_limit.
 
         Examples
         --------
@@ -131,6 +131,9 @@ class System(Verbs, Writing, Converting):
         **options
             overlap ('refuse', the default, 'shrink': scales all diameters until no pair overlaps, or 'allow': soft
             spheres), seed, model, mk_zeta, masses, non_additivity, wall_time, memory_limit.
+            walls: axes with flat walls at 0 and at the edge of the cell, as truth values (False, False, True) or as
+            letters "z". container: 'cylinder' (d = 3, about z; walls="z" closes its ends) or 'ball' (d = 2: a circle);
+            its diameter is the edge of the cell. Nothing repeats across a wall.
 
         Examples
         --------
@@ -219,6 +222,7 @@ class System(Verbs, Writing, Converting):
     @classmethod
     def _create(cls, options: dict[str, Any], positions: Any, diameters: Any, progress: Any = None) -> "System":
         box, vectors = cell_of(options.pop("box", None), options.pop("cell", None), options["dim"])
+        container, walls = enclosure_of(options.pop("container", None), options.pop("walls", None), options["dim"])
         made = option_struct("jam_create_options", dict(options, box=box))
         told = reporter(progress)
 
@@ -227,7 +231,7 @@ class System(Verbs, Writing, Converting):
 
         try:
             flat = None if vectors is None else vectors.reshape(-1)
-            answer = raw.jam_create(made, positions, diameters, flat, told and on_progress)
+            answer = raw.jam_create(made, positions, diameters, flat, container, walls, told and on_progress)
         finally:
             end(told)
         return cls._made(*answer)

@@ -16,7 +16,7 @@ void EngineOf<D, O>::archive(Archive &a) {
   a(options_);
   a(spheres_.user);
   a(spheres_.body);
-  calendar_.archive(a);
+  calendar_.archive(a, walls_ ? walls_->container.count() : 0);
   a(clock_.now);
   a(clock_.rate);
   a(clock_.relative_rate);
@@ -32,9 +32,12 @@ void EngineOf<D, O>::archive(Archive &a) {
   a(list_cells_.block);
   cell_mode_.archive(a);
   pace_.archive(a);
+  if (walls_) walls_->archive(a);
   if (a.reading()) {
     options_.instruction_set = InstructionSet::best;  // of this processor, not of the one that wrote
     check_archive();
+    if (walls_ && !in_cell_mode())
+      for (int32_t i = 0; i < spheres_.n; ++i) walls_->note_centre(i, lists_.centre[i], lists_.rho[i]);
     grid_.make_scratch();
     if (mari_kurchan_) {
       mari_kurchan_->prepare(spheres_.user);

@@ -16,8 +16,8 @@ constexpr double never = std::numeric_limits<double>::infinity();
 
 // What happens to a sphere next; the time stands apart, so that many times fit into a line of the cache.
 struct Event {
-  int32_t partner = -1;                           // sphere to collide with, or -1: leaves its safe sphere
-  uint32_t partner_count = 0, count = 0;          // collisions of the partner when this was predicted; own collisions
+  int32_t partner = -1;                   // sphere to collide with; -1: leaves its safe sphere; -2 - w: meets wall w
+  uint32_t partner_count = 0, count = 0;  // collisions of the partner when this was predicted; own collisions
   int32_t next = -1, prev = -1, where = nowhere;  // bucket >= 0, or nowhere, or heap_base - place in the heap
   static constexpr int32_t nowhere = -1, heap_base = -2;
 };
@@ -80,7 +80,7 @@ class Calendar {
   double horizon() const { return inverse_ > 0.0 ? start_ + static_cast<double>(last_bucket()) / inverse_ : never; }
   size_t buckets() const { return heads_.size() - 1; }
 
-  void archive(Archive &a) {
+  void archive(Archive &a, int walls) {
     const size_t n = event_.size();
     a(time_);
     a(event_);
@@ -93,7 +93,7 @@ class Calendar {
     for (int32_t &h : heads_) h = -1;
     heap_.clear();
     for (int32_t i = 0; i < static_cast<int32_t>(n); ++i) {
-      Archive::check(event_[i].partner >= -1 && event_[i].partner < static_cast<int32_t>(n) &&
+      Archive::check(event_[i].partner >= -1 - walls && event_[i].partner < static_cast<int32_t>(n) &&
                      (time_[i] - start_) * inverse_ > -1e6);
       event_[i].where = Event::nowhere;
       insert(i);

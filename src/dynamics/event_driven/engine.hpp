@@ -18,10 +18,10 @@
 //
 // Parts, each a file with its own state: spheres; clock (time, growth); calendar (events); lists; cell_grid and
 // image_grid (cells of a cube and of any other cell); list_cells (who finds the candidates of a list); cell_mode
-// (dilute systems); mari_kurchan (candidates there); pace (chooses the shell and the width of a bucket).
-// What works on several parts, engine_of.hpp: events (prediction, collision, main loop; kernel/pair_kernel has its
-// inner loops in vectors); rebuild (all lists, or that of one sphere); growth (begin, origin of time, rates); prefetch
-// (loads memory ahead of its use); state (what is read of it); archive.
+// (dilute systems); mari_kurchan (candidates there); walls (of a container, which core/container.hpp describes); pace
+// (chooses the shell and the width of a bucket). What works on several parts, engine_of.hpp: events (prediction,
+// collision, main loop; kernel/pair_kernel has its inner loops in vectors); rebuild (all lists, or that of one sphere);
+// growth (begin, origin of time, rates); prefetch (loads memory ahead of its use); state (what is read of it); archive.
 #pragma once
 #include <memory>
 #include <vector>
@@ -71,7 +71,9 @@ class Engine {
   virtual double packing_fraction() const = 0;
   virtual double mean_diameter() const = 0;
   virtual double resolution() const = 0;     // of coordinates, in V^(1/d)
-  virtual double worst_overlap() const = 0;  // largest -h over all listed pairs, now
+  virtual double worst_overlap() const = 0;  // largest -h over all listed pairs, and walls, now
+  // Momentum that each wall received since construction, without the growth part; empty without walls.
+  virtual std::vector<double> wall_momentum() const = 0;
   MdSums sums;
   double max_overlap =
       0.0;  // largest -h of any pair in the lists, whenever a list was made or a sphere of the pair had an event

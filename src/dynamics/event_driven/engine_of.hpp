@@ -17,6 +17,7 @@
 #include "dynamics/event_driven/mari_kurchan.hpp"
 #include "dynamics/event_driven/pace.hpp"
 #include "dynamics/event_driven/spheres.hpp"
+#include "dynamics/event_driven/walls.hpp"
 
 namespace jam {
 
@@ -41,6 +42,7 @@ class EngineOf final : public Engine, private Units<O> {
   double mean_diameter() const override { return 2.0 * spheres_.mean_radius() * unit * clock_.grown(); }
   double resolution() const override { return Units<O>::resolution; }
   double worst_overlap() const override;
+  std::vector<double> wall_momentum() const override { return walls_ ? walls_->momentum : std::vector<double>(); }
 
  private:
   static constexpr bool listed = O == Offsets::listed;
@@ -72,6 +74,8 @@ class EngineOf final : public Engine, private Units<O> {
   double collision_time(const Body<D> &self, const Body<D> &other, const int64_t *offset);
   void predict(int32_t i);
   void collide(int32_t i, int32_t k);
+  void hit_wall(int32_t i, int w);
+  void first_wall(const Body<D> &self, double &time, int32_t &partner);
   void separation(int32_t i, int32_t k, double *r) const;
   void next_event(int32_t i);
   double longest_wait() const;
@@ -139,6 +143,7 @@ class EngineOf final : public Engine, private Units<O> {
   ListCells<D> list_cells_;
   CellMode<D> cell_mode_;
   std::unique_ptr<MariKurchan<D>> mari_kurchan_;  // in this model
+  std::unique_ptr<Walls<D>> walls_;               // of a container
   Pace pace_;
   Observer *observer_ = nullptr;
   bool wants_images_ = false;

@@ -82,6 +82,12 @@ double EngineOf<D, O>::collision_time(const Body<D> &self, const Body<D> &other,
   return disc < 0.0 ? never : gap / (std::sqrt(disc) - b);
 }
 
+// Not a part of predict, which is slower with this code in it.
+template <int D, Offsets O>
+[[gnu::noinline]] void EngineOf<D, O>::first_wall(const Body<D> &self, double &time, int32_t &partner) {
+  max_overlap = std::max(max_overlap, walls_->first(self, clock_, time, partner));
+}
+
 // Earliest event of sphere i, which stands at clock_.now. Of collisions at one time the first of the list counts.
 template <int D, Offsets O>
 void EngineOf<D, O>::predict(int32_t i) {
@@ -93,6 +99,8 @@ void EngineOf<D, O>::predict(int32_t i) {
       spheres_.non_additivity};
   Earliest earliest{exit_time(i) - clock_.now, -1};
   int32_t partner = -1;
+  // Walls come first: where two spheres would meet across a wall at the time at which one of them meets it, it counts.
+  if (walls_ && walls_->near[i]) first_wall(self, earliest.time, partner);
   for (int32_t first = 0; first < count; first += PairKernel<D>::batch) {
     pairs.list = list + first;
     pairs.count = std::min(PairKernel<D>::batch, count - first);
@@ -180,6 +188,30 @@ void EngineOf<D, O>::collide(int32_t i, int32_t k) {
   if (observer_) observer_->collision(spheres_.user[i], spheres_.user[k], -twice_reduced * vn * unit);
 }
 
+// The same with a wall: a fixed partner of endless mass, at the distance of one radius. The sphere leaves it with twice
+// the speed of its growing surface less its own.
+template <int D, Offsets O>
+[[gnu::noinline]] void EngineOf<D, O>::hit_wall(int32_t i, int w) {
+  Body<D> &b = spheres_.body[i];
+  double n[D], vn = 0.0;
+  walls_->container.template normal<D>(w, b.x, walls_->edge, n);
+  for (int c = 0; c < D; ++c) vn += b.v[c] * n[c];
+  const double radius = static_cast<double>(b.radius), growth = radius * clock_.rate;
+  double push = growth - vn;
+  if (push <= 0.0) return;
+  push = std::max(push, CollisionTuning::least_push * scale);
+  for (int c = 0; c < D; ++c) b.v[c] += 2.0 * push * n[c];
+  ++calendar_[i].count;
+  const double momentum = -2.0 * spheres_.mass_of(i) * vn * unit;
+  walls_->momentum[static_cast<size_t>(w)] += momentum;
+  sums.of_pressure.virial += momentum * radius * clock_.grown() * unit;
+  sums.of_pressure.kinetic_integral += kinetic_.integral_to(clock_.now);
+  kinetic_.since = clock_.now;
+  kinetic_.twice += 4.0 * spheres_.mass_of(i) * push * growth * unit * unit;
+  ++sums.collisions;
+  if (observer_) observer_->wall_collision(spheres_.user[i]);
+}
+
 template <int D, Offsets O>
 void EngineOf<D, O>::next_event(int32_t i) {
   Event &event = calendar_[i];
@@ -192,8 +224,10 @@ void EngineOf<D, O>::next_event(int32_t i) {
   move(spheres_.body[i]);
   const int32_t k = event.partner;
   const bool exit = k < 0;
-  if (exit || calendar_[k].count != event.partner_count) {  // it leaves its safe sphere, or the event is stale
-    if (exit) {
+  if (exit || calendar_[k].count != event.partner_count) {  // it leaves its safe sphere or meets a wall, or is stale
+    if (k < -1) {
+      hit_wall(i, -2 - k);
+    } else if (exit) {
       ++pace_.exits;
       recentre(i);
     }
@@ -218,6 +252,9 @@ void EngineOf<D, O>::next_event(int32_t i) {
 template <int D, Offsets O>
 double EngineOf<D, O>::longest_wait() const {
   const double n = static_cast<double>(spheres_.n), speed = spheres_.relative_speed(unit);
+  if (walls_)
+    if (const double to_walls = spheres_.speed_to_walls(unit); to_walls > 0.0)
+      return CollisionTuning::chances * walls_->widest / to_walls;
   if (speed == 0.0) return 0.0;
   const double cross_section = unit_sphere_volume(D - 1) * math::pow(2.0 * mean_diameter(), D - 1);
   return CollisionTuning::chances / (0.5 * n * (n - 1.0) * cross_section * speed);

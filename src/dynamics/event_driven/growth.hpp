@@ -24,6 +24,7 @@ EngineOf<D, O>::EngineOf(const Packing &p, const EngineOptions &o, Archive *from
 #endif
   if (listed && p.model == JAM_MODEL_MK)
     mari_kurchan_ = std::make_unique<MariKurchan<D>>(p, lattice_, spheres_.user, scale);
+  if (p.container) walls_ = std::make_unique<Walls<D>>(p, lattice_, listed);
   if (from)
     archive(*from);
   else
@@ -74,6 +75,7 @@ double EngineOf<D, O>::packing_fraction() const {
     for (int c = 0; c < D; ++c) volume *= static_cast<double>(b.radius) * grown;
     sum += volume;
   }
+  if (walls_) sum *= walls_->share_of_cell;
   return sum * unit_sphere_volume(D);
 }
 

@@ -65,6 +65,8 @@ class Lattice {
   double shortest() const { return shortest_; }      // length of the shortest vector, V^(1/d)
   double height(int c) const { return height_[c]; }  // distance of two faces, V^(1/d)
 
+  uint64_t edge_units(int c) const { return units_[c][c]; }  // integer length of edge c
+
   // x = sum_c s_c a_c, in V^(1/d); in a cube x = s to the bit.
   void combine(const double *s, double *x) const {
     for (int c = 0; c < D; ++c) {

@@ -48,6 +48,7 @@ void EngineOf<D, O>::place_centres(double largest) {
     safe = std::min(safe, 2.0 * shell * largest);
     rho = (radius * spheres_.reach_factor * (1.0 + lists_.margin) + safe) * (1.0 + 1e-12);
     lists_.rho_max = std::max(lists_.rho_max, rho);
+    if (walls_) walls_->note_centre(i, lists_.centre[i], rho);
   }
 }
 
@@ -59,6 +60,7 @@ bool EngineOf<D, O>::choose_cell_mode(double sigma) {
   } else {
     if (!cell_mode_.choose(spheres_.n, sigma, options_.cells, lists_.margin, grid_)) return false;
     if (clock_.rate > 0.0) clock_.lists_end = lists_.margin * ListTuning::used_up / clock_.rate;
+    if (walls_) std::fill(walls_->near.begin(), walls_->near.end(), 1);  // cells say nothing of walls
     grid_.make_scratch();
     cell_mode_.build(lists_.centre, grid_, lattice_);
     return true;
@@ -223,6 +225,7 @@ void EngineOf<D, O>::recentre(int32_t i) {
   if (grid_.used()) list_cells_.drop(i, cell_of(i));
   if constexpr (listed) lattice_.wrap(b.x);
   for (int c = 0; c < D; ++c) lists_.centre[i][c] = b.x[c];
+  if (walls_) walls_->note_centre(i, lists_.centre[i], lists_.rho[i]);
   if (grid_.used()) list_cells_.put(i, cell_of(i), lists_.centre);
   if (mari_kurchan_) note_centre(i);
   candidates(i, [&](int32_t k, const Offset *offset) { lists_.append(i, k, offset); });

@@ -62,6 +62,11 @@ void EventDrivenRun::archive(Archive &a) {
                      &before_.events, &cooling_.collisions, &frozen_})
     a(*k);
   a(window_.pressures);
+  for (std::vector<double> *walls : {&window_.walls, &before_.walls})
+    if (p_.container) {
+      a(*walls);
+      Archive::check(walls->empty() || walls->size() == static_cast<size_t>(p_.container.count()));
+    }
   if (a.reading()) {
     Archive::check(stage_.then == 0.0 || stage_.then > 1.0);
     Archive::check(stage_.growth >= 0.0 && window_.length > 0 && window_.part >= 0 &&
@@ -120,7 +125,10 @@ jam_status EventDrivenRun::run(const Limits &limits, const Listeners &listeners)
   detach(listeners.observer);
   p_ = current();
   if (growing() && twice_kinetic(p_) > 0.0) scale_velocities(p_);  // a run that follows starts at kT/m = 1
-  if (!growing() && sums().time_has_passed()) p_.pressure = sums().reduced_pressure(n_);
+  if (!growing() && sums().time_has_passed()) {
+    p_.pressure = reduced_pressure(sums());
+    note_wall_pressure(sums(), {});
+  }
   report.collisions += collisions() - call_.first_collisions;
   report.events += events() - begin_events;
   report.time += time() - begin_time;

@@ -18,12 +18,14 @@ struct PressureWindow {
   PressureSums of_part, whole;    // of this part before an engine with images took over; of the parts before it
   int64_t steady = 1;             // no part of the window is far below the target pressure
   std::vector<double> pressures;  // of parts
+  std::vector<double> walls;      // momentum that each wall had received before the window
 };
 
 // Sums and counts before this part (`sums`), and before the engine of now (the others).
 struct BeforeEngine {
   PressureSums sums;
   double time = 0.0, worst_overlap = 0.0;
+  std::vector<double> walls;  // momentum that each wall received
   int64_t collisions = 0, events = 0;
 };
 
@@ -95,6 +97,9 @@ class EventDrivenRun final : public Dynamics {
   int64_t events() const { return before_.events + engine_->sums.events; }
   double time() const { return before_.time + engine_->elapsed(); }
   PressureSums sums() const { return before_.sums + engine_->sums.of_pressure; }  // over the run
+  double reduced_pressure(const PressureSums &s) const { return s.reduced_pressure(n_, p_.container.momentum_kept()); }
+  std::vector<double> wall_momentum() const;  // over the run
+  void note_wall_pressure(const PressureSums &time, const std::vector<double> &before);
   PressureSums part_sums() const { return window_.of_part + engine_->sums.of_pressure; }
 
   Packing p_;

@@ -23,13 +23,15 @@ struct Spheres {
   std::vector<Body<D>> body;
   std::vector<int32_t> user;  // number of each sphere for the user
   std::vector<double> mass;   // empty: all 1; else of mean 1
+  uint32_t closed;            // axes along which walls take momentum
 
   explicit Spheres(const Packing &p)
       : n(static_cast<int32_t>(p.n())),
         non_additivity(p.non_additivity),
         reach_factor(1.0 + std::max(0.0, p.non_additivity)),
         body(p.n()),
-        user(curve_order(p)) {
+        user(curve_order(p)),
+        closed(p.cell.closed()) {
     std::memset(static_cast<void *>(body.data()), 0, body.size() * sizeof(Body<D>));  // with the ends that mean nothing
     const std::vector<double> of_user = sphere_masses(p);
     for (size_t i = 0; i < of_user.size(); ++i) mass.push_back(of_user[user[i]]);
@@ -67,8 +69,8 @@ struct Spheres {
     for (const Body<D> &b : body) largest = std::max(largest, static_cast<double>(b.radius));
     return largest;
   }
-  // Sum of m v^2 about the centre of mass, of velocities times `unit`. One sphere has no motion but this one, so it
-  // counts.
+  // Sum of m v^2 about the centre of mass, of velocities times `unit`; along walls in full. One sphere has no motion
+  // but this one, so it counts.
   double twice_kinetic(double unit) const {
     double sum = 0.0, momentum[D] = {};
     for (int32_t i = 0; i < n; ++i) {
@@ -79,8 +81,17 @@ struct Spheres {
       }
     }
     if (n > 1)
-      for (double m : momentum) sum -= m * m / n;
+      for (int c = 0; c < D; ++c)
+        if (!(closed >> c & 1)) sum -= momentum[c] * momentum[c] / n;
     return sum;
+  }
+  // Root of the mean squared velocity towards walls.
+  double speed_to_walls(double unit) const {
+    double sum = 0.0;
+    for (int32_t i = 0; i < n; ++i)
+      for (int c = 0; c < D; ++c)
+        if (closed >> c & 1) sum += (body[i].v[c] * unit) * (body[i].v[c] * unit);
+    return std::sqrt(sum / n);
   }
   // Root of the mean squared velocity of two spheres against each other; 0 where all move as one.
   double relative_speed(double unit) const {

@@ -37,6 +37,11 @@ double EngineOf<D, O>::worst_overlap() const {
       const double gap = exact_gap(a, b, offset) / (sigma * sigma);
       worst = std::max(worst, -gap / (1.0 + std::sqrt(std::max(0.0, 1.0 + gap))));
     });
+  for (int32_t i = 0; walls_ && i < spheres_.n; ++i) {
+    Body<D> b = spheres_.body[i];
+    for (int c = 0; c < D; ++c) b.x[c] += static_cast<uint64_t>(std::llrint(b.v[c] * (clock_.now - b.time)));
+    worst = std::max(worst, walls_->overlap(b, clock_));
+  }
   return worst;
 }
 
@@ -76,6 +81,10 @@ void EngineOf<D, O>::check_pairs() const {
   if (worst.gap < -1e-11)
     fail(JAM_E_INTERNAL, "spheres %d and %d overlap by %g after %lld collisions", worst.i, worst.j, -worst.gap,
          static_cast<long long>(sums.collisions));
+  const ClosestWall wall = closest_wall(p);
+  if (wall.gap < -1e-11)
+    fail(JAM_E_INTERNAL, "sphere %d overlaps %s by %g after %lld collisions", wall.sphere,
+         p.container.name(wall.w).c_str(), -wall.gap, static_cast<long long>(sums.collisions));
 #endif
 }
 

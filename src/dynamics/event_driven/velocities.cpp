@@ -13,6 +13,7 @@ double twice_kinetic(const Packing &p) {
   double sum = 0.0, drift = 0.0;
   for (size_t k = 0; k < p.velocity.size(); ++k) sum += mass[k / d] * p.velocity[k] * p.velocity[k];
   for (size_t c = 0; c < d && p.n() > 1; ++c) {
+    if (!p.cell.repeats(static_cast<int>(c))) continue;  // walls take momentum
     double momentum = 0.0;
     for (size_t i = 0; i < p.n(); ++i) momentum += mass[i] * p.velocity[i * d + c];
     drift += momentum * momentum / static_cast<double>(p.n());  // masses have mean 1
@@ -31,6 +32,7 @@ void draw_velocities(Packing &p, Rng &rng) {
   if (mass.empty()) mass.assign(n, 1.0);
   for (size_t k = 0; k < n * d; ++k) p.velocity[k] = rng.normal() / std::sqrt(mass[k / d]);
   for (size_t c = 0; c < d && n > 1; ++c) {
+    if (!p.cell.repeats(static_cast<int>(c))) continue;
     double mean = 0.0;
     for (size_t i = 0; i < n; ++i) mean += mass[i] * p.velocity[i * d + c];
     mean /= static_cast<double>(n);

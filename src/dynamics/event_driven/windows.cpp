@@ -46,9 +46,9 @@ void EventDrivenRun::begin_part() {
 void EventDrivenRun::end_part() {
   const PressureSums ended = part_sums();
   window_.steady =
-      window_.steady && ended.time_has_passed() && ended.reduced_pressure(n_) > WindowTuning::steady * stage_.pressure;
+      window_.steady && ended.time_has_passed() && reduced_pressure(ended) > WindowTuning::steady * stage_.pressure;
   if (ended.time_has_passed()) {
-    window_.pressures.push_back(ended.reduced_pressure(n_));
+    window_.pressures.push_back(reduced_pressure(ended));
     if (growing() && window_.pressures.size() > WindowTuning::kept_parts)
       window_.pressures.erase(window_.pressures.begin());
   }
@@ -91,14 +91,17 @@ int32_t EventDrivenRun::run_windows(const Listeners &listeners) {
     }
     if (reason == JAM_STOP_PACKING_FRACTION || (reason == JAM_STOP_COLLISIONS && std::isnan(pressure_))) {
       const PressureSums last = window_.whole + window_.of_part + engine_->sums.of_pressure;
-      if (last.time_has_passed()) pressure_ = last.reduced_pressure(n_);
+      if (last.time_has_passed()) pressure_ = reduced_pressure(last);
+      note_wall_pressure(last, window_.walls);
     }
     if (reason != JAM_STOP_NONE) return reason;
     end_part();
     const bool whole = window_.part == parts();
     bool stop = false;
     if (whole) {
-      if (window_.whole.time_has_passed()) pressure_ = window_.whole.reduced_pressure(n_);
+      if (window_.whole.time_has_passed()) pressure_ = reduced_pressure(window_.whole);
+      note_wall_pressure(window_.whole, window_.walls);
+      window_.walls = wall_momentum();
       stop = listeners.monitor->report(progress());
       const int32_t end = reason_to_end();
       if (end != JAM_STOP_NONE) return end;
@@ -110,6 +113,25 @@ int32_t EventDrivenRun::run_windows(const Listeners &listeners) {
     }
     begin_part();
     if (stop) return JAM_STOP_CANCELLED;
+  }
+}
+
+std::vector<double> EventDrivenRun::wall_momentum() const {
+  std::vector<double> all = engine_->wall_momentum();
+  for (size_t w = 0; w < before_.walls.size(); ++w) all[w] += before_.walls[w];
+  return all;
+}
+
+// beta P V / N on each wall, from the momentum since `before` (empty: since the beginning) and the time of these sums.
+void EventDrivenRun::note_wall_pressure(const PressureSums &time, const std::vector<double> &before) {
+  if (!p_.container || !time.time_has_passed()) return;
+  p_.wall_pressure = wall_momentum();
+  const double degrees = p_.dim * (n_ - p_.container.momentum_kept());  // kT = sum m v^2 / degrees
+  const double side = p_.cell.side();                                   // the unit of the engine
+  for (size_t w = 0; w < p_.wall_pressure.size(); ++w) {
+    const double momentum = p_.wall_pressure[w] - (before.empty() ? 0.0 : before[w]);
+    const double height = p_.container.volume() / p_.container.area(static_cast<int>(w)) / side;
+    p_.wall_pressure[w] = momentum * height * degrees / (n_ * time.kinetic_integral);
   }
 }
 
@@ -171,6 +193,7 @@ void EventDrivenRun::change_engine(Observer *observer) {
   before_.events += engine_->sums.events;
   before_.time += engine_->elapsed();
   before_.sums = sums();
+  before_.walls = wall_momentum();
   window_.of_part = part_sums();
   before_.worst_overlap = std::max(before_.worst_overlap, engine_->max_overlap);
   EngineOptions o = options();

@@ -80,7 +80,8 @@ void run_molecular_dynamics(const RunPlan &plan, int64_t run, const RunControl &
     series[JAM_ISOCONF_COLLISIONS] = 2.0 * static_cast<double>(engine->sums.collisions) / static_cast<double>(p.n());
     series[JAM_ISOCONF_VELOCITY] = product / kinetic;
     const PressureSums &sums = engine->sums.of_pressure;
-    series[JAM_ISOCONF_PRESSURE] = sums.time_has_passed() ? sums.reduced_pressure(static_cast<double>(p.n())) : 1.0;
+    series[JAM_ISOCONF_PRESSURE] =
+        sums.time_has_passed() ? sums.reduced_pressure(static_cast<double>(p.n()), p.container.momentum_kept()) : 1.0;
     take_moments(plan, m, record);
   }
   record.energy_drift = std::fabs(twice_kinetic(p) / kinetic - 1.0);

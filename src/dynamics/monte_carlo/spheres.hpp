@@ -54,10 +54,11 @@ class MonteCarloSpheres : public MonteCarlo {
   double gap_range() const final { return std::min(skin_, geometry_.widest() - contact_max_) / contact_max_; }
   void count_gaps(double h_max, std::vector<double> &bins) final {
     make_lists();  // after it the lists hold all pairs within the skin
-    each_pair([&](int32_t i, int32_t k, double r2) {
-      const double h = std::sqrt(r2) / contact(i, k) - 1.0;
+    const auto count = [&](double h) {
       if (h < h_max) bins[h > 0.0 ? static_cast<size_t>(h / h_max * static_cast<double>(bins.size())) : 0] += 1.0;
-    });
+    };
+    if (p_.container) return count_beside_walls(count);
+    each_pair([&](int32_t i, int32_t k, double r2) { count(std::sqrt(r2) / contact(i, k) - 1.0); });
   }
 
   void write_state(Packing &p) const final {
@@ -126,6 +127,37 @@ class MonteCarloSpheres : public MonteCarlo {
       neighbour_[at_[pair[1]]++] = pair[0];
     }
     centre_ = x_;
+  }
+
+  // f(h) of pairs, none of which sees the other across a wall, and of spheres and walls: to the virial a wall is one
+  // partner more.
+  template <class F>
+  void count_beside_walls(F &&count) const {
+    double a[D], b[D];
+    for (int32_t i = 0; i < n_; ++i) {
+      geometry_.position(x_[i], a);
+      for (int w = 0; w < p_.container.count(); ++w)
+        count(p_.container.distance(w, a) / (radius_[i] * p_.cell.side()) - 1.0);
+      for (int32_t e = first_[i]; e < first_[i + 1]; ++e) {
+        const int32_t k = neighbour_[e];
+        if (k < i) continue;
+        geometry_.position(x_[k], b);
+        for (int c = 0; c < D; ++c) b[c] = a[c] - b[c];
+        const double sigma = contact(i, k) * p_.cell.side();
+        p_.cell.images(b, sigma + skin_ * p_.cell.side(), [&](const double *shift) {
+          double r2 = 0.0;
+          for (int c = 0; c < D; ++c) r2 += (b[c] + shift[c]) * (b[c] + shift[c]);
+          count(std::sqrt(r2) / sigma - 1.0);
+        });
+      }
+    }
+  }
+  // Whether sphere i would overlap a wall with this radius after a step of V^(1/d) times dx; NULL: where it is.
+  bool leaves_walls(int32_t i, double radius, const double *dx) const {
+    double x[D];
+    geometry_.position(x_[i], x);
+    for (int c = 0; dx && c < D; ++c) x[c] += dx[c] * p_.cell.side();
+    return !p_.container.holds(x, radius * p_.cell.side());
   }
 
   // Whether sphere i would overlap another at a place.

@@ -61,6 +61,7 @@ class MonteCarloOf final : public MonteCarloSpheres<D, Cube> {
   using Base::each_pair;
   using Base::first_;
   using Base::geometry_;
+  using Base::leaves_walls;
   using Base::n_;
   using Base::neighbour_;
   using Base::overlaps;
@@ -129,6 +130,7 @@ class MonteCarloOf final : public MonteCarloSpheres<D, Cube> {
           static_cast<double>(static_cast<int64_t>(mix64(base + static_cast<uint64_t>(c) * weyl)) >> 11);
       dx[c] = part * 0x1p-52 * step_;
     }
+    if (p_.container && leaves_walls(i, radius_[i], dx)) return;  // places wrap beyond a wall
     // 2^63 is never reached: the step is less than half a cell vector, and the number is in [-1, 1).
     const std::array<int64_t, D> shift = geometry_.shift_of(dx);
     for (int c = 0; c < D; ++c) to[c] = x_[i][c] + static_cast<uint64_t>(shift[c]);
@@ -145,6 +147,7 @@ class MonteCarloOf final : public MonteCarloSpheres<D, Cube> {
     int32_t k = static_cast<int32_t>(uniform(base, 10) * (n_ - 1));
     k += k >= i;
     if (radius_[i] == radius_[k]) return;
+    if (p_.container && (leaves_walls(i, radius_[k], nullptr) || leaves_walls(k, radius_[i], nullptr))) return;
     double before = 0.0;
     if constexpr (Soft) before = energy_of_both(i, k);
     std::swap(radius_[i], radius_[k]);

@@ -80,6 +80,18 @@ const JAM_MODEL_MK = Int32(1)  # Mari-Kurchan: |r_i - r_j + zeta A_ij|, quenched
 const JAM_MASSES_EQUAL = Int32(0)  # all 1
 const JAM_MASSES_VOLUME = Int32(1)  # as the volumes, sigma_i^d
 
+# jam_container: What encloses the spheres. The cell is the brick around it. A wall is a mirror: its h is distance / radius - 1.
+const JAM_CONTAINER_BRICK = Int32(0)  # the cell: flat walls on the axes of `walls`, the other axes periodic
+const JAM_CONTAINER_CYLINDER = Int32(1)  # d = 3, about z, periodic or between flat walls; its diameter: the edges x and y
+const JAM_CONTAINER_BALL = Int32(2)  # d = 2 a circle, d = 3 a ball; its diameter: the edge of the cube
+
+# jam_wall_column: Columns of jam_walls.
+const JAM_WALL_AXIS = Int32(0)  # of a flat wall; d: the round wall
+const JAM_WALL_SIDE = Int32(1)  # 0: at 0; 1: at the edge of the cell, or round
+const JAM_WALL_AREA = Int32(2)  # unit^(d-1)
+const JAM_WALL_PRESSURE = Int32(3)  # beta P V / N of the last run of MD; NaN before
+const JAM_WALL_GAP = Int32(4)  # least h of a sphere
+
 # jam_size_law: Laws of diameters s. Each takes the fields named here, and no others.
 const JAM_SIZES_EQUAL = Int32(0)  # mean
 const JAM_SIZES_LIST = Int32(1)  # curve: rows (diameter, share)
@@ -412,7 +424,9 @@ mutable struct jam_start
     cell_len::Csize_t
     progress::Ptr{Cvoid}  # or NULL; a non-zero return ends the call. The new system has no callback
     user::Ptr{Cvoid}  # given to progress
-    jam_start() = new(72, 0, C_NULL, 0, C_NULL, 0, C_NULL, 0, C_NULL, C_NULL)
+    container::Int32  # jam_container, default BRICK
+    walls::Int32  # axes with flat walls: sum of 2^c, default 0
+    jam_start() = new(80, 0, C_NULL, 0, C_NULL, 0, C_NULL, 0, C_NULL, C_NULL, 0, 0)
 end
 
 """
@@ -434,7 +448,10 @@ mutable struct jam_info
     masses::Int32  # jam_masses
     paused::Int32  # jam_phase of what was stopped early and can go on (crunch: by jam_crunch), or 0
     non_additivity::Cdouble  # Delta of a non-additive mixture, 0 for additive diameters
-    jam_info() = new(80, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
+    container::Int32  # jam_container
+    walls::Int32  # as in jam_start
+    volume::Cdouble  # V of the container, else of the cell
+    jam_info() = new(96, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
 end
 
 """
@@ -527,7 +544,7 @@ end
 """
     jam_md_report
 
-What MD did. Pressure: P V / (N kT) without the part of the growth, kT = sum m v^2 / (d (N - 1)).
+What MD did. Pressure: P V / (N kT) without the part of the growth, kT = sum m v^2 / (d N - periodic axes).
 """
 mutable struct jam_md_report
     struct_size::UInt32
@@ -1338,6 +1355,16 @@ Errors: `JAM_E_OVERLAP` (when growing).
 """
 function jam_scale_diameters(sys, factor)
     return ccall((:jam_scale_diameters, libjam), Int32, (Ptr{Cvoid}, Cdouble), sys, factor)
+end
+
+"""
+    jam_walls(sys, table, table_len, needed)
+
+Walls, axis by axis, then the round one.
+Shapes: table (m, `jam_wall_column`).
+"""
+function jam_walls(sys, table, table_len, needed)
+    return ccall((:jam_walls, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(table), table_len, _ref(Csize_t, needed))
 end
 
 """

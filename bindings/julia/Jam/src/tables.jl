@@ -8,6 +8,8 @@ const WORDS = (
     overlap_policy = (refuse = 0, shrink = 1, allow = 2,),
     model = (euclid = 0, mk = 1,),
     masses = (equal = 0, volume = 1,),
+    container = (brick = 0, cylinder = 1, ball = 2,),
+    wall_column = (axis = 0, side = 1, area = 2, pressure = 3, gap = 4,),
     size_law = (equal = 0, list = 1, uniform = 2, normal = 3, lognormal = 4, power = 5, weibull = 6, sieve = 7,),
     size_share = (usual = 0, number = 1, volume = 2,),
     size_draw = (quantiles = 0, random = 1,),
@@ -53,7 +55,8 @@ const WORDS = (
 kinds(::Type) = (;)
 kinds(::Type{jam_progress}) = (phase = :phase,)
 kinds(::Type{jam_create_options}) = (overlap = :overlap_policy, model = :model, masses = :masses,)
-kinds(::Type{jam_info}) = (model = :model, monodisperse = :bool, masses = :masses, paused = :phase,)
+kinds(::Type{jam_start}) = (container = :container,)
+kinds(::Type{jam_info}) = (model = :model, monodisperse = :bool, masses = :masses, paused = :phase, container = :container,)
 kinds(::Type{jam_diameters_options}) = (law = :size_law, share = :size_share, draw = :size_draw,)
 kinds(::Type{jam_size_report}) = (source = :reach_source,)
 kinds(::Type{jam_run_options}) = (resume = :bool,)
@@ -110,6 +113,11 @@ const CALLS = Dict{Symbol, Call}(
     ]),
     :jam_scale_diameters => Call(jam_scale_diameters, true, false, [
         Argument(:factor, :scalar, Cdouble, String[], :none, false),
+    ]),
+    :jam_walls => Call(jam_walls, true, true, [
+        Argument(:table, :array_out, Cdouble, ["m", "jam_wall_column"], :wall_column, false),
+        Argument(:table_len, :len, Csize_t, String[], :none, false),
+        Argument(:needed, :scalar_out, Csize_t, String[], :none, false),
     ]),
     :jam_get_cell => Call(jam_get_cell, true, true, [
         Argument(:out, :array_out, Cdouble, ["d", "d"], :none, false),

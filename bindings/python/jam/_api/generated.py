@@ -94,6 +94,22 @@ class Masses(IntEnum):
     VOLUME = 1  # as the volumes, sigma_i^d
 
 
+class Container(IntEnum):
+    """What encloses the spheres. The cell is the brick around it. A wall is a mirror: its h is distance / radius - 1."""
+    BRICK = 0  # the cell: flat walls on the axes of `walls`, the other axes periodic
+    CYLINDER = 1  # d = 3, about z, periodic or between flat walls; its diameter: the edges x and y
+    BALL = 2  # d = 2 a circle, d = 3 a ball; its diameter: the edge of the cube
+
+
+class WallColumn(IntEnum):
+    """Columns of jam_walls."""
+    AXIS = 0  # of a flat wall; d: the round wall
+    SIDE = 1  # 0: at 0; 1: at the edge of the cell, or round
+    AREA = 2  # unit^(d-1)
+    PRESSURE = 3  # beta P V / N of the last run of MD; NaN before
+    GAP = 4  # least h of a sphere
+
+
 class SizeLaw(IntEnum):
     """Laws of diameters s. Each takes the fields named here, and no others."""
     EQUAL = 0  # mean
@@ -508,7 +524,10 @@ class Info(Report):
     monodisperse: 1: all diameters are equal
     masses: jam_masses
     paused: jam_phase of what was stopped early and can go on (crunch: by jam_crunch), or 0
-    non_additivity: Delta of a non-additive mixture, 0 for additive diameters"""
+    non_additivity: Delta of a non-additive mixture, 0 for additive diameters
+    container: jam_container
+    walls: as in jam_start
+    volume: V of the container, else of the cell"""
     dim: int
     n: int
     seed: int
@@ -521,6 +540,9 @@ class Info(Report):
     masses: Masses
     paused: Phase
     non_additivity: float
+    container: Container
+    walls: int
+    volume: float
 
 
 @dataclass(frozen=True, repr=False)
@@ -559,7 +581,7 @@ class SizeReport(Report):
 
 @dataclass(frozen=True, repr=False)
 class MdReport(Report):
-    """What MD did. Pressure: P V / (N kT) without the part of the growth, kT = sum m v^2 / (d (N - 1)).
+    """What MD did. Pressure: P V / (N kT) without the part of the growth, kT = sum m v^2 / (d N - periodic axes).
 
     stop_reason: jam_stop_reason
     collisions: in this call
@@ -1327,6 +1349,7 @@ ROWS: dict[str, list[tuple[str, str]]] = {
 
 # tables: {C name: number of columns}
 TABLES = {
+    "jam_walls": 5,
     "jam_observed_series": 6,
     "jam_observed_gaps": 4,
     "jam_observed_correlation": 2,
@@ -1392,6 +1415,7 @@ CALLS = {
     "jam_set_positions": (True, (("positions", "array_in", "double"), ("positions_len", "len", "size_t"))),
     "jam_set_velocities": (True, (("velocities", "array_in", "double"), ("velocities_len", "len", "size_t"))),
     "jam_scale_diameters": (True, (("factor", "scalar", "double"),)),
+    "jam_walls": (True, (("table", "array_out", "double"), ("table_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_get_cell": (True, (("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_set_cell": (True, (("cell", "array_in", "double"), ("cell_len", "len", "size_t"), ("transform", "array_out", "int64_t"), ("transform_len", "len", "size_t"), ("rotation", "array_out", "double"), ("rotation_len", "len", "size_t"), ("rows", "scalar_out", "size_t"))),
     "jam_strain": (True, (("strain", "array_in", "double"), ("strain_len", "len", "size_t"))),

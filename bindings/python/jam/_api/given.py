@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 
+from .exceptions import UnsupportedError
 from .arrays import Array, as_array
 from .generated import JAM_MAX_DIM
 
@@ -37,6 +38,33 @@ def cell_of(box: Any, cell: Any, dim: int) -> tuple[float | None, Array | None]:
     elif dim == 2 and x.shape in ((3,), (3, 3)):
         hint = ": leave the third direction out"
     raise ValueError(f"{name} must be {wanted}, not an array of shape {x.shape}{hint}")
+
+
+CONTAINERS = {"brick": 0, "cylinder": 1, "ball": 2}  # jam_container
+
+
+def enclosure_of(container: Any, walls: Any, dim: int) -> tuple[int, int]:
+    """The numbers of container= and walls=. Walls are a truth value for each axis, or letters such as "xz"."""
+    if container is not None and container not in CONTAINERS:
+        raise ValueError(f"container must be one of {', '.join(map(repr, CONTAINERS))}, not {container!r}")
+    kind = CONTAINERS[container or "brick"]
+    if walls is None:
+        return kind, 0
+    if isinstance(walls, str):
+        letters = "xyz"[: min(dim, 3)]
+        if set(walls) - set(letters) or len(set(walls)) != len(walls):
+            raise ValueError(f"walls must name axes of {letters!r} once each, not {walls!r}")
+        return kind, sum(1 << letters.index(axis) for axis in walls)
+    axes = list(walls) if np.ndim(walls) == 1 else None
+    if axes is None or len(axes) != dim or any(axis not in (True, False) for axis in axes):
+        raise ValueError(f"walls must be {dim} truth values, one for each axis, or letters such as 'x', not {walls!r}")
+    return kind, sum(1 << c for c, axis in enumerate(axes) if axis)
+
+
+def refuse_walls(system: Any, done: str) -> None:
+    """For what does not know walls, in the words of the library."""
+    if len(system.walls().axis):
+        raise UnsupportedError(f"a scene with walls cannot be {done} yet")
 
 
 def side_of(box: Any) -> float | None:

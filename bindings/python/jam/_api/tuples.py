@@ -8,6 +8,19 @@ from .generated import *  # noqa: F403  report classes
 from .shown import by_shapes as _by_shapes
 
 
+class WallsResult(NamedTuple):
+    """What walls returns, column by column."""
+
+    axis: Array  # of a flat wall; d: the round wall
+    side: Array  # 0: at 0; 1: at the edge of the cell, or round
+    area: Array  # unit^(d-1)
+    pressure: Array  # beta P V / N of the last run of MD; NaN before
+    gap: Array  # least h of a sphere
+
+    def __repr__(self) -> str:
+        return _by_shapes(self)
+
+
 class ObservedSeriesResult(NamedTuple):
     """What observed_series returns, column by column."""
 
@@ -288,6 +301,7 @@ class CompareResult(NamedTuple):
 
 # {name of a call: what it returns}
 TUPLES: dict[str, type] = {
+    "walls": WallsResult,
     "observed_series": ObservedSeriesResult,
     "observed_spheres": ObservedSpheresResult,
     "observed_pairs": ObservedPairsResult,

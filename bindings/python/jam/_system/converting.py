@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 
+from .._api.given import refuse_walls
 from ..errors import StateError
 from .network import Network
 from .state import State
@@ -76,6 +77,7 @@ class Converting(State, Network):
         >>> bool((again.positions == disks.positions).all())
         True
         """
+        refuse_walls(self, "given to ASE")
         from ase import Atoms
 
         if self.dim not in (2, 3):

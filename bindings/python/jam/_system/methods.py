@@ -16,6 +16,25 @@ class Methods:
     def call(self, name: str, *args: Any, progress: Progressing = None, **named: Any) -> Any:
         raise NotImplementedError
 
+    def walls(self) -> WallsResult:
+        """Walls, axis by axis, then the round one.
+
+        Returns
+        -------
+        axis : array
+            of a flat wall; d: the round wall
+        side : array
+            0: at 0; 1: at the edge of the cell, or round
+        area : array
+            unit^(d-1)
+        pressure : array
+            beta P V / N of the last run of MD; NaN before
+        gap : array
+            least h of a sphere
+        """
+        answer: WallsResult = self.call('walls')
+        return answer
+
     def set_memory_limit(self, bytes: float, *, progress: Progressing = None) -> None:
         """Limits the bytes that pair lists, factorised matrices and arrays made from them may take in one call on sys, >
         0; infinity: no limit.

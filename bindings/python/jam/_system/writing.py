@@ -12,6 +12,7 @@ import numpy as np
 from .. import raw
 from .._api.arrays import as_array
 from .._api.calls import finished
+from .._api.given import refuse_walls
 from .._api.options import as_enum
 from .._formats import gsd
 from .._formats.contents import Contents, MENDED
@@ -37,6 +38,7 @@ class Writing(State, Network):
         """
         name = os.fsdecode(path)
         if format == "auto" and name.endswith(".gsd"):
+            refuse_walls(self, "written as GSD")
             return gsd.write(name, self.positions, self.diameters, self.cell)
         finished(raw.jam_write(self.handle, name, as_enum(format, "Format")))
 
@@ -126,6 +128,7 @@ class Writing(State, Network):
 
     def _contents(self) -> Contents:
         """What files of packings hold; without results where there are none."""
+        refuse_walls(self, "saved as H5MD")
         try:
             state = self._state()
         except OSError as error:

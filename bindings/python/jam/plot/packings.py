@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from .._api.arrays import Array, as_array
+from .._api.generated import Container
 from ..errors import StateError
 from ..files import half_bonds
 from ..system import System
@@ -89,6 +90,22 @@ def _brick(ax: Any, edges: Array, view: tuple[float, float], front: bool) -> Non
                 ax.plot(*flat[[i, j]].T, color=COLOURS["line"], lw=0.8, zorder=5 if front else 0)
 
 
+def _round(ax: Any, edges: Array, view: tuple[float, float], kind: Container) -> None:
+    """The round wall: the silhouette of a ball, or both rings and two sides of a cylinder."""
+    line: dict[str, Any] = dict(color=COLOURS["line"], lw=0.8, zorder=5)
+    t = np.linspace(0, 2 * np.pi, 361)
+    ring = 0.5 * edges[0] * np.array([np.cos(t), np.sin(t), np.zeros_like(t)]).T
+    if kind == Container.BALL:
+        ax.plot(*ring[:, :2].T, **line)
+        return
+    ends = [_project(ring + edges * (0.5, 0.5, z), edges, view)[0] for z in (0, 1)]
+    for end in ends:
+        ax.plot(*end.T, **line)
+    for side in (np.argmin, np.argmax):
+        at = side(ends[0][:, 0])
+        ax.plot([e[at, 0] for e in ends], [e[at, 1] for e in ends], **line)
+
+
 def _frame(ax: Any, edges: Array) -> None:
     dim = len(edges)
     ax.set_aspect("equal")
@@ -100,6 +117,13 @@ def _frame(ax: Any, edges: Array) -> None:
     ax.set(xticks=[], yticks=[])
     if dim == 3:
         ax.set_axis_off()
+
+
+def axes_with_walls(system: System) -> list[bool]:
+    """One truth value for each axis: whether walls end it."""
+    info = system.info
+    round_axes = {Container.BALL: info.dim, Container.CYLINDER: 2}.get(info.container, 0)
+    return [c < round_axes or bool(info.walls >> c & 1) for c in range(info.dim)]
 
 
 def _drawable(system: System) -> int:
@@ -165,10 +189,15 @@ def packing(
     colours, scale = (_colours(system), None) if values is None else _by_value(values, system.n, colour_map)
     x, s = system.positions, system.diameters
     if dim == 2:
+        closed = np.array(axes_with_walls(system))
         for shift in _IMAGES:
+            if (np.asarray(shift)[closed] != 0).any():
+                continue  # nothing repeats across a wall
             y = x + shift @ cell
             seen = ((y > -0.5 * s[:, None]) & (y < edges + 0.5 * s[:, None])).all(1)
             _circles(ax, y[seen], s[seen], colours[seen], edgecolors="white", linewidths=0.4)
+        if system.info.container == Container.BALL:
+            _circles(ax, edges[None] / 2, edges[:1], "none", edgecolors=COLOURS["line"], linewidths=0.8)
         if forces:
             network(system, ax, legend=False, colour="black", width=0.06 * 380 * float(s.mean()) / box)
     else:
@@ -176,7 +205,9 @@ def packing(
         order = np.argsort(depth)
         tone = 0.62 + 0.38 * (depth[order, None] + 1) / 2
         shaded = 1 - (1 - colours[order]) * tone
-        _brick(ax, edges, view, False)
+        kind = system.info.container
+        if kind == Container.BRICK:
+            _brick(ax, edges, view, False)
         for k, sphere in enumerate(order):  # far to near, each with a highlight
             _circles(
                 ax,
@@ -195,7 +226,10 @@ def packing(
                 edgecolors="none",
                 zorder=2 + (k + 0.5) * 1e-6,
             )
-        _brick(ax, edges, view, True)
+        if kind == Container.BRICK:
+            _brick(ax, edges, view, True)
+        else:
+            _round(ax, edges, view, kind)
     _frame(ax, edges)
     if legend and scale is not None:
         ax.figure.colorbar(scale, ax=ax, shrink=0.75, label=label or "")

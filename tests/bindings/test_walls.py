@@ -1,0 +1,67 @@
+"""Walls and containers from Python: arguments, the table of walls, files, what refuses."""
+import pickle
+import tempfile
+import unittest
+from pathlib import Path
+
+import jam
+import numpy as np
+
+
+class Arguments(unittest.TestCase):
+    def test_letters_and_truth_values_say_the_same(self):
+        for letters, truths in (("z", (False, False, True)), ("xz", (True, False, True)), ("", (0, 0, 0))):
+            made = [jam.System.random(n=20, packing_fraction=0.1, walls=walls) for walls in (letters, truths, np.array(truths))]
+            self.assertEqual({s.info.walls for s in made}, {sum(1 << c for c in range(3) if truths[c])})
+            self.assertTrue(all((s.positions == made[0].positions).all() for s in made))
+
+    def test_mistakes_are_named(self):
+        for walls in ("q", "xx", (True,), (True, False, 2), 3, [True] * 4):
+            with self.assertRaisesRegex(ValueError, "walls must"):
+                jam.System.random(n=10, walls=walls)
+        with self.assertRaisesRegex(ValueError, "container must be one of"):
+            jam.System.random(n=10, container="cone")
+        with self.assertRaisesRegex(ValueError, "does not fit between walls"):
+            jam.System.random(n=4, packing_fraction=0.5, cell=[1, 1, 0.2], walls="z")
+        with self.assertRaisesRegex(jam.errors.UnsupportedError, "cannot be crunched yet"):
+            jam.System.random(n=10, packing_fraction=0.1, walls="z").crunch()
+
+    def test_volume_is_that_of_the_container(self):
+        for container, dim, share in (("ball", 3, np.pi / 6), ("ball", 2, np.pi / 4), ("cylinder", 3, np.pi / 4)):
+            s = jam.System.random(n=20, dim=dim, packing_fraction=0.1, box=2, container=container)
+            self.assertAlmostEqual(s.info.volume, share * 2**dim, 12)
+            self.assertAlmostEqual(s.packing_fraction, 0.1, 12)
+            inside = np.hypot.reduce(s.positions[:, : 2 if container == "cylinder" else dim] - 1, axis=1) + s.diameters / 2
+            self.assertLess(inside.max(), 1)
+
+
+class Scenes(unittest.TestCase):
+    def test_walls_give_pressure_and_gap(self):
+        s = jam.System.random(n=60, packing_fraction=0.2, walls="z")
+        self.assertTrue(np.isnan(s.walls().pressure).all())
+        s.run(collisions_per_particle=500)
+        w = s.walls()
+        self.assertEqual((w.axis.tolist(), w.side.tolist(), w.area.tolist()), ([2, 2], [0, 1], [1, 1]))
+        self.assertTrue((w.pressure > 1).all() and (w.gap > 0).all())
+        z, r = s.positions[:, 2], s.diameters / 2
+        np.testing.assert_allclose(w.gap, [(z / r - 1).min(), ((1 - z) / r - 1).min()], atol=1e-12)
+        self.assertEqual(len(jam.System.random(n=10).walls().gap), 0)
+
+    def test_copies_files_and_pickles_keep_the_container(self):
+        s = jam.System.random(n=30, packing_fraction=0.2, container="cylinder", walls="z")
+        s.compress(pressure=100)
+        with tempfile.TemporaryDirectory() as folder:
+            name = Path(folder, "can.xyz")
+            s.write(name)
+            text = name.read_text().splitlines()[1]
+            read = jam.System.read(name)
+        self.assertIn('pbc="F F F"', text)
+        self.assertIn('container=cylinder walls="F F T"', text)
+        for t in (read, s.copy(), pickle.loads(pickle.dumps(s))):
+            self.assertEqual((t.info.container, t.info.walls, t.info.volume), (1, 4, s.info.volume))
+            self.assertTrue((t.positions == s.positions).all())
+        self.assertTrue((pickle.loads(pickle.dumps(s)).walls().pressure == s.walls().pressure).all())
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,257 @@
+/* Walls and containers: what is made, what is refused, and that files and checkpoints keep them. */
+#define _XOPEN_SOURCE 700 /* mkstemp */
+#include "walls.h"
+#include <jam/jam.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static double distance(const walled *s, int w, const double *x) {
+  const int round = s->container == JAM_CONTAINER_BALL ? s->dim : s->container == JAM_CONTAINER_CYLINDER ? 2 : 0;
+  double r2 = 0.0;
+  for (int c = 0; c < s->dim; ++c) {
+    if (!(s->walls >> c & 1)) continue;
+    if (w < 2) return w ? s->edge[c] - x[c] : x[c];
+    w -= 2;
+  }
+  for (int c = 0; c < round; ++c) r2 += (x[c] - 0.5 * s->edge[0]) * (x[c] - 0.5 * s->edge[0]);
+  return 0.5 * s->edge[0] - sqrt(r2);
+}
+
+static double volume(const walled *s) {
+  const double r = 0.5 * s->edge[0];
+  if (s->container == JAM_CONTAINER_BALL) return s->dim == 2 ? M_PI * r * r : M_PI * r * r * r * 4.0 / 3.0;
+  if (s->container == JAM_CONTAINER_CYLINDER) return M_PI * r * r * s->edge[2];
+  return s->edge[0] * s->edge[1] * (s->dim == 3 ? s->edge[2] : 1.0);
+}
+
+static void random_start_lies_inside(void **state) {
+  (void)state;
+  for (int k = 0; k < WALLED; ++k) {
+    const walled *s = &walled_scenes[k];
+    jam_system *sys = NULL;
+    jam_info info = {.struct_size = sizeof info};
+    const double *x, *sigma;
+    double sum = 0.0, areas = 0.0;
+    size_t len;
+    assert_int_equal(create_walled(s, 60, 0.15, 7, NULL, &sys), JAM_OK);
+    assert_int_equal(jam_get_info(sys, &info), JAM_OK);
+    assert_int_equal(info.container, s->container);
+    assert_int_equal(info.walls, s->walls);
+    assert_true(fabs(info.volume / volume(s) - 1.0) < 1e-14);
+    jam_view_positions(sys, &x, &len);
+    jam_view_diameters(sys, &sigma, &len);
+    for (size_t i = 0; i < len; ++i) sum += pow(sigma[i], s->dim) * (s->dim == 2 ? M_PI / 4.0 : M_PI / 6.0);
+    assert_true(fabs(sum / volume(s) / 0.15 - 1.0) < 1e-12 && fabs(info.packing_fraction / 0.15 - 1.0) < 1e-12);
+    for (int w = 0; w < count_walls(sys); ++w) {
+      double least = INFINITY;
+      for (size_t i = 0; i < len; ++i) least = fmin(least, distance(s, w, &x[i * s->dim]) / (0.5 * sigma[i]) - 1.0);
+      assert_true(least >= 0.0 && fabs(of_wall(sys, w, JAM_WALL_GAP) - least) < 1e-12);
+      assert_true(isnan(of_wall(sys, w, JAM_WALL_PRESSURE)));
+      /* Divergence theorem: the sum over walls of area times height over the origin is V for each closed axis. */
+      areas += of_wall(sys, w, JAM_WALL_AREA) * (of_wall(sys, w, JAM_WALL_AXIS) < s->dim
+                                                     ? 0.5 * s->edge[(int)of_wall(sys, w, JAM_WALL_AXIS)]
+                                                     : 0.5 * s->edge[0]);
+    }
+    const int round = s->container == JAM_CONTAINER_BALL ? s->dim : s->container == JAM_CONTAINER_CYLINDER ? 2 : 0;
+    int closed = round;
+    for (int c = 0; c < s->dim; ++c) closed += s->walls >> c & 1;
+    assert_true(fabs(areas / (closed * volume(s)) - 1.0) < 1e-14);
+    jam_destroy(sys);
+  }
+}
+
+static jam_status from_arrays(const walled *s, const double *x, int64_t n, double sigma, int32_t policy,
+                              jam_system **sys) {
+  double cell[9] = {0.0};
+  jam_create_options o;
+  jam_start start = {.struct_size = sizeof start};
+  jam_create_options_init(&o, sizeof o);
+  o.dim = s->dim, o.n = n, o.overlap = policy;
+  for (int c = 0; c < s->dim; ++c) cell[c * s->dim + c] = s->edge[c];
+  start.cell = cell, start.cell_len = (size_t)(s->dim * s->dim);
+  start.positions = x, start.positions_len = (size_t)(n * s->dim), start.diameters = &sigma, start.diameters_len = 1;
+  start.container = s->container, start.walls = s->walls;
+  return jam_create(&o, &start, sys);
+}
+
+static void overlaps_with_walls_are_named_or_shrunk(void **state) {
+  const double x[] = {0.5, 0.95, 0.5, 0.3}, outside[] = {0.5, 1.2, 0.5, 0.3};
+  jam_system *sys = NULL;
+  const double *sigma;
+  size_t len;
+  (void)state;
+  for (int k = LINES; k <= CIRCLE; ++k) {
+    assert_int_equal(from_arrays(&walled_scenes[k], x, 2, 0.2, JAM_OVERLAP_REFUSE, &sys), JAM_E_OVERLAP);
+    assert_non_null(strstr(jam_last_error(), k == LINES ? "sphere 0 overlaps the wall y = 1 by 0.5"
+                                                        : "sphere 0 overlaps the round wall by 0.5"));
+    assert_int_equal(from_arrays(&walled_scenes[k], outside, 2, 0.2, JAM_OVERLAP_ALLOW, &sys), JAM_E_OVERLAP);
+    assert_non_null(strstr(jam_last_error(), "the centre of sphere 0 lies outside"));
+    assert_int_equal(from_arrays(&walled_scenes[k], x, 2, 0.2, JAM_OVERLAP_SHRINK, &sys), JAM_OK);
+    jam_view_diameters(sys, &sigma, &len);
+    assert_true(fabs(sigma[0] - 0.1) < 1e-14);
+    jam_destroy(sys);
+  }
+}
+
+static void spheres_do_not_meet_across_a_wall(void **state) {
+  /* In a periodic cell these two would overlap. */
+  const double x[] = {0.5, 0.11, 0.5, 0.89};
+  jam_system *sys = NULL;
+  (void)state;
+  assert_int_equal(from_arrays(&walled_scenes[LINES], x, 2, 0.21, JAM_OVERLAP_REFUSE, &sys), JAM_OK);
+  jam_destroy(sys);
+}
+
+static jam_status start_with(int32_t dim, const double *cell, int32_t container, int32_t walls, int32_t model,
+                             double delta) {
+  jam_create_options o;
+  jam_start start = {.struct_size = sizeof start};
+  jam_system *sys = NULL;
+  jam_create_options_init(&o, sizeof o);
+  o.dim = dim, o.n = 10, o.packing_fraction = 0.1, o.model = model, o.non_additivity = delta;
+  if (cell) start.cell = cell, start.cell_len = (size_t)(dim * dim);
+  start.container = container, start.walls = walls;
+  const jam_status status = jam_create(&o, &start, &sys);
+  jam_destroy(sys);
+  return status;
+}
+
+static void bad_containers_are_named(void **state) {
+  const double tilted[] = {1, 0, 0, 0.3, 1, 0, 0, 0, 1}, brick[] = {2, 0, 0, 0, 1, 0, 0, 0, 3};
+  (void)state;
+  assert_int_equal(start_with(3, NULL, 3, 0, 0, 0.0), JAM_E_ARGUMENT);
+  assert_int_equal(start_with(3, NULL, 0, 8, 0, 0.0), JAM_E_ARGUMENT);
+  assert_int_equal(start_with(3, NULL, 0, -1, 0, 0.0), JAM_E_ARGUMENT);
+  assert_int_equal(start_with(2, NULL, JAM_CONTAINER_CYLINDER, 0, 0, 0.0), JAM_E_DIMENSION);
+  assert_int_equal(start_with(3, NULL, JAM_CONTAINER_CYLINDER, 1, 0, 0.0), JAM_E_ARGUMENT);
+  assert_int_equal(start_with(3, NULL, JAM_CONTAINER_BALL, 4, 0, 0.0), JAM_E_ARGUMENT);
+  assert_int_equal(start_with(3, brick, JAM_CONTAINER_BALL, 0, 0, 0.0), JAM_E_ARGUMENT);
+  assert_int_equal(start_with(3, tilted, JAM_CONTAINER_BRICK, 1, 0, 0.0), JAM_E_ARGUMENT);
+  assert_non_null(strstr(jam_last_error(), "walls on axis x"));
+  assert_int_equal(start_with(3, tilted, JAM_CONTAINER_BRICK, 4, 0, 0.0), JAM_OK);
+  assert_int_equal(start_with(3, brick, JAM_CONTAINER_BRICK, 2, 0, 0.0), JAM_OK);
+  assert_int_equal(start_with(3, NULL, JAM_CONTAINER_BRICK, 1, JAM_MODEL_MK, 0.0), JAM_E_UNSUPPORTED);
+  assert_int_equal(start_with(3, NULL, JAM_CONTAINER_BRICK, 1, 0, 0.1), JAM_E_UNSUPPORTED);
+  assert_int_equal(start_with(3, NULL, JAM_CONTAINER_BRICK, 1, 0, -0.1), JAM_OK);
+  /* Walls closer than the largest sphere. */
+  const walled flat = {"flat", 3, JAM_CONTAINER_BRICK, 4, {1.0, 1.0, 0.2}};
+  const double x[] = {0.5, 0.5, 0.1};
+  jam_system *sys = NULL;
+  assert_int_equal(from_arrays(&flat, x, 1, 0.21, JAM_OVERLAP_REFUSE, &sys), JAM_E_OVERLAP);
+  assert_non_null(strstr(jam_last_error(), "does not fit between walls 0.2 apart"));
+  assert_int_equal(create_walled(&flat, 4, 0.5, 1, NULL, &sys), JAM_E_UNPLACEABLE);
+}
+
+static int same(const jam_system *a, const jam_system *b,
+                jam_status (*view)(const jam_system *, const double **, size_t *)) {
+  const double *x, *y;
+  size_t n, m;
+  assert_int_equal(view(a, &x, &n), JAM_OK);
+  assert_int_equal(view(b, &y, &m), JAM_OK);
+  return n == m && memcmp(x, y, n * sizeof *x) == 0;
+}
+
+static void files_keep_the_container(void **state) {
+  char path[] = "/tmp/jam-walls-XXXXXX";
+  const int file = mkstemp(path);
+  (void)state;
+  assert_true(file >= 0);
+  close(file);
+  for (int k = 0; k < WALLED; ++k) {
+    jam_system *sys = NULL, *back = NULL;
+    jam_info a = {.struct_size = sizeof a}, b = a;
+    assert_int_equal(create_walled(&walled_scenes[k], 30, 0.1, 3, NULL, &sys), JAM_OK);
+    assert_int_equal(jam_write(sys, path, JAM_FORMAT_XYZ), JAM_OK);
+    assert_int_equal(jam_read(path, NULL, NULL, NULL, &back), JAM_OK);
+    jam_get_info(sys, &a), jam_get_info(back, &b);
+    assert_true(a.container == b.container && a.walls == b.walls && a.volume == b.volume);
+    assert_true(same(sys, back, jam_view_positions) && same(sys, back, jam_view_diameters));
+    const int32_t others[] = {JAM_FORMAT_PLAIN, JAM_FORMAT_LAMMPS, JAM_FORMAT_VTP};
+    for (int f = 0; f < 3; ++f) {
+      assert_int_equal(jam_write(sys, path, others[f]), JAM_E_UNSUPPORTED);
+      assert_non_null(strstr(jam_last_error(), "scene with walls"));
+    }
+    jam_destroy(sys), jam_destroy(back);
+  }
+  unlink(path);
+}
+
+/* A stopped run goes on from a checkpoint to the bits of one that never stopped. */
+static void checkpoints_go_on_to_the_same_bits(void **state) {
+  char path[] = "/tmp/jam-walls-XXXXXX";
+  const int file = mkstemp(path);
+  (void)state;
+  assert_true(file >= 0);
+  close(file);
+  for (int k = 0; k < WALLED; ++k) {
+    jam_system *whole = NULL, *part = NULL, *back = NULL;
+    jam_compress_options o;
+    jam_compress_options_init(&o, sizeof o);
+    o.growth_rate = 1e-2, o.pressure = 50.0;
+    assert_int_equal(create_walled(&walled_scenes[k], 40, 0.15, 5, NULL, &whole), JAM_OK);
+    assert_int_equal(jam_copy(whole, &part), JAM_OK);
+    assert_int_equal(jam_compress(whole, &o, NULL), JAM_OK);
+    o.collisions_per_particle = 20;
+    assert_int_equal(jam_compress(part, &o, NULL), JAM_LIMIT);
+    assert_int_equal(jam_write_checkpoint(part, path), JAM_OK);
+    assert_int_equal(jam_read_checkpoint(path, NULL, NULL, &back), JAM_OK);
+    jam_compress_options_init(&o, sizeof o);
+    o.growth_rate = 1e-2, o.pressure = 50.0, o.resume = 1;
+    assert_int_equal(jam_compress(back, &o, NULL), JAM_OK);
+    assert_true(same(whole, back, jam_view_positions) && same(whole, back, jam_view_velocities) &&
+                same(whole, back, jam_view_diameters));
+    for (int w = 0; w < count_walls(whole); ++w)
+      assert_true(of_wall(whole, w, JAM_WALL_PRESSURE) == of_wall(back, w, JAM_WALL_PRESSURE));
+    jam_destroy(whole), jam_destroy(part), jam_destroy(back);
+  }
+  unlink(path);
+}
+
+/* Every call that would give an answer for a cell without walls refuses. */
+static void calls_that_know_no_walls_refuse(void **state) {
+  jam_system *sys = NULL;
+  double real[4096], score;
+  int32_t whole[64];
+  size_t needed;
+  const double cell[] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+  (void)state;
+  assert_int_equal(create_walled(&walled_scenes[SLIT], 20, 0.1, 1, NULL, &sys), JAM_OK);
+  jam_observe_options observe;
+  jam_observe_options_init(&observe, sizeof observe);
+  observe.r_bins = 20;
+  jam_estimate estimated = {.struct_size = sizeof estimated};
+  const jam_status statuses[] = {jam_crunch(sys, NULL, NULL),
+                                 jam_estimate_crunch(sys, NULL, &estimated),
+                                 jam_contacts_from_geometry(sys, NULL, NULL),
+                                 jam_contact_candidates(sys, 0.1, real, 4096, &needed),
+                                 jam_rigidity(sys, JAM_RIGIDITY_COLLECTIVE, NULL),
+                                 jam_flex(sys, JAM_RIGIDITY_COLLECTIVE, real, 60, NULL, 0, &needed),
+                                 jam_check_packing(sys, NULL, NULL),
+                                 jam_gaps(sys, 0.5, 0, real, 4096, whole, 64, &needed),
+                                 jam_pair_correlation(sys, NULL, NULL, 0, real, 4096, &needed),
+                                 jam_structure_factor(sys, 10.0, real, 4096, &needed),
+                                 jam_bond_order(sys, 6, 1.2, real, 4096, &needed),
+                                 jam_crystal_score(sys, &score),
+                                 jam_local_fraction(sys, real, 4096, &needed),
+                                 jam_set_cell(sys, cell, 9, NULL, 0, NULL, 0, NULL),
+                                 jam_strain(sys, cell, 9),
+                                 jam_observe(sys, &observe),
+                                 jam_write_page(sys, "/tmp/never.html", "", 0, "", NULL, 0)};
+  for (size_t k = 0; k < sizeof statuses / sizeof *statuses; ++k) {
+    if (statuses[k] != JAM_E_UNSUPPORTED) print_error("call %zu gives %d\n", k, (int)statuses[k]);
+    assert_int_equal(statuses[k], JAM_E_UNSUPPORTED);
+  }
+  jam_destroy(sys);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(random_start_lies_inside),          cmocka_unit_test(overlaps_with_walls_are_named_or_shrunk),
+      cmocka_unit_test(spheres_do_not_meet_across_a_wall), cmocka_unit_test(bad_containers_are_named),
+      cmocka_unit_test(files_keep_the_container),          cmocka_unit_test(checkpoints_go_on_to_the_same_bits),
+      cmocka_unit_test(calls_that_know_no_walls_refuse),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -328,6 +328,10 @@ def links():
     pages.links(root, problem)
 
 
+def changelog():
+    pages.changelog(root, problem)
+
+
 def columns():
     """Lines end by column 120: build files, shell, Fortran and C (whose layout lint/format checks). Generated files are free."""
     for path in files("**/CMakeLists.txt", "**/*.cmake", "**/*.sh", "**/*.f90", "src/**/*.[ch]pp", "**/*.[ch]"):
@@ -340,7 +344,7 @@ def columns():
 
 
 RULES = [layers, python_layers, private_headers, doc_comments, names, table_of_calls, file_sizes, no_side_effects, own_math]
-RULES += [steering_numbers, plain_words, avoided_words, figures, links, columns]
+RULES += [steering_numbers, plain_words, avoided_words, figures, links, changelog, columns]
 for rule in RULES:
     if sys.argv[1] in ("all", rule.__name__):
         rule()

@@ -118,3 +118,14 @@ def links(root, problem):
                 problem(path, number, f"{name}#{anchor}: the site finds a heading only by a relative path")
             elif anchor and anchor not in anchors(target.read_text(encoding="utf-8")):
                 problem(path, number, f"{name or path.name} has no heading #{anchor}")
+
+
+def changelog(root, problem):
+    """What a user notices, once each: merges by union bring back lines that were taken out."""
+    path = root / "CHANGELOG.md"
+    release = re.split(r"^## ", path.read_text(encoding="utf-8"), flags=re.M)[1]
+    lines = [line for line in release.splitlines() if line.startswith("- ")]
+    if len(lines) > 80:
+        problem(path, 0, f"{len(lines)} lines in one release: say what a user notices, in 80 at most")
+    for line in sorted({line for line in lines if lines.count(line) > 1}):
+        problem(path, 0, f"twice: {line[:60]}")

@@ -58,7 +58,9 @@ bool EngineOf<D, O>::choose_cell_mode(double sigma) {
     (void)sigma;
     return false;
   } else {
-    if (!cell_mode_.choose(spheres_.n, sigma, options_.cells, lists_.margin, grid_)) return false;
+    // As many spheres as would fill the whole cell as densely.
+    const auto crowd = walls_ ? static_cast<int32_t>(spheres_.n * walls_->share_of_cell) : spheres_.n;
+    if (!cell_mode_.choose(crowd, sigma, options_.cells, lists_.margin, grid_)) return false;
     if (clock_.rate > 0.0) clock_.lists_end = lists_.margin * ListTuning::used_up / clock_.rate;
     if (walls_) std::fill(walls_->near.begin(), walls_->near.end(), 1);  // cells say nothing of walls
     grid_.make_scratch();

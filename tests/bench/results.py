@@ -228,10 +228,11 @@ def ablation(*raws):
 
     def cell(off, of):
         some = [r for r in runs if r["off"] == off and r["set"] == of and (of, r["start"]) in nothing]
-        if len(some) < sum(1 for key in nothing if key[0] == of):
-            return None  # not run, or not to its end
-        jammed = sum(r["jammed"] for r in some)
+        number, jammed = sum(1 for key in nothing if key[0] == of), sum(r["jammed"] for r in some)
+        if len(some) < 0.5 * number:
+            return None
         rest = f", {jammed} of {len(some)} jammed" if jammed < len(some) else ""
+        rest += f", {len(some)} of {number} run" if len(some) < number else ""
         if off == "none":
             middle = statistics.median(r["factorisations"] for r in some)
             return f"{middle:.0f}, {statistics.median(r['seconds'] for r in some):.2g} s{rest}"

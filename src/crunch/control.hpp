@@ -12,7 +12,7 @@ void restart_lps(CrunchState &s, double bound);
 
 // Part of the crunch that is done: at this part of a path (NaN: off it), or after an LP with this gain.
 double part_done(const CrunchState &s, double path, double gain);
-// Calls the progress callback at once; with `finished` it may ask for the details of the last step. True: stop.
+// Calls the progress callback immediately; with `finished` it may read the details of the last step. True: stop.
 bool report_step(CrunchState &s, jam_phase phase, double gain, double step, bool finished = true);
 
 // A row of the history for the move since the last row; `displacement` as in History::moved.

@@ -36,7 +36,7 @@ CrunchState::CrunchState(const Packing &start, const jam_crunch_options &options
   history.begin(start, o.steps != 0, o.keep_steps);
 }
 
-// Where the stage of a crunch that was stopped leads. Options that ask for another way begin anew.
+// The phase at which a stopped crunch continues. With options of another method it begins again.
 static Phase first_phase(CrunchState &s) {
   CrunchStage &stage = s.history.stage;
   const bool path = s.o.method == JAM_CRUNCH_BARRIER_PATH;

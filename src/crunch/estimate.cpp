@@ -72,7 +72,7 @@ double growth(const Packing &p, double part) {
   return math::pow(std::max(1.0, jammed_fraction(p.dim) / packing_fraction(p)), part / p.dim);
 }
 
-// From a start with few neighbours at least as many of the nearest pairs as a list holds near jamming.
+// From a start with few neighbours at least as many of the nearest pairs as a list has near jamming.
 PairList enough_pairs(const Packing &p, const jam_crunch_options &o, PairList pairs, double reach) {
   const double wanted =
       std::min(T::jammed_pairs[p.dim], 0.5 * static_cast<double>(p.n() - 1)) * static_cast<double>(p.n());
@@ -121,8 +121,8 @@ double thread_seconds() {
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-// Seconds a step that the path spends on new lists. Alike spheres stay in their cages and hardly need any. Small ones
-// cross their holes in one step, and a list that covers all of them costs more than a factorisation.
+// Seconds a step that the path spends on new lists. Spheres of similar size stay in their cages and need almost none.
+// Small ones cross their holes in one step, and a list that covers all of them costs more than a factorisation.
 double list_seconds(const Packing &p) {
   const double share = 1.0 - 1.0 / ratio_of_diameters(p), reach = Tuning().least_reach * diameter_mean(p);
   if (share == 0.0) return 0.0;

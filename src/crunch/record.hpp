@@ -1,5 +1,5 @@
-// The record of a crunch: what each step did, the rows behind jam_crunch_history; the details of the last step while a
-// callback looks; states that the page shows; and the stage at which another call goes on.
+// The record of a crunch: what each step did, the rows behind jam_crunch_history; the details of the last step during a
+// callback; states that the page shows; and the stage at which another call continues.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -17,7 +17,7 @@ struct PathPoint {
   double mu = 0.0, first_mu = 0.0;
 };
 
-// Where a crunch stands between two steps. With the packing it is all that another call needs to go on.
+// Where a crunch stands between two steps. With the packing it is all that another call needs to continue.
 struct CrunchStage {
   PathPoint path;
   bool path_taken = false, cell_free = false;
@@ -53,7 +53,7 @@ using HistoryRow = std::array<double, history_columns>;  // by jam_history_colum
 
 // Details of one step, kept only on request: they cost as much memory as the LP.
 struct CrunchStep {
-  bool shown = false;                // a callback runs and may ask for them
+  bool shown = false;                // a callback runs and may read them
   std::vector<double> displacement;  // (n, dim), unit of box, images followed
   std::vector<int32_t> pair;         // (m, 2) rows of the LP that carry force; empty for other steps
   std::vector<double> vector;        // (m, dim) r_ij before the step, unit of box
@@ -76,7 +76,7 @@ class History {
   void displaced(const Packing &now, const std::vector<int32_t> *coordination, double &largest, double &rms) const;
   // The packing at the last row: valid also while a step is being made.
   const Packing &reached() const { return reached_; }
-  // How a crunch goes on from there.
+  // Where a crunch continues from there.
   CrunchStage stage;
   // Did any sphere move, or grow, since the last row?
   bool behind(const Packing &now) const {

@@ -38,7 +38,7 @@ void report_changes(Touching start, double packing_fraction_start, CrunchState &
     s.history.displaced(s.out.packing, nullptr, r.displacement_max, r.displacement_rms);
     if (stable_spheres(coordination) > 0)
       s.history.displaced(s.out.packing, &coordination, r.displacement_max_stable, r.displacement_rms_stable);
-  } catch (const std::exception &) {  // out of memory: the rest of the report stands
+  } catch (const std::exception &) {  // out of memory: the rest of the report is kept
   }
   if (r.rattlers < 0 || start.total < 0) return;
   r.contacts_kept = 0;
@@ -49,7 +49,7 @@ void report_changes(Touching start, double packing_fraction_start, CrunchState &
   }
 }
 
-// What stands behind a status above 0.
+// The cause of a status above 0.
 static void explain(CrunchState &s) {
   const Packing &p = s.out.packing;
   const auto largest = std::max_element(p.diameter.begin(), p.diameter.end());
@@ -60,7 +60,7 @@ static void explain(CrunchState &s) {
   s.monitor.log(JAM_LOG_WARNING, "%s", s.out.text.c_str());
 }
 
-// A crunch that was stopped before an LP ended knows no contacts, so it does not know which spheres are rattlers.
+// A crunch that was stopped before an LP ended has no contacts, so rattlers are unknown.
 static void mark_unknown_rattlers(const CrunchState &s, jam_crunch_report &r) {
   const bool unknown =
       r.stop_reason == JAM_STOP_CANCELLED || r.stop_reason == JAM_STOP_WALL_TIME || r.stop_reason == JAM_STOP_SOLVER;
@@ -73,7 +73,8 @@ void report_end(CrunchState &s) {
   jam_crunch_report &r = s.out.report;
   r.method = s.history.stage.path_taken ? JAM_CRUNCH_BARRIER_PATH : JAM_CRUNCH_SEQUENTIAL_LP;
   certify(s.out.packing, s.out.contacts, r, s.next.strain.count() > 0);
-  r.jammed = s.found.jammed && r.force_residual < (s.o.polish ? s.tuning.jammed_balance : s.tuning.lp_jammed_balance) &&
+  r.jammed = s.found.jammed &&
+             r.force_residual < (s.o.polish ? s.tuning.jammed_balance : InteriorPointTuning::balance) &&
              r.min_force >= 0.0;
   r.strictly_jammed = s.found.strictly_jammed;
   if (s.found.jammed && !r.jammed) stop(s, JAM_STOP_SOLVER, JAM_NOT_CONVERGED);

@@ -1,4 +1,4 @@
-// What the phases of a crunch hand to each other: data alone. control.hpp has what all phases do with it.
+// What the phases of a crunch pass to each other: data alone. control.hpp has what all phases do with it.
 #pragma once
 #include <cstdint>
 
@@ -45,7 +45,7 @@ struct CrunchState {
   const jam_crunch_options o;
   const Tuning tuning;
   Monitor &monitor;
-  History &history;  // its stage says how a stopped crunch goes on
+  History &history;  // its stage is where a stopped crunch continues
   const CrunchHooks &hooks;
   CrunchResult out;
   NewtonSystem system;

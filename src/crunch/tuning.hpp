@@ -1,4 +1,4 @@
-// Every number that steers a crunch; those of its LPs and line searches stand in lp/tuning.hpp. Lengths are in mean
+// Every number that steers a crunch; those of its LPs and line searches are in lp/tuning.hpp. Lengths are in mean
 // diameters; mu and duality gaps are in units of Gamma. README.md says what each mechanism is worth.
 #pragma once
 #include <algorithm>
@@ -11,49 +11,43 @@
 namespace jam {
 
 struct Tuning {
+  int max_attempts = 30;  // LPs below the gain tolerance that lead to no verdict, and moves along flexes
+
   // ---- approach: sequential LPs
   // Bound of the first LP: part of a diameter plus a share of the free spacing, at most so many square roots of the
   // median contact gap. Floppy motion goes some tens of these square roots.
   double first_bound = 0.1, bound_per_spacing = 0.6, bound_per_root_gap = 100.0;
-  // Every LP sees motions up to min_bound, so that one without gain proves that no motion gains.
+  // Every LP allows motions up to min_bound, so that one without gain proves that no such motion gains. Longer steps
+  // belong to the path.
   double min_bound = 1e-2, max_bound = 0.5;
-  double bound_per_step = 5.0;      // next bound over the longest step of the last LP
-  double shrink = 0.7;              // next bound over the last one where a pair outside the list cut the step
-  double reach_per_bound = 2.2;     // listed gaps over the bound: two spheres meet from either side
-  double early_gap = 0.02;          // an LP ends at this share of its gain, or at its optimum
-  double early_to_tolerance = 0.1;  // it ended early where its gap over the gain tolerance is larger
-  double lp_balance = 1e-3;         // largest net force of an answer, over the mean: polish balances to rounding
-  double warm_step = 1e-5;          // after a shorter step the next LP starts from the last multipliers
-  int max_stalled_lps = 12;         // LPs below the gain tolerance that lead to no verdict
+  double bound_per_step = 5.0;   // next bound over the longest step of the last LP
+  double shrink = 0.7;           // next bound over the last one where a pair outside the list cut the step
+  double reach_per_bound = 2.2;  // listed gaps over the bound: two spheres meet from either side
+  double early_gap = 0.02;       // an LP ends at this share of its gain, or at its optimum
+  double warm_step = 1e-5;       // after a shorter step the next LP starts from the last multipliers
 
   // ---- from LPs to the barrier path and back
-  double long_step = 1e-2;         // longer steps belong to the path
-  double curvature_ratio = 10.0;   // a step l opens contacts by l^2; above so many gains LPs go in circles
-  double min_opening = 1e-10;      // the path opens contacts to this gap at least: rounding blurs smaller ones
-  double opening_per_step2 = 0.1;  // and to this share of the square of the LP's longest step
-  double opening_per_gap = 0.1;    // and to this share of the median gap
+  double curvature_ratio = 10.0;  // a step l opens contacts by l^2; above so many gains LPs go in circles
+  // The path opens contacts to this gap at least, since rounding blurs smaller ones, and to this share of the median
+  // gap and of the square of the LP's longest step.
+  double min_opening = 1e-10, opening = 0.1;
   // Free cell: the path at fixed cell ends at this duality gap, and the one with strain begins at this opening.
   double free_gap = 1e-6, free_opening = 1e-4;
-  // A crystal: rows with this share of the mean force over d n; above it sequential LPs are cheaper. Counted from this
-  // gain or duality gap on: a large mu blurs the forces.
-  double crystal_force = 0.1, crystal_rows = 1.05, crystal_gap = 1e-5;
+  // A crystal: more rows than carrying_rows of lp/tuning.hpp have this share of the mean force. There sequential LPs
+  // are cheaper. Counted from this gain or duality gap on: a large mu blurs the forces.
+  double crystal_force = 0.1, crystal_gap = 1e-5;
 
   // ---- barrier path
   double end_roundings = 4.0;  // it ends at a duality gap of so many roundings of a closed contact
-  double path_balance = 1e-2;  // and with net forces below this, over the mean
   int max_path_factorisations = 600;
   double centrality = 100.0;  // products y c stay within this factor of mu
   double least_reach = 0.15;  // listed gaps; dilute starts list reach_per_spacing free spacings more
   double reach_per_spacing = 1.5;
   double reach_per_move = 6.0;  // a new list reaches so many of the recent steps
-  double share_of_reach = 0.9;  // of the way to an unlisted pair that one step may take
   int max_correctors = 5;       // Gondzio's correctors of one direction
   double whole_step = 0.95;     // longer steps need no corrector
 
-  // ---- factors in single precision, of LPs and of the path (tests/bench/README.md, "Factors in single precision")
-  // Below 150 flops a number of the factor, solves eat up what it wins. A direction may be wrong by 1e-3, and take 8
-  // products.
-  SinglePrecision single{150.0, 1e-3, 8};
+  SinglePrecision single{SingleTuning::work, SingleTuning::accuracy, SingleTuning::max_products};  // of LPs and path
 
   // ---- schedule of mu
   double reduction = 0.2;       // of mu at its maximum
@@ -61,22 +55,20 @@ struct Tuning {
   double nearly_centred = 4.0;  // within this factor of it, mu falls instead of rising
   int max_steps_at_mu = 40;     // more of them, or max_short_steps without progress, are a saddle
   int max_short_steps = 8;
-  double falls = 0.9;      // a decrement below this share of the lowest one falls
-  double progress = 0.6;   // the decrement falls by this factor: short steps count anew
+  double progress = 0.6;   // the decrement falls by this factor: short steps are counted again
   double increase = 10.0;  // of mu at a saddle
 
   // ---- neighbours of spheres in wide holes
   double covered = 0.9;  // a direction is covered by a line to a neighbour within 1/sqrt(d) times this
-  double least_wider = 0.1, farthest_reach = 2.4;
+  double farthest_reach = 2.4;
 
   // ---- identify: active set, narrow LPs, verdict
   double closing_gap = 1e-8;                    // a contact that stays wider when all are closed is none
   double closed_gap = 3e-14;                    // rounding of closed contacts in a box of ten diameters
   double narrow_bound = 1e-3, narrower = 0.01;  // of the first narrow LP; where an LP gains nothing, of the next
   int max_narrow_lps = 20;
-  int max_excess = 8;  // contacts too many that are dropped where they do not close; a crystal has more
-  double jammed_balance = 1e-6, lp_jammed_balance = 1e-5;  // net forces of a jammed packing; of an LP's answer alone
-  int max_flex_moves = 30;
+  int max_excess = 8;            // contacts too many that are dropped where they do not close; a crystal has more
+  double jammed_balance = 1e-6;  // net forces of a jammed packing after polish, over the mean
   double longest_flex_move = 0.02;
 
   // ---- end at a finite duality gap
@@ -102,7 +94,7 @@ struct CrunchProgress {
 
 // ---- costs that the estimate of a crunch takes as known
 struct EstimateTuning {
-  // Pairs a sphere that lists near jamming hold, d = 2..8: measured to d = 5, beyond by the kissing numbers' growth.
+  // Pairs a sphere that lists near jamming have, d = 2..8: measured to d = 5, beyond by the kissing numbers' growth.
   static constexpr std::array<double, 9> jammed_pairs = {0, 0, 3.0, 5.0, 7.8, 12.0, 18.0, 27.0, 40.0};
   // Lists of fewer pairs are widened: by a tenth and a hundredth of a diameter at a time.
   static constexpr double widen = 1.1, widen_at_least = 0.01;

@@ -35,7 +35,7 @@ class BarrierProblem {
   // (dim, dim) times alpha; empty in a fixed cell.
   std::vector<double> strain_of(const BarrierStep &x, double alpha) const;
   double longest_dual(const BarrierStep &x) const;
-  // Row k after alpha x, with the bending that the linear row leaves out: c + alpha w + alpha^2 |s_i - s_j + E r|^2 /
+  // Row k after alpha x, with the bending that the linear row omits: c + alpha w + alpha^2 |s_i - s_j + E r|^2 /
   // sigma^2.
   double gap_after(const BarrierStep &x, size_t k, double alpha) const {
     return lp.c[k] + alpha * (x.w[k] + alpha * bend_[k]);

@@ -16,7 +16,7 @@ namespace {
 class StopWhenInterrupted : public ClpEventHandler {
  public:
   explicit StopWhenInterrupted(const Monitor *monitor) : monitor_(monitor) {}
-  int event(Event) override { return monitor_ && monitor_->interrupted() ? 0 : -1; }  // 0: end; -1: go on
+  int event(Event) override { return monitor_ && monitor_->interrupted() ? 0 : -1; }  // 0: end; -1: continue
   ClpEventHandler *clone() const override { return new StopWhenInterrupted(monitor_); }
 
  private:
@@ -73,7 +73,8 @@ class PackingModel {
   }
   // Displacements and g, with the slack of every row; where some rows miss the tolerance, all hold for a g less by as
   // much.
-  // warm: from a basis near the optimum, where the primal simplex copes better with many closed rows at once.
+  // warm: from a basis near the optimum, where the primal simplex copes better with many rows that are closed at the
+  // same time.
   LpSolution solve(bool warm) {
     LpSolution out;
     if (warm)

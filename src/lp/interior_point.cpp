@@ -9,9 +9,9 @@ namespace jam {
 using T = InteriorPointTuning;
 using W = WorkingSetTuning;
 
-// Nothing moved yet: s = 0 and g below the smallest gap, so that the rows hold strictly. Cold, y is on the central path
-// of that point; warm, sum y c with the multipliers of the LP before bounds the gain, and that is how near the end of
-// the path the start is. Returns the mean product.
+// Nothing moved yet: s = 0 and g below the smallest gap, so that all slacks are positive. Cold, y is on the central
+// path of that point; warm, sum y c with the multipliers of the LP before bounds the gain, and that is how near the end
+// of the path the start is. Returns the mean product.
 double InteriorPoint::first_point() {
   const PackingLp &lp = *lp_;
   const double smallest = *std::min_element(lp.c.begin(), lp.c.end());
@@ -54,7 +54,7 @@ void InteriorPoint::start() {
   update_screened();
 }
 
-// a . (s_i - s_j) + b . e of a row that stands outside the normal equations.
+// a . (s_i - s_j) + b . e of a row outside the normal equations.
 double InteriorPoint::screened_row(size_t k, const std::vector<double> &s) const {
   return whole_->change(k, s.data(), s.data() + s.size() - static_cast<size_t>(whole_->strains));
 }
@@ -177,7 +177,7 @@ LpSolution InteriorPoint::solve(const PackingLp &lp, const IpmControl &control, 
       out.solved = true;
       break;
     }
-    // Nothing more to win: rounding rules. Good enough if the gap is near the tolerance all the same.
+    // Rounding prevents further progress. Good enough if the gap is near the tolerance.
     const double merit = gap + std::min(1.0, gap_scale_ * dual_norm_);
     stalled_iterations =
         merit < T::progress * best_merit || dual_norm_ < T::progress * best_balance ? 0 : stalled_iterations + 1;

@@ -28,7 +28,7 @@ class InteriorPoint {
   explicit InteriorPoint(NewtonSystem &system, const SinglePrecision &single = {})
       : system_(system), factor_(system, single) {}
   // Gives system the graph of the rows that it needs. The answer carries `solved` when the tolerances were met or when
-  // no further digit could be won but the gap is near the tolerance. monitor may be NULL.
+  // rounding ended it with a gap near the tolerance. monitor may be NULL.
   LpSolution solve(const PackingLp &lp, const IpmControl &control, Monitor *monitor = nullptr);
 
  private:
@@ -57,7 +57,7 @@ class InteriorPoint {
   bool predictor_corrector(Direction &d);
   void centrality_correctors(Direction &d, double mu_target);
   void move(const Direction &d, const Steps &a);
-  // Screened rows stand outside the normal equations: the step leaves part of their slack, and one that comes near
+  // Screened rows are outside the normal equations: the step leaves part of their slack, and one that comes near
   // joins.
   double screened_row(size_t k, const std::vector<double> &s) const;
   void update_screened();

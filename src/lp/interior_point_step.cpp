@@ -26,7 +26,7 @@ void InteriorPoint::weights() {
     weight_[k] = y_[k] / w_[k];
     mean += weight_[k];
   }
-  // Without bounds translations (and spheres that no row holds) need a proximal diagonal: it leaves the fixed point
+  // Without bounds translations (and spheres without rows) need a proximal diagonal: it leaves the fixed point
   // alone.
   const double ridge = T::ridge * mean / static_cast<double>(unknowns_);
   for (size_t k = 0; k < unknowns_; ++k) diagonal_[k] = ridge + (box_ ? zu_[k] / u_[k] + zv_[k] / v_[k] : 0.0);
@@ -94,7 +94,7 @@ bool InteriorPoint::predictor_corrector(Direction &d) {
   if (!direction(targets_, targets_u_, targets_v_, true, 0, d)) return false;
   const double mu = complementarity() / static_cast<double>(rows_ + (box_ ? 2 * unknowns_ : 0));
   const double ratio = mu_after(d, longest(d)) / mu;
-  // Far below the tolerance only rounding is left to win.
+  // Far below the tolerance only rounding is left.
   const double target = std::max(std::max(ratio * ratio * ratio, T::least_ratio) * mu,
                                  T::of_tolerance * control_.tolerance / static_cast<double>(rows_));
   for (size_t k = 0; k < rows_; ++k) targets_[k] = target - y_[k] * w_[k] - d.w[k] * d.y[k];

@@ -1,5 +1,5 @@
-// A factor of the linear system of an interior-point step in single precision, where that serves, else in double:
-// conjugate gradients on the factor in floats find a direction to some accuracy.
+// A factor of the linear system of an interior-point step in single precision where that is faster and accurate enough,
+// else in double: conjugate gradients on the factor in floats find a direction to some accuracy.
 #pragma once
 #include <limits>
 

@@ -77,7 +77,7 @@ struct LpCheck {
 PackingLp make_lp(const Packing &p, const PairList &pairs, double sigma_unit, const StrainBasis &basis = {});
 LpCheck check_lp(const PackingLp &lp, const LpSolution &answer);
 
-// Unknowns hold strain amplitudes behind the displacements.
+// Unknowns: the displacements, then strain amplitudes.
 inline void rows_times(const PackingLp &lp, const double *s, double *out) {
   rows_times(lp.dim, lp.pairs->i, lp.pairs->j, lp.a.data(), s, out);
   add_columns_times(lp.strain.data(), static_cast<size_t>(lp.strains), lp.rows(), s + lp.spheres(), out);

@@ -12,8 +12,8 @@ void PathMatrix::reset(size_t rows, size_t unknowns) {
   diagonal_.resize(unknowns);
 }
 
-// Rows couple spheres up to far_slack times the slack of the carrying rows. They are chosen anew for a new list, when a
-// screened row came near, and when many could go.
+// Rows couple spheres up to far_slack times the slack of the carrying rows. They are chosen again for a new list, when
+// a screened row came near, and when many could go.
 void PathMatrix::choose_coupled(const Packing &p, const BarrierProblem &b) {
   const std::vector<double> &c = b.lp.c;
   using T = WorkingSetTuning;

@@ -1,5 +1,5 @@
 // Strains of a free cell that a linear program may choose: r -> (1 + E) r with E upper-triangular, so that the cell
-// stays lower-triangular, and traceless, because growth of all diameters already stands for a change of volume.
+// stays lower-triangular, and traceless, because growth of all diameters already is a change of volume.
 #pragma once
 #include <cstddef>
 #include <cstdint>

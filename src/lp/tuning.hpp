@@ -5,7 +5,7 @@
 
 namespace jam {
 
-// ---- which rows stand in the matrix
+// ---- which rows are in the matrix
 struct WorkingSetTuning {
   // About d n rows carry force at the end. Rows slacker than far_slack times the slack of the row of this rank are
   // screened: what they couple is weak by the square of that, and every step is searched on all rows anyway.
@@ -17,7 +17,7 @@ struct WorkingSetTuning {
   // them all that lost half.
   static constexpr double of_screened = 0.9, joins = 0.3, joins_too = 0.5;
   static constexpr double blocks = 0.5;  // a screened row that leaves less of the step joins
-  // On the path the set is chosen anew when a screened row has less than this share of the limit, or when fewer rows
+  // On the path the set is chosen again when a screened row has less than this share of the limit, or when fewer rows
   // than the second share are wanted.
   static constexpr double close_screened = 0.5, still_wanted = 0.8;
 };
@@ -40,6 +40,13 @@ struct InteriorPointTuning {
   static constexpr double least_ratio = 1e-8, of_tolerance = 0.1;               // targets of mu
   static constexpr double ridge = 1e-12;                                        // over the mean weight
   static constexpr double whole_step = 0.9, least_win = 0.03;                   // longer steps need no corrector
+};
+
+// ---- factors in single precision (tests/bench/README.md). Below 150 flops per number of the factor, solves take as
+// long as it saves. A direction may be wrong by 1e-3, and take 8 products.
+struct SingleTuning {
+  static constexpr double work = 150.0, accuracy = 1e-3;
+  static constexpr int max_products = 8;
 };
 
 // ---- correctors of LPs and of the path: products y c are pulled into this band around mu, for a step so much longer

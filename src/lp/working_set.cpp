@@ -47,7 +47,7 @@ void WorkingSet::choose(const PackingLp &whole) {
     if (std::isfinite(whole.bound)) threshold = std::max(threshold, T::per_bound * whole.bound);
     for (size_t k = 0; k < rows; ++k) taken[k] = whole.c[k] - smallest <= threshold;
     hold_loose_spheres(whole, taken);
-    // To leave out a few saves nothing.
+    // Screening only a few saves nothing.
     if (std::count(taken.begin(), taken.end(), 1) > T::nearly_all * static_cast<double>(rows)) taken.assign(rows, 1);
   }
   gather(whole, taken);

@@ -125,7 +125,7 @@ const Mechanism mechanisms[] = {
     {"warm LPs", [](Tuning &t, jam_crunch_options &) { t.warm_step = -1.0; }},
     {"wide bound", [](Tuning &t, jam_crunch_options &) { t.min_bound = 1e-6; }},
     {"barrier path", [](Tuning &, jam_crunch_options &o) { o.method = JAM_CRUNCH_SEQUENTIAL_LP; }},
-    {"LPs alone for crystals", [](Tuning &t, jam_crunch_options &) { t.crystal_rows = never; }},
+    {"LPs alone for crystals", [](Tuning &t, jam_crunch_options &) { t.crystal_force = never; }},
     {"single precision", [](Tuning &t, jam_crunch_options &) { t.single.work = never; }},
     {"correctors", [](Tuning &t, jam_crunch_options &) { t.max_correctors = 0; }},
     {"leaving saddles of the path", [](Tuning &t, jam_crunch_options &) { t.increase = 1.0; }},
@@ -135,7 +135,7 @@ const Mechanism mechanisms[] = {
     {"end of the path near rounding", [](Tuning &t, jam_crunch_options &) { t.end_roundings = 33.0; }},  // 1e-12
     {"dropped contacts", [](Tuning &t, jam_crunch_options &) { t.max_excess = 0; }},
     {"narrow LPs", [](Tuning &t, jam_crunch_options &) { t.max_narrow_lps = 0; }},
-    {"moves along flexes", [](Tuning &t, jam_crunch_options &) { t.max_flex_moves = 0; }},
+    {"moves along flexes", [](Tuning &t, jam_crunch_options &) { t.longest_flex_move = 0.0; }},
 };
 
 void run(const Start &start, const Mechanism &mechanism) {

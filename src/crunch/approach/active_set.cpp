@@ -70,7 +70,7 @@ ContactNetwork make_contacts(const Packing &p, const PairList &pairs, const LpSo
 
 bool hyperstatic(const std::vector<double> &y, double isostatic, const Tuning &t) {
   const auto strong = std::count_if(y.begin(), y.end(), [&](double v) { return v * isostatic > t.crystal_force; });
-  return static_cast<double>(strong) > t.crystal_rows * isostatic;
+  return static_cast<double>(strong) > WorkingSetTuning::carrying_rows * isostatic;
 }
 
 }  // namespace jam

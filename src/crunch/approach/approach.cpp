@@ -16,7 +16,7 @@ namespace {
 // so the step is safe if it gains no less than staying does.
 bool acceptable(const CrunchState &s, const LpSolution &x, bool early, LpCheck &check) {
   check = check_lp(s.last.lp, x);
-  const double balance = early ? std::numeric_limits<double>::infinity() : s.tuning.lp_balance;
+  const double balance = early ? std::numeric_limits<double>::infinity() : InteriorPointTuning::rough_balance;
   constexpr double rounding = 1e-9;
   return x.solved && check.infeasibility < rounding && check.gamma < 1e-6 && check.balance < balance && x.g > -rounding;
 }
@@ -34,8 +34,7 @@ Answer try_solver(CrunchState &s, jam_lp_solver solver, const IpmControl &contro
     s.out.report.gamma_residual = check.gamma;
     s.out.report.duality_gap = std::fabs(check.gap);
     ++s.out.report.lp_solves;
-    s.last.early =
-        control.early_fraction > 0.0 && std::fabs(check.gap) > s.tuning.early_to_tolerance * s.next.gain_tolerance;
+    s.last.early = control.early_fraction > 0.0 && std::fabs(check.gap) > s.next.gain_tolerance;
     return Answer::kept;
   }
   if (s.monitor.interrupted()) return Answer::interrupted;
@@ -44,8 +43,8 @@ Answer try_solver(CrunchState &s, jam_lp_solver solver, const IpmControl &contro
   return Answer::refused;
 }
 
-// The interior point, warm where the forces hardly changed; then a cold one with small steps; then Clp. False when the
-// call was interrupted.
+// The interior point, warm where the forces are nearly the same; then cold and without correctors; then Clp. False when
+// the call was interrupted.
 bool solve(CrunchState &s) {
   IpmControl control;
   control.tolerance = s.o.lp_tolerance;
@@ -75,14 +74,14 @@ bool solve(CrunchState &s) {
   return answer == Answer::kept;
 }
 
-// LPs finish at once what is all but jammed. Before it the density rises along a curved valley, where the path needs
-// fewer factorisations. One path at most: a second one after saddles gains nothing.
+// LPs alone finish a nearly jammed packing. Farther from jamming the density rises along a curved valley, where the
+// path needs fewer factorisations. One path at most: a second one after saddles gains nothing.
 bool path_is_shorter(const CrunchState &s, double gain, double step) {
   const Tuning &t = s.tuning;
   if (s.o.method != JAM_CRUNCH_BARRIER_PATH || s.history.stage.path_taken) return false;
   const double isostatic = s.last.lp.dim * static_cast<double>(s.last.lp.n);
   if (gain < t.crystal_gap && hyperstatic(s.last.answer.y, isostatic, t)) return false;
-  return step > t.long_step || step * step > std::max(t.curvature_ratio * gain, t.min_opening);
+  return step > t.min_bound || step * step > std::max(t.curvature_ratio * gain, t.min_opening);
 }
 
 // What follows an LP with this gain and longest step, of which the part alpha was made.
@@ -92,7 +91,7 @@ Phase next_phase(CrunchState &s, double gain, double step, double alpha) {
   if (!gained && (s.o.polish || step <= s.o.step_tolerance)) return Phase::identify;
   if (!gained) ++s.next.stalled;
   const bool limit = s.out.report.lp_solves >= s.o.max_lps;
-  if (alpha == 0.0 || (s.next.stalled > 0 && s.next.stalled >= s.tuning.max_stalled_lps))
+  if (alpha == 0.0 || (s.next.stalled > 0 && s.next.stalled >= s.tuning.max_attempts))
     return stop(s, JAM_STOP_STALLED, JAM_NOT_CONVERGED), Phase::identify;
   if (limit) return stop(s, JAM_STOP_LP_LIMIT, JAM_LIMIT), Phase::identify;
   if (stop_if_interrupted(s)) return Phase::identify;

@@ -1,5 +1,5 @@
-// Phase 1: sequential LPs. Each LP maximises Gamma over displacements within a bound; the spheres move, the pairs are
-// listed anew (Artiaco et al., Phys. Rev. E 106, 055310 (2022)).
+// Phase 1: sequential LPs. Each LP maximises Gamma over displacements within a bound; the spheres move, and
+// the pairs are listed again (Artiaco et al., Phys. Rev. E 106, 055310 (2022)).
 #pragma once
 #include "crunch/state.hpp"
 

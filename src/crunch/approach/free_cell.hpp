@@ -1,4 +1,4 @@
-// A free cell: path and LPs with strain amplitudes go on from the packing that fits the fixed one. They end in a
+// A free cell: path and LPs with strain amplitudes start from the optimum at fixed cell. They end in a
 // strictly jammed packing, with d (N' - 1) + d (d + 1) / 2 contacts when it is disordered (Torquato and Jiao, Phys.
 // Rev. E 82, 061302 (2010)).
 #pragma once

@@ -64,11 +64,11 @@ void add_history_row(CrunchState &s, double alpha, double unit) {
 }  // namespace
 
 // Listed pairs: the linearised rows are tighter than the true ones (|r + s|^2 = |r|^2 + 2 r.s + |s|^2), and the set of
-// (s, e, g) that obeys them is convex and holds 0, so alpha (s, e, g) is safe for every alpha in [0, 1].
+// (s, e, g) that obeys them is convex and contains 0, so alpha (s, e, g) is safe for every alpha in [0, 1].
 // Unlisted pairs: |r| >= reach + sigma_ij. The step brings them nearer by at most the sum of the two longest
 // displacements and widens their contact distance by at most the growth of the largest diameter, so they stay apart if
 // these make no more than reach: |r'| - sigma'_ij >= reach - (s_1 + s_2) - growth >= 0. A strain shortens |r| by at
-// most its norm times |r|. If that does not settle it, every pair and image is looked at and alpha halved until none
+// most its norm times |r|. If that does not settle it, alpha is halved until no pair or image
 // overlaps: at low density, where reach follows the free spacing, no pair can meet unseen.
 double take_step(Packing &p, PairList &pairs, double reach, const LpSolution &x, double unit,
                  const StrainBasis &basis) {

@@ -11,8 +11,8 @@
 namespace jam {
 namespace {
 
-// The flex or, where nothing is decided, what may be one; or its opposite: where the forces leave a rest, the spheres
-// go where it pushes them.
+// The flex or, where the test is undecided, the motion that may be one; or its opposite. Forces that do not balance
+// exactly choose the sign: the spheres move where the net force pushes them.
 std::vector<double> direction_of(const CrunchState &s, const PackingVerdict &verdict) {
   const size_t d = s.out.packing.dim;
   std::vector<double> v(s.out.packing.position.size(), 0.0);
@@ -62,7 +62,7 @@ bool deform_into(Packing &q, const Packing &p, const std::vector<double> &v, con
 FlexMove move_along_flex(CrunchState &s, const PackingVerdict &verdict) {
   // An attempt is made once narrow LPs have left it open.
   const RigidityResult &r = verdict.result;
-  if ((r.flex.empty() && (r.attempt.empty() || !s.found.narrow)) || s.found.flex_moves >= s.tuning.max_flex_moves)
+  if ((r.flex.empty() && (r.attempt.empty() || !s.found.narrow)) || s.found.flex_moves >= s.tuning.max_attempts)
     return FlexMove::none;
   ++s.found.flex_moves;
   Packing &p = s.out.packing;
@@ -71,7 +71,7 @@ FlexMove move_along_flex(CrunchState &s, const PackingVerdict &verdict) {
   const std::vector<double> v = direction_of(s, verdict);
   int32_t fixed = verdict.sphere.front();
   double longest = 0.0, bound = s.tuning.longest_flex_move;
-  // Rows hold to a tolerance times the bound: where pairs block early, it narrows.
+  // Rows are met to a tolerance times the bound, so the bound is narrowed where pairs block early.
   for (bool again = true; again;) {
     PairList pairs = find_pairs(p, 2.0 * std::sqrt(static_cast<double>(d)) * bound * unit, 1.0);
     PackingLp lp = make_lp(p, pairs, unit);
@@ -89,7 +89,7 @@ FlexMove move_along_flex(CrunchState &s, const PackingVerdict &verdict) {
   s.monitor.log(JAM_LOG_INFO, "saddle at phi %.12f with %lld flexes: moves %.1e diameters along them",
                 packing_fraction(p), static_cast<long long>(verdict.result.flexes), longest);
   if (!(longest > s.tuning.closed_gap)) return FlexMove::none;
-  // Where no force balances at the end of narrow LPs, diameters can grow, and LPs go on.
+  // Where no force balances at the end of narrow LPs, diameters can grow, and LPs continue.
   if (longest < s.tuning.narrow_bound && !(s.found.narrow && r.stressed == Verdict::no)) return FlexMove::blocked;
   restart_lps(s, first_bound(s.out.packing, s.o, s.tuning));
   return FlexMove::free;
@@ -98,7 +98,7 @@ FlexMove move_along_flex(CrunchState &s, const PackingVerdict &verdict) {
 // |r + t (eps r + v)|^2 = r^2 + 2 t r . (eps r + v) + t^2 |eps r + v|^2: contacts open, so only near pairs can block.
 bool move_along_strained_flex(CrunchState &s, const PackingVerdict &strict) {
   const RigidityResult &r = strict.result;
-  if (r.flex.empty() || r.strain.empty() || s.found.flex_moves >= s.tuning.max_flex_moves) return false;
+  if (r.flex.empty() || r.strain.empty() || s.found.flex_moves >= s.tuning.max_attempts) return false;
   ++s.found.flex_moves;
   Packing &p = s.out.packing;
   const size_t d = static_cast<size_t>(p.dim);

@@ -4,7 +4,7 @@
 //   flex
 //
 // A flex is a motion that opens contacts: the packing is a saddle of the density. The spheres move along it until a
-// pair blocks, and LPs go on.
+// pair blocks, and LPs continue.
 #pragma once
 #include "crunch/state.hpp"
 

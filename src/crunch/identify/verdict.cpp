@@ -38,7 +38,7 @@ void add_history_row(CrunchState &s) {
   if (s.history.details()) report_step(s, JAM_PHASE_POLISH, row[JAM_HISTORY_GAIN], row[JAM_HISTORY_STEP_MAX]);
 }
 
-// All closed pairs as contacts, of spheres that they hold; the forces are left to the test.
+// All closed pairs as contacts, of the spheres that they can balance; the test finds the forces.
 ContactNetwork closed_pairs(const Packing &p, bool own_images) {
   ContactNetwork net;
   net.pairs = find_pairs(p, 0.0, 1.0 + contact_gap_limit);

@@ -6,7 +6,7 @@ namespace jam {
 
 // Closes the contacts and balances the forces, as far as they do. False when the call was interrupted.
 bool polish_contacts(CrunchState &s);
-// Tests the packing. LPs go on from a saddle, narrow ones where contacts are undecided.
+// Tests the packing. LPs continue from a saddle; where contacts are undecided, narrow LPs follow.
 Phase decide_jamming(CrunchState &s);
 // Narrow LPs and moves along flexes belong to the optimum of the wide LPs. A looser tolerance may end before it.
 bool converged(const CrunchState &s);

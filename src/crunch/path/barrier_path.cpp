@@ -44,7 +44,7 @@ class BarrierPath {
                    "%.2f %.2f moved %.1e",
                    out.factorisations, gap_, decrement_, balance_, packing_fraction(p_), b_.pairs.size(),
                    matrix_.coupled(), correctors_, alpha_p_, alpha_d_, last_step_);
-      out.reached = balance_ < t_.path_balance && gap_ <= end_;
+      out.reached = balance_ < InteriorPointTuning::rough_balance && gap_ <= end_;
       const bool crystal =
           out.increases > 0 && gap_ < t_.crystal_gap && hyperstatic(b_.y, static_cast<double>(p_.position.size()), t_);
       if (out.reached || crystal || out.factorisations >= t_.max_path_factorisations || monitor_.interrupted() ||
@@ -78,7 +78,7 @@ class BarrierPath {
       const size_t half = std::min(gaps.size() - 1, static_cast<size_t>(p_.dim) * p_.n() / 2);
       std::nth_element(gaps.begin(), gaps.begin() + half, gaps.end());
       const double smallest = *std::min_element(gaps.begin(), gaps.end());
-      const double opening = std::max(t_.opening_per_gap * std::max(gaps[half], 1e-12), control_.opening);
+      const double opening = std::max(t_.opening * std::max(gaps[half], 1e-12), control_.opening);
       if (smallest < opening)
         for (double &s : p_.diameter) s *= std::sqrt((1.0 + smallest) / (1.0 + opening));
     }
@@ -202,7 +202,8 @@ class BarrierPath {
   void move(double alpha) {
     const double length = b_.longest_move(main_) * b_.unit, widest = contact_distance_max(p_),
                  growth = std::max(0.0, 0.5 * main_.g) * widest + b_.strain_norm(main_) * (reach_ + widest);
-    alpha_p_ = std::min(alpha, t_.share_of_reach * (reach_ - 2.0 * travelled_ - grown_) / (2.0 * length + growth));
+    alpha_p_ =
+        std::min(alpha, WorkingSetTuning::of_screened * (reach_ - 2.0 * travelled_ - grown_) / (2.0 * length + growth));
     if (b_.lp.strains > 0) alpha_p_ *= strain_part(p_.dim, b_.strain_of(main_, alpha_p_));
     alpha_d_ = b_.longest_dual(main_);
     for (size_t k = 0; k < b_.y.size(); ++k) b_.y[k] += alpha_d_ * main_.y[k];

@@ -1,7 +1,7 @@
 // The barrier path: one interior-point method for the true, curved problem instead of one for each LP. After every
-// Newton step the spheres move, the diameters grow, and the rows are made anew at the true distances; the multipliers
-// stay. Every step is safe because the linearised set lies inside the true one. The barrier is the entropy of cell
-// theory: this is a slower quench than sequential LPs and may end at another jamming point.
+// Newton step the spheres move, the diameters grow, and the rows are computed again at the true distances; the
+// multipliers stay. Every step is safe because the linearised set lies inside the true one. The barrier is the entropy
+// of cell theory: this is a slower quench than sequential LPs and may end at another jamming point.
 #pragma once
 #include <functional>
 
@@ -17,7 +17,7 @@ namespace jam {
 struct BarrierPathControl {
   Tuning tuning;
   StrainBasis strain;      // that the path chooses; empty: a fixed cell
-  PathPoint from;          // where a path that was stopped goes on; mu 0: a new one
+  PathPoint from;          // where a stopped path continues; mu 0: a new one
   double opening = 0.0;    // of a new one: the closest pair is opened to this relative gap at least
   double least_gap = 0.0;  // it ends at this duality gap, or at Tuning::path_end where that is larger
   int threads = 1;

@@ -8,7 +8,7 @@
 
 namespace jam {
 
-// False where the forces of the LP do not balance or leave a larger gap than asked for, or when interrupted.
+// False where the forces of the LP do not balance or leave a larger gap than the options allow, or when interrupted.
 bool ends_at_gap(CrunchState &s, const Multipliers &path);
 
 }  // namespace jam

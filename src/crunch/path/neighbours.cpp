@@ -40,7 +40,7 @@ PairList select_neighbours(const Packing &p, double reach, double slope, const T
   while (reach < limit) {
     const std::vector<size_t> free = uncovered_spheres(p, pairs, tuning.covered);
     if (free.empty()) break;
-    reach = std::min(std::max(2.0 * reach, tuning.least_wider * unit), limit);
+    reach = std::min(2.0 * std::max(reach, tuning.least_reach * unit), limit);
     for (const size_t i : free) own[i] = reach;
     pairs = find_pairs(p, own, slope);
   }

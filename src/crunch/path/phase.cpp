@@ -29,9 +29,8 @@ Phase follow_path(CrunchState &s) {
   BarrierPathControl control;
   control.tuning = s.tuning;
   // Opens the gaps that the LP's own gain and the curvature of its step would close.
-  control.opening =
-      std::max({0.5 * s.out.report.gain, s.tuning.opening_per_step2 * s.out.report.max_step * s.out.report.max_step,
-                s.tuning.min_opening});
+  control.opening = std::max({0.5 * s.out.report.gain, s.tuning.opening * s.out.report.max_step * s.out.report.max_step,
+                              s.tuning.min_opening});
   control.strain = s.next.strain;
   control.least_gap = frees_cell(s) ? s.tuning.free_gap : s.o.duality_gap / s.tuning.lp_to_path_gap;
   if (s.next.strain.count() > 0) control.opening = s.tuning.free_opening;
@@ -41,7 +40,7 @@ Phase follow_path(CrunchState &s) {
   control.done = [&s](double part) { return part_done(s, part, 0.0); };
   control.on_step = [&s](double gap, size_t pairs, const PathPoint &at) { add_history_row(s, gap, pairs, at); };
   BarrierPathResult path = follow_barrier_path(s.out.packing, control, s.system, s.monitor);
-  // Forces do not balance at every point of the path: then it goes on to a smaller gap.
+  // Forces do not balance at every point of the path: then it continues to a smaller gap.
   while (path.reached && path.gap > s.tuning.path_end(s.out.packing) && s.o.duality_gap > 0.0 &&
          !stop_if_interrupted(s)) {
     if (ends_at_gap(s, path.multipliers)) return Phase::done;

@@ -1,4 +1,4 @@
-// Phase 2: the barrier path, from the LP that hands over to it to the LPs after it.
+// Phase 2: the barrier path, from the LP before it to the LPs after it.
 #pragma once
 #include "crunch/state.hpp"
 

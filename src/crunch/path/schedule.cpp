@@ -9,7 +9,7 @@ namespace jam {
 // short on any way. At a larger mu the same way is fewer steps.
 double BarrierSchedule::next_factor(const Step &last) {
   if (steps_ == 0) short_steps_ = 0, least_ = mark_ = std::numeric_limits<double>::infinity();
-  const bool falls = last.decrement < t_.falls * least_;
+  const bool falls = last.decrement < InteriorPointTuning::progress * least_;
   if (steps_ > 0) {
     least_ = std::min(least_, last.decrement);
     if (last.decrement < t_.progress * mark_) short_steps_ = 0, mark_ = last.decrement;

@@ -33,7 +33,7 @@ def word_of(item):
 
 def escaped(text):
     """Text for a Julia string with Markdown in it: names with underscores become code, no star or dollar has a meaning."""
-    parts = re.split(r"(`[^`]*`)", text)
+    parts = re.split(r"(`[^`]*`)", text.replace("_*", "_..."))
     for k in range(0, len(parts), 2):
         parts[k] = re.sub(r"(?<!\w)(\*?(?:\w+\.)*\w*_\w+(?:\(\))?|\*\w+)", r"`\1`", parts[k])
     joined = "".join(p if p.startswith("`") else p.replace("*", "×") for p in re.split(r"(`[^`]*`)", "".join(parts)))
@@ -43,6 +43,32 @@ def escaped(text):
 def raw(signature, text):
     """The docstring of something of the raw layer: C's comment under its name."""
     return f'"""\n    {signature}\n' + (f"\n{escaped(text)}\n" if text else "") + '"""\n'
+
+
+def member_text(m, api):
+    """What a member is, its enum's items as words."""
+    if not m.enum:
+        return cleaned(m.doc.replace("1: ", "", 1) if m.bool else m.doc, api)
+    e = next(e for e in api.enums if e.name == m.enum)
+    items = "|".join(sorted(item_names(e), key=len, reverse=True))
+    text = re.sub(r"^jam_\w+,? ?", "", m.doc)
+    return cleaned(re.sub(rf"\b(?<!JAM_)({items})\b", lambda k: f"`:{word_of(k.group())}`", text), api)
+
+
+def member_row(m, api):
+    kind = f"one of {choices(m.enum, api)}; " if m.enum else "Bool; " if m.bool else ""
+    return f"`{m.name}`: {kind}{member_text(m, api)}".rstrip("; ")
+
+
+def struct(s, api):
+    """The docstring of a struct: C's comment, and its members with the words that they take."""
+    first, *notes = s.doc.split("\n- ")
+    lines = wrapped(cleaned(first, api))
+    for rows in (notes, [m for m in s.members if not m.name.startswith(("struct_size", "reserved"))]):
+        lines += [""] * bool(rows)
+        for row in rows:
+            lines += wrapped(cleaned(row, api) if isinstance(row, str) else member_row(row, api), "- ")
+    return f'"""\n    {s.name}\n\n' + "\n".join(lines) + '\n"""\n'
 
 
 def spoken(text, api):
@@ -79,10 +105,7 @@ def docstring(signature, f, members, indices, api):
         extent = ", ".join(reversed(extents))
         rows.append(f"`{a}`: array `({extent})`" + (", indices from 1" if a in indices else ""))
     rows += [f"`{a}`: counts from 1" for a in indices if a not in f.shapes]
-    for m in members:
-        text = cleaned(m.doc.replace("1: ", "", 1) if m.bool else re.sub(r"jam_\w+,? ?", "", m.doc) if m.enum else m.doc, api)
-        kind = f"one of {choices(m.enum, api)}; " if m.enum else "Bool; " if m.bool else ""
-        rows.append(f"`{m.name}`: {kind}{text}".rstrip("; "))
+    rows += [member_row(m, api) for m in members]
     if f.errors:
         rows.append("errors: " + ", ".join(f"`:{e.lower()}`" + (f" ({cleaned(why, api)})" if why else "") for e, why in f.errors))
     if rows:

@@ -219,7 +219,7 @@ by `:allow`. Random numbers depend on seed, run, sweep and sphere alone. Velocit
 gives the displacements. An early stop can be resumed, also from `checkpoint`.
 
 - `resume`: Bool; continue the run that stopped early; default 0
-- `energy_unit`: one of `:length`, `:relative`; default LENGTH
+- `energy_unit`: one of `:length`, `:relative`; default `:length`
 - `alpha`: 0, default: hard, or > 1: overlaps x cost `energy_scale` x^alpha
 - `energy_scale`: > 0, default 1
 - `temperature`: of soft spheres, `k_B` T > 0, default 1
@@ -255,8 +255,8 @@ end
 Estimates memory and time of `crunch!` with these options (`nothing`: defaults) without running it; `crunch!` logs the
 same at `:info`. Takes as long as a few steps.
 
-- `lp_solver`: one of `:ipm`, `:clp`; default IPM
-- `method`: one of `:barrier_path`, `:sequential_lp`; default `BARRIER_PATH`
+- `lp_solver`: one of `:ipm`, `:clp`; default `:ipm`
+- `method`: one of `:barrier_path`, `:sequential_lp`; default `:barrier_path`
 - `polish`: Bool; contacts are closed and forces balanced to rounding; default 1
 - `max_lps`: >= 1, default 1000
 - `threads`: 1 or 2, default 1; bits are reproducible on 1
@@ -266,10 +266,10 @@ same at `:info`. Takes as long as a few steps.
 - `neighbour_radius`: largest pair distance in an LP; 0, the default: adapts
 - `step_bound`: bound on each |`s_i`| component, 1e-15 .. 1000; 0, the default: adapts
 - `wall_time`: limit of the call
-- `steps`: Bool; the callback hears of every step and may call `jam_crunch_step_`×; default 0
+- `steps`: Bool; the callback hears of every step and may call `jam_crunch_step_`...; default 0
 - `full_lps`: Bool; every LP is solved to `lp_tolerance`, so that its network balances; default 0
 - `strain`: one of `:none`, `:edges`, `:tilts`, `:free`, `:volume`, `:edges_volume`, `:tilts_volume`, `:all`; default
-  NONE
+  `:none`
 - `keep_steps`: states before the end that are kept for `page`, 0 .. 1000, default 0
 - `duality_gap`: 0, the default: to the jamming point; or 1e-12 .. 1e-2
 - `prove`: Bool; a packing that ends jammed is proved as by `prove`, into the report; default 0
@@ -375,7 +375,7 @@ Rattlers are the spheres that carry no force. Contacts between the others stay, 
 vector of S^T, or the analytic centre of the non-negative ones where there are several states of self-stress. The
 stored report's `jammed` is the verdict of `rigidity`, whatever the tolerance. Status, with the network kept each
 time: `:ok`: one jump stands out, or only this candidate has a single state of self-stress. `:ambiguous`: another
-candidate fits too (see second_×), or there are several states of self-stress. Also where gaps above 1e-7 leave the
+candidate fits too (see second_...), or there are several states of self-stress. Also where gaps above 1e-7 leave the
 verdict open, or where coordinates have too few digits for a no. `:not_jammed`: not collectively jammed even with
 these contacts closed.
 
@@ -680,7 +680,7 @@ end
 Density of states D(omega) and its integral by the kernel polynomial method: no modes are computed, translations are
 left out. With prestress omega starts below 0: unstable modes stand at -sqrt(-lambda), and resolution is lower near 0.
 
-- `stiffness`: one of `:harmonic`, `:power`, `:hard`, `:soft`; default HARMONIC
+- `stiffness`: one of `:harmonic`, `:power`, `:hard`, `:soft`; default `:harmonic`
 - `alpha`: POWER: > 1, default 2
 - `prestress`: overlap (HARD: gap) at the mean force over mean diameter, in [0, 1), default 0
 - `moments`: Chebyshev moments, 8..1e6, default 512: resolution in omega about 1.6 `omega_max` / moments
@@ -714,7 +714,7 @@ end
 value = u . H . u for a displacement u.
 
 - `u`: array `(d, N')`
-- `stiffness`: one of `:harmonic`, `:power`, `:hard`, `:soft`; default HARMONIC
+- `stiffness`: one of `:harmonic`, `:power`, `:hard`, `:soft`; default `:harmonic`
 - `alpha`: POWER: > 1, default 2
 - `prestress`: overlap (HARD: gap) at the mean force over mean diameter, in [0, 1), default 0
 - errors: `:state`
@@ -728,7 +728,7 @@ end
 
 Elastic moduli; an error `:state` also when prestress makes the network unstable.
 
-- `stiffness`: one of `:harmonic`, `:power`, `:hard`, `:soft`; default HARMONIC
+- `stiffness`: one of `:harmonic`, `:power`, `:hard`, `:soft`; default `:harmonic`
 - `alpha`: POWER: > 1, default 2
 - `prestress`: overlap (HARD: gap) at the mean force over mean diameter, in [0, 1), default 0
 - errors: `:state`, `:solver`
@@ -746,7 +746,7 @@ a rotation of stressed contacts counts.
 
 - `affine`: array `(d, d, d, d)`
 - `relaxed`: array `(d, d, d, d)`
-- `stiffness`: one of `:harmonic`, `:power`, `:hard`, `:soft`; default HARMONIC
+- `stiffness`: one of `:harmonic`, `:power`, `:hard`, `:soft`; default `:harmonic`
 - `alpha`: POWER: > 1, default 2
 - `prestress`: overlap (HARD: gap) at the mean force over mean diameter, in [0, 1), default 0
 - errors: `:state`, `:solver`

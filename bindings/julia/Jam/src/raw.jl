@@ -363,6 +363,21 @@ const JAM_DOS_CUMULATIVE_ERROR = Int32(5)  # its standard error
     jam_progress
 
 Given to the progress callback; valid during the call only. NaN: not known.
+
+- `phase`: one of `:run`, `:compress`, `:crunch`, `:polish`, `:analyse`, `:relax`, `:decompress`, `:monte_carlo`,
+  `:isoconfigurational`, `:create`
+- `packing_fraction`: now
+- `pressure`: MD: reduced pressure of the last window
+- `gain`: crunch: sqrt(Gamma) - 1 of the last LP; on the barrier path its duality gap
+- `max_step`: crunch: largest |`s_i`| over mean diameter
+- `seconds`: since the call began
+- `fraction`: of the call, 0..1: never falls, may be an estimate, leaves `wall_time` out
+- `collisions`: MD: so far in this call
+- `steps`: crunch: LPs so far, analysis: items done
+- `factorisations`: crunch: so far
+- `snapshot`: number of the snapshot (`observe!`) that the views show now; 0: no snapshot
+- `seconds_left`: until the aim, from how `fraction` grew
+- `seconds_left_spread`: two of three calls end between `seconds_left` over and times this factor > 1
 """
 mutable struct jam_progress
     struct_size::UInt32  # as the library knows it
@@ -385,8 +400,23 @@ end
 """
     jam_create_options
 
-Options of `jam_create` and `jam_read`. An option whose value a file gives must be the default or agree with the file. A
+Options of `System` and `System`. An option whose value a file gives must be the default or agree with the file. A
 random Mari-Kurchan start is planted in equilibrium.
+
+- `dim`: 2..8, default 3
+- `n`: spheres, default 0: as many as the arrays have
+- `seed`: of every random stream, default 1
+- `box`: side of the cube, > 0, default 1
+- `packing_fraction`: of a random start, > 0; default 0: by dim, 0.2 halved for each dimension above 3
+- `overlap`: one of `:refuse`, `:shrink`, `:allow`; default `:refuse`
+- `model`: one of `:euclid`, `:mk`; default `:euclid`
+- `mk_zeta`: MK: strength of the shifts, 0..1e15; default infinity: uniform shifts
+- `masses`: one of `:equal`, `:volume`; default `:equal`
+- `non_additivity`: Delta in (-1, 1]: unequal spheres touch at (1 + Delta) (`sigma_i` + `sigma_j`) / 2; default 0
+- `wall_time`: of reading, of a random start and of the search for overlaps
+- `memory_limit`: as `set_memory_limit!`, also while a file is read; default 0: half the machine's memory
+- `frame`: which packing of a file with several, from 0; negative: from the end; default -1, the last
+- `shrink_min`: `:shrink` refuses a smaller factor, in 0..1, default 1e-3: it points to wrong units
 """
 mutable struct jam_create_options
     struct_size::UInt32
@@ -411,7 +441,18 @@ end
 """
     jam_start
 
-Where a system starts. NULL in place of it: a random sequential start of equal spheres in a cube.
+Where a system starts. `nothing` in place of it: a random sequential start of equal spheres in a cube.
+
+- `positions`: (n, d), Cartesian, any finite value (wrapped into the cell); `nothing`: a random start
+- `positions_len`:
+- `diameters`: n values, or 1 for all; needed with positions. Random start: ratios alone, `nothing`: equal
+- `diameters_len`:
+- `cell`: (d, d), beside the default box of 1; left-handed, singular, flat: refused. `nothing`: a cube
+- `cell_len`:
+- `progress`: or `nothing`; a non-zero return ends the call. The new system has no callback
+- `user`: given to progress
+- `container`: one of `:brick`, `:cylinder`, `:ball`; default `:brick`
+- `walls`: axes with flat walls: sum of 2^c, default 0
 """
 mutable struct jam_start
     struct_size::UInt32
@@ -433,6 +474,23 @@ end
     jam_info
 
 What the system is now.
+
+- `dim`: d
+- `n`: number of spheres
+- `seed`: as recorded at creation
+- `box`: side of the cube, V^(1/d) of another cell
+- `packing_fraction`: sum of sphere volumes over V
+- `diameter_mean`: unit of box
+- `pressure`: reduced pressure p last measured by MD, NaN before
+- `model`: one of `:euclid`, `:mk`
+- `monodisperse`: Bool; all diameters are equal
+- `masses`: one of `:equal`, `:volume`
+- `paused`: one of `:run`, `:compress`, `:crunch`, `:polish`, `:analyse`, `:relax`, `:decompress`, `:monte_carlo`,
+  `:isoconfigurational`, `:create`; of what was stopped early and can go on (crunch: by `crunch!`), or 0
+- `non_additivity`: Delta of a non-additive mixture, 0 for additive diameters
+- `container`: one of `:brick`, `:cylinder`, `:ball`
+- `walls`: as in `jam_start`
+- `volume`: V of the container, else of the cell
 """
 mutable struct jam_info
     struct_size::UInt32
@@ -457,7 +515,24 @@ end
 """
     jam_diameters_options
 
-Options of `jam_diameters`. Lengths are in the user's unit. NaN and 0 stand for what is not given.
+Options of `sizes`. Lengths are in the user's unit. NaN and 0 stand for what is not given.
+
+- `law`: one of `:equal`, `:list`, `:uniform`, `:normal`, `:lognormal`, `:power`, `:weibull`, `:sieve`; default
+  `:equal`
+- `share`: one of `:usual`, `:number`, `:volume`; default `:usual`
+- `draw`: one of `:quantiles`, `:random`; default `:quantiles`
+- `dim`: 2..8, default 3: of volumes
+- `n`: number of spheres, default 0: by `packing_fraction`
+- `seed`: of RANDOM, default 1
+- `mean`: diameter, > 0, default 1
+- `deviation`: its standard deviation, > 0, default NaN
+- `low`: smallest diameter, default 0
+- `high`: largest diameter, default infinity: not given
+- `exponent`: default NaN
+- `scale`: > 0, default 1
+- `shape`: > 0, default NaN
+- `cell_volume`: default 0. Spheres of more volume are refused
+- `packing_fraction`: in `cell_volume`, in place of n; default 0. More than reached in disorder is refused
 """
 mutable struct jam_diameters_options
     struct_size::UInt32
@@ -484,6 +559,21 @@ end
     jam_size_report
 
 What a set of diameters is. `sequential_fraction`: Zhang and Torquato, Phys. Rev. E 88, 053312 (2013).
+
+- `source`: one of `:farr_groot`, `:measured`, `:crystal`
+- `n`: number of spheres
+- `mean`: diameter, by number
+- `deviation`: its standard deviation, by number
+- `polydispersity`: deviation / mean
+- `least`: diameter
+- `largest`: diameter
+- `d10`: diameter below which 10 % of the volume lies
+- `d50`: 50 %
+- `d90`: 90 %
+- `volume`: of all spheres, unit^d
+- `largest_share`: of the volume, of the largest sphere: how closely a curve can be followed
+- `sequential_fraction`: where random sequential addition of equal spheres ends; mixtures go beyond
+- `jammed_fraction`: estimate of the packing fraction at which these sizes jam in disorder
 """
 mutable struct jam_size_report
     struct_size::UInt32
@@ -507,7 +597,12 @@ end
 """
     jam_run_options
 
-Limits of `jam_run` (NVE). Whichever comes first ends the run. All but `wall_time` count since the run began.
+Limits of `run!` (NVE). Whichever comes first ends the run. All but `wall_time` count since the run began.
+
+- `resume`: Bool; go on with the run that stopped early; default 0
+- `collisions_per_particle`: to make, > 0, default 100
+- `wall_time`: seconds of this call
+- `time`: to simulate (to the last event before it), > 0, default infinity
 """
 mutable struct jam_run_options
     struct_size::UInt32
@@ -521,10 +616,20 @@ end
 """
     jam_compress_options
 
-Lubachevsky-Stillinger growth: one stage at a given growth rate, or the two stages of `jam_compress`. Whichever target
-is reached first ends it. Targets, limits and `growth_law` apply to the two stages too. Limits count from the start of
-each stage. The same `growth_rate` by `JAM_GROWTH_DENSITY`, in steps of half a per cent of sigma, means the same protocol
-at every n.
+Lubachevsky-Stillinger growth: one stage at a given growth rate, or the two stages of `compress!`. Whichever target is
+reached first ends it. Targets, limits and `growth_law` apply to the two stages too. Limits count from the start of
+each stage. The same `growth_rate` by `:density`, in steps of half a per cent of sigma, means the same protocol at
+every n.
+
+- `resume`: Bool; go on with the stage that stopped early, with all but the limits; default 0
+- `growth_rate`: G > 0: one stage at this rate; 0, the default: the two stages of `compress!`
+- `pressure`: target reduced pressure of the last stage, > 1, default 1e7
+- `packing_fraction`: target, > 0, default infinity
+- `collisions_per_particle`: limit, > 0, default infinity
+- `wall_time`: limit of this call
+- `time`: limit of simulated time, > 0, default infinity
+- `growth_rate_end`: to which the rate falls as a power of p, in [0, `growth_rate`]; 0, the default: constant
+- `growth_law`: one of `:diameter`, `:density`; default `:diameter`
 """
 mutable struct jam_compress_options
     struct_size::UInt32
@@ -545,6 +650,21 @@ end
     jam_md_report
 
 What MD did. Pressure: P V / (N kT) without the part of the growth, kT = sum m v^2 / (d N - periodic axes).
+
+- `stop_reason`: one of `:none`, `:pressure`, `:packing_fraction`, `:collisions`, `:wall_time`, `:cancelled`,
+  `:stalled`, `:precision`, `:converged`, `:lp_limit`, `:solver`, `:unjammed`, `:time`, `:evaluations`, `:steps`,
+  `:saddle`, `:duality_gap`
+- `collisions`: in this call
+- `events`: collisions, list updates, stale events
+- `collisions_per_second`: of wall time
+- `pressure`: reduced. `run!`: mean over the call; `compress!`: last window
+- `pressure_error`: standard error of that mean from its windows; NaN with too few
+- `packing_fraction`: at the end
+- `time`: simulated
+- `energy_drift`: `run!`: |`K_end`/`K_start` - 1|
+- `max_overlap`: largest -h of neighbours whenever one of them had an event, >= 0
+- `seconds`: wall time
+- `growth_rate`: d<sigma>/dt over sqrt(kT/m) at the end
 """
 mutable struct jam_md_report
     struct_size::UInt32
@@ -566,7 +686,17 @@ end
 """
     jam_observe_options
 
-What `jam_observe` records.
+What `observe!` records.
+
+- `collisions`: Bool; collisions of each sphere, and collisions and momentum of each pair; default 0
+- `gap_bins`: bins of the gap histogram, 0 (default: none) or >= 2
+- `r_bins`: bins of g(r), default 0: none
+- `sample_every`: collisions per particle between samples of the series, gaps and g(r), > 0, default 10
+- `gap_min`: the first bin is [0, `gap_min`], > 0, default 1e-8
+- `gap_max`: the others end here, <= 10, default 1
+- `r_max`: of g(r), mean diameters, > 0, default 4
+- `snapshot_every`: collisions per particle before the first snapshot; 0, the default: none
+- `snapshot_factor`: each interval between snapshots is so many times the one before, >= 1, default 1
 """
 mutable struct jam_observe_options
     struct_size::UInt32
@@ -586,6 +716,12 @@ end
     jam_glass
 
 A fit of the glass branch p = d' / (1 - phi/`phi_J`). Errors are standard errors.
+
+- `jammed_fraction`: `phi_J`
+- `jammed_error`: its error
+- `dimension`: d', free, near d for a good glass
+- `dimension_error`: its error
+- `r_squared`: of the straight line 1/p against phi
 """
 mutable struct jam_glass
     struct_size::UInt32
@@ -602,6 +738,19 @@ end
     jam_monte_carlo_options
 
 Metropolis Monte Carlo at constant volume. A sweep is one trial of each sphere.
+
+- `resume`: Bool; continue the run that stopped early; default 0
+- `energy_unit`: one of `:length`, `:relative`; default `:length`
+- `alpha`: 0, default: hard, or > 1: overlaps x cost `energy_scale` x^alpha
+- `energy_scale`: > 0, default 1
+- `temperature`: of soft spheres, `k_B` T > 0, default 1
+- `step`: half side of the cube of trial displacements, mean diameters; 0, the default: tuned
+- `acceptance`: that a tuned step aims at, in (0, 1), default 0.45
+- `swap_share`: share of trials that exchange two diameters, in [0, 1), default 0
+- `sweeps`: since the run began, >= 1, default 1000
+- `run`: number of the random stream beside the seed, >= 0, default 0
+- `first_sweep`: number of the first sweep in its stream; -1, the default: after those made before
+- `wall_time`: seconds of this call
 """
 mutable struct jam_monte_carlo_options
     struct_size::UInt32
@@ -625,6 +774,22 @@ end
     jam_monte_carlo_report
 
 What Monte Carlo did.
+
+- `stop_reason`: one of `:none`, `:pressure`, `:packing_fraction`, `:collisions`, `:wall_time`, `:cancelled`,
+  `:stalled`, `:precision`, `:converged`, `:lp_limit`, `:solver`, `:unjammed`, `:time`, `:evaluations`, `:steps`,
+  `:saddle`, `:duality_gap`; `:collisions` when all sweeps were made
+- `sweeps`: since the run began
+- `next_sweep`: number of the sweep that would come next
+- `acceptance`: of moves
+- `swap_acceptance`: of swaps, NaN without any
+- `step`: used, mean diameters
+- `energy`: mean energy a sphere
+- `energy_error`: its standard error from 20 parts, NaN with few sweeps
+- `pressure`: reduced p: from the virial, of hard spheres from pairs at contact
+- `pressure_error`: likewise
+- `msd`: mean-square displacement since the run began, box^2
+- `trials_per_second`: of this call, wall time
+- `seconds`: of this call, wall time
 """
 mutable struct jam_monte_carlo_report
     struct_size::UInt32
@@ -647,7 +812,20 @@ end
 """
     jam_isoconf_options
 
-Options of `jam_isoconfigurational`.
+Options of `isoconfigurational`.
+
+- `threads`: 1 or 2, default 1; the bits are the same
+- `clock`: one of `:collisions`, `:time`; default `:collisions`
+- `resume`: Bool; continue the runs that this handle holds; default 0
+- `first_run`: number of the first run, >= 0, default 0
+- `runs`: from that number on, >= 1, default 100
+- `block`: sums are kept of each block of so many run numbers, >= 1, default 20
+- `density_ratio`: packing fraction of the runs over that of the packing, in (0, 1], default 1
+- `temperature`: of the velocities, > 0, default 1
+- `wave_number`: q of `F_s`, over mean diameters, > 0, default 7
+- `overlap_length`: spheres that moved less count in the overlap, mean diameters, > 0, default 0.3
+- `memory_limit`: bytes, default 2e9: past it an error `:memory` with the estimate before any run
+- `wall_time`: seconds of this call
 """
 mutable struct jam_isoconf_options
     struct_size::UInt32
@@ -670,6 +848,19 @@ end
     jam_isoconf_report
 
 What the runs gave so far.
+
+- `stop_reason`: one of `:none`, `:pressure`, `:packing_fraction`, `:collisions`, `:wall_time`, `:cancelled`,
+  `:stalled`, `:precision`, `:converged`, `:lp_limit`, `:solver`, `:unjammed`, `:time`, `:evaluations`, `:steps`,
+  `:saddle`, `:duality_gap`; `:collisions`: all made; `:stalled`: the next run cannot move
+- `first_run`: number of the first run
+- `runs`: runs in the sums
+- `blocks`: that these runs fill or touch
+- `instants`: of each run
+- `energy_drift`: largest |`K_end`/`K_start` - 1| of a run
+- `max_overlap`: largest -h of a run
+- `step`: Monte Carlo: half side of the trial cube, mean diameters
+- `acceptance`: mean over runs
+- `seconds`: wall time over all calls
 """
 mutable struct jam_isoconf_report
     struct_size::UInt32
@@ -689,17 +880,37 @@ end
 """
     jam_crunch_options
 
-Options of `jam_crunch`. Lengths are in mean diameters. The guide's page "Coming from other programs" names the
-parameter of CALiPPSO.jl beside each.
+Options of `crunch!`. Lengths are in mean diameters. The guide's page "Coming from other programs" names the parameter
+of CALiPPSO.jl beside each.
+
 - polish: then a crunch also ends where LPs below `gain_tolerance` still move rattlers. 0 keeps the LP's answer.
 - `full_lps`: else an LP that gains more than 1e-7 ends at a duality gap of 0.02 of its gain.
-- strain: the cell deforms at fixed volume after the fixed cell's optimum; FREE ends strictly jammed. One sphere
-alone needs a strain: its contacts are its own images, which only strains move.
+- strain: the cell deforms at fixed volume after the fixed cell's optimum; FREE ends strictly jammed. One sphere alone
+  needs a strain: its contacts are its own images, which only strains move.
 - `keep_steps`: where there are more states, or more than 2^24 coordinates in all, every second, fourth, ... is kept.
 - `duality_gap`: for packings too large for the jamming point. The barrier path ends at this duality gap, and an LP
   names contacts. Their forces balance. Their own duality gap e is in the report. To first order no motion lets Gamma
   grow by more than e, so that `phi_J` is about phi (1 + e)^(d/2). Contacts that a smaller gap may change are counted
   as undecided. Needs `BARRIER_PATH` and no strain.
+
+- `lp_solver`: one of `:ipm`, `:clp`; default `:ipm`
+- `method`: one of `:barrier_path`, `:sequential_lp`; default `:barrier_path`
+- `polish`: Bool; contacts are closed and forces balanced to rounding; default 1
+- `max_lps`: >= 1, default 1000
+- `threads`: 1 or 2, default 1; bits are reproducible on 1
+- `gain_tolerance`: on sqrt(Gamma) - 1, > 0, default 1e-12
+- `step_tolerance`: on max |`s_i`| of non-rattlers, > 0, default 1e-9
+- `lp_tolerance`: relative complementarity and residual of one LP, default 1e-15
+- `neighbour_radius`: largest pair distance in an LP; 0, the default: adapts
+- `step_bound`: bound on each |`s_i`| component, 1e-15 .. 1000; 0, the default: adapts
+- `wall_time`: limit of the call
+- `steps`: Bool; the callback hears of every step and may call `jam_crunch_step_`...; default 0
+- `full_lps`: Bool; every LP is solved to `lp_tolerance`, so that its network balances; default 0
+- `strain`: one of `:none`, `:edges`, `:tilts`, `:free`, `:volume`, `:edges_volume`, `:tilts_volume`, `:all`; default
+  `:none`
+- `keep_steps`: states before the end that are kept for `page`, 0 .. 1000, default 0
+- `duality_gap`: 0, the default: to the jamming point; or 1e-12 .. 1e-2
+- `prove`: Bool; a packing that ends jammed is proved as by `prove`, into the report; default 0
 """
 mutable struct jam_crunch_options
     struct_size::UInt32
@@ -727,12 +938,69 @@ end
 """
     jam_crunch_report
 
-Result and certificate of `jam_crunch`. All gaps, overlaps and lengths relative to `sigma_ij`. Counts are -1 where
-contacts are unknown, for example after an early stop; calls that need the network then return `JAM_E_STATE`. The
+Result and certificate of `crunch!`. All gaps, overlaps and lengths relative to `sigma_ij`. Counts are -1 where
+contacts are unknown, for example after an early stop; calls that need the network then return an error `:state`. The
 numbers from `packing_fraction_start` to `contacts_kept` say what the crunch did to the packing that it was given:
 displacements in mean diameters without their mean over these spheres; rattlers count, and so does a strain of the
-cell. They are NaN or -1 where no crunch made the report. After `JAM_STOP_DUALITY_GAP` `undecided_contacts` are pairs
-whose force on the path over the mean is within a factor of 1e4 of twice their gap.
+cell. They are NaN or -1 where no crunch made the report. After `:duality_gap` `undecided_contacts` are pairs whose
+force on the path over the mean is within a factor of 1e4 of twice their gap.
+
+- `jammed`: Bool; collectively jammed by the test of `rigidity`; 0: not, undecided, untested
+- `stop_reason`: one of `:none`, `:pressure`, `:packing_fraction`, `:collisions`, `:wall_time`, `:cancelled`,
+  `:stalled`, `:precision`, `:converged`, `:lp_limit`, `:solver`, `:unjammed`, `:time`, `:evaluations`, `:steps`,
+  `:saddle`, `:duality_gap`
+- `lp_solver`: one of `:ipm`, `:clp`; that gave the last LP
+- `method`: one of `:barrier_path`, `:sequential_lp`; that led here: `:barrier_path` if the path was followed
+- `stationary`: Bool; non-negative contact forces balance: no small motion lets diameters grow
+- `strictly_jammed`: one of `:untested`, `:no`, `:yes`, `:undecided`; of the strict test; `:untested` until `rigidity`
+  runs it
+- `packing_fraction`: `phi_J` when jammed
+- `diameter_mean`: unit of box
+- `contacts`: pairs with a force, rattlers left out
+- `rattlers`: spheres that no force-carrying contact touches
+- `stable`: n - rattlers = N', or 0
+- `bucklers`: stable spheres with exactly d+1 contacts
+- `isostatic_contacts`: d (N' - 1) + 1: contacts of a single state of self-stress
+- `excess_contacts`: contacts - `isostatic_contacts`: 0 isostatic or no network, > 0 hyperstatic
+- `flexes`: motions of stable spheres beyond translations that keep contacts with force closed
+- `zero_force_contacts`: closed pairs without force in every state of self-stress, those of rattlers too
+- `undecided_contacts`: pairs with gaps of 1e-10 to 1e-7; after `:duality_gap`: see above
+- `undercoordinated`: stable spheres with d force-carrying contacts or fewer
+- `strict_contacts_needed`: d (N' - 1) + d (d + 1) / 2: fewest contacts of a strictly jammed packing
+- `rigidity_margin`: least eigenvalue of S^T S on contacts with force that is no translation
+- `lp_solves`: LPs solved in full
+- `factorisations`: Cholesky factorisations
+- `gain`: sqrt(Gamma) - 1 of the last LP
+- `max_step`: largest |`s_i`| of a stable sphere in the last LP, mean diameters
+- `max_overlap`: largest -h over all pairs, >= 0
+- `force_residual`: largest |`sum_j` `f_ij` `n_ij`| over mean force
+- `gamma_residual`: |sum `lambda_ij` `sigma_ij`^2 - 1| of the last LP
+- `min_force`: smallest contact force over the mean
+- `min_gap`: least h of stable spheres that is no contact; own images count in a free cell
+- `max_contact_gap`: largest |h| of a contact
+- `duality_gap`: of the last LP, relative to Gamma; after `:duality_gap` that of the forces
+- `force_scale`: mean force in units where sum lambda sigma^2 = 1 (lambda r)
+- `seconds`: wall time of crunch
+- `seconds_factor`: of it in factorisations
+- `seconds_assemble`: of it in neighbour lists and assembly
+- `seconds_solve`: of it in triangular solves
+- `status`: one of `:ok`, `:cancelled`, `:limit`, `:not_converged`, `:precision`, `:not_jammed`, `:ambiguous`,
+  `:null`, `:struct_size`, `:argument`, `:dimension`, `:nonfinite`, `:overlap`, `:unplaceable`, `:buffer`, `:memory`,
+  `:io`, `:format`, `:state`, `:solver`, `:too_few`, `:busy`, `:unsupported`, `:internal`; of the call that made this
+  report
+- `packing_fraction_start`: before this call
+- `displacement_max`: largest displacement
+- `displacement_rms`: root of the mean square
+- `displacement_max_stable`: the same of spheres that end with contacts
+- `displacement_rms_stable`: the same of spheres that end with contacts
+- `contacts_start`: pairs that touched before, as far as the digits of the coordinates show
+- `contacts_kept`: of these the contacts of this report
+- `theorem`: one of `:none`, `:trapped`, `:exact`; `:none` without prove
+- `proof_cause`: one of `:none`, `:excess`, `:force`, `:gap`, `:singular`, `:rattler`, `:images`; : why it is not
+  EXACT
+- `proof_radius`: unit of the box: radius of EXACT, inner of TRAPPED (`jam_proof_report`), or infinite
+- `proof_value`: the two numbers of the cause
+- `proof_bound`: the two numbers of the cause
 """
 mutable struct jam_crunch_report
     struct_size::UInt32
@@ -794,6 +1062,14 @@ end
     jam_estimate
 
 Memory and time of a crunch, estimated from the graph of pairs and its elimination tree.
+
+- `pairs`: of the longest neighbour list
+- `bytes`: peak memory beside what is in use now; for spheres above 20 MB mostly good to 30 %
+- `factor_bytes`: of it for the factorisation
+- `flops`: of one factorisation on the path (sequential LPs: of the widest LP)
+- `factorisations`: median of packings as near to jamming; single ones scatter by a factor of 2
+- `step_seconds`: of one factorisation and what goes with it, on this core; mean over first LP and path
+- `seconds`: the product of both
 """
 mutable struct jam_estimate
     struct_size::UInt32
@@ -811,7 +1087,19 @@ end
 """
     jam_relax_options
 
-Options of `jam_relax`. A free cell is minimised after the minimum of the fixed one.
+Options of `relax!`. A free cell is minimised after the minimum of the fixed one.
+
+- `minimiser`: one of `:newton`, `:fire`, `:lbfgs`; default `:newton`
+- `scale`: one of `:relative`, `:absolute`, `:bare`; default `:relative`
+- `precision`: one of `:reference`, `:double`; default `:reference`
+- `alpha`: exponent of the energy, > 1, default 2
+- `force_tolerance`: on max |`F_i`| of stable spheres over the mean contact force, > 0, default 1e-12
+- `max_evaluations`: of the forces, >= 1, default 1e6
+- `wall_time`: limit of the call
+- `strain`: one of `:none`, `:edges`, `:tilts`, `:free`, `:volume`, `:edges_volume`, `:tilts_volume`, `:all`; default
+  `:none`: what of the cell is free
+- `pressure`: P > 0 with `:volume`: U + P V is minimised, also from no contacts; else 0, the default
+- `components`: bit c d + k: component (c, k) of the strain may change, c <= k, default -1: all
 """
 mutable struct jam_relax_options
     struct_size::UInt32
@@ -832,7 +1120,30 @@ end
 """
     jam_relax_report
 
-What `jam_relax` found.
+What `relax!` found.
+
+- `converged`: Bool; both residuals are below `force_tolerance`, or no spheres overlap
+- `stop_reason`: one of `:none`, `:pressure`, `:packing_fraction`, `:collisions`, `:wall_time`, `:cancelled`,
+  `:stalled`, `:precision`, `:converged`, `:lp_limit`, `:solver`, `:unjammed`, `:time`, `:evaluations`, `:steps`,
+  `:saddle`, `:duality_gap`
+- `minimiser`: one of `:newton`, `:fire`, `:lbfgs`
+- `force_residual`: max |`F_i`| of stable spheres over the mean contact force; 0 without contacts
+- `energy`: U
+- `pressure`: sum of f r over d V
+- `packing_fraction`: of the diameters, overlaps counted twice
+- `distance`: alpha U / sum of f r, an estimate of ln(R / `R_J`)
+- `jammed_fraction`: phi (1 - distance)^d, an estimate of `phi_J`
+- `coordination`: mean number of contacts of a stable sphere
+- `mean_overlap`:
+- `max_overlap`: mean of (sigma - r) / sigma over contacts of stable spheres; largest of all pairs
+- `contacts`: overlapping pairs of stable spheres
+- `excess_contacts`: contacts - (d (stable - 1) + 1)
+- `stable`: n - rattlers
+- `rattlers`: spheres left out
+- `evaluations`: of the forces
+- `factorisations`: of the Hessian
+- `seconds`: wall time
+- `stress_residual`: largest stress that a free cell leaves, less the target, over the pressure
 """
 mutable struct jam_relax_report
     struct_size::UInt32
@@ -862,10 +1173,24 @@ end
 """
     jam_decompress_options
 
-Options of `jam_decompress`. Targets: the first that is reached ends it. With crunch, the packing is crunched from just
+Options of `decompress!`. Targets: the first that is reached ends it. With crunch, the packing is crunched from just
 below contact, and the decompression goes on until both have one network. The system ends as that jammed packing,
 without crunch as the soft one. `max_evaluations`: a later step may take 4 times what all steps before it took, at
 least a 20th of this limit, and never more than it.
+
+- `minimiser`: one of `:newton`, `:fire`, `:lbfgs`; default `:newton`
+- `scale`: one of `:relative`, `:absolute`, `:bare`; default `:relative`
+- `precision`: one of `:reference`, `:double`; default `:reference`
+- `alpha`: exponent of the energy, > 1, default 2
+- `force_tolerance`: as in `jam_relax_options`, default 1e-12
+- `energy_factor`: U falls by this factor a step, in (0, 1), default 0.01; nearer 1 after a failed step
+- `pressure`: targets, as in `jam_relax_report`, >= 0, default 0: none
+- `distance`: targets, as in `jam_relax_report`, >= 0, default 0: none
+- `isostatic`: Bool; end at contacts of one self-stress and d zero modes of the Hessian; default 1
+- `crunch`: Bool; then crunch; default 1
+- `max_steps`: >= 1, default 1000
+- `max_evaluations`: of the forces, in one step, >= 1, default 1e6
+- `wall_time`: limit of the call
 """
 mutable struct jam_decompress_options
     struct_size::UInt32
@@ -889,7 +1214,32 @@ end
 """
     jam_decompress_report
 
-What `jam_decompress` found: numbers of the last soft packing as in `jam_relax_report`, and what crunch made of it.
+What `decompress!` found: numbers of the last soft packing as in `jam_relax_report`, and what crunch made of it.
+
+- `stop_reason`: one of `:none`, `:pressure`, `:packing_fraction`, `:collisions`, `:wall_time`, `:cancelled`,
+  `:stalled`, `:precision`, `:converged`, `:lp_limit`, `:solver`, `:unjammed`, `:time`, `:evaluations`, `:steps`,
+  `:saddle`, `:duality_gap`
+- `isostatic`: Bool; contacts of one state of self-stress and d zero modes of the Hessian
+- `same_network`: 1: crunch ended with the same contacts; 0: with others; -1: not run
+- `force_residual`: max |`F_i`| of stable spheres over the mean contact force
+- `energy`: U
+- `pressure`: sum of f r over d V
+- `packing_fraction`: of the soft packing
+- `distance`: estimate of ln(R / `R_J`)
+- `jammed_fraction`: estimate of `phi_J`
+- `crunch_fraction`: `phi_J` by crunch, NaN when it was not run
+- `force_difference`: largest |`f_soft` - `f_crunch`| over the mean; NaN without the same network
+- `coordination`: mean number of contacts of a stable sphere
+- `contacts`: overlapping pairs of stable spheres
+- `excess_contacts`: contacts - (d (stable - 1) + 1)
+- `common_contacts`: with crunch; -1 when it was not run
+- `rattlers`: spheres left out
+- `steps`: of the decompression
+- `restored`: steps taken back because they lost the network
+- `evaluations`: of the forces
+- `factorisations`: of the Hessian, crunch not counted
+- `seconds`: wall time
+- `seconds_crunch`: of it in crunch
 """
 mutable struct jam_decompress_report
     struct_size::UInt32
@@ -921,8 +1271,12 @@ end
 """
     jam_hessian_options
 
-Options of all calls that use a Hessian. The block of a contact is
-k n n^T - prestress f <sigma> / ((alpha-1) r) (1 - n n^T).
+Options of all calls that use a Hessian. The block of a contact is k n n^T - prestress f <sigma> / ((alpha-1) r) (1 -
+n n^T).
+
+- `stiffness`: one of `:harmonic`, `:power`, `:hard`, `:soft`; default `:harmonic`
+- `alpha`: POWER: > 1, default 2
+- `prestress`: overlap (HARD: gap) at the mean force over mean diameter, in [0, 1), default 0
 """
 mutable struct jam_hessian_options
     struct_size::UInt32
@@ -935,7 +1289,13 @@ end
 """
     jam_modes_options
 
-Options of `jam_modes`.
+Options of `modes`.
+
+- `which`: one of `:lowest`, `:highest`, `:near`, `:all`; default `:lowest`
+- `count`: how many, >= 1, default 10; not used by ALL
+- `frequency`: NEAR: omega >= 0
+- `tolerance`: relative, of Lanczos, in (0, 1), default 1e-10
+- `memory_limit`: bytes, default 2e9: past it an error `:memory` with the estimate
 """
 mutable struct jam_modes_options
     struct_size::UInt32
@@ -950,7 +1310,10 @@ end
 """
     jam_geometry_options
 
-Options of `jam_contacts_from_geometry`.
+Options of `contacts_from_geometry!`.
+
+- `tolerance`: contacts have |h| <= tolerance; 0, the default: set at the largest jump of the sorted gaps
+- `window`: jumps are searched in |h| < window, in (0, 1], default 0.1
 """
 mutable struct jam_geometry_options
     struct_size::UInt32
@@ -963,8 +1326,26 @@ end
 """
     jam_geometry_report
 
-What `jam_contacts_from_geometry` found; gaps relative to `sigma_ij`. second_×: the next candidate that could be rigid;
+What `contacts_from_geometry!` found; gaps relative to `sigma_ij`. second_...: the next candidate that could be rigid;
 its jump is 1 and its contacts -1 when there is none.
+
+- `self_contacts`: with own images: no constraint in a fixed cell, so left out of the network
+- `tolerance`: used
+- `gap_below`: largest |h| within it, rattlers included
+- `gap_above`: least beyond it, window without one
+- `jump`: `gap_above` / `gap_below`, the latter no smaller than resolution
+- `resolution`: of gaps: 1e-15, or far more after a file whose coordinates have few digits
+- `second_jump`: of the next candidate
+- `second_tolerance`: its tolerance
+- `second_contacts`: its contacts
+- `pairs_within`: pairs with |h| <= tolerance, rattlers included
+- `contacts`: of stable spheres
+- `excess_contacts`: contacts - (d (N'-1) + 1)
+- `self_stresses`: dimension of the null space of S^T; a lower bound when `zero_modes` is cut off
+- `zero_modes`: of S^T S, translations among them; no more than 256 others are counted
+- `force_residual`: largest |`sum_j` `f_ij` `n_ij`| over mean force
+- `min_force`: over the mean
+- `clusters`: connected sets of stable spheres; with more than one, each has its own states
 """
 mutable struct jam_geometry_report
     struct_size::UInt32
@@ -991,10 +1372,24 @@ end
 """
     jam_rigidity_report
 
-What `jam_rigidity` found. K+ are the contacts that carry force in some balance of non-negative forces, B the spheres
-that they touch, N' their number. `undecided_contacts`: also pairs that the digits of the coordinates cannot
-distinguish from contacts. `rigidity_margin` below 1e-12: a flex; of a sphere that touches its own images alone: with
-strains.
+What `rigidity` found. K+ are the contacts that carry force in some balance of non-negative forces, B the spheres that
+they touch, N' their number. `undecided_contacts`: also pairs that the digits of the coordinates cannot distinguish
+from contacts. `rigidity_margin` below 1e-12: a flex; of a sphere that touches its own images alone: with strains.
+
+- `kind`: one of `:collective`, `:strict`; that was tested
+- `jammed`: one of `:untested`, `:no`, `:yes`, `:undecided`
+- `stationary`: one of `:untested`, `:no`, `:yes`, `:undecided`; : K+ is not empty, so no small motion lets the
+  diameters grow
+- `stable`: N'
+- `contacts`: |K+|
+- `contacts_needed`: collective d (N' - 1) + 1, strict d (N' - 1) + d (d + 1) / 2
+- `self_stresses`: independent balances of forces on K+, signs free
+- `flexes`: motions beyond translations that keep K+ closed; 0 without K+, 512 at most
+- `undercoordinated`: spheres of B with d contacts of K+ or fewer
+- `zero_force_contacts`: closed pairs that are not in K+
+- `undecided_contacts`: pairs with gaps of 1e-10 to 1e-7
+- `rigidity_margin`: smallest eigenvalue on K+ that is no translation
+- `force_residual`: largest |`sum_j` `f_ij` `n_ij`| over the mean force, of the forces in the proof
 """
 mutable struct jam_rigidity_report
     struct_size::UInt32
@@ -1017,7 +1412,11 @@ end
 """
     jam_check_options
 
-Options of `jam_check_packing`.
+Options of `judge`.
+
+- `crunch`: Bool; an undecided packing is crunched, as a copy, to say what that changes; default 1
+- `wall_time`: limit for this crunch
+- `prove`: Bool; a jammed packing is proved as by `prove`, into the report; default 0
 """
 mutable struct jam_check_options
     struct_size::UInt32
@@ -1032,7 +1431,44 @@ end
     jam_check_report
 
 Verdict on a packing as it is. Gaps are relative to `sigma_ij`, displacements in mean diameters without their mean.
-Closed pairs have gaps below 1e-10. NaN, and -1 for contacts: not known. crunch_×: of the crunched copy.
+Closed pairs have gaps below 1e-10. NaN, and -1 for contacts: not known. crunch_...: of the crunched copy.
+
+- `jammed`: one of `:untested`, `:no`, `:yes`, `:undecided`; : collectively jammed
+- `strictly_jammed`: one of `:untested`, `:no`, `:yes`, `:undecided`; ; `:no` where jammed is `:no`
+- `stationary`: one of `:untested`, `:no`, `:yes`, `:undecided`; : non-negative forces balance
+- `reason`: one of `:proof`, `:apart`, `:no_force`, `:flex`, `:digits`, `:overlap`, `:gaps`, `:margin`; of jammed
+- `dim`: d
+- `digits`: decimal digits that coordinates, diameters or cell seem to have; 0: all
+- `crunch_jammed`: one of `:untested`, `:no`, `:yes`, `:undecided`; ; `:untested` without a copy
+- `n`: number of spheres
+- `contacts`: closed pairs that carry force
+- `excess_contacts`: contacts - (d (N' - 1) + 1), 0 without contacts
+- `rattlers`: n - N': spheres without force
+- `closed_pairs`: those of rattlers among them
+- `zero_force_contacts`: of the pairs that were tested, those without force in every state
+- `undecided_contacts`: pairs that may be contacts or not, by rounding or for lack of digits
+- `self_stresses`: independent balances of forces; with more than one forces are not unique
+- `flexes`:
+- `strict_flexes`: motions beyond translations that keep contacts with force closed; with strains, 0 untested
+- `crunch_contacts`: contacts of the copy
+- `packing_fraction`: of the packing as it is
+- `nearest_gap`: smallest gap of all pairs; negative: an overlap. Infinite: none below 1
+- `min_gap`: smallest gap of two spheres with force that is no contact
+- `max_contact_gap`: largest |gap| of a contact with force
+- `force_residual`: largest |`sum_j` `f_ij` `n_ij`| over the mean force
+- `rigidity_margin`: smallest eigenvalue on contacts with force that is no translation
+- `coordinate_step`: the numbers given are multiples of it, unit of the box; 0: all digits are there
+- `resolution`: of gaps: from the digits of the coordinates, and from overlaps
+- `diameter_factor`: diameters were tested times this, so that no pair overlaps; 1: as they are
+- `crunch_packing_fraction`: of the copy
+- `crunch_displacement_max`: largest displacement in it of a sphere that ends with contacts
+- `crunch_displacement_rms`: root of the mean square of the same
+- `theorem`: one of `:none`, `:trapped`, `:exact`; `:none` without prove
+- `proof_cause`: one of `:none`, `:excess`, `:force`, `:gap`, `:singular`, `:rattler`, `:images`; : why it is not
+  EXACT
+- `proof_radius`: unit of the box: radius of EXACT, inner of TRAPPED (`jam_proof_report`), or infinite
+- `proof_value`: the two numbers of the cause
+- `proof_bound`: the two numbers of the cause
 """
 mutable struct jam_check_report
     struct_size::UInt32
@@ -1077,8 +1513,29 @@ end
 """
     jam_proof_report
 
-What `jam_prove` found. Bounds are rounded outward; NaN where they do not apply. The exact diameters are sqrt(Gamma)
+What `prove` found. Bounds are rounded outward; NaN where they do not apply. The exact diameters are sqrt(Gamma)
 `ratio_i` times the power of two at or below V^(1/d). Where no ratios are given, equal spheres have 1.
+
+- `theorem`: one of `:none`, `:trapped`, `:exact`
+- `cause`: one of `:none`, `:excess`, `:force`, `:gap`, `:singular`, `:rattler`, `:images`; : why theorem is not
+  `:exact`
+- `stable`: spheres with contacts, N'
+- `contacts`: equations: d (N' - 1) + 1 unknowns
+- `cause_value`: see `jam_proof_cause`
+- `cause_bound`: see `jam_proof_cause`
+- `radius`: unit of the box: no refined centre is farther from the exact one
+- `gamma`: Gamma is about the sum of both
+- `gamma_low`: Gamma is about the sum of both
+- `packing_fraction`: of the exact packing, rounded to double
+- `fraction_error`: relative error of `phi_J` from gamma + `gamma_low`
+- `least_force`: over the mean force
+- `force_error`: of every force, over the mean force
+- `least_gap`: relative, of pairs that are no contacts; 1e-3 if none is smaller
+- `inner`: unit of the box: see `jam_theorem`
+- `outer`: unit of the box: see `jam_theorem`
+- `singular`: below the smallest singular value of the rows 2 `r_c`, in units of that power of two
+- `eigenvalue`: estimate of its square
+- `rounding`: error bound that was taken off the square
 """
 mutable struct jam_proof_report
     struct_size::UInt32
@@ -1108,7 +1565,12 @@ end
 """
     jam_correlation_options
 
-Options of `jam_pair_correlation`.
+Options of `pair_correlation`.
+
+- `a`: labels of the spheres, default -1: any
+- `b`: labels of the spheres, default -1: any
+- `r_max`: mean diameters, > 0, default 4
+- `bins`: equal ones from 0 to `r_max`, 1 .. 1e8, default 200
 """
 mutable struct jam_correlation_options
     struct_size::UInt32
@@ -1123,7 +1585,12 @@ end
 """
     jam_dos_options
 
-Options of `jam_density_of_states`.
+Options of `density_of_states`.
+
+- `moments`: Chebyshev moments, 8..1e6, default 512: resolution in omega about 1.6 `omega_max` / moments
+- `vectors`: random vectors, 2..1e5, default 16
+- `points`: values of omega, default 200
+- `seed`: of the random vectors, default 1
 """
 mutable struct jam_dos_options
     struct_size::UInt32
@@ -1138,6 +1605,13 @@ end
     jam_moduli_report
 
 Elastic moduli, unit: stiffness at the mean force times length^(2-d). Affine: without the non-affine part.
+
+- `bulk`: K
+- `bulk_affine`: K without the non-affine part
+- `shear`: G for simple shear, mean over the d (d-1) coordinate directions
+- `shear_affine`: affine G
+- `shear_min`: smallest G of the planes, both directions averaged
+- `shear_max`: largest of them
 """
 mutable struct jam_moduli_report
     struct_size::UInt32
@@ -1154,7 +1628,17 @@ end
 """
     jam_comparison
 
-What `jam_compare` found between sys, a, and other, b. Contacts are -1 and overlaps NaN where one has no network.
+What `compare` found between sys, a, and other, b. Contacts are -1 and overlaps NaN where one has no network.
+
+- `contacts_a`: of sys
+- `contacts_b`: of other
+- `common_contacts`: pairs in both
+- `stable_in_both`: spheres that are rattlers in neither
+- `overlap`: common over union
+- `overlap_a`: common over `contacts_a`: sys as the reference
+- `packing_fraction_change`: phi of other minus phi of sys
+- `displacement_rms`: of these (or all) without their mean, in mean diameters of sys
+- `displacement_max`: of these (or all) without their mean, in mean diameters of sys
 """
 mutable struct jam_comparison
     struct_size::UInt32
@@ -2128,7 +2612,7 @@ moves. Rattlers are the spheres that carry no force. Contacts between the others
 are the null vector of S^T, or the analytic centre of the non-negative ones where there are several states of
 self-stress. The stored report's `jammed` is the verdict of `jam_rigidity`, whatever the tolerance. Status, with the
 network kept each time: `JAM_OK`: one jump stands out, or only this candidate has a single state of self-stress.
-`JAM_AMBIGUOUS`: another candidate fits too (see second_×), or there are several states of self-stress. Also where gaps
+`JAM_AMBIGUOUS`: another candidate fits too (see second_...), or there are several states of self-stress. Also where gaps
 above 1e-7 leave the verdict open, or where coordinates have too few digits for a no. `JAM_NOT_JAMMED`: not
 collectively jammed even with these contacts closed.
 Errors: `JAM_E_SOLVER`.

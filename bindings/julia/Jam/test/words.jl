@@ -12,4 +12,4 @@ end
 shown = sprint(show, MIME"text/plain"(), @doc Jam.jam_gaps)
 @test occursin("h_max", shown) && occursin("*rows = gaps", replace(shown, r"\s+" => " ")) && occursin("Without stable_only", replace(shown, r"\s+" => " "))
 shown = sprint(show, MIME"text/plain"(), @doc Jam.jam_crunch_options)
-@test occursin("tol_overlap, interval_overlaps_check", replace(shown, r"\s+" => " "))
+@test occursin("neighbour_radius:", shown) && occursin(":barrier_path, :sequential_lp", shown)

@@ -38,11 +38,11 @@ def julia(folder):
     pages = [JULIA]
     for name in re.findall(r'include\("(\w+\.jl)"\)', (folder / "Jam.jl").read_text()):
         text = (folder / name).read_text()
-        blocks = [] if name in ("raw.jl", "tables.jl") else [*_short_docstrings(text), *_docstrings(text)]
+        blocks = [] if name in ("raw.jl", "tables.jl") else [*_docstrings(text), *_short_docstrings(text)]
         if not blocks:
             continue
         head = text.splitlines()[0].removeprefix("# ")
-        pages.append(f"\n## {'Calls of the header' if name == 'methods.jl' else head.split('. ')[0].rstrip('.')}\n")
+        pages.append(f"\n## {'Calls of the header' if name == 'methods.jl' else re.split('[.:;,] ', head)[0].rstrip('.')}\n")
         for signature, body in blocks:
             body = body.replace("```jldoctest", "```julia-repl").replace("\\$", "$").replace("\\\\", "\\")
             pages.append(_fenced("julia", signature) + "\n" + body + "\n")

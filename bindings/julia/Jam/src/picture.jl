@@ -38,13 +38,16 @@ function lines(io, x, sigma, pairs, n, f)
     end
 end
 
-"What draw() writes, and its copies on all sides of the periodic cell a."
-function periodic(draw, io, name, a)
+"Whether each axis is closed by walls, across which nothing repeats."
+closed(now) = now.container === :ball ? (true, true) : Tuple((now.walls >> c) & 1 == 1 for c in 0:1)
+
+"What draw() writes, and its copies on all sides of the cell a that are open."
+function periodic(draw, io, name, a, walls)
     println(io, "<g id=\"$name\" stroke-linecap=\"round\">")
     draw()
     println(io, "</g>")
     for p in -1:1, q in -1:1
-        p == q == 0 && continue
+        (p == q == 0 || (walls[1] && p != 0) || (walls[2] && q != 0)) && continue
         shift = p .* a[:, 1] .+ q .* a[:, 2]
         println(io, "<use href=\"#$name\" x=\"$(shown(shift[1]))\" y=\"$(shown(-shift[2]))\"/>")
     end
@@ -52,15 +55,17 @@ end
 
 function svg(io::IO, s::System; forces::Bool = true, width::Integer = 800)
     info(s).dim == 2 || throw(ArgumentError("pictures are of d = 2; page(path, s) shows d = 3"))
-    x, sigma, a, network = positions(s), diameters(s), cell(s), network_of(s)
+    x, sigma, a, network, walls = positions(s), diameters(s), cell(s), network_of(s), closed(info(s))
     corners, (left, top, wide, high) = frame(a)
     outline = "M" * join((move(corners[:, k]) for k in 1:4), " L") * " Z"
     println(io, "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"$width\" height=\"$(round(Int, width * high / wide))\" ",
             "viewBox=\"$(join(shown.((left, top, wide, high)), " "))\">")
     println(io, "<clipPath id=\"cell\"><path d=\"$outline\"/></clipPath><g clip-path=\"url(#cell)\">")
-    periodic(() -> disks(io, x, sigma, network === nothing ? nothing : network[1]), io, "disks", a)
-    forces && network !== nothing && periodic(() -> lines(io, x, sigma, network[2:4]...), io, "forces", a)
-    println(io, "</g><path d=\"$outline\" fill=\"none\" stroke=\"#000\" stroke-width=\"$(shown(wide / 400))\"/></svg>")
+    periodic(() -> disks(io, x, sigma, network === nothing ? nothing : network[1]), io, "disks", a, walls)
+    forces && network !== nothing && periodic(() -> lines(io, x, sigma, network[2:4]...), io, "forces", a, walls)
+    frame_line = "fill=\"none\" stroke=\"#000\" stroke-width=\"$(shown(wide / 400))\""
+    println(io, "</g>", info(s).container !== :ball ? "<path d=\"$outline\" $frame_line/></svg>" :
+            "<circle cx=\"$(shown(wide / 2))\" cy=\"$(shown(-high / 2))\" r=\"$(shown(wide / 2))\" $frame_line/></svg>")
 end
 
 """

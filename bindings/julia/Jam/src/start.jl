@@ -56,11 +56,28 @@ function cell_of(box, cell, dim)
     throw(ArgumentError("$name must be $wanted, not $(x isa Number ? "one number" : "an array of size $(size(x))")$hint"))
 end
 
+"Axes with flat walls as C's number, from letters such as \"xz\" or a truth value an axis."
+function walls_of(walls, dim)
+    walls === nothing && return 0
+    letters = "xyz"[1:min(dim, 3)]
+    if walls isa AbstractString
+        all(c -> count(==(c), walls) == 1 && c in letters, walls) ||
+            throw(ArgumentError("walls must name axes of $(repr(letters)) once each, not $(repr(walls))"))
+        return sum(Int[1 << (findfirst(==(c), letters) - 1) for c in walls])
+    end
+    length(walls) == dim && all(w -> w isa Bool, walls) ||
+        throw(ArgumentError("walls must be letters such as \"x\" or $dim truth values, not $(repr(walls))"))
+    return sum(Int[1 << (c - 1) for (c, wall) in enumerate(walls) if wall])
+end
+
 "Makes the C system; positions, sizes and cell may be nothing."
 function create(given, x, sizes; progress = nothing)
     box, vectors = cell_of(get(given, :box, nothing), get(given, :cell, nothing), get(given, :dim, 3))
-    o = options(jam_create_options, (; (k => v for (k, v) in pairs(given) if !(k in (:box, :cell)))..., box = box))
+    own = (:box, :cell, :walls, :container)
+    o = options(jam_create_options, (; (k => v for (k, v) in pairs(given) if !(k in own))..., box = box))
     out, start = Ref{Ptr{Cvoid}}(C_NULL), jam_start()
+    start.container = number(:container, get(given, :container, :brick), :container)
+    start.walls = walls_of(get(given, :walls, nothing), get(given, :dim, 3))
     watch, done = watcher(progress)
     w = Watcher(watch, nothing)
     GC.@preserve x sizes vectors w begin

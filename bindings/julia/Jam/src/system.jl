@@ -22,6 +22,9 @@ From a d-by-n matrix, or a vector of points, and n diameters or one. Positions a
 cell whose vectors are the columns of `cell`; d sides make a brick. Without both, positions must lie in [0, 1]. A last row that
 equals the sizes is refused unless `dim` confirms that it is a coordinate. `overlap`: `:refuse`, `:shrink` or `:allow`.
 
+Both ways take `walls`, axes with flat walls as letters (`"z"`) or truth values, and `container`: `:cylinder` (d = 3, about z) or
+`:ball`, whose diameter is the edge of the cell. Nothing repeats across a wall.
+
     System(path; box, frame, overlap, shrink_min, seed, model, mk_zeta)
 
 From a file: plain text, extended XYZ, LAMMPS data and dumps, tables, each also compressed. `notes` has what was changed.

@@ -31,3 +31,13 @@ steps = Ref(0)
 @test_throws ErrorException System(n = 20000, dim = 3, packing_fraction = 0.3, progress = p -> error("from the callback"))
 s = System(n = 60, dim = 2, packing_fraction = 0.9, overlap = :allow)
 @test info(s).packing_fraction ≈ 0.9
+
+# Containers: spheres keep inside, and only open axes repeat.
+ball = System(n = 20, dim = 2, packing_fraction = 0.2, container = :ball)
+@test info(ball).container === :ball
+@test all(sqrt.(sum(abs2, positions(ball) .- 0.5; dims = 1))[1, :] .<= 0.5 .- radii(ball) .+ 1e-12)
+slab = System(n = 20, dim = 3, packing_fraction = 0.1, walls = "z")
+@test info(slab).walls == 4 && info(System(n = 20, dim = 3, packing_fraction = 0.1, walls = (false, false, true))).walls == 4
+@test all(radii(slab) .- 1e-12 .<= positions(slab)[3, :] .<= 1 .- radii(slab) .+ 1e-12)
+@test occursin("once each", failure(() -> System(n = 8, dim = 2, walls = "z")))
+@test count("<use", sprint(show, MIME"image/svg+xml"(), ball)) == 0 && count("<use", sprint(show, MIME"image/svg+xml"(), System(n = 8, dim = 2, walls = "x"))) == 2

@@ -62,7 +62,7 @@ def avoided_words(root, problem):
                 problem(path, number, f"'{found.group()}': write plainly, as in: {plain}")
 
     for path, text in pages(root):
-        if path not in (root / "CHANGELOG.md", root / "src/crunch/README.md"):
+        if path != root / "CHANGELOG.md":  # lines of earlier versions stay as they were
             for number, line in enumerate(without_code(text).splitlines(), 1):
                 check(path, number, line)
     for pattern in ("src/capi/*.?pp", "src/io/*.?pp", "bindings/cli/*.[ch]", "bindings/gen/options.py"):

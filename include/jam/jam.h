@@ -17,7 +17,7 @@
  * Cells
  * - Cell vectors are the rows of a (d, d) matrix, as in ASE, extended XYZ and H5MD.
  * - libjam keeps them short (Lenstra, Lenstra, Lovasz 1982) and lower-triangular, with a positive diagonal. A cell
- * given in another form is reduced, and rotated where it must be. The spheres rotate with it.
+ *   given in another form is reduced, and rotated where it must be. The spheres rotate with it.
  * - Spheres stand in the brick [0, a_00) x [0, a_11) x ..., which repeats as the cell does.
  * - The plain text format holds cubes alone. All else works in any cell.
  *
@@ -28,7 +28,7 @@
  * - Arrays out: the caller's buffer, its length in elements, and `needed`, in elements too. NULL and 0 only ask for the
  *   size. A buffer that is too short gives JAM_E_BUFFER, sets `needed` and is not written.
  * - Several numbers a row are a `table` of shape (rows, columns). An enum names its columns; counts are whole numbers
- * in it, and NaN stands where a column has no meaning.
+ *   in it, and NaN stands where a column has no meaning.
  * - Arrays of several types or shapes have `rows` in place of `needed`: the shapes given there, for that many rows, are
  *   the lengths. Each of these arrays may be NULL with length 0.
  * - Options, reports and other structs begin with struct_size, which the caller sets to sizeof. Fill options by
@@ -59,12 +59,12 @@
  *
  * Threads
  * - Distinct handles are independent. On one handle, calls that take it as const may run together. Any other call must
- * be alone. While it runs, calls of other threads get JAM_E_BUSY, and its callback may use const calls. jam_cancel may
- * be called from any thread or signal handler at any time. Calls without a handle may be called from any thread.
+ *   be alone. While it runs, calls of other threads get JAM_E_BUSY, and its callback may use const calls. jam_cancel
+ *   may be called from any thread or signal handler at any time. Calls without a handle may be called from any thread.
  * - The same seed, build, options and processor give the same packing bit for bit on one thread. On another processor
  *   OpenBLAS may choose another kernel (jam_blas_kernel), whose sums round otherwise. Then a crunch can end at another
  *   jamming point. The variable OPENBLAS_CORETYPE chooses one kernel for all. Molecular dynamics and Monte Carlo give
- * the same bits on every processor.
+ *   the same bits on every processor.
  * - While a call factorises a matrix or solves a linear program by Clp, OpenBLAS has one thread in the whole process.
  *   libjam restores the previous number of threads afterwards. Host threads that use OpenBLAS meanwhile run on one
  *   thread each.

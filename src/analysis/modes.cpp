@@ -234,4 +234,15 @@ jam_status find_modes(const RigidityMatrix &g, const ContactWeights &w, const ja
   return status;
 }
 
+double inverse_participation(int dim, int32_t nodes, const double *v) {
+  double two = 0.0, four = 0.0;
+  for (int32_t i = 0; i < nodes; ++i) {
+    double s = 0.0;
+    for (int c = 0; c < dim; ++c) s += v[static_cast<size_t>(i) * dim + c] * v[static_cast<size_t>(i) * dim + c];
+    two += s;
+    four += s * s;
+  }
+  return two > 0.0 ? four / (two * two) : 0.0;
+}
+
 }  // namespace jam

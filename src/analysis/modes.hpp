@@ -20,8 +20,8 @@ void check_modes_options(const jam_modes_options &o, const RigidityMatrix &g);
 jam_status find_modes(const RigidityMatrix &g, const ContactWeights &w, const jam_modes_options &o, Monitor &monitor,
                       Modes &out);
 
-// All eigenvalues (and vectors) of a dense symmetric matrix given column-major in a, which is overwritten by the
-// vectors. `stop` is asked between stages. False when stopped.
+// All eigenvalues (and vectors) of a dense symmetric matrix, whose lower triangle a gives column-major; the vectors
+// overwrite it. `stop` is asked between stages. False when stopped.
 bool dense_eigen(int n, std::vector<double> &a, std::vector<double> &lambda, bool vectors,
                  const std::function<bool(double)> &stop);
 // modes_dense.cpp: eigenvalues and vectors of the whole Hessian; JAM_CANCELLED when stopped.

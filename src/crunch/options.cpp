@@ -6,6 +6,7 @@
 #include "core/create.hpp"
 #include "core/error.hpp"
 #include "core/limits.hpp"
+#include "lp/packing_lp.hpp"
 
 namespace jam {
 
@@ -26,6 +27,8 @@ jam_crunch_options default_crunch_options() {
 
 void check_options(const Packing &p, const jam_crunch_options &o) {
   check_enum(o.lp_solver, JAM_LP_IPM, JAM_LP_CLP, "lp_solver", "jam_lp_solver");
+  if (o.lp_solver == JAM_LP_CLP && !clp_is_built())
+    fail(JAM_E_UNSUPPORTED, "lp_solver is JAM_LP_CLP, and this build of libjam has no Clp (JAM_CLP=OFF)");
   check_enum(o.method, JAM_CRUNCH_BARRIER_PATH, JAM_CRUNCH_SEQUENTIAL_LP, "method", "jam_crunch_method");
   check_at_least(o.max_lps, 1, "max_lps");
   check_threads(o.threads);

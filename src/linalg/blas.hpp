@@ -1,54 +1,35 @@
-// The few BLAS routines libjam calls, and the rule that they run on one thread inside it.
+// The dense products and triangular solves of the factorisation, by one of two files that CMake's JAM_BLAS chooses:
+// blas/fortran.cpp calls a BLAS library, blas/builtin.cpp has loops of its own. Matrices are stored by columns; ld: the
+// distance of two columns. L is lower triangular, and what stands above its diagonal is never read.
 #pragma once
+#include <cstddef>
 
 namespace jam {
 
-extern "C" {
-void dtrsm_(const char *side, const char *uplo, const char *trans, const char *diag, const int *m, const int *n,
-            const double *alpha, const double *a, const int *lda, double *b, const int *ldb);
-void dsyrk_(const char *uplo, const char *trans, const int *n, const int *k, const double *alpha, const double *a,
-            const int *lda, const double *beta, double *c, const int *ldc);
-void dgemm_(const char *ta, const char *tb, const int *m, const int *n, const int *k, const double *alpha,
-            const double *a, const int *lda, const double *b, const int *ldb, const double *beta, double *c,
-            const int *ldc);
-void dgemv_(const char *trans, const int *m, const int *n, const double *alpha, const double *a, const int *lda,
-            const double *x, const int *incx, const double *beta, double *y, const int *incy);
-void dtrsv_(const char *uplo, const char *trans, const char *diag, const int *n, const double *a, const int *lda,
-            double *x, const int *incx);
-void strsm_(const char *side, const char *uplo, const char *trans, const char *diag, const int *m, const int *n,
-            const float *alpha, const float *a, const int *lda, float *b, const int *ldb);
-void ssyrk_(const char *uplo, const char *trans, const int *n, const int *k, const float *alpha, const float *a,
-            const int *lda, const float *beta, float *c, const int *ldc);
-void sgemm_(const char *ta, const char *tb, const int *m, const int *n, const int *k, const float *alpha,
-            const float *a, const int *lda, const float *b, const int *ldb, const float *beta, float *c,
-            const int *ldc);
-void sgemv_(const char *trans, const int *m, const int *n, const float *alpha, const float *a, const int *lda,
-            const float *x, const int *incx, const float *beta, float *y, const int *incy);
-void strsv_(const char *uplo, const char *trans, const char *diag, const int *n, const float *a, const int *lda,
-            float *x, const int *incx);
-}
+// Whether a result is written, or added to what is there.
+enum class Result : bool { written, added };
 
-// The same routines by the type of their numbers.
 template <class Real>
-struct Blas;
-template <>
-struct Blas<double> {
-  static constexpr auto trsm = dtrsm_;
-  static constexpr auto syrk = dsyrk_;
-  static constexpr auto gemm = dgemm_;
-  static constexpr auto gemv = dgemv_;
-  static constexpr auto trsv = dtrsv_;
-};
-template <>
-struct Blas<float> {
-  static constexpr auto trsm = strsm_;
-  static constexpr auto syrk = ssyrk_;
-  static constexpr auto gemm = sgemm_;
-  static constexpr auto gemv = sgemv_;
-  static constexpr auto trsv = strsv_;
+struct Blas {
+  // C, m x n: - A B^T, with A m x k and B n x k; all sizes > 0.
+  static void minus_product(int m, int n, int k, const Real *a, int lda, const Real *b, int ldb, Result result, Real *c,
+                            int ldc);
+  // The same with A = B, on and below the diagonal alone.
+  static void minus_square(int n, int k, const Real *b, int ldb, Result result, Real *c, int ldc);
+  // B := B L^-T, with B m x n.
+  static void divide(int m, int n, const Real *l, int ldl, Real *b, int ldb);
+  // X := L^-1 X and X := L^-T X, with X n x count.
+  static void solve(int n, int count, const Real *l, int ldl, Real *x, int ldx);
+  static void solve_transposed(int n, int count, const Real *l, int ldl, Real *x, int ldx);
+  // Y := A X, with A m x n and X n x count.
+  static void multiply(int m, int n, int count, const Real *a, int lda, const Real *x, int ldx, Real *y, int ldy);
+  // X := X - A^T Y, of the same shapes.
+  static void subtract_transposed(int m, int n, int count, const Real *a, int lda, const Real *y, int ldy, Real *x,
+                                  int ldx);
 };
 
-// Name of the kernel in use: the bits of sums depend on it. The file of the library where it is not OpenBLAS.
+// Name of the kernel in use: the bits of sums depend on it. "builtin" for our own loops, whose bits are the same on all
+// processors; the file of the library where it is not OpenBLAS.
 const char *blas_kernel();
 
 // While at least one lives, OpenBLAS runs single-threaded whatever the host set: blocks are small, libjam brings its

@@ -12,13 +12,6 @@ namespace jam {
 namespace {
 
 template <class Real>
-constexpr Real one = 1;
-template <class Real>
-constexpr Real minus_one = -1;
-template <class Real>
-constexpr Real zero = 0;
-constexpr int inc = 1;
-template <class Real>
 constexpr Real huge_pivot = Real(sizeof(Real) == sizeof(double) ? 1e64 : 1e15);  // the square root of what replaces it
 constexpr int narrow = 48;  // columns that are factored without splitting them
 // Fewer multiplications than this are done before a second thread has started; a product of a vector is as slow as
@@ -53,15 +46,13 @@ int factor_small(Real *a, int lda, int columns, const Real *original, const Pivo
   return replaced;
 }
 
-// C = beta C - B B_top^T on and below the diagonal of the first `columns` columns of C; B has as many rows as C.
+// C: -B B_top^T on and below the diagonal of the first `columns` columns of C; B has as many rows as C.
 template <class Real>
-void minus_trapezoid(Real *c, int ldc, int rows, int columns, const Real *b, int ldb, int k, const Real &beta) {
+void minus_trapezoid(Real *c, int ldc, int rows, int columns, const Real *b, int ldb, int k, Result result) {
   if (columns == 0) return;
-  Blas<Real>::syrk("L", "N", &columns, &k, &minus_one<Real>, b, &ldb, &beta, c, &ldc);
+  Blas<Real>::minus_square(columns, k, b, ldb, result, c, ldc);
   const int rest = rows - columns;
-  if (rest > 0)
-    Blas<Real>::gemm("N", "T", &rest, &columns, &k, &minus_one<Real>, b + columns, &ldb, b, &ldb, &beta, c + columns,
-                     &ldc);
+  if (rest > 0) Blas<Real>::minus_product(rest, columns, k, b + columns, ldb, b, ldb, result, c + columns, ldc);
 }
 
 double area_of(int rows, int columns) { return columns * (rows - 0.5 * columns); }
@@ -69,22 +60,23 @@ double area_of(int rows, int columns) { return columns * (rows - 0.5 * columns);
 // The same, on two threads when it is worth it: columns are split where the two areas are even.
 template <class Real>
 void minus_trapezoid_on(int threads, Real *c, int ldc, int rows, int columns, const Real *b, int ldb, int k,
-                        const Real &beta) {
+                        Result result) {
   const double area = area_of(rows, columns);
-  if (threads < 2 || area * k < worth_a_thread) return minus_trapezoid(c, ldc, rows, columns, b, ldb, k, beta);
+  if (threads < 2 || area * k < worth_a_thread) return minus_trapezoid(c, ldc, rows, columns, b, ldb, k, result);
   const int cut = static_cast<int>(rows - std::sqrt(static_cast<double>(rows) * rows - area));
   on_two_threads([&](int part) {
     if (part == 0)
-      minus_trapezoid(c, ldc, rows, cut, b, ldb, k, beta);
+      minus_trapezoid(c, ldc, rows, cut, b, ldb, k, result);
     else
-      minus_trapezoid(c + static_cast<size_t>(cut) * ldc + cut, ldc, rows - cut, columns - cut, b + cut, ldb, k, beta);
+      minus_trapezoid(c + static_cast<size_t>(cut) * ldc + cut, ldc, rows - cut, columns - cut, b + cut, ldb, k,
+                      result);
   });
 }
 
 template <class Real>
-void minus_trapezoid(Real *c, int ldc, int rows, int columns, const Real *b, int ldb, int k, const Real &beta,
+void minus_trapezoid(Real *c, int ldc, int rows, int columns, const Real *b, int ldb, int k, Result result,
                      int threads) {
-  const auto work = [&] { minus_trapezoid_on(threads, c, ldc, rows, columns, b, ldb, k, beta); };
+  const auto work = [&] { minus_trapezoid_on(threads, c, ldc, rows, columns, b, ldb, k, result); };
   if (area_of(rows, columns) * k < worth_telling) return work();
   while_telling(work);
 }
@@ -94,23 +86,11 @@ template <class Real>
 void divide_by_top(const Real *top, int ld, int rows, int columns, Real *b, int threads) {
   if (rows == 0) return;
   if (threads < 2 || static_cast<double>(rows) * columns * columns < worth_a_thread) {
-    Blas<Real>::trsm("R", "L", "T", "N", &rows, &columns, &one<Real>, top, &ld, b, &ld);
+    Blas<Real>::divide(rows, columns, top, ld, b, ld);
     return;
   }
   const int half = rows / 2, rest = rows - half;
-  on_two_threads([&](int part) {
-    Blas<Real>::trsm("R", "L", "T", "N", part ? &rest : &half, &columns, &one<Real>, top, &ld, part ? b + half : b,
-                     &ld);
-  });
-}
-
-// The triangle on top of a panel, forward ("N") or backward ("T").
-template <class Real>
-void solve_top(const Real *panel, int ld, int columns, Real *x, int ldx, int nrhs, const char *trans) {
-  if (nrhs == 1)
-    Blas<Real>::trsv("L", trans, "N", &columns, panel, &ld, x, &inc);
-  else
-    Blas<Real>::trsm("L", "L", trans, "N", &columns, &nrhs, &one<Real>, panel, &ld, x, &ldx);
+  on_two_threads([&](int part) { Blas<Real>::divide(part ? rest : half, columns, top, ld, part ? b + half : b, ld); });
 }
 
 }  // namespace
@@ -127,27 +107,22 @@ int factor_panel(Real *panel, int ld, int rows, int columns, const Real *origina
   const int left = (columns / 2 + narrow - 1) / narrow * narrow;
   const int replaced = factor_panel(panel, ld, rows, left, original, rule, threads);
   Real *trailing = panel + static_cast<size_t>(left) * ld + left;
-  minus_trapezoid(trailing, ld, rows - left, columns - left, panel + left, ld, left, one<Real>, threads);
+  minus_trapezoid(trailing, ld, rows - left, columns - left, panel + left, ld, left, Result::added, threads);
   return replaced + factor_panel(trailing, ld, rows - left, columns - left, original + left, rule, threads);
 }
 
 template <class Real>
 void minus_square(Real *c, int n, const Real *b, int ldb, int k, int threads) {
-  if (n > 0 && k > 0) minus_trapezoid(c, n, n, n, b, ldb, k, zero<Real>, threads);
+  if (n > 0 && k > 0) minus_trapezoid(c, n, n, n, b, ldb, k, Result::written, threads);
 }
 
 template <class Real>
 void panel_forward(const Real *panel, int ld, int rows, int columns, Real *top, int ldt, Real *below, int ldb, int nrhs,
                    int threads) {
-  solve_top(panel, ld, columns, top, ldt, nrhs, "N");
+  Blas<Real>::solve(columns, nrhs, panel, ld, top, ldt);
   const auto multiply = [&](int first, int count) {
-    const Real *l = panel + columns + first;
-    if (count == 0) return;
-    if (nrhs == 1)
-      Blas<Real>::gemv("N", &count, &columns, &one<Real>, l, &ld, top, &inc, &zero<Real>, below + first, &inc);
-    else
-      Blas<Real>::gemm("N", "N", &count, &nrhs, &columns, &one<Real>, l, &ld, top, &ldt, &zero<Real>, below + first,
-                       &ldb);
+    if (count > 0)
+      Blas<Real>::multiply(count, columns, nrhs, panel + columns + first, ld, top, ldt, below + first, ldb);
   };
   if (threads < 2 || static_cast<double>(rows) * columns < worth_a_reader) return multiply(0, rows);
   on_two_threads([&](int part) { part ? multiply(rows / 2, rows - rows / 2) : multiply(0, rows / 2); });
@@ -157,19 +132,15 @@ template <class Real>
 void panel_backward(const Real *panel, int ld, int rows, int columns, Real *top, int ldt, const Real *below, int ldb,
                     int nrhs, int threads) {
   const auto multiply = [&](int first, int count) {
-    const Real *l = panel + static_cast<size_t>(first) * ld + columns;
-    if (rows == 0 || count == 0) return;
-    if (nrhs == 1)
-      Blas<Real>::gemv("T", &rows, &count, &minus_one<Real>, l, &ld, below, &inc, &one<Real>, top + first, &inc);
-    else
-      Blas<Real>::gemm("T", "N", &count, &nrhs, &rows, &minus_one<Real>, l, &ld, below, &ldb, &one<Real>, top + first,
-                       &ldt);
+    if (rows > 0 && count > 0)
+      Blas<Real>::subtract_transposed(rows, count, nrhs, panel + static_cast<size_t>(first) * ld + columns, ld, below,
+                                      ldb, top + first, ldt);
   };
   if (threads < 2 || static_cast<double>(rows) * columns < worth_a_reader)
     multiply(0, columns);
   else
     on_two_threads([&](int part) { part ? multiply(columns / 2, columns - columns / 2) : multiply(0, columns / 2); });
-  solve_top(panel, ld, columns, top, ldt, nrhs, "T");
+  Blas<Real>::solve_transposed(columns, nrhs, panel, ld, top, ldt);
 }
 
 template int factor_panel(double *, int, int, int, const double *, const PivotRule &, int);

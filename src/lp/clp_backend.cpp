@@ -122,6 +122,8 @@ class PackingModel {
 
 }  // namespace
 
+bool clp_is_built() { return true; }
+
 LpSolution solve_lp_clp(const PackingLp &lp, double tolerance, const Monitor *monitor, const LpSolution *start) {
   PackingModel packing(lp, tolerance, monitor);
   if (!packing.usable) return packing.none();

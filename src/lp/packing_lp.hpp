@@ -87,6 +87,8 @@ inline void transpose_times(const PackingLp &lp, const double *y, double *out) {
   columns_transpose_times(lp.strain.data(), static_cast<size_t>(lp.strains), lp.rows(), y, out + lp.spheres());
 }
 
+// Whether this build has Clp (JAM_CLP). Without it the two functions below give no answer, and the log says why.
+bool clp_is_built();
 // Clp's simplex on the same LP: slow and independent. threads-safe: one model a call. monitor, which may be NULL,
 // can interrupt it between two pivots. start: a basis from a former answer with rows for this LP (0: not known), or
 // NULL.

@@ -57,7 +57,7 @@ TUNED = {
 }
 # Files that may keep state of the process, each with its reason.
 STATEFUL = {
-    "src/linalg/blas.cpp": "counts, under a lock, who needs OpenBLAS on one thread, and gives the host its own number back"
+    "src/linalg/blas/fortran.cpp": "counts, under a lock, who needs OpenBLAS on one thread, and gives the host its own number back"
 }
 
 

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "core/instruction_set.hpp"
+
 namespace jam {
 
 // One sphere. Loops load it as words of 64 bits, so the members stand in this order without gaps.
@@ -81,11 +83,8 @@ struct PairKernel {
   int32_t (*partners)(const Partners<D> &spheres, int32_t self, int32_t *found);
 };
 
-enum class InstructionSet : int64_t { best, portable, avx2, avx512 };
 // The kernels of an instruction set. The choice changes no bit.
 template <int D>
 PairKernel<D> pair_kernel(InstructionSet set);
-// Whether this processor, and this build, has it.
-bool has_instruction_set(InstructionSet set);
 
 }  // namespace jam

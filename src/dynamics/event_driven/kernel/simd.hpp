@@ -1,20 +1,14 @@
 // Vectors of four doubles or 64-bit integers and of eight floats or 32-bit integers: as GCC and Clang define them where
-// registers have 32 bytes (JAM_SIMD_256), two halves elsewhere (simd_halves.hpp). A file that includes this header
-// first defines
-//   JAM_SIMD_NAMESPACE  a namespace of its own, so that no function of one instruction set is linked into another;
-//   JAM_SIMD_TARGET     the attribute that selects the instruction set of each function, or nothing.
-// All forms round alike: the same bits everywhere.
+// registers have 32 bytes (JAM_SIMD_256), two halves elsewhere (simd_halves.hpp). core/simd.hpp says what a file that
+// includes this header defines first. All forms round alike: the same bits everywhere.
 #pragma once
 #include <cstdint>
-#include <cstring>
 #if defined(__SSE2__)
 #include <immintrin.h>
 #endif
 
 #include "core/byte_order.hpp"
-
-#define JAM_SIMD_INLINE JAM_SIMD_TARGET __attribute__((always_inline)) inline
-#pragma GCC diagnostic ignored "-Wpsabi"  // no vector crosses the border of a file
+#include "core/simd.hpp"
 
 #if !defined(JAM_SIMD_256)
 #include "dynamics/event_driven/kernel/simd_halves.hpp"
@@ -22,17 +16,6 @@
 
 namespace jam {
 namespace JAM_SIMD_NAMESPACE {
-
-template <class Vector>
-JAM_SIMD_INLINE Vector load(const void *at) {
-  Vector v;
-  std::memcpy(&v, at, sizeof v);
-  return v;
-}
-template <class Vector>
-JAM_SIMD_INLINE void store(void *at, const Vector &v) {
-  std::memcpy(at, &v, sizeof v);
-}
 
 #if defined(JAM_SIMD_256)
 typedef double Double4 __attribute__((vector_size(32)));

@@ -1,4 +1,4 @@
-// The full spectrum: Householder reduction, divide and conquer, back transformation (LAPACK by OpenBLAS). Reduction and
+// The full spectrum: Householder reduction, divide and conquer, back transformation (LAPACK). Reduction and
 // back transformation go panel by panel, as dsytrd and dormtr do inside, so that they can be cancelled; dstedc is one
 // call.
 #include <algorithm>
@@ -81,17 +81,6 @@ bool dense_eigen(int n, std::vector<double> &a, std::vector<double> &lambda, boo
   }
   a.swap(z);
   return true;
-}
-
-double inverse_participation(int dim, int32_t nodes, const double *v) {
-  double two = 0.0, four = 0.0;
-  for (int32_t i = 0; i < nodes; ++i) {
-    double s = 0.0;
-    for (int c = 0; c < dim; ++c) s += v[static_cast<size_t>(i) * dim + c] * v[static_cast<size_t>(i) * dim + c];
-    two += s;
-    four += s * s;
-  }
-  return two > 0.0 ? four / (two * two) : 0.0;
 }
 
 }  // namespace jam

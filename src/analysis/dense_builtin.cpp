@@ -1,0 +1,211 @@
+// The full spectrum without LAPACK, with the same bits on all processors: Householder reduction by panels (Dongarra,
+// Hammarling and Sorensen, J. Comput. Appl. Math. 27, 215 (1989)), then QL with implicit shifts (Golub and Van Loan,
+// Matrix Computations, sec. 8.3).
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "analysis/modes.hpp"
+#include "core/error.hpp"
+#include "linalg/blas.hpp"
+
+namespace jam {
+namespace {
+
+using Stop = std::function<bool(double)>;
+constexpr int panel = 32;               // columns whose reflections change the rest of the matrix at once
+constexpr int strip = 16;               // rows of the vectors that a rotation turns at once
+constexpr size_t most_waiting = 50000;  // rotations, which fit into the second cache with a strip
+constexpr int most_iterations = 60;     // for an eigenvalue; two are usual
+
+// A symmetric matrix becomes tridiagonal: `diagonal`, `off`. Below the diagonal of A stay the vectors v of the
+// reflections 1 - tau v v^T.
+struct Reduction {
+  int n;
+  std::vector<double> &a;
+  std::vector<double> diagonal, off, tau;
+  Reduction(int size, std::vector<double> &matrix)
+      : n(size), a(matrix), diagonal(size), off(size, 0.0), tau(size, 0.0) {}
+  double *at(int row, int column) { return &a[static_cast<size_t>(column) * n + row]; }
+
+  // v and tau of the reflection that maps x to a multiple of its first entry, which is returned; x becomes v.
+  double reflect(int m, double *x, double &factor) {
+    double rest = 0.0;
+    Blas<double>::subtract_transposed(m - 1, 1, 1, x + 1, m, x + 1, m, &rest, 1);
+    rest = -rest;
+    if (rest == 0.0) {
+      factor = 0.0;
+      return x[0];
+    }
+    const double length = std::sqrt(x[0] * x[0] + rest), alpha = x[0] > 0.0 ? -length : length;
+    x[0] -= alpha;
+    factor = 2.0 / (x[0] * x[0] + rest);
+    return alpha;
+  }
+
+  // Columns k to k + width. left = (V, W) and right = (W, V), of `rest` rows: A - left right^T is the matrix so far.
+  void reduce_panel(int k, int width, std::vector<double> &left, std::vector<double> &right) {
+    const int rest = n - k;
+    const auto v = [&](int c) { return &left[static_cast<size_t>(c) * rest]; };
+    const auto w = [&](int c) { return &left[static_cast<size_t>(width + c) * rest]; };
+    std::vector<double> dots(2 * static_cast<size_t>(width)), change(rest);
+    std::fill(left.begin(), left.end(), 0.0);
+    std::fill(right.begin(), right.end(), 0.0);
+    for (int c = 0; c < width; ++c) {
+      double *const column = at(k, k + c);
+      for (int q = 0; q < c; ++q)
+        for (int i = c; i < rest; ++i) column[i] -= v(q)[i] * w(q)[c] + w(q)[i] * v(q)[c];
+      diagonal[k + c] = column[c];
+      const int m = rest - c - 1;
+      if (m == 0) return;
+      off[k + c] = reflect(m, column + c + 1, tau[k + c]);
+      std::copy(column + c + 1, column + rest, v(c) + c + 1);
+      const double *const x = v(c) + c + 1;
+      double *const p = w(c) + c + 1;
+      Blas<double>::multiply(m, m, 1, at(k + c + 1, k + c + 1), n, x, m, p, m);
+      std::fill(dots.begin(), dots.end(), 0.0);
+      if (c > 0) {  // p -= V (W . x) + W (V . x), with right = (W, V)
+        Blas<double>::subtract_transposed(m, 2 * width, 1, &right[c + 1], rest, x, m, dots.data(), 2 * width);
+        Blas<double>::multiply(m, 2 * width, 1, &left[c + 1], rest, dots.data(), 2 * width, change.data(), m);
+        // The column of p itself has the factor zero, since that of x in `right` is not yet there.
+        for (int i = 0; i < m; ++i) p[i] += change[i];
+      }
+      double product = 0.0;
+      Blas<double>::subtract_transposed(m, 1, 1, p, m, x, m, &product, 1);
+      const double t = tau[k + c], half = 0.5 * t * t * product;
+      for (int i = 0; i < m; ++i) p[i] = t * p[i] + half * x[i];
+      std::copy(p, p + m, &right[static_cast<size_t>(c) * rest + c + 1]);
+      std::copy(x, x + m, &right[static_cast<size_t>(width + c) * rest + c + 1]);
+    }
+    const int m = rest - width;
+    if (m > 0)
+      Blas<double>::minus_product(m, m, 2 * width, &left[width], rest, &right[width], rest, Result::added,
+                                  at(k + width, k + width), n);
+  }
+
+  bool run(const Stop &stop) {
+    for (int k = 0; k < n; k += panel) {
+      const double left_over = 1.0 - static_cast<double>(k) / n;
+      if (stop(0.4 * (1.0 - left_over * left_over * left_over))) return false;
+      const int width = std::min(panel, n - k);
+      std::vector<double> left(static_cast<size_t>(n - k) * 2 * width), right(left.size());
+      reduce_panel(k, width, left, right);
+    }
+    return true;
+  }
+
+  // The product of all reflections.
+  bool vectors(const Stop &stop, std::vector<double> &z) {
+    for (int first = 0; first < n; first += panel) {
+      if (stop(0.4 + 0.2 * first / n)) return false;
+      const int columns = std::min(panel, n - first);
+      double dots[panel];
+      for (int c = 0; c < columns; ++c) z[static_cast<size_t>(first + c) * n + first + c] = 1.0;
+      for (int k = n - 2; k >= 0; --k) {
+        if (tau[k] == 0.0) continue;
+        double *const rows = &z[static_cast<size_t>(first) * n + k + 1];
+        std::fill(dots, dots + columns, 0.0);
+        Blas<double>::subtract_transposed(n - k - 1, columns, 1, rows, n, at(k + 1, k), n, dots, columns);
+        for (int c = 0; c < columns; ++c) dots[c] *= -tau[k];
+        Blas<double>::minus_product(n - k - 1, columns, 1, at(k + 1, k), n, dots, columns, Result::added, rows, n);
+      }
+    }
+    return true;
+  }
+};
+
+struct Rotation {
+  int column;  // with the next one
+  double c, s;
+};
+
+// Turns the columns of z, strip by strip, and forgets the rotations.
+void apply(std::vector<Rotation> &waiting, int n, std::vector<double> &z) {
+  for (int row = 0; row < n && !z.empty(); row += strip) {
+    const int rows = std::min(strip, n - row);
+    for (const Rotation &r : waiting) {
+      double *const x = &z[static_cast<size_t>(r.column) * n + row], *const y = x + n;
+      for (int i = 0; i < rows; ++i) {
+        const double left = x[i], right = y[i];
+        x[i] = r.c * left - r.s * right;
+        y[i] = r.s * left + r.c * right;
+      }
+    }
+  }
+  waiting.clear();
+}
+
+// One step of QL on the rows l to m, which nothing couples to others.
+void ql_step(int l, int m, double *d, double *e, bool vectors, std::vector<Rotation> &waiting) {
+  double g = (d[l + 1] - d[l]) / (2.0 * e[l]), r = std::sqrt(g * g + 1.0);
+  g = d[m] - d[l] + e[l] / (g + (g >= 0.0 ? r : -r));
+  double s = 1.0, c = 1.0, p = 0.0;
+  for (int i = m - 1; i >= l; --i) {
+    const double f = s * e[i], b = c * e[i];
+    e[i + 1] = r = std::sqrt(f * f + g * g);
+    if (r == 0.0) {  // the rows come apart here
+      d[i + 1] -= p;
+      e[m] = 0.0;
+      return;
+    }
+    s = f / r, c = g / r;
+    g = d[i + 1] - p;
+    r = (d[i] - g) * s + 2.0 * c * b;
+    p = s * r;
+    d[i + 1] = g + p;
+    g = c * r - b;
+    if (vectors) waiting.push_back({i, c, s});
+  }
+  d[l] -= p, e[l] = g, e[m] = 0.0;
+}
+
+bool diagonalise(int n, double *d, double *e, std::vector<double> &z, const Stop &stop) {
+  constexpr double rounding = std::numeric_limits<double>::epsilon();
+  std::vector<Rotation> waiting;
+  for (int l = 0; l < n; ++l) {
+    if (l % panel == 0 && stop(0.6 + 0.4 * l / n)) return false;
+    for (int iteration = 0;; ++iteration) {
+      int m = l;
+      while (m + 1 < n && std::fabs(e[m]) > rounding * (std::fabs(d[m]) + std::fabs(d[m + 1]))) ++m;
+      if (m == l) break;
+      if (iteration == most_iterations) fail(JAM_E_SOLVER, "QL did not converge at eigenvalue %d of %d", l, n);
+      ql_step(l, m, d, e, !z.empty(), waiting);
+      if (waiting.size() > most_waiting) apply(waiting, n, z);
+    }
+  }
+  apply(waiting, n, z);
+  return true;
+}
+
+}  // namespace
+
+bool dense_eigen(int n, std::vector<double> &a, std::vector<double> &lambda, bool vectors, const Stop &stop) {
+  lambda.assign(n, 0.0);
+  if (n == 0) return true;
+  double largest = 0.0;
+  for (int j = 0; j < n; ++j)
+    for (int i = j; i < n; ++i) {
+      const double x = a[static_cast<size_t>(j) * n + i];
+      a[static_cast<size_t>(i) * n + j] = x;
+      largest = std::max(largest, std::fabs(x));
+    }
+  int exponent = 0;
+  std::frexp(largest, &exponent);  // squares of numbers near one neither overflow nor vanish
+  for (double &x : a) x = std::ldexp(x, -exponent);
+  Reduction reduction(n, a);
+  std::vector<double> z(vectors ? static_cast<size_t>(n) * n : 0);
+  if (!reduction.run(stop) || (vectors && !reduction.vectors(stop, z))) return false;
+  double *const d = reduction.diagonal.data();
+  if (!diagonalise(n, d, reduction.off.data(), z, stop)) return false;
+  std::vector<int> order(n);
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](int i, int j) { return d[i] < d[j]; });
+  for (int k = 0; k < n; ++k) {
+    lambda[k] = std::ldexp(d[order[k]], exponent);
+    if (vectors) std::copy_n(&z[static_cast<size_t>(order[k]) * n], n, &a[static_cast<size_t>(k) * n]);
+  }
+  return true;
+}
+
+}  // namespace jam

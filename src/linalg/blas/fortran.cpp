@@ -1,0 +1,203 @@
+// The routines of blas.hpp by a BLAS library with Fortran's interface: OpenBLAS, or any other (JAM_BLAS).
+#include "linalg/blas.hpp"
+
+#include <dlfcn.h>
+#include <sys/mman.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <memory>
+#include <mutex>
+#include <new>
+#include <string>
+#include <vector>
+
+extern "C" {
+void dtrsm_(const char *side, const char *uplo, const char *trans, const char *diag, const int *m, const int *n,
+            const double *alpha, const double *a, const int *lda, double *b, const int *ldb);
+void dsyrk_(const char *uplo, const char *trans, const int *n, const int *k, const double *alpha, const double *a,
+            const int *lda, const double *beta, double *c, const int *ldc);
+void dgemm_(const char *ta, const char *tb, const int *m, const int *n, const int *k, const double *alpha,
+            const double *a, const int *lda, const double *b, const int *ldb, const double *beta, double *c,
+            const int *ldc);
+void dgemv_(const char *trans, const int *m, const int *n, const double *alpha, const double *a, const int *lda,
+            const double *x, const int *incx, const double *beta, double *y, const int *incy);
+void dtrsv_(const char *uplo, const char *trans, const char *diag, const int *n, const double *a, const int *lda,
+            double *x, const int *incx);
+void strsm_(const char *side, const char *uplo, const char *trans, const char *diag, const int *m, const int *n,
+            const float *alpha, const float *a, const int *lda, float *b, const int *ldb);
+void ssyrk_(const char *uplo, const char *trans, const int *n, const int *k, const float *alpha, const float *a,
+            const int *lda, const float *beta, float *c, const int *ldc);
+void sgemm_(const char *ta, const char *tb, const int *m, const int *n, const int *k, const float *alpha,
+            const float *a, const int *lda, const float *b, const int *ldb, const float *beta, float *c,
+            const int *ldc);
+void sgemv_(const char *trans, const int *m, const int *n, const float *alpha, const float *a, const int *lda,
+            const float *x, const int *incx, const float *beta, float *y, const int *incy);
+void strsv_(const char *uplo, const char *trans, const char *diag, const int *n, const float *a, const int *lda,
+            float *x, const int *incx);
+// Of OpenBLAS alone; JAM_BLAS = any may link another library.
+__attribute__((weak)) void openblas_set_num_threads(int count);
+__attribute__((weak)) int openblas_get_num_threads(void);
+__attribute__((weak)) char *openblas_get_corename(void);
+// What each routine of OpenBLAS takes its buffer from. Not in its header, so another build may hide them.
+__attribute__((weak)) void *blas_memory_alloc(int);
+__attribute__((weak)) void blas_memory_free(void *);
+}
+
+namespace jam {
+namespace {
+template <class Real>
+struct Fortran;
+template <>
+struct Fortran<double> {
+  static constexpr auto trsm = dtrsm_;
+  static constexpr auto syrk = dsyrk_;
+  static constexpr auto gemm = dgemm_;
+  static constexpr auto gemv = dgemv_;
+  static constexpr auto trsv = dtrsv_;
+};
+template <>
+struct Fortran<float> {
+  static constexpr auto trsm = strsm_;
+  static constexpr auto syrk = ssyrk_;
+  static constexpr auto gemm = sgemm_;
+  static constexpr auto gemv = sgemv_;
+  static constexpr auto trsv = strsv_;
+};
+template <class Real>
+constexpr Real one = 1;
+template <class Real>
+constexpr Real minus_one = -1;
+template <class Real>
+constexpr Real zero = 0;
+constexpr int step = 1;
+template <class Real>
+const Real *factor_of(Result result) {
+  return result == Result::added ? &one<Real> : &zero<Real>;
+}
+template <class Real>
+void solve_any(const char *trans, int n, int count, const Real *l, int ldl, Real *x, int ldx) {
+  if (count == 1)
+    Fortran<Real>::trsv("L", trans, "N", &n, l, &ldl, x, &step);
+  else
+    Fortran<Real>::trsm("L", "L", trans, "N", &n, &count, &one<Real>, l, &ldl, x, &ldx);
+}
+
+struct Host {
+  std::mutex lock;
+  int guards = 0, threads = 1;
+  int computing = 0;  // threads that may be inside OpenBLAS at once
+  int buffers = 0;    // that OpenBLAS has
+};
+Host &host() {
+  static Host h;
+  return h;
+}
+
+const void *library_of(const void *function) {
+  Dl_info found;
+  return dladdr(function, &found) ? found.dli_fbase : nullptr;
+}
+// False where another library has, or came first under, the names of BLAS.
+bool openblas_answers() {
+  static const bool same = openblas_get_corename && openblas_get_num_threads && openblas_set_num_threads &&
+                           library_of(reinterpret_cast<const void *>(dgemm_)) ==
+                               library_of(reinterpret_cast<const void *>(openblas_get_corename));
+  return same;
+}
+std::string file_of_blas() {
+  Dl_info found;
+  if (!dladdr(reinterpret_cast<const void *>(dgemm_), &found) || !found.dli_fname) return "unknown";
+  const std::unique_ptr<char, void (*)(void *)> path(realpath(found.dli_fname, nullptr), std::free);
+  return path ? path.get() : found.dli_fname;
+}
+
+// OpenBLAS maps a buffer for each thread that is inside it at once, and keeps it. Where the system has no memory for
+// one it asks again and again without end. So buffers are asked for here first.
+void reserve_buffers(Host &h, int wanted) {
+  constexpr size_t size_of_buffer = size_t{128} << 20;  // BUFFER_SIZE of its builds for x86-64, the largest
+  if (wanted <= h.buffers || !openblas_answers()) return;
+  const size_t size = static_cast<size_t>(wanted - h.buffers) * size_of_buffer;
+  void *const probe = mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (probe == MAP_FAILED) throw std::bad_alloc();
+  munmap(probe, size);
+  if (blas_memory_alloc && blas_memory_free) {
+    std::vector<void *> taken(static_cast<size_t>(wanted), nullptr);
+    for (void *&buffer : taken) buffer = blas_memory_alloc(0);
+    for (void *buffer : taken) blas_memory_free(buffer);
+  }
+  h.buffers = wanted;
+}
+
+int &counted_on_this_thread() {
+  static thread_local int threads = 0;
+  return threads;
+}
+
+}  // namespace
+
+template <class Real>
+void Blas<Real>::minus_product(int m, int n, int k, const Real *a, int lda, const Real *b, int ldb, Result result,
+                               Real *c, int ldc) {
+  Fortran<Real>::gemm("N", "T", &m, &n, &k, &minus_one<Real>, a, &lda, b, &ldb, factor_of<Real>(result), c, &ldc);
+}
+template <class Real>
+void Blas<Real>::minus_square(int n, int k, const Real *b, int ldb, Result result, Real *c, int ldc) {
+  Fortran<Real>::syrk("L", "N", &n, &k, &minus_one<Real>, b, &ldb, factor_of<Real>(result), c, &ldc);
+}
+template <class Real>
+void Blas<Real>::divide(int m, int n, const Real *l, int ldl, Real *b, int ldb) {
+  Fortran<Real>::trsm("R", "L", "T", "N", &m, &n, &one<Real>, l, &ldl, b, &ldb);
+}
+template <class Real>
+void Blas<Real>::solve(int n, int count, const Real *l, int ldl, Real *x, int ldx) {
+  solve_any("N", n, count, l, ldl, x, ldx);
+}
+template <class Real>
+void Blas<Real>::solve_transposed(int n, int count, const Real *l, int ldl, Real *x, int ldx) {
+  solve_any("T", n, count, l, ldl, x, ldx);
+}
+template <class Real>
+void Blas<Real>::multiply(int m, int n, int count, const Real *a, int lda, const Real *x, int ldx, Real *y, int ldy) {
+  if (count == 1)
+    Fortran<Real>::gemv("N", &m, &n, &one<Real>, a, &lda, x, &step, &zero<Real>, y, &step);
+  else
+    Fortran<Real>::gemm("N", "N", &m, &count, &n, &one<Real>, a, &lda, x, &ldx, &zero<Real>, y, &ldy);
+}
+template <class Real>
+void Blas<Real>::subtract_transposed(int m, int n, int count, const Real *a, int lda, const Real *y, int ldy, Real *x,
+                                     int ldx) {
+  if (count == 1)
+    Fortran<Real>::gemv("T", &m, &n, &minus_one<Real>, a, &lda, y, &step, &one<Real>, x, &step);
+  else
+    Fortran<Real>::gemm("T", "N", &n, &count, &m, &minus_one<Real>, a, &lda, y, &ldy, &one<Real>, x, &ldx);
+}
+template struct Blas<double>;
+template struct Blas<float>;
+
+const char *blas_kernel() {
+  if (openblas_answers()) return openblas_get_corename();
+  static const std::string file = file_of_blas();
+  return file.c_str();
+}
+
+BlasSingleThread::BlasSingleThread(int threads) : more_(std::max(0, threads - counted_on_this_thread())) {
+  Host &h = host();
+  const std::lock_guard<std::mutex> hold(h.lock);
+  reserve_buffers(h, h.computing + more_);
+  h.computing += more_;
+  counted_on_this_thread() += more_;
+  if (h.guards++ > 0 || !openblas_answers()) return;
+  h.threads = openblas_get_num_threads();
+  if (h.threads != 1) openblas_set_num_threads(1);
+}
+
+BlasSingleThread::~BlasSingleThread() {
+  Host &h = host();
+  const std::lock_guard<std::mutex> hold(h.lock);
+  h.computing -= more_;
+  counted_on_this_thread() -= more_;
+  if (--h.guards == 0 && h.threads != 1) openblas_set_num_threads(h.threads);
+}
+
+}  // namespace jam

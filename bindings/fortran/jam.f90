@@ -124,9 +124,9 @@ module jam
   integer(c_int32_t), parameter :: JAM_LOG_DEBUG = 3
 
   ! jam_format: File formats. Behind any ending .gz compresses the file. PLAIN: line 1: d. Line 2: N. Line 3: the diameter, or the
-  ! word `diameters`; then, when it is not 1, the box as `box <L>`. Then a line a sphere: its position, and its diameter
-  ! after `diameters`, with 17 digits. XYZ: Lattice, dim, Properties=id:I:1:pos:R:d:radius:R:1 and, after a crunch,
-  ! contacts:I:1. VTP: points with diameter, and after a crunch contacts and kind (0 rattler, 1 buckler, 2 other).
+  ! word `diameters`; then, when it is not 1, the box as `box <L>`. Then one line per sphere: its position, and its
+  ! diameter after `diameters`, with 17 digits. XYZ: Lattice, dim, Properties=id:I:1:pos:R:d:radius:R:1 and, after a
+  ! crunch, contacts:I:1. VTP: points with diameter, and after a crunch contacts, kind (0 rattler, 1 buckler, 2 other).
   integer(c_int32_t), parameter :: JAM_FORMAT_AUTO = 0
   integer(c_int32_t), parameter :: JAM_FORMAT_PLAIN = 1
   integer(c_int32_t), parameter :: JAM_FORMAT_XYZ = 2
@@ -151,13 +151,13 @@ module jam
   integer(c_int32_t), parameter :: JAM_SERIES_ERROR = 4
   integer(c_int32_t), parameter :: JAM_SERIES_MSD = 5
 
-  ! jam_gap_column: Columns of jam_observed_gaps, a row a bin.
+  ! jam_gap_column: Columns of jam_observed_gaps, one row per bin.
   integer(c_int32_t), parameter :: JAM_GAP_LOW = 0
   integer(c_int32_t), parameter :: JAM_GAP_HIGH = 1
   integer(c_int32_t), parameter :: JAM_GAP_DENSITY = 2
   integer(c_int32_t), parameter :: JAM_GAP_ERROR = 3
 
-  ! jam_correlation_column: Columns of jam_observed_correlation, a row a bin.
+  ! jam_correlation_column: Columns of jam_observed_correlation, one row per bin.
   integer(c_int32_t), parameter :: JAM_CORRELATION_R = 0
   integer(c_int32_t), parameter :: JAM_CORRELATION_G = 1
 
@@ -218,8 +218,8 @@ module jam
   integer(c_int32_t), parameter :: JAM_STEP_LP = 2
   integer(c_int32_t), parameter :: JAM_STEP_POLISH = 3
 
-  ! jam_history_column: Columns of the history of a crunch, a row a step. Displacements are those of all spheres, their mean taken out, in
-  ! mean diameters after the step.
+  ! jam_history_column: Columns of the history of a crunch, one row per step. Displacements are those of all spheres, their mean taken out,
+  ! in mean diameters after the step.
   integer(c_int32_t), parameter :: JAM_HISTORY_PHASE = 0
   integer(c_int32_t), parameter :: JAM_HISTORY_GAIN = 1
   integer(c_int32_t), parameter :: JAM_HISTORY_PHI = 2
@@ -256,7 +256,7 @@ module jam
   integer(c_int32_t), parameter :: JAM_SOFT_REFERENCE = 0
   integer(c_int32_t), parameter :: JAM_SOFT_DOUBLE = 1
 
-  ! jam_soft_column: Columns of the history of a decompression, a row a minimum.
+  ! jam_soft_column: Columns of the history of a decompression, one row per minimum.
   integer(c_int32_t), parameter :: JAM_SOFT_PHI = 0
   integer(c_int32_t), parameter :: JAM_SOFT_PRESSURE = 1
   integer(c_int32_t), parameter :: JAM_SOFT_ENERGY = 2
@@ -282,7 +282,7 @@ module jam
   integer(c_int32_t), parameter :: JAM_MODES_NEAR = 2
   integer(c_int32_t), parameter :: JAM_MODES_ALL = 3
 
-  ! jam_mode_column: Columns of jam_modes, a row a mode.
+  ! jam_mode_column: Columns of jam_modes, one row per mode.
   integer(c_int32_t), parameter :: JAM_MODE_LAMBDA = 0
   integer(c_int32_t), parameter :: JAM_MODE_PARTICIPATION = 1
 
@@ -353,9 +353,9 @@ module jam
   integer(c_int32_t), parameter :: JAM_STRUCTURE_Q = 0
   integer(c_int32_t), parameter :: JAM_STRUCTURE_S = 1
 
-  ! jam_floppy_column: Columns of jam_floppy_modes, a row a contact; dr is the field of jam_floppy_mode, and F the mean force. Openings have
-  ! the unit of positions: divide by the diameter to compare packings of different N. B = sum_k f_k |dr_perp|^2 / r_k.
-  ! S_RETURN is s* of R. Diaz Hernandez Rojas, PhD thesis, Sapienza 2021, whose index is twice stability.
+  ! jam_floppy_column: Columns of jam_floppy_modes, one row per contact; dr is the field of jam_floppy_mode, and F the mean force. Openings
+  ! have the unit of positions: divide by the diameter to compare packings of different N. B = sum_k f_k |dr_perp|^2 /
+  ! r_k. S_RETURN is s* of R. Diaz Hernandez Rojas, PhD thesis, Sapienza 2021, whose index is twice stability.
   integer(c_int32_t), parameter :: JAM_FLOPPY_MEDIAN = 0
   integer(c_int32_t), parameter :: JAM_FLOPPY_WEIGHT = 1
   integer(c_int32_t), parameter :: JAM_FLOPPY_S_PLUS = 2
@@ -363,7 +363,7 @@ module jam
   integer(c_int32_t), parameter :: JAM_FLOPPY_STABILITY = 4
   integer(c_int32_t), parameter :: JAM_FLOPPY_S_RETURN = 5
 
-  ! jam_dos_column: Columns of jam_density_of_states, a row a bin of the frequency omega.
+  ! jam_dos_column: Columns of jam_density_of_states, one row per bin of the frequency omega.
   integer(c_int32_t), parameter :: JAM_DOS_OMEGA = 0
   integer(c_int32_t), parameter :: JAM_DOS_DENSITY = 1
   integer(c_int32_t), parameter :: JAM_DOS_ERROR = 2
@@ -373,7 +373,7 @@ module jam
 
   ! Given to the progress callback; valid during the call only. NaN: not known.
   type, bind(c) :: jam_progress
-    ! as the library knows it
+    ! as in this library
     integer(c_int32_t) :: struct_size = 104
     ! jam_phase
     integer(c_int32_t) :: phase = 0
@@ -484,7 +484,7 @@ module jam
     integer(c_int32_t) :: monodisperse = 0
     ! jam_masses
     integer(c_int32_t) :: masses = 0
-    ! jam_phase of what was stopped early and can go on (crunch: by jam_crunch), or 0
+    ! jam_phase of what was stopped early and can continue (crunch: by jam_crunch), or 0
     integer(c_int32_t) :: paused = 0
     ! Delta of a non-additive mixture, 0 for additive diameters
     real(c_double) :: non_additivity = 0
@@ -568,7 +568,7 @@ module jam
   ! Limits of jam_run (NVE). Whichever comes first ends the run. All but wall_time count since the run began.
   type, bind(c) :: jam_run_options
     integer(c_int32_t) :: struct_size = 0
-    ! 1: go on with the run that stopped early; default 0
+    ! 1: continue the run that stopped early; default 0
     integer(c_int32_t) :: resume = 0
     ! to make, > 0, default 100
     real(c_double) :: collisions_per_particle = 0
@@ -584,7 +584,7 @@ module jam
   ! at every n.
   type, bind(c) :: jam_compress_options
     integer(c_int32_t) :: struct_size = 0
-    ! 1: go on with the stage that stopped early, with all but the limits; default 0
+    ! 1: continue the stage that stopped early, with all but the limits; default 0
     integer(c_int32_t) :: resume = 0
     ! G > 0: one stage at this rate; 0, the default: the two stages of jam_compress
     real(c_double) :: growth_rate = 0
@@ -741,7 +741,7 @@ module jam
     integer(c_int32_t) :: threads = 0
     ! jam_clock, default COLLISIONS
     integer(c_int32_t) :: clock = 0
-    ! 1: continue the runs that this handle holds; default 0
+    ! 1: continue the runs of this handle; default 0
     integer(c_int32_t) :: resume = 0
     ! number of the first run, >= 0, default 0
     integer(c_int64_t) :: first_run = 0
@@ -863,7 +863,7 @@ module jam
     real(c_double) :: packing_fraction = 0
     ! unit of box
     real(c_double) :: diameter_mean = 0
-    ! pairs with a force, rattlers left out
+    ! pairs with a force, without rattlers
     integer(c_int64_t) :: contacts = 0
     ! spheres that no force-carrying contact touches
     integer(c_int64_t) :: rattlers = 0
@@ -1027,7 +1027,7 @@ module jam
     integer(c_int64_t) :: excess_contacts = 0
     ! n - rattlers
     integer(c_int64_t) :: stable = 0
-    ! spheres left out
+    ! spheres not in the network
     integer(c_int64_t) :: rattlers = 0
     ! of the forces
     integer(c_int64_t) :: evaluations = 0
@@ -1040,7 +1040,7 @@ module jam
   end type jam_relax_report
 
   ! Options of jam_decompress. Targets: the first that is reached ends it. With crunch, the packing is crunched from just
-  ! below contact, and the decompression goes on until both have one network. The system ends as that jammed packing,
+  ! below contact, and the decompression continues until both have one network. The system ends as that jammed packing,
   ! without crunch as the soft one. max_evaluations: a later step may take 4 times what all steps before it took, at
   ! least a 20th of this limit, and never more than it.
   type, bind(c) :: jam_decompress_options
@@ -1107,7 +1107,7 @@ module jam
     integer(c_int64_t) :: excess_contacts = 0
     ! with crunch; -1 when it was not run
     integer(c_int64_t) :: common_contacts = 0
-    ! spheres left out
+    ! spheres not in the network
     integer(c_int64_t) :: rattlers = 0
     ! of the decompression
     integer(c_int64_t) :: steps = 0
@@ -1164,7 +1164,7 @@ module jam
   ! its jump is 1 and its contacts -1 when there is none.
   type, bind(c) :: jam_geometry_report
     integer(c_int32_t) :: struct_size = 136
-    ! with own images: no constraint in a fixed cell, so left out of the network
+    ! with own images: no constraint in a fixed cell, so not in the network
     integer(c_int32_t) :: self_contacts = 0
     ! used
     real(c_double) :: tolerance = 0
@@ -1629,7 +1629,7 @@ module jam
       integer(c_int32_t) :: status
     end function jam_set_log
 
-    ! Asks all calls that run on sys to stop soon with JAM_CANCELLED. When no call runs, the next call that must be alone
+    ! Requests that all calls on sys stop soon with JAM_CANCELLED. When no call runs, the next call that must be alone
     ! on sys stops, unless it is a setter. jam_cancel only increments an atomic counter.
     function jam_cancel(sys) &
         bind(c, name="jam_cancel") result(status)
@@ -1679,9 +1679,9 @@ module jam
     ! Event-driven NVE dynamics (Alder and Wainwright, J. Chem. Phys. 31, 459 (1959)). Velocities are drawn at first use,
     ! by the seed alone. They are Maxwell-Boltzmann, with sum m v^2 = d N and zero total momentum. A run or stage that ends
     ! with JAM_CANCELLED or JAM_LIMIT, even while its lists were made, stays with the handle. Its checkpoints have it too,
-    ! until the next call that changes spheres. With resume = 1 it goes on to the same bits as if it had not stopped;
+    ! until the next call that changes spheres. With resume = 1 it continues to the same bits as if it had not stopped;
     ! JAM_E_STATE when there is none. Splitting a run by wall_time therefore does not change its result. A failure while it
-    ! goes on loses the stage, not the packing. Status: JAM_OK when the collisions were made, JAM_PRECISION,
+    ! continues loses the stage, not the packing. Status: JAM_OK when the collisions were made, JAM_PRECISION,
     ! JAM_NOT_CONVERGED (no collision can happen: one sphere, zero velocities, or paths that never meet). The log gives the
     ! reason of the last two.
     ! Errors: JAM_E_OVERLAP.
@@ -1697,11 +1697,11 @@ module jam
     ! Lubachevsky-Stillinger compression (J. Stat. Phys. 60, 561 (1990)). Without a growth_rate, and with o NULL, it runs
     ! the two-stage protocol that avoids crystals in d = 3: G = 1e-2 to p = 500, then G = 3e-3 to the pressure of o, 1e7 by
     ! default (a stage costs about 1.63 (N/G) ln(p2/p1) collisions). For another protocol make one call per stage. A
-    ! thermostat holds sum m v^2 within 5 % of d N, and at the end the velocities are scaled to it exactly. Status: JAM_OK
+    ! thermostat keeps sum m v^2 within 5 % of d N, and at the end the velocities are scaled to it exactly. Status: JAM_OK
     ! (a pressure or packing-fraction target reached, see report->stop_reason), JAM_PRECISION, JAM_NOT_CONVERGED (stalled:
-    ! a sphere touches its own image, or no time passes between collisions). A resumed call finishes the stage and goes on
-    ! with the next. Small systems (below about 200 equal spheres in d = 3) order under this protocol. From a fluid to a
-    ! packing fraction alone, one that these sizes do not reach in disorder is refused.
+    ! a sphere touches its own image, or no time passes between collisions). A resumed call finishes the stage and
+    ! continues with the next. Small systems (below about 200 equal spheres in d = 3) order under this protocol. For
+    ! a fluid, a packing fraction that these sizes do not reach in disorder is refused.
     ! Errors: JAM_E_OVERLAP, JAM_E_UNPLACEABLE.
     function jam_compress(sys, o, report) &
         bind(c, name="jam_compress") result(status)
@@ -1804,8 +1804,9 @@ module jam
     ! (2022)) and keeps the contact network. No step creates an overlap. An interrupted crunch returns a valid packing:
     ! call it again to continue, also after jam_write_checkpoint and jam_read_checkpoint. On the barrier path it then goes
     ! on at the mu that was reached. Bits may differ from those of one call. Steps and times of the report count from the
-    ! last call. Status: JAM_OK jammed, or at the duality gap of the options (`jammed` is 0 then, and another call goes on
-    ! along the path); JAM_NOT_CONVERGED, JAM_NOT_JAMMED: the state is the last valid one and the report says why.
+    ! last call. Status: JAM_OK jammed, or at the duality gap of the options (`jammed` is 0 then, and another call
+    ! continues along the path); JAM_NOT_CONVERGED, JAM_NOT_JAMMED: the state is the last valid one and the report says
+    ! why.
     ! Errors: JAM_E_OVERLAP, JAM_E_TOO_FEW (one sphere in a fixed cell), JAM_E_SOLVER (last good state kept).
     function jam_crunch(sys, o, report) &
         bind(c, name="jam_crunch") result(status)
@@ -1849,7 +1850,7 @@ module jam
     ! Minimises the energy of overlapping spheres at fixed diameters, and at a fixed cell unless `strain` frees it. A free
     ! cell ends when stresses too are below force_tolerance. Keeps the contact network with its forces and stiffnesses for
     ! jam_contacts, jam_forces, jam_hessian (JAM_STIFFNESS_SOFT) and the like. Positions are rounded to doubles at the end;
-    ! the network holds the digits beyond. Status: JAM_OK converged. JAM_NOT_JAMMED converged to energy 0: no overlaps.
+    ! the network has the digits beyond. Status: JAM_OK converged. JAM_NOT_JAMMED converged to energy 0: no overlaps.
     ! JAM_PRECISION converged, but overlaps are smaller than the rounding of the positions. JAM_NOT_CONVERGED. Example:
     ! examples/c/soft.c
     ! Errors: JAM_E_STATE (made without JAM_OVERLAP_ALLOW).
@@ -1913,10 +1914,10 @@ module jam
     ! moves. Rattlers are the spheres that carry no force. Contacts between the others stay, some with force 0. Forces
     ! are the null vector of S^T, or the analytic centre of the non-negative ones where there are several states of
     ! self-stress. The stored report's `jammed` is the verdict of jam_rigidity, whatever the tolerance. Status, with the
-    ! network kept each time: JAM_OK: one jump stands out, or only this candidate has a single state of self-stress.
-    ! JAM_AMBIGUOUS: another candidate fits too (see second_*), or there are several states of self-stress. Also where gaps
-    ! above 1e-7 leave the verdict open, or where coordinates have too few digits for a no. JAM_NOT_JAMMED: not
-    ! collectively jammed even with these contacts closed.
+    ! network kept each time: JAM_OK: one jump is clearly the largest, or only this candidate has a single state of
+    ! self-stress. JAM_AMBIGUOUS: another candidate fits too (see second_*), or there are several states of self-stress.
+    ! Also where gaps above 1e-7 leave the verdict open, or where coordinates have too few digits for a no. JAM_NOT_JAMMED:
+    ! not collectively jammed even with these contacts closed.
     ! Errors: JAM_E_SOLVER.
     function jam_contacts_from_geometry(sys, o, report) &
         bind(c, name="jam_contacts_from_geometry") result(status)
@@ -1954,11 +1955,11 @@ module jam
       integer(c_int32_t) :: status
     end function jam_check_options_init
 
-    ! Judges a packing as it is: by positions, diameters and cell alone, whatever network the handle holds. Nothing on the
-    ! handle changes. Runs both tests of jam_rigidity. Coordinates with few digits never give a no unless spheres have too
-    ! few neighbours to be held. A system that may overlap is tested with its diameters reduced until no pair overlaps.
-    ! Status: JAM_OK jammed, JAM_NOT_JAMMED, JAM_AMBIGUOUS undecided. jam_last_error() holds jam_check_text for every
-    ! status above 0.
+    ! Tests a packing without moving it, by positions, diameters and cell alone, whatever network the handle has. Nothing
+    ! on the handle changes. Runs both tests of jam_rigidity. Coordinates with few digits never give a no unless spheres
+    ! have too few neighbours to be held. A system that may overlap is tested with its diameters reduced until no pair
+    ! overlaps. Status: JAM_OK jammed, JAM_NOT_JAMMED, JAM_AMBIGUOUS undecided. jam_last_error() gives jam_check_text for
+    ! every status above 0.
     ! Errors: JAM_E_OVERLAP (above one half), JAM_E_SOLVER.
     function jam_check_packing(sys, o, report) &
         bind(c, name="jam_check_packing") result(status)
@@ -2782,7 +2783,7 @@ module jam
   ! is, with all diameters scaled to density_ratio; one whose gaps are rounding is refused. Run k draws its velocities
   ! from a stream of its own. m NULL: molecular dynamics; else Monte Carlo by these options (sweeps, run, first_sweep,
   ! resume and wall_time are not used). instant: ascending, > 0. kept: indices of instants whose displacements are kept
-  ! of every run, or NULL. The packing does not change; the handle holds the sums until the next call. Runs enter the
+  ! of every run, or NULL. The packing does not change; the handle keeps the sums until the next call. Runs enter the
   ! sums in the order of their numbers. An early stop keeps the runs that were made; resume continues, also after
   ! jam_read_checkpoint. Status: JAM_NOT_CONVERGED (a run cannot move).
   ! Shapes: instant (instants), kept (k).
@@ -2855,7 +2856,7 @@ module jam
     module procedure l_jam_refined_positions
   end interface jam_refined_positions
 
-  ! Gaps h of all pairs below h_max (every image), contacts left out, ascending; *rows = gaps. Without stable_only
+  ! Gaps h of all pairs below h_max (every image), without contacts, ascending; *rows = gaps. Without stable_only
   ! rattlers count too and no network is needed.
   ! Shapes: gap (gaps), pair (gaps, 2).
   ! Errors: JAM_E_STATE.
@@ -3352,7 +3353,7 @@ contains
   end function l_jam_set_cell
 
   ! Deforms cell and positions by r -> (1 + strain) r; diameters stay, results of crunch are dropped. The new cell is
-  ! reduced: a simple shear of any size is one call. Velocities stay, but for the rotation of a reduction.
+  ! reduced: a simple shear of any size is one call. Velocities change only by the rotation of a reduction.
   ! Shapes: strain (d, d).
   ! Errors: JAM_E_OVERLAP, JAM_E_UNSUPPORTED (Mari-Kurchan shifts, where the reduction changes the vectors).
   function jam_strain(sys, strain, strain_len) result(status)
@@ -3560,8 +3561,8 @@ contains
   ! Writes the packing with 17 digits, so that reading gives the same bits. The file is written under another name and
   ! then renamed. Links are followed. Pipes, devices and open descriptors (/dev/stdout, /dev/fd/N) are written in place;
   ! a file opened with >> gets the packing at its end. The shifts of JAM_MODEL_MK are not saved: read the file with the
-  ! same seed and mk_zeta. Planted shifts are not saved either: use jam_write_checkpoint. Only XYZ can hold
-  ! non_additivity, and only XYZ, LAMMPS and VTP can hold a cell that is not a cube; others give JAM_E_UNSUPPORTED.
+  ! same seed and mk_zeta. Planted shifts are not saved either: use jam_write_checkpoint. Only XYZ can store
+  ! non_additivity, and only XYZ, LAMMPS and VTP can store a cell that is not a cube; others give JAM_E_UNSUPPORTED.
   ! Errors: JAM_E_UNSUPPORTED, JAM_E_IO.
   function jam_write(sys, path, format) result(status)
     type(c_ptr), intent(in) :: sys
@@ -3619,8 +3620,8 @@ contains
   ! and a stage that was stopped early or runs now. The results are in it too: contact network, report, histories, kept
   ! steps and isoconfigurational runs. Observations, the memory limit and callbacks are not. A callback that writes a
   ! checkpoint while a call moves the spheres saves the packing of the last step, without results. The file is written
-  ! under another name and then renamed. Dynamics that go on from it make the same bits as those that never stopped. A
-  ! crunch begins anew from the packing that it had reached: it ends jammed, not always with the same bits.
+  ! under another name and then renamed. Dynamics that continue from it make the same bits as those that never stopped. A
+  ! crunch starts again from the packing that it had reached: it ends jammed, perhaps with other bits.
   ! Errors: JAM_E_IO.
   function jam_write_checkpoint(sys, path) result(status)
     type(c_ptr), intent(in) :: sys
@@ -4353,7 +4354,7 @@ contains
     status = c_jam_crunch_step_vectors(sys, at_out, count_out, needed)
   end function jam_crunch_step_vectors
 
-  ! Duals lambda of these pairs: sum_j lambda_ij r_ij = 0 on every sphere that no step bound holds, and sum lambda_ij
+  ! Duals lambda of these pairs: sum_j lambda_ij r_ij = 0 on every sphere without an active step bound, and sum lambda_ij
   ! sigma_ij^2 = 1 with the diameters before the step.
   ! Shapes: out (m).
   ! Errors: JAM_E_STATE.
@@ -4915,7 +4916,7 @@ contains
     status = c_jam_flex(sys, kind, at_out, count_out, at_strain, count_strain, needed)
   end function l_jam_flex
 
-  ! Proves, in spite of rounding, that the packing is jammed. Contacts and forces are those of the network. Newton's
+  ! Proves, despite rounding, that the packing is jammed. Contacts and forces are those of the network. Newton's
   ! steps take the centres to two doubles (jam_refined_positions). A factorisation with a bound of its rounding gives the
   ! smallest singular value, and Kantorovich's theorem the rest: the guide's page "Proofs" has theorems and limits.
   ! ratio: the exact ratios of the diameters, in any unit; NULL takes the diameters as they are. Status: JAM_OK proved
@@ -5612,8 +5613,8 @@ contains
   end function jam_floppy_modes
 
   ! Density of states D(omega) and its integral by the kernel polynomial method: no modes are computed, translations are
-  ! left out. With prestress omega starts below 0: unstable modes stand at -sqrt(-lambda), and resolution is lower near
-  ! 0.
+  ! omitted. With prestress omega starts below 0: unstable modes are listed at -sqrt(-lambda), and resolution is lower
+  ! near 0.
   ! Shapes: table (points, jam_dos_column).
   ! Errors: JAM_E_STATE, JAM_E_SOLVER, JAM_E_TOO_FEW.
   function jam_density_of_states(sys, h, o, table, table_len, needed) result(status)

@@ -219,7 +219,7 @@ contains
   end subroutine do_set_cell
 
   ! Deforms cell and positions by r -> (1 + strain) r; diameters stay, results of crunch are dropped. The new cell is
-  ! reduced: a simple shear of any size is one call. Velocities stay, but for the rotation of a reduction.
+  ! reduced: a simple shear of any size is one call. Velocities change only by the rotation of a reduction.
   ! Shapes: strain (d, d).
   ! Errors: JAM_E_OVERLAP, JAM_E_UNSUPPORTED (Mari-Kurchan shifts, where the reduction changes the vectors).
   subroutine do_strain(self, strain)
@@ -285,9 +285,9 @@ contains
   ! Event-driven NVE dynamics (Alder and Wainwright, J. Chem. Phys. 31, 459 (1959)). Velocities are drawn at first use,
   ! by the seed alone. They are Maxwell-Boltzmann, with sum m v^2 = d N and zero total momentum. A run or stage that ends
   ! with JAM_CANCELLED or JAM_LIMIT, even while its lists were made, stays with the handle. Its checkpoints have it too,
-  ! until the next call that changes spheres. With resume = 1 it goes on to the same bits as if it had not stopped;
+  ! until the next call that changes spheres. With resume = 1 it continues to the same bits as if it had not stopped;
   ! JAM_E_STATE when there is none. Splitting a run by wall_time therefore does not change its result. A failure while it
-  ! goes on loses the stage, not the packing. Status: JAM_OK when the collisions were made, JAM_PRECISION,
+  ! continues loses the stage, not the packing. Status: JAM_OK when the collisions were made, JAM_PRECISION,
   ! JAM_NOT_CONVERGED (no collision can happen: one sphere, zero velocities, or paths that never meet). The log gives the
   ! reason of the last two.
   ! Errors: JAM_E_OVERLAP.
@@ -303,11 +303,11 @@ contains
   ! Lubachevsky-Stillinger compression (J. Stat. Phys. 60, 561 (1990)). Without a growth_rate, and with o NULL, it runs
   ! the two-stage protocol that avoids crystals in d = 3: G = 1e-2 to p = 500, then G = 3e-3 to the pressure of o, 1e7 by
   ! default (a stage costs about 1.63 (N/G) ln(p2/p1) collisions). For another protocol make one call per stage. A
-  ! thermostat holds sum m v^2 within 5 % of d N, and at the end the velocities are scaled to it exactly. Status: JAM_OK
+  ! thermostat keeps sum m v^2 within 5 % of d N, and at the end the velocities are scaled to it exactly. Status: JAM_OK
   ! (a pressure or packing-fraction target reached, see report->stop_reason), JAM_PRECISION, JAM_NOT_CONVERGED (stalled:
-  ! a sphere touches its own image, or no time passes between collisions). A resumed call finishes the stage and goes on
-  ! with the next. Small systems (below about 200 equal spheres in d = 3) order under this protocol. From a fluid to a
-  ! packing fraction alone, one that these sizes do not reach in disorder is refused.
+  ! a sphere touches its own image, or no time passes between collisions). A resumed call finishes the stage and
+  ! continues with the next. Small systems (below about 200 equal spheres in d = 3) order under this protocol. For
+  ! a fluid, a packing fraction that these sizes do not reach in disorder is refused.
   ! Errors: JAM_E_OVERLAP, JAM_E_UNPLACEABLE.
   function do_compress(self, o) result(found)
     class(packing), intent(inout) :: self
@@ -322,8 +322,8 @@ contains
   ! and a stage that was stopped early or runs now. The results are in it too: contact network, report, histories, kept
   ! steps and isoconfigurational runs. Observations, the memory limit and callbacks are not. A callback that writes a
   ! checkpoint while a call moves the spheres saves the packing of the last step, without results. The file is written
-  ! under another name and then renamed. Dynamics that go on from it make the same bits as those that never stopped. A
-  ! crunch begins anew from the packing that it had reached: it ends jammed, not always with the same bits.
+  ! under another name and then renamed. Dynamics that continue from it make the same bits as those that never stopped. A
+  ! crunch starts again from the packing that it had reached: it ends jammed, perhaps with other bits.
   ! Errors: JAM_E_IO.
   subroutine do_write_checkpoint(self, path)
     class(packing), intent(inout) :: self
@@ -494,7 +494,7 @@ contains
   ! is, with all diameters scaled to density_ratio; one whose gaps are rounding is refused. Run k draws its velocities
   ! from a stream of its own. m NULL: molecular dynamics; else Monte Carlo by these options (sweeps, run, first_sweep,
   ! resume and wall_time are not used). instant: ascending, > 0. kept: indices of instants whose displacements are kept
-  ! of every run, or NULL. The packing does not change; the handle holds the sums until the next call. Runs enter the
+  ! of every run, or NULL. The packing does not change; the handle keeps the sums until the next call. Runs enter the
   ! sums in the order of their numbers. An early stop keeps the runs that were made; resume continues, also after
   ! jam_read_checkpoint. Status: JAM_NOT_CONVERGED (a run cannot move).
   ! Shapes: instant (instants), kept (k).
@@ -624,8 +624,9 @@ contains
   ! (2022)) and keeps the contact network. No step creates an overlap. An interrupted crunch returns a valid packing:
   ! call it again to continue, also after jam_write_checkpoint and jam_read_checkpoint. On the barrier path it then goes
   ! on at the mu that was reached. Bits may differ from those of one call. Steps and times of the report count from the
-  ! last call. Status: JAM_OK jammed, or at the duality gap of the options (`jammed` is 0 then, and another call goes on
-  ! along the path); JAM_NOT_CONVERGED, JAM_NOT_JAMMED: the state is the last valid one and the report says why.
+  ! last call. Status: JAM_OK jammed, or at the duality gap of the options (`jammed` is 0 then, and another call
+  ! continues along the path); JAM_NOT_CONVERGED, JAM_NOT_JAMMED: the state is the last valid one and the report says
+  ! why.
   ! Errors: JAM_E_OVERLAP, JAM_E_TOO_FEW (one sphere in a fixed cell), JAM_E_SOLVER (last good state kept).
   function do_crunch(self, o) result(found)
     class(packing), intent(inout) :: self
@@ -737,7 +738,7 @@ contains
     call self%done(status)
   end function do_crunch_step_vectors
 
-  ! Duals lambda of these pairs: sum_j lambda_ij r_ij = 0 on every sphere that no step bound holds, and sum lambda_ij
+  ! Duals lambda of these pairs: sum_j lambda_ij r_ij = 0 on every sphere without an active step bound, and sum lambda_ij
   ! sigma_ij^2 = 1 with the diameters before the step.
   ! Shapes: out (m).
   ! Errors: JAM_E_STATE.
@@ -760,7 +761,7 @@ contains
   ! Minimises the energy of overlapping spheres at fixed diameters, and at a fixed cell unless `strain` frees it. A free
   ! cell ends when stresses too are below force_tolerance. Keeps the contact network with its forces and stiffnesses for
   ! jam_contacts, jam_forces, jam_hessian (JAM_STIFFNESS_SOFT) and the like. Positions are rounded to doubles at the end;
-  ! the network holds the digits beyond. Status: JAM_OK converged. JAM_NOT_JAMMED converged to energy 0: no overlaps.
+  ! the network has the digits beyond. Status: JAM_OK converged. JAM_NOT_JAMMED converged to energy 0: no overlaps.
   ! JAM_PRECISION converged, but overlaps are smaller than the rounding of the positions. JAM_NOT_CONVERGED. Example:
   ! examples/c/soft.c
   ! Errors: JAM_E_STATE (made without JAM_OVERLAP_ALLOW).
@@ -997,10 +998,10 @@ contains
   ! moves. Rattlers are the spheres that carry no force. Contacts between the others stay, some with force 0. Forces
   ! are the null vector of S^T, or the analytic centre of the non-negative ones where there are several states of
   ! self-stress. The stored report's `jammed` is the verdict of jam_rigidity, whatever the tolerance. Status, with the
-  ! network kept each time: JAM_OK: one jump stands out, or only this candidate has a single state of self-stress.
-  ! JAM_AMBIGUOUS: another candidate fits too (see second_*), or there are several states of self-stress. Also where gaps
-  ! above 1e-7 leave the verdict open, or where coordinates have too few digits for a no. JAM_NOT_JAMMED: not
-  ! collectively jammed even with these contacts closed.
+  ! network kept each time: JAM_OK: one jump is clearly the largest, or only this candidate has a single state of
+  ! self-stress. JAM_AMBIGUOUS: another candidate fits too (see second_*), or there are several states of self-stress.
+  ! Also where gaps above 1e-7 leave the verdict open, or where coordinates have too few digits for a no. JAM_NOT_JAMMED:
+  ! not collectively jammed even with these contacts closed.
   ! Errors: JAM_E_SOLVER.
   function do_contacts_from_geometry(self, o) result(found)
     class(packing), intent(inout) :: self
@@ -1113,11 +1114,11 @@ contains
     call self%done(status)
   end subroutine do_flex
 
-  ! Judges a packing as it is: by positions, diameters and cell alone, whatever network the handle holds. Nothing on the
-  ! handle changes. Runs both tests of jam_rigidity. Coordinates with few digits never give a no unless spheres have too
-  ! few neighbours to be held. A system that may overlap is tested with its diameters reduced until no pair overlaps.
-  ! Status: JAM_OK jammed, JAM_NOT_JAMMED, JAM_AMBIGUOUS undecided. jam_last_error() holds jam_check_text for every
-  ! status above 0.
+  ! Tests a packing without moving it, by positions, diameters and cell alone, whatever network the handle has. Nothing
+  ! on the handle changes. Runs both tests of jam_rigidity. Coordinates with few digits never give a no unless spheres
+  ! have too few neighbours to be held. A system that may overlap is tested with its diameters reduced until no pair
+  ! overlaps. Status: JAM_OK jammed, JAM_NOT_JAMMED, JAM_AMBIGUOUS undecided. jam_last_error() gives jam_check_text for
+  ! every status above 0.
   ! Errors: JAM_E_OVERLAP (above one half), JAM_E_SOLVER.
   function do_check(self, o) result(found)
     class(packing), intent(inout) :: self
@@ -1128,7 +1129,7 @@ contains
     call self%done(status)
   end function do_check
 
-  ! Proves, in spite of rounding, that the packing is jammed. Contacts and forces are those of the network. Newton's
+  ! Proves, despite rounding, that the packing is jammed. Contacts and forces are those of the network. Newton's
   ! steps take the centres to two doubles (jam_refined_positions). A factorisation with a bound of its rounding gives the
   ! smallest singular value, and Kantorovich's theorem the rest: the guide's page "Proofs" has theorems and limits.
   ! ratio: the exact ratios of the diameters, in any unit; NULL takes the diameters as they are. Status: JAM_OK proved
@@ -1200,7 +1201,7 @@ contains
     call self%done(status)
   end subroutine do_refined_positions
 
-  ! Gaps h of all pairs below h_max (every image), contacts left out, ascending; *rows = gaps. Without stable_only
+  ! Gaps h of all pairs below h_max (every image), without contacts, ascending; *rows = gaps. Without stable_only
   ! rattlers count too and no network is needed.
   ! Shapes: gap (gaps), pair (gaps, 2).
   ! Errors: JAM_E_STATE.
@@ -1515,8 +1516,8 @@ contains
   end function do_floppy_modes
 
   ! Density of states D(omega) and its integral by the kernel polynomial method: no modes are computed, translations are
-  ! left out. With prestress omega starts below 0: unstable modes stand at -sqrt(-lambda), and resolution is lower near
-  ! 0.
+  ! omitted. With prestress omega starts below 0: unstable modes are listed at -sqrt(-lambda), and resolution is lower
+  ! near 0.
   ! Shapes: table (points, jam_dos_column).
   ! Errors: JAM_E_STATE, JAM_E_SOLVER, JAM_E_TOO_FEW.
   function do_density_of_states(self, h, o) result(found)

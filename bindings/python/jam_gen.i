@@ -255,7 +255,7 @@ whose force on the path over the mean is within a factor of 1e4 of twice their g
   ~jam_decompress_options() { free($self); }
 }
 %feature("docstring") jam_decompress_options "Options of jam_decompress. Targets: the first that is reached ends it. With crunch, the packing is crunched from just
-below contact, and the decompression goes on until both have one network. The system ends as that jammed packing,
+below contact, and the decompression continues until both have one network. The system ends as that jammed packing,
 without crunch as the soft one. max_evaluations: a later step may take 4 times what all steps before it took, at
 least a 20th of this limit, and never more than it."
 %extend jam_decompress_report {
@@ -427,7 +427,7 @@ vectors, so with other vectors the system is another one.
 Shapes: cell (d, d), transform (d, d), rotation (d, d).
 Errors: JAM_E_OVERLAP."
 %feature("docstring") jam_strain "Deforms cell and positions by r -> (1 + strain) r; diameters stay, results of crunch are dropped. The new cell is
-reduced: a simple shear of any size is one call. Velocities stay, but for the rotation of a reduction.
+reduced: a simple shear of any size is one call. Velocities change only by the rotation of a reduction.
 Shapes: strain (d, d).
 Errors: JAM_E_OVERLAP, JAM_E_UNSUPPORTED (Mari-Kurchan shifts, where the reduction changes the vectors)."
 %feature("docstring") jam_diameters_options_init ""
@@ -452,7 +452,7 @@ Errors: JAM_E_DIMENSION."
 too. Const calls that run together on one handle each call it on their own thread. A call that a callback makes on
 its handle does not call it again."
 %feature("docstring") jam_set_log "Sets (or with NULL removes) the log callback and its level. It first logs the lines of jam_notes."
-%feature("docstring") jam_cancel "Asks all calls that run on sys to stop soon with JAM_CANCELLED. When no call runs, the next call that must be alone
+%feature("docstring") jam_cancel "Requests that all calls on sys stop soon with JAM_CANCELLED. When no call runs, the next call that must be alone
 on sys stops, unless it is a setter. jam_cancel only increments an atomic counter."
 %feature("docstring") jam_set_memory_limit "Limits the bytes that pair lists, factorised matrices and arrays made from them may take in one call on sys, > 0;
 infinity: no limit. A call that needs more fails with JAM_E_MEMORY before it allocates them. jam_crunch compares the
@@ -472,8 +472,8 @@ not empty."
 %feature("docstring") jam_write "Writes the packing with 17 digits, so that reading gives the same bits. The file is written under another name and
 then renamed. Links are followed. Pipes, devices and open descriptors (/dev/stdout, /dev/fd/N) are written in place;
 a file opened with >> gets the packing at its end. The shifts of JAM_MODEL_MK are not saved: read the file with the
-same seed and mk_zeta. Planted shifts are not saved either: use jam_write_checkpoint. Only XYZ can hold
-non_additivity, and only XYZ, LAMMPS and VTP can hold a cell that is not a cube; others give JAM_E_UNSUPPORTED.
+same seed and mk_zeta. Planted shifts are not saved either: use jam_write_checkpoint. Only XYZ can store
+non_additivity, and only XYZ, LAMMPS and VTP can store a cell that is not a cube; others give JAM_E_UNSUPPORTED.
 Errors: JAM_E_UNSUPPORTED, JAM_E_IO."
 %feature("docstring") jam_write_contacts "Writes the contact network of the last crunch. The file appears as of jam_write.
 Errors: JAM_E_STATE, JAM_E_UNSUPPORTED, JAM_E_IO."
@@ -488,27 +488,27 @@ Errors: JAM_E_IO."
 %feature("docstring") jam_run "Event-driven NVE dynamics (Alder and Wainwright, J. Chem. Phys. 31, 459 (1959)). Velocities are drawn at first use,
 by the seed alone. They are Maxwell-Boltzmann, with sum m v^2 = d N and zero total momentum. A run or stage that ends
 with JAM_CANCELLED or JAM_LIMIT, even while its lists were made, stays with the handle. Its checkpoints have it too,
-until the next call that changes spheres. With resume = 1 it goes on to the same bits as if it had not stopped;
+until the next call that changes spheres. With resume = 1 it continues to the same bits as if it had not stopped;
 JAM_E_STATE when there is none. Splitting a run by wall_time therefore does not change its result. A failure while it
-goes on loses the stage, not the packing. Status: JAM_OK when the collisions were made, JAM_PRECISION,
+continues loses the stage, not the packing. Status: JAM_OK when the collisions were made, JAM_PRECISION,
 JAM_NOT_CONVERGED (no collision can happen: one sphere, zero velocities, or paths that never meet). The log gives the
 reason of the last two.
 Errors: JAM_E_OVERLAP."
 %feature("docstring") jam_compress "Lubachevsky-Stillinger compression (J. Stat. Phys. 60, 561 (1990)). Without a growth_rate, and with o NULL, it runs
 the two-stage protocol that avoids crystals in d = 3: G = 1e-2 to p = 500, then G = 3e-3 to the pressure of o, 1e7 by
 default (a stage costs about 1.63 (N/G) ln(p2/p1) collisions). For another protocol make one call per stage. A
-thermostat holds sum m v^2 within 5 % of d N, and at the end the velocities are scaled to it exactly. Status: JAM_OK
+thermostat keeps sum m v^2 within 5 % of d N, and at the end the velocities are scaled to it exactly. Status: JAM_OK
 (a pressure or packing-fraction target reached, see report->stop_reason), JAM_PRECISION, JAM_NOT_CONVERGED (stalled:
-a sphere touches its own image, or no time passes between collisions). A resumed call finishes the stage and goes on
-with the next. Small systems (below about 200 equal spheres in d = 3) order under this protocol. From a fluid to a
-packing fraction alone, one that these sizes do not reach in disorder is refused.
+a sphere touches its own image, or no time passes between collisions). A resumed call finishes the stage and
+continues with the next. Small systems (below about 200 equal spheres in d = 3) order under this protocol. For
+a fluid, a packing fraction that these sizes do not reach in disorder is refused.
 Errors: JAM_E_OVERLAP, JAM_E_UNPLACEABLE."
 %feature("docstring") jam_write_checkpoint "Writes all that the dynamics depend on to a binary file: positions, diameters, velocities, shifts of the MK model,
 and a stage that was stopped early or runs now. The results are in it too: contact network, report, histories, kept
 steps and isoconfigurational runs. Observations, the memory limit and callbacks are not. A callback that writes a
 checkpoint while a call moves the spheres saves the packing of the last step, without results. The file is written
-under another name and then renamed. Dynamics that go on from it make the same bits as those that never stopped. A
-crunch begins anew from the packing that it had reached: it ends jammed, not always with the same bits.
+under another name and then renamed. Dynamics that continue from it make the same bits as those that never stopped. A
+crunch starts again from the packing that it had reached: it ends jammed, perhaps with other bits.
 Errors: JAM_E_IO."
 %feature("docstring") jam_read_checkpoint "Makes a system from such a file. callback, user: as in jam_start.
 Errors: JAM_E_IO, JAM_E_FORMAT (no checkpoint, or damaged, or from a machine with another byte order), JAM_E_OVERLAP."
@@ -550,7 +550,7 @@ Errors: JAM_E_STATE, JAM_E_UNSUPPORTED (Mari-Kurchan model)."
 is, with all diameters scaled to density_ratio; one whose gaps are rounding is refused. Run k draws its velocities
 from a stream of its own. m NULL: molecular dynamics; else Monte Carlo by these options (sweeps, run, first_sweep,
 resume and wall_time are not used). instant: ascending, > 0. kept: indices of instants whose displacements are kept
-of every run, or NULL. The packing does not change; the handle holds the sums until the next call. Runs enter the
+of every run, or NULL. The packing does not change; the handle keeps the sums until the next call. Runs enter the
 sums in the order of their numbers. An early stop keeps the runs that were made; resume continues, also after
 jam_read_checkpoint. Status: JAM_NOT_CONVERGED (a run cannot move).
 Shapes: instant (instants), kept (k).
@@ -575,8 +575,9 @@ Errors: JAM_E_STATE."
 (2022)) and keeps the contact network. No step creates an overlap. An interrupted crunch returns a valid packing:
 call it again to continue, also after jam_write_checkpoint and jam_read_checkpoint. On the barrier path it then goes
 on at the mu that was reached. Bits may differ from those of one call. Steps and times of the report count from the
-last call. Status: JAM_OK jammed, or at the duality gap of the options (`jammed` is 0 then, and another call goes on
-along the path); JAM_NOT_CONVERGED, JAM_NOT_JAMMED: the state is the last valid one and the report says why.
+last call. Status: JAM_OK jammed, or at the duality gap of the options (`jammed` is 0 then, and another call
+continues along the path); JAM_NOT_CONVERGED, JAM_NOT_JAMMED: the state is the last valid one and the report says
+why.
 Errors: JAM_E_OVERLAP, JAM_E_TOO_FEW (one sphere in a fixed cell), JAM_E_SOLVER (last good state kept)."
 %feature("docstring") jam_estimate_crunch "Estimates memory and time of jam_crunch with these options (NULL: defaults) without running it; jam_crunch logs the
 same at JAM_LOG_INFO. Takes as long as a few steps.
@@ -597,7 +598,7 @@ Errors: JAM_E_STATE."
 %feature("docstring") jam_crunch_step_vectors "r_ij of these pairs before the step, unit of box.
 Shapes: out (m, d).
 Errors: JAM_E_STATE."
-%feature("docstring") jam_crunch_step_duals "Duals lambda of these pairs: sum_j lambda_ij r_ij = 0 on every sphere that no step bound holds, and sum lambda_ij
+%feature("docstring") jam_crunch_step_duals "Duals lambda of these pairs: sum_j lambda_ij r_ij = 0 on every sphere without an active step bound, and sum lambda_ij
 sigma_ij^2 = 1 with the diameters before the step.
 Shapes: out (m).
 Errors: JAM_E_STATE."
@@ -605,7 +606,7 @@ Errors: JAM_E_STATE."
 %feature("docstring") jam_relax "Minimises the energy of overlapping spheres at fixed diameters, and at a fixed cell unless `strain` frees it. A free
 cell ends when stresses too are below force_tolerance. Keeps the contact network with its forces and stiffnesses for
 jam_contacts, jam_forces, jam_hessian (JAM_STIFFNESS_SOFT) and the like. Positions are rounded to doubles at the end;
-the network holds the digits beyond. Status: JAM_OK converged. JAM_NOT_JAMMED converged to energy 0: no overlaps.
+the network has the digits beyond. Status: JAM_OK converged. JAM_NOT_JAMMED converged to energy 0: no overlaps.
 JAM_PRECISION converged, but overlaps are smaller than the rounding of the positions. JAM_NOT_CONVERGED. Example:
 examples/c/soft.c
 Errors: JAM_E_STATE (made without JAM_OVERLAP_ALLOW)."
@@ -655,10 +656,10 @@ Errors: JAM_E_STATE, JAM_E_SOLVER."
 moves. Rattlers are the spheres that carry no force. Contacts between the others stay, some with force 0. Forces
 are the null vector of S^T, or the analytic centre of the non-negative ones where there are several states of
 self-stress. The stored report's `jammed` is the verdict of jam_rigidity, whatever the tolerance. Status, with the
-network kept each time: JAM_OK: one jump stands out, or only this candidate has a single state of self-stress.
-JAM_AMBIGUOUS: another candidate fits too (see second_*), or there are several states of self-stress. Also where gaps
-above 1e-7 leave the verdict open, or where coordinates have too few digits for a no. JAM_NOT_JAMMED: not
-collectively jammed even with these contacts closed.
+network kept each time: JAM_OK: one jump is clearly the largest, or only this candidate has a single state of
+self-stress. JAM_AMBIGUOUS: another candidate fits too (see second_*), or there are several states of self-stress.
+Also where gaps above 1e-7 leave the verdict open, or where coordinates have too few digits for a no. JAM_NOT_JAMMED:
+not collectively jammed even with these contacts closed.
 Errors: JAM_E_SOLVER."
 %feature("docstring") jam_contact_candidates "Candidates for the contact tolerance, for packings where no jump is clear; m is at most 12. A candidate is a jump of
 the sorted gaps below window, as in jam_geometry_options, with enough contacts for a rigid network below it. The
@@ -685,15 +686,15 @@ Where no pair is near contact, one sphere moves.
 Shapes: out (n, d), strain (d, d).
 Errors: JAM_E_SOLVER, JAM_E_STATE (jammed, or undecided without a motion)."
 %feature("docstring") jam_check_options_init ""
-%feature("docstring") jam_check_packing "Judges a packing as it is: by positions, diameters and cell alone, whatever network the handle holds. Nothing on the
-handle changes. Runs both tests of jam_rigidity. Coordinates with few digits never give a no unless spheres have too
-few neighbours to be held. A system that may overlap is tested with its diameters reduced until no pair overlaps.
-Status: JAM_OK jammed, JAM_NOT_JAMMED, JAM_AMBIGUOUS undecided. jam_last_error() holds jam_check_text for every
-status above 0.
+%feature("docstring") jam_check_packing "Tests a packing without moving it, by positions, diameters and cell alone, whatever network the handle has. Nothing
+on the handle changes. Runs both tests of jam_rigidity. Coordinates with few digits never give a no unless spheres
+have too few neighbours to be held. A system that may overlap is tested with its diameters reduced until no pair
+overlaps. Status: JAM_OK jammed, JAM_NOT_JAMMED, JAM_AMBIGUOUS undecided. jam_last_error() gives jam_check_text for
+every status above 0.
 Errors: JAM_E_OVERLAP (above one half), JAM_E_SOLVER."
 %feature("docstring") jam_check_text "The report of jam_check_packing as one paragraph: the verdict, its figures, how sure it is, and what was proved. \"\"
 for NULL or a wrong struct_size. Valid until this thread's next call of it."
-%feature("docstring") jam_prove "Proves, in spite of rounding, that the packing is jammed. Contacts and forces are those of the network. Newton's
+%feature("docstring") jam_prove "Proves, despite rounding, that the packing is jammed. Contacts and forces are those of the network. Newton's
 steps take the centres to two doubles (jam_refined_positions). A factorisation with a bound of its rounding gives the
 smallest singular value, and Kantorovich's theorem the rest: the guide's page \"Proofs\" has theorems and limits.
 ratio: the exact ratios of the diameters, in any unit; NULL takes the diameters as they are. Status: JAM_OK proved
@@ -717,7 +718,7 @@ Errors: JAM_E_STATE, JAM_E_UNSUPPORTED, JAM_E_IO."
 where they are. ratio: as for jam_prove. Status: JAM_AMBIGUOUS (dependent contacts, nothing is written).
 Shapes: ratio (n), high (n, d), low (n, d).
 Errors: JAM_E_STATE, JAM_E_UNSUPPORTED."
-%feature("docstring") jam_gaps "Gaps h of all pairs below h_max (every image), contacts left out, ascending; *rows = gaps. Without stable_only
+%feature("docstring") jam_gaps "Gaps h of all pairs below h_max (every image), without contacts, ascending; *rows = gaps. Without stable_only
 rattlers count too and no network is needed.
 Shapes: gap (gaps), pair (gaps, 2).
 Errors: JAM_E_STATE."
@@ -765,8 +766,8 @@ Shapes: table (n_c, jam_floppy_column).
 Errors: JAM_E_STATE, JAM_E_SOLVER."
 %feature("docstring") jam_dos_options_init ""
 %feature("docstring") jam_density_of_states "Density of states D(omega) and its integral by the kernel polynomial method: no modes are computed, translations are
-left out. With prestress omega starts below 0: unstable modes stand at -sqrt(-lambda), and resolution is lower near
-0.
+omitted. With prestress omega starts below 0: unstable modes are listed at -sqrt(-lambda), and resolution is lower
+near 0.
 Shapes: table (points, jam_dos_column).
 Errors: JAM_E_STATE, JAM_E_SOLVER, JAM_E_TOO_FEW."
 %feature("docstring") jam_project "Projections u . v of a displacement u on the modes `vector` of jam_modes. Over all d N' modes their squares add up to

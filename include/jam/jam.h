@@ -18,17 +18,17 @@
  * - Cell vectors are the rows of a (d, d) matrix, as in ASE, extended XYZ and H5MD.
  * - libjam keeps them short (Lenstra, Lenstra, Lovasz 1982) and lower-triangular, with a positive diagonal. A cell
  *   given in another form is reduced, and rotated where it must be. The spheres rotate with it.
- * - Spheres stand in the brick [0, a_00) x [0, a_11) x ..., which repeats as the cell does.
- * - The plain text format holds cubes alone. All else works in any cell.
+ * - Positions lie in the brick [0, a_00) x [0, a_11) x ..., which repeats as the cell does.
+ * - The plain text format has cubes only. All else works in any cell.
  *
  * Arrays and pointers
  * - Arrays of shape (n, d) are row-major: the same bytes as numpy (n, d), Fortran x(d, n) and a Julia d-by-n matrix.
  *   Indices are 0-based.
  * - Arrays in: pointer and length in elements. The length is checked.
- * - Arrays out: the caller's buffer, its length in elements, and `needed`, in elements too. NULL and 0 only ask for the
+ * - Arrays out: the caller's buffer, its length in elements, and `needed`, in elements too. NULL and 0 only return the
  *   size. A buffer that is too short gives JAM_E_BUFFER, sets `needed` and is not written.
  * - Several numbers a row are a `table` of shape (rows, columns). An enum names its columns; counts are whole numbers
- *   in it, and NaN stands where a column has no meaning.
+ *   in it, and NaN is given where a column has no meaning.
  * - Arrays of several types or shapes have `rows` in place of `needed`: the shapes given there, for that many rows, are
  *   the lengths. Each of these arrays may be NULL with length 0.
  * - Options, reports and other structs begin with struct_size, which the caller sets to sizeof. Fill options by
@@ -47,7 +47,7 @@
  *   JAM_E_NONFINITE, JAM_E_BUFFER, JAM_E_MEMORY, JAM_E_BUSY. Comments name the others.
  *
  * How a comment here is written
- * - It gives what the call computes, equation, source, unit and range, and leaves out what stands above: common errors,
+ * - It gives what the call computes, equation, source, unit and range, and omits what is said above: common errors,
  *   threads, sizes, null pointers. All is since 0.1 unless `@since` says otherwise.
  * - Members that share a line share its comment, which has a part for each between semicolons, or one for all.
  * - Tags end it. The bindings are made from declarations and tags alone, prose changes none:
@@ -120,26 +120,26 @@ typedef int32_t jam_status;
 /* All status codes; values are ABI and never reused. */
 typedef enum jam_status_code {
   JAM_OK = 0,              /* done: the target was reached */
-  JAM_CANCELLED = 1,       /* jam_cancel or a callback asked to stop */
+  JAM_CANCELLED = 1,       /* jam_cancel or a callback requested a stop */
   JAM_LIMIT = 2,           /* a limit on work or time came before the target */
   JAM_NOT_CONVERGED = 3,   /* the method made no more progress; the state is the best so far */
   JAM_PRECISION = 4,       /* the target lies beyond what the numbers can resolve */
   JAM_NOT_JAMMED = 5,      /* there is no jammed network to work on */
   JAM_AMBIGUOUS = 6,       /* the answer is not unique; the text says which was returned */
   JAM_E_NULL = -1,         /* a pointer that is needed is NULL */
-  JAM_E_STRUCT_SIZE = -2,  /* struct_size is zero or larger than this library knows */
+  JAM_E_STRUCT_SIZE = -2,  /* struct_size is zero or larger than in this library */
   JAM_E_ARGUMENT = -3,     /* a value is out of its range */
   JAM_E_DIMENSION = -4,    /* dim is not in 2..JAM_MAX_DIM */
   JAM_E_NONFINITE = -5,    /* NaN or infinity where a number is needed */
   JAM_E_OVERLAP = -6,      /* spheres overlap; the text names the worst pair */
   JAM_E_UNPLACEABLE = -7,  /* the random start cannot reach the packing fraction */
-  JAM_E_BUFFER = -8,       /* the caller's buffer is too short; *needed holds the length */
+  JAM_E_BUFFER = -8,       /* the caller's buffer is too short; *needed is the length */
   JAM_E_MEMORY = -9,       /* out of memory */
   JAM_E_IO = -10,          /* a file cannot be opened, read or written */
   JAM_E_FORMAT = -11,      /* a file does not have the format; the text names the line */
   JAM_E_STATE = -12,       /* the handle has no such result yet, e.g. forces before crunch */
   JAM_E_SOLVER = -13,      /* no LP or eigenvalue solver gave an answer that checks out */
-  JAM_E_TOO_FEW = -14,     /* too few spheres for what was asked */
+  JAM_E_TOO_FEW = -14,     /* too few spheres for this call */
   JAM_E_BUSY = -15,        /* another call is running on this handle */
   JAM_E_UNSUPPORTED = -16, /* not available in this build or for this model */
   JAM_E_INTERNAL = -17     /* a bug in libjam; please report the text */
@@ -202,7 +202,7 @@ typedef enum jam_phase {
 } jam_phase;
 /* Given to the progress callback; valid during the call only. NaN: not known. */
 typedef struct jam_progress {
-  uint32_t struct_size;          /* as the library knows it */
+  uint32_t struct_size;          /* as in this library */
   int32_t phase;                 /* @enum jam_phase */
   double packing_fraction;       /* now */
   double pressure;               /* MD: reduced pressure of the last window */
@@ -294,17 +294,17 @@ JAM_API void jam_destroy(jam_system *sys);
 /* What the system is now. */
 typedef struct jam_info {
   uint32_t struct_size;
-  int32_t dim;              /* d */
-  int64_t n, seed;          /* number of spheres; as recorded at creation */
-  double box;               /* side of the cube, V^(1/d) of another cell */
-  double packing_fraction;  /* sum of sphere volumes over V */
-  double diameter_mean;     /* unit of box */
-  double pressure;          /* reduced pressure p last measured by MD, NaN before */
-  int32_t model;            /* @enum jam_model */
-  int32_t monodisperse;     /* @bool all diameters are equal */
-  int32_t masses;           /* @enum jam_masses */
-  int32_t paused;           /* @enum jam_phase of what was stopped early and can go on (crunch: by jam_crunch), or 0 */
-  double non_additivity;    /* Delta of a non-additive mixture, 0 for additive diameters */
+  int32_t dim;             /* d */
+  int64_t n, seed;         /* number of spheres; as recorded at creation */
+  double box;              /* side of the cube, V^(1/d) of another cell */
+  double packing_fraction; /* sum of sphere volumes over V */
+  double diameter_mean;    /* unit of box */
+  double pressure;         /* reduced pressure p last measured by MD, NaN before */
+  int32_t model;           /* @enum jam_model */
+  int32_t monodisperse;    /* @bool all diameters are equal */
+  int32_t masses;          /* @enum jam_masses */
+  int32_t paused;        /* @enum jam_phase of what was stopped early and can continue (crunch: by jam_crunch), or 0 */
+  double non_additivity; /* Delta of a non-additive mixture, 0 for additive diameters */
   int32_t container, walls; /* @enum jam_container; as in jam_start */
   double volume;            /* V of the container, else of the cell */
 } jam_info;
@@ -348,7 +348,7 @@ JAM_API jam_status jam_get_cell(const jam_system *sys, double *out, size_t out_l
 JAM_API jam_status jam_set_cell(jam_system *sys, const double *cell, size_t cell_len, int64_t *transform,
                                 size_t transform_len, double *rotation, size_t rotation_len, size_t *rows);
 /* Deforms cell and positions by r -> (1 + strain) r; diameters stay, results of crunch are dropped. The new cell is
- * reduced: a simple shear of any size is one call. Velocities stay, but for the rotation of a reduction. @shape strain
+ * reduced: a simple shear of any size is one call. Velocities change only by the rotation of a reduction. @shape strain
  * (d, d) @errors OVERLAP, UNSUPPORTED (Mari-Kurchan shifts, where the reduction changes the vectors) */
 JAM_API jam_status jam_strain(jam_system *sys, const double *strain, size_t strain_len);
 
@@ -440,7 +440,7 @@ JAM_API jam_status jam_set_progress(jam_system *sys, jam_progress_fn callback, v
 typedef enum jam_log_level {
   JAM_LOG_NONE = 0,    /* silent, the default */
   JAM_LOG_WARNING = 1, /* what a user should know, e.g. a fallback solver was used */
-  JAM_LOG_INFO = 2,    /* a line a stage or LP */
+  JAM_LOG_INFO = 2,    /* one line per stage or LP */
   JAM_LOG_DEBUG = 3    /* solver detail */
 } jam_log_level;
 /* Log callback: one line without newline, valid during the call. */
@@ -448,7 +448,7 @@ typedef void (*jam_log_fn)(int32_t level, const char *line, void *user);
 /* Sets (or with NULL removes) the log callback and its level. It first logs the lines of jam_notes.
  * @enum level jam_log_level */
 JAM_API jam_status jam_set_log(jam_system *sys, jam_log_fn callback, int32_t level, void *user);
-/* Asks all calls that run on sys to stop soon with JAM_CANCELLED. When no call runs, the next call that must be alone
+/* Requests that all calls on sys stop soon with JAM_CANCELLED. When no call runs, the next call that must be alone
  * on sys stops, unless it is a setter. jam_cancel only increments an atomic counter. */
 JAM_API jam_status jam_cancel(jam_system *sys);
 /* Limits the bytes that pair lists, factorised matrices and arrays made from them may take in one call on sys, > 0;
@@ -460,12 +460,13 @@ JAM_API jam_status jam_set_memory_limit(jam_system *sys, double bytes);
 /* ------------------------------------------------------------------ files */
 
 /* File formats. Behind any ending .gz compresses the file. PLAIN: line 1: d. Line 2: N. Line 3: the diameter, or the
- * word `diameters`; then, when it is not 1, the box as `box <L>`. Then a line a sphere: its position, and its diameter
- * after `diameters`, with 17 digits. XYZ: Lattice, dim, Properties=id:I:1:pos:R:d:radius:R:1 and, after a crunch,
- * contacts:I:1. VTP: points with diameter, and after a crunch contacts and kind (0 rattler, 1 buckler, 2 other). */
+ * word `diameters`; then, when it is not 1, the box as `box <L>`. Then one line per sphere: its position, and its
+ * diameter after `diameters`, with 17 digits. XYZ: Lattice, dim, Properties=id:I:1:pos:R:d:radius:R:1 and, after a
+ * crunch, contacts:I:1. VTP: points with diameter, and after a crunch contacts, kind (0 rattler, 1 buckler, 2 other).
+ */
 typedef enum jam_format {
   JAM_FORMAT_AUTO = 0, /* .xyz, .extxyz: XYZ; .data, .lmp: LAMMPS; .vtp: VTP; .dat, .txt, none: PLAIN; others refused */
-  JAM_FORMAT_PLAIN = 1,  /* text that holds cubes alone */
+  JAM_FORMAT_PLAIN = 1,  /* text, cubes only */
   JAM_FORMAT_XYZ = 2,    /* extended XYZ; d = 2 gets a third coordinate 0 */
   JAM_FORMAT_LAMMPS = 3, /* LAMMPS data of atom_style sphere, density 1, d = 2 and 3, any cell. In d = 2 all z are 0 */
   JAM_FORMAT_VTP = 4     /* VTK PolyData in binary, d = 2 and 3. Written only */
@@ -488,14 +489,14 @@ JAM_API jam_status jam_add_note(jam_system *sys, const char *text);
 /* Writes the packing with 17 digits, so that reading gives the same bits. The file is written under another name and
  * then renamed. Links are followed. Pipes, devices and open descriptors (/dev/stdout, /dev/fd/N) are written in place;
  * a file opened with >> gets the packing at its end. The shifts of JAM_MODEL_MK are not saved: read the file with the
- * same seed and mk_zeta. Planted shifts are not saved either: use jam_write_checkpoint. Only XYZ can hold
- * non_additivity, and only XYZ, LAMMPS and VTP can hold a cell that is not a cube; others give JAM_E_UNSUPPORTED.
+ * same seed and mk_zeta. Planted shifts are not saved either: use jam_write_checkpoint. Only XYZ can store
+ * non_additivity, and only XYZ, LAMMPS and VTP can store a cell that is not a cube; others give JAM_E_UNSUPPORTED.
  * @enum format jam_format @errors UNSUPPORTED, IO */
 JAM_API jam_status jam_write(const jam_system *sys, const char *path, int32_t format);
 /* Formats of contact networks. */
 typedef enum jam_contact_format {
   JAM_CONTACTS_AUTO = 0, /* by name: .csv, .dump, .vtp; with .gz behind it compressed; others are refused */
-  JAM_CONTACTS_CSV = 1,  /* a line a contact: i, j, unit vector from j to i, gap, force (mean 1), 17 digits */
+  JAM_CONTACTS_CSV = 1,  /* one line per contact: i, j, unit vector from j to i, gap, force (mean 1), 17 digits */
   JAM_CONTACTS_DUMP = 2, /* the same as a LAMMPS dump local, whose spheres count from 1; d = 2 and 3 */
   JAM_CONTACTS_VTP = 3 /* VTK PolyData in binary, d = 2, 3: two half lines a contact, with force, gap and its number */
 } jam_contact_format;
@@ -514,7 +515,7 @@ JAM_API jam_status jam_write_page(const jam_system *sys, const char *path, const
 /* Limits of jam_run (NVE). Whichever comes first ends the run. All but wall_time count since the run began. */
 typedef struct jam_run_options {
   uint32_t struct_size;
-  int32_t resume;                 /* @bool go on with the run that stopped early; default 0 */
+  int32_t resume;                 /* @bool continue the run that stopped early; default 0 */
   double collisions_per_particle; /* to make, > 0, default 100 */
   double wall_time;               /* seconds of this call */
   double time;                    /* to simulate (to the last event before it), > 0, default infinity */
@@ -531,10 +532,10 @@ typedef enum jam_growth_law {
  * at every n. */
 typedef struct jam_compress_options {
   uint32_t struct_size;
-  int32_t resume;          /* @bool go on with the stage that stopped early, with all but the limits; default 0 */
-  double growth_rate;      /* G > 0: one stage at this rate; 0, the default: the two stages of jam_compress */
-  double pressure;         /* target reduced pressure of the last stage, > 1, default 1e7 */
-  double packing_fraction; /* target, > 0, default infinity */
+  int32_t resume;                 /* @bool continue the stage that stopped early, with all but the limits; default 0 */
+  double growth_rate;             /* G > 0: one stage at this rate; 0, the default: the two stages of jam_compress */
+  double pressure;                /* target reduced pressure of the last stage, > 1, default 1e7 */
+  double packing_fraction;        /* target, > 0, default infinity */
   double collisions_per_particle; /* limit, > 0, default infinity */
   double wall_time;               /* limit of this call */
   double time;                    /* limit of simulated time, > 0, default infinity */
@@ -563,28 +564,28 @@ JAM_API jam_status jam_compress_options_init(jam_compress_options *o, size_t siz
 /* Event-driven NVE dynamics (Alder and Wainwright, J. Chem. Phys. 31, 459 (1959)). Velocities are drawn at first use,
  * by the seed alone. They are Maxwell-Boltzmann, with sum m v^2 = d N and zero total momentum. A run or stage that ends
  * with JAM_CANCELLED or JAM_LIMIT, even while its lists were made, stays with the handle. Its checkpoints have it too,
- * until the next call that changes spheres. With resume = 1 it goes on to the same bits as if it had not stopped;
+ * until the next call that changes spheres. With resume = 1 it continues to the same bits as if it had not stopped;
  * JAM_E_STATE when there is none. Splitting a run by wall_time therefore does not change its result. A failure while it
- * goes on loses the stage, not the packing. Status: JAM_OK when the collisions were made, JAM_PRECISION,
+ * continues loses the stage, not the packing. Status: JAM_OK when the collisions were made, JAM_PRECISION,
  * JAM_NOT_CONVERGED (no collision can happen: one sphere, zero velocities, or paths that never meet). The log gives the
  * reason of the last two. @errors OVERLAP */
 JAM_API jam_status jam_run(jam_system *sys, const jam_run_options *o, jam_md_report *report);
 /* Lubachevsky-Stillinger compression (J. Stat. Phys. 60, 561 (1990)). Without a growth_rate, and with o NULL, it runs
  * the two-stage protocol that avoids crystals in d = 3: G = 1e-2 to p = 500, then G = 3e-3 to the pressure of o, 1e7 by
  * default (a stage costs about 1.63 (N/G) ln(p2/p1) collisions). For another protocol make one call per stage. A
- * thermostat holds sum m v^2 within 5 % of d N, and at the end the velocities are scaled to it exactly. Status: JAM_OK
+ * thermostat keeps sum m v^2 within 5 % of d N, and at the end the velocities are scaled to it exactly. Status: JAM_OK
  * (a pressure or packing-fraction target reached, see report->stop_reason), JAM_PRECISION, JAM_NOT_CONVERGED (stalled:
- * a sphere touches its own image, or no time passes between collisions). A resumed call finishes the stage and goes on
- * with the next. Small systems (below about 200 equal spheres in d = 3) order under this protocol. From a fluid to a
- * packing fraction alone, one that these sizes do not reach in disorder is refused. @errors OVERLAP, UNPLACEABLE */
+ * a sphere touches its own image, or no time passes between collisions). A resumed call finishes the stage and
+ * continues with the next. Small systems (below about 200 equal spheres in d = 3) order under this protocol. For
+ * a fluid, a packing fraction that these sizes do not reach in disorder is refused. @errors OVERLAP, UNPLACEABLE */
 JAM_API jam_status jam_compress(jam_system *sys, const jam_compress_options *o, jam_md_report *report);
 
 /* Writes all that the dynamics depend on to a binary file: positions, diameters, velocities, shifts of the MK model,
  * and a stage that was stopped early or runs now. The results are in it too: contact network, report, histories, kept
  * steps and isoconfigurational runs. Observations, the memory limit and callbacks are not. A callback that writes a
  * checkpoint while a call moves the spheres saves the packing of the last step, without results. The file is written
- * under another name and then renamed. Dynamics that go on from it make the same bits as those that never stopped. A
- * crunch begins anew from the packing that it had reached: it ends jammed, not always with the same bits. @errors IO */
+ * under another name and then renamed. Dynamics that continue from it make the same bits as those that never stopped. A
+ * crunch starts again from the packing that it had reached: it ends jammed, perhaps with other bits. @errors IO */
 JAM_API jam_status jam_write_checkpoint(const jam_system *sys, const char *path);
 /* Makes a system from such a file. callback, user: as in jam_start. @errors IO, FORMAT (no checkpoint, or damaged, or
  * from a machine with another byte order), OVERLAP */
@@ -629,7 +630,7 @@ JAM_API jam_status jam_observed_spheres(const jam_system *sys, int64_t *collisio
 JAM_API jam_status jam_observed_pairs(const jam_system *sys, int32_t *pair, size_t pair_len, int64_t *collisions,
                                       size_t collisions_len, double *momentum, size_t momentum_len, double *time,
                                       size_t *rows);
-/* Columns of jam_observed_gaps, a row a bin. */
+/* Columns of jam_observed_gaps, one row per bin. */
 typedef enum jam_gap_column {
   JAM_GAP_LOW = 0,     /* smallest gap h of the bin */
   JAM_GAP_HIGH = 1,    /* largest gap */
@@ -639,7 +640,7 @@ typedef enum jam_gap_column {
 /* Histogram of gaps h. Samples are taken between collisions: at one, a pair more would touch. At h = 0 density tends to
  * g(sigma), which is (p - 1) / (4 phi) for equal spheres in d = 3. @shape table (bins, jam_gap_column) @errors STATE */
 JAM_API jam_status jam_observed_gaps(const jam_system *sys, double *table, size_t table_len, size_t *needed);
-/* Columns of jam_observed_correlation, a row a bin. */
+/* Columns of jam_observed_correlation, one row per bin. */
 typedef enum jam_correlation_column {
   JAM_CORRELATION_R = 0, /* middle of the bin, mean diameters */
   JAM_CORRELATION_G = 1  /* g(r) */
@@ -726,7 +727,7 @@ typedef struct jam_isoconf_options {
   uint32_t struct_size;
   int32_t threads;         /* 1 or 2, default 1; the bits are the same */
   int32_t clock;           /* @enum jam_clock, default COLLISIONS */
-  int32_t resume;          /* @bool continue the runs that this handle holds; default 0 */
+  int32_t resume;          /* @bool continue the runs of this handle; default 0 */
   int64_t first_run, runs; /* number of the first run, >= 0, default 0; from that number on, >= 1, default 100 */
   int64_t block;           /* sums are kept of each block of so many run numbers, >= 1, default 20 */
   double density_ratio;    /* packing fraction of the runs over that of the packing, in (0, 1], default 1 */
@@ -768,7 +769,7 @@ JAM_API jam_status jam_isoconf_options_init(jam_isoconf_options *o, size_t size)
  * is, with all diameters scaled to density_ratio; one whose gaps are rounding is refused. Run k draws its velocities
  * from a stream of its own. m NULL: molecular dynamics; else Monte Carlo by these options (sweeps, run, first_sweep,
  * resume and wall_time are not used). instant: ascending, > 0. kept: indices of instants whose displacements are kept
- * of every run, or NULL. The packing does not change; the handle holds the sums until the next call. Runs enter the
+ * of every run, or NULL. The packing does not change; the handle keeps the sums until the next call. Runs enter the
  * sums in the order of their numbers. An early stop keeps the runs that were made; resume continues, also after
  * jam_read_checkpoint. Status: JAM_NOT_CONVERGED (a run cannot move). @shape instant (instants), kept (k) @errors STATE
  * (nothing to resume, or not the same), OVERLAP, UNSUPPORTED */
@@ -866,7 +867,7 @@ typedef struct jam_crunch_report {
   int32_t reserved;
   double packing_fraction;     /* phi_J when jammed */
   double diameter_mean;        /* unit of box */
-  int64_t contacts;            /* pairs with a force, rattlers left out */
+  int64_t contacts;            /* pairs with a force, without rattlers */
   int64_t rattlers, stable;    /* spheres that no force-carrying contact touches; n - rattlers = N', or 0 */
   int64_t bucklers;            /* stable spheres with exactly d+1 contacts */
   int64_t isostatic_contacts;  /* d (N' - 1) + 1: contacts of a single state of self-stress */
@@ -906,9 +907,9 @@ JAM_API jam_status jam_crunch_options_init(jam_crunch_options *o, size_t size);
  * (2022)) and keeps the contact network. No step creates an overlap. An interrupted crunch returns a valid packing:
  * call it again to continue, also after jam_write_checkpoint and jam_read_checkpoint. On the barrier path it then goes
  * on at the mu that was reached. Bits may differ from those of one call. Steps and times of the report count from the
- * last call. Status: JAM_OK jammed, or at the duality gap of the options (`jammed` is 0 then, and another call goes on
- * along the path); JAM_NOT_CONVERGED, JAM_NOT_JAMMED: the state is the last valid one and the report says why. @errors
- * OVERLAP, TOO_FEW (one sphere in a fixed cell), SOLVER (last good state kept) */
+ * last call. Status: JAM_OK jammed, or at the duality gap of the options (`jammed` is 0 then, and another call
+ * continues along the path); JAM_NOT_CONVERGED, JAM_NOT_JAMMED: the state is the last valid one and the report says
+ * why. @errors OVERLAP, TOO_FEW (one sphere in a fixed cell), SOLVER (last good state kept) */
 JAM_API jam_status jam_crunch(jam_system *sys, const jam_crunch_options *o, jam_crunch_report *report);
 
 /* Memory and time of a crunch, estimated from the graph of pairs and its elimination tree. */
@@ -935,8 +936,8 @@ typedef enum jam_step_phase {
   JAM_STEP_LP = 2,    /* an LP and the move to its solution */
   JAM_STEP_POLISH = 3 /* contacts closed and forces balanced to rounding */
 } jam_step_phase;
-/* Columns of the history of a crunch, a row a step. Displacements are those of all spheres, their mean taken out, in
- * mean diameters after the step. */
+/* Columns of the history of a crunch, one row per step. Displacements are those of all spheres, their mean taken out,
+ * in mean diameters after the step. */
 typedef enum jam_history_column {
   JAM_HISTORY_PHASE = 0,           /* a jam_step_phase */
   JAM_HISTORY_GAIN = 1,            /* sqrt(Gamma) - 1: relative growth of the diameters in this step */
@@ -947,7 +948,7 @@ typedef enum jam_history_column {
   JAM_HISTORY_TOTAL_MSD = 6,       /* mean-square displacement since then */
   JAM_HISTORY_CONTACTS = 7,        /* LP: pairs of stable spheres that carry force in it */
   JAM_HISTORY_EXCESS = 8,          /* LP: contacts - (d (N' - 1) + 1) */
-  JAM_HISTORY_RATTLERS = 9,        /* LP: spheres left out of that */
+  JAM_HISTORY_RATTLERS = 9,        /* LP: spheres not in that number */
   JAM_HISTORY_SECONDS = 10,        /* wall time of the step */
   JAM_HISTORY_ITERATIONS = 11,     /* of the LP solver; Newton steps elsewhere */
   JAM_HISTORY_FACTORISATIONS = 12, /* in this step */
@@ -970,7 +971,7 @@ JAM_API jam_status jam_crunch_step_displacements(const jam_system *sys, double *
 JAM_API jam_status jam_crunch_step_contacts(const jam_system *sys, int32_t *out, size_t out_len, size_t *needed);
 /* r_ij of these pairs before the step, unit of box. @shape out (m, d) @errors STATE */
 JAM_API jam_status jam_crunch_step_vectors(const jam_system *sys, double *out, size_t out_len, size_t *needed);
-/* Duals lambda of these pairs: sum_j lambda_ij r_ij = 0 on every sphere that no step bound holds, and sum lambda_ij
+/* Duals lambda of these pairs: sum_j lambda_ij r_ij = 0 on every sphere without an active step bound, and sum lambda_ij
  * sigma_ij^2 = 1 with the diameters before the step. @shape out (m) @errors STATE */
 JAM_API jam_status jam_crunch_step_duals(const jam_system *sys, double *out, size_t out_len, size_t *needed);
 
@@ -1028,7 +1029,7 @@ typedef struct jam_relax_report {
   double mean_overlap,
       max_overlap; /* mean of (sigma - r) / sigma over contacts of stable spheres; largest of all pairs */
   int64_t contacts, excess_contacts;   /* overlapping pairs of stable spheres; contacts - (d (stable - 1) + 1) */
-  int64_t stable, rattlers;            /* n - rattlers; spheres left out */
+  int64_t stable, rattlers;            /* n - rattlers; spheres not in the network */
   int64_t evaluations, factorisations; /* of the forces; of the Hessian */
   double seconds;                      /* wall time */
   double stress_residual;              /* largest stress that a free cell leaves, less the target, over the pressure */
@@ -1037,13 +1038,13 @@ JAM_API jam_status jam_relax_options_init(jam_relax_options *o, size_t size);
 /* Minimises the energy of overlapping spheres at fixed diameters, and at a fixed cell unless `strain` frees it. A free
  * cell ends when stresses too are below force_tolerance. Keeps the contact network with its forces and stiffnesses for
  * jam_contacts, jam_forces, jam_hessian (JAM_STIFFNESS_SOFT) and the like. Positions are rounded to doubles at the end;
- * the network holds the digits beyond. Status: JAM_OK converged. JAM_NOT_JAMMED converged to energy 0: no overlaps.
+ * the network has the digits beyond. Status: JAM_OK converged. JAM_NOT_JAMMED converged to energy 0: no overlaps.
  * JAM_PRECISION converged, but overlaps are smaller than the rounding of the positions. JAM_NOT_CONVERGED. Example:
  * examples/c/soft.c @errors STATE (made without JAM_OVERLAP_ALLOW) */
 JAM_API jam_status jam_relax(jam_system *sys, const jam_relax_options *o, jam_relax_report *report);
 
 /* Options of jam_decompress. Targets: the first that is reached ends it. With crunch, the packing is crunched from just
- * below contact, and the decompression goes on until both have one network. The system ends as that jammed packing,
+ * below contact, and the decompression continues until both have one network. The system ends as that jammed packing,
  * without crunch as the soft one. max_evaluations: a later step may take 4 times what all steps before it took, at
  * least a 20th of this limit, and never more than it. */
 typedef struct jam_decompress_options {
@@ -1077,12 +1078,12 @@ typedef struct jam_decompress_report {
   double coordination;                     /* mean number of contacts of a stable sphere */
   int64_t contacts, excess_contacts;       /* overlapping pairs of stable spheres; contacts - (d (stable - 1) + 1) */
   int64_t common_contacts;                 /* with crunch; -1 when it was not run */
-  int64_t rattlers;                        /* spheres left out */
+  int64_t rattlers;                        /* spheres not in the network */
   int64_t steps, restored;                 /* of the decompression; steps taken back because they lost the network */
   int64_t evaluations, factorisations;     /* of the forces; of the Hessian, crunch not counted */
   double seconds, seconds_crunch;          /* wall time; of it in crunch */
 } jam_decompress_report;
-/* Columns of the history of a decompression, a row a minimum. */
+/* Columns of the history of a decompression, one row per minimum. */
 typedef enum jam_soft_column {
   JAM_SOFT_PHI = 0,            /* packing fraction */
   JAM_SOFT_PRESSURE = 1,       /* epsilon / length^d */
@@ -1090,7 +1091,7 @@ typedef enum jam_soft_column {
   JAM_SOFT_COORDINATION = 3,   /* mean number of contacts of a stable sphere */
   JAM_SOFT_DISTANCE = 4,       /* alpha U / sum of f r */
   JAM_SOFT_EXCESS = 5,         /* contacts - (d (stable - 1) + 1) */
-  JAM_SOFT_RATTLERS = 6,       /* spheres left out */
+  JAM_SOFT_RATTLERS = 6,       /* spheres not in the network */
   JAM_SOFT_RESIDUAL = 7,       /* max |F_i| over the mean force */
   JAM_SOFT_EVALUATIONS = 8,    /* of the forces, in this step */
   JAM_SOFT_FACTORISATIONS = 9, /* in this step */
@@ -1150,9 +1151,9 @@ typedef struct jam_hessian_options {
 } jam_hessian_options;
 /* Which modes. */
 typedef enum jam_modes_which {
-  JAM_MODES_LOWEST = 0,  /* smallest eigenvalues, the d translations left out */
+  JAM_MODES_LOWEST = 0,  /* smallest eigenvalues, without the d translations */
   JAM_MODES_HIGHEST = 1, /* largest eigenvalues */
-  JAM_MODES_NEAR = 2,    /* nearest to frequency^2, translations left out */
+  JAM_MODES_NEAR = 2,    /* nearest to frequency^2, without translations */
   JAM_MODES_ALL = 3      /* all d N', translations among them; dense, 24 (d N')^2 bytes */
 } jam_modes_which;
 /* Options of jam_modes. */
@@ -1164,7 +1165,7 @@ typedef struct jam_modes_options {
   double tolerance;    /* relative, of Lanczos, in (0, 1), default 1e-10 */
   double memory_limit; /* bytes, default 2e9: past it JAM_E_MEMORY with the estimate */
 } jam_modes_options;
-/* Columns of jam_modes, a row a mode. */
+/* Columns of jam_modes, one row per mode. */
 typedef enum jam_mode_column {
   JAM_MODE_LAMBDA = 0,       /* lambda = omega^2 */
   JAM_MODE_PARTICIPATION = 1 /* sum |v_i|^4 / (sum |v_i|^2)^2 */
@@ -1196,7 +1197,7 @@ typedef struct jam_geometry_options {
  * its jump is 1 and its contacts -1 when there is none. */
 typedef struct jam_geometry_report {
   uint32_t struct_size;
-  int32_t self_contacts;       /* with own images: no constraint in a fixed cell, so left out of the network */
+  int32_t self_contacts;       /* with own images: no constraint in a fixed cell, so not in the network */
   double tolerance;            /* used */
   double gap_below, gap_above; /* largest |h| within it, rattlers included; least beyond it, window without one */
   double jump;                 /* gap_above / gap_below, the latter no smaller than resolution */
@@ -1218,10 +1219,10 @@ JAM_API jam_status jam_geometry_options_init(jam_geometry_options *o, size_t siz
  * moves. Rattlers are the spheres that carry no force. Contacts between the others stay, some with force 0. Forces
  * are the null vector of S^T, or the analytic centre of the non-negative ones where there are several states of
  * self-stress. The stored report's `jammed` is the verdict of jam_rigidity, whatever the tolerance. Status, with the
- * network kept each time: JAM_OK: one jump stands out, or only this candidate has a single state of self-stress.
- * JAM_AMBIGUOUS: another candidate fits too (see second_*), or there are several states of self-stress. Also where gaps
- * above 1e-7 leave the verdict open, or where coordinates have too few digits for a no. JAM_NOT_JAMMED: not
- * collectively jammed even with these contacts closed. @errors SOLVER */
+ * network kept each time: JAM_OK: one jump is clearly the largest, or only this candidate has a single state of
+ * self-stress. JAM_AMBIGUOUS: another candidate fits too (see second_*), or there are several states of self-stress.
+ * Also where gaps above 1e-7 leave the verdict open, or where coordinates have too few digits for a no. JAM_NOT_JAMMED:
+ * not collectively jammed even with these contacts closed. @errors SOLVER */
 JAM_API jam_status jam_contacts_from_geometry(jam_system *sys, const jam_geometry_options *o,
                                               jam_geometry_report *report);
 /* Columns of jam_contact_candidates. */
@@ -1352,11 +1353,11 @@ typedef struct jam_check_report {
   double proof_value, proof_bound; /* the two numbers of the cause */
 } jam_check_report;
 JAM_API jam_status jam_check_options_init(jam_check_options *o, size_t size);
-/* Judges a packing as it is: by positions, diameters and cell alone, whatever network the handle holds. Nothing on the
- * handle changes. Runs both tests of jam_rigidity. Coordinates with few digits never give a no unless spheres have too
- * few neighbours to be held. A system that may overlap is tested with its diameters reduced until no pair overlaps.
- * Status: JAM_OK jammed, JAM_NOT_JAMMED, JAM_AMBIGUOUS undecided. jam_last_error() holds jam_check_text for every
- * status above 0. @errors OVERLAP (above one half), SOLVER */
+/* Tests a packing without moving it, by positions, diameters and cell alone, whatever network the handle has. Nothing
+ * on the handle changes. Runs both tests of jam_rigidity. Coordinates with few digits never give a no unless spheres
+ * have too few neighbours to be held. A system that may overlap is tested with its diameters reduced until no pair
+ * overlaps. Status: JAM_OK jammed, JAM_NOT_JAMMED, JAM_AMBIGUOUS undecided. jam_last_error() gives jam_check_text for
+ * every status above 0. @errors OVERLAP (above one half), SOLVER */
 JAM_API jam_status jam_check_packing(jam_system *sys, const jam_check_options *o, jam_check_report *report);
 /* The report of jam_check_packing as one paragraph: the verdict, its figures, how sure it is, and what was proved. ""
  * for NULL or a wrong struct_size. Valid until this thread's next call of it. */
@@ -1399,7 +1400,7 @@ typedef struct jam_proof_report {
   double singular;             /* below the smallest singular value of the rows 2 r_c, in units of that power of two */
   double eigenvalue, rounding; /* estimate of its square; error bound that was taken off the square */
 } jam_proof_report;
-/* Proves, in spite of rounding, that the packing is jammed. Contacts and forces are those of the network. Newton's
+/* Proves, despite rounding, that the packing is jammed. Contacts and forces are those of the network. Newton's
  * steps take the centres to two doubles (jam_refined_positions). A factorisation with a bound of its rounding gives the
  * smallest singular value, and Kantorovich's theorem the rest: the guide's page "Proofs" has theorems and limits.
  * ratio: the exact ratios of the diameters, in any unit; NULL takes the diameters as they are. Status: JAM_OK proved
@@ -1432,7 +1433,7 @@ typedef enum jam_contact_class {
   JAM_CONTACT_SMALLEST = 2,  /* has the smallest force of one of its spheres */
   JAM_CONTACT_MEDIAN = 4     /* has the (lower) median force of one of its spheres */
 } jam_contact_class;
-/* Gaps h of all pairs below h_max (every image), contacts left out, ascending; *rows = gaps. Without stable_only
+/* Gaps h of all pairs below h_max (every image), without contacts, ascending; *rows = gaps. Without stable_only
  * rattlers count too and no network is needed. @shape gap (gaps), pair (gaps, 2) @bool stable_only @errors STATE */
 JAM_API jam_status jam_gaps(const jam_system *sys, double h_max, int32_t stable_only, double *gap, size_t gap_len,
                             int32_t *pair, size_t pair_len, size_t *rows);
@@ -1514,9 +1515,9 @@ JAM_API jam_status jam_local_fraction(const jam_system *sys, double *out, size_t
  * diameters change by the factor 1 - s f / sum f sigma, and there is no net translation. contact in 0..n_c-1. Needs a
  * single state of self-stress (JAM_E_STATE says how many there are). @shape out (N', d) @errors STATE, SOLVER */
 JAM_API jam_status jam_floppy_mode(jam_system *sys, int64_t contact, double *out, size_t out_len, size_t *needed);
-/* Columns of jam_floppy_modes, a row a contact; dr is the field of jam_floppy_mode, and F the mean force. Openings have
- * the unit of positions: divide by the diameter to compare packings of different N. B = sum_k f_k |dr_perp|^2 / r_k.
- * S_RETURN is s* of R. Diaz Hernandez Rojas, PhD thesis, Sapienza 2021, whose index is twice stability. */
+/* Columns of jam_floppy_modes, one row per contact; dr is the field of jam_floppy_mode, and F the mean force. Openings
+ * have the unit of positions: divide by the diameter to compare packings of different N. B = sum_k f_k |dr_perp|^2 /
+ * r_k. S_RETURN is s* of R. Diaz Hernandez Rojas, PhD thesis, Sapienza 2021, whose index is twice stability. */
 typedef enum jam_floppy_column {
   JAM_FLOPPY_MEDIAN = 0,    /* b = median |dr_i| / |dr|: far below 1/sqrt(N') when the mode is localised */
   JAM_FLOPPY_WEIGHT = 1,    /* W = f / median |dr_i|: f equals W times the displacement far away */
@@ -1556,7 +1557,7 @@ typedef struct jam_comparison {
   double packing_fraction_change;            /* phi of other minus phi of sys */
   double displacement_rms, displacement_max; /* of these (or all) without their mean, in mean diameters of sys */
 } jam_comparison;
-/* Columns of jam_density_of_states, a row a bin of the frequency omega. */
+/* Columns of jam_density_of_states, one row per bin of the frequency omega. */
 typedef enum jam_dos_column {
   JAM_DOS_OMEGA = 0,           /* middle of the bin */
   JAM_DOS_DENSITY = 1,         /* density of states D there, integral 1 */
@@ -1567,8 +1568,8 @@ typedef enum jam_dos_column {
 } jam_dos_column;
 JAM_API jam_status jam_dos_options_init(jam_dos_options *o, size_t size);
 /* Density of states D(omega) and its integral by the kernel polynomial method: no modes are computed, translations are
- * left out. With prestress omega starts below 0: unstable modes stand at -sqrt(-lambda), and resolution is lower near
- * 0. @shape table (points, jam_dos_column) @errors STATE, SOLVER, TOO_FEW */
+ * omitted. With prestress omega starts below 0: unstable modes are listed at -sqrt(-lambda), and resolution is lower
+ * near 0. @shape table (points, jam_dos_column) @errors STATE, SOLVER, TOO_FEW */
 JAM_API jam_status jam_density_of_states(jam_system *sys, const jam_hessian_options *h, const jam_dos_options *o,
                                          double *table, size_t table_len, size_t *needed);
 /* Projections u . v of a displacement u on the modes `vector` of jam_modes. Over all d N' modes their squares add up to

@@ -320,7 +320,7 @@ end
 """
     crunch_step_duals(s)
 
-Duals lambda of these pairs: `sum_j` `lambda_ij` `r_ij` = 0 on every sphere that no step bound holds, and sum
+Duals lambda of these pairs: `sum_j` `lambda_ij` `r_ij` = 0 on every sphere without an active step bound, and sum
 `lambda_ij` `sigma_ij`^2 = 1 with the diameters before the step.
 
 - `out`: array `(m)`
@@ -374,10 +374,10 @@ Contact network and forces from positions, diameters and box alone, kept as `cru
 Rattlers are the spheres that carry no force. Contacts between the others stay, some with force 0. Forces are the null
 vector of S^T, or the analytic centre of the non-negative ones where there are several states of self-stress. The
 stored report's `jammed` is the verdict of `rigidity`, whatever the tolerance. Status, with the network kept each
-time: `:ok`: one jump stands out, or only this candidate has a single state of self-stress. `:ambiguous`: another
-candidate fits too (see second_...), or there are several states of self-stress. Also where gaps above 1e-7 leave the
-verdict open, or where coordinates have too few digits for a no. `:not_jammed`: not collectively jammed even with
-these contacts closed.
+time: `:ok`: one jump is clearly the largest, or only this candidate has a single state of self-stress. `:ambiguous`:
+another candidate fits too (see second_...), or there are several states of self-stress. Also where gaps above 1e-7
+leave the verdict open, or where coordinates have too few digits for a no. `:not_jammed`: not collectively jammed even
+with these contacts closed.
 
 - `tolerance`: contacts have |h| <= tolerance; 0, the default: set at the largest jump of the sorted gaps
 - `window`: jumps are searched in |h| < window, in (0, 1], default 0.1
@@ -452,7 +452,7 @@ end
 """
     prove(s, ratio = nothing) -> report
 
-Proves, in spite of rounding, that the packing is jammed. Contacts and forces are those of the network. Newton's steps
+Proves, despite rounding, that the packing is jammed. Contacts and forces are those of the network. Newton's steps
 take the centres to two doubles (`refined_positions`). A factorisation with a bound of its rounding gives the smallest
 singular value, and Kantorovich's theorem the rest: the guide's page "Proofs" has theorems and limits. ratio: the
 exact ratios of the diameters, in any unit; `nothing` takes the diameters as they are. Status: `:ok` proved exact or
@@ -511,8 +511,8 @@ end
 """
     gaps(s, h_max, stable_only) -> (gap, pair)
 
-Gaps h of all pairs below `h_max` (every image), contacts left out, ascending. Without `stable_only` rattlers count
-too and no network is needed.
+Gaps h of all pairs below `h_max` (every image), without contacts, ascending. Without `stable_only` rattlers count too
+and no network is needed.
 
 - `gap`: array `(gaps)`
 - `pair`: array `(2, gaps)`, indices from 1
@@ -678,7 +678,8 @@ end
     density_of_states(s; stiffness, alpha, prestress, moments, vectors, points, seed, progress) -> table
 
 Density of states D(omega) and its integral by the kernel polynomial method: no modes are computed, translations are
-left out. With prestress omega starts below 0: unstable modes stand at -sqrt(-lambda), and resolution is lower near 0.
+omitted. With prestress omega starts below 0: unstable modes are listed at -sqrt(-lambda), and resolution is lower
+near 0.
 
 - `stiffness`: one of `:harmonic`, `:power`, `:hard`, `:soft`; default `:harmonic`
 - `alpha`: POWER: > 1, default 2

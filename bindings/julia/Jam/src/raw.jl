@@ -12,26 +12,26 @@ const JAM_MAX_DIM = Int32(8)
 
 # jam_status_code: All status codes; values are ABI and never reused.
 const JAM_OK = Int32(0)  # done: the target was reached
-const JAM_CANCELLED = Int32(1)  # jam_cancel or a callback asked to stop
+const JAM_CANCELLED = Int32(1)  # jam_cancel or a callback requested a stop
 const JAM_LIMIT = Int32(2)  # a limit on work or time came before the target
 const JAM_NOT_CONVERGED = Int32(3)  # the method made no more progress; the state is the best so far
 const JAM_PRECISION = Int32(4)  # the target lies beyond what the numbers can resolve
 const JAM_NOT_JAMMED = Int32(5)  # there is no jammed network to work on
 const JAM_AMBIGUOUS = Int32(6)  # the answer is not unique; the text says which was returned
 const JAM_E_NULL = Int32(-1)  # a pointer that is needed is NULL
-const JAM_E_STRUCT_SIZE = Int32(-2)  # struct_size is zero or larger than this library knows
+const JAM_E_STRUCT_SIZE = Int32(-2)  # struct_size is zero or larger than in this library
 const JAM_E_ARGUMENT = Int32(-3)  # a value is out of its range
 const JAM_E_DIMENSION = Int32(-4)  # dim is not in 2..JAM_MAX_DIM
 const JAM_E_NONFINITE = Int32(-5)  # NaN or infinity where a number is needed
 const JAM_E_OVERLAP = Int32(-6)  # spheres overlap; the text names the worst pair
 const JAM_E_UNPLACEABLE = Int32(-7)  # the random start cannot reach the packing fraction
-const JAM_E_BUFFER = Int32(-8)  # the caller's buffer is too short; *needed holds the length
+const JAM_E_BUFFER = Int32(-8)  # the caller's buffer is too short; *needed is the length
 const JAM_E_MEMORY = Int32(-9)  # out of memory
 const JAM_E_IO = Int32(-10)  # a file cannot be opened, read or written
 const JAM_E_FORMAT = Int32(-11)  # a file does not have the format; the text names the line
 const JAM_E_STATE = Int32(-12)  # the handle has no such result yet, e.g. forces before crunch
 const JAM_E_SOLVER = Int32(-13)  # no LP or eigenvalue solver gave an answer that checks out
-const JAM_E_TOO_FEW = Int32(-14)  # too few spheres for what was asked
+const JAM_E_TOO_FEW = Int32(-14)  # too few spheres for this call
 const JAM_E_BUSY = Int32(-15)  # another call is running on this handle
 const JAM_E_UNSUPPORTED = Int32(-16)  # not available in this build or for this model
 const JAM_E_INTERNAL = Int32(-17)  # a bug in libjam; please report the text
@@ -119,19 +119,19 @@ const JAM_REACH_CRYSTAL = Int32(3)  # disks of nearly one size, which order: the
 # jam_log_level: Log levels.
 const JAM_LOG_NONE = Int32(0)  # silent, the default
 const JAM_LOG_WARNING = Int32(1)  # what a user should know, e.g. a fallback solver was used
-const JAM_LOG_INFO = Int32(2)  # a line a stage or LP
+const JAM_LOG_INFO = Int32(2)  # one line per stage or LP
 const JAM_LOG_DEBUG = Int32(3)  # solver detail
 
-# jam_format: File formats. Behind any ending .gz compresses the file. PLAIN: line 1: d. Line 2: N. Line 3: the diameter, or the word `diameters`; then, when it is not 1, the box as `box <L>`. Then a line a sphere: its position, and its diameter after `diameters`, with 17 digits. XYZ: Lattice, dim, Properties=id:I:1:pos:R:d:radius:R:1 and, after a crunch, contacts:I:1. VTP: points with diameter, and after a crunch contacts and kind (0 rattler, 1 buckler, 2 other).
+# jam_format: File formats. Behind any ending .gz compresses the file. PLAIN: line 1: d. Line 2: N. Line 3: the diameter, or the word `diameters`; then, when it is not 1, the box as `box <L>`. Then one line per sphere: its position, and its diameter after `diameters`, with 17 digits. XYZ: Lattice, dim, Properties=id:I:1:pos:R:d:radius:R:1 and, after a crunch, contacts:I:1. VTP: points with diameter, and after a crunch contacts, kind (0 rattler, 1 buckler, 2 other).
 const JAM_FORMAT_AUTO = Int32(0)  # .xyz, .extxyz: XYZ; .data, .lmp: LAMMPS; .vtp: VTP; .dat, .txt, none: PLAIN; others refused
-const JAM_FORMAT_PLAIN = Int32(1)  # text that holds cubes alone
+const JAM_FORMAT_PLAIN = Int32(1)  # text, cubes only
 const JAM_FORMAT_XYZ = Int32(2)  # extended XYZ; d = 2 gets a third coordinate 0
 const JAM_FORMAT_LAMMPS = Int32(3)  # LAMMPS data of atom_style sphere, density 1, d = 2 and 3, any cell. In d = 2 all z are 0
 const JAM_FORMAT_VTP = Int32(4)  # VTK PolyData in binary, d = 2 and 3. Written only
 
 # jam_contact_format: Formats of contact networks.
 const JAM_CONTACTS_AUTO = Int32(0)  # by name: .csv, .dump, .vtp; with .gz behind it compressed; others are refused
-const JAM_CONTACTS_CSV = Int32(1)  # a line a contact: i, j, unit vector from j to i, gap, force (mean 1), 17 digits
+const JAM_CONTACTS_CSV = Int32(1)  # one line per contact: i, j, unit vector from j to i, gap, force (mean 1), 17 digits
 const JAM_CONTACTS_DUMP = Int32(2)  # the same as a LAMMPS dump local, whose spheres count from 1; d = 2 and 3
 const JAM_CONTACTS_VTP = Int32(3)  # VTK PolyData in binary, d = 2, 3: two half lines a contact, with force, gap and its number
 
@@ -147,13 +147,13 @@ const JAM_SERIES_PRESSURE = Int32(3)  # reduced pressure since the sample before
 const JAM_SERIES_ERROR = Int32(4)  # its standard error, from eight parts
 const JAM_SERIES_MSD = Int32(5)  # mean-square displacement since jam_observe, unit box^2
 
-# jam_gap_column: Columns of jam_observed_gaps, a row a bin.
+# jam_gap_column: Columns of jam_observed_gaps, one row per bin.
 const JAM_GAP_LOW = Int32(0)  # smallest gap h of the bin
 const JAM_GAP_HIGH = Int32(1)  # largest gap
 const JAM_GAP_DENSITY = Int32(2)  # pairs over those of an ideal gas
 const JAM_GAP_ERROR = Int32(3)  # its standard error over samples
 
-# jam_correlation_column: Columns of jam_observed_correlation, a row a bin.
+# jam_correlation_column: Columns of jam_observed_correlation, one row per bin.
 const JAM_CORRELATION_R = Int32(0)  # middle of the bin, mean diameters
 const JAM_CORRELATION_G = Int32(1)  # g(r)
 
@@ -212,7 +212,7 @@ const JAM_STEP_PATH = Int32(1)  # a Newton step of the barrier path (the first r
 const JAM_STEP_LP = Int32(2)  # an LP and the move to its solution
 const JAM_STEP_POLISH = Int32(3)  # contacts closed and forces balanced to rounding
 
-# jam_history_column: Columns of the history of a crunch, a row a step. Displacements are those of all spheres, their mean taken out, in mean diameters after the step.
+# jam_history_column: Columns of the history of a crunch, one row per step. Displacements are those of all spheres, their mean taken out, in mean diameters after the step.
 const JAM_HISTORY_PHASE = Int32(0)  # a jam_step_phase
 const JAM_HISTORY_GAIN = Int32(1)  # sqrt(Gamma) - 1: relative growth of the diameters in this step
 const JAM_HISTORY_PHI = Int32(2)  # packing fraction after the step
@@ -222,7 +222,7 @@ const JAM_HISTORY_TOTAL_MAX = Int32(5)  # largest displacement since the start o
 const JAM_HISTORY_TOTAL_MSD = Int32(6)  # mean-square displacement since then
 const JAM_HISTORY_CONTACTS = Int32(7)  # LP: pairs of stable spheres that carry force in it
 const JAM_HISTORY_EXCESS = Int32(8)  # LP: contacts - (d (N' - 1) + 1)
-const JAM_HISTORY_RATTLERS = Int32(9)  # LP: spheres left out of that
+const JAM_HISTORY_RATTLERS = Int32(9)  # LP: spheres not in that number
 const JAM_HISTORY_SECONDS = Int32(10)  # wall time of the step
 const JAM_HISTORY_ITERATIONS = Int32(11)  # of the LP solver; Newton steps elsewhere
 const JAM_HISTORY_FACTORISATIONS = Int32(12)  # in this step
@@ -248,14 +248,14 @@ const JAM_MINIMISER_LBFGS = Int32(2)  # limited-memory BFGS alone (Nocedal, Math
 const JAM_SOFT_REFERENCE = Int32(0)  # twice the digits and small displacements: forces balance to 1e-14 at any overlap
 const JAM_SOFT_DOUBLE = Int32(1)  # from coordinates in doubles: balance ends near 1e-15 / overlap; for comparison
 
-# jam_soft_column: Columns of the history of a decompression, a row a minimum.
+# jam_soft_column: Columns of the history of a decompression, one row per minimum.
 const JAM_SOFT_PHI = Int32(0)  # packing fraction
 const JAM_SOFT_PRESSURE = Int32(1)  # epsilon / length^d
 const JAM_SOFT_ENERGY = Int32(2)  # U / n
 const JAM_SOFT_COORDINATION = Int32(3)  # mean number of contacts of a stable sphere
 const JAM_SOFT_DISTANCE = Int32(4)  # alpha U / sum of f r
 const JAM_SOFT_EXCESS = Int32(5)  # contacts - (d (stable - 1) + 1)
-const JAM_SOFT_RATTLERS = Int32(6)  # spheres left out
+const JAM_SOFT_RATTLERS = Int32(6)  # spheres not in the network
 const JAM_SOFT_RESIDUAL = Int32(7)  # max |F_i| over the mean force
 const JAM_SOFT_EVALUATIONS = Int32(8)  # of the forces, in this step
 const JAM_SOFT_FACTORISATIONS = Int32(9)  # in this step
@@ -268,12 +268,12 @@ const JAM_STIFFNESS_HARD = Int32(2)  # entropic force of hard spheres near jammi
 const JAM_STIFFNESS_SOFT = Int32(3)  # that of the energy that was minimised, in its units
 
 # jam_modes_which: Which modes.
-const JAM_MODES_LOWEST = Int32(0)  # smallest eigenvalues, the d translations left out
+const JAM_MODES_LOWEST = Int32(0)  # smallest eigenvalues, without the d translations
 const JAM_MODES_HIGHEST = Int32(1)  # largest eigenvalues
-const JAM_MODES_NEAR = Int32(2)  # nearest to frequency^2, translations left out
+const JAM_MODES_NEAR = Int32(2)  # nearest to frequency^2, without translations
 const JAM_MODES_ALL = Int32(3)  # all d N', translations among them; dense, 24 (d N')^2 bytes
 
-# jam_mode_column: Columns of jam_modes, a row a mode.
+# jam_mode_column: Columns of jam_modes, one row per mode.
 const JAM_MODE_LAMBDA = Int32(0)  # lambda = omega^2
 const JAM_MODE_PARTICIPATION = Int32(1)  # sum |v_i|^4 / (sum |v_i|^2)^2
 
@@ -343,7 +343,7 @@ const JAM_POPULATION_MEDIAN = Int32(4)  # forces only: the (lower) median of one
 const JAM_STRUCTURE_Q = Int32(0)  # |q| times the mean diameter, ascending
 const JAM_STRUCTURE_S = Int32(1)  # S(q), its average over all q of this length
 
-# jam_floppy_column: Columns of jam_floppy_modes, a row a contact; dr is the field of jam_floppy_mode, and F the mean force. Openings have the unit of positions: divide by the diameter to compare packings of different N. B = sum_k f_k |dr_perp|^2 / r_k. S_RETURN is s* of R. Diaz Hernandez Rojas, PhD thesis, Sapienza 2021, whose index is twice stability.
+# jam_floppy_column: Columns of jam_floppy_modes, one row per contact; dr is the field of jam_floppy_mode, and F the mean force. Openings have the unit of positions: divide by the diameter to compare packings of different N. B = sum_k f_k |dr_perp|^2 / r_k. S_RETURN is s* of R. Diaz Hernandez Rojas, PhD thesis, Sapienza 2021, whose index is twice stability.
 const JAM_FLOPPY_MEDIAN = Int32(0)  # b = median |dr_i| / |dr|: far below 1/sqrt(N') when the mode is localised
 const JAM_FLOPPY_WEIGHT = Int32(1)  # W = f / median |dr_i|: f equals W times the displacement far away
 const JAM_FLOPPY_S_PLUS = Int32(2)  # opening at which, to first order, the next contact forms
@@ -351,7 +351,7 @@ const JAM_FLOPPY_S_STAR = Int32(3)  # opening f / B at which, to second order, t
 const JAM_FLOPPY_STABILITY = Int32(4)  # s_star / s_plus = sigma f / (N c F s_plus), F the mean force, c = sigma B / (N F)
 const JAM_FLOPPY_S_RETURN = Int32(5)  # opening 2 s_star at which, to second order, the diameters are back at their start
 
-# jam_dos_column: Columns of jam_density_of_states, a row a bin of the frequency omega.
+# jam_dos_column: Columns of jam_density_of_states, one row per bin of the frequency omega.
 const JAM_DOS_OMEGA = Int32(0)  # middle of the bin
 const JAM_DOS_DENSITY = Int32(1)  # density of states D there, integral 1
 const JAM_DOS_ERROR = Int32(2)  # its standard error over the random vectors; smoothing is not in it
@@ -380,7 +380,7 @@ Given to the progress callback; valid during the call only. NaN: not known.
 - `seconds_left_spread`: two of three calls end between `seconds_left` over and times this factor > 1
 """
 mutable struct jam_progress
-    struct_size::UInt32  # as the library knows it
+    struct_size::UInt32  # as in this library
     phase::Int32  # jam_phase
     packing_fraction::Cdouble  # now
     pressure::Cdouble  # MD: reduced pressure of the last window
@@ -486,7 +486,7 @@ What the system is now.
 - `monodisperse`: Bool; all diameters are equal
 - `masses`: one of `:equal`, `:volume`
 - `paused`: one of `:run`, `:compress`, `:crunch`, `:polish`, `:analyse`, `:relax`, `:decompress`, `:monte_carlo`,
-  `:isoconfigurational`, `:create`; of what was stopped early and can go on (crunch: by `crunch!`), or 0
+  `:isoconfigurational`, `:create`; of what was stopped early and can continue (crunch: by `crunch!`), or 0
 - `non_additivity`: Delta of a non-additive mixture, 0 for additive diameters
 - `container`: one of `:brick`, `:cylinder`, `:ball`
 - `walls`: as in `jam_start`
@@ -504,7 +504,7 @@ mutable struct jam_info
     model::Int32  # jam_model
     monodisperse::Int32  # 1: all diameters are equal
     masses::Int32  # jam_masses
-    paused::Int32  # jam_phase of what was stopped early and can go on (crunch: by jam_crunch), or 0
+    paused::Int32  # jam_phase of what was stopped early and can continue (crunch: by jam_crunch), or 0
     non_additivity::Cdouble  # Delta of a non-additive mixture, 0 for additive diameters
     container::Int32  # jam_container
     walls::Int32  # as in jam_start
@@ -599,14 +599,14 @@ end
 
 Limits of `run!` (NVE). Whichever comes first ends the run. All but `wall_time` count since the run began.
 
-- `resume`: Bool; go on with the run that stopped early; default 0
+- `resume`: Bool; continue the run that stopped early; default 0
 - `collisions_per_particle`: to make, > 0, default 100
 - `wall_time`: seconds of this call
 - `time`: to simulate (to the last event before it), > 0, default infinity
 """
 mutable struct jam_run_options
     struct_size::UInt32
-    resume::Int32  # 1: go on with the run that stopped early; default 0
+    resume::Int32  # 1: continue the run that stopped early; default 0
     collisions_per_particle::Cdouble  # to make, > 0, default 100
     wall_time::Cdouble  # seconds of this call
     time::Cdouble  # to simulate (to the last event before it), > 0, default infinity
@@ -621,7 +621,7 @@ reached first ends it. Targets, limits and `growth_law` apply to the two stages 
 each stage. The same `growth_rate` by `:density`, in steps of half a per cent of sigma, means the same protocol at
 every n.
 
-- `resume`: Bool; go on with the stage that stopped early, with all but the limits; default 0
+- `resume`: Bool; continue the stage that stopped early, with all but the limits; default 0
 - `growth_rate`: G > 0: one stage at this rate; 0, the default: the two stages of `compress!`
 - `pressure`: target reduced pressure of the last stage, > 1, default 1e7
 - `packing_fraction`: target, > 0, default infinity
@@ -633,7 +633,7 @@ every n.
 """
 mutable struct jam_compress_options
     struct_size::UInt32
-    resume::Int32  # 1: go on with the stage that stopped early, with all but the limits; default 0
+    resume::Int32  # 1: continue the stage that stopped early, with all but the limits; default 0
     growth_rate::Cdouble  # G > 0: one stage at this rate; 0, the default: the two stages of jam_compress
     pressure::Cdouble  # target reduced pressure of the last stage, > 1, default 1e7
     packing_fraction::Cdouble  # target, > 0, default infinity
@@ -816,7 +816,7 @@ Options of `isoconfigurational`.
 
 - `threads`: 1 or 2, default 1; the bits are the same
 - `clock`: one of `:collisions`, `:time`; default `:collisions`
-- `resume`: Bool; continue the runs that this handle holds; default 0
+- `resume`: Bool; continue the runs of this handle; default 0
 - `first_run`: number of the first run, >= 0, default 0
 - `runs`: from that number on, >= 1, default 100
 - `block`: sums are kept of each block of so many run numbers, >= 1, default 20
@@ -831,7 +831,7 @@ mutable struct jam_isoconf_options
     struct_size::UInt32
     threads::Int32  # 1 or 2, default 1; the bits are the same
     clock::Int32  # jam_clock, default COLLISIONS
-    resume::Int32  # 1: continue the runs that this handle holds; default 0
+    resume::Int32  # 1: continue the runs of this handle; default 0
     first_run::Int64  # number of the first run, >= 0, default 0
     runs::Int64  # from that number on, >= 1, default 100
     block::Int64  # sums are kept of each block of so many run numbers, >= 1, default 20
@@ -956,7 +956,7 @@ force on the path over the mean is within a factor of 1e4 of twice their gap.
   runs it
 - `packing_fraction`: `phi_J` when jammed
 - `diameter_mean`: unit of box
-- `contacts`: pairs with a force, rattlers left out
+- `contacts`: pairs with a force, without rattlers
 - `rattlers`: spheres that no force-carrying contact touches
 - `stable`: n - rattlers = N', or 0
 - `bucklers`: stable spheres with exactly d+1 contacts
@@ -1013,7 +1013,7 @@ mutable struct jam_crunch_report
     reserved::Int32
     packing_fraction::Cdouble  # phi_J when jammed
     diameter_mean::Cdouble  # unit of box
-    contacts::Int64  # pairs with a force, rattlers left out
+    contacts::Int64  # pairs with a force, without rattlers
     rattlers::Int64  # spheres that no force-carrying contact touches
     stable::Int64  # n - rattlers = N', or 0
     bucklers::Int64  # stable spheres with exactly d+1 contacts
@@ -1139,7 +1139,7 @@ What `relax!` found.
 - `contacts`: overlapping pairs of stable spheres
 - `excess_contacts`: contacts - (d (stable - 1) + 1)
 - `stable`: n - rattlers
-- `rattlers`: spheres left out
+- `rattlers`: spheres not in the network
 - `evaluations`: of the forces
 - `factorisations`: of the Hessian
 - `seconds`: wall time
@@ -1162,7 +1162,7 @@ mutable struct jam_relax_report
     contacts::Int64  # overlapping pairs of stable spheres
     excess_contacts::Int64  # contacts - (d (stable - 1) + 1)
     stable::Int64  # n - rattlers
-    rattlers::Int64  # spheres left out
+    rattlers::Int64  # spheres not in the network
     evaluations::Int64  # of the forces
     factorisations::Int64  # of the Hessian
     seconds::Cdouble  # wall time
@@ -1174,7 +1174,7 @@ end
     jam_decompress_options
 
 Options of `decompress!`. Targets: the first that is reached ends it. With crunch, the packing is crunched from just
-below contact, and the decompression goes on until both have one network. The system ends as that jammed packing,
+below contact, and the decompression continues until both have one network. The system ends as that jammed packing,
 without crunch as the soft one. `max_evaluations`: a later step may take 4 times what all steps before it took, at
 least a 20th of this limit, and never more than it.
 
@@ -1233,7 +1233,7 @@ What `decompress!` found: numbers of the last soft packing as in `jam_relax_repo
 - `contacts`: overlapping pairs of stable spheres
 - `excess_contacts`: contacts - (d (stable - 1) + 1)
 - `common_contacts`: with crunch; -1 when it was not run
-- `rattlers`: spheres left out
+- `rattlers`: spheres not in the network
 - `steps`: of the decompression
 - `restored`: steps taken back because they lost the network
 - `evaluations`: of the forces
@@ -1258,7 +1258,7 @@ mutable struct jam_decompress_report
     contacts::Int64  # overlapping pairs of stable spheres
     excess_contacts::Int64  # contacts - (d (stable - 1) + 1)
     common_contacts::Int64  # with crunch; -1 when it was not run
-    rattlers::Int64  # spheres left out
+    rattlers::Int64  # spheres not in the network
     steps::Int64  # of the decompression
     restored::Int64  # steps taken back because they lost the network
     evaluations::Int64  # of the forces
@@ -1329,7 +1329,7 @@ end
 What `contacts_from_geometry!` found; gaps relative to `sigma_ij`. second_...: the next candidate that could be rigid;
 its jump is 1 and its contacts -1 when there is none.
 
-- `self_contacts`: with own images: no constraint in a fixed cell, so left out of the network
+- `self_contacts`: with own images: no constraint in a fixed cell, so not in the network
 - `tolerance`: used
 - `gap_below`: largest |h| within it, rattlers included
 - `gap_above`: least beyond it, window without one
@@ -1349,7 +1349,7 @@ its jump is 1 and its contacts -1 when there is none.
 """
 mutable struct jam_geometry_report
     struct_size::UInt32
-    self_contacts::Int32  # with own images: no constraint in a fixed cell, so left out of the network
+    self_contacts::Int32  # with own images: no constraint in a fixed cell, so not in the network
     tolerance::Cdouble  # used
     gap_below::Cdouble  # largest |h| within it, rattlers included
     gap_above::Cdouble  # least beyond it, window without one
@@ -1879,7 +1879,7 @@ end
     jam_strain(sys, strain, strain_len)
 
 Deforms cell and positions by r -> (1 + strain) r; diameters stay, results of crunch are dropped. The new cell is
-reduced: a simple shear of any size is one call. Velocities stay, but for the rotation of a reduction.
+reduced: a simple shear of any size is one call. Velocities change only by the rotation of a reduction.
 Shapes: strain (d, d).
 Errors: `JAM_E_OVERLAP`, `JAM_E_UNSUPPORTED` (Mari-Kurchan shifts, where the reduction changes the vectors).
 """
@@ -1966,7 +1966,7 @@ end
 """
     jam_cancel(sys)
 
-Asks all calls that run on sys to stop soon with `JAM_CANCELLED`. When no call runs, the next call that must be alone
+Requests that all calls on sys stop soon with `JAM_CANCELLED`. When no call runs, the next call that must be alone
 on sys stops, unless it is a setter. `jam_cancel` only increments an atomic counter.
 """
 function jam_cancel(sys)
@@ -2026,8 +2026,8 @@ end
 Writes the packing with 17 digits, so that reading gives the same bits. The file is written under another name and
 then renamed. Links are followed. Pipes, devices and open descriptors (/dev/stdout, /dev/fd/N) are written in place;
 a file opened with >> gets the packing at its end. The shifts of `JAM_MODEL_MK` are not saved: read the file with the
-same seed and `mk_zeta`. Planted shifts are not saved either: use `jam_write_checkpoint`. Only XYZ can hold
-`non_additivity`, and only XYZ, LAMMPS and VTP can hold a cell that is not a cube; others give `JAM_E_UNSUPPORTED`.
+same seed and `mk_zeta`. Planted shifts are not saved either: use `jam_write_checkpoint`. Only XYZ can store
+`non_additivity`, and only XYZ, LAMMPS and VTP can store a cell that is not a cube; others give `JAM_E_UNSUPPORTED`.
 Errors: `JAM_E_UNSUPPORTED`, `JAM_E_IO`.
 """
 function jam_write(sys, path, format)
@@ -2078,9 +2078,9 @@ end
 Event-driven NVE dynamics (Alder and Wainwright, J. Chem. Phys. 31, 459 (1959)). Velocities are drawn at first use,
 by the seed alone. They are Maxwell-Boltzmann, with sum m v^2 = d N and zero total momentum. A run or stage that ends
 with `JAM_CANCELLED` or `JAM_LIMIT`, even while its lists were made, stays with the handle. Its checkpoints have it too,
-until the next call that changes spheres. With resume = 1 it goes on to the same bits as if it had not stopped;
+until the next call that changes spheres. With resume = 1 it continues to the same bits as if it had not stopped;
 `JAM_E_STATE` when there is none. Splitting a run by `wall_time` therefore does not change its result. A failure while it
-goes on loses the stage, not the packing. Status: `JAM_OK` when the collisions were made, `JAM_PRECISION`,
+continues loses the stage, not the packing. Status: `JAM_OK` when the collisions were made, `JAM_PRECISION`,
 `JAM_NOT_CONVERGED` (no collision can happen: one sphere, zero velocities, or paths that never meet). The log gives the
 reason of the last two.
 Errors: `JAM_E_OVERLAP`.
@@ -2095,11 +2095,11 @@ end
 Lubachevsky-Stillinger compression (J. Stat. Phys. 60, 561 (1990)). Without a `growth_rate`, and with o NULL, it runs
 the two-stage protocol that avoids crystals in d = 3: G = 1e-2 to p = 500, then G = 3e-3 to the pressure of o, 1e7 by
 default (a stage costs about 1.63 (N/G) ln(p2/p1) collisions). For another protocol make one call per stage. A
-thermostat holds sum m v^2 within 5 % of d N, and at the end the velocities are scaled to it exactly. Status: `JAM_OK`
+thermostat keeps sum m v^2 within 5 % of d N, and at the end the velocities are scaled to it exactly. Status: `JAM_OK`
 (a pressure or packing-fraction target reached, see report->`stop_reason`), `JAM_PRECISION`, `JAM_NOT_CONVERGED` (stalled:
-a sphere touches its own image, or no time passes between collisions). A resumed call finishes the stage and goes on
-with the next. Small systems (below about 200 equal spheres in d = 3) order under this protocol. From a fluid to a
-packing fraction alone, one that these sizes do not reach in disorder is refused.
+a sphere touches its own image, or no time passes between collisions). A resumed call finishes the stage and
+continues with the next. Small systems (below about 200 equal spheres in d = 3) order under this protocol. For
+a fluid, a packing fraction that these sizes do not reach in disorder is refused.
 Errors: `JAM_E_OVERLAP`, `JAM_E_UNPLACEABLE`.
 """
 function jam_compress(sys, o, report)
@@ -2113,8 +2113,8 @@ Writes all that the dynamics depend on to a binary file: positions, diameters, v
 and a stage that was stopped early or runs now. The results are in it too: contact network, report, histories, kept
 steps and isoconfigurational runs. Observations, the memory limit and callbacks are not. A callback that writes a
 checkpoint while a call moves the spheres saves the packing of the last step, without results. The file is written
-under another name and then renamed. Dynamics that go on from it make the same bits as those that never stopped. A
-crunch begins anew from the packing that it had reached: it ends jammed, not always with the same bits.
+under another name and then renamed. Dynamics that continue from it make the same bits as those that never stopped. A
+crunch starts again from the packing that it had reached: it ends jammed, perhaps with other bits.
 Errors: `JAM_E_IO`.
 """
 function jam_write_checkpoint(sys, path)
@@ -2270,7 +2270,7 @@ Isoconfigurational ensemble (Widmer-Cooper et al., Phys. Rev. Lett. 93, 135701 (
 is, with all diameters scaled to `density_ratio`; one whose gaps are rounding is refused. Run k draws its velocities
 from a stream of its own. m NULL: molecular dynamics; else Monte Carlo by these options (sweeps, run, `first_sweep`,
 resume and `wall_time` are not used). instant: ascending, > 0. kept: indices of instants whose displacements are kept
-of every run, or NULL. The packing does not change; the handle holds the sums until the next call. Runs enter the
+of every run, or NULL. The packing does not change; the handle keeps the sums until the next call. Runs enter the
 sums in the order of their numbers. An early stop keeps the runs that were made; resume continues, also after
 `jam_read_checkpoint`. Status: `JAM_NOT_CONVERGED` (a run cannot move).
 Shapes: instant (instants), kept (k).
@@ -2349,8 +2349,9 @@ Brings the packing to its jamming point by iterated linear programming (Artiaco 
 (2022)) and keeps the contact network. No step creates an overlap. An interrupted crunch returns a valid packing:
 call it again to continue, also after `jam_write_checkpoint` and `jam_read_checkpoint`. On the barrier path it then goes
 on at the mu that was reached. Bits may differ from those of one call. Steps and times of the report count from the
-last call. Status: `JAM_OK` jammed, or at the duality gap of the options (`jammed` is 0 then, and another call goes on
-along the path); `JAM_NOT_CONVERGED`, `JAM_NOT_JAMMED`: the state is the last valid one and the report says why.
+last call. Status: `JAM_OK` jammed, or at the duality gap of the options (`jammed` is 0 then, and another call
+continues along the path); `JAM_NOT_CONVERGED`, `JAM_NOT_JAMMED`: the state is the last valid one and the report says
+why.
 Errors: `JAM_E_OVERLAP`, `JAM_E_TOO_FEW` (one sphere in a fixed cell), `JAM_E_SOLVER` (last good state kept).
 """
 function jam_crunch(sys, o, report)
@@ -2427,7 +2428,7 @@ end
 """
     jam_crunch_step_duals(sys, out, out_len, needed)
 
-Duals lambda of these pairs: `sum_j` `lambda_ij` `r_ij` = 0 on every sphere that no step bound holds, and sum `lambda_ij`
+Duals lambda of these pairs: `sum_j` `lambda_ij` `r_ij` = 0 on every sphere without an active step bound, and sum `lambda_ij`
 `sigma_ij`^2 = 1 with the diameters before the step.
 Shapes: out (m).
 Errors: `JAM_E_STATE`.
@@ -2449,7 +2450,7 @@ end
 Minimises the energy of overlapping spheres at fixed diameters, and at a fixed cell unless `strain` frees it. A free
 cell ends when stresses too are below `force_tolerance`. Keeps the contact network with its forces and stiffnesses for
 `jam_contacts`, `jam_forces`, `jam_hessian` (`JAM_STIFFNESS_SOFT`) and the like. Positions are rounded to doubles at the end;
-the network holds the digits beyond. Status: `JAM_OK` converged. `JAM_NOT_JAMMED` converged to energy 0: no overlaps.
+the network has the digits beyond. Status: `JAM_OK` converged. `JAM_NOT_JAMMED` converged to energy 0: no overlaps.
 `JAM_PRECISION` converged, but overlaps are smaller than the rounding of the positions. `JAM_NOT_CONVERGED`. Example:
 examples/c/soft.c
 Errors: `JAM_E_STATE` (made without `JAM_OVERLAP_ALLOW`).
@@ -2611,10 +2612,10 @@ Contact network and forces from positions, diameters and box alone, kept as `jam
 moves. Rattlers are the spheres that carry no force. Contacts between the others stay, some with force 0. Forces
 are the null vector of S^T, or the analytic centre of the non-negative ones where there are several states of
 self-stress. The stored report's `jammed` is the verdict of `jam_rigidity`, whatever the tolerance. Status, with the
-network kept each time: `JAM_OK`: one jump stands out, or only this candidate has a single state of self-stress.
-`JAM_AMBIGUOUS`: another candidate fits too (see second_...), or there are several states of self-stress. Also where gaps
-above 1e-7 leave the verdict open, or where coordinates have too few digits for a no. `JAM_NOT_JAMMED`: not
-collectively jammed even with these contacts closed.
+network kept each time: `JAM_OK`: one jump is clearly the largest, or only this candidate has a single state of
+self-stress. `JAM_AMBIGUOUS`: another candidate fits too (see second_...), or there are several states of self-stress.
+Also where gaps above 1e-7 leave the verdict open, or where coordinates have too few digits for a no. `JAM_NOT_JAMMED`:
+not collectively jammed even with these contacts closed.
 Errors: `JAM_E_SOLVER`.
 """
 function jam_contacts_from_geometry(sys, o, report)
@@ -2687,11 +2688,11 @@ end
 """
     jam_check_packing(sys, o, report)
 
-Judges a packing as it is: by positions, diameters and cell alone, whatever network the handle holds. Nothing on the
-handle changes. Runs both tests of `jam_rigidity`. Coordinates with few digits never give a no unless spheres have too
-few neighbours to be held. A system that may overlap is tested with its diameters reduced until no pair overlaps.
-Status: `JAM_OK` jammed, `JAM_NOT_JAMMED`, `JAM_AMBIGUOUS` undecided. `jam_last_error()` holds `jam_check_text` for every
-status above 0.
+Tests a packing without moving it, by positions, diameters and cell alone, whatever network the handle has. Nothing
+on the handle changes. Runs both tests of `jam_rigidity`. Coordinates with few digits never give a no unless spheres
+have too few neighbours to be held. A system that may overlap is tested with its diameters reduced until no pair
+overlaps. Status: `JAM_OK` jammed, `JAM_NOT_JAMMED`, `JAM_AMBIGUOUS` undecided. `jam_last_error()` gives `jam_check_text` for
+every status above 0.
 Errors: `JAM_E_OVERLAP` (above one half), `JAM_E_SOLVER`.
 """
 function jam_check_packing(sys, o, report)
@@ -2711,7 +2712,7 @@ end
 """
     jam_prove(sys, ratio, ratio_len, report)
 
-Proves, in spite of rounding, that the packing is jammed. Contacts and forces are those of the network. Newton's
+Proves, despite rounding, that the packing is jammed. Contacts and forces are those of the network. Newton's
 steps take the centres to two doubles (`jam_refined_positions`). A factorisation with a bound of its rounding gives the
 smallest singular value, and Kantorovich's theorem the rest: the guide's page "Proofs" has theorems and limits.
 ratio: the exact ratios of the diameters, in any unit; NULL takes the diameters as they are. Status: `JAM_OK` proved
@@ -2775,7 +2776,7 @@ end
 """
     jam_gaps(sys, h_max, stable_only, gap, gap_len, pair, pair_len, rows)
 
-Gaps h of all pairs below `h_max` (every image), contacts left out, ascending; `*rows` = gaps. Without `stable_only`
+Gaps h of all pairs below `h_max` (every image), without contacts, ascending; `*rows` = gaps. Without `stable_only`
 rattlers count too and no network is needed.
 Shapes: gap (gaps), pair (gaps, 2).
 Errors: `JAM_E_STATE`.
@@ -2947,8 +2948,8 @@ end
     jam_density_of_states(sys, h, o, table, table_len, needed)
 
 Density of states D(omega) and its integral by the kernel polynomial method: no modes are computed, translations are
-left out. With prestress omega starts below 0: unstable modes stand at -sqrt(-lambda), and resolution is lower near
-0.
+omitted. With prestress omega starts below 0: unstable modes are listed at -sqrt(-lambda), and resolution is lower
+near 0.
 Shapes: table (points, `jam_dos_column`).
 Errors: `JAM_E_STATE`, `JAM_E_SOLVER`, `JAM_E_TOO_FEW`.
 """

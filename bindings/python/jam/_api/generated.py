@@ -15,26 +15,26 @@ GROWTH_STAGES = ((0.01, 500.0), (0.003, 10000000.0))
 class StatusCode(IntEnum):
     """All status codes; values are ABI and never reused."""
     OK = 0  # done: the target was reached
-    CANCELLED = 1  # jam_cancel or a callback asked to stop
+    CANCELLED = 1  # jam_cancel or a callback requested a stop
     LIMIT = 2  # a limit on work or time came before the target
     NOT_CONVERGED = 3  # the method made no more progress; the state is the best so far
     PRECISION = 4  # the target lies beyond what the numbers can resolve
     NOT_JAMMED = 5  # there is no jammed network to work on
     AMBIGUOUS = 6  # the answer is not unique; the text says which was returned
     E_NULL = -1  # a pointer that is needed is NULL
-    E_STRUCT_SIZE = -2  # struct_size is zero or larger than this library knows
+    E_STRUCT_SIZE = -2  # struct_size is zero or larger than in this library
     E_ARGUMENT = -3  # a value is out of its range
     E_DIMENSION = -4  # dim is not in 2..JAM_MAX_DIM
     E_NONFINITE = -5  # NaN or infinity where a number is needed
     E_OVERLAP = -6  # spheres overlap; the text names the worst pair
     E_UNPLACEABLE = -7  # the random start cannot reach the packing fraction
-    E_BUFFER = -8  # the caller's buffer is too short; *needed holds the length
+    E_BUFFER = -8  # the caller's buffer is too short; *needed is the length
     E_MEMORY = -9  # out of memory
     E_IO = -10  # a file cannot be opened, read or written
     E_FORMAT = -11  # a file does not have the format; the text names the line
     E_STATE = -12  # the handle has no such result yet, e.g. forces before crunch
     E_SOLVER = -13  # no LP or eigenvalue solver gave an answer that checks out
-    E_TOO_FEW = -14  # too few spheres for what was asked
+    E_TOO_FEW = -14  # too few spheres for this call
     E_BUSY = -15  # another call is running on this handle
     E_UNSUPPORTED = -16  # not available in this build or for this model
     E_INTERNAL = -17  # a bug in libjam; please report the text
@@ -146,17 +146,17 @@ class LogLevel(IntEnum):
     """Log levels."""
     NONE = 0  # silent, the default
     WARNING = 1  # what a user should know, e.g. a fallback solver was used
-    INFO = 2  # a line a stage or LP
+    INFO = 2  # one line per stage or LP
     DEBUG = 3  # solver detail
 
 
 class Format(IntEnum):
     """File formats. Behind any ending .gz compresses the file. PLAIN: line 1: d. Line 2: N. Line 3: the diameter, or the
-    word `diameters`; then, when it is not 1, the box as `box <L>`. Then a line a sphere: its position, and its diameter
-    after `diameters`, with 17 digits. XYZ: Lattice, dim, Properties=id:I:1:pos:R:d:radius:R:1 and, after a crunch,
-    contacts:I:1. VTP: points with diameter, and after a crunch contacts and kind (0 rattler, 1 buckler, 2 other)."""
+    word `diameters`; then, when it is not 1, the box as `box <L>`. Then one line per sphere: its position, and its
+    diameter after `diameters`, with 17 digits. XYZ: Lattice, dim, Properties=id:I:1:pos:R:d:radius:R:1 and, after a
+    crunch, contacts:I:1. VTP: points with diameter, and after a crunch contacts, kind (0 rattler, 1 buckler, 2 other)."""
     AUTO = 0  # .xyz, .extxyz: XYZ; .data, .lmp: LAMMPS; .vtp: VTP; .dat, .txt, none: PLAIN; others refused
-    PLAIN = 1  # text that holds cubes alone
+    PLAIN = 1  # text, cubes only
     XYZ = 2  # extended XYZ; d = 2 gets a third coordinate 0
     LAMMPS = 3  # LAMMPS data of atom_style sphere, density 1, d = 2 and 3, any cell. In d = 2 all z are 0
     VTP = 4  # VTK PolyData in binary, d = 2 and 3. Written only
@@ -165,7 +165,7 @@ class Format(IntEnum):
 class ContactFormat(IntEnum):
     """Formats of contact networks."""
     AUTO = 0  # by name: .csv, .dump, .vtp; with .gz behind it compressed; others are refused
-    CSV = 1  # a line a contact: i, j, unit vector from j to i, gap, force (mean 1), 17 digits
+    CSV = 1  # one line per contact: i, j, unit vector from j to i, gap, force (mean 1), 17 digits
     DUMP = 2  # the same as a LAMMPS dump local, whose spheres count from 1; d = 2 and 3
     VTP = 3  # VTK PolyData in binary, d = 2, 3: two half lines a contact, with force, gap and its number
 
@@ -187,7 +187,7 @@ class SeriesColumn(IntEnum):
 
 
 class GapColumn(IntEnum):
-    """Columns of jam_observed_gaps, a row a bin."""
+    """Columns of jam_observed_gaps, one row per bin."""
     LOW = 0  # smallest gap h of the bin
     HIGH = 1  # largest gap
     DENSITY = 2  # pairs over those of an ideal gas
@@ -195,7 +195,7 @@ class GapColumn(IntEnum):
 
 
 class CorrelationColumn(IntEnum):
-    """Columns of jam_observed_correlation, a row a bin."""
+    """Columns of jam_observed_correlation, one row per bin."""
     R = 0  # middle of the bin, mean diameters
     G = 1  # g(r)
 
@@ -274,8 +274,8 @@ class StepPhase(IntEnum):
 
 
 class HistoryColumn(IntEnum):
-    """Columns of the history of a crunch, a row a step. Displacements are those of all spheres, their mean taken out, in
-    mean diameters after the step."""
+    """Columns of the history of a crunch, one row per step. Displacements are those of all spheres, their mean taken out,
+    in mean diameters after the step."""
     PHASE = 0  # a jam_step_phase
     GAIN = 1  # sqrt(Gamma) - 1: relative growth of the diameters in this step
     PHI = 2  # packing fraction after the step
@@ -285,7 +285,7 @@ class HistoryColumn(IntEnum):
     TOTAL_MSD = 6  # mean-square displacement since then
     CONTACTS = 7  # LP: pairs of stable spheres that carry force in it
     EXCESS = 8  # LP: contacts - (d (N' - 1) + 1)
-    RATTLERS = 9  # LP: spheres left out of that
+    RATTLERS = 9  # LP: spheres not in that number
     SECONDS = 10  # wall time of the step
     ITERATIONS = 11  # of the LP solver; Newton steps elsewhere
     FACTORISATIONS = 12  # in this step
@@ -320,14 +320,14 @@ class SoftPrecision(IntEnum):
 
 
 class SoftColumn(IntEnum):
-    """Columns of the history of a decompression, a row a minimum."""
+    """Columns of the history of a decompression, one row per minimum."""
     PHI = 0  # packing fraction
     PRESSURE = 1  # epsilon / length^d
     ENERGY = 2  # U / n
     COORDINATION = 3  # mean number of contacts of a stable sphere
     DISTANCE = 4  # alpha U / sum of f r
     EXCESS = 5  # contacts - (d (stable - 1) + 1)
-    RATTLERS = 6  # spheres left out
+    RATTLERS = 6  # spheres not in the network
     RESIDUAL = 7  # max |F_i| over the mean force
     EVALUATIONS = 8  # of the forces, in this step
     FACTORISATIONS = 9  # in this step
@@ -345,14 +345,14 @@ class Stiffness(IntEnum):
 
 class ModesWhich(IntEnum):
     """Which modes."""
-    LOWEST = 0  # smallest eigenvalues, the d translations left out
+    LOWEST = 0  # smallest eigenvalues, without the d translations
     HIGHEST = 1  # largest eigenvalues
-    NEAR = 2  # nearest to frequency^2, translations left out
+    NEAR = 2  # nearest to frequency^2, without translations
     ALL = 3  # all d N', translations among them; dense, 24 (d N')^2 bytes
 
 
 class ModeColumn(IntEnum):
-    """Columns of jam_modes, a row a mode."""
+    """Columns of jam_modes, one row per mode."""
     LAMBDA = 0  # lambda = omega^2
     PARTICIPATION = 1  # sum |v_i|^4 / (sum |v_i|^2)^2
 
@@ -445,9 +445,9 @@ class StructureColumn(IntEnum):
 
 
 class FloppyColumn(IntEnum):
-    """Columns of jam_floppy_modes, a row a contact; dr is the field of jam_floppy_mode, and F the mean force. Openings have
-    the unit of positions: divide by the diameter to compare packings of different N. B = sum_k f_k |dr_perp|^2 / r_k.
-    S_RETURN is s* of R. Diaz Hernandez Rojas, PhD thesis, Sapienza 2021, whose index is twice stability."""
+    """Columns of jam_floppy_modes, one row per contact; dr is the field of jam_floppy_mode, and F the mean force. Openings
+    have the unit of positions: divide by the diameter to compare packings of different N. B = sum_k f_k |dr_perp|^2 /
+    r_k. S_RETURN is s* of R. Diaz Hernandez Rojas, PhD thesis, Sapienza 2021, whose index is twice stability."""
     MEDIAN = 0  # b = median |dr_i| / |dr|: far below 1/sqrt(N') when the mode is localised
     WEIGHT = 1  # W = f / median |dr_i|: f equals W times the displacement far away
     S_PLUS = 2  # opening at which, to first order, the next contact forms
@@ -457,7 +457,7 @@ class FloppyColumn(IntEnum):
 
 
 class DosColumn(IntEnum):
-    """Columns of jam_density_of_states, a row a bin of the frequency omega."""
+    """Columns of jam_density_of_states, one row per bin of the frequency omega."""
     OMEGA = 0  # middle of the bin
     DENSITY = 1  # density of states D there, integral 1
     ERROR = 2  # its standard error over the random vectors; smoothing is not in it
@@ -523,7 +523,7 @@ class Info(Report):
     model: jam_model
     monodisperse: 1: all diameters are equal
     masses: jam_masses
-    paused: jam_phase of what was stopped early and can go on (crunch: by jam_crunch), or 0
+    paused: jam_phase of what was stopped early and can continue (crunch: by jam_crunch), or 0
     non_additivity: Delta of a non-additive mixture, 0 for additive diameters
     container: jam_container
     walls: as in jam_start
@@ -700,7 +700,7 @@ class CrunchReport(Report):
     strictly_jammed: jam_verdict of the strict test; UNTESTED until jam_rigidity runs it
     packing_fraction: phi_J when jammed
     diameter_mean: unit of box
-    contacts: pairs with a force, rattlers left out
+    contacts: pairs with a force, without rattlers
     rattlers: spheres that no force-carrying contact touches
     stable: n - rattlers = N', or 0
     bucklers: stable spheres with exactly d+1 contacts
@@ -833,7 +833,7 @@ class RelaxReport(Report):
     contacts: overlapping pairs of stable spheres
     excess_contacts: contacts - (d (stable - 1) + 1)
     stable: n - rattlers
-    rattlers: spheres left out
+    rattlers: spheres not in the network
     evaluations: of the forces
     factorisations: of the Hessian
     seconds: wall time
@@ -879,7 +879,7 @@ class DecompressReport(Report):
     contacts: overlapping pairs of stable spheres
     excess_contacts: contacts - (d (stable - 1) + 1)
     common_contacts: with crunch; -1 when it was not run
-    rattlers: spheres left out
+    rattlers: spheres not in the network
     steps: of the decompression
     restored: steps taken back because they lost the network
     evaluations: of the forces
@@ -915,7 +915,7 @@ class GeometryReport(Report):
     """What jam_contacts_from_geometry found; gaps relative to sigma_ij. second_*: the next candidate that could be rigid;
     its jump is 1 and its contacts -1 when there is none.
 
-    self_contacts: with own images: no constraint in a fixed cell, so left out of the network
+    self_contacts: with own images: no constraint in a fixed cell, so not in the network
     tolerance: used
     gap_below: largest |h| within it, rattlers included
     gap_above: least beyond it, window without one
@@ -1186,13 +1186,13 @@ OPTIONS = {
         "packing_fraction": ("float", 'in cell_volume, in place of n; default 0. More than reached in disorder is refused'),
     },
     "jam_run_options": {
-        "resume": ("bool", '1: go on with the run that stopped early; default 0'),
+        "resume": ("bool", '1: continue the run that stopped early; default 0'),
         "collisions_per_particle": ("float", 'to make, > 0, default 100'),
         "wall_time": ("float", 'seconds of this call'),
         "time": ("float", 'to simulate (to the last event before it), > 0, default infinity'),
     },
     "jam_compress_options": {
-        "resume": ("bool", '1: go on with the stage that stopped early, with all but the limits; default 0'),
+        "resume": ("bool", '1: continue the stage that stopped early, with all but the limits; default 0'),
         "growth_rate": ("float", 'G > 0: one stage at this rate; 0, the default: the two stages of compress()'),
         "pressure": ("float", 'target reduced pressure of the last stage, > 1, default 1e7'),
         "packing_fraction": ("float", 'target, > 0, default infinity'),
@@ -1230,7 +1230,7 @@ OPTIONS = {
     "jam_isoconf_options": {
         "threads": ("int", '1 or 2, default 1; the bits are the same'),
         "clock": ("Clock", 'Clock, default COLLISIONS'),
-        "resume": ("bool", '1: continue the runs that this handle holds; default 0'),
+        "resume": ("bool", '1: continue the runs of this handle; default 0'),
         "first_run": ("int", 'number of the first run, >= 0, default 0'),
         "runs": ("int", 'from that number on, >= 1, default 100'),
         "block": ("int", 'sums are kept of each block of so many run numbers, >= 1, default 20'),

@@ -133,7 +133,7 @@ class CrunchHistoryResult(NamedTuple):
     total_msd: Array  # mean-square displacement since then
     contacts: Array  # LP: pairs of stable spheres that carry force in it
     excess: Array  # LP: contacts - (d (N' - 1) + 1)
-    rattlers: Array  # LP: spheres left out of that
+    rattlers: Array  # LP: spheres not in that number
     seconds: Array  # wall time of the step
     iterations: Array  # of the LP solver; Newton steps elsewhere
     factorisations: Array  # in this step
@@ -158,7 +158,7 @@ class DecompressHistoryResult(NamedTuple):
     coordination: Array  # mean number of contacts of a stable sphere
     distance: Array  # alpha U / sum of f r
     excess: Array  # contacts - (d (stable - 1) + 1)
-    rattlers: Array  # spheres left out
+    rattlers: Array  # spheres not in the network
     residual: Array  # max |F_i| over the mean force
     evaluations: Array  # of the forces, in this step
     factorisations: Array  # in this step

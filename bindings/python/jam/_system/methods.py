@@ -79,8 +79,8 @@ class Methods:
         The results are in it too: contact network, report, histories, kept steps and isoconfigurational runs.
         Observations, the memory limit and callbacks are not. A callback that writes a checkpoint while a call moves
         the spheres saves the packing of the last step, without results. The file is written under another name and
-        then renamed. Dynamics that go on from it make the same bits as those that never stopped. A crunch begins anew
-        from the packing that it had reached: it ends jammed, not always with the same bits.
+        then renamed. Dynamics that continue from it make the same bits as those that never stopped. A crunch starts
+        again from the packing that it had reached: it ends jammed, perhaps with other bits.
 
         Parameters
         ----------
@@ -482,7 +482,7 @@ class Methods:
         excess : array
             LP: contacts - (d (N' - 1) + 1)
         rattlers : array
-            LP: spheres left out of that
+            LP: spheres not in that number
         seconds : array
             wall time of the step
         iterations : array
@@ -559,7 +559,7 @@ class Methods:
         return answer
 
     def crunch_step_duals(self) -> Array:
-        """Duals lambda of these pairs: sum_j lambda_ij r_ij = 0 on every sphere that no step bound holds, and sum
+        """Duals lambda of these pairs: sum_j lambda_ij r_ij = 0 on every sphere without an active step bound, and sum
         lambda_ij sigma_ij^2 = 1 with the diameters before the step.
 
         Returns
@@ -591,7 +591,7 @@ class Methods:
         excess : array
             contacts - (d (stable - 1) + 1)
         rattlers : array
-            spheres left out
+            spheres not in the network
         residual : array
             max |F_i| over the mean force
         evaluations : array
@@ -660,9 +660,9 @@ class Methods:
         Rattlers are the spheres that carry no force. Contacts between the others stay, some with force 0. Forces are
         the null vector of S^T, or the analytic centre of the non-negative ones where there are several states of
         self-stress. The stored report's `jammed` is the verdict of rigidity(), whatever the tolerance. Status, with
-        the network kept each time: 'ok': one jump stands out, or only this candidate has a single state of self-
-        stress. 'ambiguous': another candidate fits too (see second_*), or there are several states of self-stress.
-        Also where gaps above 1e-7 leave the verdict open, or where coordinates have too few digits for a no.
+        the network kept each time: 'ok': one jump is clearly the largest, or only this candidate has a single state
+        of self-stress. 'ambiguous': another candidate fits too (see second_*), or there are several states of self-
+        stress. Also where gaps above 1e-7 leave the verdict open, or where coordinates have too few digits for a no.
         'not_jammed': not collectively jammed even with these contacts closed.
 
         Parameters
@@ -795,7 +795,7 @@ class Methods:
         return answer
 
     def prove(self, ratio: Any = None) -> ProofReport:
-        """Proves, in spite of rounding, that the packing is jammed.
+        """Proves, despite rounding, that the packing is jammed.
 
         Contacts and forces are those of the network. Newton's steps take the centres to two doubles
         (refined_positions()). A factorisation with a bound of its rounding gives the smallest singular value, and
@@ -876,7 +876,7 @@ class Methods:
         return answer
 
     def gaps(self, h_max: float, stable_only: bool) -> GapsResult:
-        """Gaps h of all pairs below h_max (every image), contacts left out, ascending.
+        """Gaps h of all pairs below h_max (every image), without contacts, ascending.
 
         Without stable_only rattlers count too and no network is needed.
 
@@ -1138,9 +1138,10 @@ class Methods:
 
     def density_of_states(self, *, stiffness: int | str | None = None, alpha: float | None = None, prestress: float | None = None, moments: int | None = None, vectors: int | None = None, points: int | None = None, seed: int | None = None, progress: Progressing = None) -> DensityOfStatesResult:
         """Density of states D(omega) and its integral by the kernel polynomial method: no modes are computed,
-        translations are left out.
+        translations are omitted.
 
-        With prestress omega starts below 0: unstable modes stand at -sqrt(-lambda), and resolution is lower near 0.
+        With prestress omega starts below 0: unstable modes are listed at -sqrt(-lambda), and resolution is lower near
+        0.
 
         Parameters
         ----------

@@ -1490,8 +1490,8 @@ module jam
       integer(c_int32_t) :: status
     end function jam_abi_version
 
-    ! Name of the kernel that OpenBLAS chose for this processor, e.g. "Haswell". If another BLAS library, loaded earlier,
-    ! computes in place of OpenBLAS: the path of that library.
+    ! Name of the kernel that OpenBLAS chose for this processor, e.g. "Haswell"; "builtin" in a build with
+    ! loops of its own. If another BLAS library computes in place of OpenBLAS: the path of that library.
     function jam_blas_kernel() &
         bind(c, name="jam_blas_kernel") result(status)
       import

@@ -171,8 +171,8 @@ JAM_API const char *jam_version(void);
 JAM_API const char *jam_commit(void);
 /* JAM_ABI of the library that is loaded. */
 JAM_API int32_t jam_abi_version(void);
-/* Name of the kernel that OpenBLAS chose for this processor, e.g. "Haswell". If another BLAS library, loaded earlier,
- * computes in place of OpenBLAS: the path of that library. */
+/* Name of the kernel that OpenBLAS chose for this processor, e.g. "Haswell"; "builtin" in a build with
+ * loops of its own. If another BLAS library computes in place of OpenBLAS: the path of that library. */
 JAM_API const char *jam_blas_kernel(void);
 /* One-line text of a status code ("unknown status" for others). */
 JAM_API const char *jam_status_string(jam_status code);

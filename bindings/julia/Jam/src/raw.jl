@@ -1686,8 +1686,8 @@ end
 """
     jam_blas_kernel()
 
-Name of the kernel that OpenBLAS chose for this processor, e.g. "Haswell". If another BLAS library, loaded earlier,
-computes in place of OpenBLAS: the path of that library.
+Name of the kernel that OpenBLAS chose for this processor, e.g. "Haswell"; "builtin" in a build with
+loops of its own. If another BLAS library computes in place of OpenBLAS: the path of that library.
 """
 function jam_blas_kernel()
     return ccall((:jam_blas_kernel, libjam), Cstring, ())

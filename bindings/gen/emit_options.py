@@ -10,14 +10,19 @@ OWN_FORM = ("stage", "sizes", "cell")  # kinds whose values have a form of their
 COLUMN = 25  # where the help begins what it says of an option
 
 
+def _wrapped(text, width):
+    """Lines of the text. An option such as --no-crunch stays whole."""
+    return textwrap.wrap(text, width, break_on_hyphens=False)
+
+
 def help_text():
     """Lines, those of options that need a host behind a tab, and how many come before the options."""
-    lines = ["Usage: jam-pack [options]", *textwrap.wrap(ABOUT, 80), "", "Example: jam-pack " + EXAMPLE, ""]
+    lines = ["Usage: jam-pack [options]", *_wrapped(ABOUT, 80), "", "Example: jam-pack " + EXAMPLE, ""]
     head_lines = len(lines)
     for section, rows in options(host=True):
         lines.append(section)
         for o in rows:
-            said = textwrap.wrap(o.help, 92 - COLUMN)
+            said = _wrapped(o.help, 92 - COLUMN)
             head = "  " + usage(o)
             if len(head) < COLUMN - 1:
                 text = [head.ljust(COLUMN) + said.pop(0)]
@@ -25,7 +30,7 @@ def help_text():
                 text = [head]
             lines += ["\t" * o.host + line for line in text + [" " * COLUMN + line for line in said]]
     for note in NOTES:
-        lines += ["", *textwrap.wrap(note, 92)]
+        lines += ["", *_wrapped(note, 92)]
     return head_lines, lines
 
 
@@ -179,7 +184,7 @@ def emit_page(_api):
         f"<!-- {MADE} -->",
         "# The command line",
         "",
-        *textwrap.wrap(ABOUT, 120),
+        *_wrapped(ABOUT, 120),
         "",
         "```sh",
         "jam-pack " + EXAMPLE,
@@ -197,6 +202,6 @@ def emit_page(_api):
         out.append("")
     out += ["## How it ends", ""]
     for note in NOTES:
-        out += [*textwrap.wrap(_marked(note), 120), ""]
+        out += [*_wrapped(_marked(note), 120), ""]
     out += ["Completion for bash and zsh is installed with the program, and `man jam-pack` shows these lines.", ""]
     return "\n".join(out)

@@ -1,7 +1,6 @@
 """The build backend of pyproject.toml (PEP 517): CMake builds the library and the module, and both go into one wheel.
 
-`--config-settings build-dir=FOLDER` keeps the build, so that the next wheel is made faster;
-`--config-settings cmake-args="-DNAME=VALUE ..."` gives further options to CMake.
+`--config-settings build-dir=FOLDER` keeps the build, so that the next wheel is made faster.
 """
 from __future__ import annotations
 
@@ -9,7 +8,6 @@ import base64
 import hashlib
 import os
 import re
-import shlex
 import subprocess
 import sys
 import sysconfig
@@ -46,9 +44,9 @@ Requires-Dist: tqdm; extra == "all"
 """
 
 
-def _installed(folder: str, settings: dict) -> Path:
+def _installed(folder: str, build: str | None) -> Path:
     """Builds the tree and installs its Python part below the folder, the library beside the module."""
-    build, prefix = Path(settings.get("build-dir") or Path(folder, "build")), Path(folder, "prefix")
+    build, prefix = Path(build or Path(folder, "build")), Path(folder, "prefix")
     options = [
         "-DCMAKE_BUILD_TYPE=Release",
         "-DJAM_BUILD_PYTHON=ON",
@@ -59,7 +57,6 @@ def _installed(folder: str, settings: dict) -> Path:
         f"-DCMAKE_INSTALL_PREFIX={prefix}",
         "-DCMAKE_INSTALL_LIBDIR=jam",
         "-DJAM_PYTHON_DIR=.",
-        *shlex.split(settings.get("cmake-args", "")),
     ]
     jobs = str(os.cpu_count() or 1)
     subprocess.run(["cmake", "-S", str(ROOT), "-B", str(build), *options], check=True)
@@ -80,7 +77,7 @@ def build_wheel(
     info = f"jam-{_version()}.dist-info"
     with tempfile.TemporaryDirectory() as folder:
         files = {}
-        prefix = _installed(folder, config_settings or {})
+        prefix = _installed(folder, (config_settings or {}).get("build-dir"))
         for file in sorted((prefix / "jam").rglob("*")):
             # a wheel holds no links: of the library's names only the one that the loader asks for
             if (

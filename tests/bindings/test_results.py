@@ -179,7 +179,7 @@ class Statuses(unittest.TestCase):
         s = jam.System.random(n=60, dim=3, seed=1)
         first = s.isoconfigurational([50], runs=100000, wall_time=0.3, density_ratio=0.9)
         self.assertIn("resume = 1 continues", s.status_text)
-        self.assertIn("begins anew", s.status_text)
+        self.assertIn("starts again", s.status_text)
         again = s.isoconfigurational([50], runs=100000, wall_time=0.3, density_ratio=0.9, resume=1)
         self.assertGreater(again.runs, first.runs)
         s.monte_carlo(sweeps=10**7, wall_time=0.2)

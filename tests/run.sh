@@ -23,6 +23,7 @@ need_packages build-essential cmake ninja-build pkg-config clang clang-format \
 parts=${*:-release sanitizers threads fuzz}
 wants() { case " $parts " in *" $1 "*) ;; *) return 1 ;; esac; }
 jobs=$(nproc)
+at_once=$((jobs + 1))  # tests: some wait
 if command -v ccache >/dev/null; then export CMAKE_C_COMPILER_LAUNCHER=ccache CMAKE_CXX_COMPILER_LAUNCHER=ccache; fi
 bindings=
 if [ -f bindings/CMakeLists.txt ]; then bindings="-DJAM_BUILD_PYTHON=ON -DJAM_BUILD_FORTRAN=ON"; fi
@@ -37,7 +38,7 @@ echo "== release build"
 cmake -S . -B build -G Ninja -U JAM_PYTHON_DIR -DCMAKE_INSTALL_PREFIX=/usr -DCMAKE_BUILD_TYPE=Release \
   -DJAM_BUILD_STATIC=ON -DJAM_WERROR=ON $bindings >/dev/null
 cmake --build build -j "$jobs"
-ctest --test-dir build -j "$jobs" --output-on-failure --no-tests=error || status=1
+ctest --test-dir build -j "$at_once" --output-on-failure --no-tests=error || status=1
 fi
 
 if wants clang; then
@@ -46,7 +47,7 @@ echo "== clang"
 cmake -S . -B build-clang -G Ninja -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_BUILD_TYPE=None \
   -DCMAKE_C_FLAGS=-O1 -DCMAKE_CXX_FLAGS=-O1 -DJAM_WERROR=ON -DJAM_BUILD_EXAMPLES=OFF -DJAM_BUILD_CLI=OFF >/dev/null
 cmake --build build-clang -j "$jobs"
-ctest --test-dir build-clang -j "$jobs" -L capi -LE long --output-on-failure --no-tests=error || status=1
+ctest --test-dir build-clang -j "$at_once" -L capi -LE long --output-on-failure --no-tests=error || status=1
 fi
 
 # sanitize FOLDER OPTION...: -O1, which halves the compile time and keeps assertions. Molecular dynamics looks at all
@@ -64,7 +65,7 @@ if wants sanitizers; then
 echo "== address and undefined-behaviour sanitizers"
 # Clang brings other warnings and another code generator than the release build.
 sanitize build-asan -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++ -DJAM_WERROR=ON
-ctest --test-dir build-asan -j "$jobs" -L 'unit|capi' -LE long --timeout 900 \
+ctest --test-dir build-asan -j "$at_once" -L 'unit|capi' -LE long --timeout 900 \
   --output-on-failure --no-tests=error || status=1
 fi
 
@@ -72,7 +73,7 @@ if wants sanitized_physics; then
 echo "== address and undefined-behaviour sanitizers over physics and bindings"
 # shellcheck disable=SC2086
 sanitize build-asan-gcc $bindings
-ctest --test-dir build-asan-gcc -j "$jobs" -L 'unit|capi|physics|bindings' -LE long --timeout 1800 \
+ctest --test-dir build-asan-gcc -j "$at_once" -L 'unit|capi|physics|bindings' -LE long --timeout 1800 \
   --output-on-failure --no-tests=error || status=1
 fi
 
@@ -84,7 +85,7 @@ cmake -S . -B build-tsan -G Ninja -DCMAKE_BUILD_TYPE=None -DCMAKE_C_FLAGS=-O1 -D
 threaded='capi_thread_gate capi_host_state capi_isoconfigurational'
 # shellcheck disable=SC2086
 cmake --build build-tsan -j "$jobs" --target $threaded
-TSAN_OPTIONS=halt_on_error=1 ctest --test-dir build-tsan -j "$jobs" --timeout 900 --output-on-failure --no-tests=error \
+TSAN_OPTIONS=halt_on_error=1 ctest --test-dir build-tsan -j "$at_once" --timeout 900 --output-on-failure --no-tests=error \
   -R "^($(echo "$threaded" | sed 's/_/\//; s/ capi_/|capi\//g'))\$" || status=1
 fi
 

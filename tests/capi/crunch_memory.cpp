@@ -84,7 +84,7 @@ void fail_each(const jam_crunch_options &o, long dense) {
   assert_true(as_before > 5 && advanced > 5);
 }
 
-#ifdef __SANITIZE_ADDRESS__  // ten times slower: the release build has tried the others
+#ifdef JAM_SANITIZED  // ten times slower: the release build has tried the others
 const long dense_path = 200, dense_other = 100;
 #else
 const long dense_path = 1500, dense_other = 300;

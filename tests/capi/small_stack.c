@@ -110,7 +110,7 @@ static void a_small_stack_is_enough(void **state) {
   pthread_attr_t attributes;
   pthread_t thread;
   (void)state;
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#ifdef JAM_SANITIZED
   skip(); /* their frames are larger */
 #endif
   assert_int_equal(pthread_attr_init(&attributes), 0);

@@ -61,7 +61,7 @@ jam_system *copy_of(const jam_system *start) {
   return sys;
 }
 
-#ifdef __SANITIZE_ADDRESS__  // ten times slower: the release build has tried the others
+#ifdef JAM_SANITIZED  // ten times slower: the release build has tried the others
 constexpr long dense = 100;
 #else
 constexpr long dense = 10000;

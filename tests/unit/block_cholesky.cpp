@@ -217,7 +217,7 @@ void threads_agree(void **) {
 // Where the system has no second thread to give, the parts run one after the other, to the same bits. In a process of
 // its own, which may not have the memory for another stack.
 void no_second_thread(void **) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#ifdef JAM_SANITIZED
   print_message("not with a sanitizer, which needs that memory itself\n");
   skip();
 #else

@@ -85,8 +85,8 @@ cmake -S . -B build-tsan -G Ninja -DCMAKE_BUILD_TYPE=None -DCMAKE_C_FLAGS=-O1 -D
 threaded='capi_thread_gate capi_host_state capi_isoconfigurational'
 # shellcheck disable=SC2086
 cmake --build build-tsan -j "$jobs" --target $threaded
-TSAN_OPTIONS=halt_on_error=1 ctest --test-dir build-tsan -j "$at_once" --timeout 900 --output-on-failure --no-tests=error \
-  -R "^($(echo "$threaded" | sed 's/_/\//; s/ capi_/|capi\//g'))\$" || status=1
+TSAN_OPTIONS=halt_on_error=1 ctest --test-dir build-tsan -j "$at_once" --timeout 900 \
+  --output-on-failure --no-tests=error -R "^($(echo "$threaded" | sed 's/_/\//; s/ capi_/|capi\//g'))\$" || status=1
 fi
 
 if wants fuzz; then

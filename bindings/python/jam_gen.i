@@ -544,7 +544,7 @@ Errors: JAM_E_TOO_FEW."
 preliminary run and then frozen; JAM_E_ARGUMENT when no step is accepted. After soft spheres the system allows
 overlaps, as by JAM_OVERLAP_ALLOW. Random numbers depend on seed, run, sweep and sphere alone. Velocities are
 dropped. jam_observed_spheres gives the displacements. An early stop can be resumed, also from jam_write_checkpoint.
-Errors: JAM_E_STATE, JAM_E_UNSUPPORTED (Mari-Kurchan model)."
+Errors: JAM_E_STATE, JAM_E_UNSUPPORTED (Mari-Kurchan model), JAM_E_OVERLAP (of hard spheres)."
 %feature("docstring") jam_isoconf_options_init ""
 %feature("docstring") jam_isoconfigurational "Isoconfigurational ensemble (Widmer-Cooper et al., Phys. Rev. Lett. 93, 135701 (2004)): runs from the packing as it
 is, with all diameters scaled to density_ratio; one whose gaps are rounding is refused. Run k draws its velocities

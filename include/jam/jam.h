@@ -714,7 +714,7 @@ JAM_API jam_status jam_monte_carlo_options_init(jam_monte_carlo_options *o, size
  * preliminary run and then frozen; JAM_E_ARGUMENT when no step is accepted. After soft spheres the system allows
  * overlaps, as by JAM_OVERLAP_ALLOW. Random numbers depend on seed, run, sweep and sphere alone. Velocities are
  * dropped. jam_observed_spheres gives the displacements. An early stop can be resumed, also from jam_write_checkpoint.
- * @errors STATE, UNSUPPORTED (Mari-Kurchan model) */
+ * @errors STATE, UNSUPPORTED (Mari-Kurchan model), OVERLAP (of hard spheres) */
 JAM_API jam_status jam_monte_carlo(jam_system *sys, const jam_monte_carlo_options *o, jam_monte_carlo_report *report);
 
 /* What instants are counted in. Monte Carlo always counts sweeps. */

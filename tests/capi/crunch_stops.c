@@ -102,15 +102,15 @@ static void wall_time_inside_an_lp(void **state) {
   o.method = JAM_CRUNCH_SEQUENTIAL_LP;
   trap("ipm", 2, 1.6, &o, JAM_LIMIT, JAM_STOP_WALL_TIME);
   for (solver = 0; solver < 2; ++solver) {
-    jam_system *sys = start(solver ? 400 : 100); /* 400: one LP by Clp takes far longer than the limit */
-    double before[1200];
+    jam_system *sys = start(solver ? 600 : 100); /* 600: one LP by Clp takes far longer than the limit */
+    double before[1800];
     const double *x;
     size_t len;
     ambush a;
     jam_crunch_report r;
     memset(&a, 0, sizeof a);
     a.sys = sys, a.word = solver ? "estimate" : "ipm", a.wait = 0, a.sleep = solver ? 0.0001 : 1.6;
-    o.lp_solver = solver, o.wall_time = solver ? 0.05 : 1.5;
+    o.lp_solver = solver, o.wall_time = solver ? 0.5 : 1.5;
     jam_view_positions(sys, &x, &len), memcpy(before, x, len * sizeof *x);
     jam_set_log(sys, spring, JAM_LOG_DEBUG, &a);
     r = crunch(sys, &o, JAM_LIMIT);

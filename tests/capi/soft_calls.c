@@ -284,6 +284,24 @@ static void unjammed_start(void **state) {
   jam_destroy(sys);
 }
 
+/* Hard spheres have no state that overlaps, and a Monte Carlo run of them would reject every step. */
+static void hard_monte_carlo_refuses_overlaps(void **state) {
+  const double x[] = {0.4, 0.5, 0.6, 0.5}, sigma = 0.3;
+  jam_create_options create;
+  jam_monte_carlo_options o;
+  jam_system *sys = NULL;
+  (void)state;
+  jam_create_options_init(&create, sizeof create);
+  create.dim = 2, create.overlap = JAM_OVERLAP_ALLOW;
+  assert_int_equal(create_from(&create, x, 4, &sigma, 1, &sys), JAM_OK);
+  jam_monte_carlo_options_init(&o, sizeof o);
+  o.step = 0.1, o.sweeps = 5;
+  assert_int_equal(jam_monte_carlo(sys, &o, NULL), JAM_E_OVERLAP);
+  o.alpha = 2.0;
+  assert_int_equal(jam_monte_carlo(sys, &o, NULL), JAM_OK);
+  jam_destroy(sys);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(hard_verbs_refuse_overlaps),
                                      cmocka_unit_test(files_and_checkpoints),
@@ -291,6 +309,7 @@ int main(void) {
                                      cmocka_unit_test(elastic_tensor),
                                      cmocka_unit_test(response),
                                      cmocka_unit_test(down_to_jamming),
-                                     cmocka_unit_test(unjammed_start)};
+                                     cmocka_unit_test(unjammed_start),
+                                     cmocka_unit_test(hard_monte_carlo_refuses_overlaps)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

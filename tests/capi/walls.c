@@ -246,12 +246,48 @@ static void calls_that_know_no_walls_refuse(void **state) {
   jam_destroy(sys);
 }
 
+/* Lists of all pairs, for ever: few spheres, or steps as long as the cell. */
+static void dilute_monte_carlo_ends(void **state) {
+  (void)state;
+  for (int k = 0; k < WALLED; ++k) {
+    jam_system *sys = NULL;
+    jam_monte_carlo_options o;
+    jam_monte_carlo_report report = {.struct_size = sizeof report};
+    jam_monte_carlo_options_init(&o, sizeof o);
+    o.sweeps = 200;
+    assert_int_equal(create_walled(&walled_scenes[k], 20, 0.01, 3, NULL, &sys), JAM_OK);
+    assert_int_equal(jam_monte_carlo(sys, &o, &report), JAM_OK);
+    assert_true(report.pressure > 0.5 && report.pressure < 2.0); /* near the ideal gas */
+    jam_destroy(sys);
+  }
+}
+
+/* At the centre of its container it touches the wall all around: no time passes. */
+static void a_sphere_that_fills_its_container_stalls(void **state) {
+  const int scenes[] = {BALL, CIRCLE, CAN};
+  const double centre[] = {0.5, 0.5, 0.5};
+  (void)state;
+  for (int k = 0; k < 3; ++k) {
+    jam_system *sys = NULL;
+    jam_md_report report = {.struct_size = sizeof report};
+    assert_int_equal(from_arrays(&walled_scenes[scenes[k]], centre, 1, 1.0, JAM_OVERLAP_REFUSE, &sys), JAM_OK);
+    assert_int_equal(jam_run(sys, NULL, &report), JAM_NOT_CONVERGED);
+    assert_int_equal(report.stop_reason, JAM_STOP_STALLED);
+    jam_destroy(sys);
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(random_start_lies_inside),          cmocka_unit_test(overlaps_with_walls_are_named_or_shrunk),
-      cmocka_unit_test(spheres_do_not_meet_across_a_wall), cmocka_unit_test(bad_containers_are_named),
-      cmocka_unit_test(files_keep_the_container),          cmocka_unit_test(checkpoints_go_on_to_the_same_bits),
+      cmocka_unit_test(random_start_lies_inside),
+      cmocka_unit_test(overlaps_with_walls_are_named_or_shrunk),
+      cmocka_unit_test(spheres_do_not_meet_across_a_wall),
+      cmocka_unit_test(bad_containers_are_named),
+      cmocka_unit_test(files_keep_the_container),
+      cmocka_unit_test(checkpoints_go_on_to_the_same_bits),
       cmocka_unit_test(calls_that_know_no_walls_refuse),
+      cmocka_unit_test(dilute_monte_carlo_ends),
+      cmocka_unit_test(a_sphere_that_fills_its_container_stalls),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -42,6 +42,25 @@ static void one_sphere_has_its_exact_pressure(void **state) {
   jam_destroy(sys);
 }
 
+/* Between two walls its motion along them is a drift, as that of all spheres together is. So z has all of the heat, and
+ * beta P V / N = L / (L - sigma), whatever velocities the seed has drawn. */
+static void one_sphere_between_two_walls(void **state) {
+  (void)state;
+  for (int seed = 1; seed <= 5; ++seed) {
+    jam_system *sys = NULL;
+    jam_md_report report;
+    const double *diameter;
+    size_t len;
+    assert_int_equal(create_walled(&walled_scenes[SLIT], 1, 0.01, seed, NULL, &sys), JAM_OK);
+    jam_view_diameters(sys, &diameter, &len);
+    const double exact = 1.0 / (1.0 - diameter[0]);
+    run(sys, 1e5, &report);
+    for (int w = 0; w < 2; ++w) assert_true(fabs(of_wall(sys, w, JAM_WALL_PRESSURE) / exact - 1.0) < 1e-3);
+    assert_true(fabs(report.pressure / (1.0 + (exact - 1.0) / 3.0) - 1.0) < 1e-3); /* one of three axes */
+    jam_destroy(sys);
+  }
+}
+
 static void energy_is_kept_and_walls_agree_with_the_virial(void **state) {
   (void)state;
   for (int k = 0; k < WALLED; ++k) {
@@ -182,6 +201,7 @@ static void flat_walls_hold_in_four_and_five_dimensions(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(one_sphere_has_its_exact_pressure),
+      cmocka_unit_test(one_sphere_between_two_walls),
       cmocka_unit_test(energy_is_kept_and_walls_agree_with_the_virial),
       cmocka_unit_test(contact_theorem_and_bulk_pressure),
       cmocka_unit_test(growth_ends_without_overlap),

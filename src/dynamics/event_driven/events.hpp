@@ -264,7 +264,7 @@ template <int D, Offsets O>
 Halt EngineOf<D, O>::advance(int64_t collisions, const Monitor &monitor) {
   const int64_t goal = sums.collisions + collisions;
   // Without a collision in so many events and so long a time none will come: the spheres move as one, or their paths
-  // never meet.
+  // never meet. Nor will one come where no time passes: a sphere fills its container.
   const int64_t max_stalled_events =
       CollisionTuning::stalled_events + CollisionTuning::stalled_events_per_sphere * spheres_.n;
   int64_t last_progress = sums.events, last_collisions = sums.collisions;
@@ -276,8 +276,8 @@ Halt EngineOf<D, O>::advance(int64_t collisions, const Monitor &monitor) {
       if (monitor.interrupted()) return Halt::interrupted;
       if (sums.collisions != last_collisions)
         last_collisions = sums.collisions, last_progress = sums.events, last_time = elapsed();
-      else if (sums.events - last_progress > max_stalled_events && elapsed() - last_time > longest_wait())
-        return Halt::stalled;
+      else if (sums.events - last_progress > max_stalled_events)
+        if (const double waited = elapsed() - last_time; waited == 0.0 || waited > longest_wait()) return Halt::stalled;
     }
     ++sums.events;
     const int32_t i = calendar_.top([this] { look_ahead(); });

@@ -69,8 +69,8 @@ struct Spheres {
     for (const Body<D> &b : body) largest = std::max(largest, static_cast<double>(b.radius));
     return largest;
   }
-  // Sum of m v^2 about the centre of mass, of velocities times `unit`; along walls in full. One sphere has no motion
-  // but this one, so it counts.
+  // Sum of m v^2 about the centre of mass, of velocities times `unit`; along walls in full. One sphere without walls
+  // has no motion but this one, so it counts.
   double twice_kinetic(double unit) const {
     double sum = 0.0, momentum[D] = {};
     for (int32_t i = 0; i < n; ++i) {
@@ -80,7 +80,7 @@ struct Spheres {
         momentum[c] += m * (body[i].v[c] * unit);
       }
     }
-    if (n > 1)
+    if (n > 1 || closed)
       for (int c = 0; c < D; ++c)
         if (!(closed >> c & 1)) sum -= momentum[c] * momentum[c] / n;
     return sum;

@@ -6,6 +6,7 @@
 
 #include "core/call_scope.hpp"
 #include "core/checks.hpp"
+#include "core/create.hpp"
 #include "core/error.hpp"
 #include "core/limits.hpp"
 #include "core/math.hpp"
@@ -64,6 +65,7 @@ void check_monte_carlo(const Packing &p, const jam_monte_carlo_options &o) {
   const double largest = largest_monte_carlo_step(p);
   if (o.step > largest)
     fail(JAM_E_ARGUMENT, "step is %g mean diameters; in this cell the largest is %g", o.step, largest);
+  if (o.alpha == 0.0 && p.overlap_allowed) refuse_overlaps(p, overlap_of_rounding);
 }
 
 // ---- tuning

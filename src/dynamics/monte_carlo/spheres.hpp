@@ -134,6 +134,7 @@ class MonteCarloSpheres : public MonteCarlo {
   template <class F>
   void count_beside_walls(F &&count) const {
     double a[D], b[D];
+    const double range = gap_range() * contact_max_;  // finite, also where the lists hold all pairs
     for (int32_t i = 0; i < n_; ++i) {
       geometry_.position(x_[i], a);
       for (int w = 0; w < p_.container.count(); ++w)
@@ -144,7 +145,7 @@ class MonteCarloSpheres : public MonteCarlo {
         geometry_.position(x_[k], b);
         for (int c = 0; c < D; ++c) b[c] = a[c] - b[c];
         const double sigma = contact(i, k) * p_.cell.side();
-        p_.cell.images(b, sigma + skin_ * p_.cell.side(), [&](const double *shift) {
+        p_.cell.images(b, sigma + range * p_.cell.side(), [&](const double *shift) {
           double r2 = 0.0;
           for (int c = 0; c < D; ++c) r2 += (b[c] + shift[c]) * (b[c] + shift[c]);
           count(std::sqrt(r2) / sigma - 1.0);

@@ -230,7 +230,7 @@ gives the displacements. An early stop can be resumed, also from `checkpoint`.
 - `run`: number of the random stream beside the seed, >= 0, default 0
 - `first_sweep`: number of the first sweep in its stream; -1, the default: after those made before
 - `wall_time`: seconds of this call
-- errors: `:state`, `:unsupported` (Mari-Kurchan model)
+- errors: `:state`, `:unsupported` (Mari-Kurchan model), `:overlap` (of hard spheres)
 """
 function monte_carlo!(s::System; progress = nothing, given...)
     return call(s, :jam_monte_carlo, (); progress = progress, given...)

@@ -2250,7 +2250,7 @@ Metropolis Monte Carlo (J. Chem. Phys. 21, 1087 (1953)) of hard or soft spheres.
 preliminary run and then frozen; `JAM_E_ARGUMENT` when no step is accepted. After soft spheres the system allows
 overlaps, as by `JAM_OVERLAP_ALLOW`. Random numbers depend on seed, run, sweep and sphere alone. Velocities are
 dropped. `jam_observed_spheres` gives the displacements. An early stop can be resumed, also from `jam_write_checkpoint`.
-Errors: `JAM_E_STATE`, `JAM_E_UNSUPPORTED` (Mari-Kurchan model).
+Errors: `JAM_E_STATE`, `JAM_E_UNSUPPORTED` (Mari-Kurchan model), `JAM_E_OVERLAP` (of hard spheres).
 """
 function jam_monte_carlo(sys, o, report)
     return ccall((:jam_monte_carlo, libjam), Int32, (Ptr{Cvoid}, Ref{jam_monte_carlo_options}, Ref{jam_monte_carlo_report}), sys, _ref(jam_monte_carlo_options, o), _ref(jam_monte_carlo_report, report))

@@ -286,7 +286,7 @@ class Methods:
 
         Raises
         ------
-        ArgumentError, StateError, UnsupportedError, MemoryError, BusyError
+        ArgumentError, StateError, UnsupportedError, OverlapError, MemoryError, BusyError
         """
         answer: MonteCarloReport = self.call('monte_carlo', resume=resume, energy_unit=energy_unit, alpha=alpha, energy_scale=energy_scale, temperature=temperature, step=step, acceptance=acceptance, swap_share=swap_share, sweeps=sweeps, run=run, first_sweep=first_sweep, wall_time=wall_time, progress=progress)
         return answer

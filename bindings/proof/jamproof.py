@@ -18,6 +18,7 @@ it stands; then R has full rank modulo a prime, and the forces balance exactly. 
 contacts. They are left out of F: the others, where closed, close them by the exact angles of triangles and parallelograms.
 """
 import base64
+import decimal
 import math
 import sys
 import zlib
@@ -27,6 +28,9 @@ from operator import mul
 
 BITS, CHUNK, BIAS, MOST_IMAGES = 24, 16, 1 << 62, 10**6  # of J; columns summed at once; makes 64-bit digits positive; of a pair
 GAMMA, FORCE = -400, 120  # trapping: exponent of gamma, more binary digits of forces
+OFF = Fraction(1, 1024)  # trapping: the file's gamma may be off by this part of it
+HEADER = ("dim", "unit", "cell", "non_additivity", "gamma")
+AT_LEAST = ("outer", "least_gap", "least_force")  # bounds from below; all others are bounds from above
 
 
 class Refused(Exception):
@@ -64,13 +68,29 @@ class Scene:
         self.tiles, self.rows = [], {}  # walks round tiles and implied contacts, as they come; state of the kept alone
         with open(path, encoding="ascii") as file:
             lines = [line.split() for line in file if line.strip()]
-        if lines[0] != ["jamproof", "1"]:
+        if lines[:1] != [["jamproof", "1"]]:
             raise ValueError("the first line is not 'jamproof 1'")
-        word = {name: rest for name, *rest in lines[1:] if name in ("dim", "unit", "cell", "non_additivity", "gamma")}
+        word = {name: rest for name, *rest in lines[1:] if name in HEADER}
+        for name in HEADER:
+            times = sum(line[0] == name for line in lines[1:])
+            if times != 1:
+                raise ValueError(f"the line '{name}' is there {times} times, not once")
+            if name != "cell" and len(word[name]) != 1:
+                raise ValueError(f"the line '{name}' has not as many numbers as it must, one")
         self.dim = d = int(word["dim"][0])
+        if d < 1:
+            raise ValueError("dim is not 1 or more")
+        cell = [number(x) for x in word["cell"]]
+        if len(cell) != d * (d + 1) // 2:
+            raise ValueError("the line 'cell' has not as many numbers as dim asks for")
         self.unit = fraction(*number(word["unit"][0]))
         self.delta, (self.g, self.ge) = number(word["non_additivity"][0]), number(word["gamma"][0])
+        if not -1 < fraction(*self.delta) <= 1:
+            raise ValueError("non_additivity must be above -1 and at most 1")
+        sizes = {"sphere": (2 + d,), "contact": (3 + d, 4 + d), "inverse": (2,)}
         for name, *rest in lines[1:]:
+            if len(rest) not in sizes.get(name, (len(rest),)):
+                raise ValueError(f"a line '{name}' has not as many numbers as dim asks for")
             if name == "sphere":
                 self.stable.append(rest[0] == "1")
                 ratio.append(number(rest[1]))
@@ -86,15 +106,20 @@ class Scene:
                 self.inverse = int(rest[0]), array("i", zlib.decompress(base64.b64decode(rest[1])))
             elif name not in word:
                 raise ValueError(f"unknown word {name}")
-        cell = [number(x) for x in word["cell"]]
+        if not any(self.stable):
+            raise ValueError("no sphere is stable")
+        if not self.contacts:
+            raise ValueError("the file lists no contact")
+        if any(not 0 <= i < len(ratio) for contact in self.contacts for i in contact[:2]):
+            raise ValueError("a contact names a sphere that is not there")
+        if any(not 0 <= c < len(self.contacts) for _, ring in self.tiles for c in ring):
+            raise ValueError("a tile or an implied contact names a contact that is not there")
         both, self.k = scaled(cell + [x for row in position for x in row])
         self.cell = [both[r * (r + 1) // 2 : (r + 1) * (r + 2) // 2] + [0] * (d - r - 1) for r in range(d)]
         self.x = [both[len(cell) + d * i : len(cell) + d * (i + 1)] for i in range(len(ratio))]
         self.ratio, self.se = scaled(ratio)
-        if min(self.ratio + [self.g] + [self.cell[r][r] for r in range(d)]) <= 0:
-            raise ValueError("a diameter, a cell edge or gamma is not positive")
-        if any(len(row) != d for row in position) or len(cell) != d * (d + 1) // 2:
-            raise ValueError("a sphere or the cell has not as many numbers as d asks for")
+        if min(self.ratio + [self.g, self.unit] + [self.cell[r][r] for r in range(d)]) <= 0:
+            raise ValueError("a diameter, a cell edge, unit or gamma is not positive")
 
     def vector(self, i, j, n):
         """x_i - x_j + n A."""
@@ -400,15 +425,19 @@ def check(s):
     least = least_opening(s, r, gamma + r_g)
     found = {"radius": r * s.unit, "gamma_error": r_g / gamma, "least_gap": float(least) ** 0.5 - 1.0 if least else 1e-3}
     found.update(delta=delta, least_force=min(stress) / mean, force_error=error / mean)
-    return {name: float(value) for name, value in found.items()}
+    return outward(found)
 
 
 def trapped(s):
     """Of any network with positive forces: inner and outer of the theorem "Trapped", and the least gap."""
-    s.ge, every = GAMMA, range(len(s.contacts))
+    gamma, every = fraction(s.g, s.ge), range(len(s.contacts))
     size = [fraction(sum(v * v for v in s.vector(i, j, n)), 2 * s.k) / fraction(*s.sigma2(i, j)) for i, j, n, _ in s.contacts]
     least = least_opening(s, 0, min(size), Fraction(1, 2)) or 2  # pairs without force may be closed too
-    s.g = math.floor(min(size) * min(1, least) / fraction(1, GAMMA))  # no pair overlaps: F >= 0
+    own = min(size) * min(1, least)
+    if abs(gamma - own) > OFF * gamma:
+        raise Refused(f"gamma: without overlap it is {float(own):.6g}, not that of the file")
+    # The smaller of both, as spheres of a smaller gamma have more room. What is shown of it is true of a larger one.
+    s.g, s.ge = math.floor(min(own, gamma) / fraction(1, GAMMA)), GAMMA  # no pair overlaps: F >= 0
     opening, _, columns = equations(s, every)
     columns.pop()
     s.hint = e, inverse = inverse_of(s, columns, len(every), len(columns))
@@ -426,17 +455,33 @@ def trapped(s):
     square = 4 * s.dim * (largest * fraction(sum(stress), low) + alpha)
     if left <= 0 or 4 * constant * square >= left**2:
         raise Refused(f"singular: left {float(left):.3g}, 4 a0 a2 {float(4 * constant * square):.3g}")
-    inner, gamma = 2 * constant / left, fraction(s.g, s.ge)  # of the densest packing within inner, above gamma:
+    inner = 2 * constant / left  # the gamma of the densest packing within inner lies at most above / weight above s.g:
     above = opened + rest * inner + 4 * s.dim * fraction(sum(stress), low) * inner**2
     weight = sum(fraction(*s.sigma2(*c[:2])) * m for c, m in zip(s.contacts, stress)) * fraction(1, low)
-    found = {"inner": inner * s.unit, "outer": left / (2 * square) * s.unit, "gamma_error": above / weight / gamma}
-    found.update(least_gap=max(0.0, float(least) ** 0.5 - 1.0), delta=delta)
-    return {name: float(value) for name, value in found.items()}
+    error = (abs(gamma - fraction(s.g, s.ge)) + above / weight) / gamma
+    found = {"inner": inner * s.unit, "outer": left / (2 * square) * s.unit, "gamma_error": error}
+    found.update(least_gap=max(0.0, float(least * min(size) / gamma) ** 0.5 - 1.0), delta=delta)
+    return outward(found)
+
+
+def outward(found):
+    """As floats that are bounds still."""
+    floats = {}
+    for name, value in found.items():
+        near, sign = float(value), -1 if name in AT_LEAST else 1
+        floats[name] = near if sign * near >= sign * value else math.nextafter(near, sign * math.inf)
+    return floats
+
+
+def shown(found):
+    """As text of three digits, rounded so that each is a bound still."""
+    down, up = (decimal.Context(prec=3, rounding=way) for way in (decimal.ROUND_FLOOR, decimal.ROUND_CEILING))
+    digits = lambda name, value: (down if name in AT_LEAST else up).create_decimal_from_float(value)
+    return ", ".join(f"{name} {float(digits(name, value)):.3g}" for name, value in found.items())
 
 
 def conclusion(s):
     """Exit status and text."""
-    shown = lambda found: ", ".join(f"{name} {value:.3g}" for name, value in found.items())
     try:
         return 0, "proved: " + shown(check(s))
     except (Refused, OverflowError, ZeroDivisionError) as why:

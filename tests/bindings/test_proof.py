@@ -351,7 +351,7 @@ class Proofs(unittest.TestCase):
         source = CHECKER.read_text(encoding="ascii")
         self.assertNotIn("import jam", source)
         code = [line for line in ast.unparse(without_docstrings(source)).splitlines() if line.strip()]
-        self.assertLessEqual(len(code), 365, "the checker is to be read in one sitting")
+        self.assertLessEqual(len(code), 405, "the checker is to be read in one sitting")
         with tempfile.TemporaryDirectory() as folder:
             path, other = folder + "/a.jamproof", folder + "/b.jamproof"
             pathlib.Path(path).write_text(text, encoding="ascii")
@@ -368,6 +368,70 @@ class Proofs(unittest.TestCase):
             self.assertEqual(run(folder + "/none").returncode, 2)
             pathlib.Path(path).write_text(text.replace("sphere 1", "sphere 0", 1), encoding="ascii")
             self.assertEqual(run(path).returncode, 1)
+
+    def test_what_says_nothing_sensible_cannot_be_read(self):
+        """Exit status 2 and one sentence, not a proof and not a traceback."""
+        text = self.files[0][0]
+        self.assertEqual(File(text).lines[1], ["dim", "2"])
+
+        def header(name, *words):
+            return lambda f: next(line for line in f.lines if line[0] == name).__setitem__(slice(1, None), words)
+
+        def without(*names):
+            return lambda f: f.lines.__setitem__(slice(None), [line for line in f.lines if line[0] not in names])
+
+        def again(name):
+            return lambda f: f.lines.append(list(next(line for line in f.lines if line[0] == name)))
+
+        def contact(at, to):
+            return lambda f: f.contacts[0].__setitem__(at, to)
+
+        def no_stable(f):
+            for sphere in f.spheres:
+                sphere[1] = "0"
+
+        changes = {
+            "is not positive": [header("unit", "-1p0"), header("unit", "0p0"), header("gamma", "0p0"), header("gamma", "-1p-4")],
+            "must be above -1 and at most 1": [header("non_additivity", x) for x in ("-2p0", "-3p0", "-1p0", "1p0,1p-60", "2p0")],
+            "times, not once": [again(x) for x in ("dim", "unit", "cell", "non_additivity", "gamma")]
+            + [without(x) for x in ("dim", "unit", "cell", "non_additivity", "gamma")],
+            "has not as many numbers as": [header("dim", "3"), header("dim", "1"), header("gamma", "1p-4", "1p-5"), header("unit")]
+            + [lambda f: f.spheres[0].pop(), lambda f: f.spheres[0].append("1p0"), lambda f: f.contacts[0].pop(), lambda f: f.spheres[0].__delitem__(slice(2, None))],
+            "dim is not 1 or more": [header("dim", "0"), header("dim", "-2")],
+            "lists no contact": [without("contact")],
+            "no sphere is stable": [no_stable, without("sphere", "contact")],
+            "names a sphere that is not there": [contact(1, "999"), contact(2, "-1")],
+            "names a contact that is not there": [lambda f: f.lines.append(["implied", "9999", "0", "1"]), lambda f: f.lines.append(["tile", "0", "1", "-1"])],
+            "the first line is not": [lambda f: f.lines.clear(), lambda f: f.lines.pop(0)],
+        }
+        with tempfile.TemporaryDirectory() as folder:
+            path = folder + "/a.jamproof"
+            for words, kinds in changes.items():
+                for k, change in enumerate(kinds):
+                    with self.subTest(words=words, kind=k):
+                        f = File(text)
+                        change(f)
+                        pathlib.Path(path).write_text(f.text(), encoding="ascii")
+                        run = subprocess.run([sys.executable, "-I", "-B", str(CHECKER), path], capture_output=True, text=True, check=False)
+                        self.assertEqual((run.returncode, run.stderr), (2, ""), run.stdout)
+                        self.assertIn(words, run.stdout)
+                        self.assertEqual(run.stdout.count("\n"), 1)
+            for at in (header("non_additivity", "1p0"), header("unit", "1p-3")):  # the ends of what may be
+                f = File(text)
+                at(f)
+                pathlib.Path(path).write_text(f.text(), encoding="ascii")
+                run = subprocess.run([sys.executable, "-I", "-B", str(CHECKER), path], capture_output=True, text=True, check=False)
+                self.assertIn(run.returncode, (0, 1), run.stdout + run.stderr)
+
+    def test_printed_bounds_are_rounded_outward(self):
+        found = {"radius": 1.2341e-30, "inner": 1.0000001e-9, "gamma_error": 9.999e-32, "outer": 1.2399e-5, "least_gap": 0.0, "least_force": 9.999e-3}
+        words = "radius 1.24e-30, inner 1.01e-9, gamma_error 1.00e-31, outer 0.0000123, least_gap 0, least_force 0.00999"
+        self.assertEqual([float(w.split()[1]) for w in jamproof.shown(found).split(", ")], [float(w.split()[1]) for w in words.split(", ")])
+        third = jamproof.outward({"radius": Fraction(1, 3), "outer": Fraction(1, 3), "inner": Fraction(0), "least_force": Fraction(2, 3)})
+        self.assertGreater(third["radius"], Fraction(1, 3))
+        self.assertLess(third["outer"], Fraction(1, 3))
+        self.assertLess(third["least_force"], Fraction(2, 3))
+        self.assertEqual(third["inner"], 0.0)
 
     def test_what_is_not_jammed_is_not_proved(self):
         square = np.stack(np.meshgrid(np.arange(4), np.arange(4), indexing="ij"), -1).reshape(-1, 2) / 4.0

@@ -11,7 +11,7 @@ import numpy as np
 import jam
 
 sys.path.insert(0, str(Path(__file__).parent))
-from test_proof import File, drop, file_of, jamproof, rattler_into_neighbour, value, word
+from test_proof import ROOT, File, drop, file_of, jamproof, rattler_into_neighbour, value, word
 from test_proof_bounds import checker, crystal, square_lattice
 
 
@@ -33,15 +33,15 @@ def trapped(text, program=jamproof):
             return str(why).split(":")[0]
 
 
-def density(text):
+def density(text, program=jamproof):
     """Gamma at which no pair of the file overlaps, and what the checker finds."""
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "a.jamproof"
         path.write_text(text, encoding="ascii")
-        scene = jamproof.Scene(path)
+        scene = program.Scene(path)
     try:
-        found = jamproof.trapped(scene)
-    except jamproof.Refused as why:
+        found = program.trapped(scene)
+    except program.Refused as why:
         found = str(why)
     return jamproof.fraction(scene.g, scene.ge), found
 
@@ -85,11 +85,48 @@ class Trapped(unittest.TestCase):
             gamma, found = density(text)
             self.assertLess(found["gamma_error"], 1e-28)
             for power in (30, 20, 15, 12, 9, 6, 3):
-                lower, found = density(moved(text, Fraction(1, 10**power), generator))
+                away = moved(text, Fraction(1, 10**power), generator)
+                lower, found = density(away)
                 if isinstance(found, dict):
                     self.assertGreater(found["inner"], 0.4 * 10.0**-power)
                     self.assertLess(lower, gamma * (1 + Fraction(1, 10**28)))
-                    self.assertLess(gamma, lower * (1 + Fraction(found["gamma_error"]) * (1 + Fraction(1, 10**9))))
+                    room = Fraction(found["gamma_error"]) * value(File(away).gamma[1])
+                    self.assertLessEqual(gamma, lower + room)
+                    self.assertLessEqual(abs(gamma - value(File(away).gamma[1])), room)
+
+    def test_the_gamma_of_the_file_counts(self):
+        """What is printed is true of the file's gamma: of spheres of that size, and of the distance to the own one."""
+        for text in self.texts:
+            own, right = density(text)
+            f = File(text)
+            gamma = value(f.gamma[1])
+            upper = own * (1 + Fraction(right["gamma_error"]))
+            for power in (20, 12, 9, 7):
+                for sign in (1, -1):
+                    f = File(text)
+                    f.scale(f.gamma, 1, 1 + sign * Fraction(1, 10**power))
+                    wrong = value(f.gamma[1])
+                    found = trapped(f.text())
+                    if not isinstance(found, dict):
+                        self.assertLess(power, 20)
+                        continue
+                    self.assertGreaterEqual(Fraction(found["gamma_error"]) * wrong, abs(wrong - gamma) * (1 - Fraction(1, 10**9)))
+                    if sign < 0:  # smaller spheres: every one alone is free to move by the gap
+                        self.assertGreater(found["inner"], 0.49 * 10.0**-power * float(gamma) ** 0.5)
+            for wrong in ("1p-4", "1p-6", "1p-8", "1p-600", "1p600", word(upper * Fraction(101, 100))):
+                f = File(text)
+                f.gamma[1] = wrong
+                self.assertEqual(trapped(f.text()), "gamma", wrong)
+
+    def test_a_file_of_the_reference_set_with_a_wrong_gamma(self):
+        text = (ROOT / "examples/studies/reference_set/d2-n64-equal-01.jamproof").read_text(encoding="ascii")
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "a.jamproof"
+            for gamma, status in ((None, 3), ("1p-4", 1), ("1p-6", 1), ("1p-8", 1)):
+                f = File(text)
+                f.gamma[1] = gamma or f.gamma[1]
+                path.write_text(f.text(), encoding="ascii")
+                self.assertEqual(jamproof.main(str(path)), status, gamma)
 
     def test_what_is_not_trapped_is_refused(self):
         generator = random.Random(2)
@@ -127,18 +164,24 @@ class Trapped(unittest.TestCase):
         """With one bound taken out of the checker a false file passes."""
         far, generator = Fraction(1, 10**6), random.Random(4)
         text = moved(self.texts[0], far, generator)
-        far_off = moved(self.texts[0], Fraction(1, 10**2), generator)
+        f = File(moved(self.texts[0], Fraction(1, 10**2), generator))
+        f.gamma[1] = word(density(f.text(), checker(("OFF = Fraction(1, 1024)", "OFF = 10**9")))[0])
+        far_off = f.text()
+        f = File(self.texts[0])
+        f.scale(f.gamma, 1, 1 - far)
+        smaller, room = f.text(), 0.49 * float(far) * float(value(f.gamma[1])) ** 0.5
         f = File(self.texts[0])
         rattler_into_neighbour(f, generator)
         overlap = f.text()
         table = (
             ("opening", "opening, _, columns = equations(s, every)", "opening, _, columns = [(1, -200)] * len(every), 0, equations(s, every)[2]", text),
             ("room for second order", "if left <= 0 or 4 * constant * square >= left**2:", "if left <= 0:", far_off),
+            ("room of smaller spheres", "s.g, s.ge = math.floor(min(own, gamma) /", "s.g, s.ge = math.floor(own /", smaller),
             ("pairs stay apart", "if have <= need:", "if False:", overlap),
         )  # fmt: skip
         for name, old, new, false in table:
             with self.subTest(bound=name):
-                near = 0.4 * float(far) if false is text else 0.0
+                near = {text: 0.4 * float(far), smaller: room}.get(false, 0.0)
                 claims = lambda found: isinstance(found, dict) and (false is overlap or found["inner"] < near or found["outer"] <= found["inner"])
                 self.assertFalse(claims(trapped(false)), trapped(false))
                 program = checker((old, new))

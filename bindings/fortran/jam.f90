@@ -2881,7 +2881,7 @@ module jam
     module procedure l_jam_contact_dots
   end interface jam_contact_dots
 
-  ! g_ab(r) of spheres with labels a and b. kind: the labels, or NULL.
+  ! g_ab(r) of spheres with labels a and b, pairs over N_a N_b. kind: the labels, or NULL.
   ! Shapes: kind (n), out (bins).
   interface jam_pair_correlation
     module procedure f_jam_pair_correlation
@@ -3875,7 +3875,7 @@ contains
     status = c_jam_observed_gaps(sys, at_table, count_table, needed)
   end function jam_observed_gaps
 
-  ! g(r), sampled likewise.
+  ! g(r), pairs over N (N - 1) / 2, sampled likewise.
   ! Shapes: table (bins, jam_correlation_column).
   ! Errors: JAM_E_STATE.
   function jam_observed_correlation(sys, table, table_len, needed) result(status)

@@ -457,7 +457,7 @@ contains
     call self%done(status)
   end function do_observed_gaps
 
-  ! g(r), sampled likewise.
+  ! g(r), pairs over N (N - 1) / 2, sampled likewise.
   ! Shapes: table (bins, jam_correlation_column).
   ! Errors: JAM_E_STATE.
   function do_observed_correlation(self) result(found)
@@ -1384,7 +1384,7 @@ contains
     call self%done(status)
   end function do_histogram
 
-  ! g_ab(r) of spheres with labels a and b. kind: the labels, or NULL.
+  ! g_ab(r) of spheres with labels a and b, pairs over N_a N_b. kind: the labels, or NULL.
   ! Shapes: kind (n), out (bins).
   function do_pair_correlation(self, o, kind) result(found)
     class(packing), intent(inout) :: self

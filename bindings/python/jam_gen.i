@@ -531,7 +531,7 @@ Errors: JAM_E_STATE."
 g(sigma), which is (p - 1) / (4 phi) for equal spheres in d = 3.
 Shapes: table (bins, jam_gap_column).
 Errors: JAM_E_STATE."
-%feature("docstring") jam_observed_correlation "g(r), sampled likewise.
+%feature("docstring") jam_observed_correlation "g(r), pairs over N (N - 1) / 2, sampled likewise.
 Shapes: table (bins, jam_correlation_column).
 Errors: JAM_E_STATE."
 %feature("docstring") jam_eos "pressure of an equation of state at a packing fraction; jammed_fraction is used by FREE_VOLUME only.
@@ -743,7 +743,7 @@ values there.
 Shapes: out (bins).
 Errors: JAM_E_STATE."
 %feature("docstring") jam_correlation_options_init ""
-%feature("docstring") jam_pair_correlation "g_ab(r) of spheres with labels a and b. kind: the labels, or NULL.
+%feature("docstring") jam_pair_correlation "g_ab(r) of spheres with labels a and b, pairs over N_a N_b. kind: the labels, or NULL.
 Shapes: kind (n), out (bins)."
 %feature("docstring") jam_structure_factor "S(q) on the wave vectors of the cell (in a cube 2 pi n / box) with |q| <= q_max. Lengths that differ by less than
 5e-13 of |q| are one.

@@ -645,7 +645,7 @@ typedef enum jam_correlation_column {
   JAM_CORRELATION_R = 0, /* middle of the bin, mean diameters */
   JAM_CORRELATION_G = 1  /* g(r) */
 } jam_correlation_column;
-/* g(r), sampled likewise. @shape table (bins, jam_correlation_column) @errors STATE */
+/* g(r), pairs over N (N - 1) / 2, sampled likewise. @shape table (bins, jam_correlation_column) @errors STATE */
 JAM_API jam_status jam_observed_correlation(const jam_system *sys, double *table, size_t table_len, size_t *needed);
 
 /* Equations of state p(phi) in closed form. */
@@ -1488,7 +1488,7 @@ typedef struct jam_correlation_options {
   int64_t bins; /* equal ones from 0 to r_max, 1 .. 1e8, default 200 */
 } jam_correlation_options;
 JAM_API jam_status jam_correlation_options_init(jam_correlation_options *o, size_t size);
-/* g_ab(r) of spheres with labels a and b. kind: the labels, or NULL. @shape kind (n), out (bins) */
+/* g_ab(r) of spheres with labels a and b, pairs over N_a N_b. kind: the labels, or NULL. @shape kind (n), out (bins) */
 JAM_API jam_status jam_pair_correlation(const jam_system *sys, const jam_correlation_options *o, const int32_t *kind,
                                         size_t kind_len, double *out, size_t out_len, size_t *needed);
 /* Columns of jam_structure_factor. */

@@ -177,7 +177,7 @@ end
 """
     observed_correlation(s) -> table
 
-g(r), sampled likewise.
+g(r), pairs over N (N - 1) / 2, sampled likewise.
 
 - errors: `:state`
 """

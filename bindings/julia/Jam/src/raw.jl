@@ -2207,7 +2207,7 @@ end
 """
     jam_observed_correlation(sys, table, table_len, needed)
 
-g(r), sampled likewise.
+g(r), pairs over N (N - 1) / 2, sampled likewise.
 Shapes: table (bins, `jam_correlation_column`).
 Errors: `JAM_E_STATE`.
 """
@@ -2863,7 +2863,7 @@ end
 """
     jam_pair_correlation(sys, o, kind, kind_len, out, out_len, needed)
 
-`g_ab`(r) of spheres with labels a and b. kind: the labels, or NULL.
+`g_ab`(r) of spheres with labels a and b, pairs over `N_a` `N_b`. kind: the labels, or NULL.
 Shapes: kind (n), out (bins).
 """
 function jam_pair_correlation(sys, o, kind, kind_len, out, out_len, needed)

@@ -227,7 +227,7 @@ class Methods:
         return answer
 
     def observed_correlation(self) -> ObservedCorrelationResult:
-        """g(r), sampled likewise.
+        """g(r), pairs over N (N - 1) / 2, sampled likewise.
 
         Returns
         -------

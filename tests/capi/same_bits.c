@@ -58,7 +58,8 @@ static void dynamics(int dim, int model) {
   jam_destroy(sys);
 }
 static void monte_carlo(int dim, double alpha) {
-  jam_system *sys = start(dim, JAM_MODEL_EUCLID, 0.2 * pow(0.5, dim - 2), JAM_OVERLAP_ALLOW);
+  const int32_t overlaps = alpha > 0.0 ? JAM_OVERLAP_ALLOW : JAM_OVERLAP_REFUSE;
+  jam_system *sys = start(dim, JAM_MODEL_EUCLID, 0.2 * pow(0.5, dim - 2), overlaps);
   jam_monte_carlo_options o;
   need(jam_monte_carlo_options_init(&o, sizeof o));
   o.alpha = alpha, o.sweeps = 20, o.temperature = 0.1;

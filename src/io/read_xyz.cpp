@@ -143,8 +143,12 @@ void read_container(const LineReader &in, Keys &keys, FileContent &content) {
   split(value, words);
   if (words.size() != static_cast<size_t>(content.dim))
     in.fail(JAM_E_FORMAT, "walls has %zu words, %d are needed", words.size(), content.dim);
-  for (size_t c = 0; c < words.size(); ++c)
-    if (is_true(words[c])) content.enclosure.walls |= 1 << c;
+  for (size_t c = 0; c < words.size(); ++c) {
+    if (is_true(words[c]))
+      content.enclosure.walls |= 1 << c;
+    else if (const std::string w = lower(words[c]); w != "f" && w != "false" && w != "0")
+      in.fail(JAM_E_FORMAT, "walls='%s': a word for each axis must be T or F", shown(value).c_str());
+  }
 }
 
 // Every direction without walls must be periodic, as T, True or 1; in d = 2 the third one is ignored, from d = 4 on
@@ -155,8 +159,12 @@ void check_periodic(const LineReader &in, std::string_view pbc, const FileConten
   split(pbc, words);
   const size_t needed = static_cast<size_t>(std::min(dim, 3));
   bool periodic = words.size() >= needed;
-  for (size_t k = 0; k < std::min(words.size(), static_cast<size_t>(dim)); ++k)
+  for (size_t k = 0; k < std::min(words.size(), static_cast<size_t>(dim)); ++k) {
+    if (is_true(words[k]) && content.enclosure.closes(static_cast<int>(k)))
+      in.fail(JAM_E_FORMAT, "pbc='%s': axis %zu is periodic there, but container= and walls= close it",
+              shown(pbc).c_str(), k);
     periodic = periodic && (is_true(words[k]) || content.enclosure.closes(static_cast<int>(k)));
+  }
   if (periodic) return;
   const bool plane = dim == 3 && words.size() == 3 && lower(words[2])[0] != 't' && words[2] != "1";
   in.fail(JAM_E_UNSUPPORTED, "pbc='%s': the box must be periodic in every direction%s", shown(pbc).c_str(),

@@ -3,6 +3,7 @@
 #include "walls.h"
 #include <jam/jam.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -178,6 +179,35 @@ static void files_keep_the_container(void **state) {
   unlink(path);
 }
 
+/* What pbc, container and walls say of an axis must agree. */
+static void contradicting_files_are_refused(void **state) {
+  const struct {
+    const char *pbc, *walls;
+    jam_status status;
+  } files[] = {{"T T F", "F F T", JAM_OK},
+               {"T T T", "F F T", JAM_E_FORMAT},
+               {"F F F", "F F T", JAM_E_UNSUPPORTED},
+               {"T T F", "a b c", JAM_E_FORMAT}};
+  (void)state;
+  for (size_t k = 0; k < sizeof files / sizeof *files; ++k) {
+    char path[] = "/tmp/jam-walls-XXXXXX", text[400];
+    jam_system *sys = NULL;
+    const int file = mkstemp(path);
+    assert_true(file >= 0);
+    snprintf(text, sizeof text,
+             "1\nLattice=\"1 0 0 0 1 0 0 0 1\" Properties=pos:R:3:radius:R:1 pbc=\"%s\" container=brick "
+             "walls=\"%s\"\n0.5 0.5 0.5 0.1\n",
+             files[k].pbc, files[k].walls);
+    assert_true(write(file, text, strlen(text)) == (ssize_t)strlen(text));
+    close(file);
+    const jam_status status = jam_read(path, NULL, NULL, NULL, &sys);
+    if (status != files[k].status) fail_msg("file %zu: %d, %s", k, (int)status, jam_last_error());
+    if (status == JAM_E_FORMAT && k == 1) assert_non_null(strstr(jam_last_error(), "container= and walls="));
+    jam_destroy(sys);
+    unlink(path);
+  }
+}
+
 /* A stopped run goes on from a checkpoint to the bits of one that never stopped. */
 static void checkpoints_go_on_to_the_same_bits(void **state) {
   char path[] = "/tmp/jam-walls-XXXXXX";
@@ -288,6 +318,7 @@ int main(void) {
       cmocka_unit_test(calls_that_know_no_walls_refuse),
       cmocka_unit_test(dilute_monte_carlo_ends),
       cmocka_unit_test(a_sphere_that_fills_its_container_stalls),
+      cmocka_unit_test(contradicting_files_are_refused),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

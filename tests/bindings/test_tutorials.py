@@ -1,4 +1,4 @@
-"""Every block of the guide's tutorials and of its page on sizes runs.      usage: test_tutorials.py ROOT BUILD"""
+"""Every block of the guide's tutorials, and of its pages on sizes, walls and Fortran, runs.      usage: test_tutorials.py ROOT BUILD"""
 import os
 import re
 import subprocess
@@ -22,6 +22,11 @@ def sections():
         yield part.splitlines()[0], re.findall(r"^```(\w+)\n(.*?)^```$", part, flags=re.M | re.S)
 
 
+def blocks_of(page, kind):
+    text = (PAGE.parent / page).read_text(encoding="utf-8")
+    return re.findall(rf"^```({kind})\n(.*?)^```$", text, flags=re.M | re.S)
+
+
 class Tutorials(unittest.TestCase):
     def test_all_kinds_of_users_are_there(self):
         self.assertEqual(len(list(sections())), 7)
@@ -43,6 +48,21 @@ class Tutorials(unittest.TestCase):
             for kind, block in re.findall(r"^```(\w+)\n(.*?)^```$", text, flags=re.M | re.S):
                 self.run_block(kind, block, Path(folder))
             self.assertGreater((Path(folder) / "sieve.png").stat().st_size, 10000)
+
+    def test_the_page_on_walls_runs(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for _, block in blocks_of("walls.md", "python"):
+                self.run_block("python", block, Path(folder))
+
+    @unittest.skipUnless((BUILD / "fortran" / "jam.mod").exists(), "built without Fortran")
+    def test_programs_of_the_page_on_fortran_run(self):
+        programs = [text for _, text in blocks_of("fortran.md", "fortran") if "end program" in text]
+        self.assertEqual(len(programs), 2)
+        for text in programs:
+            with tempfile.TemporaryDirectory() as folder:
+                self.run_block("fortran", text, Path(folder))
+                build = "gfortran program.f90 $(pkg-config --cflags --libs jam-fortran) -o program && ./program"
+                self.run_block("sh", build, Path(folder))
 
     def run_block(self, kind, text, folder):
         (folder / "bin").mkdir(exist_ok=True)

@@ -1,73 +1,9 @@
-/* jam-pack check FILE: is the packing of the file jammed, as it is? One paragraph on standard output. */
+/* jam-pack check FILE: is the packing of the file jammed, as it is? One paragraph on standard output, or JSON. */
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include "jam-pack.h"
 
 enum { CHECK_YES = 0, CHECK_NO = 1, CHECK_REFUSED = 2, CHECK_UNDECIDED = 3 };
-enum { CHECK_HOST = 1000 }; /* beside the statuses: the host could not read the file */
-
-static const char *const allowed[] = {"--box",       "--frame", "--non-additivity", "--prove", "--proof",
-                                      "--wall-time", "--quiet", "--help",           "-h"};
-
-static int is_allowed(const char *word) {
-  const size_t length = strcspn(word, "=");
-  size_t k;
-  for (k = 0; k < sizeof allowed / sizeof *allowed; ++k)
-    if (strlen(allowed[k]) == length && !strncmp(word, allowed[k], length)) return 1;
-  return 0;
-}
-
-static int takes_next(const char *word) {
-  return !strchr(word, '=') && strcmp(word, "--quiet") && strcmp(word, "--prove") && strcmp(word, "--help") &&
-         strcmp(word, "-h");
-}
-
-/* The words of an ordinary command line with --input FILE, which options.c takes. The first word that is neither an
- * option nor its value is the FILE. NULL after a message. */
-static char **as_input(int argc, char **argv) {
-  char **words;
-  int k, at = 2, file = 0;
-  for (k = 2; k < argc; ++k) {
-    if (argv[k][0] == '-' && argv[k][1]) {
-      if (!is_allowed(argv[k])) {
-        complain(
-            "check takes a FILE and --box, --frame, --non-additivity, --prove, --proof, --wall-time or --quiet, not "
-            "'%s'",
-            argv[k]);
-        return NULL;
-      }
-      k += takes_next(argv[k]);
-    } else if (!file) {
-      file = k;
-    }
-  }
-  words = malloc(((size_t)argc + 2) * sizeof *words);
-  if (!words) {
-    complain("out of memory");
-    return NULL;
-  }
-  words[0] = argv[0];
-  words[1] = "--input";
-  if (file) words[at++] = argv[file];
-  for (k = 2; k <= argc; ++k)
-    if (k != file) words[at++] = argv[k];
-  return words;
-}
-
-/* Spheres may overlap: a file with few digits always has some that do, and the verdict says so. */
-static jam_status read_as_it_is(const options *o, jam_system **sys) {
-  jam_create_options create;
-  const jam_status status = jam_create_options_init(&create, sizeof create);
-  create.box = o->box;
-  create.frame = o->frame;
-  create.non_additivity = o->non_additivity;
-  create.overlap = JAM_OVERLAP_ALLOW;
-  if (status < 0 || !is_host_format(o, o->input))
-    return status < 0 ? status : jam_read(o->input, &create, stop_if_asked, NULL, sys);
-  return o->given.host->read(o->input, &create, o->given.host->user, sys) ? CHECK_HOST : JAM_OK;
-}
 
 /* The proof speaks of the contacts of the file's packing. */
 static jam_status write_proof_file(jam_system *sys, const char *path) {
@@ -75,45 +11,95 @@ static jam_status write_proof_file(jam_system *sys, const char *path) {
   return status < 0 ? status : jam_write_proof(sys, path, NULL, 0);
 }
 
-static int judge(const options *o) {
+static void put_verdict(FILE *f, const char *key, int32_t verdict) {
+  fprintf(f, "  \"%s\": %s,\n", key,
+          verdict == JAM_VERDICT_YES  ? "true"
+          : verdict == JAM_VERDICT_NO ? "false"
+                                      : "null");
+}
+
+/* A verdict that is open is null. */
+static int write_json(const options *o, const jam_check_report *r, const char *notes) {
+  static const char *const reasons[] = {"proof", "apart", "no_force", "flex", "digits", "overlap", "gaps", "margin"};
+  output out;
+  FILE *f;
+  if (open_output(&out, "-")) return -1;
+  f = out.file;
+  fputs("{\n  \"file\": ", f);
+  put_text(f, o->input);
+  fputs(",\n", f);
+  put_verdict(f, "jammed", r->jammed);
+  put_verdict(f, "strictly_jammed", r->strictly_jammed);
+  put_verdict(f, "stationary", r->stationary);
+  fprintf(f, "  \"reason\": \"%s\",\n", reasons[r->reason]);
+  put_count(f, "n", r->n, 1);
+  put_count(f, "dim", r->dim, 1);
+  put_number(f, "packing_fraction", r->packing_fraction);
+  put_count(f, "digits", r->digits, r->digits > 0);
+  put_count(f, "contacts", r->contacts, 1);
+  put_count(f, "excess_contacts", r->excess_contacts, 1);
+  put_count(f, "rattlers", r->rattlers, 1);
+  put_count(f, "closed_pairs", r->closed_pairs, 1);
+  put_count(f, "undecided_contacts", r->undecided_contacts, 1);
+  put_count(f, "self_stresses", r->self_stresses, 1);
+  put_count(f, "flexes", r->flexes, 1);
+  put_count(f, "strict_flexes", r->strict_flexes, 1);
+  put_number(f, "nearest_gap", r->nearest_gap);
+  put_number(f, "min_gap", r->min_gap);
+  put_number(f, "max_contact_gap", r->max_contact_gap);
+  put_number(f, "force_residual", r->force_residual);
+  put_number(f, "rigidity_margin", r->rigidity_margin);
+  put_number(f, "resolution", r->resolution);
+  put_number(f, "diameter_factor", r->diameter_factor);
+  put_verdict(f, "crunch_jammed", r->crunch_jammed);
+  put_number(f, "crunch_packing_fraction", r->crunch_packing_fraction);
+  put_number(f, "proof_radius", o->prove || o->proof ? r->proof_radius : NAN);
+  fputs("  \"text\": ", f);
+  put_text(f, jam_check_text(r));
+  fputs(",\n", f);
+  put_notes(f, notes);
+  fprintf(f, "  \"version\": \"%s\"\n}\n", jam_version());
+  return close_output(&out);
+}
+
+/* The text or the JSON, and the proof; 0, or else after a message. */
+static int say(jam_system *sys, const options *o, jam_status status, const jam_check_report *report) {
+  int bad = 0;
+  if (o->json)
+    bad = write_json(o, report, jam_notes(sys));
+  else if (!o->quiet)
+    puts(jam_check_text(report));
+  if (!o->proof) return bad || fflush(stdout);
+  if (status == JAM_OK)
+    bad |= has_failed(write_proof_file(sys, o->proof));
+  else
+    complain("%s is not written: the packing is not jammed", o->proof);
+  return bad || fflush(stdout);
+}
+
+int check_file(const options *o) {
   jam_check_options check;
   jam_check_report report = {0};
   jam_system *sys = NULL;
-  jam_status status = read_as_it_is(o, &sys), written = JAM_OK;
+  jam_status status;
+  int bad = 0;
+  if (read_as_it_is(o, &sys)) return CHECK_REFUSED;
+  if (!sys) return CHECK_UNDECIDED;
   report.struct_size = sizeof report;
-  if (status == CHECK_HOST) return CHECK_REFUSED; /* the host has said why */
   cancel_on_signal(sys);
-  if (sys) print_warnings(jam_notes(sys));
-  if (sys) status = jam_check_options_init(&check, sizeof check);
-  if (sys && status >= 0) {
-    check.wall_time = o->wall_time;
-    check.prove = o->prove || o->proof;
-    status = jam_check_packing(sys, &check, &report);
-  }
-  if (o->proof && status == JAM_OK) written = write_proof_file(sys, o->proof);
+  status = jam_check_options_init(&check, sizeof check);
+  check.wall_time = o->wall_time;
+  check.prove = o->prove || o->proof;
+  if (status >= 0) status = jam_check_packing(sys, &check, &report);
+  if (status == JAM_CANCELLED)
+    complain("interrupted before the verdict");
+  else if (status < 0)
+    complain("%s", jam_last_error());
+  else
+    bad = say(sys, o, status, &report);
   cancel_on_signal(NULL);
   jam_destroy(sys);
-  if (status == JAM_CANCELLED || (status >= 0 && !sys)) {
-    complain("interrupted before the verdict");
-    return CHECK_UNDECIDED;
-  }
-  if (status < 0) {
-    complain("%s", jam_last_error());
-    return CHECK_REFUSED;
-  }
-  if (!o->quiet) puts(jam_check_text(&report));
-  if (written < 0) complain("%s", jam_last_error());
-  if (o->proof && status != JAM_OK) complain("%s is not written: the packing is not jammed", o->proof);
-  if (written < 0 || fflush(stdout)) return EXIT_OUTPUT;
+  if (bad) return EXIT_OUTPUT;
+  if (status < 0) return CHECK_REFUSED;
   return status == JAM_OK ? CHECK_YES : status == JAM_NOT_JAMMED ? CHECK_NO : CHECK_UNDECIDED;
-}
-
-int check_file(int argc, char **argv, const jam_pack_host *host) {
-  options o;
-  int parsed;
-  char **words = as_input(argc, argv);
-  if (!words) return CHECK_REFUSED;
-  parsed = parse_options(argc, words, host, &o);
-  free(words);
-  return parsed ? parsed - 1 : judge(&o);
 }

@@ -73,7 +73,7 @@ int check_formats(const options *o, const jam_system *sys) {
   char ending[8];
   info.struct_size = sizeof info;
   jam_get_info(sys, &info);
-  if (info.n == 1 && !o->no_crunch && o->strain == JAM_STRAIN_NONE) {
+  if (info.n == 1 && o->given.verb <= VERB_CRUNCH && !o->no_crunch && o->strain == JAM_STRAIN_NONE) {
     complain("a crunch of one sphere needs --strain: in a fixed cell nothing can move");
     return -1;
   }

@@ -6,7 +6,7 @@
 #include "jam/jam.h"
 #include "pack.h"
 
-/* Exit codes, documented in --help. */
+/* Exit codes, documented in --help; check.c has its own. */
 enum { EXIT_DONE = 0, EXIT_EARLY = 1, EXIT_USAGE = 2, EXIT_FAILED = 3, EXIT_OUTPUT = 4 };
 
 #define MAX_STAGES 32
@@ -25,7 +25,7 @@ typedef struct given {
   int cell_count;                         /* of its numbers */
   double density;                         /* of --packing-fraction or --porosity, 0: not given */
   int n;                                  /* whether --n was given */
-  uint64_t named;                         /* a bit a row of the table: options on the command line */
+  int verb;                               /* of the first word; VERB_PACK without one */
   char **words;                           /* the command line, for the report */
   int word_count;
   const jam_pack_host *host; /* NULL: jam-pack alone */
@@ -65,7 +65,7 @@ int end_progress(terminal *t, const options *o);
 /* options.c: returns 0 to go on, or 1 + the exit code when there is nothing left to do. */
 int parse_options(int argc, char **argv, const jam_pack_host *host, options *o);
 /* Calls f for every file that will be written, until it returns something else than 0. */
-int each_output(const options *o, int (*f)(const char *path));
+int each_output(const options *o, int (*f)(const char *path, void *with), void *with);
 
 /* settle.c: 0, or -1 after a message on stderr. What contradicts itself, and what follows from the rest. */
 int settle(options *o);
@@ -81,6 +81,9 @@ int check_formats(const options *o, const jam_system *sys);
 
 /* start.c: start returns 0 or an exit code after a message on stderr. */
 int start(const options *o, jam_progress_fn stop, jam_system **sys);
+/* The packing of --input as it is: spheres may overlap, as in every file with few digits. 0, and *sys NULL when it was
+ * interrupted; else an exit code after a message on stderr. */
+int read_as_it_is(const options *o, jam_system **sys);
 
 /* sizes.c: each int is 0, or -1 after a message on stderr. */
 int take_sizes(const char *value, options *o);
@@ -97,6 +100,15 @@ void complain(const char *format, ...);
 /* 1 after a message when a call failed or was stopped: then it has written nothing. */
 int has_failed(jam_status status);
 
+/* json.c: items of an object, each a line that ends with a comma. Numbers that are not finite, and counts that are not
+ * known, are null. */
+void put_number(FILE *f, const char *key, double x);
+void put_count(FILE *f, const char *key, int64_t x, int known);
+void put_text(FILE *f, const char *text); /* the value alone */
+void put_notes(FILE *f, const char *notes);
+/* The lines of jam_notes: calls f with each, without its end. */
+void each_note(const char *notes, void (*f)(const char *line, int warns, void *with), void *with);
+
 /* output.c: a text that is written at its end, as a file that appears whole or not at all. path "-" is standard output,
  * open descriptors (/dev/stdout, /dev/fd/N), pipes and devices are written in place. Each returns 0, or -1 after a
  * message on stderr. */
@@ -106,7 +118,7 @@ typedef struct output {
   char *text;
   size_t size;
 } output;
-int check_writable(const char *path); /* before hours of work */
+int check_writable(const char *path, void *unused); /* before hours of work */
 int open_output(output *out, const char *path);
 int close_output(output *out);
 
@@ -117,9 +129,13 @@ int32_t stop_if_asked(const jam_progress *progress, void *user); /* a progress c
 /* write.c: all that the options ask for, and the summary; 0, or else after messages on stderr. deadline: on the clock
  * of seconds_now, of tables that take long. */
 int write_all(jam_system *sys, const options *o, double deadline, outcome *result);
+/* The files of the packing and, where its network is known, of the network. */
+int write_files(jam_system *sys, const options *o, int known, double deadline, int *cut_short);
 
-/* check.c: `jam-pack check FILE`; the exit code. */
-int check_file(int argc, char **argv, const jam_pack_host *host);
+/* check.c, info.c, export.c: what these verbs do; each returns the exit code. */
+int check_file(const options *o);
+int show_info(const options *o);
+int export_file(const options *o); /* `page` too */
 
 /* network.c: what --spectrum, --gaps and --structure ask for. Returns 0, or after a message on
  * stderr -1, and 1 where a call was stopped before its numbers were there. */

@@ -1,4 +1,25 @@
 /* The program jam-pack. */
+#define _XOPEN_SOURCE 700
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
 #include "pack.h"
 
-int main(int argc, char **argv) { return jam_pack(argc, argv, NULL); }
+/* Ensembles are made by the Python module: `jam-pack ensemble ...` becomes `python3 -m jam ensemble ...`. */
+static int run_ensemble(char **argv, int argc) {
+  char **const words = calloc((size_t)argc + 3, sizeof *words);
+  int k;
+  if (words) {
+    words[0] = "python3", words[1] = "-m", words[2] = "jam";
+    for (k = 1; k < argc; ++k) words[k + 2] = argv[k];
+    execvp(words[0], words);
+  }
+  fputs("jam-pack: ensemble needs python3 with the module jam\n", stderr);
+  free(words);
+  return 3;
+}
+
+int main(int argc, char **argv) {
+  return argc > 1 && !strcmp(argv[1], "ensemble") ? run_ensemble(argv, argc) : jam_pack(argc, argv, NULL);
+}

@@ -16,7 +16,7 @@ def quoted(text):
 about, options, notes, example = [], [], [], ""
 section = ""
 for line in lines[1:]:
-    item = re.match(r"  (--.*?)(?:  +(.*))?$", line)
+    item = re.match(r"  (\S.*?)(?:  +(.*))?$", line)
     more = re.match(r" {10,}(\S.*)$", line)
     if line.startswith("Example: "):
         example = line.removeprefix("Example: ")
@@ -27,6 +27,8 @@ for line in lines[1:]:
     elif re.fullmatch(r"[A-Z][\w ]*", line):
         section = line
         options.append(f".SS {line}")
+    elif line and section == "Verbs":
+        options += [".PP", quoted(line)]
     elif line:
         (notes if section else about).append(quoted(line))
 
@@ -36,7 +38,7 @@ page = [
     "jam\\-pack \\- make and analyse jammed packings of hard spheres",
     ".SH SYNOPSIS",
     ".B jam\\-pack",
-    "[\\fIoptions\\fR]",
+    "[\\fIVERB\\fR] [\\fIFILE\\fR] [\\fIoptions\\fR]",
     ".SH DESCRIPTION",
     *about,
     ".SH OPTIONS",

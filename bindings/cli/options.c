@@ -115,6 +115,36 @@ static const option_row *find_option(const char *name, size_t length) {
   return NULL;
 }
 
+/* What the verb takes, for those who gave it something else. */
+static void refuse_option(const options *o, const char *word) {
+  const unsigned bit = 1u << o->given.verb;
+  size_t k;
+  fprintf(stderr, "%s: %s takes no '%s'; it takes %s", program, verb_table[o->given.verb].name, word,
+          verb_table[o->given.verb].first ? "a FILE" : "no FILE");
+  for (k = 0; k < sizeof table / sizeof *table; ++k)
+    if (table[k].verbs & bit && strcmp(table[k].name, "--input")) fprintf(stderr, ", %s", table[k].name);
+  fputc('\n', stderr);
+}
+
+/* A word without dashes: a file, where the verb has a place for one more. */
+static int take_file(const char *word, options *o) {
+  const verb_row *const verb = &verb_table[o->given.verb];
+  const char *const places[] = {verb->first, verb->second};
+  size_t k;
+  for (k = 0; k < 2; ++k) {
+    const option_row *const row = places[k] ? find_option(places[k], strlen(places[k])) : NULL;
+    if (!row || o->named[row - table]) continue;
+    if (take_value(row, word, o)) return -1;
+    o->named[row - table] = 1;
+    return 0;
+  }
+  if (o->given.words[0] == word)
+    complain("unexpected argument '%s': it is no verb, and a file is given by --input", word);
+  else
+    complain("unexpected argument '%s'", word);
+  return -1;
+}
+
 /* One argument, with its value behind '=' or in the next one. Returns how many arguments were taken, 0 after a message.
  */
 static int take_argument(char **argv, int left, options *o) {
@@ -125,49 +155,62 @@ static int take_argument(char **argv, int left, options *o) {
     complain("option '%s' is one of python3 -m jam", row->name);
     return 0;
   }
-  if (strncmp(argv[0], "--", 2))
-    complain("unexpected argument '%s'", argv[0]);
-  else if (!row)
+  if (strncmp(argv[0], "--", 2)) {
+    if (!take_file(argv[0], o)) return 1;
+  } else if (!row)
     complain("unknown option '%.*s'", (int)length, argv[0]);
+  else if (!(row->verbs >> o->given.verb & 1))
+    refuse_option(o, row->name);
   else if (row->kind == TAKE_SWITCH) {
     if (!value) {
       *(int *)((char *)o + row->place) = 1;
-      o->given.named |= UINT64_C(1) << (row - table);
+      o->named[row - table] = 1;
       return 1;
     }
     complain("option '%s' takes no value", row->name);
   } else if (!value && left == 1)
     complain("option '%s' lacks its value", argv[0]);
   else if (!take_value(row, value ? value + 1 : argv[1], o)) {
-    o->given.named |= UINT64_C(1) << (row - table);
+    o->named[row - table] = 1;
     return value ? 1 : 2;
   }
   return 0;
 }
 
-/* Lines of options that need a host begin with a tab. */
-static void print_help(const jam_pack_host *host) {
-  const char *const *line;
-  for (line = help; *line; ++line) {
-    const char *const name = strstr(*line, "jam-pack ");
-    if (name && line - help < HELP_HEAD)
-      printf("%.*s%s%s\n", (int)(name - *line), *line, program, name + strlen("jam-pack"));
-    else if (**line != '\t')
-      puts(*line);
+/* Lines of options that need a host begin with a tab. Examples name the program. */
+static void print_help(const jam_pack_host *host, int verb) {
+  const help_line *line;
+  for (line = help; line->text; ++line) {
+    const char *const name = strstr(line->text, "jam-pack ");
+    if (!(line->verbs >> verb & 1)) continue;
+    if (name && (!strncmp(line->text, "Usage", 5) || !strncmp(line->text, "Example", 7) || name == line->text))
+      printf("%.*s%s%s\n", (int)(name - line->text), line->text, program, name + strlen("jam-pack"));
+    else if (*line->text != '\t')
+      puts(line->text);
     else if (host)
-      puts(*line + 1);
+      puts(line->text + 1);
   }
 }
 
+/* The verb that a command line begins with; VERB_NONE: none. */
+static int find_verb(int argc, char **argv) {
+  int k;
+  for (k = 0; k < VERB_NONE; ++k)
+    if (argc > 1 && !strcmp(argv[1], verb_table[k].name)) return k;
+  return VERB_NONE;
+}
+
 int parse_options(int argc, char **argv, const jam_pack_host *host, options *o) {
+  const int verb = find_verb(argc, argv);
   int k, taken;
   *o = defaults;
   o->given.host = host;
   o->given.words = argv + 1;
   o->given.word_count = argc - 1;
+  o->given.verb = verb == VERB_NONE ? VERB_PACK : verb;
   for (k = 1; k < argc; ++k) {
     if (!strcmp(argv[k], "--help") || !strcmp(argv[k], "-h")) {
-      print_help(host);
+      print_help(host, verb);
       return 1 + (fflush(stdout) ? EXIT_OUTPUT : EXIT_DONE);
     }
     if (!strcmp(argv[k], "--version")) {
@@ -175,10 +218,13 @@ int parse_options(int argc, char **argv, const jam_pack_host *host, options *o) 
       return 1 + (fflush(stdout) ? EXIT_OUTPUT : EXIT_DONE);
     }
   }
-  for (k = 1; k < argc; k += taken) {
+  for (k = verb == VERB_NONE ? 1 : 2; k < argc; k += taken) {
     taken = take_argument(argv + k, argc - k, o);
     if (taken) continue;
-    fprintf(stderr, "Try '%s --help'.\n", program);
+    if (verb == VERB_NONE)
+      fprintf(stderr, "Try '%s --help'.\n", program);
+    else
+      fprintf(stderr, "Try '%s %s --help'.\n", program, argv[1]);
     return 1 + EXIT_USAGE;
   }
   if (settle(o)) return 1 + EXIT_USAGE;

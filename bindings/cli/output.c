@@ -14,10 +14,11 @@ static int cannot(const char *path) {
   return -1;
 }
 
-int check_writable(const char *path) {
+int check_writable(const char *path, void *unused) {
   struct stat there;
   char folder[4096];
   const char *slash;
+  (void)unused;
   if (!path || !strcmp(path, "-")) return 0;
   if (stat(path, &there) == 0) {
     if (S_ISDIR(there.st_mode)) errno = EISDIR;

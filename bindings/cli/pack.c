@@ -251,22 +251,31 @@ static int run_job(options *o) {
   return status > 0 || interrupted || result.fell_short || result.cut_short ? EXIT_EARLY : EXIT_DONE;
 }
 
+/* What the verb of a command line does; the exit code. */
+static int run_verb(options *o) {
+  switch (o->given.verb) {
+    case VERB_CHECK:
+      return check_file(o);
+    case VERB_INFO:
+      return show_info(o);
+    case VERB_EXPORT:
+    case VERB_PAGE:
+      return export_file(o);
+    default:
+      return run_job(o);
+  }
+}
+
 int jam_pack(int argc, char **argv, const jam_pack_host *host) {
   options o;
   signals before;
   int code;
   program = host ? host->name : "jam-pack";
-  if (argc > 1 && !strcmp(argv[1], "check")) {
-    take_signals(&before);
-    code = check_file(argc, argv, host);
-    give_signals_back(&before);
-    return code;
-  }
   code = parse_options(argc, argv, host, &o);
   if (code) return code - 1;
-  if (each_output(&o, check_writable)) return EXIT_OUTPUT;
+  if (each_output(&o, check_writable, NULL)) return EXIT_OUTPUT;
   take_signals(&before);
-  code = run_job(&o);
+  code = run_verb(&o);
   give_signals_back(&before);
   return code;
 }

@@ -26,9 +26,12 @@ static void keep_crunch(terminal *t, const jam_progress *p, double now) {
   write_checkpoint(t->sys, t->o);
 }
 
-/* "  42 %, 30 s left (20 to 45 s)" as far as it is known. */
-static void show_time_left(const jam_progress *p) {
+/* "  [####------]  42 %, 30 s left (20 to 45 s)" as far as it is known; the bar on a terminal alone. */
+static void show_time_left(const jam_progress *p, int bar) {
+  static const char full[] = "####################", empty[] = "--------------------";
+  const int marks = isnan(p->fraction) ? 0 : (int)(20 * fmin(fmax(p->fraction, 0), 1));
   if (isnan(p->fraction)) return;
+  if (bar) fprintf(stderr, "  [%.*s%.*s]", marks, full, 20 - marks, empty);
   fprintf(stderr, "  %.0f %%", floor(100 * p->fraction));
   if (isnan(p->seconds_left)) return;
   fprintf(stderr, ", %.2g s left (%.2g to %.2g)", p->seconds_left, p->seconds_left / p->seconds_left_spread,
@@ -51,7 +54,7 @@ static int32_t show_progress(const jam_progress *p, void *user) {
   else
     fprintf(stderr, "%s  %lld LPs  %lld factorisations  gain %.3e  phi %.12f  %.1f s", t->stage, (long long)p->steps,
             (long long)p->factorisations, p->gain, p->packing_fraction, now - t->begin);
-  show_time_left(p);
+  show_time_left(p, t->is_terminal);
   if (!t->is_terminal) fputc('\n', stderr);
   fflush(stderr);
   return 0;

@@ -23,59 +23,6 @@ int has_failed(jam_status status) {
   return bad;
 }
 
-/* JSON has no NaN and no infinity. */
-static void put_number(FILE *f, const char *key, double x) {
-  if (isfinite(x))
-    fprintf(f, "  \"%s\": %.17g,\n", key, x);
-  else
-    fprintf(f, "  \"%s\": null,\n", key);
-}
-
-static void put_count(FILE *f, const char *key, int64_t x, int known) {
-  if (known)
-    fprintf(f, "  \"%s\": %lld,\n", key, (long long)x);
-  else
-    fprintf(f, "  \"%s\": null,\n", key);
-}
-
-/* Bytes of the character of UTF-8 that begins here (RFC 3629), 0 where none does. */
-static size_t character_length(const unsigned char *c) {
-  const unsigned first = c[0], second = c[1];
-  const size_t length = first < 0x80                    ? 1
-                        : first >= 0xc2 && first < 0xe0 ? 2
-                        : (first & 0xf0u) == 0xe0       ? 3
-                        : first >= 0xf0 && first < 0xf5 ? 4
-                                                        : 0;
-  size_t k;
-  for (k = 1; k < length; ++k)
-    if ((c[k] & 0xc0u) != 0x80) return 0;
-  return (first == 0xe0 && second < 0xa0) || (first == 0xed && second > 0x9f) || (first == 0xf0 && second < 0x90) ||
-                 (first == 0xf4 && second > 0x8f)
-             ? 0
-             : length;
-}
-
-/* Names of files may hold bytes that are not UTF-8, and JSON must not: they show as \xff. */
-static void put_text(FILE *f, const char *text) {
-  size_t length;
-  fputc('"', f);
-  for (; *text; text += length) {
-    const unsigned char first = (unsigned char)*text;
-    length = character_length((const unsigned char *)text);
-    if (length == 0) {
-      fprintf(f, "\\\\x%02x", first);
-      length = 1;
-    } else if (first == '"' || first == '\\') {
-      fprintf(f, "\\%c", first);
-    } else if (first < ' ') {
-      fprintf(f, "\\u%04x", first);
-    } else {
-      fwrite(text, 1, length, f);
-    }
-  }
-  fputc('"', f);
-}
-
 /* What stands before the next item of a list. */
 static const char *next(int *first) {
   const char *between = *first ? "" : ", ";
@@ -83,27 +30,6 @@ static const char *next(int *first) {
   return between;
 }
 
-/* The lines of jam_notes: calls f with each, without its end. */
-static void each_note(const char *notes, void (*f)(const char *line, int warns, void *with), void *with) {
-  while (*notes) {
-    const size_t length = strcspn(notes, "\n");
-    char line[640];
-    snprintf(line, sizeof line, "%.*s", (int)length, notes);
-    f(line, !strncmp(line, "warning: ", 9), with);
-    notes += length + (notes[length] == '\n');
-  }
-}
-
-struct note_list {
-  FILE *file;
-  int first;
-};
-static void put_note(const char *line, int warns, void *with) {
-  struct note_list *list = with;
-  (void)warns;
-  fputs(next(&list->first), list->file);
-  put_text(list->file, line);
-}
 static void print_note(const char *line, int warns, void *with) {
   (void)warns;
   (void)with;
@@ -159,7 +85,6 @@ int write_report(const options *o, const outcome *result, const char *path) {
   const int known = crunched && r->rattlers >= 0;    /* else it was stopped before its contacts were known */
   const int certified = crunched && r->contacts > 0; /* without contacts zeros would look like perfect balance */
   const double rate = result->seconds_md > 0 ? (double)result->collisions / result->seconds_md : NAN;
-  struct note_list notes = {NULL, 1};
   output out;
   FILE *f;
   if (open_output(&out, path)) return -1;
@@ -169,10 +94,7 @@ int write_report(const options *o, const outcome *result, const char *path) {
   put_count(f, "dim", info->dim, 1);
   put_count(f, "seed", info->seed, 1);
   put_protocol(f, o, result);
-  notes.file = f;
-  fputs("  \"notes\": [", f);
-  each_note(result->notes, put_note, &notes);
-  fputs("],\n", f);
+  put_notes(f, result->notes);
   put_number(f, "packing_fraction", info->packing_fraction);
   put_number(f, "diameter_mean", info->diameter_mean);
   put_number(f, "pressure", result->has_md ? result->pressure : NAN);

@@ -51,18 +51,18 @@ static const char *file_of(const options *o, const option_row *row) {
 int is_named(const options *o, const char *name) {
   size_t k;
   for (k = 0; k < ROWS; ++k)
-    if (!strcmp(table[k].name + 2, name)) return (int)(o->given.named >> k & 1);
+    if (!strcmp(table[k].name + 2, name)) return o->named[k];
   return 0;
 }
 
-int each_output(const options *o, int (*f)(const char *path)) {
+int each_output(const options *o, int (*f)(const char *path, void *with), void *with) {
   size_t k;
   for (k = 0; k < sizeof table / sizeof *table; ++k)
-    if (table[k].kind == TAKE_OUTPUT && file_of(o, &table[k]) && f(file_of(o, &table[k]))) return -1;
+    if (table[k].kind == TAKE_OUTPUT && file_of(o, &table[k]) && f(file_of(o, &table[k]), with)) return -1;
   if (o->vtk) {
     char first[4096];
     snprintf(first, sizeof first, "%s.vtp", o->vtk);
-    return f(first) ? -1 : 0;
+    return f(first, with) ? -1 : 0;
   }
   return 0;
 }
@@ -138,7 +138,7 @@ static int settle_effects(const options *o) {
   size_t k;
   for (k = 0; k < ROWS; ++k) {
     const option_row *const row = &table[k];
-    if (!(o->given.named >> k & 1)) continue;
+    if (!o->named[k]) continue;
     if (first_named(o, row->without, name)) {
       complain("%s has no effect beside %s", row->name, name);
       return -1;
@@ -201,9 +201,45 @@ static int settle_walls(const options *o) {
   return -1;
 }
 
+static int is_there(const char *path, void *unused) {
+  (void)path, (void)unused;
+  return 1;
+}
+
+/* What a verb implies. */
+static int settle_verb(options *o) {
+  const char *const name = verb_table[o->given.verb].name;
+  switch (o->given.verb) {
+    case VERB_PACK:
+      return 0;
+    case VERB_COMPRESS:
+      o->no_crunch = 1;
+      return 0;
+    case VERB_CRUNCH:
+      if (o->input || o->resume) return 0;
+      complain("crunch needs a FILE, or --resume");
+      return -1;
+    case VERB_ENSEMBLE:
+      complain("ensemble is a verb of the program alone");
+      return -1;
+    case VERB_PAGE:
+      if (!o->input || !o->page) complain("page needs a FILE and the OUTPUT.html");
+      return o->input && o->page ? 0 : -1;
+    case VERB_EXPORT:
+      if (o->input && !each_output(o, is_there, NULL)) complain("export writes nothing: name an OUTPUT or a table");
+      if (o->input) return each_output(o, is_there, NULL) ? 0 : -1;
+      /* fall through */
+    default:
+      if (!o->input) complain("%s needs a FILE", name);
+      return o->input ? 0 : -1;
+  }
+}
+
 int settle(options *o) {
   given *const g = &o->given;
   const int stages_given = g->stage_count;
+  if (settle_verb(o)) return -1;
+  if (o->json && o->given.verb <= VERB_CRUNCH) o->report = "-";
   if (settle_density(o) || settle_files(o) || settle_formats(o)) return -1;
   if (o->no_md && (stages_given || o->nve > 0)) {
     complain("--no-md contradicts %s", stages_given ? "--growth" : "--nve");
@@ -223,7 +259,7 @@ int settle(options *o) {
   if (isfinite(o->zeta) || isfinite(o->plant)) o->model = JAM_MODEL_MK;
   if (isfinite(o->plant)) o->phi0 = o->plant;
   if (!isfinite(o->phi0)) o->phi0 = 0; /* the library's own */
-  if (o->no_md || (o->input && !g->stage_count)) return settle_stages(o);
+  if (o->no_md || (o->input && !g->stage_count && g->verb != VERB_COMPRESS)) return settle_stages(o);
   if (!g->stage_count) { /* those stages that --pressure lies beyond, and the one that leads there */
     const size_t stages = sizeof default_stages / sizeof *default_stages;
     size_t j = 0;

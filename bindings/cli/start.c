@@ -85,3 +85,22 @@ int start(const options *o, jam_progress_fn stop, jam_system **sys) {
   }
   return o->resume ? check_resumed(o, *sys) : 0;
 }
+
+int read_as_it_is(const options *o, jam_system **sys) {
+  jam_create_options create;
+  jam_status status = jam_create_options_init(&create, sizeof create);
+  create.box = o->box;
+  create.frame = o->frame;
+  create.non_additivity = o->non_additivity;
+  create.overlap = JAM_OVERLAP_ALLOW;
+  if (!is_host_format(o, o->input))
+    status = jam_read(o->input, &create, stop_if_asked, NULL, sys);
+  else if (o->given.host->read(o->input, &create, o->given.host->user, sys))
+    return EXIT_FAILED; /* the host has said why */
+  if (status < 0) return refused_start(o, status);
+  if (*sys)
+    print_warnings(jam_notes(*sys));
+  else
+    complain("interrupted before %s was read", o->input);
+  return 0;
+}

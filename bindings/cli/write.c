@@ -53,12 +53,8 @@ static int finish_by_host(const jam_system *sys, const options *o) {
   return host->finish(copy, output, o->plot, host->user) != 0;
 }
 
-int write_all(jam_system *sys, const options *o, double deadline, outcome *result) {
-  const int known = knows_contacts(o, result);
+int write_files(jam_system *sys, const options *o, int known, double deadline, int *cut_short) {
   int bad = 0, network = 0;
-  result->info.struct_size = sizeof result->info;
-  jam_get_info(sys, &result->info);
-  result->notes = jam_notes(sys);
   if (o->output && !is_host_format(o, o->output)) bad |= has_failed(jam_write(sys, o->output, JAM_FORMAT_AUTO));
   if (o->contacts && known) bad |= write_contacts(sys, o->contacts);
   if (o->proof && known) bad |= has_failed(jam_write_proof(sys, o->proof, NULL, 0));
@@ -68,10 +64,17 @@ int write_all(jam_system *sys, const options *o, double deadline, outcome *resul
   if (known) network = write_network(sys, o);
   jam_set_progress(sys, NULL, NULL);
   cancel_on_signal(NULL);
-  bad |= network < 0;
-  result->cut_short = network > 0;
+  *cut_short = network > 0;
   if (o->vtk) bad |= write_vtk(sys, o->vtk, known);
-  bad |= finish_by_host(sys, o);
+  return bad | (network < 0) | finish_by_host(sys, o);
+}
+
+int write_all(jam_system *sys, const options *o, double deadline, outcome *result) {
+  int bad;
+  result->info.struct_size = sizeof result->info;
+  jam_get_info(sys, &result->info);
+  result->notes = jam_notes(sys);
+  bad = write_files(sys, o, knows_contacts(o, result), deadline, &result->cut_short);
   if (o->report) bad |= write_report(o, result, o->report) != 0;
   if (!o->quiet && !(o->report && !strcmp(o->report, "-"))) print_summary(o, result);
   return bad || fflush(stdout);

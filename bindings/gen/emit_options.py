@@ -3,7 +3,7 @@ import re
 import textwrap
 
 from option import STAGES, START, usage
-from options import ABOUT, EXAMPLE, NOTES, options
+from options import ABOUT, EXAMPLE, EXITS, NOTES, VERBS, options, verbs_of
 
 MADE = "made by bindings/gen/generate.py from bindings/gen/options.py; do not edit"
 OWN_FORM = ("stage", "sizes", "cell")  # kinds whose values have a form of their own
@@ -15,23 +15,39 @@ def _wrapped(text, width):
     return textwrap.wrap(text, width, break_on_hyphens=False)
 
 
+def _mask(names):
+    """A bit a verb."""
+    return sum(1 << k for k, v in enumerate(VERBS) if v.name in names)
+
+
+def _column(head, said, width):
+    """Lines of an item of the help: its head, and what is said of it in a column of its own."""
+    said = _wrapped(said, 92 - width)
+    first = ["  " + head] if len(head) + 2 >= width - 1 else [("  " + head).ljust(width) + said.pop(0)]
+    return first + [" " * width + line for line in said]
+
+
 def help_text():
-    """Lines, those of options that need a host behind a tab, and how many come before the options."""
-    lines = ["Usage: jam-pack [options]", *_wrapped(ABOUT, 80), "", "Example: jam-pack " + EXAMPLE, ""]
-    head_lines = len(lines)
+    """Lines as (verbs that show them, text), those of options that need a host behind a tab. Bits of no verb: the help of
+    the whole program alone."""
+    whole = 1 << len(VERBS)
+    every = whole | _mask([v.name for v in VERBS])
+    lines = [(whole, "Usage: jam-pack [VERB] [FILE] [options]")]
+    lines += [(whole, line) for line in [*_wrapped(ABOUT, 80), "", "Example: jam-pack " + EXAMPLE, "", "Verbs"]]
+    for v in VERBS:
+        lines += [(whole, line) for line in _column(v.usage, v.help, COLUMN)]
+        lines += [(_mask([v.name]), line) for line in (f"Usage: jam-pack {v.usage} [options]", *_wrapped(f"{v.name}: {v.help}.", 80), "")]
+    lines.append((whole, f"jam-pack VERB --help shows the options of one verb."))
+    lines.append((whole, ""))
     for section, rows in options(host=True):
-        lines.append(section)
+        shown = {name for o in rows for name in verbs_of(o)} if section != "Other" else {v.name for v in VERBS}
+        lines.append((whole | _mask(shown), section))
         for o in rows:
-            said = _wrapped(o.help, 92 - COLUMN)
-            head = "  " + usage(o)
-            if len(head) < COLUMN - 1:
-                text = [head.ljust(COLUMN) + said.pop(0)]
-            else:
-                text = [head]
-            lines += ["\t" * o.host + line for line in text + [" " * COLUMN + line for line in said]]
+            verbs = every if o.kind == "help" else whole | _mask(verbs_of(o))
+            lines += [(verbs, "\t" * o.host + line) for line in _column(usage(o), o.help, COLUMN)]
     for note in NOTES:
-        lines += ["", *_wrapped(note, 92)]
-    return head_lines, lines
+        lines += [(whole, line) for line in ["", *_wrapped(note, 92)]]
+    return lines
 
 
 C_TYPES = {
@@ -70,12 +86,17 @@ def emit_c(_api):
         without, needs = ('"' + " ".join("--" + name for name in names) + '"' for names in (o.without, o.needs))
         table.append(
             f'    {{"--{o.name}", TAKE_{o.kind.upper()}, {place}, {low}, {high}, {words}, {flags},\n'
-            f"     {without}, {needs}}},"
+            f"     {without}, {needs}, {_mask(verbs_of(o))}}},"
         )
         if _c_default(o):
             defaults.append(f"    .{o.field} = {_c_default(o)},")
-    head_lines, lines = help_text()
-    said = "\n".join('    "' + line.replace("\\", "\\\\").replace('"', '\\"').replace("\t", "\\t") + '",' for line in lines)
+    said = "\n".join(
+        f"    {{{verbs}, " + '"' + line.replace("\\", "\\\\").replace('"', '\\"').replace("\t", "\\t") + '"},' for verbs, line in help_text()
+    )
+    names = ", ".join(f"VERB_{v.name.upper()}" for v in VERBS)
+    verbs = "\n".join(
+        f'    {{"{v.name}", ' + ", ".join(f'"--{v.files[k]}"' if k < len(v.files) else "NULL" for k in range(2)) + "}," for v in VERBS
+    )
     stages = ", ".join(f"{{{growth!r}, {pressure!r}}}" for growth, pressure in STAGES)
     kinds = ",\n  ".join(f"TAKE_{k.upper()}" for k in dict.fromkeys(o.kind for o in rows))
     return f"""/* The options of jam-pack: {MADE}. */
@@ -87,7 +108,11 @@ def emit_c(_api):
 typedef struct options {{
 {fields}
   given given; /* what has a form of its own */
+  unsigned char named[{len(rows)}]; /* of each row of the table, whether it is on the command line */
 }} options;
+
+/* First words of a command line. */
+enum {{ {names}, VERB_NONE }};
 
 /* Packing fraction of a random start by default. */
 #define START_FRACTION(dim) ldexp({START[0]!r}, (dim) > {START[1]} ? {START[1]} - (int)(dim) : 0)
@@ -97,8 +122,6 @@ enum {{
   {kinds}
 }};
 enum {{ AFTER_CRUNCH = 1, TAKES_STDOUT = 2, NEEDS_HOST = 4 }};
-enum {{ HELP_HEAD = {head_lines} }}; /* lines of the help before the options */
-
 typedef struct option_row {{
   const char *name;
   int kind;
@@ -107,6 +130,7 @@ typedef struct option_row {{
   const char *words;
   int flags;
   const char *without, *needs; /* names of options, with which and without which it has no effect */
+  unsigned verbs;              /* bits of those that take it */
 }} option_row;
 
 static const option_row table[] = {{
@@ -120,9 +144,22 @@ static const options defaults = {{
 /* Stages of growth where --growth is not given; the last one goes to --pressure. */
 static const stage default_stages[] = {{{stages}}};
 
-static const char *const help[] = {{
+typedef struct help_line {{
+  unsigned verbs; /* bits of those that show it; VERB_NONE: the help of the whole program */
+  const char *text;
+}} help_line;
+
+static const help_line help[] = {{
 {said}
-    NULL}};
+    {{0, NULL}}}};
+
+typedef struct verb_row {{
+  const char *name, *first, *second; /* options that its words without dashes stand for, or NULL */
+}} verb_row;
+
+static const verb_row verb_table[] = {{
+{verbs}
+}};
 #endif
 #endif
 """
@@ -144,15 +181,27 @@ def emit_bash(_api):
     others = "|".join(
         "--" + o.name for o in rows if o.kind not in ("switch", "help", "choice", "input", "output", "sizes")
     )
+    verbs = " ".join(v.name for v in VERBS)
+    of_verb = "".join(
+        f"    {v.name}) takes='{' '.join('--' + o.name for o in rows if v.name in verbs_of(o) or o.kind == 'help')}' ;;\n"
+        for v in VERBS
+        if v.takes is not None
+    )
     return f"""# Completion of jam-pack for bash: {MADE}.
 _jam_pack() {{
-  local word=${{COMP_WORDS[COMP_CWORD]}} before=${{COMP_WORDS[COMP_CWORD - 1]}}
+  local word=${{COMP_WORDS[COMP_CWORD]}} before=${{COMP_WORDS[COMP_CWORD - 1]}} takes='{words}'
   COMPREPLY=()
   case $before in
 {choices}    {files}) COMPREPLY=($(compgen -f -- "$word")); return ;;
     {others}) return ;;
   esac
-  COMPREPLY=($(compgen -W '{words}' -- "$word"))
+  case ${{COMP_WORDS[1]}} in
+{of_verb}  esac
+  if [ "$COMP_CWORD" = 1 ]; then takes="{verbs} $takes"; fi
+  case $word in
+    -*) COMPREPLY=($(compgen -W "$takes" -- "$word")) ;;
+    *) COMPREPLY=($(compgen -W "$takes" -- "$word") $(compgen -f -- "$word")) ;;
+  esac
 }}
 complete -o filenames -F _jam_pack jam-pack
 """
@@ -171,6 +220,8 @@ def emit_zsh(_api):
             value = f":{o.metavar.replace(':', ' ').replace('[', '').replace(']', '')}: "
         star = "*" if o.kind == "stage" else ""
         lines.append(f"  '{star}--{o.name}[{said}]{value}'")
+    verbs = " ".join(f"{v.name}\\:'{v.help.replace(':', ',').split(';')[0]}'" for v in VERBS)
+    lines += [f'  "1:verb:(({verbs}))"', "  '*:file:_files'"]
     return f"#compdef jam-pack\n# Completion of jam-pack for zsh: {MADE}.\n_arguments \\\n" + " \\\n".join(lines) + "\n"
 
 
@@ -193,6 +244,22 @@ def emit_page(_api):
         "",
         "Both commands run the same code. Options of Python alone are marked; it also reads and writes `.gsd` files.",
         "",
+        "## Verbs",
+        "",
+        "| first word | what it does |",
+        "|---|---|",
+        *(f"| `{v.usage}` | {_marked(v.help)} |" for v in VERBS),
+        "",
+        "`jam-pack VERB --help` shows the options of one verb; an option that a verb does not take is refused.",
+        "",
+        "```sh",
+        "jam-pack compress --n 512 --pressure 1e4 --output dense.xyz",
+        "jam-pack crunch dense.xyz jammed.xyz --json",
+        "jam-pack check jammed.xyz",
+        "jam-pack export jammed.xyz jammed.data --contacts contacts.csv",
+        "jam-pack page jammed.xyz jammed.html",
+        "```",
+        "",
     ]
     for section, rows in options(host=True):
         out += [f"## {section}", "", "| option | meaning |", "|---|---|"]
@@ -202,6 +269,20 @@ def emit_page(_api):
         out.append("")
     out += ["## How it ends", ""]
     for note in NOTES:
-        out += [*_wrapped(_marked(note), 120), ""]
+        if "status" not in note:
+            out += [*_wrapped(_marked(note), 120), ""]
+    out += [
+        "With `--input` or FILE the verdict of a crunch is that of its end state. `check` tests the packing of a file as it is.",
+        "",
+        "| exit status | pack, compress, crunch | check | info, export, page |",
+        "|---|---|---|---|",
+        *("| " + " | ".join(row) + " |" for row in EXITS),
+        "",
+        "`ensemble` runs `python3 -m jam ensemble`. 0: all packings are there. 1: some failed or are missing. 2: wrong command line. 3: protocol or "
+        "folder refused, or Python has no module `jam`. 4: the folder cannot be written.",
+        "",
+        "With `--json` standard output is one JSON object and nothing else; messages go to standard error.",
+        "",
+    ]
     out += ["Completion for bash and zsh is installed with the program, and `man jam-pack` shows these lines.", ""]
     return "\n".join(out)

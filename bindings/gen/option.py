@@ -42,6 +42,22 @@ class Option:
         return self.name.replace("-", "_")
 
 
+@dataclass(frozen=True)
+class Verb:
+    """The first word of a command line."""
+
+    name: str
+    files: tuple  # options that words without dashes stand for, in order
+    help: str
+    takes: object  # names of its options, parted by blanks; None: all but those of other verbs alone
+
+    @property
+    def usage(self):
+        words = {"input": "FILE", "output": "[OUTPUT]", "page": "OUTPUT.html"}
+        files = "[FILE]" if self.name == "compress" else " ".join(words[f] for f in self.files)
+        return f"{self.name} {files}".rstrip()
+
+
 def usage(o):
     """As the help writes it: --name VALUE."""
     value = "|".join(o.words) or o.metavar

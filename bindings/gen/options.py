@@ -1,8 +1,33 @@
 """The options of jam-pack, which python3 -m jam runs: the one table that the parser, the help, the manual page, the completion
 of shells and the guide's page are made from. After a change: sh bindings/gen/regenerate.sh."""
-from option import INT32_MAX, INT64_MAX, STAGES, Option
+from option import INT32_MAX, INT64_MAX, STAGES, Option, Verb
 
 NO_CRUNCH = ("no-crunch", "packing-fraction", "porosity")  # what leaves the crunch out
+
+READING = "input frame box non-additivity quiet wall-time json"
+STARTING = "seed model zeta shrink shrink-min output report log plot page checkpoint checkpoint-every resume"
+GROWING = (
+    "n dim phi0 diameters-ratio sizes plant cell walls container nve growth pressure packing-fraction porosity"
+)
+TABLES = "contacts spectrum modes gaps structure vtk"
+
+# Words that files may stand for, what the verb does, and the options that it takes.
+VERBS = (
+    Verb("pack", (), "start, molecular dynamics with growth, crunch: all of the work; the same without a verb", None),
+    Verb("compress", ("input",), "start and molecular dynamics alone", f"{READING} {STARTING} {GROWING}"),
+    Verb(
+        "crunch",
+        ("input", "output"),
+        "the packing of a file to its jamming point",
+        f"{READING} {STARTING} {TABLES} method strain lp duality-gap threads page-steps prove proof",
+    ),
+    Verb("check", ("input",), "is the packing of a file jammed as it is? Nothing moves", f"{READING} prove proof"),
+    Verb("info", ("input",), "what a file contains: cell, sizes, packing fraction, nearest pair", READING),
+    Verb("export", ("input", "output"), "the packing of a file in other formats, and its tables", f"{READING} output {TABLES}"),
+    Verb("page", ("input", "page"), "a page that shows the packing of a file in a browser", f"{READING} page"),
+    Verb("ensemble", (), "many packings in one folder: python3 -m jam ensemble --help", ""),
+)
+ALONE = ()  # options that no job of pack takes
 
 TABLE = {
     "Start": (
@@ -285,6 +310,7 @@ TABLE = {
         ),
         Option("vtk", "text", "PREFIX", "PREFIX.vtp and PREFIX-forces.vtp for ParaView"),
         Option("plot", "output", "PICTURE", "spheres, forces and the way there, by matplotlib", host=True),
+        Option("json", "switch", "", "JSON on standard output in place of the summary", without=("report",)),
         Option("quiet", "switch", "", "no progress, no summary"),
     ),
     "Other": (
@@ -301,13 +327,26 @@ ABOUT = (
 EXAMPLE = "--n 1024 --seed 1 --output packing.xyz --page packing.html --report -"
 NOTES = (
     "Ctrl-C stops the computation, and the requested files are still written. Progress is one changing line on a terminal, "
-    "and one line every ten seconds in a pipe or a file.",
+    "with a bar and the time left where it is known, and one line every ten seconds in a pipe or a file.",
     "Exit status 0: done, and jammed unless --no-crunch. 1: stopped early, a stage stalled, or not jammed; the valid state reached is written. "
     "2: wrong command line. 3: request or input refused, or the computation failed. 4: an output cannot be written.",
     "With --input the verdict is that of the end state, after the crunch. 'check FILE' tests the packing of a file as it "
-    "is and moves nothing. It takes --box, --frame, --non-additivity, --prove, --proof, --wall-time and --quiet. One paragraph says whether it is jammed, strictly jammed, not jammed or undecided, and why. Exit status of check 0: jammed. 1: not. "
+    "is and moves nothing. One paragraph says whether it is jammed, strictly jammed, not jammed or undecided, and why. Exit status of check 0: jammed. 1: not. "
     "3: undecided. 2: wrong command line, or the file is refused.",
 )
+# Exit status of the verbs: those that compute, check, those that write what a file holds.
+EXITS = (
+    ("0", "done, and jammed where a crunch ran", "jammed", "done"),
+    ("1", "stopped early, a stage stalled, or not jammed; the valid state reached is written", "not jammed", "a table was not computed in time"),
+    ("2", "wrong command line", "wrong command line, or the file is refused", "wrong command line"),
+    ("3", "request or input refused, or the computation failed", "undecided", "the file is refused"),
+    ("4", "an output cannot be written", "an output cannot be written", "an output cannot be written"),
+)
+
+
+def verbs_of(o):
+    """Names of the verbs that take an option."""
+    return [v.name for v in VERBS if (o.name not in ALONE if v.takes is None else o.name in v.takes.split())]
 
 
 def options(host=False):

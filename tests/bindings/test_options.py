@@ -47,6 +47,9 @@ class Options(unittest.TestCase):
         self.assertEqual(self.complete("--strain", "t"), ["tilts"])
         self.assertEqual(self.complete("--input", str(ROOT / "CHANGE")), [str(ROOT / "CHANGELOG.md")])
         self.assertEqual(self.complete("--seed", "1"), [])
+        self.assertEqual(self.complete("cr"), ["crunch"])
+        self.assertEqual(self.complete("check", "--pro"), ["--prove", "--proof"])
+        self.assertEqual(self.complete("check", "--gro"), [])
 
     def test_the_published_quench_and_its_report(self):
         said = self.pack(*"--n 64 --no-md --seed 3 --method sequential-lp --report -".split())

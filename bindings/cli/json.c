@@ -1,0 +1,88 @@
+/* Parts of a JSON object, a line each, which ends with a comma. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include "jam-pack.h"
+
+/* JSON has no NaN and no infinity. */
+void put_number(FILE *f, const char *key, double x) {
+  if (isfinite(x))
+    fprintf(f, "  \"%s\": %.17g,\n", key, x);
+  else
+    fprintf(f, "  \"%s\": null,\n", key);
+}
+
+void put_count(FILE *f, const char *key, int64_t x, int known) {
+  if (known)
+    fprintf(f, "  \"%s\": %lld,\n", key, (long long)x);
+  else
+    fprintf(f, "  \"%s\": null,\n", key);
+}
+
+/* Bytes of the character of UTF-8 that begins here (RFC 3629), 0 where none does. */
+static size_t character_length(const unsigned char *c) {
+  const unsigned first = c[0], second = c[1];
+  const size_t length = first < 0x80                    ? 1
+                        : first >= 0xc2 && first < 0xe0 ? 2
+                        : (first & 0xf0u) == 0xe0       ? 3
+                        : first >= 0xf0 && first < 0xf5 ? 4
+                                                        : 0;
+  size_t k;
+  for (k = 1; k < length; ++k)
+    if ((c[k] & 0xc0u) != 0x80) return 0;
+  return (first == 0xe0 && second < 0xa0) || (first == 0xed && second > 0x9f) || (first == 0xf0 && second < 0x90) ||
+                 (first == 0xf4 && second > 0x8f)
+             ? 0
+             : length;
+}
+
+/* Names of files may hold bytes that are not UTF-8, and JSON must not: they show as \xff. */
+void put_text(FILE *f, const char *text) {
+  size_t length;
+  fputc('"', f);
+  for (; *text; text += length) {
+    const unsigned char first = (unsigned char)*text;
+    length = character_length((const unsigned char *)text);
+    if (length == 0) {
+      fprintf(f, "\\\\x%02x", first);
+      length = 1;
+    } else if (first == '"' || first == '\\') {
+      fprintf(f, "\\%c", first);
+    } else if (first < ' ') {
+      fprintf(f, "\\u%04x", first);
+    } else {
+      fwrite(text, 1, length, f);
+    }
+  }
+  fputc('"', f);
+}
+
+/* The lines of jam_notes: calls f with each, without its end. */
+void each_note(const char *notes, void (*f)(const char *line, int warns, void *with), void *with) {
+  while (*notes) {
+    const size_t length = strcspn(notes, "\n");
+    char line[640];
+    snprintf(line, sizeof line, "%.*s", (int)length, notes);
+    f(line, !strncmp(line, "warning: ", 9), with);
+    notes += length + (notes[length] == '\n');
+  }
+}
+
+struct note_list {
+  FILE *file;
+  int first;
+};
+static void put_note(const char *line, int warns, void *with) {
+  struct note_list *list = with;
+  (void)warns;
+  if (!list->first) fputs(", ", list->file);
+  list->first = 0;
+  put_text(list->file, line);
+}
+
+void put_notes(FILE *f, const char *notes) {
+  struct note_list list = {f, 1};
+  fputs("  \"notes\": [", f);
+  each_note(notes, put_note, &list);
+  fputs("],\n", f);
+}

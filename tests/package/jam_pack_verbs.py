@@ -1,0 +1,90 @@
+#!/usr/bin/env python3
+"""jam_pack_verbs.py PROGRAM: the verbs of jam-pack, the options that each takes, and their JSON."""
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+program = sys.argv.pop(1)
+
+
+def run(*args):
+    return subprocess.run([program, *map(str, args)], capture_output=True, text=True, timeout=120, check=False)
+
+
+class Verbs(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.dir = pathlib.Path(self.folder.name)
+
+    def tearDown(self):
+        self.folder.cleanup()
+
+    def test_what_they_do(self):
+        dense, jammed, data, page, csv = (self.dir / name for name in ("d.xyz", "j.xyz", "j.data", "j.html", "c.csv"))
+        whole = ("--n", 64, "--seed", 3, "--growth", "1e-2:1e4")
+        done = run("compress", *whole, "--json", "--output", dense)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(json.loads(done.stdout)["stop_reason"], "pressure")
+        before = dense.read_bytes()
+        report = json.loads(run("crunch", dense, jammed, "--json").stdout)
+        self.assertTrue(report["jammed"])
+        self.assertEqual(dense.read_bytes(), before)
+        old = self.dir / "old.xyz"  # the command line without verbs gives the same bits
+        self.assertEqual(run(*whole, "--no-crunch", "--output", old).returncode, 0)
+        self.assertEqual(old.read_bytes(), before)
+        self.assertEqual(run("--input", dense, "--output", old).returncode, 0)
+        self.assertEqual(old.read_bytes(), jammed.read_bytes())
+        self.assertEqual(run("pack", *whole, "--output", old).returncode, 0)
+        self.assertEqual(run(*whole, "--output", self.dir / "again.xyz").returncode, 0)
+        self.assertEqual(old.read_bytes(), (self.dir / "again.xyz").read_bytes())
+
+        info = json.loads(run("info", jammed, "--json").stdout)
+        self.assertEqual((info["n"], info["dim"], info["cell"][1]), (64, 3, [0, 1, 0]))
+        self.assertEqual(info["packing_fraction"], report["packing_fraction"])
+        self.assertAlmostEqual(info["packing_fraction"] + info["porosity"], 1, 15)
+        self.assertAlmostEqual(info["nearest_gap"], 0, 12)
+        check = json.loads(run("check", jammed, "--json").stdout)
+        self.assertEqual((check["jammed"], check["contacts"]), (True, report["contacts"]))
+        done = run("check", dense, "--json")
+        self.assertEqual(done.returncode, {True: 0, False: 1, None: 3}[json.loads(done.stdout)["jammed"]])
+        said = run("export", jammed, data, "--contacts", csv, "--json")
+        self.assertEqual(json.loads(said.stdout)["written"], [str(data), str(csv)])
+        self.assertEqual(len(csv.read_text().splitlines()), report["contacts"] + 1)
+        self.assertEqual(json.loads(run("info", data, "--json").stdout)["d50"], info["d50"])
+        self.assertEqual(run("page", jammed, page).returncode, 0)
+        self.assertIn("<html", page.read_text()[:2000])
+
+    def test_what_they_refuse(self):
+        bad = self.dir / "bad.dat"
+        bad.write_text("2\n2\n0.4\n0.1 0.5\n0.4 0.5\n")
+        self.assertTrue(json.loads(run("info", bad, "--json").stdout)["nearest_gap"] < -0.2)
+        for status, text, *args in (
+            (2, "check takes no '--n'; it takes a FILE, ", "check", bad, "--n", 4),
+            (2, "crunch takes no '--growth'", "crunch", bad, "--growth", "1e-2"),
+            (2, "compress takes no '--contacts'", "compress", "--contacts", "c.csv"),
+            (2, "crunch needs a FILE", "crunch"),
+            (2, "info needs a FILE", "info"),
+            (2, "page needs a FILE and the OUTPUT.html", "page", bad),
+            (2, "export writes nothing", "export", bad),
+            (2, "unexpected argument 'c'", "export", bad, "b.xyz", "c"),
+            (2, "--json has no effect beside --report", "crunch", bad, "--json", "--report", "a"),
+            (3, f"{bad}: spheres 0 and 1 overlap by 0.25 of their contact distance; --shrink multiplies", "crunch", bad),
+            (3, "No such file", "info", self.dir / "none.xyz"),
+            (4, "cannot write", "export", bad, self.dir / "no" / "such.xyz"),
+        ):
+            done = run(*args)
+            self.assertEqual((done.returncode, done.stdout), (status, ""), f"{args}: {done.stderr}")
+            self.assertIn(text, done.stderr, str(args))
+        for verb in ("pack", "compress", "crunch", "check", "info", "export", "page"):
+            done = run(verb, "--help")
+            self.assertEqual(done.returncode, 0)
+            self.assertIn(f"Usage: jam-pack {verb}", done.stdout)
+            self.assertIn("  --json", done.stdout)
+            self.assertEqual("  --growth" in done.stdout, verb in ("pack", "compress"))
+
+
+if __name__ == "__main__":
+    unittest.main()

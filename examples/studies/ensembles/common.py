@@ -85,8 +85,13 @@ class Results:
         """What was used where the runs are no ensemble."""
         self.sets.append({"protocol": protocol, "packings": packings, "version": jam.__version__})
 
-    def add(self, figure: str, quantity: str, published: float | str, ours: float, error: float = np.nan) -> None:
-        known = isinstance(published, (int, float)) and np.isfinite(error) and error > 0
+    def add(
+        self, figure: str, quantity: str, published: float | str | tuple[str, float], ours: float, error: float = np.nan
+    ) -> None:
+        """published: a number of the thesis, a text, or (whose value it is, value) where the thesis has none."""
+        value = published[1] if isinstance(published, tuple) else published
+        published = f"{published[0]}: {published[1]:g}" if isinstance(published, tuple) else published
+        known = isinstance(value, (int, float)) and np.isfinite(error) and error > 0
         row = {
             "figure": figure,
             "quantity": quantity,
@@ -94,7 +99,7 @@ class Results:
             "ours": float(ours),
             "error": float(error),
         }
-        row["sigma"] = round(abs(float(ours) - float(published)) / float(error), 1) if known else None
+        row["sigma"] = round(abs(float(ours) - float(value)) / float(error), 1) if known else None
         if not np.isfinite(error):
             row["error"] = None
         self.rows.append(row)

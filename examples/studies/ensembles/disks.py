@@ -92,7 +92,7 @@ def main():
     r.add("10", f"disks: phi_J, N = {n}", "none", *mean_error(s.rows["packing_fraction"]))
     r.add("10", f"disks: share of rattlers, N = {n}", "none", *mean_error(s.rows["rattlers"] / n))
     ideal = np.mean(4.0 - 2.0 / s.rows["stable"])
-    r.add("10", f"disks: mean z, N = {n}: 2d + 2(1-d)/N'", round(float(ideal), 6), np.concatenate(s.z).mean())
+    r.add("10", f"disks: mean z, N = {n}: 2d + 2(1-d)/N'", ("exact", round(float(ideal), 6)), np.concatenate(s.z).mean())
     r.add("10", f"disks: psi_6, N = {n}", "none", *mean_error(s.order))
     for name, text, known, powers, floor in (
         ("extended", "extended forces", THETA_E, POWERS, FLOOR),

@@ -87,7 +87,7 @@ def spheres(o, r, axes, n, seeds):
         if rate <= 1e-2:
             fluid = [(run["phi"] > 0.3) & (run["phi"] < 0.5) for run in runs]
             off = [np.mean(run["p"][use] / cs(run["phi"][use])) for run, use in zip(runs, fluid)]
-            r.add("8", f"G = {rate:g}: mean of p / p_CS, phi = 0.3 to 0.5", 1.0, np.mean(off), spread(off))
+            r.add("8", f"G = {rate:g}: mean of p / p_CS, phi = 0.3 to 0.5", ("Carnahan-Starling", 1.0), np.mean(off), spread(off))
         r.add(
             "8",
             f"G = {rate:g}: crystal score at the end",
@@ -149,7 +149,7 @@ def mari_kurchan(o, r, axis, n, seeds):
         mean, error = mean_error(p)
         means.append((phi, mean, p.std(ddof=1)))
         text = f"Mari-Kurchan liquid planted at {phi:g}, 20 runs: p; 1 + 4 phi = {1 + 4 * phi:g}, at this N"
-        r.add("8", text, round(exact(phi, n), 4), mean, error)
+        r.add("8", text, ("exact", round(exact(phi, n), 4)), mean, error)
     if means:
         x, y, e = np.array(means).T
         axis.errorbar(x, 1 / y, e / y**2, fmt="ko", ms=4, label="planted, no growth")

@@ -119,7 +119,7 @@ def table(r, sizes, model, top):
     rows = s.rows
     z = np.concatenate(s.z)
     ideal = np.mean(6.0 - 4.0 / rows["stable"])
-    r.add(figure + ".1", f"mean z at N = {largest}: 2d + 2(1-d)/N'", round(float(ideal), 6), z.mean())
+    r.add(figure + ".1", f"mean z at N = {largest}: 2d + 2(1-d)/N'", ("exact", round(float(ideal), 6)), z.mean())
     values, count = np.unique(z, return_counts=True)
     r.add(figure + ".1", "most likely z", "4 or 5" if model == "mk" else 6, values[count.argmax()])
     r.add(
@@ -179,7 +179,7 @@ def table(r, sizes, model, top):
         r.add(
             "6.4",
             f"N^(1/(1+a)) <x_min> of {name}: largest N over smallest",
-            "not 1",
+            "thesis: not 1; one scaling function: 1",
             last[0] / first[0],
             last[0] / first[0] * np.hypot(last[1] / last[0], first[1] / first[0]),
         )
@@ -198,7 +198,7 @@ def gap_crossover(r, figure, s, n, end):
     found = scaling.bootstrap(s.gaps, fit, 40)
     low, high = np.percentile(found.resampled, (16, 84), axis=0)  # a resample with a straight line has no crossover
     for name, p, v, e in zip("abq", CROSSOVER, found.value, 0.5 * (high - low)):
-        r.add(figure, f"crossover of gaps at N = {n}: {name} (published: Mari-Kurchan, N = 4096)", p, v, e)
+        r.add(figure, f"crossover of gaps at N = {n}: {name}", ("Mari-Kurchan, N = 4096", p), v, e)
 
 
 def main():

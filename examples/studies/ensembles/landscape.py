@@ -13,6 +13,8 @@ usage: landscape.py [--large] [--folder DIR] [--only-read]
 Distances are mean squares over spheres that are stable in both packings, the mean displacement taken out, in unit of the mean
 diameter squared. Small: N = 128, two packings. Large: N = 1024, ten. Each run is kept when done.
 """
+from itertools import combinations
+
 import matplotlib
 
 matplotlib.use("Agg")
@@ -25,6 +27,7 @@ import jam
 KAPPA_MF = 1.4157
 INSTANTS = 12  # snapshots of part 1
 CLONES = 8
+SAME = 1e-12  # distance of two clones in one jammed state, diameters squared
 
 
 def grown(n, seed, pressure):
@@ -109,24 +112,25 @@ def memory(n, seed, shrinks, collisions):
         return {"memory": found}
 
 
-def ultrametric(d):
-    """Over triples: (largest - middle) / (largest - smallest), 0 for an ultrametric tree, 1/2 without any order."""
-    from itertools import combinations
-
+def ultrametric(d, same):
+    """Over triples of three states: (largest - middle) / (largest - smallest), 0 for an ultrametric tree. same: pairs in one
+    state; with two equal states a triple is ultrametric whatever the third one is."""
     values = []
     for k in combinations(range(len(d)), 3):
-        small, middle, large = sorted((d[k[0], k[1]], d[k[0], k[2]], d[k[1], k[2]]))
-        if large > small * (1 + 1e-6) + 1e-14:
+        pairs = [(k[0], k[1]), (k[0], k[2]), (k[1], k[2])]
+        small, middle, large = sorted(d[p] for p in pairs)
+        if not any(same[p] for p in pairs) and large > small * (1 + 1e-6):
             values.append((large - middle) / (large - small))
     return np.mean(values) if values else np.nan
 
 
-def shuffled(d, rng):
-    """The same distances at random places."""
-    upper = np.triu_indices(len(d), 1)
-    made = np.zeros_like(d)
-    made[upper] = rng.permutation(d[upper])
-    return made + made.T
+def independent(d):
+    """Distances of independent displacements of as different lengths: mean squares add up, d_ij = a_i + a_j, by least squares."""
+    n, rows = len(d), d.sum(axis=1)
+    a = np.maximum((rows - d.sum() / (2 * (n - 1))) / (n - 2), 0.0)
+    made = a[:, None] + a[None, :]
+    np.fill_diagonal(made, 0.0)
+    return made
 
 
 def walks(o, r, axes, n, seeds, pressures, longest):
@@ -184,7 +188,6 @@ def walks(o, r, axes, n, seeds, pressures, longest):
 
 
 def trees(o, r, axis, n, seeds, pressures, longest):
-    rng = np.random.default_rng(0)
     for pressure in pressures:
         make = [
             kept(o, f"landscape_n{n}", f"clones{pressure:.0e}_seed{s}", lambda: clones(n, s, pressure, longest))
@@ -194,18 +197,17 @@ def trees(o, r, axis, n, seeds, pressures, longest):
         if not found:
             continue
         r.made(f"N = {n}, {CLONES} clones at p = {pressure:.0e}, {longest} collisions a sphere", len(found))
-        value = [ultrametric(d) for d in found]
-        blind = [np.mean([ultrametric(shuffled(d, rng)) for _ in range(50)]) for d in found]
-        known = [(v, w) for v, w in zip(value, blind) if np.isfinite(v)]  # not where all clones found one state
+        value = [ultrametric(d, d < SAME) for d in found]
+        blind = [ultrametric(independent(d), d < SAME) for d in found]
+        known = [(v, w) for v, w in zip(value, blind) if np.isfinite(v) and np.isfinite(w)]  # not where few states are found
         if len(known) > 1:
             text = f"clones, p = {pressure:.0e}: (largest - middle) / (largest - smallest)"
             r.add("7", text, "0: a tree", *mean_error([v for v, _ in known]))
-            r.add(
-                "7", f"the same, distances at random places, p = {pressure:.0e}", "none", np.mean([w for _, w in known])
-            )
+            text = f"the same, independent displacements of these lengths, p = {pressure:.0e}"
+            r.add("7", text, "none", *mean_error([w for _, w in known]))
         upper = np.concatenate([d[np.triu_indices(len(d), 1)] for d in found])
         r.add(
-            "7", f"clones, p = {pressure:.0e}: share of pairs in the same jammed state", "none", np.mean(upper < 1e-12)
+            "7", f"clones, p = {pressure:.0e}: share of pairs in the same jammed state", "none", np.mean(upper < SAME)
         )
         axis.hist(
             np.log10(np.maximum(upper, 1e-17)), np.arange(-17, 0, 0.5), histtype="step", label=f"p = {pressure:.0e}"

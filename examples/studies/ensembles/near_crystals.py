@@ -106,7 +106,8 @@ def disks_of(o, r, n, deviation, count):
 def law(r, text, values, low, high, published):
     try:
         found = scaling.fit_power(values, high, low)
-        r.add("10", f"exponent of {text} on {low:.1e} ... {high:.1e}", published, found.value, found.error)
+        text = f"exponent of {text} on {low:.1e} ... {high:.1e}"
+        r.add("10", text, f"{published}; not determined here", found.value, found.error)  # a few small packings
     except ValueError as problem:
         print(text, problem)
 

@@ -96,7 +96,9 @@ def rows(r, kappa, made, pressures):
     shared = np.array([[overlap(m, t, last) for m in made] for t in pressures])
     r.add("7", f"phi_J from p_target = {last:.0e}, kappa = {kappa:g}", "fit above", *mean_error(phi[-1]))
     same = [t for t, q in zip(pressures, shared.min(axis=1)) if q == 1.0]
-    r.add("7", f"least p_target with the reference's contacts, kappa = {kappa:g}", SAME.get(kappa, "none"), min(same))
+    text = f"least p_target with the reference's contacts, kappa = {kappa:g}"
+    text += f" ({last:.0e}: none below the reference)".replace("e+", "e") if min(same) == last else ""
+    r.add("7", text, SAME.get(kappa, "none"), min(same))
     off = abs(phi - phi[-1]).mean(axis=1)
     for k, t in enumerate(pressures):
         r.add("7", f"|phi_J - reference|, kappa = {kappa:g}, p_target = {t:.0e}", "falls to 1e7 and beyond", off[k])

@@ -31,12 +31,12 @@ def main():
                 whole.append((found.value - a) / found.error)
             spread = (0.683 * 0.317 / trials) ** 0.5
             text = f"{name}, N = {n}, {m} packings: share of trials within one error"
-            r.add("6.6.5", text + ", truncated likelihood", 0.683, np.mean(np.abs(cut) < 1), spread)
-            r.add("6.6.5", text + ", no truncation", 0.683, np.mean(np.abs(whole) < 1), spread)
+            r.add("6.6.5", text + ", truncated likelihood", ("nominal", 0.683), np.mean(np.abs(cut) < 1), spread)
+            r.add("6.6.5", text + ", no truncation", ("nominal", 0.683), np.mean(np.abs(whole) < 1), spread)
             r.add(
                 "6.6.5",
                 f"{name}, N = {n}: mean of (found - true) / error, truncated",
-                0.0,
+                ("nominal", 0.0),
                 np.mean(cut),
                 trials**-0.5,
             )
@@ -52,7 +52,7 @@ def main():
     r.add(
         "6.5.5",
         f"collapse of gaps, N = 32, 64, 128, {few} trials: share within one error",
-        0.683,
+        ("nominal", 0.683),
         np.mean(inside),
         spread,
     )

@@ -7,12 +7,13 @@
 # Two more run when they are named, as they take long:
 #   clang       the library without sanitizers by Clang, and its C tests
 #   sanitized_physics  address and undefined behaviour by GCC, over all that runs without other programs
-# `sh tests/run.sh`, from any folder; the builds are ./build, ./build-asan, ./build-tsan, ./build-fuzz, ./build-clang
+# `sh tests/run.sh`, from any folder; the builds are ./build, ./build-asan (of two parts), ./build-tsan, ./build-clang
 # and ./build-asan-gcc. Uses ccache where it is installed. Parts can be named: `sh tests/run.sh release clang`.
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
 cd "$root"
 . tests/debian.sh
+. tests/sanitized.sh
 need_packages build-essential cmake ninja-build pkg-config clang clang-format \
   libeigen3-dev coinor-libclp-dev libspectra-dev libopenblas-dev zlib1g-dev voro++-dev libcmocka-dev abigail-tools \
   swig gfortran lintian python3-dev python3-venv python3-numpy python3-scipy python3-matplotlib \
@@ -50,21 +51,10 @@ cmake --build build-clang -j "$jobs"
 ctest --test-dir build-clang -j "$at_once" -L capi -LE long --output-on-failure --no-tests=error || status=1
 fi
 
-# sanitize FOLDER OPTION...: -O1, which halves the compile time and keeps assertions. Molecular dynamics looks at all
-# pairs for overlaps and at the order of events.
-sanitize() {
-  folder=$1; shift
-  cmake -S . -B "$folder" -G Ninja -DCMAKE_BUILD_TYPE=None -DCMAKE_C_FLAGS=-O1 -DCMAKE_CXX_FLAGS=-O1 \
-    -DJAM_SANITIZE=address,undefined -DJAM_CHECK_PAIRS=ON -DJAM_BUILD_EXAMPLES=OFF -DJAM_BUILD_CLI=OFF "$@" >/dev/null
-  cmake --build "$folder" -j "$jobs"
-  export UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1
-  export ASAN_OPTIONS=detect_stack_use_after_return=1
-}
-
 if wants sanitizers; then
 echo "== address and undefined-behaviour sanitizers"
-# Clang brings other warnings and another code generator than the release build.
-sanitize build-asan -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++ -DJAM_WERROR=ON
+sanitize_by_clang
+cmake --build build-asan -j "$jobs"
 ctest --test-dir build-asan -j "$at_once" -L 'unit|capi' -LE long --timeout 900 \
   --output-on-failure --no-tests=error || status=1
 fi
@@ -73,6 +63,7 @@ if wants sanitized_physics; then
 echo "== address and undefined-behaviour sanitizers over physics and bindings"
 # shellcheck disable=SC2086
 sanitize build-asan-gcc $bindings
+cmake --build build-asan-gcc -j "$jobs"
 ctest --test-dir build-asan-gcc -j "$at_once" -L 'unit|capi|physics|bindings' -LE long --timeout 1800 \
   --output-on-failure --no-tests=error || status=1
 fi

@@ -1,6 +1,6 @@
 #!/bin/sh
 # An hour a target, or as many seconds as given: sh tests/fuzz/long.sh [seconds = 3600]. New inputs gather in
-# build-fuzz/found and are used again the next time. Then the soak test and odd objects for Python as long, with
+# build-asan/found and are used again the next time. Then the soak test and odd objects for Python as long, with
 # the release build of tests/run.sh.
 set -eu
 root=$(cd "$(dirname "$0")/../.." && pwd)

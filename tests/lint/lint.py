@@ -52,6 +52,8 @@ TUNED = {
     "network": ["resolution.hpp"],
     "soft": [],
     "lp": [],
+    "linalg": ["newton_system.hpp"],
+    "analysis": [],
     "crunch": ["spacing.cpp"],
     "dynamics": ["equation_of_state.cpp"],
 }

@@ -1,0 +1,17 @@
+# Sourced by tests/run.sh and tests/fuzz/run.sh, from the root of the project: sanitize FOLDER OPTION... configures a
+# build with the address and undefined-behaviour sanitizers, and sanitize_by_clang the one in build-asan, in which the
+# fuzz targets are too. -O1 halves the compile time and keeps assertions. Molecular dynamics looks at all pairs for
+# overlaps and at the order of events.
+sanitize() {
+  folder=$1; shift
+  cmake -S . -B "$folder" -G Ninja -DCMAKE_BUILD_TYPE=None -DCMAKE_C_FLAGS=-O1 -DCMAKE_CXX_FLAGS=-O1 \
+    -DJAM_SANITIZE=address,undefined -DJAM_CHECK_PAIRS=ON -DJAM_BUILD_EXAMPLES=OFF -DJAM_BUILD_CLI=OFF "$@" >/dev/null
+  export UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1
+  export ASAN_OPTIONS=detect_stack_use_after_return=1
+}
+# Clang brings other warnings and another code generator than the release build. The library counts its branches for
+# libFuzzer: one build serves both parts.
+sanitize_by_clang() {
+  sanitize build-asan -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++ -DJAM_WERROR=ON -DJAM_FUZZ=ON \
+    -DCMAKE_C_FLAGS='-O1 -fsanitize=fuzzer-no-link' -DCMAKE_CXX_FLAGS='-O1 -fsanitize=fuzzer-no-link'
+}

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include "analysis/structure.hpp"
+#include "analysis/tuning.hpp"
 #include "core/call_scope.hpp"
 #include "core/error.hpp"
 #include "core/math.hpp"
@@ -98,13 +99,14 @@ std::vector<double> bond_order(const Packing &p, int l, double cutoff) {
 }
 
 double crystal_score(const Packing &p) {
-  const size_t bins = 400;  // 0.005 of a mean diameter each
-  const std::vector<double> g = pair_correlation(p, nullptr, 0, -1, -1, 2.0, bins);
+  using Tuning = CrystalTuning;
+  const auto bins = static_cast<size_t>(Tuning::reach / Tuning::bin + 0.5);
+  const std::vector<double> g = pair_correlation(p, nullptr, 0, -1, -1, Tuning::reach, bins);
   double near = 0.0, around = 0.0, weight_near = 0.0, weight_around = 0.0;
   for (size_t k = 0; k < bins; ++k) {
-    const double r = 0.005 * (static_cast<double>(k) + 0.5), shell = math::pow(r, p.dim - 1);
-    if (std::fabs(r - std::sqrt(2.0)) < 0.02) near += g[k] * shell, weight_near += shell;
-    if (r > 1.2 && r < 1.6) around += g[k] * shell, weight_around += shell;
+    const double r = Tuning::bin * (static_cast<double>(k) + 0.5), shell = math::pow(r, p.dim - 1);
+    if (std::fabs(r - std::sqrt(2.0)) < Tuning::half_width) near += g[k] * shell, weight_near += shell;
+    if (r > Tuning::from && r < Tuning::to) around += g[k] * shell, weight_around += shell;
   }
   return around > 0.0 ? (near / weight_near) / (around / weight_around) : 0.0;
 }
@@ -115,7 +117,8 @@ std::vector<double> local_fractions(const Packing &p) {
     fail(JAM_E_UNSUPPORTED, "local packing fractions are there for d = 3 only, this system has d = %d", p.dim);
   if (p.model == JAM_MODEL_MK) fail(JAM_E_UNSUPPORTED, "Mari-Kurchan spheres have no cells of their own");
   // In a cell of volume 1: voro++ has absolute tolerances, and ends the process when it loses track of a cell.
-  const int cells = std::max(1, static_cast<int>(math::pow(static_cast<double>(p.n()) / 6.0, 1.0 / 3.0)));
+  const int cells =
+      std::max(1, static_cast<int>(math::pow(static_cast<double>(p.n()) / CellsTuning::spheres_a_block, 1.0 / 3.0)));
   const double side = p.cell.side();
   const double *b = p.cell.row(1), *c = p.cell.row(2);
   voro::container_periodic_poly box(p.cell.edge(0) / side, b[0] / side, b[1] / side, c[0] / side, c[1] / side,

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "analysis/modes.hpp"
+#include "analysis/tuning.hpp"
 #include "core/error.hpp"
 #include "linalg/blas.hpp"
 
@@ -14,10 +15,8 @@ namespace jam {
 namespace {
 
 using Stop = std::function<bool(double)>;
-constexpr int panel = 32;               // columns whose reflections change the rest of the matrix at once
-constexpr int strip = 16;               // rows of the vectors that a rotation turns at once
-constexpr size_t most_waiting = 50000;  // rotations, which fit into the second cache with a strip
-constexpr int most_iterations = 60;     // for an eigenvalue; two are usual
+using Tuning = DenseTuning;
+constexpr int panel = Tuning::panel, strip = Tuning::strip;
 
 // A symmetric matrix becomes tridiagonal: `diagonal`, `off`. Below the diagonal of A stay the vectors v of the
 // reflections 1 - tau v v^T.
@@ -87,7 +86,7 @@ struct Reduction {
   bool run(const Stop &stop) {
     for (int k = 0; k < n; k += panel) {
       const double left_over = 1.0 - static_cast<double>(k) / n;
-      if (stop(0.4 * (1.0 - left_over * left_over * left_over))) return false;
+      if (stop(Tuning::reduction * (1.0 - left_over * left_over * left_over))) return false;
       const int width = std::min(panel, n - k);
       std::vector<double> left(static_cast<size_t>(n - k) * 2 * width), right(left.size());
       reduce_panel(k, width, left, right);
@@ -98,7 +97,7 @@ struct Reduction {
   // The product of all reflections.
   bool vectors(const Stop &stop, std::vector<double> &z) {
     for (int first = 0; first < n; first += panel) {
-      if (stop(0.4 + 0.2 * first / n)) return false;
+      if (stop(Tuning::reduction + Tuning::reflections * first / n)) return false;
       const int columns = std::min(panel, n - first);
       double dots[panel];
       for (int c = 0; c < columns; ++c) z[static_cast<size_t>(first + c) * n + first + c] = 1.0;
@@ -164,14 +163,14 @@ bool diagonalise(int n, double *d, double *e, std::vector<double> &z, const Stop
   constexpr double rounding = std::numeric_limits<double>::epsilon();
   std::vector<Rotation> waiting;
   for (int l = 0; l < n; ++l) {
-    if (l % panel == 0 && stop(0.6 + 0.4 * l / n)) return false;
+    if (l % panel == 0 && stop(1.0 - (1.0 - Tuning::reduction - Tuning::reflections) * (n - l) / n)) return false;
     for (int iteration = 0;; ++iteration) {
       int m = l;
       while (m + 1 < n && std::fabs(e[m]) > rounding * (std::fabs(d[m]) + std::fabs(d[m + 1]))) ++m;
       if (m == l) break;
-      if (iteration == most_iterations) fail(JAM_E_SOLVER, "QL did not converge at eigenvalue %d of %d", l, n);
+      if (iteration == Tuning::most_iterations) fail(JAM_E_SOLVER, "QL did not converge at eigenvalue %d of %d", l, n);
       ql_step(l, m, d, e, !z.empty(), waiting);
-      if (waiting.size() > most_waiting) apply(waiting, n, z);
+      if (waiting.size() > Tuning::most_waiting) apply(waiting, n, z);
     }
   }
   apply(waiting, n, z);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include "analysis/modes.hpp"
+#include "analysis/tuning.hpp"
 #include "core/error.hpp"
 
 extern "C" {
@@ -25,14 +26,14 @@ namespace {
 // Lower triangle of a to tridiagonal form d, e; reflectors stay in a and tau. False when stopped.
 bool tridiagonalise(int n, std::vector<double> &a, double *d, double *e, double *tau,
                     const std::function<bool(double)> &stop) {
-  const int panel = 32;
+  const int panel = DenseTuning::panel;
   const double one = 1.0, minus_one = -1.0;
   std::vector<double> w(static_cast<size_t>(n) * panel);
   const auto at = [&](int row, int column) { return &a[static_cast<size_t>(column) * n + row]; };
   int k = 0;
   for (; k + 2 * panel < n; k += panel) {
     const double left = 1.0 - static_cast<double>(k) / n;
-    if (stop(0.6 * (1.0 - left * left * left))) return false;
+    if (stop(DenseTuning::lapack_reduction * (1.0 - left * left * left))) return false;
     const int rest = n - k, below = rest - panel;
     dlatrd_("L", &rest, &panel, at(k, k), &n, e + k, tau + k, w.data(), &rest);
     dsyr2k_("L", "N", &below, &panel, &minus_one, at(k + panel, k), &n, &w[panel], &rest, &one,
@@ -54,7 +55,9 @@ bool dense_eigen(int n, std::vector<double> &a, std::vector<double> &lambda, boo
   std::vector<double> e(std::max(1, n - 1)), tau(std::max(1, n - 1));
   std::vector<double> work(static_cast<size_t>(n) * 64 + 16);
   int lwork = static_cast<int>(work.size()), info = 0;
-  if (stop(0.0) || !tridiagonalise(n, a, lambda.data(), e.data(), tau.data(), stop) || stop(0.6)) return false;
+  if (stop(0.0) || !tridiagonalise(n, a, lambda.data(), e.data(), tau.data(), stop) ||
+      stop(DenseTuning::lapack_reduction))
+    return false;
   if (!vectors) {
     dsterf_(&n, lambda.data(), e.data(), &info);
     if (info != 0) fail(JAM_E_SOLVER, "dsterf gave info %d: the spectrum did not converge", info);
@@ -72,9 +75,9 @@ bool dense_eigen(int n, std::vector<double> &a, std::vector<double> &lambda, boo
     dstedc_("I", &n, lambda.data(), e.data(), z.data(), &n, w.data(), &lw, iw.data(), &li, &info);
   }
   if (info != 0) fail(JAM_E_SOLVER, "dstedc gave info %d: the spectrum did not converge", info);
-  for (int first = 0; first < n; first += 512) {
-    if (stop(0.8 + 0.2 * first / n)) return false;
-    const int columns = std::min(512, n - first);
+  for (int first = 0; first < n; first += DenseTuning::back_columns) {
+    if (stop(1.0 - DenseTuning::lapack_vectors * (n - first) / n)) return false;
+    const int columns = std::min(DenseTuning::back_columns, n - first);
     dormtr_("L", "L", "N", &n, &columns, a.data(), &n, tau.data(), &z[static_cast<size_t>(first) * n], &n, work.data(),
             &lwork, &info);
     if (info != 0) fail(JAM_E_SOLVER, "dormtr gave info %d", info);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include "analysis/spectrum.hpp"
+#include "analysis/tuning.hpp"
 #include "core/call_scope.hpp"
 #include "core/error.hpp"
 #include "core/math.hpp"
@@ -46,7 +47,7 @@ double largest_eigenvalue(const RigidityMatrix &g, const BlockMatrix &h) {
     residual = std::sqrt(std::max(0.0, dot(y, y) - lambda * lambda));
     x = y;
   }
-  return std::min(h.norm_bound(), 1.05 * lambda + 2.0 * residual);
+  return std::min(h.norm_bound(), DosTuning::above_largest * lambda + 2.0 * residual);
 }
 
 // Lower bound of the spectrum: S~^T S~ has none below 0, and the pre-stress part takes no more than 2 max_i sum_j t_ij.

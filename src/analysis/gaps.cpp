@@ -5,6 +5,7 @@
 #include <numeric>
 #include <optional>
 #include "analysis/structure.hpp"
+#include "analysis/tuning.hpp"
 #include "core/call_scope.hpp"
 #include "core/error.hpp"
 #include "core/limits.hpp"
@@ -17,7 +18,7 @@ namespace jam {
 void check_pair_count(const Packing &p, double reach) {
   const double ball = unit_sphere_volume(p.dim) * math::pow(2.0 * reach / p.cell.side(), p.dim),
                n = static_cast<double>(p.n());
-  const double pairs = 0.5 * n * n * ball, bytes = pairs * (8.0 * p.dim + 48.0);
+  const double pairs = 0.5 * n * n * ball, bytes = pairs * (8.0 * p.dim + GapsTuning::bytes_a_pair);
   if (bytes > CallScope::memory_limit())
     fail(JAM_E_MEMORY, "about %.3g pairs lie within %g: their list needs %.3g bytes, more than %.3g", pairs, reach,
          bytes, CallScope::memory_limit());

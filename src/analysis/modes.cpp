@@ -9,6 +9,7 @@
 #include <Spectra/SymEigsSolver.h>
 #include <Eigen/SparseCholesky>
 
+#include "analysis/tuning.hpp"
 #include "core/call_scope.hpp"
 #include "core/checks.hpp"
 #include "core/error.hpp"
@@ -38,7 +39,8 @@ void check_modes_options(const jam_modes_options &o, const RigidityMatrix &g) {
   if (!(o.tolerance > 0.0 && o.tolerance < 1.0))
     fail(JAM_E_ARGUMENT, "tolerance is %g, it must be in (0, 1)", o.tolerance);
   const double n = static_cast<double>(g.unknowns());
-  const double krylov = 8.0 * n * (3.0 * static_cast<double>(o.count) + 20.0), dense = 24.0 * n * n;
+  const double krylov = 8.0 * n * (3.0 * static_cast<double>(o.count) + ModesTuning::krylov_vectors),
+               dense = ModesTuning::dense_bytes * n * n;
   const double need = o.which == JAM_MODES_ALL ? dense : std::min(krylov, dense);
   if (!(need <= o.memory_limit))
     fail(JAM_E_MEMORY, "%s of %.0f unknowns needs about %.3g bytes, memory_limit is %.3g",
@@ -114,16 +116,18 @@ void append(Operator &op, std::vector<double> &theta, const Found &f) {
 // with the found vectors projected out, until the best new one is worse than all that are kept.
 bool search(Operator &op, int64_t count, Spectra::SortRule rule, double tolerance, std::vector<double> &theta) {
   auto rank = [&](double t) { return rule == Spectra::SortRule::LargestMagn ? std::fabs(t) : t; };
-  append(op, theta, lanczos(op, count, rule, tolerance, 300));
+  append(op, theta, lanczos(op, count, rule, tolerance, ModesTuning::restarts));
   const bool complete = static_cast<int64_t>(theta.size()) >= count;
   const auto all = static_cast<int64_t>(op.rows());
-  for (int round = 0; round < 200 && static_cast<int64_t>(theta.size()) + 4 < all && !theta.empty(); ++round) {
+  for (int round = 0; round < ModesTuning::probes && static_cast<int64_t>(theta.size()) + 4 < all && !theta.empty();
+       ++round) {
     std::vector<double> sorted(theta);
     std::sort(sorted.begin(), sorted.end(), [&](double x, double y) { return rank(x) > rank(y); });
     const double last = rank(sorted[std::min<size_t>(sorted.size(), static_cast<size_t>(count)) - 1]);
-    const Found probe = lanczos(op, 2, rule, 1e-3, 20);
+    const Found probe = lanczos(op, 2, rule, ModesTuning::probe_tolerance, ModesTuning::probe_restarts);
     if (probe.value.size() == 0 || rank(probe.value[0]) < last * (1.0 - 1e-7)) break;
-    const Found more = lanczos(op, std::min<int64_t>(count, 6), rule, tolerance, 300);
+    const Found more =
+        lanczos(op, std::min<int64_t>(count, ModesTuning::at_once), rule, tolerance, ModesTuning::restarts);
     if (more.value.size() == 0 || rank(more.value[0]) <= last * (1.0 + 1e-12)) break;
     append(op, theta, more);
   }
@@ -213,9 +217,10 @@ jam_status find_modes(const RigidityMatrix &g, const ContactWeights &w, const ja
   const size_t n = g.unknowns();
   jam_status status = JAM_OK;
   const double wanted = static_cast<double>(o.count);
-  const bool dense = o.which == JAM_MODES_ALL || n <= 300 ||
-                     (4.0 * wanted >= static_cast<double>(n) && 24.0 * n * n <= o.memory_limit) ||
-                     (o.which == JAM_MODES_NEAR && o.frequency == 0.0 && n <= 3000);
+  const bool dense = o.which == JAM_MODES_ALL || n <= ModesTuning::always_dense ||
+                     (wanted >= ModesTuning::dense_share * static_cast<double>(n) &&
+                      ModesTuning::dense_bytes * n * n <= o.memory_limit) ||
+                     (o.which == JAM_MODES_NEAR && o.frequency == 0.0 && n <= ModesTuning::dense_for_lowest);
   if (dense) {
     status = all_modes(h, monitor, out);
     if (status == JAM_CANCELLED) out = Modes();

@@ -5,6 +5,7 @@
 #include <Eigen/Dense>
 
 #include "analysis/modes.hpp"
+#include "analysis/tuning.hpp"
 
 namespace jam {
 
@@ -47,7 +48,7 @@ void select_modes(const RigidityMatrix &g, const jam_modes_options &o, Modes &m)
       remove_translation(g.dim, g.nodes, x.data());
       if (rank > 0) x -= z.leftCols(rank) * (z.leftCols(rank).transpose() * x).eval();
     }
-    if (x.norm() < 1e-3 && pass + (room - rank) < static_cast<Eigen::Index>(zero.size())) continue;
+    if (x.norm() < ModesTuning::spent && pass + (room - rank) < static_cast<Eigen::Index>(zero.size())) continue;
     z.col(rank++) = x.normalized();
   }
   for (Eigen::Index k = 0; k < rank; ++k) v.col(static_cast<Eigen::Index>(zero[k])) = z.col(k);

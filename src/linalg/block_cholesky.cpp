@@ -9,18 +9,12 @@
 #include "core/with_dimension.hpp"
 #include "linalg/blas.hpp"
 #include "linalg/dense_front.hpp"
+#include "linalg/tuning.hpp"
 #include "linalg/two_threads.hpp"
 
 namespace jam {
 namespace {
 
-// Additions, and numbers read, below which a second thread is not worth its start.
-constexpr size_t worth_a_thread = 200000, worth_a_reader = 1000000;
-// Numbers of a panel that take some 0.1 ms to read: the call may be left between such panels.
-constexpr size_t worth_a_look = 100000;
-// In floats a pivot below this part of its entry in the matrix is rounding alone: 64 roundings (tests/bench/tried.md).
-constexpr double lost_in_floats = 4e-6;
-constexpr size_t columns_between_looks = 64, blocks_between_looks = 32;
 using BlockSizes = Numbered<1, 2, 3, 4, 5, 6, 7, 8>;
 
 }  // namespace
@@ -30,7 +24,8 @@ void BlockCholesky::assemble(const Supernode &s, const double *diag, const doubl
   const size_t front = columns(s) + below(s), block = static_cast<size_t>(dim_) * dim_;
   Real *values = values_.as<Real>(), *original = original_diagonal_.as<Real>();
   for (size_t c = 0; c < columns(s); ++c) {  // what lies above the diagonal blocks is never read
-    if (c % columns_between_looks == columns_between_looks - 1) CallScope::look();  // the system clears new pages
+    if (c % ThreadTuning::columns_a_look == ThreadTuning::columns_a_look - 1)
+      CallScope::look();  // the system clears new pages
     const size_t top = c / dim_ * dim_;
     std::memset(&values[s.value_start + c * front + top], 0, (front - top) * sizeof(Real));
   }
@@ -62,7 +57,7 @@ void BlockCholesky::extend_add_columns(int32_t child, Real *update, size_t start
   const Real *schur = static_cast<const Real *>(update_[child]);
   Real *into = update ? update : values_.as<Real>() + p.value_start;
   for (size_t b = (update ? split : 0) + start; b < (update ? c.row_count : split); b += stride) {
-    if (b % blocks_between_looks == blocks_between_looks - 1) CallScope::look();
+    if (b % ThreadTuning::blocks_a_look == ThreadTuning::blocks_a_look - 1) CallScope::look();
     const Real *from = schur + b * D * mc;
     Real *to = into + (place[b] - shift) * D * ld;
     for (size_t column = 0; column < D; ++column)
@@ -82,7 +77,7 @@ void BlockCholesky::extend_add(int32_t child, Real *update, int threads) {
   const auto add = [&](size_t start, size_t stride) {
     with_number(BlockSizes{}, dim_, [&](auto size) { extend_add_columns<size>(child, update, start, stride); });
   };
-  if (threads < 2 || mc * mc < worth_a_thread) return add(0, 1);
+  if (threads < 2 || mc * mc < ThreadTuning::additions) return add(0, 1);
   on_two_threads([&](int part) { add(part, 2); });
 }
 
@@ -96,7 +91,7 @@ void BlockCholesky::eliminate(int32_t index, const double *diag, const double *o
   const int front = static_cast<int>(columns(s) + m), width = static_cast<int>(columns(s)), rows = static_cast<int>(m);
   Real *panel = values_.as<Real>() + s.value_start;
   const bool floats = sizeof(Real) == sizeof(float);
-  const PivotRule rule{floats ? lost_in_floats : relative_, floor_, floats};
+  const PivotRule rule{floats ? SupernodeTuning::lost_in_floats : relative_, floor_, floats};
   assemble<Real>(s, diag, off);
   for (const int32_t c : s.children) extend_add<Real>(c, nullptr, threads);
   replaced += factor_panel(panel, front, front, width,
@@ -154,7 +149,7 @@ void BlockCholesky::forward(const std::vector<int32_t> &list, Real *y, Real *bel
   for (const int32_t index : list) {
     const Supernode &s = supernodes_[index];
     const int width = static_cast<int>(columns(s)), rows = static_cast<int>(below(s)), front = width + rows;
-    if (static_cast<size_t>(front) * width > worth_a_look) CallScope::look();
+    if (static_cast<size_t>(front) * width > ThreadTuning::long_panel) CallScope::look();
     panel_forward(values_.as<Real>() + s.value_start, front, rows, width, y + static_cast<size_t>(s.first) * d,
                   static_cast<int>(unknowns), below_rows, static_cast<int>(largest_below_), nrhs, threads);
     for (int r = 0; r < nrhs; ++r)
@@ -171,7 +166,7 @@ void BlockCholesky::backward(const std::vector<int32_t> &list, Real *y, Real *be
   for (size_t at = list.size(); at-- > 0;) {
     const Supernode &s = supernodes_[list[at]];
     const int width = static_cast<int>(columns(s)), rows = static_cast<int>(below(s)), front = width + rows;
-    if (static_cast<size_t>(front) * width > worth_a_look) CallScope::look();
+    if (static_cast<size_t>(front) * width > ThreadTuning::long_panel) CallScope::look();
     for (int r = 0; r < nrhs; ++r)
       for (size_t k = 0; k < s.row_count; ++k)
         for (size_t c = 0; c < d; ++c)
@@ -188,7 +183,7 @@ void BlockCholesky::solve_as(double *x, int nrhs) const {
   const size_t d = dim_, unknowns = static_cast<size_t>(n_) * d, room = largest_below_ * nrhs;
   const bool two = !lists_[0].empty();
   const auto both = [&](const auto &work) {
-    if (value_count_ > worth_a_reader) return on_two_threads(work);
+    if (value_count_ > ThreadTuning::factor) return on_two_threads(work);
     work(0), work(1);
   };
   std::vector<Real> y(unknowns * nrhs), other(two ? y.size() : 0), below_rows(two ? 2 * room : room);

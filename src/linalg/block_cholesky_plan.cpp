@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "linalg/block_cholesky.hpp"
+#include "linalg/tuning.hpp"
 
 namespace jam {
 
@@ -41,7 +42,7 @@ std::vector<int32_t> BlockCholesky::share_out(const std::vector<double> &work) {
   const auto heavier = [&](int32_t a, int32_t b) { return work[a] != work[b] ? work[a] < work[b] : a < b; };
   while (!roots.empty()) {
     const auto it = std::max_element(roots.begin(), roots.end(), heavier);
-    if (work[*it] < 0.1 * flops_ || supernodes_[*it].children.empty()) break;
+    if (work[*it] < SupernodeTuning::splits_subtree * flops_ || supernodes_[*it].children.empty()) break;
     const int32_t split = *it;
     roots.erase(it);
     roots.insert(roots.end(), supernodes_[split].children.begin(), supernodes_[split].children.end());

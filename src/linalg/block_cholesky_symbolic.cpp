@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 #include "linalg/block_cholesky.hpp"
 #include "linalg/ordering.hpp"
+#include "linalg/tuning.hpp"
 
 namespace jam {
 namespace {
@@ -79,13 +80,13 @@ std::vector<std::vector<int32_t>> column_structure(const Graph &g, const std::ve
   return rows;
 }
 
-// May two neighbouring supernodes be stored as one? Zeros cost flops, small panels cost calls.
+// May two neighbouring supernodes be stored as one?
 bool worth_merging(size_t columns, double zeros, double entries) {
   const double part = zeros / entries;
-  if (columns <= 12) return true;
-  if (columns <= 36) return part < 0.5;
-  if (columns <= 96) return part < 0.15;
-  return part < 0.05;
+  using Tuning = SupernodeTuning;
+  if (columns <= Tuning::few) return true;
+  if (columns <= Tuning::some) return part < Tuning::zeros_of_some;
+  return part < (columns <= Tuning::many ? Tuning::zeros_of_many : Tuning::zeros_of_more);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include "core/call_scope.hpp"
 #include "linalg/blas.hpp"
+#include "linalg/tuning.hpp"
 #include "linalg/two_threads.hpp"
 
 namespace jam {
@@ -13,12 +14,7 @@ namespace {
 
 template <class Real>
 constexpr Real huge_pivot = Real(sizeof(Real) == sizeof(double) ? 1e64 : 1e15);  // the square root of what replaces it
-constexpr int narrow = 48;  // columns that are factored without splitting them
-// Fewer multiplications than this are done before a second thread has started; a product of a vector is as slow as
-// memory.
-constexpr double worth_a_thread = 1e7, worth_a_reader = 1e6;
-// Longer products, in multiplications, take some 0.1 s: callbacks are called meanwhile.
-constexpr double worth_telling = 2e9;
+constexpr int narrow = SupernodeTuning::narrow;
 
 // Unblocked Cholesky of the leading columns of a small block; returns the number of replaced pivots.
 template <class Real>
@@ -62,7 +58,7 @@ template <class Real>
 void minus_trapezoid_on(int threads, Real *c, int ldc, int rows, int columns, const Real *b, int ldb, int k,
                         Result result) {
   const double area = area_of(rows, columns);
-  if (threads < 2 || area * k < worth_a_thread) return minus_trapezoid(c, ldc, rows, columns, b, ldb, k, result);
+  if (threads < 2 || area * k < ThreadTuning::product) return minus_trapezoid(c, ldc, rows, columns, b, ldb, k, result);
   const int cut = static_cast<int>(rows - std::sqrt(static_cast<double>(rows) * rows - area));
   on_two_threads([&](int part) {
     if (part == 0)
@@ -77,7 +73,7 @@ template <class Real>
 void minus_trapezoid(Real *c, int ldc, int rows, int columns, const Real *b, int ldb, int k, Result result,
                      int threads) {
   const auto work = [&] { minus_trapezoid_on(threads, c, ldc, rows, columns, b, ldb, k, result); };
-  if (area_of(rows, columns) * k < worth_telling) return work();
+  if (area_of(rows, columns) * k < ThreadTuning::long_product) return work();
   while_telling(work);
 }
 
@@ -85,7 +81,7 @@ void minus_trapezoid(Real *c, int ldc, int rows, int columns, const Real *b, int
 template <class Real>
 void divide_by_top(const Real *top, int ld, int rows, int columns, Real *b, int threads) {
   if (rows == 0) return;
-  if (threads < 2 || static_cast<double>(rows) * columns * columns < worth_a_thread) {
+  if (threads < 2 || static_cast<double>(rows) * columns * columns < ThreadTuning::product) {
     Blas<Real>::divide(rows, columns, top, ld, b, ld);
     return;
   }
@@ -124,7 +120,7 @@ void panel_forward(const Real *panel, int ld, int rows, int columns, Real *top, 
     if (count > 0)
       Blas<Real>::multiply(count, columns, nrhs, panel + columns + first, ld, top, ldt, below + first, ldb);
   };
-  if (threads < 2 || static_cast<double>(rows) * columns < worth_a_reader) return multiply(0, rows);
+  if (threads < 2 || static_cast<double>(rows) * columns < ThreadTuning::vector) return multiply(0, rows);
   on_two_threads([&](int part) { part ? multiply(rows / 2, rows - rows / 2) : multiply(0, rows / 2); });
 }
 
@@ -136,7 +132,7 @@ void panel_backward(const Real *panel, int ld, int rows, int columns, Real *top,
       Blas<Real>::subtract_transposed(rows, count, nrhs, panel + static_cast<size_t>(first) * ld + columns, ld, below,
                                       ldb, top + first, ldt);
   };
-  if (threads < 2 || static_cast<double>(rows) * columns < worth_a_reader)
+  if (threads < 2 || static_cast<double>(rows) * columns < ThreadTuning::vector)
     multiply(0, columns);
   else
     on_two_threads([&](int part) { part ? multiply(columns / 2, columns - columns / 2) : multiply(0, columns / 2); });

@@ -6,12 +6,11 @@
 
 #include "core/call_scope.hpp"
 #include "linalg/minimum_degree.hpp"
+#include "linalg/tuning.hpp"
 #include "linalg/vertex_separator.hpp"
 
 namespace jam {
 namespace {
-
-constexpr int32_t kLeaf = 100;  // parts of at most so many nodes are ordered by minimum degree
 
 class Dissection {
  public:
@@ -72,7 +71,7 @@ std::vector<int32_t> Dissection::run() {
     const Part part = std::move(parts_.back());
     parts_.pop_back();
     const auto size = static_cast<int32_t>(part.nodes.size());
-    if (size <= kLeaf) {
+    if (size <= OrderingTuning::leaf) {
       order_leaf(part);
       continue;
     }

@@ -3,13 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "linalg/tuning.hpp"
 #include "linalg/vertex_separator.hpp"
 
 namespace jam {
 namespace {
-
-constexpr double kHeaviestSide = 0.6;  // of both sides together: a side at this limit takes no more nodes
-constexpr double kUnevenness = 0.02;   // weight of the difference of the sides in the cost
 
 class Refinement {
  public:
@@ -61,7 +59,7 @@ class Refinement {
 
 // The separator node that leaves the lightest separator; -1: none is left that the side may take.
 int32_t Refinement::take() {
-  const double limit = kHeaviestSide * static_cast<double>(b_.weight[0] + b_.weight[1]);
+  const double limit = OrderingTuning::heaviest_side * static_cast<double>(b_.weight[0] + b_.weight[1]);
   while (!queue_.empty()) {
     const Move m = queue_.front();
     std::pop_heap(queue_.begin(), queue_.end());
@@ -107,7 +105,7 @@ bool Refinement::pass(int to) {
     move(v);
     const double cost = b_.cost();
     if (cost < least) least = cost, kept = changed_.size(), since = 0;
-    if (since > max_stalled && cost > 1.1 * least) break;
+    if (since > max_stalled && cost > OrderingTuning::give_up * least) break;
   }
   while (changed_.size() > kept) {
     set_side(changed_.back().first, changed_.back().second);
@@ -121,8 +119,9 @@ bool Refinement::pass(int to) {
 double Bisection::cost() const {
   const double sides = static_cast<double>(weight[0] + weight[1]);
   const double uneven = sides > 0.0 ? std::fabs(static_cast<double>(weight[0] - weight[1])) / sides : 1.0;
-  const double over = std::max(0.0, 0.5 + 0.5 * uneven - kHeaviestSide);  // a start may lie outside the limit
-  return static_cast<double>(weight[2]) * (1.0 + kUnevenness * uneven) + 10.0 * over * sides;
+  const double over =
+      std::max(0.0, 0.5 + 0.5 * uneven - OrderingTuning::heaviest_side);  // a start may lie outside the limit
+  return static_cast<double>(weight[2]) * (1.0 + OrderingTuning::unevenness * uneven) + 10.0 * over * sides;
 }
 
 void refine_separator(const WeightedGraph &graph, Bisection &b, int passes) {

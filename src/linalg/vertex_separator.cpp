@@ -2,16 +2,12 @@
 #include "linalg/vertex_separator.hpp"
 
 #include "linalg/coarsening.hpp"
+#include "linalg/tuning.hpp"
 
 namespace jam {
 namespace {
 
-constexpr int32_t kCoarsest = 40;      // nodes of the graph that is separated first
-constexpr int kStarts = 4;             // first guesses there
-constexpr int32_t kSeveralRuns = 600;  // graphs of more nodes are separated several times ...
-constexpr int kRuns = 3;               // ... from the level that has a fraction 1 / kRunLevel of them
-constexpr int32_t kRunLevel = 8;
-constexpr int kPasses = 8;
+using Tuning = OrderingTuning;
 
 // Grows the left side by breadth from a node to half the weight; its neighbours become the separator.
 Bisection grow(const WeightedGraph &g, int32_t seed) {
@@ -48,9 +44,9 @@ Bisection grow(const WeightedGraph &g, int32_t seed) {
 
 Bisection separate_coarsest(const WeightedGraph &g, Rng &rng) {
   Bisection best;
-  for (int start = 0; start < kStarts; ++start) {
+  for (int start = 0; start < Tuning::starts; ++start) {
     Bisection b = grow(g, static_cast<int32_t>(rng.bits() % static_cast<uint64_t>(g.size())));
-    refine_separator(g, b, kPasses);
+    refine_separator(g, b, Tuning::passes);
     if (start == 0 || b.cost() < best.cost()) best = std::move(b);
   }
   return best;
@@ -66,28 +62,28 @@ Bisection project(const WeightedGraph &fine, const std::vector<int32_t> &parent,
 
 // Several runs start from the level `runs_at` nodes; 0: one run.
 Bisection multilevel(const WeightedGraph &g, int32_t runs_at, Rng &rng) {
-  if (g.size() <= kCoarsest) return separate_coarsest(g, rng);
+  if (g.size() <= Tuning::coarsest) return separate_coarsest(g, rng);
   if (g.size() <= runs_at) {
     Bisection best;
-    for (int run = 0; run < kRuns; ++run) {
+    for (int run = 0; run < Tuning::runs; ++run) {
       Bisection b = multilevel(g, 0, rng);
       if (run == 0 || b.cost() < best.cost()) best = std::move(b);
     }
     return best;
   }
   std::vector<int32_t> parent;
-  const auto heaviest = static_cast<int32_t>(1 + 3 * g.total_weight() / (2 * kCoarsest));
+  const auto heaviest = static_cast<int32_t>(1 + 3 * g.total_weight() / (2 * Tuning::coarsest));
   const WeightedGraph coarse = coarsen(g, heaviest, rng, parent);
-  if (coarse.size() > 0.95 * g.size()) return separate_coarsest(g, rng);
+  if (coarse.size() > Tuning::still_coarser * g.size()) return separate_coarsest(g, rng);
   Bisection b = project(g, parent, multilevel(coarse, runs_at, rng));
-  refine_separator(g, b, kPasses);
+  refine_separator(g, b, Tuning::passes);
   return b;
 }
 
 }  // namespace
 
 Bisection bisect(const WeightedGraph &graph, Rng &rng) {
-  return multilevel(graph, graph.size() > kSeveralRuns ? graph.size() / kRunLevel : 0, rng);
+  return multilevel(graph, graph.size() > Tuning::several_runs ? graph.size() / Tuning::run_level : 0, rng);
 }
 
 }  // namespace jam

@@ -1,0 +1,51 @@
+// Every number that steers the analysis of packings. Lengths are in mean diameters.
+#pragma once
+#include <cstddef>
+
+namespace jam {
+
+// ---- modes
+struct ModesTuning {
+  // All modes are computed and cut where this costs less than iteration: few unknowns; a quarter of all wanted; the
+  // lowest ones of at most so many unknowns.
+  static constexpr size_t always_dense = 300, dense_for_lowest = 3000;
+  static constexpr double dense_share = 0.25;
+  static constexpr double dense_bytes = 24.0, krylov_vectors = 20.0;  // memory: a matrix entry; beside three a mode
+  static constexpr int restarts = 300;                                // of Lanczos
+  // Modes of one frequency are found one after the other: a probe of this tolerance from a new start asks whether one
+  // was missed.
+  static constexpr int probes = 200, probe_restarts = 20, at_once = 6;
+  static constexpr double probe_tolerance = 1e-3;
+  static constexpr double spent = 1e-3;  // what is left of a zero mode beside those found so far
+};
+
+// ---- dense eigenvalue problems
+struct DenseTuning {
+  static constexpr int panel = 32;               // columns whose reflections change the rest of the matrix at once
+  static constexpr int strip = 16;               // rows of the vectors that a rotation turns at once
+  static constexpr size_t most_waiting = 50000;  // rotations, which fit into the second cache with a strip
+  static constexpr int most_iterations = 60;     // of QL for an eigenvalue; two are usual
+  static constexpr int back_columns = 512;       // vectors that are turned back between two looks at the callback
+  // Shares of the time: reduction, and product of the reflections, by own loops and by LAPACK; LAPACK's vectors.
+  static constexpr double reduction = 0.4, reflections = 0.2, lapack_reduction = 0.6, lapack_vectors = 0.2;
+};
+
+// ---- density of states
+struct DosTuning {
+  static constexpr double above_largest = 1.05;  // bound over the Ritz value, to which two residuals are added
+};
+
+// ---- pairs within a distance, and the blocks in which voro++ looks for neighbours
+struct GapsTuning {
+  static constexpr double bytes_a_pair = 48.0;  // beside d doubles
+};
+struct CellsTuning {
+  static constexpr double spheres_a_block = 6.0;
+};
+
+// ---- jam_crystal_score: g(r) at sqrt 2, where disordered packings have a minimum, over the mean around it
+struct CrystalTuning {
+  static constexpr double reach = 2.0, bin = 0.005, half_width = 0.02, from = 1.2, to = 1.6;
+};
+
+}  // namespace jam

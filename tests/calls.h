@@ -49,6 +49,9 @@ static inline jam_status text(const char *said) { return said ? JAM_OK : JAM_E_I
 /* What this build may lack. */
 static inline jam_status if_built(jam_status status) { return status == JAM_E_UNSUPPORTED ? JAM_OK : status; }
 
+/* What is of another model than that of the start. */
+static inline jam_status of_model(jam_status status) { return status == JAM_E_UNSUPPORTED ? JAM_OK : status; }
+
 static inline jam_status made(jam_status status, jam_system **system) {
   jam_destroy(*system);
   *system = NULL;

@@ -168,6 +168,7 @@ module jam
   integer(c_int32_t), parameter :: JAM_EOS_VIRIAL = 3
   integer(c_int32_t), parameter :: JAM_EOS_MK = 4
   integer(c_int32_t), parameter :: JAM_EOS_FREE_VOLUME = 5
+  integer(c_int32_t), parameter :: JAM_EOS_HENDERSON = 6
 
   ! jam_energy_unit: Unit of the overlap x of a soft pair.
   integer(c_int32_t), parameter :: JAM_ENERGY_LENGTH = 0
@@ -1376,7 +1377,7 @@ module jam
     integer(c_int32_t) :: reserved = 0
     ! mean diameters, > 0, default 4
     real(c_double) :: r_max = 0
-    ! equal ones from 0 to r_max, 1 .. 1e8, default 200
+    ! equal ones from 0 to r_max, 1 .. 1e8, default 200; one holds its lower edge less 1e-10
     integer(c_int64_t) :: bins = 0
   end type jam_correlation_options
 
@@ -1397,9 +1398,9 @@ module jam
   type, bind(c) :: jam_moduli_report
     integer(c_int32_t) :: struct_size = 56
     integer(c_int32_t) :: reserved = 0
-    ! K
+    ! K = -V dP/dV = c_aabb / d^2 + P (d-1)/d, P the prestress's
     real(c_double) :: bulk = 0
-    ! K without the non-affine part
+    ! without non-affine part
     real(c_double) :: bulk_affine = 0
     ! G for simple shear, mean over the d (d-1) coordinate directions
     real(c_double) :: shear = 0
@@ -2624,6 +2625,17 @@ module jam
       integer(c_size_t), intent(out), optional :: needed
       integer(c_int32_t) :: status
     end function c_jam_pair_correlation
+    function c_jam_mk_shifts(sys, pair, pair_len, out, out_len, needed) &
+        bind(c, name="jam_mk_shifts") result(status)
+      import
+      type(c_ptr), value :: sys
+      type(c_ptr), value :: pair
+      integer(c_size_t), value :: pair_len
+      type(c_ptr), value :: out
+      integer(c_size_t), value :: out_len
+      integer(c_size_t), intent(out), optional :: needed
+      integer(c_int32_t) :: status
+    end function c_jam_mk_shifts
     function c_jam_structure_factor(sys, q_max, table, table_len, needed) &
         bind(c, name="jam_structure_factor") result(status)
       import
@@ -2888,6 +2900,14 @@ module jam
     module procedure l_jam_pair_correlation
   end interface jam_pair_correlation
 
+  ! Shifts A_ij of the Mari-Kurchan model, unit of the box: r_ij = r_i - r_j + A_ij by nearest images, A_ji = -A_ij.
+  ! Shapes: pair (m, 2), out (m, d).
+  ! Errors: JAM_E_UNSUPPORTED (other model).
+  interface jam_mk_shifts
+    module procedure f_jam_mk_shifts
+    module procedure l_jam_mk_shifts
+  end interface jam_mk_shifts
+
   ! Projections u . v of a displacement u on the modes `vector` of jam_modes. Over all d N' modes their squares add up to
   ! |u|^2.
   ! Shapes: vector (m, N', d), u (N', d), out (m).
@@ -2975,6 +2995,7 @@ module jam
   private :: c_jam_local_values
   private :: c_jam_histogram
   private :: c_jam_pair_correlation
+  private :: c_jam_mk_shifts
   private :: c_jam_structure_factor
   private :: c_jam_bond_order
   private :: c_jam_local_fraction
@@ -3021,6 +3042,8 @@ module jam
   private :: l_jam_contact_dots
   private :: f_jam_pair_correlation
   private :: l_jam_pair_correlation
+  private :: f_jam_mk_shifts
+  private :: l_jam_mk_shifts
   private :: f_jam_project
   private :: l_jam_project
   private :: f_jam_elastic_tensor
@@ -5478,6 +5501,80 @@ contains
     end if
     status = c_jam_pair_correlation(sys, o, at_kind, count_kind, at_out, count_out, needed)
   end function l_jam_pair_correlation
+
+  function f_jam_mk_shifts(sys, pair, out, needed) result(status)
+    type(c_ptr), intent(in) :: sys
+    integer(c_int32_t), intent(in), target, contiguous, optional :: pair(..)
+    real(c_double), intent(inout), target, contiguous, optional :: out(..)
+    integer(c_size_t), intent(out), optional :: needed
+    integer(c_int32_t) :: status
+    type(c_ptr) :: at_pair
+    integer(c_size_t) :: count_pair
+    type(c_ptr) :: at_out
+    integer(c_size_t) :: count_out
+    integer(c_size_t) :: n_of_c, d_of_c
+    call sizes_of(sys, n_of_c, d_of_c)
+    at_pair = c_null_ptr
+    count_pair = 0
+    if (present(pair)) then
+      at_pair = c_loc(pair)
+      count_pair = size(pair, kind=c_size_t)
+    end if
+    if (present(pair)) then
+      status = checked('pair', shape(pair, kind=c_size_t), 2_c_size_t, count_pair)
+      if (status /= JAM_OK) return
+    end if
+    at_out = c_null_ptr
+    count_out = 0
+    if (present(out)) then
+      at_out = c_loc(out)
+      count_out = size(out, kind=c_size_t)
+    end if
+    if (present(out)) then
+      status = checked('out', shape(out, kind=c_size_t), d_of_c, count_out)
+      if (status /= JAM_OK) return
+    end if
+    status = c_jam_mk_shifts(sys, at_pair, count_pair, at_out, count_out, needed)
+  end function f_jam_mk_shifts
+
+  function l_jam_mk_shifts(sys, pair, pair_len, out, out_len, needed) result(status)
+    type(c_ptr), intent(in) :: sys
+    integer(c_int32_t), intent(in), target, contiguous, optional :: pair(..)
+    integer(c_size_t), intent(in) :: pair_len
+    real(c_double), intent(inout), target, contiguous, optional :: out(..)
+    integer(c_size_t), intent(in) :: out_len
+    integer(c_size_t), intent(out), optional :: needed
+    integer(c_int32_t) :: status
+    type(c_ptr) :: at_pair
+    integer(c_size_t) :: count_pair
+    type(c_ptr) :: at_out
+    integer(c_size_t) :: count_out
+    integer(c_size_t) :: n_of_c, d_of_c
+    call sizes_of(sys, n_of_c, d_of_c)
+    at_pair = c_null_ptr
+    count_pair = 0
+    if (present(pair)) then
+      at_pair = c_loc(pair)
+      count_pair = size(pair, kind=c_size_t)
+    end if
+    count_pair = pair_len
+    if (present(pair)) then
+      status = checked('pair', shape(pair, kind=c_size_t), 2_c_size_t, count_pair)
+      if (status /= JAM_OK) return
+    end if
+    at_out = c_null_ptr
+    count_out = 0
+    if (present(out)) then
+      at_out = c_loc(out)
+      count_out = size(out, kind=c_size_t)
+    end if
+    count_out = out_len
+    if (present(out)) then
+      status = checked('out', shape(out, kind=c_size_t), d_of_c, count_out)
+      if (status /= JAM_OK) return
+    end if
+    status = c_jam_mk_shifts(sys, at_pair, count_pair, at_out, count_out, needed)
+  end function l_jam_mk_shifts
 
   ! S(q) on the wave vectors of the cell (in a cube 2 pi n / box) with |q| <= q_max. Lengths that differ by less than
   ! 5e-13 of |q| are one.

@@ -74,6 +74,7 @@ module jam_packing
     procedure :: local_values => do_local_values
     procedure :: histogram => do_histogram
     procedure :: pair_correlation => do_pair_correlation
+    procedure :: mk_shifts => do_mk_shifts
     procedure :: structure_factor => do_structure_factor
     procedure :: bond_order => do_bond_order
     procedure :: crystal_score => do_crystal_score
@@ -103,10 +104,10 @@ module jam_packing
     do_contact_candidates, do_stress_states, do_rigidity, do_flex, do_check, &
     do_prove, do_prove_strict, do_write_proof, do_refined_positions, do_gaps, &
     do_contact_classes, do_sphere_structure, do_contact_dots, do_fabric_tensor, &
-    do_local_values, do_histogram, do_pair_correlation, do_structure_factor, &
-    do_bond_order, do_crystal_score, do_local_fraction, do_floppy_mode, &
-    do_floppy_modes, do_density_of_states, do_project, do_curvature, do_moduli, &
-    do_elastic_tensor, do_compare
+    do_local_values, do_histogram, do_pair_correlation, do_mk_shifts, &
+    do_structure_factor, do_bond_order, do_crystal_score, do_local_fraction, &
+    do_floppy_mode, do_floppy_modes, do_density_of_states, do_project, &
+    do_curvature, do_moduli, do_elastic_tensor, do_compare
 
 contains
 
@@ -1403,6 +1404,26 @@ contains
     end if
     call self%done(status)
   end function do_pair_correlation
+
+  ! Shifts A_ij of the Mari-Kurchan model, unit of the box: r_ij = r_i - r_j + A_ij by nearest images, A_ji = -A_ij.
+  ! Shapes: pair (m, 2), out (m, d).
+  ! Errors: JAM_E_UNSUPPORTED (other model).
+  function do_mk_shifts(self, pair) result(found)
+    class(packing), intent(inout) :: self
+    integer(c_int32_t), intent(in), contiguous, target, optional :: pair(..)
+    real(c_double), allocatable :: found(:, :)
+    integer(c_int32_t) :: status
+    integer(c_size_t) :: given, d_of, n_of
+    allocate (found(0, 0))
+    call self%extents(d_of, n_of)
+    status = jam_mk_shifts(self%sys, pair=pair, needed=given)
+    if (status >= 0) then
+      deallocate (found)
+      allocate (found(d_of, given/max(d_of, 1_c_size_t)))
+      status = jam_mk_shifts(self%sys, pair=pair, out=found)
+    end if
+    call self%done(status)
+  end function do_mk_shifts
 
   ! S(q) on the wave vectors of the cell (in a cube 2 pi n / box) with |q| <= q_max. Lengths that differ by less than
   ! 5e-13 of |q| are one.

@@ -46,6 +46,7 @@
 %apply (double *FILL, size_t FILL_LEN) {(double *dot, size_t dot_len)};
 %apply (int32_t *FILL, size_t FILL_LEN) {(int32_t *sphere, size_t sphere_len)};
 %apply (const int32_t *IN, size_t IN_LEN) {(const int32_t *kind, size_t kind_len)};
+%apply (const int32_t *IN, size_t IN_LEN) {(const int32_t *pair, size_t pair_len)};
 %apply double *RESULT {double *score};
 %apply (const double *IN, size_t IN_LEN) {(const double *vector, size_t vector_len)};
 %apply (const double *IN, size_t IN_LEN) {(const double *u, size_t u_len)};
@@ -745,6 +746,9 @@ Errors: JAM_E_STATE."
 %feature("docstring") jam_correlation_options_init ""
 %feature("docstring") jam_pair_correlation "g_ab(r) of spheres with labels a and b, pairs over N_a N_b. kind: the labels, or NULL.
 Shapes: kind (n), out (bins)."
+%feature("docstring") jam_mk_shifts "Shifts A_ij of the Mari-Kurchan model, unit of the box: r_ij = r_i - r_j + A_ij by nearest images, A_ji = -A_ij.
+Shapes: pair (m, 2), out (m, d).
+Errors: JAM_E_UNSUPPORTED (other model)."
 %feature("docstring") jam_structure_factor "S(q) on the wave vectors of the cell (in a cube 2 pi n / box) with |q| <= q_max. Lengths that differ by less than
 5e-13 of |q| are one.
 Shapes: table (m, jam_structure_column)."

@@ -655,7 +655,8 @@ typedef enum jam_eos_form {
   JAM_EOS_PY_COMPRESSIBILITY = 2, /* Percus-Yevick, compressibility route */
   JAM_EOS_VIRIAL = 3,             /* series to the seventh coefficient */
   JAM_EOS_MK = 4,                 /* 1 + 2^d phi / 2, exact for zeta infinite */
-  JAM_EOS_FREE_VOLUME = 5         /* glass: d / (1 - phi / jammed_fraction) */
+  JAM_EOS_FREE_VOLUME = 5,        /* glass: d / (1 - phi / jammed_fraction) */
+  JAM_EOS_HENDERSON = 6           /* d = 2: (1 + phi^2 / 8) / (1 - phi)^2 */
 } jam_eos_form;
 /* *pressure of an equation of state at a packing fraction; jammed_fraction is used by FREE_VOLUME only. @enum form
  * jam_eos_form @errors DIMENSION, UNSUPPORTED (form not of this dim) */
@@ -1485,12 +1486,16 @@ typedef struct jam_correlation_options {
   int32_t a, b; /* labels of the spheres, default -1: any */
   int32_t reserved;
   double r_max; /* mean diameters, > 0, default 4 */
-  int64_t bins; /* equal ones from 0 to r_max, 1 .. 1e8, default 200 */
+  int64_t bins; /* equal ones from 0 to r_max, 1 .. 1e8, default 200; one holds its lower edge less 1e-10 */
 } jam_correlation_options;
 JAM_API jam_status jam_correlation_options_init(jam_correlation_options *o, size_t size);
 /* g_ab(r) of spheres with labels a and b, pairs over N_a N_b. kind: the labels, or NULL. @shape kind (n), out (bins) */
 JAM_API jam_status jam_pair_correlation(const jam_system *sys, const jam_correlation_options *o, const int32_t *kind,
                                         size_t kind_len, double *out, size_t out_len, size_t *needed);
+/* Shifts A_ij of the Mari-Kurchan model, unit of the box: r_ij = r_i - r_j + A_ij by nearest images, A_ji = -A_ij.
+ * @shape pair (m, 2), out (m, d) @errors UNSUPPORTED (other model) */
+JAM_API jam_status jam_mk_shifts(const jam_system *sys, const int32_t *pair, size_t pair_len, double *out,
+                                 size_t out_len, size_t *needed);
 /* Columns of jam_structure_factor. */
 typedef enum jam_structure_column {
   JAM_STRUCTURE_Q = 0, /* |q| times the mean diameter, ascending */
@@ -1542,7 +1547,7 @@ typedef struct jam_dos_options {
 typedef struct jam_moduli_report {
   uint32_t struct_size;
   int32_t reserved;
-  double bulk, bulk_affine;    /* K; K without the non-affine part */
+  double bulk, bulk_affine;    /* K = -V dP/dV = c_aabb / d^2 + P (d-1)/d, P the prestress's; without non-affine part */
   double shear, shear_affine;  /* G for simple shear, mean over the d (d-1) coordinate directions; affine G */
   double shear_min, shear_max; /* smallest G of the planes, both directions averaged; largest of them */
 } jam_moduli_report;

@@ -7,6 +7,7 @@
 #include "core/call_scope.hpp"
 #include "core/error.hpp"
 #include "core/math.hpp"
+#include "network/resolution.hpp"
 #ifdef JAM_HAVE_VORO
 #include <voro++/voro++.hh>
 #endif
@@ -33,7 +34,8 @@ std::vector<double> pair_correlation(const Packing &p, const int32_t *kind, size
   SparseLook sparse_look;
   for (size_t k = 0; k < all.size(); ++k) {
     sparse_look();
-    const double x = std::sqrt(pair_vector(p, all, k, r.data())) / (r_max * unit);
+    // What counts as a contact, to both sides of its distance, must not fall into two bins where that is an edge.
+    const double x = std::sqrt(pair_vector(p, all, k, r.data())) / (r_max * unit) * (1.0 + contact_gap_limit);
     const auto bin = std::min<size_t>(bins - 1, static_cast<size_t>(x * static_cast<double>(bins)));
     const int32_t i = all.i[k], j = all.j[k];
     // ordered pairs (a, b); an image of a sphere with itself stands once in the list for both directions

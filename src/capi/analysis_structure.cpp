@@ -1,7 +1,9 @@
 // Header section "analysis": gaps, classes, structure, correlations.
+#include <algorithm>
 #include "analysis/structure.hpp"
 #include "capi/analysis.hpp"
 #include "capi/table.hpp"
+#include "core/pair_rule.hpp"
 
 using namespace jam;
 
@@ -123,6 +125,30 @@ jam_status jam_pair_correlation(const jam_system *sys, const jam_correlation_opt
     const std::vector<double> g =
         pair_correlation(sys->packing, kind, kind_len, full.a, full.b, full.r_max, static_cast<size_t>(full.bins));
     return give_array(g.data(), g.size(), out, out_len, needed);
+  });
+}
+
+jam_status jam_mk_shifts(const jam_system *sys, const int32_t *pair, size_t pair_len, double *out, size_t out_len,
+                         size_t *needed) {
+  return guard_const(sys, [&]() -> jam_status {
+    const Packing &p = sys->packing;
+    if (p.model != JAM_MODEL_MK) fail(JAM_E_UNSUPPORTED, "only spheres of the Mari-Kurchan model have shifts");
+    if (pair_len) need(pair, "pair");
+    if (pair_len % 2) fail(JAM_E_ARGUMENT, "pair_len is %zu, pairs have two spheres each", pair_len);
+    const MkShifts quenched(p);
+    const auto n = static_cast<int32_t>(p.n());
+    std::vector<double> found(pair_len / 2 * p.dim, 0.0);
+    for (size_t k = 0; k < pair_len / 2; ++k) {
+      const int32_t i = pair[2 * k], j = pair[2 * k + 1];
+      if (i < 0 || j < 0 || i >= n || j >= n)
+        fail(JAM_E_ARGUMENT, "pair %zu is (%d, %d), spheres are 0..%d", k, i, j, n - 1);
+      if (i == j) continue;  // an image of the sphere itself: not shifted
+      Cell::Vector shift{};
+      quenched.get(i, j, shift.data());
+      p.cell.combine(shift.data(), shift.data());
+      std::copy_n(shift.data(), p.dim, &found[k * p.dim]);
+    }
+    return give_array(found.data(), found.size(), out, out_len, needed);
   });
 }
 

@@ -13,7 +13,9 @@ double equation_of_state(int32_t form, int32_t dim, double f, double jammed) {
   if (!(f >= 0.0) || !std::isfinite(f)) fail(JAM_E_ARGUMENT, "packing_fraction is %g, it must be >= 0 and finite", f);
   const bool closed_3d = form >= JAM_EOS_CARNAHAN_STARLING && form <= JAM_EOS_VIRIAL;
   if (closed_3d && dim != 3) fail(JAM_E_UNSUPPORTED, "this equation of state is of d = 3, dim is %d", dim);
-  if (closed_3d && form != JAM_EOS_VIRIAL && f >= 1.0)
+  const bool disks = form == JAM_EOS_HENDERSON;
+  if (disks && dim != 2) fail(JAM_E_UNSUPPORTED, "this equation of state is of d = 2, dim is %d", dim);
+  if ((disks || (closed_3d && form != JAM_EOS_VIRIAL)) && f >= 1.0)
     fail(JAM_E_ARGUMENT, "packing_fraction is %g, it must be below 1", f);
   switch (form) {
     case JAM_EOS_CARNAHAN_STARLING:
@@ -30,6 +32,8 @@ double equation_of_state(int32_t form, int32_t dim, double f, double jammed) {
       if (!(jammed > f))
         fail(JAM_E_ARGUMENT, "jammed_fraction is %g, it must be above the packing fraction %g", jammed, f);
       return dim / (1 - f / jammed);
+    case JAM_EOS_HENDERSON:  // Mol. Phys. 30, 971 (1975)
+      return (1 + f * f / 8) / ((1 - f) * (1 - f));
     default:
       fail(JAM_E_ARGUMENT, "form is %d, not a jam_eos_form", form);
   }

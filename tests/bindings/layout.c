@@ -1151,6 +1151,7 @@ int main(void) {
   printf("JAM_EOS_VIRIAL value %d\n", (int)JAM_EOS_VIRIAL);
   printf("JAM_EOS_MK value %d\n", (int)JAM_EOS_MK);
   printf("JAM_EOS_FREE_VOLUME value %d\n", (int)JAM_EOS_FREE_VOLUME);
+  printf("JAM_EOS_HENDERSON value %d\n", (int)JAM_EOS_HENDERSON);
   printf("JAM_ENERGY_LENGTH value %d\n", (int)JAM_ENERGY_LENGTH);
   printf("JAM_ENERGY_RELATIVE value %d\n", (int)JAM_ENERGY_RELATIVE);
   printf("JAM_CLOCK_COLLISIONS value %d\n", (int)JAM_CLOCK_COLLISIONS);

@@ -79,6 +79,17 @@ class Network(unittest.TestCase):
         self.assertLess(np.abs(low.cumulative - exact).max(), 0.05)
         self.assertGreater(s.moduli(prestress=1e-6).bulk, 0)
 
+    def test_shifts_give_the_distances_of_contacts(self):
+        s = jam.System.random(64, 3, 1, packing_fraction=2.5, model="mk")
+        s.compress(growth_rate=1e-2, pressure=1e5)
+        s.crunch()
+        pairs = s.contacts.pairs
+        r = s.positions[pairs[:, 0]] - s.positions[pairs[:, 1]] + s.mk_shifts(pairs)
+        r -= np.round(r)
+        np.testing.assert_allclose(np.linalg.norm(r, axis=1), s.diameters[0], rtol=1e-12)
+        with self.assertRaises(jam.errors.UnsupportedError):
+            self.s.mk_shifts(pairs)
+
     def test_candidates(self):
         found = self.s.contact_candidates(0.1)
         self.assertEqual((found.contacts[0], found.excess[0]), (self.r.contacts, self.r.excess_contacts))

@@ -110,6 +110,11 @@ static void equations_of_state(void **state) {
   assert_true(fabs(eos(JAM_EOS_VIRIAL, 3, 0.1) - eos(JAM_EOS_CARNAHAN_STARLING, 3, 0.1)) < 1e-3);
   assert_true(eos(JAM_EOS_MK, 3, 0.5) == 3.0 && eos(JAM_EOS_MK, 4, 0.5) == 5.0);
   assert_true(fabs(eos(JAM_EOS_FREE_VOLUME, 3, 0.32) - 6.0) < 1e-12);
+  /* Disks: second virial coefficient 2, third 3.125 in this form (exact 3.128). */
+  assert_true(eos(JAM_EOS_HENDERSON, 2, 0.0) == 1.0);
+  assert_true(fabs((eos(JAM_EOS_HENDERSON, 2, 1e-4) - 1.0) / 1e-4 - 2.0 - 3.125e-4) < 1e-7);
+  assert_int_equal(jam_eos(JAM_EOS_HENDERSON, 3, 0.3, 0, &p), JAM_E_UNSUPPORTED);
+  assert_int_equal(jam_eos(JAM_EOS_HENDERSON, 2, 1.0, 0, &p), JAM_E_ARGUMENT);
   p = -7.0;
   assert_int_equal(jam_eos(JAM_EOS_FREE_VOLUME, 3, 0.7, 0.64, &p), JAM_E_ARGUMENT);
   assert_int_equal(jam_eos(99, 3, 0.3, 0, &p), JAM_E_ARGUMENT);

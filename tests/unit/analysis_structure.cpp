@@ -171,6 +171,21 @@ void partial_correlations_add_up(void **) {
   assert_true(std::fabs(tail - 1.0) < 0.02);
 }
 
+// Contacts of equal spheres lie at r = 1 but for rounding, which must not divide them where 1 is an edge of bins.
+void contacts_lie_in_one_bin(void **) {
+  Packing p;
+  p.set_cube(2, 10.0);
+  p.diameter.assign(6, 1.0);
+  p.position = {1.0, 1.0, 2.0 - 4e-15, 1.0, 1.0, 5.0, 2.0, 5.0, 5.0, 8.0, 6.0 + 4e-15, 8.0};
+  for (size_t bins : {20, 100, 200, 400}) {
+    const std::vector<double> g = pair_correlation(p, nullptr, 0, -1, -1, 4.0, bins);
+    const size_t contact = bins / 4;
+    assert_true(g[contact - 1] == 0.0);
+    const double shell = M_PI * (16.0 / static_cast<double>(bins * bins)) * (2.0 * static_cast<double>(contact) + 1.0);
+    assert_true(std::fabs(g[contact] - 6.0 / (6.0 * 0.06 * shell)) < 1e-9 * g[contact]);
+  }
+}
+
 void structure_factor_direct(void **) {
   const Packing p = fluid(2, 60, 0.2);
   const double unit = diameter_mean(p), step = 2.0 * M_PI * unit;
@@ -201,10 +216,10 @@ void structure_factor_direct(void **) {
 
 int main() {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(fcc_structure),          cmocka_unit_test(triangular_bond_order),
-      cmocka_unit_test(local_fraction_of_fcc),  cmocka_unit_test(contact_sums_match_their_pairs),
-      cmocka_unit_test(gaps_by_brute_force),    cmocka_unit_test(classes),
-      cmocka_unit_test(values_by_class),        cmocka_unit_test(partial_correlations_add_up),
-      cmocka_unit_test(structure_factor_direct)};
+      cmocka_unit_test(fcc_structure),           cmocka_unit_test(triangular_bond_order),
+      cmocka_unit_test(local_fraction_of_fcc),   cmocka_unit_test(contact_sums_match_their_pairs),
+      cmocka_unit_test(gaps_by_brute_force),     cmocka_unit_test(classes),
+      cmocka_unit_test(values_by_class),         cmocka_unit_test(partial_correlations_add_up),
+      cmocka_unit_test(structure_factor_direct), cmocka_unit_test(contacts_lie_in_one_bin)};
   return cmocka_run_group_tests_name("analysis_structure", tests, nullptr, nullptr);
 }

@@ -38,6 +38,7 @@ export walls,
        contact_dots,
        fabric_tensor,
        local_values,
+       mk_shifts,
        structure_factor,
        bond_order,
        crystal_score,
@@ -190,7 +191,8 @@ end
 
 pressure of an equation of state at a packing fraction; `jammed_fraction` is used by `FREE_VOLUME` only.
 
-- `form`: one of `:carnahan_starling`, `:py_virial`, `:py_compressibility`, `:virial`, `:mk`, `:free_volume`
+- `form`: one of `:carnahan_starling`, `:py_virial`, `:py_compressibility`, `:virial`, `:mk`, `:free_volume`,
+  `:henderson`
 - errors: `:dimension`, `:unsupported` (form not of this dim)
 """
 function eos(form, dim, packing_fraction, jammed_fraction)
@@ -602,6 +604,20 @@ values there.
 """
 function histogram(s::System, quantity, population, low, high, bins)
     return call(s, :jam_histogram, (quantity, population, low, high, bins, ); progress = nothing)
+end
+
+"""
+    mk_shifts(s, pair = nothing)
+
+Shifts `A_ij` of the Mari-Kurchan model, unit of the box: `r_ij` = `r_i` - `r_j` + `A_ij` by nearest images, `A_ji` =
+-`A_ij`.
+
+- `pair`: array `(2, m)`, indices from 1
+- `out`: array `(d, m)`
+- errors: `:unsupported` (other model)
+"""
+function mk_shifts(s::System, pair = nothing)
+    return call(s, :jam_mk_shifts, (pair, ); progress = nothing)
 end
 
 """

@@ -164,6 +164,7 @@ const JAM_EOS_PY_COMPRESSIBILITY = Int32(2)  # Percus-Yevick, compressibility ro
 const JAM_EOS_VIRIAL = Int32(3)  # series to the seventh coefficient
 const JAM_EOS_MK = Int32(4)  # 1 + 2^d phi / 2, exact for zeta infinite
 const JAM_EOS_FREE_VOLUME = Int32(5)  # glass: d / (1 - phi / jammed_fraction)
+const JAM_EOS_HENDERSON = Int32(6)  # d = 2: (1 + phi^2 / 8) / (1 - phi)^2
 
 # jam_energy_unit: Unit of the overlap x of a soft pair.
 const JAM_ENERGY_LENGTH = Int32(0)  # x = sigma_ij - r, unit of the box
@@ -1570,7 +1571,7 @@ Options of `pair_correlation`.
 - `a`: labels of the spheres, default -1: any
 - `b`: labels of the spheres, default -1: any
 - `r_max`: mean diameters, > 0, default 4
-- `bins`: equal ones from 0 to `r_max`, 1 .. 1e8, default 200
+- `bins`: equal ones from 0 to `r_max`, 1 .. 1e8, default 200; one holds its lower edge less 1e-10
 """
 mutable struct jam_correlation_options
     struct_size::UInt32
@@ -1578,7 +1579,7 @@ mutable struct jam_correlation_options
     b::Int32  # labels of the spheres, default -1: any
     reserved::Int32
     r_max::Cdouble  # mean diameters, > 0, default 4
-    bins::Int64  # equal ones from 0 to r_max, 1 .. 1e8, default 200
+    bins::Int64  # equal ones from 0 to r_max, 1 .. 1e8, default 200; one holds its lower edge less 1e-10
     jam_correlation_options() = new(32, 0, 0, 0, 0, 0)
 end
 
@@ -1606,8 +1607,8 @@ end
 
 Elastic moduli, unit: stiffness at the mean force times length^(2-d). Affine: without the non-affine part.
 
-- `bulk`: K
-- `bulk_affine`: K without the non-affine part
+- `bulk`: K = -V dP/dV = `c_aabb` / d^2 + P (d-1)/d, P the prestress's
+- `bulk_affine`: without non-affine part
 - `shear`: G for simple shear, mean over the d (d-1) coordinate directions
 - `shear_affine`: affine G
 - `shear_min`: smallest G of the planes, both directions averaged
@@ -1616,8 +1617,8 @@ Elastic moduli, unit: stiffness at the mean force times length^(2-d). Affine: wi
 mutable struct jam_moduli_report
     struct_size::UInt32
     reserved::Int32
-    bulk::Cdouble  # K
-    bulk_affine::Cdouble  # K without the non-affine part
+    bulk::Cdouble  # K = -V dP/dV = c_aabb / d^2 + P (d-1)/d, P the prestress's
+    bulk_affine::Cdouble  # without non-affine part
     shear::Cdouble  # G for simple shear, mean over the d (d-1) coordinate directions
     shear_affine::Cdouble  # affine G
     shear_min::Cdouble  # smallest G of the planes, both directions averaged
@@ -2868,6 +2869,17 @@ Shapes: kind (n), out (bins).
 """
 function jam_pair_correlation(sys, o, kind, kind_len, out, out_len, needed)
     return ccall((:jam_pair_correlation, libjam), Int32, (Ptr{Cvoid}, Ref{jam_correlation_options}, Ptr{Int32}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ref(jam_correlation_options, o), _ptr(kind), kind_len, _ptr(out), out_len, _ref(Csize_t, needed))
+end
+
+"""
+    jam_mk_shifts(sys, pair, pair_len, out, out_len, needed)
+
+Shifts `A_ij` of the Mari-Kurchan model, unit of the box: `r_ij` = `r_i` - `r_j` + `A_ij` by nearest images, `A_ji` = -`A_ij`.
+Shapes: pair (m, 2), out (m, d).
+Errors: `JAM_E_UNSUPPORTED` (other model).
+"""
+function jam_mk_shifts(sys, pair, pair_len, out, out_len, needed)
+    return ccall((:jam_mk_shifts, libjam), Int32, (Ptr{Cvoid}, Ptr{Int32}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(pair), pair_len, _ptr(out), out_len, _ref(Csize_t, needed))
 end
 
 """

@@ -36,7 +36,7 @@ def eos(form: int | str, dim: int, packing_fraction: float, jammed_fraction: flo
 
     Parameters
     ----------
-    form : {'carnahan_starling', 'py_virial', 'py_compressibility', 'virial', 'mk', 'free_volume'}
+    form : {'carnahan_starling', 'py_virial', 'py_compressibility', 'virial', 'mk', 'free_volume', 'henderson'}
     dim : int
     packing_fraction : float
     jammed_fraction : float

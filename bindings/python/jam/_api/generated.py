@@ -208,6 +208,7 @@ class EosForm(IntEnum):
     VIRIAL = 3  # series to the seventh coefficient
     MK = 4  # 1 + 2^d phi / 2, exact for zeta infinite
     FREE_VOLUME = 5  # glass: d / (1 - phi / jammed_fraction)
+    HENDERSON = 6  # d = 2: (1 + phi^2 / 8) / (1 - phi)^2
 
 
 class EnergyUnit(IntEnum):
@@ -1112,8 +1113,8 @@ class ProofReport(Report):
 class ModuliReport(Report):
     """Elastic moduli, unit: stiffness at the mean force times length^(2-d). Affine: without the non-affine part.
 
-    bulk: K
-    bulk_affine: K without the non-affine part
+    bulk: K = -V dP/dV = c_aabb / d^2 + P (d-1)/d, P the prestress's
+    bulk_affine: without non-affine part
     shear: G for simple shear, mean over the d (d-1) coordinate directions
     shear_affine: affine G
     shear_min: smallest G of the planes, both directions averaged
@@ -1312,7 +1313,7 @@ OPTIONS = {
         "a": ("int", 'labels of the spheres, default -1: any'),
         "b": ("int", 'labels of the spheres, default -1: any'),
         "r_max": ("float", 'mean diameters, > 0, default 4'),
-        "bins": ("int", 'equal ones from 0 to r_max, 1 .. 1e8, default 200'),
+        "bins": ("int", 'equal ones from 0 to r_max, 1 .. 1e8, default 200; one holds its lower edge less 1e-10'),
     },
     "jam_dos_options": {
         "moments": ("int", 'Chebyshev moments, 8..1e6, default 512: resolution in omega about 1.6 omega_max / moments'),
@@ -1397,6 +1398,7 @@ EXTENTS: dict[str, dict[str, tuple[str, ...]]] = {
     "jam_local_values": {'out': ('values',)},
     "jam_histogram": {'out': ('bins',)},
     "jam_pair_correlation": {'out': ('bins',)},
+    "jam_mk_shifts": {'out': ('m', 'd')},
     "jam_bond_order": {'out': ('n',)},
     "jam_local_fraction": {'out': ('n',)},
     "jam_floppy_mode": {'out': ("N'", 'd')},
@@ -1487,6 +1489,7 @@ CALLS = {
     "jam_local_values": (True, (("quantity", "scalar", "LocalQuantity"), ("population", "scalar", "Population"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_histogram": (True, (("quantity", "scalar", "LocalQuantity"), ("population", "scalar", "Population"), ("low", "scalar", "double"), ("high", "scalar", "double"), ("bins", "scalar", "int64_t"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_pair_correlation": (True, (("o", "struct_in", "jam_correlation_options"), ("kind", "array_in", "int32_t"), ("kind_len", "len", "size_t"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_mk_shifts": (True, (("pair", "array_in", "int32_t"), ("pair_len", "len", "size_t"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_structure_factor": (True, (("q_max", "scalar", "double"), ("table", "array_out", "double"), ("table_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_bond_order": (True, (("l", "scalar", "int32_t"), ("cutoff", "scalar", "double"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_crystal_score": (True, (("score", "scalar_out", "double"),)),

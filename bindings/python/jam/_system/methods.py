@@ -1012,6 +1012,25 @@ class Methods:
         answer: Array = self.call('histogram', quantity, population, low, high, bins)
         return answer
 
+    def mk_shifts(self, pair: Any = None) -> Array:
+        """Shifts A_ij of the Mari-Kurchan model, unit of the box: r_ij = r_i - r_j + A_ij by nearest images, A_ji =
+        -A_ij.
+
+        Parameters
+        ----------
+        pair : array_like, shape (m, 2)
+
+        Returns
+        -------
+        array, shape (m, d)
+
+        Raises
+        ------
+        ArgumentError, UnsupportedError
+        """
+        answer: Array = self.call('mk_shifts', pair)
+        return answer
+
     def structure_factor(self, q_max: float, *, progress: Progressing = None) -> StructureFactorResult:
         """S(q) on the wave vectors of the cell (in a cube 2 pi n / box) with |q| <= q_max.
 

@@ -1,0 +1,77 @@
+/* Shifts of the Mari-Kurchan model: distances that a user computes with them. */
+#include <jam/jam.h>
+#include <math.h>
+#include <stdlib.h>
+
+#include "test.h"
+
+enum { N = 100, MOST = 20 * N };
+
+static jam_system *fluid(int32_t dim, int32_t model, double zeta) {
+  jam_create_options o;
+  jam_system *sys = NULL;
+  assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
+  o.n = N, o.dim = dim, o.seed = 3, o.model = model, o.mk_zeta = zeta, o.packing_fraction = 0.6;
+  if (model != JAM_MODEL_MK) o.packing_fraction = 0.2;
+  if (jam_create(&o, NULL, &sys) != JAM_OK) fail_msg("%s", jam_last_error());
+  return sys;
+}
+
+/* The gaps h of jam_gaps are r / sigma - 1 by these shifts and the nearest image, which is the only one so near. */
+static void distances_are_those_of_the_gaps(void **state) {
+  static int32_t pair[2 * MOST];
+  static double gap[MOST], shift[3 * MOST];
+  (void)state;
+  for (int dim = 2; dim <= 3; ++dim)
+    for (int strength = 0; strength < 2; ++strength) {
+      jam_system *sys = fluid(dim, JAM_MODEL_MK, strength ? INFINITY : 0.7);
+      const double *x, *sigma;
+      size_t len, gaps, needed;
+      jam_info info = {.struct_size = sizeof info};
+      assert_int_equal(jam_get_info(sys, &info), JAM_OK);
+      assert_int_equal(jam_view_positions(sys, &x, &len), JAM_OK);
+      assert_int_equal(jam_view_diameters(sys, &sigma, &len), JAM_OK);
+      assert_int_equal(jam_gaps(sys, 0.3, 0, gap, MOST, pair, 2 * MOST, &gaps), JAM_OK);
+      assert_true(gaps > 50);
+      assert_int_equal(jam_mk_shifts(sys, pair, 2 * gaps, shift, 3 * MOST, &needed), JAM_OK);
+      assert_int_equal(needed, (size_t)dim * gaps);
+      for (size_t k = 0; k < gaps; ++k) {
+        const int32_t i = pair[2 * k], j = pair[2 * k + 1];
+        double r2 = 0.0;
+        for (int c = 0; c < dim; ++c) {
+          double r = (x[dim * i + c] - x[dim * j + c] + shift[dim * k + c]) / info.box;
+          r = (r - round(r)) * info.box;
+          r2 += r * r;
+        }
+        assert_true(fabs(sqrt(r2) / (0.5 * (sigma[i] + sigma[j])) - 1.0 - gap[k]) < 1e-12);
+      }
+      jam_destroy(sys);
+    }
+}
+
+static void shifts_are_antisymmetric_and_other_pairs_are_refused(void **state) {
+  const int32_t pair[6] = {4, 17, 17, 4, 5, 5}, far[2] = {0, N};
+  double shift[9];
+  size_t needed;
+  jam_system *sys = fluid(3, JAM_MODEL_MK, INFINITY), *plain = fluid(3, JAM_MODEL_EUCLID, 0.0);
+  (void)state;
+  assert_int_equal(jam_mk_shifts(sys, pair, 6, shift, 9, &needed), JAM_OK);
+  for (int c = 0; c < 3; ++c) {
+    assert_true(shift[c] == -shift[3 + c] && shift[c] != 0.0 && fabs(shift[c]) <= 0.5);
+    assert_true(shift[6 + c] == 0.0);
+  }
+  assert_int_equal(jam_mk_shifts(sys, pair, 6, NULL, 0, &needed), JAM_OK);
+  assert_int_equal(needed, 9);
+  assert_int_equal(jam_mk_shifts(sys, pair, 6, shift, 8, &needed), JAM_E_BUFFER);
+  assert_int_equal(jam_mk_shifts(sys, far, 2, shift, 9, &needed), JAM_E_ARGUMENT);
+  assert_int_equal(jam_mk_shifts(sys, pair, 3, shift, 9, &needed), JAM_E_ARGUMENT);
+  assert_int_equal(jam_mk_shifts(plain, pair, 6, shift, 9, &needed), JAM_E_UNSUPPORTED);
+  jam_destroy(sys);
+  jam_destroy(plain);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(distances_are_those_of_the_gaps),
+                                     cmocka_unit_test(shifts_are_antisymmetric_and_other_pairs_are_refused)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

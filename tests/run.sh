@@ -4,8 +4,10 @@
 #   sanitizers  address and undefined behaviour, by Clang, warnings as errors: unit tests and those of the C interface
 #   threads     the thread sanitizer over the tests that use several threads
 #   fuzz        libFuzzer on every target for 20 seconds, 60 in all
-# Two more run when they are named, as they take long:
+# More run when they are named, as they take long:
 #   clang       the library without sanitizers by Clang, and its C tests
+#   processors, windows, libcxx  cross builds for arm64, s390x and riscv64 under qemu; for Windows under wine; with
+#               libc++: tests/platforms. Where the compilers cannot be installed they skip, saying so
 #   sanitized_physics  address and undefined behaviour by GCC, over all that runs without other programs
 # `sh tests/run.sh`, from any folder; the builds are ./build, ./build-asan (of two parts), ./build-tsan, ./build-clang
 # and ./build-asan-gcc. Uses ccache where it is installed. Parts can be named: `sh tests/run.sh release clang`.
@@ -79,6 +81,10 @@ cmake --build build-tsan -j "$jobs" --target $threaded
 TSAN_OPTIONS=halt_on_error=1 ctest --test-dir build-tsan -j "$at_once" --timeout 900 \
   --output-on-failure --no-tests=error -R "^($(echo "$threaded" | sed 's/_/\//; s/ capi_/|capi\//g'))\$" || status=1
 fi
+
+if wants processors; then sh tests/platforms/processors.sh || status=1; fi
+if wants windows; then sh tests/platforms/windows.sh || status=1; fi
+if wants libcxx; then sh tests/platforms/libcxx.sh || status=1; fi
 
 if wants fuzz; then
 echo "== fuzzers"

@@ -93,7 +93,7 @@ void moments_of(const BlockMatrix &h, Interval span, std::vector<double> v, std:
 
 // Jackson's damping, which keeps the density positive.
 double jackson(size_t m, size_t moments) {
-  const double q = M_PI / static_cast<double>(moments + 1), x = static_cast<double>(m);
+  const double q = math::pi / static_cast<double>(moments + 1), x = static_cast<double>(m);
   return ((static_cast<double>(moments) - x + 1.0) * math::cos(q * x) +
           math::sin(q * x) * math::cos(q) / math::sin(q)) /
          static_cast<double>(moments + 1);
@@ -127,16 +127,16 @@ double sine_sum(const std::vector<double> &mu, double theta) {
 double density_at(const std::vector<double> &mu, Interval span, double omega) {
   if (span.low == 0.0) {  // sin theta = 2 s c with s = omega / omega_max, so that omega = 0 is no exception
     const double s = omega / std::sqrt(span.high), half = math::asin(std::min(1.0, s));
-    return cosine_sum(mu, M_PI - 2.0 * half) / M_PI * 2.0 / (std::sqrt(span.high) * math::cos(half));
+    return cosine_sum(mu, math::pi - 2.0 * half) / math::pi * 2.0 / (std::sqrt(span.high) * math::cos(half));
   }
   const double theta = span.theta(omega * std::fabs(omega));
-  return cosine_sum(mu, theta) / (M_PI * math::sin(theta)) * 4.0 * std::fabs(omega) / (span.high - span.low);
+  return cosine_sum(mu, theta) / (math::pi * math::sin(theta)) * 4.0 * std::fabs(omega) / (span.high - span.low);
 }
 
 // Share of the spectrum below omega: the same series, integrated.
 double share_below(const std::vector<double> &mu, Interval span, double omega) {
   const double theta = span.theta(omega * std::fabs(omega));
-  return (mu[0] * (M_PI - theta) - 2.0 * sine_sum(mu, theta)) / M_PI;
+  return (mu[0] * (math::pi - theta) - 2.0 * sine_sum(mu, theta)) / math::pi;
 }
 
 // Mean over random vectors and its standard error.

@@ -95,7 +95,7 @@ class Sum {
         re_(p.dim + 1, std::vector<double>(n_, 1.0)),
         im_(p.dim + 1, std::vector<double>(n_, 0.0)) {
     const int d = p.dim;
-    const double step = 2.0 * M_PI / p.cell.side();
+    const double step = 2.0 * math::pi / p.cell.side();
     const std::vector<double> s = phases_of(p);
     // cos and sin for every component, coefficient and sphere, so that inner loops run over spheres
     for (int c = 0; c < d; ++c) {
@@ -160,7 +160,7 @@ class Sum {
 }  // namespace
 
 StructureFactor structure_factor(const Packing &p, double q_max, bool lengths_only) {
-  const double unit = diameter_mean(p), step = 2.0 * M_PI / p.cell.side();
+  const double unit = diameter_mean(p), step = 2.0 * math::pi / p.cell.side();
   if (!(q_max > 0.0 && std::isfinite(q_max)))
     fail(JAM_E_ARGUMENT, "q_max is %g per mean diameter, it must be finite and > 0", q_max);
   const double reach = q_max / unit / step;

@@ -1,8 +1,6 @@
 // What the call that runs on this thread may use: memory, and time until it is cancelled. Loops over pairs are in every
 // layer, and ask here, so that no function in between has to pass both on.
 #pragma once
-#include <unistd.h>
-
 #include <mutex>
 
 #include "core/error.hpp"
@@ -10,10 +8,8 @@
 
 namespace jam {
 
-// Half the machine's memory.
-inline double default_memory_limit() {
-  return 0.5 * static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
-}
+// Half the machine's memory: memory_posix.cpp, memory_windows.cpp.
+double default_memory_limit();
 
 struct Cancelled {};  // thrown by CallScope::look; the entry points turn it into JAM_CANCELLED
 

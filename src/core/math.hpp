@@ -7,6 +7,7 @@
 
 namespace jam::math {
 
+constexpr double pi = 3.14159265358979323846;
 double log(double x);
 double log1p(double x);
 double exp(double x);

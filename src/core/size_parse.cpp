@@ -1,7 +1,7 @@
 // A law of diameters from text: `LAW:item,item...`.
-#include <charconv>
 #include <string_view>
 
+#include "core/decimal.hpp"
 #include "core/error.hpp"
 #include "core/size_laws.hpp"
 
@@ -17,7 +17,7 @@ std::string_view trimmed(std::string_view word) {
 // The whole word as a number, in every locale.
 bool is_number(std::string_view word, double &x) {
   if (!word.empty() && word.front() == '+') word.remove_prefix(1);
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), x);
+  const auto [end, error] = from_decimal(word, x);
   return error == std::errc() && end == word.data() + word.size();
 }
 

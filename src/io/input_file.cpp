@@ -1,8 +1,5 @@
 #include "io/input_file.hpp"
 
-#include <fcntl.h>
-#include <poll.h>
-#include <unistd.h>
 #include <zlib.h>
 
 #include <algorithm>
@@ -13,6 +10,7 @@
 
 #include "core/call_scope.hpp"
 #include "core/error.hpp"
+#include "io/platform.hpp"
 
 namespace jam {
 namespace {
@@ -43,21 +41,18 @@ void InputFile::fail_errno(const char *what) const {
 
 // Opening a pipe would wait for its writer, deaf to all: so it is opened at once, and read() waits.
 InputFile::InputFile(const char *path) : path_(path) {
-  while ((fd_ = ::open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC)) < 0)
-    if (errno != EINTR) fail_errno("open");
+  if ((fd_ = platform::open_input(path)) < 0) fail_errno("open");
 }
 
 InputFile::~InputFile() {
-  if (fd_ >= 0) ::close(fd_);
+  if (fd_ >= 0) platform::close(fd_);
 }
 
 size_t InputFile::read(char *to, size_t size) {
   for (;;) {
     CallScope::look();
-    pollfd ready{fd_, POLLIN, 0};
-    const int waited = ::poll(&ready, 1, silence);
-    if (waited == 0 || (waited < 0 && errno == EINTR)) continue;
-    const ssize_t got = ::read(fd_, to, std::min(size, chunk));
+    if (!platform::readable(fd_, silence)) continue;
+    const std::ptrdiff_t got = platform::read(fd_, to, std::min(size, chunk));
     if (got >= 0) return static_cast<size_t>(got);
     if (errno != EINTR && errno != EAGAIN) fail_errno("read");
   }

@@ -4,8 +4,6 @@
 
 namespace jam {
 
-// The folder of a file, with its last slash.
-std::string folder_of(const std::string &file);
 // Makes a new file beside `target` under a lock, and returns its descriptor: -1 with errno where that fails.
 int open_part(const std::string &target, std::string &name);
 // Removes what killed writers of this target have left. A file is one of theirs when its name holds the checksum that

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <utility>
 
+#include "core/decimal.hpp"
 #include "core/error.hpp"
 
 namespace jam {
@@ -158,7 +159,7 @@ std::errc convert(std::string_view word, double &x) {
     digits[mark] = 'e';
     word = {digits, word.size()};
   }
-  const auto [end, code] = std::from_chars(word.data(), word.data() + word.size(), x);
+  const auto [end, code] = from_decimal(word, x);
   return end == word.data() + word.size() ? code : std::errc::invalid_argument;
 }
 }  // namespace

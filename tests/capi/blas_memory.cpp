@@ -7,6 +7,7 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 
 #include "test.h"
 
@@ -39,6 +40,12 @@ void leave_address_space(unsigned long bytes) {
   const unsigned long limit = pages * static_cast<unsigned long>(sysconf(_SC_PAGESIZE)) + bytes;
   const rlimit both{limit, limit};
   if (setrlimit(RLIMIT_AS, &both) != 0) std::abort();
+}
+
+// Where another library computes, its name is a path.
+bool openblas_computes() {
+  const char *const kernel = jam_blas_kernel();
+  return kernel[0] != '/' && std::strcmp(kernel, "builtin") != 0;
 }
 
 // Runs part() in a process of its own, which a hang does not outlive.
@@ -74,8 +81,10 @@ void a_call_without_room_for_a_buffer_says_so(void **) {
 #ifdef JAM_SANITIZED
   skip();  // they map terabytes
 #endif
-  assert_int_equal(status_of(first_call), JAM_E_MEMORY);
-  assert_int_equal(status_of(first_call_on_two_threads), JAM_E_MEMORY);
+  // Other libraries and the loops of libjam itself take no such buffer, so that their crunches have room enough.
+  const jam_status without_room = openblas_computes() ? JAM_E_MEMORY : JAM_OK;
+  assert_int_equal(status_of(first_call), without_room);
+  assert_int_equal(status_of(first_call_on_two_threads), without_room);
   assert_int_equal(status_of(enough), JAM_OK);
 }
 

@@ -42,12 +42,13 @@ GUESTS = {
     r"Spectra/": ["src/analysis/modes.cpp"],
     r"(cblas|lapacke|openblas|f77blas)\w*": ["src/linalg/"],
     r"[ds]mumps_c\.h": ["src/linalg/"],
+    r"(dirent|dlfcn|fcntl|io|poll|pthread|unistd|windows)\.h|sys/": ["src/io/platform_", "src/core/memory_", "src/linalg/"],
     r"Eigen/": ["src/linalg/", "src/network/", "src/analysis/", "src/soft/"],
 }
 GENERATED = ["bindings/fortran/jam.f90", "bindings/fortran/jam_packing.f90", "tests/bindings/layout.c"]
 # Layers whose steering numbers all stand in their tuning.hpp, and files of them whose numbers are physics.
 TUNED = {
-    "core": ["double_double.hpp", "limits.hpp", "math.cpp", "math_normal.cpp", "packing.cpp", "pair_energy.hpp", "size_laws.cpp",
+    "core": ["double_double.hpp", "limits.hpp", "math.cpp", "math.hpp", "math_normal.cpp", "packing.cpp", "pair_energy.hpp", "size_laws.cpp",
              "size_report.cpp"],
     "network": ["resolution.hpp"],
     "soft": [],

@@ -119,7 +119,9 @@ void too_many_to_close(void **) {
       assert_true(wanted > 0.0 ? std::fabs(gap - wanted) < 0.2 * wanted : std::fabs(gap) < 1e-14);
       ++scenes, others += wanted < 0.0;
     }
-  assert_true(scenes - others >= 15 && others >= 15 && left >= 1 && left <= 2 && alone >= scenes);
+  assert_true(scenes - others >= 15 && alone >= scenes && others + left >= 16);
+  // A narrow LP decides which other contact is left out. A build without Clp solves none, so those overlaps stay.
+  if (clp_is_built()) assert_true(others >= 15 && left >= 1 && left <= 2);
 }
 
 // Contacts that close and forces that balance end a crunch: steps need not fall below a tolerance that rounding

@@ -1,0 +1,78 @@
+# Sourced by the scripts of this folder, in the root of the tree: packages, builds, tests and results of one platform.
+. tests/debian.sh
+jobs=${JAM_JOBS:-$(nproc)}
+if command -v ccache >/dev/null; then export CMAKE_C_COMPILER_LAUNCHER=ccache CMAKE_CXX_COMPILER_LAUNCHER=ccache; fi
+
+# Packages as of debian.sh, but a machine that cannot have them skips this part.
+need_or_skip() {
+  if (need_packages "$@") >/dev/null 2>&1; then return 0; fi
+  echo "skipped: $* cannot all be installed here"
+  return 1
+}
+
+# configure FOLDER OPTION...: the library that needs no other one, for d = 2 and 3.
+configure() {
+  folder=$1
+  shift
+  if [ -d "$folder-libraries" ]; then
+    export PKG_CONFIG_LIBDIR="$PWD/$folder-libraries/lib/pkgconfig"
+  else
+    unset PKG_CONFIG_LIBDIR
+  fi
+  # Other platforms are compiled with -O1, which takes half the time; it changes no bit.
+  cmake -S . -B "$folder" -G Ninja -DCMAKE_BUILD_TYPE=None -DCMAKE_C_FLAGS=-O1 -DCMAKE_CXX_FLAGS=-O1 -DJAM_WERROR=ON -DJAM_BLAS=builtin -DJAM_CLP=OFF \
+    -DJAM_USE_VORO=OFF -DJAM_DIMENSIONS="2;3" -DJAM_BUILD_EXAMPLES=OFF "$@" >"$folder/configure.log" 2>&1 ||
+    { tail -20 "$folder/configure.log"; return 1; }
+}
+
+# The bits of this processor, in $reference.
+native_bits() {
+  reference=$PWD/build-platform/bits.txt
+  mkdir -p build-platform
+  configure build-platform
+  cmake --build build-platform -j "$jobs" --target jam_bits >build-platform/build.log
+  build-platform/tests/jam_bits >"$reference"
+}
+
+# begin_platform FOLDER NAME: its minutes count from now.
+begin_platform() {
+  mkdir -p "$1"
+  rm -f "$1/result.json"
+  platform=$2
+  began=$(date +%s)
+}
+
+# same WORD FOLDER: whether the lines of bits.txt that begin with WORD are those of this processor.
+same() {
+  grep "^$1 " "$2/bits.txt" >"$2/bits.$1"
+  grep "^$1 " "$reference" | cmp -s - "$2/bits.$1" && echo same || echo other
+}
+
+# test_platform FOLDER [LEFT_OUT]: builds all, runs the tests but those that match LEFT_OUT, compares bits, writes
+# FOLDER/result.json. Fails where something does not compile, a test fails or a bit differs.
+test_platform() {
+  folder=$1 left_out=${2:-^$}
+  if ! cmake --build "$folder" -j "$jobs" >"$folder/build.log" 2>&1 ||
+    ! cmake --build "$folder" --target jam_bits >>"$folder/build.log" 2>&1; then
+    grep -E 'error|FAILED' "$folder/build.log" | head -20
+    echo "$platform: does not compile"
+    return 1
+  fi
+  failed=0
+  # Under an emulator tests take some twenty times longer.
+  ctest --test-dir "$folder" -j "$jobs" -L 'unit|capi' -LE long -E "$left_out" --timeout 1800 --output-on-failure \
+    --no-tests=error >"$folder/test.log" 2>&1 || failed=1
+  sed -n '/tests passed/,$p' "$folder/test.log"
+  emulator=$(sed -n 's/^CMAKE_CROSSCOMPILING_EMULATOR:[A-Z]*=//p' "$folder/CMakeCache.txt" | tr ';' ' ')
+  program=$(ls "$folder"/tests/jam_bits "$folder"/tests/jam_bits.exe 2>/dev/null | head -1)
+  $emulator "$program" 2>"$folder/bits.log" | tr -d '\r' >"$folder/bits.txt" || failed=1
+  md=$(same md "$folder") crunch=$(same crunch "$folder")
+  minutes=$((($(date +%s) - began + 59) / 60))
+  passed=$(grep -c '   Passed ' "$folder/test.log") || true
+  all=$(grep -cE 'Passed|\*\*\*(Failed|Timeout|Exception)' "$folder/test.log") || true
+  printf '{"platform": "%s", "passed": %d, "tests": %d, "md": "%s", "crunch": "%s", "minutes": %d}\n' \
+    "$platform" "$passed" "$all" "$md" "$crunch" "$minutes" >"$folder/result.json"
+  cat "$folder/result.json"
+  if [ "$md" != same ] || [ "$crunch" != same ]; then diff "$reference" "$folder/bits.txt" || failed=1; fi
+  return $failed
+}

@@ -1,0 +1,17 @@
+#!/bin/sh
+# Windows by mingw-w64, run by wine: the library, jam-pack, examples in C, the tests that need no POSIX, bits.
+set -eu
+cd "$(dirname "$0")/../.."
+. tests/platforms/common.sh
+triplet=x86_64-w64-mingw32
+need_or_skip g++-mingw-w64-x86-64-posix wine64 wine ninja-build cmake pkg-config libeigen3-dev libspectra-dev || exit 0
+native_bits
+folder=build-$triplet
+sh tests/platforms/dependencies.sh "$folder-libraries" "$triplet" -DCMAKE_SYSTEM_NAME=Windows
+export WINEPREFIX="$PWD/$folder/wine" WINEDEBUG=-all
+begin_platform "$folder" "Windows on x86_64, mingw-w64 $("$triplet-gcc-posix" -dumpversion), by wine"
+configure "$folder" -DCMAKE_SYSTEM_NAME=Windows -DCMAKE_SYSTEM_PROCESSOR=x86_64 \
+  -DCMAKE_C_COMPILER="$triplet-gcc-posix" -DCMAKE_CXX_COMPILER="$triplet-g++-posix" \
+  -DCMAKE_RC_COMPILER="$triplet-windres" -DCMAKE_CROSSCOMPILING_EMULATOR="$(command -v wine)" \
+  -DSPECTRA_INCLUDE="$PWD/$folder-libraries/include"
+test_platform "$folder"

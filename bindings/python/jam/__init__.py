@@ -11,6 +11,7 @@ Arrays of shape (n, d) and indices from 0. Errors are subclasses of jam.JamError
 """
 from __future__ import annotations
 
+import typing
 from typing import Any
 
 from ._built_for import refuse_another_python
@@ -32,6 +33,11 @@ if raw.jam_abi_version() != JAM_ABI:
     raise ImportError(
         f"jam was built for ABI {JAM_ABI} of libjam, the library that was found has {raw.jam_abi_version()}"
     )
+
+if typing.TYPE_CHECKING:  # what __getattr__ imports when it is used
+    from . import cli as cli, ensemble as ensemble, files as files, near_jamming as near_jamming, plot as plot
+    from . import scaling as scaling, statistics as statistics, store as store
+    from .store import load as load
 
 _LAZY = ("plot", "files", "cli", "ensemble", "near_jamming", "scaling", "statistics", "store")
 

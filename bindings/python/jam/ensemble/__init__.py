@@ -5,10 +5,12 @@
     e.run(range(1, 101))                 # killed? run it again: what is there is not made twice
     e.table()["packing_fraction"]        # reports
     for forces, gaps in e.each("forces", "gaps"): ...   # one packing after the other, read on first use
-    jam.ensemble.table("folder")         # all protocols of a folder
+    jam.ensemble.table("folder", options=True)   # all protocols of a folder, with their options
+    print(e.advise())                    # how many packings in an hour
 """
 
 from ..errors import StoreError
+from .capacity import Capacity
 from .ensemble import Ensemble, protocols, table
 from .entry import Entry
 from .pool import LocalPool, WorkerDied
@@ -16,6 +18,7 @@ from .protocol import ProtocolError, begin, complete, identity, make, minimal, p
 from .status import DamagedWarning, Status
 
 __all__ = [
+    "Capacity",
     "DamagedWarning",
     "Ensemble",
     "Entry",

@@ -18,11 +18,13 @@ from .._formats.replacing import remove_abandoned
 from .._formats.shard import write_shard
 from ..errors import StoreError
 from .campaign import Campaign, progress_bar
+from .capacity import Capacity, capacity, check_plan
 from .entry import Entry
-from .folder import FIELDS, Folder, builds_of
+from .folder import Folder, builds_of
 from .pool import LocalPool
 from .protocol import ProtocolError, complete, identity, packing_name, to_json, whole_seed
 from .status import Status, warn
+from .tables import as_table
 
 
 class Ensemble:
@@ -128,6 +130,36 @@ class Ensemble:
             pool.shutdown()
         return self.status(seeds)
 
+    def advise(self, wall_time: float = 3600.0, workers: int | None = None, seed: int = 1) -> Capacity:
+        """How many packings of this protocol a time allows, from the seconds that those in the folder took.
+
+        Where there is none, the packing of `seed` is made first; it stays in the folder.
+
+        Parameters
+        ----------
+        wall_time : float
+            Seconds; default one hour.
+        workers : int, optional
+            Default as of run: the number of cores that this process may use.
+        seed : int
+            Of the packing that is made where there is none.
+
+        Raises
+        ------
+        ProtocolError
+            This packing failed; the text says why.
+        """
+        count = check_plan(wall_time, workers)
+        rows = self._rows()
+        if not np.isfinite(rows["seconds_made"]).any():
+            self.run([seed], progress=False, workers=1)
+            rows = self._rows()
+        rows, failures = rows[np.isfinite(rows["seconds_made"])], self.failures()
+        if not len(rows):
+            raise ProtocolError(f"there is no packing to measure, and that of seed {seed} failed: {failures[-1]['text']}")
+        sizes = [self.files.packing(name.decode()).stat().st_size for name in rows["name"]]
+        return capacity(rows, len(failures), sizes, wall_time, count)
+
     # ---- reading
     def status(self, seeds: Iterable[int] | None = None) -> Status:
         """What is there of the seeds; None: of all that were made or failed."""
@@ -161,10 +193,11 @@ class Ensemble:
         -------
         numpy structured array, or pandas.DataFrame
             Fields: seed, name, protocol, version, commit and library (the build), n, dim, the fields of CrunchReport
-            (enums as numbers), crystal_score, seconds_made, written. Without a crunch packing_fraction and diameter_mean
-            are those of the packing, other numbers nan or -1. Files that cannot be read have no row.
+            (enums as numbers, in a DataFrame as words), crystal_score, seconds_made, written. Without a crunch
+            packing_fraction and diameter_mean are those of the packing, other numbers nan or -1. Files that cannot be read
+            have no row.
         """
-        return _as_table(self._rows(), pandas)
+        return as_table(self._rows(), pandas)
 
     def failures(self) -> list[dict[str, Any]]:
         """Records of the seeds that failed: seed, status, text, machine, time.
@@ -190,7 +223,7 @@ class Ensemble:
         Parameters
         ----------
         names : str
-            Attributes of Entry: "forces", "gaps", "coordination", "positions", "pairs", ...
+            Stored attributes of Entry: "forces", "gaps", "gap_pairs", "coordination", "positions", "contacts", ...
         jammed : bool
             Only packings with a certificate.
         max_crystal_score : float
@@ -233,20 +266,20 @@ def _readable(files: Folder) -> Array:
     return rows
 
 
-def _as_table(rows: Array, pandas: bool) -> Any:
-    if not pandas:
-        return rows
-    import pandas as pd
-
-    return pd.DataFrame({k: rows[k].astype(str) if rows[k].dtype.kind == "S" else rows[k] for k in FIELDS})
-
-
 def protocols(folder: str | os.PathLike[str]) -> dict[str, dict[str, Any]]:
     """The protocols of a folder by name; Ensemble(folder, name) opens one."""
     files = Folder(folder)
     return {name: files.protocol(name) for name in files.protocol_names()}
 
 
-def table(folder: str | os.PathLike[str], pandas: bool = False, unverified: bool = False) -> Any:
-    """Reports of all packings of a folder, of every protocol: the table of Ensemble, whose column `protocol` names it."""
-    return _as_table(_readable(Folder(folder, unverified)), pandas)
+def table(
+    folder: str | os.PathLike[str], pandas: bool = False, unverified: bool = False, options: bool = False
+) -> Any:
+    """Reports of all packings of a folder, of every protocol: the table of Ensemble, whose column `protocol` names it.
+
+    options: a DataFrame that also has a column for each option that one of the protocols sets otherwise than the library
+    does by itself, such as start.n or stages.0.growth_rate.
+    """
+    files = Folder(folder, unverified)
+    known = {name: files.protocol(name) for name in files.protocol_names()} if options else None
+    return as_table(_readable(files), pandas or options, known)

@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import Any
 
 from .. import store
+from .._api.results import Contacts
 from .._formats.read_packing import jam_of, plain
 from .._formats.sealed import open_file
 from ..system import System
@@ -12,12 +13,17 @@ from .folder import FIELDS
 
 
 class Entry:
-    """One packing of an ensemble, read from its file on first use.
+    """One packing of an ensemble. It has the attributes and analyses of its System: entry.forces, entry.modes(5), ...
 
-    Attributes are what System calls them: positions, diameters, pairs, vectors, contact_gaps, forces, coordination,
-    rattlers (which spheres are), history; `gaps` are those of the protocol's analysis; `analysis(name)` reads any other
-    result. Numbers of the report go by their names, the number of rattlers by row["rattlers"].
+    What the file stores is read from it on first use: positions, diameters, contacts, forces, coordination, rattlers,
+    bucklers, history. All else is asked of a System that is made from the file for this one question, so the packing of
+    an entry never changes. To ask much, or to move spheres, take system().
+
+    Of the ensemble are `gaps` and `gap_pairs`, those of the protocol's analysis (any others: system().gaps(...));
+    `analysis(name)`, any other result; and the numbers of the report, by their names or as row["rattlers"].
     """
+
+    __slots__ = ("row", "path", "_unverified")
 
     _PLACES = {
         "pairs": "contacts/pairs",
@@ -25,10 +31,12 @@ class Entry:
         "contact_gaps": "contacts/gaps",
         "forces": "contacts/forces",
         "gaps": "analysis/gaps/gap",
+        "gap_pairs": "analysis/gaps/pair",
         "diameters": "diameters",
         "coordination": "coordination",
         "history": "history",
     }
+    _MADE = ("positions", "contacts", "rattlers", "bucklers")  # from several places, or with another layout
 
     def __init__(self, row: Any, path: Path, unverified: bool = False) -> None:
         #: The row of the table
@@ -40,7 +48,7 @@ class Entry:
     seed = property(lambda self: int(self.row["seed"]))
 
     def read(self, *names: str) -> tuple[Any, ...]:
-        """Several of the attributes with one opening of the file."""
+        """Several of the stored attributes with one opening of the file."""
         with open_file(self.path, self._unverified) as file:
             jam_of(file, self.path)
             return tuple(self._get(file, name) for name in names)
@@ -48,20 +56,39 @@ class Entry:
     def _get(self, file: Any, name: str) -> Any:
         if name == "rattlers":
             return self._get(file, "coordination") == 0
+        if name == "bucklers":
+            return self._get(file, "coordination") == int(self.row["dim"]) + 1
+        if name == "contacts":
+            return Contacts(*(self._get(file, part) for part in ("pairs", "vectors", "contact_gaps", "forces")))
         if name == "positions":
             return file["particles/spheres/position/value"][0]
         if name in FIELDS and name not in self._PLACES:
             return self.row[name]
         place = self._PLACES.get(name, "analysis/" + name)
         if place not in file["jam"]:
-            there = list(self._PLACES) + ["positions"] + list(file["jam/analysis"])
+            there = [*self._PLACES, *self._MADE, *file["jam"].get("analysis", ())]
             raise KeyError(f"{self.path} contains no {name!r}; there may be {', '.join(there)}")
         return plain(file["jam/" + place])
 
     def __getattr__(self, name: str) -> Any:
-        if name.startswith("_") or name not in (*self._PLACES, "positions", *FIELDS):
+        if name.startswith("_"):
             raise AttributeError(name)
-        return self.read(name)[0]
+        if name in self._PLACES or name in self._MADE:
+            try:
+                return self.read(name)[0]
+            except KeyError:
+                if name.startswith("gap") or not hasattr(System, name):
+                    raise
+                return getattr(self.system(), name)  # which says what is missing
+        if name in FIELDS:
+            return self.row[name]
+        if hasattr(System, name):
+            return getattr(self.system(), name)
+        raise AttributeError(f"neither System nor the table of an ensemble has {name!r}")
+
+    def __dir__(self) -> list[str]:
+        of_system = [name for name in dir(System) if not name.startswith("_")]
+        return sorted({*object.__dir__(self), *self._PLACES, *self._MADE, *FIELDS, *of_system})
 
     def analysis(self, name: str) -> Any:
         """A result of the protocol's analysis: a number, an array, text, or a dict of them."""

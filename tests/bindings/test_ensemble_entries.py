@@ -1,0 +1,121 @@
+"""Entries of an ensemble are used as systems are; its tables have words and options; how many packings a time allows."""
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+import jam
+from jam.ensemble import Ensemble, ProtocolError
+
+SMALL = dict(n=24, dim=2, diameters={"law": "bidisperse"}, stages=[{"growth_rate": 0.1, "pressure": 100.0}])
+
+
+class Entries(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.holder = tempfile.TemporaryDirectory()
+        cls.folder = Path(cls.holder.name, "e")
+        cls.ensemble = Ensemble(cls.folder, SMALL)
+        cls.ensemble.run([1, 2, 3], progress=False, workers=1)
+        cls.entry = next(iter(cls.ensemble))
+        cls.system = cls.entry.system()
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.holder.cleanup()
+
+    def test_attributes_are_those_of_the_system(self):
+        for name in ("positions", "diameters", "forces", "coordination", "rattlers", "bucklers", "velocities", "cell"):
+            np.testing.assert_array_equal(getattr(self.entry, name), getattr(self.system, name), name)
+        self.assertEqual(self.entry.history.tobytes(), self.system.history.tobytes())  # it has nan
+        for name in ("n", "dim", "packing_fraction", "seed", "box"):
+            self.assertEqual(getattr(self.entry, name), getattr(self.system, name), name)
+        self.assertEqual(self.entry.report, self.system.report)
+        ours, theirs = self.entry.contacts, self.system.contacts
+        for name in ("pairs", "vectors", "gaps", "forces"):
+            np.testing.assert_array_equal(getattr(ours, name), getattr(theirs, name))
+        self.assertEqual(ours.table().dtype, theirs.table().dtype)
+
+    def test_calls_are_those_of_the_system_and_change_nothing(self):
+        np.testing.assert_array_equal(self.entry.modes(3).values, self.system.modes(3).values)
+        self.assertEqual(self.entry.rigidity().jammed, self.system.rigidity().jammed)
+        self.assertEqual(len(self.entry.to_pandas("contacts")), self.system.report.contacts)
+        before = self.entry.positions
+        self.entry.run(5)  # on a system of its own
+        np.testing.assert_array_equal(self.entry.positions, before)
+        with self.assertRaises(AttributeError):
+            self.entry.positions = before
+        with self.assertRaisesRegex(AttributeError, "no_such"):
+            self.entry.no_such
+        self.assertTrue({"modes", "forces", "gap_pairs", "jammed"} <= set(dir(self.entry)))
+        ax = jam.plot.packing(self.entry.system())
+        self.assertTrue(ax.collections)
+
+    def test_stored_gaps_have_their_pairs_by_name(self):
+        whole = self.system.gaps(1.0, True)
+        np.testing.assert_array_equal(self.entry.gaps, whole.gap)
+        np.testing.assert_array_equal(self.entry.gap_pairs, whole.pair)
+        for gaps, pairs in self.ensemble.each("gaps", "gap_pairs"):
+            self.assertEqual(pairs.shape, (len(gaps), 2))
+        bare = Ensemble(self.folder, dict(SMALL, analysis={}))
+        bare.run([1], progress=False, workers=1)
+        with self.assertRaisesRegex(KeyError, "gap_pairs"):
+            next(iter(bare)).gap_pairs
+
+    def test_without_a_network_the_system_says_what_is_missing(self):
+        loose = Ensemble(self.folder, dict(n=20, dim=2, stages=[], crunch=None, analysis={}))
+        loose.run([1], progress=False, workers=1)
+        with self.assertRaisesRegex(jam.errors.StateError, "crunch"):
+            next(iter(loose)).forces
+
+
+class Tables(unittest.TestCase):
+    def setUp(self):
+        holder = tempfile.TemporaryDirectory()
+        self.addCleanup(holder.cleanup)
+        self.folder = Path(holder.name, "e")
+
+    def test_enums_are_words_in_a_data_frame(self):
+        e = Ensemble(self.folder, SMALL)
+        e.run([1, 2], progress=False, workers=1)
+        numbers, words = e.table(), e.table(pandas=True)
+        for name, enum in (("stop_reason", jam.StopReason), ("strictly_jammed", jam.Verdict), ("status", jam.StatusCode)):
+            self.assertEqual(list(words[name]), [enum(k).name.lower() for k in numbers[name]], name)
+        self.assertEqual(list(words["stop_reason"]), ["converged", "converged"])
+
+    def test_options_of_all_protocols_are_columns(self):
+        slow = dict(SMALL, n=30, stages=[{"growth_rate": 0.05, "pressure": 50.0}, {"growth_rate": 0.02, "pressure": 200.0}])
+        for protocol in (SMALL, slow):
+            Ensemble(self.folder, protocol).run([1, 2], progress=False, workers=1)
+        table = jam.ensemble.table(self.folder, options=True)
+        self.assertEqual(len(table), 4)
+        of = table.groupby("start.n")
+        self.assertEqual(set(of.groups), {24, 30})
+        self.assertEqual(set(of.get_group(24)["stages.0.growth_rate"]), {0.1})
+        self.assertEqual(list(of.get_group(30)["stages.1.pressure"]), [200.0, 200.0])
+        self.assertTrue(of.get_group(24)["stages.1.pressure"].isna().all())  # that protocol has one stage
+        self.assertNotIn("start.packing_fraction", table)  # both take the library's
+        self.assertEqual(set(table["start.diameters.law"]), {"bidisperse"})
+
+    def test_advise_counts_from_what_was_measured(self):
+        e = Ensemble(self.folder, SMALL)
+        first = e.advise(wall_time=60.0, workers=2)
+        self.assertEqual((len(e), first.measured), (1, 1))  # it made one, and kept it
+        e.run([1, 2, 3], progress=False, workers=1)
+        found = e.advise(wall_time=60.0, workers=2)
+        seconds = e.table()["seconds_made"]
+        self.assertEqual(found.measured, 3)
+        self.assertAlmostEqual(found.seconds, seconds.mean(), 12)
+        self.assertEqual(found.packings, int(2 * 60.0 / seconds.mean()))
+        self.assertEqual((found.jammed, found.failed), ((e.table()["jammed"] == 1).mean(), 0.0))
+        self.assertIn(f"{found.packings} packings in 60 s by 2 workers", str(found))
+        for wrong in (dict(wall_time=0.0), dict(wall_time=np.inf), dict(workers=0)):
+            with self.assertRaises(ValueError):
+                e.advise(**wrong)
+        with self.assertRaisesRegex(ProtocolError, "seed 1 failed"):
+            Ensemble(self.folder, dict(n=40, dim=3, packing_fraction=0.7)).advise()
+
+
+if __name__ == "__main__":
+    unittest.main()

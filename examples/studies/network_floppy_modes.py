@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 """Two floppy modes in d = 2 side by side: a localised and an extended one, of contacts with nearly the same force.
 
-usage: network_floppy_modes.py PICTURE.png [N] [SEED]
+usage: network_floppy_modes.py PICTURE.png [N [SEED [RESULT.json]]]
 Opening one contact (red) moves all stable disks (arrows) while every other contact stays closed. Localised: the median
 displacement is far below 1/sqrt(N). Packings in which a disk touches six equal ones have a second state of self-stress and are passed
 over: SEED, or the first one after it, that has a single one is drawn. Needs the Python package `jam`, numpy, matplotlib.
 """
 import sys
+from pathlib import Path
 
 import matplotlib
 
@@ -15,6 +16,9 @@ import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
 
 import jam  # noqa: E402
+
+sys.path.append(str(Path(__file__).resolve().parents[2] / "bindings/docs"))
+import figures  # noqa: E402
 
 
 def draw(axis, packing, map_, contact, field, title):
@@ -61,17 +65,28 @@ def main():
     print(
         f"N' = {len(map_)}: median b sqrt(N') of {local.sum()} localised contacts {np.median(b[local]):.3f}, of {(~local).sum()} extended {np.median(b[~local]):.3f}"
     )
+    rows = []
     # Of the most localised fiftieth and of the most extended tenth, the two contacts that are closest in force.
     ones = np.flatnonzero(local & (b <= np.quantile(b, 0.02)))
     twos = np.flatnonzero(~local & (b >= np.quantile(b, 0.9)))
     one, two = min(((j, k) for j in ones for k in twos), key=lambda pair: abs(np.log(force[pair[0]] / force[pair[1]])))
-    figure, axes = plt.subplots(1, 2, figsize=(10, 5.3))
+    figure, grid = plt.subplots(2, 2, figsize=(10, 7.6), gridspec_kw={"height_ratios": (3, 1)})
+    axes, below = grid
     for axis, k, name in ((axes[0], one, "localised"), (axes[1], two, "extended")):
         title = f"{name}: f = {force[k]:.4g}, b √N' = {b[k]:.2g}, W = {modes.weight[k]:.2g}, s⁺ = {modes.s_plus[k]:.2g}, s* = {modes.s_star[k]:.2g}"
         print(title)
-        draw(axis, packing, map_, k, packing.floppy_mode(int(k)), title)
+        rows.append([name, packing.n, packing.packing_fraction, *(float(x[k]) for x in (force, b, modes.weight, modes.s_plus))])
+        field = packing.floppy_mode(int(k))
+        draw(axis, packing, map_, k, field, title)
+        below[name == "extended"].semilogy(map_, np.linalg.norm(field, axis=1), ".", ms=3)
+    for axis in below:
+        axis.axhline(1 / np.sqrt(len(map_)), color="0.5", ls=":", lw=1)
+        axis.set(xlabel="disk i; dotted: 1 / √N'", ylabel="|dr_i| of the unit mode", ylim=(1e-7, 1))
     figure.tight_layout()
     figure.savefig(sys.argv[1], dpi=80)
+    if len(sys.argv) > 4:
+        columns = ["mode", "N", "phi_J", "force", "median displacement times root N'", "W", "opening of the next contact"]
+        figures.save(sys.argv[4], f"network_floppy_modes.py PICTURE.png {n} {seed}", columns, rows)
 
 
 if __name__ == "__main__":

@@ -105,15 +105,19 @@ class Results:
         self.rows.append(row)
         print(f"{figure:8} {quantity:58} {published!s:>12} {ours:12.5g} {error:10.2g}  {row['sigma']}", flush=True)
 
-    def write(self, figure=None) -> None:
-        """results/<name>.json and pictures/<name>.png."""
-        (self.out / "results").mkdir(parents=True, exist_ok=True)
+    def picture(self, figure, name: str | None = None, dpi: int = 64) -> None:
+        """pictures/<name>.png, by default named after the study."""
         (self.out / "pictures").mkdir(parents=True, exist_ok=True)
+        figure.tight_layout()
+        figure.savefig(self.out / "pictures" / f"{name or self.name}.png", dpi=dpi)
+
+    def write(self, figure=None) -> None:
+        """results/<name>.json, and the picture of the study."""
+        (self.out / "results").mkdir(parents=True, exist_ok=True)
         made = {"source": SOURCE, "command": command(sys.argv), **figures.made_by(), "sets": self.sets, "rows": self.rows}
         (self.out / "results" / f"{self.name}.json").write_text(json.dumps(made, indent=1) + "\n", encoding="utf-8")
         if figure is not None:
-            figure.tight_layout()
-            figure.savefig(self.out / "pictures" / f"{self.name}.png", dpi=80)
+            self.picture(figure, dpi=80)
 
 
 def mean_error(values: np.ndarray) -> tuple[float, float]:

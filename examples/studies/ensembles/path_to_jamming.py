@@ -19,10 +19,15 @@ from common import G_OF_KAPPA, Results, arguments, kept, mean_error
 
 import jam
 
+STEP_BINS = np.arange(-18.0, 0.01, 0.25)  # of lg |s_i|
 STEPS = 4  # points of the glass branch a decade of p
 MAX_ORDER = 1.5
 PUBLISHED_PHI = {3e-4: 0.64223, 1e-4: 0.64255, 3e-5: 0.64291, 1e-5: 0.64301}  # fit of the glass branch, errors 2e-4
 SAME = {3e-4: "1e8", 1e-4: "1e10", 3e-5: "> 1e11", 1e-5: "> 1e11"}
+
+
+def log_lengths(steps):
+    return np.log10(np.maximum(np.linalg.norm(steps, axis=1), 1e-18))
 
 
 def crunched(packing):
@@ -48,21 +53,27 @@ def crunched(packing):
             "contacts": copy.contacts.pairs,
             "first": np.linalg.norm(steps[0][stable], axis=1),
             "last": np.linalg.norm(steps[-1][stable], axis=1),
+            "each": [np.histogram(log_lengths(s[stable]), STEP_BINS)[0] for s in steps],
             "msd": [msd[0], msd[min(1, len(msd) - 1)], msd[-1]],
             "g": copy.pair_correlation(4.0, 400),
         }
 
 
 def one(n, seed, kappa, pressures):
-    made, p, phi = {}, [], []
+    made, p, phi, seconds = {}, [], [], 0.0
     with jam.System.random(n, seed=seed) as packing:
+        begin = time.process_time()
         packing.compress([(5e-3 * G_OF_KAPPA, 500.0)])
+        seconds += time.process_time() - begin
         for target in pressures:
+            begin = time.process_time()
             for step in target * 10.0 ** (np.arange(1 - STEPS, 1) / STEPS):
                 md = packing.compress([(kappa * G_OF_KAPPA, float(step))])
                 p.append(md.pressure), phi.append(md.packing_fraction)
+            seconds += time.process_time() - begin
+            made[f"md_seconds_{target:.0e}"] = seconds
             found = crunched(packing)
-            for name in ("phi", "jammed", "lps", "seconds", "contacts", "first", "last", "msd", "g"):
+            for name in ("phi", "jammed", "lps", "seconds", "contacts", "first", "last", "each", "msd", "g"):
                 made[f"{name}_{target:.0e}"] = found[name]
         return {**made, "p": p, "md_phi": phi, "score": packing.crystal_score()}
 

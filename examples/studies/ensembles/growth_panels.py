@@ -1,0 +1,220 @@
+#!/usr/bin/env python3
+"""Rates and sizes on the path to jamming: figures 2.6, 2.8 to 2.11, 2.13, 2.15 and 2.16 of the thesis.
+
+usage: growth_panels.py [--large] [--seeds K] [--folder DIR] [--only-read] [--out DIR]
+
+Runs are those of path_to_jamming.py for several (N, kappa). Beside them: Mari-Kurchan spheres grown from 0.3 and from the planted
+liquid at 2.5, whose glass branch is fitted with free d; and small systems grown slowly from 0.2, which order in part.
+Small: (256, 1e-3), and N = 256, 512, 1024 at 3e-4, 3 seeds. Large: N = 1024 at four rates, N = 2048 and 4096 at 1e-4, 10 seeds.
+"""
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+from common import G_OF_KAPPA, Results, arguments, kept, mean_error
+from path_to_jamming import MAX_ORDER, STEP_BINS, numbers, one, overlap
+
+import jam
+
+SMALL = ((256, 1e-3), (256, 3e-4), (512, 3e-4), (1024, 3e-4))
+LARGE = ((1024, 3e-4), (1024, 1e-4), (1024, 3e-5), (1024, 1e-5), (2048, 1e-4), (4096, 1e-4))
+R_MAX, BINS = 4.0, 402  # no edge of a bin at contact
+
+
+def runs(o, n, kappa, seeds, pressures):
+    study = f"growth_panels_n{n}"
+    make = [kept(o, study, f"kappa{kappa:g}_seed{s}", lambda: one(n, s, kappa, pressures)) for s in range(1, seeds + 1)]
+    there = [m for m in make if m is not None]
+    return [m for m in there if m["score"] < MAX_ORDER and numbers([m], "jammed", pressures).all()], len(there)
+
+
+def against_pressure(r, every, pressures):
+    """2.8, 2.9, 2.15, 2.16: phi_J, its difference, shared contacts, LPs and seconds for each (N, kappa)."""
+    figure, axes = plt.subplots(2, 3, figsize=(15, 8.5))
+    texts = ("phi_J", "mean |phi_J - phi_J(largest p)|", "contacts of the reference", "LPs", "s of growth and LPs", "s of LPs")
+    for (n, kappa), made in every.items():
+        phi, lps = numbers(made, "phi", pressures), numbers(made, "lps", pressures)
+        off = np.abs(phi - phi[-1]).mean(axis=1)
+        shared = np.array([[overlap(m, t, pressures[-1]) for m in made] for t in pressures])
+        crunch, growth = numbers(made, "seconds", pressures), numbers(made, "md_seconds", pressures)
+        label = f"N = {n}, kappa = {kappa:g}"
+        style = dict(marker="o" if n == min(k[0] for k in every) else "s", ms=4, lw=1, capsize=2, label=label)
+        error = lambda x: x.std(axis=1, ddof=1) / x.shape[1] ** 0.5  # noqa: E731
+        for axis, y, e in zip(
+            axes.flat,
+            (phi.mean(axis=1), np.maximum(off, 1e-17), shared.mean(axis=1), lps.mean(axis=1), (crunch + growth).mean(axis=1), crunch.mean(axis=1)),
+            (error(phi), None, error(shared), error(lps), error(crunch + growth), error(crunch)),
+        ):  # fmt: skip
+            axis.errorbar(pressures, y, e, **style)
+        where = f"N = {n}, kappa = {kappa:g}"
+        low, high = pressures[0], pressures[-1]
+        r.add("2.8", f"phi_J from p_target = {high:.0e}, {where}", "rises as kappa falls", *mean_error(phi[-1]))
+        r.add("2.8", f"|phi_J - reference|, p_target = {low:.0e}, {where}", "falls with p", off[0])
+        r.add("2.8", f"|phi_J - reference|, p_target = {pressures[-2]:.0e}, {where}", "falls with p", off[-2])
+        r.add("2.9", f"contacts of the reference, p_target = {low:.0e}, {where}", "rises to 1", *mean_error(shared[0]))
+        r.add("2.9", f"contacts of the reference, p_target = {pressures[-2]:.0e}, {where}", "rises to 1", *mean_error(shared[-2]))
+        r.add("2.15", f"seconds of growth to p_target = {high:.0e}, {where}", "grow with 1/kappa and N", *mean_error(growth[-1]))
+        r.add("2.15", f"seconds of the LPs from p_target = {low:.0e}, {where}", "fall with p", *mean_error(crunch[0]))
+        r.add("2.15", f"seconds of the LPs from p_target = {high:.0e}, {where}", "fall with p", *mean_error(crunch[-1]))
+        r.add("2.16", f"LPs from p_target = {low:.0e}, {where}", "fall with p", *mean_error(lps[0]))
+        r.add("2.16", f"LPs from p_target = {high:.0e}, {where}", "about 3 to 10, least 3", *mean_error(lps[-1]))
+    for axis, text in zip(axes.flat, texts):
+        axis.set(xscale="log", xlabel="p where growth stops", ylabel=text)
+    axes[0, 1].set(yscale="log"), axes[1, 1].set(yscale="log"), axes[1, 2].set(yscale="log")
+    axes[0, 0].legend(fontsize=7)
+    r.picture(figure, "growth_panels_pressure")
+
+
+def steps(r, every, pressures):
+    """2.13: lg |s_i| of the last LP by p, of the first by kappa, and of every LP of one run."""
+    figure, axes = plt.subplots(1, 4, figsize=(18, 4.4))
+    first_key = next(iter(every))
+    middles = 0.5 * (STEP_BINS[1:] + STEP_BINS[:-1])
+    for k, which in ((0, 0), (1, -1)):
+        for t in pressures:
+            counts = sum(m[f"each_{t:.0e}"][which] for m in every[first_key])
+            axes[k].step(middles, counts / counts.sum() / 0.25, where="mid", lw=1, label=f"p = {t:.0e}")
+        axes[k].set(title=f"{'first' if k == 0 else 'last'} LP, N = {first_key[0]}, kappa = {first_key[1]:g}")
+    at = pressures[1]
+    for (n, kappa), made in every.items():
+        counts = sum(m[f"each_{at:.0e}"][0] for m in made)
+        axes[2].step(middles, counts / counts.sum() / 0.25, where="mid", lw=1, label=f"N = {n}, kappa = {kappa:g}")
+        peak = middles[np.argmax(counts)]
+        r.add("2.13", f"most likely lg |s_i| of the first LP, p = {at:.0e}, N = {n}, kappa = {kappa:g}", "in the picture", peak)
+    axes[2].set(title=f"first LP from p = {at:.0e}")
+    each = max((m[f"each_{at:.0e}"] for m in every[first_key]), key=len)
+    for k, counts in enumerate(each):
+        axes[3].step(middles, counts / counts.sum() / 0.25, where="mid", lw=1, color=plt.cm.viridis(k / len(each)))
+    axes[3].set(title=f"every LP of one run, {len(each)} of them; last: yellow")
+    for axis in axes:
+        axis.set(xlabel="lg |s_i|; 0 is drawn at -18", ylabel="pdf", yscale="log")
+        if axis.get_legend_handles_labels()[0]:
+            axis.legend(fontsize=7)
+    peaks = [middles[np.argmax(sum(m[f"each_{t:.0e}"][0] for m in every[first_key]))] for t in pressures]
+    power = np.polyfit(np.log10(pressures), peaks, 1)[0]
+    r.add("2.13", "power of p in the most likely |s_i| of the first LP", "< 0: moves left with p", power)
+    r.picture(figure, "growth_panels_steps")
+
+
+def fits(r, every, pressures):
+    """2.11: phi_J of the LPs less that of the glass fit for each sample, with the error that the fit gives."""
+    figure, axis = plt.subplots(figsize=(7, 4.6))
+    for k, ((n, kappa), made) in enumerate(every.items()):
+        for (low, high), marker in (((1e5, 1e12), "o"), ((1e5, 1e7), "x")):
+            found = []
+            for m in made:
+                use = (m["p"] > low) & (m["p"] <= high * 1.01)
+                fit = jam.glass_fit(m["md_phi"][use], m["p"][use])
+                found.append((abs(fit.jammed_fraction - m[f"phi_{pressures[-1]:.0e}"]), fit.jammed_error, fit.dimension / 3, fit.r_squared))
+            off, error, d, r2 = np.array(found).T
+            x = k + (0.1 if marker == "x" else -0.1) + 0.03 * np.arange(len(off))
+            axis.semilogy(x, np.maximum(off, 1e-17), marker, color=f"C{k}", label=f"N = {n}, kappa = {kappa:g}, fit to {high:.0e}")
+            axis.fill_between(x, 1e-17, np.full(len(x), error.mean()), color=f"C{k}", alpha=0.2)
+            where = f"N = {n}, kappa = {kappa:g}, p = {low:.0e} to {min(high, pressures[-1]):.0e}"
+            r.add("2.11", f"|phi_J - phi_J of the fit| over the fit's error, {where}", "below 1", np.median(off / error))
+            r.add("2.11", f"d of the fit over 3, {where}", "1 to 1.07", d.mean())
+            r.add("2.11", f"least R^2, {where}", ">= 0.999", r2.min())
+    axis.set(xticks=range(len(every)), xticklabels=[f"{n}, {kappa:g}" for n, kappa in every], xlabel="N, kappa")
+    axis.set(ylabel="|phi_J - phi_J of the fit|; band: error of the fit")
+    axis.legend(fontsize=6)
+    r.picture(figure, "growth_panels_fit")
+
+
+def ordered(n, seed):
+    with jam.System.random(n, seed=seed) as packing:
+        packing.compress([(1e-3, 1e4)])
+        report = packing.crunch()
+        return {"phi": report.packing_fraction, "score": packing.crystal_score(), "g": packing.pair_correlation(R_MAX, BINS)}
+
+
+def correlations(o, r, every, pressures, count):
+    """2.10: g(r) for each p_target and rate; inset: packings that ordered in part."""
+    figure, axes = plt.subplots(1, 3, figsize=(16, 4.4))
+    x = jam.System.radii(4.0, 400)
+    key = next(iter(every))
+    for k, t in enumerate(pressures):
+        g = np.mean([m[f"g_{t:.0e}"] for m in every[key]], axis=0)
+        axes[0].plot(x, g + 0.5 * k, lw=1, label=f"p = {t:.0e}")
+    for k, ((n, kappa), made) in enumerate(every.items()):
+        g = np.mean([m[f"g_{pressures[-1]:.0e}"] for m in made], axis=0)
+        axes[1].plot(x, g + 0.5 * k, lw=1, label=f"N = {n}, kappa = {kappa:g}")
+    made = [kept(o, "growth_panels_ordered", f"n108_seed{s}", lambda: ordered(108, s)) for s in range(1, count + 1)]
+    found = [m for m in made if m is not None and m["score"] > MAX_ORDER]
+    for m in found:
+        axes[2].plot(jam.System.radii(R_MAX, BINS), m["g"], lw=0.4, color="0.6")
+    if found:
+        axes[2].plot(jam.System.radii(R_MAX, BINS), np.mean([m["g"] for m in found], axis=0), lw=1.5, label=f"mean of {len(found)}")
+        phi = [m["phi"] for m in found]
+        r.made("N = 108, G = 1e-3 from 0.2 to p = 1e4, crystal score above 1.5", len(found))
+        r.add("2.10", "least phi_J of partly ordered packings, N = 108", "0.65", min(phi))
+        r.add("2.10", "largest phi_J of partly ordered packings, N = 108", "0.675", max(phi))
+    for axis, title in zip(axes, (f"N = {key[0]}, kappa = {key[1]:g}", "last p", "packings that ordered in part")):
+        for at, style in ((2**0.5, ":"), (3**0.5, "-"), (2, "-"), (7**0.5, ":"), (3, "-")):
+            axis.axvline(at, color="0.7", ls=style, lw=0.8)
+        axis.set(xlabel="r / sigma", ylabel="g(r), shifted", xlim=(0.9, 3.5), ylim=(0, 6), title=title)
+        axis.legend(fontsize=7)
+    r.picture(figure, "growth_panels_correlation")
+
+
+def mari_kurchan(n, seed, phi):
+    """(p, phi) on the way to p = 1e6, and phi_J of the crunch."""
+    p, density = [], []
+    with jam.System.random(n, seed=seed, model="mk", packing_fraction=phi) as packing:
+        for target in 10.0 ** np.arange(0.8, 6.01, 0.2):
+            if target > 1.2 * (1 + 4 * phi):
+                md = packing.compress([(3e-3, float(target))])
+                p.append(md.pressure), density.append(md.packing_fraction)
+        report = packing.crunch()
+        return {"p": p, "phi": density, "phi_j": report.packing_fraction, "jammed": report.jammed}
+
+
+def glasses(o, r, n, seeds):
+    """2.6: Mari-Kurchan liquid and glass, planted or not, with a fit of the glass branch whose d is free."""
+    figure, axis = plt.subplots(figsize=(7, 4.8))
+    line = np.linspace(0.3, 3.2, 100)
+    axis.semilogy(line, 1 / (1 + 4 * line), "k--", lw=1, label="1 + 4 phi")
+    for k, (start, text) in enumerate(((0.3, "not planted, from 0.3"), (2.5, "planted at 2.5"))):
+        make = [kept(o, f"growth_panels_mk{n}", f"from{start:g}_seed{s}", lambda: mari_kurchan(n, s, start)) for s in range(1, seeds + 1)]
+        made = [m for m in make if m is not None and m["jammed"]]
+        if len(made) < 2:
+            continue
+        fits = [jam.glass_fit(m["phi"][m["p"] > 1e3], m["p"][m["p"] > 1e3]) for m in made]
+        for m, fit in zip(made, fits):
+            first = m is made[0]
+            axis.semilogy(m["phi"], 1 / m["p"], ".-", ms=3, lw=0.7, color=f"C{k}", label=text if first else None)
+            x = np.linspace(0.75 * fit.jammed_fraction, fit.jammed_fraction * (1 - 1e-5), 60)
+            axis.semilogy(x, (1 - x / fit.jammed_fraction) / fit.dimension, ":", color=f"C{k}", label="fit, d free" if first else None)
+        r.made(f"Mari-Kurchan, N = {n}, {text}, G = 3e-3 to p = 1e6", len(made))
+        r.add("2.6", f"d of the fit of the glass branch, {text}", "free", *mean_error([f.dimension for f in fits]))
+        r.add("2.6", f"phi_J of the fit less that of the crunch, {text}", "0", *mean_error([f.jammed_fraction - m["phi_j"] for f, m in zip(fits, made)]))
+        r.add("2.6", f"phi_J, {text}", ">= 3.1 planted", *mean_error([m["phi_j"] for m in made]))
+    axis.axvline(1.776, color="0.7", lw=1)
+    axis.set(xlabel="phi; vertical line: phi_d = 1.776", ylabel="1 / p", ylim=(1e-5, 1))
+    axis.legend(fontsize=7)
+    r.picture(figure, "growth_panels_mk")
+
+
+def main():
+    p = arguments(__doc__.splitlines()[0])
+    p.add_argument("--seeds", type=int, help="packings for each (N, kappa) (small 3, large 10)")
+    o = p.parse_args()
+    seeds, pressures = o.seeds or (10 if o.large else 3), 10.0 ** np.arange(3, 12, 1 if o.large else 2)
+    r, every = Results(o, "growth_panels"), {}
+    glasses(o, r, 1024 if o.large else 200, seeds)
+    for n, kappa in LARGE if o.large else SMALL:
+        good, there = runs(o, n, kappa, seeds, pressures)
+        print(f"N = {n}, kappa = {kappa:g}: {len(good)} of {there} are isostatic and without order")
+        if len(good) > 1:
+            every[n, kappa] = good
+            r.made(f"N = {n}, kappa = 5e-3 to p = 500, then {kappa:g} (G = {kappa * G_OF_KAPPA:.3g}), crunches by LPs", len(good))
+    if every:
+        against_pressure(r, every, pressures)
+        steps(r, every, pressures)
+        fits(r, every, pressures)
+        correlations(o, r, every, pressures, 10)
+    r.write()
+
+
+if __name__ == "__main__":
+    main()

@@ -6,7 +6,7 @@
 #include "capi/analysis.hpp"
 #include "io/files.hpp"
 #include "proof/newton.hpp"
-#include "proof/theorem.hpp"
+#include "proof/verdict.hpp"
 
 using namespace jam;
 
@@ -66,10 +66,7 @@ jam_proof_report report_of(const ProofScene &s, const Proof &proof) {
 jam_proof_report prove_scene(ProofScene &scene) {
   ProofEquations equations;
   Proof proof;
-  if (refine(scene, equations))
-    proof = prove(scene, equations);
-  else
-    proof.cause = ProofCause::singular;
+  find_proof(scene, equations, proof);
   return report_of(scene, proof);
 }
 
@@ -134,7 +131,8 @@ jam_status jam_write_proof(const jam_system *sys, const char *path, const double
     need(path, "path");
     ProofScene scene = take_scene(sys, ratio, ratio_len);
     ProofEquations equations;
-    const bool refined = refine(scene, equations);
+    Proof proof;
+    const bool refined = find_proof(scene, equations, proof);
     write_proof(scene, path);
     return refined ? Answer(JAM_OK) : Answer(JAM_AMBIGUOUS, dependent);
   });
@@ -151,7 +149,8 @@ jam_status jam_refined_positions(const jam_system *sys, const double *ratio, siz
     if (!high && !low) return JAM_OK;
     ProofScene scene = take_scene(sys, ratio, ratio_len);
     ProofEquations equations;
-    if (!refine(scene, equations)) {
+    Proof proof;
+    if (!find_proof(scene, equations, proof)) {
       return {JAM_AMBIGUOUS, dependent};
     }
     for (double &x : scene.high) x *= scene.unit;

@@ -69,29 +69,36 @@ void take_step(ProofScene &s, const NewtonStep &step) {
   s.cell = Cell::from_triangle(s.dim, rows.data());
 }
 
+bool approach_closure(ProofScene &s, ProofEquations &e) {
+  NormalMatrix normal(s, e);
+  if (!normal.factorise()) return false;
+  refine_forces(s, e, normal);
+  for (int k = 0; k < proof_tuning::newton_steps; ++k) {
+    CallScope::look();
+    ProofScene next = s;
+    take_step(next, newton_step(s, e, normal));
+    ProofEquations there = evaluate(next);
+    if (!(length(there.f) < length(e.f))) break;
+    s = std::move(next), e = std::move(there);
+  }
+  return true;
+}
+
 bool refine(ProofScene &s, ProofEquations &e) {
   const BlasSingleThread single;
   if (s.contacts() == 0) return false;
   const bool closed = close_exactly(s);  // nothing to refine, and no step may spoil it
   if (!closed && !s.implied.empty()) {   // what is not implied has as many equations as unknowns
     ProofScene kept = without_implied(s);
-    if (!refine(kept, e)) return false;
+    ProofEquations there = evaluate(kept);
+    if (!approach_closure(kept, there)) return false;
+    NormalMatrix normal(kept, there);
+    if (!normal.factorise()) return false;
+    refine_forces(kept, there, normal);
     s.high = kept.high, s.low = kept.low, s.gamma = kept.gamma, s.gamma_low = kept.gamma_low, s.row = kept.force;
   }
   e = evaluate(s);
-  if (!closed && s.implied.empty()) {
-    NormalMatrix normal(s, e);
-    if (!normal.factorise()) return false;
-    refine_forces(s, e, normal);
-    for (int k = 0; k < proof_tuning::newton_steps; ++k) {
-      CallScope::look();
-      ProofScene next = s;
-      take_step(next, newton_step(s, e, normal));
-      ProofEquations there = evaluate(next);
-      if (!(length(there.f) < length(e.f))) break;
-      s = std::move(next), e = std::move(there);
-    }
-  }
+  if (!closed && s.implied.empty() && !approach_closure(s, e)) return false;
   NormalMatrix normal(s, e);
   if (!normal.factorise()) return false;
   if (!closed || s.strict) refine_forces(s, e, normal);

@@ -17,6 +17,9 @@ void take_step(ProofScene &scene, const NewtonStep &step);
 // The part of the forces with R^T f = 0, scaled to sum f sigma^2 = 1; strict with R^T f = the gradient of log V.
 void refine_forces(ProofScene &scene, const ProofEquations &equations, const NormalMatrix &normal);
 
+// Newton's steps until |F| stops falling, whether or not it can become 0. False where rows are dependent.
+bool approach_closure(ProofScene &scene, ProofEquations &equations);
+
 // Newton's steps until |F| stops falling. Returns the equations at the end; forces are refined too. A packing whose
 // rows are dependent is left as it is: false.
 bool refine(ProofScene &scene, ProofEquations &equations);

@@ -40,36 +40,71 @@ Packing rounded(const ProofScene &s) {
   return p;
 }
 
+// x_i - x_j + n A in component c.
+Expansion component(const ProofScene &s, int32_t i, int32_t j, const Image &n, size_t c) {
+  const size_t d = static_cast<size_t>(s.dim), a = i * d + c, b = j * d + c;
+  Expansion r(s.high[a]);
+  r.add(s.low[a]), r.add(-s.high[b]), r.add(-s.low[b]);
+  for (size_t q = c; q < d; ++q)
+    if (n[q] != 0) {
+      r.add_product(n[q], s.cell.row(static_cast<int>(q))[c]);
+      r.add_product(n[q], s.cell_low[q * d + c]);
+    }
+  return r;
+}
+
+// f(i, j, n) of all pairs that are no contacts, as far as `near`. False where an offset is no cell vector.
+template <class F>
+bool each_near_pair(const ProofScene &s, const Packing &p, F &&f) {
+  const size_t d = static_cast<size_t>(s.dim);
+  const auto contacts = contact_images(s);
+  const PairList pairs = find_pairs(p, 0.0, 1.0 + proof_tuning::near);
+  for (size_t k = 0; k < pairs.size(); ++k) {
+    Image n(d);
+    if (!lattice_image(p.cell, &pairs.offset[k * d], n.data())) return false;
+    const auto at = contacts.find({pairs.i[k], pairs.j[k]});
+    if (at == contacts.end() || !at->second.count(n)) f(pairs.i[k], pairs.j[k], n);
+  }
+  return true;
+}
+
 }  // namespace
+
+double opening_of(const ProofScene &s, const NearPair &pair) {
+  Expansion sum, gamma(s.gamma);
+  gamma.add(s.gamma_low);
+  for (size_t c = 0; c < static_cast<size_t>(s.dim); ++c) {
+    const Expansion r = component(s, pair.i, pair.j, pair.image, c);
+    sum.add_product(r, r);
+  }
+  const Expansion sigma2 = s.sigma_squared(pair.i, pair.j);
+  sum.add_product(gamma, sigma2, -1.0);
+  return sum.value() / sigma2.value();
+}
+
+std::vector<NearPair> near_pairs(const ProofScene &s) {
+  std::vector<NearPair> out;
+  each_near_pair(s, rounded(s), [&](int32_t i, int32_t j, const Image &n) {
+    if (i != j) out.push_back({i, j, n, 0.0}), out.back().opening = opening_of(s, out.back());
+  });
+  return out;
+}
 
 OpenGaps open_gaps(const ProofScene &s, double radius, double gamma) {
   OpenGaps out;
   out.least = proof_tuning::near;
   const Packing p = rounded(s);
   const size_t d = static_cast<size_t>(s.dim);
-  const auto contacts = contact_images(s);
   Expansion exact(s.gamma);
   exact.add(s.gamma_low);
   // A pair that the search leaves out has a gap of `near` less rounding; that is open where the radius is far smaller.
   out.open = out.all_seen =
       radius < 1e-3 * proof_tuning::near * *std::min_element(p.diameter.begin(), p.diameter.end());
-  const PairList pairs = find_pairs(p, 0.0, 1.0 + proof_tuning::near);
-  for (size_t k = 0; k < pairs.size(); ++k) {
-    const int32_t i = pairs.i[k], j = pairs.j[k];
-    Image n(d);
-    if (!lattice_image(p.cell, &pairs.offset[k * d], n.data())) return {};
-    const auto at = contacts.find({i, j});
-    if (at != contacts.end() && at->second.count(n)) continue;
+  const bool listed = each_near_pair(s, p, [&](int32_t i, int32_t j, const Image &n) {
     Expansion sum;
     double one = 0.0;
     for (size_t c = 0; c < d; ++c) {
-      Expansion r(s.high[i * d + c]);
-      r.add(s.low[i * d + c]), r.add(-s.high[j * d + c]), r.add(-s.low[j * d + c]);
-      for (size_t q = c; q < d; ++q)
-        if (n[q] != 0) {
-          r.add_product(n[q], s.cell.row(static_cast<int>(q))[c]);
-          r.add_product(n[q], s.cell_low[q * d + c]);
-        }
+      const Expansion r = component(s, i, j, n, c);
       sum.add_product(r, r);
       one = add_up(one, up(std::fabs(r.value())));
     }
@@ -83,10 +118,11 @@ OpenGaps open_gaps(const ProofScene &s, double radius, double gamma) {
     below.add_product(exact, sigma2, -1.0);
     out.overlap = std::max(out.overlap, div_up(-below.value(), sigma2.value()) * (1.0 + 8.0 * half_ulp));
     out.least = std::min(out.least, std::sqrt(std::max(0.0, have) / need) - 1.0);
-    if (have > need) continue;
+    if (have > need) return;
     out.open = false;
     out.of_rattler = moving < 2.0;
-  }
+  });
+  if (!listed) return {};
   const double widest = *std::max_element(s.ratio.begin(), s.ratio.end());
   if (!(mul_up(gamma, mul_up(widest, widest)) <
         s.cell.shortest() * s.cell.shortest() * (1.0 - (s.strict ? 1e-3 : 1e-12))))

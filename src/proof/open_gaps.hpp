@@ -15,4 +15,13 @@ struct OpenGaps {
 // number of cell vectors between them; and no sphere reaches its own image.
 OpenGaps open_gaps(const ProofScene &scene, double radius, double gamma);
 
+struct NearPair {
+  int32_t i, j;                // spheres, i <= j
+  std::vector<int32_t> image;  // n of x_i - x_j + n A
+  double opening;              // |r|^2 / sigma^2 - Gamma at the scene's exact numbers, rounded once
+};
+// All pairs that are no contacts with relative gaps up to proof_tuning::near, but for a sphere and its own images.
+std::vector<NearPair> near_pairs(const ProofScene &scene);
+double opening_of(const ProofScene &scene, const NearPair &pair);
+
 }  // namespace jam

@@ -32,17 +32,40 @@ Expansion ProofScene::sigma_squared(int32_t i, int32_t j) const {
   return square;
 }
 
+namespace {
+
+void take_out_contacts(ProofScene &s, const std::vector<char> &on) {
+  size_t kept = 0;
+  for (size_t c = 0; c < on.size(); ++c) {
+    if (!on[c]) continue;
+    s.a[kept] = s.a[c], s.b[kept] = s.b[c], s.force[kept] = s.force[c];
+    for (int k = 0; k < s.dim; ++k) s.image[kept * s.dim + k] = s.image[c * s.dim + k];
+    ++kept;
+  }
+  s.a.resize(kept), s.b.resize(kept), s.force.resize(kept), s.image.resize(kept * s.dim);
+}
+
+}  // namespace
+
+void keep_contacts(ProofScene &s, const std::vector<char> &on) {
+  take_out_contacts(s, on);
+  const std::vector<int32_t> before = s.sphere;
+  std::vector<char> stable(s.nodes(), 0);
+  for (size_t c = 0; c < s.contacts(); ++c) stable[s.a[c]] = stable[s.b[c]] = 1;
+  s.sphere.clear();
+  for (size_t k = 0; k < before.size(); ++k) {
+    s.node[before[k]] = stable[k] ? static_cast<int32_t>(s.sphere.size()) : -1;
+    if (stable[k]) s.sphere.push_back(before[k]);
+  }
+  for (size_t c = 0; c < s.contacts(); ++c) s.a[c] = s.node[before[s.a[c]]], s.b[c] = s.node[before[s.b[c]]];
+}
+
 ProofScene without_implied(const ProofScene &s) {
   ProofScene out = s;
   out.implied.clear();
-  std::vector<bool> gone(s.contacts(), false);
-  for (const ImpliedContact &c : s.implied) gone[c.contact] = true;
-  out.a.clear(), out.b.clear(), out.image.clear(), out.force.clear();
-  for (size_t c = 0; c < s.contacts(); ++c) {
-    if (gone[c]) continue;
-    out.a.push_back(s.a[c]), out.b.push_back(s.b[c]), out.force.push_back(s.force[c]);
-    for (int k = 0; k < s.dim; ++k) out.image.push_back(s.image[c * s.dim + k]);
-  }
+  std::vector<char> on(s.contacts(), 1);
+  for (const ImpliedContact &c : s.implied) on[c.contact] = 0;
+  take_out_contacts(out, on);
   return out;
 }
 

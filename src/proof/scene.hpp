@@ -67,6 +67,9 @@ struct ProofScene {
   Expansion sigma_squared(size_t c) const { return sigma_squared(sphere[a[c]], sphere[b[c]]); }
 };
 
+// Only the contacts that are `on`, one flag each; spheres without a contact become rattlers.
+void keep_contacts(ProofScene &scene, const std::vector<char> &on);
+
 // The scene of the contacts that are not implied, forces as they are. Its equations are those that the exact packing
 // solves; the implied ones follow.
 ProofScene without_implied(const ProofScene &scene);

@@ -2,10 +2,24 @@
 
 #include <algorithm>
 
+#include "proof/closing.hpp"
 #include "proof/newton.hpp"
-#include "proof/theorem.hpp"
 
 namespace jam {
+
+bool find_proof(ProofScene &scene, ProofEquations &equations, Proof &proof) {
+  ProofScene other = scene;
+  const bool refined = refine(scene, equations);
+  proof = refined ? prove(scene, equations) : Proof{};
+  if (!refined) proof.cause = ProofCause::singular;
+  ProofEquations there;
+  if (proof.exact || proof.trapped || scene.strict || !exchange_contacts(other) || !refine(other, there))
+    return refined;
+  const Proof again = prove(other, there);
+  if (!again.exact && !again.trapped) return refined;
+  proof = again, scene = std::move(other), equations = std::move(there);
+  return true;
+}
 
 void decide_by_proof(const Packing &p, PackingVerdict &verdict) {
   RigidityResult &r = verdict.result;

@@ -1,8 +1,13 @@
 // Jammed where doubles leave it open: trapping, in two doubles.
 #pragma once
 #include "network/rigidity_test.hpp"
+#include "proof/theorem.hpp"
 
 namespace jam {
+
+// Refines the scene and proves what it can; where that is nothing, of the contacts that close together. The scene is
+// then the one that was proved. False where rows are dependent and it is not refined.
+bool find_proof(ProofScene &scene, ProofEquations &equations, Proof &proof);
 
 // An undecided test of collective jamming whose contacts carry force: where theorem.hpp proves that its spheres are
 // trapped, it becomes a yes. Soft modes that doubles cannot tell from flexes are decided so.

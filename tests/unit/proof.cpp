@@ -7,7 +7,9 @@
 #include <random>
 
 #include "linalg/shifted_factor.hpp"
+#include "proof/closing.hpp"
 #include "proof/newton.hpp"
+#include "proof/open_gaps.hpp"
 #include "proof/outward.hpp"
 #include "proof/theorem.hpp"
 // test.h comes last: it has a macro `fail`.
@@ -193,6 +195,57 @@ void an_overlap_proves_nothing(void **) {
   assert_false(prove(s, e).trapped);
 }
 
+// No listed contact is open by more than rounding of two doubles, no force pulls, and no pair overlaps by more.
+void check_closed(const ProofScene &s) {
+  const ProofEquations e = evaluate(s);
+  for (size_t c = 0; c < s.contacts(); ++c) assert_true(std::fabs(e.f[c]) < 1e-26 && s.force[c] > 0.0);
+  for (const NearPair &pair : near_pairs(s)) assert_true(pair.opening > -1e-26);
+}
+
+// One disk is too small by 1e-14, so that its six contacts cannot close with all others: too little for doubles to say.
+void contacts_that_stay_open_leave_the_list(void **) {
+  for (const int k : {0, 14}) {
+    Lattice l = triangular(6, 6);
+    l.packing.diameter[k] -= 1e-14;
+    ProofScene s = make_proof_scene(l.packing, l.network, {});
+    assert_true(exchange_contacts(s));
+    check_closed(s);
+    assert_true(s.contacts() < l.network.size());
+  }
+}
+
+// A list without three contacts of a disk that is too large: it overlaps there.
+void pairs_that_overlap_enter_the_list(void **) {
+  Lattice l = triangular(6, 6);
+  l.packing.diameter[14] += 1e-14;
+  std::vector<char> on(l.network.size(), 1);
+  for (size_t c = 0, left = 3; c < on.size(); ++c)
+    if (left > 0 && (l.network.pairs.i[c] == 14 || l.network.pairs.j[c] == 14)) on[c] = 0, --left;
+  ProofScene s = make_proof_scene(l.packing, subset(l.network, on, 2), {});
+  assert_true(exchange_contacts(s));
+  check_closed(s);
+  assert_true(s.node[14] >= 0);
+}
+
+// A small disk in the hole of disk 14 overlaps the disk to its right by 1e-14.
+void rattlers_move_out_of_overlaps(void **) {
+  Lattice l = triangular(6, 6, {14});
+  Packing &p = l.packing;
+  p.position.push_back(2.25 + 1e-14), p.position.push_back(2.0 * std::sqrt(0.75));
+  p.diameter.push_back(0.5);
+  l.network.coordination.push_back(0);
+  ProofScene s = make_proof_scene(p, l.network, {});
+  const auto overlap = [&] {
+    double most = 0.0;
+    for (const NearPair &pair : near_pairs(s))
+      if (s.node[pair.i] < 0 || s.node[pair.j] < 0) most = std::max(most, -pair.opening);
+    return most;
+  };
+  assert_true(overlap() > 1e-15);
+  assert_true(exchange_contacts(s));
+  assert_true(overlap() == 0.0);
+}
+
 }  // namespace
 
 int main(void) {
@@ -203,6 +256,9 @@ int main(void) {
                                      cmocka_unit_test(crystals_are_trapped_and_not_called_isostatic),
                                      cmocka_unit_test(a_force_with_the_wrong_sign_proves_nothing),
                                      cmocka_unit_test(forces_that_do_not_balance_prove_nothing),
-                                     cmocka_unit_test(an_overlap_proves_nothing)};
+                                     cmocka_unit_test(an_overlap_proves_nothing),
+                                     cmocka_unit_test(contacts_that_stay_open_leave_the_list),
+                                     cmocka_unit_test(pairs_that_overlap_enter_the_list),
+                                     cmocka_unit_test(rattlers_move_out_of_overlaps)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

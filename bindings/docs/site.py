@@ -53,6 +53,23 @@ The package `jam`. Options are keywords under the names of the C header, and enu
    :members:
 ```
 
+## Ensembles
+
+```{eval-rst}
+.. autoclass:: jam.ensemble.Ensemble
+   :members:
+.. autoclass:: jam.ensemble.Entry
+   :members:
+.. autoclass:: jam.ensemble.Status
+   :members:
+.. autoclass:: jam.ensemble.Capacity
+   :members:
+.. autofunction:: jam.ensemble.complete
+.. autofunction:: jam.ensemble.protocols
+.. autofunction:: jam.ensemble.table
+.. autofunction:: jam.load
+```
+
 ## Files for other programs
 
 ```{eval-rst}

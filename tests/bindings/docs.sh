@@ -3,6 +3,7 @@
 # ROOT
 set -eu
 "$1" --build "$2" --target docs
+/usr/bin/python3 -B "$(dirname "$0")/check_site.py" "$2/docs/html"
 html=$2/docs/html
 has() { grep -q "$2" "$html/$1" || { echo "$1 does not show: $2"; exit 1; }; }
 has index.html 'makes and analyses jammed packings'                      # start page

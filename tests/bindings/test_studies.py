@@ -29,11 +29,28 @@ class Studies(unittest.TestCase):
         found, rows, _ = run("disks", self.out.name, *options)
         mean_z = next(row for name, row in rows.items() if "mean z" in name)
         # one state of self-stress in each packing; both sides are means, over packings or over spheres
-        self.assertAlmostEqual(mean_z["ours"], mean_z["published"], delta=0.01)
+        self.assertAlmostEqual(mean_z["ours"], float(mean_z["published"].removeprefix("exact: ")), delta=0.01)
         self.assertEqual(found["command"], "disks.py --sizes 32 64 --particles 640")
         self.assertEqual([s["protocol"]["start"]["n"] for s in found["sets"]], [32, 64])
         _, again, _ = run("disks", self.out.name, *options, "--only-read")
         self.assertEqual(again, rows)
+
+    def test_sketches(self):
+        _, rows, _ = run("sketches", self.out.name)
+        # A linear constraint is sufficient for the exact one; the root of the collision is a contact.
+        self.assertEqual(rows["points that the linear constraints allow and the exact ones do not"]["ours"], 0)
+        self.assertGreaterEqual(rows["least distance over the diameter after one LP"]["ours"], 1 - 1e-12)
+        self.assertLess(abs(rows["distance less the sum of radii at the collision"]["ours"]), 1e-14)
+        self.assertEqual(rows["contacts above isostatic"]["ours"], 0)
+
+    def test_both_sides_of_jamming(self):
+        options = ("--sizes", "96", "--particles", "576")
+        _, rows, _ = run("both_sides", self.out.name, *options)
+        # A crunch from just below the soft packing ends with its contacts and nearly its forces.
+        self.assertGreater(rows["share whose crunch finds the same contacts, N = 96"]["ours"], 0.7)
+        self.assertLess(rows["median over packings of the largest |f_soft - f_crunch| / mean, N = 96"]["ours"], 0.2)
+        for side in ("below", "above"):
+            self.assertAlmostEqual(rows[f"phi_J from {side}, N = 96"]["ours"], 0.64, delta=0.04)
 
     def test_complexity(self):
         options = ("--sizes", "32", "64", "128", "--seeds", "2")

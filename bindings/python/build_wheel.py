@@ -1,20 +1,27 @@
 """The build backend of pyproject.toml (PEP 517): CMake builds the library and the module, and both go into one wheel.
 
-`--config-settings build-dir=FOLDER` keeps the build, so that the next wheel is made faster.
+The wheel has dense products of libjam's own and no Clp, so that it needs no library beside those that every system has.
+`--config-settings build-dir=FOLDER` keeps the build, so that the next wheel is made faster;
+`--config-settings cmake=-DJAM_BLAS=openblas` adds an option of CMake, and may be repeated.
 """
 from __future__ import annotations
 
 import base64
+import gzip
 import hashlib
+import io
 import os
 import re
 import subprocess
 import sys
-import sysconfig
+import tarfile
 import tempfile
 import zipfile
 from pathlib import Path
 
+import wheel_tag
+
+NAME = "jamming"
 ROOT = Path(__file__).resolve().parents[2]
 
 
@@ -22,17 +29,20 @@ def _version() -> str:
     return re.search(r"project\(jam VERSION ([\d.]+)", (ROOT / "CMakeLists.txt").read_text()).group(1)
 
 
-def _tag() -> str:
+def _tag(files: dict[str, bytes]) -> str:
     python = f"cp{sys.version_info.major}{sys.version_info.minor}"
-    return f"{python}-{python}-{sysconfig.get_platform().replace('-', '_').replace('.', '_')}"
+    objects = {name: data for name, data in files.items() if ".so" in name}
+    return f"{python}-{python}-{wheel_tag.platform_tag(objects)}"
 
 
 def _metadata() -> str:
     return f"""Metadata-Version: 2.1
-Name: jam
+Name: {NAME}
 Version: {_version()}
 Summary: Jammed packings of hard spheres, made and analysed
-License: MIT
+License: MIT AND MPL-2.0
+License-File: LICENSE
+License-File: LINKED.md
 Requires-Python: >=3.10
 Requires-Dist: numpy>=1.20
 Provides-Extra: all
@@ -44,11 +54,15 @@ Requires-Dist: tqdm; extra == "all"
 """
 
 
-def _installed(folder: str, build: str | None) -> Path:
+def _installed(folder: str, config: dict) -> Path:
     """Builds the tree and installs its Python part below the folder, the library beside the module."""
-    build, prefix = Path(build or Path(folder, "build")), Path(folder, "prefix")
+    build, prefix = Path(config.get("build-dir") or Path(folder, "build")), Path(folder, "prefix")
+    given = config.get("cmake") or []
     options = [
         "-DCMAKE_BUILD_TYPE=Release",
+        "-DJAM_BLAS=builtin",
+        "-DJAM_CLP=OFF",
+        "-DJAM_USE_VORO=OFF",
         "-DJAM_BUILD_PYTHON=ON",
         "-DJAM_BUILD_TESTS=OFF",
         "-DJAM_BUILD_EXAMPLES=OFF",
@@ -57,12 +71,13 @@ def _installed(folder: str, build: str | None) -> Path:
         f"-DCMAKE_INSTALL_PREFIX={prefix}",
         "-DCMAKE_INSTALL_LIBDIR=jam",
         "-DJAM_PYTHON_DIR=.",
+        *([given] if isinstance(given, str) else given),
     ]
     jobs = str(os.cpu_count() or 1)
     subprocess.run(["cmake", "-S", str(ROOT), "-B", str(build), *options], check=True)
     subprocess.run(["cmake", "--build", str(build), "-j", jobs], check=True)
     for component in ("python", "runtime"):
-        subprocess.run(["cmake", "--install", str(build), "--component", component], check=True)
+        subprocess.run(["cmake", "--install", str(build), "--component", component, "--strip"], check=True)
     return prefix
 
 
@@ -73,11 +88,10 @@ def _hash(data: bytes) -> str:
 def build_wheel(
     wheel_directory: str, config_settings: dict | None = None, metadata_directory: str | None = None
 ) -> str:
-    name = f"jam-{_version()}-{_tag()}.whl"
-    info = f"jam-{_version()}.dist-info"
+    info = f"{NAME}-{_version()}.dist-info"
     with tempfile.TemporaryDirectory() as folder:
         files = {}
-        prefix = _installed(folder, (config_settings or {}).get("build-dir"))
+        prefix = _installed(folder, config_settings or {})
         for file in sorted((prefix / "jam").rglob("*")):
             # a wheel holds no links: of the library's names only the one that the loader asks for
             if (
@@ -86,12 +100,41 @@ def build_wheel(
                 and not re.search(r"\.so(\.\d+){3}$|jam\.so$", file.name)
             ):
                 files[str(file.relative_to(prefix))] = file.read_bytes()
+    tag = _tag(files)
     files[f"{info}/METADATA"] = _metadata().encode()
-    files[f"{info}/WHEEL"] = f"Wheel-Version: 1.0\nGenerator: jam\nRoot-Is-Purelib: false\nTag: {_tag()}\n".encode()
+    files[f"{info}/WHEEL"] = f"Wheel-Version: 1.0\nGenerator: jam\nRoot-Is-Purelib: false\nTag: {tag}\n".encode()
     files[f"{info}/LICENSE"] = (ROOT / "LICENSE").read_bytes()
+    files[f"{info}/LINKED.md"] = (ROOT / "pkgconfig/LINKED.md").read_bytes()
     record = "".join(f"{path},{_hash(data)},{len(data)}\n" for path, data in files.items())
     files[f"{info}/RECORD"] = (record + f"{info}/RECORD,,\n").encode()
+    name = f"{NAME}-{_version()}-{tag}.whl"
     with zipfile.ZipFile(Path(wheel_directory, name), "w", zipfile.ZIP_DEFLATED) as wheel:
         for path, data in files.items():
             wheel.writestr(zipfile.ZipInfo(path, (2020, 1, 1, 0, 0, 0)), data, zipfile.ZIP_DEFLATED)
+    return name
+
+
+def _sources() -> list[str]:
+    """What git has; in a tree without git, all but builds."""
+    listed = subprocess.run(["git", "-C", str(ROOT), "ls-files", "-z"], capture_output=True, text=True)
+    if listed.returncode == 0 and listed.stdout:
+        return sorted(name for name in listed.stdout.split("\0") if name and (ROOT / name).is_file())
+    found = (path.relative_to(ROOT) for path in ROOT.rglob("*") if path.is_file())
+    return sorted(str(path) for path in found if not path.parts[0].startswith("build") and "__pycache__" not in path.parts)
+
+
+def build_sdist(sdist_directory: str, config_settings: dict | None = None) -> str:
+    """The whole tree: a wheel is made from it as from a clone. The same tree gives the same bytes."""
+    base = f"{NAME}-{_version()}"
+    name = f"{base}.tar.gz"
+    files = {path: (ROOT / path).read_bytes() for path in _sources()}
+    files["PKG-INFO"] = _metadata().encode()
+    with open(Path(sdist_directory, name), "wb") as raw, gzip.GzipFile("", "wb", 9, raw, mtime=0) as packed:
+        with tarfile.open(fileobj=packed, mode="w", format=tarfile.PAX_FORMAT) as archive:
+            for path, data in sorted(files.items()):
+                entry = tarfile.TarInfo(f"{base}/{path}")
+                entry.size, entry.mode = len(data), 0o644
+                if path != "PKG-INFO" and os.access(ROOT / path, os.X_OK):
+                    entry.mode = 0o755
+                archive.addfile(entry, io.BytesIO(data))
     return name

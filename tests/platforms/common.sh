@@ -20,7 +20,8 @@ configure() {
     unset PKG_CONFIG_LIBDIR
   fi
   # Other platforms are compiled with -O1, which takes half the time; it changes no bit.
-  cmake -S . -B "$folder" -G Ninja -DCMAKE_BUILD_TYPE=None -DCMAKE_C_FLAGS=-O1 -DCMAKE_CXX_FLAGS=-O1 -DJAM_WERROR=ON -DJAM_BLAS=builtin -DJAM_CLP=OFF \
+  cmake -S . -B "$folder" -G Ninja -DCMAKE_BUILD_TYPE=None -DCMAKE_C_FLAGS=-O1 -DCMAKE_CXX_FLAGS=-O1 \
+    -DJAM_WERROR=ON -DJAM_BLAS=builtin -DJAM_CLP=OFF \
     -DJAM_USE_VORO=OFF -DJAM_DIMENSIONS="2;3" -DJAM_BUILD_EXAMPLES=OFF "$@" >"$folder/configure.log" 2>&1 ||
     { tail -20 "$folder/configure.log"; return 1; }
 }

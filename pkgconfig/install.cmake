@@ -44,5 +44,7 @@ install(FILES ${PROJECT_BINARY_DIR}/jamConfig.cmake ${PROJECT_BINARY_DIR}/jamCon
 install(EXPORT jamTargets NAMESPACE jam:: DESTINATION ${JAM_CMAKE_DIR} COMPONENT dev)
 
 if(PROJECT_IS_TOP_LEVEL)
+  add_custom_target(uninstall COMMAND ${CMAKE_COMMAND} -DBUILD=${PROJECT_BINARY_DIR}
+                                      -P ${PROJECT_SOURCE_DIR}/pkgconfig/uninstall.cmake VERBATIM)
   include(pkgconfig/package.cmake)
 endif()

@@ -39,6 +39,10 @@ cmake)
   cmake -S "$here/consumer" -B "$scratch/consumer_cmake" -DCMAKE_PREFIX_PATH="$prefix" >"$scratch/consumer_cmake.log"
   cmake --build "$scratch/consumer_cmake" >>"$scratch/consumer_cmake.log"
   "$scratch/consumer_cmake/consumer"
+  if [ -f "$libdir/libjam.a" ]; then
+    if ldd "$scratch/consumer_cmake/consumer_static" | grep -q libjam; then die "jam::static is the shared library"; fi
+    "$scratch/consumer_cmake/consumer_static"
+  fi
   ;;
 subproject)
   # A part of another project: its target docs is its own, and without a build type the library is optimised.
@@ -62,6 +66,25 @@ EOF
   if flags | grep -q -- ' -O3 '; then die "the build type of the parent is not kept"; fi
   configure -DCMAKE_CXX_FLAGS=-O1
   if flags | grep -q -- ' -O3 '; then die "the flags of the parent are not kept"; fi
+  ;;
+fetch)
+  # By FetchContent, beside targets of the same names; each links its own library. Presets are well formed.
+  rm -rf "$scratch/fetch"
+  cmake -G "Unix Makefiles" -S "$here/fetch" -B "$scratch/fetch" -DJAM_SOURCE="$here/../.." -DJAM_BUILD_STATIC=ON -DJAM_BLAS=builtin \
+    -DJAM_CLP=OFF >"$scratch/fetch.log"
+  grep -q 'libjam[.]so' "$scratch/fetch/CMakeFiles/fetched.dir/link.txt" || die "jam::jam does not link libjam.so"
+  grep 'libjam[.]a' "$scratch/fetch/CMakeFiles/fetched_static.dir/link.txt" | grep -v 'libjam[.]so' >/dev/null ||
+    die "jam::static does not link libjam.a alone"
+  (cd "$here/../.." && cmake --list-presets) | grep -q '"alone"' || die "CMakePresets.json lacks presets"
+  ;;
+uninstall)
+  # What an install of the build wrote goes again, and nothing else.
+  rm -rf "$scratch/gone"
+  cmake --install "$build" --prefix "$scratch/gone" >"$scratch/uninstall.log"
+  echo "of somebody else" >"$scratch/gone/include/other.h"
+  cmake --build "$build" --target uninstall >>"$scratch/uninstall.log"
+  left=$(find "$scratch/gone" ! -type d)
+  [ "$left" = "$scratch/gone/include/other.h" ] || die "left or lost: $left"
   ;;
 readme)
   # The C example of README.md is true.

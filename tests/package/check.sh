@@ -70,8 +70,8 @@ EOF
 fetch)
   # By FetchContent, beside targets of the same names; each links its own library. Presets are well formed.
   rm -rf "$scratch/fetch"
-  cmake -G "Unix Makefiles" -S "$here/fetch" -B "$scratch/fetch" -DJAM_SOURCE="$here/../.." -DJAM_BUILD_STATIC=ON -DJAM_BLAS=builtin \
-    -DJAM_CLP=OFF >"$scratch/fetch.log"
+  cmake -G "Unix Makefiles" -S "$here/fetch" -B "$scratch/fetch" -DJAM_SOURCE="$here/../.." \
+    -DJAM_BUILD_STATIC=ON -DJAM_BLAS=builtin -DJAM_CLP=OFF >"$scratch/fetch.log"
   grep -q 'libjam[.]so' "$scratch/fetch/CMakeFiles/fetched.dir/link.txt" || die "jam::jam does not link libjam.so"
   grep 'libjam[.]a' "$scratch/fetch/CMakeFiles/fetched_static.dir/link.txt" | grep -v 'libjam[.]so' >/dev/null ||
     die "jam::static does not link libjam.a alone"

@@ -10,6 +10,7 @@
 #include "core/call_scope.hpp"
 #include "core/error.hpp"
 #include "core/math.hpp"
+#include "core/pair_levels.hpp"
 #include "core/pair_rule.hpp"
 #include "core/tuning.hpp"
 
@@ -110,63 +111,6 @@ double expected_pairs(const Cutoff &cutoff) {
   return 0.5 * n * n * unit_sphere_volume(p.dim) * math::pow(2.0 * radius / p.cell.side(), p.dim);
 }
 
-// Spheres sorted by cell; a cell's members are members[start[cell] .. start[cell + 1]).
-class CellGrid {
- public:
-  CellGrid(const Packing &p, int64_t side) : dim_(p.dim), side_(side) {
-    int64_t cells = 1;
-    for (int c = 0; c < dim_; ++c) cells *= side_;
-    start_.assign(static_cast<size_t>(cells) + 1, 0);
-    const int32_t n = static_cast<int32_t>(p.n());
-    home_.resize(n);
-    SparseLook sparse_look;
-    for (int32_t i = 0; i < n; ++i) {
-      sparse_look();
-      int64_t cell = 0;
-      Cell::Vector s{};
-      p.cell.fraction(&p.position[static_cast<size_t>(i) * dim_], s.data());
-      for (int c = dim_ - 1; c >= 0; --c) {
-        const auto k = static_cast<int64_t>(wrap(s[c], 1.0) * static_cast<double>(side_));
-        cell = cell * side_ + std::min(std::max<int64_t>(k, 0), side_ - 1);
-      }
-      home_[i] = cell;
-      ++start_[static_cast<size_t>(cell) + 1];
-    }
-    for (size_t k = 1; k < start_.size(); ++k) start_[k] += start_[k - 1];
-    members_.resize(n);
-    std::vector<int32_t> fill(start_.begin(), start_.end() - 1);
-    for (int32_t i = 0; i < n; ++i) members_[fill[home_[i]]++] = i;
-  }
-  // Calls f(j) for every member of the 3^d cells around i.
-  template <class F>
-  void around(int32_t i, F &&f) const {
-    std::array<int64_t, JAM_MAX_DIM> at{};
-    int64_t rest = home_[i];
-    for (int c = 0; c < dim_; ++c) {
-      at[c] = rest % side_;
-      rest /= side_;
-    }
-    visit(dim_ - 1, 0, at, f);
-  }
-
- private:
-  template <class F>
-  void visit(int c, int64_t cell, const std::array<int64_t, JAM_MAX_DIM> &at, F &&f) const {
-    if (c < 0) {
-      for (int32_t k = start_[cell]; k < start_[cell + 1]; ++k) f(members_[k]);
-      return;
-    }
-    for (int64_t step = -1; step <= 1; ++step) {
-      const int64_t k = (at[c] + step + side_) % side_;
-      visit(c - 1, cell * side_ + k, at, f);
-    }
-  }
-  int dim_;
-  int64_t side_;
-  std::vector<int64_t> home_;
-  std::vector<int32_t> start_, members_;
-};
-
 PairList by_brute_force(const Cutoff &cutoff) {
   const Packing &p = cutoff.p;
   check_list_size(expected_pairs(cutoff), p.dim);
@@ -186,39 +130,103 @@ PairList by_brute_force(const Cutoff &cutoff) {
   return list;
 }
 
+// The pairs of spheres with those of their own level and coarser ones: the finer sphere looks for the coarser one in
+// the cells of the coarser level. A level whose cells would be too few is wide: its spheres look at all images of all
+// spheres as fine.
+class LevelSearch {
+ public:
+  LevelSearch(const Cutoff &cutoff, std::vector<PairLevel> levels)
+      : p_(cutoff.p), cutoff_(cutoff), levels_(std::move(levels)), images_(cutoff.p) {}
+
+  PairList run() {
+    const bool single = levels_.size() == 1;
+    uint64_t looked = 0;
+    for (size_t k = 0; k < levels_.size(); ++k)
+      for (const int32_t i : levels_[k].member) {
+        if (looked++ % PairListTuning::spheres_between_looks == 0) CallScope::look();
+        for (size_t coarse = 0; coarse <= k; ++coarse)
+          if (levels_[coarse].cells) levels_[coarse].cells->around(p_, i, [&](int32_t j) { near(i, j, coarse == k); });
+        if (!levels_[k].cells) scan(i, k);
+        if (single) flush(i);  // the first of all these pairs
+      }
+    if (!single) sort();
+    return std::move(list_);
+  }
+
+ private:
+  struct Found {
+    int32_t i;
+    Candidate other;
+  };
+
+  void near(int32_t a, int32_t b, bool own_level) {
+    if (own_level && b <= a) return;
+    const int32_t i = std::min(a, b), j = std::max(a, b);
+    const int d = p_.dim;
+    const double *x = &p_.position[static_cast<size_t>(i) * d], *y = &p_.position[static_cast<size_t>(j) * d];
+    Candidate now{j, {}};
+    Cell::Vector dx;
+    for (int c = 0; c < d; ++c) dx[c] = x[c] - y[c];
+    p_.cell.nearest_shift(dx.data(), now.offset.data());
+    double r2 = 0.0;
+    for (int c = 0; c < d; ++c) r2 += (dx[c] + now.offset[c]) * (dx[c] + now.offset[c]);
+    const double rc = cutoff_.of(i, j);
+    if (r2 < rc * rc) take(i, now);
+  }
+  void scan(int32_t i, size_t level) {
+    for (size_t k = level; k < levels_.size(); ++k)
+      for (const int32_t j : levels_[k].member) {
+        if (k == level && j < i) continue;
+        look_();
+        const int32_t first = std::min(i, j);
+        images_.scan(first, std::max(i, j), cutoff_.of(i, j), scanned_);
+        for (const Candidate &c : scanned_) take(first, c);
+        scanned_.clear();
+      }
+  }
+  void take(int32_t i, const Candidate &other) {
+    if (found_.size() == found_.capacity()) {
+      CallScope::look();
+      check_list_size(2.0 * static_cast<double>(found_.size()), p_.dim);
+    }
+    found_.push_back({i, other});
+  }
+  void flush(int32_t i) {
+    std::vector<Candidate> &own = scanned_;
+    for (const Found &f : found_) own.push_back(f.other);
+    found_.clear();
+    append_sorted(list_, i, p_.dim, own);
+  }
+  // By (i, j), then image.
+  void sort() {
+    std::vector<size_t> start(p_.n() + 1, 0);
+    for (const Found &f : found_) ++start[static_cast<size_t>(f.i) + 1];
+    for (size_t i = 0; i < p_.n(); ++i) start[i + 1] += start[i];
+    std::vector<size_t> at(start.begin(), start.end() - 1), order(found_.size());
+    for (size_t k = 0; k < found_.size(); ++k) order[at[static_cast<size_t>(found_[k].i)]++] = k;
+    for (size_t i = 0; i < p_.n(); ++i) {
+      for (size_t k = start[i]; k < start[i + 1]; ++k) scanned_.push_back(found_[order[k]].other);
+      append_sorted(list_, static_cast<int32_t>(i), p_.dim, scanned_);
+    }
+  }
+
+  const Packing &p_;
+  const Cutoff &cutoff_;
+  const std::vector<PairLevel> levels_;
+  const ImageScan images_;
+  std::vector<Found> found_;
+  std::vector<Candidate> scanned_;
+  SparseLook look_;
+  PairList list_;
+};
+
 PairList by_cells(const Cutoff &cutoff) {
   const Packing &p = cutoff.p;
-  // As many cells as spheres are enough; a side is never shorter than the cutoff.
-  const double fit = p.cell.height_min() / cutoff.most(),
-               enough = std::ceil(math::pow(static_cast<double>(p.n()), 1.0 / p.dim)) + 1.0;
   check_list_size(expected_pairs(cutoff), p.dim);
-  const auto side = static_cast<int64_t>(std::min(fit * (1.0 - 1e-12), enough));
-  // Nearest images are enough from three cells on: two cells in a row would already need a second image.
-  if (side < 4 || p.model != JAM_MODEL_EUCLID) return by_brute_force(cutoff);
-  const CellGrid grid(p, side);
-  PairList list;
-  std::vector<Candidate> found;
-  Candidate now{};
-  const int d = p.dim;
-  for (int32_t i = 0; i < static_cast<int32_t>(p.n()); ++i) {
-    if (i % 16 == 0) CallScope::look();  // one large sphere leaves few cells, each with many small ones
-    const double *a = &p.position[static_cast<size_t>(i) * d];
-    grid.around(i, [&](int32_t j) {
-      if (j <= i) return;
-      const double *b = &p.position[static_cast<size_t>(j) * d];
-      double r2 = 0.0;
-      Cell::Vector dx;
-      for (int c = 0; c < d; ++c) dx[c] = a[c] - b[c];
-      p.cell.nearest_shift(dx.data(), now.offset.data());
-      for (int c = 0; c < d; ++c) r2 += (dx[c] + now.offset[c]) * (dx[c] + now.offset[c]);
-      const double rc = cutoff.of(i, j);
-      if (r2 >= rc * rc) return;
-      now.j = j;
-      keep(found, now, d);
-    });
-    append_sorted(list, i, d, found);
-  }
-  return list;
+  if (p.model != JAM_MODEL_EUCLID) return by_brute_force(cutoff);
+  std::vector<double> reach(p.n());
+  for (size_t i = 0; i < p.n(); ++i) reach[i] = cutoff.own ? cutoff.own[i] : cutoff.reach;
+  return LevelSearch(cutoff, pair_levels(p, reach, cutoff.slope)).run();
 }
 
 }  // namespace

@@ -39,6 +39,30 @@ void cells_equal_brute_force(void **) {
   }
 }
 
+// Diameters and reaches over a factor of 1 to 50, in cubes and a tilted cell; the largest may fill half the box.
+void levels_equal_brute_force(void **) {
+  const double tilted[] = {1.0, 0.0, 0.0, 0.4, 1.1, 0.0, -0.3, 0.2, 1.4};
+  for (const int dim : {2, 3})
+    for (const double ratio : {1.9, 4.0, 50.0})
+      for (const bool one_large : {false, true})
+        for (const bool cube : {true, false}) {
+          if (dim == 2 && !cube) continue;
+          jam_create_options o = default_create_options();
+          o.n = 600, o.dim = dim, o.packing_fraction = one_large ? 0.3 : 0.1;
+          std::vector<double> sizes(o.n, 1.0);
+          for (int k = 0; k < o.n; ++k)
+            sizes[k] = std::pow(ratio, one_large ? (k == 37 ? 1.0 : 0.0) : ((k * 7) % o.n) / (o.n - 1.0));
+          const Packing p = make_packing(o, nullptr, 0, sizes.data(), sizes.size(), cube ? nullptr : tilted);
+          const double reach = 0.3 * diameter_mean(p);
+          std::vector<double> own(p.n());
+          for (size_t k = 0; k < own.size(); ++k) own[k] = reach * std::pow(40.0, ((k * 11) % 13) / 12.0) / 20.0;
+          const PairList a = find_pairs(p, reach, 1.2), b = find_pairs_brute(p, reach, 1.2);
+          assert_true(a.size() > 0 && a.i == b.i && a.j == b.j && a.offset == b.offset);
+          const PairList c = find_pairs(p, own, 1.0), d = find_pairs_brute(p, own, 1.0);
+          assert_true(c.size() > 0 && c.i == d.i && c.j == d.j && c.offset == d.offset);
+        }
+}
+
 // One sphere a box of side 1: reach 1.01 sees one of each +- pair of nearest images, reach 1.5 the diagonals too.
 void own_images(void **) {
   Packing p;
@@ -95,8 +119,11 @@ void closest_pair_by_brute_force(void **) {
 }  // namespace
 
 int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(cells_equal_brute_force), cmocka_unit_test(own_images),
-                              cmocka_unit_test(wrapping_keeps_vectors), cmocka_unit_test(values_carried_over),
+  const CMUnitTest tests[] = {cmocka_unit_test(cells_equal_brute_force),
+                              cmocka_unit_test(levels_equal_brute_force),
+                              cmocka_unit_test(own_images),
+                              cmocka_unit_test(wrapping_keeps_vectors),
+                              cmocka_unit_test(values_carried_over),
                               cmocka_unit_test(closest_pair_by_brute_force)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -28,7 +28,7 @@ constexpr double tilt_max = 16.0;
 constexpr double vectors_max = 1e7;
 
 // The last character is the version of the format, which rises with every change of what is archived.
-constexpr char magic[8] = {'j', 'a', 'm', 's', 't', 'a', 't', '9'};
+constexpr char magic[8] = {'j', 'a', 'm', 's', 't', 'a', 't', 'a'};
 
 struct Header {
   char magic[8];

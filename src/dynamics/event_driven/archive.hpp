@@ -28,9 +28,8 @@ void EngineOf<D, O>::archive(Archive &a) {
   a(kinetic_.since);
   a(kinetic_.twice);
   lists_.archive(a);
-  grid_.archive(a, lattice_);
-  a(list_cells_.block);
-  cell_mode_.archive(a);
+  levels_.archive(a, lattice_);
+  cell_mode_.archive(a, lattice_);
   pace_.archive(a);
   if (walls_) walls_->archive(a);
   if (a.reading()) {
@@ -38,7 +37,6 @@ void EngineOf<D, O>::archive(Archive &a) {
     check_archive();
     if (walls_ && !in_cell_mode())
       for (int32_t i = 0; i < spheres_.n; ++i) walls_->note_centre(i, lists_.centre[i], lists_.rho[i]);
-    grid_.make_scratch();
     if (mari_kurchan_) {
       mari_kurchan_->prepare(spheres_.user);
       for (int32_t i = 0; i < spheres_.n; ++i) note_centre(i);
@@ -48,7 +46,7 @@ void EngineOf<D, O>::archive(Archive &a) {
 
 // Every index must be in its range, or a damaged file would send the engine astray.
 template <int D, Offsets O>
-void EngineOf<D, O>::check_archive() const {
+void EngineOf<D, O>::check_archive() {
   const size_t n = static_cast<size_t>(spheres_.n);
   Archive::check(spheres_.user.size() == n && spheres_.body.size() == n && clock_.left_over.size() == n &&
                  (spheres_.mass.empty() || spheres_.mass.size() == n));
@@ -72,35 +70,10 @@ void EngineOf<D, O>::check_archive() const {
     Archive::check(std::isfinite(x));
   for (const int64_t count : {sums.events, sums.collisions})
     Archive::check(count >= 0 && count < int64_t{1} << 60);  // differences are taken of them
-  check_cells();
-}
-
-// Each sphere stands in its cell, and in no other.
-template <int D, Offsets O>
-void EngineOf<D, O>::check_cells() const {
-  const double total = grid_.check(spheres_.n, lattice_);
-  Archive::check(cell_mode_.on == 0 || cell_mode_.on == 1);
-  if constexpr (listed) Archive::check(cell_mode_.on == 0 && (!grid_.used() || !mari_kurchan_));
-  if constexpr (!listed)
-    if (cell_mode_.on) cell_mode_.check(spheres_.n, total, grid_);
-  if (!grid_.used()) return;
-  if (!in_cell_mode()) Archive::check(total <= static_cast<double>(list_cells_.block.size()));
-  std::vector<char> seen(static_cast<size_t>(spheres_.n), 0);
-  int64_t met = 0;
-  const auto meet = [&](int32_t i, size_t cell) {
-    Archive::check(i >= 0 && i < spheres_.n && !seen[i]);
-    Archive::check((in_cell_mode() ? cell_mode_number(i) : cell_of(i)) == cell);
-    seen[i] = 1;
-    ++met;
-  };
-  for (size_t cell = 0; static_cast<double>(cell) < total; ++cell) {
-    if (in_cell_mode()) {
-      for (int32_t i = cell_mode_.first[cell]; i >= 0; i = cell_mode_.next[i]) meet(i, cell);
-    } else {
-      list_cells_.check(cell, lists_.centre, meet);
-    }
-  }
-  Archive::check(met == spheres_.n);
+  Archive::check(cell_mode_.on == 0 || (!listed && cell_mode_.on == 1));
+  if (in_cell_mode()) return cell_mode_.check(spheres_.n, lattice_);
+  Archive::check(levels_.all().empty() == (mari_kurchan_ != nullptr));
+  levels_.check(lists_.rho, lists_.centre, lattice_);
 }
 
 }  // namespace jam

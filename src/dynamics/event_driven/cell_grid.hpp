@@ -85,6 +85,35 @@ struct CellGrid {
     }
     return count;
   }
+  // Cells on either side within which all lies that is so near a place in a cell; reach: a part of the box.
+  int64_t range_within(double reach) const {
+    return static_cast<int64_t>(std::ceil(reach * (1.0 + 1e-9) * static_cast<double>(side)));
+  }
+  double cells_within(double reach, const Lattice<D> &) const {
+    const double width = 2.0 * static_cast<double>(range_within(reach)) + 1.0;
+    return math::pow(std::min(width, static_cast<double>(side)), D);
+  }
+  // Of a search among n spheres, which looks at all of them where they are fewer than the cells.
+  double cost_within(double reach, int32_t n, const Lattice<D> &lattice) const {
+    const double all = 0.5 * n, cells = used() ? cells_within(reach, lattice) : all;
+    return used() ? std::min(all, 0.5 * cells * (1.0 + n / static_cast<double>(total()))) : all;
+  }
+  // Writes the cells within this reach of a cell to `around`, each once; returns their number.
+  size_t gather_within(const Home &home, double reach, const Lattice<D> &) const {
+    const int64_t over = range_within(reach), width = std::min(2 * over + 1, side);
+    around.assign(1, 0);
+    for (int c = D - 1; c >= 0; --c) {
+      const size_t before = around.size();
+      int64_t place = (home[c] - std::min(over, side)) % side;
+      if (place < 0) place += side;
+      around.resize(before * static_cast<size_t>(width));
+      for (int64_t step = width - 1; step >= 0; --step)
+        for (size_t k = 0; k < before; ++k)
+          around[static_cast<size_t>(step) * before + k] =
+              around[k] * static_cast<size_t>(side) + static_cast<size_t>((place + step) % side);
+    }
+    return around.size();
+  }
   void archive(Archive &a, const Lattice<D> &) {
     a(side);
     a(range);

@@ -15,13 +15,14 @@ template <int D>
 struct CellMode {
   using Home = std::array<int32_t, D>;
 
-  int64_t on = 0;                    // 1: now
+  int64_t on = 0;  // 1: now
+  CellGrid<D> grid;
   std::vector<int32_t> first, next;  // chains of the spheres in a cell
   std::vector<Home> cell;            // of each sphere: the one it was last seen to enter
 
   // Chooses cells for the largest contact distance, and the margin for growth; false where lists are better.
   // wanted: 1 wherever cells hold, -1 never, 0 where they are faster.
-  bool choose(int32_t n, double sigma, int64_t wanted, double &margin, CellGrid<D> &grid) {
+  bool choose(int32_t n, double sigma, int64_t wanted, double &margin) {
     using Tuning = CellModeTuning;
     on = 0;
     if (D > Tuning::highest_dimension || wanted < 0) return false;
@@ -35,8 +36,9 @@ struct CellMode {
     margin = std::min(Tuning::largest_margin, (1.0 - 1e-9) / (sigma * side) - 1.0);
     return true;
   }
-  void build(const std::vector<std::array<uint64_t, D>> &place, const CellGrid<D> &grid, const Lattice<D> &lattice) {
+  void build(const std::vector<std::array<uint64_t, D>> &place, const Lattice<D> &lattice) {
     on = 1;
+    grid.make_scratch();
     first.assign(grid.total(), -1);
     next.resize(place.size());
     cell.resize(place.size());
@@ -47,7 +49,7 @@ struct CellMode {
     }
   }
   // Writes the other spheres in the cells around that of i to `found`; returns their number.
-  int32_t gather(int32_t i, const CellGrid<D> &grid, const Lattice<D> &lattice, int32_t *found) const {
+  int32_t gather(int32_t i, const Lattice<D> &lattice, int32_t *found) const {
     const size_t cells = grid.cells_around(cell[i], lattice);
     int32_t count = 0;
     for (size_t s = 0; s < cells; ++s)
@@ -56,7 +58,7 @@ struct CellMode {
     return count;
   }
   // Time until sphere i at b leaves its cell, and along which axis. scale: integer units to the box.
-  double crossing_time(int32_t i, const Body<D> &b, const CellGrid<D> &grid, double scale, int *axis) const {
+  double crossing_time(int32_t i, const Body<D> &b, double scale, int *axis) const {
     const double width = scale / static_cast<double>(grid.side);
     double best = never;
     for (int c = 0; c < D; ++c) {
@@ -71,9 +73,9 @@ struct CellMode {
     return std::max(0.0, best);
   }
   // Takes sphere i at b into the cell that it enters now.
-  void cross(int32_t i, const Body<D> &b, const CellGrid<D> &grid, double scale) {
+  void cross(int32_t i, const Body<D> &b, double scale) {
     int axis = 0;
-    crossing_time(i, b, grid, scale, &axis);
+    crossing_time(i, b, scale, &axis);
     unlink(i, grid.number_of(cell[i]));
     // The direction of flight decides: by rounding the position may still be inside the old cell.
     int32_t &place = cell[i][axis];
@@ -82,18 +84,32 @@ struct CellMode {
     if (place == grid.side) place = 0;
     link(i, grid.number_of(cell[i]));
   }
-  void archive(Archive &a) {
+  size_t number_of(int32_t i) const { return grid.number_of(cell[i]); }
+  void archive(Archive &a, const Lattice<D> &lattice) {
+    grid.archive(a, lattice);
     a(first);
     a(next);
     a(on);
     a(cell);
   }
-  void check(int32_t n, double cells, const CellGrid<D> &grid) const {
+  // Each sphere stands in its cell, and in no other.
+  void check(int32_t n, const Lattice<D> &lattice) {
+    const double cells = grid.check(n, lattice);
     Archive::check(on == 1 && grid.side >= static_cast<int64_t>(CellModeTuning::fewest) && grid.range == 1);
     Archive::check(cell.size() == static_cast<size_t>(n) && next.size() == static_cast<size_t>(n) &&
                    cells == static_cast<double>(first.size()));
     for (const auto &home : cell)
       for (int32_t place : home) Archive::check(place >= 0 && place < grid.side);
+    std::vector<char> seen(static_cast<size_t>(n), 0);
+    int64_t met = 0;
+    for (size_t k = 0; k < first.size(); ++k)
+      for (int32_t i = first[k]; i >= 0; i = next[i]) {
+        Archive::check(i < n && !seen[i] && number_of(i) == k);
+        seen[i] = 1;
+        ++met;
+      }
+    Archive::check(met == n);
+    grid.make_scratch();
   }
 
  private:

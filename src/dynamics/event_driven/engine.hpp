@@ -16,8 +16,8 @@
 // (1 + growth margin) + shell. Dilute systems have no lists: spheres meet those of the cells around their own, and
 // leave their cell by an event. Donev, Torquato and Stillinger, J. Comput. Phys. 202, 737 (2005), in a simpler form.
 //
-// Parts, each a file with its own state: spheres; clock (time, growth); calendar (events); lists; cell_grid and
-// image_grid (cells of a cube and of any other cell); list_cells (who finds the candidates of a list); cell_mode
+// Parts, each a file with its own state: spheres; clock (time, growth); calendar (events); lists; levels (who finds the
+// candidates of a list, by size) of cell_grid or image_grid (cells without and with images) and list_cells; cell_mode
 // (dilute systems); mari_kurchan (candidates there); walls (of a container, which core/container.hpp describes); pace
 // (chooses the shell and the width of a bucket). What works on several parts, engine_of.hpp: events (prediction,
 // collision, main loop; kernel/pair_kernel has its inner loops in vectors); rebuild (all lists, or that of one sphere);

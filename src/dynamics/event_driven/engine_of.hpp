@@ -3,16 +3,14 @@
 #include <array>
 #include <cmath>
 #include <memory>
-#include <type_traits>
 #include <vector>
 
 #include "dynamics/event_driven/cell_grid.hpp"
 #include "dynamics/event_driven/cell_mode.hpp"
 #include "dynamics/event_driven/clock.hpp"
 #include "dynamics/event_driven/engine.hpp"
-#include "dynamics/event_driven/image_grid.hpp"
 #include "dynamics/event_driven/lattice.hpp"
-#include "dynamics/event_driven/list_cells.hpp"
+#include "dynamics/event_driven/levels.hpp"
 #include "dynamics/event_driven/lists.hpp"
 #include "dynamics/event_driven/mari_kurchan.hpp"
 #include "dynamics/event_driven/pace.hpp"
@@ -46,7 +44,7 @@ class EngineOf final : public Engine, private Units<O> {
 
  private:
   static constexpr bool listed = O == Offsets::listed;
-  using Grid = std::conditional_t<listed, ImageGrid<D>, CellGrid<D>>;
+  using Level = typename Levels<D, O>::Level;
   using Place = std::array<uint64_t, D>;
   using Offset = std::array<int64_t, D>;
   using Units<O>::scale;
@@ -97,7 +95,7 @@ class EngineOf final : public Engine, private Units<O> {
   void build_lists();
   void choose_margin(double sigma);
   void place_centres(double largest);
-  void choose_grid();
+  void choose_levels();
   bool choose_cell_mode(double sigma);
   void rebuild_done();
   void recentre(int32_t i);
@@ -106,12 +104,12 @@ class EngineOf final : public Engine, private Units<O> {
   template <class F>
   void each_image(int32_t i, int32_t k, const Offset &shift, F &&f) const;
   template <class F>
-  void search(int32_t i, F &&f) const;
-  float search_reach(int32_t i) const;
-  size_t cell_of(int32_t i) const { return grid_.number_of(grid_.home(lists_.centre[i], lattice_)); }
+  void search(int32_t i, const Level &level, F &&f) const;
+  template <class F>
+  void try_all(int32_t i, const std::vector<int32_t> &spheres, F &&f) const;
   void note_centre(int32_t i) { mari_kurchan_->note_centre(spheres_.user[i], lists_.centre[i], lists_.rho[i] * unit); }
   int32_t gather(int32_t i) const {
-    if constexpr (!listed) return cell_mode_.gather(i, grid_, lattice_, found_.data());
+    if constexpr (!listed) return cell_mode_.gather(i, lattice_, found_.data());
     return (void)i, 0;
   }
   template <class F>
@@ -123,12 +121,7 @@ class EngineOf final : public Engine, private Units<O> {
   void check_pairs() const;
 
   // -- archive.hpp
-  void check_archive() const;
-  void check_cells() const;
-  size_t cell_mode_number(int32_t i) const {
-    if constexpr (!listed) return grid_.number_of(cell_mode_.cell[i]);
-    return (void)i, 0;
-  }
+  void check_archive();
 
   EngineOptions options_;
   PairKernel<D> kernel_;
@@ -139,8 +132,7 @@ class EngineOf final : public Engine, private Units<O> {
   Kinetic kinetic_;
   Calendar calendar_;
   Lists<D, O> lists_;
-  Grid grid_;
-  ListCells<D> list_cells_;
+  Levels<D, O> levels_;
   CellMode<D> cell_mode_;
   std::unique_ptr<MariKurchan<D>> mari_kurchan_;  // in this model
   std::unique_ptr<Walls<D>> walls_;               // of a container

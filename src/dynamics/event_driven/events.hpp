@@ -40,7 +40,7 @@ template <int D, Offsets O>
 double EngineOf<D, O>::exit_time(int32_t i) const {
   const Body<D> &b = spheres_.body[i];
   if constexpr (!listed)
-    if (cell_mode_.on) return clock_.now + cell_mode_.crossing_time(i, b, grid_, scale, nullptr);
+    if (cell_mode_.on) return clock_.now + cell_mode_.crossing_time(i, b, scale, nullptr);
   double rv = 0.0, vv = 0.0, rr = 0.0;
   for (int c = 0; c < D; ++c) {
     const double r = static_cast<double>(static_cast<int64_t>(b.x[c] - lists_.centre[i][c]));

@@ -1,5 +1,5 @@
-// Cells along the cell vectors of a cell that is no cube: they find the candidates of a list with their images. A small
-// cube has few spheres, and the Mari-Kurchan model has lists of its own: both look at all partners.
+// Cells along the cell vectors of any cell: they find the candidates of a list with their images. The Mari-Kurchan
+// model has lists of its own.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -85,19 +85,33 @@ struct ImageGrid {
   // f(cell, image) for every cell around `home`; `image` is the lattice vector that takes the cell there.
   template <class F>
   void each_around(const Home &home, const Lattice<D> &lattice, F &&f) const {
-    walk(D - 1, home, 0, {}, lattice, f);
+    walk(D - 1, home, range, 0, {}, lattice, f);
   }
-  void archive(Archive &a, const Lattice<D> &lattice) {
+  // The same for all cells within a reach, in V^(1/d), of a place in `home`.
+  template <class F>
+  void each_within(const Home &home, double reach, const Lattice<D> &lattice, F &&f) const {
+    walk(D - 1, home, range_within(reach, lattice), 0, {}, lattice, f);
+  }
+  double cells_within(double reach, const Lattice<D> &lattice) const {
+    double cells = 1.0;
+    for (const int64_t over : range_within(reach, lattice)) cells *= 2.0 * static_cast<double>(over) + 1.0;
+    return cells;
+  }
+  // Of a search among n spheres, which looks at all of them where they are fewer than the cells.
+  double cost_within(double reach, int32_t n, const Lattice<D> &lattice) const {
+    const double all = n;
+    return used() ? std::min(all, 0.5 * cells_within(reach, lattice) * (1.0 + n / static_cast<double>(total()))) : all;
+  }
+  void archive(Archive &a, const Lattice<D> &) {
     a(in_use);
     a(unused_range);
-    if (lattice.cube()) return;
     a(side);
     a(range);
   }
-  double check(int32_t n, const Lattice<D> &lattice) const {
+  double check(int32_t n, const Lattice<D> &) const {
     Archive::check(unused_range == 1);
     if (in_use == 0) return 0.0;
-    Archive::check(in_use == 1 && !lattice.cube());
+    Archive::check(in_use == 1);
     double looked_cells = 1.0, all = 1.0;
     for (int c = 0; c < D; ++c) {
       const int64_t cells = side[c], over = range[c];
@@ -110,20 +124,28 @@ struct ImageGrid {
   }
 
  private:
+  std::array<int64_t, D> range_within(double reach, const Lattice<D> &lattice) const {
+    std::array<int64_t, D> over;
+    for (int c = 0; c < D; ++c)
+      over[c] =
+          static_cast<int64_t>(std::ceil(reach * (1.0 + 1e-9) * static_cast<double>(side[c]) / lattice.height(c)));
+    return over;
+  }
   // Components above c are chosen.
   template <class F>
-  void walk(int c, const Home &home, size_t cell, const Offset &image, const Lattice<D> &lattice, F &&f) const {
+  void walk(int c, const Home &home, const std::array<int64_t, D> &over, size_t cell, const Offset &image,
+            const Lattice<D> &lattice, F &&f) const {
     const int64_t cells = side[c];
-    int64_t place = home[c] - range[c], turns = 0;
+    int64_t place = home[c] - over[c], turns = 0;
     while (place < 0) place += cells, --turns;
     Offset moved = image;
     if (turns != 0) lattice.add(moved, c, turns);
-    for (int64_t step = -range[c]; step <= range[c]; ++step) {
+    for (int64_t step = -over[c]; step <= over[c]; ++step) {
       const size_t at = cell * static_cast<size_t>(cells) + static_cast<size_t>(place);
       if (c == 0)
         f(at, moved);
       else
-        walk(c - 1, home, at, moved, lattice, f);
+        walk(c - 1, home, over, at, moved, lattice, f);
       if (++place == cells) place = 0, lattice.add(moved, c, 1);
     }
   }

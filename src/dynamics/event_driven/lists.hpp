@@ -23,7 +23,6 @@ struct Lists {
   std::vector<int32_t> count;        // neighbours of each sphere
   std::vector<int64_t> offset;       // listed: (n, D, capacity)
   size_t capacity = 0;               // a multiple of the length of a vector
-  double rho_max = 0.0;
 
   explicit Lists(size_t n) : centre(n), rho(n), safe(n), count(n, 0) {}
 
@@ -88,7 +87,6 @@ struct Lists {
     uint64_t wide = capacity;
     a(wide);
     capacity = wide;
-    a(rho_max);
   }
   // Every list must be mutual, or a damaged file would send the engine astray.
   void check(size_t n, double scale) const {

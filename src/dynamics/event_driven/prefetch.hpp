@@ -47,9 +47,11 @@ void EngineOf<D, O>::prefetch_search(int32_t i) const {
     prefetch_line(lists_.of(list[e]));
     prefetch_line(&lists_.centre[list[e]]);
   }
-  if (!grid_.used()) return;
-  const size_t count = grid_.cells_around(grid_.home(lists_.centre[i], lattice_), lattice_);
-  for (size_t k = 0; k < count; ++k) prefetch_object(&list_cells_.block[grid_.around[k]]);
+  for (const Level &level : levels_.all()) {
+    if (!level.grid.used() || lists_.rho[i] > level.rho_max) continue;
+    const size_t count = level.grid.cells_around(level.grid.home(lists_.centre[i], lattice_), lattice_);
+    for (size_t k = 0; k < count; ++k) prefetch_object(&level.cells.block[level.grid.around[k]]);
+  }
 }
 
 // Called once a bucket.

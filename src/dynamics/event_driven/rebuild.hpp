@@ -35,7 +35,6 @@ void EngineOf<D, O>::choose_margin(double sigma) {
 template <int D, Offsets O>
 void EngineOf<D, O>::place_centres(double largest) {
   const double mean = spheres_.mean_radius(), shell = lists_.shell;
-  lists_.rho_max = 0.0;
   for (int32_t i = 0; i < spheres_.n; ++i) {
     Body<D> &b = spheres_.body[i];
     if (observer_) note_path(i);
@@ -47,7 +46,6 @@ void EngineOf<D, O>::place_centres(double largest) {
     safe = 2.0 * shell * std::sqrt(radius * std::min(mean, largest));
     safe = std::min(safe, 2.0 * shell * largest);
     rho = (radius * spheres_.reach_factor * (1.0 + lists_.margin) + safe) * (1.0 + 1e-12);
-    lists_.rho_max = std::max(lists_.rho_max, rho);
     if (walls_) walls_->note_centre(i, lists_.centre[i], rho);
   }
 }
@@ -60,24 +58,23 @@ bool EngineOf<D, O>::choose_cell_mode(double sigma) {
   } else {
     // As many spheres as would fill the whole cell as densely.
     const auto crowd = walls_ ? static_cast<int32_t>(spheres_.n * walls_->share_of_cell) : spheres_.n;
-    if (!cell_mode_.choose(crowd, sigma, options_.cells, lists_.margin, grid_)) return false;
+    if (!cell_mode_.choose(crowd, sigma, options_.cells, lists_.margin)) return false;
     if (clock_.rate > 0.0) clock_.lists_end = lists_.margin * ListTuning::used_up / clock_.rate;
     if (walls_) std::fill(walls_->near.begin(), walls_->near.end(), 1);  // cells say nothing of walls
-    grid_.make_scratch();
-    cell_mode_.build(lists_.centre, grid_, lattice_);
+    cell_mode_.build(lists_.centre, lattice_);
     return true;
   }
 }
 
 template <int D, Offsets O>
-void EngineOf<D, O>::choose_grid() {
-  if constexpr (listed)
-    if (lattice_.cube() || mari_kurchan_) {
-      grid_.forbid();
-      pace_.search_cost = spheres_.n * (mari_kurchan_ ? ListTuning::look_in_vectors : ListTuning::look);
-      return;
-    }
-  pace_.search_cost = grid_.choose(spheres_.n, 2.0 * lists_.rho_max * unit, lattice_);
+void EngineOf<D, O>::choose_levels() {
+  if (mari_kurchan_) {
+    levels_.clear();
+    pace_.search_cost = spheres_.n * ListTuning::look_in_vectors;
+    return;
+  }
+  pace_.search_cost = levels_.choose(lists_.rho, unit, lattice_);
+  levels_.fill(lists_.centre, lattice_);
 }
 
 template <int D, Offsets O>
@@ -92,16 +89,12 @@ void EngineOf<D, O>::build_lists() {
   place_centres(largest);
   if (choose_cell_mode(sigma)) {
     lists_.clear();
+    levels_.clear();
     return rebuild_done();
   }
   if (mari_kurchan_)
     for (int32_t i = 0; i < spheres_.n; ++i) note_centre(i);
-  choose_grid();
-  if (grid_.used()) {
-    grid_.make_scratch();
-    list_cells_.clear(grid_.total());
-    for (int32_t i = 0; i < spheres_.n; ++i) list_cells_.put(i, cell_of(i), lists_.centre);
-  }
+  choose_levels();
   lists_.clear();
   for (int32_t i = 0; i < spheres_.n; ++i) {
     if (i % ListTuning::spheres_between_looks == 0) CallScope::look();
@@ -132,25 +125,21 @@ void EngineOf<D, O>::each_image(int32_t i, int32_t k, const Offset &shift, F &&f
   });
 }
 
-// Floats and the upper 32 bits of coordinates decide in a search of cells: the factor covers the rounding of the
+// f(k, offset) for every sphere k (and image) that the cells of a level around i give and that belongs into its list.
+// Floats and the upper 32 bits of coordinates decide in the cells: the factor of the reach covers the rounding of the
 // floats, the sum the bits cut off.
 template <int D, Offsets O>
-float EngineOf<D, O>::search_reach(int32_t i) const {
-  return static_cast<float>((lists_.rho[i] + lists_.rho_max) * 0x1p-32 * (1.0 + CellTuning::rounding) +
-                            CellTuning::cut_off_bits);
-}
-
-// f(k, offset) for every sphere k (and image) that the cells around i give and that belongs into its list.
-template <int D, Offsets O>
 template <class F>
-void EngineOf<D, O>::search(int32_t i, F &&f) const {
+void EngineOf<D, O>::search(int32_t i, const Level &level, F &&f) const {
+  const auto &grid = level.grid;
   const Place &centre = lists_.centre[i];
-  const float reach = search_reach(i);
-  // The first `cells` of grid_.around, which stand at the image `now`.
+  const double within = lists_.rho[i] + level.rho_max;
+  const auto reach = static_cast<float>(within * 0x1p-32 * (1.0 + CellTuning::rounding) + CellTuning::cut_off_bits);
+  // The first `cells` of grid.around, which stand at the image `now`.
   const auto search_cells = [&](size_t cells, const Offset &now) {
     int32_t x[D];
     for (int c = 0; c < D; ++c) x[c] = static_cast<int32_t>((centre[c] - static_cast<uint64_t>(now[c])) >> 32);
-    const int32_t found = kernel_.search(list_cells_.block.data(), grid_.around.data(), cells, x, reach, found_.data());
+    const int32_t found = kernel_.search(level.cells.block.data(), grid.around.data(), cells, x, reach, found_.data());
     for (int32_t e = 0; e < found; ++e) {
       const int32_t k = found_[e];
       if (k == i) continue;
@@ -166,36 +155,37 @@ void EngineOf<D, O>::search(int32_t i, F &&f) const {
       if (r2 < cutoff * cutoff) f(k, &offset);
     }
   };
-  const auto home = grid_.home(centre, lattice_);
+  const bool larger = lists_.rho[i] > level.rho_max;  // than the spheres for which the cells were chosen
+  if (larger && grid.cells_within(within * unit, lattice_) > level.n) return try_all(i, level.member, f);
+  const auto home = grid.home(centre, lattice_);
   if constexpr (!listed) {
-    search_cells(grid_.cells_around(home, lattice_), Offset{});
+    search_cells(larger ? grid.gather_within(home, within * unit, lattice_) : grid.cells_around(home, lattice_),
+                 Offset{});
   } else {
     size_t cells = 0;
     Offset now{};
-    grid_.each_around(home, lattice_, [&](size_t cell, const Offset &image) {
+    const auto gather = [&](size_t cell, const Offset &image) {
       if (cells > 0 && image != now) {
         search_cells(cells, now);
         cells = 0;
       }
       now = image;
-      grid_.around[cells++] = cell;
-    });
+      if (cells == grid.around.size()) grid.around.resize(2 * cells);
+      grid.around[cells++] = cell;
+    };
+    if (larger)
+      grid.each_within(home, within * unit, lattice_, gather);
+    else
+      grid.each_around(home, lattice_, gather);
     if (cells > 0) search_cells(cells, now);
   }
 }
 
-// f(k, offset) for every k (and image) that belongs into the list of i.
+// The same among these spheres, one by one.
 template <int D, Offsets O>
 template <class F>
-void EngineOf<D, O>::candidates(int32_t i, F &&f) const {
-  if (grid_.used()) return search(i, f);
-  if constexpr (listed)
-    if (mari_kurchan_) {
-      mari_kurchan_->each_partner(spheres_.user[i], kernel_, found_.data(),
-                                  [&](int32_t k, const Offset &shift) { each_image(i, k, shift, f); });
-      return;
-    }
-  for (int32_t k = 0; k < spheres_.n; ++k) {
+void EngineOf<D, O>::try_all(int32_t i, const std::vector<int32_t> &spheres, F &&f) const {
+  for (const int32_t k : spheres) {
     if (k == i) continue;
     if constexpr (listed) {
       each_image(i, k, Offset{}, f);
@@ -211,25 +201,45 @@ void EngineOf<D, O>::candidates(int32_t i, F &&f) const {
   }
 }
 
+// f(k, offset) for every k (and image) that belongs into the list of i.
+template <int D, Offsets O>
+template <class F>
+void EngineOf<D, O>::candidates(int32_t i, F &&f) const {
+  if constexpr (listed)
+    if (mari_kurchan_) {
+      mari_kurchan_->each_partner(spheres_.user[i], kernel_, found_.data(),
+                                  [&](int32_t k, const Offset &shift) { each_image(i, k, shift, f); });
+      return;
+    }
+  for (const Level &level : levels_.all()) {
+    if (level.grid.used())
+      search(i, level, f);
+    else
+      try_all(i, level.member, f);
+  }
+}
+
 // Sphere i, which stands at the present, gets a new safe sphere and list.
 template <int D, Offsets O>
 void EngineOf<D, O>::recentre(int32_t i) {
   Body<D> &b = spheres_.body[i];
   if constexpr (!listed)
     if (cell_mode_.on) {
-      cell_mode_.cross(i, b, grid_, scale);
+      cell_mode_.cross(i, b, scale);
       if (observer_) note_path(i);
       for (int c = 0; c < D; ++c) lists_.centre[i][c] = b.x[c];
       return;
     }
   lists_.forget(i);
   if (observer_) note_path(i);
-  if (grid_.used()) list_cells_.drop(i, cell_of(i));
+  if (!mari_kurchan_) levels_.drop(i, lists_.centre, lattice_);
   if constexpr (listed) lattice_.wrap(b.x);
   for (int c = 0; c < D; ++c) lists_.centre[i][c] = b.x[c];
   if (walls_) walls_->note_centre(i, lists_.centre[i], lists_.rho[i]);
-  if (grid_.used()) list_cells_.put(i, cell_of(i), lists_.centre);
-  if (mari_kurchan_) note_centre(i);
+  if (mari_kurchan_)
+    note_centre(i);
+  else
+    levels_.put(i, lists_.centre, lattice_);
   candidates(i, [&](int32_t k, const Offset *offset) { lists_.append(i, k, offset); });
 }
 

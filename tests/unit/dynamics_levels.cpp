@@ -1,0 +1,122 @@
+// Molecular dynamics of spheres of very different sizes, whose lists are made by levels of cells: against the naive
+// engine, no overlaps in long growth, archives in the middle.
+#include "core/pairs.hpp"
+#include "dynamics/event_driven/engine.hpp"
+#include "dynamics/event_driven/options.hpp"
+#include "naive_dynamics.hpp"
+
+using namespace jam;
+using namespace jamtest;
+
+namespace {
+
+struct Scene {
+  const char *name;
+  int dim, n, large;  // so many are `ratio` times as wide as the others; 0: diameters evenly spaced in their logarithm
+  double ratio, fraction;
+  std::vector<double> rows;  // of the cell; empty: a cube
+};
+
+// With one large sphere the contact distance exceeds half the box, so pairs have several images.
+std::vector<Scene> scenes(int disks, int spheres) {
+  return {{"disks", 2, disks, 4, 20.0, 0.3, {}},
+          {"disks, one large", 2, disks, 1, 30.0, 0.45, {}},
+          {"disks of all sizes", 2, disks, 0, 60.0, 0.3, {}},
+          {"disks in a long cell", 2, disks, 3, 12.0, 0.3, {1.0, 0.0, 0.3, 2.5}},
+          {"spheres", 3, spheres, 3, 8.0, 0.2, {}},
+          {"spheres, one large", 3, spheres, 1, 12.0, 0.3, {}},
+          {"spheres of all sizes", 3, spheres, 0, 20.0, 0.15, {}},
+          {"spheres in a brick", 3, spheres, 0, 9.0, 0.2, {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 2.0}}};
+}
+
+Packing packing_of(const Scene &s, int64_t seed) {
+  jam_create_options o = default_create_options();
+  o.dim = s.dim;
+  o.n = s.n;
+  o.seed = seed;
+  o.packing_fraction = s.fraction;
+  std::vector<double> diameters(static_cast<size_t>(s.n), 1.0);
+  for (int i = 0; i < s.n; ++i) {
+    const double share = s.large > 0 ? (i < s.large ? 1.0 : 0.0) : static_cast<double>(i) / (s.n - 1);
+    diameters[static_cast<size_t>(i)] = std::pow(s.ratio, share);
+  }
+  Packing p = make_packing(o, nullptr, 0, diameters.data(), diameters.size(), s.rows.empty() ? nullptr : s.rows.data());
+  Rng rng(seed, Stream::velocities, 1000000);
+  for (double &v : p.velocity) v = rng.normal();
+  p.has_velocity = true;
+  return p;
+}
+
+void agrees_with_naive_engine(void **) {
+  for (const Scene &s : scenes(60, 50))
+    for (const double rate : {0.0, 0.05}) {
+      const Packing start = packing_of(s, 3);
+      Packing p = start, q = start;
+      EngineOptions o;
+      o.growth = rate * diameter_mean(p) / p.cell.side();
+      const int collisions = 80;
+      naive(q, collisions, rate);
+      Monitor monitor;
+      monitor.begin();
+      const auto engine = make_engine(p, o);
+      assert_int_equal(engine->advance(collisions, monitor), Halt::window);
+      engine->write_state(p);
+      const double distance = furthest(p, q);
+      if (!(distance < 1e-7)) print_error("%s, rate %g: %g\n", s.name, rate, distance);
+      assert_true(distance < 1e-7);
+    }
+}
+
+// A neighbour that a search missed would overlap: all pairs are searched by the pair list, which has cells of its own.
+void grows_without_overlap(void **) {
+  for (const Scene &s : scenes(1500, 1500)) {
+    Packing p = packing_of(s, 5);
+    EngineOptions o;
+    o.growth = 0.02 * diameter_mean(p) / p.cell.side();
+    Monitor monitor;
+    monitor.begin();
+    const auto engine = make_engine(p, o);
+    for (int block = 0; block < 3; ++block) {
+      const Halt halt = engine->advance(12 * s.n, monitor);
+      assert_int_equal(halt, Halt::window);
+      engine->write_state(p);
+      const double gap = closest_pair(p).gap;
+      if (!(gap > -1e-12)) print_error("%s: gap %g\n", s.name, gap);
+      assert_true(gap > -1e-12);
+    }
+  }
+}
+
+void archive_continues_with_the_same_bits(void **) {
+  for (const Scene &s : scenes(800, 600)) {
+    Packing p = packing_of(s, 7), q = p;
+    EngineOptions o;
+    o.growth = 0.02 * diameter_mean(p) / p.cell.side();
+    Monitor monitor;
+    monitor.begin();
+    const auto engine = make_engine(p, o);
+    assert_int_equal(engine->advance(10 * s.n, monitor), Halt::window);
+    Archive out;
+    int64_t images = engine->with_images();
+    out(images);
+    engine->archive(out);
+    Archive in(out.bytes());
+    const auto again = make_engine(q, in);
+    in.end();
+    for (const auto &e : {engine.get(), again.get()}) assert_int_equal(e->advance(10 * s.n, monitor), Halt::window);
+    engine->write_state(p);
+    again->write_state(q);
+    assert_memory_equal(p.position.data(), q.position.data(), p.position.size() * sizeof(double));
+  }
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(agrees_with_naive_engine),
+      cmocka_unit_test(grows_without_overlap),
+      cmocka_unit_test(archive_continues_with_the_same_bits),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

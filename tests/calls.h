@@ -73,6 +73,13 @@ static inline const char *call_file(void) {
   return path;
 }
 
+/* The same under a name that an image may have. */
+static inline const char *call_image(void) {
+  static __thread char path[264];
+  snprintf(path, sizeof path, "%s.npy", call_file());
+  return path;
+}
+
 /* Options that are small enough for tests; `bounds` hold for damaged ones too. */
 #define OPTIONS(name, small, bounds)                                   \
   static __thread jam_##name##_options options_of_##name;              \
@@ -99,6 +106,9 @@ OPTIONS(modes, o->count = 4, BOUND(memory_limit, 1e8))
 OPTIONS(geometry, (void)o, (void)o)
 OPTIONS(check, (void)o, BOUND(wall_time, SECONDS))
 OPTIONS(correlation, (o->r_max = 2.0, o->bins = 20), BOUND(bins, (int64_t)CALL_ROOM))
+OPTIONS(mesh, o->edge = 1.0, BOUND(contacts, JAM_MESH_SHRUNK))
+OPTIONS(voxel, (o->nx = o->ny = 8, o->nz = 1),
+        (BOUND(nx, 16), BOUND(ny, 16), BOUND(nz, 1), BOUND(size, 0.0), BOUND(lines, 4)))
 OPTIONS(dos, (o->moments = 16, o->vectors = 2, o->points = 10), (void)o)
 static __thread jam_monte_carlo_options options_of_monte_carlo;
 static inline jam_monte_carlo_options *monte_carlo_options(CALL_INPUT *in, double alpha) {

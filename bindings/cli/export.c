@@ -64,7 +64,7 @@ int export_file(const options *o) {
     jam_destroy(sys);
     return code;
   }
-  if (tables || o->vtk || o->page) known = find_network(sys);
+  if (tables || o->vtk || o->page || o->stl) known = find_network(sys);
   bad = write_files(sys, o, known, seconds_now() + o->wall_time, &cut_short);
   if (!bad && o->json)
     bad = write_json(o, sys, known);

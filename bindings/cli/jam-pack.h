@@ -137,6 +137,9 @@ int check_file(const options *o);
 int show_info(const options *o);
 int export_file(const options *o); /* `page` too */
 
+/* pore.c: mesh, image and tables of the pore space; as of write_network. */
+int write_pore_space(jam_system *sys, const options *o);
+
 /* network.c: what --spectrum, --gaps and --structure ask for. Returns 0, or after a message on
  * stderr -1, and 1 where a call was stopped before its numbers were there. */
 int write_network(jam_system *sys, const options *o);

@@ -51,9 +51,23 @@ typedef struct options {
   const char *plot;
   int json;
   int quiet;
+  const char *stl;
+  double stl_edge;
+  double stl_shrink;
+  double stl_bridge;
+  const char *voxels;
+  double voxel_size;
+  int64_t voxel_lines;
+  const char *profile;
+  int64_t profile_bins;
+  const char *pores;
+  int64_t pore_points;
+  int64_t pore_seed;
+  const char *near_coordination;
+  double near_gap;
   double wall_time;
   given given; /* what has a form of its own */
-  unsigned char named[50]; /* of each row of the table, whether it is on the command line */
+  unsigned char named[64]; /* of each row of the table, whether it is on the command line */
 } options;
 
 /* First words of a command line. */
@@ -190,6 +204,34 @@ static const option_row table[] = {
      "--report", "", 127},
     {"--quiet", TAKE_SWITCH, offsetof(options, quiet), 0, 0, NULL, 0,
      "", "", 127},
+    {"--stl", TAKE_OUTPUT, offsetof(options, stl), 0, 0, NULL, 0,
+     "", "", 32},
+    {"--stl-edge", TAKE_POSITIVE, offsetof(options, stl_edge), 0, 0, NULL, 0,
+     "", "--stl", 32},
+    {"--stl-shrink", TAKE_FRACTION, offsetof(options, stl_shrink), 0, 0, NULL, 0,
+     "", "--stl", 32},
+    {"--stl-bridge", TAKE_FRACTION, offsetof(options, stl_bridge), 0, 0, NULL, 0,
+     "--stl-shrink", "--stl", 32},
+    {"--voxels", TAKE_OUTPUT, offsetof(options, voxels), 0, 0, NULL, 0,
+     "", "", 32},
+    {"--voxel-size", TAKE_POSITIVE, offsetof(options, voxel_size), 0, 0, NULL, 0,
+     "", "--voxels", 32},
+    {"--voxel-lines", TAKE_INTEGER, offsetof(options, voxel_lines), 0, 64, NULL, 0,
+     "", "--voxels", 32},
+    {"--profile", TAKE_OUTPUT, offsetof(options, profile), 0, 0, NULL, 0,
+     "", "", 32},
+    {"--profile-bins", TAKE_INTEGER, offsetof(options, profile_bins), 1, 1000000, NULL, 0,
+     "", "--profile", 32},
+    {"--pores", TAKE_OUTPUT, offsetof(options, pores), 0, 0, NULL, 0,
+     "", "", 32},
+    {"--pore-points", TAKE_INTEGER, offsetof(options, pore_points), 1, 1000000000, NULL, 0,
+     "", "--pores", 32},
+    {"--pore-seed", TAKE_INTEGER, offsetof(options, pore_seed), -9223372036854775807, 9223372036854775807, NULL, 0,
+     "", "--pores", 32},
+    {"--near-coordination", TAKE_OUTPUT, offsetof(options, near_coordination), 0, 0, NULL, 0,
+     "", "", 32},
+    {"--near-gap", TAKE_FRACTION, offsetof(options, near_gap), 0, 0, NULL, 0,
+     "", "--near-coordination", 32},
     {"--wall-time", TAKE_POSITIVE, offsetof(options, wall_time), 0, 0, NULL, 0,
      "", "", 127},
 };
@@ -221,6 +263,15 @@ static const options defaults = {
     .threads = 1,
     .page_steps = 0,
     .modes = NOT_GIVEN,
+    .stl_edge = 0.2,
+    .stl_shrink = INFINITY,
+    .stl_bridge = INFINITY,
+    .voxel_size = INFINITY,
+    .voxel_lines = 0,
+    .profile_bins = 100,
+    .pore_points = 10000,
+    .pore_seed = 1,
+    .near_gap = 0.01,
     .wall_time = INFINITY,
 };
 
@@ -263,9 +314,10 @@ static const help_line help[] = {
     {16, "Usage: jam-pack info FILE [options]"},
     {16, "info: what a file contains: cell, sizes, packing fraction, nearest pair."},
     {16, ""},
-    {256, "  export FILE [OUTPUT]   the packing of a file in other formats, and its tables"},
+    {256, "  export FILE [OUTPUT]   the packing of a file in other formats, its tables and its pore"},
+    {256, "                         space"},
     {32, "Usage: jam-pack export FILE [OUTPUT] [options]"},
-    {32, "export: the packing of a file in other formats, and its tables."},
+    {32, "export: the packing of a file in other formats, its tables and its pore space."},
     {32, ""},
     {256, "  page FILE OUTPUT.html  a page that shows the packing of a file in a browser"},
     {64, "Usage: jam-pack page FILE OUTPUT.html [options]"},
@@ -374,6 +426,28 @@ static const help_line help[] = {
     {263, "\t  --plot PICTURE         spheres, forces and the way there, by matplotlib"},
     {383, "  --json                 JSON on standard output in place of the summary"},
     {383, "  --quiet                no progress, no summary"},
+    {288, "Pore space"},
+    {288, "  --stl FILE.stl         the solid as a closed mesh of triangles, spheres cut at the faces"},
+    {288, "                         of the cell; d = 3"},
+    {288, "  --stl-edge A           edge of the triangles over the radius, 0.03..1 (0.2)"},
+    {288, "  --stl-shrink F         all diameters of the mesh times F, so that no spheres touch"},
+    {288, "  --stl-bridge B         a cylinder along each contact, its radius B times that of the"},
+    {288, "                         smaller sphere, 0.02..0.45"},
+    {288, "  --voxels FILE          the solid as an image, .npy, .mha (MetaImage) or .vti (VTK): 0"},
+    {288, "                         void, 1 solid, 2 outside a round container"},
+    {288, "  --voxel-size A         edge of a voxel, about (a hundredth of the box)"},
+    {288, "  --voxel-lines L        shares of the voxels in place of 0 and 1, by exact lengths on"},
+    {288, "                         L^(d-1) lines each (0: the centre decides)"},
+    {288, "  --profile FILE.csv     solid fraction in slabs along each axis, and in shells of a round"},
+    {288, "                         container"},
+    {288, "  --profile-bins K       slabs and shells of --profile (100)"},
+    {288, "  --pores FILE.csv       pore sizes at random points of the void: distance to the nearest"},
+    {288, "                         surface, radius of the largest sphere with the point"},
+    {288, "  --pore-points K        points of --pores (10000)"},
+    {288, "  --pore-seed S          of these points (1)"},
+    {288, "  --near-coordination FILE.csv"},
+    {288, "                         spheres within a gap of each sphere; needs no contact network"},
+    {288, "  --near-gap H           this gap over the contact distance (0.01)"},
     {511, "Other"},
     {383, "  --wall-time SECONDS    limit for the whole run"},
     {511, "  --help                 these lines"},

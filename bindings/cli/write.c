@@ -62,6 +62,7 @@ int write_files(jam_system *sys, const options *o, int known, double deadline, i
   cancel_on_signal(sys); /* a large spectrum takes long */
   jam_set_progress(sys, stop_late, &deadline);
   if (known) network = write_network(sys, o);
+  if (network >= 0) network |= write_pore_space(sys, o);
   jam_set_progress(sys, NULL, NULL);
   cancel_on_signal(NULL);
   *cut_short = network > 0;

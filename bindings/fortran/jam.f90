@@ -354,6 +354,24 @@ module jam
   integer(c_int32_t), parameter :: JAM_STRUCTURE_Q = 0
   integer(c_int32_t), parameter :: JAM_STRUCTURE_S = 1
 
+  ! jam_mesh_contacts: Solid and void inside the brick [0, a_00) x [0, a_11) x ..., which repeats as the cell does; spheres are cut at its
+  ! faces. d = 2 and 3, no Mari-Kurchan shifts: else JAM_E_UNSUPPORTED. What becomes of contacts in a mesh:
+  integer(c_int32_t), parameter :: JAM_MESH_KEPT = 0
+  integer(c_int32_t), parameter :: JAM_MESH_SHRUNK = 1
+  integer(c_int32_t), parameter :: JAM_MESH_BRIDGED = 2
+
+  ! jam_profile_column: Columns of jam_solid_profile.
+  integer(c_int32_t), parameter :: JAM_PROFILE_LOW = 0
+  integer(c_int32_t), parameter :: JAM_PROFILE_HIGH = 1
+  integer(c_int32_t), parameter :: JAM_PROFILE_SOLID = 2
+
+  ! jam_pore_column: Columns of jam_pore_sizes.
+  integer(c_int32_t), parameter :: JAM_PORE_X = 0
+  integer(c_int32_t), parameter :: JAM_PORE_Y = 1
+  integer(c_int32_t), parameter :: JAM_PORE_Z = 2
+  integer(c_int32_t), parameter :: JAM_PORE_DISTANCE = 3
+  integer(c_int32_t), parameter :: JAM_PORE_RADIUS = 4
+
   ! jam_floppy_column: Columns of jam_floppy_modes, one row per contact; dr is the field of jam_floppy_mode, and F the mean force. Openings
   ! have the unit of positions: divide by the diameter to compare packings of different N. B = sum_k f_k |dr_perp|^2 /
   ! r_k. S_RETURN is s* of R. Diaz Hernandez Rojas, PhD thesis, Sapienza 2021, whose index is twice stability.
@@ -1381,6 +1399,72 @@ module jam
     integer(c_int64_t) :: bins = 0
   end type jam_correlation_options
 
+  ! Options of jam_write_stl.
+  type, bind(c) :: jam_mesh_options
+    integer(c_int32_t) :: struct_size = 0
+    ! jam_mesh_contacts; default KEPT
+    integer(c_int32_t) :: contacts = 0
+    ! of triangles, over the radius of the sphere: 0.03 .. 1, default 0.2
+    real(c_double) :: edge = 0
+    ! of SHRUNK, between 0 and 1, default 0.99
+    real(c_double) :: factor = 0
+    ! of BRIDGED: radius of a cylinder over that of the smaller sphere, 0.02 .. 0.45, default 0.2
+    real(c_double) :: bridge = 0
+  end type jam_mesh_options
+
+  ! What jam_write_stl wrote.
+  type, bind(c) :: jam_mesh_report
+    integer(c_int32_t) :: struct_size = 48
+    integer(c_int32_t) :: reserved = 0
+    ! of the mesh
+    integer(c_int64_t) :: triangles = 0
+    ! cylinders
+    integer(c_int64_t) :: bridges = 0
+    ! of the file before compression
+    integer(c_int64_t) :: bytes = 0
+    ! enclosed by the mesh, unit^d
+    real(c_double) :: volume = 0
+    ! exact, of the spheres and cylinders it stands for
+    real(c_double) :: solid = 0
+  end type jam_mesh_report
+
+  ! Options of jam_voxels and jam_write_voxels.
+  type, bind(c) :: jam_voxel_options
+    integer(c_int32_t) :: struct_size = 0
+    ! 0, the default: the centre of a voxel decides. Else the share of the voxel that is solid, by the exact lengths inside spheres of lines^(d-1) lines along x; at most 64
+    integer(c_int32_t) :: lines = 0
+    ! voxels along the edges of the brick, 0, the default, as `size` asks. Disks: one layer
+    integer(c_int32_t) :: nx = 0
+    ! voxels along the edges of the brick, 0, the default, as `size` asks. Disks: one layer
+    integer(c_int32_t) :: ny = 0
+    ! voxels along the edges of the brick, 0, the default, as `size` asks. Disks: one layer
+    integer(c_int32_t) :: nz = 0
+    integer(c_int32_t) :: reserved = 0
+    ! edge of a voxel, about; the number of voxels is rounded. 0, the default: box / 100
+    real(c_double) :: size = 0
+  end type jam_voxel_options
+
+  ! The image that jam_voxels or jam_write_voxels makes.
+  type, bind(c) :: jam_voxel_report
+    integer(c_int32_t) :: struct_size = 56
+    ! voxels along each edge
+    integer(c_int32_t) :: nx = 0
+    ! voxels along each edge
+    integer(c_int32_t) :: ny = 0
+    ! voxels along each edge
+    integer(c_int32_t) :: nz = 0
+    ! of a file, without its header
+    integer(c_int64_t) :: bytes = 0
+    ! of the image: void over all inside the container; NaN before the work
+    real(c_double) :: porosity = 0
+    ! edges of a voxel
+    real(c_double) :: dx = 0
+    ! edges of a voxel
+    real(c_double) :: dy = 0
+    ! edges of a voxel
+    real(c_double) :: dz = 0
+  end type jam_voxel_report
+
   ! Options of jam_density_of_states.
   type, bind(c) :: jam_dos_options
     integer(c_int32_t) :: struct_size = 0
@@ -1443,7 +1527,7 @@ module jam
       default_isoconf_options, default_crunch_options, default_relax_options, &
       default_decompress_options, default_hessian_options, default_modes_options, &
       default_geometry_options, default_check_options, default_correlation_options, &
-      default_dos_options
+      default_mesh_options, default_voxel_options, default_dos_options
   end interface jam_defaults
 
   abstract interface
@@ -2024,6 +2108,22 @@ module jam
       real(c_double), intent(out), optional :: score
       integer(c_int32_t) :: status
     end function jam_crystal_score
+
+    function jam_mesh_options_init(o, size) &
+        bind(c, name="jam_mesh_options_init") result(status)
+      import
+      type(jam_mesh_options), intent(inout), optional :: o
+      integer(c_size_t), value :: size
+      integer(c_int32_t) :: status
+    end function jam_mesh_options_init
+
+    function jam_voxel_options_init(o, size) &
+        bind(c, name="jam_voxel_options_init") result(status)
+      import
+      type(jam_voxel_options), intent(inout), optional :: o
+      integer(c_size_t), value :: size
+      integer(c_int32_t) :: status
+    end function jam_voxel_options_init
 
     function jam_dos_options_init(o, size) &
         bind(c, name="jam_dos_options_init") result(status)
@@ -2666,6 +2766,67 @@ module jam
       integer(c_size_t), intent(out), optional :: needed
       integer(c_int32_t) :: status
     end function c_jam_local_fraction
+    function c_jam_write_stl(sys, path, o, report) &
+        bind(c, name="jam_write_stl") result(status)
+      import
+      type(c_ptr), value :: sys
+      character(kind=c_char), intent(in) :: path(*)
+      type(jam_mesh_options), intent(in), optional :: o
+      type(jam_mesh_report), intent(inout), optional :: report
+      integer(c_int32_t) :: status
+    end function c_jam_write_stl
+    function c_jam_voxels(sys, o, report, out, out_len, needed) &
+        bind(c, name="jam_voxels") result(status)
+      import
+      type(c_ptr), value :: sys
+      type(jam_voxel_options), intent(in), optional :: o
+      type(jam_voxel_report), intent(inout), optional :: report
+      type(c_ptr), value :: out
+      integer(c_size_t), value :: out_len
+      integer(c_size_t), intent(out), optional :: needed
+      integer(c_int32_t) :: status
+    end function c_jam_voxels
+    function c_jam_write_voxels(sys, path, o, report) &
+        bind(c, name="jam_write_voxels") result(status)
+      import
+      type(c_ptr), value :: sys
+      character(kind=c_char), intent(in) :: path(*)
+      type(jam_voxel_options), intent(in), optional :: o
+      type(jam_voxel_report), intent(inout), optional :: report
+      integer(c_int32_t) :: status
+    end function c_jam_write_voxels
+    function c_jam_solid_profile(sys, axis, bins, table, table_len, needed) &
+        bind(c, name="jam_solid_profile") result(status)
+      import
+      type(c_ptr), value :: sys
+      integer(c_int32_t), value :: axis
+      integer(c_int32_t), value :: bins
+      type(c_ptr), value :: table
+      integer(c_size_t), value :: table_len
+      integer(c_size_t), intent(out), optional :: needed
+      integer(c_int32_t) :: status
+    end function c_jam_solid_profile
+    function c_jam_near_coordination(sys, h_max, out, out_len, needed) &
+        bind(c, name="jam_near_coordination") result(status)
+      import
+      type(c_ptr), value :: sys
+      real(c_double), value :: h_max
+      type(c_ptr), value :: out
+      integer(c_size_t), value :: out_len
+      integer(c_size_t), intent(out), optional :: needed
+      integer(c_int32_t) :: status
+    end function c_jam_near_coordination
+    function c_jam_pore_sizes(sys, points, seed, table, table_len, needed) &
+        bind(c, name="jam_pore_sizes") result(status)
+      import
+      type(c_ptr), value :: sys
+      integer(c_int64_t), value :: points
+      integer(c_int64_t), value :: seed
+      type(c_ptr), value :: table
+      integer(c_size_t), value :: table_len
+      integer(c_size_t), intent(out), optional :: needed
+      integer(c_int32_t) :: status
+    end function c_jam_pore_sizes
     function c_jam_floppy_mode(sys, contact, out, out_len, needed) &
         bind(c, name="jam_floppy_mode") result(status)
       import
@@ -2999,6 +3160,12 @@ module jam
   private :: c_jam_structure_factor
   private :: c_jam_bond_order
   private :: c_jam_local_fraction
+  private :: c_jam_write_stl
+  private :: c_jam_voxels
+  private :: c_jam_write_voxels
+  private :: c_jam_solid_profile
+  private :: c_jam_near_coordination
+  private :: c_jam_pore_sizes
   private :: c_jam_floppy_mode
   private :: c_jam_floppy_modes
   private :: c_jam_density_of_states
@@ -5654,6 +5821,138 @@ contains
     status = c_jam_local_fraction(sys, at_out, count_out, needed)
   end function jam_local_fraction
 
+  ! Binary STL of the solid, d = 3: closed, each edge twice, once each way. Cylinders that would meet each other or a
+  ! third sphere are refused by name. The file appears as of jam_write.
+  ! Errors: JAM_E_STATE (BRIDGED, no network), JAM_E_UNSUPPORTED, JAM_E_IO.
+  function jam_write_stl(sys, path, o, report) result(status)
+    type(c_ptr), intent(in) :: sys
+    character(*), intent(in) :: path
+    type(jam_mesh_options), intent(in), optional :: o
+    type(jam_mesh_report), intent(inout), optional :: report
+    integer(c_int32_t) :: status
+    status = c_jam_write_stl(sys, jam_c_string(path), o, report)
+  end function jam_write_stl
+
+  ! Image of the solid: 0 or 1, or shares; -1 outside a round container. x is fastest. out NULL: the report gives size
+  ! and memory before the work.
+  ! Shapes: out (voxels).
+  function jam_voxels(sys, o, report, out, out_len, needed) result(status)
+    type(c_ptr), intent(in) :: sys
+    type(jam_voxel_options), intent(in), optional :: o
+    type(jam_voxel_report), intent(inout), optional :: report
+    real(c_double), intent(inout), target, contiguous, optional :: out(..)
+    integer(c_size_t), intent(in), optional :: out_len
+    integer(c_size_t), intent(out), optional :: needed
+    integer(c_int32_t) :: status
+    type(c_ptr) :: at_out
+    integer(c_size_t) :: count_out
+    at_out = c_null_ptr
+    count_out = 0
+    if (present(out)) then
+      at_out = c_loc(out)
+      count_out = size(out, kind=c_size_t)
+    end if
+    if (present(out_len)) count_out = out_len
+    if (present(out)) then
+      status = checked('out', shape(out, kind=c_size_t), 0_c_size_t, count_out)
+      if (status /= JAM_OK) return
+    end if
+    status = c_jam_voxels(sys, o, report, at_out, count_out, needed)
+  end function jam_voxels
+
+  ! Writes it layer by layer: .npy (image[x, y, z]), .mha (MetaImage), .vti (VTK), as bytes 0 void, 1 solid, 2 outside;
+  ! with lines as float.
+  ! Errors: JAM_E_UNSUPPORTED, JAM_E_IO.
+  function jam_write_voxels(sys, path, o, report) result(status)
+    type(c_ptr), intent(in) :: sys
+    character(*), intent(in) :: path
+    type(jam_voxel_options), intent(in), optional :: o
+    type(jam_voxel_report), intent(inout), optional :: report
+    integer(c_int32_t) :: status
+    status = c_jam_write_voxels(sys, jam_c_string(path), o, report)
+  end function jam_write_voxels
+
+  ! Solid fraction in equal bins, exact: axis 0 .. d-1, slabs between the faces of the cell that a_axis joins; axis = d,
+  ! shells of a ball or a cylinder (there to 1e-12).
+  ! Shapes: table (bins, jam_profile_column).
+  ! Errors: JAM_E_UNSUPPORTED.
+  function jam_solid_profile(sys, axis, bins, table, table_len, needed) result(status)
+    type(c_ptr), intent(in) :: sys
+    integer(c_int32_t), intent(in) :: axis
+    integer(c_int32_t), intent(in) :: bins
+    real(c_double), intent(inout), target, contiguous, optional :: table(..)
+    integer(c_size_t), intent(in), optional :: table_len
+    integer(c_size_t), intent(out), optional :: needed
+    integer(c_int32_t) :: status
+    type(c_ptr) :: at_table
+    integer(c_size_t) :: count_table
+    at_table = c_null_ptr
+    count_table = 0
+    if (present(table)) then
+      at_table = c_loc(table)
+      count_table = size(table, kind=c_size_t)
+    end if
+    if (present(table_len)) count_table = table_len
+    if (present(table)) then
+      status = checked('table', shape(table, kind=c_size_t), 3_c_size_t, count_table)
+      if (status /= JAM_OK) return
+    end if
+    status = c_jam_solid_profile(sys, axis, bins, at_table, count_table, needed)
+  end function jam_solid_profile
+
+  ! Spheres with a gap h < h_max, up to 1, to each one, every image; walls do not count. Needs no crunch.
+  ! Shapes: out (n).
+  function jam_near_coordination(sys, h_max, out, out_len, needed) result(status)
+    type(c_ptr), intent(in) :: sys
+    real(c_double), intent(in) :: h_max
+    integer(c_int32_t), intent(inout), target, contiguous, optional :: out(..)
+    integer(c_size_t), intent(in), optional :: out_len
+    integer(c_size_t), intent(out), optional :: needed
+    integer(c_int32_t) :: status
+    type(c_ptr) :: at_out
+    integer(c_size_t) :: count_out
+    at_out = c_null_ptr
+    count_out = 0
+    if (present(out)) then
+      at_out = c_loc(out)
+      count_out = size(out, kind=c_size_t)
+    end if
+    if (present(out_len)) count_out = out_len
+    if (present(out)) then
+      status = checked('out', shape(out, kind=c_size_t), 0_c_size_t, count_out)
+      if (status /= JAM_OK) return
+    end if
+    status = c_jam_near_coordination(sys, h_max, at_out, count_out, needed)
+  end function jam_near_coordination
+
+  ! Pore sizes at random points of the void, exact. The time grows with the fourth power of the neighbours: use it above
+  ! packing fractions of about 0.4. Not with walls yet.
+  ! Shapes: table (points, jam_pore_column).
+  ! Errors: JAM_E_UNSUPPORTED.
+  function jam_pore_sizes(sys, points, seed, table, table_len, needed) result(status)
+    type(c_ptr), intent(in) :: sys
+    integer(c_int64_t), intent(in) :: points
+    integer(c_int64_t), intent(in) :: seed
+    real(c_double), intent(inout), target, contiguous, optional :: table(..)
+    integer(c_size_t), intent(in), optional :: table_len
+    integer(c_size_t), intent(out), optional :: needed
+    integer(c_int32_t) :: status
+    type(c_ptr) :: at_table
+    integer(c_size_t) :: count_table
+    at_table = c_null_ptr
+    count_table = 0
+    if (present(table)) then
+      at_table = c_loc(table)
+      count_table = size(table, kind=c_size_t)
+    end if
+    if (present(table_len)) count_table = table_len
+    if (present(table)) then
+      status = checked('table', shape(table, kind=c_size_t), 5_c_size_t, count_table)
+      if (status /= JAM_OK) return
+    end if
+    status = c_jam_pore_sizes(sys, points, seed, at_table, count_table, needed)
+  end function jam_pore_sizes
+
   ! Floppy mode: displacement over s when a contact opens by s. To first order all other contacts stay closed, all
   ! diameters change by the factor 1 - s f / sum f sigma, and there is no net translation. contact in 0..n_c-1. Needs a
   ! single state of self-stress (JAM_E_STATE says how many there are).
@@ -6063,6 +6362,18 @@ contains
     integer(c_int32_t) :: status
     status = jam_correlation_options_init(o, c_sizeof(o))
   end subroutine default_correlation_options
+
+  subroutine default_mesh_options(o)
+    type(jam_mesh_options), intent(out) :: o
+    integer(c_int32_t) :: status
+    status = jam_mesh_options_init(o, c_sizeof(o))
+  end subroutine default_mesh_options
+
+  subroutine default_voxel_options(o)
+    type(jam_voxel_options), intent(out) :: o
+    integer(c_int32_t) :: status
+    status = jam_voxel_options_init(o, c_sizeof(o))
+  end subroutine default_voxel_options
 
   subroutine default_dos_options(o)
     type(jam_dos_options), intent(out) :: o

@@ -79,6 +79,12 @@ module jam_packing
     procedure :: bond_order => do_bond_order
     procedure :: crystal_score => do_crystal_score
     procedure :: local_fraction => do_local_fraction
+    procedure :: write_stl => do_write_stl
+    procedure :: voxels => do_voxels
+    procedure :: write_voxels => do_write_voxels
+    procedure :: solid_profile => do_solid_profile
+    procedure :: near_coordination => do_near_coordination
+    procedure :: pore_sizes => do_pore_sizes
     procedure :: floppy_mode => do_floppy_mode
     procedure :: floppy_modes => do_floppy_modes
     procedure :: density_of_states => do_density_of_states
@@ -106,8 +112,10 @@ module jam_packing
     do_contact_classes, do_sphere_structure, do_contact_dots, do_fabric_tensor, &
     do_local_values, do_histogram, do_pair_correlation, do_mk_shifts, &
     do_structure_factor, do_bond_order, do_crystal_score, do_local_fraction, &
-    do_floppy_mode, do_floppy_modes, do_density_of_states, do_project, &
-    do_curvature, do_moduli, do_elastic_tensor, do_compare
+    do_write_stl, do_voxels, do_write_voxels, do_solid_profile, &
+    do_near_coordination, do_pore_sizes, do_floppy_mode, do_floppy_modes, &
+    do_density_of_states, do_project, do_curvature, do_moduli, do_elastic_tensor, &
+    do_compare
 
 contains
 
@@ -1494,6 +1502,120 @@ contains
     end if
     call self%done(status)
   end function do_local_fraction
+
+  ! Binary STL of the solid, d = 3: closed, each edge twice, once each way. Cylinders that would meet each other or a
+  ! third sphere are refused by name. The file appears as of jam_write.
+  ! Errors: JAM_E_STATE (BRIDGED, no network), JAM_E_UNSUPPORTED, JAM_E_IO.
+  function do_write_stl(self, path, o) result(found)
+    class(packing), intent(inout) :: self
+    character(*), intent(in) :: path
+    type(jam_mesh_options), intent(in), optional :: o
+    type(jam_mesh_report) :: found
+    integer(c_int32_t) :: status
+    status = jam_write_stl(self%sys, path=path, o=o, report=found)
+    call self%done(status)
+  end function do_write_stl
+
+  ! Image of the solid: 0 or 1, or shares; -1 outside a round container. x is fastest. out NULL: the report gives size
+  ! and memory before the work.
+  ! Shapes: out (voxels).
+  subroutine do_voxels(self, o, report, out)
+    class(packing), intent(inout) :: self
+    type(jam_voxel_options), intent(in), optional :: o
+    type(jam_voxel_report), intent(inout), optional :: report
+    type(jam_voxel_report) :: made_report
+    real(c_double), allocatable, intent(out), optional :: out(:)
+    real(c_double), allocatable :: made_out(:)
+    integer(c_int32_t) :: status
+    integer(c_size_t) :: given, d_of, n_of
+    allocate (made_out(0))
+    call self%extents(d_of, n_of)
+    status = jam_voxels(self%sys, o=o, needed=given)
+    if (status >= 0) then
+      deallocate (made_out)
+      allocate (made_out(given))
+      status = jam_voxels(self%sys, o=o, report=made_report, out=made_out)
+    end if
+    if (present(report)) report = made_report
+    if (present(out)) call move_alloc(made_out, out)
+    call self%done(status)
+  end subroutine do_voxels
+
+  ! Writes it layer by layer: .npy (image[x, y, z]), .mha (MetaImage), .vti (VTK), as bytes 0 void, 1 solid, 2 outside;
+  ! with lines as float.
+  ! Errors: JAM_E_UNSUPPORTED, JAM_E_IO.
+  function do_write_voxels(self, path, o) result(found)
+    class(packing), intent(inout) :: self
+    character(*), intent(in) :: path
+    type(jam_voxel_options), intent(in), optional :: o
+    type(jam_voxel_report) :: found
+    integer(c_int32_t) :: status
+    status = jam_write_voxels(self%sys, path=path, o=o, report=found)
+    call self%done(status)
+  end function do_write_voxels
+
+  ! Solid fraction in equal bins, exact: axis 0 .. d-1, slabs between the faces of the cell that a_axis joins; axis = d,
+  ! shells of a ball or a cylinder (there to 1e-12).
+  ! Shapes: table (bins, jam_profile_column).
+  ! Errors: JAM_E_UNSUPPORTED.
+  function do_solid_profile(self, axis, bins) result(found)
+    class(packing), intent(inout) :: self
+    integer, intent(in) :: axis
+    integer, intent(in) :: bins
+    real(c_double), allocatable :: found(:, :)
+    integer(c_int32_t) :: status
+    integer(c_size_t) :: given, d_of, n_of
+    allocate (found(0, 0))
+    call self%extents(d_of, n_of)
+    status = jam_solid_profile(self%sys, axis=int(axis, c_int32_t), bins=int(bins, c_int32_t), needed=given)
+    if (status >= 0) then
+      deallocate (found)
+      allocate (found(3_c_size_t, given/3))
+      status = jam_solid_profile(self%sys, axis=int(axis, c_int32_t), bins=int(bins, c_int32_t), table=found)
+    end if
+    call self%done(status)
+  end function do_solid_profile
+
+  ! Spheres with a gap h < h_max, up to 1, to each one, every image; walls do not count. Needs no crunch.
+  ! Shapes: out (n).
+  function do_near_coordination(self, h_max) result(found)
+    class(packing), intent(inout) :: self
+    real(c_double), intent(in) :: h_max
+    integer(c_int32_t), allocatable :: found(:)
+    integer(c_int32_t) :: status
+    integer(c_size_t) :: given, d_of, n_of
+    allocate (found(0))
+    call self%extents(d_of, n_of)
+    status = jam_near_coordination(self%sys, h_max=h_max, needed=given)
+    if (status >= 0) then
+      deallocate (found)
+      allocate (found(n_of))
+      status = jam_near_coordination(self%sys, h_max=h_max, out=found)
+    end if
+    call self%done(status)
+  end function do_near_coordination
+
+  ! Pore sizes at random points of the void, exact. The time grows with the fourth power of the neighbours: use it above
+  ! packing fractions of about 0.4. Not with walls yet.
+  ! Shapes: table (points, jam_pore_column).
+  ! Errors: JAM_E_UNSUPPORTED.
+  function do_pore_sizes(self, points, seed) result(found)
+    class(packing), intent(inout) :: self
+    integer, intent(in) :: points
+    integer, intent(in) :: seed
+    real(c_double), allocatable :: found(:, :)
+    integer(c_int32_t) :: status
+    integer(c_size_t) :: given, d_of, n_of
+    allocate (found(0, 0))
+    call self%extents(d_of, n_of)
+    status = jam_pore_sizes(self%sys, points=int(points, c_int64_t), seed=int(seed, c_int64_t), needed=given)
+    if (status >= 0) then
+      deallocate (found)
+      allocate (found(5_c_size_t, given/5))
+      status = jam_pore_sizes(self%sys, points=int(points, c_int64_t), seed=int(seed, c_int64_t), table=found)
+    end if
+    call self%done(status)
+  end function do_pore_sizes
 
   ! Floppy mode: displacement over s when a contact opens by s. To first order all other contacts stay closed, all
   ! diameters change by the factor 1 - s f / sum f sigma, and there is no net translation. contact in 0..n_c-1. Needs a

@@ -18,6 +18,7 @@ INDICES = {
 }
 COUNTS = {  # whole numbers that are none
     ("jam_coordination", "out"),
+    ("jam_near_coordination", "out"),
     ("jam_contact_classes", "out"),
     ("jam_observed_spheres", "collisions"),
     ("jam_observed_pairs", "collisions"),

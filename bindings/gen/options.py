@@ -10,6 +10,10 @@ GROWING = (
     "n dim phi0 diameters-ratio sizes plant cell walls container nve growth pressure packing-fraction porosity"
 )
 TABLES = "contacts spectrum modes gaps structure vtk"
+PORES = (
+    "stl stl-edge stl-shrink stl-bridge voxels voxel-size voxel-lines profile profile-bins pores pore-points pore-seed "
+    "near-coordination near-gap"
+)
 
 # Words that files may stand for, what the verb does, and the options that it takes.
 VERBS = (
@@ -23,11 +27,11 @@ VERBS = (
     ),
     Verb("check", ("input",), "is the packing of a file jammed as it is? Nothing moves", f"{READING} prove proof"),
     Verb("info", ("input",), "what a file contains: cell, sizes, packing fraction, nearest pair", READING),
-    Verb("export", ("input", "output"), "the packing of a file in other formats, and its tables", f"{READING} output {TABLES}"),
+    Verb("export", ("input", "output"), "the packing of a file in other formats, its tables and its pore space", f"{READING} output {TABLES} {PORES}"),
     Verb("page", ("input", "page"), "a page that shows the packing of a file in a browser", f"{READING} page"),
     Verb("ensemble", (), "many packings in one folder: python3 -m jam ensemble --help", ""),
 )
-ALONE = ()  # options that no job of pack takes
+ALONE = PORES.split()  # options that no job of pack takes
 
 TABLE = {
     "Start": (
@@ -312,6 +316,48 @@ TABLE = {
         Option("plot", "output", "PICTURE", "spheres, forces and the way there, by matplotlib", host=True),
         Option("json", "switch", "", "JSON on standard output in place of the summary", without=("report",)),
         Option("quiet", "switch", "", "no progress, no summary"),
+    ),
+    "Pore space": (
+        Option("stl", "output", "FILE.stl", "the solid as a closed mesh of triangles, spheres cut at the faces of the cell; d = 3"),
+        Option("stl-edge", "positive", "A", "edge of the triangles over the radius, 0.03..1 (0.2)", 0.2, needs=("stl",)),
+        Option("stl-shrink", "fraction", "F", "all diameters of the mesh times F, so that no spheres touch", needs=("stl",)),
+        Option(
+            "stl-bridge",
+            "fraction",
+            "B",
+            "a cylinder along each contact, its radius B times that of the smaller sphere, 0.02..0.45",
+            without=("stl-shrink",),
+            needs=("stl",),
+        ),
+        Option(
+            "voxels",
+            "output",
+            "FILE",
+            "the solid as an image, .npy, .mha (MetaImage) or .vti (VTK): 0 void, 1 solid, 2 outside a round container",
+        ),
+        Option("voxel-size", "positive", "A", "edge of a voxel, about (a hundredth of the box)", needs=("voxels",)),
+        Option(
+            "voxel-lines",
+            "integer",
+            "L",
+            "shares of the voxels in place of 0 and 1, by exact lengths on L^(d-1) lines each (0: the centre decides)",
+            0,
+            0,
+            64,
+            needs=("voxels",),
+        ),
+        Option("profile", "output", "FILE.csv", "solid fraction in slabs along each axis, and in shells of a round container"),
+        Option("profile-bins", "integer", "K", "slabs and shells of --profile (100)", 100, 1, 1000000, needs=("profile",)),
+        Option(
+            "pores",
+            "output",
+            "FILE.csv",
+            "pore sizes at random points of the void: distance to the nearest surface, radius of the largest sphere with the point",
+        ),
+        Option("pore-points", "integer", "K", "points of --pores (10000)", 10000, 1, 1000000000, needs=("pores",)),
+        Option("pore-seed", "integer", "S", "of these points (1)", 1, -INT64_MAX, INT64_MAX, needs=("pores",)),
+        Option("near-coordination", "output", "FILE.csv", "spheres within a gap of each sphere; needs no contact network"),
+        Option("near-gap", "fraction", "H", "this gap over the contact distance (0.01)", 0.01, needs=("near-coordination",)),
     ),
     "Other": (
         Option("wall-time", "positive", "SECONDS", "limit for the whole run"),

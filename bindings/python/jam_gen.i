@@ -356,6 +356,42 @@ ratio_i times the power of two at or below V^(1/d). Where no ratios are given, e
   ~jam_correlation_options() { free($self); }
 }
 %feature("docstring") jam_correlation_options "Options of jam_pair_correlation."
+%extend jam_mesh_options {
+  jam_mesh_options() {
+    jam_mesh_options *made = (jam_mesh_options *)calloc(1, sizeof *made);
+    if (made) { jam_mesh_options_init(made, sizeof *made); }
+    return made;
+  }
+  ~jam_mesh_options() { free($self); }
+}
+%feature("docstring") jam_mesh_options "Options of jam_write_stl."
+%extend jam_mesh_report {
+  jam_mesh_report() {
+    jam_mesh_report *made = (jam_mesh_report *)calloc(1, sizeof *made);
+    if (made) { made->struct_size = sizeof *made; }
+    return made;
+  }
+  ~jam_mesh_report() { free($self); }
+}
+%feature("docstring") jam_mesh_report "What jam_write_stl wrote."
+%extend jam_voxel_options {
+  jam_voxel_options() {
+    jam_voxel_options *made = (jam_voxel_options *)calloc(1, sizeof *made);
+    if (made) { jam_voxel_options_init(made, sizeof *made); }
+    return made;
+  }
+  ~jam_voxel_options() { free($self); }
+}
+%feature("docstring") jam_voxel_options "Options of jam_voxels and jam_write_voxels."
+%extend jam_voxel_report {
+  jam_voxel_report() {
+    jam_voxel_report *made = (jam_voxel_report *)calloc(1, sizeof *made);
+    if (made) { made->struct_size = sizeof *made; }
+    return made;
+  }
+  ~jam_voxel_report() { free($self); }
+}
+%feature("docstring") jam_voxel_report "The image that jam_voxels or jam_write_voxels makes."
 %extend jam_dos_options {
   jam_dos_options() {
     jam_dos_options *made = (jam_dos_options *)calloc(1, sizeof *made);
@@ -760,6 +796,27 @@ about 10 in a perfect FCC crystal."
 %feature("docstring") jam_local_fraction "Packing fraction of each sphere in its radical Voronoi cell, d = 3.
 Shapes: out (n).
 Errors: JAM_E_UNSUPPORTED (d, or built without voro++)."
+%feature("docstring") jam_mesh_options_init ""
+%feature("docstring") jam_write_stl "Binary STL of the solid, d = 3: closed, each edge twice, once each way. Cylinders that would meet each other or a
+third sphere are refused by name. The file appears as of jam_write.
+Errors: JAM_E_STATE (BRIDGED, no network), JAM_E_UNSUPPORTED, JAM_E_IO."
+%feature("docstring") jam_voxel_options_init ""
+%feature("docstring") jam_voxels "Image of the solid: 0 or 1, or shares; -1 outside a round container. x is fastest. out NULL: the report gives size
+and memory before the work.
+Shapes: out (voxels)."
+%feature("docstring") jam_write_voxels "Writes it layer by layer: .npy (image[x, y, z]), .mha (MetaImage), .vti (VTK), as bytes 0 void, 1 solid, 2 outside;
+with lines as float.
+Errors: JAM_E_UNSUPPORTED, JAM_E_IO."
+%feature("docstring") jam_solid_profile "Solid fraction in equal bins, exact: axis 0 .. d-1, slabs between the faces of the cell that a_axis joins; axis = d,
+shells of a ball or a cylinder (there to 1e-12).
+Shapes: table (bins, jam_profile_column).
+Errors: JAM_E_UNSUPPORTED."
+%feature("docstring") jam_near_coordination "Spheres with a gap h < h_max, up to 1, to each one, every image; walls do not count. Needs no crunch.
+Shapes: out (n)."
+%feature("docstring") jam_pore_sizes "Pore sizes at random points of the void, exact. The time grows with the fourth power of the neighbours: use it above
+packing fractions of about 0.4. Not with walls yet.
+Shapes: table (points, jam_pore_column).
+Errors: JAM_E_UNSUPPORTED."
 %feature("docstring") jam_floppy_mode "Floppy mode: displacement over s when a contact opens by s. To first order all other contacts stay closed, all
 diameters change by the factor 1 - s f / sum f sigma, and there is no net translation. contact in 0..n_c-1. Needs a
 single state of self-stress (JAM_E_STATE says how many there are).

@@ -1515,6 +1515,88 @@ JAM_API jam_status jam_crystal_score(const jam_system *sys, double *score);
  * without voro++) */
 JAM_API jam_status jam_local_fraction(const jam_system *sys, double *out, size_t out_len, size_t *needed);
 
+/* ------------- the pore space */
+/* Solid and void inside the brick [0, a_00) x [0, a_11) x ..., which repeats as the cell does; spheres are cut at its
+ * faces. d = 2 and 3, no Mari-Kurchan shifts: else JAM_E_UNSUPPORTED. What becomes of contacts in a mesh: */
+typedef enum jam_mesh_contacts {
+  JAM_MESH_KEPT = 0,   /* spheres touch at a common vertex where there is a contact network, else nearly */
+  JAM_MESH_SHRUNK = 1, /* all diameters times `factor` */
+  JAM_MESH_BRIDGED = 2 /* a cylinder along each contact of the network */
+} jam_mesh_contacts;
+/* Options of jam_write_stl. */
+typedef struct jam_mesh_options {
+  uint32_t struct_size;
+  int32_t contacts; /* @enum jam_mesh_contacts; default KEPT */
+  double edge;      /* of triangles, over the radius of the sphere: 0.03 .. 1, default 0.2 */
+  double factor;    /* of SHRUNK, between 0 and 1, default 0.99 */
+  double bridge;    /* of BRIDGED: radius of a cylinder over that of the smaller sphere, 0.02 .. 0.45, default 0.2 */
+} jam_mesh_options;
+/* What jam_write_stl wrote. */
+typedef struct jam_mesh_report {
+  uint32_t struct_size;
+  int32_t reserved;
+  int64_t triangles, bridges, bytes; /* of the mesh; cylinders; of the file before compression */
+  double volume, solid; /* enclosed by the mesh, unit^d; exact, of the spheres and cylinders it stands for */
+} jam_mesh_report;
+JAM_API jam_status jam_mesh_options_init(jam_mesh_options *o, size_t size);
+/* Binary STL of the solid, d = 3: closed, each edge twice, once each way. Cylinders that would meet each other or a
+ * third sphere are refused by name. The file appears as of jam_write. @errors STATE (BRIDGED, no network), UNSUPPORTED,
+ * IO */
+JAM_API jam_status jam_write_stl(const jam_system *sys, const char *path, const jam_mesh_options *o,
+                                 jam_mesh_report *report);
+/* Options of jam_voxels and jam_write_voxels. */
+typedef struct jam_voxel_options {
+  uint32_t struct_size;
+  int32_t lines; /* 0, the default: the centre of a voxel decides. Else the share of the voxel that is solid, by the
+                    exact lengths inside spheres of lines^(d-1) lines along x; at most 64 */
+  int32_t nx, ny, nz; /* voxels along the edges of the brick, 0, the default, as `size` asks. Disks: one layer */
+  int32_t reserved;
+  double size; /* edge of a voxel, about; the number of voxels is rounded. 0, the default: box / 100 */
+} jam_voxel_options;
+/* The image that jam_voxels or jam_write_voxels makes. */
+typedef struct jam_voxel_report {
+  uint32_t struct_size;
+  int32_t nx, ny, nz; /* voxels along each edge */
+  int64_t bytes;      /* of a file, without its header */
+  double porosity;    /* of the image: void over all inside the container; NaN before the work */
+  double dx, dy, dz;  /* edges of a voxel */
+} jam_voxel_report;
+JAM_API jam_status jam_voxel_options_init(jam_voxel_options *o, size_t size);
+/* Image of the solid: 0 or 1, or shares; -1 outside a round container. x is fastest. out NULL: the report gives size
+ * and memory before the work. @shape out (voxels) */
+JAM_API jam_status jam_voxels(const jam_system *sys, const jam_voxel_options *o, jam_voxel_report *report, double *out,
+                              size_t out_len, size_t *needed);
+/* Writes it layer by layer: .npy (image[x, y, z]), .mha (MetaImage), .vti (VTK), as bytes 0 void, 1 solid, 2 outside;
+ * with lines as float. @errors UNSUPPORTED, IO */
+JAM_API jam_status jam_write_voxels(const jam_system *sys, const char *path, const jam_voxel_options *o,
+                                    jam_voxel_report *report);
+/* Columns of jam_solid_profile. */
+typedef enum jam_profile_column {
+  JAM_PROFILE_LOW = 0,  /* where the bin begins: distance to the face of the cell, or to the centre or axis */
+  JAM_PROFILE_HIGH = 1, /* where it ends */
+  JAM_PROFILE_SOLID = 2 /* share of the bin (of its part in the container) inside spheres */
+} jam_profile_column;
+/* Solid fraction in equal bins, exact: axis 0 .. d-1, slabs between the faces of the cell that a_axis joins; axis = d,
+ * shells of a ball or a cylinder (there to 1e-12). @shape table (bins, jam_profile_column) @errors UNSUPPORTED */
+JAM_API jam_status jam_solid_profile(const jam_system *sys, int32_t axis, int32_t bins, double *table, size_t table_len,
+                                     size_t *needed);
+/* Spheres with a gap h < h_max, up to 1, to each one, every image; walls do not count. Needs no crunch. @shape out (n)
+ */
+JAM_API jam_status jam_near_coordination(const jam_system *sys, double h_max, int32_t *out, size_t out_len,
+                                         size_t *needed);
+/* Columns of jam_pore_sizes. */
+typedef enum jam_pore_column {
+  JAM_PORE_X = 0,        /* of the point */
+  JAM_PORE_Y = 1,        /* of the point */
+  JAM_PORE_Z = 2,        /* of the point, NaN in d = 2 */
+  JAM_PORE_DISTANCE = 3, /* to the nearest surface: radius of the largest sphere about the point */
+  JAM_PORE_RADIUS = 4    /* of the largest sphere that contains the point and no solid */
+} jam_pore_column;
+/* Pore sizes at random points of the void, exact. The time grows with the fourth power of the neighbours: use it above
+ * packing fractions of about 0.4. Not with walls yet. @shape table (points, jam_pore_column) @errors UNSUPPORTED */
+JAM_API jam_status jam_pore_sizes(jam_system *sys, int64_t points, int64_t seed, double *table, size_t table_len,
+                                  size_t *needed);
+
 /* ------------- floppy modes */
 /* Floppy mode: displacement over s when a contact opens by s. To first order all other contacts stay closed, all
  * diameters change by the factor 1 - s f / sum f sigma, and there is no net translation. contact in 0..n_c-1. Needs a

@@ -21,6 +21,9 @@ struct Gaps {
 // Their gaps.
 Gaps find_gaps(const Packing &p, const ContactNetwork *network, double h_max, bool stable_only);
 
+// Spheres within a gap h < h_max of each one, every image; JAM_E_ARGUMENT unless 0 < h_max <= 1.
+std::vector<int32_t> near_coordination(const Packing &p, double h_max);
+
 // Flags of jam_contact_class for every contact.
 std::vector<int32_t> classify_contacts(const Packing &p, const ContactNetwork &network);
 

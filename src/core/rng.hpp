@@ -18,6 +18,7 @@ enum class Stream : uint64_t {
   monte_carlo = 22,
   coincident = 23,  // directions in which soft spheres at one centre part
   sizes = 24,       // of jam_diameters
+  pore_points = 25,  // of jam_pore_sizes
 };
 
 // Finaliser of splitmix64 (Steele, Lea and Flood, OOPSLA 2014): a bijective mix of 64 bits.

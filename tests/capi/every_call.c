@@ -57,7 +57,7 @@ static void every_call_does_its_work(void **state) {
     text_is_there(every_call[k].name, status);
     jam_destroy(sys);
   }
-  remove(call_file());
+  remove(call_file()), remove(call_image());
 }
 
 int main(void) {

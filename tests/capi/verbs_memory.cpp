@@ -172,7 +172,7 @@ void every_allocation_of_every_call(void **) {
           fail_each({entry.name, sys, [&](jam_system *on) { return entry.call(nullptr, on); }, true}, single);
     jam_destroy(sys);
   }
-  remove(call_file());
+  remove(call_file()), remove(call_image());
 }
 
 }  // namespace

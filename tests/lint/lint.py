@@ -23,8 +23,9 @@ LAYERS = {
     "dynamics": ["soft", "network", "linalg", "core"],
     "analysis": ["lp", "network", "linalg", "core"],
     "proof": ["network", "linalg", "core"],
-    "io": ["dynamics", "network", "proof", "core"],
-    "capi": ["core", "linalg", "lp", "network", "crunch", "soft", "dynamics", "analysis", "proof", "io"],
+    "pore": ["network", "core"],
+    "io": ["dynamics", "network", "proof", "pore", "core"],
+    "capi": ["core", "linalg", "lp", "network", "crunch", "soft", "dynamics", "analysis", "pore", "proof", "io"],
 }
 # Folders of a layer: each may include the layer's own headers, itself and those listed here.
 FOLDERS = {
@@ -207,8 +208,8 @@ def file_sizes():
         elif count > 300:
             print(f"note: {path.relative_to(root)} has {count} lines, 300 is the aim")
     header = len((root / "include/jam/jam.h").read_text().splitlines())
-    if header > 1605:
-        problem(root / "include/jam/jam.h", header, "more than 1605 lines")
+    if header > 1687:
+        problem(root / "include/jam/jam.h", header, "more than 1687 lines")
     for path in files(
         "examples/c/*.c", "examples/cpp/*.cpp", "examples/python/*.py", "examples/fortran/*.f90", "examples/julia/*.jl"
     ):

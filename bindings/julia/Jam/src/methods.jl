@@ -43,6 +43,12 @@ export walls,
        bond_order,
        crystal_score,
        local_fraction,
+       write_stl,
+       voxels,
+       write_voxels,
+       solid_profile,
+       near_coordination,
+       pore_sizes,
        floppy_mode,
        floppy_modes,
        density_of_states,
@@ -662,6 +668,93 @@ Packing fraction of each sphere in its radical Voronoi cell, d = 3.
 """
 function local_fraction(s::System)
     return call(s, :jam_local_fraction, (); progress = nothing)
+end
+
+"""
+    write_stl(s, path; contacts, edge, factor, bridge) -> report
+
+Binary STL of the solid, d = 3: closed, each edge twice, once each way. Cylinders that would meet each other or a
+third sphere are refused by name. The file appears as of `write`.
+
+- `contacts`: one of `:kept`, `:shrunk`, `:bridged`; ; default `:kept`
+- `edge`: of triangles, over the radius of the sphere: 0.03 .. 1, default 0.2
+- `factor`: of SHRUNK, between 0 and 1, default 0.99
+- `bridge`: of BRIDGED: radius of a cylinder over that of the smaller sphere, 0.02 .. 0.45, default 0.2
+- errors: `:state` (BRIDGED, no network), `:unsupported`, `:io`
+"""
+function write_stl(s::System, path; given...)
+    return call(s, :jam_write_stl, (path, ); progress = nothing, given...)
+end
+
+"""
+    voxels(s; lines, nx, ny, nz, size) -> (report, out)
+
+Image of the solid: 0 or 1, or shares; -1 outside a round container. x is fastest. out `nothing`: the report gives
+size and memory before the work.
+
+- `out`: array `(voxels)`
+- `lines`: 0, the default: the centre of a voxel decides. Else the share of the voxel that is solid, by the exact
+  lengths inside spheres of lines^(d-1) lines along x; at most 64
+- `nx`: voxels along the edges of the brick, 0, the default, as `size` asks. Disks: one layer
+- `ny`: voxels along the edges of the brick, 0, the default, as `size` asks. Disks: one layer
+- `nz`: voxels along the edges of the brick, 0, the default, as `size` asks. Disks: one layer
+- `size`: edge of a voxel, about; the number of voxels is rounded. 0, the default: box / 100
+"""
+function voxels(s::System; given...)
+    return call(s, :jam_voxels, (); progress = nothing, given...)
+end
+
+"""
+    write_voxels(s, path; lines, nx, ny, nz, size) -> report
+
+Writes it layer by layer: .npy (image[x, y, z]), .mha (MetaImage), .vti (VTK), as bytes 0 void, 1 solid, 2 outside;
+with lines as float.
+
+- `lines`: 0, the default: the centre of a voxel decides. Else the share of the voxel that is solid, by the exact
+  lengths inside spheres of lines^(d-1) lines along x; at most 64
+- `nx`: voxels along the edges of the brick, 0, the default, as `size` asks. Disks: one layer
+- `ny`: voxels along the edges of the brick, 0, the default, as `size` asks. Disks: one layer
+- `nz`: voxels along the edges of the brick, 0, the default, as `size` asks. Disks: one layer
+- `size`: edge of a voxel, about; the number of voxels is rounded. 0, the default: box / 100
+- errors: `:unsupported`, `:io`
+"""
+function write_voxels(s::System, path; given...)
+    return call(s, :jam_write_voxels, (path, ); progress = nothing, given...)
+end
+
+"""
+    solid_profile(s, axis, bins) -> table
+
+Solid fraction in equal bins, exact: axis 0 .. d-1, slabs between the faces of the cell that `a_axis` joins; axis = d,
+shells of a ball or a cylinder (there to 1e-12).
+
+- errors: `:unsupported`
+"""
+function solid_profile(s::System, axis, bins)
+    return call(s, :jam_solid_profile, (axis, bins, ); progress = nothing)
+end
+
+"""
+    near_coordination(s, h_max)
+
+Spheres with a gap h < `h_max`, up to 1, to each one, every image; walls do not count. Needs no crunch.
+
+- `out`: array `(n)`
+"""
+function near_coordination(s::System, h_max)
+    return call(s, :jam_near_coordination, (h_max, ); progress = nothing)
+end
+
+"""
+    pore_sizes(s, points, seed; progress) -> table
+
+Pore sizes at random points of the void, exact. The time grows with the fourth power of the neighbours: use it above
+packing fractions of about 0.4. Not with walls yet.
+
+- errors: `:unsupported`
+"""
+function pore_sizes(s::System, points, seed; progress = nothing)
+    return call(s, :jam_pore_sizes, (points, seed, ); progress = progress)
 end
 
 """

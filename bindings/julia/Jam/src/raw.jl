@@ -344,6 +344,23 @@ const JAM_POPULATION_MEDIAN = Int32(4)  # forces only: the (lower) median of one
 const JAM_STRUCTURE_Q = Int32(0)  # |q| times the mean diameter, ascending
 const JAM_STRUCTURE_S = Int32(1)  # S(q), its average over all q of this length
 
+# jam_mesh_contacts: Solid and void inside the brick [0, a_00) x [0, a_11) x ..., which repeats as the cell does; spheres are cut at its faces. d = 2 and 3, no Mari-Kurchan shifts: else JAM_E_UNSUPPORTED. What becomes of contacts in a mesh:
+const JAM_MESH_KEPT = Int32(0)  # spheres touch at a common vertex where there is a contact network, else nearly
+const JAM_MESH_SHRUNK = Int32(1)  # all diameters times `factor`
+const JAM_MESH_BRIDGED = Int32(2)  # a cylinder along each contact of the network
+
+# jam_profile_column: Columns of jam_solid_profile.
+const JAM_PROFILE_LOW = Int32(0)  # where the bin begins: distance to the face of the cell, or to the centre or axis
+const JAM_PROFILE_HIGH = Int32(1)  # where it ends
+const JAM_PROFILE_SOLID = Int32(2)  # share of the bin (of its part in the container) inside spheres
+
+# jam_pore_column: Columns of jam_pore_sizes.
+const JAM_PORE_X = Int32(0)  # of the point
+const JAM_PORE_Y = Int32(1)  # of the point
+const JAM_PORE_Z = Int32(2)  # of the point, NaN in d = 2
+const JAM_PORE_DISTANCE = Int32(3)  # to the nearest surface: radius of the largest sphere about the point
+const JAM_PORE_RADIUS = Int32(4)  # of the largest sphere that contains the point and no solid
+
 # jam_floppy_column: Columns of jam_floppy_modes, one row per contact; dr is the field of jam_floppy_mode, and F the mean force. Openings have the unit of positions: divide by the diameter to compare packings of different N. B = sum_k f_k |dr_perp|^2 / r_k. S_RETURN is s* of R. Diaz Hernandez Rojas, PhD thesis, Sapienza 2021, whose index is twice stability.
 const JAM_FLOPPY_MEDIAN = Int32(0)  # b = median |dr_i| / |dr|: far below 1/sqrt(N') when the mode is localised
 const JAM_FLOPPY_WEIGHT = Int32(1)  # W = f / median |dr_i|: f equals W times the displacement far away
@@ -1581,6 +1598,97 @@ mutable struct jam_correlation_options
     r_max::Cdouble  # mean diameters, > 0, default 4
     bins::Int64  # equal ones from 0 to r_max, 1 .. 1e8, default 200; one holds its lower edge less 1e-10
     jam_correlation_options() = new(32, 0, 0, 0, 0, 0)
+end
+
+"""
+    jam_mesh_options
+
+Options of `write_stl`.
+
+- `contacts`: one of `:kept`, `:shrunk`, `:bridged`; ; default `:kept`
+- `edge`: of triangles, over the radius of the sphere: 0.03 .. 1, default 0.2
+- `factor`: of SHRUNK, between 0 and 1, default 0.99
+- `bridge`: of BRIDGED: radius of a cylinder over that of the smaller sphere, 0.02 .. 0.45, default 0.2
+"""
+mutable struct jam_mesh_options
+    struct_size::UInt32
+    contacts::Int32  # jam_mesh_contacts; default KEPT
+    edge::Cdouble  # of triangles, over the radius of the sphere: 0.03 .. 1, default 0.2
+    factor::Cdouble  # of SHRUNK, between 0 and 1, default 0.99
+    bridge::Cdouble  # of BRIDGED: radius of a cylinder over that of the smaller sphere, 0.02 .. 0.45, default 0.2
+    jam_mesh_options() = new(32, 0, 0, 0, 0)
+end
+
+"""
+    jam_mesh_report
+
+What `write_stl` wrote.
+
+- `triangles`: of the mesh
+- `bridges`: cylinders
+- `bytes`: of the file before compression
+- `volume`: enclosed by the mesh, unit^d
+- `solid`: exact, of the spheres and cylinders it stands for
+"""
+mutable struct jam_mesh_report
+    struct_size::UInt32
+    reserved::Int32
+    triangles::Int64  # of the mesh
+    bridges::Int64  # cylinders
+    bytes::Int64  # of the file before compression
+    volume::Cdouble  # enclosed by the mesh, unit^d
+    solid::Cdouble  # exact, of the spheres and cylinders it stands for
+    jam_mesh_report() = new(48, 0, 0, 0, 0, 0, 0)
+end
+
+"""
+    jam_voxel_options
+
+Options of `voxels` and `write_voxels`.
+
+- `lines`: 0, the default: the centre of a voxel decides. Else the share of the voxel that is solid, by the exact
+  lengths inside spheres of lines^(d-1) lines along x; at most 64
+- `nx`: voxels along the edges of the brick, 0, the default, as `size` asks. Disks: one layer
+- `ny`: voxels along the edges of the brick, 0, the default, as `size` asks. Disks: one layer
+- `nz`: voxels along the edges of the brick, 0, the default, as `size` asks. Disks: one layer
+- `size`: edge of a voxel, about; the number of voxels is rounded. 0, the default: box / 100
+"""
+mutable struct jam_voxel_options
+    struct_size::UInt32
+    lines::Int32  # 0, the default: the centre of a voxel decides. Else the share of the voxel that is solid, by the exact lengths inside spheres of lines^(d-1) lines along x; at most 64
+    nx::Int32  # voxels along the edges of the brick, 0, the default, as `size` asks. Disks: one layer
+    ny::Int32  # voxels along the edges of the brick, 0, the default, as `size` asks. Disks: one layer
+    nz::Int32  # voxels along the edges of the brick, 0, the default, as `size` asks. Disks: one layer
+    reserved::Int32
+    size::Cdouble  # edge of a voxel, about; the number of voxels is rounded. 0, the default: box / 100
+    jam_voxel_options() = new(32, 0, 0, 0, 0, 0, 0)
+end
+
+"""
+    jam_voxel_report
+
+The image that `voxels` or `write_voxels` makes.
+
+- `nx`: voxels along each edge
+- `ny`: voxels along each edge
+- `nz`: voxels along each edge
+- `bytes`: of a file, without its header
+- `porosity`: of the image: void over all inside the container; NaN before the work
+- `dx`: edges of a voxel
+- `dy`: edges of a voxel
+- `dz`: edges of a voxel
+"""
+mutable struct jam_voxel_report
+    struct_size::UInt32
+    nx::Int32  # voxels along each edge
+    ny::Int32  # voxels along each edge
+    nz::Int32  # voxels along each edge
+    bytes::Int64  # of a file, without its header
+    porosity::Cdouble  # of the image: void over all inside the container; NaN before the work
+    dx::Cdouble  # edges of a voxel
+    dy::Cdouble  # edges of a voxel
+    dz::Cdouble  # edges of a voxel
+    jam_voxel_report() = new(56, 0, 0, 0, 0, 0, 0, 0, 0)
 end
 
 """
@@ -2923,6 +3031,87 @@ Errors: `JAM_E_UNSUPPORTED` (d, or built without voro++).
 """
 function jam_local_fraction(sys, out, out_len, needed)
     return ccall((:jam_local_fraction, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(out), out_len, _ref(Csize_t, needed))
+end
+
+"""
+    jam_mesh_options_init(o, size)
+"""
+function jam_mesh_options_init(o, size)
+    return ccall((:jam_mesh_options_init, libjam), Int32, (Ref{jam_mesh_options}, Csize_t), _ref(jam_mesh_options, o), size)
+end
+
+"""
+    jam_write_stl(sys, path, o, report)
+
+Binary STL of the solid, d = 3: closed, each edge twice, once each way. Cylinders that would meet each other or a
+third sphere are refused by name. The file appears as of `jam_write`.
+Errors: `JAM_E_STATE` (BRIDGED, no network), `JAM_E_UNSUPPORTED`, `JAM_E_IO`.
+"""
+function jam_write_stl(sys, path, o, report)
+    return ccall((:jam_write_stl, libjam), Int32, (Ptr{Cvoid}, Cstring, Ref{jam_mesh_options}, Ref{jam_mesh_report}), sys, path, _ref(jam_mesh_options, o), _ref(jam_mesh_report, report))
+end
+
+"""
+    jam_voxel_options_init(o, size)
+"""
+function jam_voxel_options_init(o, size)
+    return ccall((:jam_voxel_options_init, libjam), Int32, (Ref{jam_voxel_options}, Csize_t), _ref(jam_voxel_options, o), size)
+end
+
+"""
+    jam_voxels(sys, o, report, out, out_len, needed)
+
+Image of the solid: 0 or 1, or shares; -1 outside a round container. x is fastest. out NULL: the report gives size
+and memory before the work.
+Shapes: out (voxels).
+"""
+function jam_voxels(sys, o, report, out, out_len, needed)
+    return ccall((:jam_voxels, libjam), Int32, (Ptr{Cvoid}, Ref{jam_voxel_options}, Ref{jam_voxel_report}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ref(jam_voxel_options, o), _ref(jam_voxel_report, report), _ptr(out), out_len, _ref(Csize_t, needed))
+end
+
+"""
+    jam_write_voxels(sys, path, o, report)
+
+Writes it layer by layer: .npy (image[x, y, z]), .mha (MetaImage), .vti (VTK), as bytes 0 void, 1 solid, 2 outside;
+with lines as float.
+Errors: `JAM_E_UNSUPPORTED`, `JAM_E_IO`.
+"""
+function jam_write_voxels(sys, path, o, report)
+    return ccall((:jam_write_voxels, libjam), Int32, (Ptr{Cvoid}, Cstring, Ref{jam_voxel_options}, Ref{jam_voxel_report}), sys, path, _ref(jam_voxel_options, o), _ref(jam_voxel_report, report))
+end
+
+"""
+    jam_solid_profile(sys, axis, bins, table, table_len, needed)
+
+Solid fraction in equal bins, exact: axis 0 .. d-1, slabs between the faces of the cell that `a_axis` joins; axis = d,
+shells of a ball or a cylinder (there to 1e-12).
+Shapes: table (bins, `jam_profile_column`).
+Errors: `JAM_E_UNSUPPORTED`.
+"""
+function jam_solid_profile(sys, axis, bins, table, table_len, needed)
+    return ccall((:jam_solid_profile, libjam), Int32, (Ptr{Cvoid}, Int32, Int32, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, axis, bins, _ptr(table), table_len, _ref(Csize_t, needed))
+end
+
+"""
+    jam_near_coordination(sys, h_max, out, out_len, needed)
+
+Spheres with a gap h < `h_max`, up to 1, to each one, every image; walls do not count. Needs no crunch.
+Shapes: out (n).
+"""
+function jam_near_coordination(sys, h_max, out, out_len, needed)
+    return ccall((:jam_near_coordination, libjam), Int32, (Ptr{Cvoid}, Cdouble, Ptr{Int32}, Csize_t, Ref{Csize_t}), sys, h_max, _ptr(out), out_len, _ref(Csize_t, needed))
+end
+
+"""
+    jam_pore_sizes(sys, points, seed, table, table_len, needed)
+
+Pore sizes at random points of the void, exact. The time grows with the fourth power of the neighbours: use it above
+packing fractions of about 0.4. Not with walls yet.
+Shapes: table (points, `jam_pore_column`).
+Errors: `JAM_E_UNSUPPORTED`.
+"""
+function jam_pore_sizes(sys, points, seed, table, table_len, needed)
+    return ccall((:jam_pore_sizes, libjam), Int32, (Ptr{Cvoid}, Int64, Int64, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, points, seed, _ptr(table), table_len, _ref(Csize_t, needed))
 end
 
 """

@@ -47,6 +47,9 @@ const WORDS = (
     local_quantity = (force = 0, vector_sum = 1, vector_pairs = 2, vector_dot = 3, force_sum = 4, force_pairs = 5, force_dot = 6, coordination = 7,),
     population = (all = 0, localised = 1, extended = 2, smallest = 3, median = 4,),
     structure_column = (q = 0, s = 1,),
+    mesh_contacts = (kept = 0, shrunk = 1, bridged = 2,),
+    profile_column = (low = 0, high = 1, solid = 2,),
+    pore_column = (x = 0, y = 1, z = 2, distance = 3, radius = 4,),
     floppy_column = (median = 0, weight = 1, s_plus = 2, s_star = 3, stability = 4, s_return = 5,),
     dos_column = (omega = 0, density = 1, error = 2, edge = 3, cumulative = 4, cumulative_error = 5,),
 )
@@ -79,6 +82,7 @@ kinds(::Type{jam_rigidity_report}) = (kind = :rigidity_kind, jammed = :verdict, 
 kinds(::Type{jam_check_options}) = (crunch = :bool, prove = :bool,)
 kinds(::Type{jam_check_report}) = (jammed = :verdict, strictly_jammed = :verdict, stationary = :verdict, reason = :check_reason, crunch_jammed = :verdict, theorem = :theorem, proof_cause = :proof_cause,)
 kinds(::Type{jam_proof_report}) = (theorem = :theorem, cause = :proof_cause,)
+kinds(::Type{jam_mesh_options}) = (contacts = :mesh_contacts,)
 
 # Option structs and what fills in their defaults.
 defaults(::Type{jam_create_options}) = jam_create_options_init
@@ -96,6 +100,8 @@ defaults(::Type{jam_modes_options}) = jam_modes_options_init
 defaults(::Type{jam_geometry_options}) = jam_geometry_options_init
 defaults(::Type{jam_check_options}) = jam_check_options_init
 defaults(::Type{jam_correlation_options}) = jam_correlation_options_init
+defaults(::Type{jam_mesh_options}) = jam_mesh_options_init
+defaults(::Type{jam_voxel_options}) = jam_voxel_options_init
 defaults(::Type{jam_dos_options}) = jam_dos_options_init
 
 # Arguments of each call in C's order: name, role, type, extents, word, whether it is an index.
@@ -534,6 +540,43 @@ const CALLS = Dict{Symbol, Call}(
     :jam_local_fraction => Call(jam_local_fraction, true, true, [
         Argument(:out, :array_out, Cdouble, ["n"], :none, false),
         Argument(:out_len, :len, Csize_t, String[], :none, false),
+        Argument(:needed, :scalar_out, Csize_t, String[], :none, false),
+    ]),
+    :jam_write_stl => Call(jam_write_stl, true, true, [
+        Argument(:path, :string, Cchar, String[], :none, false),
+        Argument(:o, :struct_in, jam_mesh_options, String[], :none, false),
+        Argument(:report, :struct_out, jam_mesh_report, String[], :none, false),
+    ]),
+    :jam_voxels => Call(jam_voxels, true, true, [
+        Argument(:o, :struct_in, jam_voxel_options, String[], :none, false),
+        Argument(:report, :struct_out, jam_voxel_report, String[], :none, false),
+        Argument(:out, :array_out, Cdouble, ["voxels"], :none, false),
+        Argument(:out_len, :len, Csize_t, String[], :none, false),
+        Argument(:needed, :scalar_out, Csize_t, String[], :none, false),
+    ]),
+    :jam_write_voxels => Call(jam_write_voxels, true, true, [
+        Argument(:path, :string, Cchar, String[], :none, false),
+        Argument(:o, :struct_in, jam_voxel_options, String[], :none, false),
+        Argument(:report, :struct_out, jam_voxel_report, String[], :none, false),
+    ]),
+    :jam_solid_profile => Call(jam_solid_profile, true, true, [
+        Argument(:axis, :scalar, Int32, String[], :none, false),
+        Argument(:bins, :scalar, Int32, String[], :none, false),
+        Argument(:table, :array_out, Cdouble, ["bins", "jam_profile_column"], :profile_column, false),
+        Argument(:table_len, :len, Csize_t, String[], :none, false),
+        Argument(:needed, :scalar_out, Csize_t, String[], :none, false),
+    ]),
+    :jam_near_coordination => Call(jam_near_coordination, true, true, [
+        Argument(:h_max, :scalar, Cdouble, String[], :none, false),
+        Argument(:out, :array_out, Int32, ["n"], :none, false),
+        Argument(:out_len, :len, Csize_t, String[], :none, false),
+        Argument(:needed, :scalar_out, Csize_t, String[], :none, false),
+    ]),
+    :jam_pore_sizes => Call(jam_pore_sizes, true, false, [
+        Argument(:points, :scalar, Int64, String[], :none, false),
+        Argument(:seed, :scalar, Int64, String[], :none, false),
+        Argument(:table, :array_out, Cdouble, ["points", "jam_pore_column"], :pore_column, false),
+        Argument(:table_len, :len, Csize_t, String[], :none, false),
         Argument(:needed, :scalar_out, Csize_t, String[], :none, false),
     ]),
     :jam_floppy_mode => Call(jam_floppy_mode, true, false, [

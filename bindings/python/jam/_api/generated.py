@@ -445,6 +445,30 @@ class StructureColumn(IntEnum):
     S = 1  # S(q), its average over all q of this length
 
 
+class MeshContacts(IntEnum):
+    """Solid and void inside the brick [0, a_00) x [0, a_11) x ..., which repeats as the cell does; spheres are cut at its
+    faces. d = 2 and 3, no Mari-Kurchan shifts: else JAM_E_UNSUPPORTED. What becomes of contacts in a mesh:"""
+    KEPT = 0  # spheres touch at a common vertex where there is a contact network, else nearly
+    SHRUNK = 1  # all diameters times `factor`
+    BRIDGED = 2  # a cylinder along each contact of the network
+
+
+class ProfileColumn(IntEnum):
+    """Columns of jam_solid_profile."""
+    LOW = 0  # where the bin begins: distance to the face of the cell, or to the centre or axis
+    HIGH = 1  # where it ends
+    SOLID = 2  # share of the bin (of its part in the container) inside spheres
+
+
+class PoreColumn(IntEnum):
+    """Columns of jam_pore_sizes."""
+    X = 0  # of the point
+    Y = 1  # of the point
+    Z = 2  # of the point, NaN in d = 2
+    DISTANCE = 3  # to the nearest surface: radius of the largest sphere about the point
+    RADIUS = 4  # of the largest sphere that contains the point and no solid
+
+
 class FloppyColumn(IntEnum):
     """Columns of jam_floppy_modes, one row per contact; dr is the field of jam_floppy_mode, and F the mean force. Openings
     have the unit of positions: divide by the diameter to compare packings of different N. B = sum_k f_k |dr_perp|^2 /
@@ -1110,6 +1134,44 @@ class ProofReport(Report):
 
 
 @dataclass(frozen=True, repr=False)
+class MeshReport(Report):
+    """What jam_write_stl wrote.
+
+    triangles: of the mesh
+    bridges: cylinders
+    bytes: of the file before compression
+    volume: enclosed by the mesh, unit^d
+    solid: exact, of the spheres and cylinders it stands for"""
+    triangles: int
+    bridges: int
+    bytes: int
+    volume: float
+    solid: float
+
+
+@dataclass(frozen=True, repr=False)
+class VoxelReport(Report):
+    """The image that jam_voxels or jam_write_voxels makes.
+
+    nx: voxels along each edge
+    ny: voxels along each edge
+    nz: voxels along each edge
+    bytes: of a file, without its header
+    porosity: of the image: void over all inside the container; NaN before the work
+    dx: edges of a voxel
+    dy: edges of a voxel
+    dz: edges of a voxel"""
+    nx: int
+    ny: int
+    nz: int
+    bytes: int
+    porosity: float
+    dx: float
+    dy: float
+    dz: float
+
+
+@dataclass(frozen=True, repr=False)
 class ModuliReport(Report):
     """Elastic moduli, unit: stiffness at the mean force times length^(2-d). Affine: without the non-affine part.
 
@@ -1315,6 +1377,19 @@ OPTIONS = {
         "r_max": ("float", 'mean diameters, > 0, default 4'),
         "bins": ("int", 'equal ones from 0 to r_max, 1 .. 1e8, default 200; one holds its lower edge less 1e-10'),
     },
+    "jam_mesh_options": {
+        "contacts": ("MeshContacts", 'MeshContacts; default KEPT'),
+        "edge": ("float", 'of triangles, over the radius of the sphere: 0.03 .. 1, default 0.2'),
+        "factor": ("float", 'of SHRUNK, between 0 and 1, default 0.99'),
+        "bridge": ("float", 'of BRIDGED: radius of a cylinder over that of the smaller sphere, 0.02 .. 0.45, default 0.2'),
+    },
+    "jam_voxel_options": {
+        "lines": ("int", '0, the default: the centre of a voxel decides. Else the share of the voxel that is solid, by the exact lengths inside spheres of lines^(d-1) lines along x; at most 64'),
+        "nx": ("int", 'voxels along the edges of the brick, 0, the default, as `size` asks. Disks: one layer'),
+        "ny": ("int", 'voxels along the edges of the brick, 0, the default, as `size` asks. Disks: one layer'),
+        "nz": ("int", 'voxels along the edges of the brick, 0, the default, as `size` asks. Disks: one layer'),
+        "size": ("float", 'edge of a voxel, about; the number of voxels is rounded. 0, the default: box / 100'),
+    },
     "jam_dos_options": {
         "moments": ("int", 'Chebyshev moments, 8..1e6, default 512: resolution in omega about 1.6 omega_max / moments'),
         "vectors": ("int", 'random vectors, 2..1e5, default 16'),
@@ -1340,6 +1415,8 @@ REPORTS = {
     "jam_rigidity_report": RigidityReport,
     "jam_check_report": CheckReport,
     "jam_proof_report": ProofReport,
+    "jam_mesh_report": MeshReport,
+    "jam_voxel_report": VoxelReport,
     "jam_moduli_report": ModuliReport,
     "jam_comparison": Comparison,
 }
@@ -1360,6 +1437,8 @@ TABLES = {
     "jam_modes": 2,
     "jam_contact_candidates": 4,
     "jam_structure_factor": 2,
+    "jam_solid_profile": 3,
+    "jam_pore_sizes": 5,
     "jam_floppy_modes": 6,
     "jam_density_of_states": 6,
 }
@@ -1401,6 +1480,8 @@ EXTENTS: dict[str, dict[str, tuple[str, ...]]] = {
     "jam_mk_shifts": {'out': ('m', 'd')},
     "jam_bond_order": {'out': ('n',)},
     "jam_local_fraction": {'out': ('n',)},
+    "jam_voxels": {'out': ('voxels',)},
+    "jam_near_coordination": {'out': ('n',)},
     "jam_floppy_mode": {'out': ("N'", 'd')},
     "jam_project": {'out': ('m',)},
     "jam_elastic_tensor": {'affine': ('d', 'd', 'd', 'd'), 'relaxed': ('d', 'd', 'd', 'd')},
@@ -1494,6 +1575,12 @@ CALLS = {
     "jam_bond_order": (True, (("l", "scalar", "int32_t"), ("cutoff", "scalar", "double"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_crystal_score": (True, (("score", "scalar_out", "double"),)),
     "jam_local_fraction": (True, (("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_write_stl": (True, (("path", "string", "char"), ("o", "struct_in", "jam_mesh_options"), ("report", "struct_out", "jam_mesh_report"))),
+    "jam_voxels": (True, (("o", "struct_in", "jam_voxel_options"), ("report", "struct_out", "jam_voxel_report"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_write_voxels": (True, (("path", "string", "char"), ("o", "struct_in", "jam_voxel_options"), ("report", "struct_out", "jam_voxel_report"))),
+    "jam_solid_profile": (True, (("axis", "scalar", "int32_t"), ("bins", "scalar", "int32_t"), ("table", "array_out", "double"), ("table_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_near_coordination": (True, (("h_max", "scalar", "double"), ("out", "array_out", "int32_t"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_pore_sizes": (True, (("points", "scalar", "int64_t"), ("seed", "scalar", "int64_t"), ("table", "array_out", "double"), ("table_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_floppy_mode": (True, (("contact", "scalar", "int64_t"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_floppy_modes": (True, (("table", "array_out", "double"), ("table_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_density_of_states": (True, (("h", "struct_in", "jam_hessian_options"), ("o", "struct_in", "jam_dos_options"), ("table", "array_out", "double"), ("table_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),

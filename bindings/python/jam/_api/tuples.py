@@ -251,6 +251,40 @@ class StructureFactorResult(NamedTuple):
         return _by_shapes(self)
 
 
+class VoxelsResult(NamedTuple):
+    """What voxels returns."""
+
+    report: VoxelReport
+    out: Array
+
+    def __repr__(self) -> str:
+        return _by_shapes(self)
+
+
+class SolidProfileResult(NamedTuple):
+    """What solid_profile returns, column by column."""
+
+    low: Array  # where the bin begins: distance to the face of the cell, or to the centre or axis
+    high: Array  # where it ends
+    solid: Array  # share of the bin (of its part in the container) inside spheres
+
+    def __repr__(self) -> str:
+        return _by_shapes(self)
+
+
+class PoreSizesResult(NamedTuple):
+    """What pore_sizes returns, column by column."""
+
+    x: Array  # of the point
+    y: Array  # of the point
+    z: Array  # of the point, NaN in d = 2
+    distance: Array  # to the nearest surface: radius of the largest sphere about the point
+    radius: Array  # of the largest sphere that contains the point and no solid
+
+    def __repr__(self) -> str:
+        return _by_shapes(self)
+
+
 class FloppyModesResult(NamedTuple):
     """What floppy_modes returns, column by column."""
 
@@ -320,6 +354,9 @@ TUPLES: dict[str, type] = {
     "sphere_structure": SphereStructureResult,
     "contact_dots": ContactDotsResult,
     "structure_factor": StructureFactorResult,
+    "voxels": VoxelsResult,
+    "solid_profile": SolidProfileResult,
+    "pore_sizes": PoreSizesResult,
     "floppy_modes": FloppyModesResult,
     "density_of_states": DensityOfStatesResult,
     "elastic_tensor": ElasticTensorResult,

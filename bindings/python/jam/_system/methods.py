@@ -1101,6 +1101,173 @@ class Methods:
         answer: Array = self.call('local_fraction')
         return answer
 
+    def write_stl(self, path: str, *, contacts: int | str | None = None, edge: float | None = None, factor: float | None = None, bridge: float | None = None) -> MeshReport:
+        """Binary STL of the solid, d = 3: closed, each edge twice, once each way.
+
+        Cylinders that would meet each other or a third sphere are refused by name. The file appears as of write().
+
+        Parameters
+        ----------
+        path : str
+        contacts : {'kept', 'shrunk', 'bridged'}, optional
+            MeshContacts; default KEPT
+        edge : float, optional
+            of triangles, over the radius of the sphere: 0.03 .. 1, default 0.2
+        factor : float, optional
+            of SHRUNK, between 0 and 1, default 0.99
+        bridge : float, optional
+            of BRIDGED: radius of a cylinder over that of the smaller sphere, 0.02 .. 0.45, default 0.2
+
+        Returns
+        -------
+        MeshReport
+
+        Raises
+        ------
+        ArgumentError, StateError, UnsupportedError, IoError
+        """
+        answer: MeshReport = self.call('write_stl', path, contacts=contacts, edge=edge, factor=factor, bridge=bridge)
+        return answer
+
+    def voxels(self, *, lines: int | None = None, nx: int | None = None, ny: int | None = None, nz: int | None = None, size: float | None = None) -> VoxelsResult:
+        """Image of the solid: 0 or 1, or shares; -1 outside a round container.
+
+        x is fastest. out None: the report gives size and memory before the work.
+
+        Parameters
+        ----------
+        lines : int, optional
+            0, the default: the centre of a voxel decides. Else the share of the voxel that is solid, by the exact
+            lengths inside spheres of lines^(d-1) lines along x; at most 64
+        nx : int, optional
+            voxels along the edges of the brick, 0, the default, as `size` asks. Disks: one layer
+        ny : int, optional
+            voxels along the edges of the brick, 0, the default, as `size` asks. Disks: one layer
+        nz : int, optional
+            voxels along the edges of the brick, 0, the default, as `size` asks. Disks: one layer
+        size : float, optional
+            edge of a voxel, about; the number of voxels is rounded. 0, the default: box / 100
+
+        Returns
+        -------
+        report : VoxelReport
+        out : array, shape (voxels,)
+
+        Raises
+        ------
+        ArgumentError
+        """
+        answer: VoxelsResult = self.call('voxels', lines=lines, nx=nx, ny=ny, nz=nz, size=size)
+        return answer
+
+    def write_voxels(self, path: str, *, lines: int | None = None, nx: int | None = None, ny: int | None = None, nz: int | None = None, size: float | None = None) -> VoxelReport:
+        """Writes it layer by layer:.npy (image[x, y, z]),.mha (MetaImage),.vti (VTK), as bytes 0 void, 1 solid, 2
+        outside; with lines as float.
+
+        Parameters
+        ----------
+        path : str
+        lines : int, optional
+            0, the default: the centre of a voxel decides. Else the share of the voxel that is solid, by the exact
+            lengths inside spheres of lines^(d-1) lines along x; at most 64
+        nx : int, optional
+            voxels along the edges of the brick, 0, the default, as `size` asks. Disks: one layer
+        ny : int, optional
+            voxels along the edges of the brick, 0, the default, as `size` asks. Disks: one layer
+        nz : int, optional
+            voxels along the edges of the brick, 0, the default, as `size` asks. Disks: one layer
+        size : float, optional
+            edge of a voxel, about; the number of voxels is rounded. 0, the default: box / 100
+
+        Returns
+        -------
+        VoxelReport
+
+        Raises
+        ------
+        ArgumentError, UnsupportedError, IoError
+        """
+        answer: VoxelReport = self.call('write_voxels', path, lines=lines, nx=nx, ny=ny, nz=nz, size=size)
+        return answer
+
+    def solid_profile(self, axis: int, bins: int) -> SolidProfileResult:
+        """Solid fraction in equal bins, exact: axis 0.. d-1, slabs between the faces of the cell that a_axis joins; axis
+        = d, shells of a ball or a cylinder (there to 1e-12).
+
+        Parameters
+        ----------
+        axis : int
+        bins : int
+
+        Returns
+        -------
+        low : array
+            where the bin begins: distance to the face of the cell, or to the centre or axis
+        high : array
+            where it ends
+        solid : array
+            share of the bin (of its part in the container) inside spheres
+
+        Raises
+        ------
+        ArgumentError, UnsupportedError
+        """
+        answer: SolidProfileResult = self.call('solid_profile', axis, bins)
+        return answer
+
+    def near_coordination(self, h_max: float) -> Array:
+        """Spheres with a gap h < h_max, up to 1, to each one, every image; walls do not count.
+
+        Needs no crunch.
+
+        Parameters
+        ----------
+        h_max : float
+
+        Returns
+        -------
+        array, shape (n,)
+
+        Raises
+        ------
+        ArgumentError
+        """
+        answer: Array = self.call('near_coordination', h_max)
+        return answer
+
+    def pore_sizes(self, points: int, seed: int, *, progress: Progressing = None) -> PoreSizesResult:
+        """Pore sizes at random points of the void, exact.
+
+        The time grows with the fourth power of the neighbours: use it above packing fractions of about 0.4. Not with
+        walls yet.
+
+        Parameters
+        ----------
+        points : int
+        seed : int
+        progress : bool or callable, optional
+            True: a line that changes. A callable gets a Progress; a true answer stops the call.
+
+        Returns
+        -------
+        x : array
+            of the point
+        y : array
+            of the point
+        z : array
+            of the point, NaN in d = 2
+        distance : array
+            to the nearest surface: radius of the largest sphere about the point
+        radius : array
+            of the largest sphere that contains the point and no solid
+
+        Raises
+        ------
+        ArgumentError, UnsupportedError, MemoryError, BusyError
+        """
+        answer: PoreSizesResult = self.call('pore_sizes', points, seed, progress=progress)
+        return answer
+
     def floppy_mode(self, contact: int, *, progress: Progressing = None) -> Array:
         """Floppy mode: displacement over s when a contact opens by s.
 

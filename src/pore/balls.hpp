@@ -1,0 +1,119 @@
+// Balls near a point, by boxes: spheres and their images around the brick.
+#pragma once
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "pore/images.hpp"
+
+namespace jam {
+
+using Point = std::array<double, 3>;
+struct Ball {
+  Point x;
+  double r;
+};
+
+inline double dot(const Point &a, const Point &b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+inline Point minus(const Point &a, const Point &b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+inline Point cross(const Point &a, const Point &b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+class Balls {
+ public:
+  // All whose surface is within `reach` of the brick.
+  Balls(const Packing &p, double reach) : p_(p) {
+    std::vector<double> far(p.n());
+    for (size_t i = 0; i < p.n(); ++i) {
+      far[i] = 0.5 * p.diameter[i] + reach;
+      widest_ = std::max(widest_, 0.5 * p.diameter[i]);
+    }
+    const double side = std::max(diameter_mean(p), 0.5 * reach);
+    for (int c = 0; c < p.dim; ++c) {
+      low_[c] = -(reach + widest_);
+      const double length = p.cell.edge(c) - 2.0 * low_[c];
+      count_[c] = static_cast<int64_t>(std::min(1000.0, std::ceil(length / side)));
+      side_[c] = length / static_cast<double>(count_[c]);
+    }
+    at_.resize(static_cast<size_t>(count_[0] * count_[1] * count_[2]));
+    for (const SphereImage &s : images_near_brick(p, far)) {
+      at_[box_of(s.centre)].push_back(static_cast<int32_t>(ball_.size()));
+      ball_.push_back({s.centre, 0.5 * p.diameter[static_cast<size_t>(s.sphere)]});
+      own_.push_back(s.sphere);
+      first_.push_back(s.cells == std::array<int, 3>{});
+    }
+  }
+  Ball primary(size_t i) const { return {image_centre(p_, static_cast<int32_t>(i), {}), 0.5 * p_.diameter[i]}; }
+  size_t box_of(const Point &x) const {
+    return static_cast<size_t>((box(x[2], 2) * count_[1] + box(x[1], 1)) * count_[0] + box(x[0], 0));
+  }
+
+  // Those whose surface is at most s from x; with `from`, only spheres of this number and above, without that one
+  // itself.
+  void near(const Point &x, double s, std::vector<Ball> &out, int32_t from = -1) const {
+    out.clear();
+    each_near(x, s, [&](size_t k, double distance) {
+      if (distance <= s && (from < 0 || own_[k] > from || (own_[k] == from && !first_[k]))) out.push_back(ball_[k]);
+    });
+  }
+  // Distance to the nearest surface, negative inside; s where none is nearer.
+  double clearance(const Point &x, double s) const {
+    double least = s;
+    each_near(x, s, [&](size_t, double distance) { least = std::min(least, distance); });
+    return least;
+  }
+  // Which balls of a list, with their images in the brick, reach into each box.
+  void sort_into_boxes(std::vector<Ball> &balls, std::vector<std::vector<int32_t>> &at) const {
+    Packing p = p_;
+    p.position.clear(), p.diameter.clear();
+    std::vector<double> reach;
+    for (const Ball &b : balls) {
+      p.position.insert(p.position.end(), b.x.begin(), b.x.begin() + p.dim);
+      p.diameter.push_back(2.0 * b.r);
+      reach.push_back(b.r);
+    }
+    balls.clear();
+    at.assign(at_.size(), {});
+    for (const SphereImage &s : images_near_brick(p, reach)) {
+      const double r = reach[static_cast<size_t>(s.sphere)];
+      each_box(s.centre, r, [&](size_t k) { at[k].push_back(static_cast<int32_t>(balls.size())); });
+      balls.push_back({s.centre, r});
+    }
+  }
+
+ private:
+  int64_t box(double x, int c) const {
+    if (c >= p_.dim) return 0;
+    return std::min(count_[c] - 1, std::max<int64_t>(0, static_cast<int64_t>(std::floor((x - low_[c]) / side_[c]))));
+  }
+  template <class F>
+  void each_box(const Point &x, double r, const F &f) const {
+    for (int64_t z = box(x[2] - r, 2); z <= box(x[2] + r, 2); ++z)
+      for (int64_t y = box(x[1] - r, 1); y <= box(x[1] + r, 1); ++y)
+        for (int64_t k = box(x[0] - r, 0); k <= box(x[0] + r, 0); ++k)
+          f(static_cast<size_t>((z * count_[1] + y) * count_[0] + k));
+  }
+  template <class F>
+  void each_near(const Point &x, double s, const F &f) const {
+    each_box(x, s + widest_, [&](size_t b) {
+      for (const int32_t k : at_[b]) {
+        const Ball &ball = ball_[static_cast<size_t>(k)];
+        const Point d = minus(ball.x, x);
+        f(static_cast<size_t>(k), std::sqrt(dot(d, d)) - ball.r);
+      }
+    });
+  }
+  const Packing &p_;
+  double widest_ = 0.0;
+  Point low_{}, side_{1.0, 1.0, 1.0};
+  std::array<int64_t, 3> count_{1, 1, 1};
+  std::vector<Ball> ball_;
+  std::vector<int32_t> own_;
+  std::vector<char> first_;
+  std::vector<std::vector<int32_t>> at_;
+};
+
+}  // namespace jam

@@ -1,0 +1,353 @@
+#include "pore/solid_mesh.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/call_scope.hpp"
+#include "core/checks.hpp"
+#include "core/math.hpp"
+#include "pore/clipped.hpp"
+#include "pore/images.hpp"
+#include "pore/profile.hpp"
+#include "pore/sphere_hull.hpp"
+
+namespace jam {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+constexpr double clear_of_points = 0.5;  // of an edge: points of the grid that a contact or a rim takes the place of
+constexpr double between_rims = 0.01;    // least angle
+
+// A contact as its first sphere sees it. Both spheres take from here what they share, to the bit.
+struct Joint {
+  int32_t i, j;
+  std::array<int, 3> cells;  // the image of i that touches j
+  Point towards;             // unit vector from i to j
+  double length, split;      // distance of the centres; of i and the middle of the joint
+  double radius;             // of the cylinder
+  int32_t rim;               // points round it
+  Point u, v;                // across
+};
+
+struct End {  // of a joint at one sphere
+  size_t joint;
+  bool second;
+};
+
+class Mesher {
+ public:
+  Mesher(const Packing &p, const ContactNetwork *network, const jam_mesh_options &o)
+      : p_(p), o_(o), grid_(divided_icosahedron(o.edge)), ends_(p.n()) {
+    factor_ = o.contacts == JAM_MESH_SHRUNK ? o.factor : 1.0;
+    if (network && o.contacts != JAM_MESH_SHRUNK) take_joints(*network);
+    if (o.contacts == JAM_MESH_BRIDGED) check_bridges();
+  }
+  SolidMesh make();
+
+ private:
+  struct Corner {  // of a triangle: its place relative to the centre, or a point of a joint
+    Point x;
+    int32_t joint, k;  // joint < 0: none. k < 0: the middle of the joint; else a point of the ring there
+    bool second;       // this sphere is the second one of the joint
+  };
+  struct Part {
+    Triangle corner;
+    bool surface;
+  };
+  double radius(int32_t i) const { return 0.5 * factor_ * p_.diameter[static_cast<size_t>(i)]; }
+  bool bridged() const { return o_.contacts == JAM_MESH_BRIDGED; }
+  double cap_angle(const Joint &t, int32_t sphere) const { return math::asin(t.radius / radius(sphere)); }
+  Point direction(const End &e) const {
+    const Point &d = joint_[e.joint].towards;
+    return e.second ? Point{-d[0], -d[1], -d[2]} : d;
+  }
+  void take_joints(const ContactNetwork &network);
+  void check_bridges() const;
+  void refuse_third_sphere(const Joint &t, const Point &x, double r, int32_t sphere) const;
+  double bridge_volume(const Joint &t) const;
+  void build(int32_t sphere);
+  void add_end(const End &e, int32_t sphere, std::vector<Point> &point, std::vector<int32_t> &owner);
+  Point place(const Corner &c, const SphereImage &image) const;
+  void emit(const SphereImage &image, SolidMesh &mesh) const;
+  void put(const Point &a, const Point &b, const Point &c, SolidMesh &mesh) const;
+
+  const Packing &p_;
+  const jam_mesh_options &o_;
+  SphereGrid grid_;
+  double factor_;
+  std::vector<Joint> joint_;
+  std::vector<std::vector<End>> ends_;
+  std::vector<Corner> corner_;  // of the sphere at hand
+  std::vector<Part> part_;
+};
+
+void Mesher::take_joints(const ContactNetwork &network) {
+  for (size_t k = 0; k < network.size(); ++k) {
+    Joint t;
+    t.i = network.pairs.i[k], t.j = network.pairs.j[k];
+    t.cells = cells_of(p_.cell, &network.pairs.offset[3 * k]);
+    double r[3];
+    t.length = std::sqrt(pair_vector(p_, network.pairs, k, r));
+    t.towards = {-r[0] / t.length, -r[1] / t.length, -r[2] / t.length};
+    t.split = t.length * radius(t.i) / (radius(t.i) + radius(t.j));
+    const double least = std::min(radius(t.i), radius(t.j));
+    t.radius = bridged() ? o_.bridge * least : 0.0;
+    t.rim = std::max(8, static_cast<int32_t>(std::ceil(2.0 * pi * o_.bridge / o_.edge)));
+    const size_t c = std::fabs(t.towards[0]) < 0.5 ? 0 : 1;  // an axis well away from it
+    Point axis{};
+    axis[c] = 1.0;
+    t.u = cross(t.towards, axis);
+    const double across = std::sqrt(dot(t.u, t.u));
+    for (double &x : t.u) x /= across;
+    t.v = cross(t.towards, t.u);
+    ends_[static_cast<size_t>(t.i)].push_back({joint_.size(), false});
+    ends_[static_cast<size_t>(t.j)].push_back({joint_.size(), true});
+    joint_.push_back(t);
+  }
+}
+
+// A closed mesh alone is no valid one: its parts must not cut each other.
+void Mesher::refuse_third_sphere(const Joint &t, const Point &x, double r, int32_t sphere) const {
+  const double along = dot(x, t.towards);
+  const double low = radius(t.i) * math::cos(cap_angle(t, t.i));
+  const double high = t.length - radius(t.j) * math::cos(cap_angle(t, t.j));
+  const double nearest = std::min(std::max(along, low), high);
+  const double off2 = std::max(0.0, dot(x, x) - along * along);
+  const double need = r + t.radius;
+  if (off2 + (along - nearest) * (along - nearest) < need * need)
+    fail(JAM_E_ARGUMENT, "bridge is %g: the cylinder between spheres %d and %d would meet sphere %d", o_.bridge, t.i,
+         t.j, sphere);
+}
+
+void Mesher::check_bridges() const {
+  for (size_t s = 0; s < ends_.size(); ++s)
+    for (size_t a = 0; a < ends_[s].size(); ++a)
+      for (size_t b = 0; b < a; ++b) {
+        const auto sphere = static_cast<int32_t>(s);
+        const Joint &t = joint_[ends_[s][a].joint], &q = joint_[ends_[s][b].joint];
+        const double angle =
+            math::acos(std::min(1.0, std::max(-1.0, dot(direction(ends_[s][a]), direction(ends_[s][b])))));
+        if (angle < cap_angle(t, sphere) + cap_angle(q, sphere) + between_rims)
+          fail(JAM_E_ARGUMENT, "bridge is %g: two cylinders at sphere %d would meet (contacts %zu and %zu)", o_.bridge,
+               sphere, ends_[s][a].joint, ends_[s][b].joint);
+      }
+  const PairList pairs = find_pairs(p_, 0.0, 1.0 + o_.bridge);
+  for (size_t k = 0; k < pairs.size(); ++k) {
+    double r[3];
+    pair_vector(p_, pairs, k, r);
+    for (const bool second : {false, true}) {  // whether the joint is at the second sphere of the pair
+      const int32_t own = second ? pairs.j[k] : pairs.i[k], other = second ? pairs.i[k] : pairs.j[k];
+      for (const End &e : ends_[static_cast<size_t>(own)]) {
+        const Joint &t = joint_[e.joint];
+        Point x, off;  // the other from the first sphere of the joint; from the partner
+        for (size_t c = 0; c < 3; ++c) {
+          x[c] = (second ? r[c] : -r[c]) + (e.second ? t.length * t.towards[c] : 0.0);
+          off[c] = x[c] - (e.second ? 0.0 : t.length * t.towards[c]);
+        }
+        const double same = 1e-6 * t.length;
+        if (dot(off, off) > same * same) refuse_third_sphere(t, x, radius(other), other);
+      }
+    }
+  }
+}
+
+// What a cylinder adds to the two spheres.
+double Mesher::bridge_volume(const Joint &t) const {
+  double length = t.length, caps = 0.0;
+  for (const int32_t s : {t.i, t.j}) {
+    const double depth = radius(s) * math::cos(cap_angle(t, s));
+    length -= depth;
+    caps += volume_below(3, radius(s), -depth);
+  }
+  return pi * t.radius * t.radius * length - caps;
+}
+
+// The points of the sphere at one end: of its rim, or the contact itself. `owner` says which corners a rim has.
+void Mesher::add_end(const End &e, int32_t sphere, std::vector<Point> &point, std::vector<int32_t> &owner) {
+  const Joint &t = joint_[e.joint];
+  const Point d = direction(e);
+  const auto joint = static_cast<int32_t>(e.joint);
+  if (!bridged()) {
+    point.push_back(d);
+    owner.push_back(-1);
+    corner_.push_back({{}, joint, -1, e.second});
+    return;
+  }
+  const double s = t.radius / radius(sphere), c = std::sqrt(1.0 - s * s);
+  for (int32_t k = 0; k < t.rim; ++k) {
+    const double turns = static_cast<double>(k) / t.rim, co = math::cos_of_turns(turns),
+                 si = math::sin(2.0 * pi * turns);
+    Point x;
+    for (size_t q = 0; q < 3; ++q) x[q] = c * d[q] + s * (co * t.u[q] + si * t.v[q]);
+    point.push_back(x);
+    owner.push_back(static_cast<int32_t>(&e - ends_[static_cast<size_t>(sphere)].data()));
+    for (double &y : x) y *= radius(sphere);
+    corner_.push_back({x, -1, 0, false});
+  }
+}
+
+void Mesher::build(int32_t sphere) {
+  const std::vector<End> &ends = ends_[static_cast<size_t>(sphere)];
+  std::vector<Point> point;
+  std::vector<int32_t> owner;
+  corner_.clear(), part_.clear();
+  std::vector<int32_t> first;
+  for (const End &e : ends) {
+    first.push_back(static_cast<int32_t>(point.size()));
+    add_end(e, sphere, point, owner);
+  }
+  for (const Point &x : grid_.point) {
+    bool free = true;
+    for (const End &e : ends) {
+      const double angle = (bridged() ? cap_angle(joint_[e.joint], sphere) : 0.0) + clear_of_points * o_.edge;
+      free = free && dot(x, direction(e)) < math::cos(std::min(angle, pi));
+    }
+    if (!free) continue;
+    point.push_back(x);
+    owner.push_back(-1);
+    corner_.push_back({{radius(sphere) * x[0], radius(sphere) * x[1], radius(sphere) * x[2]}, -1, 0, false});
+  }
+  for (const Triangle &t : ends.empty() ? grid_.triangle : sphere_hull(point)) {
+    const int32_t o = owner[static_cast<size_t>(t[0])];
+    const bool cap = o >= 0 && o == owner[static_cast<size_t>(t[1])] && o == owner[static_cast<size_t>(t[2])];
+    if (!cap) part_.push_back({t, true});
+  }
+  for (size_t e = 0; bridged() && e < ends.size();
+       ++e) {  // the wall of the cylinder up to its middle, and the end there
+    const Joint &t = joint_[ends[e].joint];
+    const auto joint = static_cast<int32_t>(ends[e].joint), ring = static_cast<int32_t>(corner_.size()),
+               middle = ring + t.rim;
+    for (int32_t k = 0; k < t.rim; ++k) corner_.push_back({{}, joint, k, ends[e].second});
+    corner_.push_back({{}, joint, -1, ends[e].second});
+    for (int32_t k = 0; k < t.rim; ++k) {
+      int32_t a = k, b = (k + 1) % t.rim;
+      if (ends[e].second) std::swap(a, b);  // seen from the other side the ring runs the other way
+      part_.push_back({{first[e] + a, first[e] + b, ring + b}, true});
+      part_.push_back({{first[e] + a, ring + b, ring + a}, true});
+      part_.push_back({{ring + a, ring + b, middle}, false});
+    }
+  }
+}
+
+// To the bit the same for both spheres of a joint, since both begin at the image of its first one.
+Point Mesher::place(const Corner &c, const SphereImage &image) const {
+  Point x = image.centre;
+  if (c.joint < 0) {
+    for (size_t q = 0; q < 3; ++q) x[q] += c.x[q];
+    return x;
+  }
+  const Joint &t = joint_[static_cast<size_t>(c.joint)];
+  std::array<int, 3> cells = image.cells;
+  for (size_t q = 0; q < 3 && c.second; ++q) cells[q] += t.cells[q];
+  x = image_centre(p_, t.i, cells);
+  const double turns = static_cast<double>(c.k) / t.rim;
+  const double co = c.k < 0 ? 0.0 : t.radius * math::cos_of_turns(turns);
+  const double si = c.k < 0 ? 0.0 : t.radius * math::sin(2.0 * pi * turns);
+  for (size_t q = 0; q < 3; ++q) x[q] += t.split * t.towards[q] + co * t.u[q] + si * t.v[q];
+  return x;
+}
+
+// A triangle as the file has it. One that rounding has made an edge is left out: its neighbours then share that edge.
+void Mesher::put(const Point &a, const Point &b, const Point &c, SolidMesh &mesh) const {
+  std::array<float, 9> t;
+  Point rounded[3];
+  const Point *const corner[] = {&a, &b, &c};
+  for (size_t k = 0; k < 3; ++k)
+    for (size_t q = 0; q < 3; ++q) {
+      t[3 * k + q] = static_cast<float>((*corner[k])[q]);
+      rounded[k][q] = static_cast<double>(t[3 * k + q]);
+    }
+  if (rounded[0] == rounded[1] || rounded[1] == rounded[2] || rounded[2] == rounded[0]) return;
+  mesh.triangle.push_back(t);
+  for (Point &x : rounded)
+    for (int q = 0; q < 3; ++q) x[static_cast<size_t>(q)] -= 0.5 * p_.cell.edge(q);
+  mesh.volume += dot(rounded[0], cross(rounded[1], rounded[2])) / 6.0;
+}
+
+// The sphere at hand as cones from its centre, which its parts can be seen from, cut at the faces of the brick.
+void Mesher::emit(const SphereImage &image, SolidMesh &mesh) const {
+  std::vector<Point> at;
+  for (const Corner &c : corner_) at.push_back(place(c, image));
+  const auto beyond = [&](const Point &x, int c, bool above) {
+    const double y = x[static_cast<size_t>(c)];
+    return p_.cell.repeats(c) && (above ? y > p_.cell.edge(c) : y < 0.0);
+  };
+  std::vector<std::pair<int, bool>> planes;
+  for (int c = 0; c < 3; ++c)
+    for (const bool above : {false, true})
+      if (std::any_of(at.begin(), at.end(), [&](const Point &x) { return beyond(x, c, above); }) ||
+          beyond(image.centre, c, above))
+        planes.emplace_back(c, above);
+  std::vector<Face> piece;
+  for (const Part &part : part_) {
+    const Point &o = image.centre, &a = at[static_cast<size_t>(part.corner[0])],
+                &b = at[static_cast<size_t>(part.corner[1])], &c = at[static_cast<size_t>(part.corner[2])];
+    bool whole = true;
+    for (const auto &[axis, above] : planes) {
+      if (!beyond(o, axis, above) && !beyond(a, axis, above) && !beyond(b, axis, above) && !beyond(c, axis, above))
+        continue;
+      if (whole) piece = {{{a, b, c}, part.surface}, {{o, b, a}, false}, {{o, c, b}, false}, {{o, a, c}, false}};
+      whole = false;
+      clip(piece, axis, above ? p_.cell.edge(axis) : 0.0, above);
+    }
+    if (whole && part.surface) put(a, b, c, mesh);
+    for (const Face &f : piece)
+      for (size_t k = 2; !whole && f.surface && k < f.corner.size(); ++k)
+        put(f.corner[0], f.corner[k - 1], f.corner[k], mesh);
+  }
+}
+
+SolidMesh Mesher::make() {
+  SolidMesh mesh;
+  std::vector<double> reach;
+  for (size_t i = 0; i < p_.n(); ++i) {
+    double far = radius(static_cast<int32_t>(i));
+    for (const End &e : ends_[i]) {
+      const Joint &t = joint_[e.joint];
+      const double half = e.second ? t.length - t.split : t.split;
+      far = std::max(far, std::sqrt(half * half + t.radius * t.radius));
+    }
+    reach.push_back(far * (1.0 + 1e-12));
+    mesh.solid += volume_below(3, radius(static_cast<int32_t>(i)), radius(static_cast<int32_t>(i)));
+  }
+  for (const Joint &t : joint_)
+    if (bridged()) mesh.solid += bridge_volume(t);
+  mesh.bridges = bridged() ? static_cast<int64_t>(joint_.size()) : 0;
+  const std::vector<SphereImage> images = images_near_brick(p_, reach);
+  CallScope::need_memory(
+      static_cast<double>(images.size()) * static_cast<double>(grid_.triangle.size()) * sizeof(std::array<float, 9>),
+      "the triangles of a mesh");
+  int32_t built = -1;
+  for (const SphereImage &image : images) {
+    CallScope::look();
+    if (image.sphere != built) build(image.sphere);
+    built = image.sphere;
+    emit(image, mesh);
+  }
+  return mesh;
+}
+
+}  // namespace
+
+jam_mesh_options default_mesh_options() {
+  jam_mesh_options o{};
+  o.struct_size = sizeof o;
+  o.contacts = JAM_MESH_KEPT;
+  o.edge = 0.2;
+  o.factor = 0.99;
+  o.bridge = 0.2;
+  return o;
+}
+
+SolidMesh solid_mesh(const Packing &p, const ContactNetwork *network, const jam_mesh_options &o) {
+  check_enum(o.contacts, JAM_MESH_KEPT, JAM_MESH_BRIDGED, "contacts", "jam_mesh_contacts");
+  if (!(o.edge >= 0.03 && o.edge <= 1.0)) fail(JAM_E_ARGUMENT, "edge is %g, it must be in 0.03..1", o.edge);
+  if (!(o.factor > 0.0 && o.factor < 1.0)) fail(JAM_E_ARGUMENT, "factor is %g, it must lie between 0 and 1", o.factor);
+  if (!(o.bridge >= 0.02 && o.bridge <= 0.45)) fail(JAM_E_ARGUMENT, "bridge is %g, it must be in 0.02..0.45", o.bridge);
+  check_has_pores(p);
+  if (p.dim != 3) fail(JAM_E_UNSUPPORTED, "a mesh of triangles needs d = 3, this packing has d = %d", p.dim);
+  return Mesher(p, network, o).make();
+}
+
+}  // namespace jam

@@ -1,0 +1,24 @@
+// The surface of the solid in the brick, as triangles: closed, each edge twice, once each way.
+#pragma once
+#include <array>
+#include <vector>
+
+#include "core/packing.hpp"
+#include "jam/jam.h"
+#include "network/contact_network.hpp"
+
+namespace jam {
+
+struct SolidMesh {
+  std::vector<std::array<float, 9>> triangle;  // three corners
+  int64_t bridges = 0;
+  double volume = 0.0;  // that the triangles enclose
+  double solid = 0.0;   // of the spheres and cylinders that they stand for
+};
+
+jam_mesh_options default_mesh_options();
+// network: NULL where there is none; BRIDGED needs it. JAM_E_ARGUMENT also where bridges would meet each other or
+// another sphere, JAM_E_UNSUPPORTED but in d = 3.
+SolidMesh solid_mesh(const Packing &p, const ContactNetwork *network, const jam_mesh_options &o);
+
+}  // namespace jam

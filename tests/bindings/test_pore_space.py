@@ -1,0 +1,382 @@
+"""The pore space: mesh, image, profiles, coordination and pore sizes, each against another way to compute it."""
+import math
+import os
+import struct
+import subprocess
+import tempfile
+import unittest
+from collections import Counter
+from pathlib import Path
+
+import jam
+import numpy as np
+
+PACK = os.environ.get("JAM_PACK")
+
+
+def triangles(path):
+    """(count, 3, 3) corners of a binary STL file, as float32."""
+    data = Path(path).read_bytes()
+    (count,) = struct.unpack_from("<I", data, 80)
+    assert len(data) == 84 + 50 * count
+    records = np.frombuffer(data, np.dtype([("normal", "<f4", 3), ("corner", "<f4", (3, 3)), ("unused", "<u2")]), count, 84)
+    return records["corner"]
+
+
+def volume(corners):
+    a, b, c = (corners.astype(float) - corners.astype(float).mean((0, 1))).transpose(1, 0, 2)
+    return np.einsum("ij,ij->", a, np.cross(b, c)) / 6
+
+
+def open_edges(corners):
+    """Directed edges that do not occur as often each way."""
+    _, index = np.unique(corners.reshape(-1, 3), axis=0, return_inverse=True)
+    t = index.reshape(-1, 3)
+    ways = Counter()
+    for k in range(3):
+        for a, b in zip(t[:, k].tolist(), t[:, (k + 1) % 3].tolist()):
+            ways[min(a, b), max(a, b)] += 1 if a < b else -1
+    return sum(abs(n) for n in ways.values())
+
+
+def jammed(n=60, **options):
+    s = jam.System.random(n, 3, 5, **options)
+    s.compress(growth_rate=3e-2, pressure=1e5)
+    s.crunch()
+    return s
+
+
+TILTED = [[1, 0, 0], [0.3, 1.1, 0], [0.2, -0.4, 0.9]]
+
+
+class Mesh(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.path = Path(self.folder.name, "p.stl")
+
+    def tearDown(self):
+        self.folder.cleanup()
+
+    def mesh(self, s, **options):
+        report = s.write_stl(str(self.path), **options)
+        corners = triangles(self.path)
+        self.assertEqual((report.triangles, report.bytes), (len(corners), self.path.stat().st_size))
+        self.assertEqual(open_edges(corners), 0)
+        self.assertAlmostEqual(volume(corners), report.volume, 9)
+        sides = np.diag(s.cell)  # of the brick
+        self.assertTrue((corners >= 0).all() and (corners <= sides.astype(np.float32)).all())
+        return report
+
+    def test_is_closed_and_its_volume_converges(self):
+        s = jammed()
+        for options, solid in (({}, s.packing_fraction), ({"contacts": "shrunk", "factor": 0.9}, 0.729 * s.packing_fraction)):
+            lost = []
+            for edge in (0.4, 0.2, 0.1):
+                report = self.mesh(s, edge=edge, **options)
+                self.assertAlmostEqual(report.solid, solid, 12)
+                lost.append(1 - report.volume / report.solid)
+            # corners lie on the spheres: less volume, by the square of the edge
+            self.assertTrue(lost[0] > lost[1] > lost[2] > 0)
+            self.assertLess(lost[2], lost[0] / 8)
+            self.assertLess(lost[2], 0.3 * 0.1**2)
+
+    def test_bridges(self):
+        s = jammed()
+        for bridge in (0.05, 0.2, 0.4):
+            report = self.mesh(s, contacts="bridged", bridge=bridge, edge=0.15)
+            self.assertEqual(report.bridges, len(s.contacts))
+            self.assertLess(abs(report.volume / report.solid - 1), 0.012)
+            # solid by the image of the same solid: spheres and cylinders on a grid of points
+            if bridge == 0.4:
+                self.assertLess(abs(self.union(s, bridge) - report.solid), 3e-3)
+
+    def union(self, s, bridge, m=64):
+        g = (np.arange(m) + 0.5) / m
+        points = np.stack(np.meshgrid(g, g, g, indexing="ij"), -1).reshape(-1, 3)
+        inside = np.zeros(len(points), bool)
+        for x, r in zip(s.positions, s.diameters / 2):
+            d = points - x
+            inside |= ((d - np.rint(d)) ** 2).sum(1) < r * r
+        c, x, r = s.contacts, s.positions, s.diameters / 2
+        for (i, j), n in zip(c.pairs, c.vectors):
+            middle = x[i] - r[i] * n
+            d = points - middle
+            d -= np.rint(d)
+            along = d @ n
+            across2 = (d * d).sum(1) - along**2
+            inside |= (across2 < (bridge * min(r[i], r[j])) ** 2) & (along < r[i]) & (along > -r[j])
+        return inside.mean()
+
+    def test_tilted_cells_and_sizes(self):
+        s = jammed(40, cell=TILTED, diameters=jam.sizes("list", 40, curve=[(1, 0.5), (1.6, 0.5)]))
+        for options in ({}, {"contacts": "bridged", "bridge": 0.15}, {"contacts": "shrunk"}):
+            report = self.mesh(s, **options)
+            self.assertLess(abs(report.volume / report.solid - 1), 0.03)
+
+    def test_spheres_on_the_planes_of_the_cell(self):
+        half = 0.5 - 1e-9
+        s = jam.System.from_arrays([[0, 0, 0], [0, 0.5, 0.5], [0.5, 0, 0.5], [0.5, 0.5, 0]], np.sqrt(0.5) * (1 - 1e-15))
+        self.mesh(s)
+        s = jam.System.from_arrays([[half, 0, 0.25]], 0.9)
+        self.mesh(s)
+
+    def test_containers_do_not_cut(self):
+        s = jam.System.random(50, packing_fraction=0.25, container="cylinder", cell=[1, 1, 2])
+        report = self.mesh(s)
+        self.assertAlmostEqual(report.solid, s.packing_fraction * s.info.volume, 12)
+
+    def test_refusals(self):
+        s = jam.System.random(20, packing_fraction=0.1)
+        with self.assertRaises(jam.errors.StateError):
+            s.write_stl(str(self.path), contacts="bridged")
+        for options, text in (({"edge": 0.01}, "edge is 0.01"), ({"bridge": 0.5}, "bridge is 0.5"), ({"factor": 1.0}, "factor is 1")):
+            with self.assertRaisesRegex(jam.errors.ArgumentError, text):
+                s.write_stl(str(self.path), **options)
+        with self.assertRaisesRegex(jam.errors.UnsupportedError, "d = 2"):
+            jam.System.random(20, 2, packing_fraction=0.1).write_stl(str(self.path))
+        self.assertFalse(self.path.exists())
+        # a small sphere in the wedge of two large ones stands where their cylinder would be
+        x = [[0.3, 0.5, 0.5], [0.7, 0.5, 0.5], [0.5, 0.5 + math.sqrt(0.22**2 - 0.2**2), 0.5]]
+        s = jam.System.from_arrays(x, np.array([0.4, 0.4, 0.04]) * (1 - 1e-14))
+        s.contacts_from_geometry()
+        if len(s.contacts):
+            with self.assertRaisesRegex(jam.errors.ArgumentError, "would meet"):
+                s.write_stl(str(self.path), contacts="bridged", bridge=0.4)
+
+
+class Image(unittest.TestCase):
+    def test_porosity_is_exact_to_its_resolution(self):
+        s = jammed()
+        exact = 1 - s.packing_fraction
+        for m in (32, 64, 128):
+            image = s.image(shape=(m, m, m))
+            self.assertEqual((image.shape, image.dtype), ((m, m, m), np.uint8))
+            # about sqrt(voxels at the surface) of them are wrong at random
+            surface = math.pi * (s.diameters**2).sum() * m * m
+            self.assertLess(abs(1 - image.mean() - exact), 5 * math.sqrt(surface) / m**3)
+        shares = s.image(shape=(48, 48, 48), lines=8)
+        self.assertLess(abs(1 - shares.mean(dtype=float) - exact), 2e-5)
+        self.assertTrue(((shares >= 0) & (shares <= 1)).all())
+        whole = s.image(shape=(48, 48, 48))
+        self.assertTrue((whole[shares == 1] == 1).all() and (whole[shares == 0] == 0).all())
+
+    def test_images_repeat(self):
+        s = jam.System.random(30, packing_fraction=0.3)
+        x = np.rint(s.positions * 2**20) / 2**20
+        a = jam.System.from_arrays(x, s.diameters * 0.9).image(shape=(32, 16, 8))
+        b = jam.System.from_arrays((x + [0.25, 0.5, 0.125]) % 1, s.diameters * 0.9).image(shape=(32, 16, 8))
+        np.testing.assert_array_equal(np.roll(a, (8, 8, 1), (0, 1, 2)), b)
+
+    def test_centres_decide(self):
+        s = jam.System.random(40, packing_fraction=0.3, cell=TILTED)
+        image = s.image(size=0.05)
+        sides = np.diag(s.cell)
+        points = np.stack(np.meshgrid(*((np.arange(k) + 0.5) * side / k for k, side in zip(image.shape, sides)), indexing="ij"), -1)
+        inside = np.zeros(image.shape, bool)
+        shifts = np.array([[i, j, k] for i in (-2, -1, 0, 1, 2) for j in (-2, -1, 0, 1, 2) for k in (-1, 0, 1)]) @ s.cell
+        for x, r in zip(s.positions, s.diameters / 2):
+            for shift in shifts:
+                inside |= ((points - x - shift) ** 2).sum(-1) < r * r
+        np.testing.assert_array_equal(image == 1, inside)
+
+    def test_disks_and_containers(self):
+        disks = jam.System.random(50, 2, packing_fraction=0.5)
+        self.assertLess(abs(disks.image(shape=(100, 100), lines=8).mean(dtype=float) - 0.5), 1e-4)
+        ball = jam.System.random(30, packing_fraction=0.2, container="ball")
+        image = ball.image(shape=(60, 60, 60))
+        self.assertLess(abs((image != 2).mean() - math.pi / 6), 1e-3)
+        self.assertLess(abs((image == 1).sum() / (image != 2).sum() - 0.2), 4e-3)
+
+    def test_files_say_the_same(self):
+        s = jam.System.random(30, packing_fraction=0.3, cell=[1, 1.5, 2])
+        image = s.image(size=0.1)
+        self.assertEqual(image.shape, (10, 15, 20))
+        with tempfile.TemporaryDirectory() as folder:
+            npy, mha, vti, shares = (str(Path(folder, name)) for name in ("a.npy", "a.mha", "a.vti", "s.vti"))
+            for path in (npy, mha, vti):
+                report = s.write_voxels(path, size=0.1)
+            s.write_voxels(shares, size=0.1, lines=2)
+            self.assertEqual((report.nx, report.ny, report.nz, report.bytes), (10, 15, 20, 3000))
+            self.assertAlmostEqual(report.porosity, 1 - image.mean(), 12)
+            np.testing.assert_array_equal(np.load(npy), image)
+            head, data = Path(mha).read_bytes().split(b"ElementDataFile = LOCAL\n")
+            self.assertIn(b"DimSize = 10 15 20\n", head)
+            np.testing.assert_array_equal(np.frombuffer(data, np.uint8).reshape(20, 15, 10).T, image)
+            try:
+                from vtkmodules.util.numpy_support import vtk_to_numpy
+                from vtkmodules.vtkIOXML import vtkXMLImageDataReader
+                from vtkmodules.vtkIOImage import vtkMetaImageReader
+            except ImportError:
+                self.assertIn(b'WholeExtent="0 10 0 15 0 20"', Path(vti).read_bytes())
+                return
+            for path, expected in ((vti, image), (shares, s.image(size=0.1, lines=2))):
+                reader = vtkXMLImageDataReader()
+                reader.SetFileName(path)
+                reader.Update()
+                read = reader.GetOutput()
+                self.assertEqual(read.GetBounds()[1::2], (1.0, 1.5, 2.0))
+                values = vtk_to_numpy(read.GetCellData().GetScalars())
+                np.testing.assert_array_equal(values.reshape(20, 15, 10).T, expected)
+            reader = vtkMetaImageReader()
+            reader.SetFileName(mha)
+            reader.Update()
+            values = vtk_to_numpy(reader.GetOutput().GetPointData().GetScalars())
+            np.testing.assert_array_equal(values.reshape(20, 15, 10).T, image)
+
+    def test_refusals(self):
+        s = jam.System.random(20, packing_fraction=0.1)
+        with self.assertRaisesRegex(ValueError, "shape must have 3"):
+            s.image(shape=(3, 3))
+        with self.assertRaisesRegex(jam.errors.ArgumentError, "voxels"):
+            s.image(size=1e-9)
+        with self.assertRaisesRegex(jam.errors.UnsupportedError, ".npy, .mha"):
+            s.write_voxels("/tmp/image.tif")
+
+
+def lens(a, b, d):
+    """Area that two circles share."""
+    if d >= a + b:
+        return 0.0
+    if d <= abs(a - b):
+        return math.pi * min(a, b) ** 2
+    x = (d * d + a * a - b * b) / (2 * d)
+    return a * a * math.acos(x / a) + b * b * math.acos((d - x) / b) - d * math.sqrt(max(0.0, a * a - x * x))
+
+
+class Profiles(unittest.TestCase):
+    def test_slabs_add_up(self):
+        for s in (jammed(40), jam.System.random(40, packing_fraction=0.3, cell=TILTED), jam.System.random(40, 2, packing_fraction=0.4)):
+            for axis in range(s.dim):
+                p = s.solid_profile(axis, 17)
+                self.assertAlmostEqual(p.solid.mean(), s.packing_fraction, 13)
+                self.assertEqual(p.low[0], 0)
+                np.testing.assert_allclose(p.high[:-1], p.low[1:], rtol=1e-15)
+
+    def test_slabs_are_the_means_of_the_image(self):
+        s = jammed(40)
+        image = s.image(shape=(128, 128, 16), lines=6)
+        np.testing.assert_allclose(s.solid_profile(2, 16).solid, image.mean((0, 1), dtype=float), atol=2e-3)
+
+    def test_containers(self):
+        for container, dim, walls in (("ball", 3, ""), ("ball", 2, ""), ("cylinder", 3, ""), ("cylinder", 3, "z")):
+            s = jam.System.random(40, dim, packing_fraction=0.25, container=container, walls=walls, cell=None if dim == 2 else [1, 1, 1])
+            r = s.solid_profile(s.dim, 23)
+            power = 3 if container == "ball" and dim == 3 else 2
+            share = r.high**power - r.low**power
+            self.assertAlmostEqual((r.solid * share).sum() / share.sum(), s.packing_fraction, 12)
+            self.assertAlmostEqual(r.high[-1], 0.5, 14)
+            self.assertTrue((r.solid > -1e-12).all() and (r.solid < 1 + 1e-12).all())
+            x = s.solid_profile(0, 11)
+            self.assertTrue((x.solid > -1e-12).all() and (x.solid < 1).all())
+
+    def test_a_sphere_in_a_tube(self):
+        """Shells by Simpson's rule over heights, and lenses by the formula of a triangle."""
+        x, r, edge = np.array([0.62, 0.55, 0.5]), 0.21, 0.4
+        s = jam.System.from_arrays([x], 2 * r, cell=[1, 1, 1], container="cylinder")
+        apart = math.hypot(x[0] - 0.5, x[1] - 0.5)
+        angle = np.linspace(0, math.pi / 2, 20001)
+        f = np.array([lens(math.sqrt(max(0.0, r * r - (r * math.sin(t)) ** 2)), edge, apart) * r * math.cos(t) for t in angle])
+        weight = np.ones(len(angle))
+        weight[1:-1:2], weight[2:-1:2] = 4, 2
+        inside = 2 * (weight * f).sum() * (angle[1] - angle[0]) / 3
+        p = s.solid_profile(3, 5)
+        found = (p.solid[:4] * math.pi * (p.high[:4] ** 2 - p.low[:4] ** 2)).sum()
+        self.assertAlmostEqual(found, inside, 9)
+
+    def test_refusals(self):
+        s = jam.System.random(20, packing_fraction=0.1)
+        for axis, bins, error in ((3, 5, jam.errors.UnsupportedError), (4, 5, jam.errors.ArgumentError), (0, 0, jam.errors.ArgumentError)):
+            with self.assertRaises(error):
+                s.solid_profile(axis, bins)
+
+
+class Pores(unittest.TestCase):
+    def test_coordination_within_a_gap(self):
+        s = jam.System.random(60, packing_fraction=0.35)
+        x, sigma = s.positions, s.diameters
+        d = x[:, None] - x
+        d -= np.rint(d)
+        gap = np.sqrt((d * d).sum(-1)) / (0.5 * (sigma[:, None] + sigma)) - 1
+        np.fill_diagonal(gap, 9)
+        np.testing.assert_array_equal(s.near_coordination(0.3), (gap < 0.3).sum(1))
+        packed = jammed(40)
+        stable = packed.coordination > 0
+        np.testing.assert_array_equal(packed.near_coordination(1e-9)[stable], packed.coordination[stable])
+        with self.assertRaises(jam.errors.ArgumentError):
+            s.near_coordination(0.0)
+
+    def test_simple_cubic_lattice(self):
+        for dim, widest in ((3, math.sqrt(3) / 2 - 0.5), (2, math.sqrt(2) / 2 - 0.5)):
+            s = jam.System.from_arrays([[0.5] * dim], 1 - 1e-12, cell=np.eye(dim))
+            p = s.pore_sizes(3000, 1)
+            self.assertAlmostEqual(p.radius.max(), widest, 9)
+            # those in the sphere that fits in the middle of the hole, which is at the corners of the cell
+            x = np.stack([p.x, p.y] + [p.z] * (dim == 3), 1)
+            x -= np.rint(x)
+            held = (x**2).sum(1) < (widest - 1e-9) ** 2
+            np.testing.assert_allclose(p.radius[held], widest, atol=1e-9)
+            self.assertTrue((p.radius[~held] < widest + 1e-9).all())
+            self.assertTrue((p.radius >= p.distance).all())
+
+    def test_nothing_larger_is_found_by_trying(self):
+        """Spheres about many random points: each that contains a point and no solid is at most as large, and some nearly so."""
+        for dim, n in ((2, 24), (3, 24)):
+            s = jam.System.random(n, dim, 3, diameters=jam.sizes("list", n, curve=[(1, 0.7), (1.8, 0.3)], dim=dim))
+            s.compress(growth_rate=1e-1, pressure=300)
+            p = s.pore_sizes(60, 2)
+            x = np.stack([p.x, p.y, p.z][:dim], 1)
+            rng = np.random.default_rng(1)
+
+            def clearance(c):
+                d = c[:, None] - s.positions
+                d -= np.rint(d)
+                return (np.sqrt((d * d).sum(-1)) - s.diameters / 2).min(1)
+
+            np.testing.assert_allclose(clearance(x), p.distance, atol=1e-12)
+            best = p.distance.copy()
+            for k in range(len(x)):
+                centre, step = x[k][None], p.radius[k]
+                for _ in range(60):  # random steps about the best so far, ever shorter
+                    tries = np.vstack([centre, centre + step * rng.normal(size=(400, dim))])
+                    r = clearance(tries)
+                    d = tries - x[k]
+                    r[(d * d).sum(1) > r * r] = -1
+                    centre, best[k] = tries[[r.argmax()]], max(best[k], r.max())
+                    step *= 0.85
+            self.assertTrue((best <= p.radius * (1 + 1e-9)).all())
+            self.assertGreater((best > 0.98 * p.radius).mean(), 0.7)  # others end in a neighbouring hole
+
+    def test_seeds_and_refusals(self):
+        s = jam.System.random(20, packing_fraction=0.3)
+        a, b, c = (s.pore_sizes(50, seed) for seed in (1, 1, 2))
+        self.assertTrue((a.x == b.x).all() and (a.x != c.x).all())
+        with self.assertRaises(jam.errors.ArgumentError):
+            s.pore_sizes(0, 1)
+        with self.assertRaisesRegex(jam.errors.UnsupportedError, "pore sizes"):
+            jam.System.random(20, packing_fraction=0.1, walls="z").pore_sizes(5, 1)
+
+
+@unittest.skipUnless(PACK, "jam-pack is not built")
+class Program(unittest.TestCase):
+    def test_export(self):
+        s = jammed(40)
+        with tempfile.TemporaryDirectory() as folder:
+            names = ("p.xyz", "p.stl", "p.npy", "profile.csv", "pores.csv", "z.csv")
+            xyz, stl, npy, profile, pores, z = (str(Path(folder, name)) for name in names)
+            s.write(xyz)
+            words = f"export {xyz} --stl {stl} --stl-bridge 0.2 --voxels {npy} --voxel-size 0.02 --profile {profile} --profile-bins 5 "
+            words += f"--pores {pores} --pore-points 50 --near-coordination {z} --near-gap 1e-6"
+            done = subprocess.run([PACK, *words.split()], capture_output=True, text=True, timeout=120)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertIn("50 x 50 x 50 voxels, 0.125 MB", done.stderr)
+            self.assertEqual(open_edges(triangles(stl)), 0)
+            np.testing.assert_array_equal(np.load(npy), s.image(size=0.02))
+            rows = np.genfromtxt(profile, delimiter=",", names=True, dtype=None, encoding="ascii")
+            self.assertEqual("".join(rows["axis"]), "x" * 5 + "y" * 5 + "z" * 5)
+            np.testing.assert_array_equal(rows["solid"][5:10], s.solid_profile(1, 5).solid)
+            np.testing.assert_array_equal(np.genfromtxt(pores, delimiter=",", names=True)["radius"], s.pore_sizes(50, 1).radius)
+            np.testing.assert_array_equal(np.genfromtxt(z, delimiter=",", names=True)["z"], s.near_coordination(1e-6))
+
+
+if __name__ == "__main__":
+    unittest.main()

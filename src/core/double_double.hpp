@@ -1,6 +1,7 @@
 // Numbers as unevaluated sums of two doubles: 106 bits, for differences of which a double would keep no digits.
 // Knuth's sum and Dekker's product (Dekker, Numer. Math. 18, 224 (1971)); both are exact without a fused multiply-add.
 #pragma once
+#include <cmath>
 
 namespace jam {
 
@@ -42,6 +43,16 @@ constexpr DoubleDouble operator-(DoubleDouble a, DoubleDouble b) { return a + -b
 constexpr DoubleDouble operator*(DoubleDouble a, DoubleDouble b) {
   const DoubleDouble p = two_product(a.high, b.high);
   return two_sum(p.high, p.low + (a.high * b.low + a.low * b.high));
+}
+// One step of Newton from the double next to the result.
+constexpr DoubleDouble operator/(DoubleDouble a, DoubleDouble b) {
+  const double quotient = a.high / b.high;
+  return ordered_sum(quotient, (a - b * quotient).high / b.high);
+}
+inline DoubleDouble square_root(DoubleDouble a) {
+  const double root = std::sqrt(a.high);
+  if (!(root > 0.0)) return root;
+  return ordered_sum(root, (a - two_product(root, root)).high / (2.0 * root));
 }
 
 }  // namespace jam

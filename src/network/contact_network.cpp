@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "core/double_double.hpp"
 #include "core/pair_rule.hpp"
 
 namespace jam {
@@ -19,20 +20,18 @@ double add_contact(const Packing &p, const PairList &pairs, size_t k, ContactNet
 }
 
 void measure_contacts(const Packing &p, ContactNetwork &net) {
-  using Wide = long double;
   const int d = p.dim;
-  Wide r[JAM_MAX_DIM];
+  DoubleDouble r[JAM_MAX_DIM];
   net.vector.resize(net.size() * d), net.gap.resize(net.size());
   for (size_t k = 0; k < net.size(); ++k) {
     const int32_t i = net.pairs.i[k], j = net.pairs.j[k];
-    Wide r2 = 0.0;
+    const double *a = &p.position[static_cast<size_t>(i) * d], *b = &p.position[static_cast<size_t>(j) * d];
+    DoubleDouble r2;
     for (int c = 0; c < d; ++c) {
-      r[c] =
-          (static_cast<Wide>(p.position[static_cast<size_t>(i) * d + c]) - p.position[static_cast<size_t>(j) * d + c]) +
-          net.pairs.offset[k * d + c];
-      r2 += r[c] * r[c];
+      r[c] = two_sum(a[c], -b[c]) + net.pairs.offset[k * d + c];
+      r2 = r2 + r[c] * r[c];
     }
-    const Wide length = std::sqrt(r2), sigma = contact_distance<Wide>(p, i, j);
+    const DoubleDouble length = square_root(r2), sigma = contact_distance<DoubleDouble>(p, i, j);
     for (int c = 0; c < d; ++c) net.vector[k * d + c] = static_cast<double>(r[c] / length);
     net.gap[k] = static_cast<double>((length - sigma) / sigma);
   }

@@ -1,4 +1,5 @@
 #include "network/force_balance.hpp"
+#include "core/double_double.hpp"
 #include "core/pair_rule.hpp"
 
 #include <algorithm>
@@ -51,22 +52,24 @@ Motion GapRows::towards(const std::vector<double> &wanted, std::vector<double> &
 }
 
 void GapRows::balance(std::vector<double> &y) {
-  using Wide = long double;  // in double the residuals of a converged packing are rounding of these sums alone
-  std::vector<Wide> z(y.begin(), y.end()), unbalanced(rhs_.size());
+  // In double the residuals of a converged packing are rounding of these sums alone.
+  std::vector<DoubleDouble> z(y.begin(), y.end()), unbalanced(rhs_.size());
   for (int round = 0; round < 4; ++round) {
-    std::fill(unbalanced.begin(), unbalanced.end(), 0.0L);
+    std::fill(unbalanced.begin(), unbalanced.end(), 0.0);
     for (size_t k = 0; k < z.size(); ++k)
       for (int c = 0; c < d_; ++c) {
-        const Wide v = z[k] * a_[k * d_ + c];
-        unbalanced[static_cast<size_t>(pairs_.i[k]) * d_ + c] += v;
-        unbalanced[static_cast<size_t>(pairs_.j[k]) * d_ + c] -= v;
+        const DoubleDouble v = z[k] * a_[k * d_ + c];
+        DoubleDouble &on_i = unbalanced[static_cast<size_t>(pairs_.i[k]) * d_ + c],
+                     &on_j = unbalanced[static_cast<size_t>(pairs_.j[k]) * d_ + c];
+        on_i = on_i + v;
+        on_j = on_j - v;
       }
-    std::copy(unbalanced.begin(), unbalanced.end(), rhs_.begin());
+    for (size_t k = 0; k < rhs_.size(); ++k) rhs_[k] = static_cast<double>(unbalanced[k]);
     system_.cholesky().solve(rhs_.data());
     system_.rows_times(a_.data(), rhs_.data(), row_.data());
-    for (size_t k = 0; k < z.size(); ++k) z[k] -= weight_[k] * row_[k];
+    for (size_t k = 0; k < z.size(); ++k) z[k] = z[k] - two_product(weight_[k], row_[k]);
   }
-  std::copy(z.begin(), z.end(), y.begin());
+  for (size_t k = 0; k < y.size(); ++k) y[k] = static_cast<double>(z[k]);
 }
 
 }  // namespace jam

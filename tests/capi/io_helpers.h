@@ -17,16 +17,26 @@
 
 static char scratch[64];
 
+#if defined(_WIN32)
+#define REMOVE_FOLDER "rmdir /s /q %s"
+static inline int make_scratch(void **state) {
+  (void)state;
+  snprintf(scratch, sizeof scratch, "jam-io-%d", (int)getpid());
+  return mkdir(scratch);
+}
+#else
+#define REMOVE_FOLDER "rm -rf '%s'"
 static inline int make_scratch(void **state) {
   (void)state;
   strcpy(scratch, "/tmp/jam-io-XXXXXX");
   return mkdtemp(scratch) ? 0 : -1;
 }
+#endif
 
 static inline int remove_scratch(void **state) {
   char command[96];
   (void)state;
-  snprintf(command, sizeof command, "rm -rf '%s'", scratch);
+  snprintf(command, sizeof command, REMOVE_FOLDER, scratch);
   return system(command);
 }
 

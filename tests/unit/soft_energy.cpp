@@ -1,4 +1,4 @@
-// Energies of soft spheres: exact values, forces against finite differences, overlaps against __float128.
+// Energies of soft spheres: exact values, forces against finite differences, overlaps against Quad.
 #include <cmath>
 #include "test.h"
 
@@ -70,17 +70,23 @@ void forces_are_gradients(void **) {
       }
 }
 
-__float128 overlap_by_quad(const Packing &p, const PairList &pairs, size_t k, const std::vector<double> &u) {
-  __float128 r2 = 0;
+#if defined(__SIZEOF_FLOAT128__)
+using Quad = __float128;
+#else
+using Quad = long double;  // of 128 bits where processors have no other
+#endif
+
+Quad overlap_by_quad(const Packing &p, const PairList &pairs, size_t k, const std::vector<double> &u) {
+  Quad r2 = 0;
   const size_t i = pairs.i[k], j = pairs.j[k], d = p.dim;
   for (size_t c = 0; c < d; ++c) {
-    const __float128 r = static_cast<__float128>(p.position[i * d + c]) + u[i * d + c] -
-                         (static_cast<__float128>(p.position[j * d + c]) + u[j * d + c]) + pairs.offset[k * d + c];
+    const Quad r = static_cast<Quad>(p.position[i * d + c]) + u[i * d + c] -
+                   (static_cast<Quad>(p.position[j * d + c]) + u[j * d + c]) + pairs.offset[k * d + c];
     r2 += r * r;
   }
-  __float128 root = std::sqrt(static_cast<double>(r2));
+  Quad root = std::sqrt(static_cast<double>(r2));
   for (int step = 0; step < 4; ++step) root = (root + r2 / root) / 2;
-  return (static_cast<__float128>(p.diameter[i]) + p.diameter[j]) / 2 - root;
+  return (static_cast<Quad>(p.diameter[i]) + p.diameter[j]) / 2 - root;
 }
 
 // Overlaps keep 15 digits however small they are: diameters are set so that pairs overlap by 1e-6 ... 1e-14 of one.
@@ -97,7 +103,7 @@ void overlaps_against_quad(void **) {
     const SoftContacts now = state.contacts();
     bool small = false;
     for (size_t q = 0; q < now.size(); ++q) {
-      const __float128 exact = overlap_by_quad(state.base(), state.pairs(), now.pair[q], state.displacement());
+      const Quad exact = overlap_by_quad(state.base(), state.pairs(), now.pair[q], state.displacement());
       assert_true(std::fabs(static_cast<double>((now.overlap[q] - exact) / exact)) < 2e-15);
       const size_t i = state.pairs().i[now.pair[q]];
       small = small || now.overlap[q] < 10.0 * size * state.base().diameter[i];
@@ -118,10 +124,17 @@ void double_double(void **) {
   for (int k = 0; k < 1000; ++k) {
     const double a = rng.normal(), b = 1e-8 * rng.normal(), c = rng.normal();
     const DoubleDouble x = two_sum(a, b) * two_sum(c, a) - DoubleDouble(a) * DoubleDouble(c);
-    const __float128 exact = (static_cast<__float128>(a) + b) * (static_cast<__float128>(c) + a) -
-                             static_cast<__float128>(a) * static_cast<__float128>(c);
-    const __float128 error = static_cast<__float128>(x.high) + x.low - exact;
+    const Quad exact =
+        (static_cast<Quad>(a) + b) * (static_cast<Quad>(c) + a) - static_cast<Quad>(a) * static_cast<Quad>(c);
+    const Quad error = static_cast<Quad>(x.high) + x.low - exact;
     assert_true(std::fabs(static_cast<double>(error)) < 1e-30 * (1.0 + a * a + c * c) * 4.0);
+    // quotient and root, by the products that give the operands back
+    const DoubleDouble divided = two_sum(a, b) / two_sum(c, a), root = square_root(two_sum(a, b) * two_sum(a, b));
+    const Quad sum = static_cast<Quad>(a) + b, by = static_cast<Quad>(c) + a;
+    const Quad quotient = static_cast<Quad>(divided.high) + divided.low;
+    const Quad positive = static_cast<Quad>(root.high) + root.low;
+    assert_true(std::fabs(static_cast<double>((quotient * by - sum) / sum)) < 1e-30);
+    assert_true(std::fabs(static_cast<double>((positive * positive - sum * sum) / (sum * sum))) < 1e-30);
   }
 }
 

@@ -5,6 +5,9 @@
 #include <cstdint>
 #if defined(__SSE2__)
 #include <immintrin.h>
+#elif defined(__aarch64__) && defined(__ARM_NEON)
+#include <arm_neon.h>
+#define JAM_NEON
 #endif
 
 #include "core/byte_order.hpp"

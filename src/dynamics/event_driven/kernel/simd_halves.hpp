@@ -79,6 +79,9 @@ JAM_SIMD_INLINE Float8 to_float(const Int8 &v) {
 JAM_SIMD_INLINE unsigned bits_of(const Long4 &v) {
 #if defined(__SSE2__)
   return static_cast<unsigned>(_mm_movemask_pd((__m128d)v.half[0]) | _mm_movemask_pd((__m128d)v.half[1]) << 2);
+#elif defined(JAM_NEON)
+  const uint64x2_t signs = vshrq_n_u64((uint64x2_t)v.half[0], 63) | vshrq_n_u64((uint64x2_t)v.half[1], 63) << 2;
+  return static_cast<unsigned>(vaddvq_u64(vshlq_u64(signs, int64x2_t{0, 1})));
 #else
   unsigned bits = 0;
   for (int k = 0; k < 4; ++k) bits |= (v[k] < 0 ? 1u : 0u) << k;
@@ -88,6 +91,9 @@ JAM_SIMD_INLINE unsigned bits_of(const Long4 &v) {
 JAM_SIMD_INLINE unsigned bits_of(const Int8 &v) {
 #if defined(__SSE2__)
   return static_cast<unsigned>(_mm_movemask_ps((__m128)v.half[0]) | _mm_movemask_ps((__m128)v.half[1]) << 4);
+#elif defined(JAM_NEON)
+  const uint32x4_t signs = vshrq_n_u32((uint32x4_t)v.half[0], 31) | vshrq_n_u32((uint32x4_t)v.half[1], 31) << 4;
+  return vaddvq_u32(vshlq_u32(signs, int32x4_t{0, 1, 2, 3}));
 #else
   unsigned bits = 0;
   for (int k = 0; k < 8; ++k) bits |= (v[k] < 0 ? 1u : 0u) << k;
@@ -98,6 +104,8 @@ JAM_SIMD_INLINE unsigned bits_of(const Int8 &v) {
 JAM_SIMD_INLINE Double4 square_root(const Double4 &x) {
 #if defined(__SSE2__)
   return {(Double4::Half)_mm_sqrt_pd((__m128d)x.half[0]), (Double4::Half)_mm_sqrt_pd((__m128d)x.half[1])};
+#elif defined(JAM_NEON)
+  return {(Double4::Half)vsqrtq_f64((float64x2_t)x.half[0]), (Double4::Half)vsqrtq_f64((float64x2_t)x.half[1])};
 #else
   return {__builtin_sqrt(x[0]), __builtin_sqrt(x[1]), __builtin_sqrt(x[2]), __builtin_sqrt(x[3])};
 #endif
@@ -108,6 +116,10 @@ JAM_SIMD_INLINE Unsigned4 multiply_low(const Unsigned4 &a, const Unsigned4 &b) {
   using Half = Unsigned4::Half;
   return {(Half)_mm_mul_epu32((__m128i)a.half[0], (__m128i)b.half[0]),
           (Half)_mm_mul_epu32((__m128i)a.half[1], (__m128i)b.half[1])};
+#elif defined(JAM_NEON)
+  using Half = Unsigned4::Half;
+  return {(Half)vmull_u32(vmovn_u64((uint64x2_t)a.half[0]), vmovn_u64((uint64x2_t)b.half[0])),
+          (Half)vmull_u32(vmovn_u64((uint64x2_t)a.half[1]), vmovn_u64((uint64x2_t)b.half[1]))};
 #else
   return (a & 0xffffffffu) * (b & 0xffffffffu);
 #endif

@@ -1,0 +1,22 @@
+#!/bin/sh
+# check.sh BUILD: the folder as Debian's tools read it; no symbol of libjam0.symbols is missing in the built library.
+set -eu
+here=$(cd "$(dirname "$0")" && pwd)
+build=$(cd "$1" && pwd)
+for tool in dpkg-parsechangelog dpkg-gensymbols dh; do
+  command -v $tool >/dev/null || { echo "$tool is not installed (Debian: dpkg-dev, debhelper)"; exit 77; }
+done
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+mkdir "$work/source" && cp -r "$here" "$work/source/debian"
+cd "$work/source"
+version=$(sed -n 's/^project(jam VERSION \([0-9.]*\).*/\1/p' "$here/../../CMakeLists.txt")
+dpkg-parsechangelog -S Version | grep -qx "$version-1" || { echo "changelog: the version is not $version-1"; exit 1; }
+dh binary --no-act --without python3 --buildsystem=cmake+ninja | grep -q dh_makeshlibs
+dpkg-gensymbols -c1 -plibjam0 -Odebian/symbols.new -Idebian/libjam0.symbols \
+  -e"$(ls "$build"/libjam.so.*.*.*)" >"$work/differ" || { cat "$work/differ"; exit 1; }
+for package in libjam0 libjam-dev python3-jam jam-tools; do
+  grep -qx "Package: $package" debian/control && test -s "debian/$package.install" ||
+    { echo "$package lacks an entry or a list of files"; exit 1; }
+done
+echo "debian/ fits the build"

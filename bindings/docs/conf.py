@@ -21,6 +21,7 @@ include_patterns = [
     "bindings/README.md",
     "examples/README.md",
     "examples/studies/README.md",
+    "examples/studies/thesis.md",
     "examples/studies/ensembles/README.md",
     "src/README.md",
     "src/crunch/README.md",

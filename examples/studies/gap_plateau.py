@@ -24,7 +24,7 @@ import jam  # noqa: E402
 sys.path.append(str(Path(__file__).resolve().parents[2] / "bindings/docs"))
 import figures  # noqa: E402
 
-TARGETS, RATES = (1e4, 1e6, 1e8), (1e-2, 1e-3)
+TARGETS, RATES = (1e4, 1e6, 1e8), (3e-3, 3e-4)
 COLUMNS = ["G", "p", "systems", "(p-1)/(4 phi)", "first bin, h < 0.05/p, over it", "exponent from h = 3000/p to 0.05"]
 
 

@@ -36,7 +36,7 @@ def draw(axis, packing, map_, contact, field, title):
     axis.quiver(*positions[map_].T, *field.T, angles="xy", scale_units="xy", scale=1, width=0.004, color="tab:blue")
     axis.plot(*np.full(2, 0.5 * packing.box), "o", color="red", markersize=5)
     axis.set(xlim=(0, packing.box), ylim=(0, packing.box), aspect="equal", xticks=[], yticks=[])
-    axis.set_title(title, fontsize=9)
+    axis.set_title(title, fontsize=8)
 
 
 def single_state(n, seed):
@@ -78,10 +78,10 @@ def main():
         rows.append([name, packing.n, packing.packing_fraction, *(float(x[k]) for x in (force, b, modes.weight, modes.s_plus))])
         field = packing.floppy_mode(int(k))
         draw(axis, packing, map_, k, field, title)
-        below[name == "extended"].semilogy(map_, np.linalg.norm(field, axis=1), ".", ms=3)
+        below[int(name == "extended")].semilogy(map_, np.linalg.norm(field, axis=1) / np.linalg.norm(field), ".", ms=3)
     for axis in below:
         axis.axhline(1 / np.sqrt(len(map_)), color="0.5", ls=":", lw=1)
-        axis.set(xlabel="disk i; dotted: 1 / √N'", ylabel="|dr_i| of the unit mode", ylim=(1e-7, 1))
+        axis.set(xlabel="disk i; dotted: 1 / √N'", ylabel="|dr_i| of the unit mode", ylim=(1e-4, 1))
     figure.tight_layout()
     figure.savefig(sys.argv[1], dpi=80)
     if len(sys.argv) > 4:

@@ -126,6 +126,18 @@ def figures(found, sizes):
     return figure
 
 
+def powers(found, sizes):
+    """4.4: c / f^b of extended forces for four powers."""
+    figure, axes = plt.subplots(1, 4, figsize=(17, 4.2))
+    f = np.geomspace(1e-3, 3, 70)
+    for axis, (b, text) in zip(axes, ((1 + THETA_E, "1 + theta_e"), (1.0, "1"), (1 + THETA_L, "1 + theta_l"), (1.25, "1.25"))):
+        for key, s in found.items():
+            curve(axis, key, f"C{sizes.index(key[1])}", f, scaling.cdf_grid(s.extended, f).c / f**b)
+        axis.set(xlabel="f, extended", ylabel=f"c / f^b, b = {text}", ylim=(1e-2, 3))
+    axes[0].legend(fontsize=7)
+    return figure
+
+
 def slope(values, low, high):
     """Exponent of the density by the mean number of values below two bounds, and its error over packings."""
     few, many = (np.array([np.sum(v < b) for v in values], float) for b in (low, high))
@@ -189,6 +201,7 @@ def main():
     r = Results(o, "both_sides")
     found = samples(o, r, ("below", "above"), sizes, o.particles or (2e5 if o.large else 3e3))
     rows(r, found, sizes)
+    r.picture(powers(found, sizes), "both_sides_powers")
     r.write(figures(found, sizes))
 
 

@@ -4,7 +4,7 @@
 usage: motion_mc.py [--large] [--runs RUNS] [--folder DIR] [--out DIR]
 
 The packing of motion_md.py, energy (2R - r)^alpha at phi_J; three temperatures for each alpha (ours: equal overlaps T^(1/alpha);
-published is T = 1e-4 for alpha = 2). Small: 40 runs of 120 sweeps for each of nine pairs. Large: 1000 of 250. Runs are kept.
+published is T = 1e-4 for alpha = 2). Small: 40 runs of 120 sweeps for each of nine pairs, a minute. Large: 1000 of 250. Runs are kept.
 """
 import sys
 
@@ -101,7 +101,7 @@ def main():
     o = p.parse_args()
     count = o.runs or (1000 if o.large else 40)
     r = Results(o, "motion_mc")
-    packing = near.make_packing(1, quenched=True)
+    packing = panels.quenched(o.folder, 1)
     structure, radius = nj.predictors(packing), 0.5 * packing.diameters.mean()
     every = {}
     for alpha, temperatures in near.TEMPERATURES.items():

@@ -4,7 +4,8 @@
 usage: motion_md.py [--large] [--runs RUNS] [--folder DIR] [--out DIR]
 
 Packings as published: N = 1024, sequential LPs from random spheres, seeds 1 and 2. Runs from one packing with other velocities, its
-diameters reduced to phi / phi_J = 0.96 to 0.999; tau counts collisions of each sphere. Small: 100 runs. Large: 5000.
+diameters reduced to phi / phi_J = 0.96 to 0.999; tau counts collisions of each sphere. Small: 100 runs, and
+20 that are ten times as long. Large: 5000 and 250.
 Runs are kept in the folder, as those of ../near_jamming_md.py.
 """
 import sys
@@ -120,7 +121,7 @@ def late(r, structure, md, radius):
             r.add("3.10", label, "none", k[name][at(100)], e[name][at(100)])
 
 
-def decays(r, structure, md, radius):
+def decays(r, structure, md, long_ones, radius):
     figure, axes = plt.subplots(2, 2, figsize=(10, 8))
     ratios = [q for q in md if q >= 0.98]
     for row, kind, known in ((0, "c", near.MD_EXPONENTS["c"]), (1, "s", near.MD_EXPONENTS["s"])):
@@ -152,6 +153,12 @@ def decays(r, structure, md, radius):
         late = np.log(runs.msd[-1] / runs.msd[-2]) / np.log(runs.time[-1] / runs.time[-2])
         r.add("3.5", f"slope of the MSD in t, {ratio}, tau = 70 to 100", "> 0: the plateau comes later", late)
     axes[0].set(xlabel="t / (R sqrt(m / kT))", ylabel="MSD / R^2")
+    for ratio, runs in long_ones.items():
+        shrunk = radius * ratio ** (1 / 3)
+        colour = f"C{list(md).index(ratio)}"
+        axes[0].loglog(runs.time / shrunk, runs.msd / shrunk**2, "-", lw=1, color=colour, label=f"{ratio}, long")
+        late = np.log(runs.msd[-1] / runs.msd[-2]) / np.log(runs.time[-1] / runs.time[-2])
+        r.add("3.5", f"slope of the MSD in t, {ratio}, tau = 700 to 1000", "to 0: plateau", late)
     t = axes[0].lines[0].get_xdata()[:3]
     axes[0].loglog(t, 0.5 * axes[0].lines[0].get_ydata()[0] * (t / t[0]) ** 2, "k--", lw=1, label="slope 2")
     axes[1].set(xscale="log", yscale="log", xlabel="tau", ylabel="t / (R sqrt(m / kT))")
@@ -166,17 +173,22 @@ def main():
     count = o.runs or (5000 if o.large else 100)
     r = Results(o, "motion_md")
     for seed, name, ratios in ((1, "", near.RATIOS), (2, "_second", (RATIO,))):
-        packing = near.make_packing(seed, quenched=True)
+        packing = panels.quenched(o.folder, seed)
         structure, radius = nj.predictors(packing), 0.5 * packing.diameters.mean()
         md = {q: near.md_runs(packing, o.folder, f"{seed}q", q, count) for q in ratios}
         r.made(f"N = 1024 by sequential LPs, seed {seed}, phi/phi_J = {', '.join(map(str, ratios))}", count)
+        r.add("3.1", f"phi_J of seed {seed}", "0.635", packing.packing_fraction)
+        r.add("3.1", f"share of rattlers of seed {seed}", "0.013 to 0.014", structure.rattlers.mean())
         scatters(r, name, structure, md, radius)
         if name:
             break
         displacements(r, structure, md[RATIO], radius)
         spread(r, structure, md[RATIO], radius)
         late(r, structure, {q: md[q] for q in (0.99, RATIO, 0.999)}, radius)
-        decays(r, structure, md, radius)
+        few = max(20, count // 20)
+        long_ones = {q: near.long_md_runs(packing, o.folder, f"{seed}q", q, few) for q in near.LONG_RATIOS}
+        r.made(f"the same, to tau = 1000, phi/phi_J = {', '.join(map(str, near.LONG_RATIOS))}", few)
+        decays(r, structure, md, long_ones, radius)
         figure, axes = plt.subplots(1, 2, figsize=(10, 4.2))
         panels.ranking(axes, structure, md[0.99], radius, "phi/phi_J = 0.99")
         found = nj.prediction(md[0.99], structure)

@@ -1,4 +1,6 @@
 """Panels on predictors of motion that motion_md.py and motion_mc.py share. Not a study of its own."""
+from pathlib import Path
+
 import matplotlib
 
 matplotlib.use("Agg")
@@ -7,6 +9,20 @@ import numpy as np
 
 import jam
 from jam import near_jamming as nj
+
+def quenched(folder, seed, n=1024):
+    """The packing as published: sequential LPs from random spheres; kept in the folder, and read from there always."""
+    path = Path(folder) / f"quenched_n{n}_seed{seed}.dat"
+    if not path.exists():
+        Path(folder).mkdir(parents=True, exist_ok=True)
+        with jam.System.random(n=n, dim=3, seed=seed, packing_fraction=0.2) as packing:
+            packing.crunch(method="sequential_lp")
+            packing.write(str(path))
+    packing = jam.System.read(str(path))
+    found = packing.contacts_from_geometry()
+    print(f"phi_J = {packing.packing_fraction:.6f}, {packing.rattlers.sum()} rattlers, {found.excess_contacts} excess contacts")
+    return packing
+
 
 SCALARS = {"force_sum": "sum_j f_ij", "force_pairs": "sum_jk f_ij.f_ik", "s": "S_i"}
 

@@ -1,0 +1,113 @@
+#!/usr/bin/env python3
+"""Every own figure and table of the thesis in its order: picture, command, statistics there and here, values, verdict.
+
+usage: thesis.py            writes results/thesis.json and results/thesis_verdicts.json from thesis.json and the other results
+       thesis.py --check    exit status 1 when they differ from what would be written
+
+thesis.json lists what each figure shows and which rows of results/*.json or ensembles/results/*.json belong to it; no value of ours
+stands there. Verdicts: `reproduced`: the same size and comparable statistics, values agree; `smaller`: all panels, fewer or smaller
+packings; `part`: panels are missing; `different`: done, and the values or curves differ, with a paragraph on the page that says why;
+`missing`. A figure called reproduced or smaller whose rows differ by more than LIMIT errors is refused, unless it says why.
+"""
+import json
+import re
+import sys
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+sys.path.append(str(HERE.parents[1] / "bindings/docs"))
+import figures  # noqa: E402
+
+COLUMNS = ["figure", "shows", "picture, script", "thesis", "here", "published", "ours", "errors between", "verdict"]
+VERDICTS = ("reproduced", "smaller", "part", "different", "missing")
+LIMIT = 3.0
+FIGURES, TABLES = 63, 2
+
+
+def cells(value):
+    """(published, ours, errors between) of one reference to a result."""
+    path = HERE / value["from"]
+    result = json.loads(path.read_text(encoding="utf-8"))
+    if "quantity" in value:
+        rows = [row for row in result["rows"] if row["quantity"] == value["quantity"]]
+        if len(rows) != 1:
+            raise SystemExit(f"{value['from']}: {len(rows)} rows are called {value['quantity']!r}")
+        _, published, ours, sigma = figures.study_row(rows[0])
+        return value.get("published", published), figures.cell(ours), sigma, result["command"]
+    column = result["columns"].index(value["column"])
+    ours = result["rows"][value["row"] - 1][column]
+    published, sigma = value["published"], None
+    if isinstance(published, (int, float)):
+        number, error = value_error(ours)
+        sigma = round(abs(number - published) / error, 1) if error else None
+    shown = published if isinstance(published, str) else f"{published:g}"
+    return shown, figures.cell(ours), sigma, result["command"]
+
+
+def value_error(text):
+    """Value and standard error of a cell: {value, error}, 0.64235(18) or 0.503 +- 0.087."""
+    if isinstance(text, dict):
+        return text["value"], text["error"]
+    found = re.match(r"(-?\d+\.?(\d*))(?:\((\d+)\)| \+- (\d+\.\d+))", str(text))
+    if not found:
+        return float(text), None
+    error = float(found.group(4)) if found.group(4) else int(found.group(3)) / 10 ** len(found.group(2))
+    return float(found.group(1)), error
+
+
+def row(entry):
+    name = entry["figure"]
+    if entry["verdict"] not in VERDICTS:
+        raise SystemExit(f"{name}: no verdict {entry['verdict']}")
+    found = [cells(value) for value in entry["values"]]
+    missing = [key for key in ("shows", "thesis", "here") if not entry[key]]
+    if missing or (not found and entry["verdict"] != "missing") or not (HERE / entry["picture"]).is_file():
+        raise SystemExit(f"{name}: no {missing[0] if missing else 'value or picture'}")
+    off = [sigma for *_, sigma, _ in found if sigma is not None]
+    if entry["verdict"] in ("reproduced", "smaller") and any(s > LIMIT for s in off) and "because" not in entry:
+        raise SystemExit(f"{name} is called {entry['verdict']}, but {max(off)} errors lie between")
+    commands = dict.fromkeys(command.split()[0] for *_, command in found)
+    picture = f"[{', '.join(f'`{c}`' for c in commands) or 'none'}]({entry['picture']})"
+    verdict = entry["verdict"] + (f": {entry['because']}" if "because" in entry else "")
+    joined = ["; ".join(str(f[k]) for f in found if str(f[k]) not in ("", "None")) for k in range(3)]
+    published = "; ".join(dict.fromkeys(joined[0].split("; ")))
+    return [name, entry["shows"], picture, entry["thesis"], entry["here"], published, joined[1], joined[2], verdict]
+
+
+def made():
+    """{path: text} of the two results."""
+    entries = json.loads((HERE / "thesis.json").read_text(encoding="utf-8"))
+    rows = [row(e) for e in entries]
+    tables = [e for e in entries if e["figure"].startswith("table")]
+    if len(entries) - len(tables) != FIGURES or len(tables) != TABLES:
+        raise SystemExit(f"{len(entries) - len(tables)} figures and {len(tables)} tables, {FIGURES} and {TABLES} are wanted")
+    counts = []
+    for verdict in VERDICTS:
+        these = [e for e in entries if e["verdict"] == verdict]
+        of_tables = sum(e in tables for e in these)
+        counts.append([verdict, len(these) - of_tables, of_tables, ", ".join(e["figure"] for e in these)])
+    head = {"machine": "that of each result", "commit": "", "date": ""}
+    texts = {}
+    for name, columns, body in (
+        ("thesis", COLUMNS, rows),
+        ("thesis_verdicts", ["verdict", "figures", "tables", "which"], counts),
+    ):
+        lines = [json.dumps(r, ensure_ascii=False) for r in body]
+        top = json.dumps({**head, "command": "", "columns": columns}, ensure_ascii=False)[:-1]
+        texts[HERE / f"results/{name}.json"] = top + ',\n "rows": [\n  ' + ",\n  ".join(lines) + "\n ]\n}\n"
+    return texts
+
+
+def main():
+    different = []
+    for path, text in made().items():
+        if not path.exists() or path.read_text(encoding="utf-8") != text:
+            different.append(path.name)
+            if "--check" not in sys.argv[1:]:
+                path.write_text(text, encoding="utf-8")
+    if different and "--check" in sys.argv[1:]:
+        sys.exit(f"examples/studies/results: run examples/studies/thesis.py, {', '.join(different)} would change")
+
+
+if __name__ == "__main__":
+    main()

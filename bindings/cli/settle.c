@@ -192,8 +192,6 @@ static int settle_walls(const options *o) {
   if (o->output) ending_of(o->output, ending);
   if (!o->no_crunch && !(o->given.density > 0))
     complain("%s needs --no-crunch, --packing-fraction or --porosity: a scene with walls cannot be crunched yet", name);
-  else if (o->container && o->given.density > 0 && o->n == NOT_GIVEN && (o->given.cell_count || is_named(o, "box")))
-    complain("--container needs --n: the number of spheres follows from the volume of a brick alone");
   else if (o->output && !is_host_format(o, o->output) && strcmp(ending, "xyz") && strcmp(ending, "extxyz"))
     complain("%s needs an --output that ends in .xyz or .extxyz: no other format can store walls", name);
   else

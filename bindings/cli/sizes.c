@@ -43,10 +43,17 @@ static int read_law(const char *text, jam_diameters_options *law, double **curve
   return -1;
 }
 
+/* Of the container, which takes this share of its cell. */
 static int find_volume(const options *o, double *volume) {
+  const double pi = 3.14159265358979323846;
+  const double share = o->container == JAM_CONTAINER_BRICK                ? 1
+                       : o->container == JAM_CONTAINER_BALL && o->dim > 2 ? pi / 6
+                                                                          : pi / 4;
   double cell[JAM_MAX_DIM * JAM_MAX_DIM];
   fill_cell(o, cell);
-  return has_failed(jam_cell_volume((int32_t)o->dim, cell, (size_t)(o->dim * o->dim), volume));
+  if (has_failed(jam_cell_volume((int32_t)o->dim, cell, (size_t)(o->dim * o->dim), volume))) return 1;
+  *volume *= share;
+  return 0;
 }
 
 static int draw_law(const options *o, double **out, int64_t *n) {

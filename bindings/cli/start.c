@@ -29,7 +29,8 @@ static int check_resumed(const options *o, const jam_system *sys) {
 /* Why there is no start, with the option that helps. An option that contradicts the file is a wrong command line. */
 static int refused_start(const options *o, jam_status status) {
   const char *const text = jam_last_error()[0] ? jam_last_error() : jam_status_string(status);
-  if (status == JAM_E_OVERLAP && o->input && !o->shrink && !strstr(text, "the same centre"))
+  const int takes_it = o->input && !o->shrink && o->given.verb <= VERB_CRUNCH;
+  if (status == JAM_E_OVERLAP && takes_it && !strstr(text, "the same centre") && !strstr(text, "lies outside"))
     complain("%s; --shrink multiplies all diameters by the factor that brings the worst pair to contact", text);
   else
     complain("%s", text);

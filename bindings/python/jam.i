@@ -36,8 +36,8 @@ static PyObject *jam_bytes(PyObject *text) {
   return bytes;
 }
 
-/* Raises the exception of a status below zero. An exception that a callback has already raised wins. */
-static void jam_raise(jam_status status) {
+/* Raises the exception of a status below zero that a call has given. One that a callback has already raised wins. */
+static void jam_raise(jam_status status, const char *call) {
   if (PyErr_Occurred()) return;
   const char *text = jam_last_error();
   if (!jam_error_factory) {
@@ -45,7 +45,7 @@ static void jam_raise(jam_status status) {
     return;
   }
   PyObject *readable = jam_text(text[0] ? text : jam_status_string(status));
-  PyObject *error = readable ? PyObject_CallFunction(jam_error_factory, "iN", (int)status, readable) : NULL;
+  PyObject *error = readable ? PyObject_CallFunction(jam_error_factory, "iNs", (int)status, readable, call) : NULL;
   if (error) {
     PyErr_SetObject((PyObject *)Py_TYPE(error), error);
     Py_DECREF(error);
@@ -110,7 +110,7 @@ static void jam_on_log(int32_t level, const char *line, void *user) {
 // ---- status: an exception below zero, or when a callback raised
 %typemap(out) jam_status {
   if ($1 < 0 || PyErr_Occurred()) {
-    jam_raise($1);
+    jam_raise($1, "$symname");
     SWIG_fail;
   }
   $result = PyLong_FromLong($1);

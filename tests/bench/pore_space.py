@@ -57,13 +57,14 @@ def draw(rows, picture):
 
     figure, axes = plt.subplots(1, 2, figsize=(10, 4.2))
     for axis, start in zip(axes, ("mesh", "image")):
+        where = dict(xytext=(-6, -12), ha="right") if start == "mesh" else dict(xytext=(5, 6))
         kinds = list(dict.fromkeys(r["kind"] for r in rows if r["kind"].startswith(start)))
         for kind, marker in zip(kinds, "os^"):
             mine = [r for r in rows if r["kind"] == kind]
             axis.loglog([r["seconds"] for r in mine], [r["error"] for r in mine], marker=marker, label=kind)
             for r in mine if kind == kinds[0] else ():
                 name = f"edge {r['at']:g} R" if start == "mesh" else f"{r['at']:g}$^3$"
-                axis.annotate(name, (r["seconds"], r["error"]), textcoords="offset points", xytext=(-6, -12), ha="right", fontsize=8)
+                axis.annotate(name, (r["seconds"], r["error"]), textcoords="offset points", fontsize=8, **where)
         axis.margins(0.2)
         axis.set_xlabel("seconds of the processor")
         axis.legend(fontsize=8)

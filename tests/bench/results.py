@@ -183,6 +183,15 @@ def soft_cell(raw):
     return ["pressure (stiffness over diameter)", "Newton (s)", "FIRE (s)", "L-BFGS (s)"], rows
 
 
+def pore_space(raw):
+    """pore_space.py --n 1024"""
+    rows = []
+    for run in raw["rows"]:
+        what = f"{run['at']:g} of the radius" if run["kind"].startswith("mesh") else f"{run['at']} voxels along each edge"
+        rows.append([run["kind"], what, run["error"], run["seconds"], run["bytes"] / 1e6])
+    return ["what", "resolution", "error of the volume or the porosity", "seconds", "MB"], rows
+
+
 def factorisation(raw):
     """single_precision"""
     rows = []
@@ -254,7 +263,7 @@ def read(path):
 
 def main():
     name, raws = sys.argv[1], [read(path) for path in sys.argv[2:]]
-    made = {f.__name__: f for f in (crunch, size, clp, resume, disks, proofs, strict, md, monte_carlo, near_jamming, soft_cell, advise, analysis, factorisation, ablation)}[name]
+    made = {f.__name__: f for f in (crunch, size, clp, resume, disks, proofs, strict, md, monte_carlo, near_jamming, soft_cell, pore_space, advise, analysis, factorisation, ablation)}[name]
     columns, rows = made(*raws)
     old = raws[0] if isinstance(raws[0], dict) and "commit" in raws[0] else None  # a result that was kept with its source
     source = old and {key: old[key] for key in ("machine", "commit", "date")}

@@ -59,6 +59,23 @@ class Stumbles(unittest.TestCase):
         with self.assertRaisesRegex(jam.errors.OverlapError, 'overlap="shrink"'):
             jam.System.from_arrays([[0.5, 0.5], [0.55, 0.5]], 0.1)
 
+    def test_shrinking_is_advised_where_it_helps(self):
+        apart = jam.System.from_arrays([[0.2, 0.5], [0.7, 0.5]], 0.3)
+        soft = jam.System.from_arrays([[0.2, 0.5], [0.3, 0.5]], 0.3, overlap="allow")
+        for call in (
+            lambda: setattr(apart, "positions", [[0.2, 0.5], [0.3, 0.5]]),
+            lambda: apart.scale_diameters(3.0),
+            lambda: soft.run(),
+            lambda: jam.System.from_arrays([[0.2, 0.5], [0.2, 0.5]], 0.3),
+            lambda: jam.System.from_arrays([[0.01, 0.01]], 0.1, container="ball"),
+        ):
+            with self.assertRaises(jam.errors.OverlapError) as caught:
+                call()
+            self.assertNotIn("shrink", str(caught.exception))
+        for call in (lambda: jam.System.from_arrays([[0.5, 0.5]], 1.3), lambda: jam.System.from_arrays([[0.01, 0.5]], 0.1, walls="x")):
+            with self.assertRaisesRegex(jam.errors.OverlapError, 'overlap="shrink"'):
+                call()
+
     def test_dimensions_with_defaults(self):
         for dim in (5, 6):
             self.assertEqual(

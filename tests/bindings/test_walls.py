@@ -26,6 +26,16 @@ class Arguments(unittest.TestCase):
         with self.assertRaisesRegex(jam.errors.UnsupportedError, "cannot be crunched yet"):
             jam.System.random(n=10, packing_fraction=0.1, walls="z").crunch()
 
+    def test_sizes_count_for_the_container(self):
+        for container, dim, share in (("ball", 3, np.pi / 6), ("ball", 2, np.pi / 4), ("cylinder", 3, np.pi / 4), (None, 3, 1)):
+            given = dict(porosity=0.6, cell=np.eye(dim) * 10, dim=dim)
+            law = "list:1=0.5,1.5=0.5"
+            sigma = jam.sizes(law, container=container, **given)
+            volume = (np.pi / 6 * sigma**3 if dim == 3 else np.pi / 4 * sigma**2).sum()
+            self.assertAlmostEqual(volume / (share * 10**dim), 0.4, 12)
+        with self.assertRaisesRegex(ValueError, "container must be"):
+            jam.sizes("equal", container="cone", porosity=0.5, box=3)
+
     def test_volume_is_that_of_the_container(self):
         for container, dim, share in (("ball", 3, np.pi / 6), ("ball", 2, np.pi / 4), ("cylinder", 3, np.pi / 4)):
             s = jam.System.random(n=20, dim=dim, packing_fraction=0.1, box=2, container=container)

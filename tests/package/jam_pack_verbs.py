@@ -57,6 +57,19 @@ class Verbs(unittest.TestCase):
         self.assertEqual(run("page", jammed, page).returncode, 0)
         self.assertIn("<html", page.read_text()[:2000])
 
+    def test_the_number_of_spheres_follows_from_the_container(self):
+        for container, d, share in (("cylinder", 3, 0.25), ("ball", 3, 1 / 6), ("ball", 2, 0.25)):
+            out = self.dir / "p.xyz"
+            side = ",".join(["8"] * d)
+            done = run(
+                *("compress", "--dim", d, "--container", container, "--cell", side, "--sizes", "equal:mean=1", "--porosity", 0.7, "--output", out)
+            )
+            self.assertEqual(done.returncode, 0, done.stderr)
+            info = json.loads(run("info", out, "--json").stdout)
+            self.assertAlmostEqual(info["porosity"], 0.7, 10)
+            self.assertLess(abs(info["n"] - 0.3 * share * 8**d / (1 / 6 if d == 3 else 0.25)), 1.5)
+            self.assertAlmostEqual(info["diameter_least"], 1, 1)
+
     def test_what_they_refuse(self):
         bad = self.dir / "bad.dat"
         bad.write_text("2\n2\n0.4\n0.1 0.5\n0.4 0.5\n")

@@ -56,10 +56,11 @@ def last_text() -> str:
     return _in_python(raw.jam_last_error())
 
 
-def make(status: int, text: str) -> JamError:
-    """The exception for a status; called by the raw layer."""
+def make(status: int, text: str, call: str = "") -> JamError:
+    """The exception for a status; called by the raw layer with the name of its function."""
     kind = BY_STATUS.get(status, JamError)
     hint = ""
-    if status == StatusCode.E_OVERLAP and "shrink" not in text:
+    # of calls that take it, where diameters are at fault
+    if call in ("jam_create", "jam_read") and re.search("overlap|cannot fit", text) and not re.search("shrink|same centre", text):
         hint = '; overlap="shrink" in System.read and System.from_arrays scales all diameters until no pair overlaps'
     return kind(_in_python(text) + hint)

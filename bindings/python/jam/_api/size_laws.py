@@ -9,8 +9,8 @@ import numpy as np
 from .. import raw
 from .arrays import Array, as_array
 from .calls import freeze, new_report
-from .generated import SizeReport
-from .given import cell_of
+from .generated import Container, SizeReport
+from .given import cell_of, enclosure_of
 from .options import option_struct
 
 
@@ -40,6 +40,13 @@ def _curve(curve: Any, law: str) -> tuple[str, Any]:
     return law, rows.reshape(-1)
 
 
+def _share(container: int, dim: int) -> float:
+    """Of the volume of the cell that the container takes."""
+    if container == Container.BALL:
+        return np.pi / (4 if dim == 2 else 6)
+    return np.pi / 4 if container == Container.CYLINDER else 1.0
+
+
 def sizes(
     law: str = "equal",
     n: int | None = None,
@@ -49,6 +56,7 @@ def sizes(
     packing_fraction: float | None = None,
     cell: Any = None,
     box: Any = None,
+    container: Any = None,
     dim: int = 3,
     **options: Any,
 ) -> Array:
@@ -69,6 +77,8 @@ def sizes(
         Void fraction of the packing to be made. Instead: packing_fraction.
     cell, box : optional
         As of System.from_arrays. Spheres of more volume than that are refused.
+    container : str, optional
+        As of System.random: a density is then one of the cylinder or ball in the cell.
     dim : int
         Dimension, of volumes.
     **options
@@ -98,6 +108,8 @@ def sizes(
     if side is not None:
         vectors = side * np.eye(dim)
     volume = None if vectors is None else raw.jam_cell_volume(dim, vectors.reshape(-1))[1]
+    if container is not None and volume is not None:
+        volume *= _share(enclosure_of(container, None, dim)[0], dim)
     if fraction is not None and volume is None:
         raise TypeError("a density needs cell or box")
     if n is None and fraction is None:

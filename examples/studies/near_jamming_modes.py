@@ -47,10 +47,9 @@ def main():
             (line,) = axes[row, 0].semilogy(np.arange(len(smooth)) * size, smooth, label=f"tau = {tau}")
             axes[row, 2].axvline(curved, color=line.get_color())
             axes[row, 2].axvline(curved**0.5, color=line.get_color(), ls=":")
-            if m in (0, len(SHOWN) - 1):
-                axes[row, 1].loglog(
-                    modes.participation, np.abs(weights.projections[m]), ".", ms=2, label=f"tau = {tau}"
-                )
+            axes[row, 1].loglog(modes.participation, np.abs(weights.projections[m]), ".", ms=1.5, label=f"tau = {tau}")
+        for at in (1 / packing.hessian_map().size, 1.0):  # extended over all stable spheres; on one of them
+            axes[row, 1].axvline(at, color="0.6", lw=1)
         axes[row, 0].set(xlabel="mode", ylabel=f"root mean square |u.v|, {stiffness}")
         axes[row, 1].set(xlabel="inverse participation ratio", ylabel="|u.v|")
         axes[row, 2].set(xlabel="omega; u.H.u solid, its root dotted", ylabel="share of modes")

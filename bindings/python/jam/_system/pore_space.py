@@ -39,5 +39,6 @@ class PoreSpace(Base):
         report, values = self.call("voxels", **given)
         image = values.reshape(report.nz, report.ny, report.nx).T[..., slice(None) if self.dim == 3 else 0]
         if lines:
-            return image.astype(np.float32)
+            shares: Array = image.astype(np.float32)
+            return shares
         return np.where(image < 0, 2, image).astype(np.uint8)

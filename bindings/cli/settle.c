@@ -190,8 +190,10 @@ static int settle_walls(const options *o) {
   const char *const name = o->container ? "--container" : "--walls";
   if (!o->walls && !o->container) return 0;
   if (o->output) ending_of(o->output, ending);
-  if (!o->no_crunch && !(o->given.density > 0))
-    complain("%s needs --no-crunch, --packing-fraction or --porosity: a scene with walls cannot be crunched yet", name);
+  if (o->prove || o->proof)
+    complain("%s contradicts %s: theorems are for scenes without walls", name, o->prove ? "--prove" : "--proof");
+  else if (o->strain != JAM_STRAIN_NONE)
+    complain("%s contradicts --strain: walls do not strain", name);
   else if (o->output && !is_host_format(o, o->output) && strcmp(ending, "xyz") && strcmp(ending, "extxyz"))
     complain("%s needs an --output that ends in .xyz or .extxyz: no other format can store walls", name);
   else

@@ -81,7 +81,9 @@ module jam
   integer(c_int32_t), parameter :: JAM_MASSES_EQUAL = 0
   integer(c_int32_t), parameter :: JAM_MASSES_VOLUME = 1
 
-  ! jam_container: What encloses the spheres. The cell is the brick around it. A wall is a mirror: its h is distance / radius - 1.
+  ! jam_container: What encloses the spheres. The cell is the brick around it. A wall is a mirror: its h is distance / radius - 1. The
+  ! wall of row w of jam_walls is partner j = -1 - w of its contacts. In counts of contacts d (N' - 1) is then d N' less
+  ! the translations along open axes and the rotations that a cylinder (1) or a ball (d (d - 1) / 2) allows.
   integer(c_int32_t), parameter :: JAM_CONTAINER_BRICK = 0
   integer(c_int32_t), parameter :: JAM_CONTAINER_CYLINDER = 1
   integer(c_int32_t), parameter :: JAM_CONTAINER_BALL = 2
@@ -894,7 +896,7 @@ module jam
     integer(c_int64_t) :: isostatic_contacts = 0
     ! contacts - isostatic_contacts: 0 isostatic or no network, > 0 hyperstatic
     integer(c_int64_t) :: excess_contacts = 0
-    ! motions of stable spheres beyond translations that keep contacts with force closed
+    ! motions of stable spheres beyond symmetries that keep contacts with force closed
     integer(c_int64_t) :: flexes = 0
     ! closed pairs without force in every state of self-stress, those of rattlers too
     integer(c_int64_t) :: zero_force_contacts = 0
@@ -1222,7 +1224,7 @@ module jam
   ! What jam_rigidity found. K+ are the contacts that carry force in some balance of non-negative forces, B the spheres
   ! that they touch, N' their number. undecided_contacts: also pairs that the digits of the coordinates cannot
   ! distinguish from contacts. rigidity_margin below 1e-12: a flex; of a sphere that touches its own images alone: with
-  ! strains.
+  ! strains; where a round wall's curvature holds flexes: by how much of the mean force times curvature.
   type, bind(c) :: jam_rigidity_report
     integer(c_int32_t) :: struct_size = 96
     ! jam_rigidity_kind that was tested
@@ -1239,7 +1241,7 @@ module jam
     integer(c_int64_t) :: contacts_needed = 0
     ! independent balances of forces on K+, signs free
     integer(c_int64_t) :: self_stresses = 0
-    ! motions beyond translations that keep K+ closed; 0 without K+, 512 at most
+    ! motions beyond symmetries that keep K+ closed; 0 without K+, 512 at most
     integer(c_int64_t) :: flexes = 0
     ! spheres of B with d contacts of K+ or fewer
     integer(c_int64_t) :: undercoordinated = 0
@@ -1271,7 +1273,7 @@ module jam
     integer(c_int32_t) :: struct_size = 248
     ! jam_verdict: collectively jammed
     integer(c_int32_t) :: jammed = 0
-    ! jam_verdict; NO where jammed is NO
+    ! jam_verdict; NO where jammed is NO, UNTESTED with walls
     integer(c_int32_t) :: strictly_jammed = 0
     ! jam_verdict: non-negative forces balance
     integer(c_int32_t) :: stationary = 0
@@ -1299,8 +1301,9 @@ module jam
     integer(c_int64_t) :: undecided_contacts = 0
     ! independent balances of forces; with more than one forces are not unique
     integer(c_int64_t) :: self_stresses = 0
+    ! motions that keep contacts with force closed
     integer(c_int64_t) :: flexes = 0
-    ! motions beyond translations that keep contacts with force closed; with strains, 0 untested
+    ! with strains, 0 untested
     integer(c_int64_t) :: strict_flexes = 0
     ! contacts of the copy
     integer(c_int64_t) :: crunch_contacts = 0
@@ -2022,7 +2025,7 @@ module jam
     ! translations of B. Strictly jammed: S v + E eps >= 0 with tr eps <= 0 only for those and eps = 0. Both hold for this
     ! cell, not for several copies of it. Source: Donev et al., J. Comput. Phys. 197, 139 (2004); the guide's page "Jammed
     ! or not" has more. Status: JAM_OK jammed, JAM_NOT_JAMMED, JAM_AMBIGUOUS undecided.
-    ! Errors: JAM_E_SOLVER.
+    ! Errors: JAM_E_SOLVER, JAM_E_UNSUPPORTED (strict, with walls).
     function jam_rigidity(sys, kind, report) &
         bind(c, name="jam_rigidity") result(status)
       import
@@ -3029,7 +3032,7 @@ module jam
     module procedure l_jam_refined_positions
   end interface jam_refined_positions
 
-  ! Gaps h of all pairs below h_max (every image), without contacts, ascending; *rows = gaps. Without stable_only
+  ! Gaps h of pairs (every image) and walls below h_max, without contacts, ascending; *rows = gaps. Without stable_only
   ! rattlers count too and no network is needed.
   ! Shapes: gap (gaps), pair (gaps, 2).
   ! Errors: JAM_E_STATE.
@@ -4595,8 +4598,8 @@ contains
     status = c_jam_decompress_history(sys, at_table, count_table, needed)
   end function jam_decompress_history
 
-  ! Contact pairs, i < j save for images of one sphere (i = j). Hard spheres have those only after a crunch with a free
-  ! cell. Each stands for both opposite images, so it adds 2 to the coordination.
+  ! Contact pairs, i < j save for walls (j = -1 - w) and images of one sphere (i = j). Hard spheres have images only
+  ! after a crunch with a free cell. One stands for both opposite images, so it adds 2 to the coordination.
   ! Shapes: out (contacts, 2).
   ! Errors: JAM_E_STATE (no crunch yet).
   function jam_contacts(sys, out, out_len, needed) result(status)

@@ -437,7 +437,9 @@ contains
       allocate (made_momentum(given))
       status = jam_observed_pairs(self%sys, pair=made_pair, collisions=made_collisions, momentum=made_momentum, &
         time=made_time)
-      if (status >= 0) made_pair = made_pair + 1
+      if (status >= 0) then
+        where (made_pair >= 0) made_pair = made_pair + 1
+      end if
     end if
     if (present(pair)) call move_alloc(made_pair, pair)
     if (present(collisions)) call move_alloc(made_collisions, collisions)
@@ -723,7 +725,9 @@ contains
       deallocate (found)
       allocate (found(2_c_size_t, given/max(2_c_size_t, 1_c_size_t)))
       status = jam_crunch_step_contacts(self%sys, out=found)
-      if (status >= 0) found = found + 1
+      if (status >= 0) then
+        where (found >= 0) found = found + 1
+      end if
     end if
     call self%done(status)
   end function do_crunch_step_contacts
@@ -817,8 +821,8 @@ contains
     call self%done(status)
   end function do_decompress_history
 
-  ! Contact pairs, i < j save for images of one sphere (i = j). Hard spheres have those only after a crunch with a free
-  ! cell. Each stands for both opposite images, so it adds 2 to the coordination.
+  ! Contact pairs, i < j save for walls (j = -1 - w) and images of one sphere (i = j). Hard spheres have images only
+  ! after a crunch with a free cell. One stands for both opposite images, so it adds 2 to the coordination.
   ! Shapes: out (contacts, 2).
   ! Errors: JAM_E_STATE (no crunch yet).
   function do_contacts(self) result(found)
@@ -833,7 +837,9 @@ contains
       deallocate (found)
       allocate (found(2_c_size_t, contacts_of))
       status = jam_contacts(self%sys, out=found)
-      if (status >= 0) found = found + 1
+      if (status >= 0) then
+        where (found >= 0) found = found + 1
+      end if
     end if
     call self%done(status)
   end function do_contacts
@@ -932,7 +938,9 @@ contains
       deallocate (found)
       allocate (found(stable_of))
       status = jam_hessian_map(self%sys, out=found)
-      if (status >= 0) found = found + 1
+      if (status >= 0) then
+        where (found >= 0) found = found + 1
+      end if
     end if
     call self%done(status)
   end function do_hessian_map
@@ -964,8 +972,12 @@ contains
       deallocate (made_value)
       allocate (made_value(given))
       status = jam_hessian(self%sys, h=h, row_start=made_row_start, column=made_column, value=made_value)
-      if (status >= 0) made_row_start = made_row_start + 1
-      if (status >= 0) made_column = made_column + 1
+      if (status >= 0) then
+        where (made_row_start >= 0) made_row_start = made_row_start + 1
+      end if
+      if (status >= 0) then
+        where (made_column >= 0) made_column = made_column + 1
+      end if
     end if
     if (present(row_start)) call move_alloc(made_row_start, row_start)
     if (present(column)) call move_alloc(made_column, column)
@@ -1083,7 +1095,7 @@ contains
   ! translations of B. Strictly jammed: S v + E eps >= 0 with tr eps <= 0 only for those and eps = 0. Both hold for this
   ! cell, not for several copies of it. Source: Donev et al., J. Comput. Phys. 197, 139 (2004); the guide's page "Jammed
   ! or not" has more. Status: JAM_OK jammed, JAM_NOT_JAMMED, JAM_AMBIGUOUS undecided.
-  ! Errors: JAM_E_SOLVER.
+  ! Errors: JAM_E_SOLVER, JAM_E_UNSUPPORTED (strict, with walls).
   function do_rigidity(self, kind) result(found)
     class(packing), intent(inout) :: self
     integer, intent(in) :: kind
@@ -1210,7 +1222,7 @@ contains
     call self%done(status)
   end subroutine do_refined_positions
 
-  ! Gaps h of all pairs below h_max (every image), without contacts, ascending; *rows = gaps. Without stable_only
+  ! Gaps h of pairs (every image) and walls below h_max, without contacts, ascending; *rows = gaps. Without stable_only
   ! rattlers count too and no network is needed.
   ! Shapes: gap (gaps), pair (gaps, 2).
   ! Errors: JAM_E_STATE.
@@ -1237,7 +1249,9 @@ contains
       status = jam_gaps(self%sys, h_max=h_max, &
         stable_only=merge(1_c_int32_t, 0_c_int32_t, stable_only), gap=made_gap, &
         pair=made_pair)
-      if (status >= 0) made_pair = made_pair + 1
+      if (status >= 0) then
+        where (made_pair >= 0) made_pair = made_pair + 1
+      end if
     end if
     if (present(gap)) call move_alloc(made_gap, gap)
     if (present(pair)) call move_alloc(made_pair, pair)
@@ -1314,7 +1328,9 @@ contains
       allocate (made_sphere(given))
       status = jam_contact_dots(self%sys, weighted=merge(1_c_int32_t, 0_c_int32_t, weighted), dot=made_dot, &
         sphere=made_sphere)
-      if (status >= 0) made_sphere = made_sphere + 1
+      if (status >= 0) then
+        where (made_sphere >= 0) made_sphere = made_sphere + 1
+      end if
     end if
     if (present(dot)) call move_alloc(made_dot, dot)
     if (present(sphere)) call move_alloc(made_sphere, sphere)

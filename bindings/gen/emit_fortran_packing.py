@@ -122,7 +122,9 @@ def _procedure(f, name, api):
             lines.append(f"{pad}deallocate ({result[a.name]})")
             lines.append(f"{pad}allocate ({result[a.name]}({_wrap(shapes[a.name], pad)}))")
     lines.append(f"{pad}status = {f.name}({_wrap(['self%sys'] + passed + filled, pad)})")
-    lines += [f"{pad}if (status >= 0) {result[a.name]} = {result[a.name]} + 1" for a in fills if is_index(f, a)]
+    for a in fills:
+        if is_index(f, a):  # below 0: a wall
+            lines += [f"{pad}if (status >= 0) then", f"{pad}  where ({result[a.name]} >= 0) {result[a.name]} = {result[a.name]} + 1", f"{pad}end if"]
     if len(pad) > 4:
         lines.append("    end if")
     if not one:

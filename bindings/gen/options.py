@@ -104,8 +104,7 @@ TABLE = {
             "walls",
             "choice",
             "AXES",
-            "flat walls at both ends of these axes of a random start: none, x, y, xy, z, xz, yz or xyz (none). A scene with walls "
-            "needs --no-crunch, --packing-fraction or --porosity",
+            "flat walls at both ends of these axes of a random start: none, x, y, xy, z, xz, yz or xyz (none)",
             "none",
             words=("none", "x", "y", "xy", "z", "xz", "yz", "xyz"),
             without=("input", "resume"),

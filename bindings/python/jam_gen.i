@@ -317,7 +317,7 @@ its jump is 1 and its contacts -1 when there is none."
 %feature("docstring") jam_rigidity_report "What jam_rigidity found. K+ are the contacts that carry force in some balance of non-negative forces, B the spheres
 that they touch, N' their number. undecided_contacts: also pairs that the digits of the coordinates cannot
 distinguish from contacts. rigidity_margin below 1e-12: a flex; of a sphere that touches its own images alone: with
-strains."
+strains; where a round wall's curvature holds flexes: by how much of the mean force times curvature."
 %extend jam_check_options {
   jam_check_options() {
     jam_check_options *made = (jam_check_options *)calloc(1, sizeof *made);
@@ -657,8 +657,8 @@ Errors: JAM_E_STATE, JAM_E_TOO_FEW, JAM_E_SOLVER."
 %feature("docstring") jam_decompress_history "Minima of the last decompression.
 Shapes: table (minima, jam_soft_column).
 Errors: JAM_E_STATE."
-%feature("docstring") jam_contacts "Contact pairs, i < j save for images of one sphere (i = j). Hard spheres have those only after a crunch with a free
-cell. Each stands for both opposite images, so it adds 2 to the coordination.
+%feature("docstring") jam_contacts "Contact pairs, i < j save for walls (j = -1 - w) and images of one sphere (i = j). Hard spheres have images only
+after a crunch with a free cell. One stands for both opposite images, so it adds 2 to the coordination.
 Shapes: out (contacts, 2).
 Errors: JAM_E_STATE (no crunch yet)."
 %feature("docstring") jam_contact_vectors "Unit vectors n = (r_i - r_j)/|r_i - r_j| of each pair.
@@ -716,7 +716,7 @@ opening of contacts by a motion v, and E eps that by a strain eps. Collectively 
 translations of B. Strictly jammed: S v + E eps >= 0 with tr eps <= 0 only for those and eps = 0. Both hold for this
 cell, not for several copies of it. Source: Donev et al., J. Comput. Phys. 197, 139 (2004); the guide's page \"Jammed
 or not\" has more. Status: JAM_OK jammed, JAM_NOT_JAMMED, JAM_AMBIGUOUS undecided.
-Errors: JAM_E_SOLVER."
+Errors: JAM_E_SOLVER, JAM_E_UNSUPPORTED (strict, with walls)."
 %feature("docstring") jam_flex "A motion that a packing which is not jammed can follow: out, unit of the box, and strain, 0 for the collective kind.
 The largest displacement is at most 1 mean diameter. Moving by a small part of both keeps all contacts or opens them.
 Where no pair is near contact, one sphere moves.
@@ -755,7 +755,7 @@ Errors: JAM_E_STATE, JAM_E_UNSUPPORTED, JAM_E_IO."
 where they are. ratio: as for jam_prove. Status: JAM_AMBIGUOUS (dependent contacts, nothing is written).
 Shapes: ratio (n), high (n, d), low (n, d).
 Errors: JAM_E_STATE, JAM_E_UNSUPPORTED."
-%feature("docstring") jam_gaps "Gaps h of all pairs below h_max (every image), without contacts, ascending; *rows = gaps. Without stable_only
+%feature("docstring") jam_gaps "Gaps h of pairs (every image) and walls below h_max, without contacts, ascending; *rows = gaps. Without stable_only
 rattlers count too and no network is needed.
 Shapes: gap (gaps), pair (gaps, 2).
 Errors: JAM_E_STATE."

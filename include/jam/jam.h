@@ -241,7 +241,9 @@ typedef enum jam_masses {
   JAM_MASSES_EQUAL = 0, /* all 1 */
   JAM_MASSES_VOLUME = 1 /* as the volumes, sigma_i^d */
 } jam_masses;
-/* What encloses the spheres. The cell is the brick around it. A wall is a mirror: its h is distance / radius - 1. */
+/* What encloses the spheres. The cell is the brick around it. A wall is a mirror: its h is distance / radius - 1. The
+ * wall of row w of jam_walls is partner j = -1 - w of its contacts. In counts of contacts d (N' - 1) is then d N' less
+ * the translations along open axes and the rotations that a cylinder (1) or a ball (d (d - 1) / 2) allows. */
 typedef enum jam_container {
   JAM_CONTAINER_BRICK = 0,    /* the cell: flat walls on the axes of `walls`, the other axes periodic */
   JAM_CONTAINER_CYLINDER = 1, /* d = 3, about z, periodic or between flat walls; its diameter: the edges x and y */
@@ -866,19 +868,19 @@ typedef struct jam_crunch_report {
   int32_t stationary;      /* @bool non-negative contact forces balance: no small motion lets diameters grow */
   int32_t strictly_jammed; /* @enum jam_verdict of the strict test; UNTESTED until jam_rigidity runs it */
   int32_t reserved;
-  double packing_fraction;     /* phi_J when jammed */
-  double diameter_mean;        /* unit of box */
-  int64_t contacts;            /* pairs with a force, without rattlers */
-  int64_t rattlers, stable;    /* spheres that no force-carrying contact touches; n - rattlers = N', or 0 */
-  int64_t bucklers;            /* stable spheres with exactly d+1 contacts */
-  int64_t isostatic_contacts;  /* d (N' - 1) + 1: contacts of a single state of self-stress */
-  int64_t excess_contacts;     /* contacts - isostatic_contacts: 0 isostatic or no network, > 0 hyperstatic */
-  int64_t flexes;              /* motions of stable spheres beyond translations that keep contacts with force closed */
-  int64_t zero_force_contacts; /* closed pairs without force in every state of self-stress, those of rattlers too */
-  int64_t undecided_contacts;  /* pairs with gaps of 1e-10 to 1e-7; after JAM_STOP_DUALITY_GAP: see above */
-  int64_t undercoordinated;    /* stable spheres with d force-carrying contacts or fewer */
-  int64_t strict_contacts_needed;    /* d (N' - 1) + d (d + 1) / 2: fewest contacts of a strictly jammed packing */
-  double rigidity_margin;            /* least eigenvalue of S^T S on contacts with force that is no translation */
+  double packing_fraction;        /* phi_J when jammed */
+  double diameter_mean;           /* unit of box */
+  int64_t contacts;               /* pairs with a force, without rattlers */
+  int64_t rattlers, stable;       /* spheres that no force-carrying contact touches; n - rattlers = N', or 0 */
+  int64_t bucklers;               /* stable spheres with exactly d+1 contacts */
+  int64_t isostatic_contacts;     /* d (N' - 1) + 1: contacts of a single state of self-stress */
+  int64_t excess_contacts;        /* contacts - isostatic_contacts: 0 isostatic or no network, > 0 hyperstatic */
+  int64_t flexes;                 /* motions of stable spheres beyond symmetries that keep contacts with force closed */
+  int64_t zero_force_contacts;    /* closed pairs without force in every state of self-stress, those of rattlers too */
+  int64_t undecided_contacts;     /* pairs with gaps of 1e-10 to 1e-7; after JAM_STOP_DUALITY_GAP: see above */
+  int64_t undercoordinated;       /* stable spheres with d force-carrying contacts or fewer */
+  int64_t strict_contacts_needed; /* d (N' - 1) + d (d + 1) / 2: fewest contacts of a strictly jammed packing */
+  double rigidity_margin;         /* least eigenvalue of S^T S on contacts with force that is no translation */
   int64_t lp_solves, factorisations; /* LPs solved in full; Cholesky factorisations */
   double gain;                       /* sqrt(Gamma) - 1 of the last LP */
   double max_step;                   /* largest |s_i| of a stable sphere in the last LP, mean diameters */
@@ -1110,9 +1112,9 @@ JAM_API jam_status jam_decompress_history(const jam_system *sys, double *table, 
 
 /* ------------------------------------------------------------------ contact network */
 
-/* Contact pairs, i < j save for images of one sphere (i = j). Hard spheres have those only after a crunch with a free
- * cell. Each stands for both opposite images, so it adds 2 to the coordination. @shape out (contacts, 2) @errors STATE
- * (no crunch yet) */
+/* Contact pairs, i < j save for walls (j = -1 - w) and images of one sphere (i = j). Hard spheres have images only
+ * after a crunch with a free cell. One stands for both opposite images, so it adds 2 to the coordination. @shape out
+ * (contacts, 2) @errors STATE (no crunch yet) */
 JAM_API jam_status jam_contacts(const jam_system *sys, int32_t *out, size_t out_len, size_t *needed);
 /* Unit vectors n = (r_i - r_j)/|r_i - r_j| of each pair. @shape out (contacts, d) @errors STATE */
 JAM_API jam_status jam_contact_vectors(const jam_system *sys, double *out, size_t out_len, size_t *needed);
@@ -1261,7 +1263,7 @@ typedef enum jam_verdict {
 /* What jam_rigidity found. K+ are the contacts that carry force in some balance of non-negative forces, B the spheres
  * that they touch, N' their number. undecided_contacts: also pairs that the digits of the coordinates cannot
  * distinguish from contacts. rigidity_margin below 1e-12: a flex; of a sphere that touches its own images alone: with
- * strains. */
+ * strains; where a round wall's curvature holds flexes: by how much of the mean force times curvature. */
 typedef struct jam_rigidity_report {
   uint32_t struct_size;
   int32_t kind;                /* @enum jam_rigidity_kind that was tested */
@@ -1270,7 +1272,7 @@ typedef struct jam_rigidity_report {
   int64_t stable, contacts;    /* N'; |K+| */
   int64_t contacts_needed;     /* collective d (N' - 1) + 1, strict d (N' - 1) + d (d + 1) / 2 */
   int64_t self_stresses;       /* independent balances of forces on K+, signs free */
-  int64_t flexes;              /* motions beyond translations that keep K+ closed; 0 without K+, 512 at most */
+  int64_t flexes;              /* motions beyond symmetries that keep K+ closed; 0 without K+, 512 at most */
   int64_t undercoordinated;    /* spheres of B with d contacts of K+ or fewer */
   int64_t zero_force_contacts; /* closed pairs that are not in K+ */
   int64_t undecided_contacts;  /* pairs with gaps of 1e-10 to 1e-7 */
@@ -1286,8 +1288,7 @@ typedef struct jam_rigidity_report {
  * translations of B. Strictly jammed: S v + E eps >= 0 with tr eps <= 0 only for those and eps = 0. Both hold for this
  * cell, not for several copies of it. Source: Donev et al., J. Comput. Phys. 197, 139 (2004); the guide's page "Jammed
  * or not" has more. Status: JAM_OK jammed, JAM_NOT_JAMMED, JAM_AMBIGUOUS undecided. @enum kind jam_rigidity_kind
- * @errors SOLVER
- */
+ * @errors SOLVER, UNSUPPORTED (strict, with walls) */
 JAM_API jam_status jam_rigidity(jam_system *sys, int32_t kind, jam_rigidity_report *report);
 /* A motion that a packing which is not jammed can follow: out, unit of the box, and strain, 0 for the collective kind.
  * The largest displacement is at most 1 mean diameter. Moving by a small part of both keeps all contacts or opens them.
@@ -1319,23 +1320,22 @@ typedef struct jam_check_options {
  * Closed pairs have gaps below 1e-10. NaN, and -1 for contacts: not known. crunch_*: of the crunched copy. */
 typedef struct jam_check_report {
   uint32_t struct_size;
-  int32_t jammed;              /* @enum jam_verdict: collectively jammed */
-  int32_t strictly_jammed;     /* @enum jam_verdict; NO where jammed is NO */
-  int32_t stationary;          /* @enum jam_verdict: non-negative forces balance */
-  int32_t reason;              /* @enum jam_check_reason of jammed */
-  int32_t dim;                 /* d */
-  int32_t digits;              /* decimal digits that coordinates, diameters or cell seem to have; 0: all */
-  int32_t crunch_jammed;       /* @enum jam_verdict; UNTESTED without a copy */
-  int64_t n;                   /* number of spheres */
-  int64_t contacts;            /* closed pairs that carry force */
-  int64_t excess_contacts;     /* contacts - (d (N' - 1) + 1), 0 without contacts */
-  int64_t rattlers;            /* n - N': spheres without force */
-  int64_t closed_pairs;        /* those of rattlers among them */
-  int64_t zero_force_contacts; /* of the pairs that were tested, those without force in every state */
-  int64_t undecided_contacts;  /* pairs that may be contacts or not, by rounding or for lack of digits */
-  int64_t self_stresses;       /* independent balances of forces; with more than one forces are not unique */
-  int64_t flexes,
-      strict_flexes; /* motions beyond translations that keep contacts with force closed; with strains, 0 untested */
+  int32_t jammed;                 /* @enum jam_verdict: collectively jammed */
+  int32_t strictly_jammed;        /* @enum jam_verdict; NO where jammed is NO, UNTESTED with walls */
+  int32_t stationary;             /* @enum jam_verdict: non-negative forces balance */
+  int32_t reason;                 /* @enum jam_check_reason of jammed */
+  int32_t dim;                    /* d */
+  int32_t digits;                 /* decimal digits that coordinates, diameters or cell seem to have; 0: all */
+  int32_t crunch_jammed;          /* @enum jam_verdict; UNTESTED without a copy */
+  int64_t n;                      /* number of spheres */
+  int64_t contacts;               /* closed pairs that carry force */
+  int64_t excess_contacts;        /* contacts - (d (N' - 1) + 1), 0 without contacts */
+  int64_t rattlers;               /* n - N': spheres without force */
+  int64_t closed_pairs;           /* those of rattlers among them */
+  int64_t zero_force_contacts;    /* of the pairs that were tested, those without force in every state */
+  int64_t undecided_contacts;     /* pairs that may be contacts or not, by rounding or for lack of digits */
+  int64_t self_stresses;          /* independent balances of forces; with more than one forces are not unique */
+  int64_t flexes, strict_flexes;  /* motions that keep contacts with force closed; with strains, 0 untested */
   int64_t crunch_contacts;        /* contacts of the copy */
   double packing_fraction;        /* of the packing as it is */
   double nearest_gap;             /* smallest gap of all pairs; negative: an overlap. Infinite: none below 1 */
@@ -1434,7 +1434,7 @@ typedef enum jam_contact_class {
   JAM_CONTACT_SMALLEST = 2,  /* has the smallest force of one of its spheres */
   JAM_CONTACT_MEDIAN = 4     /* has the (lower) median force of one of its spheres */
 } jam_contact_class;
-/* Gaps h of all pairs below h_max (every image), without contacts, ascending; *rows = gaps. Without stable_only
+/* Gaps h of pairs (every image) and walls below h_max, without contacts, ascending; *rows = gaps. Without stable_only
  * rattlers count too and no network is needed. @shape gap (gaps), pair (gaps, 2) @bool stable_only @errors STATE */
 JAM_API jam_status jam_gaps(const jam_system *sys, double h_max, int32_t stable_only, double *gap, size_t gap_len,
                             int32_t *pair, size_t pair_len, size_t *rows);

@@ -39,8 +39,7 @@ std::vector<double> sphere_values(const Packing &p, const ContactNetwork &net, i
   } else if (quantity == JAM_LOCAL_FORCE_SUM) {
     if (net.force.size() != net.size()) fail(JAM_E_STATE, "the network has no forces");
     for (size_t k = 0; k < net.size(); ++k) {
-      out[net.pairs.i[k]] += net.force[k];
-      out[net.pairs.j[k]] += net.force[k];
+      for_spheres(net.pairs.i[k], net.pairs.j[k], [&](int32_t i) { out[i] += net.force[k]; });
     }
   } else {
     const SphereStructure t = sphere_structure(p, net, weighted);

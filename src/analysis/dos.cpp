@@ -38,7 +38,7 @@ double largest_eigenvalue(const RigidityMatrix &g, const BlockMatrix &h) {
   for (double &v : x) v = rng.normal();
   double lambda = 0.0, residual = 0.0;
   for (int pass = 0; pass < 60; ++pass) {
-    remove_translation(g.dim, g.nodes, x.data());
+    g.remove_symmetries(x.data());
     const double length = std::sqrt(dot(x, x));
     if (!(length > 0.0)) return 0.0;
     for (double &v : x) v /= length;
@@ -54,8 +54,7 @@ double largest_eigenvalue(const RigidityMatrix &g, const BlockMatrix &h) {
 double smallest_eigenvalue(const RigidityMatrix &g, const ContactWeights &w) {
   std::vector<double> sum(g.nodes, 0.0);
   for (size_t k = 0; k < w.transverse.size(); ++k) {
-    sum[g.a[k]] += w.transverse[k];
-    sum[g.b[k]] += w.transverse[k];
+    for_spheres(g.a[k], g.b[k], [&](int32_t i) { sum[i] += std::max(0.0, w.transverse[k]); });
   }
   return sum.empty() ? 0.0 : -2.0 * *std::max_element(sum.begin(), sum.end());
 }
@@ -175,7 +174,7 @@ DensityOfStates density_of_states(const RigidityMatrix &g, const ContactWeights 
   for (int32_t r = 0; r < o.vectors; ++r) {
     Rng rng(o.seed, Stream::analysis_start, static_cast<uint64_t>(r) << 32);
     for (double &x : v) x = rng.bits() & 1 ? 1.0 : -1.0;
-    remove_translation(g.dim, g.nodes, v.data());
+    g.remove_symmetries(v.data());
     moments_of(h, span, v, mu, [&] { CallScope::report_share(r, static_cast<double>(r) / o.vectors); });
     // Each vector over its own length: the integral is 1 for every one of them.
     for (size_t m = moments; m-- > 0;) mu[m] *= jackson(m, moments) / mu[0];

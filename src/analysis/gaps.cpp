@@ -34,7 +34,7 @@ PairList pairs_without_contacts(const Packing &p, const ContactNetwork *net, dou
   for (size_t k = 0; k < all.size(); ++k) {
     sparse_look();
     const int32_t i = all.i[k], j = all.j[k];
-    if (net && stable_only && (net->coordination[i] == 0 || net->coordination[j] == 0)) continue;
+    if (net && stable_only && (net->coordination[i] == 0 || (j >= 0 && net->coordination[j] == 0))) continue;
     if (contacts && contacts->holds(all, k)) continue;
     out.append(all, k);
   }
@@ -71,7 +71,8 @@ std::vector<int32_t> near_coordination(const Packing &p, double h_max) {
   check_pair_count(p, (1.0 + h_max) * diameter_mean(p));
   const PairList near = find_pairs(p, 0.0, 1.0 + h_max);
   std::vector<int32_t> z(p.n(), 0);
-  for (size_t k = 0; k < near.size(); ++k) ++z[near.i[k]], ++z[near.j[k]];
+  for (size_t k = 0; k < near.size(); ++k)
+    if (!near.wall(k)) ++z[near.i[k]], ++z[near.j[k]];
   return z;
 }
 
@@ -85,7 +86,7 @@ std::vector<std::vector<Side>> contacts_of(const Packing &p, const ContactNetwor
   std::vector<std::vector<Side>> of(p.n());
   for (size_t k = 0; k < net.size(); ++k) {
     of[net.pairs.i[k]].push_back({k, 1.0});
-    of[net.pairs.j[k]].push_back({k, -1.0});
+    if (!net.pairs.wall(k)) of[net.pairs.j[k]].push_back({k, -1.0});
   }
   return of;
 }
@@ -94,8 +95,9 @@ std::vector<std::vector<Side>> contacts_of(const Packing &p, const ContactNetwor
 std::vector<int32_t> classify_contacts(const Packing &p, const ContactNetwork &net) {
   std::vector<int32_t> flags(net.size(), 0);
   for (size_t k = 0; k < net.size(); ++k)
-    if (net.coordination[net.pairs.i[k]] == p.dim + 1 || net.coordination[net.pairs.j[k]] == p.dim + 1)
-      flags[k] |= JAM_CONTACT_LOCALISED;
+    for_spheres(net.pairs.i[k], net.pairs.j[k], [&](int32_t i) {
+      if (net.coordination[i] == p.dim + 1) flags[k] |= JAM_CONTACT_LOCALISED;
+    });
   for (auto &of : contacts_of(p, net)) {
     if (of.empty() || net.force.empty()) continue;
     std::sort(of.begin(), of.end(), [&](const Side &x, const Side &y) {
@@ -128,6 +130,7 @@ SphereStructure sphere_structure(const Packing &p, const ContactNetwork &net, bo
   std::vector<double> self(p.n(), 0.0), v(d);
   for (size_t k = 0; k < net.size(); ++k)
     for (const Side &side : {Side{k, 1.0}, Side{k, -1.0}}) {
+      if (side.sign < 0.0 && net.pairs.wall(k)) continue;
       const size_t i = static_cast<size_t>(side.sign > 0.0 ? net.pairs.i[k] : net.pairs.j[k]);
       seen_from(p, net, side, weighted, v.data());
       for (int c = 0; c < d; ++c) {

@@ -68,7 +68,7 @@ class Operator {
 
  private:
   void project(double *x) const {
-    remove_translation(g_.dim, g_.nodes, x);
+    g_.remove_symmetries(x);
     if (found.empty()) return;
     const auto n = static_cast<Eigen::Index>(g_.unknowns());
     Eigen::Map<const Eigen::MatrixXd> f(found.data(), n, static_cast<Eigen::Index>(found.size()) / n);
@@ -153,7 +153,7 @@ void harvest(const RigidityMatrix &g, const ContactWeights &w, Operator &op, std
         const Eigen::VectorXd along = v.leftCols(static_cast<Eigen::Index>(k)).transpose() * col;
         col -= v.leftCols(static_cast<Eigen::Index>(k)) * along;
       }
-    remove_translation(g.dim, g.nodes, col.data());
+    g.remove_symmetries(col.data());
     col.normalize();
   }
   std::vector<std::pair<double, size_t>> lambda;

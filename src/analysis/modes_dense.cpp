@@ -41,11 +41,11 @@ void select_modes(const RigidityMatrix &g, const jam_modes_options &o, Modes &m)
     if (std::fabs(m.lambda[k]) < tiny) zero.push_back(k);
   Eigen::MatrixXd z(n, zero.size());
   Eigen::Index rank = 0;
-  const Eigen::Index room = std::max<Eigen::Index>(0, static_cast<Eigen::Index>(zero.size()) - g.dim);
+  const Eigen::Index room = std::max<Eigen::Index>(0, static_cast<Eigen::Index>(zero.size()) - g.symmetries());
   for (Eigen::Index pass = 0; pass < static_cast<Eigen::Index>(zero.size()) && rank < room; ++pass) {
     Eigen::VectorXd x = v.col(static_cast<Eigen::Index>(zero[pass]));
     for (int twice = 0; twice < 2; ++twice) {
-      remove_translation(g.dim, g.nodes, x.data());
+      g.remove_symmetries(x.data());
       if (rank > 0) x -= z.leftCols(rank) * (z.leftCols(rank).transpose() * x).eval();
     }
     if (x.norm() < ModesTuning::spent && pass + (room - rank) < static_cast<Eigen::Index>(zero.size())) continue;

@@ -51,7 +51,7 @@ jam_status jam_modes(jam_system *sys, const jam_hessian_options *h, const jam_mo
     need_network(sys);
     const RigidityMatrix g = make_rigidity_matrix(sys->packing, sys->contacts);
     check_modes_options(full, g);
-    const size_t n = g.unknowns(), internal = n - std::min<size_t>(n, static_cast<size_t>(g.dim));
+    const size_t n = g.unknowns(), internal = n - std::min<size_t>(n, static_cast<size_t>(g.symmetries()));
     const size_t m = full.which == JAM_MODES_ALL ? n : std::min<size_t>(internal, static_cast<size_t>(full.count));
     if (needed) *needed = m;
     constexpr size_t columns = JAM_MODE_PARTICIPATION + 1;

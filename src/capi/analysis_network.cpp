@@ -52,7 +52,6 @@ jam_status jam_geometry_options_init(jam_geometry_options *o, size_t size) {
 
 jam_status jam_contacts_from_geometry(jam_system *sys, const jam_geometry_options *o, jam_geometry_report *report) {
   return guard_cancellable(sys, [&]() -> Answer {
-    refuse_walls(sys->packing, "searched for contacts");
     check_out_struct(report, "report");
     jam_geometry_options full = default_geometry_options();
     take_options(o, full);
@@ -77,7 +76,6 @@ jam_status jam_contacts_from_geometry(jam_system *sys, const jam_geometry_option
 jam_status jam_contact_candidates(const jam_system *sys, double window, double *table, size_t table_len,
                                   size_t *needed) {
   return guard_const(sys, [&]() -> jam_status {
-    refuse_walls(sys->packing, "searched for contacts");
     constexpr size_t columns = JAM_CANDIDATE_EXCESS + 1;
     const ContactCandidates c = contact_candidates(sys->packing, window);
     if (!table_wanted(c.limit.size(), columns, table, table_len, needed)) return JAM_OK;

@@ -30,7 +30,6 @@ extern "C" {
 jam_status jam_gaps(const jam_system *sys, double h_max, int32_t stable_only, double *gap, size_t gap_len,
                     int32_t *pair, size_t pair_len, size_t *needed) {
   return guard_const(sys, [&]() -> jam_status {
-    refuse_walls(sys->packing, "searched for gaps of pairs (jam_walls gives those of walls)");
     if (stable_only) need_network(sys);
     const Gaps g = find_gaps(sys->packing, sys->known_contacts(), h_max, stable_only != 0);
     if (!needed && !gap && !pair) fail(JAM_E_NULL, "needed is NULL and there is no output array");

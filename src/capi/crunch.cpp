@@ -46,10 +46,11 @@ jam_status jam_crunch_options_init(jam_crunch_options *o, size_t size) {
 
 jam_status jam_crunch(jam_system *sys, const jam_crunch_options *o, jam_crunch_report *report) {
   return guard_verb(sys, [&]() -> Answer {
-    refuse_walls(sys->packing, "crunched");
     check_out_struct(report, "report");
     jam_crunch_options full = default_crunch_options();
     take_options(o, full);
+    if (full.strain != JAM_STRAIN_NONE) refuse_walls(sys->packing, "crunched in a free cell");
+    if (full.prove) refuse_walls(sys->packing, "proved jammed despite rounding");
     History history;
     struct Show {  // callbacks see the steps while crunch runs
       const History *&shown;
@@ -84,7 +85,6 @@ jam_status jam_crunch(jam_system *sys, const jam_crunch_options *o, jam_crunch_r
 
 jam_status jam_estimate_crunch(const jam_system *sys, const jam_crunch_options *o, jam_estimate *estimated) {
   return guard_const(sys, [&]() -> jam_status {
-    refuse_walls(sys->packing, "crunched");
     need(estimated, "estimated");
     check_out_struct(estimated, "estimated");
     jam_crunch_options full = default_crunch_options();

@@ -42,9 +42,10 @@ void check_network(const ContactNetwork &c, const Packing &p) {
   double r[JAM_MAX_DIM];
   for (size_t k = 0; k < m; ++k) {
     const int32_t i = c.pairs.i[k], j = c.pairs.j[k];
-    check(i >= 0 && i <= j && static_cast<size_t>(j) < n);
+    check(i >= 0 && static_cast<size_t>(i) < n && static_cast<size_t>(std::max(j, 0)) < n);
+    check(c.pairs.wall(k) ? wall_partner(j) < p.container.count() : i <= j);
     check(k == 0 || std::make_pair(c.pairs.i[k - 1], c.pairs.j[k - 1]) <= std::make_pair(i, j));
-    ++coordination[i], ++coordination[j];
+    for_spheres(i, j, [&](int32_t s) { ++coordination[s]; });
     pair_vector(p, c.pairs, k, r);
     const double sigma = contact_distance(p, i, j), length = sigma * (1.0 + c.gap[k]);
     for (size_t e = 0; e < d; ++e) check(std::fabs(r[e] - length * c.vector[k * d + e]) <= resolution(p, sigma));

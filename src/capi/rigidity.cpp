@@ -30,6 +30,11 @@ Answer answer_of(const jam_rigidity_report &r) {
             sentence("not %s jammed: forces on %lld contacts balance%s, at least %lld contacts are needed, "
                      "and %lld motions keep all contacts closed; jam_flex gives one",
                      kind, n(r.contacts), stress, n(r.contacts_needed), n(r.flexes))};
+  if (r.flexes > 0)
+    return {JAM_AMBIGUOUS,
+            sentence("undecided whether the packing is %s jammed: %lld motions keep all contacts closed, "
+                     "and the curvature of the round wall neither stabilises nor frees them",
+                     kind, n(r.flexes))};
   return {JAM_AMBIGUOUS,
           sentence("undecided whether the packing is %s jammed: %lld pairs are nearly closed, and the rigidity margin "
                    "is %.1e; jam_crunch closes contacts",
@@ -49,6 +54,7 @@ PackingVerdict test(const jam_system *sys, Jamming kind) {
   }
   const ContactNetwork *listed = closed.size() ? &closed : nullptr;
   PackingVerdict v = test_packing(p, resolution, listed, kind);
+  if (p.container) return v;
   if (kind == Jamming::collective) decide_by_proof(p, v);
   if (kind == Jamming::strict || v.result.jammed == Verdict::yes || !may_touch_own_image(p, resolution)) return v;
   PackingVerdict strict = test_packing(p, resolution, listed, Jamming::strict);
@@ -67,8 +73,8 @@ jam_status jam_rigidity(jam_system *sys, int32_t kind, jam_rigidity_report *repo
   untested.jammed = untested.stationary = JAM_VERDICT_UNTESTED;
   untested.rigidity_margin = untested.force_residual = std::numeric_limits<double>::quiet_NaN();
   return guard_cancellable(sys, untested, report, [&]() -> Answer {
-    refuse_walls(sys->packing, "tested for rigidity");
     const Jamming jamming = take_kind(kind);
+    if (jamming == Jamming::strict) refuse_walls(sys->packing, "tested for strict jamming");
     const PackingVerdict v = test(sys, jamming);
     if (sys->has_report && jamming == Jamming::strict) sys->report.strictly_jammed = verdict_code(v.result.jammed);
     jam_rigidity_report r{};
@@ -93,8 +99,8 @@ jam_status jam_rigidity(jam_system *sys, int32_t kind, jam_rigidity_report *repo
 jam_status jam_flex(jam_system *sys, int32_t kind, double *out, size_t out_len, double *strain, size_t strain_len,
                     size_t *needed) {
   return guard_cancellable(sys, [&]() -> jam_status {
-    refuse_walls(sys->packing, "tested for rigidity");
     const Jamming jamming = take_kind(kind);
+    if (jamming == Jamming::strict) refuse_walls(sys->packing, "tested for strict jamming");
     const size_t d = static_cast<size_t>(sys->packing.dim), size = sys->packing.position.size();
     if (!needed && !out && !strain) fail(JAM_E_NULL, "needed is NULL and there is no output array");
     check_output(out, out_len, size, "out");

@@ -79,11 +79,11 @@ std::string Container::name(int w) const {
   return text;
 }
 
-double Container::distance(int w, const double *x) const {
-  if (!is_round(w)) return side(w) ? edge_[axis(w)] - x[axis(w)] : x[axis(w)];
-  double r2 = 0.0;
-  for (int c = 0; c < round_axes_; ++c) r2 += (x[c] - radius_) * (x[c] - radius_);
-  return radius_ - std::sqrt(r2);
+void Container::rotation(int q, const double *x, double *v) const {
+  for (int c = 0; c < dim_; ++c) v[c] = 0.0;
+  for (int a = 0; a < round_axes_; ++a)
+    for (int b = a + 1; b < round_axes_; ++b)
+      if (q-- == 0) v[a] = radius_ - x[b], v[b] = x[a] - radius_;
 }
 
 void Container::normal(int w, const double *x, double *n) const {

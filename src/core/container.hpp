@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "core/cell.hpp"
+#include "core/double_double.hpp"
 #include "core/rng.hpp"
 #include "jam/jam.h"
 
@@ -70,12 +71,28 @@ class Container {
     for (int c = 0; c < dim_; ++c) open -= static_cast<int>(closed_ >> c & 1);
     return dim_ > 0 ? static_cast<double>(open) / dim_ : 1.0;
   }
+  // Rigid motions of all spheres that the walls allow: translations along open axes, and rotations about the centre of
+  // the round wall in the planes of two of its axes.
+  int rotations() const { return round_axes_ * (round_axes_ - 1) / 2; }
+  int symmetries() const {
+    int open = dim_;
+    for (int c = 0; c < dim_; ++c) open -= static_cast<int>(closed_ >> c & 1);
+    return open + rotations();
+  }
+  // Velocity at x of rotation q.
+  void rotation(int q, const double *x, double *v) const;
   // Widest sphere that fits.
   double widest() const { return widest_; }
 
   // Of a point and wall w: distance, the direction away from the wall, and 1 / |r| of a round wall: there the Hessian
   // of the distance is -(1 - n n^T) / |r| along the round axes. A flat wall has none.
-  double distance(int w, const double *x) const;
+  template <class Real = double>
+  Real distance(int w, const double *x) const {
+    if (!is_round(w)) return side(w) ? Real(edge_[axis(w)]) - Real(x[axis(w)]) : Real(x[axis(w)]);
+    Real r2(0.0);
+    for (int c = 0; c < round_axes_; ++c) r2 = r2 + (Real(x[c]) - Real(radius_)) * (Real(x[c]) - Real(radius_));
+    return Real(radius_) - square_root(r2);
+  }
   void normal(int w, const double *x, double *n) const;
   double curvature(int w, const double *x) const;
   // Whether a sphere at x lies inside all walls.
@@ -83,6 +100,13 @@ class Container {
     for (int w = 0; w < count(); ++w)
       if (distance(w, x) < radius) return false;
     return true;
+  }
+  // The vector to x from the nearest point of the wall: the r_ij of a contact. Returns its squared length.
+  double vector(int w, const double *x, double *r) const {
+    const double h = distance(w, x);
+    normal(w, x, r);
+    for (int c = 0; c < dim_; ++c) r[c] *= h;
+    return h * h;
   }
   // A uniform point of the brick where a sphere of this radius may fit between flat walls.
   void random_point(const Cell &cell, Rng &rng, double radius, double *x) const;
@@ -109,6 +133,16 @@ class Container {
     }
     return {static_cast<double>(static_cast<__int128>(rest)), rv + static_cast<double>(room) * growth,
             vv - growth * growth};
+  }
+  // The same in doubles for a sphere at this distance from the round wall.
+  Approach approach(const double *x, const double *v, double radius, double growth, double distance) const {
+    double r2 = 0.0, rv = 0.0, vv = 0.0;
+    for (int c = 0; c < round_axes_; ++c) {
+      const double r = x[c] - radius_;
+      r2 += r * r, rv += r * v[c], vv += v[c] * v[c];
+    }
+    const double room = radius_ - radius;
+    return {(distance - radius) * (room + std::sqrt(r2)), rv + room * growth, vv - growth * growth};
   }
   // Whether the gap above means something: a sphere wider than a round wall has none.
   template <int D>
@@ -141,6 +175,8 @@ class Container {
   }
 
  private:
+  static double square_root(double x) { return std::sqrt(x); }
+  static DoubleDouble square_root(DoubleDouble x) { return jam::square_root(x); }
   static uint64_t half_of(uint64_t edge) { return edge ? edge / 2 : uint64_t{1} << 63; }
   static unsigned __int128 square(__int128 x) {
     const auto m = static_cast<unsigned __int128>(x < 0 ? -x : x);
@@ -182,6 +218,8 @@ struct ClosestWall {
 };
 ClosestWall closest_to_wall(const Packing &p, int w);
 ClosestWall closest_wall(const Packing &p);
+// Rigid motions of all spheres that keep every distance: d translations of a periodic cell.
+inline int symmetries(const Container &c, int dim) { return c ? c.symmetries() : dim; }
 // JAM_E_UNSUPPORTED for a call that does not know walls: "a scene with walls cannot be <done> yet".
 void refuse_walls(const Packing &p, const char *done);
 

@@ -10,10 +10,11 @@
 
 namespace jam {
 
-// Contact distance sigma_ij. Additive: (sigma_i + sigma_j) / 2. Non-additive mixture: (1 + Delta) times that for
-// spheres of unequal diameters.
+// Contact distance sigma_ij; of a wall, j < 0, the radius. Additive: (sigma_i + sigma_j) / 2. Non-additive mixture: (1
+// + Delta) times that for spheres of unequal diameters.
 template <class Real = double>
 Real contact_distance(const Packing &p, int32_t i, int32_t j) {
+  if (j < 0) return Real(0.5) * static_cast<Real>(p.diameter[i]);
   const Real mean = Real(0.5) * (static_cast<Real>(p.diameter[i]) + p.diameter[j]);
   if (p.non_additivity == 0.0 || p.diameter[i] == p.diameter[j]) return mean;
   return (Real(1.0) + p.non_additivity) * mean;

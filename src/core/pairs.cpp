@@ -40,21 +40,6 @@ void keep(std::vector<Candidate> &found, const Candidate &candidate, int dim) {
   found.push_back(candidate);
 }
 
-void append_sorted(PairList &list, int32_t i, int dim, std::vector<Candidate> &found) {
-  std::sort(found.begin(), found.end(), [dim](const Candidate &a, const Candidate &b) {
-    if (a.j != b.j) return a.j < b.j;
-    return std::lexicographical_compare(a.offset.begin(), a.offset.begin() + dim, b.offset.begin(),
-                                        b.offset.begin() + dim);
-  });
-  check_list_size(static_cast<double>(list.size() + found.size()), dim);
-  for (const Candidate &c : found) {
-    list.i.push_back(i);
-    list.j.push_back(c.j);
-    list.offset.insert(list.offset.end(), c.offset.begin(), c.offset.begin() + dim);
-  }
-  found.clear();
-}
-
 // All images of one pair within a cutoff. Of the images of a sphere with itself one of each pair +-r is kept.
 class ImageScan {
  public:
@@ -90,12 +75,37 @@ struct Cutoff {
 
   double most() const { return reach + slope * contact_distance_max(p); }
   double of(int32_t i, int32_t j) const {
-    return (own ? std::max(own[i], own[j]) : reach) + slope * contact_distance(p, i, j);
+    return (own ? std::max(own[i], own[std::max(i, j)]) : reach) + slope * contact_distance(p, i, j);
   }
 };
 
 Cutoff own_cutoff(const Packing &p, const std::vector<double> &reach, double slope) {
   return {p, *std::max_element(reach.begin(), reach.end()), slope, reach.data()};
+}
+
+void add_walls(const Cutoff &cutoff, int32_t i, std::vector<Candidate> &found) {
+  const Packing &p = cutoff.p;
+  for (int w = 0; w < p.container.count(); ++w)
+    if (p.container.distance(w, &p.position[static_cast<size_t>(i) * p.dim]) < cutoff.of(i, wall_partner(w)))
+      keep(found, {wall_partner(w), {}}, p.dim);
+}
+
+// Pairs of sphere i, its walls among them.
+void append_sorted(PairList &list, int32_t i, const Cutoff &cutoff, std::vector<Candidate> &found) {
+  const int dim = cutoff.p.dim;
+  if (cutoff.p.container) add_walls(cutoff, i, found);
+  std::sort(found.begin(), found.end(), [dim](const Candidate &a, const Candidate &b) {
+    if (a.j != b.j) return a.j < b.j;
+    return std::lexicographical_compare(a.offset.begin(), a.offset.begin() + dim, b.offset.begin(),
+                                        b.offset.begin() + dim);
+  });
+  check_list_size(static_cast<double>(list.size() + found.size()), dim);
+  for (const Candidate &c : found) {
+    list.i.push_back(i);
+    list.j.push_back(c.j);
+    list.offset.insert(list.offset.end(), c.offset.begin(), c.offset.begin() + dim);
+  }
+  found.clear();
 }
 
 // Pairs of randomly placed spheres that a cutoff takes in: at least so many, as a mean power exceeds the power of a
@@ -125,7 +135,7 @@ PairList by_brute_force(const Cutoff &cutoff) {
       sparse_look();
       images.scan(i, j, cutoff.of(i, j), found);
     }
-    append_sorted(list, i, p.dim, found);
+    append_sorted(list, i, cutoff, found);
   }
   return list;
 }
@@ -195,7 +205,7 @@ class LevelSearch {
     std::vector<Candidate> &own = scanned_;
     for (const Found &f : found_) own.push_back(f.other);
     found_.clear();
-    append_sorted(list_, i, p_.dim, own);
+    append_sorted(list_, i, cutoff_, own);
   }
   // By (i, j), then image.
   void sort() {
@@ -206,7 +216,7 @@ class LevelSearch {
     for (size_t k = 0; k < found_.size(); ++k) order[at[static_cast<size_t>(found_[k].i)]++] = k;
     for (size_t i = 0; i < p_.n(); ++i) {
       for (size_t k = start[i]; k < start[i + 1]; ++k) scanned_.push_back(found_[order[k]].other);
-      append_sorted(list_, static_cast<int32_t>(i), p_.dim, scanned_);
+      append_sorted(list_, static_cast<int32_t>(i), cutoff_, scanned_);
     }
   }
 
@@ -256,7 +266,8 @@ void wrap_positions(Packing &p, PairList &pairs) {
   std::vector<double> shift(p.position.size());
   for (size_t i = 0; i < p.n(); ++i) p.cell.wrap(&p.position[i * d], &shift[i * d]);
   for (size_t k = 0; k < pairs.size(); ++k)
-    for (size_t c = 0; c < d; ++c) pairs.offset[k * d + c] += shift[pairs.i[k] * d + c] - shift[pairs.j[k] * d + c];
+    for (size_t c = 0; c < d && !pairs.wall(k); ++c)
+      pairs.offset[k * d + c] += shift[pairs.i[k] * d + c] - shift[pairs.j[k] * d + c];
 }
 
 ClosestPair closest_pair(const Packing &p) {
@@ -275,6 +286,7 @@ ClosestPair closest_pair(const Packing &p) {
     SparseLook sparse_look;
     for (size_t k = 0; k < pairs.size(); ++k) {
       sparse_look();
+      if (pairs.wall(k)) continue;
       const double sigma = contact_distance(p, pairs.i[k], pairs.j[k]);
       const double gap = std::sqrt(pair_vector(p, pairs, k, r)) / sigma - 1.0;
       if (gap < best.gap) best = {gap, pairs.i[k], pairs.j[k]};
@@ -282,6 +294,12 @@ ClosestPair closest_pair(const Packing &p) {
     if (best.i >= 0) return best;
   }
   return {std::numeric_limits<double>::infinity(), -1, -1};
+}
+
+ClosestPair closest_contact(const Packing &p) {
+  const ClosestPair pair = closest_pair(p);
+  const ClosestWall wall = closest_wall(p);
+  return wall.gap < pair.gap ? ClosestPair{wall.gap, wall.sphere, wall_partner(wall.w)} : pair;
 }
 
 }  // namespace jam

@@ -61,7 +61,8 @@ void record_contacts(CrunchState &s, HistoryRow &row, size_t contacts, const std
   const int dim = s.out.packing.dim;
   const int64_t stable = stable_spheres(coordination);
   row[JAM_HISTORY_CONTACTS] = static_cast<double>(contacts);
-  row[JAM_HISTORY_EXCESS] = static_cast<double>(static_cast<int64_t>(contacts) - isostatic_contacts(stable, dim));
+  row[JAM_HISTORY_EXCESS] =
+      static_cast<double>(static_cast<int64_t>(contacts) - isostatic_contacts(stable, dim, s.out.packing.container));
   row[JAM_HISTORY_RATTLERS] = static_cast<double>(static_cast<int64_t>(coordination.size()) - stable);
   s.history.over_stable(coordination, dim, diameter_mean(s.out.packing));
 }

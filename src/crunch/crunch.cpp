@@ -50,7 +50,8 @@ static Phase first_phase(CrunchState &s) {
 // Nothing touches but spheres their own images: at fixed cell no diameter can grow, and no LP is needed to see it.
 static bool fills_cell(CrunchState &s) {
   const Packing &p = s.out.packing;
-  if (s.o.strain != JAM_STRAIN_NONE || diameter_max(p) < p.cell.shortest() * (1.0 - contact_gap_limit)) return false;
+  if (p.container || s.o.strain != JAM_STRAIN_NONE || diameter_max(p) < p.cell.shortest() * (1.0 - contact_gap_limit))
+    return false;
   const PairList touching = find_pairs(p, 0.0, 1.0 + contact_gap_limit);
   for (size_t k = 0; k < touching.size(); ++k)
     if (!touching.own_image(k)) return false;

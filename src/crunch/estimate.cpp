@@ -56,7 +56,7 @@ struct Part {
 class Edges {
  public:
   void add(int32_t a, int32_t b) {
-    if (a != b && (i_.empty() || i_.back() != a || j_.back() != b)) i_.push_back(a), j_.push_back(b);
+    if (b >= 0 && a != b && (i_.empty() || i_.back() != a || j_.back() != b)) i_.push_back(a), j_.push_back(b);
   }
   Part part(const Packing &p, size_t rows, int threads) const {
     return {static_cast<double>(rows), static_cast<double>(i_.size()),

@@ -53,7 +53,8 @@ void report_changes(Touching start, double packing_fraction_start, CrunchState &
 static void explain(CrunchState &s) {
   const Packing &p = s.out.packing;
   const auto largest = std::max_element(p.diameter.begin(), p.diameter.end());
-  if (s.out.status <= 0 || s.o.strain != JAM_STRAIN_NONE || *largest < p.cell.shortest() * (1.0 - contact_gap_limit))
+  if (s.out.status <= 0 || p.container || s.o.strain != JAM_STRAIN_NONE ||
+      *largest < p.cell.shortest() * (1.0 - contact_gap_limit))
     return;
   s.out.text = "sphere " + std::to_string(largest - p.diameter.begin()) +
                " touches its own image, nothing can grow here; a free cell (strain) gives way";

@@ -11,6 +11,8 @@
 namespace jam {
 
 struct Tuning {
+  // Round walls: of the growth that an LP promises, the least part that its step must bring (Armijo's rule).
+  static constexpr double least_growth = 0.25;
   int max_attempts = 30;  // LPs below the gain tolerance that lead to no verdict, and moves along flexes
 
   // ---- approach: sequential LPs

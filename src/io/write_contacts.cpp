@@ -20,7 +20,7 @@ void put_rows(const Packing &p, const ContactNetwork &net, int first, char betwe
   const size_t d = static_cast<size_t>(p.dim);
   for (size_t k = 0; k < net.size(); ++k) {
     (out += std::to_string(net.pairs.i[k] + first)) += between;
-    out += std::to_string(net.pairs.j[k] + first);
+    out += std::to_string(net.pairs.wall(k) ? net.pairs.j[k] : net.pairs.j[k] + first);
     for (size_t c = 0; c < d + 2; ++c) {
       out += between;
       append_number(out, c < d ? net.vector[k * d + c] : c == d ? net.gap[k] : net.force[k]);
@@ -42,7 +42,8 @@ void write_dump(const Packing &p, const ContactNetwork &net, OutputFile &file) {
   const LammpsBox box = lammps_box(p, "a LAMMPS dump");
   std::string &out = file.text();
   out += "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ENTRIES\n" + std::to_string(net.size()) + "\nITEM: BOX BOUNDS ";
-  out += box.tilted ? "xy xz yz pp pp pp\n" : "pp pp pp\n";
+  if (box.tilted) out += "xy xz yz ";
+  for (int c = 0; c < 3; ++c) out += std::string(c < p.dim && !p.cell.repeats(c) ? "ff" : "pp") + (c < 2 ? ' ' : '\n');
   const double xy = box.tilt[0], xz = box.tilt[1], yz = box.tilt[2];
   const std::array<double, 3> below{std::min({0.0, xy, xz, xy + xz}), std::min(0.0, yz), 0.0};
   const std::array<double, 3> above{std::max({0.0, xy, xz, xy + xz}), std::max(0.0, yz), 0.0};
@@ -71,8 +72,8 @@ void write_lines(const Packing &p, const ContactNetwork &net, OutputFile &file) 
     for (size_t k = 0; k < net.size(); ++k) {
       const int32_t i = net.pairs.i[k], j = net.pairs.j[k];
       const double half = 0.5 * contact_distance(p, i, j) * (1.0 + net.gap[k]);
-      const double *x = &p.position[static_cast<size_t>(end == 0 ? i : j) * d];
-      for (const double step : {0.0, end == 0 ? -half : half})
+      const double *x = &p.position[static_cast<size_t>(end == 0 || j < 0 ? i : j) * d];
+      for (const double step : {j < 0 && end == 1 ? -2.0 * half : 0.0, end == 0 || j < 0 ? -half : half})
         for (size_t c = 0; c < 3; ++c) points.push_back(c < d ? x[c] + step * net.vector[k * d + c] : 0.0);
       force.push_back(net.force[k]);
       gap.push_back(net.gap[k]);

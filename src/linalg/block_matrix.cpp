@@ -72,9 +72,10 @@ CsrMatrix to_csr(const BlockMatrix &m) {
   return csr;
 }
 
-void remove_translation(int dim, int32_t nodes, double *x) {
+void remove_translation(int dim, int32_t nodes, double *x, uint32_t axes) {
   if (nodes == 0) return;
   for (int c = 0; c < dim; ++c) {
+    if (!(axes >> c & 1)) continue;
     double mean = 0.0;
     for (int32_t i = 0; i < nodes; ++i) mean += x[static_cast<size_t>(i) * dim + c];
     mean /= nodes;

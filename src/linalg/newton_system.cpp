@@ -36,6 +36,10 @@ void NewtonSystem::set_graph(int dim, int32_t n, const PairList &pairs, int thre
       edge_of_pair_[k] = -1;
       continue;
     }
+    if (pairs.wall(k)) {
+      edge_of_pair_[k] = -2;
+      continue;
+    }
     if (ei.empty() || ei.back() != pairs.i[k] || ej.back() != pairs.j[k]) {
       ei.push_back(pairs.i[k]);
       ej.push_back(pairs.j[k]);
@@ -79,10 +83,15 @@ void NewtonSystem::assemble(const double *a, const double *weight) {
   std::fill(diag_.begin(), diag_.end(), 0.0);
   std::fill(off_.begin(), off_.end(), 0.0);
   for (size_t k = 0; k < pair_i_.size(); ++k) {
-    if (edge_of_pair_[k] < 0) continue;
-    double *di = &diag_[static_cast<size_t>(pair_i_[k]) * B], *dj = &diag_[static_cast<size_t>(pair_j_[k]) * B];
-    double *e = &off_[static_cast<size_t>(edge_of_pair_[k]) * B];
+    double *di = &diag_[static_cast<size_t>(pair_i_[k]) * B];
     const double *row = a + k * D;
+    if (edge_of_pair_[k] < 0) {
+      for (int p = 0; p < D && edge_of_pair_[k] == -2; ++p)
+        for (int q = 0; q < D; ++q) di[p * D + q] += weight[k] * row[p] * row[q];
+      continue;
+    }
+    double *dj = &diag_[static_cast<size_t>(pair_j_[k]) * B];
+    double *e = &off_[static_cast<size_t>(edge_of_pair_[k]) * B];
     for (int p = 0; p < D; ++p) {
       const double wp = weight[k] * row[p];
       for (int q = 0; q < D; ++q) {

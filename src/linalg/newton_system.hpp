@@ -62,7 +62,7 @@ class NewtonSystem {
 
   int dim_ = 0, threads_ = 0;
   int32_t n_ = 0;
-  std::vector<int32_t> pair_i_, pair_j_, edge_of_pair_;  // edge -1: an image of one sphere with itself
+  std::vector<int32_t> pair_i_, pair_j_, edge_of_pair_;  // edge -1: an image of one sphere with itself, -2: a wall
   size_t edges_ = 0;
   BlockCholesky cholesky_;
   std::vector<double> diag_, off_, box_;        // blocks

@@ -1,4 +1,4 @@
-// Products with the sparse matrix whose row k has a_k on sphere i[k] and -a_k on sphere j[k].
+// Products with the sparse matrix whose row k has a_k on sphere i[k] and -a_k on sphere j[k]; j < 0: a wall, no column.
 #pragma once
 #include <algorithm>
 #include <cstddef>
@@ -11,10 +11,14 @@ namespace jam {
 inline void rows_times(int dim, const std::vector<int32_t> &i, const std::vector<int32_t> &j, const double *a,
                        const double *s, double *out) {
   for (size_t k = 0; k < i.size(); ++k) {
-    const double *si = s + static_cast<size_t>(i[k]) * dim, *sj = s + static_cast<size_t>(j[k]) * dim,
-                 *row = a + k * dim;
+    const double *si = s + static_cast<size_t>(i[k]) * dim, *row = a + k * dim;
     double sum = 0.0;
-    for (int c = 0; c < dim; ++c) sum += row[c] * (si[c] - sj[c]);
+    if (j[k] < 0) {
+      for (int c = 0; c < dim; ++c) sum += row[c] * si[c];
+    } else {
+      const double *sj = s + static_cast<size_t>(j[k]) * dim;
+      for (int c = 0; c < dim; ++c) sum += row[c] * (si[c] - sj[c]);
+    }
     out[k] = sum;
   }
 }
@@ -24,8 +28,13 @@ inline void transpose_times(int dim, int32_t n, const std::vector<int32_t> &i, c
                             const double *a, const double *y, double *out) {
   std::fill(out, out + static_cast<size_t>(n) * dim, 0.0);
   for (size_t k = 0; k < i.size(); ++k) {
-    double *oi = out + static_cast<size_t>(i[k]) * dim, *oj = out + static_cast<size_t>(j[k]) * dim;
+    double *oi = out + static_cast<size_t>(i[k]) * dim;
     const double *row = a + k * dim;
+    if (j[k] < 0) {
+      for (int c = 0; c < dim; ++c) oi[c] += y[k] * row[c];
+      continue;
+    }
+    double *oj = out + static_cast<size_t>(j[k]) * dim;
     for (int c = 0; c < dim; ++c) {
       const double v = y[k] * row[c];
       oi[c] += v;

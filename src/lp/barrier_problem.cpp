@@ -24,7 +24,46 @@ bool BarrierProblem::linearise(const Packing &p) {
     sigma2_[k] = sigma * sigma;
     if (!(lp.c[k] > 0.0)) return false;
   }
+  if (p.container.round_axes() > 0) list_round_walls(p);
   return true;
+}
+
+void BarrierProblem::list_round_walls(const Packing &p) {
+  container_ = p.container;
+  round_.clear(), round_of_.assign(lp.rows(), -1);
+  for (size_t k = 0; k < lp.rows(); ++k) {
+    if (!pairs.wall(k) || !container_.is_round(wall_partner(pairs.j[k]))) continue;
+    RoundRow row{k, {}, contact_distance(p, pairs.i[k], pairs.j[k]), 0.0, 0.0};
+    const int w = wall_partner(pairs.j[k]);
+    std::copy_n(&p.position[static_cast<size_t>(pairs.i[k]) * p.dim], p.dim, row.x.begin());
+    row.distance = container_.distance(w, row.x.data());
+    const double a = 2.0 * unit * row.distance / (row.radius * row.radius);
+    row.bending = a * unit * std::min(container_.curvature(w, row.x.data()), 1.0 / row.radius);  // a cone at the centre
+    round_of_[k] = static_cast<int32_t>(round_.size());
+    round_.push_back(row);
+  }
+}
+
+void BarrierProblem::add_wall_bending(std::vector<double> &diagonal) const {
+  for (const RoundRow &row : round_)
+    for (int c = 0; c < container_.round_axes(); ++c)
+      diagonal[static_cast<size_t>(pairs.i[row.k]) * lp.dim + c] += y[row.k] * row.bending;
+}
+
+double BarrierProblem::round_gap(const BarrierStep &x, size_t k, double alpha) const {
+  const RoundRow &row = round_[round_of_[k]];
+  std::array<double, JAM_MAX_DIM> to = row.x;
+  for (int c = 0; c < lp.dim; ++c) to[c] += alpha * unit * x.s[static_cast<size_t>(pairs.i[k]) * lp.dim + c];
+  const double distance = container_.distance(wall_partner(pairs.j[k]), to.data());
+  if (!(distance > 0.0)) return -1.0;
+  return (distance - row.radius) * (distance + row.radius) / (row.radius * row.radius) - alpha * x.g;
+}
+
+// sqrt(1 + alpha g) <= 1 + alpha g / 2: the sphere meets the wall no earlier than with this growth of its radius.
+double BarrierProblem::time_to_round_wall(const BarrierStep &x, const RoundRow &row) const {
+  std::array<double, JAM_MAX_DIM> v{};
+  for (int c = 0; c < lp.dim; ++c) v[c] = unit * x.s[static_cast<size_t>(pairs.i[row.k]) * lp.dim + c];
+  return container_.approach(row.x.data(), v.data(), row.radius, 0.5 * row.radius * x.g, row.distance).time();
 }
 
 double BarrierProblem::duality_gap() const {
@@ -72,6 +111,11 @@ void BarrierProblem::bend(const BarrierStep &x) {
   bend_.resize(y.size());
   const std::vector<double> e = strain_of(x, 1.0);
   for (size_t k = 0; k < y.size(); ++k) {
+    if (pairs.wall(k)) {  // a = 2 n r / sigma^2 in units, r = sigma sqrt(1 + c)
+      const double w = x.w[k] + x.g;
+      bend_[k] = w * w / (4.0 * (1.0 + lp.c[k]));
+      continue;
+    }
     const size_t i = static_cast<size_t>(pairs.i[k]) * d, j = static_cast<size_t>(pairs.j[k]) * d;
     double s2 = 0.0;
     for (int c = 0; c < d; ++c) {
@@ -90,6 +134,7 @@ double BarrierProblem::max_feasible_alpha(const BarrierStep &x) const {
     const double c = lp.c[k], b = x.w[k], disc = b * b - 4.0 * bend_[k] * c;
     if (b < 0.0 && disc > 0.0) alpha = std::min(alpha, 2.0 * c / (-b + std::sqrt(disc)));
   }
+  for (const RoundRow &row : round_) alpha = std::min(alpha, time_to_round_wall(x, row));
   return alpha;
 }
 

@@ -1,6 +1,7 @@
 // The barrier problem at one mu: maximise log Gamma + mu * sum_k log c_k over positions and the common factor of the
 // diameters, with the true gaps c_k = |r_k|^2 / (Gamma sigma_k^2) - 1 (a free volume in the sense of cell theory).
 #pragma once
+#include <array>
 #include <vector>
 
 #include "core/packing.hpp"
@@ -36,10 +37,16 @@ class BarrierProblem {
   std::vector<double> strain_of(const BarrierStep &x, double alpha) const;
   double longest_dual(const BarrierStep &x) const;
   // Row k after alpha x, with the bending that the linear row omits: c + alpha w + alpha^2 |s_i - s_j + E r|^2 /
-  // sigma^2.
+  // sigma^2; of a flat wall the part of s_i along its normal. A round wall bends the other way, and not as a square:
+  // its distance is computed anew.
   double gap_after(const BarrierStep &x, size_t k, double alpha) const {
+    if (!round_.empty() && round_of_[k] >= 0) return round_gap(x, k, alpha);
     return lp.c[k] + alpha * (x.w[k] + alpha * bend_[k]);
   }
+
+  // A bound of the second derivatives of round walls, times y, to the diagonal of the matrix: without them a sphere
+  // that the curvature of its wall holds would take steps of any length.
+  void add_wall_bending(std::vector<double> &diagonal) const;
 
   struct Best {
     double alpha, merit;
@@ -49,11 +56,22 @@ class BarrierProblem {
   Best search(const BarrierStep &x);
 
  private:
+  struct RoundRow {
+    size_t k;
+    std::array<double, JAM_MAX_DIM> x;  // of the sphere
+    double radius, distance, bending;   // 2nd derivative of the row across the normal, in units
+  };
+  void list_round_walls(const Packing &p);
+  double round_gap(const BarrierStep &x, size_t k, double alpha) const;
+  double time_to_round_wall(const BarrierStep &x, const RoundRow &row) const;
   void bend(const BarrierStep &x);
   double max_feasible_alpha(const BarrierStep &x) const;
   double merit(const BarrierStep &x, double alpha) const;
 
   std::vector<double> bend_, sigma2_, vector_;  // vector_: r_ij in units, of a free cell
+  Container container_;
+  std::vector<RoundRow> round_;
+  std::vector<int32_t> round_of_;  // row -> RoundRow, -1: another; empty without round walls
 };
 
 }  // namespace jam

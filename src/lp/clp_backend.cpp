@@ -43,9 +43,8 @@ class PackingModel {
       const int i = lp.pairs->i[k], j = lp.pairs->j[k];
       for (int c = 0; c < d && i != j; ++c) {
         const double a = lp.a[static_cast<size_t>(k) * d + c];
-        row_of.insert(row_of.end(), {k, k});
-        column_of.insert(column_of.end(), {i * d + c, j * d + c});
-        value.insert(value.end(), {a, -a});
+        row_of.push_back(k), column_of.push_back(i * d + c), value.push_back(a);
+        if (j >= 0) row_of.push_back(k), column_of.push_back(j * d + c), value.push_back(-a);
       }
       for (int q = 0; q < strains; ++q)
         row_of.push_back(k), column_of.push_back(spheres + q),
@@ -146,13 +145,14 @@ LpSolution solve_lp_clp(const PackingLp &lp, double tolerance, const Monitor *mo
   return out;
 }
 
-LpSolution solve_motion_clp(const PackingLp &lp, const std::vector<double> &direction, int32_t fixed,
+LpSolution solve_motion_clp(const PackingLp &lp, const std::vector<double> &direction, int32_t fixed, uint32_t axes,
                             const Monitor *monitor) {
   PackingModel packing(lp, clp_tolerance, monitor);
   if (!packing.usable) return packing.none();
   for (size_t k = 0; k < direction.size(); ++k)
     packing.model.setObjectiveCoefficient(static_cast<int>(k), -direction[k]);
-  for (int c = 0; c < lp.dim; ++c) packing.model.setColumnBounds(fixed * lp.dim + c, 0.0, 0.0);
+  for (int c = 0; c < lp.dim; ++c)
+    if (axes >> c & 1) packing.model.setColumnBounds(fixed * lp.dim + c, 0.0, 0.0);
   packing.model.setColumnBounds(packing.model.numberColumns() - 1, 0.0, 0.0);
   return packing.solve(false);
 }

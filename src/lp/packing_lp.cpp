@@ -59,7 +59,7 @@ LpCheck check_lp(const PackingLp &lp, const LpSolution &x) {
     double a2 = 0.0;
     for (int c = 0; c < d; ++c) {
       force[i + c] += x.y[k] * a[c];
-      force[j + c] -= x.y[k] * a[c];
+      if (!pairs.wall(k)) force[j + c] -= x.y[k] * a[c];
       a2 += a[c] * a[c];
     }
     for (size_t q = 0; q < strains; ++q) force[spheres + q] += x.y[k] * lp.strain[k * strains + q];

@@ -4,10 +4,12 @@
 // g = Gamma - 1 the published LP (Artiaco et al., Phys. Rev. E 106, 055310 (2022), eq. 3) reads
 //     maximise g   subject to   w_e = c_e + a_e . (s_i - s_j) - g >= 0,   |s_ik| <= bound,
 //     a_e = 2 r_ij / sigma_ij^2,   c_e = |r_ij|^2 / sigma_ij^2 - 1.
-// Multipliers y_e = lambda_e sigma_e^2 then obey sum_e y_e = 1 and sum_j y_e a_e = 0 on every particle.
-// In a free cell strain amplitudes e_k join, within the same bound: w_e gets sum_k b_ek e_k with
-// b_ek = 2 r_ij . (B_k r_ij) / sigma_ij^2, B_k from lp/strain.hpp. Then also sum_e y_e b_ek = 0 (Donev, Torquato,
-// Stillinger, Connelly, J. Comput. Phys. 197, 139 (2004)).
+// A wall (pair_vector, contact_distance) has s_j = 0. The tangent of a flat wall is the wall, so its row is safe as
+// that of a pair is; a round wall curves inward from its tangent: crunch/approach/lp_step.cpp. Multipliers y_e =
+// lambda_e sigma_e^2 then obey sum_e y_e = 1 and sum_j y_e a_e = 0 on every particle. In a free cell strain amplitudes
+// e_k join, within the same bound: w_e gets sum_k b_ek e_k with b_ek = 2 r_ij . (B_k r_ij) / sigma_ij^2, B_k from
+// lp/strain.hpp. Then also sum_e y_e b_ek = 0 (Donev, Torquato, Stillinger, Connelly, J. Comput. Phys. 197, 139
+// (2004)).
 #pragma once
 #include <cstdint>
 #include <limits>
@@ -34,9 +36,14 @@ struct PackingLp {
   // a . (s_i - s_j) + b . e of row k.
   double change(size_t k, const double *s, const double *e) const {
     const auto d = static_cast<size_t>(dim), m = static_cast<size_t>(strains);
-    const double *si = s + static_cast<size_t>(pairs->i[k]) * d, *sj = s + static_cast<size_t>(pairs->j[k]) * d;
+    const double *si = s + static_cast<size_t>(pairs->i[k]) * d;
     double sum = 0.0;
-    for (size_t q = 0; q < d; ++q) sum += a[k * d + q] * (si[q] - sj[q]);
+    if (pairs->wall(k)) {
+      for (size_t q = 0; q < d; ++q) sum += a[k * d + q] * si[q];
+    } else {
+      const double *sj = s + static_cast<size_t>(pairs->j[k]) * d;
+      for (size_t q = 0; q < d; ++q) sum += a[k * d + q] * (si[q] - sj[q]);
+    }
     for (size_t q = 0; q < m; ++q) sum += strain[k * m + q] * e[q];
     return sum;
   }
@@ -95,8 +102,8 @@ bool clp_is_built();
 constexpr double basis_inside = 2.0, basis_at_lower = 4.0;
 LpSolution solve_lp_clp(const PackingLp &lp, double tolerance = clp_tolerance, const Monitor *monitor = nullptr,
                         const LpSolution *start = nullptr);
-// The vertex farthest along `direction`, g = 0; sphere `fixed` stays.
-LpSolution solve_motion_clp(const PackingLp &lp, const std::vector<double> &direction, int32_t fixed,
+// The vertex farthest along `direction`, g = 0; sphere `fixed` stays along these axes (bits).
+LpSolution solve_motion_clp(const PackingLp &lp, const std::vector<double> &direction, int32_t fixed, uint32_t axes,
                             const Monitor *monitor);
 
 }  // namespace jam

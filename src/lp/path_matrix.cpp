@@ -56,13 +56,14 @@ void PathMatrix::weigh(const Packing &p, const BarrierProblem &b, double proxima
     double a1 = 0.0;
     for (int c = 0; c < d; ++c) a1 += std::fabs(a[c]);
     for (int c = 0; c < d; ++c)  // at least a a^T by Gershgorin's circles
-      for (const int32_t v : {b.pairs.i[k], b.pairs.j[k]})
-        diagonal_[static_cast<size_t>(v) * d + c] += weight_[k] * std::fabs(a[c]) * a1;
+      for_spheres(b.pairs.i[k], b.pairs.j[k],
+                  [&](int32_t v) { diagonal_[static_cast<size_t>(v) * d + c] += weight_[k] * std::fabs(a[c]) * a1; });
     double b1 = 0.0;
     for (size_t e = 0; e < strains; ++e) b1 += std::fabs(b.lp.strain[k * strains + e]);
     for (size_t e = 0; e < strains; ++e)
       diagonal_[spheres + e] += weight_[k] * std::fabs(b.lp.strain[k * strains + e]) * b1;
   }
+  b.add_wall_bending(diagonal_);
   if (strains > 0) system_.set_strain(strain_.data(), b.lp.strains);
 }
 

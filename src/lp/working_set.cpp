@@ -13,10 +13,11 @@ void hold_loose_spheres(const PackingLp &lp, std::vector<char> &taken) {
   std::vector<int32_t> degree(lp.n, 0);
   std::vector<std::vector<size_t>> rows(lp.n);
   for (size_t k = 0; k < taken.size(); ++k)
-    if (taken[k]) ++degree[lp.pairs->i[k]], ++degree[lp.pairs->j[k]];
+    if (taken[k]) for_spheres(lp.pairs->i[k], lp.pairs->j[k], [&](int32_t v) { ++degree[v]; });
   for (size_t k = 0; k < taken.size(); ++k)
-    for (const int32_t v : {lp.pairs->i[k], lp.pairs->j[k]})
+    for_spheres(lp.pairs->i[k], lp.pairs->j[k], [&](int32_t v) {
       if (degree[v] <= lp.dim) rows[v].push_back(k);
+    });
   const auto tighter = [&](size_t a, size_t b) { return lp.c[a] != lp.c[b] ? lp.c[a] < lp.c[b] : a < b; };
   for (auto &of : rows) {
     const size_t most = std::min(of.size(), WorkingSetTuning::rows_per_dim * static_cast<size_t>(lp.dim));

@@ -29,7 +29,7 @@ void scan_gaps(const Packing &p, const ContactNetwork &net, bool own_images, jam
       const double gap = std::sqrt(pair_vector(p, pairs, k, r)) / contact_distance(p, i, j) - 1.0;
       report.max_overlap = std::max(report.max_overlap, -gap);
       if (!contacts.holds(pairs, k) && (own_images || !pairs.own_image(k)) && net.coordination[i] > 0 &&
-          net.coordination[j] > 0)
+          (j < 0 || net.coordination[j] > 0))
         report.min_gap = std::min(report.min_gap, gap);
     }
     if (std::isfinite(report.min_gap)) return;
@@ -49,7 +49,7 @@ void certify(const Packing &p, const ContactNetwork &net, jam_crunch_report &rep
     report.bucklers += z == d + 1;
   }
   report.stable = static_cast<int64_t>(p.n()) - report.rattlers;
-  report.isostatic_contacts = isostatic_contacts(report.stable, d);
+  report.isostatic_contacts = isostatic_contacts(report.stable, d, p.container);
   report.excess_contacts = report.contacts - report.isostatic_contacts;
   report.force_residual = balance_residual(p.dim, p.n(), net);
   report.min_force = net.size() ? *std::min_element(net.force.begin(), net.force.end()) : 0.0;
@@ -104,6 +104,12 @@ std::string why_undecided(const PackingVerdict &v) {
         "undecided: doubles do not resolve which of the %zu closed pairs carry force, as some forces are too weak; "
         "the network is left empty",
         v.contacts.size());
+  else if (v.result.flexes > 0)
+    std::snprintf(
+        line, sizeof line,
+        "undecided: %lld motions keep the contacts closed, and to second order the curvature of the round wall "
+        "neither stabilises nor frees them",
+        static_cast<long long>(v.result.flexes));
   else if (v.result.spheres == 1)
     std::snprintf(line, sizeof line, "undecided: only own images fix sphere and cell, and not in every strain");
   else

@@ -20,12 +20,15 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 // gaps are known no better.
 GapResolution take_overlaps(CheckResult &out, bool &unexplained) {
   Packing &p = out.tested;
-  const ClosestPair closest = closest_pair(p);
+  const ClosestPair closest = closest_contact(p);
   out.report.nearest_gap = closest.gap;
   out.report.diameter_factor = 1.0;
   GapResolution resolution = gap_resolution(p);
   p.overlap_allowed = false;
   if (!(closest.gap < -contact_gap_limit)) return resolution;
+  if (closest.gap < -0.5 && closest.j < 0)
+    fail(JAM_E_OVERLAP, "sphere %d overlaps %s by %.3g of its radius: this is no packing of hard spheres", closest.i,
+         p.container.name(wall_partner(closest.j)).c_str(), -closest.gap);
   if (closest.gap < -0.5)
     fail(JAM_E_OVERLAP,
          "spheres %d and %d overlap by %.3g of their contact distance: this is no packing of hard spheres", closest.i,
@@ -51,7 +54,7 @@ void scan_pairs(const Packing &p, const std::vector<int32_t> &coordination, jam_
       const double gap = std::sqrt(pair_vector(p, pairs, k, v)) / sigma - 1.0;
       if (gap < contact_gap_limit)
         ++r.closed_pairs;
-      else if (coordination[pairs.i[k]] > 0 && coordination[pairs.j[k]] > 0 && !(gap >= r.min_gap))
+      else if (coordination[pairs.i[k]] > 0 && (pairs.wall(k) || coordination[pairs.j[k]] > 0) && !(gap >= r.min_gap))
         r.min_gap = gap;
     }
     if (std::isfinite(r.min_gap)) return;
@@ -61,7 +64,7 @@ void scan_pairs(const Packing &p, const std::vector<int32_t> &coordination, jam_
 void take_verdict(const Packing &p, const PackingVerdict &v, const ContactNetwork &net, jam_check_report &r) {
   r.contacts = static_cast<int64_t>(net.size());
   r.rattlers = static_cast<int64_t>(p.n()) - stable_spheres(net.coordination);
-  r.excess_contacts = excess_contacts(net, p.dim);
+  r.excess_contacts = excess_contacts(net, p);
   r.zero_force_contacts = v.result.zero_force_contacts;
   r.undecided_contacts = v.undecided_contacts;
   r.self_stresses = v.result.self_stresses;
@@ -110,9 +113,9 @@ CheckResult check_as_it_is(const Packing &p) {
   r.digits = resolution.digits(p), r.coordinate_step = resolution.step, r.resolution = resolution.relative(p);
   PackingVerdict verdict = test_packing(q, resolution, nullptr, Jamming::collective);
   r.jammed = verdict_code(verdict.result.jammed);
-  r.strictly_jammed = JAM_VERDICT_NO;
+  r.strictly_jammed = p.container ? JAM_VERDICT_UNTESTED : JAM_VERDICT_NO;  // walls do not strain
   // Only where a sphere is held by its own images alone can the strict test find more than the collective one.
-  if (r.jammed != JAM_VERDICT_NO || may_touch_own_image(q, resolution)) {
+  if (!p.container && (r.jammed != JAM_VERDICT_NO || may_touch_own_image(q, resolution))) {
     const PackingVerdict strict = test_packing(q, resolution, nullptr, Jamming::strict);
     r.strictly_jammed = verdict_code(strict.result.jammed);
     r.strict_flexes = strict.result.flexes;

@@ -32,6 +32,7 @@ const char *headline(const Report &r) {
   if (r.jammed != JAM_VERDICT_YES) return "Undecided.";
   if (r.strictly_jammed == JAM_VERDICT_YES) return "Strictly jammed.";
   if (r.strictly_jammed == JAM_VERDICT_NO) return "Collectively jammed, but not strictly.";
+  if (r.strictly_jammed == JAM_VERDICT_UNTESTED) return "Collectively jammed.";
   return "Collectively jammed; undecided whether strictly.";
 }
 
@@ -44,10 +45,16 @@ void add_network(const Report &r, std::string &out) {
 }
 
 void add_proof(const Report &r, std::string &out) {
-  add(out,
-      "Proof: positive forces on all these contacts balance to %.1e of their mean, and no motion keeps the contacts "
-      "closed (flexes 0, smallest eigenvalue %.1e).",
-      r.force_residual, r.rigidity_margin);
+  add(out, "Proof: positive forces on all these contacts balance to %.1e of their mean, and", r.force_residual);
+  if (r.flexes == 0)
+    add(out, "no motion keeps the contacts closed (flexes 0, smallest eigenvalue %.1e).", r.rigidity_margin);
+  else
+    add(out,
+        "the curvature of the round wall stabilises the %lld motion%s that would keep the contacts closed (by %.1e of "
+        "the "
+        "mean "
+        "force times curvature).",
+        wide(r.flexes), plural(r.flexes), r.rigidity_margin);
   if (r.strictly_jammed == JAM_VERDICT_NO && r.strict_flexes == 0)
     add(out, "In a cell that changes its shape no forces balance with an isotropic stress.");
   else if (r.strictly_jammed == JAM_VERDICT_NO)
@@ -94,6 +101,11 @@ void add_undecided(const Report &r, std::string &out) {
   if (r.reason == JAM_CHECK_MARGIN && r.contacts == 0)
     add(out, "Doubles do not resolve which of the %lld closed pairs carry force, as some forces are too weak.",
         wide(r.closed_pairs));
+  else if (r.reason == JAM_CHECK_MARGIN && r.flexes > 0)
+    add(out,
+        "%lld motion%s keep the contacts closed, and to second order the curvature of the round wall neither "
+        "stabilises nor frees them.",
+        wide(r.flexes), plural(r.flexes));
   else if (r.reason == JAM_CHECK_MARGIN)
     add(out,
         "Doubles do not resolve a flex from a soft mode here, or a weak force from none (smallest eigenvalue %.1e, "

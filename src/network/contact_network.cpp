@@ -25,6 +25,13 @@ void measure_contacts(const Packing &p, ContactNetwork &net) {
   net.vector.resize(net.size() * d), net.gap.resize(net.size());
   for (size_t k = 0; k < net.size(); ++k) {
     const int32_t i = net.pairs.i[k], j = net.pairs.j[k];
+    if (net.pairs.wall(k)) {
+      const double *x = &p.position[static_cast<size_t>(i) * d];
+      p.container.normal(wall_partner(j), x, &net.vector[k * d]);
+      const DoubleDouble radius = contact_distance<DoubleDouble>(p, i, j);
+      net.gap[k] = static_cast<double>((p.container.distance<DoubleDouble>(wall_partner(j), x) - radius) / radius);
+      continue;
+    }
     const double *a = &p.position[static_cast<size_t>(i) * d], *b = &p.position[static_cast<size_t>(j) * d];
     DoubleDouble r2;
     for (int c = 0; c < d; ++c) {
@@ -61,8 +68,8 @@ int64_t stable_spheres(const std::vector<int32_t> &coordination) {
   return std::count_if(coordination.begin(), coordination.end(), [](int32_t z) { return z > 0; });
 }
 
-int64_t excess_contacts(const ContactNetwork &net, int dim) {
-  return static_cast<int64_t>(net.size()) - isostatic_contacts(stable_spheres(net.coordination), dim);
+int64_t excess_contacts(const ContactNetwork &net, const Packing &p) {
+  return static_cast<int64_t>(net.size()) - isostatic_contacts(stable_spheres(net.coordination), p.dim, p.container);
 }
 
 ContactNetwork subset(const ContactNetwork &net, const std::vector<char> &on, int dim) {
@@ -71,7 +78,7 @@ ContactNetwork subset(const ContactNetwork &net, const std::vector<char> &on, in
   out.coordination.assign(net.coordination.size(), 0);
   for (size_t k = 0; k < on.size(); ++k) {
     if (!on[k]) continue;
-    ++out.coordination[net.pairs.i[k]], ++out.coordination[net.pairs.j[k]];
+    for_spheres(net.pairs.i[k], net.pairs.j[k], [&](int32_t i) { ++out.coordination[i]; });
     out.pairs.append(net.pairs, k);
     out.vector.insert(out.vector.end(), &net.vector[k * dim], &net.vector[k * dim] + dim);
     out.gap.push_back(net.gap[k]), out.force.push_back(net.force[k]);

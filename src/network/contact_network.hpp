@@ -35,10 +35,13 @@ std::vector<std::pair<size_t, size_t>> common_contacts(const ContactNetwork &a, 
 
 // Spheres with a contact.
 int64_t stable_spheres(const std::vector<int32_t> &coordination);
-// Contacts of one state of self-stress on this many spheres: d (stable - 1) + 1, and 0 without spheres.
-constexpr int64_t isostatic_contacts(int64_t stable, int dim) { return stable > 0 ? dim * (stable - 1) + 1 : 0; }
+// Contacts of one state of self-stress on this many spheres: d stable - (symmetries of the scene) + 1, and 0 without
+// spheres. Without walls that is d (stable - 1) + 1.
+inline int64_t isostatic_contacts(int64_t stable, int dim, const Container &walls) {
+  return stable > 0 ? dim * stable - symmetries(walls, dim) + 1 : 0;
+}
 // Contacts above those; an empty network has none too many and none too few.
-int64_t excess_contacts(const ContactNetwork &net, int dim);
+int64_t excess_contacts(const ContactNetwork &net, const Packing &p);
 
 // Whether pairs of a list are contacts of a network, image by image. Both are sorted by (i, j); pairs come in order.
 class ContactLookup {

@@ -57,8 +57,9 @@ ContactNetwork network_of(const Packing &p, const GapList &g, double tolerance) 
 ContactNetwork between_carrying(const ContactNetwork &net, const std::vector<char> &carrying, int d) {
   std::vector<char> stable(net.coordination.size(), 0), on(net.size());
   for (size_t k = 0; k < net.size(); ++k)
-    if (carrying[k]) stable[net.pairs.i[k]] = stable[net.pairs.j[k]] = 1;
-  for (size_t k = 0; k < net.size(); ++k) on[k] = stable[net.pairs.i[k]] && stable[net.pairs.j[k]];
+    if (carrying[k]) for_spheres(net.pairs.i[k], net.pairs.j[k], [&](int32_t i) { stable[i] = 1; });
+  for (size_t k = 0; k < net.size(); ++k)
+    on[k] = stable[net.pairs.i[k]] && (net.pairs.wall(k) || stable[net.pairs.j[k]]);
   return subset(net, on, d);
 }
 
@@ -97,7 +98,10 @@ std::vector<Jump> find_jumps(const Packing &p, const GapList &g, double resoluti
   return out;
 }
 
-bool can_be_rigid(const ContactNetwork &net, int d) { return net.size() > 0 && excess_contacts(net, d) >= 0; }
+// The curvature of a round wall may hold spheres with fewer contacts.
+bool can_be_rigid(const ContactNetwork &net, const Packing &p) {
+  return net.size() > 0 && (p.container.round_axes() > 0 || excess_contacts(net, p) >= 0);
+}
 
 void check_window(double window) {
   if (!(window > 0.0 && window <= 1.0)) fail(JAM_E_ARGUMENT, "window is %g, it must be in (0, 1]", window);
@@ -113,11 +117,11 @@ ContactCandidates contact_candidates(const Packing &p, double window) {
     if (out.limit.size() == JumpTuning::most_candidates) break;
     CallScope::look();
     const ContactNetwork net = network_of(p, g, std::sqrt(jump.below * jump.above));
-    if (!can_be_rigid(net, p.dim)) continue;
+    if (!can_be_rigid(net, p)) continue;
     out.limit.push_back(std::sqrt(jump.below * jump.above));
     out.jump.push_back(jump.ratio);
     out.contacts.push_back(static_cast<int32_t>(net.size()));
-    out.excess.push_back(static_cast<int32_t>(excess_contacts(net, p.dim)));
+    out.excess.push_back(static_cast<int32_t>(excess_contacts(net, p)));
   }
   return out;
 }
@@ -143,11 +147,11 @@ GeometryResult contacts_from_geometry(const Packing &p, const jam_geometry_optio
     double second = 1.0;
     for (const Jump &jump : find_jumps(p, g, r.resolution, window)) {
       ContactNetwork net = network_of(p, g, std::sqrt(jump.below * jump.above));
-      if (!can_be_rigid(net, p.dim)) continue;
+      if (!can_be_rigid(net, p)) continue;
       if (chosen) {
         second = jump.ratio;
         r.second_contacts = static_cast<int64_t>(net.size());
-        second_excess = excess_contacts(net, p.dim);
+        second_excess = excess_contacts(net, p);
         r.second_tolerance = std::sqrt(jump.below * jump.above);
         break;
       }
@@ -185,12 +189,12 @@ GeometryResult contacts_from_geometry(const Packing &p, const jam_geometry_optio
   r.zero_modes = stress.zero_modes;
   r.force_residual = stress.residual;
   r.min_force = stress.min_force;
-  r.excess_contacts = excess_contacts(out.network, p.dim);
+  r.excess_contacts = excess_contacts(out.network, p);
   r.clusters = count_clusters(graph);
   // The null space decides between two: rattlers that nearly touch their neighbours make the second network
   // hyperstatic.
-  clear = clear ||
-          (wide && stress.dimension == 1 && stress.zero_modes == p.dim && r.excess_contacts == 0 && second_excess > 0);
+  clear = clear || (wide && stress.dimension == 1 && stress.zero_modes == graph.symmetries() &&
+                    r.excess_contacts == 0 && second_excess > 0);
   out.verdict = test_packing(p, resolution, &out.network, Jamming::collective);
   out.when_closed = closed.jammed;
   out.clear = clear;

@@ -59,9 +59,10 @@ void GapRows::balance(std::vector<double> &y) {
     for (size_t k = 0; k < z.size(); ++k)
       for (int c = 0; c < d_; ++c) {
         const DoubleDouble v = z[k] * a_[k * d_ + c];
-        DoubleDouble &on_i = unbalanced[static_cast<size_t>(pairs_.i[k]) * d_ + c],
-                     &on_j = unbalanced[static_cast<size_t>(pairs_.j[k]) * d_ + c];
+        DoubleDouble &on_i = unbalanced[static_cast<size_t>(pairs_.i[k]) * d_ + c];
         on_i = on_i + v;
+        if (pairs_.wall(k)) continue;
+        DoubleDouble &on_j = unbalanced[static_cast<size_t>(pairs_.j[k]) * d_ + c];
         on_j = on_j - v;
       }
     for (size_t k = 0; k < rhs_.size(); ++k) rhs_[k] = static_cast<double>(unbalanced[k]);

@@ -16,6 +16,7 @@ std::vector<int32_t> cluster_roots(const RigidityMatrix &g) {
     return i;
   };
   for (size_t k = 0; k < g.contacts(); ++k) {
+    if (g.b[k] < 0) continue;
     const int32_t x = find(g.a[k]), y = find(g.b[k]);
     root[std::max(x, y)] = std::min(x, y);
   }
@@ -36,18 +37,25 @@ GroundedSolver::GroundedSolver(const RigidityMatrix &g, const ContactWeights &w)
   const std::vector<int32_t> root = cluster_roots(g);
   if (const double norm = h_.norm_bound(); norm > 0.0) scale_ = norm;
   const size_t d = static_cast<size_t>(g.dim);
+  std::vector<uint32_t> held(g.nodes, 0);  // axes along which walls push a cluster
+  for (size_t k = 0; k < g.contacts(); ++k)
+    for (size_t c = 0; c < d && g.b[k] < 0; ++c)
+      if (g.normal[k * d + c] != 0.0) held[root[g.a[k]]] |= 1u << c;
   for (int32_t i = 0; i < g.nodes; ++i)
     if (root[i] == i) {
       ++clusters_;
-      for (size_t c = 0; c < d; ++c)
+      for (size_t c = 0; c < d; ++c) {
+        if (held[i] >> c & 1) continue;
+        ++springs_;
         tied_.diag[static_cast<size_t>(i) * d * d + c * d + c] += GroundedTuning::spring * scale_;
+      }
     }
   factor_.factorise_from(1e-13 * scale_);
 }
 
 void GroundedSolver::solve(double *x, int count) const {
   const size_t n = g_.unknowns();
-  for (int k = 0; k < count; ++k) remove_translation(g_.dim, g_.nodes, x + k * n);
+  for (int k = 0; k < count; ++k) g_.remove_symmetries(x + k * n);
   std::vector<double> b(x, x + n * count), r(n * count), y(n);
   factor_.solve_many(x, count);
   double last = std::numeric_limits<double>::infinity(), last_change = 0.0;
@@ -59,7 +67,7 @@ void GroundedSolver::solve(double *x, int count) const {
         r[k * n + q] = b[k * n + q] - y[q];
         residual = std::max(residual, std::fabs(r[k * n + q]));
       }
-      remove_translation(g_.dim, g_.nodes, &r[k * n]);
+      g_.remove_symmetries(&r[k * n]);
     }
     if (residual == 0.0 || !(residual < GroundedTuning::slow * last)) break;
     last = residual;
@@ -74,7 +82,7 @@ void GroundedSolver::solve(double *x, int count) const {
     last_change = change;
     if (!(change * ratio > 1e-14 * size)) break;
   }
-  for (int k = 0; k < count; ++k) remove_translation(g_.dim, g_.nodes, x + k * n);
+  for (int k = 0; k < count; ++k) g_.remove_symmetries(x + k * n);
 }
 
 }  // namespace jam

@@ -60,18 +60,20 @@ ContactWeights contact_weights(const RigidityMatrix &g, double sigma_mean, const
   if (o.prestress > 0.0) {
     w.transverse.resize(g.contacts());
     for (size_t k = 0; k < g.contacts(); ++k)
-      w.transverse[k] = o.prestress / (alpha - 1.0) * g.force[k] * sigma_mean / g.distance[k];
+      w.transverse[k] = g.b[k] < 0 ? o.prestress / (alpha - 1.0) * g.force[k] * sigma_mean * g.bending[k]
+                                   : o.prestress / (alpha - 1.0) * g.force[k] * sigma_mean / g.distance[k];
   }
   return w;
 }
 
 namespace {
-// Block of one contact: k n n^T - t (1 - n n^T).
+// Block of one contact: k n n^T - t (1 - n n^T), with the unit matrix of the axes along which a wall is round.
 void contact_block(const RigidityMatrix &g, const ContactWeights &w, size_t k, double *block) {
   const int d = g.dim;
   const double *n = &g.normal[k * d], t = w.transverse.empty() ? 0.0 : w.transverse[k];
   for (int r = 0; r < d; ++r)
     for (int c = 0; c < d; ++c) block[r * d + c] = (w.stiffness[k] + t) * n[r] * n[c] - (r == c ? t : 0.0);
+  for (int r = g.round_axes; r < d && g.b[k] < 0; ++r) block[r * d + r] += t;
 }
 }  // namespace
 
@@ -90,6 +92,10 @@ BlockMatrix make_hessian(const RigidityMatrix &g, const ContactWeights &w) {
     if (g.a[k] == g.b[k]) continue;  // both ends move together: no stretch, no contribution
     contact_block(g, w, k, block.data());
     const auto [i, j] = key(k);
+    if (i < 0) {
+      for (int q = 0; q < dd; ++q) m.diag[static_cast<size_t>(j) * dd + q] += block[q];
+      continue;
+    }
     if (m.ei.empty() || m.ei.back() != i || m.ej.back() != j) {
       m.ei.push_back(i);
       m.ej.push_back(j);
@@ -106,18 +112,11 @@ BlockMatrix make_hessian(const RigidityMatrix &g, const ContactWeights &w) {
 }
 
 double curvature(const RigidityMatrix &g, const ContactWeights &w, const double *u) {
-  const int d = g.dim;
   double sum = 0.0;
   for (size_t k = 0; k < g.contacts(); ++k) {
-    const double *n = &g.normal[k * d];
-    double along = 0.0, all = 0.0;
-    for (int c = 0; c < d; ++c) {
-      const double x = u[static_cast<size_t>(g.a[k]) * d + c] - u[static_cast<size_t>(g.b[k]) * d + c];
-      along += n[c] * x;
-      all += x * x;
-    }
-    sum += w.stiffness[k] * along * along;
-    if (!w.transverse.empty()) sum -= w.transverse[k] * (all - along * along);
+    const RigidityMatrix::Stretch s = g.stretch(k, u);
+    sum += w.stiffness[k] * s.along * s.along;
+    if (!w.transverse.empty()) sum -= w.transverse[k] * s.across();
   }
   return sum;
 }

@@ -33,26 +33,37 @@ RigidityResult test_part(const RigidityMatrix &g, const std::vector<char> &on, J
 bool within_jammed(const RigidityMatrix &g, const std::vector<char> &closed, const std::vector<char> &carrying) {
   std::vector<char> stable(g.nodes, 0), on(g.contacts(), 1);
   for (size_t k = 0; k < g.contacts(); ++k)
-    if (carrying[k]) stable[g.a[k]] = stable[g.b[k]] = 1;
+    if (carrying[k]) for_spheres(g.a[k], g.b[k], [&](int32_t i) { stable[i] = 1; });
   drop_unbalanced(g.dim, static_cast<size_t>(g.nodes), g.a, g.b, g.normal, on);
   for (size_t k = 0; k < g.contacts(); ++k)
-    if (on[k] && !closed[k] && !(stable[g.a[k]] && stable[g.b[k]])) return false;
+    if (on[k] && !closed[k] && !(stable[g.a[k]] && (g.b[k] < 0 || stable[g.b[k]]))) return false;
   return true;
 }
 
 // Spheres with d contacts or fewer can slip out of a balance of forces (they are no part of a jammed network), and
-// others follow. Whether any sphere is left does not depend on directions.
+// others follow; round walls hold spheres with fewer. Whether any sphere is left does not depend on directions.
 bool may_hold_spheres(const RigidityMatrix &g) {
+  if (g.round_axes > 0) return g.contacts() > 0;
   std::vector<int32_t> degree(g.nodes, 0);
   std::vector<char> on(g.contacts(), 1);
-  for (size_t k = 0; k < g.contacts(); ++k) ++degree[g.a[k]], ++degree[g.b[k]];
+  for (size_t k = 0; k < g.contacts(); ++k) for_spheres(g.a[k], g.b[k], [&](int32_t i) { ++degree[i]; });
   for (bool again = true; again;) {
     again = false;
     for (size_t k = 0; k < g.contacts(); ++k)
-      if (on[k] && (degree[g.a[k]] <= g.dim || degree[g.b[k]] <= g.dim))
-        on[k] = 0, again = true, --degree[g.a[k]], --degree[g.b[k]];
+      if (on[k] && (degree[g.a[k]] <= g.dim || (g.b[k] >= 0 && degree[g.b[k]] <= g.dim))) {
+        on[k] = 0, again = true;
+        for_spheres(g.a[k], g.b[k], [&](int32_t i) { --degree[i]; });
+      }
   }
   return std::count(on.begin(), on.end(), 1) > 0;
+}
+
+// A sphere on the axis of its tube, or at the centre of its ball, touches the round wall all around: one row is not
+// enough.
+bool touches_all_around(const RigidityMatrix &g) {
+  for (size_t k = 0; k < g.contacts(); ++k)
+    if (g.b[k] < 0 && !(-g.bending[k] * g.sigma[k] * RigidityTuning::off_axis < 1.0)) return true;
+  return false;
 }
 
 // A sphere that touches nothing but its own images has no motion of its own. It is held where their forces balance on
@@ -134,7 +145,12 @@ PackingVerdict test_packing(const Packing &p, const GapResolution &resolution, c
   for (size_t k = 0; k < net.size(); ++k)
     if (out.result.jammed == Verdict::yes && out.result.carrying[k] && !(net.gap[k] < contact_gap_limit))
       out.result.jammed = Verdict::undecided;
-  if (kind == Jamming::collective && out.result.spheres == 1 && out.result.contacts > 0) judge_alone(g, out.result);
+  if (kind == Jamming::collective && out.result.spheres == 1 && out.result.contacts > 0 && !p.container)
+    judge_alone(g, out.result);
+  if (g.round_axes > 0 && touches_all_around(g)) {
+    out.result.jammed = out.result.stressed = Verdict::undecided;
+    out.result.flex.clear(), out.result.attempt.clear();
+  }
   net.force = out.result.force;
   set_force_scale(p, net);
   return out;

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 
+#include "core/pairs.hpp"
 #include "jam/jam.h"
 #include "network/tuning.hpp"
 
@@ -119,7 +120,7 @@ std::vector<Release> release_unbalanced(int d, size_t n, const std::vector<int32
   std::vector<Release> out;
   std::vector<std::vector<size_t>> of(n);
   for (size_t k = 0; k < on.size(); ++k)
-    if (on[k] && i[k] != j[k]) of[i[k]].push_back(k), of[j[k]].push_back(k);
+    if (on[k] && i[k] != j[k]) for_spheres(i[k], j[k], [&](int32_t s) { of[s].push_back(k); });
   std::vector<char> queued(n, 1);
   std::vector<size_t> queue(n);
   std::iota(queue.begin(), queue.end(), size_t{0});
@@ -142,8 +143,8 @@ std::vector<Release> release_unbalanced(int d, size_t n, const std::vector<int32
     if (live.empty() || !(hull.distance(vectors, direction) > clear)) continue;
     for (const size_t k : live) {
       on[k] = 0;
-      const size_t other = static_cast<size_t>(i[k]) == s ? j[k] : i[k];
-      if (!queued[other]) queued[other] = 1, queue.push_back(other);
+      const int32_t other = static_cast<size_t>(i[k]) == s ? j[k] : i[k];
+      if (other >= 0 && !queued[other]) queued[other] = 1, queue.push_back(other);
     }
     out.push_back({static_cast<int32_t>(s), std::move(live), direction});
   }
@@ -162,9 +163,9 @@ void drop_loose(int dim, size_t n, const std::vector<int32_t> &i, const std::vec
     again = false;
     z.assign(n, 0);
     for (size_t k = 0; k < on.size(); ++k)
-      if (on[k]) ++z[i[k]], ++z[j[k]];
+      if (on[k]) for_spheres(i[k], j[k], [&](int32_t s) { ++z[s]; });
     for (size_t k = 0; k < on.size(); ++k)
-      if (on[k] && std::min(z[i[k]], z[j[k]]) <= dim) on[k] = 0, again = true;
+      if (on[k] && std::min(z[i[k]], z[j[k] < 0 ? i[k] : j[k]]) <= dim) on[k] = 0, again = true;
   }
 }
 

@@ -10,8 +10,8 @@
 namespace jam {
 
 // Turns contacts off, again and again, on spheres whose contact vectors all lie clearly on one side of a plane.
-// Contacts of a sphere with its own image (i == j) balance by themselves and stay. normal: (contacts, dim), from j to
-// i.
+// Contacts of a sphere with its own image (i == j) balance by themselves and stay; a wall (j < 0) takes any force.
+// normal: (contacts, dim), from j to i.
 void drop_unbalanced(int dim, size_t n, const std::vector<int32_t> &i, const std::vector<int32_t> &j,
                      const std::vector<double> &normal, std::vector<char> &on);
 

@@ -47,7 +47,8 @@ std::vector<double> balanced_forces(const RigidityMatrix &within, const std::vec
 }  // namespace
 
 bool test_from_rigid_part(const RigidityMatrix &sub, const StressCone &cone, Jamming kind, RigidityResult &out) {
-  if (cone.positive.empty()) return false;
+  // With walls B is fixed itself, up to symmetries, and is no body that moves as one.
+  if (cone.positive.empty() || sub.open_axes != ~0u) return false;
   const size_t m = sub.contacts();
   std::vector<char> body(sub.nodes, 0), inside(m);
   for (size_t k = 0; k < m; ++k)

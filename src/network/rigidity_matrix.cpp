@@ -1,6 +1,7 @@
 #include "network/rigidity_matrix.hpp"
 #include "core/pair_rule.hpp"
 #include "linalg/pair_products.hpp"
+#include "network/tuning.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,13 +12,53 @@ namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
+void take_out(const std::vector<double> &v, double *x) {
+  double along = 0.0;
+  for (size_t k = 0; k < v.size(); ++k) along += v[k] * x[k];
+  for (size_t k = 0; k < v.size(); ++k) x[k] -= along * v[k];
+}
+
+// Rotations about an axis on which all spheres stand are none.
+void orthonormalise(std::vector<std::vector<double>> &vectors) {
+  std::vector<std::vector<double>> kept;
+  for (std::vector<double> &v : vectors) {
+    const auto length = [&v] {
+      double sum = 0.0;
+      for (const double x : v) sum += x * x;
+      return std::sqrt(sum);
+    };
+    const double before = length();
+    for (int twice = 0; twice < 2; ++twice)
+      for (const std::vector<double> &q : kept) take_out(q, v.data());
+    const double after = length();
+    if (!(after > RigidityTuning::no_rotation * before)) continue;
+    for (double &x : v) x /= after;
+    kept.push_back(std::move(v));
+  }
+  vectors = std::move(kept);
+}
+
+void take_symmetries(const Packing &p, RigidityMatrix &g) {
+  const size_t d = static_cast<size_t>(p.dim);
+  g.open_axes = ~p.container.closed();
+  g.round_axes = p.container.round_axes();
+  for (int q = 0; q < p.container.rotations(); ++q) {
+    std::vector<double> v(g.unknowns());
+    for (size_t i = 0; i < g.sphere.size(); ++i)
+      p.container.rotation(q, &p.position[static_cast<size_t>(g.sphere[i]) * d], &v[i * d]);
+    g.rotations.push_back(std::move(v));
+  }
+  orthonormalise(g.rotations);
+}
+
 }  // namespace
 
 RigidityMatrix make_rigidity_matrix(const Packing &p, const ContactNetwork &network) {
   RigidityMatrix g;
   const int d = g.dim = p.dim;
   g.node.assign(p.n(), -1);
-  for (size_t k = 0; k < network.size(); ++k) g.node[network.pairs.i[k]] = g.node[network.pairs.j[k]] = 0;
+  for (size_t k = 0; k < network.size(); ++k)
+    for_spheres(network.pairs.i[k], network.pairs.j[k], [&](int32_t i) { g.node[i] = 0; });
   for (size_t i = 0; i < p.n(); ++i)
     if (g.node[i] == 0) {
       g.node[i] = g.nodes++;
@@ -31,11 +72,15 @@ RigidityMatrix make_rigidity_matrix(const Packing &p, const ContactNetwork &netw
   for (size_t k = 0; k < network.size(); ++k) {
     const int32_t i = network.pairs.i[k], j = network.pairs.j[k];
     g.a.push_back(g.node[i]);
-    g.b.push_back(g.node[j]);
+    g.b.push_back(j < 0 ? j : g.node[j]);
     g.distance.push_back(std::sqrt(pair_vector(p, network.pairs, k, r.data())));
     g.sigma.push_back(contact_distance(p, i, j));
     for (int c = 0; c < d; ++c) g.normal.push_back(r[c] / g.distance.back());
+    g.bending.push_back(
+        j < 0 ? -p.container.curvature(wall_partner(j), &p.position[static_cast<size_t>(i) * static_cast<size_t>(d)])
+              : 1.0 / g.distance.back());
   }
+  if (p.container) take_symmetries(p, g);
   g.force = network.force;
   g.stiffness = network.stiffness;
   g.prestress = network.prestress;
@@ -48,17 +93,58 @@ RigidityMatrix subset(const RigidityMatrix &g, const std::vector<char> &on) {
   out.rounding = g.rounding;
   out.node.assign(static_cast<size_t>(g.nodes), -1);
   for (size_t k = 0; k < g.contacts(); ++k)
-    if (on[k]) out.node[g.a[k]] = out.node[g.b[k]] = 0;
+    if (on[k]) for_spheres(g.a[k], g.b[k], [&](int32_t i) { out.node[i] = 0; });
   for (int32_t i = 0; i < g.nodes; ++i)
     if (out.node[i] == 0) out.node[i] = out.nodes++, out.sphere.push_back(i);
   for (size_t k = 0; k < g.contacts(); ++k) {
     if (!on[k]) continue;
-    out.a.push_back(out.node[g.a[k]]), out.b.push_back(out.node[g.b[k]]);
+    out.a.push_back(out.node[g.a[k]]), out.b.push_back(g.b[k] < 0 ? g.b[k] : out.node[g.b[k]]);
     out.normal.insert(out.normal.end(), &g.normal[k * d], &g.normal[k * d] + d);
     if (!g.distance.empty()) out.distance.push_back(g.distance[k]);
+    if (!g.bending.empty()) out.bending.push_back(g.bending[k]);
     if (!g.sigma.empty()) out.sigma.push_back(g.sigma[k]);
     if (!g.force.empty()) out.force.push_back(g.force[k]);
     if (!g.stiffness.empty()) out.stiffness.push_back(g.stiffness[k]), out.prestress.push_back(g.prestress[k]);
+  }
+  out.open_axes = g.open_axes, out.round_axes = g.round_axes;
+  for (const std::vector<double> &all : g.rotations) {
+    std::vector<double> v;
+    for (const int32_t i : out.sphere)
+      v.insert(v.end(), &all[static_cast<size_t>(i) * d], &all[static_cast<size_t>(i) * d] + d);
+    out.rotations.push_back(std::move(v));
+  }
+  orthonormalise(out.rotations);
+  return out;
+}
+
+int RigidityMatrix::symmetries() const {
+  int count = static_cast<int>(rotations.size());
+  for (int c = 0; c < dim; ++c) count += static_cast<int>(open_axes >> c & 1);
+  return count;
+}
+
+void RigidityMatrix::remove_symmetries(double *x) const {
+  remove_translation(dim, nodes, x, open_axes);
+  for (const std::vector<double> &v : rotations) take_out(v, x);
+}
+
+RigidityMatrix::Stretch RigidityMatrix::stretch(size_t k, const double *u) const {
+  const size_t d = static_cast<size_t>(dim);
+  const double *n = &normal[k * d], *ua = u + static_cast<size_t>(a[k]) * d;
+  Stretch out{0.0, 0.0};
+  if (b[k] < 0) {
+    for (size_t c = 0; c < d; ++c) {
+      out.along += n[c] * ua[c];
+      if (static_cast<int>(c) < round_axes) out.all += ua[c] * ua[c];
+    }
+    if (bending[k] == 0.0) out.all = out.along * out.along;  // a flat wall
+    return out;
+  }
+  const double *ub = u + static_cast<size_t>(b[k]) * d;
+  for (size_t c = 0; c < d; ++c) {
+    const double x = ua[c] - ub[c];
+    out.along += n[c] * x;
+    out.all += x * x;
   }
   return out;
 }

@@ -1,5 +1,5 @@
 // The rigidity matrix S of a contact network: one row a contact, d columns a force-carrying sphere. Row k holds n_ij on
-// sphere i and -n_ij on sphere j.
+// sphere i and -n_ij on sphere j. A wall does not move: its row holds n_ij on sphere i alone.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -13,17 +13,33 @@ namespace jam {
 struct RigidityMatrix {
   int dim = 3;
   int32_t nodes = 0;
-  std::vector<int32_t> sphere;               // node -> sphere
-  std::vector<int32_t> node;                 // sphere -> node, -1 for rattlers
-  std::vector<int32_t> a, b;                 // contact -> nodes; a == b when a sphere touches its own image
-  std::vector<double> normal;                // (contacts, dim) unit vector from b to a
-  std::vector<double> distance;              // |r_ij| of each contact
-  std::vector<double> sigma;                 // sigma_ij of each contact
+  std::vector<int32_t> sphere;   // node -> sphere
+  std::vector<int32_t> node;     // sphere -> node, -1 for rattlers
+  std::vector<int32_t> a, b;     // contact -> nodes; a == b: a sphere and its own image; b < 0: a wall
+  std::vector<double> normal;    // (contacts, dim) unit vector from b to a
+  std::vector<double> distance;  // |r_ij| of each contact
+  std::vector<double> sigma;     // sigma_ij of each contact
+  // Second derivative of |r_ij| across n_ij: 1 / |r_ij|, of walls their curvature along the first `round_axes` axes.
+  std::vector<double> bending;
+  int round_axes = 0;
   double rounding = 0.0;                     // largest error of a vector r_ij, as coordinates are rounded
   std::vector<double> force;                 // mean 1; empty when it is not known
   std::vector<double> stiffness, prestress;  // of soft spheres, as in ContactNetwork; else empty
   size_t contacts() const { return a.size(); }
   size_t unknowns() const { return static_cast<size_t>(nodes) * dim; }
+
+  // The motions that keep every distance: translations along axes without walls, and rotations that walls allow.
+  uint32_t open_axes = ~0u;
+  std::vector<std::vector<double>> rotations;  // orthonormal, each (nodes, dim)
+  int symmetries() const;
+  void remove_symmetries(double *x) const;  // x (nodes, dim)
+  // Squared length of u_a - u_b of contact k, and of its part along n; of a wall without the axes along which it is
+  // straight.
+  struct Stretch {
+    double all, along;
+    double across() const { return all - along * along; }
+  };
+  Stretch stretch(size_t k, const double *u) const;
 };
 
 RigidityMatrix make_rigidity_matrix(const Packing &p, const ContactNetwork &network);

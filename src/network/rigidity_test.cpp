@@ -1,5 +1,6 @@
 #include "network/rigidity_test.hpp"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
@@ -32,7 +33,8 @@ void complete_flex(const RigidityMatrix &g, const RigidityMatrix &sub, const Con
       double value = 0.0, along = 0.0;
       const double *n = &g.normal[k * d], sign = g.a[k] == r->sphere ? 1.0 : -1.0;
       for (int c = 0; c < d; ++c) {
-        value += n[c] * (v[static_cast<size_t>(g.a[k]) * d + c] - v[static_cast<size_t>(g.b[k]) * d + c]);
+        const double vb = g.b[k] < 0 ? 0.0 : v[static_cast<size_t>(g.b[k]) * d + c];
+        value += n[c] * (v[static_cast<size_t>(g.a[k]) * d + c] - vb);
         along += sign * n[c] * r->direction[c];
       }
       for (int q = 0; q < rows.strains; ++q) value += rows.e[k * rows.strains + q] * v[g.unknowns() + q];
@@ -63,12 +65,49 @@ void count_carrying(const RigidityMatrix &carrying, int strains, RigidityResult 
   out.spheres = carrying.nodes;
   out.contacts = static_cast<int64_t>(carrying.contacts());
   out.zero_force_contacts -= out.contacts;
-  const int64_t motions = d * (out.spheres - 1) + strains;
+  const int64_t motions = d * out.spheres - carrying.symmetries() + strains;
   out.contacts_needed = motions + 1;
   out.self_stresses = out.contacts - (motions - out.flexes);
   std::vector<int32_t> z(carrying.nodes, 0);
-  for (size_t k = 0; k < carrying.contacts(); ++k) ++z[carrying.a[k]], ++z[carrying.b[k]];
+  for (size_t k = 0; k < carrying.contacts(); ++k)
+    for_spheres(carrying.a[k], carrying.b[k], [&](int32_t i) { ++z[i]; });
   out.undercoordinated = std::count_if(z.begin(), z.end(), [d](int32_t c) { return c <= d; });
+}
+
+// Whether the curvature of a round wall holds all flexes; the first one becomes that which it holds least.
+void judge_curvature(const RigidityMatrix &carrying, const std::vector<double> &force,
+                     std::vector<std::vector<double>> &flexes, RigidityResult &out) {
+  const auto m = static_cast<Eigen::Index>(flexes.size());
+  Eigen::MatrixXd q = Eigen::MatrixXd::Zero(m, m);
+  double scale = 0.0;
+  std::vector<double> sum(carrying.unknowns());
+  const auto form = [&](const std::vector<double> &u) {
+    double value = 0.0;
+    for (size_t k = 0; k < force.size(); ++k)
+      value += force[k] * carrying.bending[k] * carrying.stretch(k, u.data()).across();
+    return value;
+  };
+  for (size_t k = 0; k < force.size(); ++k) scale += std::fabs(force[k] * carrying.bending[k]);
+  scale /= static_cast<double>(force.size());
+  for (Eigen::Index a = 0; a < m; ++a) q(a, a) = form(flexes[a]);
+  for (Eigen::Index a = 0; a < m; ++a)
+    for (Eigen::Index b = 0; b < a; ++b) {
+      for (size_t k = 0; k < sum.size(); ++k) sum[k] = flexes[a][k] + flexes[b][k];
+      q(a, b) = q(b, a) = 0.5 * (form(sum) - q(a, a) - q(b, b));
+    }
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(q);
+  const double most = eigen.eigenvalues()[m - 1];
+  std::vector<double> first(flexes[0].size(), 0.0);
+  for (Eigen::Index a = 0; a < m; ++a)
+    for (size_t k = 0; k < first.size(); ++k) first[k] += eigen.eigenvectors()(a, m - 1) * flexes[a][k];
+  flexes[0] = std::move(first);
+  const double limit = RigidityTuning::least_curvature * scale;
+  if (most < -limit) {
+    out.jammed = out.force_residual < RigidityTuning::most_residual ? Verdict::yes : Verdict::undecided;
+    out.margin = -most / scale;
+  } else if (!(most > limit) || out.self_stresses > 1) {  // other states of self-stress might hold it
+    out.jammed = Verdict::undecided;
+  }
 }
 
 // Flags and forces of the rows that are `on` into those of all.
@@ -83,7 +122,7 @@ void spread(const std::vector<char> &on, const std::vector<char> &carrying, cons
 bool find_flex_of_part(const RigidityMatrix &g, const RigidityMatrix &sub, const ConstraintRows &rows,
                        const StressCone &cone, const std::vector<char> &on, const std::vector<Release> &released,
                        RigidityResult &out) {
-  if (cone.positive.empty() || rows.strains > 0) return false;
+  if (cone.positive.empty() || rows.strains > 0 || g.round_axes > 0) return false;
   const RigidityMatrix part = subset(sub, cone.positive);
   const ConstraintRows kept(part, false);
   NormalSolver solver(kept);
@@ -127,7 +166,8 @@ static RigidityResult find_verdict(const RigidityMatrix &g, Jamming kind) {
   NormalSolver solver(rows);
   solver.factorise(std::vector<double>(sub.contacts(), 1.0), flex_eigenvalue);
   SoftestModes modes = softest_modes(rows, solver, flex_eigenvalue, RigidityTuning::most_flexes);
-  const int64_t rank = static_cast<int64_t>(rows.columns()) - g.dim - static_cast<int64_t>(modes.flexes.size());
+  const int64_t rank =
+      static_cast<int64_t>(rows.columns()) - sub.symmetries() - static_cast<int64_t>(modes.flexes.size());
   const int64_t states = modes.complete ? std::max<int64_t>(0, static_cast<int64_t>(sub.contacts()) - rank) : -1;
   const StressCone cone = find_stress_cone(rows, solver, states);
   if (!cone.decided) {
@@ -175,7 +215,8 @@ static RigidityResult find_verdict(const RigidityMatrix &g, Jamming kind) {
   out.force_residual = balance_residual(carrying, f.data());
   if (out.jammed == Verdict::yes && !(out.force_residual < RigidityTuning::most_residual))
     out.jammed = Verdict::undecided;
-  if (out.flexes == 0) return out;
+  if (out.flexes > 0 && g.round_axes > 0 && modes.complete) judge_curvature(carrying, f, modes.flexes, out);
+  if (out.flexes == 0 || out.jammed != Verdict::no) return out;
   // A flex of B or its opposite, and as much of the motion that opens all other contacts as keeps them open.
   for (const double sign : {1.0, -1.0}) {
     std::vector<double> x(rows.columns(), 0.0), y0(rows.rows()), y1(rows.rows());

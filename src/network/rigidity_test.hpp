@@ -9,7 +9,11 @@
 // proportional to the unit matrix, and the rank with the traceless strains is d (N' - 1) + d (d + 1) / 2 - 1 (Donev,
 // Torquato, Stillinger, Connelly, J. Comput. Phys. 197, 139 (2004); Connelly, Shen, Smith, arXiv:1301.0664).
 // For spheres this first-order test is exact: |r + t v|^2 = r^2 + 2 t r.v + t^2 v^2, so every flex opens contacts
-// (Connelly 1988). A rattler is a sphere that no contact of K+ touches; the number of its contacts does not matter.
+// (Connelly 1988). A round wall closes along a flex, as its distance has the second derivative -1/|r| across the
+// normal. There a flex u opens no contact where sum_k f_k b_k |u_k|^2 < 0, with the second derivatives b_k of the
+// distances across the normals and the parts u_k of u_i - u_j there: that is prestress stability (R. Connelly and W.
+// Whiteley, SIAM J. Discrete Math. 9, 453 (1996)). d (N' - 1) is d N' less the symmetries of the scene where there are
+// walls. A rattler is a sphere that no contact of K+ touches; the number of its contacts does not matter.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -41,8 +45,9 @@ struct RigidityResult {
   int64_t zero_force_contacts = 0;  // contacts without force in every state
   int64_t contacts_needed = 0;      // collective: d (N' - 1) + 1; strict: d (N' - 1) + d (d + 1) / 2
   int64_t self_stresses = 0;        // states of self-stress on K+
-  int64_t flexes = 0;               // motions of B with S v = 0 on K+ beyond translations; 0 without a stress
-  int64_t undercoordinated = 0;     // spheres of B with d contacts of K+ or fewer
+  int64_t flexes = 0;            // motions of B with S v = 0 on K+ beyond symmetries; 0 without a stress. Of a jammed
+                                 // packing the curvature of a round wall stabilises them
+  int64_t undercoordinated = 0;  // spheres of B with d contacts of K+ or fewer
   double margin = 0.0;  // smallest eigenvalue of S^T S on K+ that is no translation; 0 where there is no other motion
   std::vector<double> flex;    // (nodes, dim), largest |v_i| is 1: opens contacts; empty when jammed or not found
   std::vector<double> strain;  // (dim, dim) that goes with it; strict only

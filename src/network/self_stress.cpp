@@ -107,7 +107,7 @@ int64_t NullSpace::zero_modes() const {
       kernel.push_back(v);
     }
   }
-  return zeros_ = static_cast<int64_t>(kernel.size()) + static_cast<int64_t>(solver_.clusters()) * g_.dim;
+  return zeros_ = static_cast<int64_t>(kernel.size()) + solver_.springs();
 }
 
 int64_t NullSpace::dimension() const {
@@ -133,7 +133,7 @@ StressStates find_stress(const RigidityMatrix &g, const NullSpace &space, bool w
   space.project(out.force);
   // Fast way out, true for almost every packing: as many contacts as one state of self-stress has, and a random vector
   // projects on the same line as (1, 1, ...).
-  const auto one = static_cast<int64_t>(g.unknowns()) - g.dim + 1;
+  const auto one = static_cast<int64_t>(g.unknowns()) - g.symmetries() + 1;
   if (static_cast<int64_t>(m) == one && norm(out.force) > 1e-6 * std::sqrt(static_cast<double>(m))) {
     std::vector<double> second = fresh(1), line = out.force;
     const double length = norm(second);
@@ -144,7 +144,7 @@ StressStates find_stress(const RigidityMatrix &g, const NullSpace &space, bool w
     orthogonalise(q, second);
     if (norm(second) < 1e-6 * length) {
       out.dimension = 1;
-      out.zero_modes = g.dim;
+      out.zero_modes = g.symmetries();
     }
   }
   if (out.dimension != 1) {

@@ -18,8 +18,8 @@ class BlockIteration {
       : rows_(rows), solver_(solver), limit_(limit), most_(most), random_(5, Stream::analysis_start) {}
 
   SoftestModes run() {
-    const size_t dim = static_cast<size_t>(rows_.g.dim);
-    const size_t motions = rows_.columns() > dim ? rows_.columns() - dim : 0;  // beyond translations
+    const size_t known = static_cast<size_t>(rows_.g.symmetries());
+    const size_t motions = rows_.columns() > known ? rows_.columns() - known : 0;
     size_t block = SoftestModesTuning::first_block;
     double last = std::numeric_limits<double>::infinity();
     for (int pass = 0; pass < SoftestModesTuning::most_passes; ++pass) {
@@ -49,18 +49,17 @@ class BlockIteration {
   }
 
  private:
-  void remove_translations(std::vector<double> &x) const { remove_translation(rows_.g.dim, rows_.g.nodes, x.data()); }
   static double dot(const std::vector<double> &x, const std::vector<double> &y) {
     double s = 0.0;
     for (size_t k = 0; k < x.size(); ++k) s += x[k] * y[k];
     return s;
   }
-  // Component of x orthogonal to translations, the flexes found and the first `count` vectors of the block, of unit
+  // Component of x orthogonal to symmetries, the flexes found and the first `count` vectors of the block, of unit
   // length. False when nothing is left.
   bool orthonormalise(std::vector<double> &x, size_t count) const {
     for (int twice = 0; twice < 2; ++twice) {
       const double before = std::sqrt(dot(x, x));
-      remove_translations(x);
+      rows_.g.remove_symmetries(x.data());
       const auto take_out = [&](const std::vector<double> &q) {
         const double c = dot(q, x);
         for (size_t k = 0; k < x.size(); ++k) x[k] -= c * q[k];

@@ -77,6 +77,13 @@ struct RigidityTuning {
   // A flex may close a contact by no more than this, where the largest displacement is 1: a motion of length t closes
   // it by 1e-8 t and opens it by t^2 / 2, so the overlap on the way stays below the rounding of a gap.
   static constexpr double flex_rounding = 1e-8;
+  // The curvature of a round wall holds a flex, or does not, by more than this part of the mean force times curvature:
+  // a flex itself closes contacts by up to 1e-6.
+  static constexpr double least_curvature = 1e-5;
+  // A sphere that touches a round wall farther from its axis, in radii, has one contact there.
+  static constexpr double off_axis = 1e-5;
+  // A rotation of the spheres about a line through all of them leaves less than this of a length, by rounding.
+  static constexpr double no_rotation = 1e-9;
   // Forces that balance worse than this, over the mean force, prove nothing; worse than the second they do not even
   // name the contacts.
   static constexpr double most_residual = 1e-10, useless_residual = 1e-6;
@@ -88,5 +95,12 @@ constexpr int most_refinements = 30;
 // ---- force balance: diagonals that fix translations beside rows of unit vectors, and where squared forces weigh the
 // rows
 constexpr double unit_ground = 1e-12, weighted_ground = 1e-14;
+
+// ---- the last digits where the curvature of a round wall stabilises flexes: Newton steps, the largest matrix, the
+// longest step (in diameters and mean forces), and the part of the largest pivot below which one is none
+struct CurvedMaximumTuning {
+  static constexpr int most_rounds = 12, most_unknowns = 1500;
+  static constexpr double longest = 1.0, rank = 1e-9;
+};
 
 }  // namespace jam

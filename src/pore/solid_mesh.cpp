@@ -84,6 +84,7 @@ class Mesher {
 
 void Mesher::take_joints(const ContactNetwork &network) {
   for (size_t k = 0; k < network.size(); ++k) {
+    if (network.pairs.wall(k)) continue;  // no cylinder leads to a wall
     Joint t;
     t.i = network.pairs.i[k], t.j = network.pairs.j[k];
     t.cells = cells_of(p_.cell, &network.pairs.offset[3 * k]);
@@ -134,6 +135,7 @@ void Mesher::check_bridges() const {
       }
   const PairList pairs = find_pairs(p_, 0.0, 1.0 + o_.bridge);
   for (size_t k = 0; k < pairs.size(); ++k) {
+    if (pairs.wall(k)) continue;
     double r[3];
     pair_vector(p_, pairs, k, r);
     for (const bool second : {false, true}) {  // whether the joint is at the second sphere of the pair

@@ -52,7 +52,7 @@ SoftResult measure(SoftState &state, int32_t minimiser) {
   r.minimiser = minimiser;
   r.contacts = static_cast<int64_t>(net.size());
   r.rattlers = static_cast<int64_t>(state.n()) - r.stable;
-  r.excess_contacts = r.contacts - isostatic_contacts(r.stable, d);
+  r.excess_contacts = r.contacts - isostatic_contacts(r.stable, d, Container());
   r.force_residual = r.contacts > 0 ? std::sqrt(worst) * count / mean : 0.0;
   r.stress_residual = r.contacts > 0 ? sums.stress : 0.0;
   r.energy = sums.energy;

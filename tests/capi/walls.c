@@ -243,7 +243,6 @@ static void checkpoints_go_on_to_the_same_bits(void **state) {
 static void calls_that_know_no_walls_refuse(void **state) {
   jam_system *sys = NULL;
   double real[4096], score;
-  int32_t whole[64];
   size_t needed;
   const double cell[] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
   (void)state;
@@ -251,15 +250,24 @@ static void calls_that_know_no_walls_refuse(void **state) {
   jam_observe_options observe;
   jam_observe_options_init(&observe, sizeof observe);
   observe.r_bins = 20;
-  jam_estimate estimated = {.struct_size = sizeof estimated};
-  const jam_status statuses[] = {jam_crunch(sys, NULL, NULL),
-                                 jam_estimate_crunch(sys, NULL, &estimated),
-                                 jam_contacts_from_geometry(sys, NULL, NULL),
-                                 jam_contact_candidates(sys, 0.1, real, 4096, &needed),
-                                 jam_rigidity(sys, JAM_RIGIDITY_COLLECTIVE, NULL),
-                                 jam_flex(sys, JAM_RIGIDITY_COLLECTIVE, real, 60, NULL, 0, &needed),
-                                 jam_check_packing(sys, NULL, NULL),
-                                 jam_gaps(sys, 0.5, 0, real, 4096, whole, 64, &needed),
+  jam_crunch_options crunch[2];
+  for (int k = 0; k < 2; ++k) jam_crunch_options_init(&crunch[k], sizeof crunch[k]);
+  crunch[0].strain = JAM_STRAIN_FREE, crunch[1].prove = 1;
+  jam_check_options check;
+  jam_check_options_init(&check, sizeof check);
+  check.prove = 1;
+  jam_moduli_report moduli = {.struct_size = sizeof moduli};
+  const jam_status statuses[] = {jam_crunch(sys, &crunch[0], NULL),
+                                 jam_crunch(sys, &crunch[1], NULL),
+                                 jam_rigidity(sys, JAM_RIGIDITY_STRICT, NULL),
+                                 jam_flex(sys, JAM_RIGIDITY_STRICT, real, 60, NULL, 0, &needed),
+                                 jam_check_packing(sys, &check, NULL),
+                                 jam_prove(sys, NULL, 0, NULL),
+                                 jam_moduli(sys, NULL, &moduli),
+                                 jam_elastic_tensor(sys, NULL, real, 81, NULL, 0, &needed),
+                                 jam_floppy_modes(sys, real, 4096, &needed),
+                                 jam_relax(sys, NULL, NULL),
+                                 jam_decompress(sys, NULL, NULL),
                                  jam_pair_correlation(sys, NULL, NULL, 0, real, 4096, &needed),
                                  jam_structure_factor(sys, 10.0, real, 4096, &needed),
                                  jam_bond_order(sys, 6, 1.2, real, 4096, &needed),

@@ -69,7 +69,7 @@ void wrong_contact(void **) {
     if (!near_vertex(seed, 1e-9, p, net, pair)) continue;
     for (size_t k = 0; k < net.size(); ++k) {
       const ContactNetwork wrong = exchanged(p, net, k, pair);
-      if (wrong.size() != net.size() || excess_contacts(wrong, 3) != 0) continue;
+      if (wrong.size() != net.size() || excess_contacts(wrong, p) != 0) continue;
       same_vertex(run_from(p, wrong), p, net);
       ++back;
     }
@@ -95,7 +95,7 @@ void missing_contact(void **) {
         std::vector<char> on(net.size(), 1);
         on[k] = 0;
         const ContactNetwork fewer = subset(net, on, 3);
-        if (excess_contacts(fewer, 3) != -1) continue;
+        if (excess_contacts(fewer, p) != -1) continue;
         same_vertex(run_from(p, fewer), p, net);
         ++back[other];
       }
@@ -126,7 +126,7 @@ void interrupted_at_the_vertex(void **) {
   while (!near_vertex(seed, 1e-9, p, net, pair)) assert_true(++seed < 10);
   size_t k = 0;
   ContactNetwork wrong = exchanged(p, net, k, pair);
-  while (wrong.size() != net.size() || excess_contacts(wrong, 3) != 0) wrong = exchanged(p, net, ++k, pair);
+  while (wrong.size() != net.size() || excess_contacts(wrong, p) != 0) wrong = exchanged(p, net, ++k, pair);
   for (const bool cancel : {true, false}) {
     Monitor monitor;
     std::function<void()> stop = [&] { cancel ? monitor.cancel() : void(monitor.wall_time = 0.0); };
@@ -154,11 +154,11 @@ void motion_and_basis(void **) {
   const PairList pairs = find_pairs(p, 0.1, 1.0);
   PackingLp lp = make_lp(p, pairs, 0.18);
   lp.bound = 0.3;
-  const LpSolution towards = solve_motion_clp(lp, {1.0, 0.0, 0.0, 0.0}, 1, nullptr);
+  const LpSolution towards = solve_motion_clp(lp, {1.0, 0.0, 0.0, 0.0}, 1, ~0u, nullptr);
   // 2 (r.s) + r^2 = sigma^2, in units of 0.18
   assert_true(towards.solved && std::fabs(towards.s[0] - (0.04 - 0.0324) / (2.0 * 0.2 * 0.18)) < 1e-9);
   assert_true(towards.s[2] == 0.0 && towards.s[3] == 0.0 && towards.g <= 0.0 && towards.g > -1e-9);
-  const LpSolution away = solve_motion_clp(lp, {-1.0, 0.0, 0.0, 0.0}, 1, nullptr);
+  const LpSolution away = solve_motion_clp(lp, {-1.0, 0.0, 0.0, 0.0}, 1, ~0u, nullptr);
   assert_true(away.solved && std::fabs(away.s[0] + 0.3) < 1e-12);
 
   const Packing near = near_jamming(start(40, 3, 0.3, 2));

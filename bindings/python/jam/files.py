@@ -26,8 +26,10 @@ def half_bonds(system: System) -> tuple[Array, Array]:
     Returns ends (2 contacts, 2, d) and, for each, the index of its contact.
     """
     c, x, s = system.contacts, system.positions, system.diameters
-    half = (0.25 * (s[c.pairs[:, 0]] + s[c.pairs[:, 1]]) * (1.0 + c.gaps))[:, None] * c.vectors
-    a, b = x[c.pairs[:, 0]], x[c.pairs[:, 1]]
+    wall = c.pairs[:, 1] < 0  # as if the sphere touched its mirror image, cut at the wall
+    i, j = c.pairs[:, 0], np.where(wall, c.pairs[:, 0], c.pairs[:, 1])
+    half = (0.25 * np.where(wall, s[i], s[i] + s[j]) * (1.0 + c.gaps))[:, None] * c.vectors
+    a, b = x[i], np.where(wall[:, None], x[i] - 2 * half, x[j])
     ends = np.concatenate([np.stack([a, a - half], 1), np.stack([b, b + half], 1)])
     return ends, np.tile(np.arange(len(c)), 2)
 

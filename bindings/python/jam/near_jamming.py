@@ -38,7 +38,8 @@ def predictors(system: Any) -> Predictors:
     if len(contacts.pairs) == 0:
         raise ValueError("the packing has rattlers only: there is no contact network to predict from")
     total = np.zeros(system.n)
-    np.add.at(total, contacts.pairs.ravel(), np.repeat(contacts.forces, 2))
+    spheres = contacts.pairs.ravel() >= 0  # below 0: a wall
+    np.add.at(total, contacts.pairs.ravel()[spheres], np.repeat(contacts.forces, 2)[spheres])
     return Predictors(plain.c, plain.s, total, weighted.s, np.asarray(system.rattlers, dtype=bool))
 
 

@@ -32,18 +32,21 @@ ActiveSet find_active_set(const PackingLp &lp, const LpSolution &x, double close
   ActiveSet active;
   active.coordination.assign(lp.n, 0);
   for (size_t k = 0; k < on.size(); ++k)
-    if (on[k]) active.rows.push_back(k), ++active.coordination[pairs.i[k]], ++active.coordination[pairs.j[k]];
+    if (on[k]) {
+      active.rows.push_back(k);
+      for_spheres(pairs.i[k], pairs.j[k], [&](int32_t i) { ++active.coordination[i]; });
+    }
   active.stable = stable_spheres(active.coordination);
   return active;
 }
 
-double largest_step(const LpSolution &x, const ActiveSet &active, int dim) {
+double largest_step(const LpSolution &x, const ActiveSet &active, int dim, uint32_t closed_axes) {
   std::vector<double> mean(dim, 0.0);
   const bool any = active.stable > 0;
   const size_t n = active.coordination.size();
   for (size_t i = 0; i < n && any; ++i)
     for (int c = 0; c < dim && active.coordination[i] > 0; ++c)
-      mean[c] += x.s[i * dim + c] / static_cast<double>(active.stable);
+      if (!(closed_axes >> c & 1)) mean[c] += x.s[i * dim + c] / static_cast<double>(active.stable);
   double largest = 0.0;
   for (size_t i = 0; i < n; ++i) {
     if (any && active.coordination[i] == 0) continue;

@@ -19,8 +19,9 @@ struct ActiveSet {
 // One flag a row: it carries force, or its slack is below `closed`.
 std::vector<char> force_carrying(const PackingLp &lp, const LpSolution &answer, double closed);
 ActiveSet find_active_set(const PackingLp &lp, const LpSolution &answer, double closed);
-// Largest |s| over spheres with a force, their mean taken out; over all spheres if no sphere has one.
-double largest_step(const LpSolution &answer, const ActiveSet &active, int dim);
+// Largest |s| over spheres with a force, their mean taken out along all axes but those closed by walls (bits); over all
+// spheres if no sphere has one.
+double largest_step(const LpSolution &answer, const ActiveSet &active, int dim, uint32_t closed_axes = 0);
 // The active rows as contacts of p: unit vectors, gaps, forces from the multipliers.
 ContactNetwork make_contacts(const Packing &p, const PairList &pairs, const LpSolution &answer,
                              const ActiveSet &active);

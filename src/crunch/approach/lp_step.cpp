@@ -45,13 +45,22 @@ double closest_approach(const LpSolution &x, int dim, double unit) {
   return first + second;
 }
 
+// Makes the diameters of q as small as its round wall wants. False where they grow by less than a part of `growth`.
+bool fit_round_wall(Packing &q, const Packing &p, double growth) {
+  if (p.container.round_axes() == 0) return true;
+  const ClosestWall closest = closest_to_wall(q, p.container.count() - 1);
+  if (closest.gap < 0.0)
+    for (double &s : q.diameter) s *= 1.0 + closest.gap;
+  return q.diameter[0] >= p.diameter[0] * (1.0 + Tuning::least_growth * growth);
+}
+
 double gain_of(const LpSolution &x) { return std::sqrt(1.0 + std::max(x.g, 0.0)) - 1.0; }
 
-void add_history_row(CrunchState &s, double alpha, double unit) {
+void add_history_row(CrunchState &s, double alpha, double unit, double grown) {
   std::vector<double> moved = s.last.answer.s;
   for (double &x : moved) x *= alpha * unit;
   HistoryRow &row = record_step(s, JAM_STEP_LP, moved.data());
-  row[JAM_HISTORY_GAIN] = math::expm1(0.5 * math::log1p(alpha * s.last.answer.g));
+  row[JAM_HISTORY_GAIN] = grown;
   row[JAM_HISTORY_ITERATIONS] = s.last.answer.iterations;
   row[JAM_HISTORY_DUALITY_GAP] = s.out.report.duality_gap;
   row[JAM_HISTORY_PAIRS] = static_cast<double>(s.last.pairs.size());
@@ -70,6 +79,9 @@ void add_history_row(CrunchState &s, double alpha, double unit) {
 // these make no more than reach: |r'| - sigma'_ij >= reach - (s_1 + s_2) - growth >= 0. A strain shortens |r| by at
 // most its norm times |r|. If that does not settle it, alpha is halved until no pair or image
 // overlaps: at low density, where reach follows the free spacing, no pair can meet unseen.
+// A round wall curves inward from the tangent in its row: a sphere that moves along it by s overlaps by s^2 / 2 |r|, at
+// any alpha. There the diameters grow by what the true distances leave, and alpha is halved until they do grow: the LP
+// promises a growth of alpha g / 2, and the curvature takes off less than a constant times alpha^2.
 double take_step(Packing &p, PairList &pairs, double reach, const LpSolution &x, double unit,
                  const StrainBasis &basis) {
   const double widest = contact_distance_max(p), shorter = shortening(x, basis) * (reach + widest),
@@ -77,14 +89,16 @@ double take_step(Packing &p, PairList &pairs, double reach, const LpSolution &x,
   PairList shifted = pairs;
   double alpha = x.strain.empty() ? 1.0 : strain_part(p.dim, strain_matrix(basis, x.strain, 1.0));
   Packing q = moved(p, shifted, x, alpha, unit, basis);
-  if (closest_approach(x, p.dim, unit) + growth + shorter > reach) {
-    while (closest_pair(q).gap < -1e-13) {
-      alpha *= 0.5;
-      if (alpha < 1e-6) return 0.0;
-      shifted = pairs;
-      q = moved(p, shifted, x, alpha, unit, basis);
-    }
-  }
+  const auto shorten = [&] {
+    alpha *= 0.5;
+    shifted = pairs;
+    q = moved(p, shifted, x, alpha, unit, basis);
+    return alpha < 1e-6;
+  };
+  const auto fits = [&] { return fit_round_wall(q, p, 0.5 * alpha * x.g) || !(x.g > 0.0); };
+  const bool may_meet = closest_approach(x, p.dim, unit) + growth + shorter > reach;
+  while (!fits() || (may_meet && closest_contact(q).gap < -1e-13))
+    if (shorten()) return 0.0;
   p.position.swap(q.position);
   p.diameter.swap(q.diameter);
   p.cell = q.cell;
@@ -129,14 +143,17 @@ LpStep make_step(CrunchState &s, double reach) {
                                   [&](double x) { return std::fabs(x) > at_bound * s.last.lp.bound; });
   if (s.history.details()) s.history.take_network(s.out.packing, s.last.lp, s.last.answer);
   const double alpha = take_step(s.out.packing, s.last.pairs, reach, s.last.answer, unit, s.next.strain);
-  const double gain = gain_of(s.last.answer), step = largest_step(s.last.answer, s.last.active, s.last.lp.dim);
+  const double gain = gain_of(s.last.answer),
+               step = largest_step(s.last.answer, s.last.active, s.last.lp.dim, s.out.packing.container.closed());
   s.monitor.log(
       JAM_LOG_INFO,
       "LP %lld: gain %.3e step %.3e alpha %.3f pairs %zu iterations %d contacts %zu stable %lld bound %.3g phi %.12f",
       static_cast<long long>(s.out.report.lp_solves), gain, step, alpha, s.last.pairs.size(), s.last.answer.iterations,
       s.last.active.rows.size(), static_cast<long long>(s.last.active.stable), s.last.lp.bound,
       packing_fraction(s.out.packing));
-  add_history_row(s, alpha, unit);
+  const bool round = s.out.packing.container.round_axes() > 0;
+  const double promised = math::expm1(0.5 * math::log1p(alpha * s.last.answer.g));
+  add_history_row(s, alpha, unit, round ? diameter_mean(s.out.packing) / unit - 1.0 : promised);
   return {gain, step, alpha};
 }
 

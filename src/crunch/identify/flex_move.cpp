@@ -23,7 +23,8 @@ std::vector<double> direction_of(const CrunchState &s, const PackingVerdict &ver
   double push = 0.0;
   for (size_t k = 0; k < net.size(); ++k)
     for (size_t c = 0; c < d; ++c)
-      push += net.force[k] * net.vector[k * d + c] * (v[net.pairs.i[k] * d + c] - v[net.pairs.j[k] * d + c]);
+      push += net.force[k] * net.vector[k * d + c] *
+              (v[net.pairs.i[k] * d + c] - (net.pairs.wall(k) ? 0.0 : v[net.pairs.j[k] * d + c]));
   if (push < 0.0)
     for (double &x : v) x = -x;
   return v;
@@ -77,7 +78,7 @@ FlexMove move_along_flex(CrunchState &s, const PackingVerdict &verdict) {
     PackingLp lp = make_lp(p, pairs, unit);
     lp.bound = bound;
     for (double &c : lp.c) c = std::max(c, 0.0);  // closed ones overlap by rounding
-    LpSolution x = solve_motion_clp(lp, v, fixed, &s.monitor);
+    LpSolution x = solve_motion_clp(lp, v, fixed, ~p.container.closed(), &s.monitor);
     if (!x.solved || s.monitor.interrupted()) return FlexMove::none;
     longest = 0.0;
     for (const int32_t i : verdict.sphere)

@@ -4,7 +4,10 @@
 #include <cmath>
 
 #include "core/motion.hpp"
+#include "network/curved_maximum.hpp"
 #include "network/force_balance.hpp"
+#include "network/rigidity_matrix.hpp"
+#include "network/tuning.hpp"
 
 namespace jam {
 namespace {
@@ -37,9 +40,12 @@ class Polish {
   PolishEnd try_contacts(Packing &p, ContactNetwork &net) {
     if (!close_all(p, net)) return PolishEnd::interrupted;
     if (!(largest(net.gap) < t_.closing_gap)) return PolishEnd::open_contact;
-    if (net.size() == 0 || excess_contacts(net, p.dim) < 0) return PolishEnd::too_few;
+    const bool round = p.container.round_axes() > 0;
+    if (net.size() == 0 || (!round && excess_contacts(net, p) < 0)) return PolishEnd::too_few;
     balance_forces(p, net);
-    const bool one_state = excess_contacts(net, p.dim) == 0;
+    if (round && !(balance_residual(p.dim, p.n(), net) < RigidityTuning::most_residual) && !settle_at_curvature(p, net))
+      return PolishEnd::too_few;
+    const bool one_state = excess_contacts(net, p) <= 0;
     // Forces of several states of self-stress are not unique: the test of the network decides which contacts carry.
     if (one_state && !pushes_only(net)) {
       log("polish: %td of %zu contacts pull, the strongest with %.1e",
@@ -47,7 +53,7 @@ class Polish {
           -*std::min_element(net.force.begin(), net.force.end()));
       return PolishEnd::negative_force;
     }
-    if (closest_pair(p).gap < allowed_) return PolishEnd::overlap;
+    if (closest_contact(p).gap < allowed_) return PolishEnd::overlap;
     return largest(net.gap) > t_.closed_limit(p) ? PolishEnd::open_contact : PolishEnd::done;
   }
 
@@ -59,7 +65,7 @@ class Polish {
     if (end != PolishEnd::open_contact && end != PolishEnd::overlap) return false;
     const bool open =
         largest(net.gap) > t_.closed_limit(p) || *std::min_element(net.gap.begin(), net.gap.end()) < allowed_;
-    const int64_t excess = excess_contacts(net, p.dim);
+    const int64_t excess = excess_contacts(net, p);
     if (!open || excess <= 0 || excess > t_.max_excess || !pushes_only(net)) return false;
     size_t weakest = net.size();
     double part = 0.0;
@@ -97,7 +103,7 @@ class Polish {
   // False when interrupted.
   bool close_all(Packing &p, ContactNetwork &net) {
     system_.set_graph(p.dim, static_cast<int32_t>(p.n()), net.pairs, threads_);
-    const auto open = [&] { return excess_contacts(net, p.dim) > 0 ? norm(net.gap) : largest(net.gap); };
+    const auto open = [&] { return excess_contacts(net, p) > 0 ? norm(net.gap) : largest(net.gap); };
     double worst = open();
     for (int round = 0; round < 4 && worst > 1e-16; ++round) {
       log("polish %d largest gap %.2e", round, largest(net.gap));
@@ -135,7 +141,7 @@ class Polish {
 PolishEnd polish(Packing &p, ContactNetwork &net, NewtonSystem &system, int threads, const Tuning &tuning,
                  Monitor *monitor) {
   if (net.size() == 0) return PolishEnd::no_contacts;
-  Polish polisher(system, threads, tuning, std::min(-1e-14, closest_pair(p).gap), monitor);
+  Polish polisher(system, threads, tuning, std::min(-1e-14, closest_contact(p).gap), monitor);
   Packing q = p;
   ContactNetwork better = net;
   const PolishEnd end = polisher.close_and_balance(q, better);

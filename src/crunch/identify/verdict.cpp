@@ -81,7 +81,8 @@ void take_positive_forces(CrunchState &s, const PackingVerdict &verdict) {
 bool tested(CrunchState &s, Jamming kind, PackingVerdict &verdict) {
   try {
     verdict = test_packing(s.out.packing, &s.out.contacts, kind);
-    if (s.found.narrow && kind == Jamming::collective) decide_by_proof(s.out.packing, verdict);
+    if (s.found.narrow && kind == Jamming::collective && !s.out.packing.container)
+      decide_by_proof(s.out.packing, verdict);
   } catch (const Cancelled &) {
     stop_if_interrupted(s);
     return false;
@@ -108,7 +109,7 @@ Phase decide_strict_jamming(CrunchState &s) {
 Phase end_jammed(CrunchState &s, const PackingVerdict &verdict) {
   // Forces of several states of self-stress are not unique: those of the test lie in the middle of all. It also
   // balances forces that polish refused.
-  if (s.o.polish && (!s.found.polished || excess_contacts(s.out.contacts, s.out.packing.dim) > 0))
+  if (s.o.polish && (!s.found.polished || excess_contacts(s.out.contacts, s.out.packing) > 0))
     take_forces_of(s, verdict);
   s.found.jammed = true;
   report_verdict(verdict, s.out.packing.dim, s.out.report);

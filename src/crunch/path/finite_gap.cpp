@@ -18,7 +18,8 @@ int64_t count_undecided(const CrunchState &s, const std::vector<double> &path, c
   int64_t count = 0;
   for (size_t k = 0; k < s.last.lp.rows(); ++k) {
     const double force = path[k] * carrying, gap = s.last.lp.c[k];
-    count += z[s.last.pairs.i[k]] > 0 && z[s.last.pairs.j[k]] > 0 && force < most * gap && gap < most * force;
+    const bool stable = z[s.last.pairs.i[k]] > 0 && (s.last.pairs.wall(k) || z[s.last.pairs.j[k]] > 0);
+    count += stable && force < most * gap && gap < most * force;
   }
   return count;
 }

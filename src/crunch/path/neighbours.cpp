@@ -19,6 +19,7 @@ std::vector<size_t> uncovered_spheres(const Packing &p, const PairList &pairs, d
     for (size_t c = 0; c < d; ++c) {
       const double along = std::fabs(r[c]) / length;
       for (const bool of_i : {true, false}) {
+        if (!of_i && pairs.wall(k)) continue;
         double &w = cover[(of_i ? pairs.i[k] : pairs.j[k]) * sides + 2 * c + ((r[c] > 0.0) == of_i)];
         w = std::max(w, along);
       }

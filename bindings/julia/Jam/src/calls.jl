@@ -90,7 +90,7 @@ function given_back(a::Argument, x, shape)
         return Table(NamedTuple{names}(Tuple(rows[k, :] for k in 1:length(names))))
     end
     made = length(shape) == 1 ? x : reshape(x, reverse(shape))
-    return a.index ? made .+ one(eltype(x)) : made
+    return a.index ? map(k -> k < 0 ? k : k + one(k), made) : made  # below 0: a wall
 end
 
 """

@@ -435,7 +435,7 @@ several copies of it. Source: Donev et al., J. Comput. Phys. 197, 139 (2004); th
 more. Status: `:ok` jammed, `:not_jammed`, `:ambiguous` undecided.
 
 - `kind`: one of `:collective`, `:strict`
-- errors: `:solver`
+- errors: `:solver`, `:unsupported` (strict, with walls)
 """
 function rigidity(s::System, kind; progress = nothing)
     return call(s, :jam_rigidity, (kind, ); progress = progress)
@@ -519,8 +519,8 @@ end
 """
     gaps(s, h_max, stable_only) -> (gap, pair)
 
-Gaps h of all pairs below `h_max` (every image), without contacts, ascending. Without `stable_only` rattlers count too
-and no network is needed.
+Gaps h of pairs (every image) and walls below `h_max`, without contacts, ascending. Without `stable_only` rattlers
+count too and no network is needed.
 
 - `gap`: array `(gaps)`
 - `pair`: array `(2, gaps)`, indices from 1

@@ -41,7 +41,7 @@ function predictors(s::System)
     isempty(f) && throw(ArgumentError("the packing has rattlers only: there is no contact network to predict from"))
     total = zeros(Int(info(s).n))
     for k in eachindex(f), side in 1:2
-        total[pairs[side, k]] += f[k]
+        pairs[side, k] > 0 && (total[pairs[side, k]] += f[k])  # below 0: a wall
     end
     return (c = plain.c, s = plain.s, force_sum = total, force_pairs = weighted.s, rattlers = rattlers(s))
 end

@@ -33,7 +33,7 @@ function lines(io, x, sigma, pairs, n, f)
     unit = 0.12 * sum(sigma) / length(sigma)  # width of the mean force
     for k in eachindex(f)
         i, j = pairs[1, k], pairs[2, k]
-        r = -(sigma[i] + sigma[j]) / 2 .* n[:, k]  # from the first centre to the second
+        r = -(j < 0 ? sigma[i] : sigma[i] + sigma[j]) / 2 .* n[:, k]  # from the first centre to the second, or to a wall
         println(io, "<path d=\"M$(move(x[:, i])) l$(move(r))\" stroke=\"#222\" stroke-width=\"$(shown(unit * f[k]))\"/>")
     end
 end

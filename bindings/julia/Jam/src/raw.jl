@@ -80,7 +80,7 @@ const JAM_MODEL_MK = Int32(1)  # Mari-Kurchan: |r_i - r_j + zeta A_ij|, quenched
 const JAM_MASSES_EQUAL = Int32(0)  # all 1
 const JAM_MASSES_VOLUME = Int32(1)  # as the volumes, sigma_i^d
 
-# jam_container: What encloses the spheres. The cell is the brick around it. A wall is a mirror: its h is distance / radius - 1.
+# jam_container: What encloses the spheres. The cell is the brick around it. A wall is a mirror: its h is distance / radius - 1. The wall of row w of jam_walls is partner j = -1 - w of its contacts. In counts of contacts d (N' - 1) is then d N' less the translations along open axes and the rotations that a cylinder (1) or a ball (d (d - 1) / 2) allows.
 const JAM_CONTAINER_BRICK = Int32(0)  # the cell: flat walls on the axes of `walls`, the other axes periodic
 const JAM_CONTAINER_CYLINDER = Int32(1)  # d = 3, about z, periodic or between flat walls; its diameter: the edges x and y
 const JAM_CONTAINER_BALL = Int32(2)  # d = 2 a circle, d = 3 a ball; its diameter: the edge of the cube
@@ -980,7 +980,7 @@ force on the path over the mean is within a factor of 1e4 of twice their gap.
 - `bucklers`: stable spheres with exactly d+1 contacts
 - `isostatic_contacts`: d (N' - 1) + 1: contacts of a single state of self-stress
 - `excess_contacts`: contacts - `isostatic_contacts`: 0 isostatic or no network, > 0 hyperstatic
-- `flexes`: motions of stable spheres beyond translations that keep contacts with force closed
+- `flexes`: motions of stable spheres beyond symmetries that keep contacts with force closed
 - `zero_force_contacts`: closed pairs without force in every state of self-stress, those of rattlers too
 - `undecided_contacts`: pairs with gaps of 1e-10 to 1e-7; after `:duality_gap`: see above
 - `undercoordinated`: stable spheres with d force-carrying contacts or fewer
@@ -1037,7 +1037,7 @@ mutable struct jam_crunch_report
     bucklers::Int64  # stable spheres with exactly d+1 contacts
     isostatic_contacts::Int64  # d (N' - 1) + 1: contacts of a single state of self-stress
     excess_contacts::Int64  # contacts - isostatic_contacts: 0 isostatic or no network, > 0 hyperstatic
-    flexes::Int64  # motions of stable spheres beyond translations that keep contacts with force closed
+    flexes::Int64  # motions of stable spheres beyond symmetries that keep contacts with force closed
     zero_force_contacts::Int64  # closed pairs without force in every state of self-stress, those of rattlers too
     undecided_contacts::Int64  # pairs with gaps of 1e-10 to 1e-7; after JAM_STOP_DUALITY_GAP: see above
     undercoordinated::Int64  # stable spheres with d force-carrying contacts or fewer
@@ -1392,7 +1392,8 @@ end
 
 What `rigidity` found. K+ are the contacts that carry force in some balance of non-negative forces, B the spheres that
 they touch, N' their number. `undecided_contacts`: also pairs that the digits of the coordinates cannot distinguish
-from contacts. `rigidity_margin` below 1e-12: a flex; of a sphere that touches its own images alone: with strains.
+from contacts. `rigidity_margin` below 1e-12: a flex; of a sphere that touches its own images alone: with strains;
+where a round wall's curvature holds flexes: by how much of the mean force times curvature.
 
 - `kind`: one of `:collective`, `:strict`; that was tested
 - `jammed`: one of `:untested`, `:no`, `:yes`, `:undecided`
@@ -1402,7 +1403,7 @@ from contacts. `rigidity_margin` below 1e-12: a flex; of a sphere that touches i
 - `contacts`: |K+|
 - `contacts_needed`: collective d (N' - 1) + 1, strict d (N' - 1) + d (d + 1) / 2
 - `self_stresses`: independent balances of forces on K+, signs free
-- `flexes`: motions beyond translations that keep K+ closed; 0 without K+, 512 at most
+- `flexes`: motions beyond symmetries that keep K+ closed; 0 without K+, 512 at most
 - `undercoordinated`: spheres of B with d contacts of K+ or fewer
 - `zero_force_contacts`: closed pairs that are not in K+
 - `undecided_contacts`: pairs with gaps of 1e-10 to 1e-7
@@ -1418,7 +1419,7 @@ mutable struct jam_rigidity_report
     contacts::Int64  # |K+|
     contacts_needed::Int64  # collective d (N' - 1) + 1, strict d (N' - 1) + d (d + 1) / 2
     self_stresses::Int64  # independent balances of forces on K+, signs free
-    flexes::Int64  # motions beyond translations that keep K+ closed; 0 without K+, 512 at most
+    flexes::Int64  # motions beyond symmetries that keep K+ closed; 0 without K+, 512 at most
     undercoordinated::Int64  # spheres of B with d contacts of K+ or fewer
     zero_force_contacts::Int64  # closed pairs that are not in K+
     undecided_contacts::Int64  # pairs with gaps of 1e-10 to 1e-7
@@ -1452,7 +1453,8 @@ Verdict on a packing as it is. Gaps are relative to `sigma_ij`, displacements in
 Closed pairs have gaps below 1e-10. NaN, and -1 for contacts: not known. crunch_...: of the crunched copy.
 
 - `jammed`: one of `:untested`, `:no`, `:yes`, `:undecided`; : collectively jammed
-- `strictly_jammed`: one of `:untested`, `:no`, `:yes`, `:undecided`; ; `:no` where jammed is `:no`
+- `strictly_jammed`: one of `:untested`, `:no`, `:yes`, `:undecided`; ; `:no` where jammed is `:no`, `:untested` with
+  walls
 - `stationary`: one of `:untested`, `:no`, `:yes`, `:undecided`; : non-negative forces balance
 - `reason`: one of `:proof`, `:apart`, `:no_force`, `:flex`, `:digits`, `:overlap`, `:gaps`, `:margin`; of jammed
 - `dim`: d
@@ -1466,8 +1468,8 @@ Closed pairs have gaps below 1e-10. NaN, and -1 for contacts: not known. crunch_
 - `zero_force_contacts`: of the pairs that were tested, those without force in every state
 - `undecided_contacts`: pairs that may be contacts or not, by rounding or for lack of digits
 - `self_stresses`: independent balances of forces; with more than one forces are not unique
-- `flexes`:
-- `strict_flexes`: motions beyond translations that keep contacts with force closed; with strains, 0 untested
+- `flexes`: motions that keep contacts with force closed
+- `strict_flexes`: with strains, 0 untested
 - `crunch_contacts`: contacts of the copy
 - `packing_fraction`: of the packing as it is
 - `nearest_gap`: smallest gap of all pairs; negative: an overlap. Infinite: none below 1
@@ -1491,7 +1493,7 @@ Closed pairs have gaps below 1e-10. NaN, and -1 for contacts: not known. crunch_
 mutable struct jam_check_report
     struct_size::UInt32
     jammed::Int32  # jam_verdict: collectively jammed
-    strictly_jammed::Int32  # jam_verdict; NO where jammed is NO
+    strictly_jammed::Int32  # jam_verdict; NO where jammed is NO, UNTESTED with walls
     stationary::Int32  # jam_verdict: non-negative forces balance
     reason::Int32  # jam_check_reason of jammed
     dim::Int32  # d
@@ -1505,8 +1507,8 @@ mutable struct jam_check_report
     zero_force_contacts::Int64  # of the pairs that were tested, those without force in every state
     undecided_contacts::Int64  # pairs that may be contacts or not, by rounding or for lack of digits
     self_stresses::Int64  # independent balances of forces; with more than one forces are not unique
-    flexes::Int64
-    strict_flexes::Int64  # motions beyond translations that keep contacts with force closed; with strains, 0 untested
+    flexes::Int64  # motions that keep contacts with force closed
+    strict_flexes::Int64  # with strains, 0 untested
     crunch_contacts::Int64  # contacts of the copy
     packing_fraction::Cdouble  # of the packing as it is
     nearest_gap::Cdouble  # smallest gap of all pairs; negative: an overlap. Infinite: none below 1
@@ -2603,8 +2605,8 @@ end
 """
     jam_contacts(sys, out, out_len, needed)
 
-Contact pairs, i < j save for images of one sphere (i = j). Hard spheres have those only after a crunch with a free
-cell. Each stands for both opposite images, so it adds 2 to the coordination.
+Contact pairs, i < j save for walls (j = -1 - w) and images of one sphere (i = j). Hard spheres have images only
+after a crunch with a free cell. One stands for both opposite images, so it adds 2 to the coordination.
 Shapes: out (contacts, 2).
 Errors: `JAM_E_STATE` (no crunch yet).
 """
@@ -2768,7 +2770,7 @@ opening of contacts by a motion v, and E eps that by a strain eps. Collectively 
 translations of B. Strictly jammed: S v + E eps >= 0 with tr eps <= 0 only for those and eps = 0. Both hold for this
 cell, not for several copies of it. Source: Donev et al., J. Comput. Phys. 197, 139 (2004); the guide's page "Jammed
 or not" has more. Status: `JAM_OK` jammed, `JAM_NOT_JAMMED`, `JAM_AMBIGUOUS` undecided.
-Errors: `JAM_E_SOLVER`.
+Errors: `JAM_E_SOLVER`, `JAM_E_UNSUPPORTED` (strict, with walls).
 """
 function jam_rigidity(sys, kind, report)
     return ccall((:jam_rigidity, libjam), Int32, (Ptr{Cvoid}, Int32, Ref{jam_rigidity_report}), sys, kind, _ref(jam_rigidity_report, report))
@@ -2885,7 +2887,7 @@ end
 """
     jam_gaps(sys, h_max, stable_only, gap, gap_len, pair, pair_len, rows)
 
-Gaps h of all pairs below `h_max` (every image), without contacts, ascending; `*rows` = gaps. Without `stable_only`
+Gaps h of pairs (every image) and walls below `h_max`, without contacts, ascending; `*rows` = gaps. Without `stable_only`
 rattlers count too and no network is needed.
 Shapes: gap (gaps), pair (gaps, 2).
 Errors: `JAM_E_STATE`.

@@ -95,7 +95,9 @@ class Masses(IntEnum):
 
 
 class Container(IntEnum):
-    """What encloses the spheres. The cell is the brick around it. A wall is a mirror: its h is distance / radius - 1."""
+    """What encloses the spheres. The cell is the brick around it. A wall is a mirror: its h is distance / radius - 1. The
+    wall of row w of jam_walls is partner j = -1 - w of its contacts. In counts of contacts d (N' - 1) is then d N' less
+    the translations along open axes and the rotations that a cylinder (1) or a ball (d (d - 1) / 2) allows."""
     BRICK = 0  # the cell: flat walls on the axes of `walls`, the other axes periodic
     CYLINDER = 1  # d = 3, about z, periodic or between flat walls; its diameter: the edges x and y
     BALL = 2  # d = 2 a circle, d = 3 a ball; its diameter: the edge of the cube
@@ -731,7 +733,7 @@ class CrunchReport(Report):
     bucklers: stable spheres with exactly d+1 contacts
     isostatic_contacts: d (N' - 1) + 1: contacts of a single state of self-stress
     excess_contacts: contacts - isostatic_contacts: 0 isostatic or no network, > 0 hyperstatic
-    flexes: motions of stable spheres beyond translations that keep contacts with force closed
+    flexes: motions of stable spheres beyond symmetries that keep contacts with force closed
     zero_force_contacts: closed pairs without force in every state of self-stress, those of rattlers too
     undecided_contacts: pairs with gaps of 1e-10 to 1e-7; after JAM_STOP_DUALITY_GAP: see above
     undercoordinated: stable spheres with d force-carrying contacts or fewer
@@ -981,7 +983,7 @@ class RigidityReport(Report):
     """What jam_rigidity found. K+ are the contacts that carry force in some balance of non-negative forces, B the spheres
     that they touch, N' their number. undecided_contacts: also pairs that the digits of the coordinates cannot
     distinguish from contacts. rigidity_margin below 1e-12: a flex; of a sphere that touches its own images alone: with
-    strains.
+    strains; where a round wall's curvature holds flexes: by how much of the mean force times curvature.
 
     kind: jam_rigidity_kind that was tested
     jammed: jam_verdict
@@ -990,7 +992,7 @@ class RigidityReport(Report):
     contacts: |K+|
     contacts_needed: collective d (N' - 1) + 1, strict d (N' - 1) + d (d + 1) / 2
     self_stresses: independent balances of forces on K+, signs free
-    flexes: motions beyond translations that keep K+ closed; 0 without K+, 512 at most
+    flexes: motions beyond symmetries that keep K+ closed; 0 without K+, 512 at most
     undercoordinated: spheres of B with d contacts of K+ or fewer
     zero_force_contacts: closed pairs that are not in K+
     undecided_contacts: pairs with gaps of 1e-10 to 1e-7
@@ -1017,7 +1019,7 @@ class CheckReport(Report):
     Closed pairs have gaps below 1e-10. NaN, and -1 for contacts: not known. crunch_*: of the crunched copy.
 
     jammed: jam_verdict: collectively jammed
-    strictly_jammed: jam_verdict; NO where jammed is NO
+    strictly_jammed: jam_verdict; NO where jammed is NO, UNTESTED with walls
     stationary: jam_verdict: non-negative forces balance
     reason: jam_check_reason of jammed
     dim: d
@@ -1031,8 +1033,8 @@ class CheckReport(Report):
     zero_force_contacts: of the pairs that were tested, those without force in every state
     undecided_contacts: pairs that may be contacts or not, by rounding or for lack of digits
     self_stresses: independent balances of forces; with more than one forces are not unique
-    flexes:
-    strict_flexes: motions beyond translations that keep contacts with force closed; with strains, 0 untested
+    flexes: motions that keep contacts with force closed
+    strict_flexes: with strains, 0 untested
     crunch_contacts: contacts of the copy
     packing_fraction: of the packing as it is
     nearest_gap: smallest gap of all pairs; negative: an overlap. Infinite: none below 1

@@ -16,7 +16,7 @@ class Contacts:
     Attributes
     ----------
     pairs : int32 array, shape (contacts, 2)
-        i < j, or i = j for a sphere and its own image.
+        i < j, or i = j for a sphere and its own image. j = -1 - w for the wall of row w of System.walls().
     vectors : array, shape (contacts, d)
         Unit vectors from j to i.
     gaps : array, shape (contacts,)

@@ -42,7 +42,7 @@ class Converting(State, Network):
         """The contact network as a networkx.MultiGraph: two spheres of a small cell may touch through two images.
 
         Nodes have position, diameter and kind ('sphere', 'buckler' or 'rattler'), edges force, gap and vector (from j to i,
-        of unit length).
+        of unit length). A wall that is touched is a node below 0, -1 - w, of kind 'wall'.
 
         Examples
         --------
@@ -57,6 +57,7 @@ class Converting(State, Network):
         graph, contacts, kinds = networkx.MultiGraph(), self.contacts, self._kinds()
         for i, (x, size) in enumerate(zip(self.positions, self.diameters)):
             graph.add_node(i, position=tuple(x), diameter=float(size), kind=kinds[i])
+        graph.add_nodes_from((int(j) for j in contacts.pairs[:, 1] if j < 0), kind="wall")
         for (i, j), vector, gap, force in zip(contacts.pairs, contacts.vectors, contacts.gaps, contacts.forces):
             graph.add_edge(int(i), int(j), vector=tuple(vector), gap=float(gap), force=float(force))
         return graph

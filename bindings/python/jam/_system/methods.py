@@ -764,7 +764,7 @@ class Methods:
 
         Raises
         ------
-        ArgumentError, SolverError, MemoryError, BusyError
+        ArgumentError, SolverError, UnsupportedError, MemoryError, BusyError
         """
         answer: RigidityReport = self.call('rigidity', kind, progress=progress)
         return answer
@@ -876,7 +876,7 @@ class Methods:
         return answer
 
     def gaps(self, h_max: float, stable_only: bool) -> GapsResult:
-        """Gaps h of all pairs below h_max (every image), without contacts, ascending.
+        """Gaps h of pairs (every image) and walls below h_max, without contacts, ascending.
 
         Without stable_only rattlers count too and no network is needed.
 

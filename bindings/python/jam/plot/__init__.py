@@ -39,7 +39,8 @@ def summary(system: System) -> Any:
     packing(system, axes[0, 0])
     network(system, axes[0, 1])
     try:
-        crossing = system.bucklers[system.contacts.pairs].any(1)
+        pairs = system.contacts.pairs
+        crossing = (system.bucklers[pairs] & (pairs >= 0)).any(1)
         for chosen, label, slope, colour in (
             (~crossing, "extended forces", 1.42311, "#4c78a8"),
             (crossing, "forces at bucklers", 1.17462, "#f2a541"),

@@ -1,0 +1,288 @@
+"""Jammed packings in containers: densest known ones, and the verdict by another arithmetic than the library's.
+
+Walls, contacts, forces (HiGHS), rank (SVD) and curvature (differences of true distances) are computed here from positions.
+"""
+import unittest
+from math import pi, sin, sqrt
+
+import jam
+import numpy as np
+from jamming_oracle import support, vectors
+
+SCENES = {
+    "lines": {"dim": 2, "walls": "y", "cell": [2, 1]},
+    "box": {"dim": 2, "walls": "xy"},
+    "circle": {"dim": 2, "container": "ball"},
+    "slit": {"walls": "z", "cell": [1, 1, 1.3]},
+    "brick": {"walls": "xyz"},
+    "tube": {"container": "cylinder", "cell": [1, 1, 1.5]},
+    "can": {"container": "cylinder", "walls": "z"},
+    "ball": {"container": "ball"},
+}
+SYMMETRIES = {"lines": 1, "box": 0, "circle": 1, "slit": 2, "brick": 0, "tube": 2, "can": 1, "ball": 3}
+
+
+def start(name, n, seed, phi=0.15, **more):
+    sizes = {"diameters": 0.5 + 0.6 * (0.618 * np.arange(n) % 1)} if more.pop("unequal", False) else {}
+    return jam.System.random(n=n, seed=seed, packing_fraction=phi, **sizes, **SCENES[name], **more)
+
+
+def wall_distances(name, x, edges):
+    """(n, walls) distances, (n, walls, d) directions away from each wall: flat ones axis by axis, then the round one."""
+    scene, d = SCENES[name], x.shape[1]
+    letters, kind = scene.get("walls", ""), scene.get("container")
+    distance, normal = [], []
+    for letter in letters:
+        c = "xyz".index(letter)
+        for side in (0, 1):
+            distance.append(edges[c] - x[:, c] if side else x[:, c])
+            normal.append(np.tile((1 - 2 * side) * np.eye(d)[c], (len(x), 1)))
+    if kind:
+        flat = x - edges / 2
+        flat[:, (2 if kind == "cylinder" else d) :] = 0
+        r = np.linalg.norm(flat, axis=1)
+        distance.append(edges[0] / 2 - r)
+        normal.append(-flat / np.maximum(r, 1e-300)[:, None])
+    return np.array(distance).T, np.array(normal).transpose(1, 0, 2)
+
+
+def open_cell(name, edges):
+    """Lattice vectors of the axes that repeat; far apart along walls."""
+    kind, letters, d = SCENES[name].get("container"), SCENES[name].get("walls", ""), len(edges)
+    closed = [("xyz"[c] in letters) or kind == "ball" or (kind == "cylinder" and c < 2) for c in range(d)]
+    return np.diag(np.where(closed, 1e3, edges))
+
+
+def all_gaps(name, s):
+    """(h, i, j, n, distance) of all near pairs and walls."""
+    x, sigma, edges = s.positions, s.diameters, np.diag(s.cell)
+    found = []
+    for i, j, r in vectors(x, open_cell(name, edges), 1):
+        length = np.linalg.norm(r)
+        if i != j and length < 2 * sigma.max():
+            found.append((2 * length / (sigma[i] + sigma[j]) - 1, i, j, r / length, length))
+    distance, normal = wall_distances(name, x, edges)
+    for i, w in np.ndindex(distance.shape):
+        found.append((2 * distance[i, w] / sigma[i] - 1, i, -1 - w, normal[i, w], distance[i, w]))
+    return found
+
+
+def oracle(name, s, tolerance=1e-10):
+    """Contacts with force, flexes beyond the symmetries of the scene, least curvature against them."""
+    n, d = s.positions.shape
+    found = [g for g in all_gaps(name, s) if g[0] < tolerance]
+    rows = np.zeros((len(found), n * d))
+    for k, (_, i, j, u, _) in enumerate(found):
+        rows[k, i * d : i * d + d] += u
+        if j >= 0:
+            rows[k, j * d : j * d + d] -= u
+    on = support(rows, None, d)
+    spheres = sorted({q for k in np.flatnonzero(on) for q in found[k][1:3] if q >= 0})
+    columns = np.concatenate([np.arange(b * d, b * d + d) for b in spheres])
+    kept = rows[np.ix_(on, columns)]
+    values, right = np.linalg.svd(kept)[1:]
+    rank = int((values > 1e-6 * values[0]).sum())
+    null = right[rank:]
+    force = np.linalg.svd(kept.T)[2][-1]
+    return {"on": {tuple(found[k][1:3]) for k in np.flatnonzero(on)}, "spheres": spheres, "null": null, "states": len(kept) - rank,
+            "force": force / force.mean(), "found": [found[k] for k in np.flatnonzero(on)]}
+
+
+def largest_growth(name, s, x):
+    """Factor by which the diameters may be multiplied with the spheres at x."""
+    edges, sigma = np.diag(s.cell), s.diameters
+    least = np.inf
+    for i, j, r in vectors(x, open_cell(name, edges), 1):
+        if i != j:
+            least = min(least, 2 * np.linalg.norm(r) / (sigma[i] + sigma[j]))
+    return min(least, (2 * wall_distances(name, x, edges)[0] / sigma[:, None]).min())
+
+
+class Verdicts(unittest.TestCase):
+    def test_contacts_forces_and_rank_agree_with_another_arithmetic(self):
+        for name, symmetries in SYMMETRIES.items():
+            for seed in (1, 2):
+                with self.subTest(name, seed=seed):
+                    n = 30
+                    s = start(name, n, seed, unequal=True)
+                    r = s.crunch()
+                    self.assertTrue(r.jammed)
+                    gaps = np.array([g[0] for g in all_gaps(name, s)])
+                    self.assertGreater(gaps.min(), -1e-13)
+                    told = oracle(name, s)
+                    pairs = {tuple(p) for p in s.contacts.pairs}
+                    self.assertEqual(told["on"], pairs)
+                    self.assertEqual((len(pairs), len(told["spheres"])), (r.contacts, r.stable))
+                    self.assertEqual(r.isostatic_contacts, s.dim * r.stable - symmetries + 1)
+                    self.assertEqual(told["states"], 1 + r.excess_contacts + len(told["null"]) - symmetries)
+                    self.assertEqual(len(told["null"]) - symmetries, r.flexes)
+                    self.assertEqual(np.flatnonzero(s.rattlers).tolist(), [i for i in range(n) if i not in told["spheres"]])
+                    if told["states"] == 1:
+                        by_pair = {p[1:3]: f for p, f in zip(told["found"], told["force"])}
+                        np.testing.assert_allclose([by_pair[tuple(p)] for p in s.contacts.pairs], s.forces, atol=1e-8)
+                    np.testing.assert_array_equal(s.rigidity().jammed, 1)
+                    np.testing.assert_array_equal(s.check().jammed, 1)
+
+    def test_no_motion_lets_the_diameters_grow(self):
+        random = np.random.default_rng(1)
+        for name in SCENES:
+            s = start(name, 8, 3, unequal=True)
+            self.assertTrue(s.crunch().jammed, name)
+            self.assertAlmostEqual(largest_growth(name, s, s.positions), 1, 12)
+            for length in (1e-2, 1e-3, 1e-4):
+                for _ in range(50):
+                    v = random.normal(size=s.positions.shape)
+                    self.assertLess(largest_growth(name, s, s.positions + length * v / np.abs(v).max()), 1 + 1e-12, name)
+
+    def test_forces_balance_on_spheres_and_on_walls(self):
+        for name in SCENES:
+            s = start(name, 40, 5, unequal=True)
+            s.crunch()
+            c, f = s.contacts, s.forces
+            net = np.zeros_like(s.positions)
+            wall = c.pairs[:, 1] < 0
+            push = f[:, None] * c.vectors
+            np.add.at(net, c.pairs[:, 0], push)
+            np.add.at(net, c.pairs[~wall, 1], -push[~wall])
+            self.assertLess(np.abs(net).max(), 1e-12, name)
+            np.testing.assert_allclose(push[wall].sum(0), 0, atol=1e-11)
+            count = np.bincount(c.pairs[:, 0], minlength=s.n) + np.bincount(c.pairs[~wall, 1], minlength=s.n)
+            np.testing.assert_array_equal(count, s.coordination)
+            spheres = s.coordination - np.bincount(c.pairs[wall, 0], minlength=s.n)
+            stable = ~np.asarray(s.rattlers, bool)
+            np.testing.assert_array_equal(s.near_coordination(1e-9)[stable], spheres[stable])
+            # The virial of a closed container: sum of f r over pairs = sum over walls of f times the distance of the touched
+            # point from the centre, less the radius, along the normal.
+            if name in ("box", "circle", "brick", "can", "ball"):
+                centre = s.positions - np.diag(s.cell) / 2
+                outward = -(push[wall] * centre[c.pairs[wall, 0]]).sum()
+                i, j = c.pairs[~wall].T
+                inside = (f[~wall] * (s.diameters[i] + s.diameters[j]) / 2).sum()
+                self.assertAlmostEqual(outward / inside, 1, 11)
+
+
+class Densest(unittest.TestCase):
+    """Best of many starts against published optima (R. L. Graham et al., Discrete Math. 181, 139 (1998) for disks)."""
+
+    def best(self, name, n, seeds, phi):
+        ratios = []
+        for seed in range(1, seeds + 1):
+            s = start(name, n, seed, phi)
+            s.crunch()
+            ratios.append(s.cell[0, 0] / s.diameters[0])
+        return min(ratios)
+
+    def test_disks_in_a_circle(self):
+        known = {2: 2, 3: 1 + 2 / sqrt(3), 4: 1 + sqrt(2), 5: 1 + sqrt(2 + 2 / sqrt(5)), 6: 3, 7: 3, 8: 1 + 1 / sin(pi / 7),
+                 9: 1 + sqrt(4 + 2 * sqrt(2)), 11: 1 + 1 / sin(pi / 9), 13: 2 + sqrt(5), 19: 1 + sqrt(2) + sqrt(6)}
+        for n, ratio in known.items():
+            self.assertAlmostEqual(self.best("circle", n, 16, 0.15), ratio, 12, n)
+        for n, radius in {10: 0.262258924190, 12: 0.248163470572}.items():  # of the disks in a unit circle
+            self.assertAlmostEqual(1 / self.best("circle", n, 16, 0.15), radius, 11, n)
+
+    def test_spheres_in_a_ball(self):
+        known = {2: 2, 3: 1 + 2 / sqrt(3), 4: 1 + sqrt(1.5), 5: 1 + sqrt(2), 6: 1 + sqrt(2), 9: 1 + sqrt(3), 12: 1 + sqrt((5 + sqrt(5)) / 2)}
+        for n, ratio in known.items():
+            self.assertAlmostEqual(self.best("ball", n, 8, 0.05), ratio, 12, n)
+
+    def test_zigzags_in_a_channel_and_a_tube(self):
+        # Neighbours touch, and each its wall: d^2 = (L / n)^2 + (D - d)^2.
+        for name, dim in (("lines", 2), ("tube", 3)):
+            for n, length in ((4, 3.0), (6, 4.0), (8, 6.5)):
+                found = 0
+                for seed in range(1, 9):
+                    s = jam.System.random(n=n, seed=seed, packing_fraction=0.1, **{**SCENES[name], "cell": ([length, 1], [1, 1, length])[dim - 2]})
+                    r = s.crunch()
+                    found += r.jammed and abs(s.diameters[0] / (((length / n) ** 2 + 1) / 2) - 1) < 1e-12
+                    if name == "tube" and r.jammed:  # two contacts a sphere: the curvature of the wall holds the rest
+                        self.assertGreater(r.flexes, 0)
+                self.assertGreater(found, 0, (name, n))
+
+
+class Curvature(unittest.TestCase):
+    def test_flexes_that_a_round_wall_holds_close_contacts(self):
+        for name, n, phi in (("circle", 2, 0.1), ("ball", 2, 0.05), ("ball", 3, 0.05), ("tube", 4, 0.05)):
+            s = jam.System.random(n=n, seed=2, packing_fraction=phi, **{**SCENES[name], **({"cell": [1, 1, 3]} if name == "tube" else {})})
+            r = s.crunch()
+            told = oracle(name, s)
+            self.assertTrue(r.jammed and r.flexes > 0 and r.excess_contacts < 0)
+            self.assertEqual(told["states"], 1)
+            d, step = s.dim, 1e-4
+            index = {tuple(g[1:3]): k for k, g in enumerate(told["found"])}
+
+            def load(u):
+                x = s.positions.copy()
+                x[told["spheres"]] += step * u.reshape(-1, d)
+                distance = wall_distances(name, x, np.diag(s.cell))[0]
+                total = 0.0
+                for (i, j), k in index.items():
+                    if j < 0:
+                        total += told["force"][k] * distance[i, -1 - j]
+                    else:
+                        r = x[i] - x[j]
+                        cell = open_cell(name, np.diag(s.cell))
+                        r = r - np.diag(cell) * np.round(r / np.diag(cell))
+                        total += told["force"][k] * np.linalg.norm(r)
+                return total
+
+            null = told["null"]
+            form = np.zeros((len(null), len(null)))
+            for a, b in np.ndindex(form.shape):
+                u, v = null[a], null[b]
+                form[a, b] = (load(u + v) + load(-u - v) - load(u - v) - load(v - u)) / (4 * step**2)
+            held = np.linalg.eigvalsh(form)
+            self.assertLess(held.max(), 1e-4)  # flat along the symmetries alone
+            self.assertEqual((held < -1e-3).sum(), r.flexes)
+
+    def test_hessian_has_the_curvature_of_the_wall(self):
+        for name in ("circle", "tube", "ball"):
+            s = start(name, 20, 2, unequal=True)
+            s.crunch()
+            spheres, (c, f) = s.hessian_map(), (s.contacts, s.forces)
+            u = np.random.default_rng(3).normal(size=(len(spheres), s.dim))
+            edges, cell, step, t = np.diag(s.cell), np.diag(open_cell(name, np.diag(s.cell))), 1e-4, 0.5
+
+            def lengths(step):
+                x = s.positions.copy()
+                x[spheres] += step * u
+                i, j = c.pairs.T
+                r = x[i] - x[np.maximum(j, 0)]
+                r = np.linalg.norm(r - cell * np.round(r / cell), axis=1)
+                walls = wall_distances(name, x, edges)[0]
+                return np.where(j < 0, walls[i, np.where(j < 0, -1 - j, 0)], r)
+
+            bend = (lengths(step) + lengths(-step) - 2 * lengths(0)) / step**2
+            plain, stressed = (s.hessian(prestress=p) for p in (0.0, t))
+            flat = u.ravel()
+            expected = -t * s.diameters.mean() * (f * bend).sum()
+            got = flat @ (stressed @ flat) - flat @ (plain @ flat)
+            self.assertAlmostEqual(got / expected, 1, 4)
+            self.assertAlmostEqual(s.curvature(u, prestress=t) / (flat @ (stressed @ flat)), 1, 10)
+            slope = (lengths(step) - lengths(-step)) / (2 * step)
+            self.assertAlmostEqual((slope**2).sum() / (flat @ (plain @ flat)), 1, 5)
+            rotation = s.positions[spheres] - edges / 2  # about z, or in the plane
+            rotation = np.stack([-rotation[:, 1], rotation[:, 0]] + [0 * rotation[:, 0]] * (s.dim - 2), axis=1).ravel()
+            self.assertLess(np.abs(stressed @ rotation).max(), 1e-11)
+            self.assertGreater(s.modes(k=3).values[0], 1e-7)  # the rotation is none of them
+
+
+class Steps(unittest.TestCase):
+    def test_no_step_leaves_a_round_wall(self):
+        for name in ("circle", "tube", "ball"):
+            for method in ("sequential_lp", "barrier_path"):
+                s = start(name, 12, 4)
+                x, phi, moves = s.positions.copy(), s.packing_fraction, []
+                s.crunch(method=method, on_step=lambda step, moves=moves: moves.append(step.displacements.copy()))
+                steps, edges = s.history["phi"], np.diag(s.cell)
+                self.assertEqual(len(moves), len(steps))
+                for move, now in zip(moves, steps):
+                    x += move
+                    factor = (now / s.packing_fraction) ** (1 / s.dim)  # diameters over those of the end
+                    self.assertGreater(largest_growth(name, s, x) / factor, 1 - 1e-12, (name, method))
+                self.assertLess(np.abs(np.mod(x - s.positions + edges / 2, edges) - edges / 2).max(), 1e-9)
+                if method == "sequential_lp":  # diameters never shrink
+                    self.assertGreater(np.diff(np.concatenate([[phi], steps])).min(), -1e-13)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -16,8 +16,8 @@ enum class Stream : uint64_t {
   analysis_start = 4,
   run_velocities = 21,  // isoconfigurational runs
   monte_carlo = 22,
-  coincident = 23,  // directions in which soft spheres at one centre part
-  sizes = 24,       // of jam_diameters
+  coincident = 23,   // directions in which soft spheres at one centre part
+  sizes = 24,        // of jam_diameters
   pore_points = 25,  // of jam_pore_sizes
 };
 

@@ -139,6 +139,15 @@ def strict(raw):
     return ["d", "N", "fixed cell: factorisations", "fixed cell (s)", "free cell: factorisations", "free cell (s)", "ratio of times", "gain of packing fraction", "strictly jammed"], rows  # fmt: skip
 
 
+def ratios(raw):
+    """ratios.py --n 2000"""
+    rows = [
+        [r["d"], int(r["ratio"]), r["large"], r["volume_of_large"], r["growth_seconds"], r["rate"] / 1e6, r["crunch_seconds"], r["factorisations"], r["contacts"], "yes" if r["jammed"] else "no"]  # fmt: skip
+        for r in raw
+    ]
+    return ["d", "ratio", "large of 2000", "share of volume", "growth (s)", "million collisions per second", "crunch (s)", "factorisations", "contacts", "jammed"], rows  # fmt: skip
+
+
 def md(raw):
     """md_speed"""
     rows = []
@@ -263,7 +272,7 @@ def read(path):
 
 def main():
     name, raws = sys.argv[1], [read(path) for path in sys.argv[2:]]
-    made = {f.__name__: f for f in (crunch, size, clp, resume, disks, proofs, strict, md, monte_carlo, near_jamming, soft_cell, pore_space, advise, analysis, factorisation, ablation)}[name]
+    made = {f.__name__: f for f in (crunch, size, clp, resume, disks, proofs, strict, md, monte_carlo, near_jamming, soft_cell, pore_space, advise, analysis, factorisation, ablation, ratios)}[name]
     columns, rows = made(*raws)
     old = raws[0] if isinstance(raws[0], dict) and "commit" in raws[0] else None  # a result that was kept with its source
     source = old and {key: old[key] for key in ("machine", "commit", "date")}

@@ -274,8 +274,8 @@ contains
 
   ! Writes one HTML file that shows the packing in a browser without a network: spheres and forces to turn and to slice,
   ! numbers of each sphere, certificate and distributions. After a crunch with keep_steps it has a slider over its steps.
-  ! title: its heading, or "". small: the picture alone. values: numbers to colour spheres by, or NULL; names: k names,
-  ! one a line, or "".
+  ! title: its heading, or "". small: the picture alone. values: rows to colour spheres by, or NULL; names: one a line or
+  ! ""; a name that ends in [] has d rows, a motion to animate.
   ! Shapes: values (k, n).
   ! Errors: JAM_E_IO.
   subroutine do_write_page(self, path, title, small, names, values)

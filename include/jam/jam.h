@@ -507,8 +507,8 @@ typedef enum jam_contact_format {
 JAM_API jam_status jam_write_contacts(const jam_system *sys, const char *path, int32_t format);
 /* Writes one HTML file that shows the packing in a browser without a network: spheres and forces to turn and to slice,
  * numbers of each sphere, certificate and distributions. After a crunch with keep_steps it has a slider over its steps.
- * title: its heading, or "". small: the picture alone. values: numbers to colour spheres by, or NULL; names: k names,
- * one a line, or "". @shape values (k, n) @bool small @errors IO */
+ * title: its heading, or "". small: the picture alone. values: rows to colour spheres by, or NULL; names: one a line or
+ * ""; a name that ends in [] has d rows, a motion to animate. @shape values (k, n) @bool small @errors IO */
 JAM_API jam_status jam_write_page(const jam_system *sys, const char *path, const char *title, int32_t small,
                                   const char *names, const double *values, size_t values_len);
 

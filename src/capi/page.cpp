@@ -21,12 +21,24 @@ void take_columns(const jam_system *sys, const char *names, const double *values
     name.emplace_back(from, length);
     from += length + (from[length] == '\n');
   }
-  if (name.size() * n != len)
-    fail(JAM_E_ARGUMENT, "values has %zu numbers, %zu names of %zu spheres need %zu", len, name.size(), n,
-         name.size() * n);
+  const auto is_motion = [](const std::string &text) {
+    return text.size() > 2 && text.substr(text.size() - 2) == "[]";
+  };
+  size_t rows = 0;
+  for (const std::string &text : name) rows += is_motion(text) ? static_cast<size_t>(sys->packing.dim) : 1;
+  if (rows * n != len)
+    fail(JAM_E_ARGUMENT, "values has %zu numbers, %zu names of %zu spheres need %zu", len, name.size(), n, rows * n);
   for (size_t k = 0; k < len; ++k)
     if (!std::isfinite(values[k])) fail(JAM_E_NONFINITE, "values[%zu] is %g", k, values[k]);
-  for (size_t k = 0; k < name.size(); ++k) content.columns.emplace_back(name[k], values + k * n);
+  for (const std::string &text : name) {
+    if (is_motion(text)) {
+      content.motions.emplace_back(text.substr(0, text.size() - 2), values);
+      values += static_cast<size_t>(sys->packing.dim) * n;
+    } else {
+      content.columns.emplace_back(text, values);
+      values += n;
+    }
+  }
 }
 
 // What the slider shows of the step that led to a state: the start has no row.
@@ -73,7 +85,6 @@ extern "C" jam_status jam_write_page(const jam_system *sys, const char *path, co
     need(title, "title");
     need(names, "names");
     check_flag(small, "small");
-    refuse_walls(sys->packing, "drawn on a page");
     PageContent content{sys->packing};
     content.title = title;
     content.small = small;

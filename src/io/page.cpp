@@ -164,6 +164,16 @@ void put_cell(std::string &out, const Cell &cell) {
   out += "]";
 }
 
+// What encloses the spheres: its shape, and on which axes there are flat walls.
+void put_container(std::string &out, const Packing &p) {
+  out += std::string(",\n\"container\": \"") + p.container.word() + "\", \"walls\": [";
+  for (int c = 0; c < p.dim; ++c) {
+    if (c) out += ", ";
+    out += p.container.flat() >> c & 1 ? "true" : "false";
+  }
+  out += "]";
+}
+
 void put_steps(OutputFile &file, const std::vector<PageStep> &steps) {
   std::string &out = file.text();
   out += ",\n\"steps\": [";
@@ -204,6 +214,8 @@ void write_page(const PageContent &content, const char *path) {
   put_number(out, packing_fraction(p));
   out += ",\n\"cell\": ";
   put_cell(out, p.cell);
+  put_container(out, p);
+  out += std::string(", \"shifted\": ") + (p.model == JAM_MODEL_MK ? "true" : "false");
   out += ",\n\"position\": ";
   put_numbers(file, p.position.data(), p.position.size());
   out += ",\n\"diameter\": ";
@@ -224,6 +236,15 @@ void write_page(const PageContent &content, const char *path) {
     put_string(out, content.columns[k].first);
     out += ", \"values\": ";
     put_numbers(file, content.columns[k].second, p.n());
+    out += "}";
+  }
+  out += "],\n\"motions\": [";
+  for (size_t k = 0; k < content.motions.size(); ++k) {
+    out += k ? ", {\"name\": " : "{\"name\": ";
+    put_string(out, content.motions[k].first);
+    out += ", \"rows\": ";
+    const double *from = content.motions[k].second;
+    put_as<float>(file, std::vector<double>(from, from + static_cast<size_t>(p.dim) * p.n()));
     out += "}";
   }
   out += "]}";

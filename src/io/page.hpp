@@ -37,6 +37,7 @@ struct PageContent {
   std::string title{};
   bool small = false;                                             // the picture alone
   std::vector<std::pair<std::string, const double *>> columns{};  // name and n values that spheres can be coloured by
+  std::vector<std::pair<std::string, const double *>> motions{};  // name and displacements: d rows of n numbers
 };
 
 void write_page(const PageContent &content, const char *path);

@@ -77,12 +77,13 @@ def store():
     print(f"{STORED}: {STORED.stat().st_size} bytes. Look at it.")
 
 
-class Page(unittest.TestCase):
+class PageTest(unittest.TestCase):
+    """A browser, and the page of a packing in it without a word on the console."""
+
     @classmethod
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory()
         cls.path = Path(cls.folder.name)
-        cls.disks = disks()
         cls.page = browser.Browser(1200, 800)
 
     @classmethod
@@ -105,6 +106,13 @@ class Page(unittest.TestCase):
             f"(() => {{ const o = onCanvas(scene.owner.indexOf({i}), viewNow());" " return [o.u, o.v, o.pixels]; })()"
         )
         return found
+
+
+class Page(PageTest):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.disks = disks()
 
     def covered(self):
         """The share of the cell's picture that is not background."""

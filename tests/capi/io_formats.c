@@ -104,6 +104,12 @@ static void page_holds_its_data_and_nothing_else(void **state) {
   assert_null(strstr(text, "http"));
   assert_memory_equal(text + size - 8, "</html>\n", 8);
   free(text);
+  assert_int_equal(jam_write_page(sys, in_scratch("a.html"), "", 0, "a[]", values, 120), JAM_OK); /* d rows */
+  text = get_bytes(in_scratch("a.html"), &size);
+  assert_non_null(strstr(text, "\"values\": [],\n\"motions\": [{\"name\": \"a\", \"rows\": \""));
+  free(text);
+  assert_int_equal(jam_write_page(sys, in_scratch("b.html"), "", 0, "a[]", values, 60), JAM_E_ARGUMENT);
+  assert_non_null(strstr(jam_last_error(), "1 names of 60 spheres need 120"));
   assert_int_equal(jam_write_page(sys, in_scratch("b.html"), "", 0, "a", values, 120), JAM_E_ARGUMENT);
   assert_non_null(strstr(jam_last_error(), "1 names of 60 spheres need 60"));
   assert_int_equal(jam_write_page(sys, in_scratch("b.html"), "", 2, "", NULL, 0), JAM_E_ARGUMENT);

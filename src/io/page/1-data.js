@@ -10,7 +10,8 @@ function numbers(text, Type) {
 const dim = data.dim, n = data.n;
 const endPosition = numbers(data.position, Float64Array), diameter = numbers(data.diameter, Float64Array);
 const isCube = (a) => a.every((row, r) => row.every((x, c) => (r === c ? x === a[0][0] : x === 0)));
-// What is shown: the packing itself, or a state of the crunch that led to it, whose diameters are smaller by one factor.
+// What is shown: the packing itself, or a state of the crunch that led to it, whose diameters are smaller by one
+// factor.
 let cell = data.cell, cube = isCube(cell), position = endPosition, growth = 1;
 const radius = (i) => 0.5 * growth * diameter[diameter.length > 1 ? i : 0];
 let meanDiameter = 0;
@@ -27,6 +28,7 @@ const contactCount = network ? network.force.length : 0;
 const coordination = new Int32Array(n), load = new Float64Array(n), contactsOf = new Map();
 for (let k = 0; k < contactCount; ++k)
   for (const end of [network.pair[2 * k], network.pair[2 * k + 1]]) {
+    if (end < 0) continue; // -1 - w: the wall w
     ++coordination[end];
     load[end] += network.force[k];
   }
@@ -50,6 +52,11 @@ for (const own of data.values) {
   quantities.push({ name: own.name, of: (i) => list[i] });
 }
 
+// Displacements that are shown as an oscillation about the packing: d rows of n numbers.
+const motions = data.motions.map((m) => ({ name: m.name, rows: numbers(m.rows, Float32Array) }));
+// Axes on which nothing repeats: between flat walls, or inside a round one.
+const closed = cell.map((_, c) => data.walls[c] || c < { brick: 0, cylinder: 2, ball: dim }[data.container]);
+
 function shownNumber(x, digits = 6) {
   if (x === null || x === undefined || Number.isNaN(x)) return "–";
   if (Number.isInteger(x) && Math.abs(x) < 1e9) return String(x);
@@ -69,9 +76,14 @@ function contacts(i) {
   return contactsOf.get(i);
 }
 
+// Both scales grow darker or lighter all the way, so that they keep their order for every kind of colour vision and in
+// grey.
+const FORCES = [[254, 200, 140], [241, 96, 93], [158, 47, 127], [45, 17, 96]];
 const VIRIDIS = [[68, 1, 84], [71, 44, 122], [59, 81, 139], [44, 113, 142], [33, 144, 141], [39, 173, 129],
   [92, 200, 99], [170, 220, 50], [253, 231, 37]];
-function viridis(t) {
-  const x = Math.min(Math.max(t, 0), 1) * (VIRIDIS.length - 1), k = Math.min(Math.floor(x), VIRIDIS.length - 2);
-  return VIRIDIS[k].map((c, m) => Math.round(c + (x - k) * (VIRIDIS[k + 1][m] - c)));
+function tone(scale, t) {
+  const x = Math.min(Math.max(t, 0), 1) * (scale.length - 1), k = Math.min(Math.floor(x), scale.length - 2);
+  return scale[k].map((c, m) => Math.round(c + (x - k) * (scale[k + 1][m] - c)));
 }
+const viridis = (t) => tone(VIRIDIS, t);
+const STRONG = 3; // mean forces: from here on the darkest colour

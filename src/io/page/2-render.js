@@ -5,7 +5,8 @@
 const WIDE = 2048; // of the textures; every device has room for that
 const RECTANGLE = `#version 300 es
 precision highp float; precision highp sampler2D;
-uniform sampler2D start, tint, stop;
+uniform sampler2D start, tint, stop, move, moveStop;
+uniform float phase; // of the oscillation; 0: the packing itself
 const vec2 corners[6] = vec2[6](vec2(-1, -1), vec2(1, -1), vec2(-1, 1), vec2(-1, 1), vec2(1, -1), vec2(1, 1));
 ivec2 row() { return ivec2(gl_VertexID / 6 % ${WIDE}, gl_VertexID / 6 / ${WIDE}); }`;
 const SPHERE_VERTEX = RECTANGLE + `
@@ -14,7 +15,8 @@ out vec2 at; out vec3 shade; out float z, r;
 void main() {
   vec4 sphere = texelFetch(start, row(), 0);   // centre and radius
   vec2 corner = corners[gl_VertexID % 6];
-  vec3 c = turn * sphere.xyz;
+  vec3 away = phase == 0.0 ? vec3(0) : phase * texelFetch(move, row(), 0).xyz;
+  vec3 c = turn * (sphere.xyz + away);
   at = corner; r = sphere.w; z = c.z; shade = texelFetch(tint, row(), 0).rgb;
   gl_Position = vec4((c.xy + corner * r + shift) * scale, -c.z / depth, 1.0);
 }`;
@@ -39,7 +41,12 @@ out float across, z, r; out vec3 shade;
 void main() {
   vec4 first = texelFetch(start, row(), 0);   // one end and the radius
   vec2 corner = corners[gl_VertexID % 6];
-  vec3 a = turn * first.xyz, b = turn * texelFetch(stop, row(), 0).xyz;
+  vec3 from = vec3(0), to = vec3(0);
+  if (phase != 0.0) {
+    from = phase * texelFetch(move, row(), 0).xyz;
+    to = phase * texelFetch(moveStop, row(), 0).xyz;
+  }
+  vec3 a = turn * (first.xyz + from), b = turn * (texelFetch(stop, row(), 0).xyz + to);
   vec2 along = b.xy - a.xy;
   float size = length(along);
   vec2 side = size > 1e-9 ? vec2(-along.y, along.x) / size : vec2(1.0, 0.0);
@@ -85,11 +92,12 @@ function makeRenderer(canvas) {
       gl.bindTexture(gl.TEXTURE_2D, textures[name]);
       gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.NEAREST);
       gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MAG_FILTER, gl.NEAREST);
+      gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA32F, 1, 1, 0, gl.RGBA, gl.FLOAT, new Float32Array(4));
     }
     return { program, textures, count: 0, at: (name) => gl.getUniformLocation(program, name) };
   };
-  const spheres = shape(SPHERE_VERTEX, SPHERE_FRAGMENT, ["start", "tint"]);
-  const sticks = shape(STICK_VERTEX, STICK_FRAGMENT, ["start", "tint", "stop"]);
+  const spheres = shape(SPHERE_VERTEX, SPHERE_FRAGMENT, ["start", "tint", "move"]);
+  const sticks = shape(STICK_VERTEX, STICK_FRAGMENT, ["start", "tint", "stop", "move", "moveStop"]);
   gl.bindVertexArray(gl.createVertexArray());
   const fill = (kind, arrays, count) => {
     const high = Math.max(1, Math.ceil(count / WIDE));
@@ -103,7 +111,8 @@ function makeRenderer(canvas) {
     kind.count = count;
   };
 
-  function draw(view) {
+  // share: of each kind, the first instances; phase: of the oscillation.
+  function draw(view, share = 1, phase = 0) {
     const { width, height } = canvas;
     gl.viewport(0, 0, width, height);
     gl.clearColor(0.965, 0.969, 0.976, 1);
@@ -124,12 +133,15 @@ function makeRenderer(canvas) {
         gl.bindTexture(gl.TEXTURE_2D, kind.textures[name]);
         gl.uniform1i(kind.at(name), unit);
       });
-      gl.drawArrays(gl.TRIANGLES, 0, 6 * kind.count);
+      gl.uniform1f(kind.at("phase"), phase);
+      gl.drawArrays(gl.TRIANGLES, 0, 6 * Math.ceil(kind.count * share));
     }
   }
+  const pixel = new Uint8Array(4);
   return {
-    spheres: (start, tint, count) => fill(spheres, { start, tint }, count),
-    sticks: (start, stop, tint, count) => fill(sticks, { start, stop, tint }, count),
+    spheres: (arrays, count) => fill(spheres, arrays, count),
+    sticks: (arrays, count) => fill(sticks, arrays, count),
     draw,
+    finish: () => gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel), // waits until all is drawn
   };
 }

@@ -4,9 +4,11 @@ const state = {
   hidden: cell.map((row, c) => 0.5 * row[c]), // d > 3: where the slice lies along the others
   whole: false, // d > 3: project all spheres instead of a slice
   colour: 0, size: 1, forces: network && dim === 2 ? 1 : 0, width: 1, threshold: 0, images: false, box: true,
-  names: false, step: data.steps ? data.steps.length - 1 : 0, slab: -1, slabAt: 0.5, slabThick: 0.3, hide: new Set(), chosen: -1,
+  forceColours: true, gap: 0, motion: -1, names: false, step: data.steps ? data.steps.length - 1 : 0,
+  slab: -1, slabAt: 0.5, slabThick: 0.3, hide: new Set(), chosen: -1,
 };
 const THICK = dim === 2 ? 0.055 : 0.03; // radius of a mean force over the mean diameter
+const THIN_FROM = 2000; // instances: fewer are never thinned out
 const MARGIN = 0.15; // of the cell: how far periodic images are drawn beyond it
 
 // Cell vectors on the shown axes, (3, 3); d = 2 gets a third axis without extent.
@@ -40,7 +42,7 @@ function cutRadius(i) {
   for (let c = 0; c < dim; ++c) {
     if (state.axes.includes(c)) continue;
     let d = position[i * dim + c] - state.hidden[c];
-    d -= Math.round(d / cell[c][c]) * cell[c][c];
+    if (!closed[c]) d -= Math.round(d / cell[c][c]) * cell[c][c];
     left -= d * d;
   }
   return left > 0 ? Math.sqrt(left) : 0;
@@ -69,7 +71,7 @@ function tints() {
 function shifts() {
   const a = shownCell(), list = [[0, 0, 0]];
   if (!state.images) return list;
-  const span = (c) => (c < state.axes.length ? [-1, 0, 1] : [0]);
+  const span = (c) => (c < state.axes.length && !closed[state.axes[c]] ? [-1, 0, 1] : [0]);
   for (const i of span(0)) for (const j of span(1)) for (const k of span(2))
     if (i || j || k) list.push([0, 1, 2].map((c) => i * a[0][c] + j * a[1][c] + k * a[2][c]));
   return list;
@@ -82,7 +84,32 @@ function inMargin(x) {
   });
 }
 
-const scene = { sphere: null, owner: null, count: 0, sticks: 0, tint: null };
+const scene = { sphere: null, colours: null, owner: null, count: 0, sticks: 0, stick: null, tint: null };
+
+// Shown components of the displacement of sphere i in the chosen motion, in the unit of the cell.
+function movement(i) {
+  if (state.motion < 0 || i < 0) return [0, 0, 0];
+  const { rows } = motions[state.motion];
+  return [0, 1, 2].map((c) => (c < state.axes.length ? rows[state.axes[c] * n + i] : 0));
+}
+
+// Places of the instances in the order in which a thinned picture takes them: from the outside in, where they hide the
+// others; disks in a scattered order.
+function drawingOrder(all, count) {
+  const order = Array.from({ length: count }, (_, k) => k);
+  if (count < THIN_FROM) return order;
+  const key = new Float64Array(count), low = [0, 1, 2].map(() => Infinity), high = low.map(() => -Infinity);
+  for (let k = 0; k < count; ++k)
+    for (let c = 0; c < 3; ++c) {
+      const x = all[4 * k + c];
+      [low[c], high[c]] = [Math.min(low[c], x), Math.max(high[c], x)];
+    }
+  for (let k = 0; k < count; ++k) {
+    if (dim === 2) key[k] = (k * 2654435761) % 4294967296;
+    else key[k] = Math.min(...[0, 1, 2].map((c) => Math.min(all[4 * k + c] - low[c], high[c] - all[4 * k + c])));
+  }
+  return order.sort((a, b) => key[a] - key[b]);
+}
 
 function build(renderer) {
   const tint = tints(), all = [], owner = [], colours = [], visible = new Uint8Array(n), where = new Array(n);
@@ -103,39 +130,60 @@ function build(renderer) {
       colours.push(...c.map((v) => Math.round(v + pale * (255 - v))), 255);
       owner.push(i);
     }
-  scene.sphere = new Float32Array(all);
-  scene.owner = owner;
   scene.count = owner.length;
+  const order = drawingOrder(all, scene.count), four = (list, Type) => {
+    const made = new Type(4 * scene.count);
+    order.forEach((k, at) => { for (let c = 0; c < 4; ++c) made[4 * at + c] = list[4 * k + c]; });
+    return made;
+  };
+  scene.owner = order.map((k) => owner[k]);
+  scene.sphere = four(all, Float32Array);
+  scene.colours = four(colours, Uint8Array);
   scene.tint = tint;
-  renderer.spheres(scene.sphere, new Uint8Array(colours), scene.count);
+  const arrays = { start: scene.sphere, tint: scene.colours };
+  if (state.motion >= 0) arrays.move = new Float32Array(scene.owner.flatMap((i) => [...movement(i), 0]));
+  renderer.spheres(arrays, scene.count);
   buildSticks(renderer, where, visible, moved);
 }
 
-// Each contact as two half lines from the centres, so that none crosses the cell; and the edges of the cell.
+// Each contact, and each pair with a small gap, as two half lines from the centres, so that none crosses the cell; and
+// the container or the edges of the cell.
 function buildSticks(renderer, where, visible, moved) {
-  const start = [], stop = [], colours = [];
-  const stick = (a, b, r, c) => {
+  const start = [], stop = [], colours = [], move = [], moveStop = [], still = [0, 0, 0];
+  const stick = (a, b, r, c, from = still, to = still) => {
     start.push(a[0], a[1], a[2], r);
     stop.push(b[0], b[1], b[2], 0);
     colours.push(...c, 255);
+    if (state.motion >= 0) (move.push(...from, 0), moveStop.push(...to, 0));
   };
-  for (let k = 0; state.forces && atEnd() && k < contactCount; ++k) {
-    const f = network.force[k];
-    if (f < state.threshold) continue;
-    const [i, j] = [network.pair[2 * k], network.pair[2 * k + 1]];
-    const stretch = radius(i) === radius(j) ? 1 : 1 + data.non_additivity;
-    const half = 0.5 * (radius(i) + radius(j)) * stretch * (1 + network.gap[k]);
-    const r = THICK * state.width * meanDiameter * f;
-    for (const [end, sign] of [[i, -1], [j, 1]]) {
-      if (!visible[end] || (dim > 3 && !state.whole && !(visible[i] && visible[j]))) continue;
-      const v = [0, 1, 2].map((c) => (c < state.axes.length ? network.vector[k * dim + state.axes[c]] : 0));
+  // Half lines of a pair whose vector from j to i is length times v; j < 0 is a wall, to which the line goes in one.
+  const bond = (i, j, length, v, r, colour) => {
+    const both = j >= 0, from = { [i]: movement(i), [j]: movement(j) };
+    const to = [0, 1, 2].map((c) => (both ? 0.5 * (from[i][c] + from[j][c]) : 0));
+    for (const [end, sign] of both ? [[i, -1], [j, 1]] : [[i, -1]]) {
+      if (!visible[end] || (both && dim > 3 && !state.whole && !(visible[i] && visible[j]))) continue;
       for (const s of moved) {
-        const a = [0, 1, 2].map((c) => where[end][c] + s[c]), b = a.map((x, c) => x + sign * half * v[c]);
-        if (s === moved[0] || inMargin(a)) stick(a, b, r, [150, 20, 40]);
+        const a = [0, 1, 2].map((c) => where[end][c] + s[c]);
+        const b = a.map((x, c) => x + sign * (both ? 0.5 : 1) * length * v[c]);
+        if (s === moved[0] || inMargin(a)) stick(a, b, r, colour, from[end], to);
       }
     }
+  };
+  const shownPart = (list, k) => [0, 1, 2].map((c) => (c < state.axes.length ? list[k * dim + state.axes[c]] : 0));
+  for (let k = 0; state.forces && atEnd() && k < contactCount; ++k) {
+    const f = network.force[k], [i, j] = [network.pair[2 * k], network.pair[2 * k + 1]];
+    if (f < state.threshold) continue;
+    const length = (j < 0 ? radius(i) : touching(i, j)) * (1 + network.gap[k]);
+    const colour = state.forceColours ? tone(FORCES, f / STRONG) : [150, 20, 40];
+    bond(i, j, length, shownPart(network.vector, k), THICK * state.width * meanDiameter * f, colour);
   }
-  if (state.box) {
+  if (state.gap > 0 && atEnd()) {
+    const near = nearPairs(), thin = 0.25 * THICK * meanDiameter;
+    for (let k = 0; k < near.gap.length && near.gap[k] <= state.gap; ++k)
+      bond(near.pair[2 * k], near.pair[2 * k + 1], 1, shownPart(near.vector, k), thin, [0, 0, 0]);
+  }
+  if (state.box && data.container !== "brick") roundWall((a, b) => stick(a, b, 0.02 * meanDiameter, [60, 66, 78]));
+  else if (state.box) {
     const a = shownCell(), thin = 0.012 * meanDiameter, m = state.axes.length;
     for (let corner = 0; corner < 1 << m; ++corner)
       for (let axis = 0; axis < m; ++axis) {
@@ -145,5 +193,25 @@ function buildSticks(renderer, where, visible, moved) {
       }
   }
   scene.sticks = start.length / 4;
-  renderer.sticks(new Float32Array(start), new Float32Array(stop), new Uint8Array(colours), scene.sticks);
+  scene.stick = { start: new Float32Array(start), stop: new Float32Array(stop), tint: new Uint8Array(colours) };
+  const moves = state.motion >= 0 ? { move: new Float32Array(move), moveStop: new Float32Array(moveStop) } : {};
+  renderer.sticks({ ...scene.stick, ...moves }, scene.sticks);
+}
+
+// The round wall in pieces of lines: circles of a ball, both rings and four lines of a cylinder.
+function roundWall(line) {
+  const r = 0.5 * cell[0][0], pieces = 72, heights = data.container === "cylinder" ? [0, cell[2][2]] : [r];
+  const at = (plane, t, height) => {
+    const x = data.container === "cylinder" ? [r, r, height] : Array(dim).fill(r);
+    x[plane[0]] += r * Math.cos(t);
+    x[plane[1]] += r * Math.sin(t);
+    return [0, 1, 2].map((c) => (c < state.axes.length ? x[state.axes[c]] : 0));
+  };
+  const planes = data.container === "cylinder" || dim === 2 ? [[0, 1]] : [[0, 1], [0, 2], [1, 2]];
+  for (const plane of planes)
+    for (const height of heights)
+      for (let k = 0; k < pieces; ++k)
+        line(at(plane, (2 * Math.PI * k) / pieces, height), at(plane, (2 * Math.PI * (k + 1)) / pieces, height));
+  if (heights.length > 1)
+    for (let k = 0; k < 4; ++k) line(...heights.map((height) => at([0, 1], (Math.PI * k) / 2, height)));
 }

@@ -39,9 +39,28 @@ function reachOf(a) {
   return longest;
 }
 
+// While the view moves, no more is drawn than the frame time allows; at rest all is. `share`: of the instances.
+const FRAME = 30; // ms
+const thin = { share: 1, moving: false, rest: 0 };
+function adapt(elapsed) {
+  const factor = Math.min(Math.max(FRAME / Math.max(elapsed, 1), 0.25), 1.5);
+  thin.share = Math.min(1, Math.max(thin.share * factor, 500 / Math.max(scene.count, 500)));
+}
+function showThinning() {
+  const place = document.getElementById("thinned"), drawn = Math.ceil(scene.count * thin.share);
+  place.hidden = !thin.moving || drawn >= scene.count;
+  place.textContent = `while it moves: ${drawn} of ${scene.count} spheres${dim === 2 ? "" : ", the outer ones"}`;
+}
+
 let waiting = false;
-function redraw() {
-  if (waiting || !renderer) return;
+function redraw(moves = false) {
+  if (!renderer) return;
+  thin.moving = moves === true && scene.count + scene.sticks >= THIN_FROM;
+  if (thin.moving) {
+    clearTimeout(thin.rest);
+    thin.rest = setTimeout(redraw, 250);
+  }
+  if (waiting) return;
   waiting = true;
   requestAnimationFrame(() => {
     waiting = false;
@@ -50,9 +69,13 @@ function redraw() {
       const width = Math.round(one.clientWidth * ratio), height = Math.round(one.clientHeight * ratio);
       if (one.width !== width || one.height !== height) [one.width, one.height] = [width, height];
     }
-    const view = viewNow();
-    renderer.draw(view);
-    drawLabels(view);
+    const view = viewNow(), began = performance.now();
+    renderer.draw(view, thin.moving ? thin.share : 1, oscillation.phase);
+    if (thin.moving) {
+      renderer.finish();
+      adapt(performance.now() - began);
+    } else drawLabels(view);
+    showThinning();
   });
 }
 function rebuild() {
@@ -64,7 +87,8 @@ function rebuild() {
 
 // Where an instance stands on the canvas, in pixels from its top left, with its depth and radius.
 function onCanvas(k, view) {
-  const s = scene.sphere, x = turned([s[4 * k], s[4 * k + 1], s[4 * k + 2]]);
+  const s = scene.sphere, away = oscillation.phase ? movement(scene.owner[k]) : [0, 0, 0];
+  const x = turned([0, 1, 2].map((c) => s[4 * k + c] + oscillation.phase * away[c]));
   return { u: 0.5 * canvas.width + (x[0] + view.shift[0]) * view.scale,
     v: 0.5 * canvas.height - (x[1] + view.shift[1]) * view.scale, z: x[2], r: s[4 * k + 3],
     pixels: s[4 * k + 3] * view.scale };
@@ -82,7 +106,7 @@ function instanceAt(u, v, view) {
   return found;
 }
 
-// Letters or numbers on the spheres in front, for those who cannot distinguish the colours; a ring on the chosen sphere.
+// Letters or numbers on the spheres in front, for those who cannot distinguish the colours; a ring on the chosen one.
 function drawLabels(view) {
   const paper = labels.getContext("2d"), ratio = window.devicePixelRatio || 1;
   paper.clearRect(0, 0, labels.width, labels.height);
@@ -159,15 +183,15 @@ canvas.addEventListener("wheel", (e) => {
 }, { passive: false });
 function rotate(across, down) {
   if (dim > 2) camera.turn = product(product(turning(0, down), turning(1, across)), camera.turn);
-  redraw();
+  redraw(true);
 }
 function pan(dx, dy) {
   const unit = (window.devicePixelRatio || 1) / viewNow().scale;
   camera.shift = [camera.shift[0] + dx * unit, camera.shift[1] - dy * unit];
-  redraw();
+  redraw(true);
 }
 function zoom(factor) {
   camera.zoom = Math.min(Math.max(camera.zoom * factor, 0.2), 200);
-  redraw();
+  redraw(true);
 }
-new ResizeObserver(redraw).observe(canvas);
+new ResizeObserver(() => redraw()).observe(canvas);

@@ -71,7 +71,8 @@ function showCharts() {
     for (const z of coordination) counts.set(z, (counts.get(z) || 0) + 1);
     out += chart("Contact forces", "force over the mean", "share up to it", cumulative(network.force),
       { logX: true, logY: true });
-    out += chart("Gaps of pairs that do not touch", "gap in diameters", "pairs up to it, a sphere",
+    const near = closed.some((c) => c) ? "pairs and walls" : "pairs";
+    out += chart(`Gaps of ${near} that do not touch`, "gap in diameters", "pairs up to it, a sphere",
       data.gaps.map(([gap, count]) => [gap, count / n]), { logX: true, logY: true });
     out += chart("Coordination", "contacts of a sphere", "spheres", [...counts].sort((a, b) => a[0] - b[0]),
       { bars: true });

@@ -45,6 +45,8 @@ function makeControls() {
       parts.size.value = state.forces ? 0.35 : 1;
       parts.size.dispatchEvent(new Event("input"));
     });
+    parts.forceColours = tick("coloured", "forceColours",
+      "contacts from light (weak) to dark (three mean forces and more)");
     slider("Width", 0.2, 3, 1, (x) => (state.width = x), "width of the force cylinders");
     slider("Forces above", 0, 4, 0, (x) => (state.threshold = x), "in units of the mean force");
     for (const [k, one] of CLASSES.entries()) {
@@ -54,6 +56,10 @@ function makeControls() {
       control(`${one.name}s`.replace("stables", "stable"), box, `show spheres of this class (${one.letter})`);
     }
   }
+  if (canFindGaps)
+    parts.gap = slider("Gaps below", 0, GAPS_TO, 0, (x) => (state.gap = x),
+      "thin lines: pairs of spheres that do not touch, by their gap");
+  makeMotionControls();
   if (dim === 3) {
     choice("Slice", ["none", "x", "y", "z"], 0, (k) => (state.slab = k - 1), "only spheres with centres in a slab");
     slider("at", 0, 1, state.slabAt, (x) => (state.slabAt = x), "middle of the slab, in edges of the cell");
@@ -61,9 +67,9 @@ function makeControls() {
   }
   if (dim > 3) makeSlices();
   parts.images = tick("Periodic images", "images", "I: copies beyond the cell, paler");
-  tick("Cell", "box", "edges of the periodic cell");
+  tick("Cell", "box", "edges of the cell, or the round wall");
   parts.names = tick("Labels", "names", "L: letters or numbers on the spheres (up to 3000)");
-  for (const [name, use] of [["Reset", () => (home(), redraw())], ["Save picture", savePicture]]) {
+  for (const [name, use] of [["Reset", () => (home(), redraw())], ["Save PNG", savePng], ["Save SVG", saveSvg]]) {
     const button = document.createElement("button");
     button.type = "button";
     button.textContent = name;
@@ -98,14 +104,6 @@ function makeSlices() {
   hidden();
 }
 
-function savePicture() {
-  renderer.draw(viewNow());
-  const link = document.createElement("a");
-  link.href = canvas.toDataURL("image/png");
-  link.download = "packing.png";
-  link.click();
-}
-
 function showLegend() {
   const { q, low, high, values } = scene.tint, place = document.getElementById("legend");
   if (q.classes) {
@@ -118,6 +116,11 @@ function showLegend() {
     place.innerHTML = `<span>${escaped(q.name)} ${shownNumber(low, 4)}` +
       `<b style="background:linear-gradient(90deg,${steps})"></b>${shownNumber(high, 4)}</span>`;
   }
+  if (network && state.forces && state.forceColours && atEnd()) {
+    const steps = Array.from({ length: 9 }, (_, k) => `rgb(${tone(FORCES, k / 8)})`).join(",");
+    place.innerHTML +=
+      `<span>force 0<b style="background:linear-gradient(90deg,${steps})"></b>${STRONG} and more</span>`;
+  }
   if (dim > 3 && !state.whole) place.innerHTML += `<span>${scene.count} of ${n} spheres cut the slice</span>`;
 }
 
@@ -128,8 +131,8 @@ function choose(i) {
   if (i >= 0) out = describe(i, 12).map((s) => `<p>${escaped(s)}</p>`).join("");
   if (i >= 0 && network && atEnd() && coordination[i])
     out += "<table><tr><th>touches</th><th>force</th><th>gap</th></tr>" + contacts(i).map((c) =>
-      `<tr><td>${c.other}</td><td>${shownNumber(c.force)}</td><td>${shownNumber(c.gap, 3)}</td></tr>`).join("") +
-      "</table>";
+      `<tr><td>${c.other < 0 ? `wall ${-1 - c.other}` : c.other}</td><td>${shownNumber(c.force)}</td>` +
+      `<td>${shownNumber(c.gap, 3)}</td></tr>`).join("") + "</table>";
   place.innerHTML = out;
   redraw();
 }
@@ -141,8 +144,9 @@ function showReport() {
     `N = ${n}, d = ${dim}, packing fraction ${shownNumber(data.packing_fraction, 12)}, seed ${data.seed}`;
   if (!r) return void (place.innerHTML = "<p>No crunch has been made.</p>");
   const rows = Object.entries(r.numbers).map(([name, x]) => `<tr><td>${name}</td><td>${shownNumber(x, 12)}</td></tr>`);
-  place.innerHTML = `<p class="verdict">${r.jammed ? "Collectively jammed" : "Not jammed"} (${r.stop_reason})${r.proof ? "; " + r.proof : ""}</p>` +
-    `<table>${rows.join("")}</table>`;
+  const verdict = `${r.jammed ? "Collectively jammed" : "Not jammed"} (${r.stop_reason})` +
+    (r.proof ? `; ${r.proof}` : "");
+  place.innerHTML = `<p class="verdict">${verdict}</p><table>${rows.join("")}</table>`;
 }
 
 const KEYS = { ArrowLeft: () => rotate(-0.1, 0), ArrowRight: () => rotate(0.1, 0), ArrowUp: () => rotate(0, -0.1),
@@ -153,7 +157,16 @@ const KEYS = { ArrowLeft: () => rotate(-0.1, 0), ArrowRight: () => rotate(0.1, 0
     parts.colour.value = state.colour = (state.colour + 1) % quantities.length;
     rebuild();
   },
-  ",": () => takeStep(state.step - 1), ".": () => takeStep(state.step + 1), Escape: () => choose(-1), r: () => (home(), redraw()) };
+  g: () => {
+    if (!parts.gap) return;
+    parts.gap.value = +parts.gap.value > 0 ? 0 : 0.05;
+    parts.gap.dispatchEvent(new Event("input"));
+  },
+  m: () => parts.motion && ((parts.motion.value = (+parts.motion.value + 1) % (motions.length + 1)),
+    parts.motion.dispatchEvent(new Event("change"))),
+  " ": () => parts.play && parts.play.click(),
+  ",": () => takeStep(state.step - 1), ".": () => takeStep(state.step + 1),
+  Escape: () => choose(-1), r: () => (home(), redraw()) };
 const PANS = { ArrowLeft: [-20, 0], ArrowRight: [20, 0], ArrowUp: [0, -20], ArrowDown: [0, 20] };
 canvas.addEventListener("keydown", (e) => {
   if (e.ctrlKey || e.metaKey || e.altKey) return;
@@ -167,7 +180,9 @@ function startPage() {
   document.body.classList.toggle("small", data.small);
   document.getElementById("keys").textContent =
     "With the picture in focus: arrows turn (with Shift: move), + and - zoom, " +
-    "N and P choose the next and the previous sphere, C colour, F forces, I images, L labels, R reset, Esc none" +
+    "N and P choose the next and the previous sphere, C colour, F forces" + (canFindGaps ? ", G small gaps" : "") +
+    ", I images, L labels, R reset, Esc none" +
+    (motions.length ? ", M the next motion, space starts and stops it" : "") +
     (data.steps ? ", comma and full stop go one step of the crunch back and on." : ".");
   showReport();
   showCharts();

@@ -14,6 +14,7 @@ from .._api.arrays import as_array
 from .._api.calls import finished
 from .._api.given import refuse_walls
 from .._api.options import as_enum
+from .._api.results import Modes
 from .._formats import gsd
 from .._formats.contents import Contents, MENDED
 from ..errors import StateError, StoreError
@@ -61,6 +62,7 @@ class Writing(State, Network):
         title: str = "",
         *,
         values: Mapping[str, Any] | None = None,
+        modes: Modes | None = None,
         small: bool = False,
     ) -> None:
         """Writes one HTML file that shows the packing in a browser; it needs no network.
@@ -74,8 +76,11 @@ class Writing(State, Network):
             The file appears whole or not at all.
         title : str
             Its heading.
-        values : mapping of str to array_like, shape (n,)
-            More numbers that spheres can be coloured by, under these names.
+        values : mapping of str to array_like, shape (n,) or (n, d)
+            Under these names: numbers that spheres can be coloured by, (n,), and displacements that are
+            animated, (n, d).
+        modes : Modes, optional
+            Vibrational modes to animate, as of modes().
         small : bool
             The picture alone, without the numbers beside it.
 
@@ -84,16 +89,26 @@ class Writing(State, Network):
         >>> import jam
         >>> disks = jam.System.random(n=64, dim=2, seed=1, diameters=[1.0] * 32 + [1.4] * 32)
         >>> report = disks.crunch()
-        >>> disks.page("disks.html", values={"height": disks.positions[:, 1]})
+        >>> disks.page("disks.html", values={"height": disks.positions[:, 1]}, modes=disks.modes(4))
         """
-        columns = {name: as_array(x, name=name).reshape(-1) for name, x in (values or {}).items()}
-        for name, column in columns.items():
-            if "\n" in name or not name:
-                raise ValueError(f"{name!r} is no name of values: it must be one line that is not empty")
-            if len(column) != self.n:
-                raise ValueError(f"{name} must have shape ({self.n},), not {column.shape}")
-        numbers = np.concatenate(list(columns.values())) if columns else None
-        finished(raw.jam_write_page(self.handle, os.fspath(path), title, int(small), "\n".join(columns), numbers))
+        rows: dict[str, Any] = {}  # a name that ends in [] has d rows
+        for name, given in (values or {}).items():
+            column = as_array(given, name=name)
+            if "\n" in name or not name or name.endswith("[]"):
+                raise ValueError(f"{name!r} is no name of values: it must be one line that is not empty or ends in []")
+            if column.shape == (self.n, self.dim):
+                rows[name + "[]"] = column.T.reshape(-1)
+            elif column.size == self.n:
+                rows[name] = column.reshape(-1)
+            else:
+                raise ValueError(f"{name} must have shape ({self.n},) or ({self.n}, {self.dim}), not {column.shape}")
+        if modes is not None:
+            for k, vectors in enumerate(modes.vectors):
+                whole = np.zeros((self.n, self.dim))
+                whole[modes.spheres] = vectors
+                rows[f"mode {k}, omega {modes.frequencies[k]:.4g}[]"] = whole.T.reshape(-1)
+        numbers = np.concatenate(list(rows.values())) if rows else None
+        finished(raw.jam_write_page(self.handle, os.fspath(path), title, int(small), "\n".join(rows), numbers))
 
     def _repr_html_(self) -> str:
         """What notebooks show: the small page in a frame. Above 20000 spheres the text of repr, to keep notebooks small."""

@@ -52,10 +52,9 @@ struct Tuning {
   SinglePrecision single{SingleTuning::work, SingleTuning::accuracy, SingleTuning::max_products};  // of LPs and path
 
   // ---- schedule of mu
-  double reduction = 0.2;       // of mu at its maximum
-  double centred = 0.005;       // squared Newton decrement a row that counts as the maximum
-  double nearly_centred = 4.0;  // within this factor of it, mu falls instead of rising
-  int max_steps_at_mu = 40;     // more of them, or max_short_steps without progress, are a saddle
+  double reduction = 0.2;    // of mu at its maximum
+  double centred = 0.005;    // squared Newton decrement a row that counts as the maximum
+  int max_steps_at_mu = 40;  // more of them, or max_short_steps without progress, are a saddle
   int max_short_steps = 8;
   double progress = 0.6;   // the decrement falls by this factor: short steps are counted again
   double increase = 10.0;  // of mu at a saddle

@@ -168,7 +168,7 @@ class BarrierPath {
   }
 
   bool newton() {
-    b_.mu *= schedule_.next_factor({decrement_, static_cast<double>(b_.y.size()), alpha_p_, first_mu_ / b_.mu});
+    b_.mu *= schedule_.next_factor({decrement_, alpha_p_, first_mu_ / b_.mu});
     if (!direct()) return false;
     move(correct());
     return alpha_p_ > 0.0;

@@ -18,8 +18,6 @@ double BarrierSchedule::next_factor(const Step &last) {
   ++steps_;
   if (steps_ <= t_.max_steps_at_mu && short_steps_ < t_.max_short_steps) return 1.0;
   steps_ = 0;
-  if (last.decrement < t_.nearly_centred * t_.centred * last.rows)
-    return t_.reduction;  // only a few spheres are not yet centred
   // Its part in Gamma is (1 - mu rows) log Gamma: at a large mu the function grows without bound as all spheres shrink.
   if (last.mu_ratio < t_.increase) return t_.reduction;
   ++increases_;

@@ -11,13 +11,12 @@ class BarrierSchedule {
   // What the last Newton step left.
   struct Step {
     double decrement;  // squared Newton decrement over mu at its start
-    double rows;       // terms of the barrier
     double part;       // of the whole Newton step that was taken
     double mu_ratio;   // the first mu over the present one
   };
   explicit BarrierSchedule(const Tuning &tuning) : t_(tuning) {}
-  // Factor of mu before the next Newton step: 1; above 1 at a saddle; tuning.reduction where the rest is centred, and
-  // at a saddle of the first mu, which is the largest.
+  // Factor of mu before the next Newton step: 1; above 1 at a saddle; tuning.reduction at a saddle of the first mu,
+  // which is the largest.
   double next_factor(const Step &last);
   // True where the maximum at mu counts as reached: mu then falls by tuning.reduction.
   bool centred(double decrement, double rows);

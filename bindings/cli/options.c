@@ -118,11 +118,15 @@ static const option_row *find_option(const char *name, size_t length) {
 /* What the verb takes, for those who gave it something else. */
 static void refuse_option(const options *o, const char *word) {
   const unsigned bit = 1u << o->given.verb;
+  const char *before = " ";
   size_t k;
   fprintf(stderr, "%s: %s takes no '%s'; it takes %s", program, verb_table[o->given.verb].name, word,
-          verb_table[o->given.verb].first ? "a FILE" : "no FILE");
+          verb_table[o->given.verb].first ? "a FILE," : "no FILE, but");
   for (k = 0; k < sizeof table / sizeof *table; ++k)
-    if (table[k].verbs & bit && strcmp(table[k].name, "--input")) fprintf(stderr, ", %s", table[k].name);
+    if (table[k].verbs & bit && strcmp(table[k].name, "--input")) {
+      fprintf(stderr, "%s%s", before, table[k].name);
+      before = ", ";
+    }
   fputc('\n', stderr);
 }
 

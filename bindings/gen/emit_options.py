@@ -262,7 +262,10 @@ def emit_page(_api):
         "",
     ]
     for section, rows in options(host=True):
-        out += [f"## {section}", "", "| option | meaning |", "|---|---|"]
+        out += [f"## {section}", ""]
+        if all(verbs_of(o) == ["export"] for o in rows):
+            out += ["Only `jam-pack export` takes these options.", ""]
+        out += ["| option | meaning |", "|---|---|"]
         for o in rows:
             mark = " (Python)" if o.host else ""
             out.append(f"| `{usage(o).replace('|', chr(92) + '|')}`{mark} | {_marked(o.help)} |")

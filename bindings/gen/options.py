@@ -104,7 +104,7 @@ TABLE = {
             "walls",
             "choice",
             "AXES",
-            "flat walls at both ends of these axes of a random start: none, x, y, xy, z, xz, yz or xyz (none)",
+            "flat walls at both ends of these axes of a random start (none)",
             "none",
             words=("none", "x", "y", "xy", "z", "xz", "yz", "xyz"),
             without=("input", "resume"),
@@ -113,8 +113,8 @@ TABLE = {
             "container",
             "choice",
             "SHAPE",
-            "of a random start: brick, the cell; cylinder, about z, which --walls z closes; ball, in d = 2 a circle (brick). The "
-            "diameter is the edge of the cell",
+            "container of a random start: the brick of the cell, a cylinder about z (--walls z closes its ends), or a ball, in d = 2 a circle "
+            "(brick). The diameter is the edge of the cell",
             "brick",
             words=("brick", "cylinder", "ball"),
             without=("input", "resume"),
@@ -183,7 +183,7 @@ TABLE = {
             "method",
             "choice",
             "",
-            "the quench: barrier path (default), or the published sequence of linear programs alone",
+            "how the crunch finds the jamming point: barrier path (default), or the published sequence of linear programs alone",
             "barrier",
             words=("barrier", "sequential-lp"),
             without=NO_CRUNCH,
@@ -302,7 +302,7 @@ TABLE = {
             after_crunch=True,
         ),
         Option(
-            "report", "output", "FILE|-", "figures, protocol and certificate as JSON; - is standard output", stdout=True
+            "report", "output", "FILE|-", "numbers, protocol and certificate as JSON; - is standard output", stdout=True
         ),
         Option(
             "log",
@@ -366,8 +366,8 @@ TABLE = {
 }
 
 ABOUT = (
-    "Makes a jammed packing of hard spheres: random start, event-driven molecular dynamics with growth, then iterated linear "
-    "programming down to the jamming point."
+    "Makes a jammed packing of hard spheres: random start, event-driven molecular dynamics with growth, then linear "
+    "programs and a barrier path to the jamming point."
 )
 EXAMPLE = "--n 1024 --seed 1 --output packing.xyz --page packing.html --report -"
 NOTES = (

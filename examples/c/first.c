@@ -19,7 +19,7 @@ int main(void) {
   if (jam_create(&o, NULL, &sys) < 0) return failed(sys);
   if (jam_compress(sys, NULL, NULL) < 0) return failed(sys); /* grow slowly to reduced pressure 1e7 */
   report.struct_size = sizeof report;
-  if (jam_crunch(sys, NULL, &report) < 0) return failed(sys); /* linear programs down to the jamming point */
+  if (jam_crunch(sys, NULL, &report) < 0) return failed(sys); /* to the jamming point */
   printf("%s: packing fraction %.9f, %lld contacts, %lld more than isostatic, force imbalance %.1e\n",
          report.jammed ? "jammed" : "not jammed", report.packing_fraction, (long long)report.contacts,
          (long long)report.excess_contacts, report.force_residual);

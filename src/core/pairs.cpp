@@ -75,7 +75,7 @@ struct Cutoff {
 
   double most() const { return reach + slope * contact_distance_max(p); }
   double of(int32_t i, int32_t j) const {
-    return (own ? std::max(own[i], own[std::max(i, j)]) : reach) + slope * contact_distance(p, i, j);
+    return (own ? std::max(own[i], own[j < 0 ? i : j]) : reach) + slope * contact_distance(p, i, j);
   }
 };
 

@@ -55,7 +55,7 @@ PackingVerdict test(const jam_system *sys, Jamming kind) {
   const ContactNetwork *listed = closed.size() ? &closed : nullptr;
   PackingVerdict v = test_packing(p, resolution, listed, kind);
   if (p.container) return v;
-  if (kind == Jamming::collective) decide_by_proof(p, v);
+  if (kind == Jamming::collective) decide_by_proof(p, v), confirm_by_exchange(p, v);
   if (kind == Jamming::strict || v.result.jammed == Verdict::yes || !may_touch_own_image(p, resolution)) return v;
   PackingVerdict strict = test_packing(p, resolution, listed, Jamming::strict);
   if (strict.result.jammed == Verdict::yes) return strict;

@@ -5,7 +5,6 @@
 
 #include "core/call_scope.hpp"
 #include "network/rigidity_test.hpp"
-#include "proof/implied.hpp"
 #include "proof/newton.hpp"
 #include "proof/open_gaps.hpp"
 #include "proof/outward.hpp"
@@ -97,11 +96,7 @@ void add_contact(ProofScene &s, const NearPair &pair) {
   s.image.insert(s.image.end(), pair.image.begin(), pair.image.end());
 }
 
-// All closed pairs become contacts, with the forces that the test of jamming finds in the middle of all states. Those
-// without force leave again.
-void take_middle_forces(ProofScene &s) {
-  for (const NearPair &pair : near_pairs(s))
-    if (pair.opening <= proof_tuning::closed && is_stable(s, pair)) add_contact(s, pair);
+RigidityMatrix rows_of(const ProofScene &s) {
   const ProofEquations e = evaluate(s);
   RigidityMatrix g;
   g.dim = s.dim, g.nodes = static_cast<int32_t>(s.nodes()), g.sphere = s.sphere, g.node = s.node;
@@ -112,9 +107,22 @@ void take_middle_forces(ProofScene &s) {
     for (int k = 0; k < s.dim; ++k) g.normal.push_back(e.row[c * s.dim + k] / std::sqrt(square));
     g.distance.push_back(0.5 * std::sqrt(square)), g.sigma.push_back(std::sqrt(s.gamma * e.sigma2[c]));
   }
+  return g;
+}
+
+void add_closed_pairs(ProofScene &s) {
+  for (const NearPair &pair : near_pairs(s))
+    if (pair.opening <= proof_tuning::closed && is_stable(s, pair)) add_contact(s, pair);
+}
+
+// All closed pairs become contacts, with the forces that the test of jamming finds in the middle of all states. Those
+// without force leave again.
+void take_middle_forces(ProofScene &s) {
+  add_closed_pairs(s);
+  const RigidityMatrix g = rows_of(s);
   const RigidityResult r = test_rigidity(g, Jamming::collective);
   if (r.jammed == Verdict::yes)
-    for (size_t c = 0; c < s.contacts(); ++c) s.force[c] = r.force[c] / std::sqrt(e.sigma2[c]);
+    for (size_t c = 0; c < s.contacts(); ++c) s.force[c] = r.force[c] / g.sigma[c];
   std::vector<char> on;
   for (const double f : s.force) on.push_back(f > 0.0);
   keep_contacts(s, on);
@@ -200,7 +208,7 @@ bool exchange_contacts(ProofScene &scene) {
     changed = changed || round == Round::changed;
   }
   if (round != Round::closed) return false;
-  if (changed) take_middle_forces(s), s.implied = find_implied(s);
+  if (changed) take_middle_forces(s);
   const std::vector<NearPair> pairs = near_pairs(s);
   for (const NearPair &pair : pairs)
     for (const int32_t i : {pair.i, pair.j})

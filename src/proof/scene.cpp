@@ -104,7 +104,7 @@ void take_contacts(const Packing &p, const ContactNetwork &network, ProofScene &
 
 }  // namespace
 
-ProofScene make_proof_scene(const Packing &p, const ContactNetwork &network, const std::vector<double> &ratio) {
+ProofScene scene_of_contacts(const Packing &p, const ContactNetwork &network, const std::vector<double> &ratio) {
   ProofScene s;
   s.dim = p.dim;
   s.unit = std::ldexp(1.0, std::ilogb(p.cell.side()));
@@ -136,6 +136,11 @@ ProofScene make_proof_scene(const Packing &p, const ContactNetwork &network, con
     sum += s.force.back() * sigma2;
   }
   for (double &f : s.force) f /= sum;
+  return s;
+}
+
+ProofScene make_proof_scene(const Packing &p, const ContactNetwork &network, const std::vector<double> &ratio) {
+  ProofScene s = scene_of_contacts(p, network, ratio);
   s.implied = find_implied(s);
   return s;
 }

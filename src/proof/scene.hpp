@@ -76,6 +76,8 @@ ProofScene without_implied(const ProofScene &scene);
 
 // ratio: one s_i a sphere, or empty: the diameters as they are. The network has forces.
 ProofScene make_proof_scene(const Packing &p, const ContactNetwork &network, const std::vector<double> &ratio);
+// The same without the search for implied contacts, which takes most of the time of a crystal of disks.
+ProofScene scene_of_contacts(const Packing &p, const ContactNetwork &network, const std::vector<double> &ratio);
 
 // The integer vector n with offset = n A but for rounding; false where it is none (Mari-Kurchan shifts).
 bool lattice_image(const Cell &cell, const double *offset, int32_t *n);

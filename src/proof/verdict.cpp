@@ -2,8 +2,12 @@
 
 #include <algorithm>
 
+#include "core/pair_rule.hpp"
+#include "linalg/blas.hpp"
 #include "proof/closing.hpp"
+#include "proof/implied.hpp"
 #include "proof/newton.hpp"
+#include "proof/tuning.hpp"
 
 namespace jam {
 
@@ -13,8 +17,9 @@ bool find_proof(ProofScene &scene, ProofEquations &equations, Proof &proof) {
   proof = refined ? prove(scene, equations) : Proof{};
   if (!refined) proof.cause = ProofCause::singular;
   ProofEquations there;
-  if (proof.exact || proof.trapped || scene.strict || !exchange_contacts(other) || !refine(other, there))
-    return refined;
+  if (proof.exact || proof.trapped || scene.strict || !exchange_contacts(other)) return refined;
+  other.implied = find_implied(other);
+  if (!refine(other, there)) return refined;
   const Proof again = prove(other, there);
   if (!again.exact && !again.trapped) return refined;
   proof = again, scene = std::move(other), equations = std::move(there);
@@ -26,7 +31,7 @@ void decide_by_proof(const Packing &p, PackingVerdict &verdict) {
   if (r.jammed != Verdict::undecided || r.contacts == 0 || p.model != JAM_MODEL_EUCLID) return;
   const ContactNetwork network = verdict.carrying(p.dim);
   if (!(*std::min_element(network.force.begin(), network.force.end()) > 0.0)) return;
-  ProofScene scene = make_proof_scene(p, network, {});
+  ProofScene scene = scene_of_contacts(p, network, {});
   ProofEquations equations;
   if (!refine(scene, equations)) return;
   const Proof proof = prove(scene, equations);
@@ -40,6 +45,92 @@ void decide_by_proof(const Packing &p, PackingVerdict &verdict) {
   for (const double sigma2 : equations.sigma2) length2 += 4.0 * scene.gamma * sigma2;
   r.margin = proof.bound.eigenvalue * static_cast<double>(scene.contacts()) / length2;
   verdict.when_closed = Verdict::yes;
+}
+
+namespace {
+
+// The contacts of a scene, at the positions of the packing that it came from.
+ContactNetwork network_of(const ProofScene &s, const Packing &p) {
+  const size_t d = static_cast<size_t>(s.dim);
+  std::vector<size_t> order(s.contacts());
+  std::vector<int32_t> i(order.size()), j(order.size());
+  for (size_t c = 0; c < order.size(); ++c) {
+    order[c] = c, i[c] = s.sphere[s.a[c]], j[c] = s.sphere[s.b[c]];
+  }
+  const auto key = [&](size_t c) { return std::minmax(i[c], j[c]); };
+  std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) { return key(a) < key(b); });
+  ContactNetwork net;
+  net.coordination.assign(p.n(), 0);
+  double mean = 0.0;
+  for (const size_t c : order) {
+    const double sign = i[c] < j[c] ? 1.0 : -1.0;
+    net.pairs.i.push_back(std::min(i[c], j[c])), net.pairs.j.push_back(std::max(i[c], j[c]));
+    for (size_t k = 0; k < d; ++k) {
+      double offset = 0.0;
+      for (size_t q = k; q < d; ++q) offset += sign * s.image[c * d + q] * p.cell.row(static_cast<int>(q))[k];
+      net.pairs.offset.push_back(offset);
+    }
+    ++net.coordination[i[c]], ++net.coordination[j[c]];
+    net.force.push_back(s.force[c] * contact_distance(p, i[c], j[c]));
+  }
+  measure_contacts(p, net);
+  // Forces of the scene are in units of |r|, which differs from the contact distance where contacts are open.
+  for (size_t k = 0; k < net.size(); ++k) {
+    net.force[k] *= 1.0 + net.gap[k];
+    mean += net.force[k] / static_cast<double>(net.size());
+  }
+  for (double &f : net.force) f /= mean;
+  set_force_scale(p, net);
+  return net;
+}
+
+// Forces of the scene balance at its refined positions. Those of the packing are as far away as its contacts were open,
+// so that forces are balanced there again. False where one of them would pull.
+bool balance_at_positions(const Packing &p, ContactNetwork &net) {
+  ProofScene s = scene_of_contacts(p, net, {});
+  const ProofEquations e = evaluate(s);
+  NormalMatrix normal(s, e);
+  if (!normal.factorise()) return false;
+  refine_forces(s, e, normal);
+  if (!(*std::min_element(s.force.begin(), s.force.end()) > 0.0)) return false;
+  net = network_of(s, p);
+  return true;
+}
+
+void take_network(ContactNetwork net, const Packing &p, PackingVerdict &verdict) {
+  RigidityResult &r = verdict.result;
+  verdict.contacts = std::move(net);
+  const RigidityMatrix g = make_rigidity_matrix(p, verdict.contacts);
+  verdict.sphere = g.sphere;
+  r.carrying.assign(g.contacts(), 1), r.force = verdict.contacts.force;
+  r.force_residual = balance_residual(g, r.force.data());
+  r.spheres = g.nodes, r.contacts = static_cast<int64_t>(g.contacts()), r.zero_force_contacts = 0;
+  r.contacts_needed = isostatic_contacts(g.nodes, g.dim, p.container);
+  r.self_stresses = r.contacts - (r.contacts_needed - 1);
+  r.undercoordinated = std::count_if(verdict.contacts.coordination.begin(), verdict.contacts.coordination.end(),
+                                     [&](int32_t z) { return z > 0 && z <= g.dim; });
+}
+
+bool proves(ProofScene &s) {
+  ProofEquations e;
+  if (!refine(s, e)) return false;
+  const Proof proof = prove(s, e);
+  return proof.trapped || proof.exact;
+}
+
+}  // namespace
+
+void confirm_by_exchange(const Packing &p, PackingVerdict &verdict) {
+  const RigidityResult &r = verdict.result;
+  if (r.jammed != Verdict::yes || r.contacts <= r.contacts_needed || p.model != JAM_MODEL_EUCLID) return;
+  const ContactNetwork network = verdict.carrying(p.dim);
+  if (!(*std::min_element(network.force.begin(), network.force.end()) < proof_tuning::weak)) return;
+  const BlasSingleThread single;
+  ProofScene as_listed = scene_of_contacts(p, network, {}), closing = as_listed;
+  if (as_listed.own_images || proves(as_listed)) return;
+  if (!exchange_contacts(closing) || !proves(closing)) return;
+  ContactNetwork net = network_of(closing, p);
+  if (balance_at_positions(p, net)) take_network(std::move(net), p, verdict);
 }
 
 }  // namespace jam

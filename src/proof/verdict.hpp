@@ -13,4 +13,9 @@ bool find_proof(ProofScene &scene, ProofEquations &equations, Proof &proof);
 // trapped, it becomes a yes. Soft modes that doubles cannot tell from flexes are decided so.
 void decide_by_proof(const Packing &p, PackingVerdict &verdict);
 
+// A yes of the test that rests on weak forces, of more contacts than one state of self-stress has. Doubles cannot
+// distinguish such forces from gaps. Where contacts do not all close, the network of those that close together, and
+// trap their spheres, takes their place.
+void confirm_by_exchange(const Packing &p, PackingVerdict &verdict);
+
 }  // namespace jam

@@ -22,6 +22,17 @@ def disks(n, seed):
     return system
 
 
+def imbalance(system):
+    """The largest sum of forces on a disk over their mean, with directions from positions."""
+    sums, x = np.zeros((system.n, 2)), system.positions
+    for (i, j), force in zip(system.contacts.pairs, system.forces):
+        r = x[i] - x[j]
+        r -= system.box * np.round(r / system.box)
+        sums[i] += force * r / np.hypot(*r)
+        sums[j] -= force * r / np.hypot(*r)
+    return abs(sums).max() / system.forces.mean()
+
+
 def trapped(text, program=jamproof):
     """What the checker finds of a text, or the first word of its refusal."""
     with tempfile.TemporaryDirectory() as folder:
@@ -159,6 +170,27 @@ class Trapped(unittest.TestCase):
         found = trapped(f.text())
         self.assertIsInstance(found, dict, found)
         self.assertTrue(1e-17 < found["inner"] < 1e-10 < found["outer"])
+
+    def test_listed_contacts_close_together(self):
+        """Doubles do not distinguish weak forces of crystals from gaps: where the listed contacts do not all close,
+        crunch and test of jamming list those that do. The integers of the checker say whether they are all and close."""
+        for seed in (17, 34):
+            with self.subTest(seed=seed):
+                system = disks(300, seed)
+                self.assertTrue(system.report.jammed)
+                listed = sorted(tuple(sorted(pair)) for pair in system.contacts.pairs.tolist())
+                text = file_of(system, None)
+                found = trapped(text)
+                self.assertIsInstance(found, dict, found)
+                self.assertLess(found["inner"], 1e-18)
+                self.assertEqual(sorted(tuple(sorted(map(int, c[1:3]))) for c in File(text).contacts), listed)
+                self.assertEqual(system.report.contacts, len(listed))
+                self.assertEqual(system.rigidity("collective").contacts, len(listed))
+                alone = jam.System.from_arrays(system.positions, system.diameters, system.box)  # without that list
+                self.assertEqual(alone.rigidity("collective").contacts, len(listed))
+                self.assertGreater(min(system.forces), 0.0)
+                self.assertLess(imbalance(system), 1e-13)
+        self.assertLess(imbalance(disks(300, 123)), 1e-13)  # near a saddle contacts are open by more than that
 
     def test_each_bound_is_needed(self):
         """With one bound taken out of the checker a false file passes."""

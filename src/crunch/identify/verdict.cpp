@@ -81,8 +81,10 @@ void take_positive_forces(CrunchState &s, const PackingVerdict &verdict) {
 bool tested(CrunchState &s, Jamming kind, PackingVerdict &verdict) {
   try {
     verdict = test_packing(s.out.packing, &s.out.contacts, kind);
-    if (s.found.narrow && kind == Jamming::collective && !s.out.packing.container)
-      decide_by_proof(s.out.packing, verdict);
+    if (kind == Jamming::collective && !s.out.packing.container) {
+      if (s.found.narrow) decide_by_proof(s.out.packing, verdict);
+      confirm_by_exchange(s.out.packing, verdict);
+    }
   } catch (const Cancelled &) {
     stop_if_interrupted(s);
     return false;

@@ -35,8 +35,10 @@ std::vector<double> pair_correlation(const Packing &p, const int32_t *kind, size
   for (size_t k = 0; k < all.size(); ++k) {
     sparse_look();
     // What counts as a contact, to both sides of its distance, must not fall into two bins where that is an edge.
+    // Beyond the last bin it belongs to none.
     const double x = std::sqrt(pair_vector(p, all, k, r.data())) / (r_max * unit) * (1.0 + contact_gap_limit);
-    const auto bin = std::min<size_t>(bins - 1, static_cast<size_t>(x * static_cast<double>(bins)));
+    const auto bin = static_cast<size_t>(x * static_cast<double>(bins));
+    if (bin >= bins) continue;
     const int32_t i = all.i[k], j = all.j[k];
     // ordered pairs (a, b); an image of a sphere with itself stands once in the list for both directions
     g[bin] += static_cast<double>(is(i, a) && is(j, b)) + static_cast<double>(is(j, a) && is(i, b));

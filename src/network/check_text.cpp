@@ -122,6 +122,11 @@ void add_undecided(const Report &r, std::string &out) {
     return;
   }
   const bool jammed = r.crunch_jammed == JAM_VERDICT_YES;
+  if (!std::isfinite(r.crunch_displacement_max)) {  // no sphere has contacts
+    add(out, "A crunch of a copy ends at packing fraction %.9f without a contact between two spheres.",
+        r.crunch_packing_fraction);
+    return;
+  }
   add(out,
       "A crunch of a copy moves the spheres with contacts by up to %.1e diameters (rms %.1e) to packing fraction %.9f "
       "and finds %lld contacts, %s.",

@@ -330,6 +330,9 @@ SolidMesh Mesher::make() {
   return mesh;
 }
 
+// Shorter triangles have errors of a per cent from the floats of the file.
+constexpr double least_steps = 100.0;
+
 }  // namespace
 
 jam_mesh_options default_mesh_options() {
@@ -349,6 +352,12 @@ SolidMesh solid_mesh(const Packing &p, const ContactNetwork *network, const jam_
   if (!(o.bridge >= 0.02 && o.bridge <= 0.45)) fail(JAM_E_ARGUMENT, "bridge is %g, it must be in 0.02..0.45", o.bridge);
   check_has_pores(p);
   if (p.dim != 3) fail(JAM_E_UNSUPPORTED, "a mesh of triangles needs d = 3, this packing has d = %d", p.dim);
+  const double smallest = *std::min_element(p.diameter.begin(), p.diameter.end());
+  const double side = 0.5 * o.edge * smallest * (o.contacts == JAM_MESH_SHRUNK ? o.factor : 1.0);
+  const double step = 0x1p-24 * std::max({p.cell.edge(0), p.cell.edge(1), p.cell.edge(2)});
+  if (side < least_steps * step)
+    fail(JAM_E_ARGUMENT, "triangles of %g would be lost in the floats of an STL file, whose step is up to %g here",
+         side, step);
   return Mesher(p, network, o).make();
 }
 

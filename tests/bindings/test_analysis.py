@@ -95,6 +95,11 @@ class Network(unittest.TestCase):
         self.assertEqual((found.contacts[0], found.excess[0]), (self.r.contacts, self.r.excess_contacts))
         self.assertGreater(found.jump[0], 1e6)
 
+    def test_bins_of_pair_correlation_do_not_depend_on_r_max(self):
+        s = jam.System.random(n=100, seed=1)  # equal spheres touch at r = 1, an edge of bins
+        s.crunch()
+        np.testing.assert_allclose(s.pair_correlation(1.0, 50), s.pair_correlation(2.0, 100)[:50], rtol=1e-12)
+
     def test_made_methods(self):
         s, r = self.s, self.r
         gap, pair = s.gaps(1.0, True)

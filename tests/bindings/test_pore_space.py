@@ -80,6 +80,10 @@ class Mesh(unittest.TestCase):
             self.assertLess(lost[2], lost[0] / 8)
             self.assertLess(lost[2], 0.3 * 0.1**2)
 
+    def test_triangles_below_the_step_of_the_file_are_refused(self):
+        with self.assertRaisesRegex(jam.JamError, "floats of an STL file"):
+            jammed().write_stl(str(self.path), contacts="shrunk", factor=1e-5)
+
     def test_bridges(self):
         s = jammed()
         for bridge in (0.05, 0.2, 0.4):

@@ -25,6 +25,7 @@ typedef struct given {
   int cell_count;                         /* of its numbers */
   double density;                         /* of --packing-fraction or --porosity, 0: not given */
   int n;                                  /* whether --n was given */
+  int file_count;                         /* words without dashes */
   int verb;                               /* of the first word; VERB_PACK without one */
   char **words;                           /* the command line, for the report */
   int word_count;
@@ -95,7 +96,10 @@ void fill_cell(const options *o, double *cell); /* (d, d): the vectors of --cell
 int write_report(const options *o, const outcome *result, const char *path);
 void print_summary(const options *o, const outcome *result);
 void print_warnings(const char *notes); /* those of jam_notes, on stderr */
-extern const char *program;             /* its name, in help and messages */
+/* Why the work ended early, and the option that continues it, on stderr. After a limit of time the library's text names
+ * arguments of its calls, which are no options. */
+void print_stop(const jam_system *sys, const options *o, jam_status status, const outcome *result);
+extern const char *program; /* its name, in help and messages */
 void complain(const char *format, ...);
 /* 1 after a message when a call failed or was stopped: then it has written nothing. */
 int has_failed(jam_status status);

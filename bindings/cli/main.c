@@ -10,7 +10,7 @@
 static int run_ensemble(char **argv, int argc) {
   char **const words = calloc((size_t)argc + 3, sizeof *words);
   int k;
-  if (words) {
+  if (words && !system("python3 -c 'import jam.ensemble'")) {
     words[0] = "python3", words[1] = "-m", words[2] = "jam";
     for (k = 1; k < argc; ++k) words[k + 2] = argv[k];
     execvp(words[0], words);

@@ -130,19 +130,30 @@ static void refuse_option(const options *o, const char *word) {
   fputc('\n', stderr);
 }
 
-/* A word without dashes: a file, where the verb has a place for one more. */
+/* The value of an option. A second file would replace the first one in silence. */
+static int take_once(const option_row *row, const char *value, options *o) {
+  const int is_file = row->kind == TAKE_INPUT || row->kind == TAKE_OUTPUT || row->kind == TAKE_TEXT;
+  if (is_file && o->named[row - table]) {
+    complain("two files for %s, '%s' and '%s': leave one out", row->name, *(const char **)((char *)o + row->place),
+             value);
+    return -1;
+  }
+  if (take_value(row, value, o)) return -1;
+  o->named[row - table] = 1;
+  return 0;
+}
+
+/* A word without dashes: a file, for the option that this place of the verb stands for. */
 static int take_file(const char *word, options *o) {
   const verb_row *const verb = &verb_table[o->given.verb];
   const char *const places[] = {verb->first, verb->second};
-  size_t k;
-  for (k = 0; k < 2; ++k) {
-    const option_row *const row = places[k] ? find_option(places[k], strlen(places[k])) : NULL;
-    if (!row || o->named[row - table]) continue;
-    if (take_value(row, word, o)) return -1;
-    o->named[row - table] = 1;
-    return 0;
-  }
-  if (o->given.words[0] == word)
+  const char *const place = o->given.file_count < 2 ? places[o->given.file_count] : NULL;
+  o->given.file_count++;
+  if (*word == '-' && word[1])
+    complain("unknown option '%s'", word);
+  else if (place)
+    return take_once(find_option(place, strlen(place)), word, o);
+  else if (o->given.words[0] == word)
     complain("unexpected argument '%s': it is no verb, and a file is given by --input", word);
   else
     complain("unexpected argument '%s'", word);
@@ -174,10 +185,8 @@ static int take_argument(char **argv, int left, options *o) {
     complain("option '%s' takes no value", row->name);
   } else if (!value && left == 1)
     complain("option '%s' lacks its value", argv[0]);
-  else if (!take_value(row, value ? value + 1 : argv[1], o)) {
-    o->named[row - table] = 1;
+  else if (!take_once(row, value ? value + 1 : argv[1], o))
     return value ? 1 : 2;
-  }
   return 0;
 }
 

@@ -238,10 +238,8 @@ static int run_job(options *o) {
   }
   if (status < 0)
     complain("%s", jam_last_error());
-  else if (interrupted)
-    complain("interrupted; writing the state reached");
-  else if (status > 0)
-    complain("stopped early: %s", jam_last_error());
+  else if (interrupted || status > 0)
+    print_stop(sys, o, status, &result);
   else if (result.fell_short)
     complain("dynamics fell short of their aim: see the warning above");
   bad |= write_all(sys, o, t.begin + o->wall_time, &result);

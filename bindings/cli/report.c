@@ -41,6 +41,26 @@ static void print_warning(const char *line, int warns, void *with) {
 }
 void print_warnings(const char *notes) { each_note(notes, print_warning, NULL); }
 
+void print_stop(const jam_system *sys, const options *o, jam_status status, const outcome *result) {
+  const int32_t stop = result->has_crunch ? result->crunch.stop_reason : result->md_stop;
+  const int is_kept = o->checkpoint && (status == JAM_LIMIT || status == JAM_CANCELLED);
+  char why[1024];
+  jam_info info;
+  info.struct_size = sizeof info;
+  jam_get_info(sys, &info);
+  if (stop_if_asked(NULL, NULL))
+    strcpy(why, "interrupted; writing the state reached");
+  else if (status == JAM_LIMIT && stop == JAM_STOP_WALL_TIME)
+    snprintf(why, sizeof why, "stopped early: --wall-time came before the end of %s, at packing fraction %.6g",
+             result->has_crunch ? "the crunch" : "dynamics", info.packing_fraction);
+  else
+    snprintf(why, sizeof why, "stopped early: %s", jam_last_error());
+  if (is_kept)
+    complain("%s; --resume %s continues", why, o->checkpoint);
+  else
+    complain("%s", why);
+}
+
 /* What was asked for, and what was done of it in this run. */
 static void put_protocol(FILE *f, const options *o, const outcome *result) {
   static const char *const methods[] = {"barrier_path", "sequential_lp"}, *const solvers[] = {"ipm", "clp"},

@@ -67,6 +67,25 @@ int each_output(const options *o, int (*f)(const char *path, void *with), void *
   return 0;
 }
 
+/* Standard output takes one of the outputs that can go there; --json is one. */
+static int settle_stdout(const options *o) {
+  const option_row *row, *const end = table + ROWS;
+  const char *taken = o->json ? "--json" : NULL;
+  for (row = table; row < end; ++row) {
+    if (row->kind != TAKE_OUTPUT || !is_named(o, row->name + 2) || strcmp(file_of(o, row), "-")) continue;
+    if (!(row->flags & TAKES_STDOUT)) {
+      complain("%s -: it cannot go to standard output: name a file", row->name);
+      return -1;
+    }
+    if (taken) {
+      complain("%s - contradicts %s: both write to standard output", row->name, taken);
+      return -1;
+    }
+    taken = row->name;
+  }
+  return 0;
+}
+
 /* Every output to its own file, none over the input, and none without the crunch that it shows. A checkpoint may go
  * where the run was resumed from. */
 static int settle_files(const options *o) {
@@ -253,7 +272,7 @@ int settle(options *o) {
     complain("--model euclid contradicts %s", isfinite(o->zeta) ? "--zeta" : "--plant");
     return -1;
   }
-  if (settle_effects(o) || settle_cell(o) || settle_walls(o) || settle_crunch(o)) return -1;
+  if (settle_effects(o) || settle_stdout(o) || settle_cell(o) || settle_walls(o) || settle_crunch(o)) return -1;
   g->n = o->n != NOT_GIVEN;
   if (!g->n) o->n = 1024;
   if (isfinite(o->zeta) || isfinite(o->plant)) o->model = JAM_MODEL_MK;

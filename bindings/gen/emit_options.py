@@ -250,7 +250,7 @@ def emit_page(_api):
         "|---|---|",
         *(f"| `{v.usage}` | {_marked(v.help)} |" for v in VERBS),
         "",
-        "`jam-pack VERB --help` shows the options of one verb; an option that a verb does not take is refused.",
+        "`jam-pack VERB --help` shows the options of one verb; an option that a verb does not take is refused, and so is a second file for one option.",
         "",
         "```sh",
         "jam-pack compress --n 512 --pressure 1e4 --output dense.xyz",

@@ -104,6 +104,17 @@ class Stops(unittest.TestCase):
             self.assertFalse(out.exists())
         self.refuse(2, "one sphere needs --strain", "--n", 1, "--output", out)
 
+    def test_a_stop_names_the_option_that_continues(self):
+        state = self.dir / "state.bin"
+        for job, part in (("compress", "dynamics"), ("pack", "the crunch")):
+            words = [job, "--n", 3000, "--wall-time", 0.3, "--quiet", *(["--no-md"] if job == "pack" else [])]
+            for keep, end in (((), ""), (("--checkpoint", state), f"; --resume {state} continues")):
+                done = run(*words, *keep)
+                self.assertEqual(done.returncode, 1, done.stderr)
+                said = f"jam-pack: stopped early: --wall-time came before the end of {part}, at packing fraction [0-9.]+{end}\n"
+                self.assertRegex(done.stderr, f"^{said}$")
+            self.assertEqual(run("--resume", state, "--no-md", "--no-crunch", "--quiet").returncode, 0)
+
 
 if __name__ == "__main__":
     unittest.main()

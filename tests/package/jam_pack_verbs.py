@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """jam_pack_verbs.py PROGRAM: the verbs of jam-pack, the options that each takes, and their JSON."""
 import json
+import os
 import pathlib
 import subprocess
 import sys
@@ -83,6 +84,7 @@ class Verbs(unittest.TestCase):
             (2, "page needs a FILE and the OUTPUT.html", "page", bad),
             (2, "export writes nothing", "export", bad),
             (2, "unexpected argument 'c'", "export", bad, "b.xyz", "c"),
+            (2, "unknown option '-q'", "crunch", bad, "-q"),
             (2, "--json has no effect beside --report", "crunch", bad, "--json", "--report", "a"),
             (3, f"{bad}: spheres 0 and 1 overlap by 0.25 of their contact distance; --shrink multiplies", "crunch", bad),
             (3, "No such file", "info", self.dir / "none.xyz"),
@@ -97,6 +99,51 @@ class Verbs(unittest.TestCase):
             self.assertIn(f"Usage: jam-pack {verb}", done.stdout)
             self.assertIn("  --json", done.stdout)
             self.assertEqual("  --growth" in done.stdout, verb in ("pack", "compress"))
+
+    def test_a_second_file_is_refused(self):
+        """Neither of two files for one option is dropped, whether the option or a word without dashes comes first."""
+        first, second, third = (self.dir / name for name in ("f.xyz", "j.xyz", "R.xyz"))
+        for start in (first, second):
+            start.write_text('1\nLattice="1 0 0 0 1 0 0 0 1" Properties=pos:R:3:radius:R:1\n0.5 0.5 0.5 0.2\n')
+        out = {"crunch": ("--output", third), "compress": ("--output", third), "export": ("--output", third), "page": ("--page", third)}
+        for verb in ("compress", "crunch", "check", "info", "export", "page"):
+            for words in ((first, "--input", second), ("--input", first, second), ("--input", first, "--input", second)):
+                self.refuse(f"two files for --input, '{first}' and '{second}'", verb, *words, *out.get(verb, ()))
+        self.refuse("--resume and --input both give a start", "crunch", first, "--resume", second)
+        one, two = self.dir / "a", self.dir / "b"
+        for verb, option in (("crunch", "--output"), ("export", "--output"), ("page", "--page")):
+            self.refuse(f"two files for {option}, '{one}' and '{two}'", verb, first, one, option, two)
+            self.refuse(f"two files for {option}, '{one}' and '{two}'", verb, option, one, first, two)
+        self.refuse(f"two files for --report, '{one}' and '{two}'", "crunch", first, "--report", one, f"--report={two}")
+        self.refuse(f"two files for --vtk, '{one}' and '{two}'", "export", first, "--vtk", one, "--vtk", two)
+        self.assertEqual(sorted(p.name for p in self.dir.iterdir()), ["f.xyz", "j.xyz"])
+
+    def refuse(self, text, *args):
+        done = subprocess.run([program, *map(str, args)], capture_output=True, text=True, timeout=60, check=False, cwd=self.dir)
+        self.assertEqual((done.returncode, done.stdout), (2, ""), f"{args}: {done.stderr}")
+        self.assertIn(text, done.stderr, str(args))
+
+    def test_standard_output_takes_one_text(self):
+        start = self.dir / "f.xyz"
+        start.write_text('1\nLattice="1 0 0 0 1 0 0 0 1" Properties=pos:R:3:radius:R:1\n0.5 0.5 0.5 0.2\n')
+        for words in (("export", start, "-"), ("export", start, "-", "--json"), ("crunch", start, "-"), ("compress", "--output", "-")):
+            self.refuse("--output -: it cannot go to standard output", *words)
+        self.refuse("--page -: it cannot go to standard output", "page", start, "-")
+        self.refuse("--gaps -: it cannot go to standard output", "export", start, "--gaps", "-")
+        self.refuse("--contacts - contradicts --json", "export", start, "--contacts", "-", "--json")
+        self.refuse("--log - contradicts --json", "crunch", start, "--log", "-", "--json")
+        self.refuse("--report - contradicts --contacts", "crunch", start, "--contacts", "-", "--report", "-")
+        self.assertEqual([p.name for p in self.dir.iterdir()], ["f.xyz"])
+
+    def test_ensemble_without_the_module(self):
+        """A python3 without packages comes first on the path: status 3, as for every request that is refused."""
+        python = self.dir / "python3"
+        python.write_text(f'#!/bin/sh\nexec {sys.executable} -I -S "$@"\n')
+        python.chmod(0o755)
+        env = {**os.environ, "PATH": f"{self.dir}:{os.environ['PATH']}"}
+        done = subprocess.run([program, "ensemble", "--help"], capture_output=True, text=True, timeout=60, check=False, env=env)
+        self.assertEqual((done.returncode, done.stdout), (3, ""), done.stderr)
+        self.assertIn("ensemble needs python3 with the module jam", done.stderr)
 
 
 if __name__ == "__main__":

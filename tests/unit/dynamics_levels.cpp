@@ -69,7 +69,7 @@ void agrees_with_naive_engine(void **) {
 
 // A neighbour that a search missed would overlap: all pairs are searched by the pair list, which has cells of its own.
 void grows_without_overlap(void **) {
-  for (const Scene &s : scenes(1500, 1500)) {
+  for (const Scene &s : scenes(500, 500)) {
     Packing p = packing_of(s, 5);
     EngineOptions o;
     o.growth = 0.02 * diameter_mean(p) / p.cell.side();

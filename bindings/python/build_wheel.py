@@ -129,6 +129,9 @@ def build_sdist(sdist_directory: str, config_settings: dict | None = None) -> st
     name = f"{base}.tar.gz"
     files = {path: (ROOT / path).read_bytes() for path in _sources()}
     files["PKG-INFO"] = _metadata().encode()
+    # an archive of source is built from its root
+    project = (ROOT / "bindings/python/pyproject.toml").read_bytes()
+    files["pyproject.toml"] = project.replace(b'backend-path = ["."]', b'backend-path = ["bindings/python"]')
     with open(Path(sdist_directory, name), "wb") as raw, gzip.GzipFile("", "wb", 9, raw, mtime=0) as packed:
         with tarfile.open(fileobj=packed, mode="w", format=tarfile.PAX_FORMAT) as archive:
             for path, data in sorted(files.items()):

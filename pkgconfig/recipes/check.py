@@ -45,7 +45,10 @@ for path in sorted(here.rglob("*")):
     if path.name != "portfile.cmake" and version not in text:
         problems.append(f"{path.name}: the version is not {version}")
 
-for name in ("CITATION.cff", "bindings/julia/Jam/Project.toml"):
+for path in sorted((here.parent / "presets").glob("*.cmake")):
+    named = set(re.findall(r"\b(JAM_\w+)", path.read_text()))
+    problems += [f"{path.name}: CMake has no option {name}" for name in sorted(named - options)]
+for name in (".github/CITATION.cff", "bindings/julia/Jam/Project.toml"):
     if version not in (root / name).read_text():
         problems.append(f"{name}: the version is not {version}")
 ast.parse((here / "package.py").read_text())

@@ -1,6 +1,6 @@
 #!/bin/sh
 # pip makes a wheel of the tree, without an index, and wheel.sh installs and runs it. The archive of the source has the
-# same bytes each time.
+# same bytes each time, and the settings of its build at its root.
 # usage: pip.sh ROOT BUILD_FOLDER_OF_THE_WHEEL     Skipped (77) where python3-venv is missing.
 set -eu
 /usr/bin/python3 -c 'import ensurepip, venv' 2>/dev/null || { echo "python3-venv is not installed"; exit 77; }
@@ -8,7 +8,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 /usr/bin/python3 -m venv "$work/venv"
 mkdir -p "$2"
-"$work/venv/bin/pip" wheel -q --no-index --no-deps --config-settings "build-dir=$2" -w "$work" "$1"
+"$work/venv/bin/pip" wheel -q --no-index --no-deps --config-settings "build-dir=$2" -w "$work" "$1/bindings/python"
 sh "$1/tests/bindings/wheel.sh" "$work"/jamming-*.whl
 for folder in one two; do
   mkdir "$work/$folder"
@@ -16,3 +16,5 @@ for folder in one two; do
     'import build_wheel, sys; build_wheel.build_sdist(sys.argv[1])' "$work/$folder")
 done
 cmp "$work"/one/jamming-*.tar.gz "$work"/two/jamming-*.tar.gz
+tar -xzf "$work"/one/jamming-*.tar.gz -C "$work/one"
+grep -q '^backend-path = \["bindings/python"\]' "$work"/one/jamming-*/pyproject.toml

@@ -68,14 +68,18 @@ EOF
   if flags | grep -q -- ' -O3 '; then die "the flags of the parent are not kept"; fi
   ;;
 fetch)
-  # By FetchContent, beside targets of the same names; each links its own library. Presets are well formed.
+  # By FetchContent, beside targets of the same names; each links its own library. A preset is taken.
   rm -rf "$scratch/fetch"
   cmake -G "Unix Makefiles" -S "$here/fetch" -B "$scratch/fetch" -DJAM_SOURCE="$here/../.." \
     -DJAM_BUILD_STATIC=ON -DJAM_BLAS=builtin -DJAM_CLP=OFF >"$scratch/fetch.log"
   grep -q 'libjam[.]so' "$scratch/fetch/CMakeFiles/fetched.dir/link.txt" || die "jam::jam does not link libjam.so"
   grep 'libjam[.]a' "$scratch/fetch/CMakeFiles/fetched_static.dir/link.txt" | grep -v 'libjam[.]so' >/dev/null ||
     die "jam::static does not link libjam.a alone"
-  (cd "$here/../.." && cmake --list-presets) | grep -q '"alone"' || die "CMakePresets.json lacks presets"
+  rm -rf "$scratch/flat"
+  cmake -C "$here/../../pkgconfig/presets/flat.cmake" -S "$here/../.." -B "$scratch/flat" >"$scratch/flat.log"
+  for value in 'JAM_BLAS:STRING=builtin' 'JAM_CLP:BOOL=OFF' 'JAM_DIMENSIONS:STRING=2;3'; do
+    grep -q "^$value\$" "$scratch/flat/CMakeCache.txt" || die "the preset flat does not set $value"
+  done
   ;;
 uninstall)
   # What an install of the build wrote goes again, and nothing else.

@@ -25,9 +25,7 @@ static int write_json(const options *o, const jam_check_report *r, const char *n
   FILE *f;
   if (open_output(&out, "-")) return -1;
   f = out.file;
-  fputs("{\n  \"file\": ", f);
-  put_text(f, o->input);
-  fputs(",\n", f);
+  begin_json(f, o->input);
   put_verdict(f, "jammed", r->jammed);
   put_verdict(f, "strictly_jammed", r->strictly_jammed);
   put_verdict(f, "stationary", r->stationary);

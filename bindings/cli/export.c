@@ -34,9 +34,7 @@ static int write_json(const options *o, const jam_system *sys, int known) {
   list.file = out.file;
   info.struct_size = sizeof info;
   jam_get_info(sys, &info);
-  fputs("{\n  \"file\": ", out.file);
-  put_text(out.file, o->input);
-  fputs(",\n", out.file);
+  begin_json(out.file, o->input);
   put_count(out.file, "n", info.n, 1);
   put_count(out.file, "dim", info.dim, 1);
   put_number(out.file, "packing_fraction", info.packing_fraction);

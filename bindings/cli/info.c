@@ -65,9 +65,7 @@ static int write_json(const options *o, const content *c, const char *notes) {
   FILE *f;
   if (open_output(&out, "-")) return -1;
   f = out.file;
-  fputs("{\n  \"file\": ", f);
-  put_text(f, o->input);
-  fputs(",\n", f);
+  begin_json(f, o->input);
   put_count(f, "n", c->info.n, 1);
   put_count(f, "dim", c->info.dim, 1);
   put_cell(f, c);

@@ -108,6 +108,7 @@ int has_failed(jam_status status);
  * known, are null. */
 void put_number(FILE *f, const char *key, double x);
 void put_count(FILE *f, const char *key, int64_t x, int known);
+void begin_json(FILE *f, const char *file);
 void put_text(FILE *f, const char *text); /* the value alone */
 void put_notes(FILE *f, const char *notes);
 /* The lines of jam_notes: calls f with each, without its end. */

@@ -86,3 +86,10 @@ void put_notes(FILE *f, const char *notes) {
   each_note(notes, put_note, &list);
   fputs("],\n", f);
 }
+
+/* The object, and the file that it is about. */
+void begin_json(FILE *f, const char *file) {
+  fputs("{\n  \"file\": ", f);
+  put_text(f, file);
+  fputs(",\n", f);
+}

@@ -42,12 +42,11 @@ std::vector<PairLevel> pair_levels(const Packing &p, const std::vector<double> &
   const auto of = [&](size_t i) { return reach[i] + per_diameter * p.diameter[i]; };
   double widest = 0.0;
   for (size_t i = 0; i < p.n(); ++i) widest = std::max(widest, of(i));
-  constexpr size_t most = 30;
+  constexpr size_t most = most_halvings;
   std::vector<PairLevel> level(most + 1);
   std::vector<double> longest(most + 1, 0.0), largest(most + 1, 0.0);
   for (size_t i = 0; i < p.n(); ++i) {
-    size_t halved = 0;
-    for (double r = 2.0 * of(i); r < widest && halved < most; r *= 2.0) ++halved;
+    const size_t halved = halvings(of(i), widest);
     level[halved].member.push_back(static_cast<int32_t>(i));
     longest[halved] = std::max(longest[halved], reach[i]);
     largest[halved] = std::max(largest[halved], p.diameter[i]);

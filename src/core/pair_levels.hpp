@@ -10,6 +10,14 @@
 
 namespace jam {
 
+// The level of a reach: how often it is halved from the widest one, but for less than a factor of two.
+constexpr size_t most_halvings = 30;  // 1e9 between the widest and the narrowest
+inline size_t halvings(double reach, double widest) {
+  size_t count = 0;
+  for (double r = 2.0 * reach; r < widest && count < most_halvings; r *= 2.0) ++count;
+  return count;
+}
+
 // Spheres sorted by cell; a cell's members are members[start[cell] .. start[cell + 1]).
 class PairCells {
  public:

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "pore/images.hpp"
+#include "pore/tuning.hpp"
 
 namespace jam {
 
@@ -35,7 +36,7 @@ class Balls {
     for (int c = 0; c < p.dim; ++c) {
       low_[c] = -(reach + widest_);
       const double length = p.cell.edge(c) - 2.0 * low_[c];
-      count_[c] = static_cast<int64_t>(std::min(1000.0, std::ceil(length / side)));
+      count_[c] = static_cast<int64_t>(std::min(BallsTuning::most_cells, std::ceil(length / side)));
       side_[c] = length / static_cast<double>(count_[c]);
     }
     at_.resize(static_cast<size_t>(count_[0] * count_[1] * count_[2]));

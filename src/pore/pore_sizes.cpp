@@ -8,12 +8,13 @@
 #include "core/rng.hpp"
 #include "jam/jam.h"
 #include "pore/balls.hpp"
+#include "pore/tuning.hpp"
 
 namespace jam {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
-constexpr double rounding = 1e-9;  // of lengths, over the mean diameter
+constexpr double rounding = PoreSizeTuning::rounding;
 
 // One equation d . c + q r = b for the centre c and radius r of a sphere that touches a ball; c from a base point.
 struct Row {
@@ -78,7 +79,7 @@ class Pores {
 };
 
 double Pores::bound_radius() const {
-  constexpr double steps = 5.0;  // of the grid, a mean diameter
+  constexpr double steps = PoreSizeTuning::grid;
   std::array<int64_t, 3> count{1, 1, 1};
   Point step{};
   for (int c = 0; c < p_.dim; ++c) {

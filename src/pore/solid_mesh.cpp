@@ -11,13 +11,10 @@
 #include "pore/images.hpp"
 #include "pore/profile.hpp"
 #include "pore/sphere_hull.hpp"
+#include "pore/tuning.hpp"
 
 namespace jam {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
-constexpr double clear_of_points = 0.5;  // of an edge: points of the grid that a contact or a rim takes the place of
-constexpr double between_rims = 0.01;    // least angle
 
 // A contact as its first sphere sees it. Both spheres take from here what they share, to the bit.
 struct Joint {
@@ -94,7 +91,7 @@ void Mesher::take_joints(const ContactNetwork &network) {
     t.split = t.length * radius(t.i) / (radius(t.i) + radius(t.j));
     const double least = std::min(radius(t.i), radius(t.j));
     t.radius = bridged() ? o_.bridge * least : 0.0;
-    t.rim = std::max(8, static_cast<int32_t>(std::ceil(2.0 * pi * o_.bridge / o_.edge)));
+    t.rim = std::max(8, static_cast<int32_t>(std::ceil(2.0 * math::pi * o_.bridge / o_.edge)));
     const size_t c = std::fabs(t.towards[0]) < 0.5 ? 0 : 1;  // an axis well away from it
     Point axis{};
     axis[c] = 1.0;
@@ -129,7 +126,7 @@ void Mesher::check_bridges() const {
         const Joint &t = joint_[ends_[s][a].joint], &q = joint_[ends_[s][b].joint];
         const double angle =
             math::acos(std::min(1.0, std::max(-1.0, dot(direction(ends_[s][a]), direction(ends_[s][b])))));
-        if (angle < cap_angle(t, sphere) + cap_angle(q, sphere) + between_rims)
+        if (angle < cap_angle(t, sphere) + cap_angle(q, sphere) + MeshTuning::between_rims)
           fail(JAM_E_ARGUMENT, "bridge is %g: two cylinders at sphere %d would meet (contacts %zu and %zu)", o_.bridge,
                sphere, ends_[s][a].joint, ends_[s][b].joint);
       }
@@ -162,7 +159,7 @@ double Mesher::bridge_volume(const Joint &t) const {
     length -= depth;
     caps += volume_below(3, radius(s), -depth);
   }
-  return pi * t.radius * t.radius * length - caps;
+  return math::pi * t.radius * t.radius * length - caps;
 }
 
 // The points of the sphere at one end: of its rim, or the contact itself. `owner` says which corners a rim has.
@@ -179,7 +176,7 @@ void Mesher::add_end(const End &e, int32_t sphere, std::vector<Point> &point, st
   const double s = t.radius / radius(sphere), c = std::sqrt(1.0 - s * s);
   for (int32_t k = 0; k < t.rim; ++k) {
     const double turns = static_cast<double>(k) / t.rim, co = math::cos_of_turns(turns),
-                 si = math::sin(2.0 * pi * turns);
+                 si = math::sin(2.0 * math::pi * turns);
     Point x;
     for (size_t q = 0; q < 3; ++q) x[q] = c * d[q] + s * (co * t.u[q] + si * t.v[q]);
     point.push_back(x);
@@ -202,8 +199,9 @@ void Mesher::build(int32_t sphere) {
   for (const Point &x : grid_.point) {
     bool free = true;
     for (const End &e : ends) {
-      const double angle = (bridged() ? cap_angle(joint_[e.joint], sphere) : 0.0) + clear_of_points * o_.edge;
-      free = free && dot(x, direction(e)) < math::cos(std::min(angle, pi));
+      const double angle =
+          (bridged() ? cap_angle(joint_[e.joint], sphere) : 0.0) + MeshTuning::clear_of_points * o_.edge;
+      free = free && dot(x, direction(e)) < math::cos(std::min(angle, math::pi));
     }
     if (!free) continue;
     point.push_back(x);
@@ -245,7 +243,7 @@ Point Mesher::place(const Corner &c, const SphereImage &image) const {
   x = image_centre(p_, t.i, cells);
   const double turns = static_cast<double>(c.k) / t.rim;
   const double co = c.k < 0 ? 0.0 : t.radius * math::cos_of_turns(turns);
-  const double si = c.k < 0 ? 0.0 : t.radius * math::sin(2.0 * pi * turns);
+  const double si = c.k < 0 ? 0.0 : t.radius * math::sin(2.0 * math::pi * turns);
   for (size_t q = 0; q < 3; ++q) x[q] += t.split * t.towards[q] + co * t.u[q] + si * t.v[q];
   return x;
 }
@@ -264,7 +262,7 @@ void Mesher::put(const Point &a, const Point &b, const Point &c, SolidMesh &mesh
   mesh.triangle.push_back(t);
   for (Point &x : rounded)
     for (int q = 0; q < 3; ++q) x[static_cast<size_t>(q)] -= 0.5 * p_.cell.edge(q);
-  mesh.volume += dot(rounded[0], cross(rounded[1], rounded[2])) / 6.0;
+  mesh.volume += dot(rounded[0], cross(rounded[1], rounded[2])) / (2.0 * 3.0);
 }
 
 // The sphere at hand as cones from its centre, which its parts can be seen from, cut at the faces of the brick.
@@ -330,9 +328,6 @@ SolidMesh Mesher::make() {
   return mesh;
 }
 
-// Shorter triangles have errors of a per cent from the floats of the file.
-constexpr double least_steps = 100.0;
-
 }  // namespace
 
 jam_mesh_options default_mesh_options() {
@@ -347,15 +342,17 @@ jam_mesh_options default_mesh_options() {
 
 SolidMesh solid_mesh(const Packing &p, const ContactNetwork *network, const jam_mesh_options &o) {
   check_enum(o.contacts, JAM_MESH_KEPT, JAM_MESH_BRIDGED, "contacts", "jam_mesh_contacts");
-  if (!(o.edge >= 0.03 && o.edge <= 1.0)) fail(JAM_E_ARGUMENT, "edge is %g, it must be in 0.03..1", o.edge);
+  if (!(o.edge >= MeshTuning::shortest_edge && o.edge <= 1.0))
+    fail(JAM_E_ARGUMENT, "edge is %g, it must be in 0.03..1", o.edge);
   if (!(o.factor > 0.0 && o.factor < 1.0)) fail(JAM_E_ARGUMENT, "factor is %g, it must lie between 0 and 1", o.factor);
-  if (!(o.bridge >= 0.02 && o.bridge <= 0.45)) fail(JAM_E_ARGUMENT, "bridge is %g, it must be in 0.02..0.45", o.bridge);
+  if (!(o.bridge >= MeshTuning::thinnest_bridge && o.bridge <= MeshTuning::widest_bridge))
+    fail(JAM_E_ARGUMENT, "bridge is %g, it must be in 0.02..0.45", o.bridge);
   check_has_pores(p);
   if (p.dim != 3) fail(JAM_E_UNSUPPORTED, "a mesh of triangles needs d = 3, this packing has d = %d", p.dim);
   const double smallest = *std::min_element(p.diameter.begin(), p.diameter.end());
   const double side = 0.5 * o.edge * smallest * (o.contacts == JAM_MESH_SHRUNK ? o.factor : 1.0);
   const double step = 0x1p-24 * std::max({p.cell.edge(0), p.cell.edge(1), p.cell.edge(2)});
-  if (side < least_steps * step)
+  if (side < MeshTuning::least_steps * step)
     fail(JAM_E_ARGUMENT, "triangles of %g would be lost in the floats of an STL file, whose step is up to %g here",
          side, step);
   return Mesher(p, network, o).make();

@@ -5,11 +5,10 @@
 
 #include "core/math.hpp"
 #include "pore/profile.hpp"
+#include "pore/tuning.hpp"
 
 namespace jam {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 double clamped(double x) { return std::min(1.0, std::max(-1.0, x)); }
 
@@ -17,12 +16,12 @@ double clamped(double x) { return std::min(1.0, std::max(-1.0, x)); }
 // where shapes begin to cut each other, cost nothing.
 template <class F>
 double integral(double from, double to, const F &f) {
-  constexpr int steps = 28;
-  constexpr double step = 0.125;
+  constexpr int steps = QuadratureTuning::steps;
+  constexpr double step = QuadratureTuning::step;
   const double half = 0.5 * (to - from);
   double sum = 0.0;
   for (int k = -steps; k <= steps; ++k) {
-    const double e = math::exp(k * step), s = 0.25 * pi * (e - 1.0 / e), c = 0.25 * pi * (e + 1.0 / e);
+    const double e = math::exp(k * step), s = 0.25 * math::pi * (e - 1.0 / e), c = 0.25 * math::pi * (e + 1.0 / e);
     const double g = math::exp(2.0 * std::fabs(s));
     const double left = 2.0 / (g + 1.0);  // distance to the nearer end, of 2
     const double weight = 4.0 * g / ((g + 1.0) * (g + 1.0)) * c;
@@ -35,8 +34,8 @@ double integral(double from, double to, const F &f) {
 
 double volume_below(int dim, double radius, double t) {
   const double u = clamped(t / radius);
-  if (dim == 2) return radius * radius * (0.5 * pi + math::asin(u) + u * std::sqrt(1.0 - u * u));
-  return pi * radius * radius * radius * (1.0 + u) * (1.0 + u) * (2.0 - u) / 3.0;
+  if (dim == 2) return radius * radius * (0.5 * math::pi + math::asin(u) + u * std::sqrt(1.0 - u * u));
+  return math::pi * radius * radius * radius * (1.0 + u) * (1.0 + u) * (2.0 - u) / 3.0;
 }
 
 double shared_volume(int dim, double a, double b, double apart) {

@@ -5,6 +5,7 @@
 
 #include "core/call_scope.hpp"
 #include "core/checks.hpp"
+#include "pore/tuning.hpp"
 
 namespace jam {
 
@@ -15,10 +16,10 @@ VoxelGrid voxel_grid(const Packing &p, const jam_voxel_options &o) {
   const char *const names[] = {"nx", "ny", "nz"};
   check_not_negative(o.size, "size");
   if (o.lines < 0 || o.lines > 64) fail(JAM_E_ARGUMENT, "lines is %d, it must be in 0..64", o.lines);
-  const double size = o.size > 0.0 ? o.size : 0.01 * p.cell.side();
+  const double size = o.size > 0.0 ? o.size : VoxelTuning::default_size * p.cell.side();
   for (int c = 0; c < p.dim; ++c) {
     const double edge = p.cell.edge(c), count = given[c] ? given[c] : std::max(1.0, std::nearbyint(edge / size));
-    if (!(count >= 1.0 && count <= 100000.0))
+    if (!(count >= 1.0 && count <= VoxelTuning::most))
       fail(JAM_E_ARGUMENT, "%s is %g voxels, it must be in 1..1e5", given[c] ? names[c] : "an edge of the brick",
            count);
     grid.count[c] = static_cast<int64_t>(count);

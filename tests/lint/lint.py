@@ -56,6 +56,7 @@ TUNED = {
     "lp": [],
     "linalg": ["newton_system.hpp"],
     "analysis": [],
+    "pore": ["sphere_hull.cpp"],
     "crunch": ["spacing.cpp"],
     "dynamics": ["equation_of_state.cpp"],
 }

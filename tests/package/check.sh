@@ -61,7 +61,7 @@ EOF
   }
   configure
   flags | grep -q -- ' -O3 ' || die "without a build type libjam is not optimised"
-  grep -q 'no build type' "$scratch/parent/log" || die "the flags are not told"
+  grep -q 'no build type' "$scratch/parent/log" || die "the flags are not reported"
   configure -DCMAKE_BUILD_TYPE=Debug
   if flags | grep -q -- ' -O3 '; then die "the build type of the parent is not kept"; fi
   configure -DCMAKE_CXX_FLAGS=-O1

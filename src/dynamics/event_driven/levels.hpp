@@ -6,6 +6,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "core/pair_levels.hpp"
 #include "dynamics/event_driven/cell_grid.hpp"
 #include "dynamics/event_driven/image_grid.hpp"
 #include "dynamics/event_driven/list_cells.hpp"
@@ -77,7 +78,7 @@ class Levels {
   void archive(Archive &a, const Lattice<D> &lattice) {
     uint64_t count = level_.size();
     a(count);
-    Archive::check(count <= most + 1);
+    Archive::check(count <= most_halvings + 1);
     level_.resize(count);
     a(of_);
     for (Level &l : level_) {
@@ -124,8 +125,6 @@ class Levels {
   }
 
  private:
-  static constexpr size_t most = 30;  // halvings: 1e9 between the largest and the smallest radius
-
   size_t of(int32_t i) const { return of_.empty() ? 0 : static_cast<size_t>(of_[i]); }
   static size_t cell_of(const Level &l, const Place &place, const Lattice<D> &lattice) {
     return l.grid.number_of(l.grid.home(place, lattice));
@@ -136,17 +135,16 @@ class Levels {
   // Levels of a factor of two each, coarsest first; returns that of each sphere.
   std::vector<int32_t> by_halves(const std::vector<double> &rho) {
     const double widest = *std::max_element(rho.begin(), rho.end());
-    std::vector<int32_t> halved(rho.size()), number(most + 1, -1);
-    std::vector<Level> level(most + 1);
+    std::vector<int32_t> halved(rho.size()), number(most_halvings + 1, -1);
+    std::vector<Level> level(most_halvings + 1);
     for (size_t i = 0; i < rho.size(); ++i) {
-      size_t h = 0;
-      for (double r = 2.0 * rho[i]; r < widest && h < most; r *= 2.0) ++h;
+      const size_t h = halvings(rho[i], widest);
       halved[i] = static_cast<int32_t>(h);
       level[h].rho_max = std::max(level[h].rho_max, rho[i]);
       ++level[h].n;
     }
     level_.clear();
-    for (size_t h = 0; h <= most; ++h)
+    for (size_t h = 0; h <= most_halvings; ++h)
       if (level[h].n > 0) number[h] = static_cast<int32_t>(level_.size()), level_.push_back(level[h]);
     for (int32_t &h : halved) h = number[h];
     return halved;

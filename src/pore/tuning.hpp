@@ -1,0 +1,36 @@
+// Every number that steers the analysis of the pore space.
+#pragma once
+
+namespace jam {
+
+// Cells that find spheres near a point: at most so many along an edge.
+struct BallsTuning {
+  static constexpr double most_cells = 1000.0;
+};
+
+struct MeshTuning {
+  // What options may be: edges over the radius, where triangles become too many or too coarse, and bridges.
+  static constexpr double shortest_edge = 0.03, thinnest_bridge = 0.02, widest_bridge = 0.45;
+  // Points of the grid this near to a contact or a rim, in edges, give way to it.
+  static constexpr double clear_of_points = 0.5;
+  static constexpr double between_rims = 0.01;  // least angle of two
+  // Edges of a triangle, in steps of the floats of the file: shorter ones have errors of a per cent.
+  static constexpr double least_steps = 100.0;
+};
+
+// Tanh-sinh quadrature: points on either side, and their distance. Shells of a cylinder are right to 1e-12.
+struct QuadratureTuning {
+  static constexpr int steps = 28;
+  static constexpr double step = 0.125;
+};
+
+struct VoxelTuning {
+  static constexpr double default_size = 0.01, most = 100000.0;  // V^(1/d); voxels along an edge
+};
+
+struct PoreSizeTuning {
+  static constexpr double rounding = 1e-9;  // of lengths, over the mean diameter
+  static constexpr double grid = 5.0;       // points for each mean diameter, from which the largest pore is bounded
+};
+
+}  // namespace jam

@@ -19,13 +19,13 @@ static void put_verdict(FILE *f, const char *key, int32_t verdict) {
 }
 
 /* A verdict that is open is null. */
-static int write_json(const options *o, const jam_check_report *r, const char *notes) {
+static int write_json(const options *o, int code, const jam_check_report *r, const char *notes) {
   static const char *const reasons[] = {"proof", "apart", "no_force", "flex", "digits", "overlap", "gaps", "margin"};
   output out;
   FILE *f;
   if (open_output(&out, "-")) return -1;
   f = out.file;
-  begin_json(f, o->input);
+  begin_json(f, o->input, code, jam_check_text(r));
   put_verdict(f, "jammed", r->jammed);
   put_verdict(f, "strictly_jammed", r->strictly_jammed);
   put_verdict(f, "stationary", r->stationary);
@@ -52,27 +52,21 @@ static int write_json(const options *o, const jam_check_report *r, const char *n
   put_verdict(f, "crunch_jammed", r->crunch_jammed);
   put_number(f, "crunch_packing_fraction", r->crunch_packing_fraction);
   put_number(f, "proof_radius", o->prove || o->proof ? r->proof_radius : NAN);
-  fputs("  \"text\": ", f);
-  put_text(f, jam_check_text(r));
-  fputs(",\n", f);
-  put_notes(f, notes);
+  put_notes(f, notes, "");
   fprintf(f, "  \"version\": \"%s\"\n}\n", jam_version());
   return close_output(&out);
 }
 
-/* The text or the JSON, and the proof; 0, or else after a message. */
+/* The proof, then the text or the JSON; returns the exit code. */
 static int say(jam_system *sys, const options *o, jam_status status, const jam_check_report *report) {
-  int bad = 0;
-  if (o->json)
-    bad = write_json(o, report, jam_notes(sys));
-  else if (!o->quiet)
-    puts(jam_check_text(report));
-  if (!o->proof) return bad || fflush(stdout);
-  if (status == JAM_OK)
-    bad |= has_failed(write_proof_file(sys, o->proof));
-  else
+  int code = status == JAM_OK ? CHECK_YES : status == JAM_NOT_JAMMED ? CHECK_NO : CHECK_UNDECIDED;
+  if (o->proof && status != JAM_OK)
     complain("%s is not written: the packing is not jammed", o->proof);
-  return bad || fflush(stdout);
+  else if (o->proof && has_failed(write_proof_file(sys, o->proof)))
+    code = failure_code();
+  if (o->json) return write_json(o, code, report, jam_notes(sys)) ? EXIT_OUTPUT : code;
+  if (!o->quiet) puts(jam_check_text(report));
+  return fflush(stdout) ? EXIT_OUTPUT : code;
 }
 
 int check_file(const options *o) {
@@ -80,7 +74,7 @@ int check_file(const options *o) {
   jam_check_report report = {0};
   jam_system *sys = NULL;
   jam_status status;
-  int bad = 0;
+  int code = CHECK_REFUSED;
   if (read_as_it_is(o, &sys)) return CHECK_REFUSED;
   if (!sys) return CHECK_UNDECIDED;
   report.struct_size = sizeof report;
@@ -89,15 +83,14 @@ int check_file(const options *o) {
   check.wall_time = o->wall_time;
   check.prove = o->prove || o->proof;
   if (status >= 0) status = jam_check_packing(sys, &check, &report);
-  if (status == JAM_CANCELLED)
+  if (status == JAM_CANCELLED) {
     complain("interrupted before the verdict");
-  else if (status < 0)
+    code = CHECK_UNDECIDED;
+  } else if (status < 0) {
     complain("%s", jam_last_error());
-  else
-    bad = say(sys, o, status, &report);
+  } else {
+    code = say(sys, o, status, &report);
+  }
   cancel_on_signal(NULL);
-  jam_destroy(sys);
-  if (bad) return EXIT_OUTPUT;
-  if (status < 0) return CHECK_REFUSED;
-  return status == JAM_OK ? CHECK_YES : status == JAM_NOT_JAMMED ? CHECK_NO : CHECK_UNDECIDED;
+  return leave(sys, code);
 }

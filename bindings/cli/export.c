@@ -2,15 +2,25 @@
 #include <stdio.h>
 #include "jam-pack.h"
 
-/* The network that tables and pages show: contacts by the gaps of the file, which needs no crunch. Returns whether it
- * is there. */
-static int find_network(jam_system *sys) {
+/* The contact network that tables and pages show. */
+typedef struct network {
+  int known;
+  int64_t contacts;
+  char doubt[1024]; /* why it is empty, or not the only one, or no jammed one; empty where none of these */
+} network;
+
+/* Contacts by the gaps of the file, which needs no crunch. */
+static void find_network(jam_system *sys, network *found) {
+  jam_geometry_report report = {.struct_size = sizeof report};
   jam_status status;
   cancel_on_signal(sys);
-  status = jam_contacts_from_geometry(sys, NULL, NULL);
+  status = jam_contacts_from_geometry(sys, NULL, &report);
   cancel_on_signal(NULL);
-  if (status != JAM_OK) complain("%s%s", status > 0 ? "warning: " : "no contact network: ", jam_last_error());
-  return status >= 0 && status != JAM_CANCELLED;
+  found->known = status >= 0 && status != JAM_CANCELLED;
+  found->contacts = found->known ? report.contacts : 0;
+  if (status == JAM_OK) return;
+  in_own_words(jam_last_error(), found->doubt, sizeof found->doubt);
+  complain("%s%s", found->known ? "warning: " : "no contact network: ", jam_last_error());
 }
 
 struct list {
@@ -26,7 +36,7 @@ static int put_path(const char *path, void *with) {
 }
 
 /* What the packing is, and which files were written. */
-static int write_json(const options *o, const jam_system *sys, int known) {
+static int write_json(const options *o, const jam_system *sys, int code, const network *found) {
   struct list list = {NULL, 1};
   jam_info info;
   output out;
@@ -34,14 +44,16 @@ static int write_json(const options *o, const jam_system *sys, int known) {
   list.file = out.file;
   info.struct_size = sizeof info;
   jam_get_info(sys, &info);
-  begin_json(out.file, o->input);
+  begin_json(out.file, o->input, code, messages());
   put_count(out.file, "n", info.n, 1);
   put_count(out.file, "dim", info.dim, 1);
   put_number(out.file, "packing_fraction", info.packing_fraction);
-  fprintf(out.file, "  \"network\": %s,\n  \"written\": [", known ? "true" : "false");
+  fprintf(out.file, "  \"network\": %s,\n", found->contacts > 0 ? "true" : "false");
+  put_count(out.file, "contacts", found->contacts, found->known);
+  fputs("  \"written\": [", out.file);
   each_output(o, put_path, &list);
   fputs("],\n", out.file);
-  put_notes(out.file, jam_notes(sys));
+  put_notes(out.file, jam_notes(sys), found->doubt);
   fprintf(out.file, "  \"version\": \"%s\"\n}\n", jam_version());
   return close_output(&out);
 }
@@ -54,22 +66,20 @@ static int print_path(const char *path, void *with) {
 
 int export_file(const options *o) {
   const int tables = o->contacts || o->spectrum || o->gaps || o->structure;
+  network found = {0, 0, ""};
   jam_system *sys = NULL;
-  int code = read_as_it_is(o, &sys), known = 0, bad, cut_short = 0;
+  int code = read_as_it_is(o, &sys), cut_short = 0;
   if (!code && !sys) code = EXIT_FAILED;
   if (!code && check_formats(o, sys)) code = EXIT_USAGE;
-  if (code) {
-    jam_destroy(sys);
-    return code;
-  }
-  if (tables || o->vtk || o->page || o->stl) known = find_network(sys);
-  bad = write_files(sys, o, known, seconds_now() + o->wall_time, &cut_short);
-  if (!bad && o->json)
-    bad = write_json(o, sys, known);
-  else if (!bad && !o->quiet)
+  if (code) return leave(sys, code);
+  if (tables || o->vtk || o->page || o->stl) find_network(sys, &found);
+  if (write_files(sys, o, found.known, seconds_now() + o->wall_time, &cut_short)) return leave(sys, failure_code());
+  code = tables && !found.known ? EXIT_FAILED : cut_short ? EXIT_EARLY : EXIT_DONE;
+  if (o->json) {
+    if (write_json(o, sys, code, &found)) code = EXIT_OUTPUT;
+  } else if (!o->quiet) {
     each_output(o, print_path, NULL);
-  jam_destroy(sys);
-  if (bad || fflush(stdout)) return EXIT_OUTPUT;
-  if (tables && !known) return EXIT_FAILED;
-  return cut_short ? EXIT_EARLY : EXIT_DONE;
+    if (*found.doubt) printf("  network   %lld contacts: %s\n", (long long)found.contacts, found.doubt);
+  }
+  return leave(sys, fflush(stdout) ? EXIT_OUTPUT : code);
 }

@@ -1,8 +1,11 @@
 /* The formats of files, by the endings of their names. */
 #define _XOPEN_SOURCE 700
+#include <math.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <string.h>
 #include <strings.h>
+#define JAM_PACK_OPTIONS_TABLE
 #include "jam-pack.h"
 
 void ending_of(const char *path, char ending[8]) {
@@ -27,10 +30,37 @@ static int is_one_of(const char *word, const char *const *list) {
   return *list != NULL;
 }
 
+static int is_packed(const char *path) {
+  const size_t length = strlen(path);
+  return length > 3 && !strcmp(path + length - 3, ".gz");
+}
+
+/* A name that promises what is not done. */
+static int settle_gzip(const options *o) {
+  size_t k;
+  for (k = 0; k < sizeof table / sizeof *table; ++k) {
+    const char *const path =
+        table[k].kind == TAKE_OUTPUT ? *(const char *const *)((const char *)o + table[k].place) : NULL;
+    if (!path || table[k].flags & TAKES_GZIP || !is_packed(path)) continue;
+    complain("%s %s: this file is not compressed: leave .gz out", table[k].name, path);
+    return -1;
+  }
+  return 0;
+}
+
 int settle_formats(const options *o) {
   static const char *const packings[] = {"xyz", "extxyz", "data", "lmp", "vtp", "dat", "txt", "", NULL};
+  static const char *const images[] = {"npy", "mha", "vti", NULL};
   static const char *const networks[] = {"csv", "dump", "vtp", "", NULL};
   char ending[8];
+  if (settle_gzip(o)) return -1;
+  if (o->voxels) {
+    ending_of(o->voxels, ending);
+    if (!is_one_of(ending, images)) {
+      complain("--voxels %s: no format is known by this ending; use .npy, .mha or .vti", o->voxels);
+      return -1;
+    }
+  }
   if (o->output) {
     const int host = is_host_format(o, o->output);
     ending_of(o->output, ending);
@@ -75,6 +105,10 @@ int check_formats(const options *o, const jam_system *sys) {
   jam_get_info(sys, &info);
   if (info.n == 1 && o->given.verb <= VERB_CRUNCH && !o->no_crunch && o->strain == JAM_STRAIN_NONE) {
     complain("a crunch of one sphere needs --strain: in a fixed cell nothing can move");
+    return -1;
+  }
+  if (o->structure && jam_bond_order(sys, 6, 1.2, NULL, 0, NULL) == JAM_E_UNSUPPORTED) {
+    complain("--structure: %s", jam_last_error());
     return -1;
   }
   if (o->vtk && info.dim > 3) {

@@ -65,7 +65,7 @@ static int write_json(const options *o, const content *c, const char *notes) {
   FILE *f;
   if (open_output(&out, "-")) return -1;
   f = out.file;
-  begin_json(f, o->input);
+  begin_json(f, o->input, EXIT_DONE, messages());
   put_count(f, "n", c->info.n, 1);
   put_count(f, "dim", c->info.dim, 1);
   put_cell(f, c);
@@ -82,7 +82,7 @@ static int write_json(const options *o, const content *c, const char *notes) {
   put_number(f, "d90", c->sizes.d90);
   put_number(f, "non_additivity", c->info.non_additivity);
   put_number(f, "nearest_gap", c->nearest_gap);
-  put_notes(f, notes);
+  put_notes(f, notes, "");
   fprintf(f, "  \"version\": \"%s\"\n}\n", jam_version());
   return close_output(&out);
 }
@@ -125,7 +125,6 @@ int show_info(const options *o) {
     bad = write_json(o, &c, jam_notes(sys));
   else if (!failed && !o->quiet)
     print_text(o, &c, jam_notes(sys));
-  jam_destroy(sys);
-  if (failed) return EXIT_FAILED;
-  return bad || fflush(stdout) ? EXIT_OUTPUT : EXIT_DONE;
+  if (failed) return leave(sys, EXIT_FAILED);
+  return leave(sys, bad || fflush(stdout) ? EXIT_OUTPUT : EXIT_DONE);
 }

@@ -45,6 +45,7 @@ typedef struct outcome {
   int32_t stage_stop[MAX_STAGES]; /* jam_stop_reason of the stages that were begun, else NONE */
   int fell_short;                 /* dynamics stalled before their aim, and the job went on */
   int cut_short;                  /* a table was not computed in time */
+  int code;                       /* the exit code */
   double seconds_md;
   const char *notes; /* jam_notes: what reading changed */
 } outcome;
@@ -99,18 +100,33 @@ void print_warnings(const char *notes); /* those of jam_notes, on stderr */
 /* Why the work ended early, and the option that continues it, on stderr. After a limit of time the library's text names
  * arguments of its calls, which are no options. */
 void print_stop(const jam_system *sys, const options *o, jam_status status, const outcome *result);
+
+/* messages.c: lines on stderr, which are kept for the JSON of a job that fails. */
 extern const char *program; /* its name, in help and messages */
 void complain(const char *format, ...);
-/* 1 after a message when a call failed or was stopped: then it has written nothing. */
+/* A text of the library with the words of a command line for its C functions. */
+void in_own_words(const char *text, char *out, size_t size);
+const char *messages(void); /* of this command line so far */
+void forget_messages(void);
+/* 1 after a message when a call failed or was stopped: then it has written nothing. Notes the exit code that fits. */
 int has_failed(jam_status status);
+void note_failure(int code); /* the first one counts */
+int failure_code(void);      /* EXIT_OUTPUT where none was noted */
 
 /* json.c: items of an object, each a line that ends with a comma. Numbers that are not finite, and counts that are not
  * known, are null. */
 void put_number(FILE *f, const char *key, double x);
 void put_count(FILE *f, const char *key, int64_t x, int known);
-void begin_json(FILE *f, const char *file);
-void put_text(FILE *f, const char *text); /* the value alone */
-void put_notes(FILE *f, const char *notes);
+/* What all objects begin with: the file or NULL, the exit code, and what was said. */
+void begin_json(FILE *f, const char *file, int code, const char *text);
+void put_text(FILE *f, const char *text);                     /* the value alone */
+void put_notes(FILE *f, const char *notes, const char *more); /* the lines of jam_notes, and one more or "" */
+/* Ends the work on a packing, whose size a JSON of a later failure gives. Returns code. */
+int leave(jam_system *sys, int code);
+/* The JSON of a job that wrote none: exit code, messages, and the packing of `leave`. 0, or -1 after a message. */
+int write_failure(const char *file, int code);
+int has_written_json(void);
+void forget_state(void);
 /* The lines of jam_notes: calls f with each, without its end. */
 void each_note(const char *notes, void (*f)(const char *line, int warns, void *with), void *with);
 
@@ -127,17 +143,19 @@ int check_writable(const char *path, void *unused); /* before hours of work */
 int open_output(output *out, const char *path);
 int close_output(output *out);
 
-/* pack.c: Ctrl-C and SIGTERM cancel the calls on a system, also where they came before; NULL: on none. */
+/* verbs.c: Ctrl-C and SIGTERM cancel the calls on a system, also where they came before; NULL: on none. */
 void cancel_on_signal(jam_system *sys);
+void watch_signals(jam_system *sys);                             /* the same from now on */
 int32_t stop_if_asked(const jam_progress *progress, void *user); /* a progress callback */
 
-/* write.c: all that the options ask for, and the summary; 0, or else after messages on stderr. deadline: on the clock
- * of seconds_now, of tables that take long. */
+/* write.c: all that the options ask for, and the summary. Returns the exit code, which is result->code where all is
+ * written. deadline: on the clock of seconds_now, of tables that take long. */
 int write_all(jam_system *sys, const options *o, double deadline, outcome *result);
 /* The files of the packing and, where its network is known, of the network. */
 int write_files(jam_system *sys, const options *o, int known, double deadline, int *cut_short);
 
-/* check.c, info.c, export.c: what these verbs do; each returns the exit code. */
+/* pack.c, check.c, info.c, export.c: what the verbs do; each returns the exit code. */
+int run_job(const options *o); /* pack, compress, crunch */
 int check_file(const options *o);
 int show_info(const options *o);
 int export_file(const options *o); /* `page` too */

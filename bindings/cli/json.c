@@ -80,16 +80,51 @@ static void put_note(const char *line, int warns, void *with) {
   put_text(list->file, line);
 }
 
-void put_notes(FILE *f, const char *notes) {
+void put_notes(FILE *f, const char *notes, const char *more) {
   struct note_list list = {f, 1};
   fputs("  \"notes\": [", f);
   each_note(notes, put_note, &list);
+  if (*more) put_note(more, 1, &list);
   fputs("],\n", f);
 }
 
-/* The object, and the file that it is about. */
-void begin_json(FILE *f, const char *file) {
+/* Of this command line: whether an object was begun, and the packing that its work ended with. */
+static int begun;
+static jam_info state;
+
+void begin_json(FILE *f, const char *file, int code, const char *text) {
+  begun = 1;
   fputs("{\n  \"file\": ", f);
-  put_text(f, file);
+  if (file)
+    put_text(f, file);
+  else
+    fputs("null", f);
+  fprintf(f, ",\n  \"status\": %d,\n  \"text\": ", code);
+  put_text(f, text);
   fputs(",\n", f);
+}
+
+int has_written_json(void) { return begun; }
+
+void forget_state(void) {
+  begun = 0;
+  memset(&state, 0, sizeof state);
+}
+
+int leave(jam_system *sys, int code) {
+  state.struct_size = sizeof state;
+  if (!sys || jam_get_info(sys, &state) < 0) state.n = 0;
+  jam_destroy(sys);
+  return code;
+}
+
+int write_failure(const char *file, int code) {
+  output out;
+  if (open_output(&out, "-")) return -1;
+  begin_json(out.file, file, code, messages());
+  put_count(out.file, "n", state.n, state.n > 0);
+  put_count(out.file, "dim", state.dim, state.n > 0);
+  put_number(out.file, "packing_fraction", state.n > 0 ? state.packing_fraction : NAN);
+  fprintf(out.file, "  \"version\": \"%s\"\n}\n", jam_version());
+  return close_output(&out);
 }

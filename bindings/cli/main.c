@@ -15,9 +15,8 @@ static int run_ensemble(char **argv, int argc) {
     for (k = 1; k < argc; ++k) words[k + 2] = argv[k];
     execvp(words[0], words);
   }
-  fputs("jam-pack: ensemble needs python3 with the module jam\n", stderr);
   free(words);
-  return 3;
+  return jam_pack_refuse(argc, argv, 3, "ensemble needs python3 with the module jam");
 }
 
 int main(int argc, char **argv) {

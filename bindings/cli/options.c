@@ -22,6 +22,15 @@ static int take_number(const char *name, const char *value, double *out, int zer
   return 0;
 }
 
+/* The same in the range of the row; 0, 0 is none. */
+static int take_real(const option_row *row, const char *value, double *out, int zero_is_fine) {
+  char need[80];
+  if (take_number(row->name, value, out, zero_is_fine)) return -1;
+  if (row->most == 0 || (*out >= row->least && *out <= row->most)) return 0;
+  snprintf(need, sizeof need, "a number in %g..%g", row->least, row->most);
+  return bad_value(row->name, value, need);
+}
+
 static int take_delta(const char *name, const char *value, double *out) {
   char *end;
   *out = strtod(value, &end);
@@ -83,9 +92,9 @@ static int take_value(const option_row *row, const char *value, options *o) {
     case TAKE_INTEGER:
       return take_integer(row->name, value, row->low, row->high, place);
     case TAKE_POSITIVE:
-      return take_number(row->name, value, place, 0);
+      return take_real(row, value, place, 0);
     case TAKE_NOT_NEGATIVE:
-      return take_number(row->name, value, place, 1);
+      return take_real(row, value, place, 1);
     case TAKE_PRESSURE:
       if (take_number(row->name, value, place, 0)) return -1;
       return *(double *)place > 1 ? 0 : bad_value(row->name, value, "larger than 1, an ideal gas");
@@ -118,27 +127,31 @@ static const option_row *find_option(const char *name, size_t length) {
 /* What the verb takes, for those who gave it something else. */
 static void refuse_option(const options *o, const char *word) {
   const unsigned bit = 1u << o->given.verb;
-  const char *before = " ";
-  size_t k;
-  fprintf(stderr, "%s: %s takes no '%s'; it takes %s", program, verb_table[o->given.verb].name, word,
-          verb_table[o->given.verb].first ? "a FILE," : "no FILE, but");
+  char names[2048] = "";
+  size_t k, length = 0;
   for (k = 0; k < sizeof table / sizeof *table; ++k)
-    if (table[k].verbs & bit && strcmp(table[k].name, "--input")) {
-      fprintf(stderr, "%s%s", before, table[k].name);
-      before = ", ";
-    }
-  fputc('\n', stderr);
+    if (table[k].verbs & bit && strcmp(table[k].name, "--input") && length < sizeof names)
+      length += (size_t)snprintf(names + length, sizeof names - length, "%s%s", length ? ", " : "", table[k].name);
+  complain("%s takes no '%s'; it takes %s %s", verb_table[o->given.verb].name, word,
+           verb_table[o->given.verb].first ? "a FILE," : "no FILE, but", names);
 }
 
-/* The value of an option. A second file would replace the first one in silence. */
+/* The value of an option, NULL of a switch. A second one would replace the first one in silence; stages are a list. */
 static int take_once(const option_row *row, const char *value, options *o) {
   const int is_file = row->kind == TAKE_INPUT || row->kind == TAKE_OUTPUT || row->kind == TAKE_TEXT;
-  if (is_file && o->named[row - table]) {
+  if (o->named[row - table] && is_file) {
     complain("two files for %s, '%s' and '%s': leave one out", row->name, *(const char **)((char *)o + row->place),
              value);
     return -1;
   }
-  if (take_value(row, value, o)) return -1;
+  if (o->named[row - table] && row->kind != TAKE_STAGE) {
+    complain("%s is given twice: leave one out", row->name);
+    return -1;
+  }
+  if (!value)
+    *(int *)((char *)o + row->place) = 1;
+  else if (take_value(row, value, o))
+    return -1;
   o->named[row - table] = 1;
   return 0;
 }
@@ -177,13 +190,10 @@ static int take_argument(char **argv, int left, options *o) {
   else if (!(row->verbs >> o->given.verb & 1))
     refuse_option(o, row->name);
   else if (row->kind == TAKE_SWITCH) {
-    if (!value) {
-      *(int *)((char *)o + row->place) = 1;
-      o->named[row - table] = 1;
-      return 1;
-    }
+    if (!value) return !take_once(row, NULL, o);
     complain("option '%s' takes no value", row->name);
-  } else if (!value && left == 1)
+  } else if (!value && (left == 1 || find_option(argv[1], strlen(argv[1])))) /* --output=--json names such a file */
+
     complain("option '%s' lacks its value", argv[0]);
   else if (!take_once(row, value ? value + 1 : argv[1], o))
     return value ? 1 : 2;
@@ -227,7 +237,7 @@ int parse_options(int argc, char **argv, const jam_pack_host *host, options *o) 
       return 1 + (fflush(stdout) ? EXIT_OUTPUT : EXIT_DONE);
     }
     if (!strcmp(argv[k], "--version")) {
-      printf("%s %s\n", program, jam_version());
+      printf("%s %s, commit %s\n", program, jam_version(), jam_commit());
       return 1 + (fflush(stdout) ? EXIT_OUTPUT : EXIT_DONE);
     }
   }

@@ -11,6 +11,7 @@
 
 static int cannot(const char *path) {
   complain("cannot write %s: %s", path, strerror(errno));
+  note_failure(EXIT_OUTPUT);
   return -1;
 }
 

@@ -1,33 +1,11 @@
 /* From nothing, or from a file, to a certified jammed packing: the whole of jam-pack. */
 #define _XOPEN_SOURCE 700
 #include <math.h>
-#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <unistd.h>
 #include "jam-pack.h"
-
-/* The handler can reach nothing else: the handle to cancel, and that it was asked to. */
-static jam_system *volatile running = NULL;
-static volatile sig_atomic_t interrupted = 0;
-
-static void on_signal(int number) {
-  interrupted = 1;
-  if (running) jam_cancel(running);
-  signal(number, SIG_DFL); /* a second Ctrl-C ends the program at once */
-}
-
-void cancel_on_signal(jam_system *sys) {
-  running = sys;
-  if (sys && interrupted) jam_cancel(sys);
-}
-
-int32_t stop_if_asked(const jam_progress *progress, void *user) {
-  (void)progress, (void)user;
-  return interrupted;
-}
 
 /* ---- the parts of the job; each returns the library's status */
 
@@ -49,7 +27,7 @@ static int goes_on(const jam_system *sys, const options *o, double deadline, jam
                    const jam_md_report *md) {
   if (status >= 0) write_checkpoint(sys, o);
   return status == JAM_LIMIT && md->stop_reason == JAM_STOP_WALL_TIME && deadline - seconds_now() > 1e-3 &&
-         !interrupted;
+         !stop_if_asked(NULL, NULL);
 }
 
 static jam_status run_nve(jam_system *sys, const options *o, int32_t resume, double deadline, outcome *result) {
@@ -141,7 +119,7 @@ static void warn(const terminal *t, jam_status status, outcome *result) {
 /* Molecular dynamics may end by precision or by stalling, and the crunch goes on from there; limits and Ctrl-C end the
  * job. */
 static int ends_job(jam_status status) {
-  return status < 0 || status == JAM_CANCELLED || status == JAM_LIMIT || interrupted;
+  return status < 0 || status == JAM_CANCELLED || status == JAM_LIMIT || stop_if_asked(NULL, NULL);
 }
 
 /* Growth leads to no density below that of the start. */
@@ -189,28 +167,8 @@ static jam_status work(jam_system *sys, const options *o, terminal *t, outcome *
 #undef LEFT
 }
 
-/* Signals stop the work; afterwards those who had them get them back. */
-typedef struct signals {
-  struct sigaction interrupt, terminate;
-} signals;
-
-static void take_signals(signals *before) {
-  struct sigaction own;
-  memset(&own, 0, sizeof own);
-  own.sa_handler = on_signal;
-  sigemptyset(&own.sa_mask);
-  interrupted = 0;
-  sigaction(SIGINT, &own, &before->interrupt);
-  sigaction(SIGTERM, &own, &before->terminate);
-}
-
-static void give_signals_back(const signals *before) {
-  sigaction(SIGINT, &before->interrupt, NULL);
-  sigaction(SIGTERM, &before->terminate, NULL);
-}
-
 /* The job of one command line, from its start to its files. */
-static int run_job(options *o) {
+int run_job(const options *o) {
   outcome result;
   terminal t = {"start", seconds_now(), 0, 0, 0, NULL, NULL, NULL};
   jam_system *sys = NULL;
@@ -218,62 +176,32 @@ static int run_job(options *o) {
   int bad, code;
   memset(&result, 0, sizeof result);
   code = start(o, stop_if_asked, &sys);
-  if (!code && (o->input || o->resume || o->dim > 3 || o->given.cell_count || o->n == 1) && check_formats(o, sys))
+  if (!code && (o->input || o->resume || o->dim > 3 || o->given.cell_count || o->n == 1 || o->walls || o->container) &&
+      check_formats(o, sys))
     code = EXIT_USAGE;
   if (!code) print_warnings(jam_notes(sys));
-  running = sys;
+  watch_signals(sys);
   if (!code && start_progress(&t, o, sys)) code = EXIT_OUTPUT;
   if (code) {
-    running = NULL;
-    jam_destroy(sys);
-    return code;
+    watch_signals(NULL);
+    return leave(sys, code);
   }
-  if (!interrupted) status = work(sys, o, &t, &result);
-  running = NULL;
+  if (!stop_if_asked(NULL, NULL)) status = work(sys, o, &t, &result);
+  watch_signals(NULL);
   bad = end_progress(&t, o);
   if (status == JAM_E_UNPLACEABLE) { /* the density lies beyond reach: nothing was done that is worth a file */
     complain("%s", jam_last_error());
-    jam_destroy(sys);
-    return EXIT_FAILED;
+    return leave(sys, EXIT_FAILED);
   }
   if (status < 0)
     complain("%s", jam_last_error());
-  else if (interrupted || status > 0)
+  else if (stop_if_asked(NULL, NULL) || status > 0)
     print_stop(sys, o, status, &result);
   else if (result.fell_short)
     complain("dynamics fell short of their aim: see the warning above");
-  bad |= write_all(sys, o, t.begin + o->wall_time, &result);
-  jam_destroy(sys);
-  if (bad) return EXIT_OUTPUT;
-  if (status < 0) return EXIT_FAILED;
-  return status > 0 || interrupted || result.fell_short || result.cut_short ? EXIT_EARLY : EXIT_DONE;
-}
-
-/* What the verb of a command line does; the exit code. */
-static int run_verb(options *o) {
-  switch (o->given.verb) {
-    case VERB_CHECK:
-      return check_file(o);
-    case VERB_INFO:
-      return show_info(o);
-    case VERB_EXPORT:
-    case VERB_PAGE:
-      return export_file(o);
-    default:
-      return run_job(o);
-  }
-}
-
-int jam_pack(int argc, char **argv, const jam_pack_host *host) {
-  options o;
-  signals before;
-  int code;
-  program = host ? host->name : "jam-pack";
-  code = parse_options(argc, argv, host, &o);
-  if (code) return code - 1;
-  if (each_output(&o, check_writable, NULL)) return EXIT_OUTPUT;
-  take_signals(&before);
-  code = run_verb(&o);
-  give_signals_back(&before);
-  return code;
+  result.code = bad                                                            ? EXIT_OUTPUT
+                : status < 0                                                   ? EXIT_FAILED
+                : status > 0 || stop_if_asked(NULL, NULL) || result.fell_short ? EXIT_EARLY
+                                                                               : EXIT_DONE;
+  return leave(sys, write_all(sys, o, t.begin + o->wall_time, &result));
 }

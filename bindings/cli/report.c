@@ -1,27 +1,9 @@
 /* What jam-pack writes: JSON report and summary. */
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include "jam-pack.h"
-
-const char *program = "jam-pack";
-
-void complain(const char *format, ...) {
-  va_list args;
-  va_start(args, format);
-  fprintf(stderr, "%s: ", program);
-  vfprintf(stderr, format, args);
-  fputc('\n', stderr);
-  va_end(args);
-}
-
-int has_failed(jam_status status) {
-  const int bad = status < 0 || status == JAM_CANCELLED;
-  if (bad) complain("%s", jam_last_error());
-  return bad;
-}
 
 /* What stands before the next item of a list. */
 static const char *next(int *first) {
@@ -109,12 +91,12 @@ int write_report(const options *o, const outcome *result, const char *path) {
   FILE *f;
   if (open_output(&out, path)) return -1;
   f = out.file;
-  fputs("{\n", f);
+  begin_json(f, o->input ? o->input : o->resume, result->code, messages());
   put_count(f, "n", info->n, 1);
   put_count(f, "dim", info->dim, 1);
   put_count(f, "seed", info->seed, 1);
   put_protocol(f, o, result);
-  put_notes(f, result->notes);
+  put_notes(f, result->notes, "");
   put_number(f, "packing_fraction", info->packing_fraction);
   put_number(f, "diameter_mean", info->diameter_mean);
   put_number(f, "pressure", result->has_md ? result->pressure : NAN);

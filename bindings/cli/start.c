@@ -55,7 +55,7 @@ int start(const options *o, jam_progress_fn stop, jam_system **sys) {
   if (o->resume)
     status = jam_read_checkpoint(o->resume, stop, NULL, sys);
   else if (is_host_format(o, o->input)) {
-    if (o->given.host->read(o->input, &create, o->given.host->user, sys)) return EXIT_FAILED;
+    if (o->given.host->read(o->input, &create, o->given.host->user, sys)) return refused_start(o, JAM_E_IO);
   } else if (o->input)
     status = jam_read(o->input, &create, stop, NULL, sys);
   else {
@@ -97,7 +97,7 @@ int read_as_it_is(const options *o, jam_system **sys) {
   if (!is_host_format(o, o->input))
     status = jam_read(o->input, &create, stop_if_asked, NULL, sys);
   else if (o->given.host->read(o->input, &create, o->given.host->user, sys))
-    return EXIT_FAILED; /* the host has said why */
+    status = JAM_E_IO;
   if (status < 0) return refused_start(o, status);
   if (*sys)
     print_warnings(jam_notes(*sys));

@@ -50,7 +50,7 @@ static int finish_by_host(const jam_system *sys, const options *o) {
   jam_system *copy = NULL;
   if (!host || !host->finish || (!output && !o->plot)) return 0;
   if (jam_copy(sys, &copy) != JAM_OK) return has_failed(JAM_E_MEMORY);
-  return host->finish(copy, output, o->plot, host->user) != 0;
+  return host->finish(copy, output, o->plot, host->user) ? has_failed(JAM_E_IO) : 0;
 }
 
 int write_files(jam_system *sys, const options *o, int known, double deadline, int *cut_short) {
@@ -76,7 +76,11 @@ int write_all(jam_system *sys, const options *o, double deadline, outcome *resul
   jam_get_info(sys, &result->info);
   result->notes = jam_notes(sys);
   bad = write_files(sys, o, knows_contacts(o, result), deadline, &result->cut_short);
-  if (o->report) bad |= write_report(o, result, o->report) != 0;
+  if (bad)
+    result->code = failure_code();
+  else if (result->cut_short && result->code == EXIT_DONE)
+    result->code = EXIT_EARLY;
+  if (o->report && write_report(o, result, o->report)) result->code = EXIT_OUTPUT;
   if (!o->quiet && !(o->report && !strcmp(o->report, "-"))) print_summary(o, result);
-  return bad || fflush(stdout);
+  return fflush(stdout) ? EXIT_OUTPUT : result->code;
 }

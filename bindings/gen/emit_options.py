@@ -80,13 +80,13 @@ def emit_c(_api):
     table, defaults = [], []
     for o in rows:
         place = "0" if o.kind in OWN_FORM else f"offsetof(options, {o.field})"
-        low, high = (o.low, o.high) if o.kind == "integer" else (0, 0)
+        low, high, least, most = (o.low, o.high, 0, 0) if o.kind == "integer" else (0, 0, o.low, o.high)
         words = '"' + " ".join(o.words) + '"' if o.words else "NULL"
-        flags = " | ".join([f for f, on in (("AFTER_CRUNCH", o.after_crunch), ("TAKES_STDOUT", o.stdout), ("NEEDS_HOST", o.host)) if on]) or "0"
+        flags = " | ".join([f for f, on in (("AFTER_CRUNCH", o.after_crunch), ("TAKES_STDOUT", o.stdout), ("NEEDS_HOST", o.host), ("TAKES_GZIP", o.gzip)) if on]) or "0"
         without, needs = ('"' + " ".join("--" + name for name in names) + '"' for names in (o.without, o.needs))
         table.append(
-            f'    {{"--{o.name}", TAKE_{o.kind.upper()}, {place}, {low}, {high}, {words}, {flags},\n'
-            f"     {without}, {needs}, {_mask(verbs_of(o))}}},"
+            f'    {{"--{o.name}", TAKE_{o.kind.upper()}, {place}, {low}, {high}, {least}, {most},\n'
+            f"     {words}, {flags}, {without}, {needs}, {_mask(verbs_of(o))}}},"
         )
         if _c_default(o):
             defaults.append(f"    .{o.field} = {_c_default(o)},")
@@ -121,12 +121,13 @@ enum {{ {names}, VERB_NONE }};
 enum {{
   {kinds}
 }};
-enum {{ AFTER_CRUNCH = 1, TAKES_STDOUT = 2, NEEDS_HOST = 4 }};
+enum {{ AFTER_CRUNCH = 1, TAKES_STDOUT = 2, NEEDS_HOST = 4, TAKES_GZIP = 8 }};
 typedef struct option_row {{
   const char *name;
   int kind;
   size_t place; /* in options */
-  int64_t low, high;
+  int64_t low, high;   /* of an integer */
+  double least, most;  /* of another number; 0, 0: no limits of its own */
   const char *words;
   int flags;
   const char *without, *needs; /* names of options, with which and without which it has no effect */
@@ -250,7 +251,7 @@ def emit_page(_api):
         "|---|---|",
         *(f"| `{v.usage}` | {_marked(v.help)} |" for v in VERBS),
         "",
-        "`jam-pack VERB --help` shows the options of one verb; an option that a verb does not take is refused, and so is a second file for one option.",
+        "`jam-pack VERB --help` shows the options of one verb; an option that a verb does not take is refused, and so is one that is given twice, except `--growth`.",
         "",
         "```sh",
         "jam-pack compress --n 512 --pressure 1e4 --output dense.xyz",
@@ -284,7 +285,10 @@ def emit_page(_api):
         "`ensemble` runs `python3 -m jam ensemble`. 0: all packings are there. 1: some failed or are missing. 2: wrong command line. 3: protocol or "
         "folder refused, or Python has no module `jam`. 4: the folder cannot be written.",
         "",
-        "With `--json` standard output is one JSON object and nothing else; messages go to standard error.",
+        "With `--json` standard output is one JSON object and nothing else, also after a failure; messages go to standard error. All objects of these "
+        "verbs have `file`, `status` (the exit status), `text` (the messages; of `check` the verdict), `n`, `dim` and `packing_fraction` of the packing "
+        "reached (`null` before there was one) and `version`. The results of the verb follow them. `ensemble status --json` has `status` and "
+        "`text` too. A table of contacts that is empty or not the only one possible is named in `notes`.",
         "",
     ]
     out += ["Completion for bash and zsh is installed with the program, and `man jam-pack` shows these lines.", ""]

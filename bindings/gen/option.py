@@ -3,8 +3,8 @@
 Kinds: what a value may be and where it goes.
     switch        0 or 1
     integer       within low .. high
-    positive      a finite number > 0
-    not_negative  a finite number >= 0
+    positive      a finite number > 0, within low .. high where these are given
+    not_negative  a finite number >= 0, likewise
     pressure      a finite number > 1, that of an ideal gas
     delta         a number above -1 and at most 1
     choice        one of `words`; its number counts, as in the enum of jam.h
@@ -28,12 +28,13 @@ class Option:
     metavar: str
     help: str
     default: object = None
-    low: int = 0
-    high: int = 0
+    low: float = 0
+    high: float = 0
     words: tuple = ()
     host: bool = False  # of python3 -m jam alone
     after_crunch: bool = False
     stdout: bool = False  # "-" is standard output
+    gzip: bool = False  # compressed where the name ends in .gz
     without: tuple = ()  # beside one of these it would have no effect: refused
     needs: tuple = ()  # without any of these it would have no effect: refused
 

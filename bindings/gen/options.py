@@ -132,6 +132,8 @@ TABLE = {
             "F",
             "refuse --shrink where its factor is below F <= 1, a sign of duplicates or wrong units (1e-3)",
             1e-3,
+            0,
+            1,
             needs=("shrink",),
         ),
     ),
@@ -168,6 +170,7 @@ TABLE = {
             "output",
             "FILE",
             "state of the dynamics or of the crunch, every minute and where they stop early",
+            gzip=True,
         ),
         Option("checkpoint-every", "positive", "SECONDS", "between checkpoints (60)", 60.0, needs=("checkpoint",)),
         Option(
@@ -235,12 +238,14 @@ TABLE = {
             "FILE",
             "the packing. The ending sets the format: extended XYZ (.xyz, .extxyz), LAMMPS (.data, .lmp), ParaView (.vtp), "
             "plain text (.dat, .txt, none). With .gz appended the file is compressed",
+            gzip=True,
         ),
         Option(
             "page",
             "output",
             "FILE.html",
             "a page that shows the packing in a browser, with forces, certificate and distributions; needs no network",
+            gzip=True,
         ),
         Option(
             "page-steps",
@@ -261,6 +266,7 @@ TABLE = {
             "(LAMMPS dump local) or .vtp (ParaView)",
             after_crunch=True,
             stdout=True,
+            gzip=True,
         ),
         Option(
             "spectrum",
@@ -300,6 +306,7 @@ TABLE = {
             "FILE",
             "the exact numbers of the proof, for the checker jamproof.py",
             after_crunch=True,
+            gzip=True,
         ),
         Option(
             "report", "output", "FILE|-", "numbers, protocol and certificate as JSON; - is standard output", stdout=True
@@ -317,14 +324,17 @@ TABLE = {
         Option("quiet", "switch", "", "no progress, no summary"),
     ),
     "Pore space": (
-        Option("stl", "output", "FILE.stl", "the solid as a closed mesh of triangles, spheres cut at the faces of the cell; d = 3"),
-        Option("stl-edge", "positive", "A", "edge of the triangles over the radius, 0.03..1 (0.2)", 0.2, needs=("stl",)),
+        Option("stl", "output", "FILE.stl", "the solid as a closed mesh of triangles, spheres cut at the faces of the cell; d = 3", gzip=True),
+        Option("stl-edge", "positive", "A", "edge of the triangles over the radius, 0.03..1 (0.2)", 0.2, 0.03, 1, needs=("stl",)),
         Option("stl-shrink", "fraction", "F", "all diameters of the mesh times F, so that no spheres touch", needs=("stl",)),
         Option(
             "stl-bridge",
-            "fraction",
+            "positive",
             "B",
             "a cylinder along each contact, its radius B times that of the smaller sphere, 0.02..0.45",
+            None,
+            0.02,
+            0.45,
             without=("stl-shrink",),
             needs=("stl",),
         ),
@@ -333,6 +343,7 @@ TABLE = {
             "output",
             "FILE",
             "the solid as an image, .npy, .mha (MetaImage) or .vti (VTK): 0 void, 1 solid, 2 outside a round container",
+            gzip=True,
         ),
         Option("voxel-size", "positive", "A", "edge of a voxel, about (a hundredth of the box)", needs=("voxels",)),
         Option(
@@ -361,7 +372,7 @@ TABLE = {
     "Other": (
         Option("wall-time", "positive", "SECONDS", "limit for the whole run"),
         Option("help", "help", "", "these lines"),
-        Option("version", "help", "", "the version of the library"),
+        Option("version", "help", "", "version and commit of the library"),
     ),
 }
 
@@ -383,8 +394,8 @@ NOTES = (
 EXITS = (
     ("0", "done, and jammed where a crunch ran", "jammed", "done"),
     ("1", "stopped early, a stage stalled, or not jammed; the valid state reached is written", "not jammed", "a table was not computed in time"),
-    ("2", "wrong command line", "wrong command line, or the file is refused", "wrong command line"),
-    ("3", "request or input refused, or the computation failed", "undecided", "the file is refused"),
+    ("2", "wrong command line or value", "wrong command line, or the file is refused", "wrong command line or value"),
+    ("3", "request or input refused, or the computation failed", "undecided", "the file is refused, or no contact network was found"),
     ("4", "an output cannot be written", "an output cannot be written", "an output cannot be written"),
 )
 

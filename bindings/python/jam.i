@@ -256,15 +256,18 @@ jam_status make_from_checkpoint(const char *path, PyObject *callable, jam_system
 }
 %typemap(freearg) (int argc, char **argv) { free($2); }
 %{
-/* The callables of the host; they print their own messages. */
+/* The callables of the host; jam_last_error says why they have failed. */
 typedef struct jam_callables {
-  PyObject *read, *finish, *progress;
+  PyObject *read, *check, *finish, *progress;
 } jam_callables;
 
 /* What a callable answers: 0, or -1 also after an exception, which is shown. */
 static int jam_answer(PyObject *answer) {
   const int bad = answer == NULL || !PyObject_IsTrue(answer);
-  if (!answer) PyErr_Print();
+  if (!answer) {
+    PyErr_Print();
+    jam_set_error("an exception in Python");
+  }
   Py_XDECREF(answer);
   return bad ? -1 : 0;
 }
@@ -274,7 +277,7 @@ static PyObject *jam_path(const char *path) {
   Py_RETURN_NONE;
 }
 
-/* read(path, options) returns the proxy of a handle, or None after a message. */
+/* read(path, options) returns the proxy of a handle, or None. */
 static int jam_pack_read(const char *path, const jam_create_options *o, void *user, jam_system **sys) {
   PyGILState_STATE gil = PyGILState_Ensure();
   jam_create_options *copy = (jam_create_options *)malloc(sizeof *copy);
@@ -288,8 +291,19 @@ static int jam_pack_read(const char *path, const jam_create_options *o, void *us
   if (proxy) answer = PyObject_CallFunction(((jam_callables *)user)->read, "NN", jam_path(path), proxy);
   if (answer && SWIG_IsOK(SWIG_ConvertPtr(answer, &made, SWIG_TypeQuery("jam_system *"), 0)) && made)
     bad = jam_copy((const jam_system *)made, sys) == JAM_OK ? 0 : -1;
-  if (!answer) PyErr_Print();
+  if (!answer) {
+    PyErr_Print();
+    jam_set_error("an exception in Python");
+  }
   Py_XDECREF(answer);
+  PyGILState_Release(gil);
+  return bad;
+}
+
+/* check(output or None, plot or None) returns whether both can be written. */
+static int jam_pack_check(const char *output, const char *plot, void *user) {
+  PyGILState_STATE gil = PyGILState_Ensure();
+  const int bad = jam_answer(PyObject_CallFunction(((jam_callables *)user)->check, "NN", jam_path(output), jam_path(plot)));
   PyGILState_Release(gil);
   return bad;
 }
@@ -310,9 +324,10 @@ static int32_t jam_pack_progress(const jam_progress *progress, void *user) {
 %}
 %inline %{
 /* Runs a command line, whose first word is the name of the program, and returns the exit status. */
-int pack(int argc, char **argv, PyObject *read, PyObject *finish, PyObject *progress) {
-  jam_callables callables = {read, finish, progress};
-  jam_pack_host host = {argc > 0 ? argv[0] : "jam", jam_pack_read, jam_pack_finish, jam_pack_progress, &callables};
+int pack(int argc, char **argv, PyObject *read, PyObject *check, PyObject *finish, PyObject *progress) {
+  jam_callables callables = {read, check, finish, progress};
+  jam_pack_host host = {argc > 0 ? argv[0] : "jam", jam_pack_read, jam_pack_check, jam_pack_finish, jam_pack_progress,
+                        &callables};
   return jam_pack(argc, argv, &host);
 }
 %}

@@ -85,7 +85,7 @@ constexpr KnownFile table[] = {
     {"GSD of HOOMD-blue", [](const Head &h) { return begins(h, "\xdf\x65\xdf\x65\xdf\x65\xdf\x65"); }, nullptr,
      "System.read of Python reads it where its name ends in .gsd, with Python's package gsd"},
     {"a checkpoint of libjam", [](const Head &h) { return begins(h, "jamstat"); }, nullptr,
-     "jam_read_checkpoint reads it; jam-pack --resume continues from it"},
+     "jam_read_checkpoint reads it"},
     {"an array of numpy (npy)", [](const Head &h) { return begins(h, "\x93NUMPY"); }, nullptr, own_arrays},
     {"a zip archive (or npz of numpy)", [](const Head &h) { return begins(h, "PK\x03\x04"); }, nullptr,
      "unpack it; arrays of an npz go to System.from_arrays in Python"},

@@ -61,7 +61,7 @@ class JamPack(unittest.TestCase):
         self.assertIn("Example: jam-pack", done.stdout)
         self.assertIn("Exit status", done.stdout)
         self.assertTrue(all(len(line) <= 100 for line in done.stdout.splitlines()))
-        self.assertRegex(run("--version").stdout, r"^jam-pack \d+\.\d+\.\d+\n$")
+        self.assertRegex(run("--version").stdout, r"^jam-pack \d+\.\d+\.\d+, commit \w+\n$")
 
     def test_wrong_command_line(self):
         for args, text in [

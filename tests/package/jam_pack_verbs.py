@@ -91,8 +91,7 @@ class Verbs(unittest.TestCase):
             (4, "cannot write", "export", bad, self.dir / "no" / "such.xyz"),
         ):
             done = run(*args)
-            self.assertEqual((done.returncode, done.stdout), (status, ""), f"{args}: {done.stderr}")
-            self.assertIn(text, done.stderr, str(args))
+            self.check_refusal(done, status, text, args)
         for verb in ("pack", "compress", "crunch", "check", "info", "export", "page"):
             done = run(verb, "--help")
             self.assertEqual(done.returncode, 0)
@@ -120,8 +119,17 @@ class Verbs(unittest.TestCase):
 
     def refuse(self, text, *args):
         done = subprocess.run([program, *map(str, args)], capture_output=True, text=True, timeout=60, check=False, cwd=self.dir)
-        self.assertEqual((done.returncode, done.stdout), (2, ""), f"{args}: {done.stderr}")
+        self.check_refusal(done, 2, text, args)
+
+    def check_refusal(self, done, status, text, args):
+        self.assertEqual(done.returncode, status, f"{args}: {done.stderr}")
         self.assertIn(text, done.stderr, str(args))
+        if "--json" in args:
+            said = json.loads(done.stdout)
+            self.assertEqual(said["status"], status)
+            self.assertIn(text, said["text"])
+        else:
+            self.assertEqual(done.stdout, "", str(args))
 
     def test_standard_output_takes_one_text(self):
         start = self.dir / "f.xyz"

@@ -15,11 +15,12 @@ NAME = "python3 -m jam"
 
 
 def _say(error: Exception) -> None:
-    print(f"{NAME}: {error}", file=sys.stderr, flush=True)
+    """For the program, which prints it."""
+    raw.jam_set_error(str(error))
 
 
 def _read(path: str, options: Any) -> Any:
-    """The handle of a packing in a GSD file, None after a message."""
+    """The handle of a packing in a GSD file, None where it cannot be read."""
     given = {name: getattr(options, name) for name in OPTIONS["jam_create_options"]}
     for held in ("n", "dim", "box", "packing_fraction"):  # of the file
         del given[held]
@@ -40,6 +41,17 @@ def main(arguments: list[str] | None = None) -> int:
         seen.append(freeze(record, "jam_progress"))
         return False
 
+    def check(output: str | None, picture: str | None) -> bool:
+        try:
+            if output is not None:
+                import gsd.hoomd  # noqa: F401
+            if picture is not None:
+                _check_picture(picture)
+        except (ImportError, ValueError) as error:
+            _say(error)
+            return False
+        return True
+
     def finish(handle: Any, output: str | None, picture: str | None) -> bool:
         system = System(handle)
         system.trace = seen
@@ -54,8 +66,16 @@ def main(arguments: list[str] | None = None) -> int:
         return True
 
     sys.stdout.flush()  # C writes to the same place by a buffer of its own
-    code: int = raw.pack([os.fsencode(word) for word in words], _read, finish, progress)
+    code: int = raw.pack([os.fsencode(word) for word in words], _read, check, finish, progress)
     return code
+
+
+def _check_picture(path: str) -> None:
+    from matplotlib.backend_bases import FigureCanvasBase
+
+    known = FigureCanvasBase.get_supported_filetypes()
+    if os.path.splitext(path)[1][1:].lower() not in known:
+        raise ValueError(f"--plot {path}: no picture is drawn by this ending; use one of {', '.join(sorted(known))}")
 
 
 def _draw(system: System, path: str) -> None:

@@ -8,7 +8,7 @@ import re
 import sys
 from concurrent.futures import BrokenExecutor
 from contextlib import ExitStack
-from typing import Any
+from typing import Any, NoReturn
 
 from ..errors import StoreError
 from .ensemble import Ensemble
@@ -16,6 +16,42 @@ from .protocol import ProtocolError
 from .status import Status
 
 DONE, PARTIAL, USAGE, REFUSED, OUTPUT = range(5)  # exit status, as python3 -m jam
+
+
+class _Once(argparse.Action):
+    """An option that stands once: a second value would replace the first one in silence."""
+
+    def __call__(self, p: argparse.ArgumentParser, o: argparse.Namespace, value: Any, name: str | None = None) -> None:
+        given = vars(o).setdefault("_given", set())
+        if name and self.dest in given:
+            p.error(f"{name} is given twice: leave one out")
+        given.add(self.dest)
+        vars(o)[self.dest] = self.const if self.nargs == 0 else value
+
+
+class _Parser(argparse.ArgumentParser):
+    """Takes options by their whole names, each once, and answers in JSON where that was asked for."""
+
+    arguments: list[str] = []
+
+    def __init__(self, **more: Any) -> None:
+        super().__init__(allow_abbrev=False, **more)
+
+    def flag(self, name: str, **more: Any) -> None:
+        self.add_argument(name, action=_Once, nargs=0, const=True, default=False, **more)
+
+    def option(self, *names: str, **more: Any) -> None:
+        self.add_argument(*names, action=_Once, **more)
+
+    def error(self, message: str) -> NoReturn:
+        if "--json" in _Parser.arguments:
+            print(_json(USAGE, message))
+        super().error(message)
+
+
+def _json(code: int, text: str, **more: Any) -> str:
+    """As of the other verbs: exit status, what was said, and what there is."""
+    return json.dumps({"status": code, "text": text, **more})
 
 
 def _seeds(text: str) -> list[int]:
@@ -44,7 +80,7 @@ def _part(text: str) -> tuple[int, int]:
 
 
 def parser() -> argparse.ArgumentParser:
-    p = argparse.ArgumentParser(
+    p = _Parser(
         prog="python3 -m jam ensemble",
         description="Makes many packings of one protocol, one file each. What is there is not made again.",
         epilog="Example: python3 -m jam ensemble run packings --n 128 --seeds 1-100. Exit status: 0 all are there; "
@@ -58,30 +94,30 @@ def parser() -> argparse.ArgumentParser:
     ):
         v = verbs.add_parser(verb, help=text)
         v.add_argument("folder", metavar="DIR")
-        v.add_argument(
+        v.option(
             "--protocol",
             metavar="FILE.json|NAME",
             help="the protocol, or the name of one of DIR; default that of DIR, if it has one only",
         )
-        v.add_argument("--n", type=int, help="spheres: with the default protocol instead of a file")
-        v.add_argument("--dim", type=int, help="dimension: with the default protocol instead of a file")
+        v.option("--n", type=int, help="spheres: with the default protocol instead of a file")
+        v.option("--dim", type=int, help="dimension: with the default protocol instead of a file")
         if verb != "export":
-            v.add_argument("--seeds", type=_seeds, required=verb == "run", metavar="A-B", help="seeds, e.g. 1-100,205")
+            v.option("--seeds", type=_seeds, required=verb == "run", metavar="A-B", help="seeds, e.g. 1-100,205")
         if verb == "run":
-            v.add_argument(
+            v.option(
                 "--part", type=_part, metavar="K/M", help="only each M-th seed, from the K-th: for job arrays"
             )
-            v.add_argument("--executor", choices=["process", "mpi", "dask"], default="process")
-            v.add_argument("--workers", type=int, help="processes of --executor process (all cores)")
-            v.add_argument("--scheduler", metavar="ADDRESS", help="dask scheduler, e.g. tcp://host:8786")
-            v.add_argument("--retry", action="store_true", help="also the seeds that failed before")
-            v.add_argument("--remake-damaged", action="store_true", help="also the seeds whose file cannot be read")
-            v.add_argument("--quiet", action="store_true")
+            v.option("--executor", choices=["process", "mpi", "dask"], default="process")
+            v.option("--workers", type=int, help="processes of --executor process (all cores)")
+            v.option("--scheduler", metavar="ADDRESS", help="dask scheduler, e.g. tcp://host:8786")
+            v.flag("--retry", help="also the seeds that failed before")
+            v.flag("--remake-damaged", help="also the seeds whose file cannot be read")
+            v.flag("--quiet")
         if verb == "status":
-            v.add_argument("--json", action="store_true")
+            v.flag("--json")
         if verb == "export":
             v.add_argument("target", metavar="OUT", help="folder of the shards")
-            v.add_argument("--shard", type=int, default=1000, help="packings a file (1000)")
+            v.option("--shard", type=int, default=1000, help="packings a file (1000)")
     return p
 
 
@@ -122,9 +158,17 @@ def _run(o: argparse.Namespace) -> Status:
     return status
 
 
+def _refuse(o: argparse.Namespace, code: int, text: str) -> int:
+    print(f"jam: {text}", file=sys.stderr)
+    if o.verb == "status" and o.json:
+        print(_json(code, text))
+    return code
+
+
 def main(arguments: list[str] | None = None) -> int:
     """Returns the exit status."""
     p = parser()
+    _Parser.arguments = sys.argv[1:] if arguments is None else arguments
     o = p.parse_args(arguments)
     if o.verb == "run" and (o.executor == "dask") != (o.scheduler is not None):
         p.error("--executor dask and --scheduler ADDRESS belong together")
@@ -135,20 +179,17 @@ def main(arguments: list[str] | None = None) -> int:
             return DONE
         status = _run(o) if o.verb == "run" else _ensemble(o).status(o.seeds)
     except StoreError as error:
-        print(f"jam: {error}", file=sys.stderr)
-        return OUTPUT
+        return _refuse(o, OUTPUT, str(error))
     except BrokenExecutor as error:
-        print(f"jam: the executor broke: {error}. What was finished is kept: run again", file=sys.stderr)
-        return PARTIAL
+        return _refuse(o, PARTIAL, f"the executor broke: {error}. What was finished is kept: run again")
     except KeyboardInterrupt:
-        print("jam: interrupted; what was finished is kept: run again to continue", file=sys.stderr)
-        return PARTIAL
+        return _refuse(o, PARTIAL, "interrupted; what was finished is kept: run again to continue")
     except (ValueError, OSError, ImportError) as error:
-        print(f"jam: {error}", file=sys.stderr)
-        return REFUSED
+        return _refuse(o, REFUSED, str(error))
+    code = PARTIAL if status.failed or status.missing or status.damaged else DONE
     if o.verb == "status" and o.json:
         names = ("asked", "done", "jammed", "failed", "missing", "damaged", "builds")
-        print(json.dumps({k: getattr(status, k) for k in names}))
+        print(_json(code, "", **{k: getattr(status, k) for k in names}))
     elif o.verb == "status" or not o.quiet:
         print(status)
-    return PARTIAL if status.failed or status.missing or status.damaged else DONE
+    return code

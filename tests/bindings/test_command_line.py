@@ -1,0 +1,260 @@
+"""Every option of every verb, of jam-pack and of python3 -m jam: given twice, with a wrong value, with a missing file.
+
+Nothing is dropped in silence, no message names a C function, and --json is answered in JSON also where a job fails.
+"""
+import contextlib
+import io
+import json
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import jam
+from jam import cli
+from jam.ensemble import cli as ensemble
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "bindings/gen"))
+from options import TABLE, VERBS, verbs_of
+
+PACK = os.environ.get("JAM_PACK")
+USAGE, REFUSED, OUTPUT = 2, 3, 4
+ALL = [o for rows in TABLE.values() for o in rows if o.kind != "help"]
+# two values of each kind that the program takes
+GOOD = {
+    "positive": ("0.3", "0.2"),
+    "not_negative": ("0.3", "0.2"),
+    "pressure": ("100", "200"),
+    "delta": ("0.1", "0.2"),
+    "fraction": ("0.3", "0.2"),
+    "sizes": ("equal", "normal:deviation=0.1"),
+    "cell": ("1,2,3", "2,2,2"),
+}
+BAD = {"text": "", "input": "", "output": "", "sizes": "", "cell": "1,x", "choice": "other"}
+
+
+def good(o):
+    if o.kind == "integer":
+        return str(max(o.low, 2)), str(min(o.high, 3))
+    return o.words[:2] if o.words else GOOD.get(o.kind) or (f"one-{o.name}", f"two-{o.name}")
+
+
+def wrong(o):
+    values = [BAD.get(o.kind, "x")]
+    if o.kind == "integer":
+        values += [str(o.low - 1), str(o.high + 1), "2.5"]
+    if o.kind in ("positive", "not_negative", "fraction", "pressure", "delta"):
+        values += ["nan", "-7"] + ([str(2 * o.high)] if o.high else [])
+    return values
+
+
+def in_process(main, words, folder):
+    """What main returns, and what the process wrote meanwhile, C and Python."""
+    before, saved, files = os.getcwd(), (os.dup(1), os.dup(2)), [tempfile.TemporaryFile() for _ in range(2)]
+    os.chdir(folder)
+    for k, file in enumerate(files, 1):
+        os.dup2(file.fileno(), k)
+    out, err = io.StringIO(), io.StringIO()
+    try:
+        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
+            try:
+                code = main(words)
+            except SystemExit as stop:
+                code = stop.code
+    finally:
+        for k, fd in enumerate(saved, 1):
+            os.dup2(fd, k)
+            os.close(fd)
+        os.chdir(before)
+    texts = [more.getvalue() for more in (out, err)]
+    for k, file in enumerate(files):
+        file.seek(0)
+        texts[k] += file.read().decode()
+        file.close()
+    return code, *texts
+
+
+class CommandLine(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.dir = Path(folder.name)
+        self.file = self.dir / "start.xyz"
+        self.file.write_text('2\nLattice="1 0 0 0 1 0 0 0 1" Properties=pos:R:3:radius:R:1\n0.5 0.5 0.5 0.2\n0.5 0.5 0.95 0.2\n')
+
+    def run_words(self, program, *words):
+        words = list(map(str, words))
+        if program == "jam":
+            return in_process(cli.main, words, self.dir)
+        done = subprocess.run([PACK, *words], capture_output=True, text=True, timeout=60, cwd=self.dir)
+        return done.returncode, done.stdout, done.stderr
+
+    def refused(self, status, text, program, *words):
+        """Status and text, the same in JSON; nothing else on standard output, and no file."""
+        before = sorted(self.dir.iterdir())
+        # of jam-pack, whose code Python runs too, in one of two ways: each run is a process
+        for more in ((),) if program == "jam-pack" or "--json" in words else ((), ("--json",)):
+            code, out, err = self.run_words(program, *words, *more)
+            where = f"{program} {(*words, *more)}: {code} {out} {err}"
+            self.assertEqual(code, status, where)
+            self.assertIn(text, err, where)
+            self.assertNotRegex(err, r"\bjam_[a-z]", where)
+            self.assertEqual(sorted(self.dir.iterdir()), before, where)
+            if not more and "--json" not in words:
+                self.assertEqual(out, "", where)
+                continue
+            said = json.loads(out)
+            self.assertEqual(said["status"], status, where)
+            self.assertIn(text, said["text"], where)
+            self.assertLessEqual({"file", "n", "dim", "packing_fraction", "version"}, set(said), where)
+
+    def programs(self, o=None):
+        return [p for p in ("jam", "jam-pack") if (p == "jam" or PACK) and not (p == "jam-pack" and o and o.host)]
+
+    def cases(self):
+        """Each option of each verb, for each program, with the file of the verb where it needs one."""
+        for verb in VERBS:
+            for o in ALL:
+                if verb.name in verbs_of(o) and o.name != "json":
+                    for program in self.programs(o):
+                        yield program, verb, o
+
+    def test_given_twice(self):
+        for program, verb, o in self.cases():
+            if o.kind == "stage":
+                continue
+            words = [verb.name] + ([self.file] if "input" in verb.files and o.name != "input" else [])
+            flags = [f"--{o.name}"] * 2 if o.kind == "switch" else [w for v in good(o) for w in (f"--{o.name}", v)]
+            text = f"two files for --{o.name}" if o.kind in ("text", "input", "output") else f"--{o.name} is given twice"
+            with self.subTest(verb=verb.name, option=o.name):
+                self.refused(USAGE, text, program, *words, *flags)
+
+    def test_wrong_value(self):
+        for program, verb, o in self.cases():
+            if o.kind == "switch":
+                continue
+            words = [verb.name] + ([self.file] if "input" in verb.files and o.name != "input" else [])
+            for value in wrong(o):
+                with self.subTest(verb=verb.name, option=o.name, value=value):
+                    self.refused(USAGE, f"--{o.name} is '{value}'", program, *words, f"--{o.name}={value}")
+
+    def test_missing_value(self):
+        for program, verb, o in self.cases():
+            if o.kind != "switch":
+                with self.subTest(verb=verb.name, option=o.name):
+                    self.refused(USAGE, f"option '--{o.name}' lacks its value", program, verb.name, f"--{o.name}", "--json")
+
+    def test_missing_file(self):
+        for program, verb, o in self.cases():
+            if o.kind not in ("input", "output"):
+                continue
+            ending = next(iter(re.findall(r"FILE(\.[a-z]+)", o.metavar)), {"voxels": ".npy", "plot": ".png"}.get(o.name, ""))
+            path = self.dir / "none" / ("f" + ending)
+            words = [verb.name, f"--{o.name}", path]
+            if o.kind == "output" and o.name != "checkpoint":
+                words += ["--input", self.file]
+            if o.name == "input":
+                words += {"export": ["--output", "out.data"], "page": ["--page", "page.html"]}.get(verb.name, [])
+            if o.name == "checkpoint" and verb.name == "crunch":
+                words += ["--input", self.file]
+            status = OUTPUT if o.kind == "output" else USAGE if verb.name == "check" else REFUSED
+            with self.subTest(verb=verb.name, option=o.name):
+                if o.name == "report":  # has no effect beside --json
+                    self.assertEqual(self.run_words(program, *words)[0], status)
+                else:
+                    self.refused(status, str(path), program, *words)
+
+    def test_values_that_the_packing_refuses(self):
+        """A value out of its range is a wrong command line, also where only the packing shows it."""
+        for program in self.programs():
+            for verb, text, *words in (
+                ("export", "voxels", "--voxels", "v.npy", "--voxel-size", "1e-9"),
+                ("export", "--stl-edge is '7'", "--stl", "m.stl", "--stl-edge", "7"),
+                ("export", "--stl-bridge is '0.9'", "--stl", "m.stl", "--stl-bridge", "0.9"),
+                ("export", "--voxels v.txt: no format is known", "--voxels", "v.txt"),
+                ("page", "the file has 1", "page.html", "--box", "3"),
+                ("info", "the file has 1", "--box", "3"),
+                ("export", "the file has 1", "a.data", "--frame", "7"),
+            ):
+                self.refused(USAGE, text, program, verb, self.file, *words)
+
+    def test_names_that_promise_compression(self):
+        for program, verb, o in self.cases():
+            if o.kind != "output" or o.gzip or o.name == "plot":
+                continue
+            words = [verb.name] + (["--input", self.file] if "input" in verb.files or verb.name == "pack" else [])
+            words += ["p.html"] if verb.name == "page" else []
+            with self.subTest(verb=verb.name, option=o.name):
+                code, _, err = self.run_words(program, *words, f"--{o.name}", "f.csv.gz")
+                self.assertEqual((code, "leave .gz out" in err), (USAGE, True), err)
+
+    def test_a_checkpoint_is_no_packing(self):
+        s = jam.System.random(8, 3, 1)
+        s.write_checkpoint(str(self.dir / "c"))
+        for program in self.programs():
+            for verb in ("info", "check", "crunch"):
+                status = USAGE if verb == "check" else REFUSED
+                self.refused(status, "c is a checkpoint of libjam: --resume reads it", program, verb, "c")
+        with self.assertRaisesRegex(jam.JamError, "System.from_checkpoint reads it"):
+            jam.System.read(str(self.dir / "c"))
+
+    def test_walls_without_bond_order(self):
+        for program in self.programs():
+            code, _, err = self.run_words(program, *"--n 20 --walls z --structure s.csv".split())
+            self.assertIn(code, (0, USAGE), err)
+            self.assertNotIn("growth", err)
+            self.assertEqual((self.dir / "s.csv").exists(), code == 0)
+
+    def test_export_says_that_nothing_touches(self):
+        s = jam.System.from_arrays([[0.25, 0.25, 0.25], [0.75, 0.75, 0.75]], 0.4, cell=[1.0, 1.0, 1.0])
+        s.write(str(self.dir / "loose.xyz"))
+        for program in self.programs():
+            for verb, words in (("export", ("--contacts", "c.csv")), ("page", ("p.html",))):
+                code, out, err = self.run_words(program, verb, "loose.xyz", *words, "--json")
+                said = json.loads(out)
+                self.assertEqual((code, said["status"], said["network"], said["contacts"]), (0, 0, False, 0), err)
+                self.assertTrue(any("no set of contacts" in note for note in said["notes"]), said)
+                code, out, err = self.run_words(program, verb, "loose.xyz", *words)
+                self.assertIn("0 contacts: no set of contacts", out)
+                self.assertNotRegex(out + err, r"\bjam_[a-z]")
+
+    def test_json_of_a_job_has_its_end(self):
+        for program in self.programs():
+            code, out, err = self.run_words(program, *"--n 20 --no-md --json --wall-time 1e-9".split())
+            said = json.loads(out)
+            self.assertEqual((code, said["status"]), (1, 1))
+            self.assertEqual(said["text"].splitlines(), [re.sub(r"^[^:]*: ", "", line) for line in err.splitlines()])
+            self.assertEqual((said["n"], said["dim"]), (20, 3))
+
+    def test_version_has_the_commit(self):
+        for program in self.programs():
+            self.assertRegex(self.run_words(program, "--version")[1], r" \d+\.\d+\.\d+, commit \w+\n$")
+        self.assertIn(jam.raw.jam_commit(), self.run_words("jam", "--version")[1])
+
+    def test_what_python_draws_is_known_before_the_work(self):
+        self.refused(USAGE, "--plot p.foo: no picture is drawn by this ending", "jam", "--n", "20", "--plot", "p.foo")
+
+    def test_ensemble(self):
+        for words in (
+            "status D --n 4 --n 5",
+            "run D --seeds 1-2 --seeds 3",
+            "run D --seeds 1-2 --quiet --quiet",
+            "run D --seeds 1 --workers 1 --workers 2",
+            "export D E --shard 1 --shard 2",
+        ):
+            code, _, err = in_process(ensemble.main, words.split(), self.dir)
+            self.assertEqual((code, "is given twice: leave one out" in err), (USAGE, True), err)
+        self.assertEqual(in_process(ensemble.main, "run D --seed 1-2".split(), self.dir)[0], USAGE)
+        for status, words in ((REFUSED, "status D --json"), (USAGE, "status D --json --n x")):
+            code, out, _ = in_process(ensemble.main, words.split(), self.dir)
+            said = json.loads(out)
+            self.assertEqual((code, said["status"]), (status, status))
+            self.assertTrue(said["text"])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -139,6 +139,11 @@ class Statuses(unittest.TestCase):
         done = s.crunch()
         self.assertEqual((done.status, done.status_text, s.status_text), (0, "", ""))
 
+    def test_enums_print_as_words(self):
+        r = jam.System.random(20, 2, 1).crunch()
+        self.assertEqual((str(r.method), f"{r.stop_reason}", f"{r.method:>13}"), ("barrier_path", "converged", " barrier_path"))
+        self.assertEqual((r.method, f"{r.stop_reason:d}", int(r.method)), (0, str(int(r.stop_reason)), 0))
+
     def test_properties_leave_the_status(self):
         s = disks()
         s.crunch(max_lps=1, method="sequential_lp")

@@ -2,8 +2,8 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from enum import IntEnum
 
+from .shown import Word as _Word
 from .shown import as_table as _as_table
 
 JAM_ABI = 0
@@ -12,7 +12,7 @@ JAM_MAX_DIM = 8
 GROWTH_STAGES = ((0.01, 500.0), (0.003, 10000000.0))
 
 
-class StatusCode(IntEnum):
+class StatusCode(_Word):
     """All status codes; values are ABI and never reused."""
     OK = 0  # done: the target was reached
     CANCELLED = 1  # jam_cancel or a callback requested a stop
@@ -40,7 +40,7 @@ class StatusCode(IntEnum):
     E_INTERNAL = -17  # a bug in libjam; please report the text
 
 
-class StopReason(IntEnum):
+class StopReason(_Word):
     """Why a run ended: stop_reason of the reports."""
     NONE = 0  # has not run
     PRESSURE = 1  # MD reached its pressure
@@ -61,7 +61,7 @@ class StopReason(IntEnum):
     DUALITY_GAP = 16  # crunch: it reached the duality gap of its options
 
 
-class Phase(IntEnum):
+class Phase(_Word):
     """Which part reports progress."""
     RUN = 1  # NVE molecular dynamics
     COMPRESS = 2  # molecular dynamics with growth
@@ -75,26 +75,26 @@ class Phase(IntEnum):
     CREATE = 10  # making a system; steps counts the spheres placed
 
 
-class OverlapPolicy(IntEnum):
+class OverlapPolicy(_Word):
     """What to do with overlaps in given positions."""
     REFUSE = 0  # JAM_E_OVERLAP naming the worst pair
     SHRINK = 1  # scale all diameters down until the worst pair just touches; jam_notes gives the factor
     ALLOW = 2  # soft spheres: keep them, also later; random starts are uniform. Hard-sphere calls refuse
 
 
-class Model(IntEnum):
+class Model(_Word):
     """Pair distance."""
     EUCLID = 0  # |r_i - r_j|, nearest images
     MK = 1  # Mari-Kurchan: |r_i - r_j + zeta A_ij|, quenched random shifts
 
 
-class Masses(IntEnum):
+class Masses(_Word):
     """Masses of the spheres in molecular dynamics; the mean is 1."""
     EQUAL = 0  # all 1
     VOLUME = 1  # as the volumes, sigma_i^d
 
 
-class Container(IntEnum):
+class Container(_Word):
     """What encloses the spheres. The cell is the brick around it. A wall is a mirror: its h is distance / radius - 1. The
     wall of row w of jam_walls is partner j = -1 - w of its contacts. In counts of contacts d (N' - 1) is then d N' less
     the translations along open axes and the rotations that a cylinder (1) or a ball (d (d - 1) / 2) allows."""
@@ -103,7 +103,7 @@ class Container(IntEnum):
     BALL = 2  # d = 2 a circle, d = 3 a ball; its diameter: the edge of the cube
 
 
-class WallColumn(IntEnum):
+class WallColumn(_Word):
     """Columns of jam_walls."""
     AXIS = 0  # of a flat wall; d: the round wall
     SIDE = 1  # 0: at 0; 1: at the edge of the cell, or round
@@ -112,7 +112,7 @@ class WallColumn(IntEnum):
     GAP = 4  # least h of a sphere
 
 
-class SizeLaw(IntEnum):
+class SizeLaw(_Word):
     """Laws of diameters s. Each takes the fields named here, and no others."""
     EQUAL = 0  # mean
     LIST = 1  # curve: rows (diameter, share)
@@ -124,27 +124,27 @@ class SizeLaw(IntEnum):
     SIEVE = 7  # curve: rows (size, share passing, from 0 to 1 or 100 per cent); straight in log size
 
 
-class SizeShare(IntEnum):
+class SizeShare(_Word):
     """What the shares of a law count."""
     USUAL = 0  # volume for WEIBULL and SIEVE, number for the others
     NUMBER = 1  # spheres
     VOLUME = 2  # volume: mass at one density
 
 
-class SizeDraw(IntEnum):
+class SizeDraw(_Word):
     """How diameters are drawn from a law."""
     QUANTILES = 0  # a sphere for each n-th of the number: the middle one, by volume that of the mean volume
     RANDOM = 1  # independent, by the seed
 
 
-class ReachSource(IntEnum):
+class ReachSource(_Word):
     """Where jam_size_report.jammed_fraction comes from."""
     FARR_GROOT = 1  # d = 3: spheres as rods on a line (Farr, Groot, J. Chem. Phys. 131, 244104 (2009))
     MEASURED = 2  # other d: the same map, fitted to packings of libjam: equal spheres, disks 1 : 1.4
     CRYSTAL = 3  # disks of nearly one size, which order: the hexagonal packing
 
 
-class LogLevel(IntEnum):
+class LogLevel(_Word):
     """Log levels."""
     NONE = 0  # silent, the default
     WARNING = 1  # what a user should know, e.g. a fallback solver was used
@@ -152,7 +152,7 @@ class LogLevel(IntEnum):
     DEBUG = 3  # solver detail
 
 
-class Format(IntEnum):
+class Format(_Word):
     """File formats. Behind any ending .gz compresses the file. PLAIN: line 1: d. Line 2: N. Line 3: the diameter, or the
     word `diameters`; then, when it is not 1, the box as `box <L>`. Then one line per sphere: its position, and its
     diameter after `diameters`, with 17 digits. XYZ: Lattice, dim, Properties=id:I:1:pos:R:d:radius:R:1 and, after a
@@ -164,7 +164,7 @@ class Format(IntEnum):
     VTP = 4  # VTK PolyData in binary, d = 2 and 3. Written only
 
 
-class ContactFormat(IntEnum):
+class ContactFormat(_Word):
     """Formats of contact networks."""
     AUTO = 0  # by name: .csv, .dump, .vtp; with .gz behind it compressed; others are refused
     CSV = 1  # one line per contact: i, j, unit vector from j to i, gap, force (mean 1), 17 digits
@@ -172,13 +172,13 @@ class ContactFormat(IntEnum):
     VTP = 3  # VTK PolyData in binary, d = 2, 3: two half lines a contact, with force, gap and its number
 
 
-class GrowthLaw(IntEnum):
+class GrowthLaw(_Word):
     """How the spheres grow."""
     DIAMETER = 0  # growth_rate is d<sigma>/dt over sqrt(kT/m), constant
     DENSITY = 1  # growth_rate is d ln<sigma>/dt box / (n^(1/d) sqrt(kT/m)), constant: 1/d of that of density
 
 
-class SeriesColumn(IntEnum):
+class SeriesColumn(_Word):
     """Columns of jam_observed_series."""
     TIME = 0  # simulated time
     COLLISIONS = 1  # collisions per particle
@@ -188,7 +188,7 @@ class SeriesColumn(IntEnum):
     MSD = 5  # mean-square displacement since jam_observe, unit box^2
 
 
-class GapColumn(IntEnum):
+class GapColumn(_Word):
     """Columns of jam_observed_gaps, one row per bin."""
     LOW = 0  # smallest gap h of the bin
     HIGH = 1  # largest gap
@@ -196,13 +196,13 @@ class GapColumn(IntEnum):
     ERROR = 3  # its standard error over samples
 
 
-class CorrelationColumn(IntEnum):
+class CorrelationColumn(_Word):
     """Columns of jam_observed_correlation, one row per bin."""
     R = 0  # middle of the bin, mean diameters
     G = 1  # g(r)
 
 
-class EosForm(IntEnum):
+class EosForm(_Word):
     """Equations of state p(phi) in closed form."""
     CARNAHAN_STARLING = 0  # d = 3, as the next three
     PY_VIRIAL = 1  # Percus-Yevick, virial route
@@ -213,19 +213,19 @@ class EosForm(IntEnum):
     HENDERSON = 6  # d = 2: (1 + phi^2 / 8) / (1 - phi)^2
 
 
-class EnergyUnit(IntEnum):
+class EnergyUnit(_Word):
     """Unit of the overlap x of a soft pair."""
     LENGTH = 0  # x = sigma_ij - r, unit of the box
     RELATIVE = 1  # x = 1 - r / sigma_ij
 
 
-class Clock(IntEnum):
+class Clock(_Word):
     """What instants are counted in. Monte Carlo always counts sweeps."""
     COLLISIONS = 0  # collisions per particle; each collision counts for both of its spheres
     TIME = 1  # simulated time, box / sqrt(kT/m) at T = 1
 
 
-class IsoconfColumn(IntEnum):
+class IsoconfColumn(_Word):
     """Columns of jam_isoconf_series: one number a run and instant, summed over runs."""
     TIME = 0  # simulated time, or sweeps
     TIME2 = 1  # its square
@@ -243,13 +243,13 @@ class IsoconfColumn(IntEnum):
     RUNS = 13  # runs in these sums and in those of the next two calls, the same at each instant
 
 
-class LpSolver(IntEnum):
+class LpSolver(_Word):
     """How the LPs are solved."""
     IPM = 0  # libjam's interior point on the particle graph; Clp if it fails
     CLP = 1  # Clp's simplex: slow, independent
 
 
-class CrunchMethod(IntEnum):
+class CrunchMethod(_Word):
     """Which quench leads to the jamming point. Both end with fully solved LPs in which no sphere moves any more. The
     barrier path: LPs far from jamming, then a path whose constraints are linearised again after each Newton step, then
     LPs."""
@@ -257,7 +257,7 @@ class CrunchMethod(IntEnum):
     SEQUENTIAL_LP = 1  # LPs alone, as published
 
 
-class FreeStrain(IntEnum):
+class FreeStrain(_Word):
     """What of the cell jam_crunch or jam_relax may change, at fixed volume unless VOLUME is among it."""
     NONE = 0  # a fixed cell
     EDGES = 1  # the diagonal of the cell: lengths of a brick
@@ -269,14 +269,14 @@ class FreeStrain(IntEnum):
     ALL = 7  # edges, tilts and the volume
 
 
-class StepPhase(IntEnum):
+class StepPhase(_Word):
     """What kind of step a row of the history is."""
     PATH = 1  # a Newton step of the barrier path (the first row: all steps that open it)
     LP = 2  # an LP and the move to its solution
     POLISH = 3  # contacts closed and forces balanced to rounding
 
 
-class HistoryColumn(IntEnum):
+class HistoryColumn(_Word):
     """Columns of the history of a crunch, one row per step. Displacements are those of all spheres, their mean taken out,
     in mean diameters after the step."""
     PHASE = 0  # a jam_step_phase
@@ -301,14 +301,14 @@ class HistoryColumn(IntEnum):
     TOTAL_MSD_STABLE = 19  # LP, polish: TOTAL_MSD over the spheres that are stable now
 
 
-class SoftScale(IntEnum):
+class SoftScale(_Word):
     """Factor c and length l of the energy."""
     RELATIVE = 0  # c = 1 / alpha, l = sigma_ij: overlaps relative to the contact distance
     ABSOLUTE = 1  # c = 1 / alpha, l = 1 in the unit of the box
     BARE = 2  # c = 1, l = 1
 
 
-class Minimiser(IntEnum):
+class Minimiser(_Word):
     """How the energy is minimised. Methods end in different minima of the same start: each is a protocol. NEWTON: FIRE
     (alpha < 2: L-BFGS) until contacts settle, then Newton's method with pre-stress."""
     NEWTON = 0  # Newton's method; rattlers are put in the middle of their cages
@@ -316,13 +316,13 @@ class Minimiser(IntEnum):
     LBFGS = 2  # limited-memory BFGS alone (Nocedal, Math. Comput. 35, 773 (1980))
 
 
-class SoftPrecision(IntEnum):
+class SoftPrecision(_Word):
     """How the overlap of a pair is computed."""
     REFERENCE = 0  # twice the digits and small displacements: forces balance to 1e-14 at any overlap
     DOUBLE = 1  # from coordinates in doubles: balance ends near 1e-15 / overlap; for comparison
 
 
-class SoftColumn(IntEnum):
+class SoftColumn(_Word):
     """Columns of the history of a decompression, one row per minimum."""
     PHI = 0  # packing fraction
     PRESSURE = 1  # epsilon / length^d
@@ -337,7 +337,7 @@ class SoftColumn(IntEnum):
     SECONDS = 10  # wall time of the step
 
 
-class Stiffness(IntEnum):
+class Stiffness(_Word):
     """Stiffness k of a contact, 1 at the mean force. SOFT: after jam_relax or jam_decompress; prestress is then the share
     of the pre-stress f / r that is kept, 0..1."""
     HARMONIC = 0  # k = 1
@@ -346,7 +346,7 @@ class Stiffness(IntEnum):
     SOFT = 3  # that of the energy that was minimised, in its units
 
 
-class ModesWhich(IntEnum):
+class ModesWhich(_Word):
     """Which modes."""
     LOWEST = 0  # smallest eigenvalues, without the d translations
     HIGHEST = 1  # largest eigenvalues
@@ -354,13 +354,13 @@ class ModesWhich(IntEnum):
     ALL = 3  # all d N', translations among them; dense, 24 (d N')^2 bytes
 
 
-class ModeColumn(IntEnum):
+class ModeColumn(_Word):
     """Columns of jam_modes, one row per mode."""
     LAMBDA = 0  # lambda = omega^2
     PARTICIPATION = 1  # sum |v_i|^4 / (sum |v_i|^2)^2
 
 
-class CandidateColumn(IntEnum):
+class CandidateColumn(_Word):
     """Columns of jam_contact_candidates."""
     LIMIT = 0  # tolerance on |h|
     JUMP = 1  # ratio of the gaps above and below it
@@ -368,13 +368,13 @@ class CandidateColumn(IntEnum):
     EXCESS = 3  # contacts - (d (N' - 1) + 1)
 
 
-class RigidityKind(IntEnum):
+class RigidityKind(_Word):
     """Which motions must not open contacts."""
     COLLECTIVE = 0  # all motions of the spheres in a fixed cell
     STRICT = 1  # and all symmetric strains of the cell that do not enlarge its volume
 
 
-class Verdict(IntEnum):
+class Verdict(_Word):
     """Answer of a test."""
     UNTESTED = -1  # the test has not run
     NO = 0  # not jammed, with a proof: no balanced forces, or a flex
@@ -382,7 +382,7 @@ class Verdict(IntEnum):
     UNDECIDED = 2  # double precision cannot decide
 
 
-class CheckReason(IntEnum):
+class CheckReason(_Word):
     """Why jam_check_packing answers as it does."""
     PROOF = 0  # jammed: positive forces balance, and the rank is full
     APART = 1  # not: no two spheres touch
@@ -394,7 +394,7 @@ class CheckReason(IntEnum):
     MARGIN = 7  # undecided: doubles do not resolve a flex from a soft mode, or a weak force from none
 
 
-class Theorem(IntEnum):
+class Theorem(_Word):
     """What was proved. TRAPPED: no motion without overlap takes a stable sphere farther than inner, but translations of
     all. No packing as dense lies between inner and outer."""
     NONE = 0  # nothing: see cause
@@ -402,7 +402,7 @@ class Theorem(IntEnum):
     EXACT = 2  # a packing that touches exactly in all contacts lies within radius: jammed, forces > 0
 
 
-class ProofCause(IntEnum):
+class ProofCause(_Word):
     """Why a packing was not proved exact, with cause_value and cause_bound."""
     NONE = 0  # it was
     EXCESS = 1  # contacts, and those of one state of self-stress: more of them need a reason in algebra
@@ -413,14 +413,14 @@ class ProofCause(IntEnum):
     IMAGES = 6  # a contact of a sphere with its own image
 
 
-class ContactClass(IntEnum):
+class ContactClass(_Word):
     """Flags of a contact. A buckler is a stable sphere with d + 1 contacts."""
     LOCALISED = 1  # touches a buckler; without it: extended
     SMALLEST = 2  # has the smallest force of one of its spheres
     MEDIAN = 4  # has the (lower) median force of one of its spheres
 
 
-class LocalQuantity(IntEnum):
+class LocalQuantity(_Word):
     """Quantity of which jam_local_values and jam_histogram take the values."""
     FORCE = 0  # contacts: f over its mean in the population
     VECTOR_SUM = 1  # stable spheres: |C_i|
@@ -432,7 +432,7 @@ class LocalQuantity(IntEnum):
     COORDINATION = 7  # stable spheres: z_i
 
 
-class Population(IntEnum):
+class Population(_Word):
     """The contacts or spheres that count."""
     ALL = 0  # all contacts, all stable spheres
     LOCALISED = 1  # contacts that touch a buckler; spheres and their pairs: the bucklers
@@ -441,13 +441,13 @@ class Population(IntEnum):
     MEDIAN = 4  # forces only: the (lower) median of one of its spheres
 
 
-class StructureColumn(IntEnum):
+class StructureColumn(_Word):
     """Columns of jam_structure_factor."""
     Q = 0  # |q| times the mean diameter, ascending
     S = 1  # S(q), its average over all q of this length
 
 
-class MeshContacts(IntEnum):
+class MeshContacts(_Word):
     """Solid and void inside the brick [0, a_00) x [0, a_11) x ..., which repeats as the cell does; spheres are cut at its
     faces. d = 2 and 3, no Mari-Kurchan shifts: else JAM_E_UNSUPPORTED. What becomes of contacts in a mesh:"""
     KEPT = 0  # spheres touch at a common vertex where there is a contact network, else nearly
@@ -455,14 +455,14 @@ class MeshContacts(IntEnum):
     BRIDGED = 2  # a cylinder along each contact of the network
 
 
-class ProfileColumn(IntEnum):
+class ProfileColumn(_Word):
     """Columns of jam_solid_profile."""
     LOW = 0  # where the bin begins: distance to the face of the cell, or to the centre or axis
     HIGH = 1  # where it ends
     SOLID = 2  # share of the bin (of its part in the container) inside spheres
 
 
-class PoreColumn(IntEnum):
+class PoreColumn(_Word):
     """Columns of jam_pore_sizes."""
     X = 0  # of the point
     Y = 1  # of the point
@@ -471,7 +471,7 @@ class PoreColumn(IntEnum):
     RADIUS = 4  # of the largest sphere that contains the point and no solid
 
 
-class FloppyColumn(IntEnum):
+class FloppyColumn(_Word):
     """Columns of jam_floppy_modes, one row per contact; dr is the field of jam_floppy_mode, and F the mean force. Openings
     have the unit of positions: divide by the diameter to compare packings of different N. B = sum_k f_k |dr_perp|^2 /
     r_k. S_RETURN is s* of R. Diaz Hernandez Rojas, PhD thesis, Sapienza 2021, whose index is twice stability."""
@@ -483,7 +483,7 @@ class FloppyColumn(IntEnum):
     S_RETURN = 5  # opening 2 s_star at which, to second order, the diameters are back at their start
 
 
-class DosColumn(IntEnum):
+class DosColumn(_Word):
     """Columns of jam_density_of_states, one row per bin of the frequency omega."""
     OMEGA = 0  # middle of the bin
     DENSITY = 1  # density of states D there, integral 1

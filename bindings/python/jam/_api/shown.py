@@ -2,15 +2,23 @@
 from __future__ import annotations
 
 from dataclasses import fields
+from enum import IntEnum
 from typing import Any
 
 import numpy as np
 
 
+class Word(IntEnum):
+    """A value of an enum of jam.h: a number that prints as its word."""
+
+    def __str__(self) -> str:
+        return self.name.lower()
+
+    def __format__(self, spec: str) -> str:
+        return int.__format__(self, spec) if spec[-1:] in tuple("bcdeEfFgGnoxX%") else format(str(self), spec)
+
+
 def _text(value: Any) -> str:
-    if hasattr(value, "name"):
-        found: str = value.name.lower()
-        return found
     return f"{value:.12g}" if isinstance(value, float) else str(value)
 
 

@@ -94,6 +94,7 @@ module jam
   integer(c_int32_t), parameter :: JAM_WALL_AREA = 2
   integer(c_int32_t), parameter :: JAM_WALL_PRESSURE = 3
   integer(c_int32_t), parameter :: JAM_WALL_GAP = 4
+  integer(c_int32_t), parameter :: JAM_WALL_STRESS = 5
 
   ! jam_size_law: Laws of diameters s. Each takes the fields named here, and no others.
   integer(c_int32_t), parameter :: JAM_SIZES_EQUAL = 0
@@ -2136,8 +2137,9 @@ module jam
       integer(c_int32_t) :: status
     end function jam_dos_options_init
 
-    ! Elastic moduli; JAM_E_STATE also when prestress makes the network unstable.
-    ! Errors: JAM_E_STATE, JAM_E_SOLVER.
+    ! Elastic moduli; JAM_E_STATE also when prestress makes the network unstable. With walls bulk is NaN, and shear is that
+    ! of planes of two axes without walls.
+    ! Errors: JAM_E_STATE, JAM_E_SOLVER, JAM_E_UNSUPPORTED.
     function jam_moduli(sys, h, moduli) &
         bind(c, name="jam_moduli") result(status)
       import
@@ -3083,9 +3085,10 @@ module jam
 
   ! Elastic tensor c_abcd: second derivative of the energy a volume by E_ab and E_cd of x -> (1 + E) x. Unit as
   ! jam_moduli, *needed = d^4. affine: spheres move by E alone; relaxed: then forces balance. With prestress c_abcd and
-  ! c_bacd differ: a rotation of stressed contacts counts.
+  ! c_bacd differ: a rotation of stressed contacts counts. Components of an axis with walls are NaN: walls do not
+  ! strain.
   ! Shapes: affine (d, d, d, d), relaxed (d, d, d, d).
-  ! Errors: JAM_E_STATE, JAM_E_SOLVER.
+  ! Errors: JAM_E_STATE, JAM_E_SOLVER, JAM_E_UNSUPPORTED.
   interface jam_elastic_tensor
     module procedure f_jam_elastic_tensor
     module procedure l_jam_elastic_tensor
@@ -3409,7 +3412,7 @@ contains
     end if
     if (present(table_len)) count_table = table_len
     if (present(table)) then
-      status = checked('table', shape(table, kind=c_size_t), 5_c_size_t, count_table)
+      status = checked('table', shape(table, kind=c_size_t), 6_c_size_t, count_table)
       if (status /= JAM_OK) return
     end if
     status = c_jam_walls(sys, at_table, count_table, needed)
@@ -3755,7 +3758,7 @@ contains
   ! then renamed. Links are followed. Pipes, devices and open descriptors (/dev/stdout, /dev/fd/N) are written in place;
   ! a file opened with >> gets the packing at its end. The shifts of JAM_MODEL_MK are not saved: read the file with the
   ! same seed and mk_zeta. Planted shifts are not saved either: use jam_write_checkpoint. Only XYZ can store
-  ! non_additivity, and only XYZ, LAMMPS and VTP can store a cell that is not a cube; others give JAM_E_UNSUPPORTED.
+  ! non_additivity; only XYZ, LAMMPS and VTP can store walls or a cell that is no cube; others give JAM_E_UNSUPPORTED.
   ! Errors: JAM_E_UNSUPPORTED, JAM_E_IO.
   function jam_write(sys, path, format) result(status)
     type(c_ptr), intent(in) :: sys

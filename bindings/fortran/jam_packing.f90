@@ -172,7 +172,7 @@ contains
     status = jam_walls(self%sys, needed=given)
     if (status >= 0) then
       deallocate (found)
-      allocate (found(5_c_size_t, given/5))
+      allocate (found(6_c_size_t, given/6))
       status = jam_walls(self%sys, table=found)
     end if
     call self%done(status)
@@ -1732,8 +1732,9 @@ contains
     call self%done(status)
   end function do_curvature
 
-  ! Elastic moduli; JAM_E_STATE also when prestress makes the network unstable.
-  ! Errors: JAM_E_STATE, JAM_E_SOLVER.
+  ! Elastic moduli; JAM_E_STATE also when prestress makes the network unstable. With walls bulk is NaN, and shear is that
+  ! of planes of two axes without walls.
+  ! Errors: JAM_E_STATE, JAM_E_SOLVER, JAM_E_UNSUPPORTED.
   function do_moduli(self, h) result(found)
     class(packing), intent(inout) :: self
     type(jam_hessian_options), intent(in), optional :: h
@@ -1745,9 +1746,10 @@ contains
 
   ! Elastic tensor c_abcd: second derivative of the energy a volume by E_ab and E_cd of x -> (1 + E) x. Unit as
   ! jam_moduli, *needed = d^4. affine: spheres move by E alone; relaxed: then forces balance. With prestress c_abcd and
-  ! c_bacd differ: a rotation of stressed contacts counts.
+  ! c_bacd differ: a rotation of stressed contacts counts. Components of an axis with walls are NaN: walls do not
+  ! strain.
   ! Shapes: affine (d, d, d, d), relaxed (d, d, d, d).
-  ! Errors: JAM_E_STATE, JAM_E_SOLVER.
+  ! Errors: JAM_E_STATE, JAM_E_SOLVER, JAM_E_UNSUPPORTED.
   subroutine do_elastic_tensor(self, h, affine, relaxed)
     class(packing), intent(inout) :: self
     type(jam_hessian_options), intent(in), optional :: h

@@ -510,7 +510,7 @@ not empty."
 then renamed. Links are followed. Pipes, devices and open descriptors (/dev/stdout, /dev/fd/N) are written in place;
 a file opened with >> gets the packing at its end. The shifts of JAM_MODEL_MK are not saved: read the file with the
 same seed and mk_zeta. Planted shifts are not saved either: use jam_write_checkpoint. Only XYZ can store
-non_additivity, and only XYZ, LAMMPS and VTP can store a cell that is not a cube; others give JAM_E_UNSUPPORTED.
+non_additivity; only XYZ, LAMMPS and VTP can store walls or a cell that is no cube; others give JAM_E_UNSUPPORTED.
 Errors: JAM_E_UNSUPPORTED, JAM_E_IO."
 %feature("docstring") jam_write_contacts "Writes the contact network of the last crunch. The file appears as of jam_write.
 Errors: JAM_E_STATE, JAM_E_UNSUPPORTED, JAM_E_IO."
@@ -838,13 +838,15 @@ Errors: JAM_E_STATE."
 %feature("docstring") jam_curvature "value = u . H . u for a displacement u.
 Shapes: u (N', d).
 Errors: JAM_E_STATE."
-%feature("docstring") jam_moduli "Elastic moduli; JAM_E_STATE also when prestress makes the network unstable.
-Errors: JAM_E_STATE, JAM_E_SOLVER."
+%feature("docstring") jam_moduli "Elastic moduli; JAM_E_STATE also when prestress makes the network unstable. With walls bulk is NaN, and shear is that
+of planes of two axes without walls.
+Errors: JAM_E_STATE, JAM_E_SOLVER, JAM_E_UNSUPPORTED."
 %feature("docstring") jam_elastic_tensor "Elastic tensor c_abcd: second derivative of the energy a volume by E_ab and E_cd of x -> (1 + E) x. Unit as
 jam_moduli, *needed = d^4. affine: spheres move by E alone; relaxed: then forces balance. With prestress c_abcd and
-c_bacd differ: a rotation of stressed contacts counts.
+c_bacd differ: a rotation of stressed contacts counts. Components of an axis with walls are NaN: walls do not
+strain.
 Shapes: affine (d, d, d, d), relaxed (d, d, d, d).
-Errors: JAM_E_STATE, JAM_E_SOLVER."
+Errors: JAM_E_STATE, JAM_E_SOLVER, JAM_E_UNSUPPORTED."
 %feature("docstring") jam_compare "Compares two packings sphere by sphere. out is the displacement from sys to other by nearest images. Its mean over
 spheres stable in both, or over all when none is, is taken out. n, dim, cell and model must agree. JAM_AMBIGUOUS:
 ratios of diameters differ, or one of the two has no network.

@@ -333,7 +333,8 @@ typedef enum jam_wall_column {
   JAM_WALL_SIDE = 1,     /* 0: at 0; 1: at the edge of the cell, or round */
   JAM_WALL_AREA = 2,     /* unit^(d-1) */
   JAM_WALL_PRESSURE = 3, /* beta P V / N of the last run of MD; NaN before */
-  JAM_WALL_GAP = 4       /* least h of a sphere */
+  JAM_WALL_GAP = 4,      /* least h of a sphere */
+  JAM_WALL_STRESS = 5    /* force of its contacts / area, over sum f r / (d V) of all contacts; NaN without contacts */
 } jam_wall_column;
 /* Walls, axis by axis, then the round one. @shape table (m, jam_wall_column) */
 JAM_API jam_status jam_walls(const jam_system *sys, double *table, size_t table_len, size_t *needed);
@@ -468,9 +469,9 @@ JAM_API jam_status jam_set_memory_limit(jam_system *sys, double bytes);
  */
 typedef enum jam_format {
   JAM_FORMAT_AUTO = 0, /* .xyz, .extxyz: XYZ; .data, .lmp: LAMMPS; .vtp: VTP; .dat, .txt, none: PLAIN; others refused */
-  JAM_FORMAT_PLAIN = 1,  /* text, cubes only */
+  JAM_FORMAT_PLAIN = 1,  /* text, cubes without walls only */
   JAM_FORMAT_XYZ = 2,    /* extended XYZ; d = 2 gets a third coordinate 0 */
-  JAM_FORMAT_LAMMPS = 3, /* LAMMPS data of atom_style sphere, density 1, d = 2 and 3, any cell. In d = 2 all z are 0 */
+  JAM_FORMAT_LAMMPS = 3, /* LAMMPS data, atom_style sphere, density 1, d = 2, 3, any cell; walls in its title */
   JAM_FORMAT_VTP = 4     /* VTK PolyData in binary, d = 2 and 3. Written only */
 } jam_format;
 /* Reads plain text, extended XYZ, LAMMPS data and dumps with diameters, or a table of columns. It recognises the format
@@ -492,7 +493,7 @@ JAM_API jam_status jam_add_note(jam_system *sys, const char *text);
  * then renamed. Links are followed. Pipes, devices and open descriptors (/dev/stdout, /dev/fd/N) are written in place;
  * a file opened with >> gets the packing at its end. The shifts of JAM_MODEL_MK are not saved: read the file with the
  * same seed and mk_zeta. Planted shifts are not saved either: use jam_write_checkpoint. Only XYZ can store
- * non_additivity, and only XYZ, LAMMPS and VTP can store a cell that is not a cube; others give JAM_E_UNSUPPORTED.
+ * non_additivity; only XYZ, LAMMPS and VTP can store walls or a cell that is no cube; others give JAM_E_UNSUPPORTED.
  * @enum format jam_format @errors UNSUPPORTED, IO */
 JAM_API jam_status jam_write(const jam_system *sys, const char *path, int32_t format);
 /* Formats of contact networks. */
@@ -1251,7 +1252,7 @@ JAM_API jam_status jam_stress_states(jam_system *sys, double *force, size_t forc
 /* Which motions must not open contacts. */
 typedef enum jam_rigidity_kind {
   JAM_RIGIDITY_COLLECTIVE = 0, /* all motions of the spheres in a fixed cell */
-  JAM_RIGIDITY_STRICT = 1      /* and all symmetric strains of the cell that do not enlarge its volume */
+  JAM_RIGIDITY_STRICT = 1      /* and symmetric strains of the axes without walls that do not enlarge the volume */
 } jam_rigidity_kind;
 /* Answer of a test. */
 typedef enum jam_verdict {
@@ -1666,12 +1667,13 @@ JAM_API jam_status jam_project(const jam_system *sys, const double *vector, size
 /* *value = u . H . u for a displacement u. @shape u (N', d) @errors STATE */
 JAM_API jam_status jam_curvature(const jam_system *sys, const jam_hessian_options *h, const double *u, size_t u_len,
                                  double *value);
-/* Elastic moduli; JAM_E_STATE also when prestress makes the network unstable. @errors STATE, SOLVER */
+/* Elastic moduli; JAM_E_STATE also when prestress makes the network unstable. With walls bulk is NaN, and shear is that
+ * of planes of two axes without walls. @errors STATE, SOLVER, UNSUPPORTED */
 JAM_API jam_status jam_moduli(jam_system *sys, const jam_hessian_options *h, jam_moduli_report *moduli);
 /* Elastic tensor c_abcd: second derivative of the energy a volume by E_ab and E_cd of x -> (1 + E) x. Unit as
  * jam_moduli, *needed = d^4. affine: spheres move by E alone; relaxed: then forces balance. With prestress c_abcd and
- * c_bacd differ: a rotation of stressed contacts counts. @shape affine (d, d, d, d), relaxed (d, d, d, d) @errors
- * STATE, SOLVER */
+ * c_bacd differ: a rotation of stressed contacts counts. Components of an axis with walls are NaN: walls do not
+ * strain. @shape affine (d, d, d, d), relaxed (d, d, d, d) @errors STATE, SOLVER, UNSUPPORTED */
 JAM_API jam_status jam_elastic_tensor(jam_system *sys, const jam_hessian_options *h, double *affine, size_t affine_len,
                                       double *relaxed, size_t relaxed_len, size_t *needed);
 /* Compares two packings sphere by sphere. out is the displacement from sys to other by nearest images. Its mean over

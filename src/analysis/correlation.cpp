@@ -80,6 +80,7 @@ std::vector<double> bond_order(const Packing &p, int l, double cutoff) {
   SparseLook sparse_look;
   for (size_t k = 0; k < all.size(); ++k) {
     sparse_look();
+    if (all.wall(k)) continue;  // bonds are of two spheres
     const double length = std::sqrt(pair_vector(p, all, k, r.data()));
     for (int c = 0; c < d; ++c) of[all.i[k]].push_back(r[c] / length);
     for (int c = 0; c < d; ++c) of[all.j[k]].push_back(-r[c] / length);

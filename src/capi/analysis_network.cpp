@@ -59,7 +59,7 @@ jam_status jam_contacts_from_geometry(jam_system *sys, const jam_geometry_option
     const double nan = std::numeric_limits<double>::quiet_NaN();
     jam_crunch_report r{};
     certify(sys->packing, result.network, r);
-    report_verdict(result.verdict, sys->packing.dim, r);
+    report_verdict(result.verdict, sys->packing, r);
     r.stop_reason = JAM_STOP_NONE;
     r.gain = r.max_step = r.gamma_residual = r.duality_gap = nan;
     r.seconds = sys->monitor.seconds();

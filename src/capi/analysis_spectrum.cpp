@@ -77,7 +77,7 @@ jam_status jam_moduli(jam_system *sys, const jam_hessian_options *h, jam_moduli_
     const jam_hessian_options options = take_hessian_options(h);
     need(moduli, "moduli");
     check_out_struct(moduli, "moduli");
-    refuse_walls(sys->packing, "strained: it has no moduli");
+    refuse_closed(sys->packing, 2, "elastic moduli");
     need_network(sys);
     const double nan = std::numeric_limits<double>::quiet_NaN();
     give_struct(jam_moduli_report{sizeof(jam_moduli_report), 0, nan, nan, nan, nan, nan, nan}, moduli);
@@ -92,7 +92,7 @@ jam_status jam_elastic_tensor(jam_system *sys, const jam_hessian_options *h, dou
                               double *relaxed, size_t relaxed_len, size_t *needed) {
   return guard_cancellable(sys, [&]() -> jam_status {
     const jam_hessian_options options = take_hessian_options(h);
-    refuse_walls(sys->packing, "strained: it has no moduli");
+    refuse_closed(sys->packing, 1, "elastic tensor");
     need_network(sys);
     const size_t d = static_cast<size_t>(sys->packing.dim), count = d * d * d * d;
     if (needed) *needed = count;

@@ -35,8 +35,10 @@ jam_status jam_walls(const jam_system *sys, double *table, size_t table_len, siz
   return guard_read(sys, [&]() -> jam_status {
     const Packing &p = sys->packing;
     const Container &c = p.container;
-    constexpr size_t columns = JAM_WALL_GAP + 1;
+    constexpr size_t columns = JAM_WALL_STRESS + 1;
     if (!table_wanted(static_cast<size_t>(c.count()), columns, table, table_len, needed)) return JAM_OK;
+    const ContactNetwork *net = sys->known_contacts();
+    const std::vector<double> stress = wall_stress(p, net ? *net : ContactNetwork());
     for (int w = 0; w < c.count(); ++w, table += columns) {
       const ClosestWall closest = closest_to_wall(p, w);
       table[JAM_WALL_AXIS] = c.axis(w);
@@ -45,6 +47,7 @@ jam_status jam_walls(const jam_system *sys, double *table, size_t table_len, siz
       table[JAM_WALL_PRESSURE] =
           p.wall_pressure.empty() ? std::numeric_limits<double>::quiet_NaN() : p.wall_pressure[static_cast<size_t>(w)];
       table[JAM_WALL_GAP] = closest.gap;
+      table[JAM_WALL_STRESS] = stress[static_cast<size_t>(w)];
     }
     return JAM_OK;
   });

@@ -74,7 +74,6 @@ jam_status jam_rigidity(jam_system *sys, int32_t kind, jam_rigidity_report *repo
   untested.rigidity_margin = untested.force_residual = std::numeric_limits<double>::quiet_NaN();
   return guard_cancellable(sys, untested, report, [&]() -> Answer {
     const Jamming jamming = take_kind(kind);
-    if (jamming == Jamming::strict) refuse_walls(sys->packing, "tested for strict jamming");
     const PackingVerdict v = test(sys, jamming);
     if (sys->has_report && jamming == Jamming::strict) sys->report.strictly_jammed = verdict_code(v.result.jammed);
     jam_rigidity_report r{};
@@ -100,7 +99,6 @@ jam_status jam_flex(jam_system *sys, int32_t kind, double *out, size_t out_len, 
                     size_t *needed) {
   return guard_cancellable(sys, [&]() -> jam_status {
     const Jamming jamming = take_kind(kind);
-    if (jamming == Jamming::strict) refuse_walls(sys->packing, "tested for strict jamming");
     const size_t d = static_cast<size_t>(sys->packing.dim), size = sys->packing.position.size();
     if (!needed && !out && !strain) fail(JAM_E_NULL, "needed is NULL and there is no output array");
     check_output(out, out_len, size, "out");

@@ -50,13 +50,14 @@ jam_status jam_relax_options_init(jam_relax_options *o, size_t size) {
 
 jam_status jam_relax(jam_system *sys, const jam_relax_options *o, jam_relax_report *report) {
   return guard_reporting(sys, report, [&]() -> Answer {
-    refuse_walls(sys->packing, "relaxed");
     jam_relax_options full = default_relax_options();
     take_options(o, full);
     need_soft(sys);
+    if (full.strain != JAM_STRAIN_NONE) refuse_walls(sys->packing, "relaxed in a free cell");
     SoftResult result = relax(sys->packing, full, sys->monitor);
     const jam_relax_report made = result.report;
     const jam_status status = result.status;
+    refuse_outside(result.packing);
     sys->commit(result.packing, soft_results(result, made.seconds));
     give_struct(made, report);
     return why_no_minimum(status, made.stop_reason);
@@ -69,7 +70,6 @@ jam_status jam_decompress_options_init(jam_decompress_options *o, size_t size) {
 
 jam_status jam_decompress(jam_system *sys, const jam_decompress_options *o, jam_decompress_report *report) {
   return guard_reporting(sys, report, [&]() -> Answer {
-    refuse_walls(sys->packing, "decompressed");
     jam_decompress_options full = default_decompress_options();
     take_options(o, full);
     need_soft(sys);
@@ -79,6 +79,7 @@ jam_status jam_decompress(jam_system *sys, const jam_decompress_options *o, jam_
     DecompressionResult result = decompress(sys->packing, full, sys->monitor, judge);
     const jam_decompress_report made = result.report;
     const jam_status status = result.status;
+    refuse_outside(result.soft.packing);
     Results found;
     if (made.same_network == 1) {
       found.contacts = std::move(hard.contacts);

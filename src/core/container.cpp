@@ -99,6 +99,23 @@ void Container::normal(int w, const double *x, double *n) const {
     for (int c = 0; c < round_axes_; ++c) n[c] = (radius_ - x[c]) / r;
 }
 
+double Container::displaced(int w, const double *x, const double *u, double *n) const {
+  if (!is_round(w)) {
+    normal(w, x, n);
+    return side(w) ? -u[axis(w)] : u[axis(w)];
+  }
+  double r2 = 0.0, to2 = 0.0, change = 0.0, to[JAM_MAX_DIM];
+  for (int c = 0; c < round_axes_; ++c) {
+    const double r = x[c] - radius_;
+    to[c] = r + u[c];
+    r2 += r * r, to2 += to[c] * to[c], change += u[c] * (r + to[c]);
+  }
+  const double length = std::sqrt(to2), both = std::sqrt(r2) + length;
+  for (int c = 0; c < dim_; ++c) n[c] = c < round_axes_ && length > 0.0 ? -to[c] / length : 0.0;
+  if (!(length > 0.0)) n[0] = 1.0;
+  return both > 0.0 ? -change / both : 0.0;
+}
+
 double Container::curvature(int w, const double *x) const {
   return is_round(w) ? 1.0 / (radius_ - distance(w, x)) : 0.0;
 }
@@ -179,6 +196,12 @@ ClosestWall closest_wall(const Packing &p) {
 
 void refuse_walls(const Packing &p, const char *done) {
   if (p.container) fail(JAM_E_UNSUPPORTED, "a scene with walls cannot be %s yet", done);
+}
+
+void refuse_closed(const Packing &p, int needed, const char *call) {
+  if (p.container && p.container.open_axes() < needed)
+    fail(JAM_E_UNSUPPORTED, "%s: the scene has %d axes without walls, at least %d must strain", call,
+         p.container.open_axes(), needed);
 }
 
 }  // namespace jam

@@ -65,20 +65,17 @@ class Container {
   double area(int w) const;
   const char *word() const;       // of files: "brick", "cylinder", "ball"
   std::string name(int w) const;  // "the wall x = 0"
-  // Of the d components of the total momentum, the share that collisions with walls keep.
-  double momentum_kept() const {
+  int open_axes() const {
     int open = dim_;
     for (int c = 0; c < dim_; ++c) open -= static_cast<int>(closed_ >> c & 1);
-    return dim_ > 0 ? static_cast<double>(open) / dim_ : 1.0;
+    return open;
   }
+  // Of the d components of the total momentum, the share that collisions with walls keep.
+  double momentum_kept() const { return dim_ > 0 ? static_cast<double>(open_axes()) / dim_ : 1.0; }
   // Rigid motions of all spheres that the walls allow: translations along open axes, and rotations about the centre of
   // the round wall in the planes of two of its axes.
   int rotations() const { return round_axes_ * (round_axes_ - 1) / 2; }
-  int symmetries() const {
-    int open = dim_;
-    for (int c = 0; c < dim_; ++c) open -= static_cast<int>(closed_ >> c & 1);
-    return open + rotations();
-  }
+  int symmetries() const { return open_axes() + rotations(); }
   // Velocity at x of rotation q.
   void rotation(int q, const double *x, double *v) const;
   // Widest sphere that fits.
@@ -95,6 +92,8 @@ class Container {
   }
   void normal(int w, const double *x, double *n) const;
   double curvature(int w, const double *x) const;
+  // How much the distance changes when a point goes from x to x + u, without cancellation. n: the normal there.
+  double displaced(int w, const double *x, const double *u, double *n) const;
   // Whether a sphere at x lies inside all walls.
   bool holds(const double *x, double radius) const {
     for (int w = 0; w < count(); ++w)
@@ -222,5 +221,7 @@ ClosestWall closest_wall(const Packing &p);
 inline int symmetries(const Container &c, int dim) { return c ? c.symmetries() : dim; }
 // JAM_E_UNSUPPORTED for a call that does not know walls: "a scene with walls cannot be <done> yet".
 void refuse_walls(const Packing &p, const char *done);
+// JAM_E_UNSUPPORTED for a call that needs so many axes without walls.
+void refuse_closed(const Packing &p, int needed, const char *call);
 
 }  // namespace jam

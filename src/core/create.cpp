@@ -145,12 +145,12 @@ void refuse_overlaps(const Packing &p, double tolerance) {
 void settle_overlaps(Packing &p, int32_t policy) {
   check_diameters(p.diameter, p.cell);
   if (p.container && !p.position.empty()) refuse_outside(p);
+  if (p.container) refuse_too_wide(p, JAM_E_OVERLAP);
   if (policy == JAM_OVERLAP_ALLOW) {
     if (diameter_max(p) > p.cell.shortest())
       refuse_unfitting(p);  // overlaps of a sphere with its own images are not moved
     return;
   }
-  if (p.container) refuse_too_wide(p, JAM_E_OVERLAP);
   if (fitting_factor(p) < 1.0) refuse_unfitting(p);
   refuse_overlaps(p, overlap_tolerance);
 }

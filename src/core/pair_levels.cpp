@@ -32,7 +32,9 @@ void PairCells::place(const Packing &p, int32_t i, int64_t *at) const {
   Cell::Vector s{};
   p.cell.fraction(&p.position[static_cast<size_t>(i) * dim_], s.data());
   for (int c = 0; c < dim_; ++c) {
-    const auto k = static_cast<int64_t>(wrap(s[c], 1.0) * static_cast<double>(side_));
+    // A soft sphere beyond a wall belongs to the outermost cell.
+    const double part = p.cell.repeats(c) ? wrap(s[c], 1.0) : std::min(std::max(s[c], 0.0), 1.0);
+    const auto k = static_cast<int64_t>(part * static_cast<double>(side_));
     at[c] = std::min(std::max<int64_t>(k, 0), side_ - 1);
   }
 }

@@ -1,6 +1,7 @@
 // See certificate.hpp.
 #include "network/certificate.hpp"
 #include "core/pair_rule.hpp"
+#include "network/constraint_rows.hpp"
 #include "network/tuning.hpp"
 
 #include <algorithm>
@@ -38,6 +39,11 @@ void scan_gaps(const Packing &p, const ContactNetwork &net, bool own_images, jam
 
 }  // namespace
 
+static int64_t strict_contacts_needed(int64_t stable, const Packing &p) {
+  return isostatic_contacts(stable, p.dim, p.container) +
+         (stable > 0 ? traceless_strains(p.dim, ~p.container.closed()) : 0);
+}
+
 void certify(const Packing &p, const ContactNetwork &net, jam_crunch_report &report, bool free_cell) {
   const int d = p.dim;
   report.packing_fraction = packing_fraction(p);
@@ -58,7 +64,7 @@ void certify(const Packing &p, const ContactNetwork &net, jam_crunch_report &rep
   report.force_scale = net.force_scale;
   scan_gaps(p, net, free_cell, report);
   report.strictly_jammed = JAM_VERDICT_UNTESTED;
-  report.strict_contacts_needed = report.stable > 0 ? d * (report.stable - 1) + d * (d + 1) / 2 : 0;
+  report.strict_contacts_needed = strict_contacts_needed(report.stable, p);
   report.packing_fraction_start = report.displacement_max = report.displacement_rms = report.displacement_max_stable =
       report.displacement_rms_stable = std::numeric_limits<double>::quiet_NaN();
   report.contacts_start = report.contacts_kept = -1;
@@ -71,7 +77,7 @@ int32_t verdict_code(Verdict verdict) {
   return verdict == Verdict::yes ? JAM_VERDICT_YES : verdict == Verdict::no ? JAM_VERDICT_NO : JAM_VERDICT_UNDECIDED;
 }
 
-void report_verdict(const PackingVerdict &v, int d, jam_crunch_report &report) {
+void report_verdict(const PackingVerdict &v, const Packing &p, jam_crunch_report &report) {
   report.jammed = v.result.jammed == Verdict::yes;
   report.stationary = v.result.stressed == Verdict::yes;
   report.strictly_jammed = JAM_VERDICT_UNTESTED;
@@ -79,7 +85,7 @@ void report_verdict(const PackingVerdict &v, int d, jam_crunch_report &report) {
   report.zero_force_contacts = v.result.zero_force_contacts;
   report.undecided_contacts = v.undecided_contacts;
   report.undercoordinated = v.result.undercoordinated;
-  report.strict_contacts_needed = v.result.spheres > 0 ? d * (v.result.spheres - 1) + d * (d + 1) / 2 : 0;
+  report.strict_contacts_needed = strict_contacts_needed(v.result.spheres, p);
   report.rigidity_margin = v.result.margin;
 }
 
@@ -128,7 +134,13 @@ std::string why_not_jammed(const PackingVerdict &v, Jamming kind) {
   const auto number = [](int64_t x) { return static_cast<long long>(x); };
   if (v.result.jammed == Verdict::yes) return "";
   if (v.result.jammed == Verdict::undecided) return why_undecided(v);
-  if (v.result.flexes > 0)
+  if (v.result.slides > 0)
+    std::snprintf(
+        line, sizeof line,
+        "forces balance on %lld contacts, so the diameters cannot grow, but parts of the network slide past each "
+        "other in %lld ways that keep all distances: around the middle of the container or along its wall",
+        number(v.result.contacts), number(v.result.slides));
+  else if (v.result.flexes > 0)
     std::snprintf(line, sizeof line,
                   "a saddle: forces balance on %lld contacts%s, and yet %lld motions%s keep them closed",
                   number(v.result.contacts), strict ? " with an isotropic stress" : "", number(v.result.flexes),
@@ -141,7 +153,7 @@ std::string why_not_jammed(const PackingVerdict &v, Jamming kind) {
 }
 
 void certify_jamming(const Packing &p, const ContactNetwork &contacts, jam_crunch_report &report) {
-  report_verdict(test_packing(p, &contacts, Jamming::collective), p.dim, report);
+  report_verdict(test_packing(p, &contacts, Jamming::collective), p, report);
 }
 
 }  // namespace jam

@@ -15,7 +15,7 @@ void certify(const Packing &p, const ContactNetwork &contacts, jam_crunch_report
 // jam_verdict of a Verdict.
 int32_t verdict_code(Verdict verdict);
 // What the test of collective jamming says, put into the report; strictly_jammed stays untested.
-void report_verdict(const PackingVerdict &verdict, int dim, jam_crunch_report &report);
+void report_verdict(const PackingVerdict &verdict, const Packing &p, jam_crunch_report &report);
 // Why the test does not say that the packing is jammed: one sentence with its figures. Empty where it does.
 // Strict: forces must balance on the cell too, up to a pressure.
 std::string why_not_jammed(const PackingVerdict &verdict, Jamming kind = Jamming::collective);

@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "core/pair_rule.hpp"
 #include "network/certificate.hpp"
+#include "network/constraint_rows.hpp"
 #include "network/contacts_from_geometry.hpp"
 #include "network/tuning.hpp"
 
@@ -113,9 +114,10 @@ CheckResult check_as_it_is(const Packing &p) {
   r.digits = resolution.digits(p), r.coordinate_step = resolution.step, r.resolution = resolution.relative(p);
   PackingVerdict verdict = test_packing(q, resolution, nullptr, Jamming::collective);
   r.jammed = verdict_code(verdict.result.jammed);
-  r.strictly_jammed = p.container ? JAM_VERDICT_UNTESTED : JAM_VERDICT_NO;  // walls do not strain
+  const bool strains = traceless_strains(p.dim, ~p.container.closed()) > 0;  // walls do not
+  r.strictly_jammed = strains ? JAM_VERDICT_NO : JAM_VERDICT_UNTESTED;
   // Only where a sphere is held by its own images alone can the strict test find more than the collective one.
-  if (!p.container && (r.jammed != JAM_VERDICT_NO || may_touch_own_image(q, resolution))) {
+  if (strains && (r.jammed != JAM_VERDICT_NO || may_touch_own_image(q, resolution))) {
     const PackingVerdict strict = test_packing(q, resolution, nullptr, Jamming::strict);
     r.strictly_jammed = verdict_code(strict.result.jammed);
     r.strict_flexes = strict.result.flexes;

@@ -21,19 +21,23 @@ double norm(const std::vector<double> &x) {
 
 }  // namespace
 
-std::vector<double> traceless_basis(int d) {
+std::vector<double> traceless_basis(int d, uint32_t axes) {
   std::vector<double> b;
+  std::vector<int> open;
+  for (int c = 0; c < d; ++c)
+    if (axes >> c & 1u) open.push_back(c);
+  const int count = static_cast<int>(open.size());
   const auto next = [&] { return b.insert(b.end(), static_cast<size_t>(d) * d, 0.0); };
-  for (int k = 1; k < d; ++k) {  // diag(1, ..., 1, -k, 0, ...): k ones
+  for (int k = 1; k < count; ++k) {  // diag(1, ..., 1, -k, 0, ...): k ones
     const auto m = next();
     const double scale = 1.0 / std::sqrt(static_cast<double>(k) * (k + 1));
-    for (int c = 0; c < k; ++c) m[c * d + c] = scale;
-    m[k * d + k] = -k * scale;
+    for (int c = 0; c < k; ++c) m[open[c] * (d + 1)] = scale;
+    m[open[k] * (d + 1)] = -k * scale;
   }
-  for (int r = 0; r < d; ++r)
-    for (int c = r + 1; c < d; ++c) {
+  for (int r = 0; r < count; ++r)
+    for (int c = r + 1; c < count; ++c) {
       const auto m = next();
-      m[r * d + c] = m[c * d + r] = std::sqrt(0.5);
+      m[open[r] * d + open[c]] = m[open[c] * d + open[r]] = std::sqrt(0.5);
     }
   return b;
 }
@@ -43,8 +47,8 @@ ConstraintRows::ConstraintRows(const RigidityMatrix &matrix, bool with_strain) :
   const int d = g.dim;
   length = 0.0;
   for (const double r : g.distance) length += r / static_cast<double>(g.contacts());
-  const std::vector<double> basis = traceless_basis(d);
-  strains = d * (d + 1) / 2 - 1;
+  const std::vector<double> basis = traceless_basis(d, g.open_axes);
+  strains = traceless_strains(d, g.open_axes);
   e.reserve(g.contacts() * strains);
   for (size_t k = 0; k < g.contacts(); ++k) {
     const double *n = &g.normal[k * d];
@@ -75,7 +79,7 @@ void ConstraintRows::transpose(const double *f, double *y) const {
 std::vector<double> ConstraintRows::strain_of(const double *x) const {
   const size_t dd = static_cast<size_t>(g.dim) * g.dim;
   std::vector<double> out(dd, 0.0);
-  const std::vector<double> basis = traceless_basis(g.dim);
+  const std::vector<double> basis = traceless_basis(g.dim, g.open_axes);
   for (int q = 0; q < strains; ++q)
     for (size_t r = 0; r < dd; ++r) out[r] += basis[q * dd + r] * x[g.unknowns() + q] / length;
   return out;

@@ -11,9 +11,17 @@
 
 namespace jam {
 
-// Orthonormal basis of the traceless symmetric d x d matrices, (d (d + 1) / 2 - 1, d, d).
-std::vector<double> traceless_basis(int dim);
+// Orthonormal basis of the traceless symmetric d x d matrices with no component off these axes (bits): of all d,
+// (d (d + 1) / 2 - 1, d, d).
+std::vector<double> traceless_basis(int dim, uint32_t axes = ~0u);
+// Their number.
+inline int traceless_strains(int dim, uint32_t axes) {
+  int m = 0;
+  for (int c = 0; c < dim; ++c) m += static_cast<int>(axes >> c & 1u);
+  return m > 0 ? m * (m + 1) / 2 - 1 : 0;
+}
 
+// Only axes without walls strain. Walls keep their places, and their normals have no component along such an axis.
 // Unknowns: displacements (nodes, dim), then the coefficients of the strain in units of 1 / mean contact distance.
 struct ConstraintRows {
   ConstraintRows(const RigidityMatrix &g, bool with_strain);

@@ -51,6 +51,19 @@ void set_force_scale(const Packing &p, ContactNetwork &net) {
   net.force_scale = sum > 0.0 ? 1.0 / sum : 0.0;
 }
 
+std::vector<double> wall_stress(const Packing &p, const ContactNetwork &net) {
+  std::vector<double> out(static_cast<size_t>(p.container.count()), 0.0);
+  double virial = 0.0;
+  for (size_t k = 0; k < net.force.size(); ++k) {
+    virial += net.force[k] * contact_distance(p, net.pairs.i[k], net.pairs.j[k]) * (1.0 + net.gap[k]);
+    if (net.pairs.wall(k)) out[static_cast<size_t>(wall_partner(net.pairs.j[k]))] += net.force[k];
+  }
+  for (size_t w = 0; w < out.size(); ++w)
+    out[w] = virial > 0.0 ? out[w] / p.container.area(static_cast<int>(w)) * p.dim * p.container.volume() / virial
+                          : std::nan("");
+  return out;
+}
+
 std::vector<std::pair<size_t, size_t>> common_contacts(const ContactNetwork &a, const ContactNetwork &b) {
   std::multimap<std::pair<int32_t, int32_t>, size_t> left;
   for (size_t k = 0; k < a.size(); ++k) left.emplace(std::make_pair(a.pairs.i[k], a.pairs.j[k]), k);

@@ -29,6 +29,9 @@ void measure_contacts(const Packing &p, ContactNetwork &net);
 // Sets the force scale of forces of mean 1: that of lambda r with lambda = c f / r and sum lambda sigma^2 = 1.
 void set_force_scale(const Packing &p, ContactNetwork &net);
 
+// Of each wall: the force of its contacts per area, over the pressure sum f r / (d V); NaN without forces.
+std::vector<double> wall_stress(const Packing &p, const ContactNetwork &net);
+
 // Contacts k of `a` and q of `b` between the same two spheres, in the order of b. Of several images as many as both
 // have.
 std::vector<std::pair<size_t, size_t>> common_contacts(const ContactNetwork &a, const ContactNetwork &b);

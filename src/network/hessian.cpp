@@ -66,17 +66,6 @@ ContactWeights contact_weights(const RigidityMatrix &g, double sigma_mean, const
   return w;
 }
 
-namespace {
-// Block of one contact: k n n^T - t (1 - n n^T), with the unit matrix of the axes along which a wall is round.
-void contact_block(const RigidityMatrix &g, const ContactWeights &w, size_t k, double *block) {
-  const int d = g.dim;
-  const double *n = &g.normal[k * d], t = w.transverse.empty() ? 0.0 : w.transverse[k];
-  for (int r = 0; r < d; ++r)
-    for (int c = 0; c < d; ++c) block[r * d + c] = (w.stiffness[k] + t) * n[r] * n[c] - (r == c ? t : 0.0);
-  for (int r = g.round_axes; r < d && g.b[k] < 0; ++r) block[r * d + r] += t;
-}
-}  // namespace
-
 BlockMatrix make_hessian(const RigidityMatrix &g, const ContactWeights &w) {
   const int d = g.dim, dd = d * d;
   BlockMatrix m;
@@ -90,7 +79,8 @@ BlockMatrix make_hessian(const RigidityMatrix &g, const ContactWeights &w) {
   std::vector<double> block(dd);
   for (size_t k : order) {
     if (g.a[k] == g.b[k]) continue;  // both ends move together: no stretch, no contribution
-    contact_block(g, w, k, block.data());
+    contact_block(d, w.stiffness[k], w.transverse.empty() ? 0.0 : w.transverse[k], &g.normal[k * d],
+                  g.b[k] < 0 ? g.round_axes : d, block.data());
     const auto [i, j] = key(k);
     if (i < 0) {
       for (int q = 0; q < dd; ++q) m.diag[static_cast<size_t>(j) * dd + q] += block[q];

@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/container.hpp"
+
 namespace jam {
 
 // Turns contacts off, again and again, on spheres whose contact vectors all lie clearly on one side of a plane.
@@ -16,8 +18,10 @@ void drop_unbalanced(int dim, size_t n, const std::vector<int32_t> &i, const std
                      const std::vector<double> &normal, std::vector<char> &on);
 
 // For soft spheres whose forces do not balance yet: turns off contacts of spheres with d contacts or fewer, again and
-// again. The rule above would take out spheres that are on their way into balance.
-void drop_loose(int dim, size_t n, const std::vector<int32_t> &i, const std::vector<int32_t> &j, std::vector<char> &on);
+// again. The rule above would take out spheres that are on their way into balance. At a round wall a sphere is stable
+// with one contact less for each direction in which the wall bends: two opposite ones hold a disk in a circle.
+void drop_loose(int dim, size_t n, const Container &walls, const std::vector<int32_t> &i, const std::vector<int32_t> &j,
+                std::vector<char> &on);
 
 // As drop_unbalanced, and how each sphere can leave its contacts: in the order in which spheres were taken out. error:
 // largest error of each contact vector, below which a balance cannot be excluded; empty: vectors may be off by 1e-3.

@@ -7,6 +7,7 @@
 #include "core/call_scope.hpp"
 #include "linalg/blas.hpp"
 #include "network/rigid_part.hpp"
+#include "network/slides.hpp"
 #include "network/softest_modes.hpp"
 #include "network/stress_cone.hpp"
 #include "network/tuning.hpp"
@@ -105,6 +106,12 @@ void judge_curvature(const RigidityMatrix &carrying, const std::vector<double> &
   if (most < -limit) {
     out.jammed = out.force_residual < RigidityTuning::most_residual ? Verdict::yes : Verdict::undecided;
     out.margin = -most / scale;
+    return;
+  }
+  Slides slides = find_slides(carrying);
+  if (!(most > limit) && slides.count > 0) {
+    out.slides = slides.count;
+    flexes[0] = std::move(slides.motion);
   } else if (!(most > limit) || out.self_stresses > 1) {  // other states of self-stress might hold it
     out.jammed = Verdict::undecided;
   }

@@ -7,13 +7,16 @@
 // f with S^T f = 0 is positive on all of K+, and rank S on K+ is d (N' - 1), N' = |B| (Roth and Whiteley, Trans. Amer.
 // Math. Soc. 265, 419 (1981)). Strictly jammed: the same with S v + E eps >= 0 and tr eps <= 0; then E^T f is
 // proportional to the unit matrix, and the rank with the traceless strains is d (N' - 1) + d (d + 1) / 2 - 1 (Donev,
-// Torquato, Stillinger, Connelly, J. Comput. Phys. 197, 139 (2004); Connelly, Shen, Smith, arXiv:1301.0664).
+// Torquato, Stillinger, Connelly, J. Comput. Phys. 197, 139 (2004); Connelly, Shen, Smith, arXiv:1301.0664). Between
+// walls eps has components along the axes that repeat alone: d is their number in its counts.
 // For spheres this first-order test is exact: |r + t v|^2 = r^2 + 2 t r.v + t^2 v^2, so every flex opens contacts
 // (Connelly 1988). A round wall closes along a flex, as its distance has the second derivative -1/|r| across the
 // normal. There a flex u opens no contact where sum_k f_k b_k |u_k|^2 < 0, with the second derivatives b_k of the
 // distances across the normals and the parts u_k of u_i - u_j there: that is prestress stability (R. Connelly and W.
-// Whiteley, SIAM J. Discrete Math. 9, 453 (1996)). d (N' - 1) is d N' less the symmetries of the scene where there are
-// walls. A rattler is a sphere that no contact of K+ touches; the number of its contacts does not matter.
+// Whiteley, SIAM J. Discrete Math. 9, 453 (1996)). Where the sum is 0 as parts of the network slide past each other,
+// the spheres are not jammed, though their diameters cannot grow. d (N' - 1) is d N' less the symmetries of the scene
+// where there are walls. A rattler is a sphere that no contact of K+ touches; the number of its contacts does not
+// matter.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -45,8 +48,9 @@ struct RigidityResult {
   int64_t zero_force_contacts = 0;  // contacts without force in every state
   int64_t contacts_needed = 0;      // collective: d (N' - 1) + 1; strict: d (N' - 1) + d (d + 1) / 2
   int64_t self_stresses = 0;        // states of self-stress on K+
-  int64_t flexes = 0;            // motions of B with S v = 0 on K+ beyond symmetries; 0 without a stress. Of a jammed
-                                 // packing the curvature of a round wall stabilises them
+  int64_t flexes = 0;  // motions of B with S v = 0 on K+ beyond symmetries; 0 without a stress. Of a jammed
+                       // packing the curvature of a round wall stabilises them
+  int64_t slides = 0;  // of these flexes, where they keep all distances for ever and nothing else is free (slides.hpp)
   int64_t undercoordinated = 0;  // spheres of B with d contacts of K+ or fewer
   double margin = 0.0;  // smallest eigenvalue of S^T S on K+ that is no translation; 0 where there is no other motion
   std::vector<double> flex;    // (nodes, dim), largest |v_i| is 1: opens contacts; empty when jammed or not found

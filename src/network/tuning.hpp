@@ -84,6 +84,8 @@ struct RigidityTuning {
   static constexpr double off_axis = 1e-5;
   // A rotation of the spheres about a line through all of them leaves less than this of a length, by rounding.
   static constexpr double no_rotation = 1e-9;
+  // What is left of the motion of a part, of its length, where it is the motion of the whole or of other parts.
+  static constexpr double no_slide = 1e-6;
   // Forces that balance worse than this, over the mean force, prove nothing; worse than the second they do not even
   // name the contacts.
   static constexpr double most_residual = 1e-10, useless_residual = 1e-6;

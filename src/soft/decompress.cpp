@@ -12,9 +12,15 @@
 namespace jam {
 namespace {
 
-// Contacts of one state of self-stress that hold all stable spheres: the Hessian has d zero modes and no negative one.
+// Stable spheres with no contact too few. The curvature of a round wall may hold them with fewer.
+bool enough_contacts(const SoftResult &at) {
+  return at.report.stable > 0 && (at.report.excess_contacts >= 0 || at.packing.container.round_axes() > 0);
+}
+
+// Contacts of one state of self-stress that hold all stable spheres: the symmetries of the scene are the zero modes of
+// the Hessian, and it has no negative one.
 bool is_isostatic(const SoftState &state, const SoftResult &at, int64_t &factorisations) {
-  if (at.report.stable == 0 || at.report.excess_contacts != 0) return false;
+  if (!enough_contacts(at) || at.report.excess_contacts > 0) return false;
   const SoftContacts contacts = state.contacts();
   SoftHessian hessian;
   return hessian.factorise(state, contacts, stable_contacts(state, contacts), 0.0, factorisations) &&
@@ -91,7 +97,7 @@ void follow_growth(SoftState &state, double growth, int64_t &factorisations) {
     const size_t i = state.pairs().i[contacts.pair[q]], j = state.pairs().j[contacts.pair[q]];
     for (size_t c = 0; c < d; ++c) {
       u[i * d + c] += push * contacts.normal[q * d + c];
-      u[j * d + c] -= push * contacts.normal[q * d + c];
+      if (!state.pairs().wall(contacts.pair[q])) u[j * d + c] -= push * contacts.normal[q * d + c];
     }
   }
   hessian.solve(u);
@@ -194,7 +200,7 @@ class Decompression {
       out_.status = status_of(end, monitor_, report_.stop_reason);
       return true;
     }
-    if (end == DescentEnd::balanced && now.report.stable > 0 && now.report.excess_contacts >= 0) {
+    if (end == DescentEnd::balanced && enough_contacts(now)) {
       out_.soft = std::move(now);
       factor_ = std::max(factor_ * factor_, o_.energy_factor);
       return keep(row);

@@ -21,6 +21,7 @@ SoftResult measure(SoftState &state, int32_t minimiser) {
   net.coordination.assign(state.n(), 0);
   jam_relax_report &r = out.report;
   double mean = 0.0, overlap = 0.0;
+  int64_t ends = 0;
   for (size_t q = 0; q < contacts.size(); ++q) {
     const size_t k = contacts.pair[q];
     const int32_t i = state.pairs().i[k], j = state.pairs().j[k];
@@ -32,8 +33,8 @@ SoftResult measure(SoftState &state, int32_t minimiser) {
     net.gap.push_back(-h);
     net.force.push_back(contacts.force[q]);
     net.stiffness.push_back(state.energy().stiffness(contacts.overlap[q], contacts.force[q]));
-    net.prestress.push_back(contacts.force[q] / contacts.distance[q]);
-    ++net.coordination[i], ++net.coordination[j];
+    net.prestress.push_back(contacts.transverse[q]);
+    for_spheres(i, j, [&](int32_t s) { ++net.coordination[s], ++ends; });
     mean += contacts.force[q];
     overlap += h;
   }
@@ -52,15 +53,15 @@ SoftResult measure(SoftState &state, int32_t minimiser) {
   r.minimiser = minimiser;
   r.contacts = static_cast<int64_t>(net.size());
   r.rattlers = static_cast<int64_t>(state.n()) - r.stable;
-  r.excess_contacts = r.contacts - isostatic_contacts(r.stable, d, Container());
+  r.excess_contacts = r.contacts - isostatic_contacts(r.stable, d, state.base().container);
   r.force_residual = r.contacts > 0 ? std::sqrt(worst) * count / mean : 0.0;
   r.stress_residual = r.contacts > 0 ? sums.stress : 0.0;
   r.energy = sums.energy;
-  r.pressure = sums.virial / (d * state.base().cell.volume());
+  r.pressure = sums.virial / (d * scene_volume(state.base()));
   r.packing_fraction = packing_fraction(state.base());
   r.distance = sums.distance(state.energy().alpha());
   r.jammed_fraction = r.packing_fraction * math::pow(1.0 - r.distance, d);
-  r.coordination = r.stable > 0 ? 2.0 * count / static_cast<double>(r.stable) : 0.0;
+  r.coordination = r.stable > 0 ? static_cast<double>(ends) / static_cast<double>(r.stable) : 0.0;
   r.mean_overlap = r.contacts > 0 ? overlap / count : 0.0;
   return out;
 }

@@ -14,15 +14,18 @@ void centre_rattlers(SoftState &state) {
   const std::vector<char> on = stable_contacts(state, contacts);
   std::vector<char> rattler(state.n(), 1);
   for (size_t q = 0; q < contacts.size(); ++q)
-    if (on[q]) rattler[state.pairs().i[contacts.pair[q]]] = rattler[state.pairs().j[contacts.pair[q]]] = 0;
+    if (on[q])
+      for_spheres(state.pairs().i[contacts.pair[q]], state.pairs().j[contacts.pair[q]],
+                  [&](int32_t s) { rattler[s] = 0; });
   Packing p = state.packing();
   const double mean = state.diameter_mean();
   const PairList pairs = find_pairs(p, 0.5 * mean, 1.0);
   std::vector<std::vector<size_t>> of(state.n());
   for (size_t k = 0; k < pairs.size(); ++k) {
     if (pairs.i[k] == pairs.j[k]) continue;
-    if (rattler[pairs.i[k]]) of[pairs.i[k]].push_back(k);
-    if (rattler[pairs.j[k]]) of[pairs.j[k]].push_back(k);
+    for_spheres(pairs.i[k], pairs.j[k], [&](int32_t s) {
+      if (rattler[s]) of[s].push_back(k);
+    });
   }
   const std::vector<double> start = p.position;
   // Smallest gap of sphere i at the positions in p, and the direction away from that neighbour.

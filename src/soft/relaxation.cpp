@@ -36,7 +36,8 @@ double Relaxation::stable_residual() const {
   int64_t count = 0;
   for (size_t k = 0; k < contacts.size(); ++k) {
     if (!on[k]) continue;
-    stable[state.pairs().i[contacts.pair[k]]] = stable[state.pairs().j[contacts.pair[k]]] = 1;
+    for_spheres(state.pairs().i[contacts.pair[k]], state.pairs().j[contacts.pair[k]],
+                [&](int32_t s) { stable[s] = 1; });
     sum += contacts.force[k];
     ++count;
   }

@@ -4,15 +4,68 @@
 #include <Eigen/Dense>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
+#include "network/hessian.hpp"
+#include "network/tuning.hpp"
+
 namespace jam {
-// Block of a contact: k n n^T - (f / r) (1 - n n^T), plus on both diagonal blocks, minus off them.
+namespace {
+
+void add(const std::vector<double> &block, double *to) {
+  for (size_t c = 0; c < block.size(); ++c) to[c] += block[c];
+}
+
+// Coordinates of stable spheres, one for each rigid motion of the scene, that move in any combination of these motions.
+// As forces have no part along them, springs to these coordinates change no answer. Without walls: the first sphere.
+std::vector<size_t> tied_coordinates(const SoftState &state, const std::vector<char> &stable) {
+  const size_t d = static_cast<size_t>(state.dim());
+  const Container &walls = state.base().container;
+  std::vector<size_t> tied;
+  if (!walls) {
+    const auto first = static_cast<size_t>(std::find(stable.begin(), stable.end(), 1) - stable.begin());
+    for (size_t c = 0; first < stable.size() && c < d; ++c) tied.push_back(first * d + c);
+    return tied;
+  }
+  std::vector<std::vector<double>> motion;
+  const auto add_motion = [&](const auto &velocity) {
+    motion.emplace_back(stable.size() * d, 0.0);
+    for (size_t i = 0; i < stable.size(); ++i)
+      if (stable[i]) velocity(i, &motion.back()[i * d]);
+  };
+  for (size_t c = 0; c < d; ++c)
+    if ((walls.closed() >> c & 1u) == 0) add_motion([&](size_t, double *v) { v[c] = 1.0; });
+  for (int q = 0; q < walls.rotations(); ++q)
+    add_motion([&](size_t i, double *v) {
+      double x[JAM_MAX_DIM];
+      for (size_t c = 0; c < d; ++c) x[c] = state.base().position[i * d + c] + state.displacement()[i * d + c];
+      walls.rotation(q, x, v);
+    });
+  // Gaussian elimination with the largest component of each motion as pivot.
+  const auto larger = [](double x, double y) { return std::fabs(x) < std::fabs(y); };
+  for (size_t m = 0; m < motion.size(); ++m) {
+    const auto pivot = std::max_element(motion[m].begin(), motion[m].end(), larger);
+    if (!(std::fabs(*pivot) > RigidityTuning::no_rotation * state.diameter_mean())) continue;
+    const auto at = static_cast<size_t>(pivot - motion[m].begin());
+    tied.push_back(at);
+    for (size_t l = m + 1; l < motion.size(); ++l) {
+      const double part = motion[l][at] / *pivot;
+      for (size_t k = 0; k < motion[l].size(); ++k) motion[l][k] -= part * motion[m][k];
+    }
+  }
+  return tied;
+}
+
+}  // namespace
+
+// The block of a contact: plus on the diagonal blocks of its spheres, minus off them.
 void SoftHessian::assemble(const SoftState &state, const SoftContacts &contacts, const std::vector<char> &on) {
   const int d = state.dim(), dd = d * d;
   ei_.clear(), ej_.clear(), off_.clear();
   diag_.assign(state.n() * static_cast<size_t>(dd), 0.0);
   std::vector<char> stable(state.n(), 0);
+  std::vector<double> block(static_cast<size_t>(dd));
   double sum = 0.0;
   int64_t count = 0;
   strains_ = state.strains();
@@ -27,25 +80,20 @@ void SoftHessian::assemble(const SoftState &state, const SoftContacts &contacts,
       virial += contacts.force[q] * contacts.distance[q];
     }
     if (i == j) continue;  // an image of itself moves with the sphere
-    if (on[q]) stable[i] = stable[j] = 1;
+    if (on[q]) for_spheres(i, j, [&](int32_t s) { stable[s] = 1; });
+    const double k = state.energy().stiffness(contacts.overlap[q], contacts.force[q]);
+    contact_block(d, k, contacts.transverse[q], &contacts.normal[q * d],
+                  j < 0 ? state.base().container.round_axes() : d, block.data());
+    for_spheres(i, j, [&](int32_t s) { add(block, &diag_[static_cast<size_t>(s) * dd]); });
+    sum += k;
+    ++count;
+    if (j < 0) continue;
     if (ei_.empty() || ei_.back() != i || ej_.back() != j) {  // images of one pair stand one after the other
       ei_.push_back(i), ej_.push_back(j);
       off_.resize(off_.size() + dd, 0.0);
     }
-    const double k = state.energy().stiffness(contacts.overlap[q], contacts.force[q]),
-                 t = contacts.force[q] / contacts.distance[q];
-    const double *n = &contacts.normal[q * d];
-    double *off = &off_[off_.size() - dd], *di = &diag_[static_cast<size_t>(i) * dd],
-           *dj = &diag_[static_cast<size_t>(j) * dd];
-    for (int r = 0; r < d; ++r)
-      for (int c = 0; c < d; ++c) {
-        const double x = (k + t) * n[r] * n[c] - (r == c ? t : 0.0);
-        off[r * d + c] -= x;
-        di[r * d + c] += x;
-        dj[r * d + c] += x;
-      }
-    sum += k;
-    ++count;
+    double *off = &off_[off_.size() - dd];
+    for (int c = 0; c < dd; ++c) off[c] -= block[c];
   }
   unit_ = count > 0 ? sum / static_cast<double>(count) : strains_ > 0 && corner_[0] > 0.0 ? corner_[0] : 1.0;
   if (strains_ > 0) {
@@ -55,12 +103,9 @@ void SoftHessian::assemble(const SoftState &state, const SoftContacts &contacts,
     for (size_t k = 0; k < corner_.size(); ++k)
       corner_[k] += p_v * curvature[k] * state.amplitude_unit() * state.amplitude_unit();
   }
-  bool tied = false;
-  for (size_t i = 0; i < state.n(); ++i) {
-    const double spring = !stable[i] ? SoftHessianTuning::rattler_spring : tied ? 0.0 : 1.0;
-    tied = tied || stable[i];
-    for (int c = 0; c < d; ++c) diag_[i * dd + c * d + c] += spring * unit_;
-  }
+  for (size_t i = 0; i < state.n(); ++i)
+    for (int c = 0; c < d && !stable[i]; ++c) diag_[i * dd + c * d + c] += SoftHessianTuning::rattler_spring * unit_;
+  for (const size_t k : tied_coordinates(state, stable)) diag_[k * d + k % d] += unit_;
 }
 
 // Forces on spheres and strains from strains: with v_k = slope_k r0, the columns H v_k and the numbers v_k . H v_l.
@@ -126,7 +171,7 @@ bool SoftHessian::has_contacts(const SoftState &state, const SoftContacts &conta
   size_t at = 0;
   for (size_t q = 0; q < contacts.size(); ++q) {
     const int32_t i = state.pairs().i[contacts.pair[q]], j = state.pairs().j[contacts.pair[q]];
-    if (i == j) continue;
+    if (i == j || j < 0) continue;
     if (at > 0 && ei_[at - 1] == i && ej_[at - 1] == j) continue;
     if (at == ei_.size() || ei_[at] != i || ej_[at] != j) return false;
     ++at;

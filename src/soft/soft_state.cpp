@@ -48,6 +48,7 @@ void SoftState::wrap_sphere(size_t at, const std::vector<double> *strain) {
   for (int c = 0; c < base_.dim; ++c) x[c] = two_sum(base_.position[at + c], displacement_[at + c]);
   if (strain) strain_sphere(*strain, &base_.position[at], x.data());
   for (int c = base_.dim - 1; c >= 0; --c) {
+    if (!cell.repeats(c)) continue;
     const double edge = cell.edge(c), inside = wrap(x[c].high, edge);
     if (inside == x[c].high) continue;
     const double m = std::nearbyint((x[c].high - inside) / edge);
@@ -64,8 +65,18 @@ void SoftState::take_references() {
   const int d = base_.dim;
   const size_t m = pairs_.size();
   vector_.resize(m * d), reference_.resize(m), sigma_.resize(m), inverse_.resize(m);
+  walls_ = false;
   for (size_t k = 0; k < m; ++k) {
     const int32_t i = pairs_.i[k], j = pairs_.j[k];
+    if (pairs_.wall(k)) {
+      walls_ = true;
+      const DoubleDouble radius = contact_distance<DoubleDouble>(base_, i, j);
+      const double *x = &base_.position[static_cast<size_t>(i) * d];
+      sigma_[k] = static_cast<double>(radius);
+      inverse_[k] = 1.0 / sigma_[k];
+      reference_[k] = static_cast<double>(radius - base_.container.distance<DoubleDouble>(wall_partner(j), x));
+      continue;
+    }
     const double *a = &base_.position[static_cast<size_t>(i) * d], *b = &base_.position[static_cast<size_t>(j) * d];
     const DoubleDouble sigma = contact_distance<DoubleDouble>(base_, i, j);
     DoubleDouble q = sigma * sigma;
@@ -173,6 +184,10 @@ SoftSums SoftState::evaluate_in(std::vector<double> &force, const CellStrain *st
   std::vector<double> stress(strain ? static_cast<size_t>(d) * d : 0, 0.0);  // sum of f n r0
   double r[JAM_MAX_DIM];
   for (size_t k = 0; k < reference_.size(); ++k) {
+    if (walls_ && pairs_.wall(k)) {
+      add_wall(k, sums, force);
+      continue;
+    }
     const size_t i = static_cast<size_t>(pairs_.i[k]) * d, j = static_cast<size_t>(pairs_.j[k]) * d;
     const double sigma = sigma_[k];
     const double q =
@@ -220,6 +235,10 @@ SoftContacts SoftState::contacts() const {
   const double *e = strains() > 0 ? at.e.data() : nullptr;
   double r[JAM_MAX_DIM];
   for (size_t k = 0; k < reference_.size(); ++k) {
+    if (pairs_.wall(k)) {
+      add_wall_contact(k, out);
+      continue;
+    }
     const size_t i = static_cast<size_t>(pairs_.i[k]) * d, j = static_cast<size_t>(pairs_.j[k]) * d;
     const double q =
         precision_ == JAM_SOFT_DOUBLE
@@ -235,6 +254,7 @@ SoftContacts SoftState::contacts() const {
     out.overlap.push_back(delta);
     out.force.push_back(energy_.force(delta, inverse_[k]));
     out.distance.push_back(length);
+    out.transverse.push_back(out.force.back() / length);
     for (int c = 0; c < d; ++c) out.normal.push_back(r[c] / length);
   }
   return out;
@@ -248,7 +268,7 @@ std::vector<char> stable_contacts(const SoftState &state, const SoftContacts &co
     // An image of the same sphere holds nothing, but for the cell.
     on.push_back(state.strains() > 0 || list.i.back() != list.j.back());
   }
-  drop_loose(state.dim(), state.n(), list.i, list.j, on);
+  drop_loose(state.dim(), state.n(), state.base().container, list.i, list.j, on);
   return on;
 }
 

@@ -4,6 +4,7 @@
 // best. Here a sphere stands at base + displacement. Each pair keeps sigma^2 - r^2 of the base positions, taken in
 // double-double, and small displacements change it without cancellation:
 //     sigma^2 - r^2 = reference - du . (2 r0 + du),     overlap = (sigma^2 - r^2) / (sigma + r).
+// A wall is a contact at distance r = sigma = radius; its reference is the overlap itself, which the container changes.
 // In a free cell du also holds E r0 (soft_cell.hpp). Amplitudes of strain stand behind the displacements, as lengths:
 // amplitude = length / (mean diameter sqrt(n)), so that all unknowns are about as stiff.
 #pragma once
@@ -36,10 +37,11 @@ struct SoftSums {
   double distance(double alpha) const { return virial > 0.0 ? alpha * energy / virial : 0.0; }
 };
 
-// Overlapping pairs one by one: their place in pairs(), overlap, force and r_ij.
+// Overlapping pairs one by one: their place in pairs(), overlap, force, r_ij, and force / r_ij; of walls minus force
+// times curvature.
 struct SoftContacts {
   std::vector<size_t> pair;
-  std::vector<double> overlap, force, distance;
+  std::vector<double> overlap, force, distance, transverse;
   std::vector<double> normal;  // (contacts, dim), n_ij from j to i
   size_t size() const { return pair.size(); }
 };
@@ -97,6 +99,10 @@ class SoftState {
   // The energy has a cusp where two spheres share a centre. r of such a pair becomes a short vector, along itself where
   // it is not 0, else along a direction drawn by the seed: then they push each other apart. Returns its square.
   double part_coincident(size_t pair, double *r) const;
+  // The overlap with the wall of a pair, and its normal.
+  double wall_overlap(size_t pair, double *normal) const;
+  void add_wall(size_t pair, SoftSums &sums, std::vector<double> &force) const;
+  void add_wall_contact(size_t pair, SoftContacts &out) const;
 
   Packing base_;
   PairEnergy energy_;
@@ -118,6 +124,7 @@ class SoftState {
   CellState listed_at_;
   PairList pairs_;
   std::vector<double> vector_, reference_, sigma_, inverse_;  // r0 (pairs, dim), sigma^2 - r0^2, sigma, 1 / sigma
+  bool walls_ = false;                                        // whether the list holds any
 };
 
 // One flag a contact: whether it is between stable spheres, those that d + 1 or more contacts hold.

@@ -1166,6 +1166,7 @@ int main(void) {
   printf("JAM_WALL_AREA value %d\n", (int)JAM_WALL_AREA);
   printf("JAM_WALL_PRESSURE value %d\n", (int)JAM_WALL_PRESSURE);
   printf("JAM_WALL_GAP value %d\n", (int)JAM_WALL_GAP);
+  printf("JAM_WALL_STRESS value %d\n", (int)JAM_WALL_STRESS);
   printf("JAM_SIZES_EQUAL value %d\n", (int)JAM_SIZES_EQUAL);
   printf("JAM_SIZES_LIST value %d\n", (int)JAM_SIZES_LIST);
   printf("JAM_SIZES_UNIFORM value %d\n", (int)JAM_SIZES_UNIFORM);

@@ -114,7 +114,7 @@ Phase end_jammed(CrunchState &s, const PackingVerdict &verdict) {
   if (s.o.polish && (!s.found.polished || excess_contacts(s.out.contacts, s.out.packing) > 0))
     take_forces_of(s, verdict);
   s.found.jammed = true;
-  report_verdict(verdict, s.out.packing.dim, s.out.report);
+  report_verdict(verdict, s.out.packing, s.out.report);
   stop(s, JAM_STOP_CONVERGED, JAM_OK);
   return s.next.strain.count() > 0 ? decide_strict_jamming(s) : Phase::done;
 }
@@ -150,15 +150,16 @@ Phase decide_jamming(CrunchState &s) {
     PackingVerdict verdict;
     if (!tested(s, Jamming::collective, verdict)) return Phase::done;
     if (verdict.result.jammed == Verdict::yes) return end_jammed(s, verdict);
-    const FlexMove moved = converged(s) ? move_along_flex(s, verdict) : FlexMove::none;
+    // No slide opens a contact.
+    const FlexMove moved = converged(s) && verdict.result.slides == 0 ? move_along_flex(s, verdict) : FlexMove::none;
     if (moved == FlexMove::free) return Phase::approach;
     if (moved == FlexMove::blocked && s.o.polish) {
       s.out.contacts = closed_pairs(s.out.packing, s.next.strain.count() > 0);
       if (!polish_contacts(s)) return Phase::done;
       continue;
     }
-    if (!s.found.narrow && s.o.polish) return Phase::narrow_lps;
-    report_verdict(verdict, s.out.packing.dim, s.out.report);
+    if (!s.found.narrow && s.o.polish && verdict.result.slides == 0) return Phase::narrow_lps;
+    report_verdict(verdict, s.out.packing, s.out.report);
     s.out.text = why_not_jammed(verdict);
     take_positive_forces(s, verdict);
     if (verdict.result.jammed != Verdict::no)

@@ -91,6 +91,7 @@ const JAM_WALL_SIDE = Int32(1)  # 0: at 0; 1: at the edge of the cell, or round
 const JAM_WALL_AREA = Int32(2)  # unit^(d-1)
 const JAM_WALL_PRESSURE = Int32(3)  # beta P V / N of the last run of MD; NaN before
 const JAM_WALL_GAP = Int32(4)  # least h of a sphere
+const JAM_WALL_STRESS = Int32(5)  # force of its contacts / area, over sum f r / (d V) of all contacts; NaN without contacts
 
 # jam_size_law: Laws of diameters s. Each takes the fields named here, and no others.
 const JAM_SIZES_EQUAL = Int32(0)  # mean
@@ -124,9 +125,9 @@ const JAM_LOG_DEBUG = Int32(3)  # solver detail
 
 # jam_format: File formats. Behind any ending .gz compresses the file. PLAIN: line 1: d. Line 2: N. Line 3: the diameter, or the word `diameters`; then, when it is not 1, the box as `box <L>`. Then one line per sphere: its position, and its diameter after `diameters`, with 17 digits. XYZ: Lattice, dim, Properties=id:I:1:pos:R:d:radius:R:1 and, after a crunch, contacts:I:1. VTP: points with diameter, and after a crunch contacts, kind (0 rattler, 1 buckler, 2 other).
 const JAM_FORMAT_AUTO = Int32(0)  # .xyz, .extxyz: XYZ; .data, .lmp: LAMMPS; .vtp: VTP; .dat, .txt, none: PLAIN; others refused
-const JAM_FORMAT_PLAIN = Int32(1)  # text, cubes only
+const JAM_FORMAT_PLAIN = Int32(1)  # text, cubes without walls only
 const JAM_FORMAT_XYZ = Int32(2)  # extended XYZ; d = 2 gets a third coordinate 0
-const JAM_FORMAT_LAMMPS = Int32(3)  # LAMMPS data of atom_style sphere, density 1, d = 2 and 3, any cell. In d = 2 all z are 0
+const JAM_FORMAT_LAMMPS = Int32(3)  # LAMMPS data, atom_style sphere, density 1, d = 2, 3, any cell; walls in its title
 const JAM_FORMAT_VTP = Int32(4)  # VTK PolyData in binary, d = 2 and 3. Written only
 
 # jam_contact_format: Formats of contact networks.
@@ -286,7 +287,7 @@ const JAM_CANDIDATE_EXCESS = Int32(3)  # contacts - (d (N' - 1) + 1)
 
 # jam_rigidity_kind: Which motions must not open contacts.
 const JAM_RIGIDITY_COLLECTIVE = Int32(0)  # all motions of the spheres in a fixed cell
-const JAM_RIGIDITY_STRICT = Int32(1)  # and all symmetric strains of the cell that do not enlarge its volume
+const JAM_RIGIDITY_STRICT = Int32(1)  # and symmetric strains of the axes without walls that do not enlarge the volume
 
 # jam_verdict: Answer of a test.
 const JAM_VERDICT_UNTESTED = Int32(-1)  # the test has not run
@@ -2138,7 +2139,7 @@ Writes the packing with 17 digits, so that reading gives the same bits. The file
 then renamed. Links are followed. Pipes, devices and open descriptors (/dev/stdout, /dev/fd/N) are written in place;
 a file opened with >> gets the packing at its end. The shifts of `JAM_MODEL_MK` are not saved: read the file with the
 same seed and `mk_zeta`. Planted shifts are not saved either: use `jam_write_checkpoint`. Only XYZ can store
-`non_additivity`, and only XYZ, LAMMPS and VTP can store a cell that is not a cube; others give `JAM_E_UNSUPPORTED`.
+`non_additivity`; only XYZ, LAMMPS and VTP can store walls or a cell that is no cube; others give `JAM_E_UNSUPPORTED`.
 Errors: `JAM_E_UNSUPPORTED`, `JAM_E_IO`.
 """
 function jam_write(sys, path, format)
@@ -3186,8 +3187,9 @@ end
 """
     jam_moduli(sys, h, moduli)
 
-Elastic moduli; `JAM_E_STATE` also when prestress makes the network unstable.
-Errors: `JAM_E_STATE`, `JAM_E_SOLVER`.
+Elastic moduli; `JAM_E_STATE` also when prestress makes the network unstable. With walls bulk is NaN, and shear is that
+of planes of two axes without walls.
+Errors: `JAM_E_STATE`, `JAM_E_SOLVER`, `JAM_E_UNSUPPORTED`.
 """
 function jam_moduli(sys, h, moduli)
     return ccall((:jam_moduli, libjam), Int32, (Ptr{Cvoid}, Ref{jam_hessian_options}, Ref{jam_moduli_report}), sys, _ref(jam_hessian_options, h), _ref(jam_moduli_report, moduli))
@@ -3198,9 +3200,10 @@ end
 
 Elastic tensor `c_abcd`: second derivative of the energy a volume by `E_ab` and `E_cd` of x -> (1 + E) x. Unit as
 `jam_moduli`, `*needed` = d^4. affine: spheres move by E alone; relaxed: then forces balance. With prestress `c_abcd` and
-`c_bacd` differ: a rotation of stressed contacts counts.
+`c_bacd` differ: a rotation of stressed contacts counts. Components of an axis with walls are NaN: walls do not
+strain.
 Shapes: affine (d, d, d, d), relaxed (d, d, d, d).
-Errors: `JAM_E_STATE`, `JAM_E_SOLVER`.
+Errors: `JAM_E_STATE`, `JAM_E_SOLVER`, `JAM_E_UNSUPPORTED`.
 """
 function jam_elastic_tensor(sys, h, affine, affine_len, relaxed, relaxed_len, needed)
     return ccall((:jam_elastic_tensor, libjam), Int32, (Ptr{Cvoid}, Ref{jam_hessian_options}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ref(jam_hessian_options, h), _ptr(affine), affine_len, _ptr(relaxed), relaxed_len, _ref(Csize_t, needed))

@@ -9,7 +9,7 @@ const WORDS = (
     model = (euclid = 0, mk = 1,),
     masses = (equal = 0, volume = 1,),
     container = (brick = 0, cylinder = 1, ball = 2,),
-    wall_column = (axis = 0, side = 1, area = 2, pressure = 3, gap = 4,),
+    wall_column = (axis = 0, side = 1, area = 2, pressure = 3, gap = 4, stress = 5,),
     size_law = (equal = 0, list = 1, uniform = 2, normal = 3, lognormal = 4, power = 5, weibull = 6, sieve = 7,),
     size_share = (usual = 0, number = 1, volume = 2,),
     size_draw = (quantiles = 0, random = 1,),

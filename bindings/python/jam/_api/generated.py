@@ -110,6 +110,7 @@ class WallColumn(_Word):
     AREA = 2  # unit^(d-1)
     PRESSURE = 3  # beta P V / N of the last run of MD; NaN before
     GAP = 4  # least h of a sphere
+    STRESS = 5  # force of its contacts / area, over sum f r / (d V) of all contacts; NaN without contacts
 
 
 class SizeLaw(_Word):
@@ -158,9 +159,9 @@ class Format(_Word):
     diameter after `diameters`, with 17 digits. XYZ: Lattice, dim, Properties=id:I:1:pos:R:d:radius:R:1 and, after a
     crunch, contacts:I:1. VTP: points with diameter, and after a crunch contacts, kind (0 rattler, 1 buckler, 2 other)."""
     AUTO = 0  # .xyz, .extxyz: XYZ; .data, .lmp: LAMMPS; .vtp: VTP; .dat, .txt, none: PLAIN; others refused
-    PLAIN = 1  # text, cubes only
+    PLAIN = 1  # text, cubes without walls only
     XYZ = 2  # extended XYZ; d = 2 gets a third coordinate 0
-    LAMMPS = 3  # LAMMPS data of atom_style sphere, density 1, d = 2 and 3, any cell. In d = 2 all z are 0
+    LAMMPS = 3  # LAMMPS data, atom_style sphere, density 1, d = 2, 3, any cell; walls in its title
     VTP = 4  # VTK PolyData in binary, d = 2 and 3. Written only
 
 
@@ -371,7 +372,7 @@ class CandidateColumn(_Word):
 class RigidityKind(_Word):
     """Which motions must not open contacts."""
     COLLECTIVE = 0  # all motions of the spheres in a fixed cell
-    STRICT = 1  # and all symmetric strains of the cell that do not enlarge its volume
+    STRICT = 1  # and symmetric strains of the axes without walls that do not enlarge the volume
 
 
 class Verdict(_Word):
@@ -1429,7 +1430,7 @@ ROWS: dict[str, list[tuple[str, str]]] = {
 
 # tables: {C name: number of columns}
 TABLES = {
-    "jam_walls": 5,
+    "jam_walls": 6,
     "jam_observed_series": 6,
     "jam_observed_gaps": 4,
     "jam_observed_correlation": 2,

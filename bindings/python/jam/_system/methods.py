@@ -31,6 +31,8 @@ class Methods:
             beta P V / N of the last run of MD; NaN before
         gap : array
             least h of a sphere
+        stress : array
+            force of its contacts / area, over sum f r / (d V) of all contacts; NaN without contacts
         """
         answer: WallsResult = self.call('walls')
         return answer
@@ -1420,6 +1422,8 @@ class Methods:
     def moduli(self, *, stiffness: int | str | None = None, alpha: float | None = None, prestress: float | None = None, progress: Progressing = None) -> ModuliReport:
         """Elastic moduli; StateError also when prestress makes the network unstable.
 
+        With walls bulk is NaN, and shear is that of planes of two axes without walls.
+
         Parameters
         ----------
         stiffness : {'harmonic', 'power', 'hard', 'soft'}, optional
@@ -1437,7 +1441,7 @@ class Methods:
 
         Raises
         ------
-        ArgumentError, StateError, SolverError, MemoryError, BusyError
+        ArgumentError, StateError, SolverError, UnsupportedError, MemoryError, BusyError
         """
         answer: ModuliReport = self.call('moduli', stiffness=stiffness, alpha=alpha, prestress=prestress, progress=progress)
         return answer
@@ -1446,7 +1450,8 @@ class Methods:
         """Elastic tensor c_abcd: second derivative of the energy a volume by E_ab and E_cd of x -> (1 + E) x.
 
         Unit as moduli(). affine: spheres move by E alone; relaxed: then forces balance. With prestress c_abcd and
-        c_bacd differ: a rotation of stressed contacts counts.
+        c_bacd differ: a rotation of stressed contacts counts. Components of an axis with walls are NaN: walls do not
+        strain.
 
         Parameters
         ----------
@@ -1466,7 +1471,7 @@ class Methods:
 
         Raises
         ------
-        ArgumentError, StateError, SolverError, MemoryError, BusyError
+        ArgumentError, StateError, SolverError, UnsupportedError, MemoryError, BusyError
         """
         answer: ElasticTensorResult = self.call('elastic_tensor', stiffness=stiffness, alpha=alpha, prestress=prestress, progress=progress)
         return answer

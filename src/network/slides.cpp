@@ -1,0 +1,86 @@
+#include "network/slides.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "network/tuning.hpp"
+
+namespace jam {
+namespace {
+
+// The part of each node: nodes with a contact between them are in one, but for nodes that are `left` out.
+std::vector<int32_t> parts_of(const RigidityMatrix &g, const std::vector<char> &left) {
+  std::vector<int32_t> part(static_cast<size_t>(g.nodes));
+  std::iota(part.begin(), part.end(), 0);
+  const auto root = [&](int32_t i) {
+    while (part[i] != i) i = part[i] = part[part[i]];
+    return i;
+  };
+  for (size_t k = 0; k < g.contacts(); ++k)
+    if (g.b[k] >= 0 && !left[g.a[k]] && !left[g.b[k]]) {
+      const int32_t a = root(g.a[k]), b = root(g.b[k]);
+      part[std::max(a, b)] = std::min(a, b);
+    }
+  for (int32_t i = 0; i < g.nodes; ++i) part[i] = root(i);
+  return part;
+}
+
+// Nodes that no rotation moves.
+std::vector<char> middle_of(const RigidityMatrix &g) {
+  const size_t d = static_cast<size_t>(g.dim);
+  std::vector<double> speed(static_cast<size_t>(g.nodes), 0.0);
+  for (const std::vector<double> &v : g.rotations)
+    for (size_t k = 0; k < v.size(); ++k) speed[k / d] = std::max(speed[k / d], std::fabs(v[k]));
+  const double most = *std::max_element(speed.begin(), speed.end());
+  std::vector<char> middle;
+  for (const double s : speed) middle.push_back(s <= RigidityTuning::no_rotation * most);
+  return middle;
+}
+
+// Adds the motions of each part to those found, as far as they are independent of them.
+void add_parts(const RigidityMatrix &g, const std::vector<int32_t> &part, const std::vector<std::vector<double>> &whole,
+               std::vector<std::vector<double>> &found) {
+  const size_t d = static_cast<size_t>(g.dim);
+  for (int32_t root = 0; root < g.nodes; ++root) {
+    if (part[root] != root) continue;
+    for (const std::vector<double> &motion : whole) {
+      std::vector<double> v(motion);
+      for (size_t k = 0; k < v.size(); ++k)
+        if (part[k / d] != root) v[k] = 0.0;
+      const double before = std::sqrt(std::inner_product(v.begin(), v.end(), v.begin(), 0.0));
+      for (int twice = 0; twice < 2; ++twice) {
+        g.remove_symmetries(v.data());
+        for (const std::vector<double> &q : found) {
+          const double along = std::inner_product(v.begin(), v.end(), q.begin(), 0.0);
+          for (size_t k = 0; k < v.size(); ++k) v[k] -= along * q[k];
+        }
+      }
+      const double after = std::sqrt(std::inner_product(v.begin(), v.end(), v.begin(), 0.0));
+      if (!(after > RigidityTuning::no_slide * before)) continue;
+      for (double &x : v) x /= after;
+      found.push_back(std::move(v));
+    }
+  }
+}
+
+}  // namespace
+
+Slides find_slides(const RigidityMatrix &g) {
+  const size_t d = static_cast<size_t>(g.dim);
+  std::vector<std::vector<double>> found, translations;
+  for (size_t c = 0; c < d; ++c) {
+    if ((g.open_axes >> c & 1u) == 0) continue;
+    translations.emplace_back(g.unknowns(), 0.0);
+    for (size_t i = c; i < g.unknowns(); i += d) translations.back()[i] = 1.0;
+  }
+  if (g.nodes == 0) return {};
+  add_parts(g, parts_of(g, std::vector<char>(static_cast<size_t>(g.nodes), 0)), translations, found);
+  if (!g.rotations.empty()) add_parts(g, parts_of(g, middle_of(g)), g.rotations, found);
+  Slides out;
+  out.count = static_cast<int64_t>(found.size());
+  if (!found.empty()) out.motion = found.front();
+  return out;
+}
+
+}  // namespace jam

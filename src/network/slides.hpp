@@ -1,0 +1,19 @@
+// Motions of parts of a network that keep all distances for ever: two parts that no contact joins slide past each
+// other.
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "network/rigidity_matrix.hpp"
+
+namespace jam {
+
+// Independent ones beyond the motions of the whole, and one of them (nodes, dim). A part translates along axes without
+// walls, or rotates about the centre of a round wall: there all contacts with a sphere in the middle stay closed too.
+struct Slides {
+  int64_t count = 0;
+  std::vector<double> motion;
+};
+Slides find_slides(const RigidityMatrix &g);
+
+}  // namespace jam

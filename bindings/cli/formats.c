@@ -107,8 +107,10 @@ int check_formats(const options *o, const jam_system *sys) {
     complain("a crunch of one sphere needs --strain: in a fixed cell nothing can move");
     return -1;
   }
-  if (o->structure && jam_bond_order(sys, 6, 1.2, NULL, 0, NULL) == JAM_E_UNSUPPORTED) {
-    complain("--structure: %s", jam_last_error());
+  if ((info.walls || info.container) && (o->prove || o->proof || o->strain != JAM_STRAIN_NONE)) {
+    complain("%s needs a packing without walls", o->strain != JAM_STRAIN_NONE ? "--strain"
+                                                 : o->prove                   ? "--prove"
+                                                                              : "--proof");
     return -1;
   }
   if (o->vtk && info.dim > 3) {
@@ -118,6 +120,10 @@ int check_formats(const options *o, const jam_system *sys) {
   if (is_host_format(o, o->output)) {
     if (info.dim > 3) {
       complain("--output %s: such files have d = 2 or d = 3, this packing has d = %d", o->output, (int)info.dim);
+      return -1;
+    }
+    if (info.walls || info.container) {
+      complain("--output %s: such files have no place for walls", o->output);
       return -1;
     }
   } else if (o->output) {

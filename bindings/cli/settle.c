@@ -203,6 +203,14 @@ static int settle_stages(options *o) {
   return -1;
 }
 
+static int holds_walls(const char *ending) {
+  static const char *const formats[] = {"xyz", "extxyz", "data", "lmp", "vtp"};
+  size_t k;
+  for (k = 0; k < sizeof formats / sizeof *formats; ++k)
+    if (!strcmp(ending, formats[k])) return 1;
+  return 0;
+}
+
 /* What a scene with walls cannot do yet. */
 static int settle_walls(const options *o) {
   char ending[8] = "";
@@ -213,8 +221,8 @@ static int settle_walls(const options *o) {
     complain("%s contradicts %s: theorems are for scenes without walls", name, o->prove ? "--prove" : "--proof");
   else if (o->strain != JAM_STRAIN_NONE)
     complain("%s contradicts --strain: walls do not strain", name);
-  else if (o->output && !is_host_format(o, o->output) && strcmp(ending, "xyz") && strcmp(ending, "extxyz"))
-    complain("%s needs an --output that ends in .xyz or .extxyz: no other format can store walls", name);
+  else if (o->output && !is_host_format(o, o->output) && !holds_walls(ending))
+    complain("%s needs an --output that ends in .xyz, .extxyz, .data, .lmp or .vtp: plain text has no walls", name);
   else
     return 0;
   return -1;

@@ -61,7 +61,7 @@ jam_status jam_pack_gaps(const jam_system *sys, double h_max, char **text) {
     fputs("i,j,gap,stable\n", f);
     for (k = 0; k < m; ++k) {
       const int i = (int)pair[2 * k], j = (int)pair[2 * k + 1];
-      fprintf(f, "%d,%d,%.17g,%d\n", i, j, gap[k], z[i] > 0 && z[j] > 0);
+      fprintf(f, "%d,%d,%.17g,%d\n", i, j, gap[k], z[i] > 0 && (j < 0 || z[j] > 0));
     }
     status = finished(f, text);
   }

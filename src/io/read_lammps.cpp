@@ -3,7 +3,8 @@
 #include <array>
 #include <string>
 
-#include "io/read_helpers.hpp"
+#include "io/comment_keys.hpp"
+#include "io/lammps.hpp"
 
 namespace jam {
 namespace {
@@ -254,6 +255,7 @@ FileContent read_lammps(LineReader &in, const ReadOptions &) {
   std::string_view line;
   Words words;
   in.next(line);  // the title, which may say anything or nothing
+  const std::string title(line);
   bool more = next_text(in, line, words);
   for (; more && !is_section(words); more = next_text(in, line, words)) {
     const size_t understood = take_header(in, words, header);
@@ -282,6 +284,10 @@ FileContent read_lammps(LineReader &in, const ReadOptions &) {
   if (atoms.empty()) in.fail(JAM_E_FORMAT, "the file ends before the section Atoms");
   if (!unread.empty()) content.notes.say("sections of the file that were not read: %s", unread.c_str());
   make_content(in, header, atoms, content);
+  if (title.compare(0, lammps_title.size(), lammps_title) == 0) {
+    CommentKeys keys(in, title);
+    read_container(in, keys, content);
+  }
   return content;
 }
 

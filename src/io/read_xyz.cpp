@@ -2,61 +2,10 @@
 #include <algorithm>
 #include <string>
 
-#include "io/read_helpers.hpp"
+#include "io/comment_keys.hpp"
 
 namespace jam {
 namespace {
-
-// The keys on the comment line of a frame.
-class Keys {
- public:
-  // key=value, the value in quotes, in braces or bare. Words without = are comments.
-  Keys(const LineReader &in, std::string_view comment) : in_(in) {
-    for (size_t k = 0; k < comment.size();) {
-      while (k < comment.size() && (comment[k] == ' ' || comment[k] == '\t')) ++k;
-      const size_t start = k;
-      while (k < comment.size() && comment[k] != '=' && comment[k] != ' ' && comment[k] != '\t') ++k;
-      const std::string_view name = comment.substr(start, k - start);
-      if (k >= comment.size() || comment[k] != '=') continue;
-      const char opens = ++k < comment.size() ? comment[k] : ' ';
-      const bool quoted = opens == '"' || opens == '\'' || opens == '{';
-      if (quoted) ++k;
-      const char *const ends = opens == '{' ? "}" : opens == '"' ? "\"" : opens == '\'' ? "'" : " \t";
-      size_t stop = comment.find_first_of(ends, k);
-      if (stop == std::string_view::npos) {
-        if (quoted) in.fail(JAM_E_FORMAT, "the quote after '%s=' is not closed", shown(name).c_str());
-        stop = comment.size();
-      }
-      keys_.push_back({name, comment.substr(k, stop - k), false});
-      k = stop + 1;
-    }
-  }
-  // Once only. From then on the key counts as read.
-  bool find(std::string_view name, std::string_view &value) {
-    bool found = false;
-    for (Key &key : keys_) {
-      if (key.name != name) continue;
-      if (found) in_.fail(JAM_E_FORMAT, "'%s=' is there twice", shown(name).c_str());
-      found = key.read = true;
-      value = key.value;
-    }
-    return found;
-  }
-  std::vector<std::string> unread() const {
-    std::vector<std::string> names;
-    for (const Key &key : keys_)
-      if (!key.read) names.emplace_back(key.name);
-    return names;
-  }
-
- private:
-  struct Key {
-    std::string_view name, value;
-    bool read;
-  };
-  const LineReader &in_;
-  std::vector<Key> keys_;
-};
 
 struct Columns {
   size_t total = 0, pos = 0, pos_count = 0, id = 0;
@@ -126,31 +75,6 @@ void read_cell(const LineReader &in, std::string_view text, const char *name, si
   content.box = take_box(in, words[0]);
 }
 
-bool is_true(std::string_view word) {
-  const std::string w = lower(word);
-  return w == "t" || w == "true" || w == "1";
-}
-
-// container=, and walls= a word for each axis.
-void read_container(const LineReader &in, Keys &keys, FileContent &content) {
-  std::string_view value;
-  if (!keys.find("container", value)) return;
-  content.enclosure.container = container_of_word(std::string(value).c_str());
-  if (content.enclosure.container < 0)
-    in.fail(JAM_E_FORMAT, "container is '%s', known are brick, cylinder and ball", shown(value).c_str());
-  if (!keys.find("walls", value)) in.fail(JAM_E_FORMAT, "container= without walls=, a word T or F for each axis");
-  std::vector<std::string_view> words;
-  split(value, words);
-  if (words.size() != static_cast<size_t>(content.dim))
-    in.fail(JAM_E_FORMAT, "walls has %zu words, %d are needed", words.size(), content.dim);
-  for (size_t c = 0; c < words.size(); ++c) {
-    if (is_true(words[c]))
-      content.enclosure.walls |= 1 << c;
-    else if (const std::string w = lower(words[c]); w != "f" && w != "false" && w != "0")
-      in.fail(JAM_E_FORMAT, "walls='%s': a word for each axis must be T or F", shown(value).c_str());
-  }
-}
-
 // Every direction without walls must be periodic, as T, True or 1; in d = 2 the third one is ignored, from d = 4 on
 // three are named. Files of other programs do not say whether walls stand where nothing repeats.
 void check_periodic(const LineReader &in, std::string_view pbc, const FileContent &content) {
@@ -172,7 +96,7 @@ void check_periodic(const LineReader &in, std::string_view pbc, const FileConten
 }
 
 // Lattice, the cell vectors; beyond three dimensions `cell` when it is no cube, whose first three are those of Lattice.
-void read_cells(const LineReader &in, Keys &keys, FileContent &content) {
+void read_cells(const LineReader &in, CommentKeys &keys, FileContent &content) {
   std::string_view lattice, whole;
   if (!keys.find("Lattice", lattice))
     in.fail(JAM_E_FORMAT, "no Lattice=, the cell vectors, such as Lattice=\"L 0 0 0 L 0 0 0 L\" for a cube");
@@ -190,7 +114,7 @@ void read_cells(const LineReader &in, Keys &keys, FileContent &content) {
 }
 
 // Where the corner of the cell is, as OVITO writes it.
-std::vector<double> read_origin(const LineReader &in, Keys &keys, int dim) {
+std::vector<double> read_origin(const LineReader &in, CommentKeys &keys, int dim) {
   std::string_view text;
   std::vector<double> origin(static_cast<size_t>(std::max(dim, 3)), 0.0);
   if (!keys.find("Origin", text)) return origin;
@@ -205,7 +129,7 @@ std::vector<double> read_origin(const LineReader &in, Keys &keys, int dim) {
 }
 
 // What line 2 says of the frame.
-Columns read_keys(const LineReader &in, Keys &keys, const ReadOptions &options, FileContent &content) {
+Columns read_keys(const LineReader &in, CommentKeys &keys, const ReadOptions &options, FileContent &content) {
   std::string_view value;
   if (!keys.find("Properties", value))
     in.fail(JAM_E_FORMAT, "no Properties=, such as Properties=species:S:1:pos:R:3:radius:R:1 for these columns");
@@ -275,7 +199,7 @@ bool read_frame(LineReader &in, const ReadOptions &options, int64_t k, int64_t &
   n = take_count(in, parse_count(in, words[0], "a number of spheres"));
   if (!in.next(line)) in.fail(JAM_E_FORMAT, "the file ends before the line of keys");
   const std::string comment(line);
-  Keys keys(in, comment);
+  CommentKeys keys(in, comment);
   const Columns columns = read_keys(in, keys, options, content);
   read_rows(in, n, columns, content);
   say_unread(content, columns.unread);

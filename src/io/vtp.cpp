@@ -3,6 +3,7 @@
 #include <numeric>
 
 #include "core/byte_order.hpp"
+#include "io/text.hpp"
 
 namespace jam {
 
@@ -36,6 +37,23 @@ void VtpFile::add_cell_data(const char *name, std::vector<int64_t> values) {
   cell_data_.push_back(array(name, values, 1));
 }
 
+// VTK writes text as the numbers of its characters, with 0 at the end.
+void VtpFile::add_field_text(const char *name, const std::string &text) {
+  fields_ += std::string("<DataArray type=\"String\" Name=\"") + name + "\" NumberOfTuples=\"1\" format=\"ascii\">\n";
+  for (const char c : text) fields_ += std::to_string(static_cast<int>(c)) + ' ';
+  fields_ += "0\n</DataArray>\n";
+}
+
+void VtpFile::add_field_data(const char *name, const std::vector<double> &values) {
+  fields_ += std::string("<DataArray type=\"Float64\" Name=\"") + name + "\" NumberOfTuples=\"" +
+             std::to_string(values.size()) + "\" format=\"ascii\">\n";
+  for (const double x : values) {
+    append_number(fields_, x);
+    fields_ += ' ';
+  }
+  fields_ += "\n</DataArray>\n";
+}
+
 void VtpFile::write(OutputFile &file) const {
   std::string &out = file.text();
   std::vector<const Array *> order;
@@ -50,9 +68,11 @@ void VtpFile::write(OutputFile &file) const {
   const std::string cells = std::to_string(points_ / cell_size_), kind = cell_size_ == 1 ? "Verts" : "Lines";
   out +=
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "
-      "header_type=\"UInt64\">\n<PolyData>\n<Piece NumberOfPoints=\"" +
-      std::to_string(points_) + "\" NumberOfVerts=\"" + (cell_size_ == 1 ? cells : "0") + "\" NumberOfLines=\"" +
-      (cell_size_ == 2 ? cells : "0") + "\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n<Points>\n";
+      "header_type=\"UInt64\">\n<PolyData>\n";
+  if (!fields_.empty()) out += "<FieldData>\n" + fields_ + "</FieldData>\n";
+  out += "<Piece NumberOfPoints=\"" + std::to_string(points_) + "\" NumberOfVerts=\"" +
+         (cell_size_ == 1 ? cells : "0") + "\" NumberOfLines=\"" + (cell_size_ == 2 ? cells : "0") +
+         "\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n<Points>\n";
   announce(place_);
   out += "</Points>\n<" + kind + ">\n";
   announce(connectivity_);

@@ -16,6 +16,9 @@ class VtpFile {
   void add_point_data(const char *name, std::vector<int64_t> values);
   void add_cell_data(const char *name, std::vector<double> values);
   void add_cell_data(const char *name, std::vector<int64_t> values);
+  // Of the whole file.
+  void add_field_text(const char *name, const std::string &text);
+  void add_field_data(const char *name, const std::vector<double> &values);
   void write(OutputFile &file) const;
 
  private:
@@ -30,6 +33,7 @@ class VtpFile {
   size_t points_, cell_size_;
   Array place_, connectivity_, offsets_;
   std::vector<Array> point_data_, cell_data_;
+  std::string fields_;  // as XML
 };
 
 }  // namespace jam

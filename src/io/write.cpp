@@ -51,6 +51,16 @@ void write_cell(const Packing &p, int width, std::string &out) {
     }
 }
 
+// `walls` names what pbc cannot: axes beyond three, and the caps of a cylinder.
+std::string walls_word(const Packing &p) {
+  std::string word;
+  for (int c = 0; c < p.dim; ++c) word += std::string(c ? " " : "") + (p.container.flat() >> c & 1 ? 'T' : 'F');
+  return word;
+}
+std::string container_keys(const Packing &p) {
+  return p.container ? std::string(" container=") + p.container.word() + " walls=\"" + walls_word(p) + '"' : "";
+}
+
 // d = 2 gets a third coordinate 0, because OVITO and ASE expect three. Readers go by `dim`.
 void write_xyz(const Packing &p, const std::vector<int32_t> *coordination, OutputFile &file) {
   std::string &out = file.text();
@@ -68,12 +78,7 @@ void write_xyz(const Packing &p, const std::vector<int32_t> *coordination, Outpu
     if (c) out += ' ';
     out += c < p.dim && p.cell.repeats(c) ? 'T' : 'F';
   }
-  out += "\" dim=" + std::to_string(p.dim);
-  if (p.container) {  // `walls` names what pbc cannot: axes beyond three, and the caps of a cylinder
-    out += std::string(" container=") + p.container.word() + " walls=\"";
-    for (int c = 0; c < p.dim; ++c) out += std::string(c ? " " : "") + (p.container.flat() >> c & 1 ? 'T' : 'F');
-    out += '"';
-  }
+  out += "\" dim=" + std::to_string(p.dim) + container_keys(p);
   if (p.non_additivity != 0.0) {
     out += " non_additivity=";
     append_number(out, p.non_additivity);
@@ -111,14 +116,21 @@ void write_points(const Packing &p, const std::vector<int32_t> *coordination, Ou
     spheres.add_point_data("contacts", std::move(contacts));
     spheres.add_point_data("kind", std::move(kind));
   }
+  if (p.container) {
+    spheres.add_field_text("container", p.container.word());
+    spheres.add_field_text("walls", walls_word(p));
+    std::vector<double> edges;
+    for (int c = 0; c < p.dim; ++c) edges.push_back(p.cell.edge(c));
+    spheres.add_field_data("edges", edges);
+  }
   spheres.write(file);
 }
 
 void write_lammps(const Packing &p, OutputFile &file) {
   const LammpsBox box = lammps_box(p, "LAMMPS data");
   std::string &out = file.text();
-  out += "LAMMPS data file by libjam, atom_style sphere, dimension " + std::to_string(p.dim) + "\n\n" +
-         std::to_string(p.n()) + " atoms\n1 atom types\n\n";
+  out += std::string(lammps_title) + ", atom_style sphere, dimension " + std::to_string(p.dim) + container_keys(p) +
+         "\n\n" + std::to_string(p.n()) + " atoms\n1 atom types\n\n";
   for (size_t c = 0; c < 3; ++c) {
     append_number(out, box.low[c]);
     out += ' ';
@@ -166,8 +178,8 @@ int32_t format_by_name(const char *path) {
 void check_fits(const Packing &p, int32_t format) {
   if (format != JAM_FORMAT_XYZ && p.non_additivity != 0.0)
     fail(JAM_E_UNSUPPORTED, "only extended XYZ and checkpoints can store non_additivity = %g", p.non_additivity);
-  if (format != JAM_FORMAT_XYZ && p.container)
-    fail(JAM_E_UNSUPPORTED, "only extended XYZ and checkpoints can store a scene with walls");
+  if (format == JAM_FORMAT_PLAIN && p.container)
+    fail(JAM_E_UNSUPPORTED, "plain text cannot store walls: write extended XYZ, LAMMPS data or a checkpoint");
   if (format == JAM_FORMAT_PLAIN && !p.cell.cube())
     fail(JAM_E_UNSUPPORTED,
          "plain text cannot store a cell that is no cube: write extended XYZ, LAMMPS data or a checkpoint");

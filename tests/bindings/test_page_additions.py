@@ -9,6 +9,7 @@ from PIL import Image
 
 import browser
 import jam
+from jam._api.given import closed_axes
 from test_page import PageTest, disks, pixels
 
 
@@ -111,7 +112,7 @@ class Additions(PageTest):
             s = jam.System.random(seed=1, **options)
             self.show(s)
             kind = options.get("container", "brick")
-            walled = jam.plot.packings.axes_with_walls(s)
+            walled = closed_axes(s.info)
             self.assertEqual(self.page.run("[data.container, ...closed]"), [kind, *walled])
             ends = np.array(self.page.run("Array.from(scene.stick.start)")).reshape(-1, 4)[:, : s.dim]
             axes = s.dim if kind == "ball" else 2

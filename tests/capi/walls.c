@@ -156,7 +156,7 @@ static int same(const jam_system *a, const jam_system *b,
 
 static void files_keep_the_container(void **state) {
   char path[] = "/tmp/jam-walls-XXXXXX";
-  const int file = mkstemp(path);
+  const int file = mkstemp(path), formats[] = {JAM_FORMAT_XYZ, JAM_FORMAT_LAMMPS};
   (void)state;
   assert_true(file >= 0);
   close(file);
@@ -164,17 +164,18 @@ static void files_keep_the_container(void **state) {
     jam_system *sys = NULL, *back = NULL;
     jam_info a = {.struct_size = sizeof a}, b = a;
     assert_int_equal(create_walled(&walled_scenes[k], 30, 0.1, 3, NULL, &sys), JAM_OK);
-    assert_int_equal(jam_write(sys, path, JAM_FORMAT_XYZ), JAM_OK);
-    assert_int_equal(jam_read(path, NULL, NULL, NULL, &back), JAM_OK);
-    jam_get_info(sys, &a), jam_get_info(back, &b);
-    assert_true(a.container == b.container && a.walls == b.walls && a.volume == b.volume);
-    assert_true(same(sys, back, jam_view_positions) && same(sys, back, jam_view_diameters));
-    const int32_t others[] = {JAM_FORMAT_PLAIN, JAM_FORMAT_LAMMPS, JAM_FORMAT_VTP};
-    for (int f = 0; f < 3; ++f) {
-      assert_int_equal(jam_write(sys, path, others[f]), JAM_E_UNSUPPORTED);
-      assert_non_null(strstr(jam_last_error(), "scene with walls"));
+    for (int f = 0; f < 2; ++f) {
+      assert_int_equal(jam_write(sys, path, formats[f]), JAM_OK);
+      assert_int_equal(jam_read(path, NULL, NULL, NULL, &back), JAM_OK);
+      jam_get_info(sys, &a), jam_get_info(back, &b);
+      assert_true(a.container == b.container && a.walls == b.walls && a.volume == b.volume);
+      assert_true(same(sys, back, jam_view_positions) && same(sys, back, jam_view_diameters));
+      jam_destroy(back);
     }
-    jam_destroy(sys), jam_destroy(back);
+    assert_int_equal(jam_write(sys, path, JAM_FORMAT_PLAIN), JAM_E_UNSUPPORTED);
+    assert_non_null(strstr(jam_last_error(), "cannot store walls"));
+    assert_int_equal(jam_write(sys, path, JAM_FORMAT_VTP), JAM_OK);
+    jam_destroy(sys);
   }
   unlink(path);
 }

@@ -61,6 +61,21 @@ def enclosure_of(container: Any, walls: Any, dim: int) -> tuple[int, int]:
     return kind, sum(1 << c for c, axis in enumerate(axes) if axis)
 
 
+def container_word(info: Any) -> str:
+    return next(word for word, kind in CONTAINERS.items() if kind == info.container)
+
+
+def walls_of(info: Any) -> list[bool]:
+    """Axes with flat walls."""
+    return [bool(info.walls >> c & 1) for c in range(info.dim)]
+
+
+def closed_axes(info: Any) -> list[bool]:
+    """Axes along which nothing repeats."""
+    round_axes = {"brick": 0, "cylinder": 2, "ball": info.dim}[container_word(info)]
+    return [c < round_axes or wall for c, wall in enumerate(walls_of(info))]
+
+
 def refuse_walls(system: Any, done: str) -> None:
     """For what does not know walls, in the words of the library."""
     if len(system.walls().axis):

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from .._api.arrays import Array
-from .._api.given import sizes_of
+from .._api.given import enclosure_of, sizes_of
 from .frames import bad, box_of, from_corner, in_range, notes_of, plane, refuse_cell, say_outside, say_unread
 from .replacing import open_regular
 
@@ -50,7 +50,8 @@ def of_atoms(
     """What System.from_arrays takes for an ase.Atoms. where: what an error calls it; notes get what was not read."""
     if len(atoms) == 0:
         raise bad(where, "the frame has no sphere")
-    if not all(atoms.pbc[:dim]):
+    walls = _walls_in(where, atoms, dim)
+    if not walls and not all(atoms.pbc[:dim]):
         hint = "; dim=2 reads a packing of disks" if dim == 3 and all(atoms.pbc[:2]) else ""
         raise bad(where, f"the cell must be periodic in every direction, pbc is {[bool(p) for p in atoms.pbc]}{hint}")
     read = {"positions"}
@@ -60,7 +61,7 @@ def of_atoms(
     else:
         sizes = sizes_of(diameters, radii, len(atoms))
     say_unread(notes, "columns", (k for k in atoms.arrays if k not in read))
-    say_unread(notes, "keys", atoms.info)
+    say_unread(notes, "keys", (key for key in atoms.info if key not in walls))
     if atoms.constraints:
         notes.append("constraints of the file were not read")
     cell = np.asarray(atoms.cell)
@@ -68,7 +69,20 @@ def of_atoms(
     cell = cell[:dim, :dim]
     x = from_corner(x, np.asarray(atoms.get_celldisp()).reshape(-1)[:dim], notes)
     say_outside(notes, x, cell)
-    return dict(positions=x, diameters=sizes, **box_of(cell), dim=dim)
+    return dict(positions=x, diameters=sizes, **box_of(cell), **walls, dim=dim)
+
+
+def _walls_in(path: str, atoms: Any, dim: int) -> dict[str, Any]:
+    """container= and walls= as to_ase writes them into info; {} without walls."""
+    if "container" not in atoms.info or "walls" not in atoms.info:
+        return {}
+    given = {"container": str(atoms.info["container"]), "walls": [bool(w) for w in np.atleast_1d(atoms.info["walls"])]}
+    kind, flat = enclosure_of(given["container"], given["walls"], dim)
+    round_axes = (0, 2, dim)[kind]
+    closed = [c < round_axes or bool(flat >> c & 1) for c in range(dim)]
+    if [bool(p) for p in atoms.pbc[:dim]] != [not shut for shut in closed]:
+        raise bad(path, f"pbc is {[bool(p) for p in atoms.pbc]}, but container and walls of info close the axes {closed}")
+    return given
 
 
 def _sizes_in(path: str, arrays: dict[str, Array]) -> tuple[Array, list[str]]:

@@ -22,6 +22,9 @@ class Contents:
     positions: Array  # (n, d)
     cell: Array  # (d, d), one vector a row
     diameters: Array  # (n,)
+    container: str  # "brick", "cylinder", "ball"
+    walls: list[bool]  # axes with flat walls
+    closed: list[bool]  # axes along which nothing repeats
     report: CrunchReport | None
     contacts: Contacts | None
     history: Array | None  # steps of the crunch, one a row

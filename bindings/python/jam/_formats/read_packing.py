@@ -48,7 +48,11 @@ def contacts_of(jam: Group, n: int, dim: int) -> Contacts | None:
         return None
     pairs, vectors, gaps, forces = (jam["contacts/" + k] for k in CONTACTS)
     count = len(checked("contacts/pairs", pairs, "i4", -1, 2))
-    if count and not (0 <= pairs.min() and pairs.max() < n):
+    spheres = pairs.copy()
+    if "container" in jam.attrs and count:  # partners below 0 are walls, two a flat axis and a round one
+        wall = (pairs[:, 1] < 0) & (pairs[:, 1] >= -1 - 2 * dim)
+        spheres[wall, 1] = spheres[wall, 0]
+    if count and not (0 <= spheres.min() and spheres.max() < n):
         raise ValueError(f"contacts/pairs name spheres {pairs.min()} to {pairs.max()} of {n}")
     checked("contacts/vectors", vectors, "f8", count, dim)
     checked("contacts/gaps", gaps, "f8", count)

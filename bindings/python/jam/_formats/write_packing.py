@@ -2,7 +2,9 @@
 
     h5md, particles/spheres      H5MD 1.1: box/edges as a full matrix, position as a trajectory of one frame
     particles/spheres/refined    centres as high + low, of save(refined=True)
-    jam  (attributes)            schema, seed, protocol (its name), provenance
+    jam  (attributes)            schema, seed, protocol (its name), provenance; with walls container ("brick",
+                                 "cylinder", "ball") and walls, one truth value an axis. Then the boundary of H5MD is
+                                 "none" along closed axes, and partner -1 - w of a contact is wall w of System.walls()
     jam/state                    bytes of a checkpoint: what dynamics depend on, velocities and random shifts among it
     jam/diameters                (n,), unit of the box
     jam/report                   report of the crunch, one compound value
@@ -74,7 +76,7 @@ def _h5md(file: Any, contents: Contents) -> None:
     spheres = file.create_group("particles/spheres")
     box = spheres.create_group("box")
     box.attrs["dimension"] = np.int32(dim)
-    box.attrs["boundary"] = ["periodic"] * dim
+    box.attrs["boundary"] = ["none" if shut else "periodic" for shut in contents.closed]
     put(spheres, "position/value", contents.positions[None])
     position = spheres["position"]
     position.create_dataset("step", data=np.zeros(1, np.int64))
@@ -116,6 +118,8 @@ def image(
         group.attrs.update({"schema": SCHEMA, "seed": contents.seed, "protocol": protocol_id, **provenance()})
         group.attrs["written"] = time.time()
         group.attrs.update(times or {})
+        if any(contents.closed):
+            group.attrs.update({"container": contents.container, "walls": np.array(contents.walls)})
         put(group, "state", np.frombuffer(contents.state, np.uint8))
         put(group, "diameters", contents.diameters)
         if contents.report is not None or contents.contacts is not None:

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from .._api.given import refuse_walls
+from .._api.given import closed_axes, container_word, walls_of
 from ..errors import StateError
 from .network import Network
 from .state import State
@@ -78,7 +78,6 @@ class Converting(State, Network):
         >>> bool((again.positions == disks.positions).all())
         True
         """
-        refuse_walls(self, "given to ASE")
         from ase import Atoms
 
         if self.dim not in (2, 3):
@@ -86,7 +85,10 @@ class Converting(State, Network):
         x, cell = np.zeros((self.n, 3)), np.eye(3)
         x[:, : self.dim] = self.positions
         cell[: self.dim, : self.dim] = self.cell
-        atoms = Atoms([symbol] * self.n, positions=x, cell=cell, pbc=[k < self.dim for k in range(3)])
+        closed = closed_axes(self.info) + [True]
+        atoms = Atoms([symbol] * self.n, positions=x, cell=cell, pbc=[k < self.dim and not closed[k] for k in range(3)])
+        if any(closed[: self.dim]):
+            atoms.info.update(container=container_word(self.info), walls=walls_of(self.info))
         atoms.set_array("radius", 0.5 * self.diameters)
         return atoms
 

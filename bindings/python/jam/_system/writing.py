@@ -12,7 +12,7 @@ import numpy as np
 from .. import raw
 from .._api.arrays import as_array
 from .._api.calls import finished
-from .._api.given import refuse_walls
+from .._api.given import closed_axes, container_word, refuse_walls, walls_of
 from .._api.options import as_enum
 from .._api.results import Modes
 from .._formats import gsd
@@ -143,13 +143,12 @@ class Writing(State, Network):
 
     def _contents(self) -> Contents:
         """What files of packings hold; without results where there are none."""
-        refuse_walls(self, "saved as H5MD")
         try:
             state = self._state()
         except OSError as error:
             what = f"the state cannot be written below {tempfile.gettempdir()}: {error}. {MENDED}"
             raise StoreError(error.errno or 5, what) from error
-        contacts = _or_none(lambda: self.contacts)
+        contacts, info = _or_none(lambda: self.contacts), self.info
         return Contents(
             state=state,
             calls=self.calls,
@@ -157,6 +156,9 @@ class Writing(State, Network):
             positions=self.positions,
             cell=self.cell,
             diameters=self.diameters,
+            container=container_word(info),
+            walls=walls_of(info),
+            closed=closed_axes(info),
             report=_or_none(lambda: self.report),
             contacts=contacts,
             history=_or_none(lambda: self.history),

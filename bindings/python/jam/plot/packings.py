@@ -8,6 +8,7 @@ import numpy as np
 
 from .._api.arrays import Array, as_array
 from .._api.generated import Container
+from .._api.given import closed_axes
 from ..errors import StateError
 from ..files import half_bonds
 from ..system import System
@@ -119,13 +120,6 @@ def _frame(ax: Any, edges: Array) -> None:
         ax.set_axis_off()
 
 
-def axes_with_walls(system: System) -> list[bool]:
-    """One truth value for each axis: whether walls end it."""
-    info = system.info
-    round_axes = {Container.BALL: info.dim, Container.CYLINDER: 2}.get(info.container, 0)
-    return [c < round_axes or bool(info.walls >> c & 1) for c in range(info.dim)]
-
-
 def _drawable(system: System) -> int:
     if system.dim not in (2, 3):
         raise ValueError(f"only d = 2 and d = 3 can be drawn, this system has d = {system.dim}")
@@ -189,7 +183,7 @@ def packing(
     colours, scale = (_colours(system), None) if values is None else _by_value(values, system.n, colour_map)
     x, s = system.positions, system.diameters
     if dim == 2:
-        closed = np.array(axes_with_walls(system))
+        closed = np.array(closed_axes(system.info))
         for shift in _IMAGES:
             if (np.asarray(shift)[closed] != 0).any():
                 continue  # nothing repeats across a wall

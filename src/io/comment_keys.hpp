@@ -1,0 +1,67 @@
+// Keys on a line of comment, as extended XYZ has them, and what they say of the container.
+#pragma once
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "io/read_helpers.hpp"
+
+namespace jam {
+
+// The keys of a line; words without = are comments.
+class CommentKeys {
+ public:
+  // key=value, the value in quotes, in braces or bare.
+  CommentKeys(const LineReader &in, std::string_view comment) : in_(in) {
+    for (size_t k = 0; k < comment.size();) {
+      while (k < comment.size() && (comment[k] == ' ' || comment[k] == '\t')) ++k;
+      const size_t start = k;
+      while (k < comment.size() && comment[k] != '=' && comment[k] != ' ' && comment[k] != '\t') ++k;
+      const std::string_view name = comment.substr(start, k - start);
+      if (k >= comment.size() || comment[k] != '=') continue;
+      const char opens = ++k < comment.size() ? comment[k] : ' ';
+      const bool quoted = opens == '"' || opens == '\'' || opens == '{';
+      if (quoted) ++k;
+      const char *const ends = opens == '{' ? "}" : opens == '"' ? "\"" : opens == '\'' ? "'" : " \t";
+      size_t stop = comment.find_first_of(ends, k);
+      if (stop == std::string_view::npos) {
+        if (quoted) in.fail(JAM_E_FORMAT, "the quote after '%s=' is not closed", shown(name).c_str());
+        stop = comment.size();
+      }
+      keys_.push_back({name, comment.substr(k, stop - k), false});
+      k = stop + 1;
+    }
+  }
+  // Once only. From then on the key counts as read.
+  bool find(std::string_view name, std::string_view &value) {
+    bool found = false;
+    for (Key &key : keys_) {
+      if (key.name != name) continue;
+      if (found) in_.fail(JAM_E_FORMAT, "'%s=' is there twice", shown(name).c_str());
+      found = key.read = true;
+      value = key.value;
+    }
+    return found;
+  }
+  std::vector<std::string> unread() const {
+    std::vector<std::string> names;
+    for (const Key &key : keys_)
+      if (!key.read) names.emplace_back(key.name);
+    return names;
+  }
+
+ private:
+  struct Key {
+    std::string_view name, value;
+    bool read;
+  };
+  const LineReader &in_;
+  std::vector<Key> keys_;
+};
+
+// Whether the word of a truth value is T, True or 1.
+bool is_true(std::string_view word);
+// container=, and walls= with a word for each axis: what container_keys writes.
+void read_container(const LineReader &in, CommentKeys &keys, FileContent &content);
+
+}  // namespace jam

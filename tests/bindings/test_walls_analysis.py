@@ -1,0 +1,251 @@
+"""Strict jamming, elastic moduli, bond order, files and slides of scenes with walls, against numpy and scipy."""
+import os
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+import jam
+import numpy as np
+from scipy.optimize import linprog
+from test_walls_jammed import SCENES, start
+
+
+def strict_rows(s, opening):
+    """Rows n . (u_i - u_j + eps r_ij) of the contacts, with the traceless strains of the axes that repeat."""
+    c, d = s.contacts, s.dim
+    rows = np.zeros((len(c.gaps), s.n * d))
+    for k, ((i, j), v) in enumerate(zip(c.pairs, c.vectors)):
+        rows[k, i * d : i * d + d] += v
+        if j >= 0:
+            rows[k, j * d : j * d + d] -= v
+    x, y = opening
+    length = np.where(c.pairs[:, 1] < 0, 0, s.diameters[c.pairs[:, 0]] / 2 + s.diameters[np.maximum(c.pairs[:, 1], 0)] / 2)
+    a, b = c.vectors[:, x], c.vectors[:, y]
+    return np.column_stack([rows, length * (a * a - b * b), length * 2 * a * b])
+
+
+class Strict(unittest.TestCase):
+    def test_with_fewer_than_two_open_axes_it_is_the_collective_test(self):
+        for name in ("lines", "box", "circle", "tube", "can", "ball"):
+            s = start(name, 20, 1, unequal=True)
+            self.assertTrue(s.crunch().jammed)
+            collective, strict = s.rigidity(), s.rigidity("strict")
+            self.assertEqual((strict.jammed, strict.contacts_needed), (1, collective.contacts_needed), name)
+            self.assertEqual(s.check().strictly_jammed, -1, name)  # no strain to test
+
+    def test_slits_agree_with_a_linear_program(self):
+        # Jammed: no motion keeps all contacts closed or open, and opens one. The strain of the plane of the slit is traceless.
+        answers = set()
+        for seed in range(1, 9):
+            s = jam.System.random(n=14, seed=seed, packing_fraction=0.2, cell=[1, 1, 0.8], walls="z", diameters=1 + 0.4 * (0.618 * np.arange(14) % 1))
+            if not s.crunch().jammed:
+                continue
+            strict = s.rigidity("strict")
+            rows = strict_rows(s, (0, 1))
+            if strict.stable:
+                self.assertEqual(strict.contacts_needed, 3 * strict.stable - 2 + 2 + 1)
+            total = linprog(-rows.sum(0), A_ub=-rows, b_ub=np.zeros(len(rows)), bounds=(-1, 1)).fun
+            stable = s.coordination > 0
+            columns = np.concatenate([np.repeat(stable, 3), [True, True]])
+            free = columns.sum() - np.linalg.matrix_rank(rows[:, columns], tol=1e-8) - 2
+            expected = total > -1e-7 and free == 0
+            answers.add(expected)
+            self.assertEqual(strict.jammed, int(expected), seed)
+            self.assertEqual(s.check().strictly_jammed, int(expected))
+            if not expected:
+                motion, strain = s.flex("strict")
+                self.assertAlmostEqual(np.trace(strain), 0, 12)
+                np.testing.assert_array_equal(strain[2], 0)
+                np.testing.assert_array_equal(strain[:, 2], 0)
+                opened = rows @ np.concatenate([motion.ravel(), [(strain[0, 0] - strain[1, 1]) / 2, strain[0, 1]]])
+                self.assertGreater(opened.min(), -1e-8)
+        self.assertIn(False, answers)  # a fixed cell supports no shear of its plane
+
+
+class Elasticity(unittest.TestCase):
+    def test_tensor_of_open_axes_is_the_curvature_of_the_relaxed_energy(self):
+        for scene in ({"walls": "z", "cell": [1, 1, 0.9]}, {"container": "cylinder", "cell": [1, 1, 2]}):
+            s = jam.System.random(n=60, seed=3, packing_fraction=0.2, diameters=1 + 0.4 * (0.618 * np.arange(60) % 1), **scene)
+            self.assertTrue(s.crunch().jammed)
+            tensor = s.elastic_tensor().relaxed
+            c, spheres, h = s.contacts, s.hessian_map(), s.hessian().toarray()
+            node = -np.ones(s.n, int)
+            node[spheres] = np.arange(len(spheres))
+            axes = [k for k in range(3) if k not in ((2,) if "walls" in scene else (0, 1))]
+            length = s.diameters[c.pairs[:, 0]] / 2 + s.diameters[np.maximum(c.pairs[:, 1], 0)] / 2
+            rows = np.zeros((len(c.gaps), 3 * len(spheres)))
+            for k, ((i, j), v) in enumerate(zip(c.pairs, c.vectors)):
+                rows[k, 3 * node[i] : 3 * node[i] + 3] += v
+                if j >= 0:
+                    rows[k, 3 * node[j] : 3 * node[j] + 3] -= v
+            np.testing.assert_allclose(rows.T @ rows, h, atol=1e-12)
+            for a in range(3):
+                for b in range(3):
+                    if a not in axes or b not in axes:
+                        self.assertTrue(np.isnan(tensor[a, b]).all() and np.isnan(tensor[:, :, a, b]).all())
+                        continue
+                    stretch = np.where(c.pairs[:, 1] < 0, 0, length * c.vectors[:, a] * c.vectors[:, b])
+                    left = stretch - rows @ np.linalg.lstsq(rows, stretch, rcond=1e-9)[0]
+                    self.assertAlmostEqual(left @ left / s.info.volume / tensor[a, b, a, b], 1, 6)
+            if len(axes) == 2:
+                m = s.moduli()
+                self.assertTrue(np.isnan(m.bulk))
+                self.assertAlmostEqual(m.shear / tensor[0, 1, 0, 1], 1, 9)
+            else:
+                with self.assertRaisesRegex(jam.errors.UnsupportedError, "1 axes without walls"):
+                    s.moduli()
+
+
+class Structure(unittest.TestCase):
+    def test_bonds_are_of_two_spheres(self):
+        s = start("box", 40, 2)
+        s.crunch()
+        q = s.bond_order(6, 1.3)
+        x, reach = s.positions, 1.3 * s.diameters[0]
+        for i in range(s.n):
+            v = np.delete(x, i, 0) - x[i]
+            length = np.linalg.norm(v, axis=1)
+            angle = np.arctan2(*v[length < reach].T[::-1])
+            if len(angle):
+                self.assertAlmostEqual(abs(np.exp(6j * angle).mean()), q[i], 9)
+
+    def test_radial_structure_is_refused_with_the_reason(self):
+        with self.assertRaisesRegex(jam.errors.UnsupportedError, "pair correlation.*solid_profile"):
+            start("slit", 10, 1).pair_correlation()
+
+    def test_profile_counts_what_stands_in_the_slit(self):
+        s = start("slit", 40, 4)
+        s.crunch()
+        p = s.solid_profile(2, 13)
+        z, a = s.positions[:, 2], s.diameters / 2
+
+        def below(t):  # volume of spheres below z = t
+            h = np.clip(t - z + a, 0, 2 * a)
+            return (np.pi * h**2 * (a - h / 3)).sum()
+
+        expected = [(below(high) - below(low)) / (high - low) for low, high in zip(p.low, p.high)]
+        np.testing.assert_allclose(p.solid, np.array(expected) / np.prod(np.diag(s.cell)[:2]), rtol=1e-9)
+
+
+class Slides(unittest.TestCase):
+    def test_disks_around_a_disk_in_the_middle_slide(self):
+        # Radius of the circle = 3 a: one disk in the middle, five between it and the wall.
+        found = False
+        for seed in range(1, 13):
+            s = jam.System.random(n=6, dim=2, seed=seed, packing_fraction=0.15, container="ball")
+            r = s.crunch()
+            if r.jammed or abs(s.cell[0, 0] / s.diameters[0] - 3) > 1e-9:
+                continue
+            found = True
+            self.assertEqual((r.stationary, r.stop_reason), (1, jam.StopReason.SADDLE))
+            self.assertIn("slide past each other", jam.raw.jam_last_error())
+            self.assertEqual((s.rigidity().jammed, s.check().jammed), (0, 0))
+            # A finite motion along the flex about the centre keeps every distance.
+            x, wall = s.positions - 0.5, s.contacts.pairs[:, 1] < 0
+            motion = s.flex()[0]
+            angle = (x[:, 0] * motion[:, 1] - x[:, 1] * motion[:, 0]) / np.maximum((x**2).sum(1), 1e-9)
+            angle[np.linalg.norm(x, axis=1) < 1e-9] = 0
+            self.assertGreater(np.ptp(angle[np.linalg.norm(x, axis=1) > 0.1]), 1e-3)
+            t = 1e-2 / np.abs(angle).max()
+            cos, sin = np.cos(t * angle), np.sin(t * angle)
+            y = np.column_stack([cos * x[:, 0] - sin * x[:, 1], sin * x[:, 0] + cos * x[:, 1]])
+            i, j = s.contacts.pairs[~wall].T
+            np.testing.assert_allclose(np.linalg.norm(y[i] - y[j], axis=1), s.diameters[0], rtol=1e-9)
+        self.assertTrue(found)
+
+
+class Files(unittest.TestCase):
+    def test_formats_name_the_container_and_read_it(self):
+        for name in SCENES:
+            s = start(name, 25, 2)
+            s.crunch()
+            with tempfile.TemporaryDirectory() as folder:
+                for file in ("a.data", "a.xyz", "a.lmp.gz"):
+                    s.write(Path(folder, file))
+                    back = jam.System.read(Path(folder, file))
+                    self.assertEqual((back.info.container, back.info.walls, back.dim), (s.info.container, s.info.walls, s.dim), (name, file))
+                    np.testing.assert_array_equal(back.positions, s.positions)
+                    self.assertEqual(back.check().jammed, s.check().jammed)
+                with self.assertRaisesRegex(jam.errors.UnsupportedError, "plain text cannot store walls"):
+                    s.write(Path(folder, "a.dat"))
+                self.assertFalse(Path(folder, "a.dat").exists())
+
+    def test_h5md_says_which_axes_repeat_and_comes_back(self):
+        import h5py
+
+        for name in ("slit", "can", "circle"):
+            s = start(name, 25, 2)
+            s.crunch()
+            with tempfile.TemporaryDirectory() as folder:
+                path = Path(folder, "a.h5")
+                s.save(path)
+                back = jam.load(path)
+                with h5py.File(path) as file:
+                    box, group = file["particles/spheres/box"].attrs, file["jam"].attrs
+                    closed = [b in ("none", b"none") for b in box["boundary"]]
+                    self.assertEqual(group["container"], SCENES[name].get("container", "brick"))
+                    self.assertEqual([bool(w) for w in group["walls"]], [bool(s.info.walls >> c & 1) for c in range(s.dim)])
+            self.assertEqual(closed, {"slit": [False, False, True], "can": [True] * 3, "circle": [True] * 2}[name])
+            self.assertEqual((back.info.container, back.info.walls), (s.info.container, s.info.walls))
+            for key in ("pairs", "vectors", "gaps", "forces"):
+                np.testing.assert_array_equal(getattr(back.contacts, key), getattr(s.contacts, key))
+
+    def test_vtp_names_the_container_in_its_fields(self):
+        s = start("can", 20, 3)
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder, "a.vtp")
+            s.write(path)
+            text = path.read_bytes().split(b"<AppendedData")[0].decode()
+        fields = text.split("<FieldData>")[1].split("</FieldData>")[0]
+        words = ["".join(chr(int(n)) for n in block.split(">")[1].split("<")[0].split()[:-1]) for block in fields.split("<DataArray")[1:3]]
+        self.assertEqual(words, ["cylinder", "F F T"])
+
+    def test_ase_keeps_walls(self):
+        try:
+            import ase  # noqa: F401
+        except ImportError:
+            self.skipTest("needs python3-ase")
+        for name in ("slit", "tube", "circle"):
+            s = start(name, 12, 3)
+            atoms = s.to_ase()
+            back = jam.System.from_ase(atoms, dim=s.dim)
+            self.assertEqual((back.info.container, back.info.walls), (s.info.container, s.info.walls))
+            np.testing.assert_array_equal(back.positions, s.positions)
+            atoms.pbc = True
+            with self.assertRaisesRegex(ValueError, "pbc is"):
+                jam.System.from_ase(atoms, dim=s.dim)
+
+
+@unittest.skipUnless("JAM_PACK" in os.environ, "needs jam-pack")
+class CommandLine(unittest.TestCase):
+    def run_pack(self, *options):
+        return subprocess.run([os.environ["JAM_PACK"], *options], capture_output=True, text=True, check=False)
+
+    def test_tables_of_walled_packings(self):
+        with tempfile.TemporaryDirectory() as folder:
+            options = ["--n", "40", "--container", "ball", "--quiet", "--output", f"{folder}/a.data", "--structure", f"{folder}/s.csv", "--gaps", f"{folder}/g.csv"]
+            made = self.run_pack(*options)
+            self.assertEqual(made.returncode, 0, made.stderr)
+            s = jam.System.read(f"{folder}/a.data")
+            self.assertEqual(s.info.container, 2)
+            report = s.crunch()
+            self.assertTrue(report.jammed)
+            rows = np.genfromtxt(f"{folder}/g.csv", delimiter=",", skip_header=1)
+            coordination = np.genfromtxt(f"{folder}/s.csv", delimiter=",", skip_header=1, usecols=1)
+            wall = rows[:, 1] < 0
+            self.assertTrue(wall.any())
+            np.testing.assert_array_equal(rows[wall, 3], coordination[rows[wall, 0].astype(int)] > 0)
+
+    def test_formats_without_walls_are_refused_before_the_work(self):
+        with tempfile.TemporaryDirectory() as folder:
+            start("slit", 30, 1).write(f"{folder}/slit.xyz")
+            for given in (["--n", "30", "--walls", "z"], ["--input", f"{folder}/slit.xyz"]):
+                made = self.run_pack(*given, "--output", f"{folder}/a.dat", "--report", f"{folder}/r.json")
+                self.assertNotEqual(made.returncode, 0)
+                self.assertIn("walls", made.stderr)
+                self.assertFalse(Path(folder, "r.json").exists())
+
+
+if __name__ == "__main__":
+    unittest.main()

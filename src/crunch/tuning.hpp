@@ -85,6 +85,9 @@ struct Tuning {
   double closed_limit(const Packing &p) const {
     return closed_gap * std::max(1.0, 0.1 * p.cell.side() / diameter_mean(p));
   }
+  // Of closed contacts after polish; doubles cannot hold the positions more exactly.
+  double rounded_overlap(const Packing &p) const { return closed_limit(p) / 3.0; }
+  double step_overlap(const Packing &p) const { return 10.0 * rounded_overlap(p); }  // what a step may leave
   double path_end(const Packing &p) const { return end_roundings * closed_limit(p); }
 };
 

@@ -124,6 +124,31 @@ void too_many_to_close(void **) {
   if (clp_is_built()) assert_true(others >= 15 && left >= 1 && left <= 2);
 }
 
+// Positions round by the size of the box: in one of 150 diameters closed contacts overlap by more than in one of ten,
+// and are closed all the same.
+void rounding_grows_with_the_box(void **) {
+  constexpr int across = 150;
+  Packing p;
+  p.set_cube(2, 1.0);
+  for (int k = 0; k < across * across; ++k) {
+    p.position.push_back((k % across) / double(across)), p.position.push_back((k / across) / double(across));
+    p.diameter.push_back((1.0 - 1e-12) / across);
+  }
+  p.velocity.assign(p.position.size(), 0.0);
+  ContactNetwork net;
+  net.pairs = find_pairs(p, 0.0, 1.0 + 1e-11);
+  assert_int_equal(net.pairs.size(), 2 * p.n());
+  measure_contacts(p, net);
+  net.force.assign(net.size(), 1.0);
+  net.coordination.assign(p.n(), 4);
+  assert_true(closest_pair(p).gap > 0.0);
+  NewtonSystem system;
+  assert_true(polish(p, net, system, 1, Tuning()) == PolishEnd::done);
+  const double gap = closest_pair(p).gap;
+  assert_true(gap < -1e-14 && gap > -2e-13);
+  assert_true(std::fabs(p.diameter[0] * across - 1.0) < 1e-14);
+}
+
 // Contacts that close and forces that balance end a crunch: steps need not fall below a tolerance that rounding
 // forbids. The bare LP must meet its step tolerance.
 void closed_contacts_end_it(void **) {
@@ -143,6 +168,6 @@ void closed_contacts_end_it(void **) {
 
 int main() {
   const CMUnitTest tests[] = {cmocka_unit_test(polish_refuses), cmocka_unit_test(too_many_to_close),
-                              cmocka_unit_test(closed_contacts_end_it)};
+                              cmocka_unit_test(rounding_grows_with_the_box), cmocka_unit_test(closed_contacts_end_it)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

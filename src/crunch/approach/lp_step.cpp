@@ -96,8 +96,9 @@ double take_step(Packing &p, PairList &pairs, double reach, const LpSolution &x,
     return alpha < 1e-6;
   };
   const auto fits = [&] { return fit_round_wall(q, p, 0.5 * alpha * x.g) || !(x.g > 0.0); };
+  const double allowed = Tuning().step_overlap(p);
   const bool may_meet = closest_approach(x, p.dim, unit) + growth + shorter > reach;
-  while (!fits() || (may_meet && closest_contact(q).gap < -1e-13))
+  while (!fits() || (may_meet && closest_contact(q).gap < -allowed))
     if (shorten()) return 0.0;
   p.position.swap(q.position);
   p.diameter.swap(q.diameter);

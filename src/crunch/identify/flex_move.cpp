@@ -112,7 +112,7 @@ bool move_along_strained_flex(CrunchState &s, const PackingVerdict &strict) {
   for (double x : eps) largest = std::max(largest, unit * std::fabs(x));
   for (double t = s.tuning.longest_flex_move * unit / largest; t * largest > 1e-6 * unit; t *= 0.5) {
     Packing q;
-    if (!deform_into(q, p, v, eps, t) || closest_pair(q).gap < -1e-13) continue;
+    if (!deform_into(q, p, v, eps, t) || closest_pair(q).gap < -s.tuning.step_overlap(p)) continue;
     s.monitor.log(JAM_LOG_INFO, "saddle of the free cell at phi %.12f with %lld flexes: moves %.1e diameters",
                   packing_fraction(p), static_cast<long long>(r.flexes), t * largest / unit);
     p = std::move(q);

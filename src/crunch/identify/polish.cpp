@@ -141,7 +141,7 @@ class Polish {
 PolishEnd polish(Packing &p, ContactNetwork &net, NewtonSystem &system, int threads, const Tuning &tuning,
                  Monitor *monitor) {
   if (net.size() == 0) return PolishEnd::no_contacts;
-  Polish polisher(system, threads, tuning, std::min(-1e-14, closest_contact(p).gap), monitor);
+  Polish polisher(system, threads, tuning, std::min(-tuning.rounded_overlap(p), closest_contact(p).gap), monitor);
   Packing q = p;
   ContactNetwork better = net;
   const PolishEnd end = polisher.close_and_balance(q, better);

@@ -237,7 +237,7 @@ int parse_options(int argc, char **argv, const jam_pack_host *host, options *o) 
       return 1 + (fflush(stdout) ? EXIT_OUTPUT : EXIT_DONE);
     }
     if (!strcmp(argv[k], "--version")) {
-      printf("%s %s, commit %s\n", program, jam_version(), jam_commit());
+      printf("%s %s, commit %s\n", program, jam_version(), jam_commit()[0] ? jam_commit() : "unknown");
       return 1 + (fflush(stdout) ? EXIT_OUTPUT : EXIT_DONE);
     }
   }

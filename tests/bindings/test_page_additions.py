@@ -180,15 +180,25 @@ class Additions(PageTest):
         told = self.page.run(
             "(async () => { for (let k = 0; k < 12; ++k) {"
             " rotate(0.02, 0); await new Promise(r => requestAnimationFrame(r)); }"
-            " return [document.getElementById('thinned').textContent, thin.share]; })()"
+            " return [document.getElementById('thinned').textContent, thin.share, thin.coarse, canvas.width / canvas.clientWidth,"
+            " scene.frame]; })()"
         )
         if told[1] < 1:  # a fast machine draws all
             self.assertRegex(told[0], r"while it moves: \d+ of 100000 spheres, the outer ones")
+        self.assertEqual("at 0.5 of the resolution" in told[0], told[2])
+        self.assertAlmostEqual(told[3], 0.5 if told[2] else 1.0, 2)
+        self.assertEqual(told[4], 12)  # the edges of the cell, which are always drawn
         self.page.run("new Promise(r => setTimeout(r, 400))")
         self.page.settle()
         self.assertFalse(self.page.run("thin.moving"))
+        self.assertEqual(self.page.run("canvas.width"), self.page.run("canvas.clientWidth"))
         self.assertTrue(self.page.run("document.getElementById('thinned').hidden"))
         self.assertEqual(self.page.run("scene.count"), s.n)
+        # the first picture that moves is no slower than the others: its share follows from the one at rest
+        self.page.run("thin.whole = 100 * FRAME; rotate(0.02, 0)")
+        self.assertAlmostEqual(self.page.run("thin.share"), 0.02, 12)
+        self.page.run("new Promise(r => setTimeout(r, 400))")
+        self.page.settle()
         outer = np.array(self.page.run("Array.from(scene.sphere.slice(0, 4 * 20000))")).reshape(-1, 4)[:, :3]
         inner = np.array(self.page.run("Array.from(scene.sphere.slice(-4 * 20000))")).reshape(-1, 4)[:, :3]
         depth = lambda x: np.minimum(x, 1 - x).min(1)  # noqa: E731

@@ -94,12 +94,12 @@ function makeRenderer(canvas) {
       gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MAG_FILTER, gl.NEAREST);
       gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA32F, 1, 1, 0, gl.RGBA, gl.FLOAT, new Float32Array(4));
     }
-    return { program, textures, count: 0, at: (name) => gl.getUniformLocation(program, name) };
+    return { program, textures, count: 0, least: 0, at: (name) => gl.getUniformLocation(program, name) };
   };
   const spheres = shape(SPHERE_VERTEX, SPHERE_FRAGMENT, ["start", "tint", "move"]);
   const sticks = shape(STICK_VERTEX, STICK_FRAGMENT, ["start", "tint", "stop", "move", "moveStop"]);
   gl.bindVertexArray(gl.createVertexArray());
-  const fill = (kind, arrays, count) => {
+  const fill = (kind, arrays, count, least = 0) => {
     const high = Math.max(1, Math.ceil(count / WIDE));
     for (const name in arrays) {
       const bytes = arrays[name] instanceof Uint8Array, whole = new arrays[name].constructor(4 * WIDE * high);
@@ -109,9 +109,10 @@ function makeRenderer(canvas) {
         bytes ? gl.UNSIGNED_BYTE : gl.FLOAT, whole);
     }
     kind.count = count;
+    kind.least = least;
   };
 
-  // share: of each kind, the first instances; phase: of the oscillation.
+  // share: of each kind, the first instances, but for the `least` that are always drawn; phase: of the oscillation.
   function draw(view, share = 1, phase = 0) {
     const { width, height } = canvas;
     gl.viewport(0, 0, width, height);
@@ -134,13 +135,13 @@ function makeRenderer(canvas) {
         gl.uniform1i(kind.at(name), unit);
       });
       gl.uniform1f(kind.at("phase"), phase);
-      gl.drawArrays(gl.TRIANGLES, 0, 6 * Math.ceil(kind.count * share));
+      gl.drawArrays(gl.TRIANGLES, 0, 6 * (kind.least + Math.ceil((kind.count - kind.least) * share)));
     }
   }
   const pixel = new Uint8Array(4);
   return {
     spheres: (arrays, count) => fill(spheres, arrays, count),
-    sticks: (arrays, count) => fill(sticks, arrays, count),
+    sticks: (arrays, count, least) => fill(sticks, arrays, count, least),
     draw,
     finish: () => gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel), // waits until all is drawn
   };

@@ -156,6 +156,18 @@ function buildSticks(renderer, where, visible, moved) {
     colours.push(...c, 255);
     if (state.motion >= 0) (move.push(...from, 0), moveStop.push(...to, 0));
   };
+  // The cell first: it is drawn in full while the view moves.
+  if (state.box && data.container !== "brick") roundWall((a, b) => stick(a, b, 0.02 * meanDiameter, [60, 66, 78]));
+  else if (state.box) {
+    const a = shownCell(), thin = 0.012 * meanDiameter, m = state.axes.length;
+    for (let corner = 0; corner < 1 << m; ++corner)
+      for (let axis = 0; axis < m; ++axis) {
+        if (corner & (1 << axis)) continue;
+        const from = [0, 1, 2].map((c) => a.reduce((sum, row, r) => sum + ((corner >> r) & 1) * row[c], 0));
+        stick(from, from.map((x, c) => x + a[axis][c]), thin, [60, 66, 78]);
+      }
+  }
+  scene.frame = start.length / 4;
   // Half lines of a pair whose vector from j to i is length times v; j < 0 is a wall, to which the line goes in one.
   const bond = (i, j, length, v, r, colour) => {
     const both = j >= 0, from = { [i]: movement(i), [j]: movement(j) };
@@ -182,20 +194,10 @@ function buildSticks(renderer, where, visible, moved) {
     for (let k = 0; k < near.gap.length && near.gap[k] <= state.gap; ++k)
       bond(near.pair[2 * k], near.pair[2 * k + 1], 1, shownPart(near.vector, k), thin, [0, 0, 0]);
   }
-  if (state.box && data.container !== "brick") roundWall((a, b) => stick(a, b, 0.02 * meanDiameter, [60, 66, 78]));
-  else if (state.box) {
-    const a = shownCell(), thin = 0.012 * meanDiameter, m = state.axes.length;
-    for (let corner = 0; corner < 1 << m; ++corner)
-      for (let axis = 0; axis < m; ++axis) {
-        if (corner & (1 << axis)) continue;
-        const from = [0, 1, 2].map((c) => a.reduce((sum, row, r) => sum + ((corner >> r) & 1) * row[c], 0));
-        stick(from, from.map((x, c) => x + a[axis][c]), thin, [60, 66, 78]);
-      }
-  }
   scene.sticks = start.length / 4;
   scene.stick = { start: new Float32Array(start), stop: new Float32Array(stop), tint: new Uint8Array(colours) };
   const moves = state.motion >= 0 ? { move: new Float32Array(move), moveStop: new Float32Array(moveStop) } : {};
-  renderer.sticks({ ...scene.stick, ...moves }, scene.sticks);
+  renderer.sticks({ ...scene.stick, ...moves }, scene.sticks, scene.frame);
 }
 
 // The round wall in pieces of lines: circles of a ball, both rings and four lines of a cylinder.

@@ -39,23 +39,42 @@ function reachOf(a) {
   return longest;
 }
 
-// While the view moves, no more is drawn than the frame time allows; at rest all is. `share`: of the instances.
-const FRAME = 30; // ms
-const thin = { share: 1, moving: false, rest: 0 };
+// While the view moves, no more is drawn than the frame time allows; at rest all is. Where all take longer than that,
+// the picture is coarse while it moves, since most of the time goes into pixels, and then a share of the instances is
+// drawn. `whole`: ms of a picture at rest.
+const FRAME = 24; // ms, which leaves a part of 1/30 s to the browser
+const COARSE = 0.5, FEWEST = 1000; // pixels of a coarse picture along an edge; instances
+const thin = { share: 1, moving: false, coarse: false, rest: 0, whole: 0 };
+const bounded = (share) => Math.min(1, Math.max(share, FEWEST / Math.max(scene.count, FEWEST)));
 function adapt(elapsed) {
-  const factor = Math.min(Math.max(FRAME / Math.max(elapsed, 1), 0.25), 1.5);
-  thin.share = Math.min(1, Math.max(thin.share * factor, 500 / Math.max(scene.count, 500)));
+  thin.share = bounded(thin.share * Math.min(Math.max(FRAME / Math.max(elapsed, 1), 0.25), 1.5));
+}
+function beginMoving() {
+  thin.moving = true;
+  thin.coarse = thin.whole > FRAME;
+  thin.share = bounded(thin.coarse ? FRAME / (0.5 * thin.whole) : 1);
 }
 function showThinning() {
   const place = document.getElementById("thinned"), drawn = Math.ceil(scene.count * thin.share);
-  place.hidden = !thin.moving || drawn >= scene.count;
-  place.textContent = `while it moves: ${drawn} of ${scene.count} spheres${dim === 2 ? "" : ", the outer ones"}`;
+  place.hidden = !thin.moving || (drawn >= scene.count && !thin.coarse);
+  place.textContent = `while it moves: ${drawn} of ${scene.count} spheres${dim === 2 ? "" : ", the outer ones"}` +
+    (thin.coarse ? `, at ${COARSE} of the resolution` : "");
 }
 
+function fitCanvas() {
+  const ratio = window.devicePixelRatio || 1;
+  for (const one of [canvas, labels]) {
+    const fine = ratio * (thin.moving && thin.coarse && one === canvas ? COARSE : 1);
+    const width = Math.round(one.clientWidth * fine), height = Math.round(one.clientHeight * fine);
+    if (one.width !== width || one.height !== height) [one.width, one.height] = [width, height];
+  }
+}
 let waiting = false;
 function redraw(moves = false) {
   if (!renderer) return;
-  thin.moving = moves === true && scene.count + scene.sticks >= THIN_FROM;
+  const large = scene.count + scene.sticks >= THIN_FROM;
+  if (moves !== true || !large) thin.moving = false;
+  else if (!thin.moving) beginMoving();
   if (thin.moving) {
     clearTimeout(thin.rest);
     thin.rest = setTimeout(redraw, 250);
@@ -64,17 +83,15 @@ function redraw(moves = false) {
   waiting = true;
   requestAnimationFrame(() => {
     waiting = false;
-    const ratio = window.devicePixelRatio || 1;
-    for (const one of [canvas, labels]) {
-      const width = Math.round(one.clientWidth * ratio), height = Math.round(one.clientHeight * ratio);
-      if (one.width !== width || one.height !== height) [one.width, one.height] = [width, height];
-    }
+    fitCanvas();
     const view = viewNow(), began = performance.now();
     renderer.draw(view, thin.moving ? thin.share : 1, oscillation.phase);
-    if (thin.moving) {
-      renderer.finish();
-      adapt(performance.now() - began);
-    } else drawLabels(view);
+    if (large) renderer.finish();
+    if (thin.moving) adapt(performance.now() - began);
+    else {
+      thin.whole = performance.now() - began;
+      drawLabels(view);
+    }
     showThinning();
   });
 }
@@ -186,7 +203,7 @@ function rotate(across, down) {
   redraw(true);
 }
 function pan(dx, dy) {
-  const unit = (window.devicePixelRatio || 1) / viewNow().scale;
+  const unit = canvas.width / canvas.clientWidth / viewNow().scale;
   camera.shift = [camera.shift[0] + dx * unit, camera.shift[1] - dy * unit];
   redraw(true);
 }

@@ -27,6 +27,8 @@ function save(name, href) {
 
 const CAPTION = { size: 14, line: 20, margin: 12 };
 function picturePng() {
+  thin.moving = false;
+  fitCanvas();
   renderer.draw(viewNow(), 1, oscillation.phase);
   const ratio = window.devicePixelRatio || 1, lines = caption(), paper = document.createElement("canvas");
   const more = ratio * (lines.length * CAPTION.line + CAPTION.margin);

@@ -41,6 +41,7 @@ include("sizes.jl")
 include("near_jamming.jl")
 include("files.jl")
 include("picture.jl")
+include("plotted.jl")
 
 export System, JamError, Report, Table, columns, info, packing_fraction, notes, positions, velocities, diameters, radii,
        set_positions!, set_velocities!, scale_diameters!, cell, set_cell!, strain!, run!, compress!, crunch!, calippso!, cancel,

@@ -30,19 +30,30 @@ function write_contacts(path::AbstractString, s::System; format = :auto)
 end
 
 """
-    page(path, s; title, small, values)
+    page(path, s; title, small, values, modes)
 
 Writes one HTML file that shows the packing in a browser without a network. `values`: a NamedTuple of vectors, a number a
-sphere, to colour spheres by. `small = true`: the picture alone.
+sphere, to colour spheres by, and of d-by-n matrices, displacements that are animated. `modes`: vibrational modes to animate,
+as from `modes(s)`. `small = true`: the picture alone.
 """
-function page(path::AbstractString, s::System; title = "", small = false, values = (;))
-    n = Int(info(s).n)
+function page(path::AbstractString, s::System; title = "", small = false, values = (;), modes = nothing)
+    n, d = Int(info(s).n), Int(info(s).dim)
+    names, rows = String[], Vector{Cdouble}[]  # a name that ends in [] has d rows
     for (name, x) in pairs(values)
-        length(x) == n || throw(ArgumentError("values of $name are $(length(x)), and there are $n spheres"))
+        moves = ndims(x) == 2 && size(x) == (d, n)
+        moves || length(x) == n || throw(ArgumentError("values of $name are $(length(x)), and there are $n spheres"))
+        push!(names, moves ? "$name[]" : "$name")
+        push!(rows, moves ? vec(permutedims(x)) : dense(x))
     end
-    table = reduce(vcat, (dense(x) for x in Base.values(values)); init = Cdouble[])
+    for k in axes(modes === nothing ? zeros(0, 0) : modes.vectors, 2)
+        whole = zeros(n, d)
+        whole[modes.spheres, :] = permutedims(reshape(modes.vectors[:, k], d, :))
+        push!(names, @sprintf("mode %d, omega %.4g[]", k, modes.frequencies[k]))
+        push!(rows, vec(whole))
+    end
+    table = reduce(vcat, rows; init = Cdouble[])
     data = isempty(table) ? nothing : table
-    written(jam_write_page(handle(s), path, title, small, join(keys(values), "\n"), data, length(table)))
+    written(jam_write_page(handle(s), path, title, small, join(names, "\n"), data, length(table)))
     return nothing
 end
 

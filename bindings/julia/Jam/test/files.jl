@@ -15,6 +15,24 @@ write_contacts(joinpath(folder, "contacts.csv"), s)
 page(joinpath(folder, "page.html"), s; title = "Sixty disks", values = (z = coordination(s), size = diameters(s)))
 @test occursin("Sixty disks", read(joinpath(folder, "page.html"), String))
 @test occursin("3, and there are 60", failure(() -> page(joinpath(folder, "page.html"), s; values = (z = [1, 2, 3],))))
+moving = modes(s, 2)
+page(joinpath(folder, "moving.html"), s; modes = moving, values = (drift = ones(2, 60),))
+shown_page = read(joinpath(folder, "moving.html"), String)
+@test occursin("mode 1, omega ", shown_page) && occursin("mode 2, omega ", shown_page) && occursin("\"drift\"", shown_page)
+@test occursin("and there are 60", failure(() -> page(joinpath(folder, "page.html"), s; values = (u = ones(60, 2),))))
+# what a plot draws: a polygon a disk, a line a contact whose ends are its two centres
+x, y = Jam.outlines(s)
+@test count(isnan, x) == count(isnan, y) == 60 && maximum(filter(!isnan, x)) <= 1 + maximum(diameters(s)) / 2
+@test sum(length(last(c)) for c in Jam.by_class(s)) == 60
+lines = hcat(Jam.bonds(s)...)
+@test size(lines, 1) == 3 * report(s).contacts
+let a = cell(s), far = lines[2:3:end, :] - positions(s)'[contacts(s)[2, :], :]
+    shift = far / a'
+    @test maximum(abs.(shift - round.(shift))) < 1e-10
+end
+# RecipesBase is no part of the standard library: the recipe is parsed alone
+recipe = Base.parse_input_line(read(joinpath(dirname(pathof(Jam)), "..", "ext", "JamRecipesBaseExt.jl"), String))
+@test recipe.args[end].head == :module
 picture(joinpath(folder, "disks.svg"), s)
 drawn = read(joinpath(folder, "disks.svg"), String)
 @test count("<circle", drawn) == 60 && count("stroke=\"#222\"", drawn) == report(s).contacts

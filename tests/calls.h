@@ -157,6 +157,22 @@ static inline size_t strain_of(CALL_INPUT *in, jam_system *sys) {
   return (size_t)(d * d);
 }
 
+/* Puts numbers of copies into whole[0], or a wave vector into real[0]; its length. */
+static inline size_t copies_of(CALL_INPUT *in, jam_system *sys) {
+  const int d = dimension_of(sys);
+  int k;
+  for (k = 0; k < d; ++k) whole[0][k] = COUNT(1 + k % 2);
+  (void)in;
+  return (size_t)d;
+}
+static inline size_t wave_of(CALL_INPUT *in, jam_system *sys) {
+  const int d = dimension_of(sys);
+  int k;
+  for (k = 0; k < d; ++k) real[0][k] = NUMBER(0.3);
+  (void)in;
+  return (size_t)d;
+}
+
 /* Calls with a displacement of the stable spheres, whose number may fail to be found. */
 static inline jam_status stable_numbers(const jam_system *sys, size_t *numbers) {
   const jam_status status = jam_hessian_map(sys, NULL, 0, numbers);

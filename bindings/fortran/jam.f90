@@ -306,6 +306,10 @@ module jam
   integer(c_int32_t), parameter :: JAM_VERDICT_YES = 1
   integer(c_int32_t), parameter :: JAM_VERDICT_UNDECIDED = 2
 
+  ! jam_bloch_column: Columns of jam_bloch_rigidity.
+  integer(c_int32_t), parameter :: JAM_BLOCH_FLEXES = 0
+  integer(c_int32_t), parameter :: JAM_BLOCH_MARGIN = 1
+
   ! jam_check_reason: Why jam_check_packing answers as it does.
   integer(c_int32_t), parameter :: JAM_CHECK_PROOF = 0
   integer(c_int32_t), parameter :: JAM_CHECK_APART = 1
@@ -2024,8 +2028,8 @@ module jam
     ! where the network lists them. There a sphere that they alone hold needs forces on the cell to balance. Let S v be the
     ! opening of contacts by a motion v, and E eps that by a strain eps. Collectively jammed: S v >= 0 only for
     ! translations of B. Strictly jammed: S v + E eps >= 0 with tr eps <= 0 only for those and eps = 0. Both hold for this
-    ! cell, not for several copies of it. Source: Donev et al., J. Comput. Phys. 197, 139 (2004); the guide's page "Jammed
-    ! or not" has more. Status: JAM_OK jammed, JAM_NOT_JAMMED, JAM_AMBIGUOUS undecided.
+    ! cell, not for several copies of it (jam_bloch_rigidity). Source: Donev et al., J. Comput. Phys. 197, 139 (2004); the
+    ! guide's page "Jammed or not" has more. Status: JAM_OK jammed, JAM_NOT_JAMMED, JAM_AMBIGUOUS undecided.
     ! Errors: JAM_E_SOLVER, JAM_E_UNSUPPORTED (strict, with walls).
     function jam_rigidity(sys, kind, report) &
         bind(c, name="jam_rigidity") result(status)
@@ -2218,6 +2222,15 @@ module jam
       integer(c_size_t), value :: strain_len
       integer(c_int32_t) :: status
     end function c_jam_strain
+    function c_jam_tile(src, count, count_len, out) &
+        bind(c, name="jam_tile") result(status)
+      import
+      type(c_ptr), value :: src
+      type(c_ptr), value :: count
+      integer(c_size_t), value :: count_len
+      type(c_ptr), intent(out) :: out
+      integer(c_int32_t) :: status
+    end function c_jam_tile
     function c_jam_diameters(o, curve, curve_len, out, out_len, needed) &
         bind(c, name="jam_diameters") result(status)
       import
@@ -2573,6 +2586,20 @@ module jam
       integer(c_size_t), intent(out), optional :: rows
       integer(c_int32_t) :: status
     end function c_jam_modes
+    function c_jam_bloch_modes(sys, h, wave, wave_len, table, table_len, vector, vector_len, rows) &
+        bind(c, name="jam_bloch_modes") result(status)
+      import
+      type(c_ptr), value :: sys
+      type(jam_hessian_options), intent(in), optional :: h
+      type(c_ptr), value :: wave
+      integer(c_size_t), value :: wave_len
+      type(c_ptr), value :: table
+      integer(c_size_t), value :: table_len
+      type(c_ptr), value :: vector
+      integer(c_size_t), value :: vector_len
+      integer(c_size_t), intent(out), optional :: rows
+      integer(c_int32_t) :: status
+    end function c_jam_bloch_modes
     function c_jam_contact_candidates(sys, window, table, table_len, needed) &
         bind(c, name="jam_contact_candidates") result(status)
       import
@@ -2607,6 +2634,19 @@ module jam
       integer(c_size_t), intent(out), optional :: needed
       integer(c_int32_t) :: status
     end function c_jam_flex
+    function c_jam_bloch_rigidity(sys, count, count_len, wave, wave_len, table, table_len, rows) &
+        bind(c, name="jam_bloch_rigidity") result(status)
+      import
+      type(c_ptr), value :: sys
+      type(c_ptr), value :: count
+      integer(c_size_t), value :: count_len
+      type(c_ptr), value :: wave
+      integer(c_size_t), value :: wave_len
+      type(c_ptr), value :: table
+      integer(c_size_t), value :: table_len
+      integer(c_size_t), intent(out), optional :: rows
+      integer(c_int32_t) :: status
+    end function c_jam_bloch_rigidity
     function c_jam_prove(sys, ratio, ratio_len, report) &
         bind(c, name="jam_prove") result(status)
       import
@@ -3005,6 +3045,17 @@ module jam
     module procedure l_jam_modes
   end interface jam_modes
 
+  ! Modes at a wave vector, sum of wave[c] b_c with a_c . b_e = 2 pi delta_ce: the copy of a sphere at sum of s_c a_c
+  ! moves by exp(2 pi i sum wave[c] s_c) times its displacement. All d N', lambda ascending; vector: real and imaginary
+  ! parts, of unit length. Dense, 96 (d N')^2 bytes. The modes of jam_tile are those of all wave[c] = q / count[c], q = 0
+  ! .. count[c] - 1, together; wave 0 has those of jam_modes. Along a walled axis wave is 0.
+  ! Shapes: wave (d), table (m, jam_mode_column), vector (m, N', d, 2).
+  ! Errors: JAM_E_STATE, JAM_E_SOLVER.
+  interface jam_bloch_modes
+    module procedure f_jam_bloch_modes
+    module procedure l_jam_bloch_modes
+  end interface jam_bloch_modes
+
   ! States of self-stress of the network: *rows = their number m; force, mean 1, from the null space of S^T, not from LP
   ! duals; basis orthonormal; residual: one number, as force_residual. Status: JAM_AMBIGUOUS (m > 1: force is the centre
   ! of the non-negative ones), JAM_NOT_JAMMED (m = 0 or no force of one sign).
@@ -3024,6 +3075,17 @@ module jam
     module procedure f_jam_flex
     module procedure l_jam_flex
   end interface jam_flex
+
+  ! The collective test of jam_rigidity for count[c] copies along each cell vector (jam_tile), from one cell: a row for
+  ! each wave vector of the copies, as in jam_bloch_modes; q_0 runs fastest. Forces averaged over all copies balance in
+  ! one cell, so K+ is that of one cell, and the flexes of the copies are those of all rows together. Status: JAM_OK
+  ! jammed, JAM_NOT_JAMMED, JAM_AMBIGUOUS undecided.
+  ! Shapes: count (d), wave (m, d), table (m, jam_bloch_column).
+  ! Errors: JAM_E_SOLVER, JAM_E_UNSUPPORTED (Mari-Kurchan model, round walls).
+  interface jam_bloch_rigidity
+    module procedure f_jam_bloch_rigidity
+    module procedure l_jam_bloch_rigidity
+  end interface jam_bloch_rigidity
 
   ! Centres of the jammed packing as sums of two doubles, high + low, unit of the box: about 31 digits. Rattlers stay
   ! where they are. ratio: as for jam_prove. Status: JAM_AMBIGUOUS (dependent contacts, nothing is written).
@@ -3112,6 +3174,7 @@ module jam
   private :: c_jam_get_cell
   private :: c_jam_set_cell
   private :: c_jam_strain
+  private :: c_jam_tile
   private :: c_jam_diameters
   private :: c_jam_parse_diameters
   private :: c_jam_cell_volume
@@ -3148,9 +3211,11 @@ module jam
   private :: c_jam_hessian_map
   private :: c_jam_hessian
   private :: c_jam_modes
+  private :: c_jam_bloch_modes
   private :: c_jam_contact_candidates
   private :: c_jam_stress_states
   private :: c_jam_flex
+  private :: c_jam_bloch_rigidity
   private :: c_jam_prove
   private :: c_jam_write_proof
   private :: c_jam_refined_positions
@@ -3201,10 +3266,14 @@ module jam
   private :: l_jam_hessian
   private :: f_jam_modes
   private :: l_jam_modes
+  private :: f_jam_bloch_modes
+  private :: l_jam_bloch_modes
   private :: f_jam_stress_states
   private :: l_jam_stress_states
   private :: f_jam_flex
   private :: l_jam_flex
+  private :: f_jam_bloch_rigidity
+  private :: l_jam_bloch_rigidity
   private :: f_jam_refined_positions
   private :: l_jam_refined_positions
   private :: f_jam_gaps
@@ -3574,6 +3643,36 @@ contains
     end if
     status = c_jam_strain(sys, at_strain, count_strain)
   end function jam_strain
+
+  ! Copies of src side by side, count[c] along cell vector a_c. Copy (k_0, k_1, ...) stands at sum of k_c a_c; its sphere
+  ! i is number i + n (k_0 + count[0] (k_1 + count[1] ...)). The cell has the vectors count[c] a_c, less multiples of
+  ! earlier ones where that shortens them, in this order. Velocities, contacts, gaps and forces go along, so no crunch is
+  ! needed. With more than one copy the stored report holds counts of the new packing, and its verdicts are untested: it
+  ! may have flexes that src has not. jam_rigidity tests it. Steps, histories and unfinished work stay behind. Along a
+  ! walled axis count is 1.
+  ! Shapes: count (d).
+  ! Errors: JAM_E_UNSUPPORTED (Mari-Kurchan model, walls), JAM_E_OVERLAP (the coordinates no longer resolve the gaps).
+  function jam_tile(src, count, count_len, out) result(status)
+    type(c_ptr), intent(in) :: src
+    integer(c_int32_t), intent(in), target, contiguous, optional :: count(..)
+    integer(c_size_t), intent(in), optional :: count_len
+    type(c_ptr), intent(out) :: out
+    integer(c_int32_t) :: status
+    type(c_ptr) :: at_count
+    integer(c_size_t) :: count_count
+    at_count = c_null_ptr
+    count_count = 0
+    if (present(count)) then
+      at_count = c_loc(count)
+      count_count = size(count, kind=c_size_t)
+    end if
+    if (present(count_len)) count_count = count_len
+    if (present(count)) then
+      status = checked('count', shape(count, kind=c_size_t), 0_c_size_t, count_count)
+      if (status /= JAM_OK) return
+    end if
+    status = c_jam_tile(src, at_count, count_count, out)
+  end function jam_tile
 
   function f_jam_diameters(o, curve, out, needed) result(status)
     type(jam_diameters_options), intent(in), optional :: o
@@ -4937,6 +5036,108 @@ contains
     status = c_jam_modes(sys, h, o, at_table, count_table, at_vector, count_vector, rows)
   end function l_jam_modes
 
+  function f_jam_bloch_modes(sys, h, wave, table, vector, rows) result(status)
+    type(c_ptr), intent(in) :: sys
+    type(jam_hessian_options), intent(in), optional :: h
+    real(c_double), intent(in), target, contiguous, optional :: wave(..)
+    real(c_double), intent(inout), target, contiguous, optional :: table(..)
+    real(c_double), intent(inout), target, contiguous, optional :: vector(..)
+    integer(c_size_t), intent(out), optional :: rows
+    integer(c_int32_t) :: status
+    type(c_ptr) :: at_wave
+    integer(c_size_t) :: count_wave
+    type(c_ptr) :: at_table
+    integer(c_size_t) :: count_table
+    type(c_ptr) :: at_vector
+    integer(c_size_t) :: count_vector
+    at_wave = c_null_ptr
+    count_wave = 0
+    if (present(wave)) then
+      at_wave = c_loc(wave)
+      count_wave = size(wave, kind=c_size_t)
+    end if
+    if (present(wave)) then
+      status = checked('wave', shape(wave, kind=c_size_t), 0_c_size_t, count_wave)
+      if (status /= JAM_OK) return
+    end if
+    at_table = c_null_ptr
+    count_table = 0
+    if (present(table)) then
+      at_table = c_loc(table)
+      count_table = size(table, kind=c_size_t)
+    end if
+    if (present(table)) then
+      status = checked('table', shape(table, kind=c_size_t), 2_c_size_t, count_table)
+      if (status /= JAM_OK) return
+    end if
+    at_vector = c_null_ptr
+    count_vector = 0
+    if (present(vector)) then
+      at_vector = c_loc(vector)
+      count_vector = size(vector, kind=c_size_t)
+    end if
+    if (present(vector)) then
+      status = checked('vector', shape(vector, kind=c_size_t), 2_c_size_t, count_vector)
+      if (status /= JAM_OK) return
+    end if
+    status = c_jam_bloch_modes(sys, h, at_wave, count_wave, at_table, count_table, at_vector, count_vector, &
+      rows)
+  end function f_jam_bloch_modes
+
+  function l_jam_bloch_modes(sys, h, wave, wave_len, table, table_len, vector, vector_len, rows) result(status)
+    type(c_ptr), intent(in) :: sys
+    type(jam_hessian_options), intent(in), optional :: h
+    real(c_double), intent(in), target, contiguous, optional :: wave(..)
+    integer(c_size_t), intent(in) :: wave_len
+    real(c_double), intent(inout), target, contiguous, optional :: table(..)
+    integer(c_size_t), intent(in) :: table_len
+    real(c_double), intent(inout), target, contiguous, optional :: vector(..)
+    integer(c_size_t), intent(in) :: vector_len
+    integer(c_size_t), intent(out), optional :: rows
+    integer(c_int32_t) :: status
+    type(c_ptr) :: at_wave
+    integer(c_size_t) :: count_wave
+    type(c_ptr) :: at_table
+    integer(c_size_t) :: count_table
+    type(c_ptr) :: at_vector
+    integer(c_size_t) :: count_vector
+    at_wave = c_null_ptr
+    count_wave = 0
+    if (present(wave)) then
+      at_wave = c_loc(wave)
+      count_wave = size(wave, kind=c_size_t)
+    end if
+    count_wave = wave_len
+    if (present(wave)) then
+      status = checked('wave', shape(wave, kind=c_size_t), 0_c_size_t, count_wave)
+      if (status /= JAM_OK) return
+    end if
+    at_table = c_null_ptr
+    count_table = 0
+    if (present(table)) then
+      at_table = c_loc(table)
+      count_table = size(table, kind=c_size_t)
+    end if
+    count_table = table_len
+    if (present(table)) then
+      status = checked('table', shape(table, kind=c_size_t), 2_c_size_t, count_table)
+      if (status /= JAM_OK) return
+    end if
+    at_vector = c_null_ptr
+    count_vector = 0
+    if (present(vector)) then
+      at_vector = c_loc(vector)
+      count_vector = size(vector, kind=c_size_t)
+    end if
+    count_vector = vector_len
+    if (present(vector)) then
+      status = checked('vector', shape(vector, kind=c_size_t), 2_c_size_t, count_vector)
+      if (status /= JAM_OK) return
+    end if
+    status = c_jam_bloch_modes(sys, h, at_wave, count_wave, at_table, count_table, at_vector, count_vector, &
+      rows)
+  end function l_jam_bloch_modes
+
   ! Candidates for the contact tolerance, for packings where no jump is clear; m is at most 12. A candidate is a jump of
   ! the sorted gaps below window, as in jam_geometry_options, with enough contacts for a rigid network below it. The
   ! largest jump comes first.
@@ -5111,6 +5312,108 @@ contains
     end if
     status = c_jam_flex(sys, kind, at_out, count_out, at_strain, count_strain, needed)
   end function l_jam_flex
+
+  function f_jam_bloch_rigidity(sys, count, wave, table, rows) result(status)
+    type(c_ptr), intent(in) :: sys
+    integer(c_int32_t), intent(in), target, contiguous, optional :: count(..)
+    real(c_double), intent(inout), target, contiguous, optional :: wave(..)
+    real(c_double), intent(inout), target, contiguous, optional :: table(..)
+    integer(c_size_t), intent(out), optional :: rows
+    integer(c_int32_t) :: status
+    type(c_ptr) :: at_count
+    integer(c_size_t) :: count_count
+    type(c_ptr) :: at_wave
+    integer(c_size_t) :: count_wave
+    type(c_ptr) :: at_table
+    integer(c_size_t) :: count_table
+    integer(c_size_t) :: n_of_c, d_of_c
+    call sizes_of(sys, n_of_c, d_of_c)
+    at_count = c_null_ptr
+    count_count = 0
+    if (present(count)) then
+      at_count = c_loc(count)
+      count_count = size(count, kind=c_size_t)
+    end if
+    if (present(count)) then
+      status = checked('count', shape(count, kind=c_size_t), 0_c_size_t, count_count)
+      if (status /= JAM_OK) return
+    end if
+    at_wave = c_null_ptr
+    count_wave = 0
+    if (present(wave)) then
+      at_wave = c_loc(wave)
+      count_wave = size(wave, kind=c_size_t)
+    end if
+    if (present(wave)) then
+      status = checked('wave', shape(wave, kind=c_size_t), d_of_c, count_wave)
+      if (status /= JAM_OK) return
+    end if
+    at_table = c_null_ptr
+    count_table = 0
+    if (present(table)) then
+      at_table = c_loc(table)
+      count_table = size(table, kind=c_size_t)
+    end if
+    if (present(table)) then
+      status = checked('table', shape(table, kind=c_size_t), 2_c_size_t, count_table)
+      if (status /= JAM_OK) return
+    end if
+    status = c_jam_bloch_rigidity(sys, at_count, count_count, at_wave, count_wave, at_table, count_table, rows)
+  end function f_jam_bloch_rigidity
+
+  function l_jam_bloch_rigidity(sys, count, count_len, wave, wave_len, table, table_len, rows) result(status)
+    type(c_ptr), intent(in) :: sys
+    integer(c_int32_t), intent(in), target, contiguous, optional :: count(..)
+    integer(c_size_t), intent(in) :: count_len
+    real(c_double), intent(inout), target, contiguous, optional :: wave(..)
+    integer(c_size_t), intent(in) :: wave_len
+    real(c_double), intent(inout), target, contiguous, optional :: table(..)
+    integer(c_size_t), intent(in) :: table_len
+    integer(c_size_t), intent(out), optional :: rows
+    integer(c_int32_t) :: status
+    type(c_ptr) :: at_count
+    integer(c_size_t) :: count_count
+    type(c_ptr) :: at_wave
+    integer(c_size_t) :: count_wave
+    type(c_ptr) :: at_table
+    integer(c_size_t) :: count_table
+    integer(c_size_t) :: n_of_c, d_of_c
+    call sizes_of(sys, n_of_c, d_of_c)
+    at_count = c_null_ptr
+    count_count = 0
+    if (present(count)) then
+      at_count = c_loc(count)
+      count_count = size(count, kind=c_size_t)
+    end if
+    count_count = count_len
+    if (present(count)) then
+      status = checked('count', shape(count, kind=c_size_t), 0_c_size_t, count_count)
+      if (status /= JAM_OK) return
+    end if
+    at_wave = c_null_ptr
+    count_wave = 0
+    if (present(wave)) then
+      at_wave = c_loc(wave)
+      count_wave = size(wave, kind=c_size_t)
+    end if
+    count_wave = wave_len
+    if (present(wave)) then
+      status = checked('wave', shape(wave, kind=c_size_t), d_of_c, count_wave)
+      if (status /= JAM_OK) return
+    end if
+    at_table = c_null_ptr
+    count_table = 0
+    if (present(table)) then
+      at_table = c_loc(table)
+      count_table = size(table, kind=c_size_t)
+    end if
+    count_table = table_len
+    if (present(table)) then
+      status = checked('table', shape(table, kind=c_size_t), 2_c_size_t, count_table)
+      if (status /= JAM_OK) return
+    end if
+    status = c_jam_bloch_rigidity(sys, at_count, count_count, at_wave, count_wave, at_table, count_table, rows)
+  end function l_jam_bloch_rigidity
 
   ! Proves, despite rounding, that the packing is jammed. Contacts and forces are those of the network. Newton's
   ! steps take the centres to two doubles (jam_refined_positions). A factorisation with a bound of its rounding gives the

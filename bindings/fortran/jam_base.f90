@@ -26,6 +26,7 @@ module jam_base
     procedure :: from_arrays
     procedure :: read_file
     procedure :: read_checkpoint
+    procedure :: tile
     procedure :: free
     procedure :: positions
     procedure :: velocities
@@ -43,7 +44,7 @@ module jam_base
   end type jam_handle
 
   ! Reached through the type; a program may use these names for its own procedures.
-  private :: random, from_arrays, read_file, read_checkpoint, free, free_at_end, copy_of, positions, velocities, &
+  private :: random, from_arrays, read_file, read_checkpoint, tile, free, free_at_end, copy_of, positions, velocities, &
              diameters, copy_view, write_file, notes, watch, cancel, why, done, extents, from_one
 
 contains
@@ -182,6 +183,18 @@ contains
     call self%free()
     call self%done(jam_read_checkpoint(path, out=self%sys))
   end subroutine read_checkpoint
+
+  ! The copies of another packing side by side: count(c) of them along cell vector c.
+  subroutine tile(self, from, count)
+    class(jam_handle), intent(inout) :: self
+    class(jam_handle), intent(in) :: from
+    integer, intent(in) :: count(:)
+    type(c_ptr) :: made
+    call self%done(jam_tile(from%sys, int(count, c_int32_t), out=made))
+    if (self%status < 0) return
+    call self%free()
+    self%sys = made
+  end subroutine tile
 
   subroutine copy_of(to, from)
     class(jam_handle), intent(inout) :: to

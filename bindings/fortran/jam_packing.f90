@@ -56,11 +56,13 @@ module jam_packing
     procedure :: hessian_map => do_hessian_map
     procedure :: hessian => do_hessian
     procedure :: modes => do_modes
+    procedure :: bloch_modes => do_bloch_modes
     procedure :: contacts_from_geometry => do_contacts_from_geometry
     procedure :: contact_candidates => do_contact_candidates
     procedure :: stress_states => do_stress_states
     procedure :: rigidity => do_rigidity
     procedure :: flex => do_flex
+    procedure :: bloch_rigidity => do_bloch_rigidity
     procedure :: check => do_check
     procedure :: prove => do_prove
     procedure :: prove_strict => do_prove_strict
@@ -106,16 +108,16 @@ module jam_packing
     do_crunch_step_contacts, do_crunch_step_vectors, do_crunch_step_duals, &
     do_relax, do_decompress, do_decompress_history, do_contacts, &
     do_contact_vectors, do_contact_gaps, do_forces, do_coordination, &
-    do_hessian_map, do_hessian, do_modes, do_contacts_from_geometry, &
-    do_contact_candidates, do_stress_states, do_rigidity, do_flex, do_check, &
-    do_prove, do_prove_strict, do_write_proof, do_refined_positions, do_gaps, &
-    do_contact_classes, do_sphere_structure, do_contact_dots, do_fabric_tensor, &
-    do_local_values, do_histogram, do_pair_correlation, do_mk_shifts, &
-    do_structure_factor, do_bond_order, do_crystal_score, do_local_fraction, &
-    do_write_stl, do_voxels, do_write_voxels, do_solid_profile, &
-    do_near_coordination, do_pore_sizes, do_floppy_mode, do_floppy_modes, &
-    do_density_of_states, do_project, do_curvature, do_moduli, do_elastic_tensor, &
-    do_compare
+    do_hessian_map, do_hessian, do_modes, do_bloch_modes, &
+    do_contacts_from_geometry, do_contact_candidates, do_stress_states, &
+    do_rigidity, do_flex, do_bloch_rigidity, do_check, do_prove, do_prove_strict, &
+    do_write_proof, do_refined_positions, do_gaps, do_contact_classes, &
+    do_sphere_structure, do_contact_dots, do_fabric_tensor, do_local_values, &
+    do_histogram, do_pair_correlation, do_mk_shifts, do_structure_factor, &
+    do_bond_order, do_crystal_score, do_local_fraction, do_write_stl, do_voxels, &
+    do_write_voxels, do_solid_profile, do_near_coordination, do_pore_sizes, &
+    do_floppy_mode, do_floppy_modes, do_density_of_states, do_project, &
+    do_curvature, do_moduli, do_elastic_tensor, do_compare
 
 contains
 
@@ -1015,6 +1017,38 @@ contains
     call self%done(status)
   end subroutine do_modes
 
+  ! Modes at a wave vector, sum of wave[c] b_c with a_c . b_e = 2 pi delta_ce: the copy of a sphere at sum of s_c a_c
+  ! moves by exp(2 pi i sum wave[c] s_c) times its displacement. All d N', lambda ascending; vector: real and imaginary
+  ! parts, of unit length. Dense, 96 (d N')^2 bytes. The modes of jam_tile are those of all wave[c] = q / count[c], q = 0
+  ! .. count[c] - 1, together; wave 0 has those of jam_modes. Along a walled axis wave is 0.
+  ! Shapes: wave (d), table (m, jam_mode_column), vector (m, N', d, 2).
+  ! Errors: JAM_E_STATE, JAM_E_SOLVER.
+  subroutine do_bloch_modes(self, h, wave, table, vector)
+    class(packing), intent(inout) :: self
+    type(jam_hessian_options), intent(in), optional :: h
+    real(c_double), intent(in), contiguous, target, optional :: wave(..)
+    real(c_double), allocatable, intent(out), optional :: table(:, :)
+    real(c_double), allocatable :: made_table(:, :)
+    real(c_double), allocatable, intent(out), optional :: vector(:, :, :, :)
+    real(c_double), allocatable :: made_vector(:, :, :, :)
+    integer(c_int32_t) :: status
+    integer(c_size_t) :: given, d_of, n_of, stable_of
+    allocate (made_table(0, 0))
+    allocate (made_vector(0, 0, 0, 0))
+    call self%extents(d_of, n_of, stable=stable_of)
+    status = jam_bloch_modes(self%sys, h=h, wave=wave, rows=given)
+    if (status >= 0) then
+      deallocate (made_table)
+      allocate (made_table(2_c_size_t, given))
+      deallocate (made_vector)
+      allocate (made_vector(2_c_size_t, d_of, stable_of, given))
+      status = jam_bloch_modes(self%sys, h=h, wave=wave, table=made_table, vector=made_vector)
+    end if
+    if (present(table)) call move_alloc(made_table, table)
+    if (present(vector)) call move_alloc(made_vector, vector)
+    call self%done(status)
+  end subroutine do_bloch_modes
+
   ! Contact network and forces from positions, diameters and box alone, kept as jam_crunch keeps its own; no sphere
   ! moves. Rattlers are the spheres that carry no force. Contacts between the others stay, some with force 0. Forces
   ! are the null vector of S^T, or the analytic centre of the non-negative ones where there are several states of
@@ -1093,8 +1127,8 @@ contains
   ! where the network lists them. There a sphere that they alone hold needs forces on the cell to balance. Let S v be the
   ! opening of contacts by a motion v, and E eps that by a strain eps. Collectively jammed: S v >= 0 only for
   ! translations of B. Strictly jammed: S v + E eps >= 0 with tr eps <= 0 only for those and eps = 0. Both hold for this
-  ! cell, not for several copies of it. Source: Donev et al., J. Comput. Phys. 197, 139 (2004); the guide's page "Jammed
-  ! or not" has more. Status: JAM_OK jammed, JAM_NOT_JAMMED, JAM_AMBIGUOUS undecided.
+  ! cell, not for several copies of it (jam_bloch_rigidity). Source: Donev et al., J. Comput. Phys. 197, 139 (2004); the
+  ! guide's page "Jammed or not" has more. Status: JAM_OK jammed, JAM_NOT_JAMMED, JAM_AMBIGUOUS undecided.
   ! Errors: JAM_E_SOLVER, JAM_E_UNSUPPORTED (strict, with walls).
   function do_rigidity(self, kind) result(found)
     class(packing), intent(inout) :: self
@@ -1134,6 +1168,37 @@ contains
     if (present(strain)) call move_alloc(made_strain, strain)
     call self%done(status)
   end subroutine do_flex
+
+  ! The collective test of jam_rigidity for count[c] copies along each cell vector (jam_tile), from one cell: a row for
+  ! each wave vector of the copies, as in jam_bloch_modes; q_0 runs fastest. Forces averaged over all copies balance in
+  ! one cell, so K+ is that of one cell, and the flexes of the copies are those of all rows together. Status: JAM_OK
+  ! jammed, JAM_NOT_JAMMED, JAM_AMBIGUOUS undecided.
+  ! Shapes: count (d), wave (m, d), table (m, jam_bloch_column).
+  ! Errors: JAM_E_SOLVER, JAM_E_UNSUPPORTED (Mari-Kurchan model, round walls).
+  subroutine do_bloch_rigidity(self, count, wave, table)
+    class(packing), intent(inout) :: self
+    integer(c_int32_t), intent(in), contiguous, target, optional :: count(..)
+    real(c_double), allocatable, intent(out), optional :: wave(:, :)
+    real(c_double), allocatable :: made_wave(:, :)
+    real(c_double), allocatable, intent(out), optional :: table(:, :)
+    real(c_double), allocatable :: made_table(:, :)
+    integer(c_int32_t) :: status
+    integer(c_size_t) :: given, d_of, n_of
+    allocate (made_wave(0, 0))
+    allocate (made_table(0, 0))
+    call self%extents(d_of, n_of)
+    status = jam_bloch_rigidity(self%sys, count=count, rows=given)
+    if (status >= 0) then
+      deallocate (made_wave)
+      allocate (made_wave(d_of, given))
+      deallocate (made_table)
+      allocate (made_table(2_c_size_t, given))
+      status = jam_bloch_rigidity(self%sys, count=count, wave=made_wave, table=made_table)
+    end if
+    if (present(wave)) call move_alloc(made_wave, wave)
+    if (present(table)) call move_alloc(made_table, table)
+    call self%done(status)
+  end subroutine do_bloch_rigidity
 
   ! Tests a packing without moving it, by positions, diameters and cell alone, whatever network the handle has. Nothing
   ! on the handle changes. Runs both tests of jam_rigidity. Coordinates with few digits never give a no unless spheres

@@ -24,6 +24,8 @@ COUNTS = {  # whole numbers that are none
     ("jam_observed_pairs", "collisions"),
     ("jam_pair_correlation", "kind"),
     ("jam_set_cell", "transform"),
+    ("jam_tile", "count"),
+    ("jam_bloch_rigidity", "count"),
 }
 # Words that other packages export too.
 NOT_EXPORTED = ("histogram", "project")

@@ -10,6 +10,7 @@
 %apply (double *FILL, size_t FILL_LEN) {(double *rotation, size_t rotation_len)};
 %apply size_t *RESULT {size_t *rows};
 %apply (const double *IN, size_t IN_LEN) {(const double *strain, size_t strain_len)};
+%apply (const int32_t *IN, size_t IN_LEN) {(const int32_t *count, size_t count_len)};
 %apply (const double *IN, size_t IN_LEN) {(const double *curve, size_t curve_len)};
 %apply (double *FILL, size_t FILL_LEN) {(double *curve, size_t curve_len)};
 %apply double *RESULT {double *volume};
@@ -33,10 +34,12 @@
 %apply (int32_t *FILL, size_t FILL_LEN) {(int32_t *column, size_t column_len)};
 %apply (double *FILL, size_t FILL_LEN) {(double *value, size_t value_len)};
 %apply (double *FILL, size_t FILL_LEN) {(double *vector, size_t vector_len)};
+%apply (const double *IN, size_t IN_LEN) {(const double *wave, size_t wave_len)};
 %apply (double *FILL, size_t FILL_LEN) {(double *force, size_t force_len)};
 %apply (double *FILL, size_t FILL_LEN) {(double *basis, size_t basis_len)};
 %apply double *RESULT {double *residual};
 %apply (double *FILL, size_t FILL_LEN) {(double *strain, size_t strain_len)};
+%apply (double *FILL, size_t FILL_LEN) {(double *wave, size_t wave_len)};
 %apply (const double *IN, size_t IN_LEN) {(const double *ratio, size_t ratio_len)};
 %apply (double *FILL, size_t FILL_LEN) {(double *high, size_t high_len)};
 %apply (double *FILL, size_t FILL_LEN) {(double *low, size_t low_len)};
@@ -467,6 +470,14 @@ Errors: JAM_E_OVERLAP."
 reduced: a simple shear of any size is one call. Velocities change only by the rotation of a reduction.
 Shapes: strain (d, d).
 Errors: JAM_E_OVERLAP, JAM_E_UNSUPPORTED (Mari-Kurchan shifts, where the reduction changes the vectors)."
+%feature("docstring") jam_tile "Copies of src side by side, count[c] along cell vector a_c. Copy (k_0, k_1, ...) stands at sum of k_c a_c; its sphere
+i is number i + n (k_0 + count[0] (k_1 + count[1] ...)). The cell has the vectors count[c] a_c, less multiples of
+earlier ones where that shortens them, in this order. Velocities, contacts, gaps and forces go along, so no crunch is
+needed. With more than one copy the stored report holds counts of the new packing, and its verdicts are untested: it
+may have flexes that src has not. jam_rigidity tests it. Steps, histories and unfinished work stay behind. Along a
+walled axis count is 1.
+Shapes: count (d).
+Errors: JAM_E_UNSUPPORTED (Mari-Kurchan model, walls), JAM_E_OVERLAP (the coordinates no longer resolve the gaps)."
 %feature("docstring") jam_diameters_options_init ""
 %feature("docstring") jam_diameters "Diameters of a law. Quantiles ascend. curve: of LIST and SIEVE, else NULL. Where n follows from packing_fraction, the
 last sphere is adjusted, so that the volumes add up to packing_fraction * cell_volume, to 1e-13 of it. The largest
@@ -688,6 +699,12 @@ Errors: JAM_E_STATE."
 is NaN. Status: JAM_NOT_CONVERGED.
 Shapes: table (m, jam_mode_column), vector (m, N', d).
 Errors: JAM_E_STATE, JAM_E_SOLVER."
+%feature("docstring") jam_bloch_modes "Modes at a wave vector, sum of wave[c] b_c with a_c . b_e = 2 pi delta_ce: the copy of a sphere at sum of s_c a_c
+moves by exp(2 pi i sum wave[c] s_c) times its displacement. All d N', lambda ascending; vector: real and imaginary
+parts, of unit length. Dense, 96 (d N')^2 bytes. The modes of jam_tile are those of all wave[c] = q / count[c], q = 0
+.. count[c] - 1, together; wave 0 has those of jam_modes. Along a walled axis wave is 0.
+Shapes: wave (d), table (m, jam_mode_column), vector (m, N', d, 2).
+Errors: JAM_E_STATE, JAM_E_SOLVER."
 %feature("docstring") jam_geometry_options_init ""
 %feature("docstring") jam_contacts_from_geometry "Contact network and forces from positions, diameters and box alone, kept as jam_crunch keeps its own; no sphere
 moves. Rattlers are the spheres that carry no force. Contacts between the others stay, some with force 0. Forces
@@ -714,14 +731,20 @@ spheres have too few of them. A sphere and its own image are a contact in the st
 where the network lists them. There a sphere that they alone hold needs forces on the cell to balance. Let S v be the
 opening of contacts by a motion v, and E eps that by a strain eps. Collectively jammed: S v >= 0 only for
 translations of B. Strictly jammed: S v + E eps >= 0 with tr eps <= 0 only for those and eps = 0. Both hold for this
-cell, not for several copies of it. Source: Donev et al., J. Comput. Phys. 197, 139 (2004); the guide's page \"Jammed
-or not\" has more. Status: JAM_OK jammed, JAM_NOT_JAMMED, JAM_AMBIGUOUS undecided.
+cell, not for several copies of it (jam_bloch_rigidity). Source: Donev et al., J. Comput. Phys. 197, 139 (2004); the
+guide's page \"Jammed or not\" has more. Status: JAM_OK jammed, JAM_NOT_JAMMED, JAM_AMBIGUOUS undecided.
 Errors: JAM_E_SOLVER, JAM_E_UNSUPPORTED (strict, with walls)."
 %feature("docstring") jam_flex "A motion that a packing which is not jammed can follow: out, unit of the box, and strain, 0 for the collective kind.
 The largest displacement is at most 1 mean diameter. Moving by a small part of both keeps all contacts or opens them.
 Where no pair is near contact, one sphere moves.
 Shapes: out (n, d), strain (d, d).
 Errors: JAM_E_SOLVER, JAM_E_STATE (jammed, or undecided without a motion)."
+%feature("docstring") jam_bloch_rigidity "The collective test of jam_rigidity for count[c] copies along each cell vector (jam_tile), from one cell: a row for
+each wave vector of the copies, as in jam_bloch_modes; q_0 runs fastest. Forces averaged over all copies balance in
+one cell, so K+ is that of one cell, and the flexes of the copies are those of all rows together. Status: JAM_OK
+jammed, JAM_NOT_JAMMED, JAM_AMBIGUOUS undecided.
+Shapes: count (d), wave (m, d), table (m, jam_bloch_column).
+Errors: JAM_E_SOLVER, JAM_E_UNSUPPORTED (Mari-Kurchan model, round walls)."
 %feature("docstring") jam_check_options_init ""
 %feature("docstring") jam_check_packing "Tests a packing without moving it, by positions, diameters and cell alone, whatever network the handle has. Nothing
 on the handle changes. Runs both tests of jam_rigidity. Coordinates with few digits never give a no unless spheres

@@ -223,7 +223,8 @@ typedef int32_t (*jam_progress_fn)(const jam_progress *progress, void *user);
 
 /* ------------------------------------------------------------------ the system */
 
-/* N spheres in a periodic cell; opaque. Made by jam_create, jam_read, jam_read_checkpoint or jam_copy. */
+/* N spheres in a periodic cell; opaque. Made by jam_create, jam_read, jam_read_checkpoint, jam_copy or
+ * jam_tile. */
 typedef struct jam_system jam_system;
 /* What to do with overlaps in given positions. */
 typedef enum jam_overlap_policy {
@@ -354,6 +355,14 @@ JAM_API jam_status jam_set_cell(jam_system *sys, const double *cell, size_t cell
  * reduced: a simple shear of any size is one call. Velocities change only by the rotation of a reduction. @shape strain
  * (d, d) @errors OVERLAP, UNSUPPORTED (Mari-Kurchan shifts, where the reduction changes the vectors) */
 JAM_API jam_status jam_strain(jam_system *sys, const double *strain, size_t strain_len);
+/* Copies of src side by side, count[c] along cell vector a_c. Copy (k_0, k_1, ...) stands at sum of k_c a_c; its sphere
+ * i is number i + n (k_0 + count[0] (k_1 + count[1] ...)). The cell has the vectors count[c] a_c, less multiples of
+ * earlier ones where that shortens them, in this order. Velocities, contacts, gaps and forces go along, so no crunch is
+ * needed. With more than one copy the stored report holds counts of the new packing, and its verdicts are untested: it
+ * may have flexes that src has not. jam_rigidity tests it. Steps, histories and unfinished work stay behind. Along a
+ * walled axis count is 1. @shape count (d) @errors UNSUPPORTED (Mari-Kurchan model, walls), OVERLAP (the coordinates no
+ * longer resolve the gaps) */
+JAM_API jam_status jam_tile(const jam_system *src, const int32_t *count, size_t count_len, jam_system **out);
 
 /* ------------------------------------------------------------------ sizes */
 
@@ -1188,6 +1197,13 @@ JAM_API jam_status jam_hessian(const jam_system *sys, const jam_hessian_options 
  * is NaN. Status: JAM_NOT_CONVERGED. @shape table (m, jam_mode_column), vector (m, N', d) @errors STATE, SOLVER */
 JAM_API jam_status jam_modes(jam_system *sys, const jam_hessian_options *h, const jam_modes_options *o, double *table,
                              size_t table_len, double *vector, size_t vector_len, size_t *rows);
+/* Modes at a wave vector, sum of wave[c] b_c with a_c . b_e = 2 pi delta_ce: the copy of a sphere at sum of s_c a_c
+ * moves by exp(2 pi i sum wave[c] s_c) times its displacement. All d N', lambda ascending; vector: real and imaginary
+ * parts, of unit length. Dense, 96 (d N')^2 bytes. The modes of jam_tile are those of all wave[c] = q / count[c], q = 0
+ * .. count[c] - 1, together; wave 0 has those of jam_modes. Along a walled axis wave is 0. @shape wave (d), table (m,
+ * jam_mode_column), vector (m, N', d, 2) @errors STATE, SOLVER */
+JAM_API jam_status jam_bloch_modes(jam_system *sys, const jam_hessian_options *h, const double *wave, size_t wave_len,
+                                   double *table, size_t table_len, double *vector, size_t vector_len, size_t *rows);
 
 /* ------------- network from geometry, states of self-stress */
 /* Options of jam_contacts_from_geometry. */
@@ -1287,8 +1303,9 @@ typedef struct jam_rigidity_report {
  * where the network lists them. There a sphere that they alone hold needs forces on the cell to balance. Let S v be the
  * opening of contacts by a motion v, and E eps that by a strain eps. Collectively jammed: S v >= 0 only for
  * translations of B. Strictly jammed: S v + E eps >= 0 with tr eps <= 0 only for those and eps = 0. Both hold for this
- * cell, not for several copies of it. Source: Donev et al., J. Comput. Phys. 197, 139 (2004); the guide's page "Jammed
- * or not" has more. Status: JAM_OK jammed, JAM_NOT_JAMMED, JAM_AMBIGUOUS undecided. @enum kind jam_rigidity_kind
+ * cell, not for several copies of it (jam_bloch_rigidity). Source: Donev et al., J. Comput. Phys. 197, 139 (2004); the
+ * guide's page "Jammed or not" has more. Status: JAM_OK jammed, JAM_NOT_JAMMED, JAM_AMBIGUOUS undecided. @enum kind
+ * jam_rigidity_kind
  * @errors SOLVER, UNSUPPORTED (strict, with walls) */
 JAM_API jam_status jam_rigidity(jam_system *sys, int32_t kind, jam_rigidity_report *report);
 /* A motion that a packing which is not jammed can follow: out, unit of the box, and strain, 0 for the collective kind.
@@ -1297,6 +1314,18 @@ JAM_API jam_status jam_rigidity(jam_system *sys, int32_t kind, jam_rigidity_repo
  * @errors SOLVER, STATE (jammed, or undecided without a motion) */
 JAM_API jam_status jam_flex(jam_system *sys, int32_t kind, double *out, size_t out_len, double *strain,
                             size_t strain_len, size_t *needed);
+/* Columns of jam_bloch_rigidity. */
+typedef enum jam_bloch_column {
+  JAM_BLOCH_FLEXES = 0, /* complex motions at this wave vector that keep K+ closed, without translations */
+  JAM_BLOCH_MARGIN = 1  /* least other eigenvalue of S^T S on K+; below 1e-12: a flex; NaN without K+ */
+} jam_bloch_column;
+/* The collective test of jam_rigidity for count[c] copies along each cell vector (jam_tile), from one cell: a row for
+ * each wave vector of the copies, as in jam_bloch_modes; q_0 runs fastest. Forces averaged over all copies balance in
+ * one cell, so K+ is that of one cell, and the flexes of the copies are those of all rows together. Status: JAM_OK
+ * jammed, JAM_NOT_JAMMED, JAM_AMBIGUOUS undecided. @shape count (d), wave (m, d), table (m, jam_bloch_column) @errors
+ * SOLVER, UNSUPPORTED (Mari-Kurchan model, round walls) */
+JAM_API jam_status jam_bloch_rigidity(jam_system *sys, const int32_t *count, size_t count_len, double *wave,
+                                      size_t wave_len, double *table, size_t table_len, size_t *rows);
 
 /* Why jam_check_packing answers as it does. */
 typedef enum jam_check_reason {

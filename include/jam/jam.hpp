@@ -153,6 +153,12 @@ class System {
     made.adopt([&](jam_system **out) { return jam_copy(get(), out); });
     return made;
   }
+  // Copies side by side: count[c] of them along each cell vector.
+  System tile(const std::vector<std::int32_t> &count) const {
+    System made;
+    made.adopt([&](jam_system **out) { return jam_tile(get(), count.data(), count.size(), out); });
+    return made;
+  }
 
   jam_system *get() const {
     if (!handle_) throw std::logic_error("jam::System: moved from");

@@ -17,6 +17,8 @@ struct ModesTuning {
   static constexpr int probes = 200, probe_restarts = 20, at_once = 6;
   static constexpr double probe_tolerance = 1e-3;
   static constexpr double spent = 1e-3;  // what is left of a zero mode beside those found so far
+  // Each frequency at a wave vector is found twice: frequencies this close, over the largest, may be mixed.
+  static constexpr double mixed = 1e-11;
 };
 
 // ---- dense eigenvalue problems

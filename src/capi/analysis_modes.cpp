@@ -1,8 +1,10 @@
 // Header section "analysis": Hessian and modes.
 #include <algorithm>
+#include "analysis/bloch.hpp"
 #include "analysis/modes.hpp"
 #include "capi/analysis.hpp"
 #include "capi/table.hpp"
+#include "core/limits.hpp"
 
 using namespace jam;
 
@@ -70,6 +72,42 @@ jam_status jam_modes(jam_system *sys, const jam_hessian_options *h, const jam_mo
       put_column(modes.participation, JAM_MODE_PARTICIPATION, columns, table);
     }
     return status;
+  });
+}
+
+jam_status jam_bloch_modes(jam_system *sys, const jam_hessian_options *h, const double *wave, size_t wave_len,
+                           double *table, size_t table_len, double *vector, size_t vector_len, size_t *rows) {
+  return guard_cancellable(sys, [&]() -> jam_status {
+    const jam_hessian_options options = take_hessian_options(h);
+    const Packing &p = sys->packing;
+    need(wave, "wave");
+    if (wave_len != static_cast<size_t>(p.dim))
+      fail(JAM_E_ARGUMENT, "wave_len is %zu, it must be dim = %d", wave_len, p.dim);
+    check_array_in(wave, wave_len, "wave");
+    for (int c = 0; c < p.dim; ++c) {
+      check_range("wave", wave[c], -limits::wave_max, limits::wave_max);
+      if (!p.cell.repeats(c) && wave[c] != 0.0)
+        fail(JAM_E_ARGUMENT, "wave[%d] is %g, and nothing repeats along this axis: a wall bounds it", c, wave[c]);
+    }
+    need_network(sys);
+    const RigidityMatrix g = make_rigidity_matrix(p, sys->contacts);
+    const size_t n = g.unknowns();
+    constexpr size_t columns = JAM_MODE_PARTICIPATION + 1;
+    if (!rows && !table && !vector) fail(JAM_E_NULL, "rows is NULL and there is no output array");
+    if (rows) *rows = n;
+    check_output(table, table_len, columns * n, "table");
+    check_output(vector, vector_len, 2 * n * n, "vector");
+    if (n == 0) return JAM_NOT_JAMMED;
+    if (!table && !vector) return JAM_OK;
+    need_memory_for_bloch(g);
+    const Modes modes =
+        bloch_modes(g, contact_weights(g, diameter_mean(p), options), cells_back(p, sys->contacts), wave, true);
+    put_output(modes.vector, vector, 2 * n * n);
+    if (table) {
+      put_column(modes.lambda, JAM_MODE_LAMBDA, columns, table);
+      put_column(modes.participation, JAM_MODE_PARTICIPATION, columns, table);
+    }
+    return JAM_OK;
   });
 }
 

@@ -1,4 +1,4 @@
-// Header section "the cell": cell vectors and affine strain.
+// Header section "the cell": cell vectors, affine strain, copies side by side.
 #include <algorithm>
 #include <limits>
 
@@ -8,6 +8,8 @@
 #include "core/cell_reduction.hpp"
 #include "core/create.hpp"
 #include "core/digits.hpp"
+#include "network/certificate.hpp"
+#include "network/tile.hpp"
 
 using namespace jam;
 
@@ -18,6 +20,24 @@ void take_cell(jam_system *sys, Packing &p) {
   settle_overlaps(p, p.overlap_allowed ? JAM_OVERLAP_ALLOW : JAM_OVERLAP_REFUSE);
   sys->commit(p);
   sys->packing.given = p.given;
+}
+
+// Of the copies of a packing with a report: what follows from positions and forces. Forces balance as before; whether
+// more spheres have more motions is not known.
+jam_crunch_report report_of_copies(const SystemState &of, const Packing &p, const ContactNetwork &net, int64_t copies) {
+  bool own_images = false;
+  for (size_t k = 0; k < of.contacts.size(); ++k) own_images = own_images || of.contacts.pairs.own_image(k);
+  jam_crunch_report r{};
+  r.struct_size = sizeof r;
+  certify(p, net, r, own_images);
+  r.lp_solver = of.report.lp_solver, r.method = of.report.method, r.stationary = of.report.stationary;
+  r.zero_force_contacts = copies * of.report.zero_force_contacts;
+  r.undecided_contacts = copies * of.report.undecided_contacts;
+  r.undercoordinated = copies * of.report.undercoordinated;
+  r.flexes = -1;
+  r.rigidity_margin = r.gain = r.max_step = r.gamma_residual = r.duality_gap = std::numeric_limits<double>::quiet_NaN();
+  r.status = JAM_OK;
+  return r;
 }
 
 }  // namespace
@@ -84,6 +104,34 @@ jam_status jam_strain(jam_system *sys, const double *strain, size_t strain_len) 
     take_cell(sys, p);
     return JAM_OK;
   });
+}
+
+jam_status jam_tile(const jam_system *src, const int32_t *count, size_t count_len, jam_system **out) {
+  const auto make = [&]() -> jam_status {
+    need(count, "count");
+    need(out, "out");
+    const Packing &p = src->packing;
+    if (count_len != static_cast<size_t>(p.dim))
+      fail(JAM_E_ARGUMENT, "count_len is %zu, it must be dim = %d", count_len, p.dim);
+    const Copies copies(p, count);
+    auto sys = std::make_unique<jam_system>();
+    const bool known = src->known_contacts() != nullptr;
+    if (known) sys->contacts = src->contacts;
+    sys->packing = tile(p, copies, known ? &sys->contacts : nullptr);
+    sys->note_diameters();
+    sys->has_report = known;
+    if (known)
+      sys->report =
+          copies.number() == 1 ? src->report : report_of_copies(*src, sys->packing, sys->contacts, copies.number());
+    sys->memory_limit = src->memory_limit;
+    sys->notes = src->notes;
+    if (copies.number() > 1)
+      sys->notes.say("%lld copies of a packing of %zu spheres side by side", static_cast<long long>(copies.number()),
+                     p.n());
+    *out = sys.release();
+    return JAM_OK;
+  };
+  return guard_const(src, make, "src");
 }
 
 }  // extern "C"

@@ -1,5 +1,7 @@
 // Header section "jammed or not".
+#include "analysis/bloch.hpp"
 #include "capi/analysis.hpp"
+#include "capi/table.hpp"
 #include "core/checks.hpp"
 #include "network/certificate.hpp"
 #include "network/rigidity_test.hpp"
@@ -41,22 +43,34 @@ Answer answer_of(const jam_rigidity_report &r) {
                    kind, n(r.undecided_contacts), r.rigidity_margin)};
 }
 
-PackingVerdict test(const jam_system *sys, Jamming kind) {
-  const Packing &p = sys->packing;
-  const GapResolution resolution = gap_resolution(p);
-  // Positions alone say which spheres touch: what a network lists beyond that does not count, but for own images, as a
-  // free cell makes them contacts.
+// Positions alone say which spheres touch: what a network lists beyond that does not count, but for own images, as a
+// free cell makes them contacts.
+ContactNetwork listed_contacts(const jam_system *sys) {
   ContactNetwork closed;
   if (const ContactNetwork *known = sys->known_contacts()) {
     std::vector<char> on(known->size());
     for (size_t k = 0; k < on.size(); ++k) on[k] = known->pairs.own_image(k) || known->gap[k] < contact_gap_limit;
-    closed = subset(*known, on, p.dim);
+    closed = subset(*known, on, sys->packing.dim);
   }
+  return closed;
+}
+
+// By the contacts of the fixed cell.
+PackingVerdict test_collective(const Packing &p, const GapResolution &resolution, const ContactNetwork *listed) {
+  PackingVerdict v = test_packing(p, resolution, listed, Jamming::collective);
+  if (!p.container) decide_by_proof(p, v), confirm_by_exchange(p, v);
+  return v;
+}
+
+PackingVerdict test(const jam_system *sys, Jamming kind) {
+  const Packing &p = sys->packing;
+  const GapResolution resolution = gap_resolution(p);
+  const ContactNetwork closed = listed_contacts(sys);
   const ContactNetwork *listed = closed.size() ? &closed : nullptr;
-  PackingVerdict v = test_packing(p, resolution, listed, kind);
-  if (p.container) return v;
-  if (kind == Jamming::collective) decide_by_proof(p, v), confirm_by_exchange(p, v);
-  if (kind == Jamming::strict || v.result.jammed == Verdict::yes || !may_touch_own_image(p, resolution)) return v;
+  PackingVerdict v =
+      kind == Jamming::strict ? test_packing(p, resolution, listed, kind) : test_collective(p, resolution, listed);
+  if (kind == Jamming::strict || p.container || v.result.jammed == Verdict::yes || !may_touch_own_image(p, resolution))
+    return v;
   PackingVerdict strict = test_packing(p, resolution, listed, Jamming::strict);
   if (strict.result.jammed == Verdict::yes) return strict;
   if (strict.result.jammed == Verdict::undecided) v.result.jammed = Verdict::undecided;
@@ -122,6 +136,47 @@ jam_status jam_flex(jam_system *sys, int32_t kind, double *out, size_t out_len, 
     put_output(motion, out, size);
     put_output(eps, strain, d * d);
     return JAM_OK;
+  });
+}
+
+jam_status jam_bloch_rigidity(jam_system *sys, const int32_t *count, size_t count_len, double *wave, size_t wave_len,
+                              double *table, size_t table_len, size_t *rows) {
+  return guard_cancellable(sys, [&]() -> Answer {
+    const Packing &p = sys->packing;
+    need(count, "count");
+    if (count_len != static_cast<size_t>(p.dim))
+      fail(JAM_E_ARGUMENT, "count_len is %zu, it must be dim = %d", count_len, p.dim);
+    if (p.container.round_axes() > 0)
+      fail(JAM_E_UNSUPPORTED, "the curvature of a round wall may stabilise flexes: tile the packing, then test it");
+    if (p.model == JAM_MODEL_MK)
+      fail(JAM_E_UNSUPPORTED, "Mari-Kurchan spheres have no copies: shifts are drawn for each pair");
+    const Copies copies(p, count);
+    const auto m = static_cast<size_t>(copies.number());
+    constexpr size_t columns = JAM_BLOCH_MARGIN + 1;
+    if (!rows && !table && !wave) fail(JAM_E_NULL, "rows is NULL and there is no output array");
+    check_output(wave, wave_len, m * count_len, "wave");
+    check_output(table, table_len, columns * m, "table");
+    if (rows) *rows = m;
+    if (!table && !wave) return JAM_OK;
+    const ContactNetwork closed = listed_contacts(sys);
+    const BlochFlexes found =
+        bloch_flexes(p, test_collective(p, gap_resolution(p), closed.size() ? &closed : nullptr), copies);
+    put_output(found.wave, wave, m * count_len);
+    if (table) {
+      put_column(found.flexes, JAM_BLOCH_FLEXES, columns, table);
+      put_column(found.margin, JAM_BLOCH_MARGIN, columns, table);
+    }
+    if (found.jammed == Verdict::yes) return JAM_OK;
+    if (found.jammed == Verdict::undecided)
+      return {JAM_AMBIGUOUS,
+              "undecided whether the copies are collectively jammed: doubles or the digits of the "
+              "coordinates do not resolve it; jam_crunch closes contacts"};
+    return {JAM_NOT_JAMMED,
+            found.total > 0
+                ? sentence("the copies are not collectively jammed: %lld motions at these wave vectors keep "
+                           "all contacts with force closed",
+                           static_cast<long long>(found.total))
+                : "the copies are not jammed: no set of non-negative contact forces is in balance"};
   });
 }
 

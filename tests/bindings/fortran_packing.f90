@@ -137,6 +137,8 @@ contains
     call expect(all(cell == tilted), 'cell vectors in columns')
     call one%from_arrays(2*x, [0.1_c_double], box=2.0_c_double)
     call expect(all(one%positions() == 2*x) .and. all(one%diameters() == 0.1_c_double), 'from arrays')
+    call other%tile(one, [3, 2])
+    call expect(all(shape(other%positions()) == [2, 12]) .and. all(other%diameters() == 0.1_c_double), 'tile')
     call expect(size(jam_sizes('list:1=0.5,1.4=0.5', n=10)) == 10, 'sizes')
   end subroutine copies_and_cells
 

@@ -1309,6 +1309,8 @@ int main(void) {
   printf("JAM_VERDICT_NO value %d\n", (int)JAM_VERDICT_NO);
   printf("JAM_VERDICT_YES value %d\n", (int)JAM_VERDICT_YES);
   printf("JAM_VERDICT_UNDECIDED value %d\n", (int)JAM_VERDICT_UNDECIDED);
+  printf("JAM_BLOCH_FLEXES value %d\n", (int)JAM_BLOCH_FLEXES);
+  printf("JAM_BLOCH_MARGIN value %d\n", (int)JAM_BLOCH_MARGIN);
   printf("JAM_CHECK_PROOF value %d\n", (int)JAM_CHECK_PROOF);
   printf("JAM_CHECK_APART value %d\n", (int)JAM_CHECK_APART);
   printf("JAM_CHECK_NO_FORCE value %d\n", (int)JAM_CHECK_NO_FORCE);

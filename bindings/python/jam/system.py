@@ -16,6 +16,7 @@ from ._api.results import Contacts, Modes
 from ._api.size_laws import density_of
 from ._formats import ase, gsd
 from ._system.converting import Converting
+from ._system.copies import Copies
 from ._system.pore_space import PoreSpace
 from ._system.progress import end, reporter
 from ._system.verbs import Verbs
@@ -24,7 +25,7 @@ from ._system.writing import Writing
 __all__ = ["Contacts", "Modes", "System"]
 
 
-class System(Verbs, Writing, PoreSpace, Converting):
+class System(Verbs, Writing, PoreSpace, Copies, Converting):
     """N spheres in a periodic cube, or in any periodic cell.
 
     Make one by `System.random`, `System.from_arrays` or `System.read`. `run`, `compress` and `crunch` move the spheres.

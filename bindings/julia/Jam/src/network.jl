@@ -102,6 +102,33 @@ function modes(s::System, k::Integer = 10; progress = nothing, given...)
 end
 
 """
+    bloch_modes(s, wave; stiffness, alpha, prestress, progress)
+
+All modes at a wave vector, in units of the reciprocal cell vectors: as `modes`, with complex `vectors`. The copy of a sphere s cells
+away moves by exp(2 pi i wave . s) times its own displacement. The modes of `tile(s, count)` are those of all wave = q ./ count.
+"""
+function bloch_modes(s::System, wave; progress = nothing, given...)
+    made = call(s, :jam_bloch_modes, (collect(Float64, wave),); progress = progress, given...)
+    found = columns(made.table)
+    parts = reshape(made.vector, 2, :, length(found.lambda))
+    return (values = found.lambda, vectors = complex.(parts[1, :, :], parts[2, :, :]), participation = found.participation,
+            spheres = hessian_map(s))
+end
+
+"""
+    bloch_rigidity(s, count; progress) -> (wave, flexes, margin)
+
+Tests from one cell whether `count[c]` copies along each cell vector are collectively jammed; `status(s)` has the answer. A column of
+`wave` for each wave vector of the copies, the complex motions there that keep all contacts with force closed, and the least other
+eigenvalue of S'S.
+"""
+function bloch_rigidity(s::System, count; progress = nothing)
+    made = call(s, :jam_bloch_rigidity, (collect(Int32, count),); progress = progress)
+    found = columns(made.table)
+    return (wave = made.wave, flexes = Int.(found.flexes), margin = found.margin)
+end
+
+"""
     pair_correlation(s, r_max = 4, bins = 200; labels, a, b) -> (r, g)
 
 g(r) in equal bins up to `r_max` mean diameters; with `labels`, a whole number a sphere, that of spheres `a` around `b`.

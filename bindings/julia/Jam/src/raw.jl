@@ -295,6 +295,10 @@ const JAM_VERDICT_NO = Int32(0)  # not jammed, with a proof: no balanced forces,
 const JAM_VERDICT_YES = Int32(1)  # jammed, with a proof: positive forces that balance, and full rank
 const JAM_VERDICT_UNDECIDED = Int32(2)  # double precision cannot decide
 
+# jam_bloch_column: Columns of jam_bloch_rigidity.
+const JAM_BLOCH_FLEXES = Int32(0)  # complex motions at this wave vector that keep K+ closed, without translations
+const JAM_BLOCH_MARGIN = Int32(1)  # least other eigenvalue of S^T S on K+; below 1e-12: a flex; NaN without K+
+
 # jam_check_reason: Why jam_check_packing answers as it does.
 const JAM_CHECK_PROOF = Int32(0)  # jammed: positive forces balance, and the rank is full
 const JAM_CHECK_APART = Int32(1)  # not: no two spheres touch
@@ -2000,6 +2004,22 @@ function jam_strain(sys, strain, strain_len)
 end
 
 """
+    jam_tile(src, count, count_len, out)
+
+Copies of src side by side, count[c] along cell vector `a_c`. Copy (`k_0`, `k_1`, ...) stands at sum of `k_c` `a_c`; its sphere
+i is number i + n (`k_0` + count[0] (`k_1` + count[1] ...)). The cell has the vectors count[c] `a_c`, less multiples of
+earlier ones where that shortens them, in this order. Velocities, contacts, gaps and forces go along, so no crunch is
+needed. With more than one copy the stored report holds counts of the new packing, and its verdicts are untested: it
+may have flexes that src has not. `jam_rigidity` tests it. Steps, histories and unfinished work stay behind. Along a
+walled axis count is 1.
+Shapes: count (d).
+Errors: `JAM_E_UNSUPPORTED` (Mari-Kurchan model, walls), `JAM_E_OVERLAP` (the coordinates no longer resolve the gaps).
+"""
+function jam_tile(src, count, count_len, out)
+    return ccall((:jam_tile, libjam), Int32, (Ptr{Cvoid}, Ptr{Int32}, Csize_t, Ref{Ptr{Cvoid}}), src, _ptr(count), count_len, out)
+end
+
+"""
     jam_diameters_options_init(o, size)
 """
 function jam_diameters_options_init(o, size)
@@ -2711,6 +2731,20 @@ function jam_modes(sys, h, o, table, table_len, vector, vector_len, rows)
 end
 
 """
+    jam_bloch_modes(sys, h, wave, wave_len, table, table_len, vector, vector_len, rows)
+
+Modes at a wave vector, sum of wave[c] `b_c` with `a_c` . `b_e` = 2 pi `delta_ce`: the copy of a sphere at sum of `s_c` `a_c`
+moves by exp(2 pi i sum wave[c] `s_c`) times its displacement. All d N', lambda ascending; vector: real and imaginary
+parts, of unit length. Dense, 96 (d N')^2 bytes. The modes of `jam_tile` are those of all wave[c] = q / count[c], q = 0
+.. count[c] - 1, together; wave 0 has those of `jam_modes`. Along a walled axis wave is 0.
+Shapes: wave (d), table (m, `jam_mode_column`), vector (m, N', d, 2).
+Errors: `JAM_E_STATE`, `JAM_E_SOLVER`.
+"""
+function jam_bloch_modes(sys, h, wave, wave_len, table, table_len, vector, vector_len, rows)
+    return ccall((:jam_bloch_modes, libjam), Int32, (Ptr{Cvoid}, Ref{jam_hessian_options}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ref(jam_hessian_options, h), _ptr(wave), wave_len, _ptr(table), table_len, _ptr(vector), vector_len, _ref(Csize_t, rows))
+end
+
+"""
     jam_geometry_options_init(o, size)
 """
 function jam_geometry_options_init(o, size)
@@ -2769,8 +2803,8 @@ spheres have too few of them. A sphere and its own image are a contact in the st
 where the network lists them. There a sphere that they alone hold needs forces on the cell to balance. Let S v be the
 opening of contacts by a motion v, and E eps that by a strain eps. Collectively jammed: S v >= 0 only for
 translations of B. Strictly jammed: S v + E eps >= 0 with tr eps <= 0 only for those and eps = 0. Both hold for this
-cell, not for several copies of it. Source: Donev et al., J. Comput. Phys. 197, 139 (2004); the guide's page "Jammed
-or not" has more. Status: `JAM_OK` jammed, `JAM_NOT_JAMMED`, `JAM_AMBIGUOUS` undecided.
+cell, not for several copies of it (`jam_bloch_rigidity`). Source: Donev et al., J. Comput. Phys. 197, 139 (2004); the
+guide's page "Jammed or not" has more. Status: `JAM_OK` jammed, `JAM_NOT_JAMMED`, `JAM_AMBIGUOUS` undecided.
 Errors: `JAM_E_SOLVER`, `JAM_E_UNSUPPORTED` (strict, with walls).
 """
 function jam_rigidity(sys, kind, report)
@@ -2788,6 +2822,20 @@ Errors: `JAM_E_SOLVER`, `JAM_E_STATE` (jammed, or undecided without a motion).
 """
 function jam_flex(sys, kind, out, out_len, strain, strain_len, needed)
     return ccall((:jam_flex, libjam), Int32, (Ptr{Cvoid}, Int32, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, kind, _ptr(out), out_len, _ptr(strain), strain_len, _ref(Csize_t, needed))
+end
+
+"""
+    jam_bloch_rigidity(sys, count, count_len, wave, wave_len, table, table_len, rows)
+
+The collective test of `jam_rigidity` for count[c] copies along each cell vector (`jam_tile`), from one cell: a row for
+each wave vector of the copies, as in `jam_bloch_modes`; `q_0` runs fastest. Forces averaged over all copies balance in
+one cell, so K+ is that of one cell, and the flexes of the copies are those of all rows together. Status: `JAM_OK`
+jammed, `JAM_NOT_JAMMED`, `JAM_AMBIGUOUS` undecided.
+Shapes: count (d), wave (m, d), table (m, `jam_bloch_column`).
+Errors: `JAM_E_SOLVER`, `JAM_E_UNSUPPORTED` (Mari-Kurchan model, round walls).
+"""
+function jam_bloch_rigidity(sys, count, count_len, wave, wave_len, table, table_len, rows)
+    return ccall((:jam_bloch_rigidity, libjam), Int32, (Ptr{Cvoid}, Ptr{Int32}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(count), count_len, _ptr(wave), wave_len, _ptr(table), table_len, _ref(Csize_t, rows))
 end
 
 """

@@ -103,6 +103,26 @@ function Base.copy(s::System)
 end
 
 """
+    tile(s, count)
+
+An exact supercell: `count[c]` copies side by side along each cell vector, with velocities, contacts and forces. A packing that is
+jammed in one cell may not be jammed here: `rigidity` tests it. Sphere i of copy (k1, k2, ...), counted from 0, is number
+`i + n * (k1 + count[1] * (k2 + count[2] * ...))`.
+
+```jldoctest
+julia> s = System(n = 16, dim = 2, seed = 1, diameters = repeat([1.0, 1.4], 8)); crunch!(s);
+
+julia> t = tile(s, (3, 2)); length(forces(t)) == 6 * length(forces(s))
+true
+```
+"""
+function tile(s::System, count)
+    out, copies = Ref{Ptr{Cvoid}}(C_NULL), collect(Int32, count)
+    check(jam_tile(handle(s), copies, length(copies), out))
+    return System(out[])
+end
+
+"""
     info(s)
 
 What the system is now: n, dim, box, packing_fraction, pressure, ...

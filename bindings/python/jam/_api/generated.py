@@ -383,6 +383,12 @@ class Verdict(_Word):
     UNDECIDED = 2  # double precision cannot decide
 
 
+class BlochColumn(_Word):
+    """Columns of jam_bloch_rigidity."""
+    FLEXES = 0  # complex motions at this wave vector that keep K+ closed, without translations
+    MARGIN = 1  # least other eigenvalue of S^T S on K+; below 1e-12: a flex; NaN without K+
+
+
 class CheckReason(_Word):
     """Why jam_check_packing answers as it does."""
     PROOF = 0  # jammed: positive forces balance, and the rank is full
@@ -1438,7 +1444,9 @@ TABLES = {
     "jam_crunch_history": 20,
     "jam_decompress_history": 11,
     "jam_modes": 2,
+    "jam_bloch_modes": 2,
     "jam_contact_candidates": 4,
+    "jam_bloch_rigidity": 2,
     "jam_structure_factor": 2,
     "jam_solid_profile": 3,
     "jam_pore_sizes": 5,
@@ -1469,8 +1477,10 @@ EXTENTS: dict[str, dict[str, tuple[str, ...]]] = {
     "jam_hessian_map": {'out': ("N'",)},
     "jam_hessian": {'row_start': ("d N' + 1",), 'column': ('entries',), 'value': ('entries',)},
     "jam_modes": {'vector': ('m', "N'", 'd')},
+    "jam_bloch_modes": {'vector': ('m', "N'", 'd', '2')},
     "jam_stress_states": {'force': ('n_c',), 'basis': ('m', 'n_c')},
     "jam_flex": {'out': ('n', 'd'), 'strain': ('d', 'd')},
+    "jam_bloch_rigidity": {'wave': ('m', 'd')},
     "jam_refined_positions": {'high': ('n', 'd'), 'low': ('n', 'd')},
     "jam_gaps": {'gap': ('gaps',), 'pair': ('gaps', '2')},
     "jam_contact_classes": {'out': ('n_c',)},
@@ -1505,6 +1515,7 @@ CALLS = {
     "jam_get_cell": (True, (("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_set_cell": (True, (("cell", "array_in", "double"), ("cell_len", "len", "size_t"), ("transform", "array_out", "int64_t"), ("transform_len", "len", "size_t"), ("rotation", "array_out", "double"), ("rotation_len", "len", "size_t"), ("rows", "scalar_out", "size_t"))),
     "jam_strain": (True, (("strain", "array_in", "double"), ("strain_len", "len", "size_t"))),
+    "jam_tile": (True, (("count", "array_in", "int32_t"), ("count_len", "len", "size_t"), ("out", "new_handle", "jam_system"))),
     "jam_diameters": (False, (("o", "struct_in", "jam_diameters_options"), ("curve", "array_in", "double"), ("curve_len", "len", "size_t"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_parse_diameters": (False, (("text", "string", "char"), ("o", "struct_out", "jam_diameters_options"), ("curve", "array_out", "double"), ("curve_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_cell_volume": (False, (("dim", "scalar", "int32_t"), ("cell", "array_in", "double"), ("cell_len", "len", "size_t"), ("volume", "scalar_out", "double"))),
@@ -1555,11 +1566,13 @@ CALLS = {
     "jam_hessian_map": (True, (("out", "array_out", "int32_t"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_hessian": (True, (("h", "struct_in", "jam_hessian_options"), ("row_start", "array_out", "int32_t"), ("row_start_len", "len", "size_t"), ("column", "array_out", "int32_t"), ("column_len", "len", "size_t"), ("value", "array_out", "double"), ("value_len", "len", "size_t"), ("rows", "scalar_out", "size_t"))),
     "jam_modes": (True, (("h", "struct_in", "jam_hessian_options"), ("o", "struct_in", "jam_modes_options"), ("table", "array_out", "double"), ("table_len", "len", "size_t"), ("vector", "array_out", "double"), ("vector_len", "len", "size_t"), ("rows", "scalar_out", "size_t"))),
+    "jam_bloch_modes": (True, (("h", "struct_in", "jam_hessian_options"), ("wave", "array_in", "double"), ("wave_len", "len", "size_t"), ("table", "array_out", "double"), ("table_len", "len", "size_t"), ("vector", "array_out", "double"), ("vector_len", "len", "size_t"), ("rows", "scalar_out", "size_t"))),
     "jam_contacts_from_geometry": (True, (("o", "struct_in", "jam_geometry_options"), ("report", "struct_out", "jam_geometry_report"))),
     "jam_contact_candidates": (True, (("window", "scalar", "double"), ("table", "array_out", "double"), ("table_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_stress_states": (True, (("force", "array_out", "double"), ("force_len", "len", "size_t"), ("basis", "array_out", "double"), ("basis_len", "len", "size_t"), ("residual", "scalar_out", "double"), ("rows", "scalar_out", "size_t"))),
     "jam_rigidity": (True, (("kind", "scalar", "RigidityKind"), ("report", "struct_out", "jam_rigidity_report"))),
     "jam_flex": (True, (("kind", "scalar", "RigidityKind"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("strain", "array_out", "double"), ("strain_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_bloch_rigidity": (True, (("count", "array_in", "int32_t"), ("count_len", "len", "size_t"), ("wave", "array_out", "double"), ("wave_len", "len", "size_t"), ("table", "array_out", "double"), ("table_len", "len", "size_t"), ("rows", "scalar_out", "size_t"))),
     "jam_check_packing": (True, (("o", "struct_in", "jam_check_options"), ("report", "struct_out", "jam_check_report"))),
     "jam_prove": (True, (("ratio", "array_in", "double"), ("ratio_len", "len", "size_t"), ("report", "struct_out", "jam_proof_report"))),
     "jam_prove_strict": (True, (("report", "struct_out", "jam_proof_report"),)),

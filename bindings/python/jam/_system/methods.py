@@ -751,8 +751,9 @@ class Methods:
         network lists them. There a sphere that they alone hold needs forces on the cell to balance. Let S v be the
         opening of contacts by a motion v, and E eps that by a strain eps. Collectively jammed: S v >= 0 only for
         translations of B. Strictly jammed: S v + E eps >= 0 with tr eps <= 0 only for those and eps = 0. Both hold
-        for this cell, not for several copies of it. Source: Donev et al., J. Comput. Phys. 197, 139 (2004); the
-        guide's page "Jammed or not" has more. Status: 'ok' jammed, 'not_jammed', 'ambiguous' undecided.
+        for this cell, not for several copies of it (bloch_rigidity()). Source: Donev et al., J. Comput. Phys. 197,
+        139 (2004); the guide's page "Jammed or not" has more. Status: 'ok' jammed, 'not_jammed', 'ambiguous'
+        undecided.
 
         Parameters
         ----------

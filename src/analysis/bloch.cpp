@@ -1,0 +1,217 @@
+#include "analysis/bloch.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <Eigen/Dense>
+
+#include "analysis/tuning.hpp"
+#include "core/call_scope.hpp"
+#include "core/math.hpp"
+#include "linalg/blas.hpp"
+
+namespace jam {
+namespace {
+
+struct Phase {
+  double cosine, sine;
+};
+
+// exp(-2 pi i q . s); whole turns are taken off first, so that it is exact where it is real.
+Phase phase_of(const double *q, const std::array<int32_t, JAM_MAX_DIM> &s, int dim) {
+  double turns = 0.0;
+  for (int c = 0; c < dim; ++c) {
+    const double t = q[c] * s[c];
+    turns += t - std::nearbyint(t);
+  }
+  turns -= std::nearbyint(turns);
+  const bool real = turns == 0.0 || std::fabs(turns) == 0.5;
+  return {math::cos_of_turns(turns), real ? 0.0 : -math::cos_of_turns(turns - 0.25)};
+}
+
+// The lower triangle of the symmetric matrix that stands for the Hermitian one, column after column.
+class Hermitian {
+ public:
+  Hermitian(int n, bool real) : n_(n), size_(real ? n : 2 * n), a_(static_cast<size_t>(size_) * size_, 0.0) {}
+  int size() const { return size_; }
+  std::vector<double> &entries() { return a_; }
+  // Adds block * phase to the block (i, j).
+  void add(int32_t i, int32_t j, const double *block, double factor, Phase phase, int d) {
+    for (int r = 0; r < d; ++r)
+      for (int c = 0; c < d; ++c) {
+        const double x = factor * block[r * d + c];
+        put(i * d + r, j * d + c, x * phase.cosine);
+        if (size_ == n_) continue;
+        put(n_ + i * d + r, n_ + j * d + c, x * phase.cosine);
+        put(n_ + i * d + r, j * d + c, x * phase.sine);
+      }
+  }
+
+ private:
+  void put(int row, int column, double x) {
+    if (row >= column) a_[static_cast<size_t>(column) * size_ + row] += x;
+  }
+  int n_, size_;
+  std::vector<double> a_;
+};
+
+// Of the vectors (x, y) of the symmetric matrix to frequencies that may be mixed, half as many x + i y that span the
+// same. Those that are farthest from the span so far come first.
+void take_complex(const double *vectors, int n, size_t first, size_t last, Eigen::MatrixXcd &out) {
+  const auto count = static_cast<Eigen::Index>(last - first);
+  Eigen::MatrixXcd left(n, count);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const double *v = &vectors[(first + static_cast<size_t>(k)) * 2 * static_cast<size_t>(n)];
+    for (int r = 0; r < n; ++r) left(r, k) = {v[r], v[n + r]};
+  }
+  const auto at = static_cast<Eigen::Index>(first / 2);
+  for (Eigen::Index k = 0; k < count / 2; ++k) {
+    Eigen::Index farthest = 0;
+    left.colwise().squaredNorm().maxCoeff(&farthest);
+    Eigen::VectorXcd x = left.col(farthest).normalized();
+    x -= out.middleCols(at, k) * (out.middleCols(at, k).adjoint() * x).eval();
+    out.col(at + k) = x.normalized();
+    left -= out.col(at + k) * (out.col(at + k).adjoint() * left).eval();
+  }
+}
+
+void write_vectors(const Eigen::MatrixXcd &v, Modes &out) {
+  out.vector.clear();
+  for (Eigen::Index k = 0; k < v.cols(); ++k)
+    for (Eigen::Index r = 0; r < v.rows(); ++r)
+      out.vector.push_back(v(r, k).real()), out.vector.push_back(v(r, k).imag());
+}
+
+bool is_real(const CellsBack &back, const double *q, int dim) {
+  return std::all_of(back.begin(), back.end(), [&](const auto &s) { return phase_of(q, s, dim).sine == 0.0; });
+}
+
+}  // namespace
+
+CellsBack cells_back(const Packing &p, const ContactNetwork &net) {
+  CellsBack out(net.size());
+  for (size_t k = 0; k < net.size(); ++k)
+    if (!net.pairs.wall(k)) out[k] = lattice_steps(p.cell, &net.pairs.offset[k * static_cast<size_t>(p.dim)]);
+  return out;
+}
+
+void need_memory_for_bloch(const RigidityMatrix &g) {
+  const auto n = 2.0 * static_cast<double>(g.unknowns());
+  CallScope::need_memory(ModesTuning::dense_bytes * n * n, "the modes at a wave vector");
+}
+
+Modes bloch_modes(const RigidityMatrix &g, const ContactWeights &w, const CellsBack &back, const double *q,
+                  bool vectors) {
+  const int d = g.dim, n = static_cast<int>(g.unknowns());
+  Hermitian h(n, is_real(back, q, d));
+  std::vector<double> block(static_cast<size_t>(d) * d);
+  constexpr Phase one{1.0, 0.0};
+  for (size_t k = 0; k < g.contacts(); ++k) {
+    contact_block(d, w.stiffness[k], w.transverse.empty() ? 0.0 : w.transverse[k], &g.normal[k * d],
+                  g.b[k] < 0 ? g.round_axes : d, block.data());
+    h.add(g.a[k], g.a[k], block.data(), 1.0, one, d);
+    if (g.b[k] < 0) continue;
+    const Phase phase = phase_of(q, back[k], d);
+    h.add(g.b[k], g.b[k], block.data(), 1.0, one, d);
+    h.add(g.a[k], g.b[k], block.data(), -1.0, phase, d);
+    h.add(g.b[k], g.a[k], block.data(), -1.0, {phase.cosine, -phase.sine}, d);
+  }
+  std::vector<double> lambda;
+  {
+    const BlasSingleThread single;
+    const auto look = [](double share) { return CallScope::report_share(0, share), false; };
+    dense_eigen(h.size(), h.entries(), lambda, vectors, look);
+  }
+  Modes out;
+  const bool twice = h.size() > n;
+  for (int k = 0; k < n; ++k) out.lambda.push_back(twice ? 0.5 * (lambda[2 * k] + lambda[2 * k + 1]) : lambda[k]);
+  if (!vectors) return out;
+  Eigen::MatrixXcd v(n, n);
+  if (twice) {
+    const double near = ModesTuning::mixed * std::max(std::fabs(lambda.front()), std::fabs(lambda.back()));
+    for (size_t first = 0, last; first < lambda.size(); first = last) {
+      for (last = first + 2; last < lambda.size() && lambda[last] - lambda[last - 1] <= near;) last += 2;
+      take_complex(h.entries().data(), n, first, last, v);
+    }
+  } else {
+    v = Eigen::Map<const Eigen::MatrixXd>(h.entries().data(), n, n).cast<std::complex<double>>();
+  }
+  write_vectors(v, out);
+  for (int k = 0; k < n; ++k)  // a complex vector of d components has 2 d real ones
+    out.participation.push_back(inverse_participation(2 * d, g.nodes, &out.vector[2 * static_cast<size_t>(n) * k]));
+  return out;
+}
+
+namespace {
+
+// Contacts that carry force in the copies: those that do in one cell, and spheres that touch their own images in
+// another copy, whose force balances.
+ContactNetwork carrying_contacts(const Packing &p, const PackingVerdict &verdict, const Copies &copies) {
+  ContactNetwork net = verdict.carrying(p.dim);
+  ContactNetwork own;
+  own.pairs = find_pairs(p, 0.0, 1.0 + contact_gap_limit);
+  measure_contacts(p, own);
+  own.force.assign(own.size(), 0.0);
+  own.coordination.assign(p.n(), 0);
+  ContactLookup known(p, net);
+  std::vector<char> on(own.size(), 0);
+  for (size_t k = 0; k < own.size(); ++k) {
+    const bool listed = known.holds(own.pairs, k);
+    if (!own.pairs.own_image(k) || listed || own.gap[k] >= contact_gap_limit) continue;
+    const auto s = lattice_steps(p.cell, &own.pairs.offset[k * static_cast<size_t>(p.dim)]);
+    for (int c = 0; c < p.dim; ++c) on[k] = on[k] || s[c] % copies.along(c) != 0;
+  }
+  own = subset(own, on, p.dim);
+  for (size_t k = 0; k < own.size(); ++k) add_contact(p, own.pairs, k, net);
+  return net;
+}
+
+Verdict verdict_of(const PackingVerdict &one_cell, const ContactNetwork &net, const BlochFlexes &found) {
+  // Contacts in doubt, and coordinates with few digits, leave one cell undecided, and the copies too.
+  const bool doubt = one_cell.result.jammed == Verdict::undecided && one_cell.result.spheres != 1;
+  const bool closed = std::all_of(net.gap.begin(), net.gap.end(), [](double h) { return h < contact_gap_limit; });
+  if (doubt) return Verdict::undecided;
+  if (net.size() == 0 || found.total > 0) return Verdict::no;
+  const double least = *std::min_element(found.margin.begin(), found.margin.end());
+  return closed && least > undecided_eigenvalue ? Verdict::yes : Verdict::undecided;
+}
+
+}  // namespace
+
+BlochFlexes bloch_flexes(const Packing &p, const PackingVerdict &verdict, const Copies &copies) {
+  const auto count = static_cast<size_t>(copies.number()), d = static_cast<size_t>(p.dim);
+  const ContactNetwork net = carrying_contacts(p, verdict, copies);
+  const RigidityMatrix g = make_rigidity_matrix(p, net);
+  const CellsBack back = cells_back(p, net);
+  const ContactWeights springs{std::vector<double>(net.size(), 1.0), {}};
+  need_memory_for_bloch(g);
+  BlochFlexes out;
+  out.flexes.assign(count, 0);
+  out.margin.assign(count, std::numeric_limits<double>::quiet_NaN());
+  for (size_t row = 0; row < count; ++row) {
+    const auto q = copies.place(static_cast<int64_t>(row));
+    for (size_t c = 0; c < d; ++c) out.wave.push_back(static_cast<double>(q[c]) / copies.along(static_cast<int>(c)));
+  }
+  for (size_t row = 0; row < count && net.size() > 0; ++row) {
+    CallScope::report_share(static_cast<int64_t>(row), static_cast<double>(row) / static_cast<double>(count));
+    const auto q = copies.place(static_cast<int64_t>(row));
+    size_t opposite = 0;  // the row of -q, whose matrix is the conjugate one
+    for (int c = p.dim - 1; c >= 0; --c)
+      opposite = opposite * static_cast<size_t>(copies.along(c)) +
+                 static_cast<size_t>((copies.along(c) - q[c]) % copies.along(c));
+    if (opposite < row) {
+      out.flexes[row] = out.flexes[opposite], out.margin[row] = out.margin[opposite];
+    } else {
+      const std::vector<double> lambda = bloch_modes(g, springs, back, &out.wave[row * d], false).lambda;
+      const size_t rigid = std::min(lambda.size(), row == 0 ? static_cast<size_t>(g.symmetries()) : 0);
+      for (size_t k = rigid; k < lambda.size(); ++k) out.flexes[row] += lambda[k] < flex_eigenvalue;
+      out.margin[row] = rigid < lambda.size() ? lambda[rigid] : std::numeric_limits<double>::infinity();
+    }
+    out.total += out.flexes[row];
+  }
+  out.jammed = verdict_of(verdict, net, out);
+  return out;
+}
+
+}  // namespace jam

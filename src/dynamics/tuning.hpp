@@ -124,6 +124,8 @@ struct MonteCarloTuning {
   static constexpr double longest_step = 0.49;  // of the shortest distance of two faces
   // Longer lists hold for longer; trials take least time near 8 steps, and shorter ones than 0.35 diameters.
   static constexpr double skin_steps = 12.0, longest_skin = 0.7, shortest_skin = 0.03, half_skin_kept = 1.01;
+  // Where sizes differ much, in mean diameters: there are no cells for long steps.
+  static constexpr double longest_skin_by_size = 2.0, gaps_by_size = 0.1;
   static constexpr double longest_step_of_lists = 0.1;  // beyond it cells are faster
   static constexpr double cells_per_sphere = 2.0;
   static constexpr int64_t fewest_cells = 4, spheres_between_looks = 64;

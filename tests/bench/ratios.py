@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""What large size ratios cost: growth, crunch and factorisations for two sizes against their ratio, beside equal spheres.
+"""What large size ratios cost: growth, Monte Carlo, crunch and factorisations against the ratio of two sizes, beside equal spheres.
 
 python3 tests/bench/ratios.py [--n 2000] [--large 2] [--dims 2,3] [--seconds 600] [--out ratios.json] [--picture ratios.png]
 n spheres, a few of which are `ratio` times as wide as the others, grown to p = 500 and crunched. Large and small ones fill
-the same volume where n allows it, else `large` spheres are large. The small ones have diameters 1 and 1.4, so that disks
+the same volume where n allows it, else `large` spheres are large. Monte Carlo moves the grown packing, half of its trials accepted. The small ones have diameters 1 and 1.4, so that disks
 do not crystallise. Processor time, one thread.
 """
 import argparse
@@ -33,6 +33,11 @@ def measure(n, ratio, d, large, seconds):
     row["collisions"] = grown.collisions
     row["rate"] = grown.collisions / row["growth_seconds"]
     row["pressure"] = grown.pressure
+    moved = s.copy()
+    step = moved.monte_carlo(sweeps=1, acceptance=0.5).step
+    sweeps, begin = max(1, 400000 // n), time.process_time()
+    moved.monte_carlo(sweeps=sweeps, step=step)
+    row["trial_rate"] = sweeps * n / (time.process_time() - begin)
     begin = time.process_time()
     r = s.crunch(wall_time=seconds)
     row["crunch_seconds"] = time.process_time() - begin
@@ -47,8 +52,8 @@ def draw(rows, path):
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
 
-    fig, axes = plt.subplots(1, 3, figsize=(11, 3.6), constrained_layout=True)
-    panels = (("growth_seconds", "seconds to p = 500"), ("crunch_seconds", "seconds of the crunch"), ("factorisations", "factorisations"))
+    fig, axes = plt.subplots(1, 4, figsize=(13, 3.4), constrained_layout=True)
+    panels = (("growth_seconds", "seconds to p = 500"), ("trial_rate", "Monte Carlo trials a second"), ("crunch_seconds", "seconds of the crunch"), ("factorisations", "factorisations"))
     for axis, (key, label) in zip(axes, panels):
         for d, colour in ((2, "#2b6cb0"), (3, "#c05621")):
             mine = [r for r in rows if r["d"] == d]

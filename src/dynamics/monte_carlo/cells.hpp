@@ -16,15 +16,13 @@ class MonteCarloCells {
   void clear() { in_use_ = false; }
   // side: cells along the box, at least 3, and none narrower than what is looked for.
   void build(const std::vector<Place> &x, size_t side) {
-    side_ = side;
-    in_use_ = true;
-    size_t total = 1;
-    for (int c = 0; c < D; ++c) total *= side;
-    head_.assign(total, none);
-    next_.resize(x.size());
-    before_.resize(x.size());
-    cell_.resize(x.size());
+    begin(x, side);
     for (size_t i = 0; i < x.size(); ++i) put(static_cast<int32_t>(i), cell_at(x[i]));
+  }
+  // Of these spheres alone.
+  void build(const std::vector<Place> &x, const std::vector<int32_t> &members, size_t side) {
+    begin(x, side);
+    for (const int32_t i : members) put(i, cell_at(x[static_cast<size_t>(i)]));
   }
   void move(int32_t i, const Place &to) {
     const size_t cell = cell_at(to);
@@ -41,6 +39,16 @@ class MonteCarloCells {
 
  private:
   static constexpr int32_t none = -1;
+  void begin(const std::vector<Place> &x, size_t side) {
+    side_ = side;
+    in_use_ = true;
+    size_t total = 1;
+    for (int c = 0; c < D; ++c) total *= side;
+    head_.assign(total, none);
+    next_.resize(x.size());
+    before_.resize(x.size());
+    cell_.resize(x.size());
+  }
   // The upper 32 bits of x times cells, over 2^32.
   size_t digit(const Place &at, int c) const { return static_cast<size_t>((at[c] >> 32) * side_ >> 32); }
   size_t cell_at(const Place &at) const {

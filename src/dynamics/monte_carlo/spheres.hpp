@@ -9,6 +9,7 @@
 #include "core/pair_rule.hpp"
 #include "dynamics/monte_carlo/cells.hpp"
 #include "dynamics/monte_carlo/geometry.hpp"
+#include "dynamics/monte_carlo/levels.hpp"
 #include "dynamics/monte_carlo/monte_carlo.hpp"
 #include "dynamics/tuning.hpp"
 
@@ -33,6 +34,9 @@ class MonteCarloSpheres : public MonteCarlo {
       radius_[i] = 0.5 * p.diameter[i] / p.cell.side();
     }
     contact_max_ = contact_distance_max(p) / p.cell.side();
+    if (swap_share_ == 0.0) levels_ = MonteCarloLevels<D>(radius_);
+    by_size_ = levels_.count() > 1;
+    skin_unit_ = by_size_ ? diameter_mean(p) / p.cell.side() : contact_max_;
     set_step(o.step * diameter_mean(p) / p.cell.side());
   }
 
@@ -42,18 +46,21 @@ class MonteCarloSpheres : public MonteCarlo {
     using Tuning = MonteCarloTuning;
     const double least = 2.0 * Tuning::half_skin_kept * std::sqrt(static_cast<double>(D)) * step,
                  room = geometry_.widest() - contact_max_;
+    const double longest = by_size_ ? Tuning::longest_skin_by_size : Tuning::longest_skin;
     const double best =
-        std::min(Tuning::longest_skin, std::max(Tuning::shortest_skin, Tuning::skin_steps * step / contact_max_)) *
-        contact_max_;
+        std::min(longest, std::max(Tuning::shortest_skin, Tuning::skin_steps * step / skin_unit_)) * skin_unit_;
     skin_ = std::max(least, std::min(best, room));
     if (skin_ > room) skin_ = everything;  // a small box: all pairs are listed, for ever
     choose_cells();
     if (!cells_.in_use()) make_lists();
   }
 
-  double gap_range() const final { return std::min(skin_, geometry_.widest() - contact_max_) / contact_max_; }
+  double gap_range() const final {
+    const double listed = by_size_ ? MonteCarloTuning::gaps_by_size : skin_ / contact_max_;
+    return std::min(listed, (geometry_.widest() - contact_max_) / contact_max_);
+  }
   void count_gaps(double h_max, std::vector<double> &bins) final {
-    make_lists();  // after it the lists hold all pairs within the skin
+    make_lists(by_size_ ? h_max : 0.0);  // after it the lists hold all pairs within the skin
     const auto count = [&](double h) {
       if (h < h_max) bins[h > 0.0 ? static_cast<size_t>(h / h_max * static_cast<double>(bins.size())) : 0] += 1.0;
     };
@@ -105,11 +112,17 @@ class MonteCarloSpheres : public MonteCarlo {
         if (const int32_t k = neighbour_[e]; k > i)
           geometry_.each_image2(x_[i], x_[k], [&](double r2) { f(i, k, r2); });
   }
-  void make_lists() {
+  // Gaps up to `gap` of the contact distance are listed besides, where the skin may be less.
+  void make_lists(double gap = 0.0) {
     ++counts.lists;
     found_.clear();
+    stretch_ = 1.0 + gap;
     const auto cells = static_cast<int64_t>(geometry_.height() / list_range());
-    if (cells >= MonteCarloTuning::fewest_cells && math::pow(3.0, D) < n_)
+    if (by_size_ && skin_ < everything)
+      levels_.each_pair(
+          x_, geometry_.height(), (1.0 + std::max(0.0, p_.non_additivity)) * stretch_, skin_,
+          [this](int32_t i, int32_t k) { note_pair(i, k); }, [this](int32_t i) { look_at_limits(i); });
+    else if (cells >= MonteCarloTuning::fewest_cells && math::pow(3.0, D) < n_)
       find_in_cells(std::min<int64_t>(
           cells, static_cast<int64_t>(math::pow(MonteCarloTuning::cells_per_sphere * n_, 1.0 / D)) + 1));
     else
@@ -187,7 +200,8 @@ class MonteCarloSpheres : public MonteCarlo {
   std::vector<Place> centre_;
   std::vector<double> displacement_;
   std::vector<int32_t> first_, neighbour_;
-  double contact_max_ = 0.0;
+  double contact_max_ = 0.0, skin_unit_ = 0.0;
+  bool by_size_ = false;  // sizes differ so much that each has cells of its own
 
  private:
   bool touches(int32_t i, const Place &at, int32_t k) const {
@@ -211,7 +225,9 @@ class MonteCarloSpheres : public MonteCarlo {
   // Longest distance at which a pair is listed, of all pairs and of this one. With swaps any two spheres can get the
   // largest diameters.
   double list_range() const { return contact_max_ + skin_; }
-  double list_range(int32_t i, int32_t k) const { return (swap_share_ > 0.0 ? contact_max_ : contact(i, k)) + skin_; }
+  double list_range(int32_t i, int32_t k) const {
+    return (swap_share_ > 0.0 ? contact_max_ : stretch_ * contact(i, k)) + skin_;
+  }
   void note_pair(int32_t i, int32_t k) {
     const double range = list_range(i, k);
     if (geometry_.nearest2(x_[i], x_[k]) < range * range) found_.push_back({i, k});
@@ -268,6 +284,8 @@ class MonteCarloSpheres : public MonteCarlo {
 
   MonteCarloCells<D> cells_;  // not in use: lists are
   // to make lists
+  MonteCarloLevels<D> levels_{{}};
+  double stretch_ = 1.0;
   std::vector<std::array<int32_t, 2>> found_;
   std::vector<int32_t> cell_first_, cell_of_, in_cell_, at_;
 };

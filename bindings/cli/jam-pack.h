@@ -23,6 +23,8 @@ typedef struct given {
   const char *sizes, *diameters_file;     /* of --sizes: the text of a law, or a file of diameters */
   double cell[JAM_MAX_DIM * JAM_MAX_DIM]; /* of --cell: sides or vectors */
   int cell_count;                         /* of its numbers */
+  int32_t copies[JAM_MAX_DIM];            /* of --tile, along each cell vector */
+  int copies_count;                       /* of its numbers; 0: not given */
   double density;                         /* of --packing-fraction or --porosity, 0: not given */
   int n;                                  /* whether --n was given */
   int file_count;                         /* words without dashes */
@@ -90,6 +92,7 @@ int read_as_it_is(const options *o, jam_system **sys);
 /* sizes.c: each int is 0, or -1 after a message on stderr. */
 int take_sizes(const char *value, options *o);
 int take_cell(const char *value, options *o);
+int take_copies(const char *value, options *o);
 int make_diameters(const options *o, double **out, int64_t *n); /* *out NULL: all equal; the caller frees it */
 void fill_cell(const options *o, double *cell); /* (d, d): the vectors of --cell, or of the cube of --box */
 

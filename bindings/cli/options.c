@@ -108,6 +108,8 @@ static int take_value(const option_row *row, const char *value, options *o) {
       return take_sizes(value, o);
     case TAKE_CELL:
       return take_cell(value, o);
+    case TAKE_COPIES:
+      return take_copies(value, o);
     case TAKE_FRACTION:
       if (take_number(row->name, value, place, 0)) return -1;
       return *(double *)place < 1 ? 0 : bad_value(row->name, value, "above 0 and below 1");

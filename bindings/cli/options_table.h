@@ -67,7 +67,7 @@ typedef struct options {
   double near_gap;
   double wall_time;
   given given; /* what has a form of its own */
-  unsigned char named[64]; /* of each row of the table, whether it is on the command line */
+  unsigned char named[65]; /* of each row of the table, whether it is on the command line */
 } options;
 
 /* First words of a command line. */
@@ -86,6 +86,7 @@ enum {
   TAKE_NOT_NEGATIVE,
   TAKE_INPUT,
   TAKE_CELL,
+  TAKE_COPIES,
   TAKE_SWITCH,
   TAKE_STAGE,
   TAKE_PRESSURE,
@@ -135,6 +136,8 @@ static const option_row table[] = {
      NULL, 0, "", "", 127},
     {"--cell", TAKE_CELL, 0, 0, 0, 0, 0,
      NULL, 0, "--input --resume --box", "", 3},
+    {"--tile", TAKE_COPIES, 0, 0, 0, 0, 0,
+     NULL, 0, "--resume", "--input", 127},
     {"--walls", TAKE_CHOICE, offsetof(options, walls), 0, 0, 0, 0,
      "none x y xy z xz yz xyz", 0, "--input --resume", "", 3},
     {"--container", TAKE_CHOICE, offsetof(options, container), 0, 0, 0, 0,
@@ -355,6 +358,8 @@ static const help_line help[] = {
     {383, "  --box L                side of the box, for a random start or a file that gives no box (1)"},
     {259, "  --cell LX,LY,..        sides of a periodic brick for a random start, or all components of"},
     {259, "                         its cell vectors, one vector after the other"},
+    {383, "  --tile NX,NY,..        copies of the packing of the file side by side, so many along each"},
+    {383, "                         cell vector"},
     {259, "  --walls none|x|y|xy|z|xz|yz|xyz"},
     {259, "                         flat walls at both ends of these axes of a random start (none)"},
     {259, "  --container brick|cylinder|ball"},

@@ -149,3 +149,22 @@ int take_cell(const char *value, options *o) {
   complain("--cell is '%s', it must be d sides or d * d components of vectors, parted by commas", value);
   return -1;
 }
+
+int take_copies(const char *value, options *o) {
+  const char *at = value;
+  char *end;
+  int count = 0;
+  while (count < JAM_MAX_DIM) {
+    const long number = strtol(at, &end, 10);
+    if (end == at || number < 1 || number > INT32_MAX) break;
+    o->given.copies[count++] = (int32_t)number;
+    if (!*end) {
+      o->given.copies_count = count;
+      return 0;
+    }
+    if (*end != ',') break;
+    at = end + 1;
+  }
+  complain("--tile is '%s', it must be d whole numbers above 0, parted by commas", value);
+  return -1;
+}

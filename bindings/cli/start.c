@@ -39,6 +39,24 @@ static int refused_start(const options *o, jam_status status) {
              : EXIT_FAILED;
 }
 
+/* --tile: the copies take the place of what was read. */
+static int tile(const options *o, jam_system **sys) {
+  jam_system *copies = NULL;
+  const jam_status status =
+      o->given.copies_count ? jam_tile(*sys, o->given.copies, (size_t)o->given.copies_count, &copies) : JAM_OK;
+  if (status != JAM_OK) {
+    complain("--tile: %s", jam_last_error());
+    jam_destroy(*sys);
+    *sys = NULL;
+    return status == JAM_E_ARGUMENT || status == JAM_E_UNSUPPORTED ? EXIT_USAGE : EXIT_FAILED;
+  }
+  if (copies) {
+    jam_destroy(*sys);
+    *sys = copies;
+  }
+  return 0;
+}
+
 int start(const options *o, jam_progress_fn stop, jam_system **sys) {
   jam_create_options create;
   jam_start from = {.struct_size = sizeof from};
@@ -84,7 +102,7 @@ int start(const options *o, jam_progress_fn stop, jam_system **sys) {
     complain("interrupted before the packing was made");
     return EXIT_FAILED;
   }
-  return o->resume ? check_resumed(o, *sys) : 0;
+  return o->resume ? check_resumed(o, *sys) : tile(o, sys);
 }
 
 int read_as_it_is(const options *o, jam_system **sys) {
@@ -99,9 +117,10 @@ int read_as_it_is(const options *o, jam_system **sys) {
   else if (o->given.host->read(o->input, &create, o->given.host->user, sys))
     status = JAM_E_IO;
   if (status < 0) return refused_start(o, status);
-  if (*sys)
-    print_warnings(jam_notes(*sys));
-  else
+  if (!*sys) {
     complain("interrupted before %s was read", o->input);
-  return 0;
+    return 0;
+  }
+  print_warnings(jam_notes(*sys));
+  return tile(o, sys);
 }

@@ -6,7 +6,7 @@ from option import STAGES, START, usage
 from options import ABOUT, EXAMPLE, EXITS, NOTES, VERBS, options, verbs_of
 
 MADE = "made by bindings/gen/generate.py from bindings/gen/options.py; do not edit"
-OWN_FORM = ("stage", "sizes", "cell")  # kinds whose values have a form of their own
+OWN_FORM = ("stage", "sizes", "cell", "copies")  # kinds whose values have a form of their own
 COLUMN = 25  # where the help begins what it says of an option
 
 

@@ -15,6 +15,7 @@ Kinds: what a value may be and where it goes.
     fraction      a number above 0 and below 1
     sizes         a law of jam_parse_diameters, or a file of diameters
     cell          d or d d numbers, parted by commas
+    copies        d whole numbers above 0, parted by commas
 """
 import re
 from dataclasses import dataclass

@@ -4,7 +4,7 @@ from option import INT32_MAX, INT64_MAX, STAGES, Option, Verb
 
 NO_CRUNCH = ("no-crunch", "packing-fraction", "porosity")  # what leaves the crunch out
 
-READING = "input frame box non-additivity quiet wall-time json"
+READING = "input frame box non-additivity tile quiet wall-time json"
 STARTING = "seed model zeta shrink shrink-min output report log plot page checkpoint checkpoint-every resume"
 GROWING = (
     "n dim phi0 diameters-ratio sizes plant cell walls container nve growth pressure packing-fraction porosity"
@@ -99,6 +99,14 @@ TABLE = {
             "LX,LY,..",
             "sides of a periodic brick for a random start, or all components of its cell vectors, one vector after the other",
             without=("input", "resume", "box"),
+        ),
+        Option(
+            "tile",
+            "copies",
+            "NX,NY,..",
+            "copies of the packing of the file side by side, so many along each cell vector",
+            without=("resume",),
+            needs=("input",),
         ),
         Option(
             "walls",

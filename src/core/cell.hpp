@@ -32,6 +32,11 @@ class Cell {
   double volume() const { return volume_; }
   const double *row(int c) const { return rows_[c].data(); }
   double edge(int c) const { return rows_[c][c]; }
+  double edge_min() const {
+    double least = rows_[0][0];
+    for (int c = 1; c < dim_; ++c) least = std::min(least, rows_[c][c]);
+    return least;
+  }
   // (dim, dim): all vectors, one a row.
   std::vector<double> rows() const {
     std::vector<double> all;

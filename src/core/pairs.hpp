@@ -44,9 +44,14 @@ void for_spheres(int32_t i, int32_t j, F &&f) {
 PairList find_pairs(const Packing &p, double reach, double slope);
 // The same with a reach for each sphere. A pair uses the longer one.
 PairList find_pairs(const Packing &p, const std::vector<double> &reach, double slope);
+// Of these, the pairs with at least one of some spheres, which are flagged.
+PairList find_pairs_of(const Packing &p, const std::vector<char> &some, const std::vector<double> &reach, double slope);
 // The same by brute force over all pairs and images: the reference for tests.
 PairList find_pairs_brute(const Packing &p, double reach, double slope);
 PairList find_pairs_brute(const Packing &p, const std::vector<double> &reach, double slope);
+
+// The list with the pairs of some spheres replaced by those of another.
+PairList replace_pairs(const PairList &list, const std::vector<char> &some, const PairList &theirs);
 
 // Carries values from one list to another: 0 for pairs that the first does not hold. Images of one pair keep their
 // order.

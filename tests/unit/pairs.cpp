@@ -60,6 +60,11 @@ void levels_equal_brute_force(void **) {
           assert_true(a.size() > 0 && a.i == b.i && a.j == b.j && a.offset == b.offset);
           const PairList c = find_pairs(p, own, 1.0), d = find_pairs_brute(p, own, 1.0);
           assert_true(c.size() > 0 && c.i == d.i && c.j == d.j && c.offset == d.offset);
+          std::vector<char> some(p.n(), 0);
+          for (size_t k = 0; k < p.n(); k += 3) some[k] = 1, own[k] *= k % 2 ? 4.0 : 0.25;
+          const PairList e = replace_pairs(c, some, find_pairs_of(p, some, own, 1.0)),
+                         f = find_pairs_brute(p, own, 1.0);
+          assert_true(e.size() > c.size() && e.i == f.i && e.j == f.j && e.offset == f.offset);
         }
 }
 

@@ -42,8 +42,9 @@ PairList select_neighbours(const Packing &p, double reach, double slope, const T
     const std::vector<size_t> free = uncovered_spheres(p, pairs, tuning.covered);
     if (free.empty()) break;
     reach = std::min(2.0 * std::max(reach, tuning.least_reach * unit), limit);
-    for (const size_t i : free) own[i] = reach;
-    pairs = find_pairs(p, own, slope);
+    std::vector<char> again(p.n(), 0);
+    for (const size_t i : free) own[i] = reach, again[i] = 1;
+    pairs = replace_pairs(pairs, again, find_pairs_of(p, again, own, slope));
   }
   return pairs;
 }

@@ -148,6 +148,41 @@ def ratios(raw):
     return ["d", "ratio", "large of 2000", "share of volume", "growth (s)", "million collisions per second", "crunch (s)", "factorisations", "contacts", "jammed"], rows  # fmt: skip
 
 
+def wall_rows(raws):
+    rows = []
+    for raw in raws:
+        for n, rate in raw["collisions"].items():
+            for scene, cost in rate.items():
+                if any(row[:2] == [int(n), scene] for row in rows):
+                    continue  # the first run with this scene
+                runs = [r for r in raw["crunches"] if (r["n"], r["scene"]) == (int(n), scene)]
+                done = [r for r in runs if r["jammed"]]
+                rows.append(
+                    [int(n), scene, cost, cost / rate["cube"], spread([r["crunch_seconds"] for r in runs]), whole([r["factorisations"] for r in runs])]
+                    + [f"{len(done)} of {len(runs)}", max(r["excess"] for r in done)]
+                    + [max(r["force_residual"] for r in done), max(r["max_contact_gap"] for r in done)]
+                )
+    rows.sort(key=lambda row: row[0])
+    columns = ["N", "scene", "microseconds a collision", "over the cube", "crunch (s)", "factorisations", "jammed", "most contacts above isostatic"]
+    return columns + ["largest force residual", "largest gap of a contact"], rows
+
+
+def walls(*raws):
+    """walls.py --sizes 256,512,1024,2048 --seeds 3; walls.py --sizes 4096 --scenes cube,slit --seeds 2"""
+    return wall_rows(raws)
+
+
+def walls_equal(*raws):
+    """walls.py --equal --sizes 2048 --scenes cube,slit,box,ball --seeds 2"""
+    columns, rows = wall_rows(raws)
+    return columns, [row for row in rows if row[0] == 2048]
+
+
+def walls_edge(*raws):
+    """walls.py"""
+    return ["scene", "answer"], raws[0]["edges"]
+
+
 def md(raw):
     """md_speed"""
     rows = []
@@ -272,7 +307,7 @@ def read(path):
 
 def main():
     name, raws = sys.argv[1], [read(path) for path in sys.argv[2:]]
-    made = {f.__name__: f for f in (crunch, size, clp, resume, disks, proofs, strict, md, monte_carlo, near_jamming, soft_cell, pore_space, advise, analysis, factorisation, ablation, ratios)}[name]
+    made = {f.__name__: f for f in (crunch, size, clp, resume, disks, proofs, strict, md, monte_carlo, near_jamming, soft_cell, pore_space, advise, analysis, factorisation, ablation, ratios, walls, walls_equal, walls_edge)}[name]
     columns, rows = made(*raws)
     old = raws[0] if isinstance(raws[0], dict) and "commit" in raws[0] else None  # a result that was kept with its source
     source = old and {key: old[key] for key in ("machine", "commit", "date")}

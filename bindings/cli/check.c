@@ -88,6 +88,7 @@ int check_file(const options *o) {
     code = CHECK_UNDECIDED;
   } else if (status < 0) {
     complain("%s", jam_last_error());
+    complain_notes(sys);
   } else {
     code = say(sys, o, status, &report);
   }

@@ -87,6 +87,21 @@ static int write_json(const options *o, const content *c, const char *notes) {
   return close_output(&out);
 }
 
+/* "  walls     a cylinder, flat walls at both ends of z" */
+static void print_walls(const content *c) {
+  const char *before = c->info.container ? ", flat walls at both ends of " : "flat walls at both ends of ";
+  int k;
+  if (!c->info.container && !c->info.walls) return;
+  fputs("  walls     ", stdout);
+  if (c->info.container) fputs(c->info.container == JAM_CONTAINER_BALL ? "a ball" : "a cylinder about z", stdout);
+  for (k = 0; k < c->info.dim && k < 3; ++k)
+    if (c->info.walls >> k & 1) {
+      printf("%s%c", before, "xyz"[k]);
+      before = ", ";
+    }
+  putchar('\n');
+}
+
 static void print_note(const char *line, int warns, void *with) {
   (void)with;
   if (!warns) printf("  note      %s\n", line); /* warnings went to stderr */
@@ -100,6 +115,7 @@ static void print_text(const options *o, const content *c, const char *notes) {
   fputs("  cell     ", stdout);
   for (k = 0; k < d * d; ++k) printf("%s%.12g", k % d ? " " : k ? ", " : " ", c->cell[k]);
   printf("; volume %.12g\n", c->info.volume);
+  print_walls(c);
   if (c->sizes.least == c->sizes.largest)
     printf("  diameter  %.12g\n", c->sizes.mean);
   else

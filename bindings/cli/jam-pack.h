@@ -87,6 +87,7 @@ int check_formats(const options *o, const jam_system *sys);
 int start(const options *o, jam_progress_fn stop, jam_system **sys);
 /* The packing of --input as it is: spheres may overlap, as in every file with few digits. 0, and *sys NULL when it was
  * interrupted; else an exit code after a message on stderr. */
+void complain_notes(const jam_system *sys); /* those of jam_notes, on stderr */
 int read_as_it_is(const options *o, jam_system **sys);
 
 /* sizes.c: each int is 0, or -1 after a message on stderr. */

@@ -26,6 +26,25 @@ static int check_resumed(const options *o, const jam_system *sys) {
   return EXIT_USAGE;
 }
 
+static void complain_note(const char *line, int warns, void *with) {
+  (void)with;
+  complain("%s%s", warns ? "" : "note: ", line);
+}
+
+void complain_notes(const jam_system *sys) { each_note(jam_notes(sys), complain_note, NULL); }
+
+/* What reading assumed may be why spheres overlap: a box of side 1 for a file without one. */
+static void complain_assumptions(const options *o) {
+  jam_create_options create;
+  jam_system *sys = NULL;
+  jam_create_options_init(&create, sizeof create);
+  create.box = o->box;
+  create.frame = o->frame;
+  create.overlap = JAM_OVERLAP_ALLOW;
+  if (jam_read(o->input, &create, stop_if_asked, NULL, &sys) >= 0 && sys) complain_notes(sys);
+  jam_destroy(sys);
+}
+
 /* Why there is no start, with the option that helps. An option that contradicts the file is a wrong command line. */
 static int refused_start(const options *o, jam_status status) {
   const char *const text = jam_last_error()[0] ? jam_last_error() : jam_status_string(status);
@@ -34,6 +53,7 @@ static int refused_start(const options *o, jam_status status) {
     complain("%s; --shrink multiplies all diameters by the factor that brings the worst pair to contact", text);
   else
     complain("%s", text);
+  if (status == JAM_E_OVERLAP && o->input && !is_host_format(o, o->input)) complain_assumptions(o);
   return status == JAM_E_ARGUMENT && (is_named(o, "box") || is_named(o, "non-additivity") || is_named(o, "frame"))
              ? EXIT_USAGE
              : EXIT_FAILED;

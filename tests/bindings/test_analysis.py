@@ -165,8 +165,9 @@ class Network(unittest.TestCase):
             jam.glass_fit(phi[:2], p[:2])
 
     def test_wrong_calls(self):
-        with self.assertRaisesRegex(TypeError, "h_max"):
-            self.s.gaps()
+        with self.assertRaisesRegex(TypeError, "cutoff"):
+            self.s.bond_order(6)
+        np.testing.assert_array_equal(self.s.gaps().gap, self.s.gaps(1.0, True).gap)
         with self.assertRaisesRegex(TypeError, "h_max"):
             self.s.call("gaps", stable_only=1)
         with self.assertRaisesRegex(TypeError, "stifness"):

@@ -33,8 +33,9 @@ GOOD = {
     "fraction": ("0.3", "0.2"),
     "sizes": ("equal", "normal:deviation=0.1"),
     "cell": ("1,2,3", "2,2,2"),
+    "copies": ("1,1,2", "2,1,1"),
 }
-BAD = {"text": "", "input": "", "output": "", "sizes": "", "cell": "1,x", "choice": "other"}
+BAD = {"text": "", "input": "", "output": "", "sizes": "", "cell": "1,x", "copies": "1,x", "choice": "other"}
 
 
 def good(o):
@@ -219,6 +220,20 @@ class CommandLine(unittest.TestCase):
                 code, out, err = self.run_words(program, verb, "loose.xyz", *words)
                 self.assertIn("0 contacts: no set of contacts", out)
                 self.assertNotRegex(out + err, r"\bjam_[a-z]")
+
+    def test_what_reading_assumed_stands_beside_its_consequence(self):
+        (self.dir / "pts.csv").write_text("x,y,z,r\n0,0,0,0.5\n1,0,0,0.5\n0,1,0,0.5\n")
+        for program in self.programs():
+            for verb in ("check", "crunch"):
+                code, _, err = self.run_words(program, verb, "pts.csv")
+                self.assertEqual(code, USAGE if verb == "check" else REFUSED)
+                self.assertIn("note: the file names no box: its side is taken as 1", err)
+
+    def test_info_names_the_walls(self):
+        s = jam.System.random(8, 3, 1, container="cylinder", walls="z")
+        s.write(str(self.dir / "w.xyz"))
+        for program in self.programs():
+            self.assertIn("walls     a cylinder about z, flat walls at both ends of z\n", self.run_words(program, "info", "w.xyz")[1])
 
     def test_json_of_a_job_has_its_end(self):
         for program in self.programs():

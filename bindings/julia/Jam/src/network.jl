@@ -52,8 +52,8 @@ function axes_of(x)
     return NamedTuple{names}(Tuple(x[k, :] for k in 1:size(x, 1)))
 end
 
-"All pairs with gaps below 1, of stable spheres: `gaps(s, h_max, stable_only)`."
-gaps(s::System) = gaps(s, 1.0, true)
+"All pairs with gaps below `h_max`, of stable spheres: `gaps(s, h_max, stable_only)`."
+gaps(s::System, h_max = 1.0) = gaps(s, h_max, true)
 "The test of collective jamming: `rigidity(s, :collective)`."
 rigidity(s::System; progress = nothing) = rigidity(s, :collective; progress = progress)
 "A motion of all spheres in the fixed cell: `flex(s, :collective)`."

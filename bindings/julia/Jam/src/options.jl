@@ -9,16 +9,16 @@ const CALIPPSO = Dict(
     :optimizer => "lp_solver = :ipm or :clp", :solver => "lp_solver = :ipm or :clp",
     :solver_attributes => "lp_tolerance", :solver_args => "lp_tolerance",
     :tol_mechanical_equilibrium => "polish; force_residual of the report gives the balance that was reached",
-    :tol_overlap => "nothing: no step can create an overlap; max_overlap of the report gives the largest",
-    :zero_force => "nothing: min_force of the report gives the smallest force",
+    :tol_overlap => "has no counterpart: no step can create an overlap; max_overlap of the report gives the largest",
+    :zero_force => "has no counterpart: min_force of the report gives the smallest force",
     :verbose => "progress = true", :monitor_step => "progress = true", :initial_monitor => "progress = true",
-    :sqrGamma0 => "nothing: the first stage is chosen by itself", :sqrΓ0 => "nothing: the first stage is chosen by itself",
-    :thresholds_bounds => "nothing: radius and bound follow the density",
-    :ratio_sl_update => "nothing: distances are exact at every step", :ratio_sℓ_update => "nothing: distances are exact at every step",
-    :non_iso_break => "nothing: column excess of history(s) gives it for each LP",
-    :interval_overlaps_check => "nothing: every step tests for overlaps",
-    :initial_overlaps_check => "nothing: every step tests for overlaps",
-    :add_bridges => "nothing: there is no modelling layer", :L => "box", :R => "radii", :Rs => "radii",
+    :sqrGamma0 => "has no counterpart: the first stage is chosen by itself", :sqrΓ0 => "has no counterpart: the first stage is chosen by itself",
+    :thresholds_bounds => "has no counterpart: radius and bound follow the density",
+    :ratio_sl_update => "has no counterpart: distances are exact at every step", :ratio_sℓ_update => "has no counterpart: distances are exact at every step",
+    :non_iso_break => "has no counterpart: column excess of history(s) gives it for each LP",
+    :interval_overlaps_check => "has no counterpart: every step tests for overlaps",
+    :initial_overlaps_check => "has no counterpart: every step tests for overlaps",
+    :add_bridges => "has no counterpart: there is no modelling layer", :L => "box", :R => "radii", :Rs => "radii",
 )
 # Those that calippso! takes under their own names and in their own units.
 const STAGED = (:l0, :ℓ0, :sbound, :sqrGamma0, :sqrΓ0, :thresholds_bounds, :max_iters, :tol_Gamma_convergence, :tol_Γ_convergence,
@@ -47,7 +47,7 @@ end
 function unknown_option(name::Symbol, value, known)
     text = "unknown option $name"
     haskey(CALIPPSO, name) || return text * suggestion(string(name), string.(known))
-    text = "$name of CALiPPSO is $(CALIPPSO[name]) here"
+    text = "$name of CALiPPSO " * (startswith(CALIPPSO[name], "has no") ? CALIPPSO[name] : "is $(CALIPPSO[name]) here")
     return name in STAGED ? text * ". calippso!(s; $name = $value) takes it as it is, and solves their stages one by one" : text
 end
 

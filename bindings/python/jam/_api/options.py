@@ -34,13 +34,13 @@ _CALIPPSO = {
     "solver": "lp_solver ('ipm' or 'clp')",
     "solver_attributes": "lp_tolerance",
     "tol_mechanical_equilibrium": "polish; report.force_residual gives the balance reached",
-    "tol_overlap": "nothing: no step can create an overlap; report.max_overlap gives the largest",
-    "zero_force": "nothing: report.min_force gives the smallest force",
+    "tol_overlap": "has no counterpart: no step can create an overlap; report.max_overlap gives the largest",
+    "zero_force": "has no counterpart: report.min_force gives the smallest force",
     "verbose": "progress=True",
     "monitor_step": "progress=True",
-    "sqrGamma0": "nothing: the first stage is chosen by itself",
-    "sqrΓ0": "nothing: the first stage is chosen by itself",
-    "thresholds_bounds": "nothing: radius and bound follow the density",
+    "sqrGamma0": "has no counterpart: the first stage is chosen by itself",
+    "sqrΓ0": "has no counterpart: the first stage is chosen by itself",
+    "thresholds_bounds": "has no counterpart: radius and bound follow the density",
     "L": "box",
     "R": "diameters (twice the radii) or radii",
 }
@@ -49,7 +49,8 @@ _CALIPPSO = {
 def unknown(name: str, known: Any) -> str:
     """What to say of an option that does not exist: the nearest names, and ours for one of CALiPPSO."""
     if name in _CALIPPSO:
-        return f"{name!r} of CALiPPSO is {_CALIPPSO[name]} here"
+        ours = _CALIPPSO[name]
+        return f"{name!r} of CALiPPSO " + (ours if ours.startswith("has no") else f"is {ours} here")
     near = difflib.get_close_matches(name, list(known), 3)
     return f"did you mean {' or '.join(near)}?" if near else f"there are {', '.join(known)}"
 

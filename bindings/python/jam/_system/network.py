@@ -11,7 +11,7 @@ from .._api.calls import freeze, new_report, not_cancelled
 from .._api.generated import CheckReport, CrunchReport, ModeColumn, ModesWhich, RigidityReport, StatusCode
 from .._api.options import as_enum, option_struct
 from .._api.results import Contacts, Modes
-from .._api.tuples import FlexResult, RefinedPositionsResult, StressStatesResult
+from .._api.tuples import FlexResult, GapsResult, RefinedPositionsResult, StressStatesResult
 from .handle import Base
 
 
@@ -149,6 +149,31 @@ class Network(Base):
             self._note(not_cancelled(status))
         values, participation = np.ascontiguousarray(table[:m].T)
         return Modes(values, vectors[:m], participation, spheres, self.status)
+
+    def gaps(self, h_max: float = 1.0, stable_only: bool = True) -> GapsResult:
+        """Gaps h of pairs (every image) and walls below h_max, over the contact distance, without contacts, ascending.
+
+        Parameters
+        ----------
+        h_max : float
+        stable_only : bool
+            False: rattlers count too, and no contact network is needed.
+
+        Returns
+        -------
+        gap : array, shape (gaps,)
+        pair : array, shape (gaps, 2)
+
+        Examples
+        --------
+        >>> import jam
+        >>> disks = jam.System.random(n=64, dim=2, seed=1, diameters=[1.0] * 32 + [1.4] * 32)
+        >>> report = disks.crunch()
+        >>> disks.gaps(0.1).gap.min() > 1e-8
+        True
+        """
+        answer: GapsResult = self.call("gaps", h_max, stable_only)
+        return answer
 
     def pair_correlation(
         self, r_max: float = 4.0, bins: int = 200, *, kind: Any = None, a: int = -1, b: int = -1

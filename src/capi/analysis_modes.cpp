@@ -88,6 +88,9 @@ jam_status jam_bloch_modes(jam_system *sys, const jam_hessian_options *h, const 
       check_range("wave", wave[c], -limits::wave_max, limits::wave_max);
       if (!p.cell.repeats(c) && wave[c] != 0.0)
         fail(JAM_E_ARGUMENT, "wave[%d] is %g, and nothing repeats along this axis: a wall bounds it", c, wave[c]);
+      if (p.model == JAM_MODEL_MK && wave[c] != 0.0)
+        fail(JAM_E_ARGUMENT, "wave[%d] is %g, and Mari-Kurchan spheres have no copies: their shifts do not repeat", c,
+             wave[c]);
     }
     need_network(sys);
     const RigidityMatrix g = make_rigidity_matrix(p, sys->contacts);

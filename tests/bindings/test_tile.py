@@ -244,6 +244,11 @@ class Modes(unittest.TestCase):
         for wave, why in (((0,), "wave_len"), ((np.nan, 0), "wave.0. is nan"), ((1e9, 0), "wave is 1e")):
             with self.assertRaisesRegex((jam.errors.JamError, ValueError), why):
                 s.bloch_modes(wave)
+        shifted = jam.System.random(n=20, dim=2, seed=1, model="mk", packing_fraction=0.8)
+        shifted.crunch()
+        np.testing.assert_allclose(shifted.bloch_modes((0, 0)).values, shifted.modes(which="all").values, atol=1e-12)
+        with self.assertRaisesRegex(ValueError, "Mari-Kurchan spheres have no copies"):
+            shifted.bloch_modes((0, 0.5))
         with self.assertRaises(jam.errors.StateError):
             jam.System.random(n=5, dim=2, seed=1).bloch_modes((0, 0))
         s.call("set_memory_limit", 1e4)

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Every own figure and table of the thesis in its order: picture, command, statistics there and here, values, verdict.
 
-usage: thesis.py            writes results/thesis.json and results/thesis_verdicts.json from thesis.json and the other results
+usage: thesis.py            writes results/thesis.json, thesis_values.json and thesis_verdicts.json from thesis.json and the other
+                            results
        thesis.py --check    exit status 1 when they differ from what would be written
 
 thesis.json lists what each figure shows and which rows of results/*.json or ensembles/results/*.json belong to it; no value of ours
@@ -18,14 +19,15 @@ HERE = Path(__file__).resolve().parent
 sys.path.append(str(HERE.parents[1] / "bindings/docs"))
 import figures  # noqa: E402
 
-COLUMNS = ["figure", "shows", "picture, script", "thesis", "here", "published", "ours", "errors between", "verdict"]
+COLUMNS = ["figure", "shows", "picture, script", "thesis", "here", "verdict"]
+VALUES = ["figure", "quantity", "published", "ours", "errors between"]
 VERDICTS = ("reproduced", "smaller", "part", "different", "missing")
 LIMIT = 3.0
 FIGURES, TABLES = 63, 2
 
 
 def cells(value):
-    """(published, ours, errors between) of one reference to a result."""
+    """(quantity, published, ours, errors between, command) of one reference to a result."""
     path = HERE / value["from"]
     result = json.loads(path.read_text(encoding="utf-8"))
     if "quantity" in value:
@@ -33,15 +35,16 @@ def cells(value):
         if len(rows) != 1:
             raise SystemExit(f"{value['from']}: {len(rows)} rows are called {value['quantity']!r}")
         _, published, ours, sigma = figures.study_row(rows[0])
-        return value.get("published", published), figures.cell(ours), sigma, result["command"]
+        return value["quantity"], value.get("published", published), figures.cell(ours), sigma, result["command"]
     column = result["columns"].index(value["column"])
-    ours = result["rows"][value["row"] - 1][column]
+    found = result["rows"][value["row"] - 1]
+    ours, quantity = found[column], f"{value['column']}, {found[0]}"
     published, sigma = value["published"], None
     if isinstance(published, (int, float)):
         number, error = value_error(ours)
         sigma = round(abs(number - published) / error, 1) if error else None
     shown = published if isinstance(published, str) else f"{published:g}"
-    return shown, figures.cell(ours), sigma, result["command"]
+    return quantity, shown, figures.cell(ours), sigma, result["command"]
 
 
 def value_error(text):
@@ -56,6 +59,7 @@ def value_error(text):
 
 
 def row(entry):
+    """The figure's row, and a row for each of its values."""
     name = entry["figure"]
     if entry["verdict"] not in VERDICTS:
         raise SystemExit(f"{name}: no verdict {entry['verdict']}")
@@ -69,15 +73,15 @@ def row(entry):
     commands = dict.fromkeys(command.split()[0] for *_, command in found)
     picture = f"[{', '.join(f'`{c}`' for c in commands) or 'none'}]({entry['picture']})"
     verdict = entry["verdict"] + (f": {entry['because']}" if "because" in entry else "")
-    joined = ["; ".join(str(f[k]) for f in found if str(f[k]) not in ("", "None")) for k in range(3)]
-    published = "; ".join(dict.fromkeys(joined[0].split("; ")))
-    return [name, entry["shows"], picture, entry["thesis"], entry["here"], published, joined[1], joined[2], verdict]
+    values = [[name, quantity] + [str(x) if str(x) != "None" else "" for x in numbers] for quantity, *numbers, _ in found]
+    return [name, entry["shows"], picture, entry["thesis"], entry["here"], verdict], values
 
 
 def made():
     """{path: text} of the two results."""
     entries = json.loads((HERE / "thesis.json").read_text(encoding="utf-8"))
-    rows = [row(e) for e in entries]
+    made_rows = [row(e) for e in entries]
+    rows, values = [first for first, _ in made_rows], [line for _, lines in made_rows for line in lines]
     tables = [e for e in entries if e["figure"].startswith("table")]
     if len(entries) - len(tables) != FIGURES or len(tables) != TABLES:
         raise SystemExit(f"{len(entries) - len(tables)} figures and {len(tables)} tables, {FIGURES} and {TABLES} are wanted")
@@ -90,6 +94,7 @@ def made():
     texts = {}
     for name, columns, body in (
         ("thesis", COLUMNS, rows),
+        ("thesis_values", VALUES, values),
         ("thesis_verdicts", ["verdict", "figures", "tables", "which"], counts),
     ):
         lines = [json.dumps(r, ensure_ascii=False) for r in body]

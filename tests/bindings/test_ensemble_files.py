@@ -60,7 +60,7 @@ class Protocols(unittest.TestCase):
             (dict(n=10, stages=[{"pressur": 10}]), "pressur"),
             (dict(n=10, crunch={"method": "guess"}), "guess"),
             (dict(n=10, analysis={"colour": {}}), "colour"),
-            (dict(n=10, analysis={"gaps": {"h_max": 1.0}}), "stable_only"),
+            (dict(n=10, analysis={"bond_order": {"l": 6}}), "cutoff"),
             (dict(n=10, model="flat"), "flat"),
         ):
             with self.assertRaisesRegex(ProtocolError, text):

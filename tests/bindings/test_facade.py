@@ -83,6 +83,19 @@ class Facade(unittest.TestCase):
         self.assertIn("System", dir(jam))
         self.assertIn("load", dir(jam))
 
+    def test_other_words_of_the_field_name_ours(self):
+        s = jam.System.random(n=10, dim=2)
+        for word, ours in (("phi", "packing_fraction"), ("N", "n"), ("gr", "pair_correlation"), ("bonds", "contacts")):
+            with self.assertRaisesRegex(AttributeError, f"{word!r}; did you mean {ours}\\?"):
+                getattr(s, word)
+            self.assertFalse(hasattr(s, word))
+        with self.assertRaisesRegex(TypeError, "did you mean dim"):
+            jam.System.random(n=10, d=2)
+        with self.assertRaisesRegex(TypeError, "did you mean growth_rate"):
+            s.compress(rate=1e-2)
+        with self.assertRaisesRegex(TypeError, "jam.sizes"):
+            jam.System.random(n=10, polydispersity=0.1)
+
     def test_pandas_takes_the_contacts(self):
         try:
             import pandas

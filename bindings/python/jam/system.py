@@ -4,14 +4,14 @@ from __future__ import annotations
 import os
 import tempfile
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from . import errors, raw
 from ._api.arrays import as_array
 from ._api.calls import freeze
 from ._api.errors import METHODS
 from ._api.given import cell_of, enclosure_of, positions_of, refuse_start_options, refuse_unnamed_box, side_of, sizes_of
-from ._api.options import option_struct
+from ._api.options import option_struct, other_word
 from ._api.results import Contacts, Modes
 from ._api.size_laws import density_of
 from ._formats import ase, gsd
@@ -45,6 +45,14 @@ class System(Verbs, Writing, PoreSpace, Copies, Converting):
     >>> disks.forces.mean().round(12)
     1.0
     """
+
+    if not TYPE_CHECKING:  # a checker of types knows all names without it
+
+        def __getattr__(self, name: str) -> Any:
+            if hasattr(type(self), name):  # a property has raised AttributeError: it is raised again
+                return object.__getattribute__(self, name)
+            word = other_word(name, dir(type(self)))
+            raise AttributeError(f"a System has no attribute {name!r}" + (f"; did you mean {word}?" if word else ""))
 
     # ---- making
     @classmethod

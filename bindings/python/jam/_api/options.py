@@ -46,11 +46,58 @@ _CALIPPSO = {
 }
 
 
+# Other words of the field for what has one name here.
+_OTHER_WORDS = {
+    "N": "n",
+    "d": "dim",
+    "ndim": "dim",
+    "phi": "packing_fraction",
+    "density": "packing_fraction",
+    "volume_fraction": "packing_fraction",
+    "rate": "growth_rate",
+    "tol": "gain_tolerance",
+    "tolerance": "gain_tolerance",
+    "max_time": "wall_time",
+    "timeout": "wall_time",
+    "side": "box",
+    "coordination_number": "coordination",
+    "z": "coordination",
+    "bonds": "contacts",
+    "gr": "pair_correlation",
+    "g_r": "pair_correlation",
+    "rdf": "pair_correlation",
+    "sq": "structure_factor",
+    "scale": "scale_diameters",
+    "is_jammed": "check",
+    "jammed": "report",
+    "phi_J": "report",
+    "eigenmodes": "modes",
+    "spectrum": "density_of_states",
+    "step": "run",
+    "grow": "compress",
+    "plot": "page",
+    "draw": "page",
+}
+_ELSEWHERE = {
+    "polydispersity": 'diameters=jam.sizes("normal", n, deviation=...) draws such sizes',
+    "radii": "diameters takes twice the radii",
+}
+
+
+def other_word(name: str, known: Any) -> str:
+    """What another word of the field is called here; "" where nothing of that name is known."""
+    return _OTHER_WORDS.get(name, "") if _OTHER_WORDS.get(name) in known else ""
+
+
 def unknown(name: str, known: Any) -> str:
     """What to say of an option that does not exist: the nearest names, and ours for one of CALiPPSO."""
     if name in _CALIPPSO:
         ours = _CALIPPSO[name]
         return f"{name!r} of CALiPPSO " + (ours if ours.startswith("has no") else f"is {ours} here")
+    if word := other_word(name, known):
+        return f"did you mean {word}?"
+    if name in _ELSEWHERE:
+        return _ELSEWHERE[name]
     near = difflib.get_close_matches(name, list(known), 3)
     return f"did you mean {' or '.join(near)}?" if near else f"there are {', '.join(known)}"
 

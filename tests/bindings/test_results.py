@@ -258,8 +258,12 @@ class Package(unittest.TestCase):
         done = subprocess.run([sys.executable, "-OO", "-c", code], capture_output=True, text=True)
         self.assertEqual((done.returncode, done.stdout), (0, "0\n"), done.stderr)
 
+    def test_radii_are_half_the_diameters(self):
+        s = jam.System.from_arrays([[0.2, 0.2], [0.7, 0.7]], radii=[0.1, 0.2], box=1)
+        np.testing.assert_array_equal(s.radii, [0.1, 0.2])
+
     def test_pair_correlation_has_its_distances(self):
-        r = jam.System.radii(2.0, 40)
+        r = jam.System.distances(2.0, 40)
         self.assertEqual((len(r), r[0], r[-1]), (40, 0.025, 1.975))
 
 

@@ -131,7 +131,7 @@ def ordered(n, seed):
 def correlations(o, r, every, pressures, count):
     """2.10: g(r) for each p_target and rate; inset: packings that ordered in part."""
     figure, axes = plt.subplots(1, 3, figsize=(16, 4.4))
-    x = jam.System.radii(4.0, 400)
+    x = jam.System.distances(4.0, 400)
     key = next(iter(every))
     for k, t in enumerate(pressures):
         g = np.mean([m[f"g_{t:.0e}"] for m in every[key]], axis=0)
@@ -142,9 +142,9 @@ def correlations(o, r, every, pressures, count):
     made = [kept(o, "growth_panels_ordered", f"n108_seed{s}", lambda: ordered(108, s)) for s in range(1, count + 1)]
     found = [m for m in made if m is not None and m["score"] > MAX_ORDER]
     for m in found:
-        axes[2].plot(jam.System.radii(R_MAX, BINS), m["g"], lw=0.4, color="0.6")
+        axes[2].plot(jam.System.distances(R_MAX, BINS), m["g"], lw=0.4, color="0.6")
     if found:
-        axes[2].plot(jam.System.radii(R_MAX, BINS), np.mean([m["g"] for m in found], axis=0), lw=1.5, label=f"mean of {len(found)}")
+        axes[2].plot(jam.System.distances(R_MAX, BINS), np.mean([m["g"] for m in found], axis=0), lw=1.5, label=f"mean of {len(found)}")
         phi = [m["phi"] for m in found]
         r.made("N = 108, G = 1e-3 from 0.2 to p = 1e4, crystal score above 1.5", len(found))
         r.add("2.10", "least phi_J of partly ordered packings, N = 108", "0.65", min(phi))

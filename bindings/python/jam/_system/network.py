@@ -178,7 +178,7 @@ class Network(Base):
     def pair_correlation(
         self, r_max: float = 4.0, bins: int = 200, *, kind: Any = None, a: int = -1, b: int = -1
     ) -> Array:
-        """g(r) in equal bins from 0 to r_max, at the distances `radii(r_max, bins)`. No contact network is needed.
+        """g(r) in equal bins from 0 to r_max, at the distances `distances(r_max, bins)`. No contact network is needed.
 
         Parameters
         ----------
@@ -197,14 +197,14 @@ class Network(Base):
         >>> g = jam.System.random(n=64, dim=3, seed=1).pair_correlation(2.0, 40)
         >>> g.shape, (g[:20] == 0).all()
         ((40,), True)
-        >>> jam.System.radii(2.0, 40)[:2]
+        >>> jam.System.distances(2.0, 40)[:2]
         array([0.025, 0.075])
         """
         found: Array = self.call("pair_correlation", kind, a=a, b=b, r_max=r_max, bins=bins)
         return found
 
     @staticmethod
-    def radii(r_max: float = 4.0, bins: int = 200) -> Array:
+    def distances(r_max: float = 4.0, bins: int = 200) -> Array:
         """Distances of pair_correlation: the middles of its bins, in mean diameters."""
         return (np.arange(bins) + 0.5) * (r_max / bins)
 

@@ -110,6 +110,12 @@ class State(Base):
         return self._show(raw.jam_view_diameters, flat=True)
 
     @property
+    def radii(self) -> Array:
+        """Half the diameters, shape (n,)."""
+        found: Array = 0.5 * self.diameters
+        return found
+
+    @property
     def cell(self) -> Array:
         """Cell vectors, shape (d, d), one a row: short and lower-triangular.
 

@@ -12,6 +12,8 @@ static int write_mesh(const jam_system *sys, const options *o) {
   if (isfinite(o->stl_shrink)) mesh.contacts = JAM_MESH_SHRUNK, mesh.factor = o->stl_shrink;
   if (isfinite(o->stl_bridge)) mesh.contacts = JAM_MESH_BRIDGED, mesh.bridge = o->stl_bridge;
   if (has_failed(jam_write_stl(sys, o->stl, &mesh, &r))) return -1;
+  if (isfinite(o->stl_bridge) && r.bridges == 0)
+    complain("warning: %s has no bridge, since the contact network is empty", o->stl);
   if (!o->quiet && !o->json)
     printf("  mesh      %lld triangles, %.3g MB, volume %.6g of exactly %.6g\n", (long long)r.triangles,
            1e-6 * (double)r.bytes, r.volume, r.solid);

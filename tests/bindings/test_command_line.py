@@ -235,6 +235,11 @@ class CommandLine(unittest.TestCase):
         for program in self.programs():
             self.assertIn("walls     a cylinder about z, flat walls at both ends of z\n", self.run_words(program, "info", "w.xyz")[1])
 
+    def test_a_mesh_without_bridges_says_so(self):
+        for program in self.programs():
+            code, _, err = self.run_words(program, "export", "start.xyz", "--stl", "m.stl", "--stl-bridge", "0.2")
+            self.assertEqual((code, "m.stl has no bridge" in err), (0, True), err)
+
     def test_json_of_a_job_has_its_end(self):
         for program in self.programs():
             code, out, err = self.run_words(program, *"--n 20 --no-md --json --wall-time 1e-9".split())

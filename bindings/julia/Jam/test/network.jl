@@ -30,6 +30,16 @@ values_, vectors = modes(s, 4)
 @test length(modes(s).values) == 10
 @test curvature(s, vectors[:, 2]) ≈ values_[2] rtol = 1e-6
 
+# Copies: their spectrum and their flexes from one cell.
+t = tile(s, (2, 1))
+@test length(forces(t)) == 2 * length(f) && size(positions(t), 2) == 120
+both = vcat(bloch_modes(s, (0, 0)).values, bloch_modes(s, (0.5, 0)).values)
+@test sort(both) ≈ eigvals(Symmetric(Matrix(hessian(t)))) atol = 1e-10
+b = bloch_modes(s, (0.3, 0.1)).vectors
+@test b' * b ≈ I atol = 1e-10
+found = bloch_rigidity(s, (2, 1))
+@test found.wave == [0 0.5; 0 0] && sum(found.flexes) == rigidity(t).flexes
+
 # Pairs of gaps count from 1.
 g = gaps(s, 0.5, false)
 x, sigma = positions(s), diameters(s)

@@ -142,10 +142,10 @@ def strict(raw):
 def ratios(raw):
     """ratios.py --n 2000"""
     rows = [
-        [r["d"], int(r["ratio"]), r["large"], r["volume_of_large"], r["growth_seconds"], r["rate"] / 1e6, r["crunch_seconds"], r["factorisations"], r["contacts"], "yes" if r["jammed"] else "no"]  # fmt: skip
+        [r["d"], int(r["ratio"]), r["large"], r["volume_of_large"], r["growth_seconds"], r["rate"] / 1e6, r["trial_rate"] / 1e6, r["crunch_seconds"], r["factorisations"], r["contacts"], "yes" if r["jammed"] else "no"]  # fmt: skip
         for r in raw
     ]
-    return ["d", "ratio", "large of 2000", "share of volume", "growth (s)", "million collisions per second", "crunch (s)", "factorisations", "contacts", "jammed"], rows  # fmt: skip
+    return ["d", "ratio", "large of 2000", "share of volume", "growth (s)", "million collisions per second", "million trials per second", "crunch (s)", "factorisations", "contacts", "jammed"], rows  # fmt: skip
 
 
 def wall_rows(raws):

@@ -28,6 +28,7 @@ from operator import mul
 
 BITS, CHUNK, BIAS, MOST_IMAGES = 24, 16, 1 << 62, 10**6  # of J; columns summed at once; makes 64-bit digits positive; of a pair
 GAMMA, FORCE = -400, 120  # trapping: exponent of gamma, more binary digits of forces
+FINEST = 7  # trapping: units of ways are down to 2^-FINEST of the longest
 OFF = Fraction(1, 1024)  # trapping: the file's gamma may be off by this part of it
 HEADER = ("dim", "unit", "cell", "non_additivity", "gamma")
 AT_LEAST = ("outer", "least_gap", "least_force")  # bounds from below; all others are bounds from above
@@ -293,9 +294,10 @@ def inverse_of(s, columns, count, wanted):
         raise Refused(f"singular: {error}") from None
 
 
-def bounds(s, f, columns, e, inverse):
-    """delta, eta and alpha of A's rows. (A J)_.l costs 2 z + 1 products: A's columns are long integers."""
-    rows = len(inverse[0])
+def bounds(s, f, columns, e, inverse, grown):
+    """delta, eta and alpha of A's rows, where unknown k is measured in units of 1 / grown_k. (A J)_.l costs 2 z + 1
+    products: A's columns are long integers."""
+    rows, top = len(inverse[0]), max(grown)
     offset = int.from_bytes(array("Q", [BIAS] * rows).tobytes(), "little")
     packed = [int.from_bytes(array("Q", [v + BIAS for v in c]).tobytes(), "little") - offset for c in inverse]
     alpha, delta, eta = [0] * rows, [0] * rows, [0] * rows
@@ -309,14 +311,14 @@ def bounds(s, f, columns, e, inverse):
             part = sum(packed[c] * v for c, v in column[start : start + CHUNK]) + offset
             digits = array("Q", part.to_bytes(8 * rows, "little"))
             total = [a + v - BIAS for a, v in zip(total, digits)]
-        delta = [a + abs(b) for a, b in zip(delta, total)]
+        delta = [a + abs(b) * (top // grown[l]) for a, b in zip(delta, total)]
     # J was rounded: half a unit in each of the 2 d + 1 entries of a row.
-    delta = [fraction(2 * v + (2 * s.dim + 1) * a, e - BITS - 1) for v, a in zip(delta, alpha)]
+    delta = [fraction((2 * v + (2 * s.dim + 1) * a * top) * g, e - BITS - 1) / top for v, a, g in zip(delta, alpha, grown)]
     low = max(m.bit_length() + x for m, x in f) - 25
     for column, (m, x) in zip(inverse, f):
         short = shifted(m, x, low)
         eta = [a + b * short for a, b in zip(eta, column)]
-    eta = [fraction(abs(v) + a, e + low) for v, a in zip(eta, alpha)]
+    eta = [fraction((abs(v) + a) * g, e + low) for v, a, g in zip(eta, alpha, grown)]
     return delta, eta, [fraction(a, e) for a in alpha]
 
 
@@ -404,7 +406,7 @@ def check(s):
     if len(kept) != len(columns):
         raise Refused(f"excess: {len(kept)} contacts, {len(columns)} unknowns")
     s.hint = e, inverse = inverse_of(s, columns, len(columns), len(columns) - 1)
-    delta, eta, alpha = bounds(s, f, columns, e, inverse)
+    delta, eta, alpha = bounds(s, f, columns, e, inverse, [1] * len(columns))
     row, delta_g, eta_g, alpha_g = force_row(s, f, kept, [s.rows.get(c, s.contacts[c][3]) for c in kept])
     delta, eta, beta = max(delta + [delta_g]), max(eta + [eta_g]), 4 * s.dim * max(alpha + [alpha_g])
     if delta >= 1 or 4 * beta * eta >= (1 - delta) ** 2:
@@ -441,27 +443,50 @@ def trapped(s):
     opening, _, columns = equations(s, every)
     columns.pop()
     s.hint = e, inverse = inverse_of(s, columns, len(every), len(columns))
-    delta, eta, alpha = map(max, bounds(s, opening, columns, e, inverse))
     stress, low = scaled([c[3] for c in s.contacts])
     stress, low = [m << FORCE for m in stress], low - FORCE  # a step of Newton balances them to these digits
     rest = unbalanced(s, every, stress)
     stress = [m - shifted(sum(map(mul, column, rest)), s.k + e, 0) for m, column in zip(stress, inverse)]
     if min(stress) <= 0:
         raise Refused("force: not all are positive")
-    largest = max(Fraction(max(map(abs, column)), m) for column, m in zip(inverse, stress)) * fraction(1, e - low)
     rest = fraction(sum(map(abs, unbalanced(s, every, stress))), s.k + low)
     opened = sum(fraction(*v) * m for v, m in zip(opening, stress)) * fraction(1, low)
-    left, constant = 1 - delta - largest * rest, largest * opened + eta
-    square = 4 * s.dim * (largest * fraction(sum(stress), low) + alpha)
-    if left <= 0 or 4 * constant * square >= left**2:
-        raise Refused(f"singular: left {float(left):.3g}, 4 a0 a2 {float(4 * constant * square):.3g}")
+    for grown in ([1] * len(columns), loosely_held(s, columns, inverse, stress)):
+        delta, eta, _ = map(max, bounds(s, opening, columns, e, inverse, grown))
+        square, alpha, largest = 0, [0] * len(columns), 0
+        unit = [Fraction(1, g) for g in [max(grown)] * s.dim + grown][:: s.dim]  # of each stable sphere; the pinned one is at rest
+        node = {i: k for k, i in enumerate(i for i, yes in enumerate(s.stable) if yes)}
+        for (i, j, _, _), column, m in zip(s.contacts, inverse, stress):
+            wide = s.dim * (unit[node[i]] + unit[node[j]]) ** 2  # |w|^2 of a motion of length 1
+            square, column = square + wide * m, [abs(v) * g for v, g in zip(column, grown)]
+            largest = max(largest, Fraction(max(column), m))
+            scale = int(wide * max(grown) ** 2)
+            alpha = [a + scale * v for a, v in zip(alpha, column)]
+        largest, square = largest * fraction(1, e - low), square * fraction(1, low)
+        left, constant = 1 - delta - largest * rest, largest * opened + eta
+        second = largest * square + fraction(max(alpha), e) / max(grown) ** 2
+        if left > 0 and 4 * constant * second < left**2:
+            break
+    else:
+        raise Refused(f"singular: left {float(left):.3g}, 4 a0 a2 {float(4 * constant * second):.3g}")
     inner = 2 * constant / left  # the gamma of the densest packing within inner lies at most above / weight above s.g:
-    above = opened + rest * inner + 4 * s.dim * fraction(sum(stress), low) * inner**2
+    above = opened + rest * inner + square * inner**2
     weight = sum(fraction(*s.sigma2(*c[:2])) * m for c, m in zip(s.contacts, stress)) * fraction(1, low)
     error = (abs(gamma - fraction(s.g, s.ge)) + above / weight) / gamma
-    found = {"inner": inner * s.unit, "outer": left / (2 * square) * s.unit, "gamma_error": error}
+    outer = max(inner, left / (2 * second * max(grown)))
+    found = {"inner": inner * s.unit, "outer": outer * s.unit, "gamma_error": error}
     found.update(least_gap=max(0.0, float(least * min(size) / gamma) ** 0.5 - 1.0), delta=delta)
     return outward(found)
+
+
+def loosely_held(s, columns, inverse, stress):
+    """How much shorter than of the sphere that is held least the ways of others are, as powers of two: a hint."""
+    way = [0.0] * len(columns)
+    for column, m in zip(inverse, stress):
+        part = 1.0 / m
+        way = [max(a, abs(v) * part) for a, v in zip(way, column)]
+    way = [max(way[k : k + s.dim]) for k in range(0, len(way), s.dim)]
+    return [1 << min(FINEST, int(math.log2(max(way) / max(a, 1e-300)))) for a in way for _ in range(s.dim)]
 
 
 def outward(found):

@@ -16,8 +16,8 @@ Jamming take_kind(int32_t kind) {
   return kind == JAM_RIGIDITY_STRICT ? Jamming::strict : Jamming::collective;
 }
 
-// Why a packing is not known to be jammed.
-Answer answer_of(const jam_rigidity_report &r) {
+// Why a packing is not known to be jammed. unresolved: of its PackingVerdict.
+Answer answer_of(const jam_rigidity_report &r, double unresolved) {
   const bool strict = r.kind == JAM_RIGIDITY_STRICT;
   const char *kind = strict ? "strictly" : "collectively", *stress = strict ? " with an isotropic stress" : "";
   const auto n = [](int64_t x) { return static_cast<long long>(x); };
@@ -32,6 +32,11 @@ Answer answer_of(const jam_rigidity_report &r) {
             sentence("not %s jammed: forces on %lld contacts balance%s, at least %lld contacts are needed, "
                      "and %lld motions keep all contacts closed; jam_flex gives one",
                      kind, n(r.contacts), stress, n(r.contacts_needed), n(r.flexes))};
+  if (unresolved > 0.0)
+    return {JAM_AMBIGUOUS,
+            sentence("undecided whether the packing is %s jammed: a saddle, where contacts with forces of "
+                     "%.1e do not close together with all others, and without them spheres can move",
+                     kind, unresolved)};
   if (r.flexes > 0)
     return {JAM_AMBIGUOUS,
             sentence("undecided whether the packing is %s jammed: %lld motions keep all contacts closed, "
@@ -105,7 +110,7 @@ jam_status jam_rigidity(jam_system *sys, int32_t kind, jam_rigidity_report *repo
     r.rigidity_margin = v.result.margin;
     r.force_residual = v.result.force_residual;
     give_struct(r, report);
-    return answer_of(r);
+    return answer_of(r, v.unresolved);
   });
 }
 

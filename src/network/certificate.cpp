@@ -116,6 +116,12 @@ std::string why_undecided(const PackingVerdict &v) {
         "undecided: %lld motions keep the contacts closed, and to second order the curvature of the round wall "
         "neither stabilises nor frees them",
         static_cast<long long>(v.result.flexes));
+  else if (v.unresolved > 0.0)
+    std::snprintf(
+        line, sizeof line,
+        "undecided, a saddle: contacts with forces of %.1e do not close together with all others, and without "
+        "them spheres can move",
+        v.unresolved);
   else if (v.result.spheres == 1)
     std::snprintf(line, sizeof line, "undecided: only own images fix sphere and cell, and not in every strain");
   else

@@ -101,7 +101,7 @@ jam_check_report untested_check() {
   return r;
 }
 
-CheckResult check_as_it_is(const Packing &p) {
+CheckResult check_as_it_is(const Packing &p, void (*confirm)(const Packing &, PackingVerdict &)) {
   CheckResult out;
   out.tested = p;
   jam_check_report &r = out.report;
@@ -113,6 +113,7 @@ CheckResult check_as_it_is(const Packing &p) {
   const Packing &q = out.tested;
   r.digits = resolution.digits(p), r.coordinate_step = resolution.step, r.resolution = resolution.relative(p);
   PackingVerdict verdict = test_packing(q, resolution, nullptr, Jamming::collective);
+  if (confirm) confirm(q, verdict);
   r.jammed = verdict_code(verdict.result.jammed);
   const bool strains = traceless_strains(p.dim, ~p.container.closed()) > 0;  // walls do not
   r.strictly_jammed = strains ? JAM_VERDICT_NO : JAM_VERDICT_UNTESTED;

@@ -2,10 +2,9 @@
 #pragma once
 #include <string>
 
-#include "core/call_scope.hpp"
 #include "core/packing.hpp"
 #include "jam/jam.h"
-#include "network/contact_network.hpp"
+#include "network/rigidity_test.hpp"
 
 namespace jam {
 
@@ -17,7 +16,8 @@ struct CheckResult {
   Packing tested;           // with the diameters that were tested: no pair overlaps
   ContactNetwork carrying;  // contacts with force of the verdict
 };
-CheckResult check_as_it_is(const Packing &p);
+// confirm: what a layer above finds of a verdict of doubles; it may change it.
+CheckResult check_as_it_is(const Packing &p, void (*confirm)(const Packing &, PackingVerdict &) = nullptr);
 
 // check_text.cpp: the report as one paragraph.
 std::string text_of(const jam_check_report &report);

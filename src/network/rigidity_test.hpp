@@ -74,6 +74,8 @@ struct PackingVerdict {
   std::vector<int32_t> sphere;               // node of result.flex -> sphere
   int64_t undecided_contacts = 0;            // pairs of `contacts` that are open by contact_gap_limit or more
   Verdict when_closed = Verdict::undecided;  // with all pairs in doubt closed
+  // The least force of an undecided packing whose contacts do not close together in two doubles; else 0.
+  double unresolved = 0.0;
   // The carrying contacts and their forces: the network that crunch and analysis go on with.
   ContactNetwork carrying(int dim) const;
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "core/call_scope.hpp"
 #include "network/rigidity_test.hpp"
@@ -110,50 +111,60 @@ RigidityMatrix rows_of(const ProofScene &s) {
   return g;
 }
 
-void add_closed_pairs(ProofScene &s) {
+void add_closed_pairs(ProofScene &s, double opening) {
   for (const NearPair &pair : near_pairs(s))
-    if (pair.opening <= proof_tuning::closed && is_stable(s, pair)) add_contact(s, pair);
+    if (pair.opening <= opening && is_stable(s, pair)) add_contact(s, pair);
 }
 
 // All closed pairs become contacts, with the forces that the test of jamming finds in the middle of all states. Those
-// without force leave again.
-void take_middle_forces(ProofScene &s) {
-  add_closed_pairs(s);
-  const RigidityMatrix g = rows_of(s);
-  const RigidityResult r = test_rigidity(g, Jamming::collective);
-  if (r.jammed == Verdict::yes)
-    for (size_t c = 0; c < s.contacts(); ++c) s.force[c] = r.force[c] / g.sigma[c];
+// without force leave again. Where their test finds no jammed packing, pairs that are open by far less than second
+// orders of any motion are taken too. False where that does not hold the spheres either.
+bool take_middle_forces(ProofScene &scene) {
   std::vector<char> on;
-  for (const double f : s.force) on.push_back(f > 0.0);
-  keep_contacts(s, on);
+  for (const double opening : {proof_tuning::closed, proof_tuning::nearly_closed * scene.gamma}) {
+    ProofScene s = scene;
+    add_closed_pairs(s, opening);
+    const RigidityMatrix g = rows_of(s);
+    const RigidityResult r = test_rigidity(g, Jamming::collective);
+    if (r.jammed != Verdict::yes) continue;
+    for (size_t c = 0; c < s.contacts(); ++c) s.force[c] = r.force[c] / g.sigma[c], on.push_back(r.force[c] > 0.0);
+    keep_contacts(s, on);
+    scene = std::move(s);
+    return true;
+  }
+  for (const double f : scene.force) on.push_back(f > 0.0);
+  keep_contacts(scene, on);
+  return false;
 }
 
-// A direction with a positive component along each vector, where the search finds one (F. Rosenblatt's perceptron).
-bool way_out(size_t d, const std::vector<double> &vectors, std::vector<double> &way) {
-  way.assign(d, 0.0);
+// x with a positive component along each of the vectors, where the search finds one (F. Rosenblatt's perceptron).
+bool positive_on_all(size_t d, const std::vector<double> &vectors, std::vector<double> &x) {
+  x.assign(d, 0.0);
   for (int turn = 0; turn < proof_tuning::turns; ++turn) {
     double least = HUGE_VAL;
     size_t worst = 0;
     for (size_t k = 0; k < vectors.size(); k += d) {
       double along = 0.0;
-      for (size_t c = 0; c < d; ++c) along += vectors[k + c] * way[c];
+      for (size_t c = 0; c < d; ++c) along += vectors[k + c] * x[c];
       if (along < least) least = along, worst = k;
     }
     if (least > 0.0) return true;
-    for (size_t c = 0; c < d; ++c) way[c] += vectors[worst + c];
+    for (size_t c = 0; c < d; ++c) x[c] += vectors[worst + c];
   }
   return false;
 }
 
-// A rattler that overlaps moves away from the pairs that it nearly touches, as far as it leaves all others open.
+// A rattler that overlaps moves to where all pairs that it nearly touches are open: u / t with n . u + t gap > 0 for
+// each, and t > 0. Gaps are measured by lengths from the overlap on, as a cage may be as narrow.
 bool free_rattler(ProofScene &s, int32_t i, const std::vector<NearPair> &pairs) {
   const size_t d = static_cast<size_t>(s.dim);
-  std::vector<NearPair> own;
-  std::vector<double> vectors, way;
+  const double longest = proof_tuning::freed * s.ratio[i] * std::sqrt(s.gamma);
+  std::vector<const NearPair *> own;
+  std::vector<double> normal, gap;
+  double overlap = half_ulp * longest;
   for (const NearPair &pair : pairs) {
     if (pair.i != i && pair.j != i) continue;
-    own.push_back(pair);
-    if (pair.opening > proof_tuning::freed * s.gamma) continue;
+    own.push_back(&pair);
     Cell::Vector r{};
     double square = 0.0;
     for (size_t c = 0; c < d; ++c) {
@@ -161,17 +172,27 @@ bool free_rattler(ProofScene &s, int32_t i, const std::vector<NearPair> &pairs) 
       for (size_t q = c; q < d; ++q) r[c] += pair.image[q] * s.cell.row(static_cast<int>(q))[c];
       square += r[c] * r[c];
     }
-    for (size_t c = 0; c < d; ++c) vectors.push_back((pair.i == i ? r[c] : -r[c]) / std::sqrt(square));
+    for (size_t c = 0; c < d; ++c) normal.push_back((pair.i == i ? r[c] : -r[c]) / std::sqrt(square));
+    gap.push_back(opening_of(s, pair) * 0.5 * std::sqrt(square) / s.gamma);
+    overlap = std::max(overlap, -gap.back());
   }
-  if (!way_out(d, vectors, way)) return false;
-  double length = 0.0;
-  for (const double x : way) length += x * x;
-  for (double t = proof_tuning::freed * s.ratio[i] * std::sqrt(s.gamma / length); t > half_ulp; t *= 0.25) {
-    const std::vector<double> before(&s.high[i * d], &s.high[i * d] + d);
-    for (size_t c = 0; c < d; ++c) s.high[i * d + c] += t * way[c];
-    if (std::all_of(own.begin(), own.end(), [&](const NearPair &pair) { return opening_of(s, pair) > 0.0; }))
+  std::vector<double> vectors, x;
+  for (double unit = overlap; unit < longest; unit *= 4.0) {
+    vectors.assign(d, 0.0), vectors.push_back(1.0);
+    for (size_t k = 0; k < own.size(); ++k) {
+      const double part = gap[k] / unit, length = std::sqrt(1.0 + part * part);
+      for (size_t c = 0; c < d; ++c) vectors.push_back(normal[k * d + c] / length);
+      vectors.push_back(part / length);
+    }
+    if (!positive_on_all(d + 1, vectors, x)) continue;
+    const std::vector<double> high(&s.high[i * d], &s.high[i * d] + d), low(&s.low[i * d], &s.low[i * d] + d);
+    for (size_t c = 0; c < d; ++c) {
+      const DoubleDouble sum = DoubleDouble(high[c], low[c]) + DoubleDouble(unit * x[c] / x[d]);
+      s.high[i * d + c] = sum.high, s.low[i * d + c] = sum.low;
+    }
+    if (std::all_of(own.begin(), own.end(), [&](const NearPair *pair) { return opening_of(s, *pair) > 0.0; }))
       return true;
-    std::copy(before.begin(), before.end(), &s.high[i * d]);
+    std::copy(high.begin(), high.end(), &s.high[i * d]), std::copy(low.begin(), low.end(), &s.low[i * d]);
   }
   return false;
 }
@@ -199,7 +220,7 @@ Round exchange_once(ProofScene &s) {
 
 }  // namespace
 
-bool exchange_contacts(ProofScene &scene) {
+Exchange close_together(ProofScene &scene) {
   ProofScene s = scene;
   Round round = Round::changed;
   bool changed = false;
@@ -207,14 +228,50 @@ bool exchange_contacts(ProofScene &scene) {
     round = exchange_once(s);
     changed = changed || round == Round::changed;
   }
-  if (round != Round::closed) return false;
-  if (changed) take_middle_forces(s);
+  if (round != Round::closed) return Exchange::endless;
+  scene = std::move(s);
+  return changed ? Exchange::changed : Exchange::same;
+}
+
+Settled settle_exchange(ProofScene &scene, Exchange end) {
+  if (end == Exchange::endless) return Settled::unchanged;
+  Settled out = Settled::unchanged;
+  ProofScene s = scene;
+  if (end == Exchange::changed) out = take_middle_forces(s) ? Settled::held : Settled::changed;
   const std::vector<NearPair> pairs = near_pairs(s);
   for (const NearPair &pair : pairs)
     for (const int32_t i : {pair.i, pair.j})
-      if (pair.opening < 0.0 && s.node[i] < 0) changed = free_rattler(s, i, pairs) || changed;
-  if (changed) scene = std::move(s);
-  return changed;
+      if (s.node[i] < 0 && opening_of(s, pair) < 0.0 && free_rattler(s, i, pairs) && out == Settled::unchanged)
+        out = Settled::changed;
+  if (out != Settled::unchanged) scene = std::move(s);
+  return out;
+}
+
+namespace {
+
+double scale_of(const ProofScene &s) {
+  double sum = 0.0;
+  for (size_t c = 0; c < s.contacts(); ++c) sum += s.force[c] * s.sigma_squared(c).value();
+  return sum;
+}
+
+}  // namespace
+
+void lean_on_closed(ProofScene &settled, const ProofScene &closed) {
+  const size_t d = static_cast<size_t>(closed.dim);
+  const auto key = [d](const ProofScene &s, size_t c) {
+    const auto at = s.image.begin() + static_cast<std::ptrdiff_t>(c * d);
+    std::vector<int32_t> out{s.sphere[s.a[c]], s.sphere[s.b[c]]};
+    out.insert(out.end(), at, at + static_cast<std::ptrdiff_t>(d));
+    return out;
+  };
+  std::map<std::vector<int32_t>, double> force;
+  const double whole = scale_of(closed), part = proof_tuning::leaning / scale_of(settled);
+  for (size_t c = 0; c < closed.contacts(); ++c) force[key(closed, c)] = std::max(0.0, closed.force[c]) / whole;
+  for (size_t c = 0; c < settled.contacts(); ++c) {
+    const auto at = force.find(key(settled, c));
+    settled.force[c] = part * settled.force[c] + (at == force.end() ? 0.0 : at->second);
+  }
 }
 
 }  // namespace jam

@@ -4,11 +4,20 @@
 
 namespace jam {
 
-// Newton's steps and exchanges of contacts, until all that are listed close with positive forces and no other pair
-// overlaps: the dual simplex method for the largest Gamma, in two doubles. Contacts that stay open leave the list,
-// pairs of stable spheres that overlap enter it, and rattlers move out of overlaps. Forces of a new list are in the
-// middle of all states of self-stress. False where nothing changes, or exchanges come to no end: then the scene is as
-// it was.
-bool exchange_contacts(ProofScene &scene);
+// The dual simplex method for the largest Gamma, in two doubles: Newton's steps, and exchanges of contacts with gaps
+// that stay for pairs that overlap, until all listed contacts close and no other pair of stable spheres overlaps.
+// Forces may vanish. `endless`: exchanges come to no end, and the scene is as it was.
+enum class Exchange { endless, same, changed };
+Exchange close_together(ProofScene &scene);
+
+// After close_together: forces in the middle of all states of self-stress, on the contacts that have some; and rattlers
+// move out of overlaps. `held`: the test of jamming finds these forces, and no flex. `unchanged`: the scene is as it
+// was.
+enum class Settled { unchanged, changed, held };
+Settled settle_exchange(ProofScene &scene, Exchange end);
+
+// Adds the forces of the contacts that close to a small part of those in the middle: pairs that are not quite closed
+// carry little then, and a proof allows for their gaps.
+void lean_on_closed(ProofScene &settled, const ProofScene &closed);
 
 }  // namespace jam

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <set>
 #include <tuple>
 
 #include "core/call_scope.hpp"
@@ -123,6 +122,11 @@ class Tiles {
 // Directions of contacts that exact angles relate: a forest of contacts, each with its angle to its root.
 class Directions {
  public:
+  explicit Directions(size_t contacts) : node_(contacts) {}
+  void clear() {
+    for (const int32_t c : related_) node_[c] = Node();
+    related_.clear();
+  }
   // q = p + angle, both as they are walked.
   void relate(const Side &p, const Side &q, const ProofScene &s, Angle angle) {
     angle.sixths += 3 * (backwards(p, s) + backwards(q, s));  // now of the contacts from b to a
@@ -141,23 +145,30 @@ class Directions {
 
  private:
   struct Node {
-    int32_t up;
+    int32_t up = -1;  // none: related to no other
     Angle angle;
   };
   static int backwards(const Side &p, const ProofScene &s) { return p.from == s.a[p.contact]; }
   int32_t root(int32_t c) {
-    const auto at = node_.emplace(c, Node{c, {}}).first;
-    if (at->second.up == c) return c;
-    const int32_t up = at->second.up, top = root(up);
+    if (node_[c].up < 0) node_[c].up = c, related_.push_back(c);
+    if (node_[c].up == c) return c;
+    const int32_t up = node_[c].up, top = root(up);
     if (top != up) node_[c].angle.add(node_[up].angle, 1), node_[c].up = top;
     return top;
   }
-  std::map<int32_t, Node> node_;
+  std::vector<Node> node_;
+  std::vector<int32_t> related_;
 };
 
 class Search {
  public:
-  explicit Search(const ProofScene &s) : s_(s), lengths_(s), tiles_(s, lengths_), dropped_(s.contacts(), false) {}
+  explicit Search(const ProofScene &s)
+      : s_(s),
+        lengths_(s),
+        tiles_(s, lengths_),
+        dropped_(s.contacts(), false),
+        directions_(s.contacts()),
+        seen_(tiles_.all.size(), -1) {}
 
   std::vector<ImpliedContact> run(size_t excess) {
     std::vector<ImpliedContact> out;
@@ -165,13 +176,13 @@ class Search {
       CallScope::look();
       if (tiles_.of[c].empty()) continue;
       const auto contact = static_cast<int32_t>(c);
-      ImpliedContact found{contact, {}, {}};
-      Directions directions = without(contact, found.tiles);
+      relate_without(contact);
+      std::vector<int32_t> path;
       for (const int32_t t : tiles_.of[c]) {
-        found.path.clear();
-        if (!follows(tiles_.all[t], contact, directions, found.path)) continue;
+        path.clear();
+        if (!follows(tiles_.all[t], contact, path)) continue;
         dropped_[c] = true;
-        out.push_back(found);
+        out.push_back({contact, path, walks()});
         break;
       }
     }
@@ -181,32 +192,36 @@ class Search {
   }
 
  private:
-  // What the kept tiles near a contact relate that do not have it.
-  Directions without(int32_t contact, std::vector<std::vector<int32_t>> &used) {
-    Directions out;
-    std::set<int32_t> seen(tiles_.of[contact].begin(), tiles_.of[contact].end());
-    std::vector<int32_t> shell(seen.begin(), seen.end());
+  // What the kept tiles near a contact relate that do not have it: directions, and the tiles in their order.
+  void relate_without(int32_t contact) {
+    directions_.clear(), used_.clear();
+    std::vector<int32_t> shell(tiles_.of[contact]), next;
+    for (const int32_t t : shell) seen_[t] = contact;
     for (int step = 0; step <= proof_tuning::patch && !shell.empty(); ++step) {
-      std::vector<int32_t> next;
+      next.clear();
       for (const int32_t t : shell) {
-        if (use(tiles_.all[t], contact, out)) {
-          used.emplace_back();
-          for (const Side &p : tiles_.all[t].side) used.back().push_back(p.contact);
-        }
+        if (use(tiles_.all[t], contact)) used_.push_back(t);
         for (const Side &p : tiles_.all[t].side)
           for (const int32_t other : tiles_.of[p.contact])
-            if (seen.insert(other).second) next.push_back(other);
+            if (seen_[other] != contact) seen_[other] = contact, next.push_back(other);
       }
       shell.swap(next);
     }
+  }
+  std::vector<std::vector<int32_t>> walks() const {
+    std::vector<std::vector<int32_t>> out;
+    for (const int32_t t : used_) {
+      out.emplace_back();
+      for (const Side &p : tiles_.all[t].side) out.back().push_back(p.contact);
+    }
     return out;
   }
-  bool use(const Tile &tile, int32_t contact, Directions &out) {
+  bool use(const Tile &tile, int32_t contact) {
     const auto &side = tile.side;
     for (const Side &p : side)
       if (p.contact == contact || dropped_[p.contact]) return false;
     if (side.size() == 4) {
-      out.relate(side[0], side[2], s_, {3}), out.relate(side[1], side[3], s_, {3});
+      directions_.relate(side[0], side[2], s_, {3}), directions_.relate(side[1], side[3], s_, {3});
       return true;
     }
     // Walked round, a triangle turns by 180 degrees less its angle at each corner.
@@ -215,13 +230,13 @@ class Search {
       const auto length = [&](int m) { return lengths_.of[side[(k + m) % 3].contact]; };
       Angle outer;
       outer.add({3}, turn), outer.add(lengths_.between(length(2), length(0), length(1)), -turn);
-      out.relate(side[k], side[k + 1], s_, outer);
+      directions_.relate(side[k], side[k + 1], s_, outer);
     }
     return true;
   }
   // Whether the other sides of the tile sum to one vector as long as the contact. In Z[e^(i pi / 3)] times roots,
   // unknown angles and lengths, sums that cancel are zero.
-  bool follows(const Tile &tile, int32_t contact, Directions &directions, std::vector<int32_t> &path) {
+  bool follows(const Tile &tile, int32_t contact, std::vector<int32_t> &path) {
     static constexpr int unit[6][2] = {{1, 0}, {0, 1}, {-1, 1}, {-1, 0}, {0, -1}, {1, -1}};
     std::map<std::tuple<int32_t, std::map<int, int>, int>, std::array<int, 2>> sum;
     const size_t count = tile.side.size();
@@ -230,7 +245,7 @@ class Search {
     for (size_t k = 1; k < count; ++k) {
       const Side &p = tile.side[(start + k) % count];
       if (dropped_[p.contact]) return false;
-      const auto [root, angle] = directions.of(p, s_);
+      const auto [root, angle] = directions_.of(p, s_);
       auto &at = sum[{root, angle.unknown, lengths_.of[p.contact]}];
       for (int q = 0; q < 2; ++q) at[q] += unit[angle.sixths][q];
       path.push_back(p.contact);
@@ -248,6 +263,8 @@ class Search {
   Lengths lengths_;
   Tiles tiles_;
   std::vector<bool> dropped_;
+  Directions directions_;
+  std::vector<int32_t> seen_, used_;  // tile -> the last contact that met it; tiles that gave the directions
 };
 
 }  // namespace

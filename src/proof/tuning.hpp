@@ -7,11 +7,14 @@ constexpr int refinements = 3;          // of a solve: each takes condition time
 constexpr int inverse_iterations = 30;  // to some percent of the smallest eigenvalue
 constexpr int newton_steps = 2;         // a third one gains nothing (tests/bench/results/proof.json)
 constexpr double closed = 1e-26;        // |r|^2 / sigma^2 - Gamma in two doubles; rounding is 1e-32
-constexpr int exchanges = 20;  // rounds: in each all contacts that do not close leave, and overlapping pairs enter
+// The same over Gamma, of pairs that hold spheres: a motion of 1e-9 opens them by as much.
+constexpr double nearly_closed = 1e-18;
+constexpr double leaning = 1e-2;  // forces in the middle over those that close, in a proof of such pairs
+constexpr int exchanges = 20;     // rounds: in each all contacts that do not close leave, and overlapping pairs enter
 // Doubles hold gaps and states of a round to this part: what is left waits for the next round.
 constexpr double vanishing = 1e-9;
 constexpr double freed = 1e-6;  // longest way of a rattler out of an overlap, over its size
-constexpr int turns = 1000;     // of the way of a rattler out of an overlap
+constexpr int turns = 1000;     // of the search for it
 constexpr double weak = 1e-5;   // forces over the mean, below which listed contacts may be open ones
 // Shifts that are tried, as parts of the smallest eigenvalue: the largest one proves the most.
 constexpr double parts_of_eigenvalue[] = {0.6, 0.3, 0.1};

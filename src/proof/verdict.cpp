@@ -10,19 +10,45 @@
 #include "proof/tuning.hpp"
 
 namespace jam {
+namespace {
+
+// Forces that balance where the contacts are: steps to the least gaps would spread those of pairs that are not quite
+// closed over all.
+bool balance(ProofScene &s, ProofEquations &e) {
+  const BlasSingleThread single;
+  e = evaluate(s);
+  NormalMatrix normal(s, e);
+  if (!normal.factorise()) return false;
+  refine_forces(s, e, normal);
+  return *std::min_element(s.force.begin(), s.force.end()) > 0.0;
+}
+
+}  // namespace
 
 bool find_proof(ProofScene &scene, ProofEquations &equations, Proof &proof) {
   ProofScene other = scene;
   const bool refined = refine(scene, equations);
   proof = refined ? prove(scene, equations) : Proof{};
   if (!refined) proof.cause = ProofCause::singular;
+  if (proof.exact || proof.trapped || scene.strict) return refined;
+  const Exchange exchanged = close_together(other);
+  const ProofScene closed = other;
+  const Settled end = settle_exchange(other, exchanged);
+  if (end == Settled::unchanged) return refined;
+  ProofScene settled = other;
   ProofEquations there;
-  if (proof.exact || proof.trapped || scene.strict || !exchange_contacts(other)) return refined;
-  other.implied = find_implied(other);
-  if (!refine(other, there)) return refined;
-  const Proof again = prove(other, there);
-  if (!again.exact && !again.trapped) return refined;
-  proof = again, scene = std::move(other), equations = std::move(there);
+  settled.implied = find_implied(settled);
+  if (refine(settled, there)) {
+    const Proof again = prove(settled, there);
+    if (again.exact || again.trapped) {
+      proof = again, scene = std::move(settled), equations = std::move(there);
+      return true;
+    }
+  }
+  if (end != Settled::held) return refined;
+  lean_on_closed(other, closed);
+  if (!balance(other, there)) return refined;
+  proof = prove(other, there), scene = std::move(other), equations = std::move(there);
   return true;
 }
 
@@ -88,11 +114,8 @@ ContactNetwork network_of(const ProofScene &s, const Packing &p) {
 // so that forces are balanced there again. False where one of them would pull.
 bool balance_at_positions(const Packing &p, ContactNetwork &net) {
   ProofScene s = scene_of_contacts(p, net, {});
-  const ProofEquations e = evaluate(s);
-  NormalMatrix normal(s, e);
-  if (!normal.factorise()) return false;
-  refine_forces(s, e, normal);
-  if (!(*std::min_element(s.force.begin(), s.force.end()) > 0.0)) return false;
+  ProofEquations e;
+  if (!balance(s, e)) return false;
   net = network_of(s, p);
   return true;
 }
@@ -122,15 +145,22 @@ bool proves(ProofScene &s) {
 
 void confirm_by_exchange(const Packing &p, PackingVerdict &verdict) {
   const RigidityResult &r = verdict.result;
-  if (r.jammed != Verdict::yes || r.contacts <= r.contacts_needed || p.model != JAM_MODEL_EUCLID) return;
+  if (r.jammed != Verdict::yes || r.contacts <= r.contacts_needed || p.model != JAM_MODEL_EUCLID || p.container) return;
   const ContactNetwork network = verdict.carrying(p.dim);
   if (!(*std::min_element(network.force.begin(), network.force.end()) < proof_tuning::weak)) return;
   const BlasSingleThread single;
   ProofScene as_listed = scene_of_contacts(p, network, {}), closing = as_listed;
   if (as_listed.own_images || proves(as_listed)) return;
-  if (!exchange_contacts(closing) || !proves(closing)) return;
-  ContactNetwork net = network_of(closing, p);
-  if (balance_at_positions(p, net)) take_network(std::move(net), p, verdict);
+  const Exchange end = close_together(closing);
+  if (end == Exchange::same) return;
+  const Settled found = settle_exchange(closing, end);
+  if (found == Settled::held || (found == Settled::changed && proves(closing))) {
+    ContactNetwork net = network_of(closing, p);
+    if (balance_at_positions(p, net)) take_network(std::move(net), p, verdict);
+  } else {
+    verdict.result.jammed = verdict.when_closed = Verdict::undecided;
+    verdict.unresolved = *std::min_element(network.force.begin(), network.force.end());
+  }
 }
 
 }  // namespace jam

@@ -163,7 +163,7 @@ Phase decide_jamming(CrunchState &s) {
     s.out.text = why_not_jammed(verdict);
     take_positive_forces(s, verdict);
     if (verdict.result.jammed != Verdict::no)
-      stop(s, JAM_STOP_PRECISION, JAM_NOT_CONVERGED);
+      stop(s, verdict.unresolved > 0.0 ? JAM_STOP_SADDLE : JAM_STOP_PRECISION, JAM_NOT_CONVERGED);
     else if (verdict.result.flexes > 0)
       stop(s, JAM_STOP_SADDLE, JAM_NOT_CONVERGED);
     else if (verdict.result.stressed == Verdict::yes)

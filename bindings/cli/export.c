@@ -29,6 +29,7 @@ struct list {
 };
 static int put_path(const char *path, void *with) {
   struct list *list = with;
+  if (is_omitted(path)) return 0;
   if (!list->first) fputs(", ", list->file);
   list->first = 0;
   put_text(list->file, path);
@@ -60,7 +61,7 @@ static int write_json(const options *o, const jam_system *sys, int code, const n
 
 static int print_path(const char *path, void *with) {
   (void)with;
-  printf("  written   %s\n", path);
+  if (!is_omitted(path)) printf("  written   %s\n", path);
   return 0;
 }
 
@@ -73,6 +74,8 @@ int export_file(const options *o) {
   if (!code && check_formats(o, sys)) code = EXIT_USAGE;
   if (code) return leave(sys, code);
   if (tables || o->vtk || o->page || o->stl) find_network(sys, &found);
+  if (!found.known)
+    note_omitted(o->contacts), note_omitted(o->spectrum), note_omitted(o->gaps), note_omitted(o->structure);
   if (write_files(sys, o, found.known, seconds_now() + o->wall_time, &cut_short)) return leave(sys, failure_code());
   code = tables && !found.known ? EXIT_FAILED : cut_short ? EXIT_EARLY : EXIT_DONE;
   if (o->json) {

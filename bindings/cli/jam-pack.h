@@ -114,8 +114,10 @@ const char *messages(void); /* of this command line so far */
 void forget_messages(void);
 /* 1 after a message when a call failed or was stopped: then it has written nothing. Notes the exit code that fits. */
 int has_failed(jam_status status);
-void note_failure(int code); /* the first one counts */
-int failure_code(void);      /* EXIT_OUTPUT where none was noted */
+void note_failure(int code);         /* the first one counts */
+void note_omitted(const char *path); /* of an option: this file is not written; may be NULL */
+int is_omitted(const char *path);
+int failure_code(void); /* EXIT_OUTPUT where none was noted */
 
 /* json.c: items of an object, each a line that ends with a comma. Numbers that are not finite, and counts that are not
  * known, are null. */

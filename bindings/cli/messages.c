@@ -8,11 +8,14 @@
 
 const char *program = "jam-pack";
 
-/* Of this command line: all messages, a line each, and the exit code of the first failure. */
+/* Of this command line: all messages, a line each, the exit code of the first failure, and files that were asked for
+ * but are not written. */
 static struct {
   char *text;
   size_t size;
   int code;
+  const char *omitted[8];
+  int omitted_count;
 } said;
 
 void forget_messages(void) {
@@ -94,6 +97,18 @@ void complain(const char *format, ...) {
   in_own_words(text, line, sizeof line);
   fprintf(stderr, "%s: %s\n", program, line);
   keep_line(line);
+}
+
+void note_omitted(const char *path) {
+  if (path && said.omitted_count < (int)(sizeof said.omitted / sizeof *said.omitted))
+    said.omitted[said.omitted_count++] = path;
+}
+
+int is_omitted(const char *path) {
+  int k;
+  for (k = 0; k < said.omitted_count; ++k)
+    if (said.omitted[k] == path) return 1;
+  return 0;
 }
 
 void note_failure(int code) {

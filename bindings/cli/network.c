@@ -11,6 +11,7 @@ static int write_table(jam_status status, char *text, const char *path) {
     complain("cannot write %s: %s", path, jam_last_error());
   else if (!text) {
     complain("%s is not written: Ctrl-C or --wall-time came before it was computed", path);
+    note_omitted(path);
     bad = 1;
   } else if ((bad = open_output(&out, path)) == 0) {
     fputs(text, out.file);

@@ -86,6 +86,7 @@ static int write_pores(jam_system *sys, const options *o) {
   status = jam_pore_sizes(sys, o->pore_points, o->pore_seed, table, len, NULL);
   if (status == JAM_CANCELLED) {
     complain("%s is not written: Ctrl-C or --wall-time came before it was computed", o->pores);
+    note_omitted(o->pores);
     bad = 1;
   } else if (!has_failed(status) && !open_output(&out, o->pores)) {
     fputs("x,y,z,distance,radius\n", out.file);

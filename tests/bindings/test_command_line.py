@@ -240,6 +240,17 @@ class CommandLine(unittest.TestCase):
             code, _, err = self.run_words(program, "export", "start.xyz", "--stl", "m.stl", "--stl-bridge", "0.2")
             self.assertEqual((code, "m.stl has no bridge" in err), (0, True), err)
 
+    def test_files_that_are_not_written_are_not_listed(self):
+        s = jam.System.random(200, 3, 1)
+        s.crunch()
+        s.write(str(self.dir / "j.xyz"))
+        for program in self.programs():
+            words = "export j.xyz --gaps g.csv --spectrum m.csv --modes 0 --wall-time 1e-3".split()
+            code, out, err = self.run_words(program, *words, "--json")
+            self.assertEqual((code, json.loads(out)["written"], (self.dir / "m.csv").exists()), (1, ["g.csv"], False), err)
+            code, out, _ = self.run_words(program, *words)
+            self.assertEqual((code, re.findall("written +(.*)", out)), (1, ["g.csv"]))
+
     def test_json_of_a_job_has_its_end(self):
         for program in self.programs():
             code, out, err = self.run_words(program, *"--n 20 --no-md --json --wall-time 1e-9".split())

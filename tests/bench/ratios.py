@@ -63,7 +63,7 @@ def draw(rows, path):
         axis.set(xscale="log", yscale="log", xlabel="ratio of the diameters", ylabel=label)
         axis.grid(alpha=0.3)
     axes[1].plot([], [], "o", mfc="white", color="grey", label="the large jam alone")
-    axes[1].legend(loc="lower left")
+    axes[1].legend(loc="lower left", fontsize=8)
     fig.savefig(path, dpi=110)
 
 

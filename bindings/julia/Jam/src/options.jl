@@ -36,8 +36,15 @@ function distance(a::AbstractString, b::AbstractString)
     return row[end]
 end
 
-"The nearest of the known names, or all of them."
+# Other words of the field for what has one name here.
+const OTHER_WORDS = Dict("N" => "n", "d" => "dim", "phi" => "packing_fraction", "ϕ" => "packing_fraction", "φ" => "packing_fraction",
+    "density" => "packing_fraction", "rate" => "growth_rate", "tol" => "gain_tolerance", "tolerance" => "gain_tolerance",
+    "timeout" => "wall_time", "side" => "box")
+
+"Our word for another word of the field, the nearest of the known names, or all of them."
 function suggestion(name::AbstractString, known)
+    word = get(OTHER_WORDS, name, "")
+    word in known && return "; did you mean $word?"
     near = sort([(distance(name, k), k) for k in known if distance(name, k) <= max(2, length(name) ÷ 3)])
     isempty(near) || return "; did you mean $(near[1][2])?"
     return "; there are $(join(known, ", "))"

@@ -38,6 +38,8 @@ static int write_spectrum(jam_system *sys, int64_t count, const char *path) {
     status = mode ? jam_modes(sys, NULL, &o, mode, 2 * m, NULL, 0, NULL) : JAM_E_MEMORY;
   }
   if (status >= 0 && status != JAM_CANCELLED) status = jam_pack_modes(mode, 2 * m, &text);
+  if (status >= 0 && text && count > 0 && (int64_t)m < count)
+    complain("%s has %lld modes: there are no more", path, (long long)m);
   bad = write_table(status, text, path);
   free(mode);
   return bad;

@@ -1,6 +1,7 @@
 // Spheres by the cell that they are in, kept true move by move. For dilute hard spheres: their steps are so long that
 // lists would last for no sweep.
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -36,6 +37,12 @@ class MonteCarloCells {
   bool any(const Place &at, F &&f) const {
     return any_from<0>(at, 0, f);
   }
+  // The same in all cells up to `reach` from that of the place along each axis, each once.
+  template <class F>
+  bool any_within(const Place &at, size_t reach, F &&f) const {
+    return any_within_from<0>(at, 0, reach, f);
+  }
+  size_t side() const { return side_; }
 
  private:
   static constexpr int32_t none = -1;
@@ -66,6 +73,19 @@ class MonteCarloCells {
       const size_t here = digit(at, C), begin = cell * side_;
       return any_from<C + 1>(at, begin + here, f) || any_from<C + 1>(at, begin + (here ? here - 1 : side_ - 1), f) ||
              any_from<C + 1>(at, begin + (here + 1 < side_ ? here + 1 : 0), f);
+    }
+  }
+  template <int C, class F>
+  bool any_within_from(const Place &at, size_t cell, size_t reach, F &&f) const {
+    if constexpr (C == D) {
+      for (int32_t k = head_[cell]; k != none; k = next_[k])
+        if (f(k)) return true;
+      return false;
+    } else {
+      const size_t count = std::min(2 * reach + 1, side_), first = digit(at, C) + side_ - std::min(reach, side_);
+      for (size_t k = 0; k < count; ++k)
+        if (any_within_from<C + 1>(at, cell * side_ + (first + k) % side_, reach, f)) return true;
+      return false;
     }
   }
   void put(int32_t i, size_t cell) {

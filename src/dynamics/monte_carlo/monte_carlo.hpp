@@ -6,7 +6,7 @@
 //
 // Lists. Each sphere lists those within the longest contact distance and a skin. Lists hold until a sphere has moved by
 // half the skin; then all are made again from cells. Dilute hard spheres take such long steps that lists would hold for
-// no sweep: they look into cells instead. Both give the same bits.
+// no sweep: they look into cells instead. Both give the same bits. Sizes that differ much have cells by level.
 //
 // A sweep is one trial of each sphere in the order of their numbers. Every single trial keeps the Boltzmann
 // distribution, so a sweep does. Random numbers are a function of (seed, run, sweep, sphere).

@@ -52,7 +52,7 @@ class MonteCarloSpheres : public MonteCarlo {
     skin_ = std::max(least, std::min(best, room));
     if (skin_ > room) skin_ = everything;  // a small box: all pairs are listed, for ever
     choose_cells();
-    if (!cells_.in_use()) make_lists();
+    if (!in_cells()) make_lists();
   }
 
   double gap_range() const final {
@@ -61,6 +61,7 @@ class MonteCarloSpheres : public MonteCarlo {
   }
   void count_gaps(double h_max, std::vector<double> &bins) final {
     make_lists(by_size_ ? h_max : 0.0);  // after it the lists hold all pairs within the skin
+    if (by_size_) choose_cells();
     const auto count = [&](double h) {
       if (h < h_max) bins[h > 0.0 ? static_cast<size_t>(h / h_max * static_cast<double>(bins.size())) : 0] += 1.0;
     };
@@ -77,13 +78,8 @@ class MonteCarloSpheres : public MonteCarlo {
   const std::vector<double> &displacement() const final { return displacement_; }
   // The lists too: the order in them is the order of sums of energies.
   void archive(Archive &a) final {
-    a(x_);
-    a(centre_);
-    a(displacement_);
-    a(p_.diameter);
-    a(first_);
-    a(neighbour_);
-    a(counts);
+    a(x_), a(centre_), a(displacement_), a(p_.diameter);
+    a(first_), a(neighbour_), a(counts);
     if (!a.reading()) return;
     const size_t n = static_cast<size_t>(n_);
     Archive::check(x_.size() == n && centre_.size() == n && displacement_.size() == n * D && p_.diameter.size() == n);
@@ -176,18 +172,19 @@ class MonteCarloSpheres : public MonteCarlo {
 
   // Whether sphere i would overlap another at a place.
   bool overlaps(int32_t i, const Place &at) const {
-    if (cells_.in_use()) return overlaps_in_cells(i, at);
+    if (in_cells()) return overlaps_in_cells(i, at);
     for (int32_t e = first_[i]; e < first_[i + 1]; ++e)
       if (touches(i, at, neighbour_[e])) return true;
     return false;
   }
   // Before a trial that takes sphere i there.
   void prepare(int32_t i, const Place &to) {
-    if (!cells_.in_use() && geometry_.distance2(to, centre_[i]) >= 0.25 * skin_ * skin_) make_lists();
+    if (!in_cells() && geometry_.distance2(to, centre_[i]) >= 0.25 * skin_ * skin_) make_lists();
   }
   void put(int32_t i, const Place &to) {
     x_[i] = to;
     if (cells_.in_use()) cells_.move(i, to);
+    if (levels_.kept()) levels_.move(i, to);
   }
 
   Packing p_;  // diameters of now; positions of the last lists
@@ -210,11 +207,19 @@ class MonteCarloSpheres : public MonteCarlo {
   }
   // Not a part of the loop over lists, which is slower with this code in it.
   [[gnu::noinline]] bool overlaps_in_cells(int32_t i, const Place &at) const {
-    return cells_.any(at, [&](int32_t k) { return k != i && touches(i, at, k); });
+    const auto touched = [&](int32_t k) { return k != i && touches(i, at, k); };
+    return levels_.kept() ? levels_.any(i, at, radius_[i], touched) : cells_.any(at, touched);
   }
   // Sums of soft energies need the order of a list, which the archive keeps; an overlap needs no order.
+  bool in_cells() const { return cells_.in_use() || levels_.kept(); }
   void choose_cells() {
     cells_.clear();
+    levels_.drop();
+    if (by_size_) {
+      if (!hard_ || !(step_ > MonteCarloTuning::longest_step_of_lists * skin_unit_)) return;
+      skin_ = 0.0;  // of lists that count gaps
+      return levels_.keep(x_, geometry_.height(), 1.0 + std::max(0.0, p_.non_additivity));
+    }
     const auto side = static_cast<int64_t>(geometry_.height() / contact_max_);
     if (hard_ && step_ > MonteCarloTuning::longest_step_of_lists * contact_max_ &&
         side >= MonteCarloTuning::fewest_cells && math::pow(3.0, D) < n_)

@@ -6,9 +6,8 @@
 
 #include "core/call_scope.hpp"
 #include "network/rigidity_test.hpp"
+#include "proof/free_rattler.hpp"
 #include "proof/newton.hpp"
-#include "proof/open_gaps.hpp"
-#include "proof/outward.hpp"
 #include "proof/tuning.hpp"
 
 namespace jam {
@@ -134,66 +133,6 @@ bool take_middle_forces(ProofScene &scene) {
   }
   for (const double f : scene.force) on.push_back(f > 0.0);
   keep_contacts(scene, on);
-  return false;
-}
-
-// x with a positive component along each of the vectors, where the search finds one (F. Rosenblatt's perceptron).
-bool positive_on_all(size_t d, const std::vector<double> &vectors, std::vector<double> &x) {
-  x.assign(d, 0.0);
-  for (int turn = 0; turn < proof_tuning::turns; ++turn) {
-    double least = HUGE_VAL;
-    size_t worst = 0;
-    for (size_t k = 0; k < vectors.size(); k += d) {
-      double along = 0.0;
-      for (size_t c = 0; c < d; ++c) along += vectors[k + c] * x[c];
-      if (along < least) least = along, worst = k;
-    }
-    if (least > 0.0) return true;
-    for (size_t c = 0; c < d; ++c) x[c] += vectors[worst + c];
-  }
-  return false;
-}
-
-// A rattler that overlaps moves to where all pairs that it nearly touches are open: u / t with n . u + t gap > 0 for
-// each, and t > 0. Gaps are measured by lengths from the overlap on, as a cage may be as narrow.
-bool free_rattler(ProofScene &s, int32_t i, const std::vector<NearPair> &pairs) {
-  const size_t d = static_cast<size_t>(s.dim);
-  const double longest = proof_tuning::freed * s.ratio[i] * std::sqrt(s.gamma);
-  std::vector<const NearPair *> own;
-  std::vector<double> normal, gap;
-  double overlap = half_ulp * longest;
-  for (const NearPair &pair : pairs) {
-    if (pair.i != i && pair.j != i) continue;
-    own.push_back(&pair);
-    Cell::Vector r{};
-    double square = 0.0;
-    for (size_t c = 0; c < d; ++c) {
-      r[c] = s.high[pair.i * d + c] - s.high[pair.j * d + c];
-      for (size_t q = c; q < d; ++q) r[c] += pair.image[q] * s.cell.row(static_cast<int>(q))[c];
-      square += r[c] * r[c];
-    }
-    for (size_t c = 0; c < d; ++c) normal.push_back((pair.i == i ? r[c] : -r[c]) / std::sqrt(square));
-    gap.push_back(opening_of(s, pair) * 0.5 * std::sqrt(square) / s.gamma);
-    overlap = std::max(overlap, -gap.back());
-  }
-  std::vector<double> vectors, x;
-  for (double unit = overlap; unit < longest; unit *= 4.0) {
-    vectors.assign(d, 0.0), vectors.push_back(1.0);
-    for (size_t k = 0; k < own.size(); ++k) {
-      const double part = gap[k] / unit, length = std::sqrt(1.0 + part * part);
-      for (size_t c = 0; c < d; ++c) vectors.push_back(normal[k * d + c] / length);
-      vectors.push_back(part / length);
-    }
-    if (!positive_on_all(d + 1, vectors, x)) continue;
-    const std::vector<double> high(&s.high[i * d], &s.high[i * d] + d), low(&s.low[i * d], &s.low[i * d] + d);
-    for (size_t c = 0; c < d; ++c) {
-      const DoubleDouble sum = DoubleDouble(high[c], low[c]) + DoubleDouble(unit * x[c] / x[d]);
-      s.high[i * d + c] = sum.high, s.low[i * d + c] = sum.low;
-    }
-    if (std::all_of(own.begin(), own.end(), [&](const NearPair *pair) { return opening_of(s, *pair) > 0.0; }))
-      return true;
-    std::copy(high.begin(), high.end(), &s.high[i * d]), std::copy(low.begin(), low.end(), &s.low[i * d]);
-  }
   return false;
 }
 

@@ -13,9 +13,10 @@ constexpr double leaning = 1e-2;  // forces in the middle over those that close,
 constexpr int exchanges = 20;     // rounds: in each all contacts that do not close leave, and overlapping pairs enter
 // Doubles hold gaps and states of a round to this part: what is left waits for the next round.
 constexpr double vanishing = 1e-9;
-constexpr double freed = 1e-6;  // longest way of a rattler out of an overlap, over its size
-constexpr int turns = 1000;     // of the search for it
-constexpr double weak = 1e-5;   // forces over the mean, below which listed contacts may be open ones
+constexpr double freed = 1e-6;     // longest way of a rattler out of an overlap, over its size
+constexpr double as_narrow = 4.0;  // gaps over the overlap of a rattler that has no room between them
+constexpr int turns = 1000;        // of the search for it
+constexpr double weak = 1e-5;      // forces over the mean, below which listed contacts may be open ones
 // Shifts that are tried, as parts of the smallest eigenvalue: the largest one proves the most.
 constexpr double parts_of_eigenvalue[] = {0.6, 0.3, 0.1};
 constexpr int patch = 6;             // tiles that far from a contact may imply it

@@ -227,12 +227,13 @@ void pairs_that_overlap_enter_the_list(void **) {
   assert_true(s.node[14] >= 0);
 }
 
-// A small disk in the hole of disk 14 overlaps the disk to its right by 1e-14.
-void rattlers_move_out_of_overlaps(void **) {
+// A disk in the hole of disk 14 overlaps the disk to its right: a small one by 1e-14, and one that has no more room
+// than 1e-15 on all sides by 1e-10.
+void check_that_it_moves_out(double diameter, double x) {
   Lattice l = triangular(6, 6, {14});
   Packing &p = l.packing;
-  p.position.push_back(2.25 + 1e-14), p.position.push_back(2.0 * std::sqrt(0.75));
-  p.diameter.push_back(0.5);
+  p.position.push_back(x), p.position.push_back(2.0 * std::sqrt(0.75));
+  p.diameter.push_back(diameter);
   l.network.coordination.push_back(0);
   ProofScene s = make_proof_scene(p, l.network, {});
   const auto overlap = [&] {
@@ -244,6 +245,10 @@ void rattlers_move_out_of_overlaps(void **) {
   assert_true(overlap() > 1e-15);
   assert_true(settle_exchange(s, close_together(s)) != Settled::unchanged);
   assert_true(overlap() == 0.0);
+}
+void rattlers_move_out_of_overlaps(void **) {
+  check_that_it_moves_out(0.5, 2.25 + 1e-14);
+  check_that_it_moves_out(1.0 - 2e-15, 2.0 + 1e-10);
 }
 
 }  // namespace

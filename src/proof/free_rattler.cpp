@@ -1,0 +1,110 @@
+#include "proof/free_rattler.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "proof/tuning.hpp"
+
+namespace jam {
+namespace {
+
+// x with a positive component along each of the vectors, where the search finds one (F. Rosenblatt's perceptron).
+bool positive_on_all(size_t d, const std::vector<double> &vectors, std::vector<double> &x) {
+  x.assign(d, 0.0);
+  for (int turn = 0; turn < proof_tuning::turns; ++turn) {
+    double least = HUGE_VAL;
+    size_t worst = 0;
+    for (size_t k = 0; k < vectors.size(); k += d) {
+      double along = 0.0;
+      for (size_t c = 0; c < d; ++c) along += vectors[k + c] * x[c];
+      if (along < least) least = along, worst = k;
+    }
+    if (least > 0.0) return true;
+    for (size_t c = 0; c < d; ++c) x[c] += vectors[worst + c];
+  }
+  return false;
+}
+
+// The pairs of a rattler, from its side: unit vectors away from the others, and gaps.
+struct Cage {
+  std::vector<const NearPair *> pairs;
+  std::vector<double> normal, gap;
+  double overlap() const { return gap.empty() ? 0.0 : -*std::min_element(gap.begin(), gap.end()); }
+};
+Cage cage_of(const ProofScene &s, int32_t i, const std::vector<NearPair> &pairs) {
+  const size_t d = static_cast<size_t>(s.dim);
+  Cage out;
+  for (const NearPair &pair : pairs) {
+    if (pair.i != i && pair.j != i) continue;
+    out.pairs.push_back(&pair);
+    Cell::Vector r{};
+    double square = 0.0;
+    for (size_t c = 0; c < d; ++c) {
+      r[c] = s.high[pair.i * d + c] - s.high[pair.j * d + c];
+      for (size_t q = c; q < d; ++q) r[c] += pair.image[q] * s.cell.row(static_cast<int>(q))[c];
+      square += r[c] * r[c];
+    }
+    for (size_t c = 0; c < d; ++c) out.normal.push_back((pair.i == i ? r[c] : -r[c]) / std::sqrt(square));
+    out.gap.push_back(opening_of(s, pair) * 0.5 * std::sqrt(square) / s.gamma);
+  }
+  return out;
+}
+
+void move_sphere(ProofScene &s, int32_t i, const double *u) {
+  for (size_t c = 0, d = static_cast<size_t>(s.dim); c < d; ++c) {
+    const DoubleDouble sum = DoubleDouble(s.high[i * d + c], s.low[i * d + c]) + DoubleDouble(u[c]);
+    s.high[i * d + c] = sum.high, s.low[i * d + c] = sum.low;
+  }
+}
+
+// u / t with n . u + t gap > 0 for each pair of the cage, and t > 0. Gaps are measured by lengths from the overlap on.
+bool move_into_cage(ProofScene &s, int32_t i, const std::vector<NearPair> &pairs, double longest) {
+  const size_t d = static_cast<size_t>(s.dim);
+  const Cage cage = cage_of(s, i, pairs);
+  std::vector<double> vectors, x;
+  for (double unit = cage.overlap(); unit < longest; unit *= 4.0) {
+    vectors.assign(d, 0.0), vectors.push_back(1.0);
+    for (size_t k = 0; k < cage.gap.size(); ++k) {
+      const double part = cage.gap[k] / unit, length = std::sqrt(1.0 + part * part);
+      for (size_t c = 0; c < d; ++c) vectors.push_back(cage.normal[k * d + c] / length);
+      vectors.push_back(part / length);
+    }
+    if (!positive_on_all(d + 1, vectors, x)) continue;
+    for (size_t c = 0; c < d; ++c) x[c] *= unit / x[d];
+    ProofScene moved = s;
+    move_sphere(moved, i, x.data());
+    if (cage_of(moved, i, pairs).overlap() < 0.0) return s = std::move(moved), true;
+  }
+  return false;
+}
+
+// To the place where the pairs that overlap, or are open by as little, are nearest to closed.
+void move_between(ProofScene &s, int32_t i, const std::vector<NearPair> &pairs) {
+  const auto d = static_cast<Eigen::Index>(s.dim);
+  const Cage cage = cage_of(s, i, pairs);
+  Eigen::MatrixXd m = Eigen::MatrixXd::Zero(d, d);
+  Eigen::VectorXd y = Eigen::VectorXd::Zero(d);
+  for (size_t k = 0; k < cage.gap.size(); ++k) {
+    if (cage.gap[k] > proof_tuning::as_narrow * cage.overlap()) continue;
+    const Eigen::Map<const Eigen::VectorXd> n(&cage.normal[k * static_cast<size_t>(d)], d);
+    m += n * n.transpose(), y -= cage.gap[k] * n;
+  }
+  const Eigen::VectorXd u = m.completeOrthogonalDecomposition().solve(y);
+  move_sphere(s, i, u.data());
+}
+
+}  // namespace
+
+bool free_rattler(ProofScene &s, int32_t i, const std::vector<NearPair> &pairs) {
+  ProofScene moved = s;
+  for (int pass = 0; pass < 3; ++pass) {
+    if (move_into_cage(moved, i, pairs, proof_tuning::freed * s.ratio[i] * std::sqrt(s.gamma)))
+      return s = std::move(moved), true;
+    move_between(moved, i, pairs);
+    if (cage_of(moved, i, pairs).overlap() < 0.0) return s = std::move(moved), true;
+  }
+  return false;
+}
+
+}  // namespace jam

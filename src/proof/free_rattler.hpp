@@ -1,0 +1,11 @@
+// Rattlers that overlap, in two doubles: a place is free where a proof may put them.
+#pragma once
+#include "proof/open_gaps.hpp"
+
+namespace jam {
+
+// A rattler that overlaps moves to where all pairs that it nearly touches are open. Its cage may be far narrower than
+// the overlap. pairs: near_pairs of the scene. False where no place is found; then it stays.
+bool free_rattler(ProofScene &scene, int32_t i, const std::vector<NearPair> &pairs);
+
+}  // namespace jam

@@ -1,6 +1,5 @@
 #include "proof/free_rattler.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
@@ -79,18 +78,24 @@ bool move_into_cage(ProofScene &s, int32_t i, const std::vector<NearPair> &pairs
   return false;
 }
 
-// To the place where the pairs that overlap, or are open by as little, are nearest to closed.
+// To the place where the pairs that overlap, or are open by as little, are nearest to closed, by the mean of the steps
+// that close one pair each (G. Cimmino's method).
 void move_between(ProofScene &s, int32_t i, const std::vector<NearPair> &pairs) {
-  const auto d = static_cast<Eigen::Index>(s.dim);
+  const size_t d = static_cast<size_t>(s.dim);
   const Cage cage = cage_of(s, i, pairs);
-  Eigen::MatrixXd m = Eigen::MatrixXd::Zero(d, d);
-  Eigen::VectorXd y = Eigen::VectorXd::Zero(d);
-  for (size_t k = 0; k < cage.gap.size(); ++k) {
-    if (cage.gap[k] > proof_tuning::as_narrow * cage.overlap()) continue;
-    const Eigen::Map<const Eigen::VectorXd> n(&cage.normal[k * static_cast<size_t>(d)], d);
-    m += n * n.transpose(), y -= cage.gap[k] * n;
+  std::vector<double> u(d, 0.0), step(d);
+  for (int pass = 0; pass < proof_tuning::mean_steps; ++pass) {
+    double count = 0.0;
+    step.assign(d, 0.0);
+    for (size_t k = 0; k < cage.gap.size(); ++k) {
+      if (cage.gap[k] > proof_tuning::as_narrow * cage.overlap()) continue;
+      double gap = cage.gap[k];
+      for (size_t c = 0; c < d; ++c) gap += cage.normal[k * d + c] * u[c];
+      for (size_t c = 0; c < d; ++c) step[c] -= gap * cage.normal[k * d + c];
+      count += 1.0;
+    }
+    for (size_t c = 0; c < d; ++c) u[c] += step[c] / count;
   }
-  const Eigen::VectorXd u = m.completeOrthogonalDecomposition().solve(y);
   move_sphere(s, i, u.data());
 }
 

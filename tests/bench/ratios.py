@@ -62,8 +62,8 @@ def draw(rows, path):
             axis.plot([r["ratio"] for r in alone], [r[key] for r in alone], "o", mfc="white", color=colour)
         axis.set(xscale="log", yscale="log", xlabel="ratio of the diameters", ylabel=label)
         axis.grid(alpha=0.3)
-    axes[1].plot([], [], "o", mfc="white", color="grey", label="the large jam alone")
-    axes[1].legend(loc="lower left", fontsize=8)
+    axes[2].plot([], [], "o", mfc="white", color="grey", label="the large jam alone")
+    axes[2].legend(loc="lower left", fontsize=8)
     fig.savefig(path, dpi=110)
 
 

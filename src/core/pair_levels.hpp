@@ -39,7 +39,7 @@ class PairCells {
       return;
     }
     for (int64_t step = -1; step <= 1; ++step) {
-      const int64_t k = (at[c] + step + side_) % side_;
+      const int64_t to = at[c] + step, k = to < 0 ? to + side_ : to < side_ ? to : to - side_;
       visit(c - 1, cell * side_ + k, at, f);
     }
   }

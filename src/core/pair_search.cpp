@@ -168,7 +168,10 @@ class LevelSearch {
         cutoff_(cutoff),
         levels_(std::move(levels)),
         images_(cutoff.p),
-        half_edge_(0.5 * p_.cell.edge_min()) {}
+        half_edge_(0.5 * p_.cell.edge_min()) {
+    const auto wants = [&](int32_t i) { return cutoff.wants(i, i); };
+    for (const PairLevel &l : levels_) wanted_.push_back(std::any_of(l.member.begin(), l.member.end(), wants));
+  }
 
   PairList run() {
     const bool single = levels_.size() == 1;
@@ -177,7 +180,8 @@ class LevelSearch {
       for (const int32_t i : levels_[k].member) {
         if (looked++ % PairListTuning::spheres_between_looks == 0) CallScope::look();
         for (size_t coarse = 0; coarse <= k; ++coarse)
-          if (levels_[coarse].cells) levels_[coarse].cells->around(p_, i, [&](int32_t j) { near(i, j, coarse == k); });
+          if (levels_[coarse].cells && (wanted_[coarse] || cutoff_.wants(i, i)))
+            levels_[coarse].cells->around(p_, i, [&](int32_t j) { near(i, j, coarse == k); });
         if (!levels_[k].cells) scan(i, k);
         if (single) flush(i);  // the first of all these pairs
       }
@@ -247,6 +251,7 @@ class LevelSearch {
   const std::vector<PairLevel> levels_;
   const ImageScan images_;
   const double half_edge_;
+  std::vector<char> wanted_;  // for each level: may its spheres have pairs with any others?
   std::vector<Found> found_;
   std::vector<Candidate> scanned_;
   SparseLook look_;

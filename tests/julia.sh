@@ -48,8 +48,9 @@ else
   JULIA_LIBRARIES=$lib/julia:$lib:$blas
   export JULIA_BINDIR="$home/tree/usr/bin"
 fi
+# -O0: most of the time goes into compiling, and libjam does the work.
 # Debian 11's Julia loads libunwind, whose unwinder aborts in C++ exceptions. libgcc's must come first.
-run() { LD_PRELOAD=${JULIA_LIBRARIES:+libgcc_s.so.1} LD_LIBRARY_PATH=${JULIA_LIBRARIES:-} "$julia" "$@"; }
+run() { LD_PRELOAD=${JULIA_LIBRARIES:+libgcc_s.so.1} LD_LIBRARY_PATH=${JULIA_LIBRARIES:-} "$julia" -O0 "$@"; }
 run --version
 export JULIA_DEPOT_PATH="$home/depot" JULIA_LOAD_PATH="$root/bindings/julia:@stdlib" JAM_LIBRARY="$build/libjam.so"
 work=$home/work

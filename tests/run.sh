@@ -34,18 +34,21 @@ if [ -f bindings/CMakeLists.txt ]; then bindings="-DJAM_BUILD_PYTHON=ON -DJAM_BU
 export OPENBLAS_NUM_THREADS=1
 
 status=0
+begun=$(date +%s)
+part() { echo "== $1, after $(($(date +%s) - begun)) s"; }
 if wants release; then
-echo "== release build"
+part "release build"
 # For /usr, as the Debian packages are made of it; nothing is installed there. -U: its folders follow the prefix.
 # shellcheck disable=SC2086
 cmake -S . -B build -G Ninja -U JAM_PYTHON_DIR -DCMAKE_INSTALL_PREFIX=/usr -DCMAKE_BUILD_TYPE=Release \
   -DJAM_BUILD_STATIC=ON -DJAM_WERROR=ON $bindings >/dev/null
 cmake --build build -j "$jobs"
+part "its tests"
 ctest --test-dir build -j "$at_once" --output-on-failure --no-tests=error || status=1
 fi
 
 if wants clang; then
-echo "== clang"
+part "clang"
 # -O1 and the tests of the interface alone: what clang adds are its warnings and another code generator.
 cmake -S . -B build-clang -G Ninja -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_BUILD_TYPE=None \
   -DCMAKE_C_FLAGS=-O1 -DCMAKE_CXX_FLAGS=-O1 -DJAM_WERROR=ON -DJAM_BUILD_EXAMPLES=OFF -DJAM_BUILD_CLI=OFF >/dev/null
@@ -54,15 +57,16 @@ ctest --test-dir build-clang -j "$at_once" -L capi -LE long --output-on-failure 
 fi
 
 if wants sanitizers; then
-echo "== address and undefined-behaviour sanitizers"
+part "address and undefined-behaviour sanitizers"
 sanitize_by_clang
 cmake --build build-asan -j "$jobs"
+part "its tests"
 ctest --test-dir build-asan -j "$at_once" -L 'unit|capi' -LE long --timeout 900 \
   --output-on-failure --no-tests=error || status=1
 fi
 
 if wants sanitized_physics; then
-echo "== address and undefined-behaviour sanitizers over physics and bindings"
+part "address and undefined-behaviour sanitizers over physics and bindings"
 # shellcheck disable=SC2086
 sanitize build-asan-gcc $bindings
 cmake --build build-asan-gcc -j "$jobs"
@@ -71,7 +75,7 @@ ctest --test-dir build-asan-gcc -j "$at_once" -L 'unit|capi|physics|bindings' -L
 fi
 
 if wants threads; then
-echo "== thread sanitizer"
+part "thread sanitizer"
 cmake -S . -B build-tsan -G Ninja -DCMAKE_BUILD_TYPE=None -DCMAKE_C_FLAGS=-O1 -DCMAKE_CXX_FLAGS=-O1 \
   -DJAM_SANITIZE=thread -DJAM_DIMENSIONS="2;3" -DJAM_BUILD_EXAMPLES=OFF -DJAM_BUILD_CLI=OFF >/dev/null
 # What starts threads: races on a handle, handles on threads of their own, and runs and factorisations on two threads.
@@ -87,7 +91,8 @@ if wants windows; then sh tests/platforms/windows.sh || status=1; fi
 if wants libcxx; then sh tests/platforms/libcxx.sh || status=1; fi
 
 if wants fuzz; then
-echo "== fuzzers"
+part "fuzzers"
 sh tests/fuzz/run.sh 20 || status=1
 fi
+part "end"
 exit $status

@@ -20,12 +20,14 @@ void same_bits(const CrunchResult &a, const CrunchResult &b) {
 
 // On two threads a crunch repeats its bits too: they share the work in the same way each time.
 void two_threads_repeat(void **) {
-  const Packing p = start(1500, 3, 0.35, 4);
-  jam_crunch_options o = default_crunch_options();
-  o.threads = 2, o.max_lps = 3;
-  const CrunchResult r = run(p, o);
-  assert_true(r.report.factorisations > 10);
-  same_bits(r, run(p, o));
+  for (const int32_t method : {JAM_CRUNCH_SEQUENTIAL_LP, JAM_CRUNCH_BARRIER_PATH}) {
+    const Packing p = start(method == JAM_CRUNCH_SEQUENTIAL_LP ? 1500 : 400, 3, 0.35, 4);
+    jam_crunch_options o = default_crunch_options();
+    o.threads = 2, o.max_lps = 2, o.method = method;
+    const CrunchResult r = run(p, o);
+    assert_true(r.report.factorisations > 10);
+    same_bits(r, run(p, o));
+  }
 }
 
 // Every answer of the interior point is spoiled, each time in another way: Clp must finish the job alone, on the same

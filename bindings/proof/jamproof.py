@@ -473,9 +473,10 @@ def trapped(s):
     above = opened + rest * inner + square * inner**2
     weight = sum(fraction(*s.sigma2(*c[:2])) * m for c, m in zip(s.contacts, stress)) * fraction(1, low)
     error = (abs(gamma - fraction(s.g, s.ge)) + above / weight) / gamma
-    outer = max(inner, left / (2 * second * max(grown)))
-    found = {"inner": inner * s.unit, "outer": outer * s.unit, "gamma_error": error}
-    found.update(least_gap=max(0.0, float(least * min(size) / gamma) ** 0.5 - 1.0), delta=delta)
+    found, outer = {"inner": inner * s.unit}, left / (2 * second * max(grown))
+    if outer > inner:
+        found["outer"] = outer * s.unit
+    found.update(gamma_error=error, least_gap=max(0.0, float(least * min(size) / gamma) ** 0.5 - 1.0), delta=delta)
     return outward(found)
 
 

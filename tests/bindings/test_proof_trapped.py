@@ -105,6 +105,18 @@ class Trapped(unittest.TestCase):
                     self.assertLessEqual(gamma, lower + room)
                     self.assertLessEqual(abs(gamma - value(File(away).gamma[1])), room)
 
+    def test_units_of_their_own_widen_the_trap_too(self):
+        """Where loosely held spheres have longer units, the packing that was moved away from lies within inner as well."""
+        both = "for grown in ([1] * len(columns), loosely_held(s, columns, inverse, stress)):"
+        program, generator = checker((both, "for grown in (loosely_held(s, columns, inverse, stress),):")), random.Random(5)
+        for text in self.texts:
+            self.assertLess(trapped(text, program)["inner"], 1e-18)
+            for power in (20, 12, 9, 6):
+                found = trapped(moved(text, Fraction(1, 10**power), generator), program)
+                if isinstance(found, dict):
+                    self.assertGreater(found["inner"], 0.4 * 10.0**-power)
+                    self.assertLess(found["inner"], found.get("outer", 1.0))
+
     def test_the_gamma_of_the_file_counts(self):
         """What is printed is true of the file's gamma: of spheres of that size, and of the distance to the own one."""
         for text in self.texts:
@@ -247,7 +259,7 @@ class Trapped(unittest.TestCase):
         for name, old, new, false in table:
             with self.subTest(bound=name):
                 near = {text: 0.4 * float(far), smaller: room}.get(false, 0.0)
-                claims = lambda found: isinstance(found, dict) and (false is overlap or found["inner"] < near or found["outer"] <= found["inner"])
+                claims = lambda found: isinstance(found, dict) and (false is overlap or found["inner"] < near or "outer" not in found)
                 self.assertFalse(claims(trapped(false)), trapped(false))
                 program = checker((old, new))
                 self.assertTrue(claims(trapped(false, program)), trapped(false, program))

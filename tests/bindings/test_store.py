@@ -57,6 +57,12 @@ class Case(unittest.TestCase):
 
 
 class Damage(Case):
+    def test_names_of_other_formats_are_refused(self):
+        for name in ("a.npz", "a.xyz", "a.XYZ.gz", Path("a.gsd")):
+            with self.assertRaisesRegex(ValueError, "HDF5"):
+                self.disks.save(name)
+            self.assertFalse(Path(name).exists())
+
     def test_the_seal_is_what_the_file_says_of_itself(self):
         head = self.good[:512].decode()
         self.assertIn(f"length {len(self.good):020d}", head)

@@ -38,6 +38,11 @@ class Refused(Exception):
     pass
 
 
+def refuse(wrong, words, kind=Refused):
+    if wrong:
+        raise kind(words)
+
+
 def number(word):
     """m 2^e as (m, e); "m p e,m p e" is a sum."""
     m, e = 0, 0
@@ -69,29 +74,22 @@ class Scene:
         self.tiles, self.rows = [], {}  # walks round tiles and implied contacts, as they come; state of the kept alone
         with open(path, encoding="ascii") as file:
             lines = [line.split() for line in file if line.strip()]
-        if lines[:1] != [["jamproof", "1"]]:
-            raise ValueError("the first line is not 'jamproof 1'")
+        refuse(lines[:1] != [["jamproof", "1"]], "the first line is not 'jamproof 1'", ValueError)
         word = {name: rest for name, *rest in lines[1:] if name in HEADER}
         for name in HEADER:
             times = sum(line[0] == name for line in lines[1:])
-            if times != 1:
-                raise ValueError(f"the line '{name}' is there {times} times, not once")
-            if name != "cell" and len(word[name]) != 1:
-                raise ValueError(f"the line '{name}' has not as many numbers as it must, one")
+            refuse(times != 1, f"the line '{name}' is there {times} times, not once", ValueError)
+            refuse(name != "cell" and len(word[name]) != 1, f"the line '{name}' has not as many numbers as it must, one", ValueError)
         self.dim = d = int(word["dim"][0])
-        if d < 1:
-            raise ValueError("dim is not 1 or more")
+        refuse(d < 1, "dim is not 1 or more", ValueError)
         cell = [number(x) for x in word["cell"]]
-        if len(cell) != d * (d + 1) // 2:
-            raise ValueError("the line 'cell' has not as many numbers as dim asks for")
+        refuse(len(cell) != d * (d + 1) // 2, "the line 'cell' has not as many numbers as dim asks for", ValueError)
         self.unit = fraction(*number(word["unit"][0]))
         self.delta, (self.g, self.ge) = number(word["non_additivity"][0]), number(word["gamma"][0])
-        if not -1 < fraction(*self.delta) <= 1:
-            raise ValueError("non_additivity must be above -1 and at most 1")
+        refuse(not -1 < fraction(*self.delta) <= 1, "non_additivity must be above -1 and at most 1", ValueError)
         sizes = {"sphere": (2 + d,), "contact": (3 + d, 4 + d), "inverse": (2,)}
         for name, *rest in lines[1:]:
-            if len(rest) not in sizes.get(name, (len(rest),)):
-                raise ValueError(f"a line '{name}' has not as many numbers as dim asks for")
+            refuse(len(rest) not in sizes.get(name, (len(rest),)), f"a line '{name}' has not as many numbers as dim asks for", ValueError)
             if name == "sphere":
                 self.stable.append(rest[0] == "1")
                 ratio.append(number(rest[1]))
@@ -107,20 +105,15 @@ class Scene:
                 self.inverse = int(rest[0]), array("i", zlib.decompress(base64.b64decode(rest[1])))
             elif name not in word:
                 raise ValueError(f"unknown word {name}")
-        if not any(self.stable):
-            raise ValueError("no sphere is stable")
-        if not self.contacts:
-            raise ValueError("the file lists no contact")
-        if any(not 0 <= i < len(ratio) for contact in self.contacts for i in contact[:2]):
-            raise ValueError("a contact names a sphere that is not there")
-        if any(not 0 <= c < len(self.contacts) for _, ring in self.tiles for c in ring):
-            raise ValueError("a tile or an implied contact names a contact that is not there")
+        refuse(not any(self.stable), "no sphere is stable", ValueError)
+        refuse(not self.contacts, "the file lists no contact", ValueError)
+        refuse(any(not 0 <= i < len(ratio) for contact in self.contacts for i in contact[:2]), "a contact names a sphere that is not there", ValueError)
+        refuse(any(not 0 <= c < len(self.contacts) for _, ring in self.tiles for c in ring), "a tile or an implied contact names a contact that is not there", ValueError)
         both, self.k = scaled(cell + [x for row in position for x in row])
         self.cell = [both[r * (r + 1) // 2 : (r + 1) * (r + 2) // 2] + [0] * (d - r - 1) for r in range(d)]
         self.x = [both[len(cell) + d * i : len(cell) + d * (i + 1)] for i in range(len(ratio))]
         self.ratio, self.se = scaled(ratio)
-        if min(self.ratio + [self.g, self.unit] + [self.cell[r][r] for r in range(d)]) <= 0:
-            raise ValueError("a diameter, a cell edge, unit or gamma is not positive")
+        refuse(min(self.ratio + [self.g, self.unit] + [self.cell[r][r] for r in range(d)]) <= 0, "a diameter, a cell edge, unit or gamma is not positive", ValueError)
 
     def vector(self, i, j, n):
         """x_i - x_j + n A."""
@@ -219,8 +212,7 @@ def kept_contacts(s):
             lay(s, turned, ring, length)
             continue
         (i, j, n, _), (sides, (start, end, image)), total = s.contacts[ring[0]], walk(s, ring[1:]), {}
-        if (end, start, image) not in ((i, j, n), (j, i, tuple(-v for v in n))):
-            raise Refused(f"excess: the walk of contact {ring[0]} leads elsewhere")
+        refuse((end, start, image) not in ((i, j, n), (j, i, tuple(-v for v in n))), f"excess: the walk of contact {ring[0]} leads elsewhere")
         for c, half, _ in sides:
             root, angle = turned.get(c, (c, {}))
             angle = plus(angle, half)
@@ -228,8 +220,7 @@ def kept_contacts(s):
             a, b = ((1, 0), (0, 1), (-1, 1), (-1, 0), (0, -1), (1, -1))[turn]
             total[key] = total.get(key, (0, 0))[0] + a, total.get(key, (0, 0))[1] + b
         left = [(key[1], a * a + a * b + b * b) for key, (a, b) in total.items() if a or b]
-        if left != [(length[ring[0]], 1)]:
-            raise Refused(f"excess: contact {ring[0]} does not follow")
+        refuse(left != [(length[ring[0]], 1)], f"excess: contact {ring[0]} does not follow")
         known.add(ring[0])
     return sorted(known - implied)
 
@@ -279,8 +270,7 @@ def inverse_of(s, columns, count, wanted):
     units of 2^e); `count`: rows of J. A hint."""
     if s.inverse:
         e, flat = s.inverse
-        if len(flat) != count * wanted:
-            raise Refused("singular: the inverse has not the size of the equations")
+        refuse(len(flat) != count * wanted, "singular: the inverse has not the size of the equations")
         return e, [flat[c * wanted : (c + 1) * wanted] for c in range(count)]
     rows = [[0.0] * len(columns) for _ in range(count)]
     for l, column in enumerate(columns):
@@ -360,8 +350,7 @@ def reach_of(s, radius, gamma):
     """Beyond this, in 2^k, spheres are open: the largest contact distance and 4 radii, rounded up."""
     widest = fraction(max(s.ratio), s.se) * (1 + abs(fraction(*s.delta)))
     reach = math.isqrt(math.ceil(gamma * widest**2 / fraction(1, 2 * s.k))) + 1 + math.ceil(4 * radius / fraction(1, s.k))
-    if math.prod(2 * reach // s.cell[c][c] + 1 for c in range(s.dim)) > MOST_IMAGES:
-        raise Refused(f"gap: the cell is so thin that a sphere meets more than {MOST_IMAGES} images")
+    refuse(math.prod(2 * reach // s.cell[c][c] + 1 for c in range(s.dim)) > MOST_IMAGES, f"gap: the cell is so thin that a sphere meets more than {MOST_IMAGES} images")
     return reach
 
 
@@ -387,8 +376,7 @@ def least_opening(s, radius, gamma, part=1):
 
 def closed(s, rows, columns):
     """F = 0 exactly, with any number of contacts."""
-    if rank(rows) < len(columns) - 1:
-        raise Refused(f"singular: the rank modulo a prime is below {len(columns) - 1}")
+    refuse(rank(rows) < len(columns) - 1, f"singular: the rank modulo a prime is below {len(columns) - 1}")
     stress, _ = scaled([c[3] for c in s.contacts])
     if min(stress) <= 0 or any(sum(row.get(k, 0) * m for row, m in zip(rows, stress)) for k in range(len(columns) - 1)):
         raise Refused("force: the forces are not positive, or do not balance exactly")
@@ -403,8 +391,7 @@ def check(s):
     f, rows, columns = equations(s, kept)
     if len(kept) == len(every) and kept and not any(m for m, _ in f):
         return closed(s, rows, columns)
-    if len(kept) != len(columns):
-        raise Refused(f"excess: {len(kept)} contacts, {len(columns)} unknowns")
+    refuse(len(kept) != len(columns), f"excess: {len(kept)} contacts, {len(columns)} unknowns")
     s.hint = e, inverse = inverse_of(s, columns, len(columns), len(columns) - 1)
     delta, eta, alpha = bounds(s, f, columns, e, inverse, [1] * len(columns))
     row, delta_g, eta_g, alpha_g = force_row(s, f, kept, [s.rows.get(c, s.contacts[c][3]) for c in kept])
@@ -414,8 +401,7 @@ def check(s):
     r = eta / (1 - delta) * (1 + 4 * beta * eta / (1 - delta) ** 2)
     if eta + delta * r + beta * r * r > r or delta + 2 * beta * r >= 1:
         raise Refused(f"singular: radius {float(r):.3g}, beta {float(beta):.3g}")
-    if s.tiles and r**2 * 10**12 > fraction(s.g, s.ge) * fraction(min(s.ratio), s.se) ** 2:
-        raise Refused(f"excess: radius {float(r):.3g} is too large for the angles of tiles")
+    refuse(s.tiles and r**2 * 10**12 > fraction(s.g, s.ge) * fraction(min(s.ratio), s.se) ** 2, f"excess: radius {float(r):.3g} is too large for the angles of tiles")
     r_g = eta_g + delta_g * r + 4 * s.dim * alpha_g * r * r
     largest = max([fraction(max(map(abs, column)), e) for column in inverse] + [abs(v) for v in row])
     # The forces on implied contacts are free; the others solve J^T f = the rest, within the inverse times what is left.
@@ -436,8 +422,7 @@ def trapped(s):
     size = [fraction(sum(v * v for v in s.vector(i, j, n)), 2 * s.k) / fraction(*s.sigma2(i, j)) for i, j, n, _ in s.contacts]
     least = least_opening(s, 0, min(size), Fraction(1, 2)) or 2  # pairs without force may be closed too
     own = min(size) * min(1, least)
-    if abs(gamma - own) > OFF * gamma:
-        raise Refused(f"gamma: without overlap it is {float(own):.6g}, not that of the file")
+    refuse(abs(gamma - own) > OFF * gamma, f"gamma: without overlap it is {float(own):.6g}, not that of the file")
     # The smaller of both, as spheres of a smaller gamma have more room. What is shown of it is true of a larger one.
     s.g, s.ge = math.floor(min(own, gamma) / fraction(1, GAMMA)), GAMMA  # no pair overlaps: F >= 0
     opening, _, columns = equations(s, every)
@@ -447,8 +432,7 @@ def trapped(s):
     stress, low = [m << FORCE for m in stress], low - FORCE  # a step of Newton balances them to these digits
     rest = unbalanced(s, every, stress)
     stress = [m - shifted(sum(map(mul, column, rest)), s.k + e, 0) for m, column in zip(stress, inverse)]
-    if min(stress) <= 0:
-        raise Refused("force: not all are positive")
+    refuse(min(stress) <= 0, "force: not all are positive")
     rest = fraction(sum(map(abs, unbalanced(s, every, stress))), s.k + low)
     opened = sum(fraction(*v) * m for v, m in zip(opening, stress)) * fraction(1, low)
     for grown in ([1] * len(columns), loosely_held(s, columns, inverse, stress)):
@@ -473,9 +457,8 @@ def trapped(s):
     above = opened + rest * inner + square * inner**2
     weight = sum(fraction(*s.sigma2(*c[:2])) * m for c, m in zip(s.contacts, stress)) * fraction(1, low)
     error = (abs(gamma - fraction(s.g, s.ge)) + above / weight) / gamma
-    found, outer = {"inner": inner * s.unit}, left / (2 * second * max(grown))
-    if outer > inner:
-        found["outer"] = outer * s.unit
+    outer = left / (2 * second * max(grown))
+    found = {"inner": inner * s.unit, **({"outer": outer * s.unit} if outer > inner else {})}
     found.update(gamma_error=error, least_gap=max(0.0, float(least * min(size) / gamma) ** 0.5 - 1.0), delta=delta)
     return outward(found)
 

@@ -10,7 +10,8 @@ The solid fraction is exact (System.solid_profile). z is the distance from the w
         e_b + 0.29 exp(-0.6 z) cos(2.3 pi (z - 0.16)) + 0.15 exp(-0.9 z), with e_b of the packing
     G. E. Mueller, Powder Technol. 72, 269 (1992): e_b + (1 - e_b) J0(a z) exp(-b z), with a = 7.45 - 3.15 / D,
         b = 0.315 - 0.725 / D, e_b = 0.365 + 0.22 / D
-Both are fits to beds that were poured, with a porosity of 0.36 to 0.40 far from the wall. Jammed packings are denser.
+The coefficients are not checked against the papers. Both are fits to packed beds, with a porosity of 0.36 to 0.40 far from the wall.
+Jammed packings are denser.
 """
 import argparse
 import sys

@@ -6,7 +6,8 @@ Small: 10 packings per point, 300 disks or 400 spheres. Large: 40, of 1200 and 1
 Needs the Python package `jam`, numpy, matplotlib. Prints a table.
 
 Half of the spheres are 1.4 times as wide, as in K. W. Desmond and E. R. Weeks, Phys. Rev. E 80, 051305 (2009), who found the law
-and phi_bulk = 0.842 (d = 2) and 0.646 (d = 3). H is in mean diameters. The fit has H >= 4; the periodic packings are no part of it.
+and phi_bulk = 0.842 (d = 2) and 0.646 (d = 3); law and densities are not checked against the paper. H is in mean diameters. The fit
+has H >= 4; the periodic packings are no part of it.
 """
 import argparse
 import sys

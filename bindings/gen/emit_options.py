@@ -285,10 +285,11 @@ def emit_page(_api):
         "`ensemble` runs `python3 -m jam ensemble`. 0: all packings are there. 1: some failed or are missing. 2: wrong command line. 3: protocol or "
         "folder refused, or Python has no module `jam`. 4: the folder cannot be written.",
         "",
-        "With `--json` standard output is one JSON object and nothing else, also after a failure; messages go to standard error. All objects of these "
-        "verbs have `file`, `status` (the exit status), `text` (the messages; of `check` the verdict), `n`, `dim` and `packing_fraction` of the packing "
-        "reached (`null` before there was one) and `version`. The results of the verb follow them. `ensemble status --json` has `status` and "
-        "`text` too. A table of contacts that is empty or not the only one possible is named in `notes`.",
+        "With `--json` standard output is one JSON object and nothing else, also after a failure; messages go to standard error. The "
+        "objects of these verbs have `file`, `status` (the exit status), `text` (the messages; of `check` the verdict), `n`, `dim` and "
+        "`packing_fraction` of the packing reached (`null` if the failure came before any packing) and `version`. The results of the verb "
+        "follow them. `ensemble status --json` has `status` and `text` too. `notes` gives the reason if the table of contacts is empty, is "
+        "not the only one possible, or is not that of a jammed packing.",
         "",
     ]
     out += ["Completion for bash and zsh is installed with the program, and `man jam-pack` shows these lines.", ""]

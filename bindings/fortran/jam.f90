@@ -1229,7 +1229,8 @@ module jam
   ! What jam_rigidity found. K+ are the contacts that carry force in some balance of non-negative forces, B the spheres
   ! that they touch, N' their number. undecided_contacts: also pairs that the digits of the coordinates cannot
   ! distinguish from contacts. rigidity_margin below 1e-12: a flex; of a sphere that touches its own images alone: with
-  ! strains; where a round wall's curvature holds flexes: by how much of the mean force times curvature.
+  ! strains. Where a round wall's curvature fixes flexes u: least -sum f b(u, u) for |u| = 1, over the mean |f b|, with b
+  ! the second derivative of the distance across a contact.
   type, bind(c) :: jam_rigidity_report
     integer(c_int32_t) :: struct_size = 96
     ! jam_rigidity_kind that was tested
@@ -1278,7 +1279,7 @@ module jam
     integer(c_int32_t) :: struct_size = 248
     ! jam_verdict: collectively jammed
     integer(c_int32_t) :: jammed = 0
-    ! jam_verdict; NO where jammed is NO, UNTESTED with walls
+    ! jam_verdict; NO where jammed is NO; UNTESTED where walls allow no strain
     integer(c_int32_t) :: strictly_jammed = 0
     ! jam_verdict: non-negative forces balance
     integer(c_int32_t) :: stationary = 0
@@ -1439,7 +1440,7 @@ module jam
   ! Options of jam_voxels and jam_write_voxels.
   type, bind(c) :: jam_voxel_options
     integer(c_int32_t) :: struct_size = 0
-    ! 0, the default: the centre of a voxel decides. Else the share of the voxel that is solid, by the exact lengths inside spheres of lines^(d-1) lines along x; at most 64
+    ! 0, the default: the centre of a voxel decides. Else: share of the voxel that is solid, from lines^(d-1) lines along x, each with its exact length inside spheres; at most 64
     integer(c_int32_t) :: lines = 0
     ! voxels along the edges of the brick, 0, the default, as `size` asks. Disks: one layer
     integer(c_int32_t) :: nx = 0
@@ -1448,7 +1449,7 @@ module jam
     ! voxels along the edges of the brick, 0, the default, as `size` asks. Disks: one layer
     integer(c_int32_t) :: nz = 0
     integer(c_int32_t) :: reserved = 0
-    ! edge of a voxel, about; the number of voxels is rounded. 0, the default: box / 100
+    ! wanted edge; rounded so that whole voxels fill the brick. 0, the default: box / 100
     real(c_double) :: size = 0
   end type jam_voxel_options
 
@@ -2028,9 +2029,9 @@ module jam
     ! where the network lists them. There a sphere that they alone hold needs forces on the cell to balance. Let S v be the
     ! opening of contacts by a motion v, and E eps that by a strain eps. Collectively jammed: S v >= 0 only for
     ! translations of B. Strictly jammed: S v + E eps >= 0 with tr eps <= 0 only for those and eps = 0. Both hold for this
-    ! cell, not for several copies of it (jam_bloch_rigidity). Source: Donev et al., J. Comput. Phys. 197, 139 (2004); the
-    ! guide's page "Jammed or not" has more. Status: JAM_OK jammed, JAM_NOT_JAMMED, JAM_AMBIGUOUS undecided.
-    ! Errors: JAM_E_SOLVER, JAM_E_UNSUPPORTED (strict, with walls).
+    ! cell, not for several copies of it (jam_bloch_rigidity). Source: Donev et al., J. Comput. Phys. 197, 139 (2004).
+    ! Status: JAM_OK jammed, JAM_NOT_JAMMED, JAM_AMBIGUOUS undecided.
+    ! Errors: JAM_E_SOLVER.
     function jam_rigidity(sys, kind, report) &
         bind(c, name="jam_rigidity") result(status)
       import
@@ -2143,7 +2144,7 @@ module jam
 
     ! Elastic moduli; JAM_E_STATE also when prestress makes the network unstable. With walls bulk is NaN, and shear is that
     ! of planes of two axes without walls.
-    ! Errors: JAM_E_STATE, JAM_E_SOLVER, JAM_E_UNSUPPORTED.
+    ! Errors: JAM_E_STATE, JAM_E_SOLVER, JAM_E_UNSUPPORTED (fewer than two such axes).
     function jam_moduli(sys, h, moduli) &
         bind(c, name="jam_moduli") result(status)
       import
@@ -3045,10 +3046,11 @@ module jam
     module procedure l_jam_modes
   end interface jam_modes
 
-  ! Modes at a wave vector, sum of wave[c] b_c with a_c . b_e = 2 pi delta_ce: the copy of a sphere at sum of s_c a_c
-  ! moves by exp(2 pi i sum wave[c] s_c) times its displacement. All d N', lambda ascending; vector: real and imaginary
-  ! parts, of unit length. Dense, 96 (d N')^2 bytes. The modes of jam_tile are those of all wave[c] = q / count[c], q = 0
-  ! .. count[c] - 1, together; wave 0 has those of jam_modes. Along a walled axis wave is 0.
+  ! Modes of the Hessian at the wave vector sum of wave[c] b_c, with a_c . b_e = 2 pi delta_ce: the copy of a sphere that
+  ! is sum of s_c a_c away moves by exp(2 pi i sum wave[c] s_c) times its displacement. All d N' modes, lambda ascending;
+  ! vector: real and imaginary parts, of unit length. Dense: 96 (d N')^2 bytes. Those of wave 0 are the modes of
+  ! jam_modes; those of all wave[c] = k / count[c], k = 0 .. count[c] - 1, are the modes of jam_tile. Along an axis with
+  ! walls wave is 0.
   ! Shapes: wave (d), table (m, jam_mode_column), vector (m, N', d, 2).
   ! Errors: JAM_E_STATE, JAM_E_SOLVER.
   interface jam_bloch_modes
@@ -3076,8 +3078,8 @@ module jam
     module procedure l_jam_flex
   end interface jam_flex
 
-  ! The collective test of jam_rigidity for count[c] copies along each cell vector (jam_tile), from one cell: a row for
-  ! each wave vector of the copies, as in jam_bloch_modes; q_0 runs fastest. Forces averaged over all copies balance in
+  ! The collective test of jam_rigidity for count[c] copies along each cell vector (jam_tile), from one cell: one row per
+  ! wave vector of the copies, as in jam_bloch_modes; wave[0] runs fastest. Forces averaged over all copies balance in
   ! one cell, so K+ is that of one cell, and the flexes of the copies are those of all rows together. Status: JAM_OK
   ! jammed, JAM_NOT_JAMMED, JAM_AMBIGUOUS undecided.
   ! Shapes: count (d), wave (m, d), table (m, jam_bloch_column).
@@ -3150,7 +3152,7 @@ module jam
   ! c_bacd differ: a rotation of stressed contacts counts. Components of an axis with walls are NaN: walls do not
   ! strain.
   ! Shapes: affine (d, d, d, d), relaxed (d, d, d, d).
-  ! Errors: JAM_E_STATE, JAM_E_SOLVER, JAM_E_UNSUPPORTED.
+  ! Errors: JAM_E_STATE, JAM_E_SOLVER, JAM_E_UNSUPPORTED (walls on all axes).
   interface jam_elastic_tensor
     module procedure f_jam_elastic_tensor
     module procedure l_jam_elastic_tensor
@@ -3463,7 +3465,7 @@ contains
     status = c_jam_set_velocities(sys, at_velocities, count_velocities)
   end function jam_set_velocities
 
-  ! Walls, axis by axis, then the round one.
+  ! One row per wall: flat ones axis by axis, then the round one.
   ! Shapes: table (m, jam_wall_column).
   function jam_walls(sys, table, table_len, needed) result(status)
     type(c_ptr), intent(in) :: sys
@@ -3646,10 +3648,10 @@ contains
 
   ! Copies of src side by side, count[c] along cell vector a_c. Copy (k_0, k_1, ...) stands at sum of k_c a_c; its sphere
   ! i is number i + n (k_0 + count[0] (k_1 + count[1] ...)). The cell has the vectors count[c] a_c, less multiples of
-  ! earlier ones where that shortens them, in this order. Velocities, contacts, gaps and forces go along, so no crunch is
-  ! needed. With more than one copy the stored report holds counts of the new packing, and its verdicts are untested: it
-  ! may have flexes that src has not. jam_rigidity tests it. Steps, histories and unfinished work stay behind. Along a
-  ! walled axis count is 1.
+  ! earlier ones where that shortens them, in this order. Velocities, contacts, gaps and forces are copied, so no crunch
+  ! is needed. With more than one copy the stored report has the counts of the new packing and no verdicts: it may have
+  ! flexes that src does not have, and jam_rigidity tests it. Steps, histories and unfinished work are not copied. Along
+  ! an axis with walls count is 1.
   ! Shapes: count (d).
   ! Errors: JAM_E_UNSUPPORTED (Mari-Kurchan model, walls), JAM_E_OVERLAP (the coordinates no longer resolve the gaps).
   function jam_tile(src, count, count_len, out) result(status)
@@ -6130,8 +6132,9 @@ contains
     status = c_jam_local_fraction(sys, at_out, count_out, needed)
   end function jam_local_fraction
 
-  ! Binary STL of the solid, d = 3: closed, each edge twice, once each way. Cylinders that would meet each other or a
-  ! third sphere are refused by name. The file appears as of jam_write.
+  ! Binary STL of the solid, d = 3, closed: each edge belongs to two triangles, which pass it in opposite directions.
+  ! Cylinders that would meet each other or a third sphere are refused with their numbers. The file appears as of
+  ! jam_write.
   ! Errors: JAM_E_STATE (BRIDGED, no network), JAM_E_UNSUPPORTED, JAM_E_IO.
   function jam_write_stl(sys, path, o, report) result(status)
     type(c_ptr), intent(in) :: sys
@@ -6234,8 +6237,8 @@ contains
     status = c_jam_near_coordination(sys, h_max, at_out, count_out, needed)
   end function jam_near_coordination
 
-  ! Pore sizes at random points of the void, exact. The time grows with the fourth power of the neighbours: use it above
-  ! packing fractions of about 0.4. Not with walls yet.
+  ! Pore sizes at random points of the void, exact; not with walls yet. The time grows with the fourth power of the
+  ! number of neighbours of a point: use it above packing fractions of about 0.4.
   ! Shapes: table (points, jam_pore_column).
   ! Errors: JAM_E_UNSUPPORTED.
   function jam_pore_sizes(sys, points, seed, table, table_len, needed) result(status)

@@ -162,7 +162,7 @@ contains
     call self%done(status)
   end subroutine do_scale_diameters
 
-  ! Walls, axis by axis, then the round one.
+  ! One row per wall: flat ones axis by axis, then the round one.
   ! Shapes: table (m, jam_wall_column).
   function do_walls(self) result(found)
     class(packing), intent(inout) :: self
@@ -1017,10 +1017,11 @@ contains
     call self%done(status)
   end subroutine do_modes
 
-  ! Modes at a wave vector, sum of wave[c] b_c with a_c . b_e = 2 pi delta_ce: the copy of a sphere at sum of s_c a_c
-  ! moves by exp(2 pi i sum wave[c] s_c) times its displacement. All d N', lambda ascending; vector: real and imaginary
-  ! parts, of unit length. Dense, 96 (d N')^2 bytes. The modes of jam_tile are those of all wave[c] = q / count[c], q = 0
-  ! .. count[c] - 1, together; wave 0 has those of jam_modes. Along a walled axis wave is 0.
+  ! Modes of the Hessian at the wave vector sum of wave[c] b_c, with a_c . b_e = 2 pi delta_ce: the copy of a sphere that
+  ! is sum of s_c a_c away moves by exp(2 pi i sum wave[c] s_c) times its displacement. All d N' modes, lambda ascending;
+  ! vector: real and imaginary parts, of unit length. Dense: 96 (d N')^2 bytes. Those of wave 0 are the modes of
+  ! jam_modes; those of all wave[c] = k / count[c], k = 0 .. count[c] - 1, are the modes of jam_tile. Along an axis with
+  ! walls wave is 0.
   ! Shapes: wave (d), table (m, jam_mode_column), vector (m, N', d, 2).
   ! Errors: JAM_E_STATE, JAM_E_SOLVER.
   subroutine do_bloch_modes(self, h, wave, table, vector)
@@ -1127,9 +1128,9 @@ contains
   ! where the network lists them. There a sphere that they alone hold needs forces on the cell to balance. Let S v be the
   ! opening of contacts by a motion v, and E eps that by a strain eps. Collectively jammed: S v >= 0 only for
   ! translations of B. Strictly jammed: S v + E eps >= 0 with tr eps <= 0 only for those and eps = 0. Both hold for this
-  ! cell, not for several copies of it (jam_bloch_rigidity). Source: Donev et al., J. Comput. Phys. 197, 139 (2004); the
-  ! guide's page "Jammed or not" has more. Status: JAM_OK jammed, JAM_NOT_JAMMED, JAM_AMBIGUOUS undecided.
-  ! Errors: JAM_E_SOLVER, JAM_E_UNSUPPORTED (strict, with walls).
+  ! cell, not for several copies of it (jam_bloch_rigidity). Source: Donev et al., J. Comput. Phys. 197, 139 (2004).
+  ! Status: JAM_OK jammed, JAM_NOT_JAMMED, JAM_AMBIGUOUS undecided.
+  ! Errors: JAM_E_SOLVER.
   function do_rigidity(self, kind) result(found)
     class(packing), intent(inout) :: self
     integer, intent(in) :: kind
@@ -1169,8 +1170,8 @@ contains
     call self%done(status)
   end subroutine do_flex
 
-  ! The collective test of jam_rigidity for count[c] copies along each cell vector (jam_tile), from one cell: a row for
-  ! each wave vector of the copies, as in jam_bloch_modes; q_0 runs fastest. Forces averaged over all copies balance in
+  ! The collective test of jam_rigidity for count[c] copies along each cell vector (jam_tile), from one cell: one row per
+  ! wave vector of the copies, as in jam_bloch_modes; wave[0] runs fastest. Forces averaged over all copies balance in
   ! one cell, so K+ is that of one cell, and the flexes of the copies are those of all rows together. Status: JAM_OK
   ! jammed, JAM_NOT_JAMMED, JAM_AMBIGUOUS undecided.
   ! Shapes: count (d), wave (m, d), table (m, jam_bloch_column).
@@ -1584,8 +1585,9 @@ contains
     call self%done(status)
   end function do_local_fraction
 
-  ! Binary STL of the solid, d = 3: closed, each edge twice, once each way. Cylinders that would meet each other or a
-  ! third sphere are refused by name. The file appears as of jam_write.
+  ! Binary STL of the solid, d = 3, closed: each edge belongs to two triangles, which pass it in opposite directions.
+  ! Cylinders that would meet each other or a third sphere are refused with their numbers. The file appears as of
+  ! jam_write.
   ! Errors: JAM_E_STATE (BRIDGED, no network), JAM_E_UNSUPPORTED, JAM_E_IO.
   function do_write_stl(self, path, o) result(found)
     class(packing), intent(inout) :: self
@@ -1676,8 +1678,8 @@ contains
     call self%done(status)
   end function do_near_coordination
 
-  ! Pore sizes at random points of the void, exact. The time grows with the fourth power of the neighbours: use it above
-  ! packing fractions of about 0.4. Not with walls yet.
+  ! Pore sizes at random points of the void, exact; not with walls yet. The time grows with the fourth power of the
+  ! number of neighbours of a point: use it above packing fractions of about 0.4.
   ! Shapes: table (points, jam_pore_column).
   ! Errors: JAM_E_UNSUPPORTED.
   function do_pore_sizes(self, points, seed) result(found)
@@ -1799,7 +1801,7 @@ contains
 
   ! Elastic moduli; JAM_E_STATE also when prestress makes the network unstable. With walls bulk is NaN, and shear is that
   ! of planes of two axes without walls.
-  ! Errors: JAM_E_STATE, JAM_E_SOLVER, JAM_E_UNSUPPORTED.
+  ! Errors: JAM_E_STATE, JAM_E_SOLVER, JAM_E_UNSUPPORTED (fewer than two such axes).
   function do_moduli(self, h) result(found)
     class(packing), intent(inout) :: self
     type(jam_hessian_options), intent(in), optional :: h
@@ -1814,7 +1816,7 @@ contains
   ! c_bacd differ: a rotation of stressed contacts counts. Components of an axis with walls are NaN: walls do not
   ! strain.
   ! Shapes: affine (d, d, d, d), relaxed (d, d, d, d).
-  ! Errors: JAM_E_STATE, JAM_E_SOLVER, JAM_E_UNSUPPORTED.
+  ! Errors: JAM_E_STATE, JAM_E_SOLVER, JAM_E_UNSUPPORTED (walls on all axes).
   subroutine do_elastic_tensor(self, h, affine, relaxed)
     class(packing), intent(inout) :: self
     type(jam_hessian_options), intent(in), optional :: h

@@ -320,7 +320,8 @@ its jump is 1 and its contacts -1 when there is none."
 %feature("docstring") jam_rigidity_report "What jam_rigidity found. K+ are the contacts that carry force in some balance of non-negative forces, B the spheres
 that they touch, N' their number. undecided_contacts: also pairs that the digits of the coordinates cannot
 distinguish from contacts. rigidity_margin below 1e-12: a flex; of a sphere that touches its own images alone: with
-strains; where a round wall's curvature holds flexes: by how much of the mean force times curvature."
+strains. Where a round wall's curvature fixes flexes u: least -sum f b(u, u) for |u| = 1, over the mean |f b|, with b
+the second derivative of the distance across a contact."
 %extend jam_check_options {
   jam_check_options() {
     jam_check_options *made = (jam_check_options *)calloc(1, sizeof *made);
@@ -456,7 +457,7 @@ as they are. jam_compress rescales them to kT/m = 1.
 Shapes: velocities (n, d)."
 %feature("docstring") jam_scale_diameters "Multiplies all diameters by factor > 0; results of crunch are dropped.
 Errors: JAM_E_OVERLAP (when growing)."
-%feature("docstring") jam_walls "Walls, axis by axis, then the round one.
+%feature("docstring") jam_walls "One row per wall: flat ones axis by axis, then the round one.
 Shapes: table (m, jam_wall_column)."
 %feature("docstring") jam_get_cell "Cell vectors in normal form.
 Shapes: out (d, d)."
@@ -472,10 +473,10 @@ Shapes: strain (d, d).
 Errors: JAM_E_OVERLAP, JAM_E_UNSUPPORTED (Mari-Kurchan shifts, where the reduction changes the vectors)."
 %feature("docstring") jam_tile "Copies of src side by side, count[c] along cell vector a_c. Copy (k_0, k_1, ...) stands at sum of k_c a_c; its sphere
 i is number i + n (k_0 + count[0] (k_1 + count[1] ...)). The cell has the vectors count[c] a_c, less multiples of
-earlier ones where that shortens them, in this order. Velocities, contacts, gaps and forces go along, so no crunch is
-needed. With more than one copy the stored report holds counts of the new packing, and its verdicts are untested: it
-may have flexes that src has not. jam_rigidity tests it. Steps, histories and unfinished work stay behind. Along a
-walled axis count is 1.
+earlier ones where that shortens them, in this order. Velocities, contacts, gaps and forces are copied, so no crunch
+is needed. With more than one copy the stored report has the counts of the new packing and no verdicts: it may have
+flexes that src does not have, and jam_rigidity tests it. Steps, histories and unfinished work are not copied. Along
+an axis with walls count is 1.
 Shapes: count (d).
 Errors: JAM_E_UNSUPPORTED (Mari-Kurchan model, walls), JAM_E_OVERLAP (the coordinates no longer resolve the gaps)."
 %feature("docstring") jam_diameters_options_init ""
@@ -699,10 +700,11 @@ Errors: JAM_E_STATE."
 is NaN. Status: JAM_NOT_CONVERGED.
 Shapes: table (m, jam_mode_column), vector (m, N', d).
 Errors: JAM_E_STATE, JAM_E_SOLVER."
-%feature("docstring") jam_bloch_modes "Modes at a wave vector, sum of wave[c] b_c with a_c . b_e = 2 pi delta_ce: the copy of a sphere at sum of s_c a_c
-moves by exp(2 pi i sum wave[c] s_c) times its displacement. All d N', lambda ascending; vector: real and imaginary
-parts, of unit length. Dense, 96 (d N')^2 bytes. The modes of jam_tile are those of all wave[c] = q / count[c], q = 0
-.. count[c] - 1, together; wave 0 has those of jam_modes. Along a walled axis wave is 0.
+%feature("docstring") jam_bloch_modes "Modes of the Hessian at the wave vector sum of wave[c] b_c, with a_c . b_e = 2 pi delta_ce: the copy of a sphere that
+is sum of s_c a_c away moves by exp(2 pi i sum wave[c] s_c) times its displacement. All d N' modes, lambda ascending;
+vector: real and imaginary parts, of unit length. Dense: 96 (d N')^2 bytes. Those of wave 0 are the modes of
+jam_modes; those of all wave[c] = k / count[c], k = 0 .. count[c] - 1, are the modes of jam_tile. Along an axis with
+walls wave is 0.
 Shapes: wave (d), table (m, jam_mode_column), vector (m, N', d, 2).
 Errors: JAM_E_STATE, JAM_E_SOLVER."
 %feature("docstring") jam_geometry_options_init ""
@@ -731,16 +733,16 @@ spheres have too few of them. A sphere and its own image are a contact in the st
 where the network lists them. There a sphere that they alone hold needs forces on the cell to balance. Let S v be the
 opening of contacts by a motion v, and E eps that by a strain eps. Collectively jammed: S v >= 0 only for
 translations of B. Strictly jammed: S v + E eps >= 0 with tr eps <= 0 only for those and eps = 0. Both hold for this
-cell, not for several copies of it (jam_bloch_rigidity). Source: Donev et al., J. Comput. Phys. 197, 139 (2004); the
-guide's page \"Jammed or not\" has more. Status: JAM_OK jammed, JAM_NOT_JAMMED, JAM_AMBIGUOUS undecided.
-Errors: JAM_E_SOLVER, JAM_E_UNSUPPORTED (strict, with walls)."
+cell, not for several copies of it (jam_bloch_rigidity). Source: Donev et al., J. Comput. Phys. 197, 139 (2004).
+Status: JAM_OK jammed, JAM_NOT_JAMMED, JAM_AMBIGUOUS undecided.
+Errors: JAM_E_SOLVER."
 %feature("docstring") jam_flex "A motion that a packing which is not jammed can follow: out, unit of the box, and strain, 0 for the collective kind.
 The largest displacement is at most 1 mean diameter. Moving by a small part of both keeps all contacts or opens them.
 Where no pair is near contact, one sphere moves.
 Shapes: out (n, d), strain (d, d).
 Errors: JAM_E_SOLVER, JAM_E_STATE (jammed, or undecided without a motion)."
-%feature("docstring") jam_bloch_rigidity "The collective test of jam_rigidity for count[c] copies along each cell vector (jam_tile), from one cell: a row for
-each wave vector of the copies, as in jam_bloch_modes; q_0 runs fastest. Forces averaged over all copies balance in
+%feature("docstring") jam_bloch_rigidity "The collective test of jam_rigidity for count[c] copies along each cell vector (jam_tile), from one cell: one row per
+wave vector of the copies, as in jam_bloch_modes; wave[0] runs fastest. Forces averaged over all copies balance in
 one cell, so K+ is that of one cell, and the flexes of the copies are those of all rows together. Status: JAM_OK
 jammed, JAM_NOT_JAMMED, JAM_AMBIGUOUS undecided.
 Shapes: count (d), wave (m, d), table (m, jam_bloch_column).
@@ -820,8 +822,9 @@ about 10 in a perfect FCC crystal."
 Shapes: out (n).
 Errors: JAM_E_UNSUPPORTED (d, or built without voro++)."
 %feature("docstring") jam_mesh_options_init ""
-%feature("docstring") jam_write_stl "Binary STL of the solid, d = 3: closed, each edge twice, once each way. Cylinders that would meet each other or a
-third sphere are refused by name. The file appears as of jam_write.
+%feature("docstring") jam_write_stl "Binary STL of the solid, d = 3, closed: each edge belongs to two triangles, which pass it in opposite directions.
+Cylinders that would meet each other or a third sphere are refused with their numbers. The file appears as of
+jam_write.
 Errors: JAM_E_STATE (BRIDGED, no network), JAM_E_UNSUPPORTED, JAM_E_IO."
 %feature("docstring") jam_voxel_options_init ""
 %feature("docstring") jam_voxels "Image of the solid: 0 or 1, or shares; -1 outside a round container. x is fastest. out NULL: the report gives size
@@ -836,8 +839,8 @@ Shapes: table (bins, jam_profile_column).
 Errors: JAM_E_UNSUPPORTED."
 %feature("docstring") jam_near_coordination "Spheres with a gap h < h_max, up to 1, to each one, every image; walls do not count. Needs no crunch.
 Shapes: out (n)."
-%feature("docstring") jam_pore_sizes "Pore sizes at random points of the void, exact. The time grows with the fourth power of the neighbours: use it above
-packing fractions of about 0.4. Not with walls yet.
+%feature("docstring") jam_pore_sizes "Pore sizes at random points of the void, exact; not with walls yet. The time grows with the fourth power of the
+number of neighbours of a point: use it above packing fractions of about 0.4.
 Shapes: table (points, jam_pore_column).
 Errors: JAM_E_UNSUPPORTED."
 %feature("docstring") jam_floppy_mode "Floppy mode: displacement over s when a contact opens by s. To first order all other contacts stay closed, all
@@ -863,13 +866,13 @@ Shapes: u (N', d).
 Errors: JAM_E_STATE."
 %feature("docstring") jam_moduli "Elastic moduli; JAM_E_STATE also when prestress makes the network unstable. With walls bulk is NaN, and shear is that
 of planes of two axes without walls.
-Errors: JAM_E_STATE, JAM_E_SOLVER, JAM_E_UNSUPPORTED."
+Errors: JAM_E_STATE, JAM_E_SOLVER, JAM_E_UNSUPPORTED (fewer than two such axes)."
 %feature("docstring") jam_elastic_tensor "Elastic tensor c_abcd: second derivative of the energy a volume by E_ab and E_cd of x -> (1 + E) x. Unit as
 jam_moduli, *needed = d^4. affine: spheres move by E alone; relaxed: then forces balance. With prestress c_abcd and
 c_bacd differ: a rotation of stressed contacts counts. Components of an axis with walls are NaN: walls do not
 strain.
 Shapes: affine (d, d, d, d), relaxed (d, d, d, d).
-Errors: JAM_E_STATE, JAM_E_SOLVER, JAM_E_UNSUPPORTED."
+Errors: JAM_E_STATE, JAM_E_SOLVER, JAM_E_UNSUPPORTED (walls on all axes)."
 %feature("docstring") jam_compare "Compares two packings sphere by sphere. out is the displacement from sys to other by nearest images. Its mean over
 spheres stable in both, or over all when none is, is taken out. n, dim, cell and model must agree. JAM_AMBIGUOUS:
 ratios of diameters differ, or one of the two has no network.

@@ -20,6 +20,7 @@
  *   given in another form is reduced, and rotated where it must be. The spheres rotate with it.
  * - Positions lie in the brick [0, a_00) x [0, a_11) x ..., which repeats as the cell does.
  * - The plain text format has cubes only. All else works in any cell.
+ * - With walls, d (N' - 1) in a count of contacts is d N' less the rigid motions that the walls allow.
  *
  * Arrays and pointers
  * - Arrays of shape (n, d) are row-major: the same bytes as numpy (n, d), Fortran x(d, n) and a Julia d-by-n matrix.
@@ -223,8 +224,7 @@ typedef int32_t (*jam_progress_fn)(const jam_progress *progress, void *user);
 
 /* ------------------------------------------------------------------ the system */
 
-/* N spheres in a periodic cell; opaque. Made by jam_create, jam_read, jam_read_checkpoint, jam_copy or
- * jam_tile. */
+/* N spheres in a cell; opaque. Made by jam_create, jam_read, jam_read_checkpoint, jam_copy or jam_tile. */
 typedef struct jam_system jam_system;
 /* What to do with overlaps in given positions. */
 typedef enum jam_overlap_policy {
@@ -335,9 +335,9 @@ typedef enum jam_wall_column {
   JAM_WALL_AREA = 2,     /* unit^(d-1) */
   JAM_WALL_PRESSURE = 3, /* beta P V / N of the last run of MD; NaN before */
   JAM_WALL_GAP = 4,      /* least h of a sphere */
-  JAM_WALL_STRESS = 5    /* force of its contacts / area, over sum f r / (d V) of all contacts; NaN without contacts */
+  JAM_WALL_STRESS = 5    /* contact forces on it / area, over sum f r / (d V) of all contacts; NaN without contacts */
 } jam_wall_column;
-/* Walls, axis by axis, then the round one. @shape table (m, jam_wall_column) */
+/* One row per wall: flat ones axis by axis, then the round one. @shape table (m, jam_wall_column) */
 JAM_API jam_status jam_walls(const jam_system *sys, double *table, size_t table_len, size_t *needed);
 
 /* ------------------------------------------------------------------ the cell */
@@ -357,11 +357,11 @@ JAM_API jam_status jam_set_cell(jam_system *sys, const double *cell, size_t cell
 JAM_API jam_status jam_strain(jam_system *sys, const double *strain, size_t strain_len);
 /* Copies of src side by side, count[c] along cell vector a_c. Copy (k_0, k_1, ...) stands at sum of k_c a_c; its sphere
  * i is number i + n (k_0 + count[0] (k_1 + count[1] ...)). The cell has the vectors count[c] a_c, less multiples of
- * earlier ones where that shortens them, in this order. Velocities, contacts, gaps and forces go along, so no crunch is
- * needed. With more than one copy the stored report holds counts of the new packing, and its verdicts are untested: it
- * may have flexes that src has not. jam_rigidity tests it. Steps, histories and unfinished work stay behind. Along a
- * walled axis count is 1. @shape count (d) @errors UNSUPPORTED (Mari-Kurchan model, walls), OVERLAP (the coordinates no
- * longer resolve the gaps) */
+ * earlier ones where that shortens them, in this order. Velocities, contacts, gaps and forces are copied, so no crunch
+ * is needed. With more than one copy the stored report has the counts of the new packing and no verdicts: it may have
+ * flexes that src does not have, and jam_rigidity tests it. Steps, histories and unfinished work are not copied. Along
+ * an axis with walls count is 1. @shape count (d) @errors UNSUPPORTED (Mari-Kurchan model, walls), OVERLAP (the
+ * coordinates no longer resolve the gaps) */
 JAM_API jam_status jam_tile(const jam_system *src, const int32_t *count, size_t count_len, jam_system **out);
 
 /* ------------------------------------------------------------------ sizes */
@@ -1197,11 +1197,11 @@ JAM_API jam_status jam_hessian(const jam_system *sys, const jam_hessian_options 
  * is NaN. Status: JAM_NOT_CONVERGED. @shape table (m, jam_mode_column), vector (m, N', d) @errors STATE, SOLVER */
 JAM_API jam_status jam_modes(jam_system *sys, const jam_hessian_options *h, const jam_modes_options *o, double *table,
                              size_t table_len, double *vector, size_t vector_len, size_t *rows);
-/* Modes at a wave vector, sum of wave[c] b_c with a_c . b_e = 2 pi delta_ce: the copy of a sphere at sum of s_c a_c
- * moves by exp(2 pi i sum wave[c] s_c) times its displacement. All d N', lambda ascending; vector: real and imaginary
- * parts, of unit length. Dense, 96 (d N')^2 bytes. The modes of jam_tile are those of all wave[c] = q / count[c], q = 0
- * .. count[c] - 1, together; wave 0 has those of jam_modes. Along a walled axis wave is 0. @shape wave (d), table (m,
- * jam_mode_column), vector (m, N', d, 2) @errors STATE, SOLVER */
+/* Modes of the Hessian at the wave vector sum of wave[c] b_c, with a_c . b_e = 2 pi delta_ce: the copy of a sphere that
+ * is sum of s_c a_c away moves by exp(2 pi i sum wave[c] s_c) times its displacement. All d N' modes, lambda ascending;
+ * vector: real and imaginary parts, of unit length. Dense: 96 (d N')^2 bytes. Those of wave 0 are the modes of
+ * jam_modes; those of all wave[c] = k / count[c], k = 0 .. count[c] - 1, are the modes of jam_tile. Along an axis with
+ * walls wave is 0. @shape wave (d), table (m, jam_mode_column), vector (m, N', d, 2) @errors STATE, SOLVER */
 JAM_API jam_status jam_bloch_modes(jam_system *sys, const jam_hessian_options *h, const double *wave, size_t wave_len,
                                    double *table, size_t table_len, double *vector, size_t vector_len, size_t *rows);
 
@@ -1280,7 +1280,8 @@ typedef enum jam_verdict {
 /* What jam_rigidity found. K+ are the contacts that carry force in some balance of non-negative forces, B the spheres
  * that they touch, N' their number. undecided_contacts: also pairs that the digits of the coordinates cannot
  * distinguish from contacts. rigidity_margin below 1e-12: a flex; of a sphere that touches its own images alone: with
- * strains; where a round wall's curvature holds flexes: by how much of the mean force times curvature. */
+ * strains. Where a round wall's curvature fixes flexes u: least -sum f b(u, u) for |u| = 1, over the mean |f b|, with b
+ * the second derivative of the distance across a contact. */
 typedef struct jam_rigidity_report {
   uint32_t struct_size;
   int32_t kind;                /* @enum jam_rigidity_kind that was tested */
@@ -1303,10 +1304,8 @@ typedef struct jam_rigidity_report {
  * where the network lists them. There a sphere that they alone hold needs forces on the cell to balance. Let S v be the
  * opening of contacts by a motion v, and E eps that by a strain eps. Collectively jammed: S v >= 0 only for
  * translations of B. Strictly jammed: S v + E eps >= 0 with tr eps <= 0 only for those and eps = 0. Both hold for this
- * cell, not for several copies of it (jam_bloch_rigidity). Source: Donev et al., J. Comput. Phys. 197, 139 (2004); the
- * guide's page "Jammed or not" has more. Status: JAM_OK jammed, JAM_NOT_JAMMED, JAM_AMBIGUOUS undecided. @enum kind
- * jam_rigidity_kind
- * @errors SOLVER, UNSUPPORTED (strict, with walls) */
+ * cell, not for several copies of it (jam_bloch_rigidity). Source: Donev et al., J. Comput. Phys. 197, 139 (2004).
+ * Status: JAM_OK jammed, JAM_NOT_JAMMED, JAM_AMBIGUOUS undecided. @enum kind jam_rigidity_kind @errors SOLVER */
 JAM_API jam_status jam_rigidity(jam_system *sys, int32_t kind, jam_rigidity_report *report);
 /* A motion that a packing which is not jammed can follow: out, unit of the box, and strain, 0 for the collective kind.
  * The largest displacement is at most 1 mean diameter. Moving by a small part of both keeps all contacts or opens them.
@@ -1317,10 +1316,10 @@ JAM_API jam_status jam_flex(jam_system *sys, int32_t kind, double *out, size_t o
 /* Columns of jam_bloch_rigidity. */
 typedef enum jam_bloch_column {
   JAM_BLOCH_FLEXES = 0, /* complex motions at this wave vector that keep K+ closed, without translations */
-  JAM_BLOCH_MARGIN = 1  /* least other eigenvalue of S^T S on K+; below 1e-12: a flex; NaN without K+ */
+  JAM_BLOCH_MARGIN = 1  /* least eigenvalue of S^T S on K+ but for translations; below 1e-12: a flex; NaN: no K+ */
 } jam_bloch_column;
-/* The collective test of jam_rigidity for count[c] copies along each cell vector (jam_tile), from one cell: a row for
- * each wave vector of the copies, as in jam_bloch_modes; q_0 runs fastest. Forces averaged over all copies balance in
+/* The collective test of jam_rigidity for count[c] copies along each cell vector (jam_tile), from one cell: one row per
+ * wave vector of the copies, as in jam_bloch_modes; wave[0] runs fastest. Forces averaged over all copies balance in
  * one cell, so K+ is that of one cell, and the flexes of the copies are those of all rows together. Status: JAM_OK
  * jammed, JAM_NOT_JAMMED, JAM_AMBIGUOUS undecided. @shape count (d), wave (m, d), table (m, jam_bloch_column) @errors
  * SOLVER, UNSUPPORTED (Mari-Kurchan model, round walls) */
@@ -1351,7 +1350,7 @@ typedef struct jam_check_options {
 typedef struct jam_check_report {
   uint32_t struct_size;
   int32_t jammed;                 /* @enum jam_verdict: collectively jammed */
-  int32_t strictly_jammed;        /* @enum jam_verdict; NO where jammed is NO, UNTESTED with walls */
+  int32_t strictly_jammed;        /* @enum jam_verdict; NO where jammed is NO; UNTESTED where walls allow no strain */
   int32_t stationary;             /* @enum jam_verdict: non-negative forces balance */
   int32_t reason;                 /* @enum jam_check_reason of jammed */
   int32_t dim;                    /* d */
@@ -1569,19 +1568,19 @@ typedef struct jam_mesh_report {
   double volume, solid; /* enclosed by the mesh, unit^d; exact, of the spheres and cylinders it stands for */
 } jam_mesh_report;
 JAM_API jam_status jam_mesh_options_init(jam_mesh_options *o, size_t size);
-/* Binary STL of the solid, d = 3: closed, each edge twice, once each way. Cylinders that would meet each other or a
- * third sphere are refused by name. The file appears as of jam_write. @errors STATE (BRIDGED, no network), UNSUPPORTED,
- * IO */
+/* Binary STL of the solid, d = 3, closed: each edge belongs to two triangles, which pass it in opposite directions.
+ * Cylinders that would meet each other or a third sphere are refused with their numbers. The file appears as of
+ * jam_write. @errors STATE (BRIDGED, no network), UNSUPPORTED, IO */
 JAM_API jam_status jam_write_stl(const jam_system *sys, const char *path, const jam_mesh_options *o,
                                  jam_mesh_report *report);
 /* Options of jam_voxels and jam_write_voxels. */
 typedef struct jam_voxel_options {
   uint32_t struct_size;
-  int32_t lines; /* 0, the default: the centre of a voxel decides. Else the share of the voxel that is solid, by the
-                    exact lengths inside spheres of lines^(d-1) lines along x; at most 64 */
+  int32_t lines;      /* 0, the default: the centre of a voxel decides. Else: share of the voxel that is solid, from
+                         lines^(d-1) lines along x, each with its exact length inside spheres; at most 64 */
   int32_t nx, ny, nz; /* voxels along the edges of the brick, 0, the default, as `size` asks. Disks: one layer */
   int32_t reserved;
-  double size; /* edge of a voxel, about; the number of voxels is rounded. 0, the default: box / 100 */
+  double size; /* wanted edge; rounded so that whole voxels fill the brick. 0, the default: box / 100 */
 } jam_voxel_options;
 /* The image that jam_voxels or jam_write_voxels makes. */
 typedef struct jam_voxel_report {
@@ -1622,8 +1621,9 @@ typedef enum jam_pore_column {
   JAM_PORE_DISTANCE = 3, /* to the nearest surface: radius of the largest sphere about the point */
   JAM_PORE_RADIUS = 4    /* of the largest sphere that contains the point and no solid */
 } jam_pore_column;
-/* Pore sizes at random points of the void, exact. The time grows with the fourth power of the neighbours: use it above
- * packing fractions of about 0.4. Not with walls yet. @shape table (points, jam_pore_column) @errors UNSUPPORTED */
+/* Pore sizes at random points of the void, exact; not with walls yet. The time grows with the fourth power of the
+ * number of neighbours of a point: use it above packing fractions of about 0.4. @shape table (points, jam_pore_column)
+ * @errors UNSUPPORTED */
 JAM_API jam_status jam_pore_sizes(jam_system *sys, int64_t points, int64_t seed, double *table, size_t table_len,
                                   size_t *needed);
 
@@ -1697,12 +1697,12 @@ JAM_API jam_status jam_project(const jam_system *sys, const double *vector, size
 JAM_API jam_status jam_curvature(const jam_system *sys, const jam_hessian_options *h, const double *u, size_t u_len,
                                  double *value);
 /* Elastic moduli; JAM_E_STATE also when prestress makes the network unstable. With walls bulk is NaN, and shear is that
- * of planes of two axes without walls. @errors STATE, SOLVER, UNSUPPORTED */
+ * of planes of two axes without walls. @errors STATE, SOLVER, UNSUPPORTED (fewer than two such axes) */
 JAM_API jam_status jam_moduli(jam_system *sys, const jam_hessian_options *h, jam_moduli_report *moduli);
 /* Elastic tensor c_abcd: second derivative of the energy a volume by E_ab and E_cd of x -> (1 + E) x. Unit as
  * jam_moduli, *needed = d^4. affine: spheres move by E alone; relaxed: then forces balance. With prestress c_abcd and
  * c_bacd differ: a rotation of stressed contacts counts. Components of an axis with walls are NaN: walls do not
- * strain. @shape affine (d, d, d, d), relaxed (d, d, d, d) @errors STATE, SOLVER, UNSUPPORTED */
+ * strain. @shape affine (d, d, d, d), relaxed (d, d, d, d) @errors STATE, SOLVER, UNSUPPORTED (walls on all axes) */
 JAM_API jam_status jam_elastic_tensor(jam_system *sys, const jam_hessian_options *h, double *affine, size_t affine_len,
                                       double *relaxed, size_t relaxed_len, size_t *needed);
 /* Compares two packings sphere by sphere. out is the displacement from sys to other by nearest images. Its mean over

@@ -60,7 +60,7 @@ export walls,
 """
     walls(s) -> table
 
-Walls, axis by axis, then the round one.
+One row per wall: flat ones axis by axis, then the round one.
 """
 function walls(s::System)
     return call(s, :jam_walls, (); progress = nothing)
@@ -431,11 +431,11 @@ spheres have too few of them. A sphere and its own image are a contact in the st
 where the network lists them. There a sphere that they alone hold needs forces on the cell to balance. Let S v be the
 opening of contacts by a motion v, and E eps that by a strain eps. Collectively jammed: S v >= 0 only for translations
 of B. Strictly jammed: S v + E eps >= 0 with tr eps <= 0 only for those and eps = 0. Both hold for this cell, not for
-several copies of it (`bloch_rigidity`). Source: Donev et al., J. Comput. Phys. 197, 139 (2004); the guide's page
-"Jammed or not" has more. Status: `:ok` jammed, `:not_jammed`, `:ambiguous` undecided.
+several copies of it (`bloch_rigidity`). Source: Donev et al., J. Comput. Phys. 197, 139 (2004). Status: `:ok` jammed,
+`:not_jammed`, `:ambiguous` undecided.
 
 - `kind`: one of `:collective`, `:strict`
-- errors: `:solver`, `:unsupported` (strict, with walls)
+- errors: `:solver`
 """
 function rigidity(s::System, kind; progress = nothing)
     return call(s, :jam_rigidity, (kind, ); progress = progress)
@@ -673,8 +673,8 @@ end
 """
     write_stl(s, path; contacts, edge, factor, bridge) -> report
 
-Binary STL of the solid, d = 3: closed, each edge twice, once each way. Cylinders that would meet each other or a
-third sphere are refused by name. The file appears as of `write`.
+Binary STL of the solid, d = 3, closed: each edge belongs to two triangles, which pass it in opposite directions.
+Cylinders that would meet each other or a third sphere are refused with their numbers. The file appears as of `write`.
 
 - `contacts`: one of `:kept`, `:shrunk`, `:bridged`; ; default `:kept`
 - `edge`: of triangles, over the radius of the sphere: 0.03 .. 1, default 0.2
@@ -693,12 +693,12 @@ Image of the solid: 0 or 1, or shares; -1 outside a round container. x is fastes
 size and memory before the work.
 
 - `out`: array `(voxels)`
-- `lines`: 0, the default: the centre of a voxel decides. Else the share of the voxel that is solid, by the exact
-  lengths inside spheres of lines^(d-1) lines along x; at most 64
+- `lines`: 0, the default: the centre of a voxel decides. Else: share of the voxel that is solid, from lines^(d-1)
+  lines along x, each with its exact length inside spheres; at most 64
 - `nx`: voxels along the edges of the brick, 0, the default, as `size` asks. Disks: one layer
 - `ny`: voxels along the edges of the brick, 0, the default, as `size` asks. Disks: one layer
 - `nz`: voxels along the edges of the brick, 0, the default, as `size` asks. Disks: one layer
-- `size`: edge of a voxel, about; the number of voxels is rounded. 0, the default: box / 100
+- `size`: wanted edge; rounded so that whole voxels fill the brick. 0, the default: box / 100
 """
 function voxels(s::System; given...)
     return call(s, :jam_voxels, (); progress = nothing, given...)
@@ -710,12 +710,12 @@ end
 Writes it layer by layer: .npy (image[x, y, z]), .mha (MetaImage), .vti (VTK), as bytes 0 void, 1 solid, 2 outside;
 with lines as float.
 
-- `lines`: 0, the default: the centre of a voxel decides. Else the share of the voxel that is solid, by the exact
-  lengths inside spheres of lines^(d-1) lines along x; at most 64
+- `lines`: 0, the default: the centre of a voxel decides. Else: share of the voxel that is solid, from lines^(d-1)
+  lines along x, each with its exact length inside spheres; at most 64
 - `nx`: voxels along the edges of the brick, 0, the default, as `size` asks. Disks: one layer
 - `ny`: voxels along the edges of the brick, 0, the default, as `size` asks. Disks: one layer
 - `nz`: voxels along the edges of the brick, 0, the default, as `size` asks. Disks: one layer
-- `size`: edge of a voxel, about; the number of voxels is rounded. 0, the default: box / 100
+- `size`: wanted edge; rounded so that whole voxels fill the brick. 0, the default: box / 100
 - errors: `:unsupported`, `:io`
 """
 function write_voxels(s::System, path; given...)
@@ -748,8 +748,8 @@ end
 """
     pore_sizes(s, points, seed; progress) -> table
 
-Pore sizes at random points of the void, exact. The time grows with the fourth power of the neighbours: use it above
-packing fractions of about 0.4. Not with walls yet.
+Pore sizes at random points of the void, exact; not with walls yet. The time grows with the fourth power of the number
+of neighbours of a point: use it above packing fractions of about 0.4.
 
 - errors: `:unsupported`
 """
@@ -842,7 +842,7 @@ that of planes of two axes without walls.
 - `stiffness`: one of `:harmonic`, `:power`, `:hard`, `:soft`; default `:harmonic`
 - `alpha`: POWER: > 1, default 2
 - `prestress`: overlap (HARD: gap) at the mean force over mean diameter, in [0, 1), default 0
-- errors: `:state`, `:solver`, `:unsupported`
+- errors: `:state`, `:solver`, `:unsupported` (fewer than two such axes)
 """
 function moduli(s::System; progress = nothing, given...)
     return call(s, :jam_moduli, (); progress = progress, given...)
@@ -860,7 +860,7 @@ a rotation of stressed contacts counts. Components of an axis with walls are NaN
 - `stiffness`: one of `:harmonic`, `:power`, `:hard`, `:soft`; default `:harmonic`
 - `alpha`: POWER: > 1, default 2
 - `prestress`: overlap (HARD: gap) at the mean force over mean diameter, in [0, 1), default 0
-- errors: `:state`, `:solver`, `:unsupported`
+- errors: `:state`, `:solver`, `:unsupported` (walls on all axes)
 """
 function elastic_tensor(s::System; progress = nothing, given...)
     return call(s, :jam_elastic_tensor, (); progress = progress, given...)

@@ -91,7 +91,7 @@ const JAM_WALL_SIDE = Int32(1)  # 0: at 0; 1: at the edge of the cell, or round
 const JAM_WALL_AREA = Int32(2)  # unit^(d-1)
 const JAM_WALL_PRESSURE = Int32(3)  # beta P V / N of the last run of MD; NaN before
 const JAM_WALL_GAP = Int32(4)  # least h of a sphere
-const JAM_WALL_STRESS = Int32(5)  # force of its contacts / area, over sum f r / (d V) of all contacts; NaN without contacts
+const JAM_WALL_STRESS = Int32(5)  # contact forces on it / area, over sum f r / (d V) of all contacts; NaN without contacts
 
 # jam_size_law: Laws of diameters s. Each takes the fields named here, and no others.
 const JAM_SIZES_EQUAL = Int32(0)  # mean
@@ -297,7 +297,7 @@ const JAM_VERDICT_UNDECIDED = Int32(2)  # double precision cannot decide
 
 # jam_bloch_column: Columns of jam_bloch_rigidity.
 const JAM_BLOCH_FLEXES = Int32(0)  # complex motions at this wave vector that keep K+ closed, without translations
-const JAM_BLOCH_MARGIN = Int32(1)  # least other eigenvalue of S^T S on K+; below 1e-12: a flex; NaN without K+
+const JAM_BLOCH_MARGIN = Int32(1)  # least eigenvalue of S^T S on K+ but for translations; below 1e-12: a flex; NaN: no K+
 
 # jam_check_reason: Why jam_check_packing answers as it does.
 const JAM_CHECK_PROOF = Int32(0)  # jammed: positive forces balance, and the rank is full
@@ -1397,8 +1397,9 @@ end
 
 What `rigidity` found. K+ are the contacts that carry force in some balance of non-negative forces, B the spheres that
 they touch, N' their number. `undecided_contacts`: also pairs that the digits of the coordinates cannot distinguish
-from contacts. `rigidity_margin` below 1e-12: a flex; of a sphere that touches its own images alone: with strains;
-where a round wall's curvature holds flexes: by how much of the mean force times curvature.
+from contacts. `rigidity_margin` below 1e-12: a flex; of a sphere that touches its own images alone: with strains.
+Where a round wall's curvature fixes flexes u: least -sum f b(u, u) for |u| = 1, over the mean |f b|, with b the
+second derivative of the distance across a contact.
 
 - `kind`: one of `:collective`, `:strict`; that was tested
 - `jammed`: one of `:untested`, `:no`, `:yes`, `:undecided`
@@ -1458,8 +1459,8 @@ Verdict on a packing as it is. Gaps are relative to `sigma_ij`, displacements in
 Closed pairs have gaps below 1e-10. NaN, and -1 for contacts: not known. crunch_...: of the crunched copy.
 
 - `jammed`: one of `:untested`, `:no`, `:yes`, `:undecided`; : collectively jammed
-- `strictly_jammed`: one of `:untested`, `:no`, `:yes`, `:undecided`; ; `:no` where jammed is `:no`, `:untested` with
-  walls
+- `strictly_jammed`: one of `:untested`, `:no`, `:yes`, `:undecided`; ; `:no` where jammed is `:no`; `:untested` where
+  walls allow no strain
 - `stationary`: one of `:untested`, `:no`, `:yes`, `:undecided`; : non-negative forces balance
 - `reason`: one of `:proof`, `:apart`, `:no_force`, `:flex`, `:digits`, `:overlap`, `:gaps`, `:margin`; of jammed
 - `dim`: d
@@ -1498,7 +1499,7 @@ Closed pairs have gaps below 1e-10. NaN, and -1 for contacts: not known. crunch_
 mutable struct jam_check_report
     struct_size::UInt32
     jammed::Int32  # jam_verdict: collectively jammed
-    strictly_jammed::Int32  # jam_verdict; NO where jammed is NO, UNTESTED with walls
+    strictly_jammed::Int32  # jam_verdict; NO where jammed is NO; UNTESTED where walls allow no strain
     stationary::Int32  # jam_verdict: non-negative forces balance
     reason::Int32  # jam_check_reason of jammed
     dim::Int32  # d
@@ -1653,21 +1654,21 @@ end
 
 Options of `voxels` and `write_voxels`.
 
-- `lines`: 0, the default: the centre of a voxel decides. Else the share of the voxel that is solid, by the exact
-  lengths inside spheres of lines^(d-1) lines along x; at most 64
+- `lines`: 0, the default: the centre of a voxel decides. Else: share of the voxel that is solid, from lines^(d-1)
+  lines along x, each with its exact length inside spheres; at most 64
 - `nx`: voxels along the edges of the brick, 0, the default, as `size` asks. Disks: one layer
 - `ny`: voxels along the edges of the brick, 0, the default, as `size` asks. Disks: one layer
 - `nz`: voxels along the edges of the brick, 0, the default, as `size` asks. Disks: one layer
-- `size`: edge of a voxel, about; the number of voxels is rounded. 0, the default: box / 100
+- `size`: wanted edge; rounded so that whole voxels fill the brick. 0, the default: box / 100
 """
 mutable struct jam_voxel_options
     struct_size::UInt32
-    lines::Int32  # 0, the default: the centre of a voxel decides. Else the share of the voxel that is solid, by the exact lengths inside spheres of lines^(d-1) lines along x; at most 64
+    lines::Int32  # 0, the default: the centre of a voxel decides. Else: share of the voxel that is solid, from lines^(d-1) lines along x, each with its exact length inside spheres; at most 64
     nx::Int32  # voxels along the edges of the brick, 0, the default, as `size` asks. Disks: one layer
     ny::Int32  # voxels along the edges of the brick, 0, the default, as `size` asks. Disks: one layer
     nz::Int32  # voxels along the edges of the brick, 0, the default, as `size` asks. Disks: one layer
     reserved::Int32
-    size::Cdouble  # edge of a voxel, about; the number of voxels is rounded. 0, the default: box / 100
+    size::Cdouble  # wanted edge; rounded so that whole voxels fill the brick. 0, the default: box / 100
     jam_voxel_options() = new(32, 0, 0, 0, 0, 0, 0)
 end
 
@@ -1960,7 +1961,7 @@ end
 """
     jam_walls(sys, table, table_len, needed)
 
-Walls, axis by axis, then the round one.
+One row per wall: flat ones axis by axis, then the round one.
 Shapes: table (m, `jam_wall_column`).
 """
 function jam_walls(sys, table, table_len, needed)
@@ -2008,10 +2009,10 @@ end
 
 Copies of src side by side, count[c] along cell vector `a_c`. Copy (`k_0`, `k_1`, ...) stands at sum of `k_c` `a_c`; its sphere
 i is number i + n (`k_0` + count[0] (`k_1` + count[1] ...)). The cell has the vectors count[c] `a_c`, less multiples of
-earlier ones where that shortens them, in this order. Velocities, contacts, gaps and forces go along, so no crunch is
-needed. With more than one copy the stored report holds counts of the new packing, and its verdicts are untested: it
-may have flexes that src has not. `jam_rigidity` tests it. Steps, histories and unfinished work stay behind. Along a
-walled axis count is 1.
+earlier ones where that shortens them, in this order. Velocities, contacts, gaps and forces are copied, so no crunch
+is needed. With more than one copy the stored report has the counts of the new packing and no verdicts: it may have
+flexes that src does not have, and `jam_rigidity` tests it. Steps, histories and unfinished work are not copied. Along
+an axis with walls count is 1.
 Shapes: count (d).
 Errors: `JAM_E_UNSUPPORTED` (Mari-Kurchan model, walls), `JAM_E_OVERLAP` (the coordinates no longer resolve the gaps).
 """
@@ -2733,10 +2734,11 @@ end
 """
     jam_bloch_modes(sys, h, wave, wave_len, table, table_len, vector, vector_len, rows)
 
-Modes at a wave vector, sum of wave[c] `b_c` with `a_c` . `b_e` = 2 pi `delta_ce`: the copy of a sphere at sum of `s_c` `a_c`
-moves by exp(2 pi i sum wave[c] `s_c`) times its displacement. All d N', lambda ascending; vector: real and imaginary
-parts, of unit length. Dense, 96 (d N')^2 bytes. The modes of `jam_tile` are those of all wave[c] = q / count[c], q = 0
-.. count[c] - 1, together; wave 0 has those of `jam_modes`. Along a walled axis wave is 0.
+Modes of the Hessian at the wave vector sum of wave[c] `b_c`, with `a_c` . `b_e` = 2 pi `delta_ce`: the copy of a sphere that
+is sum of `s_c` `a_c` away moves by exp(2 pi i sum wave[c] `s_c`) times its displacement. All d N' modes, lambda ascending;
+vector: real and imaginary parts, of unit length. Dense: 96 (d N')^2 bytes. Those of wave 0 are the modes of
+`jam_modes`; those of all wave[c] = k / count[c], k = 0 .. count[c] - 1, are the modes of `jam_tile`. Along an axis with
+walls wave is 0.
 Shapes: wave (d), table (m, `jam_mode_column`), vector (m, N', d, 2).
 Errors: `JAM_E_STATE`, `JAM_E_SOLVER`.
 """
@@ -2803,9 +2805,9 @@ spheres have too few of them. A sphere and its own image are a contact in the st
 where the network lists them. There a sphere that they alone hold needs forces on the cell to balance. Let S v be the
 opening of contacts by a motion v, and E eps that by a strain eps. Collectively jammed: S v >= 0 only for
 translations of B. Strictly jammed: S v + E eps >= 0 with tr eps <= 0 only for those and eps = 0. Both hold for this
-cell, not for several copies of it (`jam_bloch_rigidity`). Source: Donev et al., J. Comput. Phys. 197, 139 (2004); the
-guide's page "Jammed or not" has more. Status: `JAM_OK` jammed, `JAM_NOT_JAMMED`, `JAM_AMBIGUOUS` undecided.
-Errors: `JAM_E_SOLVER`, `JAM_E_UNSUPPORTED` (strict, with walls).
+cell, not for several copies of it (`jam_bloch_rigidity`). Source: Donev et al., J. Comput. Phys. 197, 139 (2004).
+Status: `JAM_OK` jammed, `JAM_NOT_JAMMED`, `JAM_AMBIGUOUS` undecided.
+Errors: `JAM_E_SOLVER`.
 """
 function jam_rigidity(sys, kind, report)
     return ccall((:jam_rigidity, libjam), Int32, (Ptr{Cvoid}, Int32, Ref{jam_rigidity_report}), sys, kind, _ref(jam_rigidity_report, report))
@@ -2827,8 +2829,8 @@ end
 """
     jam_bloch_rigidity(sys, count, count_len, wave, wave_len, table, table_len, rows)
 
-The collective test of `jam_rigidity` for count[c] copies along each cell vector (`jam_tile`), from one cell: a row for
-each wave vector of the copies, as in `jam_bloch_modes`; `q_0` runs fastest. Forces averaged over all copies balance in
+The collective test of `jam_rigidity` for count[c] copies along each cell vector (`jam_tile`), from one cell: one row per
+wave vector of the copies, as in `jam_bloch_modes`; wave[0] runs fastest. Forces averaged over all copies balance in
 one cell, so K+ is that of one cell, and the flexes of the copies are those of all rows together. Status: `JAM_OK`
 jammed, `JAM_NOT_JAMMED`, `JAM_AMBIGUOUS` undecided.
 Shapes: count (d), wave (m, d), table (m, `jam_bloch_column`).
@@ -3094,8 +3096,9 @@ end
 """
     jam_write_stl(sys, path, o, report)
 
-Binary STL of the solid, d = 3: closed, each edge twice, once each way. Cylinders that would meet each other or a
-third sphere are refused by name. The file appears as of `jam_write`.
+Binary STL of the solid, d = 3, closed: each edge belongs to two triangles, which pass it in opposite directions.
+Cylinders that would meet each other or a third sphere are refused with their numbers. The file appears as of
+`jam_write`.
 Errors: `JAM_E_STATE` (BRIDGED, no network), `JAM_E_UNSUPPORTED`, `JAM_E_IO`.
 """
 function jam_write_stl(sys, path, o, report)
@@ -3156,8 +3159,8 @@ end
 """
     jam_pore_sizes(sys, points, seed, table, table_len, needed)
 
-Pore sizes at random points of the void, exact. The time grows with the fourth power of the neighbours: use it above
-packing fractions of about 0.4. Not with walls yet.
+Pore sizes at random points of the void, exact; not with walls yet. The time grows with the fourth power of the
+number of neighbours of a point: use it above packing fractions of about 0.4.
 Shapes: table (points, `jam_pore_column`).
 Errors: `JAM_E_UNSUPPORTED`.
 """
@@ -3237,7 +3240,7 @@ end
 
 Elastic moduli; `JAM_E_STATE` also when prestress makes the network unstable. With walls bulk is NaN, and shear is that
 of planes of two axes without walls.
-Errors: `JAM_E_STATE`, `JAM_E_SOLVER`, `JAM_E_UNSUPPORTED`.
+Errors: `JAM_E_STATE`, `JAM_E_SOLVER`, `JAM_E_UNSUPPORTED` (fewer than two such axes).
 """
 function jam_moduli(sys, h, moduli)
     return ccall((:jam_moduli, libjam), Int32, (Ptr{Cvoid}, Ref{jam_hessian_options}, Ref{jam_moduli_report}), sys, _ref(jam_hessian_options, h), _ref(jam_moduli_report, moduli))
@@ -3251,7 +3254,7 @@ Elastic tensor `c_abcd`: second derivative of the energy a volume by `E_ab` and 
 `c_bacd` differ: a rotation of stressed contacts counts. Components of an axis with walls are NaN: walls do not
 strain.
 Shapes: affine (d, d, d, d), relaxed (d, d, d, d).
-Errors: `JAM_E_STATE`, `JAM_E_SOLVER`, `JAM_E_UNSUPPORTED`.
+Errors: `JAM_E_STATE`, `JAM_E_SOLVER`, `JAM_E_UNSUPPORTED` (walls on all axes).
 """
 function jam_elastic_tensor(sys, h, affine, affine_len, relaxed, relaxed_len, needed)
     return ccall((:jam_elastic_tensor, libjam), Int32, (Ptr{Cvoid}, Ref{jam_hessian_options}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ref(jam_hessian_options, h), _ptr(affine), affine_len, _ptr(relaxed), relaxed_len, _ref(Csize_t, needed))

@@ -110,7 +110,7 @@ class WallColumn(_Word):
     AREA = 2  # unit^(d-1)
     PRESSURE = 3  # beta P V / N of the last run of MD; NaN before
     GAP = 4  # least h of a sphere
-    STRESS = 5  # force of its contacts / area, over sum f r / (d V) of all contacts; NaN without contacts
+    STRESS = 5  # contact forces on it / area, over sum f r / (d V) of all contacts; NaN without contacts
 
 
 class SizeLaw(_Word):
@@ -386,7 +386,7 @@ class Verdict(_Word):
 class BlochColumn(_Word):
     """Columns of jam_bloch_rigidity."""
     FLEXES = 0  # complex motions at this wave vector that keep K+ closed, without translations
-    MARGIN = 1  # least other eigenvalue of S^T S on K+; below 1e-12: a flex; NaN without K+
+    MARGIN = 1  # least eigenvalue of S^T S on K+ but for translations; below 1e-12: a flex; NaN: no K+
 
 
 class CheckReason(_Word):
@@ -990,7 +990,8 @@ class RigidityReport(Report):
     """What jam_rigidity found. K+ are the contacts that carry force in some balance of non-negative forces, B the spheres
     that they touch, N' their number. undecided_contacts: also pairs that the digits of the coordinates cannot
     distinguish from contacts. rigidity_margin below 1e-12: a flex; of a sphere that touches its own images alone: with
-    strains; where a round wall's curvature holds flexes: by how much of the mean force times curvature.
+    strains. Where a round wall's curvature fixes flexes u: least -sum f b(u, u) for |u| = 1, over the mean |f b|, with b
+    the second derivative of the distance across a contact.
 
     kind: jam_rigidity_kind that was tested
     jammed: jam_verdict
@@ -1026,7 +1027,7 @@ class CheckReport(Report):
     Closed pairs have gaps below 1e-10. NaN, and -1 for contacts: not known. crunch_*: of the crunched copy.
 
     jammed: jam_verdict: collectively jammed
-    strictly_jammed: jam_verdict; NO where jammed is NO, UNTESTED with walls
+    strictly_jammed: jam_verdict; NO where jammed is NO; UNTESTED where walls allow no strain
     stationary: jam_verdict: non-negative forces balance
     reason: jam_check_reason of jammed
     dim: d
@@ -1393,11 +1394,11 @@ OPTIONS = {
         "bridge": ("float", 'of BRIDGED: radius of a cylinder over that of the smaller sphere, 0.02 .. 0.45, default 0.2'),
     },
     "jam_voxel_options": {
-        "lines": ("int", '0, the default: the centre of a voxel decides. Else the share of the voxel that is solid, by the exact lengths inside spheres of lines^(d-1) lines along x; at most 64'),
+        "lines": ("int", '0, the default: the centre of a voxel decides. Else: share of the voxel that is solid, from lines^(d-1) lines along x, each with its exact length inside spheres; at most 64'),
         "nx": ("int", 'voxels along the edges of the brick, 0, the default, as `size` asks. Disks: one layer'),
         "ny": ("int", 'voxels along the edges of the brick, 0, the default, as `size` asks. Disks: one layer'),
         "nz": ("int", 'voxels along the edges of the brick, 0, the default, as `size` asks. Disks: one layer'),
-        "size": ("float", 'edge of a voxel, about; the number of voxels is rounded. 0, the default: box / 100'),
+        "size": ("float", 'wanted edge; rounded so that whole voxels fill the brick. 0, the default: box / 100'),
     },
     "jam_dos_options": {
         "moments": ("int", 'Chebyshev moments, 8..1e6, default 512: resolution in omega about 1.6 omega_max / moments'),

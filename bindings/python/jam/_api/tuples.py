@@ -16,7 +16,7 @@ class WallsResult(NamedTuple):
     area: Array  # unit^(d-1)
     pressure: Array  # beta P V / N of the last run of MD; NaN before
     gap: Array  # least h of a sphere
-    stress: Array  # force of its contacts / area, over sum f r / (d V) of all contacts; NaN without contacts
+    stress: Array  # contact forces on it / area, over sum f r / (d V) of all contacts; NaN without contacts
 
     def __repr__(self) -> str:
         return _by_shapes(self)

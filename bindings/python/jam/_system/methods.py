@@ -17,7 +17,7 @@ class Methods:
         raise NotImplementedError
 
     def walls(self) -> WallsResult:
-        """Walls, axis by axis, then the round one.
+        """One row per wall: flat ones axis by axis, then the round one.
 
         Returns
         -------
@@ -32,7 +32,7 @@ class Methods:
         gap : array
             least h of a sphere
         stress : array
-            force of its contacts / area, over sum f r / (d V) of all contacts; NaN without contacts
+            contact forces on it / area, over sum f r / (d V) of all contacts; NaN without contacts
         """
         answer: WallsResult = self.call('walls')
         return answer
@@ -752,8 +752,7 @@ class Methods:
         opening of contacts by a motion v, and E eps that by a strain eps. Collectively jammed: S v >= 0 only for
         translations of B. Strictly jammed: S v + E eps >= 0 with tr eps <= 0 only for those and eps = 0. Both hold
         for this cell, not for several copies of it (bloch_rigidity()). Source: Donev et al., J. Comput. Phys. 197,
-        139 (2004); the guide's page "Jammed or not" has more. Status: 'ok' jammed, 'not_jammed', 'ambiguous'
-        undecided.
+        139 (2004). Status: 'ok' jammed, 'not_jammed', 'ambiguous' undecided.
 
         Parameters
         ----------
@@ -767,7 +766,7 @@ class Methods:
 
         Raises
         ------
-        ArgumentError, SolverError, UnsupportedError, MemoryError, BusyError
+        ArgumentError, SolverError, MemoryError, BusyError
         """
         answer: RigidityReport = self.call('rigidity', kind, progress=progress)
         return answer
@@ -1105,9 +1104,11 @@ class Methods:
         return answer
 
     def write_stl(self, path: str, *, contacts: int | str | None = None, edge: float | None = None, factor: float | None = None, bridge: float | None = None) -> MeshReport:
-        """Binary STL of the solid, d = 3: closed, each edge twice, once each way.
+        """Binary STL of the solid, d = 3, closed: each edge belongs to two triangles, which pass it in opposite
+        directions.
 
-        Cylinders that would meet each other or a third sphere are refused by name. The file appears as of write().
+        Cylinders that would meet each other or a third sphere are refused with their numbers. The file appears as of
+        write().
 
         Parameters
         ----------
@@ -1140,8 +1141,8 @@ class Methods:
         Parameters
         ----------
         lines : int, optional
-            0, the default: the centre of a voxel decides. Else the share of the voxel that is solid, by the exact
-            lengths inside spheres of lines^(d-1) lines along x; at most 64
+            0, the default: the centre of a voxel decides. Else: share of the voxel that is solid, from lines^(d-1)
+            lines along x, each with its exact length inside spheres; at most 64
         nx : int, optional
             voxels along the edges of the brick, 0, the default, as `size` asks. Disks: one layer
         ny : int, optional
@@ -1149,7 +1150,7 @@ class Methods:
         nz : int, optional
             voxels along the edges of the brick, 0, the default, as `size` asks. Disks: one layer
         size : float, optional
-            edge of a voxel, about; the number of voxels is rounded. 0, the default: box / 100
+            wanted edge; rounded so that whole voxels fill the brick. 0, the default: box / 100
 
         Returns
         -------
@@ -1171,8 +1172,8 @@ class Methods:
         ----------
         path : str
         lines : int, optional
-            0, the default: the centre of a voxel decides. Else the share of the voxel that is solid, by the exact
-            lengths inside spheres of lines^(d-1) lines along x; at most 64
+            0, the default: the centre of a voxel decides. Else: share of the voxel that is solid, from lines^(d-1)
+            lines along x, each with its exact length inside spheres; at most 64
         nx : int, optional
             voxels along the edges of the brick, 0, the default, as `size` asks. Disks: one layer
         ny : int, optional
@@ -1180,7 +1181,7 @@ class Methods:
         nz : int, optional
             voxels along the edges of the brick, 0, the default, as `size` asks. Disks: one layer
         size : float, optional
-            edge of a voxel, about; the number of voxels is rounded. 0, the default: box / 100
+            wanted edge; rounded so that whole voxels fill the brick. 0, the default: box / 100
 
         Returns
         -------
@@ -1239,10 +1240,10 @@ class Methods:
         return answer
 
     def pore_sizes(self, points: int, seed: int, *, progress: Progressing = None) -> PoreSizesResult:
-        """Pore sizes at random points of the void, exact.
+        """Pore sizes at random points of the void, exact; not with walls yet.
 
-        The time grows with the fourth power of the neighbours: use it above packing fractions of about 0.4. Not with
-        walls yet.
+        The time grows with the fourth power of the number of neighbours of a point: use it above packing fractions of
+        about 0.4.
 
         Parameters
         ----------

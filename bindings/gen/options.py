@@ -104,7 +104,7 @@ TABLE = {
             "tile",
             "copies",
             "NX,NY,..",
-            "copies of the packing of the file side by side, so many along each cell vector",
+            "NX x NY x .. copies of the packing of the file, side by side along the cell vectors",
             without=("resume",),
             needs=("input",),
         ),

@@ -198,6 +198,23 @@ class Densest(unittest.TestCase):
                         self.assertGreater(r.flexes, 0)
                 self.assertGreater(found, 0, (name, n))
 
+    def test_layers_of_two_and_of_three_in_a_tube(self):
+        # Where the tube just holds k = 2 or 3 spheres side by side, these lie in layers that are turned by pi / k. Two
+        # spheres of neighbouring layers are 2 r sin(pi / 2 k) apart across the axis, r = (1 - d) / 2, and touch (G. T.
+        # Pickett, M. Gross and H. Okuyama, Phys. Rev. Lett. 85, 3652 (2000)). Each sphere touches the wall, the others of
+        # its layer and two of each layer beside it.
+        for k, layers, contacts in ((2, 2, 14), (2, 4, 28), (3, 2, 24), (3, 4, 48)):
+            d = 1 / (1 + 1 / np.sin(np.pi / k))
+            height = layers * np.sqrt(d**2 - ((1 - d) * np.sin(np.pi / (2 * k))) ** 2)
+            best = 0.0
+            for seed in range(1, 7):
+                s = jam.System.random(n=k * layers, seed=seed, packing_fraction=0.1, container="cylinder", cell=[1, 1, height])
+                r = s.crunch()
+                if s.diameters[0] > best:
+                    best, report = s.diameters[0], r
+            self.assertAlmostEqual(best / d, 1, 12, (k, layers))
+            self.assertEqual(report.contacts, contacts)
+
 
 class Curvature(unittest.TestCase):
     def test_flexes_that_a_round_wall_holds_close_contacts(self):

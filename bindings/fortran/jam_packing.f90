@@ -1019,11 +1019,10 @@ contains
 
   ! Modes of the Hessian at the wave vector sum of wave[c] b_c, with a_c . b_e = 2 pi delta_ce: the copy of a sphere that
   ! is sum of s_c a_c away moves by exp(2 pi i sum wave[c] s_c) times its displacement. All d N' modes, lambda ascending;
-  ! vector: real and imaginary parts, of unit length. Dense: 96 (d N')^2 bytes. Those of wave 0 are the modes of
-  ! jam_modes; those of all wave[c] = k / count[c], k = 0 .. count[c] - 1, are the modes of jam_tile. Along an axis with
-  ! walls wave is 0.
+  ! vector: real and imaginary parts, of unit length. Dense: 96 (d N')^2 bytes. Wave 0: the modes of jam_modes; all
+  ! wave[c] = k / count[c], k = 0 .. count[c] - 1: those of jam_tile. Along an axis with walls wave is 0.
   ! Shapes: wave (d), table (m, jam_mode_column), vector (m, N', d, 2).
-  ! Errors: JAM_E_STATE, JAM_E_SOLVER.
+  ! Errors: JAM_E_STATE, JAM_E_SOLVER, JAM_E_UNSUPPORTED (unlisted own images).
   subroutine do_bloch_modes(self, h, wave, table, vector)
     class(packing), intent(inout) :: self
     type(jam_hessian_options), intent(in), optional :: h
@@ -1801,7 +1800,7 @@ contains
 
   ! Elastic moduli; JAM_E_STATE also when prestress makes the network unstable. With walls bulk is NaN, and shear is that
   ! of planes of two axes without walls.
-  ! Errors: JAM_E_STATE, JAM_E_SOLVER, JAM_E_UNSUPPORTED (fewer than two such axes).
+  ! Errors: JAM_E_STATE, JAM_E_SOLVER, JAM_E_UNSUPPORTED (not two such axes; unlisted own images).
   function do_moduli(self, h) result(found)
     class(packing), intent(inout) :: self
     type(jam_hessian_options), intent(in), optional :: h
@@ -1813,10 +1812,9 @@ contains
 
   ! Elastic tensor c_abcd: second derivative of the energy a volume by E_ab and E_cd of x -> (1 + E) x. Unit as
   ! jam_moduli, *needed = d^4. affine: spheres move by E alone; relaxed: then forces balance. With prestress c_abcd and
-  ! c_bacd differ: a rotation of stressed contacts counts. Components of an axis with walls are NaN: walls do not
-  ! strain.
+  ! c_bacd differ: a rotation of stressed contacts counts. NaN where an axis has walls, which do not strain.
   ! Shapes: affine (d, d, d, d), relaxed (d, d, d, d).
-  ! Errors: JAM_E_STATE, JAM_E_SOLVER, JAM_E_UNSUPPORTED (walls on all axes).
+  ! Errors: JAM_E_STATE, JAM_E_SOLVER, JAM_E_UNSUPPORTED (only walled axes; own images).
   subroutine do_elastic_tensor(self, h, affine, relaxed)
     class(packing), intent(inout) :: self
     type(jam_hessian_options), intent(in), optional :: h

@@ -473,10 +473,10 @@ Shapes: strain (d, d).
 Errors: JAM_E_OVERLAP, JAM_E_UNSUPPORTED (Mari-Kurchan shifts, where the reduction changes the vectors)."
 %feature("docstring") jam_tile "Copies of src side by side, count[c] along cell vector a_c. Copy (k_0, k_1, ...) stands at sum of k_c a_c; its sphere
 i is number i + n (k_0 + count[0] (k_1 + count[1] ...)). The cell has the vectors count[c] a_c, less multiples of
-earlier ones where that shortens them, in this order. Velocities, contacts, gaps and forces are copied, so no crunch
-is needed. With more than one copy the stored report has the counts of the new packing and no verdicts: it may have
-flexes that src does not have, and jam_rigidity tests it. Steps, histories and unfinished work are not copied. Along
-an axis with walls count is 1.
+earlier ones where that shortens them, in this order. Velocities, contacts, gaps and forces are copied, without steps
+and histories. Where an own image (self_contacts) becomes a contact of copies and src lists none, they have no
+network and a note. The report of several copies has no verdicts, as they may have flexes that src has not:
+jam_rigidity tests it. Along an axis with walls count is 1.
 Shapes: count (d).
 Errors: JAM_E_UNSUPPORTED (Mari-Kurchan model, walls), JAM_E_OVERLAP (the coordinates no longer resolve the gaps)."
 %feature("docstring") jam_diameters_options_init ""
@@ -702,11 +702,10 @@ Shapes: table (m, jam_mode_column), vector (m, N', d).
 Errors: JAM_E_STATE, JAM_E_SOLVER."
 %feature("docstring") jam_bloch_modes "Modes of the Hessian at the wave vector sum of wave[c] b_c, with a_c . b_e = 2 pi delta_ce: the copy of a sphere that
 is sum of s_c a_c away moves by exp(2 pi i sum wave[c] s_c) times its displacement. All d N' modes, lambda ascending;
-vector: real and imaginary parts, of unit length. Dense: 96 (d N')^2 bytes. Those of wave 0 are the modes of
-jam_modes; those of all wave[c] = k / count[c], k = 0 .. count[c] - 1, are the modes of jam_tile. Along an axis with
-walls wave is 0.
+vector: real and imaginary parts, of unit length. Dense: 96 (d N')^2 bytes. Wave 0: the modes of jam_modes; all
+wave[c] = k / count[c], k = 0 .. count[c] - 1: those of jam_tile. Along an axis with walls wave is 0.
 Shapes: wave (d), table (m, jam_mode_column), vector (m, N', d, 2).
-Errors: JAM_E_STATE, JAM_E_SOLVER."
+Errors: JAM_E_STATE, JAM_E_SOLVER, JAM_E_UNSUPPORTED (unlisted own images)."
 %feature("docstring") jam_geometry_options_init ""
 %feature("docstring") jam_contacts_from_geometry "Contact network and forces from positions, diameters and box alone, kept as jam_crunch keeps its own; no sphere
 moves. Rattlers are the spheres that carry no force. Contacts between the others stay, some with force 0. Forces
@@ -866,13 +865,12 @@ Shapes: u (N', d).
 Errors: JAM_E_STATE."
 %feature("docstring") jam_moduli "Elastic moduli; JAM_E_STATE also when prestress makes the network unstable. With walls bulk is NaN, and shear is that
 of planes of two axes without walls.
-Errors: JAM_E_STATE, JAM_E_SOLVER, JAM_E_UNSUPPORTED (fewer than two such axes)."
+Errors: JAM_E_STATE, JAM_E_SOLVER, JAM_E_UNSUPPORTED (not two such axes; unlisted own images)."
 %feature("docstring") jam_elastic_tensor "Elastic tensor c_abcd: second derivative of the energy a volume by E_ab and E_cd of x -> (1 + E) x. Unit as
 jam_moduli, *needed = d^4. affine: spheres move by E alone; relaxed: then forces balance. With prestress c_abcd and
-c_bacd differ: a rotation of stressed contacts counts. Components of an axis with walls are NaN: walls do not
-strain.
+c_bacd differ: a rotation of stressed contacts counts. NaN where an axis has walls, which do not strain.
 Shapes: affine (d, d, d, d), relaxed (d, d, d, d).
-Errors: JAM_E_STATE, JAM_E_SOLVER, JAM_E_UNSUPPORTED (walls on all axes)."
+Errors: JAM_E_STATE, JAM_E_SOLVER, JAM_E_UNSUPPORTED (only walled axes; own images)."
 %feature("docstring") jam_compare "Compares two packings sphere by sphere. out is the displacement from sys to other by nearest images. Its mean over
 spheres stable in both, or over all when none is, is taken out. n, dim, cell and model must agree. JAM_AMBIGUOUS:
 ratios of diameters differ, or one of the two has no network.

@@ -357,11 +357,11 @@ JAM_API jam_status jam_set_cell(jam_system *sys, const double *cell, size_t cell
 JAM_API jam_status jam_strain(jam_system *sys, const double *strain, size_t strain_len);
 /* Copies of src side by side, count[c] along cell vector a_c. Copy (k_0, k_1, ...) stands at sum of k_c a_c; its sphere
  * i is number i + n (k_0 + count[0] (k_1 + count[1] ...)). The cell has the vectors count[c] a_c, less multiples of
- * earlier ones where that shortens them, in this order. Velocities, contacts, gaps and forces are copied, so no crunch
- * is needed. With more than one copy the stored report has the counts of the new packing and no verdicts: it may have
- * flexes that src does not have, and jam_rigidity tests it. Steps, histories and unfinished work are not copied. Along
- * an axis with walls count is 1. @shape count (d) @errors UNSUPPORTED (Mari-Kurchan model, walls), OVERLAP (the
- * coordinates no longer resolve the gaps) */
+ * earlier ones where that shortens them, in this order. Velocities, contacts, gaps and forces are copied, without steps
+ * and histories. Where an own image (self_contacts) becomes a contact of copies and src lists none, they have no
+ * network and a note. The report of several copies has no verdicts, as they may have flexes that src has not:
+ * jam_rigidity tests it. Along an axis with walls count is 1. @shape count (d) @errors UNSUPPORTED (Mari-Kurchan model,
+ * walls), OVERLAP (the coordinates no longer resolve the gaps) */
 JAM_API jam_status jam_tile(const jam_system *src, const int32_t *count, size_t count_len, jam_system **out);
 
 /* ------------------------------------------------------------------ sizes */
@@ -1199,9 +1199,9 @@ JAM_API jam_status jam_modes(jam_system *sys, const jam_hessian_options *h, cons
                              size_t table_len, double *vector, size_t vector_len, size_t *rows);
 /* Modes of the Hessian at the wave vector sum of wave[c] b_c, with a_c . b_e = 2 pi delta_ce: the copy of a sphere that
  * is sum of s_c a_c away moves by exp(2 pi i sum wave[c] s_c) times its displacement. All d N' modes, lambda ascending;
- * vector: real and imaginary parts, of unit length. Dense: 96 (d N')^2 bytes. Those of wave 0 are the modes of
- * jam_modes; those of all wave[c] = k / count[c], k = 0 .. count[c] - 1, are the modes of jam_tile. Along an axis with
- * walls wave is 0. @shape wave (d), table (m, jam_mode_column), vector (m, N', d, 2) @errors STATE, SOLVER */
+ * vector: real and imaginary parts, of unit length. Dense: 96 (d N')^2 bytes. Wave 0: the modes of jam_modes; all
+ * wave[c] = k / count[c], k = 0 .. count[c] - 1: those of jam_tile. Along an axis with walls wave is 0. @shape wave
+ * (d), table (m, jam_mode_column), vector (m, N', d, 2) @errors STATE, SOLVER, UNSUPPORTED (unlisted own images) */
 JAM_API jam_status jam_bloch_modes(jam_system *sys, const jam_hessian_options *h, const double *wave, size_t wave_len,
                                    double *table, size_t table_len, double *vector, size_t vector_len, size_t *rows);
 
@@ -1697,12 +1697,12 @@ JAM_API jam_status jam_project(const jam_system *sys, const double *vector, size
 JAM_API jam_status jam_curvature(const jam_system *sys, const jam_hessian_options *h, const double *u, size_t u_len,
                                  double *value);
 /* Elastic moduli; JAM_E_STATE also when prestress makes the network unstable. With walls bulk is NaN, and shear is that
- * of planes of two axes without walls. @errors STATE, SOLVER, UNSUPPORTED (fewer than two such axes) */
+ * of planes of two axes without walls. @errors STATE, SOLVER, UNSUPPORTED (not two such axes; unlisted own images) */
 JAM_API jam_status jam_moduli(jam_system *sys, const jam_hessian_options *h, jam_moduli_report *moduli);
 /* Elastic tensor c_abcd: second derivative of the energy a volume by E_ab and E_cd of x -> (1 + E) x. Unit as
  * jam_moduli, *needed = d^4. affine: spheres move by E alone; relaxed: then forces balance. With prestress c_abcd and
- * c_bacd differ: a rotation of stressed contacts counts. Components of an axis with walls are NaN: walls do not
- * strain. @shape affine (d, d, d, d), relaxed (d, d, d, d) @errors STATE, SOLVER, UNSUPPORTED (walls on all axes) */
+ * c_bacd differ: a rotation of stressed contacts counts. NaN where an axis has walls, which do not strain. @shape
+ * affine (d, d, d, d), relaxed (d, d, d, d) @errors STATE, SOLVER, UNSUPPORTED (only walled axes; own images) */
 JAM_API jam_status jam_elastic_tensor(jam_system *sys, const jam_hessian_options *h, double *affine, size_t affine_len,
                                       double *relaxed, size_t relaxed_len, size_t *needed);
 /* Compares two packings sphere by sphere. out is the displacement from sys to other by nearest images. Its mean over

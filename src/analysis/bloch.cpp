@@ -10,6 +10,7 @@
 #include "core/call_scope.hpp"
 #include "core/math.hpp"
 #include "linalg/blas.hpp"
+#include "network/own_images.hpp"
 
 namespace jam {
 namespace {
@@ -83,6 +84,11 @@ void write_vectors(const Eigen::MatrixXcd &v, Modes &out) {
       out.vector.push_back(v(r, k).real()), out.vector.push_back(v(r, k).imag());
 }
 
+// Whether a contact between these cells changes its length at the wave vector, for a sphere and its own image.
+bool stretches(const double *q, const std::array<int32_t, JAM_MAX_DIM> &s, int dim) {
+  return phase_of(q, s, dim).cosine != 1.0;
+}
+
 bool is_real(const CellsBack &back, const double *q, int dim) {
   return std::all_of(back.begin(), back.end(), [&](const auto &s) { return phase_of(q, s, dim).sine == 0.0; });
 }
@@ -94,6 +100,14 @@ CellsBack cells_back(const Packing &p, const ContactNetwork &net) {
   for (size_t k = 0; k < net.size(); ++k)
     if (!net.pairs.wall(k)) out[k] = lattice_steps(p.cell, &net.pairs.offset[k * static_cast<size_t>(p.dim)]);
   return out;
+}
+
+void refuse_own_images_at(const Packing &p, const ContactNetwork &net, const double *q) {
+  ContactNetwork own = unlisted_own_images(p, net);
+  const CellsBack back = cells_back(p, own);
+  std::vector<char> on(own.size());
+  for (size_t k = 0; k < on.size(); ++k) on[k] = stretches(q, back[k], p.dim);
+  refuse_own_images(subset(own, on, p.dim), "modes at this wave vector");
 }
 
 void need_memory_for_bloch(const RigidityMatrix &g) {
@@ -149,20 +163,7 @@ namespace {
 // another copy, whose force balances.
 ContactNetwork carrying_contacts(const Packing &p, const PackingVerdict &verdict, const Copies &copies) {
   ContactNetwork net = verdict.carrying(p.dim);
-  ContactNetwork own;
-  own.pairs = find_pairs(p, 0.0, 1.0 + contact_gap_limit);
-  measure_contacts(p, own);
-  own.force.assign(own.size(), 0.0);
-  own.coordination.assign(p.n(), 0);
-  ContactLookup known(p, net);
-  std::vector<char> on(own.size(), 0);
-  for (size_t k = 0; k < own.size(); ++k) {
-    const bool listed = known.holds(own.pairs, k);
-    if (!own.pairs.own_image(k) || listed || own.gap[k] >= contact_gap_limit) continue;
-    const auto s = lattice_steps(p.cell, &own.pairs.offset[k * static_cast<size_t>(p.dim)]);
-    for (int c = 0; c < p.dim; ++c) on[k] = on[k] || s[c] % copies.along(c) != 0;
-  }
-  own = subset(own, on, p.dim);
+  const ContactNetwork own = between_copies(p, unlisted_own_images(p, net, contact_gap_limit), copies);
   for (size_t k = 0; k < own.size(); ++k) add_contact(p, own.pairs, k, net);
   return net;
 }

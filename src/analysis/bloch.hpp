@@ -21,6 +21,8 @@ namespace jam {
 using CellsBack = std::vector<std::array<int32_t, JAM_MAX_DIM>>;
 CellsBack cells_back(const Packing &p, const ContactNetwork &net);
 
+// JAM_E_UNSUPPORTED where a sphere touches its own image and `net` does not list it, unless both move alike at q.
+void refuse_own_images_at(const Packing &p, const ContactNetwork &net, const double *q);
 // JAM_E_MEMORY before any work.
 void need_memory_for_bloch(const RigidityMatrix &g);
 // Modes of the Hessian at the wave vector q (dim): lambda ascending; vector (d N', nodes, dim, 2), of unit length, left

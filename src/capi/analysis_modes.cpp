@@ -93,6 +93,7 @@ jam_status jam_bloch_modes(jam_system *sys, const jam_hessian_options *h, const 
              wave[c]);
     }
     need_network(sys);
+    refuse_own_images_at(p, sys->contacts, wave);
     const RigidityMatrix g = make_rigidity_matrix(p, sys->contacts);
     const size_t n = g.unknowns();
     constexpr size_t columns = JAM_MODE_PARTICIPATION + 1;

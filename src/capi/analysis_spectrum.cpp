@@ -5,6 +5,7 @@
 #include "capi/analysis.hpp"
 #include "capi/table.hpp"
 #include "core/call_scope.hpp"
+#include "network/own_images.hpp"
 
 using namespace jam;
 
@@ -79,6 +80,7 @@ jam_status jam_moduli(jam_system *sys, const jam_hessian_options *h, jam_moduli_
     check_out_struct(moduli, "moduli");
     refuse_closed(sys->packing, 2, "elastic moduli");
     need_network(sys);
+    refuse_own_images(unlisted_own_images(sys->packing, sys->contacts), "elastic moduli");
     const double nan = std::numeric_limits<double>::quiet_NaN();
     give_struct(jam_moduli_report{sizeof(jam_moduli_report), 0, nan, nan, nan, nan, nan, nan}, moduli);
     if (empty_network(sys)) return JAM_NOT_JAMMED;
@@ -94,6 +96,7 @@ jam_status jam_elastic_tensor(jam_system *sys, const jam_hessian_options *h, dou
     const jam_hessian_options options = take_hessian_options(h);
     refuse_closed(sys->packing, 1, "elastic tensor");
     need_network(sys);
+    refuse_own_images(unlisted_own_images(sys->packing, sys->contacts), "an elastic tensor");
     const size_t d = static_cast<size_t>(sys->packing.dim), count = d * d * d * d;
     if (needed) *needed = count;
     if (!needed && !affine && !relaxed) fail(JAM_E_NULL, "needed is NULL and there is no output array");

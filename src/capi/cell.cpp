@@ -9,6 +9,7 @@
 #include "core/create.hpp"
 #include "core/digits.hpp"
 #include "network/certificate.hpp"
+#include "network/own_images.hpp"
 #include "network/tile.hpp"
 
 using namespace jam;
@@ -112,10 +113,12 @@ jam_status jam_tile(const jam_system *src, const int32_t *count, size_t count_le
     need(out, "out");
     const Packing &p = src->packing;
     if (count_len != static_cast<size_t>(p.dim))
-      fail(JAM_E_ARGUMENT, "count_len is %zu, it must be dim = %d", count_len, p.dim);
+      fail(JAM_E_ARGUMENT, "count has %zu numbers, it must have dim = %d", count_len, p.dim);
     const Copies copies(p, count);
     auto sys = std::make_unique<jam_system>();
-    const bool known = src->known_contacts() != nullptr;
+    ContactNetwork own;  // contacts of the copies that the network does not give
+    if (src->known_contacts()) own = between_copies(p, unlisted_own_images(p, src->contacts), copies);
+    const bool known = src->known_contacts() && own.size() == 0;
     if (known) sys->contacts = src->contacts;
     sys->packing = tile(p, copies, known ? &sys->contacts : nullptr);
     sys->note_diameters();
@@ -128,6 +131,11 @@ jam_status jam_tile(const jam_system *src, const int32_t *count, size_t count_le
     if (copies.number() > 1)
       sys->notes.say("%lld copies of a packing of %zu spheres side by side", static_cast<long long>(copies.number()),
                      p.n());
+    if (own.size() > 0)
+      sys->notes.say(
+          "the copies have no contact network: sphere %d touches its own image, a contact of the copies that "
+          "the network of one fixed cell omits; jam_contacts_from_geometry lists those of the copies",
+          own.pairs.i[0]);
     *out = sys.release();
     return JAM_OK;
   };

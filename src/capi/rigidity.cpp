@@ -150,7 +150,7 @@ jam_status jam_bloch_rigidity(jam_system *sys, const int32_t *count, size_t coun
     const Packing &p = sys->packing;
     need(count, "count");
     if (count_len != static_cast<size_t>(p.dim))
-      fail(JAM_E_ARGUMENT, "count_len is %zu, it must be dim = %d", count_len, p.dim);
+      fail(JAM_E_ARGUMENT, "count has %zu numbers, it must have dim = %d", count_len, p.dim);
     if (p.container.round_axes() > 0)
       fail(JAM_E_UNSUPPORTED, "the curvature of a round wall may stabilise flexes: tile the packing, then test it");
     if (p.model == JAM_MODEL_MK)

@@ -141,6 +141,15 @@ std::array<int32_t, JAM_MAX_DIM> lattice_steps(const Cell &cell, const double *v
   return out;
 }
 
+ContactNetwork between_copies(const Packing &p, const ContactNetwork &own, const Copies &copies) {
+  std::vector<char> on(own.size(), 0);
+  for (size_t k = 0; k < own.size(); ++k) {
+    const auto s = lattice_steps(p.cell, &own.pairs.offset[k * static_cast<size_t>(p.dim)]);
+    for (int c = 0; c < p.dim; ++c) on[k] = on[k] || s[c] % copies.along(c) != 0;
+  }
+  return subset(own, on, p.dim);
+}
+
 Packing tile(const Packing &p, const Copies &copies, ContactNetwork *net) {
   if (copies.number() == 1) return p;
   const auto d = static_cast<size_t>(p.dim);

@@ -31,6 +31,9 @@ class Copies {
 // s of the lattice vector sum s_c a_c.
 std::array<int32_t, JAM_MAX_DIM> lattice_steps(const Cell &cell, const double *vector);
 
+// Of contacts of spheres with their own images, those between different copies.
+ContactNetwork between_copies(const Packing &p, const ContactNetwork &own, const Copies &copies);
+
 // The copies of p. `net`, the contacts of p, becomes theirs; NULL where there are none. JAM_E_OVERLAP where coordinates
 // of the large cell no longer resolve the gaps, JAM_E_MEMORY before any work.
 Packing tile(const Packing &p, const Copies &copies, ContactNetwork *net);

@@ -135,7 +135,7 @@ class Tile(unittest.TestCase):
 
     def test_what_cannot_be_tiled_is_refused(self):
         s = jam.System.random(n=10, dim=2, seed=1)
-        for count, why in (((0, 1), "count.0. is 0"), ((1,), "count_len is 1"), ((2**20, 2**20), "2.31-1 spheres"), ((10**7, 1), "flat cell")):
+        for count, why in (((0, 1), "count.0. is 0"), ((1,), "count has 1 numbers"), ((2**20, 2**20), "2.31-1 spheres"), ((10**7, 1), "flat cell")):
             with self.assertRaisesRegex((jam.errors.JamError, ValueError), why):
                 s.tile(count)
         s.call("set_memory_limit", 1e4)

@@ -90,7 +90,7 @@ static void what_cannot_be_tiled_is_named(void **state) {
   (void)state;
   refuse(sys, 1, 0, 1, 3, JAM_E_ARGUMENT, "count[1] is 0");
   refuse(sys, 1, 1, -5, 3, JAM_E_ARGUMENT, "count[2] is -5");
-  refuse(sys, 1, 1, 1, 2, JAM_E_ARGUMENT, "count_len is 2");
+  refuse(sys, 1, 1, 1, 2, JAM_E_ARGUMENT, "count has 2 numbers");
   refuse(sys, 2000, 2000, 2000, 3, JAM_E_ARGUMENT, "2^31-1 spheres");
   refuse(sys, 2147483647, 2147483647, 2147483647, 3, JAM_E_ARGUMENT, "2^31-1 spheres");
   assert_int_equal(jam_set_memory_limit(sys, 1e6), JAM_OK);

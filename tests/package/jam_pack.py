@@ -61,7 +61,7 @@ class JamPack(unittest.TestCase):
         self.report("--n", 12, "--dim", 2, "--seed", 1, "--diameters-ratio", 1.4, "--output", one)
         self.assertEqual((run("check", one).returncode, run("check", one, "--tile", "2,2").returncode), (0, 1))
         self.assertEqual((run("export", one, four, "--tile", "2,2").returncode, json.loads(run("info", four, "--json").stdout)["n"]), (0, 48))
-        for wrong, why in (("0,2", "whole numbers above 0"), ("2,2,2", "count_len is 3, it must be dim = 2")):
+        for wrong, why in (("0,2", "whole numbers above 0"), ("2,2,2", "--tile: count has 3 numbers, it must have dim = 2")):
             self.refuse(2, why, "check", one, "--tile", wrong)
 
     def test_help_and_version(self):

@@ -842,7 +842,7 @@ that of planes of two axes without walls.
 - `stiffness`: one of `:harmonic`, `:power`, `:hard`, `:soft`; default `:harmonic`
 - `alpha`: POWER: > 1, default 2
 - `prestress`: overlap (HARD: gap) at the mean force over mean diameter, in [0, 1), default 0
-- errors: `:state`, `:solver`, `:unsupported` (fewer than two such axes)
+- errors: `:state`, `:solver`, `:unsupported` (not two such axes; unlisted own images)
 """
 function moduli(s::System; progress = nothing, given...)
     return call(s, :jam_moduli, (); progress = progress, given...)
@@ -853,14 +853,14 @@ end
 
 Elastic tensor `c_abcd`: second derivative of the energy a volume by `E_ab` and `E_cd` of x -> (1 + E) x. Unit as
 `moduli`. affine: spheres move by E alone; relaxed: then forces balance. With prestress `c_abcd` and `c_bacd` differ:
-a rotation of stressed contacts counts. Components of an axis with walls are NaN: walls do not strain.
+a rotation of stressed contacts counts. NaN where an axis has walls, which do not strain.
 
 - `affine`: array `(d, d, d, d)`
 - `relaxed`: array `(d, d, d, d)`
 - `stiffness`: one of `:harmonic`, `:power`, `:hard`, `:soft`; default `:harmonic`
 - `alpha`: POWER: > 1, default 2
 - `prestress`: overlap (HARD: gap) at the mean force over mean diameter, in [0, 1), default 0
-- errors: `:state`, `:solver`, `:unsupported` (walls on all axes)
+- errors: `:state`, `:solver`, `:unsupported` (only walled axes; own images)
 """
 function elastic_tensor(s::System; progress = nothing, given...)
     return call(s, :jam_elastic_tensor, (); progress = progress, given...)

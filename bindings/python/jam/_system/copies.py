@@ -33,7 +33,8 @@ class Copies(Base):
         """An exact supercell: count[c] copies side by side along each cell vector.
 
         Velocities, contacts and forces go along, so `forces`, `contacts` and `rigidity` need no crunch. A packing that
-        is jammed in one cell may not be jammed here: `rigidity` tests it.
+        is jammed in one cell may not be jammed here: `rigidity` tests it. Where a sphere touches its own image and the contacts
+        do not list it (a fixed cell), the copies have none, and a note: call `contacts_from_geometry`.
 
         Parameters
         ----------
@@ -68,7 +69,8 @@ class Copies(Base):
     ) -> Modes:
         """All modes at a wave vector: the copy of a sphere s_c cells away moves by exp(2 pi i wave . s) times its own motion.
 
-        The modes of tile(count) are those of all wave[c] = q / count[c] together.
+        The modes of tile(count) are those of all wave[c] = q / count[c] together. Refused where a sphere touches its own
+        image, the contacts do not list it (a fixed cell), and both move differently at this wave vector.
 
         Parameters
         ----------

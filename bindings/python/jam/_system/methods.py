@@ -1452,8 +1452,7 @@ class Methods:
         """Elastic tensor c_abcd: second derivative of the energy a volume by E_ab and E_cd of x -> (1 + E) x.
 
         Unit as moduli(). affine: spheres move by E alone; relaxed: then forces balance. With prestress c_abcd and
-        c_bacd differ: a rotation of stressed contacts counts. Components of an axis with walls are NaN: walls do not
-        strain.
+        c_bacd differ: a rotation of stressed contacts counts. NaN where an axis has walls, which do not strain.
 
         Parameters
         ----------

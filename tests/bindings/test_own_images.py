@@ -1,0 +1,90 @@
+"""Contacts of a sphere with its own image: modes, moduli and copies against springs on all closed pairs, by numpy."""
+import itertools
+import unittest
+
+import jam
+import numpy as np
+
+
+def waves(count):
+    return [np.array(q) / count for q in itertools.product(*map(range, count))]
+
+
+def triangular():
+    """Two disks a cell: each touches the other four times, and its own image twice."""
+    return jam.System.from_arrays([[0, 0], [0.5, np.sqrt(0.75)]], 1.0 - 1e-15, cell=np.diag([1, np.sqrt(3)]), dim=2)
+
+
+def of_springs(s, wave):
+    """Eigenvalues of unit springs on all closed pairs, images of one sphere too."""
+    h = np.zeros((s.n * s.dim,) * 2, complex)
+    for back in itertools.product((-1, 0, 1), repeat=s.dim):
+        for i, j in itertools.product(range(s.n), repeat=2):
+            r = s.positions[j] + back @ s.cell - s.positions[i]
+            if 0 < np.linalg.norm(r) < (s.diameters[i] + s.diameters[j]) / 2 * (1 + 1e-9):
+                block = np.outer(r, r) / (r @ r)
+                a, b = (slice(s.dim * k, s.dim * k + s.dim) for k in (i, j))
+                h[a, a] += block
+                h[a, b] -= block * np.exp(2j * np.pi * np.dot(wave, back))
+    return np.linalg.eigvalsh(h)
+
+
+class OwnImages(unittest.TestCase):
+    """A fixed cell leaves out contacts of a sphere with its own image. Copies and strains must not."""
+
+    def setUp(self):
+        self.s = triangular()
+        self.s.contacts_from_geometry()
+        self.assertEqual(len(self.s.contacts), 4)
+
+    def test_modes_that_need_them_are_refused(self):
+        np.testing.assert_allclose(of_springs(self.s, (0.5, 0.5)), [2, 2, 6, 6], atol=1e-12)
+        for wave in ((0.5, 0.5), (0.25, 0)):
+            with self.assertRaisesRegex(jam.errors.UnsupportedError, "sphere 0 touches its own image.*strain=free"):
+                self.s.bloch_modes(wave)
+        for wave in ((0, 0), (0, 0.5), (1, 0.25)):  # both move alike
+            np.testing.assert_allclose(self.s.bloch_modes(wave).values, of_springs(self.s, wave), atol=1e-12)
+
+    def test_moduli_are_refused(self):
+        for call in (self.s.moduli, self.s.elastic_tensor):
+            with self.assertRaisesRegex(jam.errors.UnsupportedError, "sphere 0 touches its own image"):
+                call()
+        t = self.s.tile((2, 1))
+        t.contacts_from_geometry()
+        m = t.moduli()  # of the triangular lattice K = 2 G, by unit springs sqrt(3) / 2; the unit is that of a mean force
+        self.assertAlmostEqual(m.bulk / m.shear, 2, 9)
+
+    def test_copies_with_more_contacts_have_no_network(self):
+        t = self.s.tile((2, 2))
+        self.assertIn("sphere 0 touches its own image", t.notes)
+        with self.assertRaises(jam.errors.StateError):
+            t.forces
+        self.assertEqual((t.rigidity().jammed, self.s.bloch_rigidity((2, 2)).flexes.sum()), (jam.Verdict.YES, 0))
+        t.contacts_from_geometry()
+        self.assertEqual(len(t.contacts), 24)
+        union = np.concatenate([of_springs(self.s, q) for q in waves((2, 2))])
+        np.testing.assert_allclose(t.modes(which="all").values, np.sort(union), atol=1e-12)
+        self.assertEqual(len(self.s.tile((1, 3)).contacts), 12)  # own images stay own images
+
+    def test_a_crunch_at_fixed_cell(self):
+        s = jam.System.from_arrays([[0, 0], [0.5, 0.8]], 0.9, cell=np.diag([1, np.sqrt(3)]), dim=2)
+        s.crunch()
+        self.assertEqual(len(s.contacts), 4)
+        with self.assertRaisesRegex(jam.errors.UnsupportedError, "own image"):
+            s.bloch_modes((0.5, 0.5))
+        self.assertIn("own image", s.tile((2, 1)).notes)
+        self.assertEqual(s.tile((1, 2)).report.contacts, 8)
+
+    def test_a_free_cell_lists_them(self):
+        s = jam.System.random(n=2, dim=2, seed=1, packing_fraction=0.1)
+        s.crunch(strain="free")
+        for wave in ((0.5, 0.5), (0.25, 0.1)):
+            np.testing.assert_allclose(s.bloch_modes(wave).values, of_springs(s, wave), atol=1e-9)
+        self.assertGreater(s.moduli().bulk, 0)
+        s.contacts_from_geometry()  # of a fixed cell
+        with self.assertRaisesRegex(jam.errors.UnsupportedError, "own image"):
+            s.bloch_modes((0.5, 0.5))
+
+
+if __name__ == "__main__":
+    unittest.main()

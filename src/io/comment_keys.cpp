@@ -1,5 +1,7 @@
 #include "io/comment_keys.hpp"
 
+#include <algorithm>
+
 namespace jam {
 
 bool is_true(std::string_view word) {
@@ -7,23 +9,30 @@ bool is_true(std::string_view word) {
   return w == "t" || w == "true" || w == "1";
 }
 
-void read_container(const LineReader &in, CommentKeys &keys, FileContent &content) {
+size_t read_container(const LineReader &in, CommentKeys &keys, Enclosure &enclosure) {
   std::string_view value;
-  if (!keys.find("container", value)) return;
-  content.enclosure.container = container_of_word(std::string(value).c_str());
-  if (content.enclosure.container < 0)
+  if (!keys.find("container", value)) return 0;
+  enclosure.container = container_of_word(std::string(value).c_str());
+  if (enclosure.container < 0)
     in.fail(JAM_E_FORMAT, "container is '%s', known are brick, cylinder and ball", shown(value).c_str());
   if (!keys.find("walls", value)) in.fail(JAM_E_FORMAT, "container= without walls=, a word T or F for each axis");
+  std::string plain(value);  // ASE writes a list as _JSON [false, true]
+  if (plain.compare(0, 5, "_JSON") == 0) {
+    plain.erase(0, 5);
+    std::replace_if(
+        plain.begin(), plain.end(), [](char c) { return c == '[' || c == ']' || c == ','; }, ' ');
+  }
   std::vector<std::string_view> words;
-  split(value, words);
-  if (words.size() != static_cast<size_t>(content.dim))
-    in.fail(JAM_E_FORMAT, "walls has %zu words, %d are needed", words.size(), content.dim);
+  split(plain, words);
+  if (words.size() > JAM_MAX_DIM)
+    in.fail(JAM_E_FORMAT, "walls has %zu words, there are at most %d axes", words.size(), JAM_MAX_DIM);
   for (size_t c = 0; c < words.size(); ++c) {
     if (is_true(words[c]))
-      content.enclosure.walls |= 1 << c;
+      enclosure.walls |= 1 << c;
     else if (const std::string w = lower(words[c]); w != "f" && w != "false" && w != "0")
       in.fail(JAM_E_FORMAT, "walls='%s': a word for each axis must be T or F", shown(value).c_str());
   }
+  return words.size();
 }
 
 }  // namespace jam

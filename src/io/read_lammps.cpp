@@ -247,6 +247,17 @@ bool skip_section(LineReader &in, std::string_view &line, Words &words, const st
   return false;
 }
 
+// Walls in a title of ours: the number of axes that walls= names, 0 without walls.
+size_t read_title(const LineReader &in, const std::string &title, Enclosure &enclosure) {
+  if (title.compare(0, lammps_title.size(), lammps_title) != 0) return 0;
+  CommentKeys keys(in, title);
+  const size_t axes = read_container(in, keys, enclosure);
+  std::string_view walls;
+  if (axes == 0 && keys.find("walls", walls))
+    in.fail(JAM_E_FORMAT, "walls='%s' without container=, one of brick, cylinder and ball", shown(walls).c_str());
+  return axes;
+}
+
 }  // namespace
 
 FileContent read_lammps(LineReader &in, const ReadOptions &) {
@@ -256,6 +267,7 @@ FileContent read_lammps(LineReader &in, const ReadOptions &) {
   Words words;
   in.next(line);  // the title, which may say anything or nothing
   const std::string title(line);
+  const size_t axes = read_title(in, title, content.enclosure);
   bool more = next_text(in, line, words);
   for (; more && !is_section(words); more = next_text(in, line, words)) {
     const size_t understood = take_header(in, words, header);
@@ -284,10 +296,8 @@ FileContent read_lammps(LineReader &in, const ReadOptions &) {
   if (atoms.empty()) in.fail(JAM_E_FORMAT, "the file ends before the section Atoms");
   if (!unread.empty()) content.notes.say("sections of the file that were not read: %s", unread.c_str());
   make_content(in, header, atoms, content);
-  if (title.compare(0, lammps_title.size(), lammps_title) == 0) {
-    CommentKeys keys(in, title);
-    read_container(in, keys, content);
-  }
+  if (axes > 0 && axes != static_cast<size_t>(content.dim))
+    fail(JAM_E_FORMAT, "%s line 1: walls has %zu words, %d are needed", in.path().c_str(), axes, content.dim);
   return content;
 }
 

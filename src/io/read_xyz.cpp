@@ -144,7 +144,9 @@ Columns read_keys(const LineReader &in, CommentKeys &keys, const ReadOptions &op
     in.fail(JAM_E_FORMAT, "dim is %d but pos has %zu columns", content.dim, columns.pos_count);
   read_cells(in, keys, content);
   columns.origin = read_origin(in, keys, content.dim);
-  read_container(in, keys, content);
+  const size_t axes = read_container(in, keys, content.enclosure);
+  if (axes > 0 && axes != static_cast<size_t>(content.dim))
+    in.fail(JAM_E_FORMAT, "walls has %zu words, %d are needed", axes, content.dim);
   if (keys.find("pbc", value)) check_periodic(in, value, content);
   if (keys.find("non_additivity", value)) {
     content.non_additivity = parse_number(in, value);

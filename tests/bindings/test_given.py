@@ -30,6 +30,15 @@ class Given(unittest.TestCase):
             self.assertAlmostEqual(abs(np.linalg.det(s.cell)), 3.0)
             self.assertAlmostEqual(s.packing_fraction, 0.2)
 
+    def test_whole_numbers_that_do_not_fit(self):
+        s = make(X, 0.2, box=2)
+        for count in ((2**32 + 2, 1, 1), (-(2**32) + 1, 1, 1), np.array([2**31, 1, 1]), np.array([2**63, 1, 1], np.uint64)):
+            for call in (s.tile, s.bloch_rigidity):
+                self.refused(["count holds", "2147483647"], call, count)
+        with self.assertRaisesRegex(ValueError, "kind holds 4294967297"):
+            s.pair_correlation(0.5, 4, kind=[2**32 + 1, 0, 0], a=1, b=1)
+        self.assertEqual(s.tile(np.array([2, 1, 1], np.uint64)).n, 6)
+
     def test_cells_that_are_none(self):
         six = [1, 1, 2, 90, 90, 90]
         for name in ("box", "cell"):

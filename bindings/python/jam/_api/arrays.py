@@ -25,11 +25,17 @@ def as_rows(columns: Any) -> Array:
 
 
 def as_array(values: Any, dtype: str = "double", name: str = "array") -> Array:
-    """Values as a C-contiguous array of the C type, copied only if needed. Complex, masked numbers and text are refused."""
+    """Values as a C-contiguous array of the C type, copied only if needed. Complex, masked numbers and text are refused,
+    and integers that the type does not hold."""
     if isinstance(values, np.ma.MaskedArray) and (masked := np.count_nonzero(values.mask)):
         raise ValueError(f"{name}: {masked} values are masked: fill them, or leave these spheres out")
     array = np.asarray(values)
     wanted = np.dtype(DTYPES[dtype])
     if array.dtype != wanted and not np.can_cast(array.dtype, wanted, "same_kind"):
         raise TypeError(f"{name}: cannot convert {array.dtype} to {wanted} without loss")
+    if wanted.kind in "iu" and array.dtype != wanted and array.size:
+        held = np.iinfo(wanted)
+        for value in (int(array.min()), int(array.max())):
+            if not held.min <= value <= held.max:
+                raise ValueError(f"{name} holds {value}, its numbers must be {held.min} to {held.max}")
     return np.ascontiguousarray(array, wanted)

@@ -219,7 +219,7 @@ def make_runs(
     times = as_array(instants, name="instants").reshape(-1)
     made = option_struct("jam_isoconf_options", options)
     chosen = None if monte_carlo is None else option_struct("jam_monte_carlo_options", monte_carlo)
-    kept = np.asarray([int(k) for k in keep], dtype=np.int32)
+    kept = as_array(np.array([int(k) for k in keep], np.int64), "int32_t", "keep")
     rest = {name: value for name, value in (("keep", keep), ("monte_carlo", monte_carlo)) if value}
     origin = _origin(system, dict(options, block=made.block, **rest))
     with system._reporting(progress):

@@ -10,7 +10,7 @@ constexpr double closed = 1e-26;        // |r|^2 / sigma^2 - Gamma in two double
 // The same over Gamma, of pairs that hold spheres: a motion of 1e-9 opens them by as much.
 constexpr double nearly_closed = 1e-18;
 constexpr double leaning = 1e-2;  // forces in the middle over those that close, in a proof of such pairs
-constexpr int exchanges = 20;     // rounds: in each all contacts that do not close leave, and overlapping pairs enter
+constexpr int exchanges = 50;     // rounds: in each all contacts that do not close leave, and overlapping pairs enter
 // Doubles hold gaps and states of a round to this part: what is left waits for the next round.
 constexpr double vanishing = 1e-9;
 constexpr double freed = 1e-6;     // longest way of a rattler out of an overlap, over its size

@@ -148,6 +148,7 @@ typedef struct output {
 int check_writable(const char *path, void *unused); /* before hours of work */
 int open_output(output *out, const char *path);
 int close_output(output *out);
+int put_bytes(int descriptor, const char *text, size_t size); /* all of them, also after signals */
 
 /* verbs.c: Ctrl-C and SIGTERM cancel the calls on a system, also where they came before; NULL: on none. */
 void cancel_on_signal(jam_system *sys);

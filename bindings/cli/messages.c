@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "jam-pack.h"
+#include "system.h"
 
 const char *program = "jam-pack";
 
@@ -79,13 +80,12 @@ static void keep_line(const char *line) {
 }
 
 void in_own_words(const char *text, char *out, size_t size) {
-  FILE *const f = fmemopen(out, size, "w");
-  if (f) {
-    put_translated(f, text);
-    fclose(f);
-    out[size - 1] = '\0';
-  } else
-    snprintf(out, size, "%s", text);
+  char *own;
+  size_t length;
+  FILE *const f = open_text(&own, &length);
+  if (f) put_translated(f, text);
+  snprintf(out, size, "%s", f && !close_text(f, &own, &length) ? own : text);
+  free(own);
 }
 
 void complain(const char *format, ...) {

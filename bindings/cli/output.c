@@ -1,13 +1,12 @@
 /* How texts of jam-pack become files: as those of the library do, under another name and renamed, or in place. */
 #define _XOPEN_SOURCE 700
 #include <errno.h>
-#include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 #include "jam-pack.h"
+#include "system.h"
 
 static int cannot(const char *path) {
   complain("cannot write %s: %s", path, strerror(errno));
@@ -16,32 +15,25 @@ static int cannot(const char *path) {
 }
 
 int check_writable(const char *path, void *unused) {
-  struct stat there;
-  char folder[4096];
-  const char *slash;
+  const file_kind kind = path && strcmp(path, "-") ? kind_of(path) : KIND_NONE;
   (void)unused;
   if (!path || !strcmp(path, "-")) return 0;
-  if (stat(path, &there) == 0) {
-    if (S_ISDIR(there.st_mode)) errno = EISDIR;
-    if (S_ISDIR(there.st_mode) || access(path, W_OK)) return cannot(path);
-    if (!S_ISREG(there.st_mode)) return 0;
-  }
-  slash = strrchr(path, '/');
-  snprintf(folder, sizeof folder, "%.*s", slash ? (int)(slash - path + 1) : 1, slash ? path : ".");
-  return access(folder, W_OK | X_OK) ? cannot(path) : 0;
+  if (kind == KIND_FOLDER) errno = EISDIR;
+  if (kind == KIND_FOLDER || (kind != KIND_NONE && may_write(path))) return cannot(path);
+  if (kind == KIND_OTHER) return 0;
+  return may_create(path) ? cannot(path) : 0;
 }
 
 int open_output(output *out, const char *path) {
   out->path = path;
-  out->text = NULL;
-  out->file = open_memstream(&out->text, &out->size);
+  out->file = open_text(&out->text, &out->size);
   return out->file ? 0 : cannot(path);
 }
 
-/* All of it, also after signals; 0 or -1. */
-static int put(int fd, const char *text, size_t size) {
+int put_bytes(int fd, const char *text, size_t size) {
   while (size > 0) {
-    const ssize_t done = write(fd, text, size);
+    const size_t most = size < 1 << 30 ? size : 1 << 30; /* Windows counts in ints */
+    const ssize_t done = write(fd, text, most);
     if (done < 0 && errno == EINTR) continue;
     if (done < 0) return -1;
     text += done, size -= (size_t)done;
@@ -64,49 +56,17 @@ static int descriptor_of(const char *path) {
   return -1;
 }
 
-/* Into the folder of the target under a short name of its own, then renamed. A killed program leaves at most this file,
- * in the moment in which it is written. */
-static int put_beside(const output *out) {
-  struct stat there;
-  char *const real = realpath(out->path, NULL); /* a link stays a link */
-  const char *const target = real ? real : out->path, *const slash = strrchr(target, '/');
-  const size_t folder = slash ? (size_t)(slash - target) + 1 : 0;
-  const mode_t mask = umask(0);
-  const mode_t mode = real && stat(real, &there) == 0 ? there.st_mode & 07777 : 0666 & ~mask;
-  char *const beside = malloc(folder + 32);
-  int bad = -1, fd = -1, error;
-  umask(mask);
-  if (beside) {
-    snprintf(beside, folder + 32, "%.*s.jam-pack-XXXXXX", (int)folder, target);
-    fd = mkstemp(beside);
-  }
-  if (fd >= 0) {
-    bad = put(fd, out->text, out->size) || fchmod(fd, mode) || fsync(fd);
-    error = errno;
-    if (close(fd) && !bad) bad = -1, error = errno;
-    if (!bad && rename(beside, target)) bad = -1, error = errno;
-    if (bad) remove(beside);
-    errno = error;
-  }
-  free(beside);
-  free(real);
-  return bad ? -1 : 0;
-}
-
 int close_output(output *out) {
-  struct stat there;
-  const int descriptor = descriptor_of(out->path), bad = ferror(out->file) | fclose(out->file);
-  int failed = bad;
-  if (bad) {
-    errno = ENOMEM;
-  } else if (descriptor >= 0) {
-    failed = fflush(stdout) || put(descriptor, out->text, out->size);
-  } else if (stat(out->path, &there) == 0 && !S_ISREG(there.st_mode)) {
-    const int fd = open(out->path, O_WRONLY);
-    failed = fd < 0 || put(fd, out->text, out->size);
+  const int descriptor = descriptor_of(out->path);
+  int failed = close_text(out->file, &out->text, &out->size);
+  if (!failed && descriptor >= 0) {
+    failed = fflush(stdout) || put_bytes(descriptor, out->text, out->size);
+  } else if (!failed && kind_of(out->path) == KIND_OTHER) {
+    const int fd = open_in_place(out->path);
+    failed = fd < 0 || put_bytes(fd, out->text, out->size);
     if (fd >= 0) failed |= close(fd);
-  } else {
-    failed = put_beside(out);
+  } else if (!failed) {
+    failed = replace_file(out->path, out->text, out->size);
   }
   if (failed) cannot(out->path);
   free(out->text);

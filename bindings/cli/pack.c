@@ -4,8 +4,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include "jam-pack.h"
+#include "system.h"
 
 /* ---- the parts of the job; each returns the library's status */
 
@@ -104,8 +104,7 @@ static jam_status run_crunch(jam_system *sys, const options *o, double wall_time
 
 /* Dynamics kept on disk before the crunch: a killed crunch then costs the crunch only. */
 static void keep(const jam_system *sys, const char *path) {
-  struct stat there;
-  if (path && (stat(path, &there) || S_ISREG(there.st_mode))) jam_write(sys, path, JAM_FORMAT_AUTO);
+  if (path && (kind_of(path) == KIND_NONE || kind_of(path) == KIND_FILE)) jam_write(sys, path, JAM_FORMAT_AUTO);
 }
 
 /* Dynamics that end before their aim are no reason to stop, but never go unseen. */

@@ -6,6 +6,7 @@
 #include <time.h>
 #include <unistd.h>
 #include "jam-pack.h"
+#include "system.h"
 
 static const double seconds_between_lines = 10;
 
@@ -74,7 +75,7 @@ int start_progress(terminal *t, const options *o, jam_system *sys) {
   t->sys = sys;
   if (!o->quiet || o->checkpoint || o->plot) jam_set_progress(sys, show_progress, t);
   if (!o->log) return 0;
-  t->log = strcmp(o->log, "-") ? fopen(o->log, "w") : stdout;
+  t->log = strcmp(o->log, "-") ? open_stream(o->log, "w") : stdout;
   if (t->log) return jam_set_log(sys, write_log, JAM_LOG_INFO, t) < 0;
   complain("cannot write %s: %s", o->log, strerror(errno));
   return -1;

@@ -6,36 +6,18 @@
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
-#include <sys/stat.h>
 #define JAM_PACK_OPTIONS_TABLE
 #include "jam-pack.h"
+#include "system.h"
 
 #define ROWS (sizeof table / sizeof *table)
 
-/* The name that a file has, or would have: without links, `.` and `..`. NULL when its folder is not there. */
-static char *resolve(const char *path) {
-  const char *const slash = strrchr(path, '/');
-  char *whole = realpath(path, NULL), *folder, *head;
-  if (whole) return whole;
-  head = slash ? strdup(path) : strdup(".");
-  if (!head) return NULL;
-  if (slash) head[slash == path ? 1 : slash - path] = '\0';
-  folder = realpath(head, NULL);
-  free(head);
-  if (!folder) return NULL;
-  whole = malloc(strlen(folder) + strlen(path) + 2);
-  if (whole) sprintf(whole, "%s/%s", folder, slash ? slash + 1 : path);
-  free(folder);
-  return whole;
-}
-
 /* One file under two names, but for pipes and devices, which take what comes. */
 static int same(const char *a, const char *b) {
-  struct stat there;
   char *x, *y;
   int equal;
   if (!a || !b || !strcmp(a, "-") || !strcmp(b, "-")) return 0;
-  if (stat(a, &there) == 0 && !S_ISREG(there.st_mode)) return 0;
+  if (kind_of(a) == KIND_FOLDER || kind_of(a) == KIND_OTHER) return 0;
   x = resolve(a);
   y = resolve(b);
   equal = x && y ? !strcmp(x, y) : !strcmp(a, b);

@@ -4,9 +4,10 @@
 #include <stdlib.h>
 #include <string.h>
 #include "jam-pack.h"
+#include "system.h"
 
 static int read_diameters(const char *path, double **out, int64_t *count) {
-  FILE *file = fopen(path, "r");
+  FILE *file = open_stream(path, "r");
   double *list = NULL, x;
   int64_t n = 0, room = 0;
   int got = 1;

@@ -1,34 +1,29 @@
 /* Tables of the jammed network as text: what jam-pack and Python write. */
-#define _XOPEN_SOURCE 700
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include "pack.h"
+#include "system.h"
 
 static jam_status no_memory(void) {
   jam_set_error("out of memory for the text of a table");
   return JAM_E_MEMORY;
 }
 
-/* What stands in f when it is closed is *text, unless memory ran out. */
-static jam_status finished(FILE *f, char **text) {
-  const int bad = ferror(f);
-  if (!fclose(f) && !bad) return JAM_OK;
-  free(*text);
-  *text = NULL;
-  return no_memory();
+static jam_status finished(FILE *f, char **text, size_t *length) {
+  return close_text(f, text, length) ? no_memory() : JAM_OK;
 }
 
 jam_status jam_pack_modes(const double *mode, size_t mode_len, char **text) {
   size_t length, k;
-  FILE *f = open_memstream(text, &length);
+  FILE *f = open_text(text, &length);
   if (!f) return no_memory();
   fputs("mode,lambda,omega,participation\n", f);
   for (k = 0; k < mode_len / 2 && isfinite(mode[2 * k + JAM_MODE_LAMBDA]); ++k) {
     const double lambda = mode[2 * k + JAM_MODE_LAMBDA];
     fprintf(f, "%zu,%.17g,%.17g,%.17g\n", k, lambda, sqrt(fmax(lambda, 0)), mode[2 * k + JAM_MODE_PARTICIPATION]);
   }
-  return finished(f, text);
+  return finished(f, text, &length);
 }
 
 /* Contacts of each sphere; the caller frees *z. */
@@ -56,14 +51,14 @@ jam_status jam_pack_gaps(const jam_system *sys, double h_max, char **text) {
     pair = malloc((2 * m + 1) * sizeof *pair);
     status = gap && pair ? jam_gaps(sys, h_max, 0, gap, m, pair, 2 * m, NULL) : no_memory();
   }
-  if (status == JAM_OK && !(f = open_memstream(text, &length))) status = no_memory();
+  if (status == JAM_OK && !(f = open_text(text, &length))) status = no_memory();
   if (status == JAM_OK) {
     fputs("i,j,gap,stable\n", f);
     for (k = 0; k < m; ++k) {
       const int i = (int)pair[2 * k], j = (int)pair[2 * k + 1];
       fprintf(f, "%d,%d,%.17g,%d\n", i, j, gap[k], z[i] > 0 && (j < 0 || z[j] > 0));
     }
-    status = finished(f, text);
+    status = finished(f, text, &length);
   }
   free(gap), free(pair), free(z);
   return status;
@@ -108,10 +103,10 @@ jam_status jam_pack_structure(const jam_system *sys, char **text) {
   if (status == JAM_OK) status = jam_sphere_structure(sys, 0, c, d * n, s, n, NULL);
   if (status == JAM_OK) status = jam_sphere_structure(sys, 1, NULL, 0, s + n, n, NULL);
   if (status == JAM_OK) status = jam_bond_order(sys, 6, 1.2, s + 2 * n, n, NULL);
-  if (status == JAM_OK && !(f = open_memstream(text, &length))) status = no_memory();
+  if (status == JAM_OK && !(f = open_text(text, &length))) status = no_memory();
   if (status == JAM_OK) {
     print_structure(f, &info, z, c, has_phi ? phi : NULL);
-    status = finished(f, text);
+    status = finished(f, text, &length);
   }
   free(c), free(z);
   return status;

@@ -1,10 +1,10 @@
 /* The program as a function: reads the command line, takes the signals, and does what the verb says. */
-#define _XOPEN_SOURCE 700
 #include <math.h>
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
 #include "jam-pack.h"
+#include "system.h"
 
 /* The handler can reach nothing else: the handle to cancel, and that it was asked to. */
 static jam_system *volatile running = NULL;
@@ -26,26 +26,6 @@ void watch_signals(jam_system *sys) { running = sys; }
 int32_t stop_if_asked(const jam_progress *progress, void *user) {
   (void)progress, (void)user;
   return interrupted;
-}
-
-/* Signals stop the work; afterwards those who had them get them back. */
-typedef struct signals {
-  struct sigaction interrupt, terminate;
-} signals;
-
-static void take_signals(signals *before) {
-  struct sigaction own;
-  memset(&own, 0, sizeof own);
-  own.sa_handler = on_signal;
-  sigemptyset(&own.sa_mask);
-  interrupted = 0;
-  sigaction(SIGINT, &own, &before->interrupt);
-  sigaction(SIGTERM, &own, &before->terminate);
-}
-
-static void give_signals_back(const signals *before) {
-  sigaction(SIGINT, &before->interrupt, NULL);
-  sigaction(SIGTERM, &before->terminate, NULL);
 }
 
 /* What the verb of a command line does; the exit code. */
@@ -87,7 +67,6 @@ int jam_pack_refuse(int argc, char **argv, int code, const char *why) {
 
 int jam_pack(int argc, char **argv, const jam_pack_host *host) {
   options o;
-  signals before;
   int code;
   program = host ? host->name : "jam-pack";
   forget_messages();
@@ -99,9 +78,10 @@ int jam_pack(int argc, char **argv, const jam_pack_host *host) {
   } else if (refused_by_host(&o)) {
     code = EXIT_USAGE;
   } else {
-    take_signals(&before);
+    interrupted = 0;
+    take_signals(on_signal); /* they stop the work; afterwards those who had them get them back */
     code = run_verb(&o);
-    give_signals_back(&before);
+    give_signals_back();
   }
   if (!code || has_written_json() || !(o.json || (o.report && !strcmp(o.report, "-")))) return code;
   return write_failure(o.input ? o.input : o.resume, code) ? EXIT_OUTPUT : code;

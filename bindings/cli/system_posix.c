@@ -1,0 +1,107 @@
+#define _XOPEN_SOURCE 700
+#include <errno.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include "jam-pack.h"
+#include "system.h"
+
+file_kind kind_of(const char *path) {
+  struct stat there;
+  if (stat(path, &there)) return KIND_NONE;
+  return S_ISDIR(there.st_mode) ? KIND_FOLDER : S_ISREG(there.st_mode) ? KIND_FILE : KIND_OTHER;
+}
+
+int may_write(const char *path) { return access(path, W_OK); }
+
+int may_create(const char *path) {
+  const char *const slash = strrchr(path, '/');
+  char folder[4096];
+  snprintf(folder, sizeof folder, "%.*s", slash ? (int)(slash - path + 1) : 1, slash ? path : ".");
+  return access(folder, W_OK | X_OK);
+}
+
+char *resolve(const char *path) {
+  const char *const slash = strrchr(path, '/');
+  char *whole = realpath(path, NULL), *folder, *head;
+  if (whole) return whole;
+  head = slash ? strdup(path) : strdup(".");
+  if (!head) return NULL;
+  if (slash) head[slash == path ? 1 : slash - path] = '\0';
+  folder = realpath(head, NULL);
+  free(head);
+  if (!folder) return NULL;
+  whole = malloc(strlen(folder) + strlen(path) + 2);
+  if (whole) sprintf(whole, "%s/%s", folder, slash ? slash + 1 : path);
+  free(folder);
+  return whole;
+}
+
+FILE *open_stream(const char *path, const char *mode) { return fopen(path, mode); }
+
+int open_in_place(const char *path) { return open(path, O_WRONLY); }
+
+FILE *open_text(char **text, size_t *size) {
+  *text = NULL;
+  return open_memstream(text, size);
+}
+
+int close_text(FILE *file, char **text, size_t *size) {
+  const int bad = ferror(file);
+  (void)size;
+  if (!fclose(file) && !bad) return 0;
+  free(*text);
+  *text = NULL;
+  errno = ENOMEM;
+  return -1;
+}
+
+int replace_file(const char *path, const char *text, size_t size) {
+  struct stat there;
+  char *const real = realpath(path, NULL); /* a link stays a link */
+  const char *const target = real ? real : path, *const slash = strrchr(target, '/');
+  const size_t folder = slash ? (size_t)(slash - target) + 1 : 0;
+  const mode_t mask = umask(0);
+  const mode_t mode = real && stat(real, &there) == 0 ? there.st_mode & 07777 : 0666 & ~mask;
+  char *const beside = malloc(folder + 32);
+  int bad = -1, fd = -1, error;
+  umask(mask);
+  if (beside) {
+    snprintf(beside, folder + 32, "%.*s.jam-pack-XXXXXX", (int)folder, target);
+    fd = mkstemp(beside);
+  }
+  if (fd >= 0) {
+    bad = put_bytes(fd, text, size) || fchmod(fd, mode) || fsync(fd);
+    error = errno;
+    if (close(fd) && !bad) bad = -1, error = errno;
+    if (!bad && rename(beside, target)) bad = -1, error = errno;
+    if (bad) remove(beside);
+    errno = error;
+  }
+  free(beside);
+  free(real);
+  return bad ? -1 : 0;
+}
+
+static struct sigaction before_interrupt, before_terminate;
+
+void take_signals(void (*handler)(int number)) {
+  struct sigaction own;
+  memset(&own, 0, sizeof own);
+  own.sa_handler = handler;
+  sigemptyset(&own.sa_mask);
+  sigaction(SIGINT, &own, &before_interrupt);
+  sigaction(SIGTERM, &own, &before_terminate);
+}
+
+void give_signals_back(void) {
+  sigaction(SIGINT, &before_interrupt, NULL);
+  sigaction(SIGTERM, &before_terminate, NULL);
+}
+
+void take_words(int *argc, char ***argv) { (void)argc, (void)argv; }
+
+void become(char **words) { execvp(words[0], words); }

@@ -26,12 +26,12 @@ configure() {
     { tail -20 "$folder/configure.log"; return 1; }
 }
 
-# The bits of this processor, in $reference.
+# The bits of this processor, in $reference, and a jam-pack that writes files for others.
 native_bits() {
   reference=$PWD/build-platform/bits.txt
   mkdir -p build-platform
   configure build-platform
-  cmake --build build-platform -j "$jobs" --target jam_bits >build-platform/build.log
+  cmake --build build-platform -j "$jobs" --target jam_bits jam-pack >build-platform/build.log
   build-platform/tests/jam_bits >"$reference"
 }
 
@@ -62,23 +62,30 @@ build_platform() {
 # Both write what they know into FOLDER/result.json.
 write_result() {
   minutes=$((($(date +%s) - began + 59) / 60))
-  printf '{"platform": "%s", "passed": %d, "tests": %d, "md": "%s", "crunch": "%s", "minutes": %d}\n' \
-    "$platform" "$passed" "$all" "$md" "$crunch" "$minutes" >"$1/result.json"
+  printf '{"platform": "%s", "passed": %d, "tests": %d, "md": "%s", "crunch": "%s", "files": "%s", "minutes": %d}\n' \
+    "$platform" "$passed" "$all" "$md" "$crunch" "$files" "$minutes" >"$1/result.json"
 }
 
-# test_platform FOLDER: builds the library and compares bits, then builds and runs the tests. Fails where something does
-# not compile, a bit differs or a test fails.
+# test_platform FOLDER: builds the library and compares bits and files, then builds and runs the tests. Fails where
+# something does not compile, a bit or a file differs or a test fails. JAM_PLATFORM_TESTS=OFF leaves out the tests,
+# which take longest.
 test_platform() {
   folder=$1 failed=0 passed=0 all=0
   : >"$folder/build.log"
-  build_platform "$folder" jam_bits || return 1
+  build_platform "$folder" jam_bits jam-pack || return 1
   emulator=$(sed -n 's/^CMAKE_CROSSCOMPILING_EMULATOR:[A-Z]*=//p' "$folder/CMakeCache.txt" | tr ';' ' ')
-  program=$(ls "$folder"/tests/jam_bits "$folder"/tests/jam_bits.exe 2>/dev/null | head -1)
-  $emulator "$program" 2>"$folder/bits.log" | tr -d '\r' >"$folder/bits.txt"
+  end=
+  if [ -f "$folder/jam-pack.exe" ]; then end=.exe; fi
+  $emulator "$folder/tests/jam_bits$end" 2>"$folder/bits.log" | tr -d '\r' >"$folder/bits.txt"
   md=$(same md "$folder") crunch=$(same crunch "$folder")
   echo "bits of dynamics: $md, of crunches: $crunch"
   if [ "$md" != same ] || [ "$crunch" != same ]; then diff "$reference" "$folder/bits.txt" || failed=1; fi
+  files=other
+  if sh tests/platforms/files.sh "$folder/files" "$PWD/build-platform/jam-pack" $emulator \
+    "$PWD/$folder/jam-pack$end" 2>"$folder/files.log"; then files=same; else failed=1; fi
+  echo "files: $files"
   write_result "$folder"
+  if [ "${JAM_PLATFORM_TESTS:-ON}" = OFF ]; then cat "$folder/result.json"; return $failed; fi
   build_platform "$folder" all || return 1
   # An emulator takes some twenty times longer.
   ctest --test-dir "$folder" -j "$jobs" -L 'unit|capi' -LE long --timeout 1800 --output-on-failure --no-tests=error \

@@ -18,4 +18,8 @@ configure "$folder" -DCMAKE_SYSTEM_NAME=Windows -DCMAKE_SYSTEM_PROCESSOR=x86_64 
   -DCMAKE_C_COMPILER="$triplet-gcc-posix" -DCMAKE_CXX_COMPILER="$triplet-g++-posix" \
   -DCMAKE_RC_COMPILER="$triplet-windres" -DCMAKE_CROSSCOMPILING_EMULATOR="$(command -v wine)" \
   -DSPECTRA_INCLUDE="$PWD/$folder-libraries/include" -DJAM_BUILD_EXAMPLES=ON
-test_platform "$folder"
+status=0
+test_platform "$folder" || status=1
+ctest --test-dir "$folder" -j "$jobs" -L examples --timeout 300 >"$folder/examples.log" 2>&1 || status=1
+grep 'tests passed' "$folder/examples.log"
+exit $status

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "core/math.hpp"
 #include "core/tuning.hpp"
@@ -19,11 +18,10 @@ using Tuning = DigitsTuning;
 struct Rule {
   double least, part;
   size_t count, sample;
-  bool differ;  // the numbers of a rounded packing: lengths may all be equal
 };
-constexpr Rule most_coordinates{0.0, Tuning::most_part, Tuning::most_count, Tuning::sample, true},
-    some_coordinates{Tuning::rounded, Tuning::some_part, Tuning::some_count, Tuning::large_sample, true},
-    most_lengths{Tuning::rounded, Tuning::most_part, Tuning::most_count, Tuning::sample, false};
+constexpr Rule most_coordinates{0.0, Tuning::most_part, Tuning::most_count, Tuning::sample},
+    some_coordinates{Tuning::rounded, Tuning::some_part, Tuning::some_count, Tuning::large_sample},
+    most_lengths{Tuning::rounded, Tuning::most_part, Tuning::most_count, Tuning::sample};
 // Doubles above it are integers whatever they came from.
 constexpr double most_digits = 0x1p53;
 
@@ -47,27 +45,8 @@ Share multiples(const std::vector<double> &x, double scale, double noise, int ba
   return s;
 }
 
-// Whether the multiples of the step among every stride-th number lie on a grid that was chosen.
-bool is_grid(const std::vector<double> &x, double scale, double noise, double largest, double widest, size_t stride) {
-  int64_t divisor = 0;
-  size_t count = 0;
-  const bool few = largest * scale < Tuning::rounded;
-  if (few && 1.0 / scale > Tuning::grid * widest) return true;
-  for (size_t k = 0; k < x.size() && divisor != 1; k += stride) {
-    const double y = std::fabs(x[k] * scale);
-    if (x[k] == 0.0) continue;
-    const bool fits = y < most_digits && std::fabs(y - std::nearbyint(y)) <= noise;
-    if (few && !fits) return true;  // 1/6 beside 1/2: rounding leaves no number with all digits
-    if (!fits) continue;
-    divisor = std::gcd(divisor, static_cast<int64_t>(std::nearbyint(y)));
-    ++count;
-  }
-  return divisor > 1 &&
-         static_cast<double>(count) * math::log(static_cast<double>(divisor)) > -math::log(Tuning::chance);
-}
-
-// The coarsest power of the base of which x are multiples by rounding, `widest` the smallest diameter; 0 without one. A
-// sample says no at once where the rule asks for more than half.
+// The coarsest power of the base, no wider than `widest`, of which x are multiples; 0 without one. A sample says no at
+// once where the rule asks for more than half.
 double step_of(const std::vector<double> &x, double largest, double widest, int base, const Rule &rule) {
   if (!(largest > 0.0 && std::isfinite(widest))) return 0.0;
   const size_t stride = std::max<size_t>(1, x.size() / rule.sample) | 1;
@@ -76,14 +55,14 @@ double step_of(const std::vector<double> &x, double largest, double widest, int 
   const auto shows = [&](const Share &s) {
     return s.fit >= rule.count && static_cast<double>(s.fit) > rule.part * static_cast<double>(s.all);
   };
-  for (double k = std::ceil(-math::log(rule.differ ? largest : widest) / math::log(static_cast<double>(base)));; ++k) {
+  for (double k = std::ceil(-math::log(widest) / math::log(static_cast<double>(base)));; ++k) {
     const double scale = math::pow(static_cast<double>(base), k), finer = scale * base;
     if (!(noise(scale) <= Tuning::most_noise)) return 0.0;  // NaN where the scale overflows
     const Share s = share(scale, stride);
     if (!shows(s) || (rule.sample == Tuning::sample && stride > 1 && !shows(share(scale, 1)))) continue;
     if (!(noise(finer) <= Tuning::most_noise) ||
         static_cast<double>(s.fit) > Tuning::kept * static_cast<double>(share(finer, stride).fit))
-      return rule.differ && is_grid(x, scale, noise(scale), largest, widest, stride) ? 0.0 : 1.0 / scale;
+      return 1.0 / scale;
   }
 }
 

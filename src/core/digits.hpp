@@ -7,9 +7,8 @@
 
 namespace jam {
 
-// From coordinates: most of them are multiples of one step, or some of four significant digits and more, and they do
-// not lie on a grid that was chosen, as those of a lattice do. From diameters and cell vectors: most of these numbers
-// have four digits or more and end there; fewer digits may have been chosen.
+// From coordinates: most of them are multiples of one step, or some of four significant digits and more. From diameters
+// and cell vectors: most of these numbers have four digits or more and end there; fewer digits may have been chosen.
 GivenDigits digits_of(int dim, const std::vector<double> &position, const std::vector<double> &diameter,
                       const std::vector<double> &rows);
 // From coordinates alone.

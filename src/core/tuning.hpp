@@ -42,10 +42,6 @@ struct DigitsTuning {
   // One of ten multiples of a step, or one of two, is a multiple of the next coarser one. The step is the coarsest that
   // has more than this part of the multiples of the next finer one.
   static constexpr double kept = 0.75;
-  // Numbers of few digits on a grid were chosen, as those of a lattice are, where its step is more than the first part
-  // of a diameter, or where rounded numbers would share their divisor by less than this chance: 0.05, 0.15, 0.25 are
-  // multiples of 0.05, and rounding makes no such grid.
-  static constexpr double grid = 0.25, chance = 1e-3;
 };
 
 // ---- reduction of a cell: no crystal meets the first exactly, so rounding does not decide. The steps are far more

@@ -92,26 +92,6 @@ class FewDigits(unittest.TestCase):
             r = jam.System.from_arrays(x, 1.0, cell=a * [[4], [3]], overlap="shrink").check(crunch=False)
             self.assertNotEqual(r.jammed, Verdict.NO, (digits, r))
 
-    def test_chosen_numbers_are_exact(self):
-        """Lattices on 1/2 and 1/6, on 1/8 and on 0.05: spheres that are a percent apart do not touch, and it is said surely."""
-        root = 3**0.5
-        scenes = [([(k + 0.5) / m for k in range(m)], 1 / m) for m in (2, 3, 4, 5, 8, 10)]
-        scenes = [(np.array([[a, b, c] for a in g for b in g for c in g]), size, np.eye(3)) for g, size in scenes]
-        scenes += [
-            (np.array([[0.25] * 3, [0.75] * 3]), root / 2, np.eye(3)),
-            (np.array([[1 / 6, 0.5], [0.5, 0.5], [5 / 6, 0.5]]), 1 / 3, np.eye(2)),
-            (np.array([[0.5, 0.5, 1 / 6], [0.5, 0.5, 0.5]]), 1 / 3, np.eye(3)),
-            (np.array([[0.5, root / 6], [0.5, root / 2], [0, 2 * root / 3], [0, root]]), 1 / root, np.diag([1, root])),
-        ]
-        for x, size, cell in scenes:
-            r = jam.System.from_arrays(x, 0.97**0.5 * size, cell=cell).check(crunch=False)
-            self.assertEqual((r.jammed, r.reason, r.digits), (Verdict.NO, CheckReason.APART, 0), r)
-            touching = jam.System.from_arrays(x, size, cell=cell, overlap="shrink").check(crunch=False)
-            self.assertEqual((touching.digits, touching.closed_pairs > 0), (0, True), touching)
-        # three digits without a common divisor may be rounded, as 0.333 is
-        x = np.round(np.random.default_rng(1).random((30, 3)), 3)
-        self.assertEqual(jam.System.from_arrays(x, 0.05, overlap="allow").check(crunch=False).digits, 3)
-
     def test_digits_before_a_shift(self):
         """Digits are those of the numbers given, not of wrapped, shifted or rotated ones; a move leaves none."""
         s = packing(60, 3, 4)

@@ -62,7 +62,7 @@ bool move_into_cage(ProofScene &s, int32_t i, const std::vector<NearPair> &pairs
   const size_t d = static_cast<size_t>(s.dim);
   const Cage cage = cage_of(s, i, pairs);
   std::vector<double> vectors, x;
-  for (double unit = cage.overlap(); unit < longest; unit *= 4.0) {
+  for (double unit = std::max(cage.overlap(), proof_tuning::closed * longest); unit < longest; unit *= 4.0) {
     vectors.assign(d, 0.0), vectors.push_back(1.0);
     for (size_t k = 0; k < cage.gap.size(); ++k) {
       const double part = cage.gap[k] / unit, length = std::sqrt(1.0 + part * part);

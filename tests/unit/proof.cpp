@@ -8,6 +8,7 @@
 
 #include "linalg/shifted_factor.hpp"
 #include "proof/closing.hpp"
+#include "proof/free_rattler.hpp"
 #include "proof/newton.hpp"
 #include "proof/open_gaps.hpp"
 #include "proof/outward.hpp"
@@ -126,19 +127,25 @@ void the_singular_bound_is_below_the_singular_value(void **) {
   }
 }
 
-void equations_of_a_square_lattice_are_exact(void **) {
-  Packing p;
-  p.set_cube(2, 4.0);
-  ContactNetwork net;
-  for (int k = 0; k < 16; ++k) {
-    p.position.push_back(k % 4), p.position.push_back(k / 4);
+// A square lattice of disks that touch four others each.
+Lattice square(int side) {
+  Lattice out;
+  Packing &p = out.packing;
+  p.set_cube(2, side);
+  for (int k = 0; k < side * side; ++k) {
+    p.position.push_back(k % side), p.position.push_back(k / side);
     p.diameter.push_back(1.0);
   }
-  net.pairs = find_pairs(p, 0.0, 1.0 + 1e-9);
-  measure_contacts(p, net);
-  net.coordination.assign(16, 4);
-  net.force.assign(net.size(), 1.0);
-  ProofScene s = make_proof_scene(p, net, {});
+  out.network.pairs = find_pairs(p, 0.0, 1.0 + 1e-9);
+  measure_contacts(p, out.network);
+  out.network.coordination.assign(p.n(), 4);
+  out.network.force.assign(out.network.size(), 1.0);
+  return out;
+}
+
+void equations_of_a_square_lattice_are_exact(void **) {
+  const Lattice l = square(4);
+  ProofScene s = make_proof_scene(l.packing, l.network, {});
   ProofEquations e = evaluate(s);
   for (const double f : e.f) assert_true(f == 0.0);
   // It balances and closes exactly, but rows shear freely: nothing may be proved.
@@ -251,6 +258,17 @@ void rattlers_move_out_of_overlaps(void **) {
   check_that_it_moves_out(1.0 - 2e-15, 2.0 + 1e-10);
 }
 
+// A disk that just fits its hole has one place where it overlaps nothing, and none where all pairs are open.
+void a_rattler_without_room_stays(void **) {
+  Lattice l = square(6);
+  std::vector<char> on(l.network.size(), 1);
+  for (size_t c = 0; c < on.size(); ++c) on[c] = l.network.pairs.i[c] != 14 && l.network.pairs.j[c] != 14;
+  l.packing.position[2 * 14] += 0x1p-40;
+  ProofScene s = make_proof_scene(l.packing, subset(l.network, on, 2), {});
+  assert_true(s.node[14] < 0);
+  assert_true(!free_rattler(s, 14, near_pairs(s)));
+}
+
 }  // namespace
 
 int main(void) {
@@ -264,6 +282,7 @@ int main(void) {
                                      cmocka_unit_test(an_overlap_proves_nothing),
                                      cmocka_unit_test(contacts_that_stay_open_leave_the_list),
                                      cmocka_unit_test(pairs_that_overlap_enter_the_list),
-                                     cmocka_unit_test(rattlers_move_out_of_overlaps)};
+                                     cmocka_unit_test(rattlers_move_out_of_overlaps),
+                                     cmocka_unit_test(a_rattler_without_room_stays)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -319,6 +319,7 @@ module jam
   integer(c_int32_t), parameter :: JAM_CHECK_OVERLAP = 5
   integer(c_int32_t), parameter :: JAM_CHECK_GAPS = 6
   integer(c_int32_t), parameter :: JAM_CHECK_MARGIN = 7
+  integer(c_int32_t), parameter :: JAM_CHECK_SLIDE = 8
 
   ! jam_theorem: What was proved. TRAPPED: no motion without overlap takes a stable sphere farther than inner, but translations of
   ! all. No packing as dense lies between inner and outer.
@@ -3647,11 +3648,10 @@ contains
   ! Copies of src side by side, count[c] along cell vector a_c. Copy (k_0, k_1, ...) stands at sum of k_c a_c; its sphere
   ! i is number i + n (k_0 + count[0] (k_1 + count[1] ...)). The cell has the vectors count[c] a_c, less multiples of
   ! earlier ones where that shortens them, in this order. Velocities, contacts, gaps and forces are copied, without steps
-  ! and histories. Where an own image (self_contacts) becomes a contact of copies and src lists none, they have no
-  ! network and a note. The report of several copies has no verdicts, as they may have flexes that src has not:
-  ! jam_rigidity tests it. Along an axis with walls count is 1.
+  ! and histories. Where an own image becomes a contact of copies and src lists none, they have no network and a note.
+  ! The report of several copies has no verdicts: they may have flexes that src has not. Along walled axes count is 1.
   ! Shapes: count (d).
-  ! Errors: JAM_E_UNSUPPORTED (Mari-Kurchan model, walls), JAM_E_OVERLAP (the coordinates no longer resolve the gaps).
+  ! Errors: JAM_E_UNSUPPORTED (Mari-Kurchan model, walls), JAM_E_OVERLAP (coordinates no longer resolve the gaps).
   function jam_tile(src, count, count_len, out) result(status)
     type(c_ptr), intent(in) :: src
     integer(c_int32_t), intent(in), target, contiguous, optional :: count(..)

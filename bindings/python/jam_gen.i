@@ -474,11 +474,10 @@ Errors: JAM_E_OVERLAP, JAM_E_UNSUPPORTED (Mari-Kurchan shifts, where the reducti
 %feature("docstring") jam_tile "Copies of src side by side, count[c] along cell vector a_c. Copy (k_0, k_1, ...) stands at sum of k_c a_c; its sphere
 i is number i + n (k_0 + count[0] (k_1 + count[1] ...)). The cell has the vectors count[c] a_c, less multiples of
 earlier ones where that shortens them, in this order. Velocities, contacts, gaps and forces are copied, without steps
-and histories. Where an own image (self_contacts) becomes a contact of copies and src lists none, they have no
-network and a note. The report of several copies has no verdicts, as they may have flexes that src has not:
-jam_rigidity tests it. Along an axis with walls count is 1.
+and histories. Where an own image becomes a contact of copies and src lists none, they have no network and a note.
+The report of several copies has no verdicts: they may have flexes that src has not. Along walled axes count is 1.
 Shapes: count (d).
-Errors: JAM_E_UNSUPPORTED (Mari-Kurchan model, walls), JAM_E_OVERLAP (the coordinates no longer resolve the gaps)."
+Errors: JAM_E_UNSUPPORTED (Mari-Kurchan model, walls), JAM_E_OVERLAP (coordinates no longer resolve the gaps)."
 %feature("docstring") jam_diameters_options_init ""
 %feature("docstring") jam_diameters "Diameters of a law. Quantiles ascend. curve: of LIST and SIEVE, else NULL. Where n follows from packing_fraction, the
 last sphere is adjusted, so that the volumes add up to packing_fraction * cell_volume, to 1e-13 of it. The largest

@@ -358,10 +358,9 @@ JAM_API jam_status jam_strain(jam_system *sys, const double *strain, size_t stra
 /* Copies of src side by side, count[c] along cell vector a_c. Copy (k_0, k_1, ...) stands at sum of k_c a_c; its sphere
  * i is number i + n (k_0 + count[0] (k_1 + count[1] ...)). The cell has the vectors count[c] a_c, less multiples of
  * earlier ones where that shortens them, in this order. Velocities, contacts, gaps and forces are copied, without steps
- * and histories. Where an own image (self_contacts) becomes a contact of copies and src lists none, they have no
- * network and a note. The report of several copies has no verdicts, as they may have flexes that src has not:
- * jam_rigidity tests it. Along an axis with walls count is 1. @shape count (d) @errors UNSUPPORTED (Mari-Kurchan model,
- * walls), OVERLAP (the coordinates no longer resolve the gaps) */
+ * and histories. Where an own image becomes a contact of copies and src lists none, they have no network and a note.
+ * The report of several copies has no verdicts: they may have flexes that src has not. Along walled axes count is 1.
+ * @shape count (d) @errors UNSUPPORTED (Mari-Kurchan model, walls), OVERLAP (coordinates no longer resolve the gaps) */
 JAM_API jam_status jam_tile(const jam_system *src, const int32_t *count, size_t count_len, jam_system **out);
 
 /* ------------------------------------------------------------------ sizes */
@@ -1335,7 +1334,8 @@ typedef enum jam_check_reason {
   JAM_CHECK_DIGITS = 4,   /* undecided: the coordinates have too few digits to say which spheres touch */
   JAM_CHECK_OVERLAP = 5,  /* undecided: spheres overlap, so gaps are known no better than that */
   JAM_CHECK_GAPS = 6,     /* undecided: with pairs closed that are open by 1e-10 or more it would be jammed */
-  JAM_CHECK_MARGIN = 7    /* undecided: doubles do not resolve a flex from a soft mode, or a weak force from none */
+  JAM_CHECK_MARGIN = 7,   /* undecided: doubles do not resolve a flex from a soft mode, or a weak force from none */
+  JAM_CHECK_SLIDE = 8     /* not: as FLEX, but parts slide past each other at kept distances, so nothing can grow */
 } jam_check_reason;
 /* Options of jam_check_packing. */
 typedef struct jam_check_options {

@@ -135,7 +135,7 @@ std::string why_undecided(const PackingVerdict &v) {
 }  // namespace
 
 std::string why_not_jammed(const PackingVerdict &v, Jamming kind) {
-  char line[280];
+  char line[320];
   const bool strict = kind == Jamming::strict;
   const auto number = [](int64_t x) { return static_cast<long long>(x); };
   if (v.result.jammed == Verdict::yes) return "";
@@ -144,8 +144,9 @@ std::string why_not_jammed(const PackingVerdict &v, Jamming kind) {
     std::snprintf(
         line, sizeof line,
         "forces balance on %lld contacts, so the diameters cannot grow, but parts of the network slide past each "
-        "other in %lld ways that keep all distances: around the middle of the container or along its wall",
-        number(v.result.contacts), number(v.result.slides));
+        "other in %lld way%s that keep%s all distances: along walls or around the middle of the container",
+        number(v.result.contacts), number(v.result.slides), v.result.slides == 1 ? "" : "s",
+        v.result.slides == 1 ? "s" : "");
   else if (v.result.flexes > 0)
     std::snprintf(line, sizeof line,
                   "a saddle: forces balance on %lld contacts%s, and yet %lld motions%s keep them closed",

@@ -78,14 +78,15 @@ void take_verdict(const Packing &p, const PackingVerdict &v, const ContactNetwor
   scan_pairs(p, net.coordination, r);
 }
 
-int32_t reason_of(const jam_check_report &r, bool coarse, bool changes_when_closed) {
+int32_t reason_of(const jam_check_report &r, bool coarse, bool changes_when_closed, bool slides) {
   if (r.jammed == JAM_VERDICT_YES) return JAM_CHECK_PROOF;
   if (r.jammed == JAM_VERDICT_UNDECIDED) {
     if (coarse) return r.diameter_factor < 1.0 && r.digits == 0 ? JAM_CHECK_OVERLAP : JAM_CHECK_DIGITS;
     return changes_when_closed ? JAM_CHECK_GAPS : JAM_CHECK_MARGIN;
   }
   if (r.closed_pairs == 0) return JAM_CHECK_APART;
-  return r.stationary == JAM_VERDICT_YES ? JAM_CHECK_FLEX : JAM_CHECK_NO_FORCE;
+  if (r.stationary != JAM_VERDICT_YES) return JAM_CHECK_NO_FORCE;
+  return slides ? JAM_CHECK_SLIDE : JAM_CHECK_FLEX;
 }
 
 }  // namespace
@@ -148,8 +149,9 @@ CheckResult check_as_it_is(const Packing &p, void (*confirm)(const Packing &, Pa
   take_verdict(q, verdict, out.carrying, r);
   if (unexplained && r.jammed == JAM_VERDICT_YES) r.jammed = JAM_VERDICT_UNDECIDED;
   if (r.jammed != JAM_VERDICT_YES && r.strictly_jammed == JAM_VERDICT_YES) r.strictly_jammed = r.jammed;
-  r.reason = unexplained && r.jammed == JAM_VERDICT_UNDECIDED ? JAM_CHECK_OVERLAP
-                                                              : reason_of(r, resolution.coarse(p), changes);
+  r.reason = unexplained && r.jammed == JAM_VERDICT_UNDECIDED
+                 ? JAM_CHECK_OVERLAP
+                 : reason_of(r, resolution.coarse(p), changes, verdict.result.slides > 0);
   return out;
 }
 

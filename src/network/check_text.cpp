@@ -75,6 +75,11 @@ void add_no(const Report &r, std::string &out) {
   } else if (r.reason == JAM_CHECK_NO_FORCE) {
     add(out, "%lld pair%s touch%s, but no non-negative forces on them balance, so a motion opens them all",
         wide(r.closed_pairs), plural(r.closed_pairs), r.closed_pairs == 1 ? "es" : "");
+  } else if (r.reason == JAM_CHECK_SLIDE) {
+    add(out,
+        "Forces balance to %.1e of their mean, so the diameters cannot grow, but parts of the network slide past each "
+        "other in %lld way%s that keep%s all distances: along walls or around the middle of the container",
+        r.force_residual, wide(r.flexes), plural(r.flexes), r.flexes == 1 ? "s" : "");
   } else {
     add(out,
         "Forces balance to %.1e of their mean, and yet %lld independent motion%s keep%s all contacts closed: a saddle",

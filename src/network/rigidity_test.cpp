@@ -117,6 +117,15 @@ void judge_curvature(const RigidityMatrix &carrying, const std::vector<double> &
   }
 }
 
+// Without round walls the sum of forces times second derivatives of distances is positive, but for flexes that move
+// each part of the network as a whole. Where there are no others nothing opens.
+void judge_slides(const RigidityMatrix &carrying, std::vector<std::vector<double>> &flexes, RigidityResult &out) {
+  Slides slides = find_slides(carrying);
+  if (slides.count < out.flexes) return;
+  out.slides = slides.count;
+  flexes[0] = std::move(slides.motion);
+}
+
 // Flags and forces of the rows that are `on` into those of all.
 void spread(const std::vector<char> &on, const std::vector<char> &carrying, const std::vector<double> &force,
             RigidityResult &out) {
@@ -223,6 +232,7 @@ static RigidityResult find_verdict(const RigidityMatrix &g, Jamming kind) {
   if (out.jammed == Verdict::yes && !(out.force_residual < RigidityTuning::most_residual))
     out.jammed = Verdict::undecided;
   if (out.flexes > 0 && g.round_axes > 0 && modes.complete) judge_curvature(carrying, f, modes.flexes, out);
+  if (out.flexes > 0 && g.round_axes == 0 && modes.complete && !strain) judge_slides(carrying, modes.flexes, out);
   if (out.flexes == 0 || out.jammed != Verdict::no) return out;
   // A flex of B or its opposite, and as much of the motion that opens all other contacts as keeps them open.
   for (const double sign : {1.0, -1.0}) {

@@ -50,7 +50,7 @@ struct RigidityResult {
   int64_t self_stresses = 0;        // states of self-stress on K+
   int64_t flexes = 0;  // motions of B with S v = 0 on K+ beyond symmetries; 0 without a stress. Of a jammed
                        // packing the curvature of a round wall stabilises them
-  int64_t slides = 0;  // of these flexes, where they keep all distances for ever and nothing else is free (slides.hpp)
+  int64_t slides = 0;  // of these flexes, where these keep all distances for ever and no other is free (slides.hpp)
   int64_t undercoordinated = 0;  // spheres of B with d contacts of K+ or fewer
   double margin = 0.0;  // smallest eigenvalue of S^T S on K+ that is no translation; 0 where there is no other motion
   std::vector<double> flex;    // (nodes, dim), largest |v_i| is 1: opens contacts; empty when jammed or not found

@@ -1319,6 +1319,7 @@ int main(void) {
   printf("JAM_CHECK_OVERLAP value %d\n", (int)JAM_CHECK_OVERLAP);
   printf("JAM_CHECK_GAPS value %d\n", (int)JAM_CHECK_GAPS);
   printf("JAM_CHECK_MARGIN value %d\n", (int)JAM_CHECK_MARGIN);
+  printf("JAM_CHECK_SLIDE value %d\n", (int)JAM_CHECK_SLIDE);
   printf("JAM_THEOREM_NONE value %d\n", (int)JAM_THEOREM_NONE);
   printf("JAM_THEOREM_TRAPPED value %d\n", (int)JAM_THEOREM_TRAPPED);
   printf("JAM_THEOREM_EXACT value %d\n", (int)JAM_THEOREM_EXACT);

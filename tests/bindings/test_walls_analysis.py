@@ -140,7 +140,7 @@ class Slides(unittest.TestCase):
             found = True
             self.assertEqual((r.stationary, r.stop_reason), (1, jam.StopReason.SADDLE))
             self.assertIn("slide past each other", jam.raw.jam_last_error())
-            self.assertEqual((s.rigidity().jammed, s.check().jammed), (0, 0))
+            self.assertEqual((s.rigidity().jammed, s.check().jammed, s.check().reason), (0, 0, jam.CheckReason.SLIDE))
             # A finite motion along the flex about the centre keeps every distance.
             x, wall = s.positions - 0.5, s.contacts.pairs[:, 1] < 0
             motion = s.flex()[0]
@@ -153,6 +153,33 @@ class Slides(unittest.TestCase):
             i, j = s.contacts.pairs[~wall].T
             np.testing.assert_allclose(np.linalg.norm(y[i] - y[j], axis=1), s.diameters[0], rtol=1e-9)
         self.assertTrue(found)
+
+    def test_spheres_that_fill_a_slit_slide(self):
+        """Each touches both walls and no other sphere: no motion lets the diameters grow."""
+        for x, cell, walls in (
+            ([[0.5, 0.5], [0.5, 2.0], [0.5, 3.1]], [1, 4], "x"),
+            ([[0.5, 0.5, 0.5], [2.0, 1.7, 0.5], [1.2, 2.9, 0.5]], [3, 4, 1], "z"),
+        ):
+            s = jam.System.from_arrays(x, 1.0, cell=cell, walls=walls, dim=len(cell))
+            c = s.check(crunch=False)
+            axes = s.dim - 1
+            self.assertEqual((c.jammed, c.stationary, c.reason, c.flexes), (0, 1, jam.CheckReason.SLIDE, 2 * axes))
+            self.assertIn(f"slide past each other in {2 * axes} ways", str(c))
+            r = s.crunch()
+            self.assertEqual((r.jammed, r.stop_reason), (0, jam.StopReason.SADDLE))
+            self.assertIn("slide past each other", jam.raw.jam_last_error())
+            motion = s.flex()[0]
+            np.testing.assert_allclose(motion[:, "xyz".index(walls)], 0, atol=1e-12)
+            self.assertGreater(np.ptp(motion, axis=0).max(), 0.1)
+
+    def test_a_column_across_a_slit_opens(self):
+        """Two disks, one on the other, bulge sideways, and the diameters grow: no slide."""
+        s = jam.System.from_arrays([[0.25, 1.0], [0.75, 1.0]], 0.5, cell=[1, 2], walls="x", dim=2)
+        self.assertEqual(s.check(crunch=False).reason, jam.CheckReason.FLEX)
+        # with a disk that fills the slit its slide is one flex, the bulge another
+        s = jam.System.from_arrays([[0.25, 1.0], [0.75, 1.0], [0.5, 3]], [0.5, 0.5, 1.0], cell=[1, 4], walls="x", dim=2)
+        c = s.check(crunch=False)
+        self.assertEqual((c.reason, c.flexes), (jam.CheckReason.FLEX, 2))
 
 
 class Files(unittest.TestCase):

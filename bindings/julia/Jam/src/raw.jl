@@ -308,6 +308,7 @@ const JAM_CHECK_DIGITS = Int32(4)  # undecided: the coordinates have too few dig
 const JAM_CHECK_OVERLAP = Int32(5)  # undecided: spheres overlap, so gaps are known no better than that
 const JAM_CHECK_GAPS = Int32(6)  # undecided: with pairs closed that are open by 1e-10 or more it would be jammed
 const JAM_CHECK_MARGIN = Int32(7)  # undecided: doubles do not resolve a flex from a soft mode, or a weak force from none
+const JAM_CHECK_SLIDE = Int32(8)  # not: as FLEX, but parts slide past each other at kept distances, so nothing can grow
 
 # jam_theorem: What was proved. TRAPPED: no motion without overlap takes a stable sphere farther than inner, but translations of all. No packing as dense lies between inner and outer.
 const JAM_THEOREM_NONE = Int32(0)  # nothing: see cause
@@ -1462,7 +1463,8 @@ Closed pairs have gaps below 1e-10. NaN, and -1 for contacts: not known. crunch_
 - `strictly_jammed`: one of `:untested`, `:no`, `:yes`, `:undecided`; ; `:no` where jammed is `:no`; `:untested` where
   walls allow no strain
 - `stationary`: one of `:untested`, `:no`, `:yes`, `:undecided`; : non-negative forces balance
-- `reason`: one of `:proof`, `:apart`, `:no_force`, `:flex`, `:digits`, `:overlap`, `:gaps`, `:margin`; of jammed
+- `reason`: one of `:proof`, `:apart`, `:no_force`, `:flex`, `:digits`, `:overlap`, `:gaps`, `:margin`, `:slide`; of
+  jammed
 - `dim`: d
 - `digits`: decimal digits that coordinates, diameters or cell seem to have; 0: all
 - `crunch_jammed`: one of `:untested`, `:no`, `:yes`, `:undecided`; ; `:untested` without a copy
@@ -2010,11 +2012,10 @@ end
 Copies of src side by side, count[c] along cell vector `a_c`. Copy (`k_0`, `k_1`, ...) stands at sum of `k_c` `a_c`; its sphere
 i is number i + n (`k_0` + count[0] (`k_1` + count[1] ...)). The cell has the vectors count[c] `a_c`, less multiples of
 earlier ones where that shortens them, in this order. Velocities, contacts, gaps and forces are copied, without steps
-and histories. Where an own image (`self_contacts`) becomes a contact of copies and src lists none, they have no
-network and a note. The report of several copies has no verdicts, as they may have flexes that src has not:
-`jam_rigidity` tests it. Along an axis with walls count is 1.
+and histories. Where an own image becomes a contact of copies and src lists none, they have no network and a note.
+The report of several copies has no verdicts: they may have flexes that src has not. Along walled axes count is 1.
 Shapes: count (d).
-Errors: `JAM_E_UNSUPPORTED` (Mari-Kurchan model, walls), `JAM_E_OVERLAP` (the coordinates no longer resolve the gaps).
+Errors: `JAM_E_UNSUPPORTED` (Mari-Kurchan model, walls), `JAM_E_OVERLAP` (coordinates no longer resolve the gaps).
 """
 function jam_tile(src, count, count_len, out)
     return ccall((:jam_tile, libjam), Int32, (Ptr{Cvoid}, Ptr{Int32}, Csize_t, Ref{Ptr{Cvoid}}), src, _ptr(count), count_len, out)

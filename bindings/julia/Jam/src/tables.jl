@@ -41,7 +41,7 @@ const WORDS = (
     rigidity_kind = (collective = 0, strict = 1,),
     verdict = (untested = -1, no = 0, yes = 1, undecided = 2,),
     bloch_column = (flexes = 0, margin = 1,),
-    check_reason = (proof = 0, apart = 1, no_force = 2, flex = 3, digits = 4, overlap = 5, gaps = 6, margin = 7,),
+    check_reason = (proof = 0, apart = 1, no_force = 2, flex = 3, digits = 4, overlap = 5, gaps = 6, margin = 7, slide = 8,),
     theorem = (none = 0, trapped = 1, exact = 2,),
     proof_cause = (none = 0, excess = 1, force = 2, gap = 3, singular = 4, rattler = 5, images = 6,),
     contact_class = (localised = 1, smallest = 2, median = 4,),

@@ -399,6 +399,7 @@ class CheckReason(_Word):
     OVERLAP = 5  # undecided: spheres overlap, so gaps are known no better than that
     GAPS = 6  # undecided: with pairs closed that are open by 1e-10 or more it would be jammed
     MARGIN = 7  # undecided: doubles do not resolve a flex from a soft mode, or a weak force from none
+    SLIDE = 8  # not: as FLEX, but parts slide past each other at kept distances, so nothing can grow
 
 
 class Theorem(_Word):

@@ -150,15 +150,16 @@ Phase decide_jamming(CrunchState &s) {
     PackingVerdict verdict;
     if (!tested(s, Jamming::collective, verdict)) return Phase::done;
     if (verdict.result.jammed == Verdict::yes) return end_jammed(s, verdict);
-    // No slide opens a contact.
-    const FlexMove moved = converged(s) && verdict.result.slides == 0 ? move_along_flex(s, verdict) : FlexMove::none;
+    // No slide opens a contact; a strain may.
+    const bool slides = verdict.result.slides > 0 && s.next.strain.count() == 0;
+    const FlexMove moved = converged(s) && !slides ? move_along_flex(s, verdict) : FlexMove::none;
     if (moved == FlexMove::free) return Phase::approach;
     if (moved == FlexMove::blocked && s.o.polish) {
       s.out.contacts = closed_pairs(s.out.packing, s.next.strain.count() > 0);
       if (!polish_contacts(s)) return Phase::done;
       continue;
     }
-    if (!s.found.narrow && s.o.polish && verdict.result.slides == 0) return Phase::narrow_lps;
+    if (!s.found.narrow && s.o.polish && !slides) return Phase::narrow_lps;
     report_verdict(verdict, s.out.packing, s.out.report);
     s.out.text = why_not_jammed(verdict);
     take_positive_forces(s, verdict);

@@ -34,7 +34,7 @@ def as_array(values: Any, dtype: str = "double", name: str = "array") -> Array:
     if array.dtype != wanted and not np.can_cast(array.dtype, wanted, "same_kind"):
         raise TypeError(f"{name}: cannot convert {array.dtype} to {wanted} without loss")
     if wanted.kind in "iu" and array.dtype != wanted and array.size:
-        held = np.iinfo(wanted)
+        held = np.iinfo(str(wanted))
         for value in (int(array.min()), int(array.max())):
             if not held.min <= value <= held.max:
                 raise ValueError(f"{name} holds {value}, its numbers must be {held.min} to {held.max}")

@@ -98,9 +98,13 @@ std::vector<Jump> find_jumps(const Packing &p, const GapList &g, double resoluti
   return out;
 }
 
-// The curvature of a round wall may hold spheres with fewer contacts.
-bool can_be_rigid(const ContactNetwork &net, const Packing &p) {
-  return net.size() > 0 && (p.container.round_axes() > 0 || excess_contacts(net, p) >= 0);
+// The curvature of a round wall may hold spheres with fewer contacts. So may the spheres of a packing that is not
+// rigid, as copies of a jammed one side by side: closed contacts whose forces balance are contacts, however few.
+bool may_be_network(const ContactNetwork &net, const Packing &p, const Jump &jump) {
+  if (net.size() == 0) return false;
+  if (p.container.round_axes() > 0 || excess_contacts(net, p) >= 0) return true;
+  return jump.ratio > JumpTuning::wide && jump.below < contact_gap_limit && jump.above > contact_gap_limit &&
+         test_rigidity(make_rigidity_matrix(p, net), Jamming::collective).stressed == Verdict::yes;
 }
 
 void check_window(double window) {
@@ -117,7 +121,7 @@ ContactCandidates contact_candidates(const Packing &p, double window) {
     if (out.limit.size() == JumpTuning::most_candidates) break;
     CallScope::look();
     const ContactNetwork net = network_of(p, g, std::sqrt(jump.below * jump.above));
-    if (!can_be_rigid(net, p)) continue;
+    if (!may_be_network(net, p, jump)) continue;
     out.limit.push_back(std::sqrt(jump.below * jump.above));
     out.jump.push_back(jump.ratio);
     out.contacts.push_back(static_cast<int32_t>(net.size()));
@@ -147,7 +151,7 @@ GeometryResult contacts_from_geometry(const Packing &p, const jam_geometry_optio
     double second = 1.0;
     for (const Jump &jump : find_jumps(p, g, r.resolution, window)) {
       ContactNetwork net = network_of(p, g, std::sqrt(jump.below * jump.above));
-      if (!can_be_rigid(net, p)) continue;
+      if (!may_be_network(net, p, jump)) continue;
       if (chosen) {
         second = jump.ratio;
         r.second_contacts = static_cast<int64_t>(net.size());

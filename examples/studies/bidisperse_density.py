@@ -68,9 +68,11 @@ def draw(rows, path):
         line = [jam.size_report(diameters(20000, ratio, s)).jammed_fraction for s in x[::4]]
         left.plot(x[::4], line, "-", color=colour, lw=1)
         left.plot(shares, [r["packing_fraction"] for r in mine], "o", ms=4, color=colour, label=f"ratio {ratio:g}")
+        loose = [r for r in mine if not r["jammed"]]
+        left.plot([r["share"] for r in loose], [r["packing_fraction"] for r in loose], "o", ms=9, mfc="none", color="k")
         mixed = [r for r in mine if r["large"] < r["n"]]
         right.plot([r["share"] for r in mixed], [r["small_rattlers"] for r in mixed], "o-", ms=4, lw=1, color=colour)
-    left.set(xlabel="share of the large spheres in the volume, X", ylabel="packing fraction", title="points: libjam; lines: Farr and Groot")
+    left.set(xlabel="share of the large spheres in the volume, X", ylabel="packing fraction", title="points: libjam (circled: not jammed); lines: Farr and Groot")
     right.set(xlabel="share of the large spheres in the volume, X", ylabel="share of small spheres that are rattlers", ylim=(0, 1.02))
     left.legend(fontsize=8)
     for axis in (left, right):

@@ -45,12 +45,13 @@ def mueller(z, ratio):
 
 
 def packed(ratio, seed):
-    """D / d at jamming, and (z, porosity) in shells of 0.05 d."""
+    """D / d at jamming, and (z, porosity) in shells of 0.05 d; None where the packing is not jammed."""
     length = max(6.0, 40.0 / ratio)
     n = round(0.6 * 1.5 * ratio**2 * length)
     with jam.System.random(n, seed=seed, packing_fraction=0.2, cell=[ratio, ratio, length], container="cylinder") as packing:
         packing.compress([(1e-2, 1e4)])
-        packing.crunch()
+        if not packing.crunch().jammed:
+            return None
         d = packing.diameters[0]
         shells = packing.solid_profile(3, round(10 * ratio))
         return ratio / d, (ratio / 2 - (shells.low + shells.high) / 2) / d, 1 - shells.solid
@@ -79,14 +80,16 @@ def main():
     seeds, rows = o.seeds or (30 if o.large else 6), []
     figure, grid = plt.subplots(1, len(RATIOS), figsize=(10, 3.8), constrained_layout=True, sharey=True)
     for axes, ratio in zip(grid, RATIOS):
-        made = [packed(ratio, seed) for seed in range(1, seeds + 1)]
+        made = [m for seed in range(1, seeds + 1) if (m := packed(ratio, seed))]
+        if len(made) < seeds:
+            print(f"D = {ratio} d: {seeds - len(made)} of {seeds} packings are not jammed and left out", flush=True)
         wide, z = np.mean([m[0] for m in made]), np.mean([m[1] for m in made], axis=0)
         all_of = np.array([m[2] for m in made])
-        mean, error = all_of.mean(0), all_of.std(0, ddof=1) / seeds**0.5
+        mean, error = all_of.mean(0), all_of.std(0, ddof=1) / len(made) ** 0.5
         bulk = mean[(z > 1.5)].mean()
         fine = np.linspace(0.02, z.max(), 2000)
-        curves = ((f"{seeds} packings", z, mean), ("de Klerk", fine, de_klerk(fine, bulk)), ("Mueller", fine, mueller(fine, wide)))
-        axes.errorbar(z, mean, error, fmt="o", ms=3, color="#2b6cb0", label=f"{seeds} jammed packings", zorder=3)
+        curves = ((f"{len(made)} packings", z, mean), ("de Klerk", fine, de_klerk(fine, bulk)), ("Mueller", fine, mueller(fine, wide)))
+        axes.errorbar(z, mean, error, fmt="o", ms=3, color="#2b6cb0", label=f"{len(made)} jammed packings", zorder=3)
         axes.plot(fine, curves[1][2], color="#c05621", lw=1, label="de Klerk 2003")
         axes.plot(fine, curves[2][2], "--", color="0.4", lw=1, label="Mueller 1992")
         axes.set(xlabel="distance from the wall / d", title=f"D = {wide:.2f} d", ylim=(0, 1), xlim=(0, None))

@@ -29,7 +29,7 @@ COLUMNS = ["d", "N", "packings per point", "phi_bulk of the fit", "periodic pack
 
 
 def jammed(d, n, seed, height):
-    """H in mean diameters and phi_J; without height periodic."""
+    """H in mean diameters and phi_J, of a jammed packing; without height periodic."""
     sizes = np.where(np.arange(n) % 2, 1.4, 1.0) / 1.2
     volume = {2: np.pi / 4, 3: np.pi / 6}[d] * (sizes**d).sum() / (PUBLISHED[d] - 0.3 / (height or np.inf))
     edge = (volume / height) ** (1 / (d - 1)) if height else volume ** (1 / d)
@@ -64,11 +64,13 @@ def main():
     figure, grid = plt.subplots(1, 2, figsize=(9.6, 3.8), constrained_layout=True)
     for axes, (d, n) in zip(grid, ((2, 300), (3, 400))):
         n *= 4 if o.large else 1
-        points = []
+        points, fewest = [], seeds
         for height in (None, *DISTANCES):
             found = [f for seed in range(1, seeds + 1) if (f := jammed(d, n, seed, height))]
             points.append([np.mean([f[0] for f in found]), *mean_error([f[1] for f in found])])
-            print(f"d = {d}, H = {height or 'periodic'}: phi_J {points[-1][1]:.5f} +- {points[-1][2]:.5f}", flush=True)
+            fewest = min(fewest, len(found))
+            lost = "" if len(found) == seeds else f"; {seeds - len(found)} of {seeds} packings are not jammed and left out"
+            print(f"d = {d}, H = {height or 'periodic'}: phi_J {points[-1][1]:.5f} +- {points[-1][2]:.5f}{lost}", flush=True)
         bulk, walled = points[0], np.array(points[1:])
         x, y, error = 1 / walled[:, 0], walled[:, 1], walled[:, 2]
         used = walled[:, 0] >= LEAST * 0.97
@@ -80,7 +82,7 @@ def main():
         axes.set(xlabel="mean diameter / distance of the walls", ylabel="jamming density", title=f"d = {d}")
         axes.legend(frameon=False)
         cells = [{"value": float(v), "error": float(e)} for v, e in ((value[0], of[0]), (bulk[1], bulk[2]), (value[1], of[1]))]
-        rows.append([d, n, seeds, cells[0], cells[1], PUBLISHED[d], cells[2], float(chi2)])
+        rows.append([d, n, fewest, cells[0], cells[1], PUBLISHED[d], cells[2], float(chi2)])
         print(dict(zip(COLUMNS, rows[-1])), flush=True)
     figure.savefig(o.picture, dpi=100)
     if o.result:

@@ -144,7 +144,7 @@ std::string why_not_jammed(const PackingVerdict &v, Jamming kind) {
     std::snprintf(
         line, sizeof line,
         "forces balance on %lld contacts, so the diameters cannot grow, but parts of the network slide past each "
-        "other in %lld way%s that keep%s all distances: along walls or around the middle of the container",
+        "other in %lld way%s that keep%s all distances",
         number(v.result.contacts), number(v.result.slides), v.result.slides == 1 ? "" : "s",
         v.result.slides == 1 ? "s" : "");
   else if (v.result.flexes > 0)

@@ -78,7 +78,7 @@ void add_no(const Report &r, std::string &out) {
   } else if (r.reason == JAM_CHECK_SLIDE) {
     add(out,
         "Forces balance to %.1e of their mean, so the diameters cannot grow, but parts of the network slide past each "
-        "other in %lld way%s that keep%s all distances: along walls or around the middle of the container",
+        "other in %lld way%s that keep%s all distances",
         r.force_residual, wide(r.flexes), plural(r.flexes), r.flexes == 1 ? "s" : "");
   } else {
     add(out,

@@ -34,8 +34,7 @@ void refuse_own_images(const ContactNetwork &own, const char *quantity) {
       JAM_E_UNSUPPORTED,
       "%s would be wrong: sphere %d touches its own image, and the network of a fixed cell omits this contact, as such "
       "a cell does not determine its force. Crunch with strain=free, which lists it, or use more spheres a cell: "
-      "jam_tile, then "
-      "jam_contacts_from_geometry",
+      "jam_tile, then jam_contacts_from_geometry",
       quantity, own.pairs.i[0]);
 }
 

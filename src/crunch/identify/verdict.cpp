@@ -150,8 +150,8 @@ Phase decide_jamming(CrunchState &s) {
     PackingVerdict verdict;
     if (!tested(s, Jamming::collective, verdict)) return Phase::done;
     if (verdict.result.jammed == Verdict::yes) return end_jammed(s, verdict);
-    // No slide opens a contact; a strain may.
-    const bool slides = verdict.result.slides > 0 && s.next.strain.count() == 0;
+    // No slide opens a contact. In a periodic cell it may lead to other spheres, or a strain further.
+    const bool slides = verdict.result.slides > 0 && s.out.packing.container;
     const FlexMove moved = converged(s) && !slides ? move_along_flex(s, verdict) : FlexMove::none;
     if (moved == FlexMove::free) return Phase::approach;
     if (moved == FlexMove::blocked && s.o.polish) {

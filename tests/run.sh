@@ -1,6 +1,7 @@
 #!/bin/sh
-# Sets up a bare Debian 12 and runs all tests, in four parts:
+# Sets up a bare Debian 12 and runs all tests, in five parts:
 #   release     everything, by GCC, warnings as errors
+#   builtin     the library of the wheel, with dense products of its own and no Clp: unit tests that need products
 #   sanitizers  address and undefined behaviour, by Clang, warnings as errors: unit tests and those of the C interface
 #   threads     the thread sanitizer over the tests that use several threads
 #   fuzz        libFuzzer on every target for 20 seconds, 60 in all
@@ -9,8 +10,9 @@
 #   processors, windows, libcxx  cross builds for arm64, s390x and riscv64 under qemu; for Windows under wine; with
 #               libc++: tests/platforms. Where the compilers cannot be installed they skip, saying so
 #   sanitized_physics  address and undefined behaviour by GCC, over all that runs without other programs
-# `sh tests/run.sh`, from any folder; the builds are ./build, ./build-asan (of two parts), ./build-tsan, ./build-clang
-# and ./build-asan-gcc. Uses ccache where it is installed. Parts can be named: `sh tests/run.sh release clang`.
+# `sh tests/run.sh`, from any folder; the builds are ./build, ./build-wheel (also of a test in ./build), ./build-asan (of
+# two parts), ./build-tsan, ./build-clang and ./build-asan-gcc. Uses ccache where it is installed. Parts can be named:
+# `sh tests/run.sh release clang`.
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
 cd "$root"
@@ -23,7 +25,7 @@ need_packages build-essential cmake ninja-build pkg-config clang clang-format \
   chromium python3-gsd python3-ase python3-mdanalysis python3-vtk9 lammps mypy python3-nbclient python3-ipykernel \
   doxygen python3-sphinx python3-breathe python3-myst-parser furo locales
 
-parts=${*:-release sanitizers threads fuzz}
+parts=${*:-release builtin sanitizers threads fuzz}
 wants() { case " $parts " in *" $1 "*) ;; *) return 1 ;; esac; }
 jobs=$(nproc)
 at_once=$((jobs + 1))  # tests: some wait
@@ -45,6 +47,20 @@ cmake -S . -B build -G Ninja -U JAM_PYTHON_DIR -DCMAKE_INSTALL_PREFIX=/usr -DCMA
 cmake --build build -j "$jobs"
 part "its tests"
 ctest --test-dir build -j "$at_once" --output-on-failure --no-tests=error || status=1
+fi
+
+if wants builtin; then
+part "builtin"
+# In the folder of bindings/pip, whose objects these are.
+cmake -S . -B build-wheel -DCMAKE_BUILD_TYPE=Release -DJAM_BLAS=builtin -DJAM_CLP=OFF -DJAM_USE_VORO=OFF \
+  -DJAM_WERROR=ON -DJAM_BUILD_TESTS=ON -DJAM_BUILD_PYTHON=OFF -DJAM_BUILD_EXAMPLES=OFF -DJAM_BUILD_CLI=OFF >/dev/null
+products='unit_analysis_geometry unit_analysis_modes unit_analysis_spectrum unit_analysis_structure unit_blas
+  unit_block_cholesky unit_crunch_barrier unit_crunch_neighbours unit_crunch_polish unit_crunch_steps unit_newton_system
+  unit_proof unit_soft_cell unit_soft_minimise'
+# shellcheck disable=SC2086
+cmake --build build-wheel -j "$jobs" --target $products
+ctest --test-dir build-wheel -j "$at_once" --output-on-failure --no-tests=error \
+  -R "^($(echo $products | sed 's/unit_/unit\//g; s/ /|/g'))\$" || status=1
 fi
 
 if wants clang; then

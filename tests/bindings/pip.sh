@@ -1,14 +1,15 @@
 #!/bin/sh
 # pip makes a wheel of the tree, without an index, and wheel.sh installs and runs it. The archive of the source has the
 # same bytes each time, and the settings of its build at its root.
-# usage: pip.sh ROOT BUILD_FOLDER_OF_THE_WHEEL     Skipped (77) where python3-venv is missing.
+# usage: pip.sh ROOT BUILD_FOLDER_OF_THE_WHEEL JAM_WERROR     Skipped (77) where python3-venv is missing.
 set -eu
 /usr/bin/python3 -c 'import ensurepip, venv' 2>/dev/null || { echo "python3-venv is not installed"; exit 77; }
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 /usr/bin/python3 -m venv "$work/venv"
 mkdir -p "$2"
-"$work/venv/bin/pip" wheel -q --no-index --no-deps --config-settings "build-dir=$2" -w "$work" "$1/bindings/python"
+"$work/venv/bin/pip" wheel -q --no-index --no-deps --config-settings "build-dir=$2" \
+  --config-settings "cmake=-DJAM_WERROR=$3" -w "$work" "$1/bindings/python"
 sh "$1/tests/bindings/wheel.sh" "$work"/jamming-*.whl
 for folder in one two; do
   mkdir "$work/$folder"

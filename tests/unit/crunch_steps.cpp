@@ -6,6 +6,7 @@
 #include "crunch/approach/lp_step.hpp"
 #include "crunch/crunch.hpp"
 #include "crunch/path/barrier_path.hpp"
+#include "lp/packing_lp.hpp"
 
 using namespace jam;
 
@@ -100,9 +101,11 @@ void sequential_lp_from_low_density(void **) {
       Monitor monitor;
       monitor.begin();
       const CrunchResult r = crunch(p, o, monitor);
-      assert_true(r.status >= 0 && closest_pair(r.packing).gap > -1e-13);
+      assert_true(closest_pair(r.packing).gap > -1e-13);
       assert_true(packing_fraction(r.packing) >= phi * (1.0 - 1e-12));
       phi = packing_fraction(r.packing);
+      if (r.status == JAM_E_SOLVER && !clp_is_built()) break;  // an LP that goes to Clp
+      assert_true(r.status >= 0);
     }
     assert_true(phi > 1.5 * c.phi);
   }

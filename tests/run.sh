@@ -10,9 +10,9 @@
 #   processors, windows, libcxx  cross builds for arm64, s390x and riscv64 under qemu; for Windows under wine; with
 #               libc++: tests/platforms. Where the compilers cannot be installed they skip, saying so
 #   sanitized_physics  address and undefined behaviour by GCC, over all that runs without other programs
-# `sh tests/run.sh`, from any folder; the builds are ./build, ./build-wheel (also of a test in ./build), ./build-asan (of
-# two parts), ./build-tsan, ./build-clang and ./build-asan-gcc. Uses ccache where it is installed. Parts can be named:
-# `sh tests/run.sh release clang`.
+# `sh tests/run.sh`, from any folder; the builds are ./build, ./build-wheel (also of a test in ./build), ./build-asan
+# (of two parts), ./build-tsan, ./build-clang and ./build-asan-gcc. Uses ccache where it is installed. Parts can be
+# named: `sh tests/run.sh release clang`.
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
 cd "$root"

@@ -1,26 +1,29 @@
 #include "core/decimal.hpp"
 
-#if defined(_LIBCPP_VERSION) && _LIBCPP_VERSION < 200000
-#define JAM_FROM_CHARS 0
 #include <locale.h>
 #if defined(__APPLE__)
 #include <xlocale.h>
 #endif
 #include <cerrno>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <string>
-#else
-#define JAM_FROM_CHARS 1
-#endif
 
 namespace jam {
 
-#if JAM_FROM_CHARS
+#if defined(__cpp_lib_to_chars)
 std::from_chars_result from_decimal(std::string_view text, double &x) {
   return std::from_chars(text.data(), text.data() + text.size(), x);
 }
+char *to_decimal(char *text, double x) { return std::to_chars(text, text + 32, x, std::chars_format::general, 17).ptr; }
 #else
+std::from_chars_result from_decimal(std::string_view text, double &x) { return from_decimal_by_c(text, x); }
+char *to_decimal(char *text, double x) { return to_decimal_by_c(text, x); }
+#endif
+
+#if !defined(_WIN32)
 namespace {
 // What strtod takes and from_chars does not: blanks, a plus sign, hexadecimal digits.
 size_t length_of_decimal(std::string_view text) {
@@ -33,7 +36,7 @@ size_t length_of_decimal(std::string_view text) {
 }
 }  // namespace
 
-std::from_chars_result from_decimal(std::string_view text, double &x) {
+std::from_chars_result from_decimal_by_c(std::string_view text, double &x) {
   static const locale_t c_locale = ::newlocale(LC_ALL_MASK, "C", nullptr);
   const std::string digits(text.substr(0, length_of_decimal(text)));  // ends with a zero
   char *end = nullptr;
@@ -47,6 +50,19 @@ std::from_chars_result from_decimal(std::string_view text, double &x) {
   if (outside) return {stop, std::errc::result_out_of_range};
   x = value;
   return {stop, std::errc()};
+}
+
+// The decimal point of the thread's locale may be several bytes long: all that belongs to no number.
+char *to_decimal_by_c(char *text, double x) {
+  char local[64];
+  std::snprintf(local, sizeof local, "%.17g", x);
+  bool in_point = false;
+  for (const char *c = local; *c; ++c) {
+    const bool point = !std::strchr("0123456789+-einfa", *c);
+    if (!point || !in_point) *text++ = point ? '.' : *c;
+    in_point = point;
+  }
+  return text;
 }
 #endif
 

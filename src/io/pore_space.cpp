@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "io/files.hpp"
 #include "io/output_file.hpp"
+#include "io/text.hpp"
 #include "pore/balls.hpp"
 
 namespace jam {
@@ -22,8 +23,8 @@ void put(std::string &out, T value) {
 }
 
 std::string number(double x) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.17g", x);
+  std::string text;
+  append_number(text, x);
   return text;
 }
 

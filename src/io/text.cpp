@@ -188,9 +188,8 @@ int64_t parse_count(const LineReader &in, std::string_view word, const char *wha
 }
 
 void append_number(std::string &out, double x) {
-  char digits[40];
-  const auto result = std::to_chars(digits, digits + sizeof digits, x, std::chars_format::general, 17);
-  out.append(digits, result.ptr);
+  char digits[32];
+  out.append(digits, to_decimal(digits, x));
 }
 
 }  // namespace jam

@@ -61,6 +61,19 @@ jam_system *copy_of(const jam_system *start) {
   return sys;
 }
 
+// libc++ before version 16 loses the memory of a vector whose element throws while the vector is made.
+bool library_loses_memory() {
+  const std::vector<double> element(3, 1.0);
+  const long clean = alive;
+  until_failure = 1;
+  try {
+    const std::vector<std::vector<double>> two(2, element);
+  } catch (const std::bad_alloc &) {
+  }
+  until_failure = -1;
+  return alive != clean;
+}
+
 #ifdef JAM_SANITIZED  // ten times slower: the release build has tried the others
 constexpr long dense = 100;
 #else
@@ -73,6 +86,9 @@ void fail_each(const Case &c, bool single) {
   const jam_status usual = c.verb(plain);
   jam_destroy(plain);
   assert_true(usual >= 0);
+  once = false;
+  const bool leaky = library_loses_memory();
+  if (leaky) print_message("the C++ library loses memory itself: what JAM_E_MEMORY leaves is not counted\n");
   once = single;
   long failed = 0, k = 0;
   for (;; k += 1 + k / dense * (k / 10)) {
@@ -92,7 +108,7 @@ void fail_each(const Case &c, bool single) {
     }
     if (k % 50 == 0) assert_true(c.verb(sys) >= 0);  // the handle works
     jam_destroy(sys);
-    assert_int_equal(alive, clean);
+    if (status != JAM_E_MEMORY || !leaky) assert_int_equal(alive, clean);
     if (!hit) break;
   }
   print_message("%s: %ld allocations, %ld failures%s\n", c.name, k, failed, single ? ", one at a time" : "");

@@ -1,5 +1,9 @@
 #!/usr/bin/env python3
-"""abi.py symbols|constants|abidiff|update BUILD: compares the interface with what is recorded in this folder, or records it."""
+"""abi.py symbols|constants|abidiff|update BUILD: compares the interface with what is recorded in this folder, or records it.
+
+From JAM_ABI 1 on `update` records additions alone, until the number is raised.
+"""
+import itertools
 import pathlib
 import re
 import subprocess
@@ -10,6 +14,7 @@ here = pathlib.Path(__file__).resolve().parent
 root = here.parent.parent
 build = pathlib.Path(sys.argv[2])
 SYMBOLS, CONSTANTS, DUMP = here / "symbols.txt", here / "constants.c", here / "libjam.abi"
+HEADER = here / "recorded/jam/jam.h"  # what old_program.c is compiled with
 UPDATE = "if that is wanted: python3 tests/abi/abi.py update BUILD_FOLDER"
 
 
@@ -97,7 +102,53 @@ def abidiff():
         sys.exit(f"abidiff returned {done.returncode}; {UPDATE}")
 
 
+def abi_number(text):
+    return int(re.search(r"^#define JAM_ABI (\d+)", text, flags=re.M).group(1))
+
+
+def frozen():
+    """From ABI 1 on a number keeps the header with which it began, as old programs do."""
+    return HEADER.exists() and abi_number(header_text()) == abi_number(HEADER.read_text()) >= 1
+
+
+def declared(text):
+    """Prototypes with types of callbacks, and the members of each struct in their order."""
+    text = re.sub(r"\s+", " ", re.sub(r"^\s*#.*$", "", text, flags=re.M))
+    structs = {}
+    for name, body in re.findall(r"typedef struct (\w+) \{(.*?)\}", text):
+        members = structs[name] = []
+        for kind, names in re.findall(r" *((?:const )?\w+) ([^;]+);", body):
+            members += [f"{kind} {member.strip()}" for member in names.split(",")]
+    return re.findall(r"JAM_API [^;]+;|typedef [^;{]+;", text), structs
+
+
+def refuse_breaks():
+    """What went or changed needs the next number. Functions, constants and members at the end of a struct may come."""
+    broken = sorted(set(SYMBOLS.read_text().split()) - set(exported()))
+    broken += sorted(set(re.findall(r"^CHECK\(.*\)", CONSTANTS.read_text(), flags=re.M)) - set(constants_text().splitlines()))
+    (old_calls, old_structs), (calls, structs) = declared(HEADER.read_text()), declared(header_text())
+    broken += [call for call in old_calls if call not in calls]
+    for name, old in old_structs.items():
+        for before, now in itertools.zip_longest(old, structs.get(name, [])[: len(old)], fillvalue="nothing"):
+            # what was reserved may be used
+            if before != now and not (" reserved" in before and before.split()[0] == now.split()[0]):
+                broken.append(f"{name}: {before} is {now} now")
+    if broken:
+        sys.exit("\n".join(broken) + "\nold programs would break: raise JAM_ABI in jam.h first")
+
+
+def record_header():
+    """The header without its comments."""
+    now = re.sub(r"\s*\n(?=\s*\n)|[ \t]+$", "", header_text(), flags=re.M)
+    HEADER.parent.mkdir(parents=True, exist_ok=True)
+    HEADER.write_text("/* Made by tests/abi/abi.py: jam.h as old programs were compiled with. */\n" + now.lstrip())
+
+
 def update():
+    if frozen():
+        refuse_breaks()
+    else:
+        record_header()
     SYMBOLS.write_text("\n".join(exported()) + "\n")
     CONSTANTS.write_text(constants_text())
     library = build / "tests/abi/libjam_abi.so"

@@ -47,6 +47,7 @@ static int write_json(const options *o, int code, const jam_check_report *r, con
   put_number(f, "max_contact_gap", r->max_contact_gap);
   put_number(f, "force_residual", r->force_residual);
   put_number(f, "rigidity_margin", r->rigidity_margin);
+  put_number(f, "curvature_margin", r->curvature_margin);
   put_number(f, "resolution", r->resolution);
   put_number(f, "diameter_factor", r->diameter_factor);
   put_verdict(f, "crunch_jammed", r->crunch_jammed);

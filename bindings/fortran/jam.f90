@@ -335,6 +335,7 @@ module jam
   integer(c_int32_t), parameter :: JAM_CAUSE_SINGULAR = 4
   integer(c_int32_t), parameter :: JAM_CAUSE_RATTLER = 5
   integer(c_int32_t), parameter :: JAM_CAUSE_IMAGES = 6
+  integer(c_int32_t), parameter :: JAM_CAUSE_SADDLE = 7
 
   ! jam_contact_class: Flags of a contact. A buckler is a stable sphere with d + 1 contacts.
   integer(c_int32_t), parameter :: JAM_CONTACT_LOCALISED = 1
@@ -912,7 +913,7 @@ module jam
     integer(c_int64_t) :: undercoordinated = 0
     ! d (N' - 1) + d (d + 1) / 2: fewest contacts of a strictly jammed packing
     integer(c_int64_t) :: strict_contacts_needed = 0
-    ! least eigenvalue of S^T S on contacts with force that is no translation
+    ! as in jam_rigidity_report
     real(c_double) :: rigidity_margin = 0
     ! LPs solved in full
     integer(c_int64_t) :: lp_solves = 0
@@ -1229,11 +1230,10 @@ module jam
 
   ! What jam_rigidity found. K+ are the contacts that carry force in some balance of non-negative forces, B the spheres
   ! that they touch, N' their number. undecided_contacts: also pairs that the digits of the coordinates cannot
-  ! distinguish from contacts. rigidity_margin below 1e-12: a flex; of a sphere that touches its own images alone: with
-  ! strains. Where a round wall's curvature fixes flexes u: least -sum f b(u, u) for |u| = 1, over the mean |f b|, with b
-  ! the second derivative of the distance across a contact.
+  ! distinguish from contacts. curvature_margin: where a round wall's curvature fixes flexes u, least -sum f b(u, u) for
+  ! |u| = 1, over the mean |f b|, with b the second derivative of the distance across a contact.
   type, bind(c) :: jam_rigidity_report
-    integer(c_int32_t) :: struct_size = 96
+    integer(c_int32_t) :: struct_size = 104
     ! jam_rigidity_kind that was tested
     integer(c_int32_t) :: kind = 0
     ! jam_verdict
@@ -1256,10 +1256,12 @@ module jam
     integer(c_int64_t) :: zero_force_contacts = 0
     ! pairs with gaps of 1e-10 to 1e-7
     integer(c_int64_t) :: undecided_contacts = 0
-    ! smallest eigenvalue on K+ that is no translation
+    ! least eigenvalue of S^T S on K+ (with E: strict, own images), no symmetry, no flex
     real(c_double) :: rigidity_margin = 0
     ! largest |sum_j f_ij n_ij| over the mean force, of the forces in the proof
     real(c_double) :: force_residual = 0
+    ! see above; 0 where no flex is fixed so
+    real(c_double) :: curvature_margin = 0
   end type jam_rigidity_report
 
   ! Options of jam_check_packing.
@@ -1277,7 +1279,7 @@ module jam
   ! Verdict on a packing as it is. Gaps are relative to sigma_ij, displacements in mean diameters without their mean.
   ! Closed pairs have gaps below 1e-10. NaN, and -1 for contacts: not known. crunch_*: of the crunched copy.
   type, bind(c) :: jam_check_report
-    integer(c_int32_t) :: struct_size = 248
+    integer(c_int32_t) :: struct_size = 256
     ! jam_verdict: collectively jammed
     integer(c_int32_t) :: jammed = 0
     ! jam_verdict; NO where jammed is NO; UNTESTED where walls allow no strain
@@ -1324,7 +1326,7 @@ module jam
     real(c_double) :: max_contact_gap = 0
     ! largest |sum_j f_ij n_ij| over the mean force
     real(c_double) :: force_residual = 0
-    ! smallest eigenvalue on contacts with force that is no translation
+    ! as in jam_rigidity_report
     real(c_double) :: rigidity_margin = 0
     ! the numbers given are multiples of it, unit of the box; 0: all digits are there
     real(c_double) :: coordinate_step = 0
@@ -1348,6 +1350,8 @@ module jam
     real(c_double) :: proof_value = 0
     ! the two numbers of the cause
     real(c_double) :: proof_bound = 0
+    ! as in jam_rigidity_report
+    real(c_double) :: curvature_margin = 0
   end type jam_check_report
 
   ! What jam_prove found. Bounds are rounded outward; NaN where they do not apply. The exact diameters are sqrt(Gamma)
@@ -2077,7 +2081,7 @@ module jam
     ! The same where the cell deforms too: the diameters are fixed, and the cell vectors are unknowns. EXACT: strictly
     ! jammed, and the volume is a strict local minimum. TRAPPED: of all motions and strains that do not enlarge the volume.
     ! Lengths of the report count displacements and entries of the cell vectors alike, packing_fraction is that of the
-    ! exact cell. There is no proof file. Status: JAM_AMBIGUOUS not proved.
+    ! exact cell. Status: JAM_AMBIGUOUS not proved.
     ! Errors: JAM_E_STATE (no network), JAM_E_UNSUPPORTED.
     function jam_prove_strict(sys, report) &
         bind(c, name="jam_prove_strict") result(status)
@@ -2667,6 +2671,13 @@ module jam
       integer(c_size_t), value :: ratio_len
       integer(c_int32_t) :: status
     end function c_jam_write_proof
+    function c_jam_write_proof_strict(sys, path) &
+        bind(c, name="jam_write_proof_strict") result(status)
+      import
+      type(c_ptr), value :: sys
+      character(kind=c_char), intent(in) :: path(*)
+      integer(c_int32_t) :: status
+    end function c_jam_write_proof_strict
     function c_jam_refined_positions(sys, ratio, ratio_len, high, high_len, low, low_len, needed) &
         bind(c, name="jam_refined_positions") result(status)
       import
@@ -3219,6 +3230,7 @@ module jam
   private :: c_jam_bloch_rigidity
   private :: c_jam_prove
   private :: c_jam_write_proof
+  private :: c_jam_write_proof_strict
   private :: c_jam_refined_positions
   private :: c_jam_gaps
   private :: c_jam_contact_classes
@@ -5470,6 +5482,15 @@ contains
     end if
     status = c_jam_write_proof(sys, jam_c_string(path), at_ratio, count_ratio)
   end function jam_write_proof
+
+  ! The same of jam_prove_strict: refined centres and cell.
+  ! Errors: JAM_E_STATE, JAM_E_UNSUPPORTED, JAM_E_IO.
+  function jam_write_proof_strict(sys, path) result(status)
+    type(c_ptr), intent(in) :: sys
+    character(*), intent(in) :: path
+    integer(c_int32_t) :: status
+    status = c_jam_write_proof_strict(sys, jam_c_string(path))
+  end function jam_write_proof_strict
 
   function f_jam_refined_positions(sys, ratio, high, low, needed) result(status)
     type(c_ptr), intent(in) :: sys

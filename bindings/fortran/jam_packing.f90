@@ -67,6 +67,7 @@ module jam_packing
     procedure :: prove => do_prove
     procedure :: prove_strict => do_prove_strict
     procedure :: write_proof => do_write_proof
+    procedure :: write_proof_strict => do_write_proof_strict
     procedure :: refined_positions => do_refined_positions
     procedure :: gaps => do_gaps
     procedure :: contact_classes => do_contact_classes
@@ -111,13 +112,14 @@ module jam_packing
     do_hessian_map, do_hessian, do_modes, do_bloch_modes, &
     do_contacts_from_geometry, do_contact_candidates, do_stress_states, &
     do_rigidity, do_flex, do_bloch_rigidity, do_check, do_prove, do_prove_strict, &
-    do_write_proof, do_refined_positions, do_gaps, do_contact_classes, &
-    do_sphere_structure, do_contact_dots, do_fabric_tensor, do_local_values, &
-    do_histogram, do_pair_correlation, do_mk_shifts, do_structure_factor, &
-    do_bond_order, do_crystal_score, do_local_fraction, do_write_stl, do_voxels, &
-    do_write_voxels, do_solid_profile, do_near_coordination, do_pore_sizes, &
-    do_floppy_mode, do_floppy_modes, do_density_of_states, do_project, &
-    do_curvature, do_moduli, do_elastic_tensor, do_compare
+    do_write_proof, do_write_proof_strict, do_refined_positions, do_gaps, &
+    do_contact_classes, do_sphere_structure, do_contact_dots, do_fabric_tensor, &
+    do_local_values, do_histogram, do_pair_correlation, do_mk_shifts, &
+    do_structure_factor, do_bond_order, do_crystal_score, do_local_fraction, &
+    do_write_stl, do_voxels, do_write_voxels, do_solid_profile, &
+    do_near_coordination, do_pore_sizes, do_floppy_mode, do_floppy_modes, &
+    do_density_of_states, do_project, do_curvature, do_moduli, do_elastic_tensor, &
+    do_compare
 
 contains
 
@@ -1234,7 +1236,7 @@ contains
   ! The same where the cell deforms too: the diameters are fixed, and the cell vectors are unknowns. EXACT: strictly
   ! jammed, and the volume is a strict local minimum. TRAPPED: of all motions and strains that do not enlarge the volume.
   ! Lengths of the report count displacements and entries of the cell vectors alike, packing_fraction is that of the
-  ! exact cell. There is no proof file. Status: JAM_AMBIGUOUS not proved.
+  ! exact cell. Status: JAM_AMBIGUOUS not proved.
   ! Errors: JAM_E_STATE (no network), JAM_E_UNSUPPORTED.
   function do_prove_strict(self) result(found)
     class(packing), intent(inout) :: self
@@ -1257,6 +1259,16 @@ contains
     status = jam_write_proof(self%sys, path=path, ratio=ratio)
     call self%done(status)
   end subroutine do_write_proof
+
+  ! The same of jam_prove_strict: refined centres and cell.
+  ! Errors: JAM_E_STATE, JAM_E_UNSUPPORTED, JAM_E_IO.
+  subroutine do_write_proof_strict(self, path)
+    class(packing), intent(inout) :: self
+    character(*), intent(in) :: path
+    integer(c_int32_t) :: status
+    status = jam_write_proof_strict(self%sys, path=path)
+    call self%done(status)
+  end subroutine do_write_proof_strict
 
   ! Centres of the jammed packing as sums of two doubles, high + low, unit of the box: about 31 digits. Rattlers stay
   ! where they are. ratio: as for jam_prove. Status: JAM_AMBIGUOUS (dependent contacts, nothing is written).

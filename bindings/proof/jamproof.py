@@ -10,12 +10,15 @@ more than unknowns, as in crystals, it is shown that the stable spheres are trap
 farther than `inner`, and no packing as dense lies between `inner` and `outer`. Exit status: 0 proved, 1 not proved, 2 the
 file cannot be read, 3 trapped but not proved. The guide's page "The theorems behind proofs" has them.
 
-    F_c(x, G) = |x_i - x_j + n A|^2 - G sigma_c^2 = 0 for every contact c = (i, j, n);  J = F'
+    F_c(x, G) = |x_i - x_j + n H|^2 - G sigma_c^2 = 0 for every contact c = (i, j, n);  J = F'
 
 For any matrix A let delta_k >= sum_l |1 - A J|_kl, eta_k >= |A F|_k, alpha_k >= sum_c |A_kc|, beta = 4 d max alpha.
 If eta + delta r + beta r^2 <= r and delta + 2 beta r < 1, then F has exactly one zero within r. In crystals F = 0 as
 it stands; then R has full rank modulo a prime, and the forces balance exactly. In d = 2 the file may name implied
 contacts. They are left out of F: the others, where closed, close them by the exact angles of triangles and parallelograms.
+
+A file with the word strict fixes G. The lower triangle of H, the cell vectors, takes its place among the unknowns, and
+proved is that the packing is strictly jammed: no motion and strain without overlap leaves the volume as small.
 """
 import base64
 import decimal
@@ -70,7 +73,7 @@ class Scene:
     """The exact numbers of a file: lengths in units of 2^k, ratios of diameters of 2^se, gamma g 2^ge."""
 
     def __init__(self, path):
-        self.stable, self.contacts, self.inverse, ratio, position = [], [], None, [], []
+        self.stable, self.contacts, self.inverse, self.strict, ratio, position = [], [], None, False, [], []
         self.tiles, self.rows = [], {}  # walks round tiles and implied contacts, as they come; state of the kept alone
         with open(path, encoding="ascii") as file:
             lines = [line.split() for line in file if line.strip()]
@@ -87,7 +90,7 @@ class Scene:
         self.unit = fraction(*number(word["unit"][0]))
         self.delta, (self.g, self.ge) = number(word["non_additivity"][0]), number(word["gamma"][0])
         refuse(not -1 < fraction(*self.delta) <= 1, "non_additivity must be above -1 and at most 1", ValueError)
-        sizes = {"sphere": (2 + d,), "contact": (3 + d, 4 + d), "inverse": (2,)}
+        sizes = {"sphere": (2 + d,), "contact": (3 + d, 4 + d), "inverse": (2,), "strict": (0,)}
         for name, *rest in lines[1:]:
             refuse(len(rest) not in sizes.get(name, (len(rest),)), f"a line '{name}' has not as many numbers as dim asks for", ValueError)
             if name == "sphere":
@@ -103,6 +106,8 @@ class Scene:
                 self.tiles.append((name, list(map(int, rest))))
             elif name == "inverse":
                 self.inverse = int(rest[0]), array("i", zlib.decompress(base64.b64decode(rest[1])))
+            elif name == "strict":
+                self.strict = True
             elif name not in word:
                 raise ValueError(f"unknown word {name}")
         refuse(not any(self.stable), "no sphere is stable", ValueError)
@@ -133,7 +138,9 @@ def equations(s, kept):
     """Of the contacts kept: F_c as (m, e), the rows of R as {unknown: integer} and the columns of J as [(contact, integer in 2^-BITS)]."""
     d, stable = s.dim, [i for i, yes in enumerate(s.stable) if yes]
     node = {i: k for k, i in enumerate(stable)}  # node 0 is pinned
-    f, rows, columns = [], [], [[] for _ in range(d * (len(stable) - 1) + 1)]
+    entries = [(q, v) for q in range(d) for v in range(q + 1)] if s.strict else []  # of the cell
+    f, rows, columns = [], [], [[] for _ in range(d * (len(stable) - 1) + (len(entries) or 1))]
+    s.diagonal = {len(columns) - len(entries) + k: q for k, (q, v) in enumerate(entries) if q == v}
     for c, (i, j, n, _) in enumerate(s.contacts[k] for k in kept):
         if i == j or i not in node or j not in node:
             raise Refused(f"images: contact {c} is not one of two stable spheres")
@@ -142,9 +149,11 @@ def equations(s, kept):
         f.append((sum(terms), low))
         ends = [(node[i], 2), (node[j], -2)]
         rows.append({d * (at - 1) + q: sign * r[q] for at, sign in ends if at for q in range(d) if r[q]})
+        rows[-1].update({len(columns) - len(entries) + k: 2 * n[q] * r[v] for k, (q, v) in enumerate(entries) if n[q] * r[v]})
         for unknown, value in rows[-1].items():
             columns[unknown].append((c, shifted(value, s.k, -BITS)))
-        columns[-1].append((c, shifted(-m, e, -BITS)))
+        if not s.strict:
+            columns[-1].append((c, shifted(-m, e, -BITS)))
     return f, rows, columns
 
 
@@ -302,8 +311,9 @@ def bounds(s, f, columns, e, inverse, grown):
             digits = array("Q", part.to_bytes(8 * rows, "little"))
             total = [a + v - BIAS for a, v in zip(total, digits)]
         delta = [a + abs(b) * (top // grown[l]) for a, b in zip(delta, total)]
-    # J was rounded: half a unit in each of the 2 d + 1 entries of a row.
-    delta = [fraction((2 * v + (2 * s.dim + 1) * a * top) * g, e - BITS - 1) / top for v, a, g in zip(delta, alpha, grown)]
+    # J was rounded: half a unit in each entry of a row. Of the cell it has d (d + 1) / 2, or else one of G.
+    width = 2 * s.dim + (s.dim * (s.dim + 1) // 2 if s.strict else 1)
+    delta = [fraction((2 * v + width * a * top) * g, e - BITS - 1) / top for v, a, g in zip(delta, alpha, grown)]
     low = max(m.bit_length() + x for m, x in f) - 25
     for column, (m, x) in zip(inverse, f):
         short = shifted(m, x, low)
@@ -312,23 +322,30 @@ def bounds(s, f, columns, e, inverse, grown):
     return delta, eta, [fraction(a, e) for a in alpha]
 
 
-def unbalanced(s, kept, stress):
-    """R^T f of whole forces, exactly, in 2^k."""
-    net, pinned = {i: [0] * s.dim for i, yes in enumerate(s.stable) if yes}, s.stable.index(True)
-    for (i, j, n, _), m in zip((s.contacts[c] for c in kept), stress):
-        r = s.vector(i, j, n)
-        for sphere, sign in ((i, 2), (j, -2)):
-            net[sphere] = [a + sign * b * m for a, b in zip(net[sphere], r)]
-    return [v for sphere, row in net.items() if sphere != pinned for v in row]
+def unbalanced(s, rows, stress, low=0):
+    """R^T f of whole forces in 2^low, exactly, in 2^(k + low); strict less the gradient of log V, 1 / h on the diagonal."""
+    count = s.dim * (sum(s.stable) - 1) + (s.dim * (s.dim + 1) // 2 if s.strict else 0)
+    net = [0] * count
+    for row, m in zip(rows, stress):
+        for unknown, v in row.items():
+            net[unknown] += v * m
+    for unknown, q in s.diagonal.items():
+        net[unknown] -= fraction(1, -2 * s.k - low) / s.cell[q][q]
+    return net
 
 
-def force_row(s, f, kept, values):
+def stretch(s, contact):
+    """|w_c| over the largest way of its ends, in each component: two spheres, and strict its image's cell vectors."""
+    return 2 + s.strict * sum(map(abs, contact[2]))
+
+
+def force_row(s, f, kept, rows, values):
     """The last row of A is minus the stress: that, and its delta, eta and alpha, in exact sums."""
     stress, low = scaled(values)
     sigma2 = [fraction(*s.sigma2(*s.contacts[c][:2])) for c in kept]
     weight = sum(a * m for a, m in zip(sigma2, stress))
     stress = [Fraction(int((m << 90) / weight), 1 << 90) for m in stress]  # sum stress sigma^2 = 1 but for rounding
-    off = sum(map(abs, unbalanced(s, kept, [int(m * (1 << 90)) for m in stress])))
+    off = sum(map(abs, unbalanced(s, rows, [int(m * (1 << 90)) for m in stress])))
     delta = fraction(off, s.k - 90) + abs(1 - sum(a * m for a, m in zip(sigma2, stress)))
     return stress, delta, abs(sum(fraction(*v) * m for v, m in zip(f, stress))), sum(map(abs, stress))
 
@@ -347,9 +364,16 @@ def images(s, i, j, reach):
 
 
 def reach_of(s, radius, gamma):
-    """Beyond this, in 2^k, spheres are open: the largest contact distance and 4 radii, rounded up."""
-    widest = fraction(max(s.ratio), s.se) * (1 + abs(fraction(*s.delta)))
-    reach = math.isqrt(math.ceil(gamma * widest**2 / fraction(1, 2 * s.k))) + 1 + math.ceil(4 * radius / fraction(1, s.k))
+    """Beyond this, in 2^k, spheres are open: the largest contact distance and 4 radii, strict one more for each cell
+    vector between them, rounded up."""
+    widest, way = fraction(max(s.ratio), s.se) * (1 + abs(fraction(*s.delta))), math.ceil(radius / fraction(1, s.k))
+    reach = math.isqrt(math.ceil(gamma * widest**2 / fraction(1, 2 * s.k))) + 1 + 4 * way
+    most = [0] * s.dim  # |n| of two spheres this near, component after component, in any cell within the radius
+    for c in reversed(range(s.dim if s.strict else 0)):
+        refuse(s.cell[c][c] <= 2 * way, "gap: the cell is not larger than the radius")
+        apart = max(x[c] for x in s.x) - min(x[c] for x in s.x) + sum(m * (abs(row[c]) + way) for m, row in zip(most, s.cell))
+        most[c] = (reach + apart) // (s.cell[c][c] - way) + 1
+    reach += sum(most) * way
     refuse(math.prod(2 * reach // s.cell[c][c] + 1 for c in range(s.dim)) > MOST_IMAGES, f"gap: the cell is so thin that a sphere meets more than {MOST_IMAGES} images")
     return reach
 
@@ -364,7 +388,7 @@ def least_opening(s, radius, gamma, part=1):
             for n in images(s, i, j, reach):
                 if (i == j and not any(n)) or (i, j, n) in closed:
                     continue
-                r, moving = s.vector(i, j, n), (s.stable[i] + s.stable[j]) * (i != j)
+                r, moving = s.vector(i, j, n), (s.stable[i] + s.stable[j]) * (i != j) + s.strict * sum(map(abs, n))
                 have = fraction(sum(v * v for v in r), 2 * s.k)
                 have -= 2 * fraction(sum(map(abs, r)), s.k) * radius * moving
                 need = part * gamma * fraction(*s.sigma2(i, j))
@@ -376,9 +400,12 @@ def least_opening(s, radius, gamma, part=1):
 
 def closed(s, rows, columns):
     """F = 0 exactly, with any number of contacts."""
-    refuse(rank(rows) < len(columns) - 1, f"singular: the rank modulo a prime is below {len(columns) - 1}")
+    unknowns = len(columns) - (not s.strict)
+    refuse(rank(rows) < unknowns, f"singular: the rank modulo a prime is below {unknowns}")
     stress, _ = scaled([c[3] for c in s.contacts])
-    if min(stress) <= 0 or any(sum(row.get(k, 0) * m for row, m in zip(rows, stress)) for k in range(len(columns) - 1)):
+    net = [sum(row.get(k, 0) * m for row, m in zip(rows, stress)) for k in range(unknowns)]
+    pressure = {net[k] * s.cell[q][q] for k, q in s.diagonal.items()} or {1}  # strict: in balance with an equal one on all axes
+    if min(stress) <= 0 or any(net[k] for k in range(unknowns) if k not in s.diagonal) or len(pressure) > 1 or min(pressure) <= 0:
         raise Refused("force: the forces are not positive, or do not balance exactly")
     least = least_opening(s, 0, fraction(s.g, s.ge))
     return {"radius": 0.0, "gamma_error": 0.0, "least_gap": float(least) ** 0.5 - 1.0 if least else 1e-3}
@@ -392,26 +419,38 @@ def check(s):
     if len(kept) == len(every) and kept and not any(m for m, _ in f):
         return closed(s, rows, columns)
     refuse(len(kept) != len(columns), f"excess: {len(kept)} contacts, {len(columns)} unknowns")
-    s.hint = e, inverse = inverse_of(s, columns, len(columns), len(columns) - 1)
+    unknowns = len(columns) - (not s.strict)
+    s.hint = e, inverse = inverse_of(s, columns, len(columns), unknowns)
     delta, eta, alpha = bounds(s, f, columns, e, inverse, [1] * len(columns))
-    row, delta_g, eta_g, alpha_g = force_row(s, f, kept, [s.rows.get(c, s.contacts[c][3]) for c in kept])
-    delta, eta, beta = max(delta + [delta_g]), max(eta + [eta_g]), 4 * s.dim * max(alpha + [alpha_g])
+    largest, square = fraction(max(max(map(abs, column)) for column in inverse), e), s.dim * max(stretch(s, c) for c in s.contacts) ** 2
+    if not s.strict:
+        row, delta_g, eta_g, alpha_g = force_row(s, f, kept, rows, [s.rows.get(c, s.contacts[c][3]) for c in kept])
+        delta, eta, alpha, largest = delta + [delta_g], eta + [eta_g], alpha + [alpha_g], max([largest] + [abs(v) for v in row])
+    delta, eta, beta = max(delta), max(eta), square * max(alpha)
     if delta >= 1 or 4 * beta * eta >= (1 - delta) ** 2:
         raise Refused(f"singular: delta {float(delta):.3g}, 4 beta eta {float(4 * beta * eta):.3g}")
     r = eta / (1 - delta) * (1 + 4 * beta * eta / (1 - delta) ** 2)
     if eta + delta * r + beta * r * r > r or delta + 2 * beta * r >= 1:
         raise Refused(f"singular: radius {float(r):.3g}, beta {float(beta):.3g}")
     refuse(s.tiles and r**2 * 10**12 > fraction(s.g, s.ge) * fraction(min(s.ratio), s.se) ** 2, f"excess: radius {float(r):.3g} is too large for the angles of tiles")
-    r_g = eta_g + delta_g * r + 4 * s.dim * alpha_g * r * r
-    largest = max([fraction(max(map(abs, column)), e) for column in inverse] + [abs(v) for v in row])
+    r_g = 0 if s.strict else eta_g + delta_g * r + square * alpha_g * r * r
     # The forces on implied contacts are free; the others solve J^T f = the rest, within the inverse times what is left.
-    stress, off, _, size = force_row(s, [], every, [c[3] for c in s.contacts])
-    error = (off + 8 * s.dim * size * r) / (1 - delta - 2 * beta * r) * largest
+    if s.strict:
+        values, low = scaled([c[3] for c in s.contacts])
+        edges = [fraction(s.cell[q][q], s.k) for q in range(s.dim)]
+        refuse(min(edges) <= r, "singular: the cell is not larger than the radius")
+        off = sum(map(abs, unbalanced(s, rows, values, low))) * fraction(1, s.k + low)
+        off += sum(r / (h * (h - r)) for h in edges)  # what the way changes of the gradient of log V
+        stress = [fraction(m, low) for m in values]
+    else:
+        stress, off, _, _ = force_row(s, [], every, equations(s, every)[1] if s.tiles else rows, [c[3] for c in s.contacts])
+    size = sum(map(abs, stress))
+    error = (off + 2 * square * size * r) / (1 - delta - 2 * beta * r) * largest
     mean, gamma = size / len(stress), fraction(s.g, s.ge)
     if min(stress) <= error:
         raise Refused(f"force: the least is {float(min(stress) / mean):.3g}, its error {float(error / mean):.3g}")
     least = least_opening(s, r, gamma + r_g)
-    found = {"radius": r * s.unit, "gamma_error": r_g / gamma, "least_gap": float(least) ** 0.5 - 1.0 if least else 1e-3}
+    found = {"radius": r * s.unit, **({} if s.strict else {"gamma_error": r_g / gamma}), "least_gap": float(least) ** 0.5 - 1.0 if least else 1e-3}
     found.update(delta=delta, least_force=min(stress) / mean, force_error=error / mean)
     return outward(found)
 
@@ -425,28 +464,30 @@ def trapped(s):
     refuse(abs(gamma - own) > OFF * gamma, f"gamma: without overlap it is {float(own):.6g}, not that of the file")
     # The smaller of both, as spheres of a smaller gamma have more room. What is shown of it is true of a larger one.
     s.g, s.ge = math.floor(min(own, gamma) / fraction(1, GAMMA)), GAMMA  # no pair overlaps: F >= 0
-    opening, _, columns = equations(s, every)
-    columns.pop()
+    opening, rows, columns = equations(s, every)
+    columns = columns if s.strict else columns[:-1]
     s.hint = e, inverse = inverse_of(s, columns, len(every), len(columns))
     stress, low = scaled([c[3] for c in s.contacts])
     stress, low = [m << FORCE for m in stress], low - FORCE  # a step of Newton balances them to these digits
-    rest = unbalanced(s, every, stress)
+    rest = list(map(round, unbalanced(s, rows, stress, low)))
     stress = [m - shifted(sum(map(mul, column, rest)), s.k + e, 0) for m, column in zip(stress, inverse)]
     refuse(min(stress) <= 0, "force: not all are positive")
-    rest = fraction(sum(map(abs, unbalanced(s, every, stress))), s.k + low)
+    rest = sum(map(abs, unbalanced(s, rows, stress, low))) * fraction(1, s.k + low)
     opened = sum(fraction(*v) * m for v, m in zip(opening, stress)) * fraction(1, low)
-    for grown in ([1] * len(columns), loosely_held(s, columns, inverse, stress)):
+    # Strict: log V falls by no more than the sum of (way / edge)^2 below its gradient, for ways up to half an edge.
+    edges = [fraction(s.cell[q][q], s.k) for q in s.diagonal.values()]
+    for grown in [[1] * len(columns)] + ([] if s.strict else [loosely_held(s, columns, inverse, stress)]):
         delta, eta, _ = map(max, bounds(s, opening, columns, e, inverse, grown))
         square, alpha, largest = 0, [0] * len(columns), 0
         unit = [Fraction(1, g) for g in [max(grown)] * s.dim + grown][:: s.dim]  # of each stable sphere; the pinned one is at rest
         node = {i: k for k, i in enumerate(i for i, yes in enumerate(s.stable) if yes)}
-        for (i, j, _, _), column, m in zip(s.contacts, inverse, stress):
-            wide = s.dim * (unit[node[i]] + unit[node[j]]) ** 2  # |w|^2 of a motion of length 1
+        for contact, column, m in zip(s.contacts, inverse, stress):
+            wide = s.dim * (unit[node[contact[0]]] + unit[node[contact[1]]] + stretch(s, contact) - 2) ** 2  # |w|^2 of a motion of length 1
             square, column = square + wide * m, [abs(v) * g for v, g in zip(column, grown)]
             largest = max(largest, Fraction(max(column), m))
             scale = int(wide * max(grown) ** 2)
             alpha = [a + scale * v for a, v in zip(alpha, column)]
-        largest, square = largest * fraction(1, e - low), square * fraction(1, low)
+        largest, square = largest * fraction(1, e - low), square * fraction(1, low) + sum(1 / h**2 for h in edges)
         left, constant = 1 - delta - largest * rest, largest * opened + eta
         second = largest * square + fraction(max(alpha), e) / max(grown) ** 2
         if left > 0 and 4 * constant * second < left**2:
@@ -456,10 +497,11 @@ def trapped(s):
     inner = 2 * constant / left  # the gamma of the densest packing within inner lies at most above / weight above s.g:
     above = opened + rest * inner + square * inner**2
     weight = sum(fraction(*s.sigma2(*c[:2])) * m for c, m in zip(s.contacts, stress)) * fraction(1, low)
-    error = (abs(gamma - fraction(s.g, s.ge)) + above / weight) / gamma
-    outer = left / (2 * second * max(grown))
+    error = (abs(gamma - fraction(s.g, s.ge)) + (0 if s.strict else above / weight)) / gamma
+    outer = min([left / (2 * second * max(grown))] + [h / 2 for h in edges])
+    refuse(s.strict and inner >= outer, f"singular: inner {float(inner):.3g} is not below outer {float(outer):.3g}")
     found = {"inner": inner * s.unit, **({"outer": outer * s.unit} if outer > inner else {})}
-    found.update(gamma_error=error, least_gap=max(0.0, float(least * min(size) / gamma) ** 0.5 - 1.0), delta=delta)
+    found.update({"volume_error": above} if s.strict else {}, gamma_error=error, least_gap=max(0.0, float(least * min(size) / gamma) ** 0.5 - 1.0), delta=delta)
     return outward(found)
 
 
@@ -492,13 +534,13 @@ def shown(found):
 def conclusion(s):
     """Exit status and text."""
     try:
-        return 0, "proved: " + shown(check(s))
+        return 0, ("proved strictly: " if s.strict else "proved: ") + shown(check(s))
     except (Refused, OverflowError, ZeroDivisionError) as why:
         if not str(why).startswith("excess"):
             return 1, f"not proved: {why}"
         text = f"not proved: {why}"
     try:
-        return 3, f"trapped: {shown(trapped(s))}; {text}"
+        return 3, f"trapped{' strictly' if s.strict else ''}: {shown(trapped(s))}; {text}"
     except (Refused, OverflowError, ZeroDivisionError) as why:
         return 1, f"{text}; not trapped: {why}"
 

@@ -319,9 +319,8 @@ its jump is 1 and its contacts -1 when there is none."
 }
 %feature("docstring") jam_rigidity_report "What jam_rigidity found. K+ are the contacts that carry force in some balance of non-negative forces, B the spheres
 that they touch, N' their number. undecided_contacts: also pairs that the digits of the coordinates cannot
-distinguish from contacts. rigidity_margin below 1e-12: a flex; of a sphere that touches its own images alone: with
-strains. Where a round wall's curvature fixes flexes u: least -sum f b(u, u) for |u| = 1, over the mean |f b|, with b
-the second derivative of the distance across a contact."
+distinguish from contacts. curvature_margin: where a round wall's curvature fixes flexes u, least -sum f b(u, u) for
+|u| = 1, over the mean |f b|, with b the second derivative of the distance across a contact."
 %extend jam_check_options {
   jam_check_options() {
     jam_check_options *made = (jam_check_options *)calloc(1, sizeof *made);
@@ -764,7 +763,7 @@ Errors: JAM_E_STATE (no network), JAM_E_UNSUPPORTED (Mari-Kurchan model)."
 %feature("docstring") jam_prove_strict "The same where the cell deforms too: the diameters are fixed, and the cell vectors are unknowns. EXACT: strictly
 jammed, and the volume is a strict local minimum. TRAPPED: of all motions and strains that do not enlarge the volume.
 Lengths of the report count displacements and entries of the cell vectors alike, packing_fraction is that of the
-exact cell. There is no proof file. Status: JAM_AMBIGUOUS not proved.
+exact cell. Status: JAM_AMBIGUOUS not proved.
 Errors: JAM_E_STATE (no network), JAM_E_UNSUPPORTED."
 %feature("docstring") jam_proof_text "What was proved, in a few words: \"proved, radius 4e-31\", \"trapped within 3e-28, excess 130, 129\", \"not proved, force
 1e-12, 3e-11\". Arguments as in the reports; \"\" for numbers that are no jam_theorem or jam_proof_cause. Valid until
@@ -773,6 +772,8 @@ this thread's next call of it."
 file with integers alone, without libjam. ratio: as for jam_prove. The file appears whole or not at all. Status:
 JAM_AMBIGUOUS (dependent contacts: centres are not refined).
 Shapes: ratio (n).
+Errors: JAM_E_STATE, JAM_E_UNSUPPORTED, JAM_E_IO."
+%feature("docstring") jam_write_proof_strict "The same of jam_prove_strict: refined centres and cell.
 Errors: JAM_E_STATE, JAM_E_UNSUPPORTED, JAM_E_IO."
 %feature("docstring") jam_refined_positions "Centres of the jammed packing as sums of two doubles, high + low, unit of the box: about 31 digits. Rattlers stay
 where they are. ratio: as for jam_prove. Status: JAM_AMBIGUOUS (dependent contacts, nothing is written).

@@ -889,7 +889,7 @@ typedef struct jam_crunch_report {
   int64_t undecided_contacts;     /* pairs with gaps of 1e-10 to 1e-7; after JAM_STOP_DUALITY_GAP: see above */
   int64_t undercoordinated;       /* stable spheres with d force-carrying contacts or fewer */
   int64_t strict_contacts_needed; /* d (N' - 1) + d (d + 1) / 2: fewest contacts of a strictly jammed packing */
-  double rigidity_margin;         /* least eigenvalue of S^T S on contacts with force that is no translation */
+  double rigidity_margin;         /* as in jam_rigidity_report */
   int64_t lp_solves, factorisations; /* LPs solved in full; Cholesky factorisations */
   double gain;                       /* sqrt(Gamma) - 1 of the last LP */
   double max_step;                   /* largest |s_i| of a stable sphere in the last LP, mean diameters */
@@ -1278,9 +1278,8 @@ typedef enum jam_verdict {
 } jam_verdict;
 /* What jam_rigidity found. K+ are the contacts that carry force in some balance of non-negative forces, B the spheres
  * that they touch, N' their number. undecided_contacts: also pairs that the digits of the coordinates cannot
- * distinguish from contacts. rigidity_margin below 1e-12: a flex; of a sphere that touches its own images alone: with
- * strains. Where a round wall's curvature fixes flexes u: least -sum f b(u, u) for |u| = 1, over the mean |f b|, with b
- * the second derivative of the distance across a contact. */
+ * distinguish from contacts. curvature_margin: where a round wall's curvature fixes flexes u, least -sum f b(u, u) for
+ * |u| = 1, over the mean |f b|, with b the second derivative of the distance across a contact. */
 typedef struct jam_rigidity_report {
   uint32_t struct_size;
   int32_t kind;                /* @enum jam_rigidity_kind that was tested */
@@ -1293,8 +1292,9 @@ typedef struct jam_rigidity_report {
   int64_t undercoordinated;    /* spheres of B with d contacts of K+ or fewer */
   int64_t zero_force_contacts; /* closed pairs that are not in K+ */
   int64_t undecided_contacts;  /* pairs with gaps of 1e-10 to 1e-7 */
-  double rigidity_margin;      /* smallest eigenvalue on K+ that is no translation */
+  double rigidity_margin;      /* least eigenvalue of S^T S on K+ (with E: strict, own images), no symmetry, no flex */
   double force_residual;       /* largest |sum_j f_ij n_ij| over the mean force, of the forces in the proof */
+  double curvature_margin;     /* see above; 0 where no flex is fixed so */
 } jam_rigidity_report;
 /* Tests whether the packing is jammed. Nothing changes but strictly_jammed in the stored crunch report. Contacts are
  * pairs with gaps below 1e-10, whether a network lists them or not: none is needed, and the check answers the same.
@@ -1315,7 +1315,7 @@ JAM_API jam_status jam_flex(jam_system *sys, int32_t kind, double *out, size_t o
 /* Columns of jam_bloch_rigidity. */
 typedef enum jam_bloch_column {
   JAM_BLOCH_FLEXES = 0, /* complex motions at this wave vector that keep K+ closed, without translations */
-  JAM_BLOCH_MARGIN = 1  /* least eigenvalue of S^T S on K+ but for translations; below 1e-12: a flex; NaN: no K+ */
+  JAM_BLOCH_MARGIN = 1  /* least eigenvalue of S^T S on K+ but for translations and flexes; NaN: no K+ */
 } jam_bloch_column;
 /* The collective test of jam_rigidity for count[c] copies along each cell vector (jam_tile), from one cell: one row per
  * wave vector of the copies, as in jam_bloch_modes; wave[0] runs fastest. Forces averaged over all copies balance in
@@ -1371,7 +1371,7 @@ typedef struct jam_check_report {
   double min_gap;                 /* smallest gap of two spheres with force that is no contact */
   double max_contact_gap;         /* largest |gap| of a contact with force */
   double force_residual;          /* largest |sum_j f_ij n_ij| over the mean force */
-  double rigidity_margin;         /* smallest eigenvalue on contacts with force that is no translation */
+  double rigidity_margin;         /* as in jam_rigidity_report */
   double coordinate_step;         /* the numbers given are multiples of it, unit of the box; 0: all digits are there */
   double resolution;              /* of gaps: from the digits of the coordinates, and from overlaps */
   double diameter_factor;         /* diameters were tested times this, so that no pair overlaps; 1: as they are */
@@ -1381,6 +1381,7 @@ typedef struct jam_check_report {
   int32_t theorem, proof_cause; /* @enum jam_theorem, NONE without prove; @enum jam_proof_cause: why it is not EXACT */
   double proof_radius;          /* unit of the box: radius of EXACT, inner of TRAPPED (jam_proof_report), or infinite */
   double proof_value, proof_bound; /* the two numbers of the cause */
+  double curvature_margin;         /* as in jam_rigidity_report */
 } jam_check_report;
 JAM_API jam_status jam_check_options_init(jam_check_options *o, size_t size);
 /* Tests a packing without moving it, by positions, diameters and cell alone, whatever network the handle has. Nothing
@@ -1409,7 +1410,8 @@ typedef enum jam_proof_cause {
   JAM_CAUSE_GAP = 3,      /* least gap of a pair that is no contact, and the radius */
   JAM_CAUSE_SINGULAR = 4, /* smallest eigenvalue of the rows, and what rounding takes off it */
   JAM_CAUSE_RATTLER = 5,  /* as gap, where the pair has a rattler */
-  JAM_CAUSE_IMAGES = 6    /* a contact of a sphere with its own image */
+  JAM_CAUSE_IMAGES = 6,   /* a contact of a sphere with its own image */
+  JAM_CAUSE_SADDLE = 7    /* least force over the mean, and largest relative gap: contacts do not close together */
 } jam_proof_cause;
 /* What jam_prove found. Bounds are rounded outward; NaN where they do not apply. The exact diameters are sqrt(Gamma)
  * ratio_i times the power of two at or below V^(1/d). Where no ratios are given, equal spheres have 1. */
@@ -1440,7 +1442,7 @@ JAM_API jam_status jam_prove(const jam_system *sys, const double *ratio, size_t 
 /* The same where the cell deforms too: the diameters are fixed, and the cell vectors are unknowns. EXACT: strictly
  * jammed, and the volume is a strict local minimum. TRAPPED: of all motions and strains that do not enlarge the volume.
  * Lengths of the report count displacements and entries of the cell vectors alike, packing_fraction is that of the
- * exact cell. There is no proof file. Status: JAM_AMBIGUOUS not proved. @errors STATE (no network), UNSUPPORTED */
+ * exact cell. Status: JAM_AMBIGUOUS not proved. @errors STATE (no network), UNSUPPORTED */
 JAM_API jam_status jam_prove_strict(const jam_system *sys, jam_proof_report *report);
 /* What was proved, in a few words: "proved, radius 4e-31", "trapped within 3e-28, excess 130, 129", "not proved, force
  * 1e-12, 3e-11". Arguments as in the reports; "" for numbers that are no jam_theorem or jam_proof_cause. Valid until
@@ -1450,6 +1452,8 @@ JAM_API const char *jam_proof_text(int32_t theorem, int32_t cause, double radius
  * file with integers alone, without libjam. ratio: as for jam_prove. The file appears whole or not at all. Status:
  * JAM_AMBIGUOUS (dependent contacts: centres are not refined). @shape ratio (n) @errors STATE, UNSUPPORTED, IO */
 JAM_API jam_status jam_write_proof(const jam_system *sys, const char *path, const double *ratio, size_t ratio_len);
+/* The same of jam_prove_strict: refined centres and cell. @errors STATE, UNSUPPORTED, IO */
+JAM_API jam_status jam_write_proof_strict(const jam_system *sys, const char *path);
 /* Centres of the jammed packing as sums of two doubles, high + low, unit of the box: about 31 digits. Rattlers stay
  * where they are. ratio: as for jam_prove. Status: JAM_AMBIGUOUS (dependent contacts, nothing is written). @shape ratio
  * (n), high (n, d), low (n, d) @errors STATE, UNSUPPORTED */

@@ -34,6 +34,12 @@ ProofScene take_scene(const jam_system *sys, const double *ratio, size_t ratio_l
   return make_proof_scene(p, sys->contacts, exact);
 }
 
+ProofScene take_strict_scene(const jam_system *sys) {
+  ProofScene scene = take_scene(sys, nullptr, 0);
+  scene.strict = true, scene.implied.clear();
+  return scene;
+}
+
 // Lengths in the unit of the packing, forces over their mean.
 jam_proof_report report_of(const ProofScene &s, const Proof &proof) {
   jam_proof_report r{};
@@ -78,6 +84,14 @@ Answer give_proof(ProofScene &scene, jam_proof_report *report) {
   return {JAM_AMBIGUOUS, proof_text(r.theorem, r.cause, r.radius, r.cause_value, r.cause_bound)};
 }
 
+Answer write_scene(ProofScene scene, const char *path) {
+  ProofEquations equations;
+  Proof proof;
+  const bool refined = find_proof(scene, equations, proof);
+  write_proof(scene, path);
+  return refined ? Answer(JAM_OK) : Answer(JAM_AMBIGUOUS, dependent);
+}
+
 }  // namespace
 
 jam_proof_report jam::prove_network(const Packing &p, const ContactNetwork &network) {
@@ -86,8 +100,8 @@ jam_proof_report jam::prove_network(const Packing &p, const ContactNetwork &netw
 }
 
 std::string jam::proof_text(int32_t theorem, int32_t cause, double radius, double value, double bound) {
-  static const char *const causes[] = {"", "excess", "force", "gap", "singular", "rattler", "images"};
-  if (theorem < JAM_THEOREM_NONE || theorem > JAM_THEOREM_EXACT || cause < 0 || cause > JAM_CAUSE_IMAGES) return "";
+  static const char *const causes[] = {"", "excess", "force", "gap", "singular", "rattler", "images", "saddle"};
+  if (theorem < JAM_THEOREM_NONE || theorem > JAM_THEOREM_EXACT || cause < 0 || cause > JAM_CAUSE_SADDLE) return "";
   char start[64] = "not proved", why[96] = "";
   if (theorem == JAM_THEOREM_EXACT) std::snprintf(start, sizeof start, "proved, radius %.2g", radius);
   if (theorem == JAM_THEOREM_TRAPPED) std::snprintf(start, sizeof start, "trapped within %.2g", radius);
@@ -111,8 +125,7 @@ jam_status jam_prove(const jam_system *sys, const double *ratio, size_t ratio_le
 jam_status jam_prove_strict(const jam_system *sys, jam_proof_report *report) {
   return guard_const(sys, [&]() -> Answer {
     check_out_struct(report, "report");
-    ProofScene scene = take_scene(sys, nullptr, 0);
-    scene.strict = true, scene.implied.clear();
+    ProofScene scene = take_strict_scene(sys);
     return give_proof(scene, report);
   });
 }
@@ -130,12 +143,14 @@ const char *jam_proof_text(int32_t theorem, int32_t cause, double radius, double
 jam_status jam_write_proof(const jam_system *sys, const char *path, const double *ratio, size_t ratio_len) {
   return guard_const(sys, [&]() -> Answer {
     need(path, "path");
-    ProofScene scene = take_scene(sys, ratio, ratio_len);
-    ProofEquations equations;
-    Proof proof;
-    const bool refined = find_proof(scene, equations, proof);
-    write_proof(scene, path);
-    return refined ? Answer(JAM_OK) : Answer(JAM_AMBIGUOUS, dependent);
+    return write_scene(take_scene(sys, ratio, ratio_len), path);
+  });
+}
+
+jam_status jam_write_proof_strict(const jam_system *sys, const char *path) {
+  return guard_const(sys, [&]() -> Answer {
+    need(path, "path");
+    return write_scene(take_strict_scene(sys), path);
   });
 }
 

@@ -16,9 +16,13 @@ Jamming take_kind(int32_t kind) {
   return kind == JAM_RIGIDITY_STRICT ? Jamming::strict : Jamming::collective;
 }
 
-// Why a packing is not known to be jammed. unresolved: of its PackingVerdict.
-Answer answer_of(const jam_rigidity_report &r, double unresolved) {
+// A no of the collective kind that own images give, by their strict test.
+bool rests_on_strains(const PackingVerdict &v) { return !v.result.strain.empty(); }
+
+// Why a packing is not known to be jammed.
+Answer answer_of(const jam_rigidity_report &r, const PackingVerdict &v) {
   const bool strict = r.kind == JAM_RIGIDITY_STRICT;
+  const double unresolved = v.unresolved;
   const char *kind = strict ? "strictly" : "collectively", *stress = strict ? " with an isotropic stress" : "";
   const auto n = [](int64_t x) { return static_cast<long long>(x); };
   if (r.jammed == JAM_VERDICT_YES) return JAM_OK;
@@ -30,8 +34,11 @@ Answer answer_of(const jam_rigidity_report &r, double unresolved) {
   if (r.jammed == JAM_VERDICT_NO)
     return {JAM_NOT_JAMMED,
             sentence("not %s jammed: forces on %lld contacts balance%s, at least %lld contacts are needed, "
-                     "and %lld motions keep all contacts closed; jam_flex gives one",
-                     kind, n(r.contacts), stress, n(r.contacts_needed), n(r.flexes))};
+                     "and %lld motions keep all contacts closed; %s",
+                     kind, n(r.contacts), stress, n(r.contacts_needed), n(r.flexes),
+                     !strict && rests_on_strains(v) ? "own images are among the contacts, and these motions strain the "
+                                                      "cell: the strict kind of jam_flex gives one"
+                                                    : "jam_flex gives one")};
   if (unresolved > 0.0)
     return {JAM_AMBIGUOUS,
             sentence("undecided whether the packing is %s jammed: a saddle, where contacts with forces of "
@@ -39,8 +46,8 @@ Answer answer_of(const jam_rigidity_report &r, double unresolved) {
                      kind, unresolved)};
   if (r.flexes > 0)
     return {JAM_AMBIGUOUS,
-            sentence("undecided whether the packing is %s jammed: %lld motions keep all contacts closed, "
-                     "and the curvature of the round wall neither stabilises nor frees them",
+            sentence("undecided whether the packing is %s jammed: %lld motions keep all contacts closed; whether other "
+                     "pairs or the curvature of a round wall stop them is left open",
                      kind, n(r.flexes))};
   return {JAM_AMBIGUOUS,
           sentence("undecided whether the packing is %s jammed: %lld pairs are nearly closed, and the rigidity margin "
@@ -60,25 +67,21 @@ ContactNetwork listed_contacts(const jam_system *sys) {
   return closed;
 }
 
-// By the contacts of the fixed cell.
-PackingVerdict test_collective(const Packing &p, const GapResolution &resolution, const ContactNetwork *listed) {
-  PackingVerdict v = test_packing(p, resolution, listed, Jamming::collective);
-  if (!p.container) decide_by_proof(p, v), confirm_by_exchange(p, v);
+// By the contacts of the fixed cell, or strict.
+PackingVerdict test_listed(const jam_system *sys, const GapResolution &resolution, Jamming kind) {
+  const Packing &p = sys->packing;
+  const ContactNetwork closed = listed_contacts(sys);
+  PackingVerdict v = test_packing(p, resolution, closed.size() ? &closed : nullptr, kind);
+  if (kind == Jamming::collective && !p.container) decide_by_proof(p, v), confirm_by_exchange(p, v);
   return v;
 }
 
 PackingVerdict test(const jam_system *sys, Jamming kind) {
-  const Packing &p = sys->packing;
-  const GapResolution resolution = gap_resolution(p);
-  const ContactNetwork closed = listed_contacts(sys);
-  const ContactNetwork *listed = closed.size() ? &closed : nullptr;
-  PackingVerdict v =
-      kind == Jamming::strict ? test_packing(p, resolution, listed, kind) : test_collective(p, resolution, listed);
-  if (kind == Jamming::strict || p.container || v.result.jammed == Verdict::yes || !may_touch_own_image(p, resolution))
-    return v;
-  PackingVerdict strict = test_packing(p, resolution, listed, Jamming::strict);
-  if (strict.result.jammed == Verdict::yes) return strict;
-  if (strict.result.jammed == Verdict::undecided) v.result.jammed = Verdict::undecided;
+  const GapResolution resolution = gap_resolution(sys->packing);
+  PackingVerdict v = test_listed(sys, resolution, kind);
+  if (kind == Jamming::collective && !sys->packing.container && v.result.jammed != Verdict::yes &&
+      may_touch_own_image(sys->packing, resolution))
+    take_strict(v, test_listed(sys, resolution, Jamming::strict));
   return v;
 }
 
@@ -107,10 +110,10 @@ jam_status jam_rigidity(jam_system *sys, int32_t kind, jam_rigidity_report *repo
     r.undercoordinated = v.result.undercoordinated;
     r.zero_force_contacts = v.result.zero_force_contacts;
     r.undecided_contacts = v.undecided_contacts;
-    r.rigidity_margin = v.result.margin;
+    r.rigidity_margin = v.result.margin, r.curvature_margin = v.result.curvature;
     r.force_residual = v.result.force_residual;
     give_struct(r, report);
-    return answer_of(r, v.unresolved);
+    return answer_of(r, v);
   });
 }
 
@@ -124,7 +127,9 @@ jam_status jam_flex(jam_system *sys, int32_t kind, double *out, size_t out_len, 
     check_output(strain, strain_len, d * d, "strain");
     if (needed) *needed = size;
     if (!out && !strain) return JAM_OK;
-    const PackingVerdict v = test(sys, jamming);
+    PackingVerdict v = test(sys, jamming);
+    if (jamming == Jamming::collective && rests_on_strains(v))  // the fixed cell has motions of its own
+      v = test_listed(sys, gap_resolution(sys->packing), jamming);
     if (v.contacts.size() > 0 && v.result.flex.empty())
       fail(JAM_E_STATE, v.result.jammed == Verdict::yes ? "the packing is jammed: it has no flex"
                                                         : "no flex was found; the verdict is undecided");
@@ -132,7 +137,7 @@ jam_status jam_flex(jam_system *sys, int32_t kind, double *out, size_t out_len, 
     std::vector<double> motion(size, 0.0), eps(d * d, 0.0);
     if (v.contacts.size() == 0) {  // no pair is near: any motion will do
       if (sys->packing.n() == 1 && jamming == Jamming::collective)
-        fail(JAM_E_STATE, "one sphere that touches nothing has no motion but a translation");
+        fail(JAM_E_STATE, "one sphere in a fixed cell has no motion but a translation");
       (sys->packing.n() > 1 ? motion : eps)[0] = sys->packing.n() > 1 ? unit : -unit;
     }
     for (size_t k = 0; k < v.sphere.size(); ++k)
@@ -164,8 +169,7 @@ jam_status jam_bloch_rigidity(jam_system *sys, const int32_t *count, size_t coun
     if (rows) *rows = m;
     if (!table && !wave) return JAM_OK;
     const ContactNetwork closed = listed_contacts(sys);
-    const BlochFlexes found =
-        bloch_flexes(p, test_collective(p, gap_resolution(p), closed.size() ? &closed : nullptr), copies);
+    const BlochFlexes found = bloch_flexes(p, test_listed(sys, gap_resolution(p), Jamming::collective), copies);
     put_output(found.wave, wave, m * count_len);
     if (table) {
       put_column(found.flexes, JAM_BLOCH_FLEXES, columns, table);

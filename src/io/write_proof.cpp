@@ -35,11 +35,12 @@ void write_proof(const ProofScene &s, const char *path) {
   OutputFile file(path);
   std::string &out = file.text();
   const size_t d = static_cast<size_t>(s.dim);
-  out += "jamproof 1\ndim " + std::to_string(s.dim) + "\nunit ";
+  out += s.strict ? "jamproof 1\nstrict\ndim " : "jamproof 1\ndim ";
+  out += std::to_string(s.dim) + "\nunit ";
   put(out, s.unit);
   out += "\ncell";
   for (size_t r = 0; r < d; ++r)
-    for (size_t c = 0; c <= r; ++c) put(out += ' ', s.cell.row(static_cast<int>(r))[c]);
+    for (size_t c = 0; c <= r; ++c) put(out += ' ', s.cell.row(static_cast<int>(r))[c], s.cell_low[r * d + c]);
   put(out += "\nnon_additivity ", s.non_additivity);
   put(out += "\ngamma ", s.gamma, s.gamma_low);
   out += '\n';

@@ -111,11 +111,10 @@ std::string why_undecided(const PackingVerdict &v) {
         "the network is left empty",
         v.contacts.size());
   else if (v.result.flexes > 0)
-    std::snprintf(
-        line, sizeof line,
-        "undecided: %lld motions keep the contacts closed, and to second order the curvature of the round wall "
-        "neither stabilises nor frees them",
-        static_cast<long long>(v.result.flexes));
+    std::snprintf(line, sizeof line,
+                  "undecided: %lld motions keep the contacts closed; whether other pairs or the curvature of a round "
+                  "wall stop them is left open",
+                  static_cast<long long>(v.result.flexes));
   else if (v.unresolved > 0.0)
     std::snprintf(
         line, sizeof line,

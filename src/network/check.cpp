@@ -72,7 +72,7 @@ void take_verdict(const Packing &p, const PackingVerdict &v, const ContactNetwor
   r.flexes = v.result.flexes;
   r.stationary = verdict_code(v.result.stressed);
   r.force_residual = net.size() ? v.result.force_residual : nan;
-  r.rigidity_margin = net.size() ? v.result.margin : nan;
+  r.rigidity_margin = net.size() ? v.result.margin : nan, r.curvature_margin = v.result.curvature;
   r.max_contact_gap = net.size() ? 0.0 : nan;
   for (const double h : net.gap) r.max_contact_gap = std::max(r.max_contact_gap, std::fabs(h));
   scan_pairs(p, net.coordination, r);
@@ -123,15 +123,8 @@ CheckResult check_as_it_is(const Packing &p, void (*confirm)(const Packing &, Pa
     const PackingVerdict strict = test_packing(q, resolution, nullptr, Jamming::strict);
     r.strictly_jammed = verdict_code(strict.result.jammed);
     r.strict_flexes = strict.result.flexes;
-    if (strict.result.jammed == Verdict::yes && r.jammed != JAM_VERDICT_YES) {
-      verdict = strict;
-      r.jammed = JAM_VERDICT_YES;
-    } else if (r.jammed == JAM_VERDICT_NO && strict.result.jammed == Verdict::undecided) {
-      r.jammed = JAM_VERDICT_UNDECIDED;
-    } else if (r.jammed == JAM_VERDICT_NO && verdict.result.stressed == Verdict::no &&
-               strict.result.stressed == Verdict::yes) {
-      verdict = strict;  // opposite images balance: the reason is a flex, not a lack of forces
-    }
+    take_strict(verdict, strict);
+    r.jammed = verdict_code(verdict.result.jammed);
   }
   bool changes = verdict.when_closed != verdict.result.jammed;
   // Digits that were lost in a way that leaves no step, such as a turned frame: a pair touches, others are open by as

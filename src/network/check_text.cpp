@@ -54,7 +54,7 @@ void add_proof(const Report &r, std::string &out) {
         "the "
         "mean "
         "force times curvature).",
-        wide(r.flexes), plural(r.flexes), r.rigidity_margin);
+        wide(r.flexes), plural(r.flexes), r.curvature_margin);
   if (r.strictly_jammed == JAM_VERDICT_NO && r.strict_flexes == 0)
     add(out, "In a cell that changes its shape no forces balance with an isotropic stress.");
   else if (r.strictly_jammed == JAM_VERDICT_NO)
@@ -108,8 +108,9 @@ void add_undecided(const Report &r, std::string &out) {
         wide(r.closed_pairs));
   else if (r.reason == JAM_CHECK_MARGIN && r.flexes > 0)
     add(out,
-        "%lld motion%s keep the contacts closed, and to second order the curvature of the round wall neither "
-        "stabilises nor frees them.",
+        "%lld motion%s keep the contacts closed; whether other pairs or the curvature of a round wall stop them is "
+        "left "
+        "open.",
         wide(r.flexes), plural(r.flexes));
   else if (r.reason == JAM_CHECK_MARGIN)
     add(out,

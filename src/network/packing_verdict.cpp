@@ -81,6 +81,17 @@ bool may_touch_own_image(const Packing &p, const GapResolution &resolution) {
   return resolution.may_touch(p.cell.shortest() / widest - 1.0, widest);
 }
 
+void take_strict(PackingVerdict &collective, const PackingVerdict &strict) {
+  const RigidityResult &held = strict.result;
+  RigidityResult &r = collective.result;
+  if (r.jammed == Verdict::yes) return;
+  if (held.jammed == Verdict::yes || (r.jammed == Verdict::no && held.jammed == Verdict::no &&
+                                      r.stressed == Verdict::no && held.stressed == Verdict::yes))
+    collective = strict;
+  else if (held.jammed == Verdict::undecided)
+    r.jammed = collective.when_closed = Verdict::undecided;
+}
+
 PackingVerdict test_packing(const Packing &p, const ContactNetwork *listed, Jamming kind) {
   return test_packing(p, gap_resolution(p), listed, kind);
 }

@@ -80,7 +80,7 @@ bool test_from_rigid_part(const RigidityMatrix &sub, const StressCone &cone, Jam
     const RigidityResult r = test_rigidity(rest, Jamming::collective);
     if (r.stressed != Verdict::no) {
       out.jammed = r.jammed, out.stressed = r.stressed;
-      out.flexes = r.flexes, out.margin = std::min(out.margin, r.margin);
+      out.flexes = r.flexes, out.margin = std::min(out.margin, r.margin), out.curvature = r.curvature;
       bool held = false;  // by B
       for (size_t k = 0, at = 0; k < m; ++k)
         if (!inside[k] && (out.carrying[k] = r.carrying[at++])) held = held || body[sub.a[k]] || body[sub.b[k]];

@@ -105,7 +105,7 @@ void judge_curvature(const RigidityMatrix &carrying, const std::vector<double> &
   const double limit = RigidityTuning::least_curvature * scale;
   if (most < -limit) {
     out.jammed = out.force_residual < RigidityTuning::most_residual ? Verdict::yes : Verdict::undecided;
-    out.margin = -most / scale;
+    out.curvature = -most / scale;
     return;
   }
   Slides slides = find_slides(carrying);
@@ -199,6 +199,7 @@ static RigidityResult find_verdict(const RigidityMatrix &g, Jamming kind) {
       return out;
     }
     out.jammed = part.jammed, out.stressed = part.stressed, out.margin = part.margin, out.flexes = part.flexes;
+    out.curvature = part.curvature;
     out.force_residual = part.force_residual;
     spread(on, part.carrying, part.force, out);
     count_carrying(subset(sub, part.carrying), rows.strains, out);

@@ -52,7 +52,10 @@ struct RigidityResult {
                        // packing the curvature of a round wall stabilises them
   int64_t slides = 0;  // of these flexes, where these keep all distances for ever and no other is free (slides.hpp)
   int64_t undercoordinated = 0;  // spheres of B with d contacts of K+ or fewer
-  double margin = 0.0;  // smallest eigenvalue of S^T S on K+ that is no translation; 0 where there is no other motion
+  // Smallest eigenvalue on K+ of S^T S of motions that are neither symmetries nor flexes, with strains in the strict
+  // test and where own images alone hold a sphere; 0 where there is no other motion.
+  double margin = 0.0;
+  double curvature = 0.0;      // where a round wall fixes flexes u: least -sum f b(u, u) over the mean |f b|
   std::vector<double> flex;    // (nodes, dim), largest |v_i| is 1: opens contacts; empty when jammed or not found
   std::vector<double> strain;  // (dim, dim) that goes with it; strict only
   std::vector<double>
@@ -80,9 +83,11 @@ struct PackingVerdict {
   ContactNetwork carrying(int dim) const;
 };
 PackingVerdict test_packing(const Packing &p, const ContactNetwork *listed, Jamming kind);
-// Whether a sphere may touch its own image. There the strict test can hold what the collective one, in which such pairs
-// are no contacts, leaves free: what is held in every strain is held in the fixed cell.
+// Whether a sphere may touch its own image. Such pairs are no contacts of the collective test.
 bool may_touch_own_image(const Packing &p, const GapResolution &resolution);
+// There the strict test can find more than the collective one: what is held in every strain is held in the fixed cell,
+// and where opposite images balance, a flex and not a lack of forces is the reason of a no.
+void take_strict(PackingVerdict &collective, const PackingVerdict &strict);
 // The same where the resolution of gaps is known.
 PackingVerdict test_packing(const Packing &p, const GapResolution &resolution, const ContactNetwork *listed,
                             Jamming kind);

@@ -35,9 +35,12 @@ bool close_exactly(ProofScene &s) {
     if (f.count() != 0) return false;
   }
   s.gamma = high, s.gamma_low = low;
+  return true;
+}
+
+void equal_forces(ProofScene &s) {
   const auto [least, most] = std::minmax_element(s.force.begin(), s.force.end());
   if (*most - *least < 1e-9 * *most) std::fill(s.force.begin(), s.force.end(), s.force[0]);
-  return true;
 }
 
 }  // namespace jam

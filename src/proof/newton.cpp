@@ -102,6 +102,7 @@ bool refine(ProofScene &s, ProofEquations &e) {
   NormalMatrix normal(s, e);
   if (!normal.factorise()) return false;
   if (!closed || s.strict) refine_forces(s, e, normal);
+  if (closed) equal_forces(s);
   return true;
 }
 

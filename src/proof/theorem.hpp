@@ -10,7 +10,7 @@
 
 namespace jam {
 
-enum class ProofCause { none = 0, excess = 1, force = 2, gap = 3, singular = 4, rattler = 5, images = 6 };
+enum class ProofCause { none = 0, excess = 1, force = 2, gap = 3, singular = 4, rattler = 5, images = 6, saddle = 7 };
 
 struct Proof {
   bool exact = false, trapped = false;

@@ -1,6 +1,7 @@
 #include "proof/verdict.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/pair_rule.hpp"
 #include "linalg/blas.hpp"
@@ -23,14 +24,15 @@ bool balance(ProofScene &s, ProofEquations &e) {
   return *std::min_element(s.force.begin(), s.force.end()) > 0.0;
 }
 
-}  // namespace
+bool shown(const Proof &proof) { return proof.exact || proof.trapped; }
 
-bool find_proof(ProofScene &scene, ProofEquations &equations, Proof &proof) {
+// As find_proof, without the cause of a saddle.
+bool search_proof(ProofScene &scene, ProofEquations &equations, Proof &proof) {
   ProofScene other = scene;
   const bool refined = refine(scene, equations);
   proof = refined ? prove(scene, equations) : Proof{};
   if (!refined) proof.cause = ProofCause::singular;
-  if (proof.exact || proof.trapped || scene.strict) return refined;
+  if (shown(proof) || scene.strict) return refined;
   const Exchange exchanged = close_together(other);
   const ProofScene closed = other;
   const Settled end = settle_exchange(other, exchanged);
@@ -40,7 +42,7 @@ bool find_proof(ProofScene &scene, ProofEquations &equations, Proof &proof) {
   settled.implied = find_implied(settled);
   if (refine(settled, there)) {
     const Proof again = prove(settled, there);
-    if (again.exact || again.trapped) {
+    if (shown(again)) {
       proof = again, scene = std::move(settled), equations = std::move(there);
       return true;
     }
@@ -50,6 +52,24 @@ bool find_proof(ProofScene &scene, ProofEquations &equations, Proof &proof) {
   if (!balance(other, there)) return refined;
   proof = prove(other, there), scene = std::move(other), equations = std::move(there);
   return true;
+}
+
+// Contacts with weak forces that do not close together: the two numbers are the least force and the widest gap.
+void name_saddle(const ProofScene &s, const ProofEquations &e, Proof &proof) {
+  if (proof.cause != ProofCause::excess || !(proof.least_force < proof_tuning::weak)) return;
+  double widest = 0.0;
+  for (size_t c = 0; c < s.contacts(); ++c)
+    widest = std::max(widest, 0.5 * std::fabs(e.f[c]) / (e.sigma2[c] * s.gamma));
+  if (!(widest > proof_tuning::nearly_closed)) return;
+  proof.cause = ProofCause::saddle, proof.cause_value = proof.least_force, proof.cause_bound = widest;
+}
+
+}  // namespace
+
+bool find_proof(ProofScene &scene, ProofEquations &equations, Proof &proof) {
+  const bool refined = search_proof(scene, equations, proof);
+  if (refined && !shown(proof) && !scene.strict) name_saddle(scene, equations, proof);
+  return refined;
 }
 
 void decide_by_proof(const Packing &p, PackingVerdict &verdict) {

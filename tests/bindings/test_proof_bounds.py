@@ -148,10 +148,10 @@ TABLE = (
      "for m in (0,):", overlap_across_the_boundary, None),
     ("radius in a gap", "* radius * moving", "* 0 * moving", gap_below_the_radius, None),
     ("eta", "eta = [fraction((abs(v) + a) * g, e + low) for v, a, g in zip(eta, alpha, grown)]", "eta = [Fraction(0)] * rows", far_centre, FAR),
-    ("delta", "delta = [fraction((2 * v + (2 * s.dim + 1) * a * top) * g, e - BITS - 1) / top for v, a, g in zip(delta, alpha, grown)]",
+    ("delta", "delta = [fraction((2 * v + width * a * top) * g, e - BITS - 1) / top for v, a, g in zip(delta, alpha, grown)]",
      "delta = [Fraction(0)] * rows", far_centre_and_no_inverse, FAR),
     ("error of forces", "if min(stress) <= error:", "if min(stress) <= 0:", other_forces, None),
-    ("rank of a crystal", "refuse(rank(rows) < len(columns) - 1,", "refuse(False,", square_lattice, None),
+    ("rank of a crystal", "refuse(rank(rows) < unknowns,", "refuse(False,", square_lattice, None),
     ("balance of a crystal", "if min(stress) <= 0 or any(", "if min(stress) <= 0 or 0 and any(", fcc_with_one_force_doubled, None),
 )  # fmt: skip
 

@@ -107,8 +107,8 @@ class Trapped(unittest.TestCase):
 
     def test_units_of_their_own_widen_the_trap_too(self):
         """Where loosely held spheres have longer units, the packing that was moved away from lies within inner as well."""
-        both = "for grown in ([1] * len(columns), loosely_held(s, columns, inverse, stress)):"
-        program, generator = checker((both, "for grown in (loosely_held(s, columns, inverse, stress),):")), random.Random(5)
+        both = "for grown in [[1] * len(columns)] + ([] if s.strict else [loosely_held(s, columns, inverse, stress)]):"
+        program, generator = checker((both, "for grown in [loosely_held(s, columns, inverse, stress)]:")), random.Random(5)
         for text in self.texts:
             self.assertLess(trapped(text, program)["inner"], 1e-18)
             for power in (20, 12, 9, 6):
@@ -215,6 +215,9 @@ class Trapped(unittest.TestCase):
             self.assertEqual(verdict.jammed, jam.Verdict.UNDECIDED)
             self.assertIn("a saddle", verdict.status_text)
         self.assertEqual(system.check(crunch=False).jammed, jam.Verdict.UNDECIDED)
+        proof = system.prove()
+        self.assertEqual((proof.theorem, proof.cause), (jam.Theorem.NONE, jam.ProofCause.SADDLE))
+        self.assertLess(max(proof.cause_value, proof.cause_bound), 1e-9)
         x = [[Fraction(v) for v in row] for row in system.positions.tolist()]
         size, box = Fraction(system.diameters[0]), Fraction(float(np.max(system.box)))
 
@@ -251,7 +254,7 @@ class Trapped(unittest.TestCase):
         rattler_into_neighbour(f, generator)
         overlap = f.text()
         table = (
-            ("opening", "opening, _, columns = equations(s, every)", "opening, _, columns = [(1, -200)] * len(every), 0, equations(s, every)[2]", text),
+            ("opening", "opening, rows, columns = equations(s, every)", "opening, (rows, columns) = [(1, -200)] * len(every), equations(s, every)[1:]", text),
             ("room for second order", "if left > 0 and 4 * constant * second < left**2:", "if left > 0:", far_off),
             ("room of smaller spheres", "s.g, s.ge = math.floor(min(own, gamma) /", "s.g, s.ge = math.floor(own /", smaller),
             ("pairs stay apart", "if have <= need:", "if False:", overlap),

@@ -179,67 +179,6 @@ class ImpliedContacts(unittest.TestCase):
                     self.assertNotIsInstance(changed(edit), dict)
 
 
-class Strict(unittest.TestCase):
-    def packed(self, n, dim, seed, strain):
-        diameters = np.where(np.arange(n) % 2, 1.4, 1.0) if dim == 2 else np.ones(n)
-        system = jam.System.random(n=n, dim=dim, seed=seed, diameters=diameters, packing_fraction={2: 0.3, 3: 0.2}[dim])
-        system.compress(growth_rate=1e-2, pressure=1e4)
-        system.crunch(strain=strain)
-        return system
-
-    def test_free_cells_are_proved(self):
-        """Against numpy: rows with cell columns, their smallest singular value, and forces by a solve."""
-        proved = 0
-        for dim, seed in ((2, 1), (2, 2), (2, 3), (3, 1), (3, 2), (3, 3)):
-            system = self.packed(32, dim, seed, "free")
-            proof = system.prove_strict()
-            pairs, h = system.contacts.pairs, system.cell
-            stable = sorted(set(pairs.ravel().tolist()))
-            place = {s: k for k, s in enumerate(stable)}
-            rows = np.zeros((len(pairs), dim * len(stable) + dim * dim))
-            for c, (i, j) in enumerate(pairs.tolist()):
-                r = system.contacts.vectors[c] * 0.5 * (system.diameters[i] + system.diameters[j])
-                apart = system.positions[i] - system.positions[j]
-                if np.abs(np.linalg.solve(h.T, r - apart) - np.round(np.linalg.solve(h.T, r - apart))).max() > 1e-6:
-                    r = -r
-                image = np.round(np.linalg.solve(h.T, r - apart))
-                rows[c, dim * place[i] : dim * place[i] + dim] = 2 * r
-                rows[c, dim * place[j] : dim * place[j] + dim] = -2 * r
-                rows[c, dim * len(stable) :] = np.outer(2 * image, r).ravel()
-            used = [k for k in range(dim, dim * len(stable))]
-            used += [dim * len(stable) + q * dim + k for q in range(dim) for k in range(q + 1)]
-            target = np.zeros(rows.shape[1])
-            for q in range(dim):
-                target[dim * len(stable) + q * dim + q] = 1 / h[q, q]
-            rows, target = rows[:, used], target[used]
-            if rows.shape[0] != rows.shape[1]:
-                self.assertNotEqual(proof.theorem, jam.Theorem.EXACT)
-                continue
-            force = np.linalg.solve(rows.T, target)
-            least = np.linalg.svd(rows, compute_uv=False)[-1]
-            self.assertGreater(force.min(), 0)
-            self.assertEqual(proof.theorem, jam.Theorem.EXACT, (dim, seed, proof))
-            self.assertLess(proof.radius, 1e-27)
-            unit = 2.0 ** np.floor(np.log2(float(system.box)))
-            self.assertLessEqual(proof.singular * unit, least * (1 + 1e-9))
-            self.assertAlmostEqual(proof.least_force / (force.min() / force.mean()), 1.0, delta=1e-5)
-            self.assertAlmostEqual(proof.packing_fraction / system.packing_fraction, 1.0, delta=1e-12)
-            proved += 1
-        self.assertGreaterEqual(proved, 3)
-
-    def test_a_packing_of_a_fixed_cell_is_not_strict(self):
-        for dim, seed in ((2, 1), (3, 1)):
-            system = self.packed(32, dim, seed, "none")
-            self.assertEqual(system.prove_strict().theorem, jam.Theorem.NONE)
-
-    def test_a_crystal_is(self):
-        base = np.array([[0, 0, 0], [0.5, 0.5, 0], [0.5, 0, 0.5], [0, 0.5, 0.5]])
-        grid = np.stack(np.meshgrid(*[np.arange(2)] * 3, indexing="ij"), -1).reshape(-1, 3)
-        system = jam.System.from_arrays(((grid[:, None] + base).reshape(-1, 3)) / 2.0, 0.5 * 0.5**0.5 * (1 - 1e-16))
-        system.contacts_from_geometry()
-        self.assertEqual(system.prove_strict().theorem, jam.Theorem.EXACT)
-
-
 PACK = os.environ.get("JAM_PACK")
 
 

@@ -301,5 +301,18 @@ class Steps(unittest.TestCase):
                     self.assertGreater(np.diff(np.concatenate([[phi], steps])).min(), -1e-13)
 
 
+class CurvatureMargin(unittest.TestCase):
+    def test_two_disks_in_a_circle(self):
+        """By hand, for diameter 1: both move across the line of centres by 1 / sqrt(2), and the walls at 1 / 2 close by
+        second derivatives of -2. Their sum is 2, over the mean 5 / 3 of curvatures 2, 2 and 1."""
+        s = jam.System.from_arrays([[0.25, 0.5], [0.75, 0.5]], 0.5, box=1.0, dim=2, container="ball")
+        for found in (s.rigidity(), s.check(crunch=False)):
+            self.assertEqual((found.jammed, found.flexes), (jam.Verdict.YES, 1))
+            self.assertAlmostEqual(found.curvature_margin, 1.2, 12)
+            self.assertAlmostEqual(found.rigidity_margin, 1.0, 12)  # of the two motions along the line: 1 and 3
+        square = jam.System.from_arrays([[0, 0], [0.5, 0.5]], 0.5**0.5, box=1.0, dim=2)
+        self.assertEqual(square.rigidity().curvature_margin, 0.0)
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -160,7 +160,9 @@ static void the_text_of_a_proof_is_short(void **state) {
   assert_string_equal(jam_proof_text(JAM_THEOREM_NONE, JAM_CAUSE_FORCE, NAN, 1e-12, 3e-11),
                       "not proved, force 1e-12, 3e-11");
   assert_string_equal(jam_proof_text(7, 0, 0.0, 0.0, 0.0), "");
-  assert_string_equal(jam_proof_text(0, 7, 0.0, 0.0, 0.0), "");
+  assert_string_equal(jam_proof_text(JAM_THEOREM_NONE, JAM_CAUSE_SADDLE, NAN, 2.5e-11, 4e-13),
+                      "not proved, saddle 2.5e-11, 4e-13");
+  assert_string_equal(jam_proof_text(0, 8, 0.0, 0.0, 0.0), "");
 }
 
 /* Mari-Kurchan shifts are no cell vectors. */

@@ -31,6 +31,7 @@ export walls,
        prove,
        prove_strict,
        write_proof,
+       write_proof_strict,
        refined_positions,
        gaps,
        contact_classes,
@@ -479,7 +480,7 @@ end
 The same where the cell deforms too: the diameters are fixed, and the cell vectors are unknowns. EXACT: strictly
 jammed, and the volume is a strict local minimum. TRAPPED: of all motions and strains that do not enlarge the volume.
 Lengths of the report count displacements and entries of the cell vectors alike, `packing_fraction` is that of the
-exact cell. There is no proof file. Status: `:ambiguous` not proved.
+exact cell. Status: `:ambiguous` not proved.
 
 - errors: `:state` (no network), `:unsupported`
 """
@@ -499,6 +500,17 @@ file with integers alone, without libjam. ratio: as for `prove`. The file appear
 """
 function write_proof(s::System, path, ratio = nothing)
     return call(s, :jam_write_proof, (path, ratio, ); progress = nothing)
+end
+
+"""
+    write_proof_strict(s, path)
+
+The same of `prove_strict`: refined centres and cell.
+
+- errors: `:state`, `:unsupported`, `:io`
+"""
+function write_proof_strict(s::System, path)
+    return call(s, :jam_write_proof_strict, (path, ); progress = nothing)
 end
 
 """

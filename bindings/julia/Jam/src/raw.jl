@@ -297,7 +297,7 @@ const JAM_VERDICT_UNDECIDED = Int32(2)  # double precision cannot decide
 
 # jam_bloch_column: Columns of jam_bloch_rigidity.
 const JAM_BLOCH_FLEXES = Int32(0)  # complex motions at this wave vector that keep K+ closed, without translations
-const JAM_BLOCH_MARGIN = Int32(1)  # least eigenvalue of S^T S on K+ but for translations; below 1e-12: a flex; NaN: no K+
+const JAM_BLOCH_MARGIN = Int32(1)  # least eigenvalue of S^T S on K+ but for translations and flexes; NaN: no K+
 
 # jam_check_reason: Why jam_check_packing answers as it does.
 const JAM_CHECK_PROOF = Int32(0)  # jammed: positive forces balance, and the rank is full
@@ -323,6 +323,7 @@ const JAM_CAUSE_GAP = Int32(3)  # least gap of a pair that is no contact, and th
 const JAM_CAUSE_SINGULAR = Int32(4)  # smallest eigenvalue of the rows, and what rounding takes off it
 const JAM_CAUSE_RATTLER = Int32(5)  # as gap, where the pair has a rattler
 const JAM_CAUSE_IMAGES = Int32(6)  # a contact of a sphere with its own image
+const JAM_CAUSE_SADDLE = Int32(7)  # least force over the mean, and largest relative gap: contacts do not close together
 
 # jam_contact_class: Flags of a contact. A buckler is a stable sphere with d + 1 contacts.
 const JAM_CONTACT_LOCALISED = Int32(1)  # touches a buckler; without it: extended
@@ -991,7 +992,7 @@ force on the path over the mean is within a factor of 1e4 of twice their gap.
 - `undecided_contacts`: pairs with gaps of 1e-10 to 1e-7; after `:duality_gap`: see above
 - `undercoordinated`: stable spheres with d force-carrying contacts or fewer
 - `strict_contacts_needed`: d (N' - 1) + d (d + 1) / 2: fewest contacts of a strictly jammed packing
-- `rigidity_margin`: least eigenvalue of S^T S on contacts with force that is no translation
+- `rigidity_margin`: as in `jam_rigidity_report`
 - `lp_solves`: LPs solved in full
 - `factorisations`: Cholesky factorisations
 - `gain`: sqrt(Gamma) - 1 of the last LP
@@ -1020,8 +1021,8 @@ force on the path over the mean is within a factor of 1e4 of twice their gap.
 - `contacts_start`: pairs that touched before, as far as the digits of the coordinates show
 - `contacts_kept`: of these the contacts of this report
 - `theorem`: one of `:none`, `:trapped`, `:exact`; `:none` without prove
-- `proof_cause`: one of `:none`, `:excess`, `:force`, `:gap`, `:singular`, `:rattler`, `:images`; : why it is not
-  EXACT
+- `proof_cause`: one of `:none`, `:excess`, `:force`, `:gap`, `:singular`, `:rattler`, `:images`, `:saddle`; : why it
+  is not EXACT
 - `proof_radius`: unit of the box: radius of EXACT, inner of TRAPPED (`jam_proof_report`), or infinite
 - `proof_value`: the two numbers of the cause
 - `proof_bound`: the two numbers of the cause
@@ -1048,7 +1049,7 @@ mutable struct jam_crunch_report
     undecided_contacts::Int64  # pairs with gaps of 1e-10 to 1e-7; after JAM_STOP_DUALITY_GAP: see above
     undercoordinated::Int64  # stable spheres with d force-carrying contacts or fewer
     strict_contacts_needed::Int64  # d (N' - 1) + d (d + 1) / 2: fewest contacts of a strictly jammed packing
-    rigidity_margin::Cdouble  # least eigenvalue of S^T S on contacts with force that is no translation
+    rigidity_margin::Cdouble  # as in jam_rigidity_report
     lp_solves::Int64  # LPs solved in full
     factorisations::Int64  # Cholesky factorisations
     gain::Cdouble  # sqrt(Gamma) - 1 of the last LP
@@ -1398,9 +1399,8 @@ end
 
 What `rigidity` found. K+ are the contacts that carry force in some balance of non-negative forces, B the spheres that
 they touch, N' their number. `undecided_contacts`: also pairs that the digits of the coordinates cannot distinguish
-from contacts. `rigidity_margin` below 1e-12: a flex; of a sphere that touches its own images alone: with strains.
-Where a round wall's curvature fixes flexes u: least -sum f b(u, u) for |u| = 1, over the mean |f b|, with b the
-second derivative of the distance across a contact.
+from contacts. `curvature_margin`: where a round wall's curvature fixes flexes u, least -sum f b(u, u) for |u| = 1,
+over the mean |f b|, with b the second derivative of the distance across a contact.
 
 - `kind`: one of `:collective`, `:strict`; that was tested
 - `jammed`: one of `:untested`, `:no`, `:yes`, `:undecided`
@@ -1414,8 +1414,9 @@ second derivative of the distance across a contact.
 - `undercoordinated`: spheres of B with d contacts of K+ or fewer
 - `zero_force_contacts`: closed pairs that are not in K+
 - `undecided_contacts`: pairs with gaps of 1e-10 to 1e-7
-- `rigidity_margin`: smallest eigenvalue on K+ that is no translation
+- `rigidity_margin`: least eigenvalue of S^T S on K+ (with E: strict, own images), no symmetry, no flex
 - `force_residual`: largest |`sum_j` `f_ij` `n_ij`| over the mean force, of the forces in the proof
+- `curvature_margin`: see above; 0 where no flex is fixed so
 """
 mutable struct jam_rigidity_report
     struct_size::UInt32
@@ -1430,9 +1431,10 @@ mutable struct jam_rigidity_report
     undercoordinated::Int64  # spheres of B with d contacts of K+ or fewer
     zero_force_contacts::Int64  # closed pairs that are not in K+
     undecided_contacts::Int64  # pairs with gaps of 1e-10 to 1e-7
-    rigidity_margin::Cdouble  # smallest eigenvalue on K+ that is no translation
+    rigidity_margin::Cdouble  # least eigenvalue of S^T S on K+ (with E: strict, own images), no symmetry, no flex
     force_residual::Cdouble  # largest |sum_j f_ij n_ij| over the mean force, of the forces in the proof
-    jam_rigidity_report() = new(96, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
+    curvature_margin::Cdouble  # see above; 0 where no flex is fixed so
+    jam_rigidity_report() = new(104, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
 end
 
 """
@@ -1484,7 +1486,7 @@ Closed pairs have gaps below 1e-10. NaN, and -1 for contacts: not known. crunch_
 - `min_gap`: smallest gap of two spheres with force that is no contact
 - `max_contact_gap`: largest |gap| of a contact with force
 - `force_residual`: largest |`sum_j` `f_ij` `n_ij`| over the mean force
-- `rigidity_margin`: smallest eigenvalue on contacts with force that is no translation
+- `rigidity_margin`: as in `jam_rigidity_report`
 - `coordinate_step`: the numbers given are multiples of it, unit of the box; 0: all digits are there
 - `resolution`: of gaps: from the digits of the coordinates, and from overlaps
 - `diameter_factor`: diameters were tested times this, so that no pair overlaps; 1: as they are
@@ -1492,11 +1494,12 @@ Closed pairs have gaps below 1e-10. NaN, and -1 for contacts: not known. crunch_
 - `crunch_displacement_max`: largest displacement in it of a sphere that ends with contacts
 - `crunch_displacement_rms`: root of the mean square of the same
 - `theorem`: one of `:none`, `:trapped`, `:exact`; `:none` without prove
-- `proof_cause`: one of `:none`, `:excess`, `:force`, `:gap`, `:singular`, `:rattler`, `:images`; : why it is not
-  EXACT
+- `proof_cause`: one of `:none`, `:excess`, `:force`, `:gap`, `:singular`, `:rattler`, `:images`, `:saddle`; : why it
+  is not EXACT
 - `proof_radius`: unit of the box: radius of EXACT, inner of TRAPPED (`jam_proof_report`), or infinite
 - `proof_value`: the two numbers of the cause
 - `proof_bound`: the two numbers of the cause
+- `curvature_margin`: as in `jam_rigidity_report`
 """
 mutable struct jam_check_report
     struct_size::UInt32
@@ -1523,7 +1526,7 @@ mutable struct jam_check_report
     min_gap::Cdouble  # smallest gap of two spheres with force that is no contact
     max_contact_gap::Cdouble  # largest |gap| of a contact with force
     force_residual::Cdouble  # largest |sum_j f_ij n_ij| over the mean force
-    rigidity_margin::Cdouble  # smallest eigenvalue on contacts with force that is no translation
+    rigidity_margin::Cdouble  # as in jam_rigidity_report
     coordinate_step::Cdouble  # the numbers given are multiples of it, unit of the box; 0: all digits are there
     resolution::Cdouble  # of gaps: from the digits of the coordinates, and from overlaps
     diameter_factor::Cdouble  # diameters were tested times this, so that no pair overlaps; 1: as they are
@@ -1535,7 +1538,8 @@ mutable struct jam_check_report
     proof_radius::Cdouble  # unit of the box: radius of EXACT, inner of TRAPPED (jam_proof_report), or infinite
     proof_value::Cdouble  # the two numbers of the cause
     proof_bound::Cdouble  # the two numbers of the cause
-    jam_check_report() = new(248, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
+    curvature_margin::Cdouble  # as in jam_rigidity_report
+    jam_check_report() = new(256, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
 end
 
 """
@@ -1545,8 +1549,8 @@ What `prove` found. Bounds are rounded outward; NaN where they do not apply. The
 `ratio_i` times the power of two at or below V^(1/d). Where no ratios are given, equal spheres have 1.
 
 - `theorem`: one of `:none`, `:trapped`, `:exact`
-- `cause`: one of `:none`, `:excess`, `:force`, `:gap`, `:singular`, `:rattler`, `:images`; : why theorem is not
-  `:exact`
+- `cause`: one of `:none`, `:excess`, `:force`, `:gap`, `:singular`, `:rattler`, `:images`, `:saddle`; : why theorem
+  is not `:exact`
 - `stable`: spheres with contacts, N'
 - `contacts`: equations: d (N' - 1) + 1 unknowns
 - `cause_value`: see `jam_proof_cause`
@@ -2892,7 +2896,7 @@ end
 The same where the cell deforms too: the diameters are fixed, and the cell vectors are unknowns. EXACT: strictly
 jammed, and the volume is a strict local minimum. TRAPPED: of all motions and strains that do not enlarge the volume.
 Lengths of the report count displacements and entries of the cell vectors alike, `packing_fraction` is that of the
-exact cell. There is no proof file. Status: `JAM_AMBIGUOUS` not proved.
+exact cell. Status: `JAM_AMBIGUOUS` not proved.
 Errors: `JAM_E_STATE` (no network), `JAM_E_UNSUPPORTED`.
 """
 function jam_prove_strict(sys, report)
@@ -2921,6 +2925,16 @@ Errors: `JAM_E_STATE`, `JAM_E_UNSUPPORTED`, `JAM_E_IO`.
 """
 function jam_write_proof(sys, path, ratio, ratio_len)
     return ccall((:jam_write_proof, libjam), Int32, (Ptr{Cvoid}, Cstring, Ptr{Cdouble}, Csize_t), sys, path, _ptr(ratio), ratio_len)
+end
+
+"""
+    jam_write_proof_strict(sys, path)
+
+The same of `jam_prove_strict`: refined centres and cell.
+Errors: `JAM_E_STATE`, `JAM_E_UNSUPPORTED`, `JAM_E_IO`.
+"""
+function jam_write_proof_strict(sys, path)
+    return ccall((:jam_write_proof_strict, libjam), Int32, (Ptr{Cvoid}, Cstring), sys, path)
 end
 
 """

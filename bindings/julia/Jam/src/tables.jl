@@ -43,7 +43,7 @@ const WORDS = (
     bloch_column = (flexes = 0, margin = 1,),
     check_reason = (proof = 0, apart = 1, no_force = 2, flex = 3, digits = 4, overlap = 5, gaps = 6, margin = 7, slide = 8,),
     theorem = (none = 0, trapped = 1, exact = 2,),
-    proof_cause = (none = 0, excess = 1, force = 2, gap = 3, singular = 4, rattler = 5, images = 6,),
+    proof_cause = (none = 0, excess = 1, force = 2, gap = 3, singular = 4, rattler = 5, images = 6, saddle = 7,),
     contact_class = (localised = 1, smallest = 2, median = 4,),
     local_quantity = (force = 0, vector_sum = 1, vector_pairs = 2, vector_dot = 3, force_sum = 4, force_pairs = 5, force_dot = 6, coordination = 7,),
     population = (all = 0, localised = 1, extended = 2, smallest = 3, median = 4,),
@@ -464,6 +464,9 @@ const CALLS = Dict{Symbol, Call}(
         Argument(:path, :string, Cchar, String[], :none, false),
         Argument(:ratio, :array_in, Cdouble, ["n"], :none, false),
         Argument(:ratio_len, :len, Csize_t, String[], :none, false),
+    ]),
+    :jam_write_proof_strict => Call(jam_write_proof_strict, true, true, [
+        Argument(:path, :string, Cchar, String[], :none, false),
     ]),
     :jam_refined_positions => Call(jam_refined_positions, true, true, [
         Argument(:ratio, :array_in, Cdouble, ["n"], :none, false),

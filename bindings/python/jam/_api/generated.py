@@ -386,7 +386,7 @@ class Verdict(_Word):
 class BlochColumn(_Word):
     """Columns of jam_bloch_rigidity."""
     FLEXES = 0  # complex motions at this wave vector that keep K+ closed, without translations
-    MARGIN = 1  # least eigenvalue of S^T S on K+ but for translations; below 1e-12: a flex; NaN: no K+
+    MARGIN = 1  # least eigenvalue of S^T S on K+ but for translations and flexes; NaN: no K+
 
 
 class CheckReason(_Word):
@@ -419,6 +419,7 @@ class ProofCause(_Word):
     SINGULAR = 4  # smallest eigenvalue of the rows, and what rounding takes off it
     RATTLER = 5  # as gap, where the pair has a rattler
     IMAGES = 6  # a contact of a sphere with its own image
+    SADDLE = 7  # least force over the mean, and largest relative gap: contacts do not close together
 
 
 class ContactClass(_Word):
@@ -746,7 +747,7 @@ class CrunchReport(Report):
     undecided_contacts: pairs with gaps of 1e-10 to 1e-7; after JAM_STOP_DUALITY_GAP: see above
     undercoordinated: stable spheres with d force-carrying contacts or fewer
     strict_contacts_needed: d (N' - 1) + d (d + 1) / 2: fewest contacts of a strictly jammed packing
-    rigidity_margin: least eigenvalue of S^T S on contacts with force that is no translation
+    rigidity_margin: as in jam_rigidity_report
     lp_solves: LPs solved in full
     factorisations: Cholesky factorisations
     gain: sqrt(Gamma) - 1 of the last LP
@@ -990,9 +991,8 @@ class GeometryReport(Report):
 class RigidityReport(Report):
     """What jam_rigidity found. K+ are the contacts that carry force in some balance of non-negative forces, B the spheres
     that they touch, N' their number. undecided_contacts: also pairs that the digits of the coordinates cannot
-    distinguish from contacts. rigidity_margin below 1e-12: a flex; of a sphere that touches its own images alone: with
-    strains. Where a round wall's curvature fixes flexes u: least -sum f b(u, u) for |u| = 1, over the mean |f b|, with b
-    the second derivative of the distance across a contact.
+    distinguish from contacts. curvature_margin: where a round wall's curvature fixes flexes u, least -sum f b(u, u) for
+    |u| = 1, over the mean |f b|, with b the second derivative of the distance across a contact.
 
     kind: jam_rigidity_kind that was tested
     jammed: jam_verdict
@@ -1005,8 +1005,9 @@ class RigidityReport(Report):
     undercoordinated: spheres of B with d contacts of K+ or fewer
     zero_force_contacts: closed pairs that are not in K+
     undecided_contacts: pairs with gaps of 1e-10 to 1e-7
-    rigidity_margin: smallest eigenvalue on K+ that is no translation
-    force_residual: largest |sum_j f_ij n_ij| over the mean force, of the forces in the proof"""
+    rigidity_margin: least eigenvalue of S^T S on K+ (with E: strict, own images), no symmetry, no flex
+    force_residual: largest |sum_j f_ij n_ij| over the mean force, of the forces in the proof
+    curvature_margin: see above; 0 where no flex is fixed so"""
     kind: RigidityKind
     jammed: Verdict
     stationary: Verdict
@@ -1020,6 +1021,7 @@ class RigidityReport(Report):
     undecided_contacts: int
     rigidity_margin: float
     force_residual: float
+    curvature_margin: float
 
 
 @dataclass(frozen=True, repr=False)
@@ -1050,7 +1052,7 @@ class CheckReport(Report):
     min_gap: smallest gap of two spheres with force that is no contact
     max_contact_gap: largest |gap| of a contact with force
     force_residual: largest |sum_j f_ij n_ij| over the mean force
-    rigidity_margin: smallest eigenvalue on contacts with force that is no translation
+    rigidity_margin: as in jam_rigidity_report
     coordinate_step: the numbers given are multiples of it, unit of the box; 0: all digits are there
     resolution: of gaps: from the digits of the coordinates, and from overlaps
     diameter_factor: diameters were tested times this, so that no pair overlaps; 1: as they are
@@ -1061,7 +1063,8 @@ class CheckReport(Report):
     proof_cause: jam_proof_cause: why it is not EXACT
     proof_radius: unit of the box: radius of EXACT, inner of TRAPPED (jam_proof_report), or infinite
     proof_value: the two numbers of the cause
-    proof_bound: the two numbers of the cause"""
+    proof_bound: the two numbers of the cause
+    curvature_margin: as in jam_rigidity_report"""
     jammed: Verdict
     strictly_jammed: Verdict
     stationary: Verdict
@@ -1097,6 +1100,7 @@ class CheckReport(Report):
     proof_radius: float
     proof_value: float
     proof_bound: float
+    curvature_margin: float
 
 
 @dataclass(frozen=True, repr=False)
@@ -1579,6 +1583,7 @@ CALLS = {
     "jam_prove": (True, (("ratio", "array_in", "double"), ("ratio_len", "len", "size_t"), ("report", "struct_out", "jam_proof_report"))),
     "jam_prove_strict": (True, (("report", "struct_out", "jam_proof_report"),)),
     "jam_write_proof": (True, (("path", "string", "char"), ("ratio", "array_in", "double"), ("ratio_len", "len", "size_t"))),
+    "jam_write_proof_strict": (True, (("path", "string", "char"),)),
     "jam_refined_positions": (True, (("ratio", "array_in", "double"), ("ratio_len", "len", "size_t"), ("high", "array_out", "double"), ("high_len", "len", "size_t"), ("low", "array_out", "double"), ("low_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_gaps": (True, (("h_max", "scalar", "double"), ("stable_only", "scalar", "int32_t"), ("gap", "array_out", "double"), ("gap_len", "len", "size_t"), ("pair", "array_out", "int32_t"), ("pair_len", "len", "size_t"), ("rows", "scalar_out", "size_t"))),
     "jam_contact_classes": (True, (("out", "array_out", "int32_t"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),

@@ -825,7 +825,7 @@ class Methods:
 
         EXACT: strictly jammed, and the volume is a strict local minimum. TRAPPED: of all motions and strains that do
         not enlarge the volume. Lengths of the report count displacements and entries of the cell vectors alike,
-        packing_fraction is that of the exact cell. There is no proof file. Status: 'ambiguous' not proved.
+        packing_fraction is that of the exact cell. Status: 'ambiguous' not proved.
 
         Returns
         -------
@@ -854,6 +854,19 @@ class Methods:
         ArgumentError, NonfiniteError, StateError, UnsupportedError, IoError
         """
         self.call('write_proof', path, ratio)
+
+    def write_proof_strict(self, path: str) -> None:
+        """The same of prove_strict(): refined centres and cell.
+
+        Parameters
+        ----------
+        path : str
+
+        Raises
+        ------
+        StateError, UnsupportedError, IoError
+        """
+        self.call('write_proof_strict', path)
 
     def refined_positions(self, ratio: Any = None) -> RefinedPositionsResult:
         """Centres of the jammed packing as sums of two doubles, high + low, unit of the box: about 31 digits.

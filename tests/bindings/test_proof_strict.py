@@ -1,0 +1,241 @@
+"""Strict proofs: the cell deforms too. By numpy, by fractions, and by the checker, which knows neither.
+"""
+import pathlib
+import random
+import tempfile
+import unittest
+from fractions import Fraction
+
+import numpy as np
+
+import jam
+from test_proof import File, drop, drop_weakest, double, exchange_end, moved, negate, resized, rattler_into_neighbour, swap_images, swap_two, value, verdict, wide_cell, word
+from test_proof_bounds import FAR, checker, crystal, square_lattice
+from test_proof_bounds import verdict as verdict_of
+
+
+def packed(n, dim, seed, strain="free"):
+    diameters = np.where(np.arange(n) % 2, 1.4, 1.0) if dim == 2 else np.ones(n)
+    system = jam.System.random(n=n, dim=dim, seed=seed, diameters=diameters, packing_fraction={2: 0.3, 3: 0.2}[dim])
+    system.compress(growth_rate=1e-2, pressure=1e4)
+    system.crunch(strain=strain)
+    return system
+
+
+def strict_file(system):
+    with tempfile.TemporaryDirectory() as folder:
+        path = folder + "/a.jamproof"
+        system.write_proof_strict(path)
+        return pathlib.Path(path).read_text(encoding="ascii")
+
+
+def fcc():
+    base = np.array([[0, 0, 0], [0.5, 0.5, 0], [0.5, 0, 0.5], [0, 0.5, 0.5]])
+    grid = np.stack(np.meshgrid(*[np.arange(2)] * 3, indexing="ij"), -1).reshape(-1, 3)
+    return ((grid[:, None] + base).reshape(-1, 3)) / 2.0
+
+
+class Strict(unittest.TestCase):
+    def test_free_cells_are_proved(self):
+        """Against numpy: rows with cell columns, their smallest singular value, and forces by a solve."""
+        proved = 0
+        for dim, seed in ((2, 1), (2, 2), (2, 3), (3, 1), (3, 2), (3, 3)):
+            system = packed(32, dim, seed)
+            proof = system.prove_strict()
+            pairs, h = system.contacts.pairs, system.cell
+            stable = sorted(set(pairs.ravel().tolist()))
+            place = {s: k for k, s in enumerate(stable)}
+            rows = np.zeros((len(pairs), dim * len(stable) + dim * dim))
+            for c, (i, j) in enumerate(pairs.tolist()):
+                r = system.contacts.vectors[c] * 0.5 * (system.diameters[i] + system.diameters[j])
+                apart = system.positions[i] - system.positions[j]
+                if np.abs(np.linalg.solve(h.T, r - apart) - np.round(np.linalg.solve(h.T, r - apart))).max() > 1e-6:
+                    r = -r
+                image = np.round(np.linalg.solve(h.T, r - apart))
+                rows[c, dim * place[i] : dim * place[i] + dim] = 2 * r
+                rows[c, dim * place[j] : dim * place[j] + dim] = -2 * r
+                rows[c, dim * len(stable) :] = np.outer(2 * image, r).ravel()
+            used = [k for k in range(dim, dim * len(stable))]
+            used += [dim * len(stable) + q * dim + k for q in range(dim) for k in range(q + 1)]
+            target = np.zeros(rows.shape[1])
+            for q in range(dim):
+                target[dim * len(stable) + q * dim + q] = 1 / h[q, q]
+            rows, target = rows[:, used], target[used]
+            if rows.shape[0] != rows.shape[1]:
+                self.assertNotEqual(proof.theorem, jam.Theorem.EXACT)
+                continue
+            force = np.linalg.solve(rows.T, target)
+            least = np.linalg.svd(rows, compute_uv=False)[-1]
+            self.assertGreater(force.min(), 0)
+            self.assertEqual(proof.theorem, jam.Theorem.EXACT, (dim, seed, proof))
+            self.assertLess(proof.radius, 1e-27)
+            unit = 2.0 ** np.floor(np.log2(float(system.box)))
+            self.assertLessEqual(proof.singular * unit, least * (1 + 1e-9))
+            self.assertAlmostEqual(proof.least_force / (force.min() / force.mean()), 1.0, delta=1e-5)
+            self.assertAlmostEqual(proof.packing_fraction / system.packing_fraction, 1.0, delta=1e-12)
+            proved += 1
+        self.assertGreaterEqual(proved, 3)
+
+    def test_a_packing_of_a_fixed_cell_is_not_strict(self):
+        for dim, seed in ((2, 1), (3, 1)):
+            system = packed(32, dim, seed, "none")
+            self.assertEqual(system.prove_strict().theorem, jam.Theorem.NONE)
+            text = strict_file(system)
+            self.assertIn("\nstrict\n", text)
+            self.assertNotIsInstance(verdict(text), dict)
+
+    def test_a_crystal_is(self):
+        system = jam.System.from_arrays(fcc(), 0.5 * 0.5**0.5 * (1 - 1e-16))
+        system.contacts_from_geometry()
+        self.assertEqual(system.prove_strict().theorem, jam.Theorem.EXACT)
+        self.assertEqual(verdict(strict_file(system))["radius"], 0.0)
+
+
+def edge_off(by):
+    """One entry of the cell off by a number."""
+    return lambda f, r: f.shift(next(line for line in f.lines if line[0] == "cell"), 1 + r.randrange(3), by)
+
+
+def not_strict(f, r):
+    f.lines.remove(["strict"])
+
+
+KINDS = {
+    "contact missing": (drop, None),
+    "weakest contact missing": (drop_weakest, None),
+    "contact twice": (double, None),
+    "contact with another image": (swap_images, None),
+    "contact with another end": (exchange_end, None),
+    "force negated": (negate, None),
+    "two centres exchanged": (swap_two, None),
+    "rattler overlaps": (rattler_into_neighbour, None),
+    "the word strict left out": (not_strict, None),
+    "cell wider by 1e-1": (wide_cell(Fraction(1, 10)), None),
+    "centre off by 1e-2": (moved(Fraction(1, 100)), None),
+    "diameter larger by 1e-1": (resized(Fraction(1, 10)), None),
+    "cell off by 1e-9": (edge_off(Fraction(1, 10**9)), 1e-9),
+    "cell off by 1e-20": (edge_off(Fraction(1, 10**20)), 1e-20),
+    "centre off by 1e-9": (moved(Fraction(1, 10**9)), 1e-9),
+}
+
+
+class Files(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.systems = [packed(n, dim, seed) for n, dim in ((16, 2), (24, 2), (14, 3)) for seed in range(1, 6)]
+        cls.exact = [s for s in cls.systems if s.report.jammed and s.prove_strict().theorem == jam.Theorem.EXACT]
+        cls.texts = [strict_file(s) for s in cls.exact]
+
+    def test_the_checker_agrees_with_the_library(self):
+        self.assertGreaterEqual(len(self.exact), 6)
+        for system, text in zip(self.exact, self.texts):
+            proof, found = system.prove_strict(), verdict(text)
+            self.assertIsInstance(found, dict, found)
+            self.assertLess(max(found["radius"], proof.radius), 1e-28)
+            self.assertAlmostEqual(proof.least_force / found["least_force"], 1.0, delta=1e-6)
+            self.assertAlmostEqual(min(proof.least_gap, 1e-3), min(found["least_gap"], 1e-3), delta=1e-9)
+
+    def test_contacts_close_and_press_alike_on_all_axes(self):
+        """In fractions of the file: one Gamma to 30 digits in the cell of two doubles, and an isotropic stress."""
+        for text in self.texts:
+            f = File(text)
+            dim = int(next(line for line in f.lines if line[0] == "dim")[1])
+            entries = [value(x) for x in next(line for line in f.lines if line[0] == "cell")[1:]]
+            cell = [[entries[q * (q + 1) // 2 + k] if k <= q else Fraction(0) for k in range(dim)] for q in range(dim)]
+            x = [[value(v) for v in s[3:]] for s in f.spheres]
+            gamma, stress = value(f.gamma[1]), np.zeros((dim, dim))
+            for line in f.contacts:
+                i, j, n, force = int(line[1]), int(line[2]), list(map(int, line[3 : 3 + dim])), float(value(line[-1]))
+                r = [x[i][k] - x[j][k] + sum(n[q] * cell[q][k] for q in range(dim)) for k in range(dim)]
+                sigma = (value(f.spheres[i][2]) + value(f.spheres[j][2])) / 2
+                self.assertLess(abs(sum(v * v for v in r) / (gamma * sigma**2) - 1), Fraction(1, 10**29))
+                self.assertGreater(force, 0.0)
+                stress += force * np.outer(*2 * (list(map(float, r)),))
+            self.assertLess(np.abs(stress / stress[0, 0] - np.eye(dim)).max(), 1e-9)
+
+    def test_changed_files_are_not_proved(self):
+        generator = random.Random(5)
+        for text in self.texts:
+            for name, (change, away) in KINDS.items():
+                with self.subTest(kind=name):
+                    f = File(text)
+                    change(f, generator)
+                    found = verdict(f.text())
+                    if away is None:
+                        self.assertNotIsInstance(found, dict, f"{name}: {found}")
+                    elif isinstance(found, dict):
+                        self.assertGreaterEqual(found["radius"], 0.5 * away)
+
+    def test_more_contacts_than_unknowns_are_trapped(self):
+        """A crystal that rounding moves; without the word strict it is a packing of a fixed cell, trapped as well."""
+        places = np.stack(np.meshgrid(*[np.arange(3)] * 3, indexing="ij"), -1).reshape(-1, 3)
+        system = jam.System.from_arrays(((places[:, None] + 2 * fcc()[:4]).reshape(-1, 3)) / 3.0, 0.5**0.5 / 3.0 * (1 - 1e-15))
+        system.contacts_from_geometry()
+        self.assertEqual(system.prove_strict().theorem, jam.Theorem.TRAPPED)
+        program, text = checker(), strict_file(system)
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "a.jamproof"
+
+            def found(words):
+                path.write_text(words, encoding="ascii")
+                try:
+                    return program.trapped(program.Scene(path))
+                except program.Refused as why:
+                    return str(why)
+
+            self.assertIsInstance(found(text), dict, found(text))
+            self.assertLess(found(text)["inner"], 1e-12)
+            f = File(text)
+            edge_off(Fraction(1, 10**8))(f, random.Random(1))
+            wider = found(f.text())
+            self.assertTrue(isinstance(wider, str) or wider["inner"] > 1e-10, wider)
+        self.assertEqual(verdict(square_lattice().replace("dim", "strict\ndim", 1)), "singular")  # rows shear
+
+
+def crystal_with_one_axis_pressed():
+    """Forces of the contacts across one axis doubled: they balance on every sphere, and not on the cell."""
+    lines = crystal([tuple(row) for row in fcc().tolist()], Fraction(1, 8), 1)
+    rows = [[value(x) for x in line.split()[3:]] for line in lines if line.startswith("sphere")]
+    for k, line in enumerate(lines):
+        if line.startswith("contact"):
+            i, j, *n = map(int, line.split()[1:6])
+            if rows[i][2] - rows[j][2] + n[2] != 0:
+                lines[k] = line[: line.rindex(" ")] + " 2p0"
+    return "\n".join([lines[0], "strict"] + lines[1:]) + "\n"
+
+
+def grain_across_the_boundary(text):
+    """Open by 1.5 radii of a sphere in the next cell, while sphere and cell vector may each come nearer by one."""
+    intact = checker()
+    f = File(text)
+    edge_off(FAR)(f, random.Random(1))
+    unit = value(next(line for line in f.lines if line[0] == "unit")[1])
+    radius, grain = Fraction(verdict_of(intact, f.text())["radius"]) / unit, Fraction(1, 1000)
+    edge = value(next(line for line in f.lines if line[0] == "cell")[1])
+    for stable in f.spheres:
+        sigma = Fraction(float(value(f.gamma[1])) ** 0.5) * (value(stable[2]) + grain) / 2
+        for gap, sign in ((10 * radius, 1), (Fraction(3, 2) * radius, 1)):
+            x = value(stable[3]) + sigma + gap - edge
+            there = f.text() + " ".join(["sphere", "0", word(grain), word(x), *stable[4:]]) + "\n"
+            if not isinstance(verdict_of(intact, there), dict):
+                break
+        if gap < 10 * radius:
+            return there
+    raise AssertionError("no place for a grain")
+
+
+class Bounds(unittest.TestCase):
+    def test_each_bound_is_needed(self):
+        exact = next(s for s in (packed(16, 2, seed) for seed in range(1, 20)) if s.prove_strict().theorem == jam.Theorem.EXACT)
+        table = (
+            ("one pressure on all axes", "or len(pressure) > 1", "", crystal_with_one_axis_pressed()),
+            ("cell vectors in a gap", "* (i != j) + s.strict * sum(map(abs, n))", "* (i != j)", grain_across_the_boundary(strict_file(exact))),
+        )
+        for name, old, new, false in table:
+            with self.subTest(bound=name):
+                self.assertNotIsInstance(verdict_of(checker(), false), dict)
+                self.assertIsInstance(verdict_of(checker((old, new)), false), dict)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,5 +1,5 @@
 #!/bin/sh
-# check.sh BUILD: the folder as Debian's tools read it; no symbol of libjam0.symbols is missing in the built library.
+# check.sh BUILD: the folder as Debian's tools read it; libjam0.symbols has the symbols of the built library.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 build=$(cd "$1" && pwd)
@@ -13,7 +13,7 @@ cd "$work/source"
 version=$(sed -n 's/^project(jam VERSION \([0-9.]*\).*/\1/p' "$here/../../CMakeLists.txt")
 dpkg-parsechangelog -S Version | grep -qx "$version-1" || { echo "changelog: the version is not $version-1"; exit 1; }
 dh binary --no-act --without python3 --buildsystem=cmake+ninja | grep -q dh_makeshlibs
-dpkg-gensymbols -c1 -plibjam0 -Odebian/symbols.new -Idebian/libjam0.symbols \
+dpkg-gensymbols -c2 -plibjam0 -Odebian/symbols.new -Idebian/libjam0.symbols \
   -e"$(ls "$build"/libjam.so.*.*.*)" >"$work/differ" || { cat "$work/differ"; exit 1; }
 for package in libjam0 libjam-dev python3-jam jam-tools; do
   grep -qx "Package: $package" debian/control && test -s "debian/$package.install" ||

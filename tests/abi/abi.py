@@ -15,6 +15,7 @@ root = here.parent.parent
 build = pathlib.Path(sys.argv[2])
 SYMBOLS, CONSTANTS, DUMP = here / "symbols.txt", here / "constants.c", here / "libjam.abi"
 HEADER = here / "recorded/jam/jam.h"  # what old_program.c is compiled with
+DEBIAN = root / "pkgconfig/debian"
 UPDATE = "if that is wanted: python3 tests/abi/abi.py update BUILD_FOLDER"
 
 
@@ -144,11 +145,25 @@ def record_header():
     HEADER.write_text("/* Made by tests/abi/abi.py: jam.h as old programs were compiled with. */\n" + now.lstrip())
 
 
+def record_debian():
+    """Debian's list says with which version a symbol came."""
+    number = abi_number(header_text())
+    file = DEBIAN / f"libjam{number}.symbols"
+    if not file.exists():
+        print(f"{file.relative_to(root)} is missing: rename Debian's files to the new number")
+        return
+    version = re.search(r"project\(jam VERSION ([\d.]+)", (root / "CMakeLists.txt").read_text()).group(1)
+    had = dict(re.findall(r"^ (\S+)@JAM_\d+ (\S+)$", file.read_text(), flags=re.M))
+    lines = [f" {name}@JAM_{number} {had.get(name, version)}" for name in exported()]
+    file.write_text(f"libjam.so.{number} libjam{number} #MINVER#\n" + "\n".join(lines) + "\n")
+
+
 def update():
     if frozen():
         refuse_breaks()
     else:
         record_header()
+    record_debian()
     SYMBOLS.write_text("\n".join(exported()) + "\n")
     CONSTANTS.write_text(constants_text())
     library = build / "tests/abi/libjam_abi.so"

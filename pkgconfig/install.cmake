@@ -1,5 +1,5 @@
 # Installs library, header, pkg-config files and the CMake package; included at the end of the top CMakeLists.txt.
-# Components: runtime (the shared library), dev (what compiles against it), python, tools (jam-pack), doc.
+# Components: runtime (the shared library), dev (what compiles against it), python, tools (jam-pack), doc, guide.
 include(CMakePackageConfigHelpers)
 set(JAM_CMAKE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/jam)
 
@@ -38,7 +38,12 @@ endforeach()
 
 configure_package_config_file(pkgconfig/jamConfig.cmake.in jamConfig.cmake INSTALL_DESTINATION ${JAM_CMAKE_DIR})
 # Before 1.0 a minor release may change the API.
-write_basic_package_version_file(jamConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+if(PROJECT_VERSION_MAJOR EQUAL 0)
+  set(compatibility SameMinorVersion)
+else()
+  set(compatibility SameMajorVersion)
+endif()
+write_basic_package_version_file(jamConfigVersion.cmake COMPATIBILITY ${compatibility})
 install(FILES ${PROJECT_BINARY_DIR}/jamConfig.cmake ${PROJECT_BINARY_DIR}/jamConfigVersion.cmake
         DESTINATION ${JAM_CMAKE_DIR} COMPONENT dev)
 install(EXPORT jamTargets NAMESPACE jam:: DESTINATION ${JAM_CMAKE_DIR} COMPONENT dev)

@@ -129,6 +129,10 @@ def build_sdist(sdist_directory: str, config_settings: dict | None = None) -> st
     name = f"{base}.tar.gz"
     files = {path: (ROOT / path).read_bytes() for path in _sources()}
     files["PKG-INFO"] = _metadata().encode()
+    commit = subprocess.run(["git", "-C", str(ROOT), "rev-parse", "HEAD"], capture_output=True, text=True)
+    if commit.returncode == 0:
+        archived = "pkgconfig/archive_commit"
+        files[archived] = files[archived].replace(b"$Format:%H$", commit.stdout.strip().encode())
     # an archive of source is built from its root
     project = (ROOT / "bindings/python/pyproject.toml").read_bytes()
     files["pyproject.toml"] = project.replace(b'backend-path = ["."]', b'backend-path = ["bindings/python"]')

@@ -5,6 +5,10 @@ set -eu
 "$1" --build "$2" --target docs
 /usr/bin/python3 -B "$(dirname "$0")/check_site.py" "$2/docs/html"
 html=$2/docs/html
+installed=$(mktemp -d)
+trap 'rm -rf "$installed"' EXIT
+"$1" --install "$2" --component guide --prefix "$installed" >"$installed/log"
+diff -r "$html" "$installed/share/doc/jam/html" >/dev/null || { echo "the installed guide is another one"; exit 1; }
 has() { grep -q "$2" "$html/$1" || { echo "$1 does not show: $2"; exit 1; }; }
 has index.html 'makes and analyses jammed packings'                      # start page
 has index.html 'search.html'

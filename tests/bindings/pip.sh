@@ -19,3 +19,7 @@ done
 cmp "$work"/one/jamming-*.tar.gz "$work"/two/jamming-*.tar.gz
 tar -xzf "$work"/one/jamming-*.tar.gz -C "$work/one"
 grep -q '^backend-path = \["bindings/python"\]' "$work"/one/jamming-*/pyproject.toml
+if commit=$(git -C "$1" rev-parse HEAD 2>/dev/null); then
+  grep -qx "$commit" "$work"/one/jamming-*/pkgconfig/archive_commit ||
+    { echo "the archive does not name its commit"; exit 1; }
+fi

@@ -81,6 +81,16 @@ fetch)
     grep -q "^$value\$" "$scratch/flat/CMakeCache.txt" || die "the preset flat does not set $value"
   done
   ;;
+archive)
+  # An archive of the source, which has no history, names its commit too.
+  commit=$(git -C "$here/../.." rev-parse HEAD 2>/dev/null) || { echo "no repository"; exit 77; }
+  rm -rf "$scratch/archive" && mkdir "$scratch/archive"
+  git -C "$here/../.." archive HEAD | tar -x -C "$scratch/archive"
+  cmake -S "$scratch/archive" -B "$scratch/archive/b" -DJAM_BUILD_TESTS=OFF -DCMAKE_EXPORT_COMPILE_COMMANDS=ON \
+    >"$scratch/archive.log"
+  grep '"command":.*/src/capi/status.cpp' "$scratch/archive/b/compile_commands.json" |
+    grep -q "JAM_COMMIT_STRING=[^ ]*$(echo "$commit" | cut -c1-12)" || die "the archive does not name its commit"
+  ;;
 uninstall)
   # What an install of the build wrote goes again, and nothing else.
   rm -rf "$scratch/gone"

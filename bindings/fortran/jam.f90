@@ -3134,7 +3134,7 @@ module jam
     module procedure l_jam_contact_dots
   end interface jam_contact_dots
 
-  ! g_ab(r) of spheres with labels a and b, pairs over N_a N_b. kind: the labels, or NULL.
+  ! g_ab(r) of labels a, b in kind (or NULL). Walls, d < 4: over centres spread evenly.
   ! Shapes: kind (n), out (bins).
   interface jam_pair_correlation
     module procedure f_jam_pair_correlation
@@ -6073,9 +6073,10 @@ contains
     status = c_jam_mk_shifts(sys, at_pair, count_pair, at_out, count_out, needed)
   end function l_jam_mk_shifts
 
-  ! S(q) on the wave vectors of the cell (in a cube 2 pi n / box) with |q| <= q_max. Lengths that differ by less than
-  ! 5e-13 of |q| are one.
+  ! S(q) on the wave vectors of the cell (in a cube 2 pi n / box), along axes without walls, with |q| <= q_max. Lengths
+  ! within 5e-13 of |q| are one.
   ! Shapes: table (m, jam_structure_column).
+  ! Errors: JAM_E_UNSUPPORTED (no such axis).
   function jam_structure_factor(sys, q_max, table, table_len, needed) result(status)
     type(c_ptr), intent(in) :: sys
     real(c_double), intent(in) :: q_max
@@ -6126,9 +6127,9 @@ contains
     status = c_jam_bond_order(sys, l, cutoff, at_out, count_out, needed)
   end function jam_bond_order
 
-  ! Packing fraction of each sphere in its radical Voronoi cell, d = 3.
+  ! Packing fraction of each sphere in its radical Voronoi cell within the walls (a round one to 1e-5), d = 3.
   ! Shapes: out (n).
-  ! Errors: JAM_E_UNSUPPORTED (d, or built without voro++).
+  ! Errors: JAM_E_UNSUPPORTED (d, no voro++, walls of a tilted cell).
   function jam_local_fraction(sys, out, out_len, needed) result(status)
     type(c_ptr), intent(in) :: sys
     real(c_double), intent(inout), target, contiguous, optional :: out(..)
@@ -6256,7 +6257,7 @@ contains
     status = c_jam_near_coordination(sys, h_max, at_out, count_out, needed)
   end function jam_near_coordination
 
-  ! Pore sizes at random points of the void, exact; not with walls yet. The time grows with the fourth power of the
+  ! Pore sizes at random points of the void, exact; not in a cylinder. The time grows with the fourth power of the
   ! number of neighbours of a point: use it above packing fractions of about 0.4.
   ! Shapes: table (points, jam_pore_column).
   ! Errors: JAM_E_UNSUPPORTED.

@@ -1486,7 +1486,7 @@ contains
     call self%done(status)
   end function do_histogram
 
-  ! g_ab(r) of spheres with labels a and b, pairs over N_a N_b. kind: the labels, or NULL.
+  ! g_ab(r) of labels a, b in kind (or NULL). Walls, d < 4: over centres spread evenly.
   ! Shapes: kind (n), out (bins).
   function do_pair_correlation(self, o, kind) result(found)
     class(packing), intent(inout) :: self
@@ -1526,9 +1526,10 @@ contains
     call self%done(status)
   end function do_mk_shifts
 
-  ! S(q) on the wave vectors of the cell (in a cube 2 pi n / box) with |q| <= q_max. Lengths that differ by less than
-  ! 5e-13 of |q| are one.
+  ! S(q) on the wave vectors of the cell (in a cube 2 pi n / box), along axes without walls, with |q| <= q_max. Lengths
+  ! within 5e-13 of |q| are one.
   ! Shapes: table (m, jam_structure_column).
+  ! Errors: JAM_E_UNSUPPORTED (no such axis).
   function do_structure_factor(self, q_max) result(found)
     class(packing), intent(inout) :: self
     real(c_double), intent(in) :: q_max
@@ -1577,9 +1578,9 @@ contains
     call self%done(status)
   end function do_crystal_score
 
-  ! Packing fraction of each sphere in its radical Voronoi cell, d = 3.
+  ! Packing fraction of each sphere in its radical Voronoi cell within the walls (a round one to 1e-5), d = 3.
   ! Shapes: out (n).
-  ! Errors: JAM_E_UNSUPPORTED (d, or built without voro++).
+  ! Errors: JAM_E_UNSUPPORTED (d, no voro++, walls of a tilted cell).
   function do_local_fraction(self) result(found)
     class(packing), intent(inout) :: self
     real(c_double), allocatable :: found(:)
@@ -1689,7 +1690,7 @@ contains
     call self%done(status)
   end function do_near_coordination
 
-  ! Pore sizes at random points of the void, exact; not with walls yet. The time grows with the fourth power of the
+  ! Pore sizes at random points of the void, exact; not in a cylinder. The time grows with the fourth power of the
   ! number of neighbours of a point: use it above packing fractions of about 0.4.
   ! Shapes: table (points, jam_pore_column).
   ! Errors: JAM_E_UNSUPPORTED.

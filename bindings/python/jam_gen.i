@@ -804,22 +804,23 @@ values there.
 Shapes: out (bins).
 Errors: JAM_E_STATE."
 %feature("docstring") jam_correlation_options_init ""
-%feature("docstring") jam_pair_correlation "g_ab(r) of spheres with labels a and b, pairs over N_a N_b. kind: the labels, or NULL.
+%feature("docstring") jam_pair_correlation "g_ab(r) of labels a, b in kind (or NULL). Walls, d < 4: over centres spread evenly.
 Shapes: kind (n), out (bins)."
 %feature("docstring") jam_mk_shifts "Shifts A_ij of the Mari-Kurchan model, unit of the box: r_ij = r_i - r_j + A_ij by nearest images, A_ji = -A_ij.
 Shapes: pair (m, 2), out (m, d).
 Errors: JAM_E_UNSUPPORTED (other model)."
-%feature("docstring") jam_structure_factor "S(q) on the wave vectors of the cell (in a cube 2 pi n / box) with |q| <= q_max. Lengths that differ by less than
-5e-13 of |q| are one.
-Shapes: table (m, jam_structure_column)."
+%feature("docstring") jam_structure_factor "S(q) on the wave vectors of the cell (in a cube 2 pi n / box), along axes without walls, with |q| <= q_max. Lengths
+within 5e-13 of |q| are one.
+Shapes: table (m, jam_structure_column).
+Errors: JAM_E_UNSUPPORTED (no such axis)."
 %feature("docstring") jam_bond_order "Bond order Q_l of each sphere (d = 2: |psi_l|) over neighbours with |r| < cutoff sigma_ij; l in 1..64, cutoff in (0,
 3] (1.2 is usual).
 Shapes: out (n)."
 %feature("docstring") jam_crystal_score "Crystal score: g at sqrt 2 over its mean in 1.2..1.6 (mean diameters); below 1 in a good glass of equal spheres,
 about 10 in a perfect FCC crystal."
-%feature("docstring") jam_local_fraction "Packing fraction of each sphere in its radical Voronoi cell, d = 3.
+%feature("docstring") jam_local_fraction "Packing fraction of each sphere in its radical Voronoi cell within the walls (a round one to 1e-5), d = 3.
 Shapes: out (n).
-Errors: JAM_E_UNSUPPORTED (d, or built without voro++)."
+Errors: JAM_E_UNSUPPORTED (d, no voro++, walls of a tilted cell)."
 %feature("docstring") jam_mesh_options_init ""
 %feature("docstring") jam_write_stl "Binary STL of the solid, d = 3, closed: each edge belongs to two triangles, which pass it in opposite directions.
 Cylinders that would meet each other or a third sphere are refused with their numbers. The file appears as of
@@ -838,7 +839,7 @@ Shapes: table (bins, jam_profile_column).
 Errors: JAM_E_UNSUPPORTED."
 %feature("docstring") jam_near_coordination "Spheres with a gap h < h_max, up to 1, to each one, every image; walls do not count. Needs no crunch.
 Shapes: out (n)."
-%feature("docstring") jam_pore_sizes "Pore sizes at random points of the void, exact; not with walls yet. The time grows with the fourth power of the
+%feature("docstring") jam_pore_sizes "Pore sizes at random points of the void, exact; not in a cylinder. The time grows with the fourth power of the
 number of neighbours of a point: use it above packing fractions of about 0.4.
 Shapes: table (points, jam_pore_column).
 Errors: JAM_E_UNSUPPORTED."

@@ -1522,7 +1522,7 @@ typedef struct jam_correlation_options {
   int64_t bins; /* equal ones from 0 to r_max, 1 .. 1e8, default 200; one holds its lower edge less 1e-10 */
 } jam_correlation_options;
 JAM_API jam_status jam_correlation_options_init(jam_correlation_options *o, size_t size);
-/* g_ab(r) of spheres with labels a and b, pairs over N_a N_b. kind: the labels, or NULL. @shape kind (n), out (bins) */
+/* g_ab(r) of labels a, b in kind (or NULL). Walls, d < 4: over centres spread evenly. @shape kind (n), out (bins) */
 JAM_API jam_status jam_pair_correlation(const jam_system *sys, const jam_correlation_options *o, const int32_t *kind,
                                         size_t kind_len, double *out, size_t out_len, size_t *needed);
 /* Shifts A_ij of the Mari-Kurchan model, unit of the box: r_ij = r_i - r_j + A_ij by nearest images, A_ji = -A_ij.
@@ -1534,8 +1534,8 @@ typedef enum jam_structure_column {
   JAM_STRUCTURE_Q = 0, /* |q| times the mean diameter, ascending */
   JAM_STRUCTURE_S = 1  /* S(q), its average over all q of this length */
 } jam_structure_column;
-/* S(q) on the wave vectors of the cell (in a cube 2 pi n / box) with |q| <= q_max. Lengths that differ by less than
- * 5e-13 of |q| are one. @shape table (m, jam_structure_column) */
+/* S(q) on the wave vectors of the cell (in a cube 2 pi n / box), along axes without walls, with |q| <= q_max. Lengths
+ * within 5e-13 of |q| are one. @shape table (m, jam_structure_column) @errors UNSUPPORTED (no such axis) */
 JAM_API jam_status jam_structure_factor(jam_system *sys, double q_max, double *table, size_t table_len, size_t *needed);
 /* Bond order Q_l of each sphere (d = 2: |psi_l|) over neighbours with |r| < cutoff sigma_ij; l in 1..64, cutoff in (0,
  * 3] (1.2 is usual). @shape out (n) */
@@ -1544,8 +1544,8 @@ JAM_API jam_status jam_bond_order(const jam_system *sys, int32_t l, double cutof
 /* Crystal score: g at sqrt 2 over its mean in 1.2..1.6 (mean diameters); below 1 in a good glass of equal spheres,
  * about 10 in a perfect FCC crystal. */
 JAM_API jam_status jam_crystal_score(const jam_system *sys, double *score);
-/* Packing fraction of each sphere in its radical Voronoi cell, d = 3. @shape out (n) @errors UNSUPPORTED (d, or built
- * without voro++) */
+/* Packing fraction of each sphere in its radical Voronoi cell within the walls (a round one to 1e-5), d = 3. @shape out
+ * (n) @errors UNSUPPORTED (d, no voro++, walls of a tilted cell) */
 JAM_API jam_status jam_local_fraction(const jam_system *sys, double *out, size_t out_len, size_t *needed);
 
 /* ------------- the pore space */
@@ -1625,7 +1625,7 @@ typedef enum jam_pore_column {
   JAM_PORE_DISTANCE = 3, /* to the nearest surface: radius of the largest sphere about the point */
   JAM_PORE_RADIUS = 4    /* of the largest sphere that contains the point and no solid */
 } jam_pore_column;
-/* Pore sizes at random points of the void, exact; not with walls yet. The time grows with the fourth power of the
+/* Pore sizes at random points of the void, exact; not in a cylinder. The time grows with the fourth power of the
  * number of neighbours of a point: use it above packing fractions of about 0.4. @shape table (points, jam_pore_column)
  * @errors UNSUPPORTED */
 JAM_API jam_status jam_pore_sizes(jam_system *sys, int64_t points, int64_t seed, double *table, size_t table_len,

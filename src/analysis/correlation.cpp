@@ -1,16 +1,14 @@
-// g(r), bond order, local packing fraction.
+// g(r), bond order.
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include "analysis/shells.hpp"
 #include "analysis/structure.hpp"
 #include "analysis/tuning.hpp"
 #include "core/call_scope.hpp"
 #include "core/error.hpp"
 #include "core/math.hpp"
 #include "network/resolution.hpp"
-#ifdef JAM_HAVE_VORO
-#include <voro++/voro++.hh>
-#endif
 
 namespace jam {
 
@@ -24,16 +22,18 @@ std::vector<double> pair_correlation(const Packing &p, const int32_t *kind, size
   if (bins < 1 || bins > 100000000) fail(JAM_E_ARGUMENT, "bins is %zu, it must be in 1..1e8", bins);
   check_pair_count(p, r_max * unit);
   auto is = [&](int32_t i, int32_t which) { return which < 0 || kind_len == 0 || kind[i] == which; };
+  std::vector<char> of(p.n()), with(p.n());
   double na = 0.0, nb = 0.0;
   for (size_t i = 0; i < p.n(); ++i) {
-    na += is(static_cast<int32_t>(i), a);
-    nb += is(static_cast<int32_t>(i), b);
+    na += of[i] = is(static_cast<int32_t>(i), a);
+    nb += with[i] = is(static_cast<int32_t>(i), b);
   }
   std::vector<double> g(bins, 0.0), r(p.dim);
   const PairList all = find_pairs(p, r_max * unit, 0.0);
   SparseLook sparse_look;
   for (size_t k = 0; k < all.size(); ++k) {
     sparse_look();
+    if (all.wall(k)) continue;
     // What counts as a contact, to both sides of its distance, must not fall into two bins where that is an edge.
     // Beyond the last bin it belongs to none.
     const double x = std::sqrt(pair_vector(p, all, k, r.data())) / (r_max * unit) * (1.0 + contact_gap_limit);
@@ -42,6 +42,11 @@ std::vector<double> pair_correlation(const Packing &p, const int32_t *kind, size
     const int32_t i = all.i[k], j = all.j[k];
     // ordered pairs (a, b); an image of a sphere with itself stands once in the list for both directions
     g[bin] += static_cast<double>(is(i, a) && is(j, b)) + static_cast<double>(is(j, a) && is(i, b));
+  }
+  if (p.container) {
+    const std::vector<double> even = pairs_of_even_spread(p, of, with, r_max * unit, bins);
+    for (size_t k = 0; k < bins; ++k) g[k] = even[k] > 0.0 ? g[k] / even[k] : 0.0;
+    return g;
   }
   const double ball = unit_sphere_volume(p.dim) * math::pow(2.0, p.dim), density = nb / p.cell.volume();
   for (size_t k = 0; k < bins; ++k) {
@@ -114,41 +119,6 @@ double crystal_score(const Packing &p) {
     if (r > Tuning::from && r < Tuning::to) around += g[k] * shell, weight_around += shell;
   }
   return around > 0.0 ? (near / weight_near) / (around / weight_around) : 0.0;
-}
-
-std::vector<double> local_fractions(const Packing &p) {
-#ifdef JAM_HAVE_VORO
-  if (p.dim != 3)
-    fail(JAM_E_UNSUPPORTED, "local packing fractions are there for d = 3 only, this system has d = %d", p.dim);
-  if (p.model == JAM_MODEL_MK) fail(JAM_E_UNSUPPORTED, "Mari-Kurchan spheres have no cells of their own");
-  // In a cell of volume 1: voro++ has absolute tolerances, and ends the process when it loses track of a cell.
-  const int cells =
-      std::max(1, static_cast<int>(math::pow(static_cast<double>(p.n()) / CellsTuning::spheres_a_block, 1.0 / 3.0)));
-  const double side = p.cell.side();
-  const double *b = p.cell.row(1), *c = p.cell.row(2);
-  voro::container_periodic_poly box(p.cell.edge(0) / side, b[0] / side, b[1] / side, c[0] / side, c[1] / side,
-                                    c[2] / side, cells, cells, cells, 8);
-  for (size_t i = 0; i < p.n(); ++i) {
-    const double *x = &p.position[3 * i];
-    box.put(static_cast<int>(i), x[0] / p.cell.side(), x[1] / p.cell.side(), x[2] / p.cell.side(),
-            0.5 * p.diameter[i] / p.cell.side());
-  }
-  std::vector<double> phi(p.n(), 0.0);
-  voro::c_loop_all_periodic loop(box);
-  voro::voronoicell cell;
-  if (loop.start()) do {
-      CallScope::look();
-      if (!box.compute_cell(cell, loop)) continue;
-      const auto i = static_cast<size_t>(loop.pid());
-      phi[i] = unit_sphere_volume(3) * math::pow(p.diameter[i] / p.cell.side(), 3) / cell.volume();
-    } while (loop.inc());
-  for (size_t i = 0; i < p.n(); ++i)
-    if (!(phi[i] > 0.0 && phi[i] <= 1.0 + 1e-9)) fail(JAM_E_SOLVER, "the Voronoi cell of sphere %zu was not found", i);
-  return phi;
-#else
-  (void)p;
-  fail(JAM_E_UNSUPPORTED, "this libjam was built without voro++");
-#endif
 }
 
 }  // namespace jam

@@ -25,10 +25,10 @@ static double median_of(std::vector<double> &x) {
 FloppySolver::FloppySolver(const Packing &p, const ContactNetwork &network, const RigidityMatrix &g)
     : g_(g), space_(g) {
   const StressStates s = find_stress(g, space_, false);
-  if (s.dimension != 1 || s.zero_modes != g.dim)
+  if (s.dimension != 1 || s.zero_modes != g.symmetries())
     fail(JAM_E_STATE,
-         "opening one contact needs exactly one state of self-stress and %d zero modes; there are %lld and %lld", g.dim,
-         static_cast<long long>(s.dimension), static_cast<long long>(s.zero_modes));
+         "opening one contact needs exactly one state of self-stress and %d zero modes; there are %lld and %lld",
+         g.symmetries(), static_cast<long long>(s.dimension), static_cast<long long>(s.zero_modes));
   force_ = s.force;
   const size_t n = g.unknowns();
   for (size_t k = 0; k < g.contacts(); ++k) force_sigma_ += force_[k] * g.sigma[k];
@@ -38,7 +38,7 @@ FloppySolver::FloppySolver(const Packing &p, const ContactNetwork &network, cons
   const PairList all = pairs_without_contacts(p, &network, 1.0, true);
   std::vector<double> r(p.dim);
   for (size_t k = 0; k < all.size(); ++k) {
-    const int32_t a = g.node[all.i[k]], b = g.node[all.j[k]];
+    const int32_t a = g.node[all.i[k]], b = all.wall(k) ? all.j[k] : g.node[all.j[k]];
     if (a == b) continue;
     const double length = std::sqrt(pair_vector(p, all, k, r.data())), sigma = contact_distance(p, all.i[k], all.j[k]);
     i_.push_back(a);
@@ -56,7 +56,7 @@ void FloppySolver::fields(size_t first, int count, std::vector<double> &dr) cons
     for (size_t c = 0; c < d; ++c) {
       const size_t k = first + q;
       dr[q * n + static_cast<size_t>(g_.a[k]) * d + c] += g_.normal[k * d + c];
-      dr[q * n + static_cast<size_t>(g_.b[k]) * d + c] -= g_.normal[k * d + c];
+      if (g_.b[k] >= 0) dr[q * n + static_cast<size_t>(g_.b[k]) * d + c] -= g_.normal[k * d + c];
     }
   space_.solver().solve(dr.data(), count);
   for (int q = 0; q < count; ++q)
@@ -79,23 +79,15 @@ void FloppySolver::measure(size_t l, const double *dr, FloppyModes &out) const {
   const double gamma = inflation(l);
   double s_plus = std::numeric_limits<double>::infinity();
   for (size_t k = 0; k < i_.size(); ++k) {
-    const double *u = dr + static_cast<size_t>(i_[k]) * d, *v = dr + static_cast<size_t>(j_[k]) * d,
-                 *n = &normal_[k * d];
+    const double *u = dr + static_cast<size_t>(i_[k]) * d, *n = &normal_[k * d];
     double closing = gamma * sigma_[k];
-    for (size_t c = 0; c < d; ++c) closing -= n[c] * (u[c] - v[c]);
+    for (size_t c = 0; c < d; ++c) closing -= n[c] * (j_[k] < 0 ? u[c] : u[c] - dr[static_cast<size_t>(j_[k]) * d + c]);
     if (closing * s_plus > open_[k]) s_plus = open_[k] / closing;
   }
   double bend = 0.0;
   for (size_t k = 0; k < g_.contacts(); ++k) {
-    const double *u = dr + static_cast<size_t>(g_.a[k]) * d, *v = dr + static_cast<size_t>(g_.b[k]) * d,
-                 *n = &g_.normal[k * d];
-    double along = 0.0, sum = 0.0;
-    for (size_t c = 0; c < d; ++c) {
-      const double x = u[c] - v[c];
-      along += n[c] * x;
-      sum += x * x;
-    }
-    bend += force_[k] * (sum - along * along) / g_.distance[k];
+    const double across = force_[k] * g_.stretch(k, dr).across();
+    bend += g_.b[k] < 0 ? across * g_.bending[k] : across / g_.distance[k];
   }
   out.s_plus[l] = s_plus;
   out.s_star[l] = bend > 0.0 ? force_[l] / bend : std::numeric_limits<double>::infinity();

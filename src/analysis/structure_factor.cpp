@@ -1,4 +1,4 @@
-// S(q) on the wave vectors of a periodic cell.
+// S(q) on the wave vectors of a periodic cell, or of the axes of it that repeat.
 #include <algorithm>
 #include <cmath>
 
@@ -99,7 +99,8 @@ class Sum {
     const std::vector<double> s = phases_of(p);
     // cos and sin for every component, coefficient and sphere, so that inner loops run over spheres
     for (int c = 0; c < d; ++c) {
-      most_.push_back(static_cast<int>(std::floor(reach * lattice_.length[c])));
+      // Waves across walls would show the container: those along the axes that repeat are left.
+      most_.push_back(p.cell.repeats(c) ? static_cast<int>(std::floor(reach * lattice_.length[c])) : 0);
       const size_t width = 2 * static_cast<size_t>(most_[c]) + 1;
       CallScope::need_memory(static_cast<double>(width * n_) * 2.0 * sizeof(double), "phases of the spheres");
       co_.emplace_back(width * n_);
@@ -163,6 +164,7 @@ StructureFactor structure_factor(const Packing &p, double q_max, bool lengths_on
   const double unit = diameter_mean(p), step = 2.0 * math::pi / p.cell.side();
   if (!(q_max > 0.0 && std::isfinite(q_max)))
     fail(JAM_E_ARGUMENT, "q_max is %g per mean diameter, it must be finite and > 0", q_max);
+  refuse_closed(p, 1, "S(q)");
   const double reach = q_max / unit / step;
   const double vectors = 0.5 * unit_sphere_volume(p.dim) * math::pow(2.0 * reach, p.dim);
   if (vectors * static_cast<double>(p.n()) > 2e10)

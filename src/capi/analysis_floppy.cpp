@@ -9,7 +9,6 @@ extern "C" {
 
 jam_status jam_floppy_mode(jam_system *sys, int64_t contact, double *out, size_t out_len, size_t *needed) {
   return guard_cancellable(sys, [&]() -> jam_status {
-    refuse_walls(sys->packing, "followed along its floppy modes");
     need_network(sys);
     const RigidityMatrix g = make_rigidity_matrix(sys->packing, sys->contacts);
     if (contact < 0 || static_cast<size_t>(contact) >= g.contacts())
@@ -25,7 +24,6 @@ jam_status jam_floppy_mode(jam_system *sys, int64_t contact, double *out, size_t
 jam_status jam_floppy_modes(jam_system *sys, double *table, size_t table_len, size_t *needed) {
   return guard_cancellable(sys, [&]() -> jam_status {
     constexpr size_t columns = JAM_FLOPPY_S_RETURN + 1;
-    refuse_walls(sys->packing, "followed along its floppy modes");
     need_network(sys);
     const RigidityMatrix g = make_rigidity_matrix(sys->packing, sys->contacts);
     const bool wanted = table_wanted(g.contacts(), columns, table, table_len, needed);

@@ -23,15 +23,6 @@ jam_correlation_options default_correlation_options() {
   return o;
 }
 
-// What depends on a distance alone: near walls that of an ideal gas depends on the place too.
-void refuse_radial(const Packing &p, const char *done) {
-  if (p.container)
-    fail(JAM_E_UNSUPPORTED,
-         "a scene with walls cannot be %s: near a wall even an ideal gas has none that depends on the distance alone; "
-         "jam_solid_profile gives the density against the distance from a wall",
-         done);
-}
-
 }  // namespace
 
 extern "C" {
@@ -124,7 +115,6 @@ jam_status jam_correlation_options_init(jam_correlation_options *o, size_t size)
 jam_status jam_pair_correlation(const jam_system *sys, const jam_correlation_options *o, const int32_t *kind,
                                 size_t kind_len, double *out, size_t out_len, size_t *needed) {
   return guard_const(sys, [&]() -> jam_status {
-    refuse_radial(sys->packing, "given a pair correlation");
     jam_correlation_options full = default_correlation_options();
     take_options(o, full);
     if (kind_len) need(kind, "kind");
@@ -162,7 +152,6 @@ jam_status jam_mk_shifts(const jam_system *sys, const int32_t *pair, size_t pair
 
 jam_status jam_structure_factor(jam_system *sys, double q_max, double *table, size_t table_len, size_t *needed) {
   return guard_cancellable(sys, [&]() -> jam_status {
-    refuse_radial(sys->packing, "given a structure factor");
     if (!needed && !table) fail(JAM_E_NULL, "needed is NULL and there is no output array");
     constexpr size_t columns = JAM_STRUCTURE_S + 1;
     const StructureFactor f = structure_factor(sys->packing, q_max, !table);
@@ -183,7 +172,6 @@ jam_status jam_bond_order(const jam_system *sys, int32_t l, double cutoff, doubl
 
 jam_status jam_crystal_score(const jam_system *sys, double *score) {
   return guard_const(sys, [&]() -> jam_status {
-    refuse_walls(sys->packing, "given a crystal score, which is made from g(r)");
     need(score, "score");
     *score = crystal_score(sys->packing);
     return JAM_OK;
@@ -192,7 +180,6 @@ jam_status jam_crystal_score(const jam_system *sys, double *score) {
 
 jam_status jam_local_fraction(const jam_system *sys, double *out, size_t out_len, size_t *needed) {
   return guard_const(sys, [&]() -> jam_status {
-    refuse_walls(sys->packing, "divided into Voronoi cells");
     const std::vector<double> phi = local_fractions(sys->packing);
     return give_array(phi.data(), phi.size(), out, out_len, needed);
   });

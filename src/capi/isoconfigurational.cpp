@@ -51,7 +51,6 @@ jam_status jam_isoconfigurational(jam_system *sys, const jam_isoconf_options *o,
                                   const double *instant, size_t instant_len, const int32_t *kept, size_t kept_len,
                                   jam_isoconf_report *report) {
   return guard_reporting(sys, report, [&]() -> Answer {
-    refuse_walls(sys->packing, "run many times from one configuration");
     jam_isoconf_options full = default_isoconf_options();
     jam_monte_carlo_options monte_carlo = default_monte_carlo_options();
     take_options(o, full);

@@ -25,7 +25,6 @@ jam_status jam_monte_carlo(jam_system *sys, const jam_monte_carlo_options *o, ja
       stage.reset(static_cast<MonteCarloRun *>(sys->paused.release()));
     } else {
       if (full.first_sweep < 0) full.first_sweep = sys->sweeps;
-      if (full.alpha > 0.0) refuse_walls(sys->packing, "moved by Monte Carlo of soft spheres");
       stage = std::make_unique<MonteCarloRun>(sys->packing, full);
     }
     Limits limits;

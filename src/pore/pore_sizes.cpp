@@ -26,6 +26,58 @@ Row touching(const Ball &base, const Ball &ball) {
   return {d, ball.r - base.r, 0.5 * (dot(d, d) - ball.r * ball.r + base.r * base.r)};
 }
 Row in_plane(const Point &normal) { return {normal, 0.0, 0.0}; }
+// Touching wall w from inside: a flat one has a distance linear in c, a round one is a ball of negative radius.
+Row touching_wall(const Ball &base, const Container &container, int w) {
+  Point n{};
+  container.normal(w, base.x.data(), n.data());
+  const double distance = container.distance(w, base.x.data());
+  if (!container.is_round(w)) return {n, -1.0, -distance};
+  const double radius = 0.5 * container.widest(), off = radius - distance;
+  return touching(base, {{base.x[0] + off * n[0], base.x[1] + off * n[1], base.x[2] + off * n[2]}, -radius});
+}
+// The plane through the point of a row's base and two directions; of opposite walls, any plane across them.
+Row in_plane_of(const Row &i, const Row &j) {
+  const Point normal = cross(i.d, j.d);
+  if (dot(normal, normal) > 0.0) return in_plane(normal);
+  return in_plane(i.d[2] == 0.0 ? Point{0.0, 0.0, 1.0} : Point{1.0, 0.0, 0.0});
+}
+
+// The same where directions of rows lie nearly in a plane, as those of opposite walls do: then c hardly follows from r.
+// Centre and radius follow from the coordinate along which all rows change least.
+template <class F>
+void solve_flat(const Ball &base, const std::array<Row, 3> &row, const F &f) {
+  const auto column = [&](size_t c) {
+    return c == 3 ? Point{row[0].q, row[1].q, row[2].q} : Point{row[0].d[c], row[1].d[c], row[2].d[c]};
+  };
+  const auto minor = [&](size_t free) {
+    return dot(column((free + 1) % 4), cross(column((free + 2) % 4), column((free + 3) % 4)));
+  };
+  size_t free = 0;
+  for (size_t c = 1; c < 4; ++c)
+    if (std::fabs(minor(c)) > std::fabs(minor(free))) free = c;
+  const double det = minor(free);
+  if (det == 0.0) return;
+  const Point right{row[0].b, row[1].b, row[2].b}, last = column(free);
+  std::array<double, 4> u{}, w{};
+  for (size_t k = 1; k < 4; ++k) {  // Cramer's rule; the order of three columns turns in a circle
+    const Point next = column((free + 1 + k % 3) % 4), other = column((free + 1 + (k + 1) % 3) % 4);
+    u[(free + k) % 4] = dot(right, cross(next, other)) / det;
+    w[(free + k) % 4] = -dot(last, cross(next, other)) / det;
+  }
+  w[free] = 1.0;
+  const double reach = u[3] + base.r;
+  const double a = w[0] * w[0] + w[1] * w[1] + w[2] * w[2] - w[3] * w[3],
+               half = u[0] * w[0] + u[1] * w[1] + u[2] * w[2] - reach * w[3],
+               rest = u[0] * u[0] + u[1] * u[1] + u[2] * u[2] - reach * reach;
+  const double disc = half * half - a * rest;
+  if (!(disc >= 0.0)) return;
+  const double root = -(half + std::copysign(std::sqrt(disc), half));
+  for (const double t : {rest / root, root / a}) {
+    const double r = u[3] + t * w[3];
+    if (std::fabs(t) < infinite && r > 0.0 && r + base.r > 0.0)
+      f(Ball{{base.x[0] + u[0] + t * w[0], base.x[1] + u[1] + t * w[1], base.x[2] + u[2] + t * w[2]}, r});
+  }
+}
 
 // Calls f with each sphere of positive radius that solves three rows and touches the base (of radius 0: passes
 // through it). The rows give c = u + w r, and |c| = r + R of the base is quadratic in r.
@@ -33,7 +85,8 @@ template <class F>
 void solve(const Ball &base, const Row &i, const Row &j, const Row &k, const F &f) {
   const Point jk = cross(j.d, k.d), ki = cross(k.d, i.d), ij = cross(i.d, j.d);
   const double det = dot(i.d, jk);
-  if (det == 0.0) return;
+  const double size2 = dot(i.d, i.d) * dot(j.d, j.d) * dot(k.d, k.d);
+  if (!(det * det > PoreSizeTuning::flat * PoreSizeTuning::flat * size2)) return solve_flat(base, {i, j, k}, f);
   Point u, w;
   for (size_t c = 0; c < 3; ++c) {
     u[c] = (i.b * jk[c] + j.b * ki[c] + k.b * ij[c]) / det;
@@ -48,16 +101,41 @@ void solve(const Ball &base, const Row &i, const Row &j, const Row &k, const F &
       f(Ball{{base.x[0] + u[0] + w[0] * r, base.x[1] + u[1] + w[1] * r, base.x[2] + u[2] + w[2] * r}, r});
 }
 
+// On the line of the base and the direction of a row.
+template <class F>
+void solve_on_line(const Ball &base, const Row &i, const F &f) {
+  const bool upright = i.d[0] == 0.0 && i.d[1] == 0.0;
+  const Point across = cross(i.d, upright ? Point{1.0, 0.0, 0.0} : Point{0.0, 0.0, 1.0});
+  solve(base, i, in_plane(across), in_plane(cross(i.d, across)), f);
+}
+
 class Pores {
  public:
   explicit Pores(const Packing &p)
       : p_(p), length_(diameter_mean(p)), most_(bound_radius()), balls_(p, 2.0 * most_ + 0.5 * diameter_max(p)) {
     find_vertices();
   }
-  double clearance(const Point &x) const { return balls_.clearance(x, 2.0 * most_); }
+  // Distance to the nearest surface of a sphere or a wall, negative in the solid.
+  double clearance(const Point &x) const { return to_walls(p_, x, balls_.clearance(x, 2.0 * most_)); }
   double largest_at(const Point &x);
 
  private:
+  static double to_walls(const Packing &p, const Point &x, double least) {
+    for (int w = 0; w < p.container.count(); ++w) least = std::min(least, p.container.distance(w, x.data()));
+    return least;
+  }
+  // Rows of the surfaces that a sphere which touches the base can touch too: of `near_` and of walls.
+  void take_rows(const Ball &base) {
+    row_.clear();
+    for (const Ball &b : near_) row_.push_back(touching(base, b));
+    for (int w = 0; w < p_.container.count(); ++w)
+      if (p_.container.distance(w, base.x.data()) <= base.r + 2.0 * most_)
+        row_.push_back(touching_wall(base, p_.container, w));
+  }
+  // A round wall bends towards the void: a sphere that touches it is widest with one surface less, in the plane or on
+  // the line of the others. Its row is the last.
+  bool curved() const { return p_.container.round_axes() > 0 && row_.size() > near_.size(); }
+  void keep_between_walls();
   // No pore is wider: clearance grows by no more than the way from the nearest point of a grid.
   double bound_radius() const;
   void find_vertices();
@@ -67,13 +145,13 @@ class Pores {
       const double least = s.r + b.r - rounding * length_;
       if (dot(d, d) < least * least) return false;
     }
-    return true;
+    return to_walls(p_, s.x, s.r) >= s.r - rounding * length_;
   }
   const Packing &p_;
   double length_, most_;
   Balls balls_;
   std::vector<Ball> near_;
-  std::vector<Row> row_;
+  std::vector<Row> row_;  // of near_, then of walls
   std::vector<Ball> vertex_;
   std::vector<std::vector<int32_t>> vertices_at_;  // those that reach into each box of balls_
 };
@@ -94,7 +172,8 @@ double Pores::bound_radius() const {
         CallScope::look();
         for (int64_t x = 0; x < count[0]; ++x) {
           const auto at = [&](int64_t k, int c) { return (static_cast<double>(k) + 0.5) * step[c]; };
-          most = std::max(most, balls.clearance({at(x, 0), at(y, 1), p_.dim == 3 ? at(z, 2) : 0.0}, reach));
+          const Point here{at(x, 0), at(y, 1), p_.dim == 3 ? at(z, 2) : 0.0};
+          most = std::max(most, to_walls(p_, here, balls.clearance(here, reach)));
         }
       }
     if (most < reach) return most + 0.5 * std::sqrt(dot(step, step));
@@ -103,14 +182,13 @@ double Pores::bound_radius() const {
 
 // Spheres that touch d + 1 balls: where clearance is largest. Found from the ball of lowest number among them.
 void Pores::find_vertices() {
-  std::vector<Row> rows;
+  const std::vector<Row> &rows = row_;
   std::vector<Ball> others;
   for (size_t i = 0; i < p_.n(); ++i) {
     CallScope::look();
     const Ball base = balls_.primary(i);
     balls_.near(base.x, base.r + 2.0 * most_, near_, static_cast<int32_t>(i));
-    rows.clear();
-    for (const Ball &b : near_) rows.push_back(touching(base, b));
+    take_rows(base);
     balls_.near(base.x, base.r + 2.0 * most_, others);
     const auto keep = [&](const Ball &s) {
       if (s.r <= most_ && is_free(s, others)) vertex_.push_back(s);
@@ -121,8 +199,26 @@ void Pores::find_vertices() {
           solve(base, rows[a], rows[b], in_plane({0.0, 0.0, 1.0}), keep);
         else
           for (size_t c = b + 1; c < rows.size(); ++c) solve(base, rows[a], rows[b], rows[c], keep);
+    if (!curved()) continue;
+    for (size_t a = 0; p_.dim == 3 && a < near_.size(); ++a)
+      solve(base, rows[a], rows.back(), in_plane_of(rows[a], rows.back()), keep);
+    solve_on_line(base, rows.back(), keep);
   }
+  keep_between_walls();
   balls_.sort_into_boxes(vertex_, vertices_at_);
+}
+
+// Spheres that touch walls alone, in a closed brick: opposite ones along an axis, and one along each other.
+void Pores::keep_between_walls() {
+  if (p_.container.round_axes() > 0 || p_.container.open_axes() > 0) return;
+  for (int axis = 0; axis < p_.dim; ++axis)
+    for (int sides = 0; sides < 1 << p_.dim; ++sides) {
+      if (sides >> axis & 1) continue;
+      Ball s{{}, 0.5 * p_.cell.edge(axis)};
+      for (int c = 0; c < p_.dim; ++c) s.x[static_cast<size_t>(c)] = sides >> c & 1 ? p_.cell.edge(c) - s.r : s.r;
+      balls_.near(s.x, s.r, near_);
+      if (is_free(s, near_)) vertex_.push_back(s);
+    }
 }
 
 double Pores::largest_at(const Point &x) {
@@ -134,16 +230,16 @@ double Pores::largest_at(const Point &x) {
     if (s.r > best && dot(d, d) <= s.r * s.r) best = s.r;
   }
   balls_.near(x, 2.0 * most_, near_);
-  row_.clear();
-  for (const Ball &b : near_) row_.push_back(touching(point, b));
+  take_rows(point);
   const auto keep = [&](const Ball &s) {
     if (s.r > best && s.r <= most_ && is_free(s, near_)) best = s.r;
   };
   for (size_t a = 0; a < row_.size(); ++a)
     for (size_t b = a + 1; b < row_.size(); ++b) {
-      solve(point, row_[a], row_[b], in_plane(cross(row_[a].d, row_[b].d)), keep);
+      solve(point, row_[a], row_[b], in_plane_of(row_[a], row_[b]), keep);
       for (size_t c = b + 1; p_.dim == 3 && c < row_.size(); ++c) solve(point, row_[a], row_[b], row_[c], keep);
     }
+  if (curved()) solve_on_line(point, row_.back(), keep);
   return best;
 }
 
@@ -151,7 +247,10 @@ double Pores::largest_at(const Point &x) {
 
 void check_pore_points(const Packing &p, int64_t points) {
   check_has_pores(p);
-  refuse_walls(p, "searched for pore sizes");
+  if (p.dim == 3 && p.container.round_axes() == 2)
+    fail(JAM_E_UNSUPPORTED,
+         "pore sizes in a cylinder: spheres that touch its wall and three others are roots of a quartic, which is not "
+         "solved; an image of jam_write_voxels with a program for local thickness gives them to its resolution");
   if (points < 1 || points > 1000000000)
     fail(JAM_E_ARGUMENT, "points is %lld, it must be in 1..1e9", static_cast<long long>(points));
 }
@@ -166,7 +265,7 @@ std::vector<std::array<double, 5>> pore_sizes(const Packing &p, int64_t points, 
     Point x{};
     for (int c = 0; c < p.dim; ++c) x[c] = rng.uniform() * p.cell.edge(c);
     const double clear = pores.clearance(x);
-    if (!(clear > 0.0)) continue;
+    if (!(clear > 0.0)) continue;  // in the solid, or outside of a round wall
     const double z = p.dim == 3 ? x[2] : std::numeric_limits<double>::quiet_NaN();
     out.push_back({x[0], x[1], z, clear, pores.largest_at(x)});
   }

@@ -357,7 +357,7 @@ class Pores(unittest.TestCase):
         with self.assertRaises(jam.errors.ArgumentError):
             s.pore_sizes(0, 1)
         with self.assertRaisesRegex(jam.errors.UnsupportedError, "pore sizes"):
-            jam.System.random(20, packing_fraction=0.1, walls="z").pore_sizes(5, 1)
+            jam.System.random(20, packing_fraction=0.1, container="cylinder").pore_sizes(5, 1)
 
 
 @unittest.skipUnless(PACK, "jam-pack is not built")

@@ -110,10 +110,6 @@ class Structure(unittest.TestCase):
             if len(angle):
                 self.assertAlmostEqual(abs(np.exp(6j * angle).mean()), q[i], 9)
 
-    def test_radial_structure_is_refused_with_the_reason(self):
-        with self.assertRaisesRegex(jam.errors.UnsupportedError, "pair correlation.*solid_profile"):
-            start("slit", 10, 1).pair_correlation()
-
     def test_profile_counts_what_stands_in_the_slit(self):
         s = start("slit", 40, 4)
         s.crunch()

@@ -26,6 +26,7 @@ class MonteCarloGeometry {
       : cell_(cell), height_(cell.height_min() / cell.side()), widest_(MonteCarloTuning::range * height_) {
     for (int c = 0; c < D; ++c)
       for (int k = 0; k <= c; ++k) row_[c][k] = cell.row(c)[k] / cell.side();
+    for (int c = 0; c < D; ++c) closed_ |= cell.repeats(c) ? 0u : 1u << c;
     if (Cube || contact_max <= MonteCarloTuning::fullest * widest_) return;
     widest_ = MonteCarloTuning::beyond * contact_max;
     check_images();
@@ -109,6 +110,8 @@ class MonteCarloGeometry {
   void vector(const Place &a, const Place &b, double *r) const {
     for (int c = 0; c < D; ++c) r[c] = static_cast<double>(static_cast<int64_t>(a[c] - b[c])) * unit;
     if (Cube) return;
+    for (int c = 0; closed_ && c < D; ++c)  // nothing is seen across a wall: back to the difference that did not wrap
+      if (closed_ >> c & 1 && (r[c] < 0.0) != (a[c] < b[c]) && r[c] != 0.0) r[c] += r[c] < 0.0 ? 1.0 : -1.0;
     for (int c = 0; c < D; ++c) {
       r[c] *= row_[c][c];
       for (int k = c + 1; k < D; ++k) r[c] += r[k] * row_[k][c];
@@ -120,7 +123,9 @@ class MonteCarloGeometry {
     return r2;
   }
   // A difference has no coefficient beyond 1/2. A vector shorter than widest_ has none beyond widest_ / height.
-  double most_cells(int c) const { return std::floor(widest_ * cell_.side() / cell_.height(c) + 0.5); }
+  double most_cells(int c) const {
+    return cell_.repeats(c) ? std::floor(widest_ * cell_.side() / cell_.height(c) + 0.5) : 0.0;
+  }
   void check_images() const {
     double images = 1.0;
     for (int c = 0; c < D; ++c) images *= 2.0 * most_cells(c) + 1.0;
@@ -143,6 +148,7 @@ class MonteCarloGeometry {
 
   Cell cell_;
   double height_, widest_;
+  uint32_t closed_ = 0;  // axes with walls; in a Cube hard spheres never meet across one
   std::array<std::array<double, D>, D> row_{};
   std::vector<std::array<double, D>> image_;  // empty: the nearest is enough
 };

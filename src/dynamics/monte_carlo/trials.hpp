@@ -40,6 +40,7 @@ class MonteCarloOf final : public MonteCarloSpheres<D, Cube> {
         const double sigma = contact(i, k);
         if (r2 < sigma * sigma) sum += energy_.value(overlap(std::sqrt(r2), sigma));
       });
+    for (int32_t i = 0; Soft && p_.container && i < n_; ++i) sum += wall_energy(i, nullptr);
     return sum;
   }
 
@@ -50,6 +51,10 @@ class MonteCarloOf final : public MonteCarloSpheres<D, Cube> {
         const double sigma = contact(i, k), r = std::sqrt(r2);
         if (r >= sigma) return;
         sum += energy_.slope(overlap(r, sigma)) * (energy_.relative() ? r / sigma : r * p_.cell.side());
+      });
+    for (int32_t i = 0; Soft && p_.container && i < n_; ++i)
+      each_wall(i, nullptr, [&](double r, double radius) {
+        sum += energy_.slope(overlap(r, radius)) * (energy_.relative() ? r / radius : r * p_.cell.side());
       });
     return sum;
   }
@@ -116,6 +121,24 @@ class MonteCarloOf final : public MonteCarloSpheres<D, Cube> {
       return sum;
     });
   }
+  // f(distance, radius) of each wall that sphere i overlaps after a step of V^(1/d) times dx (NULL: where it is), in
+  // units of the box side.
+  template <class F>
+  void each_wall(int32_t i, const double *dx, F &&f) const {
+    double x[D];
+    geometry_.position(x_[i], x);
+    for (int c = 0; dx && c < D; ++c) x[c] += dx[c] * p_.cell.side();
+    for (int w = 0; w < p_.container.count(); ++w) {
+      const double r = p_.container.distance(w, x) / p_.cell.side();
+      if (r < radius_[i]) f(r, radius_[i]);
+    }
+  }
+  // Soft spheres overlap walls: sum of their energies after a step dx (NULL: where sphere i is).
+  double wall_energy(int32_t i, const double *dx) const {
+    double sum = 0.0;
+    each_wall(i, dx, [&](double r, double radius) { sum += energy_.value(overlap(r, radius)); });
+    return sum;
+  }
   bool accept(double energy_change, uint64_t base) const {
     if (energy_change <= 0.0) return true;
     return Soft && uniform(base, 8) < math::exp(-energy_change * inverse_temperature_);
@@ -130,12 +153,15 @@ class MonteCarloOf final : public MonteCarloSpheres<D, Cube> {
           static_cast<double>(static_cast<int64_t>(mix64(base + static_cast<uint64_t>(c) * weyl)) >> 11);
       dx[c] = part * 0x1p-52 * step_;
     }
-    if (p_.container && leaves_walls(i, radius_[i], dx)) return;  // places wrap beyond a wall
+    // Places wrap beyond a wall: the centre of a soft sphere stays inside too.
+    if (p_.container && leaves_walls(i, Soft ? 0.0 : radius_[i], dx)) return;
     // 2^63 is never reached: the step is less than half a cell vector, and the number is in [-1, 1).
     const std::array<int64_t, D> shift = geometry_.shift_of(dx);
     for (int c = 0; c < D; ++c) to[c] = x_[i][c] + static_cast<uint64_t>(shift[c]);
     prepare(i, to);
-    if (!accept(change(i, to), base)) return;
+    double more = change(i, to);
+    if (Soft && p_.container) more += wall_energy(i, dx) - wall_energy(i, nullptr);
+    if (!accept(more, base)) return;
     ++counts.moved;
     put(i, to);
     geometry_.add_step(shift, &displacement_[static_cast<size_t>(i) * D]);
@@ -147,7 +173,7 @@ class MonteCarloOf final : public MonteCarloSpheres<D, Cube> {
     int32_t k = static_cast<int32_t>(uniform(base, 10) * (n_ - 1));
     k += k >= i;
     if (radius_[i] == radius_[k]) return;
-    if (p_.container && (leaves_walls(i, radius_[k], nullptr) || leaves_walls(k, radius_[i], nullptr))) return;
+    if (!Soft && p_.container && (leaves_walls(i, radius_[k], nullptr) || leaves_walls(k, radius_[i], nullptr))) return;
     double before = 0.0;
     if constexpr (Soft) before = energy_of_both(i, k);
     std::swap(radius_[i], radius_[k]);
@@ -159,7 +185,10 @@ class MonteCarloOf final : public MonteCarloSpheres<D, Cube> {
     }
   }
   // The pair itself counts twice, before and after alike: its contact distance is the same.
-  double energy_of_both(int32_t i, int32_t k) const { return energy_at(i, x_[i]) + energy_at(k, x_[k]); }
+  double energy_of_both(int32_t i, int32_t k) const {
+    const double pairs = energy_at(i, x_[i]) + energy_at(k, x_[k]);
+    return Soft && p_.container ? pairs + wall_energy(i, nullptr) + wall_energy(k, nullptr) : pairs;
+  }
 
   static constexpr double never = std::numeric_limits<double>::infinity();
   double inverse_temperature_;
@@ -169,7 +198,8 @@ class MonteCarloOf final : public MonteCarloSpheres<D, Cube> {
 
 template <int D>
 std::unique_ptr<MonteCarlo> make_monte_carlo_of(const Packing &p, const jam_monte_carlo_options &o, int64_t run) {
-  const bool cube = p.cell.cube() && contact_distance_max(p) < MonteCarloTuning::range * p.cell.side();
+  const bool see_walls = p.container && o.alpha > 0.0;  // soft spheres overlap them, and would meet across them
+  const bool cube = p.cell.cube() && contact_distance_max(p) < MonteCarloTuning::range * p.cell.side() && !see_walls;
   if (o.alpha == 0.0) {
     if (cube) return std::make_unique<MonteCarloOf<D, false, true>>(p, o, run);
     return std::make_unique<MonteCarloOf<D, false, false>>(p, o, run);

@@ -641,8 +641,10 @@ end
 """
     structure_factor(s, q_max; progress) -> table
 
-S(q) on the wave vectors of the cell (in a cube 2 pi n / box) with |q| <= `q_max`. Lengths that differ by less than
-5e-13 of |q| are one.
+S(q) on the wave vectors of the cell (in a cube 2 pi n / box), along axes without walls, with |q| <= `q_max`. Lengths
+within 5e-13 of |q| are one.
+
+- errors: `:unsupported` (no such axis)
 """
 function structure_factor(s::System, q_max; progress = nothing)
     return call(s, :jam_structure_factor, (q_max, ); progress = progress)
@@ -673,10 +675,10 @@ end
 """
     local_fraction(s)
 
-Packing fraction of each sphere in its radical Voronoi cell, d = 3.
+Packing fraction of each sphere in its radical Voronoi cell within the walls (a round one to 1e-5), d = 3.
 
 - `out`: array `(n)`
-- errors: `:unsupported` (d, or built without voro++)
+- errors: `:unsupported` (d, no voro++, walls of a tilted cell)
 """
 function local_fraction(s::System)
     return call(s, :jam_local_fraction, (); progress = nothing)
@@ -760,7 +762,7 @@ end
 """
     pore_sizes(s, points, seed; progress) -> table
 
-Pore sizes at random points of the void, exact; not with walls yet. The time grows with the fourth power of the number
+Pore sizes at random points of the void, exact; not in a cylinder. The time grows with the fourth power of the number
 of neighbours of a point: use it above packing fractions of about 0.4.
 
 - errors: `:unsupported`

@@ -3039,7 +3039,7 @@ end
 """
     jam_pair_correlation(sys, o, kind, kind_len, out, out_len, needed)
 
-`g_ab`(r) of spheres with labels a and b, pairs over `N_a` `N_b`. kind: the labels, or NULL.
+`g_ab`(r) of labels a, b in kind (or NULL). Walls, d < 4: over centres spread evenly.
 Shapes: kind (n), out (bins).
 """
 function jam_pair_correlation(sys, o, kind, kind_len, out, out_len, needed)
@@ -3060,9 +3060,10 @@ end
 """
     jam_structure_factor(sys, q_max, table, table_len, needed)
 
-S(q) on the wave vectors of the cell (in a cube 2 pi n / box) with |q| <= `q_max`. Lengths that differ by less than
-5e-13 of |q| are one.
+S(q) on the wave vectors of the cell (in a cube 2 pi n / box), along axes without walls, with |q| <= `q_max`. Lengths
+within 5e-13 of |q| are one.
 Shapes: table (m, `jam_structure_column`).
+Errors: `JAM_E_UNSUPPORTED` (no such axis).
 """
 function jam_structure_factor(sys, q_max, table, table_len, needed)
     return ccall((:jam_structure_factor, libjam), Int32, (Ptr{Cvoid}, Cdouble, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, q_max, _ptr(table), table_len, _ref(Csize_t, needed))
@@ -3092,9 +3093,9 @@ end
 """
     jam_local_fraction(sys, out, out_len, needed)
 
-Packing fraction of each sphere in its radical Voronoi cell, d = 3.
+Packing fraction of each sphere in its radical Voronoi cell within the walls (a round one to 1e-5), d = 3.
 Shapes: out (n).
-Errors: `JAM_E_UNSUPPORTED` (d, or built without voro++).
+Errors: `JAM_E_UNSUPPORTED` (d, no voro++, walls of a tilted cell).
 """
 function jam_local_fraction(sys, out, out_len, needed)
     return ccall((:jam_local_fraction, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(out), out_len, _ref(Csize_t, needed))
@@ -3173,7 +3174,7 @@ end
 """
     jam_pore_sizes(sys, points, seed, table, table_len, needed)
 
-Pore sizes at random points of the void, exact; not with walls yet. The time grows with the fourth power of the
+Pore sizes at random points of the void, exact; not in a cylinder. The time grows with the fourth power of the
 number of neighbours of a point: use it above packing fractions of about 0.4.
 Shapes: table (points, `jam_pore_column`).
 Errors: `JAM_E_UNSUPPORTED`.

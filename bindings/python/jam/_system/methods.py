@@ -1047,9 +1047,9 @@ class Methods:
         return answer
 
     def structure_factor(self, q_max: float, *, progress: Progressing = None) -> StructureFactorResult:
-        """S(q) on the wave vectors of the cell (in a cube 2 pi n / box) with |q| <= q_max.
+        """S(q) on the wave vectors of the cell (in a cube 2 pi n / box), along axes without walls, with |q| <= q_max.
 
-        Lengths that differ by less than 5e-13 of |q| are one.
+        Lengths within 5e-13 of |q| are one.
 
         Parameters
         ----------
@@ -1066,7 +1066,7 @@ class Methods:
 
         Raises
         ------
-        ArgumentError, MemoryError, BusyError
+        ArgumentError, UnsupportedError, MemoryError, BusyError
         """
         answer: StructureFactorResult = self.call('structure_factor', q_max, progress=progress)
         return answer
@@ -1103,7 +1103,7 @@ class Methods:
         return answer
 
     def local_fraction(self) -> Array:
-        """Packing fraction of each sphere in its radical Voronoi cell, d = 3.
+        """Packing fraction of each sphere in its radical Voronoi cell within the walls (a round one to 1e-5), d = 3.
 
         Returns
         -------
@@ -1253,7 +1253,7 @@ class Methods:
         return answer
 
     def pore_sizes(self, points: int, seed: int, *, progress: Progressing = None) -> PoreSizesResult:
-        """Pore sizes at random points of the void, exact; not with walls yet.
+        """Pore sizes at random points of the void, exact; not in a cylinder.
 
         The time grows with the fourth power of the number of neighbours of a point: use it above packing fractions of
         about 0.4.

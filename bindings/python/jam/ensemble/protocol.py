@@ -2,7 +2,8 @@
 
 Data flow: a dict -> complete() checks it and spells out every default -> make(protocol, seed) gives the packing.
 
-    start     random spheres or a lattice: n, dim, packing_fraction, diameters, lattice, and the options of creation.
+    start     random spheres or a lattice: n, dim, packing_fraction, diameters, lattice, cell, walls, container, and the
+              options of creation.
               On a lattice the diameters shrink by one factor until no pair overlaps.
     stages    calls that move the spheres, one after the other: {"verb": "compress", "growth_rate": 1e-2, ...}
     crunch    options of the crunch; None: no crunch
@@ -23,6 +24,7 @@ from .. import errors, raw
 from .._api import generated
 from .._api.arrays import Array
 from .._api.generated import GROWTH_STAGES, OPTIONS, StatusCode
+from .._api.given import CONTAINERS, cell_of, enclosure_of
 from .._api.options import option_struct, spelled_out
 from .._api.size_laws import sizes as draw_sizes
 from ..system import System
@@ -34,6 +36,8 @@ LAWS = {"bidisperse": {"ratio": 1.4, "share": 0.5}, "lognormal": {"deviation": 0
 #: Growth that avoids crystals: fast through the fluid, slower in the glass, as of System.compress().
 STAGES = tuple({"growth_rate": growth, "pressure": pressure} for growth, pressure in GROWTH_STAGES)
 ANALYSIS: dict[str, dict[str, Any]] = {"gaps": {"h_max": 1.0, "stable_only": 1}, "crystal_score": {}}
+_FEW = 1e-12  # packing fraction of a sphere that fits into any scene
+_NO_SCENE = {"cell": None, "walls": None, "container": "brick"}
 _NOT_IN_START = ("seed", "overlap")  # the seed is the packing's own; a start never overlaps
 
 
@@ -75,17 +79,33 @@ def _diameters(given: Any, n: int, dim: int) -> Any:
     return law
 
 
+def _scene(rest: dict[str, Any]) -> dict[str, Any]:
+    """Takes cell, walls and container out: vectors or None, truth values of the axes or None, a word."""
+    cell, walls, container = (rest.pop(key, None) for key in _NO_SCENE)
+    try:
+        side, vectors = cell_of(rest.get("box"), cell, rest["dim"])
+        kind, flat = enclosure_of(container, walls, rest["dim"])
+    except (TypeError, ValueError) as error:
+        raise ProtocolError(f"start: {error}") from None
+    rest["box"] = side
+    axes = [bool(flat >> c & 1) for c in range(rest["dim"])] if flat else None
+    word = next(word for word, number in CONTAINERS.items() if number == kind)
+    return {"cell": None if vectors is None else vectors.tolist(), "walls": axes, "container": word}
+
+
 def _start(given: Mapping[str, Any]) -> dict[str, Any]:
     rest = dict(given)
     lattice, sizes = rest.pop("lattice", None), rest.pop("diameters", None)
     rest.setdefault("n", 1024)
     rest.setdefault("dim", 3)
+    scene = _scene(rest)
     made = _options("jam_create_options", rest, "start", _NOT_IN_START)
-    if made["packing_fraction"] == 0:  # the library's own, spelled out
-        try:
+    try:
+        System.random(1, made["dim"], packing_fraction=_FEW, **scene)  # the library checks the scene
+        if made["packing_fraction"] == 0:  # the library's own, spelled out
             made["packing_fraction"] = round(System.random(1, made["dim"]).packing_fraction, 12)
-        except errors.JamError as error:
-            raise ProtocolError(f"start: {error}") from None
+    except errors.JamError as error:
+        raise ProtocolError(f"start: {error}") from None
     if made["n"] < 1:
         raise ProtocolError(f"start: n = {made['n']} must be >= 1")
     if lattice is not None:
@@ -93,7 +113,9 @@ def _start(given: Mapping[str, Any]) -> dict[str, Any]:
             raise ProtocolError(f"start: lattice {lattice!r} is none of {', '.join(LATTICES)}")
         if made["dim"] != 3 or round((made["n"] / 4) ** (1 / 3)) ** 3 * 4 != made["n"]:
             raise ProtocolError(f"start: an fcc lattice needs dim 3 and n = 4 m^3, not {made['dim']} and {made['n']}")
-    return {**made, "diameters": _diameters(sizes, made["n"], made["dim"]), "lattice": lattice}
+        if scene != _NO_SCENE:
+            raise ProtocolError("start: an fcc lattice fills a cube without walls: leave out cell, walls and container")
+    return {**made, **scene, "diameters": _diameters(sizes, made["n"], made["dim"]), "lattice": lattice}
 
 
 def _stage(given: Mapping[str, Any] | Sequence[float], number: int) -> dict[str, Any]:
@@ -233,9 +255,12 @@ def _fcc(n: int, box: float) -> Array:
 def begin(protocol: Mapping[str, Any], seed: int) -> System:
     """The start of a complete protocol."""
     given = {k: v for k, v in protocol["start"].items() if k != "lattice"}
+    scene = {k: given.pop(k, None) for k in _NO_SCENE}
     sizes = _sizes(given.pop("diameters"), given["n"], given["dim"], seed)
     if protocol["start"]["lattice"] is None:
-        return System.random(seed=seed, diameters=sizes, **given)
+        if scene["cell"] is not None:
+            del given["box"]
+        return System.random(seed=seed, diameters=sizes, **given, **scene)
     n, box, dim, phi = given.pop("n"), given.pop("box"), given.pop("dim"), given.pop("packing_fraction")
     sizes = np.ones(n) if sizes is None else sizes
     unit = math.pi ** (dim / 2) / math.gamma(dim / 2 + 1) * (sizes / 2) ** dim
@@ -252,7 +277,8 @@ def make(protocol: Mapping[str, Any], seed: int) -> tuple[System, dict[str, Any]
     System
         The packing, also when it is not jammed: its report says so.
     dict
-        Results of the analysis by name. A call that needs a jammed network and has none gives its error's text.
+        Results of the analysis by name. A call that this packing cannot answer, such as one that needs a jammed network, gives
+        its error's text.
     """
     system = begin(protocol, seed)
     for stage in protocol["stages"]:
@@ -266,6 +292,6 @@ def make(protocol: Mapping[str, Any], seed: int) -> tuple[System, dict[str, Any]
     for name, given in protocol["analysis"].items():
         try:
             results[name] = getattr(system, name)(**given)
-        except errors.StateError as error:
+        except (errors.StateError, errors.UnsupportedError) as error:
             results[name] = f"not available: {error}"
     return system, results

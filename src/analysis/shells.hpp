@@ -1,0 +1,13 @@
+// Shells around spheres between walls: what part of them other centres can reach.
+#pragma once
+#include <vector>
+#include "core/packing.hpp"
+
+namespace jam {
+
+// The pairs that g(r) compares with: of each sphere of `of`, and the spheres `with` spread evenly where the walls leave
+// their centres room, in equal bins up to `reach`. d = 2, 3. JAM_E_UNSUPPORTED where a sphere of `with` has no room.
+std::vector<double> pairs_of_even_spread(const Packing &p, const std::vector<char> &of, const std::vector<char> &with,
+                                         double reach, size_t bins);
+
+}  // namespace jam

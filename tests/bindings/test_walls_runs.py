@@ -1,0 +1,197 @@
+"""Runs from one configuration, Monte Carlo of soft spheres, floppy modes and ensembles between walls."""
+import tempfile
+import unittest
+
+import jam
+import numpy as np
+from test_walls_jammed import SCENES, start
+from test_walls_structure import SCENES as OPEN
+from test_walls_structure import ROUND, depth
+
+
+class Runs(unittest.TestCase):
+    def test_no_run_leaves_the_container(self):
+        for name in ("slit", "can", "ball", "square", "circle"):
+            for monte_carlo in (None, {"step": 0.1}):
+                n = 30
+                s = jam.System.random(n=n, seed=4, packing_fraction=0.2, diameters=1 + 0.5 * (np.arange(n) % 2), **OPEN[name])
+                runs = s.isoconfigurational([5, 20], runs=20, keep=[0, 1], monte_carlo=monte_carlo, density_ratio=0.999)
+                a = s.diameters / 2 * 0.999 ** (1 / s.dim)
+                for m in (0, 1):
+                    for moved in runs.kept[m]:
+                        least = depth(name, s, s.positions + moved) / a
+                        self.assertGreater(least.min(), 1 - 1e-9, name)
+                self.assertGreater(np.abs(runs.kept[1]).max(), 2 * s.diameters.mean() * 0.2)
+
+    def test_walls_take_momentum_and_open_axes_keep_it(self):
+        s = start("slit", 60, 2)
+        runs = s.isoconfigurational([3.0], runs=10, keep=[0], density_ratio=0.999)
+        for moved in runs.kept[0]:
+            np.testing.assert_allclose(moved.mean(0)[:2], 0, atol=1e-12)
+            self.assertGreater(abs(moved.mean(0)[2]), 1e-6)
+
+    def test_mean_pressure_is_that_of_one_long_run(self):
+        s = jam.System.random(n=100, seed=4, packing_fraction=0.25, **OPEN["slit"])
+        s.run(collisions_per_particle=50)
+        runs = s.isoconfigurational([200.0], runs=30)
+        p = s.run(collisions_per_particle=2500).pressure
+        self.assertLess(abs(runs.series["pressure"].sum(0)[-1] / 30 / p - 1), 0.02)
+
+
+class SoftMonteCarlo(unittest.TestCase):
+    def test_one_soft_sphere_between_walls_has_the_boltzmann_density(self):
+        # The energy of a harmonic sphere at a wall is eps (1 - z / a)^2 / 2; z is uniform where it touches none.
+        a, temperature = 0.2, 0.05
+        s = jam.System.from_arrays([[0.5, 0.5]], 2 * a, dim=2, walls="y")
+        z = []
+        for _ in range(1500):
+            s.monte_carlo(sweeps=20, alpha=2, energy_unit="relative", energy_scale=0.5, temperature=temperature, step=1.0)
+            z.append(s.positions[0, 1])
+        grid = (np.arange(2000) + 0.5) / 2000
+        near = np.maximum(0, 1 - np.minimum(grid, 1 - grid) / a)
+        weight = np.exp(-(near**2) / 2 / temperature)
+        inside = np.minimum(grid, 1 - grid) < a
+        share = weight[inside].sum() / weight.sum()
+        z = np.array(z)
+        self.assertLess(abs((np.minimum(z, 1 - z) < a).mean() - share), 5 * np.sqrt(share * (1 - share) / len(z)))
+        overlap = np.maximum(0, 1 - np.minimum(z, 1 - z) / a)
+        self.assertLess(abs((overlap**2).mean() / ((near**2 * weight).sum() / weight.sum()) - 1), 0.2)
+
+    def test_energy_counts_pairs_and_walls(self):
+        for name in ("slit", "can", "circle", "square"):
+            for unit in ("length", "relative"):
+                n = 20
+                s = jam.System.random(n=n, seed=3, packing_fraction=0.5, overlap="allow", diameters=1 + 0.5 * (np.arange(n) % 2), **OPEN[name])
+                x, edge = s.positions, np.diag(s.cell)
+                s = jam.System.from_arrays(x, 1.3 * s.diameters, overlap="allow", **{"cell": np.diag(edge), **OPEN[name], "dim": s.dim})
+                a = s.diameters / 2
+                scale = a if unit == "relative" else np.ones(n)
+                energy = walls = (self.wall_overlaps(name, s, a) ** 2.5 / scale[:, None] ** 2.5).sum()
+                for i in range(n):
+                    for j in range(i):
+                        for shift in self.images(name, s):
+                            sigma = a[i] + a[j]
+                            r = np.linalg.norm(x[i] - x[j] + shift)
+                            energy += (max(0, sigma - r) / (sigma if unit == "relative" else 1)) ** 2.5
+                self.assertGreater(walls, 1e-6 * energy)
+                options = {"alpha": 2.5, "energy_unit": unit, "temperature": 1e-12, "step": 1e-12}
+                runs = s.isoconfigurational([1], runs=1, monte_carlo=options)
+                self.assertAlmostEqual(runs.series["energy"].sum() * n / energy, 1, 9, (name, unit))
+
+    @staticmethod
+    def images(name, s):
+        edge, d = np.diag(s.cell), s.dim
+        closed = [name in ROUND and c < ROUND[name] or "xyz"[c] in OPEN[name].get("walls", "") for c in range(d)]
+        steps = [[0] if shut else [-1, 0, 1] for shut in closed]
+        return np.stack(np.meshgrid(*steps), -1).reshape(-1, d) * edge
+
+    @staticmethod
+    def wall_overlaps(name, s, a):
+        x, edge, rows = s.positions, np.diag(s.cell), []
+        for c in range(s.dim):
+            if "xyz"[c] in OPEN[name].get("walls", ""):
+                rows += [x[:, c], edge[c] - x[:, c]]
+        if name in ROUND:
+            k = ROUND[name]
+            rows.append(edge[0] / 2 - np.linalg.norm(x[:, :k] - edge[0] / 2, axis=1))
+        return np.maximum(0, a[:, None] - np.array(rows).T)
+
+    def test_swaps_keep_the_boltzmann_weight_at_walls(self):
+        # Two disks far apart, each held at a wall or free: the large one is at the wall with the weight of its overlap.
+        s = jam.System.from_arrays([[0.2, 0.1], [0.7, 0.5]], [0.3, 0.4], dim=2, walls="y", overlap="allow")
+        energy = {0.3: 0.05**2, 0.4: 0.1**2}
+        temperature, at_wall = 0.005, []
+        for _ in range(1500):
+            s.monte_carlo(sweeps=2, alpha=2, temperature=temperature, step=1e-9, swap_share=0.5)
+            at_wall.append(s.diameters[0] > 0.35)
+        weight = np.exp(-(energy[0.4] - energy[0.3]) / temperature)
+        self.assertLess(abs(np.mean(at_wall) - weight / (1 + weight)), 0.08)
+
+
+class FloppyModes(unittest.TestCase):
+    def test_opening_one_contact_keeps_the_others_closed(self):
+        tried = 0
+        for name in SCENES:
+            s = start(name, 30, 1, unequal=True)
+            r = s.crunch()
+            if not r.jammed or s.rigidity().self_stresses != 1 or r.flexes:
+                continue
+            tried += 1
+            table, c, a, d = s.floppy_modes(), s.contacts, s.diameters / 2, s.dim
+            i, j = c.pairs.T
+            wall = j < 0
+            sigma = a[i] + np.where(wall, 0, a[np.maximum(j, 0)])
+            for k in (0, int(np.argmax(wall)), int(np.argmin(wall))):
+                u = np.zeros((s.n, d))
+                u[s.hessian_map()] = s.floppy_mode(k)
+                row = (c.vectors * (u[i] - np.where(wall[:, None], 0, u[np.maximum(j, 0)]))).sum(1)
+                shrink = -s.forces[k] / (s.forces @ sigma)
+                np.testing.assert_allclose(row, shrink * sigma + (np.arange(len(row)) == k), atol=1e-10)
+                # B is the second derivative of sum f r along the mode, by differences of true distances.
+                h, twice = 1e-4 * s.diameters.mean() / np.abs(u).max(), 0.0
+                for t, weight in ((-h, 1), (0, -2), (h, 1)):
+                    y = s.positions + t * u
+                    length = sigma[:, None] * c.vectors + t * (u[i] - u[np.maximum(j, 0)])
+                    between = np.linalg.norm(length, axis=1)
+                    beside = self.distances(name, s, y[i], j)
+                    twice += weight * (s.forces * np.where(wall, beside, between)).sum()
+                bend = twice / h**2
+                if abs(bend) > 1e-3 * s.forces.sum() / s.diameters.mean() * (u**2).sum():
+                    if bend > 0:
+                        self.assertAlmostEqual(table.s_star[k] * bend / s.forces[k], 1, 3, name)
+                    else:
+                        self.assertTrue(np.isinf(table.s_star[k]), name)
+        self.assertGreaterEqual(tried, 5)
+
+    @staticmethod
+    def distances(name, s, x, j):
+        rows = s.walls()
+        edge, out = np.diag(s.cell), np.zeros(len(x))
+        for k in np.flatnonzero(j < 0):
+            w = -1 - j[k]
+            axis = int(rows.axis[w])
+            if axis < s.dim:
+                out[k] = edge[axis] - x[k, axis] if rows.side[w] else x[k, axis]
+            else:
+                m = s.dim if s.info.container == 2 else 2
+                out[k] = edge[0] / 2 - np.linalg.norm(x[k, :m] - edge[0] / 2)
+        return out
+
+
+class Ensembles(unittest.TestCase):
+    def test_a_protocol_names_walls_and_container(self):
+        for scene in (dict(cell=[1, 1, 2.4], walls="z"), dict(container="cylinder", walls="z", cell=[1, 1, 2]), dict(dim=2, container="ball")):
+            with tempfile.TemporaryDirectory() as folder:
+                e = jam.ensemble.Ensemble(folder, dict(n=20, stages=[], **scene))
+                e.run([1, 2], progress=False, workers=1)
+                for entry in e:
+                    alone = jam.System.random(n=20, seed=entry.seed, packing_fraction=e.protocol["start"]["packing_fraction"], **scene)
+                    alone.crunch()
+                    np.testing.assert_array_equal(entry.positions, alone.positions)
+                    np.testing.assert_array_equal(entry.system().walls().gap, alone.walls().gap)
+                self.assertEqual(jam.ensemble.Ensemble(folder).protocol, e.protocol)
+
+    def test_two_ways_to_write_a_scene_are_one_protocol(self):
+        name = lambda **start: jam.ensemble.identity(jam.ensemble.complete(start))
+        self.assertEqual(name(walls="z"), name(walls=(False, False, True)))
+        self.assertEqual(name(walls="z", cell=[1, 1, 2]), name(walls="z", cell=np.diag([1, 1, 2])))
+        self.assertEqual(name(), name(container="brick", walls=None))
+        self.assertEqual(name(cell=[2, 2, 2]), name(box=2))
+        self.assertNotEqual(name(walls="z"), name(walls="y"))
+        self.assertEqual(name(n=128), "22ba75e72f65")
+
+    def test_wrong_scenes_are_named_before_the_work(self):
+        for start, text in (
+            (dict(container="cone"), "container must be one of"),
+            (dict(walls="w"), "walls must name axes"),
+            (dict(container="cylinder", dim=2), "cylinder needs dim 3"),
+            (dict(container="ball", walls="x"), "no flat walls"),
+            (dict(box=2, cell=[1, 1, 2]), "both name the periodic cell"),
+            (dict(n=4, lattice="fcc", walls="z"), "cube without walls"),
+        ):
+            with self.assertRaisesRegex(jam.ensemble.ProtocolError, text):
+                jam.ensemble.complete(start)
+
+
+if __name__ == "__main__":
+    unittest.main()

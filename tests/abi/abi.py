@@ -153,7 +153,7 @@ def record_debian():
         print(f"{file.relative_to(root)} is missing: rename Debian's files to the new number")
         return
     version = re.search(r"project\(jam VERSION ([\d.]+)", (root / "CMakeLists.txt").read_text()).group(1)
-    had = dict(re.findall(r"^ (\S+)@JAM_\d+ (\S+)$", file.read_text(), flags=re.M))
+    had = dict(re.findall(rf"^ (\S+)@JAM_{number} (\S+)$", file.read_text(), flags=re.M))
     lines = [f" {name}@JAM_{number} {had.get(name, version)}" for name in exported()]
     file.write_text(f"libjam.so.{number} libjam{number} #MINVER#\n" + "\n".join(lines) + "\n")
 

@@ -91,6 +91,16 @@ archive)
   grep '"command":.*/src/capi/status.cpp' "$scratch/archive/b/compile_commands.json" |
     grep -q "JAM_COMMIT_STRING=[^ ]*$(echo "$commit" | cut -c1-12)" || die "the archive does not name its commit"
   ;;
+version)
+  # The version and the ABI number of a release are set everywhere.
+  git -C "$here/../.." rev-parse HEAD >"$scratch/version.log" 2>&1 || { echo "no repository"; exit 77; }
+  rm -rf "$scratch/version" && git clone -q --depth 1 "file://$(cd "$here/../.." && pwd)" "$scratch/version"
+  /usr/bin/python3 -B "$scratch/version/pkgconfig/set_version.py" "$scratch/version" 98.76.54 7
+  /usr/bin/python3 -B "$scratch/version/pkgconfig/recipes/check.py" "$scratch/version"
+  if git -C "$scratch/version" grep -nE 'JAM_0\b|VERSION 0[.]1[.]0' -- src CMakeLists.txt pkgconfig/debian/control; then
+    die "another version is left"
+  fi
+  ;;
 uninstall)
   # What an install of the build wrote goes again, and nothing else.
   rm -rf "$scratch/gone"

@@ -1,5 +1,4 @@
 // Header section "Monte Carlo, runs from one configuration": the single run.
-#include <cmath>
 #include <memory>
 
 #include "capi/guard.hpp"
@@ -39,8 +38,7 @@ jam_status jam_monte_carlo(jam_system *sys, const jam_monte_carlo_options *o, ja
       status = stage->run(limits, listeners);
     }
     const jam_monte_carlo_report made = stage->report();
-    const bool begun = stage->begun();
-    if (begun) {
+    if (stage->begun()) {
       check_packing(stage->packing(), JAM_E_STATE);  // a stage from a file may lead anywhere
       sys->commit(stage->packing());
     } else {
@@ -49,10 +47,6 @@ jam_status jam_monte_carlo(jam_system *sys, const jam_monte_carlo_options *o, ja
     sys->sweeps = made.next_sweep;
     if (status != JAM_OK) sys->paused = std::move(stage);
     give_struct(made, report);
-    if (status > 0 && !begun && std::isnan(made.step))
-      return {status, sentence("%s while the step was tuned, which resume = 1 begins again: give a step, or more time",
-                               made.stop_reason == JAM_STOP_CANCELLED ? "jam_cancel or a callback stopped the call"
-                                                                      : "wall_time ended the call")};
     return stopped_run(status, made.stop_reason);
   });
 }

@@ -120,7 +120,8 @@ static void race(const char *name, const Packing &p, double alpha, double temper
   jam_monte_carlo_options o = default_monte_carlo_options();
   o.alpha = alpha;
   o.temperature = temperature;
-  o.step = tuned_step(p, o);
+  Monitor never_stops;
+  StepTuner().tune(p, o, never_stops);
   const std::unique_ptr<MonteCarlo> mc = make_monte_carlo(p, o, 0);
   Plain plain(p, o.step, alpha, temperature);
   std::vector<double> ours, theirs;

@@ -178,6 +178,7 @@ void Isoconfigurational::archive(Archive &a) {
     blocks_[k].archive(a);
   }
   for (std::vector<double> &set : kept_) a(set);
+  if (plan_.metropolis && plan_.monte_carlo.step == 0.0) tuner_.archive(a, plan_.start, plan_.monte_carlo);
   if (!a.reading()) return;
   const size_t spheres = plan_.instants.size() * n();
   int64_t runs = 0;

@@ -131,6 +131,7 @@ class Isoconfigurational final : public Dynamics {
   jam_status finish(int32_t reason, double begin);
   Packing packing_;
   RunPlan plan_;
+  StepTuner tuner_;
   uint64_t mark_ = 0;  // of positions and diameters that the runs begin from
   std::vector<int32_t> kept_instants_;
   std::vector<std::vector<double>> kept_;

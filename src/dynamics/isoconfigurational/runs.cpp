@@ -116,12 +116,8 @@ jam_status Isoconfigurational::run(const Limits &limits, const Listeners &listen
   const double begin = now_seconds();
   monitor.limit_time(limits.wall_time);
   if (plan_.metropolis && plan_.monte_carlo.step == 0.0) {
-    const LeavingScope scope;
-    try {
-      plan_.monte_carlo.step = report_.step = tuned_step(plan_.start, plan_.monte_carlo);
-    } catch (const Cancelled &) {
-      return finish(monitor.why_interrupted(), begin);
-    }
+    if (!tuner_.tune(plan_.start, plan_.monte_carlo, monitor)) return finish(monitor.why_interrupted(), begin);
+    report_.step = plan_.monte_carlo.step;
   }
   // All memory of the sets now: no run is lost for want of it.
   for (std::vector<double> &set : kept_) set.reserve(static_cast<size_t>(plan_.options.runs) * n() * dim());

@@ -19,6 +19,7 @@
 #include "core/monitor.hpp"
 #include "core/packing.hpp"
 #include "dynamics/dynamics.hpp"
+#include "dynamics/monte_carlo/step_tuner.hpp"
 #include "dynamics/tuning.hpp"
 
 namespace jam {
@@ -61,8 +62,6 @@ void check_monte_carlo(const Packing &p, const jam_monte_carlo_options &o);
 
 // A larger step, in mean diameters, could be longer than half a cell vector.
 double largest_monte_carlo_step(const Packing &p);
-// The step, in mean diameters, whose acceptance is o.acceptance, from a preliminary run of its own stream; p stays.
-double tuned_step(const Packing &p, const jam_monte_carlo_options &o);
 
 // Means over a run and their errors, from energies and virials or gaps of its blocks.
 class MonteCarloMeans {
@@ -97,11 +96,12 @@ class MonteCarloRun final : public Dynamics {
   bool begun() const { return engine_ != nullptr; }
 
  private:
-  int32_t begin(Monitor &monitor);
+  bool begin(Monitor &monitor);
   void report_step(Monitor &monitor, double goal) const;
   void take_displacement(Observer *observer);
   Packing p_;
   jam_monte_carlo_options options_;
+  StepTuner tuner_;
   std::unique_ptr<MonteCarlo> engine_;  // made by the first run, which may be stopped meanwhile
   MonteCarloMeans means_;
   std::vector<double> seen_;  // displacement that observers have

@@ -1,4 +1,4 @@
-// Monte Carlo: the choice of an engine, options and the tuning of the step.
+// Monte Carlo: the choice of an engine, and options.
 #include "dynamics/monte_carlo/monte_carlo.hpp"
 
 #include <algorithm>
@@ -66,40 +66,6 @@ void check_monte_carlo(const Packing &p, const jam_monte_carlo_options &o) {
   if (o.step > largest)
     fail(JAM_E_ARGUMENT, "step is %g mean diameters; in this cell the largest is %g", o.step, largest);
   if (o.alpha == 0.0 && p.overlap_allowed) refuse_overlaps(p, overlap_of_rounding);
-}
-
-// ---- tuning
-
-double tuned_step(const Packing &p, const jam_monte_carlo_options &given) {
-  using Tuning = StepTuning;
-  jam_monte_carlo_options o = given;
-  check_monte_carlo(p, o);
-  const double largest = largest_monte_carlo_step(p), length = diameter_mean(p) / p.cell.side();
-  double step = std::min(Tuning::first, largest), mean_log = 0.0;
-  o.step = step;
-  const std::unique_ptr<MonteCarlo> mc = make_monte_carlo(p, o, -1);  // no run has this number
-  int64_t number = 0;
-  for (int k = 0; k < Tuning::coarse + Tuning::fine; ++k) {
-    const MonteCarloCounts before = mc->counts;
-    for (int s = 0; s < (k < Tuning::coarse ? Tuning::coarse_sweeps : Tuning::fine_sweeps); ++s) {
-      CallScope::look();
-      mc->sweep(number++);
-    }
-    const int64_t tried = mc->counts.moves - before.moves;
-    const double share =
-        tried ? static_cast<double>(mc->counts.moved - before.moved) / static_cast<double>(tried) : 1.0;
-    // Acceptance falls about exponentially with the step.
-    const double factor = math::log(std::max(share, Tuning::least_share)) / math::log(o.acceptance);
-    step =
-        std::min(largest, step * std::min(Tuning::most_growth,
-                                          std::max(Tuning::most_fall, math::pow(std::max(factor, Tuning::least_share),
-                                                                                k < Tuning::coarse ? -1.0 : -0.5))));
-    if (step < Tuning::smallest)
-      fail(JAM_E_ARGUMENT, "no step above %g mean diameters is accepted: the spheres are in contact", Tuning::smallest);
-    mc->set_step(step * length);
-    if (k >= Tuning::coarse) mean_log += math::log(step) / Tuning::fine;
-  }
-  return std::min(largest, math::exp(mean_log));
 }
 
 }  // namespace jam

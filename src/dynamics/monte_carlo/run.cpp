@@ -14,27 +14,25 @@ MonteCarloRun::MonteCarloRun(const Packing &p, const jam_monte_carlo_options &o)
   check_monte_carlo(p_, options_);
 }
 
-// Tunes the step if it is 0, and makes lists. A reason to stop: the next run begins anew.
-int32_t MonteCarloRun::begin(Monitor &monitor) {
-  if (engine_) return JAM_STOP_NONE;
+// Tunes the step if it is 0, and makes lists. false: the call must stop; making lists begins anew in the next run.
+bool MonteCarloRun::begin(Monitor &monitor) {
+  if (engine_) return true;
   jam_progress q = progress_of(phase());
   q.packing_fraction = packing_fraction(p_);
   monitor.expect(q);
-  const LeavingScope scope;
   try {
-    jam_monte_carlo_options tuned = options_;
-    if (tuned.step == 0.0) tuned.step = tuned_step(p_, tuned);
-    check_monte_carlo(p_, tuned);
-    engine_ = make_monte_carlo(p_, tuned, tuned.run);
-    options_ = tuned;
+    if (options_.step == 0.0 && !tuner_.tune(p_, options_, monitor)) return false;
+    const LeavingScope scope;
+    check_monte_carlo(p_, options_);
+    engine_ = make_monte_carlo(p_, options_, options_.run);
     // Velocities of before belong to another state.
     p_.has_velocity = false;
     if (options_.alpha > 0.0) p_.overlap_allowed = true;  // soft spheres leave overlaps: calls for hard ones must look
     std::fill(p_.velocity.begin(), p_.velocity.end(), 0.0);
   } catch (const Cancelled &) {
-    return monitor.why_interrupted();
+    return false;
   }
-  return JAM_STOP_NONE;
+  return true;
 }
 
 MonteCarloRun::MonteCarloRun(const Packing &p, Archive &from)
@@ -53,8 +51,10 @@ void MonteCarloRun::archive(Archive &a) {
     check_monte_carlo_options(options_);
     Archive::check(done >= not_begun && seen_.size() == p_.position.size());
     check_monte_carlo(p_, options_);
-    if (done == not_begun) return;
-    done_ = done;
+    done_ = std::max<int64_t>(done, 0);
+  }
+  if (options_.step == 0.0) tuner_.archive(a, p_, options_);
+  if (a.reading() && done != not_begun) {
     Archive::check(options_.step > 0.0);
     engine_ = make_monte_carlo(p_, options_, options_.run);
   }
@@ -88,8 +88,12 @@ void MonteCarloRun::take_displacement(Observer *observer) {
 jam_status MonteCarloRun::run(const Limits &limits, const Listeners &listeners) {
   const double started = now_seconds();
   listeners.monitor->limit_time(limits.wall_time);
-  stop_reason_ = begin(*listeners.monitor);
-  if (stop_reason_ != JAM_STOP_NONE) return stop_reason_ == JAM_STOP_CANCELLED ? JAM_CANCELLED : JAM_LIMIT;
+  if (!begin(*listeners.monitor)) {
+    stop_reason_ = listeners.monitor->why_interrupted();
+    return stop_reason_ == JAM_STOP_CANCELLED ? JAM_CANCELLED : JAM_LIMIT;
+  }
+  // No callback inside a sweep: what it stores must be whole.
+  const CallScope quiet(CallScope::memory_limit());
   const int64_t goal = static_cast<int64_t>(std::min(limits.per_particle, 9e15)), before = done_;
   stop_reason_ = JAM_STOP_COLLISIONS;
   while (done_ < goal) {

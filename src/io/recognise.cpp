@@ -76,7 +76,7 @@ constexpr const char *with_keys =
     "columns of the file";
 constexpr const char *no_diameters = "it has no diameters and few digits; jam.files.read_ase of Python takes diameters";
 
-// Order: bytes that are no text; then text, the particular before the general.
+// Order: bytes that are no text, and VTK, whose arrays may be binary; then text, the particular before the general.
 constexpr KnownFile table[] = {
     {"a packing of System.save", [](const Head &h) { return begins(h, "jam packing file"); }, nullptr,
      "jam.load of Python reads it"},
@@ -116,6 +116,8 @@ constexpr KnownFile table[] = {
      "it contains no packing"},
     {"text in UTF-16", [](const Head &h) { return begins(h, "\xff\xfe") || begins(h, "\xfe\xff"); }, nullptr,
      "save it as plain text (ASCII or UTF-8)"},
+    {"VTK", [](const Head &h) { return begins(h, "# vtk") || begins(h, "<?xml") || begins(h, "<VTKFile"); }, nullptr,
+     "such files are written only: write extended XYZ beside them"},
     {"a binary file of an unknown format", is_binary, nullptr, own_arrays},
     {"a LAMMPS dump", [](const Head &h) { return first_word_is_one_of(h, {"ITEM:"}); }, read_dump, nullptr},
     {"LAMMPS data", is_lammps_data, read_lammps, nullptr},
@@ -131,8 +133,6 @@ constexpr KnownFile table[] = {
      },
      nullptr, no_diameters},
     {"CIF", [](const Head &h) { return begins(h, "data_"); }, nullptr, no_diameters},
-    {"VTK", [](const Head &h) { return begins(h, "# vtk") || begins(h, "<?xml") || begins(h, "<VTKFile"); }, nullptr,
-     "such files are written only: write extended XYZ beside them"},
     {"a page in HTML", [](const Head &h) { return begins(h, "<!") || begins(h, "<html"); }, nullptr,
      "a page only shows a packing: read the packing file that was written with it"},
     {"JSON", [](const Head &h) { return begins(h, "{") || begins(h, "["); }, nullptr,

@@ -51,6 +51,7 @@ def test_runs(packing):
     with tempfile.TemporaryDirectory() as folder:
         file = os.path.join(folder, "runs.npz")
         runs.save(file)
+        assert refused(ValueError, runs.save, os.path.join(folder, "runs.h5"))
         os.mkfifo(file + ".pipe")  # nobody writes into it: reading would wait for ever
         assert refused(jam.errors.StoreError, nj.Runs.load, file + ".pipe")
         back = jam.near_jamming.Runs.load(file)

@@ -58,10 +58,11 @@ class Case(unittest.TestCase):
 
 class Damage(Case):
     def test_names_of_other_formats_are_refused(self):
-        for name in ("a.npz", "a.xyz", "a.XYZ.gz", Path("a.gsd")):
-            with self.assertRaisesRegex(ValueError, "HDF5"):
-                self.disks.save(name)
-            self.assertFalse(Path(name).exists())
+        for name in ("a.npz", "a.xyz", "a.XYZ.gz", Path("a.gsd"), "a.json", "a.pkl", "a", b"a.stl"):
+            for save in (self.disks.save, lambda path: jam.store.save(self.disks, path)):
+                with self.assertRaisesRegex(ValueError, r"must end in \.h5 or \.hdf5"):
+                    save(name)
+                self.assertFalse(Path(os.fsdecode(name)).exists())
 
     def test_the_seal_is_what_the_file_says_of_itself(self):
         head = self.good[:512].decode()

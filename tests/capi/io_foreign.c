@@ -207,6 +207,7 @@ static void known_by_their_beginning(void **state) {
       FILE_OF("CRYST1   10.0\nATOM      1\n", "PDB: it has no diameters"),
       FILE_OF("data_x\nloop_\n", "CIF: it has no diameters"),
       FILE_OF("# vtk DataFile Version 3.0\n", "VTK: such files are written only"),
+      FILE_OF("<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\">\n\0\1", "VTK: such files are written only"),
       FILE_OF("<!DOCTYPE html>\n", "a page in HTML"),
       FILE_OF("{\n", "JSON"),
       FILE_OF("3\n3 1\n3\n0.2\n1 0 0 0 1 0 0 0 1\nT T T\n0.1 0.2 0.3\n",

@@ -10,6 +10,7 @@ import numpy as np
 from ._formats import write_packing
 from ._formats.groups import damaged, refusing
 from ._formats.provenance import provenance
+from ._formats.replacing import require_ending
 from ._formats.read_packing import checked, jam_of, results_of
 from ._formats.sealed import open_file
 from ._formats.shard import write_shard
@@ -28,7 +29,8 @@ def image(system: System, *, refined: bool = False, **more: Any) -> bytes:
 
 
 def save(system: System, path: str | os.PathLike[str], **more: Any) -> None:
-    """Writes one packing with all its results; jam.load reads it. For `more` see image()."""
+    """Writes one packing with all its results; jam.load reads it. The path ends in .h5 or .hdf5. For `more` see image()."""
+    require_ending(path, (".h5", ".hdf5"), "a packing with its results is stored as HDF5")
     write_packing.write_file(path, image(system, **more))
 
 

@@ -38,6 +38,12 @@ def replaceable(path: str | os.PathLike[str]) -> str:
     return real
 
 
+def require_ending(path: str | os.PathLike[str], endings: tuple[str, ...], why: str) -> None:
+    """Other programs, and jam.read, go by a file's ending: a name that says another format is refused before any work."""
+    if not os.fsdecode(path).lower().endswith(endings):
+        raise ValueError(f"{os.fsdecode(path)} must end in {' or '.join(endings)}: {why}")
+
+
 def open_regular(path: str | os.PathLike[str]) -> IO[bytes]:
     """A file to read that has a length and a beginning to go back to. A pipe without a writer would wait without end."""
     descriptor = os.open(path, os.O_RDONLY | os.O_NONBLOCK)

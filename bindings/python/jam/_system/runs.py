@@ -16,13 +16,17 @@ from .. import raw
 from .._api.arrays import Array, as_array
 from .._api.generated import IsoconfColumn, StatusCode
 from .._api.options import option_struct
-from .._formats.replacing import open_regular, replacing
+from .._formats.replacing import open_regular, replacing, require_ending
 from ..errors import StoreError
 
 # What numpy and zipfile make of a damaged .npz file
 _DAMAGE: tuple[type[Exception], ...] = (OSError, ValueError, KeyError, TypeError, AttributeError, EOFError, RuntimeError)
 _DAMAGE += (zipfile.BadZipFile, zlib.error, struct.error)
 _SUMS = ("displacement", "square", "distance2", "distance4")
+
+
+def _require_npz(path: str | os.PathLike[str]) -> None:
+    require_ending(path, (".npz",), "runs are stored as arrays of numpy")
 
 
 @dataclass(frozen=True, repr=False)
@@ -142,7 +146,8 @@ class Runs:
         )
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes an .npz file, beside and renamed."""
+        """Writes an .npz file, and the name must end so, beside and renamed."""
+        _require_npz(path)
         arrays = {f.name: getattr(self, f.name) for f in fields(self) if f.name not in ("series", "kept")}
         arrays.update({"series_" + k: v for k, v in self.series.items()})
         arrays.update({f"kept_{k}": v for k, v in self.kept.items()})
@@ -262,6 +267,7 @@ def campaign(
     part: runs between two savings, rounded up to whole blocks. options: those of System.isoconfigurational but first_run.
     A file of another packing, other instants or options is a ValueError, and stays as it is.
     """
+    _require_npz(path)
     block = int(options.setdefault("block", 20))
     part = -(-part // block) * block
     times, origin = np.asarray(instants, float), _origin(system, options)

@@ -17,12 +17,12 @@ from .._api.options import as_enum
 from .._api.results import Modes
 from .._formats import gsd
 from .._formats.contents import Contents, MENDED
+from .._formats.replacing import require_ending
 from ..errors import StateError, StoreError
 from .network import Network
 from .state import State
 
 _TEXT_FORMATS = (".xyz", ".extxyz", ".data", ".lmp", ".dump", ".dat", ".txt", ".csv", ".html")
-_OTHER_FORMATS = _TEXT_FORMATS + (".vtp", ".gsd", ".npz", ".npy")
 
 
 class Writing(State, Network):
@@ -131,12 +131,9 @@ class Writing(State, Network):
 
         Stored are the state from which dynamics continue, report, contacts, forces, history, the calls made with their
         options, and where it was made. What was observed is not. Positions and box have the layout of H5MD.
-        refined=True stores the centres of refined_positions() too. Names that end as files of other formats do are
-        refused.
+        refined=True stores the centres of refined_positions() too. The name ends in .h5 or .hdf5.
         """
-        name = os.fspath(path)
-        if str(name).lower().removesuffix(".gz").endswith(_OTHER_FORMATS):
-            raise ValueError(f"save writes HDF5, not what {name} is called: end it in .h5. write() writes other formats")
+        require_ending(path, (".h5", ".hdf5"), "save writes HDF5; write() writes other formats")
         from .._formats.write_packing import image, write_file
 
         write_file(path, image(self._contents(), refined=self.refined_positions() if refined else None))

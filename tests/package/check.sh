@@ -136,6 +136,14 @@ symbols)
   readelf -d "$libdir/libjam.so" | grep -q BIND_NOW || die "relocations stay writable (no -z now)"
   readelf -lW "$libdir/libjam.so" | grep -q GNU_RELRO || die "no RELRO segment"
   objdump -p "$libdir/libjam.so" | grep -q 'SONAME *libjam\.so\.[0-9]*$' || die "no SONAME with a number"
+  # The list of licences names every library but the system's own.
+  for library in $(readelf -d "$libdir/libjam.so" | sed -n 's/.*NEEDED.*\[lib\(.*\)[.]so.*/\1/p'); do
+    case $library in
+    c | m | gcc_s | stdc++) ;;
+    z) grep -q '^| zlib |' "$here/../../pkgconfig/LINKED.md" || die "LINKED.md does not name zlib" ;;
+    *) grep -q "^| .*$library.* |" "$here/../../pkgconfig/LINKED.md" -i || die "LINKED.md does not name $library" ;;
+    esac
+  done
   # The program must run from the installed tree without help from the environment.
   env -u LD_LIBRARY_PATH "$prefix/bin/jam-pack" --version
   ;;

@@ -1,11 +1,11 @@
 #include "network/rigidity_test.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
 #include "core/call_scope.hpp"
 #include "linalg/blas.hpp"
+#include "network/curvature_test.hpp"
 #include "network/rigid_part.hpp"
 #include "network/slides.hpp"
 #include "network/softest_modes.hpp"
@@ -73,48 +73,6 @@ void count_carrying(const RigidityMatrix &carrying, int strains, RigidityResult 
   for (size_t k = 0; k < carrying.contacts(); ++k)
     for_spheres(carrying.a[k], carrying.b[k], [&](int32_t i) { ++z[i]; });
   out.undercoordinated = std::count_if(z.begin(), z.end(), [d](int32_t c) { return c <= d; });
-}
-
-// Whether the curvature of a round wall holds all flexes; the first one becomes that which it holds least.
-void judge_curvature(const RigidityMatrix &carrying, const std::vector<double> &force,
-                     std::vector<std::vector<double>> &flexes, RigidityResult &out) {
-  const auto m = static_cast<Eigen::Index>(flexes.size());
-  Eigen::MatrixXd q = Eigen::MatrixXd::Zero(m, m);
-  double scale = 0.0;
-  std::vector<double> sum(carrying.unknowns());
-  const auto form = [&](const std::vector<double> &u) {
-    double value = 0.0;
-    for (size_t k = 0; k < force.size(); ++k)
-      value += force[k] * carrying.bending[k] * carrying.stretch(k, u.data()).across();
-    return value;
-  };
-  for (size_t k = 0; k < force.size(); ++k) scale += std::fabs(force[k] * carrying.bending[k]);
-  scale /= static_cast<double>(force.size());
-  for (Eigen::Index a = 0; a < m; ++a) q(a, a) = form(flexes[a]);
-  for (Eigen::Index a = 0; a < m; ++a)
-    for (Eigen::Index b = 0; b < a; ++b) {
-      for (size_t k = 0; k < sum.size(); ++k) sum[k] = flexes[a][k] + flexes[b][k];
-      q(a, b) = q(b, a) = 0.5 * (form(sum) - q(a, a) - q(b, b));
-    }
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(q);
-  const double most = eigen.eigenvalues()[m - 1];
-  std::vector<double> first(flexes[0].size(), 0.0);
-  for (Eigen::Index a = 0; a < m; ++a)
-    for (size_t k = 0; k < first.size(); ++k) first[k] += eigen.eigenvectors()(a, m - 1) * flexes[a][k];
-  flexes[0] = std::move(first);
-  const double limit = RigidityTuning::least_curvature * scale;
-  if (most < -limit) {
-    out.jammed = out.force_residual < RigidityTuning::most_residual ? Verdict::yes : Verdict::undecided;
-    out.curvature = -most / scale;
-    return;
-  }
-  Slides slides = find_slides(carrying);
-  if (!(most > limit) && slides.count > 0) {
-    out.slides = slides.count;
-    flexes[0] = std::move(slides.motion);
-  } else if (!(most > limit) || out.self_stresses > 1) {  // other states of self-stress might hold it
-    out.jammed = Verdict::undecided;
-  }
 }
 
 // Without round walls the sum of forces times second derivatives of distances is positive, but for flexes that move

@@ -80,6 +80,8 @@ struct RigidityTuning {
   // The curvature of a round wall holds a flex, or does not, by more than this part of the mean force times curvature:
   // a flex itself closes contacts by up to 1e-6.
   static constexpr double least_curvature = 1e-5;
+  // Spheres at round walls stay: squared displacements across them below this, in a flex of length 1.
+  static constexpr double still = 1e-14;
   // A sphere that touches a round wall farther from its axis, in radii, has one contact there.
   static constexpr double off_axis = 1e-5;
   // A rotation of the spheres about a line through all of them leaves less than this of a length, by rounding.

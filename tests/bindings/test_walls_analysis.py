@@ -150,6 +150,24 @@ class Slides(unittest.TestCase):
             np.testing.assert_allclose(np.linalg.norm(y[i] - y[j], axis=1), s.diameters[0], rtol=1e-9)
         self.assertTrue(found)
 
+    def test_a_sphere_leaves_its_ring_along_the_tube(self):
+        """Five spheres at the wall surround a sixth. Walls bend inward, but no motion along the tube meets them."""
+        for angles in (2 * np.pi / 5 * np.arange(5), np.array([0, 1.25, 2.5, 3.75, 5.0])):
+            ring = np.column_stack([1.5 + np.cos(angles), 1.5 + np.sin(angles), np.full(5, 1.0)])
+            s = jam.System.from_arrays(np.vstack([ring, [1.5, 1.5, 1.0]]), 1.0, cell=[3, 3, 2], container="cylinder", dim=3)
+            c = s.check(crunch=False)
+            self.assertEqual((c.jammed, c.stationary, c.reason), (0, 1, jam.CheckReason.FLEX))
+            s.contacts_from_geometry()
+            motion = s.flex()[0]
+            for t in (1e-3, 1e-2, 0.1):  # a finite motion keeps or opens every distance
+                y = s.positions + t * motion
+                between = np.linalg.norm(y[:, None] - y[None], axis=2)[np.triu_indices(6, 1)]
+                self.assertGreater(between.min(), 1 - 1e-9)
+                self.assertLess(np.linalg.norm(y[:, :2] - 1.5, axis=1).max(), 1 + 1e-9)
+                self.assertGreater(np.sort(between)[:10].max(), 1 + 1e-8)
+            self.assertTrue(s.crunch().jammed)
+            self.assertGreater(s.packing_fraction, 0.25)
+
     def test_spheres_that_fill_a_slit_slide(self):
         """Each touches both walls and no other sphere: no motion lets the diameters grow."""
         for x, cell, walls in (

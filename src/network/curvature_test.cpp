@@ -1,0 +1,88 @@
+#include "network/curvature_test.hpp"
+
+#include <Eigen/Dense>
+#include <cmath>
+
+#include "network/slides.hpp"
+#include "network/tuning.hpp"
+
+namespace jam {
+namespace {
+
+using Flexes = std::vector<std::vector<double>>;
+
+// Sum over contacts of a weight times the squared part of u_a - u_b across the normal, as a form in the coefficients of
+// flexes.
+Eigen::MatrixXd form_of(const RigidityMatrix &g, const std::vector<double> &weight, const Flexes &flexes) {
+  const auto m = static_cast<Eigen::Index>(flexes.size());
+  Eigen::MatrixXd q = Eigen::MatrixXd::Zero(m, m);
+  std::vector<double> sum(g.unknowns());
+  const auto form = [&](const std::vector<double> &u) {
+    double value = 0.0;
+    for (size_t k = 0; k < weight.size(); ++k) value += weight[k] * g.stretch(k, u.data()).across();
+    return value;
+  };
+  for (Eigen::Index a = 0; a < m; ++a) q(a, a) = form(flexes[a]);
+  for (Eigen::Index a = 0; a < m; ++a)
+    for (Eigen::Index b = 0; b < a; ++b) {
+      for (size_t k = 0; k < sum.size(); ++k) sum[k] = flexes[a][k] + flexes[b][k];
+      q(a, b) = q(b, a) = 0.5 * (form(sum) - q(a, a) - q(b, b));
+    }
+  return q;
+}
+
+std::vector<double> combine(const Flexes &flexes, const Eigen::VectorXd &part) {
+  std::vector<double> u(flexes[0].size(), 0.0);
+  for (size_t a = 0; a < flexes.size(); ++a)
+    for (size_t k = 0; k < u.size(); ++k) u[k] += part[static_cast<Eigen::Index>(a)] * flexes[a][k];
+  return u;
+}
+
+// The flex that opens most among those along which no sphere at a round wall moves across it: all distances to walls
+// stay, and pairs only open, so that no state of self-stress holds it. Empty where there is none.
+std::vector<double> free_beside_walls(const RigidityMatrix &g, const Flexes &flexes) {
+  std::vector<double> at_walls(g.contacts()), at_pairs(g.contacts());
+  for (size_t k = 0; k < g.contacts(); ++k) (g.b[k] < 0 ? at_walls : at_pairs)[k] = 1.0;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> bends(form_of(g, at_walls, flexes));
+  Eigen::Index still = 0;
+  while (still < bends.eigenvalues().size() && bends.eigenvalues()[still] < RigidityTuning::still) ++still;
+  if (still == 0) return {};
+  const Eigen::MatrixXd kept = bends.eigenvectors().leftCols(still);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> opens(kept.transpose() * form_of(g, at_pairs, flexes) * kept);
+  if (!(opens.eigenvalues()[still - 1] > RigidityTuning::least_curvature)) return {};
+  return combine(flexes, kept * opens.eigenvectors().col(still - 1));
+}
+
+}  // namespace
+
+void judge_curvature(const RigidityMatrix &carrying, const std::vector<double> &force, Flexes &flexes,
+                     RigidityResult &out) {
+  double scale = 0.0;
+  std::vector<double> weight(force);
+  for (size_t k = 0; k < force.size(); ++k) weight[k] *= carrying.bending[k], scale += std::fabs(weight[k]);
+  scale /= static_cast<double>(force.size());
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(form_of(carrying, weight, flexes));
+  const Eigen::Index last = eigen.eigenvalues().size() - 1;
+  const double most = eigen.eigenvalues()[last], limit = RigidityTuning::least_curvature * scale;
+  std::vector<double> first = combine(flexes, eigen.eigenvectors().col(last));
+  if (most < -limit) {
+    flexes[0] = std::move(first);
+    out.jammed = out.force_residual < RigidityTuning::most_residual ? Verdict::yes : Verdict::undecided;
+    out.curvature = -most / scale;
+    return;
+  }
+  Slides slides = find_slides(carrying);
+  if (!(most > limit) && slides.count > 0) {
+    out.slides = slides.count;
+    first = std::move(slides.motion);
+  } else if (!(most > limit) || out.self_stresses > 1) {  // other states of self-stress might hold it
+    std::vector<double> free = free_beside_walls(carrying, flexes);
+    if (free.empty())
+      out.jammed = Verdict::undecided;
+    else
+      first = std::move(free);
+  }
+  flexes[0] = std::move(first);
+}
+
+}  // namespace jam

@@ -1,0 +1,13 @@
+// Whether the curvature of a round wall holds the flexes of a network with a positive stress.
+#pragma once
+#include <vector>
+
+#include "network/rigidity_test.hpp"
+
+namespace jam {
+
+// carrying: K+ of `out`, with its forces and flexes. The first flex becomes that which curvature holds least.
+void judge_curvature(const RigidityMatrix &carrying, const std::vector<double> &force,
+                     std::vector<std::vector<double>> &flexes, RigidityResult &out);
+
+}  // namespace jam

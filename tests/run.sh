@@ -9,6 +9,8 @@
 #   clang       the library without sanitizers by Clang, and its C tests
 #   processors, windows, libcxx  cross builds for arm64, s390x and riscv64 under qemu; for Windows under wine; with
 #               libc++: tests/platforms. Where the compilers cannot be installed they skip, saying so
+#   coverage    which branches of src the unit tests and those of the C interface reach, by Clang; tests/README.md has
+#               the table. It fails below the floor of tests/coverage.py
 #   sanitized_physics  address and undefined behaviour by GCC, over all that runs without other programs
 # `sh tests/run.sh`, from any folder; the builds are ./build, ./build-wheel (also of a test in ./build), ./build-asan
 # (of two parts), ./build-tsan, ./build-clang and ./build-asan-gcc. Uses ccache where it is installed. Parts can be
@@ -100,6 +102,21 @@ threaded='capi_thread_gate capi_host_state capi_isoconfigurational'
 cmake --build build-tsan -j "$jobs" --target $threaded
 TSAN_OPTIONS=halt_on_error=1 ctest --test-dir build-tsan -j "$at_once" --timeout 900 \
   --output-on-failure --no-tests=error -R "^($(echo "$threaded" | sed 's/_/\//; s/ capi_/|capi\//g'))\$" || status=1
+fi
+
+if wants coverage; then
+part "coverage"
+need_packages llvm
+counting='-O1 -fprofile-instr-generate -fcoverage-mapping'
+cmake -S . -B build-coverage -G Ninja -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_BUILD_TYPE=None \
+  -DCMAKE_C_FLAGS="$counting" -DCMAKE_CXX_FLAGS="$counting" -DJAM_BUILD_EXAMPLES=OFF -DJAM_BUILD_CLI=OFF >/dev/null
+counted=$(ninja -C build-coverage -t targets all | sed -n 's/^\(\(unit\|capi\)_[a-z0-9_]*\): phony$/\1/p')
+# shellcheck disable=SC2086
+cmake --build build-coverage -j "$jobs" --target $counted
+rm -rf build-coverage/profile
+LLVM_PROFILE_FILE="$root/build-coverage/profile/%m.profraw" ctest --test-dir build-coverage -j "$at_once" \
+  -L 'unit|capi' -LE long -E '^fuzz/' --timeout 900 --output-on-failure --no-tests=error || status=1
+/usr/bin/python3 tests/coverage.py build-coverage || status=1
 fi
 
 if wants processors; then sh tests/platforms/processors.sh || status=1; fi

@@ -8,6 +8,7 @@
 #include "network/rigidity_test.hpp"
 #include "proof/free_rattler.hpp"
 #include "proof/newton.hpp"
+#include "proof/refined_lp.hpp"
 #include "proof/tuning.hpp"
 
 namespace jam {
@@ -167,7 +168,7 @@ Exchange close_together(ProofScene &scene) {
     round = exchange_once(s);
     changed = changed || round == Round::changed;
   }
-  if (round != Round::closed) return Exchange::endless;
+  if (round != Round::closed) return close_by_lps(scene) ? Exchange::changed : Exchange::endless;
   scene = std::move(s);
   return changed ? Exchange::changed : Exchange::same;
 }

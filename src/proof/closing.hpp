@@ -6,7 +6,8 @@ namespace jam {
 
 // The dual simplex method for the largest Gamma, in two doubles: Newton's steps, and exchanges of contacts with gaps
 // that stay for pairs that overlap, until all listed contacts close and no other pair of stable spheres overlaps.
-// Forces may vanish. `endless`: exchanges come to no end, and the scene is as it was.
+// Forces may vanish. Where exchanges come to no end, LPs do the same (refined_lp.hpp), with rattlers in them.
+// `endless`: these end neither, and the scene is as it was.
 enum class Exchange { endless, same, changed };
 Exchange close_together(ProofScene &scene);
 

@@ -70,6 +70,10 @@ bool each_near_pair(const ProofScene &s, const Packing &p, F &&f) {
 
 }  // namespace
 
+Expansion apart(const ProofScene &s, const NearPair &pair, size_t c) {
+  return component(s, pair.i, pair.j, pair.image, c);
+}
+
 double opening_of(const ProofScene &s, const NearPair &pair) {
   Expansion sum, gamma(s.gamma);
   gamma.add(s.gamma_low);

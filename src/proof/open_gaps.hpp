@@ -22,6 +22,7 @@ struct NearPair {
 };
 // All pairs that are no contacts with relative gaps up to proof_tuning::near, but for a sphere and its own images.
 std::vector<NearPair> near_pairs(const ProofScene &scene);
+Expansion apart(const ProofScene &scene, const NearPair &pair, size_t component);  // of x_i - x_j + n A
 double opening_of(const ProofScene &scene, const NearPair &pair);
 
 }  // namespace jam

@@ -1,5 +1,6 @@
 // The numbers that steer a proof. None of them is part of what is proved: a bad choice loses a proof, never makes one.
 #pragma once
+#include <cstddef>
 
 namespace jam::proof_tuning {
 
@@ -13,11 +14,17 @@ constexpr double leaning = 1e-2;  // forces in the middle over those that close,
 constexpr int exchanges = 50;     // rounds: in each all contacts that do not close leave, and overlapping pairs enter
 // Doubles hold gaps and states of a round to this part: what is left waits for the next round.
 constexpr double vanishing = 1e-9;
-constexpr double freed = 1e-6;     // longest way of a rattler out of an overlap, over its size
-constexpr double as_narrow = 4.0;  // gaps over the overlap of a rattler that has no room between them
-constexpr int mean_steps = 50;     // towards the middle of them
-constexpr int turns = 1000;        // of the search for it
-constexpr double weak = 1e-5;      // forces over the mean, below which listed contacts may be open ones
+// LPs about positions in two doubles: lengths over the diameter of ratio 1. An LP leaves 1e-9 of its step.
+constexpr double first_step = 1e-9, shorter_step = 1e-5, last_step = 1e-30;
+constexpr double still_climbs = 1e-3;  // gain of Gamma over the step, above which a step of this length is repeated
+constexpr int most_steps = 40;
+constexpr double beyond_step = 30.0;  // gaps over the step that two spheres cannot close
+constexpr size_t largest_lp = 4000;   // rows that Clp solves in seconds; it is not asked to stop in between
+constexpr double freed = 1e-6;        // longest way of a rattler out of an overlap, over its size
+constexpr double as_narrow = 4.0;     // gaps over the overlap of a rattler that has no room between them
+constexpr int mean_steps = 50;        // towards the middle of them
+constexpr int turns = 1000;           // of the search for it
+constexpr double weak = 1e-5;         // forces over the mean, below which listed contacts may be open ones
 // Shifts that are tried, as parts of the smallest eigenvalue: the largest one proves the most.
 constexpr double parts_of_eigenvalue[] = {0.6, 0.3, 0.1};
 constexpr int patch = 6;             // tiles that far from a contact may imply it

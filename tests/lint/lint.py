@@ -22,7 +22,7 @@ LAYERS = {
     "soft": ["lp", "network", "linalg", "core"],
     "dynamics": ["soft", "network", "linalg", "core"],
     "analysis": ["lp", "network", "linalg", "core"],
-    "proof": ["network", "linalg", "core"],
+    "proof": ["lp", "network", "linalg", "core"],
     "pore": ["network", "core"],
     "io": ["dynamics", "network", "proof", "pore", "core"],
     "capi": ["core", "linalg", "lp", "network", "crunch", "soft", "dynamics", "analysis", "pore", "proof", "io"],

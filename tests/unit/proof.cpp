@@ -7,11 +7,13 @@
 #include <random>
 
 #include "linalg/shifted_factor.hpp"
+#include "lp/packing_lp.hpp"
 #include "proof/closing.hpp"
 #include "proof/free_rattler.hpp"
 #include "proof/newton.hpp"
 #include "proof/open_gaps.hpp"
 #include "proof/outward.hpp"
+#include "proof/refined_lp.hpp"
 #include "proof/theorem.hpp"
 // test.h comes last: it has a macro `fail`.
 #include "test.h"
@@ -221,6 +223,38 @@ void contacts_that_stay_open_leave_the_list(void **) {
   }
 }
 
+// Linear programs and exchanges of contacts find the same Gamma, whether a disk is too small by 1e-14 or too large by
+// 1e-12, and a rattler that overlaps comes free.
+void linear_programs_close_the_same_contacts(void **) {
+  if (!clp_is_built()) return;
+  for (const double change : {-1e-14, 1e-12}) {
+    Lattice l = triangular(6, 6, {9});
+    l.packing.diameter[14] += change;
+    ProofScene by_exchange = make_proof_scene(l.packing, l.network, {}), by_lps = by_exchange;
+    assert_true(close_together(by_exchange) == Exchange::changed);
+    assert_true(close_by_lps(by_lps));
+    const ProofEquations e = evaluate(by_lps);
+    double sum = 0.0;
+    for (size_t c = 0; c < by_lps.contacts(); ++c) {
+      assert_true(std::fabs(e.f[c]) < 1e-26 && by_lps.force[c] >= 0.0);
+      sum += by_lps.force[c];
+    }
+    assert_true(std::fabs(sum - 1.0) < 1e-6);
+    for (const NearPair &pair : near_pairs(by_lps)) assert_true(pair.opening > 0.0);
+    const double apart = (by_lps.gamma - by_exchange.gamma) + (by_lps.gamma_low - by_exchange.gamma_low);
+    // Centres that the first order leaves free may differ by the change, and Gamma by its square.
+    assert_true(std::fabs(apart) < change * change + 1e-26);
+  }
+  Lattice l = triangular(6, 6, {14});
+  l.packing.position.push_back(2.25 + 1e-14), l.packing.position.push_back(2.0 * std::sqrt(0.75));
+  l.packing.diameter.push_back(0.5), l.network.coordination.push_back(0);
+  ProofScene s = make_proof_scene(l.packing, l.network, {});
+  const double before = s.gamma;
+  assert_true(close_by_lps(s));
+  for (const NearPair &pair : near_pairs(s)) assert_true(pair.opening > 0.0);
+  assert_true(std::fabs(s.gamma - before) < 1e-14);
+}
+
 // A list without three contacts of a disk that is too large: it overlaps there.
 void pairs_that_overlap_enter_the_list(void **) {
   Lattice l = triangular(6, 6);
@@ -281,6 +315,7 @@ int main(void) {
                                      cmocka_unit_test(forces_that_do_not_balance_prove_nothing),
                                      cmocka_unit_test(an_overlap_proves_nothing),
                                      cmocka_unit_test(contacts_that_stay_open_leave_the_list),
+                                     cmocka_unit_test(linear_programs_close_the_same_contacts),
                                      cmocka_unit_test(pairs_that_overlap_enter_the_list),
                                      cmocka_unit_test(rattlers_move_out_of_overlaps),
                                      cmocka_unit_test(a_rattler_without_room_stays)};

@@ -1,0 +1,112 @@
+#include "proof/refined_lp.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/call_scope.hpp"
+#include "core/double_double.hpp"
+#include "lp/packing_lp.hpp"
+#include "proof/open_gaps.hpp"
+#include "proof/tuning.hpp"
+
+namespace jam {
+namespace {
+
+void add_to(double &high, double &low, double x) {
+  const DoubleDouble sum = DoubleDouble(high, low) + DoubleDouble(x);
+  high = sum.high, low = sum.low;
+}
+
+// All pairs of spheres that a step may close, contacts first.
+std::vector<NearPair> all_pairs(const ProofScene &s) {
+  std::vector<NearPair> out;
+  for (size_t c = 0; c < s.contacts(); ++c) {
+    const auto at = s.image.begin() + static_cast<std::ptrdiff_t>(c * s.dim);
+    out.push_back({s.sphere[s.a[c]], s.sphere[s.b[c]], std::vector<int32_t>(at, at + s.dim), 0.0});
+  }
+  for (NearPair &pair : near_pairs(s)) out.push_back(std::move(pair));
+  return out;
+}
+
+// Gamma becomes the largest at which no pair overlaps; returns by how much it grows, over Gamma.
+double fit_gamma(ProofScene &s, std::vector<NearPair> &pairs) {
+  double least = HUGE_VAL;
+  for (const NearPair &pair : pairs) least = std::min(least, opening_of(s, pair));
+  add_to(s.gamma, s.gamma_low, least);
+  for (NearPair &pair : pairs) pair.opening = opening_of(s, pair);
+  return least / s.gamma;
+}
+
+// The LP of one step, and which of the pairs has each row.
+struct Step {
+  PairList list;
+  PackingLp lp;
+  std::vector<size_t> pair;
+};
+// Lengths in steps of `step` diameters of ratio 1; a pair that is farther open than both spheres can move has no row.
+void make_step(const ProofScene &s, const std::vector<NearPair> &pairs, double step, Step &out) {
+  const size_t d = static_cast<size_t>(s.dim);
+  const double unit = std::sqrt(s.gamma);
+  for (size_t k = 0; k < pairs.size(); ++k) {
+    const NearPair &pair = pairs[k];
+    const double sigma2 = s.sigma_squared(pair.i, pair.j).value(), c = pair.opening / (s.gamma * step);
+    if (c > proof_tuning::beyond_step * std::max(1.0, 1.0 / std::sqrt(sigma2))) continue;
+    out.pair.push_back(k), out.list.i.push_back(pair.i), out.list.j.push_back(pair.j), out.lp.c.push_back(c);
+    for (size_t q = 0; q < d; ++q) out.lp.a.push_back(2.0 * apart(s, pair, q).value() / (unit * sigma2));
+  }
+  out.lp.dim = s.dim, out.lp.n = static_cast<int32_t>(s.ratio.size()), out.lp.pairs = &out.list, out.lp.bound = 1.0;
+}
+
+// The pairs that are closed are the contacts of the scene.
+void take_closed(ProofScene &s, const std::vector<NearPair> &pairs, const std::vector<double> &force) {
+  s.a.clear(), s.b.clear(), s.image.clear(), s.force.clear(), s.sphere.clear();
+  s.implied.clear(), s.row.clear();
+  std::vector<char> touches(s.ratio.size(), 0);
+  for (const NearPair &pair : pairs)
+    if (pair.opening <= proof_tuning::closed) touches[pair.i] = touches[pair.j] = 1;
+  for (size_t i = 0; i < touches.size(); ++i) {
+    s.node[i] = touches[i] ? static_cast<int32_t>(s.sphere.size()) : -1;
+    if (touches[i]) s.sphere.push_back(static_cast<int32_t>(i));
+  }
+  for (size_t k = 0; k < pairs.size(); ++k) {
+    if (pairs[k].opening > proof_tuning::closed) continue;
+    s.a.push_back(s.node[pairs[k].i]), s.b.push_back(s.node[pairs[k].j]), s.force.push_back(force[k]);
+    s.image.insert(s.image.end(), pairs[k].image.begin(), pairs[k].image.end());
+  }
+}
+
+}  // namespace
+
+bool close_by_lps(ProofScene &scene) {
+  if (!clp_is_built() || scene.own_images || scene.strict) return false;
+  ProofScene s = scene;
+  std::vector<NearPair> pairs = all_pairs(s);
+  std::vector<double> force(pairs.size());
+  fit_gamma(s, pairs);
+  LpSolution before;
+  double length = proof_tuning::first_step;
+  for (int k = 0; k < proof_tuning::most_steps; ++k) {
+    CallScope::look();
+    Step step;
+    make_step(s, pairs, length, step);
+    if (step.pair.size() > proof_tuning::largest_lp) return false;
+    const bool same_rows = before.basis_rows.size() == step.pair.size();
+    LpSolution found = solve_lp_clp(step.lp, clp_tolerance, nullptr, same_rows ? &before : nullptr);
+    if (!found.solved) return false;
+    for (size_t x = 0; x < s.high.size(); ++x) add_to(s.high[x], s.low[x], found.s[x] * length * std::sqrt(s.gamma));
+    std::fill(force.begin(), force.end(), 0.0);
+    for (size_t row = 0; row < step.pair.size(); ++row) force[step.pair[row]] = found.y[row];
+    const double gain = fit_gamma(s, pairs);
+    before = std::move(found);
+    if (gain > proof_tuning::still_climbs * length) continue;
+    length *= proof_tuning::shorter_step;
+    if (length < proof_tuning::last_step) {
+      take_closed(s, pairs, force);
+      scene = std::move(s);
+      return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace jam

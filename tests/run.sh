@@ -2,7 +2,8 @@
 # Sets up a bare Debian 12 and runs all tests, in five parts:
 #   release     everything, by GCC, warnings as errors
 #   builtin     the library of the wheel, with dense products of its own and no Clp: unit tests that need products
-#   sanitizers  address and undefined behaviour, by Clang, warnings as errors: unit tests and those of the C interface
+#   sanitizers  address and undefined behaviour, by Clang, warnings as errors: unit tests and those of the C interface,
+#               but ten that take minutes each
 #   threads     the thread sanitizer over the tests that use several threads
 #   fuzz        libFuzzer on every target for 20 seconds, 60 in all
 # More run when they are named, as they take long:
@@ -11,7 +12,7 @@
 #               libc++: tests/platforms. Where the compilers cannot be installed they skip, saying so
 #   coverage    which branches of src the unit tests and those of the C interface reach, by Clang; tests/README.md has
 #               the table. It fails below the floor of tests/coverage.py
-#   sanitized_physics  address and undefined behaviour by GCC, over all that runs without other programs
+#   sanitized_physics  address and undefined behaviour by GCC, over all that runs without other programs, those ten too
 # `sh tests/run.sh`, from any folder; the builds are ./build, ./build-wheel (also of a test in ./build), ./build-asan
 # (of two parts), ./build-tsan, ./build-clang and ./build-asan-gcc. Uses ccache where it is installed. Parts can be
 # named: `sh tests/run.sh release clang`.
@@ -79,7 +80,7 @@ part "address and undefined-behaviour sanitizers"
 sanitize_by_clang
 cmake --build build-asan -j "$jobs"
 part "its tests"
-ctest --test-dir build-asan -j "$at_once" -L 'unit|capi' -LE long --timeout 900 \
+ctest --test-dir build-asan -j "$at_once" -L 'unit|capi' -LE 'long|slow' --timeout 900 \
   --output-on-failure --no-tests=error || status=1
 fi
 

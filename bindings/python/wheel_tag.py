@@ -13,7 +13,7 @@ import zipfile
 # Libraries that every system of a manylinux tag has (PEP 600). Another one would have to be in the wheel.
 EVERYWHERE = r"lib(c|m|dl|rt|pthread|stdc\+\+|gcc_s|z)\.so(\.\d+)*|ld-linux[-\w]*\.so\.\d"
 # manylinux_2_X has these versions of GCC's library, by the policies of auditwheel.
-GLIBCXX = {24: 28, 28: 31, 29: 34, 30: 35, 31: 38, 32: 39, 33: 41}
+GLIBCXX = {19: 17, 22: 24, 24: 28, 28: 31, 29: 34, 30: 35, 31: 38, 32: 39, 33: 41}
 
 
 def reached(objects: dict[str, bytes]) -> tuple[dict[str, tuple[int, ...]], list[str]]:

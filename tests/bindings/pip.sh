@@ -11,6 +11,13 @@ mkdir -p "$2"
 "$work/venv/bin/pip" wheel -q --no-index --no-deps --config-settings "build-dir=$2" \
   --config-settings "cmake=-DJAM_WERROR=$3" -w "$work" "$1/bindings/python"
 sh "$1/tests/bindings/wheel.sh" "$work"/jamming-*.whl
+# The tag of a wheel follows the newest version of GCC's library and of GLIBC that it asks for.
+(cd "$1" && PYTHONPATH=bindings/python /usr/bin/python3 -B -c '
+import wheel_tag
+for glibc, step, minor in ((14, 19, 17), (17, 22, 24), (27, 22, 27), (17, 28, 31), (34, 30, 35)):
+    data = f"\0GLIBC_2.{glibc}\0GLIBCXX_3.4.{step}\0".encode()
+    tag = wheel_tag.platform_tag({"libjam.so": data})
+    assert tag.startswith(f"manylinux_2_{minor}_"), (glibc, step, tag)')
 for folder in one two; do
   mkdir "$work/$folder"
   (cd "$1" && PYTHONPATH=bindings/python /usr/bin/python3 -B -c \

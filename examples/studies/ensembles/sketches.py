@@ -98,7 +98,7 @@ def states(r, axis):
     """2.12: displacements from the jammed state in the plane of their two largest components."""
     n = 64
     packing = jam.System.random(n=n, dim=2, seed=2, packing_fraction=0.4, diameters=np.where(np.arange(n) % 2, 1.4, 1.0))
-    sets, jammed = [], []
+    sets, jammed, held, densities = [], [], [], []
     for pressure in (30.0, 300.0, 3000.0):
         packing.compress([(1e-2, pressure)])
         with packing.copy() as copy:
@@ -107,8 +107,10 @@ def states(r, axis):
                 sets.append((pressure, copy.positions.copy()))
                 if k % 3 == 0:
                     with copy.copy() as end:
-                        end.crunch()
+                        report = end.crunch()
                         jammed.append((pressure, end.positions.copy()))
+                        held.append(end.coordination > 0)
+                        densities.append(report.packing_fraction)
     origin = jammed[-1][1]
 
     def away(x):
@@ -124,8 +126,14 @@ def states(r, axis):
         axis.plot(*(md[few] @ plane.T).T / unit, ".", color=colour, label=f"dynamics, p = {pressure:g}")
         few = np.array([p == pressure for p, _ in jammed])
         axis.plot(*(ends[few] @ plane.T).T / unit, "*", ms=9, color=colour, mec="k", mew=0.5, label="jammed states from there")
-        spread = np.sqrt(((ends[few] - ends[few].mean(axis=0)) ** 2).sum(axis=1).mean() / n) / unit
+        # of the spheres that no state leaves as rattlers: these lie where dynamics left them
+        stable = np.array(held)[few].all(axis=0)
+        there = ends[few].reshape(few.sum(), n, 2)[:, stable]
+        there = there - there.mean(axis=1, keepdims=True)
+        spread = np.sqrt(((there - there.mean(axis=0)) ** 2).sum(axis=2).mean()) / unit
         r.add("2.12", f"root mean square distance of the jammed states from p = {pressure:g}, diameters", "falls with p", spread)
+        different = len(set(np.round(np.array(densities)[few], 12)))
+        r.add("2.12", f"different jammed states of four from p = {pressure:g}", "falls with p", different)
     axis.set(xlabel="first direction / mean diameter", ylabel="second direction", title=f"2.12 {n} disks")
     axis.legend(fontsize=6)
 

@@ -2,6 +2,7 @@
 """Jamming density against the distance of two walls: phi_J(H) = phi_bulk - C / H, as the layers at the walls fill space less well.
 
 usage: wall_distance.py PICTURE.png [--large] [--seeds K] [--result FILE.json]
+       wall_distance.py --disks N [--seeds K] [--result FILE.json]     how well N disks follow the law: (phi of periodic packings - phi) H
 Small: 10 packings per point, 300 disks or 400 spheres. Large: 40, of 1200 and 1600.
 Needs the Python package `jam`, numpy, matplotlib. Prints a table.
 
@@ -25,6 +26,7 @@ sys.path.append(str(Path(__file__).resolve().parents[2] / "bindings/docs"))
 import figures  # noqa: E402
 
 DISTANCES, LEAST, PUBLISHED = (2.5, 3, 4, 5, 7, 10, 14), 4.0, {2: 0.842, 3: 0.646}
+LOSSES = ["H", "phi_J", "(periodic - phi_J) H", "phi_bulk of a fit from this H", "chi^2 a degree of freedom"]
 COLUMNS = ["d", "N", "packings per point", "phi_bulk of the fit", "periodic packings", "published", "C", "chi^2 a degree of freedom"]
 
 
@@ -53,13 +55,38 @@ def fit(x, y, error):
     return value, np.sqrt(np.diag(covariance) * max(1.0, chi2)), chi2
 
 
+def disks(n, seeds, result):
+    periodic = mean_error([f[1] for seed in range(1, 2 * seeds + 1) if (f := jammed(2, n, seed, None))])
+    print(f"periodic: {periodic[0]:.5f} +- {periodic[1]:.5f}")
+    points = []
+    for height in (4, 7, 10, 14):
+        found = [f for seed in range(1, seeds + 1) if (f := jammed(2, n, seed, height))]
+        points.append([np.mean([f[0] for f in found]), *mean_error([f[1] for f in found])])
+        h, phi, error = points[-1]
+        print(f"H = {h:.2f}: phi = {phi:.5f} +- {error:.5f}, (phi_periodic - phi) H = {(periodic[0] - phi) * h:.4f}", flush=True)
+    rows = [[float(h), {"value": float(phi), "error": float(e)}, float((periodic[0] - phi) * h), None, None] for h, phi, e in points]
+    for first in (0, 1):
+        x, y, error = np.array(points[first:]).T
+        value, errors, chi2 = fit(1 / x, y, error)
+        print(f"fit from H = {x[0]:.2f}: phi_bulk = {value[0]:.5f} +- {errors[0]:.5f}, chi^2 a degree of freedom {chi2:.1f}")
+        rows[first][3:] = [{"value": float(value[0]), "error": float(errors[0])}, float(chi2)]
+    rows.append(["periodic", {"value": float(periodic[0]), "error": float(periodic[1])}, None, None, None])
+    if result:
+        figures.save(result, f"wall_distance.py --disks {n}" + (f" --seeds {seeds}" if seeds != 10 else ""), LOSSES, rows)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("picture")
+    parser.add_argument("picture", nargs="?")
+    parser.add_argument("--disks", type=int)
     parser.add_argument("--large", action="store_true")
     parser.add_argument("--seeds", type=int)
     parser.add_argument("--result", help="rows of the table, as JSON")
     o = parser.parse_args()
+    if o.disks:
+        return disks(o.disks, o.seeds or 10, o.result)
+    if not o.picture:
+        parser.error("give the name of the picture")
     seeds, rows = o.seeds or (40 if o.large else 10), []
     figure, grid = plt.subplots(1, 2, figsize=(9.6, 3.8), constrained_layout=True)
     for axes, (d, n) in zip(grid, ((2, 300), (3, 400))):

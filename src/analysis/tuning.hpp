@@ -48,7 +48,7 @@ struct CellsTuning {
 
 // ---- g(r) between walls
 struct ShellsTuning {
-  static constexpr size_t size_classes = 32;  // spheres of more diameters are taken in so many classes
+  static constexpr size_t size_classes = 8;   // spheres of more diameters are taken in so many classes
   static constexpr double least_room = 1e-6;  // of the container, where centres can be
 };
 

@@ -1,7 +1,9 @@
 #!/usr/bin/python3
 """Where crunch jams, and where and why it stops: by start density, method, dimension, sizes and crystals.
 
-usage: failure_map.py [--out MAP.json] [--picture MAP.png] [--seeds 2] [--limit SECONDS] [--scale 1] [--only-draw]
+usage: failure_map.py [--out MAP.json] [--picture MAP.png] [--seeds 2] [--limit SECONDS] [--scale 1] [--only-draw] [--scenes]
+
+--scenes: scenes with walls, and disks of which one is 50 times as wide as the others in the mean, instead of the other maps; three minutes.
 
 Every result is checked here from positions, diameters and contacts alone, over all images. An independent linear program
 (HiGHS of scipy) looks for a motion of each packing that is called jammed. "wrong" is a packing with an overlap, or one called
@@ -193,7 +195,118 @@ def crystals(args):
         yield row
 
 
+# Half of the spheres are 1.4 times as wide; one disk 50 times as wide as the mean of the others. The rigid motions that each scene allows.
+SCENES = {
+    "slit": (dict(walls="z"), 2),
+    "box": (dict(walls="xyz"), 0),
+    "tube": (dict(container="cylinder", cell=[1, 1, 2]), 2),
+    "can": (dict(container="cylinder", walls="z"), 1),
+    "ball": (dict(container="ball"), 3),
+    "disks between lines": (dict(dim=2, walls="y"), 1),
+    "disks in a circle": (dict(dim=2, container="ball"), 1),
+    "one disk of ratio 50": (dict(dim=2), 2),
+}
+SCENE_STARTS = [("phi", 0.05), ("phi", 0.2), ("phi", 0.3), ("p", 1e2), ("p", 1e4), ("p", 1e7)]
+
+
+def wall_geometry(scene, x, edge):
+    """(n, walls) distances and (n, walls, d) directions away from each wall, numbered as System.walls()."""
+    d, found = x.shape[1], []
+    for c in range(d):
+        if "xyz"[c] in scene.get("walls", ""):
+            for side in (0, 1):
+                normal = np.zeros_like(x)
+                normal[:, c] = 1 - 2 * side
+                found.append((edge[c] - x[:, c] if side else x[:, c], normal))
+    if "container" in scene:
+        off = x - edge / 2
+        off[:, 2 if scene["container"] == "cylinder" else d :] = 0
+        r = np.linalg.norm(off, axis=1)
+        found.append((edge[0] / 2 - r, -off / np.maximum(r, 1e-300)[:, None]))
+    if not found:
+        return np.zeros((len(x), 0)), np.zeros((len(x), 0, d))
+    return np.array([f[0] for f in found]).T, np.array([f[1] for f in found]).transpose(1, 0, 2)
+
+
+def scene_verdict(scene, symmetries, system, report):
+    """As verdict(), for scenes with walls: rank by singular values, and HiGHS looks for a motion that opens a contact."""
+    from scipy.optimize import linprog
+
+    x, a, edge = np.array(system.positions), np.array(system.diameters) / 2, np.diag(system.cell)
+    n, d = x.shape
+    closed = {"cylinder": 2, "ball": d}.get(scene.get("container"), 0)
+    repeats = np.array([c >= closed and "xyz"[c] not in scene.get("walls", "") for c in range(d)])
+    distance, normal = wall_geometry(scene, x, edge)
+    dx = x[:, None] - x[None]
+    dx -= np.where(repeats, edge * np.round(dx / edge), 0)
+    r = np.linalg.norm(dx, axis=2)
+    np.fill_diagonal(r, np.inf)
+    worst = max((1 - r / (a[:, None] + a)).max(), (1 - distance / a[:, None]).max(initial=-1))
+    if worst > 1e-11:
+        return "wrong", "overlap"
+    if not report.jammed:
+        return "stopped", report.stop_reason.name.lower()
+    c = system.contacts
+    rows, force = np.zeros((len(c), n * d)), np.zeros_like(x)
+    for k, ((i, j), f) in enumerate(zip(c.pairs, c.forces)):
+        true = normal[i, -1 - j] if j < 0 else dx[i, j] / r[i, j]
+        gap = distance[i, -1 - j] / a[i] - 1 if j < 0 else r[i, j] / (a[i] + a[j]) - 1
+        if abs(gap) > 1e-9 or abs(true - c.vectors[k]).max() > 1e-9:
+            return "wrong", "a contact is open"
+        rows[k, i * d : i * d + d] += true
+        force[i] += f * true
+        if j >= 0:
+            rows[k, j * d : j * d + d] -= true
+            force[j] -= f * true
+    if abs(force).max() > 1e-8 or c.forces.min() <= 0:
+        return "wrong", "forces"
+    stable = np.unique(c.pairs[c.pairs >= 0])
+    excess = len(c) - (d * len(stable) - symmetries + 1)
+    if excess != report.excess_contacts:
+        return "wrong", "count of contacts"
+    columns = (stable[:, None] * d + np.arange(d)).ravel()
+    flexes = len(columns) - symmetries - np.linalg.matrix_rank(rows[:, columns], tol=1e-7)
+    if flexes != report.flexes:
+        return "wrong", "a motion is left"
+    found = linprog(-rows.sum(0), A_ub=-rows, b_ub=np.zeros(len(rows)), bounds=(-1, 1))
+    if found.x is None:
+        return "jammed hyperstatic" if excess else "jammed 1SS", "not confirmed"
+    if found.fun < -1e-6:
+        return "wrong", "a motion is left"
+    if flexes:
+        return "jammed hyperstatic", f"{flexes} flexes held"
+    return ("jammed 1SS", "") if excess == 0 else ("jammed hyperstatic", f"+{excess}")
+
+
+def scene_rows(args):
+    import jam
+
+    for name, start, seed in itertools.product(SCENES, SCENE_STARTS, range(1, args.seeds + 1)):
+        scene, symmetries = SCENES[name]
+        large = name == "one disk of ratio 50"
+        if large and seed > 1:
+            continue
+        n = 1300 if large else int(128 * args.scale)
+        sizes = np.where(np.arange(n) % 2, 1.4, 1.0)
+        sizes[0] = 60.0 if large else 1.0
+        began = time.process_time()
+        phi = start[1] if start[0] == "phi" else 0.15
+        s = jam.System.random(n, seed=seed, packing_fraction=phi, diameters=sizes, **scene)
+        if start[0] == "p":
+            s.compress([(0.1, min(start[1], 1e2))] + ([(0.03, start[1])] if start[1] > 1e2 else []), wall_time=args.limit)
+        report = s.crunch(wall_time=args.limit)
+        begin = f"fraction {start[1]:g}" if start[0] == "phi" else f"p {start[1]:g}"
+        row = dict(map="scenes", dim=s.dim, n=n, line=name, start=begin, seed=seed)
+        row.update(zip(("kind", "reason"), scene_verdict(scene, symmetries, s, report)))
+        row.update(phi=report.packing_fraction, excess=report.excess_contacts, lps=report.lp_solves)
+        row.update(factorisations=report.factorisations, cpu=round(time.process_time() - began, 3))
+        print(row, file=sys.stderr, flush=True)
+        yield row
+
+
 def study(args):
+    if args.scenes:
+        return {"seeds": args.seeds, "limit": args.limit, "rows": list(scene_rows(args))}
     rows = list(crystals(args))
     starts = [("phi", f) for f in (0.05, 0.2, 0.4, 0.6, 0.8, 0.95)] + [("p", p) for p in (1e1, 1e3, 1e6, 1e9, 1e12)]
     sizes = {2: (128, 1.4), 3: (128, 1.0), 4: (96, 1.0), 5: (64, 1.0)}
@@ -224,7 +337,6 @@ def draw(data, picture):
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
 
-    figure, axes = plt.subplots(3, 1, figsize=(10.5, 14), height_ratios=(8, 7, 9))
     maps = (
         (
             "density",
@@ -242,6 +354,17 @@ def draw(data, picture):
             "lattices at contact with vacancies; disks grown to p = 500, equal or log-normal (deviation); +k: contacts beyond one state of self-stress",
         ),
     )
+    scenes = (
+        "scenes",
+        lambda r: (r["line"], r["start"]),
+        "128 spheres, half of them 1.4 times as wide, and 1300 disks; start at this packing fraction, or grown to pressure p; in each cell: median factorisations",
+    )
+    if any(r["map"] == "scenes" for r in data["rows"]):
+        maps = (scenes,)
+        figure, axes = plt.subplots(1, 1, figsize=(10.5, 5), squeeze=False)
+        axes = axes[0]
+    else:
+        figure, axes = plt.subplots(3, 1, figsize=(10.5, 14), height_ratios=(8, 7, 9))
     order = list(KINDS)
     for axis, (name, key, title) in zip(axes, maps):
         rows = [r for r in data["rows"] if r["map"] == name]
@@ -322,6 +445,7 @@ def main():
     parser.add_argument("--limit", type=float, default=20.0)
     parser.add_argument("--scale", type=float, default=1.0)
     parser.add_argument("--only-draw", action="store_true")
+    parser.add_argument("--scenes", action="store_true")
     args = parser.parse_args()
     if args.only_draw:
         data = json.load(open(args.out))

@@ -35,7 +35,7 @@ def value(point, key):
 
 def draw(data, folder):
     for n in data["sizes"]:
-        draw_routes(data, n, folder / f"atlas_{n}.png")
+        draw_routes([r for r in data["routes"] if r["n"] == n], folder / f"atlas_{n}.png")
     draw_motion(data, folder / "atlas_motion.png")
     if "analysis" in data:
         source, chart = folder / "analysis.json", pathlib.Path(__file__).parents[1] / "analysis_chart.py"
@@ -43,8 +43,7 @@ def draw(data, folder):
         subprocess.run([sys.executable, chart, source, folder / "atlas_analysis.png"], check=True)
 
 
-def draw_routes(data, n, picture):
-    mine = [r for r in data["routes"] if r["n"] == n]
+def draw_routes(mine, picture):
     starts = list(dict.fromkeys(r["start"] for r in mine))
     figure, axes = plt.subplots(
         len(PANELS), len(starts), figsize=(4 * len(starts), 12), sharex="col", sharey="row", squeeze=False
@@ -65,6 +64,7 @@ def draw_routes(data, n, picture):
                 ]
                 if stopped:
                     axis.loglog(*zip(*stopped), "x", color="k", ms=7)
+        n = next(r["n"] for r in mine if r["start"] == start)
         axes[0, column].set_title(f"N = {n}, start: {start}")
         axes[-1, column].set_xlabel("processor seconds")
     for axis, (_, label, _) in zip(axes[:, 0], PANELS):
@@ -95,17 +95,17 @@ def draw_motion(data, picture):
     figure.savefig(picture, dpi=80)
 
 
-def digits_table(data):
+def digits_table(routes):
     """For each start, the cheapest point whose phi_J is right to k digits, as Markdown."""
     lines = [
         "| N | start | digits of phi_J | take | seconds | contacts wrong | force residual |",
         "|---|---|---|---|---|---|---|",
     ]
-    for n in data["sizes"]:
-        for start in dict.fromkeys(r["start"] for r in data["routes"] if r["n"] == n):
+    for n in dict.fromkeys(r["n"] for r in routes):
+        for start in dict.fromkeys(r["start"] for r in routes if r["n"] == n):
             points = [
                 (p["seconds"], f"{r['route']}, {p['setting']}", p)
-                for r in data["routes"]
+                for r in routes
                 if (r["n"], r["start"]) == (n, start)
                 for p in r["points"]
                 if p["error"] is not None

@@ -73,7 +73,7 @@ def crunched(start, settings=SETTINGS, limit_seconds=3600.0, **options):
             abs(r.packing_fraction - best.packing_fraction) if ended else None,
             found,
             limit if ended else None,
-            r.force_residual if ended else None,
+            r.force_residual if ended and found else None,  # without a network there is none
             jam.StatusCode(r.status).name.lower(),
             jammed=bool(r.jammed),
             phi=r.packing_fraction,

@@ -7,7 +7,7 @@
 
 namespace jam {
 void PathMatrix::reset(size_t rows, size_t unknowns) {
-  coupled_.clear();
+  coupled_.clear(), ordered_rows_ = 0;
   weight_.resize(rows);
   diagonal_.resize(unknowns);
 }
@@ -35,7 +35,12 @@ void PathMatrix::choose_coupled(const Packing &p, const BarrierProblem &b) {
   }
   a_.resize(coupled_.size() * p.dim), coupled_weight_.resize(coupled_.size());
   strain_.resize(coupled_.size() * static_cast<size_t>(b.lp.strains));
-  system_.set_graph(p.dim, static_cast<int32_t>(p.n()), pairs_, threads_);
+  // Near the end some rows come and go: an elimination order is still good then. In the plane, where separators are
+  // small, a new one would cost more than the factorisation.
+  const double rows = static_cast<double>(coupled_.size()), change = rows - static_cast<double>(ordered_rows_);
+  const bool alike = p.dim == 2 && std::fabs(change) <= T::same_order * rows;
+  if (!alike) ordered_rows_ = coupled_.size();
+  system_.set_graph(p.dim, static_cast<int32_t>(p.n()), pairs_, threads_, alike);
 }
 
 void PathMatrix::weigh(const Packing &p, const BarrierProblem &b, double proximal) {

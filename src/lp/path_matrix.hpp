@@ -33,6 +33,7 @@ class PathMatrix {
   NewtonSystem &system_;
   MixedFactor factor_;
   const int threads_;
+  size_t ordered_rows_ = 0;      // at the last elimination order; 0: none for this list
   std::vector<size_t> coupled_;  // rows in the matrix, ascending
   PairList pairs_;
   std::vector<double> a_, strain_, coupled_weight_, weight_, diagonal_;

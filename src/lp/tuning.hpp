@@ -20,6 +20,7 @@ struct WorkingSetTuning {
   // On the path the set is chosen again when a screened row has less than this share of the limit, or when fewer rows
   // than the second share are wanted.
   static constexpr double close_screened = 0.5, still_wanted = 0.8;
+  static constexpr double same_order = 0.05;  // change of its size up to which the elimination order stays
 };
 
 // ---- the interior point of an LP

@@ -178,11 +178,7 @@ Settled settle_exchange(ProofScene &scene, Exchange end) {
   Settled out = Settled::unchanged;
   ProofScene s = scene;
   if (end == Exchange::changed) out = take_middle_forces(s) ? Settled::held : Settled::changed;
-  const std::vector<NearPair> pairs = near_pairs(s);
-  for (const NearPair &pair : pairs)
-    for (const int32_t i : {pair.i, pair.j})
-      if (s.node[i] < 0 && opening_of(s, pair) < 0.0 && free_rattler(s, i, pairs) && out == Settled::unchanged)
-        out = Settled::changed;
+  if (free_rattlers(s) && out == Settled::unchanged) out = Settled::changed;
   if (out != Settled::unchanged) scene = std::move(s);
   return out;
 }

@@ -112,4 +112,13 @@ bool free_rattler(ProofScene &s, int32_t i, const std::vector<NearPair> &pairs) 
   return false;
 }
 
+bool free_rattlers(ProofScene &s) {
+  const std::vector<NearPair> pairs = near_pairs(s);
+  bool moved = false;
+  for (const NearPair &pair : pairs)
+    for (const int32_t i : {pair.i, pair.j})
+      if (s.node[i] < 0 && opening_of(s, pair) < 0.0) moved = free_rattler(s, i, pairs) || moved;
+  return moved;
+}
+
 }  // namespace jam

@@ -8,4 +8,7 @@ namespace jam {
 // the overlap. pairs: near_pairs of the scene. False where no place is found; then it stays.
 bool free_rattler(ProofScene &scene, int32_t i, const std::vector<NearPair> &pairs);
 
+// All of them; whether one moved.
+bool free_rattlers(ProofScene &scene);
+
 }  // namespace jam

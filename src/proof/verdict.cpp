@@ -6,6 +6,7 @@
 #include "core/pair_rule.hpp"
 #include "linalg/blas.hpp"
 #include "proof/closing.hpp"
+#include "proof/free_rattler.hpp"
 #include "proof/implied.hpp"
 #include "proof/newton.hpp"
 #include "proof/tuning.hpp"
@@ -30,6 +31,7 @@ bool shown(const Proof &proof) { return proof.exact || proof.trapped; }
 bool search_proof(ProofScene &scene, ProofEquations &equations, Proof &proof) {
   ProofScene other = scene;
   const bool refined = refine(scene, equations);
+  if (refined) free_rattlers(scene);  // an overlap of one would widen the trap of all
   proof = refined ? prove(scene, equations) : Proof{};
   if (!refined) proof.cause = ProofCause::singular;
   if (shown(proof) || scene.strict) return refined;

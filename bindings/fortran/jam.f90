@@ -556,7 +556,7 @@ module jam
     real(c_double) :: shape = 0
     ! default 0. Spheres of more volume are refused
     real(c_double) :: cell_volume = 0
-    ! in cell_volume, in place of n; default 0. More than reached in disorder is refused
+    ! in cell_volume, in place of n; default 0. Above the estimate of jamming: refused
     real(c_double) :: packing_fraction = 0
   end type jam_diameters_options
 
@@ -608,8 +608,8 @@ module jam
 
   ! Lubachevsky-Stillinger growth: one stage at a given growth rate, or the two stages of jam_compress. Whichever target
   ! is reached first ends it. Targets, limits and growth_law apply to the two stages too. Limits count from the start of
-  ! each stage. The same growth_rate by JAM_GROWTH_DENSITY, in steps of half a per cent of sigma, means the same protocol
-  ! at every n.
+  ! each stage. At one growth_rate each law is the same protocol at every n. JAM_GROWTH_DENSITY grows in steps of half
+  ! a per cent of sigma.
   type, bind(c) :: jam_compress_options
     integer(c_int32_t) :: struct_size = 0
     ! 1: continue the stage that stopped early, with all but the limits; default 0
@@ -781,7 +781,7 @@ module jam
     real(c_double) :: density_ratio = 0
     ! of the velocities, > 0, default 1
     real(c_double) :: temperature = 0
-    ! q of F_s, over mean diameters, > 0, default 7
+    ! q of F_s, 1 / mean diameter, > 0, default 7
     real(c_double) :: wave_number = 0
     ! spheres that moved less count in the overlap, mean diameters, > 0, default 0.3
     real(c_double) :: overlap_length = 0
@@ -833,7 +833,7 @@ module jam
     integer(c_int32_t) :: lp_solver = 0
     ! jam_crunch_method, default BARRIER_PATH
     integer(c_int32_t) :: method = 0
-    ! 1: contacts are closed and forces balanced to rounding; default 1
+    ! 1: at the end Newton steps close contacts and balance forces to rounding; default 1
     integer(c_int32_t) :: polish = 0
     ! >= 1, default 1000
     integer(c_int32_t) :: max_lps = 0
@@ -851,7 +851,7 @@ module jam
     real(c_double) :: step_bound = 0
     ! limit of the call
     real(c_double) :: wall_time = 0
-    ! 1: the callback hears of every step and may call jam_crunch_step_*; default 0
+    ! 1: the callback is called at every step and may call jam_crunch_step_*; default 0
     integer(c_int32_t) :: steps = 0
     ! 1: every LP is solved to lp_tolerance, so that its network balances; default 0
     integer(c_int32_t) :: full_lps = 0
@@ -1258,7 +1258,7 @@ module jam
     integer(c_int64_t) :: undecided_contacts = 0
     ! least eigenvalue of S^T S on K+ (with E: strict, own images), no symmetry, no flex
     real(c_double) :: rigidity_margin = 0
-    ! largest |sum_j f_ij n_ij| over the mean force, of the forces in the proof
+    ! largest |sum_j f_ij n_ij| over the mean force, of the forces in the certificate
     real(c_double) :: force_residual = 0
     ! see above; 0 where no flex is fixed so
     real(c_double) :: curvature_margin = 0
@@ -1447,11 +1447,11 @@ module jam
     integer(c_int32_t) :: struct_size = 0
     ! 0, the default: the centre of a voxel decides. Else: share of the voxel that is solid, from lines^(d-1) lines along x, each with its exact length inside spheres; at most 64
     integer(c_int32_t) :: lines = 0
-    ! voxels along the edges of the brick, 0, the default, as `size` asks. Disks: one layer
+    ! voxels along the edges of the brick, 0, the default: from `size`. Disks: one layer
     integer(c_int32_t) :: nx = 0
-    ! voxels along the edges of the brick, 0, the default, as `size` asks. Disks: one layer
+    ! voxels along the edges of the brick, 0, the default: from `size`. Disks: one layer
     integer(c_int32_t) :: ny = 0
-    ! voxels along the edges of the brick, 0, the default, as `size` asks. Disks: one layer
+    ! voxels along the edges of the brick, 0, the default: from `size`. Disks: one layer
     integer(c_int32_t) :: nz = 0
     integer(c_int32_t) :: reserved = 0
     ! wanted edge; rounded so that whole voxels fill the brick. 0, the default: box / 100
@@ -1795,7 +1795,7 @@ module jam
 
     ! Lubachevsky-Stillinger compression (J. Stat. Phys. 60, 561 (1990)). Without a growth_rate, and with o NULL, it runs
     ! the two-stage protocol that avoids crystals in d = 3: G = 1e-2 to p = 500, then G = 3e-3 to the pressure of o, 1e7 by
-    ! default (a stage costs about 1.63 (N/G) ln(p2/p1) collisions). For another protocol make one call per stage. A
+    ! default (a stage costs about d/sqrt(pi) (N/G) ln(p2/p1) collisions). For another protocol make one call per stage. A
     ! thermostat keeps sum m v^2 within 5 % of d N, and at the end the velocities are scaled to it exactly. Status: JAM_OK
     ! (a pressure or packing-fraction target reached, see report->stop_reason), JAM_PRECISION, JAM_NOT_CONVERGED (stalled:
     ! a sphere touches its own image, or no time passes between collisions). A resumed call finishes the stage and
@@ -1899,11 +1899,11 @@ module jam
       integer(c_int32_t) :: status
     end function jam_crunch_options_init
 
-    ! Brings the packing to its jamming point by iterated linear programming (Artiaco et al., Phys. Rev. E 106, 055310
-    ! (2022)) and keeps the contact network. No step creates an overlap. An interrupted crunch returns a valid packing:
-    ! call it again to continue, also after jam_write_checkpoint and jam_read_checkpoint. On the barrier path it then goes
-    ! on at the mu that was reached. Bits may differ from those of one call. Steps and times of the report count from the
-    ! last call. Status: JAM_OK jammed, or at the duality gap of the options (`jammed` is 0 then, and another call
+    ! Brings the packing to its jamming point and keeps the contact network: along a barrier path, or by linear programs
+    ! one after the other (o->method; Artiaco et al., Phys. Rev. E 106, 055310 (2022)). No step creates an overlap. An
+    ! interrupted crunch returns a valid packing: call it again to continue, also from a checkpoint. On the barrier path it
+    ! then goes on at the mu that was reached. Bits may differ from those of one call. Steps and times of the report count
+    ! from the last call. Status: JAM_OK jammed, or at the duality gap of the options (`jammed` is 0 then, and another call
     ! continues along the path); JAM_NOT_CONVERGED, JAM_NOT_JAMMED: the state is the last valid one and the report says
     ! why.
     ! Errors: JAM_E_OVERLAP, JAM_E_TOO_FEW (one sphere in a fixed cell), JAM_E_SOLVER (last good state kept).
@@ -3927,8 +3927,8 @@ contains
   ! and a stage that was stopped early or runs now. The results are in it too: contact network, report, histories, kept
   ! steps and isoconfigurational runs. Observations, the memory limit and callbacks are not. A callback that writes a
   ! checkpoint while a call moves the spheres saves the packing of the last step, without results. The file is written
-  ! under another name and then renamed. Dynamics that continue from it make the same bits as those that never stopped. A
-  ! crunch starts again from the packing that it had reached: it ends jammed, perhaps with other bits.
+  ! beside the old one and renamed. Dynamics that continue from it make the same bits as those that never stopped. A
+  ! crunch starts again from the packing that it had reached; from dilute starts it mostly ends in another.
   ! Errors: JAM_E_IO.
   function jam_write_checkpoint(sys, path) result(status)
     type(c_ptr), intent(in) :: sys

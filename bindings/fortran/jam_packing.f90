@@ -315,7 +315,7 @@ contains
 
   ! Lubachevsky-Stillinger compression (J. Stat. Phys. 60, 561 (1990)). Without a growth_rate, and with o NULL, it runs
   ! the two-stage protocol that avoids crystals in d = 3: G = 1e-2 to p = 500, then G = 3e-3 to the pressure of o, 1e7 by
-  ! default (a stage costs about 1.63 (N/G) ln(p2/p1) collisions). For another protocol make one call per stage. A
+  ! default (a stage costs about d/sqrt(pi) (N/G) ln(p2/p1) collisions). For another protocol make one call per stage. A
   ! thermostat keeps sum m v^2 within 5 % of d N, and at the end the velocities are scaled to it exactly. Status: JAM_OK
   ! (a pressure or packing-fraction target reached, see report->stop_reason), JAM_PRECISION, JAM_NOT_CONVERGED (stalled:
   ! a sphere touches its own image, or no time passes between collisions). A resumed call finishes the stage and
@@ -335,8 +335,8 @@ contains
   ! and a stage that was stopped early or runs now. The results are in it too: contact network, report, histories, kept
   ! steps and isoconfigurational runs. Observations, the memory limit and callbacks are not. A callback that writes a
   ! checkpoint while a call moves the spheres saves the packing of the last step, without results. The file is written
-  ! under another name and then renamed. Dynamics that continue from it make the same bits as those that never stopped. A
-  ! crunch starts again from the packing that it had reached: it ends jammed, perhaps with other bits.
+  ! beside the old one and renamed. Dynamics that continue from it make the same bits as those that never stopped. A
+  ! crunch starts again from the packing that it had reached; from dilute starts it mostly ends in another.
   ! Errors: JAM_E_IO.
   subroutine do_write_checkpoint(self, path)
     class(packing), intent(inout) :: self
@@ -635,11 +635,11 @@ contains
     call self%done(status)
   end function do_isoconf_kept
 
-  ! Brings the packing to its jamming point by iterated linear programming (Artiaco et al., Phys. Rev. E 106, 055310
-  ! (2022)) and keeps the contact network. No step creates an overlap. An interrupted crunch returns a valid packing:
-  ! call it again to continue, also after jam_write_checkpoint and jam_read_checkpoint. On the barrier path it then goes
-  ! on at the mu that was reached. Bits may differ from those of one call. Steps and times of the report count from the
-  ! last call. Status: JAM_OK jammed, or at the duality gap of the options (`jammed` is 0 then, and another call
+  ! Brings the packing to its jamming point and keeps the contact network: along a barrier path, or by linear programs
+  ! one after the other (o->method; Artiaco et al., Phys. Rev. E 106, 055310 (2022)). No step creates an overlap. An
+  ! interrupted crunch returns a valid packing: call it again to continue, also from a checkpoint. On the barrier path it
+  ! then goes on at the mu that was reached. Bits may differ from those of one call. Steps and times of the report count
+  ! from the last call. Status: JAM_OK jammed, or at the duality gap of the options (`jammed` is 0 then, and another call
   ! continues along the path); JAM_NOT_CONVERGED, JAM_NOT_JAMMED: the state is the last valid one and the report says
   ! why.
   ! Errors: JAM_E_OVERLAP, JAM_E_TOO_FEW (one sphere in a fixed cell), JAM_E_SOLVER (last good state kept).

@@ -125,8 +125,8 @@ random Mari-Kurchan start is planted in equilibrium."
 }
 %feature("docstring") jam_compress_options "Lubachevsky-Stillinger growth: one stage at a given growth rate, or the two stages of jam_compress. Whichever target
 is reached first ends it. Targets, limits and growth_law apply to the two stages too. Limits count from the start of
-each stage. The same growth_rate by JAM_GROWTH_DENSITY, in steps of half a per cent of sigma, means the same protocol
-at every n."
+each stage. At one growth_rate each law is the same protocol at every n. JAM_GROWTH_DENSITY grows in steps of half
+a per cent of sigma."
 %extend jam_md_report {
   jam_md_report() {
     jam_md_report *made = (jam_md_report *)calloc(1, sizeof *made);
@@ -543,7 +543,7 @@ reason of the last two.
 Errors: JAM_E_OVERLAP."
 %feature("docstring") jam_compress "Lubachevsky-Stillinger compression (J. Stat. Phys. 60, 561 (1990)). Without a growth_rate, and with o NULL, it runs
 the two-stage protocol that avoids crystals in d = 3: G = 1e-2 to p = 500, then G = 3e-3 to the pressure of o, 1e7 by
-default (a stage costs about 1.63 (N/G) ln(p2/p1) collisions). For another protocol make one call per stage. A
+default (a stage costs about d/sqrt(pi) (N/G) ln(p2/p1) collisions). For another protocol make one call per stage. A
 thermostat keeps sum m v^2 within 5 % of d N, and at the end the velocities are scaled to it exactly. Status: JAM_OK
 (a pressure or packing-fraction target reached, see report->stop_reason), JAM_PRECISION, JAM_NOT_CONVERGED (stalled:
 a sphere touches its own image, or no time passes between collisions). A resumed call finishes the stage and
@@ -554,8 +554,8 @@ Errors: JAM_E_OVERLAP, JAM_E_UNPLACEABLE."
 and a stage that was stopped early or runs now. The results are in it too: contact network, report, histories, kept
 steps and isoconfigurational runs. Observations, the memory limit and callbacks are not. A callback that writes a
 checkpoint while a call moves the spheres saves the packing of the last step, without results. The file is written
-under another name and then renamed. Dynamics that continue from it make the same bits as those that never stopped. A
-crunch starts again from the packing that it had reached: it ends jammed, perhaps with other bits.
+beside the old one and renamed. Dynamics that continue from it make the same bits as those that never stopped. A
+crunch starts again from the packing that it had reached; from dilute starts it mostly ends in another.
 Errors: JAM_E_IO."
 %feature("docstring") jam_read_checkpoint "Makes a system from such a file. callback, user: as in jam_start.
 Errors: JAM_E_IO, JAM_E_FORMAT (no checkpoint, or damaged, or from a machine with another byte order), JAM_E_OVERLAP."
@@ -618,11 +618,11 @@ Errors: JAM_E_STATE."
 Shapes: out (runs, n, d).
 Errors: JAM_E_STATE."
 %feature("docstring") jam_crunch_options_init ""
-%feature("docstring") jam_crunch "Brings the packing to its jamming point by iterated linear programming (Artiaco et al., Phys. Rev. E 106, 055310
-(2022)) and keeps the contact network. No step creates an overlap. An interrupted crunch returns a valid packing:
-call it again to continue, also after jam_write_checkpoint and jam_read_checkpoint. On the barrier path it then goes
-on at the mu that was reached. Bits may differ from those of one call. Steps and times of the report count from the
-last call. Status: JAM_OK jammed, or at the duality gap of the options (`jammed` is 0 then, and another call
+%feature("docstring") jam_crunch "Brings the packing to its jamming point and keeps the contact network: along a barrier path, or by linear programs
+one after the other (o->method; Artiaco et al., Phys. Rev. E 106, 055310 (2022)). No step creates an overlap. An
+interrupted crunch returns a valid packing: call it again to continue, also from a checkpoint. On the barrier path it
+then goes on at the mu that was reached. Bits may differ from those of one call. Steps and times of the report count
+from the last call. Status: JAM_OK jammed, or at the duality gap of the options (`jammed` is 0 then, and another call
 continues along the path); JAM_NOT_CONVERGED, JAM_NOT_JAMMED: the state is the last valid one and the report says
 why.
 Errors: JAM_E_OVERLAP, JAM_E_TOO_FEW (one sphere in a fixed cell), JAM_E_SOLVER (last good state kept)."

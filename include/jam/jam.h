@@ -399,7 +399,7 @@ typedef struct jam_diameters_options {
   double exponent;         /* default NaN */
   double scale, shape;     /* > 0, default 1; > 0, default NaN */
   double cell_volume;      /* default 0. Spheres of more volume are refused */
-  double packing_fraction; /* in cell_volume, in place of n; default 0. More than reached in disorder is refused */
+  double packing_fraction; /* in cell_volume, in place of n; default 0. Above the estimate of jamming: refused */
 } jam_diameters_options;
 JAM_API jam_status jam_diameters_options_init(jam_diameters_options *o, size_t size);
 /* Diameters of a law. Quantiles ascend. curve: of LIST and SIEVE, else NULL. Where n follows from packing_fraction, the
@@ -539,8 +539,8 @@ typedef enum jam_growth_law {
 } jam_growth_law;
 /* Lubachevsky-Stillinger growth: one stage at a given growth rate, or the two stages of jam_compress. Whichever target
  * is reached first ends it. Targets, limits and growth_law apply to the two stages too. Limits count from the start of
- * each stage. The same growth_rate by JAM_GROWTH_DENSITY, in steps of half a per cent of sigma, means the same protocol
- * at every n. */
+ * each stage. At one growth_rate each law is the same protocol at every n. JAM_GROWTH_DENSITY grows in steps of half
+ * a per cent of sigma. */
 typedef struct jam_compress_options {
   uint32_t struct_size;
   int32_t resume;                 /* @bool continue the stage that stopped early, with all but the limits; default 0 */
@@ -583,7 +583,7 @@ JAM_API jam_status jam_compress_options_init(jam_compress_options *o, size_t siz
 JAM_API jam_status jam_run(jam_system *sys, const jam_run_options *o, jam_md_report *report);
 /* Lubachevsky-Stillinger compression (J. Stat. Phys. 60, 561 (1990)). Without a growth_rate, and with o NULL, it runs
  * the two-stage protocol that avoids crystals in d = 3: G = 1e-2 to p = 500, then G = 3e-3 to the pressure of o, 1e7 by
- * default (a stage costs about 1.63 (N/G) ln(p2/p1) collisions). For another protocol make one call per stage. A
+ * default (a stage costs about d/sqrt(pi) (N/G) ln(p2/p1) collisions). For another protocol make one call per stage. A
  * thermostat keeps sum m v^2 within 5 % of d N, and at the end the velocities are scaled to it exactly. Status: JAM_OK
  * (a pressure or packing-fraction target reached, see report->stop_reason), JAM_PRECISION, JAM_NOT_CONVERGED (stalled:
  * a sphere touches its own image, or no time passes between collisions). A resumed call finishes the stage and
@@ -595,8 +595,8 @@ JAM_API jam_status jam_compress(jam_system *sys, const jam_compress_options *o, 
  * and a stage that was stopped early or runs now. The results are in it too: contact network, report, histories, kept
  * steps and isoconfigurational runs. Observations, the memory limit and callbacks are not. A callback that writes a
  * checkpoint while a call moves the spheres saves the packing of the last step, without results. The file is written
- * under another name and then renamed. Dynamics that continue from it make the same bits as those that never stopped. A
- * crunch starts again from the packing that it had reached: it ends jammed, perhaps with other bits. @errors IO */
+ * beside the old one and renamed. Dynamics that continue from it make the same bits as those that never stopped. A
+ * crunch starts again from the packing that it had reached; from dilute starts it mostly ends in another. @errors IO */
 JAM_API jam_status jam_write_checkpoint(const jam_system *sys, const char *path);
 /* Makes a system from such a file. callback, user: as in jam_start. @errors IO, FORMAT (no checkpoint, or damaged, or
  * from a machine with another byte order), OVERLAP */
@@ -744,7 +744,7 @@ typedef struct jam_isoconf_options {
   int64_t block;           /* sums are kept of each block of so many run numbers, >= 1, default 20 */
   double density_ratio;    /* packing fraction of the runs over that of the packing, in (0, 1], default 1 */
   double temperature;      /* of the velocities, > 0, default 1 */
-  double wave_number;      /* q of F_s, over mean diameters, > 0, default 7 */
+  double wave_number;      /* q of F_s, 1 / mean diameter, > 0, default 7 */
   double overlap_length;   /* spheres that moved less count in the overlap, mean diameters, > 0, default 0.3 */
   double memory_limit;     /* bytes, default 2e9: past it JAM_E_MEMORY with the estimate before any run */
   double wall_time;        /* seconds of this call */
@@ -845,7 +845,7 @@ typedef struct jam_crunch_options {
   uint32_t struct_size;
   int32_t lp_solver;       /* @enum jam_lp_solver, default IPM */
   int32_t method;          /* @enum jam_crunch_method, default BARRIER_PATH */
-  int32_t polish;          /* @bool contacts are closed and forces balanced to rounding; default 1 */
+  int32_t polish;          /* @bool at the end Newton steps close contacts and balance forces to rounding; default 1 */
   int32_t max_lps;         /* >= 1, default 1000 */
   int32_t threads;         /* 1 or 2, default 1; bits are reproducible on 1 */
   double gain_tolerance;   /* on sqrt(Gamma) - 1, > 0, default 1e-12 */
@@ -854,7 +854,7 @@ typedef struct jam_crunch_options {
   double neighbour_radius; /* largest pair distance in an LP; 0, the default: adapts */
   double step_bound;       /* bound on each |s_i| component, 1e-15 .. 1000; 0, the default: adapts */
   double wall_time;        /* limit of the call */
-  int32_t steps;           /* @bool the callback hears of every step and may call jam_crunch_step_*; default 0 */
+  int32_t steps;           /* @bool the callback is called at every step and may call jam_crunch_step_*; default 0 */
   int32_t full_lps;        /* @bool every LP is solved to lp_tolerance, so that its network balances; default 0 */
   int32_t strain;          /* @enum jam_free_strain, default NONE */
   int32_t keep_steps;      /* states before the end that are kept for jam_write_page, 0 .. 1000, default 0 */
@@ -915,11 +915,11 @@ typedef struct jam_crunch_report {
   double proof_value, proof_bound; /* the two numbers of the cause */
 } jam_crunch_report;
 JAM_API jam_status jam_crunch_options_init(jam_crunch_options *o, size_t size);
-/* Brings the packing to its jamming point by iterated linear programming (Artiaco et al., Phys. Rev. E 106, 055310
- * (2022)) and keeps the contact network. No step creates an overlap. An interrupted crunch returns a valid packing:
- * call it again to continue, also after jam_write_checkpoint and jam_read_checkpoint. On the barrier path it then goes
- * on at the mu that was reached. Bits may differ from those of one call. Steps and times of the report count from the
- * last call. Status: JAM_OK jammed, or at the duality gap of the options (`jammed` is 0 then, and another call
+/* Brings the packing to its jamming point and keeps the contact network: along a barrier path, or by linear programs
+ * one after the other (o->method; Artiaco et al., Phys. Rev. E 106, 055310 (2022)). No step creates an overlap. An
+ * interrupted crunch returns a valid packing: call it again to continue, also from a checkpoint. On the barrier path it
+ * then goes on at the mu that was reached. Bits may differ from those of one call. Steps and times of the report count
+ * from the last call. Status: JAM_OK jammed, or at the duality gap of the options (`jammed` is 0 then, and another call
  * continues along the path); JAM_NOT_CONVERGED, JAM_NOT_JAMMED: the state is the last valid one and the report says
  * why. @errors OVERLAP, TOO_FEW (one sphere in a fixed cell), SOLVER (last good state kept) */
 JAM_API jam_status jam_crunch(jam_system *sys, const jam_crunch_options *o, jam_crunch_report *report);
@@ -1180,7 +1180,7 @@ typedef struct jam_modes_options {
 /* Columns of jam_modes, one row per mode. */
 typedef enum jam_mode_column {
   JAM_MODE_LAMBDA = 0,       /* lambda = omega^2 */
-  JAM_MODE_PARTICIPATION = 1 /* sum |v_i|^4 / (sum |v_i|^2)^2 */
+  JAM_MODE_PARTICIPATION = 1 /* inverse participation ratio, sum |v_i|^4 / (sum |v_i|^2)^2 */
 } jam_mode_column;
 JAM_API jam_status jam_hessian_options_init(jam_hessian_options *o, size_t size);
 JAM_API jam_status jam_modes_options_init(jam_modes_options *o, size_t size);
@@ -1272,8 +1272,8 @@ typedef enum jam_rigidity_kind {
 /* Answer of a test. */
 typedef enum jam_verdict {
   JAM_VERDICT_UNTESTED = -1, /* the test has not run */
-  JAM_VERDICT_NO = 0,        /* not jammed, with a proof: no balanced forces, or a flex */
-  JAM_VERDICT_YES = 1,       /* jammed, with a proof: positive forces that balance, and full rank */
+  JAM_VERDICT_NO = 0,        /* not jammed, with a certificate in doubles: no balanced forces, or a flex */
+  JAM_VERDICT_YES = 1,       /* jammed, with one: positive forces that balance, and full rank */
   JAM_VERDICT_UNDECIDED = 2  /* double precision cannot decide */
 } jam_verdict;
 /* What jam_rigidity found. K+ are the contacts that carry force in some balance of non-negative forces, B the spheres
@@ -1293,7 +1293,7 @@ typedef struct jam_rigidity_report {
   int64_t zero_force_contacts; /* closed pairs that are not in K+ */
   int64_t undecided_contacts;  /* pairs with gaps of 1e-10 to 1e-7 */
   double rigidity_margin;      /* least eigenvalue of S^T S on K+ (with E: strict, own images), no symmetry, no flex */
-  double force_residual;       /* largest |sum_j f_ij n_ij| over the mean force, of the forces in the proof */
+  double force_residual;       /* largest |sum_j f_ij n_ij| over the mean force, of the forces in the certificate */
   double curvature_margin;     /* see above; 0 where no flex is fixed so */
 } jam_rigidity_report;
 /* Tests whether the packing is jammed. Nothing changes but strictly_jammed in the stored crunch report. Contacts are
@@ -1582,7 +1582,7 @@ typedef struct jam_voxel_options {
   uint32_t struct_size;
   int32_t lines;      /* 0, the default: the centre of a voxel decides. Else: share of the voxel that is solid, from
                          lines^(d-1) lines along x, each with its exact length inside spheres; at most 64 */
-  int32_t nx, ny, nz; /* voxels along the edges of the brick, 0, the default, as `size` asks. Disks: one layer */
+  int32_t nx, ny, nz; /* voxels along the edges of the brick, 0, the default: from `size`. Disks: one layer */
   int32_t reserved;
   double size; /* wanted edge; rounded so that whole voxels fill the brick. 0, the default: box / 100 */
 } jam_voxel_options;

@@ -85,7 +85,7 @@ struct CollisionTuning {
 };
 
 // ---- event-driven: windows of pressure. A window is long enough for small noise and short enough that p changes
-// little: d ln p = G / 1.63 a collision of each sphere.
+// little: d ln p = G sqrt(pi) / d a collision of each sphere.
 struct WindowTuning {
   static constexpr double longest_growing = 2.0, shortest_growing = 0.25,
                           growth_in_window = 0.03;         // collisions a sphere

@@ -24,7 +24,7 @@ int32_t reason_of(Halt halt, const Monitor &monitor) {
 
 }  // namespace
 
-// A window is long enough for small noise and short enough that p changes little: d ln p = G / 1.63 a collision.
+// A window is long enough for small noise and short enough that p changes little: d ln p = G sqrt(pi) / d a collision.
 void EventDrivenRun::plan_window() {
   using Tuning = WindowTuning;
   double most = std::min(goal_ / Tuning::windows, Tuning::longest * n_), fewest = Tuning::fewest;

@@ -266,7 +266,7 @@ same at `:info`. Takes as long as a few steps.
 
 - `lp_solver`: one of `:ipm`, `:clp`; default `:ipm`
 - `method`: one of `:barrier_path`, `:sequential_lp`; default `:barrier_path`
-- `polish`: Bool; contacts are closed and forces balanced to rounding; default 1
+- `polish`: Bool; at the end Newton steps close contacts and balance forces to rounding; default 1
 - `max_lps`: >= 1, default 1000
 - `threads`: 1 or 2, default 1; bits are reproducible on 1
 - `gain_tolerance`: on sqrt(Gamma) - 1, > 0, default 1e-12
@@ -275,7 +275,7 @@ same at `:info`. Takes as long as a few steps.
 - `neighbour_radius`: largest pair distance in an LP; 0, the default: adapts
 - `step_bound`: bound on each |`s_i`| component, 1e-15 .. 1000; 0, the default: adapts
 - `wall_time`: limit of the call
-- `steps`: Bool; the callback hears of every step and may call `jam_crunch_step_`...; default 0
+- `steps`: Bool; the callback is called at every step and may call `jam_crunch_step_`...; default 0
 - `full_lps`: Bool; every LP is solved to `lp_tolerance`, so that its network balances; default 0
 - `strain`: one of `:none`, `:edges`, `:tilts`, `:free`, `:volume`, `:edges_volume`, `:tilts_volume`, `:all`; default
   `:none`
@@ -709,9 +709,9 @@ size and memory before the work.
 - `out`: array `(voxels)`
 - `lines`: 0, the default: the centre of a voxel decides. Else: share of the voxel that is solid, from lines^(d-1)
   lines along x, each with its exact length inside spheres; at most 64
-- `nx`: voxels along the edges of the brick, 0, the default, as `size` asks. Disks: one layer
-- `ny`: voxels along the edges of the brick, 0, the default, as `size` asks. Disks: one layer
-- `nz`: voxels along the edges of the brick, 0, the default, as `size` asks. Disks: one layer
+- `nx`: voxels along the edges of the brick, 0, the default: from `size`. Disks: one layer
+- `ny`: voxels along the edges of the brick, 0, the default: from `size`. Disks: one layer
+- `nz`: voxels along the edges of the brick, 0, the default: from `size`. Disks: one layer
 - `size`: wanted edge; rounded so that whole voxels fill the brick. 0, the default: box / 100
 """
 function voxels(s::System; given...)
@@ -726,9 +726,9 @@ with lines as float.
 
 - `lines`: 0, the default: the centre of a voxel decides. Else: share of the voxel that is solid, from lines^(d-1)
   lines along x, each with its exact length inside spheres; at most 64
-- `nx`: voxels along the edges of the brick, 0, the default, as `size` asks. Disks: one layer
-- `ny`: voxels along the edges of the brick, 0, the default, as `size` asks. Disks: one layer
-- `nz`: voxels along the edges of the brick, 0, the default, as `size` asks. Disks: one layer
+- `nx`: voxels along the edges of the brick, 0, the default: from `size`. Disks: one layer
+- `ny`: voxels along the edges of the brick, 0, the default: from `size`. Disks: one layer
+- `nz`: voxels along the edges of the brick, 0, the default: from `size`. Disks: one layer
 - `size`: wanted edge; rounded so that whole voxels fill the brick. 0, the default: box / 100
 - errors: `:unsupported`, `:io`
 """

@@ -277,7 +277,7 @@ const JAM_MODES_ALL = Int32(3)  # all d N', translations among them; dense, 24 (
 
 # jam_mode_column: Columns of jam_modes, one row per mode.
 const JAM_MODE_LAMBDA = Int32(0)  # lambda = omega^2
-const JAM_MODE_PARTICIPATION = Int32(1)  # sum |v_i|^4 / (sum |v_i|^2)^2
+const JAM_MODE_PARTICIPATION = Int32(1)  # inverse participation ratio, sum |v_i|^4 / (sum |v_i|^2)^2
 
 # jam_candidate_column: Columns of jam_contact_candidates.
 const JAM_CANDIDATE_LIMIT = Int32(0)  # tolerance on |h|
@@ -291,8 +291,8 @@ const JAM_RIGIDITY_STRICT = Int32(1)  # and symmetric strains of the axes withou
 
 # jam_verdict: Answer of a test.
 const JAM_VERDICT_UNTESTED = Int32(-1)  # the test has not run
-const JAM_VERDICT_NO = Int32(0)  # not jammed, with a proof: no balanced forces, or a flex
-const JAM_VERDICT_YES = Int32(1)  # jammed, with a proof: positive forces that balance, and full rank
+const JAM_VERDICT_NO = Int32(0)  # not jammed, with a certificate in doubles: no balanced forces, or a flex
+const JAM_VERDICT_YES = Int32(1)  # jammed, with one: positive forces that balance, and full rank
 const JAM_VERDICT_UNDECIDED = Int32(2)  # double precision cannot decide
 
 # jam_bloch_column: Columns of jam_bloch_rigidity.
@@ -557,7 +557,7 @@ Options of `sizes`. Lengths are in the user's unit. NaN and 0 stand for what is 
 - `scale`: > 0, default 1
 - `shape`: > 0, default NaN
 - `cell_volume`: default 0. Spheres of more volume are refused
-- `packing_fraction`: in `cell_volume`, in place of n; default 0. More than reached in disorder is refused
+- `packing_fraction`: in `cell_volume`, in place of n; default 0. Above the estimate of jamming: refused
 """
 mutable struct jam_diameters_options
     struct_size::UInt32
@@ -576,7 +576,7 @@ mutable struct jam_diameters_options
     scale::Cdouble  # > 0, default 1
     shape::Cdouble  # > 0, default NaN
     cell_volume::Cdouble  # default 0. Spheres of more volume are refused
-    packing_fraction::Cdouble  # in cell_volume, in place of n; default 0. More than reached in disorder is refused
+    packing_fraction::Cdouble  # in cell_volume, in place of n; default 0. Above the estimate of jamming: refused
     jam_diameters_options() = new(112, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
 end
 
@@ -643,8 +643,8 @@ end
 
 Lubachevsky-Stillinger growth: one stage at a given growth rate, or the two stages of `compress!`. Whichever target is
 reached first ends it. Targets, limits and `growth_law` apply to the two stages too. Limits count from the start of
-each stage. The same `growth_rate` by `:density`, in steps of half a per cent of sigma, means the same protocol at
-every n.
+each stage. At one `growth_rate` each law is the same protocol at every n. `:density` grows in steps of half a per
+cent of sigma.
 
 - `resume`: Bool; continue the stage that stopped early, with all but the limits; default 0
 - `growth_rate`: G > 0: one stage at this rate; 0, the default: the two stages of `compress!`
@@ -847,7 +847,7 @@ Options of `isoconfigurational`.
 - `block`: sums are kept of each block of so many run numbers, >= 1, default 20
 - `density_ratio`: packing fraction of the runs over that of the packing, in (0, 1], default 1
 - `temperature`: of the velocities, > 0, default 1
-- `wave_number`: q of `F_s`, over mean diameters, > 0, default 7
+- `wave_number`: q of `F_s`, 1 / mean diameter, > 0, default 7
 - `overlap_length`: spheres that moved less count in the overlap, mean diameters, > 0, default 0.3
 - `memory_limit`: bytes, default 2e9: past it an error `:memory` with the estimate before any run
 - `wall_time`: seconds of this call
@@ -862,7 +862,7 @@ mutable struct jam_isoconf_options
     block::Int64  # sums are kept of each block of so many run numbers, >= 1, default 20
     density_ratio::Cdouble  # packing fraction of the runs over that of the packing, in (0, 1], default 1
     temperature::Cdouble  # of the velocities, > 0, default 1
-    wave_number::Cdouble  # q of F_s, over mean diameters, > 0, default 7
+    wave_number::Cdouble  # q of F_s, 1 / mean diameter, > 0, default 7
     overlap_length::Cdouble  # spheres that moved less count in the overlap, mean diameters, > 0, default 0.3
     memory_limit::Cdouble  # bytes, default 2e9: past it JAM_E_MEMORY with the estimate before any run
     wall_time::Cdouble  # seconds of this call
@@ -920,7 +920,7 @@ of CALiPPSO.jl beside each.
 
 - `lp_solver`: one of `:ipm`, `:clp`; default `:ipm`
 - `method`: one of `:barrier_path`, `:sequential_lp`; default `:barrier_path`
-- `polish`: Bool; contacts are closed and forces balanced to rounding; default 1
+- `polish`: Bool; at the end Newton steps close contacts and balance forces to rounding; default 1
 - `max_lps`: >= 1, default 1000
 - `threads`: 1 or 2, default 1; bits are reproducible on 1
 - `gain_tolerance`: on sqrt(Gamma) - 1, > 0, default 1e-12
@@ -929,7 +929,7 @@ of CALiPPSO.jl beside each.
 - `neighbour_radius`: largest pair distance in an LP; 0, the default: adapts
 - `step_bound`: bound on each |`s_i`| component, 1e-15 .. 1000; 0, the default: adapts
 - `wall_time`: limit of the call
-- `steps`: Bool; the callback hears of every step and may call `jam_crunch_step_`...; default 0
+- `steps`: Bool; the callback is called at every step and may call `jam_crunch_step_`...; default 0
 - `full_lps`: Bool; every LP is solved to `lp_tolerance`, so that its network balances; default 0
 - `strain`: one of `:none`, `:edges`, `:tilts`, `:free`, `:volume`, `:edges_volume`, `:tilts_volume`, `:all`; default
   `:none`
@@ -941,7 +941,7 @@ mutable struct jam_crunch_options
     struct_size::UInt32
     lp_solver::Int32  # jam_lp_solver, default IPM
     method::Int32  # jam_crunch_method, default BARRIER_PATH
-    polish::Int32  # 1: contacts are closed and forces balanced to rounding; default 1
+    polish::Int32  # 1: at the end Newton steps close contacts and balance forces to rounding; default 1
     max_lps::Int32  # >= 1, default 1000
     threads::Int32  # 1 or 2, default 1; bits are reproducible on 1
     gain_tolerance::Cdouble  # on sqrt(Gamma) - 1, > 0, default 1e-12
@@ -950,7 +950,7 @@ mutable struct jam_crunch_options
     neighbour_radius::Cdouble  # largest pair distance in an LP; 0, the default: adapts
     step_bound::Cdouble  # bound on each |s_i| component, 1e-15 .. 1000; 0, the default: adapts
     wall_time::Cdouble  # limit of the call
-    steps::Int32  # 1: the callback hears of every step and may call jam_crunch_step_*; default 0
+    steps::Int32  # 1: the callback is called at every step and may call jam_crunch_step_*; default 0
     full_lps::Int32  # 1: every LP is solved to lp_tolerance, so that its network balances; default 0
     strain::Int32  # jam_free_strain, default NONE
     keep_steps::Int32  # states before the end that are kept for jam_write_page, 0 .. 1000, default 0
@@ -1415,7 +1415,7 @@ over the mean |f b|, with b the second derivative of the distance across a conta
 - `zero_force_contacts`: closed pairs that are not in K+
 - `undecided_contacts`: pairs with gaps of 1e-10 to 1e-7
 - `rigidity_margin`: least eigenvalue of S^T S on K+ (with E: strict, own images), no symmetry, no flex
-- `force_residual`: largest |`sum_j` `f_ij` `n_ij`| over the mean force, of the forces in the proof
+- `force_residual`: largest |`sum_j` `f_ij` `n_ij`| over the mean force, of the forces in the certificate
 - `curvature_margin`: see above; 0 where no flex is fixed so
 """
 mutable struct jam_rigidity_report
@@ -1432,7 +1432,7 @@ mutable struct jam_rigidity_report
     zero_force_contacts::Int64  # closed pairs that are not in K+
     undecided_contacts::Int64  # pairs with gaps of 1e-10 to 1e-7
     rigidity_margin::Cdouble  # least eigenvalue of S^T S on K+ (with E: strict, own images), no symmetry, no flex
-    force_residual::Cdouble  # largest |sum_j f_ij n_ij| over the mean force, of the forces in the proof
+    force_residual::Cdouble  # largest |sum_j f_ij n_ij| over the mean force, of the forces in the certificate
     curvature_margin::Cdouble  # see above; 0 where no flex is fixed so
     jam_rigidity_report() = new(104, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
 end
@@ -1662,17 +1662,17 @@ Options of `voxels` and `write_voxels`.
 
 - `lines`: 0, the default: the centre of a voxel decides. Else: share of the voxel that is solid, from lines^(d-1)
   lines along x, each with its exact length inside spheres; at most 64
-- `nx`: voxels along the edges of the brick, 0, the default, as `size` asks. Disks: one layer
-- `ny`: voxels along the edges of the brick, 0, the default, as `size` asks. Disks: one layer
-- `nz`: voxels along the edges of the brick, 0, the default, as `size` asks. Disks: one layer
+- `nx`: voxels along the edges of the brick, 0, the default: from `size`. Disks: one layer
+- `ny`: voxels along the edges of the brick, 0, the default: from `size`. Disks: one layer
+- `nz`: voxels along the edges of the brick, 0, the default: from `size`. Disks: one layer
 - `size`: wanted edge; rounded so that whole voxels fill the brick. 0, the default: box / 100
 """
 mutable struct jam_voxel_options
     struct_size::UInt32
     lines::Int32  # 0, the default: the centre of a voxel decides. Else: share of the voxel that is solid, from lines^(d-1) lines along x, each with its exact length inside spheres; at most 64
-    nx::Int32  # voxels along the edges of the brick, 0, the default, as `size` asks. Disks: one layer
-    ny::Int32  # voxels along the edges of the brick, 0, the default, as `size` asks. Disks: one layer
-    nz::Int32  # voxels along the edges of the brick, 0, the default, as `size` asks. Disks: one layer
+    nx::Int32  # voxels along the edges of the brick, 0, the default: from `size`. Disks: one layer
+    ny::Int32  # voxels along the edges of the brick, 0, the default: from `size`. Disks: one layer
+    nz::Int32  # voxels along the edges of the brick, 0, the default: from `size`. Disks: one layer
     reserved::Int32
     size::Cdouble  # wanted edge; rounded so that whole voxels fill the brick. 0, the default: box / 100
     jam_voxel_options() = new(32, 0, 0, 0, 0, 0, 0)
@@ -2232,7 +2232,7 @@ end
 
 Lubachevsky-Stillinger compression (J. Stat. Phys. 60, 561 (1990)). Without a `growth_rate`, and with o NULL, it runs
 the two-stage protocol that avoids crystals in d = 3: G = 1e-2 to p = 500, then G = 3e-3 to the pressure of o, 1e7 by
-default (a stage costs about 1.63 (N/G) ln(p2/p1) collisions). For another protocol make one call per stage. A
+default (a stage costs about d/sqrt(pi) (N/G) ln(p2/p1) collisions). For another protocol make one call per stage. A
 thermostat keeps sum m v^2 within 5 % of d N, and at the end the velocities are scaled to it exactly. Status: `JAM_OK`
 (a pressure or packing-fraction target reached, see report->`stop_reason`), `JAM_PRECISION`, `JAM_NOT_CONVERGED` (stalled:
 a sphere touches its own image, or no time passes between collisions). A resumed call finishes the stage and
@@ -2251,8 +2251,8 @@ Writes all that the dynamics depend on to a binary file: positions, diameters, v
 and a stage that was stopped early or runs now. The results are in it too: contact network, report, histories, kept
 steps and isoconfigurational runs. Observations, the memory limit and callbacks are not. A callback that writes a
 checkpoint while a call moves the spheres saves the packing of the last step, without results. The file is written
-under another name and then renamed. Dynamics that continue from it make the same bits as those that never stopped. A
-crunch starts again from the packing that it had reached: it ends jammed, perhaps with other bits.
+beside the old one and renamed. Dynamics that continue from it make the same bits as those that never stopped. A
+crunch starts again from the packing that it had reached; from dilute starts it mostly ends in another.
 Errors: `JAM_E_IO`.
 """
 function jam_write_checkpoint(sys, path)
@@ -2483,11 +2483,11 @@ end
 """
     jam_crunch(sys, o, report)
 
-Brings the packing to its jamming point by iterated linear programming (Artiaco et al., Phys. Rev. E 106, 055310
-(2022)) and keeps the contact network. No step creates an overlap. An interrupted crunch returns a valid packing:
-call it again to continue, also after `jam_write_checkpoint` and `jam_read_checkpoint`. On the barrier path it then goes
-on at the mu that was reached. Bits may differ from those of one call. Steps and times of the report count from the
-last call. Status: `JAM_OK` jammed, or at the duality gap of the options (`jammed` is 0 then, and another call
+Brings the packing to its jamming point and keeps the contact network: along a barrier path, or by linear programs
+one after the other (o->method; Artiaco et al., Phys. Rev. E 106, 055310 (2022)). No step creates an overlap. An
+interrupted crunch returns a valid packing: call it again to continue, also from a checkpoint. On the barrier path it
+then goes on at the mu that was reached. Bits may differ from those of one call. Steps and times of the report count
+from the last call. Status: `JAM_OK` jammed, or at the duality gap of the options (`jammed` is 0 then, and another call
 continues along the path); `JAM_NOT_CONVERGED`, `JAM_NOT_JAMMED`: the state is the last valid one and the report says
 why.
 Errors: `JAM_E_OVERLAP`, `JAM_E_TOO_FEW` (one sphere in a fixed cell), `JAM_E_SOLVER` (last good state kept).

@@ -358,7 +358,7 @@ class ModesWhich(_Word):
 class ModeColumn(_Word):
     """Columns of jam_modes, one row per mode."""
     LAMBDA = 0  # lambda = omega^2
-    PARTICIPATION = 1  # sum |v_i|^4 / (sum |v_i|^2)^2
+    PARTICIPATION = 1  # inverse participation ratio, sum |v_i|^4 / (sum |v_i|^2)^2
 
 
 class CandidateColumn(_Word):
@@ -378,8 +378,8 @@ class RigidityKind(_Word):
 class Verdict(_Word):
     """Answer of a test."""
     UNTESTED = -1  # the test has not run
-    NO = 0  # not jammed, with a proof: no balanced forces, or a flex
-    YES = 1  # jammed, with a proof: positive forces that balance, and full rank
+    NO = 0  # not jammed, with a certificate in doubles: no balanced forces, or a flex
+    YES = 1  # jammed, with one: positive forces that balance, and full rank
     UNDECIDED = 2  # double precision cannot decide
 
 
@@ -1006,7 +1006,7 @@ class RigidityReport(Report):
     zero_force_contacts: closed pairs that are not in K+
     undecided_contacts: pairs with gaps of 1e-10 to 1e-7
     rigidity_margin: least eigenvalue of S^T S on K+ (with E: strict, own images), no symmetry, no flex
-    force_residual: largest |sum_j f_ij n_ij| over the mean force, of the forces in the proof
+    force_residual: largest |sum_j f_ij n_ij| over the mean force, of the forces in the certificate
     curvature_margin: see above; 0 where no flex is fixed so"""
     kind: RigidityKind
     jammed: Verdict
@@ -1261,7 +1261,7 @@ OPTIONS = {
         "scale": ("float", '> 0, default 1'),
         "shape": ("float", '> 0, default NaN'),
         "cell_volume": ("float", 'default 0. Spheres of more volume are refused'),
-        "packing_fraction": ("float", 'in cell_volume, in place of n; default 0. More than reached in disorder is refused'),
+        "packing_fraction": ("float", 'in cell_volume, in place of n; default 0. Above the estimate of jamming: refused'),
     },
     "jam_run_options": {
         "resume": ("bool", '1: continue the run that stopped early; default 0'),
@@ -1314,7 +1314,7 @@ OPTIONS = {
         "block": ("int", 'sums are kept of each block of so many run numbers, >= 1, default 20'),
         "density_ratio": ("float", 'packing fraction of the runs over that of the packing, in (0, 1], default 1'),
         "temperature": ("float", 'of the velocities, > 0, default 1'),
-        "wave_number": ("float", 'q of F_s, over mean diameters, > 0, default 7'),
+        "wave_number": ("float", 'q of F_s, 1 / mean diameter, > 0, default 7'),
         "overlap_length": ("float", 'spheres that moved less count in the overlap, mean diameters, > 0, default 0.3'),
         "memory_limit": ("float", 'bytes, default 2e9: past it MemoryError with the estimate before any run'),
         "wall_time": ("float", 'seconds of this call'),
@@ -1322,7 +1322,7 @@ OPTIONS = {
     "jam_crunch_options": {
         "lp_solver": ("LpSolver", 'LpSolver, default IPM'),
         "method": ("CrunchMethod", 'CrunchMethod, default BARRIER_PATH'),
-        "polish": ("bool", '1: contacts are closed and forces balanced to rounding; default 1'),
+        "polish": ("bool", '1: at the end Newton steps close contacts and balance forces to rounding; default 1'),
         "max_lps": ("int", '>= 1, default 1000'),
         "threads": ("int", '1 or 2, default 1; bits are reproducible on 1'),
         "gain_tolerance": ("float", 'on sqrt(Gamma) - 1, > 0, default 1e-12'),
@@ -1331,7 +1331,7 @@ OPTIONS = {
         "neighbour_radius": ("float", 'largest pair distance in an LP; 0, the default: adapts'),
         "step_bound": ("float", 'bound on each |s_i| component, 1e-15 .. 1000; 0, the default: adapts'),
         "wall_time": ("float", 'limit of the call'),
-        "steps": ("bool", '1: the callback hears of every step and may call crunch_step_*; default 0'),
+        "steps": ("bool", '1: the callback is called at every step and may call crunch_step_*; default 0'),
         "full_lps": ("bool", '1: every LP is solved to lp_tolerance, so that its network balances; default 0'),
         "strain": ("FreeStrain", 'FreeStrain, default NONE'),
         "keep_steps": ("int", 'states before the end that are kept for write_page(), 0 .. 1000, default 0'),
@@ -1400,9 +1400,9 @@ OPTIONS = {
     },
     "jam_voxel_options": {
         "lines": ("int", '0, the default: the centre of a voxel decides. Else: share of the voxel that is solid, from lines^(d-1) lines along x, each with its exact length inside spheres; at most 64'),
-        "nx": ("int", 'voxels along the edges of the brick, 0, the default, as `size` asks. Disks: one layer'),
-        "ny": ("int", 'voxels along the edges of the brick, 0, the default, as `size` asks. Disks: one layer'),
-        "nz": ("int", 'voxels along the edges of the brick, 0, the default, as `size` asks. Disks: one layer'),
+        "nx": ("int", 'voxels along the edges of the brick, 0, the default: from `size`. Disks: one layer'),
+        "ny": ("int", 'voxels along the edges of the brick, 0, the default: from `size`. Disks: one layer'),
+        "nz": ("int", 'voxels along the edges of the brick, 0, the default: from `size`. Disks: one layer'),
         "size": ("float", 'wanted edge; rounded so that whole voxels fill the brick. 0, the default: box / 100'),
     },
     "jam_dos_options": {

@@ -80,9 +80,9 @@ class Methods:
 
         The results are in it too: contact network, report, histories, kept steps and isoconfigurational runs.
         Observations, the memory limit and callbacks are not. A callback that writes a checkpoint while a call moves
-        the spheres saves the packing of the last step, without results. The file is written under another name and
-        then renamed. Dynamics that continue from it make the same bits as those that never stopped. A crunch starts
-        again from the packing that it had reached: it ends jammed, perhaps with other bits.
+        the spheres saves the packing of the last step, without results. The file is written beside the old one and
+        renamed. Dynamics that continue from it make the same bits as those that never stopped. A crunch starts again
+        from the packing that it had reached; from dilute starts it mostly ends in another.
 
         Parameters
         ----------
@@ -419,7 +419,7 @@ class Methods:
         method : {'barrier_path', 'sequential_lp'}, optional
             CrunchMethod, default BARRIER_PATH
         polish : bool, optional
-            1: contacts are closed and forces balanced to rounding; default 1
+            1: at the end Newton steps close contacts and balance forces to rounding; default 1
         max_lps : int, optional
             >= 1, default 1000
         threads : int, optional
@@ -437,7 +437,7 @@ class Methods:
         wall_time : float, optional
             limit of the call
         steps : bool, optional
-            1: the callback hears of every step and may call crunch_step_*; default 0
+            1: the callback is called at every step and may call crunch_step_*; default 0
         full_lps : bool, optional
             1: every LP is solved to lp_tolerance, so that its network balances; default 0
         strain : {'none', 'edges', 'tilts', 'free', 'volume', 'edges_volume', 'tilts_volume', 'all'}, optional
@@ -1157,11 +1157,11 @@ class Methods:
             0, the default: the centre of a voxel decides. Else: share of the voxel that is solid, from lines^(d-1)
             lines along x, each with its exact length inside spheres; at most 64
         nx : int, optional
-            voxels along the edges of the brick, 0, the default, as `size` asks. Disks: one layer
+            voxels along the edges of the brick, 0, the default: from `size`. Disks: one layer
         ny : int, optional
-            voxels along the edges of the brick, 0, the default, as `size` asks. Disks: one layer
+            voxels along the edges of the brick, 0, the default: from `size`. Disks: one layer
         nz : int, optional
-            voxels along the edges of the brick, 0, the default, as `size` asks. Disks: one layer
+            voxels along the edges of the brick, 0, the default: from `size`. Disks: one layer
         size : float, optional
             wanted edge; rounded so that whole voxels fill the brick. 0, the default: box / 100
 
@@ -1188,11 +1188,11 @@ class Methods:
             0, the default: the centre of a voxel decides. Else: share of the voxel that is solid, from lines^(d-1)
             lines along x, each with its exact length inside spheres; at most 64
         nx : int, optional
-            voxels along the edges of the brick, 0, the default, as `size` asks. Disks: one layer
+            voxels along the edges of the brick, 0, the default: from `size`. Disks: one layer
         ny : int, optional
-            voxels along the edges of the brick, 0, the default, as `size` asks. Disks: one layer
+            voxels along the edges of the brick, 0, the default: from `size`. Disks: one layer
         nz : int, optional
-            voxels along the edges of the brick, 0, the default, as `size` asks. Disks: one layer
+            voxels along the edges of the brick, 0, the default: from `size`. Disks: one layer
         size : float, optional
             wanted edge; rounded so that whole voxels fill the brick. 0, the default: box / 100
 

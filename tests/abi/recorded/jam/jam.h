@@ -805,6 +805,7 @@ typedef struct jam_rigidity_report {
   int64_t undecided_contacts;
   double rigidity_margin;
   double force_residual;
+  double curvature_margin;
 } jam_rigidity_report;
 JAM_API jam_status jam_rigidity(jam_system *sys, int32_t kind, jam_rigidity_report *report);
 JAM_API jam_status jam_flex(jam_system *sys, int32_t kind, double *out, size_t out_len, double *strain,
@@ -867,6 +868,7 @@ typedef struct jam_check_report {
   int32_t theorem, proof_cause;
   double proof_radius;
   double proof_value, proof_bound;
+  double curvature_margin;
 } jam_check_report;
 JAM_API jam_status jam_check_options_init(jam_check_options *o, size_t size);
 JAM_API jam_status jam_check_packing(jam_system *sys, const jam_check_options *o, jam_check_report *report);
@@ -883,7 +885,8 @@ typedef enum jam_proof_cause {
   JAM_CAUSE_GAP = 3,
   JAM_CAUSE_SINGULAR = 4,
   JAM_CAUSE_RATTLER = 5,
-  JAM_CAUSE_IMAGES = 6
+  JAM_CAUSE_IMAGES = 6,
+  JAM_CAUSE_SADDLE = 7
 } jam_proof_cause;
 typedef struct jam_proof_report {
   uint32_t struct_size;
@@ -906,6 +909,7 @@ JAM_API jam_status jam_prove(const jam_system *sys, const double *ratio, size_t 
 JAM_API jam_status jam_prove_strict(const jam_system *sys, jam_proof_report *report);
 JAM_API const char *jam_proof_text(int32_t theorem, int32_t cause, double radius, double value, double bound);
 JAM_API jam_status jam_write_proof(const jam_system *sys, const char *path, const double *ratio, size_t ratio_len);
+JAM_API jam_status jam_write_proof_strict(const jam_system *sys, const char *path);
 JAM_API jam_status jam_refined_positions(const jam_system *sys, const double *ratio, size_t ratio_len, double *high,
                                          size_t high_len, double *low, size_t low_len, size_t *needed);
 typedef enum jam_contact_class {

@@ -21,12 +21,15 @@ include_patterns = [
     "bindings/README.md",
     "examples/README.md",
     "examples/studies/README.md",
+    "examples/studies/near_jamming.md",
+    "examples/studies/scenes.md",
     "examples/studies/thesis.md",
     "examples/studies/ensembles/README.md",
     "src/README.md",
     "src/crunch/README.md",
     "ensemble_tables.md",
     "tests/bench/README.md",
+    "tests/bench/dynamics.md",
     "tests/bench/tried.md",
 ]
 exclude_patterns = ["bindings/docs/index.md"]  # site.py puts it at the top

@@ -40,6 +40,6 @@ struct PageContent {
   std::vector<std::pair<std::string, const double *>> motions{};  // name and displacements: d rows of n numbers
 };
 
-void write_page(const PageContent &content, const char *path);
+[[gnu::cold]] void write_page(const PageContent &content, const char *path);
 
 }  // namespace jam

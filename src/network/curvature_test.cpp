@@ -1,8 +1,8 @@
 #include "network/curvature_test.hpp"
 
-#include <Eigen/Dense>
 #include <cmath>
 
+#include "linalg/symmetric_eigen.hpp"
 #include "network/slides.hpp"
 #include "network/tuning.hpp"
 
@@ -43,14 +43,15 @@ std::vector<double> combine(const Flexes &flexes, const Eigen::VectorXd &part) {
 std::vector<double> free_beside_walls(const RigidityMatrix &g, const Flexes &flexes) {
   std::vector<double> at_walls(g.contacts()), at_pairs(g.contacts());
   for (size_t k = 0; k < g.contacts(); ++k) (g.b[k] < 0 ? at_walls : at_pairs)[k] = 1.0;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> bends(form_of(g, at_walls, flexes));
-  Eigen::Index still = 0;
-  while (still < bends.eigenvalues().size() && bends.eigenvalues()[still] < RigidityTuning::still) ++still;
-  if (still == 0) return {};
-  const Eigen::MatrixXd kept = bends.eigenvectors().leftCols(still);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> opens(kept.transpose() * form_of(g, at_pairs, flexes) * kept);
-  if (!(opens.eigenvalues()[still - 1] > RigidityTuning::least_curvature)) return {};
-  return combine(flexes, kept * opens.eigenvectors().col(still - 1));
+  const SymmetricEigen bends = symmetric_eigen(form_of(g, at_walls, flexes));
+  Flexes kept;
+  for (Eigen::Index k = 0; k < bends.values.size() && bends.values[k] < RigidityTuning::still; ++k)
+    kept.push_back(combine(flexes, bends.vectors.col(k)));
+  if (kept.empty()) return {};
+  const SymmetricEigen opens = symmetric_eigen(form_of(g, at_pairs, kept));
+  const Eigen::Index last = opens.values.size() - 1;
+  if (!(opens.values[last] > RigidityTuning::least_curvature)) return {};
+  return combine(kept, opens.vectors.col(last));
 }
 
 }  // namespace
@@ -61,10 +62,10 @@ void judge_curvature(const RigidityMatrix &carrying, const std::vector<double> &
   std::vector<double> weight(force);
   for (size_t k = 0; k < force.size(); ++k) weight[k] *= carrying.bending[k], scale += std::fabs(weight[k]);
   scale /= static_cast<double>(force.size());
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(form_of(carrying, weight, flexes));
-  const Eigen::Index last = eigen.eigenvalues().size() - 1;
-  const double most = eigen.eigenvalues()[last], limit = RigidityTuning::least_curvature * scale;
-  std::vector<double> first = combine(flexes, eigen.eigenvectors().col(last));
+  const SymmetricEigen eigen = symmetric_eigen(form_of(carrying, weight, flexes));
+  const Eigen::Index last = eigen.values.size() - 1;
+  const double most = eigen.values[last], limit = RigidityTuning::least_curvature * scale;
+  std::vector<double> first = combine(flexes, eigen.vectors.col(last));
   if (most < -limit) {
     flexes[0] = std::move(first);
     out.jammed = out.force_residual < RigidityTuning::most_residual ? Verdict::yes : Verdict::undecided;

@@ -1,12 +1,13 @@
 #include "network/softest_modes.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "core/call_scope.hpp"
 #include "core/rng.hpp"
+#include "linalg/symmetric_eigen.hpp"
 #include "network/tuning.hpp"
 
 namespace jam {
@@ -96,11 +97,11 @@ class BlockIteration {
     }
     Eigen::MatrixXd ax(rows_.rows(), b);
     for (size_t k = 0; k < b; ++k) rows_.multiply(x_[k].data(), ax.col(static_cast<Eigen::Index>(k)).data());
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz(ax.transpose() * ax);
+    const SymmetricEigen ritz = symmetric_eigen(ax.transpose() * ax);
     std::vector<std::vector<double>> turned(b, std::vector<double>(n, 0.0));
     for (size_t k = 0; k < b; ++k)
       for (size_t q = 0; q < b; ++q) {
-        const double c = ritz.eigenvectors()(static_cast<Eigen::Index>(q), static_cast<Eigen::Index>(k));
+        const double c = ritz.vectors(static_cast<Eigen::Index>(q), static_cast<Eigen::Index>(k));
         for (size_t r = 0; r < n; ++r) turned[k][r] += c * x_[q][r];
       }
     x_ = std::move(turned);

@@ -36,6 +36,6 @@ ContactNetwork between_copies(const Packing &p, const ContactNetwork &own, const
 
 // The copies of p. `net`, the contacts of p, becomes theirs; NULL where there are none. JAM_E_OVERLAP where coordinates
 // of the large cell no longer resolve the gaps, JAM_E_MEMORY before any work.
-Packing tile(const Packing &p, const Copies &copies, ContactNetwork *net);
+[[gnu::cold]] Packing tile(const Packing &p, const Copies &copies, ContactNetwork *net);
 
 }  // namespace jam

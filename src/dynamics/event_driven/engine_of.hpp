@@ -95,7 +95,7 @@ class EngineOf final : public Engine, private Units<O> {
   void build_lists();
   void choose_margin(double sigma);
   void place_centres(double largest);
-  void choose_levels();
+  [[gnu::cold]] void choose_levels();
   bool choose_cell_mode(double sigma);
   void rebuild_done();
   void recentre(int32_t i);

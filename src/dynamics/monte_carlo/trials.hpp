@@ -40,7 +40,7 @@ class MonteCarloOf final : public MonteCarloSpheres<D, Cube> {
         const double sigma = contact(i, k);
         if (r2 < sigma * sigma) sum += energy_.value(overlap(std::sqrt(r2), sigma));
       });
-    for (int32_t i = 0; Soft && p_.container && i < n_; ++i) sum += wall_energy(i, nullptr);
+    for (int32_t i = 0; see_walls && p_.container && i < n_; ++i) sum += wall_energy(i, nullptr);
     return sum;
   }
 
@@ -52,7 +52,7 @@ class MonteCarloOf final : public MonteCarloSpheres<D, Cube> {
         if (r >= sigma) return;
         sum += energy_.slope(overlap(r, sigma)) * (energy_.relative() ? r / sigma : r * p_.cell.side());
       });
-    for (int32_t i = 0; Soft && p_.container && i < n_; ++i)
+    for (int32_t i = 0; see_walls && p_.container && i < n_; ++i)
       each_wall(i, nullptr, [&](double r, double radius) {
         sum += energy_.slope(overlap(r, radius)) * (energy_.relative() ? r / radius : r * p_.cell.side());
       });
@@ -78,6 +78,7 @@ class MonteCarloOf final : public MonteCarloSpheres<D, Cube> {
   using Base::swap_share_;
   using Base::x_;
   using typename Base::Place;
+  static constexpr bool see_walls = Soft && !Cube;  // make_monte_carlo_of chooses so where soft spheres meet walls
   static constexpr uint64_t weyl = 0x9e3779b97f4a7c15ull;
 
   static double uniform(uint64_t base, uint64_t which) {
@@ -134,7 +135,7 @@ class MonteCarloOf final : public MonteCarloSpheres<D, Cube> {
     }
   }
   // Soft spheres overlap walls: sum of their energies after a step dx (NULL: where sphere i is).
-  double wall_energy(int32_t i, const double *dx) const {
+  [[gnu::noinline]] double wall_energy(int32_t i, const double *dx) const {
     double sum = 0.0;
     each_wall(i, dx, [&](double r, double radius) { sum += energy_.value(overlap(r, radius)); });
     return sum;
@@ -160,7 +161,7 @@ class MonteCarloOf final : public MonteCarloSpheres<D, Cube> {
     for (int c = 0; c < D; ++c) to[c] = x_[i][c] + static_cast<uint64_t>(shift[c]);
     prepare(i, to);
     double more = change(i, to);
-    if (Soft && p_.container) more += wall_energy(i, dx) - wall_energy(i, nullptr);
+    if (see_walls && p_.container) more += wall_energy(i, dx) - wall_energy(i, nullptr);
     if (!accept(more, base)) return;
     ++counts.moved;
     put(i, to);
@@ -187,7 +188,7 @@ class MonteCarloOf final : public MonteCarloSpheres<D, Cube> {
   // The pair itself counts twice, before and after alike: its contact distance is the same.
   double energy_of_both(int32_t i, int32_t k) const {
     const double pairs = energy_at(i, x_[i]) + energy_at(k, x_[k]);
-    return Soft && p_.container ? pairs + wall_energy(i, nullptr) + wall_energy(k, nullptr) : pairs;
+    return see_walls && p_.container ? pairs + wall_energy(i, nullptr) + wall_energy(k, nullptr) : pairs;
   }
 
   static constexpr double never = std::numeric_limits<double>::infinity();
@@ -198,8 +199,8 @@ class MonteCarloOf final : public MonteCarloSpheres<D, Cube> {
 
 template <int D>
 std::unique_ptr<MonteCarlo> make_monte_carlo_of(const Packing &p, const jam_monte_carlo_options &o, int64_t run) {
-  const bool see_walls = p.container && o.alpha > 0.0;  // soft spheres overlap them, and would meet across them
-  const bool cube = p.cell.cube() && contact_distance_max(p) < MonteCarloTuning::range * p.cell.side() && !see_walls;
+  const bool walls = p.container && o.alpha > 0.0;  // soft spheres overlap them, and would meet across them
+  const bool cube = p.cell.cube() && contact_distance_max(p) < MonteCarloTuning::range * p.cell.side() && !walls;
   if (o.alpha == 0.0) {
     if (cube) return std::make_unique<MonteCarloOf<D, false, true>>(p, o, run);
     return std::make_unique<MonteCarloOf<D, false, false>>(p, o, run);

@@ -1,0 +1,12 @@
+#include "linalg/symmetric_eigen.hpp"
+
+#include <Eigen/Eigenvalues>
+
+namespace jam {
+
+SymmetricEigen symmetric_eigen(const Eigen::MatrixXd &a) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(a);
+  return {solver.eigenvalues(), solver.eigenvectors()};
+}
+
+}  // namespace jam

@@ -26,12 +26,18 @@ function calippso!(s::System; l0 = nothing, ℓ0 = l0, sqrGamma0 = 1.01, sqrΓ0 
                    tol_Gamma_convergence = 1e-12, tol_Γ_convergence = tol_Gamma_convergence, tol_S_convergence = 1e-9,
                    max_iters = 1000, on_lp = nothing, given...)
     refuse(given, (:method, :max_lps, :full_lps, :polish, :neighbour_radius, :step_bound), "calippso! sets it")
+    ours = (STAGED..., :on_lp, :progress, :on_step, members(jam_crunch_options)...)
+    for name in keys(given)
+        name in ours || haskey(CALIPPSO, name) || throw(ArgumentError("unknown option $name" * suggestion(string(name), string.(ours))))
+    end
     gain, d = sqrΓ0 - 1, Int(info(s).dim)
     cutoff = ℓ0 === nothing ? 2 * info(s).diameter_mean : Float64(ℓ0)  # 4 R
     rows = NamedTuple[]
     for _ in 1:max_iters
         sigma = info(s).diameter_mean
         radius, bound = stage(gain, cutoff, sigma / 2, d, thresholds_bounds, sbound)
+        bound > 0 || throw(ArgumentError("l0 = $cutoff is too small for spheres of radius R = $(sigma / 2): displacements in the first stage are " *
+                                         "bounded by (l0 - $(2 * max(1.5, 1 + gain)) R) / (2 sqrt(d)); the default is 4 R"))
         r = crunch!(s; method = :sequential_lp, max_lps = 1, full_lps = true, polish = false, neighbour_radius = radius / sigma,
                 step_bound = bound / sigma, given...)
         last = history(s)[end]

@@ -35,6 +35,8 @@ lps = calippso!(u; l0 = 0.5)
 certificate = crunch!(u)
 @test certificate.jammed && certificate.displacement_max_stable < 1e-6
 @test occursin("calippso! sets it", failure(() -> calippso!(u; step_bound = 0.1)))
+@test occursin("l0 = 0.1 is too small", failure(() -> calippso!(u; l0 = 0.1, max_iters = 1)))
+@test occursin("tol_Γ_convergence", failure(() -> calippso!(u; tol_Γ = 1e-9)))
 
 # The packing as it is.
 @test judge(s).status === :ok && startswith(judge(s).text, "Collectively jammed")

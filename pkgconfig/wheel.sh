@@ -16,6 +16,7 @@ for python in "${@:-/usr/bin/python3}"; do
 folder = sysconfig.get_path("include")
 print(folder, *glob.glob("/usr/include/*/" + os.path.basename(folder)))')
   export JAM_PYTHON_HEADERS
+  echo "wheel for $python: takes minutes, messages are in $folder/log" >&2
   PYTHONPATH=bindings/python "$python" -B -c \
     'import build_wheel, sys; print(build_wheel.build_wheel(sys.argv[1], {"build-dir": sys.argv[2]}))' \
     "$folder" "$PWD/build-wheel-$version" >"$folder/log" || { tail -20 "$folder/log"; exit 1; }

@@ -262,8 +262,6 @@ def float_inverse(rows):
         flat = list(zip(*rows))
         square = [[sum(map(mul, a, b)) for b in flat] for a in flat] if len(rows) > len(flat) else [*map(list, rows)]
         n = len(square)
-        if n > 1000:
-            print(f"jamproof.py: no numpy, so {n} equations are inverted by Python, which takes minutes to hours", file=sys.stderr, flush=True)
         a = [row + [float(k == i) for k in range(n)] for i, row in enumerate(square)]
         for c in range(n):
             p = max(range(c, n), key=lambda r: abs(a[r][c]))
@@ -420,8 +418,7 @@ def check(s):
     f, rows, columns = equations(s, kept)
     if len(kept) == len(every) and kept and not any(m for m, _ in f):
         return closed(s, rows, columns)
-    few = ", too few to hold the spheres" if len(kept) < len(columns) else ""
-    refuse(len(kept) != len(columns), f"excess: {len(kept)} contacts, {len(columns)} unknowns{few}")
+    refuse(len(kept) != len(columns), f"excess: {len(kept)} contacts, {len(columns)} unknowns" + ", too few" * (len(kept) < len(columns)))
     unknowns = len(columns) - (not s.strict)
     s.hint = e, inverse = inverse_of(s, columns, len(columns), unknowns)
     delta, eta, alpha = bounds(s, f, columns, e, inverse, [1] * len(columns))

@@ -1,6 +1,8 @@
 """Isoconfigurational runs, Monte Carlo and statistics from Python: against formulas and against each other."""
+import functools
 import os
 import tempfile
+from dataclasses import replace
 
 import numpy as np
 
@@ -90,6 +92,18 @@ def test_runs(packing):
     assert (weights.curvature > 0).all() and (weights.noise < 1e-3).all()
 
 
+def test_scenes_are_not_mixed():
+    """The same spheres in another cell, between walls or in another model are another packing."""
+    box = jam.System.random(n=30, dim=3, seed=2, packing_fraction=0.2, walls="xyz")
+    x, diameters, cell = box.positions, box.diameters, np.array(box.cell)
+    make = functools.partial(jam.System.from_arrays, x, diameters, seed=box.seed)
+    scenes = [box, make(cell=cell), make(cell=2 * cell), make(cell=cell, masses="volume"), make(cell=cell, walls="x")]
+    runs = [s.isoconfigurational([2], runs=20, first_run=20 * k, block=20) for k, s in enumerate(scenes)]
+    for k, first in enumerate(runs[:-1]):
+        for second in runs[k + 1 :]:
+            assert refused(ValueError, first.merge, replace(second, first_run=20 * (k + 1)))
+
+
 def test_campaign(packing):
     """A campaign that was stopped goes on to the same bits; another one does not touch its file."""
     options = dict(density_ratio=0.99, block=4, keep=[0])
@@ -111,6 +125,14 @@ def test_campaign(packing):
             lambda: nj.campaign(other, file, [2, 5], 20, **options),
         ):
             assert refused(ValueError, change)
+        # Monte Carlo with default options is not molecular dynamics; it continues as itself, and so does a resumed call
+        path = os.path.join(folder, "carlo.npz")
+        carlo = nj.campaign(packing, path, [2, 5], 4, monte_carlo={}, **options)
+        assert nj.campaign(packing, path, [2, 5], 8, monte_carlo={}, **options).runs == 8
+        assert refused(ValueError, carlo.merge, packing.isoconfigurational([2, 5], first_run=4, runs=4, **options))
+        with packing.copy() as again:
+            again.isoconfigurational([2, 5], runs=4, **options)
+            assert again.isoconfigurational([2, 5], runs=8, resume=True, **options).origin == whole.origin
         # a part that is refused loses nothing
         tight = dict(options, memory_limit=1e3)
         assert refused(jam.JamError, nj.campaign, packing, file, [2, 5], 40, **tight)
@@ -226,6 +248,7 @@ if __name__ == "__main__":
     test_errors()
     test_masses()
     test_runs(packing)
+    test_scenes_are_not_mixed()
     test_campaign(packing)
     test_edges(packing)
     test_monte_carlo(packing)

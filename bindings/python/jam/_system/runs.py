@@ -225,8 +225,7 @@ def make_runs(
     made = option_struct("jam_isoconf_options", options)
     chosen = None if monte_carlo is None else option_struct("jam_monte_carlo_options", monte_carlo)
     kept = as_array(np.array([int(k) for k in keep], np.int64), "int32_t", "keep")
-    rest = {name: value for name, value in (("keep", keep), ("monte_carlo", monte_carlo)) if value}
-    origin = _origin(system, dict(options, block=made.block, **rest))
+    origin = _origin(system, dict(options, block=made.block, keep=keep, monte_carlo=monte_carlo))
     with system._reporting(progress):
         status = raw.jam_isoconfigurational(
             system.handle, made, chosen, times, kept if kept.size else None, raw.jam_isoconf_report()
@@ -246,16 +245,23 @@ def _digest(arrays: dict[str, Any]) -> str:
 
 
 # What may change from one part of a campaign to the next.
-_FREE = ("runs", "first_run", "threads", "memory_limit", "wall_time", "progress")
+_FREE = ("runs", "first_run", "threads", "memory_limit", "wall_time", "progress", "resume")
+# What a packing is beside its arrays.
+_SCENE = ("seed", "model", "non_additivity", "masses", "container", "walls")
 
 
 def _origin(system: Any, options: dict[str, Any]) -> str:
-    """A digest of the packing and of all options that runs depend on."""
-    digest = hashlib.sha256()
-    for array in (system.positions, system.diameters):
+    """A digest of the packing, its cell and walls, and of all options that runs depend on."""
+    digest, info = hashlib.sha256(), system.info
+    for array in (system.positions, system.diameters, system.cell):
         digest.update(np.ascontiguousarray(array).tobytes())
     fixed = {k: v for k, v in options.items() if k not in _FREE}
-    digest.update(json.dumps([int(system.seed), fixed], sort_keys=True, default=str).encode())
+    if not fixed.get("keep"):
+        fixed.pop("keep", None)
+    if fixed.get("monte_carlo") is None:  # {} are the default options of Monte Carlo
+        fixed.pop("monte_carlo", None)
+    scene = [float(getattr(info, name)) for name in _SCENE]
+    digest.update(json.dumps([scene, fixed], sort_keys=True, default=str).encode())
     return digest.hexdigest()
 
 

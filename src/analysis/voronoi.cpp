@@ -49,19 +49,25 @@ class CutCell {
     for (int i = 0; i < cell.p; ++i)
       for (int k = 0; k < cell.nu[i]; ++k)
         if (cell.ed[i][k] > i) edge_.push_back({static_cast<size_t>(i), static_cast<size_t>(cell.ed[i][k])});
+    cell.face_vertices(face_);
   }
   bool is_cut() const {
     return std::any_of(corner_.begin(), corner_.end(), [this](const auto &c) {
       return c[0] * c[0] + c[1] * c[1] + (ball_ ? c[2] * c[2] : 0.0) > radius_ * radius_;
     });
   }
-  // The volume within the wall: slices along z between heights of corners, of ends of the ball and of points where an
-  // edge meets the wall.
+  // The volume within the wall: slices along z between heights of corners, of ends of the ball, of points where an edge
+  // meets the wall and of slices in which a side touches the wall. In between the area is smooth but for powers of 3/2
+  // at the ends.
   double volume() const {
     std::vector<double> height;
     for (const auto &c : corner_) height.push_back(c[2]);
     if (ball_) height.push_back(-radius_), height.push_back(radius_);
     for (const auto &e : edge_) meet_wall(corner_[e[0]], corner_[e[1]], height);
+    for (size_t k = 0; k < face_.size(); k += static_cast<size_t>(face_[k]) + 1) touch_wall(k, height);
+    const auto [low, high] =
+        std::minmax_element(corner_.begin(), corner_.end(), [](const auto &a, const auto &b) { return a[2] < b[2]; });
+    for (double &z : height) z = std::min((*high)[2], std::max((*low)[2], z));
     std::sort(height.begin(), height.end());
     double sum = 0.0;
     for (size_t k = 0; k + 1 < height.size(); ++k) {
@@ -89,6 +95,25 @@ class CutCell {
     if (!(uu > 0.0 && disc > 0.0)) return;
     for (const double t : {(-au - std::sqrt(disc)) / uu, (-au + std::sqrt(disc)) / uu})
       if (t > 0.0 && t < 1.0) height.push_back(a[2] + t * (b[2] - a[2]));
+  }
+  // Heights at which the side that face k cuts out of a slice touches the wall. Its plane is n.x = d, by Newell's sum.
+  void touch_wall(size_t k, std::vector<double> &height) const {
+    const auto count = static_cast<size_t>(face_[k]);
+    double n[3] = {0.0, 0.0, 0.0};
+    const auto at = [&](size_t i) -> const std::array<double, 3> & {
+      return corner_[static_cast<size_t>(face_[k + 1 + i % count])];
+    };
+    for (size_t i = 0; i < count; ++i)
+      for (int c = 0; c < 3; ++c) {
+        const int p = (c + 1) % 3, q = (c + 2) % 3;
+        n[c] += (at(i)[p] - at(i + 1)[p]) * (at(i)[q] + at(i + 1)[q]);
+      }
+    const double d = n[0] * at(0)[0] + n[1] * at(0)[1] + n[2] * at(0)[2], flat2 = n[0] * n[0] + n[1] * n[1];
+    // |d - n_z z| = |(n_x, n_y)| r with the radius r of the wall's slice
+    const double a = n[2] * n[2] + (ball_ ? flat2 : 0.0), b = d * n[2], c = d * d - flat2 * radius_ * radius_;
+    const double disc = b * b - a * c;
+    if (!(a > 0.0 && disc >= 0.0)) return;
+    height.push_back((b - std::sqrt(disc)) / a), height.push_back((b + std::sqrt(disc)) / a);
   }
   // Of the slice at height z.
   double area(double z) const {
@@ -122,6 +147,7 @@ class CutCell {
   bool ball_;
   std::vector<std::array<double, 3>> corner_;
   std::vector<std::array<size_t, 2>> edge_;
+  std::vector<int> face_;  // corners of each face, their number first
 };
 
 // Volumes of the cells of `box`, in its unit, by sphere; 0 where none was found.

@@ -123,8 +123,8 @@ class StructureFactor(unittest.TestCase):
 class Voronoi(unittest.TestCase):
     def test_cells_fill_the_container(self):
         for name, accuracy in (("slit", 1e-12), ("duct", 1e-12), ("box", 1e-12), ("tube", 1e-5), ("can", 1e-5), ("ball", 1e-5)):
-            for n in (1, 2, 60):
-                s = start(name, n, 2, packing_fraction=0.1)
+            for n, seed in ((1, 2), (2, 2), (3, 45), (2, 48), (3, 7), (60, 2)):
+                s = start(name, n, seed, packing_fraction=0.1 if n == 60 else 0.05)
                 cells = np.pi / 6 * s.diameters**3 / s.local_fraction()
                 self.assertLess(abs(cells.sum() / s.info.volume - 1), accuracy, (name, n))
 

@@ -704,7 +704,7 @@ module jam
   ! Metropolis Monte Carlo at constant volume. A sweep is one trial of each sphere.
   type, bind(c) :: jam_monte_carlo_options
     integer(c_int32_t) :: struct_size = 0
-    ! 1: continue the run that stopped early; default 0
+    ! 1: continue the run that stopped early, with all but the limits; default 0
     integer(c_int32_t) :: resume = 0
     ! jam_energy_unit, default LENGTH
     integer(c_int32_t) :: energy_unit = 0

@@ -696,7 +696,7 @@ typedef enum jam_energy_unit {
 /* Metropolis Monte Carlo at constant volume. A sweep is one trial of each sphere. */
 typedef struct jam_monte_carlo_options {
   uint32_t struct_size;
-  int32_t resume;      /* @bool continue the run that stopped early; default 0 */
+  int32_t resume;      /* @bool continue the run that stopped early, with all but the limits; default 0 */
   int32_t energy_unit; /* @enum jam_energy_unit, default LENGTH */
   int32_t reserved;
   double alpha, energy_scale; /* 0, default: hard, or > 1: overlaps x cost energy_scale x^alpha; > 0, default 1 */

@@ -132,6 +132,36 @@ static void a_tuning_is_resumed(void **state) {
   jam_destroy(whole), jam_destroy(sys);
 }
 
+/* A run that continues has its own options: another one is refused by its name, and the run waits on. */
+static void a_resumed_run_keeps_its_options(void **state) {
+  jam_monte_carlo_options o;
+  jam_monte_carlo_report r;
+  jam_system *sys = dense(3, 50);
+  int k;
+  (void)state;
+  r.struct_size = sizeof r;
+  jam_monte_carlo_options_init(&o, sizeof o);
+  o.sweeps = 20, o.step = 0.1, o.wall_time = 1e-9;
+  assert_int_equal(jam_monte_carlo(sys, &o, &r), JAM_LIMIT);
+  for (k = 0; k < 5; ++k) {
+    static const char *const names[] = {"alpha", "step", "swap_share", "run", "first_sweep"};
+    jam_monte_carlo_options_init(&o, sizeof o);
+    o.resume = 1, o.sweeps = 20;
+    if (k == 0) o.alpha = 2.0;
+    if (k == 1) o.step = 0.2;
+    if (k == 2) o.swap_share = 0.1;
+    if (k == 3) o.run = 7;
+    if (k == 4) o.first_sweep = 3;
+    assert_int_equal(jam_monte_carlo(sys, &o, &r), JAM_E_ARGUMENT);
+    assert_non_null(strstr(jam_last_error(), names[k]));
+    assert_int_equal(paused(sys), JAM_PHASE_MONTE_CARLO);
+  }
+  jam_monte_carlo_options_init(&o, sizeof o);
+  o.resume = 1, o.sweeps = 20, o.step = 0.1;
+  assert_int_equal(jam_monte_carlo(sys, &o, &r), JAM_OK);
+  jam_destroy(sys);
+}
+
 /* The same of runs from one configuration. */
 static void a_tuning_of_runs_is_resumed(void **state) {
   jam_isoconf_options o;
@@ -201,7 +231,7 @@ static void results_stay_until_something_moves(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_call_that_has_not_begun_is_resumed), cmocka_unit_test(a_tuning_is_resumed),
-      cmocka_unit_test(a_tuning_of_runs_is_resumed), cmocka_unit_test(isoconfigurational_runs_resume),
-      cmocka_unit_test(results_stay_until_something_moves)};
+      cmocka_unit_test(a_tuning_of_runs_is_resumed),          cmocka_unit_test(a_resumed_run_keeps_its_options),
+      cmocka_unit_test(isoconfigurational_runs_resume),       cmocka_unit_test(results_stay_until_something_moves)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -93,6 +93,9 @@ class MonteCarloRun final : public Dynamics {
   Packing current() const override;
   void archive(Archive &a) override;
   jam_monte_carlo_report report() const;
+  // To resume: options that are neither the defaults nor those of the run are refused by name, but sweeps and
+  // wall_time.
+  void check_resumed(const jam_monte_carlo_options &o) const;
   bool begun() const { return engine_ != nullptr; }
 
  private:

@@ -61,6 +61,20 @@ void MonteCarloRun::archive(Archive &a) {
   if (engine_) engine_->archive(a);
 }
 
+void MonteCarloRun::check_resumed(const jam_monte_carlo_options &o) const {
+  const jam_monte_carlo_options usual = default_monte_carlo_options();
+  const auto look = [&](const char *name, auto member) {
+    if (o.*member != usual.*member && o.*member != options_.*member)
+      fail(JAM_E_ARGUMENT, "resume is 1 and %s is %g; the run that continues has %g", name,
+           static_cast<double>(o.*member), static_cast<double>(options_.*member));
+  };
+  using Options = jam_monte_carlo_options;
+  look("energy_unit", &Options::energy_unit), look("alpha", &Options::alpha);
+  look("energy_scale", &Options::energy_scale), look("temperature", &Options::temperature);
+  look("step", &Options::step), look("acceptance", &Options::acceptance), look("swap_share", &Options::swap_share);
+  look("run", &Options::run), look("first_sweep", &Options::first_sweep);
+}
+
 Packing MonteCarloRun::current() const {
   Packing p = p_;
   if (!engine_) return p;

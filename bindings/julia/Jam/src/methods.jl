@@ -227,7 +227,7 @@ run and then frozen; an error `:argument` when no step is accepted. After soft s
 by `:allow`. Random numbers depend on seed, run, sweep and sphere alone. Velocities are dropped. `observed_spheres`
 gives the displacements. An early stop can be resumed, also from `checkpoint`.
 
-- `resume`: Bool; continue the run that stopped early; default 0
+- `resume`: Bool; continue the run that stopped early, with all but the limits; default 0
 - `energy_unit`: one of `:length`, `:relative`; default `:length`
 - `alpha`: 0, default: hard, or > 1: overlaps x cost `energy_scale` x^alpha
 - `energy_scale`: > 0, default 1

@@ -764,7 +764,7 @@ end
 
 Metropolis Monte Carlo at constant volume. A sweep is one trial of each sphere.
 
-- `resume`: Bool; continue the run that stopped early; default 0
+- `resume`: Bool; continue the run that stopped early, with all but the limits; default 0
 - `energy_unit`: one of `:length`, `:relative`; default `:length`
 - `alpha`: 0, default: hard, or > 1: overlaps x cost `energy_scale` x^alpha
 - `energy_scale`: > 0, default 1
@@ -779,7 +779,7 @@ Metropolis Monte Carlo at constant volume. A sweep is one trial of each sphere.
 """
 mutable struct jam_monte_carlo_options
     struct_size::UInt32
-    resume::Int32  # 1: continue the run that stopped early; default 0
+    resume::Int32  # 1: continue the run that stopped early, with all but the limits; default 0
     energy_unit::Int32  # jam_energy_unit, default LENGTH
     reserved::Int32
     alpha::Cdouble  # 0, default: hard, or > 1: overlaps x cost energy_scale x^alpha

@@ -1292,7 +1292,7 @@ OPTIONS = {
         "snapshot_factor": ("float", 'each interval between snapshots is so many times the one before, >= 1, default 1'),
     },
     "jam_monte_carlo_options": {
-        "resume": ("bool", '1: continue the run that stopped early; default 0'),
+        "resume": ("bool", '1: continue the run that stopped early, with all but the limits; default 0'),
         "energy_unit": ("EnergyUnit", 'EnergyUnit, default LENGTH'),
         "alpha": ("float", '0, default: hard, or > 1: overlaps x cost energy_scale x^alpha'),
         "energy_scale": ("float", '> 0, default 1'),

@@ -256,7 +256,7 @@ class Methods:
         Parameters
         ----------
         resume : bool, optional
-            1: continue the run that stopped early; default 0
+            1: continue the run that stopped early, with all but the limits; default 0
         energy_unit : {'length', 'relative'}, optional
             EnergyUnit, default LENGTH
         alpha : float, optional

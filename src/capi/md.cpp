@@ -84,9 +84,11 @@ std::unique_ptr<EventDrivenRun> take_stage(jam_system *sys, bool resume, const G
   return std::unique_ptr<EventDrivenRun>(static_cast<EventDrivenRun *>(sys->paused.release()));
 }
 
-// Of a stage's time and that of the one which follows: growth takes (N / G) ln p collisions.
-double part_of_protocol(const GrowthStage &stage) {
-  if (stage.then == 0.0) return 1.0;
+// Of a stage's time and that of the one which follows: growth takes (N / G) ln p collisions. None follows where the
+// packing fraction that is wanted comes before the stage's pressure: p = d / (1 - phi / phi_J) near jamming.
+double part_of_protocol(const GrowthStage &stage, const Packing &p) {
+  const double before_pressure = jammed_reach(p.dim, p.diameter).fraction * (1.0 - p.dim / stage.pressure);
+  if (stage.then == 0.0 || stage.packing_fraction < before_pressure) return 1.0;
   const GrowthStage next = next_stage(stage);
   const double own = math::log(stage.pressure) / stage.growth;
   return own / (own + math::log(next.pressure / stage.pressure) / next.growth);
@@ -100,7 +102,7 @@ Answer run_all(jam_system *sys, std::unique_ptr<EventDrivenRun> stage, Limits li
   for (;;) {
     const GrowthStage plan = stage->plan();
     const double first = part;
-    part += (1.0 - part) * part_of_protocol(plan);
+    part += (1.0 - part) * part_of_protocol(plan, sys->packing);
     sys->monitor.span(first, part);
     limits.wall_time = wall_time - sys->monitor.seconds();
     const Answer answer = run_md(sys, stage, limits, report);

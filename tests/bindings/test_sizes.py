@@ -139,6 +139,13 @@ class Densities(unittest.TestCase):
             jam.System.random(20, porosity=0.7, packing_fraction=0.3)
         self.assertEqual(jam.System.random(diameters=[1.0, 2.0, 3.0]).n, 3)
 
+    def test_progress_is_that_of_the_density(self):
+        """The default protocol has a second stage, which a density below the first one's pressure never reaches."""
+        seen = []
+        system = jam.System.random(n=4000, packing_fraction=0.3)
+        system.compress(packing_fraction=0.6, progress=lambda p: seen.append(p.fraction))
+        self.assertGreater(max(seen), 0.5)
+
     def test_densities_beyond_reach_are_refused_before_work(self):
         fluid = jam.System.random(1000)
         with self.assertRaisesRegex(jam.errors.UnplaceableError, r"porosity 0\.3\).* jam near 0\.643 .*Farr and Groot.*0\.384"):

@@ -34,6 +34,10 @@ bool search_proof(ProofScene &scene, ProofEquations &equations, Proof &proof) {
   if (refined) free_rattlers(scene);  // an overlap of one would widen the trap of all
   proof = refined ? prove(scene, equations) : Proof{};
   if (!refined) proof.cause = ProofCause::singular;
+  if (!refined && scene.contacts() < static_cast<size_t>(scene.needed())) {  // their rows are no square
+    proof.cause = ProofCause::excess, proof.cause_value = static_cast<double>(scene.contacts());
+    proof.cause_bound = static_cast<double>(scene.needed());
+  }
   if (shown(proof) || scene.strict) return refined;
   const Exchange exchanged = close_together(other);
   const ProofScene closed = other;

@@ -79,7 +79,11 @@ class Strict(unittest.TestCase):
     def test_a_packing_of_a_fixed_cell_is_not_strict(self):
         for dim, seed in ((2, 1), (3, 1)):
             system = packed(32, dim, seed, "none")
-            self.assertEqual(system.prove_strict().theorem, jam.Theorem.NONE)
+            report = system.prove_strict()
+            self.assertEqual((report.theorem, report.cause), (jam.Theorem.NONE, jam.ProofCause.EXCESS))
+            needed = dim * (report.stable - 1) + dim * (dim + 1) // 2
+            self.assertEqual((report.cause_value, report.cause_bound), (report.contacts, needed))
+            self.assertLess(report.contacts, needed)
             text = strict_file(system)
             self.assertIn("\nstrict\n", text)
             self.assertNotIsInstance(verdict(text), dict)

@@ -34,12 +34,12 @@ def summary(system: System) -> Any:
     """One figure of a crunched packing: spheres, network, forces, and how it was reached. Returns the Figure."""
     from matplotlib.figure import Figure
 
+    pairs = system.contacts.pairs  # without them, a StateError before anything is drawn
     figure = Figure(figsize=(11, 8.2), layout="constrained")
     axes = figure.subplots(2, 2)
     packing(system, axes[0, 0])
     network(system, axes[0, 1])
     try:
-        pairs = system.contacts.pairs
         crossing = (system.bucklers[pairs] & (pairs >= 0)).any(1)
         for chosen, label, slope, colour in (
             (~crossing, "extended forces", 1.42311, "#4c78a8"),

@@ -1,5 +1,7 @@
 #include "core/motion.hpp"
 
+#include <cmath>
+
 #include "core/math.hpp"
 
 namespace jam {
@@ -20,6 +22,8 @@ void strain_at_fixed_volume(Packing &p, PairList &pairs, const std::vector<doubl
   for (size_t k = 0; k < pairs.offset.size(); k += d) deform(&pairs.offset[k]);
   std::vector<double> rows = p.cell.rows();
   for (int c = 0; c < d; ++c) deform(&rows[c * d]);
+  for (double &x : rows)
+    if (std::fabs(x) < least_cell_entry * p.cell.side()) x = 0.0;
   p.cell = Cell::from_triangle(d, rows.data());
 }
 

@@ -7,6 +7,10 @@
 
 namespace jam {
 
+// Entries of a cell over V^(1/d) that strains leave below it are 0: they are rounding of zeros, move nothing, and their
+// squares would leave the range of doubles in proofs.
+constexpr double least_cell_entry = 1e-60;
+
 // Deforms positions, cell and offsets by 1 + E, E upper-triangular (dim, dim), divided by det^(1/d): the volume stays.
 // det <= 1 for a traceless E, so this opens gaps.
 void strain_at_fixed_volume(Packing &p, PairList &pairs, const std::vector<double> &strain);

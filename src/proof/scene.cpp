@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/motion.hpp"
 #include "proof/implied.hpp"
 
 namespace jam {
@@ -83,7 +84,7 @@ bool lattice_image(const Cell &cell, const double *offset, int32_t *n) {
 namespace {
 
 // Where Newton starts is free: numbers whose squares would leave the range of doubles become 0.
-double without_tiny(double x) { return std::fabs(x) < 1e-60 ? 0.0 : x; }
+double without_tiny(double x) { return std::fabs(x) < least_cell_entry ? 0.0 : x; }
 
 void take_contacts(const Packing &p, const ContactNetwork &network, ProofScene &s) {
   const size_t d = static_cast<size_t>(p.dim);
@@ -111,7 +112,8 @@ ProofScene scene_of_contacts(const Packing &p, const ContactNetwork &network, co
   std::vector<double> rows = p.cell.rows();
   for (double &x : rows) {
     x /= s.unit;
-    if (x != 0.0 && std::fabs(x) < 1e-60) fail(JAM_E_ARGUMENT, "the cell has an entry of %g of its size", x);
+    if (x != 0.0 && std::fabs(x) < 0.5 * least_cell_entry)
+      fail(JAM_E_ARGUMENT, "the cell has an entry of %g of its size", x);
   }
   s.cell = Cell::from_triangle(p.dim, rows.data());
   s.cell_low.assign(rows.size(), 0.0);

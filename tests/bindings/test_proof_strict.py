@@ -88,6 +88,14 @@ class Strict(unittest.TestCase):
             self.assertIn("\nstrict\n", text)
             self.assertNotIsInstance(verdict(text), dict)
 
+    def test_strains_leave_no_entry_that_proofs_cannot_take(self):
+        system = jam.System.random(n=4, dim=3, seed=2, packing_fraction=0.15)
+        system.compress(pressure=1e6)
+        self.assertTrue(system.crunch(strain="free").jammed)
+        cell = np.abs(system.cell)
+        self.assertTrue(((cell == 0) | (cell > 1e-61)).all())
+        self.assertNotEqual(system.prove().theorem, jam.Theorem.NONE)
+
     def test_a_crystal_is(self):
         system = jam.System.from_arrays(fcc(), 0.5 * 0.5**0.5 * (1 - 1e-16))
         system.contacts_from_geometry()

@@ -5,10 +5,12 @@
 
 enum { CHECK_YES = 0, CHECK_NO = 1, CHECK_REFUSED = 2, CHECK_UNDECIDED = 3 };
 
-/* The proof speaks of the contacts of the file's packing. */
-static jam_status write_proof_file(jam_system *sys, const char *path) {
-  const jam_status status = jam_contacts_from_geometry(sys, NULL, NULL);
-  return status < 0 ? status : jam_write_proof(sys, path, NULL, 0);
+/* Proofs speak of the contacts of the file's packing. */
+static jam_status write_proofs(jam_system *sys, const options *o) {
+  jam_status status = jam_contacts_from_geometry(sys, NULL, NULL);
+  if (status >= 0 && o->proof) status = jam_write_proof(sys, o->proof, NULL, 0);
+  if (status >= 0 && o->strict_proof) status = jam_write_proof_strict(sys, o->strict_proof);
+  return status;
 }
 
 static void put_verdict(FILE *f, const char *key, int32_t verdict) {
@@ -52,7 +54,7 @@ static int write_json(const options *o, int code, const jam_check_report *r, con
   put_number(f, "diameter_factor", r->diameter_factor);
   put_verdict(f, "crunch_jammed", r->crunch_jammed);
   put_number(f, "crunch_packing_fraction", r->crunch_packing_fraction);
-  put_number(f, "proof_radius", o->prove || o->proof ? r->proof_radius : NAN);
+  put_number(f, "proof_radius", o->prove || o->proof || o->strict_proof ? r->proof_radius : NAN);
   put_notes(f, notes, "");
   fprintf(f, "  \"version\": \"%s\"\n}\n", jam_version());
   return close_output(&out);
@@ -61,9 +63,10 @@ static int write_json(const options *o, int code, const jam_check_report *r, con
 /* The proof, then the text or the JSON; returns the exit code. */
 static int say(jam_system *sys, const options *o, jam_status status, const jam_check_report *report) {
   int code = status == JAM_OK ? CHECK_YES : status == JAM_NOT_JAMMED ? CHECK_NO : CHECK_UNDECIDED;
-  if (o->proof && status != JAM_OK)
-    complain("%s is not written: the packing is not jammed", o->proof);
-  else if (o->proof && has_failed(write_proof_file(sys, o->proof)))
+  const char *const proof = o->proof ? o->proof : o->strict_proof;
+  if (proof && status != JAM_OK)
+    complain("%s is not written: the packing is not jammed", proof);
+  else if (proof && has_failed(write_proofs(sys, o)))
     code = failure_code();
   if (o->json) return write_json(o, code, report, jam_notes(sys)) ? EXIT_OUTPUT : code;
   if (!o->quiet) puts(jam_check_text(report));
@@ -82,7 +85,7 @@ int check_file(const options *o) {
   cancel_on_signal(sys);
   status = jam_check_options_init(&check, sizeof check);
   check.wall_time = o->wall_time;
-  check.prove = o->prove || o->proof;
+  check.prove = o->prove || o->proof || o->strict_proof;
   if (status >= 0) status = jam_check_packing(sys, &check, &report);
   if (status == JAM_CANCELLED) {
     complain("interrupted before the verdict");

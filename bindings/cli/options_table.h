@@ -45,6 +45,7 @@ typedef struct options {
   const char *structure;
   int prove;
   const char *proof;
+  const char *strict_proof;
   const char *report;
   const char *log;
   const char *vtk;
@@ -67,7 +68,7 @@ typedef struct options {
   double near_gap;
   double wall_time;
   given given; /* what has a form of its own */
-  unsigned char named[65]; /* of each row of the table, whether it is on the command line */
+  unsigned char named[66]; /* of each row of the table, whether it is on the command line */
 } options;
 
 /* First words of a command line. */
@@ -195,6 +196,8 @@ static const option_row table[] = {
     {"--prove", TAKE_SWITCH, offsetof(options, prove), 0, 0, 0, 0,
      NULL, 0, "--no-crunch", "", 13},
     {"--proof", TAKE_OUTPUT, offsetof(options, proof), 0, 0, 0, 0,
+     NULL, AFTER_CRUNCH | TAKES_GZIP, "", "", 13},
+    {"--strict-proof", TAKE_OUTPUT, offsetof(options, strict_proof), 0, 0, 0, 0,
      NULL, AFTER_CRUNCH | TAKES_GZIP, "", "", 13},
     {"--report", TAKE_OUTPUT, offsetof(options, report), 0, 0, 0, 0,
      NULL, TAKES_STDOUT, "", "", 7},
@@ -423,6 +426,8 @@ static const help_line help[] = {
     {269, "  --prove                a theorem about the jammed packing, valid despite rounding; the"},
     {269, "                         summary and the report say what was proved"},
     {269, "  --proof FILE           the exact numbers of the proof, for the checker jamproof.py"},
+    {269, "  --strict-proof FILE    the same of strict jamming, where the cell deforms too: of packings"},
+    {269, "                         that --strain free makes"},
     {263, "  --report FILE|-        numbers, protocol and certificate as JSON; - is standard output"},
     {263, "  --log FILE|-           messages of the library on each stage and LP, one line each with"},
     {263, "                         its time"},

@@ -199,8 +199,11 @@ static int settle_walls(const options *o) {
   const char *const name = o->container ? "--container" : "--walls";
   if (!o->walls && !o->container) return 0;
   if (o->output) ending_of(o->output, ending);
-  if (o->prove || o->proof)
-    complain("%s contradicts %s: theorems are for scenes without walls", name, o->prove ? "--prove" : "--proof");
+  if (o->prove || o->proof || o->strict_proof)
+    complain("%s contradicts %s: theorems are for scenes without walls", name,
+             o->prove   ? "--prove"
+             : o->proof ? "--proof"
+                        : "--strict-proof");
   else if (o->strain != JAM_STRAIN_NONE)
     complain("%s contradicts --strain: walls do not strain", name);
   else if (o->output && !is_host_format(o, o->output) && !holds_walls(ending))

@@ -14,7 +14,7 @@ static int32_t stop_late(const jam_progress *progress, void *user) {
 static int knows_contacts(const options *o, const outcome *result) {
   if (!result->has_crunch) return 0;
   if (result->crunch.rattlers >= 0) return 1;
-  if (o->contacts || o->proof || o->gaps || o->structure || o->spectrum)
+  if (o->contacts || o->proof || o->strict_proof || o->gaps || o->structure || o->spectrum)
     complain("the crunch stopped before its contacts were known: files of the contact network are not written");
   return 0;
 }
@@ -58,6 +58,7 @@ int write_files(jam_system *sys, const options *o, int known, double deadline, i
   if (o->output && !is_host_format(o, o->output)) bad |= has_failed(jam_write(sys, o->output, JAM_FORMAT_AUTO));
   if (o->contacts && known) bad |= write_contacts(sys, o->contacts);
   if (o->proof && known) bad |= has_failed(jam_write_proof(sys, o->proof, NULL, 0));
+  if (o->strict_proof && known) bad |= has_failed(jam_write_proof_strict(sys, o->strict_proof));
   if (o->page) bad |= has_failed(jam_write_page(sys, o->page, "", 0, "", NULL, 0));
   cancel_on_signal(sys); /* a large spectrum takes long */
   jam_set_progress(sys, stop_late, &deadline);

@@ -1,7 +1,9 @@
 """Strict proofs: the cell deforms too. By numpy, by fractions, and by the checker, which knows neither.
 """
+import os
 import pathlib
 import random
+import subprocess
 import tempfile
 import unittest
 from fractions import Fraction
@@ -95,6 +97,17 @@ class Strict(unittest.TestCase):
         cell = np.abs(system.cell)
         self.assertTrue(((cell == 0) | (cell > 1e-61)).all())
         self.assertNotEqual(system.prove().theorem, jam.Theorem.NONE)
+
+    @unittest.skipUnless(os.environ.get("JAM_PACK"), "jam-pack is not built")
+    def test_the_program_writes_strict_files(self):
+        with tempfile.TemporaryDirectory() as folder:
+            made, read, packing = (str(pathlib.Path(folder, name)) for name in ("a.jamproof", "b.jamproof", "a.xyz"))
+            scene = ["--n", "32", "--dim", "2", "--diameters-ratio", "1.4", "--seed", "3", "--strain", "free", "--quiet"]
+            for words in (scene + ["--output", packing, "--strict-proof", made], ["check", packing, "--strict-proof", read]):
+                subprocess.run([os.environ["JAM_PACK"], *words], check=True, capture_output=True)
+            for path in (made, read):
+                found = verdict(pathlib.Path(path).read_text(encoding="ascii"))
+                self.assertLess(found["radius"], 1e-30)
 
     def test_a_crystal_is(self):
         system = jam.System.from_arrays(fcc(), 0.5 * 0.5**0.5 * (1 - 1e-16))

@@ -280,7 +280,7 @@ TABLE = {
             "spectrum",
             "output",
             "FILE.csv",
-            "lowest modes of the harmonic Hessian: omega^2, omega, participation",
+            "lowest modes of the harmonic Hessian: omega^2, omega, inverse participation ratio",
             after_crunch=True,
         ),
         Option(

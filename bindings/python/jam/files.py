@@ -84,7 +84,7 @@ def _write_table(path: str | os.PathLike[str], made: tuple[int, str]) -> None:
 
 
 def write_spectrum_csv(modes: Modes, path: str | os.PathLike[str]) -> None:
-    """One line per mode that converged: number, lambda = omega^2, omega, participation."""
+    """One line per mode that converged: number, lambda = omega^2, omega, inverse participation ratio."""
     _write_table(path, raw.table_of_modes(np.column_stack([modes.values, modes.participation]).reshape(-1)))
 
 

@@ -150,6 +150,8 @@ def fit_power(
     """
     if len(samples) < 2:
         raise ValueError("errors over packings need at least 2 of them")
+    if any(np.ndim(sample) == 0 for sample in samples):
+        raise ValueError("samples has one number for a packing: give an array for each packing, as [a.forces, b.forces]")
     counts, sums = np.empty(len(samples)), np.empty(len(samples))
     for k, sample in enumerate(samples):
         inside = np.asarray(sample)[(sample <= high) & (sample >= (low or 0.0)) & (np.asarray(sample) > 0.0)]

@@ -107,7 +107,7 @@ class Runs:
     def halves(self) -> tuple[Array, Array]:
         """Weights of two halves of the blocks, even and odd."""
         if self.blocks < 2:
-            raise ValueError("one block has no halves: choose smaller blocks")
+            raise ValueError("one block of runs has no halves: make more runs, or give a smaller block= to isoconfigurational()")
         odd = np.arange(self.blocks) % 2
         return 1.0 - odd, odd.astype(float)
 

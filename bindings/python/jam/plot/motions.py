@@ -66,7 +66,7 @@ def displacements(
 
 
 def mode(system: System, modes: Modes, k: int = 0, ax: Any = None, **style: Any) -> Any:
-    """Mode k of system.modes(): an arrow for each stable sphere, with frequency and participation as title.
+    """Mode k of system.modes(): an arrow for each stable sphere, with frequency and inverse participation ratio as title.
 
     Examples
     --------
@@ -76,6 +76,6 @@ def mode(system: System, modes: Modes, k: int = 0, ax: Any = None, **style: Any)
     >>> ax = jam.plot.mode(disks, disks.modes(4), 0)
     """
     ax = displacements(system, modes.vectors[k], ax, spheres=modes.spheres, **style)
-    title = f"mode {k}: omega {modes.frequencies[k]:.4g}, participation {modes.participation[k]:.3g}"
+    title = f"mode {k}: omega {modes.frequencies[k]:.4g}, inverse participation ratio {modes.participation[k]:.3g}"
     ax.set_title(title, fontsize=10)
     return ax

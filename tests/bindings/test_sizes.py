@@ -170,6 +170,8 @@ class Densities(unittest.TestCase):
                 self.assertAlmostEqual(jam.size_report(s, d).jammed_fraction, found, delta=bound)
 
     def test_bad_input_is_named(self):
+        with self.assertRaisesRegex(jam.errors.ArgumentError, "'bidisperse' is no law"):
+            jam.sizes("bidisperse", 10, ratio=1.4)
         for error, text, call in (
             (TypeError, "give n", lambda: jam.sizes("equal")),
             (TypeError, "give n or a density", lambda: jam.sizes("equal", 5, porosity=0.5, box=9.0)),

@@ -43,13 +43,13 @@ _NAMES = {
 
 
 def _in_python(text: str) -> str:
-    """The library's text with its C functions under their Python names: `jam_crunch` is `crunch()`."""
+    """The library's text with its C functions under their Python names: `jam_crunch` is `crunch()`, `jam_x(sys, 2)` is `x(2)`."""
 
     def name(found: re.Match[str]) -> str:
         word = found.group(1)
-        return _NAMES.get(word) or (f"{word}()" if word in METHODS else found.group(0))
+        return _NAMES.get(word) or (f"{word}({found.group(2) or ''})" if word in METHODS else found.group(0))
 
-    return re.sub(r"\bjam_([a-z_]+)\b", name, text)
+    return re.sub(r"\bjam_([a-z_]+)\b(?:\(sys, ([^()]*)\))?", name, text)
 
 
 def last_text() -> str:

@@ -118,6 +118,7 @@ def sizes(
         raise TypeError("give n or a density: from the density in the cell n follows")
     text, rows = _curve(curve, law)
     plain = dict(options, n=n, dim=dim, cell_volume=volume, packing_fraction=fraction)
+    raw.jam_parse_diameters(text, option_struct("jam_diameters_options", {}), None)  # names laws before their options
     made = option_struct("jam_diameters_options", plain)
     given = {name: getattr(made, name) for name, value in options.items() if value is not None}
     _, count = raw.jam_parse_diameters(text, made, None)  # other fields stay as they are

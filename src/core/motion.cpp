@@ -6,6 +6,13 @@
 
 namespace jam {
 
+Cell strained_cell(int dim, std::vector<double> rows) {
+  const double least = least_cell_entry * Cell::from_triangle(dim, rows.data()).side();
+  for (double &x : rows)
+    if (std::fabs(x) < least) x = 0.0;
+  return Cell::from_triangle(dim, rows.data());
+}
+
 void strain_at_fixed_volume(Packing &p, PairList &pairs, const std::vector<double> &strain) {
   const int d = p.dim;
   double volume = 1.0;
@@ -22,9 +29,7 @@ void strain_at_fixed_volume(Packing &p, PairList &pairs, const std::vector<doubl
   for (size_t k = 0; k < pairs.offset.size(); k += d) deform(&pairs.offset[k]);
   std::vector<double> rows = p.cell.rows();
   for (int c = 0; c < d; ++c) deform(&rows[c * d]);
-  for (double &x : rows)
-    if (std::fabs(x) < least_cell_entry * p.cell.side()) x = 0.0;
-  p.cell = Cell::from_triangle(d, rows.data());
+  p.cell = strained_cell(d, rows);
 }
 
 void move_packing(Packing &p, PairList &pairs, const double *s, double length, double growth,

@@ -7,9 +7,10 @@
 
 namespace jam {
 
-// Entries of a cell over V^(1/d) that strains leave below it are 0: they are rounding of zeros, move nothing, and their
-// squares would leave the range of doubles in proofs.
+// The cell that a strain leaves, of lower-triangular rows. Entries below this, over V^(1/d), are rounding of zeros and
+// become 0: they move nothing, and their squares would leave the range of doubles in proofs.
 constexpr double least_cell_entry = 1e-60;
+Cell strained_cell(int dim, std::vector<double> rows);
 
 // Deforms positions, cell and offsets by 1 + E, E upper-triangular (dim, dim), divided by det^(1/d): the volume stays.
 // det <= 1 for a traceless E, so this opens gaps.

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/math.hpp"
+#include "core/motion.hpp"
 #include "soft/soft_state.hpp"
 
 namespace jam {
@@ -76,7 +77,7 @@ std::vector<double> SoftState::fold_strain() {
       const double m = std::nearbyint(rows[c * d + k] / rows[k * d + k]);
       for (int a = 0; a <= k; ++a) rows[c * d + a] -= m * rows[k * d + a];
     }
-  base_.cell = Cell::from_triangle(d, rows.data());
+  base_.cell = strained_cell(d, rows);
   std::fill(displacement_.begin() + spheres(), displacement_.end(), 0.0);
   return s.e;
 }
@@ -103,7 +104,7 @@ void SoftState::deform_base(Packing &p) const {
   std::vector<double> rows = p.cell.rows();
   for (int c = 0; c < d; ++c) deform(&rows[c * d]);
   for (size_t k = 0; k < p.position.size(); k += d) deform(&p.position[k]);
-  p.cell = Cell::from_triangle(d, rows.data());
+  p.cell = strained_cell(d, rows);
 }
 
 }  // namespace jam

@@ -8,6 +8,7 @@
 #include "core/create.hpp"
 #include "core/error.hpp"
 #include "core/limits.hpp"
+#include "core/motion.hpp"
 #include "core/pairs.hpp"
 #include "core/rng.hpp"
 // test.h comes last: it has a macro `fail`.
@@ -244,6 +245,15 @@ void flat_cells(void **) {
     }
 }
 
+// Proofs square the entries of a cell: what strains leave of a zero becomes zero, all else stays to the last bit.
+void strains_leave_no_tiny_entry(void **) {
+  const std::vector<double> rows{3.0, 0.0, 0.0, -4.8e-74, 2.0, 0.0, 1e-41, -0.5, 4.0};
+  const Cell cell = strained_cell(3, rows);
+  for (int c = 0; c < 3; ++c)
+    for (int k = 0; k < 3; ++k) assert_true(cell.row(c)[k] == (c == 1 && k == 0 ? 0.0 : rows[c * 3 + k]));
+  assert_true(strained_cell(2, {1.0, 0.0, 1e-61, 1.0}).cube());
+}
+
 }  // namespace
 
 int main() {
@@ -255,6 +265,7 @@ int main() {
       cmocka_unit_test(random_start_in_a_tilted_cell),
       cmocka_unit_test(reduction_of_long_vectors),
       cmocka_unit_test(flat_cells),
+      cmocka_unit_test(strains_leave_no_tiny_entry),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/cell_reduction.hpp"
+#include "core/motion.hpp"
 #include "core/pair_rule.hpp"
 #include "crunch/approach/lp_step.hpp"
 #include "crunch/control.hpp"
@@ -52,7 +53,7 @@ bool deform_into(Packing &q, const Packing &p, const std::vector<double> &v, con
   rows = q.cell.rows();
   for (double &x : rows) x *= back;
   for (double &x : q.position) x *= back;
-  q.cell = Cell::from_triangle(d, rows.data());
+  q.cell = strained_cell(d, rows);
   wrap_positions(q);
   return true;
 }

@@ -87,8 +87,10 @@ std::unique_ptr<EventDrivenRun> take_stage(jam_system *sys, bool resume, const G
 // Of a stage's time and that of the one which follows: growth takes (N / G) ln p collisions. None follows where the
 // packing fraction that is wanted comes before the stage's pressure: p = d / (1 - phi / phi_J) near jamming.
 double part_of_protocol(const GrowthStage &stage, const Packing &p) {
-  const double before_pressure = jammed_reach(p.dim, p.diameter).fraction * (1.0 - p.dim / stage.pressure);
-  if (stage.then == 0.0 || stage.packing_fraction < before_pressure) return 1.0;
+  if (stage.then == 0.0) return 1.0;
+  if (stage.packing_fraction < no_limit &&
+      stage.packing_fraction < jammed_reach(p.dim, p.diameter).fraction * (1.0 - p.dim / stage.pressure))
+    return 1.0;
   const GrowthStage next = next_stage(stage);
   const double own = math::log(stage.pressure) / stage.growth;
   return own / (own + math::log(next.pressure / stage.pressure) / next.growth);

@@ -51,9 +51,7 @@ void add_proof(const Report &r, std::string &out) {
   else
     add(out,
         "the curvature of the round wall stabilises the %lld motion%s that would keep the contacts closed (by %.1e of "
-        "the "
-        "mean "
-        "force times curvature).",
+        "the mean force times curvature).",
         wide(r.flexes), plural(r.flexes), r.curvature_margin);
   if (r.strictly_jammed == JAM_VERDICT_NO && r.strict_flexes == 0)
     add(out, "In a cell that changes its shape no forces balance with an isotropic stress.");
@@ -109,8 +107,7 @@ void add_undecided(const Report &r, std::string &out) {
   else if (r.reason == JAM_CHECK_MARGIN && r.flexes > 0)
     add(out,
         "%lld motion%s keep the contacts closed; whether other pairs or the curvature of a round wall stop them is "
-        "left "
-        "open.",
+        "left open.",
         wide(r.flexes), plural(r.flexes));
   else if (r.reason == JAM_CHECK_MARGIN)
     add(out,

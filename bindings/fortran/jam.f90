@@ -3100,8 +3100,8 @@ module jam
     module procedure l_jam_bloch_rigidity
   end interface jam_bloch_rigidity
 
-  ! Centres of the jammed packing as sums of two doubles, high + low, unit of the box: about 31 digits. Rattlers stay
-  ! where they are. ratio: as for jam_prove. Status: JAM_AMBIGUOUS (dependent contacts, nothing is written).
+  ! Centres of the jammed packing as sums of two doubles, high + low, unit of the box: about 31 digits. Rattlers move
+  ! out of overlaps alone. ratio: as for jam_prove. Status: JAM_AMBIGUOUS (dependent contacts, nothing is written).
   ! Shapes: ratio (n), high (n, d), low (n, d).
   ! Errors: JAM_E_STATE, JAM_E_UNSUPPORTED.
   interface jam_refined_positions

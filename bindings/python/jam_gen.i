@@ -775,8 +775,8 @@ Shapes: ratio (n).
 Errors: JAM_E_STATE, JAM_E_UNSUPPORTED, JAM_E_IO."
 %feature("docstring") jam_write_proof_strict "The same of jam_prove_strict: refined centres and cell.
 Errors: JAM_E_STATE, JAM_E_UNSUPPORTED, JAM_E_IO."
-%feature("docstring") jam_refined_positions "Centres of the jammed packing as sums of two doubles, high + low, unit of the box: about 31 digits. Rattlers stay
-where they are. ratio: as for jam_prove. Status: JAM_AMBIGUOUS (dependent contacts, nothing is written).
+%feature("docstring") jam_refined_positions "Centres of the jammed packing as sums of two doubles, high + low, unit of the box: about 31 digits. Rattlers move
+out of overlaps alone. ratio: as for jam_prove. Status: JAM_AMBIGUOUS (dependent contacts, nothing is written).
 Shapes: ratio (n), high (n, d), low (n, d).
 Errors: JAM_E_STATE, JAM_E_UNSUPPORTED."
 %feature("docstring") jam_gaps "Gaps h of pairs (every image) and walls below h_max, without contacts, ascending; *rows = gaps. Without stable_only

@@ -1454,9 +1454,9 @@ JAM_API const char *jam_proof_text(int32_t theorem, int32_t cause, double radius
 JAM_API jam_status jam_write_proof(const jam_system *sys, const char *path, const double *ratio, size_t ratio_len);
 /* The same of jam_prove_strict: refined centres and cell. @errors STATE, UNSUPPORTED, IO */
 JAM_API jam_status jam_write_proof_strict(const jam_system *sys, const char *path);
-/* Centres of the jammed packing as sums of two doubles, high + low, unit of the box: about 31 digits. Rattlers stay
- * where they are. ratio: as for jam_prove. Status: JAM_AMBIGUOUS (dependent contacts, nothing is written). @shape ratio
- * (n), high (n, d), low (n, d) @errors STATE, UNSUPPORTED */
+/* Centres of the jammed packing as sums of two doubles, high + low, unit of the box: about 31 digits. Rattlers move
+ * out of overlaps alone. ratio: as for jam_prove. Status: JAM_AMBIGUOUS (dependent contacts, nothing is written).
+ * @shape ratio (n), high (n, d), low (n, d) @errors STATE, UNSUPPORTED */
 JAM_API jam_status jam_refined_positions(const jam_system *sys, const double *ratio, size_t ratio_len, double *high,
                                          size_t high_len, double *low, size_t low_len, size_t *needed);
 

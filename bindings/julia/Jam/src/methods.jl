@@ -516,8 +516,8 @@ end
 """
     refined_positions(s, ratio = nothing) -> (high, low)
 
-Centres of the jammed packing as sums of two doubles, high + low, unit of the box: about 31 digits. Rattlers stay
-where they are. ratio: as for `prove`. Status: `:ambiguous` (dependent contacts, nothing is written).
+Centres of the jammed packing as sums of two doubles, high + low, unit of the box: about 31 digits. Rattlers move out
+of overlaps alone. ratio: as for `prove`. Status: `:ambiguous` (dependent contacts, nothing is written).
 
 - `ratio`: array `(n)`
 - `high`: array `(d, n)`

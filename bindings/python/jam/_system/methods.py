@@ -871,8 +871,8 @@ class Methods:
     def refined_positions(self, ratio: Any = None) -> RefinedPositionsResult:
         """Centres of the jammed packing as sums of two doubles, high + low, unit of the box: about 31 digits.
 
-        Rattlers stay where they are. ratio: as for prove(). Status: 'ambiguous' (dependent contacts, nothing is
-        written).
+        Rattlers move out of overlaps alone. ratio: as for prove(). Status: 'ambiguous' (dependent contacts, nothing
+        is written).
 
         Parameters
         ----------

@@ -200,8 +200,8 @@ void refuse_walls(const Packing &p, const char *done) {
 
 void refuse_closed(const Packing &p, int needed, const char *call) {
   if (p.container && p.container.open_axes() < needed)
-    fail(JAM_E_UNSUPPORTED, "%s: the scene has %d axes without walls, at least %d must repeat", call,
-         p.container.open_axes(), needed);
+    fail(JAM_E_UNSUPPORTED, "%s needs at least %d axes without walls, this scene has %d", call, needed,
+         p.container.open_axes());
 }
 
 }  // namespace jam

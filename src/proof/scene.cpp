@@ -112,7 +112,9 @@ ProofScene scene_of_contacts(const Packing &p, const ContactNetwork &network, co
   std::vector<double> rows = p.cell.rows();
   for (double &x : rows) {
     x /= s.unit;
-    if (x != 0.0 && std::fabs(x) < least_cell_entry) fail(JAM_E_ARGUMENT, "the cell has an entry of %g of its size", x);
+    if (x != 0.0 && std::fabs(x) < least_cell_entry)
+      fail(JAM_E_ARGUMENT, "the cell has an entry of %g of its size: for a proof it must be 0, or at least %g", x,
+           least_cell_entry);
   }
   s.cell = Cell::from_triangle(p.dim, rows.data());
   s.cell_low.assign(rows.size(), 0.0);

@@ -116,7 +116,7 @@ class StructureFactor(unittest.TestCase):
 
     def test_without_such_an_axis_there_is_none(self):
         for name in ("box", "ball", "circle"):
-            with self.assertRaisesRegex(jam.errors.UnsupportedError, "0 axes without walls"):
+            with self.assertRaisesRegex(jam.errors.UnsupportedError, "this scene has 0"):
                 start(name, 10, 1, packing_fraction=0.1).structure_factor(20)
 
 

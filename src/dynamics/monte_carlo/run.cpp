@@ -65,7 +65,7 @@ void MonteCarloRun::check_resumed(const jam_monte_carlo_options &o) const {
   const jam_monte_carlo_options usual = default_monte_carlo_options();
   const auto look = [&](const char *name, auto member) {
     if (o.*member != usual.*member && o.*member != options_.*member)
-      fail(JAM_E_ARGUMENT, "resume is 1 and %s is %g; the run that continues has %g", name,
+      fail(JAM_E_ARGUMENT, "resume: %s is %g, but the run that was stopped has %g", name,
            static_cast<double>(o.*member), static_cast<double>(options_.*member));
   };
   using Options = jam_monte_carlo_options;

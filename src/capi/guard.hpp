@@ -10,7 +10,7 @@
 #include "core/call_scope.hpp"
 #include "core/create.hpp"
 #include "core/error.hpp"
-#include "core/floating_point.hpp"
+#include "core/host_environment.hpp"
 #include "core/validate.hpp"
 
 namespace jam {
@@ -28,11 +28,11 @@ template <class F>
   return f();
 }
 
-// Runs f() in libjam's floating-point environment and maps what it throws to a status and text. f returns jam_status
+// Runs f() in libjam's environment and maps what it throws to a status and text. f returns jam_status
 // or Answer.
 template <class F>
 jam_status guard(F &&f) noexcept {
-  const FloatingPoint own;
+  const OwnEnvironment own;
   try {
     const Answer answer = compute(f);
     if (answer.status != JAM_OK) set_last_error(why(answer));

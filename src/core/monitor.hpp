@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <limits>
 
-#include "core/floating_point.hpp"
+#include "core/host_environment.hpp"
 #include "core/progress.hpp"
 #include "core/tuning.hpp"
 #include "jam/jam.h"
@@ -74,7 +74,7 @@ class Monitor {
     last_report_ = p;
     p.fraction = first_ + (last_part_ - first_) * p.fraction;
     time_left_.complete(p);
-    const FloatingPoint::OfHost its_own;
+    const OwnEnvironment::OfHost its_own;
     if (progress(&p, progress_user) != 0) cancel();
     return cancelled();
   }
@@ -106,7 +106,7 @@ class Monitor {
     va_start(args, format);
     std::vsnprintf(line, sizeof line, format, args);
     va_end(args);
-    const FloatingPoint::OfHost its_own;
+    const OwnEnvironment::OfHost its_own;
     log_fn(level, line, log_user);
   }
 

@@ -6,7 +6,7 @@
 #include <thread>
 
 #include "core/call_scope.hpp"
-#include "core/floating_point.hpp"
+#include "core/host_environment.hpp"
 
 namespace jam {
 
@@ -23,8 +23,8 @@ void on_two_threads(const Work &work) {
     }
   } join{other};
   try {
-    other = std::thread([&work, host = FloatingPoint::host()] {
-      const FloatingPoint of_call(host);
+    other = std::thread([&work, host = OwnEnvironment::host()] {
+      const OwnEnvironment of_call(host);
       work(1);
     });
   } catch (const std::system_error &) {
@@ -41,8 +41,8 @@ void while_telling(const Work &work) {
   if (!CallScope::can_tell()) return work();
   std::future<void> done;
   try {
-    done = std::async(std::launch::async, [&work, host = FloatingPoint::host()] {
-      const FloatingPoint of_call(host);
+    done = std::async(std::launch::async, [&work, host = OwnEnvironment::host()] {
+      const OwnEnvironment of_call(host);
       work();
     });
   } catch (const std::system_error &) {

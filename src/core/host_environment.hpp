@@ -1,19 +1,20 @@
-// The floating-point environment of the thread (rounding, traps, raised flags, treatment of denormal numbers) belongs
-// to the host. libjam computes in the one that C programs start with, which new threads inherit, and leaves the host's
-// as it was, flags included. The host's callbacks run in the host's.
+// The floating-point environment of the thread (rounding, traps, raised flags, treatment of denormal numbers) and its
+// decimal point belong to the host. libjam computes in the environment that C programs start with, which new threads
+// inherit, and leaves the host's as it was, flags included. The host's callbacks run in the host's.
 #pragma once
 #include <cfenv>
 #include <cstdint>
 #if defined(__x86_64__)
 #include <xmmintrin.h>
 #endif
+#include "core/decimal_point.hpp"
 
 namespace jam {
 
 // What the host had. enter() notes it and sets the environment of C, leave() brings it back.
 #if defined(__x86_64__)
 // By hand: fegetenv and fesetenv take longer than a call that only looks something up.
-class HostEnvironment {
+class HostFloatingPoint {
  public:
   void enter() noexcept {
     sse_ = _mm_getcsr();
@@ -44,7 +45,7 @@ class HostEnvironment {
   uint16_t x87_control_, x87_status_;
 };
 #else
-class HostEnvironment {
+class HostFloatingPoint {
  public:
   void enter() noexcept {
     fegetenv(&all_);
@@ -57,23 +58,39 @@ class HostEnvironment {
 };
 #endif
 
-// One for each call from the host, on its stack.
-class FloatingPoint {
+class HostEnvironment {
  public:
-  FloatingPoint() noexcept : before_(current()), of_caller_(true) {
+  void enter() noexcept {
+    floating_point_.enter();
+    decimal_point_.enter();
+  }
+  void leave() const noexcept {
+    decimal_point_.leave();
+    floating_point_.leave();
+  }
+
+ private:
+  HostFloatingPoint floating_point_;
+  HostDecimalPoint decimal_point_;
+};
+
+// One for each call from the host, on its stack.
+class OwnEnvironment {
+ public:
+  OwnEnvironment() noexcept : before_(current()), of_caller_(true) {
     host_.enter();
     current() = this;
   }
   // On a thread that libjam started for the call.
-  explicit FloatingPoint(const HostEnvironment &host) noexcept : host_(host), before_(current()), of_caller_(false) {
+  explicit OwnEnvironment(const HostEnvironment &host) noexcept : host_(host), before_(current()), of_caller_(false) {
     current() = this;
   }
-  ~FloatingPoint() {
+  ~OwnEnvironment() {
     current() = before_;
     if (of_caller_) host_.leave();
   }
-  FloatingPoint(const FloatingPoint &) = delete;
-  FloatingPoint &operator=(const FloatingPoint &) = delete;
+  OwnEnvironment(const OwnEnvironment &) = delete;
+  OwnEnvironment &operator=(const OwnEnvironment &) = delete;
 
   // Of the call that runs on this thread; what the thread has outside of calls.
   static HostEnvironment host() noexcept {
@@ -97,16 +114,16 @@ class FloatingPoint {
     OfHost &operator=(const OfHost &) = delete;
 
    private:
-    FloatingPoint *const call_;
+    OwnEnvironment *const call_;
   };
 
  private:
-  static FloatingPoint *&current() noexcept {
-    static thread_local FloatingPoint *call = nullptr;
+  static OwnEnvironment *&current() noexcept {
+    static thread_local OwnEnvironment *call = nullptr;
     return call;
   }
   HostEnvironment host_;
-  FloatingPoint *const before_;
+  OwnEnvironment *const before_;
   const bool of_caller_;
 };
 

@@ -34,9 +34,19 @@ jam_isoconf_report report_of(const Isoconfigurational &runs) {
 
 size_t instants_of(const RunSums &sums) { return sums.series.size() / isoconf_columns; }
 
+// Runs have numbers, instants and limits of their own: an option that would be without effect is refused.
 void take_monte_carlo_options(const jam_monte_carlo_options *m, jam_monte_carlo_options &full) {
+  const jam_monte_carlo_options usual = full;
   take_options(m, full);
   check_monte_carlo_options(full);
+  const auto refuse = [&](bool given, const char *name, const char *instead) {
+    if (given) fail(JAM_E_ARGUMENT, "the Monte Carlo option %s has no effect on these runs: use %s", name, instead);
+  };
+  refuse(full.sweeps != usual.sweeps, "sweeps", "instant");
+  refuse(full.run != usual.run, "run", "first_run");
+  refuse(full.first_sweep != usual.first_sweep, "first_sweep", "first_run");
+  refuse(full.resume != usual.resume, "resume", "resume of the runs");
+  refuse(full.wall_time != usual.wall_time, "wall_time", "wall_time of the runs");
 }
 
 }  // namespace

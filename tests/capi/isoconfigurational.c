@@ -282,6 +282,32 @@ static void bad_input_is_named(void **state) {
   jam_destroy(sys);
 }
 
+/* Options that these runs do not use, and others than those that the runs began with. */
+static void no_option_is_ignored(void **state) {
+  jam_system *sys = packing();
+  jam_isoconf_options o = options();
+  jam_monte_carlo_options m;
+  (void)state;
+#define MONTE_CARLO(member, value, code)                                \
+  assert_int_equal(jam_monte_carlo_options_init(&m, sizeof m), JAM_OK); \
+  m.alpha = 2.0;                                                        \
+  m.member = value;                                                     \
+  assert_int_equal(jam_isoconfigurational(sys, &o, &m, instants, M, NULL, 0, NULL), code)
+#define UNUSED(member, value)                 \
+  MONTE_CARLO(member, value, JAM_E_ARGUMENT); \
+  assert_non_null(strstr(jam_last_error(), #member))
+  UNUSED(sweeps, 7);
+  UNUSED(run, 3);
+  UNUSED(first_sweep, 0);
+  UNUSED(resume, 1);
+  UNUSED(wall_time, 100.0);
+  MONTE_CARLO(acceptance, 0.6, JAM_OK);
+  o.resume = 1, o.runs += 2;
+  MONTE_CARLO(acceptance, 0.3, JAM_E_STATE);
+  MONTE_CARLO(acceptance, 0.6, JAM_OK);
+  jam_destroy(sys);
+}
+
 static void a_jammed_packing_needs_room(void **state) {
   jam_system *sys = packing();
   jam_compress_options c;
@@ -325,6 +351,7 @@ int main(void) {
       cmocka_unit_test(sums_are_those_of_whole_sets),
       cmocka_unit_test(time_and_temperature_are_those_asked_for),
       cmocka_unit_test(bad_input_is_named),
+      cmocka_unit_test(no_option_is_ignored),
       cmocka_unit_test(a_jammed_packing_needs_room),
       cmocka_unit_test(one_sphere_cannot_run),
   };

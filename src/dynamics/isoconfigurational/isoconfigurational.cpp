@@ -103,10 +103,11 @@ void Isoconfigurational::continue_with(const Packing &p, const jam_isoconf_optio
                                        const std::vector<int32_t> &kept) {
   const jam_isoconf_options &mine = plan_.options;
   const jam_monte_carlo_options &own = plan_.monte_carlo;
-  const bool same_dynamics = (mc != nullptr) == plan_.metropolis &&
-                             (!mc || (mc->alpha == own.alpha && mc->energy_scale == own.energy_scale &&
-                                      mc->energy_unit == own.energy_unit && mc->temperature == own.temperature &&
-                                      (mc->step == own.step || mc->step == 0.0) && mc->swap_share == own.swap_share));
+  const bool same_dynamics =
+      (mc != nullptr) == plan_.metropolis &&
+      (!mc || (mc->alpha == own.alpha && mc->energy_scale == own.energy_scale && mc->energy_unit == own.energy_unit &&
+               mc->temperature == own.temperature && (mc->step == own.step || mc->step == 0.0) &&
+               mc->acceptance == own.acceptance && mc->swap_share == own.swap_share));
   if (mark_of(p) != mark_) fail(JAM_E_STATE, "resume is 1 but the packing is not the one that the runs began from");
   if (instants != plan_.instants || kept != kept_instants_ || o.clock != mine.clock || o.first_run != mine.first_run ||
       o.block != mine.block || o.density_ratio != mine.density_ratio || o.temperature != mine.temperature ||

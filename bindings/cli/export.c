@@ -1,4 +1,5 @@
 /* jam-pack export and page: files of the packing of a file as it is. */
+#include <math.h>
 #include <stdio.h>
 #include "jam-pack.h"
 
@@ -10,7 +11,8 @@ typedef struct network {
 } network;
 
 /* Contacts by the gaps of the file, which needs no crunch. */
-static void find_network(jam_system *sys, network *found) {
+/* Spheres without forces are a fault where the network is asked for, not where a mesh would join touching ones. */
+static void find_network(jam_system *sys, network *found, int wanted) {
   jam_geometry_report report = {.struct_size = sizeof report};
   jam_status status;
   cancel_on_signal(sys);
@@ -18,7 +20,7 @@ static void find_network(jam_system *sys, network *found) {
   cancel_on_signal(NULL);
   found->known = status >= 0 && status != JAM_CANCELLED;
   found->contacts = found->known ? report.contacts : 0;
-  if (status == JAM_OK) return;
+  if (status == JAM_OK || (!wanted && found->known && found->contacts == 0)) return;
   in_own_words(jam_last_error(), found->doubt, sizeof found->doubt);
   complain("%s%s", found->known ? "warning: " : "no contact network: ", jam_last_error());
 }
@@ -67,13 +69,14 @@ static int print_path(const char *path, void *with) {
 
 int export_file(const options *o) {
   const int tables = o->contacts || o->spectrum || o->gaps || o->structure;
+  const int wanted = tables || o->vtk || o->page || (o->stl && isfinite(o->stl_bridge));
   network found = {0, 0, ""};
   jam_system *sys = NULL;
   int code = read_as_it_is(o, &sys), cut_short = 0;
   if (!code && !sys) code = EXIT_FAILED;
   if (!code && check_formats(o, sys)) code = EXIT_USAGE;
   if (code) return leave(sys, code);
-  if (tables || o->vtk || o->page || o->stl) find_network(sys, &found);
+  if (wanted || (o->stl && !isfinite(o->stl_shrink))) find_network(sys, &found, wanted);
   if (!found.known)
     note_omitted(o->contacts), note_omitted(o->spectrum), note_omitted(o->gaps), note_omitted(o->structure);
   if (write_files(sys, o, found.known, seconds_now() + o->wall_time, &cut_short)) return leave(sys, failure_code());
@@ -82,6 +85,8 @@ int export_file(const options *o) {
     if (write_json(o, sys, code, &found)) code = EXIT_OUTPUT;
   } else if (!o->quiet) {
     each_output(o, print_path, NULL);
+    if (o->stl && !wanted && found.known && found.contacts == 0)
+      printf("  network   none: the mesh joins no spheres\n");
     if (*found.doubt) printf("  network   %lld contacts: %s\n", (long long)found.contacts, found.doubt);
   }
   return leave(sys, fflush(stdout) ? EXIT_OUTPUT : code);

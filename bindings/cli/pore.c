@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include "jam-pack.h"
 
+/* The size of the file is said before the work. */
 static int write_mesh(const jam_system *sys, const options *o) {
   jam_mesh_options mesh;
   jam_mesh_report r = {.struct_size = sizeof r};
@@ -11,6 +12,8 @@ static int write_mesh(const jam_system *sys, const options *o) {
   mesh.edge = o->stl_edge;
   if (isfinite(o->stl_shrink)) mesh.contacts = JAM_MESH_SHRUNK, mesh.factor = o->stl_shrink;
   if (isfinite(o->stl_bridge)) mesh.contacts = JAM_MESH_BRIDGED, mesh.bridge = o->stl_bridge;
+  if (has_failed(jam_write_stl(sys, NULL, &mesh, &r))) return -1;
+  if (!o->quiet) complain("the mesh has about %.2g triangles, %.2g MB", (double)r.triangles, 1e-6 * (double)r.bytes);
   if (has_failed(jam_write_stl(sys, o->stl, &mesh, &r))) return -1;
   if (isfinite(o->stl_bridge) && r.bridges == 0)
     complain("warning: %s has no bridge, since the contact network is empty", o->stl);

@@ -504,7 +504,7 @@ module jam
     real(c_double) :: packing_fraction = 0
     ! unit of box
     real(c_double) :: diameter_mean = 0
-    ! reduced pressure p last measured by MD, NaN before
+    ! reduced p of this packing as MD measured it, NaN after other moves
     real(c_double) :: pressure = 0
     ! jam_model
     integer(c_int32_t) :: model = 0
@@ -3013,7 +3013,7 @@ module jam
   ! Isoconfigurational ensemble (Widmer-Cooper et al., Phys. Rev. Lett. 93, 135701 (2004)): runs from the packing as it
   ! is, with all diameters scaled to density_ratio; one whose gaps are rounding is refused. Run k draws its velocities
   ! from a stream of its own. m NULL: molecular dynamics; else Monte Carlo by these options (sweeps, run, first_sweep,
-  ! resume and wall_time are not used). instant: ascending, > 0. kept: indices of instants whose displacements are kept
+  ! resume and wall_time are refused). instant: ascending, > 0. kept: indices of instants whose displacements are kept
   ! of every run, or NULL. The packing does not change; the handle keeps the sums until the next call. Runs enter the
   ! sums in the order of their numbers. An early stop keeps the runs that were made; resume continues, also after
   ! jam_read_checkpoint. Status: JAM_NOT_CONVERGED (a run cannot move).
@@ -6153,8 +6153,8 @@ contains
   end function jam_local_fraction
 
   ! Binary STL of the solid, d = 3, closed: each edge belongs to two triangles, which pass it in opposite directions.
-  ! Cylinders that would meet each other or a third sphere are refused with their numbers. The file appears as of
-  ! jam_write.
+  ! Cylinders that would meet are refused with their numbers. The file appears as of jam_write; path NULL: none, and an
+  ! estimate of triangles and bytes without faces and cylinders.
   ! Errors: JAM_E_STATE (BRIDGED, no network), JAM_E_UNSUPPORTED, JAM_E_IO.
   function jam_write_stl(sys, path, o, report) result(status)
     type(c_ptr), intent(in) :: sys

@@ -508,7 +508,7 @@ contains
   ! Isoconfigurational ensemble (Widmer-Cooper et al., Phys. Rev. Lett. 93, 135701 (2004)): runs from the packing as it
   ! is, with all diameters scaled to density_ratio; one whose gaps are rounding is refused. Run k draws its velocities
   ! from a stream of its own. m NULL: molecular dynamics; else Monte Carlo by these options (sweeps, run, first_sweep,
-  ! resume and wall_time are not used). instant: ascending, > 0. kept: indices of instants whose displacements are kept
+  ! resume and wall_time are refused). instant: ascending, > 0. kept: indices of instants whose displacements are kept
   ! of every run, or NULL. The packing does not change; the handle keeps the sums until the next call. Runs enter the
   ! sums in the order of their numbers. An early stop keeps the runs that were made; resume continues, also after
   ! jam_read_checkpoint. Status: JAM_NOT_CONVERGED (a run cannot move).
@@ -1598,8 +1598,8 @@ contains
   end function do_local_fraction
 
   ! Binary STL of the solid, d = 3, closed: each edge belongs to two triangles, which pass it in opposite directions.
-  ! Cylinders that would meet each other or a third sphere are refused with their numbers. The file appears as of
-  ! jam_write.
+  ! Cylinders that would meet are refused with their numbers. The file appears as of jam_write; path NULL: none, and an
+  ! estimate of triangles and bytes without faces and cylinders.
   ! Errors: JAM_E_STATE (BRIDGED, no network), JAM_E_UNSUPPORTED, JAM_E_IO.
   function do_write_stl(self, path, o) result(found)
     class(packing), intent(inout) :: self

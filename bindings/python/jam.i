@@ -207,8 +207,8 @@ void set_error_factory(PyObject *callable) {
 // ---- names of files: str, bytes or path-like, as the file system encodes them; a NUL inside is refused
 %typemap(in) const char *path (PyObject *bytes) {
   bytes = NULL;
-  if (!PyUnicode_FSConverter($input, &bytes)) SWIG_fail;
-  $1 = PyBytes_AS_STRING(bytes);
+  if ($input != Py_None && !PyUnicode_FSConverter($input, &bytes)) SWIG_fail;
+  $1 = bytes ? PyBytes_AS_STRING(bytes) : NULL;  // NULL is refused, or means no file
 }
 %typemap(arginit) const char *path { bytes$argnum = NULL; }
 %typemap(freearg) const char *path { Py_XDECREF(bytes$argnum); }

@@ -596,7 +596,7 @@ Errors: JAM_E_STATE, JAM_E_UNSUPPORTED (Mari-Kurchan model), JAM_E_OVERLAP (of h
 %feature("docstring") jam_isoconfigurational "Isoconfigurational ensemble (Widmer-Cooper et al., Phys. Rev. Lett. 93, 135701 (2004)): runs from the packing as it
 is, with all diameters scaled to density_ratio; one whose gaps are rounding is refused. Run k draws its velocities
 from a stream of its own. m NULL: molecular dynamics; else Monte Carlo by these options (sweeps, run, first_sweep,
-resume and wall_time are not used). instant: ascending, > 0. kept: indices of instants whose displacements are kept
+resume and wall_time are refused). instant: ascending, > 0. kept: indices of instants whose displacements are kept
 of every run, or NULL. The packing does not change; the handle keeps the sums until the next call. Runs enter the
 sums in the order of their numbers. An early stop keeps the runs that were made; resume continues, also after
 jam_read_checkpoint. Status: JAM_NOT_CONVERGED (a run cannot move).
@@ -823,8 +823,8 @@ Shapes: out (n).
 Errors: JAM_E_UNSUPPORTED (d, no voro++, walls of a tilted cell)."
 %feature("docstring") jam_mesh_options_init ""
 %feature("docstring") jam_write_stl "Binary STL of the solid, d = 3, closed: each edge belongs to two triangles, which pass it in opposite directions.
-Cylinders that would meet each other or a third sphere are refused with their numbers. The file appears as of
-jam_write.
+Cylinders that would meet are refused with their numbers. The file appears as of jam_write; path NULL: none, and an
+estimate of triangles and bytes without faces and cylinders.
 Errors: JAM_E_STATE (BRIDGED, no network), JAM_E_UNSUPPORTED, JAM_E_IO."
 %feature("docstring") jam_voxel_options_init ""
 %feature("docstring") jam_voxels "Image of the solid: 0 or 1, or shares; -1 outside a round container. x is fastest. out NULL: the report gives size

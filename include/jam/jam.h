@@ -302,7 +302,7 @@ typedef struct jam_info {
   double box;              /* side of the cube, V^(1/d) of another cell */
   double packing_fraction; /* sum of sphere volumes over V */
   double diameter_mean;    /* unit of box */
-  double pressure;         /* reduced pressure p last measured by MD, NaN before */
+  double pressure;         /* reduced p of this packing as MD measured it, NaN after other moves */
   int32_t model;           /* @enum jam_model */
   int32_t monodisperse;    /* @bool all diameters are equal */
   int32_t masses;          /* @enum jam_masses */
@@ -333,7 +333,7 @@ typedef enum jam_wall_column {
   JAM_WALL_AXIS = 0,     /* of a flat wall; d: the round wall */
   JAM_WALL_SIDE = 1,     /* 0: at 0; 1: at the edge of the cell, or round */
   JAM_WALL_AREA = 2,     /* unit^(d-1) */
-  JAM_WALL_PRESSURE = 3, /* beta P V / N of the last run of MD; NaN before */
+  JAM_WALL_PRESSURE = 3, /* beta P V / N as MD measured it; NaN after other moves */
   JAM_WALL_GAP = 4,      /* least h of a sphere */
   JAM_WALL_STRESS = 5    /* contact forces on it / area, over sum f r / (d V) of all contacts; NaN without contacts */
 } jam_wall_column;
@@ -780,7 +780,7 @@ JAM_API jam_status jam_isoconf_options_init(jam_isoconf_options *o, size_t size)
 /* Isoconfigurational ensemble (Widmer-Cooper et al., Phys. Rev. Lett. 93, 135701 (2004)): runs from the packing as it
  * is, with all diameters scaled to density_ratio; one whose gaps are rounding is refused. Run k draws its velocities
  * from a stream of its own. m NULL: molecular dynamics; else Monte Carlo by these options (sweeps, run, first_sweep,
- * resume and wall_time are not used). instant: ascending, > 0. kept: indices of instants whose displacements are kept
+ * resume and wall_time are refused). instant: ascending, > 0. kept: indices of instants whose displacements are kept
  * of every run, or NULL. The packing does not change; the handle keeps the sums until the next call. Runs enter the
  * sums in the order of their numbers. An early stop keeps the runs that were made; resume continues, also after
  * jam_read_checkpoint. Status: JAM_NOT_CONVERGED (a run cannot move). @shape instant (instants), kept (k) @errors STATE
@@ -1573,8 +1573,8 @@ typedef struct jam_mesh_report {
 } jam_mesh_report;
 JAM_API jam_status jam_mesh_options_init(jam_mesh_options *o, size_t size);
 /* Binary STL of the solid, d = 3, closed: each edge belongs to two triangles, which pass it in opposite directions.
- * Cylinders that would meet each other or a third sphere are refused with their numbers. The file appears as of
- * jam_write. @errors STATE (BRIDGED, no network), UNSUPPORTED, IO */
+ * Cylinders that would meet are refused with their numbers. The file appears as of jam_write; path NULL: none, and an
+ * estimate of triangles and bytes without faces and cylinders. @errors STATE (BRIDGED, no network), UNSUPPORTED, IO */
 JAM_API jam_status jam_write_stl(const jam_system *sys, const char *path, const jam_mesh_options *o,
                                  jam_mesh_report *report);
 /* Options of jam_voxels and jam_write_voxels. */

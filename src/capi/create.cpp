@@ -1,6 +1,7 @@
 // Header section "the system": create, copy, destroy, info, views, setters; progress, log, cancel.
 #include <algorithm>
 #include <cstring>
+#include <limits>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -25,6 +26,12 @@ void jam_system::note_diameters() noexcept {
 }
 
 void jam_system::commit(const Packing &result, Results &&found) noexcept {
+  commit_measured(result, std::move(found));
+  packing.wall_pressure.clear();
+  packing.pressure = std::numeric_limits<double>::quiet_NaN();
+}
+
+void jam_system::commit_measured(const Packing &result, Results &&found) noexcept {
   show(result);
   paused.reset();
   crunch_paused.reset();

@@ -61,7 +61,7 @@ Answer run_md(jam_system *sys, std::unique_ptr<EventDrivenRun> &stage, const Lim
   std::string text = stage->text();
   if (stage->begun()) {
     check_packing(stage->packing(), JAM_E_STATE);  // a stage from a file may lead anywhere
-    sys->commit(stage->packing());
+    sys->commit_measured(stage->packing());
   } else {
     sys->crunch_paused.reset();  // of what waits, a handle keeps the last
   }
@@ -123,7 +123,7 @@ Answer run_stages(jam_system *sys, std::unique_ptr<EventDrivenRun> stage, const 
   try {
     return run_all(sys, std::move(stage), limits, report, moved);
   } catch (...) {
-    if (before && moved) sys->commit(*before, std::move(results));
+    if (before && moved) sys->commit_measured(*before, std::move(results));
     throw;
   }
 }

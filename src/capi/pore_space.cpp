@@ -66,11 +66,15 @@ jam_status jam_voxel_options_init(jam_voxel_options *o, size_t size) {
 
 jam_status jam_write_stl(const jam_system *sys, const char *path, const jam_mesh_options *o, jam_mesh_report *report) {
   return guard_const(sys, [&]() -> jam_status {
-    need(path, "path");
     check_out_struct(report, "report");
     jam_mesh_options full = default_mesh_options();
     take_options(o, full);
     if (full.contacts == JAM_MESH_BRIDGED) need_network(sys);
+    if (!path) {
+      const int64_t triangles = triangles_of_whole_spheres(sys->packing, full);
+      give_struct({sizeof(jam_mesh_report), 0, triangles, 0, stl_bytes(triangles), NAN, NAN}, report);
+      return JAM_OK;
+    }
     const SolidMesh mesh = solid_mesh(sys->packing, sys->known_contacts(), full);
     jam_mesh_report r{};
     r.struct_size = sizeof r;

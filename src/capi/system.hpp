@@ -81,6 +81,7 @@ struct jam_system : jam::SystemState {
   // What jam_info gives of the diameters, once for each change of them.
   void note_diameters() noexcept;
   // The end of every move: shows its packing with what is known of it. A stage that waits has lost its packing, and all
-  // earlier results are of other positions.
+  // earlier results are of other positions; so are pressures, but where dynamics has measured those of the result.
   void commit(const jam::Packing &result, jam::Results &&found = {}) noexcept;
+  void commit_measured(const jam::Packing &result, jam::Results &&found = {}) noexcept;
 };

@@ -62,10 +62,10 @@ std::vector<double> take_diameters(size_t n, const double *diameters, size_t len
 [[noreturn]] void refuse_unfitting(const Packing &p) {
   const auto widest = std::max_element(p.diameter.begin(), p.diameter.end());
   if (*widest > p.cell.shortest())
-    fail(JAM_E_OVERLAP, "sphere %td of diameter %g overlaps its own image in a box of %g", widest - p.diameter.begin(),
-         *widest, p.cell.side());
-  fail(JAM_E_OVERLAP, "the spheres cannot fit into the box %g: largest diameter %g, packing fraction %g", p.cell.side(),
-       *widest, packing_fraction(p));
+    fail(JAM_E_OVERLAP, "sphere %td of diameter %g overlaps its own image: the shortest period of the cell is %g",
+         widest - p.diameter.begin(), *widest, p.cell.shortest());
+  fail(JAM_E_OVERLAP, "the spheres cannot fit into a volume of %g: largest diameter %g, packing fraction %g",
+       p.cell.volume(), *widest, packing_fraction(p));
 }
 
 }  // namespace

@@ -18,11 +18,12 @@ void check_packing(const Packing &p, jam_status code) {
     if (!(p.position[k] >= 0.0 && (p.position[k] < p.cell.edge(static_cast<int>(k % d)) ||
                                    (p.position[k] == p.cell.edge(static_cast<int>(k % d)) && p.container &&
                                     !p.cell.repeats(static_cast<int>(k % d))))))
-      fail(code, "positions[%zu] is %.17g, outside the box %g", k, p.position[k], p.cell.edge(static_cast<int>(k % d)));
+      fail(code, "positions[%zu] is %.17g, outside of 0 to %g", k, p.position[k], p.cell.edge(static_cast<int>(k % d)));
   const double widest = p.cell.shortest() * (1.0 + overlap_tolerance);
   for (size_t i = 0; i < n; ++i)
     if (!(p.diameter[i] > 0.0 && p.diameter[i] <= widest))
-      fail(code, "diameters[%zu] is %g in a box of %g", i, p.diameter[i], p.cell.side());
+      fail(code, "diameters[%zu] is %g where the shortest period of the cell is %g", i, p.diameter[i],
+           p.cell.shortest());
   check_diameters(p.diameter, p.cell);
   check_velocities(p, p.velocity, code);
 }

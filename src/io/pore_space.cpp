@@ -97,6 +97,8 @@ void write_image(const VoxelImage &image, const VoxelGrid &grid, int dim, int li
   file.commit();
 }
 
+int64_t stl_bytes(int64_t triangles) { return 84 + 50 * triangles; }
+
 int64_t write_stl(const SolidMesh &mesh, const char *path) {
   if (mesh.triangle.size() > UINT32_MAX)
     fail(JAM_E_UNSUPPORTED, "%zu triangles, STL can count to 2^32: choose a longer edge", mesh.triangle.size());
@@ -119,7 +121,7 @@ int64_t write_stl(const SolidMesh &mesh, const char *path) {
     file.flush_if_full();
   }
   file.commit();
-  return 84 + 50 * static_cast<int64_t>(mesh.triangle.size());
+  return stl_bytes(static_cast<int64_t>(mesh.triangle.size()));
 }
 
 }  // namespace jam

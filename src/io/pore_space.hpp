@@ -9,6 +9,7 @@
 namespace jam {
 
 // Binary STL. Returns its bytes.
+int64_t stl_bytes(int64_t triangles);
 int64_t write_stl(const SolidMesh &mesh, const char *path);
 
 int64_t bytes_of_image(const VoxelGrid &grid, int lines);  // without headers

@@ -340,7 +340,7 @@ jam_mesh_options default_mesh_options() {
   return o;
 }
 
-SolidMesh solid_mesh(const Packing &p, const ContactNetwork *network, const jam_mesh_options &o) {
+static void check_mesh(const Packing &p, const jam_mesh_options &o) {
   check_enum(o.contacts, JAM_MESH_KEPT, JAM_MESH_BRIDGED, "contacts", "jam_mesh_contacts");
   if (!(o.edge >= MeshTuning::shortest_edge && o.edge <= 1.0))
     fail(JAM_E_ARGUMENT, "edge is %g, it must be in 0.03..1", o.edge);
@@ -355,7 +355,16 @@ SolidMesh solid_mesh(const Packing &p, const ContactNetwork *network, const jam_
   if (side < MeshTuning::least_steps * step)
     fail(JAM_E_ARGUMENT, "triangles of %g would be lost in the floats of an STL file, whose step is up to %g here",
          side, step);
+}
+
+SolidMesh solid_mesh(const Packing &p, const ContactNetwork *network, const jam_mesh_options &o) {
+  check_mesh(p, o);
   return Mesher(p, network, o).make();
+}
+
+int64_t triangles_of_whole_spheres(const Packing &p, const jam_mesh_options &o) {
+  check_mesh(p, o);
+  return static_cast<int64_t>(p.n() * divided_icosahedron(o.edge).triangle.size());
 }
 
 }  // namespace jam

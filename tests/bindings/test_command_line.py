@@ -241,6 +241,12 @@ class CommandLine(unittest.TestCase):
             code, _, err = self.run_words(program, "export", "start.xyz", "--stl", "m.stl", "--stl-bridge", "0.2")
             self.assertEqual((code, "m.stl has no bridge" in err), (0, True), err)
 
+    def test_a_mesh_of_loose_grains_needs_no_network(self):
+        for program in self.programs():
+            code, out, err = self.run_words(program, "export", "start.xyz", "--stl", "m.stl")
+            self.assertEqual((code, "network   none: the mesh joins no spheres" in out), (0, True), out)
+            self.assertRegex(err, r"^[^:]+: the mesh has about \S+ triangles, \S+ MB\n$")
+
     def test_files_that_are_not_written_are_not_listed(self):
         s = jam.System.random(200, 3, 1)
         s.crunch()

@@ -39,6 +39,17 @@ class Pictures(unittest.TestCase):
         self.assertGreaterEqual(sum(len(c.get_offsets()) for c in ax.collections), 60)
         self.assertTrue(all(len(c.get_offsets()) for c in ax.collections))  # an empty one would draw a stray circle
 
+    def test_summary_of_soft_spheres(self):
+        s = jam.System.random(64, 3, packing_fraction=0.7, overlap="allow", seed=1)
+        s.relax()
+        for wanted in ("overlap / contact distance", "distance from jamming"):
+            figure = jam.plot.summary(s)
+            for ax in figure.axes[2:]:
+                self.assertTrue(all(len(line.get_xdata()) > 4 for line in ax.lines) and ax.lines)
+            self.assertEqual([line.get_label() for line in figure.axes[2].lines], ["forces"])  # no slopes of jamming
+            self.assertIn(wanted, figure.axes[3].get_xlabel())
+            s.decompress(crunch=0)
+
     def test_values_colour_the_spheres(self):
         for s in (self.flat, self.deep):
             values = s.coordination.astype(float)

@@ -80,6 +80,15 @@ class Mesh(unittest.TestCase):
             self.assertLess(lost[2], lost[0] / 8)
             self.assertLess(lost[2], 0.3 * 0.1**2)
 
+    def test_estimates_the_file_before(self):
+        s = jammed()
+        for options in ({}, {"edge": 0.1}, {"contacts": "shrunk", "factor": 0.9}):
+            about, made = s.write_stl(None, **options), s.write_stl(str(self.path), **options)
+            self.assertTrue(np.isnan([about.volume, about.solid]).all())
+            self.assertEqual(about.bytes, 84 + 50 * about.triangles)
+            # cuts at the faces of the cell and corners of contacts add triangles
+            self.assertTrue(0.5 < about.triangles / made.triangles < 1.1, (options, about, made))
+
     def test_triangles_below_the_step_of_the_file_are_refused(self):
         with self.assertRaisesRegex(jam.JamError, "floats of an STL file"):
             jammed().write_stl(str(self.path), contacts="shrunk", factor=1e-5)

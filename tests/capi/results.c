@@ -208,6 +208,48 @@ static void every_move_clears_all(void **state) {
   jam_destroy(jammed);
 }
 
+static double pressure_of(const jam_system *sys) {
+  jam_info info = {.struct_size = sizeof info};
+  assert_int_equal(jam_get_info(sys, &info), JAM_OK);
+  return info.pressure;
+}
+
+/* A pressure that dynamics has measured is one of its own packing. */
+static void pressures_are_of_this_packing(void **state) {
+  jam_run_options run;
+  jam_monte_carlo_options mc;
+  jam_system *grown = start(2, 50, 0.4, JAM_OVERLAP_REFUSE), *again = NULL;
+  const double *v;
+  size_t len;
+  int move;
+  (void)state;
+  assert_true(isnan(pressure_of(grown)));
+  jam_run_options_init(&run, sizeof run);
+  run.collisions_per_particle = 20;
+  assert_int_equal(jam_run(grown, &run, NULL), JAM_OK);
+  assert_true(pressure_of(grown) > 1.0);
+  assert_int_equal(jam_write_checkpoint(grown, path), JAM_OK);
+  assert_int_equal(jam_read_checkpoint(path, NULL, NULL, &again), JAM_OK);
+  assert_true(pressure_of(again) == pressure_of(grown));
+  jam_monte_carlo_options_init(&mc, sizeof mc);
+  mc.sweeps = 2;
+  for (move = 0; move < 4; ++move) {
+    jam_system *sys = NULL;
+    assert_int_equal(jam_copy(grown, &sys), JAM_OK);
+    assert_true(pressure_of(sys) == pressure_of(grown));
+    assert_int_equal(jam_view_positions(sys, &v, &len), JAM_OK);
+    if (move == 0) assert_true(crunch(sys, JAM_STRAIN_NONE, 0, 0.0, 0) >= 0);
+    if (move == 1) assert_int_equal(jam_monte_carlo(sys, &mc, NULL), JAM_OK);
+    if (move == 2) assert_int_equal(jam_scale_diameters(sys, 0.9), JAM_OK);
+    if (move == 3) assert_int_equal(jam_set_positions(sys, v, len), JAM_OK);
+    assert_true(isnan(pressure_of(sys)));
+    jam_destroy(sys);
+  }
+  jam_destroy(again);
+  jam_destroy(grown);
+  remove(path);
+}
+
 /* The history of a decompression goes with the packing that it led to. */
 static void soft_history_is_cleared(void **state) {
   jam_system *sys = start(2, 50, 0.9, JAM_OVERLAP_ALLOW);
@@ -315,13 +357,10 @@ static void streams_go_on_after_a_checkpoint(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(a_crunch_is_kept),
-      cmocka_unit_test(networks_of_other_calls_are_kept),
-      cmocka_unit_test(every_move_clears_all),
-      cmocka_unit_test(soft_history_is_cleared),
-      cmocka_unit_test(snapshots_have_no_old_results),
-      cmocka_unit_test(observed_data_are_copied),
-      cmocka_unit_test(streams_go_on_after_a_checkpoint),
+      cmocka_unit_test(a_crunch_is_kept),         cmocka_unit_test(networks_of_other_calls_are_kept),
+      cmocka_unit_test(every_move_clears_all),    cmocka_unit_test(pressures_are_of_this_packing),
+      cmocka_unit_test(soft_history_is_cleared),  cmocka_unit_test(snapshots_have_no_old_results),
+      cmocka_unit_test(observed_data_are_copied), cmocka_unit_test(streams_go_on_after_a_checkpoint),
       cmocka_unit_test(notes_are_kept),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -688,7 +688,8 @@ end
     write_stl(s, path; contacts, edge, factor, bridge) -> report
 
 Binary STL of the solid, d = 3, closed: each edge belongs to two triangles, which pass it in opposite directions.
-Cylinders that would meet each other or a third sphere are refused with their numbers. The file appears as of `write`.
+Cylinders that would meet are refused with their numbers. The file appears as of `write`; path `nothing`: none, and an
+estimate of triangles and bytes without faces and cylinders.
 
 - `contacts`: one of `:kept`, `:shrunk`, `:bridged`; ; default `:kept`
 - `edge`: of triangles, over the radius of the sphere: 0.03 .. 1, default 0.2

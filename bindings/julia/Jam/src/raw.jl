@@ -89,7 +89,7 @@ const JAM_CONTAINER_BALL = Int32(2)  # d = 2 a circle, d = 3 a ball; its diamete
 const JAM_WALL_AXIS = Int32(0)  # of a flat wall; d: the round wall
 const JAM_WALL_SIDE = Int32(1)  # 0: at 0; 1: at the edge of the cell, or round
 const JAM_WALL_AREA = Int32(2)  # unit^(d-1)
-const JAM_WALL_PRESSURE = Int32(3)  # beta P V / N of the last run of MD; NaN before
+const JAM_WALL_PRESSURE = Int32(3)  # beta P V / N as MD measured it; NaN after other moves
 const JAM_WALL_GAP = Int32(4)  # least h of a sphere
 const JAM_WALL_STRESS = Int32(5)  # contact forces on it / area, over sum f r / (d V) of all contacts; NaN without contacts
 
@@ -506,7 +506,7 @@ What the system is now.
 - `box`: side of the cube, V^(1/d) of another cell
 - `packing_fraction`: sum of sphere volumes over V
 - `diameter_mean`: unit of box
-- `pressure`: reduced pressure p last measured by MD, NaN before
+- `pressure`: reduced p of this packing as MD measured it, NaN after other moves
 - `model`: one of `:euclid`, `:mk`
 - `monodisperse`: Bool; all diameters are equal
 - `masses`: one of `:equal`, `:volume`
@@ -525,7 +525,7 @@ mutable struct jam_info
     box::Cdouble  # side of the cube, V^(1/d) of another cell
     packing_fraction::Cdouble  # sum of sphere volumes over V
     diameter_mean::Cdouble  # unit of box
-    pressure::Cdouble  # reduced pressure p last measured by MD, NaN before
+    pressure::Cdouble  # reduced p of this packing as MD measured it, NaN after other moves
     model::Int32  # jam_model
     monodisperse::Int32  # 1: all diameters are equal
     masses::Int32  # jam_masses
@@ -2407,7 +2407,7 @@ end
 Isoconfigurational ensemble (Widmer-Cooper et al., Phys. Rev. Lett. 93, 135701 (2004)): runs from the packing as it
 is, with all diameters scaled to `density_ratio`; one whose gaps are rounding is refused. Run k draws its velocities
 from a stream of its own. m NULL: molecular dynamics; else Monte Carlo by these options (sweeps, run, `first_sweep`,
-resume and `wall_time` are not used). instant: ascending, > 0. kept: indices of instants whose displacements are kept
+resume and `wall_time` are refused). instant: ascending, > 0. kept: indices of instants whose displacements are kept
 of every run, or NULL. The packing does not change; the handle keeps the sums until the next call. Runs enter the
 sums in the order of their numbers. An early stop keeps the runs that were made; resume continues, also after
 `jam_read_checkpoint`. Status: `JAM_NOT_CONVERGED` (a run cannot move).
@@ -3112,8 +3112,8 @@ end
     jam_write_stl(sys, path, o, report)
 
 Binary STL of the solid, d = 3, closed: each edge belongs to two triangles, which pass it in opposite directions.
-Cylinders that would meet each other or a third sphere are refused with their numbers. The file appears as of
-`jam_write`.
+Cylinders that would meet are refused with their numbers. The file appears as of `jam_write`; path NULL: none, and an
+estimate of triangles and bytes without faces and cylinders.
 Errors: `JAM_E_STATE` (BRIDGED, no network), `JAM_E_UNSUPPORTED`, `JAM_E_IO`.
 """
 function jam_write_stl(sys, path, o, report)

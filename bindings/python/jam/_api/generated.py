@@ -108,7 +108,7 @@ class WallColumn(_Word):
     AXIS = 0  # of a flat wall; d: the round wall
     SIDE = 1  # 0: at 0; 1: at the edge of the cell, or round
     AREA = 2  # unit^(d-1)
-    PRESSURE = 3  # beta P V / N of the last run of MD; NaN before
+    PRESSURE = 3  # beta P V / N as MD measured it; NaN after other moves
     GAP = 4  # least h of a sphere
     STRESS = 5  # contact forces on it / area, over sum f r / (d V) of all contacts; NaN without contacts
 
@@ -555,7 +555,7 @@ class Info(Report):
     box: side of the cube, V^(1/d) of another cell
     packing_fraction: sum of sphere volumes over V
     diameter_mean: unit of box
-    pressure: reduced pressure p last measured by MD, NaN before
+    pressure: reduced p of this packing as MD measured it, NaN after other moves
     model: jam_model
     monodisperse: 1: all diameters are equal
     masses: jam_masses

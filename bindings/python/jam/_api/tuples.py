@@ -14,7 +14,7 @@ class WallsResult(NamedTuple):
     axis: Array  # of a flat wall; d: the round wall
     side: Array  # 0: at 0; 1: at the edge of the cell, or round
     area: Array  # unit^(d-1)
-    pressure: Array  # beta P V / N of the last run of MD; NaN before
+    pressure: Array  # beta P V / N as MD measured it; NaN after other moves
     gap: Array  # least h of a sphere
     stress: Array  # contact forces on it / area, over sum f r / (d V) of all contacts; NaN without contacts
 

@@ -28,7 +28,7 @@ class Methods:
         area : array
             unit^(d-1)
         pressure : array
-            beta P V / N of the last run of MD; NaN before
+            beta P V / N as MD measured it; NaN after other moves
         gap : array
             least h of a sphere
         stress : array
@@ -1120,8 +1120,8 @@ class Methods:
         """Binary STL of the solid, d = 3, closed: each edge belongs to two triangles, which pass it in opposite
         directions.
 
-        Cylinders that would meet each other or a third sphere are refused with their numbers. The file appears as of
-        write().
+        Cylinders that would meet are refused with their numbers. The file appears as of write(); path None: none, and
+        an estimate of triangles and bytes without faces and cylinders.
 
         Parameters
         ----------

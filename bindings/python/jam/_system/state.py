@@ -57,7 +57,7 @@ class State(Base):
 
     @property
     def pressure(self) -> float:
-        """Reduced pressure last measured by MD, nan before."""
+        """Reduced pressure of this packing as molecular dynamics measured it; nan before, and once spheres moved otherwise."""
         return self.info.pressure
 
     def _constants(self) -> Info:

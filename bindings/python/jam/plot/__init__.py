@@ -11,7 +11,7 @@ from typing import Any
 
 from ..errors import StateError
 from ..system import System
-from .curves import cdf, convergence, density_of_states, trace
+from .curves import cdf, convergence, density_of_states, minima, trace
 from .motions import displacements, mode
 from .packings import COLOURS, VIEW, network, packing
 
@@ -22,6 +22,7 @@ __all__ = [
     "convergence",
     "density_of_states",
     "displacements",
+    "minima",
     "mode",
     "network",
     "packing",
@@ -31,24 +32,42 @@ __all__ = [
 
 
 def summary(system: System) -> Any:
-    """One figure of a crunched packing: spheres, network, forces, and how it was reached. Returns the Figure."""
+    """One figure of a packing with contacts: spheres, network, forces, and how it was reached. Returns the Figure.
+
+    Of soft spheres with overlaps: forces without the slopes of jamming, and minima() or, without a decompression, overlaps.
+    """
     from matplotlib.figure import Figure
 
-    pairs = system.contacts.pairs  # without them, a StateError before anything is drawn
+    gaps = system.contacts.gaps  # without them, a StateError before anything is drawn
     figure = Figure(figsize=(11, 8.2), layout="constrained")
     axes = figure.subplots(2, 2)
     packing(system, axes[0, 0])
     network(system, axes[0, 1])
+    if (gaps < -1e-7).any():  # overlaps of a hard packing are rounding
+        cdf(system.forces, axes[1, 0], label="forces")
+        try:
+            minima(system, axes[1, 1])
+        except StateError:  # relaxed, without a decompression
+            cdf(-gaps, axes[1, 1], label="overlap / contact distance")
+    else:
+        _forces_of_jamming(system, axes[1, 0])
+        (trace if any(p.phase == 2 for p in system.trace) else convergence)(system, axes[1, 1])
+    axes[1, 0].set(xlabel="force / mean force")
+    return figure
+
+
+def _forces_of_jamming(system: System, ax: Any) -> None:
+    """Forces at bucklers and the others, with the slopes that theory gives isostatic packings."""
+    pairs = system.contacts.pairs
     try:
         crossing = (system.bucklers[pairs] & (pairs >= 0)).any(1)
-        for chosen, label, slope, colour in (
-            (~crossing, "extended forces", 1.42311, "#4c78a8"),
-            (crossing, "forces at bucklers", 1.17462, "#f2a541"),
-        ):
-            if chosen.sum() > 10:
-                cdf(system.forces[chosen], axes[1, 0], slopes=[slope], label=label, color=colour)
-        axes[1, 0].set(xlabel="force / mean force")
     except StateError:
-        axes[1, 0].set_axis_off()
-    (trace if any(p.phase == 2 for p in system.trace) else convergence)(system, axes[1, 1])
-    return figure
+        ax.set_axis_off()
+        return
+    isostatic = system.report.excess_contacts == 0
+    for chosen, label, slope, colour in (
+        (~crossing, "extended forces", 1.42311, "#4c78a8"),
+        (crossing, "forces at bucklers", 1.17462, "#f2a541"),
+    ):
+        if chosen.sum() > 10:
+            cdf(system.forces[chosen], ax, slopes=[slope] if isostatic else (), label=label, color=colour)

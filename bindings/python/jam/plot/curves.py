@@ -69,6 +69,16 @@ def convergence(system: System | Iterable[Any], ax: Any = None, **style: Any) ->
     return ax
 
 
+def minima(system: System, ax: Any = None, **style: Any) -> Any:
+    """Pressure of the minima of a decompression against their distance alpha U / sum f r from jamming (soft_history)."""
+    rows = system.soft_history
+    above = rows[(rows["distance"] > 0) & (rows["pressure"] > 0)]
+    ax = axes_of(ax)
+    ax.loglog(above["distance"], above["pressure"], **{"marker": ".", "ms": 5, "lw": 1, **style})
+    ax.set(xlabel=r"distance from jamming $\alpha U/\sum f r$", ylabel="pressure")
+    return ax
+
+
 def cdf(values: Any, ax: Any = None, *, slopes: Sequence[float] = (), label: str | None = None, **style: Any) -> Any:
     """Cumulative distribution of positive values on log axes, with reference lines of the given slopes.
 

@@ -25,6 +25,7 @@ include_patterns = [
     "examples/studies/scenes.md",
     "examples/studies/thesis.md",
     "examples/studies/ensembles/README.md",
+    "examples/studies/ensembles/glasses.md",
     "src/README.md",
     "src/crunch/README.md",
     "ensemble_tables.md",

@@ -17,14 +17,16 @@ LARGE = {"runs": 5000, "mc_runs": 1000, "long_runs": 1000}  # what --large makes
 LAST_SWEEP = {False: 120, True: 250}
 
 
-def arguments(doc, *flags, **small):
+def arguments(doc, *flags, result=False, **small):
     """Options of a study. small: runs it makes unless --large or --runs N is given, e.g. runs=100, mc_runs=40; flags: further
-    ones. folder is made."""
+    ones; result: whether it takes --result FILE.json. folder is made."""
     parser = argparse.ArgumentParser(description=doc, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folder")
     parser.add_argument("picture")
     for flag in ("large", *flags):
         parser.add_argument(f"--{flag}", action="store_true")
+    if result:
+        parser.add_argument("--result", help="rows of the table, as JSON")
     for name in small:
         parser.add_argument("--" + name.replace("_", "-"), type=int)
     args = parser.parse_args()

@@ -38,7 +38,9 @@ def cells(value):
         return value["quantity"], value.get("published", published), figures.cell(ours), sigma, result["command"]
     column = result["columns"].index(value["column"])
     found = result["rows"][value["row"] - 1]
-    ours, quantity = found[column], f"{value['column']}, {found[0]}"
+    first = [row[0] for row in result["rows"]]
+    which = f"{found[0]}, {result['columns'][1]} = {found[1]}" if first.count(found[0]) > 1 else found[0]
+    ours, quantity = found[column], f"{value['column']}, {which}"
     published, sigma = value["published"], None
     if isinstance(published, (int, float)):
         number, error = value_error(ours)

@@ -86,6 +86,11 @@ def spread(r, structure, runs, radius):
     r.picture(figure, "motion_md_spread")
 
 
+def of_second(name):
+    """Ending of what a row is called."""
+    return ", second packing" if name else ""
+
+
 def scatters(r, name, structure, md, radius):
     runs = md[RATIO]
     columns = [(f"tau = {tau}", runs, at(tau)) for tau in SHOWN]
@@ -93,14 +98,14 @@ def scatters(r, name, structure, md, radius):
     r.picture(figure, f"motion_md_vectors{name}")
     label = "3.21" if name else "3.8"
     for tau, value in zip(SHOWN, k):
-        r.add(label, f"K[C, <dr>], {RATIO}, tau = {tau}{name}", "in the picture", value)
+        r.add(label, f"K[C, <dr>], {RATIO}, tau = {tau}{of_second(name)}", "in the picture", value)
     rows = [(f"phi/phi_J = {q}, tau = 10", md[q], at(10)) for q in ((0.999, 0.99) if not name else (RATIO,))]
     figure, k = panels.mobility(structure, rows, radius)
     r.picture(figure, f"motion_md_mobility{name}")
     for (title, _, _), values in zip(rows, k):
         best = ("sum f", "sum f.f", "S")[int(np.argmax(np.abs(values)))]
         for text, value in zip(("sum f", "sum f.f", "S"), values):
-            r.add("3.22" if name else "3.10", f"K[{text}, <|dr|^2>], {title}{name}", "largest |K| for S", value)
+            r.add("3.22" if name else "3.10", f"K[{text}, <|dr|^2>], {title}{of_second(name)}", "largest |K| for S", value)
         print("best:", best)
     if name:
         return

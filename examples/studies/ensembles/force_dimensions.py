@@ -1,0 +1,69 @@
+#!/usr/bin/env python3
+"""Exponent of the density of all forces in d = 2, 3 and 4, by one method and at one number of spheres.
+
+usage: force_dimensions.py [--large] [--seeds K] [--folder DIR] [--only-read] [--out DIR]
+
+Published for all forces together: 0.19 (d = 2), 0.25 (d = 3), 0.30 (d = 4). Fits as in tail_exponents.py: the error contains the
+choice of range and correction. Disks have diameters 1 and 1.4 in equal numbers. Small: N = 1024, 8 packings. Large: N = 2048, 40.
+"""
+import sys
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+from common import HERE, Results, arguments, kept
+
+import jam
+
+sys.path.insert(0, str(HERE.parent))
+import tail_exponents as tail  # noqa: E402
+
+PUBLISHED = {2: 0.19, 3: 0.25, 4: 0.30}
+
+
+def forces(dim, n, seed):
+    """Forces of a grown and crunched packing over their mean; none when it has no single state of self-stress."""
+    sizes = {"diameters": [1.0] * (n // 2) + [1.4] * (n - n // 2)} if dim == 2 else {}
+    with jam.System.random(n=n, dim=dim, seed=seed, **sizes) as packing:
+        packing.compress([(1e-2, 500.0), (3e-3, 1e7)])
+        report = packing.crunch()
+        good = report.jammed and report.excess_contacts == 0
+        return {"forces": np.sort(packing.forces / packing.forces.mean()) if good else np.zeros(0)}
+
+
+def main():
+    p = arguments(__doc__.splitlines()[0])
+    p.add_argument("--seeds", type=int, help="packings (small 8, large 40)")
+    o = p.parse_args()
+    n, seeds = 2048 if o.large else 1024, o.seeds or (40 if o.large else 8)
+    r = Results(o, "force_dimensions")
+    figure, axes = plt.subplots(1, 2, figsize=(11, 4.4))
+    for k, (dim, law) in enumerate(PUBLISHED.items()):
+        made = [kept(o, f"force_dimensions_{dim}d_n{n}", f"seed{s}", lambda: forces(dim, n, s)) for s in range(1, seeds + 1)]
+        values = [m["forces"] for m in made if m is not None and len(m["forces"])]
+        if len(values) < 4:
+            continue
+        r.made(f"d = {dim}, N = {n}, G = 1e-2 to p = 500, 3e-3 to 1e7, crunch", len(values))
+        fit = tail.fit(values, n)
+        r.add("1, 3", f"d = {dim}: exponent of all forces, averaged over ranges", law, fit["exponent"], fit["error"])
+        r.add("1, 3", f"d = {dim}: the part of this error from the choice of range and correction", "none", fit["spread"])
+        pool = np.sort(np.concatenate(values))
+        c = np.arange(1, len(pool) + 1) / len(pool)
+        axes[0].loglog(pool, c, "-", color=f"C{k}", lw=1, label=f"d = {dim}")
+        x = np.array([fit["low"], 0.5])
+        axes[0].loglog(x, np.interp(fit["low"], pool, c) * (x / x[0]) ** (1 + law), ":", color=f"C{k}", label=f"slope {1 + law:.2f}")
+        high, a = tail.apparent(values, n)
+        axes[1].semilogx(high, a, "o-", ms=3, color=f"C{k}", label=f"d = {dim}, power alone up to f")
+        axes[1].errorbar(1.4 * 1.2**k, fit["exponent"], fit["error"], fmt="s", color=f"C{k}", capsize=4)
+        axes[1].axhline(law, color=f"C{k}", ls=":", lw=1)
+    axes[0].set(xlabel="f over the mean force", ylabel="c, all forces", ylim=(1e-4, 1.2))
+    axes[1].set(xlabel="upper end of the range of f", ylabel="exponent; squares: all ranges, dotted: published")
+    for axis in axes:
+        axis.legend(fontsize=7)
+    r.write(figure)
+
+
+if __name__ == "__main__":
+    main()

@@ -15,8 +15,21 @@
 
 namespace jam {
 
+// libjam's environment while one call runs. Out of line, as each of some 200 functions enters it.
+class OwnEnvironmentOfCall {
+ public:
+  OwnEnvironmentOfCall() noexcept;
+  ~OwnEnvironmentOfCall();
+
+ private:
+  const OwnEnvironment own_;
+};
+
 // Thread-local text of jam_last_error; set_last_error never allocates.
 void set_last_error(const char *text) noexcept;
+
+// Of the exception that is being handled: its status, and its text as that of jam_last_error.
+jam_status status_of_exception() noexcept;
 
 inline const char *why(const Answer &answer) {
   return answer.text.empty() ? meaning_of(answer.status) : answer.text.c_str();
@@ -32,23 +45,13 @@ template <class F>
 // or Answer.
 template <class F>
 jam_status guard(F &&f) noexcept {
-  const OwnEnvironment own;
+  const OwnEnvironmentOfCall own;
   try {
     const Answer answer = compute(f);
     if (answer.status != JAM_OK) set_last_error(why(answer));
     return answer.status;
-  } catch (const Error &e) {
-    set_last_error(e.what());
-    return e.code();
-  } catch (const std::bad_alloc &) {
-    set_last_error("out of memory");
-    return JAM_E_MEMORY;
-  } catch (const std::exception &e) {
-    set_last_error(e.what());
-    return JAM_E_INTERNAL;
   } catch (...) {
-    set_last_error("unknown exception inside libjam");
-    return JAM_E_INTERNAL;
+    return status_of_exception();
   }
 }
 

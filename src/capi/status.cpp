@@ -9,7 +9,28 @@ namespace jam {
 namespace {
 thread_local char last_error[2048] = "";  // a paragraph of jam_check_text fits
 }
+OwnEnvironmentOfCall::OwnEnvironmentOfCall() noexcept {}
+OwnEnvironmentOfCall::~OwnEnvironmentOfCall() {}
+
 void set_last_error(const char *text) noexcept { std::snprintf(last_error, sizeof last_error, "%s", text); }
+
+jam_status status_of_exception() noexcept {
+  try {
+    throw;
+  } catch (const Error &e) {
+    set_last_error(e.what());
+    return e.code();
+  } catch (const std::bad_alloc &) {
+    set_last_error("out of memory");
+    return JAM_E_MEMORY;
+  } catch (const std::exception &e) {
+    set_last_error(e.what());
+    return JAM_E_INTERNAL;
+  } catch (...) {
+    set_last_error("unknown exception inside libjam");
+    return JAM_E_INTERNAL;
+  }
+}
 
 const char *meaning_of(jam_status status) {
   switch (status) {

@@ -101,7 +101,7 @@ static void too_dense_starts_are_refused(void **state) {
   for (k = 0; k < 500; ++k) mixture[k] = k ? 1.0 : 1.001; /* unequal spheres can pack more densely: they are tried */
   refused(&o, NULL, 0, mixture, 500, JAM_E_UNPLACEABLE, "reached packing fraction 0.3");
   o.n = 1, o.packing_fraction = 0.9; /* one sphere wider than the box */
-  refused(&o, NULL, 0, NULL, 0, JAM_E_UNPLACEABLE, "box");
+  refused(&o, NULL, 0, NULL, 0, JAM_E_UNPLACEABLE, "shortest period");
 }
 
 static void bad_arrays_are_refused(void **state) {

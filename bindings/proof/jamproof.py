@@ -14,7 +14,7 @@ file cannot be read, 3 trapped but not proved. The guide's page "The theorems be
 
 For any matrix A let delta_k >= sum_l |1 - A J|_kl, eta_k >= |A F|_k, alpha_k >= sum_c |A_kc|, beta = 4 d max alpha.
 If eta + delta r + beta r^2 <= r and delta + 2 beta r < 1, then F has exactly one zero within r. In crystals F = 0 as
-it stands; then R has full rank modulo a prime, and the forces balance exactly. In d = 2 the file may name implied
+it stands; then R has full rank modulo a prime, and forces that balance exactly are those of the file or near them. In d = 2 the file may name implied
 contacts. They are left out of F: the others, where closed, close them by the exact angles of triangles and parallelograms.
 
 A file with the word strict fixes G. The lower triangle of H, the cell vectors, takes its place among the unknowns, and
@@ -24,6 +24,7 @@ import base64
 import decimal
 import math
 import sys
+import time
 import zlib
 from array import array
 from fractions import Fraction
@@ -31,6 +32,7 @@ from operator import mul
 
 BITS, CHUNK, BIAS, MOST_IMAGES = 24, 16, 1 << 62, 10**6  # of J; columns summed at once; makes 64-bit digits positive; of a pair
 GAMMA, FORCE = -400, 120  # trapping: exponent of gamma, more binary digits of forces
+WAIT = 10  # seconds between lines that say how far a long loop is
 FINEST = 7  # trapping: units of ways are down to 2^-FINEST of the longest
 OFF = Fraction(1, 1024)  # trapping: the file's gamma may be off by this part of it
 HEADER = ("dim", "unit", "cell", "non_additivity", "gamma")
@@ -69,19 +71,28 @@ def shifted(m, e, to):
     return m << (e - to) if e >= to else (m + (1 << (to - e - 1))) >> (to - e)
 
 
+def watched(items, what, power=1):
+    """The items; a line to stderr now and then says how far it is. The work until item k grows as k^power."""
+    began = last = time.monotonic()
+    for k, item in enumerate(items, 1):
+        yield item
+        if (now := time.monotonic()) - last > WAIT:
+            last, left = now, (now - began) * ((len(items) / k) ** power - 1)
+            print(f"{what}: {k} of {len(items)}, about {left:.0f} s more", file=sys.stderr, flush=True)
+
+
 class Scene:
     """The exact numbers of a file: lengths in units of 2^k, ratios of diameters of 2^se, gamma g 2^ge."""
 
     def __init__(self, path):
-        self.stable, self.contacts, self.inverse, self.strict, ratio, position = [], [], None, False, [], []
+        self.contacts, self.inverse, self.strict, spheres = [], None, False, []
         self.tiles, self.rows = [], {}  # walks round tiles and implied contacts, as they come; state of the kept alone
         with open(path, encoding="ascii") as file:
             lines = [line.split() for line in file if line.strip()]
         refuse(lines[:1] != [["jamproof", "1"]], "the first line is not 'jamproof 1'", ValueError)
         word = {name: rest for name, *rest in lines[1:] if name in HEADER}
         for name in HEADER:
-            times = sum(line[0] == name for line in lines[1:])
-            refuse(times != 1, f"the line '{name}' is there {times} times, not once", ValueError)
+            refuse((times := sum(line[0] == name for line in lines[1:])) != 1, f"the line '{name}' is there {times} times, not once", ValueError)
             refuse(name != "cell" and len(word[name]) != 1, f"the line '{name}' has not as many numbers as it must, one", ValueError)
         self.dim = d = int(word["dim"][0])
         refuse(d < 1, "dim is not 1 or more", ValueError)
@@ -94,9 +105,8 @@ class Scene:
         for name, *rest in lines[1:]:
             refuse(len(rest) not in sizes.get(name, (len(rest),)), f"a line '{name}' has not as many numbers as dim asks for", ValueError)
             if name == "sphere":
-                self.stable.append(rest[0] == "1")
-                ratio.append(number(rest[1]))
-                position.append([number(x) for x in rest[2:]])
+                stable, *numbers = rest
+                spheres.append((stable == "1", [number(x) for x in numbers]))
             elif name == "contact":
                 i, j, *n = map(int, rest[: 2 + d])
                 if len(rest) > 3 + d:
@@ -110,11 +120,12 @@ class Scene:
                 self.strict = True
             elif name not in word:
                 raise ValueError(f"unknown word {name}")
+        self.stable, ratio = [stable for stable, _ in spheres], [numbers[0] for _, numbers in spheres]
         refuse(not any(self.stable), "no sphere is stable", ValueError)
         refuse(not self.contacts, "the file lists no contact", ValueError)
         refuse(any(not 0 <= i < len(ratio) for contact in self.contacts for i in contact[:2]), "a contact names a sphere that is not there", ValueError)
         refuse(any(not 0 <= c < len(self.contacts) for _, ring in self.tiles for c in ring), "a tile or an implied contact names a contact that is not there", ValueError)
-        both, self.k = scaled(cell + [x for row in position for x in row])
+        both, self.k = scaled(cell + [x for _, numbers in spheres for x in numbers[1:]])
         self.cell = [both[r * (r + 1) // 2 : (r + 1) * (r + 2) // 2] + [0] * (d - r - 1) for r in range(d)]
         self.x = [both[len(cell) + d * i : len(cell) + d * (i + 1)] for i in range(len(ratio))]
         self.ratio, self.se = scaled(ratio)
@@ -142,8 +153,7 @@ def equations(s, kept):
     f, rows, columns = [], [], [[] for _ in range(d * (len(stable) - 1) + (len(entries) or 1))]
     s.diagonal = {len(columns) - len(entries) + k: q for k, (q, v) in enumerate(entries) if q == v}
     for c, (i, j, n, _) in enumerate(s.contacts[k] for k in kept):
-        if i == j or i not in node or j not in node:
-            raise Refused(f"images: contact {c} is not one of two stable spheres")
+        refuse(i == j or i not in node or j not in node, f"images: contact {c} is not one of two stable spheres")
         r, (m, e) = s.vector(i, j, n), s.sigma2(i, j)
         terms, low = scaled([(sum(v * v for v in r), 2 * s.k), (-s.g * m, s.ge + e)])
         f.append((sum(terms), low))
@@ -171,8 +181,7 @@ def walk(s, ring):
     sides, image = [], [0] * s.dim
     for c, (i, j) in zip(ring, ends):
         sign = 1 if at == j else -1
-        if at not in (i, j):
-            raise Refused(f"excess: contact {c} does not go on from sphere {at}")
+        refuse(at not in (i, j), f"excess: contact {c} does not go on from sphere {at}")
         at, image = i if sign > 0 else j, [a + sign * b for a, b in zip(image, s.contacts[c][2])]
         sides.append((c, {(): (1 - sign) // 2 * 3}, [sign * v for v in s.vector(i, j, s.contacts[c][2])]))
     return sides, (start, at, tuple(image))
@@ -189,11 +198,9 @@ def relate(turned, p, q, angle):
 def lay(s, turned, ring, length):
     """The angles of a tile: a parallelogram, or a triangle with two equal sides."""
     sides, (start, end, image) = walk(s, ring)
-    size, cross = len(sides), []
-    for (_, _, u), (_, _, v) in zip(sides, sides[1:] + sides[:1]):
-        cross.append((u[0] * v[1] - u[1] * v[0]) * 1000.0 / math.sqrt((u[0] ** 2 + u[1] ** 2) * (v[0] ** 2 + v[1] ** 2)))
-    if start != end or any(image) or not (min(cross) > 0.5 or max(cross) < -0.5):
-        raise Refused("excess: a tile is not closed and convex")  # the radius is far below such a turn
+    size, sine = len(sides), lambda u, v: (u[0] * v[1] - u[1] * v[0]) / math.sqrt((u[0] ** 2 + u[1] ** 2) * (v[0] ** 2 + v[1] ** 2))
+    cross = [sine(u, v) * 1000.0 for (_, _, u), (_, _, v) in zip(sides, sides[1:] + sides[:1])]
+    refuse(start != end or any(image) or not (min(cross) > 0.5 or max(cross) < -0.5), "excess: a tile is not closed and convex")  # the radius is far below such a turn
     if size == 4 and length[ring[0]] == length[ring[2]] and length[ring[1]] == length[ring[3]]:
         relate(turned, sides[0], sides[2], {(): 3}), relate(turned, sides[1], sides[3], {(): 3})
     elif size != 3:
@@ -215,8 +222,7 @@ def kept_contacts(s):
     known = set(range(len(s.contacts))) - implied
     length = [fraction(*s.sigma2(i, j)) for i, j, _, _ in s.contacts] if s.tiles else []
     for word, ring in s.tiles:
-        if s.dim != 2 or not 3 <= len(ring) <= 4 or not known.issuperset(ring if word == "tile" else ring[1:]):
-            raise Refused(f"excess: {word} {ring} does not rest on known contacts")
+        refuse(s.dim != 2 or not 3 <= len(ring) <= 4 or not known.issuperset(ring if word == "tile" else ring[1:]), f"excess: {word} {ring} does not rest on known contacts")
         if word == "tile":
             lay(s, turned, ring, length)
             continue
@@ -259,19 +265,19 @@ def float_inverse(rows):
         j = numpy.array(rows)
         return (numpy.linalg.inv(j) if len(rows) == len(rows[0]) else numpy.linalg.inv(j.T @ j) @ j.T).tolist()
     except ImportError:
-        flat = list(zip(*rows))
-        square = [[sum(map(mul, a, b)) for b in flat] for a in flat] if len(rows) > len(flat) else [*map(list, rows)]
-        n = len(square)
-        a = [row + [float(k == i) for k in range(n)] for i, row in enumerate(square)]
-        for c in range(n):
+        flat, n = list(zip(*rows)), len(rows[0])
+        a = [
+            [*row, *(float(k == i) for k in range(n))] if len(rows) == n else [*(sum(map(mul, row, b)) for b in flat), *row]
+            for i, row in enumerate(rows if len(rows) == n else watched(flat, "rows of J^T J"))
+        ]
+        for c in watched(range(n), "columns of the inverse"):
             p = max(range(c, n), key=lambda r: abs(a[r][c]))
             a[c], a[p] = a[p], a[c]
             a[c] = [v / a[c][c] for v in a[c]]
             for r in range(n):
                 if r != c and a[r][c]:
                     a[r] = [x - a[r][c] * y for x, y in zip(a[r], a[c])]
-        left = [row[n:] for row in a]
-        return left if len(rows) == n else [[sum(map(mul, a, row)) for row in rows] for a in left]
+        return [row[n:] for row in a]
 
 
 def inverse_of(s, columns, count, wanted):
@@ -302,9 +308,8 @@ def bounds(s, f, columns, e, inverse, grown):
     alpha, delta, eta = [0] * rows, [0] * rows, [0] * rows
     for column in inverse:
         alpha = [a + abs(v) for a, v in zip(alpha, column)]
-    if e > BITS or max(abs(v) for column in columns for _, v in column) >= 1 << 27:
-        raise Refused("singular: entries are too large for the digits")  # 2^31 2^27 CHUNK = 2^62
-    for l, column in enumerate(columns):
+    refuse(e > BITS or max(abs(v) for column in columns for _, v in column) >= 1 << 27, "singular: entries are too large for the digits")  # 2^31 2^27 CHUNK = 2^62
+    for l, column in enumerate(watched(columns, "columns of A J")):
         total = [-(1 << (BITS - e)) * (k == l) for k in range(rows)]
         for start in range(0, len(column), CHUNK):
             part = sum(packed[c] * v for c, v in column[start : start + CHUNK]) + offset
@@ -383,7 +388,7 @@ def least_opening(s, radius, gamma, part=1):
     closed, least = {c[:3] for c in s.contacts}, None
     closed |= {(j, i, tuple(-v for v in n)) for i, j, n in closed}
     reach = reach_of(s, radius, gamma)
-    for i in range(len(s.x)):
+    for i in watched(range(len(s.x)), "pairs of spheres", 2):
         for j in range(i + 1):
             for n in images(s, i, j, reach):
                 if (i == j and not any(n)) or (i, j, n) in closed:
@@ -399,14 +404,19 @@ def least_opening(s, radius, gamma, part=1):
 
 
 def closed(s, rows, columns):
-    """F = 0 exactly, with any number of contacts."""
+    """F = 0 exactly, with any number of contacts. Forces that balance are those of the file, or next to them."""
     unknowns = len(columns) - (not s.strict)
     refuse(rank(rows) < unknowns, f"singular: the rank modulo a prime is below {unknowns}")
-    stress, _ = scaled([c[3] for c in s.contacts])
+    stress, low = scaled([c[3] for c in s.contacts])
     net = [sum(row.get(k, 0) * m for row, m in zip(rows, stress)) for k in range(unknowns)]
     pressure = {net[k] * s.cell[q][q] for k, q in s.diagonal.items()} or {1}  # strict: in balance with an equal one on all axes
-    if min(stress) <= 0 or any(net[k] for k in range(unknowns) if k not in s.diagonal) or len(pressure) > 1 or min(pressure) <= 0:
-        raise Refused("force: the forces are not positive, or do not balance exactly")
+    refuse(min(stress) <= 0, "force: not all are positive")
+    if any(net[k] for k in range(unknowns) if k not in s.diagonal) or len(pressure) > 1 or min(pressure) <= 0:
+        # h = A^T y with (A R)^T y = R^T f is what they miss, and |y|_1 <= |R^T f|_1 / (1 - delta).
+        s.hint = e, inverse = inverse_of(s, columns[:unknowns], len(rows), unknowns)
+        delta = max(bounds(s, [(0, 0)] * len(rows), columns[:unknowns], e, inverse, [1] * unknowns)[0])
+        off = sum(map(abs, unbalanced(s, rows, stress, low))) * fraction(1, s.k) * fraction(max(max(map(abs, v)) for v in inverse), e)
+        refuse(off >= (1 - delta) * min(stress), f"force: the least is {float(fraction(min(stress), low)):.3g}, what balances them {float(off * fraction(1, low)):.3g}")
     least = least_opening(s, 0, fraction(s.g, s.ge))
     return {"radius": 0.0, "gamma_error": 0.0, "least_gap": float(least) ** 0.5 - 1.0 if least else 1e-3}
 
@@ -427,11 +437,9 @@ def check(s):
         row, delta_g, eta_g, alpha_g = force_row(s, f, kept, rows, [s.rows.get(c, s.contacts[c][3]) for c in kept])
         delta, eta, alpha, largest = delta + [delta_g], eta + [eta_g], alpha + [alpha_g], max([largest] + [abs(v) for v in row])
     delta, eta, beta = max(delta), max(eta), square * max(alpha)
-    if delta >= 1 or 4 * beta * eta >= (1 - delta) ** 2:
-        raise Refused(f"singular: delta {float(delta):.3g}, 4 beta eta {float(4 * beta * eta):.3g}")
+    refuse(delta >= 1 or 4 * beta * eta >= (1 - delta) ** 2, f"singular: delta {float(delta):.3g}, 4 beta eta {float(4 * beta * eta):.3g}")
     r = eta / (1 - delta) * (1 + 4 * beta * eta / (1 - delta) ** 2)
-    if eta + delta * r + beta * r * r > r or delta + 2 * beta * r >= 1:
-        raise Refused(f"singular: radius {float(r):.3g}, beta {float(beta):.3g}")
+    refuse(eta + delta * r + beta * r * r > r or delta + 2 * beta * r >= 1, f"singular: radius {float(r):.3g}, beta {float(beta):.3g}")
     refuse(s.tiles and r**2 * 10**12 > fraction(s.g, s.ge) * fraction(min(s.ratio), s.se) ** 2, f"excess: radius {float(r):.3g} is too large for the angles of tiles")
     r_g = 0 if s.strict else eta_g + delta_g * r + square * alpha_g * r * r
     # The forces on implied contacts are free; the others solve J^T f = the rest, within the inverse times what is left.
@@ -447,8 +455,7 @@ def check(s):
     size = sum(map(abs, stress))
     error = (off + 2 * square * size * r) / (1 - delta - 2 * beta * r) * largest
     mean, gamma = size / len(stress), fraction(s.g, s.ge)
-    if min(stress) <= error:
-        raise Refused(f"force: the least is {float(min(stress) / mean):.3g}, its error {float(error / mean):.3g}")
+    refuse(min(stress) <= error, f"force: the least is {float(min(stress) / mean):.3g}, its error {float(error / mean):.3g}")
     least = least_opening(s, r, gamma + r_g)
     found = {"radius": r * s.unit, **({} if s.strict else {"gamma_error": r_g / gamma}), "least_gap": float(least) ** 0.5 - 1.0 if least else 1e-3}
     found.update(delta=delta, least_force=min(stress) / mean, force_error=error / mean)

@@ -1,6 +1,8 @@
 """Proofs: the checker, which does not know libjam, confirms its proofs and refuses what was changed."""
 import ast
+import contextlib
 import importlib.util
+import io
 import pathlib
 import random
 import subprocess
@@ -8,6 +10,7 @@ import sys
 import tempfile
 import unittest
 from fractions import Fraction
+from unittest import mock
 
 import numpy as np
 
@@ -374,6 +377,19 @@ class Proofs(unittest.TestCase):
             pathlib.Path(path).write_text(text.replace("sphere 1", "sphere 0", 1), encoding="ascii")
             self.assertEqual(run(path).returncode, 1)
 
+    def test_long_work_says_how_far_it_is(self):
+        """To stderr alone, in loops with and without numpy; what is printed to stdout stays one line."""
+        lines = io.StringIO()
+        square = [[2.0, 1.0], [1.0, 3.0]]
+        with mock.patch.object(jamproof, "WAIT", -1), mock.patch.dict(sys.modules, numpy=None), contextlib.redirect_stderr(lines):
+            inverse, left = jamproof.float_inverse(square), jamproof.float_inverse(square + [[0.0, 0.0]])
+            self.assertIn("radius", verdict(self.files[0][0]))
+        for found in (inverse, [row[:2] for row in left]):
+            self.assertLess(abs(np.array(found) @ np.array(square) - np.eye(2)).max(), 1e-14)
+        said = lines.getvalue().splitlines()
+        for part in ("columns of the inverse: 1 of 2,", "rows of J^T J: 2 of 2, about 0 s", "columns of A J: 1 of ", "pairs of spheres: 3 of "):
+            self.assertTrue(any(line.startswith(part) and line.endswith(" s more") for line in said), part)
+
     def test_what_says_nothing_sensible_cannot_be_read(self):
         """Exit status 2 and one sentence, not a proof and not a traceback."""
         text = self.files[0][0]
@@ -459,8 +475,17 @@ class Proofs(unittest.TestCase):
         self.assertEqual(verdict(text)["radius"], 0.0)
         f = File(text)
         f.lines = [line for line in f.lines if line[0] != "contact" or line[1] != "0"]
-        f.spheres[0][1] = "0"  # a vacancy would be stable too, but forces of one size no longer balance
+        f.spheres[0][1] = "0"  # a vacancy would be stable too, but forces of one size are far from a balance
         self.assertEqual(verdict(f.text()), "force")
+        # Vacancies: forces that balance exactly are no doubles, and lie next to those of the file.
+        for gone in ([5], [5, 20]):
+            system = jam.System.from_arrays(np.delete(x, gone, axis=0), 0.5 * 0.5**0.5 * (1 - 1e-16))
+            system.contacts_from_geometry()
+            self.assertEqual(system.prove().theorem, jam.Theorem.EXACT)
+            self.assertEqual(verdict(file_of(system, None))["radius"], 0.0)
+            f = File(file_of(system, None))
+            f.lines = [[*line[:-1], word(2 * value(line[-1]))] if line[0] == "contact" and line[1] == "0" else line for line in f.lines]
+            self.assertEqual(verdict(f.text()), "force")
         # A third of a side is no binary fraction: trapped, but not exactly closed.
         triple = np.stack(np.meshgrid(*[np.arange(3)] * 3, indexing="ij"), -1).reshape(-1, 3)
         x = ((triple[:, None] + base).reshape(-1, 3)) / 3.0

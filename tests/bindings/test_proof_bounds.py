@@ -134,11 +134,16 @@ def square_lattice():
     return "\n".join(crystal(rows, Fraction(1, 16), 1)) + "\n"
 
 
-def fcc_with_one_force_doubled():
+def fcc(keeps=lambda x: True):
+    """The lines of 32 spheres, or of those that stay."""
     base = [(0, 0, 0), (0.5, 0.5, 0), (0.5, 0, 0.5), (0, 0.5, 0.5)]
     rows = [tuple((g + b) / 2 for g, b in zip(grid, x)) for grid in np.ndindex(2, 2, 2) for x in base]
-    lines = crystal(rows, Fraction(1, 8), 1)
-    return "\n".join(lines[:-1] + [lines[-1][:-3] + "2p0"]) + "\n"
+    return crystal([x for x in rows if keeps(x)], Fraction(1, 8), 1)
+
+
+def fcc_without_the_upper_neighbours_of_a_sphere():
+    """No positive forces balance on that sphere, though the rank is full."""
+    return "\n".join(fcc(lambda x: x[2] != 0.25 or not (x[:2] in ((0.25, 0), (0.75, 0), (0, 0.25), (0, 0.75))))) + "\n"
 
 
 # Bound, what stands in the checker, what it is exchanged for, a false file, and the radius that would be true.
@@ -150,9 +155,9 @@ TABLE = (
     ("eta", "eta = [fraction((abs(v) + a) * g, e + low) for v, a, g in zip(eta, alpha, grown)]", "eta = [Fraction(0)] * rows", far_centre, FAR),
     ("delta", "delta = [fraction((2 * v + width * a * top) * g, e - BITS - 1) / top for v, a, g in zip(delta, alpha, grown)]",
      "delta = [Fraction(0)] * rows", far_centre_and_no_inverse, FAR),
-    ("error of forces", "if min(stress) <= error:", "if min(stress) <= 0:", other_forces, None),
+    ("error of forces", "refuse(min(stress) <= error,", "refuse(min(stress) <= 0,", other_forces, None),
     ("rank of a crystal", "refuse(rank(rows) < unknowns,", "refuse(False,", square_lattice, None),
-    ("balance of a crystal", "if min(stress) <= 0 or any(", "if min(stress) <= 0 or 0 and any(", fcc_with_one_force_doubled, None),
+    ("balance of a crystal", "refuse(off >= (1 - delta) * min(stress),", "refuse(False,", fcc_without_the_upper_neighbours_of_a_sphere, None),
 )  # fmt: skip
 
 

@@ -39,7 +39,9 @@ def cells(value):
     column = result["columns"].index(value["column"])
     found = result["rows"][value["row"] - 1]
     first = [row[0] for row in result["rows"]]
-    which = f"{found[0]}, {result['columns'][1]} = {found[1]}" if first.count(found[0]) > 1 else found[0]
+    which = figures.cell(found[0])
+    if first.count(found[0]) > 1:
+        which += f", {result['columns'][1]} = {found[1]}"
     ours, quantity = found[column], f"{value['column']}, {which}"
     published, sigma = value["published"], None
     if isinstance(published, (int, float)):

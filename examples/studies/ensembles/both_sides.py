@@ -146,7 +146,11 @@ def slope(values, low, high):
     return power, error
 
 
-RANGES = {"extended": (0.03, 0.3, THETA_E), "localised": (0.003, 0.03, THETA_L), "gaps": (1e-3, 3e-2, -GAMMA)}
+RANGES = {  # pairs of bounds, and the law
+    "extended": (((0.03, 0.3), (0.01, 0.1), (0.01, 0.3)), THETA_E),
+    "localised": (((0.003, 0.03), (0.003, 0.1), (0.01, 0.1)), THETA_L),
+    "gaps": (((1e-3, 3e-2), (1e-4, 1e-2), (1e-3, 1e-1)), -GAMMA),
+}
 LABEL = {"extended": "4.3", "localised": "4.8", "gaps": "4.6"}
 
 
@@ -163,12 +167,14 @@ def rows(r, found, sizes):
     n = max(sizes)
     if not all((side, n) in found for side in ("below", "above")):
         return
-    for name, (low, high, law) in RANGES.items():
-        both = [slope(getattr(found[side, n], name), low, high) for side in ("below", "above")]
-        for (value, error), side in zip(both, ("below", "above")):
-            r.add(LABEL[name], f"exponent of {name} by two counts, {low:g} and {high:g}, {SIDES[side]}, N = {n}", law, value, error)
-        off, error = both[1][0] - both[0][0], np.hypot(both[1][1], both[0][1])
-        r.add(LABEL[name], f"exponent of {name}: from above less from below, N = {n}", 0.0, off, error)
+    for name, (ranges, law) in RANGES.items():
+        both = np.array([[slope(getattr(found[side, n], name), *span) for span in ranges] for side in ("below", "above")])
+        for (values, errors), side in zip(both.transpose(0, 2, 1), ("below", "above")):
+            error = np.hypot(errors.mean(), values.std())
+            r.add(LABEL[name], f"exponent of {name}, mean of three ranges, {SIDES[side]}, N = {n}", law, values.mean(), error)
+        off, error = both[1, :, 0] - both[0, :, 0], np.hypot(both[1, :, 1], both[0, :, 1])
+        text = f"exponent of {name}: from above less from below, N = {n}"
+        r.add(LABEL[name], text, 0.0, off.mean(), np.hypot(error.mean(), off.std()))
     theta = THETA_E / (1 + THETA_E)
     for side in ("below", "above"):
         for m in sizes:

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Exponents by several estimators against N: figures 4.11, 4.14, 4.16, 4.18 and 4.19 of the thesis.
+"""Exponents by several estimators against N: figures 4.11, 4.12, 4.14, 4.16, 4.18 and 4.19 of the thesis.
 
 usage: estimators.py [--large] [--sizes N ...] [--particles K] [--folder DIR] [--only-read] [--out DIR]
 
@@ -38,6 +38,15 @@ def bucklers(r, found, sizes):
         axis.legend(fontsize=7)
     axes[1].set(title=f"N = {max(sizes)}")
     r.picture(figure, "estimators_bucklers")
+
+
+def bends(r, found):
+    """4.12: power of c of extended forces where the density bends over."""
+    for (side, n), s in found.items():
+        few, many = (np.array([np.searchsorted(v, f) for v in s.extended], float) for f in (0.1, 0.3))
+        power = np.log(many.mean() / few.mean()) / np.log(3)
+        error = mean_error(many / many.mean() - few / few.mean())[1] / np.log(3)
+        r.add("4.12", f"power of c of extended forces between f = 0.1 and 0.3, {SIDES[side]}, N = {n}", "below the bend: 1.42311", power, error)
 
 
 def crossover(r, found, sizes):
@@ -141,6 +150,7 @@ def main():
     r = Results(o, "estimators")
     found = samples(o, r, ("below", "mk"), sizes, o.particles or (1e5 if o.large else 3e3))
     bucklers(r, found, sizes)
+    bends(r, found)
     crossover(r, found, sizes)
     exponents(r, found, sizes)
     equivalence(r, found, sizes)

@@ -108,7 +108,7 @@ def exponents(r, found, sizes):
         axis.set(xscale="log", xlabel="N", ylabel="gamma - gamma(N)", title=f"near h N^(1/(1-gamma)) = {at:g}")
         axis.set_xticks(sizes, [str(n) for n in sizes])
         axis.minorticks_off()
-    axes[0].legend(fontsize=6)
+    axes[1].legend(fontsize=6)
     r.picture(figure, "estimators_exponents")
 
 

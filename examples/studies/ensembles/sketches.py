@@ -138,7 +138,7 @@ def states(r, axis):
     axis.legend(fontsize=6)
 
 
-def disks(r, axis, n=128):
+def disks(r, axis, n=1024):
     """2.3: jammed disks of size ratio 1.4 with their force network; rattlers in colour."""
     packing = jam.System.random(n=n, dim=2, seed=1, packing_fraction=0.4, diameters=np.where(np.arange(n) % 2, 1.4, 1.0))
     report = packing.crunch(method="sequential_lp")
@@ -164,7 +164,7 @@ def main():
         draw(r, axis)
     r.made("5 disks; 2 growing disks; 64 disks of size ratio 1.4", 1)
     r.picture(figure)
-    figure, axis = plt.subplots(figsize=(7, 7))
+    figure, axis = plt.subplots(figsize=(9, 9))
     disks(r, axis)
     r.picture(figure, "sketches_disks")
     r.write()

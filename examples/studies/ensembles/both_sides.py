@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Jamming from below and from above: figures 4.3 to 4.8 of the thesis, hard spheres beside decompressed soft ones.
 
-usage: both_sides.py [--large] [--sizes N ...] [--particles K] [--folder DIR] [--only-read] [--out DIR]
+usage: both_sides.py [--large] [--sizes N ...] [--particles K ...] [--folder DIR] [--only-read] [--out DIR]
 
 Below: growth by the default protocol, then a crunch. Above: harmonic soft spheres from random points at 0.72, decompressed to one
 state of self-stress, then compared with a crunch from just below contact. Forces, gaps below 1 and coordination of each packing
@@ -69,9 +69,11 @@ class Side:
 def samples(o, r, sides, sizes, particles):
     """{(side, n): Side} of those with four good packings and more."""
     found = {}
+    if len(particles) not in (1, len(sizes)):
+        raise SystemExit("--particles takes one number, or one for each size")
     for side in sides:
-        for n in sizes:
-            one = Side(o, side, n, max(4, round(particles / n)))
+        for n, count in zip(sizes, particles * (len(sizes) if len(particles) == 1 else 1)):
+            one = Side(o, side, n, max(4, round(count / n)))
             if len(one.good) >= 4:
                 found[side, n] = one
                 r.made(f"{SIDES[side]}, N = {n}, {len(one.all)} packings", len(one.good))
@@ -201,11 +203,11 @@ def rows(r, found, sizes):
 def main():
     p = arguments(__doc__.splitlines()[0])
     p.add_argument("--sizes", type=int, nargs="+", help="N (small 128 256; large 256 ... 4096)")
-    p.add_argument("--particles", type=float, help="particles for each size (small 3e3, large 2e5)")
+    p.add_argument("--particles", type=float, nargs="+", help="particles of all sizes or of each (small 3e3, large 2e5)")
     o = p.parse_args()
     sizes = o.sizes or ([256, 512, 1024, 2048, 4096] if o.large else [128, 256])
     r = Results(o, "both_sides")
-    found = samples(o, r, ("below", "above"), sizes, o.particles or (2e5 if o.large else 3e3))
+    found = samples(o, r, ("below", "above"), sizes, o.particles or [2e5 if o.large else 3e3])
     rows(r, found, sizes)
     r.picture(powers(found, sizes), "both_sides_powers")
     r.write(figures(found, sizes))

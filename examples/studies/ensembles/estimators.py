@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Exponents by several estimators against N: figures 4.11, 4.12, 4.14, 4.16, 4.18 and 4.19 of the thesis.
 
-usage: estimators.py [--large] [--sizes N ...] [--particles K] [--folder DIR] [--only-read] [--out DIR]
+usage: estimators.py [--large] [--sizes N ...] [--particles K ...] [--folder DIR] [--only-read] [--out DIR]
 
 Packings are those of both_sides.py from below, and Mari-Kurchan packings planted at 2.5. The cumulative distribution by three
 estimators: values pooled, ranked in each packing, evaluated at fixed points. Small: N = 128 and 256, 3000 particles each.
@@ -144,11 +144,11 @@ def equivalence(r, found, sizes):
 def main():
     p = arguments(__doc__.splitlines()[0])
     p.add_argument("--sizes", type=int, nargs="+", help="N (small 128 256; large 256 ... 2048)")
-    p.add_argument("--particles", type=float, help="particles for each size (small 3e3, large 1e5)")
+    p.add_argument("--particles", type=float, nargs="+", help="particles of all sizes or of each (small 3e3, large 1e5)")
     o = p.parse_args()
     sizes = o.sizes or ([256, 512, 1024, 2048] if o.large else [128, 256])
     r = Results(o, "estimators")
-    found = samples(o, r, ("below", "mk"), sizes, o.particles or (1e5 if o.large else 3e3))
+    found = samples(o, r, ("below", "mk"), sizes, o.particles or [1e5 if o.large else 3e3])
     bucklers(r, found, sizes)
     bends(r, found)
     crossover(r, found, sizes)

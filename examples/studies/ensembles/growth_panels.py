@@ -97,17 +97,23 @@ def steps(r, every, pressures):
     r.picture(figure, "growth_panels_steps")
 
 
+def glass(m, low, high, jammed):
+    """phi_J of the glass fit between two pressures less that of the LPs, the fit's error, d / 3 and R^2; None with three points or fewer."""
+    use = (m["p"] > 0.99 * low) & (m["p"] <= high * 1.01)
+    if use.sum() < 4:
+        return None
+    fit = jam.glass_fit(m["md_phi"][use], m["p"][use])
+    return fit.jammed_fraction - jammed, fit.jammed_error, fit.dimension / 3, fit.r_squared
+
+
 def fits(r, every, pressures):
-    """2.11: phi_J of the LPs less that of the glass fit for each sample, with the error that the fit gives."""
-    figure, axis = plt.subplots(figsize=(7, 4.6))
+    """2.11: phi_J of the LPs less that of the glass fit for each sample, with the error that the fit gives; fits of two decades each."""
+    figure, (axis, beside) = plt.subplots(1, 2, figsize=(13, 4.6))
     for k, ((n, kappa), made) in enumerate(every.items()):
+        jammed = [m[f"phi_{pressures[-1]:.0e}"] for m in made]
         for (low, high), marker in (((1e5, 1e12), "o"), ((1e5, 1e7), "x")):
-            found = []
-            for m in made:
-                use = (m["p"] > low) & (m["p"] <= high * 1.01)
-                fit = jam.glass_fit(m["md_phi"][use], m["p"][use])
-                found.append((abs(fit.jammed_fraction - m[f"phi_{pressures[-1]:.0e}"]), fit.jammed_error, fit.dimension / 3, fit.r_squared))
-            off, error, d, r2 = np.array(found).T
+            off, error, d, r2 = np.array([glass(m, low, high, j) for m, j in zip(made, jammed)]).T
+            off = np.abs(off)
             x = k + (0.1 if marker == "x" else -0.1) + 0.03 * np.arange(len(off))
             axis.semilogy(x, np.maximum(off, 1e-17), marker, color=f"C{k}", label=f"N = {n}, kappa = {kappa:g}, fit to {high:.0e}")
             axis.fill_between(x, 1e-17, np.full(len(x), error.mean()), color=f"C{k}", alpha=0.2)
@@ -115,9 +121,25 @@ def fits(r, every, pressures):
             r.add("2.11", f"|phi_J - phi_J of the fit| over the fit's error, {where}", "below 1", np.median(off / error))
             r.add("2.11", f"d of the fit over 3, {where}", "1 to 1.07", d.mean())
             r.add("2.11", f"least R^2, {where}", ">= 0.999", r2.min())
+        shown = []
+        for low in (1e3, 1e5, 1e7, 1e9):
+            found = [glass(m, low, 100 * low, j) for m, j in zip(made, jammed)]
+            if None in found:
+                continue
+            off, error, *_ = np.array(found).T
+            shown.append((10 * low, np.median(np.abs(off)), np.median(error)))
+            where = f"N = {n}, kappa = {kappa:g}, p = {low:.0e} to {100 * low:.0e}"
+            r.add("2.11", f"phi_J of the fit less that of the LPs, {where}", "0", *mean_error(off))
+            r.add("2.11", f"mean error that the fit gives, {where}", "none", error.mean())
+        if shown:
+            p, off, error = np.array(shown).T
+            beside.loglog(p, off, "o-", color=f"C{k}", label=f"N = {n}, kappa = {kappa:g}")
+            beside.loglog(p, error, "--", color=f"C{k}", lw=1)
     axis.set(xticks=range(len(every)), xticklabels=[f"{n}, {kappa:g}" for n, kappa in every], xlabel="N, kappa")
     axis.set(ylabel="|phi_J - phi_J of the fit|; band: error of the fit")
-    axis.legend(fontsize=6)
+    beside.set(xlabel="p, fits of two decades", ylabel="|phi_J - phi_J of the fit|; dashed: error of the fit")
+    for one in (axis, beside):
+        one.legend(fontsize=6)
     r.picture(figure, "growth_panels_fit")
 
 

@@ -58,13 +58,10 @@ class EngineOf final : public Engine, private Units<O> {
     for (int c = 0; c < D; ++c) b.x[c] += static_cast<uint64_t>(std::llrint(b.v[c] * dt));
     b.time = clock_.now;
   }
-  // a - b; the components of an offset are lists_.capacity apart.
+  // a - b; the components of an offset are lists_.capacity apart, nullptr: zero.
   int64_t difference(const Body<D> &a, const Body<D> &b, int c, const int64_t *offset) const {
     const auto d = static_cast<int64_t>(a.x[c] - b.x[c]);
-    if constexpr (listed)
-      return wrapping_sum(d, offset[static_cast<size_t>(c) * lists_.capacity]);
-    else
-      return (void)offset, d;
+    return listed && offset ? wrapping_sum(d, offset[static_cast<size_t>(c) * lists_.capacity]) : d;
   }
   double exact_gap(const Body<D> &a, const Body<D> &b, const int64_t *offset) const;
   void note_overlap(const Body<D> &a, const Body<D> &b, const int64_t *offset);
@@ -139,7 +136,8 @@ class EngineOf final : public Engine, private Units<O> {
   Pace pace_;
   Observer *observer_ = nullptr;
   bool wants_images_ = false;
-  mutable std::vector<int32_t> found_;  // scratch: spheres that a search finds
+  mutable std::vector<int32_t> found_, turn_;  // scratch: spheres that a search finds, and their images
+  mutable ImageCells image_cells_;             // likewise, where there are images
 #ifdef JAM_CHECK_PAIRS
   Packing start_;  // what a state is written into to be checked
   mutable int64_t next_check_ = 0;

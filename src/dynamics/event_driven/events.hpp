@@ -125,9 +125,14 @@ void EngineOf<D, O>::predict(int32_t i) {
 // by rounding.)
 template <int D, Offsets O>
 void EngineOf<D, O>::separation(int32_t i, int32_t k, double *r) const {
-  if constexpr (!listed) {
+  if (!lists_.offset_of(i, 0)) {
     for (int c = 0; c < D; ++c) r[c] = static_cast<double>(difference(spheres_.body[i], spheres_.body[k], c, nullptr));
   } else {
+    if (const int32_t entry = only_entry(lists_.of(i), lists_.count[i], k); entry >= 0) {
+      const int64_t *offset = lists_.offset_of(i, entry);
+      for (int c = 0; c < D; ++c) r[c] = static_cast<double>(difference(spheres_.body[i], spheres_.body[k], c, offset));
+      return;
+    }
     double nearest = never;
     const double growth = static_cast<double>(spheres_.contact_sum(spheres_.body[i], spheres_.body[k])) * clock_.rate;
     for (int32_t e = 0; e < lists_.count[i]; ++e) {

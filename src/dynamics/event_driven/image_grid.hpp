@@ -4,11 +4,37 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "dynamics/event_driven/cell_grid.hpp"
 
 namespace jam {
+
+// What a search of cells with images needs, one for all grids: the cells, which image each is (a cell is there at most
+// `copies` times), and the lattice vectors that take them there.
+struct ImageCells {
+  std::vector<size_t> cell;
+  std::vector<int32_t> turn;
+  std::vector<int64_t> image;  // (images, D)
+  size_t copies = 1;
+  std::vector<std::pair<size_t, int32_t>> along;  // scratch: places along an axis, and turns
+  std::vector<int32_t> seen_from;                 // scratch
+
+  void make_space(size_t cells, size_t width) {
+    if (cell.size() < cells) cell.resize(cells), turn.resize(cells);
+    if (along.size() < width) along.resize(width);
+  }
+  // Where a place stands for each image: its upper 32 bits, D numbers an image.
+  template <size_t D>
+  const int32_t *places(const std::array<uint64_t, D> &place) {
+    seen_from.resize(image.size());
+    for (size_t m = 0; m < image.size(); m += D)
+      for (size_t c = 0; c < D; ++c)
+        seen_from[m + c] = static_cast<int32_t>((place[c] - static_cast<uint64_t>(image[m + c])) >> 32);
+    return seen_from.data();
+  }
+};
 
 template <int D>
 struct ImageGrid {
@@ -18,7 +44,6 @@ struct ImageGrid {
   int64_t in_use = 0;
   int32_t unused_range = 1;                // stands in archives
   std::array<int64_t, D> side{}, range{};  // along each cell vector
-  mutable std::vector<size_t> around;      // scratch: cells that are searched
 
   bool used() const { return in_use != 0; }
   // Cells that reach over `range` others along each vector; more along those whose faces are near each other. None when
@@ -56,7 +81,7 @@ struct ImageGrid {
     lattice.fraction(place, s);
     Home cell;
     for (int c = 0; c < D; ++c) {
-      const auto at = static_cast<int64_t>(std::floor(s[c] * static_cast<double>(side[c])));
+      const auto at = static_cast<int64_t>(s[c] * static_cast<double>(side[c]));
       cell[c] = std::min(std::max<int64_t>(at, 0), side[c] - 1);
     }
     return cell;
@@ -71,26 +96,14 @@ struct ImageGrid {
     for (int c = 0; c < D; ++c) cells *= static_cast<size_t>(side[c]);
     return cells;
   }
-  void make_scratch() {
-    size_t width = 1;
-    for (int c = 0; c < D; ++c) width *= 2 * static_cast<size_t>(range[c]) + 1;
-    around.resize(width);
-  }
-  // Writes the cells within the range of a cell to `around`; returns their number.
-  size_t cells_around(const Home &home, const Lattice<D> &lattice) const {
-    size_t found = 0;
-    each_around(home, lattice, [&](size_t cell, const Offset &) { around[found++] = cell; });
-    return found;
-  }
-  // f(cell, image) for every cell around `home`; `image` is the lattice vector that takes the cell there.
-  template <class F>
-  void each_around(const Home &home, const Lattice<D> &lattice, F &&f) const {
-    walk(D - 1, home, range, 0, {}, lattice, f);
+  void make_scratch() {}
+  // Writes the cells around a cell, each as often as an image of it is so near; returns their number.
+  size_t cells_around(const Home &home, const Lattice<D> &lattice, ImageCells &found) const {
+    return gather(home, range, lattice, found);
   }
   // The same for all cells within a reach, in V^(1/d), of a place in `home`.
-  template <class F>
-  void each_within(const Home &home, double reach, const Lattice<D> &lattice, F &&f) const {
-    walk(D - 1, home, range_within(reach, lattice), 0, {}, lattice, f);
+  size_t gather_within(const Home &home, double reach, const Lattice<D> &lattice, ImageCells &found) const {
+    return gather(home, range_within(reach, lattice), lattice, found);
   }
   double cells_within(double reach, const Lattice<D> &lattice) const {
     double cells = 1.0;
@@ -124,30 +137,66 @@ struct ImageGrid {
   }
 
  private:
+  [[gnu::noinline]] size_t gather(const Home &home, const std::array<int64_t, D> &over, const Lattice<D> &lattice,
+                                  ImageCells &found) const {
+    size_t cells = 1, count = 1, longest = 1;
+    for (const int64_t o : over) {
+      const auto width = static_cast<size_t>(2 * o + 1);
+      cells *= width;
+      longest = std::max(longest, width);
+    }
+    found.make_space(cells, longest);
+    found.cell[0] = 0;
+    found.turn[0] = 0;
+    found.image.assign(D, 0);
+    found.copies = 1;
+    // Axis by axis, and from the last entry to the first, so that each is replaced after its last use.
+    for (int c = D - 1; c >= 0; --c) {
+      const auto width = static_cast<size_t>(2 * over[c] + 1);
+      int64_t place = home[c] - over[c], least = 0;
+      int32_t turns = 0;
+      while (place < 0) place += side[c], --least;
+      for (size_t s = 0; s < width; ++s) {
+        found.along[s] = {static_cast<size_t>(place), turns};
+        if (++place == side[c]) place = 0, ++turns;
+      }
+      const int32_t images = found.along[width - 1].second + 1;
+      for (size_t k = count; k-- > 0;) {
+        const size_t cell = found.cell[k] * static_cast<size_t>(side[c]);
+        const int32_t from = found.turn[k] * images;
+        for (size_t s = width; s-- > 0;) {
+          found.cell[k * width + s] = cell + found.along[s].first;
+          found.turn[k * width + s] = from + found.along[s].second;
+        }
+      }
+      count *= width;
+      if (images == 1) continue;
+      if (2 * over[c] + 1 > side[c]) found.copies *= static_cast<size_t>(images);
+      take_images(c, least, static_cast<size_t>(images), lattice, found.image);
+    }
+    return count;
+  }
+  // Each lattice vector becomes `times` of them, by so many turns along vector c from `least` on.
+  [[gnu::noinline]] static void take_images(int c, int64_t least, size_t times, const Lattice<D> &lattice,
+                                            std::vector<int64_t> &image) {
+    const size_t before = image.size() / D;
+    image.resize(before * times * D);
+    for (size_t m = before; m-- > 0;) {
+      Offset from;
+      std::copy_n(&image[m * D], D, from.begin());
+      for (size_t t = times; t-- > 0;) {
+        Offset moved = from;
+        lattice.add(moved, c, least + static_cast<int64_t>(t));
+        std::copy_n(moved.begin(), D, &image[(m * times + t) * D]);
+      }
+    }
+  }
   std::array<int64_t, D> range_within(double reach, const Lattice<D> &lattice) const {
     std::array<int64_t, D> over;
     for (int c = 0; c < D; ++c)
       over[c] =
           static_cast<int64_t>(std::ceil(reach * (1.0 + 1e-9) * static_cast<double>(side[c]) / lattice.height(c)));
     return over;
-  }
-  // Components above c are chosen.
-  template <class F>
-  void walk(int c, const Home &home, const std::array<int64_t, D> &over, size_t cell, const Offset &image,
-            const Lattice<D> &lattice, F &&f) const {
-    const int64_t cells = side[c];
-    int64_t place = home[c] - over[c], turns = 0;
-    while (place < 0) place += cells, --turns;
-    Offset moved = image;
-    if (turns != 0) lattice.add(moved, c, turns);
-    for (int64_t step = -over[c]; step <= over[c]; ++step) {
-      const size_t at = cell * static_cast<size_t>(cells) + static_cast<size_t>(place);
-      if (c == 0)
-        f(at, moved);
-      else
-        walk(c - 1, home, over, at, moved, lattice, f);
-      if (++place == cells) place = 0, lattice.add(moved, c, 1);
-    }
   }
 };
 

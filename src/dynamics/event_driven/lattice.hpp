@@ -94,8 +94,10 @@ class Lattice {
     for (int c = D - 1; c >= 0; --c) {
       double rest = static_cast<double>(static_cast<int64_t>(x[c]));
       for (int k = c + 1; k < D; ++k) rest -= s[k] * static_cast<double>(static_cast<int64_t>(units_[k][c]));
-      const double turns = std::floor(rest / edge_[c]);
-      s[c] = rest / edge_[c] - turns;
+      s[c] = rest / edge_[c];
+      if (s[c] >= 0.0 && s[c] < 1.0) continue;
+      const double turns = std::floor(s[c]);
+      s[c] -= turns;
       for (int k = 0; k <= c && turns != 0.0; ++k) x[k] -= static_cast<uint64_t>(std::llrint(turns)) * units_[c][k];
     }
   }

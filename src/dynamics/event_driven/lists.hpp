@@ -10,6 +10,9 @@
 
 namespace jam {
 
+// The entry of sphere k where it stands in the list once, as nearly always; else -1.
+int32_t only_entry(const int32_t *list, int32_t count, int32_t k);
+
 template <int D, Offsets O>
 struct Lists {
   static constexpr bool listed = O == Offsets::listed;
@@ -22,9 +25,10 @@ struct Lists {
   std::vector<int32_t> neighbour;    // (n, capacity)
   std::vector<int32_t> count;        // neighbours of each sphere
   std::vector<int64_t> offset;       // listed: (n, D, capacity)
+  std::vector<int32_t> shifted;      // listed: entries of each list whose offset is not zero; without any, none is kept
   size_t capacity = 0;               // a multiple of the length of a vector
 
-  explicit Lists(size_t n) : centre(n), rho(n), safe(n), count(n, 0) {}
+  explicit Lists(size_t n) : centre(n), rho(n), safe(n), count(n, 0), shifted(listed ? n : 0, 0) {}
 
   // Whether lists without offsets can hold for this largest contact distance, unit box: then both spheres of a pair may
   // stand at the far ends of their safe spheres and differences still wrap to the image of the list.
@@ -34,9 +38,10 @@ struct Lists {
   }
   const int32_t *of(int32_t i) const { return &neighbour[static_cast<size_t>(i) * capacity]; }
   int32_t *of(int32_t i) { return &neighbour[static_cast<size_t>(i) * capacity]; }
+  // nullptr: all offsets of the list are zero.
   const int64_t *offset_of(int32_t i, int32_t entry) const {
     if constexpr (listed)
-      return &offset[offset_at(i, entry)];
+      return shifted[i] ? &offset[offset_at(i, entry)] : nullptr;
     else
       return (void)i, (void)entry, nullptr;
   }
@@ -53,6 +58,7 @@ struct Lists {
 
   void clear() {
     std::fill(count.begin(), count.end(), 0);
+    std::fill(shifted.begin(), shifted.end(), 0);
     if (capacity == 0) widen();
   }
   // Writes k (and the offset that makes x_i - x_k that image) to the list of i, and i to that of k.
@@ -62,10 +68,10 @@ struct Lists {
     of(i)[at_i] = k;
     of(k)[at_k] = i;
     if constexpr (listed) {
-      for (int c = 0; c < D; ++c) {
-        offset[offset_at(i, at_i) + c * capacity] = (*image)[c];
-        offset[offset_at(k, at_k) + c * capacity] = -(*image)[c];
-      }
+      Offset back;
+      for (int c = 0; c < D; ++c) back[c] = -(*image)[c];
+      keep_offset(i, at_i, *image);
+      keep_offset(k, at_k, back);
     } else {
       (void)image;
     }
@@ -74,6 +80,7 @@ struct Lists {
   void forget(int32_t i) {
     for (int32_t e = 0; e < count[i]; ++e) forget_entry(i, of(i)[e]);
     count[i] = 0;
+    if constexpr (listed) shifted[i] = 0;
   }
   void archive(Archive &a) {
     a(shell);
@@ -83,13 +90,16 @@ struct Lists {
     a(safe);
     a(neighbour);
     a(count);
+    if constexpr (listed)
+      for (int32_t i = 0; !a.reading() && i < static_cast<int32_t>(shifted.size()); ++i)
+        if (shifted[i] == 0) clear_offsets(i, count[i]);
     a(offset);
     uint64_t wide = capacity;
     a(wide);
     capacity = wide;
   }
-  // Every list must be mutual, or a damaged file would send the engine astray.
-  void check(size_t n, double scale) const {
+  // Of an archive. Every list must be mutual, or a damaged file would send the engine astray.
+  void check(size_t n, double scale) {
     Archive::check(centre.size() == n && rho.size() == n && safe.size() == n && count.size() == n);
     Archive::check(capacity > 0 && capacity % 8 == 0 && neighbour.size() / n == capacity && neighbour.size() % n == 0);
     Archive::check(offset.size() == (listed ? neighbour.size() * D : 0));
@@ -106,6 +116,10 @@ struct Lists {
                        std::count(&neighbour[i * capacity], &neighbour[i * capacity] + count[i], k));
       }
     }
+    for (int32_t i = 0; listed && i < static_cast<int32_t>(n); ++i) {
+      shifted[i] = 0;
+      for (int32_t e = 0; e < count[i]; ++e) shifted[i] += is_shifted(i, e);
+    }
   }
 
  private:
@@ -119,8 +133,27 @@ struct Lists {
     int32_t e = 0;
     while (list[e] != i) ++e;
     list[e] = list[last];
-    if constexpr (listed)
+    if constexpr (listed) {
+      if (shifted[k] == 0) return;
+      shifted[k] -= is_shifted(k, e);
       for (int c = 0; c < D; ++c) offset[offset_at(k, e) + c * capacity] = offset[offset_at(k, last) + c * capacity];
+    }
+  }
+  bool is_shifted(int32_t i, int32_t entry) const {
+    int64_t any = 0;
+    for (int c = 0; c < D; ++c) any |= offset[offset_at(i, entry) + c * capacity];
+    return any != 0;
+  }
+  [[gnu::noinline]] void clear_offsets(int32_t i, int32_t entries) {
+    for (int c = 0; c < D; ++c) std::fill_n(&offset[offset_at(i, 0) + c * capacity], entries, 0);
+  }
+  [[gnu::noinline]] void keep_offset(int32_t i, int32_t entry, const Offset &value) {
+    int64_t any = 0;
+    for (const int64_t x : value) any |= x;
+    if (any == 0 && shifted[i] == 0) return;
+    if (shifted[i] == 0) clear_offsets(i, entry);
+    shifted[i] += any != 0;
+    for (int c = 0; c < D; ++c) offset[offset_at(i, entry) + c * capacity] = value[c];
   }
   void widen() {
     const size_t n = count.size(),

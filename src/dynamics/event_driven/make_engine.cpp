@@ -1,4 +1,4 @@
-// The choice of an engine, and the order of spheres in memory.
+// The choice of an engine, the order of spheres in memory, and what needs no dimension.
 #include <algorithm>
 #include <numeric>
 
@@ -17,6 +17,15 @@ std::unique_ptr<Engine> choose(const Packing &p, const EngineOptions &o, bool im
 }
 
 }  // namespace
+
+int32_t only_entry(const int32_t *list, int32_t count, int32_t k) {
+  int32_t entry = -1, times = 0;
+  for (int32_t e = 0; e < count; ++e) {  // without branches the compiler looks at four entries at a time
+    entry = list[e] == k ? e : entry;
+    times += list[e] == k;
+  }
+  return times == 1 ? entry : -1;
+}
 
 // Numbers of the spheres along a Morton curve: neighbours in space become neighbours in memory.
 std::vector<int32_t> curve_order(const Packing &p) {

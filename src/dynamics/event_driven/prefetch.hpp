@@ -25,7 +25,7 @@ void EngineOf<D, O>::prefetch_lists(int32_t i) const {
   prefetch_object(&spheres_.body[i]);
   prefetch_line(&lists_.count[i]);
   prefetch_object(lists_.of(i), std::min<size_t>(lists_.capacity, 32));
-  if constexpr (listed) prefetch_object(lists_.offset_of(i, 0), D * lists_.capacity);
+  if (const int64_t *offset = lists_.offset_of(i, 0)) prefetch_object(offset, D * lists_.capacity);
   prefetch_line(&lists_.centre[i]);
   prefetch_line(&lists_.safe[i]);
 }
@@ -49,8 +49,14 @@ void EngineOf<D, O>::prefetch_search(int32_t i) const {
   }
   for (const Level &level : levels_.all()) {
     if (!level.grid.used() || lists_.rho[i] > level.rho_max) continue;
-    const size_t count = level.grid.cells_around(level.grid.home(lists_.centre[i], lattice_), lattice_);
-    for (size_t k = 0; k < count; ++k) prefetch_object(&level.cells.block[level.grid.around[k]]);
+    const auto home = level.grid.home(lists_.centre[i], lattice_);
+    const auto prefetch = [&](const std::vector<size_t> &cells, size_t count) {
+      for (size_t k = 0; k < count; ++k) prefetch_object(&level.cells.block[cells[k]]);
+    };
+    if constexpr (listed)
+      prefetch(image_cells_.cell, level.grid.cells_around(home, lattice_, image_cells_));
+    else
+      prefetch(level.grid.around, level.grid.cells_around(home, lattice_));
   }
 }
 

@@ -135,49 +135,40 @@ void EngineOf<D, O>::search(int32_t i, const Level &level, F &&f) const {
   const Place &centre = lists_.centre[i];
   const double within = lists_.rho[i] + level.rho_max;
   const auto reach = static_cast<float>(within * 0x1p-32 * (1.0 + CellTuning::rounding) + CellTuning::cut_off_bits);
-  // The first `cells` of grid.around, which stand at the image `now`.
-  const auto search_cells = [&](size_t cells, const Offset &now) {
-    int32_t x[D];
-    for (int c = 0; c < D; ++c) x[c] = static_cast<int32_t>((centre[c] - static_cast<uint64_t>(now[c])) >> 32);
-    const int32_t found = kernel_.search(level.cells.block.data(), grid.around.data(), cells, x, reach, found_.data());
-    for (int32_t e = 0; e < found; ++e) {
-      const int32_t k = found_[e];
-      if (k == i) continue;
-      const double cutoff = lists_.rho[i] + lists_.rho[k];
-      const Offset between = lists_.between_centres(i, k);
-      Offset offset;
-      double r2 = 0.0;
-      for (int c = 0; c < D; ++c) {
-        offset[c] = -now[c];
-        const auto r = static_cast<double>(wrapping_sum(between[c], offset[c]));
-        r2 += r * r;
-      }
-      if (r2 < cutoff * cutoff) f(k, &offset);
-    }
-  };
   const bool larger = lists_.rho[i] > level.rho_max;  // than the spheres for which the cells were chosen
   if (larger && grid.cells_within(within * unit, lattice_) > level.n) return try_all(i, level.member, f);
   const auto home = grid.home(centre, lattice_);
-  if constexpr (!listed) {
-    search_cells(larger ? grid.gather_within(home, within * unit, lattice_) : grid.cells_around(home, lattice_),
-                 Offset{});
+  CellSearch<D> query{level.cells.block.data(), nullptr, 0, reach, nullptr, nullptr};
+  int32_t own[D];
+  if constexpr (listed) {
+    query.count = larger ? grid.gather_within(home, within * unit, lattice_, image_cells_)
+                         : grid.cells_around(home, lattice_, image_cells_);
+    query.cells = image_cells_.cell.data();
+    query.turn = image_cells_.turn.data();
+    query.x = image_cells_.places(centre);
+    const size_t most = image_cells_.copies * static_cast<size_t>(spheres_.n);
+    if (found_.size() < most) found_.resize(most);
+    if (turn_.size() < most) turn_.resize(most);
   } else {
-    size_t cells = 0;
-    Offset now{};
-    const auto gather = [&](size_t cell, const Offset &image) {
-      if (cells > 0 && image != now) {
-        search_cells(cells, now);
-        cells = 0;
-      }
-      now = image;
-      if (cells == grid.around.size()) grid.around.resize(2 * cells);
-      grid.around[cells++] = cell;
-    };
-    if (larger)
-      grid.each_within(home, within * unit, lattice_, gather);
-    else
-      grid.each_around(home, lattice_, gather);
-    if (cells > 0) search_cells(cells, now);
+    query.count = larger ? grid.gather_within(home, within * unit, lattice_) : grid.cells_around(home, lattice_);
+    query.cells = grid.around.data();
+    for (int c = 0; c < D; ++c) own[c] = static_cast<int32_t>(centre[c] >> 32);
+    query.x = own;
+  }
+  const int32_t found = kernel_.search(query, found_.data(), turn_.data());
+  for (int32_t e = 0; e < found; ++e) {
+    const int32_t k = found_[e];
+    if (k == i) continue;
+    const double cutoff = lists_.rho[i] + lists_.rho[k];
+    const Offset between = lists_.between_centres(i, k);
+    Offset offset{};
+    double r2 = 0.0;
+    for (int c = 0; c < D; ++c) {
+      if constexpr (listed) offset[c] = -image_cells_.image[static_cast<size_t>(turn_[e]) * D + c];
+      const auto r = static_cast<double>(wrapping_sum(between[c], offset[c]));
+      r2 += r * r;
+    }
+    if (r2 < cutoff * cutoff) f(k, &offset);
   }
 }
 

@@ -165,14 +165,15 @@ JAM_SIMD_TARGET uint64_t collisions(const PairBatch<D> &q, Earliest &earliest) {
 }
 
 template <int D>
-JAM_SIMD_TARGET int32_t search(const Block<D> *block, const size_t *cells, size_t count, const int32_t *x, float reach,
-                               int32_t *found) {
+JAM_SIMD_TARGET int32_t search(const CellSearch<D> &q, int32_t *found, int32_t *turn) {
   Int8 place[D];
-  for (int c = 0; c < D; ++c) place[c] = Int8{} + x[c];
-  const float reach2 = reach * reach;
+  for (int c = 0; c < D; ++c) place[c] = Int8{} + q.x[c];
+  const float reach2 = q.reach * q.reach;
   int32_t size = 0;
-  for (size_t k = 0; k < count; ++k) {
-    const Block<D> *at = block + cells[k];
+  for (size_t k = 0; k < q.count; ++k) {
+    const Block<D> *at = q.block + q.cells[k];
+    if (q.turn)
+      for (int c = 0; c < D; ++c) place[c] = Int8{} + q.x[q.turn[k] * D + c];
     for (;;) {
       Float8 r2{};
       for (int c = 0; c < D; ++c) {
@@ -181,10 +182,13 @@ JAM_SIMD_TARGET int32_t search(const Block<D> *block, const size_t *cells, size_
         r2 += r * r;
       }
       unsigned hits = bits_of((Int8)(r2 < reach2) & ~load<Int8>(at->id));
-      for (; hits; hits &= hits - 1) found[size++] = at->id[__builtin_ctz(hits)];
+      for (; hits; hits &= hits - 1) {
+        if (q.turn) turn[size] = q.turn[k];
+        found[size++] = at->id[__builtin_ctz(hits)];
+      }
       const int32_t last = at->id[Block<D>::lanes - 1];
       if (last >= Block<D>::free) break;
-      at = block + Block<D>::link_to(last);
+      at = q.block + Block<D>::link_to(last);
     }
   }
   return size;

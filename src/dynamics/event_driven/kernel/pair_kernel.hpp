@@ -47,6 +47,17 @@ struct PairBatch {
   double now, rate, non_additivity;
 };
 
+// The blocks of `count` cells, seen from the place x (units of 2^-32 box); with images, cell k from place turn[k] of x.
+template <int D>
+struct CellSearch {
+  const Block<D> *block;
+  const size_t *cells;
+  size_t count;
+  float reach;
+  const int32_t *x;     // (images, D)
+  const int32_t *turn;  // nullptr: no images
+};
+
 // The earliest collision found so far: `time` from now, entry of the list (-1: none).
 struct Earliest {
   double time;
@@ -74,10 +85,8 @@ struct PairKernel {
   // Lowers `earliest` to the first entry with the smallest time. Returns a bit for each entry left out, of which the
   // caller computes the time itself: pairs that overlap, and pairs whose diameters grow faster than the spheres fly.
   uint64_t (*collisions)(const PairBatch<D> &pairs, Earliest &earliest);
-  // Writes the spheres in the blocks of `cells` within reach of x (units of 2^-32 box) to `found`; returns their
-  // number.
-  int32_t (*search)(const Block<D> *block, const size_t *cells, size_t count, const int32_t *x, float reach,
-                    int32_t *found);
+  // Writes the spheres within reach to `found`, with images the `turn` of each too; returns their number.
+  int32_t (*search)(const CellSearch<D> &query, int32_t *found, int32_t *turn);
   // Writes the partners of sphere `self` in order, and a few other spheres, to `found`; returns their number. It takes
   // the first shift that each pair drew.
   int32_t (*partners)(const Partners<D> &spheres, int32_t self, int32_t *found);

@@ -21,6 +21,7 @@ from pathlib import Path
 
 import jam
 from jam import store
+from jam._formats.write_packing import write_file
 from jam.ensemble import Ensemble, LocalPool
 from jam.ensemble.folder import row_of
 
@@ -34,7 +35,7 @@ def overhead(folder):
     for k in range(21):
         begin, cpu = time.perf_counter(), time.process_time()
         data = store.image(system, analysis=results)
-        store.write_file(folder / f"{k}.h5", data)
+        write_file(folder / f"{k}.h5", data)
         wall.append(time.perf_counter() - begin)
         processor.append(time.process_time() - cpu)
     return {"bytes": len(data), "wall": statistics.median(wall), "processor": statistics.median(processor)}

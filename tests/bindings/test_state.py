@@ -8,6 +8,7 @@ import sys
 import tempfile
 import unittest
 from pathlib import Path
+from unittest import mock
 
 import numpy as np
 
@@ -191,6 +192,17 @@ class Copies(unittest.TestCase):
         rest = b.crunch()
         self.assertTrue(rest.jammed)
         self.assertGreater(rest.packing_fraction, report.packing_fraction)
+
+    def test_pickle_without_files_in_memory_or_without_a_disk(self):
+        a = jam.System.random(32, 3, 7)
+        usual = pickle.dumps(a)
+        with mock.patch.object(os, "memfd_create", side_effect=OSError, create=True):
+            self.assertEqual(pickle.dumps(a), usual)
+            self.check_same(a, pickle.loads(usual))
+        if sys.platform == "linux":
+            with mock.patch.object(tempfile, "tempdir", "/no/such/folder"):
+                self.assertEqual(pickle.dumps(a), usual)
+                self.check_same(a, pickle.loads(usual))
 
     def test_pickles_and_checkpoints_go_on_to_the_same_bits(self):
         for options in ({}, {"model": "mk"}, {"model": "mk", "mk_zeta": 1.0}):

@@ -2,8 +2,6 @@
 from __future__ import annotations
 
 import os
-import tempfile
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from . import errors, raw
@@ -17,6 +15,7 @@ from ._api.size_laws import density_of
 from ._formats import ase, gsd
 from ._system.converting import Converting
 from ._system.copies import Copies
+from ._system.passing_file import passing_file
 from ._system.pore_space import PoreSpace
 from ._system.progress import end, reporter
 from ._system.verbs import Verbs
@@ -285,8 +284,7 @@ class System(Verbs, Writing, PoreSpace, Copies, Converting):
 
 def restore(state: bytes, calls: list[Any], trace: list[Any]) -> System:
     """A system from the bytes of a checkpoint."""
-    with tempfile.TemporaryDirectory() as folder:
-        file = Path(folder, "state")
+    with passing_file() as file:
         file.write_bytes(state)
         made = System.from_checkpoint(file)
     made.calls, made.trace = calls, trace

@@ -20,6 +20,7 @@ from .._formats.contents import Contents, MENDED
 from .._formats.replacing import require_ending
 from ..errors import StateError, StoreError
 from .network import Network
+from .passing_file import passing_file
 from .state import State
 
 _TEXT_FORMATS = (".xyz", ".extxyz", ".data", ".lmp", ".dump", ".dat", ".txt", ".csv", ".html")
@@ -140,8 +141,7 @@ class Writing(State, Network):
 
     def _state(self) -> bytes:
         """The bytes of a checkpoint, which holds all: velocities, shifts, results."""
-        with tempfile.TemporaryDirectory() as folder:
-            file = Path(folder, "state")
+        with passing_file() as file:
             self.write_checkpoint(str(file))
             return file.read_bytes()
 

@@ -80,12 +80,11 @@ double best_length(const std::vector<double> &w, const std::vector<double> &dw) 
   return low;
 }
 
-// Guesses of K+ from a point of the path. First all contacts: weak forces fall for long before they stay. Then those
-// with f > w, and those above the largest jump of the sorted forces, for a few that are much weaker or open much less.
+// Guesses of K+ from a point of the path: contacts with f > w, and those above the largest jump of the sorted forces,
+// for a few that are much weaker or open much less.
 std::vector<std::vector<char>> guess_support(const CentralPath &path) {
   const std::vector<double> &f = path.f();
   const size_t m = f.size();
-  std::vector<std::vector<char>> out{std::vector<char>(m, 1)};
   std::vector<char> larger(m), jumped(m);
   std::vector<double> sorted(f);
   std::sort(sorted.begin(), sorted.end());
@@ -93,9 +92,16 @@ std::vector<std::vector<char>> guess_support(const CentralPath &path) {
   for (size_t k = 1; k < m; ++k)
     if (jump == 0 || sorted[k] * sorted[jump - 1] > sorted[jump] * sorted[k - 1]) jump = k;
   for (size_t k = 0; k < m; ++k) larger[k] = f[k] > path.w()[k], jumped[k] = f[k] >= sorted[jump];
-  for (const auto &guess : {larger, jumped})
-    if (std::find(out.begin(), out.end(), guess) == out.end()) out.push_back(guess);
-  return out;
+  return {std::move(larger), std::move(jumped)};
+}
+
+// The contacts of a guess on which its balanced forces do not pull, where these are nearly all: another guess. Forces
+// that fall on the path for long before they stay are settled so.
+bool drop_pulled(const std::vector<double> &force, std::vector<char> &guess) {
+  size_t pulled = 0;
+  for (size_t k = 0; k < guess.size(); ++k)
+    if (guess[k] && !(force[k] > Tuning::zero_force)) guess[k] = 0, ++pulled;
+  return pulled > 0 && pulled <= Tuning::most_pulled;
 }
 
 enum class Support { no, positive, whole };
@@ -247,13 +253,20 @@ StressCone find_stress_cone(const ConstraintRows &rows, const NormalSolver &solv
     going = path.step();
     if (path.mu() > next) continue;
     next = Tuning::next_guess * path.mu();
-    for (const std::vector<char> &guess : guess_support(path)) {
-      if (out.decided) break;
+    std::vector<std::vector<char>> tried;
+    const auto certify = [&](const std::vector<char> &guess) {
+      if (out.decided || std::find(tried.begin(), tried.end(), guess) != tried.end()) return Support::positive;
+      tried.push_back(guess);
       const Support found = certify_support(rows, solver, path, guess, out);
       out.decided = found == Support::whole;
       const auto size = [](const std::vector<char> &on) { return std::count(on.begin(), on.end(), 1); };
       if (found == Support::positive && size(guess) > size(out.positive)) keep_positive(path, guess, out);
-    }
+      return found;
+    };
+    std::vector<char> guess(m, 1);
+    for (int k = 0; k < Tuning::most_drops && certify(guess) == Support::no; ++k)
+      if (!drop_pulled(out.force, guess)) break;
+    for (const std::vector<char> &other : guess_support(path)) certify(other);
     const double opening = least_opening(rows, path.x());
     if (opening > widest) widest = opening, opens_all = path.x();
   }

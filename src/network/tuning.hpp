@@ -69,6 +69,9 @@ struct StressConeTuning {
   static constexpr double largest_ratio = 1e12, longest_step = 1e3, damped = 0.25;
   // The path: mu of the first guess of the support, the part of it at the next one, and its end.
   static constexpr double first_guess = 1e-2, next_guess = 0.1, least_mu = 1e-12;
+  // Contacts that are pulled leave a guess so often, where they are no more than this.
+  static constexpr int most_drops = 4;
+  static constexpr size_t most_pulled = 20;
 };
 
 // ---- the test of rigidity

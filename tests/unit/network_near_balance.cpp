@@ -117,9 +117,48 @@ void deviations(void **) {
     }
 }
 
+void add_contact(RigidityMatrix &g, int32_t a, int32_t b, double x, double y) {
+  g.a.push_back(a), g.b.push_back(b);
+  const double length = std::hypot(x, y);
+  g.normal.push_back(x / length), g.normal.push_back(y / length);
+  g.distance.push_back(1.0), g.sigma.push_back(1.0);
+}
+
+// Rows alone: 16 disks on a triangular lattice; a disk between two of them whose directions are opposite but for
+// `tilt`, and that leans on a third one with a force of as much; and three disks, each of which its three contacts may
+// balance, but whose ratios of forces contradict each other, so that none of these six carries force.
+RigidityMatrix with_weak_and_without(double tilt) {
+  RigidityMatrix g;
+  g.dim = 2, g.nodes = 20;
+  for (int32_t i = 0; i < g.nodes; ++i) g.sphere.push_back(i), g.node.push_back(i);
+  const double height = std::sqrt(0.75);
+  for (int r = 0; r < 4; ++r)
+    for (int c = 0; c < 4; ++c) {
+      const auto at = [&](int dc, int dr) { return (r + dr + 4) % 4 * 4 + (c + dc + 4) % 4; };
+      add_contact(g, at(0, 0), at(1, 0), -1.0, 0.0);
+      add_contact(g, at(0, 0), at(r % 2, 1), -0.5, -height);
+      add_contact(g, at(0, 0), at(r % 2 - 1, 1), 0.5, -height);
+    }
+  add_contact(g, 16, 0, 1.0, tilt), add_contact(g, 16, 2, -1.0, tilt), add_contact(g, 16, 9, 0.0, -1.0);
+  add_contact(g, 17, 18, 1.0, 0.0), add_contact(g, 18, 19, -0.5, height), add_contact(g, 19, 17, -0.5, -height);
+  add_contact(g, 17, 1, -1.0, 0.4), add_contact(g, 18, 6, 0.6, -1.0), add_contact(g, 19, 11, 0.1, 1.0);
+  return g;
+}
+
+void weak_forces_beside_none(void **) {
+  for (const double tilt : {1e-4, 1e-6, 1e-8, 1e-9, 3e-10}) {
+    const RigidityResult r = test_rigidity(with_weak_and_without(tilt), Jamming::collective);
+    assert_true(r.jammed == Verdict::yes);
+    assert_int_equal(r.spheres, 17);
+    assert_int_equal(r.contacts, 51);
+    assert_int_equal(r.zero_force_contacts, 6);
+    assert_true(std::fabs(r.force[50] / (r.force[48] * 2.0 * tilt) - 1.0) < 1e-5);
+  }
+}
+
 }  // namespace
 
 int main() {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(deviations)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(deviations), cmocka_unit_test(weak_forces_beside_none)};
   return cmocka_run_group_tests_name("network_near_balance", tests, nullptr, nullptr);
 }

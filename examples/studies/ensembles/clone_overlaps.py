@@ -7,8 +7,8 @@ Growth (G = 1.732e-2 to p = 500, 1e-3 beyond) stops at p. Clones start from this
 some time D_AB is the mean over spheres of |r_A - r_B|^2, D that of the displacement from the start. D_AB = 2 D when clones move
 apart freely. In a simple glass D_AB and D soon have the value of the cage, with a narrow Gaussian distribution. Beyond a Gardner
 transition D stays below D_AB, and variance and skewness of D_AB are large (L. Berthier et al., Proc. Natl. Acad. Sci. 113, 8397
-(2016)). Spheres that left their cage (|dr| > LEFT in any clone) and the mean displacement are taken out. Small: N = 256, 8 clones of
-16 glasses. Large: N = 1024, 10 of 50.
+(2016)). Spheres that left their cage (|dr| > LEFT in any clone) and the mean displacement are taken out. Small: N = 256 and 512, 8
+clones of 16 glasses. Large: N = 512 to 2048, 10 of 50.
 """
 from itertools import combinations
 
@@ -65,43 +65,51 @@ def moments(values):
     return mean_error(variance), (skew, np.std(parts) * np.sqrt(len(parts) - 1.0))
 
 
+def rows(r, n, pressure, found):
+    """Rows of one N and pressure; the numbers of the picture."""
+    between, moved = np.array([f[0] for f in found]), np.array([f[1] for f in found])
+    ratio = between.mean(axis=1) / moved.mean(axis=1)
+    (variance, v_error), (skew, s_error) = moments(between[:, :, -1])
+    caged, where = np.mean([f[2] for f in found]), f"N = {n}, p = {pressure:g}"
+    r.add("1", f"{where}: D_AB over D after {INSTANTS[-1]:g} collisions", "simple glass: 1", *mean_error(ratio[:, -1]))
+    r.add("1", f"{where}: spheres times the relative variance of D_AB", "simple glass: the same for all N", caged * variance, caged * v_error)
+    r.add("1", f"{where}: skewness of D_AB", "Gaussian: 0", skew, s_error)
+    return between, moved, (pressure, caged * variance, caged * v_error, skew, s_error)
+
+
 def main():
     o = arguments(__doc__.splitlines()[0]).parse_args()
-    n, glasses, count = (1024, 50, 10) if o.large else (256, 16, 8)
+    sizes, glasses, count = ((512, 1024, 2048), 50, 10) if o.large else ((256, 512), 16, 8)
     r = Results(o, "clone_overlaps")
     figure, axes = plt.subplots(1, 4, figsize=(18, 4.4))
-    lines = []
-    for k, pressure in enumerate(PRESSURES):
-        name = f"clone_overlaps_n{n}"
-        made = [kept(o, name, f"p{pressure:g}_seed{s}", lambda: clones(n, s, pressure, count)) for s in range(1, glasses + 1)]
-        found = [squares(m["r"]) for m in made if m is not None]
-        if len(found) < 3:
-            continue
-        r.made(f"N = {n}, p = {pressure:g}, {count} clones of each glass, to {INSTANTS[-1]:g} collisions a sphere", len(found))
-        between, moved = np.array([f[0] for f in found]), np.array([f[1] for f in found])
-        ratio = between.mean(axis=1) / moved.mean(axis=1)
-        last = mean_error(ratio[:, -1])
-        (variance, v_error), (skew, s_error) = moments(between[:, :, -1])
-        caged = np.mean([f[2] for f in found])
-        r.add("1", f"p = {pressure:g}: D_AB over D after {INSTANTS[-1]:g} collisions", "simple glass: 1", *last)
-        r.add("1", f"p = {pressure:g}: spheres times the relative variance of D_AB", "grows", caged * variance, caged * v_error)
-        r.add("1", f"p = {pressure:g}: skewness of D_AB", "Gaussian: 0", skew, s_error)
-        lines.append((pressure, caged * variance, caged * v_error, skew, s_error))
-        mean, color = np.mean(between, axis=(0, 1)), f"C{k}"
-        axes[0].loglog(INSTANTS, mean, "o-", ms=3, color=color, label=f"D_AB, p = {pressure:g}")
-        axes[0].loglog(INSTANTS, moved.mean(axis=(0, 1)), "s--", ms=3, color=color)
-        pooled = (between[:, :, -1] / between[:, :, -1].mean(axis=1, keepdims=True)).ravel()
-        axes[3].hist(pooled, np.linspace(0.0, 2.5, 26), histtype="step", density=True, color=color, label=f"p = {pressure:g}")
-    axes[0].set(xlabel="collisions of a sphere", ylabel="diameters^2; dashed: D from the start")
-    if lines:
-        p, variance, v_error, skew, s_error = np.array(lines).T
-        axes[1].errorbar(p, variance, v_error, fmt="o-", capsize=3)
-        axes[1].set(xscale="log", ylim=(0, None), xlabel="p", ylabel="spheres times relative variance of D_AB")
-        axes[2].errorbar(p, skew, s_error, fmt="o-", capsize=3)
-        axes[2].axhline(0.0, color="0.6", lw=1)
-        axes[2].set(xscale="log", xlabel="p", ylabel="skewness of D_AB")
-    axes[3].set(xlabel="D_AB over its mean in the glass", ylabel="density")
-    axes[0].legend(fontsize=6), axes[3].legend(fontsize=7)
+    for n in sizes:
+        lines = []
+        for k, pressure in enumerate(PRESSURES):
+            name, last = f"clone_overlaps_n{n}", n == sizes[-1]
+            made = [kept(o, name, f"p{pressure:g}_seed{s}", lambda: clones(n, s, pressure, count)) for s in range(1, glasses + 1)]
+            found = [squares(m["r"]) for m in made if m is not None]
+            if len(found) < 3:
+                continue
+            r.made(f"N = {n}, p = {pressure:g}, {count} clones of each glass, to {INSTANTS[-1]:g} collisions a sphere", len(found))
+            between, moved, line = rows(r, n, pressure, found)
+            lines.append(line)
+            if last:
+                color = f"C{k}"
+                axes[0].loglog(INSTANTS, between.mean(axis=(0, 1)), "o-", ms=3, color=color, label=f"D_AB, p = {pressure:g}")
+                axes[0].loglog(INSTANTS, moved.mean(axis=(0, 1)), "s--", ms=3, color=color)
+                pooled = (between[:, :, -1] / between[:, :, -1].mean(axis=1, keepdims=True)).ravel()
+                axes[3].hist(pooled, np.linspace(0.0, 2.5, 26), histtype="step", density=True, color=color, label=f"p = {pressure:g}")
+        if lines:
+            p, variance, v_error, skew, s_error = np.array(lines).T
+            axes[1].errorbar(p, variance, v_error, fmt="o-", capsize=3, label=f"N = {n}")
+            axes[2].errorbar(p, skew, s_error, fmt="o-", capsize=3, label=f"N = {n}")
+    axes[2].axhline(0.0, color="0.6", lw=1)
+    axes[0].set(xlabel="collisions of a sphere", ylabel="diameters^2; dashed: D from the start", title=f"N = {sizes[-1]}")
+    axes[1].set(xscale="log", ylim=(0, None), xlabel="p", ylabel="spheres times relative variance of D_AB")
+    axes[2].set(xscale="log", xlabel="p", ylabel="skewness of D_AB")
+    axes[3].set(xlabel="D_AB over its mean in the glass", ylabel="density", title=f"N = {sizes[-1]}")
+    for axis in axes:
+        axis.legend(fontsize=6)
     r.write(figure)
 
 

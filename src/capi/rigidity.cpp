@@ -42,8 +42,8 @@ Answer answer_of(const jam_rigidity_report &r, const PackingVerdict &v) {
   if (unresolved > 0.0)
     return {JAM_AMBIGUOUS,
             sentence("undecided whether the packing is %s jammed: a saddle, where contacts with forces of "
-                     "%.1e do not close together with all others, and without them spheres can move",
-                     kind, unresolved)};
+                     "%.1e do not close together with all others, and without them spheres can move%s",
+                     kind, unresolved, v.unresolved_because.c_str())};
   if (r.flexes > 0)
     return {JAM_AMBIGUOUS,
             sentence("undecided whether the packing is %s jammed: %lld motions keep all contacts closed; whether other "

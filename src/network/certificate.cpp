@@ -128,7 +128,7 @@ std::string why_undecided(const PackingVerdict &v) {
                   "undecided: doubles do not resolve a flex from a soft mode here, or a weak force from none (smallest "
                   "eigenvalue %.1e, force residual %.1e)",
                   v.result.margin, v.result.force_residual);
-  return line;
+  return line + v.unresolved_because;
 }
 
 }  // namespace

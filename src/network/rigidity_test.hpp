@@ -19,6 +19,7 @@
 // matter.
 #pragma once
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "core/call_scope.hpp"
@@ -79,6 +80,7 @@ struct PackingVerdict {
   Verdict when_closed = Verdict::undecided;  // with all pairs in doubt closed
   // The least force of an undecided packing whose contacts do not close together in two doubles; else 0.
   double unresolved = 0.0;
+  std::string unresolved_because;  // what might decide it and could not be tried, as the end of a sentence; or empty
   // The carrying contacts and their forces: the network that crunch and analysis go on with.
   ContactNetwork carrying(int dim) const;
 };

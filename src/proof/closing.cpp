@@ -160,7 +160,7 @@ Round exchange_once(ProofScene &s) {
 
 }  // namespace
 
-Exchange close_together(ProofScene &scene) {
+Exchange close_together(ProofScene &scene, LpsEnd *lps) {
   ProofScene s = scene;
   Round round = Round::changed;
   bool changed = false;
@@ -168,7 +168,11 @@ Exchange close_together(ProofScene &scene) {
     round = exchange_once(s);
     changed = changed || round == Round::changed;
   }
-  if (round != Round::closed) return close_by_lps(scene) ? Exchange::changed : Exchange::endless;
+  if (round != Round::closed) {
+    const LpsEnd end = close_by_lps(scene);
+    if (lps) *lps = end;
+    return end == LpsEnd::closed ? Exchange::changed : Exchange::endless;
+  }
   scene = std::move(s);
   return changed ? Exchange::changed : Exchange::same;
 }

@@ -1,5 +1,6 @@
 // Which contacts close together. Doubles cannot distinguish a gap of 1e-14 from a force of 1e-8; two doubles can.
 #pragma once
+#include "proof/refined_lp.hpp"
 #include "proof/scene.hpp"
 
 namespace jam {
@@ -7,9 +8,9 @@ namespace jam {
 // The dual simplex method for the largest Gamma, in two doubles: Newton's steps, and exchanges of contacts with gaps
 // that stay for pairs that overlap, until all listed contacts close and no other pair of stable spheres overlaps.
 // Forces may vanish. Where exchanges come to no end, LPs do the same (refined_lp.hpp), with rattlers in them.
-// `endless`: these end neither, and the scene is as it was.
+// `endless`: these end neither, and the scene is as it was; lps, which may be NULL, says why.
 enum class Exchange { endless, same, changed };
-Exchange close_together(ProofScene &scene);
+Exchange close_together(ProofScene &scene, LpsEnd *lps = nullptr);
 
 // After close_together: forces in the middle of all states of self-stress, on the contacts that have some; and rattlers
 // move out of overlaps. `held`: the test of jamming finds these forces, and no flex. `unchanged`: the scene is as it

@@ -77,8 +77,9 @@ void take_closed(ProofScene &s, const std::vector<NearPair> &pairs, const std::v
 
 }  // namespace
 
-bool close_by_lps(ProofScene &scene) {
-  if (!clp_is_built() || scene.own_images || scene.strict) return false;
+LpsEnd close_by_lps(ProofScene &scene) {
+  if (scene.own_images || scene.strict) return LpsEnd::no_end;
+  if (!clp_is_built()) return LpsEnd::without_clp;
   ProofScene s = scene;
   std::vector<NearPair> pairs = all_pairs(s);
   std::vector<double> force(pairs.size());
@@ -89,10 +90,10 @@ bool close_by_lps(ProofScene &scene) {
     CallScope::look();
     Step step;
     make_step(s, pairs, length, step);
-    if (step.pair.size() > proof_tuning::largest_lp) return false;
+    if (step.pair.size() > proof_tuning::largest_lp) return LpsEnd::too_many_rows;
     const bool same_rows = before.basis_rows.size() == step.pair.size();
     LpSolution found = solve_lp_clp(step.lp, clp_tolerance, nullptr, same_rows ? &before : nullptr);
-    if (!found.solved) return false;
+    if (!found.solved) return LpsEnd::no_end;
     for (size_t x = 0; x < s.high.size(); ++x) add_to(s.high[x], s.low[x], found.s[x] * length * std::sqrt(s.gamma));
     std::fill(force.begin(), force.end(), 0.0);
     for (size_t row = 0; row < step.pair.size(); ++row) force[step.pair[row]] = found.y[row];
@@ -103,10 +104,10 @@ bool close_by_lps(ProofScene &scene) {
     if (length < proof_tuning::last_step) {
       take_closed(s, pairs, force);
       scene = std::move(s);
-      return true;
+      return LpsEnd::closed;
     }
   }
-  return false;
+  return LpsEnd::no_end;
 }
 
 }  // namespace jam

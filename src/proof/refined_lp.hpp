@@ -8,8 +8,9 @@ namespace jam {
 // Gleixner, D. E. Steffy, K. Wolter, INFORMS J. Comput. 28, 449 (2016)). Linear gaps are never wider than true ones, so
 // that no step makes an overlap. At the end contacts are all pairs that are closed, with the multipliers of the last LP
 // as forces, some of them 0. Directions in which multipliers are below the tolerance of an LP (1e-9 of the mean) stay
-// open: the contacts then leave a flex. False, and the scene as it was, without Clp, above proof_tuning::largest_lp
-// rows, or where steps come to no end.
-bool close_by_lps(ProofScene &scene);
+// open: the contacts then leave a flex. The scene is as it was without Clp, above proof_tuning::largest_lp rows, and
+// where steps come to no end.
+enum class LpsEnd { closed, without_clp, too_many_rows, no_end };
+LpsEnd close_by_lps(ProofScene &scene);
 
 }  // namespace jam

@@ -160,6 +160,14 @@ void take_network(ContactNetwork net, const Packing &p, PackingVerdict &verdict)
                                      [&](int32_t z) { return z > 0 && z <= g.dim; });
 }
 
+std::string words_of(LpsEnd end) {
+  const std::string lps = "; linear programs in two doubles might close other contacts, but ";
+  if (end == LpsEnd::without_clp) return lps + "need Clp, which this build lacks";
+  if (end == LpsEnd::too_many_rows)
+    return lps + "more than " + std::to_string(proof_tuning::largest_lp) + " pairs are near contact";
+  return end == LpsEnd::no_end ? "; exchanges of contacts and linear programs in two doubles come to no end" : "";
+}
+
 bool proves(ProofScene &s) {
   ProofEquations e;
   if (!refine(s, e)) return false;
@@ -177,7 +185,8 @@ void confirm_by_exchange(const Packing &p, PackingVerdict &verdict) {
   const BlasSingleThread single;
   ProofScene as_listed = scene_of_contacts(p, network, {}), closing = as_listed;
   if (as_listed.own_images || proves(as_listed)) return;
-  const Exchange end = close_together(closing);
+  LpsEnd lps = LpsEnd::closed;
+  const Exchange end = close_together(closing, &lps);
   if (end == Exchange::same) return;
   const Settled found = settle_exchange(closing, end);
   if (found == Settled::held || (found == Settled::changed && proves(closing))) {
@@ -186,6 +195,7 @@ void confirm_by_exchange(const Packing &p, PackingVerdict &verdict) {
   } else {
     verdict.result.jammed = verdict.when_closed = Verdict::undecided;
     verdict.unresolved = *std::min_element(network.force.begin(), network.force.end());
+    verdict.unresolved_because = words_of(lps);
   }
 }
 

@@ -226,13 +226,16 @@ void contacts_that_stay_open_leave_the_list(void **) {
 // Linear programs and exchanges of contacts find the same Gamma, whether a disk is too small by 1e-14 or too large by
 // 1e-12, and a rattler that overlaps comes free.
 void linear_programs_close_the_same_contacts(void **) {
+  Lattice large = triangular(40, 40);  // 4800 pairs
+  ProofScene refused = make_proof_scene(large.packing, large.network, {});
+  assert_true(close_by_lps(refused) == (clp_is_built() ? LpsEnd::too_many_rows : LpsEnd::without_clp));
   if (!clp_is_built()) return;
   for (const double change : {-1e-14, 1e-12}) {
     Lattice l = triangular(6, 6, {9});
     l.packing.diameter[14] += change;
     ProofScene by_exchange = make_proof_scene(l.packing, l.network, {}), by_lps = by_exchange;
     assert_true(close_together(by_exchange) == Exchange::changed);
-    assert_true(close_by_lps(by_lps));
+    assert_true(close_by_lps(by_lps) == LpsEnd::closed);
     const ProofEquations e = evaluate(by_lps);
     double sum = 0.0;
     for (size_t c = 0; c < by_lps.contacts(); ++c) {
@@ -250,7 +253,7 @@ void linear_programs_close_the_same_contacts(void **) {
   l.packing.diameter.push_back(0.5), l.network.coordination.push_back(0);
   ProofScene s = make_proof_scene(l.packing, l.network, {});
   const double before = s.gamma;
-  assert_true(close_by_lps(s));
+  assert_true(close_by_lps(s) == LpsEnd::closed);
   for (const NearPair &pair : near_pairs(s)) assert_true(pair.opening > 0.0);
   assert_true(std::fabs(s.gamma - before) < 1e-14);
 }

@@ -54,15 +54,34 @@ std::vector<double> free_beside_walls(const RigidityMatrix &g, const Flexes &fle
   return combine(kept, opens.vectors.col(last));
 }
 
+// The force of each contact times the second derivative of its distance, and the mean of their sizes.
+std::vector<double> curvatures(const RigidityMatrix &g, const std::vector<double> &force, double &scale) {
+  std::vector<double> weight(force);
+  scale = 0.0;
+  for (size_t k = 0; k < force.size(); ++k) weight[k] *= g.bending[k], scale += std::fabs(weight[k]);
+  scale /= static_cast<double>(force.size());
+  return weight;
+}
+
 }  // namespace
+
+bool opens_by_curvature(const RigidityMatrix &carrying, const std::vector<double> &force,
+                        const std::vector<double> &motion) {
+  double scale = 0.0, square = 0.0;
+  const std::vector<double> weight = curvatures(carrying, force, scale);
+  std::vector<double> flex(carrying.unknowns());
+  for (size_t k = 0, d = static_cast<size_t>(carrying.dim); k < flex.size(); ++k) {
+    flex[k] = motion[static_cast<size_t>(carrying.sphere[k / d]) * d + k % d];
+    square += flex[k] * flex[k];
+  }
+  for (double &x : flex) x /= std::sqrt(square);
+  return form_of(carrying, weight, {std::move(flex)})(0, 0) > RigidityTuning::least_curvature * scale;
+}
 
 void judge_curvature(const RigidityMatrix &carrying, const std::vector<double> &force, Flexes &flexes,
                      RigidityResult &out) {
   double scale = 0.0;
-  std::vector<double> weight(force);
-  for (size_t k = 0; k < force.size(); ++k) weight[k] *= carrying.bending[k], scale += std::fabs(weight[k]);
-  scale /= static_cast<double>(force.size());
-  const SymmetricEigen eigen = symmetric_eigen(form_of(carrying, weight, flexes));
+  const SymmetricEigen eigen = symmetric_eigen(form_of(carrying, curvatures(carrying, force, scale), flexes));
   const Eigen::Index last = eigen.values.size() - 1;
   const double most = eigen.values[last], limit = RigidityTuning::least_curvature * scale;
   std::vector<double> first = combine(flexes, eigen.vectors.col(last));

@@ -10,4 +10,9 @@ namespace jam {
 void judge_curvature(const RigidityMatrix &carrying, const std::vector<double> &force,
                      std::vector<std::vector<double>> &flexes, RigidityResult &out);
 
+// Whether forces times second derivatives of distances are positive along a motion of the nodes of the matrix of which
+// `carrying` is a part, a flex of that part.
+bool opens_by_curvature(const RigidityMatrix &carrying, const std::vector<double> &force,
+                        const std::vector<double> &motion);
+
 }  // namespace jam

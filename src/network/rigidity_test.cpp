@@ -206,6 +206,8 @@ static RigidityResult find_verdict(const RigidityMatrix &g, Jamming kind) {
       for (size_t k = 0; k < rows.rows(); ++k)
         if (!cone.carrying[k]) factor = std::max(factor, -y0[k] / y1[k]);
       for (size_t k = 0; k < x.size(); ++k) x[k] += factor * cone.motion[k];
+      // What opens the others is a flex of K+ too, and the curvature of a round wall may hold the sum of both.
+      if (g.round_axes > 0 && factor > 0.0 && !opens_by_curvature(carrying, f, x)) continue;
     }
     complete_flex(g, sub, rows, x, released, strain, out);
     if (!out.flex.empty()) break;

@@ -156,9 +156,38 @@ void weak_forces_beside_none(void **) {
   }
 }
 
+void add_wall(RigidityMatrix &g, int32_t i, double x, double y, double bending) {
+  add_contact(g, i, -1, x, y);
+  g.bending.push_back(bending);
+}
+
+// Rows alone: wall, disk 0, disk 1, wall in a line along x, with one state of self-stress. Across it the forces times
+// second derivatives give q = (y0 - y1)^2 - 20 y0^2 - y1^2 / 2: disk 1 may leave the line, as q(0, y1) > 0. Two
+// contacts without force ask for y0 >= y1 >= 0, where q <= -19 y0^2: then there is no motion.
+void contacts_without_force_at_a_round_wall(void **) {
+  for (const bool blocked : {false, true}) {
+    RigidityMatrix g;
+    g.dim = 2, g.nodes = 2, g.round_axes = 2, g.open_axes = 0;
+    g.sphere = {0, 1}, g.node = {0, 1};
+    add_wall(g, 0, 1.0, 0.0, -20.0), add_wall(g, 1, -1.0, 0.0, -0.5);
+    add_contact(g, 0, 1, -1.0, 0.0), g.bending.push_back(1.0);
+    if (blocked) {
+      add_wall(g, 1, 0.0, 1.0, -0.5);
+      add_contact(g, 0, 1, 0.0, 1.0), g.bending.push_back(1.0);
+    }
+    const RigidityResult r = test_rigidity(g, Jamming::collective);
+    assert_true(r.stressed == Verdict::yes);
+    assert_int_equal(r.contacts, 3);
+    assert_int_equal(r.flexes, 2);
+    assert_true(r.jammed == (blocked ? Verdict::undecided : Verdict::no));
+    assert_true(r.flex.empty() == blocked);
+  }
+}
+
 }  // namespace
 
 int main() {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(deviations), cmocka_unit_test(weak_forces_beside_none)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(deviations), cmocka_unit_test(weak_forces_beside_none),
+                                     cmocka_unit_test(contacts_without_force_at_a_round_wall)};
   return cmocka_run_group_tests_name("network_near_balance", tests, nullptr, nullptr);
 }

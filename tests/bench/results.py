@@ -148,6 +148,69 @@ def ratios(raw):
     return ["d", "ratio", "large of 2000", "share of volume", "growth (s)", "million collisions per second", "million trials per second", "crunch (s)", "factorisations", "contacts", "jammed"], rows  # fmt: skip
 
 
+def with_error(value, error):
+    return {"value": value, "error": error}
+
+
+def mixtures(raw):
+    """mixtures.py"""
+    names = {"equal": "equal", "two sizes": "two sizes, ratio", "log-normal": "log-normal, deviation"}
+    laws = dict.fromkeys((r["law"], r["value"]) for r in raw)
+    of = {(r["law"], r["value"], r["d"]): r for r in raw}
+    rows = [
+        [names[law] + (f" {value:g}" if law != "equal" else "")]
+        + [x for d in (2, 3) for x in (of[law, value, d]["rate"] / 1e6, of[law, value, d]["ratio"])]
+        for law, value in laws
+    ]
+    return ["diameters"] + [f"d = {d}, {what}" for d in (2, 3) for what in ("million collisions per second", "over equal")], rows
+
+
+def md_misses(*raws):
+    """md_misses.py"""
+    runs = [run for raw in raws for run in raw]
+    names = ("instructions", "misses of 32 kB", "misses of 1 MB", "mispredicted branches")
+    rows = []
+    for part in [*runs[0]["parts"], "all"]:
+        counts = [run["total"] if part == "all" else run["parts"][part] for run in runs]
+        rows.append([part] + [x for k in (0, 1, 2, 3) for x in ([counts[-1][k]] if k in (0, 3) else [c[k] for c in counts])])
+    last = f"N = {runs[-1]['n']}"
+    columns = ["per collision"]
+    for k, name in enumerate(names):
+        columns += [f"{name} at {last}"] if k in (0, 3) else [f"{name} at N = {run['n']}" for run in runs]
+    return columns, rows
+
+
+def ensemble(*raws):
+    """ensemble.py --seeds 1,60; ... 61,120; ... 121,220 and 221,320 with --protocols"""
+    import ensemble as bench
+
+    found = bench.together(list(raws))
+    rows = []
+    for name, m in found["means"].items():
+        part = lambda *names: sum(m[f"{n} (s)"] for n in names)
+        rows.append(
+            [name, len(found["runs"][name]), m["collisions"][0] / 1e6, m["factorisations"][0], part("growth"), part("crunch"), part("start", "image", "file")]
+            + [part("analysis", "check"), part(*bench.PARTS), with_error(m["phi_J"][0], m["phi_J"][1])]
+            + ["" if name == "default" else f"{m['phi_J'][2]:.1e} ± {m['phi_J'][3]:.1e}"]
+        )
+    columns = ["stages", "packings", "million collisions", "factorisations", "growth (s)", "crunch (s)", "store (s)", "analyse and check (s)"]
+    return columns + ["a packing (s)", "phi_J", "phi_J less that of the default"], rows
+
+
+def ensemble_statistics(*raws):
+    """ensemble.py --seeds 1,60; ... 61,120; ... 121,220 and 221,320 with --protocols"""
+    import ensemble as bench
+
+    found = bench.together(list(raws))
+    means = found["means"]
+    others = ("second stage to 1e4", "second stage to 3000", "first stage alone")
+    rows = []
+    for key in found["quantities"]:
+        difference = [f"{means[o][key][2]:.2g} ± {means[o][key][3]:.1g}" for o in others]
+        rows.append([key, with_error(*means["default"][key][:2]), *difference])
+    return ["mean of", "default", *(f"{o} less the default" for o in others)], rows
+
+
 def wall_rows(raws):
     rows = []
     for raw in raws:
@@ -307,7 +370,7 @@ def read(path):
 
 def main():
     name, raws = sys.argv[1], [read(path) for path in sys.argv[2:]]
-    made = {f.__name__: f for f in (crunch, size, clp, resume, disks, proofs, strict, md, monte_carlo, near_jamming, soft_cell, pore_space, advise, analysis, factorisation, ablation, ratios, walls, walls_equal, walls_edge)}[name]
+    made = {f.__name__: f for f in (crunch, size, clp, resume, disks, proofs, strict, md, monte_carlo, near_jamming, soft_cell, pore_space, advise, analysis, factorisation, ablation, ratios, mixtures, md_misses, ensemble, ensemble_statistics, walls, walls_equal, walls_edge)}[name]
     columns, rows = made(*raws)
     old = raws[0] if isinstance(raws[0], dict) and "commit" in raws[0] else None  # a result that was kept with its source
     source = old and {key: old[key] for key in ("machine", "commit", "date")}

@@ -1,10 +1,13 @@
 """Studies on ensembles, on a few small packings: scripts run, keep what they made, and their rows hold what jamming demands."""
+import importlib
 import json
 import subprocess
 import sys
 import tempfile
 import unittest
 from pathlib import Path
+
+import numpy as np
 
 HERE = Path(__file__).resolve().parents[2] / "examples" / "studies" / "ensembles"
 
@@ -36,7 +39,7 @@ class Studies(unittest.TestCase):
         self.assertEqual(again, rows)
 
     def test_sketches(self):
-        _, rows, _ = run("sketches", self.out.name)
+        _, rows, _ = run("sketches", self.out.name, "--disks", "64")
         # A linear constraint is sufficient for the exact one; the root of the collision is a contact.
         self.assertEqual(rows["points that the linear constraints allow and the exact ones do not"]["ours"], 0)
         self.assertGreaterEqual(rows["least distance over the diameter after one LP"]["ours"], 1 - 1e-12)
@@ -51,6 +54,37 @@ class Studies(unittest.TestCase):
         self.assertLess(rows["median over packings of the largest |f_soft - f_crunch| / mean, N = 96"]["ours"], 0.2)
         for side in ("below", "above"):
             self.assertAlmostEqual(rows[f"phi_J from {side}, N = 96"]["ours"], 0.64, delta=0.04)
+
+    def test_limit_of_the_structure_factor(self):
+        # Percus and Yevick: 1/S(0) = (1 + 2 phi)^2 / (1 - phi)^4 (Wertheim 1963); the fit towards q = 0 must find it within its error
+        study = self.imported("liquid_structure")
+        for phi in (0.2, 0.45):
+            exact = (1 + 2 * phi) ** 2 / (1 - phi) ** 4
+            self.assertAlmostEqual(1 - study.percus_yevick(np.array([1e-6]), phi)[0], exact, delta=1e-8 * exact)
+            n = np.arange(1, 80)
+            n = n[study.multiplicity(np.sqrt(n), 3) > 0]
+            q, m = 0.55 * np.sqrt(n), study.multiplicity(np.sqrt(n), 3)
+            noise = np.sqrt(0.03 / m)
+            s = (1 + noise * np.random.default_rng(3).normal(size=len(q))) / (1 - study.percus_yevick(q, phi))
+            value, error, _ = study.limit(q, s, noise)
+            self.assertLess(abs(value - exact), 4 * error)
+            self.assertLess(error, 0.1 * exact)
+
+    def test_linear_programs_of_another_solver(self):
+        # HiGHS and the library end in the same packing from the same glass.
+        study = self.imported("lp_tolerance")
+        with study.jam.System.random(40, seed=3) as glass:
+            glass.compress([(1e-2, 500.0), (3e-3, 1e7)])
+            found = study.by_library(glass)
+            pairs, _, phi, _ = study.by_lps(glass, 1e-9)
+        self.assertIsNotNone(found)
+        self.assertEqual(set(map(tuple, np.sort(pairs, axis=1).tolist())), set(map(tuple, np.sort(found[0], axis=1).tolist())))
+        self.assertAlmostEqual(phi, found[2], delta=1e-8)
+
+    def imported(self, name):
+        sys.path.insert(0, str(HERE))
+        self.addCleanup(sys.path.remove, str(HERE))
+        return importlib.import_module(name)
 
     def test_complexity(self):
         options = ("--sizes", "32", "64", "128", "--seeds", "2")

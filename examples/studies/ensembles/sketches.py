@@ -138,7 +138,7 @@ def states(r, axis):
     axis.legend(fontsize=6)
 
 
-def disks(r, axis, n=1024):
+def disks(r, axis, n):
     """2.3: jammed disks of size ratio 1.4 with their force network; rattlers in colour."""
     packing = jam.System.random(n=n, dim=2, seed=1, packing_fraction=0.4, diameters=np.where(np.arange(n) % 2, 1.4, 1.0))
     report = packing.crunch(method="sequential_lp")
@@ -157,7 +157,9 @@ def disks(r, axis, n=1024):
 
 
 def main():
-    o = arguments(__doc__.splitlines()[0]).parse_args()
+    p = arguments(__doc__.splitlines()[0])
+    p.add_argument("--disks", type=int, default=1024, help="of figure 2.3 (1024)")
+    o = p.parse_args()
     r = Results(o, "sketches")
     figure, axes = plt.subplots(2, 2, figsize=(10.5, 10))
     for axis, draw in zip(axes.flat, (constraints, one_lp, collision, states)):
@@ -165,7 +167,7 @@ def main():
     r.made("5 disks; 2 growing disks; 64 disks of size ratio 1.4", 1)
     r.picture(figure)
     figure, axis = plt.subplots(figsize=(9, 9))
-    disks(r, axis)
+    disks(r, axis, o.disks)
     r.picture(figure, "sketches_disks")
     r.write()
 

@@ -26,9 +26,9 @@ void InteriorPoint::weights() {
     weight_[k] = y_[k] / w_[k];
     mean += weight_[k];
   }
-  // Without bounds translations (and spheres without rows) need a proximal diagonal: it leaves the fixed point
+  // Translations (and spheres without rows) need a proximal diagonal where bounds are wide: it leaves the fixed point
   // alone.
-  const double ridge = T::ridge * mean / static_cast<double>(unknowns_);
+  const double ridge = control_.ridge * mean / static_cast<double>(unknowns_);
   for (size_t k = 0; k < unknowns_; ++k) diagonal_[k] = ridge + (box_ ? zu_[k] / u_[k] + zv_[k] / v_[k] : 0.0);
 }
 

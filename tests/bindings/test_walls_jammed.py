@@ -11,6 +11,7 @@ from jamming_oracle import support, vectors
 
 SCENES = {
     "lines": {"dim": 2, "walls": "y", "cell": [2, 1]},
+    "strip": {"dim": 2, "walls": "y"},
     "box": {"dim": 2, "walls": "xy"},
     "circle": {"dim": 2, "container": "ball"},
     "slit": {"walls": "z", "cell": [1, 1, 1.3]},
@@ -122,6 +123,32 @@ class Verdicts(unittest.TestCase):
                         np.testing.assert_allclose([by_pair[tuple(p)] for p in s.contacts.pairs], s.forces, atol=1e-8)
                     np.testing.assert_array_equal(s.rigidity().jammed, 1)
                     np.testing.assert_array_equal(s.check().jammed, 1)
+
+    def test_layers_along_lines_hold_weak_forces(self):
+        # Positive forces that balance, on contacts that fix all disks but for a shift along the lines, are a proof (B. Roth and
+        # W. Whiteley, Trans. Amer. Math. Soc. 265, 419 (1981)). Disks in layers are held from the side by forces below 1e-6.
+        s = start("strip", 300, 1, 0.3)
+        s.compress([(1e-2, 500.0), (3e-3, 1e7)])
+        self.assertTrue(s.crunch().jammed)
+        x, d, edge = s.positions, s.diameters[0], s.cell[0, 0]
+        r = x[:, None] - x[None]
+        r[:, :, 0] -= edge * np.round(r[:, :, 0] / edge)
+        length = np.linalg.norm(r, axis=2) + 2 * d * np.eye(300)
+        self.assertGreater(min(length.min(), 2 * x[:, 1].min(), 2 * (edge - x[:, 1]).min()) / d, 1 - 1e-13)
+        (i, j), force = s.contacts.pairs.T, s.forces
+        self.assertGreater(force.min(), 0)
+        self.assertLess(force.min(), 1e-6)
+        below = 2 * x[i, 1] < edge
+        gap = np.where(j < 0, 2 * np.where(below, x[i, 1], edge - x[i, 1]), length[i, j]) / d - 1
+        self.assertLess(np.abs(gap).max(), 1e-10)
+        rows = np.zeros((len(force), 300, 2))
+        k = np.arange(len(force))
+        rows[k, i] = np.where((j < 0)[:, None], np.where(below, 1, -1)[:, None] * [0, 1], r[i, j] / length[i, j, None])
+        rows[k[j >= 0], j[j >= 0]] = -rows[k[j >= 0], i[j >= 0]]
+        rows = rows[:, np.unique(np.append(i, j[j >= 0]))].reshape(len(force), -1)
+        self.assertLess(np.abs(force @ rows).max(), 1e-12)
+        values = np.linalg.svd(rows, compute_uv=False)
+        self.assertEqual((values > 1e-4).sum(), rows.shape[1] - SYMMETRIES["lines"])
 
     def test_no_motion_lets_the_diameters_grow(self):
         random = np.random.default_rng(1)

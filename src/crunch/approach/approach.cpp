@@ -21,9 +21,7 @@ bool acceptable(const CrunchState &s, const LpSolution &x, bool early, LpCheck &
   return x.solved && check.infeasibility < rounding && check.gamma < 1e-6 && check.balance < balance && x.g > -rounding;
 }
 
-enum class Answer { kept, refused, interrupted };
-
-Answer try_solver(CrunchState &s, jam_lp_solver solver, const IpmControl &control) {
+LpAnswer try_solver(CrunchState &s, jam_lp_solver solver, const IpmControl &control) {
   s.last.answer = solver == JAM_LP_IPM ? s.interior_point.solve(s.last.lp, control, &s.monitor)
                                        : solve_lp_clp(s.last.lp, clp_tolerance, &s.monitor);
   if (s.hooks.answer) s.hooks.answer(s.last.answer, solver);
@@ -35,43 +33,12 @@ Answer try_solver(CrunchState &s, jam_lp_solver solver, const IpmControl &contro
     s.out.report.duality_gap = std::fabs(check.gap);
     ++s.out.report.lp_solves;
     s.last.early = control.early_fraction > 0.0 && std::fabs(check.gap) > s.next.gain_tolerance;
-    return Answer::kept;
+    return LpAnswer::kept;
   }
-  if (s.monitor.interrupted()) return Answer::interrupted;
+  if (s.monitor.interrupted()) return LpAnswer::interrupted;
   s.monitor.log(JAM_LOG_WARNING, "%s: infeasibility %.1e balance %.1e |sum y - 1| %.1e",
                 solver == JAM_LP_IPM ? "interior point" : "Clp", check.infeasibility, check.balance, check.gamma);
-  return Answer::refused;
-}
-
-// The interior point, warm where the forces are nearly the same; then cold and without correctors; then Clp. False when
-// the call was interrupted.
-bool solve(CrunchState &s) {
-  IpmControl control;
-  control.tolerance = s.o.lp_tolerance;
-  control.early_fraction = s.o.full_lps ? 0.0 : s.tuning.early_gap;
-  control.threads = s.o.threads;
-  Answer answer = Answer::refused;
-  if (s.o.lp_solver == JAM_LP_IPM) {
-    std::vector<double> forces;
-    if (s.next.moved <= s.tuning.warm_step && s.last.at_bound == 0) {
-      forces = carry_over(s.next.multipliers.pairs, s.next.multipliers.y, s.last.pairs);
-      control.multipliers = &forces;
-    }
-    answer = try_solver(s, JAM_LP_IPM, control);
-    if (answer == Answer::refused) {
-      control.multipliers = nullptr;
-      control.correctors = 0;
-      control.early_fraction = 0.0;
-      control.max_iterations = 200;
-      answer = try_solver(s, JAM_LP_IPM, control);
-    }
-    if (answer == Answer::refused) s.monitor.log(JAM_LOG_WARNING, "the interior point failed twice; Clp takes over");
-  }
-  control.early_fraction = 0.0;
-  if (answer == Answer::refused) answer = try_solver(s, JAM_LP_CLP, control);
-  if (answer == Answer::refused)
-    fail(JAM_E_SOLVER, "no LP solver gave an answer that checks out; the log has the residuals");
-  return answer == Answer::kept;
+  return LpAnswer::refused;
 }
 
 // LPs alone finish a nearly jammed packing. Farther from jamming the density rises along a curved valley, where the
@@ -104,10 +71,40 @@ Phase next_phase(CrunchState &s, double gain, double step, double alpha) {
 
 }  // namespace
 
+LpAnswer solve_lp(CrunchState &s, IpmControl control) {
+  control.threads = s.o.threads;
+  LpAnswer answer = LpAnswer::refused;
+  if (s.o.lp_solver == JAM_LP_IPM) {
+    std::vector<double> forces;
+    if (s.next.moved <= s.tuning.warm_step && s.last.at_bound == 0) {
+      forces = carry_over(s.next.multipliers.pairs, s.next.multipliers.y, s.last.pairs);
+      control.multipliers = &forces;
+    }
+    answer = try_solver(s, JAM_LP_IPM, control);
+    if (answer == LpAnswer::refused) {
+      control.multipliers = nullptr;
+      control.correctors = 0;
+      control.early_fraction = 0.0;
+      control.max_iterations = 200;
+      answer = try_solver(s, JAM_LP_IPM, control);
+    }
+    if (answer == LpAnswer::refused) s.monitor.log(JAM_LOG_WARNING, "the interior point failed twice; Clp takes over");
+  }
+  control.early_fraction = 0.0;
+  if (answer == LpAnswer::refused) answer = try_solver(s, JAM_LP_CLP, control);
+  if (answer == LpAnswer::kept) s.next.multipliers = {s.last.pairs, s.last.answer.y};
+  return answer;
+}
+
 Phase approach(CrunchState &s) {
   const double reach = build_lp(s, lp_reach(s.out.packing, s.o, s.tuning, s.next.bound));
-  if (!solve(s)) return stop_if_interrupted(s), Phase::done;
-  s.next.multipliers = {s.last.pairs, s.last.answer.y};
+  IpmControl control;
+  control.tolerance = s.o.lp_tolerance;
+  control.early_fraction = s.o.full_lps ? 0.0 : s.tuning.early_gap;
+  const LpAnswer answer = solve_lp(s, control);
+  if (answer == LpAnswer::refused)
+    fail(JAM_E_SOLVER, "no LP solver gave an answer that checks out; the log has the residuals");
+  if (answer == LpAnswer::interrupted) return stop_if_interrupted(s), Phase::done;
   const LpStep step = make_step(s, reach);
   if (s.first_gain == 0.0) s.first_gain = step.gain;
   s.out.report.gain = step.gain;

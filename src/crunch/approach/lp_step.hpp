@@ -12,6 +12,11 @@ double lp_reach(const Packing &p, const jam_crunch_options &o, const Tuning &t, 
 // The LP of the next bound at the present packing, into s.last. Returns the reach of its pairs.
 double build_lp(CrunchState &s, double reach);
 
+// Solves the LP in s.last: by the interior point, warm where the forces are nearly the same; then cold and without
+// correctors; then by Clp. Answers that do not check out are refused.
+enum class LpAnswer { kept, refused, interrupted };
+LpAnswer solve_lp(CrunchState &s, IpmControl control);
+
 struct LpStep {
   double gain, longest, part;
 };

@@ -188,6 +188,9 @@ class Ensembles(unittest.TestCase):
             (dict(container="ball", walls="x"), "no flat walls"),
             (dict(box=2, cell=[1, 1, 2]), "both name the periodic cell"),
             (dict(n=4, lattice="fcc", walls="z"), "cube without walls"),
+            (dict(n=8, model="mk", walls="z"), "start: walls: Mari-Kurchan"),
+            (dict(n=8, walls="z", crunch={"strain": "free"}), "crunch: a scene with walls cannot"),
+            (dict(n=8, model="mk", stages=[{"verb": "monte_carlo"}]), r"stages\[0\]: Monte Carlo has no"),
         ):
             with self.assertRaisesRegex(jam.ensemble.ProtocolError, text):
                 jam.ensemble.complete(start)

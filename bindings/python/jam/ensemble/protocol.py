@@ -37,6 +37,7 @@ LAWS = {"bidisperse": {"ratio": 1.4, "share": 0.5}, "lognormal": {"deviation": 0
 STAGES = tuple({"growth_rate": growth, "pressure": pressure} for growth, pressure in GROWTH_STAGES)
 ANALYSIS: dict[str, dict[str, Any]] = {"gaps": {"h_max": 1.0, "stable_only": 1}, "crystal_score": {}}
 _FEW = 1e-12  # packing fraction of a sphere that fits into any scene
+_NO_TIME = 1e-9  # seconds
 _NO_SCENE = {"cell": None, "walls": None, "container": "brick"}
 _NOT_IN_START = ("seed", "overlap")  # the seed is the packing's own; a start never overlaps
 
@@ -101,7 +102,7 @@ def _start(given: Mapping[str, Any]) -> dict[str, Any]:
     scene = _scene(rest)
     made = _options("jam_create_options", rest, "start", _NOT_IN_START)
     try:
-        System.random(1, made["dim"], packing_fraction=_FEW, **scene)  # the library checks the scene
+        System.random(1, made["dim"], packing_fraction=_FEW, model=made["model"], **scene)  # the library checks the scene
         if made["packing_fraction"] == 0:  # the library's own, spelled out
             made["packing_fraction"] = round(System.random(1, made["dim"]).packing_fraction, 12)
     except errors.JamError as error:
@@ -156,6 +157,24 @@ def _analysis(name: str, given: Mapping[str, Any]) -> dict[str, Any]:
     return made
 
 
+def _check_calls(made: Mapping[str, Any]) -> None:
+    """Calls that the scene or model refuses, such as a free cell between walls: asked of two spheres that have no time."""
+    start = made["start"]
+    scene = {k: start[k] for k in _NO_SCENE}
+    two = System.random(2, start["dim"], packing_fraction=_FEW, model=start["model"], **scene)
+    calls = [(f"stages[{k}]", stage) for k, stage in enumerate(made["stages"])]
+    if made["crunch"] is not None:
+        calls.append(("crunch", {"verb": "crunch", **made["crunch"]}))
+    for where, call in calls:
+        options = dict(call)
+        try:
+            getattr(two, options.pop("verb"))(**{**options, "wall_time": _NO_TIME})
+        except errors.UnsupportedError as error:
+            raise ProtocolError(f"{where}: {error}") from None
+        except errors.JamError:  # of two spheres without time
+            pass
+
+
 def complete(protocol: Mapping[str, Any] | None = None) -> dict[str, Any]:
     """A protocol with every default spelled out.
 
@@ -187,6 +206,7 @@ def complete(protocol: Mapping[str, Any] | None = None) -> dict[str, Any]:
         "crunch": None if crunch is None else _options("jam_crunch_options", crunch, "crunch"),
         "analysis": {k: _analysis(k, v or {}) for k, v in (given.get("analysis", ANALYSIS) or {}).items()},
     }
+    _check_calls(made)
     try:
         found: dict[str, Any] = json.loads(to_json(made))
         return found

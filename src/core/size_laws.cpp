@@ -83,6 +83,8 @@ std::vector<SizeClass> classes_of_list(const double *curve, size_t rows) {
 
 std::vector<SizeClass> classes_of_sieve(const double *curve, size_t rows) {
   if (rows < 2) fail(JAM_E_ARGUMENT, "a sieve curve of %zu row(s): it needs 2 or more", rows);
+  for (size_t k = 1; k < rows; ++k)
+    if (!(curve[2 * k + 1] >= curve[2 * k - 1])) refuse_row(k, curve, "the sieve curve falls");
   const double whole = curve[2 * rows - 1];
   if (whole != 1.0 && whole != 100.0)
     refuse_row(rows - 1, curve, "a sieve curve must end at 1, or at 100 for per cent: add the size that all passes");
@@ -92,7 +94,6 @@ std::vector<SizeClass> classes_of_sieve(const double *curve, size_t rows) {
   for (size_t k = 1; k < rows; ++k) {
     if (!(curve[2 * k] > curve[2 * k - 2])) refuse_row(k, curve, "sizes of a sieve curve must rise");
     const double part = curve[2 * k + 1] - curve[2 * k - 1];
-    if (!(part >= 0.0)) refuse_row(k, curve, "the sieve curve falls");
     if (part > 0.0) classes.push_back({curve[2 * k - 2], curve[2 * k], part / whole, -1.0});
   }
   return classes;

@@ -181,6 +181,7 @@ class Densities(unittest.TestCase):
             (TypeError, "did you mean", lambda: jam.sizes("normal", 5, deviatoin=0.1)),
             (ValueError, r"shape \(rows, 2\)", lambda: jam.sizes("sieve", 5, curve=[1, 2, 3])),
             (jam.errors.ArgumentError, "the sieve curve falls", lambda: jam.sizes("sieve", 5, curve=[(1, 0), (2, 60), (3, 50), (4, 100)])),
+            (jam.errors.ArgumentError, "the sieve curve falls", lambda: jam.sizes("sieve", 5, curve=[(1, 0), (2, 60), (3, 50)])),
             (jam.errors.ArgumentError, "add up to", lambda: jam.sizes("equal", 1000, mean=1.0, box=5.0)),
             (jam.errors.NonfiniteError, "deviation", lambda: jam.sizes("normal", 5, deviation=np.inf)),
             (jam.errors.ArgumentError, "diameters", lambda: jam.size_report([1.0, -1.0])),

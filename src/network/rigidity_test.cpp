@@ -148,7 +148,10 @@ static RigidityResult find_verdict(const RigidityMatrix &g, Jamming kind) {
     RigidityResult part;
     out.jammed = out.stressed = Verdict::undecided;
     out.margin = modes.margin;
-    if (!test_from_rigid_part(sub, cone, kind, part)) {
+    StressCone pushed;
+    pushed.positive = cone.pushed, pushed.path_force = cone.pushed_force;
+    if (!test_from_rigid_part(sub, cone, kind, part) &&
+        !(test_from_rigid_part(sub, pushed, kind, part) && part.jammed == Verdict::yes)) {
       if (find_flex_of_part(g, sub, rows, cone, on, released, out)) return out;
       if (!cone.path_motion.empty()) {
         out.attempt.assign(g.unknowns(), 0.0);

@@ -178,13 +178,14 @@ double least_opening(const ConstraintRows &rows, const std::vector<double> &x) {
 }
 
 // A set with a positive state, and the forces of the path on all other contacts.
-void keep_positive(const CentralPath &path, const std::vector<char> &guess, StressCone &out) {
-  out.positive = guess;
-  out.path_force = path.f();
+void keep_positive(const CentralPath &path, const std::vector<char> &guess, const std::vector<double> &force,
+                   std::vector<char> &positive, std::vector<double> &path_force) {
+  positive = guess;
+  path_force = path.f();
   double sum = 0.0, count = 0.0;
   for (size_t k = 0; k < guess.size(); ++k)
     if (guess[k]) sum += path.f()[k], count += 1.0;
-  for (size_t k = 0; k < guess.size(); ++k) out.path_force[k] = guess[k] ? out.force[k] : path.f()[k] * count / sum;
+  for (size_t k = 0; k < guess.size(); ++k) path_force[k] = guess[k] ? force[k] : path.f()[k] * count / sum;
 }
 
 // The analytic centre of the states on K+: minimises - sum log w over w = w0 + A u, whose gradient is - A^T f with
@@ -254,19 +255,24 @@ StressCone find_stress_cone(const ConstraintRows &rows, const NormalSolver &solv
     if (path.mu() > next) continue;
     next = Tuning::next_guess * path.mu();
     std::vector<std::vector<char>> tried;
-    const auto certify = [&](const std::vector<char> &guess) {
-      if (out.decided || std::find(tried.begin(), tried.end(), guess) != tried.end()) return Support::positive;
-      tried.push_back(guess);
-      const Support found = certify_support(rows, solver, path, guess, out);
+    const auto certify = [&](const std::vector<char> &guess, bool dropped) {
+      if (out.decided || (!dropped && std::find(tried.begin(), tried.end(), guess) != tried.end()))
+        return Support::positive;
+      if (!dropped) tried.push_back(guess);
+      Support found = certify_support(rows, solver, path, guess, out);
+      // Pulled by less than doubles resolve, contacts may hold the rest all the same.
+      if (found == Support::whole && dropped) found = Support::positive;
       out.decided = found == Support::whole;
       const auto size = [](const std::vector<char> &on) { return std::count(on.begin(), on.end(), 1); };
-      if (found == Support::positive && size(guess) > size(out.positive)) keep_positive(path, guess, out);
+      std::vector<char> &positive = dropped ? out.pushed : out.positive;
+      if (found == Support::positive && size(guess) > size(positive))
+        keep_positive(path, guess, out.force, positive, dropped ? out.pushed_force : out.path_force);
       return found;
     };
     std::vector<char> guess(m, 1);
-    for (int k = 0; k < Tuning::most_drops && certify(guess) == Support::no; ++k)
+    for (int k = 0; k < Tuning::most_drops && certify(guess, k > 0) == Support::no; ++k)
       if (!drop_pulled(out.force, guess)) break;
-    for (const std::vector<char> &other : guess_support(path)) certify(other);
+    for (const std::vector<char> &other : guess_support(path)) certify(other, false);
     const double opening = least_opening(rows, path.x());
     if (opening > widest) widest = opening, opens_all = path.x();
   }

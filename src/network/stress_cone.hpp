@@ -15,6 +15,9 @@ struct StressCone {
   // Where not decided: the largest set with a positive state that was found, and forces > 0 near it on all contacts.
   std::vector<char> positive;
   std::vector<double> path_force;
+  // The same for guesses without pulled contacts: they may prove a packing jammed, and nothing else.
+  std::vector<char> pushed;
+  std::vector<double> pushed_force;
   std::vector<double> path_motion;  // where the path ended: opens what it can
   int factorisations = 0;
 };

@@ -363,6 +363,22 @@ def ablation(*raws):
     return ["off"] + sets, rows
 
 
+def products(raw):
+    """products.py OUT.json PICTURE.png FOLDER 3 512,1024,2048,4096 OpenBLAS=... builtin=... reference=..."""
+    first = raw[0]["build"]
+    cost = {(r["n"], r["seed"], r["build"]): r["seconds"] / r["factorisations"] for r in raw}
+    rows = []
+    for n in dict.fromkeys(r["n"] for r in raw):
+        for build in dict.fromkeys(r["build"] for r in raw):
+            some = [r for r in raw if (r["n"], r["build"]) == (n, build)]
+            ratio = [cost[n, r["seed"], build] / cost[n, r["seed"], first] for r in some]
+            rows.append(
+                [n, build, whole([r["factorisations"] for r in some]), spread([r["seconds"] for r in some]), spread(ratio)]
+                + [max(r["residual"] for r in some), f"{sum(r['jammed'] for r in some)} of {len(some)}"]
+            )
+    return ["N", "products", "factorisations", "crunch (s)", "a factorisation, over " + first, "largest force residual", "jammed"], rows
+
+
 def read(path):
     text = Path(path).read_text(encoding="utf-8")
     return [json.loads(line) for line in text.splitlines()] if path.endswith(".jsonl") else json.loads(text)
@@ -370,7 +386,7 @@ def read(path):
 
 def main():
     name, raws = sys.argv[1], [read(path) for path in sys.argv[2:]]
-    made = {f.__name__: f for f in (crunch, size, clp, resume, disks, proofs, strict, md, monte_carlo, near_jamming, soft_cell, pore_space, advise, analysis, factorisation, ablation, ratios, mixtures, md_misses, ensemble, ensemble_statistics, walls, walls_equal, walls_edge)}[name]
+    made = {f.__name__: f for f in (crunch, size, clp, resume, disks, proofs, strict, md, monte_carlo, near_jamming, soft_cell, pore_space, advise, analysis, factorisation, ablation, ratios, mixtures, md_misses, ensemble, ensemble_statistics, walls, walls_equal, walls_edge, products)}[name]
     columns, rows = made(*raws)
     old = raws[0] if isinstance(raws[0], dict) and "commit" in raws[0] else None  # a result that was kept with its source
     source = old and {key: old[key] for key in ("machine", "commit", "date")}

@@ -139,12 +139,13 @@ PackingVerdict test_packing(const Packing &p, const GapResolution &resolution, c
     if (!same) out.result.jammed = Verdict::undecided;
   }
   if (out.result.jammed == Verdict::undecided && !resolution.coarse(p)) {
-    // Unlisted pairs whose gaps are wider than rounding are open, and leave contacts that may decide alone.
+    // Unlisted pairs whose gaps are wider than rounding may be open. They leave contacts that may prove it alone; that
+    // these do not hold the spheres proves nothing near a jammed packing.
     std::vector<char> tight(closed);
     for (size_t k = 0; k < net.size(); ++k)
       tight[k] = closed[k] && (listed_here[k] || net.gap[k] < 4.0 * resolution.rounding);
     RigidityResult r = tight == closed ? out.result : test_part(g, tight, kind);
-    if (r.jammed != Verdict::undecided) out.result = std::move(r);
+    if (r.jammed == Verdict::yes) out.result = std::move(r);
   }
   if (std::count(closed.begin(), closed.end(), 1) == 0 && g.nodes > 0 && out.result.jammed == Verdict::no) {
     out.result.flex.assign(g.unknowns(), 0.0);  // nothing is closed: any motion will do

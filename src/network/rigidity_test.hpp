@@ -68,8 +68,8 @@ RigidityResult test_rigidity(const RigidityMatrix &contacts, Jamming kind);
 // below undecided_gap_limit. Others are open: gaps are known to rounding. In doubt are those of `listed` below
 // listed_gap_limit, and pairs that digits of coordinates cannot distinguish from contacts. They are taken as closed,
 // then as open; where the two verdicts differ, or carrying contacts are open by contact_gap_limit or more, the packing
-// is undecided. What stays undecided is tested without unlisted pairs whose gaps are wider than their rounding. Where
-// both are jammed, contacts and
+// is undecided. What stays undecided is jammed where it is without unlisted pairs whose gaps are wider than their
+// rounding. Where both are jammed, contacts and
 // forces are those of the closed pairs alone. With few digits directions are wrong too, and weak forces may have lost
 // their sign: then only spheres with too few pairs near them make a no.
 struct PackingVerdict {

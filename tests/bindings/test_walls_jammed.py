@@ -150,6 +150,14 @@ class Verdicts(unittest.TestCase):
         values = np.linalg.svd(rows, compute_uv=False)
         self.assertEqual((values > 1e-4).sum(), rows.shape[1] - SYMMETRIES["lines"])
 
+    def test_one_verdict_where_contacts_are_open_by_more_than_rounding(self):
+        # Two spheres nearly in single file: contacts open by 2e-11, forces that balance to 5e-7.
+        s = jam.System.random(n=2, seed=385587, packing_fraction=0.12, container="cylinder", cell=[1, 1, 1.989141820377518])
+        s.crunch()
+        fresh = jam.System.from_arrays(s.positions, s.diameters, cell=s.cell, container="cylinder")
+        for verdict in (s.rigidity(), s.check(), fresh.rigidity(), fresh.check()):
+            self.assertEqual(verdict.jammed, jam.Verdict.UNDECIDED)
+
     def test_no_motion_lets_the_diameters_grow(self):
         random = np.random.default_rng(1)
         for name in SCENES:

@@ -59,8 +59,11 @@ class Classes final : public SizeDistribution {
     return sum + c.share * integral(c, c.exponent, quantile(u)) / integral(c, c.exponent, c.high);
   }
   double mean_power() const override { return mean_power_; }
-  bool has_single_sizes() const override {
-    return std::any_of(class_.begin(), class_.end(), [](const SizeClass &c) { return c.low == c.high; });
+  std::vector<SingleSize> single_sizes() const override {
+    std::vector<SingleSize> all;
+    for (const SizeClass &c : class_)
+      if (c.low == c.high) all.push_back({c.low, c.share});
+    return all;
   }
 
  private:

@@ -6,6 +6,11 @@
 
 namespace jam {
 
+// A diameter that a share of the spheres, by number, has.
+struct SingleSize {
+  double diameter, share;
+};
+
 class SizeDistribution {
  public:
   virtual ~SizeDistribution() = default;
@@ -16,7 +21,7 @@ class SizeDistribution {
   virtual double volume_of_smallest(double) const { return 0.0; }
   virtual double mean_power() const { return 0.0; }
   bool by_volume() const { return mean_power() > 0.0; }
-  virtual bool has_single_sizes() const { return false; }  // no diameter between two of them is one of the law
+  virtual std::vector<SingleSize> single_sizes() const { return {}; }  // no diameter between two is one of the law
 };
 
 // Diameters between low and high with a density proportional to s^exponent, or all at low = high.

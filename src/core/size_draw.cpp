@@ -26,7 +26,7 @@ class Drawing {
     std::vector<double> out(static_cast<size_t>(n));
     if (random_)
       random_from(out, 0);
-    else if (law_.by_volume() && !law_.has_single_sizes())
+    else if (law_.by_volume() && law_.single_sizes().empty())
       volume_quantiles(out);
     else
       for (int64_t k = 0; k < n; ++k)
@@ -142,6 +142,15 @@ void check_sizes(const std::vector<double> &s) {
          *least, *most, limits::size_ratio_max);
 }
 
+// Quantiles of few spheres pass over a small share. A random draw may have none of it.
+void check_shares(const SizeDistribution &law, const std::vector<double> &s) {
+  for (const SingleSize &size : law.single_sizes())
+    if (std::find(s.begin(), s.end(), size.diameter) == s.end())
+      fail(JAM_E_ARGUMENT,
+           "n is %zu, and no sphere has the diameter %g, whose share of the number is %.3g: %.0f have one", s.size(),
+           size.diameter, size.share, std::ceil(1.0 / size.share));
+}
+
 void check_amount(const Options &o) {
   check_enum(o.draw, JAM_DRAW_QUANTILES, JAM_DRAW_RANDOM, "draw", "jam_size_draw");
   if (!(o.cell_volume >= 0.0) || !std::isfinite(o.cell_volume))
@@ -163,6 +172,7 @@ std::vector<double> draw_diameters(const Options &o, const double *curve, size_t
   const Drawing drawing(o, *law);
   if (o.packing_fraction == 0.0) {
     std::vector<double> s = drawing.of(o.n);
+    if (o.draw == JAM_DRAW_QUANTILES) check_shares(*law, s);
     check_sizes(s);
     if (const double volume = drawing.total(s); o.cell_volume > 0.0 && volume > o.cell_volume)
       fail(JAM_E_ARGUMENT, "the spheres add up to a volume of %g, the cell has %g", volume, o.cell_volume);
@@ -171,6 +181,7 @@ std::vector<double> draw_diameters(const Options &o, const double *curve, size_t
   check_reach(o.dim, drawing.of(1024), o.packing_fraction);
   const double wanted = o.packing_fraction * o.cell_volume;
   std::vector<double> s = drawing.filling(wanted);
+  if (o.draw == JAM_DRAW_QUANTILES) check_shares(*law, s);
   adjust_last(drawing, o.dim, wanted, s);
   check_sizes(s);
   return s;

@@ -120,8 +120,8 @@ static void seeds_reproduce_and_differ(void **state) {
 
 static void bad_laws_are_refused_by_name(void **state) {
   static const double falls[] = {1, 0, 2, 60, 3, 40, 4, 100}, short_of[] = {1, 0, 2, 87}, begins[] = {1, 5, 2, 100},
-                      back[] = {1, 0, 3, 50, 2, 100}, zero_share[] = {1, 0.5, 2, 0}, negative[] = {-1, 0.5, 2, 0.5},
-                      nan_size[] = {NAN, 0, 2, 1};
+                      back[] = {1, 0, 3, 50, 2, 100}, zero_share[] = {1, 0.5, 2, 0}, one_large[] = {1, 0.9, 2, 0.1},
+                      negative[] = {-1, 0.5, 2, 0.5}, nan_size[] = {NAN, 0, 2, 1};
   jam_diameters_options o = options(JAM_SIZES_SIEVE);
   o.n = 10;
   refused(&o, falls, 8, JAM_E_ARGUMENT, "row 2 (3, 40): the sieve curve falls");
@@ -134,6 +134,13 @@ static void bad_laws_are_refused_by_name(void **state) {
   refused(&o, NULL, 0, JAM_E_ARGUMENT, "needs a curve");
   o.law = JAM_SIZES_LIST;
   refused(&o, zero_share, 4, JAM_E_ARGUMENT, "row 1 (2, 0): a share must be above 0");
+  o.n = 3; /* too few for a tenth */
+  refused(&o, one_large, 4, JAM_E_ARGUMENT,
+          "n is 3, and no sphere has the diameter 2, whose share of the number is 0.1: 10 have one");
+  o.share = JAM_SHARE_VOLUME, o.n = 20; /* by number 0.0137 */
+  refused(&o, one_large, 4, JAM_E_ARGUMENT, "n is 20, and no sphere has the diameter 2");
+  o.n = 0, o.cell_volume = 20, o.packing_fraction = 0.4;
+  refused(&o, one_large, 4, JAM_E_ARGUMENT, "no sphere has the diameter 2");
   o = options(JAM_SIZES_LOGNORMAL);
   o.n = 10;
   refused(&o, NULL, 0, JAM_E_ARGUMENT, "needs deviation");

@@ -153,7 +153,7 @@ static jam_status work(jam_system *sys, const options *o, terminal *t, outcome *
     snprintf(name, sizeof name, o->given.stages[k].growth > 0 ? "growth %g" : "growth", o->given.stages[k].growth);
     status = run_stage(sys, o, &o->given.stages[k], deadline, result);
     if (status >= 0) result->stage_stop[k] = result->md_stop;
-    warn(t, status, result);
+    if (!(o->given.density > 0 && result->md_stop == JAM_STOP_PRESSURE)) warn(t, status, result);
   }
   if (o->given.density > 0 && !ends_job(status) && !(result->has_md && result->md_stop == JAM_STOP_PACKING_FRACTION)) {
     complain("warning: growth ended at p = %.4g, before the packing fraction %.6g", result->pressure, o->given.density);

@@ -100,6 +100,11 @@ class Pictures(unittest.TestCase):
         with self.assertRaises(ValueError):
             jam.plot.cdf([-1.0, 0.0])
         modes = self.flat.modes(which="all")
+        states = self.deep.density_of_states()
+        line = jam.plot.density_of_states(states).lines[0]
+        np.testing.assert_array_equal(line.get_xydata(), np.c_[states.omega, states.density])
+        with self.assertRaisesRegex(ValueError, "frequencies"):
+            jam.plot.density_of_states(np.ones((3, 4)))
         ax = jam.plot.density_of_states(modes)
         edges, values = ax.patches[0].get_data().edges, ax.patches[0].get_data().values
         self.assertAlmostEqual((values * np.diff(edges)).sum(), 1 - 2 / len(modes), 6)  # all but the translations

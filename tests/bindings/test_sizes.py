@@ -143,6 +143,11 @@ class Densities(unittest.TestCase):
         """The default protocol has a second stage, which a density below the first one's pressure never reaches."""
         seen = []
         system = jam.System.random(n=4000, packing_fraction=0.3)
+        low = jam.System.random(50, 3, seed=1).compress(packing_fraction=0.62, pressure=50)
+        self.assertEqual((low.status.name, low.stop_reason.name), ("NOT_CONVERGED", "PRESSURE"))
+        self.assertRegex(low.status_text, "growth ended at pressure .* before the packing fraction 0.62")
+        both = jam.System.random(50, 3, seed=1).compress([(1e-1, 5), (1e-1, 1e4)], packing_fraction=0.5)
+        self.assertEqual((both.status.name, both.stop_reason.name), ("OK", "PACKING_FRACTION"))
         system.compress(packing_fraction=0.6, progress=lambda p: seen.append(p.fraction))
         self.assertGreater(max(seen), 0.5)
 

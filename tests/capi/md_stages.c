@@ -47,7 +47,9 @@ static void limits_keep_the_protocol(void **state) {
   r = grow(plain, NULL, JAM_OK);
   assert_true(r.pressure > 0.9e7);
   o.wall_time = 1e6, o.collisions_per_particle = 1e9, o.packing_fraction = 0.9, o.time = 1e9;
-  grow(limited, &o, JAM_OK);
+  r = grow(limited, &o, JAM_NOT_CONVERGED); /* of 0.9 */
+  assert_int_equal(r.stop_reason, JAM_STOP_PRESSURE);
+  assert_non_null(strstr(jam_last_error(), "before the packing fraction 0.9"));
   same_packing(plain, limited);
   o = defaults();
   o.growth_law = JAM_GROWTH_DENSITY;

@@ -163,15 +163,27 @@ std::string EventDrivenRun::text() const {
                       "on",
                       report.stop_reason == JAM_STOP_TIME ? "time" : "collisions_per_particle", pressure_, phi);
       break;
+    case JAM_STOP_PRESSURE:
+      if (missed_density())
+        std::snprintf(line, sizeof line,
+                      "growth ended at pressure %.4g and packing fraction %.6g, before the packing fraction %.6g",
+                      pressure_, phi, stage_.packing_fraction);
+      break;
     default:
       break;
   }
   return line;
 }
 
+bool EventDrivenRun::missed_density() const {
+  return stage_.then == 0.0 && stage_.packing_fraction < no_limit &&
+         jam::packing_fraction(p_) < stage_.packing_fraction;
+}
+
 jam_status EventDrivenRun::status_of(int32_t reason) const {
   switch (reason) {
     case JAM_STOP_PRESSURE:
+      return missed_density() ? JAM_NOT_CONVERGED : JAM_OK;
     case JAM_STOP_PACKING_FRACTION:
       return JAM_OK;
     case JAM_STOP_TIME:

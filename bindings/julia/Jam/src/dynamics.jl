@@ -41,7 +41,7 @@ function compress!(s::System; progress = nothing, porosity = nothing, stages = n
         local made
         for (rate, pressure) in stages
             made = compress!(s; progress = progress, growth_rate = rate, pressure = pressure, porosity = porosity, given...)
-            made.status === :ok || break
+            made.status === :ok || made.stop_reason === :pressure || break  # a later stage may reach the density
         end
         return made
     end

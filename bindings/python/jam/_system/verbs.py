@@ -123,7 +123,7 @@ class Verbs(Observing):
                 "jam_compress", "jam_compress_options", "jam_md_report", progress, {**options, **given}
             )
             report = last
-            if last.status > 0:
+            if last.status > 0 and last.stop_reason != StopReason.PRESSURE:  # of a density that a later stage may reach
                 break
         if report is None:
             raise ValueError("stages is empty")

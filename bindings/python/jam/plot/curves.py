@@ -7,6 +7,7 @@ from typing import Any, Iterable, Sequence
 import numpy as np
 
 from .._api.results import Modes
+from .._api.tuples import DensityOfStatesResult
 from ..errors import StateError
 from ..system import System
 from .axes import axes_of
@@ -112,12 +113,17 @@ def cdf(values: Any, ax: Any = None, *, slopes: Sequence[float] = (), label: str
     return ax
 
 
-def density_of_states(modes: Modes | Any, ax: Any = None, *, bins: int | None = None, **style: Any) -> Any:
-    """D(omega) as a histogram; modes: a Modes (best of which='all') or frequencies."""
-    omega = modes.frequencies if isinstance(modes, Modes) else np.asarray(modes, float)
-    omega = omega[np.isfinite(omega)]
+def density_of_states(states: Any, ax: Any = None, *, bins: int | None = None, **style: Any) -> Any:
+    """D(omega): of a Modes (best of which='all') or of frequencies as a histogram, of System.density_of_states() as its curve."""
     ax = axes_of(ax)
-    count, edges = np.histogram(omega[omega > 1e-7], bins=bins or max(10, int(2 * len(omega) ** (1 / 3))))
-    ax.stairs(count / (len(omega) * np.diff(edges)), edges, **{"lw": 1.4, "fill": False, **style})
+    if isinstance(states, DensityOfStatesResult):
+        ax.plot(states.omega, states.density, **{"lw": 1.4, **style})
+    else:
+        omega = np.asarray(states.frequencies if isinstance(states, Modes) else states, float)
+        if omega.ndim != 1:
+            raise ValueError(f"frequencies must be one array of numbers, not of shape {omega.shape}")
+        omega = omega[np.isfinite(omega)]
+        count, edges = np.histogram(omega[omega > 1e-7], bins=bins or max(10, int(2 * len(omega) ** (1 / 3))))
+        ax.stairs(count / (len(omega) * np.diff(edges)), edges, **{"lw": 1.4, "fill": False, **style})
     ax.set(xlabel=r"frequency $\omega$", ylabel=r"$D(\omega)$", xlim=(0, None))
     return ax

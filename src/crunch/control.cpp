@@ -22,7 +22,8 @@ void restart_lps(CrunchState &s, double bound) {
   s.next.bound = bound;
   s.next.moved = 1.0;
   s.next.stalled = 0;
-  s.found.narrow = s.found.jammed = false;
+  s.found.narrow = Verdicts::Narrow::none;
+  s.found.jammed = false;
 }
 
 // An estimate for progress bars. The first decades of mu on a path take the longest, so the root of their share.

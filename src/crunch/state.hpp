@@ -31,9 +31,10 @@ struct NextLp {
 };
 
 struct Verdicts {
-  bool narrow = false;    // the last LPs were narrow ones
-  bool polished = false;  // the last polish closed its contacts
-  bool jammed = false;    // by the test of the final network
+  enum class Narrow { none, by_interior_point, by_simplex };
+  Narrow narrow = Narrow::none;  // the last LPs were narrow ones
+  bool polished = false;         // the last polish closed its contacts
+  bool jammed = false;           // by the test of the final network
   int32_t strictly_jammed = JAM_VERDICT_UNTESTED;
   int flex_moves = 0;  // made so far
 };

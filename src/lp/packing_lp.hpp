@@ -99,6 +99,7 @@ bool clp_is_built();
 // Clp's simplex on the same LP: slow and independent. threads-safe: one model a call. monitor, which may be NULL,
 // can interrupt it between two pivots. start: a basis from a former answer with rows for this LP (0: not known), or
 // NULL.
+constexpr double basis_inside = 2.0, basis_at_lower = 4.0;
 LpSolution solve_lp_clp(const PackingLp &lp, double tolerance = clp_tolerance, const Monitor *monitor = nullptr,
                         const LpSolution *start = nullptr);
 // The vertex farthest along `direction`, g = 0; sphere `fixed` stays along these axes (bits).

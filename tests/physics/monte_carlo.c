@@ -245,7 +245,7 @@ static void runs_from_one_state_have_streams_of_their_own(void **state) {
   const double sigma[3] = {0.28, 0.40, 0.48}, instants[2] = {5.0, 50.0};
   jam_system *sys = spheres(3, 3, sigma);
   jam_isoconf_options i;
-  jam_monte_carlo_options o = options(2.0, 0.001, 50);
+  jam_monte_carlo_options o = options(2.0, 0.001, 1000); /* sweeps as by default: instants count */
   double displacement[2][2 * 9], alone[18];
   size_t k;
   (void)state;

@@ -8,6 +8,7 @@
 #include "core/pair_rule.hpp"
 #include "crunch/approach/lp_step.hpp"
 #include "crunch/control.hpp"
+#include "crunch/identify/narrow_lps.hpp"
 
 namespace jam {
 namespace {
@@ -64,7 +65,7 @@ bool deform_into(Packing &q, const Packing &p, const std::vector<double> &v, con
 FlexMove move_along_flex(CrunchState &s, const PackingVerdict &verdict) {
   // An attempt is made once narrow LPs have left it open.
   const RigidityResult &r = verdict.result;
-  if ((r.flex.empty() && (r.attempt.empty() || !s.found.narrow)) || s.found.flex_moves >= s.tuning.max_attempts)
+  if ((r.flex.empty() && (r.attempt.empty() || narrow_lps_left(s))) || s.found.flex_moves >= s.tuning.max_attempts)
     return FlexMove::none;
   ++s.found.flex_moves;
   Packing &p = s.out.packing;
@@ -92,7 +93,7 @@ FlexMove move_along_flex(CrunchState &s, const PackingVerdict &verdict) {
                 packing_fraction(p), static_cast<long long>(verdict.result.flexes), longest);
   if (!(longest > s.tuning.closed_gap)) return FlexMove::none;
   // Where no force balances at the end of narrow LPs, diameters can grow, and LPs continue.
-  if (longest < s.tuning.narrow_bound && !(s.found.narrow && r.stressed == Verdict::no)) return FlexMove::blocked;
+  if (longest < s.tuning.narrow_bound && !(!narrow_lps_left(s) && r.stressed == Verdict::no)) return FlexMove::blocked;
   restart_lps(s, first_bound(s.out.packing, s.o, s.tuning));
   return FlexMove::free;
 }

@@ -2,6 +2,7 @@
 
 #include "crunch/approach/free_cell.hpp"
 #include "crunch/control.hpp"
+#include "crunch/identify/narrow_lps.hpp"
 #include "crunch/identify/verdict.hpp"
 
 namespace jam {
@@ -9,7 +10,7 @@ namespace jam {
 Phase identify(CrunchState &s) {
   if (frees_cell(s)) return free_cell(s);
   if (s.last.active.rows.empty()) {
-    if (s.out.report.stop_reason == JAM_STOP_NONE && !s.found.narrow && s.o.polish) return Phase::narrow_lps;
+    if (s.out.report.stop_reason == JAM_STOP_NONE && narrow_lps_left(s) && s.o.polish) return Phase::narrow_lps;
     if (s.out.report.stop_reason == JAM_STOP_NONE) stop(s, JAM_STOP_UNJAMMED, JAM_NOT_JAMMED);
     return Phase::done;
   }
@@ -20,7 +21,7 @@ Phase identify(CrunchState &s) {
     s.next.gain_tolerance = default_crunch_options().gain_tolerance;
     return Phase::approach;
   }
-  if (s.o.polish && !s.found.polished && !s.found.narrow) return Phase::narrow_lps;
+  if (s.o.polish && !s.found.polished && narrow_lps_left(s)) return Phase::narrow_lps;
   return decide_jamming(s);
 }
 

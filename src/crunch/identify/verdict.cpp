@@ -10,6 +10,7 @@
 #include "core/pair_rule.hpp"
 #include "crunch/control.hpp"
 #include "crunch/identify/flex_move.hpp"
+#include "crunch/identify/narrow_lps.hpp"
 #include "crunch/identify/polish.hpp"
 #include "network/rattlers.hpp"
 #include "proof/verdict.hpp"
@@ -82,7 +83,7 @@ bool tested(CrunchState &s, Jamming kind, PackingVerdict &verdict) {
   try {
     verdict = test_packing(s.out.packing, &s.out.contacts, kind);
     if (kind == Jamming::collective && !s.out.packing.container) {
-      if (s.found.narrow) decide_by_proof(s.out.packing, verdict);
+      if (!narrow_lps_left(s)) decide_by_proof(s.out.packing, verdict);
       confirm_by_exchange(s.out.packing, verdict);
     }
   } catch (const Cancelled &) {
@@ -159,7 +160,7 @@ Phase decide_jamming(CrunchState &s) {
       if (!polish_contacts(s)) return Phase::done;
       continue;
     }
-    if (!s.found.narrow && s.o.polish && !slides) return Phase::narrow_lps;
+    if (narrow_lps_left(s) && s.o.polish && !slides) return Phase::narrow_lps;
     report_verdict(verdict, s.out.packing, s.out.report);
     s.out.text = why_not_jammed(verdict);
     take_positive_forces(s, verdict);

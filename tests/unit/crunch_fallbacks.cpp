@@ -54,7 +54,7 @@ void clp_takes_over(void **) {
   const CrunchResult r = run(p, o, &hooks);
   assert_int_equal(r.status, JAM_OK);
   assert_int_equal(r.report.lp_solver, JAM_LP_CLP);
-  assert_true(clp == r.report.lp_solves && ipm > 0 && ipm <= 2 * clp);  // narrow LPs ask Clp alone
+  assert_true(clp == r.report.lp_solves && ipm > 0 && ipm <= 2 * clp);  // Clp answers each LP
   assert_true(r.report.jammed && r.report.max_overlap < 1e-12 && r.report.force_residual < 1e-12);
   o.lp_solver = JAM_LP_CLP;
   same_bits(r, run(p, o));

@@ -21,7 +21,7 @@ Phase identify(CrunchState &s) {
     s.next.gain_tolerance = default_crunch_options().gain_tolerance;
     return Phase::approach;
   }
-  if (s.o.polish && !s.found.polished && narrow_lps_left(s)) return Phase::narrow_lps;
+  if (s.o.polish && !s.found.polished && s.found.narrow == Verdicts::Narrow::none) return Phase::narrow_lps;
   return decide_jamming(s);
 }
 

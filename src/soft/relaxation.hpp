@@ -2,6 +2,7 @@
 //   state -> FIRE | L-BFGS until contacts settle -> Newton on the stable spheres -> balance of forces
 #pragma once
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "core/monitor.hpp"
@@ -40,8 +41,12 @@ class Relaxation {
     if (sums.overlap > 0.0) stiffness = sums.stiffness(state.energy().alpha());
     ++effort.evaluations;
   }
-  // No overlaps, and no pressure that brings some.
-  bool at_rest() const { return sums.energy == 0.0 && !(state.cell().pressure > 0.0); }
+  // No overlaps, and no pressure that brings some. All together below the rounding of one coordinate are none: no
+  // minimiser can take them away.
+  bool at_rest() const {
+    const double none = std::numeric_limits<double>::epsilon() * state.base().cell.side();
+    return (sums.energy == 0.0 || sums.overlap < none) && !(state.cell().pressure > 0.0);
+  }
   // Largest |F_i| over the mean force: of all spheres, and of stable ones. In a free cell the stress counts too.
   double residual() const;
   double stable_residual() const;

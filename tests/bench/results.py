@@ -105,6 +105,13 @@ def disks(*raws):
     return columns + ["median of factorisations", "median (s)", "longest (s)"], rows
 
 
+def disks_undecided(*raws):
+    """disks.py N SEEDS FIRST_SEED"""
+    stopped = [(raw["n"], run) for raw in raws for run in raw["rows"] if run["kind"] == "stopped"]
+    rows = [[n, r["seed"], r["reason"], r["rigidity"], r["force_residual"], r["seconds"]] for n, r in sorted(stopped, key=lambda x: (x[0], x[1]["seed"]))]
+    return ["N", "seed", "the crunch ends by", "`rigidity`", "force residual", "crunch (s)"], rows
+
+
 def proofs(raw):
     """proof 64,256,1024 3; proof 4096 1"""
     rows = []
@@ -386,7 +393,7 @@ def read(path):
 
 def main():
     name, raws = sys.argv[1], [read(path) for path in sys.argv[2:]]
-    made = {f.__name__: f for f in (crunch, size, clp, resume, disks, proofs, strict, md, monte_carlo, near_jamming, soft_cell, pore_space, advise, analysis, factorisation, ablation, ratios, mixtures, md_misses, ensemble, ensemble_statistics, walls, walls_equal, walls_edge, products)}[name]
+    made = {f.__name__: f for f in (crunch, size, clp, resume, disks, disks_undecided, proofs, strict, md, monte_carlo, near_jamming, soft_cell, pore_space, advise, analysis, factorisation, ablation, ratios, mixtures, md_misses, ensemble, ensemble_statistics, walls, walls_equal, walls_edge, products)}[name]
     columns, rows = made(*raws)
     old = raws[0] if isinstance(raws[0], dict) and "commit" in raws[0] else None  # a result that was kept with its source
     source = old and {key: old[key] for key in ("machine", "commit", "date")}

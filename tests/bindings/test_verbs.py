@@ -141,6 +141,13 @@ class MolecularDynamics(unittest.TestCase):
         with self.assertRaises(jam.errors.StateError):
             jam.System.random(n=10).call("observed_series")
 
+    def test_soft_spheres_below_jamming_are_unjammed(self):
+        """Overlaps that together are below the rounding of one coordinate are none."""
+        s = jam.System.random(256, 3, packing_fraction=0.60, overlap="allow", seed=1)
+        r = s.relax()
+        self.assertEqual((r.status.name, r.stop_reason.name, r.contacts), ("NOT_JAMMED", "UNJAMMED", 0))
+        self.assertLess(r.max_overlap, 1e-15)
+
     def test_run_and_compress(self):
         s = jam.System.random(n=108, dim=3, seed=1)
         r = s.run(20)

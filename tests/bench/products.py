@@ -64,7 +64,7 @@ def draw(rows, picture):
         axes[0].loglog([row["n"] * 1.03 ** (k - 1) for row in mine], cost, "os^D"[k], mfc="none", color=f"C{k}", label=build)
         axes[1].loglog([max(row["residual"], 1e-16) for row in mine], cost, "os^D"[k], mfc="none", color=f"C{k}")
     axes[0].set(xlabel="N", ylabel="processor seconds a factorisation")
-    axes[1].set(xlabel="force residual / mean force", ylabel="processor seconds a factorisation")
+    axes[1].set(xlim=(1e-16, 1e-14), xlabel="force residual / mean force", ylabel="processor seconds a factorisation")
     axes[0].legend(frameon=False)
     for axis in axes:
         axis.grid(alpha=0.3)

@@ -371,7 +371,7 @@ def ablation(*raws):
 
 
 def products(raw):
-    """products.py OUT.json PICTURE.png FOLDER 3 512,1024,2048,4096 OpenBLAS=... builtin=... reference=..."""
+    """products.py OUT.json PICTURE.png FOLDER 2 512,1024,2048 OpenBLAS=... builtin=... reference=..."""
     first = raw[0]["build"]
     cost = {(r["n"], r["seed"], r["build"]): r["seconds"] / r["factorisations"] for r in raw}
     rows = []

@@ -115,9 +115,8 @@ void refuse_unplaceable(const Packing &p) {
   if (p.container) refuse_too_wide(p, JAM_E_UNPLACEABLE);
   if (fitting_factor(p) < 1.0)
     fail(JAM_E_UNPLACEABLE,
-         "spheres of packing fraction %g, the largest of diameter %g, do not fit a cell of volume %g and shortest "
-         "period "
-         "%g; packing fraction reached: 0",
+         "spheres of packing fraction %g, the largest of diameter %g, do not fit a cell of volume %g and "
+         "shortest period %g; packing fraction reached: 0",
          packing_fraction(p), diameter_max(p), p.cell.volume(), p.cell.shortest());
 }
 

@@ -132,6 +132,24 @@ void refused_polish_ends(void **) {
   assert_true(r.report.max_overlap < 1e-12 && r.report.max_contact_gap < 1e-10);
 }
 
+// Narrow LPs without any answer: the contacts that are there are tested, and no other solver begins from half an LP.
+void unanswered_narrow_lps_end(void **) {
+  const Packing p = start(60, 3, 0.3, 6);
+  CrunchHooks hooks;
+  bool narrow = false;
+  int refused = 0;
+  hooks.before_polish = [&](const Packing &, ContactNetwork &net) {
+    narrow = true;
+    for (double &f : net.force) f = -f;
+  };
+  hooks.answer = [&](LpSolution &x, jam_lp_solver) {
+    if (narrow) x.solved = false, ++refused;
+  };
+  const CrunchResult r = run(p, default_crunch_options(), &hooks);
+  assert_int_equal(refused, clp_is_built() ? 3 : 2);  // the interior point, from two starts, then Clp
+  assert_true(r.report.jammed && r.report.min_force > 0.0 && r.report.force_residual < 1e-9);
+}
+
 // A crunch to a duality gap whose path goes on, and whose log says why.
 jam_crunch_report goes_on(const Packing &p, const jam_crunch_options &o, const CrunchHooks &hooks, const char *why) {
   std::string log;
@@ -214,6 +232,7 @@ int main() {
                               cmocka_unit_test(nobody_solves),
                               cmocka_unit_test(refused_polish_takes_narrow_lps),
                               cmocka_unit_test(refused_polish_ends),
+                              cmocka_unit_test(unanswered_narrow_lps_end),
                               cmocka_unit_test(forces_that_do_not_balance_at_a_gap),
                               cmocka_unit_test(gaps_larger_than_asked_for),
                               cmocka_unit_test(interrupted_at_a_gap)};

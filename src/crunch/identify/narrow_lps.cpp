@@ -64,6 +64,7 @@ Phase narrow_lps(CrunchState &s) {
     const LpAnswer answer = simplex ? solve_by_simplex(s, before, last) : solve_by_interior_point(s);
     if (stop_if_interrupted(s)) break;
     if (answer != LpAnswer::kept) {
+      s.found.narrow = Narrow::by_simplex;  // Clp was asked too, and has no answer to begin from
       s.monitor.log(JAM_LOG_WARNING, "narrow LP: no answer");
       return decide_jamming(s);  // of the contacts that are there
     }

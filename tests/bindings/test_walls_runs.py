@@ -191,6 +191,9 @@ class Ensembles(unittest.TestCase):
             (dict(n=8, model="mk", walls="z"), "start: walls: Mari-Kurchan"),
             (dict(n=8, walls="z", crunch={"strain": "free"}), "crunch: a scene with walls cannot"),
             (dict(n=8, model="mk", stages=[{"verb": "monte_carlo"}]), r"stages\[0\]: Monte Carlo has no"),
+            (dict(n=8, walls="z", non_additivity=0.1), "non_additivity is 0.1, with walls"),
+            (dict(n=8, stages=[{"verb": "relax"}]), r"stages\[0\]: relax needs overlaps"),
+            (dict(n=8, stages=[(0.1, 10), {"verb": "decompress"}]), r"stages\[1\]: decompress needs overlaps"),
         ):
             with self.assertRaisesRegex(jam.ensemble.ProtocolError, text):
                 jam.ensemble.complete(start)

@@ -39,6 +39,7 @@ ANALYSIS: dict[str, dict[str, Any]] = {"gaps": {"h_max": 1.0, "stable_only": 1},
 _FEW = 1e-12  # packing fraction of a sphere that fits into any scene
 _NO_TIME = 1e-9  # seconds
 _NO_SCENE = {"cell": None, "walls": None, "container": "brick"}
+_CHECKED = ("model", "non_additivity")  # of what the scene allows, beside itself
 _NOT_IN_START = ("seed", "overlap")  # the seed is the packing's own; a start never overlaps
 
 
@@ -102,7 +103,7 @@ def _start(given: Mapping[str, Any]) -> dict[str, Any]:
     scene = _scene(rest)
     made = _options("jam_create_options", rest, "start", _NOT_IN_START)
     try:
-        System.random(1, made["dim"], packing_fraction=_FEW, model=made["model"], **scene)  # the library checks the scene
+        System.random(1, made["dim"], packing_fraction=_FEW, **{k: made[k] for k in _CHECKED}, **scene)  # the library checks the scene
         if made["packing_fraction"] == 0:  # the library's own, spelled out
             made["packing_fraction"] = round(System.random(1, made["dim"]).packing_fraction, 12)
     except errors.JamError as error:
@@ -161,12 +162,16 @@ def _check_calls(made: Mapping[str, Any]) -> None:
     """Calls that the scene or model refuses, such as a free cell between walls: asked of two spheres that have no time."""
     start = made["start"]
     scene = {k: start[k] for k in _NO_SCENE}
-    two = System.random(2, start["dim"], packing_fraction=_FEW, model=start["model"], **scene)
+    two = System.random(2, start["dim"], packing_fraction=_FEW, **{k: start[k] for k in _CHECKED}, **scene)
     calls = [(f"stages[{k}]", stage) for k, stage in enumerate(made["stages"])]
     if made["crunch"] is not None:
         calls.append(("crunch", {"verb": "crunch", **made["crunch"]}))
+    soft = False  # a start has no overlaps, and only soft Monte Carlo makes some
     for where, call in calls:
         options = dict(call)
+        if options["verb"] in ("relax", "decompress") and not soft:
+            raise ProtocolError(f"{where}: {options['verb']} needs overlaps, which only Monte Carlo with alpha makes here")
+        soft = soft or (options["verb"] == "monte_carlo" and options["alpha"] > 0)
         try:
             getattr(two, options.pop("verb"))(**{**options, "wall_time": _NO_TIME})
         except errors.UnsupportedError as error:

@@ -193,6 +193,14 @@ class Copies(unittest.TestCase):
         self.assertTrue(rest.jammed)
         self.assertGreater(rest.packing_fraction, report.packing_fraction)
 
+    def test_no_error_of_a_state_names_a_file(self):
+        from jam.system import restore
+
+        for have in (True, False):
+            patch = mock.patch.object(os, "memfd_create", os.memfd_create if have else mock.Mock(side_effect=OSError), create=True)
+            with patch, self.assertRaisesRegex(jam.errors.FormatError, "^the state of the system is no checkpoint"):
+                restore(b"damaged", [], [])
+
     def test_pickle_without_files_in_memory_or_without_a_disk(self):
         a = jam.System.random(32, 3, 7)
         usual = pickle.dumps(a)

@@ -10,10 +10,12 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Iterator
 
+from ..errors import JamError
+
 
 @contextmanager
 def passing_file() -> Iterator[Path]:
-    """The path of an empty file; the file goes with the block."""
+    """The path of an empty file; the file goes with the block, and no error names it."""
     try:
         number = os.memfd_create("jam")
     except (AttributeError, OSError):  # another system, or an old kernel
@@ -24,7 +26,10 @@ def passing_file() -> Iterator[Path]:
             yield path
         else:
             with tempfile.TemporaryDirectory() as folder:
-                yield Path(folder, "state")
+                path = Path(folder, "state")
+                yield path
+    except JamError as error:
+        raise type(error)(str(error).replace(str(path), "the state of the system")) from None
     finally:
         if number >= 0:
             os.close(number)

@@ -8,6 +8,8 @@
 #   fuzz        libFuzzer on every target for 20 seconds, 60 in all
 # More run when they are named, as they take long:
 #   clang       the library without sanitizers by Clang, and its C tests
+#   kernels     the release build's tests with the products that OpenBLAS has for other processors: packings end
+#               elsewhere, and what the tests state must hold there too
 #   processors, windows, libcxx  cross builds for arm64, s390x and riscv64 under qemu; for Windows under wine; with
 #               libc++: tests/platforms. Where the compilers cannot be installed they skip, saying so
 #   coverage    which branches of src the unit tests and those of the C interface reach, by Clang; tests/README.md has
@@ -50,6 +52,15 @@ cmake -S . -B build -G Ninja -U JAM_PYTHON_DIR -DCMAKE_INSTALL_PREFIX=/usr -DCMA
 cmake --build build -j "$jobs"
 part "its tests"
 ctest --test-dir build -j "$at_once" --output-on-failure --no-tests=error || status=1
+fi
+
+if wants kernels; then
+has() { if grep -qw "$1" /proc/cpuinfo; then echo "$2"; fi; }
+for kernel in Prescott $(has avx2 Haswell) $(has avx512f SkylakeX); do
+part "products of $kernel"
+OPENBLAS_CORETYPE=$kernel ctest --test-dir build -j "$at_once" -L 'unit|capi|physics|bindings' -LE long \
+  -E 'docs|pip|deb|notebooks|types|installed|julia|flang' --output-on-failure --no-tests=error || status=1
+done
 fi
 
 if wants builtin; then

@@ -179,11 +179,10 @@ Exchange close_together(ProofScene &scene, LpsEnd *lps) {
 
 Settled settle_exchange(ProofScene &scene, Exchange end) {
   if (end == Exchange::endless) return Settled::unchanged;
-  Settled out = Settled::unchanged;
   ProofScene s = scene;
-  if (end == Exchange::changed) out = take_middle_forces(s) ? Settled::held : Settled::changed;
-  if (free_rattlers(s) && out == Settled::unchanged) out = Settled::changed;
-  if (out != Settled::unchanged) scene = std::move(s);
+  const Settled out = take_middle_forces(s) ? Settled::held : Settled::changed;
+  free_rattlers(s);
+  scene = std::move(s);
   return out;
 }
 

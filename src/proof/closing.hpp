@@ -12,9 +12,9 @@ namespace jam {
 enum class Exchange { endless, same, changed };
 Exchange close_together(ProofScene &scene, LpsEnd *lps = nullptr);
 
-// After close_together: forces in the middle of all states of self-stress, on the contacts that have some; and rattlers
-// move out of overlaps. `held`: the test of jamming finds these forces, and no flex. `unchanged`: the scene is as it
-// was.
+// After close_together, where the contacts are closed: forces in the middle of all states of self-stress, on the
+// contacts that have some; and rattlers move out of overlaps. `held`: the test of jamming finds these forces, and no
+// flex. `unchanged`: there was no end, and the scene is as it was.
 enum class Settled { unchanged, changed, held };
 Settled settle_exchange(ProofScene &scene, Exchange end);
 

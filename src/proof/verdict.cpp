@@ -187,7 +187,6 @@ void confirm_by_exchange(const Packing &p, PackingVerdict &verdict) {
   if (as_listed.own_images || proves(as_listed)) return;
   LpsEnd lps = LpsEnd::closed;
   const Exchange end = close_together(closing, &lps);
-  if (end == Exchange::same) return;
   const Settled found = settle_exchange(closing, end);
   if (found == Settled::held || (found == Settled::changed && proves(closing))) {
     ContactNetwork net = network_of(closing, p);

@@ -204,6 +204,15 @@ class Trapped(unittest.TestCase):
                 self.assertLess(imbalance(system), 1e-13)
         self.assertLess(imbalance(disks(300, 123)), 1e-13)  # near a saddle contacts are open by more than that
 
+    def test_contacts_that_close_together_may_carry_no_force(self):
+        """All 776 contacts of this crunch close in two doubles. Where they are closed one of the forces that balance in
+        doubles, 1.5e-11 of the mean, is gone: neither a proof nor the checker finds it positive."""
+        path = Path(__file__).with_name("saddle_disks.txt")
+        diameter = float(path.read_text().split("diameter ")[1].split()[0])
+        system = jam.System.from_arrays(np.loadtxt(path), np.full(300, diameter), 1.0)
+        for verdict in (system.rigidity("collective"), system.check()):
+            self.assertEqual(verdict.jammed, jam.Verdict.UNDECIDED)
+
     def test_a_saddle_is_not_called_jammed(self):
         """One disk is held across two nearly opposite contacts by a weak force. In whole numbers it moves by 1e-7 of
         its size, and overlaps by 1e-14: doubles do not hold it."""

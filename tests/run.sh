@@ -107,7 +107,8 @@ fi
 if wants threads; then
 part "thread sanitizer"
 cmake -S . -B build-tsan -G Ninja -DCMAKE_BUILD_TYPE=None -DCMAKE_C_FLAGS=-O1 -DCMAKE_CXX_FLAGS=-O1 \
-  -DJAM_SANITIZE=thread -DJAM_DIMENSIONS="2;3" -DJAM_BUILD_EXAMPLES=OFF -DJAM_BUILD_CLI=OFF >/dev/null
+  -DJAM_SANITIZE=thread -DCMAKE_UNITY_BUILD=ON -DJAM_DIMENSIONS="2;3" -DJAM_BUILD_EXAMPLES=OFF \
+  -DJAM_BUILD_CLI=OFF >/dev/null
 # What starts threads: races on a handle, handles on threads of their own, and runs and factorisations on two threads.
 threaded='capi_thread_gate capi_host_state capi_isoconfigurational'
 # shellcheck disable=SC2086

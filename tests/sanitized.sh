@@ -13,5 +13,6 @@ sanitize() {
 # libFuzzer: one build serves both parts.
 sanitize_by_clang() {
   sanitize build-asan -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++ -DJAM_WERROR=ON -DJAM_FUZZ=ON \
+    -DCMAKE_UNITY_BUILD=ON \
     -DCMAKE_C_FLAGS='-O1 -fsanitize=fuzzer-no-link' -DCMAKE_CXX_FLAGS='-O1 -fsanitize=fuzzer-no-link'
 }

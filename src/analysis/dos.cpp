@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "core/math.hpp"
 #include "core/rng.hpp"
+#include "linalg/dot.hpp"
 
 namespace jam {
 
@@ -24,12 +25,6 @@ jam_dos_options default_dos_options() {
 }
 
 namespace {
-
-double dot(const std::vector<double> &x, const std::vector<double> &y) {
-  double s = 0.0;
-  for (size_t k = 0; k < x.size(); ++k) s += x[k] * y[k];
-  return s;
-}
 
 // Upper bound of the spectrum: the smaller of Gershgorin's and a power estimate with its residual added.
 double largest_eigenvalue(const RigidityMatrix &g, const BlockMatrix &h) {

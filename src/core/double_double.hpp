@@ -54,5 +54,10 @@ inline DoubleDouble square_root(DoubleDouble a) {
   if (!(root > 0.0)) return root;
   return ordered_sum(root, (a - two_product(root, root)).high / (2.0 * root));
 }
+// high + low += x.
+inline void add_to(double &high, double &low, double x) {
+  const DoubleDouble sum = DoubleDouble(high, low) + DoubleDouble(x);
+  high = sum.high, low = sum.low;
+}
 
 }  // namespace jam

@@ -15,8 +15,6 @@
 namespace jam {
 namespace {
 
-constexpr size_t chunk = 1 << 16;
-constexpr int silence = 50;  // milliseconds that a pipe may keep the call from looking
 constexpr unsigned char gzip_mark[] = {0x1f, 0x8b};
 
 }  // namespace
@@ -51,8 +49,8 @@ InputFile::~InputFile() {
 size_t InputFile::read(char *to, size_t size) {
   for (;;) {
     CallScope::look();
-    if (!platform::readable(fd_, silence)) continue;
-    const std::ptrdiff_t got = platform::read(fd_, to, std::min(size, chunk));
+    if (!platform::readable(fd_, platform::silence)) continue;
+    const std::ptrdiff_t got = platform::read(fd_, to, std::min(size, platform::chunk));
     if (got >= 0) return static_cast<size_t>(got);
     if (errno != EINTR && errno != EAGAIN) fail_errno("read");
   }
@@ -60,7 +58,7 @@ size_t InputFile::read(char *to, size_t size) {
 
 bool InputFile::fill() {
   if (begin_ < end_) return true;
-  packed_.resize(chunk);
+  packed_.resize(platform::chunk);
   begin_ = 0;
   end_ = read(packed_.data(), packed_.size());
   return end_ > 0;
@@ -70,7 +68,7 @@ size_t InputFile::read_unpacked(char *to, size_t size) {
   if (!begun_) {
     begun_ = true;
     while (end_ < sizeof gzip_mark) {  // a pipe may give one byte at a time
-      packed_.resize(chunk);
+      packed_.resize(platform::chunk);
       const size_t got = read(packed_.data() + end_, packed_.size() - end_);
       if (got == 0) break;
       end_ += got;
@@ -89,7 +87,7 @@ size_t InputFile::read_unpacked(char *to, size_t size) {
 size_t InputFile::unpack(char *to, size_t size) {
   z_stream &s = gzip_->stream;
   s.next_out = reinterpret_cast<Bytef *>(to);
-  s.avail_out = static_cast<uInt>(std::min(size, chunk));
+  s.avail_out = static_cast<uInt>(std::min(size, platform::chunk));
   const uInt room = s.avail_out;
   while (s.avail_out == room) {
     if (!fill()) {

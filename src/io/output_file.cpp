@@ -14,12 +14,6 @@
 #include "io/platform.hpp"
 
 namespace jam {
-namespace {
-
-constexpr size_t chunk = 1 << 16;
-constexpr int silence = 50;  // milliseconds that a full pipe may keep the call from looking
-
-}  // namespace
 
 // A stream of zlib with gzip's header, whose time is 0: the same packing gives the same bytes.
 struct OutputFile::Gzip {
@@ -33,7 +27,7 @@ struct OutputFile::Gzip {
   Gzip(const Gzip &) = delete;
   Gzip &operator=(const Gzip &) = delete;
   z_stream stream{};
-  std::vector<unsigned char> packed = std::vector<unsigned char>(chunk);
+  std::vector<unsigned char> packed = std::vector<unsigned char>(platform::chunk);
   bool finish = false;  // no more text comes
 };
 
@@ -43,7 +37,7 @@ void OutputFile::fail_errno(const char *what) const {
 }
 
 OutputFile::OutputFile(const char *path) : path_(path) {
-  text_.reserve(chunk + 1024);
+  text_.reserve(platform::chunk + 1024);
   if (path_.size() > 3 && path_.compare(path_.size() - 3, 3, ".gz") == 0) gzip_ = std::make_unique<Gzip>();
   const platform::Target target = platform::follow_links(path_);
   target_ = target.file;
@@ -79,7 +73,7 @@ void OutputFile::put(const char *from, size_t left) {
   const bool in_place = temporary_.empty();
   while (left > 0) {
     CallScope::look();
-    if (in_place && !platform::writable(fd_, silence)) continue;
+    if (in_place && !platform::writable(fd_, platform::silence)) continue;
     const std::ptrdiff_t done = platform::write(fd_, from, in_place ? std::min(left, platform::at_once) : left);
     if (done < 0 && errno == EINTR) continue;
     if (done < 0) fail_errno("write");
@@ -106,7 +100,7 @@ void OutputFile::flush() {
 }
 
 void OutputFile::flush_if_full() {
-  if (text_.size() >= chunk) flush();
+  if (text_.size() >= platform::chunk) flush();
 }
 
 void OutputFile::commit() {

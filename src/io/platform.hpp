@@ -8,6 +8,9 @@
 namespace jam {
 namespace platform {
 
+constexpr size_t chunk = 1 << 16;  // bytes of one read or write
+constexpr int silence = 50;        // milliseconds that a pipe may keep a call from looking
+
 enum class Kind { none, file, folder, other };  // other: a pipe, a device
 Kind kind_of(const char *path);
 bool may_write(const char *path);

@@ -60,7 +60,7 @@ Box read_box(LineReader &in, Words behind) {
   return box;
 }
 
-struct Columns {
+struct DumpColumns {
   size_t total = 0, id = 0, count = 0;  // count: of coordinates
   bool has_id = false, scaled = false;
   std::array<size_t, 3> axis{};
@@ -68,8 +68,8 @@ struct Columns {
   std::vector<std::string> unread;
 };
 
-Columns read_columns(const LineReader &in, const Words &names) {
-  Columns columns;
+DumpColumns read_columns(const LineReader &in, const Words &names) {
+  DumpColumns columns;
   columns.total = names.size();
   const auto place = [&](const std::string &name) {
     return static_cast<size_t>(std::find(names.begin(), names.end(), name) - names.begin());
@@ -104,7 +104,7 @@ Columns read_columns(const LineReader &in, const Words &names) {
   return columns;
 }
 
-void read_atoms(LineReader &in, int64_t n, const Box &box, const Columns &columns, FileContent &content) {
+void read_atoms(LineReader &in, int64_t n, const Box &box, const DumpColumns &columns, FileContent &content) {
   Rows rows(in, false);
   Words words;
   std::vector<double> position;
@@ -173,7 +173,7 @@ bool read_frame(LineReader &in, FileContent &content) {
       if (n < 0 || !has_box) in.fail(JAM_E_FORMAT, "NUMBER OF ATOMS and BOX BOUNDS must come before ITEM: ATOMS");
       const std::string names(line);
       split(names, words);
-      const Columns columns = read_columns(in, Words(words.begin() + 2, words.end()));
+      const DumpColumns columns = read_columns(in, Words(words.begin() + 2, words.end()));
       read_atoms(in, n, box, columns, content);
       const size_t d = static_cast<size_t>(content.dim);
       if (d == 2 && (box.rows[2] != 0.0 || box.rows[5] != 0.0 || box.rows[6] != 0.0 || box.rows[7] != 0.0))

@@ -7,7 +7,7 @@
 namespace jam {
 namespace {
 
-struct Columns {
+struct XyzColumns {
   size_t total = 0, pos = 0, pos_count = 0, id = 0;
   bool has_pos = false, has_id = false;
   SizeColumn size;
@@ -15,7 +15,7 @@ struct Columns {
   std::vector<double> origin;  // the corner of the cell
 };
 
-Columns read_properties(const LineReader &in, std::string_view properties) {
+XyzColumns read_properties(const LineReader &in, std::string_view properties) {
   std::vector<std::string_view> part;
   for (size_t k = 0; k <= properties.size();) {
     const size_t stop = std::min(properties.find(':', k), properties.size());
@@ -23,7 +23,7 @@ Columns read_properties(const LineReader &in, std::string_view properties) {
     k = stop + 1;
   }
   if (part.size() % 3) in.fail(JAM_E_FORMAT, "Properties is not a list of name:type:columns");
-  Columns columns;
+  XyzColumns columns;
   for (size_t k = 0; k < part.size(); k += 3) {
     const int64_t count = parse_count(in, part[k + 2], "a number of columns");
     if (count < 1 || count > 1000)
@@ -129,11 +129,11 @@ std::vector<double> read_origin(const LineReader &in, CommentKeys &keys, int dim
 }
 
 // What line 2 says of the frame.
-Columns read_keys(const LineReader &in, CommentKeys &keys, const ReadOptions &options, FileContent &content) {
+XyzColumns read_keys(const LineReader &in, CommentKeys &keys, const ReadOptions &options, FileContent &content) {
   std::string_view value;
   if (!keys.find("Properties", value))
     in.fail(JAM_E_FORMAT, "no Properties=, such as Properties=species:S:1:pos:R:3:radius:R:1 for these columns");
-  Columns columns = read_properties(in, value);
+  XyzColumns columns = read_properties(in, value);
   int64_t dim = static_cast<int64_t>(columns.pos_count);
   if (keys.find("dim", value))
     dim = parse_count(in, value, "a dimension");
@@ -157,7 +157,7 @@ Columns read_keys(const LineReader &in, CommentKeys &keys, const ReadOptions &op
 }
 
 // The rows of a frame; in d = 2 a third coordinate must be the same for all disks.
-void read_rows(LineReader &in, int64_t n, const Columns &columns, FileContent &content) {
+void read_rows(LineReader &in, int64_t n, const XyzColumns &columns, FileContent &content) {
   std::vector<std::string_view> words;
   const size_t d = static_cast<size_t>(content.dim);
   Rows rows(in, false);
@@ -202,7 +202,7 @@ bool read_frame(LineReader &in, const ReadOptions &options, int64_t k, int64_t &
   if (!in.next(line)) in.fail(JAM_E_FORMAT, "the file ends before the line of keys");
   const std::string comment(line);
   CommentKeys keys(in, comment);
-  const Columns columns = read_keys(in, keys, options, content);
+  const XyzColumns columns = read_keys(in, keys, options, content);
   read_rows(in, n, columns, content);
   say_unread(content, columns.unread);
   say_unread(content, keys.unread(), "keys");

@@ -89,7 +89,7 @@ void write_lines(const Packing &p, const ContactNetwork &net, OutputFile &file) 
   lines.write(file);
 }
 
-int32_t format_by_name(const char *path) {
+int32_t contact_format_by_name(const char *path) {
   const std::string ending = file_ending(path);
   if (ending == "csv") return JAM_CONTACTS_CSV;
   if (ending == "dump") return JAM_CONTACTS_DUMP;
@@ -104,7 +104,7 @@ int32_t format_by_name(const char *path) {
 
 void write_contacts(const Packing &p, const ContactNetwork &net, const char *path, int32_t format) {
   check_enum(format, JAM_CONTACTS_AUTO, JAM_CONTACTS_VTP, "format", "jam_contact_format");
-  if (format == JAM_CONTACTS_AUTO) format = format_by_name(path);
+  if (format == JAM_CONTACTS_AUTO) format = contact_format_by_name(path);
   OutputFile file(path);
   if (format == JAM_CONTACTS_CSV)
     write_csv(p, net, file);

@@ -2,14 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+
+#include "linalg/dot.hpp"
 
 namespace jam {
 namespace {
-
-double dot(const std::vector<double> &x, const std::vector<double> &y) {
-  return std::inner_product(x.begin(), x.end(), y.begin(), 0.0);
-}
 
 void add(double factor, const std::vector<double> &x, double *y) {
   for (size_t k = 0; k < x.size(); ++k) y[k] += factor * x[k];

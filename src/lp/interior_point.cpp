@@ -6,7 +6,7 @@
 
 namespace jam {
 
-using T = InteriorPointTuning;
+using Rules = InteriorPointTuning;
 using W = WorkingSetTuning;
 
 // Nothing moved yet: s = 0 and g below the smallest gap, so that all slacks are positive. Cold, y is on the central
@@ -17,15 +17,15 @@ double InteriorPoint::first_point() {
   const double smallest = *std::min_element(lp.c.begin(), lp.c.end());
   std::vector<double> sorted = lp.c;
   std::nth_element(sorted.begin(), sorted.begin() + sorted.size() / 2, sorted.end());
-  double slack = std::max(T::first_slack * (sorted[sorted.size() / 2] - smallest),
-                          T::slack_per_bound * (box_ ? std::min(1.0, lp.bound) : 1.0));
+  double slack = std::max(Rules::first_slack * (sorted[sorted.size() / 2] - smallest),
+                          Rules::slack_per_bound * (box_ ? std::min(1.0, lp.bound) : 1.0));
   double sum = 0.0, gain = 0.0;
   if (control_.multipliers)
     for (size_t q = 0; q < rows_; ++q) {
       y_[q] = (*control_.multipliers)[split_.index[q]];
       sum += y_[q], gain += y_[q] * (lp.c[q] - smallest);
     }
-  if (sum > 0.0) slack = std::min(slack, std::max(T::ahead * gain / sum, T::least_slack));
+  if (sum > 0.0) slack = std::min(slack, std::max(Rules::ahead * gain / sum, Rules::least_slack));
   g_ = smallest - slack;
   for (size_t q = 0; q < rows_; ++q) w_[q] = lp.c[q] - g_;
   return centre_multipliers(y_, w_, static_cast<double>(rows_));
@@ -141,7 +141,8 @@ double InteriorPoint::complementarity() const {
 
 bool InteriorPoint::converged() const {
   const double gap = complementarity();
-  if (dual_norm_ > (gap > control_.tolerance ? T::rough_balance : T::balance) || std::fabs(rg_) > T::unit_sum)
+  if (dual_norm_ > (gap > control_.tolerance ? Rules::rough_balance : Rules::balance) ||
+      std::fabs(rg_) > Rules::unit_sum)
     return false;
   return gap <= control_.tolerance || (control_.early_fraction > 0 && g_ > 0 && gap <= control_.early_fraction * g_);
 }
@@ -166,7 +167,7 @@ LpSolution InteriorPoint::solve(const PackingLp &lp, const IpmControl &control, 
   double best_merit = std::numeric_limits<double>::infinity(), best_balance = best_merit;
   int stalled_iterations = 0;
   // A cold start is at hand where a warm one stalls.
-  const int max_stalled = control.multipliers ? T::max_stalled_warm : T::max_stalled;
+  const int max_stalled = control.multipliers ? Rules::max_stalled_warm : Rules::max_stalled;
   for (;; ++out.iterations) {
     residuals();
     const double gap = complementarity();
@@ -179,12 +180,13 @@ LpSolution InteriorPoint::solve(const PackingLp &lp, const IpmControl &control, 
     }
     // Rounding prevents further progress. Good enough if the gap is near the tolerance.
     const double merit = gap + std::min(1.0, gap_scale_ * dual_norm_);
-    stalled_iterations =
-        merit < T::progress * best_merit || dual_norm_ < T::progress * best_balance ? 0 : stalled_iterations + 1;
+    stalled_iterations = merit < Rules::progress * best_merit || dual_norm_ < Rules::progress * best_balance
+                             ? 0
+                             : stalled_iterations + 1;
     best_merit = std::min(best_merit, merit), best_balance = std::min(best_balance, dual_norm_);
     if (monitor && monitor->interrupted()) break;
     if (stalled_iterations >= max_stalled || out.iterations >= control.max_iterations) {
-      out.solved = gap <= T::near_gap * control.tolerance && dual_norm_ <= T::near_balance * T::balance;
+      out.solved = gap <= Rules::near_gap * control.tolerance && dual_norm_ <= Rules::near_balance * Rules::balance;
       break;
     }
     if (monitor) monitor->expect_factorisations(system_.factorisations);
@@ -195,7 +197,7 @@ LpSolution InteriorPoint::solve(const PackingLp &lp, const IpmControl &control, 
     if (!predictor_corrector(main_)) break;
     Steps a = longest(main_);
     if (!std::isfinite(main_.g) || !(a.primal > 0.0) || !(a.dual > 0.0)) break;
-    const double keep = 1.0 - std::min(T::max_cut, std::max(T::least_cut, T::cut_per_gap * gap));
+    const double keep = 1.0 - std::min(Rules::max_cut, std::max(Rules::least_cut, Rules::cut_per_gap * gap));
     move(main_, {longest_screened(main_, a.primal < 1.0 ? keep * a.primal : 1.0), a.dual < 1.0 ? keep * a.dual : 1.0});
     if (admit_screened() && monitor)
       monitor->log(JAM_LOG_DEBUG, "ipm: %zu of %zu rows in the working set", rows_, lp.rows());

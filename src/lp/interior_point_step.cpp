@@ -6,7 +6,7 @@
 
 namespace jam {
 
-using T = InteriorPointTuning;
+using Rules = InteriorPointTuning;
 using C = CorrectorTuning;
 
 void InteriorPoint::Direction::resize(size_t rows, size_t unknowns) {
@@ -95,8 +95,8 @@ bool InteriorPoint::predictor_corrector(Direction &d) {
   const double mu = complementarity() / static_cast<double>(rows_ + (box_ ? 2 * unknowns_ : 0));
   const double ratio = mu_after(d, longest(d)) / mu;
   // Far below the tolerance only rounding is left.
-  const double target = std::max(std::max(ratio * ratio * ratio, T::least_ratio) * mu,
-                                 T::of_tolerance * control_.tolerance / static_cast<double>(rows_));
+  const double target = std::max(std::max(ratio * ratio * ratio, Rules::least_ratio) * mu,
+                                 Rules::of_tolerance * control_.tolerance / static_cast<double>(rows_));
   for (size_t k = 0; k < rows_; ++k) targets_[k] = target - y_[k] * w_[k] - d.w[k] * d.y[k];
   if (box_)
     for (size_t k = 0; k < unknowns_; ++k) {
@@ -117,7 +117,7 @@ void InteriorPoint::centrality_correctors(Direction &d, double mu) {
   };
   for (int round = 0; round < control_.correctors; ++round) {
     const Steps now = longest(d);
-    if (now.primal > T::whole_step && now.dual > T::whole_step) return;
+    if (now.primal > Rules::whole_step && now.dual > Rules::whole_step) return;
     const Steps aim{std::min(1.0, now.primal + C::ahead), std::min(1.0, now.dual + C::ahead)};
     for (size_t k = 0; k < rows_; ++k) targets_[k] = pull((w_[k] + aim.primal * d.w[k]) * (y_[k] + aim.dual * d.y[k]));
     if (box_)
@@ -129,7 +129,7 @@ void InteriorPoint::centrality_correctors(Direction &d, double mu) {
     trial_ = d;
     trial_.add(extra_);
     const Steps better = longest(trial_);
-    if (better.primal + better.dual < now.primal + now.dual + T::least_win) return;
+    if (better.primal + better.dual < now.primal + now.dual + Rules::least_win) return;
     std::swap(d, trial_);
   }
 }

@@ -15,8 +15,6 @@
 namespace jam {
 namespace {
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
-
 // As many pairs touch to 1e-10 as hold half of the spheres, and they are three of four that nearly touch: in a lattice
 // of few digits the pairs along an axis may touch exactly, and the others do not.
 bool has_exact_contacts(const Packing &p, double reach) {
@@ -52,8 +50,8 @@ void widen(GapResolution &resolution, const Packing &p, double error) {
 GapResolution gap_resolution(const Packing &p) {
   GapResolution out;
   const double smallest = *std::min_element(p.diameter.begin(), p.diameter.end()), side = p.cell.side();
-  out.rounding = 8.0 * epsilon * side / smallest;  // of coordinates as large as the box
-  if (p.n() < 2) return out;                       // one sphere touches only its own images, wherever it stands
+  out.rounding = 8.0 * std::numeric_limits<double>::epsilon() * side / smallest;  // of coordinates as large as the box
+  if (p.n() < 2) return out;  // one sphere touches only its own images, wherever it stands
   GivenDigits digits = coordinate_digits(p.dim, p.position, smallest);
   digits.take(fraction_digits(p));
   digits.take(p.given);

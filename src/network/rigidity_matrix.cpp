@@ -10,8 +10,6 @@
 namespace jam {
 namespace {
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
-
 void take_out(const std::vector<double> &v, double *x) {
   double along = 0.0;
   for (size_t k = 0; k < v.size(); ++k) along += v[k] * x[k];
@@ -156,7 +154,7 @@ void scatter(const RigidityMatrix &sub, const double *x, double factor, std::vec
 }
 
 std::vector<double> direction_errors(const RigidityMatrix &g) {
-  std::vector<double> out(g.contacts(), 4.0 * epsilon);
+  std::vector<double> out(g.contacts(), 4.0 * std::numeric_limits<double>::epsilon());
   for (size_t k = 0; k < g.distance.size(); ++k) out[k] += g.rounding / g.distance[k];
   return out;
 }

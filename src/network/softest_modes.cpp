@@ -7,6 +7,7 @@
 
 #include "core/call_scope.hpp"
 #include "core/rng.hpp"
+#include "linalg/dot.hpp"
 #include "linalg/symmetric_eigen.hpp"
 #include "network/tuning.hpp"
 
@@ -50,11 +51,6 @@ class BlockIteration {
   }
 
  private:
-  static double dot(const std::vector<double> &x, const std::vector<double> &y) {
-    double s = 0.0;
-    for (size_t k = 0; k < x.size(); ++k) s += x[k] * y[k];
-    return s;
-  }
   // Component of x orthogonal to symmetries, the flexes found and the first `count` vectors of the block, of unit
   // length. False when nothing is left.
   bool orthonormalise(std::vector<double> &x, size_t count) const {

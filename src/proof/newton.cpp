@@ -16,12 +16,6 @@ double length(const std::vector<double> &x) {
   return std::sqrt(s);
 }
 
-// hi + lo += x, to two doubles.
-void add_to(double &high, double &low, double x) {
-  const DoubleDouble sum = DoubleDouble(high, low) + DoubleDouble(x);
-  high = sum.high, low = sum.low;
-}
-
 }  // namespace
 
 void refine_forces(ProofScene &s, const ProofEquations &e, const NormalMatrix &normal) {

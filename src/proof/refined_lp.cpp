@@ -12,11 +12,6 @@
 namespace jam {
 namespace {
 
-void add_to(double &high, double &low, double x) {
-  const DoubleDouble sum = DoubleDouble(high, low) + DoubleDouble(x);
-  high = sum.high, low = sum.low;
-}
-
 // All pairs of spheres that a step may close, contacts first.
 std::vector<NearPair> all_pairs(const ProofScene &s) {
   std::vector<NearPair> out;

@@ -4,17 +4,12 @@
 #include <cmath>
 #include <deque>
 
+#include "linalg/dot.hpp"
 #include "soft/relaxation.hpp"
 #include "soft/tuning.hpp"
 
 namespace jam {
 namespace {
-
-double dot(const std::vector<double> &a, const std::vector<double> &b) {
-  double s = 0.0;
-  for (size_t k = 0; k < a.size(); ++k) s += a[k] * b[k];
-  return s;
-}
 
 struct Update {
   std::vector<double> s, y;

@@ -3,18 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "linalg/dot.hpp"
 #include "soft/relaxation.hpp"
 #include "soft/soft_hessian.hpp"
 #include "soft/tuning.hpp"
 
 namespace jam {
 namespace {
-
-double dot(const std::vector<double> &a, const std::vector<double> &b) {
-  double s = 0.0;
-  for (size_t k = 0; k < a.size(); ++k) s += a[k] * b[k];
-  return s;
-}
 
 // Levenberg and Marquardt: a shift of the Hessian that grows where contacts change and steps gain less energy than the
 // quadratic model says. `stalled` when the steps do not lead to the tolerance.

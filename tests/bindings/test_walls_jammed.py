@@ -151,19 +151,26 @@ class Verdicts(unittest.TestCase):
         self.assertEqual((values > 1e-4).sum(), rows.shape[1] - SYMMETRIES["lines"])
 
     def test_one_verdict_where_contacts_are_open_by_more_than_rounding(self):
-        # Two spheres nearly in single file. How far the crunch gets depends on the products of the BLAS.
-        tube = {"container": "cylinder", "cell": [1, 1, 1.989141820377518]}
-        s = jam.System.random(n=2, seed=385587, packing_fraction=0.12, **tube)
-        s.crunch()
-        fresh = jam.System.from_arrays(s.positions, s.diameters, **tube)
-        verdicts = {verdict.jammed for verdict in (s.rigidity(), s.check(), fresh.rigidity(), fresh.check())}
-        self.assertEqual(len(verdicts), 1)
-        # Contacts open by 2e-11, forces that balance to 5e-7.
+        # Two spheres nearly in single file, as LPs leave them: contacts open by 2e-11, forces that balance to 5e-7.
         x = [[0.5026561775470215, 0.5005229948407548, 1.0937418726509747],
              [0.4973438486658495, 0.49947687204512475, 0.09917096246221566]]  # fmt: skip
-        near = jam.System.from_arrays(x, [0.9945856476778542] * 2, **tube)
+        near = jam.System.from_arrays(x, [0.9945856476778542] * 2, container="cylinder", cell=[1, 1, 1.989141820377518])
         for verdict in (near.rigidity(), near.check()):
             self.assertEqual(verdict.jammed, jam.Verdict.UNDECIDED)
+
+    def test_zigzags_nearly_in_single_file(self):
+        # Two spheres opposite each other in a tube of width 1: d^2 = (L / 2)^2 + (1 - d)^2. A turn of one about the axis
+        # opens their contacts by its square times 1 - d.
+        random = np.random.default_rng(1)
+        for seed in range(20):
+            length = 2.0 - random.uniform(0.005, 0.2)
+            tube = {"container": "cylinder", "cell": [1, 1, length]}
+            s = jam.System.random(n=2, seed=seed, packing_fraction=0.12, **tube)
+            self.assertTrue(s.crunch().jammed, length)
+            self.assertAlmostEqual(s.diameters[0], 0.5 + length**2 / 8, delta=1e-14)
+            fresh = jam.System.from_arrays(s.positions, s.diameters, **tube)
+            for verdict in (s.rigidity(), s.check(), fresh.rigidity(), fresh.check()):
+                self.assertEqual(verdict.jammed, jam.Verdict.YES, length)
 
     def test_no_motion_lets_the_diameters_grow(self):
         random = np.random.default_rng(1)

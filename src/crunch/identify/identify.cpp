@@ -6,6 +6,16 @@
 #include "crunch/identify/verdict.hpp"
 
 namespace jam {
+namespace {
+
+// Along a flex that only the curvature of a round wall ends, LPs promise a growth of which a step makes a small part.
+// Newton's steps on contacts and forces may get there.
+bool curved_and_slow(const CrunchState &s) {
+  const int32_t reason = s.out.report.stop_reason;
+  return s.out.packing.container.round_axes() > 0 && (reason == JAM_STOP_STALLED || reason == JAM_STOP_LP_LIMIT);
+}
+
+}  // namespace
 
 Phase identify(CrunchState &s) {
   if (frees_cell(s)) return free_cell(s);
@@ -15,8 +25,11 @@ Phase identify(CrunchState &s) {
     return Phase::done;
   }
   s.out.contacts = make_contacts(s.out.packing, s.last.pairs, s.last.answer, s.last.active);
-  if (s.out.report.stop_reason != JAM_STOP_NONE) return Phase::done;
+  const bool slow = curved_and_slow(s);
+  if (s.out.report.stop_reason != JAM_STOP_NONE && !(slow && s.o.polish)) return Phase::done;
   if (s.o.polish && !polish_contacts(s)) return Phase::done;
+  if (slow && !s.found.polished) return Phase::done;
+  if (slow) stop(s, JAM_STOP_NONE, JAM_OK);
   if (s.o.polish && !s.found.polished && !converged(s)) {
     s.next.gain_tolerance = default_crunch_options().gain_tolerance;
     return Phase::approach;

@@ -79,13 +79,15 @@ int export_file(const options *o) {
   if (wanted || (o->stl && !isfinite(o->stl_shrink))) find_network(sys, &found, wanted);
   if (!found.known)
     note_omitted(o->contacts), note_omitted(o->spectrum), note_omitted(o->gaps), note_omitted(o->structure);
-  if (write_files(sys, o, found.known, seconds_now() + o->wall_time, &cut_short)) return leave(sys, failure_code());
-  code = tables && !found.known ? EXIT_FAILED : cut_short ? EXIT_EARLY : EXIT_DONE;
+  if (write_files(sys, o, found.known, seconds_now() + o->wall_time, &cut_short))
+    code = failure_code();
+  else
+    code = tables && !found.known ? EXIT_FAILED : cut_short ? EXIT_EARLY : EXIT_DONE;
   if (o->json) {
-    if (write_json(o, sys, code, &found)) code = EXIT_OUTPUT;
+    if (write_json(o, sys, code, &found) && !code) code = EXIT_OUTPUT;
   } else if (!o->quiet) {
     each_output(o, print_path, NULL);
-    if (o->stl && !wanted && found.known && found.contacts == 0)
+    if (o->stl && !is_omitted(o->stl) && !wanted && found.known && found.contacts == 0)
       printf("  network   none: the mesh joins no spheres\n");
     if (*found.doubt) printf("  network   %lld contacts: %s\n", (long long)found.contacts, found.doubt);
   }

@@ -117,7 +117,8 @@ int has_failed(jam_status status);
 void note_failure(int code);         /* the first one counts */
 void note_omitted(const char *path); /* of an option: this file is not written; may be NULL */
 int is_omitted(const char *path);
-int failure_code(void); /* EXIT_OUTPUT where none was noted */
+int missing(const char *path, int bad); /* returns bad, after a note_omitted where it is not 0 */
+int failure_code(void);                 /* EXIT_OUTPUT where none was noted */
 
 /* json.c: items of an object, each a line that ends with a comma. Numbers that are not finite, and counts that are not
  * known, are null. */

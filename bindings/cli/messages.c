@@ -15,7 +15,7 @@ static struct {
   char *text;
   size_t size;
   int code;
-  const char *omitted[8];
+  const char *omitted[16];
   int omitted_count;
 } said;
 
@@ -102,6 +102,11 @@ void complain(const char *format, ...) {
 void note_omitted(const char *path) {
   if (path && said.omitted_count < (int)(sizeof said.omitted / sizeof *said.omitted))
     said.omitted[said.omitted_count++] = path;
+}
+
+int missing(const char *path, int bad) {
+  if (bad && !is_omitted(path)) note_omitted(path);
+  return bad;
 }
 
 int is_omitted(const char *path) {

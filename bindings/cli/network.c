@@ -18,7 +18,7 @@ static int write_table(jam_status status, char *text, const char *path) {
     bad = close_output(&out);
   }
   free(text);
-  return bad;
+  return missing(path, bad);
 }
 
 static int write_spectrum(jam_system *sys, int64_t count, const char *path) {

@@ -118,9 +118,11 @@ static int write_coordination(const jam_system *sys, const options *o) {
 }
 
 int write_pore_space(jam_system *sys, const options *o) {
-  const int bad[] = {o->stl ? write_mesh(sys, o) : 0, o->voxels ? write_image(sys, o) : 0,
-                     o->profile ? write_profile(sys, o) : 0, o->near_coordination ? write_coordination(sys, o) : 0,
-                     o->pores ? write_pores(sys, o) : 0};
+  const int bad[] = {o->stl ? missing(o->stl, write_mesh(sys, o)) : 0,
+                     o->voxels ? missing(o->voxels, write_image(sys, o)) : 0,
+                     o->profile ? missing(o->profile, write_profile(sys, o)) : 0,
+                     o->near_coordination ? missing(o->near_coordination, write_coordination(sys, o)) : 0,
+                     o->pores ? missing(o->pores, write_pores(sys, o)) : 0};
   int worst = 0, k;
   for (k = 0; k < 5; ++k)
     if (bad[k] && worst >= 0) worst = bad[k];

@@ -41,7 +41,7 @@ int each_output(const options *o, int (*f)(const char *path, void *with), void *
   size_t k;
   for (k = 0; k < sizeof table / sizeof *table; ++k)
     if (table[k].kind == TAKE_OUTPUT && file_of(o, &table[k]) && f(file_of(o, &table[k]), with)) return -1;
-  if (o->vtk) {
+  if (o->vtk && !is_omitted(o->vtk)) {
     char first[4096];
     snprintf(first, sizeof first, "%s.vtp", o->vtk);
     return f(first, with) ? -1 : 0;

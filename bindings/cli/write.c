@@ -50,16 +50,20 @@ static int finish_by_host(const jam_system *sys, const options *o) {
   jam_system *copy = NULL;
   if (!host || !host->finish || (!output && !o->plot)) return 0;
   if (jam_copy(sys, &copy) != JAM_OK) return has_failed(JAM_E_MEMORY);
-  return host->finish(copy, output, o->plot, host->user) ? has_failed(JAM_E_IO) : 0;
+  if (!host->finish(copy, output, o->plot, host->user)) return 0;
+  missing(output, 1), missing(o->plot, 1);
+  return has_failed(JAM_E_IO);
 }
 
 int write_files(jam_system *sys, const options *o, int known, double deadline, int *cut_short) {
   int bad = 0, network = 0;
-  if (o->output && !is_host_format(o, o->output)) bad |= has_failed(jam_write(sys, o->output, JAM_FORMAT_AUTO));
-  if (o->contacts && known) bad |= write_contacts(sys, o->contacts);
-  if (o->proof && known) bad |= has_failed(jam_write_proof(sys, o->proof, NULL, 0));
-  if (o->strict_proof && known) bad |= has_failed(jam_write_proof_strict(sys, o->strict_proof));
-  if (o->page) bad |= has_failed(jam_write_page(sys, o->page, "", 0, "", NULL, 0));
+  if (o->output && !is_host_format(o, o->output))
+    bad |= missing(o->output, has_failed(jam_write(sys, o->output, JAM_FORMAT_AUTO)));
+  if (o->contacts && known) bad |= missing(o->contacts, write_contacts(sys, o->contacts));
+  if (o->proof && known) bad |= missing(o->proof, has_failed(jam_write_proof(sys, o->proof, NULL, 0)));
+  if (o->strict_proof && known)
+    bad |= missing(o->strict_proof, has_failed(jam_write_proof_strict(sys, o->strict_proof)));
+  if (o->page) bad |= missing(o->page, has_failed(jam_write_page(sys, o->page, "", 0, "", NULL, 0)));
   cancel_on_signal(sys); /* a large spectrum takes long */
   jam_set_progress(sys, stop_late, &deadline);
   if (known) network = write_network(sys, o);
@@ -67,7 +71,7 @@ int write_files(jam_system *sys, const options *o, int known, double deadline, i
   jam_set_progress(sys, NULL, NULL);
   cancel_on_signal(NULL);
   *cut_short = network > 0;
-  if (o->vtk) bad |= write_vtk(sys, o->vtk, known);
+  if (o->vtk) bad |= missing(o->vtk, write_vtk(sys, o->vtk, known));
   return bad | (network < 0) | finish_by_host(sys, o);
 }
 

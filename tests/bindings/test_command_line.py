@@ -262,6 +262,21 @@ class CommandLine(unittest.TestCase):
             code, out, _ = self.run_words(program, *words)
             self.assertEqual((code, re.findall("written +(.*)", out)), (1, ["g.csv"]))
 
+    def test_what_was_written_before_a_refusal_is_listed(self):
+        """Pore sizes are refused in a cylinder, after the profile and before nothing."""
+        s = jam.System.random(20, 3, 1, packing_fraction=0.1, container="cylinder")
+        s.write(str(self.dir / "tube.xyz"))
+        words = "export tube.xyz --profile z.csv --pores p.csv --output tube.data".split()
+        for program in self.programs():
+            code, out, err = self.run_words(program, *words)
+            self.assertEqual((code, "pore sizes" in err or "cylinder" in err), (REFUSED, True), err)
+            self.assertEqual(sorted(re.findall("written +(.*)", out)), ["tube.data", "z.csv"])
+            self.assertEqual([(self.dir / name).exists() for name in ("tube.data", "z.csv", "p.csv")], [True, True, False])
+            code, out, err = self.run_words(program, *words, "--json")
+            said = json.loads(out)
+            self.assertEqual((code, said["status"], sorted(said["written"])), (REFUSED, REFUSED, ["tube.data", "z.csv"]), err)
+            self.assertIn("cylinder", said["text"])
+
     def test_json_of_a_job_has_its_end(self):
         for program in self.programs():
             code, out, err = self.run_words(program, *"--n 20 --no-md --json --wall-time 1e-9".split())

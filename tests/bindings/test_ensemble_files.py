@@ -13,6 +13,7 @@ import jam
 from jam.ensemble import Ensemble, ProtocolError, StoreError
 from packings import same_bits
 
+SOFT = {"verb": "monte_carlo", "alpha": 2.0, "temperature": 1e-3}
 SMALL = dict(n=24, dim=2, diameters={"law": "bidisperse"}, stages=[{"growth_rate": 0.1, "pressure": 100.0}])
 
 
@@ -62,9 +63,15 @@ class Protocols(unittest.TestCase):
             (dict(n=10, analysis={"colour": {}}), "colour"),
             (dict(n=10, analysis={"bond_order": {"l": 6}}), "cutoff"),
             (dict(n=10, model="flat"), "flat"),
+            (dict(n=10, stages=[(-1.0, 10.0)]), r"stages\[0\]: growth_rate is -1"),
+            (dict(n=10, crunch={"strain": "volume"}), "crunch: strain is 4, which frees the volume"),
+            (dict(n=10, stages=[SOFT]), "crunch: crunch is for hard spheres, .* put decompress before it, or crunch=None"),
+            (dict(n=10, stages=[SOFT, {"growth_rate": 0.1}]), r"stages\[1\]: compress is for hard spheres"),
         ):
             with self.assertRaisesRegex(ProtocolError, text):
                 jam.ensemble.complete(wrong)
+        for right in (dict(stages=[SOFT], crunch=None), dict(stages=[SOFT, SOFT, {"verb": "decompress"}]), dict(stages=[SOFT, {"verb": "relax"}])):
+            jam.ensemble.complete(dict(right, n=10))
 
     def test_names_depend_on_protocol_seed_and_version_alone(self):
         a, b = Ensemble("x", SMALL), Ensemble("y", dict(SMALL, n=26))

@@ -38,6 +38,7 @@ STAGES = tuple({"growth_rate": growth, "pressure": pressure} for growth, pressur
 ANALYSIS: dict[str, dict[str, Any]] = {"gaps": {"h_max": 1.0, "stable_only": 1}, "crystal_score": {}}
 _FEW = 1e-12  # packing fraction of a sphere that fits into any scene
 _NO_TIME = 1e-9  # seconds
+_OF_TWO_SPHERES = (errors.TooFewError, errors.StateError)  # what calls without time say of two spheres, not of the protocol
 _NO_SCENE = {"cell": None, "walls": None, "container": "brick"}
 _CHECKED = ("model", "non_additivity")  # of what the scene allows, beside itself
 _NOT_IN_START = ("seed", "overlap")  # the seed is the packing's own; a start never overlaps
@@ -166,18 +167,26 @@ def _check_calls(made: Mapping[str, Any]) -> None:
     calls = [(f"stages[{k}]", stage) for k, stage in enumerate(made["stages"])]
     if made["crunch"] is not None:
         calls.append(("crunch", {"verb": "crunch", **made["crunch"]}))
-    soft = False  # a start has no overlaps, and only soft Monte Carlo makes some
+    soft = overlapping = False  # a start has no overlaps, and only soft Monte Carlo makes some
     for where, call in calls:
         options = dict(call)
-        if options["verb"] in ("relax", "decompress") and not soft:
-            raise ProtocolError(f"{where}: {options['verb']} needs overlaps, which only Monte Carlo with alpha makes here")
-        soft = soft or (options["verb"] == "monte_carlo" and options["alpha"] > 0)
+        verb = options.pop("verb")
+        if verb in ("relax", "decompress") and not soft:
+            raise ProtocolError(f"{where}: {verb} needs overlaps, which only Monte Carlo with alpha makes here")
+        soft_moves = verb == "monte_carlo" and options["alpha"] > 0
+        if overlapping and not soft_moves and verb not in ("relax", "decompress"):
+            raise ProtocolError(
+                f"{where}: {verb} is for hard spheres, and Monte Carlo with alpha leaves overlaps: put decompress before it, "
+                "or crunch=None"
+            )
+        soft = soft or soft_moves
+        overlapping = soft_moves or (overlapping and verb not in ("relax", "decompress"))
         try:
-            getattr(two, options.pop("verb"))(**{**options, "wall_time": _NO_TIME})
-        except errors.UnsupportedError as error:
-            raise ProtocolError(f"{where}: {error}") from None
-        except errors.JamError:  # of two spheres without time
+            getattr(two, verb)(**{**options, "wall_time": _NO_TIME})
+        except _OF_TWO_SPHERES:
             pass
+        except errors.JamError as error:
+            raise ProtocolError(f"{where}: {error}") from None
 
 
 def complete(protocol: Mapping[str, Any] | None = None) -> dict[str, Any]:

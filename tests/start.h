@@ -5,7 +5,7 @@
 #include <jam/jam.h>
 
 static inline jam_start start_at(const double *x, size_t x_len, const double *diameter, size_t diameter_len) {
-  const jam_start start = {sizeof(jam_start), 0, x, x_len, diameter, diameter_len, NULL, 0, NULL, NULL, 0, 0};
+  const jam_start start = {sizeof(jam_start), 0, x, x_len, diameter, diameter_len, NULL, 0, NULL, NULL};
   return start;
 }
 

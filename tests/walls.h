@@ -29,7 +29,7 @@ static inline jam_status create_walled(const walled *s, int64_t n, double fracti
   o.dim = s->dim, o.n = n, o.seed = seed, o.packing_fraction = fraction;
   for (int c = 0; c < s->dim; ++c) cell[c * s->dim + c] = s->edge[c];
   start.cell = cell, start.cell_len = (size_t)(s->dim * s->dim);
-  start.container = s->container, start.walls = s->walls;
+  o.container = s->container, o.walls = s->walls;
   start.diameters = diameters, start.diameters_len = diameters ? (size_t)n : 0;
   return jam_create(&o, &start, out);
 }

@@ -40,6 +40,8 @@ static void complain_assumptions(const options *o) {
   jam_create_options_init(&create, sizeof create);
   create.box = o->box;
   create.frame = o->frame;
+  create.container = (int32_t)o->container;
+  create.walls = (int32_t)o->walls;
   create.overlap = JAM_OVERLAP_ALLOW;
   if (jam_read(o->input, &create, stop_if_asked, NULL, &sys) >= 0 && sys) complain_notes(sys);
   jam_destroy(sys);
@@ -54,7 +56,8 @@ static int refused_start(const options *o, jam_status status) {
   else
     complain("%s", text);
   if (status == JAM_E_OVERLAP && o->input && !is_host_format(o, o->input)) complain_assumptions(o);
-  return status == JAM_E_ARGUMENT && (is_named(o, "box") || is_named(o, "non-additivity") || is_named(o, "frame"))
+  return status == JAM_E_ARGUMENT && (is_named(o, "box") || is_named(o, "non-additivity") || is_named(o, "frame") ||
+                                      is_named(o, "walls") || is_named(o, "container"))
              ? EXIT_USAGE
              : EXIT_FAILED;
 }
@@ -90,6 +93,8 @@ int start(const options *o, jam_progress_fn stop, jam_system **sys) {
   create.model = (int32_t)o->model;
   create.mk_zeta = o->zeta;
   create.non_additivity = o->non_additivity;
+  create.container = (int32_t)o->container;
+  create.walls = (int32_t)o->walls; /* the words of the table stand in the order of the bits */
   if (o->resume)
     status = jam_read_checkpoint(o->resume, stop, NULL, sys);
   else if (is_host_format(o, o->input)) {
@@ -112,8 +117,6 @@ int start(const options *o, jam_progress_fn stop, jam_system **sys) {
       from.cell = cell;
       from.cell_len = (size_t)(o->dim * o->dim);
     }
-    from.container = (int32_t)o->container;
-    from.walls = (int32_t)o->walls; /* the words of the table stand in the order of the bits */
     status = jam_create(&create, &from, sys);
     free(diameters);
   }
@@ -131,6 +134,8 @@ int read_as_it_is(const options *o, jam_system **sys) {
   create.box = o->box;
   create.frame = o->frame;
   create.non_additivity = o->non_additivity;
+  create.container = (int32_t)o->container;
+  create.walls = (int32_t)o->walls;
   create.overlap = JAM_OVERLAP_ALLOW;
   if (!is_host_format(o, o->input))
     status = jam_read(o->input, &create, stop_if_asked, NULL, sys);

@@ -172,6 +172,7 @@ module jam
   integer(c_int32_t), parameter :: JAM_EOS_MK = 4
   integer(c_int32_t), parameter :: JAM_EOS_FREE_VOLUME = 5
   integer(c_int32_t), parameter :: JAM_EOS_HENDERSON = 6
+  integer(c_int32_t), parameter :: JAM_EOS_PADE = 7
 
   ! jam_energy_unit: Unit of the overlap x of a soft pair.
   integer(c_int32_t), parameter :: JAM_ENERGY_LENGTH = 0
@@ -453,6 +454,11 @@ module jam
     real(c_double) :: mk_zeta = 0
     ! jam_masses, default EQUAL
     integer(c_int32_t) :: masses = 0
+    ! jam_container, default BRICK
+    integer(c_int32_t) :: container = 0
+    ! axes with flat walls: sum of 2^c, default 0
+    integer(c_int32_t) :: walls = 0
+    ! 0
     integer(c_int32_t) :: reserved = 0
     ! Delta in (-1, 1]: unequal spheres touch at (1 + Delta) (sigma_i + sigma_j) / 2; default 0
     real(c_double) :: non_additivity = 0
@@ -468,7 +474,7 @@ module jam
 
   ! Where a system starts. NULL in place of it: a random sequential start of equal spheres in a cube.
   type, bind(c) :: jam_start
-    integer(c_int32_t) :: struct_size = 80
+    integer(c_int32_t) :: struct_size = 72
     integer(c_int32_t) :: reserved = 0
     ! (n, d), Cartesian, any finite value (wrapped into the cell); NULL: a random start
     type(c_ptr) :: positions = c_null_ptr
@@ -483,10 +489,6 @@ module jam
     type(c_funptr) :: progress = c_null_funptr
     ! given to progress
     type(c_ptr) :: user = c_null_ptr
-    ! jam_container, default BRICK
-    integer(c_int32_t) :: container = 0
-    ! axes with flat walls: sum of 2^c, default 0
-    integer(c_int32_t) :: walls = 0
   end type jam_start
 
   ! What the system is now.
@@ -518,7 +520,7 @@ module jam
     real(c_double) :: non_additivity = 0
     ! jam_container
     integer(c_int32_t) :: container = 0
-    ! as in jam_start
+    ! as in jam_create_options
     integer(c_int32_t) :: walls = 0
     ! V of the container, else of the cell
     real(c_double) :: volume = 0
@@ -589,7 +591,7 @@ module jam
     real(c_double) :: largest_share = 0
     ! where random sequential addition of equal spheres ends; mixtures go beyond
     real(c_double) :: sequential_fraction = 0
-    ! estimate of the packing fraction at which these sizes jam in disorder
+    ! estimate of the phi at which these sizes jam in disorder in bulk; walls lower it
     real(c_double) :: jammed_fraction = 0
   end type jam_size_report
 
@@ -1399,7 +1401,7 @@ module jam
     real(c_double) :: rounding = 0
   end type jam_proof_report
 
-  ! Options of jam_pair_correlation.
+  ! Options of jam_pair_correlation. Beside walls more than 8 different diameters are taken as 8 classes of sizes.
   type, bind(c) :: jam_correlation_options
     integer(c_int32_t) :: struct_size = 0
     ! labels of the spheres, default -1: any
@@ -1490,6 +1492,10 @@ module jam
     integer(c_int32_t) :: points = 0
     ! of the random vectors, default 1
     integer(c_int64_t) :: seed = 0
+    ! omega where the bins begin, default NaN: where the spectrum does
+    real(c_double) :: low = 0
+    ! where they end, likewise
+    real(c_double) :: high = 0
   end type jam_dos_options
 
   ! Elastic moduli, unit: stiffness at the mean force times length^(2-d). Affine: without the non-affine part.
@@ -1838,8 +1844,8 @@ module jam
       integer(c_int32_t) :: status
     end function jam_stop_observing
 
-    ! pressure of an equation of state at a packing fraction; jammed_fraction is used by FREE_VOLUME only.
-    ! Errors: JAM_E_DIMENSION, JAM_E_UNSUPPORTED (form not of this dim).
+    ! pressure of a form; FREE_VOLUME uses jammed_fraction.
+    ! Errors: JAM_E_DIMENSION, JAM_E_UNSUPPORTED.
     function jam_eos(form, dim, packing_fraction, jammed_fraction, pressure) &
         bind(c, name="jam_eos") result(status)
       import
@@ -3314,6 +3320,7 @@ contains
     integer(c_int32_t), intent(in), optional :: container, walls
     integer(c_int32_t) :: status
     type(jam_start) :: start
+    type(jam_create_options) :: options
     integer(c_size_t) :: d
     out = c_null_ptr
     d = 3
@@ -3334,9 +3341,11 @@ contains
       status = checked('cell', shape(cell, kind=c_size_t), d, start%cell_len)
       if (status /= JAM_OK) return
     end if
-    if (present(container)) start%container = container
-    if (present(walls)) start%walls = walls
-    status = c_jam_create(o, start, out)
+    status = jam_create_options_init(options, c_sizeof(options))
+    if (present(o)) options = o
+    if (present(container)) options%container = container
+    if (present(walls)) options%walls = walls
+    status = c_jam_create(options, start, out)
   end function create_from_arrays
 
   ! Spheres and dimension of a system, 0 where C will refuse the handle.
@@ -3836,9 +3845,9 @@ contains
 
   ! Reads plain text, extended XYZ, LAMMPS data and dumps with diameters, or a table of columns. It recognises the format
   ! by the content. For a file of another format the error names that format and what to do. o: overlap policy, seed,
-  ! model, frame; box and dim where the file gives none. A line that does not fit the format is an error; jam_notes lists
-  ! what was not kept. Spheres keep the order of the file; LAMMPS data are sorted by id. A last line without newline is
-  ! refused if its last number may have lost digits. callback, user: as in jam_start.
+  ! model, frame; box, dim, container and walls where the file gives none. A line that does not fit the format is an
+  ! error; jam_notes lists what was not kept. Spheres keep the order of the file; LAMMPS data are sorted by id. A last
+  ! line without newline is refused if its last number may have lost digits. callback, user: as in jam_start.
   ! Errors: JAM_E_IO, JAM_E_FORMAT (line named), JAM_E_UNSUPPORTED (a box that is not periodic), JAM_E_DIMENSION, JAM_E_OVERLAP, JAM_E_UNPLACEABLE.
   function jam_read(path, o, callback, user, out) result(status)
     character(*), intent(in) :: path
@@ -6152,9 +6161,9 @@ contains
     status = c_jam_local_fraction(sys, at_out, count_out, needed)
   end function jam_local_fraction
 
-  ! Binary STL of the solid, d = 3, closed: each edge belongs to two triangles, which pass it in opposite directions.
-  ! Cylinders that would meet are refused with their numbers. The file appears as of jam_write; path NULL: none, and an
-  ! estimate of triangles and bytes without faces and cylinders.
+  ! Binary STL of the solid, d = 3, closed: each edge belongs to two triangles, which pass it in opposite directions. No
+  ! cylinder leads to a wall; cylinders that would meet are refused with their numbers. The file appears as of jam_write;
+  ! path NULL: none, and triangles and bytes are an estimate. Status: JAM_NOT_JAMMED (BRIDGED, and no spheres touch).
   ! Errors: JAM_E_STATE (BRIDGED, no network), JAM_E_UNSUPPORTED, JAM_E_IO.
   function jam_write_stl(sys, path, o, report) result(status)
     type(c_ptr), intent(in) :: sys
@@ -6232,7 +6241,7 @@ contains
     status = c_jam_solid_profile(sys, axis, bins, at_table, count_table, needed)
   end function jam_solid_profile
 
-  ! Spheres with a gap h < h_max, up to 1, to each one, every image; walls do not count. Needs no crunch.
+  ! Spheres with a gap h < h_max <= 1 to each one, every image; walls do not count. Needs no crunch.
   ! Shapes: out (n).
   function jam_near_coordination(sys, h_max, out, out_len, needed) result(status)
     type(c_ptr), intent(in) :: sys

@@ -1597,9 +1597,9 @@ contains
     call self%done(status)
   end function do_local_fraction
 
-  ! Binary STL of the solid, d = 3, closed: each edge belongs to two triangles, which pass it in opposite directions.
-  ! Cylinders that would meet are refused with their numbers. The file appears as of jam_write; path NULL: none, and an
-  ! estimate of triangles and bytes without faces and cylinders.
+  ! Binary STL of the solid, d = 3, closed: each edge belongs to two triangles, which pass it in opposite directions. No
+  ! cylinder leads to a wall; cylinders that would meet are refused with their numbers. The file appears as of jam_write;
+  ! path NULL: none, and triangles and bytes are an estimate. Status: JAM_NOT_JAMMED (BRIDGED, and no spheres touch).
   ! Errors: JAM_E_STATE (BRIDGED, no network), JAM_E_UNSUPPORTED, JAM_E_IO.
   function do_write_stl(self, path, o) result(found)
     class(packing), intent(inout) :: self
@@ -1671,7 +1671,7 @@ contains
     call self%done(status)
   end function do_solid_profile
 
-  ! Spheres with a gap h < h_max, up to 1, to each one, every image; walls do not count. Needs no crunch.
+  ! Spheres with a gap h < h_max <= 1 to each one, every image; walls do not count. Needs no crunch.
   ! Shapes: out (n).
   function do_near_coordination(self, h_max) result(found)
     class(packing), intent(inout) :: self

@@ -84,7 +84,7 @@ class Call:
         args = f.args[1:] if self.on_system else f.args
         self.plain = [a for a in args if a.role in PLAIN]
         self.members = [m for a in args if a.role == "struct_in" for m in api.struct(a.type.base).members
-                        if m.name not in ("struct_size", "reserved")]
+                        if not m.name.startswith(("struct_size", "reserved"))]
         names = [a.name for a in self.plain] + [m.name for m in self.members]
         if len(set(names)) < len(names):
             raise HeaderError(f"{f.name}: two of its option structs share a member name")

@@ -116,7 +116,7 @@ def emit(api):
     for s in structs:
         if s.name in inits:
             continue
-        members = [m for m in s.members if m.name not in ("struct_size", "reserved")]
+        members = [m for m in s.members if not m.name.startswith(("struct_size", "reserved"))]
         notes = "\n".join(f"{m.name}: {m.doc}" for m in members)
         out += ["", "", "@dataclass(frozen=True, repr=False)", f"class {camel(s.name)}(Report):", _doc(f"{s.doc}\n\n{notes}\n")]
         for m in members:  # a field of the name of one of Report's would take its default
@@ -128,7 +128,7 @@ def emit(api):
             out += [
                 f'        "{m.name}": ("{member_type(m)}", {spoken(" ".join(m.doc.split()), api)!r}),'
                 for m in s.members
-                if m.name not in ("struct_size", "reserved")
+                if not m.name.startswith(("struct_size", "reserved"))
             ]
             out.append("    },")
     out += ["}", "", "# report structs: {C name: dataclass}", "REPORTS = {"]

@@ -23,6 +23,7 @@ contains
     integer(c_int32_t), intent(in), optional :: container, walls
     integer(c_int32_t) :: status
     type(jam_start) :: start
+    type(jam_create_options) :: options
     integer(c_size_t) :: d
     out = c_null_ptr
     d = 3
@@ -43,9 +44,11 @@ contains
       status = checked('cell', shape(cell, kind=c_size_t), d, start%cell_len)
       if (status /= JAM_OK) return
     end if
-    if (present(container)) start%container = container
-    if (present(walls)) start%walls = walls
-    status = c_jam_create(o, start, out)
+    status = jam_create_options_init(options, c_sizeof(options))
+    if (present(o)) options = o
+    if (present(container)) options%container = container
+    if (present(walls)) options%walls = walls
+    status = c_jam_create(options, start, out)
   end function create_from_arrays
 
   ! Spheres and dimension of a system, 0 where C will refuse the handle.

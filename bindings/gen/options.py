@@ -4,10 +4,10 @@ from option import INT32_MAX, INT64_MAX, STAGES, Option, Verb
 
 NO_CRUNCH = ("no-crunch", "packing-fraction", "porosity")  # what leaves the crunch out
 
-READING = "input frame box non-additivity tile quiet wall-time json"
+READING = "input frame box walls container non-additivity tile quiet wall-time json"
 STARTING = "seed model zeta shrink shrink-min output report log plot page checkpoint checkpoint-every resume"
 GROWING = (
-    "n dim phi0 diameters-ratio sizes plant cell walls container nve growth pressure packing-fraction porosity"
+    "n dim phi0 diameters-ratio sizes plant cell nve growth pressure packing-fraction porosity"
 )
 TABLES = "contacts spectrum modes gaps structure vtk"
 PORES = (
@@ -112,20 +112,20 @@ TABLE = {
             "walls",
             "choice",
             "AXES",
-            "flat walls at both ends of these axes of a random start (none)",
+            "flat walls at both ends of these axes, of a random start or of a file that names no walls (none)",
             "none",
             words=("none", "x", "y", "xy", "z", "xz", "yz", "xyz"),
-            without=("input", "resume"),
+            without=("resume",),
         ),
         Option(
             "container",
             "choice",
             "SHAPE",
-            "container of a random start: the brick of the cell, a cylinder about z (--walls z closes its ends), or a ball, in d = 2 a circle "
-            "(brick). The diameter is the edge of the cell",
+            "container of a random start or of a file that names none: the brick of the cell, a cylinder about z (--walls z closes its "
+            "ends), or a ball, in d = 2 a circle (brick). The diameter is the edge of the cell",
             "brick",
             words=("brick", "cylinder", "ball"),
-            without=("input", "resume"),
+            without=("resume",),
         ),
         Option(
             "shrink",

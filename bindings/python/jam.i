@@ -218,14 +218,14 @@ void set_error_factory(PyObject *callable) {
 %rename(jam_create) make_from_arrays;
 %rename(jam_read) make_from_file;
 %rename(jam_read_checkpoint) make_from_checkpoint;
-%feature("docstring") make_from_arrays "jam_create(options, positions (n, d), diameters (n), cell (d, d), container, walls, callable), each or None but container and walls, numbers";
+%feature("docstring") make_from_arrays "jam_create(options, positions (n, d), diameters (n), cell (d, d), callable), each or None";
 %inline %{
 /* What makes a system, with callable(progress), or None: Ctrl-C alone is looked at. */
 jam_status make_from_arrays(const jam_create_options *o, const double *positions, size_t positions_len,
                             const double *diameters, size_t diameters_len, const double *cell, size_t cell_len,
-                            int32_t container, int32_t walls, PyObject *callable, jam_system **out) {
+                            PyObject *callable, jam_system **out) {
   jam_start start = {sizeof start, 0, positions, positions_len, diameters, diameters_len, cell, cell_len,
-                     jam_on_progress, callable == Py_None ? NULL : (void *)callable, container, walls};
+                     jam_on_progress, callable == Py_None ? NULL : (void *)callable};
   return jam_create(o, &start, out);
 }
 jam_status make_from_file(const char *path, const jam_create_options *o, PyObject *callable, jam_system **out) {

@@ -358,7 +358,7 @@ ratio_i times the power of two at or below V^(1/d). Where no ratios are given, e
   }
   ~jam_correlation_options() { free($self); }
 }
-%feature("docstring") jam_correlation_options "Options of jam_pair_correlation."
+%feature("docstring") jam_correlation_options "Options of jam_pair_correlation. Beside walls more than 8 different diameters are taken as 8 classes of sizes."
 %extend jam_mesh_options {
   jam_mesh_options() {
     jam_mesh_options *made = (jam_mesh_options *)calloc(1, sizeof *made);
@@ -507,9 +507,9 @@ memory of jam_estimate_crunch with the limit before it begins, and that of each 
 default is half the machine's memory. An option memory_limit can lower the limit for its own call."
 %feature("docstring") jam_read "Reads plain text, extended XYZ, LAMMPS data and dumps with diameters, or a table of columns. It recognises the format
 by the content. For a file of another format the error names that format and what to do. o: overlap policy, seed,
-model, frame; box and dim where the file gives none. A line that does not fit the format is an error; jam_notes lists
-what was not kept. Spheres keep the order of the file; LAMMPS data are sorted by id. A last line without newline is
-refused if its last number may have lost digits. callback, user: as in jam_start.
+model, frame; box, dim, container and walls where the file gives none. A line that does not fit the format is an
+error; jam_notes lists what was not kept. Spheres keep the order of the file; LAMMPS data are sorted by id. A last
+line without newline is refused if its last number may have lost digits. callback, user: as in jam_start.
 Errors: JAM_E_IO, JAM_E_FORMAT (line named), JAM_E_UNSUPPORTED (a box that is not periodic), JAM_E_DIMENSION, JAM_E_OVERLAP, JAM_E_UNPLACEABLE."
 %feature("docstring") jam_notes "What was changed or assumed when sys was made, one sentence per line; \"\" when nothing was. Examples: shrunk
 diameters, wrapped or sorted spheres, columns and frames that were not read. A warning begins with `warning: `.
@@ -581,8 +581,8 @@ Errors: JAM_E_STATE."
 %feature("docstring") jam_observed_correlation "g(r), pairs over N (N - 1) / 2, sampled likewise.
 Shapes: table (bins, jam_correlation_column).
 Errors: JAM_E_STATE."
-%feature("docstring") jam_eos "pressure of an equation of state at a packing fraction; jammed_fraction is used by FREE_VOLUME only.
-Errors: JAM_E_DIMENSION, JAM_E_UNSUPPORTED (form not of this dim)."
+%feature("docstring") jam_eos "pressure of a form; FREE_VOLUME uses jammed_fraction.
+Errors: JAM_E_DIMENSION, JAM_E_UNSUPPORTED."
 %feature("docstring") jam_glass_fit "Least squares on 1/pressure against fraction, at least 3 points; the line must fall.
 Shapes: fraction (m), pressure (m).
 Errors: JAM_E_TOO_FEW."
@@ -822,9 +822,9 @@ about 10 in a perfect FCC crystal."
 Shapes: out (n).
 Errors: JAM_E_UNSUPPORTED (d, no voro++, walls of a tilted cell)."
 %feature("docstring") jam_mesh_options_init ""
-%feature("docstring") jam_write_stl "Binary STL of the solid, d = 3, closed: each edge belongs to two triangles, which pass it in opposite directions.
-Cylinders that would meet are refused with their numbers. The file appears as of jam_write; path NULL: none, and an
-estimate of triangles and bytes without faces and cylinders.
+%feature("docstring") jam_write_stl "Binary STL of the solid, d = 3, closed: each edge belongs to two triangles, which pass it in opposite directions. No
+cylinder leads to a wall; cylinders that would meet are refused with their numbers. The file appears as of jam_write;
+path NULL: none, and triangles and bytes are an estimate. Status: JAM_NOT_JAMMED (BRIDGED, and no spheres touch).
 Errors: JAM_E_STATE (BRIDGED, no network), JAM_E_UNSUPPORTED, JAM_E_IO."
 %feature("docstring") jam_voxel_options_init ""
 %feature("docstring") jam_voxels "Image of the solid: 0 or 1, or shares; -1 outside a round container. x is fastest. out NULL: the report gives size
@@ -837,7 +837,7 @@ Errors: JAM_E_UNSUPPORTED, JAM_E_IO."
 shells of a ball or a cylinder (there to 1e-12).
 Shapes: table (bins, jam_profile_column).
 Errors: JAM_E_UNSUPPORTED."
-%feature("docstring") jam_near_coordination "Spheres with a gap h < h_max, up to 1, to each one, every image; walls do not count. Needs no crunch.
+%feature("docstring") jam_near_coordination "Spheres with a gap h < h_max <= 1 to each one, every image; walls do not count. Needs no crunch.
 Shapes: out (n)."
 %feature("docstring") jam_pore_sizes "Pore sizes at random points of the void, exact; not in a cylinder. The time grows with the fourth power of the
 number of neighbours of a point: use it above packing fractions of about 0.4.

@@ -254,14 +254,14 @@ typedef enum jam_container {
  * random Mari-Kurchan start is planted in equilibrium. */
 typedef struct jam_create_options {
   uint32_t struct_size;
-  int32_t dim;             /* 2..8, default 3 */
-  int64_t n, seed;         /* spheres, default 0: as many as the arrays have; of every random stream, default 1 */
-  double box;              /* side of the cube, > 0, default 1 */
-  double packing_fraction; /* of a random start, > 0; default 0: by dim, 0.2 halved for each dimension above 3 */
-  int32_t overlap, model;  /* @enum jam_overlap_policy, default REFUSE; @enum jam_model, default EUCLID */
-  double mk_zeta;          /* MK: strength of the shifts, 0..1e15; default infinity: uniform shifts */
-  int32_t masses;          /* @enum jam_masses, default EQUAL */
-  int32_t reserved;
+  int32_t dim;               /* 2..8, default 3 */
+  int64_t n, seed;           /* spheres, default 0: as many as the arrays have; of every random stream, default 1 */
+  double box;                /* side of the cube, > 0, default 1 */
+  double packing_fraction;   /* of a random start, > 0; default 0: by dim, 0.2 halved for each dimension above 3 */
+  int32_t overlap, model;    /* @enum jam_overlap_policy, default REFUSE; @enum jam_model, default EUCLID */
+  double mk_zeta;            /* MK: strength of the shifts, 0..1e15; default infinity: uniform shifts */
+  int32_t masses, container; /* @enum jam_masses, default EQUAL; @enum jam_container, default BRICK */
+  int32_t walls, reserved;   /* axes with flat walls: sum of 2^c, default 0; 0 */
   double non_additivity; /* Delta in (-1, 1]: unequal spheres touch at (1 + Delta) (sigma_i + sigma_j) / 2; default 0 */
   double wall_time;      /* of reading, of a random start and of the search for overlaps */
   double memory_limit;   /* as jam_set_memory_limit, also while a file is read; default 0: half the machine's memory */
@@ -282,7 +282,6 @@ typedef struct jam_start {
   size_t cell_len;
   jam_progress_fn progress; /* or NULL; a non-zero return ends the call. The new system has no callback */
   void *user;               /* given to progress */
-  int32_t container, walls; /* @enum jam_container, default BRICK; axes with flat walls: sum of 2^c, default 0 */
 } jam_start;
 /* Makes a system of d = o->dim. Without positions spheres are added one by one at random, to the packing_fraction of
  * the options. The caller frees *out by jam_destroy; after JAM_CANCELLED or JAM_LIMIT it is NULL. The call takes long
@@ -308,7 +307,7 @@ typedef struct jam_info {
   int32_t masses;          /* @enum jam_masses */
   int32_t paused;        /* @enum jam_phase of what was stopped early and can continue (crunch: by jam_crunch), or 0 */
   double non_additivity; /* Delta of a non-additive mixture, 0 for additive diameters */
-  int32_t container, walls; /* @enum jam_container; as in jam_start */
+  int32_t container, walls; /* @enum jam_container; as in jam_create_options */
   double volume;            /* V of the container, else of the cell */
 } jam_info;
 /* Fills *info. */
@@ -435,7 +434,7 @@ typedef struct jam_size_report {
   double volume;              /* of all spheres, unit^d */
   double largest_share;       /* of the volume, of the largest sphere: how closely a curve can be followed */
   double sequential_fraction; /* where random sequential addition of equal spheres ends; mixtures go beyond */
-  double jammed_fraction;     /* estimate of the packing fraction at which these sizes jam in disorder */
+  double jammed_fraction;     /* estimate of the phi at which these sizes jam in disorder in bulk; walls lower it */
 } jam_size_report;
 /* Describes diameters > 0 in dimension dim. @shape diameters (n) @errors DIMENSION */
 JAM_API jam_status jam_get_size_report(int32_t dim, const double *diameters, size_t diameters_len,
@@ -484,10 +483,10 @@ typedef enum jam_format {
 } jam_format;
 /* Reads plain text, extended XYZ, LAMMPS data and dumps with diameters, or a table of columns. It recognises the format
  * by the content. For a file of another format the error names that format and what to do. o: overlap policy, seed,
- * model, frame; box and dim where the file gives none. A line that does not fit the format is an error; jam_notes lists
- * what was not kept. Spheres keep the order of the file; LAMMPS data are sorted by id. A last line without newline is
- * refused if its last number may have lost digits. callback, user: as in jam_start. @errors IO, FORMAT (line named),
- * UNSUPPORTED (a box that is not periodic), DIMENSION, OVERLAP, UNPLACEABLE */
+ * model, frame; box, dim, container and walls where the file gives none. A line that does not fit the format is an
+ * error; jam_notes lists what was not kept. Spheres keep the order of the file; LAMMPS data are sorted by id. A last
+ * line without newline is refused if its last number may have lost digits. callback, user: as in jam_start. @errors IO,
+ * FORMAT (line named), UNSUPPORTED (a box that is not periodic), DIMENSION, OVERLAP, UNPLACEABLE */
 JAM_API jam_status jam_read(const char *path, const jam_create_options *o, jam_progress_fn callback, void *user,
                             jam_system **out);
 /* What was changed or assumed when sys was made, one sentence per line; "" when nothing was. Examples: shrunk
@@ -667,10 +666,10 @@ typedef enum jam_eos_form {
   JAM_EOS_VIRIAL = 3,             /* series to the seventh coefficient */
   JAM_EOS_MK = 4,                 /* 1 + 2^d phi / 2, exact for zeta infinite */
   JAM_EOS_FREE_VOLUME = 5,        /* glass: d / (1 - phi / jammed_fraction) */
-  JAM_EOS_HENDERSON = 6           /* d = 2: (1 + phi^2 / 8) / (1 - phi)^2 */
+  JAM_EOS_HENDERSON = 6,          /* d = 2: (1 + phi^2 / 8) / (1 - phi)^2 */
+  JAM_EOS_PADE = 7                /* liquid, any d: Pade [4/5] of B_2 .. B_10 (Clisby, McCoy, J. Stat. Phys. 122, 15) */
 } jam_eos_form;
-/* *pressure of an equation of state at a packing fraction; jammed_fraction is used by FREE_VOLUME only. @enum form
- * jam_eos_form @errors DIMENSION, UNSUPPORTED (form not of this dim) */
+/* *pressure of a form; FREE_VOLUME uses jammed_fraction. @enum form jam_eos_form @errors DIMENSION, UNSUPPORTED */
 JAM_API jam_status jam_eos(int32_t form, int32_t dim, double packing_fraction, double jammed_fraction,
                            double *pressure);
 /* A fit of the glass branch p = d' / (1 - phi/phi_J). Errors are standard errors. */
@@ -1513,7 +1512,7 @@ JAM_API jam_status jam_histogram(const jam_system *sys, int32_t quantity, int32_
                                  int64_t bins, double *out, size_t out_len, size_t *needed);
 
 /* ------------- structure of the packing */
-/* Options of jam_pair_correlation. */
+/* Options of jam_pair_correlation. Beside walls more than 8 different diameters are taken as 8 classes of sizes. */
 typedef struct jam_correlation_options {
   uint32_t struct_size;
   int32_t a, b; /* labels of the spheres, default -1: any */
@@ -1572,9 +1571,10 @@ typedef struct jam_mesh_report {
   double volume, solid; /* enclosed by the mesh, unit^d; exact, of the spheres and cylinders it stands for */
 } jam_mesh_report;
 JAM_API jam_status jam_mesh_options_init(jam_mesh_options *o, size_t size);
-/* Binary STL of the solid, d = 3, closed: each edge belongs to two triangles, which pass it in opposite directions.
- * Cylinders that would meet are refused with their numbers. The file appears as of jam_write; path NULL: none, and an
- * estimate of triangles and bytes without faces and cylinders. @errors STATE (BRIDGED, no network), UNSUPPORTED, IO */
+/* Binary STL of the solid, d = 3, closed: each edge belongs to two triangles, which pass it in opposite directions. No
+ * cylinder leads to a wall; cylinders that would meet are refused with their numbers. The file appears as of jam_write;
+ * path NULL: none, and triangles and bytes are an estimate. Status: JAM_NOT_JAMMED (BRIDGED, and no spheres touch).
+ * @errors STATE (BRIDGED, no network), UNSUPPORTED, IO */
 JAM_API jam_status jam_write_stl(const jam_system *sys, const char *path, const jam_mesh_options *o,
                                  jam_mesh_report *report);
 /* Options of jam_voxels and jam_write_voxels. */
@@ -1613,8 +1613,7 @@ typedef enum jam_profile_column {
  * shells of a ball or a cylinder (there to 1e-12). @shape table (bins, jam_profile_column) @errors UNSUPPORTED */
 JAM_API jam_status jam_solid_profile(const jam_system *sys, int32_t axis, int32_t bins, double *table, size_t table_len,
                                      size_t *needed);
-/* Spheres with a gap h < h_max, up to 1, to each one, every image; walls do not count. Needs no crunch. @shape out (n)
- */
+/* Spheres with a gap h < h_max <= 1 to each one, every image; walls do not count. Needs no crunch. @shape out (n) */
 JAM_API jam_status jam_near_coordination(const jam_system *sys, double h_max, int32_t *out, size_t out_len,
                                          size_t *needed);
 /* Columns of jam_pore_sizes. */
@@ -1654,10 +1653,11 @@ JAM_API jam_status jam_floppy_modes(jam_system *sys, double *table, size_t table
 /* Options of jam_density_of_states. */
 typedef struct jam_dos_options {
   uint32_t struct_size;
-  int32_t moments; /* Chebyshev moments, 8..1e6, default 512: resolution in omega about 1.6 omega_max / moments */
-  int32_t vectors; /* random vectors, 2..1e5, default 16 */
-  int32_t points;  /* values of omega, default 200 */
-  int64_t seed;    /* of the random vectors, default 1 */
+  int32_t moments;  /* Chebyshev moments, 8..1e6, default 512: resolution in omega about 1.6 omega_max / moments */
+  int32_t vectors;  /* random vectors, 2..1e5, default 16 */
+  int32_t points;   /* values of omega, default 200 */
+  int64_t seed;     /* of the random vectors, default 1 */
+  double low, high; /* omega where the bins begin, default NaN: where the spectrum does; where they end, likewise */
 } jam_dos_options;
 /* Elastic moduli, unit: stiffness at the mean force times length^(2-d). Affine: without the non-affine part. */
 typedef struct jam_moduli_report {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include "analysis/spectrum.hpp"
 #include "analysis/tuning.hpp"
 #include "core/call_scope.hpp"
@@ -21,6 +22,7 @@ jam_dos_options default_dos_options() {
   o.vectors = 16;
   o.points = 200;
   o.seed = 1;
+  o.low = o.high = std::numeric_limits<double>::quiet_NaN();
   return o;
 }
 
@@ -117,13 +119,16 @@ double sine_sum(const std::vector<double> &mu, double theta) {
   return b1 * math::sin(theta);
 }
 
-// D(omega) = rho(lambda) 2 |omega|, rho(lambda) = S(theta) / (pi sin theta) 2 / (high - low).
+// D(omega) = rho(lambda) 2 |omega|, rho(lambda) = S(theta) / (pi sin theta) 2 / (high - low); 0 outside of the
+// spectrum.
 double density_at(const std::vector<double> &mu, Interval span, double omega) {
+  const double lambda = omega * std::fabs(omega);
+  if (lambda < span.low || lambda >= span.high || (lambda == span.low && span.low < 0.0)) return 0.0;
   if (span.low == 0.0) {  // sin theta = 2 s c with s = omega / omega_max, so that omega = 0 is no exception
     const double s = omega / std::sqrt(span.high), half = math::asin(std::min(1.0, s));
     return cosine_sum(mu, math::pi - 2.0 * half) / math::pi * 2.0 / (std::sqrt(span.high) * math::cos(half));
   }
-  const double theta = span.theta(omega * std::fabs(omega));
+  const double theta = span.theta(lambda);
   return cosine_sum(mu, theta) / (math::pi * math::sin(theta)) * 4.0 * std::fabs(omega) / (span.high - span.low);
 }
 
@@ -160,9 +165,12 @@ DensityOfStates density_of_states(const RigidityMatrix &g, const ContactWeights 
   const Interval span{smallest_eigenvalue(g, w), largest_eigenvalue(g, h)};
   if (n <= static_cast<size_t>(g.dim) || !(span.high > 0.0))
     fail(JAM_E_TOO_FEW, "%d stable spheres have no density of states", g.nodes);
-  const double first = -std::sqrt(-span.low);
+  const double first = std::isnan(o.low) ? -std::sqrt(-span.low) : o.low;
+  const double last = std::isnan(o.high) ? std::sqrt(span.high) : o.high;
+  if (!(last > first) || !std::isfinite(first) || !std::isfinite(last))
+    fail(JAM_E_ARGUMENT, "low is %g and high is %g: the bins need low < high, both finite", first, last);
   DensityOfStates out;
-  out.step = (std::sqrt(span.high) - first) / static_cast<double>(points);
+  out.step = (last - first) / static_cast<double>(points);
   for (size_t k = 0; k < points; ++k) out.omega.push_back(first + out.step * (static_cast<double>(k) + 0.5));
   Average density(points), cumulative(points);
   std::vector<double> mu(moments), v(n);

@@ -100,7 +100,7 @@ jam_status jam_create(const jam_create_options *o, const jam_start *start, jam_s
     }
     return make_system(full, from.progress, from.user, out, [&](jam_system &sys) {
       sys.packing = make_packing(full, from.positions, from.positions_len, from.diameters, from.diameters_len,
-                                 from.cell, &sys.notes, {from.container, from.walls});
+                                 from.cell, &sys.notes);
     });
   });
 }

@@ -29,6 +29,7 @@ void settle_options(const char *path, const FileContent &file, jam_create_option
   if (!file.cell.empty() && o.box != standard.box)
     fail(JAM_E_ARGUMENT, "%s: the option box is %.17g, but the file has a cell of its own: leave the option out", path,
          o.box);
+  o.container = file.enclosure.container, o.walls = file.enclosure.walls;
   if (file.has_non_additivity)
     settle(path, "non_additivity", o.non_additivity, standard.non_additivity, file.non_additivity);
   if (std::memcmp(&o.packing_fraction, &standard.packing_fraction, sizeof o.packing_fraction) != 0)
@@ -58,13 +59,12 @@ jam_status jam_read(const char *path, const jam_create_options *o, jam_progress_
     take_options(o, full);
     check_create_limits(full);
     return make_system(full, callback, user, out, [&](jam_system &sys) {
-      const FileContent file = read_file(path, {full.dim, full.box, full.frame});
+      const FileContent file = read_file(path, {full.dim, full.box, full.frame, {full.container, full.walls}});
       settle_options(path, file, full);
       sys.notes = file.notes;
       try {
-        sys.packing =
-            make_packing(full, file.position.data(), file.position.size(), file.diameter.data(), file.diameter.size(),
-                         file.cell.empty() ? nullptr : file.cell.data(), &sys.notes, file.enclosure);
+        sys.packing = make_packing(full, file.position.data(), file.position.size(), file.diameter.data(),
+                                   file.diameter.size(), file.cell.empty() ? nullptr : file.cell.data(), &sys.notes);
         sys.packing.given.take(file.given());
       } catch (const Error &e) {
         refuse(path, e, file.notes);

@@ -65,13 +65,13 @@ jam_status jam_voxel_options_init(jam_voxel_options *o, size_t size) {
 }
 
 jam_status jam_write_stl(const jam_system *sys, const char *path, const jam_mesh_options *o, jam_mesh_report *report) {
-  return guard_const(sys, [&]() -> jam_status {
+  return guard_const(sys, [&]() -> Answer {
     check_out_struct(report, "report");
     jam_mesh_options full = default_mesh_options();
     take_options(o, full);
     if (full.contacts == JAM_MESH_BRIDGED) need_network(sys);
     if (!path) {
-      const int64_t triangles = triangles_of_whole_spheres(sys->packing, full);
+      const int64_t triangles = estimated_triangles(sys->packing, sys->known_contacts(), full);
       give_struct({sizeof(jam_mesh_report), 0, triangles, 0, stl_bytes(triangles), NAN, NAN}, report);
       return JAM_OK;
     }
@@ -84,6 +84,8 @@ jam_status jam_write_stl(const jam_system *sys, const char *path, const jam_mesh
     r.volume = mesh.volume;
     r.solid = mesh.solid;
     give_struct(r, report);
+    if (full.contacts == JAM_MESH_BRIDGED && r.bridges == 0)
+      return {JAM_NOT_JAMMED, "the contact network joins no two spheres: the mesh has no bridge"};
     return JAM_OK;
   });
 }

@@ -54,7 +54,7 @@ class Container {
 
   explicit operator bool() const { return count() > 0; }
   int32_t kind() const { return kind_; }       // jam_container
-  int32_t flat() const { return flat_; }       // axes with flat walls: bits, as jam_start has them
+  int32_t flat() const { return flat_; }       // axes with flat walls: bits, as jam_create_options have them
   uint32_t closed() const { return closed_; }  // axes along which nothing repeats
   int count() const { return static_cast<int>(flat_walls_) + (round_axes_ > 0 ? 1 : 0); }
   bool is_round(int w) const { return w >= flat_walls_; }
@@ -192,13 +192,14 @@ class Container {
 
 // V of packing fractions, pressures and densities: of the container, else of the cell.
 double scene_volume(const Packing &p);
-// What jam_start names of a container.
+// What jam_create_options name of a container.
 struct Enclosure {
   int32_t container = JAM_CONTAINER_BRICK, walls = 0;
   bool closes(int c) const {  // axis c
     return (walls >> c & 1) != 0 || container == JAM_CONTAINER_BALL || (container == JAM_CONTAINER_CYLINDER && c < 2);
   }
   bool any() const { return container != JAM_CONTAINER_BRICK || walls != 0; }
+  bool operator==(const Enclosure &other) const { return container == other.container && walls == other.walls; }
 };
 // The cell of these vectors, (dim, dim): no vector is replaced by a shorter one, as walls stand on the axes given.
 Cell walled_cell(int dim, const double *rows, const Enclosure &given);

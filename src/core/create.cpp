@@ -211,9 +211,9 @@ void say_cell(const ReducedCell &reduced, int dim, Notes *notes) {
 }  // namespace
 
 Packing make_packing(const jam_create_options &o, const double *positions, size_t positions_len,
-                     const double *diameters, size_t diameters_len, const double *cell, Notes *notes,
-                     const Enclosure &enclosure) {
+                     const double *diameters, size_t diameters_len, const double *cell, Notes *notes) {
   check_options(o);
+  const Enclosure enclosure{o.container, o.walls};
   const bool walled = enclosure.any();
   if (positions_len && !positions) fail(JAM_E_NULL, "positions is NULL but its length is %zu", positions_len);
   if (diameters_len && !diameters) fail(JAM_E_NULL, "diameters is NULL but its length is %zu", diameters_len);

@@ -15,10 +15,9 @@ void check_create_limits(const jam_create_options &o);
 double default_packing_fraction(int dim);
 // Checks everything jam_create documents; positions_len == 0 means a random sequential start.
 // cell: rows of the cell vectors (dim, dim), or NULL for the cube of o.box. notes: NULL, or where changes are noted.
-// enclosure: the walls, none unless given.
 Packing make_packing(const jam_create_options &o, const double *positions, size_t positions_len,
                      const double *diameters, size_t diameters_len, const double *cell = nullptr,
-                     Notes *notes = nullptr, const Enclosure &enclosure = {});
+                     Notes *notes = nullptr);
 // An upper bound on the factor by which diameters must shrink to fit at any positions; 1 when they may fit already.
 // Without this test a search for the worst pair would list images without end. Conditions: no sphere is wider than the
 // box; no contact distance exceeds sqrt(d)/2 box, the largest distance of nearest images; the volume of the hard cores,

@@ -103,11 +103,10 @@ void check_reach(int dim, const std::vector<double> &diameters, double wanted) {
   const char *const source = reach.source == JAM_REACH_FARR_GROOT ? "estimate of Farr and Groot 2009"
                              : reach.source == JAM_REACH_CRYSTAL  ? "hexagonal packing"
                                                                   : "estimate from packings of libjam";
-  fail(
-      JAM_E_UNPLACEABLE,
-      "packing fraction %.6g (porosity %.6g): these sizes jam near %.3f in d = %d (%s), and random sequential addition "
-      "ends near %.3f",
-      wanted, 1.0 - wanted, reach.fraction, dim, source, sequential_fraction(dim));
+  fail(JAM_E_UNPLACEABLE,
+       "packing fraction %.6g (porosity %.6g): these sizes jam near %.3f in bulk in d = %d (%s), and random sequential "
+       "addition ends near %.3f",
+       wanted, 1.0 - wanted, reach.fraction, dim, source, sequential_fraction(dim));
 }
 
 jam_size_report size_report(int dim, const std::vector<double> &diameters) {

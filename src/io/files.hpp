@@ -17,7 +17,8 @@ struct FileContent {
   std::vector<double> cell;     // (dim, dim) vectors of a cell that is no cube, else empty
   double non_additivity = 0.0;  // of a non-additive mixture
   bool has_non_additivity = false;
-  Enclosure enclosure;           // the walls
+  Enclosure enclosure;           // the walls that the file names, else those of the caller
+  bool knows_walls = false;      // file or format say along which axes the packing repeats
   std::vector<double> position;  // (n, dim) as written, not wrapped
   std::vector<double> diameter;  // n, or 1 for all
   std::vector<double> origin;    // what the reader has subtracted from the positions of the file; empty: nothing
@@ -28,9 +29,10 @@ struct FileContent {
 
 // What a reader must know besides the file.
 struct ReadOptions {
-  int dim = 3;         // of files that do not say it
-  double box = 1.0;    // of files that do not say it; 1 is what such a file means, other values the caller gave
-  int64_t frame = -1;  // which of several packings, from 0, or from the end where it is negative
+  int dim = 3;            // of files that do not say it
+  double box = 1.0;       // of files that do not say it; 1 is what such a file means, other values the caller gave
+  int64_t frame = -1;     // which of several packings, from 0, or from the end where it is negative
+  Enclosure enclosure{};  // walls that the caller names, for files that do not
 };
 
 // Goes by the content (recognise.hpp). Memory grows with the data read, never with the count in the header.

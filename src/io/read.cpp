@@ -31,6 +31,20 @@ void say_wrapped(FileContent &content, double box) {
                       static_cast<long long>(outside), static_cast<long long>(content.position.size() / d));
 }
 
+// A file that does not name its walls has those of the caller; one that says nothing at all is taken as periodic, and
+// it is said.
+void settle_walls(const char *path, const Enclosure &given, FileContent &content) {
+  if (!content.knows_walls) {
+    content.enclosure = given;
+    if (!given.any())
+      content.notes.say(
+          "the file does not say which directions are periodic: all are taken as periodic; the options walls and "
+          "container name walls");
+  } else if (given.any() && !(given == content.enclosure)) {
+    fail(JAM_E_ARGUMENT, "%s: the options container and walls close other axes than the file: leave them out", path);
+  }
+}
+
 }  // namespace
 
 GivenDigits FileContent::given() const {
@@ -58,6 +72,7 @@ FileContent read_file(const char *path, const ReadOptions &options) {
     fail(JAM_E_ARGUMENT, "%s: frame is %lld, but %s contains one packing", path, static_cast<long long>(options.frame),
          known->name);
   FileContent content = known->read(in, options);
+  settle_walls(path, options.enclosure, content);
   say_wrapped(content, options.box);
   return content;
 }

@@ -13,18 +13,31 @@ using Words = std::vector<std::string_view>;
 struct Box {
   std::array<double, 9> rows{};
   std::array<double, 3> low{};
+  bool bounded = false, flat = false;  // boundaries are named; that of z is periodic
 };
+
+// A boundary other than pp is no wall of LAMMPS's own: there the caller must name one. In a plane the third direction
+// repeats, whatever `given` closes: its dimension is not known yet.
+void check_boundaries(const LineReader &in, const Words &boundaries, const Enclosure &given) {
+  for (size_t c = 0; c < boundaries.size(); ++c) {
+    const bool repeats = boundaries[c] == "pp", closes = c < 3 && given.closes(static_cast<int>(c));
+    if (!repeats && !closes)
+      in.fail(JAM_E_UNSUPPORTED,
+              "the boundary is '%s': the box must be periodic (pp) in every direction, or the options walls and "
+              "container name the walls",
+              shown(boundaries[c]).c_str());
+    if (repeats && closes && c < 2)
+      in.fail(JAM_E_FORMAT, "the boundary of %c is 'pp', periodic, but container and walls close it", "xyz"[c]);
+  }
+}
 
 // behind: the words after `BOX BOUNDS`. Tilts, the bounds then being those of the parallelepiped; or `abc origin`; then
 // perhaps a boundary for each direction.
-Box read_box(LineReader &in, Words behind) {
+Box read_box(LineReader &in, Words behind, const Enclosure &given) {
   const bool general = behind.size() >= 2 && behind[0] == "abc" && behind[1] == "origin";
   const bool tilted = behind.size() >= 3 && behind[0] == "xy" && behind[1] == "xz" && behind[2] == "yz";
   behind.erase(behind.begin(), behind.begin() + (general ? 2 : tilted ? 3 : 0));
-  for (const std::string_view boundary : behind)
-    if (boundary != "pp")
-      in.fail(JAM_E_UNSUPPORTED, "the boundary is '%s': the box must be periodic (pp) in every direction",
-              shown(boundary).c_str());
+  check_boundaries(in, behind, given);
   std::string_view line;
   Words words;
   std::array<std::array<double, 4>, 3> x{};
@@ -37,6 +50,8 @@ Box read_box(LineReader &in, Words behind) {
     for (size_t c = 0; c < columns; ++c) row[c] = parse_number(in, words[c]);
   }
   Box box;
+  box.bounded = !behind.empty();
+  box.flat = behind.size() > 2 && behind[2] == "pp";
   if (general) {
     for (size_t r = 0; r < 3; ++r) {
       for (size_t c = 0; c < 3; ++c) box.rows[3 * r + c] = x[r][c];
@@ -145,7 +160,7 @@ bool next_words(LineReader &in, std::string_view &line, Words &words) {
 }
 
 // Frame k; false at the end of the file.
-bool read_frame(LineReader &in, FileContent &content) {
+bool read_frame(LineReader &in, const Enclosure &given, FileContent &content) {
   std::string_view line;
   Words words;
   int64_t n = -1;
@@ -167,7 +182,7 @@ bool read_frame(LineReader &in, FileContent &content) {
       if (has_box) in.fail(JAM_E_FORMAT, "BOX BOUNDS are given twice in one frame");
       const std::string kept(line);
       split(kept, words);
-      box = read_box(in, Words(words.begin() + 3, words.end()));
+      box = read_box(in, Words(words.begin() + 3, words.end()), given);
       has_box = true;
     } else if (item == "ATOMS") {
       if (n < 0 || !has_box) in.fail(JAM_E_FORMAT, "NUMBER OF ATOMS and BOX BOUNDS must come before ITEM: ATOMS");
@@ -176,6 +191,10 @@ bool read_frame(LineReader &in, FileContent &content) {
       const DumpColumns columns = read_columns(in, Words(words.begin() + 2, words.end()));
       read_atoms(in, n, box, columns, content);
       const size_t d = static_cast<size_t>(content.dim);
+      if (d == 3 && box.flat && given.closes(2))
+        in.fail(JAM_E_FORMAT, "the boundary of z is 'pp', periodic, but container and walls close it");
+      content.knows_walls = box.bounded;
+      content.enclosure = given;
       if (d == 2 && (box.rows[2] != 0.0 || box.rows[5] != 0.0 || box.rows[6] != 0.0 || box.rows[7] != 0.0))
         in.fail(JAM_E_UNSUPPORTED, "all spheres lie at z = 0, but the cell leaves that plane");
       std::vector<double> rows;
@@ -194,7 +213,8 @@ bool read_frame(LineReader &in, FileContent &content) {
 }  // namespace
 
 FileContent read_dump(LineReader &in, const ReadOptions &options) {
-  return choose_frame(in, options.frame, [&](FileContent &content, int64_t) { return read_frame(in, content); });
+  return choose_frame(in, options.frame,
+                      [&](FileContent &content, int64_t) { return read_frame(in, options.enclosure, content); });
 }
 
 }  // namespace jam

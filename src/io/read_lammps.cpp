@@ -260,7 +260,7 @@ size_t read_title(const LineReader &in, const std::string &title, Enclosure &enc
 
 }  // namespace
 
-FileContent read_lammps(LineReader &in, const ReadOptions &) {
+FileContent read_lammps(LineReader &in, const ReadOptions &) {  // walls: by our title, or not at all
   FileContent content;
   Header header;
   std::string_view line;
@@ -268,6 +268,7 @@ FileContent read_lammps(LineReader &in, const ReadOptions &) {
   in.next(line);  // the title, which may say anything or nothing
   const std::string title(line);
   const size_t axes = read_title(in, title, content.enclosure);
+  content.knows_walls = title.compare(0, lammps_title.size(), lammps_title) == 0;
   bool more = next_text(in, line, words);
   for (; more && !is_section(words); more = next_text(in, line, words)) {
     const size_t understood = take_header(in, words, header);

@@ -133,6 +133,8 @@ FileContent read_plain(LineReader &in, const ReadOptions &options) {
   if (words.size() != 1) in.fail(JAM_E_FORMAT, "'%s' is not one number of spheres", shown(line).c_str());
   const int64_t n = take_count(in, parse_count(in, words[0], "a number of spheres"));
   const bool each = read_diameter_line(in, content);
+  content.enclosure = options.enclosure;
+  content.knows_walls = true;  // the format is one of periodic cubes: only the caller can name walls
   const size_t columns = static_cast<size_t>(content.dim) + (each ? 1 : 0);
   Rows rows(in, true);
   for (int64_t k = 0; k < n; ++k) {

@@ -76,7 +76,7 @@ void read_cell(const LineReader &in, std::string_view text, const char *name, si
 }
 
 // Every direction without walls must be periodic, as T, True or 1; in d = 2 the third one is ignored, from d = 4 on
-// three are named. Files of other programs do not say whether walls stand where nothing repeats.
+// three are named. Files of other programs do not say whether walls stand where nothing repeats: the caller may.
 void check_periodic(const LineReader &in, std::string_view pbc, const FileContent &content) {
   const int dim = content.dim;
   std::vector<std::string_view> words;
@@ -91,8 +91,9 @@ void check_periodic(const LineReader &in, std::string_view pbc, const FileConten
   }
   if (periodic) return;
   const bool plane = dim == 3 && words.size() == 3 && lower(words[2])[0] != 't' && words[2] != "1";
-  in.fail(JAM_E_UNSUPPORTED, "pbc='%s': the box must be periodic in every direction%s", shown(pbc).c_str(),
-          plane ? "; a packing of disks needs dim=2 on this line" : "");
+  in.fail(JAM_E_UNSUPPORTED,
+          "pbc='%s': the box must be periodic in every direction, or the options walls and container name the walls%s",
+          shown(pbc).c_str(), plane ? "; a packing of disks needs dim=2 on this line" : "");
 }
 
 // Lattice, the cell vectors; beyond three dimensions `cell` when it is no cube, whose first three are those of Lattice.
@@ -147,6 +148,8 @@ XyzColumns read_keys(const LineReader &in, CommentKeys &keys, const ReadOptions 
   const size_t axes = read_container(in, keys, content.enclosure);
   if (axes > 0 && axes != static_cast<size_t>(content.dim))
     in.fail(JAM_E_FORMAT, "walls has %zu words, %d are needed", axes, content.dim);
+  if (axes == 0) content.enclosure = options.enclosure;
+  content.knows_walls = true;  // without pbc and container= a cell is periodic, by the format
   if (keys.find("pbc", value)) check_periodic(in, value, content);
   if (keys.find("non_additivity", value)) {
     content.non_additivity = parse_number(in, value);

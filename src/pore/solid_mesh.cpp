@@ -91,7 +91,7 @@ void Mesher::take_joints(const ContactNetwork &network) {
     t.split = t.length * radius(t.i) / (radius(t.i) + radius(t.j));
     const double least = std::min(radius(t.i), radius(t.j));
     t.radius = bridged() ? o_.bridge * least : 0.0;
-    t.rim = std::max(8, static_cast<int32_t>(std::ceil(2.0 * math::pi * o_.bridge / o_.edge)));
+    t.rim = points_of_rim(o_);
     const size_t c = std::fabs(t.towards[0]) < 0.5 ? 0 : 1;  // an axis well away from it
     Point axis{};
     axis[c] = 1.0;
@@ -340,7 +340,7 @@ jam_mesh_options default_mesh_options() {
   return o;
 }
 
-static void check_mesh(const Packing &p, const jam_mesh_options &o) {
+void check_mesh(const Packing &p, const jam_mesh_options &o) {
   check_enum(o.contacts, JAM_MESH_KEPT, JAM_MESH_BRIDGED, "contacts", "jam_mesh_contacts");
   if (!(o.edge >= MeshTuning::shortest_edge && o.edge <= 1.0))
     fail(JAM_E_ARGUMENT, "edge is %g, it must be in 0.03..1", o.edge);
@@ -360,11 +360,6 @@ static void check_mesh(const Packing &p, const jam_mesh_options &o) {
 SolidMesh solid_mesh(const Packing &p, const ContactNetwork *network, const jam_mesh_options &o) {
   check_mesh(p, o);
   return Mesher(p, network, o).make();
-}
-
-int64_t triangles_of_whole_spheres(const Packing &p, const jam_mesh_options &o) {
-  check_mesh(p, o);
-  return static_cast<int64_t>(p.n() * divided_icosahedron(o.edge).triangle.size());
 }
 
 }  // namespace jam

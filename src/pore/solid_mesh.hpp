@@ -20,7 +20,11 @@ jam_mesh_options default_mesh_options();
 // network: NULL where there is none; BRIDGED needs it. JAM_E_ARGUMENT also where bridges would meet each other or
 // another sphere, JAM_E_UNSUPPORTED but in d = 3.
 SolidMesh solid_mesh(const Packing &p, const ContactNetwork *network, const jam_mesh_options &o);
-// What it has about, before any work: cuts at faces and joints change it by some 10 %.
-int64_t triangles_of_whole_spheres(const Packing &p, const jam_mesh_options &o);
+// Points round a cylinder.
+int32_t points_of_rim(const jam_mesh_options &o);
+// What solid_mesh refuses before any work.
+void check_mesh(const Packing &p, const jam_mesh_options &o);
+// About how many triangles it has, to some 10 %, before any work (mesh_estimate.cpp).
+int64_t estimated_triangles(const Packing &p, const ContactNetwork *network, const jam_mesh_options &o);
 
 }  // namespace jam

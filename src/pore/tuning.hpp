@@ -16,6 +16,10 @@ struct MeshTuning {
   static constexpr double between_rims = 0.01;  // least angle of two
   // Edges of a triangle, in steps of the floats of the file: shorter ones have errors of a per cent.
   static constexpr double least_steps = 100.0;
+  // Estimate of triangles that a plane passes on a sphere of T: so many times sqrt(T) r, where it cuts the sphere in a
+  // circle of r radii. A line on equilateral triangles of edge e passes one for each 0.453 e (mean chord of a convex
+  // area: pi A / P), and e = sqrt(16 pi / (sqrt(3) T)) radii.
+  static constexpr double passed = 2.57;
 };
 
 // Tanh-sinh quadrature: points on either side, and their distance. Shells of a cylinder are right to 1e-12.

@@ -1,5 +1,7 @@
 """Walls and containers from Python: arguments, the table of walls, files, what refuses."""
+import os
 import pickle
+import subprocess
 import tempfile
 import unittest
 from pathlib import Path
@@ -7,6 +9,7 @@ from pathlib import Path
 import jam
 import numpy as np
 
+PACK = os.environ["JAM_PACK"]
 
 class Arguments(unittest.TestCase):
     def test_letters_and_truth_values_say_the_same(self):
@@ -35,6 +38,8 @@ class Arguments(unittest.TestCase):
             self.assertAlmostEqual(volume / (share * 10**dim), 0.4, 12)
         with self.assertRaisesRegex(ValueError, "container must be"):
             jam.sizes("equal", container="cone", porosity=0.5, box=3)
+        with self.assertRaisesRegex(TypeError, "give walls= to System.random"):
+            jam.sizes("equal", 10, walls="z")
 
     def test_volume_is_that_of_the_container(self):
         for container, dim, share in (("ball", 3, np.pi / 6), ("ball", 2, np.pi / 4), ("cylinder", 3, np.pi / 4)):
@@ -56,6 +61,8 @@ class Scenes(unittest.TestCase):
         z, r = s.positions[:, 2], s.diameters / 2
         np.testing.assert_allclose(w.gap, [(z / r - 1).min(), ((1 - z) / r - 1).min()], atol=1e-12)
         self.assertEqual(len(jam.System.random(n=10).walls().gap), 0)
+        rows = str(w).splitlines()  # a table of few rows prints as such
+        self.assertEqual((rows[1].split(), len(rows)), (["axis", "side", "area", "pressure", "gap", "stress"], 4))
 
     def test_copies_files_and_pickles_keep_the_container(self):
         s = jam.System.random(n=30, packing_fraction=0.2, container="cylinder", walls="z")
@@ -97,6 +104,28 @@ class Scenes(unittest.TestCase):
             name.write_text(text.replace('walls="F F T"', 'walls="_JSON [false, 2, true]"'))
             with self.assertRaisesRegex(jam.errors.FormatError, "must be T or F"):
                 jam.System.read(name)
+
+    def test_walls_that_a_file_does_not_name(self):
+        """Named by the caller, in letters or truth values; said where nobody names them; a file is not overruled."""
+        s = jam.System.random(n=20, packing_fraction=0.1, walls="z")
+        with tempfile.TemporaryDirectory() as folder:
+            name = Path(folder, "slit.data")
+            s.write(name)
+            text = name.read_text()
+            self.assertEqual(jam.System.read(name).notes, "")
+            with self.assertRaisesRegex(jam.errors.ArgumentError, "close other axes than the file"):
+                jam.System.read(name, walls="x")
+            name.write_text("of another program\n" + text.split("\n", 1)[1])
+            self.assertIn("does not say which directions are periodic", jam.System.read(name).notes)
+            for walls in ("z", (False, False, True)):
+                read = jam.System.read(name, walls=walls)
+                self.assertEqual((read.info.walls, read.notes), (4, ""))
+            with self.assertRaisesRegex(ValueError, "walls must be 3 truth values"):
+                jam.System.read(name, walls=(True, False))
+            with self.assertRaisesRegex(ValueError, "walls must name axes"):
+                jam.System.read(name, walls="w")
+            arguments = ["info", str(name), "--walls", "z"]
+            self.assertIn("flat walls at both ends of z", subprocess.run([PACK, *arguments], capture_output=True, text=True).stdout)
 
 
 if __name__ == "__main__":

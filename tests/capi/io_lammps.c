@@ -58,7 +58,9 @@ static void what_is_not_read_is_said(void **state) {
       read_text(HEAD "0 2 xlo xhi (x)\n0 2 ylo yhi\n0 2 zlo zhi\n" ROWS "\nVelocities\n\n1 0 0 0 0 0 0\n");
   (void)state;
   assert_string_equal(jam_notes(sys),
-                      "line 5: text behind 'xhi' was not read\nsections of the file that were not read: Velocities");
+                      "line 5: text behind 'xhi' was not read\nsections of the file that were not read: Velocities\n"
+                      "the file does not say which directions are periodic: all are taken as periodic; the options "
+                      "walls and container name walls");
   jam_destroy(sys);
 }
 
@@ -135,6 +137,7 @@ static void a_section_without_style(void **state) {
 
 #define DUMP "ITEM: TIMESTEP\n5\nITEM: NUMBER OF ATOMS\n3\n"
 #define BOUNDS "ITEM: BOX BOUNDS pp pp pp\n-1 1\n0 2\n1 3\n"
+#define DUMP1 "ITEM: TIMESTEP\n5\nITEM: NUMBER OF ATOMS\n1\n"
 static void dumps_in_any_form(void **state) {
   static const char *const texts[] = {
       DUMP BOUNDS
@@ -204,6 +207,80 @@ static void dumps_that_cannot_be_read(void **state) {
 #undef NAMES
 }
 
+#define NAMES "ITEM: ATOMS id radius x y z\n"
+#define ONE NAMES "1 0.1 0.5 0.5 0.5\n"
+static jam_status read_walled(const char *text, int32_t container, int32_t walls, jam_system **sys) {
+  const char *path = in_scratch("walled");
+  jam_create_options o;
+  jam_create_options_init(&o, sizeof o);
+  o.container = container, o.walls = walls;
+  put_bytes(path, text, strlen(text));
+  return jam_read(path, &o, NULL, NULL, sys);
+}
+
+static int32_t closed_by(const char *text, int32_t container, int32_t walls, int *noted) {
+  jam_system *sys = NULL;
+  jam_info info;
+  assert_int_equal(read_walled(text, container, walls, &sys), JAM_OK);
+  info.struct_size = sizeof info;
+  jam_get_info(sys, &info);
+  assert_int_equal(info.container, container);
+  *noted = strstr(jam_notes(sys), "does not say which directions are periodic") != NULL;
+  jam_destroy(sys);
+  return info.walls;
+}
+
+/* Files that do not say where walls stand are periodic with a note, or have the walls that the caller names. What a
+ * file says is not overruled. */
+static void walls_are_named_by_the_file_or_the_caller(void **state) {
+  static const char data[] =
+      "data\n\n1 atoms\n1 atom types\n0 1 xlo xhi\n0 1 ylo yhi\n0 1 zlo zhi\n"
+      "\nAtoms # sphere\n\n1 1 0.2 1 0.5 0.5 0.5\n";
+  static const char plain[] = "3\n1\n0.2\n0.5 0.5 0.5\n", table[] = "x y z radius\n0.5 0.5 0.5 0.1\n";
+  static const char open[] = DUMP1 "ITEM: BOX BOUNDS\n0 1\n0 1\n0 1\n" ONE;
+  static const char slit[] = DUMP1 "ITEM: BOX BOUNDS pp pp ff\n0 1\n0 1\n0 1\n" ONE;
+  static const char tube[] = DUMP1 "ITEM: BOX BOUNDS fm ss pp\n0 1\n0 1\n0 1\n" ONE;
+  static const char cell[] = DUMP1 "ITEM: BOX BOUNDS pp pp pp\n0 1\n0 1\n0 1\n" ONE;
+  static const char xyz[] =
+      "1\nLattice=\"1 0 0 0 1 0 0 0 1\" pbc=\"T T F\" Properties=pos:R:3:radius:R:1\n.5 .5 .5 .1\n";
+  static const char own[] =
+      "LAMMPS data file by libjam container=brick walls=\"F F T\"\n\n1 atoms\n1 atom types\n"
+      "0 1 xlo xhi\n0 1 ylo yhi\n0 1 zlo zhi\n\nAtoms # sphere\n\n1 1 0.2 1 0.5 0.5 0.5\n";
+  const char *const silent[] = {data, table, open};
+  jam_system *sys = NULL;
+  int noted;
+  (void)state;
+  for (size_t k = 0; k < 3; ++k) {
+    assert_int_equal(closed_by(silent[k], JAM_CONTAINER_BRICK, 0, &noted), 0);
+    assert_true(noted);
+    assert_int_equal(closed_by(silent[k], JAM_CONTAINER_BRICK, 4, &noted), 4);
+    assert_false(noted);
+    closed_by(silent[k], JAM_CONTAINER_BALL, 0, &noted);
+  }
+  assert_int_equal(closed_by(plain, JAM_CONTAINER_BRICK, 0, &noted), 0);
+  assert_false(noted);
+  assert_int_equal(closed_by(plain, JAM_CONTAINER_BRICK, 3, &noted), 3);
+  assert_int_equal(closed_by(slit, JAM_CONTAINER_BRICK, 4, &noted), 4);
+  assert_int_equal(closed_by(xyz, JAM_CONTAINER_BRICK, 4, &noted), 4);
+  assert_int_equal(closed_by(tube, JAM_CONTAINER_CYLINDER, 0, &noted), 0);
+  assert_int_equal(closed_by(own, JAM_CONTAINER_BRICK, 4, &noted), 4);
+  assert_false(noted);
+  assert_int_equal(read_walled(slit, JAM_CONTAINER_BRICK, 0, &sys), JAM_E_UNSUPPORTED);
+  assert_non_null(strstr(jam_last_error(), "line 5: the boundary is 'ff'"));
+  assert_non_null(strstr(jam_last_error(), "the options walls and container name the walls"));
+  assert_int_equal(read_walled(slit, JAM_CONTAINER_BRICK, 6, &sys), JAM_E_FORMAT);
+  assert_non_null(strstr(jam_last_error(), "the boundary of y is 'pp', periodic, but container and walls close it"));
+  assert_int_equal(read_walled(cell, JAM_CONTAINER_BRICK, 4, &sys), JAM_E_FORMAT);
+  assert_non_null(strstr(jam_last_error(), "the boundary of z is 'pp'"));
+  assert_int_equal(read_walled(xyz, JAM_CONTAINER_BRICK, 0, &sys), JAM_E_UNSUPPORTED);
+  assert_int_equal(read_walled(xyz, JAM_CONTAINER_CYLINDER, 4, &sys), JAM_E_FORMAT);
+  assert_int_equal(read_walled(own, JAM_CONTAINER_BRICK, 1, &sys), JAM_E_ARGUMENT);
+  assert_non_null(strstr(jam_last_error(), "close other axes than the file: leave them out"));
+  assert_null(sys);
+}
+#undef ONE
+#undef NAMES
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(headers_as_lammps_takes_them),
@@ -212,6 +289,7 @@ int main(void) {
       cmocka_unit_test(tilts_are_kept),
       cmocka_unit_test(data_that_cannot_be_read),
       cmocka_unit_test(a_section_without_style),
+      cmocka_unit_test(walls_are_named_by_the_file_or_the_caller),
       cmocka_unit_test(dumps_in_any_form),
       cmocka_unit_test(tilted_dumps),
       cmocka_unit_test(dumps_that_cannot_be_read),

@@ -96,6 +96,35 @@ static double eos(int32_t form, int32_t dim, double f) {
   return p;
 }
 
+/* B_3 / B_2^2 = 2 I_{3/4}((d + 1) / 2, 1 / 2), exact in every d (Luban and Baram, J. Chem. Phys. 76, 3233 (1982)). The
+ * incomplete beta function I is the integral of cos^d from pi / 6 over that from 0 to pi / 2; by Simpson's rule. */
+static double third_virial(int32_t d) {
+  const int steps = 2000; /* even */
+  double part[2] = {0, 0};
+  for (int q = 0; q < 2; ++q) {
+    const double low = q ? 0.0 : M_PI / 6.0, h = (M_PI / 2.0 - low) / steps;
+    for (int k = 0; k <= steps; ++k)
+      part[q] += (k == 0 || k == steps ? 1.0 : k % 2 ? 4.0 : 2.0) * pow(cos(low + h * k), d) * h / 3.0;
+  }
+  return 2.0 * part[0] / part[1];
+}
+
+static void liquid_of_every_dimension(void) {
+  double p = -1.0;
+  for (int32_t d = 2; d <= JAM_MAX_DIM; ++d) {
+    const double x = 1e-3, f = ldexp(x, 1 - d); /* x = B_2 rho */
+    const double a = (eos(JAM_EOS_PADE, d, f) - 1.0) / x - 1.0, b = (eos(JAM_EOS_PADE, d, 2 * f) - 1.0) / (2 * x) - 1.0;
+    assert_true(eos(JAM_EOS_PADE, d, 0.0) == 1.0);
+    assert_true(fabs(a) < 1e-3);                                           /* B_2 = 2^(d-1) */
+    assert_true(fabs((4.0 * a - b) / (2.0 * x) - third_virial(d)) < 1e-5); /* without the term of B_4 */
+    assert_int_equal(jam_eos(JAM_EOS_PADE, d, 1.0, 0, &p), JAM_E_ARGUMENT);
+  }
+  /* The closed forms of d = 2 and 3 are good to 0.5 % up to freezing. */
+  assert_true(fabs(eos(JAM_EOS_PADE, 2, 0.5) / eos(JAM_EOS_HENDERSON, 2, 0.5) - 1.0) < 0.005);
+  assert_true(fabs(eos(JAM_EOS_PADE, 3, 0.49) / eos(JAM_EOS_CARNAHAN_STARLING, 3, 0.49) - 1.0) < 0.005);
+  assert_int_equal(jam_eos(JAM_EOS_PADE, 4, 0.6, 0, &p), JAM_E_ARGUMENT); /* beyond its pole */
+}
+
 static void equations_of_state(void **state) {
   double p = -1.0;
   int32_t form;
@@ -116,6 +145,7 @@ static void equations_of_state(void **state) {
   assert_int_equal(jam_eos(JAM_EOS_HENDERSON, 3, 0.3, 0, &p), JAM_E_UNSUPPORTED);
   assert_int_equal(jam_eos(JAM_EOS_HENDERSON, 2, 1.0, 0, &p), JAM_E_ARGUMENT);
   p = -7.0;
+  liquid_of_every_dimension();
   assert_int_equal(jam_eos(JAM_EOS_FREE_VOLUME, 3, 0.7, 0.64, &p), JAM_E_ARGUMENT);
   assert_int_equal(jam_eos(99, 3, 0.3, 0, &p), JAM_E_ARGUMENT);
   assert_int_equal(jam_eos(0, 1, 0.3, 0, &p), JAM_E_DIMENSION);

@@ -73,7 +73,7 @@ static jam_status from_arrays(const walled *s, const double *x, int64_t n, doubl
   for (int c = 0; c < s->dim; ++c) cell[c * s->dim + c] = s->edge[c];
   start.cell = cell, start.cell_len = (size_t)(s->dim * s->dim);
   start.positions = x, start.positions_len = (size_t)(n * s->dim), start.diameters = &sigma, start.diameters_len = 1;
-  start.container = s->container, start.walls = s->walls;
+  o.container = s->container, o.walls = s->walls;
   return jam_create(&o, &start, sys);
 }
 
@@ -113,7 +113,7 @@ static jam_status start_with(int32_t dim, const double *cell, int32_t container,
   jam_create_options_init(&o, sizeof o);
   o.dim = dim, o.n = 10, o.packing_fraction = 0.1, o.model = model, o.non_additivity = delta;
   if (cell) start.cell = cell, start.cell_len = (size_t)(dim * dim);
-  start.container = container, start.walls = walls;
+  o.container = container, o.walls = walls;
   const jam_status status = jam_create(&o, &start, &sys);
   jam_destroy(sys);
   return status;

@@ -76,6 +76,35 @@ void density_with_prestress(void **) {
   assert_true(std::fabs(sum - 1.0) < 0.01);
 }
 
+// Bins that the caller gives lie where it says, whatever the spectrum is: the same values, 0 outside, and a share of
+// the modes below each edge.
+void density_on_given_bins(void **) {
+  const Case c = lattice(fcc_basis(), fcc_bonds(), 6);
+  const RigidityMatrix g = make_rigidity_matrix(c.packing, c.network);
+  const ContactWeights w = contact_weights(g, 1.0, default_hessian_options());
+  jam_dos_options o = default_dos_options();
+  o.points = 100;
+  o.moments = 64;
+  const DensityOfStates own = density_of_states(g, w, o);
+  const double last = own.omega.back() + 0.5 * own.step;
+  o.low = -last, o.high = 2.0 * last, o.points = 300;
+  const DensityOfStates wide = density_of_states(g, w, o);
+  assert_true(std::fabs(wide.step - own.step) < 1e-14);
+  for (size_t k = 0; k < 300; ++k) {
+    const bool within = k >= 100 && k < 200;
+    assert_true(std::fabs(wide.omega[k] - (-last + (static_cast<double>(k) + 0.5) * own.step)) < 1e-12);
+    assert_true(std::fabs(wide.density[k] - (within ? own.density[k - 100] : 0.0)) < 1e-9);
+    assert_true(std::fabs(wide.cumulative[k] - (within ? own.cumulative[k - 100] : k < 100 ? 0.0 : 1.0)) < 1e-9);
+  }
+  o.low = o.high = 1.0;
+  try {
+    density_of_states(g, w, o);
+    assert_true(false);
+  } catch (const Error &e) {
+    assert_int_equal(e.code(), JAM_E_ARGUMENT);
+  }
+}
+
 // E'' / V of the affine crystal by differences of its energy, each bond with its own rest length.
 double strained(const Case &c, const std::vector<double> &f, double volume) {
   const int d = c.packing.dim;
@@ -233,8 +262,9 @@ void moduli_of_fcc(void **) {
 }  // namespace
 
 int main() {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(density_of_fcc),       cmocka_unit_test(density_with_prestress),
-                                     cmocka_unit_test(prestressed_moduli),   cmocka_unit_test(relaxed_moduli),
-                                     cmocka_unit_test(moduli_of_triangular), cmocka_unit_test(moduli_of_fcc)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(density_of_fcc),        cmocka_unit_test(density_with_prestress),
+                                     cmocka_unit_test(density_on_given_bins), cmocka_unit_test(prestressed_moduli),
+                                     cmocka_unit_test(relaxed_moduli),        cmocka_unit_test(moduli_of_triangular),
+                                     cmocka_unit_test(moduli_of_fcc)};
   return cmocka_run_group_tests_name("analysis_spectrum", tests, nullptr, nullptr);
 }

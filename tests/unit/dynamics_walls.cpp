@@ -40,8 +40,8 @@ Packing start(const Scene &s, int n, double fraction, double ratio, int64_t seed
   std::vector<double> diameters(n), rows(static_cast<size_t>(s.dim) * s.dim, 0.0);
   for (int i = 0; i < n; ++i) diameters[i] = std::pow(ratio, n > 1 ? static_cast<double>(i) / (n - 1) : 0.0);
   for (int c = 0; c < s.dim; ++c) rows[c * s.dim + c] = s.edge[c];
-  Packing p =
-      make_packing(o, nullptr, 0, diameters.data(), diameters.size(), rows.data(), nullptr, {s.container, s.walls});
+  o.container = s.container, o.walls = s.walls;
+  Packing p = make_packing(o, nullptr, 0, diameters.data(), diameters.size(), rows.data());
   Rng rng(seed, Stream::velocities, 1000000);
   for (double &v : p.velocity) v = rng.normal();
   p.has_velocity = true;

@@ -14,11 +14,11 @@ _jam_pack() {
   esac
   case ${COMP_WORDS[1]} in
     compress) takes='--n --dim --phi0 --diameters-ratio --sizes --non-additivity --model --zeta --plant --seed --input --frame --box --cell --tile --walls --container --shrink --shrink-min --nve --growth --pressure --packing-fraction --porosity --checkpoint --checkpoint-every --resume --output --page --report --log --json --quiet --wall-time --help --version' ;;
-    crunch) takes='--non-additivity --model --zeta --seed --input --frame --box --tile --shrink --shrink-min --checkpoint --checkpoint-every --resume --method --strain --lp --duality-gap --threads --output --page --page-steps --contacts --spectrum --modes --gaps --structure --prove --proof --strict-proof --report --log --vtk --json --quiet --wall-time --help --version' ;;
-    check) takes='--non-additivity --input --frame --box --tile --prove --proof --strict-proof --json --quiet --wall-time --help --version' ;;
-    info) takes='--non-additivity --input --frame --box --tile --json --quiet --wall-time --help --version' ;;
-    export) takes='--non-additivity --input --frame --box --tile --output --contacts --spectrum --modes --gaps --structure --vtk --json --quiet --stl --stl-edge --stl-shrink --stl-bridge --voxels --voxel-size --voxel-lines --profile --profile-bins --pores --pore-points --pore-seed --near-coordination --near-gap --wall-time --help --version' ;;
-    page) takes='--non-additivity --input --frame --box --tile --page --json --quiet --wall-time --help --version' ;;
+    crunch) takes='--non-additivity --model --zeta --seed --input --frame --box --tile --walls --container --shrink --shrink-min --checkpoint --checkpoint-every --resume --method --strain --lp --duality-gap --threads --output --page --page-steps --contacts --spectrum --modes --gaps --structure --prove --proof --strict-proof --report --log --vtk --json --quiet --wall-time --help --version' ;;
+    check) takes='--non-additivity --input --frame --box --tile --walls --container --prove --proof --strict-proof --json --quiet --wall-time --help --version' ;;
+    info) takes='--non-additivity --input --frame --box --tile --walls --container --json --quiet --wall-time --help --version' ;;
+    export) takes='--non-additivity --input --frame --box --tile --walls --container --output --contacts --spectrum --modes --gaps --structure --vtk --json --quiet --stl --stl-edge --stl-shrink --stl-bridge --voxels --voxel-size --voxel-lines --profile --profile-bins --pores --pore-points --pore-seed --near-coordination --near-gap --wall-time --help --version' ;;
+    page) takes='--non-additivity --input --frame --box --tile --walls --container --page --json --quiet --wall-time --help --version' ;;
     ensemble) takes='--help --version' ;;
   esac
   if [ "$COMP_CWORD" = 1 ]; then takes="pack compress crunch check info export page ensemble $takes"; fi

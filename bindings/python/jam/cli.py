@@ -7,7 +7,7 @@ from typing import Any
 
 from . import raw
 from ._api.calls import freeze
-from ._api.generated import OPTIONS
+from ._api.generated import OPTIONS, Container
 from .errors import JamError
 from .system import System
 
@@ -25,6 +25,8 @@ def _read(path: str, options: Any) -> Any:
     for held in ("n", "dim", "box", "packing_fraction"):  # of the file
         del given[held]
     frame = given.pop("frame")
+    given["container"] = Container(options.container).name.lower()
+    given["walls"] = "".join(axis for c, axis in enumerate("xyz") if options.walls >> c & 1)
     try:
         return System.read(path, frame=frame, **given).handle
     except (JamError, ValueError, IndexError, OSError, ImportError) as error:

@@ -172,8 +172,9 @@ class System(Verbs, Writing, PoreSpace, Copies, Converting):
         path : path-like
             The file. Positions and diameters come back with the bits that were written.
         **options
-            overlap ('refuse' or 'shrink'), seed, model, mk_zeta, masses, non_additivity, frame, and box where the file
-            names none. GSD files take the keywords of jam.files.read_gsd too.
+            overlap ('refuse' or 'shrink'), seed, model, mk_zeta, masses, non_additivity, frame; box where the file names
+            none; walls and container, as of from_arrays, where the file does not name its walls. GSD files take the
+            keywords of jam.files.read_gsd too.
         """
         name = os.fsdecode(path)
         if name.lower().endswith(".gsd"):
@@ -185,8 +186,13 @@ class System(Verbs, Writing, PoreSpace, Copies, Converting):
                     f"{unknown}= goes with GSD files and jam.files.read_ase alone: "
                     "read other files without sizes or cell by numpy, and pass the arrays to System.from_arrays"
                 )
+        walls = options.get("walls")
         options["box"] = side_of(options.get("box"))
-        return cls._made(*raw.jam_read(name, option_struct("jam_create_options", options), None))
+        options["container"], options["walls"] = enclosure_of(options.get("container"), walls, None)
+        made = cls._made(*raw.jam_read(name, option_struct("jam_create_options", options), None))
+        if walls is not None and not isinstance(walls, str):
+            enclosure_of(None, walls, made.dim)  # as many truth values as the file has axes
+        return made
 
     @classmethod
     def from_checkpoint(cls, path: str | os.PathLike[str]) -> "System":
@@ -197,7 +203,7 @@ class System(Verbs, Writing, PoreSpace, Copies, Converting):
     def from_ase(
         cls, atoms: Any, diameters: Any = None, *, radii: Any = None, dim: int = 3, **options: Any
     ) -> "System":
-        """The spheres of an ase.Atoms that is periodic in all directions; `to_ase` is the way back.
+        """The spheres of an ase.Atoms, periodic in all directions without walls; `to_ase` is the way back.
 
         Parameters
         ----------
@@ -211,7 +217,8 @@ class System(Verbs, Writing, PoreSpace, Copies, Converting):
             As of `from_arrays`.
         """
         notes: list[str] = []
-        given = ase.of_atoms(atoms, diameters, radii=radii, dim=dim, notes=notes, where="atoms")
+        named = {key: options.pop(key, None) for key in ("walls", "container")}
+        given = ase.of_atoms(atoms, diameters, radii=radii, dim=dim, notes=notes, where="atoms", named=named)
         return cls._noted(dict(given, **options), notes)
 
     @classmethod
@@ -232,7 +239,7 @@ class System(Verbs, Writing, PoreSpace, Copies, Converting):
     def _create(cls, options: dict[str, Any], positions: Any, diameters: Any, progress: Any = None) -> "System":
         box, vectors = cell_of(options.pop("box", None), options.pop("cell", None), options["dim"])
         container, walls = enclosure_of(options.pop("container", None), options.pop("walls", None), options["dim"])
-        made = option_struct("jam_create_options", dict(options, box=box))
+        made = option_struct("jam_create_options", dict(options, box=box, container=container, walls=walls))
         told = reporter(progress)
 
         def on_progress(p: Any) -> bool:
@@ -240,7 +247,7 @@ class System(Verbs, Writing, PoreSpace, Copies, Converting):
 
         try:
             flat = None if vectors is None else vectors.reshape(-1)
-            answer = raw.jam_create(made, positions, diameters, flat, container, walls, told and on_progress)
+            answer = raw.jam_create(made, positions, diameters, flat, told and on_progress)
         finally:
             end(told)
         return cls._made(*answer)

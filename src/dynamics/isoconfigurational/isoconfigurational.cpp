@@ -89,13 +89,13 @@ void Isoconfigurational::check_resolution(bool jammed) const {
   const double ratio = plan_.options.density_ratio;
   const double smallest = *std::min_element(plan_.start.diameter.begin(), plan_.start.diameter.end());
   const double rounding = 4.0 * std::numeric_limits<double>::epsilon() * plan_.start.cell.side() / smallest;
-  const double opened = (1.0 - ratio) / static_cast<double>(dim());
-  if ((jammed || ratio < 1.0) && opened < EnsembleTuning::roundings_of_gap * rounding)
-    fail(
-        JAM_E_ARGUMENT,
-        "density_ratio 1 - %.3g opens contacts by %.3g; at least %.3g is needed, as positions are rounded to %.1g of a "
-        "diameter",
-        1.0 - ratio, opened, EnsembleTuning::roundings_of_gap * rounding, rounding);
+  const double opened = (1.0 - ratio) / static_cast<double>(dim()), least = EnsembleTuning::roundings_of_gap * rounding;
+  if ((jammed || ratio < 1.0) && opened < least)
+    fail(JAM_E_ARGUMENT,
+         "density_ratio is %.17g, which opens contacts by %.2g of a diameter: positions are rounded to %.1g of it, so "
+         "give "
+         "at most 1 - %.2g",
+         ratio, opened, rounding, least * static_cast<double>(dim()));
 }
 
 void Isoconfigurational::continue_with(const Packing &p, const jam_isoconf_options &o,

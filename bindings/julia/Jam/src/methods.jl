@@ -196,11 +196,11 @@ end
 """
     eos(form, dim, packing_fraction, jammed_fraction) -> pressure
 
-pressure of an equation of state at a packing fraction; `jammed_fraction` is used by `FREE_VOLUME` only.
+pressure of a form; `FREE_VOLUME` uses `jammed_fraction`.
 
 - `form`: one of `:carnahan_starling`, `:py_virial`, `:py_compressibility`, `:virial`, `:mk`, `:free_volume`,
-  `:henderson`
-- errors: `:dimension`, `:unsupported` (form not of this dim)
+  `:henderson`, `:pade`
+- errors: `:dimension`, `:unsupported`
 """
 function eos(form, dim, packing_fraction, jammed_fraction)
     return call(nothing, :jam_eos, (form, dim, packing_fraction, jammed_fraction, ); progress = nothing)
@@ -687,9 +687,9 @@ end
 """
     write_stl(s, path; contacts, edge, factor, bridge) -> report
 
-Binary STL of the solid, d = 3, closed: each edge belongs to two triangles, which pass it in opposite directions.
-Cylinders that would meet are refused with their numbers. The file appears as of `write`; path `nothing`: none, and an
-estimate of triangles and bytes without faces and cylinders.
+Binary STL of the solid, d = 3, closed: each edge belongs to two triangles, which pass it in opposite directions. No
+cylinder leads to a wall; cylinders that would meet are refused with their numbers. The file appears as of `write`;
+path `nothing`: none, and triangles and bytes are an estimate. Status: `:not_jammed` (BRIDGED, and no spheres touch).
 
 - `contacts`: one of `:kept`, `:shrunk`, `:bridged`; ; default `:kept`
 - `edge`: of triangles, over the radius of the sphere: 0.03 .. 1, default 0.2
@@ -752,7 +752,7 @@ end
 """
     near_coordination(s, h_max)
 
-Spheres with a gap h < `h_max`, up to 1, to each one, every image; walls do not count. Needs no crunch.
+Spheres with a gap h < `h_max` <= 1 to each one, every image; walls do not count. Needs no crunch.
 
 - `out`: array `(n)`
 """
@@ -799,7 +799,7 @@ function floppy_modes(s::System; progress = nothing)
 end
 
 """
-    density_of_states(s; stiffness, alpha, prestress, moments, vectors, points, seed, progress) -> table
+    density_of_states(s; stiffness, alpha, prestress, moments, vectors, points, seed, low, high, progress) -> table
 
 Density of states D(omega) and its integral by the kernel polynomial method: no modes are computed, translations are
 omitted. With prestress omega starts below 0: unstable modes are listed at -sqrt(-lambda), and resolution is lower
@@ -812,6 +812,8 @@ near 0.
 - `vectors`: random vectors, 2..1e5, default 16
 - `points`: values of omega, default 200
 - `seed`: of the random vectors, default 1
+- `low`: omega where the bins begin, default NaN: where the spectrum does
+- `high`: where they end, likewise
 - errors: `:state`, `:solver`, `:too_few`
 """
 function density_of_states(s::System; progress = nothing, given...)

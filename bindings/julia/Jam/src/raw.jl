@@ -166,6 +166,7 @@ const JAM_EOS_VIRIAL = Int32(3)  # series to the seventh coefficient
 const JAM_EOS_MK = Int32(4)  # 1 + 2^d phi / 2, exact for zeta infinite
 const JAM_EOS_FREE_VOLUME = Int32(5)  # glass: d / (1 - phi / jammed_fraction)
 const JAM_EOS_HENDERSON = Int32(6)  # d = 2: (1 + phi^2 / 8) / (1 - phi)^2
+const JAM_EOS_PADE = Int32(7)  # liquid, any d: Pade [4/5] of B_2 .. B_10 (Clisby, McCoy, J. Stat. Phys. 122, 15)
 
 # jam_energy_unit: Unit of the overlap x of a soft pair.
 const JAM_ENERGY_LENGTH = Int32(0)  # x = sigma_ij - r, unit of the box
@@ -437,6 +438,8 @@ random Mari-Kurchan start is planted in equilibrium.
 - `model`: one of `:euclid`, `:mk`; default `:euclid`
 - `mk_zeta`: MK: strength of the shifts, 0..1e15; default infinity: uniform shifts
 - `masses`: one of `:equal`, `:volume`; default `:equal`
+- `container`: one of `:brick`, `:cylinder`, `:ball`; default `:brick`
+- `walls`: axes with flat walls: sum of 2^c, default 0
 - `non_additivity`: Delta in (-1, 1]: unequal spheres touch at (1 + Delta) (`sigma_i` + `sigma_j`) / 2; default 0
 - `wall_time`: of reading, of a random start and of the search for overlaps
 - `memory_limit`: as `set_memory_limit!`, also while a file is read; default 0: half the machine's memory
@@ -454,13 +457,15 @@ mutable struct jam_create_options
     model::Int32  # jam_model, default EUCLID
     mk_zeta::Cdouble  # MK: strength of the shifts, 0..1e15; default infinity: uniform shifts
     masses::Int32  # jam_masses, default EQUAL
-    reserved::Int32
+    container::Int32  # jam_container, default BRICK
+    walls::Int32  # axes with flat walls: sum of 2^c, default 0
+    reserved::Int32  # 0
     non_additivity::Cdouble  # Delta in (-1, 1]: unequal spheres touch at (1 + Delta) (sigma_i + sigma_j) / 2; default 0
     wall_time::Cdouble  # of reading, of a random start and of the search for overlaps
     memory_limit::Cdouble  # as jam_set_memory_limit, also while a file is read; default 0: half the machine's memory
     frame::Int64  # which packing of a file with several, from 0; negative: from the end; default -1, the last
     shrink_min::Cdouble  # JAM_OVERLAP_SHRINK refuses a smaller factor, in 0..1, default 1e-3: it points to wrong units
-    jam_create_options() = new(104, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
+    jam_create_options() = new(112, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
 end
 
 """
@@ -476,8 +481,6 @@ Where a system starts. `nothing` in place of it: a random sequential start of eq
 - `cell_len`:
 - `progress`: or `nothing`; a non-zero return ends the call. The new system has no callback
 - `user`: given to progress
-- `container`: one of `:brick`, `:cylinder`, `:ball`; default `:brick`
-- `walls`: axes with flat walls: sum of 2^c, default 0
 """
 mutable struct jam_start
     struct_size::UInt32
@@ -490,9 +493,7 @@ mutable struct jam_start
     cell_len::Csize_t
     progress::Ptr{Cvoid}  # or NULL; a non-zero return ends the call. The new system has no callback
     user::Ptr{Cvoid}  # given to progress
-    container::Int32  # jam_container, default BRICK
-    walls::Int32  # axes with flat walls: sum of 2^c, default 0
-    jam_start() = new(80, 0, C_NULL, 0, C_NULL, 0, C_NULL, 0, C_NULL, C_NULL, 0, 0)
+    jam_start() = new(72, 0, C_NULL, 0, C_NULL, 0, C_NULL, 0, C_NULL, C_NULL)
 end
 
 """
@@ -514,7 +515,7 @@ What the system is now.
   `:isoconfigurational`, `:create`; of what was stopped early and can continue (crunch: by `crunch!`), or 0
 - `non_additivity`: Delta of a non-additive mixture, 0 for additive diameters
 - `container`: one of `:brick`, `:cylinder`, `:ball`
-- `walls`: as in `jam_start`
+- `walls`: as in `jam_create_options`
 - `volume`: V of the container, else of the cell
 """
 mutable struct jam_info
@@ -532,7 +533,7 @@ mutable struct jam_info
     paused::Int32  # jam_phase of what was stopped early and can continue (crunch: by jam_crunch), or 0
     non_additivity::Cdouble  # Delta of a non-additive mixture, 0 for additive diameters
     container::Int32  # jam_container
-    walls::Int32  # as in jam_start
+    walls::Int32  # as in jam_create_options
     volume::Cdouble  # V of the container, else of the cell
     jam_info() = new(96, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
 end
@@ -598,7 +599,7 @@ What a set of diameters is. `sequential_fraction`: Zhang and Torquato, Phys. Rev
 - `volume`: of all spheres, unit^d
 - `largest_share`: of the volume, of the largest sphere: how closely a curve can be followed
 - `sequential_fraction`: where random sequential addition of equal spheres ends; mixtures go beyond
-- `jammed_fraction`: estimate of the packing fraction at which these sizes jam in disorder
+- `jammed_fraction`: estimate of the phi at which these sizes jam in disorder in bulk; walls lower it
 """
 mutable struct jam_size_report
     struct_size::UInt32
@@ -615,7 +616,7 @@ mutable struct jam_size_report
     volume::Cdouble  # of all spheres, unit^d
     largest_share::Cdouble  # of the volume, of the largest sphere: how closely a curve can be followed
     sequential_fraction::Cdouble  # where random sequential addition of equal spheres ends; mixtures go beyond
-    jammed_fraction::Cdouble  # estimate of the packing fraction at which these sizes jam in disorder
+    jammed_fraction::Cdouble  # estimate of the phi at which these sizes jam in disorder in bulk; walls lower it
     jam_size_report() = new(112, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
 end
 
@@ -1597,7 +1598,7 @@ end
 """
     jam_correlation_options
 
-Options of `pair_correlation`.
+Options of `pair_correlation`. Beside walls more than 8 different diameters are taken as 8 classes of sizes.
 
 - `a`: labels of the spheres, default -1: any
 - `b`: labels of the spheres, default -1: any
@@ -1714,6 +1715,8 @@ Options of `density_of_states`.
 - `vectors`: random vectors, 2..1e5, default 16
 - `points`: values of omega, default 200
 - `seed`: of the random vectors, default 1
+- `low`: omega where the bins begin, default NaN: where the spectrum does
+- `high`: where they end, likewise
 """
 mutable struct jam_dos_options
     struct_size::UInt32
@@ -1721,7 +1724,9 @@ mutable struct jam_dos_options
     vectors::Int32  # random vectors, 2..1e5, default 16
     points::Int32  # values of omega, default 200
     seed::Int64  # of the random vectors, default 1
-    jam_dos_options() = new(24, 0, 0, 0, 0)
+    low::Cdouble  # omega where the bins begin, default NaN: where the spectrum does
+    high::Cdouble  # where they end, likewise
+    jam_dos_options() = new(40, 0, 0, 0, 0, 0, 0)
 end
 
 """
@@ -2128,9 +2133,9 @@ end
 
 Reads plain text, extended XYZ, LAMMPS data and dumps with diameters, or a table of columns. It recognises the format
 by the content. For a file of another format the error names that format and what to do. o: overlap policy, seed,
-model, frame; box and dim where the file gives none. A line that does not fit the format is an error; `jam_notes` lists
-what was not kept. Spheres keep the order of the file; LAMMPS data are sorted by id. A last line without newline is
-refused if its last number may have lost digits. callback, user: as in `jam_start`.
+model, frame; box, dim, container and walls where the file gives none. A line that does not fit the format is an
+error; `jam_notes` lists what was not kept. Spheres keep the order of the file; LAMMPS data are sorted by id. A last
+line without newline is refused if its last number may have lost digits. callback, user: as in `jam_start`.
 Errors: `JAM_E_IO`, `JAM_E_FORMAT` (line named), `JAM_E_UNSUPPORTED` (a box that is not periodic), `JAM_E_DIMENSION`, `JAM_E_OVERLAP`, `JAM_E_UNPLACEABLE`.
 """
 function jam_read(path, o, callback, user, out)
@@ -2356,8 +2361,8 @@ end
 """
     jam_eos(form, dim, packing_fraction, jammed_fraction, pressure)
 
-pressure of an equation of state at a packing fraction; `jammed_fraction` is used by `FREE_VOLUME` only.
-Errors: `JAM_E_DIMENSION`, `JAM_E_UNSUPPORTED` (form not of this dim).
+pressure of a form; `FREE_VOLUME` uses `jammed_fraction`.
+Errors: `JAM_E_DIMENSION`, `JAM_E_UNSUPPORTED`.
 """
 function jam_eos(form, dim, packing_fraction, jammed_fraction, pressure)
     return ccall((:jam_eos, libjam), Int32, (Int32, Int32, Cdouble, Cdouble, Ref{Cdouble}), form, dim, packing_fraction, jammed_fraction, _ref(Cdouble, pressure))
@@ -3111,9 +3116,9 @@ end
 """
     jam_write_stl(sys, path, o, report)
 
-Binary STL of the solid, d = 3, closed: each edge belongs to two triangles, which pass it in opposite directions.
-Cylinders that would meet are refused with their numbers. The file appears as of `jam_write`; path NULL: none, and an
-estimate of triangles and bytes without faces and cylinders.
+Binary STL of the solid, d = 3, closed: each edge belongs to two triangles, which pass it in opposite directions. No
+cylinder leads to a wall; cylinders that would meet are refused with their numbers. The file appears as of `jam_write`;
+path NULL: none, and triangles and bytes are an estimate. Status: `JAM_NOT_JAMMED` (BRIDGED, and no spheres touch).
 Errors: `JAM_E_STATE` (BRIDGED, no network), `JAM_E_UNSUPPORTED`, `JAM_E_IO`.
 """
 function jam_write_stl(sys, path, o, report)
@@ -3164,7 +3169,7 @@ end
 """
     jam_near_coordination(sys, h_max, out, out_len, needed)
 
-Spheres with a gap h < `h_max`, up to 1, to each one, every image; walls do not count. Needs no crunch.
+Spheres with a gap h < `h_max` <= 1 to each one, every image; walls do not count. Needs no crunch.
 Shapes: out (n).
 """
 function jam_near_coordination(sys, h_max, out, out_len, needed)

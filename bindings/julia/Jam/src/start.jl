@@ -73,11 +73,10 @@ end
 "Makes the C system; positions, sizes and cell may be nothing."
 function create(given, x, sizes; progress = nothing)
     box, vectors = cell_of(get(given, :box, nothing), get(given, :cell, nothing), get(given, :dim, 3))
-    own = (:box, :cell, :walls, :container)
-    o = options(jam_create_options, (; (k => v for (k, v) in pairs(given) if !(k in own))..., box = box))
+    own = (:box, :cell, :walls)
+    o = options(jam_create_options, (; (k => v for (k, v) in pairs(given) if !(k in own))..., box = box,
+                                     walls = walls_of(get(given, :walls, nothing), get(given, :dim, 3))))
     out, start = Ref{Ptr{Cvoid}}(C_NULL), jam_start()
-    start.container = number(:container, get(given, :container, :brick), :container)
-    start.walls = walls_of(get(given, :walls, nothing), get(given, :dim, 3))
     watch, done = watcher(progress)
     w = Watcher(watch, nothing)
     GC.@preserve x sizes vectors w begin

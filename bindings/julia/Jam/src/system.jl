@@ -25,9 +25,10 @@ equals the sizes is refused unless `dim` confirms that it is a coordinate. `over
 Both ways take `walls`, axes with flat walls as letters (`"z"`) or truth values, and `container`: `:cylinder` (d = 3, about z) or
 `:ball`, whose diameter is the edge of the cell. Nothing repeats across a wall.
 
-    System(path; box, frame, overlap, shrink_min, seed, model, mk_zeta)
+    System(path; box, walls, container, frame, overlap, shrink_min, seed, model, mk_zeta)
 
-From a file: plain text, extended XYZ, LAMMPS data and dumps, tables, each also compressed. `notes` has what was changed.
+From a file: plain text, extended XYZ, LAMMPS data and dumps, tables, each also compressed. `notes` has what was changed or
+assumed. `walls` and `container` name the walls where the file does not.
 
 ```jldoctest
 julia> System(n = 100, dim = 2, seed = 7)
@@ -71,9 +72,13 @@ end
 function System(path::AbstractString; given...)
     refuse(given, (:packing_fraction, :porosity), "the file gives it")
     refuse(given, (:diameters, :radii, :cell), "files give sizes and cell")
-    out = Ref{Ptr{Cvoid}}(C_NULL)
-    written(jam_read(path, options(jam_create_options, given), nothing, nothing, out))
-    return System(out[])
+    walls, out = get(given, :walls, nothing), Ref{Ptr{Cvoid}}(C_NULL)
+    own = (; given..., walls = walls_of(walls, walls isa AbstractString || walls === nothing ? 3 : length(walls)))
+    written(jam_read(path, options(jam_create_options, own), nothing, nothing, out))
+    made = System(out[])
+    walls === nothing || walls isa AbstractString || length(walls) == info(made).dim ||
+        throw(ArgumentError("walls must have $(info(made).dim) truth values for this file, not $(length(walls))"))
+    return made
 end
 
 "Frees the system; any other use is then an error."

@@ -21,7 +21,7 @@ const WORDS = (
     series_column = (time = 0, collisions = 1, fraction = 2, pressure = 3, error = 4, msd = 5,),
     gap_column = (low = 0, high = 1, density = 2, error = 3,),
     correlation_column = (r = 0, g = 1,),
-    eos_form = (carnahan_starling = 0, py_virial = 1, py_compressibility = 2, virial = 3, mk = 4, free_volume = 5, henderson = 6,),
+    eos_form = (carnahan_starling = 0, py_virial = 1, py_compressibility = 2, virial = 3, mk = 4, free_volume = 5, henderson = 6, pade = 7,),
     energy_unit = (length = 0, relative = 1,),
     clock = (collisions = 0, time = 1,),
     isoconf_column = (time = 0, time2 = 1, msd = 2, msd2 = 3, scattering = 4, scattering2 = 5, overlap = 6, overlap2 = 7, energy = 8, energy2 = 9, velocity = 10, collisions = 11, pressure = 12, runs = 13,),
@@ -58,8 +58,7 @@ const WORDS = (
 # Members of structs that hold a word or are true or false.
 kinds(::Type) = (;)
 kinds(::Type{jam_progress}) = (phase = :phase,)
-kinds(::Type{jam_create_options}) = (overlap = :overlap_policy, model = :model, masses = :masses,)
-kinds(::Type{jam_start}) = (container = :container,)
+kinds(::Type{jam_create_options}) = (overlap = :overlap_policy, model = :model, masses = :masses, container = :container,)
 kinds(::Type{jam_info}) = (model = :model, monodisperse = :bool, masses = :masses, paused = :phase, container = :container,)
 kinds(::Type{jam_diameters_options}) = (law = :size_law, share = :size_share, draw = :size_draw,)
 kinds(::Type{jam_size_report}) = (source = :reach_source,)

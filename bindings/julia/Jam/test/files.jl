@@ -10,6 +10,11 @@ write(joinpath(folder, "plain.gz"), s; format = :plain)
 @test diameters(System(joinpath(folder, "plain.gz"))) == diameters(s)
 @test occursin(":lammps", failure(() -> write(file, s; format = :lamps)))
 @test occursin("no/such", failure(() -> System("no/such/file.xyz"))) && occursin("JamError (:io)", failure(() -> System("no/such/file.xyz")))
+plain = joinpath(folder, "walled.txt")
+write(plain, "2\n2\n0.1\n0.3 0.3\n0.7 0.7\n")
+@test info(System(plain; walls = "y")).walls == info(System(plain; walls = (false, true))).walls == 2
+@test info(System(plain; container = :ball)).container === :ball && info(System(plain)).walls == 0
+@test occursin("2 truth values", failure(() -> System(plain; walls = (false, true, false))))
 write_contacts(joinpath(folder, "contacts.csv"), s)
 @test countlines(joinpath(folder, "contacts.csv")) == report(s).contacts + 1
 page(joinpath(folder, "page.html"), s; title = "Sixty disks", values = (z = coordination(s), size = diameters(s)))

@@ -32,11 +32,11 @@ def cell_volume(dim: int, cell: Any) -> float:
 
 
 def eos(form: int | str, dim: int, packing_fraction: float, jammed_fraction: float) -> float:
-    """pressure of an equation of state at a packing fraction; jammed_fraction is used by FREE_VOLUME only.
+    """pressure of a form; FREE_VOLUME uses jammed_fraction.
 
     Parameters
     ----------
-    form : {'carnahan_starling', 'py_virial', 'py_compressibility', 'virial', 'mk', 'free_volume', 'henderson'}
+    form : {'carnahan_starling', 'py_virial', 'py_compressibility', 'virial', 'mk', 'free_volume', 'henderson', 'pade'}
     dim : int
     packing_fraction : float
     jammed_fraction : float

@@ -212,6 +212,7 @@ class EosForm(_Word):
     MK = 4  # 1 + 2^d phi / 2, exact for zeta infinite
     FREE_VOLUME = 5  # glass: d / (1 - phi / jammed_fraction)
     HENDERSON = 6  # d = 2: (1 + phi^2 / 8) / (1 - phi)^2
+    PADE = 7  # liquid, any d: Pade [4/5] of B_2 .. B_10 (Clisby, McCoy, J. Stat. Phys. 122, 15)
 
 
 class EnergyUnit(_Word):
@@ -562,7 +563,7 @@ class Info(Report):
     paused: jam_phase of what was stopped early and can continue (crunch: by jam_crunch), or 0
     non_additivity: Delta of a non-additive mixture, 0 for additive diameters
     container: jam_container
-    walls: as in jam_start
+    walls: as in jam_create_options
     volume: V of the container, else of the cell"""
     dim: int
     n: int
@@ -598,7 +599,7 @@ class SizeReport(Report):
     volume: of all spheres, unit^d
     largest_share: of the volume, of the largest sphere: how closely a curve can be followed
     sequential_fraction: where random sequential addition of equal spheres ends; mixtures go beyond
-    jammed_fraction: estimate of the packing fraction at which these sizes jam in disorder"""
+    jammed_fraction: estimate of the phi at which these sizes jam in disorder in bulk; walls lower it"""
     source: ReachSource
     n: int
     mean: float
@@ -765,7 +766,6 @@ class CrunchReport(Report):
     seconds_assemble: of it in neighbour lists and assembly
     seconds_solve: of it in triangular solves
     status: jam_status_code of the call that made this report
-    reserved_end: 0
     packing_fraction_start: before this call
     displacement_max: largest displacement
     displacement_rms: root of the mean square
@@ -815,7 +815,6 @@ class CrunchReport(Report):
     seconds_assemble: float
     seconds_solve: float
     status: StatusCode = field()
-    reserved_end: int
     packing_fraction_start: float
     displacement_max: float
     displacement_rms: float
@@ -1240,6 +1239,8 @@ OPTIONS = {
         "model": ("Model", 'Model, default EUCLID'),
         "mk_zeta": ("float", 'MK: strength of the shifts, 0..1e15; default infinity: uniform shifts'),
         "masses": ("Masses", 'Masses, default EQUAL'),
+        "container": ("Container", 'Container, default BRICK'),
+        "walls": ("int", 'axes with flat walls: sum of 2^c, default 0'),
         "non_additivity": ("float", 'Delta in (-1, 1]: unequal spheres touch at (1 + Delta) (sigma_i + sigma_j) / 2; default 0'),
         "wall_time": ("float", 'of reading, of a random start and of the search for overlaps'),
         "memory_limit": ("float", "as set_memory_limit(), also while a file is read; default 0: half the machine's memory"),
@@ -1410,6 +1411,8 @@ OPTIONS = {
         "vectors": ("int", 'random vectors, 2..1e5, default 16'),
         "points": ("int", 'values of omega, default 200'),
         "seed": ("int", 'of the random vectors, default 1'),
+        "low": ("float", 'omega where the bins begin, default NaN: where the spectrum does'),
+        "high": ("float", 'where they end, likewise'),
     },
 }
 

@@ -43,21 +43,23 @@ def cell_of(box: Any, cell: Any, dim: int) -> tuple[float | None, Array | None]:
 CONTAINERS = {"brick": 0, "cylinder": 1, "ball": 2}  # jam_container
 
 
-def enclosure_of(container: Any, walls: Any, dim: int) -> tuple[int, int]:
-    """The numbers of container= and walls=. Walls are a truth value for each axis, or letters such as "xz"."""
+def enclosure_of(container: Any, walls: Any, dim: int | None) -> tuple[int, int]:
+    """The numbers of container= and walls=. Walls are a truth value for each axis, or letters such as "xz". dim: None where only
+    a file knows it."""
     if container is not None and container not in CONTAINERS:
         raise ValueError(f"container must be one of {', '.join(map(repr, CONTAINERS))}, not {container!r}")
     kind = CONTAINERS[container or "brick"]
     if walls is None:
         return kind, 0
     if isinstance(walls, str):
-        letters = "xyz"[: min(dim, 3)]
+        letters = "xyz"[: min(dim or 3, 3)]
         if set(walls) - set(letters) or len(set(walls)) != len(walls):
             raise ValueError(f"walls must name axes of {letters!r} once each, not {walls!r}")
         return kind, sum(1 << letters.index(axis) for axis in walls)
     axes = list(walls) if np.ndim(walls) == 1 else None
-    if axes is None or len(axes) != dim or any(axis not in (True, False) for axis in axes):
-        raise ValueError(f"walls must be {dim} truth values, one for each axis, or letters such as 'x', not {walls!r}")
+    wanted = len(axes or ()) if dim is None else dim
+    if axes is None or len(axes) != wanted or any(axis not in (True, False) for axis in axes):
+        raise ValueError(f"walls must be {dim or 'd'} truth values, one for each axis, or letters such as 'x', not {walls!r}")
     return kind, sum(1 << c for c, axis in enumerate(axes) if axis)
 
 

@@ -33,10 +33,24 @@ def as_table(report: Any) -> str:
     return "\n".join([head] + lines)
 
 
+_FEW_ROWS = 12
+
+
 def by_shapes(result: Any) -> str:
-    """A named tuple of results: arrays by shape, numbers as they are."""
+    """A named tuple of results: columns of a few rows as a table; else arrays by shape, numbers as they are."""
+    if shapes := {value.shape if isinstance(value, np.ndarray) else None for value in result}:
+        shape = shapes.pop()
+        if not shapes and shape and len(shape) == 1 and shape[0] <= _FEW_ROWS and len(result) > 1:
+            return _rows(result)
     parts = (
         f"{name}={'array' + str(value.shape) if isinstance(value, np.ndarray) else value}"
         for name, value in zip(result._fields, result)
     )
     return f"{type(result).__name__}({', '.join(parts)})"
+
+
+def _rows(result: Any) -> str:
+    columns = [[name, *(f"{x:.6g}" for x in value)] for name, value in zip(result._fields, result)]
+    widths = [max(map(len, column)) for column in columns]
+    lines = ["  ".join(f"{cell:>{width}}" for cell, width in zip(row, widths)) for row in zip(*columns)]
+    return "\n  ".join([type(result).__name__, *lines])

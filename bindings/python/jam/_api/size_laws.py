@@ -78,7 +78,7 @@ def sizes(
     cell, box : optional
         As of System.from_arrays. Spheres of more volume than that are refused.
     container : str, optional
-        As of System.random: a density is then one of the cylinder or ball in the cell.
+        As of System.random: a density is then one of the cylinder or ball in the cell. Flat walls change no volume.
     dim : int
         Dimension, of volumes.
     **options
@@ -116,6 +116,8 @@ def sizes(
         raise TypeError("give n, or porosity and cell, from which it follows")
     if fraction is not None and n is not None:
         raise TypeError("give n or a density: from the density in the cell n follows")
+    if "walls" in options:
+        raise TypeError("flat walls take no volume of the cell: give walls= to System.random, and here container= where it is round")
     text, rows = _curve(curve, law)
     plain = dict(options, n=n, dim=dim, cell_volume=volume, packing_fraction=fraction)
     raw.jam_parse_diameters(text, option_struct("jam_diameters_options", {}), None)  # names laws before their options
@@ -137,6 +139,9 @@ def sizes(
 
 def size_report(diameters: Any, dim: int = 3) -> SizeReport:
     """What a set of diameters is: moments, D10, D50, D90 by volume, and the densities in reach.
+
+    The densities in reach are those of the bulk. Walls lower them, about as one over the width of the container: the guide's studies
+    of scenes show by how much.
 
     Parameters
     ----------

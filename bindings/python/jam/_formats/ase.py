@@ -38,22 +38,28 @@ def arguments(
     at = in_range(name, frame, len(frames))
     atoms = frames[at]
     notes = notes_of(frame, len(frames))
-    given = of_atoms(atoms, diameters, radii=radii, dim=dim, notes=notes, where=name)
+    named = {key: options.pop(key, None) for key in ("walls", "container")}
+    given = of_atoms(atoms, diameters, radii=radii, dim=dim, notes=notes, where=name, named=named)
     if given["diameters"].size > 1 and not (diameters is None and radii is None):
         _refuse_sorted(name, kind, at, np.asarray(atoms.positions))
     return dict(given, **options), notes
 
 
 def of_atoms(
-    atoms: Any, diameters: Any, *, radii: Any, dim: int, notes: list[str], where: str
+    atoms: Any, diameters: Any, *, radii: Any, dim: int, notes: list[str], where: str, named: dict[str, Any]
 ) -> dict[str, Any]:
-    """What System.from_arrays takes for an ase.Atoms. where: what an error calls it; notes get what was not read."""
+    """What System.from_arrays takes for an ase.Atoms. where: what an error calls it; notes get what was not read. named:
+    walls and container that the caller names, for atoms that do not."""
     if len(atoms) == 0:
         raise bad(where, "the frame has no sphere")
-    walls = _walls_in(where, atoms, dim)
+    walls = _walls_in(where, atoms, dim, {key: value for key, value in named.items() if value is not None})
     if not walls and not all(atoms.pbc[:dim]):
         hint = "; dim=2 reads a packing of disks" if dim == 3 and all(atoms.pbc[:2]) else ""
-        raise bad(where, f"the cell must be periodic in every direction, pbc is {[bool(p) for p in atoms.pbc]}{hint}")
+        raise bad(
+            where,
+            f"the cell must be periodic in every direction, or walls= and container= name the walls; pbc is "
+            f"{[bool(p) for p in atoms.pbc]}{hint}",
+        )
     read = {"positions"}
     if diameters is None and radii is None:
         sizes, names = _sizes_in(where, atoms.arrays)
@@ -72,16 +78,21 @@ def of_atoms(
     return dict(positions=x, diameters=sizes, **box_of(cell), **walls, dim=dim)
 
 
-def _walls_in(path: str, atoms: Any, dim: int) -> dict[str, Any]:
-    """container= and walls= as to_ase writes them into info; {} without walls."""
-    if "container" not in atoms.info or "walls" not in atoms.info:
+def _walls_in(path: str, atoms: Any, dim: int, named: dict[str, Any]) -> dict[str, Any]:
+    """container= and walls= as to_ase writes them into info, else those that the caller names; {} without walls."""
+    given, where = dict(named), "the call"
+    if "container" in atoms.info and "walls" in atoms.info:
+        where = "info"
+        given = {"container": str(atoms.info["container"]), "walls": [bool(w) for w in np.atleast_1d(atoms.info["walls"])]}
+    if not given:
         return {}
-    given = {"container": str(atoms.info["container"]), "walls": [bool(w) for w in np.atleast_1d(atoms.info["walls"])]}
-    kind, flat = enclosure_of(given["container"], given["walls"], dim)
+    kind, flat = enclosure_of(given.get("container"), given.get("walls"), dim)
+    if named and enclosure_of(named.get("container"), named.get("walls"), dim) != (kind, flat):
+        raise bad(path, f"walls= and container= name other walls than info, {given}: leave them out")
     round_axes = (0, 2, dim)[kind]
     closed = [c < round_axes or bool(flat >> c & 1) for c in range(dim)]
     if [bool(p) for p in atoms.pbc[:dim]] != [not shut for shut in closed]:
-        raise bad(path, f"pbc is {[bool(p) for p in atoms.pbc]}, but container and walls of info close the axes {closed}")
+        raise bad(path, f"pbc is {[bool(p) for p in atoms.pbc]}, but container and walls of {where} close the axes {closed}")
     return given
 
 

@@ -1120,8 +1120,9 @@ class Methods:
         """Binary STL of the solid, d = 3, closed: each edge belongs to two triangles, which pass it in opposite
         directions.
 
-        Cylinders that would meet are refused with their numbers. The file appears as of write(); path None: none, and
-        an estimate of triangles and bytes without faces and cylinders.
+        No cylinder leads to a wall; cylinders that would meet are refused with their numbers. The file appears as of
+        write(); path None: none, and triangles and bytes are an estimate. Status: 'not_jammed' (BRIDGED, and no
+        spheres touch).
 
         Parameters
         ----------
@@ -1233,7 +1234,7 @@ class Methods:
         return answer
 
     def near_coordination(self, h_max: float) -> Array:
-        """Spheres with a gap h < h_max, up to 1, to each one, every image; walls do not count.
+        """Spheres with a gap h < h_max <= 1 to each one, every image; walls do not count.
 
         Needs no crunch.
 
@@ -1339,7 +1340,7 @@ class Methods:
         answer: FloppyModesResult = self.call('floppy_modes', progress=progress)
         return answer
 
-    def density_of_states(self, *, stiffness: int | str | None = None, alpha: float | None = None, prestress: float | None = None, moments: int | None = None, vectors: int | None = None, points: int | None = None, seed: int | None = None, progress: Progressing = None) -> DensityOfStatesResult:
+    def density_of_states(self, *, stiffness: int | str | None = None, alpha: float | None = None, prestress: float | None = None, moments: int | None = None, vectors: int | None = None, points: int | None = None, seed: int | None = None, low: float | None = None, high: float | None = None, progress: Progressing = None) -> DensityOfStatesResult:
         """Density of states D(omega) and its integral by the kernel polynomial method: no modes are computed,
         translations are omitted.
 
@@ -1362,6 +1363,10 @@ class Methods:
             values of omega, default 200
         seed : int, optional
             of the random vectors, default 1
+        low : float, optional
+            omega where the bins begin, default NaN: where the spectrum does
+        high : float, optional
+            where they end, likewise
         progress : bool or callable, optional
             True: a line that changes. A callable gets a Progress; a true answer stops the call.
 
@@ -1384,7 +1389,7 @@ class Methods:
         ------
         ArgumentError, StateError, SolverError, TooFewError, MemoryError, BusyError
         """
-        answer: DensityOfStatesResult = self.call('density_of_states', stiffness=stiffness, alpha=alpha, prestress=prestress, moments=moments, vectors=vectors, points=points, seed=seed, progress=progress)
+        answer: DensityOfStatesResult = self.call('density_of_states', stiffness=stiffness, alpha=alpha, prestress=prestress, moments=moments, vectors=vectors, points=points, seed=seed, low=low, high=high, progress=progress)
         return answer
 
     def project(self, vector: Any = None, u: Any = None) -> Array:

@@ -191,6 +191,9 @@ class Network(Base):
         a, b : int
             The labels whose g_ab(r) is wanted; -1 means any.
 
+        With walls g(r) is over centres spread evenly in the container. There spheres of more than 8 different diameters are taken
+        as 8 classes of sizes; d must be 2 or 3.
+
         Examples
         --------
         >>> import jam

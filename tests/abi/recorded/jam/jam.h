@@ -122,8 +122,8 @@ typedef struct jam_create_options {
   double packing_fraction;
   int32_t overlap, model;
   double mk_zeta;
-  int32_t masses;
-  int32_t reserved;
+  int32_t masses, container;
+  int32_t walls, reserved;
   double non_additivity;
   double wall_time;
   double memory_limit;
@@ -142,7 +142,6 @@ typedef struct jam_start {
   size_t cell_len;
   jam_progress_fn progress;
   void *user;
-  int32_t container, walls;
 } jam_start;
 JAM_API jam_status jam_create(const jam_create_options *o, const jam_start *start, jam_system **out);
 JAM_API jam_status jam_copy(const jam_system *src, jam_system **out);
@@ -365,7 +364,8 @@ typedef enum jam_eos_form {
   JAM_EOS_VIRIAL = 3,
   JAM_EOS_MK = 4,
   JAM_EOS_FREE_VOLUME = 5,
-  JAM_EOS_HENDERSON = 6
+  JAM_EOS_HENDERSON = 6,
+  JAM_EOS_PADE = 7
 } jam_eos_form;
 JAM_API jam_status jam_eos(int32_t form, int32_t dim, double packing_fraction, double jammed_fraction,
                            double *pressure);
@@ -1041,6 +1041,7 @@ typedef struct jam_dos_options {
   int32_t vectors;
   int32_t points;
   int64_t seed;
+  double low, high;
 } jam_dos_options;
 typedef struct jam_moduli_report {
   uint32_t struct_size;

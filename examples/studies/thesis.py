@@ -6,7 +6,7 @@ usage: thesis.py            writes results/thesis.json, thesis_values.json and t
        thesis.py --check    exit status 1 when they differ from what would be written
 
 thesis.json lists what each figure shows and which rows of results/*.json or ensembles/results/*.json belong to it; no value of ours
-stands there. Verdicts: `reproduced`: the same size and comparable statistics, values agree; `smaller`: all panels, fewer or smaller
+stands there. `says` is what the page calls a value whose row has a shorter name. Verdicts: `reproduced`: the same size and comparable statistics, values agree; `smaller`: all panels, fewer or smaller
 packings; `part`: panels are missing; `different`: done, and the values or curves differ, with a paragraph on the page that says why;
 `missing`. A figure called reproduced or smaller whose rows differ by more than LIMIT errors is refused, unless it says why.
 """
@@ -77,7 +77,8 @@ def row(entry):
     commands = dict.fromkeys(command.split()[0] for *_, command in found)
     picture = f"[{', '.join(f'`{c}`' for c in commands) or 'none'}]({entry['picture']})"
     verdict = entry["verdict"] + (f": {entry['because']}" if "because" in entry else "")
-    values = [[name, quantity] + [str(x) if str(x) != "None" else "" for x in numbers] for quantity, *numbers, _ in found]
+    shown = [value.get("says", quantity) for value, (quantity, *_) in zip(entry["values"], found)]
+    values = [[name, quantity] + [str(x) if str(x) != "None" else "" for x in numbers] for quantity, (_, *numbers, _) in zip(shown, found)]
     return [name, entry["shows"], picture, entry["thesis"], entry["here"], verdict], values
 
 

@@ -307,6 +307,20 @@ class Ase(Folder):
             self.assertAlmostEqual(jam.files.read_ase(path, frame=frame).positions[0, 0], x, 12)
         self.refused(["frame 3", "has 3"], jam.files.read_ase, path, frame=3, kind=IndexError)
 
+    def test_walls_are_named_by_the_caller(self):
+        import ase
+
+        atoms = ase.Atoms("H2", [[0.3, 0.3, 0.3], [0.7, 0.7, 0.6]], cell=[1, 1, 1], pbc=[True, True, False])
+        path = os.path.join(self.folder, "slit.xyz")
+        atoms.write(path)
+        for made in (jam.System.from_ase(atoms, 0.1, walls="z"), jam.files.read_ase(path, 0.1, walls=(False, False, True))):
+            self.assertEqual(made.info.walls, 4)
+        self.refused(["walls= and container= name the walls"], jam.System.from_ase, atoms, 0.1)
+        self.refused(["close the axes [True, False, False]"], jam.System.from_ase, atoms, 0.1, walls="x")
+        again = made.to_ase()
+        self.assertEqual(jam.System.from_ase(again).info.walls, 4)
+        self.refused(["other walls than info"], jam.System.from_ase, again, walls="x")
+
     def test_names_of_sizes(self):
         x = [[[0.1, 0.2, 0.3], [0.6, 0.7, 0.8]]]
         for name, factor in (("radius", 2), ("Radius", 2), ("diameter", 1), ("Diameters", 1)):

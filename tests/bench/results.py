@@ -319,6 +319,20 @@ def factorisation(raw):
     return ["decades of weights (N = 4096)", "doubles (s)", "floats, error 1e-2 (s)", "floats, error 1e-10 (s)"], rows
 
 
+def liquid(raw):
+    """liquid.py"""
+    columns = ["d", "phi", "p of dynamics", "pade", "pade, difference (%)", "closed form", "closed form, difference (%)"]
+    rows = []
+    for run in raw:
+        row = [run["dim"], run["fraction"], {"value": run["pressure"], "error": run["error"]}]
+        for form in ("pade", {2: "henderson", 3: "carnahan_starling"}.get(run["dim"])):
+            p = run.get(form)
+            off = None if p is None else {"value": 100 * (p / run["pressure"] - 1), "error": 100 * run["error"] / run["pressure"]}
+            row += [None if p is None else f"{p:.4f}", off]
+        rows.append(row)
+    return columns, rows
+
+
 def advise(raw):
     """advise.py 512"""
     rows = []
@@ -393,7 +407,7 @@ def read(path):
 
 def main():
     name, raws = sys.argv[1], [read(path) for path in sys.argv[2:]]
-    made = {f.__name__: f for f in (crunch, size, clp, resume, disks, disks_undecided, proofs, strict, md, monte_carlo, near_jamming, soft_cell, pore_space, advise, analysis, factorisation, ablation, ratios, mixtures, md_misses, ensemble, ensemble_statistics, walls, walls_equal, walls_edge, products)}[name]
+    made = {f.__name__: f for f in (crunch, size, clp, resume, disks, disks_undecided, proofs, strict, md, monte_carlo, near_jamming, soft_cell, pore_space, liquid, advise, analysis, factorisation, ablation, ratios, mixtures, md_misses, ensemble, ensemble_statistics, walls, walls_equal, walls_edge, products)}[name]
     columns, rows = made(*raws)
     old = raws[0] if isinstance(raws[0], dict) and "commit" in raws[0] else None  # a result that was kept with its source
     source = old and {key: old[key] for key in ("machine", "commit", "date")}

@@ -49,15 +49,19 @@ void report_changes(Touching start, double packing_fraction_start, CrunchState &
   }
 }
 
-// The cause of a status above 0.
+// The cause of a status above 0. A sphere that fills a round container stands in its middle, where the wall has no
+// normal, so that it has no contact; LPs get within 1e-12 to 1e-8.
 static void explain(CrunchState &s) {
   const Packing &p = s.out.packing;
   const auto largest = std::max_element(p.diameter.begin(), p.diameter.end());
-  if (s.out.status <= 0 || p.container || s.o.strain != JAM_STRAIN_NONE ||
-      *largest < p.cell.shortest() * (1.0 - contact_gap_limit))
+  const bool round = p.container.round_axes() > 0;
+  if (s.out.status <= 0 || (p.container && !round) || s.o.strain != JAM_STRAIN_NONE ||
+      *largest <
+          (round ? p.container.widest() * (1.0 - undecided_gap_limit) : p.cell.shortest() * (1.0 - contact_gap_limit)))
     return;
   s.out.text = "sphere " + std::to_string(largest - p.diameter.begin()) +
-               " touches its own image, nothing can grow here; a free cell (strain) gives way";
+               (round ? " fills the width of the container, nothing can grow here; spheres are free along its axis"
+                      : " touches its own image, nothing can grow here; a free cell (strain) gives way");
   s.monitor.log(JAM_LOG_WARNING, "%s", s.out.text.c_str());
 }
 

@@ -172,6 +172,16 @@ class Verdicts(unittest.TestCase):
             for verdict in (s.rigidity(), s.check(), fresh.rigidity(), fresh.check()):
                 self.assertEqual(verdict.jammed, jam.Verdict.YES, length)
 
+    def test_spheres_as_wide_as_a_tube_are_named(self):
+        # In a longer tube the width alone limits the diameters; the spheres stay free along the axis.
+        for n, length in ((2, 2.7), (3, 3.9), (2, 4.0)):
+            for walls in ({}, {"walls": "z"}):
+                s = jam.System.random(n=n, seed=7, container="cylinder", cell=[1, 1, length], packing_fraction=0.1, **walls)
+                report = s.crunch()
+                self.assertFalse(report.jammed)
+                self.assertAlmostEqual(s.diameters[0], 1.0, delta=1e-7)
+                self.assertIn("fills the width of the container", str(report))
+
     def test_no_motion_lets_the_diameters_grow(self):
         random = np.random.default_rng(1)
         for name in SCENES:

@@ -25,7 +25,7 @@ cd "$root"
 . tests/sanitized.sh
 need_packages build-essential cmake ninja-build pkg-config clang clang-format \
   libeigen3-dev coinor-libclp-dev libspectra-dev libopenblas-dev zlib1g-dev voro++-dev libcmocka-dev abigail-tools \
-  swig gfortran lintian python3-dev python3-venv python3-numpy python3-scipy python3-matplotlib \
+  swig gfortran lintian debhelper dh-python python3-dev python3-venv python3-numpy python3-scipy python3-matplotlib \
   python3-h5py python3-pandas python3-tqdm python3-mpi4py openmpi-bin python3-distributed python3-dask \
   chromium python3-gsd python3-ase python3-mdanalysis python3-vtk9 lammps mypy python3-nbclient python3-ipykernel \
   doxygen python3-sphinx python3-breathe python3-myst-parser furo locales

@@ -1,5 +1,6 @@
 #!/bin/sh
-# check.sh BUILD: the folder as Debian's tools read it; libjam0.symbols has the symbols of the built library.
+# check.sh BUILD: the folder as Debian's tools read it. libjam0.symbols has the symbols of the built library, and the
+# packages have all that it installs; its prefix is /usr.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 build=$(cd "$1" && pwd)
@@ -15,8 +16,13 @@ dpkg-parsechangelog -S Version | grep -qx "$version-1" || { echo "changelog: the
 dh binary --no-act --without python3 --buildsystem=cmake+ninja | grep -q dh_makeshlibs
 dpkg-gensymbols -c2 -plibjam0 -Odebian/symbols.new -Idebian/libjam0.symbols \
   -e"$(ls "$build"/libjam.so.*.*.*)" >"$work/differ" || { cat "$work/differ"; exit 1; }
-for package in libjam0 libjam-dev python3-jam jam-tools; do
+for package in libjam0 libjam-dev python3-jam jam-tools jam-doc; do
   grep -qx "Package: $package" debian/control && test -s "debian/$package.install" ||
     { echo "$package lacks an entry or a list of files"; exit 1; }
 done
+# Each file of the build belongs to a package, or is named in not-installed.
+DESTDIR="$work/source/debian/tmp" cmake --install "$build" >/dev/null
+rm -rf debian/tmp/usr/share/doc/jam/html  # the site, where the target docs has made it
+dh_install
+dh_missing --fail-missing
 echo "debian/ fits the build"

@@ -33,7 +33,7 @@ def scatter(axis, structure, x, y, labels):
     axis.plot(x[~bare], y[~bare], ".", ms=2)
     axis.plot(x[bare], y[bare], "r.", ms=3)
     k = jam.statistics.spearman(x, y)
-    axis.set(xlabel=labels[0], ylabel=labels[1], title=f"{labels[2]}: K = {k:.2f}")
+    axis.set(xlabel=labels[0], ylabel=labels[1], title=f"{labels[2]}\nK = {k:.2f}")
     return k
 
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include <Eigen/Dense>
@@ -11,6 +12,7 @@
 #include "core/math.hpp"
 #include "linalg/blas.hpp"
 #include "network/own_images.hpp"
+#include "network/room.hpp"
 
 namespace jam {
 namespace {
@@ -168,12 +170,85 @@ ContactNetwork carrying_contacts(const Packing &p, const PackingVerdict &verdict
   return net;
 }
 
-Verdict verdict_of(const PackingVerdict &one_cell, const ContactNetwork &net, const BlochFlexes &found) {
+// The wave vectors of copies: what a matrix of one cell has at each of them.
+class WaveVectors {
+ public:
+  WaveVectors(const Copies &copies, int dim) : copies_(copies), dim_(dim) {
+    for (int64_t row = 0; row < copies.number(); ++row) {
+      const auto q = copies.place(row);
+      for (int c = 0; c < dim; ++c) wave.push_back(static_cast<double>(q[c]) / copies.along(c));
+    }
+  }
+  // Ascending eigenvalues of S^T S; true: look no further.
+  void each(const RigidityMatrix &g, const CellsBack &back,
+            const std::function<bool(size_t row, const std::vector<double> &lambda)> &take) const {
+    const ContactWeights springs{std::vector<double>(g.contacts(), 1.0), {}};
+    const auto count = static_cast<size_t>(copies_.number());
+    for (size_t row = 0; row < count; ++row) {
+      CallScope::report_share(static_cast<int64_t>(row), static_cast<double>(row) / static_cast<double>(count));
+      if (opposite(row) >= row &&
+          take(row, bloch_modes(g, springs, back, &wave[row * static_cast<size_t>(dim_)], false).lambda))
+        return;
+    }
+  }
+  // The row of -q, whose matrix is the conjugate one.
+  size_t opposite(size_t row) const {
+    const auto q = copies_.place(static_cast<int64_t>(row));
+    size_t out = 0;
+    for (int c = dim_ - 1; c >= 0; --c)
+      out = out * static_cast<size_t>(copies_.along(c)) +
+            static_cast<size_t>((copies_.along(c) - q[c]) % copies_.along(c));
+    return out;
+  }
+  std::vector<double> wave;  // (copies, dim)
+
+ private:
+  const Copies &copies_;
+  const int dim_;
+};
+
+int64_t flexes_of(const std::vector<double> &lambda, size_t rigid) {
+  return std::count_if(lambda.begin() + static_cast<std::ptrdiff_t>(std::min(rigid, lambda.size())), lambda.end(),
+                       [](double x) { return x < flex_eigenvalue; });
+}
+
+// Rows of further pairs of the spheres of g. A rattler stays where it is, as a wall does.
+void add_rows(const Packing &p, const ContactNetwork &near, RigidityMatrix &g, CellsBack &back) {
+  const RigidityMatrix rows = make_rigidity_matrix(p, near);
+  const CellsBack steps = cells_back(p, near);
+  const auto d = static_cast<std::ptrdiff_t>(p.dim);
+  for (size_t k = 0; k < near.size(); ++k) {
+    const int32_t a = g.node[near.pairs.i[k]], b = near.pairs.wall(k) ? -1 : g.node[near.pairs.j[k]];
+    if (a < 0 && b < 0) continue;
+    g.a.push_back(a < 0 ? b : a), g.b.push_back(a < 0 ? -1 : b);
+    const auto n = rows.normal.begin() + static_cast<std::ptrdiff_t>(k) * d;
+    g.normal.insert(g.normal.end(), n, n + d);
+    back.push_back(steps[k]);
+  }
+}
+
+// Whether a flex of the copies has room: one that keeps the pairs in its way. At q = 0 the test of one cell has looked.
+bool has_room(const Packing &p, const ContactNetwork &net, const WaveVectors &waves) {
+  const ContactNetwork near = pairs_in_the_way(p, net, net, false, true);
+  if (near.size() == 0) return true;
+  RigidityMatrix g = make_rigidity_matrix(p, net);
+  CellsBack back = cells_back(p, net);
+  add_rows(p, near, g, back);
+  bool found = false;
+  waves.each(g, back, [&](size_t row, const std::vector<double> &lambda) {
+    return row > 0 && (found = flexes_of(lambda, 0) > 0);
+  });
+  return found;
+}
+
+Verdict verdict_of(const Packing &p, const PackingVerdict &one_cell, const ContactNetwork &net,
+                   const WaveVectors &waves, const BlochFlexes &found) {
   // Contacts in doubt, and coordinates with few digits, leave one cell undecided, and the copies too.
   const bool doubt = one_cell.result.jammed == Verdict::undecided && one_cell.result.spheres != 1;
   const bool closed = std::all_of(net.gap.begin(), net.gap.end(), [](double h) { return h < contact_gap_limit; });
   if (doubt) return Verdict::undecided;
-  if (net.size() == 0 || found.total > 0) return Verdict::no;
+  if (net.size() == 0 || found.flexes[0] > 0) return Verdict::no;
+  if (found.total > 0) return has_room(p, net, waves) ? Verdict::no : Verdict::undecided;
   const double least = *std::min_element(found.margin.begin(), found.margin.end());
   return closed && least > undecided_eigenvalue ? Verdict::yes : Verdict::undecided;
 }
@@ -181,37 +256,28 @@ Verdict verdict_of(const PackingVerdict &one_cell, const ContactNetwork &net, co
 }  // namespace
 
 BlochFlexes bloch_flexes(const Packing &p, const PackingVerdict &verdict, const Copies &copies) {
-  const auto count = static_cast<size_t>(copies.number()), d = static_cast<size_t>(p.dim);
+  const auto count = static_cast<size_t>(copies.number());
   const ContactNetwork net = carrying_contacts(p, verdict, copies);
   const RigidityMatrix g = make_rigidity_matrix(p, net);
-  const CellsBack back = cells_back(p, net);
-  const ContactWeights springs{std::vector<double>(net.size(), 1.0), {}};
   need_memory_for_bloch(g);
+  const WaveVectors waves(copies, p.dim);
   BlochFlexes out;
+  out.wave = waves.wave;
   out.flexes.assign(count, 0);
   out.margin.assign(count, std::numeric_limits<double>::quiet_NaN());
-  for (size_t row = 0; row < count; ++row) {
-    const auto q = copies.place(static_cast<int64_t>(row));
-    for (size_t c = 0; c < d; ++c) out.wave.push_back(static_cast<double>(q[c]) / copies.along(static_cast<int>(c)));
-  }
-  for (size_t row = 0; row < count && net.size() > 0; ++row) {
-    CallScope::report_share(static_cast<int64_t>(row), static_cast<double>(row) / static_cast<double>(count));
-    const auto q = copies.place(static_cast<int64_t>(row));
-    size_t opposite = 0;  // the row of -q, whose matrix is the conjugate one
-    for (int c = p.dim - 1; c >= 0; --c)
-      opposite = opposite * static_cast<size_t>(copies.along(c)) +
-                 static_cast<size_t>((copies.along(c) - q[c]) % copies.along(c));
-    if (opposite < row) {
-      out.flexes[row] = out.flexes[opposite], out.margin[row] = out.margin[opposite];
-    } else {
-      const std::vector<double> lambda = bloch_modes(g, springs, back, &out.wave[row * d], false).lambda;
+  if (net.size() > 0)
+    waves.each(g, cells_back(p, net), [&](size_t row, const std::vector<double> &lambda) {
       const size_t rigid = std::min(lambda.size(), row == 0 ? static_cast<size_t>(g.symmetries()) : 0);
-      for (size_t k = rigid; k < lambda.size(); ++k) out.flexes[row] += lambda[k] < flex_eigenvalue;
+      out.flexes[row] = flexes_of(lambda, rigid);
       out.margin[row] = rigid < lambda.size() ? lambda[rigid] : std::numeric_limits<double>::infinity();
-    }
+      return false;
+    });
+  for (size_t row = 0; row < count; ++row) {
+    const size_t opposite = waves.opposite(row);
+    if (opposite < row) out.flexes[row] = out.flexes[opposite], out.margin[row] = out.margin[opposite];
     out.total += out.flexes[row];
   }
-  out.jammed = verdict_of(verdict, net, out);
+  out.jammed = verdict_of(p, verdict, net, waves, out);
   return out;
 }
 

@@ -6,7 +6,7 @@
 #include "core/checks.hpp"
 #include "crunch/crunch.hpp"
 #include "network/check.hpp"
-#include "proof/verdict.hpp"
+#include "proof/judge.hpp"
 
 using namespace jam;
 
@@ -71,7 +71,7 @@ jam_status jam_check_packing(jam_system *sys, const jam_check_options *o, jam_ch
     check_flag(full.prove, "prove");
     if (full.prove) refuse_walls(sys->packing, "proved jammed despite rounding");
     if (!(full.wall_time > 0.0)) fail(JAM_E_ARGUMENT, "wall_time is %g, it must be > 0", full.wall_time);
-    CheckResult result = check_as_it_is(sys->packing, confirm_by_exchange);
+    CheckResult result = check_as_it_is(sys->packing, sys->known_contacts(), judge);
     jam_check_report &r = result.report;
     r.struct_size = sizeof r;
     without_proof(r);

@@ -4,8 +4,9 @@
 #include "capi/table.hpp"
 #include "core/checks.hpp"
 #include "network/certificate.hpp"
+#include "network/flex.hpp"
 #include "network/rigidity_test.hpp"
-#include "proof/verdict.hpp"
+#include "proof/judge.hpp"
 
 using namespace jam;
 
@@ -55,34 +56,23 @@ Answer answer_of(const jam_rigidity_report &r, const PackingVerdict &v) {
                    kind, n(r.undecided_contacts), r.rigidity_margin)};
 }
 
-// Positions alone say which spheres touch: what a network lists beyond that does not count, but for own images, as a
-// free cell makes them contacts.
-ContactNetwork listed_contacts(const jam_system *sys) {
-  ContactNetwork closed;
-  if (const ContactNetwork *known = sys->known_contacts()) {
-    std::vector<char> on(known->size());
-    for (size_t k = 0; k < on.size(); ++k) on[k] = known->pairs.own_image(k) || known->gap[k] < contact_gap_limit;
-    closed = subset(*known, on, sys->packing.dim);
-  }
-  return closed;
-}
-
-// By the contacts of the fixed cell, or strict.
-PackingVerdict test_listed(const jam_system *sys, const GapResolution &resolution, Jamming kind) {
-  const Packing &p = sys->packing;
-  const ContactNetwork closed = listed_contacts(sys);
-  PackingVerdict v = test_packing(p, resolution, closed.size() ? &closed : nullptr, kind);
-  if (kind == Jamming::collective && !p.container) decide_by_proof(p, v), confirm_by_exchange(p, v);
-  return v;
-}
-
 PackingVerdict test(const jam_system *sys, Jamming kind) {
-  const GapResolution resolution = gap_resolution(sys->packing);
-  PackingVerdict v = test_listed(sys, resolution, kind);
-  if (kind == Jamming::collective && !sys->packing.container && v.result.jammed != Verdict::yes &&
-      may_touch_own_image(sys->packing, resolution))
-    take_strict(v, test_listed(sys, resolution, Jamming::strict));
-  return v;
+  return judge(sys->packing, gap_resolution(sys->packing), sys->known_contacts(), kind);
+}
+
+// Whether the flex overlaps at no pair that touches.
+bool keeps_closed_pairs(const Packing &p, const PackingVerdict &v) {
+  ContactNetwork net = v.contacts;
+  std::vector<char> touches(net.size());
+  for (size_t k = 0; k < net.size(); ++k) touches[k] = net.gap[k] < contact_gap_limit;
+  net = subset(net, touches, p.dim);
+  const RigidityMatrix g = make_rigidity_matrix(p, net);
+  const auto d = static_cast<std::ptrdiff_t>(p.dim);
+  std::vector<double> all(p.position.size(), 0.0), x;
+  for (size_t k = 0; k < v.sphere.size(); ++k)
+    std::copy_n(v.result.flex.begin() + static_cast<std::ptrdiff_t>(k) * d, d, all.begin() + v.sphere[k] * d);
+  for (const int32_t i : g.sphere) x.insert(x.end(), all.begin() + i * d, all.begin() + (i + 1) * d);
+  return keeps_contacts(g, net.gap, x, v.result.strain);
 }
 
 }  // namespace
@@ -129,10 +119,13 @@ jam_status jam_flex(jam_system *sys, int32_t kind, double *out, size_t out_len, 
     if (!out && !strain) return JAM_OK;
     PackingVerdict v = test(sys, jamming);
     if (jamming == Jamming::collective && rests_on_strains(v))  // the fixed cell has motions of its own
-      v = test_listed(sys, gap_resolution(sys->packing), jamming);
+      v = judge_without_images(sys->packing, gap_resolution(sys->packing), sys->known_contacts(), jamming);
     if (v.contacts.size() > 0 && v.result.flex.empty())
       fail(JAM_E_STATE, v.result.jammed == Verdict::yes ? "the packing is jammed: it has no flex"
                                                         : "no flex was found; the verdict is undecided");
+    if (v.contacts.size() > 0 && !keeps_closed_pairs(sys->packing, v))
+      fail(JAM_E_STATE,
+           "no flex is known that keeps all contacts closed, though the test finds motions that nearly do");
     const double unit = sys->diameter_mean;
     std::vector<double> motion(size, 0.0), eps(d * d, 0.0);
     if (v.contacts.size() == 0) {  // no pair is near: any motion will do
@@ -168,8 +161,9 @@ jam_status jam_bloch_rigidity(jam_system *sys, const int32_t *count, size_t coun
     check_output(table, table_len, columns * m, "table");
     if (rows) *rows = m;
     if (!table && !wave) return JAM_OK;
-    const ContactNetwork closed = listed_contacts(sys);
-    const BlochFlexes found = bloch_flexes(p, test_listed(sys, gap_resolution(p), Jamming::collective), copies);
+    const PackingVerdict one_cell =
+        judge_without_images(p, gap_resolution(p), sys->known_contacts(), Jamming::collective);
+    const BlochFlexes found = bloch_flexes(p, one_cell, copies);
     put_output(found.wave, wave, m * count_len);
     if (table) {
       put_column(found.flexes, JAM_BLOCH_FLEXES, columns, table);

@@ -9,7 +9,6 @@
 #include "core/pair_rule.hpp"
 #include "network/certificate.hpp"
 #include "network/constraint_rows.hpp"
-#include "network/contacts_from_geometry.hpp"
 #include "network/tuning.hpp"
 
 namespace jam {
@@ -102,7 +101,7 @@ jam_check_report untested_check() {
   return r;
 }
 
-CheckResult check_as_it_is(const Packing &p, void (*confirm)(const Packing &, PackingVerdict &)) {
+CheckResult check_as_it_is(const Packing &p, const ContactNetwork *known, Judge judge) {
   CheckResult out;
   out.tested = p;
   jam_check_report &r = out.report;
@@ -113,38 +112,25 @@ CheckResult check_as_it_is(const Packing &p, void (*confirm)(const Packing &, Pa
   const GapResolution resolution = take_overlaps(out, unexplained);
   const Packing &q = out.tested;
   r.digits = resolution.digits(p), r.coordinate_step = resolution.step, r.resolution = resolution.relative(p);
-  PackingVerdict verdict = test_packing(q, resolution, nullptr, Jamming::collective);
-  if (confirm) confirm(q, verdict);
+  const PackingVerdict verdict = judge(q, resolution, known, Jamming::collective);
   r.jammed = verdict_code(verdict.result.jammed);
   const bool strains = traceless_strains(p.dim, ~p.container.closed()) > 0;  // walls do not
   r.strictly_jammed = strains ? JAM_VERDICT_NO : JAM_VERDICT_UNTESTED;
-  // Only where a sphere is held by its own images alone can the strict test find more than the collective one.
-  if (strains && (r.jammed != JAM_VERDICT_NO || may_touch_own_image(q, resolution))) {
-    const PackingVerdict strict = test_packing(q, resolution, nullptr, Jamming::strict);
+  // Where no forces balance on the spheres none do on the cell. Own images alone may hold both.
+  if (strains &&
+      (r.jammed != JAM_VERDICT_NO || verdict.result.stressed != Verdict::no || may_touch_own_image(q, resolution))) {
+    const PackingVerdict strict = judge(q, resolution, known, Jamming::strict);
     r.strictly_jammed = verdict_code(strict.result.jammed);
     r.strict_flexes = strict.result.flexes;
-    take_strict(verdict, strict);
-    r.jammed = verdict_code(verdict.result.jammed);
-  }
-  bool changes = verdict.when_closed != verdict.result.jammed;
-  // Digits that were lost in a way that leaves no step, such as a turned frame: a pair touches, others are open by as
-  // much as was lost. Where all pairs are open by more than rounding, nothing touches.
-  if (r.jammed == JAM_VERDICT_NO && verdict.result.stressed == Verdict::no && r.nearest_gap < contact_gap_limit &&
-      q.n() > 1) {
-    const GeometryResult wide = contacts_from_geometry(q, default_geometry_options());
-    if (wide.clear && wide.when_closed == Verdict::yes) {
-      r.jammed = r.strictly_jammed = JAM_VERDICT_UNDECIDED;
-      changes = true;
-      verdict.undecided_contacts = std::max(verdict.undecided_contacts, wide.report.contacts);
-    }
   }
   out.carrying = verdict.carrying(q.dim);
   take_verdict(q, verdict, out.carrying, r);
   if (unexplained && r.jammed == JAM_VERDICT_YES) r.jammed = JAM_VERDICT_UNDECIDED;
   if (r.jammed != JAM_VERDICT_YES && r.strictly_jammed == JAM_VERDICT_YES) r.strictly_jammed = r.jammed;
-  r.reason = unexplained && r.jammed == JAM_VERDICT_UNDECIDED
-                 ? JAM_CHECK_OVERLAP
-                 : reason_of(r, resolution.coarse(p), changes, verdict.result.slides > 0);
+  r.reason =
+      unexplained && r.jammed == JAM_VERDICT_UNDECIDED
+          ? JAM_CHECK_OVERLAP
+          : reason_of(r, resolution.coarse(p), verdict.when_closed != verdict.result.jammed, verdict.result.slides > 0);
   return out;
 }
 

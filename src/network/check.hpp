@@ -16,8 +16,10 @@ struct CheckResult {
   Packing tested;           // with the diameters that were tested: no pair overlaps
   ContactNetwork carrying;  // contacts with force of the verdict
 };
-// confirm: what a layer above finds of a verdict of doubles; it may change it.
-CheckResult check_as_it_is(const Packing &p, void (*confirm)(const Packing &, PackingVerdict &) = nullptr);
+// known: the network that is stored with the packing, or NULL. judge: the verdict of one kind (proof/judge.hpp);
+// without it that of doubles.
+using Judge = PackingVerdict (*)(const Packing &, const GapResolution &, const ContactNetwork *known, Jamming);
+CheckResult check_as_it_is(const Packing &p, const ContactNetwork *known = nullptr, Judge judge = test_packing);
 
 // check_text.cpp: the report as one paragraph.
 std::string text_of(const jam_check_report &report);

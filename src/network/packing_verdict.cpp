@@ -5,6 +5,7 @@
 
 #include "core/pair_rule.hpp"
 #include "network/rigidity_test.hpp"
+#include "network/room.hpp"
 #include "network/tuning.hpp"
 
 namespace jam {
@@ -65,37 +66,6 @@ bool touches_all_around(const RigidityMatrix &g) {
   for (size_t k = 0; k < g.contacts(); ++k)
     if (g.b[k] < 0 && !(-g.bending[k] * g.sigma[k] * RigidityTuning::off_axis < 1.0)) return true;
   return false;
-}
-
-// A flex of contacts that carry force opens them by the square of its length alone. It shows that the spheres are not
-// held only if it opens them by more than they are open already before a pair outside `taken` closes.
-bool flex_has_room(const Packing &p, const ContactNetwork &net, const std::vector<char> &taken,
-                   const std::vector<int32_t> &sphere, const RigidityResult &r) {
-  double open = std::numeric_limits<double>::epsilon();
-  std::vector<double> known(net.size());
-  for (size_t k = 0; k < net.size(); ++k) {
-    if (r.carrying[k]) open = std::max(open, std::fabs(net.gap[k]));
-    known[k] = taken[k] ? 1.0 : 0.0;
-  }
-  const size_t d = static_cast<size_t>(p.dim);
-  std::vector<double> v(p.n() * d, 0.0);
-  for (size_t i = 0; i < sphere.size(); ++i)
-    std::copy_n(r.flex.begin() + static_cast<std::ptrdiff_t>(i * d), d,
-                v.begin() + static_cast<std::ptrdiff_t>(sphere[i] * d));
-  const double length = std::sqrt(open) * diameter_mean(p);
-  ContactNetwork near;
-  near.pairs = find_pairs(p, 2.0 * length, 1.0);
-  measure_contacts(p, near);
-  const std::vector<double> counted = carry_over(net.pairs, known, near.pairs);
-  for (size_t k = 0; k < near.size(); ++k) {
-    if (counted[k] > 0.0 || near.pairs.own_image(k)) continue;
-    const int32_t i = near.pairs.i[k], j = near.pairs.j[k];
-    double closing = 0.0;
-    for (size_t c = 0; c < d; ++c)
-      closing -= near.vector[k * d + c] * (v[i * d + c] - (near.pairs.wall(k) ? 0.0 : v[j * d + c]));
-    if (near.gap[k] * contact_distance(p, i, j) < closing * length) return false;
-  }
-  return true;
 }
 
 // A sphere that touches nothing but its own images has no motion of its own. It is held where their forces balance on
@@ -170,9 +140,15 @@ PackingVerdict test_packing(const Packing &p, const GapResolution &resolution, c
     if (same ? shut.jammed != Verdict::yes : out.result.jammed == Verdict::yes) out.result = std::move(shut);
     if (!same) out.result.jammed = Verdict::undecided;
   }
-  if (kind == Jamming::collective && out.result.jammed == Verdict::no && out.result.stressed == Verdict::yes &&
-      !out.result.flex.empty() && !flex_has_room(p, net, near_enough, out.sphere, out.result))
+  if (out.result.jammed == Verdict::no && out.result.stressed == Verdict::yes && !out.result.flex.empty() &&
+      !find_flex_with_room(p, near_enough, kind, out))
     out.result.jammed = Verdict::undecided;
+  if (out.result.jammed == Verdict::no && out.result.stressed == Verdict::no && !out.result.flex.empty()) {
+    double open = std::numeric_limits<double>::epsilon();
+    for (size_t k = 0; k < net.size(); ++k)
+      if (closed[k]) open = std::max(open, std::fabs(net.gap[k]));
+    if (!out.result.opens_clearly(open)) out.result.jammed = out.result.stressed = Verdict::undecided;
+  }
   if (out.result.jammed == Verdict::undecided && !resolution.coarse(p)) {
     // Unlisted pairs whose gaps are wider than rounding may be open. They leave contacts that may prove it alone; that
     // these do not hold the spheres proves nothing near a jammed packing.

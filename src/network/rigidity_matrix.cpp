@@ -154,8 +154,16 @@ void scatter(const RigidityMatrix &sub, const double *x, double factor, std::vec
 }
 
 std::vector<double> direction_errors(const RigidityMatrix &g) {
-  std::vector<double> out(g.contacts(), 4.0 * std::numeric_limits<double>::epsilon());
-  for (size_t k = 0; k < g.distance.size(); ++k) out[k] += g.rounding / g.distance[k];
+  std::vector<double> open(static_cast<size_t>(g.nodes), 0.0),
+      out(g.contacts(), 4.0 * std::numeric_limits<double>::epsilon());
+  const auto apart = [&](size_t k) { return std::fabs(g.distance[k] - g.sigma[k]); };
+  for (size_t k = 0; k < g.contacts(); ++k)
+    for_spheres(g.a[k], g.b[k], [&](int32_t i) { open[i] = std::max(open[i], apart(k)); });
+  for (size_t k = 0; k < g.contacts(); ++k) {
+    double widest = 0.0;
+    for_spheres(g.a[k], g.b[k], [&](int32_t i) { widest = std::max(widest, open[i]); });
+    out[k] += (g.rounding + widest) / g.distance[k];
+  }
   return out;
 }
 

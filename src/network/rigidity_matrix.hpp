@@ -49,7 +49,8 @@ RigidityMatrix subset(const RigidityMatrix &g, const std::vector<char> &on);
 // Adds factor times the displacements x of the nodes of such a subset to v, those of the nodes of g.
 void scatter(const RigidityMatrix &sub, const double *x, double factor, std::vector<double> &v);
 
-// Largest error of each unit vector.
+// Largest error of each unit vector: by rounding, and by what contacts of its two spheres are open by, as they turn
+// while they close.
 std::vector<double> direction_errors(const RigidityMatrix &g);
 
 // y (contacts) = S x: relative normal displacement of every contact, n . (x_a - x_b).

@@ -6,6 +6,7 @@
 #include "core/call_scope.hpp"
 #include "linalg/blas.hpp"
 #include "network/curvature_test.hpp"
+#include "network/flex.hpp"
 #include "network/rigid_part.hpp"
 #include "network/slides.hpp"
 #include "network/softest_modes.hpp"
@@ -14,51 +15,6 @@
 
 namespace jam {
 namespace {
-
-// A motion of all nodes: `x` on those of `sub`, and each released sphere, the last one first, moves out of the way of
-// its contacts. Empty where a contact closes by more than rounding.
-void complete_flex(const RigidityMatrix &g, const RigidityMatrix &sub, const ConstraintRows &sub_rows,
-                   const std::vector<double> &x, const std::vector<Release> &released, bool strain,
-                   RigidityResult &out) {
-  const int d = g.dim;
-  const ConstraintRows rows(g, strain);
-  std::vector<double> v(rows.columns(), 0.0), y(rows.rows());
-  if (!x.empty()) {
-    scatter(sub, x.data(), 1.0, v);
-    for (int q = 0; q < rows.strains && q < sub_rows.strains; ++q)
-      v[g.unknowns() + q] = x[sub.unknowns() + q] * rows.length / sub_rows.length;
-  }
-  for (auto r = released.rbegin(); r != released.rend(); ++r) {
-    double t = x.empty() ? 1.0 : 0.0;
-    for (const size_t k : r->contacts) {
-      double value = 0.0, along = 0.0;
-      const double *n = &g.normal[k * d], sign = g.a[k] == r->sphere ? 1.0 : -1.0;
-      for (int c = 0; c < d; ++c) {
-        const double vb = g.b[k] < 0 ? 0.0 : v[static_cast<size_t>(g.b[k]) * d + c];
-        value += n[c] * (v[static_cast<size_t>(g.a[k]) * d + c] - vb);
-        along += sign * n[c] * r->direction[c];
-      }
-      for (int q = 0; q < rows.strains; ++q) value += rows.e[k * rows.strains + q] * v[g.unknowns() + q];
-      t = std::max(t, -value / along);
-    }
-    for (int c = 0; c < d; ++c) v[static_cast<size_t>(r->sphere) * d + c] += t * r->direction[c];
-  }
-  double largest = 0.0;
-  for (int32_t i = 0; i < g.nodes; ++i) {
-    double s = 0.0;
-    for (int c = 0; c < d; ++c) s += v[static_cast<size_t>(i) * d + c] * v[static_cast<size_t>(i) * d + c];
-    largest = std::max(largest, std::sqrt(s));
-  }
-  for (int q = 0; q < rows.strains; ++q) largest = std::max(largest, std::fabs(v[g.unknowns() + q]));
-  if (!(largest > 0.0)) return;
-  for (double &value : v) value /= largest;
-  rows.multiply(v.data(), y.data());
-  for (const double opening : y)
-    if (opening < -RigidityTuning::flex_rounding) return;
-  if (strain) out.strain = rows.strain_of(v.data());
-  v.resize(g.unknowns());
-  out.flex = std::move(v);
-}
 
 // Counts of K+ with this many flexes.
 void count_carrying(const RigidityMatrix &carrying, int strains, RigidityResult &out) {
@@ -218,6 +174,29 @@ static RigidityResult find_verdict(const RigidityMatrix &g, Jamming kind) {
   return out;
 }
 
+// What is held in every strain is held in the fixed cell: a motion of the spheres alone is one without strain. Other
+// contacts between spheres of the strict K+ carry force too, as their rows depend on its rows.
+static bool test_by_strict(const RigidityMatrix &g, RigidityResult &out) {
+  const RigidityResult strict = find_verdict(g, Jamming::strict);
+  if (strict.jammed != Verdict::yes) return false;
+  StressCone cone;
+  cone.positive = strict.carrying;
+  for (const double share : RigidityTuning::dependent_forces) {
+    cone.path_force = strict.force;
+    for (size_t k = 0; k < g.contacts(); ++k)
+      if (!strict.carrying[k]) cone.path_force[k] = share;
+    RigidityResult part;
+    part.zero_force_contacts = static_cast<int64_t>(g.contacts());
+    if (!test_from_rigid_part(g, cone, Jamming::collective, part) || part.jammed != Verdict::yes) return false;
+    for (size_t k = 0; k < g.contacts(); ++k) part.carrying[k] = part.force[k] > 0.0;
+    count_carrying(subset(g, part.carrying), 0, part);
+    if (!(part.force_residual < RigidityTuning::most_residual)) continue;
+    out = std::move(part);
+    return true;
+  }
+  return false;
+}
+
 // Spheres whose contact vectors nearly but not quite balance, as two that are opposite but for 1e-6, carry no force,
 // and each can slip out. Vectors are known to rounding, so that none is too near to a balance. Without them the rest
 // may be proved jammed. False where it is not.
@@ -227,7 +206,9 @@ static bool test_without_unbalanced(const RigidityMatrix &g, Jamming kind, Rigid
   release_unbalanced(g.dim, nodes, g.a, g.b, g.normal, on, direction_errors(g));
   drop_unbalanced(g.dim, nodes, g.a, g.b, g.normal, clear);
   if (on == clear || std::count(on.begin(), on.end(), 1) == 0) return false;
-  RigidityResult part = find_verdict(subset(g, on), kind);
+  const RigidityMatrix rest = subset(g, on);
+  RigidityResult part = find_verdict(rest, kind);
+  if (kind == Jamming::collective && part.jammed == Verdict::undecided) test_by_strict(rest, part);
   if (part.jammed != Verdict::yes) return false;
   out = part;
   out.carrying.assign(g.contacts(), 0), out.force.assign(g.contacts(), 0.0);
@@ -242,6 +223,7 @@ RigidityResult test_rigidity(const RigidityMatrix &g, Jamming kind) {
   RigidityResult out = find_verdict(g, kind);
   if (out.jammed == Verdict::yes || g.contacts() == 0) return out;
   if (test_without_unbalanced(g, kind, out)) return out;
+  if (kind == Jamming::collective && out.jammed == Verdict::undecided && test_by_strict(g, out)) return out;
   if (out.jammed != Verdict::no || !out.flex.empty()) return out;
   const bool stressed = out.stressed == Verdict::yes,
              useless = !(out.force_residual < RigidityTuning::useless_residual);

@@ -18,6 +18,7 @@
 // where there are walls. A rattler is a sphere that no contact of K+ touches; the number of its contacts does not
 // matter.
 #pragma once
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -59,6 +60,11 @@ struct RigidityResult {
   double curvature = 0.0;      // where a round wall fixes flexes u: least -sum f b(u, u) over the mean |f b|
   std::vector<double> flex;    // (nodes, dim), largest |v_i| is 1: opens contacts; empty when jammed or not found
   std::vector<double> strain;  // (dim, dim) that goes with it; strict only
+  // Least rate at which the flex opens contacts of spheres that their contacts could hold. Without a stress and with
+  // contacts that are open by h, it is a proof above sqrt(h) alone: as they close, spheres move that far aside, and
+  // contacts turn by as much.
+  double opening = 0.0;
+  bool opens_clearly(double h) const { return opening > std::sqrt(h); }
   std::vector<double>
       attempt;  // (nodes, dim): where undecided, a motion that may open contacts; nothing is proved of it
 };
@@ -69,9 +75,10 @@ RigidityResult test_rigidity(const RigidityMatrix &contacts, Jamming kind);
 // listed_gap_limit, and pairs that digits of coordinates cannot distinguish from contacts. They are taken as closed,
 // then as open; where the two verdicts differ, or carrying contacts are open by contact_gap_limit or more, the packing
 // is undecided. What stays undecided is jammed where it is without unlisted pairs whose gaps are wider than their
-// rounding. Where both are jammed, contacts and
-// forces are those of the closed pairs alone. With few digits directions are wrong too, and weak forces may have lost
-// their sign: then only spheres with too few pairs near them make a no.
+// rounding. Where both are jammed, contacts and forces are those of the closed pairs alone. With few digits directions
+// are wrong too, and weak forces may have lost their sign: then only spheres with too few pairs near them make a no.
+// Else a flex of contacts with force makes one where it has room (room.hpp), and a motion that opens all contacts where
+// it opens them clearly.
 struct PackingVerdict {
   RigidityResult result;
   ContactNetwork contacts;                   // all that the test looked at, force as in result

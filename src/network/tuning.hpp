@@ -80,6 +80,13 @@ struct RigidityTuning {
   // A flex may close a contact by no more than this, where the largest displacement is 1: a motion of length t closes
   // it by 1e-8 t and opens it by t^2 / 2, so the overlap on the way stays below the rounding of a gap.
   static constexpr double flex_rounding = 1e-8;
+  // Contacts of spheres that move less across than along open less. Where that closes a contact by more than this part
+  // of rounding, the flex is changed by the second number at most, so that contacts which it opens by less than the
+  // third stay closed.
+  static constexpr double least_across = 1e-6, mended = 0.1, hardly_open = 1e-6;
+  // A strain whose largest coefficient is 1 brings two spheres of mean size nearer by this at most, over a displacement
+  // of 1: its norm in d = 2 ... 8, of up to 35 coefficients, is below 6.
+  static constexpr double strained = 6.0;
   // The curvature of a round wall holds a flex, or does not, by more than this part of the mean force times curvature:
   // a flex itself closes contacts by up to 1e-6.
   static constexpr double least_curvature = 1e-5;
@@ -94,6 +101,9 @@ struct RigidityTuning {
   // Forces that balance worse than this, over the mean force, prove nothing; worse than the second they do not even
   // name the contacts.
   static constexpr double most_residual = 1e-10, useless_residual = 1e-6;
+  // Forces of contacts that depend on those of a rigid part, over its mean force: the first at which none of them
+  // pulls.
+  static constexpr double dependent_forces[] = {0.1, 1e-3, 0.0};
 };
 
 // ---- refinement of solutions of the rows

@@ -63,10 +63,17 @@ void check_flex(const RigidityMatrix &g, const RigidityResult &r, bool strain) {
   const int d = g.dim;
   double trace = 0.0, size = 0.0;
   for (size_t k = 0; k < g.contacts(); ++k) {
-    for (int a = 0; a < d && strain; ++a)
-      for (int b = 0; b < d; ++b)
+    double all = 0.0;
+    for (int a = 0; a < d; ++a) {
+      double w = r.flex[g.a[k] * d + a] - r.flex[g.b[k] * d + a];
+      for (int b = 0; b < d && strain; ++b) w += r.strain[a * d + b] * g.normal[k * d + b] * g.distance[k];
+      for (int b = 0; b < d && strain; ++b)
         y[k] += r.strain[a * d + b] * g.normal[k * d + a] * g.normal[k * d + b] * g.distance[k];
-    assert_true(y[k] > -1e-8);
+      all += w * w;
+    }
+    // Of length t: overlaps by y^2 / 2 w^2 at most, w across the normal, or by the rounding of positions.
+    const double across = std::sqrt(std::max(0.0, all - y[k] * y[k]));
+    assert_true(y[k] > -1e-8 * std::max(across, 1e-6));
   }
   for (int a = 0; a < d && strain; ++a) trace += r.strain[a * d + a];
   for (double e : r.strain) size = std::max(size, std::fabs(e));

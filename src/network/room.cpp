@@ -1,0 +1,72 @@
+#include "network/room.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/pair_rule.hpp"
+#include "network/tuning.hpp"
+
+namespace jam {
+namespace {
+
+double way_of(const Packing &p, const ContactNetwork &carrying) {
+  double open = std::numeric_limits<double>::epsilon();
+  for (const double gap : carrying.gap) open = std::max(open, std::fabs(gap));
+  return std::sqrt(open) * diameter_mean(p);
+}
+
+// Whether the flex closes a pair on its way.
+bool closes(const Packing &p, const ContactNetwork &near, double way, const PackingVerdict &v) {
+  const size_t d = static_cast<size_t>(p.dim);
+  const std::vector<double> &flex = v.result.flex, &strain = v.result.strain;
+  std::vector<double> x(p.n() * d, 0.0);
+  for (size_t i = 0; i < v.sphere.size(); ++i)
+    std::copy_n(flex.begin() + static_cast<std::ptrdiff_t>(i * d), d,
+                x.begin() + static_cast<std::ptrdiff_t>(v.sphere[i] * d));
+  for (size_t k = 0; k < near.size(); ++k) {
+    const int32_t i = near.pairs.i[k], j = near.pairs.j[k];
+    const double sigma = contact_distance(p, i, j), distance = (1.0 + near.gap[k]) * sigma, *n = &near.vector[k * d];
+    double closing = 0.0;
+    for (size_t c = 0; c < d; ++c) {
+      double w = x[i * d + c] - (near.pairs.wall(k) ? 0.0 : x[j * d + c]);
+      for (size_t q = 0; q < d && !strain.empty(); ++q) w += strain[c * d + q] * distance * n[q];
+      closing -= n[c] * w;
+    }
+    if (near.gap[k] * sigma < closing * way) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+ContactNetwork pairs_in_the_way(const Packing &p, const ContactNetwork &carrying, const ContactNetwork &taken,
+                                bool strain, bool own_images) {
+  const double strained = strain ? RigidityTuning::strained * diameter_max(p) / diameter_mean(p) : 0.0;
+  ContactNetwork near;
+  near.pairs = find_pairs(p, (2.0 + strained) * way_of(p, carrying), 1.0);
+  measure_contacts(p, near);
+  near.coordination.assign(p.n(), 0);
+  near.force.assign(near.size(), 0.0);
+  ContactLookup known(p, taken);
+  std::vector<char> on(near.size());
+  for (size_t k = 0; k < near.size(); ++k)
+    on[k] = !known.holds(near.pairs, k) && (own_images || !near.pairs.own_image(k));
+  return subset(near, on, p.dim);
+}
+
+bool find_flex_with_room(const Packing &p, const std::vector<char> &taken, Jamming kind, PackingVerdict &v) {
+  ContactNetwork carrying = v.carrying(p.dim), all = subset(v.contacts, taken, p.dim);
+  const ContactNetwork near = pairs_in_the_way(p, carrying, all, kind == Jamming::strict, kind == Jamming::strict);
+  if (!closes(p, near, way_of(p, carrying), v)) return true;
+  for (size_t k = 0; k < near.size(); ++k) add_contact(p, near.pairs, k, all);
+  all.force.clear();
+  const RigidityMatrix g = make_rigidity_matrix(p, all);
+  RigidityResult other = test_rigidity(g, kind);
+  if (other.jammed != Verdict::no || other.flex.empty()) return false;
+  v.result.flex = std::move(other.flex), v.result.strain = std::move(other.strain);
+  v.sphere = g.sphere;
+  return true;
+}
+
+}  // namespace jam

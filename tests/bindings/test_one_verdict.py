@@ -1,0 +1,131 @@
+"""Two answers to one question: rigidity and check of a packing, of it with and without its network, of strict and collective
+jamming; motions of packings that are not jammed.
+"""
+import itertools
+import unittest
+
+import numpy as np
+
+import jam
+from jam import Verdict
+from packings import fcc, state, triangular
+
+EDGE = np.pi  # numbers with all digits
+
+
+def disks(seed, n=40, ratio=1.4, pressure=1e3):
+    s = jam.System.random(n, 2, seed, diameters=[1.0] * (n // 2) + [ratio] * (n - n // 2))
+    s.compress([(1e-2, min(pressure, 500.0)), (3e-3, pressure)] if pressure > 500 else [(1e-2, pressure)])
+    return s
+
+
+def moved(x, cell, noise, seed, **more):
+    """Spheres of size 1, or as near to it as they fit."""
+    y = (x + noise * np.random.default_rng(seed).standard_normal(x.shape)) @ np.linalg.inv(cell)
+    return jam.System.from_arrays(np.mod(y, 1) @ cell, more.pop("sizes", 1.0), cell=cell, overlap="shrink", **more)
+
+
+def with_vacancies(make, seed, noise):
+    x, cell = make
+    rng = np.random.default_rng(seed)
+    drop = rng.choice(len(x), rng.integers(1, len(x) // 9 + 1), replace=False)
+    return moved(np.delete(x, drop, 0), cell, noise, seed)
+
+
+def holes(m, gap, open_by):
+    """Square lattice with a small disk in each hole: rows slide until small disks block them."""
+    corners = np.array(list(itertools.product(range(m), repeat=2)), float)
+    x = (np.r_[corners, corners + 0.5] + [0.1234567890123, 0.376543210987]) * EDGE / m
+    sigma = np.r_[np.full(m * m, 1 - open_by), np.full(m * m, 2**0.5 - 1 - gap)] * EDGE / m * (1 - 2e-16)
+    return jam.System.from_arrays(np.mod(x, EDGE), sigma, box=EDGE)
+
+
+class OneVerdict(unittest.TestCase):
+    def same(self, s, *more):
+        """Of rigidity and check, both kinds; returns them."""
+        check = s.check(crunch=False)
+        found = s.rigidity("collective").jammed, s.rigidity("strict").jammed
+        self.assertEqual((check.jammed, check.strictly_jammed), found, (more, str(check)))
+        if found[1] == Verdict.YES:
+            self.assertEqual(found[0], Verdict.YES, (more, str(check)))
+        return found
+
+    def test_of_packings_before_and_after_a_crunch(self):
+        for seed, pressure in itertools.product(range(1, 4), (1e3, 1e5, 1e7, 1e10)):
+            s = disks(seed, pressure=pressure)
+            self.same(s, seed, pressure)
+            report = s.crunch()
+            self.assertEqual(self.same(s, seed, pressure)[0] == Verdict.YES, report.jammed)
+            self.same(jam.System.from_arrays(s.positions, s.diameters), seed, pressure)
+
+    def test_of_packings_that_are_a_little_open(self):
+        decided = 0
+        for seed in range(1, 7):
+            s = disks(seed)
+            s.crunch()
+            x, sizes, cell = state(s)
+            for noise in (1e-12, 1e-10, 1e-8, 1e-7):
+                t = moved(x, cell, noise, seed, sizes=sizes)
+                found = self.same(t, seed, noise)
+                self.assertEqual(found[0] == Verdict.YES, noise < 1e-11)
+                t.contacts_from_geometry()
+                self.assertEqual(self.same(t, seed, noise), found)
+            for smaller in (1e-11, 1e-9, 3e-8):
+                fewer = sizes.copy()
+                fewer[::10] *= 1 - smaller
+                decided += self.same(jam.System.from_arrays(x, fewer), seed, smaller)[0] != Verdict.UNDECIDED
+            for shrunk, right in ((1e-11, Verdict.YES), (1e-9, Verdict.NO), (1e-7, Verdict.NO)):
+                self.assertEqual(self.same(jam.System.from_arrays(x, sizes * (1 - shrunk)), seed)[0], right)
+        self.assertGreater(decided, 5)
+
+    def test_of_crystals_with_vacancies(self):
+        """What is held in every strain is held in the fixed cell. Two of the first lattices were jammed strictly, and
+        undecided or not jammed collectively: a sphere between two contacts that are open by as much as they are not
+        quite opposite is no rattler."""
+        for make, seeds in ((fcc(3), (0, 1, 2, 45)), (triangular(8), range(8))):
+            for seed, noise in itertools.product(seeds, (0, 1e-12, 1e-11)):
+                self.same(with_vacancies(make, seed, noise), len(make[0]), seed, noise)
+
+    def test_a_flex_without_room_shows_nothing(self):
+        """A slide by t opens contacts by t^2, which must be more than they are open by rounding, or by what they lack: in a
+        cell that deforms, too, and in copies of it."""
+        for gap, open_by, wanted in ((1e-6, 0, "no"), (1e-7, 0, "no"), (1e-9, 0, "undecided"), (1e-3, 3e-11, "no"), (1e-7, 3e-11, "undecided")):
+            with self.subTest(gap=gap, open_by=open_by):
+                self.assertEqual([str(v) for v in self.same(holes(3, gap, open_by))], [wanted] * 2)
+                one = holes(1, gap, open_by)  # its rows slide in copies alone
+                self.assertEqual(one.bloch_rigidity((3, 3)).flexes.sum(), 4)
+                self.assertEqual(one.status.name, "AMBIGUOUS" if wanted == "undecided" else "NOT_JAMMED")
+                self.assertEqual(str(one.tile((3, 3)).rigidity().jammed), wanted)
+
+
+class Flexes(unittest.TestCase):
+    def test_no_pair_that_touches_overlaps_along_them(self):
+        """By the squared distance of a motion of length 1: from its gap, a pair loses y t and gains (w t)^2 / 2."""
+        found = 0
+        for make, seed, noise in itertools.product((fcc(2), triangular(8)), range(6), (0, 1e-14, 1e-12)):
+            s = with_vacancies(make, seed, noise)
+            if s.rigidity().jammed != Verdict.NO:
+                continue
+            try:
+                v = s.flex().out / s.diameters.mean()
+            except jam.JamError as e:
+                self.assertGreater(noise, 0)
+                self.assertIn("no flex is known", str(e))
+                continue
+            found += 1
+            x, sizes, cell = state(s)
+            shifts = np.array(list(itertools.product((-1, 0, 1), repeat=s.dim))) @ cell
+            for i in range(s.n):
+                r = (x[i] - x[i + 1 :, None] + shifts).reshape(-1, s.dim) / sizes[0]
+                w = np.repeat(v[i] - v[i + 1 :], len(shifts), axis=0)
+                length = np.linalg.norm(r, axis=1)
+                touch = length - 1 < 1e-10
+                gap, y = np.maximum(length[touch] - 1, 0), np.sum(w * r, 1)[touch]
+                square = np.sum(w * w, 1)[touch] - y**2
+                for t in (1e-8, 1e-6, 1e-4, 1e-2, 1.0):
+                    self.assertGreater((gap + y * t + 0.5 * square * t**2).min(initial=0.0), -3e-14, (seed, noise, t))
+        self.assertGreater(found, 8)
+
+
+if __name__ == "__main__":
+    unittest.main()

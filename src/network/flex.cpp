@@ -114,6 +114,14 @@ Opening opening_of(const ConstraintRows &rows, const std::vector<Release> &relea
   return out;
 }
 
+// For each contact how far it may have been closed: positions are as wrong as contacts with force are open.
+std::vector<double> uncertain_gaps(const RigidityMatrix &g, const std::vector<char> &carrying) {
+  double widest = 0.0;
+  for (size_t k = 0; k < g.contacts(); ++k)
+    if (carrying[k]) widest = std::max(widest, std::fabs(g.distance[k] / g.sigma[k] - 1.0));
+  return std::vector<double>(g.contacts(), RigidityTuning::wrong_rates * widest);
+}
+
 // Displacements of v and its strain; empty without one.
 RigidityResult split(const RigidityMatrix &g, const ConstraintRows &rows, bool strain, std::vector<double> v) {
   RigidityResult out;
@@ -157,6 +165,7 @@ void complete_flex(const RigidityMatrix &g, const RigidityMatrix &sub, const Con
   }
   const Opening opening = opening_of(rows, released, v);
   if (std::min(opening.held, opening.released) < -RigidityTuning::flex_rounding) return;
+  if (!keeps_contacts(g, uncertain_gaps(g, out.carrying), found.flex, found.strain)) return;
   out.opening = opening.held;
   out.flex = std::move(found.flex);
   if (strain) out.strain = std::move(found.strain);

@@ -62,11 +62,13 @@ bool find_flex_of_part(const RigidityMatrix &g, const RigidityMatrix &sub, const
     for (const double sign : {1.0, -1.0}) {
       std::vector<double> x(rows.columns(), 0.0);
       scatter(part, flex.data(), sign, x);
-      complete_flex(g, sub, rows, x, released, false, out);
-      if (out.flex.empty()) continue;
+      RigidityResult found = out;
       std::vector<double> force(cone.path_force);
       for (size_t k = 0; k < force.size(); ++k) force[k] *= cone.positive[k];
-      spread(on, cone.positive, force, out);
+      spread(on, cone.positive, force, found);
+      complete_flex(g, sub, rows, x, released, false, found);
+      if (found.flex.empty()) continue;
+      out = std::move(found);
       out.jammed = Verdict::no, out.stressed = Verdict::yes;
       out.flexes = static_cast<int64_t>(modes.flexes.size()), out.margin = modes.margin;
       count_carrying(part, 0, out);

@@ -146,7 +146,8 @@ void verdict_holds(int64_t seed) {
   // mean must hold it from the side. Doubles do not show such forces, so that no verdict may be given.
   if (seed == 7) {
     assert_int_equal(status, JAM_NOT_CONVERGED);
-    assert_true(!r.jammed && r.stop_reason == JAM_STOP_SADDLE);
+    // Some kernels of matrix products lead to contacts of which a motion closes one by 3e-11, and opens all others.
+    assert_true(!r.jammed && (r.stop_reason == JAM_STOP_SADDLE || r.stop_reason == JAM_STOP_PRECISION));
     return;
   }
   assert_int_equal(status, JAM_OK);

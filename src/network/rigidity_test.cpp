@@ -210,7 +210,8 @@ static bool test_without_unbalanced(const RigidityMatrix &g, Jamming kind, Rigid
   if (on == clear || std::count(on.begin(), on.end(), 1) == 0) return false;
   const RigidityMatrix rest = subset(g, on);
   RigidityResult part = find_verdict(rest, kind);
-  if (kind == Jamming::collective && part.jammed == Verdict::undecided) test_by_strict(rest, part);
+  const bool open = part.jammed == Verdict::undecided || (part.jammed == Verdict::no && part.flex.empty());
+  if (kind == Jamming::collective && open) test_by_strict(rest, part);
   if (part.jammed != Verdict::yes) return false;
   out = part;
   out.carrying.assign(g.contacts(), 0), out.force.assign(g.contacts(), 0.0);
@@ -225,7 +226,8 @@ RigidityResult test_rigidity(const RigidityMatrix &g, Jamming kind) {
   RigidityResult out = find_verdict(g, kind);
   if (out.jammed == Verdict::yes || g.contacts() == 0) return out;
   if (test_without_unbalanced(g, kind, out)) return out;
-  if (kind == Jamming::collective && out.jammed == Verdict::undecided && test_by_strict(g, out)) return out;
+  const bool open = out.jammed == Verdict::undecided || out.flex.empty();
+  if (kind == Jamming::collective && open && test_by_strict(g, out)) return out;
   if (out.jammed != Verdict::no || !out.flex.empty()) return out;
   const bool stressed = out.stressed == Verdict::yes,
              useless = !(out.force_residual < RigidityTuning::useless_residual);

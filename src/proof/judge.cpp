@@ -79,6 +79,10 @@ PackingVerdict judge(const Packing &p, const GapResolution &resolution, const Co
   if (kind == Jamming::collective && !p.container && v.result.jammed != Verdict::yes &&
       may_touch_own_image(p, resolution))
     take_strict(v, judge_without_images(p, resolution, known, Jamming::strict));
+  // What is held in every strain is held in the fixed cell. Where doubles do not show that, they show neither.
+  if (kind == Jamming::strict && v.result.jammed == Verdict::yes &&
+      judge(p, resolution, known, Jamming::collective).result.jammed != Verdict::yes)
+    v.result.jammed = Verdict::undecided;
   return v;
 }
 

@@ -70,7 +70,11 @@ PackingVerdict judge_without_images(const Packing &p, const GapResolution &resol
   const ContactNetwork closed = closed_of(p, known);
   PackingVerdict v = test_packing(p, resolution, closed.size() ? &closed : nullptr, kind);
   if (kind == Jamming::collective && !p.container) decide_by_proof(p, v), confirm_by_exchange(p, v);
-  doubt_open_contacts(p, known, kind, v);
+  // Spheres that contacts hold in the fixed cell have all of theirs closed, and these do not fix the cell.
+  const bool held =
+      kind == Jamming::strict && opens_contacts(v) &&
+      test_packing(p, resolution, closed.size() ? &closed : nullptr, Jamming::collective).result.jammed == Verdict::yes;
+  if (!held) doubt_open_contacts(p, known, kind, v);
   return v;
 }
 

@@ -69,7 +69,8 @@ struct StressConeTuning {
   static constexpr double largest_ratio = 1e12, longest_step = 1e3, damped = 0.25;
   // The path: mu of the first guess of the support, the part of it at the next one, and its end.
   static constexpr double first_guess = 1e-2, next_guess = 0.1, least_mu = 1e-12;
-  // Contacts that are pulled leave a guess so often, where they are no more than this.
+  // Contacts that are pulled leave a guess so often, where they are no more than this. Of equal disks, N = 1000, seed
+  // 29 is undecided without; 50 packings of 100 and 20 of 300 are as they were.
   static constexpr int most_drops = 4;
   static constexpr size_t most_pulled = 20;
 };

@@ -177,7 +177,7 @@ static void steps_add_up(int dim, int32_t method) {
   column(sys, JAM_HISTORY_CONTACTS, v), assert_true(v[lp] == (double)r.contacts);
   column(sys, JAM_HISTORY_EXCESS, v), assert_true(v[lp] == (double)r.excess_contacts);
   column(sys, JAM_HISTORY_RATTLERS, v), assert_true(v[lp] == (double)r.rattlers);
-  for (k = 0; k < rows; ++k) assert_true((phase[k] == JAM_STEP_PATH) == isnan(v[k]));
+  for (k = 0; k < rows; ++k) assert_true((phase[k] == JAM_STEP_PATH) == (isnan(v[k]) != 0));
   column(sys, JAM_HISTORY_GAIN, v), assert_true(fabs(v[lp] - r.gain) < 1e-15);
   column(sys, JAM_HISTORY_STEP_MAX, v), assert_true(v[lp] <= 10.0); /* rattlers may go anywhere */
   column(sys, JAM_HISTORY_FACTORISATIONS, v);

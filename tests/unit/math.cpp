@@ -87,6 +87,9 @@ void powers_are_right_to_the_last_place(void **) {
 }
 
 void angles_are_right_to_the_last_place(void **) {
+#ifdef __MINGW32__
+  skip();  // its long doubles are instructions of the x87, whose pi has 66 bits
+#endif
   using Long = long double;
   Numbers number;
   const auto sine = [](Long x) { return std::sin(x); };

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 """Rates and sizes on the path to jamming: figures 2.6, 2.8 to 2.11, 2.13, 2.15 and 2.16 of the thesis.
 
-usage: growth_panels.py [--large] [--seeds K] [--folder DIR] [--only-read] [--out DIR]
+usage: growth_panels.py [--large | --slow] [--seeds K] [--folder DIR] [--only-read] [--out DIR]
 
 Runs are those of path_to_jamming.py for several (N, kappa). Beside them: Mari-Kurchan spheres grown from 0.3 and from the planted
 liquid at 2.5, whose glass branch is fitted with free d; and small systems grown slowly from 0.2, which order in part.
-Small: (256, 1e-3), and N = 256, 512, 1024 at 3e-4, 3 seeds. Large: N = 1024 at four rates, N = 2048 and 4096 at 1e-4, 10 seeds.
+Small: (256, 1e-3), and N = 256, 512, 1024 at 3e-4, 3 seeds. Slow: also N = 1024, 2048 and 4096 at 1e-4, half an hour. Large: N = 1024 at four rates, N = 2048 and 4096 at 1e-4, 10 seeds.
 """
 import matplotlib
 
@@ -19,6 +19,7 @@ import jam
 
 SMALL = ((256, 1e-3), (256, 3e-4), (512, 3e-4), (1024, 3e-4))
 LARGE = ((1024, 3e-4), (1024, 1e-4), (1024, 3e-5), (1024, 1e-5), (2048, 1e-4), (4096, 1e-4))
+SLOW = (*SMALL, (1024, 1e-4), (2048, 1e-4), (4096, 1e-4))
 R_MAX, BINS = 4.0, 402  # no edge of a bin at contact
 
 
@@ -220,11 +221,12 @@ def glasses(o, r, n, seeds):
 def main():
     p = arguments(__doc__.splitlines()[0])
     p.add_argument("--seeds", type=int, help="packings for each (N, kappa) (small 3, large 10)")
+    p.add_argument("--slow", action="store_true", help="with larger systems at kappa = 1e-4")
     o = p.parse_args()
     seeds, pressures = o.seeds or (10 if o.large else 3), 10.0 ** np.arange(3, 12, 1 if o.large else 2)
     r, every = Results(o, "growth_panels"), {}
     glasses(o, r, 1024 if o.large else 200, seeds)
-    for n, kappa in LARGE if o.large else SMALL:
+    for n, kappa in LARGE if o.large else SLOW if o.slow else SMALL:
         good, there = runs(o, n, kappa, seeds, pressures)
         print(f"N = {n}, kappa = {kappa:g}: {len(good)} of {there} are isostatic and without order")
         if len(good) > 1:

@@ -69,6 +69,7 @@ static int say(jam_system *sys, const options *o, jam_status status, const jam_c
   else if (proof && has_failed(write_proofs(sys, o)))
     code = failure_code();
   if (o->json) return write_json(o, code, report, jam_notes(sys)) ? EXIT_OUTPUT : code;
+  complain_notes(sys); /* what reading assumed, such as periodic axes */
   if (!o->quiet) puts(jam_check_text(report));
   return fflush(stdout) ? EXIT_OUTPUT : code;
 }

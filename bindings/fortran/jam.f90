@@ -164,7 +164,7 @@ module jam
   integer(c_int32_t), parameter :: JAM_CORRELATION_R = 0
   integer(c_int32_t), parameter :: JAM_CORRELATION_G = 1
 
-  ! jam_eos_form: Equations of state p(phi) in closed form.
+  ! jam_eos_form: Equations of state p(phi) in closed form, of equal spheres.
   integer(c_int32_t), parameter :: JAM_EOS_CARNAHAN_STARLING = 0
   integer(c_int32_t), parameter :: JAM_EOS_PY_VIRIAL = 1
   integer(c_int32_t), parameter :: JAM_EOS_PY_COMPRESSIBILITY = 2
@@ -2022,7 +2022,7 @@ module jam
     ! network kept each time: JAM_OK: one jump is clearly the largest, or only this candidate has a single state of
     ! self-stress. JAM_AMBIGUOUS: another candidate fits too (see second_*), or there are several states of self-stress.
     ! Also where gaps above 1e-7 leave the verdict open, or where coordinates have too few digits for a no. JAM_NOT_JAMMED:
-    ! not collectively jammed even with these contacts closed.
+    ! not jammed with these closed, or none: a jump below 100 makes no contacts of gaps above 0.01.
     ! Errors: JAM_E_SOLVER.
     function jam_contacts_from_geometry(sys, o, report) &
         bind(c, name="jam_contacts_from_geometry") result(status)

@@ -98,6 +98,14 @@ std::vector<Jump> find_jumps(const Packing &p, const GapList &g, double resoluti
   return out;
 }
 
+// In a fluid some gap is the widest step too. Without a true jump pairs that are open by more than the digits of their
+// coordinates explain are no contacts.
+bool reaches_open_pairs(const ContactNetwork &net, const Jump &jump, double resolution) {
+  const double widest = std::max(JumpTuning::widest_contact, 3.0 * resolution);  // of a difference in three axes
+  return jump.ratio < JumpTuning::wide &&
+         std::any_of(net.gap.begin(), net.gap.end(), [widest](double h) { return h > widest; });
+}
+
 // The curvature of a round wall may hold spheres with fewer contacts. So may the spheres of a packing that is not
 // rigid, as copies of a jammed one side by side: closed contacts whose forces balance are contacts, however few.
 bool may_be_network(const ContactNetwork &net, const Packing &p, const Jump &jump) {
@@ -151,7 +159,7 @@ GeometryResult contacts_from_geometry(const Packing &p, const jam_geometry_optio
     double second = 1.0;
     for (const Jump &jump : find_jumps(p, g, r.resolution, window)) {
       ContactNetwork net = network_of(p, g, std::sqrt(jump.below * jump.above));
-      if (!may_be_network(net, p, jump)) continue;
+      if (!may_be_network(net, p, jump) || reaches_open_pairs(net, jump, r.resolution)) continue;
       if (chosen) {
         second = jump.ratio;
         r.second_contacts = static_cast<int64_t>(net.size());

@@ -67,6 +67,16 @@ class Mesh(unittest.TestCase):
         self.assertTrue((corners >= 0).all() and (corners <= sides.astype(np.float32)).all())
         return report
 
+    def test_a_fluid_has_no_contacts_to_bridge(self):
+        for seed in (1, 2, 3):
+            bed = jam.System.random(n=600, seed=seed, cell=[1, 1, 1.5])
+            bed.compress(porosity=0.4)
+            found = bed.contacts_from_geometry()
+            self.assertEqual((found.contacts, found.pairs_within), (0, 0))
+            self.assertIn("no set of contacts", str(found))
+            chosen = bed.contacts_from_geometry(tolerance=0.02)  # the user's own choice
+            self.assertGreater(chosen.pairs_within, 0)
+
     def test_is_closed_and_its_volume_converges(self):
         s = jammed()
         for options, solid in (({}, s.packing_fraction), ({"contacts": "shrunk", "factor": 0.9}, 0.729 * s.packing_fraction)):

@@ -385,8 +385,8 @@ vector of S^T, or the analytic centre of the non-negative ones where there are s
 stored report's `jammed` is the verdict of `rigidity`, whatever the tolerance. Status, with the network kept each
 time: `:ok`: one jump is clearly the largest, or only this candidate has a single state of self-stress. `:ambiguous`:
 another candidate fits too (see second_...), or there are several states of self-stress. Also where gaps above 1e-7
-leave the verdict open, or where coordinates have too few digits for a no. `:not_jammed`: not collectively jammed even
-with these contacts closed.
+leave the verdict open, or where coordinates have too few digits for a no. `:not_jammed`: not jammed with these
+closed, or none: a jump below 100 makes no contacts of gaps above 0.01.
 
 - `tolerance`: contacts have |h| <= tolerance; 0, the default: set at the largest jump of the sorted gaps
 - `window`: jumps are searched in |h| < window, in (0, 1], default 0.1

@@ -158,7 +158,7 @@ const JAM_GAP_ERROR = Int32(3)  # its standard error over samples
 const JAM_CORRELATION_R = Int32(0)  # middle of the bin, mean diameters
 const JAM_CORRELATION_G = Int32(1)  # g(r)
 
-# jam_eos_form: Equations of state p(phi) in closed form.
+# jam_eos_form: Equations of state p(phi) in closed form, of equal spheres.
 const JAM_EOS_CARNAHAN_STARLING = Int32(0)  # d = 3, as the next three
 const JAM_EOS_PY_VIRIAL = Int32(1)  # Percus-Yevick, virial route
 const JAM_EOS_PY_COMPRESSIBILITY = Int32(2)  # Percus-Yevick, compressibility route
@@ -2772,7 +2772,7 @@ self-stress. The stored report's `jammed` is the verdict of `jam_rigidity`, what
 network kept each time: `JAM_OK`: one jump is clearly the largest, or only this candidate has a single state of
 self-stress. `JAM_AMBIGUOUS`: another candidate fits too (see second_...), or there are several states of self-stress.
 Also where gaps above 1e-7 leave the verdict open, or where coordinates have too few digits for a no. `JAM_NOT_JAMMED`:
-not collectively jammed even with these contacts closed.
+not jammed with these closed, or none: a jump below 100 makes no contacts of gaps above 0.01.
 Errors: `JAM_E_SOLVER`.
 """
 function jam_contacts_from_geometry(sys, o, report)

@@ -204,7 +204,7 @@ class CorrelationColumn(_Word):
 
 
 class EosForm(_Word):
-    """Equations of state p(phi) in closed form."""
+    """Equations of state p(phi) in closed form, of equal spheres."""
     CARNAHAN_STARLING = 0  # d = 3, as the next three
     PY_VIRIAL = 1  # Percus-Yevick, virial route
     PY_COMPRESSIBILITY = 2  # Percus-Yevick, compressibility route

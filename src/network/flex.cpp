@@ -89,9 +89,12 @@ void keep_closed(const RigidityMatrix &g, const ConstraintRows &rows, bool strai
   for (int q = 0; q < rows.strains; ++q) v[g.unknowns() + q] += change[part.unknowns() + q] * rows.length / kept.length;
 }
 
+// False for a translation, or another symmetry: it keeps all distances, and may be what is left where motions cancel.
 bool normalise(const RigidityMatrix &g, std::vector<double> &v) {
   const double largest = size_of(g, v);
-  if (!(largest > 0.0)) return false;
+  std::vector<double> rest = v;
+  g.remove_symmetries(rest.data());
+  if (!(size_of(g, rest) > RigidityTuning::least_relative * largest)) return false;
   for (double &value : v) value /= largest;
   return true;
 }

@@ -41,6 +41,21 @@ def holes(m, gap, open_by):
 
 
 class OneVerdict(unittest.TestCase):
+    def test_a_translation_is_no_flex(self):
+        """Of the last flex of a fcc lattice with vacancies and its opposite, one cancelled the motion that it was added
+        to; what was left was a translation."""
+        found = 0
+        for seed in range(1, 30):
+            x, cell = fcc(2)
+            rng = np.random.default_rng(seed)
+            s = moved(np.delete(x, rng.choice(32, rng.integers(3, 8), replace=False), 0), cell, 0.0, seed)
+            for kind in ("collective", "strict"):
+                if s.rigidity(kind).jammed == Verdict.NO:
+                    flex = s.flex(kind)
+                    self.assertGreater(max(np.ptp(flex.out, axis=0).max(), abs(flex.strain).max()), 1e-3, (seed, kind))
+                    found += 1
+        self.assertGreater(found, 10)
+
     def same(self, s, *more):
         """Of rigidity and check, both kinds; returns them."""
         check = s.check(crunch=False)

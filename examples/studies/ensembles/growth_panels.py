@@ -116,7 +116,7 @@ def fits(r, every, pressures):
             off, error, d, r2 = np.array([glass(m, low, high, j) for m, j in zip(made, jammed)]).T
             off = np.abs(off)
             x = k + (0.1 if marker == "x" else -0.1) + 0.03 * np.arange(len(off))
-            axis.semilogy(x, np.maximum(off, 1e-17), marker, color=f"C{k}", label=f"N = {n}, kappa = {kappa:g}, fit to {high:.0e}")
+            axis.semilogy(x, np.maximum(off, 1e-17), marker, color=f"C{k}", label="" if k else f"fit to {high:.0e}")
             axis.fill_between(x, 1e-17, np.full(len(x), error.mean()), color=f"C{k}", alpha=0.2)
             where = f"N = {n}, kappa = {kappa:g}, p = {low:.0e} to {min(high, pressures[-1]):.0e}"
             r.add("2.11", f"|phi_J - phi_J of the fit| over the fit's error, {where}", "below 1", np.median(off / error))
@@ -136,7 +136,7 @@ def fits(r, every, pressures):
             p, off, error = np.array(shown).T
             beside.loglog(p, off, "o-", color=f"C{k}", label=f"N = {n}, kappa = {kappa:g}")
             beside.loglog(p, error, "--", color=f"C{k}", lw=1)
-    axis.set(xticks=range(len(every)), xticklabels=[f"{n}, {kappa:g}" for n, kappa in every], xlabel="N, kappa")
+    axis.set(xticks=range(len(every)), xticklabels=[f"{n}\n{kappa:g}" for n, kappa in every], xlabel="N, kappa")
     axis.set(ylabel="|phi_J - phi_J of the fit|; band: error of the fit")
     beside.set(xlabel="p, fits of two decades", ylabel="|phi_J - phi_J of the fit|; dashed: error of the fit")
     for one in (axis, beside):

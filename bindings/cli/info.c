@@ -10,7 +10,7 @@ typedef struct content {
   jam_info info;
   jam_size_report sizes;
   double cell[JAM_MAX_DIM * JAM_MAX_DIM];
-  double nearest_gap; /* infinite: none below 1 */
+  double nearest_gap; /* of spheres or a wall; infinite: none below 1 */
 } content;
 
 static jam_status find_nearest_gap(const jam_system *sys, double *gap) {
@@ -40,7 +40,7 @@ static jam_status look(const jam_system *sys, content *c) {
   if (status >= 0) status = jam_view_diameters(sys, &diameters, &n);
   if (status >= 0) status = jam_get_size_report(c->info.dim, diameters, n, &c->sizes);
   if (status >= 0) status = jam_get_cell(sys, c->cell, sizeof c->cell / sizeof *c->cell, NULL);
-  return status < 0 || c->info.container || c->info.walls ? status : find_nearest_gap(sys, &c->nearest_gap);
+  return status < 0 ? status : find_nearest_gap(sys, &c->nearest_gap);
 }
 
 static void put_cell(FILE *f, const content *c) {
@@ -123,7 +123,8 @@ static void print_text(const options *o, const content *c, const char *notes) {
            c->sizes.least, c->sizes.largest, c->sizes.mean, c->sizes.polydispersity, c->sizes.d10, c->sizes.d50,
            c->sizes.d90);
   if (isfinite(c->nearest_gap))
-    printf("  nearest   a pair with gap %.3g of its contact distance%s\n", c->nearest_gap,
+    printf("  nearest   a pair%s with gap %.3g of its contact distance%s\n",
+           c->info.container || c->info.walls ? ", or a sphere and its wall," : "", c->nearest_gap,
            c->nearest_gap < -rounding ? ": they overlap" : "");
   each_note(notes, print_note, NULL);
 }

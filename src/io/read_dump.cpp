@@ -19,6 +19,8 @@ struct Box {
 // A boundary other than pp is no wall of LAMMPS's own: there the caller must name one. In a plane the third direction
 // repeats, whatever `given` closes: its dimension is not known yet.
 void check_boundaries(const LineReader &in, const Words &boundaries, const Enclosure &given) {
+  if (!boundaries.empty() && boundaries.size() != 3)
+    in.fail(JAM_E_FORMAT, "BOX BOUNDS names %zu boundaries instead of three", boundaries.size());
   for (size_t c = 0; c < boundaries.size(); ++c) {
     const bool repeats = boundaries[c] == "pp", closes = c < 3 && given.closes(static_cast<int>(c));
     if (!repeats && !closes)

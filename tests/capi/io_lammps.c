@@ -190,6 +190,7 @@ static void tilted_dumps(void **state) {
 static void dumps_that_cannot_be_read(void **state) {
   (void)state;
 #define NAMES "ITEM: ATOMS id radius x y z\n"
+  expect_refused(DUMP "ITEM: BOX BOUNDS pp pp\n0 1\n0 1\n0 1\n" NAMES, JAM_E_FORMAT, "2 boundaries instead of three");
   expect_refused(DUMP "ITEM: BOX BOUNDS pp pp fs\n0 1\n0 1\n0 1\n" NAMES, JAM_E_UNSUPPORTED,
                  "line 5: the boundary is 'fs'");
   expect_refused(DUMP BOUNDS "ITEM: ATOMS id x y z\n1 0 0 0\n", JAM_E_FORMAT, "no sizes: dump id radius x y z");

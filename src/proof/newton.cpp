@@ -69,8 +69,10 @@ bool approach_closure(ProofScene &s, ProofEquations &e) {
   refine_forces(s, e, normal);
   for (int k = 0; k < proof_tuning::newton_steps; ++k) {
     CallScope::look();
+    const NewtonStep step = newton_step(s, e, normal);
+    if (!(length(step.v) < std::sqrt(s.gamma * e.sigma2[0]))) break;  // of a singular matrix: infinite, or not a number
     ProofScene next = s;
-    take_step(next, newton_step(s, e, normal));
+    take_step(next, step);
     ProofEquations there = evaluate(next);
     if (!(length(there.f) < length(e.f))) break;
     s = std::move(next), e = std::move(there);

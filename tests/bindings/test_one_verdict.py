@@ -41,6 +41,14 @@ def holes(m, gap, open_by):
 
 
 class OneVerdict(unittest.TestCase):
+    def test_eight_disks_of_a_lattice_get_an_answer(self):
+        """Newton's steps to exact closure are infinite in one of these, and exact sums of them have no end."""
+        x, cell = triangular(2)
+        x, cell = np.vstack([x, x + cell[0]]), np.array([2 * cell[0], cell[1]])
+        for seed in range(300):
+            s = moved(x, cell, 3e-11, seed)
+            self.assertEqual(s.rigidity().jammed, s.check(crunch=False).jammed)
+
     def test_a_translation_is_no_flex(self):
         """Of the last flex of a fcc lattice with vacancies and its opposite, one cancelled the motion that it was added
         to; what was left was a translation."""

@@ -55,7 +55,7 @@ ctest --test-dir build -j "$at_once" --output-on-failure --no-tests=error || sta
 fi
 
 if wants kernels; then
-has() { if grep -qw "$1" /proc/cpuinfo; then echo "$2"; fi; }
+has() { if grep -qw "$1" /proc/cpuinfo; then echo "$2"; else echo "$2 is left out: no $1 here" >&2; fi; }
 for kernel in Prescott $(has avx2 Haswell) $(has avx512f SkylakeX); do
 part "products of $kernel"
 OPENBLAS_CORETYPE=$kernel ctest --test-dir build -j "$at_once" -L 'unit|capi|physics|bindings' -LE long \

@@ -4,8 +4,8 @@
 #include "capi/table.hpp"
 #include "core/checks.hpp"
 #include "network/certificate.hpp"
-#include "network/flex.hpp"
 #include "network/rigidity_test.hpp"
+#include "network/room.hpp"
 #include "proof/judge.hpp"
 
 using namespace jam;
@@ -60,21 +60,6 @@ PackingVerdict test(const jam_system *sys, Jamming kind) {
   return judge(sys->packing, gap_resolution(sys->packing), sys->known_contacts(), kind);
 }
 
-// Whether the flex overlaps at no pair that touches.
-bool keeps_closed_pairs(const Packing &p, const PackingVerdict &v) {
-  ContactNetwork net = v.contacts;
-  std::vector<char> touches(net.size());
-  for (size_t k = 0; k < net.size(); ++k) touches[k] = net.gap[k] < contact_gap_limit;
-  net = subset(net, touches, p.dim);
-  const RigidityMatrix g = make_rigidity_matrix(p, net);
-  const auto d = static_cast<std::ptrdiff_t>(p.dim);
-  std::vector<double> all(p.position.size(), 0.0), x;
-  for (size_t k = 0; k < v.sphere.size(); ++k)
-    std::copy_n(v.result.flex.begin() + static_cast<std::ptrdiff_t>(k) * d, d, all.begin() + v.sphere[k] * d);
-  for (const int32_t i : g.sphere) x.insert(x.end(), all.begin() + i * d, all.begin() + (i + 1) * d);
-  return keeps_contacts(g, net.gap, x, v.result.strain);
-}
-
 }  // namespace
 
 extern "C" {
@@ -123,7 +108,7 @@ jam_status jam_flex(jam_system *sys, int32_t kind, double *out, size_t out_len, 
     if (v.contacts.size() > 0 && v.result.flex.empty())
       fail(JAM_E_STATE, v.result.jammed == Verdict::yes ? "the packing is jammed: it has no flex"
                                                         : "no flex was found; the verdict is undecided");
-    if (v.contacts.size() > 0 && !keeps_closed_pairs(sys->packing, v))
+    if (v.contacts.size() > 0 && !keeps_touching_pairs(sys->packing, v))
       fail(JAM_E_STATE,
            "no flex is known that keeps all contacts closed, though the test finds motions that nearly do");
     const double unit = sys->diameter_mean;

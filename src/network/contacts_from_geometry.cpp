@@ -101,7 +101,7 @@ std::vector<Jump> find_jumps(const Packing &p, const GapList &g, double resoluti
 // In a fluid some gap is the widest step too. Without a true jump pairs that are open by more than the digits of their
 // coordinates explain are no contacts.
 bool reaches_open_pairs(const ContactNetwork &net, const Jump &jump, double resolution) {
-  const double widest = std::max(JumpTuning::widest_contact, 3.0 * resolution);  // of a difference in three axes
+  const double widest = std::max(JumpTuning::widest_contact, JumpTuning::resolutions * resolution);
   return jump.ratio < JumpTuning::wide &&
          std::any_of(net.gap.begin(), net.gap.end(), [widest](double h) { return h > widest; });
 }

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/pair_rule.hpp"
+#include "network/flex.hpp"
 #include "network/tuning.hpp"
 
 namespace jam {
@@ -16,14 +17,19 @@ double way_of(const Packing &p, const ContactNetwork &carrying) {
   return std::sqrt(open) * diameter_mean(p);
 }
 
+// Displacements of all spheres by the flex of v.
+std::vector<double> displacements(const Packing &p, const PackingVerdict &v) {
+  const auto d = static_cast<std::ptrdiff_t>(p.dim);
+  std::vector<double> x(p.position.size(), 0.0);
+  for (size_t i = 0; i < v.sphere.size(); ++i)
+    std::copy_n(v.result.flex.begin() + static_cast<std::ptrdiff_t>(i) * d, d, x.begin() + v.sphere[i] * d);
+  return x;
+}
+
 // Whether the flex closes a pair on its way.
 bool closes(const Packing &p, const ContactNetwork &near, double way, const PackingVerdict &v) {
   const size_t d = static_cast<size_t>(p.dim);
-  const std::vector<double> &flex = v.result.flex, &strain = v.result.strain;
-  std::vector<double> x(p.n() * d, 0.0);
-  for (size_t i = 0; i < v.sphere.size(); ++i)
-    std::copy_n(flex.begin() + static_cast<std::ptrdiff_t>(i * d), d,
-                x.begin() + static_cast<std::ptrdiff_t>(v.sphere[i] * d));
+  const std::vector<double> &strain = v.result.strain, x = displacements(p, v);
   for (size_t k = 0; k < near.size(); ++k) {
     const int32_t i = near.pairs.i[k], j = near.pairs.j[k];
     const double sigma = contact_distance(p, i, j), distance = (1.0 + near.gap[k]) * sigma, *n = &near.vector[k * d];
@@ -67,6 +73,18 @@ bool find_flex_with_room(const Packing &p, const std::vector<char> &taken, Jammi
   v.result.flex = std::move(other.flex), v.result.strain = std::move(other.strain);
   v.sphere = g.sphere;
   return true;
+}
+
+bool keeps_touching_pairs(const Packing &p, const PackingVerdict &v) {
+  std::vector<char> touches;
+  for (const double gap : v.contacts.gap) touches.push_back(gap < contact_gap_limit);
+  const ContactNetwork net = subset(v.contacts, touches, p.dim);
+  const RigidityMatrix g = make_rigidity_matrix(p, net);
+  const auto d = static_cast<std::ptrdiff_t>(p.dim);
+  const std::vector<double> all = displacements(p, v);
+  std::vector<double> flex;
+  for (const int32_t i : g.sphere) flex.insert(flex.end(), all.begin() + i * d, all.begin() + (i + 1) * d);
+  return keeps_contacts(g, net.gap, flex, v.result.strain);
 }
 
 }  // namespace jam

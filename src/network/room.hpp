@@ -15,4 +15,7 @@ ContactNetwork pairs_in_the_way(const Packing &p, const ContactNetwork &carrying
 // pairs as well is looked for, and takes its place.
 bool find_flex_with_room(const Packing &p, const std::vector<char> &taken, Jamming kind, PackingVerdict &v);
 
+// Whether the flex of v overlaps at no pair that touches, beyond rounding.
+bool keeps_touching_pairs(const Packing &p, const PackingVerdict &v);
+
 }  // namespace jam

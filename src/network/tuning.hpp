@@ -23,8 +23,8 @@ struct JumpTuning {
   static constexpr size_t most_candidates = 12;
   // A true jump separates rounding from real gaps: decades, and far more of them than the next candidate.
   static constexpr double wide = 100.0;
-  // Gap of a contact without a true jump.
-  static constexpr double widest_contact = 0.01;
+  // Gap of a contact without a true jump, or so many times what the digits of coordinates resolve.
+  static constexpr double widest_contact = 0.01, resolutions = 3.0;
 };
 
 // ---- solver of a Hessian whose translations are tied: springs over the norm, and refinement until residuals fall

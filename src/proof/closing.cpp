@@ -5,6 +5,7 @@
 #include <map>
 
 #include "core/call_scope.hpp"
+#include "linalg/dot.hpp"
 #include "network/rigidity_test.hpp"
 #include "proof/free_rattler.hpp"
 #include "proof/newton.hpp"
@@ -13,12 +14,6 @@
 
 namespace jam {
 namespace {
-
-double product(const std::vector<double> &x, const std::vector<double> &y) {
-  double sum = 0.0;
-  for (size_t k = 0; k < x.size(); ++k) sum += x[k] * y[k];
-  return sum;
-}
 
 void add(std::vector<double> &x, double factor, const std::vector<double> &y) {
   for (size_t k = 0; k < x.size(); ++k) x[k] += factor * y[k];
@@ -40,16 +35,16 @@ class States {
     multiply_rows(s_, e_, normal_.nearest(x).data(), part.data());
     add(x, -1.0, part);
     for (int pass = 0; pass < 2; ++pass)  // the second one takes out what rounding left
-      for (const std::vector<double> &q : out_) add(x, -product(q, x), q);
+      for (const std::vector<double> &q : out_) add(x, -dot(q, x), q);
   }
   // Only states with x . y = 0 are left, of x as well.
   void take_out(std::vector<double> y, std::vector<double> &x) {
-    const double before = std::sqrt(product(y, y));
+    const double before = std::sqrt(dot(y, y));
     project(y);
-    const double length = std::sqrt(product(y, y));
+    const double length = std::sqrt(dot(y, y));
     if (!(length > proof_tuning::vanishing * before)) return;  // no state that is left has a part along y
     for (double &v : y) v /= length;
-    add(x, -product(y, x), y);
+    add(x, -dot(y, x), y);
     out_.push_back(std::move(y));
   }
 

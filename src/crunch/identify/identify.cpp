@@ -8,7 +8,7 @@
 namespace jam {
 namespace {
 
-// Along a flex that only the curvature of a round wall ends, LPs promise a growth of which a step makes a small part.
+// Along a flex that only the curvature of a round wall ends, a step reaches a small part of the growth of its LP.
 // Newton's steps on contacts and forces may get there.
 bool curved_and_slow(const CrunchState &s) {
   const int32_t reason = s.out.report.stop_reason;

@@ -23,6 +23,20 @@ class Verbs(unittest.TestCase):
     def tearDown(self):
         self.folder.cleanup()
 
+    def test_walls_of_a_file(self):
+        """A sphere 0.0875 from a wall and 0.1 wide is the nearest of two; a file that says nothing is called periodic."""
+        bed = self.dir / "bed.data"
+        rows = "1 1 0.1 1.0 0.5 0.5 0.0875\n2 1 0.1 1.0 0.5 0.5 0.6\n"
+        bounds = "".join(f"0 1 {c}lo {c}hi\n" for c in "xyz")
+        bed.write_text(f"bed of another program\n\n2 atoms\n1 atom types\n\n{bounds}\nAtoms # sphere\n\n{rows}")
+        info = json.loads(run("info", bed, "--walls", "z", "--json").stdout)
+        self.assertAlmostEqual(info["nearest_gap"], 0.75, 12)
+        self.assertIn("a sphere and its wall, with gap 0.75 ", run("info", bed, "--walls", "z").stdout)
+        said = run("check", bed).stderr
+        self.assertIn("note: ", said)
+        self.assertIn("periodic", said)
+        self.assertNotIn("periodic", run("check", bed, "--walls", "z").stderr)
+
     def test_what_they_do(self):
         dense, jammed, data, page, csv = (self.dir / name for name in ("d.xyz", "j.xyz", "j.data", "j.html", "c.csv"))
         whole = ("--n", 64, "--seed", 3, "--growth", "1e-2:1e4")

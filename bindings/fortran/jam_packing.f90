@@ -1058,7 +1058,7 @@ contains
   ! network kept each time: JAM_OK: one jump is clearly the largest, or only this candidate has a single state of
   ! self-stress. JAM_AMBIGUOUS: another candidate fits too (see second_*), or there are several states of self-stress.
   ! Also where gaps above 1e-7 leave the verdict open, or where coordinates have too few digits for a no. JAM_NOT_JAMMED:
-  ! not jammed with these closed, or none: a jump below 100 makes no contacts of gaps above 0.01.
+  ! not jammed with these contacts closed, or none found: gaps above 0.01 need a jump of 100.
   ! Errors: JAM_E_SOLVER.
   function do_contacts_from_geometry(self, o) result(found)
     class(packing), intent(inout) :: self

@@ -1240,7 +1240,7 @@ JAM_API jam_status jam_geometry_options_init(jam_geometry_options *o, size_t siz
  * network kept each time: JAM_OK: one jump is clearly the largest, or only this candidate has a single state of
  * self-stress. JAM_AMBIGUOUS: another candidate fits too (see second_*), or there are several states of self-stress.
  * Also where gaps above 1e-7 leave the verdict open, or where coordinates have too few digits for a no. JAM_NOT_JAMMED:
- * not jammed with these closed, or none: a jump below 100 makes no contacts of gaps above 0.01. @errors SOLVER */
+ * not jammed with these contacts closed, or none found: gaps above 0.01 need a jump of 100. @errors SOLVER */
 JAM_API jam_status jam_contacts_from_geometry(jam_system *sys, const jam_geometry_options *o,
                                               jam_geometry_report *report);
 /* Columns of jam_contact_candidates. */

@@ -665,7 +665,7 @@ class Methods:
         the network kept each time: 'ok': one jump is clearly the largest, or only this candidate has a single state
         of self-stress. 'ambiguous': another candidate fits too (see second_*), or there are several states of self-
         stress. Also where gaps above 1e-7 leave the verdict open, or where coordinates have too few digits for a no.
-        'not_jammed': not jammed with these closed, or none: a jump below 100 makes no contacts of gaps above 0.01.
+        'not_jammed': not jammed with these contacts closed, or none found: gaps above 0.01 need a jump of 100.
 
         Parameters
         ----------

@@ -70,7 +70,7 @@ bool approach_closure(ProofScene &s, ProofEquations &e) {
   for (int k = 0; k < proof_tuning::newton_steps; ++k) {
     CallScope::look();
     const NewtonStep step = newton_step(s, e, normal);
-    if (!(length(step.v) < std::sqrt(s.gamma * e.sigma2[0]))) break;  // of a singular matrix: infinite, or not a number
+    if (!(length(step.v) < s.cell.side())) break;  // of a singular matrix: infinite, or not a number
     ProofScene next = s;
     take_step(next, step);
     ProofEquations there = evaluate(next);

@@ -3,25 +3,26 @@
 #include "capi/table.hpp"
 #include "crunch/crunch.hpp"
 #include "network/contacts_from_geometry.hpp"
+#include "proof/judge.hpp"
 
 using namespace jam;
 
 namespace {
 
 // Why the network of a geometry is not the only one, or not rigid.
-Answer answer_of(const GeometryResult &found, const jam_geometry_options &o) {
+Answer answer_of(const GeometryResult &found, jam_status status, Verdict as_it_is, const jam_geometry_options &o) {
   const jam_geometry_report &r = found.report;
   const auto n = [](int64_t x) { return static_cast<long long>(x); };
-  if (found.status == JAM_NOT_JAMMED && r.contacts == 0)
+  if (status == JAM_NOT_JAMMED && r.contacts == 0)
     return {JAM_NOT_JAMMED, sentence("no set of contacts with gaps up to %.2g carries balanced forces: raise window or "
                                      "tolerance, or call jam_crunch",
                                      o.tolerance > 0.0 ? o.tolerance : o.window)};
-  if (found.status == JAM_NOT_JAMMED)
+  if (status == JAM_NOT_JAMMED)
     return {JAM_NOT_JAMMED,
             sentence("not collectively jammed even if these %lld contacts are closed: excess %lld, %lld zero "
                      "modes including translations; jam_flex gives a motion",
                      n(r.contacts), n(r.excess_contacts), n(r.zero_modes))};
-  if (found.status != JAM_AMBIGUOUS) return found.status;
+  if (status != JAM_AMBIGUOUS) return status;
   std::string why;
   const auto add = [&why](const std::string &reason) { why += (why.empty() ? "" : "; ") + reason; };
   const bool clear = o.tolerance > 0.0 || (r.jump > 100.0 && r.jump > r.second_jump * r.second_jump);
@@ -36,7 +37,7 @@ Answer answer_of(const GeometryResult &found, const jam_geometry_options &o) {
         sentence("%lld states of self-stress, so forces are not unique: their analytic centre was taken, where the "
                  "product of the forces is largest",
                  n(r.self_stresses)));
-  if (found.verdict.result.jammed != Verdict::yes)
+  if (as_it_is != Verdict::yes)
     add(sentence("contacts have gaps of up to %.1e, and open ones prove nothing: jam_crunch closes the gaps",
                  r.gap_below));
   return {JAM_AMBIGUOUS, why};
@@ -55,16 +56,19 @@ jam_status jam_contacts_from_geometry(jam_system *sys, const jam_geometry_option
     check_out_struct(report, "report");
     jam_geometry_options full = default_geometry_options();
     take_options(o, full);
-    GeometryResult result = contacts_from_geometry(sys->packing, full);
+    const Packing &p = sys->packing;
+    const GapResolution resolution = gap_resolution(p);
+    GeometryResult result = contacts_from_geometry(p, full);
+    const PackingVerdict verdict = judge(p, resolution, &result.network, Jamming::collective);
     const double nan = std::numeric_limits<double>::quiet_NaN();
     jam_crunch_report r{};
-    certify(sys->packing, result.network, r);
-    report_verdict(result.verdict, sys->packing, r);
+    certify(p, result.network, r);
+    report_verdict(verdict, p, r);
     r.stop_reason = JAM_STOP_NONE;
     r.gain = r.max_step = r.gamma_residual = r.duality_gap = nan;
     r.seconds = sys->monitor.seconds();
-    r.status = result.status;
-    const Answer answer = answer_of(result, full);
+    r.status = status_of(result, verdict.result.jammed, resolution, p);
+    const Answer answer = answer_of(result, r.status, verdict.result.jammed, full);
     sys->contacts = std::move(result.network);
     sys->report = r;
     sys->has_report = true;

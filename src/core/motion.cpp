@@ -37,6 +37,7 @@ void move_packing(Packing &p, PairList &pairs, const double *s, double length, d
   if (!strain.empty()) strain_at_fixed_volume(p, pairs, strain);
   for (size_t k = 0; k < p.position.size(); ++k) p.position[k] += length * s[k];
   for (double &sigma : p.diameter) sigma *= growth;
+  p.given = {};  // positions have all digits now
   wrap_positions(p, pairs);
 }
 

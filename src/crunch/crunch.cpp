@@ -17,6 +17,7 @@
 #include "crunch/estimate.hpp"
 #include "crunch/identify/identify.hpp"
 #include "crunch/identify/narrow_lps.hpp"
+#include "crunch/identify/verdict.hpp"
 #include "crunch/path/phase.hpp"
 #include "crunch/report.hpp"
 
@@ -56,6 +57,8 @@ static bool fills_cell(CrunchState &s) {
   for (size_t k = 0; k < touching.size(); ++k)
     if (!touching.own_image(k)) return false;
   stop(s, JAM_STOP_UNJAMMED, JAM_NOT_JAMMED);
+  give_verdict(s, {});
+  if (s.found.jammed) stop(s, JAM_STOP_CONVERGED, JAM_OK);  // their images hold them
   return true;
 }
 

@@ -158,8 +158,4 @@ std::string why_not_jammed(const PackingVerdict &v, Jamming kind) {
   return line;
 }
 
-void certify_jamming(const Packing &p, const ContactNetwork &contacts, jam_crunch_report &report) {
-  report_verdict(test_packing(p, &contacts, Jamming::collective), p, report);
-}
-
 }  // namespace jam

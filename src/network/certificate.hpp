@@ -19,7 +19,5 @@ void report_verdict(const PackingVerdict &verdict, const Packing &p, jam_crunch_
 // Why the test does not say that the packing is jammed: one sentence with its figures. Empty where it does.
 // Strict: forces must balance on the cell too, up to a pressure.
 std::string why_not_jammed(const PackingVerdict &verdict, Jamming kind = Jamming::collective);
-// Both in one: tests the packing with these contacts and puts the answer into the report.
-void certify_jamming(const Packing &p, const ContactNetwork &contacts, jam_crunch_report &report);
 
 }  // namespace jam

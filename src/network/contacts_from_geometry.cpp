@@ -207,17 +207,20 @@ GeometryResult contacts_from_geometry(const Packing &p, const jam_geometry_optio
   // hyperstatic.
   clear = clear || (wide && stress.dimension == 1 && stress.zero_modes == graph.symmetries() &&
                     r.excess_contacts == 0 && second_excess > 0);
-  out.verdict = test_packing(p, resolution, &out.network, Jamming::collective);
   out.when_closed = closed.jammed;
   out.clear = clear;
-  const bool wide_gaps = out.verdict.result.jammed != closed.jammed;
-  // Contacts that the digits may hide forbid a no.
-  if (closed.jammed == Verdict::no && !(resolution.coarse(p) && out.verdict.result.jammed == Verdict::undecided))
-    out.status = JAM_NOT_JAMMED;
-  else if (stress.dimension > 1 || !clear || closed.jammed == Verdict::undecided || wide_gaps)
-    out.status = JAM_AMBIGUOUS;
   set_force_scale(p, out.network);
   return out;
+}
+
+jam_status status_of(const GeometryResult &found, Verdict as_it_is, const GapResolution &resolution, const Packing &p) {
+  // Contacts that the digits may hide forbid a no.
+  if (found.when_closed == Verdict::no && !(resolution.coarse(p) && as_it_is == Verdict::undecided))
+    return JAM_NOT_JAMMED;
+  const bool wide_gaps = as_it_is != found.when_closed;
+  return found.report.self_stresses > 1 || !found.clear || found.when_closed == Verdict::undecided || wide_gaps
+             ? JAM_AMBIGUOUS
+             : JAM_OK;
 }
 
 }  // namespace jam

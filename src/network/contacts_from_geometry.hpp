@@ -11,13 +11,15 @@ jam_geometry_options default_geometry_options();
 struct GeometryResult {
   ContactNetwork network;
   jam_geometry_report report{};
-  PackingVerdict verdict;             // of the packing, with gaps as they are
   Verdict when_closed = Verdict::no;  // with the contacts of the network closed
   bool clear = false;                 // one jump of the gaps stands out
-  jam_status status = JAM_OK;         // JAM_OK, JAM_AMBIGUOUS, JAM_NOT_JAMMED
 };
 
 GeometryResult contacts_from_geometry(const Packing &p, const jam_geometry_options &o);
+
+// Whether these are the contacts of the packing, whose verdict with gaps as they are is as_it_is: JAM_OK,
+// JAM_AMBIGUOUS, JAM_NOT_JAMMED.
+jam_status status_of(const GeometryResult &found, Verdict as_it_is, const GapResolution &resolution, const Packing &p);
 
 // Where the sorted gaps jump, largest jump first: the tolerances that give enough contacts for a rigid network.
 struct ContactCandidates {

@@ -8,7 +8,7 @@ import numpy as np
 
 import jam
 from jam import Verdict
-from packings import fcc, state, triangular
+from packings import cubic, fcc, state, triangular
 
 EDGE = np.pi  # numbers with all digits
 
@@ -38,6 +38,21 @@ def holes(m, gap, open_by):
     x = (np.r_[corners, corners + 0.5] + [0.1234567890123, 0.376543210987]) * EDGE / m
     sigma = np.r_[np.full(m * m, 1 - open_by), np.full(m * m, 2**0.5 - 1 - gap)] * EDGE / m * (1 - 2e-16)
     return jam.System.from_arrays(np.mod(x, EDGE), sigma, box=EDGE)
+
+
+def starts_of_reports():
+    for n, seed in ((3, 1), (5, 2), (64, 18), (100, 4), (100, 20)):
+        s = jam.System.random(n, 2, seed)
+        s.compress([(1e-2, 500.0), (3e-3, 1e7)])
+        yield (n, seed), s
+    for dim, n, ratio in ((2, 2, 4.0), (3, 2, 2.0), (3, 4, 2.0)):
+        s = jam.System.random(n, dim, 1, diameters=[ratio] + [1.0] * (n - 1))
+        s.compress([(1e-2, 500.0)])
+        yield ("own image", dim, n), s
+    for make, drop, noise in itertools.product((triangular(8), fcc(2), cubic(4, 2)), (1, 3, 6), (0, 1e-12, 1e-8, 1e-6)):
+        x, cell = make
+        x = np.delete(x, np.random.default_rng(1).choice(len(x), drop, replace=False), 0)
+        yield (len(x), noise), moved(x, cell, noise, 1)
 
 
 class OneVerdict(unittest.TestCase):
@@ -80,6 +95,26 @@ class OneVerdict(unittest.TestCase):
             report = s.crunch()
             self.assertEqual(self.same(s, seed, pressure)[0] == Verdict.YES, report.jammed)
             self.same(jam.System.from_arrays(s.positions, s.diameters), seed, pressure)
+
+    def test_of_reports(self):
+        """Of a crunch, however it ends, and of contacts from geometry: the judge of rigidity gave it. Crunches without polish
+        left soft modes undecided that a proof decides; spheres that touch their own images were not stationary; a
+        lattice of few digits was taken for one after it had moved."""
+        for tag, s in starts_of_reports():
+            for options in ({}, {"polish": False}, {"strain": "free"}, None):
+                t = s.copy()
+                try:
+                    report = t.crunch(**options) if options is not None else t.contacts_from_geometry() and t.report
+                except jam.JamError as e:
+                    self.assertIn("no pair within", str(e), (tag, options))
+                    continue
+                found = t.rigidity()
+                with self.subTest(tag=tag, options=options):
+                    self.assertEqual(report.jammed, found.jammed == Verdict.YES)
+                    self.assertEqual(report.stationary, found.stationary == Verdict.YES)
+                    self.assertEqual((report.flexes, report.undecided_contacts), (found.flexes, found.undecided_contacts))
+                    if report.jammed and options and "strain" in options:
+                        self.assertEqual(report.strictly_jammed, t.rigidity("strict").jammed)
 
     def test_of_packings_that_are_a_little_open(self):
         decided = 0

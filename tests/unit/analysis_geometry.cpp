@@ -6,6 +6,7 @@
 #include "core/create.hpp"
 #include "core/rng.hpp"
 #include "network/contacts_from_geometry.hpp"
+#include "proof/judge.hpp"
 // Last: cmocka defines a macro `fail`.
 extern "C" {
 #include "test.h"
@@ -16,15 +17,25 @@ using namespace jamtest;
 
 namespace {
 
-GeometryResult look(const Packing &p, double tolerance = 0.0) {
+struct Look : GeometryResult {
+  PackingVerdict verdict;
+  jam_status status = JAM_OK;
+};
+
+Look look(const Packing &p, double tolerance = 0.0) {
   jam_geometry_options o = default_geometry_options();
   o.tolerance = tolerance;
-  return contacts_from_geometry(p, o);
+  Look out;
+  static_cast<GeometryResult &>(out) = contacts_from_geometry(p, o);
+  const GapResolution resolution = gap_resolution(p);
+  out.verdict = judge(p, resolution, &out.network, Jamming::collective);
+  out.status = status_of(out, out.verdict.result.jammed, resolution, p);
+  return out;
 }
 
 void fcc(void **) {
   const Packing p = fcc_cube(3);
-  const GeometryResult r = look(p);
+  const Look r = look(p);
   assert_int_equal(r.status, JAM_AMBIGUOUS);  // hyperstatic: more than one state of self-stress
   assert_int_equal(r.report.contacts, 6 * 108);
   assert_int_equal(r.report.excess_contacts, 6 * 108 - (3 * 107 + 1));
@@ -58,7 +69,7 @@ void square_lattice(void **) {
   p.set_cube(2, 5.0);
   for (int i = 0; i < 25; ++i) p.position.insert(p.position.end(), {i % 5 + 0.0, i / 5 + 0.0});
   p.diameter.assign(25, 1.0);
-  const GeometryResult r = look(p);
+  const Look r = look(p);
   assert_int_equal(r.report.contacts, 50);
   assert_int_equal(r.report.zero_modes, 10);  // every row and column slides
   assert_int_equal(r.report.self_stresses, 10);
@@ -66,7 +77,7 @@ void square_lattice(void **) {
 }
 
 void one_cell_with_many_images(void **) {
-  const GeometryResult r = look(fcc_cube(1));  // four spheres, each pair touching through four images
+  const Look r = look(fcc_cube(1));  // four spheres, each pair touching through four images
   assert_int_equal(r.report.contacts, 24);
   assert_int_equal(r.status, JAM_AMBIGUOUS);
   for (double f : r.network.force) assert_true(std::fabs(f - 1.0) < 1e-12);
@@ -77,7 +88,7 @@ void own_image(void **) {
   p.set_cube(3, 1.0);
   p.position = {0.1, 0.2, 0.3};
   p.diameter = {1.0};
-  const GeometryResult r = look(p);
+  const Look r = look(p);
   assert_int_equal(r.status, JAM_NOT_JAMMED);
   assert_int_equal(r.report.self_contacts, 3);
   assert_int_equal(r.report.contacts, 0);
@@ -86,7 +97,7 @@ void own_image(void **) {
 void fluid_is_not_jammed(void **) {
   jam_create_options o = default_create_options();
   o.n = 200;
-  const GeometryResult r = look(make_packing(o, nullptr, 0, nullptr, 0));
+  const Look r = look(make_packing(o, nullptr, 0, nullptr, 0));
   assert_int_equal(r.status, JAM_NOT_JAMMED);
   assert_int_equal(r.report.contacts, 0);
   for (int32_t z : r.network.coordination) assert_int_equal(z, 0);
@@ -98,7 +109,7 @@ void sheets_and_rows_flex(void **) {
   p.set_cube(3, 5.0);
   for (int i = 0; i < 25; ++i) p.position.insert(p.position.end(), {i % 5 + 0.0, i / 5 + 0.0, 2.0});
   p.diameter.assign(25, 1.0);
-  const GeometryResult sheet = look(p, 1e-9);
+  const Look sheet = look(p, 1e-9);
   assert_int_equal(sheet.status, JAM_NOT_JAMMED);
   assert_int_equal(sheet.report.contacts, 50);
   assert_int_equal(sheet.verdict.result.flexes, 24 + 8);  // out of the plane, and rows and columns
@@ -107,7 +118,7 @@ void sheets_and_rows_flex(void **) {
   p.position.clear();
   for (int i = 0; i < 5; ++i) p.position.insert(p.position.end(), {i + 0.0, 2.0});
   p.diameter.assign(5, 1.0);
-  const GeometryResult row = look(p, 1e-9);
+  const Look row = look(p, 1e-9);
   assert_int_equal(row.status, JAM_NOT_JAMMED);
   assert_int_equal(row.report.contacts, 5);
   assert_int_equal(row.verdict.result.flexes, 4);
@@ -124,7 +135,7 @@ void separate_clusters_have_separate_stresses(void **) {
       for (int i = 0; i < 6; ++i)
         p.position.insert(p.position.end(), {i + 0.5 * (row % 2), 0.1 + 3.0 * strip + row * h});
   p.diameter.assign(36, 1.0);
-  const GeometryResult r = look(p, 1e-9);
+  const Look r = look(p, 1e-9);
   assert_int_equal(r.report.contacts, 2 * (18 + 24));
   assert_int_equal(r.report.clusters, 2);
   assert_int_equal(r.report.zero_modes, 4);  // each strip has its two translations
@@ -141,7 +152,7 @@ void without_a_clear_jump_the_answer_is_ambiguous(void **) {
   Packing p = fcc_cube(3);
   Rng rng(1, Stream::analysis_start);
   for (double &x : p.position) x = wrap(x + 1e-3 * rng.normal(), p.cell.side());
-  const GeometryResult r = look(p);
+  const Look r = look(p);
   assert_true(r.status == JAM_AMBIGUOUS || r.status == JAM_NOT_JAMMED);
   assert_true(r.report.jump < 1e3);
   const ContactCandidates c = contact_candidates(p, 0.1);

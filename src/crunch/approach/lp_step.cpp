@@ -102,7 +102,7 @@ double take_step(Packing &p, PairList &pairs, double reach, const LpSolution &x,
     if (shorten()) return 0.0;
   p.position.swap(q.position);
   p.diameter.swap(q.diameter);
-  p.cell = q.cell;
+  p.cell = q.cell, p.given = q.given;
   pairs.offset.swap(shifted.offset);
   return alpha;
 }

@@ -15,20 +15,24 @@ bool curved_and_slow(const CrunchState &s) {
   return s.out.packing.container.round_axes() > 0 && (reason == JAM_STOP_STALLED || reason == JAM_STOP_LP_LIMIT);
 }
 
+// Spheres that come no nearer may be jammed. A limit of the call says nothing about them.
+Phase end_early(CrunchState &s) {
+  return s.out.report.stop_reason == JAM_STOP_STALLED ? give_verdict(s, {}) : Phase::done;
+}
+
 }  // namespace
 
 Phase identify(CrunchState &s) {
   if (frees_cell(s)) return free_cell(s);
   if (s.last.active.rows.empty()) {
     if (s.out.report.stop_reason == JAM_STOP_NONE && narrow_lps_left(s) && s.o.polish) return Phase::narrow_lps;
-    if (s.out.report.stop_reason == JAM_STOP_NONE) stop(s, JAM_STOP_UNJAMMED, JAM_NOT_JAMMED);
-    return Phase::done;
+    return s.out.report.stop_reason == JAM_STOP_NONE ? give_verdict(s, {}) : Phase::done;
   }
   s.out.contacts = make_contacts(s.out.packing, s.last.pairs, s.last.answer, s.last.active);
   const bool slow = curved_and_slow(s);
-  if (s.out.report.stop_reason != JAM_STOP_NONE && !(slow && s.o.polish)) return Phase::done;
+  if (s.out.report.stop_reason != JAM_STOP_NONE && !(slow && s.o.polish)) return end_early(s);
   if (s.o.polish && !polish_contacts(s)) return Phase::done;
-  if (slow && !s.found.polished) return Phase::done;
+  if (slow && !s.found.polished) return end_early(s);
   if (slow) stop(s, JAM_STOP_NONE, JAM_OK);
   if (s.o.polish && !s.found.polished && !converged(s)) {
     s.next.gain_tolerance = default_crunch_options().gain_tolerance;

@@ -13,6 +13,7 @@
 #include "crunch/identify/narrow_lps.hpp"
 #include "crunch/identify/polish.hpp"
 #include "network/rattlers.hpp"
+#include "proof/judge.hpp"
 #include "proof/verdict.hpp"
 
 namespace jam {
@@ -66,7 +67,11 @@ void log_verdict(const CrunchState &s, const PackingVerdict &v) {
 // Forces of the test, which are positive and balance as far as any do.
 void take_forces_of(CrunchState &s, const PackingVerdict &verdict) {
   const double scale = s.out.contacts.force_scale;
+  const bool strains = s.next.strain.count() > 0;
   s.out.contacts = verdict.carrying(s.out.packing.dim);
+  std::vector<char> on(s.out.contacts.size());  // own images are no contacts of a fixed cell
+  for (size_t k = 0; k < on.size(); ++k) on[k] = strains || !s.out.contacts.pairs.own_image(k);
+  s.out.contacts = subset(s.out.contacts, on, s.out.packing.dim);
   s.out.contacts.force_scale = scale;
 }
 
@@ -78,14 +83,11 @@ void take_positive_forces(CrunchState &s, const PackingVerdict &verdict) {
   if (refused || std::any_of(f.begin(), f.end(), [](double x) { return x < 0.0; })) take_forces_of(s, verdict);
 }
 
-// The test of the packing as it is. False when the call was interrupted: then its contacts stay untested.
-bool tested(CrunchState &s, Jamming kind, PackingVerdict &verdict) {
+// The packing as it is. False when the call was interrupted: then its contacts stay untested.
+template <class Test>
+bool tested(CrunchState &s, PackingVerdict &verdict, Test &&test) {
   try {
-    verdict = test_packing(s.out.packing, &s.out.contacts, kind);
-    if (kind == Jamming::collective && !s.out.packing.container) {
-      if (!narrow_lps_left(s)) decide_by_proof(s.out.packing, verdict);
-      confirm_by_exchange(s.out.packing, verdict);
-    }
+    verdict = test();
   } catch (const Cancelled &) {
     stop_if_interrupted(s);
     return false;
@@ -94,15 +96,37 @@ bool tested(CrunchState &s, Jamming kind, PackingVerdict &verdict) {
   return true;
 }
 
+// What the next phase follows from: the contacts that were found, as closed as they are. A soft mode is left to narrow
+// LPs, where there are any left.
+PackingVerdict test_contacts(const CrunchState &s, Jamming kind) {
+  PackingVerdict verdict = test_packing(s.out.packing, &s.out.contacts, kind);
+  if (kind == Jamming::collective && !s.out.packing.container) {
+    if (!narrow_lps_left(s)) decide_by_proof(s.out.packing, verdict);
+    confirm_by_exchange(s.out.packing, verdict);
+  }
+  return verdict;
+}
+
+// The verdict of the report: that which everybody gets who asks about this packing. A yes on closed contacts is that
+// of the judge already.
+PackingVerdict judged(const CrunchState &s, const PackingVerdict &tested, Jamming kind) {
+  const std::vector<double> &gap = s.out.contacts.gap;
+  const bool closed = std::all_of(gap.begin(), gap.end(), [](double h) { return h < contact_gap_limit; });
+  if (tested.result.jammed == Verdict::yes && closed) return tested;
+  return judge(s.out.packing, gap_resolution(s.out.packing), &s.out.contacts, kind);
+}
+
 // In a free cell the strict test says whether its strains are at rest, and its one stress balances on the cell too.
 Phase decide_strict_jamming(CrunchState &s) {
   PackingVerdict strict;
-  if (!tested(s, Jamming::strict, strict)) return Phase::done;
+  if (!tested(s, strict, [&] { return test_contacts(s, Jamming::strict); })) return Phase::done;
+  if (strict.result.jammed != Verdict::yes && s.o.strain == JAM_STRAIN_FREE && move_along_strained_flex(s, strict))
+    return stop(s, JAM_STOP_NONE, JAM_OK), Phase::approach;
+  if (!tested(s, strict, [&] { return judged(s, strict, Jamming::strict); })) return Phase::done;
   s.found.strictly_jammed = static_cast<int32_t>(strict.result.jammed);
   if (strict.result.jammed == Verdict::yes) {
     take_forces_of(s, strict);
   } else if (s.o.strain == JAM_STRAIN_FREE) {
-    if (move_along_strained_flex(s, strict)) return stop(s, JAM_STOP_NONE, JAM_OK), Phase::approach;
     s.out.text = "collectively jammed; strictly: " + why_not_jammed(strict, Jamming::strict);
     stop(s, strict.result.jammed == Verdict::no ? JAM_STOP_SADDLE : JAM_STOP_PRECISION, JAM_NOT_CONVERGED);
   }
@@ -116,6 +140,7 @@ Phase end_jammed(CrunchState &s, const PackingVerdict &verdict) {
     take_forces_of(s, verdict);
   s.found.jammed = true;
   report_verdict(verdict, s.out.packing, s.out.report);
+  if (s.out.report.stop_reason != JAM_STOP_NONE) return Phase::done;  // jammed, though tolerances are not met
   stop(s, JAM_STOP_CONVERGED, JAM_OK);
   return s.next.strain.count() > 0 ? decide_strict_jamming(s) : Phase::done;
 }
@@ -149,8 +174,8 @@ Phase decide_jamming(CrunchState &s) {
   for (;;) {
     s.system.release();  // the test has a factor of its own
     PackingVerdict verdict;
-    if (!tested(s, Jamming::collective, verdict)) return Phase::done;
-    if (verdict.result.jammed == Verdict::yes) return end_jammed(s, verdict);
+    if (!tested(s, verdict, [&] { return test_contacts(s, Jamming::collective); })) return Phase::done;
+    if (verdict.result.jammed == Verdict::yes) return give_verdict(s, verdict);
     // No slide opens a contact. In a periodic cell it may lead to other spheres, or a strain further.
     const bool slides = verdict.result.slides > 0 && s.out.packing.container;
     const FlexMove moved = converged(s) && !slides ? move_along_flex(s, verdict) : FlexMove::none;
@@ -161,19 +186,29 @@ Phase decide_jamming(CrunchState &s) {
       continue;
     }
     if (narrow_lps_left(s) && s.o.polish && !slides) return Phase::narrow_lps;
-    report_verdict(verdict, s.out.packing, s.out.report);
-    s.out.text = why_not_jammed(verdict);
-    take_positive_forces(s, verdict);
-    if (verdict.result.jammed != Verdict::no)
-      stop(s, verdict.unresolved > 0.0 ? JAM_STOP_SADDLE : JAM_STOP_PRECISION, JAM_NOT_CONVERGED);
-    else if (verdict.result.flexes > 0)
-      stop(s, JAM_STOP_SADDLE, JAM_NOT_CONVERGED);
-    else if (verdict.result.stressed == Verdict::yes)
-      stop(s, JAM_STOP_STALLED, JAM_NOT_CONVERGED);
-    else
-      stop(s, JAM_STOP_UNJAMMED, JAM_NOT_JAMMED);
-    return Phase::done;
+    return give_verdict(s, verdict);
   }
+}
+
+Phase give_verdict(CrunchState &s, const PackingVerdict &of_contacts) {
+  s.system.release();
+  PackingVerdict verdict;
+  if (of_contacts.result.jammed != Verdict::yes && of_contacts.contacts.size() > 0)
+    take_positive_forces(s, of_contacts);
+  if (!tested(s, verdict, [&] { return judged(s, of_contacts, Jamming::collective); })) return Phase::done;
+  if (verdict.result.jammed == Verdict::yes) return end_jammed(s, verdict);
+  report_verdict(verdict, s.out.packing, s.out.report);
+  if (s.out.report.stop_reason != JAM_STOP_NONE) return Phase::done;
+  s.out.text = why_not_jammed(verdict);
+  if (verdict.result.jammed != Verdict::no)
+    stop(s, verdict.unresolved > 0.0 ? JAM_STOP_SADDLE : JAM_STOP_PRECISION, JAM_NOT_CONVERGED);
+  else if (verdict.result.flexes > 0)
+    stop(s, JAM_STOP_SADDLE, JAM_NOT_CONVERGED);
+  else if (verdict.result.stressed == Verdict::yes)
+    stop(s, JAM_STOP_STALLED, JAM_NOT_CONVERGED);
+  else
+    stop(s, JAM_STOP_UNJAMMED, JAM_NOT_JAMMED);
+  return Phase::done;
 }
 
 }  // namespace jam

@@ -184,12 +184,42 @@ static void default_starts_in_every_dimension(void **state) {
   }
 }
 
+/* A gas whose cell is 2e4 diameters wide: spheres that meet from across the cell touch to eps (L / sigma)^2 of a
+ * contact distance. The next call must not take that for an error, nor a file of it. */
+static void a_very_dilute_gas_runs_on(void **state) {
+  int64_t seed;
+  int k;
+  (void)state;
+  for (seed = 1; seed <= 10; ++seed) {
+    jam_create_options o;
+    jam_run_options r;
+    jam_md_report report;
+    jam_system *sys = NULL, *again = NULL;
+    const double *x = NULL, *sigma = NULL;
+    size_t coordinates = 0, n = 0;
+    jam_create_options_init(&o, sizeof o);
+    jam_run_options_init(&r, sizeof r);
+    report.struct_size = sizeof report;
+    o.dim = 2, o.n = 5, o.seed = seed, o.packing_fraction = 5 * volume_of_sphere(2, 5e-5);
+    assert_int_equal(jam_create(&o, NULL, &sys), JAM_OK);
+    r.collisions_per_particle = 20.0;
+    for (k = 0; k < 3; ++k) {
+      if (jam_run(sys, &r, &report) != JAM_OK) fail_msg("seed %d: %s", (int)seed, jam_last_error());
+      assert_true(report.max_overlap < 1e-8); /* 3e-9 were seen; eps (L / sigma)^2 is 9e-8 */
+    }
+    assert_int_equal(jam_view_positions(sys, &x, &coordinates), JAM_OK);
+    assert_int_equal(jam_view_diameters(sys, &sigma, &n), JAM_OK);
+    assert_int_equal(create_from(&o, x, coordinates, sigma, n, &again), JAM_OK);
+    jam_destroy(again);
+    jam_destroy(sys);
+  }
+}
+
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(the_largest_ratio_stays_supported),
-                                     cmocka_unit_test(light_spheres_may_be_fast),
-                                     cmocka_unit_test(growth_ends_at_the_own_image),
-                                     cmocka_unit_test(a_sphere_fills_the_cell),
-                                     cmocka_unit_test(a_rod_too_long_for_its_spheres_is_refused),
-                                     cmocka_unit_test(default_starts_in_every_dimension)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(the_largest_ratio_stays_supported), cmocka_unit_test(light_spheres_may_be_fast),
+      cmocka_unit_test(growth_ends_at_the_own_image),      cmocka_unit_test(a_sphere_fills_the_cell),
+      cmocka_unit_test(a_very_dilute_gas_runs_on),         cmocka_unit_test(a_rod_too_long_for_its_spheres_is_refused),
+      cmocka_unit_test(default_starts_in_every_dimension)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

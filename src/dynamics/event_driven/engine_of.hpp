@@ -141,6 +141,7 @@ class EngineOf final : public Engine, private Units<O> {
 #ifdef JAM_CHECK_PAIRS
   Packing start_;  // what a state is written into to be checked
   mutable int64_t next_check_ = 0;
+  jam_status check_code_ = JAM_E_INTERNAL;  // JAM_E_FORMAT of an archive, which may have been changed on purpose
 #endif
 };
 

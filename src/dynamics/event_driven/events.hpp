@@ -222,7 +222,7 @@ void EngineOf<D, O>::next_event(int32_t i) {
   Event &event = calendar_[i];
 #ifdef JAM_CHECK_PAIRS
   if (calendar_.time(i) < clock_.now - 1e-6 * pace_.bucket_width)
-    fail(JAM_E_INTERNAL, "the event of sphere %d is %g buckets late after %lld collisions", spheres_.user[i],
+    fail(check_code_, "the event of sphere %d is %g buckets late after %lld collisions", spheres_.user[i],
          (clock_.now - calendar_.time(i)) / pace_.bucket_width, static_cast<long long>(sums.collisions));
 #endif
   clock_.now = std::max(clock_.now, calendar_.time(i));

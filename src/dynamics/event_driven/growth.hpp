@@ -21,6 +21,7 @@ EngineOf<D, O>::EngineOf(const Packing &p, const EngineOptions &o, Archive *from
       found_(p.n()) {
 #ifdef JAM_CHECK_PAIRS
   start_ = p;
+  if (from) check_code_ = JAM_E_FORMAT;
 #endif
   if (listed && p.model == JAM_MODEL_MK)
     mari_kurchan_ = std::make_unique<MariKurchan<D>>(p, lattice_, spheres_.user, scale);

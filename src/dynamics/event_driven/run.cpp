@@ -41,7 +41,7 @@ int32_t EventDrivenRun::begin(Monitor &monitor) {
   } catch (const Cancelled &) {
     return monitor.why_interrupted();
   }
-  if (engine_->max_overlap > overlap_of_rounding)
+  if (engine_->max_overlap > std::max(overlap_of_rounding, overlap_of_long_flights(p_)))
     fail(JAM_E_OVERLAP, "spheres overlap by %g of sigma at the start of molecular dynamics", engine_->max_overlap);
   kinetic_ = engine_->twice_kinetic();
   plan_window();
@@ -49,7 +49,8 @@ int32_t EventDrivenRun::begin(Monitor &monitor) {
   return JAM_STOP_NONE;
 }
 
-EventDrivenRun::EventDrivenRun(Packing p, Archive &from) : p_(std::move(p)), n_(static_cast<double>(p_.n())) {
+EventDrivenRun::EventDrivenRun(Packing p, Archive &from)
+    : p_(std::move(p)), n_(static_cast<double>(p_.n())), from_archive_(true) {
   archive(from);
 }
 
@@ -124,6 +125,7 @@ jam_status EventDrivenRun::run(const Limits &limits, const Listeners &listeners)
   if (!there) reason = time() >= stage_.time ? JAM_STOP_TIME : run_windows(listeners);
   detach(listeners.observer);
   p_ = current();
+  if (from_archive_) refuse_overlaps(p_, overlap_of_rounding);  // times and places of the archive may have been changed
   if (growing() && twice_kinetic(p_) > 0.0) scale_velocities(p_);  // a run that follows starts at kT/m = 1
   if (!growing() && sums().time_has_passed()) {
     p_.pressure = reduced_pressure(sums());

@@ -106,6 +106,7 @@ class EventDrivenRun final : public Dynamics {
   Packing p_;
   GrowthStage stage_;
   double n_;
+  bool from_archive_ = false;
   std::unique_ptr<Engine> engine_;
   double goal_ = 0.0;                                                                  // collisions
   double kinetic_ = 0.0;                                                               // sum of m v^2 at the beginning

@@ -2,6 +2,7 @@
 #pragma once
 #include <algorithm>
 
+#include "core/create.hpp"
 #include "core/error.hpp"
 #include "core/pairs.hpp"
 #include "dynamics/event_driven/engine_of.hpp"
@@ -78,12 +79,13 @@ void EngineOf<D, O>::check_pairs() const {
   Packing p = start_;
   write_state(p);
   const ClosestPair worst = closest_pair(p);
-  if (worst.gap < -1e-11)
-    fail(JAM_E_INTERNAL, "spheres %d and %d overlap by %g after %lld collisions", worst.i, worst.j, -worst.gap,
+  const double sharp = std::max(1e-11, overlap_of_long_flights(p));
+  if (worst.gap < -sharp)
+    fail(check_code_, "spheres %d and %d overlap by %g after %lld collisions", worst.i, worst.j, -worst.gap,
          static_cast<long long>(sums.collisions));
   const ClosestWall wall = closest_wall(p);
-  if (wall.gap < -1e-11)
-    fail(JAM_E_INTERNAL, "sphere %d overlaps %s by %g after %lld collisions", wall.sphere,
+  if (wall.gap < -sharp)
+    fail(check_code_, "sphere %d overlaps %s by %g after %lld collisions", wall.sphere,
          p.container.name(wall.w).c_str(), -wall.gap, static_cast<long long>(sums.collisions));
 #endif
 }

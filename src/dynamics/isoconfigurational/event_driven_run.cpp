@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/create.hpp"
 #include "core/error.hpp"
 #include "core/rng.hpp"
 #include "dynamics/event_driven/engine.hpp"
@@ -60,7 +61,7 @@ void run_molecular_dynamics(const RunPlan &plan, int64_t run, const RunControl &
   const std::unique_ptr<Engine> engine =
       make_engine_for(control, record, [&] { return make_engine(p, EngineOptions{}); });
   if (!engine) return;
-  if (engine->max_overlap > overlap_of_rounding)
+  if (engine->max_overlap > std::max(overlap_of_rounding, overlap_of_long_flights(p)))
     fail(JAM_E_OVERLAP, "spheres overlap by %g of sigma at the start of the runs", engine->max_overlap);
   engine->observe(&observer);
   const double kinetic = engine->twice_kinetic();

@@ -57,6 +57,13 @@ class BlockCholesky {
   };
   static Sizes measure(int dim, int32_t n, const int32_t *ei, const int32_t *ej, size_t edges, int threads);
 
+  // The fronts from the leaves to the roots: index of the parent (-1: none), rows and columns of their panel.
+  struct Front {
+    int32_t parent;
+    size_t rows, columns;
+  };
+  std::vector<Front> fronts() const;
+
   double flops() const { return flops_; }
   size_t bytes() const;
   size_t factor_nonzeros() const { return value_count_; }

@@ -1,4 +1,4 @@
-// What bounds the rounding of a factorisation: rows and absolute values of the factor.
+// Sizes of the factor: its fronts, and what bounds the rounding of a factorisation, rows and absolute values.
 #include <algorithm>
 #include <cmath>
 
@@ -34,6 +34,12 @@ BlockCholesky::AbsoluteSize BlockCholesky::absolute_size() const {
   const double roundings = 4.0 * static_cast<double>(unknowns) * 0x1p-53;
   return {*std::max_element(entries.begin(), entries.end()),
           *std::max_element(rows_sum.begin(), rows_sum.end()) * (1.0 + 2.0 * roundings)};
+}
+
+std::vector<BlockCholesky::Front> BlockCholesky::fronts() const {
+  std::vector<Front> out;
+  for (const Supernode &s : supernodes_) out.push_back({s.parent, columns(s) + below(s), columns(s)});
+  return out;
 }
 
 }  // namespace jam

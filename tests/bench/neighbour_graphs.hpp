@@ -96,4 +96,24 @@ inline Pairs pairs_of_degree(const Points &p, double degree) {
   return out;
 }
 
+// A^T D A + box with weights over ten decades, as in the middle of an interior point.
+inline void make_values(const Points &p, const Pairs &e, std::vector<double> &diag, std::vector<double> &off) {
+  Rng rng(7, Stream::velocities);
+  diag.assign(9 * p.size(), 0.0), off.resize(9 * e.i.size());
+  for (size_t i = 0; i < p.size(); ++i)
+    for (int q = 0; q < 3; ++q) diag[9 * i + 4 * q] = 1e-2;
+  for (size_t k = 0; k < e.i.size(); ++k) {
+    double t[3];
+    for (int q = 0; q < 3; ++q) {
+      t[q] = p.x[3 * e.i[k] + q] - p.x[3 * e.j[k] + q];
+      t[q] -= p.box * std::nearbyint(t[q] / p.box);
+    }
+    const double weight = std::pow(10.0, 6.0 * rng.uniform() - 2.0) / (t[0] * t[0] + t[1] * t[1] + t[2] * t[2]);
+    for (int a = 0; a < 9; ++a) {
+      const double v = weight * t[a / 3] * t[a % 3];
+      diag[9 * e.i[k] + a] += v, diag[9 * e.j[k] + a] += v, off[9 * k + a] = -v;
+    }
+  }
+}
+
 }  // namespace jam

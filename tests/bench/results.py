@@ -400,6 +400,12 @@ def products(raw):
     return ["N", "products", "factorisations", "crunch (s)", "a factorisation, over " + first, "largest force residual", "jammed"], rows
 
 
+def task_graph(raw):
+    """fronts N > FRONTS.json for N = 4096 and 16384; task_graph.py FRONTS.json..."""
+    rows = [[row["n"], row["cores"]] + [round(row[plan], 2) for plan in ("tree", "lists", "queue")] for row in raw["rows"]]
+    return ["N", "cores", "a front is a task", "subtrees, then front by front", "parts of fronts in one queue"], rows
+
+
 def read(path):
     text = Path(path).read_text(encoding="utf-8")
     return [json.loads(line) for line in text.splitlines()] if path.endswith(".jsonl") else json.loads(text)
@@ -407,7 +413,7 @@ def read(path):
 
 def main():
     name, raws = sys.argv[1], [read(path) for path in sys.argv[2:]]
-    made = {f.__name__: f for f in (crunch, size, clp, resume, disks, disks_undecided, proofs, strict, md, monte_carlo, near_jamming, soft_cell, pore_space, liquid, advise, analysis, factorisation, ablation, ratios, mixtures, md_misses, ensemble, ensemble_statistics, walls, walls_equal, walls_edge, products)}[name]
+    made = {f.__name__: f for f in (crunch, size, clp, resume, disks, disks_undecided, proofs, strict, md, monte_carlo, near_jamming, soft_cell, pore_space, liquid, advise, analysis, factorisation, ablation, ratios, mixtures, md_misses, ensemble, ensemble_statistics, walls, walls_equal, walls_edge, products, task_graph)}[name]
     columns, rows = made(*raws)
     old = raws[0] if isinstance(raws[0], dict) and "commit" in raws[0] else None  # a result that was kept with its source
     source = old and {key: old[key] for key in ("machine", "commit", "date")}

@@ -398,10 +398,31 @@ void scratch_memory_is_reused(void **) {
   }
 }
 
+// Fronts come before their parents, share all columns, and pass on fewer rows than their parent has.
+void fronts_make_up_the_factor(void **) {
+  const Problem p = make_problem(3, 500, 12.0, true, 1);
+  BlockCholesky f;
+  f.analyse(3, p.n, p.ei.data(), p.ej.data(), p.ei.size());
+  const auto fronts = f.fronts();
+  assert_int_equal(fronts.size(), f.supernodes());
+  size_t numbers = 0, columns = 0;
+  for (size_t k = 0; k < fronts.size(); ++k) {
+    numbers += fronts[k].rows * fronts[k].columns, columns += fronts[k].columns;
+    const int32_t parent = fronts[k].parent;
+    if (parent < 0)
+      assert_int_equal(fronts[k].rows, fronts[k].columns);
+    else
+      assert_true(parent > static_cast<int32_t>(k) && fronts[k].rows - fronts[k].columns <= fronts[parent].rows);
+  }
+  assert_int_equal(numbers, f.factor_nonzeros());
+  assert_int_equal(columns, 1500);
+}
+
 }  // namespace
 
 int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(no_second_thread),
+  const CMUnitTest tests[] = {cmocka_unit_test(fronts_make_up_the_factor),
+                              cmocka_unit_test(no_second_thread),
                               cmocka_unit_test(random_graphs),
                               cmocka_unit_test(single_precision),
                               cmocka_unit_test(single_precision_loses_pivots),

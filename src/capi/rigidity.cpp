@@ -108,10 +108,11 @@ jam_status jam_flex(jam_system *sys, int32_t kind, double *out, size_t out_len, 
     if (v.contacts.size() > 0 && v.result.flex.empty())
       fail(JAM_E_STATE, v.result.jammed == Verdict::yes ? "the packing is jammed: it has no flex"
                                                         : "no flex was found; the verdict is undecided");
-    if (v.contacts.size() > 0 && !keeps_touching_pairs(sys->packing, v))
+    const double part = v.contacts.size() > 0 ? free_part(sys->packing, v) : 1.0;
+    if (part == 0.0)
       fail(JAM_E_STATE,
            "no flex is known that keeps all contacts closed, though the test finds motions that nearly do");
-    const double unit = sys->diameter_mean;
+    const double unit = part * sys->diameter_mean;
     std::vector<double> motion(size, 0.0), eps(d * d, 0.0);
     if (v.contacts.size() == 0) {  // no pair is near: any motion will do
       if (sys->packing.n() == 1 && jamming == Jamming::collective)

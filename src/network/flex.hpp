@@ -8,8 +8,8 @@
 
 namespace jam {
 
-// Whether a motion of length 1, that is of this flex and strain (empty without one), overlaps at no contact beyond
-// rounding. gap: what contacts are open by; empty: nothing.
+// Whether a motion, of this flex and strain (empty without one), overlaps at no contact beyond rounding. gap: what
+// contacts are open by; empty: nothing.
 bool keeps_contacts(const RigidityMatrix &g, const std::vector<double> &gap, const std::vector<double> &flex,
                     const std::vector<double> &strain);
 

@@ -75,16 +75,22 @@ bool find_flex_with_room(const Packing &p, const std::vector<char> &taken, Jammi
   return true;
 }
 
-bool keeps_touching_pairs(const Packing &p, const PackingVerdict &v) {
+double free_part(const Packing &p, const PackingVerdict &v) {
   std::vector<char> touches;
   for (const double gap : v.contacts.gap) touches.push_back(gap < contact_gap_limit);
   const ContactNetwork net = subset(v.contacts, touches, p.dim);
   const RigidityMatrix g = make_rigidity_matrix(p, net);
   const auto d = static_cast<std::ptrdiff_t>(p.dim);
   const std::vector<double> all = displacements(p, v);
-  std::vector<double> flex;
+  std::vector<double> flex, strain = v.result.strain;
   for (const int32_t i : g.sphere) flex.insert(flex.end(), all.begin() + i * d, all.begin() + (i + 1) * d);
-  return keeps_contacts(g, net.gap, flex, v.result.strain);
+  const double way = way_of(p, v.carrying(p.dim)) / diameter_mean(p);
+  for (double part = 1.0; part > way; part *= RigidityTuning::shorter) {
+    if (keeps_contacts(g, net.gap, flex, strain)) return part;
+    for (double &x : flex) x *= RigidityTuning::shorter;
+    for (double &x : strain) x *= RigidityTuning::shorter;
+  }
+  return 0.0;
 }
 
 }  // namespace jam

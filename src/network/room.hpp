@@ -15,7 +15,8 @@ ContactNetwork pairs_in_the_way(const Packing &p, const ContactNetwork &carrying
 // pairs as well is looked for, and takes its place.
 bool find_flex_with_room(const Packing &p, const std::vector<char> &taken, Jamming kind, PackingVerdict &v);
 
-// Whether the flex of v overlaps at no pair that touches, beyond rounding.
-bool keeps_touching_pairs(const Packing &p, const PackingVerdict &v);
+// The part of the flex of v along which no pair that touches overlaps beyond rounding: 1, or less where positions are
+// noisy and the flex closes contacts at the rate of that noise. 0 where it is shorter than the way that a flex needs.
+double free_part(const Packing &p, const PackingVerdict &v);
 
 }  // namespace jam

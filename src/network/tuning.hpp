@@ -87,6 +87,8 @@ struct RigidityTuning {
   // of rounding, the flex is changed by the second number at most, so that contacts which it opens by less than the
   // third stay closed.
   static constexpr double least_across = 1e-6, mended = 0.1, hardly_open = 1e-6;
+  // Where a flex overlaps at pairs that touch, this part of it is tried, and again.
+  static constexpr double shorter = 0.1;
   // Of a motion of length 1, the least part that is no symmetry.
   static constexpr double least_relative = 1e-6;
   // Rates at which a flex closes contacts are wrong by so many times what contacts with force are open by.

@@ -63,6 +63,15 @@ void doubt_open_contacts(const Packing &p, const ContactNetwork *known, Jamming 
   doubt(near.network, near.clear);
 }
 
+// Spheres that move in the fixed cell move without a strain.
+void take_collective_no(const Packing &p, const PackingVerdict &collective, PackingVerdict &strict) {
+  if (collective.result.jammed != Verdict::no || collective.result.flex.empty()) return;
+  strict.result.jammed = strict.when_closed = Verdict::no;
+  if (collective.result.stressed == Verdict::no) strict.result.stressed = Verdict::no;
+  strict.result.flex = collective.result.flex, strict.sphere = collective.sphere;
+  strict.result.strain.assign(static_cast<size_t>(p.dim) * p.dim, 0.0);
+}
+
 }  // namespace
 
 PackingVerdict judge_without_images(const Packing &p, const GapResolution &resolution, const ContactNetwork *known,
@@ -80,6 +89,8 @@ PackingVerdict judge_without_images(const Packing &p, const GapResolution &resol
 
 PackingVerdict judge(const Packing &p, const GapResolution &resolution, const ContactNetwork *known, Jamming kind) {
   PackingVerdict v = judge_without_images(p, resolution, known, kind);
+  if (kind == Jamming::strict && v.result.jammed == Verdict::undecided)
+    take_collective_no(p, judge_without_images(p, resolution, known, Jamming::collective), v);
   if (kind == Jamming::collective && !p.container && v.result.jammed != Verdict::yes &&
       may_touch_own_image(p, resolution))
     take_strict(v, judge_without_images(p, resolution, known, Jamming::strict));

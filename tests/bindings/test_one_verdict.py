@@ -86,6 +86,8 @@ class OneVerdict(unittest.TestCase):
         self.assertEqual((check.jammed, check.strictly_jammed), found, (more, str(check)))
         if found[1] == Verdict.YES:
             self.assertEqual(found[0], Verdict.YES, (more, str(check)))
+        if found[0] == Verdict.NO:
+            self.assertEqual(found[1], Verdict.NO, (more, str(check)))
         return found
 
     def test_of_packings_before_and_after_a_crunch(self):
@@ -137,11 +139,11 @@ class OneVerdict(unittest.TestCase):
         self.assertGreater(decided, 5)
 
     def test_of_crystals_with_vacancies(self):
-        """What is held in every strain is held in the fixed cell. Two of the first lattices were jammed strictly, and
+        """What is held in every strain is held in the fixed cell, and spheres that move there move without a strain. Two of the first lattices were jammed strictly, and
         undecided or not jammed collectively: a sphere between two contacts that are open by as much as they are not
         quite opposite is no rattler."""
         for make, seeds in ((fcc(3), (0, 1, 2, 45)), (triangular(8), range(8))):
-            for seed, noise in itertools.product(seeds, (0, 1e-12, 1e-11)):
+            for seed, noise in itertools.product(seeds, (0, 1e-12, 1e-11, 1e-10, 1e-8, 1e-6)):
                 self.same(with_vacancies(make, seed, noise), len(make[0]), seed, noise)
 
     def test_a_flex_without_room_shows_nothing(self):
@@ -158,19 +160,16 @@ class OneVerdict(unittest.TestCase):
 
 class Flexes(unittest.TestCase):
     def test_no_pair_that_touches_overlaps_along_them(self):
-        """By the squared distance of a motion of length 1: from its gap, a pair loses y t and gains (w t)^2 / 2."""
+        """By the squared distance along it: from its gap, a pair loses y t and gains (w t)^2 / 2. Where positions are noisy the
+        motion is shorter, and much longer than the gaps of contacts need."""
         found = 0
-        for make, seed, noise in itertools.product((fcc(2), triangular(8)), range(6), (0, 1e-14, 1e-12)):
+        for make, seed, noise in itertools.product((fcc(2), triangular(8)), range(8), (0, 1e-14, 1e-12, 1e-11)):
             s = with_vacancies(make, seed, noise)
             if s.rigidity().jammed != Verdict.NO:
                 continue
-            try:
-                v = s.flex().out / s.diameters.mean()
-            except jam.JamError as e:
-                self.assertGreater(noise, 0)
-                self.assertIn("no flex is known", str(e))
-                continue
+            v = s.flex().out / s.diameters.mean()
             found += 1
+            self.assertGreater(abs(v).max(), max(1e-4, 10 * noise**0.5), (seed, noise))
             x, sizes, cell = state(s)
             shifts = np.array(list(itertools.product((-1, 0, 1), repeat=s.dim))) @ cell
             for i in range(s.n):
@@ -182,7 +181,7 @@ class Flexes(unittest.TestCase):
                 square = np.sum(w * w, 1)[touch] - y**2
                 for t in (1e-8, 1e-6, 1e-4, 1e-2, 1.0):
                     self.assertGreater((gap + y * t + 0.5 * square * t**2).min(initial=0.0), -3e-14, (seed, noise, t))
-        self.assertGreater(found, 8)
+        self.assertGreater(found, 16)
 
 
 if __name__ == "__main__":

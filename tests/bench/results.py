@@ -132,6 +132,29 @@ def proofs(raw):
     return ["d", "N", "proved exact", "radius", "force error over least force", "rounding over eigenvalue", "time (s)", "over the time of the crunch"], rows
 
 
+def verdicts(raw):
+    """verdicts.py"""
+    rows = []
+    for scene in dict.fromkeys(r["scene"] for r in raw):
+        runs = [r for r in raw if r["scene"] == scene]
+        given = [(v, w) for r in runs for v, w in zip(r["verdict"], r["wanted"])]
+        shares = [sum(v == word for v, _ in given) for word in ("YES", "NO", "UNDECIDED")]
+        wrong, known = (sum(test(v, w) for v, w in given) for test in (lambda v, w: {v, w} == {"YES", "NO"}, lambda v, w: w is not None))
+        shown = [f for r in runs for f in r["flex"]]
+        milliseconds = spread([1e3 * r["seconds"] for r in runs])
+        rows.append([scene, len(given), *shares, f"{wrong} of {known}", f"{sum(shown)} of {len(shown)}", milliseconds])
+    return ["scene", "verdicts", "yes", "no", "undecided", "wrong, of those known", "no with a flex", "time of both kinds and flexes (ms)"], rows
+
+
+def verdict_numbers(raw):
+    """verdicts.py --numbers CHECKOUT"""
+    rows = []
+    for r in raw[1:]:
+        changed = ", ".join(f"{count} {what}" for what, count in r["changed"].items()) or "none"
+        rows.append([f"`{r['number']}`", r["factor"], changed.lower(), r["geometry"], r["undecided"], r["wrong"], r["no without a flex"], r["seconds"] / raw[0]["seconds"]])
+    return ["number", "times", "verdicts changed", "networks from geometry changed", f"undecided, of {raw[0]['verdicts']}", "wrong", "no without a flex", "ratio of times"], rows
+
+
 def strict(raw):
     """strict.py --seeds 3 --sizes2 256,1024 --sizes3 256,1024"""
     rows = []
@@ -413,7 +436,7 @@ def read(path):
 
 def main():
     name, raws = sys.argv[1], [read(path) for path in sys.argv[2:]]
-    made = {f.__name__: f for f in (crunch, size, clp, resume, disks, disks_undecided, proofs, strict, md, monte_carlo, near_jamming, soft_cell, pore_space, liquid, advise, analysis, factorisation, ablation, ratios, mixtures, md_misses, ensemble, ensemble_statistics, walls, walls_equal, walls_edge, products, task_graph)}[name]
+    made = {f.__name__: f for f in (crunch, size, clp, resume, disks, disks_undecided, proofs, verdicts, verdict_numbers, strict, md, monte_carlo, near_jamming, soft_cell, pore_space, liquid, advise, analysis, factorisation, ablation, ratios, mixtures, md_misses, ensemble, ensemble_statistics, walls, walls_equal, walls_edge, products, task_graph)}[name]
     columns, rows = made(*raws)
     old = raws[0] if isinstance(raws[0], dict) and "commit" in raws[0] else None  # a result that was kept with its source
     source = old and {key: old[key] for key in ("machine", "commit", "date")}

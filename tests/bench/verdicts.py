@@ -1,0 +1,200 @@
+#!/usr/bin/env python3
+"""Verdicts of jam_rigidity, both kinds, flexes and contacts from geometry of a fixed set: share undecided, wrong ones, time; and
+what each number that steers them is worth.
+
+usage: verdicts.py                      with PYTHONPATH set to the built module; JSON to stdout
+       verdicts.py --numbers CHECKOUT   a checkout with a configured build/, for scratch: it is built so that an environment
+                                        variable multiplies one of NUMBERS, and runs with ten times and a tenth of each, or FACTORS
+       verdicts.py --draw RAW.json PICTURE   of the first
+Wrong: a yes of crystals whose exact lattice is not jammed, or a no of one that is, as long as the noise is below the gap of a
+contact; a yes of shrunk ones; a no of packings as a crunch left them.
+"""
+import collections
+import itertools
+import json
+import os
+import re
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+
+NUMBERS = "widest_contact resolutions least_across mended hardly_open least_relative wrong_rates strained dependent_forces"
+FACTORS = {"mended": (10.0, 0.0)}  # of others 10 and 0.1
+ROOT3 = np.sqrt(3.0)
+
+
+def lattice(basis, vectors, m):
+    cells = np.array(list(itertools.product(range(m), repeat=len(vectors)))) @ np.array(vectors)
+    return (cells[:, None] + np.array(basis)).reshape(-1, len(vectors)), m * np.array(vectors)
+
+
+LATTICES = {
+    "triangular": lattice([[0, 0.0]], [[1, 0], [0.5, ROOT3 / 2]], 8),
+    "kagome": lattice([[0, 0.0], [1, 0], [0.5, ROOT3 / 2]], [[2, 0], [1, ROOT3]], 4),
+    "square": lattice([[0, 0.0]], np.eye(2), 5),
+    "fcc": lattice(np.array([[0, 0, 0.0], [0, 1, 1], [1, 0, 1], [1, 1, 0]]) / 2**0.5, 2**0.5 * np.eye(3), 2),
+    "cubic": lattice([[0, 0, 0.0]], np.eye(3), 3),
+}
+TOUCHING = 1e-10  # the gap of a contact
+
+
+def crystals():
+    """Of each lattice without some of its spheres, moved by noise: the verdicts wanted are those without noise."""
+    import jam
+
+    for name, (x, cell) in LATTICES.items():
+        for missing, seed in itertools.product((0, 2, 5), (1, 2)):
+            keep = np.delete(x, np.random.default_rng(seed).choice(len(x), missing, replace=False), 0)
+            exact = None
+            for noise in (0, 1e-14, 1e-12, 1e-11, 1e-10, 1e-8, 1e-6):
+                moved = keep + noise * np.random.default_rng(seed + 100).standard_normal(keep.shape)
+                s = jam.System.from_arrays(np.mod(moved @ np.linalg.inv(cell), 1) @ cell, 1.0, cell=cell, overlap="shrink")
+                exact = exact or [s.rigidity(kind).jammed.name for kind in ("collective", "strict")]
+                yield f"{name}, noise", noise, s, exact if noise <= TOUCHING / 10 else [None] * 2
+
+
+def packings():
+    import jam
+
+    for dim, n, seed in itertools.product((2, 3), (16, 64, 128), (1, 2)):
+        for name, sizes in (("equal", [1.0] * n), ("mixture", [1.0] * (n // 2) + [1.4] * (n // 2))):
+            s = jam.System.random(n, dim, seed, diameters=sizes)
+            s.compress([(1e-2, 500.0), (3e-3, 1e7)])
+            fluid = s.copy()
+            jammed = s.crunch().jammed
+            yield f"{name}, d = {dim}", 0, s, ["YES" if jammed else None, None]
+            yield f"{name}, d = {dim}, before", 0, fluid, [None, None]
+            for factor in (1e-11, 1e-9, 1e-7, 1e-4):
+                t = jam.System.from_arrays(s.positions, s.diameters * (1 - factor), cell=s.cell)
+                yield "shrunk", factor, t, ["NO" if factor > TOUCHING else None] * 2
+            for digits in (5, 8, 12):
+                t = jam.System.from_arrays(np.round(s.positions, digits) % 1, np.round(s.diameters, digits), overlap="shrink")
+                yield "few digits", digits, t, [None, None]
+
+
+def tubes():
+    import jam
+
+    for n, seed in itertools.product((20, 60), (1, 2)):
+        s = jam.System.random(n, 3, seed, container="cylinder", cell=[3.0, 3.0, n / 8])
+        s.compress(growth_rate=1e-2, pressure=500.0)
+        jammed = s.crunch().jammed
+        yield "tube", 0, s, ["YES" if jammed else None, None]
+
+
+def measure():
+    import jam
+
+    rows = []
+    for scene, value, s, wanted in itertools.chain(crystals(), packings(), tubes()):
+        row = {"scene": scene, "value": value, "n": s.n, "wanted": wanted, "verdict": [], "flex": []}
+        began = time.process_time()
+        for kind in ("collective", "strict"):
+            try:
+                row["verdict"].append(s.rigidity(kind).jammed.name)
+            except jam.JamError as e:
+                row["verdict"].append(e.status.name)
+            if row["verdict"][-1] == "NO":
+                try:
+                    flex = s.flex(kind)
+                    row["flex"].append(bool(max(abs(flex.out).max(), abs(flex.strain).max()) > 0))
+                except jam.JamError:
+                    row["flex"].append(False)
+        row["seconds"] = time.process_time() - began
+        if "tube" not in scene:
+            g = s.copy().contacts_from_geometry()
+            row["geometry"] = [g.status.name, g.contacts]
+        rows.append(row)
+    return rows
+
+
+def summary(rows):
+    asked = [(v, w) for r in rows for v, w in zip(r["verdict"], r["wanted"])]
+    return {
+        "verdicts": len(asked),
+        "undecided": sum(v == "UNDECIDED" for v, _ in asked),
+        "wrong": sum(w is not None and {v, w} == {"YES", "NO"} for v, w in asked),
+        "no without a flex": sum(not f for r in rows for f in r["flex"]),
+        "seconds": sum(r["seconds"] for r in rows),
+    }
+
+
+STEERED = """#include <cstdlib>
+#include <cstring>
+namespace jam {
+inline double steered(const char *name) {
+  const char *set = std::getenv("JAM_STEERED");
+  const std::size_t n = std::strlen(name);
+  return set && std::strncmp(set, name, n) == 0 && set[n] == '=' ? std::atof(set + n + 1) : 1.0;
+}
+}  // namespace jam
+"""
+
+
+def steered(text):
+    """The source with each of NUMBERS times what the environment says."""
+    for name in NUMBERS.split():
+        found = re.search(rf"\b{name}(?:\[\])? = (\{{[^}}]*\}}|[0-9.e+-]+)", text)
+        value = re.sub(r"[0-9][0-9.e+-]*", rf'\g<0> * steered("{name}")', found[1])
+        text = text[: found.start(1)] + value + text[found.end(1) :]
+        begin = text.rindex("static ", 0, found.start())
+        text = text[:begin] + re.sub("^static constexpr", "static inline const", text[begin:])
+    return text.replace("#include <cstddef>\n", "#include <cstddef>\n" + STEERED, 1)
+
+
+def run(build, name, factor):
+    env = {**os.environ, "PYTHONPATH": str(build / "python"), "OPENBLAS_NUM_THREADS": "1", "JAM_STEERED": f"{name}={factor}"}
+    return json.loads(subprocess.run([sys.executable, __file__], env=env, capture_output=True, text=True, check=True).stdout)
+
+
+def numbers(checkout):
+    source, build = checkout / "src/network/tuning.hpp", checkout / "build"
+    kept = source.read_text(encoding="utf-8")
+    rows, before = [], None
+    try:
+        source.write_text(steered(kept), encoding="utf-8")
+        subprocess.run(["ninja", "-C", build, "-j2"], check=True, stdout=subprocess.DEVNULL)
+    finally:
+        source.write_text(kept, encoding="utf-8")
+    for name, factor in [("", 1.0), *((name, f) for name in NUMBERS.split() for f in FACTORS.get(name, (10.0, 0.1)))]:
+        now = run(build, name, factor)
+        before = before or now
+        differ = [f"{a['scene']}: {x} to {y}" for a, b in zip(before, now) for x, y in zip(a["verdict"], b["verdict"]) if x != y]
+        geometry = sum(a.get("geometry") != b.get("geometry") for a, b in zip(before, now))
+        rows.append({"number": name, "factor": factor, "changed": collections.Counter(differ), "geometry": geometry, **summary(now)})
+        print(json.dumps(rows[-1]), file=sys.stderr, flush=True)
+    return rows
+
+
+def draw(rows, picture):
+    """The share that is left open against the noise, and against the time of a verdict."""
+    import matplotlib
+
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+
+    fig, (left, right) = plt.subplots(1, 2, figsize=(9, 3.8), constrained_layout=True)
+    of = collections.defaultdict(list)
+    for r in rows:
+        of[r["scene"]].append(r)
+    for (scene, runs), marker in zip(of.items(), "osD^vP*Xh<>dp8+x"):
+        if scene.endswith("noise") or scene == "shrunk":
+            values = sorted({r["value"] for r in runs})
+            share = [np.mean([v == "UNDECIDED" for r in runs if r["value"] == x for v in r["verdict"]]) for x in values]
+            left.semilogx([max(x, 1e-15) for x in values], share, marker + "-", label=scene)
+        share = np.mean([v == "UNDECIDED" for r in runs for v in r["verdict"]])
+        right.semilogx(np.median([r["seconds"] for r in runs]), share, marker, label=scene)
+    left.set(xlabel="noise, or part of diameters taken off (1e-15: none)", ylabel="undecided")
+    right.set(xlabel="processor time of both kinds, flexes too (s)", ylabel="undecided")
+    left.legend(fontsize=7), right.legend(fontsize=7)
+    fig.savefig(picture, dpi=150)
+
+
+if __name__ == "__main__":
+    if "--draw" in sys.argv:
+        draw(json.loads(Path(sys.argv[2]).read_text(encoding="utf-8")), sys.argv[3])
+    else:
+        print(json.dumps(numbers(Path(sys.argv[2]).resolve()) if "--numbers" in sys.argv else measure()))

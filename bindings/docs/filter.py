@@ -36,7 +36,7 @@ def header(text):
     def parts(found):
         """What a comment says under a label or a tag of its own becomes a paragraph with that label."""
         comment = found.group(0)
-        for tag, label in (("@shape", "Shapes"), ("@enum", "Values"), ("@bool", "Flags"), ("@errors", "Errors"), ("Status:", "Status")):
+        for tag, label in (("@shape", "Shapes"), ("@enum", "Values"), ("@bool", "Flags"), ("@optional", "May be left out"), ("@errors", "Errors"), ("Status:", "Status")):
             comment = re.sub(rf"(?<=[\s*.]){tag}\s+(?:\* )?(?=\S)", f"\n *\n * @par {label}\n * ", comment, count=1)
         return re.sub(r"Example: (\S+)", r"Example: `\1`.\n *\n *", comment)
 

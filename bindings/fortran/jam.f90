@@ -1844,7 +1844,7 @@ module jam
       integer(c_int32_t) :: status
     end function jam_stop_observing
 
-    ! pressure of a form; FREE_VOLUME uses jammed_fraction.
+    ! pressure of a form.
     ! Errors: JAM_E_DIMENSION, JAM_E_UNSUPPORTED.
     function jam_eos(form, dim, packing_fraction, jammed_fraction, pressure) &
         bind(c, name="jam_eos") result(status)

@@ -4,12 +4,13 @@ documentation alone. The top of the header says how they are written.
     @shape out (n, d), table (m, jam_x_column)    of a function: shape of every array
     @enum kind jam_x, form jam_y                  of a function: whose values an argument takes
     @bool weighted                                of a function: arguments that are 1 or 0
+    @optional fraction                            of a function: last arguments that may be left out, then 0
     @errors STATE (why), IO                       of a function: beside the common errors
     @enum jam_x, @bool                            of a member, anywhere in its comment
 """
 import re
 
-FUNCTION_TAGS = ("shape", "enum", "bool", "errors", "since")
+FUNCTION_TAGS = ("shape", "enum", "bool", "optional", "errors", "since")
 
 
 class HeaderError(Exception):
@@ -24,7 +25,7 @@ def _pairs(text, pattern, what):
 
 
 def of_function(name, comment):
-    """(prose, {array: (extents)}, {argument: enum}, [argument that is a flag], [(error, why)])."""
+    """(prose, {array: (extents)}, {argument: enum}, [argument that is a flag], [argument that may be left out], [(error, why)])."""
     parts = re.split(r"\s*@(\w+)\s+", " ".join(comment.split()))
     tags = dict(zip(parts[1::2], parts[2::2]))
     unknown = [t for t in parts[1::2] if t not in FUNCTION_TAGS or parts[1::2].count(t) > 1]
@@ -33,9 +34,9 @@ def of_function(name, comment):
     shapes = _pairs(tags.get("shape", ""), r"(\w+) \(([^()]*)\)", f"{name}: @shape")
     enums = _pairs(tags.get("enum", ""), r"(\w+) (jam_\w+)", f"{name}: @enum")
     errors = _pairs(tags.get("errors", ""), r"\b([A-Z_]+)(?: \(([^()]*)\))?", f"{name}: @errors")
-    bools = tags["bool"].split(", ") if "bool" in tags else []
+    bools, optional = (tags[t].split(", ") if t in tags else [] for t in ("bool", "optional"))
     prose = re.split(rf"\s*@(?:{'|'.join(FUNCTION_TAGS)})\b", comment)[0]
-    return prose, {a: tuple(e.strip() for e in s.split(",")) for a, s in shapes}, dict(enums), bools, errors
+    return prose, {a: tuple(e.strip() for e in s.split(",")) for a, s in shapes}, dict(enums), bools, optional, errors
 
 
 def of_member(name, comment):
@@ -77,6 +78,9 @@ def check(api):
         for a in f.bools:
             if not any(b.name == a and b.role == "scalar" and b.type.base == "int32_t" for b in f.args):
                 raise HeaderError(f"{f.name}: @bool {a} names no argument of type int32_t")
+        last = [b.name for b in f.args if b.role == "scalar"]
+        if f.optional != last[len(last) - len(f.optional) :]:
+            raise HeaderError(f"{f.name}: @optional {', '.join(f.optional)} are not its last numbers, {', '.join(last)}")
         for a, extents in f.shapes.items():
             if (a == "table") != (extents[-1] in enums):
                 raise HeaderError(f"{f.name}: the last extent of a table, and of no other array, is the enum of its columns")
@@ -106,7 +110,7 @@ def stripped(text):
         if found.start() and text[found.start() - 1] != "\n":  # of a member, or of several that share it
             parts = [" ".join(re.findall(r"@enum jam_\w+|@bool\b", part)) or "-" for part in inner.split("; ")]
             return f"/* {'; '.join(parts)} */"
-        start = re.search(r"@(?:shape|enum|bool|errors) (?!jam_)", inner)
+        start = re.search(r"@(?:shape|enum|bool|optional|errors) (?!jam_)", inner)
         return f"/* {inner[start.start() :] if start else ''} */"
 
     return re.sub(r"/\*((?:(?!\*/).)*)\*/", tags, text, flags=re.S)

@@ -83,7 +83,7 @@ def _method(f, api):
     plain = [a for a in args if a.role in PLAIN]
     members = [m for a in args if a.role == "struct_in" for m in api.struct(a.type.base).members if not m.name.startswith(("struct_size", "reserved"))]
     optional = [a.name for a in plain if a.role == "array_in" and on_system and all(b.role == "array_in" for b in plain[plain.index(a):])]
-    head = [f"{a.name} = nothing" if a.name in optional else a.name for a in plain]
+    head = [f"{a.name} = nothing" if a.name in optional else f"{a.name} = 0" if a.name in f.optional else a.name for a in plain]
     verb = on_system and not f.args[0].type.const
     words = (["progress = nothing"] if verb else []) + (["given..."] if members else [])
     shown = [m.name for m in members] + ["progress"] * verb

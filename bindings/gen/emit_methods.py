@@ -106,7 +106,7 @@ class Call:
     def text(self, indent):
         verb = self.on_system and not self.f.args[0].type.const
         head = (["self"] if self.on_system else []) + [
-            f"{a.name}: {_hint(self.f, a)}" + (" = None" if a.role == "array_in" and self.on_system and all(
+            f"{a.name}: {_hint(self.f, a)}" + (" = 0" if a.name in self.f.optional else " = None" if a.role == "array_in" and self.on_system and all(
                 b.role == "array_in" for b in self.plain[self.plain.index(a):]) else "") for a in self.plain]
         more = [f"{m.name}: {'int | str' if m.enum else member_type(m)} | None = None" for m in self.members]
         passed = [a.name for a in self.plain] + [f"{m.name}={m.name}" for m in self.members] + (["progress=progress"] if verb else [])

@@ -60,6 +60,7 @@ class Function:
     shapes: dict = field(default_factory=dict)  # {array: extents}
     enums: dict = field(default_factory=dict)  # {argument: enum}
     bools: list = field(default_factory=list)  # arguments that are 1 or 0
+    optional: list = field(default_factory=list)  # last arguments that may be left out, then 0
     errors: list = field(default_factory=list)  # (name without JAM_E_, why)
 
 

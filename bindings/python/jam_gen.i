@@ -581,7 +581,7 @@ Errors: JAM_E_STATE."
 %feature("docstring") jam_observed_correlation "g(r), pairs over N (N - 1) / 2, sampled likewise.
 Shapes: table (bins, jam_correlation_column).
 Errors: JAM_E_STATE."
-%feature("docstring") jam_eos "pressure of a form; FREE_VOLUME uses jammed_fraction.
+%feature("docstring") jam_eos "pressure of a form.
 Errors: JAM_E_DIMENSION, JAM_E_UNSUPPORTED."
 %feature("docstring") jam_glass_fit "Least squares on 1/pressure against fraction, at least 3 points; the line must fall.
 Shapes: fraction (m), pressure (m).

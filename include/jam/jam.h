@@ -54,7 +54,7 @@
  * - Tags end it. The bindings are made from declarations and tags alone, prose changes none:
  *   @shape a (n, d), table (m, jam_x_column)   shape of each array; an enum: its columns
  *   @enum kind jam_x, form jam_y               whose values an argument takes
- *   @bool weighted                             arguments that are 1 or 0
+ *   @bool weighted; @optional fraction         arguments that are 1 or 0; last ones that may be left out, then 0
  *   @errors STATE (why), IO                    JAM_E_STATE and JAM_E_IO beside the common ones
  *   A member has `@enum jam_x`, or `@bool` when it is 1 or 0. Text after @bool describes 1.
  *
@@ -667,9 +667,9 @@ typedef enum jam_eos_form {
   JAM_EOS_MK = 4,                 /* 1 + 2^d phi / 2, exact for zeta infinite */
   JAM_EOS_FREE_VOLUME = 5,        /* glass: d / (1 - phi / jammed_fraction) */
   JAM_EOS_HENDERSON = 6,          /* d = 2: (1 + phi^2 / 8) / (1 - phi)^2 */
-  JAM_EOS_PADE = 7                /* liquid, any d: Pade [4/5] of B_2 .. B_10 (Clisby, McCoy, J. Stat. Phys. 122, 15) */
+  JAM_EOS_PADE = 7 /* liquid, any d: Pade [4/5] of B_2 .. B_10 (J. Stat. Phys. 122, 15), where it rises */
 } jam_eos_form;
-/* *pressure of a form; FREE_VOLUME uses jammed_fraction. @enum form jam_eos_form @errors DIMENSION, UNSUPPORTED */
+/* *pressure of a form. @enum form jam_eos_form @optional jammed_fraction @errors DIMENSION, UNSUPPORTED */
 JAM_API jam_status jam_eos(int32_t form, int32_t dim, double packing_fraction, double jammed_fraction,
                            double *pressure);
 /* A fit of the glass branch p = d' / (1 - phi/phi_J). Errors are standard errors. */
@@ -1681,7 +1681,7 @@ typedef struct jam_comparison {
 /* Columns of jam_density_of_states, one row per bin of the frequency omega. */
 typedef enum jam_dos_column {
   JAM_DOS_OMEGA = 0,           /* middle of the bin */
-  JAM_DOS_DENSITY = 1,         /* density of states D there, integral 1 */
+  JAM_DOS_DENSITY = 1,         /* mean over the bin of the density of states D, integral 1 */
   JAM_DOS_ERROR = 2,           /* its standard error over the random vectors; smoothing is not in it */
   JAM_DOS_EDGE = 3,            /* upper end of the bin */
   JAM_DOS_CUMULATIVE = 4,      /* share of modes below the edge */

@@ -95,19 +95,7 @@ double jackson(size_t m, size_t moments) {
          static_cast<double>(moments + 1);
 }
 
-// mu_0 + 2 sum mu_m cos(m theta), by Clenshaw's recurrence.
-double cosine_sum(const std::vector<double> &mu, double theta) {
-  double b1 = 0.0, b2 = 0.0;
-  const double c = 2.0 * math::cos(theta);
-  for (size_t m = mu.size() - 1; m >= 1; --m) {
-    const double b = 2.0 * mu[m] + c * b1 - b2;
-    b2 = b1;
-    b1 = b;
-  }
-  return mu[0] + 0.5 * c * b1 - b2;
-}
-
-// sum (mu_m / m) sin(m theta), likewise.
+// sum (mu_m / m) sin(m theta), by Clenshaw's recurrence.
 double sine_sum(const std::vector<double> &mu, double theta) {
   double b1 = 0.0, b2 = 0.0;
   const double c = 2.0 * math::cos(theta);
@@ -119,20 +107,7 @@ double sine_sum(const std::vector<double> &mu, double theta) {
   return b1 * math::sin(theta);
 }
 
-// D(omega) = rho(lambda) 2 |omega|, rho(lambda) = S(theta) / (pi sin theta) 2 / (high - low); 0 outside of the
-// spectrum.
-double density_at(const std::vector<double> &mu, Interval span, double omega) {
-  const double lambda = omega * std::fabs(omega);
-  if (lambda < span.low || lambda >= span.high || (lambda == span.low && span.low < 0.0)) return 0.0;
-  if (span.low == 0.0) {  // sin theta = 2 s c with s = omega / omega_max, so that omega = 0 is no exception
-    const double s = omega / std::sqrt(span.high), half = math::asin(std::min(1.0, s));
-    return cosine_sum(mu, math::pi - 2.0 * half) / math::pi * 2.0 / (std::sqrt(span.high) * math::cos(half));
-  }
-  const double theta = span.theta(lambda);
-  return cosine_sum(mu, theta) / (math::pi * math::sin(theta)) * 4.0 * std::fabs(omega) / (span.high - span.low);
-}
-
-// Share of the spectrum below omega: the same series, integrated.
+// Share of the spectrum below omega: the density mu_0 + 2 sum mu_m cos(m theta) over pi, integrated over theta.
 double share_below(const std::vector<double> &mu, Interval span, double omega) {
   const double theta = span.theta(omega * std::fabs(omega));
   return (mu[0] * (math::pi - theta) - 2.0 * sine_sum(mu, theta)) / math::pi;
@@ -181,9 +156,12 @@ DensityOfStates density_of_states(const RigidityMatrix &g, const ContactWeights 
     moments_of(h, span, v, mu, [&] { CallScope::report_share(r, static_cast<double>(r) / o.vectors); });
     // Each vector over its own length: the integral is 1 for every one of them.
     for (size_t m = moments; m-- > 0;) mu[m] *= jackson(m, moments) / mu[0];
+    double before = share_below(mu, span, first);
     for (size_t k = 0; k < points; ++k) {
-      density.add(k, density_at(mu, span, out.omega[k]));
-      cumulative.add(k, share_below(mu, span, out.omega[k] + 0.5 * out.step));
+      const double below = share_below(mu, span, out.omega[k] + 0.5 * out.step);
+      density.add(k, (below - before) / out.step);  // mean over the bin, however wide
+      cumulative.add(k, below);
+      before = below;
     }
   }
   density.give(o.vectors, out.density, out.density_error);

@@ -59,10 +59,25 @@ struct Pade {
     for (int k = degree; k >= 0; --k) sum = sum * x + c[k];
     return sum;
   }
-  // 0 from the first pole on.
-  double at(double x) const {
-    const double below = horner(q, denominator, x);
-    return below > 0.0 ? horner(p, numerator, x) / below : 0.0;
+  // Numerator and denominator of the slope, and the denominator itself, are polynomials: both change sign only at a
+  // pole or at a maximum.
+  bool rises(double x) const {
+    double above = 0.0, slope_above = 0.0, below = 0.0, slope_below = 0.0;
+    for (int k = numerator; k >= 0; --k) slope_above = slope_above * x + above, above = above * x + p[k];
+    for (int k = denominator; k >= 0; --k) slope_below = slope_below * x + below, below = below * x + q[k];
+    return below > 0.0 && slope_above * below > above * slope_below;
+  }
+  double at(double x) const { return horner(p, numerator, x) / horner(q, denominator, x); }
+  // Where the first pole or maximum comes before x, and x itself where none does.
+  double range(double x) const {
+    constexpr int parts = 1000;
+    for (int k = 1; k <= parts; ++k) {
+      double high = x * k / parts, low = high - x / parts;
+      if (rises(high)) continue;
+      for (int halving = 0; halving < 40; ++halving) (rises(0.5 * (low + high)) ? low : high) = 0.5 * (low + high);
+      return low;
+    }
+    return x;
   }
 };
 
@@ -70,10 +85,15 @@ struct Pade {
 double pade_pressure(int32_t dim, double f) {
   double c[Pade::terms] = {1.0, 1.0};
   for (int n = 0; n < virial_known; ++n) c[n + 2] = virial_table[dim - 2][n];
-  const double pressure = Pade(c).at(std::ldexp(f, dim - 1));
-  if (!(pressure >= 1.0))
-    fail(JAM_E_ARGUMENT, "packing_fraction is %g, beyond the pole of this equation of state of the liquid", f);
-  return pressure;
+  const Pade pade(c);
+  const double x = std::ldexp(f, dim - 1), range = pade.range(x);
+  if (range < x)
+    fail(JAM_E_ARGUMENT,
+         "packing_fraction is %g: in d = %d the pressure of this equation of state of the liquid rises only up to "
+         "%.4g, its "
+         "pole or maximum",
+         f, dim, std::ldexp(range, 1 - dim));
+  return pade.at(x);
 }
 
 }  // namespace

@@ -153,7 +153,7 @@ class Network(unittest.TestCase):
         phi = np.array([0.5, 0.55, 0.6])
         p = [jam.eos("free_volume", 3, x, 0.64) for x in phi]
         np.testing.assert_allclose(p, 3 / (1 - phi / 0.64), rtol=1e-14)
-        self.assertEqual(jam.eos(jam.EosForm.MK, 3, 0.5, 0), 1 + 4 * 0.5)
+        self.assertEqual(jam.eos(jam.EosForm.MK, 3, 0.5), 1 + 4 * 0.5)
         fit = jam.glass_fit(phi, p)
         self.assertAlmostEqual(fit.jammed_fraction, 0.64, 12)
         self.assertAlmostEqual(fit.dimension, 3, 10)

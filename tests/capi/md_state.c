@@ -122,7 +122,22 @@ static void liquid_of_every_dimension(void) {
   /* The closed forms of d = 2 and 3 are good to 0.5 % up to freezing. */
   assert_true(fabs(eos(JAM_EOS_PADE, 2, 0.5) / eos(JAM_EOS_HENDERSON, 2, 0.5) - 1.0) < 0.005);
   assert_true(fabs(eos(JAM_EOS_PADE, 3, 0.49) / eos(JAM_EOS_CARNAHAN_STARLING, 3, 0.49) - 1.0) < 0.005);
-  assert_int_equal(jam_eos(JAM_EOS_PADE, 4, 0.6, 0, &p), JAM_E_ARGUMENT); /* beyond its pole */
+  /* It ends at its pole (d = 2 to 4) or its maximum, both beyond freezing (0.70, 0.494, 0.288, 0.174, 0.105 in d = 2 to
+   * 6), and rises before. */
+  const double freezing[] = {0.70, 0.494, 0.288, 0.174, 0.105, 0.06, 0.035};
+  for (int32_t d = 2; d <= JAM_MAX_DIM; ++d) {
+    double before = 0.99, end = 0.0;
+    for (double f = 0.0; f < 1.0 && end == 0.0; f += 0.0005) {
+      if (jam_eos(JAM_EOS_PADE, d, f, 0, &p) == JAM_E_ARGUMENT)
+        end = f;
+      else
+        assert_true(p > before), before = p;
+    }
+    assert_true(end > 1.3 * freezing[d - 2]);
+    char number[16];
+    snprintf(number, sizeof number, "in d = %d", d);
+    assert_non_null(strstr(jam_last_error(), number));
+  }
 }
 
 static void equations_of_state(void **state) {

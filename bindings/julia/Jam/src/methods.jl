@@ -194,15 +194,15 @@ function observed_correlation(s::System)
 end
 
 """
-    eos(form, dim, packing_fraction, jammed_fraction) -> pressure
+    eos(form, dim, packing_fraction, jammed_fraction = 0) -> pressure
 
-pressure of a form; `FREE_VOLUME` uses `jammed_fraction`.
+pressure of a form.
 
 - `form`: one of `:carnahan_starling`, `:py_virial`, `:py_compressibility`, `:virial`, `:mk`, `:free_volume`,
   `:henderson`, `:pade`
 - errors: `:dimension`, `:unsupported`
 """
-function eos(form, dim, packing_fraction, jammed_fraction)
+function eos(form, dim, packing_fraction, jammed_fraction = 0)
     return call(nothing, :jam_eos, (form, dim, packing_fraction, jammed_fraction, ); progress = nothing)
 end
 

@@ -166,7 +166,7 @@ const JAM_EOS_VIRIAL = Int32(3)  # series to the seventh coefficient
 const JAM_EOS_MK = Int32(4)  # 1 + 2^d phi / 2, exact for zeta infinite
 const JAM_EOS_FREE_VOLUME = Int32(5)  # glass: d / (1 - phi / jammed_fraction)
 const JAM_EOS_HENDERSON = Int32(6)  # d = 2: (1 + phi^2 / 8) / (1 - phi)^2
-const JAM_EOS_PADE = Int32(7)  # liquid, any d: Pade [4/5] of B_2 .. B_10 (Clisby, McCoy, J. Stat. Phys. 122, 15)
+const JAM_EOS_PADE = Int32(7)  # liquid, any d: Pade [4/5] of B_2 .. B_10 (J. Stat. Phys. 122, 15), where it rises
 
 # jam_energy_unit: Unit of the overlap x of a soft pair.
 const JAM_ENERGY_LENGTH = Int32(0)  # x = sigma_ij - r, unit of the box
@@ -379,7 +379,7 @@ const JAM_FLOPPY_S_RETURN = Int32(5)  # opening 2 s_star at which, to second ord
 
 # jam_dos_column: Columns of jam_density_of_states, one row per bin of the frequency omega.
 const JAM_DOS_OMEGA = Int32(0)  # middle of the bin
-const JAM_DOS_DENSITY = Int32(1)  # density of states D there, integral 1
+const JAM_DOS_DENSITY = Int32(1)  # mean over the bin of the density of states D, integral 1
 const JAM_DOS_ERROR = Int32(2)  # its standard error over the random vectors; smoothing is not in it
 const JAM_DOS_EDGE = Int32(3)  # upper end of the bin
 const JAM_DOS_CUMULATIVE = Int32(4)  # share of modes below the edge
@@ -2361,7 +2361,7 @@ end
 """
     jam_eos(form, dim, packing_fraction, jammed_fraction, pressure)
 
-pressure of a form; `FREE_VOLUME` uses `jammed_fraction`.
+pressure of a form.
 Errors: `JAM_E_DIMENSION`, `JAM_E_UNSUPPORTED`.
 """
 function jam_eos(form, dim, packing_fraction, jammed_fraction, pressure)

@@ -31,8 +31,8 @@ def cell_volume(dim: int, cell: Any) -> float:
     return answer
 
 
-def eos(form: int | str, dim: int, packing_fraction: float, jammed_fraction: float) -> float:
-    """pressure of a form; FREE_VOLUME uses jammed_fraction.
+def eos(form: int | str, dim: int, packing_fraction: float, jammed_fraction: float = 0) -> float:
+    """pressure of a form.
 
     Parameters
     ----------

@@ -212,7 +212,7 @@ class EosForm(_Word):
     MK = 4  # 1 + 2^d phi / 2, exact for zeta infinite
     FREE_VOLUME = 5  # glass: d / (1 - phi / jammed_fraction)
     HENDERSON = 6  # d = 2: (1 + phi^2 / 8) / (1 - phi)^2
-    PADE = 7  # liquid, any d: Pade [4/5] of B_2 .. B_10 (Clisby, McCoy, J. Stat. Phys. 122, 15)
+    PADE = 7  # liquid, any d: Pade [4/5] of B_2 .. B_10 (J. Stat. Phys. 122, 15), where it rises
 
 
 class EnergyUnit(_Word):
@@ -496,7 +496,7 @@ class FloppyColumn(_Word):
 class DosColumn(_Word):
     """Columns of jam_density_of_states, one row per bin of the frequency omega."""
     OMEGA = 0  # middle of the bin
-    DENSITY = 1  # density of states D there, integral 1
+    DENSITY = 1  # mean over the bin of the density of states D, integral 1
     ERROR = 2  # its standard error over the random vectors; smoothing is not in it
     EDGE = 3  # upper end of the bin
     CUMULATIVE = 4  # share of modes below the edge

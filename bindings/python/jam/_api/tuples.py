@@ -304,7 +304,7 @@ class DensityOfStatesResult(NamedTuple):
     """What density_of_states returns, column by column."""
 
     omega: Array  # middle of the bin
-    density: Array  # density of states D there, integral 1
+    density: Array  # mean over the bin of the density of states D, integral 1
     error: Array  # its standard error over the random vectors; smoothing is not in it
     edge: Array  # upper end of the bin
     cumulative: Array  # share of modes below the edge

@@ -1375,7 +1375,7 @@ class Methods:
         omega : array
             middle of the bin
         density : array
-            density of states D there, integral 1
+            mean over the bin of the density of states D, integral 1
         error : array
             its standard error over the random vectors; smoothing is not in it
         edge : array

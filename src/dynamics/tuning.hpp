@@ -92,11 +92,12 @@ struct WindowTuning {
   static constexpr double longest = 20.0, windows = 20.0;  // at constant volume: collisions a sphere, windows of a run
   static constexpr double fewest_growing = 32.0, fewest = 4.0;  // collisions of all
   static constexpr int64_t parts = 4;                           // of a window while growing
-  static constexpr double steady = 0.25;         // no part of the last window below this share of the target pressure
-  static constexpr size_t kept_parts = 16;       // while growing
-  static constexpr size_t fewest_for_error = 5;  // windows at constant volume
-  static constexpr int64_t frozen = 20;          // windows without time until the run counts as stalled
-  static constexpr double units_of_gap = 40.0;   // smaller gaps are noise, in units of the coordinates
+  static constexpr double steady = 0.25;          // no part of the last window below this share of the target pressure
+  static constexpr size_t kept_parts = 16;        // while growing
+  static constexpr size_t fewest_for_error = 5;   // windows at constant volume
+  static constexpr int64_t frozen = 20;           // windows without time until the run counts as stalled
+  static constexpr double touching_start = 20.0;  // collisions a sphere: growth that ends before had a touching start
+  static constexpr double units_of_gap = 40.0;    // smaller gaps are noise, in units of the coordinates
   static constexpr double as_good_as_touching = 0.999;  // its own image, of a sphere that fills the box
   static constexpr double growth_noise = 0.02;  // smaller changes of the rate of growth are noise of the pressure
 };

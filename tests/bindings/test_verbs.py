@@ -148,6 +148,19 @@ class MolecularDynamics(unittest.TestCase):
         self.assertEqual((r.status.name, r.stop_reason.name, r.contacts), ("NOT_JAMMED", "UNJAMMED", 0))
         self.assertLess(r.max_overlap, 1e-15)
 
+    def test_growth_from_touching_spheres_names_the_mend(self):
+        """Soft spheres relaxed until they touch collide without time to move: the pressure is not that of the density."""
+        for dim, phi in ((3, 0.60), (3, 0.58), (2, 0.81)):
+            s = jam.System.random(300, dim, packing_fraction=phi, overlap="allow", seed=3)
+            self.assertEqual(s.relax().stop_reason.name, "UNJAMMED")
+            r = s.compress(packing_fraction=phi + 0.01)
+            self.assertNotEqual(r.status.name, "OK")
+            self.assertRegex(r.status_text, r"spheres touch at the start: .* scale_diameters\(0.99\)")
+            s.scale_diameters(0.99)
+            r = s.compress(packing_fraction=phi + 0.01)
+            self.assertEqual((r.status.name, r.stop_reason.name), ("OK", "PACKING_FRACTION"))
+            self.assertAlmostEqual(s.packing_fraction, phi + 0.01, 9)
+
     def test_run_and_compress(self):
         s = jam.System.random(n=108, dim=3, seed=1)
         r = s.run(20)

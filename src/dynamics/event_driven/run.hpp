@@ -69,6 +69,7 @@ class EventDrivenRun final : public Dynamics {
   void finish(int32_t reason);
   double standard_error() const;
   jam_status status_of(int32_t reason) const;
+  bool touched_at_start() const;
   bool missed_density() const;  // the stage, and none follows, ended below the packing fraction that is wanted
 
   // -- windows.cpp

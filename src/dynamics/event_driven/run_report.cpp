@@ -118,8 +118,26 @@ double EventDrivenRun::standard_error() const {
   return std::sqrt(square / (growing() ? static_cast<double>(WindowTuning::parts) : m));
 }
 
+// Growth from touching spheres: they collide without time to move, so the pressure of the first windows is beyond any
+// aim. It says nothing about the density at which they jam.
+bool EventDrivenRun::touched_at_start() const {
+  return growing() && stage_.packing_fraction < no_limit && packing_fraction(p_) < stage_.packing_fraction &&
+         static_cast<double>(report.collisions) < 0.5 * n_ * WindowTuning::touching_start;
+}
+
 std::string EventDrivenRun::text() const {
   char line[300] = "";
+  const bool ended_by_pressure = report.stop_reason == JAM_STOP_PRESSURE || report.stop_reason == JAM_STOP_PRECISION ||
+                                 (report.stop_reason == JAM_STOP_STALLED && frozen_ > 0);
+  if (ended_by_pressure && touched_at_start()) {
+    std::snprintf(
+        line, sizeof line,
+        "spheres touch at the start: growth ended at pressure %.3g after %.2g collisions a sphere, at packing "
+        "fraction %.6g of %.6g; unless they are jammed, scale_diameters(0.99) before growth lets them move "
+        "apart",
+        pressure_, 2.0 * static_cast<double>(report.collisions) / n_, packing_fraction(p_), stage_.packing_fraction);
+    return line;
+  }
   const auto largest = std::max_element(p_.diameter.begin(), p_.diameter.end());
   const long long sphere = largest - p_.diameter.begin();
   const double phi = jam::packing_fraction(p_);

@@ -2,12 +2,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include "analysis/shells.hpp"
 #include "analysis/structure.hpp"
 #include "analysis/tuning.hpp"
 #include "core/call_scope.hpp"
 #include "core/error.hpp"
 #include "core/math.hpp"
+#include "core/shells.hpp"
 #include "network/resolution.hpp"
 
 namespace jam {
@@ -44,7 +44,10 @@ std::vector<double> pair_correlation(const Packing &p, const int32_t *kind, size
     g[bin] += static_cast<double>(is(i, a) && is(j, b)) + static_cast<double>(is(j, a) && is(i, b));
   }
   if (p.container) {
-    const std::vector<double> even = pairs_of_even_spread(p, of, with, r_max * unit, bins);
+    std::vector<double> edge;
+    for (size_t k = 0; k <= bins; ++k)
+      edge.push_back(r_max * unit / static_cast<double>(bins) * static_cast<double>(k));
+    const std::vector<double> even = pairs_of_even_spread(p, of, with, edge);
     for (size_t k = 0; k < bins; ++k) g[k] = even[k] > 0.0 ? g[k] / even[k] : 0.0;
     return g;
   }

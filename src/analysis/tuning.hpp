@@ -46,12 +46,6 @@ struct CellsTuning {
   static constexpr int slices = 8;  // of a cell that a round wall cuts, between two heights where its shape changes
 };
 
-// ---- g(r) between walls
-struct ShellsTuning {
-  static constexpr size_t size_classes = 8;   // spheres of more diameters are taken in so many classes
-  static constexpr double least_room = 1e-6;  // of the container, where centres can be
-};
-
 // ---- jam_crystal_score: g(r) at sqrt 2, where disordered packings have a minimum, over the mean around it
 struct CrystalTuning {
   static constexpr double reach = 2.0, bin = 0.005, half_width = 0.02, from = 1.2, to = 1.6;

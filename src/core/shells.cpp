@@ -1,14 +1,14 @@
-#include "analysis/shells.hpp"
+#include "core/shells.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
-#include "analysis/tuning.hpp"
 #include "core/call_scope.hpp"
 #include "core/error.hpp"
 #include "core/math.hpp"
+#include "core/tuning.hpp"
 
 namespace jam {
 namespace {
@@ -180,10 +180,9 @@ double room_of_centres(const Packing &p, double radius) {
 }  // namespace
 
 std::vector<double> pairs_of_even_spread(const Packing &p, const std::vector<char> &of, const std::vector<char> &with,
-                                         double reach, size_t bins) {
+                                         const std::vector<double> &edge, bool of_contact) {
   if (p.dim > 3) fail(JAM_E_UNSUPPORTED, "g(r) between walls is there for d = 2 and 3, this system has d = %d", p.dim);
-  const double step = reach / static_cast<double>(bins);
-  std::vector<double> out(bins, 0.0);
+  std::vector<double> out(edge.size() - 1, 0.0);
   for (const SizeClass &size : size_classes(p, with)) {
     const double room = room_of_centres(p, size.radius);
     if (!(room > ShellsTuning::least_room * p.container.volume()))
@@ -193,8 +192,9 @@ std::vector<double> pairs_of_even_spread(const Packing &p, const std::vector<cha
       CallScope::look();
       if (!of[i]) continue;
       const View view(p, &p.position[i * static_cast<size_t>(p.dim)], size.radius);
-      for (size_t k = 0; k < bins; ++k)
-        out[k] += size.count / room * view.shell(step * static_cast<double>(k), step * static_cast<double>(k + 1));
+      const double unit = of_contact ? 0.5 * p.diameter[i] + size.radius : 1.0;
+      for (size_t k = 0; k < out.size(); ++k)
+        out[k] += size.count / room * view.shell(unit * edge[k], unit * edge[k + 1]);
     }
   }
   return out;

@@ -6,8 +6,9 @@
 namespace jam {
 
 // The pairs that g(r) compares with: of each sphere of `of`, and the spheres `with` spread evenly where the walls leave
-// their centres room, in equal bins up to `reach`. d = 2, 3. JAM_E_UNSUPPORTED where a sphere of `with` has no room.
+// their centres room, between distances `edge`, in contact distances where `of_contact` says so. d = 2, 3.
+// JAM_E_UNSUPPORTED where a sphere of `with` has no room.
 std::vector<double> pairs_of_even_spread(const Packing &p, const std::vector<char> &of, const std::vector<char> &with,
-                                         double reach, size_t bins);
+                                         const std::vector<double> &edge, bool of_contact = false);
 
 }  // namespace jam

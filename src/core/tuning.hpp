@@ -71,4 +71,10 @@ struct SizeTuning {
   static constexpr size_t first_draw = 64, trial = 4096;  // spheres drawn at once, and to find the mean volume
 };
 
+// ---- g(r) between walls
+struct ShellsTuning {
+  static constexpr size_t size_classes = 8;   // spheres of more diameters are taken in so many classes
+  static constexpr double least_room = 1e-6;  // of the container, where centres can be
+};
+
 }  // namespace jam

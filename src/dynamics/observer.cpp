@@ -10,6 +10,7 @@
 #include "core/pair_rule.hpp"
 #include "core/pairs.hpp"
 #include "core/rng.hpp"
+#include "core/shells.hpp"
 
 namespace jam {
 
@@ -112,6 +113,10 @@ Observer::Observer(const Packing &p, const jam_observe_options &o)
     snapshot_at_ = snapshot_step_;
     next_snapshot_ = in_all(snapshot_at_, n_);
   }
+  if (p.container && (o.gap_bins > 0 || o.r_bins > 0)) {  // refused now, not at the first sample
+    const std::vector<char> all(p.n(), 1);
+    pairs_of_even_spread(p, all, all, {0.0, 0.0});
+  }
   travel_.assign(p.n() * dim_, 0.0);
   if (o.collisions) collisions_.assign(p.n(), 0);
   if (o.gap_bins > 0) {
@@ -177,19 +182,37 @@ void Observer::take_histograms(const Packing &now) {
   histograms_at_ = std::numeric_limits<double>::infinity();
 }
 
-// Number of pairs in each bin of the gap h over that of an ideal gas; for equal spheres this is g at contact. The ideal
-// gas has N^2/2 <sigma_ij^d> V_d d(1+h)^d / V pairs in dh. The mean of sigma_ij^d follows from powers of sigma.
+// Numbers of pairs over those of spheres with partners spread evenly where the walls leave their centres room.
+std::vector<double> Observer::between_walls(const Packing &p, const std::vector<double> &edge, bool of_contact,
+                                            std::vector<double> pairs) const {
+  const std::vector<char> all(p.n(), 1);
+  const std::vector<double> even = pairs_of_even_spread(p, all, all, edge, of_contact);
+  for (size_t k = 0; k < pairs.size(); ++k) {
+    const double ideal = 0.5 * (n_ - 1.0) / n_ * even[k];  // each pair once, and none with itself
+    pairs[k] = ideal > 0.0 ? pairs[k] / ideal : 0.0;
+  }
+  return pairs;
+}
+
+// Number of pairs in each bin of the gap h over that of an ideal gas; for equal spheres this is g at contact.
 std::vector<double> Observer::sample_gaps(const Packing &p) const {
   std::vector<double> density(gaps_.bins(), 0.0);
   const PairList pairs = find_pairs(p, 0.0, 1.0 + options_.gap_max);
   double r[JAM_MAX_DIM];
   for (size_t k = 0; k < pairs.size(); ++k) {
-    if (pairs.i[k] == pairs.j[k]) continue;
+    if (pairs.i[k] == pairs.j[k] || pairs.wall(k)) continue;
     const double sigma = contact_distance(p, pairs.i[k], pairs.j[k]);
     const double gap = std::sqrt(pair_vector(p, pairs, k, r)) / sigma - 1.0;
     const auto at = std::upper_bound(gaps_.edge.begin() + 1, gaps_.edge.end(), gap);
     if (at != gaps_.edge.end()) density[static_cast<size_t>(at - gaps_.edge.begin()) - 1] += 1.0;
   }
+  if (p.container) {
+    std::vector<double> edge(gaps_.edge);
+    for (double &h : edge) h += 1.0;
+    return between_walls(p, edge, true, std::move(density));
+  }
+  // The ideal gas has N^2/2 <sigma_ij^d> V_d d(1+h)^d / V pairs in dh. The mean of sigma_ij^d follows from powers of
+  // sigma.
   std::vector<double> moment(dim_ + 1, 0.0);
   for (double s : p.diameter)
     for (size_t m = 0; m <= dim_; ++m) moment[m] += math::pow(s / p.cell.side(), static_cast<double>(m)) / n_;
@@ -213,9 +236,14 @@ std::vector<double> Observer::sample_correlation(const Packing &p) const {
   const PairList pairs = find_pairs(p, options_.r_max * sigma, 0.0);
   double r[JAM_MAX_DIM];
   for (size_t k = 0; k < pairs.size(); ++k) {
-    if (pairs.i[k] == pairs.j[k]) continue;
+    if (pairs.i[k] == pairs.j[k] || pairs.wall(k)) continue;
     const auto bin = static_cast<size_t>(std::sqrt(pair_vector(p, pairs, k, r)) / (sigma * width));
     if (bin < density.size()) density[bin] += 1.0;
+  }
+  if (p.container) {
+    std::vector<double> edge(correlation_.edge);
+    for (double &x : edge) x *= sigma;
+    return between_walls(p, edge, false, std::move(density));
   }
   const double d = static_cast<double>(dim_);
   const double ideal = 0.5 * n_ * (n_ - 1.0) * unit_sphere_volume(p.dim) * math::pow(2.0 * sigma / p.cell.side(), d);

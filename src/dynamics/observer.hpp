@@ -93,6 +93,8 @@ class Observer {
   const Histogram &correlation() const { return correlation_; }
 
  private:
+  std::vector<double> between_walls(const Packing &p, const std::vector<double> &edge, bool of_contact,
+                                    std::vector<double> pairs) const;
   std::vector<double> sample_gaps(const Packing &p) const;
   std::vector<double> sample_correlation(const Packing &p) const;
   static constexpr int blocks = SampleTuning::blocks;

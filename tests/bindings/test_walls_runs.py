@@ -38,6 +38,29 @@ class Runs(unittest.TestCase):
         self.assertLess(abs(runs.series["pressure"].sum(0)[-1] / 30 / p - 1), 0.02)
 
 
+class Observed(unittest.TestCase):
+    def test_histograms_of_a_dilute_gas_are_1_beside_any_walls(self):
+        """Pairs over those of partners spread evenly within the walls: without that a small container has fewer pairs by half."""
+        for name, scene in OPEN.items():
+            s = jam.System.random(n=100, seed=1, packing_fraction=0.02, diameters=1 + 0.5 * (np.arange(100) % 2), **scene)
+            s.run(50)
+            with s.observing(sample_every=4, gap_bins=4, gap_min=0.5, gap_max=2.0, r_bins=8, r_max=4.0) as seen:
+                s.run(900 if s.dim == 2 else 300)
+            np.testing.assert_allclose(seen.correlation.g[4:], 1, atol=0.08, err_msg=name)
+            np.testing.assert_allclose(seen.gaps.density, 1, atol=0.15, err_msg=name)
+            self.assertLess(np.abs(seen.gaps.density - 1).mean(), 0.06, name)
+
+    def test_histograms_agree_with_g_of_r_of_states(self):
+        s = jam.System.random(n=200, seed=2, packing_fraction=0.3, cell=[1, 1, 1.5], walls="z")
+        s.run(50)
+        of_states = []
+        with s.observing(sample_every=5, r_bins=20, r_max=3.0) as seen:
+            for _ in range(60):
+                s.run(5)
+                of_states.append(s.pair_correlation(r_max=3.0, bins=20))
+        np.testing.assert_allclose(seen.correlation.g[7:], np.mean(of_states, axis=0)[7:] * 200 / 199, rtol=0.06)
+
+
 class SoftMonteCarlo(unittest.TestCase):
     def test_one_soft_sphere_between_walls_has_the_boltzmann_density(self):
         # The energy of a harmonic sphere at a wall is eps (1 - z / a)^2 / 2; z is uniform where it touches none.

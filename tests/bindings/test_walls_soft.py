@@ -103,6 +103,8 @@ class Minima(unittest.TestCase):
     def test_walls_of_many_dimensions(self):
         s = jam.System.random(n=60, dim=4, seed=1, packing_fraction=0.7, walls=(1, 0, 1, 0), overlap="allow")
         r = s.relax()
+        with self.assertRaisesRegex(jam.errors.UnsupportedError, "d = 2 and 3"):  # histograms, before the run
+            s.call("observe", r_bins=10)
         SCENES["four"] = {"dim": 4}
         edges = np.diag(s.cell)
         x, sigma = s.positions, s.diameters[0]

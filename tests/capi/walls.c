@@ -250,9 +250,6 @@ static void calls_that_know_no_walls_refuse(void **state) {
   assert_int_equal(create_walled(&walled_scenes[SLIT], 20, 0.1, 1, NULL, &sys), JAM_OK);
   assert_int_equal(create_walled(&walled_scenes[TUBE], 20, 0.1, 1, NULL, &tube), JAM_OK);
   assert_int_equal(create_walled(&walled_scenes[BALL], 20, 0.1, 1, NULL, &ball), JAM_OK);
-  jam_observe_options observe;
-  jam_observe_options_init(&observe, sizeof observe);
-  observe.r_bins = 20;
   jam_crunch_options crunch[2];
   for (int k = 0; k < 2; ++k) jam_crunch_options_init(&crunch[k], sizeof crunch[k]);
   crunch[0].strain = JAM_STRAIN_FREE, crunch[1].prove = 1;
@@ -269,8 +266,7 @@ static void calls_that_know_no_walls_refuse(void **state) {
                                  jam_structure_factor(ball, 10.0, real, 4096, &needed),
                                  jam_pore_sizes(tube, 10, 1, real, 4096, &needed),
                                  jam_set_cell(sys, cell, 9, NULL, 0, NULL, 0, NULL),
-                                 jam_strain(sys, cell, 9),
-                                 jam_observe(sys, &observe)};
+                                 jam_strain(sys, cell, 9)};
   for (size_t k = 0; k < sizeof statuses / sizeof *statuses; ++k) {
     if (statuses[k] != JAM_E_UNSUPPORTED) print_error("call %zu gives %d\n", k, (int)statuses[k]);
     assert_int_equal(statuses[k], JAM_E_UNSUPPORTED);

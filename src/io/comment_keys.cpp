@@ -11,11 +11,14 @@ bool is_true(std::string_view word) {
 
 size_t read_container(const LineReader &in, CommentKeys &keys, Enclosure &enclosure) {
   std::string_view value;
-  if (!keys.find("container", value)) return 0;
-  enclosure.container = container_of_word(std::string(value).c_str());
+  const bool named = keys.find("container", value);
+  if (named) enclosure.container = container_of_word(std::string(value).c_str());
   if (enclosure.container < 0)
     in.fail(JAM_E_FORMAT, "container is '%s', known are brick, cylinder and ball", shown(value).c_str());
-  if (!keys.find("walls", value)) in.fail(JAM_E_FORMAT, "container= without walls=, a word T or F for each axis");
+  if (!keys.find("walls", value)) {  // walls alone are those of a brick
+    if (!named) return 0;
+    in.fail(JAM_E_FORMAT, "container= without walls=, a word T or F for each axis");
+  }
   std::string plain(value);  // ASE writes a list as _JSON [false, true]
   if (plain.compare(0, 5, "_JSON") == 0) {
     plain.erase(0, 5);

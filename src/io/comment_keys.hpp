@@ -61,8 +61,8 @@ class CommentKeys {
 
 // Whether the word of a truth value is T, True or 1.
 bool is_true(std::string_view word);
-// container=, and walls= with a word for each axis: what container_keys writes. The number of these words; 0 without
-// container=.
+// container=, and walls= with a word for each axis: what container_keys writes; walls= alone are those of a brick. The
+// number of these words; 0 without walls=.
 size_t read_container(const LineReader &in, CommentKeys &keys, Enclosure &enclosure);
 
 }  // namespace jam

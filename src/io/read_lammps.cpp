@@ -166,6 +166,8 @@ std::vector<Atom> read_atoms(LineReader &in, const Header &header, const Style &
   Words words;
   Rows rows(in, true);
   StyleDoubt doubt(header.types);
+  double first_density = 0.0;
+  bool densities_differ = false;
   for (int64_t k = 0; k < header.atoms; ++k) {
     if (!rows.next(words)) ends_early(in, k, header.atoms);
     if (words.size() != style.columns && words.size() != style.columns + 3)
@@ -173,7 +175,10 @@ std::vector<Atom> read_atoms(LineReader &in, const Header &header, const Style &
               std::string(style.name).c_str(), style.columns, style.columns + 3);
     if (!named) doubt.look(in, words);
     for (size_t c = style.columns; c < words.size(); ++c) parse_count(in, words[c], "an image count");
-    if (!(parse_number(in, words[style.density]) > 0.0))
+    const double density = parse_number(in, words[style.density]);
+    if (k == 0) first_density = density;
+    densities_differ = densities_differ || density != first_density;
+    if (!(density > 0.0))
       in.fail(JAM_E_FORMAT, "the density is '%s', it must be positive: is the atom_style sphere?",
               shown(words[style.density]).c_str());
     Atom atom{parse_count(in, words[0], "the number of an atom"), positive(in, words[style.diameter], "diameter"), {}};
@@ -189,6 +194,7 @@ std::vector<Atom> read_atoms(LineReader &in, const Header &header, const Style &
   for (size_t k = 1; k < atoms.size(); ++k)
     if (atoms[k].id == atoms[k - 1].id)
       in.fail(JAM_E_FORMAT, "atom %lld is there twice", static_cast<long long>(atoms[k].id));
+  if (densities_differ) notes.say("the densities of the atoms were not read: masses are equal, or as the volumes");
   if (!named) notes.warn("the section Atoms names no style: atom_style sphere was assumed");
   return atoms;
 }
@@ -251,11 +257,7 @@ bool skip_section(LineReader &in, std::string_view &line, Words &words, const st
 size_t read_title(const LineReader &in, const std::string &title, Enclosure &enclosure) {
   if (title.compare(0, lammps_title.size(), lammps_title) != 0) return 0;
   CommentKeys keys(in, title);
-  const size_t axes = read_container(in, keys, enclosure);
-  std::string_view walls;
-  if (axes == 0 && keys.find("walls", walls))
-    in.fail(JAM_E_FORMAT, "walls='%s' without container=, one of brick, cylinder and ball", shown(walls).c_str());
-  return axes;
+  return read_container(in, keys, enclosure);
 }
 
 }  // namespace

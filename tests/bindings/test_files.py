@@ -56,6 +56,18 @@ class Files(unittest.TestCase):
             found[a.get("Name")] = values.reshape(-1, int(a.get("NumberOfComponents")))
         return piece, found
 
+    def test_densities_of_lammps_atoms_are_noted(self):
+        """libjam has equal masses, or masses as the volumes: densities that differ are lost, and the note says so."""
+        self.s.write(self.path / "a.data")
+        self.assertNotIn("densities", jam.System.read(self.path / "a.data").notes)
+        text = (self.path / "a.data").read_text()
+        head, rows = text.split("Atoms # sphere\n\n")
+        first, rest = rows.split("\n", 1)
+        words = first.split()
+        words[3] = "2.5"
+        (self.path / "a.data").write_text(head + "Atoms # sphere\n\n" + " ".join(words) + "\n" + rest)
+        self.assertIn("the densities of the atoms were not read: masses are equal", jam.System.read(self.path / "a.data").notes)
+
     def test_vtk_spheres(self):
         for s in (self.s, crunched(3)):
             jam.files.write_vtk(s, self.path / "s.vtp")

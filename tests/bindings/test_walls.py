@@ -1,6 +1,7 @@
 """Walls and containers from Python: arguments, the table of walls, files, what refuses."""
 import os
 import pickle
+import re
 import subprocess
 import tempfile
 import unittest
@@ -80,14 +81,13 @@ class Scenes(unittest.TestCase):
         self.assertTrue((pickle.loads(pickle.dumps(s)).walls().pressure == s.walls().pressure).all())
 
     def test_walls_in_titles_and_of_ase(self):
-        """A title of LAMMPS data that names walls without a container is refused by its line; ASE writes lists as _JSON."""
+        """Walls without a container are those of a brick; wrong words are refused by their line; ASE writes lists as _JSON."""
         s = jam.System.random(n=20, packing_fraction=0.1, walls="z")
         with tempfile.TemporaryDirectory() as folder:
             name = Path(folder, "slit.data")
             s.write(name)
             text = name.read_text()
             for new, why in (
-                (text.replace("container=brick ", ""), "line 1: walls='F F T' without container="),
                 (text.replace("F F T", "F F X"), "line 1: walls='F F X': a word for each axis must be T or F"),
                 (text.replace("F F T", "F F"), "line 1: walls has 2 words, 3 are needed"),
                 (text.replace("F F T", "F" + 40 * " T"), "line 1: walls has 41 words, there are at most 8"),
@@ -95,12 +95,22 @@ class Scenes(unittest.TestCase):
                 name.write_text(new)
                 with self.assertRaisesRegex(jam.errors.FormatError, why):
                     jam.System.read(name)
+            name.write_text(text.replace("container=brick ", ""))
+            self.assertEqual(jam.System.read(name).info.walls, 4)
             name = Path(folder, "slit.xyz")
             s.write(name)
             text = name.read_text()
             for words in ("_JSON [false, false, true]", "_JSON [false,false,true]", "F F T"):
                 name.write_text(text.replace("F F T", words, 1) if words[0] == "F" else text.replace('walls="F F T"', f'walls="{words}"'))
                 self.assertEqual(jam.System.read(name).info.walls, 4)
+            alone = re.sub(r' pbc="[^"]*"', "", text.replace(" container=brick", ""))  # walls without pbc and container: a brick
+            name.write_text(alone)
+            self.assertEqual((jam.System.read(name).info.walls, jam.System.read(name).notes), (4, ""))
+            with self.assertRaisesRegex(jam.errors.ArgumentError, "close other axes than the file"):
+                jam.System.read(name, walls="x")
+            name.write_text(text.replace(" container=brick", "").replace('pbc="T T F"', 'pbc="T T T"'))
+            with self.assertRaisesRegex(jam.errors.FormatError, "axis 2 is periodic there, but container= and walls= close it"):
+                jam.System.read(name)
             name.write_text(text.replace('walls="F F T"', 'walls="_JSON [false, 2, true]"'))
             with self.assertRaisesRegex(jam.errors.FormatError, "must be T or F"):
                 jam.System.read(name)

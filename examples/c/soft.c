@@ -1,5 +1,7 @@
-/* Soft spheres from random points to an energy minimum, its moduli, and down to jamming, checked by a crunch. */
+/* Soft spheres from random points to an energy minimum, its moduli, down to jamming, checked by a crunch, and 1 % up.
+ */
 #include <jam/jam.h>
+#include <math.h>
 #include <stdio.h>
 
 static int failed(jam_system *sys) {
@@ -10,13 +12,15 @@ static int failed(jam_system *sys) {
 
 int main(void) {
   jam_create_options o;
-  jam_relax_report minimum;
+  jam_relax_report minimum, above;
+  jam_modes_options choose;
   jam_hessian_options stiffness;
   jam_moduli_report moduli;
   jam_decompress_report down;
   jam_start start = {.struct_size = sizeof start};
   jam_system *sys = NULL;
-  double size[100];
+  double size[100], mode[1][2];
+  size_t m = 0;
   int k;
 
   for (k = 0; k < 100; ++k) size[k] = k % 2 ? 1.4 : 1.0; /* so few equal spheres would order */
@@ -44,6 +48,17 @@ int main(void) {
   if (jam_decompress(sys, NULL, &down) < 0) return failed(sys);
   printf("phi_J %.9f from above, %.9f by crunch; %lld of %lld contacts in common\n", down.jammed_fraction,
          down.crunch_fraction, (long long)down.common_contacts, (long long)down.contacts);
+
+  /* A packing fraction 1 % above phi_J. jam_forces and jam_contacts give the forces there, jam_modes the vibrations. */
+  above.struct_size = sizeof above;
+  jam_modes_options_init(&choose, sizeof choose);
+  choose.which = JAM_MODES_LOWEST;
+  choose.count = 1;
+  if (jam_scale_diameters(sys, pow(1.01, 1.0 / 3.0)) < 0 || jam_relax(sys, NULL, &above) < 0 ||
+      jam_modes(sys, &stiffness, &choose, &mode[0][0], 2, NULL, 0, &m) < 0)
+    return failed(sys);
+  printf("1 %% above phi_J: pressure %.4g, %.3f contacts a sphere, lowest frequency %.4g\n", above.pressure,
+         above.coordination, sqrt(mode[0][JAM_MODE_LAMBDA]));
   jam_destroy(sys);
-  return minimum.converged && down.same_network == 1 ? 0 : 1;
+  return minimum.converged && down.same_network == 1 && above.converged && above.coordination > 6.0 ? 0 : 1;
 }

@@ -1,14 +1,15 @@
-! Soft spheres from random points to an energy minimum, its moduli, and down to jamming, checked by a crunch.
+! Soft spheres from random points to an energy minimum, its moduli, down to jamming, checked by a crunch, and 1 % up.
 program soft
   use jam_packing
   implicit none
   type(packing) :: spheres
   type(jam_create_options) :: create
-  type(jam_relax_report) :: minimum
+  type(jam_relax_report) :: minimum, above
   type(jam_hessian_options) :: of_energy
+  type(jam_modes_options) :: lowest
   type(jam_moduli_report) :: moduli
   type(jam_decompress_report) :: down
-  real(c_double), allocatable :: minima(:, :)  ! (columns, minima)
+  real(c_double), allocatable :: minima(:, :), table(:, :)  ! (columns, minima), (columns, modes)
   integer :: k
 
   call jam_defaults(create)
@@ -34,4 +35,13 @@ program soft
       '  pressure ', minima(JAM_SOFT_PRESSURE + 1, k)
   end do
   if (down%same_network /= 1) error stop 'two networks'
+
+  call spheres%scale_diameters(1.01_c_double**(1/3.0_c_double))  ! a packing fraction 1 % above phi_J
+  above = spheres%relax()
+  call jam_defaults(lowest)
+  lowest%count = 1
+  call spheres%modes(of_energy, lowest, table)
+  print '(3(a, es11.4))', '1 % above phi_J: pressure ', above%pressure, ', lowest frequency ', &
+    sqrt(table(JAM_MODE_LAMBDA + 1, 1)), ', largest force ', maxval(spheres%forces())
+  if (above%converged /= 1 .or. table(JAM_MODE_LAMBDA + 1, 1) <= 0) error stop 'not stable above phi_J'
 end program soft

@@ -49,7 +49,10 @@ typedef struct outcome {
   int cut_short;                  /* a table was not computed in time */
   int code;                       /* the exit code */
   double seconds_md;
-  const char *notes; /* jam_notes: what reading changed */
+  double diameter_given; /* mean of --sizes or of the file; NAN: no sizes in a unit of the user */
+  double walls[2 * JAM_MAX_DIM + 1][JAM_WALL_STRESS + 1]; /* jam_walls, at the end */
+  size_t wall_numbers;                                    /* of `walls` */
+  const char *notes;                                      /* jam_notes: what reading changed */
 } outcome;
 
 /* progress.c: lines on stderr, rewritten in place on a terminal, every ten seconds elsewhere; the log; checkpoints. */
@@ -94,6 +97,7 @@ int read_as_it_is(const options *o, jam_system **sys);
 int take_sizes(const char *value, options *o);
 int take_cell(const char *value, options *o);
 int take_copies(const char *value, options *o);
+double mean_given(const options *o, const jam_system *sys);     /* of diameters; NAN where no unit was given */
 int make_diameters(const options *o, double **out, int64_t *n); /* *out NULL: all equal; the caller frees it */
 void fill_cell(const options *o, double *cell); /* (d, d): the vectors of --cell, or of the cube of --box */
 

@@ -178,7 +178,7 @@ int run_job(const options *o) {
   if (!code && (o->input || o->resume || o->dim > 3 || o->given.cell_count || o->n == 1 || o->walls || o->container) &&
       check_formats(o, sys))
     code = EXIT_USAGE;
-  if (!code) print_warnings(jam_notes(sys));
+  if (!code) print_warnings(jam_notes(sys)), result.diameter_given = mean_given(o, sys);
   watch_signals(sys);
   if (!code && start_progress(&t, o, sys)) code = EXIT_OUTPUT;
   if (code) {

@@ -75,6 +75,23 @@ static void put_protocol(FILE *f, const options *o, const outcome *result) {
     fputs("  \"method\": null,\n  \"lp_solver\": null,\n", f);
 }
 
+/* A line a wall: force in newtons is a confining pressure times stress times area. */
+static void put_walls(FILE *f, const outcome *result) {
+  const size_t columns = sizeof *result->walls / sizeof **result->walls;
+  size_t w;
+  fputs("  \"walls\": [", f);
+  for (w = 0; w < result->wall_numbers / columns; ++w) {
+    const double *row = result->walls[w];
+    fprintf(f, "%s\n    {\"axis\": %d, \"side\": %d, \"area\": %.17g, \"stress\": ", w ? "," : "",
+            (int)row[JAM_WALL_AXIS], (int)row[JAM_WALL_SIDE], row[JAM_WALL_AREA]);
+    if (isfinite(row[JAM_WALL_STRESS]))
+      fprintf(f, "%.17g}", row[JAM_WALL_STRESS]);
+    else
+      fputs("null}", f);
+  }
+  fputs("],\n", f);
+}
+
 static const char *proof_of(const jam_crunch_report *r) {
   if (!r->jammed) return "not tried: not jammed";
   return jam_proof_text(r->theorem, r->proof_cause, r->proof_radius, r->proof_value, r->proof_bound);
@@ -99,6 +116,8 @@ int write_report(const options *o, const outcome *result, const char *path) {
   put_notes(f, result->notes, "");
   put_number(f, "packing_fraction", info->packing_fraction);
   put_number(f, "diameter_mean", info->diameter_mean);
+  put_number(f, "diameter_mean_given", result->diameter_given);
+  put_walls(f, result);
   put_number(f, "pressure", result->has_md ? result->pressure : NAN);
   put_count(f, "collisions", result->collisions, 1);
   put_number(f, "collisions_per_second", rate);
@@ -172,6 +191,10 @@ void print_summary(const options *o, const outcome *result) {
   printf("%lld spheres in d = %d, seed %lld: packing fraction %.12f\n", (long long)info->n, (int)info->dim,
          (long long)info->seed, info->packing_fraction);
   each_note(result->notes, print_note, NULL);
+  if (fabs(info->diameter_mean / result->diameter_given - 1.0) > 1e-9)
+    printf("  diameters are %.9g times those %s, mean %.6g: the cell keeps its size\n",
+           info->diameter_mean / result->diameter_given, o->input || o->resume ? "of the file" : "of --sizes",
+           info->diameter_mean);
   if (result->has_md)
     printf("  dynamics  p = %.4g after %.3g collisions in %.2f s (%s)\n", result->pressure, (double)result->collisions,
            result->seconds_md, jam_stop_string(result->md_stop));

@@ -114,6 +114,20 @@ int make_diameters(const options *o, double **out, int64_t *n) {
   return 0;
 }
 
+double mean_given(const options *o, const jam_system *sys) {
+  jam_info info = {.struct_size = sizeof info};
+  double *diameters = NULL, sum = 0.0;
+  int64_t n = 0, k;
+  jam_get_info(sys, &info);
+  if (o->input || o->resume) return info.diameter_mean;
+  if (!o->given.sizes && !o->given.diameters_file) return NAN;
+  n = info.n;
+  if (make_diameters(o, &diameters, &n)) return NAN;
+  for (k = 0; k < n; ++k) sum += diameters[k];
+  free(diameters);
+  return sum / (double)n;
+}
+
 /* A law, or the name of a file of diameters. A file that the law names may be missing: that is no wrong command line.
  */
 int take_sizes(const char *value, options *o) {

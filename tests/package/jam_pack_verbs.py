@@ -3,6 +3,7 @@
 import json
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -22,6 +23,21 @@ class Verbs(unittest.TestCase):
 
     def tearDown(self):
         self.folder.cleanup()
+
+    def test_growth_of_given_sizes_and_stress_of_walls_are_told(self):
+        """Grains in the unit of the cell grow with the crunch; the report has their factor and the stress of each wall."""
+        made = ("--n", "60", "--sizes", "lognormal:deviation=0.3", "--cell", "10,10,15", "--walls", "xyz", "--growth", "1e-2:500")
+        told = run("pack", *made, "--output", self.dir / "bed.xyz", "--report", self.dir / "bed.json")
+        report = json.loads((self.dir / "bed.json").read_text())
+        factor = report["diameter_mean"] / report["diameter_mean_given"]
+        self.assertAlmostEqual(report["diameter_mean_given"], 1, 1)
+        self.assertAlmostEqual(float(re.search(r"diameters are (\S+) times those of --sizes", told.stdout)[1]), factor, 6)
+        self.assertTrue(report["jammed"])
+        self.assertEqual([(w["axis"], w["side"]) for w in report["walls"]], [(c, s) for c in range(3) for s in range(2)])
+        work = sum(w["stress"] * w["area"] * (10, 10, 15)[w["axis"]] for w in report["walls"]) / 2
+        self.assertAlmostEqual(work / (3 * 1500), 1, 9)  # their mean is the pressure
+        open_cell = json.loads(run("pack", "--n", "20", "--quiet", "--report", "-", "--output", self.dir / "a.xyz").stdout)
+        self.assertEqual((open_cell["walls"], open_cell["diameter_mean_given"]), ([], None))
 
     def test_walls_of_a_file(self):
         """A sphere 0.0875 from a wall and 0.1 wide is the nearest of two; a file that says nothing is called periodic."""

@@ -210,6 +210,35 @@ def md_misses(*raws):
     return columns, rows
 
 
+def md_threads(raw):
+    """md_threads"""
+    line, rows = raw["line_ns"], []
+    for r in raw["runs"]:
+        two, four = (s for s in r["slabs"] if s["synchronise_ns"] > 0)
+        # A collision has two predictions, other events one. The result takes two lines of the cache; at most, the first
+        # thread takes six back that it writes and the other has read.
+        left = r["event_ns"] - r["valid"]["8"] * (2 - r["exits"] - r["stale"]) * r["prediction_ns"]
+        ahead = [r["event_ns"] / (left + lines * line) for lines in (8, 2)]
+        rows.append([r["n"], r["packing_fraction"], r["event_ns"], r["parallel"], two["across"], two["gain"], four["gain"], r["valid"]["8"], *ahead])
+    columns = ["N", "packing fraction", "an event (ns)", "events over the longest chain", "in both of two slabs", "two slabs, gain at most", "four slabs, gain at most"]
+    return columns + ["predictions valid 8 events later", "predictions ahead, gain, lines counted", "predictions ahead, gain at most"], rows
+
+
+def md_windows(runs):
+    """md_windows N PHI WINDOWS EVENTS"""
+    rows = []
+    for key in dict.fromkeys((r["n"], r["packing_fraction"], r["events_per_sphere"]) for r in runs):
+        some = [r for r in runs if (r["n"], r["packing_fraction"], r["events_per_sphere"]) == key]
+        count = sum(r["windows"] for r in some)
+        late, differ = (sum(r[what] for r in some) / count for what in ("late", "differ"))
+        processors = [r["one_thread_ns"] / r["in_turn_ns"] for r in some]
+        wall = [r["wall_gain"][2] for r in some]
+        again = [statistics.median(1 / (1 / g + share) for g in wall) for share in (late, differ)]
+        rows.append([*key, len(some), some[0]["put_off"], late, differ, sum(r["unseen"] for r in some), spread(processors), spread(wall), *again])
+    columns = ["N", "packing fraction", "events per sphere in a window", "runs", "put off", "windows flagged", "windows with other bits", "of these not flagged"]
+    return columns + ["gain, in turn on one core", "gain on two cores", "with flagged windows again", "with those of other bits again"], rows
+
+
 def ensemble(*raws):
     """ensemble.py --seeds 1,60; ... 61,120; ... 121,220 and 221,320 with --protocols"""
     import ensemble as bench
@@ -436,7 +465,7 @@ def read(path):
 
 def main():
     name, raws = sys.argv[1], [read(path) for path in sys.argv[2:]]
-    made = {f.__name__: f for f in (crunch, size, clp, resume, disks, disks_undecided, proofs, verdicts, verdict_numbers, strict, md, monte_carlo, near_jamming, soft_cell, pore_space, liquid, advise, analysis, factorisation, ablation, ratios, mixtures, md_misses, ensemble, ensemble_statistics, walls, walls_equal, walls_edge, products, task_graph)}[name]
+    made = {f.__name__: f for f in (crunch, size, clp, resume, disks, disks_undecided, proofs, verdicts, verdict_numbers, strict, md, monte_carlo, near_jamming, soft_cell, pore_space, liquid, advise, analysis, factorisation, ablation, ratios, mixtures, md_misses, md_threads, md_windows, ensemble, ensemble_statistics, walls, walls_equal, walls_edge, products, task_graph)}[name]
     columns, rows = made(*raws)
     old = raws[0] if isinstance(raws[0], dict) and "commit" in raws[0] else None  # a result that was kept with its source
     source = old and {key: old[key] for key in ("machine", "commit", "date")}

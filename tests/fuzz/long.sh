@@ -6,7 +6,7 @@ set -eu
 root=$(cd "$(dirname "$0")/../.." && pwd)
 seconds=${1:-3600}
 status=0
-sh "$root/tests/fuzz/run.sh" "$seconds" || status=1
+sh "$root/tests/fuzz/run.sh" "$seconds" "$root/build-asan/found" 0 || status=1
 if [ -x "$root/build/tests/fuzz/soak" ]; then
   "$root/build/tests/fuzz/soak" "$seconds" "$(date +%s)" || status=1
   PYTHONPATH=$root/build/python /usr/bin/python3 -B "$root/tests/fuzz/converters.py" "$seconds" "$(date +%s)" ||

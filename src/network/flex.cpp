@@ -79,7 +79,7 @@ void keep_closed(const RigidityMatrix &g, const ConstraintRows &rows, bool strai
   rows.multiply(v.data(), y.data());
   std::vector<char> on(y.size());
   for (size_t k = 0; k < y.size(); ++k)
-    if ((on[k] = y[k] < RigidityTuning::hardly_open)) wanted.push_back(-y[k]);
+    if ((on[k] = y[k] < RigidityTuning::flex_rounding)) wanted.push_back(-y[k]);
   const RigidityMatrix part = subset(g, on);
   const ConstraintRows kept(part, strain);
   NormalSolver solver(kept);
@@ -122,7 +122,7 @@ std::vector<double> uncertain_gaps(const RigidityMatrix &g, const std::vector<ch
   double widest = 0.0;
   for (size_t k = 0; k < g.contacts(); ++k)
     if (carrying[k]) widest = std::max(widest, std::fabs(g.distance[k] / g.sigma[k] - 1.0));
-  return std::vector<double>(g.contacts(), RigidityTuning::wrong_rates * widest);
+  return std::vector<double>(g.contacts(), widest);
 }
 
 // Displacements of v and its strain; empty without one.
@@ -159,9 +159,7 @@ void complete_flex(const RigidityMatrix &g, const RigidityMatrix &sub, const Con
   if (!keeps_contacts(g, {}, found.flex, found.strain)) {
     std::vector<double> closed = v;
     keep_closed(g, rows, strain, closed);
-    double change = 0.0;
-    for (size_t k = 0; k < v.size(); ++k) change = std::max(change, std::fabs(closed[k] - v[k]));
-    if (change < RigidityTuning::mended && normalise(g, closed)) {
+    if (normalise(g, closed)) {
       RigidityResult kept = split(g, rows, strain, closed);
       if (keeps_contacts(g, {}, kept.flex, kept.strain)) found = std::move(kept), v = std::move(closed);
     }

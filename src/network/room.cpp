@@ -85,10 +85,10 @@ double free_part(const Packing &p, const PackingVerdict &v) {
   std::vector<double> flex, strain = v.result.strain;
   for (const int32_t i : g.sphere) flex.insert(flex.end(), all.begin() + i * d, all.begin() + (i + 1) * d);
   const double way = way_of(p, v.carrying(p.dim)) / diameter_mean(p);
-  for (double part = 1.0; part > way; part *= RigidityTuning::shorter) {
+  for (double part = 1.0; part > way; part *= RigidityTuning::shorter_flex) {
     if (keeps_contacts(g, net.gap, flex, strain)) return part;
-    for (double &x : flex) x *= RigidityTuning::shorter;
-    for (double &x : strain) x *= RigidityTuning::shorter;
+    for (double &x : flex) x *= RigidityTuning::shorter_flex;
+    for (double &x : strain) x *= RigidityTuning::shorter_flex;
   }
   return 0.0;
 }

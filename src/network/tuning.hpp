@@ -84,15 +84,12 @@ struct RigidityTuning {
   // it by 1e-8 t and opens it by t^2 / 2, so the overlap on the way stays below the rounding of a gap.
   static constexpr double flex_rounding = 1e-8;
   // Contacts of spheres that move less across than along open less. Where that closes a contact by more than this part
-  // of rounding, the flex is changed by the second number at most, so that contacts which it opens by less than the
-  // third stay closed.
-  static constexpr double least_across = 1e-6, mended = 0.1, hardly_open = 1e-6;
+  // of rounding, the flex is changed so that contacts which it opens by less than rounding stay closed.
+  static constexpr double least_across = 1e-6;
   // Where a flex overlaps at pairs that touch, this part of it is tried, and again.
-  static constexpr double shorter = 0.1;
+  static constexpr double shorter_flex = 0.1;
   // Of a motion of length 1, the least part that is no symmetry.
   static constexpr double least_relative = 1e-6;
-  // Rates at which a flex closes contacts are wrong by so many times what contacts with force are open by.
-  static constexpr double wrong_rates = 10.0;
   // A strain whose largest coefficient is 1 brings two spheres of mean size nearer by this at most, over a displacement
   // of 1: its norm in d = 2 ... 8, of up to 35 coefficients, is below 6.
   static constexpr double strained = 6.0;

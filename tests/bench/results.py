@@ -358,6 +358,12 @@ def pore_space(raw):
     return ["what", "resolution", "error of the volume or the porosity", "seconds", "MB"], rows
 
 
+def structure(raw):
+    """structure.py OUT.json PICTURE.png"""
+    rows = [[r["task"], r["n"], r["at"], r["seconds"], r["error"]] for r in raw if r["task"] != "g(r)" or r["at"] == "160 bins"]
+    return ["task", "N", "resolution", "processor time (s)", "relative error"], rows
+
+
 def factorisation(raw):
     """single_precision"""
     rows = []
@@ -465,7 +471,7 @@ def read(path):
 
 def main():
     name, raws = sys.argv[1], [read(path) for path in sys.argv[2:]]
-    made = {f.__name__: f for f in (crunch, size, clp, resume, disks, disks_undecided, proofs, verdicts, verdict_numbers, strict, md, monte_carlo, near_jamming, soft_cell, pore_space, liquid, advise, analysis, factorisation, ablation, ratios, mixtures, md_misses, md_threads, md_windows, ensemble, ensemble_statistics, walls, walls_equal, walls_edge, products, task_graph)}[name]
+    made = {f.__name__: f for f in (crunch, size, clp, resume, disks, disks_undecided, proofs, verdicts, verdict_numbers, strict, md, monte_carlo, near_jamming, soft_cell, pore_space, structure, liquid, advise, analysis, factorisation, ablation, ratios, mixtures, md_misses, md_threads, md_windows, ensemble, ensemble_statistics, walls, walls_equal, walls_edge, products, task_graph)}[name]
     columns, rows = made(*raws)
     old = raws[0] if isinstance(raws[0], dict) and "commit" in raws[0] else None  # a result that was kept with its source
     source = old and {key: old[key] for key in ("machine", "commit", "date")}

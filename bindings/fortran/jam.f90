@@ -274,8 +274,8 @@ module jam
   integer(c_int32_t), parameter :: JAM_SOFT_FACTORISATIONS = 9
   integer(c_int32_t), parameter :: JAM_SOFT_SECONDS = 10
 
-  ! jam_stiffness: Stiffness k of a contact, 1 at the mean force. SOFT: after jam_relax or jam_decompress; prestress is then the share
-  ! of the pre-stress f / r that is kept, 0..1.
+  ! jam_stiffness: Stiffness k of a contact, 1 at the mean force. SOFT: after jam_relax, or jam_decompress with crunch = 0; prestress is
+  ! then the share of the pre-stress f / r that is kept, 0 to 1, and 1 the true Hessian.
   integer(c_int32_t), parameter :: JAM_STIFFNESS_HARMONIC = 0
   integer(c_int32_t), parameter :: JAM_STIFFNESS_POWER = 1
   integer(c_int32_t), parameter :: JAM_STIFFNESS_HARD = 2
@@ -1161,7 +1161,7 @@ module jam
     integer(c_int32_t) :: stiffness = 0
     ! POWER: > 1, default 2
     real(c_double) :: alpha = 0
-    ! overlap (HARD: gap) at the mean force over mean diameter, in [0, 1), default 0
+    ! overlap (HARD: gap) at the mean force over mean diameter, below 1, default 0; SOFT: a share
     real(c_double) :: prestress = 0
   end type jam_hessian_options
 

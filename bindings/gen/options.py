@@ -408,10 +408,10 @@ NOTES = (
 )
 # Exit status of the verbs: those that compute, check, those that write what a file holds.
 EXITS = (
-    ("0", "done, and jammed where a crunch ran", "jammed", "done"),
+    ("0", "done, and jammed where a crunch ran", "jammed", "done; a warning where no contacts were found"),
     ("1", "stopped early, a stage stalled, or not jammed; the valid state reached is written", "not jammed", "a table was not computed in time"),
     ("2", "wrong command line or value", "wrong command line, or the file is refused", "wrong command line or value"),
-    ("3", "request or input refused, or the computation failed", "undecided", "the file is refused, or no contact network was found"),
+    ("3", "request or input refused, or the computation failed", "undecided", "the file is refused"),
     ("4", "an output cannot be written", "an output cannot be written", "an output cannot be written"),
 )
 

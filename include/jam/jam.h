@@ -1144,8 +1144,8 @@ JAM_API jam_status jam_coordination(const jam_system *sys, int32_t *out, size_t 
  * or jam_contacts_from_geometry, JAM_NOT_JAMMED when it is empty. */
 
 /* ------------- Hessian, modes */
-/* Stiffness k of a contact, 1 at the mean force. SOFT: after jam_relax or jam_decompress; prestress is then the share
- * of the pre-stress f / r that is kept, 0..1. */
+/* Stiffness k of a contact, 1 at the mean force. SOFT: after jam_relax, or jam_decompress with crunch = 0; prestress is
+ * then the share of the pre-stress f / r that is kept, 0 to 1, and 1 the true Hessian. */
 typedef enum jam_stiffness {
   JAM_STIFFNESS_HARMONIC = 0, /* k = 1 */
   JAM_STIFFNESS_POWER = 1,    /* energy |overlap|^alpha: k = f^((alpha-2)/(alpha-1)) */
@@ -1158,7 +1158,7 @@ typedef struct jam_hessian_options {
   uint32_t struct_size;
   int32_t stiffness; /* @enum jam_stiffness, default HARMONIC */
   double alpha;      /* POWER: > 1, default 2 */
-  double prestress;  /* overlap (HARD: gap) at the mean force over mean diameter, in [0, 1), default 0 */
+  double prestress;  /* overlap (HARD: gap) at the mean force over mean diameter, below 1, default 0; SOFT: a share */
 } jam_hessian_options;
 /* Which modes. */
 typedef enum jam_modes_which {

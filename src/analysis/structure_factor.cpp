@@ -15,7 +15,7 @@ class Shells {
  public:
   void add(double q2, double s) {
     if (shell_.size() >= next_sort_) merge();
-    shell_.push_back({q2, s, 1});
+    shell_.push_back({q2, s, 1, added_++});
   }
   StructureFactor means(double step, double unit) {
     merge();
@@ -30,13 +30,14 @@ class Shells {
  private:
   struct Shell {
     double q2, sum;
-    int64_t count;
+    int64_t count, number;
   };
   // Rounding of q^2 is below 1e-13 in the flattest cells. In a cube q^2 is a whole number, below 1e11.
   static constexpr double same_length = 1e-12;
-  // Stable: sums keep the order of the vectors.
+  // Sums keep the order of the vectors.
   void merge() {
-    std::stable_sort(shell_.begin(), shell_.end(), [](const Shell &a, const Shell &b) { return a.q2 < b.q2; });
+    std::sort(shell_.begin(), shell_.end(),
+              [](const Shell &a, const Shell &b) { return a.q2 < b.q2 || (a.q2 == b.q2 && a.number < b.number); });
     size_t kept = 0;
     for (const Shell &s : shell_) {
       if (kept > 0 && s.q2 - shell_[kept - 1].q2 <= same_length * s.q2) {
@@ -52,6 +53,7 @@ class Shells {
   }
   std::vector<Shell> shell_;
   size_t next_sort_ = 4096;
+  int64_t added_ = 0;
 };
 
 // The reciprocal lattice in units of 2 pi / V^(1/d). Component c of the vector (m_0, m_1, ...) is the sum over k <= c

@@ -11,7 +11,8 @@ namespace {
 
 void need_soft(const jam_system *sys) {
   if (!sys->packing.overlap_allowed)
-    fail(JAM_E_STATE, "the system does not allow overlaps: make it with overlap = JAM_OVERLAP_ALLOW");
+    fail(JAM_E_STATE,
+         "the system does not allow overlaps: make it, or another one of its arrays, with overlap = JAM_OVERLAP_ALLOW");
 }
 
 Results soft_results(SoftResult &soft, double seconds) {

@@ -75,8 +75,8 @@ class View {
   }
 
  private:
-  // Share of the sphere of radius r about the point.
-  double share(double r) const {
+  // Share of the sphere of radius r about the point. Out of line: gauss() asks it at four places.
+  [[gnu::noinline]] double share(double r) const {
     if (r <= clear_) return 1.0;
     if (dim_ == 2) return circle(r);
     if (round_axes_ == 3) return 0.5 * (1.0 + cosine_out(r));
@@ -110,7 +110,7 @@ class View {
     return clamped((round_ * round_ - off_ * off_ - r * r) / (2.0 * off_ * r));
   }
   // Share of a circle of the first two axes.
-  double circle(double r) const {
+  [[gnu::noinline]] double circle(double r) const {
     if (!(r > 0.0)) return std::min({flat_[0][0], flat_[0][1], flat_[1][0], flat_[1][1]}) >= 0.0 && round_ >= off_;
     if (round_axes_ == 2) return 1.0 - math::acos(cosine_out(r)) / math::pi;
     // Each wall hides an arc about its direction. A quarter is seen between the arcs of its two walls, or less where
@@ -137,16 +137,16 @@ class View {
 };
 
 // Spheres of nearly one radius.
-struct SizeClass {
+struct SizeGroup {
   double radius, count;
 };
 // Radii in classes: exact when there are few, else of equal numbers with their mean radius.
-std::vector<SizeClass> size_classes(const Packing &p, const std::vector<char> &with) {
+std::vector<SizeGroup> size_groups(const Packing &p, const std::vector<char> &with) {
   std::vector<double> radii;
   for (size_t i = 0; i < p.n(); ++i)
     if (with[i]) radii.push_back(0.5 * p.diameter[i]);
   std::sort(radii.begin(), radii.end());
-  std::vector<SizeClass> all;
+  std::vector<SizeGroup> all;
   for (const double r : radii) {
     if (all.empty() || all.back().radius != r) all.push_back({r, 0.0});
     all.back().count += 1.0;
@@ -183,7 +183,7 @@ std::vector<double> pairs_of_even_spread(const Packing &p, const std::vector<cha
                                          const std::vector<double> &edge, bool of_contact) {
   if (p.dim > 3) fail(JAM_E_UNSUPPORTED, "g(r) between walls is there for d = 2 and 3, this system has d = %d", p.dim);
   std::vector<double> out(edge.size() - 1, 0.0);
-  for (const SizeClass &size : size_classes(p, with)) {
+  for (const SizeGroup &size : size_groups(p, with)) {
     const double room = room_of_centres(p, size.radius);
     if (!(room > ShellsTuning::least_room * p.container.volume()))
       fail(JAM_E_UNSUPPORTED, "g(r): spheres of diameter %g are as wide as the container and have no room to spread in",

@@ -97,7 +97,9 @@ struct WindowTuning {
   static constexpr size_t fewest_for_error = 5;   // windows at constant volume
   static constexpr int64_t frozen = 20;           // windows without time until the run counts as stalled
   static constexpr double touching_start = 20.0;  // collisions a sphere: growth that ends before had a touching start
-  static constexpr double units_of_gap = 40.0;    // smaller gaps are noise, in units of the coordinates
+  static constexpr double touching_pressure = 1e4;      // as without a density as aim a pressure above this
+  static constexpr double same_density = 1e-6;          // relative; packings that are denser were so before growth
+  static constexpr double units_of_gap = 40.0;          // smaller gaps are noise, in units of the coordinates
   static constexpr double as_good_as_touching = 0.999;  // its own image, of a sphere that fills the box
   static constexpr double growth_noise = 0.02;  // smaller changes of the rate of growth are noise of the pressure
 };

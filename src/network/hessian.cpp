@@ -39,7 +39,9 @@ bool needs_forces(const jam_hessian_options &o) {
 ContactWeights contact_weights(const RigidityMatrix &g, double sigma_mean, const jam_hessian_options &o) {
   if (o.stiffness == JAM_STIFFNESS_SOFT) {
     if (g.stiffness.size() != g.contacts() || g.prestress.size() != g.contacts())
-      fail(JAM_E_STATE, "the network is none of soft spheres: call jam_relax or jam_decompress first");
+      fail(JAM_E_STATE,
+           "the network is not that of a minimum of the energy: call jam_relax, or jam_decompress with crunch = 0, "
+           "first");
     ContactWeights soft{g.stiffness, {}};
     if (o.prestress > 0.0)
       for (const double t : g.prestress) soft.transverse.push_back(o.prestress * t);

@@ -156,10 +156,21 @@ class MolecularDynamics(unittest.TestCase):
             r = s.compress(packing_fraction=phi + 0.01)
             self.assertNotEqual(r.status.name, "OK")
             self.assertRegex(r.status_text, r"spheres touch at the start: .* scale_diameters\(0.99\)")
+            alone = jam.System.from_arrays(s.positions, s.diameters)
+            r = alone.compress(growth_rate=1e-3, pressure=1e3)  # reached at once, and no growth of theirs
+            self.assertNotEqual(r.status.name, "OK")
+            self.assertRegex(r.status_text, r"spheres touch at the start: .* scale_diameters\(0.99\)")
             s.scale_diameters(0.99)
             r = s.compress(packing_fraction=phi + 0.01)
             self.assertEqual((r.status.name, r.stop_reason.name), ("OK", "PACKING_FRACTION"))
             self.assertAlmostEqual(s.packing_fraction, phi + 0.01, 9)
+
+    def test_growth_does_not_lower_the_density(self):
+        s = jam.System.random(n=108, dim=3, seed=1, packing_fraction=0.3)
+        r = s.compress(packing_fraction=0.2)
+        self.assertEqual((r.status.name, r.collisions), ("NOT_CONVERGED", 0))
+        self.assertRegex(r.status_text, "is 0.3 already, above the 0.2 that is wanted")
+        self.assertEqual(s.compress(packing_fraction=s.packing_fraction).status.name, "OK")
 
     def test_run_and_compress(self):
         s = jam.System.random(n=108, dim=3, seed=1)

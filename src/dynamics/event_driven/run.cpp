@@ -22,15 +22,15 @@ EventDrivenRun::EventDrivenRun(Packing p, const GrowthStage &stage)
 // Searches for overlaps and makes the engine. A reason to stop: the next run begins anew.
 int32_t EventDrivenRun::begin(Monitor &monitor) {
   if (engine_) return JAM_STOP_NONE;
-  const bool drawn = !p_.has_velocity || (growing() && !(twice_kinetic(p_) > 0.0));
-  if (drawn) {
+  drawn_ = !p_.has_velocity || (growing() && !(twice_kinetic(p_) > 0.0));
+  if (drawn_) {
     Rng rng(p_.seed, Stream::velocities);
     draw_velocities(p_, rng);
     scale_velocities(p_);
   }
   // Velocities that a compression has scaled at its end stay as they are.
   const bool scaled = std::fabs(twice_kinetic(p_) / (n_ * p_.dim) - 1.0) < 1e-12;
-  if (growing() && (drawn || !scaled)) scale_velocities(p_);
+  if (growing() && (drawn_ || !scaled)) scale_velocities(p_);
   jam_progress q = progress_of(phase());
   q.packing_fraction = packing_fraction(p_);
   monitor.expect(q);

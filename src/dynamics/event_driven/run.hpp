@@ -70,6 +70,7 @@ class EventDrivenRun final : public Dynamics {
   double standard_error() const;
   jam_status status_of(int32_t reason) const;
   bool touched_at_start() const;
+  bool denser_than_wanted() const;
   bool missed_density() const;  // the stage, and none follows, ended below the packing fraction that is wanted
 
   // -- windows.cpp
@@ -108,6 +109,7 @@ class EventDrivenRun final : public Dynamics {
   GrowthStage stage_;
   double n_;
   bool from_archive_ = false;
+  bool drawn_ = false;  // by the first run() of this object: velocities
   std::unique_ptr<Engine> engine_;
   double goal_ = 0.0;                                                                  // collisions
   double kinetic_ = 0.0;                                                               // sum of m v^2 at the beginning

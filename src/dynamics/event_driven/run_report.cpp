@@ -119,23 +119,39 @@ double EventDrivenRun::standard_error() const {
 }
 
 // Growth from touching spheres: they collide without time to move, so the pressure of the first windows is beyond any
-// aim. It says nothing about the density at which they jam.
+// aim. It says nothing about the density at which they jam. Spheres that dynamics brought near jamming have velocities.
 bool EventDrivenRun::touched_at_start() const {
-  return growing() && stage_.packing_fraction < no_limit && packing_fraction(p_) < stage_.packing_fraction &&
+  const bool by_pressure = report.stop_reason == JAM_STOP_PRESSURE || report.stop_reason == JAM_STOP_PRECISION ||
+                           (report.stop_reason == JAM_STOP_STALLED && frozen_ > 0);
+  const bool aims_at_density = stage_.packing_fraction < no_limit;
+  if (!growing() || !by_pressure || (aims_at_density && packing_fraction(p_) >= stage_.packing_fraction)) return false;
+  return (aims_at_density || (drawn_ && !(pressure_ < WindowTuning::touching_pressure))) &&
          static_cast<double>(report.collisions) < 0.5 * n_ * WindowTuning::touching_start;
+}
+
+// Growth to a density cannot begin above it.
+bool EventDrivenRun::denser_than_wanted() const {
+  return growing() && report.stop_reason == JAM_STOP_PACKING_FRACTION &&
+         packing_fraction(p_) > stage_.packing_fraction * (1.0 + WindowTuning::same_density);
 }
 
 std::string EventDrivenRun::text() const {
   char line[300] = "";
-  const bool ended_by_pressure = report.stop_reason == JAM_STOP_PRESSURE || report.stop_reason == JAM_STOP_PRECISION ||
-                                 (report.stop_reason == JAM_STOP_STALLED && frozen_ > 0);
-  if (ended_by_pressure && touched_at_start()) {
+  if (touched_at_start()) {
+    char aim[40] = "";
+    if (stage_.packing_fraction < no_limit) std::snprintf(aim, sizeof aim, " of %.6g", stage_.packing_fraction);
     std::snprintf(
         line, sizeof line,
         "spheres touch at the start: growth ended at pressure %.3g after %.2g collisions a sphere, at packing "
-        "fraction %.6g of %.6g; unless they are jammed, scale_diameters(0.99) before growth lets them move "
-        "apart",
-        pressure_, 2.0 * static_cast<double>(report.collisions) / n_, packing_fraction(p_), stage_.packing_fraction);
+        "fraction %.6g%s; unless they are jammed, scale_diameters(0.99) before growth lets them move apart",
+        pressure_, 2.0 * static_cast<double>(report.collisions) / n_, packing_fraction(p_), aim);
+    return line;
+  }
+  if (denser_than_wanted()) {
+    std::snprintf(line, sizeof line,
+                  "the packing fraction is %.6g already, above the %.6g that is wanted: growth does not lower it, "
+                  "scale_diameters does",
+                  packing_fraction(p_), stage_.packing_fraction);
     return line;
   }
   const auto largest = std::max_element(p_.diameter.begin(), p_.diameter.end());
@@ -201,9 +217,9 @@ bool EventDrivenRun::missed_density() const {
 jam_status EventDrivenRun::status_of(int32_t reason) const {
   switch (reason) {
     case JAM_STOP_PRESSURE:
-      return missed_density() ? JAM_NOT_CONVERGED : JAM_OK;
+      return missed_density() || touched_at_start() ? JAM_NOT_CONVERGED : JAM_OK;
     case JAM_STOP_PACKING_FRACTION:
-      return JAM_OK;
+      return denser_than_wanted() ? JAM_NOT_CONVERGED : JAM_OK;
     case JAM_STOP_TIME:
     case JAM_STOP_COLLISIONS:
       return growing() ? JAM_LIMIT : JAM_OK;

@@ -807,7 +807,7 @@ near 0.
 
 - `stiffness`: one of `:harmonic`, `:power`, `:hard`, `:soft`; default `:harmonic`
 - `alpha`: POWER: > 1, default 2
-- `prestress`: overlap (HARD: gap) at the mean force over mean diameter, in [0, 1), default 0
+- `prestress`: overlap (HARD: gap) at the mean force over mean diameter, below 1, default 0; SOFT: a share
 - `moments`: Chebyshev moments, 8..1e6, default 512: resolution in omega about 1.6 `omega_max` / moments
 - `vectors`: random vectors, 2..1e5, default 16
 - `points`: values of omega, default 200
@@ -843,7 +843,7 @@ value = u . H . u for a displacement u.
 - `u`: array `(d, N')`
 - `stiffness`: one of `:harmonic`, `:power`, `:hard`, `:soft`; default `:harmonic`
 - `alpha`: POWER: > 1, default 2
-- `prestress`: overlap (HARD: gap) at the mean force over mean diameter, in [0, 1), default 0
+- `prestress`: overlap (HARD: gap) at the mean force over mean diameter, below 1, default 0; SOFT: a share
 - errors: `:state`
 """
 function curvature(s::System, u = nothing; given...)
@@ -858,7 +858,7 @@ that of planes of two axes without walls.
 
 - `stiffness`: one of `:harmonic`, `:power`, `:hard`, `:soft`; default `:harmonic`
 - `alpha`: POWER: > 1, default 2
-- `prestress`: overlap (HARD: gap) at the mean force over mean diameter, in [0, 1), default 0
+- `prestress`: overlap (HARD: gap) at the mean force over mean diameter, below 1, default 0; SOFT: a share
 - errors: `:state`, `:solver`, `:unsupported` (not two such axes; unlisted own images)
 """
 function moduli(s::System; progress = nothing, given...)
@@ -876,7 +876,7 @@ a rotation of stressed contacts counts. NaN where an axis has walls, which do no
 - `relaxed`: array `(d, d, d, d)`
 - `stiffness`: one of `:harmonic`, `:power`, `:hard`, `:soft`; default `:harmonic`
 - `alpha`: POWER: > 1, default 2
-- `prestress`: overlap (HARD: gap) at the mean force over mean diameter, in [0, 1), default 0
+- `prestress`: overlap (HARD: gap) at the mean force over mean diameter, below 1, default 0; SOFT: a share
 - errors: `:state`, `:solver`, `:unsupported` (only walled axes; own images)
 """
 function elastic_tensor(s::System; progress = nothing, given...)

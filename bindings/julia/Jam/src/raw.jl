@@ -264,7 +264,7 @@ const JAM_SOFT_EVALUATIONS = Int32(8)  # of the forces, in this step
 const JAM_SOFT_FACTORISATIONS = Int32(9)  # in this step
 const JAM_SOFT_SECONDS = Int32(10)  # wall time of the step
 
-# jam_stiffness: Stiffness k of a contact, 1 at the mean force. SOFT: after jam_relax or jam_decompress; prestress is then the share of the pre-stress f / r that is kept, 0..1.
+# jam_stiffness: Stiffness k of a contact, 1 at the mean force. SOFT: after jam_relax, or jam_decompress with crunch = 0; prestress is then the share of the pre-stress f / r that is kept, 0 to 1, and 1 the true Hessian.
 const JAM_STIFFNESS_HARMONIC = Int32(0)  # k = 1
 const JAM_STIFFNESS_POWER = Int32(1)  # energy |overlap|^alpha: k = f^((alpha-2)/(alpha-1))
 const JAM_STIFFNESS_HARD = Int32(2)  # entropic force of hard spheres near jamming: k = f^2
@@ -1302,13 +1302,13 @@ n n^T).
 
 - `stiffness`: one of `:harmonic`, `:power`, `:hard`, `:soft`; default `:harmonic`
 - `alpha`: POWER: > 1, default 2
-- `prestress`: overlap (HARD: gap) at the mean force over mean diameter, in [0, 1), default 0
+- `prestress`: overlap (HARD: gap) at the mean force over mean diameter, below 1, default 0; SOFT: a share
 """
 mutable struct jam_hessian_options
     struct_size::UInt32
     stiffness::Int32  # jam_stiffness, default HARMONIC
     alpha::Cdouble  # POWER: > 1, default 2
-    prestress::Cdouble  # overlap (HARD: gap) at the mean force over mean diameter, in [0, 1), default 0
+    prestress::Cdouble  # overlap (HARD: gap) at the mean force over mean diameter, below 1, default 0; SOFT: a share
     jam_hessian_options() = new(24, 0, 0, 0)
 end
 

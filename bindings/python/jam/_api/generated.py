@@ -340,8 +340,8 @@ class SoftColumn(_Word):
 
 
 class Stiffness(_Word):
-    """Stiffness k of a contact, 1 at the mean force. SOFT: after jam_relax or jam_decompress; prestress is then the share
-    of the pre-stress f / r that is kept, 0..1."""
+    """Stiffness k of a contact, 1 at the mean force. SOFT: after jam_relax, or jam_decompress with crunch = 0; prestress is
+    then the share of the pre-stress f / r that is kept, 0 to 1, and 1 the true Hessian."""
     HARMONIC = 0  # k = 1
     POWER = 1  # energy |overlap|^alpha: k = f^((alpha-2)/(alpha-1))
     HARD = 2  # entropic force of hard spheres near jamming: k = f^2
@@ -1369,7 +1369,7 @@ OPTIONS = {
     "jam_hessian_options": {
         "stiffness": ("Stiffness", 'Stiffness, default HARMONIC'),
         "alpha": ("float", 'POWER: > 1, default 2'),
-        "prestress": ("float", 'overlap (HARD: gap) at the mean force over mean diameter, in [0, 1), default 0'),
+        "prestress": ("float", 'overlap (HARD: gap) at the mean force over mean diameter, below 1, default 0; SOFT: a share'),
     },
     "jam_modes_options": {
         "which": ("ModesWhich", 'ModesWhich, default LOWEST'),

@@ -1354,7 +1354,7 @@ class Methods:
         alpha : float, optional
             POWER: > 1, default 2
         prestress : float, optional
-            overlap (HARD: gap) at the mean force over mean diameter, in [0, 1), default 0
+            overlap (HARD: gap) at the mean force over mean diameter, below 1, default 0; SOFT: a share
         moments : int, optional
             Chebyshev moments, 8..1e6, default 512: resolution in omega about 1.6 omega_max / moments
         vectors : int, optional
@@ -1426,7 +1426,7 @@ class Methods:
         alpha : float, optional
             POWER: > 1, default 2
         prestress : float, optional
-            overlap (HARD: gap) at the mean force over mean diameter, in [0, 1), default 0
+            overlap (HARD: gap) at the mean force over mean diameter, below 1, default 0; SOFT: a share
 
         Returns
         -------
@@ -1451,7 +1451,7 @@ class Methods:
         alpha : float, optional
             POWER: > 1, default 2
         prestress : float, optional
-            overlap (HARD: gap) at the mean force over mean diameter, in [0, 1), default 0
+            overlap (HARD: gap) at the mean force over mean diameter, below 1, default 0; SOFT: a share
         progress : bool or callable, optional
             True: a line that changes. A callable gets a Progress; a true answer stops the call.
 
@@ -1479,7 +1479,7 @@ class Methods:
         alpha : float, optional
             POWER: > 1, default 2
         prestress : float, optional
-            overlap (HARD: gap) at the mean force over mean diameter, in [0, 1), default 0
+            overlap (HARD: gap) at the mean force over mean diameter, below 1, default 0; SOFT: a share
         progress : bool or callable, optional
             True: a line that changes. A callable gets a Progress; a true answer stops the call.
 

@@ -117,9 +117,12 @@ static void exact_packing_fraction(void **state) {
   assert_int_equal(report.stop_reason, JAM_STOP_PACKING_FRACTION);
   assert_true(fabs(fraction_of(sys) - 0.45) < 1e-13);
   assert_true(fabs(report.packing_fraction - 0.45) < 1e-13);
-  /* A target below the present one is there already. */
-  c.packing_fraction = 0.3;
+  /* Growth leads to no target below the present one, and says so; the present one is there already. */
   assert_int_equal(jam_compress(sys, &c, &report), JAM_OK);
+  assert_int_equal(report.collisions, 0);
+  c.packing_fraction = 0.3;
+  assert_int_equal(jam_compress(sys, &c, &report), JAM_NOT_CONVERGED);
+  assert_non_null(strstr(jam_last_error(), "above the 0.3 that is wanted"));
   assert_int_equal(report.stop_reason, JAM_STOP_PACKING_FRACTION);
   assert_int_equal(report.collisions, 0);
   assert_true(fabs(fraction_of(sys) - 0.45) < 1e-13);

@@ -117,13 +117,11 @@ void check_create_limits(const jam_create_options &o) {
 // Spheres so near are two lines for one sphere, or the two faces of a box.
 static bool same_centre(const ClosestPair &pair) { return pair.gap <= -1.0 + 1e-12; }
 
-// Measured: up to 1e-17 (L / sigma)^2 for L / sigma = 2e3, 2e4 and 2e5.
 double overlap_of_long_flights(const Packing &p) {
-  constexpr double sharp = 0.25 * std::numeric_limits<double>::epsilon(), most = 1e-6;
   double longest = 0.0;
   for (int c = 0; c < p.dim; ++c) longest = std::max(longest, p.cell.edge(c));
   const double ratio = longest / *std::min_element(p.diameter.begin(), p.diameter.end());
-  return std::min(most, sharp * ratio * ratio);
+  return std::min(FlightTuning::most, FlightTuning::sharp * ratio * ratio);
 }
 
 static void refuse_wall_overlaps(const Packing &p, double tolerance) {

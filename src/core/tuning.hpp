@@ -3,6 +3,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 namespace jam {
 
@@ -59,6 +60,12 @@ struct PairListTuning {
   // the second, within a part of it.
   static constexpr double first_slope = 1.1, pairs_per_sphere = 100.0;
   static constexpr uint64_t spheres_between_looks = 16;  // one large sphere may have many small ones in its cells
+};
+
+// ---- overlaps of spheres that met from across the cell: so many times (L / sigma)^2, at most `most`. Measured were up to
+// 1e-17 (L / sigma)^2 for L / sigma = 2e3, 2e4 and 2e5.
+struct FlightTuning {
+  static constexpr double sharp = 0.25 * std::numeric_limits<double>::epsilon(), most = 1e-6;
 };
 
 // ---- laws of diameters

@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/math.hpp"
+#include "dynamics/tuning.hpp"
 
 namespace jam {
 
@@ -70,11 +71,11 @@ struct Pade {
   double at(double x) const { return horner(p, numerator, x) / horner(q, denominator, x); }
   // Where the first pole or maximum comes before x, and x itself where none does.
   double range(double x) const {
-    constexpr int parts = 1000;
+    constexpr int parts = PadeTuning::parts;
     for (int k = 1; k <= parts; ++k) {
       double high = x * k / parts, low = high - x / parts;
       if (rises(high)) continue;
-      for (int halving = 0; halving < 40; ++halving) (rises(0.5 * (low + high)) ? low : high) = 0.5 * (low + high);
+      for (int halving = 0; halving < PadeTuning::halvings; ++halving) (rises(0.5 * (low + high)) ? low : high) = 0.5 * (low + high);
       return low;
     }
     return x;
@@ -90,8 +91,7 @@ double pade_pressure(int32_t dim, double f) {
   if (range < x)
     fail(JAM_E_ARGUMENT,
          "packing_fraction is %g: in d = %d the pressure of this equation of state of the liquid rises only up to "
-         "%.4g, its "
-         "pole or maximum",
+         "%.4g, its pole or maximum",
          f, dim, std::ldexp(range, 1 - dim));
   return pade.at(x);
 }

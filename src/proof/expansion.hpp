@@ -21,9 +21,7 @@ class Expansion {
       if (s.low != 0.0) part_[kept++] = s.low;
       x = s.high;
     }
-    if (x != 0.0) {
-      part_[kept++] = x;
-    }
+    if (x != 0.0) part_[kept++] = x;
     count_ = kept;
     if (count_ == part_.size()) compress();
   }

@@ -1804,7 +1804,7 @@ module jam
     ! default (a stage costs about d/sqrt(pi) (N/G) ln(p2/p1) collisions). For another protocol make one call per stage. A
     ! thermostat keeps sum m v^2 within 5 % of d N, and at the end the velocities are scaled to it exactly. Status: JAM_OK
     ! (the target reached), JAM_PRECISION, JAM_NOT_CONVERGED (the pressure came before the packing fraction, or at once as
-    ! spheres touch; denser than wanted; stalled: a sphere touches its own image, or no time passes between collisions). A resumed call finishes the stage and
+    ! spheres touch; denser than wanted; a sphere touches its image; no time passes). A resumed call finishes the stage and
     ! continues with the next. Small systems (below about 200 equal spheres in d = 3) order under this protocol. For
     ! a fluid, a packing fraction that these sizes do not reach in disorder is refused.
     ! Errors: JAM_E_OVERLAP, JAM_E_UNPLACEABLE.

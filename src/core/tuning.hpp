@@ -62,8 +62,8 @@ struct PairListTuning {
   static constexpr uint64_t spheres_between_looks = 16;  // one large sphere may have many small ones in its cells
 };
 
-// ---- overlaps of spheres that met from across the cell: so many times (L / sigma)^2, at most `most`. Measured were up to
-// 1e-17 (L / sigma)^2 for L / sigma = 2e3, 2e4 and 2e5.
+// ---- overlaps of spheres that met from across the cell: so many times (L / sigma)^2, at most `most`. Up to
+// 1e-17 (L / sigma)^2 were seen for L / sigma = 2e3, 2e4 and 2e5.
 struct FlightTuning {
   static constexpr double sharp = 0.25 * std::numeric_limits<double>::epsilon(), most = 1e-6;
 };

@@ -75,7 +75,8 @@ struct Pade {
     for (int k = 1; k <= parts; ++k) {
       double high = x * k / parts, low = high - x / parts;
       if (rises(high)) continue;
-      for (int halving = 0; halving < PadeTuning::halvings; ++halving) (rises(0.5 * (low + high)) ? low : high) = 0.5 * (low + high);
+      for (int halving = 0; halving < PadeTuning::halvings; ++halving)
+        (rises(0.5 * (low + high)) ? low : high) = 0.5 * (low + high);
       return low;
     }
     return x;

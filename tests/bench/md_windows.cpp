@@ -1,5 +1,5 @@
-// One dynamics on two threads in windows of time (time_windows.hpp), compared with the engine bit by bit: md_windows N PHI
-// WINDOWS EVENTS: JSON to stdout. EVENTS: of a sphere in a window. First the two threads one after the other on one
+// One dynamics on two threads in windows of time (time_windows.hpp), compared with the engine bit by bit: md_windows N
+// PHI WINDOWS EVENTS: JSON to stdout. EVENTS: of a sphere in a window. First the two threads one after the other on one
 // processor, then on two, which end with the same bits unless events around the two boundaries meet in the
 // middle of a slab, then in turn beside the engine, window by window.
 #include <atomic>

@@ -341,9 +341,10 @@ def changelog():
 
 def columns():
     """Lines end by column 120: build files, shell, Fortran and C (whose layout lint/format checks). Generated files are free."""
-    for path in files("**/CMakeLists.txt", "**/*.cmake", "**/*.sh", "**/*.f90", "src/**/*.[ch]pp", "**/*.[ch]"):
-        relative = str(path.relative_to(root))
-        if relative.startswith((".", "build")) or relative in GENERATED:
+    kinds = ("CMakeLists.txt", "*.cmake", "*.sh", "*.f90", "*.[ch]")
+    below = [f"{folder.name}/**/{kind}" for folder in pages.folders(root) if folder.name[0] != "." for kind in kinds]
+    for path in files("CMakeLists.txt", "src/**/*.[ch]pp", *below):
+        if str(path.relative_to(root)) in GENERATED:
             continue
         for number, line in enumerate(path.read_text().splitlines(), 1):
             if len(line) > 120:

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "network/certificate.hpp"
+
 namespace jam {
 
 void stop(CrunchState &s, jam_stop_reason reason, jam_status status) {
@@ -18,12 +20,19 @@ bool stop_if_interrupted(CrunchState &s) {
   return true;
 }
 
+void forget_contacts(CrunchState &s) {
+  s.out.contacts = ContactNetwork();
+  s.out.contacts.coordination.assign(s.out.packing.n(), 0);
+  report_verdict(PackingVerdict(), s.out.packing, s.out.report);
+}
+
 void restart_lps(CrunchState &s, double bound) {
   s.next.bound = bound;
   s.next.moved = 1.0;
   s.next.stalled = 0;
   s.found.narrow = Verdicts::Narrow::none;
   s.found.jammed = false;
+  forget_contacts(s);
 }
 
 // An estimate for progress bars. The first decades of mu on a path take the longest, so the root of their share.

@@ -220,10 +220,41 @@ static void free_cell_without_polish(void **state) {
   jam_destroy(sys);
 }
 
+/* A flex of the free cell moves the spheres after a verdict: until there is another one, the report has none. */
+static void a_limit_leaves_no_older_verdict(void **state) {
+  int limits = 0;
+  (void)state;
+  for (int seed = 0; seed < 6; ++seed) {
+    for (int lps = 2; lps <= 20; lps += 3) {
+      for (int method = JAM_CRUNCH_BARRIER_PATH; method <= JAM_CRUNCH_SEQUENTIAL_LP; ++method) {
+        jam_create_options c;
+        jam_crunch_options o;
+        jam_crunch_report r;
+        jam_system *sys = NULL;
+        jam_create_options_init(&c, sizeof c);
+        jam_crunch_options_init(&o, sizeof o);
+        c.dim = 2, c.n = 2, c.seed = (uint64_t)seed;
+        o.strain = JAM_STRAIN_FREE, o.max_lps = lps, o.method = method;
+        memset(&r, 0, sizeof r), r.struct_size = sizeof r;
+        assert_int_equal(jam_create(&c, NULL, &sys), JAM_OK);
+        assert_true(jam_crunch(sys, &o, &r) >= 0);
+        jam_destroy(sys);
+        if (r.stop_reason != JAM_STOP_LP_LIMIT || r.gain < o.gain_tolerance) continue;
+        ++limits;
+        assert_false(r.stationary || r.jammed);
+        assert_true(r.flexes == 0 && r.zero_force_contacts == 0 && r.rigidity_margin == 0.0);
+      }
+    }
+  }
+  assert_true(limits > 10);
+}
+
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(cancel_in_every_phase), cmocka_unit_test(wall_time_inside_an_lp),
+  const struct CMUnitTest tests[] = {cmocka_unit_test(cancel_in_every_phase),
+                                     cmocka_unit_test(wall_time_inside_an_lp),
                                      cmocka_unit_test(a_stopped_polish_leaves_the_lp_answer),
                                      cmocka_unit_test(stops_in_a_free_cell),
-                                     cmocka_unit_test(free_cell_without_polish)};
+                                     cmocka_unit_test(free_cell_without_polish),
+                                     cmocka_unit_test(a_limit_leaves_no_older_verdict)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -36,6 +36,7 @@ Phase identify(CrunchState &s) {
   if (slow) stop(s, JAM_STOP_NONE, JAM_OK);
   if (s.o.polish && !s.found.polished && !converged(s)) {
     s.next.gain_tolerance = default_crunch_options().gain_tolerance;
+    forget_contacts(s);
     return Phase::approach;
   }
   if (s.o.polish && !s.found.polished && s.found.narrow == Verdicts::Narrow::none) return Phase::narrow_lps;

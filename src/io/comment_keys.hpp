@@ -11,15 +11,17 @@ namespace jam {
 // The keys of a line; words without = are comments.
 class CommentKeys {
  public:
-  // key=value, the value in quotes, in braces or bare.
+  // key=value, the value in quotes, in braces or bare; as for ASE there may be blanks around =.
   CommentKeys(const LineReader &in, std::string_view comment) : in_(in) {
+    const auto skip_blanks = [&](size_t k) { return std::min(comment.find_first_not_of(" \t", k), comment.size()); };
     for (size_t k = 0; k < comment.size();) {
-      while (k < comment.size() && (comment[k] == ' ' || comment[k] == '\t')) ++k;
-      const size_t start = k;
+      const size_t start = k = skip_blanks(k);
       while (k < comment.size() && comment[k] != '=' && comment[k] != ' ' && comment[k] != '\t') ++k;
       const std::string_view name = comment.substr(start, k - start);
-      if (k >= comment.size() || comment[k] != '=') continue;
-      const char opens = ++k < comment.size() ? comment[k] : ' ';
+      const size_t equals = skip_blanks(k);
+      if (equals >= comment.size() || comment[equals] != '=') continue;
+      k = skip_blanks(equals + 1);
+      const char opens = k < comment.size() ? comment[k] : ' ';
       const bool quoted = opens == '"' || opens == '\'' || opens == '{';
       if (quoted) ++k;
       const char *const ends = opens == '{' ? "}" : opens == '"' ? "\"" : opens == '\'' ? "'" : " \t";
@@ -28,6 +30,9 @@ class CommentKeys {
         if (quoted) in.fail(JAM_E_FORMAT, "the quote after '%s=' is not closed", shown(name).c_str());
         stop = comment.size();
       }
+      const std::string_view next = comment.substr(skip_blanks(stop), 1);
+      if (!quoted && k > equals + 1 && (next == "=" || comment.substr(k, stop - k).find('=') != comment.npos))
+        stop = k = equals + 1;  // another key follows: this one has no value
       keys_.push_back({name, comment.substr(k, stop - k), false});
       k = stop + 1;
     }

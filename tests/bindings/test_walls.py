@@ -115,6 +115,30 @@ class Scenes(unittest.TestCase):
             with self.assertRaisesRegex(jam.errors.FormatError, "must be T or F"):
                 jam.System.read(name)
 
+    def test_keys_with_blanks_around_their_sign(self):
+        """As ASE reads them. A key without a value takes none from the next one; walls without words are refused."""
+        s = jam.System.random(n=20, packing_fraction=0.1, walls="z")
+        with tempfile.TemporaryDirectory() as folder:
+            name = Path(folder, "slit.xyz")
+            s.write(name)
+            count, keys, *rows = name.read_text().splitlines(keepends=True)
+
+            def read(line):
+                name.write_text(count + line.rstrip() + "\n" + "".join(rows))
+                return jam.System.read(name)
+
+            for sign in (" = ", "= ", " =", "\t=  "):
+                t = read(keys.replace("=", sign))
+                self.assertEqual((t.info.walls, t.notes), (4, ""))
+                self.assertTrue((t.positions == s.positions).all())
+            bare = re.sub(r' pbc="[^"]*"| container=brick', "", keys)
+            for more in ("energy = -3.5", "energy= ", "energy= -3.5 "):
+                self.assertEqual(read(more + " " + bare).notes, "keys of the file that were not read: energy")
+            self.assertIn("not read: comment, what", read(bare.replace("walls", "comment= what")).notes)
+            for empty in ('walls=""', "walls=", "walls = ", "walls= energy=3"):
+                with self.assertRaisesRegex(jam.errors.FormatError, "line 2: walls has 0 words"):
+                    read(bare.replace('walls="F F T"', empty))
+
     def test_walls_that_a_file_does_not_name(self):
         """Named by the caller, in letters or truth values; said where nobody names them; a file is not overruled."""
         s = jam.System.random(n=20, packing_fraction=0.1, walls="z")

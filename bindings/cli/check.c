@@ -22,7 +22,8 @@ static void put_verdict(FILE *f, const char *key, int32_t verdict) {
 
 /* A verdict that is open is null. */
 static int write_json(const options *o, int code, const jam_check_report *r, const char *notes) {
-  static const char *const reasons[] = {"proof", "apart", "no_force", "flex", "digits", "overlap", "gaps", "margin"};
+  static const char *const reasons[] = {"proof",   "apart", "no_force", "flex", "digits",
+                                        "overlap", "gaps",  "margin",   "slide"};
   output out;
   FILE *f;
   if (open_output(&out, "-")) return -1;

@@ -115,9 +115,13 @@ jam_status jam_flex(jam_system *sys, int32_t kind, double *out, size_t out_len, 
     const double unit = part * sys->diameter_mean;
     std::vector<double> motion(size, 0.0), eps(d * d, 0.0);
     if (v.contacts.size() == 0) {  // no pair is near: any motion will do
-      if (sys->packing.n() == 1 && jamming == Jamming::collective)
+      const uint32_t closed = sys->packing.container.closed();
+      const bool alone = sys->packing.n() == 1, strains = alone && closed == 0;
+      size_t axis = 0;  // one sphere moves against walls, or its cell does
+      while (alone && axis + 1 < d && !(closed >> axis & 1)) ++axis;
+      if (strains && jamming == Jamming::collective)
         fail(JAM_E_STATE, "one sphere in a fixed cell has no motion but a translation");
-      (sys->packing.n() > 1 ? motion : eps)[0] = sys->packing.n() > 1 ? unit : -unit;
+      (strains ? eps[0] : motion[axis]) = strains ? -unit : unit;
     }
     for (size_t k = 0; k < v.sphere.size(); ++k)
       for (size_t c = 0; c < d; ++c) motion[static_cast<size_t>(v.sphere[k]) * d + c] = unit * v.result.flex[k * d + c];

@@ -38,9 +38,14 @@ const char *headline(const Report &r) {
 
 void add_network(const Report &r, std::string &out) {
   if (r.contacts == 0) return;
-  add(out, "%lld contact%s hold%s %lld sphere%s (excess %lld over one state of self-stress), %lld rattler%s.",
-      wide(r.contacts), plural(r.contacts), r.contacts == 1 ? "s" : "", wide(r.n - r.rattlers),
-      plural(r.n - r.rattlers), wide(r.excess_contacts), wide(r.rattlers), plural(r.rattlers));
+  add(out, "%lld contact%s hold%s %lld sphere%s", wide(r.contacts), plural(r.contacts), r.contacts == 1 ? "s" : "",
+      wide(r.n - r.rattlers), plural(r.n - r.rattlers));
+  if (r.n == 1) {  // own images put no force on their sphere: there is no number of contacts that it needs
+    out += ".";
+  } else {
+    add(out, "(excess %lld over one state of self-stress), %lld rattler%s.", wide(r.excess_contacts), wide(r.rattlers),
+        plural(r.rattlers));
+  }
   if (r.self_stresses > 1) add(out, "Forces are not unique: %lld states of self-stress.", wide(r.self_stresses));
 }
 
@@ -68,11 +73,13 @@ void add_proof(const Report &r, std::string &out) {
 
 void add_no(const Report &r, std::string &out) {
   if (r.reason == JAM_CHECK_APART) {
-    add(out, "No two spheres touch");
+    add(out, "No pair touches");
     if (std::isfinite(r.nearest_gap)) out.append(": the smallest gap is"), add(out, "%.2e", r.nearest_gap);
   } else if (r.reason == JAM_CHECK_NO_FORCE) {
-    add(out, "%lld pair%s touch%s, but no non-negative forces on them balance, so a motion opens them all",
-        wide(r.closed_pairs), plural(r.closed_pairs), r.closed_pairs == 1 ? "es" : "");
+    const bool one = r.closed_pairs == 1;
+    add(out, "%lld pair%s touch%s, but no non-negative force%s on %s balance%s%s, so a motion%s opens %s",
+        wide(r.closed_pairs), plural(r.closed_pairs), one ? "es" : "", one ? "" : "s", one ? "it" : "them",
+        one ? "s" : "", r.n == 1 ? " sphere and cell" : "", r.n == 1 ? " of either" : "", one ? "it" : "them all");
   } else if (r.reason == JAM_CHECK_SLIDE) {
     add(out,
         "Forces balance to %.1e of their mean, so the diameters cannot grow, but parts of the network slide past each "
@@ -80,8 +87,9 @@ void add_no(const Report &r, std::string &out) {
         r.force_residual, wide(r.flexes), plural(r.flexes), r.flexes == 1 ? "s" : "");
   } else {
     add(out,
-        "Forces balance to %.1e of their mean, and yet %lld independent motion%s keep%s all contacts closed: a saddle",
-        r.force_residual, wide(r.flexes), plural(r.flexes), r.flexes == 1 ? "s" : "");
+        "Forces balance to %.1e of their mean, and yet %lld independent motion%s%s keep%s all contacts closed: a "
+        "saddle",
+        r.force_residual, wide(r.flexes), plural(r.flexes), r.n == 1 ? " of the cell" : "", r.flexes == 1 ? "s" : "");
   }
   out += ".";
   add(out, "Sure: gaps are known to %.1e, and with all pairs closed that this leaves open it is not jammed either.",
@@ -102,7 +110,9 @@ void add_resolution(const Report &r, std::string &out) {
 void add_undecided(const Report &r, std::string &out) {
   if (std::isfinite(r.nearest_gap)) add(out, "The nearest pair has a gap of %.2e.", r.nearest_gap);
   if (r.reason == JAM_CHECK_MARGIN && r.contacts == 0)
-    add(out, "Doubles do not resolve which of the %lld closed pairs carry force, as some forces are too weak.",
+    add(out,
+        "Doubles do not resolve which closed pairs (%lld) carry force: some forces are too weak, or a sphere fills a "
+        "round wall, which has no normal in its middle.",
         wide(r.closed_pairs));
   else if (r.reason == JAM_CHECK_MARGIN && r.flexes > 0)
     add(out,
@@ -117,11 +127,11 @@ void add_undecided(const Report &r, std::string &out) {
         r.rigidity_margin, r.force_residual);
   else if (r.reason == JAM_CHECK_OVERLAP)
     add(out, "Gaps are known no better than that, and the verdict on the reduced diameters is none on the packing.");
-  else
+  else if (r.undecided_contacts > 0)
     add(out, "%lld pair%s may touch or not, and the verdict depends on %s.", wide(r.undecided_contacts),
         plural(r.undecided_contacts), r.undecided_contacts == 1 ? "it" : "them");
   if (r.crunch_jammed == JAM_VERDICT_UNTESTED) {
-    add(out, "A crunch closes the contacts and decides.");
+    if (r.n > 1) add(out, "A crunch closes the contacts and decides.");
     return;
   }
   const bool jammed = r.crunch_jammed == JAM_VERDICT_YES;

@@ -62,9 +62,9 @@ bool may_hold_spheres(const RigidityMatrix &g) {
 
 // A sphere on the axis of its tube, or at the centre of its ball, touches the round wall all around: one row is not
 // enough.
-bool touches_all_around(const RigidityMatrix &g) {
+bool touches_all_around(const RigidityMatrix &g, const std::vector<char> &near_enough) {
   for (size_t k = 0; k < g.contacts(); ++k)
-    if (g.b[k] < 0 && !(-g.bending[k] * g.sigma[k] * RigidityTuning::off_axis < 1.0)) return true;
+    if (near_enough[k] && g.b[k] < 0 && !(-g.bending[k] * g.sigma[k] * RigidityTuning::off_axis < 1.0)) return true;
   return false;
 }
 
@@ -170,8 +170,8 @@ PackingVerdict test_packing(const Packing &p, const GapResolution &resolution, c
       out.result.jammed = Verdict::undecided;
   if (kind == Jamming::collective && out.result.spheres == 1 && out.result.contacts > 0 && !p.container)
     judge_alone(g, out.result);
-  if (g.round_axes > 0 && touches_all_around(g)) {
-    out.result.jammed = out.result.stressed = Verdict::undecided;
+  if (g.round_axes > 0 && touches_all_around(g, near_enough)) {
+    out.result.jammed = out.result.stressed = out.when_closed = Verdict::undecided;
     out.result.flex.clear(), out.result.attempt.clear();
   }
   net.force = out.result.force;

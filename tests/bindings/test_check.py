@@ -2,6 +2,7 @@
 
 Verdicts are judged by jamming_oracle.py, which shares no code with the library.
 """
+import json
 import os
 import subprocess
 import tempfile
@@ -39,7 +40,7 @@ class AsItIs(unittest.TestCase):
             r = self.expect(fluid(48, dim, 1, fraction), Verdict.NO, Verdict.NO, reach=1)
             self.assertEqual(r.reason, CheckReason.APART)
             self.assertGreater(r.nearest_gap, 0)
-            self.assertIn("No two spheres touch", str(r))
+            self.assertIn("No pair touches", str(r))
 
     def test_jammed_and_without_a_sphere(self):
         s = packing()
@@ -132,6 +133,51 @@ class Program(unittest.TestCase):
             self.assertIn(f"jam-pack check {path}", done.stdout)
             self.assertEqual(self.pack("check", path).returncode, 1)
             self.assertEqual(self.pack("check", Path(folder) / "end.xyz").returncode, 0)
+
+
+    def test_every_reason_has_a_word(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "slit.xyz"
+            jam.System.from_arrays([[0.6, 0.5], [2.1, 0.5]], 1.0, cell=[3, 1], walls="y").write(str(path))
+            self.assertEqual(json.loads(self.pack("check", path, "--json").stdout)["reason"], CheckReason.SLIDE.name.lower())
+
+
+class Alone(unittest.TestCase):
+    """One sphere. A container stops its motions; in a fixed cell without walls it has none but a translation."""
+
+    def one(self, sigma, at=(0.5, 0.5, 0.5), **scene):
+        return jam.System.from_arrays([at], sigma, **scene)
+
+    def test_has_a_motion_against_walls_alone(self):
+        for scene, axis in (({"walls": "y"}, 1), ({"walls": "xyz"}, 0), ({"container": "ball"}, 0), ({"container": "cylinder"}, 0)):
+            s = self.one(0.5, **scene)
+            self.assertIn("No pair touches: the smallest gap is 1.00e+00.", str(s.check()))
+            for kind in ("collective", "strict"):  # no cell vector lies along a wall
+                flex = s.flex(kind)
+                np.testing.assert_array_equal(flex.out, [0.5 * np.eye(3)[axis]])
+                self.assertFalse(flex.strain.any())
+        with self.assertRaisesRegex(jam.errors.StateError, "no motion but a translation"):
+            self.one(0.5).flex()
+        self.assertLess(np.trace(self.one(0.5).flex("strict").strain), 0)
+
+    def test_sentences(self):
+        square = self.one(1.0, (0.5, 0.5))
+        for s, said, unsaid in (
+            (square, "2 contacts hold 1 sphere. Forces balance to 0.0e+00 of their mean, and yet 1 independent motion of the cell", "excess"),
+            (self.one(1.0, walls="xyz"), "6 contacts hold 1 sphere. Forces are not unique: 3 states of self-stress.", "excess"),
+            (self.one(0.4, (0.5, 0.2), walls="y"), "1 pair touches, but no non-negative force on it balances sphere and cell, so a motion of either opens it.", "them"),
+            (self.one(1 - 5e-9, container="ball"), "Not jammed. 1 sphere in d = 3 at packing fraction 0.999999985. No pair touches: the smallest gap is 5.00e-09.", "may touch"),
+        ):
+            self.assertIn(said, str(s.check()))
+            self.assertNotIn(unsaid, str(s.check()))
+
+    def test_that_fills_a_round_wall_is_undecided_for_its_reason(self):
+        for scene in ({"container": "ball"}, {"container": "cylinder"}):
+            r = self.one(1.0, **scene).check()
+            self.assertEqual((r.jammed, r.reason, r.undecided_contacts), (Verdict.UNDECIDED, CheckReason.MARGIN, 0))
+            self.assertIn("a sphere fills a round wall", str(r))
+            for wrong in ("may touch", "A crunch"):  # no pair is in doubt, and a crunch needs two spheres
+                self.assertNotIn(wrong, str(r))
 
 
 class Changes(unittest.TestCase):

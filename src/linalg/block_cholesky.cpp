@@ -4,13 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <numeric>
+#include <utility>
 
 #include "core/call_scope.hpp"
 #include "core/with_dimension.hpp"
 #include "linalg/blas.hpp"
 #include "linalg/dense_front.hpp"
 #include "linalg/tuning.hpp"
-#include "linalg/two_threads.hpp"
 
 namespace jam {
 namespace {
@@ -72,19 +73,18 @@ void BlockCholesky::extend_add_columns(int32_t child, Real *update, size_t start
 }
 
 template <class Real>
-void BlockCholesky::extend_add(int32_t child, Real *update, int threads) {
-  const size_t mc = below(supernodes_[child]);
-  const auto add = [&](size_t start, size_t stride) {
-    with_number(BlockSizes{}, dim_, [&](auto size) { extend_add_columns<size>(child, update, start, stride); });
-  };
-  if (threads < 2 || mc * mc < ThreadTuning::additions) return add(0, 1);
-  on_two_threads([&](int part) { add(part, 2); });
+void BlockCholesky::extend_add(int32_t child, Real *update, Workers &workers) {
+  const double mc = static_cast<double>(below(supernodes_[child]));
+  const int parts = workers.parts(mc * mc, ThreadTuning::additions);
+  workers.run(parts, [&](int part, int) {
+    with_number(BlockSizes{}, dim_, [&](auto size) { extend_add_columns<size>(child, update, part, parts); });
+  });
 }
 
 // A parent's Schur complement goes on the other of two stacks than its children's, which are dropped from the top of
 // theirs when it is done: nothing is ever moved.
 template <class Real>
-void BlockCholesky::eliminate(int32_t index, const double *diag, const double *off, Stack &stack, int threads,
+void BlockCholesky::eliminate(int32_t index, const double *diag, const double *off, Stack &stack, Workers &workers,
                               int &replaced) {
   const Supernode &s = supernodes_[index];
   const size_t m = below(s);
@@ -93,15 +93,15 @@ void BlockCholesky::eliminate(int32_t index, const double *diag, const double *o
   const bool floats = sizeof(Real) == sizeof(float);
   const PivotRule rule{floats ? SupernodeTuning::lost_in_floats : relative_, floor_, floats};
   assemble<Real>(s, diag, off);
-  for (const int32_t c : s.children) extend_add<Real>(c, nullptr, threads);
+  for (const int32_t c : s.children) extend_add<Real>(c, nullptr, workers);
   replaced += factor_panel(panel, front, front, width,
-                           original_diagonal_.as<Real>() + static_cast<size_t>(s.first) * dim_, rule, threads);
+                           original_diagonal_.as<Real>() + static_cast<size_t>(s.first) * dim_, rule, workers);
   const int side = s.side;
   const bool stacked = kept_at_[index] == on_stack;
   Real *update = stacked ? stack.memory[side].as<Real>() + stack.top[side] : kept_.as<Real>() + kept_at_[index];
-  minus_square(update, rows, panel + width, front, width, threads);
+  minus_square(update, rows, panel + width, front, width, workers);
   for (const int32_t c : s.children) {
-    if (m) extend_add(c, update, threads);
+    if (m) extend_add(c, update, workers);
     if (kept_at_[c] == on_stack) stack.top[1 - side] -= below(supernodes_[c]) * below(supernodes_[c]);
   }
   if (stacked) stack.top[side] += m * m;
@@ -110,58 +110,62 @@ void BlockCholesky::eliminate(int32_t index, const double *diag, const double *o
 
 template <class Real>
 void BlockCholesky::run_list(const std::vector<int32_t> &list, const double *diag, const double *off, Stack &stack,
-                             int threads, int &replaced) {
+                             Workers &workers, int &replaced) {
   stack.top[0] = stack.top[1] = 0;
   for (const int32_t s : list) {
-    eliminate<Real>(s, diag, off, stack, threads, replaced);
+    eliminate<Real>(s, diag, off, stack, workers, replaced);
     CallScope::look();
   }
 }
 
 int BlockCholesky::factorise(const double *diag, const double *off, Precision precision) {
-  const BlasSingleThread alone(threads_);
+  const BlasSingleThread alone(worker_count());
   precision_ = precision;
   return precision == Precision::single ? factorise_as<float>(diag, off) : factorise_as<double>(diag, off);
 }
 
 template <class Real>
 int BlockCholesky::factorise_as(const double *diag, const double *off) {
-  int replaced[3] = {0, 0, 0};
-  if (!lists_[1].empty()) {
-    on_two_threads([&](int t) { run_list<Real>(lists_[t], diag, off, stacks_[t], 1, replaced[t]); });
-  } else {
-    run_list<Real>(lists_[0], diag, off, stacks_[0], 1, replaced[0]);
-  }
-  run_list<Real>(lists_[2], diag, off, stacks_[0], threads_, replaced[2]);
+  Workers workers(worker_count());
+  std::vector<int> lost(subtrees_.size() + 1, 0);
+  workers.run(static_cast<int>(subtrees_.size()), [&](int tree, int worker) {
+    Workers alone(1);
+    run_list<Real>(subtrees_[tree], diag, off, stacks_[worker], alone, lost[tree]);
+  });
+  run_list<Real>(top_, diag, off, stacks_[0], workers, lost.back());
   for (const Supernode &s : supernodes_) {
     const size_t front = columns(s) + below(s);
     for (size_t c = 0; c < columns(s); ++c)
       if (!std::isfinite(values_.as<Real>()[s.value_start + c * front + c])) return -1;
   }
-  return replaced[0] + replaced[1] + replaced[2];
+  return std::accumulate(lost.begin(), lost.end(), 0);
 }
 
-// Supernode by supernode for all right-hand sides at once, so that a panel is read once. below: room for the rows of
-// one supernode.
+// Supernode by supernode for all right-hand sides at once, so that a panel is read once. above: as long as y, takes
+// what is subtracted from entries behind the supernodes of the list. below_rows: room for the rows of one supernode.
 template <class Real>
-void BlockCholesky::forward(const std::vector<int32_t> &list, Real *y, Real *below_rows, int nrhs, int threads) const {
+void BlockCholesky::forward(const std::vector<int32_t> &list, Real *y, Real *above, Real *below_rows, int nrhs,
+                            Workers &workers) const {
   const size_t d = dim_, unknowns = static_cast<size_t>(n_) * d;
+  const int32_t end = list.empty() ? 0 : supernodes_[list.back()].last;
   for (const int32_t index : list) {
     const Supernode &s = supernodes_[index];
     const int width = static_cast<int>(columns(s)), rows = static_cast<int>(below(s)), front = width + rows;
     if (static_cast<size_t>(front) * width > ThreadTuning::long_panel) CallScope::look();
     panel_forward(values_.as<Real>() + s.value_start, front, rows, width, y + static_cast<size_t>(s.first) * d,
-                  static_cast<int>(unknowns), below_rows, static_cast<int>(largest_below_), nrhs, threads);
+                  static_cast<int>(unknowns), below_rows, static_cast<int>(largest_below_), nrhs, workers);
     for (int r = 0; r < nrhs; ++r)
-      for (size_t k = 0; k < s.row_count; ++k)
-        for (size_t c = 0; c < d; ++c)
-          y[r * unknowns + static_cast<size_t>(rows_[s.row_start + k]) * d + c] -=
-              below_rows[r * largest_below_ + k * d + c];
+      for (size_t k = 0; k < s.row_count; ++k) {
+        const int32_t row = rows_[s.row_start + k];
+        Real *to = (row < end ? y : above) + r * unknowns + static_cast<size_t>(row) * d;
+        for (size_t c = 0; c < d; ++c) to[c] -= below_rows[r * largest_below_ + k * d + c];
+      }
   }
 }
 
 template <class Real>
-void BlockCholesky::backward(const std::vector<int32_t> &list, Real *y, Real *below_rows, int nrhs, int threads) const {
+void BlockCholesky::backward(const std::vector<int32_t> &list, Real *y, Real *below_rows, int nrhs,
+                             Workers &workers) const {
   const size_t d = dim_, unknowns = static_cast<size_t>(n_) * d;
   for (size_t at = list.size(); at-- > 0;) {
     const Supernode &s = supernodes_[list[at]];
@@ -173,20 +177,20 @@ void BlockCholesky::backward(const std::vector<int32_t> &list, Real *y, Real *be
           below_rows[r * largest_below_ + k * d + c] =
               y[r * unknowns + static_cast<size_t>(rows_[s.row_start + k]) * d + c];
     panel_backward(values_.as<Real>() + s.value_start, front, rows, width, y + static_cast<size_t>(s.first) * d,
-                   static_cast<int>(unknowns), below_rows, static_cast<int>(largest_below_), nrhs, threads);
+                   static_cast<int>(unknowns), below_rows, static_cast<int>(largest_below_), nrhs, workers);
   }
 }
 
-// Both threads subtract from the top of the tree, so the second one has its own vector until the two are done.
+// Subtrees subtract from the top of the tree side by side: each worker into zeros of its own, and what a subtree left
+// there is added in the order of the subtrees.
 template <class Real>
 void BlockCholesky::solve_as(double *x, int nrhs) const {
   const size_t d = dim_, unknowns = static_cast<size_t>(n_) * d, room = largest_below_ * nrhs;
-  const bool two = !lists_[0].empty();
-  const auto both = [&](const auto &work) {
-    if (value_count_ > ThreadTuning::factor) return on_two_threads(work);
-    work(0), work(1);
-  };
-  std::vector<Real> y(unknowns * nrhs), other(two ? y.size() : 0), below_rows(two ? 2 * room : room);
+  const int trees = static_cast<int>(subtrees_.size());
+  const int count = value_count_ > ThreadTuning::factor ? worker_count() : 1;
+  Workers workers(count);
+  std::vector<Real> y(unknowns * nrhs), above(trees > 0 ? count * y.size() : 0), below_rows(count * room);
+  std::vector<std::vector<Real>> left(trees);
   const auto permute = [&](bool back) {
     for (int r = 0; r < nrhs; ++r)
       for (int32_t k = 0; k < n_; ++k) {
@@ -199,27 +203,36 @@ void BlockCholesky::solve_as(double *x, int nrhs) const {
             mine[c] = static_cast<Real>(theirs[c]);
       }
   };
-  // Entries of y that belong to the supernodes of a list.
-  const auto entries = [&](const std::vector<int32_t> &list, const auto &visit) {
+  // Visits the entries above a subtree: those that its root passes on.
+  const auto entries_above = [&](int tree, const auto &visit) {
+    const Supernode &root = supernodes_[subtrees_[tree].back()];
     for (int r = 0; r < nrhs; ++r)
-      for (const int32_t index : list)
-        for (size_t k = supernodes_[index].first * d; k < supernodes_[index].last * d; ++k) visit(r * unknowns + k);
+      for (size_t k = 0; k < root.row_count; ++k)
+        for (size_t c = 0; c < d; ++c) visit(r * unknowns + static_cast<size_t>(rows_[root.row_start + k]) * d + c);
   };
   permute(false);
-  if (two) {
-    entries(lists_[1], [&](size_t k) { other[k] = y[k]; });
-    both([&](int t) { forward(lists_[t], t ? other.data() : y.data(), below_rows.data() + t * room, nrhs, 1); });
-    entries(lists_[1], [&](size_t k) { y[k] = other[k]; });
-    entries(lists_[2], [&](size_t k) { y[k] += other[k]; });
+  for (int tree = 0; tree < trees; ++tree) left[tree].resize(supernodes_[subtrees_[tree].back()].row_count * d * nrhs);
+  workers.run(trees, [&](int tree, int worker) {
+    Workers one(1);
+    Real *mine = above.data() + worker * y.size(), *to = left[tree].data();
+    forward(subtrees_[tree], y.data(), mine, below_rows.data() + worker * room, nrhs, one);
+    entries_above(tree, [&](size_t k) { *to++ = std::exchange(mine[k], Real(0)); });
+  });
+  for (int tree = 0; tree < trees; ++tree) {
+    const Real *from = left[tree].data();
+    entries_above(tree, [&](size_t k) { y[k] += *from++; });
   }
-  forward(lists_[2], y.data(), below_rows.data(), nrhs, threads_);
-  backward(lists_[2], y.data(), below_rows.data(), nrhs, threads_);
-  if (two) both([&](int t) { backward(lists_[t], y.data(), below_rows.data() + t * room, nrhs, 1); });
+  forward(top_, y.data(), y.data(), below_rows.data(), nrhs, workers);
+  backward(top_, y.data(), below_rows.data(), nrhs, workers);
+  workers.run(trees, [&](int tree, int worker) {
+    Workers one(1);
+    backward(subtrees_[tree], y.data(), below_rows.data() + worker * room, nrhs, one);
+  });
   permute(true);
 }
 
 void BlockCholesky::solve_many(double *x, int nrhs) const {
-  const BlasSingleThread alone(threads_);
+  const BlasSingleThread alone(worker_count());
   precision_ == Precision::single ? solve_as<float>(x, nrhs) : solve_as<double>(x, nrhs);
 }
 

@@ -8,6 +8,7 @@
 
 #include "linalg/ordering.hpp"
 #include "linalg/scratch_buffer.hpp"
+#include "linalg/workers.hpp"
 
 namespace jam {
 
@@ -17,8 +18,9 @@ class BlockCholesky {
  public:
   // Both parts may be left by Cancelled, and analyse() fails where the numbers exceed the memory of the call: the next
   // call is then analyse().
-  // Symbolic part: n nodes, unique undirected edges (ei[k], ej[k]), ei != ej. threads: 1, or 2 for independent subtrees
-  // and large fronts side by side. order[k] is the node that is eliminated k-th; empty: nested dissection.
+  // Symbolic part: n nodes, unique undirected edges (ei[k], ej[k]), ei != ej. threads: above 1 independent subtrees and
+  // parts of large fronts run side by side, with the same bits for every such number. order[k] is the node that is
+  // eliminated k-th; empty: nested dissection.
   void analyse(int dim, int32_t n, const int32_t *ei, const int32_t *ej, size_t edges, int threads = 1,
                std::vector<int32_t> order = {});
   // The same with the elimination order of the last call, for a graph that changed little; analyse() when n is another.
@@ -74,7 +76,7 @@ class BlockCholesky {
   // Columns [first, last) of nodes in elimination order; rows: the nodes below them. Front = columns then rows.
   struct Supernode {
     int32_t first, last, parent;
-    int side;                     // which of the two stacks of its list takes its Schur complement
+    int side;                     // which of the two memories of a stack takes its Schur complement
     size_t row_start, row_count;  // in rows_ and places_
     size_t value_start;           // panel in values_, column-major, leading dimension = front size
     size_t entry_start, entry_count;
@@ -97,29 +99,32 @@ class BlockCholesky {
   void place_entries(const int32_t *ei, const int32_t *ej, size_t edges);
   void plan();
   void allocate();
-  std::vector<int32_t> share_out(const std::vector<double> &work);
-  void keep(const std::vector<int32_t> &roots);
-  void lay_stacks(int list);
+  void share_out(const std::vector<double> &work);
+  void keep();
+  void lay_stacks(const std::vector<int32_t> &list, size_t *need);
+  size_t stack_need(int worker, int side) const;
+  int worker_count() const;
   template <class Real>
   int factorise_as(const double *diag, const double *off);
   template <class Real>
-  void eliminate(int32_t s, const double *diag, const double *off, Stack &stack, int threads, int &replaced);
+  void eliminate(int32_t s, const double *diag, const double *off, Stack &stack, Workers &workers, int &replaced);
   template <class Real>
   void assemble(const Supernode &s, const double *diag, const double *off);
   template <class Real>
-  void extend_add(int32_t child, Real *update, int threads);
+  void extend_add(int32_t child, Real *update, Workers &workers);
   template <int D, class Real>
   void extend_add_columns(int32_t child, Real *update, size_t start, size_t stride);
   template <class Real>
-  void run_list(const std::vector<int32_t> &list, const double *diag, const double *off, Stack &stack, int threads,
+  void run_list(const std::vector<int32_t> &list, const double *diag, const double *off, Stack &stack, Workers &workers,
                 int &replaced);
 
   template <class Real>
   void solve_as(double *x, int nrhs) const;
   template <class Real>
-  void forward(const std::vector<int32_t> &list, Real *y, Real *below_rows, int nrhs, int threads) const;
+  void forward(const std::vector<int32_t> &list, Real *y, Real *above, Real *below_rows, int nrhs,
+               Workers &workers) const;
   template <class Real>
-  void backward(const std::vector<int32_t> &list, Real *y, Real *below_rows, int nrhs, int threads) const;
+  void backward(const std::vector<int32_t> &list, Real *y, Real *below_rows, int nrhs, Workers &workers) const;
 
   int dim_ = 0, threads_ = 1;
   bool dry_ = false;  // sizes only
@@ -136,10 +141,11 @@ class BlockCholesky {
   std::vector<void *> update_;   // Schur complement of each supernode while it is needed
   std::vector<size_t> kept_at_;  // where in kept_ that of a subtree's root is, which outlives its thread's stack
   ScratchBuffer kept_;
-  std::vector<int32_t> lists_[3];  // supernodes of thread 0, thread 1, and the top of the tree
-  Stack stacks_[2];
+  std::vector<std::vector<int32_t>> subtrees_;  // their supernodes, the root last; none with one thread
+  std::vector<int32_t> top_;                    // all others
+  std::vector<Stack> stacks_;                   // of each worker
   size_t largest_below_ = 0, value_count_ = 0, stack_count_ = 0, kept_count_ = 0;
-  size_t stack_need_[2][2] = {};  // of stacks_
+  size_t subtree_need_[2] = {}, top_need_[2] = {};  // of stacks; the first one is that of the top, too
 };
 
 }  // namespace jam

@@ -22,20 +22,33 @@ void BlockCholesky::plan() {
     largest_below_ = std::max(largest_below_, below(s));
   }
   update_.assign(count, nullptr);
-  keep(share_out(work));
+  share_out(work);
+  keep();
   for (size_t k = count; k-- > 0;)
     supernodes_[k].side = supernodes_[k].parent < 0 ? 0 : 1 - supernodes_[supernodes_[k].parent].side;
-  for (auto &list : stack_need_) list[0] = list[1] = 0;
-  for (int list = 0; list < 3; ++list) lay_stacks(list);
+  for (size_t *need : {subtree_need_, top_need_}) need[0] = need[1] = 0;
+  for (const auto &list : subtrees_) lay_stacks(list, subtree_need_);
+  lay_stacks(top_, top_need_);
   stack_count_ = kept_count_;
-  for (const auto &list : stack_need_) stack_count_ += list[0] + list[1];
+  for (int worker = 0; worker < worker_count(); ++worker)
+    for (int side = 0; side < 2; ++side) stack_count_ += stack_need(worker, side);
 }
 
-// With two threads: whole subtrees, split from the heaviest root down until the two lists are even. Returns their
-// roots.
-std::vector<int32_t> BlockCholesky::share_out(const std::vector<double> &work) {
+// No more than find work: each takes memory.
+int BlockCholesky::worker_count() const {
+  if (threads_ < 2) return 1;
+  return std::min(threads_, std::max(ThreadTuning::most_parts, static_cast<int>(subtrees_.size())));
+}
+
+// The top of the tree comes when the subtrees are done.
+size_t BlockCholesky::stack_need(int worker, int side) const {
+  return worker > 0 ? subtree_need_[side] : std::max(subtree_need_[side], top_need_[side]);
+}
+
+// With threads: subtrees that take no more than a share of all work, the heaviest first. Which, does not depend on the
+// number of threads.
+void BlockCholesky::share_out(const std::vector<double> &work) {
   const size_t count = supernodes_.size();
-  for (auto &l : lists_) l.clear();
   std::vector<int32_t> roots;
   for (size_t k = 0; k < count && threads_ > 1; ++k)
     if (supernodes_[k].parent < 0) roots.push_back(static_cast<int32_t>(k));
@@ -48,43 +61,38 @@ std::vector<int32_t> BlockCholesky::share_out(const std::vector<double> &work) {
     roots.insert(roots.end(), supernodes_[split].children.begin(), supernodes_[split].children.end());
   }
   std::sort(roots.begin(), roots.end(), [&](int32_t a, int32_t b) { return heavier(b, a); });
-  double load[2] = {0.0, 0.0};
-  std::vector<int> thread_of(count, 2);
-  for (const int32_t r : roots) {
-    const int t = load[1] < load[0] ? 1 : 0;
-    load[t] += work[r];
-    thread_of[r] = t;
-  }
+  subtrees_.assign(roots.size(), {});
+  top_.clear();
+  constexpr int32_t of_top = -1;
+  std::vector<int32_t> tree_of(count, of_top);
+  for (size_t t = 0; t < roots.size(); ++t) tree_of[roots[t]] = static_cast<int32_t>(t);
   for (size_t k = count; k-- > 0;)
-    if (thread_of[k] == 2 && supernodes_[k].parent >= 0 && thread_of[supernodes_[k].parent] != 2)
-      thread_of[k] = thread_of[supernodes_[k].parent];
-  for (size_t k = 0; k < count; ++k) lists_[thread_of[k]].push_back(static_cast<int32_t>(k));
-  return roots;
+    if (tree_of[k] == of_top && supernodes_[k].parent >= 0) tree_of[k] = tree_of[supernodes_[k].parent];
+  for (size_t k = 0; k < count; ++k)
+    (tree_of[k] == of_top ? top_ : subtrees_[tree_of[k]]).push_back(static_cast<int32_t>(k));
 }
 
 // One block of memory for all, used again by the next graph: blocks of their own broke up the heap, to twice what was
 // needed.
-void BlockCholesky::keep(const std::vector<int32_t> &roots) {
+void BlockCholesky::keep() {
   kept_at_.assign(supernodes_.size(), on_stack);
   kept_count_ = 0;
-  for (const int32_t r : roots) {
-    kept_at_[r] = kept_count_;
-    kept_count_ += below(supernodes_[r]) * below(supernodes_[r]);
+  for (const auto &list : subtrees_) {
+    kept_at_[list.back()] = kept_count_;
+    kept_count_ += below(supernodes_[list.back()]) * below(supernodes_[list.back()]);
   }
 }
 
-// Children lie on one stack while their parent's Schur complement is built on the other.
-void BlockCholesky::lay_stacks(int list) {
-  size_t now[2] = {0, 0}, most[2] = {0, 0};
-  for (const int32_t k : lists_[list]) {
+// Children lie on one side of a stack while their parent's Schur complement is built on the other.
+void BlockCholesky::lay_stacks(const std::vector<int32_t> &list, size_t *need) {
+  size_t now[2] = {0, 0};
+  for (const int32_t k : list) {
     const Supernode &s = supernodes_[k];
     if (kept_at_[k] == on_stack) now[s.side] += below(s) * below(s);
-    most[s.side] = std::max(most[s.side], now[s.side]);
+    need[s.side] = std::max(need[s.side], now[s.side]);
     for (const int32_t c : s.children)
       if (kept_at_[c] == on_stack) now[1 - s.side] -= below(supernodes_[c]) * below(supernodes_[c]);
   }
-  for (int side = 0; side < 2; ++side)  // the top of the tree comes when the lists are done
-    stack_need_[list % 2][side] = std::max(stack_need_[list % 2][side], most[side]);
 }
 
 }  // namespace jam

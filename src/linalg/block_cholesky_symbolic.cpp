@@ -233,8 +233,9 @@ void BlockCholesky::allocate() {
   values_.need(value_count_);
   original_diagonal_.need(unknowns);
   kept_.need(kept_count_);
-  for (int list = 0; list < 2; ++list)
-    for (int side = 0; side < 2; ++side) stacks_[list].memory[side].need(stack_need_[list][side]);
+  stacks_.resize(worker_count());
+  for (size_t worker = 0; worker < stacks_.size(); ++worker)
+    for (int side = 0; side < 2; ++side) stacks_[worker].memory[side].need(stack_need(static_cast<int>(worker), side));
 }
 
 BlockCholesky::Sizes BlockCholesky::measure(int dim, int32_t n, const int32_t *ei, const int32_t *ej, size_t edges,

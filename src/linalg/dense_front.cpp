@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 
 #include "core/call_scope.hpp"
 #include "linalg/blas.hpp"
 #include "linalg/tuning.hpp"
-#include "linalg/two_threads.hpp"
+#include "linalg/while_telling.hpp"
 
 namespace jam {
 namespace {
@@ -53,99 +54,100 @@ void minus_trapezoid(Real *c, int ldc, int rows, int columns, const Real *b, int
 
 double area_of(int rows, int columns) { return columns * (rows - 0.5 * columns); }
 
-// The same, on two threads when it is worth it: columns are split where the two areas are even.
+// The same in parts of even areas.
 template <class Real>
-void minus_trapezoid_on(int threads, Real *c, int ldc, int rows, int columns, const Real *b, int ldb, int k,
+void minus_trapezoid_by(Workers &workers, Real *c, int ldc, int rows, int columns, const Real *b, int ldb, int k,
                         Result result) {
-  const double area = area_of(rows, columns);
-  if (threads < 2 || area * k < ThreadTuning::product) return minus_trapezoid(c, ldc, rows, columns, b, ldb, k, result);
-  const int cut = static_cast<int>(rows - std::sqrt(static_cast<double>(rows) * rows - area));
-  on_two_threads([&](int part) {
-    if (part == 0)
-      minus_trapezoid(c, ldc, rows, cut, b, ldb, k, result);
-    else
-      minus_trapezoid(c + static_cast<size_t>(cut) * ldc + cut, ldc, rows - cut, columns - cut, b + cut, ldb, k,
-                      result);
+  const double area = area_of(rows, columns), square = static_cast<double>(rows) * rows;
+  const int parts = workers.parts(area * k, ThreadTuning::product);
+  const auto cut = [&](int part) {
+    return part == parts ? columns : static_cast<int>(rows - std::sqrt(square - 2.0 * area * part / parts));
+  };
+  workers.run(parts, [&](int part, int) {
+    const int first = cut(part), last = cut(part + 1);
+    minus_trapezoid(c + static_cast<size_t>(first) * ldc + first, ldc, rows - first, last - first, b + first, ldb, k,
+                    result);
   });
 }
 
 template <class Real>
 void minus_trapezoid(Real *c, int ldc, int rows, int columns, const Real *b, int ldb, int k, Result result,
-                     int threads) {
-  const auto work = [&] { minus_trapezoid_on(threads, c, ldc, rows, columns, b, ldb, k, result); };
+                     Workers &workers) {
+  const auto work = [&] { minus_trapezoid_by(workers, c, ldc, rows, columns, b, ldb, k, result); };
   if (area_of(rows, columns) * k < ThreadTuning::long_product) return work();
   while_telling(work);
 }
 
+// work(first, count) for the parts of 0 .. size.
+template <class Work>
+void in_parts(Workers &workers, int parts, int size, const Work &work) {
+  const auto cut = [&](int part) { return static_cast<int>(static_cast<int64_t>(size) * part / parts); };
+  workers.run(parts, [&](int part, int) {
+    const int first = cut(part), count = cut(part + 1) - first;
+    if (count > 0) work(first, count);
+  });
+}
+
 // B := B L^-T.
 template <class Real>
-void divide_by_top(const Real *top, int ld, int rows, int columns, Real *b, int threads) {
-  if (rows == 0) return;
-  if (threads < 2 || static_cast<double>(rows) * columns * columns < ThreadTuning::product) {
-    Blas<Real>::divide(rows, columns, top, ld, b, ld);
-    return;
-  }
-  const int half = rows / 2, rest = rows - half;
-  on_two_threads([&](int part) { Blas<Real>::divide(part ? rest : half, columns, top, ld, part ? b + half : b, ld); });
+void divide_by_top(const Real *top, int ld, int rows, int columns, Real *b, Workers &workers) {
+  const int parts = workers.parts(static_cast<double>(rows) * columns * columns, ThreadTuning::product);
+  in_parts(workers, parts, rows,
+           [&](int first, int count) { Blas<Real>::divide(count, columns, top, ld, b + first, ld); });
 }
 
 }  // namespace
 
 // Halves of columns, so that most of the work is products of wide blocks.
 template <class Real>
-int factor_panel(Real *panel, int ld, int rows, int columns, const Real *original, const PivotRule &rule, int threads) {
+int factor_panel(Real *panel, int ld, int rows, int columns, const Real *original, const PivotRule &rule,
+                 Workers &workers) {
   if (columns <= narrow) {
     const int replaced = factor_small(panel, ld, columns, original, rule);
-    divide_by_top(panel, ld, rows - columns, columns, panel + columns, threads);
+    divide_by_top(panel, ld, rows - columns, columns, panel + columns, workers);
     CallScope::look();
     return replaced;
   }
   const int left = (columns / 2 + narrow - 1) / narrow * narrow;
-  const int replaced = factor_panel(panel, ld, rows, left, original, rule, threads);
+  const int replaced = factor_panel(panel, ld, rows, left, original, rule, workers);
   Real *trailing = panel + static_cast<size_t>(left) * ld + left;
-  minus_trapezoid(trailing, ld, rows - left, columns - left, panel + left, ld, left, Result::added, threads);
-  return replaced + factor_panel(trailing, ld, rows - left, columns - left, original + left, rule, threads);
+  minus_trapezoid(trailing, ld, rows - left, columns - left, panel + left, ld, left, Result::added, workers);
+  return replaced + factor_panel(trailing, ld, rows - left, columns - left, original + left, rule, workers);
 }
 
 template <class Real>
-void minus_square(Real *c, int n, const Real *b, int ldb, int k, int threads) {
-  if (n > 0 && k > 0) minus_trapezoid(c, n, n, n, b, ldb, k, Result::written, threads);
+void minus_square(Real *c, int n, const Real *b, int ldb, int k, Workers &workers) {
+  if (n > 0 && k > 0) minus_trapezoid(c, n, n, n, b, ldb, k, Result::written, workers);
 }
 
 template <class Real>
 void panel_forward(const Real *panel, int ld, int rows, int columns, Real *top, int ldt, Real *below, int ldb, int nrhs,
-                   int threads) {
+                   Workers &workers) {
   Blas<Real>::solve(columns, nrhs, panel, ld, top, ldt);
-  const auto multiply = [&](int first, int count) {
-    if (count > 0)
-      Blas<Real>::multiply(count, columns, nrhs, panel + columns + first, ld, top, ldt, below + first, ldb);
-  };
-  if (threads < 2 || static_cast<double>(rows) * columns < ThreadTuning::vector) return multiply(0, rows);
-  on_two_threads([&](int part) { part ? multiply(rows / 2, rows - rows / 2) : multiply(0, rows / 2); });
+  const int parts = workers.parts(static_cast<double>(rows) * columns, ThreadTuning::vector);
+  in_parts(workers, parts, rows, [&](int first, int count) {
+    Blas<Real>::multiply(count, columns, nrhs, panel + columns + first, ld, top, ldt, below + first, ldb);
+  });
 }
 
 template <class Real>
 void panel_backward(const Real *panel, int ld, int rows, int columns, Real *top, int ldt, const Real *below, int ldb,
-                    int nrhs, int threads) {
-  const auto multiply = [&](int first, int count) {
-    if (rows > 0 && count > 0)
-      Blas<Real>::subtract_transposed(rows, count, nrhs, panel + static_cast<size_t>(first) * ld + columns, ld, below,
-                                      ldb, top + first, ldt);
-  };
-  if (threads < 2 || static_cast<double>(rows) * columns < ThreadTuning::vector)
-    multiply(0, columns);
-  else
-    on_two_threads([&](int part) { part ? multiply(columns / 2, columns - columns / 2) : multiply(0, columns / 2); });
+                    int nrhs, Workers &workers) {
+  const int parts = workers.parts(static_cast<double>(rows) * columns, ThreadTuning::vector);
+  in_parts(workers, rows > 0 ? parts : 0, columns, [&](int first, int count) {
+    Blas<Real>::subtract_transposed(rows, count, nrhs, panel + static_cast<size_t>(first) * ld + columns, ld, below,
+                                    ldb, top + first, ldt);
+  });
   Blas<Real>::solve_transposed(columns, nrhs, panel, ld, top, ldt);
 }
 
-template int factor_panel(double *, int, int, int, const double *, const PivotRule &, int);
-template int factor_panel(float *, int, int, int, const float *, const PivotRule &, int);
-template void minus_square(double *, int, const double *, int, int, int);
-template void minus_square(float *, int, const float *, int, int, int);
-template void panel_forward(const double *, int, int, int, double *, int, double *, int, int, int);
-template void panel_forward(const float *, int, int, int, float *, int, float *, int, int, int);
-template void panel_backward(const double *, int, int, int, double *, int, const double *, int, int, int);
-template void panel_backward(const float *, int, int, int, float *, int, const float *, int, int, int);
+template int factor_panel(double *, int, int, int, const double *, const PivotRule &, Workers &);
+template int factor_panel(float *, int, int, int, const float *, const PivotRule &, Workers &);
+template void minus_square(double *, int, const double *, int, int, Workers &);
+template void minus_square(float *, int, const float *, int, int, Workers &);
+template void panel_forward(const double *, int, int, int, double *, int, double *, int, int, Workers &);
+template void panel_forward(const float *, int, int, int, float *, int, float *, int, int, Workers &);
+template void panel_backward(const double *, int, int, int, double *, int, const double *, int, int, Workers &);
+template void panel_backward(const float *, int, int, int, float *, int, const float *, int, int, Workers &);
 
 }  // namespace jam

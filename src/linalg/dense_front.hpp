@@ -1,6 +1,7 @@
 // Dense kernels on the front of a supernode, a column-major panel whose first rows are its own columns. Real: double or
 // float.
 #pragma once
+#include "linalg/workers.hpp"
 
 namespace jam {
 
@@ -14,17 +15,18 @@ struct PivotRule {
 // Cholesky of the first `columns` columns of a panel of `rows` rows. original: the diagonal in the matrix. Returns how
 // many pivots were replaced.
 template <class Real>
-int factor_panel(Real *panel, int ld, int rows, int columns, const Real *original, const PivotRule &rule, int threads);
+int factor_panel(Real *panel, int ld, int rows, int columns, const Real *original, const PivotRule &rule,
+                 Workers &workers);
 // C = -B B^T, lower triangle of n rows; B has k columns.
 template <class Real>
-void minus_square(Real *c, int n, const Real *b, int ldb, int k, int threads);
+void minus_square(Real *c, int n, const Real *b, int ldb, int k, Workers &workers);
 // With the factored panel, for nrhs vectors in x: top := L_top^-1 top, then below := L_below top. And back: top :=
 // L_top^-T (top - L_below^T below).
 template <class Real>
 void panel_forward(const Real *panel, int ld, int rows, int columns, Real *top, int ldt, Real *below, int ldb, int nrhs,
-                   int threads);
+                   Workers &workers);
 template <class Real>
 void panel_backward(const Real *panel, int ld, int rows, int columns, Real *top, int ldt, const Real *below, int ldb,
-                    int nrhs, int threads);
+                    int nrhs, Workers &workers);
 
 }  // namespace jam

@@ -25,18 +25,19 @@ struct SupernodeTuning {
   // Two neighbours of at most so many columns together become one if at most this share of it is zero.
   static constexpr size_t few = 12, some = 36, many = 96;
   static constexpr double zeros_of_some = 0.5, zeros_of_many = 0.15, zeros_of_more = 0.05;
-  static constexpr int narrow = 48;              // columns of a front that are factored without splitting them
-  static constexpr double splits_subtree = 0.1;  // of all work: heavier subtrees are divided among two threads
+  static constexpr int narrow = 48;               // columns of a front that are factored without splitting them
+  static constexpr double splits_subtree = 0.05;  // of all work: heavier subtrees are divided among threads
   // In floats a pivot below this part of its entry in the matrix is rounding alone: 64 roundings
   // (tests/bench/tried.md).
   static constexpr double lost_in_floats = 4e-6;
 };
 
-// ---- what is worth a second thread, or a look at the caller's callback
+// ---- the parts that threads take, or a look at the caller's callback
 struct ThreadTuning {
-  static constexpr double product = 1e7;        // multiplications of a dense product
+  static constexpr int most_parts = 4;          // of one product: narrower ones take more time in all
+  static constexpr double product = 1e7;        // multiplications of a part of a dense product
   static constexpr double vector = 1e6;         // numbers of a dense front that is read once: as slow as memory
-  static constexpr size_t additions = 200000;   // numbers that are added to a front
+  static constexpr double additions = 200000;   // numbers that are added to a front
   static constexpr size_t factor = 1000000;     // numbers of the factor in a triangular solution
   static constexpr double long_product = 2e9;   // takes some 0.1 s: callbacks are called meanwhile
   static constexpr size_t long_panel = 100000;  // takes some 0.1 ms to read: the call may be left between such panels

@@ -44,13 +44,16 @@ Times time_front(size_t rows, size_t columns) {
   const int ld = static_cast<int>(rows), width = static_cast<int>(columns);
   std::vector<double> panel(rows * columns), square(below * below);
   const std::vector<double> diagonal(columns, static_cast<double>(rows));
+  Workers alone(1);
   Times out;
   for (int k = 0; k < repeats; ++k) {
     std::fill(panel.begin(), panel.end(), 0.5);
     for (size_t c = 0; c < columns; ++c) panel[c * rows + c] = static_cast<double>(rows);
-    const auto factor = [&] { factor_panel(panel.data(), ld, ld, width, diagonal.data(), PivotRule{1e-16, 0.0}, 1); };
+    const auto factor = [&] {
+      factor_panel(panel.data(), ld, ld, width, diagonal.data(), PivotRule{1e-16, 0.0}, alone);
+    };
     out.panel = std::min(out.panel, seconds(factor));
-    const auto multiply = [&] { minus_square(square.data(), ld - width, panel.data() + columns, ld, width, 1); };
+    const auto multiply = [&] { minus_square(square.data(), ld - width, panel.data() + columns, ld, width, alone); };
     out.square = std::min(out.square, seconds(multiply));
   }
   return out;
@@ -72,7 +75,7 @@ int main(int argc, char **argv) {
   const std::vector<BlockCholesky::Front> fronts = f.fronts();
   std::map<std::pair<size_t, size_t>, Times> known;
   constexpr int narrow = SupernodeTuning::narrow;
-  std::printf("{\"n\": %zu, \"seconds\": %.6g, \"narrow\": [%d, %.3g], \"product\": %g, \"additions\": %zu", n, least,
+  std::printf("{\"n\": %zu, \"seconds\": %.6g, \"narrow\": [%d, %.3g], \"product\": %g, \"additions\": %g", n, least,
               narrow, time_front(narrow, narrow).panel, ThreadTuning::product, ThreadTuning::additions);
   std::printf(", \"fronts\": [");
   for (size_t k = 0; k < fronts.size(); ++k) {

@@ -1,5 +1,5 @@
 // Sparse block Cholesky against dense factorisations: random graphs in d = 1..8, disconnected, tiny, singular,
-// indefinite and non-finite matrices; natural and dissected orders, both numbers of threads.
+// indefinite and non-finite matrices; natural and dissected orders, one thread and several.
 #include <malloc.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
@@ -262,7 +262,7 @@ void no_second_thread(void **) {
 
 // Large enough that single panels and triangular solves are split: 4e6 numbers in the factor, fronts of 800 rows and
 // more.
-void two_threads_share_fronts(void **) {
+void threads_share_fronts(void **) {
   const Problem p = make_problem(3, 2500, 25.0, true, 4);
   BlockCholesky one, two;
   assert_int_equal(analyse_and_factorise(one, p, 1), 0);
@@ -281,19 +281,27 @@ void two_threads_share_fronts(void **) {
     assert_int_equal(two.factorise(p.diag.data(), p.off.data()), 0);
     two.solve_many(again.data(), count);
     assert_true(y == again);  // parts are split the same way each time: bit for bit
+    for (const int threads : {3, 4, 8, 64}) {
+      BlockCholesky more;
+      assert_int_equal(analyse_and_factorise(more, p, threads), 0);
+      again.assign(b.begin(), b.begin() + count * unknowns);
+      more.solve_many(again.data(), count);
+      assert_true(y == again);
+    }
   }
 }
 
-// A panel tall enough that two threads split every kernel, against Eigen.
+// A panel tall enough that threads split every kernel, against Eigen.
 void panels(void **) {
   const int rows = 5000, columns = 300, below = rows - columns;
   Eigen::MatrixXd a = Eigen::MatrixXd::Random(rows, columns);
   a.topRows(columns) = (a.topRows(columns) + a.topRows(columns).transpose()).eval();
   a.topRows(columns).diagonal().array() += 4.0 * columns;
   const Eigen::VectorXd diagonal = a.diagonal();
-  for (int threads = 1; threads <= 2; ++threads) {
+  for (const int threads : {1, 2, 5}) {
+    Workers workers(threads);
     Eigen::MatrixXd l = a;
-    assert_int_equal(factor_panel(l.data(), rows, rows, columns, diagonal.data(), {1e-16, 0.0}, threads), 0);
+    assert_int_equal(factor_panel(l.data(), rows, rows, columns, diagonal.data(), {1e-16, 0.0}, workers), 0);
     const Eigen::MatrixXd upper = l.topRows(columns).triangularView<Eigen::Lower>().toDenseMatrix().transpose(),
                           rest = l.bottomRows(below);
     assert_true((upper.transpose() * upper - a.topRows(columns)).norm() < 1e-13 * a.norm());
@@ -301,11 +309,11 @@ void panels(void **) {
     for (const int count : {1, 2}) {
       Eigen::MatrixXd top = Eigen::MatrixXd::Random(columns, count), under(below, count);
       const Eigen::MatrixXd forward = upper.transpose().triangularView<Eigen::Lower>().solve(top);
-      panel_forward(l.data(), rows, below, columns, top.data(), columns, under.data(), below, count, threads);
+      panel_forward(l.data(), rows, below, columns, top.data(), columns, under.data(), below, count, workers);
       assert_true((top - forward).norm() < 1e-13 * forward.norm());
       assert_true((under - rest * forward).norm() < 1e-13 * under.norm());
       const Eigen::MatrixXd backward = upper.triangularView<Eigen::Upper>().solve(forward - rest.transpose() * under);
-      panel_backward(l.data(), rows, below, columns, top.data(), columns, under.data(), below, count, threads);
+      panel_backward(l.data(), rows, below, columns, top.data(), columns, under.data(), below, count, workers);
       assert_true((top - backward).norm() < 1e-13 * backward.norm());
     }
   }
@@ -380,7 +388,7 @@ void order_kept(void **) {
 // A crunch analyses graphs of the same size again and again: all of them together take hardly more room than one, and
 // that is what was promised beforehand.
 void scratch_memory_is_reused(void **) {
-  for (int threads = 1; threads <= 2; ++threads) {
+  for (const int threads : {1, 2, 5, 64}) {
     BlockCholesky f;
     size_t largest = 0, promised = 0;
     for (int seed = 1; seed <= 12; ++seed) {
@@ -429,7 +437,7 @@ int main() {
                               cmocka_unit_test(released_and_used_again),
                               cmocka_unit_test(dimension_refused),
                               cmocka_unit_test(threads_agree),
-                              cmocka_unit_test(two_threads_share_fronts),
+                              cmocka_unit_test(threads_share_fronts),
                               cmocka_unit_test(panels),
                               cmocka_unit_test(singular),
                               cmocka_unit_test(indefinite_and_not_finite),

@@ -1,11 +1,13 @@
 // A callback hears from long work several times a second, also where the work itself has nothing to report.
 #include "core/monitor.hpp"
 
+#include <thread>
+
 #include "core/call_scope.hpp"
 #include "core/error.hpp"
 #include "linalg/block_cholesky.hpp"
 #include "linalg/dense_front.hpp"
-#include "linalg/two_threads.hpp"
+#include "linalg/while_telling.hpp"
 #include "test.h"
 
 using namespace jam;
@@ -51,8 +53,9 @@ void a_large_product_tells(void **) {
   const int n = 3000;
   std::vector<double> b(static_cast<size_t>(n) * n), alone(b.size()), watched(b.size());
   for (size_t k = 0; k < b.size(); ++k) b[k] = std::sin(static_cast<double>(k));
-  minus_square(alone.data(), n, b.data(), n, n, 1);
-  const auto product = [&](Monitor &) { minus_square(watched.data(), n, b.data(), n, n, 1); };
+  Workers one(1);
+  minus_square(alone.data(), n, b.data(), n, n, one);
+  const auto product = [&](Monitor &) { minus_square(watched.data(), n, b.data(), n, n, one); };
   assert_true(calls_during(0.1, product) > 0);
   assert_true(alone == watched);
 }
@@ -86,7 +89,7 @@ void factorisations_are_left(void **) {
     factor.solve(x.data());
     return x;
   };
-  for (const int threads : {1, 2}) {
+  for (const int threads : {1, 2, 5}) {
     const auto analyse = [&] { factor.analyse(1, n, ei.data(), ej.data(), ei.size(), threads); };
     analyse();
     const std::vector<double> before = solve();

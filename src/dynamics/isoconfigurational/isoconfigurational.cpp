@@ -77,7 +77,7 @@ void Isoconfigurational::check_memory() const {
   const double blocks = static_cast<double>((o.first_run + o.runs - 1) / o.block - o.first_run / o.block + 1);
   const double sums = 8.0 * m * spheres * (2.0 * d + 2.0) * (blocks + 1.0);
   const double sets = 8.0 * spheres * d * static_cast<double>(o.runs) * static_cast<double>(kept_instants_.size());
-  const double records = 8.0 * m * spheres * d * static_cast<double>(o.threads == 2 ? EnsembleTuning::runs_ahead : 1);
+  const double records = 8.0 * m * spheres * d * static_cast<double>(o.threads > 1 ? EnsembleTuning::runs_ahead : 1);
   if (sums + sets + records > o.memory_limit)
     fail(JAM_E_MEMORY, "%.3g bytes are needed (sums of %g blocks %.3g, displacement sets %.3g), memory_limit is %.3g",
          sums + sets + records, blocks, sums, sets, o.memory_limit);

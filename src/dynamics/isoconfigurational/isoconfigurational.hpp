@@ -59,7 +59,7 @@ struct RunPlan {
 // When a run must stop. Runs poll it now and then.
 struct RunControl {
   const Monitor &monitor;
-  std::function<void()> report_step;  // empty on the second thread
+  std::function<void()> report_step;  // empty but on the thread of the call
   bool stopped() const {
     if (report_step) report_step();
     return monitor.interrupted();

@@ -1,4 +1,4 @@
-// Isoconfigurational ensemble: runs on one or two threads, folded into the sums in the order of their numbers.
+// Isoconfigurational ensemble: runs on threads of their own, folded into the sums in the order of their numbers.
 #include <algorithm>
 #include <condition_variable>
 #include <exception>
@@ -7,7 +7,7 @@
 
 #include "dynamics/isoconfigurational/isoconfigurational.hpp"
 #include "dynamics/tuning.hpp"
-#include "linalg/two_threads.hpp"
+#include "linalg/workers.hpp"
 
 namespace jam {
 
@@ -129,14 +129,11 @@ jam_status Isoconfigurational::run(const Limits &limits, const Listeners &listen
     report_step(monitor);
   };
   const double memory_limit = CallScope::memory_limit();
-  const auto thread = [&](int number) {
-    const CallScope scope(memory_limit, number == 0 ? &monitor : nullptr, &queue.mutex);
-    work(queue, RunControl{monitor, number == 0 ? report : nullptr});
-  };
-  if (plan_.options.threads == 2)
-    on_two_threads(thread);
-  else
-    thread(0);
+  Workers workers(plan_.options.threads);
+  workers.run(plan_.options.threads, [&](int, int worker) {
+    const CallScope scope(memory_limit, worker == 0 ? &monitor : nullptr, &queue.mutex);
+    work(queue, RunControl{monitor, worker == 0 ? report : nullptr});
+  });
   if (queue.error) std::rethrow_exception(queue.error);
   return finish(queue.reason, begin);
 }

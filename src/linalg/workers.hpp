@@ -1,0 +1,52 @@
+// Threads of one call that take the parts of dense products, panels and subtrees. Which parts there are depends on the
+// sizes alone, and no two parts write to the same place: the bits are the same for every number of threads above one.
+#pragma once
+#include <condition_variable>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace jam {
+
+class Workers {
+ public:
+  // Where the system has fewer threads to give, the others take all parts.
+  explicit Workers(int threads);
+  ~Workers();
+  Workers(const Workers &) = delete;
+  Workers &operator=(const Workers &) = delete;
+
+  bool cuts() const { return cuts_; }  // whether work is cut into parts at all: more than one thread was asked for
+  // How many parts of at least half `least` there are.
+  int parts(double work, double least) const;
+
+  // work(part, worker) for all parts, each worker below the number of threads; this thread is worker 0. Only on this
+  // thread may work() throw: no part begins then, and those that run are waited for.
+  template <class Work>
+  void run(int parts, const Work &work) {
+    if (parts < 2 || threads_.empty()) {
+      for (int part = 0; part < parts; ++part) work(part, 0);
+      return;
+    }
+    share(parts, {&work, [](const void *of, int part, int worker) { (*static_cast<const Work *>(of))(part, worker); }});
+  }
+
+ private:
+  struct Job {
+    const void *of = nullptr;
+    void (*call)(const void *of, int part, int worker) = nullptr;
+  };
+  void share(int parts, const Job &job);
+  void take_parts(std::unique_lock<std::mutex> &lock, int worker);
+  void serve(int worker);
+
+  const bool cuts_;
+  std::mutex mutex_;
+  std::condition_variable more_, done_;
+  Job job_;
+  int next_ = 0, parts_ = 0, running_ = 0;
+  bool over_ = false;
+  std::vector<std::thread> threads_;
+};
+
+}  // namespace jam

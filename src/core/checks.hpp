@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "core/error.hpp"
+#include "core/limits.hpp"
 
 namespace jam {
 
@@ -27,7 +28,8 @@ inline void check_flag(int32_t value, const char *name) {
   if (value != 0 && value != 1) fail(JAM_E_ARGUMENT, "%s is %d, it must be 0 or 1", name, value);
 }
 inline void check_threads(int32_t threads) {
-  if (threads != 1 && threads != 2) fail(JAM_E_ARGUMENT, "threads is %d, it must be 1 or 2", threads);
+  if (threads < 1 || threads > limits::threads_max)
+    fail(JAM_E_ARGUMENT, "threads is %d, it must be 1 .. %d", threads, limits::threads_max);
 }
 // Values of an enum follow each other from first to last; `type` is its name in jam.h.
 inline void check_enum(int32_t value, int32_t first, int32_t last, const char *name, const char *type) {

@@ -24,6 +24,7 @@ constexpr double wave_max = 1e6;         // component of a wave vector: whole tu
 constexpr double rounding = 1e-9;        // a limit that the library's own steps may exceed, relative
 constexpr double duality_gap_min = 1e-12, duality_gap_max = 1e-2;  // at which a crunch may end
 constexpr int keep_steps_max = 1000;                               // states of a crunch that are kept
+constexpr int threads_max = 64;                // of one call: builds of OpenBLAS have so many buffers
 constexpr int64_t kept_coordinates = 1 << 24;  // of all of them: 64 MiB, and 90 MB in the file of a page
 
 }  // namespace limits

@@ -16,6 +16,7 @@
 #include "linalg/blas.hpp"
 #include "linalg/block_cholesky.hpp"
 #include "linalg/newton_system.hpp"
+#include "linalg/tuning.hpp"
 #include "lp/working_set.hpp"
 
 namespace jam {
@@ -47,7 +48,7 @@ struct Part {
     return NewtonSystem::bytes(d, n, rows, edges, static_cast<double>(sizes.factor), static_cast<double>(sizes.fronts));
   }
   double seconds(double rate, int threads) const {
-    return sizes.flops / (T::front_rate * rate * std::min(threads, 2)) +
+    return sizes.flops / (T::front_rate * rate * std::min(threads, ThreadTuning::most_parts)) +
            T::per_factor * static_cast<double>(sizes.factor) + T::per_pair * rows;
   }
 };

@@ -111,6 +111,8 @@ static void estimates_scale_with_the_number_of_spheres(void **state) {
   o.threads = 2;
   two = estimated(large, &o);
   assert_true(two.bytes >= b.bytes && two.flops == b.flops);
+  o.threads = 8;
+  assert_true(estimated(large, &o).bytes >= two.bytes);
   jam_destroy(small), jam_destroy(large);
 }
 

@@ -74,7 +74,7 @@ static void bits_do_not_depend_on_threads_or_handles(void **state) {
   assert_memory_equal(&a, &b, sizeof a);
   o = options();
   assert_int_equal(run(one, &o, NULL), JAM_OK);
-  o.threads = 2;
+  o.threads = 5;
   assert_int_equal(run(two, &o, NULL), JAM_OK);
   get(one, -1, &a);
   get(two, -1, &b);
@@ -255,7 +255,9 @@ static void bad_input_is_named(void **state) {
   REFUSED(first_run, -1, JAM_E_ARGUMENT);
   REFUSED(first_run, INT64_MAX, JAM_E_ARGUMENT); /* its last run has no number */
   REFUSED(block, 0, JAM_E_ARGUMENT);
-  REFUSED(threads, 3, JAM_E_ARGUMENT);
+  REFUSED(threads, 0, JAM_E_ARGUMENT);
+  REFUSED(threads, 65, JAM_E_ARGUMENT);
+  assert_non_null(strstr(jam_last_error(), "threads is 65, it must be 1 .. 64"));
   REFUSED(clock, 7, JAM_E_ARGUMENT);
   REFUSED(wave_number, 0.0, JAM_E_ARGUMENT);
   REFUSED(memory_limit, 1e4, JAM_E_MEMORY);

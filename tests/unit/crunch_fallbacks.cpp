@@ -18,15 +18,18 @@ void same_bits(const CrunchResult &a, const CrunchResult &b) {
   assert_memory_equal(a.contacts.force.data(), b.contacts.force.data(), a.contacts.force.size() * sizeof(double));
 }
 
-// On two threads a crunch repeats its bits too: they share the work in the same way each time.
-void two_threads_repeat(void **) {
+// Crunches on several threads have the same bits, however many they are: the work is cut in the same way each time.
+void threads_repeat(void **) {
   for (const int32_t method : {JAM_CRUNCH_SEQUENTIAL_LP, JAM_CRUNCH_BARRIER_PATH}) {
     const Packing p = start(method == JAM_CRUNCH_SEQUENTIAL_LP ? 1500 : 400, 3, 0.35, 4);
     jam_crunch_options o = default_crunch_options();
     o.threads = 2, o.max_lps = 2, o.method = method;
     const CrunchResult r = run(p, o);
     assert_true(r.report.factorisations > 10);
-    same_bits(r, run(p, o));
+    for (const int threads : {2, 3, 8}) {
+      o.threads = threads;
+      same_bits(r, run(p, o));
+    }
   }
 }
 
@@ -226,7 +229,7 @@ void interrupted_at_a_gap(void **) {
 }  // namespace
 
 int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(two_threads_repeat),
+  const CMUnitTest tests[] = {cmocka_unit_test(threads_repeat),
                               cmocka_unit_test(clp_takes_over),
                               cmocka_unit_test(clp_alone),
                               cmocka_unit_test(nobody_solves),

@@ -1307,7 +1307,7 @@ OPTIONS = {
         "wall_time": ("float", 'seconds of this call'),
     },
     "jam_isoconf_options": {
-        "threads": ("int", '1 or 2, default 1; the bits are the same'),
+        "threads": ("int", '1 .. 64, default 1; the bits are the same'),
         "clock": ("Clock", 'Clock, default COLLISIONS'),
         "resume": ("bool", '1: continue the runs of this handle; default 0'),
         "first_run": ("int", 'number of the first run, >= 0, default 0'),
@@ -1325,7 +1325,7 @@ OPTIONS = {
         "method": ("CrunchMethod", 'CrunchMethod, default BARRIER_PATH'),
         "polish": ("bool", '1: at the end Newton steps close contacts and balance forces to rounding; default 1'),
         "max_lps": ("int", '>= 1, default 1000'),
-        "threads": ("int", '1 or 2, default 1; bits are reproducible on 1'),
+        "threads": ("int", '1 .. 64, default 1; any number above 1 gives the same bits; above 4 little gain'),
         "gain_tolerance": ("float", 'on sqrt(Gamma) - 1, > 0, default 1e-12'),
         "step_tolerance": ("float", 'on max |s_i| of non-rattlers, > 0, default 1e-9'),
         "lp_tolerance": ("float", 'relative complementarity and residual of one LP, default 1e-15'),

@@ -109,12 +109,13 @@ part "thread sanitizer"
 cmake -S . -B build-tsan -G Ninja -DCMAKE_BUILD_TYPE=None -DCMAKE_C_FLAGS=-O1 -DCMAKE_CXX_FLAGS=-O1 \
   -DJAM_SANITIZE=thread -DCMAKE_UNITY_BUILD=ON -DJAM_DIMENSIONS="2;3" -DJAM_BUILD_EXAMPLES=OFF \
   -DJAM_BUILD_CLI=OFF >/dev/null
-# What starts threads: races on a handle, handles on threads of their own, and runs and factorisations on two threads.
-threaded='capi_thread_gate capi_host_state capi_isoconfigurational'
+# What starts threads: races on a handle, handles on threads of their own, and runs and factorisations on several
+# threads.
+threaded='capi_thread_gate capi_host_state capi_isoconfigurational unit_block_cholesky'
 # shellcheck disable=SC2086
 cmake --build build-tsan -j "$jobs" --target $threaded
 TSAN_OPTIONS=halt_on_error=1 ctest --test-dir build-tsan -j "$at_once" --timeout 900 \
-  --output-on-failure --no-tests=error -R "^($(echo "$threaded" | sed 's/_/\//; s/ capi_/|capi\//g'))\$" || status=1
+  --output-on-failure --no-tests=error -R "^($(echo "$threaded" | sed 's/_/\//; s/ \([a-z]*\)_/|\1\//g'))\$" || status=1
 fi
 
 if wants coverage; then

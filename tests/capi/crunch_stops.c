@@ -249,12 +249,40 @@ static void a_limit_leaves_no_older_verdict(void **state) {
   assert_true(limits > 10);
 }
 
+/* The same where the call is stopped in the LP behind that move, or behind a polish at a loose tolerance. */
+static void a_stop_leaves_no_older_contacts(void **state) {
+  const char *words[] = {"saddle of the free cell", "polish refused"};
+  (void)state;
+  for (int k = 0; k < 2; ++k) {
+    jam_create_options c;
+    jam_crunch_options o;
+    jam_crunch_report r;
+    ambush a;
+    jam_system *sys = NULL;
+    jam_create_options_init(&c, sizeof c);
+    jam_crunch_options_init(&o, sizeof o);
+    c.dim = 2, c.n = k ? 100 : 2, c.seed = 0;
+    if (k) c.packing_fraction = 0.3;
+    if (k) o.method = JAM_CRUNCH_SEQUENTIAL_LP, o.gain_tolerance = 1e-2;
+    if (!k) o.strain = JAM_STRAIN_FREE;
+    assert_int_equal(jam_create(&c, NULL, &sys), JAM_OK);
+    memset(&a, 0, sizeof a);
+    a.sys = sys, a.armed = words[k], a.word = "ipm";
+    assert_int_equal(jam_set_log(sys, spring, JAM_LOG_DEBUG, &a), JAM_OK);
+    r = crunch(sys, &o, JAM_CANCELLED);
+    if (!a.sprung) fail_msg("no LP behind '%s'", words[k]);
+    assert_true(r.contacts == -1 && r.rattlers == -1 && !r.stationary && isnan(r.max_contact_gap));
+    jam_destroy(sys);
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(cancel_in_every_phase),
                                      cmocka_unit_test(wall_time_inside_an_lp),
                                      cmocka_unit_test(a_stopped_polish_leaves_the_lp_answer),
                                      cmocka_unit_test(stops_in_a_free_cell),
                                      cmocka_unit_test(free_cell_without_polish),
-                                     cmocka_unit_test(a_limit_leaves_no_older_verdict)};
+                                     cmocka_unit_test(a_limit_leaves_no_older_verdict),
+                                     cmocka_unit_test(a_stop_leaves_no_older_contacts)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

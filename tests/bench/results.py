@@ -458,6 +458,16 @@ def products(raw):
     return ["N", "products", "factorisations", "crunch (s)", "a factorisation, over " + first, "largest force residual", "jammed"], rows
 
 
+def threads(raw, alone, beside):
+    """cholesky 16384 5 all 4096; then with `default` instead of `all` once alone and once twice at a time"""
+    rows = []
+    for r, one, two in zip(raw["runs"], alone["runs"], beside["runs"]):
+        seconds = [r[key]["factorise_s"] for key in ("jam_1", "jam_2")] + [x["jam_1"]["factorise_s"] for x in (one, two)]
+        rows.append([r["n"], seconds[0] / seconds[1], 2 * seconds[2] / seconds[3], r["jam_1"]["share_of_dgemm"]])
+    columns = ["N", "two threads over one (rate)", "two processes over one (rate)"]
+    return columns + ["rate of one thread over that of the dense matrix product"], rows
+
+
 def task_graph(raw):
     """fronts N > FRONTS.json for N = 4096 and 16384; task_graph.py FRONTS.json..."""
     rows = [[row["n"], row["cores"]] + [round(row[plan], 2) for plan in ("tree", "lists", "queue")] for row in raw["rows"]]
@@ -471,7 +481,7 @@ def read(path):
 
 def main():
     name, raws = sys.argv[1], [read(path) for path in sys.argv[2:]]
-    made = {f.__name__: f for f in (crunch, size, clp, resume, disks, disks_undecided, proofs, verdicts, verdict_numbers, strict, md, monte_carlo, near_jamming, soft_cell, pore_space, structure, liquid, advise, analysis, factorisation, ablation, ratios, mixtures, md_misses, md_threads, md_windows, ensemble, ensemble_statistics, walls, walls_equal, walls_edge, products, task_graph)}[name]
+    made = {f.__name__: f for f in (crunch, size, clp, resume, disks, disks_undecided, proofs, verdicts, verdict_numbers, strict, md, monte_carlo, near_jamming, soft_cell, pore_space, structure, liquid, advise, analysis, factorisation, ablation, ratios, mixtures, md_misses, md_threads, md_windows, ensemble, ensemble_statistics, walls, walls_equal, walls_edge, products, threads, task_graph)}[name]
     columns, rows = made(*raws)
     old = raws[0] if isinstance(raws[0], dict) and "commit" in raws[0] else None  # a result that was kept with its source
     source = old and {key: old[key] for key in ("machine", "commit", "date")}

@@ -4,11 +4,11 @@
 usage: task_graph.py FRONTS.json...      each from the program `fronts`
 
 A front is a chain of stages: sums of its children, the halves of its panel, the product below, sums again. A stage is cut into
-parts of at least `product` multiplications, or `additions` numbers, whatever the number of cores. Three plans:
+parts of at least half of `product` multiplications, or `additions` numbers, whatever the number of cores. Three plans:
 
     tree    every front is one task
     lists   subtrees of at most LIGHT of all work, the heaviest first to the core that is free; then the fronts above them one by
-            one, each stage on all cores. On two cores this is what the library does, with heavier subtrees
+            one, each stage on all cores: what the library does
     queue   every part of every stage is a task, in one queue for the whole tree; the longest way to the root goes first
 
 Parts of a stage take the same time. The speed of memory, which all cores share, does not count.
@@ -21,8 +21,8 @@ import sys
 CORES = (2, 4, 8, 32)
 DISPATCH = 5e-6  # seconds to hand a part to a waiting thread
 WHOLE = 1e-3  # fronts that take less are one task
-MOST = 8  # parts of a stage: narrower ones take more time in all (tried.md)
-LIGHT = 0.02
+MOST = 4  # parts of a stage, ThreadTuning::most_parts: narrower ones take more time in all (tried.md)
+LIGHT = 0.05  # SupernodeTuning::splits_subtree
 
 
 def panel_stages(rows, columns, narrow):
@@ -50,7 +50,7 @@ def stages_of(data):
         split = panel_stages(rows, columns, narrow)
         small = min(0.5 * panel, sum(m for m, cut in split if not cut) * narrow_seconds / (narrow**3 / 3))
         work = {cut: sum(m for m, c in split if c == cut) or 1.0 for cut in (False, True)}
-        cut_in = lambda amount, least: int(min(MOST, max(1, amount // least)))  # noqa: E731
+        cut_in = lambda amount, least: min(MOST, max(1, math.ceil(amount / least)))  # noqa: E731
         chain = [(m / work[cut] * (panel - small if cut else small), cut_in(m, data["product"]) if cut else 1) for m, cut in split]
         chain.append((square, cut_in((rows - columns) ** 2 / 2 * columns, data["product"])))
         chain.append((numbers * an_addition, cut_in(numbers, data["additions"])))

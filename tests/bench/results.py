@@ -458,14 +458,12 @@ def products(raw):
     return ["N", "products", "factorisations", "crunch (s)", "a factorisation, over " + first, "largest force residual", "jammed"], rows
 
 
-def threads(raw, alone, beside):
-    """cholesky 16384 5 all 4096; then with `default` instead of `all` once alone and once twice at a time"""
+def threads(*raws):
+    """cholesky 16384 5 all 4096, three times"""
     rows = []
-    for r, one, two in zip(raw["runs"], alone["runs"], beside["runs"]):
-        seconds = [r[key]["factorise_s"] for key in ("jam_1", "jam_2")] + [x["jam_1"]["factorise_s"] for x in (one, two)]
-        rows.append([r["n"], seconds[0] / seconds[1], 2 * seconds[2] / seconds[3], r["jam_1"]["share_of_dgemm"]])
-    columns = ["N", "two threads over one (rate)", "two processes over one (rate)"]
-    return columns + ["rate of one thread over that of the dense matrix product"], rows
+    for runs in zip(*(raw["runs"] for raw in raws)):
+        rows.append([runs[0]["n"], span([round(r["jam_1"]["factorise_s"] / r["jam_2"]["factorise_s"], 2) for r in runs])])
+    return ["N", "two threads over one (rate)"], rows
 
 
 def task_graph(raw):

@@ -21,7 +21,7 @@ Jamming take_kind(int32_t kind) {
 bool rests_on_strains(const PackingVerdict &v) { return !v.result.strain.empty(); }
 
 // Why a packing is not known to be jammed.
-Answer answer_of(const jam_rigidity_report &r, const PackingVerdict &v) {
+Answer answer_of(const jam_rigidity_report &r, const PackingVerdict &v, size_t spheres) {
   const bool strict = r.kind == JAM_RIGIDITY_STRICT;
   const double unresolved = v.unresolved;
   const char *kind = strict ? "strictly" : "collectively", *stress = strict ? " with an isotropic stress" : "";
@@ -29,9 +29,9 @@ Answer answer_of(const jam_rigidity_report &r, const PackingVerdict &v) {
   if (r.jammed == JAM_VERDICT_YES) return JAM_OK;
   if (r.jammed == JAM_VERDICT_NO && r.contacts == 0)
     return {JAM_NOT_JAMMED,
-            sentence("not %s jammed: no set of non-negative contact forces is in balance%s; jam_flex gives a "
-                     "motion, jam_crunch makes a jammed packing",
-                     kind, stress)};
+            sentence("not %s jammed: no set of non-negative contact forces is in balance%s%s", kind, stress,
+                     spheres > 1 ? "; jam_flex gives a motion, jam_crunch makes a jammed packing"
+                                 : "; jam_crunch of one sphere needs a free cell")};
   if (r.jammed == JAM_VERDICT_NO)
     return {JAM_NOT_JAMMED,
             sentence("not %s jammed: forces on %lld contacts balance%s, at least %lld contacts are needed, "
@@ -50,6 +50,10 @@ Answer answer_of(const jam_rigidity_report &r, const PackingVerdict &v) {
             sentence("undecided whether the packing is %s jammed: %lld motions keep all contacts closed; whether other "
                      "pairs or the curvature of a round wall stop them is left open",
                      kind, n(r.flexes))};
+  if (r.undecided_contacts == 0)
+    return {JAM_AMBIGUOUS, sentence("undecided whether the packing is %s jammed: doubles do not resolve which forces "
+                                    "or motions there are; the rigidity margin is %.1e",
+                                    kind, r.rigidity_margin)};
   return {JAM_AMBIGUOUS,
           sentence("undecided whether the packing is %s jammed: %lld pairs are nearly closed, and the rigidity margin "
                    "is %.1e; jam_crunch closes contacts",
@@ -88,7 +92,7 @@ jam_status jam_rigidity(jam_system *sys, int32_t kind, jam_rigidity_report *repo
     r.rigidity_margin = v.result.margin, r.curvature_margin = v.result.curvature;
     r.force_residual = v.result.force_residual;
     give_struct(r, report);
-    return answer_of(r, v);
+    return answer_of(r, v, sys->packing.n());
   });
 }
 

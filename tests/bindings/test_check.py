@@ -156,6 +156,8 @@ class Alone(unittest.TestCase):
                 flex = s.flex(kind)
                 np.testing.assert_array_equal(flex.out, [0.5 * np.eye(3)[axis]])
                 self.assertFalse(flex.strain.any())
+        self.one(0.5).rigidity()
+        self.assertIn("in balance; jam_crunch of one sphere needs a free cell", jam.raw.jam_last_error())
         with self.assertRaisesRegex(jam.errors.StateError, "no motion but a translation"):
             self.one(0.5).flex()
         self.assertLess(np.trace(self.one(0.5).flex("strict").strain), 0)
@@ -176,6 +178,8 @@ class Alone(unittest.TestCase):
             r = self.one(1.0, **scene).check()
             self.assertEqual((r.jammed, r.reason, r.undecided_contacts), (Verdict.UNDECIDED, CheckReason.MARGIN, 0))
             self.assertIn("a sphere fills a round wall", str(r))
+            self.one(1.0, **scene).rigidity()
+            self.assertIn("doubles do not resolve which forces or motions there are", jam.raw.jam_last_error())
             for wrong in ("may touch", "A crunch"):  # no pair is in doubt, and a crunch needs two spheres
                 self.assertNotIn(wrong, str(r))
 

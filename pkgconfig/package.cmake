@@ -1,4 +1,4 @@
-# The Debian packages libjam0, libjam-dev, python3-jam, jam-tools and jam-doc:
+# The Debian packages libjam1, libjam-dev, python3-jam, jam-tools and jam-doc:
 #   cmake -S . -B build -DCMAKE_INSTALL_PREFIX=/usr -DJAM_BUILD_PYTHON=ON -DJAM_BUILD_FORTRAN=ON -DJAM_BUILD_STATIC=ON
 #   cmake --build build && (cd build && cpack -G DEB)
 # Only for /usr: directories of libraries and Python differ below other prefixes.

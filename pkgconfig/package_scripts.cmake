@@ -1,4 +1,4 @@
-# CPack writes scripts that call ldconfig into every package with a shared library. libjam0 has a trigger for it, and
+# CPack writes scripts that call ldconfig into every package with a shared library. libjam1 has a trigger for it, and
 # Debian's policy allows one of the two.
 foreach(package ${CPACK_PACKAGE_FILES})
   if(NOT package MATCHES "/libjam[0-9]+_")

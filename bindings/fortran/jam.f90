@@ -8,7 +8,7 @@
 module jam
   use, intrinsic :: iso_c_binding
   implicit none
-  integer(c_int32_t), parameter :: JAM_ABI = 0
+  integer(c_int32_t), parameter :: JAM_ABI = 1
   integer(c_int32_t), parameter :: JAM_MAX_DIM = 8
 
   ! jam_status_code: All status codes; values are ABI and never reused.
@@ -1573,7 +1573,7 @@ module jam
 
   interface
 
-    ! Version of the library, e.g. "0.1.0". Static storage, as the texts of the next five calls.
+    ! Version of the library, e.g. "1.0.0". Static storage, as the texts of the next five calls.
     function jam_version() &
         bind(c, name="jam_version") result(status)
       import

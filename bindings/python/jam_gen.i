@@ -422,7 +422,7 @@ ratio_i times the power of two at or below V^(1/d). Where no ratios are given, e
   ~jam_comparison() { free($self); }
 }
 %feature("docstring") jam_comparison "What jam_compare found between sys, a, and other, b. Contacts are -1 and overlaps NaN where one has no network."
-%feature("docstring") jam_version "Version of the library, e.g. \"0.1.0\". Static storage, as the texts of the next five calls."
+%feature("docstring") jam_version "Version of the library, e.g. \"1.0.0\". Static storage, as the texts of the next five calls."
 %feature("docstring") jam_commit "Commit of the source that the library was built from, 12 hex digits, without uncommitted changes; \"\" when the build
 did not find one."
 %feature("docstring") jam_abi_version "JAM_ABI of the library that is loaded."

@@ -49,7 +49,7 @@
  *
  * How a comment here is written
  * - It gives what the call computes, equation, source, unit and range, and omits what is said above: common errors,
- *   threads, sizes, null pointers. All is since 0.1 unless `@since` says otherwise.
+ *   threads, sizes, null pointers. All is since 1.0 unless `@since` says otherwise.
  * - Members that share a line share its comment, which has a part for each between semicolons, or one for all.
  * - Tags end it. The bindings are made from declarations and tags alone, prose changes none:
  *   @shape a (n, d), table (m, jam_x_column)   shape of each array; an enum: its columns
@@ -110,7 +110,7 @@ extern "C" {
 #endif
 
 /* ABI number of this header, equal to the SOVERSION of the library. */
-#define JAM_ABI 0
+#define JAM_ABI 1
 /* Largest dimension compiled in. */
 #define JAM_MAX_DIM 8
 
@@ -165,7 +165,7 @@ typedef enum jam_stop_reason {
   JAM_STOP_SADDLE = 15,          /* crunch: forces balance, but a flex opens contacts, and kicks lead nowhere */
   JAM_STOP_DUALITY_GAP = 16      /* crunch: it reached the duality gap of its options */
 } jam_stop_reason;
-/* Version of the library, e.g. "0.1.0". Static storage, as the texts of the next five calls. */
+/* Version of the library, e.g. "1.0.0". Static storage, as the texts of the next five calls. */
 JAM_API const char *jam_version(void);
 /* Commit of the source that the library was built from, 12 hex digits, without uncommitted changes; "" when the build
  * did not find one. */

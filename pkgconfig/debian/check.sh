@@ -1,5 +1,5 @@
 #!/bin/sh
-# check.sh BUILD: the folder as Debian's tools read it. libjam0.symbols has the symbols of the built library, and the
+# check.sh BUILD: the folder as Debian's tools read it. libjam1.symbols has the symbols of the built library, and the
 # packages have all that it installs; its prefix is /usr.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
@@ -14,9 +14,9 @@ cd "$work/source"
 version=$(sed -n 's/^project(jam VERSION \([0-9.]*\).*/\1/p' "$here/../../CMakeLists.txt")
 dpkg-parsechangelog -S Version | grep -qx "$version-1" || { echo "changelog: the version is not $version-1"; exit 1; }
 dh binary --no-act --without python3 --buildsystem=cmake+ninja | grep -q dh_makeshlibs
-dpkg-gensymbols -c2 -plibjam0 -Odebian/symbols.new -Idebian/libjam0.symbols \
+dpkg-gensymbols -c2 -plibjam1 -Odebian/symbols.new -Idebian/libjam1.symbols \
   -e"$(ls "$build"/libjam.so.*.*.*)" >"$work/differ" || { cat "$work/differ"; exit 1; }
-for package in libjam0 libjam-dev python3-jam jam-tools jam-doc; do
+for package in libjam1 libjam-dev python3-jam jam-tools jam-doc; do
   grep -qx "Package: $package" debian/control && test -s "debian/$package.install" ||
     { echo "$package lacks an entry or a list of files"; exit 1; }
 done

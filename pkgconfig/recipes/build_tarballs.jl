@@ -2,7 +2,7 @@
 using BinaryBuilder
 
 name = "libjam"
-version = v"0.1.0"
+version = v"1.0.0"
 sources = [
     ArchiveSource("https://github.com/libjam/libjam/archive/refs/tags/v$(version).tar.gz",
                   "0000000000000000000000000000000000000000000000000000000000000000"),

@@ -12,7 +12,7 @@
 
 (package
   (name "libjam")
-  (version "0.1.0")
+  (version "1.0.0")
   (source
    (origin
      (method url-fetch)

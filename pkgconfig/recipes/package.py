@@ -8,11 +8,11 @@ class Libjam(CMakePackage):
     """Jammed packings of hard spheres: event-driven molecular dynamics, the exact jamming point, analysis."""
 
     homepage = "https://github.com/libjam/libjam"
-    url = "https://github.com/libjam/libjam/archive/refs/tags/v0.1.0.tar.gz"
+    url = "https://github.com/libjam/libjam/archive/refs/tags/v1.0.0.tar.gz"
 
     license("MIT AND MPL-2.0")
 
-    version("0.1.0", sha256="0000000000000000000000000000000000000000000000000000000000000000")
+    version("1.0.0", sha256="0000000000000000000000000000000000000000000000000000000000000000")
 
     variant("blas", default=True, description="Dense products by the BLAS and LAPACK of Spack, else by libjam's own loops")
     variant("clp", default=True, description="Clp's simplex as check and fallback")

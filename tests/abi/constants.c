@@ -281,7 +281,7 @@ CHECK(JAM_DOS_ERROR == 2)
 CHECK(JAM_DOS_EDGE == 3)
 CHECK(JAM_DOS_CUMULATIVE == 4)
 CHECK(JAM_DOS_CUMULATIVE_ERROR == 5)
-CHECK(JAM_ABI == 0)
+CHECK(JAM_ABI == 1)
 CHECK(JAM_MAX_DIM == 8)
 
 /* The library that is loaded must be of the same interface as the header. */

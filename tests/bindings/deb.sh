@@ -8,16 +8,16 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 mkdir "$work/b"
 (cd "$build" && cpack -G DEB -B "$work/b" >"$work/log" 2>&1) || { cat "$work/log"; exit 1; }
-for package in libjam0 libjam-dev python3-jam jam-tools jam-doc; do
+for package in libjam1 libjam-dev python3-jam jam-tools jam-doc; do
   ls "$work"/b/"$package"_*.deb >/dev/null || { echo "there is no package $package"; exit 1; }
 done
-needs=$(dpkg-deb -f "$work"/b/libjam0_*.deb Depends)
+needs=$(dpkg-deb -f "$work"/b/libjam1_*.deb Depends)
 for package in libc6 libstdc++6 libopenblas0 coinor-libclp1; do
-  case $needs in *"$package"*) ;; *) echo "libjam0 does not depend on $package: $needs"; exit 1 ;; esac
+  case $needs in *"$package"*) ;; *) echo "libjam1 does not depend on $package: $needs"; exit 1 ;; esac
 done
 for package in libjam-dev python3-jam jam-tools; do
-  dpkg-deb -f "$work/b/$package"_*.deb Depends | grep -q 'libjam0 (' ||
-    { echo "$package does not depend on libjam0"; exit 1; }
+  dpkg-deb -f "$work/b/$package"_*.deb Depends | grep -q 'libjam1 (' ||
+    { echo "$package does not depend on libjam1"; exit 1; }
 done
 if command -v lintian >/dev/null; then
   lintian --allow-root --fail-on error,warning "$work"/b/*.deb
@@ -26,7 +26,7 @@ else
 fi
 for deb in "$work"/b/*.deb; do dpkg-deb -x "$deb" "$work/x"; done
 usr=$work/x/usr lib=$(dirname "$(find "$work/x/usr" -name libjam.so)")
-size=$(stat -Lc %s "$lib/libjam.so.0")
+size=$(stat -Lc %s "$lib/libjam.so.1")
 [ "$size" -lt 6000000 ] || { echo "libjam.so has $size bytes"; exit 1; }
 grep -q '^prefix=/usr$' "$lib/pkgconfig/jam.pc"
 "$usr/bin/jam-pack" --n 100 --dim 2 --diameters-ratio 1.4 --quiet --report - >"$work/report.json"

@@ -11,14 +11,14 @@ Jammed packings of hard spheres, made and analysed by libjam.
 
 Arrays are d-by-n matrices, a column for each sphere: the bytes of C's (n, d). Indices count from 1, except in the functions of
 C, `Jam.jam_...`, which are all there too. Options are keywords under their C names, enums are given as words:
-`crunch!(s; method = :sequential_lp)`. The library is found as libjam.so.0, or by the environment variable JAM_LIBRARY when the
+`crunch!(s; method = :sequential_lp)`. The library is found as libjam.so.1, or by the environment variable JAM_LIBRARY when the
 package is precompiled.
 """
 module Jam
 
 using Logging, Printf, SparseArrays
 
-const libjam = get(ENV, "JAM_LIBRARY", "libjam.so.0")
+const libjam = get(ENV, "JAM_LIBRARY", "libjam.so.1")
 
 # one a concept; each takes from those above it
 include("raw.jl")           # C's functions and structs, generated

@@ -7,7 +7,7 @@ _ref(::Type{T}, x) where {T} = x
 _ptr(::Nothing) = C_NULL
 _ptr(x) = x
 
-const JAM_ABI = Int32(0)
+const JAM_ABI = Int32(1)
 const JAM_MAX_DIM = Int32(8)
 
 # jam_status_code: All status codes; values are ABI and never reused.
@@ -1786,7 +1786,7 @@ end
 """
     jam_version()
 
-Version of the library, e.g. "0.1.0". Static storage, as the texts of the next five calls.
+Version of the library, e.g. "1.0.0". Static storage, as the texts of the next five calls.
 """
 function jam_version()
     return ccall((:jam_version, libjam), Cstring, ())

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from .shown import Word as _Word
 from .shown import as_table as _as_table
 
-JAM_ABI = 0
+JAM_ABI = 1
 JAM_MAX_DIM = 8
 # growth by default, of the library's source: rate and pressure of each stage
 GROWTH_STAGES = ((0.01, 500.0), (0.003, 10000000.0))

@@ -11,7 +11,7 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
-#define JAM_ABI 0
+#define JAM_ABI 1
 #define JAM_MAX_DIM 8
 typedef int32_t jam_status;
 typedef enum jam_status_code {

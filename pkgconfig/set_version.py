@@ -13,7 +13,7 @@ if not re.fullmatch(r"\d+\.\d+\.\d+", version) or not abi.isdigit():
     sys.exit(__doc__)
 
 NUMBER = r"\d+\.\d+\.\d+"
-# file, what stands there, what shall; {v} and {a} are version and ABI number
+# file, what stands there, what shall; {v}, {m} and {a} are version, its first two numbers and ABI number
 PLACES = [
     ("CMakeLists.txt", rf"(project\(jam VERSION ){NUMBER}", r"\g<1>{v}"),
     (".github/CITATION.cff", rf"(?m)^(version: ){NUMBER}", r"\g<1>{v}"),
@@ -25,6 +25,7 @@ PLACES = [
     ("pkgconfig/recipes/recipe.yaml", rf'(version: "){NUMBER}', r"\g<1>{v}"),
     ("pkgconfig/recipes/build_tarballs.jl", rf'(version = v"){NUMBER}', r"\g<1>{v}"),
     ("pkgconfig/recipes/vcpkg/vcpkg.json", rf'("version": "){NUMBER}', r"\g<1>{v}"),
+    ("tests/package/consumer/CMakeLists.txt", r"(find_package\(jam )\d+\.\d+", r"\g<1>{m}"),
     ("include/jam/jam.h", r"(?m)^(#define JAM_ABI )\d+", r"\g<1>{a}"),
     ("src/capi/jam.map", r"JAM_\d+", "JAM_{a}"),
     *((name, r"libjam\d+", "libjam{a}") for name in (
@@ -36,7 +37,7 @@ PLACES = [
 
 for name, before, after in PLACES:
     text = (root / name).read_text()
-    new, found = re.subn(before, after.format(v=version, a=abi), text)
+    new, found = re.subn(before, after.format(v=version, m=version.rpartition(".")[0], a=abi), text)
     if not found:
         sys.exit(f"{name} has nothing like {before}")
     (root / name).write_text(new)

@@ -767,7 +767,7 @@ module jam
   ! Options of jam_isoconfigurational.
   type, bind(c) :: jam_isoconf_options
     integer(c_int32_t) :: struct_size = 0
-    ! 1 .. 64, default 1; the bits are the same
+    ! 1 .. 64, default 1; the bits do not depend on it
     integer(c_int32_t) :: threads = 0
     ! jam_clock, default COLLISIONS
     integer(c_int32_t) :: clock = 0
@@ -839,7 +839,7 @@ module jam
     integer(c_int32_t) :: polish = 0
     ! >= 1, default 1000
     integer(c_int32_t) :: max_lps = 0
-    ! 1 .. 64, default 1; any number above 1 gives the same bits; above 4 little gain
+    ! 1 .. 64, default 1; 2 to 64 give the same bits, 1 may give others
     integer(c_int32_t) :: threads = 0
     ! on sqrt(Gamma) - 1, > 0, default 1e-12
     real(c_double) :: gain_tolerance = 0

@@ -231,7 +231,7 @@ TABLE = {
             "threads",
             "integer",
             "T",
-            "1 .. 64 (1); any number above 1 gives the same bits; more than 4 gain little",
+            "1 .. 64 (1); 2 to 64 give the same bits, 1 may give others; more than 4 gain little",
             1,
             1,
             64,

@@ -62,10 +62,10 @@
  * - Distinct handles are independent. On one handle, calls that take it as const may run together. Any other call must
  *   be alone. While it runs, calls of other threads get JAM_E_BUSY, and its callback may use const calls. jam_cancel
  *   may be called from any thread or signal handler at any time. Calls without a handle may be called from any thread.
- * - The same seed, build, options and processor give the same packing bit for bit on one thread; all other numbers of
- *   threads give one packing, too. On another processor OpenBLAS may choose another kernel (jam_blas_kernel), whose
- *   sums round otherwise. Then a crunch can end at another jamming point. The variable OPENBLAS_CORETYPE chooses one
- *   kernel for all. Molecular dynamics and Monte Carlo give the same bits on every processor.
+ * - The same seed, build, options and processor give the same packing bit for bit on one thread. On 2 to 64 threads
+ *   all give one packing, perhaps another. On another processor OpenBLAS may choose another kernel (jam_blas_kernel),
+ *   whose sums round otherwise. Then a crunch can end at another jamming point. The variable OPENBLAS_CORETYPE chooses
+ *   one kernel for all. Molecular dynamics and Monte Carlo give the same bits on every processor.
  * - While a call factorises a matrix or solves a linear program by Clp, OpenBLAS has one thread in the whole process.
  *   libjam restores the previous number of threads afterwards. Host threads that use OpenBLAS meanwhile run on one
  *   thread each.
@@ -736,7 +736,7 @@ typedef enum jam_clock {
 /* Options of jam_isoconfigurational. */
 typedef struct jam_isoconf_options {
   uint32_t struct_size;
-  int32_t threads;         /* 1 .. 64, default 1; the bits are the same */
+  int32_t threads;         /* 1 .. 64, default 1; the bits do not depend on it */
   int32_t clock;           /* @enum jam_clock, default COLLISIONS */
   int32_t resume;          /* @bool continue the runs of this handle; default 0 */
   int64_t first_run, runs; /* number of the first run, >= 0, default 0; from that number on, >= 1, default 100 */
@@ -846,7 +846,7 @@ typedef struct jam_crunch_options {
   int32_t method;          /* @enum jam_crunch_method, default BARRIER_PATH */
   int32_t polish;          /* @bool at the end Newton steps close contacts and balance forces to rounding; default 1 */
   int32_t max_lps;         /* >= 1, default 1000 */
-  int32_t threads;         /* 1 .. 64, default 1; any number above 1 gives the same bits; above 4 little gain */
+  int32_t threads;         /* 1 .. 64, default 1; 2 to 64 give the same bits, 1 may give others */
   double gain_tolerance;   /* on sqrt(Gamma) - 1, > 0, default 1e-12 */
   double step_tolerance;   /* on max |s_i| of non-rattlers, > 0, default 1e-9 */
   double lp_tolerance;     /* relative complementarity and residual of one LP, default 1e-15 */
@@ -1327,7 +1327,7 @@ JAM_API jam_status jam_bloch_rigidity(jam_system *sys, const int32_t *count, siz
 /* Why jam_check_packing answers as it does. */
 typedef enum jam_check_reason {
   JAM_CHECK_PROOF = 0,    /* jammed: positive forces balance, and the rank is full */
-  JAM_CHECK_APART = 1,    /* not: no two spheres touch */
+  JAM_CHECK_APART = 1,    /* not: no two spheres touch, and none touches a wall */
   JAM_CHECK_NO_FORCE = 2, /* not: no non-negative forces on the contacts balance */
   JAM_CHECK_FLEX = 3,     /* not: forces balance, and yet spheres can move (a saddle) */
   JAM_CHECK_DIGITS = 4,   /* undecided: the coordinates have too few digits to say which spheres touch */

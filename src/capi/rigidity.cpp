@@ -31,7 +31,7 @@ Answer answer_of(const jam_rigidity_report &r, const PackingVerdict &v, size_t s
     return {JAM_NOT_JAMMED,
             sentence("not %s jammed: no set of non-negative contact forces is in balance%s%s", kind, stress,
                      spheres > 1 ? "; jam_flex gives a motion, jam_crunch makes a jammed packing"
-                                 : "; jam_crunch of one sphere needs a free cell")};
+                                 : "; one sphere can be crunched only in a free cell without walls")};
   if (r.jammed == JAM_VERDICT_NO)
     return {JAM_NOT_JAMMED,
             sentence("not %s jammed: forces on %lld contacts balance%s, at least %lld contacts are needed, "

@@ -7,7 +7,7 @@ namespace jam {
 void stop(CrunchState &s, jam_stop_reason reason, jam_status status);
 // Where the call was cancelled or its time is over: stops for that reason. True when it did.
 bool stop_if_interrupted(CrunchState &s);
-// The contacts and the verdict of the report were those of a packing that moves on.
+// Clears contacts and verdict of the report, because the spheres will move again.
 void forget_contacts(CrunchState &s);
 // LPs begin again with this bound: the packing was moved, or its cell is free now.
 void restart_lps(CrunchState &s, double bound);

@@ -28,7 +28,7 @@ size_t read_container(const LineReader &in, CommentKeys &keys, Enclosure &enclos
   std::vector<std::string_view> words;
   split(plain, words);
   if (words.empty() || words.size() > JAM_MAX_DIM)
-    in.fail(JAM_E_FORMAT, "walls has %zu words, there are at most %d axes and at least one", words.size(), JAM_MAX_DIM);
+    in.fail(JAM_E_FORMAT, "walls has %zu words, it must have one for each axis, at most %d", words.size(), JAM_MAX_DIM);
   for (size_t c = 0; c < words.size(); ++c) {
     if (is_true(words[c]))
       enclosure.walls |= 1 << c;

@@ -181,8 +181,8 @@ void BlockCholesky::backward(const std::vector<int32_t> &list, Real *y, Real *be
   }
 }
 
-// Subtrees subtract from the top of the tree side by side: each worker into zeros of its own, and what a subtree left
-// there is added in the order of the subtrees.
+// Subtrees run at the same time, and each changes entries of the top of the tree. A worker collects these changes in a
+// vector of its own that starts at zero; they are then added to y in the order of the subtrees.
 template <class Real>
 void BlockCholesky::solve_as(double *x, int nrhs) const {
   const size_t d = dim_, unknowns = static_cast<size_t>(n_) * d, room = largest_below_ * nrhs;

@@ -54,7 +54,7 @@ void minus_trapezoid(Real *c, int ldc, int rows, int columns, const Real *b, int
 
 double area_of(int rows, int columns) { return columns * (rows - 0.5 * columns); }
 
-// The same in parts of even areas.
+// The same in parts of equal area.
 template <class Real>
 void minus_trapezoid_by(Workers &workers, Real *c, int ldc, int rows, int columns, const Real *b, int ldb, int k,
                         Result result) {

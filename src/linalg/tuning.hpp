@@ -32,7 +32,7 @@ struct SupernodeTuning {
   static constexpr double lost_in_floats = 4e-6;
 };
 
-// ---- the parts that threads take, or a look at the caller's callback
+// ---- sizes of the parts that threads take, and of the work between two looks at the caller's callback
 struct ThreadTuning {
   static constexpr int most_parts = 4;          // of one product: narrower ones take more time in all
   static constexpr double product = 1e7;        // multiplications of a part of a dense product

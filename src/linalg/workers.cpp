@@ -32,8 +32,8 @@ Workers::~Workers() {
   for (std::thread &t : threads_) t.join();
 }
 
-int Workers::parts(double work, double least) const {
-  return cuts_ ? static_cast<int>(std::min<double>(ThreadTuning::most_parts, std::max(1.0, std::ceil(work / least))))
+int Workers::parts(double work, double size) const {
+  return cuts_ ? static_cast<int>(std::min<double>(ThreadTuning::most_parts, std::max(1.0, std::ceil(work / size))))
                : 1;
 }
 

@@ -1,5 +1,6 @@
-// Threads of one call that take the parts of dense products, panels and subtrees. Which parts there are depends on the
-// sizes alone, and no two parts write to the same place: the bits are the same for every number of threads above one.
+// Threads of one call. They take parts of dense products and panels, subtrees, and isoconfigurational runs. Which parts
+// there are depends on the sizes alone, and no two parts write to the same place: the bits are the same for every
+// number of threads above one.
 #pragma once
 #include <condition_variable>
 #include <mutex>
@@ -10,15 +11,15 @@ namespace jam {
 
 class Workers {
  public:
-  // Where the system has fewer threads to give, the others take all parts.
+  // If the system starts fewer threads, those that run take all parts.
   explicit Workers(int threads);
   ~Workers();
   Workers(const Workers &) = delete;
   Workers &operator=(const Workers &) = delete;
 
   bool cuts() const { return cuts_; }  // whether work is cut into parts at all: more than one thread was asked for
-  // How many parts of at least half `least` there are.
-  int parts(double work, double least) const;
+  // Number of equal parts: work / size rounded up, at most ThreadTuning::most_parts; 1 with one thread.
+  int parts(double work, double size) const;
 
   // work(part, worker) for all parts, each worker below the number of threads; this thread is worker 0. Only on this
   // thread may work() throw: no part begins then, and those that run are waited for.

@@ -40,7 +40,7 @@ void add_network(const Report &r, std::string &out) {
   if (r.contacts == 0) return;
   add(out, "%lld contact%s hold%s %lld sphere%s", wide(r.contacts), plural(r.contacts), r.contacts == 1 ? "s" : "",
       wide(r.n - r.rattlers), plural(r.n - r.rattlers));
-  if (r.n == 1) {  // own images put no force on their sphere: there is no number of contacts that it needs
+  if (r.n == 1) {  // forces of own images cancel on the sphere: no number of contacts is isostatic
     out += ".";
   } else {
     add(out, "(excess %lld over one state of self-stress), %lld rattler%s.", wide(r.excess_contacts), wide(r.rattlers),
@@ -77,9 +77,9 @@ void add_no(const Report &r, std::string &out) {
     if (std::isfinite(r.nearest_gap)) out.append(": the smallest gap is"), add(out, "%.2e", r.nearest_gap);
   } else if (r.reason == JAM_CHECK_NO_FORCE) {
     const bool one = r.closed_pairs == 1;
-    add(out, "%lld pair%s touch%s, but no non-negative force%s on %s balance%s%s, so a motion%s opens %s",
+    add(out, "%lld pair%s touch%s, but no non-negative force%s on %s balance%s, so a motion%s opens %s",
         wide(r.closed_pairs), plural(r.closed_pairs), one ? "es" : "", one ? "" : "s", one ? "it" : "them",
-        one ? "s" : "", r.n == 1 ? " sphere and cell" : "", r.n == 1 ? " of either" : "", one ? "it" : "them all");
+        one ? "s" : "", r.n == 1 ? " of the sphere or a strain of the cell" : "", one ? "it" : "them all");
   } else if (r.reason == JAM_CHECK_SLIDE) {
     add(out,
         "Forces balance to %.1e of their mean, so the diameters cannot grow, but parts of the network slide past each "
@@ -111,8 +111,8 @@ void add_undecided(const Report &r, std::string &out) {
   if (std::isfinite(r.nearest_gap)) add(out, "The nearest pair has a gap of %.2e.", r.nearest_gap);
   if (r.reason == JAM_CHECK_MARGIN && r.contacts == 0)
     add(out,
-        "Doubles do not resolve which closed pairs (%lld) carry force: some forces are too weak, or a sphere fills a "
-        "round wall, which has no normal in its middle.",
+        "Rounding leaves open which of the closed pairs (%lld) carry force: forces are too weak, or a sphere is as "
+        "wide as its tube or ball and touches it in every direction.",
         wide(r.closed_pairs));
   else if (r.reason == JAM_CHECK_MARGIN && r.flexes > 0)
     add(out,

@@ -182,7 +182,7 @@ bool SoftHessian::has_contacts(const SoftState &state, const SoftContacts &conta
 bool SoftHessian::factorise(const SoftState &state, const SoftContacts &contacts, const std::vector<char> &on,
                             double shift, int64_t &factorisations) {
   assemble(state, contacts, on);
-  if (cholesky_.supernodes() == 0 || ei_ != analysed_i_ || ej_ != analysed_j_) {  // one sphere has no pairs
+  if (cholesky_.supernodes() == 0 || ei_ != analysed_i_ || ej_ != analysed_j_) {  // one sphere: its lists are empty
     // A few contacts more or less leave the elimination order good.
     if (analysed_i_.empty())
       cholesky_.analyse(state.dim(), static_cast<int32_t>(state.n()), ei_.data(), ej_.data(), ei_.size());

@@ -157,7 +157,7 @@ class Alone(unittest.TestCase):
                 np.testing.assert_array_equal(flex.out, [0.5 * np.eye(3)[axis]])
                 self.assertFalse(flex.strain.any())
         self.one(0.5).rigidity()
-        self.assertIn("in balance; jam_crunch of one sphere needs a free cell", jam.raw.jam_last_error())
+        self.assertIn("in balance; one sphere can be crunched only in a free cell without walls", jam.raw.jam_last_error())
         with self.assertRaisesRegex(jam.errors.StateError, "no motion but a translation"):
             self.one(0.5).flex()
         self.assertLess(np.trace(self.one(0.5).flex("strict").strain), 0)
@@ -167,7 +167,7 @@ class Alone(unittest.TestCase):
         for s, said, unsaid in (
             (square, "2 contacts hold 1 sphere. Forces balance to 0.0e+00 of their mean, and yet 1 independent motion of the cell", "excess"),
             (self.one(1.0, walls="xyz"), "6 contacts hold 1 sphere. Forces are not unique: 3 states of self-stress.", "excess"),
-            (self.one(0.4, (0.5, 0.2), walls="y"), "1 pair touches, but no non-negative force on it balances sphere and cell, so a motion of either opens it.", "them"),
+            (self.one(0.4, (0.5, 0.2), walls="y"), "1 pair touches, but no non-negative force on it balances, so a motion of the sphere or a strain of the cell opens it.", "them"),
             (self.one(1 - 5e-9, container="ball"), "Not jammed. 1 sphere in d = 3 at packing fraction 0.999999985. No pair touches: the smallest gap is 5.00e-09.", "may touch"),
         ):
             self.assertIn(said, str(s.check()))
@@ -177,7 +177,7 @@ class Alone(unittest.TestCase):
         for scene in ({"container": "ball"}, {"container": "cylinder"}):
             r = self.one(1.0, **scene).check()
             self.assertEqual((r.jammed, r.reason, r.undecided_contacts), (Verdict.UNDECIDED, CheckReason.MARGIN, 0))
-            self.assertIn("a sphere fills a round wall", str(r))
+            self.assertIn("a sphere is as wide as its tube or ball", str(r))
             self.one(1.0, **scene).rigidity()
             self.assertIn("doubles do not resolve which forces or motions there are", jam.raw.jam_last_error())
             for wrong in ("may touch", "A crunch"):  # no pair is in doubt, and a crunch needs two spheres

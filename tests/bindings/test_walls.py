@@ -90,7 +90,7 @@ class Scenes(unittest.TestCase):
             for new, why in (
                 (text.replace("F F T", "F F X"), "line 1: walls='F F X': a word for each axis must be T or F"),
                 (text.replace("F F T", "F F"), "line 1: walls has 2 words, 3 are needed"),
-                (text.replace("F F T", "F" + 40 * " T"), "line 1: walls has 41 words, there are at most 8"),
+                (text.replace("F F T", "F" + 40 * " T"), "line 1: walls has 41 words, it must have one for each axis, at most 8"),
             ):
                 name.write_text(new)
                 with self.assertRaisesRegex(jam.errors.FormatError, why):

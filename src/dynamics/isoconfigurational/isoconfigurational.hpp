@@ -59,7 +59,7 @@ struct RunPlan {
 // When a run must stop. Runs poll it now and then.
 struct RunControl {
   const Monitor &monitor;
-  std::function<void()> report_step;  // empty but on the thread of the call
+  std::function<void()> report_step;  // empty on all threads except that of the caller
   bool stopped() const {
     if (report_step) report_step();
     return monitor.interrupted();

@@ -1,4 +1,5 @@
-// Isoconfigurational ensemble: runs on threads of their own, folded into the sums in the order of their numbers.
+// Isoconfigurational ensemble: the threads of the call take runs in turn, and the runs are added to the sums in the
+// order of their numbers.
 #include <algorithm>
 #include <condition_variable>
 #include <exception>

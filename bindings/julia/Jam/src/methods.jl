@@ -268,7 +268,7 @@ same at `:info`. Takes as long as a few steps.
 - `method`: one of `:barrier_path`, `:sequential_lp`; default `:barrier_path`
 - `polish`: Bool; at the end Newton steps close contacts and balance forces to rounding; default 1
 - `max_lps`: >= 1, default 1000
-- `threads`: 1 .. 64, default 1; any number above 1 gives the same bits; above 4 little gain
+- `threads`: 1 .. 64, default 1; 2 to 64 give the same bits, 1 may give others
 - `gain_tolerance`: on sqrt(Gamma) - 1, > 0, default 1e-12
 - `step_tolerance`: on max |`s_i`| of non-rattlers, > 0, default 1e-9
 - `lp_tolerance`: relative complementarity and residual of one LP, default 1e-15

@@ -302,7 +302,7 @@ const JAM_BLOCH_MARGIN = Int32(1)  # least eigenvalue of S^T S on K+ but for tra
 
 # jam_check_reason: Why jam_check_packing answers as it does.
 const JAM_CHECK_PROOF = Int32(0)  # jammed: positive forces balance, and the rank is full
-const JAM_CHECK_APART = Int32(1)  # not: no two spheres touch
+const JAM_CHECK_APART = Int32(1)  # not: no two spheres touch, and none touches a wall
 const JAM_CHECK_NO_FORCE = Int32(2)  # not: no non-negative forces on the contacts balance
 const JAM_CHECK_FLEX = Int32(3)  # not: forces balance, and yet spheres can move (a saddle)
 const JAM_CHECK_DIGITS = Int32(4)  # undecided: the coordinates have too few digits to say which spheres touch
@@ -840,7 +840,7 @@ end
 
 Options of `isoconfigurational`.
 
-- `threads`: 1 .. 64, default 1; the bits are the same
+- `threads`: 1 .. 64, default 1; the bits do not depend on it
 - `clock`: one of `:collisions`, `:time`; default `:collisions`
 - `resume`: Bool; continue the runs of this handle; default 0
 - `first_run`: number of the first run, >= 0, default 0
@@ -855,7 +855,7 @@ Options of `isoconfigurational`.
 """
 mutable struct jam_isoconf_options
     struct_size::UInt32
-    threads::Int32  # 1 .. 64, default 1; the bits are the same
+    threads::Int32  # 1 .. 64, default 1; the bits do not depend on it
     clock::Int32  # jam_clock, default COLLISIONS
     resume::Int32  # 1: continue the runs of this handle; default 0
     first_run::Int64  # number of the first run, >= 0, default 0
@@ -923,7 +923,7 @@ of CALiPPSO.jl beside each.
 - `method`: one of `:barrier_path`, `:sequential_lp`; default `:barrier_path`
 - `polish`: Bool; at the end Newton steps close contacts and balance forces to rounding; default 1
 - `max_lps`: >= 1, default 1000
-- `threads`: 1 .. 64, default 1; any number above 1 gives the same bits; above 4 little gain
+- `threads`: 1 .. 64, default 1; 2 to 64 give the same bits, 1 may give others
 - `gain_tolerance`: on sqrt(Gamma) - 1, > 0, default 1e-12
 - `step_tolerance`: on max |`s_i`| of non-rattlers, > 0, default 1e-9
 - `lp_tolerance`: relative complementarity and residual of one LP, default 1e-15
@@ -944,7 +944,7 @@ mutable struct jam_crunch_options
     method::Int32  # jam_crunch_method, default BARRIER_PATH
     polish::Int32  # 1: at the end Newton steps close contacts and balance forces to rounding; default 1
     max_lps::Int32  # >= 1, default 1000
-    threads::Int32  # 1 .. 64, default 1; any number above 1 gives the same bits; above 4 little gain
+    threads::Int32  # 1 .. 64, default 1; 2 to 64 give the same bits, 1 may give others
     gain_tolerance::Cdouble  # on sqrt(Gamma) - 1, > 0, default 1e-12
     step_tolerance::Cdouble  # on max |s_i| of non-rattlers, > 0, default 1e-9
     lp_tolerance::Cdouble  # relative complementarity and residual of one LP, default 1e-15

@@ -393,7 +393,7 @@ class BlochColumn(_Word):
 class CheckReason(_Word):
     """Why jam_check_packing answers as it does."""
     PROOF = 0  # jammed: positive forces balance, and the rank is full
-    APART = 1  # not: no two spheres touch
+    APART = 1  # not: no two spheres touch, and none touches a wall
     NO_FORCE = 2  # not: no non-negative forces on the contacts balance
     FLEX = 3  # not: forces balance, and yet spheres can move (a saddle)
     DIGITS = 4  # undecided: the coordinates have too few digits to say which spheres touch
@@ -1307,7 +1307,7 @@ OPTIONS = {
         "wall_time": ("float", 'seconds of this call'),
     },
     "jam_isoconf_options": {
-        "threads": ("int", '1 .. 64, default 1; the bits are the same'),
+        "threads": ("int", '1 .. 64, default 1; the bits do not depend on it'),
         "clock": ("Clock", 'Clock, default COLLISIONS'),
         "resume": ("bool", '1: continue the runs of this handle; default 0'),
         "first_run": ("int", 'number of the first run, >= 0, default 0'),
@@ -1325,7 +1325,7 @@ OPTIONS = {
         "method": ("CrunchMethod", 'CrunchMethod, default BARRIER_PATH'),
         "polish": ("bool", '1: at the end Newton steps close contacts and balance forces to rounding; default 1'),
         "max_lps": ("int", '>= 1, default 1000'),
-        "threads": ("int", '1 .. 64, default 1; any number above 1 gives the same bits; above 4 little gain'),
+        "threads": ("int", '1 .. 64, default 1; 2 to 64 give the same bits, 1 may give others'),
         "gain_tolerance": ("float", 'on sqrt(Gamma) - 1, > 0, default 1e-12'),
         "step_tolerance": ("float", 'on max |s_i| of non-rattlers, > 0, default 1e-9'),
         "lp_tolerance": ("float", 'relative complementarity and residual of one LP, default 1e-15'),

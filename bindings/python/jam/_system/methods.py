@@ -423,7 +423,7 @@ class Methods:
         max_lps : int, optional
             >= 1, default 1000
         threads : int, optional
-            1 .. 64, default 1; any number above 1 gives the same bits; above 4 little gain
+            1 .. 64, default 1; 2 to 64 give the same bits, 1 may give others
         gain_tolerance : float, optional
             on sqrt(Gamma) - 1, > 0, default 1e-12
         step_tolerance : float, optional

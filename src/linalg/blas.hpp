@@ -42,9 +42,12 @@ class BlasSingleThread {
   ~BlasSingleThread();
   BlasSingleThread(const BlasSingleThread &) = delete;
   BlasSingleThread &operator=(const BlasSingleThread &) = delete;
+  // How many of the threads that were asked for may compute: fewer where other calls of the process compute too.
+  int threads() const { return threads_; }
 
  private:
-  const int more_;  // than guards around this one have counted
+  int threads_;
+  int more_;  // than guards around this one have counted
 };
 
 }  // namespace jam

@@ -121,12 +121,14 @@ void BlockCholesky::run_list(const std::vector<int32_t> &list, const double *dia
 int BlockCholesky::factorise(const double *diag, const double *off, Precision precision) {
   const BlasSingleThread alone(worker_count());
   precision_ = precision;
-  return precision == Precision::single ? factorise_as<float>(diag, off) : factorise_as<double>(diag, off);
+  const int threads = alone.threads();
+  return precision == Precision::single ? factorise_as<float>(diag, off, threads)
+                                        : factorise_as<double>(diag, off, threads);
 }
 
 template <class Real>
-int BlockCholesky::factorise_as(const double *diag, const double *off) {
-  Workers workers(worker_count());
+int BlockCholesky::factorise_as(const double *diag, const double *off, int threads) {
+  Workers workers(threads, threads_ > 1);
   std::vector<int> lost(subtrees_.size() + 1, 0);
   workers.run(static_cast<int>(subtrees_.size()), [&](int tree, int worker) {
     Workers alone(1);
@@ -184,11 +186,12 @@ void BlockCholesky::backward(const std::vector<int32_t> &list, Real *y, Real *be
 // Subtrees run at the same time, and each changes entries of the top of the tree. A worker collects these changes in a
 // vector of its own that starts at zero; they are then added to y in the order of the subtrees.
 template <class Real>
-void BlockCholesky::solve_as(double *x, int nrhs) const {
+void BlockCholesky::solve_as(double *x, int nrhs, int threads) const {
   const size_t d = dim_, unknowns = static_cast<size_t>(n_) * d, room = largest_below_ * nrhs;
   const int trees = static_cast<int>(subtrees_.size());
-  const int count = value_count_ > ThreadTuning::factor ? worker_count() : 1;
-  Workers workers(count);
+  const bool large = value_count_ > ThreadTuning::factor;
+  const int count = large ? threads : 1;
+  Workers workers(count, large && threads_ > 1);
   std::vector<Real> y(unknowns * nrhs), above(trees > 0 ? count * y.size() : 0), below_rows(count * room);
   std::vector<std::vector<Real>> left(trees);
   const auto permute = [&](bool back) {
@@ -233,7 +236,8 @@ void BlockCholesky::solve_as(double *x, int nrhs) const {
 
 void BlockCholesky::solve_many(double *x, int nrhs) const {
   const BlasSingleThread alone(worker_count());
-  precision_ == Precision::single ? solve_as<float>(x, nrhs) : solve_as<double>(x, nrhs);
+  precision_ == Precision::single ? solve_as<float>(x, nrhs, alone.threads())
+                                  : solve_as<double>(x, nrhs, alone.threads());
 }
 
 }  // namespace jam

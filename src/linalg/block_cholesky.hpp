@@ -105,7 +105,7 @@ class BlockCholesky {
   size_t stack_need(int worker, int side) const;
   int worker_count() const;
   template <class Real>
-  int factorise_as(const double *diag, const double *off);
+  int factorise_as(const double *diag, const double *off, int threads);
   template <class Real>
   void eliminate(int32_t s, const double *diag, const double *off, Stack &stack, Workers &workers, int &replaced);
   template <class Real>
@@ -119,7 +119,7 @@ class BlockCholesky {
                 int &replaced);
 
   template <class Real>
-  void solve_as(double *x, int nrhs) const;
+  void solve_as(double *x, int nrhs, int threads) const;
   template <class Real>
   void forward(const std::vector<int32_t> &list, Real *y, Real *above, Real *below_rows, int nrhs,
                Workers &workers) const;

@@ -32,6 +32,12 @@ struct SupernodeTuning {
   static constexpr double lost_in_floats = 4e-6;
 };
 
+// ---- threads of a process that are inside OpenBLAS at once; Debian's build allows 128
+struct BlasTuning {
+  static constexpr int shared = 64;  // by calls of several threads
+  static constexpr int most = 120;   // with the calls of one thread
+};
+
 // ---- sizes of the parts that threads take, and of the work between two looks at the caller's callback
 struct ThreadTuning {
   static constexpr int most_parts = 4;          // of one product: narrower ones take more time in all

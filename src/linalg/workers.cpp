@@ -10,7 +10,7 @@
 
 namespace jam {
 
-Workers::Workers(int threads) : cuts_(threads > 1) {
+Workers::Workers(int threads, bool cuts) : cuts_(cuts) {
   try {
     for (int worker = 1; worker < threads; ++worker) {
       threads_.emplace_back([this, worker, host = OwnEnvironment::host()] {

@@ -12,7 +12,9 @@ namespace jam {
 class Workers {
  public:
   // If the system starts fewer threads, those that run take all parts.
-  explicit Workers(int threads);
+  explicit Workers(int threads) : Workers(threads, threads > 1) {}
+  // Cuts work into parts or not, as with more than one thread or one.
+  Workers(int threads, bool cuts);
   ~Workers();
   Workers(const Workers &) = delete;
   Workers &operator=(const Workers &) = delete;

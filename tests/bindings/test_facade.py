@@ -4,6 +4,7 @@ import re
 import shutil
 import subprocess
 import tempfile
+import threading
 import unittest
 from pathlib import Path
 
@@ -130,6 +131,20 @@ class Facade(unittest.TestCase):
         s.crunch()
         self.assertEqual(jam.plot.cdf(s.forces, label="force").get_xlabel(), "force")
         self.assertNotIn("x", jam.plot.cdf(s.forces).get_xlabel())
+
+    def test_calls_of_one_process_share_threads(self):
+        # Debian's OpenBLAS ends a process with more than 128 threads inside it; ten calls ask for 640.
+        start = jam.System.random(n=400, seed=1)
+        start.compress(packing_fraction=0.6)
+        systems = [start.copy() for _ in range(11)]
+        systems[0].crunch(threads=2)
+        calls = [threading.Thread(target=s.crunch, kwargs={"threads": 64}) for s in systems[1:]]
+        for call in calls:
+            call.start()
+        for call in calls:
+            call.join()
+        for s in systems[1:]:
+            np.testing.assert_array_equal(s.positions, systems[0].positions)
 
     @unittest.skipUnless(shutil.which("mypy"), "mypy is not installed")
     def test_mypy_strict_takes_a_program(self):

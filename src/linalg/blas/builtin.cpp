@@ -71,7 +71,7 @@ template struct Blas<float>;
 
 const char *blas_kernel() { return "builtin"; }
 
-BlasSingleThread::BlasSingleThread(int) : more_(0) {}
+BlasSingleThread::BlasSingleThread(int threads) : threads_(threads), more_(0) {}
 BlasSingleThread::~BlasSingleThread() { static_cast<void>(more_); }
 
 }  // namespace jam

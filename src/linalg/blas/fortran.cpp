@@ -12,6 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "linalg/tuning.hpp"
+
 extern "C" {
 void dtrsm_(const char *side, const char *uplo, const char *trans, const char *diag, const int *m, const int *n,
             const double *alpha, const double *a, const int *lda, double *b, const int *ldb);
@@ -181,9 +183,16 @@ const char *blas_kernel() {
   return file.c_str();
 }
 
-BlasSingleThread::BlasSingleThread(int threads) : more_(std::max(0, threads - counted_on_this_thread())) {
+// OpenBLAS ends the process where more threads are inside it than its build allows. So the calls of a process share
+// BlasTuning::shared threads; where none is left each call has one, up to BlasTuning::most.
+BlasSingleThread::BlasSingleThread(int threads) {
   Host &h = host();
   const std::lock_guard<std::mutex> hold(h.lock);
+  const int counted = counted_on_this_thread(), left = std::max(counted > 0 ? 0 : 1, BlasTuning::shared - h.computing);
+  const int wanted = std::max(0, threads - counted);
+  more_ = openblas_answers() ? std::min(wanted, left) : wanted;
+  threads_ = std::min(threads, counted + more_);
+  if (openblas_answers() && h.computing + more_ > BlasTuning::most) throw std::bad_alloc();
   reserve_buffers(h, h.computing + more_);
   h.computing += more_;
   counted_on_this_thread() += more_;

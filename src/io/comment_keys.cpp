@@ -19,12 +19,10 @@ size_t read_container(const LineReader &in, CommentKeys &keys, Enclosure &enclos
     if (!named) return 0;
     in.fail(JAM_E_FORMAT, "container= without walls=, a word T or F for each axis");
   }
-  std::string plain(value);  // ASE writes a list as _JSON [false, true]
-  if (plain.compare(0, 5, "_JSON") == 0) {
-    plain.erase(0, 5);
-    std::replace_if(
-        plain.begin(), plain.end(), [](char c) { return c == '[' || c == ']' || c == ','; }, ' ');
-  }
+  std::string plain(value);  // ASE writes a list as _JSON [false, true], and reads [F, T], too
+  if (plain.compare(0, 5, "_JSON") == 0) plain.erase(0, 5);
+  std::replace_if(
+      plain.begin(), plain.end(), [](char c) { return c == '[' || c == ']' || c == ','; }, ' ');
   std::vector<std::string_view> words;
   split(plain, words);
   if (words.empty() || words.size() > JAM_MAX_DIM)

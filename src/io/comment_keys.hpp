@@ -11,7 +11,8 @@ namespace jam {
 // The keys of a line; words without = are comments.
 class CommentKeys {
  public:
-  // key=value, the value in quotes, in braces or bare; as for ASE there may be blanks around =.
+  // key=value, the value in quotes, in brackets, in braces or bare; as for ASE there may be blanks around =, a \ before
+  // a character of quotes takes its meaning away, and brackets may hold brackets.
   CommentKeys(const LineReader &in, std::string_view comment) : in_(in) {
     const auto skip_blanks = [&](size_t k) { return std::min(comment.find_first_not_of(" \t", k), comment.size()); };
     for (size_t k = 0; k < comment.size();) {
@@ -22,10 +23,9 @@ class CommentKeys {
       if (equals >= comment.size() || comment[equals] != '=') continue;
       k = skip_blanks(equals + 1);
       const char opens = k < comment.size() ? comment[k] : ' ';
-      const bool quoted = opens == '"' || opens == '\'' || opens == '{';
+      const bool quoted = opens == '"' || opens == '\'' || opens == '{' || opens == '[';
       if (quoted) ++k;
-      const char *const ends = opens == '{' ? "}" : opens == '"' ? "\"" : opens == '\'' ? "'" : " \t";
-      size_t stop = comment.find_first_of(ends, k);
+      size_t stop = quoted ? closing(comment, k, opens) : comment.find_first_of(" \t", k);
       if (stop == std::string_view::npos) {
         if (quoted) in.fail(JAM_E_FORMAT, "the quote after '%s=' is not closed", shown(name).c_str());
         stop = comment.size();
@@ -56,6 +56,19 @@ class CommentKeys {
   }
 
  private:
+  // Where what was opened before k is closed.
+  static size_t closing(std::string_view line, size_t k, char opens) {
+    const char closes = opens == '{' ? '}' : opens == '[' ? ']' : opens;
+    for (int depth = 1; k < line.size(); ++k) {
+      if (line[k] == '\\')
+        ++k;
+      else if (line[k] == closes && --depth == 0)
+        return k;
+      else if (line[k] == opens && opens == '[')
+        ++depth;
+    }
+    return std::string_view::npos;
+  }
   struct Key {
     std::string_view name, value;
     bool read;

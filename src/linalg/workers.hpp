@@ -19,7 +19,6 @@ class Workers {
   Workers(const Workers &) = delete;
   Workers &operator=(const Workers &) = delete;
 
-  bool cuts() const { return cuts_; }  // whether work is cut into parts at all: more than one thread was asked for
   // Number of equal parts: work / size rounded up, at most ThreadTuning::most_parts; 1 with one thread.
   int parts(double work, double size) const;
 

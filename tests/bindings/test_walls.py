@@ -135,6 +135,9 @@ class Scenes(unittest.TestCase):
             for more in ("energy = -3.5", "energy= ", "energy= -3.5 "):
                 self.assertEqual(read(more + " " + bare).notes, "keys of the file that were not read: energy")
             self.assertIn("not read: comment, what", read(bare.replace("walls", "comment= what")).notes)
+            for note in ('note="a \\" walls={T T T} \\" b"', "list=[a walls={T T T} [b] pbc=F]", "note='it\\'s walls=F'"):
+                self.assertEqual(read(note + " " + bare).info.walls, 4)
+            self.assertEqual(read(bare.replace('"F F T"', "[F, F,T]")).info.walls, 4)
             for empty in ('walls=""', "walls=", "walls = ", "walls= energy=3"):
                 with self.assertRaisesRegex(jam.errors.FormatError, "line 2: walls has 0 words"):
                     read(bare.replace('walls="F F T"', empty))

@@ -9,14 +9,16 @@
 
 #include "jam/jam.h"
 
-static jam_system *start(int n) {
+static jam_system *start_with(int dim, int n, uint64_t seed) {
   jam_create_options o;
   jam_system *sys = NULL;
   jam_create_options_init(&o, sizeof o);
-  o.n = n, o.packing_fraction = 0.3, o.seed = 5;
+  o.dim = dim, o.n = n, o.seed = seed;
+  if (n > 2) o.packing_fraction = 0.3;
   assert_int_equal(jam_create(&o, NULL, &sys), JAM_OK);
   return sys;
 }
+static jam_system *start(int n) { return start_with(3, n, 5); }
 
 typedef struct ambush {
   jam_system *sys;
@@ -227,16 +229,12 @@ static void a_limit_leaves_no_older_verdict(void **state) {
   for (int seed = 0; seed < 6; ++seed) {
     for (int lps = 2; lps <= 20; lps += 3) {
       for (int method = JAM_CRUNCH_BARRIER_PATH; method <= JAM_CRUNCH_SEQUENTIAL_LP; ++method) {
-        jam_create_options c;
         jam_crunch_options o;
         jam_crunch_report r;
-        jam_system *sys = NULL;
-        jam_create_options_init(&c, sizeof c);
+        jam_system *sys = start_with(2, 2, (uint64_t)seed);
         jam_crunch_options_init(&o, sizeof o);
-        c.dim = 2, c.n = 2, c.seed = (uint64_t)seed;
         o.strain = JAM_STRAIN_FREE, o.max_lps = lps, o.method = method;
         memset(&r, 0, sizeof r), r.struct_size = sizeof r;
-        assert_int_equal(jam_create(&c, NULL, &sys), JAM_OK);
         assert_true(jam_crunch(sys, &o, &r) >= 0);
         jam_destroy(sys);
         if (r.stop_reason != JAM_STOP_LP_LIMIT || r.gain < o.gain_tolerance) continue;
@@ -254,18 +252,13 @@ static void a_stop_leaves_no_older_contacts(void **state) {
   const char *words[] = {"saddle of the free cell", "polish refused"};
   (void)state;
   for (int k = 0; k < 2; ++k) {
-    jam_create_options c;
     jam_crunch_options o;
     jam_crunch_report r;
     ambush a;
-    jam_system *sys = NULL;
-    jam_create_options_init(&c, sizeof c);
+    jam_system *sys = start_with(2, k ? 100 : 2, 0);
     jam_crunch_options_init(&o, sizeof o);
-    c.dim = 2, c.n = k ? 100 : 2, c.seed = 0;
-    if (k) c.packing_fraction = 0.3;
     if (k) o.method = JAM_CRUNCH_SEQUENTIAL_LP, o.gain_tolerance = 1e-2;
     if (!k) o.strain = JAM_STRAIN_FREE;
-    assert_int_equal(jam_create(&c, NULL, &sys), JAM_OK);
     memset(&a, 0, sizeof a);
     a.sys = sys, a.armed = words[k], a.word = "ipm";
     assert_int_equal(jam_set_log(sys, spring, JAM_LOG_DEBUG, &a), JAM_OK);

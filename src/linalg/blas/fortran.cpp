@@ -124,7 +124,8 @@ void reserve_buffers(Host &h, int wanted) {
   if (probe == MAP_FAILED) throw std::bad_alloc();
   munmap(probe, size);
   if (blas_memory_alloc && blas_memory_free) {
-    std::vector<void *> taken(static_cast<size_t>(wanted), nullptr);
+    // Others may hold theirs at this moment: never more than BlasTuning::most in all.
+    std::vector<void *> taken(static_cast<size_t>(std::min(wanted, BlasTuning::most - h.computing)), nullptr);
     for (void *&buffer : taken) buffer = blas_memory_alloc(0);
     for (void *buffer : taken) blas_memory_free(buffer);
   }

@@ -11,8 +11,9 @@ namespace jam {
 // The keys of a line; words without = are comments.
 class CommentKeys {
  public:
-  // key=value, the value in quotes, in brackets, in braces or bare; as for ASE there may be blanks around =, a \ before
-  // a character of quotes takes its meaning away, and brackets may hold brackets.
+  // key=value, the value in quotes, in brackets, in braces or bare; as for ASE there may be blanks around =, a
+  // character after a \ does not close quotes, braces or brackets, and brackets may be nested. The \ stays in the
+  // value.
   CommentKeys(const LineReader &in, std::string_view comment) : in_(in) {
     const auto skip_blanks = [&](size_t k) { return std::min(comment.find_first_not_of(" \t", k), comment.size()); };
     for (size_t k = 0; k < comment.size();) {

@@ -34,7 +34,7 @@ void BlockCholesky::plan() {
     for (int side = 0; side < 2; ++side) stack_count_ += stack_need(worker, side);
 }
 
-// Not more than there are subtrees or parts of a product: each worker needs its own memory.
+// At most the larger of the numbers of subtrees and of parts of a product: each worker needs its own memory.
 int BlockCholesky::worker_count() const {
   if (threads_ < 2) return 1;
   return std::min(threads_, std::max(ThreadTuning::most_parts, static_cast<int>(subtrees_.size())));
@@ -45,8 +45,8 @@ size_t BlockCholesky::stack_need(int worker, int side) const {
   return worker > 0 ? subtree_need_[side] : std::max(subtree_need_[side], top_need_[side]);
 }
 
-// With more than one thread: subtrees of at most splits_subtree of all work, the heaviest first. The choice is the same
-// for every number of threads above one.
+// With more than one thread: the heaviest subtree is split until none has more than splits_subtree of all work, or it
+// cannot be split. The choice is the same for every number of threads above one.
 void BlockCholesky::share_out(const std::vector<double> &work) {
   const size_t count = supernodes_.size();
   std::vector<int32_t> roots;

@@ -34,8 +34,8 @@ struct SupernodeTuning {
 
 // ---- threads of a process that are inside OpenBLAS at once; Debian's build allows 128
 struct BlasTuning {
-  static constexpr int shared = 64;  // by calls of several threads
-  static constexpr int most = 120;   // with the calls of one thread
+  static constexpr int shared = 64;  // that calls use together before a further call gets only one
+  static constexpr int most = 120;   // of all calls together; the rest is left to the host
 };
 
 // ---- sizes of the parts that threads take, and of the work between two looks at the caller's callback

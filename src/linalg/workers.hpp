@@ -1,6 +1,6 @@
 // Threads of one call. They take parts of dense products and panels, subtrees, and isoconfigurational runs. Which parts
-// there are depends on the sizes alone, and no two parts write to the same place: the bits are the same for every
-// number of threads above one.
+// there are depends on the sizes and on `cuts` alone, and no two parts write to the same place: the bits are the same
+// for every number of threads above one.
 #pragma once
 #include <condition_variable>
 #include <mutex>
@@ -13,13 +13,14 @@ class Workers {
  public:
   // If the system starts fewer threads, those that run take all parts.
   explicit Workers(int threads) : Workers(threads, threads > 1) {}
-  // Cuts work into parts or not, as with more than one thread or one.
+  // cuts: whether work is cut into parts. A call that asked for several threads and got one cuts too, for the same
+  // bits.
   Workers(int threads, bool cuts);
   ~Workers();
   Workers(const Workers &) = delete;
   Workers &operator=(const Workers &) = delete;
 
-  // Number of equal parts: work / size rounded up, at most ThreadTuning::most_parts; 1 with one thread.
+  // Number of equal parts: work / size rounded up, at most ThreadTuning::most_parts; 1 where work is not cut.
   int parts(double work, double size) const;
 
   // work(part, worker) for all parts, each worker below the number of threads; this thread is worker 0. Only on this

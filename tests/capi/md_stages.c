@@ -107,8 +107,8 @@ static int32_t stop_at_times(const jam_progress *p, void *user) {
   return ++*(int *)user % 3 == 0;
 }
 
-/* However often it is stopped, also between two stages and across checkpoints, it ends as if it had not been. With so
- * many spheres growth takes ten times the 0.05 s between two callbacks or more. */
+/* However often it is stopped, also between two stages and across checkpoints, it ends as if it had not been. 500
+ * spheres, so that growth takes much longer than the 0.05 s between two callbacks. */
 static void a_stopped_protocol_goes_on(void **state) {
   jam_system *whole = start_with(500), *cut = start_with(500), *again = NULL;
   jam_compress_options o = defaults();

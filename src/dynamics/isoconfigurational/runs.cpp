@@ -1,5 +1,5 @@
-// Isoconfigurational ensemble: the threads of the call take runs in turn, and the runs are added to the sums in the
-// order of their numbers.
+// Isoconfigurational ensemble: each thread of the call takes the next run when it is free, and the runs are added to
+// the sums in the order of their numbers.
 #include <algorithm>
 #include <condition_variable>
 #include <exception>

@@ -17,7 +17,6 @@ packing is begun. Needs the Python package `jam`; --results needs the source tre
 import argparse
 import csv
 import hashlib
-import importlib.util
 import itertools
 import sys
 import time
@@ -36,9 +35,8 @@ TRIES = 3  # seeds for each packing that is wanted
 PI = Decimal("3.14159265358979323846264338327950288419716939937510582097494459230781640628620899")
 COLUMNS = ["name", "d", "N", "spheres", "seed", "theorem", "phi_J", "error", "radius", "contacts", "rattlers", "least force", "least gap"]
 
-spec = importlib.util.spec_from_file_location("jamproof", ROOT / "bindings/proof/jamproof.py")
-jamproof = importlib.util.module_from_spec(spec)
-spec.loader.exec_module(jamproof)
+sys.path.append(str(ROOT / "bindings/proof"))
+import jamproof  # noqa: E402
 
 
 def decimal(x):
@@ -49,12 +47,12 @@ def packing_fraction(scene, error):
     """phi_J from the exact numbers of a proof file, to 25 digits or as many as the relative error leaves."""
     d, volume = scene.dim, Fraction(1)
     for k in range(d):
-        volume *= jamproof.fraction(scene.cell[k][k], scene.k)
-    spheres = sum(jamproof.fraction(m, scene.se) ** d for m in scene.ratio)
+        volume *= Fraction(scene.cell[k][k], scene.one)
+    spheres = sum(ratio**d for ratio in scene.ratio)
     with localcontext() as context:
         context.prec = 60
         of_ball = {2: PI / 4, 3: PI / 6, 4: PI**2 / 32, 5: PI**2 / 60}[d]  # of diameter 1
-        phi = of_ball * decimal(jamproof.fraction(scene.g, scene.ge)).sqrt() ** d * decimal(spheres / volume)
+        phi = of_ball * decimal(scene.gamma).sqrt() ** d * decimal(spheres / volume)
         for digits in range(25, 0, -1):
             low, high = (round(phi * (1 + sign * Decimal(error)), digits) for sign in (-1, 1))
             if low == high:
@@ -79,8 +77,8 @@ def made(folder, d, n, mixed, seed):
     scene, error, radius = jamproof.Scene(file), proof.fraction_error, proof.radius
     try:
         if not exact:
-            found = jamproof.trapped(scene)  # in the scene's gamma no pair overlaps
-            error, radius = 0.51 * d * found["gamma_error"], found["inner"]
+            found = jamproof.beside("jamproof_trapped", "trapped", scene)  # in the scene's gamma no pair overlaps
+            error, radius = 0.51 * d * float(found["gamma_error"]), float(found["inner"])
         elif n <= MOST_FOR_CHECKER:
             jamproof.check(scene)
     except jamproof.Refused as why:

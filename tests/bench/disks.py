@@ -6,7 +6,6 @@ positions, contacts and forces. jamproof.py proves or traps it in integers, and 
 usage: disks.py N SEEDS [FIRST_SEED]      with PYTHONPATH set to the built module
 """
 import collections
-import importlib.util
 import json
 import statistics
 import sys
@@ -19,9 +18,8 @@ import jam
 
 MOST_FOR_HIGHS = 300  # it needs minutes for a thousand
 
-spec = importlib.util.spec_from_file_location("jamproof", Path(__file__).parents[2] / "bindings/proof/jamproof.py")
-jamproof = importlib.util.module_from_spec(spec)
-spec.loader.exec_module(jamproof)
+sys.path.append(str(Path(__file__).parents[2] / "bindings/proof"))
+import jamproof  # noqa: E402
 
 
 def proof(system):

@@ -32,6 +32,9 @@ s = jam.System.random(n=40, dim=2, seed=3, diameters=[1.0, 1.4] * 20)
 assert s.crunch().jammed"
 test -f "$(echo "$work/p/$python_dir"/jam/__pycache__/system.*.pyc)"
 test -f "$work/p/share/jam/julia/Jam/src/raw.jl"
+# the checker finds its other files
+/usr/bin/python3 -I "$work/p/share/jam/jamproof.py" "$source/examples/studies/reference_set/d4-n64-equal-04.jamproof" |
+  grep -q '^trapped: '
 mkdir cmake_consumer && cd cmake_consumer
 cat >CMakeLists.txt <<EOF
 cmake_minimum_required(VERSION 3.22)

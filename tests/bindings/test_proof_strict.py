@@ -196,7 +196,7 @@ class Files(unittest.TestCase):
             def found(words):
                 path.write_text(words, encoding="ascii")
                 try:
-                    return program.trapped(program.Scene(path))
+                    return program.beside("jamproof_trapped", "trapped", program.Scene(path))
                 except program.Refused as why:
                     return str(why)
 
@@ -246,7 +246,7 @@ class Bounds(unittest.TestCase):
         exact = next(s for s in (packed(16, 2, seed) for seed in range(1, 20)) if s.prove_strict().theorem == jam.Theorem.EXACT)
         table = (
             ("one pressure on all axes", "or len(pressure) > 1", "", crystal_with_one_axis_pressed()),
-            ("cell vectors in a gap", "* (i != j) + s.strict * sum(map(abs, n))", "* (i != j)", grain_across_the_boundary(strict_file(exact))),
+            ("cell vectors in a gap", "* (i != j) + self.strict * sum(map(abs, n))", "* (i != j)", grain_across_the_boundary(strict_file(exact))),
         )
         for name, old, new, false in table:
             with self.subTest(bound=name):

@@ -1,8 +1,10 @@
 """Trapping by the checker: crystals and other packings with more contacts than unknowns, and what it must refuse."""
+import base64
 import random
 import sys
 import tempfile
 import unittest
+import zlib
 from fractions import Fraction
 from pathlib import Path
 
@@ -11,7 +13,7 @@ import numpy as np
 import jam
 
 sys.path.insert(0, str(Path(__file__).parent))
-from test_proof import ROOT, File, drop, file_of, jamproof, rattler_into_neighbour, value, word
+from test_proof import ROOT, File, drop, file_of, jamproof, rattler_into_neighbour, scene_of, value, word
 from test_proof_bounds import checker, crystal, square_lattice
 
 
@@ -39,7 +41,7 @@ def trapped(text, program=jamproof):
         path = Path(folder) / "a.jamproof"
         path.write_text(text, encoding="ascii")
         try:
-            return program.trapped(program.Scene(path))
+            return program.beside("jamproof_trapped", "trapped", program.Scene(path))
         except program.Refused as why:
             return str(why).split(":")[0]
 
@@ -51,10 +53,10 @@ def density(text, program=jamproof):
         path.write_text(text, encoding="ascii")
         scene = program.Scene(path)
     try:
-        found = program.trapped(scene)
+        found = program.beside("jamproof_trapped", "trapped", scene)
     except program.Refused as why:
         found = str(why)
-    return jamproof.fraction(scene.g, scene.ge), found
+    return scene.gamma, found
 
 
 def moved(text, by, generator):
@@ -107,8 +109,8 @@ class Trapped(unittest.TestCase):
 
     def test_units_of_their_own_widen_the_trap_too(self):
         """Where loosely held spheres have longer units, the packing that was moved away from lies within inner as well."""
-        both = "for grown in [[1] * len(columns)] + ([] if s.strict else [loosely_held(s, columns, inverse, stress)]):"
-        program, generator = checker((both, "for grown in [loosely_held(s, columns, inverse, stress)]:")), random.Random(5)
+        both = "for grown in [[1] * s.unknowns] + ([] if s.strict else [loosely_held(s, inverse, stress)]):"
+        program, generator = checker((both, "for grown in [loosely_held(s, inverse, stress)]:")), random.Random(5)
         for text in self.texts:
             self.assertLess(trapped(text, program)["inner"], 1e-18)
             for power in (20, 12, 9, 6):
@@ -150,6 +152,11 @@ class Trapped(unittest.TestCase):
                 f.gamma[1] = gamma or f.gamma[1]
                 path.write_text(f.text(), encoding="ascii")
                 self.assertEqual(jamproof.main(str(path)), status, gamma)
+
+    def test_an_inverse_of_zeros_traps_nothing(self):
+        scene = scene_of(File(self.texts[0]))
+        data = base64.b64encode(zlib.compress(bytes(4 * len(scene.contacts) * scene.unknowns))).decode()
+        self.assertEqual(trapped(self.texts[0] + f"inverse -20 {data}\n"), "singular")
 
     def test_what_is_not_trapped_is_refused(self):
         generator = random.Random(2)
@@ -266,10 +273,10 @@ class Trapped(unittest.TestCase):
         rattler_into_neighbour(f, generator)
         overlap = f.text()
         table = (
-            ("opening", "opening, rows, columns = equations(s, every)", "opening, (rows, columns) = [(1, -200)] * len(every), equations(s, every)[1:]", text),
+            ("opening", "    f, sigma2, columns = s.equations(every)", "    f, (sigma2, columns) = [TWO**-200] * len(every), s.equations(every)[1:]", text),
             ("room for second order", "if left > 0 and 4 * constant * second < left**2:", "if left > 0:", far_off),
-            ("room of smaller spheres", "s.g, s.ge = math.floor(min(own, gamma) /", "s.g, s.ge = math.floor(own /", smaller),
-            ("pairs stay apart", "if have <= need:", "if False:", overlap),
+            ("room of smaller spheres", "math.floor(min(own, gamma) *", "math.floor(own *", smaller),
+            ("pairs stay apart", "refuse(have <= part,", "refuse(False,", overlap),
         )  # fmt: skip
         for name, old, new, false in table:
             with self.subTest(bound=name):

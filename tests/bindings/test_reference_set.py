@@ -25,9 +25,9 @@ def pi(digits):
 def phi(scene, digits=60):
     """The packing fraction of a file times 10^digits, by whole numbers alone."""
     power, denominator = BALL[scene.dim]
-    spheres = sum(jamproof.fraction(m, scene.se) ** scene.dim for m in scene.ratio)
-    volume = math.prod(jamproof.fraction(scene.cell[k][k], scene.k) for k in range(scene.dim))
-    squared = jamproof.fraction(scene.g, scene.ge) ** scene.dim * (spheres / volume / denominator) ** 2
+    spheres = sum(ratio**scene.dim for ratio in scene.ratio)
+    volume = math.prod(Fraction(scene.cell[k][k], scene.one) for k in range(scene.dim))
+    squared = scene.gamma**scene.dim * (spheres / volume / denominator) ** 2
     root = math.isqrt(math.floor(squared * 10 ** (2 * digits)))
     return Fraction(root) * (Fraction(pi(digits)) / 10**digits) ** power
 

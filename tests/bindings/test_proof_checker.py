@@ -1,0 +1,168 @@
+"""The checker as a program: its files, what it prints where one of them is missing, and the gaps that it prints."""
+import ast
+import itertools
+import math
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+from fractions import Fraction
+
+from test_proof import CHECKER, ROOT, File, file_of, jamproof, packing, scene_of, value, word
+from test_proof_bounds import fcc
+
+FILES = sorted(CHECKER.parent.glob("*.py"))
+LENGTHS = {"jamproof.py": 374, "jamproof_implied.py": 100, "jamproof_trapped.py": 150}
+
+
+def run(program, *arguments):
+    """Without libjam, numpy and the environment."""
+    words = [sys.executable, "-I", "-S", "-B", str(program), *map(str, arguments)]
+    return subprocess.run(words, capture_output=True, text=True, check=False)
+
+
+def imported(path):
+    """Names of the modules a file imports, without those that it can do without."""
+    tree = ast.parse(path.read_text(encoding="ascii"))
+    optional = {node for attempt in ast.walk(tree) if isinstance(attempt, ast.Try) for node in ast.walk(attempt)}
+    names = set()
+    for node in (node for node in ast.walk(tree) if node not in optional):
+        if isinstance(node, ast.Import):
+            names |= {alias.name.split(".")[0] for alias in node.names}
+        elif isinstance(node, ast.ImportFrom):
+            names.add(node.module.split(".")[0])
+    return names
+
+
+def isostatic():
+    for seed in range(1, 60):
+        system, ratio = packing(16, 3, seed)
+        if system.report.jammed and system.report.excess_contacts == 0:
+            return file_of(system, ratio)
+    raise AssertionError("no seed gives an isostatic packing")
+
+
+def flower():
+    """A packing whose file has implied contacts."""
+    for seed in range(1, 120):
+        system, ratio = packing(64, 2, seed)
+        if system.report.jammed and system.report.excess_contacts == 1 and "\nimplied " in (text := file_of(system, ratio)):
+            return text
+    raise AssertionError("no seed gives a packing with an implied contact")
+
+
+class Program(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.text = isostatic()
+
+    def setUp(self):
+        self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
+
+    def write(self, text):
+        path = self.folder / "a.jamproof"
+        path.write_text(text, encoding="ascii")
+        return path
+
+    def test_files_are_short(self):
+        """To be read by a referee: lines with docstrings and blank ones, none wider than 120 columns."""
+        lines = {path.name: path.read_text(encoding="ascii").splitlines() for path in FILES}
+        self.assertEqual(set(lines), set(LENGTHS))
+        for name, most in LENGTHS.items():
+            self.assertLessEqual(len(lines[name]), most, name)
+            self.assertLessEqual(max(map(len, lines[name])), 120, name)
+
+    def test_files_need_the_standard_library_alone(self):
+        for path in FILES:
+            beside = {"jamproof"} if path != CHECKER else set()
+            self.assertLessEqual(imported(path), sys.stdlib_module_names | beside, path.name)
+
+    def test_the_checker_is_a_program_of_its_own(self):
+        """It runs without libjam and without numpy, and with an inverse in the file."""
+        path, other = self.write(self.text), self.folder / "b.jamproof"
+        first, second = run(CHECKER, path, other), run(CHECKER, other)
+        self.assertEqual((first.returncode, second.returncode), (0, 0), first.stdout + first.stderr)
+        self.assertEqual(first.stdout, second.stdout)
+        lines = other.read_text(encoding="ascii").splitlines()
+        bad = lines[-1].split()
+        bad[2] = bad[2][:100] + ("A" if bad[2][100] != "A" else "B") + bad[2][101:]
+        other.write_text("\n".join(lines[:-1] + [" ".join(bad)]) + "\n", encoding="ascii")
+        self.assertIn(run(CHECKER, other).returncode, (1, 2))
+        self.assertEqual(run(CHECKER, self.folder / "none").returncode, 2)
+        self.assertEqual(run(CHECKER, self.write(self.text.replace("sphere 1", "sphere 0", 1))).returncode, 1)
+
+    def test_alone_it_proves_isostatic_packings_and_names_the_file_that_others_need(self):
+        alone = shutil.copy(CHECKER, self.folder)
+        self.assertEqual(run(alone, self.write(self.text)).stdout, run(CHECKER, self.folder / "a.jamproof").stdout)
+        f = File(self.text)
+        f.lines.append(list(f.contacts[0]))  # a contact too many
+        for text, name, start in (
+            ("\n".join(fcc()) + "\n", "jamproof_trapped.py", "not proved: "),
+            (flower(), "jamproof_implied.py", "not proved: "),
+            (f.text(), "jamproof_trapped.py", "not proved: excess: "),
+        ):
+            done = run(alone, self.write(text))
+            self.assertEqual((done.returncode, done.stderr), (1, ""), done.stdout)
+            self.assertTrue(done.stdout.startswith(start), done.stdout)
+            self.assertTrue(done.stdout.endswith(f"{name}, which this file needs, is not beside jamproof.py\n"), done.stdout)
+            self.assertEqual(done.stdout.count("\n"), 1)
+        os.symlink(CHECKER, self.folder / "link.py")  # files are beside the one that the link leads to
+        self.assertEqual(run(self.folder / "link.py", self.write("\n".join(fcc()) + "\n")).returncode, 0)
+
+    def test_words_without_numbers_are_no_traceback(self):
+        for line in ("implied", "tile", "inverse", "dim", "gamma", "sphere", "contact"):
+            done = run(CHECKER, self.write(self.text + line + "\n"))
+            self.assertIn(done.returncode, (1, 2, 3), line)
+            self.assertEqual((done.stderr, done.stdout.count("\n")), ("", 1), line)
+
+
+def least_gap(scene):
+    """Of all pairs and images but contacts, in fractions."""
+    closed = {(i, j, n) for i, j, n in scene.contacts} | {(j, i, tuple(-v for v in n)) for i, j, n in scene.contacts}
+    squares = []
+    for i, j in itertools.combinations_with_replacement(range(len(scene.x)), 2):
+        for n in itertools.product((-1, 0, 1), repeat=scene.dim):
+            if (j, i, n) not in closed and (i != j or any(n)):
+                square = Fraction(sum(c * c for c in scene.vector(j, i, n)), scene.one**2)
+                squares.append(square / (scene.gamma * scene.sigma2(i, j)))
+    return min(squares)
+
+
+def body_centred(height):
+    """Two spheres and eight contacts. At a height of sqrt(2 / 3) each touches its image above too."""
+    lines = ["jamproof 1", "dim 3", "unit 1p0", "non_additivity 0p0", f"cell 1p0 0p0 1p0 0p0 0p0 {word(height, -90)}"]
+    height = value(lines[-1].split()[-1])
+    lines.append(f"gamma {word(Fraction(1, 2) + height**2 / 4, -190)}")
+    lines += ["sphere 1 1p0 0p0 0p0 0p0", f"sphere 1 1p0 1p-1 1p-1 {word(height / 2, -100)}"]
+    lines += [f"contact 1 0 {a} {b} {c} 1p0" for a, b, c in itertools.product((0, -1), repeat=3)]
+    return File("\n".join(lines) + "\n")
+
+
+class Gaps(unittest.TestCase):
+    """What is printed as the least gap is at most that of the file's centres."""
+
+    def check(self, scene, within):
+        status, words = jamproof.conclusion(scene)
+        self.assertIn(status, (0, 3), words)
+        square = (1 + Fraction(words.split("least_gap ")[1].split(",")[0].split(";")[0])) ** 2
+        true = least_gap(scene)
+        self.assertLessEqual(square, true, words)
+        self.assertGreaterEqual((square - 1) / (true - 1), within, words)
+
+    def test_along_an_axis_of_the_cell(self):
+        """There a component of r exceeds the largest sigma although the gap is small."""
+        for name in ("d2-n64-mixed-04", "d2-n64-equal-07"):
+            self.check(jamproof.Scene(ROOT / f"examples/studies/reference_set/{name}.jamproof"), 0.98)
+        self.check(scene_of(body_centred(Fraction(2, 3) ** Fraction(1, 2) + 1e-6)), 0.98)
+
+    def test_below_the_rounding_of_doubles(self):
+        root = Fraction(math.isqrt(2 * 3 * 10**80), 3 * 10**40)
+        for above in (Fraction(17, 10**17), Fraction(3, 10**16), Fraction(1, 10**20)):
+            self.check(scene_of(body_centred(root * (1 + Fraction(4, 3) * above))), 0.98)
+
+
+if __name__ == "__main__":
+    unittest.main()

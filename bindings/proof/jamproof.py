@@ -7,8 +7,8 @@ strict strictly: no motion and strain without overlap leaves the volume as small
 and inverse are hints: bad ones lose the proof, they cannot make one. A file without inverse gets one from numpy, or
 from floats here; OUT is then the file with it. Exit status: 0 proved, 1 not proved, 2 the file cannot be read, 3
 trapped but not proved. Two files beside this one are for more contacts than unknowns: jamproof_implied.py if some
-follow from others, jamproof_trapped.py for crystals and all else. The guide's page "The theorems behind proofs" has
-the proofs.
+follow from others, jamproof_trapped.py for crystals and all else. The page "The theorems behind proofs" of the guide
+has the proofs.
 
 Theorem A. Unknown are the centres x of the stable spheres but the first, and G; if strict, in place of G the cell
 vectors H, a lower triangle. F_c = |r_c|^2 - G sigma_c^2, r_c = x_i - x_j + n H, is to be 0 for each contact c = (i, j,
@@ -119,15 +119,12 @@ class Scene:
         self.x = [lengths[at : at + d] for at in range(len(cell), len(lengths), d)]
         ends, named = {i for c in self.contacts for i in c[:2]}, {c for _, ring in self.tiles for c in ring}
         positive = [self.unit, self.gamma, *self.ratio, *(self.cell[q][q] for q in range(d))]
-        for wrong, words in (
-            (not 0 < cross <= 2, "non_additivity must be above -1 and at most 1"),
-            (not any(self.stable), "no sphere is stable"),
-            (not contacts, "the file lists no contact"),
-            (not ends <= {*range(len(spheres))}, "a contact names a sphere that is not there"),
-            (not named <= {*range(len(contacts))}, "a tile or an implied contact names a contact that is not there"),
-            (min(positive) <= 0, "a diameter, a cell edge, unit or gamma is not positive"),
-        ):
-            refuse(wrong, words)
+        refuse(not 0 < cross <= 2, "non_additivity must be above -1 and at most 1")
+        refuse(not any(self.stable), "no sphere is stable")
+        refuse(not contacts, "the file lists no contact")
+        refuse(not ends <= {*range(len(spheres))}, "a contact names a sphere that is not there")
+        refuse(not named <= {*range(len(contacts))}, "a tile or an implied contact names a contact that is not there")
+        refuse(min(positive) <= 0, "a diameter, a cell edge, unit or gamma is not positive")
         (self.size, self.per), self.cross = whole(self.ratio), cross**2
         self.first = {i: d * k for k, i in enumerate([i for i, yes in enumerate(self.stable) if yes][1:])}
         at = [d * len(self.first) + q * (q + 1) // 2 for q in range(d + 1)]  # the first unknown of each cell vector
@@ -218,24 +215,21 @@ class Scene:
 
 
 def float_inverse(rows):
-    """Of a square matrix."""
+    """Of a square matrix, without numpy by Gauss and Jordan."""
     try:
         import numpy
 
         return numpy.linalg.inv(numpy.array(rows)).tolist()
     except ImportError:
-        return eliminated([[*row, *(float(k == i) for k in range(len(rows)))] for i, row in enumerate(rows)])
-
-
-def eliminated(a):
-    """X with B X = C of the rows [B | C], by Gauss and Jordan."""
-    for c in watched(range(len(a)), "columns of the inverse"):
-        p = max(range(c, len(a)), key=lambda r: abs(a[r][c]))
+        n = len(rows)
+    a = [[*row, *(float(k == i) for k in range(n))] for i, row in enumerate(rows)]
+    for c in watched(range(n), "columns of the inverse"):
+        p = max(range(c, n), key=lambda r: abs(a[r][c]))
         a[p], a[c] = a[c], [v / a[p][c] for v in a[p]]
         for r, row in enumerate(a):
             if r != c and row[c]:
                 a[r] = [x - row[c] * y for x, y in zip(row, a[c])]
-    return [row[len(a) :] for row in a]
+    return [row[n:] for row in a]
 
 
 def inverse_of(s, j, count, invert=float_inverse):
@@ -261,7 +255,7 @@ def bounds(s, f, columns, e, inverse, weights):
     64-bit digits, so that A times a column costs as many products as this has entries."""
     n, large = len(inverse[0]), max(abs(v) for column in columns for _, v in column) >= 1 << 27
     refuse(e > BITS or large, "singular: entries are too large for the digits")  # 2^31 2^27 CHUNK = 2^62
-    low = max([v.numerator.bit_length() - v.denominator.bit_length() - 24 for v in f if v], default=-9999)
+    low = max([v.numerator.bit_length() - v.denominator.bit_length() - 24 for v in f if v], default=-600)
     short = [(c, round(v / TWO**low)) for c, v in enumerate(f)]  # 25 bits, off by half a unit
     long = lambda digits: int.from_bytes(array("Q", digits).tobytes(), sys.byteorder)
     bias = long([BIAS] * n)

@@ -18,7 +18,7 @@ import math
 from fractions import Fraction
 from operator import mul
 
-from jamproof import TWO, Refused, bounds, eliminated, float_inverse, gap, inverse_of, refuse, watched, whole
+from jamproof import TWO, Refused, bounds, float_inverse, gap, inverse_of, refuse, watched, whole
 
 PRIME = (1 << 61) - 1
 GAMMA, FORCE = 400, 120  # binary digits of gamma; more of forces
@@ -54,7 +54,8 @@ def left_inverse(rows):
         return (numpy.linalg.inv(r.T @ r) @ r.T).tolist()
     except ImportError:
         flat = list(zip(*rows))
-        return eliminated([[*(sum(map(mul, row, b)) for b in flat), *row] for row in watched(flat, "rows of J^T J")])
+    square = float_inverse([[sum(map(mul, a, b)) for b in flat] for a in watched(flat, "rows of J^T J")])
+    return [[sum(map(mul, a, b)) for b in rows] for a in square]
 
 
 def closed(s, columns):

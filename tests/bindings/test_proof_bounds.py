@@ -188,6 +188,6 @@ if __name__ == "__main__":
         for bound, before, after, maker, _ in TABLE:
             false = maker()
             shown = [verdict(checker(e), false) for e in (None, (before, after))]
-            print(f"| {bound} | " + " | ".join(f"proved, {x['radius']:.1g}" if isinstance(x, dict) else x for x in shown) + " |")
+            print(f"| {bound} | " + " | ".join(f"proved, {float(x['radius']):.1g}" if isinstance(x, dict) else x for x in shown) + " |")
     else:
         unittest.main()

@@ -618,13 +618,13 @@ Errors: JAM_E_STATE."
 Shapes: out (runs, n, d).
 Errors: JAM_E_STATE."
 %feature("docstring") jam_crunch_options_init ""
-%feature("docstring") jam_crunch "Brings the packing to its jamming point and keeps the contact network: along a barrier path, or by linear programs
-one after the other (o->method; Artiaco et al., Phys. Rev. E 106, 055310 (2022)). No step creates an overlap. An
-interrupted crunch returns a valid packing: call it again to continue, also from a checkpoint. On the barrier path it
-then goes on at the mu that was reached. Bits may differ from those of one call. Steps and times of the report count
-from the last call. Status: JAM_OK jammed, or at the duality gap of the options (`jammed` is 0 then, and another call
-continues along the path); JAM_NOT_CONVERGED, JAM_NOT_JAMMED: the state is the last valid one and the report says
-why.
+%feature("docstring") jam_crunch "Brings the packing to its jamming point and keeps the contact network (o->method; Artiaco et al., Phys. Rev. E 106,
+055310 (2022)). No step creates an overlap. Where doubles leave it open whether contacts hold the spheres, diameters
+shrink, by 1e-4 to 0.03, spheres move at random within this room, and the crunch starts again. An interrupted crunch
+returns a valid packing: another call continues it, also from a checkpoint, on the path at its mu. Bits may differ
+from those of one call. Steps and times of the report count from the last call. Status: JAM_OK jammed, or at the
+duality gap of the options (`jammed` is 0 then, another call continues); JAM_NOT_CONVERGED, JAM_NOT_JAMMED: the state
+is the last valid one.
 Errors: JAM_E_OVERLAP, JAM_E_TOO_FEW (one sphere in a fixed cell), JAM_E_SOLVER (last good state kept)."
 %feature("docstring") jam_estimate_crunch "Estimates memory and time of jam_crunch with these options (NULL: defaults) without running it; jam_crunch logs the
 same at JAM_LOG_INFO. Takes as long as a few steps.

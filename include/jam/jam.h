@@ -914,13 +914,13 @@ typedef struct jam_crunch_report {
   double proof_value, proof_bound; /* the two numbers of the cause */
 } jam_crunch_report;
 JAM_API jam_status jam_crunch_options_init(jam_crunch_options *o, size_t size);
-/* Brings the packing to its jamming point and keeps the contact network: along a barrier path, or by linear programs
- * one after the other (o->method; Artiaco et al., Phys. Rev. E 106, 055310 (2022)). No step creates an overlap. An
- * interrupted crunch returns a valid packing: call it again to continue, also from a checkpoint. On the barrier path it
- * then goes on at the mu that was reached. Bits may differ from those of one call. Steps and times of the report count
- * from the last call. Status: JAM_OK jammed, or at the duality gap of the options (`jammed` is 0 then, and another call
- * continues along the path); JAM_NOT_CONVERGED, JAM_NOT_JAMMED: the state is the last valid one and the report says
- * why. @errors OVERLAP, TOO_FEW (one sphere in a fixed cell), SOLVER (last good state kept) */
+/* Brings the packing to its jamming point and keeps the contact network (o->method; Artiaco et al., Phys. Rev. E 106,
+ * 055310 (2022)). No step creates an overlap. Where doubles leave it open whether contacts hold the spheres, diameters
+ * shrink, by 1e-4 to 0.03, spheres move at random within this room, and the crunch starts again. An interrupted crunch
+ * returns a valid packing: another call continues it, also from a checkpoint, on the path at its mu. Bits may differ
+ * from those of one call. Steps and times of the report count from the last call. Status: JAM_OK jammed, or at the
+ * duality gap of the options (`jammed` is 0 then, another call continues); JAM_NOT_CONVERGED, JAM_NOT_JAMMED: the state
+ * is the last valid one. @errors OVERLAP, TOO_FEW (one sphere in a fixed cell), SOLVER (last good state kept) */
 JAM_API jam_status jam_crunch(jam_system *sys, const jam_crunch_options *o, jam_crunch_report *report);
 
 /* Memory and time of a crunch, estimated from the graph of pairs and its elimination tree. */
@@ -943,7 +943,7 @@ JAM_API jam_status jam_get_crunch_report(const jam_system *sys, jam_crunch_repor
 
 /* What kind of step a row of the history is. */
 typedef enum jam_step_phase {
-  JAM_STEP_PATH = 1,  /* a Newton step of the barrier path (the first row: all steps that open it) */
+  JAM_STEP_PATH = 1,  /* a Newton step of the barrier path, or all that open contacts before it */
   JAM_STEP_LP = 2,    /* an LP and the move to its solution */
   JAM_STEP_POLISH = 3 /* contacts closed and forces balanced to rounding */
 } jam_step_phase;

@@ -19,6 +19,7 @@ enum class Stream : uint64_t {
   coincident = 23,   // directions in which soft spheres at one centre part
   sizes = 24,        // of jam_diameters
   pore_points = 25,  // of jam_pore_sizes
+  recompression = 26,
 };
 
 // Finaliser of splitmix64 (Steele, Lea and Flood, OOPSLA 2014): a bijective mix of 64 bits.

@@ -142,14 +142,6 @@ void verdict_holds(int64_t seed) {
   print_message("seed %d: jammed %d, %s, residual %.1e, contacts %d\n", static_cast<int>(seed), r.jammed,
                 jam_stop_string(r.stop_reason), r.force_residual, static_cast<int>(r.contacts));
   gains_nothing(sys.get(), x, s[0]);
-  // Disk 296 lies between contacts that are opposite but for 2e-7 of a radian; forces of 3e-8, 2e-11 and 8e-13 of the
-  // mean must hold it from the side. Doubles do not show such forces, so that no verdict may be given.
-  if (seed == 7) {
-    assert_int_equal(status, JAM_NOT_CONVERGED);
-    // Some kernels of matrix products lead to contacts of which a motion closes one by 3e-11, and opens all others.
-    assert_true(!r.jammed && (r.stop_reason == JAM_STOP_SADDLE || r.stop_reason == JAM_STOP_PRECISION));
-    return;
-  }
   assert_int_equal(status, JAM_OK);
   assert_true(r.jammed);
   assert_true(r.force_residual < 1e-10 && r.flexes == 0);
@@ -163,9 +155,9 @@ void verdict_holds(int64_t seed) {
   if (seed == 6) assert_true(std::fabs(r.packing_fraction - 0.877546382558) < 1e-11 && r.contacts == 774);
 }
 
-// The last one ended near a saddle without a verdict, as seed 7 does.
-void eleven_packings(void **) {
-  for (const int64_t seed : {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 123}) verdict_holds(seed);
+// Seeds 7, 75 and 123 come near saddles without a verdict; the crunch goes on to a packing that is held.
+void twelve_packings(void **) {
+  for (const int64_t seed : {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 75, 123}) verdict_holds(seed);
 }
 
 // The check itself: without one disk and those that touch it, the rim of the hole can move.
@@ -191,6 +183,6 @@ void the_check_sees_motion(void **) {
 }  // namespace
 
 int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(eleven_packings), cmocka_unit_test(the_check_sees_motion)};
+  const CMUnitTest tests[] = {cmocka_unit_test(twelve_packings), cmocka_unit_test(the_check_sees_motion)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -3,6 +3,7 @@
 #include "crunch/approach/free_cell.hpp"
 #include "crunch/control.hpp"
 #include "crunch/identify/narrow_lps.hpp"
+#include "crunch/identify/recompress.hpp"
 #include "crunch/identify/verdict.hpp"
 
 namespace jam {
@@ -26,7 +27,8 @@ Phase identify(CrunchState &s) {
   if (frees_cell(s)) return free_cell(s);
   if (s.last.active.rows.empty()) {
     if (s.out.report.stop_reason == JAM_STOP_NONE && narrow_lps_left(s) && s.o.polish) return Phase::narrow_lps;
-    return s.out.report.stop_reason == JAM_STOP_NONE ? give_verdict(s, {}) : Phase::done;
+    if (s.out.report.stop_reason != JAM_STOP_NONE) return Phase::done;
+    return s.o.polish && recompress(s) ? Phase::approach : give_verdict(s, {});
   }
   s.out.contacts = make_contacts(s.out.packing, s.last.pairs, s.last.answer, s.last.active);
   const bool slow = curved_and_slow(s);

@@ -12,6 +12,7 @@
 #include "crunch/identify/flex_move.hpp"
 #include "crunch/identify/narrow_lps.hpp"
 #include "crunch/identify/polish.hpp"
+#include "crunch/identify/recompress.hpp"
 #include "network/rattlers.hpp"
 #include "proof/judge.hpp"
 #include "proof/verdict.hpp"
@@ -185,7 +186,11 @@ Phase decide_jamming(CrunchState &s) {
       if (!polish_contacts(s)) return Phase::done;
       continue;
     }
-    if (narrow_lps_left(s) && s.o.polish && !slides) return Phase::narrow_lps;
+    const bool open = s.o.polish && !slides;
+    if (open && s.found.narrow != Verdicts::Narrow::none && converged(s) && verdict.result.stressed != Verdict::no &&
+        recompress(s))
+      return Phase::approach;
+    if (open && narrow_lps_left(s)) return Phase::narrow_lps;
     return give_verdict(s, verdict);
   }
 }

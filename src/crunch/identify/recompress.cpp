@@ -1,0 +1,38 @@
+#include "crunch/identify/recompress.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/motion.hpp"
+#include "core/pair_rule.hpp"
+#include "core/rng.hpp"
+#include "crunch/approach/lp_step.hpp"
+#include "crunch/control.hpp"
+
+namespace jam {
+
+bool recompress(CrunchState &s) {
+  const auto &parts = s.tuning.decompression;
+  const size_t done = s.found.recompressions;
+  if (done >= parts.size() || !(parts[done] > 0.0)) return false;
+  ++s.found.recompressions;
+  Packing &p = s.out.packing;
+  s.monitor.log(JAM_LOG_INFO, "undecided at phi %.12f: decompresses by %.0e of the diameters", packing_fraction(p),
+                parts[done]);
+  // Gaps open by this part of sigma_ij = (1 + Delta) (s_i + s_j) / 2, or of (s_i + s_j) / 2.
+  const size_t d = static_cast<size_t>(p.dim);
+  const double gap = parts[done] * std::min(1.0, 1.0 + p.non_additivity),
+               room = s.tuning.displaced * gap / std::sqrt(static_cast<double>(d));
+  Rng rng(p.seed, Stream::recompression, static_cast<uint64_t>(done) << 40);
+  for (size_t k = 0; k < p.position.size(); ++k)
+    p.position[k] += (2.0 * rng.uniform() - 1.0) * room * p.diameter[k / d];
+  for (double &diameter : p.diameter) diameter *= 1.0 - parts[done];
+  wrap_positions(p);
+  record_step(s, JAM_STEP_PATH);
+  s.history.stage.path_taken = false;
+  s.last.active = ActiveSet();
+  restart_lps(s, first_bound(p, s.o, s.tuning));
+  return true;
+}
+
+}  // namespace jam

@@ -619,8 +619,8 @@ Shapes: out (runs, n, d).
 Errors: JAM_E_STATE."
 %feature("docstring") jam_crunch_options_init ""
 %feature("docstring") jam_crunch "Brings the packing to its jamming point and keeps the contact network (o->method; Artiaco et al., Phys. Rev. E 106,
-055310 (2022)). No step creates an overlap. Where doubles leave it open whether contacts hold the spheres, diameters
-shrink, by 1e-4 to 0.03, spheres move at random within this room, and the crunch starts again. An interrupted crunch
+055310 (2022)). No step creates an overlap. Where the packing is not shown to be jammed, diameters are decreased by
+1e-4 to 0.03, spheres displaced at random by less than half of that, and it starts again. An interrupted crunch
 returns a valid packing: another call continues it, also from a checkpoint, on the path at its mu. Bits may differ
 from those of one call. Steps and times of the report count from the last call. Status: JAM_OK jammed, or at the
 duality gap of the options (`jammed` is 0 then, another call continues); JAM_NOT_CONVERGED, JAM_NOT_JAMMED: the state

@@ -915,8 +915,8 @@ typedef struct jam_crunch_report {
 } jam_crunch_report;
 JAM_API jam_status jam_crunch_options_init(jam_crunch_options *o, size_t size);
 /* Brings the packing to its jamming point and keeps the contact network (o->method; Artiaco et al., Phys. Rev. E 106,
- * 055310 (2022)). No step creates an overlap. Where doubles leave it open whether contacts hold the spheres, diameters
- * shrink, by 1e-4 to 0.03, spheres move at random within this room, and the crunch starts again. An interrupted crunch
+ * 055310 (2022)). No step creates an overlap. Where the packing is not shown to be jammed, diameters are decreased by
+ * 1e-4 to 0.03, spheres displaced at random by less than half of that, and it starts again. An interrupted crunch
  * returns a valid packing: another call continues it, also from a checkpoint, on the path at its mu. Bits may differ
  * from those of one call. Steps and times of the report count from the last call. Status: JAM_OK jammed, or at the
  * duality gap of the options (`jammed` is 0 then, another call continues); JAM_NOT_CONVERGED, JAM_NOT_JAMMED: the state
@@ -943,7 +943,7 @@ JAM_API jam_status jam_get_crunch_report(const jam_system *sys, jam_crunch_repor
 
 /* What kind of step a row of the history is. */
 typedef enum jam_step_phase {
-  JAM_STEP_PATH = 1,  /* a Newton step of the barrier path, or all that open contacts before it */
+  JAM_STEP_PATH = 1,  /* a Newton step of the barrier path; all that open contacts before it; a decompression */
   JAM_STEP_LP = 2,    /* an LP and the move to its solution */
   JAM_STEP_POLISH = 3 /* contacts closed and forces balanced to rounding */
 } jam_step_phase;

@@ -44,7 +44,8 @@ class Archive {
   static void check(bool good) {
     if (!good) fail(JAM_E_FORMAT, "the stage kept in the checkpoint does not make sense");
   }
-  void end() const { check(!reading_ || at_ == bytes_.size()); }
+  bool more() const { return reading_ && at_ < bytes_.size(); }
+  void end() const { check(!more()); }
 
  private:
   void raw(void *x, size_t size) {

@@ -67,6 +67,13 @@ HistoryRow &record_step(CrunchState &s, jam_step_phase phase, const double *disp
   return s.history.moved(s.out.packing, phase, s.monitor.seconds(), s.system.factorisations, displacement);
 }
 
+void record_move(CrunchState &s, jam_step_phase phase) {
+  const HistoryRow &row = record_step(s, phase);
+  CrunchStep &step = s.history.step();
+  step.pair.clear(), step.vector.clear(), step.multiplier.clear();  // of the LP before
+  if (s.history.details()) report_step(s, JAM_PHASE_CRUNCH, row[JAM_HISTORY_GAIN], row[JAM_HISTORY_STEP_MAX]);
+}
+
 void record_contacts(CrunchState &s, HistoryRow &row, size_t contacts, const std::vector<int32_t> &coordination) {
   const int dim = s.out.packing.dim;
   const int64_t stable = stable_spheres(coordination);

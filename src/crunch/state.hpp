@@ -37,7 +37,6 @@ struct Verdicts {
   bool jammed = false;           // by the test of the final network
   int32_t strictly_jammed = JAM_VERDICT_UNTESTED;
   int flex_moves = 0;  // made so far
-  size_t recompressions = 0;
 };
 
 struct CrunchState {

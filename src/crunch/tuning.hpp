@@ -71,8 +71,8 @@ struct Tuning {
   int max_excess = 8;            // contacts too many that are dropped where they do not close; a crystal has more
   double jammed_balance = 1e-6;  // net forces of a jammed packing after polish, over the mean
   double longest_flex_move = 0.02;
-  // Where a packing is undecided: parts of the diameters by which it is decompressed, one after the other, and the
-  // share of the gaps that each of two spheres may use up when all are displaced.
+  // Where a packing is not shown to be jammed: parts of diameters by which it is decompressed, one after the other, and
+  // the share of the gaps that each of two spheres may use up when all are displaced.
   std::array<double, 4> decompression{1e-4, 1e-3, 1e-2, 3e-2};
   double displaced = 0.45;
 

@@ -105,31 +105,16 @@ def disks(*raws):
     return columns + ["median of factorisations", "median (s)", "longest (s)"], rows
 
 
-def disks_undecided(*raws):
-    """disks.py N SEEDS FIRST_SEED"""
-    stopped = [(raw["n"], run) for raw in raws for run in raw["rows"] if run["kind"] == "stopped"]
-    rows = [[n, r["seed"], r["reason"], r["rigidity"], r["force_residual"], r["seconds"]] for n, r in sorted(stopped, key=lambda x: (x[0], x[1]["seed"]))]
-    return ["N", "seed", "the crunch ends by", "`rigidity`", "force residual", "crunch (s)"], rows
-
-
 def proofs(raw):
-    """proof 64,256,1024 3; proof 4096 1"""
+    """proof 64,256,1024 3 [strict]; proof 4096 1 [strict]; proof 16384 1"""
     rows = []
-    for n, dim in sorted({(r["n"], r["dim"]) for r in raw["runs"]}, key=lambda x: (x[1], x[0])):
-        runs = [r for r in raw["runs"] if (r["n"], r["dim"], r["steps"]) == (n, dim, 2)]
+    for strict, dim, n in sorted({(r["strict"], r["dim"], r["n"]) for r in raw["runs"]}):
+        runs = [r for r in raw["runs"] if (r["strict"], r["n"], r["dim"], r["steps"]) == (strict, n, dim, 2)]
         good = [r for r in runs if r["exact"]]
-        median = [
-            statistics.median(f(r) for r in good) if good else None
-            for f in (
-                lambda r: r["radius"],
-                lambda r: r["force_error"] / r["least_force"],
-                lambda r: r["rounding"] / r["eigenvalue"],
-                lambda r: r["seconds"],
-                lambda r: r["seconds"] / r["crunch"],
-            )
-        ]
-        rows.append([dim, n, f"{len(good)} of {len(runs)}", *median])
-    return ["d", "N", "proved exact", "radius", "force error over least force", "rounding over eigenvalue", "time (s)", "over the time of the crunch"], rows
+        exact = [statistics.median(f(r) for r in good) if good else None for f in (lambda r: r["radius"], lambda r: r["force_error"] / r["least_force"])]
+        every = [statistics.median(f(r) for r in runs) for f in (lambda r: r["rounding"] / r["eigenvalue"], lambda r: r["seconds"], lambda r: r["seconds"] / r["crunch"])]
+        rows.append(["free" if strict else "fixed", dim, n, f"{len(good)} of {len(runs)}", f"{sum(r['trapped'] for r in runs)} of {len(runs)}", *exact, *every])
+    return ["cell", "d", "N", "proved exact", "trapped", "radius", "force error over least force", "rounding over eigenvalue", "time (s)", "over the time of the crunch"], rows
 
 
 def verdicts(raw):
@@ -479,7 +464,7 @@ def read(path):
 
 def main():
     name, raws = sys.argv[1], [read(path) for path in sys.argv[2:]]
-    made = {f.__name__: f for f in (crunch, size, clp, resume, disks, disks_undecided, proofs, verdicts, verdict_numbers, strict, md, monte_carlo, near_jamming, soft_cell, pore_space, structure, liquid, advise, analysis, factorisation, ablation, ratios, mixtures, md_misses, md_threads, md_windows, ensemble, ensemble_statistics, walls, walls_equal, walls_edge, products, threads, task_graph)}[name]
+    made = {f.__name__: f for f in (crunch, size, clp, resume, disks, proofs, verdicts, verdict_numbers, strict, md, monte_carlo, near_jamming, soft_cell, pore_space, structure, liquid, advise, analysis, factorisation, ablation, ratios, mixtures, md_misses, md_threads, md_windows, ensemble, ensemble_statistics, walls, walls_equal, walls_edge, products, threads, task_graph)}[name]
     columns, rows = made(*raws)
     old = raws[0] if isinstance(raws[0], dict) and "commit" in raws[0] else None  # a result that was kept with its source
     source = old and {key: old[key] for key in ("machine", "commit", "date")}

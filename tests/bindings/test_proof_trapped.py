@@ -1,5 +1,6 @@
 """Trapping by the checker: crystals and other packings with more contacts than unknowns, and what it must refuse."""
 import base64
+import contextlib
 import random
 import sys
 import tempfile
@@ -257,6 +258,35 @@ class Trapped(unittest.TestCase):
         self.assertEqual((proof.theorem, proof.cause), (jam.Theorem.NONE, jam.ProofCause.SADDLE))
         self.assertLess(max(proof.cause_value, proof.cause_bound), 1e-7)
         self.becomes_jammed(system)
+
+    def test_slices_and_steps_of_a_decompressed_crunch(self):
+        """Slices make as many decompressions as one call, also through a file; displacements of steps add up."""
+        whole, sliced = disks_of("weak_disks.txt"), disks_of("weak_disks.txt")
+        start, steps = whole.positions.copy(), np.zeros((300, 2))
+
+        def add(step):
+            nonlocal steps
+            with contextlib.suppress(jam.errors.StateError):  # between steps there are none
+                steps += whole.crunch_step_displacements()
+
+        self.assertTrue(whole.crunch(steps=True, progress=add).jammed)
+        moved = whole.positions - start
+        off = moved - steps
+        self.assertLess(abs(off - np.round(off)).max(), 1e-12)  # images
+        parts = np.array([1e-4, 1e-3, 1e-2, 3e-2])
+        decompressions = lambda s: [(abs(np.asarray(s.crunch_history().gain) + part) < 1e-12).sum() for part in parts]
+        self.assertIn(1, decompressions(whole))
+        made = np.zeros(4, dtype=int)
+        with tempfile.TemporaryDirectory() as folder:
+            for k in range(100):
+                report = sliced.crunch(max_lps=12)
+                made += decompressions(sliced)
+                if report.stop_reason != jam.StopReason.LP_LIMIT:
+                    break
+                sliced.save(folder + "/a.h5")
+                sliced = jam.load(folder + "/a.h5")
+        self.assertLess(k, 99)
+        self.assertLess(made.max(), 2)
 
     def becomes_jammed(self, system):
         """From near a saddle: the nearest jammed packing is within some hundredths of a diameter."""

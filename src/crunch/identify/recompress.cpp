@@ -13,12 +13,12 @@ namespace jam {
 
 bool recompress(CrunchState &s) {
   const auto &parts = s.tuning.decompression;
-  const size_t done = s.found.recompressions;
+  const size_t done = s.history.stage.recompressions;
   if (done >= parts.size() || !(parts[done] > 0.0)) return false;
-  ++s.found.recompressions;
+  ++s.history.stage.recompressions;
   Packing &p = s.out.packing;
-  s.monitor.log(JAM_LOG_INFO, "undecided at phi %.12f: decompresses by %.0e of the diameters", packing_fraction(p),
-                parts[done]);
+  s.monitor.log(JAM_LOG_INFO, "not shown to be jammed at phi %.12f: decompresses by %.0e of the diameters",
+                packing_fraction(p), parts[done]);
   // Gaps open by this part of sigma_ij = (1 + Delta) (s_i + s_j) / 2, or of (s_i + s_j) / 2.
   const size_t d = static_cast<size_t>(p.dim);
   const double gap = parts[done] * std::min(1.0, 1.0 + p.non_additivity),
@@ -28,7 +28,7 @@ bool recompress(CrunchState &s) {
     p.position[k] += (2.0 * rng.uniform() - 1.0) * room * p.diameter[k / d];
   for (double &diameter : p.diameter) diameter *= 1.0 - parts[done];
   wrap_positions(p);
-  record_step(s, JAM_STEP_PATH);
+  record_move(s, JAM_STEP_PATH);
   s.history.stage.path_taken = false;
   s.last.active = ActiveSet();
   restart_lps(s, first_bound(p, s.o, s.tuning));

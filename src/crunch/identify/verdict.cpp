@@ -179,6 +179,11 @@ Phase decide_jamming(CrunchState &s) {
     if (verdict.result.jammed == Verdict::yes) return give_verdict(s, verdict);
     // No slide opens a contact. In a periodic cell it may lead to other spheres, or a strain further.
     const bool slides = verdict.result.slides > 0 && s.out.packing.container;
+    const bool open = s.o.polish && !slides;
+    const auto recompressed = [&] {
+      return open && s.found.narrow != Verdicts::Narrow::none && converged(s) && recompress(s);
+    };
+    if (verdict.result.flex.empty() && recompressed()) return Phase::approach;
     const FlexMove moved = converged(s) && !slides ? move_along_flex(s, verdict) : FlexMove::none;
     if (moved == FlexMove::free) return Phase::approach;
     if (moved == FlexMove::blocked && s.o.polish) {
@@ -186,10 +191,7 @@ Phase decide_jamming(CrunchState &s) {
       if (!polish_contacts(s)) return Phase::done;
       continue;
     }
-    const bool open = s.o.polish && !slides;
-    if (open && s.found.narrow != Verdicts::Narrow::none && converged(s) && verdict.result.stressed != Verdict::no &&
-        recompress(s))
-      return Phase::approach;
+    if (recompressed()) return Phase::approach;
     if (open && narrow_lps_left(s)) return Phase::narrow_lps;
     return give_verdict(s, verdict);
   }

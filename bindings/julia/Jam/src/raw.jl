@@ -211,7 +211,7 @@ const JAM_STRAIN_TILTS_VOLUME = Int32(6)  # tilts and the volume
 const JAM_STRAIN_ALL = Int32(7)  # edges, tilts and the volume
 
 # jam_step_phase: What kind of step a row of the history is.
-const JAM_STEP_PATH = Int32(1)  # a Newton step of the barrier path, or all that open contacts before it
+const JAM_STEP_PATH = Int32(1)  # a Newton step of the barrier path; all that open contacts before it; a decompression
 const JAM_STEP_LP = Int32(2)  # an LP and the move to its solution
 const JAM_STEP_POLISH = Int32(3)  # contacts closed and forces balanced to rounding
 
@@ -2489,8 +2489,8 @@ end
     jam_crunch(sys, o, report)
 
 Brings the packing to its jamming point and keeps the contact network (o->method; Artiaco et al., Phys. Rev. E 106,
-055310 (2022)). No step creates an overlap. Where doubles leave it open whether contacts hold the spheres, diameters
-shrink, by 1e-4 to 0.03, spheres move at random within this room, and the crunch starts again. An interrupted crunch
+055310 (2022)). No step creates an overlap. Where the packing is not shown to be jammed, diameters are decreased by
+1e-4 to 0.03, spheres displaced at random by less than half of that, and it starts again. An interrupted crunch
 returns a valid packing: another call continues it, also from a checkpoint, on the path at its mu. Bits may differ
 from those of one call. Steps and times of the report count from the last call. Status: `JAM_OK` jammed, or at the
 duality gap of the options (`jammed` is 0 then, another call continues); `JAM_NOT_CONVERGED`, `JAM_NOT_JAMMED`: the state

@@ -951,8 +951,8 @@ module jam
     real(c_double) :: seconds_solve = 0
     ! jam_status_code of the call that made this report
     integer(c_int32_t) :: status = 0
-    ! 0
-    integer(c_int32_t) :: reserved_end = 0
+    ! trials of this crunch after ends that were not shown to be jammed
+    integer(c_int32_t) :: decompressions = 0
     ! before this call
     real(c_double) :: packing_fraction_start = 0
     ! largest displacement

@@ -903,7 +903,7 @@ typedef struct jam_crunch_report {
   double seconds, seconds_factor; /* wall time of crunch; of it in factorisations */
   double seconds_assemble, seconds_solve;    /* of it in neighbour lists and assembly; of it in triangular solves */
   int32_t status;                            /* @enum jam_status_code of the call that made this report */
-  int32_t reserved_end;                      /* 0 */
+  int32_t decompressions;                    /* trials of this crunch after ends that were not shown to be jammed */
   double packing_fraction_start;             /* before this call */
   double displacement_max, displacement_rms; /* largest displacement; root of the mean square */
   double displacement_max_stable, displacement_rms_stable; /* the same of spheres that end with contacts */

@@ -41,9 +41,9 @@ CrunchState::CrunchState(const Packing &start, const jam_crunch_options &options
 static Phase first_phase(CrunchState &s) {
   CrunchStage &stage = s.history.stage;
   const bool path = s.o.method == JAM_CRUNCH_BARRIER_PATH;
-  const uint8_t recompressions = stage.recompressions;
+  const uint8_t decompressions = stage.decompressions;
   if (!path || (stage.cell_free && s.o.strain == JAM_STRAIN_NONE)) stage = CrunchStage();
-  stage.recompressions = recompressions;  // slices of a crunch make as many as one call
+  stage.decompressions = decompressions;  // slices of a crunch make as many as one call
   const CrunchStage from = stage;
   if (from.cell_free) free_cell(s);
   stage.path_taken = from.path_taken;

@@ -136,7 +136,7 @@ void KeptSteps::add(const Packing &now, int64_t step) {
 
 static void archive(CrunchStage &s, Archive &a) {
   a(s.path.mu), a(s.path.first_mu), a(s.path_taken), a(s.cell_free);
-  if (a.reading() ? a.more() : s.recompressions > 0) a(s.recompressions);  // files of 1.0.0 end before it
+  if (a.reading() ? a.more() : s.decompressions > 0) a(s.decompressions);  // files of 1.0.0 end before it
   Archive::check(s.path.mu >= 0.0 && s.path.mu <= s.path.first_mu && std::isfinite(s.path.first_mu));
 }
 

@@ -21,7 +21,7 @@ struct PathPoint {
 struct CrunchStage {
   PathPoint path;
   bool path_taken = false, cell_free = false;
-  uint8_t recompressions = 0;
+  uint8_t decompressions = 0;
 
   std::string bytes() const;
   static CrunchStage of(const std::string &bytes);  // throws JAM_E_FORMAT

@@ -84,6 +84,7 @@ void report_end(CrunchState &s) {
   r.strictly_jammed = s.found.strictly_jammed;
   if (s.found.jammed && !r.jammed) stop(s, JAM_STOP_SOLVER, JAM_NOT_CONVERGED);
   mark_unknown_rattlers(s, r);
+  r.decompressions = s.history.stage.decompressions;
   r.factorisations = s.system.factorisations;
   r.seconds = s.monitor.seconds();
   r.seconds_factor = s.system.seconds_factor;
@@ -104,6 +105,7 @@ void report_failure(CrunchState &s) {
   }
   mark_unknown_rattlers(s, s.out.report);
   s.out.report.method = s.history.stage.path_taken ? JAM_CRUNCH_BARRIER_PATH : JAM_CRUNCH_SEQUENTIAL_LP;
+  s.out.report.decompressions = s.history.stage.decompressions;
   s.out.report.factorisations = s.system.factorisations;
   s.out.report.seconds = s.monitor.seconds();
 }

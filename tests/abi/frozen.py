@@ -18,7 +18,7 @@ CHANGES = [
     ("a member of another type", HEADER, "  int64_t excess_contacts;", "  int32_t excess_contacts;", False),
     ("a member in the middle", HEADER, "  double min_gap;", "  double more, min_gap;", False),
     ("a member at the end", HEADER, "  double proof_value, proof_bound;", "  double proof_value, proof_bound, more;", True),
-    ("a reserved member is used", HEADER, "  int32_t reserved_end;", "  int32_t used;", True),
+    ("a reserved member is used", HEADER, "  int32_t reserved;\n} jam_crunch_options;", "  int32_t used;\n} jam_crunch_options;", True),
     ("another argument", HEADER, "jam_compress(jam_system *sys, const", "jam_compress(const jam_system *sys, const", False),
     ("another callback", HEADER, "(*jam_log_fn)(int32_t level", "(*jam_log_fn)(int64_t level", False),
 ]

@@ -272,7 +272,7 @@ CHECK(jam_crunch_report, seconds_factor, 248, 8);
 CHECK(jam_crunch_report, seconds_assemble, 256, 8);
 CHECK(jam_crunch_report, seconds_solve, 264, 8);
 CHECK(jam_crunch_report, status, 272, 4);
-CHECK(jam_crunch_report, reserved_end, 276, 4);
+CHECK(jam_crunch_report, decompressions, 276, 4);
 CHECK(jam_crunch_report, packing_fraction_start, 280, 8);
 CHECK(jam_crunch_report, displacement_max, 288, 8);
 CHECK(jam_crunch_report, displacement_rms, 296, 8);
@@ -824,7 +824,7 @@ int main(void) {
   SHOW(jam_crunch_report, seconds_assemble);
   SHOW(jam_crunch_report, seconds_solve);
   SHOW(jam_crunch_report, status);
-  SHOW(jam_crunch_report, reserved_end);
+  SHOW(jam_crunch_report, decompressions);
   SHOW(jam_crunch_report, packing_fraction_start);
   SHOW(jam_crunch_report, displacement_max);
   SHOW(jam_crunch_report, displacement_rms);

@@ -1,4 +1,5 @@
-// Decompressions of undecided packings: valid in every scene, each farther than the one before, counted, repeatable.
+// Decompressions of packings that are not shown to be jammed: valid in every scene, each farther than the one before,
+// counted, repeatable.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -53,7 +54,7 @@ void valid_in_scene(int dim, double delta, int32_t container, int32_t walls) {
       most = std::max(most, std::sqrt(square));
     }
     assert_true(most > moved_before);
-    moved_before = 0.5 * most;  // two equal parts differ by chance
+    moved_before = most;
     const std::vector<double> &x = b.s.out.packing.position;
     assert_memory_equal(q.position.data(), x.data(), x.size() * sizeof(double));
     before = q;

@@ -13,9 +13,9 @@ namespace jam {
 
 bool recompress(CrunchState &s) {
   const auto &parts = s.tuning.decompression;
-  const size_t done = s.history.stage.recompressions;
+  const size_t done = s.history.stage.decompressions;
   if (done >= parts.size() || !(parts[done] > 0.0)) return false;
-  ++s.history.stage.recompressions;
+  ++s.history.stage.decompressions;
   Packing &p = s.out.packing;
   s.monitor.log(JAM_LOG_INFO, "not shown to be jammed at phi %.12f: decompresses by %.0e of the diameters",
                 packing_fraction(p), parts[done]);

@@ -1014,6 +1014,7 @@ force on the path over the mean is within a factor of 1e4 of twice their gap.
   `:null`, `:struct_size`, `:argument`, `:dimension`, `:nonfinite`, `:overlap`, `:unplaceable`, `:buffer`, `:memory`,
   `:io`, `:format`, `:state`, `:solver`, `:too_few`, `:busy`, `:unsupported`, `:internal`; of the call that made this
   report
+- `decompressions`: trials of this crunch after ends that were not shown to be jammed
 - `packing_fraction_start`: before this call
 - `displacement_max`: largest displacement
 - `displacement_rms`: root of the mean square
@@ -1068,7 +1069,7 @@ mutable struct jam_crunch_report
     seconds_assemble::Cdouble  # of it in neighbour lists and assembly
     seconds_solve::Cdouble  # of it in triangular solves
     status::Int32  # jam_status_code of the call that made this report
-    reserved_end::Int32  # 0
+    decompressions::Int32  # trials of this crunch after ends that were not shown to be jammed
     packing_fraction_start::Cdouble  # before this call
     displacement_max::Cdouble  # largest displacement
     displacement_rms::Cdouble  # root of the mean square

@@ -766,6 +766,7 @@ class CrunchReport(Report):
     seconds_assemble: of it in neighbour lists and assembly
     seconds_solve: of it in triangular solves
     status: jam_status_code of the call that made this report
+    decompressions: trials of this crunch after ends that were not shown to be jammed
     packing_fraction_start: before this call
     displacement_max: largest displacement
     displacement_rms: root of the mean square
@@ -815,6 +816,7 @@ class CrunchReport(Report):
     seconds_assemble: float
     seconds_solve: float
     status: StatusCode = field()
+    decompressions: int
     packing_fraction_start: float
     displacement_max: float
     displacement_rms: float

@@ -123,6 +123,7 @@ int write_report(const options *o, const outcome *result, const char *path) {
   put_number(f, "collisions_per_second", rate);
   put_count(f, "lp_solves", r->lp_solves, crunched);
   put_count(f, "factorisations", r->factorisations, crunched);
+  put_count(f, "decompressions", r->decompressions, crunched);
   put_count(f, "contacts", r->contacts, known);
   put_count(f, "rattlers", r->rattlers, known);
   put_count(f, "bucklers", r->bucklers, known);
@@ -201,6 +202,9 @@ void print_summary(const options *o, const outcome *result) {
   if (!result->has_crunch) return;
   printf("  crunch    %s (%s): %lld LPs, %lld factorisations, %.2f s\n", verdict(r), jam_stop_string(r->stop_reason),
          (long long)r->lp_solves, (long long)r->factorisations, r->seconds);
+  if (r->decompressions > 0)
+    printf("            decompressed and crunched again %d times: ends before were not shown to be jammed\n",
+           (int)r->decompressions);
   if (r->contacts < 0) puts("  network   unknown: the crunch stopped before its contacts were known");
   if (r->contacts <= 0) {
     print_changes(o, result);

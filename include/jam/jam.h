@@ -943,7 +943,7 @@ JAM_API jam_status jam_get_crunch_report(const jam_system *sys, jam_crunch_repor
 
 /* What kind of step a row of the history is. */
 typedef enum jam_step_phase {
-  JAM_STEP_PATH = 1,  /* a Newton step of the barrier path; all that open contacts before it; a decompression */
+  JAM_STEP_PATH = 1,  /* a Newton step of the barrier path; or a move that opens contacts (flex, decompression) */
   JAM_STEP_LP = 2,    /* an LP and the move to its solution */
   JAM_STEP_POLISH = 3 /* contacts closed and forces balanced to rounding */
 } jam_step_phase;

@@ -67,10 +67,8 @@ HistoryRow &record_step(CrunchState &s, jam_step_phase phase, const double *disp
   return s.history.moved(s.out.packing, phase, s.monitor.seconds(), s.system.factorisations, displacement);
 }
 
-void record_move(CrunchState &s, jam_step_phase phase) {
-  const HistoryRow &row = record_step(s, phase);
-  CrunchStep &step = s.history.step();
-  step.pair.clear(), step.vector.clear(), step.multiplier.clear();  // of the LP before
+void record_opening(CrunchState &s) {
+  const HistoryRow &row = record_step(s, JAM_STEP_PATH);
   if (s.history.details()) report_step(s, JAM_PHASE_CRUNCH, row[JAM_HISTORY_GAIN], row[JAM_HISTORY_STEP_MAX]);
 }
 

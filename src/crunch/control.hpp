@@ -18,8 +18,8 @@ double part_done(const CrunchState &s, double path, double gain);
 bool report_step(CrunchState &s, jam_phase phase, double gain, double step, bool finished = true);
 
 // A row of the history for the move since the last row; `displacement` as in History::moved.
-// A move that no linear program or path makes: its row, and its callback.
-void record_move(CrunchState &s, jam_step_phase phase);
+// A move that opens contacts and is no step of the path: its row, and its callback.
+void record_opening(CrunchState &s);
 HistoryRow &record_step(CrunchState &s, jam_step_phase phase, const double *displacement = nullptr);
 // Its columns of the network: so many contacts, and those of each sphere.
 void record_contacts(CrunchState &s, HistoryRow &row, size_t contacts, const std::vector<int32_t> &coordination);

@@ -273,6 +273,8 @@ class Trapped(unittest.TestCase):
         moved = whole.positions - start
         off = moved - steps
         self.assertLess(abs(off - np.round(off)).max(), 1e-12)  # images
+        phases = np.asarray(whole.crunch_history().phase)
+        self.assertEqual((phases == jam.StepPhase.LP).sum(), whole.report.lp_solves)
         parts = np.array([1e-4, 1e-3, 1e-2, 3e-2])
         decompressions = lambda s: [(abs(np.asarray(s.crunch_history().gain) + part) < 1e-12).sum() for part in parts]
         self.assertGreater(whole.report.decompressions, 0)

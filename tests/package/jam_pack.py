@@ -15,7 +15,7 @@ import time
 import unittest
 
 program = sys.argv.pop(1)
-KEYS = """n dim seed packing_fraction diameter_mean pressure collisions collisions_per_second lp_solves factorisations contacts
+KEYS = """n dim seed packing_fraction diameter_mean pressure collisions collisions_per_second lp_solves factorisations decompressions contacts
 rattlers bucklers isostatic_contacts excess_contacts max_overlap force_residual gamma_residual min_force min_gap stop_reason seconds_md
 seconds_crunch version""".split()
 

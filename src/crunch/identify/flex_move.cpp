@@ -91,7 +91,7 @@ FlexMove move_along_flex(CrunchState &s, const PackingVerdict &verdict) {
   }
   s.monitor.log(JAM_LOG_INFO, "saddle at phi %.12f with %lld flexes: moves %.1e diameters along them",
                 packing_fraction(p), static_cast<long long>(verdict.result.flexes), longest);
-  if (s.history.behind(p)) record_move(s, JAM_STEP_LP);
+  if (s.history.behind(p)) record_opening(s);
   if (!(longest > s.tuning.closed_gap)) return FlexMove::none;
   // Where no force balances at the end of narrow LPs, diameters can grow, and LPs continue.
   if (longest < s.tuning.narrow_bound && !(!narrow_lps_left(s) && r.stressed == Verdict::no)) return FlexMove::blocked;
@@ -119,7 +119,7 @@ bool move_along_strained_flex(CrunchState &s, const PackingVerdict &strict) {
     s.monitor.log(JAM_LOG_INFO, "saddle of the free cell at phi %.12f with %lld flexes: moves %.1e diameters",
                   packing_fraction(p), static_cast<long long>(r.flexes), t * largest / unit);
     p = std::move(q);
-    record_move(s, JAM_STEP_LP);
+    record_opening(s);
     restart_lps(s, s.tuning.first_bound);
     return true;
   }

@@ -28,7 +28,7 @@ bool recompress(CrunchState &s) {
     p.position[k] += (2.0 * rng.uniform() - 1.0) * room * p.diameter[k / d];
   for (double &diameter : p.diameter) diameter *= 1.0 - parts[done];
   wrap_positions(p);
-  record_move(s, JAM_STEP_PATH);
+  record_opening(s);
   s.history.stage.path_taken = false;
   s.last.active = ActiveSet();
   restart_lps(s, first_bound(p, s.o, s.tuning));

@@ -211,7 +211,7 @@ const JAM_STRAIN_TILTS_VOLUME = Int32(6)  # tilts and the volume
 const JAM_STRAIN_ALL = Int32(7)  # edges, tilts and the volume
 
 # jam_step_phase: What kind of step a row of the history is.
-const JAM_STEP_PATH = Int32(1)  # a Newton step of the barrier path; all that open contacts before it; a decompression
+const JAM_STEP_PATH = Int32(1)  # a Newton step of the barrier path; or a move that opens contacts (flex, decompression)
 const JAM_STEP_LP = Int32(2)  # an LP and the move to its solution
 const JAM_STEP_POLISH = Int32(3)  # contacts closed and forces balanced to rounding
 

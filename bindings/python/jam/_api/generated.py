@@ -273,7 +273,7 @@ class FreeStrain(_Word):
 
 class StepPhase(_Word):
     """What kind of step a row of the history is."""
-    PATH = 1  # a Newton step of the barrier path; all that open contacts before it; a decompression
+    PATH = 1  # a Newton step of the barrier path; or a move that opens contacts (flex, decompression)
     LP = 2  # an LP and the move to its solution
     POLISH = 3  # contacts closed and forces balanced to rounding
 

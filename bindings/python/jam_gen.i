@@ -713,7 +713,7 @@ network kept each time: JAM_OK: one jump is clearly the largest, or only this ca
 self-stress. JAM_AMBIGUOUS: another candidate fits too (see second_*), or there are several states of self-stress.
 Also where gaps above 1e-7 leave the verdict open, or where coordinates have too few digits for a no. JAM_NOT_JAMMED:
 not jammed with these contacts closed, or none found: gaps above 0.01 need a jump of 100.
-Errors: JAM_E_SOLVER."
+Errors: JAM_E_SOLVER, JAM_E_OVERLAP."
 %feature("docstring") jam_contact_candidates "Candidates for the contact tolerance, for packings where no jump is clear; m is at most 12. A candidate is a jump of
 the sorted gaps below window, as in jam_geometry_options, with enough contacts for a rigid network below it. The
 largest jump comes first.
@@ -731,8 +731,8 @@ where the network lists them. There a sphere that they alone hold needs forces o
 opening of contacts by a motion v, and E eps that by a strain eps. Collectively jammed: S v >= 0 only for
 translations of B. Strictly jammed: S v + E eps >= 0 with tr eps <= 0 only for those and eps = 0. Both hold for this
 cell, not for several copies of it (jam_bloch_rigidity). Source: Donev et al., J. Comput. Phys. 197, 139 (2004).
-Status: JAM_OK jammed, JAM_NOT_JAMMED, JAM_AMBIGUOUS undecided.
-Errors: JAM_E_SOLVER."
+Status: JAM_OK, JAM_NOT_JAMMED, JAM_AMBIGUOUS (undecided).
+Errors: JAM_E_SOLVER, JAM_E_OVERLAP."
 %feature("docstring") jam_flex "A motion that a packing which is not jammed can follow: out, unit of the box, and strain, 0 for the collective kind.
 The largest displacement is at most 1 mean diameter. Moving by a small part of both keeps all contacts or opens them.
 Where no pair is near contact, one sphere moves.

@@ -1240,7 +1240,7 @@ JAM_API jam_status jam_geometry_options_init(jam_geometry_options *o, size_t siz
  * network kept each time: JAM_OK: one jump is clearly the largest, or only this candidate has a single state of
  * self-stress. JAM_AMBIGUOUS: another candidate fits too (see second_*), or there are several states of self-stress.
  * Also where gaps above 1e-7 leave the verdict open, or where coordinates have too few digits for a no. JAM_NOT_JAMMED:
- * not jammed with these contacts closed, or none found: gaps above 0.01 need a jump of 100. @errors SOLVER */
+ * not jammed with these contacts closed, or none found: gaps above 0.01 need a jump of 100. @errors SOLVER, OVERLAP */
 JAM_API jam_status jam_contacts_from_geometry(jam_system *sys, const jam_geometry_options *o,
                                               jam_geometry_report *report);
 /* Columns of jam_contact_candidates. */
@@ -1303,7 +1303,7 @@ typedef struct jam_rigidity_report {
  * opening of contacts by a motion v, and E eps that by a strain eps. Collectively jammed: S v >= 0 only for
  * translations of B. Strictly jammed: S v + E eps >= 0 with tr eps <= 0 only for those and eps = 0. Both hold for this
  * cell, not for several copies of it (jam_bloch_rigidity). Source: Donev et al., J. Comput. Phys. 197, 139 (2004).
- * Status: JAM_OK jammed, JAM_NOT_JAMMED, JAM_AMBIGUOUS undecided. @enum kind jam_rigidity_kind @errors SOLVER */
+ * Status: JAM_OK, JAM_NOT_JAMMED, JAM_AMBIGUOUS (undecided). @enum kind jam_rigidity_kind @errors SOLVER, OVERLAP */
 JAM_API jam_status jam_rigidity(jam_system *sys, int32_t kind, jam_rigidity_report *report);
 /* A motion that a packing which is not jammed can follow: out, unit of the box, and strain, 0 for the collective kind.
  * The largest displacement is at most 1 mean diameter. Moving by a small part of both keeps all contacts or opens them.

@@ -1,4 +1,5 @@
 #include "network/rigidity_matrix.hpp"
+#include "core/error.hpp"
 #include "core/pair_rule.hpp"
 #include "linalg/pair_products.hpp"
 #include "network/tuning.hpp"
@@ -49,6 +50,12 @@ void take_symmetries(const Packing &p, RigidityMatrix &g) {
   orthonormalise(g.rotations);
 }
 
+[[noreturn]] void refuse_without_direction(const Packing &p, int32_t i, int32_t j) {
+  if (j >= 0) fail(JAM_E_OVERLAP, "spheres %d and %d have the same centre: their contact has no direction", i, j);
+  fail(JAM_E_OVERLAP, "the centre of sphere %d is on %s: the contact has no direction", i,
+       p.container.name(wall_partner(j)).c_str());
+}
+
 }  // namespace
 
 RigidityMatrix make_rigidity_matrix(const Packing &p, const ContactNetwork &network) {
@@ -72,6 +79,7 @@ RigidityMatrix make_rigidity_matrix(const Packing &p, const ContactNetwork &netw
     g.a.push_back(g.node[i]);
     g.b.push_back(j < 0 ? j : g.node[j]);
     g.distance.push_back(std::sqrt(pair_vector(p, network.pairs, k, r.data())));
+    if (g.distance.back() == 0.0) refuse_without_direction(p, i, j);
     g.sigma.push_back(contact_distance(p, i, j));
     for (int c = 0; c < d; ++c) g.normal.push_back(r[c] / g.distance.back());
     g.bending.push_back(

@@ -1,7 +1,9 @@
 // Exact sums and products of doubles, as sums of doubles that do not overlap (J. R. Shewchuk, Discrete Comput. Geom.
-// 18, 305 (1997)). Exact while nothing overflows and no product falls below 1e-290.
+// 18, 305 (1997)). Exact while no product falls below 1e-290. Where a sum is not finite it fails: comparisons with
+// what is not a number would let it pass for closed or open.
 #pragma once
 #include <array>
+#include <cmath>
 #include <cstddef>
 
 #include "core/double_double.hpp"
@@ -21,6 +23,7 @@ class Expansion {
       if (s.low != 0.0) part_[kept++] = s.low;
       x = s.high;
     }
+    if (!std::isfinite(x)) fail(JAM_E_INTERNAL, "an exact sum is not finite");
     if (x != 0.0) part_[kept++] = x;
     count_ = kept;
     if (count_ == part_.size()) compress();

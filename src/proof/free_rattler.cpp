@@ -29,6 +29,10 @@ bool positive_on_all(size_t d, const std::vector<double> &vectors, std::vector<d
 struct Cage {
   std::vector<const NearPair *> pairs;
   std::vector<double> normal, gap;
+  // None leads away from a sphere with the same centre.
+  bool has_directions() const {
+    return std::all_of(normal.begin(), normal.end(), [](double x) { return std::isfinite(x); });
+  }
   double overlap() const { return gap.empty() ? 0.0 : -*std::min_element(gap.begin(), gap.end()); }
 };
 Cage cage_of(const ProofScene &s, int32_t i, const std::vector<NearPair> &pairs) {
@@ -102,6 +106,7 @@ void move_between(ProofScene &s, int32_t i, const std::vector<NearPair> &pairs) 
 }  // namespace
 
 bool free_rattler(ProofScene &s, int32_t i, const std::vector<NearPair> &pairs) {
+  if (!cage_of(s, i, pairs).has_directions()) return false;
   ProofScene moved = s;
   for (int pass = 0; pass < 3; ++pass) {
     if (move_into_cage(moved, i, pairs, proof_tuning::freed * s.ratio[i] * std::sqrt(s.gamma)))

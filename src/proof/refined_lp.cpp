@@ -23,7 +23,8 @@ std::vector<NearPair> all_pairs(const ProofScene &s) {
   return out;
 }
 
-// Gamma becomes the largest at which no pair overlaps; returns by how much it grows, over Gamma.
+// Gamma becomes the largest at which no pair overlaps, 0 where two centres are one; returns by how much it grows, over
+// Gamma.
 double fit_gamma(ProofScene &s, std::vector<NearPair> &pairs) {
   double least = HUGE_VAL;
   for (const NearPair &pair : pairs) least = std::min(least, opening_of(s, pair));
@@ -79,6 +80,7 @@ LpsEnd close_by_lps(ProofScene &scene) {
   std::vector<NearPair> pairs = all_pairs(s);
   std::vector<double> force(pairs.size());
   fit_gamma(s, pairs);
+  if (!(s.gamma > 0.0)) return LpsEnd::no_end;
   LpSolution before;
   double length = proof_tuning::first_step;
   for (int k = 0; k < proof_tuning::most_steps; ++k) {

@@ -38,7 +38,7 @@ bool search_proof(ProofScene &scene, ProofEquations &equations, Proof &proof) {
     proof.cause = ProofCause::excess, proof.cause_value = static_cast<double>(scene.contacts());
     proof.cause_bound = static_cast<double>(scene.needed());
   }
-  if (shown(proof) || scene.strict) return refined;
+  if (shown(proof) || scene.strict || scene.contacts() == 0) return refined;
   const Exchange exchanged = close_together(other);
   const ProofScene closed = other;
   const Settled end = settle_exchange(other, exchanged);

@@ -9,13 +9,16 @@
 #include "start.h"
 #include "test.h"
 
-static jam_system *spheres(int dim, int n, double box, double diameter, const double *x) {
+static jam_system *spheres_with(int32_t policy, int dim, int n, double box, double diameter, const double *x) {
   jam_create_options o;
   jam_system *s = NULL;
   assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
-  o.dim = dim, o.n = n, o.box = box;
+  o.dim = dim, o.n = n, o.box = box, o.overlap = policy;
   assert_int_equal(create_from(&o, x, (size_t)(n * dim), &diameter, 1, &s), JAM_OK);
   return s;
+}
+static jam_system *spheres(int dim, int n, double box, double diameter, const double *x) {
+  return spheres_with(JAM_OVERLAP_REFUSE, dim, n, box, diameter, x);
 }
 
 static jam_geometry_report look(jam_system *s, jam_status expected) {
@@ -145,10 +148,26 @@ static void three_disks_have_one_self_stress(void **state) {
   jam_destroy(s);
 }
 
+/* Of soft spheres: their contact has no direction, so no network of hard spheres has it. */
+static void spheres_with_one_centre_are_named(void **state) {
+  const double x[] = {0.0, 0.0, 1.0, 0.0, 1.0, 0.0, 2.0, 0.0};
+  jam_geometry_options o;
+  jam_system *s = spheres_with(JAM_OVERLAP_ALLOW, 2, 4, 3.0, 1.0, x);
+  (void)state;
+  assert_int_equal(jam_geometry_options_init(&o, sizeof o), JAM_OK);
+  assert_int_equal(jam_contacts_from_geometry(s, &o, NULL), JAM_E_OVERLAP);
+  assert_non_null(strstr(jam_last_error(), "spheres 1 and 2 have the same centre"));
+  assert_int_equal(jam_rigidity(s, JAM_RIGIDITY_COLLECTIVE, NULL), JAM_E_OVERLAP);
+  assert_non_null(strstr(jam_last_error(), "spheres 1 and 2 have the same centre"));
+  jam_destroy(s);
+}
+
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(a_single_row_has_no_sideways_stiffness),
-      cmocka_unit_test(separate_clusters_have_separate_forces), cmocka_unit_test(contacts_with_own_images_are_left_out),
-      cmocka_unit_test(several_images_are_several_contacts), cmocka_unit_test(three_disks_have_one_self_stress)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(a_single_row_has_no_sideways_stiffness),
+                                     cmocka_unit_test(separate_clusters_have_separate_forces),
+                                     cmocka_unit_test(contacts_with_own_images_are_left_out),
+                                     cmocka_unit_test(several_images_are_several_contacts),
+                                     cmocka_unit_test(three_disks_have_one_self_stress),
+                                     cmocka_unit_test(spheres_with_one_centre_are_named)};
   return cmocka_run_group_tests_name("analysis_scenes", tests, NULL, NULL);
 }

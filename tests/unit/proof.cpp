@@ -15,6 +15,7 @@
 #include "proof/outward.hpp"
 #include "proof/refined_lp.hpp"
 #include "proof/theorem.hpp"
+#include "proof/verdict.hpp"
 // test.h comes last: it has a macro `fail`.
 #include "test.h"
 
@@ -323,6 +324,34 @@ void a_rattler_without_room_stays(void **) {
   assert_true(!free_rattler(s, 14, near_pairs(s)));
 }
 
+// Two disks with one centre: no direction leads them apart, and nothing is proved. In the hole of disk 14 they are
+// rattlers; one more disk on disk 15 has contacts like it, or is a rattler there.
+void nothing_is_proved_with_two_at_one_centre(void **) {
+  for (int kind = 0; kind < 3; ++kind) {
+    Lattice l = triangular(6, 6, kind == 0 ? std::vector<int>{14} : std::vector<int>{});
+    Packing &p = l.packing;
+    for (int k = kind == 0 ? 0 : 1; k < 2; ++k) {
+      p.position.push_back(kind == 0 ? 2.3 : 3.0), p.position.push_back(2.0 * std::sqrt(0.75));
+      p.diameter.push_back(1.0 - 0.25 * (kind == 0) * (1 + k)), l.network.coordination.push_back(0);
+    }
+    if (kind == 2) {
+      std::vector<char> on;
+      ContactNetwork all = l.network;
+      all.pairs = find_pairs(p, 0.0, 1.0 + 1e-9);
+      measure_contacts(p, all), all.force.assign(all.size(), 1.0);
+      for (size_t k = 0; k < all.size(); ++k) on.push_back(all.gap[k] > -0.5);
+      l.network = subset(all, on, 2);
+    }
+    ProofScene s = make_proof_scene(p, l.network, {});
+    ProofEquations e;
+    Proof proof;
+    find_proof(s, e, proof);
+    assert_true(!proof.exact && !proof.trapped);
+    ProofScene by_lps = make_proof_scene(p, l.network, {});
+    assert_true(close_by_lps(by_lps) == (clp_is_built() ? LpsEnd::no_end : LpsEnd::without_clp));
+  }
+}
+
 }  // namespace
 
 int main(void) {
@@ -339,6 +368,7 @@ int main(void) {
                                      cmocka_unit_test(linear_programs_close_the_same_contacts),
                                      cmocka_unit_test(pairs_that_overlap_enter_the_list),
                                      cmocka_unit_test(rattlers_move_out_of_overlaps),
-                                     cmocka_unit_test(a_rattler_without_room_stays)};
+                                     cmocka_unit_test(a_rattler_without_room_stays),
+                                     cmocka_unit_test(nothing_is_proved_with_two_at_one_centre)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -390,7 +390,7 @@ contacts closed, or none found: gaps above 0.01 need a jump of 100.
 
 - `tolerance`: contacts have |h| <= tolerance; 0, the default: set at the largest jump of the sorted gaps
 - `window`: jumps are searched in |h| < window, in (0, 1], default 0.1
-- errors: `:solver`
+- errors: `:solver`, `:overlap`
 """
 function contacts_from_geometry!(s::System; progress = nothing, given...)
     return call(s, :jam_contacts_from_geometry, (); progress = progress, given...)
@@ -432,11 +432,11 @@ spheres have too few of them. A sphere and its own image are a contact in the st
 where the network lists them. There a sphere that they alone hold needs forces on the cell to balance. Let S v be the
 opening of contacts by a motion v, and E eps that by a strain eps. Collectively jammed: S v >= 0 only for translations
 of B. Strictly jammed: S v + E eps >= 0 with tr eps <= 0 only for those and eps = 0. Both hold for this cell, not for
-several copies of it (`bloch_rigidity`). Source: Donev et al., J. Comput. Phys. 197, 139 (2004). Status: `:ok` jammed,
-`:not_jammed`, `:ambiguous` undecided.
+several copies of it (`bloch_rigidity`). Source: Donev et al., J. Comput. Phys. 197, 139 (2004). Status: `:ok`,
+`:not_jammed`, `:ambiguous` (undecided).
 
 - `kind`: one of `:collective`, `:strict`
-- errors: `:solver`
+- errors: `:solver`, `:overlap`
 """
 function rigidity(s::System, kind; progress = nothing)
     return call(s, :jam_rigidity, (kind, ); progress = progress)

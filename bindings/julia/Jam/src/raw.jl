@@ -2774,7 +2774,7 @@ network kept each time: `JAM_OK`: one jump is clearly the largest, or only this 
 self-stress. `JAM_AMBIGUOUS`: another candidate fits too (see second_...), or there are several states of self-stress.
 Also where gaps above 1e-7 leave the verdict open, or where coordinates have too few digits for a no. `JAM_NOT_JAMMED`:
 not jammed with these contacts closed, or none found: gaps above 0.01 need a jump of 100.
-Errors: `JAM_E_SOLVER`.
+Errors: `JAM_E_SOLVER`, `JAM_E_OVERLAP`.
 """
 function jam_contacts_from_geometry(sys, o, report)
     return ccall((:jam_contacts_from_geometry, libjam), Int32, (Ptr{Cvoid}, Ref{jam_geometry_options}, Ref{jam_geometry_report}), sys, _ref(jam_geometry_options, o), _ref(jam_geometry_report, report))
@@ -2816,8 +2816,8 @@ where the network lists them. There a sphere that they alone hold needs forces o
 opening of contacts by a motion v, and E eps that by a strain eps. Collectively jammed: S v >= 0 only for
 translations of B. Strictly jammed: S v + E eps >= 0 with tr eps <= 0 only for those and eps = 0. Both hold for this
 cell, not for several copies of it (`jam_bloch_rigidity`). Source: Donev et al., J. Comput. Phys. 197, 139 (2004).
-Status: `JAM_OK` jammed, `JAM_NOT_JAMMED`, `JAM_AMBIGUOUS` undecided.
-Errors: `JAM_E_SOLVER`.
+Status: `JAM_OK`, `JAM_NOT_JAMMED`, `JAM_AMBIGUOUS` (undecided).
+Errors: `JAM_E_SOLVER`, `JAM_E_OVERLAP`.
 """
 function jam_rigidity(sys, kind, report)
     return ccall((:jam_rigidity, libjam), Int32, (Ptr{Cvoid}, Int32, Ref{jam_rigidity_report}), sys, kind, _ref(jam_rigidity_report, report))

@@ -682,7 +682,7 @@ class Methods:
 
         Raises
         ------
-        ArgumentError, SolverError, MemoryError, BusyError
+        ArgumentError, SolverError, OverlapError, MemoryError, BusyError
         """
         answer: GeometryReport = self.call('contacts_from_geometry', tolerance=tolerance, window=window, progress=progress)
         return answer
@@ -752,7 +752,7 @@ class Methods:
         opening of contacts by a motion v, and E eps that by a strain eps. Collectively jammed: S v >= 0 only for
         translations of B. Strictly jammed: S v + E eps >= 0 with tr eps <= 0 only for those and eps = 0. Both hold
         for this cell, not for several copies of it (bloch_rigidity()). Source: Donev et al., J. Comput. Phys. 197,
-        139 (2004). Status: 'ok' jammed, 'not_jammed', 'ambiguous' undecided.
+        139 (2004). Status: 'ok', 'not_jammed', 'ambiguous' (undecided).
 
         Parameters
         ----------
@@ -766,7 +766,7 @@ class Methods:
 
         Raises
         ------
-        ArgumentError, SolverError, MemoryError, BusyError
+        ArgumentError, SolverError, OverlapError, MemoryError, BusyError
         """
         answer: RigidityReport = self.call('rigidity', kind, progress=progress)
         return answer

@@ -4,11 +4,11 @@
 Proved is: exactly one packing within the printed radius touches exactly in the contacts that the file lists. All its
 forces are positive, all other pairs are open, and its stable spheres are collectively jammed; of a file with the word
 strict strictly: no motion and strain without overlap leaves the volume as small. Integers and fractions decide. Forces
-and inverse are hints: bad ones lose the proof, they cannot make one. A file without inverse gets one from numpy, or
-from floats here; OUT is then the file with it. Exit status: 0 proved, 1 not proved, 2 the file cannot be read, 3
-trapped but not proved. Two files beside this one are for more contacts than unknowns: jamproof_implied.py if some
-follow from others, jamproof_trapped.py for crystals and all else. The page "The theorems behind proofs" of the guide
-has the proofs.
+and inverse are hints: bad ones lose the proof, they cannot make one. Exit status: 0 proved, 1 not proved, 2 the file
+cannot be read, 3 trapped but not proved. Files beside this one are for some proof files: jamproof_inverse.py for those
+without inverse (OUT is then the file with it), jamproof_implied.py where some contacts follow from others, and
+jamproof_trapped.py for crystals and all else with more contacts than unknowns. The page "The theorems behind proofs"
+of the guide has the proofs.
 
 Theorem A. Unknown are the centres x of the stable spheres but the first, and G; if strict, in place of G the cell
 vectors H, a lower triangle. F_c = |r_c|^2 - G sigma_c^2, r_c = x_i - x_j + n H, is to be 0 for each contact c = (i, j,
@@ -214,40 +214,11 @@ class Scene:
         return least
 
 
-def float_inverse(rows):
-    """Of a square matrix, without numpy by Gauss and Jordan."""
-    try:
-        import numpy
-
-        return numpy.linalg.inv(numpy.array(rows)).tolist()
-    except ImportError:
-        n = len(rows)
-    a = [[*row, *(float(k == i) for k in range(n))] for i, row in enumerate(rows)]
-    for c in watched(range(n), "columns of the inverse"):
-        p = max(range(c, n), key=lambda r: abs(a[r][c]))
-        a[p], a[c] = a[c], [v / a[p][c] for v in a[p]]
-        for r, row in enumerate(a):
-            if r != c and row[c]:
-                a[r] = [x - row[c] * y for x, y in zip(row, a[c])]
-    return [row[n:] for row in a]
-
-
-def inverse_of(s, j, count, invert=float_inverse):
+def inverse_of(s, j, count):
     """A without its row of G as (e, columns of 32-bit integers in units of 2^e), a hint; `count`: rows of J."""
-    if s.inverse:
-        e, flat = s.inverse
-        refuse(len(flat) != count * s.unknowns, "singular: the inverse has not the size of the equations")
-        return e, [flat[c * s.unknowns : (c + 1) * s.unknowns] for c in range(count)]
-    rows = [[0.0] * len(j) for _ in range(count)]
-    for l, column in enumerate(j):
-        for c, value in column:
-            rows[c][l] += value / 2.0**BITS
-    try:
-        a = invert(rows)
-        e = int(max(max(map(abs, row)) for row in a)).bit_length() - 30
-        return e, [array("i", [round(v * 2.0**-e) for v in column]) for column in zip(*a[: s.unknowns])]
-    except Exception as error:  # of a hint, whoever made it
-        raise Refused(f"singular: {error}") from None
+    e, flat = s.hint = s.inverse or beside("jamproof_inverse", "hint", s.unknowns, j, count)
+    refuse(len(flat) != count * s.unknowns, "singular: the inverse has not the size of the equations")
+    return e, [flat[c * s.unknowns : (c + 1) * s.unknowns] for c in range(count)]
 
 
 def bounds(s, f, columns, e, inverse, weights):
@@ -288,7 +259,7 @@ def check(s):
     count = s.unknowns + (not s.strict)
     refuse(len(kept) != count, f"excess: {len(kept)} contacts, {count} unknowns" + ", too few" * (len(kept) < count))
     j = s.rounded(columns) + ([] if s.strict else [[(c, round(-v * 2**BITS)) for c, v in enumerate(sigma2)]])
-    e, inverse = s.hint = inverse_of(s, j, count)
+    e, inverse = inverse_of(s, j, count)
     delta, eta, alpha = bounds(s, f, j, e, inverse, [1] * count)
     row, delta_g = ([0], 0) if s.strict else s.state(sigma2, columns, [s.row[c] for c in kept])
     eta_g, alpha_g = abs(sum(map(mul, f, row))), sum(map(abs, row))  # the row of G is minus a state of self-stress
@@ -354,9 +325,9 @@ def main(path, out=None):
     status, text = conclusion(scene)
     print(text)
     if out and scene.hint:
-        e, columns = scene.hint
-        data = base64.b64encode(zlib.compress(b"".join(column.tobytes() for column in columns))).decode()
-        Path(out).write_text(Path(path).read_text(encoding="ascii") + f"inverse {e} {data}\n", encoding="ascii")
+        e, flat = scene.hint
+        line = "" if scene.inverse else f"inverse {e} {base64.b64encode(zlib.compress(flat.tobytes())).decode()}\n"
+        Path(out).write_text(Path(path).read_text(encoding="ascii") + line, encoding="ascii")
     return status
 
 

@@ -18,7 +18,7 @@ import math
 from fractions import Fraction
 from operator import mul
 
-from jamproof import TWO, Refused, bounds, float_inverse, gap, inverse_of, refuse, watched, whole
+from jamproof import TWO, Refused, bounds, gap, inverse_of, refuse, whole
 
 PRIME = (1 << 61) - 1
 GAMMA, FORCE = 400, 120  # binary digits of gamma; more of forces
@@ -43,21 +43,6 @@ def rank(rows):
     return len(pivots)
 
 
-def left_inverse(rows):
-    """(R^T R)^-1 R^T of floats."""
-    if len(rows) == len(rows[0]):
-        return float_inverse(rows)
-    try:
-        import numpy
-
-        r = numpy.array(rows)
-        return (numpy.linalg.inv(r.T @ r) @ r.T).tolist()
-    except ImportError:
-        flat = list(zip(*rows))
-    square = float_inverse([[sum(map(mul, a, b)) for b in flat] for a in watched(flat, "rows of J^T J")])
-    return [[sum(map(mul, a, b)) for b in rows] for a in square]
-
-
 def closed(s, columns):
     """F = 0 exactly, with any number of contacts."""
     rows = [{} for _ in s.contacts]
@@ -71,7 +56,7 @@ def closed(s, columns):
     pressure = {(rest[k] + b) / b for k, b in s.gradient.items()} or {1}
     if any(v for k, v in enumerate(rest) if k not in s.gradient) or len(pressure) > 1 or min(pressure) <= 0:
         j = s.rounded(columns)
-        s.hint = e, inverse = inverse_of(s, j, len(rows), left_inverse)
+        e, inverse = inverse_of(s, j, len(rows))
         delta = max(bounds(s, [0] * len(rows), j, e, inverse, [1] * s.unknowns)[0])
         off = sum(map(abs, rest)) * max(max(map(abs, column)) for column in inverse) * TWO**e
         wrong = off >= (1 - delta) * least
@@ -93,7 +78,7 @@ def trapped(s):
     s.gamma = Fraction(math.floor(min(own, gamma) * 2**GAMMA), 2**GAMMA)  # no pair overlaps: F >= 0
     f, sigma2, columns = s.equations(every)
     j = s.rounded(columns)
-    s.hint = e, inverse = inverse_of(s, j, len(every), left_inverse)
+    e, inverse = inverse_of(s, j, len(every))
     stress, per = balanced(s, columns, e, inverse)
     refuse(min(stress) <= 0, "force: not all are positive")
     forces = [Fraction(m, per) for m in stress]

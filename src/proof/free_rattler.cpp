@@ -1,5 +1,6 @@
 #include "proof/free_rattler.hpp"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
@@ -82,37 +83,36 @@ bool move_into_cage(ProofScene &s, int32_t i, const std::vector<NearPair> &pairs
   return false;
 }
 
-// To the place where the pairs that overlap, or are open by as little, are nearest to closed, by the mean of the steps
-// that close one pair each (G. Cimmino's method).
+// To the place where the pairs that overlap, or are open by as little, are nearest to closed, by least squares.
 void move_between(ProofScene &s, int32_t i, const std::vector<NearPair> &pairs) {
-  const size_t d = static_cast<size_t>(s.dim);
+  const auto d = static_cast<Eigen::Index>(s.dim);
   const Cage cage = cage_of(s, i, pairs);
-  std::vector<double> u(d, 0.0), step(d);
-  for (int pass = 0; pass < proof_tuning::mean_steps; ++pass) {
-    double count = 0.0;
-    step.assign(d, 0.0);
-    for (size_t k = 0; k < cage.gap.size(); ++k) {
-      if (cage.gap[k] > proof_tuning::as_narrow * cage.overlap()) continue;
-      double gap = cage.gap[k];
-      for (size_t c = 0; c < d; ++c) gap += cage.normal[k * d + c] * u[c];
-      for (size_t c = 0; c < d; ++c) step[c] -= gap * cage.normal[k * d + c];
-      count += 1.0;
-    }
-    for (size_t c = 0; c < d; ++c) u[c] += step[c] / count;
+  Eigen::MatrixXd normal(cage.gap.size(), d);
+  Eigen::VectorXd gap(cage.gap.size());
+  Eigen::Index rows = 0;
+  for (size_t k = 0; k < cage.gap.size(); ++k) {
+    if (cage.gap[k] > proof_tuning::as_narrow * cage.overlap()) continue;
+    normal.row(rows) = Eigen::Map<const Eigen::RowVectorXd>(&cage.normal[k * s.dim], d);
+    gap[rows++] = cage.gap[k];
   }
+  const Eigen::VectorXd u = normal.topRows(rows).completeOrthogonalDecomposition().solve(-gap.head(rows));
   move_sphere(s, i, u.data());
 }
 
 }  // namespace
 
 bool free_rattler(ProofScene &s, int32_t i, const std::vector<NearPair> &pairs) {
-  if (!cage_of(s, i, pairs).has_directions()) return false;
+  const Cage cage = cage_of(s, i, pairs);
+  if (!cage.has_directions()) return false;
+  double overlap = cage.overlap();
   ProofScene moved = s;
   for (int pass = 0; pass < 3; ++pass) {
     if (move_into_cage(moved, i, pairs, proof_tuning::freed * s.ratio[i] * std::sqrt(s.gamma)))
       return s = std::move(moved), true;
     move_between(moved, i, pairs);
-    if (cage_of(moved, i, pairs).overlap() < 0.0) return s = std::move(moved), true;
+    const double left = cage_of(moved, i, pairs).overlap();
+    if (left < overlap) s = moved, overlap = left;
+    if (overlap < 0.0) return true;
   }
   return false;
 }

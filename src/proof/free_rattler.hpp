@@ -5,7 +5,8 @@
 namespace jam {
 
 // A rattler that overlaps moves to where all pairs that it nearly touches are open. Its cage may be far narrower than
-// the overlap. pairs: near_pairs of the scene. False where no place is found; then it stays.
+// the overlap. pairs: near_pairs of the scene. False where no such place is found; then it overlaps as little as it
+// can: a sphere that just fits touches others, and rounding is what stays of its overlap.
 bool free_rattler(ProofScene &scene, int32_t i, const std::vector<NearPair> &pairs);
 
 // All of them; whether one moved.

@@ -22,7 +22,6 @@ constexpr double beyond_step = 30.0;  // gaps over the step that two spheres can
 constexpr size_t largest_lp = 4000;   // rows that Clp solves in seconds; it is not asked to stop in between
 constexpr double freed = 1e-6;        // longest way of a rattler out of an overlap, over its size
 constexpr double as_narrow = 4.0;     // gaps over the overlap of a rattler that has no room between them
-constexpr int mean_steps = 50;        // towards the middle of them
 constexpr int turns = 1000;           // of the search for it
 constexpr double weak = 1e-5;         // forces over the mean, below which listed contacts may be open ones
 // Shifts that are tried, as parts of the smallest eigenvalue: the largest one proves the most.

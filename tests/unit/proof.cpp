@@ -313,15 +313,27 @@ void rattlers_move_out_of_overlaps(void **) {
   check_that_it_moves_out(1.0 - 2e-15, 2.0 + 1e-10);
 }
 
-// A disk that just fits its hole has one place where it overlaps nothing, and none where all pairs are open.
-void a_rattler_without_room_stays(void **) {
-  Lattice l = square(6);
-  std::vector<char> on(l.network.size(), 1);
-  for (size_t c = 0; c < on.size(); ++c) on[c] = l.network.pairs.i[c] != 14 && l.network.pairs.j[c] != 14;
-  l.packing.position[2 * 14] += 0x1p-40;
-  ProofScene s = make_proof_scene(l.packing, subset(l.network, on, 2), {});
-  assert_true(s.node[14] < 0);
-  assert_true(!free_rattler(s, 14, near_pairs(s)));
+// A disk between three others has one place where it overlaps nothing, and none where all pairs are open. Two of them
+// are nearly on opposite sides: they hold it far less along the line between them than across.
+void a_rattler_without_room_touches(void **) {
+  Packing p;
+  p.dim = 2, p.cell = Cell{2, 8192.0};
+  p.position = {4096, 4096, 4096 + 1601, 4096, 4096 - 1599, 4096 + 80, 4096 - 80, 4096 - 1599};
+  p.diameter.assign(4, 1601.0);
+  ContactNetwork none;
+  none.coordination.assign(4, 0);
+  for (const double off : {0x1p-30, -0x1p-31}) {
+    p.position[0] = 4096 + off, p.position[1] = 4096 - off;
+    ProofScene s = make_proof_scene(p, none, {});
+    const auto overlap = [&] {
+      double most = 0.0;
+      for (const NearPair &pair : near_pairs(s)) most = std::max(most, -pair.opening / s.gamma);
+      return most;
+    };
+    assert_true(overlap() > 1e-14);
+    assert_true(!free_rattler(s, 0, near_pairs(s)));
+    assert_true(overlap() < 1e-30);
+  }
 }
 
 // Two disks with one centre: no direction leads them apart, and nothing is proved. In the hole of disk 14 they are
@@ -368,7 +380,7 @@ int main(void) {
                                      cmocka_unit_test(linear_programs_close_the_same_contacts),
                                      cmocka_unit_test(pairs_that_overlap_enter_the_list),
                                      cmocka_unit_test(rattlers_move_out_of_overlaps),
-                                     cmocka_unit_test(a_rattler_without_room_stays),
+                                     cmocka_unit_test(a_rattler_without_room_touches),
                                      cmocka_unit_test(nothing_is_proved_with_two_at_one_centre)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

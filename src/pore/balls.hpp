@@ -23,6 +23,12 @@ inline Point cross(const Point &a, const Point &b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
+// What a length of a pore is compared with: the mean diameter, and in a dilute system half of the mean distance of
+// spheres, so that no count of boxes or points grows as spheres shrink.
+inline double spacing(const Packing &p) {
+  return std::max(diameter_mean(p), 0.5 * std::pow(p.cell.volume() / static_cast<double>(p.n()), 1.0 / p.dim));
+}
+
 class Balls {
  public:
   // All whose surface is within `reach` of the brick.
@@ -32,7 +38,7 @@ class Balls {
       far[i] = 0.5 * p.diameter[i] + reach;
       widest_ = std::max(widest_, 0.5 * p.diameter[i]);
     }
-    const double side = std::max(diameter_mean(p), 0.5 * reach);
+    const double side = std::max(spacing(p), 0.5 * reach);
     for (int c = 0; c < p.dim; ++c) {
       low_[c] = -(reach + widest_);
       const double length = p.cell.edge(c) - 2.0 * low_[c];

@@ -112,7 +112,7 @@ void solve_on_line(const Ball &base, const Row &i, const F &f) {
 class Pores {
  public:
   explicit Pores(const Packing &p)
-      : p_(p), length_(diameter_mean(p)), most_(bound_radius()), balls_(p, 2.0 * most_ + 0.5 * diameter_max(p)) {
+      : p_(p), length_(spacing(p)), most_(bound_radius()), balls_(p, 2.0 * most_ + 0.5 * diameter_max(p)) {
     find_vertices();
   }
   // Distance to the nearest surface of a sphere or a wall, negative in the solid.
@@ -176,7 +176,7 @@ double Pores::bound_radius() const {
           most = std::max(most, to_walls(p_, here, balls.clearance(here, reach)));
         }
       }
-    if (most < reach) return most + 0.5 * std::sqrt(dot(step, step));
+    if (most < reach) return most + 0.5 * std::sqrt(dot(step, step)) + rounding * length_;  // lattices reach the bound
   }
 }
 

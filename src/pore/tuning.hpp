@@ -33,8 +33,8 @@ struct VoxelTuning {
 };
 
 struct PoreSizeTuning {
-  static constexpr double rounding = 1e-9;  // of lengths, over the mean diameter
-  static constexpr double grid = 5.0;       // points for each mean diameter, from which the largest pore is bounded
+  static constexpr double rounding = 1e-9;  // of lengths, over the spacing
+  static constexpr double grid = 5.0;       // points for each spacing, from which the largest pore is bounded
   static constexpr double flat = 1e-3;      // sine below which three directions lie nearly in a plane
 };
 

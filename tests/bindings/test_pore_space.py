@@ -1,4 +1,5 @@
 """The pore space: mesh, image, profiles, coordination and pore sizes, each against another way to compute it."""
+import itertools
 import math
 import os
 import struct
@@ -347,6 +348,16 @@ class Pores(unittest.TestCase):
             np.testing.assert_allclose(p.radius[held], widest, atol=1e-9)
             self.assertTrue((p.radius[~held] < widest + 1e-9).all())
             self.assertTrue((p.radius >= p.distance).all())
+
+    def test_one_sphere_in_a_cube(self):
+        """The largest pore is about the middle, whatever the radius; a small sphere takes no memory for its size."""
+        for dim, radius in itertools.product((2, 3), (1e-8, 1e-3, 0.02, 0.1, 0.2, 0.25, 0.3, 0.4)):
+            s = jam.System.from_arrays([[0.0] * dim], radii=radius, box=1.0)
+            p, widest = s.pore_sizes(50, 1), math.sqrt(dim) / 2 - radius
+            x = np.stack([p.x, p.y] + [p.z] * (dim == 3), 1) - 0.5
+            held = np.sqrt((x**2).sum(1)) < widest - 1e-9
+            self.assertTrue(held.any())
+            np.testing.assert_allclose(p.radius[held], widest, atol=1e-9)
 
     def test_nothing_larger_is_found_by_trying(self):
         """Spheres about many random points: each that contains a point and no solid is at most as large, and some nearly so."""

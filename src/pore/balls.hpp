@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/math.hpp"
 #include "pore/images.hpp"
 #include "pore/tuning.hpp"
 
@@ -26,7 +27,7 @@ inline Point cross(const Point &a, const Point &b) {
 // What a length of a pore is compared with: the mean diameter, and in a dilute system half of the mean distance of
 // spheres, so that no count of boxes or points grows as spheres shrink.
 inline double spacing(const Packing &p) {
-  return std::max(diameter_mean(p), 0.5 * std::pow(p.cell.volume() / static_cast<double>(p.n()), 1.0 / p.dim));
+  return std::max(diameter_mean(p), 0.5 * math::pow(p.cell.volume() / static_cast<double>(p.n()), 1.0 / p.dim));
 }
 
 class Balls {

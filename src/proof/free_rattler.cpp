@@ -1,9 +1,9 @@
 #include "proof/free_rattler.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
+#include "linalg/least_squares.hpp"
 #include "proof/tuning.hpp"
 
 namespace jam {
@@ -83,20 +83,16 @@ bool move_into_cage(ProofScene &s, int32_t i, const std::vector<NearPair> &pairs
   return false;
 }
 
-// To the place where the pairs that overlap, or are open by as little, are nearest to closed, by least squares.
+// To the place where the pairs that overlap, or are open by as little, are nearest to closed.
 void move_between(ProofScene &s, int32_t i, const std::vector<NearPair> &pairs) {
-  const auto d = static_cast<Eigen::Index>(s.dim);
   const Cage cage = cage_of(s, i, pairs);
-  Eigen::MatrixXd normal(cage.gap.size(), d);
-  Eigen::VectorXd gap(cage.gap.size());
-  Eigen::Index rows = 0;
+  std::vector<double> normal, closing;
   for (size_t k = 0; k < cage.gap.size(); ++k) {
     if (cage.gap[k] > proof_tuning::as_narrow * cage.overlap()) continue;
-    normal.row(rows) = Eigen::Map<const Eigen::RowVectorXd>(&cage.normal[k * s.dim], d);
-    gap[rows++] = cage.gap[k];
+    const auto at = cage.normal.begin() + static_cast<std::ptrdiff_t>(k) * s.dim;
+    normal.insert(normal.end(), at, at + s.dim), closing.push_back(-cage.gap[k]);
   }
-  const Eigen::VectorXd u = normal.topRows(rows).completeOrthogonalDecomposition().solve(-gap.head(rows));
-  move_sphere(s, i, u.data());
+  move_sphere(s, i, least_squares(s.dim, normal, closing).data());
 }
 
 }  // namespace

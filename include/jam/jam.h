@@ -162,7 +162,7 @@ typedef enum jam_stop_reason {
   JAM_STOP_TIME = 12,            /* MD: its simulated time is over */
   JAM_STOP_EVALUATIONS = 13,     /* soft spheres: max_evaluations came first */
   JAM_STOP_STEPS = 14,           /* soft spheres: max_steps came first */
-  JAM_STOP_SADDLE = 15,          /* crunch: forces balance, but a flex opens contacts, and kicks lead nowhere */
+  JAM_STOP_SADDLE = 15,          /* crunch: forces balance, a flex opens contacts, starts nearby end no better */
   JAM_STOP_DUALITY_GAP = 16      /* crunch: it reached the duality gap of its options */
 } jam_stop_reason;
 /* Version of the library, e.g. "1.0.0". Static storage, as the texts of the next five calls. */

@@ -134,7 +134,7 @@ const Mechanism mechanisms[] = {
     {"end of the path near rounding", [](Tuning &t, jam_crunch_options &) { t.end_roundings = 33.0; }},  // 1e-12
     {"dropped contacts", [](Tuning &t, jam_crunch_options &) { t.max_excess = 0; }},
     {"narrow LPs", [](Tuning &t, jam_crunch_options &) { t.max_narrow_lps = 0; }},
-    {"recompression", [](Tuning &t, jam_crunch_options &) { t.decompression.fill(0.0); }},
+    {"decompressions", [](Tuning &t, jam_crunch_options &) { t.decompression.fill(0.0); }},
     {"moves along flexes", [](Tuning &t, jam_crunch_options &) { t.longest_flex_move = 0.0; }},
 };
 

@@ -52,7 +52,7 @@ const JAM_STOP_UNJAMMED = Int32(11)  # crunch: converged without a rigid network
 const JAM_STOP_TIME = Int32(12)  # MD: its simulated time is over
 const JAM_STOP_EVALUATIONS = Int32(13)  # soft spheres: max_evaluations came first
 const JAM_STOP_STEPS = Int32(14)  # soft spheres: max_steps came first
-const JAM_STOP_SADDLE = Int32(15)  # crunch: forces balance, but a flex opens contacts, and kicks lead nowhere
+const JAM_STOP_SADDLE = Int32(15)  # crunch: forces balance, a flex opens contacts, starts nearby end no better
 const JAM_STOP_DUALITY_GAP = Int32(16)  # crunch: it reached the duality gap of its options
 
 # jam_phase: Which part reports progress.

@@ -884,7 +884,7 @@ module jam
     integer(c_int32_t) :: lp_solver = 0
     ! jam_crunch_method that led here: BARRIER_PATH if the path was followed
     integer(c_int32_t) :: method = 0
-    ! 1: non-negative contact forces balance: no small motion lets diameters grow
+    ! 1: contact forces balance: to first order no motion lets diameters grow
     integer(c_int32_t) :: stationary = 0
     ! jam_verdict of the strict test; UNTESTED until jam_rigidity runs it
     integer(c_int32_t) :: strictly_jammed = 0
@@ -1240,7 +1240,7 @@ module jam
     integer(c_int32_t) :: kind = 0
     ! jam_verdict
     integer(c_int32_t) :: jammed = 0
-    ! jam_verdict: K+ is not empty, so no small motion lets the diameters grow
+    ! jam_verdict: K+ is not empty: to first order no motion lets diameters grow
     integer(c_int32_t) :: stationary = 0
     ! N'
     integer(c_int64_t) :: stable = 0

@@ -3,7 +3,7 @@
 
 Proved is: exactly one packing within the printed radius touches exactly in the contacts that the file lists. All its
 forces are positive, all other pairs are open, and its stable spheres are collectively jammed; of a file with the word
-strict strictly: no motion and strain without overlap leaves the volume as small. Integers and fractions decide. Forces
+strict strictly: every motion and strain without overlap enlarges the volume. Integers and fractions decide. Forces
 and inverse are hints: bad ones lose the proof, they cannot make one. Exit status: 0 proved, 1 not proved, 2 the file
 cannot be read, 3 trapped but not proved. Files beside this one are for some proof files: jamproof_inverse.py for those
 without inverse (OUT is then the file with it), jamproof_implied.py where some contacts follow from others, and
@@ -15,10 +15,10 @@ vectors H, a lower triangle. F_c = |r_c|^2 - G sigma_c^2, r_c = x_i - x_j + n H,
 n). J = F', and R is J without the column of G. D = 4 d, or d max_c (2 + |n|_1)^2 if strict. For any matrix A let, in
 the maximum norm, delta >= |1 - A J|, eta >= |A F|, alpha >= |A|, and beta = D alpha.
 (1) If eta + delta r + beta r^2 <= r and delta + 2 beta r < 1, then F has exactly one zero within r.
-(2) Forces f are within (|R^T f - b|_1 + 2 D r |f|_1) max |A_kc| / (1 - delta - 2 beta r) of those at the zero. There
-    sum f sigma^2 = 1 and b = 0; if strict, b is the gradient of log V, 1 / h of H's diagonal, and changes by
-    sum r / (h (h - r)).
-(3) A pair of which m ends move stays open if |r|^2 - 2 |r|_1 m r > (G + r_G) sigma^2.
+(2) Forces f are within (|R^T f - b|_1 + 2 D r |f|_1 + b') max |A_kc| / (1 - delta - 2 beta r) of those at the zero. Not
+    strict, both have sum f sigma^2 = 1, and b = b' = 0. Strict, b is the gradient of log V, 1 / h on the diagonal of H,
+    and b' = sum r / (h (h - r)) bounds its change.
+(3) A pair with m stable spheres stays open if |r|^2 - 2 |r|_1 m r > (G + r_G) sigma^2; if strict, m + |n|_1 for m.
 """
 import base64
 import decimal
@@ -35,7 +35,7 @@ from pathlib import Path
 HERE = sys.modules[__name__]
 BITS, CHUNK, BIAS = 24, 16, 1 << 62  # digits of J; columns of A summed at once; makes 64-bit digits positive
 MOST_IMAGES, WAIT = 10**6, 10  # of a pair; seconds between lines that say how far a long loop is
-SEEN, TWO = Fraction(9, 8), Fraction(2)  # gaps are those of pairs closer than SEEN times the largest sigma
+SEEN, TWO = Fraction(9, 8), Fraction(2)  # gaps are those of pairs closer than SEEN times their sigma
 ONE = ("dim", "unit", "non_additivity", "gamma")  # lines of one number
 HEADER = (*ONE, "cell")
 WORDS = {*HEADER, "sphere", "contact", "tile", "implied", "inverse", "strict"}
@@ -190,7 +190,7 @@ class Scene:
         return reach + sum(most) * way
 
     def least_opening(self, radius, gamma, part=1):
-        """(3), with a part of gamma; the least |r|^2 / (gamma sigma^2) of pairs closer than SEEN, or None."""
+        """Refuses if (3) fails for this part of gamma; the least left side over gamma sigma^2 below SEEN^2, or None."""
         reach, least, rows = self.reach(radius, gamma), None, list(enumerate(self.cell))
         many = math.prod(2 * reach // row[c] + 1 for c, row in rows)
         refuse(many > MOST_IMAGES, f"gap: the cell is so thin that a sphere meets more than {MOST_IMAGES} images")

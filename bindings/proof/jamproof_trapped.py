@@ -6,13 +6,13 @@ Crystals. Let all F = 0 and R have full column rank: modulo a prime that is at m
 balance exactly are those of the file, or else f* = f - A^T y with (A R)^T y = R^T f - b, which is in
 |f* - f| <= max |A_kc| |R^T f - b|_1 / (1 - delta). Then the written packing is jammed.
 
-Trapping. Let no pair overlap, f > 0, e = F >= 0 of contacts, g = |R^T f - b|_1 and M = max |A_kc| / f_c. A motion v
-without overlap, measured in units u_i <= 1 of each sphere's own as rho = max |v_i| / u_i, has
+Trapping. Let no pair overlap, f > 0, e = F >= 0 of contacts, g = |R^T f - b|_1 and M = max |A_kc| / (u_k f_c). Let v be
+a motion without overlap that does not enlarge V. With a unit u_i <= 1 of each sphere, rho = max |v_i| / u_i has
 
     rho (1 - delta - M g) <= M sum f e + |A e| + (M (sum_c f_c w_c + sum 1 / h^2) + max_k sum_c |A_kc| w_c / u_k) rho^2
 
-with w_c = d (u_i + u_j + |n|_1 if strict)^2; rows of 1 - A R are over u_k, columns times u_l; 1 / h^2 if strict, of the
-cell's edges h. So rho is at most `inner` or at least `outer`, which are near the roots of the equality.
+with w_c = d (u_i + u_j + |n|_1 if strict)^2; rows of A e and 1 - A R over u_k, columns of 1 - A R times u_l; 1 / h^2
+if strict, of the cell's edges h. `inner` is between the roots; so is `outer` over min u_i where it is below h / 2.
 """
 import math
 from fractions import Fraction

@@ -873,7 +873,7 @@ typedef struct jam_crunch_report {
   int32_t stop_reason;     /* @enum jam_stop_reason */
   int32_t lp_solver;       /* @enum jam_lp_solver that gave the last LP */
   int32_t method;          /* @enum jam_crunch_method that led here: BARRIER_PATH if the path was followed */
-  int32_t stationary;      /* @bool non-negative contact forces balance: no small motion lets diameters grow */
+  int32_t stationary;      /* @bool contact forces balance: to first order no motion lets diameters grow */
   int32_t strictly_jammed; /* @enum jam_verdict of the strict test; UNTESTED until jam_rigidity runs it */
   int32_t reserved;
   double packing_fraction;        /* phi_J when jammed */
@@ -1283,7 +1283,7 @@ typedef struct jam_rigidity_report {
   uint32_t struct_size;
   int32_t kind;                /* @enum jam_rigidity_kind that was tested */
   int32_t jammed;              /* @enum jam_verdict */
-  int32_t stationary;          /* @enum jam_verdict: K+ is not empty, so no small motion lets the diameters grow */
+  int32_t stationary;          /* @enum jam_verdict: K+ is not empty: to first order no motion lets diameters grow */
   int64_t stable, contacts;    /* N'; |K+| */
   int64_t contacts_needed;     /* collective d (N' - 1) + 1, strict d (N' - 1) + d (d + 1) / 2 */
   int64_t self_stresses;       /* independent balances of forces on K+, signs free */

@@ -427,6 +427,19 @@ def ablation(*raws):
     return ["off"] + sets, rows
 
 
+def decompressions(runs):
+    """ablation "off=MECHANISM" ... disks1000"""
+    rows = []
+    words = {"none": "1e-4, 1e-3, 1e-2, 0.03", "decompressions": "none", "decompressions after 1": "1e-4", "decompressions after 2": "1e-4, 1e-3"}
+    words |= {"decompressions after 3": "1e-4, 1e-3, 1e-2", "decompression by 1e-3": "1e-4, 1e-2, 0.03"}
+    for off in sorted({r["off"] for r in runs}, key=lambda off: (words[off] != "none", words[off].count(","), words[off])):
+        of = [r for r in runs if r["off"] == off]
+        seconds = [r["seconds"] for r in of]
+        worse = sum(a["phi"] < b["phi"] - 1e-9 for a, b in zip(of, (r for r in runs if r["off"] == "decompressions")))
+        rows.append([words[off], len(of), sum(r["jammed"] for r in of), worse, statistics.median(seconds), statistics.mean(seconds), max(seconds)])
+    return ["parts of the diameters", "packings", "jammed", "of lower density than with none", "median (s)", "mean (s)", "longest (s)"], rows
+
+
 def products(raw):
     """products.py OUT.json PICTURE.png FOLDER 2 512,1024,2048 OpenBLAS=... builtin=... reference=..."""
     first = raw[0]["build"]
@@ -464,7 +477,7 @@ def read(path):
 
 def main():
     name, raws = sys.argv[1], [read(path) for path in sys.argv[2:]]
-    made = {f.__name__: f for f in (crunch, size, clp, resume, disks, proofs, verdicts, verdict_numbers, strict, md, monte_carlo, near_jamming, soft_cell, pore_space, structure, liquid, advise, analysis, factorisation, ablation, ratios, mixtures, md_misses, md_threads, md_windows, ensemble, ensemble_statistics, walls, walls_equal, walls_edge, products, threads, task_graph)}[name]
+    made = {f.__name__: f for f in (crunch, size, clp, resume, disks, proofs, verdicts, verdict_numbers, strict, md, monte_carlo, near_jamming, soft_cell, pore_space, structure, liquid, advise, analysis, factorisation, ablation, decompressions, ratios, mixtures, md_misses, md_threads, md_windows, ensemble, ensemble_statistics, walls, walls_equal, walls_edge, products, threads, task_graph)}[name]
     columns, rows = made(*raws)
     old = raws[0] if isinstance(raws[0], dict) and "commit" in raws[0] else None  # a result that was kept with its source
     source = old and {key: old[key] for key in ("machine", "commit", "date")}

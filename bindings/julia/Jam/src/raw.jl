@@ -977,7 +977,7 @@ force on the path over the mean is within a factor of 1e4 of twice their gap.
   `:saddle`, `:duality_gap`
 - `lp_solver`: one of `:ipm`, `:clp`; that gave the last LP
 - `method`: one of `:barrier_path`, `:sequential_lp`; that led here: `:barrier_path` if the path was followed
-- `stationary`: Bool; non-negative contact forces balance: no small motion lets diameters grow
+- `stationary`: Bool; contact forces balance: to first order no motion lets diameters grow
 - `strictly_jammed`: one of `:untested`, `:no`, `:yes`, `:undecided`; of the strict test; `:untested` until `rigidity`
   runs it
 - `packing_fraction`: `phi_J` when jammed
@@ -1035,7 +1035,7 @@ mutable struct jam_crunch_report
     stop_reason::Int32  # jam_stop_reason
     lp_solver::Int32  # jam_lp_solver that gave the last LP
     method::Int32  # jam_crunch_method that led here: BARRIER_PATH if the path was followed
-    stationary::Int32  # 1: non-negative contact forces balance: no small motion lets diameters grow
+    stationary::Int32  # 1: contact forces balance: to first order no motion lets diameters grow
     strictly_jammed::Int32  # jam_verdict of the strict test; UNTESTED until jam_rigidity runs it
     reserved::Int32
     packing_fraction::Cdouble  # phi_J when jammed
@@ -1406,7 +1406,7 @@ over the mean |f b|, with b the second derivative of the distance across a conta
 
 - `kind`: one of `:collective`, `:strict`; that was tested
 - `jammed`: one of `:untested`, `:no`, `:yes`, `:undecided`
-- `stationary`: one of `:untested`, `:no`, `:yes`, `:undecided`; : K+ is not empty, so no small motion lets the
+- `stationary`: one of `:untested`, `:no`, `:yes`, `:undecided`; : K+ is not empty: to first order no motion lets
   diameters grow
 - `stable`: N'
 - `contacts`: |K+|
@@ -1424,7 +1424,7 @@ mutable struct jam_rigidity_report
     struct_size::UInt32
     kind::Int32  # jam_rigidity_kind that was tested
     jammed::Int32  # jam_verdict
-    stationary::Int32  # jam_verdict: K+ is not empty, so no small motion lets the diameters grow
+    stationary::Int32  # jam_verdict: K+ is not empty: to first order no motion lets diameters grow
     stable::Int64  # N'
     contacts::Int64  # |K+|
     contacts_needed::Int64  # collective d (N' - 1) + 1, strict d (N' - 1) + d (d + 1) / 2

@@ -733,7 +733,7 @@ class CrunchReport(Report):
     stop_reason: jam_stop_reason
     lp_solver: jam_lp_solver that gave the last LP
     method: jam_crunch_method that led here: BARRIER_PATH if the path was followed
-    stationary: 1: non-negative contact forces balance: no small motion lets diameters grow
+    stationary: 1: contact forces balance: to first order no motion lets diameters grow
     strictly_jammed: jam_verdict of the strict test; UNTESTED until jam_rigidity runs it
     packing_fraction: phi_J when jammed
     diameter_mean: unit of box
@@ -997,7 +997,7 @@ class RigidityReport(Report):
 
     kind: jam_rigidity_kind that was tested
     jammed: jam_verdict
-    stationary: jam_verdict: K+ is not empty, so no small motion lets the diameters grow
+    stationary: jam_verdict: K+ is not empty: to first order no motion lets diameters grow
     stable: N'
     contacts: |K+|
     contacts_needed: collective d (N' - 1) + 1, strict d (N' - 1) + d (d + 1) / 2

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/create.hpp"
 #include "core/math.hpp"
 #include "dynamics/event_driven/run.hpp"
 #include "dynamics/tuning.hpp"
@@ -196,6 +197,7 @@ void EventDrivenRun::change_engine(Observer *observer) {
   before_.walls = wall_momentum();
   window_.of_part = part_sums();
   before_.worst_overlap = std::max(before_.worst_overlap, engine_->max_overlap);
+  if (from_archive_) refuse_overlaps(p_, overlap_of_rounding);  // as at the end of a run
   EngineOptions o = options();
   o.growth = engine_->growth();
   engine_ = make_engine(p_, o);

@@ -98,10 +98,11 @@ def disks(*raws):
         seconds = [run["seconds"] for run in runs]
         rows.append(
             [n, ranges(run["seed"] for run in runs), len(jammed), sum(run["proof"] in ("proved", "trapped") for run in jammed), highs]
-            + [sum(run["kind"] == "wrong" for run in runs), sum(run["kind"] == "stopped" for run in runs)]
+            + [sum(run["kind"] == "wrong" for run in runs)]
+            + [sum(run["kind"] == "stopped" and (run["rigidity"] == "no") is no for run in runs) for no in (True, False)]
             + [statistics.median(run["factorisations"] for run in runs), statistics.median(seconds), max(seconds)]
         )
-    columns = ["N", "seeds", "jammed", "proved or trapped by jamproof.py", "confirmed by HiGHS", "wrong", "undecided"]
+    columns = ["N", "seeds", "jammed", "proved or trapped by jamproof.py", "confirmed by HiGHS", "wrong", "not jammed, with a motion", "undecided"]
     return columns + ["median of factorisations", "median (s)", "longest (s)"], rows
 
 

@@ -34,7 +34,7 @@ from pathlib import Path
 
 HERE = sys.modules[__name__]
 BITS, CHUNK, BIAS = 24, 16, 1 << 62  # digits of J; columns of A summed at once; makes 64-bit digits positive
-MOST_IMAGES, WAIT = 10**6, 10  # of a pair; seconds between lines that say how far a long loop is
+MOST_IMAGES, WAIT, FARTHEST = 10**6, 10, 10**4  # of a pair; seconds between lines of long loops; exponents of two
 SEEN, TWO = Fraction(9, 8), Fraction(2)  # gaps are those of pairs closer than SEEN times their sigma
 ONE = ("dim", "unit", "non_additivity", "gamma")  # lines of one number
 HEADER = (*ONE, "cell")
@@ -53,7 +53,9 @@ def refuse(wrong, words):
 
 def number(word):
     """m p e is m 2^e; several with commas are a sum."""
-    return sum(m * TWO**e for m, e in (map(int, part.split("p")) for part in word.split(",")))
+    parts = [[int(x) for x in part.split("p")] for part in word.split(",")]
+    refuse(max(abs(e) for _, e in parts) > FARTHEST, f"an exponent of two is beyond {FARTHEST}")
+    return sum(m * TWO**e for m, e in parts)
 
 
 def whole(values):
@@ -84,8 +86,8 @@ class Scene:
     """The exact numbers of a file. Lengths `x` and `cell` are integers over `one`, `size` of spheres over `per`."""
 
     def __init__(self, path):
-        with open(path, encoding="ascii") as file:
-            lines = [line.split() for line in file if line.strip()]
+        self.text = Path(path).read_text(encoding="ascii")
+        lines = [line.split() for line in self.text.split("\n") if line.strip()]
         refuse(lines[:1] != [["jamproof", "1"]], "the first line is not 'jamproof 1'")
 
         def take(name, *counts):
@@ -145,8 +147,7 @@ class Scene:
         """Of the contacts kept: F, sigma^2 and the columns of R as [(row, integer over one)]."""
         f, sigma2, columns = [], [], [[] for _ in range(self.unknowns)]
         for c, (i, j, n) in enumerate(self.contacts[k] for k in kept):
-            wrong = i == j or not self.stable[i] or not self.stable[j]
-            refuse(wrong, f"images: contact {c} is not one of two stable spheres")
+            refuse(i == j or not self.stable[i] or not self.stable[j], f"images: contact {c} is not of two stable ones")
             r = self.vector(i, j, n)
             sigma2.append(self.sigma2(i, j))
             f.append(Fraction(sum(map(mul, r, r)), self.one**2) - self.gamma * sigma2[c])
@@ -217,7 +218,7 @@ class Scene:
 def inverse_of(s, j, count):
     """A without its row of G as (e, columns of 32-bit integers in units of 2^e), a hint; `count`: rows of J."""
     e, flat = s.hint = s.inverse or beside("jamproof_inverse", "hint", s.unknowns, j, count)
-    refuse(len(flat) != count * s.unknowns, "singular: the inverse has not the size of the equations")
+    refuse(len(flat) != count * s.unknowns or e < -FARTHEST, "singular: the inverse does not fit the equations")
     return e, [flat[c * s.unknowns : (c + 1) * s.unknowns] for c in range(count)]
 
 
@@ -324,11 +325,11 @@ def main(path, out=None):
         return 2
     status, text = conclusion(scene)
     print(text)
-    if out and scene.hint:
-        e, flat = scene.hint
-        line = "" if scene.inverse else f"inverse {e} {base64.b64encode(zlib.compress(flat.tobytes())).decode()}\n"
-        Path(out).write_text(Path(path).read_text(encoding="ascii") + line, encoding="ascii")
-    return status
+    try:
+        return beside("jamproof_inverse", "complete", scene, out) or status if out else status
+    except (OSError, Refused) as error:
+        print(f"{out}: cannot be written: {error}", file=sys.stderr)
+        return 2
 
 
 if __name__ == "__main__":

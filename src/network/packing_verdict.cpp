@@ -87,8 +87,7 @@ void take_strict(PackingVerdict &collective, const PackingVerdict &strict) {
   const RigidityResult &held = strict.result;
   RigidityResult &r = collective.result;
   if (r.jammed == Verdict::yes) return;
-  if (held.jammed == Verdict::yes || (r.jammed == Verdict::no && held.jammed == Verdict::no &&
-                                      r.stressed == Verdict::no && held.stressed == Verdict::yes))
+  if (held.jammed == Verdict::yes)
     collective = strict;
   else if (held.jammed == Verdict::undecided)
     r.jammed = collective.when_closed = Verdict::undecided;

@@ -94,8 +94,7 @@ struct PackingVerdict {
 PackingVerdict test_packing(const Packing &p, const ContactNetwork *listed, Jamming kind);
 // Whether a sphere may touch its own image. Such pairs are no contacts of the collective test.
 bool may_touch_own_image(const Packing &p, const GapResolution &resolution);
-// There the strict test can find more than the collective one: what is held in every strain is held in the fixed cell,
-// and where opposite images balance, a flex and not a lack of forces is the reason of a no.
+// There the strict test can find more than the collective one: what is held in every strain is held in the fixed cell.
 void take_strict(PackingVerdict &collective, const PackingVerdict &strict);
 // The same where the resolution of gaps is known.
 PackingVerdict test_packing(const Packing &p, const GapResolution &resolution, const ContactNetwork *listed,

@@ -92,8 +92,14 @@ PackingVerdict judge(const Packing &p, const GapResolution &resolution, const Co
   if (kind == Jamming::strict && v.result.jammed == Verdict::undecided)
     take_collective_no(p, judge_without_images(p, resolution, known, Jamming::collective), v);
   if (kind == Jamming::collective && !p.container && v.result.jammed != Verdict::yes &&
-      may_touch_own_image(p, resolution))
-    take_strict(v, judge_without_images(p, resolution, known, Jamming::strict));
+      may_touch_own_image(p, resolution)) {
+    const PackingVerdict strict = judge_without_images(p, resolution, known, Jamming::strict);
+    const bool balanced_by_images = v.result.jammed == Verdict::no && strict.result.jammed == Verdict::no &&
+                                    v.result.stressed == Verdict::no && strict.result.stressed == Verdict::yes;
+    // As where a network lists the contacts with own images.
+    if (balanced_by_images) v = judge_without_images(p, resolution, &strict.contacts, Jamming::collective);
+    take_strict(v, strict);
+  }
   // What is held in every strain is held in the fixed cell. Where doubles do not show that, they show neither.
   if (kind == Jamming::strict && v.result.jammed == Verdict::yes &&
       judge(p, resolution, known, Jamming::collective).result.jammed != Verdict::yes)

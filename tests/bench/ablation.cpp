@@ -1,6 +1,6 @@
-// What each mechanism of a crunch is worth: named sets of five starts each (disks1000: of 50), with one mechanism
-// switched off at a time. JSON lines to stdout: set, mechanism, start, factorisations, LPs, processor seconds, phi,
-// jammed, force residual.
+// What each mechanism of a crunch is worth: named sets of five starts each (disks300, disks1000: of 50), with one
+// mechanism switched off at a time. JSON lines to stdout: set, mechanism, start, factorisations, LPs, processor
+// seconds, phi, jammed, force residual.
 //   ablation [off=MECHANISM ...] [SET ...] [FILE ...]
 // sets: table below; default: all of them. A FILE in any format that jam_read takes is a set of its own.
 #include <algorithm>
@@ -86,10 +86,10 @@ Packing lattice(int side, int dim, bool faces, double noise, uint64_t seed) {
 
 const char *const sets[] = {"n200",     "n1000",  "fast1024", "fast2048", "fast4096", "slow1024",
                             "slow4096", "random", "mixtures", "disks",    "lattices"};
-constexpr int hard_disks = 50;  // of the set disks1000, which is named alone
+constexpr int hard_disks = 50;  // of the sets disks300 and disks1000, which run only where they are named
 
 void add_set(const std::string &set, std::vector<Start> &starts) {
-  for (int seed = 1; seed <= (set == "disks1000" ? hard_disks : 5); ++seed) {
+  for (int seed = 1; seed <= (set == "disks300" || set == "disks1000" ? hard_disks : 5); ++seed) {
     const std::string name = "seed " + std::to_string(seed);
     const auto add = [&](const std::string &of, Packing p) { starts.push_back({set, of + name, std::move(p)}); };
     if (set == "n200") add("", grown(200, 3, seed));
@@ -101,6 +101,7 @@ void add_set(const std::string &set, std::vector<Start> &starts) {
     if (set == "slow4096") add("", grown(4096, 3, seed, 1e-3, 1e7));
     if (set == "random") add("", random_start(512, 3, 1.0, 0.2, seed));
     if (set == "disks") add("", grown(300, 2, seed)), add("p = 1e7, ", grown(300, 2, seed, 1e-2, 1e7));
+    if (set == "disks300") add("", grown(300, 2, seed, 3e-3, 1e7));
     if (set == "disks1000") add("", grown(1000, 2, seed, 3e-3, 1e7));
     if (set == "mixtures") {
       add("1:4 ", random_start(128, 3, 4.0, 0.19, seed));

@@ -165,7 +165,8 @@ class Alone(unittest.TestCase):
     def test_sentences(self):
         square = self.one(1.0, (0.5, 0.5))
         for s, said, unsaid in (
-            (square, "2 contacts hold 1 sphere. Forces balance to 0.0e+00 of their mean, and yet 1 independent motion of the cell", "excess"),
+            (square, "Collectively jammed, but not strictly. 1 sphere in d = 2 at packing fraction 0.785398163. 2 contacts hold 1 sphere.", "excess"),
+            (square, "With a cell that changes its shape there is 1 flex.", "excess"),
             (self.one(1.0, walls="xyz"), "6 contacts hold 1 sphere. Forces are not unique: 3 states of self-stress.", "excess"),
             (self.one(0.4, (0.5, 0.2), walls="y"), "1 pair touches, but no non-negative force on it balances, so a motion of the sphere or a strain of the cell opens it.", "them"),
             (self.one(1 - 5e-9, container="ball"), "Not jammed. 1 sphere in d = 3 at packing fraction 0.999999985. No pair touches: the smallest gap is 5.00e-09.", "may touch"),

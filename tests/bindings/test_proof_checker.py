@@ -15,7 +15,7 @@ from test_proof import CHECKER, ROOT, File, file_of, jamproof, packing, scene_of
 from test_proof_bounds import fcc
 
 FILES = sorted(CHECKER.parent.glob("*.py"))
-LENGTHS = {"jamproof.py": 250, "jamproof_implied.py": 70, "jamproof_inverse.py": 40, "jamproof_trapped.py": 100}
+LENGTHS = {"jamproof.py": 250, "jamproof_implied.py": 70, "jamproof_inverse.py": 50, "jamproof_trapped.py": 100}
 
 
 def run(program, *arguments):
@@ -128,6 +128,33 @@ class Program(unittest.TestCase):
             self.assertEqual(done.stdout.count("\n"), 1)
         os.symlink(CHECKER, self.folder / "link.py")  # files are beside the one that the link leads to
         self.assertEqual(run(self.folder / "link.py", self.write("\n".join(fcc()) + "\n")).returncode, 0)
+
+    def test_exponents_take_no_memory(self):
+        unit = next(line for line in self.text.splitlines() if line.startswith("unit "))
+        for new in ("unit 1p40000000000", "unit 1p-5200000000"):
+            done = run(CHECKER, self.write(self.text.replace(unit, new)))
+            self.assertEqual((done.returncode, done.stderr), (2, ""), done.stdout)
+        complete = self.folder / "b.jamproof"
+        run(CHECKER, self.write(self.text), complete)
+        for text in (self.text, "\n".join(fcc()) + "\n"):
+            *_, data = complete.read_text(encoding="ascii").split()
+            done = run(CHECKER, self.write(text + f"inverse -1000000000 {data}\n"))
+            self.assertEqual(done.stderr, "")
+            self.assertIn(done.returncode, (0, 1))  # a crystal that closes exactly needs none
+
+    def test_what_cannot_be_written_is_said(self):
+        """And the file that is written is the whole one, also from a pipe and of a crystal, which needs no inverse."""
+        path = self.write(self.text)
+        done = run(CHECKER, path, self.folder / "none" / "b.jamproof")
+        self.assertEqual((done.returncode, done.stderr.count("\n")), (2, 1), done.stderr)
+        self.assertIn("cannot be written", done.stderr)
+        other = self.folder / "b.jamproof"
+        words = [sys.executable, "-I", "-S", "-B", str(CHECKER), "/dev/stdin", str(other)]
+        self.assertEqual(subprocess.run(words, input=self.text, capture_output=True, text=True, check=False).returncode, 0)
+        self.assertTrue(other.read_text(encoding="ascii").startswith(self.text))
+        path = self.write("\n".join(fcc()) + "\n")
+        self.assertEqual(run(CHECKER, path, other).returncode, 0)
+        self.assertEqual(other.read_bytes(), path.read_bytes())
 
     def test_words_without_numbers_are_no_traceback(self):
         for line in ("implied", "tile", "inverse", "dim", "gamma", "sphere", "contact"):

@@ -193,12 +193,14 @@ void Pores::find_vertices() {
     const auto keep = [&](const Ball &s) {
       if (s.r <= most_ && is_free(s, others)) vertex_.push_back(s);
     };
-    for (size_t a = 0; a < rows.size(); ++a)
+    for (size_t a = 0; a < rows.size(); ++a) {
+      CallScope::look();
       for (size_t b = a + 1; b < rows.size(); ++b)
         if (p_.dim == 2)
           solve(base, rows[a], rows[b], in_plane({0.0, 0.0, 1.0}), keep);
         else
           for (size_t c = b + 1; c < rows.size(); ++c) solve(base, rows[a], rows[b], rows[c], keep);
+    }
     if (!curved()) continue;
     for (size_t a = 0; p_.dim == 3 && a < near_.size(); ++a)
       solve(base, rows[a], rows.back(), in_plane_of(rows[a], rows.back()), keep);
@@ -234,11 +236,13 @@ double Pores::largest_at(const Point &x) {
   const auto keep = [&](const Ball &s) {
     if (s.r > best && s.r <= most_ && is_free(s, near_)) best = s.r;
   };
-  for (size_t a = 0; a < row_.size(); ++a)
+  for (size_t a = 0; a < row_.size(); ++a) {
+    CallScope::look();
     for (size_t b = a + 1; b < row_.size(); ++b) {
       solve(point, row_[a], row_[b], in_plane_of(row_[a], row_[b]), keep);
       for (size_t c = b + 1; p_.dim == 3 && c < row_.size(); ++c) solve(point, row_[a], row_[b], row_[c], keep);
     }
+  }
   if (curved()) solve_on_line(point, row_.back(), keep);
   return best;
 }

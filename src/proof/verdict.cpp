@@ -70,10 +70,18 @@ void name_saddle(const ProofScene &s, const ProofEquations &e, Proof &proof) {
   proof.cause = ProofCause::saddle, proof.cause_value = proof.least_force, proof.cause_bound = widest;
 }
 
+// Where spheres touch their own images nothing is proved, whether a network lists these contacts or not.
+void name_images(const ProofScene &s, Proof &proof) {
+  const double widest = *std::max_element(s.ratio.begin(), s.ratio.end()), apart = s.cell.shortest();
+  if (!shown(proof) && s.gamma * widest * widest > (1.0 - contact_gap_limit) * apart * apart)
+    proof.cause = ProofCause::images, proof.cause_value = 1.0, proof.cause_bound = 0.0;
+}
+
 }  // namespace
 
 bool find_proof(ProofScene &scene, ProofEquations &equations, Proof &proof) {
   const bool refined = search_proof(scene, equations, proof);
+  name_images(scene, proof);
   if (refined && !shown(proof) && !scene.strict) name_saddle(scene, equations, proof);
   return refined;
 }

@@ -93,6 +93,15 @@ class OwnImages(unittest.TestCase):
                 with self.assertRaisesRegex(jam.errors.StateError, "jammed"):
                     t.flex()
 
+    def test_proofs_name_them(self):
+        """Where a network does not list them, too."""
+        one = jam.System.from_arrays([[0.25, 0.25]], 1.0, cell=np.eye(2))
+        two = jam.System.from_arrays([[0, 0], [0.5, np.sqrt(0.75)]], 1 - 1e-15, cell=[1, np.sqrt(3)])
+        for s in (one, two):
+            s.contacts_from_geometry()
+            for proof in (s.prove(), s.prove_strict()):
+                self.assertEqual((proof.theorem, proof.cause), (jam.Theorem.NONE, jam.ProofCause.IMAGES))
+
     def test_a_free_cell_lists_them(self):
         s = jam.System.random(n=2, dim=2, seed=1, packing_fraction=0.1)
         s.crunch(strain="free")

@@ -79,6 +79,16 @@ void take_complex(const double *vectors, int n, size_t first, size_t last, Eigen
   }
 }
 
+// The solver keeps vectors (x, y) orthogonal to rounding, and those of near frequencies mix: x + i y of two of them
+// need not be. Twice is enough (L. Giraud et al., Numer. Math. 101, 87 (2005)).
+void make_orthogonal(Eigen::MatrixXcd &v) {
+  for (Eigen::Index k = 1; k < v.cols(); ++k)
+    for (int pass = 0; pass < 2; ++pass) {
+      v.col(k) -= v.leftCols(k) * (v.leftCols(k).adjoint() * v.col(k)).eval();
+      v.col(k).normalize();
+    }
+}
+
 void write_vectors(const Eigen::MatrixXcd &v, Modes &out) {
   out.vector.clear();
   for (Eigen::Index k = 0; k < v.cols(); ++k)
@@ -150,6 +160,7 @@ Modes bloch_modes(const RigidityMatrix &g, const ContactWeights &w, const CellsB
       for (last = first + 2; last < lambda.size() && lambda[last] - lambda[last - 1] <= near;) last += 2;
       take_complex(h.entries().data(), n, first, last, v);
     }
+    make_orthogonal(v);
   } else {
     v = Eigen::Map<const Eigen::MatrixXd>(h.entries().data(), n, n).cast<std::complex<double>>();
   }

@@ -247,6 +247,22 @@ class Modes(unittest.TestCase):
         np.testing.assert_allclose(s.bloch_modes((3, -2)).values, s.bloch_modes((0, 0)).values, atol=0)
         np.testing.assert_allclose(s.bloch_modes((0.3, 0.1)).values, s.bloch_modes((-0.3, 0.9)).values, atol=1e-12)
 
+    def test_vectors_next_to_real_wave_vectors_are_orthogonal(self):
+        """Frequencies of a lattice lie there as near each other as the wave vectors: the matrix is nearly that of the real one."""
+        m = 3
+        cell = m * np.array([[1, 0], [0.5, np.sqrt(0.75)]])
+        s = jam.System.from_arrays(np.stack([np.divmod(k, m) for k in range(m * m)]) / m @ cell, 1 - 1e-15, cell=cell)
+        s.contacts_from_geometry()
+        for near in (0.0, 0.5):
+            matrix = None
+            for off in (0.0, 1e-12, 1e-11, 1e-10, 1e-9, 1e-8):
+                found = s.bloch_modes((near + off, near + 0.4 * off))
+                u = found.vectors.reshape(len(found.values), -1)
+                np.testing.assert_allclose(u.conj() @ u.T, np.eye(len(u)), atol=1e-13)
+                now = (u.T * found.values) @ u.conj()
+                matrix = now if matrix is None else matrix
+                np.testing.assert_allclose(now, matrix, atol=50 * off + 1e-12)
+
     def test_what_is_refused(self):
         s = jammed(12, 5, dim=2, walls="y")
         with self.assertRaisesRegex(ValueError, "nothing repeats along this axis"):

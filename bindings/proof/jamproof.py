@@ -4,11 +4,11 @@
 Proved is: exactly one packing within the printed radius touches exactly in the contacts that the file lists. All its
 forces are positive, all other pairs are open, and its stable spheres are collectively jammed; of a file with the word
 strict strictly: every motion and strain without overlap enlarges the volume. Integers and fractions decide. Forces
-and inverse are hints: bad ones lose the proof, they cannot make one. Exit status: 0 proved, 1 not proved, 2 the file
-cannot be read, 3 trapped but not proved. Files beside this one are for some proof files: jamproof_inverse.py for those
-without inverse (OUT is then the file with it), jamproof_implied.py where some contacts follow from others, and
-jamproof_trapped.py for crystals and all else with more contacts than unknowns. The page "The theorems behind proofs"
-of the guide has the proofs.
+and inverse are hints: bad ones lose the proof, they cannot make one. Exit status: 0 proved, 1 not proved, 2 a file
+cannot be read or written, 3 trapped but not proved. Files beside this one are for some proof files:
+jamproof_inverse.py for those without inverse (OUT is then the file with it), jamproof_implied.py where some contacts
+follow from others, and jamproof_trapped.py for crystals and all else with more contacts than unknowns. The page "The
+theorems behind proofs" of the guide has the proofs.
 
 Theorem A. Unknown are the centres x of the stable spheres but the first, and G; if strict, in place of G the cell
 vectors H, a lower triangle. F_c = |r_c|^2 - G sigma_c^2, r_c = x_i - x_j + n H, is to be 0 for each contact c = (i, j,

@@ -155,8 +155,7 @@ jam_status jam_bloch_rigidity(jam_system *sys, const int32_t *count, size_t coun
     check_output(table, table_len, columns * m, "table");
     if (rows) *rows = m;
     if (!table && !wave) return JAM_OK;
-    const PackingVerdict one_cell =
-        judge_without_images(p, gap_resolution(p), sys->known_contacts(), Jamming::collective);
+    const PackingVerdict one_cell = judge(p, gap_resolution(p), sys->known_contacts(), Jamming::collective);
     const BlochFlexes found = bloch_flexes(p, one_cell, copies);
     put_output(found.wave, wave, m * count_len);
     if (table) {

@@ -92,6 +92,8 @@ class OwnImages(unittest.TestCase):
                 self.assertGreater(np.abs(t.flex("strict").strain).max(), 0.0)
                 with self.assertRaisesRegex(jam.errors.StateError, "jammed"):
                     t.flex()
+                self.assertEqual((t.bloch_rigidity([1] * dim).flexes.sum(), t.status.name), (0, "OK"))
+                self.assertEqual(t.bloch_rigidity([2] + [1] * (dim - 1)).flexes.sum(), dim - 1)  # rows slide
 
     def test_proofs_name_them(self):
         """Where a network does not list them, too."""

@@ -84,8 +84,9 @@ void take_complex(const double *vectors, int n, size_t first, size_t last, Eigen
 void make_orthogonal(Eigen::MatrixXcd &v) {
   for (Eigen::Index k = 1; k < v.cols(); ++k)
     for (int pass = 0; pass < 2; ++pass) {
-      v.col(k) -= v.leftCols(k) * (v.leftCols(k).adjoint() * v.col(k)).eval();
-      v.col(k).normalize();
+      Eigen::VectorXcd x = v.col(k);
+      x -= v.middleCols(0, k) * (v.middleCols(0, k).adjoint() * x).eval();
+      v.col(k) = x.normalized();
     }
 }
 

@@ -17,9 +17,6 @@ Jamming take_kind(int32_t kind) {
   return kind == JAM_RIGIDITY_STRICT ? Jamming::strict : Jamming::collective;
 }
 
-// A no of the collective kind that own images give, by their strict test.
-bool rests_on_strains(const PackingVerdict &v) { return !v.result.strain.empty(); }
-
 // Why a packing is not known to be jammed.
 Answer answer_of(const jam_rigidity_report &r, const PackingVerdict &v, size_t spheres) {
   const bool strict = r.kind == JAM_RIGIDITY_STRICT;
@@ -35,11 +32,8 @@ Answer answer_of(const jam_rigidity_report &r, const PackingVerdict &v, size_t s
   if (r.jammed == JAM_VERDICT_NO)
     return {JAM_NOT_JAMMED,
             sentence("not %s jammed: forces on %lld contacts balance%s, at least %lld contacts are needed, "
-                     "and %lld motions keep all contacts closed; %s",
-                     kind, n(r.contacts), stress, n(r.contacts_needed), n(r.flexes),
-                     !strict && rests_on_strains(v) ? "own images are among the contacts, and these motions strain the "
-                                                      "cell: the strict kind of jam_flex gives one"
-                                                    : "jam_flex gives one")};
+                     "and %lld motions keep all contacts closed; jam_flex gives one",
+                     kind, n(r.contacts), stress, n(r.contacts_needed), n(r.flexes))};
   if (unresolved > 0.0)
     return {JAM_AMBIGUOUS,
             sentence("undecided whether the packing is %s jammed: a saddle, where contacts with forces of "
@@ -106,9 +100,7 @@ jam_status jam_flex(jam_system *sys, int32_t kind, double *out, size_t out_len, 
     check_output(strain, strain_len, d * d, "strain");
     if (needed) *needed = size;
     if (!out && !strain) return JAM_OK;
-    PackingVerdict v = test(sys, jamming);
-    if (jamming == Jamming::collective && rests_on_strains(v))  // the fixed cell has motions of its own
-      v = judge_without_images(sys->packing, gap_resolution(sys->packing), sys->known_contacts(), jamming);
+    const PackingVerdict v = test(sys, jamming);
     if (v.contacts.size() > 0 && v.result.flex.empty())
       fail(JAM_E_STATE, v.result.jammed == Verdict::yes ? "the packing is jammed: it has no flex"
                                                         : "no flex was found; the verdict is undecided");

@@ -18,7 +18,7 @@ the maximum norm, delta >= |1 - A J|, eta >= |A F|, alpha >= |A|, and beta = D a
 (2) Forces f are within (|R^T f - b|_1 + 2 D r |f|_1 + b') max |A_kc| / (1 - delta - 2 beta r) of those at the zero. Not
     strict, both have sum f sigma^2 = 1, and b = b' = 0. Strict, b is the gradient of log V, 1 / h on the diagonal of H,
     and b' = sum r / (h (h - r)) bounds its change.
-(3) A pair with m stable spheres stays open if |r|^2 - 2 |r|_1 m r > (G + r_G) sigma^2; if strict, m + |n|_1 for m.
+(3) A pair x with m stable spheres stays open if |x|^2 - 2 m r |x|_1 > (G + r_G) sigma^2; if strict, m + |n|_1 for m.
 """
 import base64
 import decimal

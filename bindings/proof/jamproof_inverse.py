@@ -1,7 +1,7 @@
 """The inverse of the equations of a proof file that has none, by floats: from numpy, or else computed here.
 
-jamproof.py loads this file where it needs it. The inverse is a hint: jamproof.py bounds by integers how far it is from
-one, so that nothing here can make a false proof.
+jamproof.py loads this file where it needs it. The inverse is a hint: jamproof.py bounds 1 - A J in integers, so that
+nothing here can make a false proof.
 """
 import base64
 import zlib

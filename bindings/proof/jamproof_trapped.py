@@ -12,7 +12,8 @@ a motion without overlap that does not enlarge V. With a unit u_i <= 1 of each s
     rho (1 - delta - M g) <= M sum f e + |A e| + (M (sum_c f_c w_c + sum 1 / h^2) + max_k sum_c |A_kc| w_c / u_k) rho^2
 
 with w_c = d (u_i + u_j + |n|_1 if strict)^2; rows of A e and 1 - A R over u_k, columns of 1 - A R times u_l; 1 / h^2
-if strict, of the cell's edges h. `inner` is between the roots; so is `outer` over min u_i where it is below h / 2.
+if strict, of the cell's edges h. So rho <= `inner` or rho >= R = `outer` / min u_i, both between the roots; if strict
+`outer` is at most h / 2.
 """
 import math
 from fractions import Fraction

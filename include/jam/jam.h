@@ -162,7 +162,7 @@ typedef enum jam_stop_reason {
   JAM_STOP_TIME = 12,            /* MD: its simulated time is over */
   JAM_STOP_EVALUATIONS = 13,     /* soft spheres: max_evaluations came first */
   JAM_STOP_STEPS = 14,           /* soft spheres: max_steps came first */
-  JAM_STOP_SADDLE = 15,          /* crunch: forces balance, a flex opens contacts, starts nearby end no better */
+  JAM_STOP_SADDLE = 15,          /* crunch: forces balance, a flex opens contacts, no start nearby ends jammed */
   JAM_STOP_DUALITY_GAP = 16      /* crunch: it reached the duality gap of its options */
 } jam_stop_reason;
 /* Version of the library, e.g. "1.0.0". Static storage, as the texts of the next five calls. */
@@ -1299,7 +1299,7 @@ typedef struct jam_rigidity_report {
  * pairs with gaps below 1e-10, whether a network lists them or not: none is needed, and the check answers the same.
  * Where coordinates have few digits, pairs within their rounding are undecided, and the answer is a no only where
  * spheres have too few of them. A sphere and its own image are a contact in the strict test, in the collective one
- * where the network lists them or only theirs balance. There a sphere that they alone hold needs forces on the cell to
+ * where the network lists them or no others balance. There a sphere that they alone hold needs forces on the cell to
  * balance. Let S v be the opening of contacts by a motion v, and E eps that by a strain eps. Collectively jammed: S v
  * >= 0 only for translations of B. Strictly jammed: S v + E eps >= 0 with tr eps <= 0 only for those and eps = 0. Both
  * hold for this cell, not for copies of it (jam_bloch_rigidity): Donev et al., J. Comput. Phys. 197, 139 (2004).

@@ -82,12 +82,14 @@ void take_complex(const double *vectors, int n, size_t first, size_t last, Eigen
 // The solver keeps vectors (x, y) orthogonal to rounding, and those of near frequencies mix: x + i y of two of them
 // need not be. Twice is enough (L. Giraud et al., Numer. Math. 101, 87 (2005)).
 void make_orthogonal(Eigen::MatrixXcd &v) {
-  for (Eigen::Index k = 1; k < v.cols(); ++k)
+  for (Eigen::Index k = 1; k < v.cols(); ++k) {
+    CallScope::look();
     for (int pass = 0; pass < 2; ++pass) {
       Eigen::VectorXcd x = v.col(k);
       x -= v.middleCols(0, k) * (v.middleCols(0, k).adjoint() * x).eval();
       v.col(k) = x.normalized();
     }
+  }
 }
 
 void write_vectors(const Eigen::MatrixXcd &v, Modes &out) {

@@ -94,7 +94,7 @@ struct PackingVerdict {
 PackingVerdict test_packing(const Packing &p, const ContactNetwork *listed, Jamming kind);
 // Whether a sphere may touch its own image. Such pairs are no contacts of the collective test.
 bool may_touch_own_image(const Packing &p, const GapResolution &resolution);
-// There the strict test can find more than the collective one: what is held in every strain is held in the fixed cell.
+// There the strict test can show jamming where the collective one does not; strictly jammed is collectively jammed.
 void take_strict(PackingVerdict &collective, const PackingVerdict &strict);
 // The same where the resolution of gaps is known.
 PackingVerdict test_packing(const Packing &p, const GapResolution &resolution, const ContactNetwork *listed,

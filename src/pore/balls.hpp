@@ -24,8 +24,8 @@ inline Point cross(const Point &a, const Point &b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-// What a length of a pore is compared with: the mean diameter, and in a dilute system half of the mean distance of
-// spheres, so that no count of boxes or points grows as spheres shrink.
+// The unit of lengths of pores: the larger of the mean diameter and half of the mean distance of spheres, so that no
+// count of boxes or points grows as spheres shrink.
 inline double spacing(const Packing &p) {
   return std::max(diameter_mean(p), 0.5 * math::pow(p.cell.volume() / static_cast<double>(p.n()), 1.0 / p.dim));
 }

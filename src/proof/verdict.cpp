@@ -70,7 +70,7 @@ void name_saddle(const ProofScene &s, const ProofEquations &e, Proof &proof) {
   proof.cause = ProofCause::saddle, proof.cause_value = proof.least_force, proof.cause_bound = widest;
 }
 
-// Where spheres touch their own images nothing is proved, whether a network lists these contacts or not.
+// The cause where nothing is proved and spheres touch their own images, whether a network lists them or not.
 void name_images(const ProofScene &s, Proof &proof) {
   const double widest = *std::max_element(s.ratio.begin(), s.ratio.end()), apart = s.cell.shortest();
   if (!shown(proof) && s.gamma * widest * widest > (1.0 - contact_gap_limit) * apart * apart)

@@ -13,20 +13,12 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
-LABELS = {
-    "decompressions": "none",
-    "decompressions after 1": "1e-4",
-    "decompressions after 2": "1e-4, 1e-3",
-    "decompressions after 3": "1e-4, 1e-3, 1e-2",
-    "none": "1e-4, 1e-3, 1e-2, 0.03",
-    "decompression by 1e-3": "1e-4, 1e-2, 0.03",
-}
-
+from results import DECOMPRESSIONS
 
 def main(raw, picture):
     runs = [json.loads(line) for line in Path(raw).read_text(encoding="utf-8").splitlines()]
     figure, (left, right) = plt.subplots(1, 2, figsize=(10, 4), constrained_layout=True)
-    for (off, label), marker in zip(LABELS.items(), "osD^vP"):
+    for (off, label), marker in zip(DECOMPRESSIONS.items(), "osD^vP"):
         of = [r for r in runs if r["off"] == off]
         if not of:
             continue

@@ -52,7 +52,7 @@ const JAM_STOP_UNJAMMED = Int32(11)  # crunch: converged without a rigid network
 const JAM_STOP_TIME = Int32(12)  # MD: its simulated time is over
 const JAM_STOP_EVALUATIONS = Int32(13)  # soft spheres: max_evaluations came first
 const JAM_STOP_STEPS = Int32(14)  # soft spheres: max_steps came first
-const JAM_STOP_SADDLE = Int32(15)  # crunch: forces balance, a flex opens contacts, starts nearby end no better
+const JAM_STOP_SADDLE = Int32(15)  # crunch: forces balance, a flex opens contacts, no start nearby ends jammed
 const JAM_STOP_DUALITY_GAP = Int32(16)  # crunch: it reached the duality gap of its options
 
 # jam_phase: Which part reports progress.
@@ -2812,7 +2812,7 @@ Tests whether the packing is jammed. Nothing changes but `strictly_jammed` in th
 pairs with gaps below 1e-10, whether a network lists them or not: none is needed, and the check answers the same.
 Where coordinates have few digits, pairs within their rounding are undecided, and the answer is a no only where
 spheres have too few of them. A sphere and its own image are a contact in the strict test, in the collective one
-where the network lists them or only theirs balance. There a sphere that they alone hold needs forces on the cell to
+where the network lists them or no others balance. There a sphere that they alone hold needs forces on the cell to
 balance. Let S v be the opening of contacts by a motion v, and E eps that by a strain eps. Collectively jammed: S v
 >= 0 only for translations of B. Strictly jammed: S v + E eps >= 0 with tr eps <= 0 only for those and eps = 0. Both
 hold for this cell, not for copies of it (`jam_bloch_rigidity`): Donev et al., J. Comput. Phys. 197, 139 (2004).

@@ -57,7 +57,7 @@ class StopReason(_Word):
     TIME = 12  # MD: its simulated time is over
     EVALUATIONS = 13  # soft spheres: max_evaluations came first
     STEPS = 14  # soft spheres: max_steps came first
-    SADDLE = 15  # crunch: forces balance, a flex opens contacts, starts nearby end no better
+    SADDLE = 15  # crunch: forces balance, a flex opens contacts, no start nearby ends jammed
     DUALITY_GAP = 16  # crunch: it reached the duality gap of its options
 
 

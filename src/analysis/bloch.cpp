@@ -81,12 +81,14 @@ void take_complex(const double *vectors, int n, size_t first, size_t last, Eigen
 
 // The solver keeps vectors (x, y) orthogonal to rounding, and those of near frequencies mix: x + i y of two of them
 // need not be. Twice is enough (L. Giraud et al., Numer. Math. 101, 87 (2005)).
-void make_orthogonal(Eigen::MatrixXcd &v) {
-  for (Eigen::Index k = 1; k < v.cols(); ++k) {
+void make_orthogonal(const std::vector<double> &lambda, Eigen::MatrixXcd &v) {
+  const double near = ModesTuning::leaning * std::max(std::fabs(lambda.front()), std::fabs(lambda.back()));
+  for (Eigen::Index k = 1, first = 0; k < v.cols(); ++k) {
     CallScope::look();
-    for (int pass = 0; pass < 2; ++pass) {
+    while (lambda[static_cast<size_t>(k)] - lambda[static_cast<size_t>(first)] > near) ++first;
+    for (int pass = 0; pass < 2 && first < k; ++pass) {
       Eigen::VectorXcd x = v.col(k);
-      x -= v.middleCols(0, k) * (v.middleCols(0, k).adjoint() * x).eval();
+      x -= v.middleCols(first, k - first) * (v.middleCols(first, k - first).adjoint() * x).eval();
       v.col(k) = x.normalized();
     }
   }
@@ -163,7 +165,7 @@ Modes bloch_modes(const RigidityMatrix &g, const ContactWeights &w, const CellsB
       for (last = first + 2; last < lambda.size() && lambda[last] - lambda[last - 1] <= near;) last += 2;
       take_complex(h.entries().data(), n, first, last, v);
     }
-    make_orthogonal(v);
+    make_orthogonal(out.lambda, v);
   } else {
     v = Eigen::Map<const Eigen::MatrixXd>(h.entries().data(), n, n).cast<std::complex<double>>();
   }

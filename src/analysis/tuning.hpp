@@ -19,6 +19,7 @@ struct ModesTuning {
   static constexpr double spent = 1e-3;  // what is left of a zero mode beside those found so far
   // Each frequency at a wave vector is found twice: frequencies this close, over the largest, may be mixed.
   static constexpr double mixed = 1e-11;
+  static constexpr double leaning = 1e-2;  // and this close have products up to rounding over their distance
 };
 
 // ---- dense eigenvalue problems

@@ -25,7 +25,7 @@ void threads_repeat(void **) {
     jam_crunch_options o = default_crunch_options();
     o.threads = 2, o.max_lps = 2, o.method = method;
     const CrunchResult r = run(p, o);
-    assert_true(r.report.factorisations > 10);
+    assert_true(r.report.lp_solves > 0);
     for (const int threads : {2, 3, 8}) {
       o.threads = threads;
       same_bits(r, run(p, o));
@@ -100,29 +100,53 @@ void refused_polish_takes_narrow_lps(void **) {
   const Packing p = start(60, 3, 0.3, 6);
   const jam_crunch_options o = default_crunch_options();
   const CrunchResult plain = run(p, o);
-  int asked = 0;
+  int64_t before = 0, answers = 0;
+  bool refused = false;
   CrunchHooks hooks;
   hooks.before_polish = [&](const Packing &, ContactNetwork &net) {
-    if (++asked > 1) return;
+    if (refused) return;
+    refused = true, before = answers;
     for (double &f : net.force) f = -f;
   };
+  hooks.answer = [&](LpSolution &, jam_lp_solver) { ++answers; };
   std::string log;
   Monitor monitor;
   listen(monitor, log);
   const CrunchResult r = crunch(p, o, monitor, nullptr, &hooks);
   assert_true(log.find("polish refused: a force turns negative") != std::string::npos);
-  assert_true(asked == 2 && r.report.lp_solves > plain.report.lp_solves);
+  assert_true(refused && answers > before);
   assert_true(r.report.jammed && r.report.contacts == plain.report.contacts && r.report.force_residual < 1e-13);
   assert_true(std::fabs(r.report.packing_fraction - plain.report.packing_fraction) < 1e-12);
+}
+
+// Refused at a loose tolerance, wide LPs go on; the call is stopped in the next one. Positions have changed since the
+// contacts were named, so there are none.
+void a_stop_behind_a_refused_polish_leaves_no_contacts(void **) {
+  jam_crunch_options o = default_crunch_options();
+  o.method = JAM_CRUNCH_SEQUENTIAL_LP, o.gain_tolerance = 1e-2;
+  bool refused = false;
+  Monitor monitor;
+  CrunchHooks hooks;
+  hooks.before_polish = [&](const Packing &, ContactNetwork &net) {
+    refused = true;
+    for (double &f : net.force) f = -f;
+  };
+  hooks.answer = [&](LpSolution &, jam_lp_solver) {
+    if (refused) monitor.cancel();
+  };
+  monitor.begin();
+  const CrunchResult r = crunch(start(60, 3, 0.3, 6), o, monitor, nullptr, &hooks);
+  assert_true(refused);
+  assert_int_equal(r.status, JAM_CANCELLED);
+  assert_true(r.contacts.size() == 0 && r.report.contacts == -1 && r.report.rattlers == -1 && !r.report.stationary);
+  assert_true(std::isnan(r.report.max_contact_gap));
 }
 
 // A network that is refused every time: the LP's contacts stay, and the test of them gives verdict and forces.
 void refused_polish_ends(void **) {
   const Packing p = start(60, 3, 0.3, 6);
   CrunchHooks hooks;
-  int asked = 0;
   hooks.before_polish = [&](const Packing &, ContactNetwork &net) {
-    ++asked;
     for (double &f : net.force) f = -f;
   };
   std::string log;
@@ -130,7 +154,6 @@ void refused_polish_ends(void **) {
   listen(monitor, log);
   const CrunchResult r = crunch(p, default_crunch_options(), monitor, nullptr, &hooks);
   assert_true(log.find("polish refused") != std::string::npos);
-  assert_int_equal(asked, 2);
   assert_true(r.report.jammed && r.report.min_force > 0.0 && r.report.force_residual < 1e-9);
   assert_true(r.report.max_overlap < 1e-12 && r.report.max_contact_gap < 1e-10);
 }
@@ -140,16 +163,16 @@ void unanswered_narrow_lps_end(void **) {
   const Packing p = start(60, 3, 0.3, 6);
   CrunchHooks hooks;
   bool narrow = false;
-  int refused = 0;
+  bool asked[2] = {false, false};  // the interior point, Clp
   hooks.before_polish = [&](const Packing &, ContactNetwork &net) {
     narrow = true;
     for (double &f : net.force) f = -f;
   };
-  hooks.answer = [&](LpSolution &x, jam_lp_solver) {
-    if (narrow) x.solved = false, ++refused;
+  hooks.answer = [&](LpSolution &x, jam_lp_solver solver) {
+    if (narrow) x.solved = false, asked[solver == JAM_LP_CLP] = true;
   };
   const CrunchResult r = run(p, default_crunch_options(), &hooks);
-  assert_int_equal(refused, clp_is_built() ? 3 : 2);  // the interior point, from two starts, then Clp
+  assert_true(asked[0] && asked[1] == clp_is_built());
   assert_true(r.report.jammed && r.report.min_force > 0.0 && r.report.force_residual < 1e-9);
 }
 
@@ -234,6 +257,7 @@ int main() {
                               cmocka_unit_test(clp_alone),
                               cmocka_unit_test(nobody_solves),
                               cmocka_unit_test(refused_polish_takes_narrow_lps),
+                              cmocka_unit_test(a_stop_behind_a_refused_polish_leaves_no_contacts),
                               cmocka_unit_test(refused_polish_ends),
                               cmocka_unit_test(unanswered_narrow_lps_end),
                               cmocka_unit_test(forces_that_do_not_balance_at_a_gap),

@@ -14,7 +14,7 @@
 #include "network/own_images.hpp"
 #include "network/room.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 struct Phase {
@@ -297,4 +297,4 @@ BlochFlexes bloch_flexes(const Packing &p, const PackingVerdict &verdict, const 
   return out;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -15,7 +15,7 @@
 #include "network/rigidity_test.hpp"
 #include "network/tile.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // For each contact the cells s from its partner back to it.
 using CellsBack = std::vector<std::array<int32_t, JAM_MAX_DIM>>;
@@ -42,4 +42,4 @@ struct BlochFlexes {
 // force in the copies where they do in one cell. Own images, which a fixed cell ignores, are contacts of two copies.
 BlochFlexes bloch_flexes(const Packing &p, const PackingVerdict &verdict, const Copies &copies);
 
-}  // namespace jam
+}  // namespace jam::inside

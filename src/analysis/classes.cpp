@@ -7,7 +7,7 @@
 #include "core/error.hpp"
 #include "jam/jam.h"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 // Forces of a class over their mean.
@@ -101,4 +101,4 @@ std::vector<double> histogram(const std::vector<double> &values, double low, dou
   return out;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -8,7 +8,7 @@
 
 #include "core/error.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 // Components of cell vectors, over the side of the cell.
@@ -144,4 +144,4 @@ Comparison compare_packings(const Packing &a, const ContactNetwork *na, const Pa
   return c;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

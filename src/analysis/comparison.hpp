@@ -5,7 +5,7 @@
 #include "core/packing.hpp"
 #include "network/contact_network.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 struct Comparison {
   jam_comparison numbers{};
@@ -15,4 +15,4 @@ struct Comparison {
 // Networks may be NULL. JAM_E_ARGUMENT when n, dim, cell or model differ.
 Comparison compare_packings(const Packing &a, const ContactNetwork *na, const Packing &b, const ContactNetwork *nb);
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -10,7 +10,7 @@
 #include "core/shells.hpp"
 #include "network/resolution.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 std::vector<double> pair_correlation(const Packing &p, const int32_t *kind, size_t kind_len, int32_t a, int32_t b,
                                      double r_max, size_t bins) {
@@ -124,4 +124,4 @@ double crystal_score(const Packing &p) {
   return around > 0.0 ? (near / weight_near) / (around / weight_around) : 0.0;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -11,7 +11,7 @@
 #include "core/error.hpp"
 #include "linalg/blas.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 using Stop = std::function<bool(double)>;
@@ -207,4 +207,4 @@ bool dense_eigen(int n, std::vector<double> &a, std::vector<double> &lambda, boo
   return true;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -20,7 +20,7 @@ void dormtr_(const char *side, const char *uplo, const char *trans, const int *m
              const int *lda, const double *tau, double *c, const int *ldc, double *work, const int *lwork, int *info);
 }
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 // Lower triangle of a to tridiagonal form d, e; reflectors stay in a and tau. False when stopped.
@@ -86,4 +86,4 @@ bool dense_eigen(int n, std::vector<double> &a, std::vector<double> &lambda, boo
   return true;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -13,7 +13,7 @@
 #include "core/rng.hpp"
 #include "linalg/dot.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 jam_dos_options default_dos_options() {
   jam_dos_options o{};
@@ -169,4 +169,4 @@ DensityOfStates density_of_states(const RigidityMatrix &g, const ContactWeights 
   return out;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -6,7 +6,7 @@
 #include "core/call_scope.hpp"
 #include "core/error.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 // Quadratic form of the energy in changes du (contacts, d) of contact vectors, and the spheres that follow such
@@ -137,4 +137,4 @@ jam_moduli_report elastic_moduli(const Packing &p, const RigidityMatrix &g, cons
   return m;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -9,7 +9,7 @@
 #include "core/pair_rule.hpp"
 #include "linalg/blas.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 void FloppyModes::resize(size_t m) {
   for (auto *x : {&median, &weight, &s_plus, &s_star, &stability, &s_return}) x->resize(m);
@@ -111,4 +111,4 @@ FloppyModes all_floppy_modes(const Packing &p, const ContactNetwork &network, co
   return out;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

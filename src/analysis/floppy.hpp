@@ -3,7 +3,7 @@
 #include <vector>
 #include "network/self_stress.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 struct FloppyModes {
   std::vector<double> median;     // b: median |dr_i| over |dr|
@@ -42,4 +42,4 @@ class FloppySolver {
 // All contacts, in blocks.
 FloppyModes all_floppy_modes(const Packing &p, const ContactNetwork &network, const RigidityMatrix &g);
 
-}  // namespace jam
+}  // namespace jam::inside

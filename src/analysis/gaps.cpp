@@ -13,7 +13,7 @@
 #include "core/pair_rule.hpp"
 #include "jam/jam.h"
 
-namespace jam {
+namespace jam::inside {
 
 void check_pair_count(const Packing &p, double reach) {
   const double ball = unit_sphere_volume(p.dim) * math::pow(2.0 * reach / p.cell.side(), p.dim),
@@ -165,4 +165,4 @@ ContactDots contact_dots(const Packing &p, const ContactNetwork &net, bool weigh
   return out;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

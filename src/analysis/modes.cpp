@@ -17,7 +17,7 @@
 #include "linalg/blas.hpp"
 #include "linalg/shifted_factor.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 jam_modes_options default_modes_options() {
   jam_modes_options o{};
@@ -250,4 +250,4 @@ double inverse_participation(int dim, int32_t nodes, const double *v) {
   return two > 0.0 ? four / (two * two) : 0.0;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -5,7 +5,7 @@
 #include "core/monitor.hpp"
 #include "network/hessian.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 struct Modes {
   std::vector<double> lambda;         // ascending
@@ -31,4 +31,4 @@ void select_modes(const RigidityMatrix &g, const jam_modes_options &o, Modes &al
 // Y = sum |v_i|^4 / (sum |v_i|^2)^2 of a field (nodes, dim).
 double inverse_participation(int dim, int32_t nodes, const double *v);
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -7,7 +7,7 @@
 #include "analysis/modes.hpp"
 #include "analysis/tuning.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 jam_status all_modes(const BlockMatrix &h, Monitor &monitor, Modes &out) {
   const int n = static_cast<int>(h.rows()), d = h.dim;
@@ -73,4 +73,4 @@ void select_modes(const RigidityMatrix &g, const jam_modes_options &o, Modes &m)
   m = std::move(cut);
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -3,7 +3,7 @@
 #include <vector>
 #include "network/self_stress.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 jam_dos_options default_dos_options();
 struct DensityOfStates {
@@ -24,4 +24,4 @@ ElasticTensor elastic_tensor(const Packing &p, const RigidityMatrix &g, const Co
 // Moduli from that tensor.
 jam_moduli_report elastic_moduli(const Packing &p, const RigidityMatrix &g, const ContactWeights &w);
 
-}  // namespace jam
+}  // namespace jam::inside

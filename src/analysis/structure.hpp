@@ -5,7 +5,7 @@
 #include "core/packing.hpp"
 #include "network/contact_network.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // All pairs (every image, a sphere's own too) with h < h_max but the contacts of `network` (which may be NULL);
 // stable_only leaves out pairs with a rattler of the network.
@@ -63,4 +63,4 @@ double crystal_score(const Packing &p);
 // Volume of a sphere over that of its radical Voronoi cell; d = 3, needs voro++ at build time (JAM_E_UNSUPPORTED).
 std::vector<double> local_fractions(const Packing &p);
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -7,7 +7,7 @@
 #include "core/error.hpp"
 #include "core/math.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 // Sums of S over the wave vectors of each length. Lengths come in any order; equal ones meet when the list is sorted.
@@ -175,4 +175,4 @@ StructureFactor structure_factor(const Packing &p, double q_max, bool lengths_on
   return sum.run(step, unit);
 }
 
-}  // namespace jam
+}  // namespace jam::inside

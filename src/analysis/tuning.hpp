@@ -2,7 +2,7 @@
 #pragma once
 #include <cstddef>
 
-namespace jam {
+namespace jam::inside {
 
 // ---- modes
 struct ModesTuning {
@@ -52,4 +52,4 @@ struct CrystalTuning {
   static constexpr double reach = 2.0, bin = 0.005, half_width = 0.02, from = 1.2, to = 1.6;
 };
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -12,7 +12,7 @@
 #include <voro++/voro++.hh>
 #endif
 
-namespace jam {
+namespace jam::inside {
 #ifdef JAM_HAVE_VORO
 namespace {
 
@@ -230,4 +230,4 @@ std::vector<double> local_fractions(const Packing &p) {
 #endif
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -7,7 +7,7 @@
 #include "network/hessian.hpp"
 #include "network/rigidity_matrix.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 inline void need_network(const jam_system *sys) {
   if (sys->has_report && !sys->known_contacts())
@@ -66,4 +66,4 @@ void put_output(const std::vector<T> &data, T *out, size_t expected) {
     out[k] = std::numeric_limits<T>::has_quiet_NaN ? std::numeric_limits<T>::quiet_NaN() : T(-1);
 }
 
-}  // namespace jam
+}  // namespace jam::inside

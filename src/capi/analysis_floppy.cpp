@@ -3,7 +3,7 @@
 #include "capi/analysis.hpp"
 #include "capi/table.hpp"
 
-using namespace jam;
+using namespace jam::inside;
 
 extern "C" {
 

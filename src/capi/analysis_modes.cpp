@@ -6,7 +6,7 @@
 #include "capi/table.hpp"
 #include "core/limits.hpp"
 
-using namespace jam;
+using namespace jam::inside;
 
 extern "C" {
 

@@ -5,7 +5,7 @@
 #include "network/contacts_from_geometry.hpp"
 #include "proof/judge.hpp"
 
-using namespace jam;
+using namespace jam::inside;
 
 namespace {
 

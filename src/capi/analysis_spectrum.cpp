@@ -7,7 +7,7 @@
 #include "core/call_scope.hpp"
 #include "network/own_images.hpp"
 
-using namespace jam;
+using namespace jam::inside;
 
 extern "C" {
 

@@ -5,7 +5,7 @@
 #include "capi/table.hpp"
 #include "core/pair_rule.hpp"
 
-using namespace jam;
+using namespace jam::inside;
 
 namespace {
 

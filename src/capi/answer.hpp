@@ -5,7 +5,7 @@
 
 #include "jam/jam.h"
 
-namespace jam {
+namespace jam::inside {
 
 struct Answer {
   jam_status status;
@@ -24,4 +24,4 @@ Answer stopped_run(jam_status status, int32_t stop_reason);
 
 __attribute__((format(printf, 1, 2))) std::string sentence(const char *format, ...);
 
-}  // namespace jam
+}  // namespace jam::inside

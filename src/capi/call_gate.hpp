@@ -4,7 +4,7 @@
 #include <atomic>
 #include <thread>
 
-namespace jam {
+namespace jam::inside {
 
 class CallGate {
  public:
@@ -36,4 +36,4 @@ class CallGate {
   std::atomic<std::thread::id> owner_{std::thread::id()};
 };
 
-}  // namespace jam
+}  // namespace jam::inside

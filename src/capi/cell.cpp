@@ -12,7 +12,7 @@
 #include "network/own_images.hpp"
 #include "network/tile.hpp"
 
-using namespace jam;
+using namespace jam::inside;
 
 namespace {
 

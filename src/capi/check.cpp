@@ -8,7 +8,7 @@
 #include "network/check.hpp"
 #include "proof/judge.hpp"
 
-using namespace jam;
+using namespace jam::inside;
 
 namespace {
 

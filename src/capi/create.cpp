@@ -15,11 +15,11 @@
 #include "core/limits.hpp"
 #include "core/pairs.hpp"
 
-using namespace jam;
+using namespace jam::inside;
 
 void jam_system::note_diameters() noexcept {
-  packing_fraction = jam::packing_fraction(packing);
-  diameter_mean = jam::diameter_mean(packing);
+  packing_fraction = jam::inside::packing_fraction(packing);
+  diameter_mean = jam::inside::diameter_mean(packing);
   const double first = packing.diameter[0];
   monodisperse =
       std::all_of(packing.diameter.begin(), packing.diameter.end(), [first](double s) { return s == first; });

@@ -6,7 +6,7 @@
 #include "core/checks.hpp"
 #include "crunch/estimate.hpp"
 
-using namespace jam;
+using namespace jam::inside;
 
 namespace {
 template <class F>

@@ -13,7 +13,7 @@
 #include "core/host_environment.hpp"
 #include "core/validate.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // libjam's environment while one call runs. Out of line, as each of some 200 functions enters it.
 class OwnEnvironmentOfCall {
@@ -285,4 +285,4 @@ inline void check_array_in(const double *x, size_t len, const char *name) {
     if (!std::isfinite(x[k])) fail(JAM_E_NONFINITE, "%s[%zu] is %g", name, k, x[k]);
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -8,7 +8,7 @@
 #include "core/create.hpp"
 #include "io/files.hpp"
 
-using namespace jam;
+using namespace jam::inside;
 
 namespace {
 

@@ -5,7 +5,7 @@
 
 #include "capi/table.hpp"
 
-using namespace jam;
+using namespace jam::inside;
 
 namespace {
 

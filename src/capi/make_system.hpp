@@ -4,7 +4,7 @@
 
 #include "capi/guard.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 template <class Make>
 Answer make_system(const jam_create_options &o, jam_progress_fn callback, void *user, jam_system **out, Make &&make) {
@@ -32,4 +32,4 @@ Answer make_system(const jam_create_options &o, jam_progress_fn callback, void *
   return JAM_OK;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -13,7 +13,7 @@
 #include "dynamics/event_driven/run.hpp"
 #include "io/checkpoint.hpp"
 
-using namespace jam;
+using namespace jam::inside;
 
 namespace {
 

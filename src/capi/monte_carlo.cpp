@@ -4,7 +4,7 @@
 #include "capi/guard.hpp"
 #include "dynamics/monte_carlo/monte_carlo.hpp"
 
-using namespace jam;
+using namespace jam::inside;
 
 extern "C" {
 

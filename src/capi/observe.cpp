@@ -3,7 +3,7 @@
 
 #include "capi/table.hpp"
 
-using namespace jam;
+using namespace jam::inside;
 
 namespace {
 

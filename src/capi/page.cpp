@@ -6,7 +6,7 @@
 #include "capi/proof.hpp"
 #include "core/checks.hpp"
 
-using namespace jam;
+using namespace jam::inside;
 
 namespace {
 

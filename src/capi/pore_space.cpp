@@ -10,7 +10,7 @@
 #include "pore/pore_sizes.hpp"
 #include "pore/profile.hpp"
 
-using namespace jam;
+using namespace jam::inside;
 
 namespace {
 

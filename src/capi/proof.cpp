@@ -8,7 +8,7 @@
 #include "proof/newton.hpp"
 #include "proof/verdict.hpp"
 
-using namespace jam;
+using namespace jam::inside;
 
 namespace {
 
@@ -94,12 +94,12 @@ Answer write_scene(ProofScene scene, const char *path) {
 
 }  // namespace
 
-jam_proof_report jam::prove_network(const Packing &p, const ContactNetwork &network) {
+jam_proof_report jam::inside::prove_network(const Packing &p, const ContactNetwork &network) {
   ProofScene scene = make_proof_scene(p, network, {});
   return prove_scene(scene);
 }
 
-std::string jam::proof_text(int32_t theorem, int32_t cause, double radius, double value, double bound) {
+std::string jam::inside::proof_text(int32_t theorem, int32_t cause, double radius, double value, double bound) {
   static const char *const causes[] = {"", "excess", "force", "gap", "singular", "rattler", "images", "saddle"};
   if (theorem < JAM_THEOREM_NONE || theorem > JAM_THEOREM_EXACT || cause < 0 || cause > JAM_CAUSE_SADDLE) return "";
   char start[64] = "not proved", why[96] = "";

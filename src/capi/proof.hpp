@@ -8,7 +8,7 @@
 #include "jam/jam.h"
 #include "network/contact_network.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 jam_proof_report prove_network(const Packing &p, const ContactNetwork &network);
 
@@ -32,4 +32,4 @@ void take_proof(const Packing &p, const ContactNetwork &network, Report &r) {
   r.proof_value = proof.cause_value, r.proof_bound = proof.cause_bound;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -9,7 +9,7 @@
 #include "network/contact_network.hpp"
 #include "soft/decompression.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 struct Results {
   ContactNetwork contacts;  // of the report; ask known_contacts
@@ -27,4 +27,4 @@ struct Results {
   void archive(Archive &a, const Packing &p);
 };
 
-}  // namespace jam
+}  // namespace jam::inside

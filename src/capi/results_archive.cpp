@@ -6,7 +6,7 @@
 #include "core/error.hpp"
 #include "core/pair_rule.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 void check(bool good) {
@@ -86,7 +86,8 @@ struct Waiting {
   int64_t sweeps = 0;
   bool has_results = false;
   void archive(Archive &a) {
-    jam::archive(a, crunch), jam::archive(a, paused), jam::archive(a, runs), jam::archive(a, notes);
+    jam::inside::archive(a, crunch), jam::inside::archive(a, paused), jam::inside::archive(a, runs),
+        jam::inside::archive(a, notes);
     a(sweeps), a(has_results);
   }
 };
@@ -95,7 +96,7 @@ struct Waiting {
 
 void Results::archive(Archive &a, const Packing &p) {
   // A report with other fields is another format: raise the version in io/checkpoint.cpp.
-  a(has_report), a(report), jam::archive(a, contacts);
+  a(has_report), a(report), jam::inside::archive(a, contacts);
   a(has_history), a(history), a(soft_history);
   uint64_t kept = kept_steps.size();
   a(kept);
@@ -109,7 +110,7 @@ void Results::archive(Archive &a, const Packing &p) {
   }
   int64_t last = -1;
   for (KeptStep &s : kept_steps) {
-    jam::archive(a, s, p, history.size());
+    jam::inside::archive(a, s, p, history.size());
     check(s.step > last);
     last = s.step;
   }
@@ -153,4 +154,4 @@ void read_beside(SystemState &s, std::string bytes) {
   s.runs.reset(static_cast<Isoconfigurational *>(runs.release()));
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -8,7 +8,7 @@
 #include "network/room.hpp"
 #include "proof/judge.hpp"
 
-using namespace jam;
+using namespace jam::inside;
 
 namespace {
 

@@ -8,7 +8,7 @@
 #include "core/size_laws.hpp"
 #include "io/files.hpp"
 
-using namespace jam;
+using namespace jam::inside;
 
 extern "C" {
 

@@ -5,7 +5,7 @@
 #include "crunch/crunch.hpp"
 #include "soft/decompression.hpp"
 
-using namespace jam;
+using namespace jam::inside;
 
 namespace {
 

@@ -5,7 +5,7 @@
 #include "capi/guard.hpp"
 #include "linalg/blas.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 thread_local char last_error[2048] = "";  // a paragraph of jam_check_text fits
 }
@@ -108,7 +108,7 @@ std::string sentence(const char *format, ...) {
   va_end(args);
   return text;
 }
-}  // namespace jam
+}  // namespace jam::inside
 
 // One list for code and text; the numbers are checked against the header by the compiler through the switch.
 #define JAM_STATUS_TEXTS(X)                                    \
@@ -192,11 +192,11 @@ const char *jam_stop_string(int32_t reason) {
   }
 }
 
-const char *jam_last_error(void) { return jam::last_error; }
-void jam_set_error(const char *text) { jam::set_last_error(text ? text : ""); }
+const char *jam_last_error(void) { return jam::inside::last_error; }
+void jam_set_error(const char *text) { jam::inside::set_last_error(text ? text : ""); }
 const char *jam_version(void) { return JAM_VERSION_STRING; }
 const char *jam_commit(void) { return JAM_COMMIT_STRING; }
-const char *jam_blas_kernel(void) { return jam::blas_kernel(); }
+const char *jam_blas_kernel(void) { return jam::inside::blas_kernel(); }
 int32_t jam_abi_version(void) { return JAM_ABI; }
 
 }  // extern "C"

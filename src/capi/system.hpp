@@ -14,7 +14,7 @@
 #include "dynamics/isoconfigurational/isoconfigurational.hpp"
 #include "dynamics/observer.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 inline std::unique_ptr<Dynamics> clone(const Dynamics &paused) {
   return read_dynamics(paused.packing(), write_dynamics(paused));
@@ -64,24 +64,24 @@ std::string archive_beside(const SystemState &s, const Moving &moving);
 // Into a state that holds the packing alone. Damaged bytes throw JAM_E_FORMAT.
 void read_beside(SystemState &s, std::string bytes);
 
-}  // namespace jam
+}  // namespace jam::inside
 
-struct jam_system : jam::SystemState {
+struct jam_system : jam::inside::SystemState {
   jam_system() = default;
-  explicit jam_system(const jam::SystemState &state) : SystemState(state) {}
+  explicit jam_system(const jam::inside::SystemState &state) : SystemState(state) {}
 
   // Of the call that runs now; a copy has none of it.
-  const jam::History *crunching = nullptr;  // of the crunch that runs
-  const jam::Dynamics *live = nullptr;      // runs now, while callbacks are called
-  mutable jam::Monitor monitor;             // const calls note there which cancels they have answered
-  mutable jam::CallGate gate;
+  const jam::inside::History *crunching = nullptr;  // of the crunch that runs
+  const jam::inside::Dynamics *live = nullptr;      // runs now, while callbacks are called
+  mutable jam::inside::Monitor monitor;             // const calls note there which cancels they have answered
+  mutable jam::inside::CallGate gate;
 
   // Copies positions, diameters and velocities into the view buffers, whose addresses stay. Never throws.
-  void show(const jam::Packing &state) noexcept;
+  void show(const jam::inside::Packing &state) noexcept;
   // What jam_info gives of the diameters, once for each change of them.
   void note_diameters() noexcept;
   // The end of every move: shows its packing with what is known of it. A stage that waits has lost its packing, and all
   // earlier results are of other positions; so are pressures, but where dynamics has measured those of the result.
-  void commit(const jam::Packing &result, jam::Results &&found = {}) noexcept;
-  void commit_measured(const jam::Packing &result, jam::Results &&found = {}) noexcept;
+  void commit(const jam::inside::Packing &result, jam::inside::Results &&found = {}) noexcept;
+  void commit_measured(const jam::inside::Packing &result, jam::inside::Results &&found = {}) noexcept;
 };

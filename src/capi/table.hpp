@@ -5,7 +5,7 @@
 #include <vector>
 #include "capi/guard.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // The size alone is known before the work: sets *needed and says whether there is an array to fill.
 inline bool table_wanted(size_t rows, size_t columns, const double *table, size_t table_len, size_t *needed) {
@@ -32,4 +32,4 @@ jam_status give_table(const std::vector<Row> &rows, double *table, size_t table_
   return JAM_OK;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

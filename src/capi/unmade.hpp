@@ -5,7 +5,7 @@
 
 #include "capi/system.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 inline void set_unmade(const SystemState &s, jam_md_report &r) {
   r = {};
@@ -38,4 +38,4 @@ inline void set_unmade(const SystemState &s, jam_decompress_report &r) {
   r.contacts = r.common_contacts = r.rattlers = -1;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

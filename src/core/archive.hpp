@@ -10,7 +10,7 @@
 
 #include "core/error.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 class Archive {
  public:
@@ -62,4 +62,4 @@ class Archive {
   bool reading_ = false;
 };
 
-}  // namespace jam
+}  // namespace jam::inside

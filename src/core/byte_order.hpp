@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <cstring>
 
-namespace jam {
+namespace jam::inside {
 
 constexpr bool lowest_byte_first = __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__;
 
@@ -24,4 +24,4 @@ T with_bytes_reversed(T x) {
   return x;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

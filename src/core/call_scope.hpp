@@ -6,7 +6,7 @@
 #include "core/error.hpp"
 #include "core/monitor.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // Half the machine's memory: memory_posix.cpp, memory_windows.cpp.
 double default_memory_limit();
@@ -98,4 +98,4 @@ class LeavingScope : public CallScope {
   LeavingScope() : CallScope(memory_limit(), monitor(), quiet(), true) {}  // in the scope of now
 };
 
-}  // namespace jam
+}  // namespace jam::inside

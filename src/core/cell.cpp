@@ -4,7 +4,7 @@
 
 #include "core/math.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 Cell::Cell(int dim, double side) : dim_(dim), side_(side), volume_(math::pow(side, dim)) {
   for (int c = 0; c < dim; ++c) rows_[c][c] = side;
@@ -73,7 +73,7 @@ void Cell::wrap(double *x, double *shift) const {
   if (shift) std::fill(shift, shift + dim_, 0.0);
   for (int c = dim_ - 1; c >= 0; --c) {
     if (!repeats(c)) continue;
-    const double inside = jam::wrap(x[c], edge(c));
+    const double inside = jam::inside::wrap(x[c], edge(c));
     if (inside == x[c]) continue;
     const double m = std::nearbyint((x[c] - inside) / edge(c));
     for (int k = 0; !cube_ && k < c; ++k) x[k] -= m * rows_[c][k];
@@ -92,4 +92,4 @@ double wrap(double x, double period) {
   return rest < period ? rest : 0.0;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -15,7 +15,7 @@
 
 #include "jam/jam.h"
 
-namespace jam {
+namespace jam::inside {
 
 class Cell {
  public:
@@ -130,4 +130,4 @@ class Cell {
 // Wraps x into [0, period). Also right for values like -1e-20, where x + period rounds to period.
 double wrap(double x, double period);
 
-}  // namespace jam
+}  // namespace jam::inside

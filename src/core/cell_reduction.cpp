@@ -9,7 +9,7 @@
 #include "core/math.hpp"
 #include "core/tuning.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 // Gram-Schmidt: row k = sum_j mu[k][j] star_j.
@@ -197,4 +197,4 @@ void strain_affinely(Packing &p, const double *strain) {
   enter_cell(p, reduced);
 }
 
-}  // namespace jam
+}  // namespace jam::inside

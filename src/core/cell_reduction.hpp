@@ -5,7 +5,7 @@
 
 #include "core/packing.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 struct ReducedCell {
   Cell cell;
@@ -26,4 +26,4 @@ bool keeps_shifts(const Packing &p, const ReducedCell &reduced);
 // kept.
 void strain_affinely(Packing &p, const double *strain);
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -6,7 +6,7 @@
 #include "core/error.hpp"
 #include "core/limits.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // NaN is refused by all.
 inline void check_positive(double value, const char *name) {
@@ -36,4 +36,4 @@ inline void check_enum(int32_t value, int32_t first, int32_t last, const char *n
   if (value < first || value > last) fail(JAM_E_ARGUMENT, "%s is %d, not a %s", name, value, type);
 }
 
-}  // namespace jam
+}  // namespace jam::inside

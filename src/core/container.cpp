@@ -9,7 +9,7 @@
 #include "core/math.hpp"
 #include "core/packing.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 char letter(int c, int dim) { return dim <= 3 ? "xyz"[c] : static_cast<char>('0' + c); }
@@ -204,4 +204,4 @@ void refuse_closed(const Packing &p, int needed, const char *call) {
          p.container.open_axes());
 }
 
-}  // namespace jam
+}  // namespace jam::inside

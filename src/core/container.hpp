@@ -24,7 +24,7 @@
 #include "core/rng.hpp"
 #include "jam/jam.h"
 
-namespace jam {
+namespace jam::inside {
 
 struct Packing;
 
@@ -175,7 +175,7 @@ class Container {
 
  private:
   static double square_root(double x) { return std::sqrt(x); }
-  static DoubleDouble square_root(DoubleDouble x) { return jam::square_root(x); }
+  static DoubleDouble square_root(DoubleDouble x) { return jam::inside::square_root(x); }
   static uint64_t half_of(uint64_t edge) { return edge ? edge / 2 : uint64_t{1} << 63; }
   static unsigned __int128 square(__int128 x) {
     const auto m = static_cast<unsigned __int128>(x < 0 ? -x : x);
@@ -225,4 +225,4 @@ void refuse_walls(const Packing &p, const char *done);
 // JAM_E_UNSUPPORTED for a call that needs so many axes without walls.
 void refuse_closed(const Packing &p, int needed, const char *call);
 
-}  // namespace jam
+}  // namespace jam::inside

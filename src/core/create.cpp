@@ -17,7 +17,7 @@
 #include "core/size_laws.hpp"
 #include "core/tuning.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 void check_options(const jam_create_options &o) {
@@ -279,4 +279,4 @@ Packing make_packing(const jam_create_options &o, const double *positions, size_
   return p;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -3,7 +3,7 @@
 #include "core/notes.hpp"
 #include "core/packing.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // Overlaps up to this fraction of sigma_ij are rounding of a file's digits, not a user's error.
 constexpr double overlap_tolerance = 1e-12;
@@ -43,4 +43,4 @@ void place_at_random(Packing &p);
 // uniform positions; then each pair draws its shift anew until it does not overlap.
 void plant(Packing &p);
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -11,7 +11,7 @@
 #include <cstring>
 #include <string>
 
-namespace jam {
+namespace jam::inside {
 
 #if defined(__cpp_lib_to_chars)
 std::from_chars_result from_decimal(std::string_view text, double &x) {
@@ -66,4 +66,4 @@ char *to_decimal_by_c(char *text, double x) {
 }
 #endif
 
-}  // namespace jam
+}  // namespace jam::inside

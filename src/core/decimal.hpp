@@ -3,7 +3,7 @@
 #include <charconv>
 #include <string_view>
 
-namespace jam {
+namespace jam::inside {
 
 // std::from_chars: errc::invalid_argument without a number at the beginning, errc::result_out_of_range where a double
 // overflows, or underflows to zero; else x.
@@ -18,4 +18,4 @@ std::from_chars_result from_decimal_by_c(std::string_view text, double &x);
 char *to_decimal_by_c(char *text, double x);
 #endif
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -11,7 +11,7 @@
 #endif
 #endif
 
-namespace jam {
+namespace jam::inside {
 
 // What the host's thread had. enter() notes it and sets a point, leave() brings it back.
 #if defined(_WIN32)
@@ -58,4 +58,4 @@ class HostDecimalPoint {
 };
 #endif
 
-}  // namespace jam
+}  // namespace jam::inside

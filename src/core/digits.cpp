@@ -8,7 +8,7 @@
 #include "core/math.hpp"
 #include "core/tuning.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
@@ -105,4 +105,4 @@ GivenDigits fraction_digits(const Packing &p) {
   return out;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -5,7 +5,7 @@
 
 #include "core/packing.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // From coordinates: most of them are multiples of one step, or some of four significant digits and more. From diameters
 // and cell vectors: most of these numbers have four digits or more and end there; fewer digits may have been chosen.
@@ -16,4 +16,4 @@ GivenDigits coordinate_digits(int dim, const std::vector<double> &position, doub
 // The same from the positions along the cell vectors.
 GivenDigits fraction_digits(const Packing &p);
 
-}  // namespace jam
+}  // namespace jam::inside

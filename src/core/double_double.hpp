@@ -3,7 +3,7 @@
 #pragma once
 #include <cmath>
 
-namespace jam {
+namespace jam::inside {
 
 struct DoubleDouble {
   double high = 0.0, low = 0.0;
@@ -60,4 +60,4 @@ inline void add_to(double &high, double &low, double x) {
   high = sum.high, low = sum.low;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -5,7 +5,7 @@
 #include <exception>
 #include "jam/jam.h"
 
-namespace jam {
+namespace jam::inside {
 
 // Any layer throws it; src/capi turns it into a status. The text is stored inline, so that throwing needs no memory
 // beyond the exception object.
@@ -30,4 +30,4 @@ class Error : public std::exception {
   throw Error(code, text);
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -9,7 +9,7 @@
 #endif
 #include "core/decimal_point.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // What the host had. enter() notes it and sets the environment of C, leave() brings it back.
 #if defined(__x86_64__)
@@ -127,4 +127,4 @@ class OwnEnvironment {
   const bool of_caller_;
 };
 
-}  // namespace jam
+}  // namespace jam::inside

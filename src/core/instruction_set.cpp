@@ -1,6 +1,6 @@
 #include "core/instruction_set.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 bool has_instruction_set(InstructionSet set) {
 #if defined(__x86_64__)
@@ -19,4 +19,4 @@ InstructionSet resolved(InstructionSet set) {
                                                      : InstructionSet::portable;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -2,7 +2,7 @@
 #pragma once
 #include <cstdint>
 
-namespace jam {
+namespace jam::inside {
 
 enum class InstructionSet : int64_t { best, portable, avx2, avx512 };
 // Whether this processor, and this build, has it.
@@ -10,4 +10,4 @@ bool has_instruction_set(InstructionSet set);
 // The set that `best` stands for here; any other stands for itself.
 InstructionSet resolved(InstructionSet set);
 
-}  // namespace jam
+}  // namespace jam::inside

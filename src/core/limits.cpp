@@ -5,7 +5,7 @@
 #include "core/error.hpp"
 #include "core/with_dimension.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 void check_range(const char *name, double value, double low, double high) {
   if (!(value >= low && value <= high)) fail(JAM_E_ARGUMENT, "%s is %g, supported are %g..%g", name, value, low, high);
@@ -56,4 +56,4 @@ void check_velocities(const Packing &p, const std::vector<double> &velocity, jam
          limits::velocity_max);
 }
 
-}  // namespace jam
+}  // namespace jam::inside

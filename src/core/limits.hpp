@@ -6,7 +6,7 @@
 
 #include "core/packing.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace limits {
 
 constexpr int64_t n_max = INT32_MAX;
@@ -44,4 +44,4 @@ void check_diameters(const std::vector<double> &diameter, const Cell &cell);
 // Throws `code` where the spheres are too fast. Light spheres among heavy ones may be as fast as their masses ask.
 void check_velocities(const Packing &p, const std::vector<double> &velocity, jam_status code);
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -10,7 +10,7 @@
 
 static_assert(FLT_EVAL_METHOD == 0 && DBL_MANT_DIG == 53, "libjam needs doubles that round at every operation");
 
-namespace jam::math {
+namespace jam::inside::math {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
@@ -287,4 +287,4 @@ double acos(double x) {
   return x < -0.5 ? 2.0 * from_half_pi(1.0, half_arccosine(-x)) : from_half_pi(1.0, small_arcsine(x));
 }
 
-}  // namespace jam::math
+}  // namespace jam::inside::math

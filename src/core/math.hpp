@@ -5,7 +5,7 @@
 // of the range, infinities and NaN are those of C; errno and the flags of floating point mean nothing.
 #pragma once
 
-namespace jam::math {
+namespace jam::inside::math {
 
 constexpr double pi = 3.14159265358979323846;
 double log(double x);
@@ -23,4 +23,4 @@ double asin(double x);
 double normal_share(double x);
 double normal_quantile(double share);
 
-}  // namespace jam::math
+}  // namespace jam::inside::math

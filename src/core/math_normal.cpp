@@ -5,7 +5,7 @@
 #include "core/double_double.hpp"
 #include "core/math.hpp"
 
-namespace jam::math {
+namespace jam::inside::math {
 namespace {
 
 template <int N>
@@ -95,4 +95,4 @@ double normal_quantile(double share) {
   return q < 0.0 ? -x : x;
 }
 
-}  // namespace jam::math
+}  // namespace jam::inside::math

@@ -2,7 +2,7 @@
 
 #include "core/call_scope.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 double default_memory_limit() {
   MEMORYSTATUSEX memory{};
@@ -11,4 +11,4 @@ double default_memory_limit() {
   return 0.5 * static_cast<double>(memory.ullTotalPhys);
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -13,7 +13,7 @@
 #include "core/tuning.hpp"
 #include "jam/jam.h"
 
-namespace jam {
+namespace jam::inside {
 
 inline double now_seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -143,4 +143,4 @@ class TimeLimit {
   double before_;
 };
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -4,7 +4,7 @@
 
 #include "core/math.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 Cell strained_cell(int dim, std::vector<double> rows) {
   const double least = least_cell_entry * Cell::from_triangle(dim, rows.data()).side();
@@ -41,4 +41,4 @@ void move_packing(Packing &p, PairList &pairs, const double *s, double length, d
   wrap_positions(p, pairs);
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -5,7 +5,7 @@
 #include "core/packing.hpp"
 #include "core/pairs.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // The cell that a strain leaves, of lower-triangular rows. Entries below this, over V^(1/d), are rounding of zeros and
 // become 0: they move nothing, and their squares would leave the range of doubles in proofs.
@@ -21,4 +21,4 @@ void strain_at_fixed_volume(Packing &p, PairList &pairs, const std::vector<doubl
 void move_packing(Packing &p, PairList &pairs, const double *s, double length, double growth,
                   const std::vector<double> &strain = {});
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-namespace jam {
+namespace jam::inside {
 
 // Lines of text. Those of warnings begin with `warning`.
 class Notes {
@@ -42,4 +42,4 @@ class Notes {
   std::string text_;
 };
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -4,7 +4,7 @@
 
 #include "core/math.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 double unit_sphere_volume(int dim) {
   double volume = 1.0;  // of one dimension, and of none; two more bring pi / 2 d
@@ -53,4 +53,4 @@ void wrap_positions(Packing &p) {
   for (size_t i = 0; i < p.n(); ++i) p.cell.wrap(&p.position[i * static_cast<size_t>(p.dim)]);
 }
 
-}  // namespace jam
+}  // namespace jam::inside

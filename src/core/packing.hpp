@@ -9,7 +9,7 @@
 #include "core/container.hpp"
 #include "jam/jam.h"
 
-namespace jam {
+namespace jam::inside {
 
 // A pair of the Mari-Kurchan model whose shift was drawn again; i < j.
 struct MkRedrawn {
@@ -58,4 +58,4 @@ std::vector<double> sphere_masses(const Packing &p);
 // Puts every sphere back into the brick of the cell.
 void wrap_positions(Packing &p);
 
-}  // namespace jam
+}  // namespace jam::inside

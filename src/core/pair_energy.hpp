@@ -7,7 +7,7 @@
 #include "core/math.hpp"
 #include "jam/jam.h"
 
-namespace jam {
+namespace jam::inside {
 
 // v = c x^alpha of the overlap x = (sigma - r) / l > 0, and 0 without overlap.
 //   JAM_SOFT_RELATIVE  c = 1 / alpha, l = sigma     (O'Hern et al., Phys. Rev. E 68, 011306 (2003))
@@ -87,4 +87,4 @@ class PairEnergy {
   Kind kind_ = Kind::linear;
 };
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -6,7 +6,7 @@
 #include "core/call_scope.hpp"
 #include "core/math.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 PairCells::PairCells(const Packing &p, const std::vector<int32_t> &spheres, int64_t side) : dim_(p.dim), side_(side) {
   int64_t cells = 1;
@@ -70,4 +70,4 @@ std::vector<PairLevel> pair_levels(const Packing &p, const std::vector<double> &
   return level;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -8,7 +8,7 @@
 
 #include "core/packing.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // The level of a reach: how often it is halved from the widest one, but for less than a factor of two.
 constexpr size_t most_halvings = 30;  // 1e9 between the widest and the narrowest
@@ -57,4 +57,4 @@ struct PairLevel {
 // cutoff of any of its spheres with one of its own level or a finer one.
 std::vector<PairLevel> pair_levels(const Packing &p, const std::vector<double> &reach, double slope);
 
-}  // namespace jam
+}  // namespace jam::inside

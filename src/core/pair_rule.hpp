@@ -8,7 +8,7 @@
 #include "core/packing.hpp"
 #include "core/rng.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // Contact distance sigma_ij; of a wall, j < 0, the radius. Additive: (sigma_i + sigma_j) / 2. Non-additive mixture: (1
 // + Delta) times that for spheres of unequal diameters.
@@ -73,4 +73,4 @@ class MkShifts {
   std::vector<MkRedrawn> redrawn_;
 };
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -14,7 +14,7 @@
 #include "core/pair_rule.hpp"
 #include "core/tuning.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 struct Candidate {
@@ -316,4 +316,4 @@ ClosestPair closest_contact(const Packing &p) {
   return wall.gap < pair.gap ? ClosestPair{wall.gap, wall.sphere, wall_partner(wall.w)} : pair;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace jam {
+namespace jam::inside {
 
 PairList replace_pairs(const PairList &list, const std::vector<char> &some, const PairList &theirs) {
   PairList out;
@@ -37,4 +37,4 @@ void wrap_positions(Packing &p, PairList &pairs) {
       pairs.offset[k * d + c] += shift[pairs.i[k] * d + c] - shift[pairs.j[k] * d + c];
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -5,7 +5,7 @@
 #include <vector>
 #include "core/packing.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // Structure of arrays; r_ij = position_i - position_j + offset_ij. i < j, or i == j for a sphere and its own image
 // (then r_ij = offset_ij). Two spheres can be listed several times, once for each image. j < 0: the wall -1 - j of the
@@ -85,4 +85,4 @@ inline double pair_vector(const Packing &p, const PairList &pairs, size_t k, dou
   return r2;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -10,7 +10,7 @@
 #include "core/tuning.hpp"
 #include "jam/jam.h"
 
-namespace jam {
+namespace jam::inside {
 
 // The one place that makes a record: what a phase does not know is NaN.
 inline jam_progress progress_of(int32_t phase) {
@@ -82,4 +82,4 @@ class TimeLeft {
   double least_gap_ = 0.0, largest_ = std::numeric_limits<double>::quiet_NaN();
 };
 
-}  // namespace jam
+}  // namespace jam::inside

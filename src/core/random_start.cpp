@@ -14,7 +14,7 @@
 #include "core/size_laws.hpp"
 #include "core/tuning.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 // Cells at least as wide as the largest diameter, as linked lists, since spheres are added one by one.
@@ -200,4 +200,4 @@ void plant(Packing &p) {
   }
 }
 
-}  // namespace jam
+}  // namespace jam::inside

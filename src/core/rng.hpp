@@ -6,7 +6,7 @@
 
 #include "core/math.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // Every use of randomness has its own number. Never change one: that would change packings.
 enum class Stream : uint64_t {
@@ -49,4 +49,4 @@ class Rng {
   uint64_t key_, counter_;
 };
 
-}  // namespace jam
+}  // namespace jam::inside

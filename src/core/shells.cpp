@@ -10,7 +10,7 @@
 #include "core/math.hpp"
 #include "core/tuning.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 constexpr double far_away = std::numeric_limits<double>::infinity();
@@ -200,4 +200,4 @@ std::vector<double> pairs_of_even_spread(const Packing &p, const std::vector<cha
   return out;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -3,7 +3,7 @@
 #include <vector>
 #include "core/packing.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // The pairs that g(r) compares with: of each sphere of `of`, and the spheres `with` spread evenly where the walls leave
 // their centres room, between distances `edge`, in contact distances where `of_contact` says so. d = 2, 3.
@@ -11,4 +11,4 @@ namespace jam {
 std::vector<double> pairs_of_even_spread(const Packing &p, const std::vector<char> &of, const std::vector<char> &with,
                                          const std::vector<double> &edge, bool of_contact = false);
 
-}  // namespace jam
+}  // namespace jam::inside

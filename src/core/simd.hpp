@@ -7,7 +7,7 @@
 #define JAM_SIMD_INLINE JAM_SIMD_TARGET __attribute__((always_inline)) inline
 #pragma GCC diagnostic ignored "-Wpsabi"  // no vector crosses the border of a file
 
-namespace jam {
+namespace jam::inside {
 namespace JAM_SIMD_NAMESPACE {
 
 template <class Vector>
@@ -22,4 +22,4 @@ JAM_SIMD_INLINE void store(void *at, const Vector &v) {
 }
 
 }  // namespace JAM_SIMD_NAMESPACE
-}  // namespace jam
+}  // namespace jam::inside

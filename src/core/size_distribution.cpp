@@ -8,7 +8,7 @@
 #include "core/math.hpp"
 #include "core/tuning.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 // Integral of s^exponent over a class up to s, in units of low^(exponent + 1).
@@ -208,4 +208,4 @@ std::unique_ptr<SizeDistribution> cut_law(std::unique_ptr<SmoothLaw> law, double
   return std::make_unique<CutLaw>(std::move(law), low, high, dim, by_volume);
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-namespace jam {
+namespace jam::inside {
 
 // A diameter that a share of the spheres, by number, has.
 struct SingleSize {
@@ -51,4 +51,4 @@ class SmoothLaw {
 std::unique_ptr<SizeDistribution> cut_law(std::unique_ptr<SmoothLaw> law, double low, double high, int dim,
                                           bool by_volume);
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -12,7 +12,7 @@
 #include "core/size_laws.hpp"
 #include "core/tuning.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 using Options = jam_diameters_options;
@@ -187,4 +187,4 @@ std::vector<double> draw_diameters(const Options &o, const double *curve, size_t
   return s;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -10,7 +10,7 @@
 #include "core/limits.hpp"
 #include "core/math.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 using Options = jam_diameters_options;
@@ -270,4 +270,4 @@ std::unique_ptr<SizeDistribution> size_distribution(const Options &o, const doub
   return law.make({o, curve, rows, share == JAM_SHARE_VOLUME});
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -7,7 +7,7 @@
 #include "core/size_distribution.hpp"
 #include "jam/jam.h"
 
-namespace jam {
+namespace jam::inside {
 
 jam_diameters_options default_diameters_options();
 // Checks the fields of the law and its curve; curve: (rows, 2). Errors are JAM_E_ARGUMENT and name the field or the
@@ -38,4 +38,4 @@ Reach jammed_reach(int dim, const std::vector<double> &diameters);
 // Throws JAM_E_UNPLACEABLE where `wanted` lies beyond the reach of a disordered packing of these sizes.
 void check_reach(int dim, const std::vector<double> &diameters, double wanted);
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -5,7 +5,7 @@
 #include "core/error.hpp"
 #include "core/size_laws.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 std::string_view trimmed(std::string_view word) {
@@ -75,4 +75,4 @@ std::vector<std::string> parse_size_law(const char *text, jam_diameters_options 
   }
 }
 
-}  // namespace jam
+}  // namespace jam::inside

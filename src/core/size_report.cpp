@@ -10,7 +10,7 @@
 #include "core/packing.hpp"
 #include "core/size_laws.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 double mean_of(const std::vector<double> &x) {
@@ -139,4 +139,4 @@ jam_size_report size_report(int dim, const std::vector<double> &diameters) {
   return r;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <limits>
 
-namespace jam {
+namespace jam::inside {
 
 // ---- a random start: its packing fraction by default, halved for each dimension above 3
 constexpr double start_fraction_3d = 0.2;
@@ -84,4 +84,4 @@ struct ShellsTuning {
   static constexpr double least_room = 1e-6;  // of the container, where centres can be
 };
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -4,7 +4,7 @@
 #include "core/error.hpp"
 #include "core/limits.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 void check_packing(const Packing &p, jam_status code) {
   check_dim(p.dim);
@@ -28,4 +28,4 @@ void check_packing(const Packing &p, jam_status code) {
   check_velocities(p, p.velocity, code);
 }
 
-}  // namespace jam
+}  // namespace jam::inside

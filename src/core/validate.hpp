@@ -3,10 +3,10 @@
 #pragma once
 #include "core/packing.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // Throws `code`, with a text that names the value at fault, unless lengths agree, positions lie in the brick of the
 // cell, diameters are within the limits and velocities too. Overlaps are another question.
 void check_packing(const Packing &p, jam_status code);
 
-}  // namespace jam
+}  // namespace jam::inside

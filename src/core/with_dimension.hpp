@@ -8,7 +8,7 @@
 #include "core/dimensions.hpp"  // written by CMake: JAM_DIMENSIONS as a list of numbers
 #include "core/error.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 template <int... Numbers>
 struct Numbered {};
@@ -36,4 +36,4 @@ decltype(auto) with_dimension(int dim, F &&f) {
   return with_number(CompiledDimensions{}, dim, std::forward<F>(f));
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -5,7 +5,7 @@
 
 #include "network/certificate.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 void stop(CrunchState &s, jam_stop_reason reason, jam_status status) {
   s.out.report.stop_reason = reason, s.out.status = status;
@@ -82,4 +82,4 @@ void record_contacts(CrunchState &s, HistoryRow &row, size_t contacts, const std
   s.history.over_stable(coordination, dim, diameter_mean(s.out.packing));
 }
 
-}  // namespace jam
+}  // namespace jam::inside

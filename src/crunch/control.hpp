@@ -2,7 +2,7 @@
 #pragma once
 #include "crunch/state.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 void stop(CrunchState &s, jam_stop_reason reason, jam_status status);
 // Where the call was cancelled or its time is over: stops for that reason. True when it did.
@@ -24,4 +24,4 @@ HistoryRow &record_step(CrunchState &s, jam_step_phase phase, const double *disp
 // Its columns of the network: so many contacts, and those of each sphere.
 void record_contacts(CrunchState &s, HistoryRow &row, size_t contacts, const std::vector<int32_t> &coordination);
 
-}  // namespace jam
+}  // namespace jam::inside

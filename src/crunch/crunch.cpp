@@ -21,7 +21,7 @@
 #include "crunch/path/phase.hpp"
 #include "crunch/report.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 CrunchState::CrunchState(const Packing &start, const jam_crunch_options &options, Monitor &monitor_of_call,
                          History &history_of_call, const CrunchHooks &hooks_of_call)
@@ -148,4 +148,4 @@ CrunchResult crunch(const Packing &start, const jam_crunch_options &o, Monitor &
   return std::move(s.out);
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -14,7 +14,7 @@
 #include "network/certificate.hpp"
 #include "network/contact_network.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 struct CrunchResult {
   Packing packing;          // always valid: the last good state
@@ -37,4 +37,4 @@ struct CrunchHooks {
 CrunchResult crunch(const Packing &start, const jam_crunch_options &o, Monitor &monitor, History *history = nullptr,
                     const CrunchHooks *hooks = nullptr);
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -19,7 +19,7 @@
 #include "linalg/tuning.hpp"
 #include "lp/working_set.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 using T = EstimateTuning;
@@ -174,4 +174,4 @@ jam_estimate estimate(const Packing &p, const jam_crunch_options &o) {
   return e;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

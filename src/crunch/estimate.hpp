@@ -3,9 +3,9 @@
 #include "core/packing.hpp"
 #include "jam/jam.h"
 
-namespace jam {
+namespace jam::inside {
 
 // Memory and work of a crunch before it runs. Throws for bad options.
 [[gnu::cold]] jam_estimate estimate(const Packing &start, const jam_crunch_options &o);
 
-}  // namespace jam
+}  // namespace jam::inside

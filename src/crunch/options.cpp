@@ -8,7 +8,7 @@
 #include "core/limits.hpp"
 #include "lp/packing_lp.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 jam_crunch_options default_crunch_options() {
   jam_crunch_options o{};
@@ -59,4 +59,4 @@ void check_options(const Packing &p, const jam_crunch_options &o) {
   refuse_overlaps(p, 1e-9);
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -9,7 +9,7 @@
 #include "core/pair_rule.hpp"
 #include "crunch/approach/active_set.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 struct Spread {
@@ -155,4 +155,4 @@ CrunchStage CrunchStage::of(const std::string &bytes) {
   return stage;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -10,7 +10,7 @@
 #include "core/packing.hpp"
 #include "lp/packing_lp.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // On the barrier path multipliers are mu over gap, so mu alone brings them back. mu = 0: not on the path.
 struct PathPoint {
@@ -104,4 +104,4 @@ class History {
   CrunchStep step_;
 };
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -8,7 +8,7 @@
 #include "crunch/control.hpp"
 #include "network/resolution.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // Closed pairs as in the test of jamming, and those that digits cannot distinguish from them.
 Touching find_touching(const Packing &start, bool own_images) {
@@ -110,4 +110,4 @@ void report_failure(CrunchState &s) {
   s.out.report.seconds = s.monitor.seconds();
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -5,7 +5,7 @@
 
 #include "crunch/state.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // Closed pairs of the start as in the test of jamming, and those that digits cannot distinguish from them. Found before
 // the work: after it the time of the call may be over.
@@ -22,4 +22,4 @@ void report_failure(CrunchState &s);
 // What the crunch did to the packing that it was given.
 void report_changes(Touching start, double packing_fraction_start, CrunchState &s);
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -6,7 +6,7 @@
 #include "core/math.hpp"
 #include "core/pair_rule.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 double jammed_fraction(int dim) { return dim == 2 ? 0.84 : 0.64 * math::pow(0.7, dim - 3); }
 
@@ -31,4 +31,4 @@ double contact_gap(const Packing &p) {
   return gap[wanted];
 }
 
-}  // namespace jam
+}  // namespace jam::inside

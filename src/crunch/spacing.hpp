@@ -5,7 +5,7 @@
 #include "core/packing.hpp"
 #include "core/pairs.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // Packing fraction of random jammed packings: 0.84 in d = 2, about 0.64 * 0.7^(d-3) above.
 double jammed_fraction(int dim);
@@ -17,4 +17,4 @@ std::vector<double> relative_gaps(const Packing &p, const PairList &pairs);
 // Median gap of the d n nearest pairs, the contacts to be; 0.5 when there are not as many.
 double contact_gap(const Packing &p);
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -6,7 +6,7 @@
 #include "crunch/crunch.hpp"
 #include "lp/interior_point.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // approach: sequential LPs. barrier_path: Newton steps on the true gaps. identify: contacts, last digits, verdict.
 // narrow_lps: where these leave it open which contacts carry force. Each phase function returns the phase that follows.
@@ -57,4 +57,4 @@ struct CrunchState {
   double first_gain = 0.0;  // of an LP, for the progress
 };
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -8,7 +8,7 @@
 #include "lp/mixed_factor.hpp"
 #include "lp/tuning.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 struct Tuning {
   // Round walls: of the growth that an LP promises, the least part that its step must bring (Armijo's rule).
@@ -133,4 +133,4 @@ struct EstimateTuning {
   static constexpr double too_high = 2.0;
 };
 
-}  // namespace jam
+}  // namespace jam::inside

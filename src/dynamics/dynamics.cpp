@@ -5,7 +5,7 @@
 #include "dynamics/isoconfigurational/isoconfigurational.hpp"
 #include "dynamics/monte_carlo/monte_carlo.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 std::string write_dynamics(const Dynamics &dynamics) {
   Archive a;
@@ -39,4 +39,4 @@ std::unique_ptr<Dynamics> read_dynamics(const Packing &p, std::string bytes) {
   return dynamics;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

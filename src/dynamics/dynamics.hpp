@@ -11,7 +11,7 @@
 #include "core/monitor.hpp"
 #include "core/packing.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 class Observer;
 constexpr int64_t not_begun = -1;  // in an archive: it was stopped before it had an engine
@@ -51,4 +51,4 @@ class Dynamics {
 std::string write_dynamics(const Dynamics &dynamics);
 std::unique_ptr<Dynamics> read_dynamics(const Packing &p, std::string bytes);
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -8,7 +8,7 @@
 #include "core/math.hpp"
 #include "dynamics/tuning.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 namespace {
 
@@ -167,4 +167,4 @@ jam_glass fit_glass(const double *fraction, const double *pressure, size_t count
   return g;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

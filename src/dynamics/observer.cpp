@@ -12,7 +12,7 @@
 #include "core/rng.hpp"
 #include "core/shells.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // ---- sums over pairs
 
@@ -252,4 +252,4 @@ std::vector<double> Observer::sample_correlation(const Packing &p) const {
   return density;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -13,7 +13,7 @@
 #include "dynamics/pressure.hpp"
 #include "dynamics/tuning.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 struct Sample {
   double time, collisions, packing_fraction, pressure, error, displacement2;
@@ -112,4 +112,4 @@ class Observer {
   Histogram gaps_, correlation_;
 };
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -1,7 +1,7 @@
 // Reduced pressure p = P V / (N k T) from the sums of a run.
 #pragma once
 
-namespace jam {
+namespace jam::inside {
 
 // Over some collisions and the time between them.
 struct PressureSums {
@@ -26,4 +26,4 @@ struct PressureSums {
   }
 };
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace jam {
+namespace jam::inside {
 
 // Overlaps of the start that a run takes as rounding, in contact distances.
 constexpr double overlap_of_rounding = 1e-10;
@@ -166,4 +166,4 @@ struct EnsembleTuning {
   static constexpr double roundings_of_gap = 100.0;  // smaller gaps at the start would be rounding
 };
 
-}  // namespace jam
+}  // namespace jam::inside

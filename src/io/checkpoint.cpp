@@ -17,7 +17,7 @@
 #include "io/input_file.hpp"
 #include "io/output_file.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 // Largest tilt of a cell vector, over the edge along which it leans. Reduced cells have 1/2 at most, and a crunch adds
@@ -214,4 +214,4 @@ Packing read_checkpoint(const char *path, std::string &beside) {
   return p;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

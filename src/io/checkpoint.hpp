@@ -4,10 +4,10 @@
 
 #include "core/packing.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // beside: bytes of the results and of the unfinished work of that packing (capi/results_archive.cpp).
 void write_checkpoint(const Packing &p, const std::string &beside, const char *path);
 Packing read_checkpoint(const char *path, std::string &beside);
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace jam {
+namespace jam::inside {
 
 bool is_true(std::string_view word) {
   const std::string w = lower(word);
@@ -36,4 +36,4 @@ size_t read_container(const LineReader &in, CommentKeys &keys, Enclosure &enclos
   return words.size();
 }
 
-}  // namespace jam
+}  // namespace jam::inside

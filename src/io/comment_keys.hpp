@@ -6,7 +6,7 @@
 
 #include "io/read_helpers.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // The keys of a line; words without = are comments.
 class CommentKeys {
@@ -84,4 +84,4 @@ bool is_true(std::string_view word);
 // number of these words; 0 without walls=.
 size_t read_container(const LineReader &in, CommentKeys &keys, Enclosure &enclosure);
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -8,7 +8,7 @@
 #include "core/packing.hpp"
 #include "network/contact_network.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // What a file says, checked line by line but not yet for overlaps.
 struct FileContent {
@@ -54,4 +54,4 @@ void write_proof(const ProofScene &scene, const char *path);
 // Adds the rows of a table of two columns to `curve`. Comments stand behind #; a first line of words is a heading.
 void read_curve(const char *path, std::vector<double> &curve);
 
-}  // namespace jam
+}  // namespace jam::inside

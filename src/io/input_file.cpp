@@ -12,7 +12,7 @@
 #include "core/error.hpp"
 #include "io/platform.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 constexpr unsigned char gzip_mark[] = {0x1f, 0x8b};
@@ -111,4 +111,4 @@ size_t InputFile::unpack(char *to, size_t size) {
   return room - s.avail_out;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace jam {
+namespace jam::inside {
 
 // Errors are thrown with the path and errno's text: JAM_E_IO, and JAM_E_FORMAT for damaged gzip. A signal does not end
 // a read.
@@ -35,4 +35,4 @@ class InputFile {
   std::unique_ptr<Gzip> gzip_;  // NULL: the text is not packed
 };
 
-}  // namespace jam
+}  // namespace jam::inside

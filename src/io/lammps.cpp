@@ -2,7 +2,7 @@
 
 #include "core/error.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 LammpsBox lammps_box(const Packing &p, const char *format) {
   if (p.dim > 3) fail(JAM_E_UNSUPPORTED, "%s has d = 2 or d = 3, this packing has d = %d", format, p.dim);
@@ -22,4 +22,4 @@ LammpsBox lammps_box(const Packing &p, const char *format) {
   return box;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -6,7 +6,7 @@
 
 #include "core/packing.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // How the titles of our data files begin. Such a file has no place for walls but its title, where LAMMPS takes any
 // text.
@@ -21,4 +21,4 @@ struct LammpsBox {
 // JAM_E_UNSUPPORTED but in d = 2 and 3. format: its name in the error.
 LammpsBox lammps_box(const Packing &p, const char *format);
 
-}  // namespace jam
+}  // namespace jam::inside

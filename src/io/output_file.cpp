@@ -13,7 +13,7 @@
 #include "io/part_file.hpp"
 #include "io/platform.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // A stream of zlib with gzip's header, whose time is 0: the same packing gives the same bytes.
 struct OutputFile::Gzip {
@@ -120,4 +120,4 @@ void OutputFile::commit() {
   platform::sync_folder_of(target_);
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -3,7 +3,7 @@
 #include <memory>
 #include <string>
 
-namespace jam {
+namespace jam::inside {
 
 // Text goes to a new file beside the target, which commit() renames onto it. Without commit nothing changes.
 // A symbolic link keeps pointing where it points. What is no regular file under a name of its own is written in place:
@@ -31,4 +31,4 @@ class OutputFile {
   int fd_ = -1;
 };
 
-}  // namespace jam
+}  // namespace jam::inside

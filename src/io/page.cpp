@@ -9,7 +9,7 @@
 #include "io/output_file.hpp"
 #include "io/text.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 // A string of JSON inside a script element: nothing in it can end the element. Bytes that are not UTF-8, as names of
@@ -252,4 +252,4 @@ void write_page(const PageContent &content, const char *path) {
   file.commit();
 }
 
-}  // namespace jam
+}  // namespace jam::inside

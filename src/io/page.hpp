@@ -7,7 +7,7 @@
 #include "core/packing.hpp"
 #include "network/contact_network.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // The page before and behind the data; made by io/page/embed.cmake.
 extern const char *const page_head;
@@ -42,4 +42,4 @@ struct PageContent {
 
 [[gnu::cold]] void write_page(const PageContent &content, const char *path);
 
-}  // namespace jam
+}  // namespace jam::inside

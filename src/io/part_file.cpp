@@ -7,7 +7,7 @@
 #include "core/rng.hpp"
 #include "io/platform.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 // Names may have 255 bytes, on some file systems 143: the target's own is cut to this many, and as much comes behind.
@@ -65,4 +65,4 @@ void remove_orphans(const std::string &target) {
     if (is_ours(name, own)) platform::remove_unlocked(folder + name);
 }
 
-}  // namespace jam
+}  // namespace jam::inside

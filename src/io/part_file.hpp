@@ -2,7 +2,7 @@
 #pragma once
 #include <string>
 
-namespace jam {
+namespace jam::inside {
 
 // Makes a new file beside `target` under a lock, and returns its descriptor: -1 with errno where that fails.
 int open_part(const std::string &target, std::string &name);
@@ -10,4 +10,4 @@ int open_part(const std::string &target, std::string &name);
 // only libjam puts there, this user owns it, and nobody holds its lock. What fails here is no error.
 void remove_orphans(const std::string &target);
 
-}  // namespace jam
+}  // namespace jam::inside

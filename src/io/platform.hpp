@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace jam {
+namespace jam::inside {
 namespace platform {
 
 constexpr size_t chunk = 1 << 16;  // bytes of one read or write
@@ -52,4 +52,4 @@ void remove_unlocked(const std::string &name);
 long process();
 
 }  // namespace platform
-}  // namespace jam
+}  // namespace jam::inside

@@ -14,7 +14,7 @@
 
 #include "io/platform.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace platform {
 namespace {
 
@@ -149,4 +149,4 @@ void remove_unlocked(const std::string &name) {
 long process() { return ::getpid(); }
 
 }  // namespace platform
-}  // namespace jam
+}  // namespace jam::inside

@@ -8,7 +8,7 @@
 
 #include "io/platform.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace platform {
 namespace {
 
@@ -206,4 +206,4 @@ void remove_unlocked(const std::string &name) {
 long process() { return static_cast<long>(::GetCurrentProcessId()); }
 
 }  // namespace platform
-}  // namespace jam
+}  // namespace jam::inside

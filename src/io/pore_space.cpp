@@ -11,7 +11,7 @@
 #include "io/text.hpp"
 #include "pore/balls.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 template <class T>
@@ -124,4 +124,4 @@ int64_t write_stl(const SolidMesh &mesh, const char *path) {
   return stl_bytes(static_cast<int64_t>(mesh.triangle.size()));
 }
 
-}  // namespace jam
+}  // namespace jam::inside

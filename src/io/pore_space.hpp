@@ -6,7 +6,7 @@
 #include "pore/solid_mesh.hpp"
 #include "pore/voxels.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // Binary STL. Returns its bytes.
 int64_t stl_bytes(int64_t triangles);
@@ -18,4 +18,4 @@ int64_t bytes_of_image(const VoxelGrid &grid, int lines);  // without headers
 void write_image(const VoxelImage &image, const VoxelGrid &grid, int dim, int lines, const char *path,
                  const std::function<void(const double *layer)> &f);
 
-}  // namespace jam
+}  // namespace jam::inside

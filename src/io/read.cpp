@@ -7,7 +7,7 @@
 #include "io/recognise.hpp"
 #include "io/text.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 // Counts the spheres outside the smallest brick that holds the cell and its normal form: they will be wrapped.
@@ -77,4 +77,4 @@ FileContent read_file(const char *path, const ReadOptions &options) {
   return content;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

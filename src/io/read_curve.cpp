@@ -4,7 +4,7 @@
 
 #include "io/read_helpers.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 void read_curve(const char *path, std::vector<double> &curve) {
   LineReader in(path);
@@ -23,4 +23,4 @@ void read_curve(const char *path, std::vector<double> &curve) {
   if (curve.empty()) in.fail(JAM_E_FORMAT, "the file has no row of two numbers");
 }
 
-}  // namespace jam
+}  // namespace jam::inside

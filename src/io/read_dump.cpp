@@ -5,7 +5,7 @@
 
 #include "io/read_helpers.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 using Words = std::vector<std::string_view>;
 
@@ -219,4 +219,4 @@ FileContent read_dump(LineReader &in, const ReadOptions &options) {
                       [&](FileContent &content, int64_t) { return read_frame(in, options.enclosure, content); });
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -5,7 +5,7 @@
 #include "core/call_scope.hpp"
 #include "core/cell_reduction.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 // Characters behind the decimal point, those of an exponent too.
 size_t behind_point(std::string_view word) {
@@ -126,4 +126,4 @@ void take_plane(const std::vector<double> &positions, double low, double high, F
     content.position.insert(content.position.end(), {positions[k], positions[k + 1]});
 }
 
-}  // namespace jam
+}  // namespace jam::inside

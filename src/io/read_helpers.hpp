@@ -9,7 +9,7 @@
 #include "io/files.hpp"
 #include "io/text.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // Runs a check of core/limits.hpp; its error gets the path and the line in front.
 template <class Check>
@@ -123,15 +123,16 @@ FileContent choose_frame(LineReader &in, int64_t frame, ReadOne &&read_one) {
       if (!read_one(content, count)) break;
     } catch (const Error &e) {
       if (count == 0) throw;
-      jam::fail(e.code(), "%s; frame=%lld is the last whole one", e.what(), static_cast<long long>(count - 1));
+      jam::inside::fail(e.code(), "%s; frame=%lld is the last whole one", e.what(), static_cast<long long>(count - 1));
     }
     if (kept.size() == most) kept.erase(kept.begin());
     kept.push_back(std::move(content));
     if (count == frame) return std::move(kept.back());
   }
   if (frame >= 0 || kept.size() < most)
-    jam::fail(JAM_E_ARGUMENT, "%s: frame is %lld, the file has %lld (0 to %lld, or -1 for the last)", in.path().c_str(),
-              static_cast<long long>(frame), static_cast<long long>(count), static_cast<long long>(count - 1));
+    jam::inside::fail(JAM_E_ARGUMENT, "%s: frame is %lld, the file has %lld (0 to %lld, or -1 for the last)",
+                      in.path().c_str(), static_cast<long long>(frame), static_cast<long long>(count),
+                      static_cast<long long>(count - 1));
   FileContent &chosen = kept.front();
   if (count > 1 && frame == -1)
     chosen.notes.say("the last of %lld frames was read; frame=0 to %lld read others", static_cast<long long>(count),
@@ -139,4 +140,4 @@ FileContent choose_frame(LineReader &in, int64_t frame, ReadOne &&read_one) {
   return std::move(chosen);
 }
 
-}  // namespace jam
+}  // namespace jam::inside

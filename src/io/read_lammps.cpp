@@ -6,7 +6,7 @@
 #include "io/comment_keys.hpp"
 #include "io/lammps.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 using Words = std::vector<std::string_view>;
 
@@ -304,4 +304,4 @@ FileContent read_lammps(LineReader &in, const ReadOptions &) {  // walls: by our
   return content;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -4,7 +4,7 @@
 #include "io/read_helpers.hpp"
 #include "io/recognise.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 // Files that name no box mean a side of 1. Positions beyond it would be wrapped, and a box of another size lost. Six
@@ -177,4 +177,4 @@ FileContent read_table(LineReader &in, const ReadOptions &options) {
   return content;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

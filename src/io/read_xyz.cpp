@@ -4,7 +4,7 @@
 
 #include "io/comment_keys.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 struct XyzColumns {
@@ -220,4 +220,4 @@ FileContent read_xyz(LineReader &in, const ReadOptions &options) {
                       [&](FileContent &content, int64_t k) { return read_frame(in, options, k, n, content); });
 }
 
-}  // namespace jam
+}  // namespace jam::inside

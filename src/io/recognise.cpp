@@ -4,7 +4,7 @@
 
 #include "io/read_helpers.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 using Words = std::vector<std::string_view>;
 
@@ -165,4 +165,4 @@ const KnownFile *recognise(const Head &head) {
   return nullptr;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -6,7 +6,7 @@
 #include "io/files.hpp"
 #include "io/text.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // The beginning of a file, as text where it is text.
 struct Head {
@@ -29,4 +29,4 @@ struct KnownFile {
 // The first row of the table that fits; NULL when none does.
 const KnownFile *recognise(const Head &head);
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -10,7 +10,7 @@
 #include "core/decimal.hpp"
 #include "core/error.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 constexpr size_t buffer_size = 1 << 16;
 constexpr size_t longest_line = 1 << 16;  // a binary file has no line ends and must not be read whole
@@ -28,7 +28,7 @@ void LineReader::fail(jam_status code, const char *format, ...) const {
   va_start(args, format);
   std::vsnprintf(text, sizeof text, format, args);
   va_end(args);
-  jam::fail(code, "%s line %lld: %s", path().c_str(), static_cast<long long>(number_), text);
+  jam::inside::fail(code, "%s line %lld: %s", path().c_str(), static_cast<long long>(number_), text);
 }
 
 bool LineReader::refill() {
@@ -192,4 +192,4 @@ void append_number(std::string &out, double x) {
   out.append(digits, to_decimal(digits, x));
 }
 
-}  // namespace jam
+}  // namespace jam::inside

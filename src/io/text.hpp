@@ -8,7 +8,7 @@
 #include "io/input_file.hpp"
 #include "jam/jam.h"
 
-namespace jam {
+namespace jam::inside {
 
 // Reads a file, gzip's or not, line by line in bounded memory; errors are thrown with the path and errno's text. Lines
 // end by LF, CRLF or CR. The mark of UTF-8 at the beginning is skipped.
@@ -62,4 +62,4 @@ size_t character_length(std::string_view text);
 // Appends x with 17 significant digits: enough for every double to come back with the same bits.
 void append_number(std::string &out, double x);
 
-}  // namespace jam
+}  // namespace jam::inside

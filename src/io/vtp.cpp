@@ -5,7 +5,7 @@
 #include "core/byte_order.hpp"
 #include "io/text.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 template <class T>
 VtpFile::Array VtpFile::array(const char *name, const std::vector<T> &values, int components) {
@@ -90,4 +90,4 @@ void VtpFile::write(OutputFile &file) const {
   out += "\n</AppendedData>\n</VTKFile>\n";
 }
 
-}  // namespace jam
+}  // namespace jam::inside

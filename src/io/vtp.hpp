@@ -6,7 +6,7 @@
 
 #include "io/output_file.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 class VtpFile {
  public:
@@ -36,4 +36,4 @@ class VtpFile {
   std::string fields_;  // as XML
 };
 
-}  // namespace jam
+}  // namespace jam::inside

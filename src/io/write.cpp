@@ -6,7 +6,7 @@
 #include "io/text.hpp"
 #include "io/vtp.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 void write_plain(const Packing &p, OutputFile &file) {
@@ -211,4 +211,4 @@ void write_file(const Packing &p, const std::vector<int32_t> *coordination, cons
   file.commit();
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -11,7 +11,7 @@
 #include "io/text.hpp"
 #include "io/vtp.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 // Rows of both text formats; first: the number of the first sphere.
@@ -115,4 +115,4 @@ void write_contacts(const Packing &p, const ContactNetwork &net, const char *pat
   file.commit();
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -5,7 +5,7 @@
 #include "io/output_file.hpp"
 #include "proof/scene.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 // x = m 2^e with whole m, as "m p e" without blanks: exact, and the same in every locale.
@@ -70,4 +70,4 @@ void write_proof(const ProofScene &s, const char *path) {
   file.commit();
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -4,7 +4,7 @@
 #pragma once
 #include <cstddef>
 
-namespace jam {
+namespace jam::inside {
 
 // Whether a result is written, or added to what is there.
 enum class Result : bool { written, added };
@@ -50,4 +50,4 @@ class BlasSingleThread {
   int more_;  // than guards around this one have counted
 };
 
-}  // namespace jam
+}  // namespace jam::inside

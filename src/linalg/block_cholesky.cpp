@@ -13,7 +13,7 @@
 #include "linalg/dense_front.hpp"
 #include "linalg/tuning.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 using BlockSizes = Numbered<1, 2, 3, 4, 5, 6, 7, 8>;
@@ -240,4 +240,4 @@ void BlockCholesky::solve_many(double *x, int nrhs) const {
                                   : solve_as<double>(x, nrhs, alone.threads());
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -10,7 +10,7 @@
 #include "linalg/scratch_buffer.hpp"
 #include "linalg/workers.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 enum class Precision { full, single };  // doubles or floats
 
@@ -148,4 +148,4 @@ class BlockCholesky {
   size_t subtree_need_[2] = {}, top_need_[2] = {};  // of stacks; the first one is that of the top, too
 };
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -5,7 +5,7 @@
 #include "linalg/block_cholesky.hpp"
 #include "linalg/tuning.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 void BlockCholesky::plan() {
   const size_t count = supernodes_.size();
@@ -95,4 +95,4 @@ void BlockCholesky::lay_stacks(const std::vector<int32_t> &list, size_t *need) {
   }
 }
 
-}  // namespace jam
+}  // namespace jam::inside

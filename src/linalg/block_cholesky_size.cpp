@@ -4,7 +4,7 @@
 
 #include "linalg/block_cholesky.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // Two passes over the columns, each as long as the factor: y = |L^T| e, then |L| y. A sum of m products of numbers that
 // are not negative is at most 1 - gamma_(m + 1) below the exact one; the last line takes that off with room to spare.
@@ -42,4 +42,4 @@ std::vector<BlockCholesky::Front> BlockCholesky::fronts() const {
   return out;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -8,7 +8,7 @@
 #include "linalg/ordering.hpp"
 #include "linalg/tuning.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 // Liu's algorithm with path compression, on the graph relabelled by place[].
@@ -260,4 +260,4 @@ size_t BlockCholesky::bytes() const {
          supernodes_.capacity() * sizeof(Supernode);
 }
 
-}  // namespace jam
+}  // namespace jam::inside

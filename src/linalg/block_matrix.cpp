@@ -5,7 +5,7 @@
 
 #include "core/error.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 void BlockMatrix::multiply(const double *x, double *y) const {
   const int d = dim, dd = d * d;
@@ -83,4 +83,4 @@ void remove_translation(int dim, int32_t nodes, double *x, uint32_t axes) {
   }
 }
 
-}  // namespace jam
+}  // namespace jam::inside

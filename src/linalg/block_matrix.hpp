@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace jam {
+namespace jam::inside {
 
 // Symmetric, d x d blocks: diag (nodes), off (edges) with rows of ei and columns of ej, ei < ej, sorted, no
 // edge twice (two contacts of the same pair of spheres are summed).
@@ -31,4 +31,4 @@ CsrMatrix to_csr(const BlockMatrix &m);
 // Takes the mean of x (nodes, dim) along these axes (bits) away: the exact projection on no net translation.
 void remove_translation(int dim, int32_t nodes, double *x, uint32_t axes = ~0u);
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -3,7 +3,7 @@
 #include <numeric>
 #include <utility>
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 // mate[v]: the node that v is joined with, or v itself.
@@ -69,4 +69,4 @@ WeightedGraph coarsen(const WeightedGraph &fine, int32_t heaviest, Rng &rng, std
   return out;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

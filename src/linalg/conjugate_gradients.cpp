@@ -5,7 +5,7 @@
 
 #include "linalg/dot.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 void add(double factor, const std::vector<double> &x, double *y) {
@@ -56,4 +56,4 @@ bool ConjugateGradients::solve(const double *b, double accuracy, int most, const
   return true;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

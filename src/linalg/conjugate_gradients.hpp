@@ -6,7 +6,7 @@
 #include <functional>
 #include <vector>
 
-namespace jam {
+namespace jam::inside {
 
 class ConjugateGradients {
  public:
@@ -33,4 +33,4 @@ class ConjugateGradients {
   std::vector<double> residual_, correction_;
 };
 
-}  // namespace jam
+}  // namespace jam::inside

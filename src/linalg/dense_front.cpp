@@ -10,7 +10,7 @@
 #include "linalg/tuning.hpp"
 #include "linalg/while_telling.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 template <class Real>
@@ -150,4 +150,4 @@ template void panel_forward(const float *, int, int, int, float *, int, float *,
 template void panel_backward(const double *, int, int, int, double *, int, const double *, int, int, Workers &);
 template void panel_backward(const float *, int, int, int, float *, int, const float *, int, int, Workers &);
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -3,7 +3,7 @@
 #pragma once
 #include "linalg/workers.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // A pivot at or below max(relative * its entry in the matrix, floor) is lost. It is replaced by that bound (raise), or
 // by a huge number.
@@ -29,4 +29,4 @@ template <class Real>
 void panel_backward(const Real *panel, int ld, int rows, int columns, Real *top, int ldt, const Real *below, int ldb,
                     int nrhs, Workers &workers);
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -3,10 +3,10 @@
 #include <numeric>
 #include <vector>
 
-namespace jam {
+namespace jam::inside {
 
 inline double dot(const std::vector<double> &x, const std::vector<double> &y) {
   return std::inner_product(x.begin(), x.end(), y.begin(), 0.0);
 }
 
-}  // namespace jam
+}  // namespace jam::inside

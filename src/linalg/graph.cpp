@@ -2,7 +2,7 @@
 
 #include <numeric>
 
-namespace jam {
+namespace jam::inside {
 
 Graph make_graph(int32_t n, const int32_t *ei, const int32_t *ej, size_t edges) {
   Graph g;
@@ -20,4 +20,4 @@ Graph make_graph(int32_t n, const int32_t *ei, const int32_t *ej, size_t edges) 
 
 int64_t WeightedGraph::total_weight() const { return std::accumulate(weight.begin(), weight.end(), int64_t{0}); }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace jam {
+namespace jam::inside {
 
 // Neighbours of v are adjacency[start[v] .. start[v + 1]), symmetric, no loops.
 struct Graph {
@@ -21,4 +21,4 @@ struct WeightedGraph : Graph {
   int64_t total_weight() const;
 };
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -4,7 +4,7 @@
 
 #include "linalg/dot.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // Conjugate gradients on A^T A u = A^T b from 0: the directions stay in the range of A^T, so that u is the shortest
 // one. They end after d steps but for rounding; as many again take that out.
@@ -33,4 +33,4 @@ std::vector<double> least_squares(int d, const std::vector<double> &a, const std
   return u;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

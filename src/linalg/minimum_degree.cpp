@@ -1,6 +1,6 @@
 #include "linalg/minimum_degree.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 std::vector<int32_t> minimum_degree(const Graph &g, int32_t inner) {
   const int32_t n = g.size();
@@ -40,4 +40,4 @@ std::vector<int32_t> minimum_degree(const Graph &g, int32_t inner) {
   return order;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

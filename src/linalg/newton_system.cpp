@@ -12,7 +12,7 @@
 #include "core/with_dimension.hpp"
 #include "linalg/pair_products.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 double dot(const std::vector<double> &x, const double *y) { return std::inner_product(x.begin(), x.end(), y, 0.0); }
@@ -141,7 +141,7 @@ void NewtonSystem::border() {
   for (int c = 0; c < strains_; ++c) {
     double *f = &border_[c * spheres], *k = &border_solved_[c * spheres];
     for (size_t e = 0; e < m; ++e) row_work_[e] = weight_[e] * strain_[e * q + c];
-    jam::transpose_times(dim_, n_, pair_i_, pair_j_, a_, row_work_.data(), f);
+    jam::inside::transpose_times(dim_, n_, pair_i_, pair_j_, a_, row_work_.data(), f);
     std::copy(f, f + spheres, k);
     cholesky_.solve(k);
     s(0, c + 1) = std::inner_product(k, k + spheres, column_.begin(), 0.0);
@@ -231,14 +231,14 @@ void NewtonSystem::solve(const double *rhs, double h, double *ds, double *dg, in
 }
 
 void NewtonSystem::rows_times(const double *a, const double *s, double *out) const {
-  jam::rows_times(dim_, pair_i_, pair_j_, a, s, out);
+  jam::inside::rows_times(dim_, pair_i_, pair_j_, a, s, out);
   add_columns_times(strain_, static_cast<size_t>(strains_), pair_i_.size(), s + static_cast<size_t>(n_) * dim_, out);
 }
 
 void NewtonSystem::transpose_times(const double *a, const double *y, double *out) const {
-  jam::transpose_times(dim_, n_, pair_i_, pair_j_, a, y, out);
+  jam::inside::transpose_times(dim_, n_, pair_i_, pair_j_, a, y, out);
   columns_transpose_times(strain_, static_cast<size_t>(strains_), pair_i_.size(), y,
                           out + static_cast<size_t>(n_) * dim_);
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -12,7 +12,7 @@
 #include "linalg/block_cholesky.hpp"
 #include "linalg/conjugate_gradients.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 class NewtonSystem {
  public:
@@ -78,4 +78,4 @@ class NewtonSystem {
   std::vector<double> bordered_rhs_, bordered_;  // displacements, strains, g
 };
 
-}  // namespace jam
+}  // namespace jam::inside

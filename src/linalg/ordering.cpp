@@ -9,7 +9,7 @@
 #include "linalg/tuning.hpp"
 #include "linalg/vertex_separator.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 class Dissection {
@@ -94,4 +94,4 @@ std::vector<int32_t> Dissection::run() {
 
 std::vector<int32_t> nested_dissection(const Graph &graph) { return Dissection(graph).run(); }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace jam {
+namespace jam::inside {
 
 // out[k] = a_k . (s_i - s_j); a (rows, dim), s (n, dim), out (rows)
 inline void rows_times(int dim, const std::vector<int32_t> &i, const std::vector<int32_t> &j, const double *a,
@@ -56,4 +56,4 @@ inline void columns_transpose_times(const double *b, size_t count, size_t rows, 
     for (size_t c = 0; c < count; ++c) out[c] += b[k * count + c] * y[k];
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <memory>
 
-namespace jam {
+namespace jam::inside {
 
 // Doubles, or as many floats in half the room, that are written before they are read. Nothing is cleared, since
 // gigabytes take seconds. The old block goes before the new one comes. A new one is an eighth larger than asked, so
@@ -35,4 +35,4 @@ class ScratchBuffer {
   size_t capacity_ = 0;
 };
 
-}  // namespace jam
+}  // namespace jam::inside

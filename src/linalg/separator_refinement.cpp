@@ -6,7 +6,7 @@
 #include "linalg/tuning.hpp"
 #include "linalg/vertex_separator.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 class Refinement {
@@ -130,4 +130,4 @@ void refine_separator(const WeightedGraph &graph, Bisection &b, int passes) {
   for (int pass = 0, failed = 0; pass < passes && failed < 2; ++pass, to = 1 - to) failed = r.pass(to) ? 0 : failed + 1;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

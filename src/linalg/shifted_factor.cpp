@@ -4,7 +4,7 @@
 
 #include "core/error.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 struct ShiftedFactor::Impl {
   BlockCholesky cholesky;
@@ -38,4 +38,4 @@ ShiftedFactor::Size ShiftedFactor::size() const { return impl_->cholesky.absolut
 
 void ShiftedFactor::solve_many(double *x, int count) const { impl_->cholesky.solve_many(x, count); }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -4,7 +4,7 @@
 #include "linalg/block_cholesky.hpp"
 #include "linalg/block_matrix.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 class ShiftedFactor {
  public:
@@ -29,4 +29,4 @@ class ShiftedFactor {
   double shift_ = 0.0;
 };
 
-}  // namespace jam
+}  // namespace jam::inside

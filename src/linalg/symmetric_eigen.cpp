@@ -2,11 +2,11 @@
 
 #include <Eigen/Eigenvalues>
 
-namespace jam {
+namespace jam::inside {
 
 SymmetricEigen symmetric_eigen(const Eigen::MatrixXd &a) {
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(a);
   return {solver.eigenvalues(), solver.eigenvectors()};
 }
 
-}  // namespace jam
+}  // namespace jam::inside

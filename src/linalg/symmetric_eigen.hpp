@@ -3,7 +3,7 @@
 #pragma once
 #include <Eigen/Core>
 
-namespace jam {
+namespace jam::inside {
 
 struct SymmetricEigen {
   Eigen::VectorXd values;
@@ -11,4 +11,4 @@ struct SymmetricEigen {
 };
 SymmetricEigen symmetric_eigen(const Eigen::MatrixXd &a);
 
-}  // namespace jam
+}  // namespace jam::inside

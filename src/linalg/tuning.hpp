@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace jam {
+namespace jam::inside {
 
 // ---- the order of elimination: nested dissection by multilevel bisection
 struct OrderingTuning {
@@ -50,4 +50,4 @@ struct ThreadTuning {
   static constexpr size_t columns_a_look = 64, blocks_a_look = 32;
 };
 
-}  // namespace jam
+}  // namespace jam::inside

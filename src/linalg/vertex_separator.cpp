@@ -4,7 +4,7 @@
 #include "linalg/coarsening.hpp"
 #include "linalg/tuning.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 using Tuning = OrderingTuning;
@@ -86,4 +86,4 @@ Bisection bisect(const WeightedGraph &graph, Rng &rng) {
   return multilevel(graph, graph.size() > Tuning::several_runs ? graph.size() / Tuning::run_level : 0, rng);
 }
 
-}  // namespace jam
+}  // namespace jam::inside

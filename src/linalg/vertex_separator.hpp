@@ -3,7 +3,7 @@
 #include "core/rng.hpp"
 #include "linalg/graph.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 struct Bisection {
   enum Side : char { left = 0, right = 1, separator = 2 };
@@ -20,4 +20,4 @@ Bisection bisect(const WeightedGraph &graph, Rng &rng);
 // neighbours on the other side enter the separator.
 void refine_separator(const WeightedGraph &graph, Bisection &b, int passes);
 
-}  // namespace jam
+}  // namespace jam::inside

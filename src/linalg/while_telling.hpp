@@ -7,7 +7,7 @@
 #include "core/call_scope.hpp"
 #include "core/host_environment.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // Runs work(), which must not throw and cannot ask the monitor by itself, on another thread, while this one calls the
 // callback. The work is the same, so are the bits. A call that is cancelled is left when the work has ended.
@@ -27,4 +27,4 @@ void while_telling(const Work &work) {
   while (done.wait_for(between_looks) != std::future_status::ready) CallScope::look();
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -8,7 +8,7 @@
 #include "core/host_environment.hpp"
 #include "linalg/tuning.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 Workers::Workers(int threads, bool cuts) : cuts_(cuts) {
   try {
@@ -82,4 +82,4 @@ void Workers::serve(int worker) {
   }
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -7,7 +7,7 @@
 #include <thread>
 #include <vector>
 
-namespace jam {
+namespace jam::inside {
 
 class Workers {
  public:
@@ -52,4 +52,4 @@ class Workers {
   std::vector<std::thread> threads_;
 };
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-namespace jam {
+namespace jam::inside {
 using T = LineSearchTuning;
 
 bool BarrierProblem::linearise(const Packing &p) {
@@ -171,4 +171,4 @@ BarrierProblem::Best BarrierProblem::search(const BarrierStep &x) {
   return best;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

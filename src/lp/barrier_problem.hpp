@@ -8,7 +8,7 @@
 #include "core/pairs.hpp"
 #include "lp/packing_lp.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // Change of positions and strain amplitudes s (mean diameters), of Gamma g, and with it of the linearised rows w and
 // the multipliers y.
@@ -74,4 +74,4 @@ class BarrierProblem {
   std::vector<int32_t> round_of_;  // row -> RoundRow, -1: another; empty without round walls
 };
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -10,7 +10,7 @@
 #include "linalg/blas.hpp"
 #include "lp/packing_lp.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 class StopWhenInterrupted : public ClpEventHandler {
@@ -157,4 +157,4 @@ LpSolution solve_motion_clp(const PackingLp &lp, const std::vector<double> &dire
   return packing.solve(false);
 }
 
-}  // namespace jam
+}  // namespace jam::inside

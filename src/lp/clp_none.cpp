@@ -1,7 +1,7 @@
 // A build without Clp (JAM_CLP=OFF): what asks for it gets no answer, and the log says why.
 #include "lp/packing_lp.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 LpSolution no_answer(const PackingLp &lp, const Monitor *monitor) {
@@ -25,4 +25,4 @@ LpSolution solve_motion_clp(const PackingLp &lp, const std::vector<double> &, in
   return no_answer(lp, monitor);
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace jam {
+namespace jam::inside {
 
 using Rules = InteriorPointTuning;
 using W = WorkingSetTuning;
@@ -208,4 +208,4 @@ LpSolution InteriorPoint::solve(const PackingLp &lp, const IpmControl &control, 
   return last;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

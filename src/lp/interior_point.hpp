@@ -9,7 +9,7 @@
 #include "lp/packing_lp.hpp"
 #include "lp/working_set.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 struct IpmControl {
   double tolerance = 1e-15;     // on the sum of complementarity products, which is the duality gap in units of Gamma
@@ -83,4 +83,4 @@ class InteriorPoint {
   Direction main_, extra_, trial_;
 };
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace jam {
+namespace jam::inside {
 
 using Rules = InteriorPointTuning;
 using C = CorrectorTuning;
@@ -150,4 +150,4 @@ void InteriorPoint::move(const Direction &d, const Steps &a) {
   g_ += a.primal * d.g;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace jam {
+namespace jam::inside {
 
 bool MixedFactor::factorise(const double *a, const double *weight, const double *box, double gap, double least) {
   a_ = a, weight_ = weight, box_ = box, gap_ = gap;
@@ -24,4 +24,4 @@ bool MixedFactor::solve(const double *rhs, double h, double *ds, double *dg, int
   return true;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -5,7 +5,7 @@
 
 #include "linalg/newton_system.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 struct SinglePrecision {
   double work = std::numeric_limits<double>::infinity();  // flops a number of the factor; below, doubles
@@ -33,4 +33,4 @@ class MixedFactor {
   bool floats_ = false;
 };
 
-}  // namespace jam
+}  // namespace jam::inside

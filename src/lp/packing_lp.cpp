@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace jam {
+namespace jam::inside {
 
 PackingLp make_lp(const Packing &p, const PairList &pairs, double sigma_unit, const StrainBasis &basis) {
   PackingLp lp;
@@ -84,4 +84,4 @@ LpCheck check_lp(const PackingLp &lp, const LpSolution &x) {
   return out;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -21,7 +21,7 @@
 #include "lp/strain.hpp"
 #include "lp/tuning.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 struct PackingLp {
   int dim = 3;
@@ -106,4 +106,4 @@ LpSolution solve_lp_clp(const PackingLp &lp, double tolerance = clp_tolerance, c
 LpSolution solve_motion_clp(const PackingLp &lp, const std::vector<double> &direction, int32_t fixed, uint32_t axes,
                             const Monitor *monitor);
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -5,7 +5,7 @@
 
 #include "lp/working_set.hpp"
 
-namespace jam {
+namespace jam::inside {
 void PathMatrix::reset(size_t rows, size_t unknowns) {
   coupled_.clear(), ordered_rows_ = 0;
   weight_.resize(rows);
@@ -78,4 +78,4 @@ bool PathMatrix::factorise(double gap) {
 
 bool PathMatrix::solve(const double *rhs, double h, double *ds, double *dg) { return factor_.solve(rhs, h, ds, dg, 1); }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -6,7 +6,7 @@
 #include "lp/barrier_problem.hpp"
 #include "lp/mixed_factor.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 class PathMatrix {
  public:
@@ -39,4 +39,4 @@ class PathMatrix {
   std::vector<double> a_, strain_, coupled_weight_, weight_, diagonal_;
 };
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace jam {
+namespace jam::inside {
 
 StrainBasis strain_basis(int dim, bool edges, bool tilts) {
   StrainBasis basis;
@@ -55,4 +55,4 @@ std::vector<double> strain_rows(const StrainBasis &basis, const std::vector<doub
   return rows;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace jam {
+namespace jam::inside {
 
 struct StrainBasis {
   int dim = 0;
@@ -24,4 +24,4 @@ std::vector<double> strain_matrix(const StrainBasis &basis, const std::vector<do
 std::vector<double> strain_rows(const StrainBasis &basis, const std::vector<double> &vectors,
                                 const std::vector<double> &scale);
 
-}  // namespace jam
+}  // namespace jam::inside

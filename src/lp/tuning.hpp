@@ -3,7 +3,7 @@
 #pragma once
 #include <cstddef>
 
-namespace jam {
+namespace jam::inside {
 
 // ---- which rows are in the matrix
 struct WorkingSetTuning {
@@ -71,4 +71,4 @@ constexpr double at_bound = 0.999;
 constexpr double clp_tolerance = 1e-9, clp_largest = 1e30;
 constexpr int clp_pivots_a_row = 10;
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 // Spheres with at most d working-set rows get their rows_per_dim * d tightest rows: else they would run until they meet
@@ -81,4 +81,4 @@ void WorkingSet::gather(const PackingLp &whole, const std::vector<char> &taken) 
   }
 }
 
-}  // namespace jam
+}  // namespace jam::inside

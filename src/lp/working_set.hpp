@@ -7,7 +7,7 @@
 
 #include "lp/packing_lp.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // Slack of the last of the rows that may carry force, when sorted. Infinite when there are fewer.
 double carrying_slack(const std::vector<double> &c, int dim, int32_t n);
@@ -27,4 +27,4 @@ struct WorkingSet {
   void gather(const PackingLp &whole, const std::vector<char> &taken);
 };
 
-}  // namespace jam
+}  // namespace jam::inside

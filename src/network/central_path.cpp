@@ -8,7 +8,7 @@
 #include "core/math.hpp"
 #include "network/tuning.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 using Tuning = CentralPathTuning;
@@ -80,4 +80,4 @@ void CentralPath::direction(double mu, const std::vector<double> &correction, st
   }
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -7,7 +7,7 @@
 
 #include "network/constraint_rows.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 class CentralPath {
  public:
@@ -33,4 +33,4 @@ class CentralPath {
   int steps_ = 0;
 };
 
-}  // namespace jam
+}  // namespace jam::inside

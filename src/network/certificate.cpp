@@ -11,7 +11,7 @@
 #include <set>
 #include <utility>
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 // Smallest gap of two stable spheres that are no contact: the pairs of `net` are skipped image by image.
@@ -158,4 +158,4 @@ std::string why_not_jammed(const PackingVerdict &v, Jamming kind) {
   return line;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

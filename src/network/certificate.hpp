@@ -7,7 +7,7 @@
 #include "network/contact_network.hpp"
 #include "network/rigidity_test.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // free_cell: the gaps of spheres and their own images count too.
 void certify(const Packing &p, const ContactNetwork &contacts, jam_crunch_report &report, bool free_cell = false);
@@ -20,4 +20,4 @@ void report_verdict(const PackingVerdict &verdict, const Packing &p, jam_crunch_
 // Strict: forces must balance on the cell too, up to a pressure.
 std::string why_not_jammed(const PackingVerdict &verdict, Jamming kind = Jamming::collective);
 
-}  // namespace jam
+}  // namespace jam::inside

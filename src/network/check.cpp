@@ -11,7 +11,7 @@
 #include "network/constraint_rows.hpp"
 #include "network/tuning.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -134,4 +134,4 @@ CheckResult check_as_it_is(const Packing &p, const ContactNetwork *known, Judge 
   return out;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -6,7 +6,7 @@
 #include "jam/jam.h"
 #include "network/rigidity_test.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // The report of a check that was left before it had a verdict.
 jam_check_report untested_check();
@@ -24,4 +24,4 @@ CheckResult check_as_it_is(const Packing &p, const ContactNetwork *known = nullp
 // check_text.cpp: the report as one paragraph.
 std::string text_of(const jam_check_report &report);
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -6,7 +6,7 @@
 #include "core/math.hpp"
 #include "network/check.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 using Report = jam_check_report;
@@ -164,4 +164,4 @@ std::string text_of(const Report &r) {
   return out;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -10,7 +10,7 @@
 #include "linalg/shifted_factor.hpp"
 #include "network/tuning.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 double norm(const std::vector<double> &x) {
@@ -180,4 +180,4 @@ std::vector<double> nearest_motion(const ConstraintRows &rows, const NormalSolve
   return x;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

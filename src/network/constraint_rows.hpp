@@ -9,7 +9,7 @@
 #include "network/hessian.hpp"
 #include "network/rigidity_matrix.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // Orthonormal basis of the traceless symmetric d x d matrices with no component off these axes (bits): of all d,
 // (d (d + 1) / 2 - 1, d, d).
@@ -60,4 +60,4 @@ void project_on_balance(const ConstraintRows &rows, const NormalSolver &solver, 
 std::vector<double> nearest_motion(const ConstraintRows &rows, const NormalSolver &solver,
                                    const std::vector<double> &y);
 
-}  // namespace jam
+}  // namespace jam::inside

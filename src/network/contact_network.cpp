@@ -7,7 +7,7 @@
 #include "core/double_double.hpp"
 #include "core/pair_rule.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 double add_contact(const Packing &p, const PairList &pairs, size_t k, ContactNetwork &net) {
   const int d = p.dim;
@@ -115,4 +115,4 @@ bool ContactLookup::holds(const PairList &pairs, size_t k) {
   return false;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

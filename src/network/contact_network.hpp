@@ -7,7 +7,7 @@
 #include "core/packing.hpp"
 #include "core/pairs.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 struct ContactNetwork {
   PairList pairs;              // contacts between stable spheres
@@ -62,4 +62,4 @@ class ContactLookup {
 // Only those that are `on`, one flag a contact.
 ContactNetwork subset(const ContactNetwork &net, const std::vector<char> &on, int dim);
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -8,7 +8,7 @@
 #include "core/pair_rule.hpp"
 #include "network/tuning.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 jam_geometry_options default_geometry_options() {
   jam_geometry_options o{};
@@ -223,4 +223,4 @@ jam_status status_of(const GeometryResult &found, Verdict as_it_is, const GapRes
              : JAM_OK;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -4,7 +4,7 @@
 #include "network/rigidity_test.hpp"
 #include "network/self_stress.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 jam_geometry_options default_geometry_options();
 
@@ -28,4 +28,4 @@ struct ContactCandidates {
 };
 ContactCandidates contact_candidates(const Packing &p, double window);
 
-}  // namespace jam
+}  // namespace jam::inside

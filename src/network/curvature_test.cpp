@@ -6,7 +6,7 @@
 #include "network/slides.hpp"
 #include "network/tuning.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 using Flexes = std::vector<std::vector<double>>;
@@ -105,4 +105,4 @@ void judge_curvature(const RigidityMatrix &carrying, const std::vector<double> &
   flexes[0] = std::move(first);
 }
 
-}  // namespace jam
+}  // namespace jam::inside

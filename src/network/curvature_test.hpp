@@ -4,7 +4,7 @@
 
 #include "network/rigidity_test.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // carrying: K+ of `out`, with its forces and flexes. The first flex becomes that which curvature holds least.
 void judge_curvature(const RigidityMatrix &carrying, const std::vector<double> &force,
@@ -15,4 +15,4 @@ void judge_curvature(const RigidityMatrix &carrying, const std::vector<double> &
 bool opens_by_curvature(const RigidityMatrix &carrying, const std::vector<double> &force,
                         const std::vector<double> &motion);
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -9,7 +9,7 @@
 #include "network/rigidity_matrix.hpp"
 #include "network/tuning.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 // Unknowns: displacements of the stable spheres in mean diameters, growth of the diameters, and forces.
@@ -106,4 +106,4 @@ bool settle_at_curvature(Packing &p, ContactNetwork &net) {
   return worst < RigidityTuning::most_residual;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

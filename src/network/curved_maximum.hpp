@@ -5,10 +5,10 @@
 #include "core/packing.hpp"
 #include "network/contact_network.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // Newton's method for all conditions of a maximum at once: forces balance, and contacts are closed. Small systems only,
 // as the matrix is dense. False where it does not converge; p and net are as before then.
 bool settle_at_curvature(Packing &p, ContactNetwork &net);
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -6,7 +6,7 @@
 
 #include "network/tuning.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 // The motion of all nodes, and the strain of `rows`.
@@ -172,4 +172,4 @@ void complete_flex(const RigidityMatrix &g, const RigidityMatrix &sub, const Con
   if (strain) out.strain = std::move(found.strain);
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -6,7 +6,7 @@
 #include "network/rattlers.hpp"
 #include "network/rigidity_test.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // Whether a motion, of this flex and strain (empty without one), overlaps at no contact beyond rounding. gap: what
 // contacts are open by; empty: nothing.
@@ -21,4 +21,4 @@ void complete_flex(const RigidityMatrix &g, const RigidityMatrix &sub, const Con
                    const std::vector<double> &x, const std::vector<Release> &released, bool strain,
                    RigidityResult &out);
 
-}  // namespace jam
+}  // namespace jam::inside

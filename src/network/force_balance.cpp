@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace jam {
+namespace jam::inside {
 
 std::vector<double> relative_rows(const Packing &p, const ContactNetwork &net) {
   const double unit = diameter_mean(p);
@@ -73,4 +73,4 @@ void GapRows::balance(std::vector<double> &y) {
   for (size_t k = 0; k < y.size(); ++k) y[k] = static_cast<double>(z[k]);
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -8,7 +8,7 @@
 #include "network/contact_network.hpp"
 #include "network/tuning.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // Change of positions (in mean diameters) and of the common factor of the diameters.
 struct Motion {
@@ -47,4 +47,4 @@ class GapRows {
   std::vector<double> diagonal_, weight_, row_, rhs_;
 };
 
-}  // namespace jam
+}  // namespace jam::inside

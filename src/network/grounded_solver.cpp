@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace jam {
+namespace jam::inside {
 namespace {
 // Clusters of touching spheres by union-find; the representative is the smallest node.
 std::vector<int32_t> cluster_roots(const RigidityMatrix &g) {
@@ -85,4 +85,4 @@ void GroundedSolver::solve(double *x, int count) const {
   for (int k = 0; k < count; ++k) g_.remove_symmetries(x + k * n);
 }
 
-}  // namespace jam
+}  // namespace jam::inside

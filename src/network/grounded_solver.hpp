@@ -5,7 +5,7 @@
 #include "network/hessian.hpp"
 #include "network/rigidity_matrix.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // Connected sets of touching spheres.
 int32_t count_clusters(const RigidityMatrix &g);
@@ -36,4 +36,4 @@ class GroundedSolver {
   int64_t springs_ = 0;
 };
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -7,7 +7,7 @@
 #include "core/error.hpp"
 #include "core/math.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 jam_hessian_options default_hessian_options() {
   jam_hessian_options o{};
@@ -113,4 +113,4 @@ double curvature(const RigidityMatrix &g, const ContactWeights &w, const double 
   return sum;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -4,7 +4,7 @@
 #include "jam/jam.h"
 #include "network/rigidity_matrix.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 jam_hessian_options default_hessian_options();
 // Throws JAM_E_ARGUMENT for values out of range.
@@ -27,4 +27,4 @@ BlockMatrix make_hessian(const RigidityMatrix &g, const ContactWeights &w);
 // u . H . u as a sum over contacts: no cancellation between large entries, so small eigenvalues keep their digits.
 double curvature(const RigidityMatrix &g, const ContactWeights &w, const double *u);
 
-}  // namespace jam
+}  // namespace jam::inside

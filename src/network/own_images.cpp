@@ -5,7 +5,7 @@
 #include "core/error.hpp"
 #include "network/resolution.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 ContactNetwork unlisted_own_images(const Packing &p, const ContactNetwork &net, double limit) {
   ContactNetwork own;
@@ -38,4 +38,4 @@ void refuse_own_images(const ContactNetwork &own, const char *quantity) {
       quantity, own.pairs.i[0]);
 }
 
-}  // namespace jam
+}  // namespace jam::inside

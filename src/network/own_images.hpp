@@ -5,7 +5,7 @@
 #include "core/packing.hpp"
 #include "network/contact_network.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // Those with gaps below `limit`, without forces.
 ContactNetwork unlisted_own_images(const Packing &p, const ContactNetwork &net, double limit);
@@ -16,4 +16,4 @@ ContactNetwork unlisted_own_images(const Packing &p, const ContactNetwork &net);
 // JAM_E_UNSUPPORTED for a quantity that would be computed without the first of `own`.
 void refuse_own_images(const ContactNetwork &own, const char *quantity);
 
-}  // namespace jam
+}  // namespace jam::inside

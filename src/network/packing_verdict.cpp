@@ -8,7 +8,7 @@
 #include "network/room.hpp"
 #include "network/tuning.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 // Result on the rows that are `on`, with its arrays as long as those of the whole list.
@@ -178,4 +178,4 @@ PackingVerdict test_packing(const Packing &p, const GapResolution &resolution, c
   return out;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

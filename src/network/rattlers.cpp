@@ -9,7 +9,7 @@
 #include "jam/jam.h"
 #include "network/tuning.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 // The point of the hull of contact vectors nearest to the origin (P. Wolfe, Math. Programming 11, 128 (1976)). It is a
@@ -172,4 +172,4 @@ void drop_loose(int dim, size_t n, const Container &walls, const std::vector<int
   }
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -9,7 +9,7 @@
 
 #include "core/container.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // Turns contacts off, again and again, on spheres whose contact vectors all lie clearly on one side of a plane.
 // Contacts of a sphere with its own image (i == j) balance by themselves and stay; a wall (j < 0) takes any force.
@@ -34,4 +34,4 @@ std::vector<Release> release_unbalanced(int dim, size_t n, const std::vector<int
                                         const std::vector<double> &normal, std::vector<char> &on,
                                         const std::vector<double> &error = {});
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -12,7 +12,7 @@
 #include "core/pairs.hpp"
 #include "network/tuning.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 // As many pairs touch to 1e-10 as hold half of the spheres, and they are three of four that nearly touch: in a lattice
@@ -61,4 +61,4 @@ GapResolution gap_resolution(const Packing &p) {
   return out;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -9,7 +9,7 @@
 
 #include "core/packing.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // Relative gaps |h| of a contact, and of a pair that doubles cannot distinguish from one.
 constexpr double contact_gap_limit = 1e-10, undecided_gap_limit = 1e-7, listed_gap_limit = 1e-5;
@@ -39,4 +39,4 @@ GapResolution gap_resolution(const Packing &p);
 // The same where distances are known to be wrong by `error` at least.
 void widen(GapResolution &resolution, const Packing &p, double error);
 
-}  // namespace jam
+}  // namespace jam::inside

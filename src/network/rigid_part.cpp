@@ -5,7 +5,7 @@
 
 #include "network/softest_modes.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 // Contacts that do not lie within B, with all spheres of B as node 0.
@@ -98,4 +98,4 @@ bool test_from_rigid_part(const RigidityMatrix &sub, const StressCone &cone, Jam
   return true;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -6,10 +6,10 @@
 #include "network/rigidity_test.hpp"
 #include "network/stress_cone.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // sub: contacts of spheres that may carry force. cone: undecided, with its positive set. False: K is not rigid. True:
 // the verdict on sub is in `out`, its flags, forces and flex on contacts and nodes of sub.
 bool test_from_rigid_part(const RigidityMatrix &sub, const StressCone &cone, Jamming kind, RigidityResult &out);
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 void take_out(const std::vector<double> &v, double *x) {
@@ -211,4 +211,4 @@ double balance_residual(int dim, size_t n, const ContactNetwork &network) {
   return over_mean_force(dim, y, network.force.data(), network.size());
 }
 
-}  // namespace jam
+}  // namespace jam::inside

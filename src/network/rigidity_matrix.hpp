@@ -8,7 +8,7 @@
 #include "linalg/block_matrix.hpp"
 #include "network/contact_network.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 struct RigidityMatrix {
   int dim = 3;
@@ -62,4 +62,4 @@ double balance_residual(const RigidityMatrix &g, const double *f);
 // The same with the forces and vectors of a network of n spheres.
 double balance_residual(int dim, size_t n, const ContactNetwork &network);
 
-}  // namespace jam
+}  // namespace jam::inside

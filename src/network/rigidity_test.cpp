@@ -13,7 +13,7 @@
 #include "network/stress_cone.hpp"
 #include "network/tuning.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 // Counts of K+ with this many flexes.
@@ -243,4 +243,4 @@ RigidityResult test_rigidity(const RigidityMatrix &g, Jamming kind) {
 
 ContactNetwork PackingVerdict::carrying(int dim) const { return subset(contacts, result.carrying, dim); }
 
-}  // namespace jam
+}  // namespace jam::inside

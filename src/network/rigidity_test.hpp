@@ -30,7 +30,7 @@
 #include "network/resolution.hpp"
 #include "network/rigidity_matrix.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // Eigenvalues of S^T S on K+: a smaller one is a flex, up to the second one it is undecided.
 constexpr double flex_eigenvalue = 1e-12, undecided_eigenvalue = 1e-10;
@@ -100,4 +100,4 @@ void take_strict(PackingVerdict &collective, const PackingVerdict &strict);
 PackingVerdict test_packing(const Packing &p, const GapResolution &resolution, const ContactNetwork *listed,
                             Jamming kind);
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -8,7 +8,7 @@
 #include "network/flex.hpp"
 #include "network/tuning.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 double way_of(const Packing &p, const ContactNetwork &carrying) {
@@ -93,4 +93,4 @@ double free_part(const Packing &p, const PackingVerdict &v) {
   return 0.0;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

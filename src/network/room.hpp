@@ -3,7 +3,7 @@
 #pragma once
 #include "network/rigidity_test.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // Pairs that a flex of `carrying` contacts can close on its way, none of them one of `taken`. The way is the square
 // root of what the carrying contacts are open by, or of a rounding. strain: of the cell, too; own_images: of a sphere
@@ -19,4 +19,4 @@ bool find_flex_with_room(const Packing &p, const std::vector<char> &taken, Jammi
 // noisy and the flex closes contacts at the rate of that noise. 0 where it is shorter than the way that a flex needs.
 double free_part(const Packing &p, const PackingVerdict &v);
 
-}  // namespace jam
+}  // namespace jam::inside

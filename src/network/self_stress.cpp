@@ -11,7 +11,7 @@
 #include "network/rigidity_test.hpp"
 #include "network/tuning.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 ContactWeights unit_weights(const RigidityMatrix &g) {
@@ -191,4 +191,4 @@ StressStates find_stress(const RigidityMatrix &g, const NullSpace &space, bool w
   return out;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

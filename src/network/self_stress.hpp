@@ -4,7 +4,7 @@
 #include "core/call_scope.hpp"
 #include "network/grounded_solver.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // Projections on the null space of S^T.
 class NullSpace {
@@ -39,4 +39,4 @@ struct StressStates {
 StressStates find_stress(const RigidityMatrix &g, bool with_basis);
 StressStates find_stress(const RigidityMatrix &g, const NullSpace &space, bool with_basis);
 
-}  // namespace jam
+}  // namespace jam::inside

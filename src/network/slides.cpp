@@ -6,7 +6,7 @@
 
 #include "network/tuning.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 // The part of each node: nodes with a contact between them are in one, but for nodes that are `left` out.
@@ -83,4 +83,4 @@ Slides find_slides(const RigidityMatrix &g) {
   return out;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -6,7 +6,7 @@
 
 #include "network/rigidity_matrix.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // Independent ones beyond the motions of the whole, and one of them (nodes, dim). A part translates along axes without
 // walls, or rotates about the centre of a round wall: there all contacts with a sphere in the middle stay closed too.
@@ -16,4 +16,4 @@ struct Slides {
 };
 Slides find_slides(const RigidityMatrix &g);
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -11,7 +11,7 @@
 #include "linalg/symmetric_eigen.hpp"
 #include "network/tuning.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 class BlockIteration {
@@ -144,4 +144,4 @@ SoftestModes softest_modes(const ConstraintRows &rows, const NormalSolver &solve
   return BlockIteration(rows, solver, limit, most_flexes).run();
 }
 
-}  // namespace jam
+}  // namespace jam::inside

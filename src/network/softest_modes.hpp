@@ -4,7 +4,7 @@
 
 #include "network/constraint_rows.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 struct SoftestModes {
   std::vector<std::vector<double>> flexes;  // orthonormal motions x with |A x|^2 < `limit`, translations left out
@@ -14,4 +14,4 @@ struct SoftestModes {
 // solver: factored with unit weights and a shift near `limit`.
 SoftestModes softest_modes(const ConstraintRows &rows, const NormalSolver &solver, double limit, size_t most_flexes);
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -9,7 +9,7 @@
 #include "network/central_path.hpp"
 #include "network/tuning.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 using Tuning = StressConeTuning;
@@ -297,4 +297,4 @@ StressCone find_stress_cone(const ConstraintRows &rows, const NormalSolver &solv
   return out;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

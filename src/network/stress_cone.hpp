@@ -5,7 +5,7 @@
 
 #include "network/constraint_rows.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 struct StressCone {
   bool decided = false;        // both certificates below hold
@@ -24,4 +24,4 @@ struct StressCone {
 // states: dimension of the null space of A^T, -1 when not known. solver: of `rows`, factored with unit weights.
 StressCone find_stress_cone(const ConstraintRows &rows, const NormalSolver &solver, int64_t states);
 
-}  // namespace jam
+}  // namespace jam::inside

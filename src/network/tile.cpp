@@ -10,7 +10,7 @@
 #include "core/error.hpp"
 #include "core/limits.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 void refuse_walled_axis(const Packing &p, int c, int32_t count) {
@@ -189,4 +189,4 @@ Packing tile(const Packing &p, const Copies &copies, ContactNetwork *net) {
   return out;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -10,7 +10,7 @@
 #include "core/packing.hpp"
 #include "network/contact_network.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // Numbers of copies along the cell vectors. Copy k is number k_0 + count[0] (k_1 + count[1] ...).
 class Copies {
@@ -38,4 +38,4 @@ ContactNetwork between_copies(const Packing &p, const ContactNetwork &own, const
 // of the large cell no longer resolve the gaps, JAM_E_MEMORY before any work.
 [[gnu::cold]] Packing tile(const Packing &p, const Copies &copies, ContactNetwork *net);
 
-}  // namespace jam
+}  // namespace jam::inside

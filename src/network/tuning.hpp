@@ -3,7 +3,7 @@
 #pragma once
 #include <cstddef>
 
-namespace jam {
+namespace jam::inside {
 
 // ---- the smallest gap of a pair that is no contact: radii of search over the contact distance, one after the other
 constexpr double gap_searches[] = {1.2, 2.0};
@@ -126,4 +126,4 @@ struct CurvedMaximumTuning {
   static constexpr double longest = 1.0, rank = 1e-9;
 };
 
-}  // namespace jam
+}  // namespace jam::inside

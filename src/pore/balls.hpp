@@ -10,7 +10,7 @@
 #include "pore/images.hpp"
 #include "pore/tuning.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 using Point = std::array<double, 3>;
 struct Ball {
@@ -124,4 +124,4 @@ class Balls {
   std::vector<std::vector<int32_t>> at_;
 };
 
-}  // namespace jam
+}  // namespace jam::inside

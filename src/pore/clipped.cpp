@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 // Where an edge meets the plane, to the bit the same from both ends.
@@ -56,4 +56,4 @@ void clip(std::vector<Face> &piece, int axis, double t, bool above) {
   piece = std::move(left);
 }
 
-}  // namespace jam
+}  // namespace jam::inside

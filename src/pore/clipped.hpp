@@ -6,7 +6,7 @@
 
 #include "pore/balls.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 struct Face {
   std::vector<Point> corner;  // counterclockwise seen from outside
@@ -16,4 +16,4 @@ struct Face {
 // Cuts away what lies beyond the plane: x_c < t, or with `above` x_c > t. The cut is a new face of the surface.
 void clip(std::vector<Face> &piece, int c, double t, bool above);
 
-}  // namespace jam
+}  // namespace jam::inside

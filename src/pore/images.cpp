@@ -4,7 +4,7 @@
 
 #include "core/error.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 void check_has_pores(const Packing &p) {
   if (p.dim > 3) fail(JAM_E_UNSUPPORTED, "the pore space is computed in d = 2 and 3, this packing has d = %d", p.dim);
@@ -62,4 +62,4 @@ std::vector<SphereImage> images_near_brick(const Packing &p, const std::vector<d
   return out;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

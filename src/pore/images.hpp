@@ -7,7 +7,7 @@
 
 #include "core/packing.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // A sphere and the lattice vector that takes it there, in whole cell vectors.
 struct SphereImage {
@@ -26,4 +26,4 @@ void check_has_pores(const Packing &p);
 // The whole vectors of a lattice vector.
 std::array<int, 3> cells_of(const Cell &cell, const double *offset);
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -8,7 +8,7 @@
 #include "pore/sphere_hull.hpp"
 #include "pore/tuning.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 // Triangles of an image whose centre is in the brick: of the sphere, and of its discs in the faces that cut it. A
@@ -54,4 +54,4 @@ int64_t estimated_triangles(const Packing &p, const ContactNetwork *network, con
   return std::llround(sum);
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -10,7 +10,7 @@
 #include "pore/balls.hpp"
 #include "pore/tuning.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
@@ -276,4 +276,4 @@ std::vector<std::array<double, 5>> pore_sizes(const Packing &p, int64_t points, 
   return out;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

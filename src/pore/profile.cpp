@@ -7,7 +7,7 @@
 #include "core/container.hpp"
 #include "pore/images.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 // Adds the volume of a ball between equal planes, which begin at 0; it may lie across the end, and repeats there.
@@ -100,4 +100,4 @@ Profile solid_profile(const Packing &p, int axis, int bins) {
   return out;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -4,7 +4,7 @@
 
 #include "core/packing.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // Volume (d = 2: area) of the part of a ball of this radius where x < t; the centre is at 0.
 double volume_below(int dim, double radius, double t);
@@ -20,4 +20,4 @@ struct Profile {
 // centre of a ball or the axis of a cylinder. JAM_E_UNSUPPORTED for shells without a round container.
 Profile solid_profile(const Packing &p, int axis, int bins);
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -13,7 +13,7 @@
 #include "pore/sphere_hull.hpp"
 #include "pore/tuning.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 // A contact as its first sphere sees it. Both spheres take from here what they share, to the bit.
@@ -362,4 +362,4 @@ SolidMesh solid_mesh(const Packing &p, const ContactNetwork *network, const jam_
   return Mesher(p, network, o).make();
 }
 
-}  // namespace jam
+}  // namespace jam::inside

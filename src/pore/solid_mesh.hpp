@@ -7,7 +7,7 @@
 #include "jam/jam.h"
 #include "network/contact_network.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 struct SolidMesh {
   std::vector<std::array<float, 9>> triangle;  // three corners
@@ -27,4 +27,4 @@ void check_mesh(const Packing &p, const jam_mesh_options &o);
 // About how many triangles it has, to some 10 %, before any work (mesh_estimate.cpp).
 int64_t estimated_triangles(const Packing &p, const ContactNetwork *network, const jam_mesh_options &o);
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -7,7 +7,7 @@
 
 #include "core/error.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 Point unit(const Point &x) {
@@ -206,4 +206,4 @@ SphereGrid divided_icosahedron(double edge) {
 
 std::vector<Triangle> sphere_hull(const std::vector<Point> &point) { return Hull(point).triangles(); }
 
-}  // namespace jam
+}  // namespace jam::inside

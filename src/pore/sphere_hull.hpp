@@ -6,7 +6,7 @@
 
 #include "pore/balls.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 using Triangle = std::array<int32_t, 3>;  // counterclockwise seen from outside
 
@@ -21,4 +21,4 @@ SphereGrid divided_icosahedron(double edge);
 // lies on which side, in integers, so that the surface is closed whatever the points are.
 std::vector<Triangle> sphere_hull(const std::vector<Point> &point);
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -1,7 +1,7 @@
 // Every number that steers the analysis of the pore space.
 #pragma once
 
-namespace jam {
+namespace jam::inside {
 
 // Cells that find spheres near a point: at most so many along an edge.
 struct BallsTuning {
@@ -38,4 +38,4 @@ struct PoreSizeTuning {
   static constexpr double flat = 1e-3;      // sine below which three directions lie nearly in a plane
 };
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -7,7 +7,7 @@
 #include "pore/profile.hpp"
 #include "pore/tuning.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 double clamped(double x) { return std::min(1.0, std::max(-1.0, x)); }
@@ -61,4 +61,4 @@ double shared_with_cylinder(double ball, double cylinder, double apart) {
   return 2.0 * sum;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

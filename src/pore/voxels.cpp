@@ -7,7 +7,7 @@
 #include "core/checks.hpp"
 #include "pore/tuning.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 VoxelGrid voxel_grid(const Packing &p, const jam_voxel_options &o) {
   check_has_pores(p);
@@ -110,4 +110,4 @@ void VoxelImage::fill_layer(int64_t z, double *out) const {
     }
 }
 
-}  // namespace jam
+}  // namespace jam::inside

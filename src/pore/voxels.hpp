@@ -8,7 +8,7 @@
 #include "jam/jam.h"
 #include "pore/images.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 constexpr double voxel_outside = -1.0;  // outside a round container
 
@@ -38,4 +38,4 @@ class VoxelImage {
   std::vector<std::vector<int32_t>> in_layer_;  // images that reach into each layer
 };
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -12,7 +12,7 @@
 #include "proof/refined_lp.hpp"
 #include "proof/tuning.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 void add(std::vector<double> &x, double factor, const std::vector<double> &y) {
@@ -208,4 +208,4 @@ void lean_on_closed(ProofScene &settled, const ProofScene &closed) {
   }
 }
 
-}  // namespace jam
+}  // namespace jam::inside

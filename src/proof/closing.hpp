@@ -3,7 +3,7 @@
 #include "proof/refined_lp.hpp"
 #include "proof/scene.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // The dual simplex method for the largest Gamma, in two doubles: Newton's steps, and exchanges of contacts with gaps
 // that stay for pairs that overlap, until all listed contacts close and no other pair of stable spheres overlaps.
@@ -22,4 +22,4 @@ Settled settle_exchange(ProofScene &scene, Exchange end);
 // carry little then, and a proof allows for their gaps.
 void lean_on_closed(ProofScene &settled, const ProofScene &closed);
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 Expansion squared_distance(const ProofScene &s, size_t c) {
@@ -43,4 +43,4 @@ void equal_forces(ProofScene &s) {
   if (*most - *least < 1e-9 * *most) std::fill(s.force.begin(), s.force.end(), s.force[0]);
 }
 
-}  // namespace jam
+}  // namespace jam::inside

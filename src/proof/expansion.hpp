@@ -9,7 +9,7 @@
 #include "core/double_double.hpp"
 #include "core/error.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 class Expansion {
  public:
@@ -75,4 +75,4 @@ class Expansion {
   size_t count_ = 0;
 };
 
-}  // namespace jam
+}  // namespace jam::inside

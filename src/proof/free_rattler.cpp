@@ -6,7 +6,7 @@
 #include "linalg/least_squares.hpp"
 #include "proof/tuning.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 // x with a positive component along each of the vectors, where the search finds one (F. Rosenblatt's perceptron).
@@ -122,4 +122,4 @@ bool free_rattlers(ProofScene &s) {
   return moved;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

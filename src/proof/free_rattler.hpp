@@ -2,7 +2,7 @@
 #pragma once
 #include "proof/open_gaps.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // A rattler that overlaps moves to where all pairs that it nearly touches are open. Its cage may be far narrower than
 // the overlap. pairs: near_pairs of the scene. False where no such place is found; then it overlaps as little as it
@@ -12,4 +12,4 @@ bool free_rattler(ProofScene &scene, int32_t i, const std::vector<NearPair> &pai
 // All of them; whether one moved.
 bool free_rattlers(ProofScene &scene);
 
-}  // namespace jam
+}  // namespace jam::inside

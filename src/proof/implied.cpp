@@ -9,7 +9,7 @@
 #include "core/call_scope.hpp"
 #include "proof/tuning.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 // An exact angle: multiples of 60 degrees and of unknown angles, each by its number.
@@ -275,4 +275,4 @@ std::vector<ImpliedContact> find_implied(const ProofScene &s) {
   return Search(s).run(s.contacts() - needed);
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -5,7 +5,7 @@
 #include "network/contacts_from_geometry.hpp"
 #include "proof/verdict.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 ContactNetwork closed_of(const Packing &p, const ContactNetwork *known) {
@@ -107,4 +107,4 @@ PackingVerdict judge(const Packing &p, const GapResolution &resolution, const Co
   return v;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

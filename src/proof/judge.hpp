@@ -4,7 +4,7 @@
 #pragma once
 #include "network/rigidity_test.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // known: the network that is stored with the packing, or NULL. Positions alone say which spheres touch, but for own
 // images, as a free cell makes them contacts. Where spheres touch, and would be held if nearly closed pairs were
@@ -14,4 +14,4 @@ PackingVerdict judge(const Packing &p, const GapResolution &resolution, const Co
 PackingVerdict judge_without_images(const Packing &p, const GapResolution &resolution, const ContactNetwork *known,
                                     Jamming kind);
 
-}  // namespace jam
+}  // namespace jam::inside

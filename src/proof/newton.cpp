@@ -7,7 +7,7 @@
 #include "proof/exact_closure.hpp"
 #include "proof/tuning.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 double length(const std::vector<double> &x) {
@@ -102,4 +102,4 @@ bool refine(ProofScene &s, ProofEquations &e) {
   return true;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -2,7 +2,7 @@
 #pragma once
 #include "proof/normal_matrix.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // The step J u = -F from the scene's numbers, J = [R, -sigma^2]: v (ends, dim) and that of Gamma. With one state of
 // self-stress f it solves all equations; with more of them it solves them as nearly as it can.
@@ -24,4 +24,4 @@ bool approach_closure(ProofScene &scene, ProofEquations &equations);
 // rows are dependent is left as it is: false.
 bool refine(ProofScene &scene, ProofEquations &equations);
 
-}  // namespace jam
+}  // namespace jam::inside

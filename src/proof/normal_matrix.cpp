@@ -9,7 +9,7 @@
 #include "proof/outward.hpp"
 #include "proof/tuning.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 NormalMatrix::NormalMatrix(const ProofScene &s, const ProofEquations &e) : scene_(s), equations_(e) {
   const size_t d = static_cast<size_t>(s.dim), dd = d * d;
@@ -150,4 +150,4 @@ NormalMatrix::Bound NormalMatrix::bound() {
   return out;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -7,7 +7,7 @@
 #include "linalg/shifted_factor.hpp"
 #include "proof/scene.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 class NormalMatrix {
  public:
@@ -41,4 +41,4 @@ class NormalMatrix {
   std::unique_ptr<ShiftedFactor> factor_;
 };
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -9,7 +9,7 @@
 #include "proof/outward.hpp"
 #include "proof/tuning.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 using Image = std::vector<int32_t>;
@@ -134,4 +134,4 @@ OpenGaps open_gaps(const ProofScene &s, double radius, double gamma) {
   return out;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -2,7 +2,7 @@
 #pragma once
 #include "proof/scene.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 struct OpenGaps {
   bool open = false;
@@ -25,4 +25,4 @@ std::vector<NearPair> near_pairs(const ProofScene &scene);
 Expansion apart(const ProofScene &scene, const NearPair &pair, size_t component);  // of x_i - x_j + n A
 double opening_of(const ProofScene &scene, const NearPair &pair);
 
-}  // namespace jam
+}  // namespace jam::inside

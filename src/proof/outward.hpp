@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-namespace jam {
+namespace jam::inside {
 
 constexpr double half_ulp = 0x1p-53;
 
@@ -39,4 +39,4 @@ inline double norm_up(const std::vector<double> &x) {
   return sqrt_up(mul_up(s, add_up(1.0, gamma_of(static_cast<double>(x.size()) + 1.0))));
 }
 
-}  // namespace jam
+}  // namespace jam::inside

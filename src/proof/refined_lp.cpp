@@ -9,7 +9,7 @@
 #include "proof/open_gaps.hpp"
 #include "proof/tuning.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 // All pairs of spheres that a step may close, contacts first.
@@ -107,4 +107,4 @@ LpsEnd close_by_lps(ProofScene &scene) {
   return LpsEnd::no_end;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -2,7 +2,7 @@
 #pragma once
 #include "proof/scene.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // Each LP of displacements counts gaps in units of its step, and the next step is shorter by what LPs leave (A. M.
 // Gleixner, D. E. Steffy, K. Wolter, INFORMS J. Comput. 28, 449 (2016)). Linear gaps are never wider than true ones, so
@@ -13,4 +13,4 @@ namespace jam {
 enum class LpsEnd { closed, without_clp, too_many_rows, no_end };
 LpsEnd close_by_lps(ProofScene &scene);
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -6,7 +6,7 @@
 #include "core/motion.hpp"
 #include "proof/implied.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 Expansion ProofScene::component(size_t c, int k) const {
   const size_t i = static_cast<size_t>(sphere[a[c]]) * dim + k, j = static_cast<size_t>(sphere[b[c]]) * dim + k;
@@ -219,4 +219,4 @@ std::vector<double> balance_target(const ProofScene &s) {
   return out;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -16,7 +16,7 @@
 #include "network/contact_network.hpp"
 #include "proof/expansion.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // A contact of which the others leave no choice but to be closed: the walk from one of its spheres to the other over
 // these contacts has a known sum.
@@ -102,4 +102,4 @@ double largest_load(const ProofScene &scene);
 // What R^T f has to be: 0, but strict the gradient of log V by the cell vectors.
 std::vector<double> balance_target(const ProofScene &scene);
 
-}  // namespace jam
+}  // namespace jam::inside

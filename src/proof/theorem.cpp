@@ -9,7 +9,7 @@
 #include "proof/outward.hpp"
 #include "proof/tuning.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 // Of the force f: bounds that both theorems share.
@@ -258,4 +258,4 @@ Proof prove(const ProofScene &s, const ProofEquations &e) {
   return out;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -8,7 +8,7 @@
 #pragma once
 #include "proof/normal_matrix.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 enum class ProofCause { none = 0, excess = 1, force = 2, gap = 3, singular = 4, rattler = 5, images = 6, saddle = 7 };
 
@@ -27,4 +27,4 @@ struct Proof {
 // The scene as refine() leaves it.
 Proof prove(const ProofScene &scene, const ProofEquations &equations);
 
-}  // namespace jam
+}  // namespace jam::inside

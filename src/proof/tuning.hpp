@@ -2,7 +2,7 @@
 #pragma once
 #include <cstddef>
 
-namespace jam::proof_tuning {
+namespace jam::inside::proof_tuning {
 
 constexpr int refinements = 3;          // of a solve: each takes condition times rounding off
 constexpr int inverse_iterations = 30;  // to some percent of the smallest eigenvalue
@@ -30,4 +30,4 @@ constexpr int patch = 6;             // tiles that far from a contact may imply 
 constexpr double clear_turn = 1e-3;  // least sine of a tile's corner: far above any radius
 constexpr double near = 1e-3;        // relative gaps up to this are looked at with exact numbers
 
-}  // namespace jam::proof_tuning
+}  // namespace jam::inside::proof_tuning

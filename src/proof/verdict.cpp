@@ -11,7 +11,7 @@
 #include "proof/newton.hpp"
 #include "proof/tuning.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 // Forces that balance where the contacts are: steps to the least gaps would spread those of pairs that are not quite
@@ -206,4 +206,4 @@ void confirm_by_exchange(const Packing &p, PackingVerdict &verdict) {
   }
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -3,7 +3,7 @@
 #include "network/rigidity_test.hpp"
 #include "proof/theorem.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // Refines the scene and proves what it can; where that is nothing, of the contacts that close together. The scene is
 // then the one that was proved, or where nothing is, that of contacts that close and hold their spheres: the checker's
@@ -20,4 +20,4 @@ void decide_by_proof(const Packing &p, PackingVerdict &verdict);
 // saddle, as far as two doubles show.
 void confirm_by_exchange(const Packing &p, PackingVerdict &verdict);
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -9,7 +9,7 @@
 #include "soft/soft_hessian.hpp"
 #include "soft/tuning.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 // Stable spheres with no contact too few. The curvature of a round wall may hold them with fewer.
@@ -279,4 +279,4 @@ DecompressionResult decompress(const Packing &start, const jam_decompress_option
   return Decompression(start, o, monitor, judge).run();
 }
 
-}  // namespace jam
+}  // namespace jam::inside

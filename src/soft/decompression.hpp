@@ -9,7 +9,7 @@
 #include "network/contact_network.hpp"
 #include "soft/relaxation.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 jam_relax_options default_relax_options();
 jam_decompress_options default_decompress_options();
@@ -74,4 +74,4 @@ double overlap_resolution(const Packing &p);
 // most.
 void follow_growth(SoftState &state, double growth, int64_t &factorisations);
 
-}  // namespace jam
+}  // namespace jam::inside

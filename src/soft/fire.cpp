@@ -7,7 +7,7 @@
 #include "soft/relaxation.hpp"
 #include "soft/tuning.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 DescentEnd fire(Relaxation &r, double tolerance) {
   SoftState &state = r.state;
@@ -70,4 +70,4 @@ DescentEnd fire(Relaxation &r, double tolerance) {
   }
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -8,7 +8,7 @@
 #include "soft/relaxation.hpp"
 #include "soft/tuning.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 struct Update {
@@ -87,4 +87,4 @@ DescentEnd lbfgs(Relaxation &r, double tolerance) {
   }
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -6,7 +6,7 @@
 #include "network/certificate.hpp"
 #include "soft/decompression.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 SoftResult measure(SoftState &state, int32_t minimiser) {
   state.rebase();  // offsets of pairs then belong to the rounded positions
@@ -99,4 +99,4 @@ SoftVerdict compare_with_jammed(const ContactNetwork &soft, const ContactNetwork
   return v;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

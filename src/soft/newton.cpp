@@ -8,7 +8,7 @@
 #include "soft/soft_hessian.hpp"
 #include "soft/tuning.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 // Levenberg and Marquardt: a shift of the Hessian that grows where contacts change and steps gain less energy than the
@@ -92,4 +92,4 @@ DescentEnd hybrid(Relaxation &r, double tolerance, bool near_minimum) {
   }
 }
 
-}  // namespace jam
+}  // namespace jam::inside

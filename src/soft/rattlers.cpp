@@ -6,7 +6,7 @@
 #include "soft/relaxation.hpp"
 #include "soft/tuning.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 void centre_rattlers(SoftState &state) {
   const int d = state.dim();
@@ -69,4 +69,4 @@ void centre_rattlers(SoftState &state) {
   for (size_t k = 0; k < start.size(); ++k) state.displacement()[k] += best[k] - start[k];
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -8,7 +8,7 @@
 #include "soft/decompression.hpp"
 #include "soft/tuning.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 jam_relax_options default_relax_options() {
   jam_relax_options o{};
@@ -155,4 +155,4 @@ SoftResult relax(const Packing &start, const jam_relax_options &o, Monitor &moni
   return out;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

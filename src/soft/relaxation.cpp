@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 double largest(const std::vector<double> &force, size_t n, int d, const std::vector<char> *of) {
@@ -64,4 +64,4 @@ bool Relaxation::must_stop(DescentEnd &end, bool long_steps) const {
   return false;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

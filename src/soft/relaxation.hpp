@@ -8,7 +8,7 @@
 #include "core/monitor.hpp"
 #include "soft/soft_state.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // Why a descent ended.
 enum class DescentEnd {
@@ -72,4 +72,4 @@ DescentEnd hybrid(Relaxation &r, double tolerance, bool near_minimum = false);
 // Spheres that first-order methods leave against their cage flicker between contact and none, and stop Newton's method.
 void centre_rattlers(SoftState &state);
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -4,7 +4,7 @@
 
 #include "core/math.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 FreeCell free_cell_of(int dim, int32_t strain, int64_t components, double pressure) {
   FreeCell cell;
@@ -78,4 +78,4 @@ std::vector<double> volume_curvature(const FreeCell &cell) {
   return out;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -7,7 +7,7 @@
 
 #include "jam/jam.h"
 
-namespace jam {
+namespace jam::inside {
 
 // What may change. With a pressure P the enthalpy U + P V is minimised; without, U at fixed volume.
 struct FreeCell {
@@ -33,4 +33,4 @@ CellStrain strain_of(const FreeCell &cell, const double *amplitude);
 // (tr M_k tr M_l - sum_c M_kcc M_lcc) pressure V. (count, count)
 std::vector<double> volume_curvature(const FreeCell &cell);
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -10,7 +10,7 @@
 #include "network/hessian.hpp"
 #include "network/tuning.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 void add(const std::vector<double> &block, double *to) {
@@ -207,4 +207,4 @@ bool SoftHessian::factorise(const SoftState &state, const SoftContacts &contacts
   return false;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -5,7 +5,7 @@
 #include "linalg/block_cholesky.hpp"
 #include "soft/soft_state.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 class SoftHessian {
  public:
@@ -37,4 +37,4 @@ class SoftHessian {
   double unit_ = 1.0, shift_ = 0.0;
 };
 
-}  // namespace jam
+}  // namespace jam::inside

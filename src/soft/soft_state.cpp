@@ -11,13 +11,13 @@
 #include "network/rattlers.hpp"
 #include "soft/tuning.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 SoftState::SoftState(const Packing &p, const PairEnergy &energy, int32_t precision)
     : base_(p),
       energy_(energy),
       precision_(precision),
-      diameter_mean_(jam::diameter_mean(p)),
+      diameter_mean_(jam::inside::diameter_mean(p)),
       skin_(SkinTuning::shortest * diameter_mean_),
       displacement_(p.position.size(), 0.0) {
   rebase();
@@ -27,7 +27,7 @@ void SoftState::rebase() {
   std::vector<double> e;
   if (strains() > 0) e = fold_strain();
   for (size_t i = 0; i < base_.n(); ++i) wrap_sphere(i * static_cast<size_t>(base_.dim), strains() > 0 ? &e : nullptr);
-  diameter_mean_ = jam::diameter_mean(base_);
+  diameter_mean_ = jam::inside::diameter_mean(base_);
   try {
     pairs_ = find_pairs(base_, skin_, 1.0);
   } catch (const Cancelled &) {  // back to where the last list was made: it does not hold here
@@ -272,4 +272,4 @@ std::vector<char> stable_contacts(const SoftState &state, const SoftContacts &co
   return on;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

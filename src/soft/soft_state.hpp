@@ -17,7 +17,7 @@
 #include "core/pairs.hpp"
 #include "soft/soft_cell.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // Sums over all overlapping pairs, in units of epsilon; lengths in the unit of the box.
 struct SoftSums {
@@ -130,4 +130,4 @@ class SoftState {
 // One flag a contact: whether it is between stable spheres, those that d + 1 or more contacts hold.
 std::vector<char> stable_contacts(const SoftState &state, const SoftContacts &contacts);
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -6,7 +6,7 @@
 #include "core/motion.hpp"
 #include "soft/soft_state.hpp"
 
-namespace jam {
+namespace jam::inside {
 void SoftState::free_cell(const FreeCell &cell) {
   const size_t d = static_cast<size_t>(base_.dim);
   cell_ = cell;
@@ -107,4 +107,4 @@ void SoftState::deform_base(Packing &p) const {
   p.cell = strained_cell(d, rows);
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -5,7 +5,7 @@
 #include "soft/soft_state.hpp"
 #include "soft/tuning.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 double SoftState::wall_overlap(size_t k, double *normal) const {
   const size_t at = static_cast<size_t>(pairs_.i[k]) * static_cast<size_t>(base_.dim);
@@ -46,4 +46,4 @@ void SoftState::add_wall_contact(size_t k, SoftContacts &out) const {
   out.normal.insert(out.normal.end(), n, n + base_.dim);
 }
 
-}  // namespace jam
+}  // namespace jam::inside

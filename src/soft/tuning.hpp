@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace jam {
+namespace jam::inside {
 
 // ---- FIRE: parameters of Guenole et al., except the longest step. In units of 1 / sqrt(stiffness of a contact /
 // mass), 0.35 to 0.5 cost the same and 0.65 five times as much (N = 1024, phi = 0.70; tests/bench/soft_minimise.py).
@@ -93,4 +93,4 @@ struct DecompressTuning {
   static constexpr double longest_guess = 0.1;  // displacement that the Hessian predicts for smaller diameters
 };
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -21,7 +21,7 @@
 #include "jam/jam.h"
 #include "packing_of.hpp"
 
-using namespace jam;
+using namespace jam::inside;
 
 namespace {
 

@@ -18,7 +18,7 @@
 #include "capi/system.hpp"
 #include "network/contacts_from_geometry.hpp"
 
-using namespace jam;
+using namespace jam::inside;
 
 namespace {
 

@@ -18,7 +18,7 @@
 #include "linalg/block_cholesky.hpp"
 #include "neighbour_graphs.hpp"
 
-using namespace jam;
+using namespace jam::inside;
 
 namespace {
 

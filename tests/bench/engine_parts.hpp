@@ -15,7 +15,7 @@
 #include "dynamics/event_driven/engine_of.hpp"
 #include "dynamics/event_driven/options.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 using Engine3 = EngineOf<3, Offsets::wrapped>;
 
@@ -154,4 +154,4 @@ inline Packing fluid(int64_t n, double fraction) {
   return p;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -15,7 +15,7 @@
 #include "linalg/tuning.hpp"
 #include "neighbour_graphs.hpp"
 
-using namespace jam;
+using namespace jam::inside;
 
 namespace {
 

@@ -13,7 +13,7 @@
 #include "lp/interior_point.hpp"
 #include "packing_of.hpp"
 
-using namespace jam;
+using namespace jam::inside;
 
 namespace {
 

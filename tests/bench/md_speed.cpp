@@ -13,7 +13,7 @@
 #include "dynamics/event_driven/engine.hpp"
 #include "dynamics/event_driven/options.hpp"
 
-using namespace jam;
+using namespace jam::inside;
 
 static double cpu() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 

@@ -11,7 +11,7 @@
 
 #include "engine_parts.hpp"
 
-using namespace jam;
+using namespace jam::inside;
 
 // Seconds for a flag to pass from one thread to another with so many lines of data, which the one writes and the other
 // reads and writes, at random places of 4 MB. Of many short rounds the quantile of a tenth, as other jobs interrupt.

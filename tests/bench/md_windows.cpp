@@ -8,7 +8,7 @@
 
 #include "time_windows.hpp"
 
-using namespace jam;
+using namespace jam::inside;
 
 // Whether both engines have the same bits.
 static bool same(const Parts &a, const Parts &b) {

@@ -14,7 +14,7 @@
 #include "dynamics/event_driven/options.hpp"
 #include "dynamics/monte_carlo/monte_carlo.hpp"
 
-using namespace jam;
+using namespace jam::inside;
 
 static double cpu() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 

@@ -6,7 +6,7 @@
 
 #include "core/rng.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 struct Points {
   double box = 1.0;  // edge; positions in [0, box)
@@ -116,4 +116,4 @@ inline void make_values(const Points &p, const Pairs &e, std::vector<double> &di
   }
 }
 
-}  // namespace jam
+}  // namespace jam::inside

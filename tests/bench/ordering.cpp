@@ -17,7 +17,7 @@
 #include "linalg/blas.hpp"
 #include "linalg/block_cholesky.hpp"
 
-using namespace jam;
+using namespace jam::inside;
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include "core/packing.hpp"
 #include "jam/jam.h"
 
-namespace jam {
+namespace jam::inside {
 
 inline Packing packing_of(jam_system *sys) {
   Packing p;
@@ -35,4 +35,4 @@ inline Packing packing_of(const char *path) {
   return packing_of(sys);
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -12,7 +12,7 @@
 
 #include "../start.h"
 
-using namespace jam;
+using namespace jam::inside;
 
 namespace {
 

@@ -10,7 +10,7 @@
 #include "io/files.hpp"
 #include "network/rigidity_test.hpp"
 
-using namespace jam;
+using namespace jam::inside;
 
 namespace {
 

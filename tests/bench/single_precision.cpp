@@ -10,7 +10,7 @@
 #include "linalg/newton_system.hpp"
 #include "neighbour_graphs.hpp"
 
-using namespace jam;
+using namespace jam::inside;
 
 namespace {
 

@@ -13,7 +13,7 @@
 
 #include "engine_parts.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // The cells, and which of them wait in the present window.
 struct Map {
@@ -232,4 +232,4 @@ struct alignas(128) Worker {
   }
 };
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -132,13 +132,13 @@ def summary(rows):
 
 STEERED = """#include <cstdlib>
 #include <cstring>
-namespace jam {
+namespace jam::inside {
 inline double steered(const char *name) {
   const char *set = std::getenv("JAM_STEERED");
   const std::size_t n = std::strlen(name);
   return set && std::strncmp(set, name, n) == 0 && set[n] == '=' ? std::atof(set + n + 1) : 1.0;
 }
-}  // namespace jam
+}  // namespace jam::inside
 """
 
 

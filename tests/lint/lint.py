@@ -240,6 +240,14 @@ def file_sizes():
             problem(path, 0, "does not belong into the root folder")
 
 
+def namespaces():
+    """Names of the inside stand in jam::inside: no class of jam.hpp or of a program that links libjam.a has the same symbol."""
+    for path in files("src/**/*.cpp", "src/**/*.hpp", "src/**/*.cpp.in"):
+        first = re.search(r"^(?:inline )?namespace ([\w:]+) \{", path.read_text(), flags=re.M)
+        if first and not first.group(1).startswith("jam::inside"):
+            problem(path, 0, f"namespace {first.group(1)}: names of the inside stand in jam::inside")
+
+
 def no_side_effects():
     """The library prints nothing, ends no process, takes no signal and keeps no state of its own (but for locks)."""
     calls = r"(?<![\w.>:])(?:std::)?(printf|fprintf|puts|putchar|perror|exit|_exit|abort|quick_exit|signal|sigaction|raise|setlocale|srand|rand)\s*\("
@@ -351,8 +359,8 @@ def columns():
                 problem(path, number, f"{len(line)} columns, 120 are allowed")
 
 
-RULES = [layers, python_layers, private_headers, doc_comments, names, table_of_calls, file_sizes, no_side_effects, own_math]
-RULES += [steering_numbers, plain_words, avoided_words, figures, links, changelog, columns]
+RULES = [layers, python_layers, private_headers, doc_comments, names, table_of_calls, file_sizes, namespaces, no_side_effects]
+RULES += [own_math, steering_numbers, plain_words, avoided_words, figures, links, changelog, columns]
 for rule in RULES:
     if sys.argv[1] in ("all", rule.__name__):
         rule()

@@ -10,7 +10,7 @@ extern "C" {
 #include "test.h"
 }
 
-using namespace jam;
+using namespace jam::inside;
 using namespace jamtest;
 
 namespace {

@@ -9,8 +9,8 @@
 namespace jamtest {
 
 struct Case {
-  jam::Packing packing;
-  jam::ContactNetwork network;
+  jam::inside::Packing packing;
+  jam::inside::ContactNetwork network;
 };
 
 inline void add_contact(Case &c, int i, int j, const std::vector<double> &offset, double force = 1.0) {
@@ -19,7 +19,7 @@ inline void add_contact(Case &c, int i, int j, const std::vector<double> &offset
   c.network.pairs.offset.insert(c.network.pairs.offset.end(), offset.begin(), offset.end());
   std::vector<double> r(c.packing.dim);
   const size_t k = c.network.size() - 1;
-  const double length = std::sqrt(jam::pair_vector(c.packing, c.network.pairs, k, r.data()));
+  const double length = std::sqrt(jam::inside::pair_vector(c.packing, c.network.pairs, k, r.data()));
   for (double x : r) c.network.vector.push_back(x / length);
   c.network.gap.push_back(length / (0.5 * (c.packing.diameter[i] + c.packing.diameter[j])) - 1.0);
   c.network.force.push_back(force);
@@ -140,9 +140,9 @@ inline std::vector<double> bloch_spectrum(const Vectors &basis, const std::vecto
 }
 
 // FCC in a cube of `cells` conventional cells, unit diameters at contact: 4 cells^3 spheres.
-inline jam::Packing fcc_cube(int cells) {
+inline jam::inside::Packing fcc_cube(int cells) {
   const double a = std::sqrt(2.0), site[4][3] = {{0, 0, 0}, {0, 0.5, 0.5}, {0.5, 0, 0.5}, {0.5, 0.5, 0}};
-  jam::Packing p;
+  jam::inside::Packing p;
   p.set_cube(p.dim, cells * a);
   for (int x = 0; x < cells; ++x)
     for (int y = 0; y < cells; ++y)

@@ -11,7 +11,7 @@ extern "C" {
 #include "test.h"
 }
 
-using namespace jam;
+using namespace jam::inside;
 using namespace jamtest;
 
 namespace {

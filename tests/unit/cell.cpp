@@ -14,7 +14,7 @@
 // test.h comes last: it has a macro `fail`.
 #include "test.h"
 
-using namespace jam;
+using namespace jam::inside;
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include "linalg/conjugate_gradients.hpp"
 #include "test.h"
 
-using namespace jam;
+using namespace jam::inside;
 
 namespace {
 

@@ -12,7 +12,7 @@
 #include "lp/interior_point.hpp"
 #include "unit/crunch_scenes.hpp"
 
-using namespace jam;
+using namespace jam::inside;
 
 namespace {
 

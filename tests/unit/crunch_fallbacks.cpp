@@ -7,7 +7,7 @@
 
 #include "crunch_scenes.hpp"
 
-using namespace jam;
+using namespace jam::inside;
 
 namespace {
 

@@ -8,7 +8,7 @@
 #include "near_contact.hpp"
 #include "network/contact_network.hpp"
 
-using namespace jam;
+using namespace jam::inside;
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include "crunch/path/neighbours.hpp"
 #include "unit/crunch_scenes.hpp"
 
-using namespace jam;
+using namespace jam::inside;
 
 namespace {
 

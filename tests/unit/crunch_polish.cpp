@@ -6,7 +6,7 @@
 
 #include "near_contact.hpp"
 
-using namespace jam;
+using namespace jam::inside;
 
 namespace {
 

@@ -9,7 +9,7 @@
 #include "crunch/identify/recompress.hpp"
 #include "crunch_scenes.hpp"
 
-using namespace jam;
+using namespace jam::inside;
 
 namespace {
 

@@ -5,7 +5,7 @@
 #include "core/create.hpp"
 #include "crunch/crunch.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // What runs under this monitor has to say, one line after the other in `log`.
 inline void listen(Monitor &monitor, std::string &log, int level = JAM_LOG_WARNING) {
@@ -35,4 +35,4 @@ inline Packing near_jamming(const Packing &p) {
   return run(p, o).packing;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -4,7 +4,7 @@
 
 #include "crunch/path/schedule.hpp"
 
-using namespace jam;
+using namespace jam::inside;
 
 namespace {
 

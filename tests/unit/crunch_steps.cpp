@@ -8,7 +8,7 @@
 #include "crunch/path/barrier_path.hpp"
 #include "lp/packing_lp.hpp"
 
-using namespace jam;
+using namespace jam::inside;
 
 namespace {
 

@@ -8,7 +8,7 @@
 #include "core/decimal.hpp"
 #include "test.h"
 
-using namespace jam;
+using namespace jam::inside;
 
 namespace {
 

@@ -16,7 +16,7 @@ extern "C" {
 #include "test.h"
 }
 
-using namespace jam;
+using namespace jam::inside;
 using namespace jamtest;
 
 namespace {

@@ -9,7 +9,7 @@
 #include "dynamics/event_driven/run.hpp"
 #include "naive_dynamics.hpp"
 
-using namespace jam;
+using namespace jam::inside;
 using namespace jamtest;
 
 namespace {

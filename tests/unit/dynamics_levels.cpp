@@ -5,7 +5,7 @@
 #include "dynamics/event_driven/options.hpp"
 #include "naive_dynamics.hpp"
 
-using namespace jam;
+using namespace jam::inside;
 using namespace jamtest;
 
 namespace {

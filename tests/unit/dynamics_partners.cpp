@@ -9,7 +9,7 @@
 #include "dynamics/event_driven/partner_table.hpp"
 #include "naive_dynamics.hpp"
 
-using namespace jam;
+using namespace jam::inside;
 using namespace jamtest;
 
 namespace {

@@ -8,7 +8,7 @@
 #include "crunch/approach/lp_step.hpp"
 #include "lp/interior_point.hpp"
 
-using namespace jam;
+using namespace jam::inside;
 
 namespace {
 

@@ -10,7 +10,7 @@
 #include "core/math.hpp"
 #include "core/rng.hpp"
 
-using namespace jam;
+using namespace jam::inside;
 
 namespace {
 

@@ -10,7 +10,7 @@
 #include "linalg/while_telling.hpp"
 #include "test.h"
 
-using namespace jam;
+using namespace jam::inside;
 
 namespace {
 

@@ -13,7 +13,7 @@ extern "C" {
 
 namespace jamtest {
 
-using namespace jam;
+using namespace jam::inside;
 
 // rows: of a cell (dim, dim), or NULL for the unit cube.
 inline Packing random_packing(int dim, int n, double fraction, double ratio, int64_t seed, double non_additivity = 0.0,

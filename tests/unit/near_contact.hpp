@@ -6,7 +6,7 @@
 #include "crunch/identify/polish.hpp"
 #include "crunch_scenes.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 inline double relative_gap(const Packing &p, const PairList &pairs, size_t k = 0) {
   double r[JAM_MAX_DIM];
@@ -56,4 +56,4 @@ inline double bring_together(Packing &p, ContactNetwork &net, PairList &pair, in
   return std::fabs(last - wanted) < 0.1 * wanted ? rate : 0.0;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

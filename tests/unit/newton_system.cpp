@@ -8,7 +8,7 @@
 #include "core/pairs.hpp"
 #include "linalg/newton_system.hpp"
 
-using namespace jam;
+using namespace jam::inside;
 
 namespace {
 

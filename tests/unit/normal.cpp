@@ -5,7 +5,7 @@
 
 #include "core/math.hpp"
 
-using namespace jam;
+using namespace jam::inside;
 
 namespace {
 

@@ -17,7 +17,7 @@ extern "C" {
 #include "test.h"
 }
 
-using namespace jam;
+using namespace jam::inside;
 
 namespace {
 

@@ -4,7 +4,7 @@
 
 #include "core/packing.hpp"
 
-using namespace jam;
+using namespace jam::inside;
 
 namespace {
 

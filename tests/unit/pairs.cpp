@@ -6,7 +6,7 @@
 #include "core/create.hpp"
 #include "core/pairs.hpp"
 
-using namespace jam;
+using namespace jam::inside;
 
 namespace {
 

@@ -5,7 +5,7 @@
 #include "core/packing.hpp"
 #include "core/rng.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // mixture: every other sphere is 1.4 times as large.
 inline Packing random_packing(int dim, int n, double phi, int64_t seed, bool mixture) {
@@ -28,4 +28,4 @@ inline Packing random_packing(int dim, int n, double phi, int64_t seed) {
   return random_packing(dim, n, phi, seed, dim == 2);
 }
 
-}  // namespace jam
+}  // namespace jam::inside

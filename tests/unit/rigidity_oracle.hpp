@@ -18,7 +18,7 @@ struct Oracle {
 };
 
 // A row as pairs (column, value): displacement of the nodes, then with `strain` the upper triangle of a symmetric eps.
-inline std::vector<std::vector<std::pair<int, double>>> oracle_rows(const jam::RigidityMatrix &g, bool strain) {
+inline std::vector<std::vector<std::pair<int, double>>> oracle_rows(const jam::inside::RigidityMatrix &g, bool strain) {
   std::vector<std::vector<std::pair<int, double>>> rows(g.contacts());
   const int d = g.dim;
   for (size_t k = 0; k < g.contacts(); ++k) {
@@ -49,7 +49,7 @@ inline ClpSimplex oracle_model(const std::vector<int> &r, const std::vector<int>
   return model;
 }
 
-inline Oracle ask_oracle(const jam::RigidityMatrix &g, bool strain, int tries = 4) {
+inline Oracle ask_oracle(const jam::inside::RigidityMatrix &g, bool strain, int tries = 4) {
   Oracle out;
   const int d = g.dim, m = static_cast<int>(g.contacts()), n = g.nodes * d, q = strain ? d * (d + 1) / 2 : 0;
   const auto rows = oracle_rows(g, strain);

@@ -9,7 +9,7 @@
 #define JAM_SIMD_TARGET
 #include "dynamics/event_driven/kernel/simd.hpp"
 
-using namespace jam;
+using namespace jam::inside;
 
 namespace {
 

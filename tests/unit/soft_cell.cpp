@@ -9,7 +9,7 @@
 #include "soft/decompression.hpp"
 #include "unit/random_packing.hpp"
 
-using namespace jam;
+using namespace jam::inside;
 
 namespace {
 

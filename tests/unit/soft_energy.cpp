@@ -8,7 +8,7 @@
 #include "soft/soft_state.hpp"
 #include "unit/random_packing.hpp"
 
-using namespace jam;
+using namespace jam::inside;
 
 namespace {
 

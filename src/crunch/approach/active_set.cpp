@@ -6,7 +6,7 @@
 #include "core/pair_rule.hpp"
 #include "network/rattlers.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // At a strictly complementary optimum a row has either force or slack. Both are compared in their own units: y times
 // d n, about the number of carrying rows, is a force over the mean force; w is twice a relative gap. A solver that
@@ -76,4 +76,4 @@ bool hyperstatic(const std::vector<double> &y, double isostatic, const Tuning &t
   return static_cast<double>(strong) > WorkingSetTuning::carrying_rows * isostatic;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

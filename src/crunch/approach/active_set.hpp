@@ -8,7 +8,7 @@
 #include "lp/packing_lp.hpp"
 #include "network/contact_network.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 struct ActiveSet {
   std::vector<size_t> rows;           // indices into the LP's pairs, ascending
@@ -29,4 +29,4 @@ ContactNetwork make_contacts(const Packing &p, const PairList &pairs, const LpSo
 // saddle after the other. y: multipliers, sum 1; isostatic: d n.
 bool hyperstatic(const std::vector<double> &y, double isostatic, const Tuning &tuning);
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -9,7 +9,7 @@
 #include "crunch/control.hpp"
 #include "lp/interior_point.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 // What an answer must fulfil to be used. An LP that ended early has no balanced duals yet. Its point is still feasible,
@@ -114,4 +114,4 @@ Phase approach(CrunchState &s) {
   return next_phase(s, step.gain, step.longest, step.part);
 }
 
-}  // namespace jam
+}  // namespace jam::inside

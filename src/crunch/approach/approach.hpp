@@ -3,8 +3,8 @@
 #pragma once
 #include "crunch/state.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 Phase approach(CrunchState &s);
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -3,7 +3,7 @@
 #include "core/cell_reduction.hpp"
 #include "crunch/control.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 bool frees_cell(const CrunchState &s) {
   return s.o.strain != JAM_STRAIN_NONE && s.next.strain.count() == 0 && s.out.report.stop_reason == JAM_STOP_NONE;
@@ -25,4 +25,4 @@ void shorten_cell(Packing &p) {
   if (keeps_shifts(p, reduced)) enter_cell(p, reduced);
 }
 
-}  // namespace jam
+}  // namespace jam::inside

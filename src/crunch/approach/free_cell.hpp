@@ -4,7 +4,7 @@
 #pragma once
 #include "crunch/state.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // Whether the cell is to be freed, after the packing has reached its optimum at fixed cell.
 bool frees_cell(const CrunchState &s);
@@ -13,4 +13,4 @@ Phase free_cell(CrunchState &s);
 // Shorter lattice vectors of the same lattice, where strains made them long.
 void shorten_cell(Packing &p);
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -11,7 +11,7 @@
 #include "crunch/control.hpp"
 #include "crunch/spacing.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 Packing moved(const Packing &p, PairList &pairs, const LpSolution &x, double alpha, double unit,
@@ -158,4 +158,4 @@ LpStep make_step(CrunchState &s, double reach) {
   return {gain, step, alpha};
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -2,7 +2,7 @@
 #pragma once
 #include "crunch/state.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // Bound of the first LP: the free spacing of a dilute start, down to a tenth of a diameter near jamming and less where
 // gaps are closed.
@@ -29,4 +29,4 @@ LpStep make_step(CrunchState &s, double reach);
 double take_step(Packing &p, PairList &pairs, double reach, const LpSolution &answer, double sigma_unit,
                  const StrainBasis &basis = {});
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -10,7 +10,7 @@
 #include "crunch/control.hpp"
 #include "crunch/identify/narrow_lps.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 // The flex or, where the test is undecided, the motion that may be one; or its opposite. Forces that do not balance
@@ -126,4 +126,4 @@ bool move_along_strained_flex(CrunchState &s, const PackingVerdict &strict) {
   return false;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

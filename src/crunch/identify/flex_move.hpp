@@ -3,11 +3,11 @@
 #include "crunch/state.hpp"
 #include "network/rigidity_test.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 enum class FlexMove { none, blocked, free };  // blocked: after a way so short that the closed pairs are tested again
 FlexMove move_along_flex(CrunchState &s, const PackingVerdict &verdict);
 // The same with the strain of a strict test. False without a flex, or where near pairs block it.
 bool move_along_strained_flex(CrunchState &s, const PackingVerdict &strict);
 
-}  // namespace jam
+}  // namespace jam::inside

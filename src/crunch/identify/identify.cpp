@@ -6,7 +6,7 @@
 #include "crunch/identify/recompress.hpp"
 #include "crunch/identify/verdict.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 // Along a flex that only the curvature of a round wall ends, a step reaches a small part of the growth of its LP.
@@ -45,4 +45,4 @@ Phase identify(CrunchState &s) {
   return decide_jamming(s);
 }
 
-}  // namespace jam
+}  // namespace jam::inside

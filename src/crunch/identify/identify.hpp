@@ -8,8 +8,8 @@
 #pragma once
 #include "crunch/state.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 Phase identify(CrunchState &s);
 
-}  // namespace jam
+}  // namespace jam::inside

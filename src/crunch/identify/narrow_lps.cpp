@@ -7,7 +7,7 @@
 #include "crunch/control.hpp"
 #include "crunch/identify/verdict.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 using Narrow = Verdicts::Narrow;
@@ -81,4 +81,4 @@ Phase narrow_lps(CrunchState &s) {
   return Phase::identify;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -9,10 +9,10 @@
 #pragma once
 #include "crunch/state.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 Phase narrow_lps(CrunchState &s);
 // Some solver has not tried them since the last wide LP.
 bool narrow_lps_left(const CrunchState &s);
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -9,7 +9,7 @@
 #include "network/rigidity_matrix.hpp"
 #include "network/tuning.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 double largest(const std::vector<double> &x) {
@@ -154,4 +154,4 @@ PolishEnd polish(Packing &p, ContactNetwork &net, NewtonSystem &system, int thre
   return PolishEnd::done;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

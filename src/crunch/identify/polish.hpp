@@ -7,7 +7,7 @@
 #include "linalg/newton_system.hpp"
 #include "network/contact_network.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 enum class PolishEnd { done, no_contacts, interrupted, open_contact, too_few, negative_force, overlap };
 
@@ -18,4 +18,4 @@ enum class PolishEnd { done, no_contacts, interrupted, open_contact, too_few, ne
 PolishEnd polish(Packing &p, ContactNetwork &contacts, NewtonSystem &system, int threads, const Tuning &tuning,
                  Monitor *monitor = nullptr);
 
-}  // namespace jam
+}  // namespace jam::inside

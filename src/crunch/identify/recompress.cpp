@@ -9,7 +9,7 @@
 #include "crunch/approach/lp_step.hpp"
 #include "crunch/control.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 bool recompress(CrunchState &s) {
   const auto &parts = s.tuning.decompression;
@@ -35,4 +35,4 @@ bool recompress(CrunchState &s) {
   return true;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

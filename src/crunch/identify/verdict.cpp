@@ -17,7 +17,7 @@
 #include "proof/judge.hpp"
 #include "proof/verdict.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 const char *text_of(PolishEnd end) {
@@ -218,4 +218,4 @@ Phase give_verdict(CrunchState &s, const PackingVerdict &of_contacts) {
   return Phase::done;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

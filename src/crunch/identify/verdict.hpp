@@ -3,7 +3,7 @@
 #include "crunch/state.hpp"
 #include "network/rigidity_test.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // Closes the contacts and balances the forces, as far as they do. False when the call was interrupted.
 bool polish_contacts(CrunchState &s);
@@ -14,4 +14,4 @@ Phase give_verdict(CrunchState &s, const PackingVerdict &of_contacts);
 // Narrow LPs and moves along flexes belong to the optimum of the wide LPs. A looser tolerance may end before it.
 bool converged(const CrunchState &s);
 
-}  // namespace jam
+}  // namespace jam::inside

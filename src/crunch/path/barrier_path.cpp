@@ -14,7 +14,7 @@
 #include "lp/barrier_problem.hpp"
 #include "lp/path_matrix.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 class BarrierPath {
@@ -254,4 +254,4 @@ BarrierPathResult follow_barrier_path(Packing &p, const BarrierPathControl &cont
   return BarrierPath(p, control, system, monitor).run();
 }
 
-}  // namespace jam
+}  // namespace jam::inside

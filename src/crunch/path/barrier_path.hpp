@@ -12,7 +12,7 @@
 #include "linalg/newton_system.hpp"
 #include "lp/packing_lp.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 struct BarrierPathControl {
   Tuning tuning;
@@ -38,4 +38,4 @@ struct BarrierPathResult {
 BarrierPathResult follow_barrier_path(Packing &p, const BarrierPathControl &control, NewtonSystem &system,
                                       Monitor &monitor);
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -8,7 +8,7 @@
 #include "network/force_balance.hpp"
 #include "network/rigidity_matrix.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 // Pairs of stable spheres whose force on the path and gap are of one size, each in its own unit.
@@ -91,4 +91,4 @@ bool ends_at_gap(CrunchState &s, const Multipliers &path) {
   return true;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

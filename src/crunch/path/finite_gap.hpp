@@ -6,9 +6,9 @@
 #pragma once
 #include "crunch/state.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // False where the forces of the LP do not balance or leave a larger gap than the options allow, or when interrupted.
 bool ends_at_gap(CrunchState &s, const Multipliers &path);
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 // Spheres that lack a neighbour in one of the 2 d directions along the axes. A direction is covered when the line to
@@ -49,4 +49,4 @@ PairList select_neighbours(const Packing &p, double reach, double slope, const T
   return pairs;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

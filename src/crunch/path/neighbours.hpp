@@ -4,7 +4,7 @@
 #include "core/pairs.hpp"
 #include "crunch/tuning.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // All pairs with |r_ij| < reach + slope sigma_ij. A sphere without neighbours in some direction gets a longer reach of
 // its own, doubled until it is covered or the reach is tuning.farthest_reach. In a mixture small spheres rattle in
@@ -12,4 +12,4 @@ namespace jam {
 // by find_pairs.
 PairList select_neighbours(const Packing &p, double reach, double slope = 1.0, const Tuning &tuning = Tuning());
 
-}  // namespace jam
+}  // namespace jam::inside

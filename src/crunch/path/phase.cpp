@@ -10,7 +10,7 @@
 #include "crunch/path/barrier_path.hpp"
 #include "crunch/path/finite_gap.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 void add_history_row(CrunchState &s, double gap, size_t pairs, const PathPoint &at) {
@@ -62,4 +62,4 @@ Phase follow_path(CrunchState &s) {
   return Phase::approach;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -2,8 +2,8 @@
 #pragma once
 #include "crunch/state.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 Phase follow_path(CrunchState &s);
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace jam {
+namespace jam::inside {
 
 // A saddle shows by steps that stay short while the decrement no longer falls. The first two steps at a new mu may be
 // short on any way. At a larger mu the same way is fewer steps.
@@ -30,4 +30,4 @@ bool BarrierSchedule::centred(double decrement, double rows) {
   return true;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

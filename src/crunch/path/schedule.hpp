@@ -4,7 +4,7 @@
 
 #include "crunch/tuning.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 class BarrierSchedule {
  public:
@@ -28,4 +28,4 @@ class BarrierSchedule {
   int steps_ = 0, short_steps_ = 0, increases_ = 0;
 };
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -7,7 +7,7 @@
 #include "core/limits.hpp"
 #include "dynamics/event_driven/engine_of.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 template <int D, Offsets O>
 void EngineOf<D, O>::archive(Archive &a) {
@@ -76,4 +76,4 @@ void EngineOf<D, O>::check_archive() {
   levels_.check(lists_.rho, lists_.centre, lattice_);
 }
 
-}  // namespace jam
+}  // namespace jam::inside

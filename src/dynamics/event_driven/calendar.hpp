@@ -10,7 +10,7 @@
 #include "core/archive.hpp"
 #include "dynamics/tuning.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 constexpr double never = std::numeric_limits<double>::infinity();
 
@@ -171,4 +171,4 @@ class Calendar {
   int32_t current_ = 0;
 };
 
-}  // namespace jam
+}  // namespace jam::inside

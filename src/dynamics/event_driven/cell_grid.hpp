@@ -11,7 +11,7 @@
 #include "dynamics/event_driven/lattice.hpp"
 #include "dynamics/tuning.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // At most so many cells along an axis: few spheres a cell are enough.
 inline double most_cells_along(int32_t n, int dim) {
@@ -127,4 +127,4 @@ struct CellGrid {
   }
 };
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -9,7 +9,7 @@
 #include "dynamics/event_driven/cell_grid.hpp"
 #include "dynamics/event_driven/kernel/pair_kernel.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 template <int D>
 struct CellMode {
@@ -124,4 +124,4 @@ struct CellMode {
   }
 };
 
-}  // namespace jam
+}  // namespace jam::inside

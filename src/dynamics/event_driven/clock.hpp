@@ -8,7 +8,7 @@
 #include "dynamics/event_driven/calendar.hpp"
 #include "dynamics/event_driven/spheres.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 struct Clock {
   double now = 0.0;
@@ -69,4 +69,4 @@ struct Kinetic {
   double integral_to(double now) const { return twice * (now - since); }
 };
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -34,7 +34,7 @@
 #include "dynamics/observer.hpp"
 #include "dynamics/pressure.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // Why Engine::advance came back.
 enum class Halt { window, packing_fraction, time, box_full, stalled, interrupted, needs_images };
@@ -93,4 +93,4 @@ std::unique_ptr<Engine> make_engine(const Packing &p, const EngineOptions &o);
 // (dynamics.hpp) stands in its place.
 std::unique_ptr<Engine> make_engine(const Packing &p, Archive &from);
 
-}  // namespace jam
+}  // namespace jam::inside

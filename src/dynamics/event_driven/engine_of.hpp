@@ -17,7 +17,7 @@
 #include "dynamics/event_driven/spheres.hpp"
 #include "dynamics/event_driven/walls.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 template <int D, Offsets O>
 class EngineOf final : public Engine, private Units<O> {
@@ -145,4 +145,4 @@ class EngineOf final : public Engine, private Units<O> {
 #endif
 };
 
-}  // namespace jam
+}  // namespace jam::inside

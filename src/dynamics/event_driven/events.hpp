@@ -7,7 +7,7 @@
 #include "core/math.hpp"
 #include "dynamics/event_driven/engine_of.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // r^2 - sigma^2 from integers; a and b need not stand at clock_.now.
 template <int D, Offsets O>
@@ -316,4 +316,4 @@ Halt EngineOf<D, O>::advance(int64_t collisions, const Monitor &monitor) {
   return Halt::window;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

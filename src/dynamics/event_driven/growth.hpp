@@ -5,7 +5,7 @@
 #include "core/math.hpp"
 #include "dynamics/event_driven/engine_of.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 template <int D, Offsets O>
 EngineOf<D, O>::EngineOf(const Packing &p, const EngineOptions &o, Archive *from)
@@ -121,4 +121,4 @@ void EngineOf<D, O>::thermalise() {
   if (kinetic_.twice > 0.0) refresh(std::sqrt(D * static_cast<double>(spheres_.n) / kinetic_.twice), false);
 }
 
-}  // namespace jam
+}  // namespace jam::inside

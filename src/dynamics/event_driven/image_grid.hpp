@@ -9,7 +9,7 @@
 
 #include "dynamics/event_driven/cell_grid.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // What a search of cells with images needs, one for all grids: the cells, which image each is (a cell is there at most
 // `copies` times), and the lattice vectors that take them there.
@@ -200,4 +200,4 @@ struct ImageGrid {
   }
 };
 
-}  // namespace jam
+}  // namespace jam::inside

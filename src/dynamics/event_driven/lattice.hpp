@@ -10,7 +10,7 @@
 #include "dynamics/event_driven/kernel/pair_kernel.hpp"
 #include "dynamics/tuning.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // Lengths wrap as coordinates do, so that no number of a damaged checkpoint overflows.
 inline int64_t wrapping_sum(int64_t a, int64_t b) {
@@ -156,4 +156,4 @@ class Lattice {
   mutable std::vector<Vector> found_;                  // scratch
 };
 
-}  // namespace jam
+}  // namespace jam::inside

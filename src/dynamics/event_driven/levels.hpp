@@ -11,7 +11,7 @@
 #include "dynamics/event_driven/image_grid.hpp"
 #include "dynamics/event_driven/list_cells.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 template <int D, Offsets O>
 class Levels {
@@ -186,4 +186,4 @@ class Levels {
   std::vector<int32_t> of_;   // the level of each sphere; empty: one level
 };
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -7,7 +7,7 @@
 #include "core/archive.hpp"
 #include "dynamics/event_driven/kernel/pair_kernel.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 template <int D>
 struct ListCells {
@@ -79,4 +79,4 @@ struct ListCells {
   }
 };
 
-}  // namespace jam
+}  // namespace jam::inside

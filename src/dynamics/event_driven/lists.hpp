@@ -8,7 +8,7 @@
 #include "dynamics/event_driven/lattice.hpp"
 #include "dynamics/tuning.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // The entry of sphere k where it stands in the list once, as nearly always; else -1.
 int32_t only_entry(const int32_t *list, int32_t count, int32_t k);
@@ -174,4 +174,4 @@ struct Lists {
   }
 };
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -6,7 +6,7 @@
 #include "dynamics/dynamics.hpp"
 #include "dynamics/event_driven/engine_of.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 std::unique_ptr<Engine> choose(const Packing &p, const EngineOptions &o, bool images, Archive *from) {
@@ -58,4 +58,4 @@ std::unique_ptr<Engine> make_engine(const Packing &p, Archive &from) {
   return choose(p, EngineOptions{}, images == 1, &from);
 }
 
-}  // namespace jam
+}  // namespace jam::inside

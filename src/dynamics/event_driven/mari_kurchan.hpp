@@ -9,7 +9,7 @@
 
 #include "dynamics/event_driven/partner_table.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 template <int D>
 class MariKurchan {
@@ -83,4 +83,4 @@ class MariKurchan {
   std::unique_ptr<PartnerTable<D>> table_;
 };
 
-}  // namespace jam
+}  // namespace jam::inside

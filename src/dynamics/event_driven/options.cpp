@@ -8,7 +8,7 @@
 #include "core/limits.hpp"
 #include "dynamics/tuning.hpp"
 
-namespace jam {
+namespace jam::inside {
 jam_run_options default_run_options() {
   jam_run_options o{};
   o.struct_size = sizeof o;
@@ -81,4 +81,4 @@ GrowthStage next_stage(const GrowthStage &stage) {
   return next;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -2,7 +2,7 @@
 #pragma once
 #include "dynamics/dynamics.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // One stage: whichever target or limit comes first ends it. growth == 0 is NVE.
 struct GrowthStage {
@@ -30,4 +30,4 @@ GrowthStage next_stage(const GrowthStage &stage);     // of the protocol: stage.
 // Begins a stage, runs it and takes its packing: for tests and benchmarks.
 jam_status run_stage(Packing &p, const GrowthStage &stage, Monitor &monitor, jam_md_report &report);
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -8,7 +8,7 @@
 #include "dynamics/event_driven/engine.hpp"
 #include "dynamics/event_driven/lists.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 struct Pace {
   int64_t exits = 0, exits_before = 0, collisions_before = 0, events_before = 0;
@@ -91,4 +91,4 @@ struct Pace {
   }
 };
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -9,7 +9,7 @@
 #include "dynamics/event_driven/kernel/pair_kernel.hpp"
 #include "dynamics/event_driven/lattice.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 template <int D>
 class PartnerTable {
@@ -51,4 +51,4 @@ class PartnerTable {
   float tallest_;
 };
 
-}  // namespace jam
+}  // namespace jam::inside

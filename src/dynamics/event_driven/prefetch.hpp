@@ -4,7 +4,7 @@
 #pragma once
 #include "dynamics/event_driven/engine_of.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // GCC takes a function that only calls its builtin for one without effect, and drops the call.
 inline void prefetch_line(const void *at) {
@@ -82,4 +82,4 @@ void EngineOf<D, O>::look_ahead() const {
   });
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -6,7 +6,7 @@
 #include "core/math.hpp"
 #include "dynamics/event_driven/engine_of.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // Growth uses up the margin. Lists reach 1 + margin + 2 shells. Without images the difference of two places must stay
 // below half the box, or it wraps to another image than that of the list: both spheres may stand at the far ends of
@@ -234,4 +234,4 @@ void EngineOf<D, O>::recentre(int32_t i) {
   candidates(i, [&](int32_t k, const Offset *offset) { lists_.append(i, k, offset); });
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -10,7 +10,7 @@
 #include "dynamics/event_driven/velocities.hpp"
 #include "dynamics/tuning.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 EventDrivenRun::EventDrivenRun(Packing p, const GrowthStage &stage)
     : p_(std::move(p)), stage_(stage), n_(static_cast<double>(p_.n())) {
@@ -150,4 +150,4 @@ jam_status run_stage(Packing &p, const GrowthStage &stage, Monitor &monitor, jam
   return status;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

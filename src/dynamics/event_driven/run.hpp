@@ -9,7 +9,7 @@
 #include "dynamics/observer.hpp"
 #include "dynamics/pressure.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // The current window and its parts, each with a pressure of its own.
 struct PressureWindow {
@@ -122,4 +122,4 @@ class EventDrivenRun final : public Dynamics {
   ThisCall call_;
 };
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -8,7 +8,7 @@
 #include "dynamics/event_driven/velocities.hpp"
 #include "dynamics/tuning.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 void EventDrivenRun::attach(Observer *observer) {
   if (!observer) return;
@@ -81,7 +81,8 @@ double EventDrivenRun::fraction() const {
   if (!growing()) return most;
   most = std::fmax(most, log_share(first_pressure_, pressure_, std::min(stage_.pressure, finest_pressure())));
   if (stage_.packing_fraction < no_limit)
-    most = std::fmax(most, log_share(jam::packing_fraction(p_), engine_->packing_fraction(), stage_.packing_fraction));
+    most = std::fmax(
+        most, log_share(jam::inside::packing_fraction(p_), engine_->packing_fraction(), stage_.packing_fraction));
   return most;
 }
 
@@ -100,7 +101,7 @@ void EventDrivenRun::finish(int32_t reason) {
   report.collisions_per_second = static_cast<double>(report.collisions) / std::max(report.seconds, 1e-9);
   report.pressure = p_.pressure;
   report.pressure_error = standard_error();
-  report.packing_fraction = jam::packing_fraction(p_);
+  report.packing_fraction = jam::inside::packing_fraction(p_);
   report.energy_drift = kinetic_ > 0.0 && !growing() ? std::fabs(twice_kinetic(p_) / kinetic_ - 1.0) : 0.0;
   report.max_overlap =
       std::max({report.max_overlap, before_.worst_overlap, engine_->max_overlap, engine_->worst_overlap()});
@@ -156,7 +157,7 @@ std::string EventDrivenRun::text() const {
   }
   const auto largest = std::max_element(p_.diameter.begin(), p_.diameter.end());
   const long long sphere = largest - p_.diameter.begin();
-  const double phi = jam::packing_fraction(p_);
+  const double phi = jam::inside::packing_fraction(p_);
   switch (report.stop_reason) {
     case JAM_STOP_STALLED:
       if (call_.box_full && *largest > WindowTuning::as_good_as_touching * p_.cell.shortest())
@@ -211,7 +212,7 @@ std::string EventDrivenRun::text() const {
 
 bool EventDrivenRun::missed_density() const {
   return stage_.then == 0.0 && stage_.packing_fraction < no_limit &&
-         jam::packing_fraction(p_) < stage_.packing_fraction;
+         jam::inside::packing_fraction(p_) < stage_.packing_fraction;
 }
 
 jam_status EventDrivenRun::status_of(int32_t reason) const {
@@ -234,4 +235,4 @@ jam_status EventDrivenRun::status_of(int32_t reason) const {
   }
 }
 
-}  // namespace jam
+}  // namespace jam::inside

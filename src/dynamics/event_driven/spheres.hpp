@@ -10,7 +10,7 @@
 #include "dynamics/event_driven/lattice.hpp"
 #include "dynamics/tuning.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // Order of the spheres along a Morton curve: neighbours in space are near in memory.
 std::vector<int32_t> curve_order(const Packing &p);
@@ -110,4 +110,4 @@ struct Spheres {
   }
 };
 
-}  // namespace jam
+}  // namespace jam::inside

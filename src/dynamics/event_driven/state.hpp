@@ -7,7 +7,7 @@
 #include "core/pairs.hpp"
 #include "dynamics/event_driven/engine_of.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // f(k, offset) for every sphere that i can meet before its exit.
 template <int D, Offsets O>
@@ -123,4 +123,4 @@ void EngineOf<D, O>::displacements(std::vector<double> &out) const {
   }
 }
 
-}  // namespace jam
+}  // namespace jam::inside

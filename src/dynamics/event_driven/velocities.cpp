@@ -4,7 +4,7 @@
 
 #include "core/pair_rule.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 namespace {
 // Whether the motion of the centre of mass is none of the heat. Of one sphere without walls it is the only motion.
@@ -46,4 +46,4 @@ void draw_velocities(Packing &p, Rng &rng) {
   p.has_velocity = true;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

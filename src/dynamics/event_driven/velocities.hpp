@@ -3,7 +3,7 @@
 #include "core/packing.hpp"
 #include "core/rng.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // Sum of m v^2 about the centre of mass.
 double twice_kinetic(const Packing &p);
@@ -12,4 +12,4 @@ void scale_velocities(Packing &p);
 // Maxwell-Boltzmann with zero total momentum, at about kT/m = 1.
 void draw_velocities(Packing &p, Rng &rng);
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -11,7 +11,7 @@
 #include "dynamics/event_driven/kernel/pair_kernel.hpp"
 #include "dynamics/event_driven/lattice.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 template <int D>
 struct Walls {
@@ -75,4 +75,4 @@ struct Walls {
   }
 };
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -7,7 +7,7 @@
 #include "dynamics/event_driven/run.hpp"
 #include "dynamics/tuning.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 int32_t reason_of(Halt halt, const Monitor &monitor) {
@@ -205,4 +205,4 @@ void EventDrivenRun::change_engine(Observer *observer) {
   if (observer) engine_->observe(observer);
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -11,7 +11,7 @@
 #include "dynamics/pressure.hpp"
 #include "dynamics/tuning.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 void draw_run_velocities(Packing &p, int64_t run, double temperature) {
   Rng rng(p.seed, Stream::run_velocities, static_cast<uint64_t>(run) << 36);
@@ -89,4 +89,4 @@ void run_molecular_dynamics(const RunPlan &plan, int64_t run, const RunControl &
   record.max_overlap = std::max(engine->max_overlap, engine->worst_overlap());
 }
 
-}  // namespace jam
+}  // namespace jam::inside

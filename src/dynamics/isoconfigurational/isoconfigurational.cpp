@@ -10,7 +10,7 @@
 #include "core/rng.hpp"
 #include "dynamics/tuning.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 namespace {
 
@@ -194,4 +194,4 @@ void Isoconfigurational::archive(Archive &a) {
     Archive::check(set.size() == static_cast<size_t>(report_.runs) * n() * dim());
 }
 
-}  // namespace jam
+}  // namespace jam::inside

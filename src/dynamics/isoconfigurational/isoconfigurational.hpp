@@ -20,7 +20,7 @@
 #include "dynamics/dynamics.hpp"
 #include "dynamics/monte_carlo/monte_carlo.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // Columns of RunSums::series: sums over runs of one number a run and instant.
 constexpr size_t isoconf_columns = JAM_ISOCONF_PRESSURE + 1;
@@ -139,4 +139,4 @@ class Isoconfigurational final : public Dynamics {
   jam_isoconf_report report_{};
 };
 
-}  // namespace jam
+}  // namespace jam::inside

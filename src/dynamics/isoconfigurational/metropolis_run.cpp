@@ -5,7 +5,7 @@
 #include "dynamics/isoconfigurational/isoconfigurational.hpp"
 #include "dynamics/tuning.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 void run_metropolis(const RunPlan &plan, int64_t run, const RunControl &control, RunRecord &record) {
   const std::unique_ptr<MonteCarlo> mc =
@@ -37,4 +37,4 @@ void run_metropolis(const RunPlan &plan, int64_t run, const RunControl &control,
   record.acceptance = mc->counts.acceptance();
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -10,7 +10,7 @@
 #include "dynamics/tuning.hpp"
 #include "linalg/workers.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // What the threads share. A thread takes the next number, makes the run, and hands its record in. Whoever hands in the
 // run that comes next in the sums folds it, and those that wait behind it.
@@ -154,4 +154,4 @@ jam_status Isoconfigurational::finish(int32_t reason, double begin) {
   }
 }
 
-}  // namespace jam
+}  // namespace jam::inside

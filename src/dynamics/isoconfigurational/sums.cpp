@@ -6,7 +6,7 @@
 #include "core/math.hpp"
 #include "dynamics/isoconfigurational/isoconfigurational.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 jam_isoconf_options default_isoconf_options() {
   jam_isoconf_options o{};
@@ -116,4 +116,4 @@ void take_moments(const RunPlan &plan, size_t m, RunRecord &record) {
   with_square(JAM_ISOCONF_OVERLAP, static_cast<double>(near) / spheres);
 }
 
-}  // namespace jam
+}  // namespace jam::inside

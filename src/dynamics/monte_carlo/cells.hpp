@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace jam {
+namespace jam::inside {
 
 template <int D>
 class MonteCarloCells {
@@ -102,4 +102,4 @@ class MonteCarloCells {
   std::vector<size_t> cell_;
 };
 
-}  // namespace jam
+}  // namespace jam::inside

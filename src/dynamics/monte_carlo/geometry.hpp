@@ -13,7 +13,7 @@
 #include "core/limits.hpp"
 #include "dynamics/tuning.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 template <int D, bool Cube>
 class MonteCarloGeometry {
@@ -153,4 +153,4 @@ class MonteCarloGeometry {
   std::vector<std::array<double, D>> image_;  // empty: the nearest is enough
 };
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -10,7 +10,7 @@
 #include "dynamics/monte_carlo/cells.hpp"
 #include "dynamics/tuning.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 template <int D>
 class MonteCarloLevels {
@@ -104,4 +104,4 @@ class MonteCarloLevels {
   double height_ = 0.0, stretch_ = 1.0;
 };
 
-}  // namespace jam
+}  // namespace jam::inside

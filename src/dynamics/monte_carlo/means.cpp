@@ -5,7 +5,7 @@
 #include "core/math.hpp"
 #include "dynamics/monte_carlo/monte_carlo.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 MonteCarloMeans::MonteCarloMeans(const Packing &p, const jam_monte_carlo_options &o)
     : n_(static_cast<double>(p.n())), dim_(p.dim), temperature_(o.temperature), hard_(o.alpha == 0.0) {}
@@ -122,4 +122,4 @@ void MonteCarloMeans::archive(Archive &a) {
   if (a.reading()) Archive::check(gaps_.size() % bins == 0 && energy_.size() == pressure_.size());
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -22,7 +22,7 @@
 #include "dynamics/monte_carlo/step_tuner.hpp"
 #include "dynamics/tuning.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 struct MonteCarloCounts {
   int64_t moves = 0, moved = 0, swaps = 0, swapped = 0, lists = 0;
@@ -113,4 +113,4 @@ class MonteCarloRun final : public Dynamics {
   double seconds_ = 0.0, trials_ = 0.0;  // of the last call
 };
 
-}  // namespace jam
+}  // namespace jam::inside

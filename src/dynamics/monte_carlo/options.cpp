@@ -14,7 +14,7 @@
 #include "core/with_dimension.hpp"
 #include "dynamics/tuning.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // Compiled by copies of trials.cpp.in.
 template <int D>
@@ -68,4 +68,4 @@ void check_monte_carlo(const Packing &p, const jam_monte_carlo_options &o) {
   if (o.alpha == 0.0 && p.overlap_allowed) refuse_overlaps(p, overlap_of_rounding);
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -7,7 +7,7 @@
 #include "dynamics/observer.hpp"
 #include "dynamics/tuning.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 MonteCarloRun::MonteCarloRun(const Packing &p, const jam_monte_carlo_options &o)
     : p_(p), options_(o), means_(p, o), seen_(p.position.size(), 0.0) {
@@ -154,4 +154,4 @@ jam_monte_carlo_report MonteCarloRun::report() const {
   return r;
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -13,7 +13,7 @@
 #include "dynamics/monte_carlo/monte_carlo.hpp"
 #include "dynamics/tuning.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 template <int D, bool Cube>
 class MonteCarloSpheres : public MonteCarlo {
@@ -295,4 +295,4 @@ class MonteCarloSpheres : public MonteCarlo {
   std::vector<int32_t> cell_first_, cell_of_, in_cell_, at_;
 };
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -11,7 +11,7 @@
 #include "dynamics/monte_carlo/monte_carlo.hpp"
 #include "dynamics/tuning.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 constexpr int64_t no_run = -1;  // no run has this number
@@ -110,4 +110,4 @@ void StepTuner::archive(Archive &a, const Packing &p, const jam_monte_carlo_opti
   if (a.reading() && !left_.empty()) continued(p, o, left_);
 }
 
-}  // namespace jam
+}  // namespace jam::inside

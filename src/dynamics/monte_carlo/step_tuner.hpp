@@ -6,7 +6,7 @@
 #include "core/monitor.hpp"
 #include "core/packing.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // A tuning that several calls may share: what a call that must stop leaves is kept as bytes, which are copied and
 // stored with the run. It ends at the same bits. The packing stays.
@@ -22,4 +22,4 @@ class StepTuner {
   std::vector<char> left_;  // empty: not begun, or at its end
 };
 
-}  // namespace jam
+}  // namespace jam::inside

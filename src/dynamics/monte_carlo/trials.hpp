@@ -6,7 +6,7 @@
 #include "core/rng.hpp"
 #include "dynamics/monte_carlo/spheres.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 template <int D, bool Soft, bool Cube>
 class MonteCarloOf final : public MonteCarloSpheres<D, Cube> {
@@ -209,4 +209,4 @@ std::unique_ptr<MonteCarlo> make_monte_carlo_of(const Packing &p, const jam_mont
   return std::make_unique<MonteCarloOf<D, true, false>>(p, o, run);
 }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -1,7 +1,7 @@
 // The routines of blas.hpp by our own loops, in the best instruction set of the processor.
 #include "linalg/blas/routines.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 namespace portable {
 template <class Real>
@@ -74,4 +74,4 @@ const char *blas_kernel() { return "builtin"; }
 BlasSingleThread::BlasSingleThread(int threads) : threads_(threads), more_(0) {}
 BlasSingleThread::~BlasSingleThread() { static_cast<void>(more_); }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -46,7 +46,7 @@ __attribute__((weak)) void *blas_memory_alloc(int);
 __attribute__((weak)) void blas_memory_free(void *);
 }
 
-namespace jam {
+namespace jam::inside {
 namespace {
 template <class Real>
 struct Fortran;
@@ -210,4 +210,4 @@ BlasSingleThread::~BlasSingleThread() {
   if (--h.guards == 0 && h.threads != 1) openblas_set_num_threads(h.threads);
 }
 
-}  // namespace jam
+}  // namespace jam::inside

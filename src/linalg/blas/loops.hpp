@@ -10,7 +10,7 @@
 #include "linalg/blas/routines.hpp"
 #include "linalg/blas/vector_loops.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace JAM_SIMD_NAMESPACE {
 
 template <class Real>
@@ -22,4 +22,4 @@ template BlasRoutines<double> routines<double>();
 template BlasRoutines<float> routines<float>();
 
 }  // namespace JAM_SIMD_NAMESPACE
-}  // namespace jam
+}  // namespace jam::inside

@@ -7,7 +7,7 @@
 #include "linalg/blas.hpp"
 #include "linalg/blas/vector.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace JAM_SIMD_NAMESPACE {
 
 // A tile of a product stays in registers. Factors are copied so that a tile reads them one after the other: `depth`
@@ -169,4 +169,4 @@ JAM_SIMD_TARGET void divide(int m, int n, const Real *l, int ldl, Real *b, int l
 }
 
 }  // namespace JAM_SIMD_NAMESPACE
-}  // namespace jam
+}  // namespace jam::inside

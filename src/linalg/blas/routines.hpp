@@ -3,7 +3,7 @@
 #include "core/instruction_set.hpp"
 #include "linalg/blas.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 template <class Real>
 struct BlasRoutines {
@@ -17,4 +17,4 @@ struct BlasRoutines {
 template <class Real>
 BlasRoutines<Real> blas_routines(InstructionSet set);
 
-}  // namespace jam
+}  // namespace jam::inside

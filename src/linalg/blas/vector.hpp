@@ -2,7 +2,7 @@
 #pragma once
 #include "core/simd.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace JAM_SIMD_NAMESPACE {
 
 template <class Real, int Bytes>
@@ -13,4 +13,4 @@ template <class Real, int Bytes = JAM_SIMD_BYTES>
 using Vector = typename VectorOf<Real, Bytes>::type;
 
 }  // namespace JAM_SIMD_NAMESPACE
-}  // namespace jam
+}  // namespace jam::inside

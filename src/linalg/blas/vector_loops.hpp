@@ -5,7 +5,7 @@
 
 #include "linalg/blas/vector.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace JAM_SIMD_NAMESPACE {
 
 // Columns that a pass over vectors takes at once.
@@ -136,4 +136,4 @@ JAM_SIMD_TARGET void solve_transposed(int n, int count, const Real *l, int ldl, 
 }
 
 }  // namespace JAM_SIMD_NAMESPACE
-}  // namespace jam
+}  // namespace jam::inside

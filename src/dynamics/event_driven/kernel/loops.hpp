@@ -5,7 +5,7 @@
 #include "dynamics/event_driven/kernel/simd.hpp"
 #include "dynamics/tuning.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace JAM_SIMD_NAMESPACE {
 
 constexpr double near_contact = CollisionTuning::near_contact, overlap = CollisionTuning::overlap;
@@ -258,4 +258,4 @@ PairKernel<D> pair_kernel() {
 JAM_EACH_DIMENSION(JAM_INSTANCE)
 
 }  // namespace JAM_SIMD_NAMESPACE
-}  // namespace jam
+}  // namespace jam::inside

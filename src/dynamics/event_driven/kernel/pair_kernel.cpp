@@ -2,7 +2,7 @@
 
 #include "core/with_dimension.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 namespace portable {
 template <int D>
@@ -30,4 +30,4 @@ PairKernel<D> pair_kernel([[maybe_unused]] InstructionSet set) {
 #define JAM_INSTANCE(D) template PairKernel<D> pair_kernel<D>(InstructionSet);
 JAM_EACH_DIMENSION(JAM_INSTANCE)
 
-}  // namespace jam
+}  // namespace jam::inside

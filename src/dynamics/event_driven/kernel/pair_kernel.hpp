@@ -7,7 +7,7 @@
 
 #include "core/instruction_set.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // One sphere. Loops load it as words of 64 bits, so the members stand in this order without gaps.
 template <int D>
@@ -96,4 +96,4 @@ struct PairKernel {
 template <int D>
 PairKernel<D> pair_kernel(InstructionSet set);
 
-}  // namespace jam
+}  // namespace jam::inside

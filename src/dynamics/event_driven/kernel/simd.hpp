@@ -17,7 +17,7 @@
 #include "dynamics/event_driven/kernel/simd_halves.hpp"
 #endif
 
-namespace jam {
+namespace jam::inside {
 namespace JAM_SIMD_NAMESPACE {
 
 #if defined(JAM_SIMD_256)
@@ -100,4 +100,4 @@ JAM_SIMD_INLINE Long4 to_integer(const Double4 &x) {
 }
 
 }  // namespace JAM_SIMD_NAMESPACE
-}  // namespace jam
+}  // namespace jam::inside

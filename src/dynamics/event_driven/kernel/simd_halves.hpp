@@ -6,7 +6,7 @@
 #include <cstring>
 #include <type_traits>
 
-namespace jam {
+namespace jam::inside {
 namespace JAM_SIMD_NAMESPACE {
 
 template <class Number>
@@ -150,4 +150,4 @@ JAM_SIMD_INLINE UnsignedInt8 upper_halves(const Unsigned4 &a, const Unsigned4 &b
 #undef JAM_SHUFFLE4
 
 }  // namespace JAM_SIMD_NAMESPACE
-}  // namespace jam
+}  // namespace jam::inside

@@ -11,6 +11,8 @@ typedef struct content {
   jam_size_report sizes;
   double cell[JAM_MAX_DIM * JAM_MAX_DIM];
   double nearest_gap; /* of spheres or a wall; infinite: none below 1 */
+  int overlaps;       /* the packing fraction counts some volume twice */
+  double porosity;    /* NAN: not computed, in d > 3 */
 } content;
 
 static jam_status find_nearest_gap(const jam_system *sys, double *gap) {
@@ -30,6 +32,18 @@ static jam_status find_nearest_gap(const jam_system *sys, double *gap) {
   return status;
 }
 
+/* Of spheres that overlap, or pass a wall, the solid is their union in the container: one slab of all of it. */
+static jam_status find_porosity(const jam_system *sys, content *c) {
+  double slab[JAM_PROFILE_SOLID + 1];
+  jam_status status;
+  c->overlaps = c->nearest_gap < -rounding || c->info.non_additivity < 0;
+  c->porosity = c->overlaps ? NAN : 1 - c->info.packing_fraction;
+  if (!c->overlaps || c->info.dim > 3) return JAM_OK;
+  status = jam_solid_profile(sys, 0, 1, slab, sizeof slab / sizeof *slab, NULL);
+  if (status >= 0) c->porosity = 1 - slab[JAM_PROFILE_SOLID];
+  return status;
+}
+
 static jam_status look(const jam_system *sys, content *c) {
   const double *diameters;
   size_t n;
@@ -40,7 +54,8 @@ static jam_status look(const jam_system *sys, content *c) {
   if (status >= 0) status = jam_view_diameters(sys, &diameters, &n);
   if (status >= 0) status = jam_get_size_report(c->info.dim, diameters, n, &c->sizes);
   if (status >= 0) status = jam_get_cell(sys, c->cell, sizeof c->cell / sizeof *c->cell, NULL);
-  return status < 0 ? status : find_nearest_gap(sys, &c->nearest_gap);
+  if (status >= 0) status = find_nearest_gap(sys, &c->nearest_gap);
+  return status < 0 ? status : find_porosity(sys, c);
 }
 
 static void put_cell(FILE *f, const content *c) {
@@ -72,7 +87,7 @@ static int write_json(const options *o, const content *c, const char *notes) {
   put_walls(f, c);
   put_number(f, "volume", c->info.volume);
   put_number(f, "packing_fraction", c->info.packing_fraction);
-  put_number(f, "porosity", 1 - c->info.packing_fraction);
+  put_number(f, "porosity", c->porosity);
   put_number(f, "diameter_mean", c->sizes.mean);
   put_number(f, "diameter_least", c->sizes.least);
   put_number(f, "diameter_largest", c->sizes.largest);
@@ -110,8 +125,10 @@ static void print_note(const char *line, int warns, void *with) {
 static void print_text(const options *o, const content *c, const char *notes) {
   const int d = c->info.dim;
   int k;
-  printf("%s: %lld spheres in d = %d, packing fraction %.12f, porosity %.12f\n", o->input, (long long)c->info.n, d,
-         c->info.packing_fraction, 1 - c->info.packing_fraction);
+  printf("%s: %lld spheres in d = %d, packing fraction %.12f%s", o->input, (long long)c->info.n, d,
+         c->info.packing_fraction, c->overlaps ? " (overlaps counted twice)" : "");
+  if (isfinite(c->porosity)) printf(", porosity %.12f", c->porosity);
+  putchar('\n');
   fputs("  cell     ", stdout);
   for (k = 0; k < d * d; ++k) printf("%s%.12g", k % d ? " " : k ? ", " : " ", c->cell[k]);
   printf("; volume %.12g\n", c->info.volume);

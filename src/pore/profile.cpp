@@ -1,25 +1,29 @@
 #include "pore/profile.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/call_scope.hpp"
 #include "core/container.hpp"
 #include "pore/images.hpp"
+#include "pore/solid.hpp"
 
 namespace jam::inside {
 namespace {
 
 // Adds the volume of a ball between equal planes, which begin at 0; it may lie across the end, and repeats there.
-void add_slabs(int dim, double radius, double centre, double height, bool repeats, std::vector<double> &volume) {
+// below_plane(t): its volume below a plane at t from its centre.
+template <class F>
+void add_slabs(double radius, double centre, double height, bool repeats, const F &below_plane,
+               std::vector<double> &volume) {
   const auto bins = static_cast<long>(volume.size());
   const double width = height / static_cast<double>(bins);
   const auto first = static_cast<long>(std::floor((centre - radius) / width));
   const auto last = static_cast<long>(std::floor((centre + radius) / width));
   double below = 0.0;
   for (long k = first; k <= last; ++k) {
-    const double next = k == last ? volume_below(dim, radius, radius)
-                                  : volume_below(dim, radius, static_cast<double>(k + 1) * width - centre);
+    const double next = below_plane(k == last ? radius : static_cast<double>(k + 1) * width - centre);
     const long bin = repeats ? ((k % bins) + bins) % bins : std::min(std::max(k, 0L), bins - 1);
     volume[static_cast<size_t>(bin)] += next - below;
     below = next;
@@ -49,7 +53,8 @@ std::vector<double> volumes_of_bins(const Packing &p, int axis, double height, s
   return volume;
 }
 
-void add_shells(const Packing &p, const double *x, double radius, double outer, std::vector<double> &volume) {
+void add_shells(const Packing &p, const Solid &parts, size_t i, double outer, std::vector<double> &volume) {
+  const double *const x = &p.position[i * static_cast<size_t>(p.dim)], radius = 0.5 * p.diameter[i];
   const int round = p.container.round_axes();
   const auto bins = static_cast<double>(volume.size());
   double r2 = 0.0;
@@ -59,13 +64,27 @@ void add_shells(const Packing &p, const double *x, double radius, double outer, 
   for (size_t k = 0; k < volume.size() && inside < whole; ++k) {
     const double edge = outer * static_cast<double>(k + 1) / bins;
     if (edge <= apart - radius) continue;
-    // A sphere may pass the last edge by rounding.
-    const double next = k + 1 == volume.size() ? whole
-                        : round < p.dim        ? shared_with_cylinder(radius, edge, apart)
-                                               : shared_volume(p.dim, radius, edge, apart);
+    // A whole sphere may pass the last edge by rounding.
+    const double next = !parts.is_whole(i)       ? parts.volume_within(i, edge)
+                        : k + 1 == volume.size() ? whole
+                        : round < p.dim          ? shared_with_cylinder(radius, edge, apart)
+                                                 : shared_volume(p.dim, radius, edge, apart);
     volume[k] += next - inside;
     inside = next;
   }
+}
+
+// Of the faces that a_axis joins, towards the second one.
+Point normal_of_faces(const Packing &p, int axis) {
+  Point n{};
+  std::array<double, JAM_MAX_DIM> s{};
+  for (size_t c = 0; c < static_cast<size_t>(p.dim); ++c) {
+    Point unit{};
+    unit[c] = 1.0;
+    p.cell.fraction(unit.data(), s.data());
+    n[c] = s[static_cast<size_t>(axis)] * p.cell.height(axis);
+  }
+  return n;
 }
 
 }  // namespace
@@ -80,15 +99,28 @@ Profile solid_profile(const Packing &p, int axis, int bins) {
   const auto count = static_cast<size_t>(bins);
   const double height = radial ? 0.5 * p.cell.edge(0) : p.cell.height(axis);
   std::vector<double> solid(count, 0.0), s(static_cast<size_t>(p.dim));
+  const Solid parts(p);
+  const Point across = radial ? Point{} : normal_of_faces(p, axis);
   for (size_t i = 0; i < p.n(); ++i) {
     CallScope::look();
     const double *x = &p.position[i * static_cast<size_t>(p.dim)], radius = 0.5 * p.diameter[i];
     if (radial) {
-      add_shells(p, x, radius, height, solid);
-    } else {
-      p.cell.fraction(x, s.data());
-      add_slabs(p.dim, radius, s[static_cast<size_t>(axis)] * height, height, p.cell.repeats(axis), solid);
+      add_shells(p, parts, i, height, solid);
+      continue;
     }
+    p.cell.fraction(x, s.data());
+    const double centre = s[static_cast<size_t>(axis)] * height;
+    const bool repeats = p.cell.repeats(axis);
+    if (parts.is_whole(i))
+      add_slabs(
+          radius, centre, height, repeats, [&](double t) { return volume_below(p.dim, radius, t); }, solid);
+    else
+      add_slabs(
+          radius, centre, height, repeats,
+          [&](double t) {
+            return parts.volume(i, {across, t});
+          },
+          solid);
   }
   Profile out;
   const std::vector<double> whole = volumes_of_bins(p, axis, height, count);

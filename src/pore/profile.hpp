@@ -1,4 +1,5 @@
-// Solid fraction in slabs and shells, by the exact volumes of balls cut by planes, balls and cylinders.
+// Solid fraction in slabs and shells, by the exact volumes of balls cut by planes, balls and cylinders. Where spheres
+// overlap, or pass a wall, it is that of their union inside the container.
 #pragma once
 #include <vector>
 

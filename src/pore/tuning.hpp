@@ -8,6 +8,20 @@ struct BallsTuning {
   static constexpr double most_cells = 1000.0;
 };
 
+struct SolidTuning {
+  // Spheres overlap, or pass a wall, from this depth over the smaller radius on. The volume that is then counted twice
+  // is below rounding: its share is the square of the depth.
+  static constexpr double overlap = 1e-9;
+};
+
+struct CutTuning {
+  static constexpr double parallel = 1e-12;  // sine of the angle below which two planes count as parallel
+  // Volumes in a cylinder, over the cube of the radius: the quadrature halves intervals until this is reached, at most
+  // so many times.
+  static constexpr double error = 1e-12;
+  static constexpr int halvings = 24;
+};
+
 struct MeshTuning {
   // What options may be: edges over the radius, where triangles become too many or too coarse, and bridges.
   static constexpr double shortest_edge = 0.03, thinnest_bridge = 0.02, widest_bridge = 0.45;

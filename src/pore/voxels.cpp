@@ -30,7 +30,8 @@ VoxelGrid voxel_grid(const Packing &p, const jam_voxel_options &o) {
   return grid;
 }
 
-VoxelImage::VoxelImage(const Packing &p, const VoxelGrid &grid, int lines) : p_(p), grid_(grid), lines_(lines) {
+VoxelImage::VoxelImage(const Packing &p, const VoxelGrid &grid, int lines)
+    : p_(p), grid_(grid), lines_(lines), parts_(p) {
   std::vector<double> radius;
   for (const double sigma : p.diameter) radius.push_back(0.5 * sigma);
   images_ = images_near_brick(p, radius);
@@ -60,19 +61,46 @@ void VoxelImage::add_share(double from, double to, double *row) const {
   }
 }
 
+// Of a line along x, the part from `from` to `to` that no other sphere counts and no wall cuts off.
+void VoxelImage::cut_line(const SphereImage &image, const Point &line, double &from, double &to) const {
+  const auto sphere = static_cast<size_t>(image.sphere);
+  const Point at = minus({0.0, line[1], line[2]}, image.centre);
+  for (const HalfSpace &h : parts_.cuts(sphere)) {
+    const double rest = h.offset - dot(h.normal, at);  // normal[0] x <= rest
+    if (h.normal[0] > 0.0)
+      to = std::min(to, rest / h.normal[0]);
+    else if (h.normal[0] < 0.0)
+      from = std::max(from, rest / h.normal[0]);
+    else if (rest < 0.0)
+      to = from;
+  }
+  if (!parts_.passes_round_wall(sphere)) return;
+  const double wall = 0.5 * p_.cell.edge(0);
+  double half2 = wall * wall;
+  for (int c = 1; c < p_.container.round_axes(); ++c) {
+    const double off = line[static_cast<size_t>(c)] - wall;
+    half2 -= off * off;
+  }
+  const double half = half2 > 0.0 ? std::sqrt(half2) : 0.0;
+  from = std::max(from, wall - half), to = std::min(to, wall + half);
+}
+
 // The lines along x of one plane, which cuts the image in a disk of this squared radius.
-void VoxelImage::add_disk(const SphereImage &image, double r2, double *out) const {
+void VoxelImage::add_disk(const SphereImage &image, double height, double r2, double *out) const {
   const double y = image.centre[1], r = std::sqrt(r2), step = grid_.spacing[1];
   const auto first = std::max<int64_t>(0, static_cast<int64_t>(std::floor((y - r) / step)));
   const auto last = std::min<int64_t>(grid_.count[1] - 1, static_cast<int64_t>(std::floor((y + r) / step)));
   const int lines = std::max(lines_, 1);
   for (int64_t row = first; row <= last; ++row)
     for (int k = 0; k < lines; ++k) {
-      const double dy = (static_cast<double>(row) + (k + 0.5) / lines) * step - y, half2 = r2 - dy * dy;
+      const double line = (static_cast<double>(row) + (k + 0.5) / lines) * step, dy = line - y, half2 = r2 - dy * dy;
       if (!(half2 >= 0.0)) continue;
       const double half = std::sqrt(half2), x = image.centre[0];
       double *const at = out + row * grid_.count[0];
-      const double from = (x - half) / grid_.spacing[0], to = (x + half) / grid_.spacing[0];
+      double from = x - half, to = x + half;
+      if (lines_ > 0 && !parts_.is_whole(static_cast<size_t>(image.sphere)))
+        cut_line(image, {0.0, line, height}, from, to);
+      from /= grid_.spacing[0], to /= grid_.spacing[0];
       if (lines_ > 0) {
         add_share(from, to, at);
         continue;
@@ -93,16 +121,16 @@ void VoxelImage::fill_layer(int64_t z, double *out) const {
     for (int q = 0; q < lines; ++q) {
       const double height = (static_cast<double>(z) + (q + 0.5) / lines) * grid_.spacing[2];
       const double dz = p_.dim == 3 ? height - image.centre[2] : 0.0, r2 = radius * radius - dz * dz;
-      if (r2 >= 0.0) add_disk(image, r2, out);
+      if (r2 >= 0.0) add_disk(image, height, r2, out);
     }
   }
   const int w = p_.container.count() - 1;
-  const bool round = w >= 0 && p_.container.is_round(w);
+  const bool round = w >= 0 && p_.container.is_round(w), passed = parts_.any_passes_round_wall();
   for (int64_t y = 0; y < grid_.count[1]; ++y)
     for (int64_t x = 0; x < grid_.count[0]; ++x) {
       double &value = out[y * grid_.count[0] + x];
-      value = std::min(value, 1.0);  // soft spheres may overlap
-      if (!round || value > 0.0) continue;
+      value = std::min(value, 1.0);  // by rounding
+      if (!round || (value > 0.0 && (lines_ > 0 || !passed))) continue;
       const double centre[] = {(static_cast<double>(x) + 0.5) * grid_.spacing[0],
                                (static_cast<double>(y) + 0.5) * grid_.spacing[1],
                                (static_cast<double>(z) + 0.5) * grid_.spacing[2]};

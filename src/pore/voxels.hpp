@@ -7,6 +7,7 @@
 
 #include "jam/jam.h"
 #include "pore/images.hpp"
+#include "pore/solid.hpp"
 
 namespace jam::inside {
 
@@ -29,11 +30,13 @@ class VoxelImage {
   void fill_layer(int64_t z, double *out) const;
 
  private:
-  void add_disk(const SphereImage &image, double radius2, double *layer) const;
+  void add_disk(const SphereImage &image, double height, double radius2, double *layer) const;
+  void cut_line(const SphereImage &image, const Point &line, double &from, double &to) const;
   void add_share(double from, double to, double *row) const;
   const Packing &p_;
   VoxelGrid grid_;
   int lines_;
+  Solid parts_;
   std::vector<SphereImage> images_;
   std::vector<std::vector<int32_t>> in_layer_;  // images that reach into each layer
 };

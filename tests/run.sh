@@ -111,7 +111,7 @@ cmake -S . -B build-tsan -G Ninja -DCMAKE_BUILD_TYPE=None -DCMAKE_C_FLAGS=-O1 -D
   -DJAM_BUILD_CLI=OFF >/dev/null
 # What starts threads: races on a handle, handles on threads of their own, and runs and factorisations on several
 # threads.
-threaded='capi_thread_gate capi_host_state capi_isoconfigurational unit_block_cholesky'
+threaded='capi_thread_gate capi_thread_calls capi_host_state capi_isoconfigurational unit_block_cholesky'
 # shellcheck disable=SC2086
 cmake --build build-tsan -j "$jobs" --target $threaded
 TSAN_OPTIONS=halt_on_error=1 ctest --test-dir build-tsan -j "$at_once" --timeout 900 \

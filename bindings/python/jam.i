@@ -177,22 +177,70 @@ typedef struct jam_system {} jam_system;
   %append_output(SWIG_NewPointerObj(*$1, SWIGTYPE_p_jam_system, SWIG_POINTER_OWN));
 }
 
-// ---- callbacks: the caller keeps the callable alive
+// ---- callbacks. C keeps a pointer to the callable, so the proxy of the handle keeps a reference until C has let it go.
+// The interpreter lock is held from the setter's return until the reference has changed (%nothread): neither another
+// thread nor Ctrl-C comes between. A callable that the setter itself calls may let other threads in; the handle is busy.
 %ignore jam_set_progress;
 %ignore jam_set_log;
+%nothread jam_notes;  // the text is copied before jam_add_note of another thread may move it
+%nothread jam_add_note;
+%nothread set_progress;
+%nothread set_log;
+%{
+typedef jam_status (*jam_setter)(jam_system *sys, void *callable, int32_t level);
+
+static jam_status jam_give_progress(jam_system *sys, void *callable, int32_t level) {
+  (void)level;
+  return jam_set_progress(sys, jam_on_progress, callable);
+}
+static jam_status jam_give_log(jam_system *sys, void *callable, int32_t level) {
+  return callable ? jam_set_log(sys, jam_on_log, level, callable) : jam_set_log(sys, NULL, 0, NULL);
+}
+
+/* The references are the items of a list that the handle's proxy has from its first callable on. */
+enum { KEPT_PROGRESS, KEPT_LOG };
+
+static jam_status jam_keep(PyObject *handle, PyObject *callable, Py_ssize_t place, jam_setter give, int32_t level) {
+  void *sys = NULL;
+  jam_status status = JAM_E_NULL;
+  PyObject *names = NULL, *fresh = NULL, *key = NULL, *kept = NULL;
+  if (!SWIG_IsOK(SWIG_ConvertPtr(handle, &sys, SWIGTYPE_p_jam_system, 0))) {
+    PyErr_SetString(PyExc_TypeError, "the handle of a system is needed");
+    return status;
+  }
+  names = PyObject_GenericGetDict(handle, NULL);
+  fresh = Py_BuildValue("[OO]", Py_None, Py_None);
+  key = PyUnicode_FromString("_kept");
+  if (names && fresh && key) kept = PyDict_SetDefault(names, key, fresh); /* of two threads one list stays */
+  Py_XINCREF(kept);
+  if (kept) status = give((jam_system *)sys, callable == Py_None ? NULL : callable, level);
+  if (kept && status >= 0) {
+    PyObject *before = PyList_GET_ITEM(kept, place);
+    Py_INCREF(callable);
+    PyList_SET_ITEM(kept, place, callable);
+    Py_DECREF(before);
+  }
+  Py_XDECREF(kept);
+  Py_XDECREF(key);
+  Py_XDECREF(fresh);
+  Py_XDECREF(names);
+  return status;
+}
+%}
 %inline %{
 /* callable(progress) on the calling thread, or None: Ctrl-C alone is looked at. */
-jam_status set_progress(jam_system *sys, PyObject *callable) {
-  return jam_set_progress(sys, jam_on_progress, callable == Py_None ? NULL : (void *)callable);
+jam_status set_progress(PyObject *handle, PyObject *callable) {
+  return jam_keep(handle, callable, KEPT_PROGRESS, jam_give_progress, 0);
 }
 /* callable(level, line), or None. */
-jam_status set_log(jam_system *sys, PyObject *callable, int32_t level) {
-  return callable == Py_None ? jam_set_log(sys, NULL, 0, NULL) : jam_set_log(sys, jam_on_log, level, (void *)callable);
+jam_status set_log(PyObject *handle, PyObject *callable, int32_t level) {
+  return jam_keep(handle, callable, KEPT_LOG, jam_give_log, level);
 }
 void set_error_factory(PyObject *callable) {
+  PyObject *before = jam_error_factory;
   Py_INCREF(callable);
-  Py_XDECREF(jam_error_factory);
   jam_error_factory = callable;
+  Py_XDECREF(before);
 }
 %}
 

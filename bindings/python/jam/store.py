@@ -25,7 +25,8 @@ def image(system: System, *, refined: bool = False, **more: Any) -> bytes:
 
     refined: centres as sums of two doubles too, see System.refined_positions.
     """
-    return write_packing.image(system._contents(), refined=system.refined_positions() if refined else None, **more)
+    state, still = system._checkpointed()
+    return write_packing.image(state, still, refined=still.refined_positions() if refined else None, **more)
 
 
 def save(system: System, path: str | os.PathLike[str], **more: Any) -> None:

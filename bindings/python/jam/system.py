@@ -265,9 +265,12 @@ class System(Verbs, Writing, PoreSpace, Copies, Converting):
         self.close()
 
     def copy(self) -> "System":
-        """Deep copy with results and what was observed. It has the same seed, so set velocities to make its dynamics differ."""
+        """Deep copy with results and what was observed. It has the same seed, so set velocities to make its dynamics differ.
+
+        In a progress callable it is the packing that the callable sees in `positions`: that before the call, or the snapshot.
+        """
         made = System._made(*raw.jam_copy(self.handle))
-        made.trace, made.calls = list(self.trace), list(self.calls)
+        made.trace, made.calls = list(self.trace), [dict(call) for call in self.calls]
         return made
 
     __copy__ = copy
@@ -276,7 +279,7 @@ class System(Verbs, Writing, PoreSpace, Copies, Converting):
         return self.copy()
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return restore, (self._state(), self.calls, self.trace)
+        return restore, (self._state(), [dict(call) for call in self.calls], list(self.trace))
 
     def __repr__(self) -> str:
         if self._handle is None:

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from .. import raw
-from . import errors, generated
+from . import errors, exceptions, generated
 from .arrays import DTYPES, as_array, unknown_array
 from .generated import CALLS, EXTENTS, OPTIONS, REPORTS, ROWS, StatusCode, TABLES
 from .options import as_enum, option_struct, unknown
@@ -116,7 +116,11 @@ def invoke(handle: Any, dim: int, name: str, args: tuple[Any, ...], named: dict[
             shape = _shape(extents, asked[count], m, dim, spheres, len(fills) == 1)
             outputs[arg] = unknown_array(shape, np.dtype(ROWS[ctype]) if ctype in ROWS else DTYPES[ctype])
             passed[at] = outputs[arg].reshape(-1)
-        status, *scalars = function(*first, *passed)
+        try:
+            status, *scalars = function(*first, *passed)
+        except exceptions.BufferError:
+            scalars[count] = -1
+        same(scalars[count], m)
     if not any(isinstance(o, tuple) and "stop_reason" in REPORTS[o[1]].__annotations__ for o in outputs.values()):
         not_cancelled(status)
     results = {a: freeze(*o) if isinstance(o, tuple) else o for a, o in outputs.items()}
@@ -127,6 +131,12 @@ def invoke(handle: Any, dim: int, name: str, args: tuple[Any, ...], named: dict[
     if len(results) > 1:
         return StatusCode(status), TUPLES[name](*results.values())
     return StatusCode(status), next(iter(results.values()), None)
+
+
+def same(found: Any, before: Any) -> None:
+    """Raises where another thread has changed the packing between two calls that belong together, such as count and fill."""
+    if not np.array_equal(found, before):
+        raise exceptions.BusyError("another thread changed the packing while it was read: call again, or read a copy()")
 
 
 def not_cancelled(status: int) -> int:

@@ -27,14 +27,14 @@ import json
 import os
 import time
 from dataclasses import is_dataclass
-from typing import Any, Mapping
+from typing import Any, Callable, Mapping
 
 import h5py
 import numpy as np
 
 from .. import raw
-from ..errors import StoreError
-from .contents import Contents, MENDED
+from .._api.given import closed_axes, container_word, walls_of
+from ..errors import StateError, StoreError
 from .explain import explain, report_text, report_type
 from .provenance import provenance
 from .records import pack
@@ -43,6 +43,8 @@ from .seal import seal
 
 SCHEMA = 1
 CONTACTS = ("pairs", "vectors", "gaps", "forces")
+#: What to do after an error in writing
+MENDED = "Nothing that was finished is lost: correct this and run again"
 
 
 def _text(value: str) -> Any:
@@ -66,8 +68,8 @@ def put(group: Any, name: str, value: Any) -> None:
         explain(node, node.name.lstrip("/"))
 
 
-def _h5md(file: Any, contents: Contents) -> None:
-    dim = len(contents.cell)
+def _h5md(file: Any, packing: Any, closed: list[bool]) -> None:
+    dim = packing.dim
     head = file.create_group("h5md")
     head.attrs["version"] = np.array([1, 1], np.int32)
     head.create_group("author").attrs["name"] = "unknown"
@@ -76,18 +78,27 @@ def _h5md(file: Any, contents: Contents) -> None:
     spheres = file.create_group("particles/spheres")
     box = spheres.create_group("box")
     box.attrs["dimension"] = np.int32(dim)
-    box.attrs["boundary"] = ["none" if shut else "periodic" for shut in contents.closed]
-    put(spheres, "position/value", contents.positions[None])
+    box.attrs["boundary"] = ["none" if shut else "periodic" for shut in closed]
+    put(spheres, "position/value", packing.positions[None])
     position = spheres["position"]
     position.create_dataset("step", data=np.zeros(1, np.int64))
     position.create_dataset("time", data=np.zeros(1))
-    put(box, "edges/value", contents.cell[None])
+    put(box, "edges/value", packing.cell[None])
     edges = box["edges"]
     edges["step"], edges["time"] = position["step"], position["time"]
 
 
+def _known(ask: Callable[[], Any]) -> Any:
+    """A result, None for one that the packing does not have."""
+    try:
+        return ask()
+    except StateError:
+        return None
+
+
 def image(
-    contents: Contents,
+    state: bytes,
+    packing: Any,
     *,
     analysis: Mapping[str, Any] | None = None,
     protocol: str | None = None,
@@ -99,8 +110,10 @@ def image(
 
     Parameters
     ----------
-    contents : Contents
-        The network is stored where there is one.
+    state : bytes
+        A checkpoint.
+    packing : System
+        Made from it, so that the arrays are those of jam/state to the last bit: System._checkpointed.
     analysis : mapping, optional
         Results by name: numbers, arrays, reports, named tuples of them.
     protocol, protocol_id : str, optional
@@ -112,24 +125,26 @@ def image(
     """
 
     def fill(file: Any) -> list[str]:
-        _h5md(file, contents)
+        info, contacts, report = packing.info, _known(lambda: packing.contacts), _known(lambda: packing.report)
+        closed = closed_axes(info)
+        _h5md(file, packing, closed)
         put(file["particles/spheres"], "refined", refined)
         group = file.create_group("jam")
-        group.attrs.update({"schema": SCHEMA, "seed": contents.seed, "protocol": protocol_id, **provenance()})
+        group.attrs.update({"schema": SCHEMA, "seed": info.seed, "protocol": protocol_id, **provenance()})
         group.attrs["written"] = time.time()
         group.attrs.update(times or {})
-        if any(contents.closed):
-            group.attrs.update({"container": contents.container, "walls": np.array(contents.walls)})
-        put(group, "state", np.frombuffer(contents.state, np.uint8))
-        put(group, "diameters", contents.diameters)
-        if contents.report is not None or contents.contacts is not None:
-            put(group, "report", contents.report)
-            put(group, "history", contents.history)
-            put(group, "coordination", contents.coordination)
-        if contents.contacts is not None:
+        if any(closed):
+            group.attrs.update({"container": container_word(info), "walls": np.array(walls_of(info))})
+        put(group, "state", np.frombuffer(state, np.uint8))
+        put(group, "diameters", packing.diameters)
+        if report is not None or contacts is not None:
+            put(group, "report", report)
+            put(group, "history", _known(lambda: packing.history))
+        if contacts is not None:
+            put(group, "coordination", packing.coordination)
             for name in CONTACTS:
-                put(group, "contacts/" + name, getattr(contents.contacts, name))
-        put(group, "calls", json.dumps(contents.calls))
+                put(group, "contacts/" + name, getattr(contacts, name))
+        put(group, "calls", json.dumps(packing.calls))
         put(group, "protocol", protocol)
         results = group.create_group("analysis")
         for name, value in (analysis or {}).items():

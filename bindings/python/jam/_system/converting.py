@@ -33,7 +33,8 @@ class Converting(State, Network):
         """
         import pandas
 
-        makers = {"spheres": self._sphere_columns, "contacts": self._contact_columns, "history": self._step_columns}
+        still = self.copy()
+        makers = {"spheres": still._sphere_columns, "contacts": still._contact_columns, "history": still._step_columns}
         if what not in makers:
             raise ValueError(f"{what!r} is none of {', '.join(makers)}")
         return pandas.DataFrame(makers[what]())
@@ -54,8 +55,9 @@ class Converting(State, Network):
         """
         import networkx
 
-        graph, contacts, kinds = networkx.MultiGraph(), self.contacts, self._kinds()
-        for i, (x, size) in enumerate(zip(self.positions, self.diameters)):
+        graph, still = networkx.MultiGraph(), self.copy()
+        contacts, kinds = still.contacts, still._kinds()
+        for i, (x, size) in enumerate(zip(still.positions, still.diameters)):
             graph.add_node(i, position=tuple(x), diameter=float(size), kind=kinds[i])
         graph.add_nodes_from((int(j) for j in contacts.pairs[:, 1] if j < 0), kind="wall")
         for (i, j), vector, gap, force in zip(contacts.pairs, contacts.vectors, contacts.gaps, contacts.forces):
@@ -82,14 +84,15 @@ class Converting(State, Network):
 
         if self.dim not in (2, 3):
             raise ValueError(f"ASE has three dimensions, this system has d = {self.dim}")
+        still = self.copy()
         x, cell = np.zeros((self.n, 3)), np.eye(3)
-        x[:, : self.dim] = self.positions
-        cell[: self.dim, : self.dim] = self.cell
-        closed = closed_axes(self.info) + [True]
+        x[:, : self.dim] = still.positions
+        cell[: self.dim, : self.dim] = still.cell
+        closed = closed_axes(still.info) + [True]
         atoms = Atoms([symbol] * self.n, positions=x, cell=cell, pbc=[k < self.dim and not closed[k] for k in range(3)])
         if any(closed[: self.dim]):
-            atoms.info.update(container=container_word(self.info), walls=walls_of(self.info))
-        atoms.set_array("radius", 0.5 * self.diameters)
+            atoms.info.update(container=container_word(still.info), walls=walls_of(still.info))
+        atoms.set_array("radius", 0.5 * still.diameters)
         return atoms
 
     def _kinds(self) -> Any:

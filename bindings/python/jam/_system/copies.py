@@ -7,7 +7,7 @@ import numpy as np
 
 from .. import raw
 from .._api.arrays import Array, as_array, unknown_array
-from .._api.calls import not_cancelled
+from .._api.calls import not_cancelled, same
 from .._api.generated import BlochColumn, ModeColumn
 from .._api.options import option_struct
 from .._api.results import Modes
@@ -106,6 +106,7 @@ class Copies(Base):
             flat = as_array(wave, name="wave")
             status, _ = raw.jam_bloch_modes(self.handle, h, flat, table.reshape(-1), vectors.reshape(-1))
             self._note(not_cancelled(status))
+            same(self._ask("hessian_map"), spheres)
         values, participation = np.ascontiguousarray(table.T)
         return Modes(values, vectors.view(complex)[..., 0], participation, spheres, self.status)
 
@@ -136,6 +137,7 @@ class Copies(Base):
             status, rows = raw.jam_bloch_rigidity(self.handle, copies, None, None)
             not_cancelled(status)
             wave, table = unknown_array((rows, self.dim)), unknown_array((rows, len(BlochColumn)))
-            status, _ = raw.jam_bloch_rigidity(self.handle, copies, wave.reshape(-1), table.reshape(-1))
+            status, filled = raw.jam_bloch_rigidity(self.handle, copies, wave.reshape(-1), table.reshape(-1))
             self._note(not_cancelled(status))
+            same(filled, rows)
         return BlochRigidityResult(wave, table[:, BlochColumn.FLEXES].astype(int), table[:, BlochColumn.MARGIN].copy())

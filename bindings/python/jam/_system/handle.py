@@ -67,6 +67,10 @@ class Base(Methods):
         """Dimension d."""
         raise NotImplementedError
 
+    def copy(self) -> Any:
+        """A packing of its own: what reads several parts of one reads them there, as no other thread moves it."""
+        raise NotImplementedError
+
     def __init__(self, handle: Any) -> None:
         self._handle: Any = handle
         self._first_info: Info | None = None
@@ -78,7 +82,7 @@ class Base(Methods):
         self.status: StatusCode = StatusCode.OK
         #: Why, in a sentence; "" for status OK
         self.status_text = ""
-        handle._dispatch = self._dispatch = _Dispatch()  # the C side holds a borrowed reference
+        self._dispatch = _Dispatch()
         raw.set_progress(handle, self._dispatch)
 
     @property

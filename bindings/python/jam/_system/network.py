@@ -7,7 +7,7 @@ import numpy as np
 
 from .. import raw
 from .._api.arrays import Array, as_rows, unknown_array
-from .._api.calls import freeze, new_report, not_cancelled
+from .._api.calls import freeze, invoke, new_report, not_cancelled, same
 from .._api.generated import CheckReport, CrunchReport, ModeColumn, ModesWhich, RigidityReport, StatusCode
 from .._api.options import as_enum, option_struct
 from .._api.results import Contacts, Modes
@@ -44,9 +44,9 @@ class Network(Base):
         >>> contacts.pairs.shape == (report.contacts, 2), abs(contacts.gaps).max() < 1e-10
         (True, True)
         """
-        return Contacts(
-            self._ask("contacts"), self._ask("contact_vectors"), self._ask("contact_gaps"), self._ask("forces")
-        )
+        still = raw.jam_copy(self.handle)[1]  # no other thread comes between the four
+        parts = (invoke(still, self.dim, name, (), {})[1] for name in ("contacts", "contact_vectors", "contact_gaps", "forces"))
+        return Contacts(*parts)
 
     @property
     def forces(self) -> Array:
@@ -90,11 +90,15 @@ class Network(Base):
         from scipy.sparse import csr_matrix
 
         chosen = option_struct("jam_hessian_options", dict(options, stiffness=stiffness))
-        size = self.dim * len(self._ask("hessian_map"))
+        spheres = self._ask("hessian_map")
+        size = self.dim * len(spheres)
         status, count = raw.jam_hessian(self.handle, chosen, None, None, None)
         not_cancelled(status)
         start, column, value = np.empty(size + 1, np.int32), np.empty(count, np.int32), np.empty(count)
-        self._note(not_cancelled(raw.jam_hessian(self.handle, chosen, start, column, value)[0]))
+        status, filled = raw.jam_hessian(self.handle, chosen, start, column, value)
+        self._note(not_cancelled(status))
+        same(filled, count)
+        same(self._ask("hessian_map"), spheres)
         return csr_matrix((value, column, start), shape=(size, size))
 
     def modes(
@@ -147,6 +151,7 @@ class Network(Base):
         with self._reporting(progress):
             status, m = raw.jam_modes(handle, h, o, table.reshape(-1), vectors.reshape(-1))
             self._note(not_cancelled(status))
+            same(self._ask("hessian_map"), spheres)
         values, participation = np.ascontiguousarray(table[:m].T)
         return Modes(values, vectors[:m], participation, spheres, self.status)
 
@@ -228,8 +233,9 @@ class Network(Base):
             status, _, m = raw.jam_stress_states(handle, None, None)
             not_cancelled(status)
             force, basis = unknown_array(contacts if m else 0), unknown_array((m, contacts))
-            status, residual, _ = raw.jam_stress_states(handle, force, basis.reshape(-1))
+            status, residual, filled = raw.jam_stress_states(handle, force, basis.reshape(-1))
             self._note(not_cancelled(status))
+            same((filled, self.report.contacts), (m, contacts))
         return StressStatesResult(force, basis, residual)
 
     def rigidity(self, kind: int | str = "collective", *, progress: Any = None) -> RigidityReport:

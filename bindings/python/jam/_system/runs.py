@@ -14,6 +14,7 @@ import numpy as np
 
 from .. import raw
 from .._api.arrays import Array, as_array
+from .._api.calls import same
 from .._api.generated import IsoconfColumn, StatusCode
 from .._api.options import option_struct
 from .._formats.replacing import open_regular, replacing, require_ending
@@ -193,6 +194,7 @@ def take_runs(system: Any) -> Runs:
         for one in (system._ask("isoconf_displacements", block), system._ask("isoconf_distances", block)):
             for name in one._fields:
                 sums[name].append(getattr(one, name))
+    same(repr(system._ask("get_isoconf_report")), repr(report))
     shape = {name: (0, m, n, d) if name in ("displacement", "square") else (0, m, n) for name in _SUMS}
     series = {
         c.name.lower(): np.array([getattr(one, c.name.lower()) for one in measured]).reshape(-1, m)
@@ -221,7 +223,9 @@ def make_runs(
     options: dict[str, Any],
 ) -> Runs:
     """What System.isoconfigurational calls."""
-    times = as_array(instants, name="instants").reshape(-1)
+    times = as_array(instants, name="instants")
+    if times.ndim != 1:
+        raise ValueError(f"instants must have shape (m,), not {times.shape}")
     made = option_struct("jam_isoconf_options", options)
     chosen = None if monte_carlo is None else option_struct("jam_monte_carlo_options", monte_carlo)
     kept = as_array(np.array([int(k) for k in keep], np.int64), "int32_t", "keep")
@@ -252,6 +256,7 @@ _SCENE = ("seed", "model", "non_additivity", "masses", "container", "walls")
 
 def _origin(system: Any, options: dict[str, Any]) -> str:
     """A digest of the packing, its cell and walls, and of all options that runs depend on."""
+    system = system.copy()
     digest, info = hashlib.sha256(), system.info
     for array in (system.positions, system.diameters, system.cell):
         digest.update(np.ascontiguousarray(array).tobytes())

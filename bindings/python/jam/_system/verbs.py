@@ -11,9 +11,10 @@ from .. import raw
 from .._api.arrays import Array, as_rows
 from .._api.calls import freeze, new_report
 from .._api.documented import takes
-from .._api.generated import CrunchReport, DecompressReport, MdReport, RelaxReport, StatusCode, StopReason
+from .._api.generated import CrunchReport, DecompressReport, MdReport, MonteCarloReport, RelaxReport, StatusCode, StopReason
 from .._api.options import as_enum, option_struct, spelled_out
 from .._api.size_laws import density_of
+from ..errors import JamError
 from .observe import Observing, Step
 from .progress import end, reporter
 from .runs import Runs, make_runs
@@ -26,18 +27,22 @@ class Verbs(Observing):
         handle = self.handle
         chosen = None if options is None else option_struct(struct, dict(options))
         made = new_report(report)
-        with self._reporting(progress):
-            status = getattr(raw, name)(handle, chosen, made)
-            frozen = freeze(made, report)
-            self._note(status, frozen)
-        self.calls.append(
-            {
-                "verb": name.removeprefix("jam_"),
-                "options": {} if chosen is None else spelled_out(chosen, struct),
-                "status": self.status.name.lower(),
-                "stop_reason": getattr(getattr(frozen, "stop_reason", None), "name", "none").lower(),
-            }
-        )
+        call = {"verb": name.removeprefix("jam_"), "options": {} if chosen is None else spelled_out(chosen, struct)}
+        call.update(status="running", stop_reason="none")  # what a callable saves meanwhile says so
+        self.calls.append(call)
+        try:
+            with self._reporting(progress):
+                status = getattr(raw, name)(handle, chosen, made)
+                frozen = freeze(made, report)
+                self._note(status, frozen)
+        except JamError:  # nothing has moved
+            self.calls[:] = [c for c in self.calls if c is not call]
+            raise
+        except BaseException:  # of the callable, or Ctrl-C: it has stopped the call, whose last step stays
+            call.update(status="cancelled", stop_reason="cancelled")
+            raise
+        reason = getattr(getattr(frozen, "stop_reason", None), "name", "none")
+        call.update(status=StatusCode(status).name.lower(), stop_reason=reason.lower())
         return frozen
 
     @takes("jam_run_options")
@@ -128,6 +133,24 @@ class Verbs(Observing):
         if report is None:
             raise ValueError("stages is empty")
         return report
+
+    @takes("jam_monte_carlo_options")
+    def monte_carlo(self, *, progress: Any = None, **options: Any) -> MonteCarloReport:
+        """Metropolis Monte Carlo (J. Chem. Phys. 21, 1087 (1953)) of hard or, with alpha, soft spheres.
+
+        A step of 0 is tuned in a preliminary run and then frozen; ArgumentError when no step is accepted. After soft
+        spheres the system allows overlaps, as by 'allow'. Random numbers depend on seed, run, sweep and sphere alone.
+        Velocities are dropped. observed_spheres() gives the displacements. An early stop can be resumed, also from
+        write_checkpoint().
+
+        Returns
+        -------
+        MonteCarloReport
+        """
+        found: MonteCarloReport = self._verb(
+            "jam_monte_carlo", "jam_monte_carlo_options", "jam_monte_carlo_report", progress, options
+        )
+        return found
 
     @takes("jam_crunch_options")
     def crunch(
@@ -257,6 +280,4 @@ class Verbs(Observing):
 
     def log(self, callback: Callable[[int, str], Any] | None, level: int | str = "info") -> None:
         """Sends the library's log lines of up to this level to callback(level, line); None silences it."""
-        handle = self.handle
-        raw.set_log(handle, callback, as_enum(level, "LogLevel"))
-        handle._log = callback  # the C side holds a borrowed reference
+        raw.set_log(self.handle, callback, as_enum(level, "LogLevel"))

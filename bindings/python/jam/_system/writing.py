@@ -5,20 +5,19 @@ import html
 import os
 import tempfile
 from pathlib import Path
-from typing import Any, Callable, Mapping
+from typing import Any, Mapping
 
 import numpy as np
 
 from .. import raw
 from .._api.arrays import as_array
 from .._api.calls import finished
-from .._api.given import closed_axes, container_word, refuse_walls, walls_of
+from .._api.given import refuse_walls
 from .._api.options import as_enum
 from .._api.results import Modes
 from .._formats import gsd
-from .._formats.contents import Contents, MENDED
 from .._formats.replacing import require_ending
-from ..errors import StateError, StoreError
+from ..errors import JamError, StoreError
 from .network import Network
 from .passing_file import passing_file
 from .state import State
@@ -43,8 +42,9 @@ class Writing(State, Network):
         """
         name = os.fsdecode(path)
         if format == "auto" and name.endswith(".gsd"):
-            refuse_walls(self, "written as GSD")
-            return gsd.write(name, self.positions, self.diameters, self.cell)
+            still = self.copy()
+            refuse_walls(still, "written as GSD")
+            return gsd.write(name, still.positions, still.diameters, still.cell)
         finished(raw.jam_write(self.handle, name, as_enum(format, "Format")))
 
     def write_contacts(self, path: str | os.PathLike[str], format: int | str = "auto") -> None:
@@ -102,8 +102,8 @@ class Writing(State, Network):
                 raise ValueError(f"{name!r} is no name of values: it must be one line that is not empty or ends in []")
             if column.shape == (self.n, self.dim):
                 rows[name + "[]"] = column.T.reshape(-1)
-            elif column.size == self.n:
-                rows[name] = column.reshape(-1)
+            elif column.shape == (self.n,):
+                rows[name] = column
             else:
                 raise ValueError(f"{name} must have shape ({self.n},) or ({self.n}, {self.dim}), not {column.shape}")
         if modes is not None:
@@ -133,11 +133,15 @@ class Writing(State, Network):
         Stored are the state from which dynamics continue, report, contacts, forces, history, the calls made with their
         options, and where it was made. What was observed is not. Positions and box have the layout of H5MD.
         refined=True stores the centres of refined_positions() too. The name ends in .h5 or .hdf5.
+
+        A progress callable may save: the file holds the last step of the call that runs, as write_checkpoint does, without
+        results. Its last call then has the status "running". A second thread gets BusyError meanwhile.
         """
         require_ending(path, (".h5", ".hdf5"), "save writes HDF5; write() writes other formats")
         from .._formats.write_packing import image, write_file
 
-        write_file(path, image(self._contents(), refined=self.refined_positions() if refined else None))
+        state, still = self._checkpointed()
+        write_file(path, image(state, still, refined=still.refined_positions() if refined else None))
 
     def _state(self) -> bytes:
         """The bytes of a checkpoint, which holds all: velocities, shifts, results."""
@@ -145,33 +149,19 @@ class Writing(State, Network):
             self.write_checkpoint(str(file))
             return file.read_bytes()
 
-    def _contents(self) -> Contents:
-        """What files of packings hold; without results where there are none."""
+    def _checkpointed(self) -> tuple[bytes, Any]:
+        """The bytes of a checkpoint and the system that they make: one call of the library, so that no part is of another
+        moment. Raises what reading it raises, where nothing could read it back.
+        """
         try:
-            state = self._state()
+            pickled: Any = self.__reduce__()
+            make, (state, *more) = pickled
         except OSError as error:
-            what = f"the state cannot be written below {tempfile.gettempdir()}: {error}. {MENDED}"
+            what = f"the state cannot be written below {tempfile.gettempdir()}: {error}"
             raise StoreError(error.errno or 5, what) from error
-        contacts, info = _or_none(lambda: self.contacts), self.info
-        return Contents(
-            state=state,
-            calls=self.calls,
-            seed=self.seed,
-            positions=self.positions,
-            cell=self.cell,
-            diameters=self.diameters,
-            container=container_word(info),
-            walls=walls_of(info),
-            closed=closed_axes(info),
-            report=_or_none(lambda: self.report),
-            contacts=contacts,
-            history=_or_none(lambda: self.history),
-            coordination=None if contacts is None else self.coordination,
-        )
-
-
-def _or_none(ask: Callable[[], Any]) -> Any:
-    try:
-        return ask()
-    except StateError:
-        return None
+        try:
+            return state, make(state, *more)
+        except JamError as error:
+            if isinstance(error, MemoryError):
+                raise
+            raise type(error)(f"nothing would read this packing back: {error}. write() writes its spheres") from error

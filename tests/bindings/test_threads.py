@@ -1,0 +1,320 @@
+"""Several threads on one system, and callables that C holds: nothing crashes, every answer and file is of one moment."""
+import gc
+import inspect
+import itertools
+import sys
+import tempfile
+import threading
+import time
+import unittest
+import weakref
+from pathlib import Path
+
+import numpy as np
+
+import jam
+
+DISKS = [1.0] * 15 + [1.4] * 15
+
+
+def crunched():
+    disks = jam.System.random(n=30, dim=2, seed=1, diameters=DISKS)
+    disks.crunch()
+    return disks
+
+
+class Told:
+    def __call__(self, *_):
+        return False
+
+
+class Callables(unittest.TestCase):
+    def test_a_log_lives_as_long_as_c_holds_it_and_no_longer(self):
+        disks, told = crunched(), Told()
+        first = weakref.ref(told)
+        disks.log(told, "debug")
+        del told
+        gc.collect()
+        self.assertIsNotNone(first())
+        told = Told()
+        second = weakref.ref(told)
+        disks.log(told, "debug")
+        self.assertIsNone(first())
+        refused = []
+
+        def replace(_):  # the call that runs has the handle alone: C keeps the old one
+            try:
+                disks.log(Told())
+            except jam.errors.BusyError:
+                refused.append(True)
+
+        del told
+        disks.scale_diameters(0.9)
+        disks.crunch(progress=replace)
+        self.assertTrue(refused)
+        self.assertIsNotNone(second())
+        with self.assertRaises(jam.errors.ArgumentError):
+            disks.log(Told(), 99)
+        self.assertIsNotNone(second())
+        disks.log(None)
+        self.assertIsNone(second())
+
+    def test_a_second_system_of_a_busy_handle_leaves_the_first_its_progress(self):
+        disks, seen = crunched(), []
+
+        def again(p):
+            try:
+                jam.System(disks.handle)
+            except jam.errors.BusyError:
+                gc.collect()
+                seen.append(p.steps)
+
+        disks.scale_diameters(0.9)
+        disks.crunch(progress=again)
+        self.assertGreater(len(seen), 1)  # the later ones came by the callable of the first
+
+    def test_ctrl_c_between_two_lines_of_log_leaves_no_dangling_callable(self):
+        """A trace function raises at every line of System.log, as Ctrl-C may; then C logs to what it holds."""
+        disks = crunched()
+
+        def interrupt(at):
+            count = itertools.count()
+
+            def tracer(frame, event, _):
+                if frame.f_code is not jam.System.log.__code__:
+                    return tracer if event == "call" else None
+                if event == "line" and next(count) == at:
+                    raise KeyboardInterrupt
+                return tracer
+
+            return tracer
+
+        for at in range(4):
+            before = sys.gettrace()
+            sys.settrace(interrupt(at))
+            try:
+                disks.log(Told(), "debug")
+            except KeyboardInterrupt:
+                pass
+            finally:
+                sys.settrace(before)
+            gc.collect()
+            held = [Told() for _ in range(100)]  # would lie where a freed one lay
+            disks.scale_diameters(0.95)
+            disks.crunch()
+            del held
+
+
+class Files(unittest.TestCase):
+    def setUp(self):
+        holder = tempfile.TemporaryDirectory()
+        self.addCleanup(holder.cleanup)
+        self.folder = Path(holder.name)
+
+    def test_what_a_progress_callable_saves_is_the_last_step(self):
+        for verb, options in (
+            ("compress", {}),
+            ("crunch", {}),
+            ("monte_carlo", dict(sweeps=50000)),
+            ("run", dict(collisions_per_particle=1e5)),
+        ):
+            disks = jam.System.random(n=60, dim=2, seed=1, diameters=DISKS * 2)
+            start, saved = disks.positions.copy(), []
+
+            def progress(_):
+                if len(saved) < 3:
+                    file = self.folder / f"{verb}{len(saved)}.h5"
+                    disks.save(file)
+                    disks.write_checkpoint(str(file) + ".jam")
+                    saved.append(file)
+                return len(saved) == 3
+
+            getattr(disks, verb)(progress=progress, **options)
+            self.assertTrue(saved, verb)
+            for file in saved:
+                back, same = jam.load(file), jam.System.from_checkpoint(str(file) + ".jam")
+                np.testing.assert_array_equal(back.positions, same.positions)
+                np.testing.assert_array_equal(back.diameters, same.diameters)
+                np.testing.assert_array_equal(back.velocities, same.velocities)
+                self.assertEqual(back.calls[-1]["verb"], verb)
+                self.assertEqual((back.calls[-1]["status"], back.calls[-1]["stop_reason"]), ("running", "none"))
+            self.assertTrue((jam.load(saved[-1]).positions != start).any(), verb)
+            self.assertEqual(len(disks.calls), 1)
+            self.assertNotEqual(disks.calls[0]["status"], "running")
+
+    def test_calls_that_failed_or_were_interrupted_are_recorded_as_such(self):
+        disks = crunched()
+        with self.assertRaises(jam.errors.ArgumentError):
+            disks.compress(growth_rate=-1.0)
+        self.assertEqual([c["verb"] for c in disks.calls], ["crunch"])
+
+        def interrupt(_):
+            raise KeyboardInterrupt
+
+        disks.scale_diameters(0.9)
+        with self.assertRaises(KeyboardInterrupt):
+            disks.compress(progress=interrupt)
+        self.assertEqual([c["status"] for c in disks.calls], ["ok", "cancelled"])
+
+
+class Stress(unittest.TestCase):
+    """Every public name of a System, asked by some threads while another moves the spheres. What they get is an answer
+    of one moment or an error that says why not."""
+
+    ALLOWED = (jam.JamError, NotImplementedError, ImportError, ValueError)
+
+    def setUp(self):
+        holder = tempfile.TemporaryDirectory()
+        self.addCleanup(holder.cleanup)
+        self.folder = Path(holder.name)
+        before = sys.getswitchinterval()
+        self.addCleanup(sys.setswitchinterval, before)
+        sys.setswitchinterval(1e-5)
+
+    def calls(self, disks, mine):
+        """{name: a call with arguments}; what is not here is called without."""
+        n, dim = disks.n, disks.dim
+        file = lambda ending: self.folder / f"{mine}{ending}"
+        image = lambda s, **k: s.write_voxels(str(file(".raw")), **k)
+        return {
+            "add_note": lambda s: s.add_note("a note"),
+            "bloch_modes": lambda s: s.bloch_modes((0.5, 0.0)),
+            "bloch_rigidity": lambda s: s.bloch_rigidity((2, 1)),
+            "bond_order": lambda s: s.bond_order(6, 1.2),
+            "call": lambda s: s.call("coordination"),
+            "compare": lambda s: s.compare(s.copy()),
+            "compress": lambda s: s.compress(growth_rate=0.1, pressure=20.0),
+            "contact_candidates": lambda s: s.contact_candidates(0.1),
+            "crunch_history": lambda s: s.history,
+            "curvature": lambda s: s.curvature(np.ones((len(s.hessian_map()), dim))),
+            "decompress_history": lambda s: s.soft_history,
+            "distances": lambda s: s.distances(),
+            "floppy_mode": lambda s: s.floppy_mode(0),
+            "histogram": lambda s: s.histogram("force", "all", 0.0, 3.0, 10),
+            "image": lambda s: s.image(shape=(8, 8)),
+            "isoconfigurational": lambda s: s.isoconfigurational([0.5], runs=2),
+            "isoconf_displacements": lambda s: s.isoconf_displacements(0),
+            "isoconf_distances": lambda s: s.isoconf_distances(0),
+            "isoconf_kept": lambda s: s.isoconf_kept(0),
+            "isoconf_series": lambda s: s.isoconf_series(-1),
+            "log": lambda s: s.log(Told(), "debug"),
+            "local_values": lambda s: s.local_values("force", "all"),
+            "mk_shifts": lambda s: s.mk_shifts(np.zeros((1, 2), np.int32)),
+            "modes": lambda s: s.modes(3),
+            "monte_carlo": lambda s: s.monte_carlo(sweeps=5),
+            "near_coordination": lambda s: s.near_coordination(0.1),
+            "observe": lambda s: s.observe(collisions=True, gap_bins=5, r_bins=5),
+            "page": lambda s: s.page(file(".html")),
+            "pore_sizes": lambda s: s.pore_sizes(5, 1),
+            "project": lambda s: s.project(s.modes(2).vectors, np.ones((len(s.hessian_map()), dim))),
+            "run": lambda s: s.run(1.0),
+            "save": lambda s: (s.save(file(".h5")), jam.load(file(".h5"))),
+            "scale_diameters": lambda s: s.scale_diameters(0.999),
+            "set_memory_limit": lambda s: s.set_memory_limit(1e9),
+            "solid_profile": lambda s: s.solid_profile(0, 5),
+            "sphere_structure": lambda s: s.sphere_structure(False),
+            "strain": lambda s: s.strain(np.zeros((dim, dim))),
+            "structure_factor": lambda s: s.structure_factor(10.0),
+            "tile": lambda s: s.tile((2, 1)),
+            "contact_dots": lambda s: s.contact_dots(False),
+            "write": lambda s: s.write(file(".xyz")),
+            "write_checkpoint": lambda s: s.write_checkpoint(str(file(".jam"))),
+            "write_contacts": lambda s: s.write_contacts(file(".csv")),
+            "write_proof": lambda s: s.write_proof(str(file(".proof"))),
+            "write_proof_strict": lambda s: s.write_proof_strict(str(file(".proof"))),
+            "write_stl": lambda s: s.write_stl(str(file(".stl"))),
+            "write_voxels": lambda s: image(s, nx=8, ny=8),
+        }
+
+    # They end the system, make one, or stop what another thread does; observing() is a with block around observe
+    LEFT_OUT = {"close", "random", "from_arrays", "read", "from_checkpoint", "from_ase", "cancel", "observing"}
+
+    def test_every_public_name_from_several_threads(self):
+        disks = crunched()
+        names = [k for k in dir(jam.System) if not k.startswith("_") and k not in self.LEFT_OUT]
+        given = self.calls(disks, 0)
+        for name in names:  # a new method needs its arguments here
+            found = inspect.getattr_static(jam.System, name)
+            if callable(found) and name not in given:
+                needed = list(inspect.signature(found).parameters.values())[1:]
+                needed = [p.name for p in needed if p.default is p.empty and p.kind in (p.POSITIONAL_ONLY, p.POSITIONAL_OR_KEYWORD)]
+                self.assertEqual(needed, [], name)
+        end, wrong, answers = time.monotonic() + 12.0, [], dict.fromkeys(names, 0)
+
+        def check(name, answer):
+            if name == "contacts":
+                self.assertEqual({len(x) for x in (answer.pairs, answer.vectors, answer.gaps, answer.forces)}, {len(answer)})
+                np.testing.assert_allclose((answer.vectors**2).sum(1), 1.0, rtol=1e-12)
+                out = np.zeros((disks.n, disks.dim))  # forces of one crunch balance
+                for k, sign in ((0, 1.0), (1, -1.0)):
+                    np.add.at(out, answer.pairs[:, k], sign * answer.forces[:, None] * answer.vectors)
+                self.assertLess(abs(out).max(), 1e-6)
+            elif name == "forces":
+                self.assertFalse(np.isnan(answer).any())
+            elif name == "hessian":
+                self.assertLess(abs(answer - answer.T).max(), 1e-12)
+
+        def ask(k):
+            mine = self.calls(disks, k)
+            for name in itertools.islice(itertools.cycle(names), 17 * k, None):
+                if time.monotonic() > end or wrong:
+                    return
+                try:
+                    answer = mine[name](disks) if name in mine else getattr(disks, name)
+                    check(name, answer() if callable(answer) else answer)
+                    answers[name] += 1
+                except self.ALLOWED:
+                    pass
+                except BaseException as error:
+                    wrong.append(f"{name}: {type(error).__name__}: {error}")
+
+        def move():
+            while time.monotonic() < end and not wrong:
+                for verb in (lambda: disks.scale_diameters(0.98), disks.crunch):
+                    try:
+                        verb()
+                    except jam.JamError:
+                        pass
+                time.sleep(0.002)
+
+        threads = [threading.Thread(target=ask, args=(k,)) for k in range(3)] + [threading.Thread(target=move)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertEqual(wrong, [])
+        self.assertGreater(sum(answers.values()), 100)
+        disks.log(None)
+        disks.crunch()  # nobody is left inside
+        self.assertTrue(disks.report.jammed)
+
+    def test_files_and_pickles_beside_a_thread_that_moves_are_of_one_moment(self):
+        import pickle
+
+        disks = jam.System.random(n=200, dim=2, seed=1)
+        end, done = time.monotonic() + 4.0, 0
+
+        def move():
+            while time.monotonic() < end:
+                try:
+                    disks.run(0.2)
+                except jam.errors.BusyError:
+                    pass
+                time.sleep(0)
+
+        thread = threading.Thread(target=move)
+        thread.start()
+        while time.monotonic() < end:
+            try:
+                disks.save(self.folder / "a.h5")
+                other = pickle.loads(pickle.dumps(disks))
+            except jam.errors.BusyError:
+                continue
+            self.assertEqual(jam.load(self.folder / "a.h5").n, other.n)
+            done += 1
+        thread.join()
+        self.assertGreater(done, 0)
+
+
+if __name__ == "__main__":
+    unittest.main()

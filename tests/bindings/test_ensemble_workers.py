@@ -37,6 +37,49 @@ class Pool(unittest.TestCase):
         self.assertIsInstance(running.exception(), WorkerDied)
 
 
+class Imports(unittest.TestCase):
+    """A program runs in a folder that anybody may write to, with files there that have names of modules."""
+
+    def setUp(self):
+        holder = tempfile.TemporaryDirectory()
+        self.addCleanup(holder.cleanup)
+        self.home, self.current = Path(holder.name, "home"), Path(holder.name, "current")
+        self.home.mkdir(), self.current.mkdir()
+        for name in ("queue", "json", "numpy", "h5py", "tqdm", "signal"):
+            (self.current / f"{name}.py").write_text("open('RAN', 'w').close()")
+
+    def run_there(self, *words):
+        return subprocess.run(words, cwd=self.current, capture_output=True, text=True)
+
+    def test_workers_import_nothing_from_the_current_folder(self):
+        script = self.home / "script.py"
+        script.write_text(
+            "import jam, mine\n"
+            f"e = jam.ensemble.Ensemble('E', {SMALL!r})\n"
+            "print(e.run([1, 2], workers=1, progress=False))\n"
+            "with jam.ensemble.LocalPool(1) as pool: print(pool.submit(mine.double, 21).result())\n"
+        )
+        (self.home / "mine.py").write_text("def double(x): return 2 * x\n")
+        done = self.run_there(sys.executable, str(script))
+        self.assertEqual(done.stderr, "")
+        first, second = done.stdout.splitlines()
+        self.assertRegex(first, "^2 of 2 packings are there")
+        self.assertEqual(second, "42")  # of a module beside the script, as the caller imports it
+        self.assertFalse((self.current / "RAN").exists())
+
+    @unittest.skipUnless(os.environ.get("JAM_PACK"), "JAM_PACK is not set: the program jam-pack is not there")
+    def test_the_program_imports_nothing_from_the_current_folder(self):
+        done = self.run_there(os.environ["JAM_PACK"], "ensemble", "run", "E", "--n", "16", "--dim", "2", "--seeds", "1", "--quiet")
+        self.assertFalse((self.current / "RAN").exists())
+        if "needs python3" not in done.stderr:  # the first python3 may have no numpy
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+
+    def test_a_callable_that_no_worker_finds_is_an_error_of_its_call(self):
+        code = "import jam\ndef f(): pass\nwith jam.ensemble.LocalPool(1) as pool:\n print(pool.submit(f).exception(), pool.submit(abs, -1).result())"
+        done = self.run_there(sys.executable, "-c", "import sys; sys.path[:] = filter(None, sys.path)\n" + code)
+        self.assertRegex(done.stdout, "'f'.* 1$")
+
+
 class Command(unittest.TestCase):
     def run_jam(self, *arguments):
         command = [sys.executable, "-m", "jam", "ensemble", *arguments]

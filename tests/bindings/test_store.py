@@ -362,6 +362,22 @@ class Parts(unittest.TestCase):
         self.assertEqual(target.read_bytes(), b"last")
         self.assertEqual(set(self.folder.iterdir()), {target, *users})
 
+    def test_a_file_of_another_owner_keeps_him_and_lends_nobody_any_rights(self):
+        disks = jam.System.random(n=16, dim=2, seed=1)
+        for writer, name in ((disks.save, "a.h5"), (lambda path: jam.files.write_csv(disks, path), "a.csv")):
+            target = self.folder / name
+            for special in (0o7777, 0o4750, 0o2775, 0o1700):
+                target.write_text("old")
+                if os.geteuid() == 0:
+                    os.chown(target, 65534, 65534)
+                target.chmod(special)
+                before = target.stat()
+                writer(target)
+                after = target.stat()
+                self.assertEqual(after.st_mode & 0o7777, special & 0o777, name)
+                self.assertEqual((after.st_uid, after.st_gid), (before.st_uid, before.st_gid))
+                self.assertNotEqual(after.st_ino, before.st_ino)
+
     def test_an_error_leaves_the_old_file_and_its_permissions_stay(self):
         target = self.folder / "a"
         target.write_text("old")

@@ -25,6 +25,7 @@ def half_bonds(system: System) -> tuple[Array, Array]:
 
     Returns ends (2 contacts, 2, d) and, for each, the index of its contact.
     """
+    system = system.copy()  # of one moment
     c, x, s = system.contacts, system.positions, system.diameters
     wall = c.pairs[:, 1] < 0  # as if the sphere touched its mirror image, cut at the wall
     i, j = c.pairs[:, 0], np.where(wall, c.pairs[:, 0], c.pairs[:, 1])
@@ -64,6 +65,7 @@ def _axes(d: int) -> list[str]:
 
 def write_csv(system: System, path: str | os.PathLike[str]) -> None:
     """One line per sphere: coordinates, diameter and, after crunch, contacts."""
+    system = system.copy()  # of one moment
     columns, names = [system.positions, system.diameters[:, None]], _axes(system.dim) + ["diameter"]
     if _kinds(system) is not None:
         columns, names = columns + [system.coordination[:, None]], names + ["contacts"]
@@ -100,6 +102,7 @@ def write_structure_csv(system: System, path: str | os.PathLike[str]) -> None:
 
 def write_gsd(system: System, path: str | os.PathLike[str]) -> None:
     """Writes one frame: float32 for every reader of GSD, and the doubles in chunks log/jam, which `read_gsd` prefers."""
+    system = system.copy()  # of one moment
     refuse_walls(system, "written as GSD")
     gsd.write(path, system.positions, system.diameters, system.cell)
 

@@ -16,6 +16,8 @@ import stat
 import uuid
 from typing import IO, Any, Iterator
 
+#: What to do after an error in writing
+MENDED = "Nothing that was finished is lost: correct this and run again"
 _OPEN = re.compile(r"/dev/(stdin|stdout|stderr|fd/\d+)|/proc/(self|thread-self|\d+)/fd/\d+")
 _PART = re.compile(r"\.jam-[0-9a-f]{16}-[0-9a-f]{32}\.part")
 
@@ -88,6 +90,21 @@ def remove_abandoned(folder: str | os.PathLike[str], begin: str = "") -> None:
                 os.close(descriptor)
 
 
+def _take_permissions(descriptor: int, old: os.stat_result) -> None:
+    """What may be done with the old file may be done with the new one, by the same people: its owner and group, where this
+    process may give a file away (root does, as if it had written into the file), and its mode. Where the group stays
+    another, that group gets nothing. Bits that lend the owner's rights to whoever runs a file are never taken.
+    """
+    mode = old.st_mode & 0o777
+    for owner, group in ((old.st_uid, old.st_gid), (-1, old.st_gid)):
+        with contextlib.suppress(OSError):
+            os.fchown(descriptor, owner, group)
+            break
+    if os.fstat(descriptor).st_gid != old.st_gid:
+        mode &= ~0o070
+    os.fchmod(descriptor, mode)
+
+
 @contextlib.contextmanager
 def replacing(
     path: str | os.PathLike[str], mode: str = "wb", parts: str | os.PathLike[str] | None = None
@@ -111,8 +128,8 @@ def replacing(
     try:
         opened: Any = open(beside, mode, encoding=None if "b" in mode else "ascii", opener=lambda *_: descriptor)
         with opened as file:
-            if os.path.exists(target):  # the new file keeps the old one's permissions
-                os.fchmod(descriptor, stat.S_IMODE(os.stat(target).st_mode))
+            if os.path.exists(target):
+                _take_permissions(descriptor, os.stat(target))
             yield file
             file.flush()
             os.fsync(descriptor)

@@ -38,13 +38,11 @@ from ..errors import StateError, StoreError
 from .explain import explain, report_text, report_type
 from .provenance import provenance
 from .records import pack
-from .replacing import replacing
+from .replacing import MENDED, replacing
 from .seal import seal
 
 SCHEMA = 1
 CONTACTS = ("pairs", "vectors", "gaps", "forces")
-#: What to do after an error in writing
-MENDED = "Nothing that was finished is lost: correct this and run again"
 
 
 def _text(value: str) -> Any:

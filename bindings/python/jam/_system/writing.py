@@ -16,7 +16,7 @@ from .._api.given import refuse_walls
 from .._api.options import as_enum
 from .._api.results import Modes
 from .._formats import gsd
-from .._formats.replacing import require_ending
+from .._formats.replacing import MENDED, require_ending
 from ..errors import JamError, StoreError
 from .network import Network
 from .passing_file import passing_file
@@ -157,7 +157,7 @@ class Writing(State, Network):
             pickled: Any = self.__reduce__()
             make, (state, *more) = pickled
         except OSError as error:
-            what = f"the state cannot be written below {tempfile.gettempdir()}: {error}"
+            what = f"the state cannot be written below {tempfile.gettempdir()}: {error}. {MENDED}"
             raise StoreError(error.errno or 5, what) from error
         try:
             return state, make(state, *more)

@@ -4,6 +4,10 @@ The pool of the standard library cannot be used after one of its workers was kil
 worker ran. Here each worker is a process of its own behind a pair of pipes: a killed worker fails one call, and the
 next call gets a new worker. A worker ends when its pipe closes, so none outlives a killed campaign. Workers import
 jam and not the user's script, which therefore needs no `if __name__ == "__main__"`.
+
+The folder that a program is called in may belong to anybody, and a file there may have the name of a module: workers import
+nothing from it. A callable of another package than jam brings the folders along that the caller imports from; they come
+behind all others, so that they hide nothing.
 """
 from __future__ import annotations
 
@@ -17,6 +21,9 @@ import threading
 from concurrent.futures import Executor, Future
 from pathlib import Path
 from typing import Any, Callable
+
+
+_OWN_PATH = "import sys; sys.path[:] = filter(None, sys.path)"  # "" stands for the current folder
 
 
 class WorkerDied(RuntimeError):
@@ -54,7 +61,8 @@ class LocalPool(Executor):
         with self._lock:
             if self._closed:
                 raise RuntimeError("the pool is shut down")
-            self._work.put((future, pickle.dumps((fn, args, kwargs))))
+            call = pickle.dumps((_folders_for(fn), pickle.dumps((fn, args, kwargs))))
+            self._work.put((future, pickle.dumps(call)))
         return future
 
     def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:
@@ -84,7 +92,7 @@ class LocalPool(Executor):
         paths = [home] + [p for p in os.environ.get("PYTHONPATH", "").split(os.pathsep) if p and p != home]
         environment = dict(os.environ, PYTHONPATH=os.pathsep.join(paths), OPENBLAS_NUM_THREADS="1")
         process = subprocess.Popen(
-            [sys.executable, "-c", "from jam.ensemble.pool import main; main()"],
+            [sys.executable, "-c", f"{_OWN_PATH}; from jam.ensemble.pool import main; main()"],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             env=environment,
@@ -128,6 +136,19 @@ class LocalPool(Executor):
             _end(process)
 
 
+def _folders_for(fn: Callable[..., Any]) -> list[str]:
+    """Where a worker may search for the module of a callable, beside its own path."""
+    package = str(getattr(fn, "__module__", None)).partition(".")[0]
+    return [] if package in ("jam", "builtins") else [os.path.abspath(p) for p in sys.path]
+
+
+def _run(call: bytes) -> Any:
+    folders, inner = pickle.loads(call)
+    sys.path += [p for p in folders if p not in sys.path]
+    fn, args, kwargs = pickle.loads(inner)
+    return fn(*args, **kwargs)
+
+
 def _end(process: subprocess.Popen[bytes]) -> int:
     """Closes the pipes, waits for the worker and returns its exit status."""
     assert process.stdin and process.stdout  # both are pipes
@@ -146,11 +167,11 @@ def main() -> None:
     os.dup2(2, 1)  # what a library prints must not get between the answers
     while True:
         try:
-            fn, args, kwargs = pickle.load(calls)
+            call = pickle.load(calls)
         except EOFError:
             return
         try:
-            answer: tuple[Any, ...] = (True, fn(*args, **kwargs))
+            answer: tuple[Any, ...] = (True, _run(call))
         except Exception as error:
             answer = (False, error)
         try:

@@ -11,7 +11,7 @@
 
 #include "core/math.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
@@ -245,4 +245,4 @@ double cut_volume_in_cylinder(double radius, const std::vector<HalfSpace> &cuts,
   return adaptive(-0.5 * math::pi, 0.5 * math::pi, error, CutTuning::halvings, slice);
 }
 
-}  // namespace jam
+}  // namespace jam::inside

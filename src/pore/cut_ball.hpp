@@ -4,7 +4,7 @@
 
 #include "pore/balls.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // The points x with normal . x <= offset; |normal| = 1. x counts from the centre of the ball. In d = 2 normal[2] is 0.
 struct HalfSpace {
@@ -24,4 +24,4 @@ double cut_volume_in_ball(int dim, double radius, const std::vector<HalfSpace> &
 // The same in d = 3 within a cylinder about a line through `axis.x` along z, by quadrature: CutTuning::error.
 double cut_volume_in_cylinder(double radius, const std::vector<HalfSpace> &cuts, const Ball &axis);
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -6,7 +6,7 @@
 
 #include "core/pairs.hpp"
 
-namespace jam {
+namespace jam::inside {
 namespace {
 
 double radius_of(const Packing &p, int32_t i) { return 0.5 * p.diameter[static_cast<size_t>(i)]; }
@@ -91,4 +91,4 @@ double Solid::volume(size_t i, const HalfSpace &more) const {
 
 double Solid::volume_within(size_t i, double radius) const { return in_round(i, radius, cuts(i)); }
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -8,7 +8,7 @@
 #include "core/pairs.hpp"
 #include "pore/cut_ball.hpp"
 
-namespace jam {
+namespace jam::inside {
 
 // Pairs of spheres that share volume, by their radii: in a non-additive mixture contacts may do so. Overlaps below
 // SolidTuning::overlap, those of hard spheres by rounding, do not count.
@@ -39,4 +39,4 @@ class Solid {
   std::vector<HalfSpace> none_;
 };
 
-}  // namespace jam
+}  // namespace jam::inside

@@ -16,5 +16,6 @@ string(SUBSTRING "${html}" 0 ${place} head)
 math(EXPR place "${place} + 6")
 string(SUBSTRING "${html}" ${place} -1 tail)
 # Raw strings of at most 64 KiB each are what every compiler takes.
-file(WRITE ${OUT} "#include \"io/page.hpp\"\nnamespace jam::inside {\nconst char *const page_head = R\"JAM(${head})JAM\";\n"
+file(WRITE ${OUT} "#include \"io/page.hpp\"\nnamespace jam::inside {\n"
+                  "const char *const page_head = R\"JAM(${head})JAM\";\n"
                   "const char *const page_tail = R\"JAM(${tail})JAM\";\n}  // namespace jam::inside\n")

@@ -61,7 +61,7 @@ static inline jam_status made(jam_status status, jam_system **system) {
 /* A cancel that no call has taken would stop a later one. */
 static inline jam_status cancelled(jam_system *sys) {
   const jam_status status = jam_cancel(sys);
-  if (sys) jam_structure_factor(sys, 1.0, NULL, 0, &needed);
+  if (sys) jam_structure_factor(sys, 1.0, JAM_STRUCTURE_COLUMNS, NULL, 0, &needed);
   return status;
 }
 

@@ -38,14 +38,14 @@ static inline jam_status create_walled(const walled *s, int64_t n, double fracti
 static inline double of_wall(const jam_system *sys, int w, int column) {
   double table[(2 * JAM_MAX_DIM + 1) * (JAM_WALL_STRESS + 1)];
   size_t needed = 0;
-  assert_int_equal(jam_walls(sys, table, sizeof table / sizeof *table, &needed), JAM_OK);
+  assert_int_equal(jam_walls(sys, JAM_WALL_COLUMNS, table, sizeof table / sizeof *table, &needed), JAM_OK);
   assert_true((size_t)w * (JAM_WALL_STRESS + 1) < needed);
   return table[w * (JAM_WALL_STRESS + 1) + column];
 }
 
 static inline int count_walls(const jam_system *sys) {
   size_t needed = 0;
-  assert_int_equal(jam_walls(sys, NULL, 0, &needed), JAM_OK);
+  assert_int_equal(jam_walls(sys, JAM_WALL_COLUMNS, NULL, 0, &needed), JAM_OK);
   return (int)needed / (JAM_WALL_STRESS + 1);
 }
 

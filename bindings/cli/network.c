@@ -31,11 +31,11 @@ static int write_spectrum(jam_system *sys, int64_t count, const char *path) {
   jam_modes_options_init(&o, sizeof o);
   if (count == 0) o.which = JAM_MODES_ALL;
   o.count = count < 0 ? 100 : count;
-  status = jam_modes(sys, NULL, &o, NULL, 0, NULL, 0, &m);
+  status = jam_modes(sys, NULL, &o, JAM_MODE_COLUMNS, NULL, 0, NULL, 0, &m);
   if (status >= 0 && status != JAM_CANCELLED) {
     mode = malloc((2 * m + 1) * sizeof *mode);
     if (!mode) jam_set_error("out of memory");
-    status = mode ? jam_modes(sys, NULL, &o, mode, 2 * m, NULL, 0, NULL) : JAM_E_MEMORY;
+    status = mode ? jam_modes(sys, NULL, &o, JAM_MODE_COLUMNS, mode, 2 * m, NULL, 0, NULL) : JAM_E_MEMORY;
   }
   if (status >= 0 && status != JAM_CANCELLED) status = jam_pack_modes(mode, 2 * m, &text);
   if (status >= 0 && text && count > 0 && (int64_t)m < count)

@@ -69,7 +69,7 @@ static int write_profile(const jam_system *sys, const options *o) {
     fputs("axis,low,high,solid\n", out.file);
     for (axis = 0; axis <= last && !bad; ++axis) {
       const char lead[] = {axis == info.dim ? 'r' : (char)('x' + axis), ',', '\0'};
-      bad = has_failed(jam_solid_profile(sys, axis, (int32_t)o->profile_bins, table, len, NULL));
+      bad = has_failed(jam_solid_profile(sys, axis, (int32_t)o->profile_bins, JAM_PROFILE_COLUMNS, table, len, NULL));
       if (!bad) print_rows(out.file, lead, table, len, COLUMNS);
     }
     bad |= close_output(&out);
@@ -86,7 +86,7 @@ static int write_pores(jam_system *sys, const options *o) {
   jam_status status;
   int bad = -1;
   if (!table) return -1;
-  status = jam_pore_sizes(sys, o->pore_points, o->pore_seed, table, len, NULL);
+  status = jam_pore_sizes(sys, o->pore_points, o->pore_seed, JAM_PORE_COLUMNS, table, len, NULL);
   if (status == JAM_CANCELLED) {
     complain("%s is not written: Ctrl-C or --wall-time came before it was computed", o->pores);
     note_omitted(o->pores);

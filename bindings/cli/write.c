@@ -80,7 +80,7 @@ int write_all(jam_system *sys, const options *o, double deadline, outcome *resul
   result->info.struct_size = sizeof result->info;
   jam_get_info(sys, &result->info);
   result->notes = jam_notes(sys);
-  jam_walls(sys, &result->walls[0][0], sizeof result->walls / sizeof(double), &result->wall_numbers);
+  jam_walls(sys, JAM_WALL_COLUMNS, &result->walls[0][0], sizeof result->walls / sizeof(double), &result->wall_numbers);
   bad = write_files(sys, o, knows_contacts(o, result), deadline, &result->cut_short);
   if (bad)
     result->code = failure_code();

@@ -10,6 +10,21 @@ module jam
   implicit none
   integer(c_int32_t), parameter :: JAM_ABI = 1
   integer(c_int32_t), parameter :: JAM_MAX_DIM = 8
+  integer(c_int32_t), parameter :: JAM_WALL_COLUMNS = 6
+  integer(c_int32_t), parameter :: JAM_SERIES_COLUMNS = 6
+  integer(c_int32_t), parameter :: JAM_GAP_COLUMNS = 4
+  integer(c_int32_t), parameter :: JAM_CORRELATION_COLUMNS = 2
+  integer(c_int32_t), parameter :: JAM_ISOCONF_COLUMNS = 14
+  integer(c_int32_t), parameter :: JAM_HISTORY_COLUMNS = 20
+  integer(c_int32_t), parameter :: JAM_SOFT_COLUMNS = 11
+  integer(c_int32_t), parameter :: JAM_MODE_COLUMNS = 2
+  integer(c_int32_t), parameter :: JAM_CANDIDATE_COLUMNS = 4
+  integer(c_int32_t), parameter :: JAM_BLOCH_COLUMNS = 2
+  integer(c_int32_t), parameter :: JAM_STRUCTURE_COLUMNS = 2
+  integer(c_int32_t), parameter :: JAM_PROFILE_COLUMNS = 3
+  integer(c_int32_t), parameter :: JAM_PORE_COLUMNS = 5
+  integer(c_int32_t), parameter :: JAM_FLOPPY_COLUMNS = 6
+  integer(c_int32_t), parameter :: JAM_DOS_COLUMNS = 6
 
   ! jam_status_code: All status codes; values are ABI and never reused.
   integer(c_int32_t), parameter :: JAM_OK = 0
@@ -2195,10 +2210,11 @@ module jam
       integer(c_size_t), value :: velocities_len
       integer(c_int32_t) :: status
     end function c_jam_set_velocities
-    function c_jam_walls(sys, table, table_len, needed) &
+    function c_jam_walls(sys, columns, table, table_len, needed) &
         bind(c, name="jam_walls") result(status)
       import
       type(c_ptr), value :: sys
+      integer(c_int32_t), value :: columns
       type(c_ptr), value :: table
       integer(c_size_t), value :: table_len
       integer(c_size_t), intent(out), optional :: needed
@@ -2343,10 +2359,11 @@ module jam
       type(c_ptr), intent(out) :: out
       integer(c_int32_t) :: status
     end function c_jam_read_checkpoint
-    function c_jam_observed_series(sys, table, table_len, needed) &
+    function c_jam_observed_series(sys, columns, table, table_len, needed) &
         bind(c, name="jam_observed_series") result(status)
       import
       type(c_ptr), value :: sys
+      integer(c_int32_t), value :: columns
       type(c_ptr), value :: table
       integer(c_size_t), value :: table_len
       integer(c_size_t), intent(out), optional :: needed
@@ -2378,19 +2395,21 @@ module jam
       integer(c_size_t), intent(out), optional :: rows
       integer(c_int32_t) :: status
     end function c_jam_observed_pairs
-    function c_jam_observed_gaps(sys, table, table_len, needed) &
+    function c_jam_observed_gaps(sys, columns, table, table_len, needed) &
         bind(c, name="jam_observed_gaps") result(status)
       import
       type(c_ptr), value :: sys
+      integer(c_int32_t), value :: columns
       type(c_ptr), value :: table
       integer(c_size_t), value :: table_len
       integer(c_size_t), intent(out), optional :: needed
       integer(c_int32_t) :: status
     end function c_jam_observed_gaps
-    function c_jam_observed_correlation(sys, table, table_len, needed) &
+    function c_jam_observed_correlation(sys, columns, table, table_len, needed) &
         bind(c, name="jam_observed_correlation") result(status)
       import
       type(c_ptr), value :: sys
+      integer(c_int32_t), value :: columns
       type(c_ptr), value :: table
       integer(c_size_t), value :: table_len
       integer(c_size_t), intent(out), optional :: needed
@@ -2419,11 +2438,12 @@ module jam
       type(jam_isoconf_report), intent(inout), optional :: report
       integer(c_int32_t) :: status
     end function c_jam_isoconfigurational
-    function c_jam_isoconf_series(sys, block, table, table_len, needed) &
+    function c_jam_isoconf_series(sys, block, columns, table, table_len, needed) &
         bind(c, name="jam_isoconf_series") result(status)
       import
       type(c_ptr), value :: sys
       integer(c_int64_t), value :: block
+      integer(c_int32_t), value :: columns
       type(c_ptr), value :: table
       integer(c_size_t), value :: table_len
       integer(c_size_t), intent(out), optional :: needed
@@ -2463,10 +2483,11 @@ module jam
       integer(c_size_t), intent(out), optional :: needed
       integer(c_int32_t) :: status
     end function c_jam_isoconf_kept
-    function c_jam_crunch_history(sys, table, table_len, needed) &
+    function c_jam_crunch_history(sys, columns, table, table_len, needed) &
         bind(c, name="jam_crunch_history") result(status)
       import
       type(c_ptr), value :: sys
+      integer(c_int32_t), value :: columns
       type(c_ptr), value :: table
       integer(c_size_t), value :: table_len
       integer(c_size_t), intent(out), optional :: needed
@@ -2508,10 +2529,11 @@ module jam
       integer(c_size_t), intent(out), optional :: needed
       integer(c_int32_t) :: status
     end function c_jam_crunch_step_duals
-    function c_jam_decompress_history(sys, table, table_len, needed) &
+    function c_jam_decompress_history(sys, columns, table, table_len, needed) &
         bind(c, name="jam_decompress_history") result(status)
       import
       type(c_ptr), value :: sys
+      integer(c_int32_t), value :: columns
       type(c_ptr), value :: table
       integer(c_size_t), value :: table_len
       integer(c_size_t), intent(out), optional :: needed
@@ -2585,12 +2607,13 @@ module jam
       integer(c_size_t), intent(out), optional :: rows
       integer(c_int32_t) :: status
     end function c_jam_hessian
-    function c_jam_modes(sys, h, o, table, table_len, vector, vector_len, rows) &
+    function c_jam_modes(sys, h, o, columns, table, table_len, vector, vector_len, rows) &
         bind(c, name="jam_modes") result(status)
       import
       type(c_ptr), value :: sys
       type(jam_hessian_options), intent(in), optional :: h
       type(jam_modes_options), intent(in), optional :: o
+      integer(c_int32_t), value :: columns
       type(c_ptr), value :: table
       integer(c_size_t), value :: table_len
       type(c_ptr), value :: vector
@@ -2598,13 +2621,14 @@ module jam
       integer(c_size_t), intent(out), optional :: rows
       integer(c_int32_t) :: status
     end function c_jam_modes
-    function c_jam_bloch_modes(sys, h, wave, wave_len, table, table_len, vector, vector_len, rows) &
+    function c_jam_bloch_modes(sys, h, wave, wave_len, columns, table, table_len, vector, vector_len, rows) &
         bind(c, name="jam_bloch_modes") result(status)
       import
       type(c_ptr), value :: sys
       type(jam_hessian_options), intent(in), optional :: h
       type(c_ptr), value :: wave
       integer(c_size_t), value :: wave_len
+      integer(c_int32_t), value :: columns
       type(c_ptr), value :: table
       integer(c_size_t), value :: table_len
       type(c_ptr), value :: vector
@@ -2612,11 +2636,12 @@ module jam
       integer(c_size_t), intent(out), optional :: rows
       integer(c_int32_t) :: status
     end function c_jam_bloch_modes
-    function c_jam_contact_candidates(sys, window, table, table_len, needed) &
+    function c_jam_contact_candidates(sys, window, columns, table, table_len, needed) &
         bind(c, name="jam_contact_candidates") result(status)
       import
       type(c_ptr), value :: sys
       real(c_double), value :: window
+      integer(c_int32_t), value :: columns
       type(c_ptr), value :: table
       integer(c_size_t), value :: table_len
       integer(c_size_t), intent(out), optional :: needed
@@ -2646,7 +2671,7 @@ module jam
       integer(c_size_t), intent(out), optional :: needed
       integer(c_int32_t) :: status
     end function c_jam_flex
-    function c_jam_bloch_rigidity(sys, count, count_len, wave, wave_len, table, table_len, rows) &
+    function c_jam_bloch_rigidity(sys, count, count_len, wave, wave_len, columns, table, table_len, rows) &
         bind(c, name="jam_bloch_rigidity") result(status)
       import
       type(c_ptr), value :: sys
@@ -2654,6 +2679,7 @@ module jam
       integer(c_size_t), value :: count_len
       type(c_ptr), value :: wave
       integer(c_size_t), value :: wave_len
+      integer(c_int32_t), value :: columns
       type(c_ptr), value :: table
       integer(c_size_t), value :: table_len
       integer(c_size_t), intent(out), optional :: rows
@@ -2800,11 +2826,12 @@ module jam
       integer(c_size_t), intent(out), optional :: needed
       integer(c_int32_t) :: status
     end function c_jam_mk_shifts
-    function c_jam_structure_factor(sys, q_max, table, table_len, needed) &
+    function c_jam_structure_factor(sys, q_max, columns, table, table_len, needed) &
         bind(c, name="jam_structure_factor") result(status)
       import
       type(c_ptr), value :: sys
       real(c_double), value :: q_max
+      integer(c_int32_t), value :: columns
       type(c_ptr), value :: table
       integer(c_size_t), value :: table_len
       integer(c_size_t), intent(out), optional :: needed
@@ -2859,12 +2886,13 @@ module jam
       type(jam_voxel_report), intent(inout), optional :: report
       integer(c_int32_t) :: status
     end function c_jam_write_voxels
-    function c_jam_solid_profile(sys, axis, bins, table, table_len, needed) &
+    function c_jam_solid_profile(sys, axis, bins, columns, table, table_len, needed) &
         bind(c, name="jam_solid_profile") result(status)
       import
       type(c_ptr), value :: sys
       integer(c_int32_t), value :: axis
       integer(c_int32_t), value :: bins
+      integer(c_int32_t), value :: columns
       type(c_ptr), value :: table
       integer(c_size_t), value :: table_len
       integer(c_size_t), intent(out), optional :: needed
@@ -2880,12 +2908,13 @@ module jam
       integer(c_size_t), intent(out), optional :: needed
       integer(c_int32_t) :: status
     end function c_jam_near_coordination
-    function c_jam_pore_sizes(sys, points, seed, table, table_len, needed) &
+    function c_jam_pore_sizes(sys, points, seed, columns, table, table_len, needed) &
         bind(c, name="jam_pore_sizes") result(status)
       import
       type(c_ptr), value :: sys
       integer(c_int64_t), value :: points
       integer(c_int64_t), value :: seed
+      integer(c_int32_t), value :: columns
       type(c_ptr), value :: table
       integer(c_size_t), value :: table_len
       integer(c_size_t), intent(out), optional :: needed
@@ -2901,21 +2930,23 @@ module jam
       integer(c_size_t), intent(out), optional :: needed
       integer(c_int32_t) :: status
     end function c_jam_floppy_mode
-    function c_jam_floppy_modes(sys, table, table_len, needed) &
+    function c_jam_floppy_modes(sys, columns, table, table_len, needed) &
         bind(c, name="jam_floppy_modes") result(status)
       import
       type(c_ptr), value :: sys
+      integer(c_int32_t), value :: columns
       type(c_ptr), value :: table
       integer(c_size_t), value :: table_len
       integer(c_size_t), intent(out), optional :: needed
       integer(c_int32_t) :: status
     end function c_jam_floppy_modes
-    function c_jam_density_of_states(sys, h, o, table, table_len, needed) &
+    function c_jam_density_of_states(sys, h, o, columns, table, table_len, needed) &
         bind(c, name="jam_density_of_states") result(status)
       import
       type(c_ptr), value :: sys
       type(jam_hessian_options), intent(in), optional :: h
       type(jam_dos_options), intent(in), optional :: o
+      integer(c_int32_t), value :: columns
       type(c_ptr), value :: table
       integer(c_size_t), value :: table_len
       integer(c_size_t), intent(out), optional :: needed
@@ -3487,8 +3518,9 @@ contains
 
   ! One row per wall: flat ones axis by axis, then the round one.
   ! Shapes: table (m, jam_wall_column).
-  function jam_walls(sys, table, table_len, needed) result(status)
+  function jam_walls(sys, columns, table, table_len, needed) result(status)
     type(c_ptr), intent(in) :: sys
+    integer(c_int32_t), intent(in) :: columns
     real(c_double), intent(inout), target, contiguous, optional :: table(..)
     integer(c_size_t), intent(in), optional :: table_len
     integer(c_size_t), intent(out), optional :: needed
@@ -3503,10 +3535,10 @@ contains
     end if
     if (present(table_len)) count_table = table_len
     if (present(table)) then
-      status = checked('table', shape(table, kind=c_size_t), 6_c_size_t, count_table)
+      status = checked('table', shape(table, kind=c_size_t), int(columns, c_size_t), count_table)
       if (status /= JAM_OK) return
     end if
-    status = c_jam_walls(sys, at_table, count_table, needed)
+    status = c_jam_walls(sys, columns, at_table, count_table, needed)
   end function jam_walls
 
   ! Cell vectors in normal form.
@@ -3966,8 +3998,9 @@ contains
   ! Series of samples.
   ! Shapes: table (samples, jam_series_column).
   ! Errors: JAM_E_STATE (nothing observed).
-  function jam_observed_series(sys, table, table_len, needed) result(status)
+  function jam_observed_series(sys, columns, table, table_len, needed) result(status)
     type(c_ptr), intent(in) :: sys
+    integer(c_int32_t), intent(in) :: columns
     real(c_double), intent(inout), target, contiguous, optional :: table(..)
     integer(c_size_t), intent(in), optional :: table_len
     integer(c_size_t), intent(out), optional :: needed
@@ -3982,10 +4015,10 @@ contains
     end if
     if (present(table_len)) count_table = table_len
     if (present(table)) then
-      status = checked('table', shape(table, kind=c_size_t), 6_c_size_t, count_table)
+      status = checked('table', shape(table, kind=c_size_t), int(columns, c_size_t), count_table)
       if (status /= JAM_OK) return
     end if
-    status = c_jam_observed_series(sys, at_table, count_table, needed)
+    status = c_jam_observed_series(sys, columns, at_table, count_table, needed)
   end function jam_observed_series
 
   function f_jam_observed_spheres(sys, collisions, displacement, rows) result(status)
@@ -4169,8 +4202,9 @@ contains
   ! g(sigma), which is (p - 1) / (4 phi) for equal spheres in d = 3.
   ! Shapes: table (bins, jam_gap_column).
   ! Errors: JAM_E_STATE.
-  function jam_observed_gaps(sys, table, table_len, needed) result(status)
+  function jam_observed_gaps(sys, columns, table, table_len, needed) result(status)
     type(c_ptr), intent(in) :: sys
+    integer(c_int32_t), intent(in) :: columns
     real(c_double), intent(inout), target, contiguous, optional :: table(..)
     integer(c_size_t), intent(in), optional :: table_len
     integer(c_size_t), intent(out), optional :: needed
@@ -4185,17 +4219,18 @@ contains
     end if
     if (present(table_len)) count_table = table_len
     if (present(table)) then
-      status = checked('table', shape(table, kind=c_size_t), 4_c_size_t, count_table)
+      status = checked('table', shape(table, kind=c_size_t), int(columns, c_size_t), count_table)
       if (status /= JAM_OK) return
     end if
-    status = c_jam_observed_gaps(sys, at_table, count_table, needed)
+    status = c_jam_observed_gaps(sys, columns, at_table, count_table, needed)
   end function jam_observed_gaps
 
   ! g(r), pairs over N (N - 1) / 2, sampled likewise.
   ! Shapes: table (bins, jam_correlation_column).
   ! Errors: JAM_E_STATE.
-  function jam_observed_correlation(sys, table, table_len, needed) result(status)
+  function jam_observed_correlation(sys, columns, table, table_len, needed) result(status)
     type(c_ptr), intent(in) :: sys
+    integer(c_int32_t), intent(in) :: columns
     real(c_double), intent(inout), target, contiguous, optional :: table(..)
     integer(c_size_t), intent(in), optional :: table_len
     integer(c_size_t), intent(out), optional :: needed
@@ -4210,10 +4245,10 @@ contains
     end if
     if (present(table_len)) count_table = table_len
     if (present(table)) then
-      status = checked('table', shape(table, kind=c_size_t), 2_c_size_t, count_table)
+      status = checked('table', shape(table, kind=c_size_t), int(columns, c_size_t), count_table)
       if (status /= JAM_OK) return
     end if
-    status = c_jam_observed_correlation(sys, at_table, count_table, needed)
+    status = c_jam_observed_correlation(sys, columns, at_table, count_table, needed)
   end function jam_observed_correlation
 
   function f_jam_glass_fit(fraction, pressure, fit) result(status)
@@ -4361,9 +4396,10 @@ contains
   ! Sums over the runs of one block, or of all for block = -1.
   ! Shapes: table (instants, jam_isoconf_column).
   ! Errors: JAM_E_STATE.
-  function jam_isoconf_series(sys, block, table, table_len, needed) result(status)
+  function jam_isoconf_series(sys, block, columns, table, table_len, needed) result(status)
     type(c_ptr), intent(in) :: sys
     integer(c_int64_t), intent(in) :: block
+    integer(c_int32_t), intent(in) :: columns
     real(c_double), intent(inout), target, contiguous, optional :: table(..)
     integer(c_size_t), intent(in), optional :: table_len
     integer(c_size_t), intent(out), optional :: needed
@@ -4378,10 +4414,10 @@ contains
     end if
     if (present(table_len)) count_table = table_len
     if (present(table)) then
-      status = checked('table', shape(table, kind=c_size_t), 14_c_size_t, count_table)
+      status = checked('table', shape(table, kind=c_size_t), int(columns, c_size_t), count_table)
       if (status /= JAM_OK) return
     end if
-    status = c_jam_isoconf_series(sys, block, at_table, count_table, needed)
+    status = c_jam_isoconf_series(sys, block, columns, at_table, count_table, needed)
   end function jam_isoconf_series
 
   function f_jam_isoconf_displacements(sys, block, displacement, square, rows) result(status)
@@ -4567,8 +4603,9 @@ contains
   ! Steps of the last crunch.
   ! Shapes: table (steps, jam_history_column).
   ! Errors: JAM_E_STATE.
-  function jam_crunch_history(sys, table, table_len, needed) result(status)
+  function jam_crunch_history(sys, columns, table, table_len, needed) result(status)
     type(c_ptr), intent(in) :: sys
+    integer(c_int32_t), intent(in) :: columns
     real(c_double), intent(inout), target, contiguous, optional :: table(..)
     integer(c_size_t), intent(in), optional :: table_len
     integer(c_size_t), intent(out), optional :: needed
@@ -4583,10 +4620,10 @@ contains
     end if
     if (present(table_len)) count_table = table_len
     if (present(table)) then
-      status = checked('table', shape(table, kind=c_size_t), 20_c_size_t, count_table)
+      status = checked('table', shape(table, kind=c_size_t), int(columns, c_size_t), count_table)
       if (status /= JAM_OK) return
     end if
-    status = c_jam_crunch_history(sys, at_table, count_table, needed)
+    status = c_jam_crunch_history(sys, columns, at_table, count_table, needed)
   end function jam_crunch_history
 
   ! Displacements of all spheres in the step that has just ended, unit of box, images followed. Their sum over the steps
@@ -4699,8 +4736,9 @@ contains
   ! Minima of the last decompression.
   ! Shapes: table (minima, jam_soft_column).
   ! Errors: JAM_E_STATE.
-  function jam_decompress_history(sys, table, table_len, needed) result(status)
+  function jam_decompress_history(sys, columns, table, table_len, needed) result(status)
     type(c_ptr), intent(in) :: sys
+    integer(c_int32_t), intent(in) :: columns
     real(c_double), intent(inout), target, contiguous, optional :: table(..)
     integer(c_size_t), intent(in), optional :: table_len
     integer(c_size_t), intent(out), optional :: needed
@@ -4715,10 +4753,10 @@ contains
     end if
     if (present(table_len)) count_table = table_len
     if (present(table)) then
-      status = checked('table', shape(table, kind=c_size_t), 11_c_size_t, count_table)
+      status = checked('table', shape(table, kind=c_size_t), int(columns, c_size_t), count_table)
       if (status /= JAM_OK) return
     end if
-    status = c_jam_decompress_history(sys, at_table, count_table, needed)
+    status = c_jam_decompress_history(sys, columns, at_table, count_table, needed)
   end function jam_decompress_history
 
   ! Contact pairs, i < j save for walls (j = -1 - w) and images of one sphere (i = j). Hard spheres have images only
@@ -4979,10 +5017,11 @@ contains
       count_value, rows)
   end function l_jam_hessian
 
-  function f_jam_modes(sys, h, o, table, vector, rows) result(status)
+  function f_jam_modes(sys, h, o, columns, table, vector, rows) result(status)
     type(c_ptr), intent(in) :: sys
     type(jam_hessian_options), intent(in), optional :: h
     type(jam_modes_options), intent(in), optional :: o
+    integer(c_int32_t), intent(in) :: columns
     real(c_double), intent(inout), target, contiguous, optional :: table(..)
     real(c_double), intent(inout), target, contiguous, optional :: vector(..)
     integer(c_size_t), intent(out), optional :: rows
@@ -5000,7 +5039,7 @@ contains
       count_table = size(table, kind=c_size_t)
     end if
     if (present(table)) then
-      status = checked('table', shape(table, kind=c_size_t), 2_c_size_t, count_table)
+      status = checked('table', shape(table, kind=c_size_t), int(columns, c_size_t), count_table)
       if (status /= JAM_OK) return
     end if
     at_vector = c_null_ptr
@@ -5013,13 +5052,14 @@ contains
       status = checked('vector', shape(vector, kind=c_size_t), d_of_c, count_vector)
       if (status /= JAM_OK) return
     end if
-    status = c_jam_modes(sys, h, o, at_table, count_table, at_vector, count_vector, rows)
+    status = c_jam_modes(sys, h, o, columns, at_table, count_table, at_vector, count_vector, rows)
   end function f_jam_modes
 
-  function l_jam_modes(sys, h, o, table, table_len, vector, vector_len, rows) result(status)
+  function l_jam_modes(sys, h, o, columns, table, table_len, vector, vector_len, rows) result(status)
     type(c_ptr), intent(in) :: sys
     type(jam_hessian_options), intent(in), optional :: h
     type(jam_modes_options), intent(in), optional :: o
+    integer(c_int32_t), intent(in) :: columns
     real(c_double), intent(inout), target, contiguous, optional :: table(..)
     integer(c_size_t), intent(in) :: table_len
     real(c_double), intent(inout), target, contiguous, optional :: vector(..)
@@ -5040,7 +5080,7 @@ contains
     end if
     count_table = table_len
     if (present(table)) then
-      status = checked('table', shape(table, kind=c_size_t), 2_c_size_t, count_table)
+      status = checked('table', shape(table, kind=c_size_t), int(columns, c_size_t), count_table)
       if (status /= JAM_OK) return
     end if
     at_vector = c_null_ptr
@@ -5054,13 +5094,14 @@ contains
       status = checked('vector', shape(vector, kind=c_size_t), d_of_c, count_vector)
       if (status /= JAM_OK) return
     end if
-    status = c_jam_modes(sys, h, o, at_table, count_table, at_vector, count_vector, rows)
+    status = c_jam_modes(sys, h, o, columns, at_table, count_table, at_vector, count_vector, rows)
   end function l_jam_modes
 
-  function f_jam_bloch_modes(sys, h, wave, table, vector, rows) result(status)
+  function f_jam_bloch_modes(sys, h, wave, columns, table, vector, rows) result(status)
     type(c_ptr), intent(in) :: sys
     type(jam_hessian_options), intent(in), optional :: h
     real(c_double), intent(in), target, contiguous, optional :: wave(..)
+    integer(c_int32_t), intent(in) :: columns
     real(c_double), intent(inout), target, contiguous, optional :: table(..)
     real(c_double), intent(inout), target, contiguous, optional :: vector(..)
     integer(c_size_t), intent(out), optional :: rows
@@ -5088,7 +5129,7 @@ contains
       count_table = size(table, kind=c_size_t)
     end if
     if (present(table)) then
-      status = checked('table', shape(table, kind=c_size_t), 2_c_size_t, count_table)
+      status = checked('table', shape(table, kind=c_size_t), int(columns, c_size_t), count_table)
       if (status /= JAM_OK) return
     end if
     at_vector = c_null_ptr
@@ -5101,15 +5142,16 @@ contains
       status = checked('vector', shape(vector, kind=c_size_t), 2_c_size_t, count_vector)
       if (status /= JAM_OK) return
     end if
-    status = c_jam_bloch_modes(sys, h, at_wave, count_wave, at_table, count_table, at_vector, count_vector, &
-      rows)
+    status = c_jam_bloch_modes(sys, h, at_wave, count_wave, columns, at_table, count_table, at_vector, &
+      count_vector, rows)
   end function f_jam_bloch_modes
 
-  function l_jam_bloch_modes(sys, h, wave, wave_len, table, table_len, vector, vector_len, rows) result(status)
+  function l_jam_bloch_modes(sys, h, wave, wave_len, columns, table, table_len, vector, vector_len, rows) result(status)
     type(c_ptr), intent(in) :: sys
     type(jam_hessian_options), intent(in), optional :: h
     real(c_double), intent(in), target, contiguous, optional :: wave(..)
     integer(c_size_t), intent(in) :: wave_len
+    integer(c_int32_t), intent(in) :: columns
     real(c_double), intent(inout), target, contiguous, optional :: table(..)
     integer(c_size_t), intent(in) :: table_len
     real(c_double), intent(inout), target, contiguous, optional :: vector(..)
@@ -5141,7 +5183,7 @@ contains
     end if
     count_table = table_len
     if (present(table)) then
-      status = checked('table', shape(table, kind=c_size_t), 2_c_size_t, count_table)
+      status = checked('table', shape(table, kind=c_size_t), int(columns, c_size_t), count_table)
       if (status /= JAM_OK) return
     end if
     at_vector = c_null_ptr
@@ -5155,17 +5197,18 @@ contains
       status = checked('vector', shape(vector, kind=c_size_t), 2_c_size_t, count_vector)
       if (status /= JAM_OK) return
     end if
-    status = c_jam_bloch_modes(sys, h, at_wave, count_wave, at_table, count_table, at_vector, count_vector, &
-      rows)
+    status = c_jam_bloch_modes(sys, h, at_wave, count_wave, columns, at_table, count_table, at_vector, &
+      count_vector, rows)
   end function l_jam_bloch_modes
 
   ! Candidates for the contact tolerance, for packings where no jump is clear; m is at most 12. A candidate is a jump of
   ! the sorted gaps below window, as in jam_geometry_options, with enough contacts for a rigid network below it. The
   ! largest jump comes first.
   ! Shapes: table (m, jam_candidate_column).
-  function jam_contact_candidates(sys, window, table, table_len, needed) result(status)
+  function jam_contact_candidates(sys, window, columns, table, table_len, needed) result(status)
     type(c_ptr), intent(in) :: sys
     real(c_double), intent(in) :: window
+    integer(c_int32_t), intent(in) :: columns
     real(c_double), intent(inout), target, contiguous, optional :: table(..)
     integer(c_size_t), intent(in), optional :: table_len
     integer(c_size_t), intent(out), optional :: needed
@@ -5180,10 +5223,10 @@ contains
     end if
     if (present(table_len)) count_table = table_len
     if (present(table)) then
-      status = checked('table', shape(table, kind=c_size_t), 4_c_size_t, count_table)
+      status = checked('table', shape(table, kind=c_size_t), int(columns, c_size_t), count_table)
       if (status /= JAM_OK) return
     end if
-    status = c_jam_contact_candidates(sys, window, at_table, count_table, needed)
+    status = c_jam_contact_candidates(sys, window, columns, at_table, count_table, needed)
   end function jam_contact_candidates
 
   function f_jam_stress_states(sys, force, basis, residual, rows) result(status)
@@ -5334,10 +5377,11 @@ contains
     status = c_jam_flex(sys, kind, at_out, count_out, at_strain, count_strain, needed)
   end function l_jam_flex
 
-  function f_jam_bloch_rigidity(sys, count, wave, table, rows) result(status)
+  function f_jam_bloch_rigidity(sys, count, wave, columns, table, rows) result(status)
     type(c_ptr), intent(in) :: sys
     integer(c_int32_t), intent(in), target, contiguous, optional :: count(..)
     real(c_double), intent(inout), target, contiguous, optional :: wave(..)
+    integer(c_int32_t), intent(in) :: columns
     real(c_double), intent(inout), target, contiguous, optional :: table(..)
     integer(c_size_t), intent(out), optional :: rows
     integer(c_int32_t) :: status
@@ -5376,18 +5420,20 @@ contains
       count_table = size(table, kind=c_size_t)
     end if
     if (present(table)) then
-      status = checked('table', shape(table, kind=c_size_t), 2_c_size_t, count_table)
+      status = checked('table', shape(table, kind=c_size_t), int(columns, c_size_t), count_table)
       if (status /= JAM_OK) return
     end if
-    status = c_jam_bloch_rigidity(sys, at_count, count_count, at_wave, count_wave, at_table, count_table, rows)
+    status = c_jam_bloch_rigidity(sys, at_count, count_count, at_wave, count_wave, columns, at_table, &
+      count_table, rows)
   end function f_jam_bloch_rigidity
 
-  function l_jam_bloch_rigidity(sys, count, count_len, wave, wave_len, table, table_len, rows) result(status)
+  function l_jam_bloch_rigidity(sys, count, count_len, wave, wave_len, columns, table, table_len, rows) result(status)
     type(c_ptr), intent(in) :: sys
     integer(c_int32_t), intent(in), target, contiguous, optional :: count(..)
     integer(c_size_t), intent(in) :: count_len
     real(c_double), intent(inout), target, contiguous, optional :: wave(..)
     integer(c_size_t), intent(in) :: wave_len
+    integer(c_int32_t), intent(in) :: columns
     real(c_double), intent(inout), target, contiguous, optional :: table(..)
     integer(c_size_t), intent(in) :: table_len
     integer(c_size_t), intent(out), optional :: rows
@@ -5430,10 +5476,11 @@ contains
     end if
     count_table = table_len
     if (present(table)) then
-      status = checked('table', shape(table, kind=c_size_t), 2_c_size_t, count_table)
+      status = checked('table', shape(table, kind=c_size_t), int(columns, c_size_t), count_table)
       if (status /= JAM_OK) return
     end if
-    status = c_jam_bloch_rigidity(sys, at_count, count_count, at_wave, count_wave, at_table, count_table, rows)
+    status = c_jam_bloch_rigidity(sys, at_count, count_count, at_wave, count_wave, columns, at_table, &
+      count_table, rows)
   end function l_jam_bloch_rigidity
 
   ! Proves, despite rounding, that the packing is jammed. Contacts and forces are those of the network. Newton's
@@ -6086,9 +6133,10 @@ contains
   ! within 5e-13 of |q| are one.
   ! Shapes: table (m, jam_structure_column).
   ! Errors: JAM_E_UNSUPPORTED (no such axis).
-  function jam_structure_factor(sys, q_max, table, table_len, needed) result(status)
+  function jam_structure_factor(sys, q_max, columns, table, table_len, needed) result(status)
     type(c_ptr), intent(in) :: sys
     real(c_double), intent(in) :: q_max
+    integer(c_int32_t), intent(in) :: columns
     real(c_double), intent(inout), target, contiguous, optional :: table(..)
     integer(c_size_t), intent(in), optional :: table_len
     integer(c_size_t), intent(out), optional :: needed
@@ -6103,10 +6151,10 @@ contains
     end if
     if (present(table_len)) count_table = table_len
     if (present(table)) then
-      status = checked('table', shape(table, kind=c_size_t), 2_c_size_t, count_table)
+      status = checked('table', shape(table, kind=c_size_t), int(columns, c_size_t), count_table)
       if (status /= JAM_OK) return
     end if
-    status = c_jam_structure_factor(sys, q_max, at_table, count_table, needed)
+    status = c_jam_structure_factor(sys, q_max, columns, at_table, count_table, needed)
   end function jam_structure_factor
 
   ! Bond order Q_l of each sphere (d = 2: |psi_l|) over neighbours with |r| < cutoff sigma_ij; l in 1..64, cutoff in (0,
@@ -6217,10 +6265,11 @@ contains
   ! shells of a ball or a cylinder (there to 1e-12).
   ! Shapes: table (bins, jam_profile_column).
   ! Errors: JAM_E_UNSUPPORTED.
-  function jam_solid_profile(sys, axis, bins, table, table_len, needed) result(status)
+  function jam_solid_profile(sys, axis, bins, columns, table, table_len, needed) result(status)
     type(c_ptr), intent(in) :: sys
     integer(c_int32_t), intent(in) :: axis
     integer(c_int32_t), intent(in) :: bins
+    integer(c_int32_t), intent(in) :: columns
     real(c_double), intent(inout), target, contiguous, optional :: table(..)
     integer(c_size_t), intent(in), optional :: table_len
     integer(c_size_t), intent(out), optional :: needed
@@ -6235,10 +6284,10 @@ contains
     end if
     if (present(table_len)) count_table = table_len
     if (present(table)) then
-      status = checked('table', shape(table, kind=c_size_t), 3_c_size_t, count_table)
+      status = checked('table', shape(table, kind=c_size_t), int(columns, c_size_t), count_table)
       if (status /= JAM_OK) return
     end if
-    status = c_jam_solid_profile(sys, axis, bins, at_table, count_table, needed)
+    status = c_jam_solid_profile(sys, axis, bins, columns, at_table, count_table, needed)
   end function jam_solid_profile
 
   ! Spheres with a gap h < h_max <= 1 to each one, every image; walls do not count. Needs no crunch.
@@ -6270,10 +6319,11 @@ contains
   ! number of neighbours of a point: use it above packing fractions of about 0.4.
   ! Shapes: table (points, jam_pore_column).
   ! Errors: JAM_E_UNSUPPORTED.
-  function jam_pore_sizes(sys, points, seed, table, table_len, needed) result(status)
+  function jam_pore_sizes(sys, points, seed, columns, table, table_len, needed) result(status)
     type(c_ptr), intent(in) :: sys
     integer(c_int64_t), intent(in) :: points
     integer(c_int64_t), intent(in) :: seed
+    integer(c_int32_t), intent(in) :: columns
     real(c_double), intent(inout), target, contiguous, optional :: table(..)
     integer(c_size_t), intent(in), optional :: table_len
     integer(c_size_t), intent(out), optional :: needed
@@ -6288,10 +6338,10 @@ contains
     end if
     if (present(table_len)) count_table = table_len
     if (present(table)) then
-      status = checked('table', shape(table, kind=c_size_t), 5_c_size_t, count_table)
+      status = checked('table', shape(table, kind=c_size_t), int(columns, c_size_t), count_table)
       if (status /= JAM_OK) return
     end if
-    status = c_jam_pore_sizes(sys, points, seed, at_table, count_table, needed)
+    status = c_jam_pore_sizes(sys, points, seed, columns, at_table, count_table, needed)
   end function jam_pore_sizes
 
   ! Floppy mode: displacement over s when a contact opens by s. To first order all other contacts stay closed, all
@@ -6327,8 +6377,9 @@ contains
   ! The floppy mode of every contact, measured.
   ! Shapes: table (n_c, jam_floppy_column).
   ! Errors: JAM_E_STATE, JAM_E_SOLVER.
-  function jam_floppy_modes(sys, table, table_len, needed) result(status)
+  function jam_floppy_modes(sys, columns, table, table_len, needed) result(status)
     type(c_ptr), intent(in) :: sys
+    integer(c_int32_t), intent(in) :: columns
     real(c_double), intent(inout), target, contiguous, optional :: table(..)
     integer(c_size_t), intent(in), optional :: table_len
     integer(c_size_t), intent(out), optional :: needed
@@ -6343,10 +6394,10 @@ contains
     end if
     if (present(table_len)) count_table = table_len
     if (present(table)) then
-      status = checked('table', shape(table, kind=c_size_t), 6_c_size_t, count_table)
+      status = checked('table', shape(table, kind=c_size_t), int(columns, c_size_t), count_table)
       if (status /= JAM_OK) return
     end if
-    status = c_jam_floppy_modes(sys, at_table, count_table, needed)
+    status = c_jam_floppy_modes(sys, columns, at_table, count_table, needed)
   end function jam_floppy_modes
 
   ! Density of states D(omega) and its integral by the kernel polynomial method: no modes are computed, translations are
@@ -6354,10 +6405,11 @@ contains
   ! near 0.
   ! Shapes: table (points, jam_dos_column).
   ! Errors: JAM_E_STATE, JAM_E_SOLVER, JAM_E_TOO_FEW.
-  function jam_density_of_states(sys, h, o, table, table_len, needed) result(status)
+  function jam_density_of_states(sys, h, o, columns, table, table_len, needed) result(status)
     type(c_ptr), intent(in) :: sys
     type(jam_hessian_options), intent(in), optional :: h
     type(jam_dos_options), intent(in), optional :: o
+    integer(c_int32_t), intent(in) :: columns
     real(c_double), intent(inout), target, contiguous, optional :: table(..)
     integer(c_size_t), intent(in), optional :: table_len
     integer(c_size_t), intent(out), optional :: needed
@@ -6372,10 +6424,10 @@ contains
     end if
     if (present(table_len)) count_table = table_len
     if (present(table)) then
-      status = checked('table', shape(table, kind=c_size_t), 6_c_size_t, count_table)
+      status = checked('table', shape(table, kind=c_size_t), int(columns, c_size_t), count_table)
       if (status /= JAM_OK) return
     end if
-    status = c_jam_density_of_states(sys, h, o, at_table, count_table, needed)
+    status = c_jam_density_of_states(sys, h, o, columns, at_table, count_table, needed)
   end function jam_density_of_states
 
   function f_jam_project(sys, vector, u, out, needed) result(status)

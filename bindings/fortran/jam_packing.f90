@@ -173,11 +173,11 @@ contains
     integer(c_size_t) :: given, d_of, n_of
     allocate (found(0, 0))
     call self%extents(d_of, n_of)
-    status = jam_walls(self%sys, needed=given)
+    status = jam_walls(self%sys, columns=JAM_WALL_COLUMNS, needed=given)
     if (status >= 0) then
       deallocate (found)
       allocate (found(6_c_size_t, given/6))
-      status = jam_walls(self%sys, table=found)
+      status = jam_walls(self%sys, columns=JAM_WALL_COLUMNS, table=found)
     end if
     call self%done(status)
   end function do_walls
@@ -375,11 +375,11 @@ contains
     integer(c_size_t) :: given, d_of, n_of
     allocate (found(0, 0))
     call self%extents(d_of, n_of)
-    status = jam_observed_series(self%sys, needed=given)
+    status = jam_observed_series(self%sys, columns=JAM_SERIES_COLUMNS, needed=given)
     if (status >= 0) then
       deallocate (found)
       allocate (found(6_c_size_t, given/6))
-      status = jam_observed_series(self%sys, table=found)
+      status = jam_observed_series(self%sys, columns=JAM_SERIES_COLUMNS, table=found)
     end if
     call self%done(status)
   end function do_observed_series
@@ -463,11 +463,11 @@ contains
     integer(c_size_t) :: given, d_of, n_of
     allocate (found(0, 0))
     call self%extents(d_of, n_of)
-    status = jam_observed_gaps(self%sys, needed=given)
+    status = jam_observed_gaps(self%sys, columns=JAM_GAP_COLUMNS, needed=given)
     if (status >= 0) then
       deallocate (found)
       allocate (found(4_c_size_t, given/4))
-      status = jam_observed_gaps(self%sys, table=found)
+      status = jam_observed_gaps(self%sys, columns=JAM_GAP_COLUMNS, table=found)
     end if
     call self%done(status)
   end function do_observed_gaps
@@ -482,11 +482,11 @@ contains
     integer(c_size_t) :: given, d_of, n_of
     allocate (found(0, 0))
     call self%extents(d_of, n_of)
-    status = jam_observed_correlation(self%sys, needed=given)
+    status = jam_observed_correlation(self%sys, columns=JAM_CORRELATION_COLUMNS, needed=given)
     if (status >= 0) then
       deallocate (found)
       allocate (found(2_c_size_t, given/2))
-      status = jam_observed_correlation(self%sys, table=found)
+      status = jam_observed_correlation(self%sys, columns=JAM_CORRELATION_COLUMNS, table=found)
     end if
     call self%done(status)
   end function do_observed_correlation
@@ -547,11 +547,11 @@ contains
     integer(c_size_t) :: given, d_of, n_of
     allocate (found(0, 0))
     call self%extents(d_of, n_of)
-    status = jam_isoconf_series(self%sys, block=int(block, c_int64_t), needed=given)
+    status = jam_isoconf_series(self%sys, block=int(block, c_int64_t), columns=JAM_ISOCONF_COLUMNS, needed=given)
     if (status >= 0) then
       deallocate (found)
       allocate (found(14_c_size_t, given/14))
-      status = jam_isoconf_series(self%sys, block=int(block, c_int64_t), table=found)
+      status = jam_isoconf_series(self%sys, block=int(block, c_int64_t), columns=JAM_ISOCONF_COLUMNS, table=found)
     end if
     call self%done(status)
   end function do_isoconf_series
@@ -684,11 +684,11 @@ contains
     integer(c_size_t) :: given, d_of, n_of
     allocate (found(0, 0))
     call self%extents(d_of, n_of)
-    status = jam_crunch_history(self%sys, needed=given)
+    status = jam_crunch_history(self%sys, columns=JAM_HISTORY_COLUMNS, needed=given)
     if (status >= 0) then
       deallocate (found)
       allocate (found(20_c_size_t, given/20))
-      status = jam_crunch_history(self%sys, table=found)
+      status = jam_crunch_history(self%sys, columns=JAM_HISTORY_COLUMNS, table=found)
     end if
     call self%done(status)
   end function do_crunch_history
@@ -816,11 +816,11 @@ contains
     integer(c_size_t) :: given, d_of, n_of
     allocate (found(0, 0))
     call self%extents(d_of, n_of)
-    status = jam_decompress_history(self%sys, needed=given)
+    status = jam_decompress_history(self%sys, columns=JAM_SOFT_COLUMNS, needed=given)
     if (status >= 0) then
       deallocate (found)
       allocate (found(11_c_size_t, given/11))
-      status = jam_decompress_history(self%sys, table=found)
+      status = jam_decompress_history(self%sys, columns=JAM_SOFT_COLUMNS, table=found)
     end if
     call self%done(status)
   end function do_decompress_history
@@ -1006,13 +1006,14 @@ contains
     allocate (made_table(0, 0))
     allocate (made_vector(0, 0, 0))
     call self%extents(d_of, n_of, stable=stable_of)
-    status = jam_modes(self%sys, h=h, o=o, rows=given)
+    status = jam_modes(self%sys, h=h, o=o, columns=JAM_MODE_COLUMNS, rows=given)
     if (status >= 0) then
       deallocate (made_table)
       allocate (made_table(2_c_size_t, given))
       deallocate (made_vector)
       allocate (made_vector(d_of, stable_of, given))
-      status = jam_modes(self%sys, h=h, o=o, table=made_table, vector=made_vector)
+      status = jam_modes(self%sys, h=h, o=o, columns=JAM_MODE_COLUMNS, table=made_table, &
+        vector=made_vector)
     end if
     if (present(table)) call move_alloc(made_table, table)
     if (present(vector)) call move_alloc(made_vector, vector)
@@ -1038,13 +1039,14 @@ contains
     allocate (made_table(0, 0))
     allocate (made_vector(0, 0, 0, 0))
     call self%extents(d_of, n_of, stable=stable_of)
-    status = jam_bloch_modes(self%sys, h=h, wave=wave, rows=given)
+    status = jam_bloch_modes(self%sys, h=h, wave=wave, columns=JAM_MODE_COLUMNS, rows=given)
     if (status >= 0) then
       deallocate (made_table)
       allocate (made_table(2_c_size_t, given))
       deallocate (made_vector)
       allocate (made_vector(2_c_size_t, d_of, stable_of, given))
-      status = jam_bloch_modes(self%sys, h=h, wave=wave, table=made_table, vector=made_vector)
+      status = jam_bloch_modes(self%sys, h=h, wave=wave, columns=JAM_MODE_COLUMNS, table=made_table, &
+        vector=made_vector)
     end if
     if (present(table)) call move_alloc(made_table, table)
     if (present(vector)) call move_alloc(made_vector, vector)
@@ -1081,11 +1083,11 @@ contains
     integer(c_size_t) :: given, d_of, n_of
     allocate (found(0, 0))
     call self%extents(d_of, n_of)
-    status = jam_contact_candidates(self%sys, window=window, needed=given)
+    status = jam_contact_candidates(self%sys, window=window, columns=JAM_CANDIDATE_COLUMNS, needed=given)
     if (status >= 0) then
       deallocate (found)
       allocate (found(4_c_size_t, given/4))
-      status = jam_contact_candidates(self%sys, window=window, table=found)
+      status = jam_contact_candidates(self%sys, window=window, columns=JAM_CANDIDATE_COLUMNS, table=found)
     end if
     call self%done(status)
   end function do_contact_candidates
@@ -1189,13 +1191,14 @@ contains
     allocate (made_wave(0, 0))
     allocate (made_table(0, 0))
     call self%extents(d_of, n_of)
-    status = jam_bloch_rigidity(self%sys, count=count, rows=given)
+    status = jam_bloch_rigidity(self%sys, count=count, columns=JAM_BLOCH_COLUMNS, rows=given)
     if (status >= 0) then
       deallocate (made_wave)
       allocate (made_wave(d_of, given))
       deallocate (made_table)
       allocate (made_table(2_c_size_t, given))
-      status = jam_bloch_rigidity(self%sys, count=count, wave=made_wave, table=made_table)
+      status = jam_bloch_rigidity(self%sys, count=count, columns=JAM_BLOCH_COLUMNS, wave=made_wave, &
+        table=made_table)
     end if
     if (present(wave)) call move_alloc(made_wave, wave)
     if (present(table)) call move_alloc(made_table, table)
@@ -1538,11 +1541,11 @@ contains
     integer(c_size_t) :: given, d_of, n_of
     allocate (found(0, 0))
     call self%extents(d_of, n_of)
-    status = jam_structure_factor(self%sys, q_max=q_max, needed=given)
+    status = jam_structure_factor(self%sys, q_max=q_max, columns=JAM_STRUCTURE_COLUMNS, needed=given)
     if (status >= 0) then
       deallocate (found)
       allocate (found(2_c_size_t, given/2))
-      status = jam_structure_factor(self%sys, q_max=q_max, table=found)
+      status = jam_structure_factor(self%sys, q_max=q_max, columns=JAM_STRUCTURE_COLUMNS, table=found)
     end if
     call self%done(status)
   end function do_structure_factor
@@ -1662,11 +1665,13 @@ contains
     integer(c_size_t) :: given, d_of, n_of
     allocate (found(0, 0))
     call self%extents(d_of, n_of)
-    status = jam_solid_profile(self%sys, axis=int(axis, c_int32_t), bins=int(bins, c_int32_t), needed=given)
+    status = jam_solid_profile(self%sys, axis=int(axis, c_int32_t), bins=int(bins, c_int32_t), &
+      columns=JAM_PROFILE_COLUMNS, needed=given)
     if (status >= 0) then
       deallocate (found)
       allocate (found(3_c_size_t, given/3))
-      status = jam_solid_profile(self%sys, axis=int(axis, c_int32_t), bins=int(bins, c_int32_t), table=found)
+      status = jam_solid_profile(self%sys, axis=int(axis, c_int32_t), bins=int(bins, c_int32_t), &
+        columns=JAM_PROFILE_COLUMNS, table=found)
     end if
     call self%done(status)
   end function do_solid_profile
@@ -1703,11 +1708,13 @@ contains
     integer(c_size_t) :: given, d_of, n_of
     allocate (found(0, 0))
     call self%extents(d_of, n_of)
-    status = jam_pore_sizes(self%sys, points=int(points, c_int64_t), seed=int(seed, c_int64_t), needed=given)
+    status = jam_pore_sizes(self%sys, points=int(points, c_int64_t), seed=int(seed, c_int64_t), &
+      columns=JAM_PORE_COLUMNS, needed=given)
     if (status >= 0) then
       deallocate (found)
       allocate (found(5_c_size_t, given/5))
-      status = jam_pore_sizes(self%sys, points=int(points, c_int64_t), seed=int(seed, c_int64_t), table=found)
+      status = jam_pore_sizes(self%sys, points=int(points, c_int64_t), seed=int(seed, c_int64_t), &
+        columns=JAM_PORE_COLUMNS, table=found)
     end if
     call self%done(status)
   end function do_pore_sizes
@@ -1744,11 +1751,11 @@ contains
     integer(c_size_t) :: given, d_of, n_of
     allocate (found(0, 0))
     call self%extents(d_of, n_of)
-    status = jam_floppy_modes(self%sys, needed=given)
+    status = jam_floppy_modes(self%sys, columns=JAM_FLOPPY_COLUMNS, needed=given)
     if (status >= 0) then
       deallocate (found)
       allocate (found(6_c_size_t, given/6))
-      status = jam_floppy_modes(self%sys, table=found)
+      status = jam_floppy_modes(self%sys, columns=JAM_FLOPPY_COLUMNS, table=found)
     end if
     call self%done(status)
   end function do_floppy_modes
@@ -1767,11 +1774,11 @@ contains
     integer(c_size_t) :: given, d_of, n_of
     allocate (found(0, 0))
     call self%extents(d_of, n_of)
-    status = jam_density_of_states(self%sys, h=h, o=o, needed=given)
+    status = jam_density_of_states(self%sys, h=h, o=o, columns=JAM_DOS_COLUMNS, needed=given)
     if (status >= 0) then
       deallocate (found)
       allocate (found(6_c_size_t, given/6))
-      status = jam_density_of_states(self%sys, h=h, o=o, table=found)
+      status = jam_density_of_states(self%sys, h=h, o=o, columns=JAM_DOS_COLUMNS, table=found)
     end if
     call self%done(status)
   end function do_density_of_states

@@ -84,6 +84,17 @@ def check(api):
         for a, extents in f.shapes.items():
             if (a == "table") != (extents[-1] in enums):
                 raise HeaderError(f"{f.name}: the last extent of a table, and of no other array, is the enum of its columns")
+        if "table" in f.shapes:
+            if not any(a.role == "columns" for a in f.args):
+                raise HeaderError(f"{f.name}: `int32_t columns` stands before its table")
+            name, number = count_of_columns(columns_of(f, api))
+            if dict(api.constants).get(name) != number:
+                raise HeaderError(f"{f.name}: its table has {number} columns, so write #define {name} {number}")
+
+
+def count_of_columns(e):
+    """Name and value of the constant with the number of columns of such an enum."""
+    return f"JAM_{e.items[0][0].split('_')[1]}_COLUMNS", len(e.items)
 
 
 def columns_of(f, api):
@@ -94,8 +105,6 @@ def columns_of(f, api):
 def last_extent(f, a, api):
     """Last extent of an array of rank 2 and more where it is known before the call: "d", "n" or a number. It is the first
     extent of the Fortran array."""
-    if a.name == "table":
-        return len(columns_of(f, api).items)
     extents = f.shapes[a.name]
     if len(extents) > 1 and (extents[-1] in ("d", "n") or extents[-1].isdigit()):
         return int(extents[-1]) if extents[-1].isdigit() else extents[-1]

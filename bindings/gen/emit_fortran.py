@@ -26,6 +26,7 @@ def fortran_type(arg):
         "scalar_out": f"{scalar}, intent(out), optional :: {name}",
         "len": f"{scalar}, value :: {name}",
         "scalar": f"{scalar}, value :: {name}",
+        "columns": f"{scalar}, value :: {name}",
     }[arg.role]
 
 
@@ -95,6 +96,8 @@ def _c_argument(a):
 
 def _extent(f, a, api):
     """(what names the first extent, lines that find it)."""
+    if a.name == "table":
+        return "int(columns, c_size_t)", []
     last = last_extent(f, a, api)
     if last is None:
         return "0_c_size_t", []

@@ -1,6 +1,6 @@
 """The Fortran module `jam_packing`: a type `packing` with a procedure for each call on a system, over the module `jam`. Results
 allocate themselves, options and reports may be left out, failures go to one handler, indices count from 1."""
-from annotations import columns_of
+from annotations import columns_of, count_of_columns
 from emit_fortran import _comment, _wrap
 from emit_julia_calls import is_index
 from model import TYPES
@@ -108,6 +108,7 @@ def _procedure(f, name, api):
     if fills:
         lines.append("    integer(c_size_t) :: given, d_of, n_of" + "".join(f", {w}" for w in ("stable_of", "contacts_of") if w in used))
     passed = [f"{a.name}={_given(f, a)}" for a in args if a in dummies]
+    passed += [f"columns={count_of_columns(columns_of(f, api))[0]}" for a in args if a.role == "columns"]
     filled = [f"{a.name}={result[a.name]}" for a in outputs]
     pad = "    "
     if fills:

@@ -33,6 +33,7 @@ def julia_type(arg):
         "scalar_out": (f"Ref{{{scalar}}}", f"_ref({scalar}, {name})"),
         "len": (scalar, name),
         "scalar": (scalar, name),
+        "columns": (scalar, name),
     }[arg.role]
 
 

@@ -69,7 +69,7 @@ def emit_tables(api):
             kind = TYPES[a.type.scalar][1] if a.type.scalar in TYPES else a.type.base if a.type.base in {s.name for s in api.structs} else "Nothing"
             extents = "[" + ", ".join(f'"{e}"' for e in f.shapes.get(a.name, ())) + "]"
             word = enum_name(f.enums[a.name]) if a.name in f.enums else "none"
-            if a.name == "table":
+            if a.name in ("table", "columns"):
                 word = enum_name(columns_of(f, api).name)
             out.append(f"        Argument(:{a.name}, :{a.role}, {kind}, {extents if extents != '[]' else 'String[]'}, :{word}, {str(is_index(f, a)).lower()}),")
         out.append("    ]),")

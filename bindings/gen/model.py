@@ -146,9 +146,12 @@ def _layout(struct):
     at = align = 0
     for m in struct.members:
         size = TYPES[m.type][0]
-        at = (at + size - 1) // size * size
+        if at % size:
+            raise HeaderError(f"{struct.name} has a hole before {m.name}, which a later member could fill: write `reserved`")
         m.offset, at, align = at, at + size, max(align, size)
-    struct.size = (at + align - 1) // align * align
+    if at % align:
+        raise HeaderError(f"{struct.name} has a hole at its end, which a later member could fill: write `reserved`")
+    struct.size = at
 
 
 def classify(args, callbacks, structs, pointing):
@@ -172,6 +175,8 @@ def classify(args, callbacks, structs, pointing):
             a.role = "string"
         elif t.stars == 2:
             a.role = "view"
+        elif a.name == "columns" and after == "table":
+            a.role = "columns"  # how many of the table the caller knows
         elif a.name.endswith("_len") and a.name[:-4] in names:
             a.role = "view_len" if t.stars == 1 else "len"
         elif t.stars == 1 and not t.const:

@@ -31,7 +31,7 @@ int main(void) {
   choose.which = JAM_MODES_LOWEST;
   choose.count = K;
   /* NULL: the harmonic Hessian, stiffness 1 at the mean force. The vectors (K, N', d) are not requested here. */
-  if (jam_modes(sys, NULL, &choose, &mode[0][0], K * 2, NULL, 0, &m) < 0) return failed(sys);
+  if (jam_modes(sys, NULL, &choose, JAM_MODE_COLUMNS, &mode[0][0], K * 2, NULL, 0, &m) < 0) return failed(sys);
   jam_hessian_map(sys, NULL, 0, &spheres);
   printf("lowest modes of %zu stable spheres\n  omega    participation (1/N' = all, 1 = one sphere)\n", spheres);
   for (k = 0; k < m; ++k)

@@ -55,7 +55,7 @@ int main(void) {
   choose.which = JAM_MODES_LOWEST;
   choose.count = 1;
   if (jam_scale_diameters(sys, pow(1.01, 1.0 / 3.0)) < 0 || jam_relax(sys, NULL, &above) < 0 ||
-      jam_modes(sys, &stiffness, &choose, &mode[0][0], 2, NULL, 0, &m) < 0)
+      jam_modes(sys, &stiffness, &choose, JAM_MODE_COLUMNS, &mode[0][0], 2, NULL, 0, &m) < 0)
     return failed(sys);
   printf("1 %% above phi_J: pressure %.4g, %.3f contacts a sphere, lowest frequency %.4g\n", above.pressure,
          above.coordination, sqrt(mode[0][JAM_MODE_LAMBDA]));

@@ -13,7 +13,7 @@ int main() try {
   o.count = 8;
   std::vector<double> table(8 * 2);
   std::size_t m = 0;
-  jam::check(jam_modes(packing.get(), nullptr, &o, table.data(), table.size(), nullptr, 0, &m));
+  jam::check(jam_modes(packing.get(), nullptr, &o, JAM_MODE_COLUMNS, table.data(), table.size(), nullptr, 0, &m));
   for (std::size_t k = 0; k < m; ++k)
     std::printf("omega %.5f  participation %.4f\n", std::sqrt(std::fmax(table[2 * k + JAM_MODE_LAMBDA], 0)),
                 table[2 * k + JAM_MODE_PARTICIPATION]);

@@ -28,13 +28,18 @@
  * - Arrays in: pointer and length in elements. The length is checked.
  * - Arrays out: the caller's buffer, its length in elements, and `needed`, in elements too. NULL and 0 only return the
  *   size. A buffer that is too short gives JAM_E_BUFFER, sets `needed` and is not written.
- * - Several numbers a row are a `table` of shape (rows, columns). An enum names its columns; counts are whole numbers
- *   in it, and NaN is given where a column has no meaning.
+ * - Several numbers a row are a `table` of shape (rows, columns). An enum names its columns. Pass the number of columns
+ *   that your program knows, such as JAM_HISTORY_COLUMNS, or fewer: then each row has the first ones alone. Counts are
+ *   whole numbers in a table, and NaN is given where a column has no meaning, or is not in this library.
  * - Arrays of several types or shapes have `rows` in place of `needed`: the shapes given there, for that many rows, are
  *   the lengths. Each of these arrays may be NULL with length 0.
  * - Options, reports and other structs begin with struct_size, which the caller sets to sizeof. Fill options by
  *   jam_X_options_init(&o, sizeof o), then change what differs. A NULL option pointer means all defaults. Fields named
  *   `reserved` must be 0.
+ * - Structs and tables of all 1.x work together: later versions add members at the end or in place of `reserved`, and
+ *   columns behind the last. A shorter struct is filled as far as it goes; options that it lacks have their defaults.
+ *   Of one longer by up to 512 bytes unknown members of reports are NaN or -1, and unknown options must be 0, as
+ *   jam_X_options_init leaves them, else JAM_E_STRUCT_SIZE. Callbacks read jam_progress up to its struct_size alone.
  * - The `report` of a call that computes may be NULL, and so may a callback. Other pointers must not be NULL unless the
  *   comment says so; where it does, the length is 0.
  *
@@ -128,7 +133,7 @@ typedef enum jam_status_code {
   JAM_NOT_JAMMED = 5,      /* there is no jammed network to work on */
   JAM_AMBIGUOUS = 6,       /* the answer is not unique; the text says which was returned */
   JAM_E_NULL = -1,         /* a pointer that is needed is NULL */
-  JAM_E_STRUCT_SIZE = -2,  /* struct_size is zero or larger than in this library */
+  JAM_E_STRUCT_SIZE = -2,  /* struct_size was not set, or an option is of a later version */
   JAM_E_ARGUMENT = -3,     /* a value is out of its range */
   JAM_E_DIMENSION = -4,    /* dim is not in 2..JAM_MAX_DIM */
   JAM_E_NONFINITE = -5,    /* NaN or infinity where a number is needed */
@@ -336,8 +341,9 @@ typedef enum jam_wall_column {
   JAM_WALL_GAP = 4,      /* least h of a sphere */
   JAM_WALL_STRESS = 5    /* contact forces on it / area, over sum f r / (d V) of all contacts; NaN without contacts */
 } jam_wall_column;
+#define JAM_WALL_COLUMNS 6
 /* One row per wall: flat ones axis by axis, then the round one. @shape table (m, jam_wall_column) */
-JAM_API jam_status jam_walls(const jam_system *sys, double *table, size_t table_len, size_t *needed);
+JAM_API jam_status jam_walls(const jam_system *sys, int32_t columns, double *table, size_t table_len, size_t *needed);
 
 /* ------------------------------------------------------------------ the cell */
 
@@ -628,8 +634,10 @@ typedef enum jam_series_column {
   JAM_SERIES_ERROR = 4,      /* its standard error, from eight parts */
   JAM_SERIES_MSD = 5         /* mean-square displacement since jam_observe, unit box^2 */
 } jam_series_column;
+#define JAM_SERIES_COLUMNS 6
 /* Series of samples. @shape table (samples, jam_series_column) @errors STATE (nothing observed) */
-JAM_API jam_status jam_observed_series(const jam_system *sys, double *table, size_t table_len, size_t *needed);
+JAM_API jam_status jam_observed_series(const jam_system *sys, int32_t columns, double *table, size_t table_len,
+                                       size_t *needed);
 /* Collisions of each sphere, and its displacement since jam_observe, unwrapped. *rows = n. @shape collisions (n),
  * displacement (n, d) @errors STATE */
 JAM_API jam_status jam_observed_spheres(const jam_system *sys, int64_t *collisions, size_t collisions_len,
@@ -647,16 +655,20 @@ typedef enum jam_gap_column {
   JAM_GAP_DENSITY = 2, /* pairs over those of an ideal gas */
   JAM_GAP_ERROR = 3    /* its standard error over samples */
 } jam_gap_column;
+#define JAM_GAP_COLUMNS 4
 /* Histogram of gaps h. Samples are taken between collisions: at one, a pair more would touch. At h = 0 density tends to
  * g(sigma), which is (p - 1) / (4 phi) for equal spheres in d = 3. @shape table (bins, jam_gap_column) @errors STATE */
-JAM_API jam_status jam_observed_gaps(const jam_system *sys, double *table, size_t table_len, size_t *needed);
+JAM_API jam_status jam_observed_gaps(const jam_system *sys, int32_t columns, double *table, size_t table_len,
+                                     size_t *needed);
 /* Columns of jam_observed_correlation, one row per bin. */
 typedef enum jam_correlation_column {
   JAM_CORRELATION_R = 0, /* middle of the bin, mean diameters */
   JAM_CORRELATION_G = 1  /* g(r) */
 } jam_correlation_column;
+#define JAM_CORRELATION_COLUMNS 2
 /* g(r), pairs over N (N - 1) / 2, sampled likewise. @shape table (bins, jam_correlation_column) @errors STATE */
-JAM_API jam_status jam_observed_correlation(const jam_system *sys, double *table, size_t table_len, size_t *needed);
+JAM_API jam_status jam_observed_correlation(const jam_system *sys, int32_t columns, double *table, size_t table_len,
+                                            size_t *needed);
 
 /* Equations of state p(phi) in closed form, of equal spheres. */
 typedef enum jam_eos_form {
@@ -775,6 +787,7 @@ typedef enum jam_isoconf_column {
   JAM_ISOCONF_PRESSURE = 12,   /* reduced pressure: since the start of the run; soft spheres: at the instant */
   JAM_ISOCONF_RUNS = 13        /* runs in these sums and in those of the next two calls, the same at each instant */
 } jam_isoconf_column;
+#define JAM_ISOCONF_COLUMNS 14
 JAM_API jam_status jam_isoconf_options_init(jam_isoconf_options *o, size_t size);
 /* Isoconfigurational ensemble (Widmer-Cooper et al., Phys. Rev. Lett. 93, 135701 (2004)): runs from the packing as it
  * is, with all diameters scaled to density_ratio; one whose gaps are rounding is refused. Run k draws its velocities
@@ -791,8 +804,8 @@ JAM_API jam_status jam_isoconfigurational(jam_system *sys, const jam_isoconf_opt
 JAM_API jam_status jam_get_isoconf_report(const jam_system *sys, jam_isoconf_report *report);
 /* Sums over the runs of one block, or of all for block = -1. @shape table (instants, jam_isoconf_column)
  * @errors STATE */
-JAM_API jam_status jam_isoconf_series(const jam_system *sys, int64_t block, double *table, size_t table_len,
-                                      size_t *needed);
+JAM_API jam_status jam_isoconf_series(const jam_system *sys, int64_t block, int32_t columns, double *table,
+                                      size_t table_len, size_t *needed);
 /* For that block, sums over runs of the displacement dr_c of each sphere, unit of the box, and of its square. *rows =
  * instants. @shape displacement (instants, n, d), square (instants, n, d) @errors STATE */
 JAM_API jam_status jam_isoconf_displacements(const jam_system *sys, int64_t block, double *displacement,
@@ -971,8 +984,10 @@ typedef enum jam_history_column {
   JAM_HISTORY_STEP_MSD_STABLE = 18, /* LP, polish: STEP_MSD over stable spheres alone, their mean taken out */
   JAM_HISTORY_TOTAL_MSD_STABLE = 19 /* LP, polish: TOTAL_MSD over the spheres that are stable now */
 } jam_history_column;
+#define JAM_HISTORY_COLUMNS 20
 /* Steps of the last crunch. @shape table (steps, jam_history_column) @errors STATE */
-JAM_API jam_status jam_crunch_history(const jam_system *sys, double *table, size_t table_len, size_t *needed);
+JAM_API jam_status jam_crunch_history(const jam_system *sys, int32_t columns, double *table, size_t table_len,
+                                      size_t *needed);
 /* Displacements of all spheres in the step that has just ended, unit of box, images followed. Their sum over the steps
  * leads from the start to the end. This call and the next three work only in the progress callback of jam_crunch with
  * steps = 1, when a step has just ended. @shape out (n, d) @errors STATE */
@@ -1108,6 +1123,7 @@ typedef enum jam_soft_column {
   JAM_SOFT_FACTORISATIONS = 9, /* in this step */
   JAM_SOFT_SECONDS = 10        /* wall time of the step */
 } jam_soft_column;
+#define JAM_SOFT_COLUMNS 11
 JAM_API jam_status jam_decompress_options_init(jam_decompress_options *o, size_t size);
 /* From overlapping spheres down to jamming. Minimises, shrinks all diameters by one factor so that the energy falls by
  * energy_factor, and again (O'Hern et al., Phys. Rev. E 68, 011306 (2003)). A step that leaves too few contacts is
@@ -1116,7 +1132,8 @@ JAM_API jam_status jam_decompress_options_init(jam_decompress_options *o, size_t
  * rounding of positions before a target. JAM_NOT_CONVERGED: the last minimum is kept. @errors STATE, TOO_FEW, SOLVER */
 JAM_API jam_status jam_decompress(jam_system *sys, const jam_decompress_options *o, jam_decompress_report *report);
 /* Minima of the last decompression. @shape table (minima, jam_soft_column) @errors STATE */
-JAM_API jam_status jam_decompress_history(const jam_system *sys, double *table, size_t table_len, size_t *needed);
+JAM_API jam_status jam_decompress_history(const jam_system *sys, int32_t columns, double *table, size_t table_len,
+                                          size_t *needed);
 
 /* ------------------------------------------------------------------ contact network */
 
@@ -1181,6 +1198,7 @@ typedef enum jam_mode_column {
   JAM_MODE_LAMBDA = 0,       /* lambda = omega^2 */
   JAM_MODE_PARTICIPATION = 1 /* inverse participation ratio, sum |v_i|^4 / (sum |v_i|^2)^2 */
 } jam_mode_column;
+#define JAM_MODE_COLUMNS 2
 JAM_API jam_status jam_hessian_options_init(jam_hessian_options *o, size_t size);
 JAM_API jam_status jam_modes_options_init(jam_modes_options *o, size_t size);
 /* The N' stable spheres, ascending: row d k + c of the Hessian is component c of sphere out[k]. @shape out (N')
@@ -1193,15 +1211,16 @@ JAM_API jam_status jam_hessian(const jam_system *sys, const jam_hessian_options 
                                size_t value_len, size_t *rows);
 /* Modes of the Hessian, *rows = their number m, lambda ascending, vector of unit length. When fewer converge the rest
  * is NaN. Status: JAM_NOT_CONVERGED. @shape table (m, jam_mode_column), vector (m, N', d) @errors STATE, SOLVER */
-JAM_API jam_status jam_modes(jam_system *sys, const jam_hessian_options *h, const jam_modes_options *o, double *table,
-                             size_t table_len, double *vector, size_t vector_len, size_t *rows);
+JAM_API jam_status jam_modes(jam_system *sys, const jam_hessian_options *h, const jam_modes_options *o, int32_t columns,
+                             double *table, size_t table_len, double *vector, size_t vector_len, size_t *rows);
 /* Modes of the Hessian at the wave vector sum of wave[c] b_c, with a_c . b_e = 2 pi delta_ce: the copy of a sphere that
  * is sum of s_c a_c away moves by exp(2 pi i sum wave[c] s_c) times its displacement. All d N' modes, lambda ascending;
  * vector: real and imaginary parts, of unit length. Dense: 96 (d N')^2 bytes. Wave 0: the modes of jam_modes; all
  * wave[c] = k / count[c], k = 0 .. count[c] - 1: those of jam_tile. Along an axis with walls wave is 0. @shape wave
  * (d), table (m, jam_mode_column), vector (m, N', d, 2) @errors STATE, SOLVER, UNSUPPORTED (unlisted own images) */
 JAM_API jam_status jam_bloch_modes(jam_system *sys, const jam_hessian_options *h, const double *wave, size_t wave_len,
-                                   double *table, size_t table_len, double *vector, size_t vector_len, size_t *rows);
+                                   int32_t columns, double *table, size_t table_len, double *vector, size_t vector_len,
+                                   size_t *rows);
 
 /* ------------- network from geometry, states of self-stress */
 /* Options of jam_contacts_from_geometry. */
@@ -1250,11 +1269,12 @@ typedef enum jam_candidate_column {
   JAM_CANDIDATE_CONTACTS = 2, /* contacts within it on spheres that can balance */
   JAM_CANDIDATE_EXCESS = 3    /* contacts - (d (N' - 1) + 1) */
 } jam_candidate_column;
+#define JAM_CANDIDATE_COLUMNS 4
 /* Candidates for the contact tolerance, for packings where no jump is clear; m is at most 12. A candidate is a jump of
  * the sorted gaps below window, as in jam_geometry_options, with enough contacts for a rigid network below it. The
  * largest jump comes first. @shape table (m, jam_candidate_column) */
-JAM_API jam_status jam_contact_candidates(const jam_system *sys, double window, double *table, size_t table_len,
-                                          size_t *needed);
+JAM_API jam_status jam_contact_candidates(const jam_system *sys, double window, int32_t columns, double *table,
+                                          size_t table_len, size_t *needed);
 /* States of self-stress of the network: *rows = their number m; force, mean 1, from the null space of S^T, not from LP
  * duals; basis orthonormal; residual: one number, as force_residual. Status: JAM_AMBIGUOUS (m > 1: force is the centre
  * of the non-negative ones), JAM_NOT_JAMMED (m = 0 or no force of one sign). @shape force (n_c), basis (m, n_c)
@@ -1316,13 +1336,14 @@ typedef enum jam_bloch_column {
   JAM_BLOCH_FLEXES = 0, /* complex motions at this wave vector that keep K+ closed, without translations */
   JAM_BLOCH_MARGIN = 1  /* least eigenvalue of S^T S on K+ but for translations and flexes; NaN: no K+ */
 } jam_bloch_column;
+#define JAM_BLOCH_COLUMNS 2
 /* The collective test of jam_rigidity for count[c] copies along each cell vector (jam_tile), from one cell: one row per
  * wave vector of the copies, as in jam_bloch_modes; wave[0] runs fastest. Forces averaged over all copies balance in
  * one cell, so K+ is that of one cell, and the flexes of the copies are those of all rows together. Status: JAM_OK
  * jammed, JAM_NOT_JAMMED, JAM_AMBIGUOUS undecided. @shape count (d), wave (m, d), table (m, jam_bloch_column) @errors
  * SOLVER, UNSUPPORTED (Mari-Kurchan model, round walls) */
 JAM_API jam_status jam_bloch_rigidity(jam_system *sys, const int32_t *count, size_t count_len, double *wave,
-                                      size_t wave_len, double *table, size_t table_len, size_t *rows);
+                                      size_t wave_len, int32_t columns, double *table, size_t table_len, size_t *rows);
 
 /* Why jam_check_packing answers as it does. */
 typedef enum jam_check_reason {
@@ -1533,9 +1554,11 @@ typedef enum jam_structure_column {
   JAM_STRUCTURE_Q = 0, /* |q| times the mean diameter, ascending */
   JAM_STRUCTURE_S = 1  /* S(q), its average over all q of this length */
 } jam_structure_column;
+#define JAM_STRUCTURE_COLUMNS 2
 /* S(q) on the wave vectors of the cell (in a cube 2 pi n / box), along axes without walls, with |q| <= q_max. Lengths
  * within 5e-13 of |q| are one. @shape table (m, jam_structure_column) @errors UNSUPPORTED (no such axis) */
-JAM_API jam_status jam_structure_factor(jam_system *sys, double q_max, double *table, size_t table_len, size_t *needed);
+JAM_API jam_status jam_structure_factor(jam_system *sys, double q_max, int32_t columns, double *table, size_t table_len,
+                                        size_t *needed);
 /* Bond order Q_l of each sphere (d = 2: |psi_l|) over neighbours with |r| < cutoff sigma_ij; l in 1..64, cutoff in (0,
  * 3] (1.2 is usual). @shape out (n) */
 JAM_API jam_status jam_bond_order(const jam_system *sys, int32_t l, double cutoff, double *out, size_t out_len,
@@ -1609,10 +1632,11 @@ typedef enum jam_profile_column {
   JAM_PROFILE_HIGH = 1, /* where it ends */
   JAM_PROFILE_SOLID = 2 /* share of the bin (of its part in the container) inside spheres */
 } jam_profile_column;
+#define JAM_PROFILE_COLUMNS 3
 /* Solid fraction in equal bins, exact: axis 0 .. d-1, slabs between the faces of the cell that a_axis joins; axis = d,
  * shells of a ball or a cylinder (there to 1e-12). @shape table (bins, jam_profile_column) @errors UNSUPPORTED */
-JAM_API jam_status jam_solid_profile(const jam_system *sys, int32_t axis, int32_t bins, double *table, size_t table_len,
-                                     size_t *needed);
+JAM_API jam_status jam_solid_profile(const jam_system *sys, int32_t axis, int32_t bins, int32_t columns, double *table,
+                                     size_t table_len, size_t *needed);
 /* Spheres with a gap h < h_max <= 1 to each one, every image; walls do not count. Needs no crunch. @shape out (n) */
 JAM_API jam_status jam_near_coordination(const jam_system *sys, double h_max, int32_t *out, size_t out_len,
                                          size_t *needed);
@@ -1624,11 +1648,12 @@ typedef enum jam_pore_column {
   JAM_PORE_DISTANCE = 3, /* to the nearest surface: radius of the largest sphere about the point */
   JAM_PORE_RADIUS = 4    /* of the largest sphere that contains the point and no solid */
 } jam_pore_column;
+#define JAM_PORE_COLUMNS 5
 /* Pore sizes at random points of the void, exact; not in a cylinder. The time grows with the fourth power of the
  * number of neighbours of a point: use it above packing fractions of about 0.4. @shape table (points, jam_pore_column)
  * @errors UNSUPPORTED */
-JAM_API jam_status jam_pore_sizes(jam_system *sys, int64_t points, int64_t seed, double *table, size_t table_len,
-                                  size_t *needed);
+JAM_API jam_status jam_pore_sizes(jam_system *sys, int64_t points, int64_t seed, int32_t columns, double *table,
+                                  size_t table_len, size_t *needed);
 
 /* ------------- floppy modes */
 /* Floppy mode: displacement over s when a contact opens by s. To first order all other contacts stay closed, all
@@ -1646,8 +1671,9 @@ typedef enum jam_floppy_column {
   JAM_FLOPPY_STABILITY = 4, /* s_star / s_plus = sigma f / (N c F s_plus), F the mean force, c = sigma B / (N F) */
   JAM_FLOPPY_S_RETURN = 5   /* opening 2 s_star at which, to second order, the diameters are back at their start */
 } jam_floppy_column;
+#define JAM_FLOPPY_COLUMNS 6
 /* The floppy mode of every contact, measured. @shape table (n_c, jam_floppy_column) @errors STATE, SOLVER */
-JAM_API jam_status jam_floppy_modes(jam_system *sys, double *table, size_t table_len, size_t *needed);
+JAM_API jam_status jam_floppy_modes(jam_system *sys, int32_t columns, double *table, size_t table_len, size_t *needed);
 
 /* ------------- spectrum, moduli, comparison */
 /* Options of jam_density_of_states. */
@@ -1687,12 +1713,13 @@ typedef enum jam_dos_column {
   JAM_DOS_CUMULATIVE = 4,      /* share of modes below the edge */
   JAM_DOS_CUMULATIVE_ERROR = 5 /* its standard error */
 } jam_dos_column;
+#define JAM_DOS_COLUMNS 6
 JAM_API jam_status jam_dos_options_init(jam_dos_options *o, size_t size);
 /* Density of states D(omega) and its integral by the kernel polynomial method: no modes are computed, translations are
  * omitted. With prestress omega starts below 0: unstable modes are listed at -sqrt(-lambda), and resolution is lower
  * near 0. @shape table (points, jam_dos_column) @errors STATE, SOLVER, TOO_FEW */
 JAM_API jam_status jam_density_of_states(jam_system *sys, const jam_hessian_options *h, const jam_dos_options *o,
-                                         double *table, size_t table_len, size_t *needed);
+                                         int32_t columns, double *table, size_t table_len, size_t *needed);
 /* Projections u . v of a displacement u on the modes `vector` of jam_modes. Over all d N' modes their squares add up to
  * |u|^2. @shape vector (m, N', d), u (N', d), out (m) @errors STATE */
 JAM_API jam_status jam_project(const jam_system *sys, const double *vector, size_t vector_len, const double *u,

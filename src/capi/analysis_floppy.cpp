@@ -21,21 +21,23 @@ jam_status jam_floppy_mode(jam_system *sys, int64_t contact, double *out, size_t
   });
 }
 
-jam_status jam_floppy_modes(jam_system *sys, double *table, size_t table_len, size_t *needed) {
+jam_status jam_floppy_modes(jam_system *sys, int32_t columns, double *table, size_t table_len, size_t *needed) {
   return guard_cancellable(sys, [&]() -> jam_status {
-    constexpr size_t columns = JAM_FLOPPY_S_RETURN + 1;
+    const Table<JAM_FLOPPY_COLUMNS> made(columns, table, table_len);
     need_network(sys);
     const RigidityMatrix g = make_rigidity_matrix(sys->packing, sys->contacts);
-    const bool wanted = table_wanted(g.contacts(), columns, table, table_len, needed);
+    const bool wanted = made.wanted(g.contacts(), needed);
     if (g.contacts() == 0) return JAM_NOT_JAMMED;
     if (!wanted) return JAM_OK;
     const FloppyModes f = all_floppy_modes(sys->packing, sys->contacts, g);
-    put_column(f.median, JAM_FLOPPY_MEDIAN, columns, table);
-    put_column(f.weight, JAM_FLOPPY_WEIGHT, columns, table);
-    put_column(f.s_plus, JAM_FLOPPY_S_PLUS, columns, table);
-    put_column(f.s_star, JAM_FLOPPY_S_STAR, columns, table);
-    put_column(f.stability, JAM_FLOPPY_STABILITY, columns, table);
-    put_column(f.s_return, JAM_FLOPPY_S_RETURN, columns, table);
+    made.give(g.contacts(), [&](size_t k, auto &row) {
+      row[JAM_FLOPPY_MEDIAN] = f.median[k];
+      row[JAM_FLOPPY_WEIGHT] = f.weight[k];
+      row[JAM_FLOPPY_S_PLUS] = f.s_plus[k];
+      row[JAM_FLOPPY_S_STAR] = f.s_star[k];
+      row[JAM_FLOPPY_STABILITY] = f.stability[k];
+      row[JAM_FLOPPY_S_RETURN] = f.s_return[k];
+    });
     return JAM_OK;
   });
 }

@@ -44,8 +44,8 @@ jam_status jam_hessian(const jam_system *sys, const jam_hessian_options *h, int3
   });
 }
 
-jam_status jam_modes(jam_system *sys, const jam_hessian_options *h, const jam_modes_options *o, double *table,
-                     size_t table_len, double *vector, size_t vector_len, size_t *needed) {
+jam_status jam_modes(jam_system *sys, const jam_hessian_options *h, const jam_modes_options *o, int32_t columns,
+                     double *table, size_t table_len, double *vector, size_t vector_len, size_t *needed) {
   return guard_verb(sys, [&]() -> jam_status {
     const jam_hessian_options options = take_hessian_options(h);
     jam_modes_options full = default_modes_options();
@@ -56,9 +56,9 @@ jam_status jam_modes(jam_system *sys, const jam_hessian_options *h, const jam_mo
     const size_t n = g.unknowns(), internal = n - std::min<size_t>(n, static_cast<size_t>(g.symmetries()));
     const size_t m = full.which == JAM_MODES_ALL ? n : std::min<size_t>(internal, static_cast<size_t>(full.count));
     if (needed) *needed = m;
-    constexpr size_t columns = JAM_MODE_PARTICIPATION + 1;
+    const Table<JAM_MODE_COLUMNS> made(columns, table, table_len);
     if (!needed && !table && !vector) fail(JAM_E_NULL, "needed is NULL and there is no output array");
-    check_output(table, table_len, columns * m, "table");
+    made.check_room(m);
     check_output(vector, vector_len, m * n, "vector");
     if (m == 0) return JAM_NOT_JAMMED;
     if (!table && !vector) return JAM_OK;
@@ -67,16 +67,17 @@ jam_status jam_modes(jam_system *sys, const jam_hessian_options *h, const jam_mo
         find_modes(g, contact_weights(g, diameter_mean(sys->packing), options), full, sys->monitor, modes);
     if (status == JAM_CANCELLED) return status;
     put_output(modes.vector, vector, m * n);
-    if (table) {
-      put_column(modes.lambda, JAM_MODE_LAMBDA, columns, table);
-      put_column(modes.participation, JAM_MODE_PARTICIPATION, columns, table);
-    }
+    made.give(m, [&](size_t k, auto &row) {
+      row[JAM_MODE_LAMBDA] = modes.lambda[k];
+      row[JAM_MODE_PARTICIPATION] = modes.participation[k];
+    });
     return status;
   });
 }
 
 jam_status jam_bloch_modes(jam_system *sys, const jam_hessian_options *h, const double *wave, size_t wave_len,
-                           double *table, size_t table_len, double *vector, size_t vector_len, size_t *rows) {
+                           int32_t columns, double *table, size_t table_len, double *vector, size_t vector_len,
+                           size_t *rows) {
   return guard_cancellable(sys, [&]() -> jam_status {
     const jam_hessian_options options = take_hessian_options(h);
     const Packing &p = sys->packing;
@@ -96,10 +97,10 @@ jam_status jam_bloch_modes(jam_system *sys, const jam_hessian_options *h, const 
     refuse_own_images_at(p, sys->contacts, wave);
     const RigidityMatrix g = make_rigidity_matrix(p, sys->contacts);
     const size_t n = g.unknowns();
-    constexpr size_t columns = JAM_MODE_PARTICIPATION + 1;
+    const Table<JAM_MODE_COLUMNS> made(columns, table, table_len);
     if (!rows && !table && !vector) fail(JAM_E_NULL, "rows is NULL and there is no output array");
     if (rows) *rows = n;
-    check_output(table, table_len, columns * n, "table");
+    made.check_room(n);
     check_output(vector, vector_len, 2 * n * n, "vector");
     if (n == 0) return JAM_NOT_JAMMED;
     if (!table && !vector) return JAM_OK;
@@ -107,10 +108,10 @@ jam_status jam_bloch_modes(jam_system *sys, const jam_hessian_options *h, const 
     const Modes modes =
         bloch_modes(g, contact_weights(g, diameter_mean(p), options), cells_back(p, sys->contacts), wave, true);
     put_output(modes.vector, vector, 2 * n * n);
-    if (table) {
-      put_column(modes.lambda, JAM_MODE_LAMBDA, columns, table);
-      put_column(modes.participation, JAM_MODE_PARTICIPATION, columns, table);
-    }
+    made.give(n, [&](size_t k, auto &row) {
+      row[JAM_MODE_LAMBDA] = modes.lambda[k];
+      row[JAM_MODE_PARTICIPATION] = modes.participation[k];
+    });
     return JAM_OK;
   });
 }

@@ -77,16 +77,18 @@ jam_status jam_contacts_from_geometry(jam_system *sys, const jam_geometry_option
   });
 }
 
-jam_status jam_contact_candidates(const jam_system *sys, double window, double *table, size_t table_len,
-                                  size_t *needed) {
+jam_status jam_contact_candidates(const jam_system *sys, double window, int32_t columns, double *table,
+                                  size_t table_len, size_t *needed) {
   return guard_const(sys, [&]() -> jam_status {
-    constexpr size_t columns = JAM_CANDIDATE_EXCESS + 1;
+    const Table<JAM_CANDIDATE_COLUMNS> made(columns, table, table_len);
     const ContactCandidates c = contact_candidates(sys->packing, window);
-    if (!table_wanted(c.limit.size(), columns, table, table_len, needed)) return JAM_OK;
-    put_column(c.limit, JAM_CANDIDATE_LIMIT, columns, table);
-    put_column(c.jump, JAM_CANDIDATE_JUMP, columns, table);
-    put_column(c.contacts, JAM_CANDIDATE_CONTACTS, columns, table);
-    put_column(c.excess, JAM_CANDIDATE_EXCESS, columns, table);
+    if (!made.wanted(c.limit.size(), needed)) return JAM_OK;
+    made.give(c.limit.size(), [&](size_t k, auto &row) {
+      row[JAM_CANDIDATE_LIMIT] = c.limit[k];
+      row[JAM_CANDIDATE_JUMP] = c.jump[k];
+      row[JAM_CANDIDATE_CONTACTS] = static_cast<double>(c.contacts[k]);
+      row[JAM_CANDIDATE_EXCESS] = static_cast<double>(c.excess[k]);
+    });
     return JAM_OK;
   });
 }

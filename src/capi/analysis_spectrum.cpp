@@ -15,27 +15,27 @@ jam_status jam_dos_options_init(jam_dos_options *o, size_t size) {
   return init_options(o, size, default_dos_options());
 }
 
-jam_status jam_density_of_states(jam_system *sys, const jam_hessian_options *h, const jam_dos_options *o, double *table,
-                                 size_t table_len, size_t *needed) {
+jam_status jam_density_of_states(jam_system *sys, const jam_hessian_options *h, const jam_dos_options *o,
+                                 int32_t columns, double *table, size_t table_len, size_t *needed) {
   return guard_cancellable(sys, [&]() -> jam_status {
-    constexpr size_t columns = JAM_DOS_CUMULATIVE_ERROR + 1;
+    const Table<JAM_DOS_COLUMNS> made(columns, table, table_len);
     const jam_hessian_options options = take_hessian_options(h);
     jam_dos_options full = default_dos_options();
     take_options(o, full);
     need_network(sys);
     if (empty_network(sys)) return JAM_NOT_JAMMED;
     const size_t points = full.points > 0 ? static_cast<size_t>(full.points) : 0;
-    if (!table_wanted(points, columns, table, table_len, needed)) return JAM_OK;
+    if (!made.wanted(points, needed)) return JAM_OK;
     const RigidityMatrix g = make_rigidity_matrix(sys->packing, sys->contacts);
     const DensityOfStates dos = density_of_states(g, contact_weights(g, diameter_mean(sys->packing), options), full);
-    std::vector<double> edge = dos.omega;
-    for (double &x : edge) x += 0.5 * dos.step;
-    put_column(dos.omega, JAM_DOS_OMEGA, columns, table);
-    put_column(dos.density, JAM_DOS_DENSITY, columns, table);
-    put_column(dos.density_error, JAM_DOS_ERROR, columns, table);
-    put_column(edge, JAM_DOS_EDGE, columns, table);
-    put_column(dos.cumulative, JAM_DOS_CUMULATIVE, columns, table);
-    put_column(dos.cumulative_error, JAM_DOS_CUMULATIVE_ERROR, columns, table);
+    made.give(points, [&](size_t k, auto &row) {
+      row[JAM_DOS_OMEGA] = dos.omega[k];
+      row[JAM_DOS_DENSITY] = dos.density[k];
+      row[JAM_DOS_ERROR] = dos.density_error[k];
+      row[JAM_DOS_EDGE] = dos.omega[k] + 0.5 * dos.step;
+      row[JAM_DOS_CUMULATIVE] = dos.cumulative[k];
+      row[JAM_DOS_CUMULATIVE_ERROR] = dos.cumulative_error[k];
+    });
     return JAM_OK;
   });
 }

@@ -150,14 +150,17 @@ jam_status jam_mk_shifts(const jam_system *sys, const int32_t *pair, size_t pair
   });
 }
 
-jam_status jam_structure_factor(jam_system *sys, double q_max, double *table, size_t table_len, size_t *needed) {
+jam_status jam_structure_factor(jam_system *sys, double q_max, int32_t columns, double *table, size_t table_len,
+                                size_t *needed) {
   return guard_cancellable(sys, [&]() -> jam_status {
     if (!needed && !table) fail(JAM_E_NULL, "needed is NULL and there is no output array");
-    constexpr size_t columns = JAM_STRUCTURE_S + 1;
+    const Table<JAM_STRUCTURE_COLUMNS> made(columns, table, table_len);
     const StructureFactor f = structure_factor(sys->packing, q_max, !table);
-    if (!table_wanted(f.q.size(), columns, table, table_len, needed)) return JAM_OK;
-    put_column(f.q, JAM_STRUCTURE_Q, columns, table);
-    put_column(f.s, JAM_STRUCTURE_S, columns, table);
+    if (!made.wanted(f.q.size(), needed)) return JAM_OK;
+    made.give(f.q.size(), [&](size_t k, auto &row) {
+      row[JAM_STRUCTURE_Q] = f.q[k];
+      row[JAM_STRUCTURE_S] = f.s[k];
+    });
     return JAM_OK;
   });
 }

@@ -52,24 +52,24 @@ jam_status jam_get_cell(const jam_system *sys, double *out, size_t out_len, size
   });
 }
 
-jam_status jam_walls(const jam_system *sys, double *table, size_t table_len, size_t *needed) {
+jam_status jam_walls(const jam_system *sys, int32_t columns, double *table, size_t table_len, size_t *needed) {
   return guard_read(sys, [&]() -> jam_status {
     const Packing &p = sys->packing;
     const Container &c = p.container;
-    constexpr size_t columns = JAM_WALL_STRESS + 1;
-    if (!table_wanted(static_cast<size_t>(c.count()), columns, table, table_len, needed)) return JAM_OK;
+    const Table<JAM_WALL_COLUMNS> made(columns, table, table_len);
+    const auto walls = static_cast<size_t>(c.count());
+    if (!made.wanted(walls, needed)) return JAM_OK;
     const ContactNetwork *net = sys->known_contacts();
     const std::vector<double> stress = wall_stress(p, net ? *net : ContactNetwork());
-    for (int w = 0; w < c.count(); ++w, table += columns) {
-      const ClosestWall closest = closest_to_wall(p, w);
-      table[JAM_WALL_AXIS] = c.axis(w);
-      table[JAM_WALL_SIDE] = c.side(w);
-      table[JAM_WALL_AREA] = c.area(w);
-      table[JAM_WALL_PRESSURE] =
-          p.wall_pressure.empty() ? std::numeric_limits<double>::quiet_NaN() : p.wall_pressure[static_cast<size_t>(w)];
-      table[JAM_WALL_GAP] = closest.gap;
-      table[JAM_WALL_STRESS] = stress[static_cast<size_t>(w)];
-    }
+    made.give(walls, [&](size_t k, auto &row) {
+      const int w = static_cast<int>(k);
+      row[JAM_WALL_AXIS] = c.axis(w);
+      row[JAM_WALL_SIDE] = c.side(w);
+      row[JAM_WALL_AREA] = c.area(w);
+      if (!p.wall_pressure.empty()) row[JAM_WALL_PRESSURE] = p.wall_pressure[k];
+      row[JAM_WALL_GAP] = closest_to_wall(p, w).gap;
+      row[JAM_WALL_STRESS] = stress[k];
+    });
     return JAM_OK;
   });
 }

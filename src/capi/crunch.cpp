@@ -104,10 +104,10 @@ jam_status jam_get_crunch_report(const jam_system *sys, jam_crunch_report *repor
   });
 }
 
-jam_status jam_crunch_history(const jam_system *sys, double *table, size_t table_len, size_t *needed) {
+jam_status jam_crunch_history(const jam_system *sys, int32_t columns, double *table, size_t table_len, size_t *needed) {
   return guard_read(sys, [&]() -> jam_status {
     if (!sys->has_history) fail(JAM_E_STATE, "there is no history: call jam_crunch first");
-    return give_table(sys->history, table, table_len, needed);
+    return give_table(sys->history, columns, table, table_len, needed);
   });
 }
 jam_status jam_crunch_step_displacements(const jam_system *sys, double *out, size_t out_len, size_t *needed) {

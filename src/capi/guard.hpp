@@ -1,5 +1,6 @@
 // The one barrier between C++ and C: every entry point runs guard(lambda).
 #pragma once
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -187,13 +188,16 @@ inline void need(const void *pointer, const char *name) {
   if (!pointer) fail(JAM_E_NULL, "%s is NULL", name);
 }
 
-// The size that a caller states for a struct. The size of every older, shorter version is a multiple of the alignment,
-// and such a size never ends inside a field.
+// How much longer than here a struct of a later version may be. Beyond that struct_size was not set.
+constexpr size_t struct_growth_max = 512;
+
+// The size that a caller states for a struct: less than here in an older program, more in one of a later version. It is
+// a multiple of the alignment, and such a size never ends inside a field.
 template <class T>
-void check_struct_size(size_t size, const char *name) {
-  if (size < sizeof(uint32_t) || size > sizeof(T))
-    fail(JAM_E_STRUCT_SIZE, "%s is %zu, the largest of this library is %zu", name, size, sizeof(T));
-  if (size % alignof(T) != 0) fail(JAM_E_STRUCT_SIZE, "%s is %zu, which cuts a field in two", name, size);
+void check_struct_size(size_t size, const char *name, const char *member = "") {
+  if (size < sizeof(uint32_t) || size > sizeof(T) + struct_growth_max)
+    fail(JAM_E_STRUCT_SIZE, "%s%s is %zu, in this library it is %zu", name, member, size, sizeof(T));
+  if (size % alignof(T) != 0) fail(JAM_E_STRUCT_SIZE, "%s%s is %zu, which cuts a field in two", name, member, size);
 }
 
 template <class T>
@@ -205,29 +209,37 @@ template <class T>
 void check_reserved(const T &, long) {}  // structs without such a field
 
 // Copies a caller's option struct into a full one: fields the caller's header did not know keep their defaults.
-// `full` holds the defaults; NULL options leave it so.
+// `full` holds the defaults; NULL options leave it so. Options that this library does not know must be 0, not set.
 template <class T>
 void take_options(const T *options, T &full) {
   if (!options) return;
-  const uint32_t size = options->struct_size;
+  const size_t size = options->struct_size;
   check_struct_size<T>(size, "struct_size");
-  std::memcpy(static_cast<void *>(&full), options, size);
+  const auto *const bytes = reinterpret_cast<const unsigned char *>(options);
+  for (size_t k = sizeof(T); k < size; ++k)
+    if (bytes[k])
+      fail(JAM_E_STRUCT_SIZE,
+           "struct_size is %zu, in this library it is %zu, and byte %zu is not 0: libjam %s has "
+           "no such option, a later version does",
+           size, sizeof(T), k, jam_version());
+  std::memcpy(static_cast<void *>(&full), options, std::min(size, sizeof(T)));
   full.struct_size = sizeof(T);
   check_reserved(full, 0);
 }
 
-// Writes as much of `full` as the caller's struct holds and leaves the caller's struct_size.
+// Writes as much of `full` as the caller's struct holds and leaves the caller's struct_size. Bytes of members that this
+// library does not have are set: NaN in a double, -1 in an integer, which is how reports say that a number is not
+// known.
 template <class T>
 void check_out_struct(const T *out, const char *name) {
-  if (!out) return;
-  if (out->struct_size < sizeof(uint32_t) || out->struct_size > sizeof(T) || out->struct_size % alignof(T) != 0)
-    fail(JAM_E_STRUCT_SIZE, "%s->struct_size is %u, in this library it is %zu", name, out->struct_size, sizeof(T));
+  if (out) check_struct_size<T>(out->struct_size, name, "->struct_size");
 }
 template <class T>
 void give_struct(const T &full, T *out) {
   if (!out) return;
   const uint32_t size = out->struct_size;
-  std::memcpy(static_cast<void *>(out), &full, size);
+  std::memset(static_cast<void *>(out), 0xff, size);
+  std::memcpy(static_cast<void *>(out), &full, std::min<size_t>(size, sizeof(T)));
   out->struct_size = size;
 }
 // A verb that may be left by Cancelled before it has changed anything; the report then gives the reason and leaves all
@@ -256,7 +268,8 @@ jam_status init_options(T *out, size_t size, T defaults) noexcept {
     need(out, "o");
     check_struct_size<T>(size, "size");
     defaults.struct_size = static_cast<uint32_t>(size);
-    std::memcpy(static_cast<void *>(out), &defaults, size);
+    std::memset(static_cast<void *>(out), 0, size);
+    std::memcpy(static_cast<void *>(out), &defaults, std::min(size, sizeof(T)));
     return JAM_OK;
   });
 }

@@ -124,20 +124,21 @@ jam_status jam_isoconf_distances(const jam_system *sys, int64_t block, double *d
   });
 }
 
-jam_status jam_isoconf_series(const jam_system *sys, int64_t block, double *table, size_t table_len, size_t *needed) {
+jam_status jam_isoconf_series(const jam_system *sys, int64_t block, int32_t columns, double *table, size_t table_len,
+                              size_t *needed) {
   return with_runs(sys, [&](const Isoconfigurational &made) -> jam_status {
-    constexpr size_t columns = JAM_ISOCONF_RUNS + 1;
-    static_assert(columns == isoconf_columns + 1, "the sums of the runs, and their number");
+    static_assert(JAM_ISOCONF_RUNS == isoconf_columns, "the sums of the runs, and their number");
+    const Table<JAM_ISOCONF_COLUMNS> made_table(columns, table, table_len);
     const RunSums sums = made.sums(block);
     const size_t instants = instants_of(sums);
-    if (!table_wanted(instants, columns, table, table_len, needed)) return JAM_OK;
+    if (!made_table.wanted(instants, needed)) return JAM_OK;
     const double box = made.box();
-    for (size_t k = 0; k < instants; ++k, table += columns) {
-      std::copy_n(sums.series.begin() + static_cast<ptrdiff_t>(k * isoconf_columns), isoconf_columns, table);
-      table[JAM_ISOCONF_MSD] *= box * box;
-      table[JAM_ISOCONF_MSD2] *= box * box * box * box;
-      table[JAM_ISOCONF_RUNS] = static_cast<double>(sums.runs);
-    }
+    made_table.give(instants, [&](size_t k, auto &row) {
+      std::copy_n(sums.series.begin() + static_cast<ptrdiff_t>(k * isoconf_columns), isoconf_columns, row.begin());
+      row[JAM_ISOCONF_MSD] *= box * box;
+      row[JAM_ISOCONF_MSD2] *= box * box * box * box;
+      row[JAM_ISOCONF_RUNS] = static_cast<double>(sums.runs);
+    });
     return JAM_OK;
   });
 }

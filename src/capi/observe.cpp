@@ -26,12 +26,6 @@ void check_room(const char *name, size_t count, const T *out, size_t out_len) {
   if (out && out_len < count) fail(JAM_E_BUFFER, "%s has %zu elements, %zu are needed", name, out_len, count);
 }
 
-std::vector<double> column(const std::vector<Sample> &samples, double Sample::*member) {
-  std::vector<double> out;
-  for (const Sample &s : samples) out.push_back(s.*member);
-  return out;
-}
-
 }  // namespace
 
 extern "C" {
@@ -58,16 +52,20 @@ jam_status jam_stop_observing(jam_system *sys) {
   });
 }
 
-jam_status jam_observed_series(const jam_system *sys, double *table, size_t table_len, size_t *needed) {
+jam_status jam_observed_series(const jam_system *sys, int32_t columns, double *table, size_t table_len,
+                               size_t *needed) {
   return with_observer(sys, [&](const Observer &o) -> jam_status {
-    constexpr size_t columns = JAM_SERIES_MSD + 1;
-    if (!table_wanted(o.samples().size(), columns, table, table_len, needed)) return JAM_OK;
-    put_column(column(o.samples(), &Sample::time), JAM_SERIES_TIME, columns, table);
-    put_column(column(o.samples(), &Sample::collisions), JAM_SERIES_COLLISIONS, columns, table);
-    put_column(column(o.samples(), &Sample::packing_fraction), JAM_SERIES_FRACTION, columns, table);
-    put_column(column(o.samples(), &Sample::pressure), JAM_SERIES_PRESSURE, columns, table);
-    put_column(column(o.samples(), &Sample::error), JAM_SERIES_ERROR, columns, table);
-    put_column(column(o.samples(), &Sample::displacement2), JAM_SERIES_MSD, columns, table);
+    const Table<JAM_SERIES_COLUMNS> made(columns, table, table_len);
+    if (!made.wanted(o.samples().size(), needed)) return JAM_OK;
+    made.give(o.samples().size(), [&](size_t k, auto &row) {
+      const Sample &s = o.samples()[k];
+      row[JAM_SERIES_TIME] = s.time;
+      row[JAM_SERIES_COLLISIONS] = s.collisions;
+      row[JAM_SERIES_FRACTION] = s.packing_fraction;
+      row[JAM_SERIES_PRESSURE] = s.pressure;
+      row[JAM_SERIES_ERROR] = s.error;
+      row[JAM_SERIES_MSD] = s.displacement2;
+    });
     return JAM_OK;
   });
 }
@@ -110,30 +108,31 @@ jam_status jam_observed_pairs(const jam_system *sys, int32_t *pair, size_t pair_
   });
 }
 
-jam_status jam_observed_gaps(const jam_system *sys, double *table, size_t table_len, size_t *needed) {
+jam_status jam_observed_gaps(const jam_system *sys, int32_t columns, double *table, size_t table_len, size_t *needed) {
   return with_observer(sys, [&](const Observer &o) -> jam_status {
-    constexpr size_t columns = JAM_GAP_ERROR + 1;
+    const Table<JAM_GAP_COLUMNS> made(columns, table, table_len);
     const Histogram &h = o.gaps();
-    if (!table_wanted(h.bins(), columns, table, table_len, needed)) return JAM_OK;
-    for (size_t k = 0; k < h.bins(); ++k, table += columns) {
-      table[JAM_GAP_LOW] = h.edge[k];
-      table[JAM_GAP_HIGH] = h.edge[k + 1];
-      table[JAM_GAP_DENSITY] = h.mean(k);
-      table[JAM_GAP_ERROR] = h.error(k);
-    }
+    if (!made.wanted(h.bins(), needed)) return JAM_OK;
+    made.give(h.bins(), [&](size_t k, auto &row) {
+      row[JAM_GAP_LOW] = h.edge[k];
+      row[JAM_GAP_HIGH] = h.edge[k + 1];
+      row[JAM_GAP_DENSITY] = h.mean(k);
+      row[JAM_GAP_ERROR] = h.error(k);
+    });
     return JAM_OK;
   });
 }
 
-jam_status jam_observed_correlation(const jam_system *sys, double *table, size_t table_len, size_t *needed) {
+jam_status jam_observed_correlation(const jam_system *sys, int32_t columns, double *table, size_t table_len,
+                                    size_t *needed) {
   return with_observer(sys, [&](const Observer &o) -> jam_status {
-    constexpr size_t columns = JAM_CORRELATION_G + 1;
+    const Table<JAM_CORRELATION_COLUMNS> made(columns, table, table_len);
     const Histogram &h = o.correlation();
-    if (!table_wanted(h.bins(), columns, table, table_len, needed)) return JAM_OK;
-    for (size_t k = 0; k < h.bins(); ++k, table += columns) {
-      table[JAM_CORRELATION_R] = 0.5 * (h.edge[k] + h.edge[k + 1]);
-      table[JAM_CORRELATION_G] = h.mean(k);
-    }
+    if (!made.wanted(h.bins(), needed)) return JAM_OK;
+    made.give(h.bins(), [&](size_t k, auto &row) {
+      row[JAM_CORRELATION_R] = 0.5 * (h.edge[k] + h.edge[k + 1]);
+      row[JAM_CORRELATION_G] = h.mean(k);
+    });
     return JAM_OK;
   });
 }

@@ -134,15 +134,17 @@ jam_status jam_write_voxels(const jam_system *sys, const char *path, const jam_v
   });
 }
 
-jam_status jam_solid_profile(const jam_system *sys, int32_t axis, int32_t bins, double *table, size_t table_len,
-                             size_t *needed) {
+jam_status jam_solid_profile(const jam_system *sys, int32_t axis, int32_t bins, int32_t columns, double *table,
+                             size_t table_len, size_t *needed) {
   return guard_const(sys, [&]() -> jam_status {
+    const Table<JAM_PROFILE_COLUMNS> made(columns, table, table_len);
     const Profile profile = solid_profile(sys->packing, axis, bins);
-    constexpr size_t columns = JAM_PROFILE_SOLID + 1;
-    if (!table_wanted(profile.low.size(), columns, table, table_len, needed)) return JAM_OK;
-    put_column(profile.low, JAM_PROFILE_LOW, columns, table);
-    put_column(profile.high, JAM_PROFILE_HIGH, columns, table);
-    put_column(profile.solid, JAM_PROFILE_SOLID, columns, table);
+    if (!made.wanted(profile.low.size(), needed)) return JAM_OK;
+    made.give(profile.low.size(), [&](size_t k, auto &row) {
+      row[JAM_PROFILE_LOW] = profile.low[k];
+      row[JAM_PROFILE_HIGH] = profile.high[k];
+      row[JAM_PROFILE_SOLID] = profile.solid[k];
+    });
     return JAM_OK;
   });
 }
@@ -154,12 +156,13 @@ jam_status jam_near_coordination(const jam_system *sys, double h_max, int32_t *o
   });
 }
 
-jam_status jam_pore_sizes(jam_system *sys, int64_t points, int64_t seed, double *table, size_t table_len,
-                          size_t *needed) {
+jam_status jam_pore_sizes(jam_system *sys, int64_t points, int64_t seed, int32_t columns, double *table,
+                          size_t table_len, size_t *needed) {
   return guard_cancellable(sys, [&]() -> jam_status {
     check_pore_points(sys->packing, points);
-    if (!table_wanted(static_cast<size_t>(points), JAM_PORE_RADIUS + 1, table, table_len, needed)) return JAM_OK;
-    return give_table(pore_sizes(sys->packing, points, seed), table, table_len, needed);
+    const Table<JAM_PORE_COLUMNS> made(columns, table, table_len);
+    if (!made.wanted(static_cast<size_t>(points), needed)) return JAM_OK;
+    return give_table(pore_sizes(sys->packing, points, seed), columns, table, table_len, needed);
   });
 }
 

@@ -95,13 +95,13 @@ struct Waiting {
 }  // namespace
 
 void Results::archive(Archive &a, const Packing &p) {
-  // A report with other fields is another format: raise the version in io/checkpoint.cpp.
-  a(has_report), a(report), jam::inside::archive(a, contacts);
+  // A report may grow at its end. Another column of a history is another format: raise the version in
+  // io/checkpoint.cpp.
+  a(has_report), a.sized(report), jam::inside::archive(a, contacts);
   a(has_history), a(history), a(soft_history);
   uint64_t kept = kept_steps.size();
   a(kept);
   if (a.reading()) {
-    check(report.struct_size == sizeof report || !has_report);
     check(!has_report || std::max<int64_t>(0, report.contacts) == static_cast<int64_t>(contacts.size()));
     check_network(contacts, p);
     check_history(history);
@@ -131,7 +131,6 @@ std::string archive_beside(const SystemState &s, const Moving &moving) {
   w.archive(a);
   if (w.has_results) {
     Results copy = s;
-    copy.report.struct_size = sizeof copy.report;
     copy.archive(a, s.packing);
   }
   return a.bytes();

@@ -129,7 +129,7 @@ jam_status jam_flex(jam_system *sys, int32_t kind, double *out, size_t out_len, 
 }
 
 jam_status jam_bloch_rigidity(jam_system *sys, const int32_t *count, size_t count_len, double *wave, size_t wave_len,
-                              double *table, size_t table_len, size_t *rows) {
+                              int32_t columns, double *table, size_t table_len, size_t *rows) {
   return guard_cancellable(sys, [&]() -> Answer {
     const Packing &p = sys->packing;
     need(count, "count");
@@ -141,19 +141,19 @@ jam_status jam_bloch_rigidity(jam_system *sys, const int32_t *count, size_t coun
       fail(JAM_E_UNSUPPORTED, "Mari-Kurchan spheres have no copies: shifts are drawn for each pair");
     const Copies copies(p, count);
     const auto m = static_cast<size_t>(copies.number());
-    constexpr size_t columns = JAM_BLOCH_MARGIN + 1;
+    const Table<JAM_BLOCH_COLUMNS> made(columns, table, table_len);
     if (!rows && !table && !wave) fail(JAM_E_NULL, "rows is NULL and there is no output array");
     check_output(wave, wave_len, m * count_len, "wave");
-    check_output(table, table_len, columns * m, "table");
+    made.check_room(m);
     if (rows) *rows = m;
     if (!table && !wave) return JAM_OK;
     const PackingVerdict one_cell = judge(p, gap_resolution(p), sys->known_contacts(), Jamming::collective);
     const BlochFlexes found = bloch_flexes(p, one_cell, copies);
     put_output(found.wave, wave, m * count_len);
-    if (table) {
-      put_column(found.flexes, JAM_BLOCH_FLEXES, columns, table);
-      put_column(found.margin, JAM_BLOCH_MARGIN, columns, table);
-    }
+    made.give(m, [&](size_t k, auto &row) {
+      row[JAM_BLOCH_FLEXES] = static_cast<double>(found.flexes[k]);
+      row[JAM_BLOCH_MARGIN] = found.margin[k];
+    });
     if (found.jammed == Verdict::yes) return JAM_OK;
     if (found.jammed == Verdict::undecided)
       return {JAM_AMBIGUOUS,

@@ -97,10 +97,11 @@ jam_status jam_decompress(jam_system *sys, const jam_decompress_options *o, jam_
   });
 }
 
-jam_status jam_decompress_history(const jam_system *sys, double *table, size_t table_len, size_t *needed) {
+jam_status jam_decompress_history(const jam_system *sys, int32_t columns, double *table, size_t table_len,
+                                  size_t *needed) {
   return guard_read(sys, [&]() -> jam_status {
     if (sys->soft_history.empty()) fail(JAM_E_STATE, "there is no history: call jam_decompress first");
-    return give_table(sys->soft_history, table, table_len, needed);
+    return give_table(sys->soft_history, columns, table, table_len, needed);
   });
 }
 

@@ -111,30 +111,30 @@ std::string sentence(const char *format, ...) {
 }  // namespace jam::inside
 
 // One list for code and text; the numbers are checked against the header by the compiler through the switch.
-#define JAM_STATUS_TEXTS(X)                                    \
-  X(JAM_OK, "done")                                            \
-  X(JAM_CANCELLED, "cancelled")                                \
-  X(JAM_LIMIT, "a limit on work or time came first")           \
-  X(JAM_NOT_CONVERGED, "no further progress")                  \
-  X(JAM_PRECISION, "beyond the resolution of the numbers")     \
-  X(JAM_NOT_JAMMED, "no jammed network")                       \
-  X(JAM_AMBIGUOUS, "the answer is not unique")                 \
-  X(JAM_E_NULL, "a needed pointer is NULL")                    \
-  X(JAM_E_STRUCT_SIZE, "struct_size is unknown")               \
-  X(JAM_E_ARGUMENT, "a value is out of its range")             \
-  X(JAM_E_DIMENSION, "the dimension is not supported")         \
-  X(JAM_E_NONFINITE, "NaN or infinity in the input")           \
-  X(JAM_E_OVERLAP, "spheres overlap")                          \
-  X(JAM_E_UNPLACEABLE, "the random start cannot be placed")    \
-  X(JAM_E_BUFFER, "the output buffer is too short")            \
-  X(JAM_E_MEMORY, "out of memory")                             \
-  X(JAM_E_IO, "file cannot be opened, read or written")        \
-  X(JAM_E_FORMAT, "file does not have the format")             \
-  X(JAM_E_STATE, "no such result yet")                         \
-  X(JAM_E_SOLVER, "no solver gave an answer that checks out")  \
-  X(JAM_E_TOO_FEW, "too few spheres")                          \
-  X(JAM_E_BUSY, "another call is running on this handle")      \
-  X(JAM_E_UNSUPPORTED, "not available in this build or model") \
+#define JAM_STATUS_TEXTS(X)                                                           \
+  X(JAM_OK, "done")                                                                   \
+  X(JAM_CANCELLED, "cancelled")                                                       \
+  X(JAM_LIMIT, "a limit on work or time came first")                                  \
+  X(JAM_NOT_CONVERGED, "no further progress")                                         \
+  X(JAM_PRECISION, "beyond the resolution of the numbers")                            \
+  X(JAM_NOT_JAMMED, "no jammed network")                                              \
+  X(JAM_AMBIGUOUS, "the answer is not unique")                                        \
+  X(JAM_E_NULL, "a needed pointer is NULL")                                           \
+  X(JAM_E_STRUCT_SIZE, "struct_size was not set, or an option is of a later version") \
+  X(JAM_E_ARGUMENT, "a value is out of its range")                                    \
+  X(JAM_E_DIMENSION, "the dimension is not supported")                                \
+  X(JAM_E_NONFINITE, "NaN or infinity in the input")                                  \
+  X(JAM_E_OVERLAP, "spheres overlap")                                                 \
+  X(JAM_E_UNPLACEABLE, "the random start cannot be placed")                           \
+  X(JAM_E_BUFFER, "the output buffer is too short")                                   \
+  X(JAM_E_MEMORY, "out of memory")                                                    \
+  X(JAM_E_IO, "file cannot be opened, read or written")                               \
+  X(JAM_E_FORMAT, "file does not have the format")                                    \
+  X(JAM_E_STATE, "no such result yet")                                                \
+  X(JAM_E_SOLVER, "no solver gave an answer that checks out")                         \
+  X(JAM_E_TOO_FEW, "too few spheres")                                                 \
+  X(JAM_E_BUSY, "another call is running on this handle")                             \
+  X(JAM_E_UNSUPPORTED, "not available in this build or model")                        \
   X(JAM_E_INTERNAL, "internal error of libjam")
 
 extern "C" {

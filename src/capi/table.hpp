@@ -2,33 +2,65 @@
 #pragma once
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <vector>
 #include "capi/guard.hpp"
 
 namespace jam::inside {
 
-// The size alone is known before the work: sets *needed and says whether there is an array to fill.
-inline bool table_wanted(size_t rows, size_t columns, const double *table, size_t table_len, size_t *needed) {
-  if (!table && table_len != 0) fail(JAM_E_NULL, "table is NULL but its length is %zu", table_len);
-  if (!table && !needed) fail(JAM_E_NULL, "needed is NULL and there is no output array");
-  const size_t count = rows * columns;
-  if (needed) *needed = count;
-  if (table && table_len < count)
-    fail(JAM_E_BUFFER, "table has %zu elements, %zu are needed (%zu rows of %zu)", table_len, count, rows, columns);
-  return table != nullptr;
-}
+// A table of N columns as its caller wants it. An older program knows fewer columns and gets the first ones; one of a
+// later version knows more, which are NaN.
+template <size_t N>
+class Table {
+ public:
+  Table(int32_t columns, double *out, size_t len) : columns_(static_cast<size_t>(columns)), out_(out), len_(len) {
+    if (columns < 1 || columns > columns_max)
+      fail(JAM_E_ARGUMENT, "columns is %d, it must be 1..%d: jam.h has the number of each table, here %zu", columns,
+           columns_max, N);
+    if (!out && len != 0) fail(JAM_E_NULL, "table is NULL but its length is %zu", len);
+  }
+  explicit operator bool() const { return out_ != nullptr; }
 
-template <class T>
-void put_column(const std::vector<T> &values, size_t at, size_t columns, double *table) {
-  for (size_t k = 0; k < values.size(); ++k) table[k * columns + at] = static_cast<double>(values[k]);
-}
+  void check_room(size_t rows) const {
+    if (out_ && len_ < rows * columns_)
+      fail(JAM_E_BUFFER, "table has %zu elements, %zu are needed (%zu rows of %zu)", len_, rows * columns_, rows,
+           columns_);
+  }
+  // Of a call that gives the table alone, whose size is known before the work: sets *needed and says whether there is
+  // an array to fill.
+  bool wanted(size_t rows, size_t *needed) const {
+    if (!out_ && !needed) fail(JAM_E_NULL, "needed is NULL and there is no output array");
+    if (needed) *needed = rows * columns_;
+    check_room(rows);
+    return out_ != nullptr;
+  }
+  // fill(k, row) writes the columns of row k, which are NaN before.
+  template <class F>
+  void give(size_t rows, F &&fill) const {
+    if (!out_) return;
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    for (size_t k = 0; k < rows; ++k) {
+      std::array<double, N> row;
+      row.fill(nan);
+      fill(k, row);
+      double *const at = out_ + k * columns_;
+      std::fill(std::copy_n(row.begin(), std::min(N, columns_), at), at + columns_, nan);
+    }
+  }
+
+ private:
+  static constexpr int32_t columns_max = 1000;  // more is no table of any version
+  size_t columns_;
+  double *out_;
+  size_t len_;
+};
 
 // Rows of columns, as a history keeps them.
-template <class Row>
-jam_status give_table(const std::vector<Row> &rows, double *table, size_t table_len, size_t *needed) {
-  constexpr size_t columns = std::tuple_size<Row>::value;
-  if (!table_wanted(rows.size(), columns, table, table_len, needed)) return JAM_OK;
-  for (const Row &row : rows) table = std::copy(row.begin(), row.end(), table);
+template <size_t N>
+jam_status give_table(const std::vector<std::array<double, N>> &rows, int32_t columns, double *table, size_t table_len,
+                      size_t *needed) {
+  const Table<N> made(columns, table, table_len);
+  if (made.wanted(rows.size(), needed)) made.give(rows.size(), [&](size_t k, auto &row) { row = rows[k]; });
   return JAM_OK;
 }
 

@@ -40,6 +40,17 @@ class Archive {
     }
     if (count) raw(v.data(), count * sizeof(T));
   }
+  // A struct that begins with its size, also a shorter one of an earlier version: what it lacks is not known.
+  template <class T>
+  void sized(T &x) {
+    static_assert(std::is_trivially_copyable<T>::value, "only plain data");
+    uint32_t size = sizeof x;
+    raw(&size, sizeof size);
+    check(size >= sizeof size && size <= sizeof x && size % alignof(T) == 0);
+    if (reading_) std::memset(static_cast<void *>(&x), 0xff, sizeof x);
+    x.struct_size = sizeof x;
+    raw(reinterpret_cast<char *>(&x) + sizeof size, size - sizeof size);
+  }
   // The bytes may come from a damaged file, so every length is checked before it is used.
   static void check(bool good) {
     if (!good) fail(JAM_E_FORMAT, "the stage kept in the checkpoint does not make sense");

@@ -41,7 +41,7 @@ def items():
     found = []
     for body in re.findall(r"typedef enum \w+ \{(.*?)\}", text, flags=re.S):
         found += re.findall(r"(JAM_\w+)\s*=", body)
-    found += re.findall(r"#define (JAM_[A-Z_]+) +\(?-?\d", text)
+    found += re.findall(r"^#define (JAM_[A-Z_]+) +\(?-?\d", text, flags=re.M)
     if len(found) < 50:
         sys.exit(f"only {len(found)} constants recognised in jam.h: this script is broken")
     return found
@@ -86,6 +86,11 @@ def differences(recorded, now, what):
         sys.exit(UPDATE)
 
 
+def fixed_constants(text):
+    """Lines of constants that stay as they are. The number of columns of a table may grow."""
+    return set(re.findall(r"^CHECK\((?!JAM_\w+_COLUMNS ==).*\)", text, flags=re.M))
+
+
 def symbols():
     differences(SYMBOLS.read_text().split(), exported(), "symbol")
 
@@ -123,10 +128,28 @@ def declared(text):
     return re.findall(r"JAM_API [^;]+;|typedef [^;{]+;", text), structs
 
 
+def tables(text):
+    """{enum of columns: [(column, its number)]}."""
+    found = re.findall(r"typedef enum (\w+_column) \{(.*?)\}", text, flags=re.S)
+    return {name: re.findall(r"(JAM_\w+)\s*=\s*(\d+)", body) for name, body in found}
+
+
+def broken_tables(old, now):
+    """A column may come behind the last; programs ask for as many as they know, and index by the numbers that they know."""
+    for name, columns in old.items():
+        if now.get(name, [])[: len(columns)] != columns:
+            yield f"{name}: columns went or moved; new ones come behind the last"
+    for name, columns in now.items():
+        if [int(number) for _, number in columns] != list(range(len(columns))):
+            yield f"{name}: the columns are not numbered from 0 to {len(columns) - 1}"
+
+
 def refuse_breaks():
-    """What went or changed needs the next number. Functions, constants and members at the end of a struct may come."""
+    """What went or changed needs the next number. Functions, constants, members at the end of a struct and columns at the
+    end of a table may come."""
     broken = sorted(set(SYMBOLS.read_text().split()) - set(exported()))
-    broken += sorted(set(re.findall(r"^CHECK\(.*\)", CONSTANTS.read_text(), flags=re.M)) - set(constants_text().splitlines()))
+    broken += sorted(fixed_constants(CONSTANTS.read_text()) - fixed_constants(constants_text()))
+    broken += broken_tables(tables(HEADER.read_text()), tables(header_text()))
     (old_calls, old_structs), (calls, structs) = declared(HEADER.read_text()), declared(header_text())
     broken += [call for call in old_calls if call not in calls]
     for name, old in old_structs.items():
@@ -145,8 +168,25 @@ def record_header():
     HEADER.write_text("/* Made by tests/abi/abi.py: jam.h as old programs were compiled with. */\n" + now.lstrip())
 
 
+def grown():
+    """Calls that take a struct or give a table which has grown since the last record: a program that uses what is new needs
+    this library, though the name of the call is older."""
+    sizes = dict(re.findall(r"<class-decl name='(jam_\w+)' size-in-bits='(\d+)'", DUMP.read_text()))
+    text = header_text()
+    sizes = {name: int(size) for name, size in sizes.items() if f"}} {name};" in text}
+    now = dict(zip(sizes, map(int, measured([f"8 * sizeof({name})" for name in sizes]))))
+    new = {name for name, size in sizes.items() if size < now[name]}
+    columns = dict(re.findall(r"CHECK\((JAM_\w+_COLUMNS) == (\d+)\)", CONSTANTS.read_text()))
+    for enum, found in tables(text).items():
+        count = f"JAM_{found[0][0].split('_')[1]}_COLUMNS"
+        new |= {enum} if int(columns.get(count, len(found))) < len(found) else set()
+    header = (root / "include/jam/jam.h").read_text()
+    calls = re.findall(r"/\*((?:(?!\*/).)*)\*/\s*JAM_API[^;(]*?\b(jam_\w+)\(([^;]*);", header, flags=re.S)
+    return {call for comment, call, arguments in calls if new & set(re.findall(r"jam_\w+", comment + arguments))}
+
+
 def record_debian():
-    """Debian's list says with which version a symbol came."""
+    """Debian's list says with which version a symbol came, or what it takes or gives last grew."""
     number = abi_number(header_text())
     file = DEBIAN / f"libjam{number}.symbols"
     if not file.exists():
@@ -154,8 +194,10 @@ def record_debian():
         return
     version = re.search(r"project\(jam VERSION ([\d.]+)", (root / "CMakeLists.txt").read_text()).group(1)
     had = dict(re.findall(rf"^ (\S+)@JAM_{number} (\S+)$", file.read_text(), flags=re.M))
-    lines = [f" {name}@JAM_{number} {had.get(name, version)}" for name in exported()]
-    file.write_text(f"libjam.so.{number} libjam{number} #MINVER#\n" + "\n".join(lines) + "\n")
+    newer = grown() if DUMP.exists() else set()
+    lines = [f" {name}@JAM_{number} {version if name in newer else had.get(name, version)}" for name in exported()]
+    head = f"libjam.so.{number} libjam{number} #MINVER#\n* Build-Depends-Package: libjam-dev\n"
+    file.write_text(head + "\n".join(lines) + "\n")
 
 
 def update():

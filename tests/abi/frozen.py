@@ -20,6 +20,11 @@ CHANGES = [
     ("a member at the end", HEADER, "  double proof_value, proof_bound;", "  double proof_value, proof_bound, more;", True),
     ("a reserved member is used", HEADER, "  int32_t reserved;\n} jam_crunch_options;", "  int32_t used;\n} jam_crunch_options;", True),
     ("another argument", HEADER, "jam_compress(jam_system *sys, const", "jam_compress(const jam_system *sys, const", False),
+    ("a column behind the last", HEADER, "HISTORY_TOTAL_MSD_STABLE = 19 ", "HISTORY_TOTAL_MSD_STABLE = 19, JAM_HISTORY_NEW = 20 ", True),
+    ("two columns of one number", HEADER, "HISTORY_TOTAL_MSD_STABLE = 19 ", "HISTORY_TOTAL_MSD_STABLE = 19, JAM_HISTORY_NEW = 3 ", False),
+    ("a column goes", HEADER, "  JAM_DOS_CUMULATIVE_ERROR = 5", "", False),
+    ("a column is renamed", HEADER, "JAM_DOS_CUMULATIVE_ERROR = 5", "JAM_DOS_SHARE = 5", False),
+    ("columns change places", HEADER, "JAM_PORE_X = 0", "JAM_PORE_X = 1", False),
     ("another callback", HEADER, "(*jam_log_fn)(int32_t level", "(*jam_log_fn)(int64_t level", False),
 ]
 

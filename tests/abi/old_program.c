@@ -120,14 +120,15 @@ static void crunched(jam_system *sys) {
   CHECK(r.strictly_jammed == JAM_VERDICT_UNTESTED && r.theorem == JAM_THEOREM_NONE && r.max_overlap < 1e-12);
   CHECK(jam_modes_options_init(&m, sizeof m) == JAM_OK);
   m.which = JAM_MODES_ALL;
-  CHECK(jam_modes(sys, NULL, &m, NULL, 0, NULL, 0, &needed) == JAM_OK && needed == 2 * (size_t)network);
+  CHECK(jam_modes(sys, NULL, &m, JAM_MODE_COLUMNS, NULL, 0, NULL, 0, &needed) == JAM_OK &&
+        needed == 2 * (size_t)network);
 }
 
 int main(void) {
   jam_system *sys;
   jam_create_options o;
   CHECK(jam_abi_version() == JAM_ABI);
-  CHECK(jam_create_options_init(&o, sizeof o + 4096) == JAM_E_STRUCT_SIZE);
+  CHECK(jam_create_options_init(&o, 1u << 20) == JAM_E_STRUCT_SIZE);
   CHECK(!strcmp(jam_stop_string(JAM_STOP_CONVERGED), "converged"));
   sys = made();
   if (!failures) grown(sys);

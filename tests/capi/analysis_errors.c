@@ -39,7 +39,7 @@ static void null_handles_are_refused(void **state) {
   assert_int_equal(jam_dos_options_init(NULL, 8), JAM_E_NULL);
   assert_int_equal(jam_hessian_map(NULL, &i, 1, &m), JAM_E_NULL);
   assert_int_equal(jam_hessian(NULL, NULL, &i, 1, &i, 1, &x, 1, &m), JAM_E_NULL);
-  assert_int_equal(jam_modes(NULL, NULL, NULL, &x, 1, NULL, 0, &m), JAM_E_NULL);
+  assert_int_equal(jam_modes(NULL, NULL, NULL, JAM_MODE_COLUMNS, &x, 1, NULL, 0, &m), JAM_E_NULL);
   assert_int_equal(jam_contacts_from_geometry(NULL, NULL, NULL), JAM_E_NULL);
   assert_int_equal(jam_stress_states(NULL, &x, 1, NULL, 0, NULL, &m), JAM_E_NULL);
   assert_int_equal(jam_gaps(NULL, 1.0, 0, &x, 1, NULL, 0, &m), JAM_E_NULL);
@@ -47,18 +47,18 @@ static void null_handles_are_refused(void **state) {
   assert_int_equal(jam_sphere_structure(NULL, 0, &x, 1, NULL, 0, &m), JAM_E_NULL);
   assert_int_equal(jam_contact_dots(NULL, 0, &x, 1, NULL, 0, &m), JAM_E_NULL);
   assert_int_equal(jam_pair_correlation(NULL, NULL, NULL, 0, &x, 1, &m), JAM_E_NULL);
-  assert_int_equal(jam_structure_factor(NULL, 1.0, &x, 1, &m), JAM_E_NULL);
+  assert_int_equal(jam_structure_factor(NULL, 1.0, JAM_STRUCTURE_COLUMNS, &x, 1, &m), JAM_E_NULL);
   assert_int_equal(jam_bond_order(NULL, 6, 1.2, &x, 1, &m), JAM_E_NULL);
   assert_int_equal(jam_crystal_score(NULL, &x), JAM_E_NULL);
   assert_int_equal(jam_local_fraction(NULL, &x, 1, &m), JAM_E_NULL);
   assert_int_equal(jam_floppy_mode(NULL, 0, &x, 1, &m), JAM_E_NULL);
-  assert_int_equal(jam_floppy_modes(NULL, &x, 1, &m), JAM_E_NULL);
-  assert_int_equal(jam_density_of_states(NULL, NULL, NULL, &x, 1, &m), JAM_E_NULL);
+  assert_int_equal(jam_floppy_modes(NULL, JAM_FLOPPY_COLUMNS, &x, 1, &m), JAM_E_NULL);
+  assert_int_equal(jam_density_of_states(NULL, NULL, NULL, JAM_DOS_COLUMNS, &x, 1, &m), JAM_E_NULL);
   assert_int_equal(jam_curvature(NULL, NULL, &x, 1, &x), JAM_E_NULL);
   assert_int_equal(jam_project(NULL, &x, 1, &x, 1, &x, 1, &m), JAM_E_NULL);
   assert_int_equal(jam_local_values(NULL, 0, 0, &x, 1, &m), JAM_E_NULL);
   assert_int_equal(jam_histogram(NULL, 0, 0, 0.0, 1.0, 1, &x, 1, &m), JAM_E_NULL);
-  assert_int_equal(jam_contact_candidates(NULL, 0.1, &x, 1, &m), JAM_E_NULL);
+  assert_int_equal(jam_contact_candidates(NULL, 0.1, JAM_CANDIDATE_COLUMNS, &x, 1, &m), JAM_E_NULL);
   assert_int_equal(jam_moduli(NULL, NULL, NULL), JAM_E_NULL);
   assert_int_equal(jam_elastic_tensor(NULL, NULL, NULL, 0, NULL, 0, NULL), JAM_E_NULL);
   assert_int_equal(jam_compare(NULL, NULL, NULL, NULL, 0, NULL), JAM_E_NULL);
@@ -73,7 +73,7 @@ static void calls_without_a_network_are_refused(void **state) {
   (void)state;
   assert_int_equal(jam_hessian_map(s, &i, 1, &m), JAM_E_STATE);
   assert_int_equal(jam_hessian(s, NULL, NULL, 0, NULL, 0, NULL, 0, &m), JAM_E_STATE);
-  assert_int_equal(jam_modes(s, NULL, NULL, NULL, 0, NULL, 0, &m), JAM_E_STATE);
+  assert_int_equal(jam_modes(s, NULL, NULL, JAM_MODE_COLUMNS, NULL, 0, NULL, 0, &m), JAM_E_STATE);
   assert_int_equal(jam_stress_states(s, NULL, 0, NULL, 0, NULL, &m), JAM_E_STATE);
   assert_int_equal(jam_gaps(s, 1.0, 1, NULL, 0, NULL, 0, &m), JAM_E_STATE);
   assert_int_equal(jam_gaps(s, 1.0, 0, NULL, 0, NULL, 0, &m), JAM_OK);
@@ -81,13 +81,13 @@ static void calls_without_a_network_are_refused(void **state) {
   assert_int_equal(jam_sphere_structure(s, 0, NULL, 0, NULL, 0, &m), JAM_E_STATE);
   assert_int_equal(jam_contact_dots(s, 0, NULL, 0, NULL, 0, &m), JAM_E_STATE);
   assert_int_equal(jam_floppy_mode(s, 0, NULL, 0, &m), JAM_E_STATE);
-  assert_int_equal(jam_floppy_modes(s, NULL, 0, &m), JAM_E_STATE);
-  assert_int_equal(jam_density_of_states(s, NULL, NULL, NULL, 0, &m), JAM_E_STATE);
+  assert_int_equal(jam_floppy_modes(s, JAM_FLOPPY_COLUMNS, NULL, 0, &m), JAM_E_STATE);
+  assert_int_equal(jam_density_of_states(s, NULL, NULL, JAM_DOS_COLUMNS, NULL, 0, &m), JAM_E_STATE);
   assert_int_equal(jam_curvature(s, NULL, &x, 1, &x), JAM_E_STATE);
   assert_int_equal(jam_project(s, &x, 1, &x, 1, &x, 1, &m), JAM_E_STATE);
   assert_int_equal(jam_local_values(s, 0, 0, NULL, 0, &m), JAM_E_STATE);
   assert_int_equal(jam_histogram(s, 0, 0, 0.0, 1.0, 5, NULL, 0, &m), JAM_E_STATE);
-  assert_int_equal(jam_contact_candidates(s, 0.1, NULL, 0, &m), JAM_OK); /* needs no network */
+  assert_int_equal(jam_contact_candidates(s, 0.1, JAM_CANDIDATE_COLUMNS, NULL, 0, &m), JAM_OK); /* needs no network */
   assert_int_equal(m, 0);
   assert_int_equal(jam_moduli(s, NULL, &moduli), JAM_E_STATE);
   assert_non_null(strstr(jam_last_error(), "jam_contacts_from_geometry"));
@@ -109,12 +109,12 @@ static void a_fluid_has_an_empty_network(void **state) {
   assert_int_equal(m, 0);
   assert_int_equal(jam_hessian(s, NULL, start, 4, NULL, 0, NULL, 0, &m), JAM_NOT_JAMMED);
   assert_int_equal(start[0], 0);
-  assert_int_equal(jam_modes(s, NULL, NULL, x, 10, NULL, 0, &m), JAM_NOT_JAMMED);
+  assert_int_equal(jam_modes(s, NULL, NULL, JAM_MODE_COLUMNS, x, 10, NULL, 0, &m), JAM_NOT_JAMMED);
   assert_int_equal(m, 0);
   assert_int_equal(jam_stress_states(s, x, 10, NULL, 0, NULL, &m), JAM_NOT_JAMMED);
-  assert_int_equal(jam_floppy_modes(s, x, 10, &m), JAM_NOT_JAMMED);
+  assert_int_equal(jam_floppy_modes(s, JAM_FLOPPY_COLUMNS, x, 10, &m), JAM_NOT_JAMMED);
   assert_int_equal(jam_floppy_mode(s, 0, x, 10, &m), JAM_E_ARGUMENT);
-  assert_int_equal(jam_density_of_states(s, NULL, NULL, x, 10, &m), JAM_NOT_JAMMED);
+  assert_int_equal(jam_density_of_states(s, NULL, NULL, JAM_DOS_COLUMNS, x, 10, &m), JAM_NOT_JAMMED);
   assert_int_equal(jam_moduli(s, NULL, &moduli), JAM_NOT_JAMMED);
   assert_int_equal(jam_elastic_tensor(s, NULL, NULL, 0, NULL, 0, &m), JAM_NOT_JAMMED);
   assert_int_equal(jam_local_values(s, JAM_LOCAL_COORDINATION, JAM_POPULATION_ALL, x, 10, &m), JAM_OK);
@@ -182,15 +182,15 @@ static void bad_arguments_are_refused(void **state) {
   assert_int_equal(m, 32 * 2 * 5); /* needed is set: every sphere has its own block and four neighbours' */
   assert_int_equal(jam_hessian(s, NULL, i, 33, i + 40, 400, x, 400, &m), JAM_OK);
   o.which = 9;
-  assert_int_equal(jam_modes(s, NULL, &o, x, 100, NULL, 0, &m), JAM_E_ARGUMENT);
+  assert_int_equal(jam_modes(s, NULL, &o, JAM_MODE_COLUMNS, x, 100, NULL, 0, &m), JAM_E_ARGUMENT);
   o.which = JAM_MODES_LOWEST, o.count = 0;
-  assert_int_equal(jam_modes(s, NULL, &o, x, 100, NULL, 0, &m), JAM_E_ARGUMENT);
+  assert_int_equal(jam_modes(s, NULL, &o, JAM_MODE_COLUMNS, x, 100, NULL, 0, &m), JAM_E_ARGUMENT);
   o.count = 1000000;
-  assert_int_equal(jam_modes(s, NULL, &o, NULL, 0, NULL, 0, &m), JAM_OK);
+  assert_int_equal(jam_modes(s, NULL, &o, JAM_MODE_COLUMNS, NULL, 0, NULL, 0, &m), JAM_OK);
   assert_int_equal(m, 30); /* no more than there are */
-  assert_int_equal(jam_modes(s, NULL, &o, x, 59, NULL, 0, &m), JAM_E_BUFFER);
+  assert_int_equal(jam_modes(s, NULL, &o, JAM_MODE_COLUMNS, x, 59, NULL, 0, &m), JAM_E_BUFFER);
   o.memory_limit = 10.0;
-  assert_int_equal(jam_modes(s, NULL, &o, x, 100, NULL, 0, &m), JAM_E_MEMORY);
+  assert_int_equal(jam_modes(s, NULL, &o, JAM_MODE_COLUMNS, x, 100, NULL, 0, &m), JAM_E_MEMORY);
   assert_non_null(strstr(jam_last_error(), "bytes"));
   assert_int_equal(jam_gaps(s, -1.0, 0, NULL, 0, NULL, 0, &m), JAM_E_ARGUMENT);
   assert_int_equal(jam_gaps(t, 1000.0, 0, NULL, 0, NULL, 0, &m), JAM_E_MEMORY);
@@ -201,12 +201,12 @@ static void bad_arguments_are_refused(void **state) {
   assert_int_equal(jam_pair_correlation(s, &pairs, NULL, 0, x, 10, &m), JAM_E_ARGUMENT);
   pairs.r_max = 2.0, pairs.bins = 0;
   assert_int_equal(jam_pair_correlation(s, &pairs, NULL, 0, x, 10, &m), JAM_E_ARGUMENT);
-  assert_int_equal(jam_structure_factor(s, INFINITY, NULL, 0, &m), JAM_E_ARGUMENT);
-  assert_int_equal(jam_structure_factor(s, 1e7, NULL, 0, &m), JAM_E_ARGUMENT);
+  assert_int_equal(jam_structure_factor(s, INFINITY, JAM_STRUCTURE_COLUMNS, NULL, 0, &m), JAM_E_ARGUMENT);
+  assert_int_equal(jam_structure_factor(s, 1e7, JAM_STRUCTURE_COLUMNS, NULL, 0, &m), JAM_E_ARGUMENT);
   assert_int_equal(jam_bond_order(s, 0, 1.2, NULL, 0, &m), JAM_E_ARGUMENT);
   assert_int_equal(jam_local_fraction(s, NULL, 0, &m), JAM_E_UNSUPPORTED);
   q.moments = 2;
-  assert_int_equal(jam_density_of_states(s, NULL, &q, x, 1200, &m), JAM_E_ARGUMENT);
+  assert_int_equal(jam_density_of_states(s, NULL, &q, JAM_DOS_COLUMNS, x, 1200, &m), JAM_E_ARGUMENT);
   assert_int_equal(jam_local_values(s, 8, 0, NULL, 0, &m), JAM_E_ARGUMENT);
   assert_int_equal(jam_local_values(s, 0, 5, NULL, 0, &m), JAM_E_ARGUMENT);
   assert_int_equal(jam_local_values(s, JAM_LOCAL_VECTOR_SUM, JAM_POPULATION_MEDIAN, NULL, 0, &m), JAM_E_ARGUMENT);
@@ -243,9 +243,9 @@ static void every_long_call_can_be_cancelled(void **state) {
   assert_int_equal(jam_set_progress(s, stop, &phase), JAM_OK);
   assert_int_equal(jam_contacts_from_geometry(s, NULL, &g), JAM_CANCELLED);
   assert_int_equal(jam_stress_states(s, f, 256, NULL, 0, &residual, &m), JAM_CANCELLED);
-  assert_int_equal(jam_density_of_states(s, NULL, NULL, table, 1200, &m), JAM_CANCELLED);
+  assert_int_equal(jam_density_of_states(s, NULL, NULL, JAM_DOS_COLUMNS, table, 1200, &m), JAM_CANCELLED);
   assert_int_equal(jam_moduli(s, NULL, &moduli), JAM_CANCELLED);
-  assert_int_equal(jam_structure_factor(s, 50.0, NULL, 0, &m), JAM_CANCELLED);
+  assert_int_equal(jam_structure_factor(s, 50.0, JAM_STRUCTURE_COLUMNS, NULL, 0, &m), JAM_CANCELLED);
   assert_int_equal(phase, JAM_PHASE_ANALYSE);
   assert_true(x[0] == 7.0 && f[0] == 7.0 && table[0] == 7.0 && residual == 7.0 && isnan(moduli.bulk) &&
               g.contacts == 7); /* a report of moduli is unknown, all else is as it was */
@@ -260,7 +260,7 @@ static void every_long_call_can_be_cancelled(void **state) {
   assert_int_equal(jam_crunch(one, NULL, NULL), JAM_OK);
   assert_int_equal(jam_set_progress(one, stop, &phase), JAM_OK);
   f[0] = 7.0;
-  assert_int_equal(jam_floppy_modes(one, table, 1200, &m), JAM_CANCELLED);
+  assert_int_equal(jam_floppy_modes(one, JAM_FLOPPY_COLUMNS, table, 1200, &m), JAM_CANCELLED);
   assert_int_equal(jam_floppy_mode(one, 0, f, 256, &m), JAM_CANCELLED);
   assert_true(f[0] == 7.0 && table[0] == 7.0);
   jam_destroy(one);
@@ -277,11 +277,11 @@ static void cancelled_calls_write_nothing(void **state) {
   assert_int_equal(jam_set_progress(s, stop, &phase), JAM_OK);
   assert_int_equal(jam_modes_options_init(&o, sizeof o), JAM_OK);
   o.which = JAM_MODES_ALL;
-  assert_int_equal(jam_modes(s, NULL, &o, x, 64, NULL, 0, &m), JAM_CANCELLED);
+  assert_int_equal(jam_modes(s, NULL, &o, JAM_MODE_COLUMNS, x, 64, NULL, 0, &m), JAM_CANCELLED);
   assert_int_equal(phase, JAM_PHASE_ANALYSE);
   assert_true(x[0] == 7.0); /* nothing written */
   assert_int_equal(jam_set_progress(s, NULL, NULL), JAM_OK);
-  assert_int_equal(jam_modes(s, NULL, &o, x, 64, NULL, 0, &m), JAM_OK);
+  assert_int_equal(jam_modes(s, NULL, &o, JAM_MODE_COLUMNS, x, 64, NULL, 0, &m), JAM_OK);
   jam_destroy(s);
 }
 

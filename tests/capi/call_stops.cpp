@@ -80,7 +80,7 @@ void setters_are_stopped(void **) {
     }
   jam_set_progress(sys, nullptr, nullptr);
   size_t rows = 0;
-  assert_int_equal(jam_structure_factor(sys, 7.0 * s[0], nullptr, 0, &rows), JAM_OK);
+  assert_int_equal(jam_structure_factor(sys, 7.0 * s[0], JAM_STRUCTURE_COLUMNS, nullptr, 0, &rows), JAM_OK);
   jam_destroy(sys);
 }
 

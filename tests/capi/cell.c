@@ -255,7 +255,7 @@ static void refused(void **state) {
   assert_int_equal(create_in_cell(&o, NULL, 4, x, 4, &sigma, 1, &sys), JAM_E_NULL);
   assert_int_equal(create_from(&o, x, 4, &sigma, 1, &sys), JAM_E_OVERLAP); /* in the unit square they are one */
   assert_int_equal(create_in_cell(&o, tall, 4, x, 4, &sigma, 1, &sys), JAM_OK);
-  assert_int_equal(jam_structure_factor(sys, 10.0, NULL, 0, &rows), JAM_OK);
+  assert_int_equal(jam_structure_factor(sys, 10.0, JAM_STRUCTURE_COLUMNS, NULL, 0, &rows), JAM_OK);
   const double squeeze[4] = {0.0, 0.0, 0.0, -0.5};
   assert_int_equal(jam_strain(sys, squeeze, 4), JAM_E_OVERLAP);
   assert_int_equal(jam_strain(sys, squeeze, 3), JAM_E_ARGUMENT);

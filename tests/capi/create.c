@@ -66,7 +66,7 @@ static void bad_options_are_refused(void **state) {
   refused(&o, NULL, 0, NULL, 0, JAM_E_ARGUMENT, "mk_zeta is 1.1e+15");
   o.mk_zeta = NAN;
   refused(&o, NULL, 0, NULL, 0, JAM_E_ARGUMENT, "mk_zeta is");
-  o.mk_zeta = INFINITY, o.model = 0, o.struct_size = sizeof o + 8;
+  o.mk_zeta = INFINITY, o.model = 0, o.struct_size = sizeof o + 520;
   refused(&o, NULL, 0, NULL, 0, JAM_E_STRUCT_SIZE, "struct_size");
   o.struct_size = 0;
   refused(&o, NULL, 0, NULL, 0, JAM_E_STRUCT_SIZE, "struct_size is 0");

@@ -222,8 +222,8 @@ static void history_errors_are_named(void **state) {
   double v[MAX_STEPS], u[MAX_STEPS];
   size_t needed, rows;
   (void)state;
-  assert_int_equal(jam_crunch_history(NULL, NULL, 0, &needed), JAM_E_NULL);
-  assert_int_equal(jam_crunch_history(sys, NULL, 0, &needed), JAM_E_STATE);
+  assert_int_equal(jam_crunch_history(NULL, JAM_HISTORY_COLUMNS, NULL, 0, &needed), JAM_E_NULL);
+  assert_int_equal(jam_crunch_history(sys, JAM_HISTORY_COLUMNS, NULL, 0, &needed), JAM_E_STATE);
   assert_int_equal(jam_crunch_step_displacements(NULL, NULL, 0, &needed), JAM_E_NULL);
   assert_int_equal(jam_crunch_step_contacts(sys, NULL, 0, &needed), JAM_E_STATE);
   assert_int_equal(jam_crunch_step_vectors(sys, NULL, 0, &needed), JAM_E_STATE);
@@ -236,7 +236,7 @@ static void history_errors_are_named(void **state) {
   assert_int_equal(jam_crunch(sys, NULL, NULL), JAM_OK);
   assert_int_equal(jam_crunch_step_duals(sys, NULL, 0, &needed), JAM_E_STATE);
   rows = column(sys, JAM_HISTORY_PHI, v);
-  assert_int_equal(jam_crunch_history(sys, v, rows * COLUMNS - 1, &needed), JAM_E_BUFFER);
+  assert_int_equal(jam_crunch_history(sys, JAM_HISTORY_COLUMNS, v, rows * COLUMNS - 1, &needed), JAM_E_BUFFER);
   assert_int_equal(needed, rows * COLUMNS);
   o.steps = 0, o.max_lps = -1; /* refused before anything is done: the history stays */
   assert_int_equal(jam_crunch(sys, &o, NULL), JAM_E_ARGUMENT);
@@ -245,7 +245,7 @@ static void history_errors_are_named(void **state) {
   assert_memory_equal(u, v, rows * sizeof *v);
   jam_destroy(copy);
   assert_int_equal(jam_scale_diameters(sys, 0.99), JAM_OK);
-  assert_int_equal(jam_crunch_history(sys, NULL, 0, &needed), JAM_E_STATE);
+  assert_int_equal(jam_crunch_history(sys, JAM_HISTORY_COLUMNS, NULL, 0, &needed), JAM_E_STATE);
   jam_destroy(sys);
 }
 

@@ -116,7 +116,9 @@ void life(Work &w, Seen &seen, int dim, int model) {
     w.keep(copy);
     size_t needed = 0;
     std::vector<double> table(room);
-    w.call("jam_modes", [&] { return jam_modes(copy, nullptr, nullptr, table.data(), room, nullptr, 0, &needed); });
+    w.call("jam_modes", [&] {
+      return jam_modes(copy, nullptr, nullptr, JAM_MODE_COLUMNS, table.data(), room, nullptr, 0, &needed);
+    });
     w.call("jam_rigidity", [&] { return jam_rigidity(copy, JAM_RIGIDITY_STRICT, nullptr); });
     jam_destroy(copy);
   }

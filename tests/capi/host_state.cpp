@@ -80,7 +80,8 @@ Positions life_of_a_packing(bool check) {
   step("jam_crunch", [&] { return jam_crunch(sys, nullptr, nullptr); });
   size_t needed = 0;
   step("jam_gaps", [&] { return jam_gaps(sys, 0.1, 0, nullptr, 0, nullptr, 0, &needed); });
-  step("jam_modes", [&] { return jam_modes(sys, nullptr, nullptr, nullptr, 0, nullptr, 0, &needed); });
+  step("jam_modes",
+       [&] { return jam_modes(sys, nullptr, nullptr, JAM_MODE_COLUMNS, nullptr, 0, nullptr, 0, &needed); });
   const double *view = nullptr;
   size_t len = 0;
   assert_int_equal(jam_view_positions(sys, &view, &len), JAM_OK);

@@ -53,7 +53,7 @@ static void get(const jam_system *sys, int64_t block, sums *s) {
   assert_int_equal(jam_isoconf_displacements(sys, block, s->displacement, M * N * D, s->square, M * N * D, NULL),
                    JAM_OK);
   assert_int_equal(jam_isoconf_distances(sys, block, s->distance2, M * N, s->distance4, M * N, NULL), JAM_OK);
-  assert_int_equal(jam_isoconf_series(sys, block, table, M * COLUMNS, NULL), JAM_OK);
+  assert_int_equal(jam_isoconf_series(sys, block, JAM_ISOCONF_COLUMNS, table, M * COLUMNS, NULL), JAM_OK);
   s->runs = (int64_t)table[JAM_ISOCONF_RUNS];
 }
 
@@ -191,7 +191,7 @@ static void sums_are_those_of_whole_sets(void **state) {
     assert_true(fabs(r4 - a.distance4[N + i]) < 1e-12 * r4);
     msd_sum += r2 / N;
   }
-  assert_int_equal(jam_isoconf_series(sys, -1, series, M * COLUMNS, NULL), JAM_OK);
+  assert_int_equal(jam_isoconf_series(sys, -1, JAM_ISOCONF_COLUMNS, series, M * COLUMNS, NULL), JAM_OK);
   assert_true(fabs(series[COLUMNS + JAM_ISOCONF_MSD] / msd_sum - 1.0) < 1e-12);
   /* No net momentum: the spheres' displacements of each run add up to zero. */
   for (k = 0; k < RUNS; ++k)
@@ -213,7 +213,7 @@ static void time_and_temperature_are_those_asked_for(void **state) {
   o.clock = JAM_CLOCK_TIME;
   o.temperature = 0.1;
   assert_int_equal(jam_isoconfigurational(sys, &o, NULL, times, 2, NULL, 0, NULL), JAM_OK);
-  assert_int_equal(jam_isoconf_series(sys, -1, first, 2 * COLUMNS, NULL), JAM_OK);
+  assert_int_equal(jam_isoconf_series(sys, -1, JAM_ISOCONF_COLUMNS, first, 2 * COLUMNS, NULL), JAM_OK);
   assert_true(fabs(second[JAM_ISOCONF_TIME] / RUNS / 2e-7 - 1.0) < 1e-12);
   assert_true(fabs(first[JAM_ISOCONF_MSD] / RUNS / (D * 0.1 * 1e-14) - 1.0) < 1e-3);
   assert_true(fabs(second[JAM_ISOCONF_MSD] / first[JAM_ISOCONF_MSD] - 4.0) < 1e-2);
@@ -279,8 +279,8 @@ static void bad_input_is_named(void **state) {
   assert_int_equal(jam_isoconfigurational(sys, &o, &m, instants, M, NULL, 0, NULL), JAM_E_ARGUMENT);
   assert_int_equal(jam_get_isoconf_report(sys, &r), JAM_OK); /* what was there is still there */
   assert_int_equal(r.runs, RUNS);
-  assert_int_equal(jam_isoconf_series(sys, 3, &x, 1, NULL), JAM_E_ARGUMENT);
-  assert_int_equal(jam_isoconf_series(sys, 0, &x, 1, NULL), JAM_E_BUFFER);
+  assert_int_equal(jam_isoconf_series(sys, 3, JAM_ISOCONF_COLUMNS, &x, 1, NULL), JAM_E_ARGUMENT);
+  assert_int_equal(jam_isoconf_series(sys, 0, JAM_ISOCONF_COLUMNS, &x, 1, NULL), JAM_E_BUFFER);
   jam_destroy(sys);
 }
 

@@ -63,10 +63,10 @@ static void series_pairs_and_displacements_agree(void **state) {
   assert_int_equal(jam_observe(sys, &o), JAM_OK);
   report = run(sys, 400);
   second = run(sys, 400); /* observations go on over calls */
-  assert_int_equal(jam_observed_series(sys, NULL, 0, &needed), JAM_OK);
+  assert_int_equal(jam_observed_series(sys, JAM_SERIES_COLUMNS, NULL, 0, &needed), JAM_OK);
   assert_int_equal(needed, 80 * 6);
-  assert_int_equal(jam_observed_series(sys, table, 479, &needed), JAM_E_BUFFER);
-  assert_int_equal(jam_observed_series(sys, table, 480, &needed), JAM_OK);
+  assert_int_equal(jam_observed_series(sys, JAM_SERIES_COLUMNS, table, 479, &needed), JAM_E_BUFFER);
+  assert_int_equal(jam_observed_series(sys, JAM_SERIES_COLUMNS, table, 480, &needed), JAM_OK);
   for (k = 0; k < 80; ++k) {
     const double *row = table + 6 * k;
     time[k] = row[JAM_SERIES_TIME], count[k] = row[JAM_SERIES_COLLISIONS], pressure[k] = row[JAM_SERIES_PRESSURE];
@@ -116,7 +116,7 @@ static void series_pairs_and_displacements_agree(void **state) {
   assert_memory_equal(start, end, sizeof start);
   assert_int_equal(jam_stop_observing(sys), JAM_OK);
   run(sys, 100);
-  assert_int_equal(jam_observed_series(sys, NULL, 0, &needed), JAM_OK);
+  assert_int_equal(jam_observed_series(sys, JAM_SERIES_COLUMNS, NULL, 0, &needed), JAM_OK);
   assert_int_equal(needed, 80 * 6); /* stopped, and still there */
   jam_destroy(sys);
   jam_destroy(bare);
@@ -139,7 +139,7 @@ static void histograms_of_gaps_and_distances(void **state) {
   assert_int_equal(jam_observe(sys, &o), JAM_OK);
   /* p - 1 = 4 phi g(sigma) (N - 1) / N: a sphere has N - 1 others. */
   contact = (run(sys, 1000).pressure - 1.0) / (4.0 * 0.3) * N / (N - 1.0);
-  assert_int_equal(jam_observed_gaps(sys, gap[0], 21 * 4, &needed), JAM_OK);
+  assert_int_equal(jam_observed_gaps(sys, JAM_GAP_COLUMNS, gap[0], 21 * 4, &needed), JAM_OK);
   assert_int_equal(needed, 21 * 4);
   assert_true(gap[0][JAM_GAP_LOW] == 0.0 && fabs(gap[0][JAM_GAP_HIGH] - 0.01) < 1e-15);
   assert_true(gap[1][JAM_GAP_LOW] == gap[0][JAM_GAP_HIGH] && fabs(gap[20][JAM_GAP_HIGH] - 0.3) < 1e-12);
@@ -148,7 +148,7 @@ static void histograms_of_gaps_and_distances(void **state) {
   /* g falls by about 2 per cent over the first bin. */
   assert_true(fabs(gap[0][JAM_GAP_DENSITY] / contact - 0.98) < 0.02 + 3.0 * gap[0][JAM_GAP_ERROR] / contact);
   assert_true(gap[20][JAM_GAP_DENSITY] < 0.75 * gap[0][JAM_GAP_DENSITY]);
-  assert_int_equal(jam_observed_correlation(sys, pair[0], 50 * 2, &needed), JAM_OK);
+  assert_int_equal(jam_observed_correlation(sys, JAM_CORRELATION_COLUMNS, pair[0], 50 * 2, &needed), JAM_OK);
   assert_int_equal(needed, 50 * 2);
   for (k = 0; k < 50; ++k) {
     const double r = pair[k][JAM_CORRELATION_R], g = pair[k][JAM_CORRELATION_G];
@@ -179,7 +179,7 @@ static void histograms_are_not_taken_at_collisions(void **state) {
   run(sys, 50);
   assert_int_equal(jam_observe(sys, &o), JAM_OK);
   contact = (run(sys, 10000).pressure - 1.0) / (4.0 * fraction) * n / (n - 1.0);
-  assert_int_equal(jam_observed_gaps(sys, gap[0], 3 * 4, &needed), JAM_OK);
+  assert_int_equal(jam_observed_gaps(sys, JAM_GAP_COLUMNS, gap[0], 3 * 4, &needed), JAM_OK);
   print_message("g(sigma) by pressure %.3f, in [0, 0.02] %.3f(%.3f)\n", contact, gap[0][JAM_GAP_DENSITY],
                 gap[0][JAM_GAP_ERROR]);
   assert_true(gap[0][JAM_GAP_ERROR] < 0.03 * contact);
@@ -270,8 +270,8 @@ static void bad_calls_are_refused(void **state) {
   c.n = 8;
   assert_int_equal(jam_create(&c, NULL, &sys), JAM_OK);
   assert_int_equal(jam_observe(NULL, NULL), JAM_E_NULL);
-  assert_int_equal(jam_observed_series(sys, NULL, 0, &needed), JAM_E_STATE);
-  assert_int_equal(jam_observed_gaps(sys, NULL, 0, &needed), JAM_E_STATE);
+  assert_int_equal(jam_observed_series(sys, JAM_SERIES_COLUMNS, NULL, 0, &needed), JAM_E_STATE);
+  assert_int_equal(jam_observed_gaps(sys, JAM_GAP_COLUMNS, NULL, 0, &needed), JAM_E_STATE);
   assert_int_equal(needed, 77);
   assert_int_equal(jam_observe_options_init(&o, 3), JAM_E_STRUCT_SIZE);
   for (k = 0; k < 9; ++k) {
@@ -290,9 +290,9 @@ static void bad_calls_are_refused(void **state) {
   assert_int_equal(jam_observe(sys, NULL), JAM_OK); /* the series alone */
   assert_int_equal(jam_observed_spheres(sys, collisions, 8, NULL, 0, &needed), JAM_E_STATE);
   assert_int_equal(jam_observed_pairs(sys, NULL, 0, NULL, 0, NULL, 0, x, &needed), JAM_E_STATE);
-  assert_int_equal(jam_observed_gaps(sys, NULL, 0, &needed), JAM_OK);
+  assert_int_equal(jam_observed_gaps(sys, JAM_GAP_COLUMNS, NULL, 0, &needed), JAM_OK);
   assert_int_equal(needed, 0);
-  assert_int_equal(jam_observed_series(sys, NULL, 4, &needed), JAM_E_NULL);
+  assert_int_equal(jam_observed_series(sys, JAM_SERIES_COLUMNS, NULL, 4, &needed), JAM_E_NULL);
   jam_destroy(sys);
 }
 

@@ -38,17 +38,17 @@ static void analyse(jam_system *sys, int dim) {
   memset(&moduli, 0, sizeof moduli);
   moduli.struct_size = sizeof moduli;
   check(jam_rigidity(sys, JAM_RIGIDITY_STRICT, NULL), "jam_rigidity", dim);
-  check(jam_modes(sys, NULL, NULL, out, 100000, NULL, 0, &needed), "jam_modes", dim);
+  check(jam_modes(sys, NULL, NULL, JAM_MODE_COLUMNS, out, 100000, NULL, 0, &needed), "jam_modes", dim);
   check(jam_moduli(sys, NULL, &moduli), "jam_moduli", dim);
   check(jam_gaps(sys, 0.1, 0, out, 100000, NULL, 0, &needed), "jam_gaps", dim);
-  check(jam_floppy_modes(sys, NULL, 0, &needed), "jam_floppy_modes", dim);
+  check(jam_floppy_modes(sys, JAM_FLOPPY_COLUMNS, NULL, 0, &needed), "jam_floppy_modes", dim);
   check(jam_stress_states(sys, out, 100000, NULL, 0, NULL, &needed), "jam_stress_states", dim);
   check(jam_contacts(sys, whole, 100000, &needed), "jam_contacts", dim);
   check(jam_dos_options_init(&dos, sizeof dos), "jam_dos_options_init", dim);
   if (dim == 3) check(jam_local_fraction(sys, out, 100000, &needed), "jam_local_fraction", dim);
   if (dim <= 3) {
     check(jam_bond_order(sys, 6, 1.5, out, 100000, &needed), "jam_bond_order", dim);
-    check(jam_structure_factor(sys, 10.0, out, 100000, &needed), "jam_structure_factor", dim);
+    check(jam_structure_factor(sys, 10.0, JAM_STRUCTURE_COLUMNS, out, 100000, &needed), "jam_structure_factor", dim);
   }
 }
 static void solve_by_clp(jam_system *sys, int dim) {

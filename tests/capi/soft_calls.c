@@ -137,7 +137,7 @@ static void options_are_checked(void **state) {
   REFUSED_DOWN(reserved, 1);
   assert_int_equal(jam_relax_options_init(&r, sizeof r + 1), JAM_E_STRUCT_SIZE);
   size_t needed;
-  assert_int_equal(jam_decompress_history(sys, NULL, 0, &needed), JAM_E_STATE);
+  assert_int_equal(jam_decompress_history(sys, JAM_SOFT_COLUMNS, NULL, 0, &needed), JAM_E_STATE);
   jam_destroy(sys);
 }
 

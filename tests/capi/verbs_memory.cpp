@@ -156,7 +156,7 @@ jam_status modes(jam_system *sys) {
   auto o = defaults(jam_modes_options_init);
   for (const int32_t which : {JAM_MODES_LOWEST, JAM_MODES_HIGHEST, JAM_MODES_NEAR, JAM_MODES_ALL}) {
     o.which = which, o.count = 4, o.frequency = 0.5;
-    const jam_status status = jam_modes(sys, nullptr, &o, table, 2000, nullptr, 0, &rows);
+    const jam_status status = jam_modes(sys, nullptr, &o, JAM_MODE_COLUMNS, table, 2000, nullptr, 0, &rows);
     if (status < 0) return status;
   }
   return JAM_OK;

@@ -14,7 +14,7 @@ static void call_network(input *in, jam_system *sys) {
   jam_geometry_options_init(&o, sizeof o);
   damage(in, &o, sizeof o);
   check_status(jam_contacts_from_geometry(sys, &o, NULL));
-  check_status(jam_contact_candidates(sys, number(in), values[0], many, &needed));
+  check_status(jam_contact_candidates(sys, number(in), JAM_CANDIDATE_COLUMNS, values[0], many, &needed));
   check_status(jam_contacts(sys, integers[0], many, &needed));
   check_status(jam_forces(sys, values[0], many, &needed));
   check_status(jam_stress_states(sys, values[0], many, values[1], many, values[2], &needed));
@@ -47,7 +47,7 @@ static void call_modes(input *in, jam_system *sys) {
   damage(in, &h, sizeof h);
   damage(in, &o, sizeof o);
   o.memory_limit = at_most(o.memory_limit, 1e8);
-  check_status(jam_modes(sys, &h, &o, values[0], many, values[1], many, &rows));
+  check_status(jam_modes(sys, &h, &o, JAM_MODE_COLUMNS, values[0], many, values[1], many, &rows));
   check_status(jam_hessian(sys, &h, NULL, 0, NULL, 0, NULL, 0, &rows));
   memset(&moduli, 0, sizeof moduli);
   moduli.struct_size = sizeof moduli;
@@ -60,7 +60,7 @@ static void call_spectrum(input *in, jam_system *sys) {
   jam_dos_options_init(&o, sizeof o);
   o.moments = 16, o.vectors = 2, o.points = 10;
   damage(in, &o, sizeof o);
-  check_status(jam_density_of_states(sys, NULL, &o, values[0], many, &needed));
+  check_status(jam_density_of_states(sys, NULL, &o, JAM_DOS_COLUMNS, values[0], many, &needed));
 }
 
 /* A copy is as good as the packing, and the two compare. */
@@ -134,7 +134,7 @@ static void call_isoconfigurational(input *in, jam_system *sys) {
   memset(&report, 0, sizeof report);
   report.struct_size = sizeof report;
   check_status(jam_get_isoconf_report(sys, &report));
-  check_status(jam_isoconf_series(sys, byte(in) % 4 - 1, value, 3, &needed));
+  check_status(jam_isoconf_series(sys, byte(in) % 4 - 1, JAM_ISOCONF_COLUMNS, value, 3, &needed));
   check_status(jam_isoconf_kept(sys, kept, NULL, 0, &needed));
 }
 
@@ -162,9 +162,9 @@ static void call_observe(input *in, jam_system *sys) {
   damage(in, &o, sizeof o);
   check_status(jam_observe(sys, &o));
   call_run(in, sys);
-  check_status(jam_observed_series(sys, NULL, 0, &rows));
+  check_status(jam_observed_series(sys, JAM_SERIES_COLUMNS, NULL, 0, &rows));
   check_status(jam_observed_pairs(sys, NULL, 0, NULL, 0, NULL, 0, NULL, &rows));
-  check_status(jam_observed_gaps(sys, NULL, 0, &rows));
+  check_status(jam_observed_gaps(sys, JAM_GAP_COLUMNS, NULL, 0, &rows));
   if (byte(in) % 2) check_status(jam_stop_observing(sys));
 }
 

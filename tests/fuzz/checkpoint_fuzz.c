@@ -96,7 +96,7 @@ static void use_results(jam_system *sys) {
   check_status(jam_contact_classes(sys, flags, LARGEST, &m));
   check_status(jam_local_values(sys, JAM_LOCAL_FORCE_PAIRS, JAM_POPULATION_ALL, out, LARGEST, &m));
   check_status(jam_hessian_map(sys, flags, LARGEST, &m));
-  check_status(jam_modes(sys, NULL, NULL, out, LARGEST, NULL, 0, &m));
+  check_status(jam_modes(sys, NULL, NULL, JAM_MODE_COLUMNS, out, LARGEST, NULL, 0, &m));
   check_status(jam_stress_states(sys, out, LARGEST, NULL, 0, NULL, &m));
   check_status(jam_rigidity(sys, JAM_RIGIDITY_STRICT, NULL));
   check_status(jam_compare(sys, sys, NULL, out, LARGEST, &m));

@@ -22,14 +22,15 @@ static inline double number(input *in) {
   return (1.0 + byte(in) / 256.0) * pow(10.0, (kind % 19) - 9);
 }
 
-/* Damages one field of an option struct: four bytes somewhere behind struct_size, or the size itself. */
+/* Damages one field of an option struct: four bytes somewhere behind struct_size, or the size itself, which is trusted
+ * not to exceed the struct. */
 static inline void damage(input *in, void *options, size_t size) {
   const int how = byte(in);
   uint8_t *bytes = options;
   size_t at;
   if (how < 128) return;
   if (how > 250) {
-    uint32_t wrong = (uint32_t)byte(in);
+    const uint32_t wrong = (uint32_t)((size_t)byte(in) % (size + 4)); /* beyond it no multiple of its alignment */
     memcpy(bytes, &wrong, sizeof wrong);
     return;
   }

@@ -185,8 +185,8 @@ def names():
         if found and not found.group(2):
             problem(path, number, f"{found.group(1)} has no explicit value")
     for name, arguments in re.findall(r"JAM_API [^;(]*\b(jam_\w+)\(([^;]*)\);", code):
-        if arguments.count(",") > 8:
-            problem(path, 0, f"{name} has {arguments.count(',') + 1} arguments, 9 are allowed: an option struct, or two calls")
+        if arguments.count(",") > 9:
+            problem(path, 0, f"{name} has {arguments.count(',') + 1} arguments, 10 are allowed: an option struct, or two calls")
     for body in re.findall(r"typedef struct \w+ \{(.*?)\}", code, flags=re.S):
         if not re.match(r"\s*uint32_t struct_size;", body):
             problem(path, 0, "a struct does not begin with struct_size:" + body[:60])
@@ -211,8 +211,8 @@ def file_sizes():
         elif count > 300:
             print(f"note: {path.relative_to(root)} has {count} lines, 300 is the aim")
     header = len((root / "include/jam/jam.h").read_text().splitlines())
-    if header > 1722:
-        problem(root / "include/jam/jam.h", header, "more than 1722 lines")
+    if header > 1750:
+        problem(root / "include/jam/jam.h", header, "more than 1750 lines")
     for path in files(
         "examples/c/*.c", "examples/cpp/*.cpp", "examples/python/*.py", "examples/fortran/*.f90", "examples/julia/*.jl"
     ):

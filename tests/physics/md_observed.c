@@ -84,7 +84,7 @@ static void gap_plateau(void **state) {
     info.struct_size = sizeof info;
     jam_get_info(sys, &info);
     height = (report.pressure - 1.0) / (4.0 * info.packing_fraction);
-    assert_int_equal(jam_observed_gaps(sys, bin[0], 12 * 4, &needed), JAM_OK);
+    assert_int_equal(jam_observed_gaps(sys, JAM_GAP_COLUMNS, bin[0], 12 * 4, &needed), JAM_OK);
     for (int b = 0; b < 12; ++b) density[b] = bin[b][JAM_GAP_DENSITY];
     print_message("p %.4g: height %.4g, first bin %.4g(%.2g), h in %.2g..%.2g: %.4g, %.2g..%.2g: %.4g\n",
                   report.pressure, height, density[0], bin[0][JAM_GAP_ERROR], bin[1][JAM_GAP_LOW], bin[1][JAM_GAP_HIGH],
@@ -211,7 +211,7 @@ static void fluid_crystallises(void **state) {
   o.r_bins = 120, o.r_max = 2.2, o.sample_every = 5;
   assert_int_equal(jam_observe(sys, &o), JAM_OK);
   run(sys, 50);
-  assert_int_equal(jam_observed_correlation(sys, pair[0], 120 * 2, &needed), JAM_OK);
+  assert_int_equal(jam_observed_correlation(sys, JAM_CORRELATION_COLUMNS, pair[0], 120 * 2, &needed), JAM_OK);
   for (k = 0; k < 120; ++k) {
     if (fabs(pair[k][JAM_CORRELATION_R] - 1.4142) < 0.03) at_sqrt2 = fmax(at_sqrt2, pair[k][JAM_CORRELATION_G]);
     if (fabs(pair[k][JAM_CORRELATION_R] - 1.25) < 0.03) before = fmax(before, pair[k][JAM_CORRELATION_G]);

@@ -115,7 +115,7 @@ static void floppy_keeps_contacts(const struct network *w, int check_next) {
     for (k = 0; k < w->stable; ++k) mean += u[k * w->d];
     assert_true(fabs(mean) < 1e-9 * size * (double)w->stable);
   }
-  assert_int_equal(jam_floppy_modes(w->sys, table, COLUMNS * ROOM, &m), JAM_OK);
+  assert_int_equal(jam_floppy_modes(w->sys, JAM_FLOPPY_COLUMNS, table, COLUMNS * ROOM, &m), JAM_OK);
   assert_int_equal(m, COLUMNS * w->contacts);
   for (k = 0; k < w->contacts; ++k) {
     const double *row = table + COLUMNS * k;
@@ -183,7 +183,7 @@ static void spectrum_identities(const struct network *w) {
   assert_int_equal(jam_modes_options_init(&o, sizeof o), JAM_OK);
   o.which = JAM_MODES_ALL;
   assert_int_equal(eigenvalues(w->sys, &o, l, y, rows, &m), JAM_OK);
-  assert_int_equal(jam_modes(w->sys, NULL, &o, NULL, 0, v, rows * rows, &m), JAM_OK);
+  assert_int_equal(jam_modes(w->sys, NULL, &o, JAM_MODE_COLUMNS, NULL, 0, v, rows * rows, &m), JAM_OK);
   assert_int_equal(m, rows);
   for (k = 0; k < m; ++k) {
     trace += l[k];
@@ -218,7 +218,7 @@ static void spectrum_identities(const struct network *w) {
     q.points = POINTS;
     q.vectors = 32;
     q.moments = 256;
-    assert_int_equal(jam_density_of_states(w->sys, NULL, &q, table, POINTS * COLUMNS, &m), JAM_OK);
+    assert_int_equal(jam_density_of_states(w->sys, NULL, &q, JAM_DOS_COLUMNS, table, POINTS * COLUMNS, &m), JAM_OK);
     assert_int_equal(m, POINTS * COLUMNS);
     step = table[COLUMNS + JAM_DOS_OMEGA] - table[JAM_DOS_OMEGA];
     for (k = 0; k < POINTS; ++k) {

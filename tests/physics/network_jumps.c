@@ -24,13 +24,13 @@ static void unclear_jump_of(double part) {
   assert_int_equal(jam_set_positions(s, y, m), JAM_OK);
   assert_int_equal(jam_contacts_from_geometry(s, NULL, &g), JAM_AMBIGUOUS);
   assert_true(g.jump < 100.0 && g.second_contacts > 0);
-  assert_int_equal(jam_contact_candidates(s, 0.1, table, 48, &m), JAM_OK);
+  assert_int_equal(jam_contact_candidates(s, 0.1, JAM_CANDIDATE_COLUMNS, table, 48, &m), JAM_OK);
   assert_true(m >= 2 * 4 && m % 4 == 0);
   for (k = 0; k < m; k += 4)
     right |= table[k + JAM_CANDIDATE_CONTACTS] == (double)report.contacts && table[k + JAM_CANDIDATE_EXCESS] == 0.0;
   assert_true(right);
-  assert_int_equal(jam_contact_candidates(s, 0.1, table, 4, &m), JAM_E_BUFFER);
-  assert_int_equal(jam_contact_candidates(s, 0.0, table, 48, &m), JAM_E_ARGUMENT);
+  assert_int_equal(jam_contact_candidates(s, 0.1, JAM_CANDIDATE_COLUMNS, table, 4, &m), JAM_E_BUFFER);
+  assert_int_equal(jam_contact_candidates(s, 0.0, JAM_CANDIDATE_COLUMNS, table, 48, &m), JAM_E_ARGUMENT);
   free(y);
   jam_destroy(s);
 }

@@ -107,7 +107,7 @@ static void analysis_of_one_sphere(void **state) {
   /* each contact balances by itself in a fixed cell */
   assert_int_equal(jam_stress_states(sys, force, 6, NULL, 0, &residual, &m), JAM_AMBIGUOUS);
   assert_int_equal(m, 6);
-  assert_int_equal(jam_floppy_modes(sys, table, 36, &m), JAM_E_STATE);
+  assert_int_equal(jam_floppy_modes(sys, JAM_FLOPPY_COLUMNS, table, 36, &m), JAM_E_STATE);
   /* both sides of each contact pull on the one sphere: C = 0, and S = (0 - 12) / 2 */
   assert_int_equal(jam_sphere_structure(sys, 0, table, 3, &s, 1, &m), JAM_OK);
   assert_true(fabs(table[0]) + fabs(table[1]) + fabs(table[2]) < 1e-14 && fabs(s + 6.0) < 1e-14);

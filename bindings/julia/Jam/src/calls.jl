@@ -115,6 +115,8 @@ function call(s, name::Symbol, inputs::Tuple; progress = nothing, given...)
             push!(passed, outputs[a.name])
         elseif a.role === :array_out
             push!(passed, nothing)
+        elseif a.role === :columns
+            push!(passed, length(WORDS[a.word]))
         elseif a.role === :len
             push!(passed, length(something(passed[end], ())))
         elseif a.role === :scalar_out

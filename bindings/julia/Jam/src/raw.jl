@@ -9,6 +9,21 @@ _ptr(x) = x
 
 const JAM_ABI = Int32(1)
 const JAM_MAX_DIM = Int32(8)
+const JAM_WALL_COLUMNS = Int32(6)
+const JAM_SERIES_COLUMNS = Int32(6)
+const JAM_GAP_COLUMNS = Int32(4)
+const JAM_CORRELATION_COLUMNS = Int32(2)
+const JAM_ISOCONF_COLUMNS = Int32(14)
+const JAM_HISTORY_COLUMNS = Int32(20)
+const JAM_SOFT_COLUMNS = Int32(11)
+const JAM_MODE_COLUMNS = Int32(2)
+const JAM_CANDIDATE_COLUMNS = Int32(4)
+const JAM_BLOCH_COLUMNS = Int32(2)
+const JAM_STRUCTURE_COLUMNS = Int32(2)
+const JAM_PROFILE_COLUMNS = Int32(3)
+const JAM_PORE_COLUMNS = Int32(5)
+const JAM_FLOPPY_COLUMNS = Int32(6)
+const JAM_DOS_COLUMNS = Int32(6)
 
 # jam_status_code: All status codes; values are ABI and never reused.
 const JAM_OK = Int32(0)  # done: the target was reached
@@ -19,7 +34,7 @@ const JAM_PRECISION = Int32(4)  # the target lies beyond what the numbers can re
 const JAM_NOT_JAMMED = Int32(5)  # there is no jammed network to work on
 const JAM_AMBIGUOUS = Int32(6)  # the answer is not unique; the text says which was returned
 const JAM_E_NULL = Int32(-1)  # a pointer that is needed is NULL
-const JAM_E_STRUCT_SIZE = Int32(-2)  # struct_size is zero or larger than in this library
+const JAM_E_STRUCT_SIZE = Int32(-2)  # struct_size was not set, or an option is of a later version
 const JAM_E_ARGUMENT = Int32(-3)  # a value is out of its range
 const JAM_E_DIMENSION = Int32(-4)  # dim is not in 2..JAM_MAX_DIM
 const JAM_E_NONFINITE = Int32(-5)  # NaN or infinity where a number is needed
@@ -1971,13 +1986,13 @@ function jam_scale_diameters(sys, factor)
 end
 
 """
-    jam_walls(sys, table, table_len, needed)
+    jam_walls(sys, columns, table, table_len, needed)
 
 One row per wall: flat ones axis by axis, then the round one.
 Shapes: table (m, `jam_wall_column`).
 """
-function jam_walls(sys, table, table_len, needed)
-    return ccall((:jam_walls, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(table), table_len, _ref(Csize_t, needed))
+function jam_walls(sys, columns, table, table_len, needed)
+    return ccall((:jam_walls, libjam), Int32, (Ptr{Cvoid}, Int32, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, columns, _ptr(table), table_len, _ref(Csize_t, needed))
 end
 
 """
@@ -2303,14 +2318,14 @@ function jam_stop_observing(sys)
 end
 
 """
-    jam_observed_series(sys, table, table_len, needed)
+    jam_observed_series(sys, columns, table, table_len, needed)
 
 Series of samples.
 Shapes: table (samples, `jam_series_column`).
 Errors: `JAM_E_STATE` (nothing observed).
 """
-function jam_observed_series(sys, table, table_len, needed)
-    return ccall((:jam_observed_series, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(table), table_len, _ref(Csize_t, needed))
+function jam_observed_series(sys, columns, table, table_len, needed)
+    return ccall((:jam_observed_series, libjam), Int32, (Ptr{Cvoid}, Int32, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, columns, _ptr(table), table_len, _ref(Csize_t, needed))
 end
 
 """
@@ -2337,26 +2352,26 @@ function jam_observed_pairs(sys, pair, pair_len, collisions, collisions_len, mom
 end
 
 """
-    jam_observed_gaps(sys, table, table_len, needed)
+    jam_observed_gaps(sys, columns, table, table_len, needed)
 
 Histogram of gaps h. Samples are taken between collisions: at one, a pair more would touch. At h = 0 density tends to
 g(sigma), which is (p - 1) / (4 phi) for equal spheres in d = 3.
 Shapes: table (bins, `jam_gap_column`).
 Errors: `JAM_E_STATE`.
 """
-function jam_observed_gaps(sys, table, table_len, needed)
-    return ccall((:jam_observed_gaps, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(table), table_len, _ref(Csize_t, needed))
+function jam_observed_gaps(sys, columns, table, table_len, needed)
+    return ccall((:jam_observed_gaps, libjam), Int32, (Ptr{Cvoid}, Int32, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, columns, _ptr(table), table_len, _ref(Csize_t, needed))
 end
 
 """
-    jam_observed_correlation(sys, table, table_len, needed)
+    jam_observed_correlation(sys, columns, table, table_len, needed)
 
 g(r), pairs over N (N - 1) / 2, sampled likewise.
 Shapes: table (bins, `jam_correlation_column`).
 Errors: `JAM_E_STATE`.
 """
-function jam_observed_correlation(sys, table, table_len, needed)
-    return ccall((:jam_observed_correlation, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(table), table_len, _ref(Csize_t, needed))
+function jam_observed_correlation(sys, columns, table, table_len, needed)
+    return ccall((:jam_observed_correlation, libjam), Int32, (Ptr{Cvoid}, Int32, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, columns, _ptr(table), table_len, _ref(Csize_t, needed))
 end
 
 """
@@ -2435,14 +2450,14 @@ function jam_get_isoconf_report(sys, report)
 end
 
 """
-    jam_isoconf_series(sys, block, table, table_len, needed)
+    jam_isoconf_series(sys, block, columns, table, table_len, needed)
 
 Sums over the runs of one block, or of all for block = -1.
 Shapes: table (instants, `jam_isoconf_column`).
 Errors: `JAM_E_STATE`.
 """
-function jam_isoconf_series(sys, block, table, table_len, needed)
-    return ccall((:jam_isoconf_series, libjam), Int32, (Ptr{Cvoid}, Int64, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, block, _ptr(table), table_len, _ref(Csize_t, needed))
+function jam_isoconf_series(sys, block, columns, table, table_len, needed)
+    return ccall((:jam_isoconf_series, libjam), Int32, (Ptr{Cvoid}, Int64, Int32, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, block, columns, _ptr(table), table_len, _ref(Csize_t, needed))
 end
 
 """
@@ -2524,14 +2539,14 @@ function jam_get_crunch_report(sys, report)
 end
 
 """
-    jam_crunch_history(sys, table, table_len, needed)
+    jam_crunch_history(sys, columns, table, table_len, needed)
 
 Steps of the last crunch.
 Shapes: table (steps, `jam_history_column`).
 Errors: `JAM_E_STATE`.
 """
-function jam_crunch_history(sys, table, table_len, needed)
-    return ccall((:jam_crunch_history, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(table), table_len, _ref(Csize_t, needed))
+function jam_crunch_history(sys, columns, table, table_len, needed)
+    return ccall((:jam_crunch_history, libjam), Int32, (Ptr{Cvoid}, Int32, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, columns, _ptr(table), table_len, _ref(Csize_t, needed))
 end
 
 """
@@ -2625,14 +2640,14 @@ function jam_decompress(sys, o, report)
 end
 
 """
-    jam_decompress_history(sys, table, table_len, needed)
+    jam_decompress_history(sys, columns, table, table_len, needed)
 
 Minima of the last decompression.
 Shapes: table (minima, `jam_soft_column`).
 Errors: `JAM_E_STATE`.
 """
-function jam_decompress_history(sys, table, table_len, needed)
-    return ccall((:jam_decompress_history, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(table), table_len, _ref(Csize_t, needed))
+function jam_decompress_history(sys, columns, table, table_len, needed)
+    return ccall((:jam_decompress_history, libjam), Int32, (Ptr{Cvoid}, Int32, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, columns, _ptr(table), table_len, _ref(Csize_t, needed))
 end
 
 """
@@ -2731,19 +2746,19 @@ function jam_hessian(sys, h, row_start, row_start_len, column, column_len, value
 end
 
 """
-    jam_modes(sys, h, o, table, table_len, vector, vector_len, rows)
+    jam_modes(sys, h, o, columns, table, table_len, vector, vector_len, rows)
 
 Modes of the Hessian, `*rows` = their number m, lambda ascending, vector of unit length. When fewer converge the rest
 is NaN. Status: `JAM_NOT_CONVERGED`.
 Shapes: table (m, `jam_mode_column`), vector (m, N', d).
 Errors: `JAM_E_STATE`, `JAM_E_SOLVER`.
 """
-function jam_modes(sys, h, o, table, table_len, vector, vector_len, rows)
-    return ccall((:jam_modes, libjam), Int32, (Ptr{Cvoid}, Ref{jam_hessian_options}, Ref{jam_modes_options}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ref(jam_hessian_options, h), _ref(jam_modes_options, o), _ptr(table), table_len, _ptr(vector), vector_len, _ref(Csize_t, rows))
+function jam_modes(sys, h, o, columns, table, table_len, vector, vector_len, rows)
+    return ccall((:jam_modes, libjam), Int32, (Ptr{Cvoid}, Ref{jam_hessian_options}, Ref{jam_modes_options}, Int32, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ref(jam_hessian_options, h), _ref(jam_modes_options, o), columns, _ptr(table), table_len, _ptr(vector), vector_len, _ref(Csize_t, rows))
 end
 
 """
-    jam_bloch_modes(sys, h, wave, wave_len, table, table_len, vector, vector_len, rows)
+    jam_bloch_modes(sys, h, wave, wave_len, columns, table, table_len, vector, vector_len, rows)
 
 Modes of the Hessian at the wave vector sum of wave[c] `b_c`, with `a_c` . `b_e` = 2 pi `delta_ce`: the copy of a sphere that
 is sum of `s_c` `a_c` away moves by exp(2 pi i sum wave[c] `s_c`) times its displacement. All d N' modes, lambda ascending;
@@ -2752,8 +2767,8 @@ wave[c] = k / count[c], k = 0 .. count[c] - 1: those of `jam_tile`. Along an axi
 Shapes: wave (d), table (m, `jam_mode_column`), vector (m, N', d, 2).
 Errors: `JAM_E_STATE`, `JAM_E_SOLVER`, `JAM_E_UNSUPPORTED` (unlisted own images).
 """
-function jam_bloch_modes(sys, h, wave, wave_len, table, table_len, vector, vector_len, rows)
-    return ccall((:jam_bloch_modes, libjam), Int32, (Ptr{Cvoid}, Ref{jam_hessian_options}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ref(jam_hessian_options, h), _ptr(wave), wave_len, _ptr(table), table_len, _ptr(vector), vector_len, _ref(Csize_t, rows))
+function jam_bloch_modes(sys, h, wave, wave_len, columns, table, table_len, vector, vector_len, rows)
+    return ccall((:jam_bloch_modes, libjam), Int32, (Ptr{Cvoid}, Ref{jam_hessian_options}, Ptr{Cdouble}, Csize_t, Int32, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ref(jam_hessian_options, h), _ptr(wave), wave_len, columns, _ptr(table), table_len, _ptr(vector), vector_len, _ref(Csize_t, rows))
 end
 
 """
@@ -2781,15 +2796,15 @@ function jam_contacts_from_geometry(sys, o, report)
 end
 
 """
-    jam_contact_candidates(sys, window, table, table_len, needed)
+    jam_contact_candidates(sys, window, columns, table, table_len, needed)
 
 Candidates for the contact tolerance, for packings where no jump is clear; m is at most 12. A candidate is a jump of
 the sorted gaps below window, as in `jam_geometry_options`, with enough contacts for a rigid network below it. The
 largest jump comes first.
 Shapes: table (m, `jam_candidate_column`).
 """
-function jam_contact_candidates(sys, window, table, table_len, needed)
-    return ccall((:jam_contact_candidates, libjam), Int32, (Ptr{Cvoid}, Cdouble, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, window, _ptr(table), table_len, _ref(Csize_t, needed))
+function jam_contact_candidates(sys, window, columns, table, table_len, needed)
+    return ccall((:jam_contact_candidates, libjam), Int32, (Ptr{Cvoid}, Cdouble, Int32, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, window, columns, _ptr(table), table_len, _ref(Csize_t, needed))
 end
 
 """
@@ -2837,7 +2852,7 @@ function jam_flex(sys, kind, out, out_len, strain, strain_len, needed)
 end
 
 """
-    jam_bloch_rigidity(sys, count, count_len, wave, wave_len, table, table_len, rows)
+    jam_bloch_rigidity(sys, count, count_len, wave, wave_len, columns, table, table_len, rows)
 
 The collective test of `jam_rigidity` for count[c] copies along each cell vector (`jam_tile`), from one cell: one row per
 wave vector of the copies, as in `jam_bloch_modes`; wave[0] runs fastest. Forces averaged over all copies balance in
@@ -2846,8 +2861,8 @@ jammed, `JAM_NOT_JAMMED`, `JAM_AMBIGUOUS` undecided.
 Shapes: count (d), wave (m, d), table (m, `jam_bloch_column`).
 Errors: `JAM_E_SOLVER`, `JAM_E_UNSUPPORTED` (Mari-Kurchan model, round walls).
 """
-function jam_bloch_rigidity(sys, count, count_len, wave, wave_len, table, table_len, rows)
-    return ccall((:jam_bloch_rigidity, libjam), Int32, (Ptr{Cvoid}, Ptr{Int32}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(count), count_len, _ptr(wave), wave_len, _ptr(table), table_len, _ref(Csize_t, rows))
+function jam_bloch_rigidity(sys, count, count_len, wave, wave_len, columns, table, table_len, rows)
+    return ccall((:jam_bloch_rigidity, libjam), Int32, (Ptr{Cvoid}, Ptr{Int32}, Csize_t, Ptr{Cdouble}, Csize_t, Int32, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(count), count_len, _ptr(wave), wave_len, columns, _ptr(table), table_len, _ref(Csize_t, rows))
 end
 
 """
@@ -3064,15 +3079,15 @@ function jam_mk_shifts(sys, pair, pair_len, out, out_len, needed)
 end
 
 """
-    jam_structure_factor(sys, q_max, table, table_len, needed)
+    jam_structure_factor(sys, q_max, columns, table, table_len, needed)
 
 S(q) on the wave vectors of the cell (in a cube 2 pi n / box), along axes without walls, with |q| <= `q_max`. Lengths
 within 5e-13 of |q| are one.
 Shapes: table (m, `jam_structure_column`).
 Errors: `JAM_E_UNSUPPORTED` (no such axis).
 """
-function jam_structure_factor(sys, q_max, table, table_len, needed)
-    return ccall((:jam_structure_factor, libjam), Int32, (Ptr{Cvoid}, Cdouble, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, q_max, _ptr(table), table_len, _ref(Csize_t, needed))
+function jam_structure_factor(sys, q_max, columns, table, table_len, needed)
+    return ccall((:jam_structure_factor, libjam), Int32, (Ptr{Cvoid}, Cdouble, Int32, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, q_max, columns, _ptr(table), table_len, _ref(Csize_t, needed))
 end
 
 """
@@ -3156,15 +3171,15 @@ function jam_write_voxels(sys, path, o, report)
 end
 
 """
-    jam_solid_profile(sys, axis, bins, table, table_len, needed)
+    jam_solid_profile(sys, axis, bins, columns, table, table_len, needed)
 
 Solid fraction in equal bins, exact: axis 0 .. d-1, slabs between the faces of the cell that `a_axis` joins; axis = d,
 shells of a ball or a cylinder (there to 1e-12).
 Shapes: table (bins, `jam_profile_column`).
 Errors: `JAM_E_UNSUPPORTED`.
 """
-function jam_solid_profile(sys, axis, bins, table, table_len, needed)
-    return ccall((:jam_solid_profile, libjam), Int32, (Ptr{Cvoid}, Int32, Int32, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, axis, bins, _ptr(table), table_len, _ref(Csize_t, needed))
+function jam_solid_profile(sys, axis, bins, columns, table, table_len, needed)
+    return ccall((:jam_solid_profile, libjam), Int32, (Ptr{Cvoid}, Int32, Int32, Int32, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, axis, bins, columns, _ptr(table), table_len, _ref(Csize_t, needed))
 end
 
 """
@@ -3178,15 +3193,15 @@ function jam_near_coordination(sys, h_max, out, out_len, needed)
 end
 
 """
-    jam_pore_sizes(sys, points, seed, table, table_len, needed)
+    jam_pore_sizes(sys, points, seed, columns, table, table_len, needed)
 
 Pore sizes at random points of the void, exact; not in a cylinder. The time grows with the fourth power of the
 number of neighbours of a point: use it above packing fractions of about 0.4.
 Shapes: table (points, `jam_pore_column`).
 Errors: `JAM_E_UNSUPPORTED`.
 """
-function jam_pore_sizes(sys, points, seed, table, table_len, needed)
-    return ccall((:jam_pore_sizes, libjam), Int32, (Ptr{Cvoid}, Int64, Int64, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, points, seed, _ptr(table), table_len, _ref(Csize_t, needed))
+function jam_pore_sizes(sys, points, seed, columns, table, table_len, needed)
+    return ccall((:jam_pore_sizes, libjam), Int32, (Ptr{Cvoid}, Int64, Int64, Int32, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, points, seed, columns, _ptr(table), table_len, _ref(Csize_t, needed))
 end
 
 """
@@ -3203,14 +3218,14 @@ function jam_floppy_mode(sys, contact, out, out_len, needed)
 end
 
 """
-    jam_floppy_modes(sys, table, table_len, needed)
+    jam_floppy_modes(sys, columns, table, table_len, needed)
 
 The floppy mode of every contact, measured.
 Shapes: table (`n_c`, `jam_floppy_column`).
 Errors: `JAM_E_STATE`, `JAM_E_SOLVER`.
 """
-function jam_floppy_modes(sys, table, table_len, needed)
-    return ccall((:jam_floppy_modes, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(table), table_len, _ref(Csize_t, needed))
+function jam_floppy_modes(sys, columns, table, table_len, needed)
+    return ccall((:jam_floppy_modes, libjam), Int32, (Ptr{Cvoid}, Int32, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, columns, _ptr(table), table_len, _ref(Csize_t, needed))
 end
 
 """
@@ -3221,7 +3236,7 @@ function jam_dos_options_init(o, size)
 end
 
 """
-    jam_density_of_states(sys, h, o, table, table_len, needed)
+    jam_density_of_states(sys, h, o, columns, table, table_len, needed)
 
 Density of states D(omega) and its integral by the kernel polynomial method: no modes are computed, translations are
 omitted. With prestress omega starts below 0: unstable modes are listed at -sqrt(-lambda), and resolution is lower
@@ -3229,8 +3244,8 @@ near 0.
 Shapes: table (points, `jam_dos_column`).
 Errors: `JAM_E_STATE`, `JAM_E_SOLVER`, `JAM_E_TOO_FEW`.
 """
-function jam_density_of_states(sys, h, o, table, table_len, needed)
-    return ccall((:jam_density_of_states, libjam), Int32, (Ptr{Cvoid}, Ref{jam_hessian_options}, Ref{jam_dos_options}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ref(jam_hessian_options, h), _ref(jam_dos_options, o), _ptr(table), table_len, _ref(Csize_t, needed))
+function jam_density_of_states(sys, h, o, columns, table, table_len, needed)
+    return ccall((:jam_density_of_states, libjam), Int32, (Ptr{Cvoid}, Ref{jam_hessian_options}, Ref{jam_dos_options}, Int32, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ref(jam_hessian_options, h), _ref(jam_dos_options, o), columns, _ptr(table), table_len, _ref(Csize_t, needed))
 end
 
 """

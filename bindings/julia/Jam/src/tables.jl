@@ -121,6 +121,7 @@ const CALLS = Dict{Symbol, Call}(
         Argument(:factor, :scalar, Cdouble, String[], :none, false),
     ]),
     :jam_walls => Call(jam_walls, true, true, [
+        Argument(:columns, :columns, Int32, String[], :wall_column, false),
         Argument(:table, :array_out, Cdouble, ["m", "jam_wall_column"], :wall_column, false),
         Argument(:table_len, :len, Csize_t, String[], :none, false),
         Argument(:needed, :scalar_out, Csize_t, String[], :none, false),
@@ -211,6 +212,7 @@ const CALLS = Dict{Symbol, Call}(
     :jam_stop_observing => Call(jam_stop_observing, true, false, [
     ]),
     :jam_observed_series => Call(jam_observed_series, true, true, [
+        Argument(:columns, :columns, Int32, String[], :series_column, false),
         Argument(:table, :array_out, Cdouble, ["samples", "jam_series_column"], :series_column, false),
         Argument(:table_len, :len, Csize_t, String[], :none, false),
         Argument(:needed, :scalar_out, Csize_t, String[], :none, false),
@@ -233,11 +235,13 @@ const CALLS = Dict{Symbol, Call}(
         Argument(:rows, :scalar_out, Csize_t, String[], :none, false),
     ]),
     :jam_observed_gaps => Call(jam_observed_gaps, true, true, [
+        Argument(:columns, :columns, Int32, String[], :gap_column, false),
         Argument(:table, :array_out, Cdouble, ["bins", "jam_gap_column"], :gap_column, false),
         Argument(:table_len, :len, Csize_t, String[], :none, false),
         Argument(:needed, :scalar_out, Csize_t, String[], :none, false),
     ]),
     :jam_observed_correlation => Call(jam_observed_correlation, true, true, [
+        Argument(:columns, :columns, Int32, String[], :correlation_column, false),
         Argument(:table, :array_out, Cdouble, ["bins", "jam_correlation_column"], :correlation_column, false),
         Argument(:table_len, :len, Csize_t, String[], :none, false),
         Argument(:needed, :scalar_out, Csize_t, String[], :none, false),
@@ -274,6 +278,7 @@ const CALLS = Dict{Symbol, Call}(
     ]),
     :jam_isoconf_series => Call(jam_isoconf_series, true, true, [
         Argument(:block, :scalar, Int64, String[], :none, false),
+        Argument(:columns, :columns, Int32, String[], :isoconf_column, false),
         Argument(:table, :array_out, Cdouble, ["instants", "jam_isoconf_column"], :isoconf_column, false),
         Argument(:table_len, :len, Csize_t, String[], :none, false),
         Argument(:needed, :scalar_out, Csize_t, String[], :none, false),
@@ -312,6 +317,7 @@ const CALLS = Dict{Symbol, Call}(
         Argument(:report, :struct_out, jam_crunch_report, String[], :none, false),
     ]),
     :jam_crunch_history => Call(jam_crunch_history, true, true, [
+        Argument(:columns, :columns, Int32, String[], :history_column, false),
         Argument(:table, :array_out, Cdouble, ["steps", "jam_history_column"], :history_column, false),
         Argument(:table_len, :len, Csize_t, String[], :none, false),
         Argument(:needed, :scalar_out, Csize_t, String[], :none, false),
@@ -345,6 +351,7 @@ const CALLS = Dict{Symbol, Call}(
         Argument(:report, :struct_out, jam_decompress_report, String[], :none, false),
     ]),
     :jam_decompress_history => Call(jam_decompress_history, true, true, [
+        Argument(:columns, :columns, Int32, String[], :soft_column, false),
         Argument(:table, :array_out, Cdouble, ["minima", "jam_soft_column"], :soft_column, false),
         Argument(:table_len, :len, Csize_t, String[], :none, false),
         Argument(:needed, :scalar_out, Csize_t, String[], :none, false),
@@ -392,6 +399,7 @@ const CALLS = Dict{Symbol, Call}(
     :jam_modes => Call(jam_modes, true, false, [
         Argument(:h, :struct_in, jam_hessian_options, String[], :none, false),
         Argument(:o, :struct_in, jam_modes_options, String[], :none, false),
+        Argument(:columns, :columns, Int32, String[], :mode_column, false),
         Argument(:table, :array_out, Cdouble, ["m", "jam_mode_column"], :mode_column, false),
         Argument(:table_len, :len, Csize_t, String[], :none, false),
         Argument(:vector, :array_out, Cdouble, ["m", "N'", "d"], :none, false),
@@ -402,6 +410,7 @@ const CALLS = Dict{Symbol, Call}(
         Argument(:h, :struct_in, jam_hessian_options, String[], :none, false),
         Argument(:wave, :array_in, Cdouble, ["d"], :none, false),
         Argument(:wave_len, :len, Csize_t, String[], :none, false),
+        Argument(:columns, :columns, Int32, String[], :mode_column, false),
         Argument(:table, :array_out, Cdouble, ["m", "jam_mode_column"], :mode_column, false),
         Argument(:table_len, :len, Csize_t, String[], :none, false),
         Argument(:vector, :array_out, Cdouble, ["m", "N'", "d", "2"], :none, false),
@@ -414,6 +423,7 @@ const CALLS = Dict{Symbol, Call}(
     ]),
     :jam_contact_candidates => Call(jam_contact_candidates, true, true, [
         Argument(:window, :scalar, Cdouble, String[], :none, false),
+        Argument(:columns, :columns, Int32, String[], :candidate_column, false),
         Argument(:table, :array_out, Cdouble, ["m", "jam_candidate_column"], :candidate_column, false),
         Argument(:table_len, :len, Csize_t, String[], :none, false),
         Argument(:needed, :scalar_out, Csize_t, String[], :none, false),
@@ -443,6 +453,7 @@ const CALLS = Dict{Symbol, Call}(
         Argument(:count_len, :len, Csize_t, String[], :none, false),
         Argument(:wave, :array_out, Cdouble, ["m", "d"], :none, false),
         Argument(:wave_len, :len, Csize_t, String[], :none, false),
+        Argument(:columns, :columns, Int32, String[], :bloch_column, false),
         Argument(:table, :array_out, Cdouble, ["m", "jam_bloch_column"], :bloch_column, false),
         Argument(:table_len, :len, Csize_t, String[], :none, false),
         Argument(:rows, :scalar_out, Csize_t, String[], :none, false),
@@ -545,6 +556,7 @@ const CALLS = Dict{Symbol, Call}(
     ]),
     :jam_structure_factor => Call(jam_structure_factor, true, false, [
         Argument(:q_max, :scalar, Cdouble, String[], :none, false),
+        Argument(:columns, :columns, Int32, String[], :structure_column, false),
         Argument(:table, :array_out, Cdouble, ["m", "jam_structure_column"], :structure_column, false),
         Argument(:table_len, :len, Csize_t, String[], :none, false),
         Argument(:needed, :scalar_out, Csize_t, String[], :none, false),
@@ -584,6 +596,7 @@ const CALLS = Dict{Symbol, Call}(
     :jam_solid_profile => Call(jam_solid_profile, true, true, [
         Argument(:axis, :scalar, Int32, String[], :none, false),
         Argument(:bins, :scalar, Int32, String[], :none, false),
+        Argument(:columns, :columns, Int32, String[], :profile_column, false),
         Argument(:table, :array_out, Cdouble, ["bins", "jam_profile_column"], :profile_column, false),
         Argument(:table_len, :len, Csize_t, String[], :none, false),
         Argument(:needed, :scalar_out, Csize_t, String[], :none, false),
@@ -597,6 +610,7 @@ const CALLS = Dict{Symbol, Call}(
     :jam_pore_sizes => Call(jam_pore_sizes, true, false, [
         Argument(:points, :scalar, Int64, String[], :none, false),
         Argument(:seed, :scalar, Int64, String[], :none, false),
+        Argument(:columns, :columns, Int32, String[], :pore_column, false),
         Argument(:table, :array_out, Cdouble, ["points", "jam_pore_column"], :pore_column, false),
         Argument(:table_len, :len, Csize_t, String[], :none, false),
         Argument(:needed, :scalar_out, Csize_t, String[], :none, false),
@@ -608,6 +622,7 @@ const CALLS = Dict{Symbol, Call}(
         Argument(:needed, :scalar_out, Csize_t, String[], :none, false),
     ]),
     :jam_floppy_modes => Call(jam_floppy_modes, true, false, [
+        Argument(:columns, :columns, Int32, String[], :floppy_column, false),
         Argument(:table, :array_out, Cdouble, ["n_c", "jam_floppy_column"], :floppy_column, false),
         Argument(:table_len, :len, Csize_t, String[], :none, false),
         Argument(:needed, :scalar_out, Csize_t, String[], :none, false),
@@ -615,6 +630,7 @@ const CALLS = Dict{Symbol, Call}(
     :jam_density_of_states => Call(jam_density_of_states, true, false, [
         Argument(:h, :struct_in, jam_hessian_options, String[], :none, false),
         Argument(:o, :struct_in, jam_dos_options, String[], :none, false),
+        Argument(:columns, :columns, Int32, String[], :dos_column, false),
         Argument(:table, :array_out, Cdouble, ["points", "jam_dos_column"], :dos_column, false),
         Argument(:table_len, :len, Csize_t, String[], :none, false),
         Argument(:needed, :scalar_out, Csize_t, String[], :none, false),

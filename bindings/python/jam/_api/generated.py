@@ -8,6 +8,21 @@ from .shown import as_table as _as_table
 
 JAM_ABI = 1
 JAM_MAX_DIM = 8
+JAM_WALL_COLUMNS = 6
+JAM_SERIES_COLUMNS = 6
+JAM_GAP_COLUMNS = 4
+JAM_CORRELATION_COLUMNS = 2
+JAM_ISOCONF_COLUMNS = 14
+JAM_HISTORY_COLUMNS = 20
+JAM_SOFT_COLUMNS = 11
+JAM_MODE_COLUMNS = 2
+JAM_CANDIDATE_COLUMNS = 4
+JAM_BLOCH_COLUMNS = 2
+JAM_STRUCTURE_COLUMNS = 2
+JAM_PROFILE_COLUMNS = 3
+JAM_PORE_COLUMNS = 5
+JAM_FLOPPY_COLUMNS = 6
+JAM_DOS_COLUMNS = 6
 # growth by default, of the library's source: rate and pressure of each stage
 GROWTH_STAGES = ((0.01, 500.0), (0.003, 10000000.0))
 
@@ -22,7 +37,7 @@ class StatusCode(_Word):
     NOT_JAMMED = 5  # there is no jammed network to work on
     AMBIGUOUS = 6  # the answer is not unique; the text says which was returned
     E_NULL = -1  # a pointer that is needed is NULL
-    E_STRUCT_SIZE = -2  # struct_size is zero or larger than in this library
+    E_STRUCT_SIZE = -2  # struct_size was not set, or an option is of a later version
     E_ARGUMENT = -3  # a value is out of its range
     E_DIMENSION = -4  # dim is not in 2..JAM_MAX_DIM
     E_NONFINITE = -5  # NaN or infinity where a number is needed
@@ -1522,7 +1537,7 @@ CALLS = {
     "jam_set_positions": (True, (("positions", "array_in", "double"), ("positions_len", "len", "size_t"))),
     "jam_set_velocities": (True, (("velocities", "array_in", "double"), ("velocities_len", "len", "size_t"))),
     "jam_scale_diameters": (True, (("factor", "scalar", "double"),)),
-    "jam_walls": (True, (("table", "array_out", "double"), ("table_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_walls": (True, (("columns", "columns", "int32_t"), ("table", "array_out", "double"), ("table_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_get_cell": (True, (("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_set_cell": (True, (("cell", "array_in", "double"), ("cell_len", "len", "size_t"), ("transform", "array_out", "int64_t"), ("transform_len", "len", "size_t"), ("rotation", "array_out", "double"), ("rotation_len", "len", "size_t"), ("rows", "scalar_out", "size_t"))),
     "jam_strain": (True, (("strain", "array_in", "double"), ("strain_len", "len", "size_t"))),
@@ -1544,31 +1559,31 @@ CALLS = {
     "jam_write_checkpoint": (True, (("path", "string", "char"),)),
     "jam_observe": (True, (("o", "struct_in", "jam_observe_options"),)),
     "jam_stop_observing": (True, ()),
-    "jam_observed_series": (True, (("table", "array_out", "double"), ("table_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_observed_series": (True, (("columns", "columns", "int32_t"), ("table", "array_out", "double"), ("table_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_observed_spheres": (True, (("collisions", "array_out", "int64_t"), ("collisions_len", "len", "size_t"), ("displacement", "array_out", "double"), ("displacement_len", "len", "size_t"), ("rows", "scalar_out", "size_t"))),
     "jam_observed_pairs": (True, (("pair", "array_out", "int32_t"), ("pair_len", "len", "size_t"), ("collisions", "array_out", "int64_t"), ("collisions_len", "len", "size_t"), ("momentum", "array_out", "double"), ("momentum_len", "len", "size_t"), ("time", "scalar_out", "double"), ("rows", "scalar_out", "size_t"))),
-    "jam_observed_gaps": (True, (("table", "array_out", "double"), ("table_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
-    "jam_observed_correlation": (True, (("table", "array_out", "double"), ("table_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_observed_gaps": (True, (("columns", "columns", "int32_t"), ("table", "array_out", "double"), ("table_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_observed_correlation": (True, (("columns", "columns", "int32_t"), ("table", "array_out", "double"), ("table_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_eos": (False, (("form", "scalar", "EosForm"), ("dim", "scalar", "int32_t"), ("packing_fraction", "scalar", "double"), ("jammed_fraction", "scalar", "double"), ("pressure", "scalar_out", "double"))),
     "jam_glass_fit": (False, (("fraction", "array_in", "double"), ("fraction_len", "len", "size_t"), ("pressure", "array_in", "double"), ("pressure_len", "len", "size_t"), ("fit", "struct_out", "jam_glass"))),
     "jam_monte_carlo": (True, (("o", "struct_in", "jam_monte_carlo_options"), ("report", "struct_out", "jam_monte_carlo_report"))),
     "jam_isoconfigurational": (True, (("o", "struct_in", "jam_isoconf_options"), ("m", "struct_in", "jam_monte_carlo_options"), ("instant", "array_in", "double"), ("instant_len", "len", "size_t"), ("kept", "array_in", "int32_t"), ("kept_len", "len", "size_t"), ("report", "struct_out", "jam_isoconf_report"))),
     "jam_get_isoconf_report": (True, (("report", "struct_out", "jam_isoconf_report"),)),
-    "jam_isoconf_series": (True, (("block", "scalar", "int64_t"), ("table", "array_out", "double"), ("table_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_isoconf_series": (True, (("block", "scalar", "int64_t"), ("columns", "columns", "int32_t"), ("table", "array_out", "double"), ("table_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_isoconf_displacements": (True, (("block", "scalar", "int64_t"), ("displacement", "array_out", "double"), ("displacement_len", "len", "size_t"), ("square", "array_out", "double"), ("square_len", "len", "size_t"), ("rows", "scalar_out", "size_t"))),
     "jam_isoconf_distances": (True, (("block", "scalar", "int64_t"), ("distance2", "array_out", "double"), ("distance2_len", "len", "size_t"), ("distance4", "array_out", "double"), ("distance4_len", "len", "size_t"), ("rows", "scalar_out", "size_t"))),
     "jam_isoconf_kept": (True, (("instant", "scalar", "int32_t"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_crunch": (True, (("o", "struct_in", "jam_crunch_options"), ("report", "struct_out", "jam_crunch_report"))),
     "jam_estimate_crunch": (True, (("o", "struct_in", "jam_crunch_options"), ("estimated", "struct_out", "jam_estimate"))),
     "jam_get_crunch_report": (True, (("report", "struct_out", "jam_crunch_report"),)),
-    "jam_crunch_history": (True, (("table", "array_out", "double"), ("table_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_crunch_history": (True, (("columns", "columns", "int32_t"), ("table", "array_out", "double"), ("table_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_crunch_step_displacements": (True, (("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_crunch_step_contacts": (True, (("out", "array_out", "int32_t"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_crunch_step_vectors": (True, (("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_crunch_step_duals": (True, (("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_relax": (True, (("o", "struct_in", "jam_relax_options"), ("report", "struct_out", "jam_relax_report"))),
     "jam_decompress": (True, (("o", "struct_in", "jam_decompress_options"), ("report", "struct_out", "jam_decompress_report"))),
-    "jam_decompress_history": (True, (("table", "array_out", "double"), ("table_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_decompress_history": (True, (("columns", "columns", "int32_t"), ("table", "array_out", "double"), ("table_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_contacts": (True, (("out", "array_out", "int32_t"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_contact_vectors": (True, (("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_contact_gaps": (True, (("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
@@ -1576,14 +1591,14 @@ CALLS = {
     "jam_coordination": (True, (("out", "array_out", "int32_t"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_hessian_map": (True, (("out", "array_out", "int32_t"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_hessian": (True, (("h", "struct_in", "jam_hessian_options"), ("row_start", "array_out", "int32_t"), ("row_start_len", "len", "size_t"), ("column", "array_out", "int32_t"), ("column_len", "len", "size_t"), ("value", "array_out", "double"), ("value_len", "len", "size_t"), ("rows", "scalar_out", "size_t"))),
-    "jam_modes": (True, (("h", "struct_in", "jam_hessian_options"), ("o", "struct_in", "jam_modes_options"), ("table", "array_out", "double"), ("table_len", "len", "size_t"), ("vector", "array_out", "double"), ("vector_len", "len", "size_t"), ("rows", "scalar_out", "size_t"))),
-    "jam_bloch_modes": (True, (("h", "struct_in", "jam_hessian_options"), ("wave", "array_in", "double"), ("wave_len", "len", "size_t"), ("table", "array_out", "double"), ("table_len", "len", "size_t"), ("vector", "array_out", "double"), ("vector_len", "len", "size_t"), ("rows", "scalar_out", "size_t"))),
+    "jam_modes": (True, (("h", "struct_in", "jam_hessian_options"), ("o", "struct_in", "jam_modes_options"), ("columns", "columns", "int32_t"), ("table", "array_out", "double"), ("table_len", "len", "size_t"), ("vector", "array_out", "double"), ("vector_len", "len", "size_t"), ("rows", "scalar_out", "size_t"))),
+    "jam_bloch_modes": (True, (("h", "struct_in", "jam_hessian_options"), ("wave", "array_in", "double"), ("wave_len", "len", "size_t"), ("columns", "columns", "int32_t"), ("table", "array_out", "double"), ("table_len", "len", "size_t"), ("vector", "array_out", "double"), ("vector_len", "len", "size_t"), ("rows", "scalar_out", "size_t"))),
     "jam_contacts_from_geometry": (True, (("o", "struct_in", "jam_geometry_options"), ("report", "struct_out", "jam_geometry_report"))),
-    "jam_contact_candidates": (True, (("window", "scalar", "double"), ("table", "array_out", "double"), ("table_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_contact_candidates": (True, (("window", "scalar", "double"), ("columns", "columns", "int32_t"), ("table", "array_out", "double"), ("table_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_stress_states": (True, (("force", "array_out", "double"), ("force_len", "len", "size_t"), ("basis", "array_out", "double"), ("basis_len", "len", "size_t"), ("residual", "scalar_out", "double"), ("rows", "scalar_out", "size_t"))),
     "jam_rigidity": (True, (("kind", "scalar", "RigidityKind"), ("report", "struct_out", "jam_rigidity_report"))),
     "jam_flex": (True, (("kind", "scalar", "RigidityKind"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("strain", "array_out", "double"), ("strain_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
-    "jam_bloch_rigidity": (True, (("count", "array_in", "int32_t"), ("count_len", "len", "size_t"), ("wave", "array_out", "double"), ("wave_len", "len", "size_t"), ("table", "array_out", "double"), ("table_len", "len", "size_t"), ("rows", "scalar_out", "size_t"))),
+    "jam_bloch_rigidity": (True, (("count", "array_in", "int32_t"), ("count_len", "len", "size_t"), ("wave", "array_out", "double"), ("wave_len", "len", "size_t"), ("columns", "columns", "int32_t"), ("table", "array_out", "double"), ("table_len", "len", "size_t"), ("rows", "scalar_out", "size_t"))),
     "jam_check_packing": (True, (("o", "struct_in", "jam_check_options"), ("report", "struct_out", "jam_check_report"))),
     "jam_prove": (True, (("ratio", "array_in", "double"), ("ratio_len", "len", "size_t"), ("report", "struct_out", "jam_proof_report"))),
     "jam_prove_strict": (True, (("report", "struct_out", "jam_proof_report"),)),
@@ -1599,19 +1614,19 @@ CALLS = {
     "jam_histogram": (True, (("quantity", "scalar", "LocalQuantity"), ("population", "scalar", "Population"), ("low", "scalar", "double"), ("high", "scalar", "double"), ("bins", "scalar", "int64_t"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_pair_correlation": (True, (("o", "struct_in", "jam_correlation_options"), ("kind", "array_in", "int32_t"), ("kind_len", "len", "size_t"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_mk_shifts": (True, (("pair", "array_in", "int32_t"), ("pair_len", "len", "size_t"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
-    "jam_structure_factor": (True, (("q_max", "scalar", "double"), ("table", "array_out", "double"), ("table_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_structure_factor": (True, (("q_max", "scalar", "double"), ("columns", "columns", "int32_t"), ("table", "array_out", "double"), ("table_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_bond_order": (True, (("l", "scalar", "int32_t"), ("cutoff", "scalar", "double"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_crystal_score": (True, (("score", "scalar_out", "double"),)),
     "jam_local_fraction": (True, (("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_write_stl": (True, (("path", "string", "char"), ("o", "struct_in", "jam_mesh_options"), ("report", "struct_out", "jam_mesh_report"))),
     "jam_voxels": (True, (("o", "struct_in", "jam_voxel_options"), ("report", "struct_out", "jam_voxel_report"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_write_voxels": (True, (("path", "string", "char"), ("o", "struct_in", "jam_voxel_options"), ("report", "struct_out", "jam_voxel_report"))),
-    "jam_solid_profile": (True, (("axis", "scalar", "int32_t"), ("bins", "scalar", "int32_t"), ("table", "array_out", "double"), ("table_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_solid_profile": (True, (("axis", "scalar", "int32_t"), ("bins", "scalar", "int32_t"), ("columns", "columns", "int32_t"), ("table", "array_out", "double"), ("table_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_near_coordination": (True, (("h_max", "scalar", "double"), ("out", "array_out", "int32_t"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
-    "jam_pore_sizes": (True, (("points", "scalar", "int64_t"), ("seed", "scalar", "int64_t"), ("table", "array_out", "double"), ("table_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_pore_sizes": (True, (("points", "scalar", "int64_t"), ("seed", "scalar", "int64_t"), ("columns", "columns", "int32_t"), ("table", "array_out", "double"), ("table_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_floppy_mode": (True, (("contact", "scalar", "int64_t"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
-    "jam_floppy_modes": (True, (("table", "array_out", "double"), ("table_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
-    "jam_density_of_states": (True, (("h", "struct_in", "jam_hessian_options"), ("o", "struct_in", "jam_dos_options"), ("table", "array_out", "double"), ("table_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_floppy_modes": (True, (("columns", "columns", "int32_t"), ("table", "array_out", "double"), ("table_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_density_of_states": (True, (("h", "struct_in", "jam_hessian_options"), ("o", "struct_in", "jam_dos_options"), ("columns", "columns", "int32_t"), ("table", "array_out", "double"), ("table_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_project": (True, (("vector", "array_in", "double"), ("vector_len", "len", "size_t"), ("u", "array_in", "double"), ("u_len", "len", "size_t"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_curvature": (True, (("h", "struct_in", "jam_hessian_options"), ("u", "array_in", "double"), ("u_len", "len", "size_t"), ("value", "scalar_out", "double"))),
     "jam_moduli": (True, (("h", "struct_in", "jam_hessian_options"), ("moduli", "struct_out", "jam_moduli_report"))),

@@ -104,7 +104,7 @@ class Copies(Base):
         table, vectors = unknown_array((m, len(ModeColumn))), unknown_array((m, len(spheres), self.dim, 2))
         with self._reporting(progress):
             flat = as_array(wave, name="wave")
-            status, _ = raw.jam_bloch_modes(self.handle, h, flat, table.reshape(-1), vectors.reshape(-1))
+            status, _ = raw.jam_bloch_modes(self.handle, h, flat, raw.JAM_MODE_COLUMNS, table.reshape(-1), vectors.reshape(-1))
             self._note(not_cancelled(status))
             same(self._ask("hessian_map"), spheres)
         values, participation = np.ascontiguousarray(table.T)
@@ -134,10 +134,10 @@ class Copies(Base):
         """
         copies = as_array(count, "int32_t", "count")
         with self._reporting(progress):
-            status, rows = raw.jam_bloch_rigidity(self.handle, copies, None, None)
+            status, rows = raw.jam_bloch_rigidity(self.handle, copies, None, raw.JAM_BLOCH_COLUMNS, None)
             not_cancelled(status)
             wave, table = unknown_array((rows, self.dim)), unknown_array((rows, len(BlochColumn)))
-            status, filled = raw.jam_bloch_rigidity(self.handle, copies, wave.reshape(-1), table.reshape(-1))
+            status, filled = raw.jam_bloch_rigidity(self.handle, copies, wave.reshape(-1), raw.JAM_BLOCH_COLUMNS, table.reshape(-1))
             self._note(not_cancelled(status))
             same(filled, rows)
         return BlochRigidityResult(wave, table[:, BlochColumn.FLEXES].astype(int), table[:, BlochColumn.MARGIN].copy())

@@ -149,7 +149,7 @@ class Network(Base):
         )
         table, vectors = unknown_array((m, len(ModeColumn))), unknown_array((m, len(spheres), self.dim))
         with self._reporting(progress):
-            status, m = raw.jam_modes(handle, h, o, table.reshape(-1), vectors.reshape(-1))
+            status, m = raw.jam_modes(handle, h, o, raw.JAM_MODE_COLUMNS, table.reshape(-1), vectors.reshape(-1))
             self._note(not_cancelled(status))
             same(self._ask("hessian_map"), spheres)
         values, participation = np.ascontiguousarray(table[:m].T)

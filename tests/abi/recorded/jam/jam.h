@@ -177,7 +177,8 @@ typedef enum jam_wall_column {
   JAM_WALL_GAP = 4,
   JAM_WALL_STRESS = 5
 } jam_wall_column;
-JAM_API jam_status jam_walls(const jam_system *sys, double *table, size_t table_len, size_t *needed);
+#define JAM_WALL_COLUMNS 6
+JAM_API jam_status jam_walls(const jam_system *sys, int32_t columns, double *table, size_t table_len, size_t *needed);
 JAM_API jam_status jam_get_cell(const jam_system *sys, double *out, size_t out_len, size_t *needed);
 JAM_API jam_status jam_set_cell(jam_system *sys, const double *cell, size_t cell_len, int64_t *transform,
                                 size_t transform_len, double *rotation, size_t rotation_len, size_t *rows);
@@ -339,7 +340,9 @@ typedef enum jam_series_column {
   JAM_SERIES_ERROR = 4,
   JAM_SERIES_MSD = 5
 } jam_series_column;
-JAM_API jam_status jam_observed_series(const jam_system *sys, double *table, size_t table_len, size_t *needed);
+#define JAM_SERIES_COLUMNS 6
+JAM_API jam_status jam_observed_series(const jam_system *sys, int32_t columns, double *table, size_t table_len,
+                                       size_t *needed);
 JAM_API jam_status jam_observed_spheres(const jam_system *sys, int64_t *collisions, size_t collisions_len,
                                         double *displacement, size_t displacement_len, size_t *rows);
 JAM_API jam_status jam_observed_pairs(const jam_system *sys, int32_t *pair, size_t pair_len, int64_t *collisions,
@@ -351,12 +354,16 @@ typedef enum jam_gap_column {
   JAM_GAP_DENSITY = 2,
   JAM_GAP_ERROR = 3
 } jam_gap_column;
-JAM_API jam_status jam_observed_gaps(const jam_system *sys, double *table, size_t table_len, size_t *needed);
+#define JAM_GAP_COLUMNS 4
+JAM_API jam_status jam_observed_gaps(const jam_system *sys, int32_t columns, double *table, size_t table_len,
+                                     size_t *needed);
 typedef enum jam_correlation_column {
   JAM_CORRELATION_R = 0,
   JAM_CORRELATION_G = 1
 } jam_correlation_column;
-JAM_API jam_status jam_observed_correlation(const jam_system *sys, double *table, size_t table_len, size_t *needed);
+#define JAM_CORRELATION_COLUMNS 2
+JAM_API jam_status jam_observed_correlation(const jam_system *sys, int32_t columns, double *table, size_t table_len,
+                                            size_t *needed);
 typedef enum jam_eos_form {
   JAM_EOS_CARNAHAN_STARLING = 0,
   JAM_EOS_PY_VIRIAL = 1,
@@ -453,13 +460,14 @@ typedef enum jam_isoconf_column {
   JAM_ISOCONF_PRESSURE = 12,
   JAM_ISOCONF_RUNS = 13
 } jam_isoconf_column;
+#define JAM_ISOCONF_COLUMNS 14
 JAM_API jam_status jam_isoconf_options_init(jam_isoconf_options *o, size_t size);
 JAM_API jam_status jam_isoconfigurational(jam_system *sys, const jam_isoconf_options *o,
                                           const jam_monte_carlo_options *m, const double *instant, size_t instant_len,
                                           const int32_t *kept, size_t kept_len, jam_isoconf_report *report);
 JAM_API jam_status jam_get_isoconf_report(const jam_system *sys, jam_isoconf_report *report);
-JAM_API jam_status jam_isoconf_series(const jam_system *sys, int64_t block, double *table, size_t table_len,
-                                      size_t *needed);
+JAM_API jam_status jam_isoconf_series(const jam_system *sys, int64_t block, int32_t columns, double *table,
+                                      size_t table_len, size_t *needed);
 JAM_API jam_status jam_isoconf_displacements(const jam_system *sys, int64_t block, double *displacement,
                                              size_t displacement_len, double *square, size_t square_len, size_t *rows);
 JAM_API jam_status jam_isoconf_distances(const jam_system *sys, int64_t block, double *distance2, size_t distance2_len,
@@ -541,7 +549,7 @@ typedef struct jam_crunch_report {
   double seconds, seconds_factor;
   double seconds_assemble, seconds_solve;
   int32_t status;
-  int32_t reserved_end;
+  int32_t decompressions;
   double packing_fraction_start;
   double displacement_max, displacement_rms;
   double displacement_max_stable, displacement_rms_stable;
@@ -593,7 +601,9 @@ typedef enum jam_history_column {
   JAM_HISTORY_STEP_MSD_STABLE = 18,
   JAM_HISTORY_TOTAL_MSD_STABLE = 19
 } jam_history_column;
-JAM_API jam_status jam_crunch_history(const jam_system *sys, double *table, size_t table_len, size_t *needed);
+#define JAM_HISTORY_COLUMNS 20
+JAM_API jam_status jam_crunch_history(const jam_system *sys, int32_t columns, double *table, size_t table_len,
+                                      size_t *needed);
 JAM_API jam_status jam_crunch_step_displacements(const jam_system *sys, double *out, size_t out_len, size_t *needed);
 JAM_API jam_status jam_crunch_step_contacts(const jam_system *sys, int32_t *out, size_t out_len, size_t *needed);
 JAM_API jam_status jam_crunch_step_vectors(const jam_system *sys, double *out, size_t out_len, size_t *needed);
@@ -695,9 +705,11 @@ typedef enum jam_soft_column {
   JAM_SOFT_FACTORISATIONS = 9,
   JAM_SOFT_SECONDS = 10
 } jam_soft_column;
+#define JAM_SOFT_COLUMNS 11
 JAM_API jam_status jam_decompress_options_init(jam_decompress_options *o, size_t size);
 JAM_API jam_status jam_decompress(jam_system *sys, const jam_decompress_options *o, jam_decompress_report *report);
-JAM_API jam_status jam_decompress_history(const jam_system *sys, double *table, size_t table_len, size_t *needed);
+JAM_API jam_status jam_decompress_history(const jam_system *sys, int32_t columns, double *table, size_t table_len,
+                                          size_t *needed);
 JAM_API jam_status jam_contacts(const jam_system *sys, int32_t *out, size_t out_len, size_t *needed);
 JAM_API jam_status jam_contact_vectors(const jam_system *sys, double *out, size_t out_len, size_t *needed);
 JAM_API jam_status jam_contact_gaps(const jam_system *sys, double *out, size_t out_len, size_t *needed);
@@ -733,16 +745,18 @@ typedef enum jam_mode_column {
   JAM_MODE_LAMBDA = 0,
   JAM_MODE_PARTICIPATION = 1
 } jam_mode_column;
+#define JAM_MODE_COLUMNS 2
 JAM_API jam_status jam_hessian_options_init(jam_hessian_options *o, size_t size);
 JAM_API jam_status jam_modes_options_init(jam_modes_options *o, size_t size);
 JAM_API jam_status jam_hessian_map(const jam_system *sys, int32_t *out, size_t out_len, size_t *needed);
 JAM_API jam_status jam_hessian(const jam_system *sys, const jam_hessian_options *h, int32_t *row_start,
                                size_t row_start_len, int32_t *column, size_t column_len, double *value,
                                size_t value_len, size_t *rows);
-JAM_API jam_status jam_modes(jam_system *sys, const jam_hessian_options *h, const jam_modes_options *o, double *table,
-                             size_t table_len, double *vector, size_t vector_len, size_t *rows);
+JAM_API jam_status jam_modes(jam_system *sys, const jam_hessian_options *h, const jam_modes_options *o, int32_t columns,
+                             double *table, size_t table_len, double *vector, size_t vector_len, size_t *rows);
 JAM_API jam_status jam_bloch_modes(jam_system *sys, const jam_hessian_options *h, const double *wave, size_t wave_len,
-                                   double *table, size_t table_len, double *vector, size_t vector_len, size_t *rows);
+                                   int32_t columns, double *table, size_t table_len, double *vector, size_t vector_len,
+                                   size_t *rows);
 typedef struct jam_geometry_options {
   uint32_t struct_size;
   int32_t reserved;
@@ -777,8 +791,9 @@ typedef enum jam_candidate_column {
   JAM_CANDIDATE_CONTACTS = 2,
   JAM_CANDIDATE_EXCESS = 3
 } jam_candidate_column;
-JAM_API jam_status jam_contact_candidates(const jam_system *sys, double window, double *table, size_t table_len,
-                                          size_t *needed);
+#define JAM_CANDIDATE_COLUMNS 4
+JAM_API jam_status jam_contact_candidates(const jam_system *sys, double window, int32_t columns, double *table,
+                                          size_t table_len, size_t *needed);
 JAM_API jam_status jam_stress_states(jam_system *sys, double *force, size_t force_len, double *basis, size_t basis_len,
                                      double *residual, size_t *rows);
 typedef enum jam_rigidity_kind {
@@ -814,8 +829,9 @@ typedef enum jam_bloch_column {
   JAM_BLOCH_FLEXES = 0,
   JAM_BLOCH_MARGIN = 1
 } jam_bloch_column;
+#define JAM_BLOCH_COLUMNS 2
 JAM_API jam_status jam_bloch_rigidity(jam_system *sys, const int32_t *count, size_t count_len, double *wave,
-                                      size_t wave_len, double *table, size_t table_len, size_t *rows);
+                                      size_t wave_len, int32_t columns, double *table, size_t table_len, size_t *rows);
 typedef enum jam_check_reason {
   JAM_CHECK_PROOF = 0,
   JAM_CHECK_APART = 1,
@@ -962,7 +978,9 @@ typedef enum jam_structure_column {
   JAM_STRUCTURE_Q = 0,
   JAM_STRUCTURE_S = 1
 } jam_structure_column;
-JAM_API jam_status jam_structure_factor(jam_system *sys, double q_max, double *table, size_t table_len, size_t *needed);
+#define JAM_STRUCTURE_COLUMNS 2
+JAM_API jam_status jam_structure_factor(jam_system *sys, double q_max, int32_t columns, double *table, size_t table_len,
+                                        size_t *needed);
 JAM_API jam_status jam_bond_order(const jam_system *sys, int32_t l, double cutoff, double *out, size_t out_len,
                                   size_t *needed);
 JAM_API jam_status jam_crystal_score(const jam_system *sys, double *score);
@@ -1012,8 +1030,9 @@ typedef enum jam_profile_column {
   JAM_PROFILE_HIGH = 1,
   JAM_PROFILE_SOLID = 2
 } jam_profile_column;
-JAM_API jam_status jam_solid_profile(const jam_system *sys, int32_t axis, int32_t bins, double *table, size_t table_len,
-                                     size_t *needed);
+#define JAM_PROFILE_COLUMNS 3
+JAM_API jam_status jam_solid_profile(const jam_system *sys, int32_t axis, int32_t bins, int32_t columns, double *table,
+                                     size_t table_len, size_t *needed);
 JAM_API jam_status jam_near_coordination(const jam_system *sys, double h_max, int32_t *out, size_t out_len,
                                          size_t *needed);
 typedef enum jam_pore_column {
@@ -1023,8 +1042,9 @@ typedef enum jam_pore_column {
   JAM_PORE_DISTANCE = 3,
   JAM_PORE_RADIUS = 4
 } jam_pore_column;
-JAM_API jam_status jam_pore_sizes(jam_system *sys, int64_t points, int64_t seed, double *table, size_t table_len,
-                                  size_t *needed);
+#define JAM_PORE_COLUMNS 5
+JAM_API jam_status jam_pore_sizes(jam_system *sys, int64_t points, int64_t seed, int32_t columns, double *table,
+                                  size_t table_len, size_t *needed);
 JAM_API jam_status jam_floppy_mode(jam_system *sys, int64_t contact, double *out, size_t out_len, size_t *needed);
 typedef enum jam_floppy_column {
   JAM_FLOPPY_MEDIAN = 0,
@@ -1034,7 +1054,8 @@ typedef enum jam_floppy_column {
   JAM_FLOPPY_STABILITY = 4,
   JAM_FLOPPY_S_RETURN = 5
 } jam_floppy_column;
-JAM_API jam_status jam_floppy_modes(jam_system *sys, double *table, size_t table_len, size_t *needed);
+#define JAM_FLOPPY_COLUMNS 6
+JAM_API jam_status jam_floppy_modes(jam_system *sys, int32_t columns, double *table, size_t table_len, size_t *needed);
 typedef struct jam_dos_options {
   uint32_t struct_size;
   int32_t moments;
@@ -1068,9 +1089,10 @@ typedef enum jam_dos_column {
   JAM_DOS_CUMULATIVE = 4,
   JAM_DOS_CUMULATIVE_ERROR = 5
 } jam_dos_column;
+#define JAM_DOS_COLUMNS 6
 JAM_API jam_status jam_dos_options_init(jam_dos_options *o, size_t size);
 JAM_API jam_status jam_density_of_states(jam_system *sys, const jam_hessian_options *h, const jam_dos_options *o,
-                                         double *table, size_t table_len, size_t *needed);
+                                         int32_t columns, double *table, size_t table_len, size_t *needed);
 JAM_API jam_status jam_project(const jam_system *sys, const double *vector, size_t vector_len, const double *u,
                                size_t u_len, double *out, size_t out_len, size_t *needed);
 JAM_API jam_status jam_curvature(const jam_system *sys, const jam_hessian_options *h, const double *u, size_t u_len,

@@ -34,12 +34,12 @@ static jam_status find_nearest_gap(const jam_system *sys, double *gap) {
 
 /* Of spheres that overlap, or pass a wall, the solid is their union in the container: one slab of all of it. */
 static jam_status find_porosity(const jam_system *sys, content *c) {
-  double slab[JAM_PROFILE_SOLID + 1];
+  double slab[JAM_PROFILE_COLUMNS];
   jam_status status;
   c->overlaps = c->nearest_gap < -rounding || c->info.non_additivity < 0;
   c->porosity = c->overlaps ? NAN : 1 - c->info.packing_fraction;
   if (!c->overlaps || c->info.dim > 3) return JAM_OK;
-  status = jam_solid_profile(sys, 0, 1, slab, sizeof slab / sizeof *slab, NULL);
+  status = jam_solid_profile(sys, 0, 1, JAM_PROFILE_COLUMNS, slab, JAM_PROFILE_COLUMNS, NULL);
   if (status >= 0) c->porosity = 1 - slab[JAM_PROFILE_SOLID];
   return status;
 }

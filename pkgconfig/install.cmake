@@ -1,5 +1,6 @@
 # Installs library, header, pkg-config files and the CMake package; included at the end of the top CMakeLists.txt.
-# Components: runtime (the shared library), dev (what compiles against it), python, tools (jam-pack), doc, guide.
+# Components: runtime (the shared library), dev (what compiles against it), python, tools (jam-pack), doc, guide,
+# license.
 include(CMakePackageConfigHelpers)
 set(JAM_CMAKE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/jam)
 
@@ -9,6 +10,8 @@ if(JAM_BUILD_STATIC)
   install(TARGETS jam_static EXPORT jamTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT dev)
   list(JOIN JAM_STATIC_LIBRARIES " " private_libraries)
 endif()
+# A component of its own: Debian's packages have the licence in their copyright files.
+install(FILES LICENSE pkgconfig/LINKED.md DESTINATION ${CMAKE_INSTALL_DATADIR}/licenses/libjam COMPONENT license)
 install(FILES include/jam/jam.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/jam COMPONENT dev)
 
 # The .pc files are written at install time, since `cmake --install --prefix` may name another prefix than the

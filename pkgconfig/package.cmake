@@ -7,7 +7,7 @@ if(NOT CMAKE_INSTALL_PREFIX STREQUAL "/usr")
 endif()
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME jam)
-set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
+string(REPLACE - ~ CPACK_PACKAGE_VERSION ${JAM_VERSION})  # for Debian 1.1.0~dev is before 1.1.0
 set(CPACK_PACKAGE_CONTACT "The libjam authors <libjam@users.noreply.github.com>")
 set(CPACK_PACKAGE_VENDOR libjam)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
@@ -50,7 +50,7 @@ Copyright: ${copyright}
 License: Expat
  ${license}
 ")
-  file(WRITE ${made}/changelog.txt "${name} (${PROJECT_VERSION}) unstable; urgency=medium
+  file(WRITE ${made}/changelog.txt "${name} (${CPACK_PACKAGE_VERSION}) unstable; urgency=medium
 
   * See CHANGELOG.md of the source.
 

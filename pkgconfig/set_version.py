@@ -2,29 +2,30 @@
 """Sets version and ABI number in every file of the tree that names them, and lists where another one is left.
 
 usage: set_version.py ROOT VERSION ABI     Then: bindings/gen/regenerate.sh, a build, tests/abi/abi.py update BUILD.
+VERSION is that of a release, 1.2.3, or of the tree between two releases, 1.2.3-dev. The latter leaves the recipes, the citation
+and Debian's changelog alone: they name the last release.
 """
+import os
 import re
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 root, version, abi = Path(sys.argv[1]).resolve(), sys.argv[2], sys.argv[3]
-if not re.fullmatch(r"\d+\.\d+\.\d+", version) or not abi.isdigit():
+if not re.fullmatch(r"\d+\.\d+\.\d+(-dev)?", version) or not abi.isdigit():
     sys.exit(__doc__)
+number, dash, dev = version.partition("-")
+now = int(os.environ.get("SOURCE_DATE_EPOCH", time.time()))
+today, at = (time.strftime(form, time.gmtime(now)) for form in ("%Y-%m-%d", "%a, %d %b %Y %H:%M:%S +0000"))
 
 NUMBER = r"\d+\.\d+\.\d+"
-# file, what stands there, what shall; {v}, {m} and {a} are version, its first two numbers and ABI number
-PLACES = [
-    ("CMakeLists.txt", rf"(project\(jam VERSION ){NUMBER}", r"\g<1>{v}"),
-    (".github/CITATION.cff", rf"(?m)^(version: ){NUMBER}", r"\g<1>{v}"),
-    ("bindings/julia/Jam/Project.toml", rf'(?m)^(version = "){NUMBER}', r"\g<1>{v}"),
-    ("bindings/docs/cite.md", rf"(version = {{){NUMBER}", r"\g<1>{v}"),
-    ("pkgconfig/debian/changelog", rf"\A(libjam \(){NUMBER}", r"\g<1>{v}"),
-    ("pkgconfig/recipes/package.py", rf'(version\("|/v){NUMBER}', r"\g<1>{v}"),
-    ("pkgconfig/recipes/guix.scm", rf'(\(version "){NUMBER}', r"\g<1>{v}"),
-    ("pkgconfig/recipes/recipe.yaml", rf'(version: "){NUMBER}', r"\g<1>{v}"),
-    ("pkgconfig/recipes/build_tarballs.jl", rf'(version = v"){NUMBER}', r"\g<1>{v}"),
-    ("pkgconfig/recipes/vcpkg/vcpkg.json", rf'("version": "){NUMBER}', r"\g<1>{v}"),
+# file, what stands there, what shall; {v}, {n}, {s}, {m} and {a} are version, its numbers, its suffix, its first two
+# numbers and the ABI number
+TREE = [
+    ("CMakeLists.txt", rf"(project\(jam VERSION ){NUMBER}", r"\g<1>{n}"),
+    ("CMakeLists.txt", r'(set\(JAM_VERSION_SUFFIX ")[^"]*', r"\g<1>{s}"),
+    ("bindings/julia/Jam/Project.toml", rf'(?m)^(version = "){NUMBER}[^"]*', r"\g<1>{v}"),
     ("tests/package/consumer/CMakeLists.txt", r"(find_package\(jam )\d+\.\d+", r"\g<1>{m}"),
     ("include/jam/jam.h", r"(?m)^(#define JAM_ABI )\d+", r"\g<1>{a}"),
     ("src/capi/jam.map", r"JAM_\d+", "JAM_{a}"),
@@ -34,14 +35,30 @@ PLACES = [
     *((name, r"libjam\.so\.\d+", "libjam.so.{a}") for name in (
         "tests/bindings/deb.sh", "bindings/julia/Jam/src/Jam.jl", "bindings/docs/julia.md")),
 ]  # fmt: skip
+RELEASE = [
+    (".github/CITATION.cff", rf"(?m)^version: {NUMBER}\n(date-released: .*\n)?", "version: {v}\ndate-released: {d}\n"),
+    ("bindings/docs/cite.md", rf"(version = {{){NUMBER}", r"\g<1>{v}"),
+    ("pkgconfig/recipes/package.py", rf'(version\("|/v){NUMBER}', r"\g<1>{v}"),
+    ("pkgconfig/recipes/guix.scm", rf'(\(version "){NUMBER}', r"\g<1>{v}"),
+    ("pkgconfig/recipes/recipe.yaml", rf'(version: "){NUMBER}', r"\g<1>{v}"),
+    ("pkgconfig/recipes/build_tarballs.jl", rf'(version = v"){NUMBER}', r"\g<1>{v}"),
+    ("pkgconfig/recipes/vcpkg/vcpkg.json", rf'("version": "){NUMBER}', r"\g<1>{v}"),
+]  # fmt: skip
 
-for name, before, after in PLACES:
+for name, before, after in TREE + ([] if dev else RELEASE):
     text = (root / name).read_text()
-    new, found = re.subn(before, after.format(v=version, m=version.rpartition(".")[0], a=abi), text)
+    values = dict(v=version, n=number, s=dash + dev, m=number.rpartition(".")[0], a=abi, d=today)
+    new, found = re.subn(before, after.format(**values), text)
     if not found:
         sys.exit(f"{name} has nothing like {before}")
     (root / name).write_text(new)
 debian = root / "pkgconfig/debian"
+changes = debian / "changelog"
+earlier = changes.read_text()
+if not dev and not earlier.startswith(f"libjam ({version}-"):  # entries of earlier releases stay as they are
+    maintainer = re.search(r"(?m)^ -- (.*>)", earlier).group(1)
+    entry = f"libjam ({version}-1) unstable; urgency=medium\n\n  * New upstream release.\n\n -- {maintainer}  {at}\n\n"
+    changes.write_text(entry + earlier)
 for file in sorted(debian.glob("libjam[0-9]*.*")):
     file.rename(debian / re.sub(r"^libjam\d+", f"libjam{abi}", file.name))
 

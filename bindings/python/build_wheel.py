@@ -23,10 +23,14 @@ import wheel_tag
 
 NAME = "jamming"
 ROOT = Path(__file__).resolve().parents[2]
+LICENCES = ("LICENSE", "pkgconfig/LINKED.md")
 
 
 def _version() -> str:
-    return re.search(r"project\(jam VERSION ([\d.]+)", (ROOT / "CMakeLists.txt").read_text()).group(1)
+    """As Python writes it: 1.1.0-dev is 1.1.0.dev0."""
+    cmake = (ROOT / "CMakeLists.txt").read_text()
+    number, suffix = re.search(r'project\(jam VERSION ([\d.]+)[\s\S]*set\(JAM_VERSION_SUFFIX "([^"]*)', cmake).groups()
+    return number + suffix.replace("-dev", ".dev0")
 
 
 def _tag(files: dict[str, bytes]) -> str:
@@ -35,23 +39,17 @@ def _tag(files: dict[str, bytes]) -> str:
     return f"{python}-{python}-{wheel_tag.platform_tag(objects)}"
 
 
-def _metadata() -> str:
-    return f"""Metadata-Version: 2.1
-Name: {NAME}
-Version: {_version()}
-Summary: Jammed packings of hard spheres, made and analysed
-License: MIT AND MPL-2.0
-License-File: LICENSE
-License-File: LINKED.md
-Requires-Python: >=3.10
-Requires-Dist: numpy>=1.20
-Provides-Extra: all
-Requires-Dist: scipy; extra == "all"
-Requires-Dist: matplotlib; extra == "all"
-Requires-Dist: h5py; extra == "all"
-Requires-Dist: pandas; extra == "all"
-Requires-Dist: tqdm; extra == "all"
-"""
+def _metadata(licences: bool = True) -> str:
+    """METADATA.in, whose head an install by CMake has too, with the README as the description."""
+    head = (ROOT / "bindings/python/METADATA.in").read_text().replace("@JAM_PYTHON_VERSION@", _version())
+    named = "".join(f"License-File: {Path(path).name}\n" for path in LICENCES)
+    source = re.search(r"Project-URL: Source, (.*)", head).group(1)
+    release = re.search(r"(?m)^version: (.*)$", (ROOT / ".github/CITATION.cff").read_text()).group(1)
+    # links of the README are those of its folder, which an index does not have
+    readme = (ROOT / "README.md").read_text()
+    for kind, mark in (("raw", r"(!\[[^]]*\]"), ("blob", r"(\]")):
+        readme = re.sub(mark + r"\()(?!https?:|#)/?([^)]+)", rf"\1{source}/{kind}/v{release}/\2", readme)
+    return f"{head}{named if licences else ''}Description-Content-Type: text/markdown; charset=UTF-8\n\n{readme}"
 
 
 def _installed(folder: str, config: dict) -> Path:
@@ -103,8 +101,8 @@ def build_wheel(
     tag = _tag(files)
     files[f"{info}/METADATA"] = _metadata().encode()
     files[f"{info}/WHEEL"] = f"Wheel-Version: 1.0\nGenerator: jam\nRoot-Is-Purelib: false\nTag: {tag}\n".encode()
-    files[f"{info}/LICENSE"] = (ROOT / "LICENSE").read_bytes()
-    files[f"{info}/LINKED.md"] = (ROOT / "pkgconfig/LINKED.md").read_bytes()
+    for path in LICENCES:
+        files[f"{info}/licenses/{Path(path).name}"] = (ROOT / path).read_bytes()
     record = "".join(f"{path},{_hash(data)},{len(data)}\n" for path, data in files.items())
     files[f"{info}/RECORD"] = (record + f"{info}/RECORD,,\n").encode()
     name = f"{NAME}-{_version()}-{tag}.whl"
@@ -128,7 +126,7 @@ def build_sdist(sdist_directory: str, config_settings: dict | None = None) -> st
     base = f"{NAME}-{_version()}"
     name = f"{base}.tar.gz"
     files = {path: (ROOT / path).read_bytes() for path in _sources()}
-    files["PKG-INFO"] = _metadata().encode()
+    files["PKG-INFO"] = _metadata(licences=False).encode()  # LINKED.md has another place there
     commit = subprocess.run(["git", "-C", str(ROOT), "rev-parse", "HEAD"], capture_output=True, text=True)
     if commit.returncode == 0:
         archived = "pkgconfig/archive_commit"

@@ -11,7 +11,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 mkdir "$work/source" && cp -r "$here" "$work/source/debian"
 cd "$work/source"
-version=$(sed -n 's/^project(jam VERSION \([0-9.]*\).*/\1/p' "$here/../../CMakeLists.txt")
+version=$(sed -n 's/^version: //p' "$here/../../.github/CITATION.cff")  # the last release
 dpkg-parsechangelog -S Version | grep -qx "$version-1" || { echo "changelog: the version is not $version-1"; exit 1; }
 dh binary --no-act --without python3 --buildsystem=cmake+ninja | grep -q dh_makeshlibs
 dpkg-gensymbols -c2 -plibjam1 -Odebian/symbols.new -Idebian/libjam1.symbols \

@@ -19,10 +19,11 @@ cmake --build build --parallel ${nproc}
 cmake --install build
 install_license LICENSE pkgconfig/LINKED.md
 """
-platforms = [
+# The library takes std::string from the compiler's C++ library.
+platforms = expand_cxxstring_abis([
     Platform("x86_64", "linux"; libc = "glibc"),
     Platform("aarch64", "linux"; libc = "glibc"),
-]
+])
 products = [LibraryProduct("libjam", :libjam)]
 dependencies = [
     Dependency("Zlib_jll"),

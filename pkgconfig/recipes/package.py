@@ -10,6 +10,8 @@ class Libjam(CMakePackage):
     homepage = "https://github.com/libjam/libjam"
     url = "https://github.com/libjam/libjam/archive/refs/tags/v1.0.0.tar.gz"
 
+    maintainers("libjam")
+
     license("MIT AND MPL-2.0")
 
     version("1.0.0", sha256="0000000000000000000000000000000000000000000000000000000000000000")
@@ -29,6 +31,7 @@ class Libjam(CMakePackage):
     depends_on("zlib-api")
     depends_on("blas", when="+blas")
     depends_on("lapack", when="+blas")
+    depends_on("openblas~ilp64", when="+blas ^[virtuals=blas] openblas")
     depends_on("clp", when="+clp")
     depends_on("swig@4:", type="build", when="+python")
     depends_on("python@3.10:", type=("build", "run"), when="+python")
@@ -47,6 +50,11 @@ class Libjam(CMakePackage):
             self.define_from_variant("JAM_BUILD_PYTHON", "python"),
             self.define_from_variant("JAM_BUILD_FORTRAN", "fortran"),
         ]
+        if self.spec.satisfies("+blas"):  # FindBLAS would take one of the host
+            args += [
+                self.define("BLAS_LIBRARIES", self.spec["blas"].libs.joined(";")),
+                self.define("LAPACK_LIBRARIES", self.spec["lapack"].libs.joined(";")),
+            ]
         if self.spec.satisfies("+python"):
             args += [self.define("JAM_PYTHON", python.path), self.define("JAM_PYTHON_DIR", python_platlib)]
         return args

@@ -39,6 +39,7 @@ gfortran -I"$lib/fortran/jam" "$source/examples/fortran/first.f90" -o f_first -L
 ./f_first >/dev/null
 PYTHONPATH="$usr/lib/python3/dist-packages" /usr/bin/python3 "$source/examples/python/first.py" p.png >/dev/null
 [ -s p.png ]
+PYTHONPATH="$usr/lib/python3/dist-packages" /usr/bin/python3 -c 'import importlib.metadata as m; m.version("jamming")'
 if [ -n "${ROOT:-}" ]; then
   cp "$work"/b/*.deb "$ROOT/tmp"
   cp "$source/examples/python/first.py" "$ROOT/tmp"

@@ -26,8 +26,10 @@ gfortran -J"$work" "$sources/jam.f90" "$sources/jam_base.f90" "$sources/jam_pack
 ./f_source >f2.out
 cmp f.out f2.out
 PYTHONPATH="$work/p/$python_dir" /usr/bin/python3 -c "
-import jam, os
+import importlib.metadata, jam, jam.raw, os
 assert os.path.realpath(jam.__file__).startswith(os.path.realpath('$work')), jam.__file__
+assert importlib.metadata.version('jamming') == jam.raw.jam_version().replace('-dev', '.dev0')
+assert importlib.metadata.requires('jamming')[0] == 'numpy>=1.20'
 s = jam.System.random(n=40, dim=2, seed=3, diameters=[1.0, 1.4] * 20)
 assert s.crunch().jammed"
 test -f "$(echo "$work/p/$python_dir"/jam/__pycache__/system.*.pyc)"

@@ -20,6 +20,22 @@ else
 fi
 needs=; [ -n "$numpy" ] || needs=--no-deps
 $alone pip install -q --no-index $needs "$wheel"
+# What an index reads: the metadata of PEP 639, whose licences are in the wheel, and links that lead somewhere.
+"$python" - "$wheel" <<'END'
+import email, re, sys, zipfile
+
+wheel = zipfile.ZipFile(sys.argv[1])
+info = next(name for name in wheel.namelist() if name.endswith(".dist-info/METADATA"))
+meta = email.message_from_bytes(wheel.read(info))
+assert meta["Metadata-Version"] == "2.4" and meta["License-Expression"] == "MIT AND MPL-2.0" and not meta["License"]
+for name in meta.get_all("License-File"):
+    assert wheel.read(info.replace("METADATA", "licenses/" + name)), name
+assert meta["Description-Content-Type"].startswith("text/markdown")
+assert meta.get_all("Project-URL") and meta.get_all("Classifier")
+text = meta.get_payload(decode=True).decode()
+links = re.findall(r"\]\(([^)]*)\)", text)
+assert len(links) > 10 and all(link.startswith(("https://", "#")) for link in links), links
+END
 sed -n '/^```python$/,/^```$/p' "$here/../../README.md" | sed '/^```/d; /jam[.]plot/d' >"$work/readme.py"
 grep -q '^import jam$' "$work/readme.py" || { echo "README.md has no Python example"; exit 1; }
 cd "$work"

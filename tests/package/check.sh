@@ -11,7 +11,9 @@ install)
   rm -rf "$prefix"
   cmake --install "$build" --prefix "$prefix" >"$scratch/install.log"
   grep -qx "libdir=$libdir" "$libdir/pkgconfig/jam.pc" || die "jam.pc does not name $libdir"
-  for file in include/jam/jam.h bin/jam-pack; do test -f "$prefix/$file" || die "$file is not installed"; done
+  for file in include/jam/jam.h bin/jam-pack share/licenses/libjam/LICENSE share/licenses/libjam/LINKED.md; do
+    test -f "$prefix/$file" || die "$file is not installed"
+  done
   ls "$libdir"/libjam.so.* >/dev/null
   ;;
 pkgconfig)
@@ -64,6 +66,11 @@ EOF
   grep -q 'no build type' "$scratch/parent/log" || die "the flags are not reported"
   configure -DCMAKE_BUILD_TYPE=Debug
   if flags | grep -q -- ' -O3 '; then die "the build type of the parent is not kept"; fi
+  # An install of the parent has nothing of libjam, unless the parent asks for it.
+  installed() { grep -rl 'file(INSTALL' --include=cmake_install.cmake "$scratch/parent/b/jam" || true; }
+  [ -z "$(installed)" ] || die "the parent installs libjam: $(installed)"
+  configure -DJAM_INSTALL=ON
+  [ -n "$(installed)" ] || die "JAM_INSTALL installs nothing"
   configure -DCMAKE_CXX_FLAGS=-O1
   if flags | grep -q -- ' -O3 '; then die "the flags of the parent are not kept"; fi
   ;;
@@ -92,11 +99,30 @@ archive)
     grep -q "JAM_COMMIT_STRING=[^ ]*$(echo "$commit" | cut -c1-12)" || die "the archive does not name its commit"
   ;;
 version)
-  # The version and the ABI number of a release are set everywhere.
+  # The version and the ABI number of a release are set everywhere, and what earlier releases wrote stays. The tree
+  # between two releases has a version of its own; recipes and citation keep the release.
   git -C "$here/../.." rev-parse HEAD >"$scratch/version.log" 2>&1 || { echo "no repository"; exit 77; }
   rm -rf "$scratch/version" && git clone -q --depth 1 "file://$(cd "$here/../.." && pwd)" "$scratch/version"
-  /usr/bin/python3 -B "$scratch/version/pkgconfig/set_version.py" "$scratch/version" 98.76.54 7
-  /usr/bin/python3 -B "$scratch/version/pkgconfig/recipes/check.py" "$scratch/version"
+  cd "$scratch/version"
+  step() {
+    SOURCE_DATE_EPOCH=1800000000 /usr/bin/python3 -B pkgconfig/set_version.py . "$1" "$2"
+    /usr/bin/python3 -B pkgconfig/recipes/check.py .
+    wheel=$(PYTHONPATH=bindings/python /usr/bin/python3 -B -c 'import build_wheel; print(build_wheel._version())')
+    [ "$wheel" = "$3" ] || die "the wheel of $1 is $wheel, not $3"
+  }
+  has() { grep -qxF -e "$2" "$1" || die "$1 has no line '$2'"; }
+  first=$(head -1 pkgconfig/debian/changelog)
+  step 97.1.0 1 97.1.0
+  step 97.2.0-dev 1 97.2.0.dev0
+  has .github/CITATION.cff 'version: 97.1.0'
+  has .github/CITATION.cff 'date-released: 2027-01-15'
+  has bindings/julia/Jam/Project.toml 'version = "97.2.0-dev"'
+  step 98.76.54 7 98.76.54
+  for entry in "$first" 'libjam (97.1.0-1) unstable; urgency=medium' 'libjam (98.76.54-1) unstable; urgency=medium'; do
+    has pkgconfig/debian/changelog "$entry"
+  done
+  grep -qx ' -- The libjam authors <.*>  Fri, 15 Jan 2027 08:00:00 +0000' pkgconfig/debian/changelog ||
+    die "the entry of the changelog has no date"
   if git -C "$scratch/version" grep -nE 'JAM_0\b|VERSION 0[.]1[.]0' -- src CMakeLists.txt pkgconfig/debian/control; then
     die "another version is left"
   fi

@@ -1,4 +1,6 @@
-vcpkg_from_github(OUT_SOURCE_PATH SOURCE_PATH REPO libjam/libjam REF "v${VERSION}" SHA512 0)
+# The installed targets name the shared library, so a triplet of static libraries gets it too, with a note.
+vcpkg_check_linkage(ONLY_DYNAMIC_LIBRARY)
+vcpkg_from_github(OUT_SOURCE_PATH SOURCE_PATH REPO libjam/libjam REF "v${VERSION}" SHA512 0 HEAD_REF main)
 vcpkg_find_acquire_program(PKGCONFIG)
 vcpkg_cmake_configure(
   SOURCE_PATH "${SOURCE_PATH}"
@@ -8,4 +10,5 @@ vcpkg_cmake_install()
 vcpkg_cmake_config_fixup(PACKAGE_NAME jam CONFIG_PATH lib/cmake/jam)
 vcpkg_fixup_pkgconfig()
 file(REMOVE_RECURSE "${CURRENT_PACKAGES_DIR}/debug/include" "${CURRENT_PACKAGES_DIR}/debug/share")
+file(INSTALL "${CMAKE_CURRENT_LIST_DIR}/usage" DESTINATION "${CURRENT_PACKAGES_DIR}/share/${PORT}")
 vcpkg_install_copyright(FILE_LIST "${SOURCE_PATH}/LICENSE" "${SOURCE_PATH}/pkgconfig/LINKED.md")

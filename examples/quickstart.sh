@@ -10,7 +10,7 @@ case $picture in /*) ;; *) picture=$start/$picture ;; esac
 page=${picture%.*}.html
 . "$root/tests/debian.sh"
 need_packages build-essential cmake ninja-build pkg-config libeigen3-dev coinor-libclp-dev libspectra-dev \
-  libopenblas-dev zlib1g-dev python3-numpy python3-matplotlib
+  zlib1g-dev python3-numpy python3-matplotlib
 
 echo "== build"
 cmake -S "$root" -B "$root/build-quick" -G Ninja -DCMAKE_BUILD_TYPE=Release -DJAM_BUILD_TESTS=OFF \

@@ -1,14 +1,18 @@
 #!/bin/sh
-# Sets up a bare Debian 12 and runs all tests, in five parts:
+# Sets up a bare Debian 12 and runs all tests, in six parts:
 #   release     everything, by GCC, warnings as errors
-#   builtin     the library of the wheel, with dense products of its own and no Clp: unit tests that need products
+#   kernels     the release build's tests of crunches and full spectra as on a processor of fewer instructions, and
+#               with OpenBLAS's products for another one
+#   alone       the library of the wheel, without LAPACK, Clp and voro++: unit tests of what takes their place
 #   sanitizers  address and undefined behaviour, by Clang, warnings as errors: unit tests and those of the C interface,
 #               but ten that take minutes each
 #   threads     the thread sanitizer over the tests that use several threads
 #   fuzz        libFuzzer on every target for 20 seconds, 60 in all
 # More run when they are named, as they take long:
 #   clang       the library without sanitizers by Clang, and its C tests
-#   kernels     the release build's tests with the products that OpenBLAS has for other processors: packings end
+#   quick       a loop of two minutes: the library for d = 2 and 3, and tests that end within seconds. It installs
+#               only what a C library needs
+#   openblas    crunches by the products of OpenBLAS (JAM_BLAS=openblas), as on three processors: packings end
 #               elsewhere, and what the tests state must hold there too
 #   processors, windows, libcxx  cross builds for arm64, s390x and riscv64 under qemu; for Windows under wine; with
 #               libc++: tests/platforms. Where the compilers cannot be installed they skip, saying so
@@ -16,21 +20,24 @@
 #               the table. It fails below the floor of tests/coverage.py
 #   sanitized_physics  address and undefined behaviour by GCC, over all that runs without other programs, those ten too
 # `sh tests/run.sh`, from any folder; the builds are ./build, ./build-wheel (also of a test in ./build), ./build-asan
-# (of two parts), ./build-tsan, ./build-clang and ./build-asan-gcc. Uses ccache where it is installed. Parts can be
-# named: `sh tests/run.sh release clang`.
+# (of two parts), ./build-tsan, ./build-clang, ./build-asan-gcc, ./build-openblas and ./build-two. Uses ccache where
+# it is installed. Parts can be named: `sh tests/run.sh release clang`.
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
 cd "$root"
 . tests/debian.sh
 . tests/sanitized.sh
-need_packages build-essential cmake ninja-build pkg-config clang clang-format \
-  libeigen3-dev coinor-libclp-dev libspectra-dev libopenblas-dev zlib1g-dev voro++-dev libcmocka-dev abigail-tools \
-  swig gfortran lintian debhelper dh-python python3-dev python3-venv python3-numpy python3-scipy python3-matplotlib \
-  python3-h5py python3-pandas python3-tqdm python3-mpi4py openmpi-bin python3-distributed python3-dask \
-  chromium python3-gsd python3-ase python3-mdanalysis python3-vtk9 lammps mypy python3-nbclient python3-ipykernel \
-  doxygen python3-sphinx python3-breathe python3-myst-parser furo locales
+parts=${*:-release kernels alone sanitizers threads fuzz}
+need_packages build-essential cmake ninja-build pkg-config libeigen3-dev coinor-libclp-dev libspectra-dev zlib1g-dev \
+  libcmocka-dev
+if [ "$parts" != quick ]; then
+  need_packages clang clang-format libopenblas-dev voro++-dev abigail-tools swig gfortran lintian debhelper dh-python \
+    python3-dev python3-venv python3-numpy python3-scipy python3-matplotlib python3-h5py python3-pandas python3-tqdm \
+    python3-mpi4py openmpi-bin python3-distributed python3-dask python3-networkx chromium python3-gsd python3-ase \
+    python3-mdanalysis python3-vtk9 lammps mypy python3-nbclient python3-ipykernel doxygen python3-sphinx \
+    python3-breathe python3-myst-parser furo locales
+fi
 
-parts=${*:-release builtin sanitizers threads fuzz}
 wants() { case " $parts " in *" $1 "*) ;; *) return 1 ;; esac; }
 jobs=$(nproc)
 at_once=$((jobs + 1))  # tests: some wait
@@ -54,27 +61,50 @@ part "its tests"
 ctest --test-dir build -j "$at_once" --output-on-failure --no-tests=error || status=1
 fi
 
-if wants kernels; then
+# Kernels of OpenBLAS that this processor has; and what GLIBC_TUNABLES hides from the C library.
 has() { if grep -qw "$1" /proc/cpuinfo; then echo "$2"; else echo "$2 is left out: no $1 here" >&2; fi; }
+hidden=glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4,-AVX512F
+
+# Full spectra alone depend on OpenBLAS; unit/golden_bits compares crunches in all vectors of libjam's own.
+if wants kernels; then
+part "crunches and spectra on fewer instructions"
+GLIBC_TUNABLES=$hidden OPENBLAS_CORETYPE=Prescott ctest --test-dir build -j "$at_once" -L 'crunch|spectra' -L quick \
+  --output-on-failure --no-tests=error || status=1
+kernel=$(has avx512f SkylakeX)
+part "spectra by the products for ${kernel:-Nehalem}"
+OPENBLAS_CORETYPE=${kernel:-Nehalem} ctest --test-dir build -j "$at_once" -L spectra -L quick \
+  --output-on-failure --no-tests=error || status=1
+fi
+
+if wants alone; then
+part "alone"
+# In the folder of bindings/pip, whose objects these are.
+cmake -S . -B build-wheel -DCMAKE_BUILD_TYPE=Release -DJAM_LAPACK=OFF -DJAM_CLP=OFF -DJAM_USE_VORO=OFF \
+  -DJAM_WERROR=ON -DJAM_BUILD_TESTS=ON -DJAM_BUILD_PYTHON=OFF -DJAM_BUILD_EXAMPLES=OFF -DJAM_BUILD_CLI=OFF >/dev/null
+alone='unit_analysis_modes unit_analysis_spectrum unit_analysis_structure unit_crunch_recompress unit_crunch_steps'
+# shellcheck disable=SC2086
+cmake --build build-wheel -j "$jobs" --target $alone
+ctest --test-dir build-wheel -j "$at_once" --output-on-failure --no-tests=error \
+  -R "^($(echo $alone | sed 's/unit_/unit\//g; s/ /|/g'))\$" || status=1
+fi
+
+if wants openblas; then
+part "crunches by OpenBLAS"
+cmake -S . -B build-openblas -G Ninja -DCMAKE_BUILD_TYPE=Release -DJAM_BLAS=openblas -DJAM_WERROR=ON \
+  -DJAM_BUILD_EXAMPLES=OFF -DJAM_BUILD_CLI=OFF >/dev/null
+cmake --build build-openblas -j "$jobs"
 for kernel in Prescott $(has avx2 Haswell) $(has avx512f SkylakeX); do
 part "products of $kernel"
-OPENBLAS_CORETYPE=$kernel ctest --test-dir build -j "$at_once" -L 'unit|capi|physics|bindings' -LE long \
-  -E 'docs|pip|deb|notebooks|types|installed|julia|flang' --output-on-failure --no-tests=error || status=1
+OPENBLAS_CORETYPE=$kernel ctest --test-dir build-openblas -j "$at_once" -L 'crunch|spectra' --output-on-failure \
+  --no-tests=error || status=1
 done
 fi
 
-if wants builtin; then
-part "builtin"
-# In the folder of bindings/pip, whose objects these are.
-cmake -S . -B build-wheel -DCMAKE_BUILD_TYPE=Release -DJAM_BLAS=builtin -DJAM_CLP=OFF -DJAM_USE_VORO=OFF \
-  -DJAM_WERROR=ON -DJAM_BUILD_TESTS=ON -DJAM_BUILD_PYTHON=OFF -DJAM_BUILD_EXAMPLES=OFF -DJAM_BUILD_CLI=OFF >/dev/null
-products='unit_analysis_geometry unit_analysis_modes unit_analysis_spectrum unit_analysis_structure unit_blas
-  unit_block_cholesky unit_crunch_barrier unit_crunch_neighbours unit_crunch_polish unit_crunch_steps unit_newton_system
-  unit_proof unit_soft_cell unit_soft_minimise'
-# shellcheck disable=SC2086
-cmake --build build-wheel -j "$jobs" --target $products
-ctest --test-dir build-wheel -j "$at_once" --output-on-failure --no-tests=error \
-  -R "^($(echo $products | sed 's/unit_/unit\//g; s/ /|/g'))\$" || status=1
+if wants quick; then
+part "quick"
+cmake -S . -B build-two -G Ninja -DCMAKE_BUILD_TYPE=Release -DJAM_DIMENSIONS="2;3" -DJAM_BUILD_EXAMPLES=OFF >/dev/null
+cmake --build build-two -j "$jobs"
+ctest --test-dir build-two -j "$at_once" -L quick --output-on-failure --no-tests=error || status=1
 fi
 
 if wants clang; then

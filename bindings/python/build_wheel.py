@@ -2,7 +2,7 @@
 
 The wheel has dense products of libjam's own and no Clp, so that it needs no library beside those that every system has.
 `--config-settings build-dir=FOLDER` keeps the build, so that the next wheel is made faster;
-`--config-settings cmake=-DJAM_BLAS=openblas` adds an option of CMake, and may be repeated.
+`--config-settings cmake=-DJAM_LAPACK=ON` adds an option of CMake, and may be repeated.
 """
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ def _installed(folder: str, config: dict) -> Path:
     given = config.get("cmake") or []
     options = [
         "-DCMAKE_BUILD_TYPE=Release",
-        "-DJAM_BLAS=builtin",
+        "-DJAM_LAPACK=OFF",
         "-DJAM_CLP=OFF",
         "-DJAM_USE_VORO=OFF",
         "-DJAM_BUILD_PYTHON=ON",

@@ -13,7 +13,7 @@ script = raw"""
 cd ${WORKSPACE}/srcdir/libjam-*
 cmake -B build -G Ninja \
     -DCMAKE_INSTALL_PREFIX=${prefix} -DCMAKE_TOOLCHAIN_FILE=${CMAKE_TARGET_TOOLCHAIN} -DCMAKE_BUILD_TYPE=Release \
-    -DJAM_BLAS=builtin -DJAM_CLP=OFF -DJAM_USE_VORO=OFF -DJAM_BUILD_CLI=OFF -DJAM_BUILD_TESTS=OFF \
+    -DJAM_LAPACK=OFF -DJAM_CLP=OFF -DJAM_USE_VORO=OFF -DJAM_BUILD_CLI=OFF -DJAM_BUILD_TESTS=OFF \
     -DJAM_BUILD_EXAMPLES=OFF -DSPECTRA_INCLUDE=$(echo ${WORKSPACE}/srcdir/spectra-*/include)
 cmake --build build --parallel ${nproc}
 cmake --install build

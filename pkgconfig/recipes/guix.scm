@@ -25,7 +25,7 @@
   (build-system cmake-build-system)
   (arguments
    (list #:configure-flags
-         #~(list "-DJAM_BLAS=openblas" "-DJAM_CLP=ON" "-DJAM_USE_VORO=OFF" "-DJAM_BUILD_EXAMPLES=OFF"
+         #~(list "-DJAM_LAPACK=ON" "-DJAM_CLP=ON" "-DJAM_USE_VORO=OFF" "-DJAM_BUILD_EXAMPLES=OFF"
                  "-DJAM_BUILD_PYTHON=ON"
                  (string-append "-DJAM_PYTHON=" #$(this-package-input "python") "/bin/python3")
                  (string-append "-DJAM_PYTHON_DIR=lib/python"

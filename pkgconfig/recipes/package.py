@@ -16,7 +16,7 @@ class Libjam(CMakePackage):
 
     version("1.0.0", sha256="0000000000000000000000000000000000000000000000000000000000000000")
 
-    variant("blas", default=True, description="Dense products by the BLAS and LAPACK of Spack, else by libjam's own loops")
+    variant("lapack", default=True, description="Full spectra by the LAPACK of Spack, else by libjam's own loops")
     variant("clp", default=True, description="Clp's simplex as check and fallback")
     variant("python", default=False, description="Python module")
     variant("fortran", default=False, description="Fortran module")
@@ -29,9 +29,9 @@ class Libjam(CMakePackage):
     depends_on("eigen@3.4:", type="build")
     depends_on("spectra@1.0:", type="build")
     depends_on("zlib-api")
-    depends_on("blas", when="+blas")
-    depends_on("lapack", when="+blas")
-    depends_on("openblas~ilp64", when="+blas ^[virtuals=blas] openblas")
+    depends_on("blas", when="+lapack")
+    depends_on("lapack", when="+lapack")
+    depends_on("openblas~ilp64", when="+lapack ^[virtuals=lapack] openblas")
     depends_on("clp", when="+clp")
     depends_on("swig@4:", type="build", when="+python")
     depends_on("python@3.10:", type=("build", "run"), when="+python")
@@ -42,15 +42,15 @@ class Libjam(CMakePackage):
 
     def cmake_args(self):
         args = [
-            self.define("JAM_BLAS", "any" if self.spec.satisfies("+blas") else "builtin"),
             self.define("JAM_USE_VORO", False),
             self.define("JAM_BUILD_TESTS", False),
             self.define("JAM_BUILD_EXAMPLES", False),
+            self.define_from_variant("JAM_LAPACK", "lapack"),
             self.define_from_variant("JAM_CLP", "clp"),
             self.define_from_variant("JAM_BUILD_PYTHON", "python"),
             self.define_from_variant("JAM_BUILD_FORTRAN", "fortran"),
         ]
-        if self.spec.satisfies("+blas"):  # FindBLAS would take one of the host
+        if self.spec.satisfies("+lapack"):  # FindLAPACK would take one of the host
             args += [
                 self.define("BLAS_LIBRARIES", self.spec["blas"].libs.joined(";")),
                 self.define("LAPACK_LIBRARIES", self.spec["lapack"].libs.joined(";")),

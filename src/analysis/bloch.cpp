@@ -10,7 +10,6 @@
 #include "analysis/tuning.hpp"
 #include "core/call_scope.hpp"
 #include "core/math.hpp"
-#include "linalg/blas.hpp"
 #include "network/own_images.hpp"
 #include "network/room.hpp"
 
@@ -150,9 +149,9 @@ Modes bloch_modes(const RigidityMatrix &g, const ContactWeights &w, const CellsB
   }
   std::vector<double> lambda;
   {
-    const BlasSingleThread single;
     const auto look = [](double share) { return CallScope::report_share(0, share), false; };
-    dense_eigen(h.size(), h.entries(), lambda, vectors, look);
+    // Eigenvalues alone are those of a verdict.
+    (vectors ? dense_eigen : dense_eigen_builtin)(h.size(), h.entries(), lambda, vectors, look);
   }
   Modes out;
   const bool twice = h.size() > n;

@@ -1,4 +1,4 @@
-// The full spectrum without LAPACK, with the same bits on all processors: Householder reduction by panels (Dongarra,
+// The full spectrum by own loops, with the same bits on all processors: Householder reduction by panels (Dongarra,
 // Hammarling and Sorensen, J. Comput. Appl. Math. 27, 215 (1989)), then QL with implicit shifts (Golub and Van Loan,
 // Matrix Computations, sec. 8.3).
 #include <algorithm>
@@ -179,7 +179,7 @@ bool diagonalise(int n, double *d, double *e, std::vector<double> &z, const Stop
 
 }  // namespace
 
-bool dense_eigen(int n, std::vector<double> &a, std::vector<double> &lambda, bool vectors, const Stop &stop) {
+bool dense_eigen_builtin(int n, std::vector<double> &a, std::vector<double> &lambda, bool vectors, const Stop &stop) {
   lambda.assign(n, 0.0);
   if (n == 0) return true;
   double largest = 0.0;

@@ -6,6 +6,7 @@
 #include "analysis/modes.hpp"
 #include "analysis/tuning.hpp"
 #include "core/error.hpp"
+#include "linalg/blas/single_thread.hpp"
 
 extern "C" {
 void dlatrd_(const char *uplo, const int *n, const int *nb, double *a, const int *lda, double *e, double *tau,
@@ -50,6 +51,7 @@ bool tridiagonalise(int n, std::vector<double> &a, double *d, double *e, double 
 
 bool dense_eigen(int n, std::vector<double> &a, std::vector<double> &lambda, bool vectors,
                  const std::function<bool(double)> &stop) {
+  const BlasSingleThread single;
   lambda.assign(n, 0.0);
   if (n == 0) return true;
   std::vector<double> e(std::max(1, n - 1)), tau(std::max(1, n - 1));

@@ -7,7 +7,6 @@
 #include "core/call_scope.hpp"
 #include "core/error.hpp"
 #include "core/pair_rule.hpp"
-#include "linalg/blas.hpp"
 
 namespace jam::inside {
 
@@ -96,7 +95,6 @@ void FloppySolver::measure(size_t l, const double *dr, FloppyModes &out) const {
 }
 
 FloppyModes all_floppy_modes(const Packing &p, const ContactNetwork &network, const RigidityMatrix &g) {
-  const BlasSingleThread single;
   const FloppySolver solver(p, network, g);
   const size_t m = g.contacts(), n = g.unknowns(), block = 64;
   FloppyModes out;

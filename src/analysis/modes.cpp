@@ -14,7 +14,6 @@
 #include "core/checks.hpp"
 #include "core/error.hpp"
 #include "core/rng.hpp"
-#include "linalg/blas.hpp"
 #include "linalg/shifted_factor.hpp"
 
 namespace jam::inside {
@@ -211,7 +210,6 @@ jam_status few_modes(const RigidityMatrix &g, const ContactWeights &w, const Blo
 
 jam_status find_modes(const RigidityMatrix &g, const ContactWeights &w, const jam_modes_options &o, Monitor &monitor,
                       Modes &out) {
-  const BlasSingleThread single;
   check_modes_options(o, g);
   const BlockMatrix h = make_hessian(g, w);
   const size_t n = g.unknowns();

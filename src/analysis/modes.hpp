@@ -1,4 +1,4 @@
-// Vibrational modes: dense by LAPACK, few by Lanczos.
+// Vibrational modes: dense, by LAPACK where the build has it, or few by Lanczos.
 #pragma once
 #include <functional>
 #include <vector>
@@ -21,9 +21,13 @@ jam_status find_modes(const RigidityMatrix &g, const ContactWeights &w, const ja
                       Modes &out);
 
 // All eigenvalues (and vectors) of a dense symmetric matrix, whose lower triangle a gives column-major; the vectors
-// overwrite it. `stop` is asked between stages. False when stopped.
+// overwrite it. `stop` is asked between stages. False when stopped. By LAPACK where the build has it (JAM_LAPACK): its
+// bits depend on the processor.
 bool dense_eigen(int n, std::vector<double> &a, std::vector<double> &lambda, bool vectors,
                  const std::function<bool(double)> &stop);
+// The same by own loops: for eigenvalues that decide something. With all vectors it takes five times as long.
+bool dense_eigen_builtin(int n, std::vector<double> &a, std::vector<double> &lambda, bool vectors,
+                         const std::function<bool(double)> &stop);
 // modes_dense.cpp: eigenvalues and vectors of the whole Hessian; JAM_CANCELLED when stopped.
 jam_status all_modes(const BlockMatrix &h, Monitor &monitor, Modes &out);
 // Reduces them to the modes asked for. The d translations are removed first.

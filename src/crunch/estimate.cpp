@@ -139,7 +139,7 @@ double list_seconds(const Packing &p) {
 // Flops a second of this core in blocks as large as the fronts are; a millisecond.
 template <class Real>
 double measured_rate(int size) {
-  const BlasSingleThread single_thread;
+  const BlasThreads one(1);
   std::vector<Real> a(static_cast<size_t>(size) * size, Real(1e-9)), c(a.size());
   double best = 0.0;
   for (int k = 0; k < 3; ++k) {

@@ -1,8 +1,9 @@
 // The dense products and triangular solves of the factorisation, by one of two files that CMake's JAM_BLAS chooses:
-// blas/fortran.cpp calls a BLAS library, blas/builtin.cpp has loops of its own. Matrices are stored by columns; ld: the
-// distance of two columns. L is lower triangular, and what stands above its diagonal is never read.
+// blas/builtin.cpp has loops of its own, the default, blas/fortran.cpp calls a BLAS library. Matrices are stored by
+// columns; ld: the distance of two columns. L is lower triangular, and what stands above its diagonal is never read.
 #pragma once
 #include <cstddef>
+#include <memory>
 
 namespace jam::inside {
 
@@ -28,26 +29,20 @@ struct Blas {
                                   int ldx);
 };
 
-// Name of the kernel in use: the bits of sums depend on it. "builtin" for our own loops, whose bits are the same on all
-// processors; the file of the library where it is not OpenBLAS.
+// "builtin" for our own loops, whose bits are the same on all processors; else the kernel of the library, on which the
+// bits of sums depend (blas/single_thread.hpp).
 const char *blas_kernel();
 
-// While at least one lives, OpenBLAS runs single-threaded whatever the host set: blocks are small, libjam brings its
-// own threads, and the bits must not depend on the host. OpenBLAS keeps that number per process, so this is the one
-// place where libjam touches process-wide state; the last one out puts the host's number back.
-// threads: of libjam that call BLAS side by side. Throws std::bad_alloc where OpenBLAS would find no memory for them.
-class BlasSingleThread {
+// Of the threads that a call asks for, those that may compute products side by side while this lives: all of them by
+// our own loops, perhaps fewer by a library (blas/single_thread.hpp).
+class BlasThreads {
  public:
-  explicit BlasSingleThread(int threads = 1);
-  ~BlasSingleThread();
-  BlasSingleThread(const BlasSingleThread &) = delete;
-  BlasSingleThread &operator=(const BlasSingleThread &) = delete;
-  // How many of the threads that were asked for may compute: fewer where other calls of the process compute too.
-  int threads() const { return threads_; }
+  explicit BlasThreads(int wanted);
+  int count() const { return count_; }
 
  private:
-  int threads_;
-  int more_;  // than guards around this one have counted
+  int count_;
+  std::shared_ptr<const void> guard_;
 };
 
 }  // namespace jam::inside

@@ -119,9 +119,9 @@ void BlockCholesky::run_list(const std::vector<int32_t> &list, const double *dia
 }
 
 int BlockCholesky::factorise(const double *diag, const double *off, Precision precision) {
-  const BlasSingleThread alone(worker_count());
+  const BlasThreads allowed(worker_count());
   precision_ = precision;
-  const int threads = alone.threads();
+  const int threads = allowed.count();
   return precision == Precision::single ? factorise_as<float>(diag, off, threads)
                                         : factorise_as<double>(diag, off, threads);
 }
@@ -235,9 +235,9 @@ void BlockCholesky::solve_as(double *x, int nrhs, int threads) const {
 }
 
 void BlockCholesky::solve_many(double *x, int nrhs) const {
-  const BlasSingleThread alone(worker_count());
-  precision_ == Precision::single ? solve_as<float>(x, nrhs, alone.threads())
-                                  : solve_as<double>(x, nrhs, alone.threads());
+  const BlasThreads allowed(worker_count());
+  precision_ == Precision::single ? solve_as<float>(x, nrhs, allowed.count())
+                                  : solve_as<double>(x, nrhs, allowed.count());
 }
 
 }  // namespace jam::inside

@@ -32,7 +32,7 @@ struct SupernodeTuning {
   static constexpr double lost_in_floats = 4e-6;
 };
 
-// ---- threads of a process that are inside OpenBLAS at once; Debian's build allows 128
+// ---- threads of a process that are inside OpenBLAS at once, where it is linked; Debian's build allows 128
 struct BlasTuning {
   static constexpr int shared = 64;  // that calls use together before a further call gets only one
   static constexpr int most = 120;   // of all calls together; the rest is left to the host

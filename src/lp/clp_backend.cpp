@@ -1,5 +1,6 @@
 // LPs by Clp's dual simplex: the packing LP, and motions of a packing. The only file that includes Clp.
 #include <ClpEventHandler.hpp>
+#include <ClpFactorization.hpp>
 #include <ClpSimplex.hpp>
 #include <CoinMessageHandler.hpp>
 #include <CoinPackedMatrix.hpp>
@@ -7,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "linalg/blas.hpp"
 #include "lp/packing_lp.hpp"
 
 namespace jam::inside {
@@ -69,6 +69,8 @@ class PackingModel {
     model.setPrimalTolerance(tolerance);
     model.setDualTolerance(tolerance);
     model.setMaximumIterations(clp_pivots_a_row * rows);
+    // No dense part: Clp would factorise it by the LAPACK that it is linked with, whose bits depend on the processor.
+    model.factorization()->setDenseThreshold(0);
   }
   // Displacements and g, with the slack of every row; where some rows miss the tolerance, all hold for a g less by as
   // much.
@@ -112,7 +114,6 @@ class PackingModel {
   bool usable = false;
 
  private:
-  const BlasSingleThread single_;  // Clp's dense part calls LAPACK
   const PackingLp &lp_;
   const double scale_;
   CoinMessageHandler silent_;

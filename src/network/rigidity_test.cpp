@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/call_scope.hpp"
-#include "linalg/blas.hpp"
 #include "network/curvature_test.hpp"
 #include "network/flex.hpp"
 #include "network/rigid_part.hpp"
@@ -222,7 +221,6 @@ static bool test_without_unbalanced(const RigidityMatrix &g, Jamming kind, Rigid
 
 // A no is proved by its motion. Where none holds up, K+ was not what it seemed, and nothing is decided.
 RigidityResult test_rigidity(const RigidityMatrix &g, Jamming kind) {
-  const BlasSingleThread single;
   RigidityResult out = find_verdict(g, kind);
   if (out.jammed == Verdict::yes || g.contacts() == 0) return out;
   if (test_without_unbalanced(g, kind, out)) return out;

@@ -7,7 +7,6 @@
 #include "core/call_scope.hpp"
 #include "core/error.hpp"
 #include "core/rng.hpp"
-#include "linalg/blas.hpp"
 #include "network/rigidity_test.hpp"
 #include "network/tuning.hpp"
 
@@ -115,7 +114,6 @@ int64_t NullSpace::dimension() const {
 }
 
 StressStates find_stress(const RigidityMatrix &g, bool with_basis) {
-  const BlasSingleThread single;
   return g.contacts() == 0 ? StressStates() : find_stress(g, NullSpace(g), with_basis);
 }
 

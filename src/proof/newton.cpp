@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "core/call_scope.hpp"
-#include "linalg/blas.hpp"
 #include "proof/exact_closure.hpp"
 #include "proof/tuning.hpp"
 
@@ -81,7 +80,6 @@ bool approach_closure(ProofScene &s, ProofEquations &e) {
 }
 
 bool refine(ProofScene &s, ProofEquations &e) {
-  const BlasSingleThread single;
   if (s.contacts() == 0) return false;
   const bool closed = close_exactly(s);  // nothing to refine, and no step may spoil it
   if (!closed && !s.implied.empty()) {   // what is not implied has as many equations as unknowns

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "linalg/blas.hpp"
 #include "proof/newton.hpp"
 #include "proof/open_gaps.hpp"
 #include "proof/outward.hpp"
@@ -232,7 +231,6 @@ void prove_trapping(const ProofScene &s, const ProofEquations &e, const ForceBou
 }  // namespace
 
 Proof prove(const ProofScene &s, const ProofEquations &e) {
-  const BlasSingleThread single;
   Proof out;
   const auto fails = [&](ProofCause cause, double value, double bound) {
     out.cause = cause, out.cause_value = value, out.cause_bound = bound;

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/pair_rule.hpp"
-#include "linalg/blas.hpp"
 #include "proof/closing.hpp"
 #include "proof/free_rattler.hpp"
 #include "proof/implied.hpp"
@@ -17,7 +16,6 @@ namespace {
 // Forces that balance where the contacts are: steps to the least gaps would spread those of pairs that are not quite
 // closed over all.
 bool balance(ProofScene &s, ProofEquations &e) {
-  const BlasSingleThread single;
   e = evaluate(s);
   NormalMatrix normal(s, e);
   if (!normal.factorise()) return false;
@@ -190,7 +188,6 @@ void confirm_by_exchange(const Packing &p, PackingVerdict &verdict) {
   if (r.jammed != Verdict::yes || r.contacts <= r.contacts_needed || p.model != JAM_MODEL_EUCLID || p.container) return;
   const ContactNetwork network = verdict.carrying(p.dim);
   if (!(*std::min_element(network.force.begin(), network.force.end()) < proof_tuning::weak)) return;
-  const BlasSingleThread single;
   ProofScene as_listed = scene_of_contacts(p, network, {}), closing = as_listed;
   if (as_listed.own_images || proves(as_listed)) return;
   LpsEnd lps = LpsEnd::closed;

@@ -73,7 +73,7 @@ double relative_residual(const Points &p, const Pairs &e, const std::vector<doub
 double dgemm_rate() {
   const int n = 1000;
   std::vector<double> a(n * n, 1.0), b(n * n, 1.0), c(n * n, 0.0);
-  const BlasSingleThread single;
+  const BlasThreads one(1);
   return 2e-9 * n * n * n /
          timed(1.0, [&] {
            Blas<double>::minus_product(n, n, n, a.data(), n, b.data(), n, Result::written, c.data(), n);
@@ -96,7 +96,7 @@ MumpsTimes time_mumps(const Points &p, const Pairs &e, const std::vector<double>
       if (a % 3 <= a / 3) add(3 * i + a / 3, 3 * i + a % 3, diag[9 * i + a]);
   for (size_t k = 0; k < e.i.size(); ++k)
     for (int a = 0; a < 9; ++a) add(3 * e.j[k] + a % 3, 3 * e.i[k] + a / 3, off[9 * k + a]);  // j > i: lower triangle
-  const BlasSingleThread single;
+  const BlasThreads one(1);
   DMUMPS_STRUC_C m;
   std::memset(&m, 0, sizeof m);
   m.par = 1, m.sym = 1, m.comm_fortran = -987654, m.job = -1;

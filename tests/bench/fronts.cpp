@@ -67,7 +67,7 @@ int main(int argc, char **argv) {
   const Pairs e = pairs_of_degree(p, 6.5);
   std::vector<double> diag, off;
   make_values(p, e, diag, off);
-  const BlasSingleThread single;
+  const BlasThreads one(1);
   BlockCholesky f;
   f.analyse(3, static_cast<int32_t>(n), e.i.data(), e.j.data(), e.i.size());
   double least = std::numeric_limits<double>::infinity();

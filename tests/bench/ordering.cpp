@@ -170,7 +170,7 @@ double factor_seconds(const Points &p, const Pairs &e) {
 int main(int argc, char **argv) {
   const auto number = [&](int k, int otherwise) { return argc > k ? std::atoi(argv[k]) : otherwise; };
   const int largest = number(1, 16384), smallest = number(2, 256), factored = number(3, 4096), seeds = number(4, 3);
-  const BlasSingleThread single;
+  const BlasThreads one(1);
   bool first = true;
   std::printf("{\"benchmark\": \"ordering\", \"runs\": [");
   for (int dim = 2; dim <= 4; ++dim)

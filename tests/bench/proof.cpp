@@ -40,7 +40,7 @@ jam_system *jammed(int n, int dim, int seed, bool strict, double &seconds) {
 // The proof after so many steps of Newton; the time of the whole.
 void measure(const jam_system *sys, int n, int dim, int seed, bool strict, int steps, double crunch, bool &first) {
   const double before = processor();
-  const BlasSingleThread single;
+  const BlasThreads one(1);
   ProofScene s = make_proof_scene(sys->packing, sys->contacts, {});
   if (strict) s.strict = true, s.implied.clear();
   ProofEquations e = evaluate(s);

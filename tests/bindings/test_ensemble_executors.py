@@ -83,14 +83,14 @@ class Executors(unittest.TestCase):
             self.ensemble.run(SEEDS, pool, progress=False)
         self.check()
 
-    def test_bits_do_not_depend_on_threads_of_blas(self):
-        """Clp calls LAPACK, whose blocks depend on the number of threads: LocalPool asks for one, others for none."""
+    def test_bits_do_not_depend_on_kernel_and_threads_of_blas(self):
+        """Clp would call LAPACK, whose bits depend on both: libjam turns that part of it off."""
         crunch = {"lp_solver": "clp", "method": "sequential_lp", "max_lps": 1, "polish": 0}
         protocol = dict(n=150, dim=4, packing_fraction=0.1, stages=[], crunch=crunch, analysis={})
         made = []
-        for name, threads in (("one", "1"), ("two", "2")):
+        for name, threads, kernel in (("one", "1", "Prescott"), ("two", "2", "Sandybridge")):
             ensemble = Ensemble(Path(self.folder.name, name), protocol)
-            with unittest.mock.patch.dict(os.environ, OPENBLAS_NUM_THREADS=threads):
+            with unittest.mock.patch.dict(os.environ, OPENBLAS_NUM_THREADS=threads, OPENBLAS_CORETYPE=kernel):
                 with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as pool:
                     self.assertEqual(ensemble.run([3], pool, progress=False).done, 1)
             made.append(next(iter(ensemble)).positions)

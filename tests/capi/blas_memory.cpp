@@ -1,5 +1,6 @@
 // OpenBLAS asks the system for the same buffer again and again when there is no address space for it. libjam asks
 // first: a call that finds none ends with JAM_E_MEMORY, also the first of the process and the first on two threads.
+// Full spectra call it where CMake found it (JAM_LAPACK), crunches with JAM_BLAS=openblas alone.
 #include <jam/jam.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -23,12 +24,15 @@ jam_system *start() {
   if (jam_create(&o, nullptr, &sys) != JAM_OK) std::abort();
   return sys;
 }
-jam_status crunch(int threads) {
-  jam_system *sys = start();
+jam_status crunch(jam_system *sys, int threads) {
   jam_crunch_options o;
   jam_crunch_options_init(&o, sizeof o);
   o.threads = threads, o.wall_time = 20.0;
-  const jam_status status = jam_crunch(sys, &o, nullptr);
+  return jam_crunch(sys, &o, nullptr);
+}
+jam_status crunch(int threads) {
+  jam_system *sys = start();
+  const jam_status status = crunch(sys, threads);
   jam_destroy(sys);
   return status;
 }
@@ -42,11 +46,17 @@ void leave_address_space(unsigned long bytes) {
   if (setrlimit(RLIMIT_AS, &both) != 0) std::abort();
 }
 
-// Where another library computes, its name is a path.
-bool openblas_computes() {
+// What OpenBLAS computes in this build: crunches, whose kernel has its name then (another library has a path), and
+// full spectra.
+bool crunches_by_openblas() {
   const char *const kernel = jam_blas_kernel();
   return kernel[0] != '/' && std::strcmp(kernel, "builtin") != 0;
 }
+#ifdef JAM_TEST_OPENBLAS
+constexpr bool spectra_by_openblas = true;
+#else
+constexpr bool spectra_by_openblas = false;
+#endif
 
 // Runs part() in a process of its own, which a hang does not outlive.
 int status_of(int (*part)()) {
@@ -76,16 +86,32 @@ int enough() {
   leave_address_space(512 * mega);
   return crunch(1) ? crunch(1) : crunch(2);
 }
+int spectrum_with(unsigned long bytes) {
+  jam_system *sys = start();
+  jam_modes_options o;
+  jam_modes_options_init(&o, sizeof o);
+  o.which = JAM_MODES_ALL;
+  size_t rows = 0;
+  static double table[2 * 300];
+  if (crunch(sys, 1) != JAM_OK) return JAM_E_STATE;
+  leave_address_space(bytes);
+  return jam_modes(sys, nullptr, &o, table, sizeof table / sizeof *table, nullptr, 0, &rows);
+}
+int spectrum() { return spectrum_with(64 * mega); }
+int spectrum_with_enough() { return spectrum_with(512 * mega); }
 
 void a_call_without_room_for_a_buffer_says_so(void **) {
 #ifdef JAM_SANITIZED
   skip();  // they map terabytes
 #endif
-  // Other libraries and the loops of libjam itself take no such buffer, so that their crunches have room enough.
-  const jam_status without_room = openblas_computes() ? JAM_E_MEMORY : JAM_OK;
+  // Other libraries and the loops of libjam itself take no such buffer, so that their calls have room enough.
+  const jam_status without_room = crunches_by_openblas() ? JAM_E_MEMORY : JAM_OK;
   assert_int_equal(status_of(first_call), without_room);
   assert_int_equal(status_of(first_call_on_two_threads), without_room);
   assert_int_equal(status_of(enough), JAM_OK);
+  // Where crunches call OpenBLAS, that before the spectrum has made the buffer.
+  assert_int_equal(status_of(spectrum), spectra_by_openblas && !crunches_by_openblas() ? JAM_E_MEMORY : JAM_OK);
+  assert_int_equal(status_of(spectrum_with_enough), JAM_OK);
 }
 
 }  // namespace

@@ -64,7 +64,7 @@ TUNED = {
 OF_THE_THREAD = {("decimal_point.hpp", "setlocale")}
 # Files that may keep state of the process, each with its reason.
 STATEFUL = {
-    "src/linalg/blas/fortran.cpp": "counts, under a lock, who needs OpenBLAS on one thread, and gives the host its own number back"
+    "src/linalg/blas/single_thread.cpp": "counts, under a lock, who needs OpenBLAS on one thread, and gives the host its own number back"
 }
 
 

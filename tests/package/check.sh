@@ -78,13 +78,13 @@ fetch)
   # By FetchContent, beside targets of the same names; each links its own library. A preset is taken.
   rm -rf "$scratch/fetch"
   cmake -G "Unix Makefiles" -S "$here/fetch" -B "$scratch/fetch" -DJAM_SOURCE="$here/../.." \
-    -DJAM_BUILD_STATIC=ON -DJAM_BLAS=builtin -DJAM_CLP=OFF >"$scratch/fetch.log"
+    -DJAM_BUILD_STATIC=ON -DJAM_LAPACK=OFF -DJAM_CLP=OFF >"$scratch/fetch.log"
   grep -q 'libjam[.]so' "$scratch/fetch/CMakeFiles/fetched.dir/link.txt" || die "jam::jam does not link libjam.so"
   grep 'libjam[.]a' "$scratch/fetch/CMakeFiles/fetched_static.dir/link.txt" | grep -v 'libjam[.]so' >/dev/null ||
     die "jam::static does not link libjam.a alone"
   rm -rf "$scratch/flat"
   cmake -C "$here/../../pkgconfig/presets/flat.cmake" -S "$here/../.." -B "$scratch/flat" >"$scratch/flat.log"
-  for value in 'JAM_BLAS:STRING=builtin' 'JAM_CLP:BOOL=OFF' 'JAM_DIMENSIONS:STRING=2;3'; do
+  for value in 'JAM_LAPACK:STRING=OFF' 'JAM_CLP:BOOL=OFF' 'JAM_DIMENSIONS:STRING=2;3'; do
     grep -q "^$value\$" "$scratch/flat/CMakeCache.txt" || die "the preset flat does not set $value"
   done
   ;;

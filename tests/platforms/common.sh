@@ -21,18 +21,17 @@ configure() {
   fi
   # Other platforms are compiled with -O1, which takes half the time; it changes no bit.
   cmake -S . -B "$folder" -G Ninja -DCMAKE_BUILD_TYPE=None -DCMAKE_C_FLAGS=-O1 -DCMAKE_CXX_FLAGS=-O1 \
-    -DJAM_WERROR=ON -DJAM_BLAS=builtin -DJAM_CLP=OFF \
+    -DJAM_WERROR=ON -DJAM_LAPACK=OFF -DJAM_CLP=OFF \
     -DJAM_USE_VORO=OFF -DJAM_DIMENSIONS="2;3" -DJAM_BUILD_EXAMPLES=OFF "$@" >"$folder/configure.log" 2>&1 ||
     { tail -20 "$folder/configure.log"; return 1; }
 }
 
-# The bits of this processor, in $reference, and a jam-pack that writes files for others.
-native_bits() {
-  reference=$PWD/build-platform/bits.txt
+# The bits that every platform must have, and a jam-pack that writes files for others.
+reference=$PWD/tests/platforms/bits.txt
+native_files() {
   mkdir -p build-platform
   configure build-platform
-  cmake --build build-platform -j "$jobs" --target jam_bits jam-pack >build-platform/build.log
-  build-platform/tests/jam_bits >"$reference"
+  cmake --build build-platform -j "$jobs" --target jam-pack >build-platform/build.log
 }
 
 # begin_platform FOLDER NAME: its minutes count from now.
@@ -43,7 +42,7 @@ begin_platform() {
   began=$(date +%s)
 }
 
-# same WORD FOLDER: whether the lines of bits.txt that begin with WORD are those of this processor.
+# same WORD FOLDER: whether the lines that begin with WORD are those of tests/platforms/bits.txt.
 same() {
   grep "^$1 " "$2/bits.txt" >"$2/bits.$1"
   grep "^$1 " "$reference" | cmp -s - "$2/bits.$1" && echo same || echo other

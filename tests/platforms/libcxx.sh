@@ -5,7 +5,7 @@ cd "$(dirname "$0")/../.."
 . tests/platforms/common.sh
 need_or_skip clang libc++-dev libc++abi-dev ninja-build cmake pkg-config libeigen3-dev libspectra-dev zlib1g-dev \
   libcmocka-dev || exit 0
-native_bits
+native_files
 folder=build-libcxx
 begin_platform "$folder" "Linux on $(uname -m), $(clang -dumpversion | sed 's/^/Clang /') and libc++"
 configure "$folder" -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_CXX_FLAGS="-O1 -stdlib=libc++" \

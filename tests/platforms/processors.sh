@@ -1,6 +1,6 @@
 #!/bin/sh
-# Other processors: cross builds by Debian's compilers without OpenBLAS and Clp, unit tests and tests of the C interface
-# under qemu, and the bits of dynamics and crunch against those of this processor.
+# Other processors: cross builds by Debian's compilers without LAPACK and Clp, unit tests and tests of the C interface
+# under qemu, and the bits of dynamics and crunch.
 # usage: processors.sh [TRIPLET ...]     aarch64-linux-gnu s390x-linux-gnu riscv64-linux-gnu by default
 # A processor whose compiler or emulator cannot be installed is skipped, and the script says so. Results stay in
 # build-TRIPLET/result.json; table.py makes the page's table of them.
@@ -8,7 +8,7 @@ set -eu
 cd "$(dirname "$0")/../.."
 . tests/platforms/common.sh
 need_or_skip qemu-user ninja-build cmake pkg-config libeigen3-dev libspectra-dev || exit 0
-native_bits
+native_files
 status=0
 for triplet in ${*:-aarch64-linux-gnu s390x-linux-gnu riscv64-linux-gnu}; do
   echo "== $triplet"

@@ -5,7 +5,7 @@ cd "$(dirname "$0")/../.."
 . tests/platforms/common.sh
 triplet=x86_64-w64-mingw32
 need_or_skip g++-mingw-w64-x86-64-posix wine64 wine ninja-build cmake pkg-config libeigen3-dev libspectra-dev || exit 0
-native_bits
+native_files
 folder=build-$triplet
 sh tests/platforms/dependencies.sh "$folder-libraries" "$triplet" -DCMAKE_SYSTEM_NAME=Windows \
   -DCMAKE_C_FLAGS=-D__USE_MINGW_ANSI_STDIO=1

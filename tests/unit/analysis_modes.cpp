@@ -232,13 +232,23 @@ void spectra_of_both_products(void **) {
     apply_compatibility(g, force.data(), &a[static_cast<size_t>(k) * m]);
     unit[k] = 0.0;
   }
-  std::vector<double> big;
-  assert_true(dense_eigen(m, a, big, false, [](double) { return false; }));
   const Solved s = solve(c, JAM_MODES_ALL, 1);
   const std::vector<double> &small = s.modes.lambda;
-  const size_t extra = big.size() - small.size();
-  for (size_t k = 0; k < extra; ++k) assert_true(std::fabs(big[k]) < 1e-12);
-  assert_true(worst({big.begin() + static_cast<std::ptrdiff_t>(extra), big.end()}, small) < 1e-12);
+  for (const auto eigen : {dense_eigen, dense_eigen_builtin}) {
+    for (const bool vectors : {false, true}) {
+      std::vector<double> v = a, big;
+      assert_true(eigen(m, v, big, vectors, [](double) { return false; }));
+      const size_t extra = big.size() - small.size();
+      for (size_t k = 0; k < extra; ++k) assert_true(std::fabs(big[k]) < 1e-12);
+      assert_true(worst({big.begin() + static_cast<std::ptrdiff_t>(extra), big.end()}, small) < 1e-12);
+      for (int k = 0; vectors && k < m; ++k)  // A v = lambda v
+        for (int i = 0; i < m; ++i) {
+          double rest = -big[k] * v[static_cast<size_t>(k) * m + i];
+          for (int j = 0; j < m; ++j) rest += a[static_cast<size_t>(j) * m + i] * v[static_cast<size_t>(k) * m + j];
+          assert_true(std::fabs(rest) < 1e-12);
+        }
+    }
+  }
 }
 
 void two_images_and_self_contact(void **) {

@@ -233,7 +233,7 @@ void no_second_thread(void **) {
   if (child == 0) {
     std::vector<double> y = x;
     one.factorise(p.diag.data(), p.off.data());
-    f.factorise(p.diag.data(), p.off.data());  // OpenBLAS has the buffers of two threads then
+    f.factorise(p.diag.data(), p.off.data());  // a BLAS library has the buffers of two threads then
     mallopt(M_MMAP_THRESHOLD, 1 << 30), mallopt(M_TRIM_THRESHOLD, 1 << 30);
     std::vector<char>(1 << 25);  // stays in the heap for what is allocated on the way
     const struct rlimit tight = {1 << 20, 1 << 20};

@@ -2,32 +2,6 @@
 #include "linalg/blas/routines.hpp"
 
 namespace jam::inside {
-
-namespace portable {
-template <class Real>
-BlasRoutines<Real> routines();
-}
-namespace avx2 {
-template <class Real>
-BlasRoutines<Real> routines();
-}
-namespace avx512 {
-template <class Real>
-BlasRoutines<Real> routines();
-}
-
-template <class Real>
-BlasRoutines<Real> blas_routines([[maybe_unused]] InstructionSet set) {
-#if defined(__x86_64__)
-  set = resolved(set);
-  if (set == InstructionSet::avx2) return avx2::routines<Real>();
-  if (set == InstructionSet::avx512) return avx512::routines<Real>();
-#endif
-  return portable::routines<Real>();
-}
-template BlasRoutines<double> blas_routines(InstructionSet);
-template BlasRoutines<float> blas_routines(InstructionSet);
-
 namespace {
 template <class Real>
 const BlasRoutines<Real> &best() {
@@ -71,7 +45,6 @@ template struct Blas<float>;
 
 const char *blas_kernel() { return "builtin"; }
 
-BlasSingleThread::BlasSingleThread(int threads) : threads_(threads), more_(0) {}
-BlasSingleThread::~BlasSingleThread() { static_cast<void>(more_); }
+BlasThreads::BlasThreads(int wanted) : count_(wanted) {}
 
 }  // namespace jam::inside

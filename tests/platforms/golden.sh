@@ -1,0 +1,30 @@
+#!/bin/sh
+# The bits of ten packings and of the other verbs are those of bits.txt: by the shared library, and by libjam for
+# processors of fewer instructions, with other code of the C library and another kernel of OpenBLAS.
+# usage: golden.sh BUILD           compares
+#        golden.sh BUILD record    writes bits.txt anew, after an algorithm has changed; CHANGELOG.md says so
+set -eu
+build=$1
+golden=$(dirname "$0")/bits.txt
+if [ "${2:-}" = record ]; then
+  "$build/tests/jam_bits" >"$golden"
+  exit
+fi
+made=$(mktemp)
+trap 'rm -f "$made"' EXIT
+status=0
+# compare NAME COMMAND...
+compare() {
+  name=$1
+  shift
+  "$@" >"$made" || status=1
+  cmp -s "$golden" "$made" && echo "$name: same bits" && return
+  echo "$name:"
+  diff "$golden" "$made" || status=1
+}
+hidden=glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4,-AVX512F
+compare "this processor" "$build/tests/jam_bits"
+for set in portable avx2 avx512; do
+  compare "$set" env JAM_BITS_SET=$set GLIBC_TUNABLES=$hidden OPENBLAS_CORETYPE=Prescott "$build/tests/jam_bits_of_set"
+done
+exit $status

@@ -1,0 +1,38 @@
+// The instruction sets of core/instruction_set.hpp that a processor of fewer would have: JAM_BITS_SET names the best
+// one. A program that links this file before libjam's archive takes it in place of libjam's own.
+#include "core/instruction_set.hpp"
+
+#include <cstdlib>
+#include <cstring>
+
+namespace jam::inside {
+namespace {
+
+int best_allowed() {
+  const char *const names[] = {"portable", "avx2", "avx512"};
+  const char *const wanted = std::getenv("JAM_BITS_SET");
+  for (int k = 0; wanted && k < 3; ++k)
+    if (std::strcmp(wanted, names[k]) == 0) return k;
+  return 0;
+}
+
+}  // namespace
+
+bool has_instruction_set(InstructionSet set) {
+#if defined(__x86_64__)
+  if (set == InstructionSet::avx2) return best_allowed() >= 1 && __builtin_cpu_supports("avx2");
+  if (set == InstructionSet::avx512)
+    return best_allowed() >= 2 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
+           __builtin_cpu_supports("avx512dq");
+#endif
+  return set == InstructionSet::best || set == InstructionSet::portable;
+}
+
+InstructionSet resolved(InstructionSet set) {
+  if (set != InstructionSet::best) return set;
+  return has_instruction_set(InstructionSet::avx512) ? InstructionSet::avx512
+         : has_instruction_set(InstructionSet::avx2) ? InstructionSet::avx2
+                                                     : InstructionSet::portable;
+}
+
+}  // namespace jam::inside

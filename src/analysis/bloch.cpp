@@ -11,7 +11,7 @@
 #include "core/call_scope.hpp"
 #include "core/math.hpp"
 #include "network/own_images.hpp"
-#include "network/room.hpp"
+#include "verdict/clearance.hpp"
 
 namespace jam::inside {
 namespace {
@@ -242,9 +242,9 @@ void add_rows(const Packing &p, const ContactNetwork &near, RigidityMatrix &g, C
   }
 }
 
-// Whether a flex of the copies has room: one that keeps the pairs in its way. At q = 0 the test of one cell has looked.
-bool has_room(const Packing &p, const ContactNetwork &net, const WaveVectors &waves) {
-  const ContactNetwork near = pairs_in_the_way(p, net, net, false, true);
+// Whether the copies have a flex that keeps the pairs that block others. At q = 0 the test of one cell has looked.
+bool is_clear(const Packing &p, const ContactNetwork &net, const WaveVectors &waves) {
+  const ContactNetwork near = blocking_pairs(p, net, net, false, true);
   if (near.size() == 0) return true;
   RigidityMatrix g = make_rigidity_matrix(p, net);
   CellsBack back = cells_back(p, net);
@@ -254,18 +254,6 @@ bool has_room(const Packing &p, const ContactNetwork &net, const WaveVectors &wa
     return row > 0 && (found = flexes_of(lambda, 0) > 0);
   });
   return found;
-}
-
-Verdict verdict_of(const Packing &p, const PackingVerdict &one_cell, const ContactNetwork &net,
-                   const WaveVectors &waves, const BlochFlexes &found) {
-  // Contacts in doubt, and coordinates with few digits, leave one cell undecided, and the copies too.
-  const bool doubt = one_cell.result.jammed == Verdict::undecided && one_cell.result.spheres != 1;
-  const bool closed = std::all_of(net.gap.begin(), net.gap.end(), [](double h) { return h < contact_gap_limit; });
-  if (doubt) return Verdict::undecided;
-  if (net.size() == 0 || found.flexes[0] > 0) return Verdict::no;
-  if (found.total > 0) return has_room(p, net, waves) ? Verdict::no : Verdict::undecided;
-  const double least = *std::min_element(found.margin.begin(), found.margin.end());
-  return closed && least > undecided_eigenvalue ? Verdict::yes : Verdict::undecided;
 }
 
 }  // namespace
@@ -292,7 +280,12 @@ BlochFlexes bloch_flexes(const Packing &p, const PackingVerdict &verdict, const 
     if (opposite < row) out.flexes[row] = out.flexes[opposite], out.margin[row] = out.margin[opposite];
     out.total += out.flexes[row];
   }
-  out.jammed = verdict_of(p, verdict, net, waves, out);
+  CopiesEvidence found;
+  found.empty = net.size() == 0, found.flexes_of_one = out.flexes[0], found.flexes = out.total;
+  found.clear = out.total > 0 && out.flexes[0] == 0 && is_clear(p, net, waves);
+  found.closed = std::all_of(net.gap.begin(), net.gap.end(), [](double h) { return h < contact_gap_limit; });
+  found.margin = *std::min_element(out.margin.begin(), out.margin.end());
+  out.jammed = verdict_of_copies(verdict, found);
   return out;
 }
 

@@ -12,8 +12,8 @@
 #include "core/packing.hpp"
 #include "network/contact_network.hpp"
 #include "network/hessian.hpp"
-#include "network/rigidity_test.hpp"
 #include "network/tile.hpp"
+#include "verdict/verdict.hpp"
 
 namespace jam::inside {
 

@@ -2,8 +2,9 @@
 #include "capi/analysis.hpp"
 #include "capi/table.hpp"
 #include "crunch/crunch.hpp"
+#include "network/certificate.hpp"
 #include "network/contacts_from_geometry.hpp"
-#include "proof/judge.hpp"
+#include "verdict/text.hpp"
 
 using namespace jam::inside;
 
@@ -59,16 +60,16 @@ jam_status jam_contacts_from_geometry(jam_system *sys, const jam_geometry_option
     const Packing &p = sys->packing;
     const GapResolution resolution = gap_resolution(p);
     GeometryResult result = contacts_from_geometry(p, full);
-    const PackingVerdict verdict = judge(p, resolution, &result.network, Jamming::collective);
+    const PackingVerdict verdict = verdict_of(p, &result.network, Jamming::collective);
     const double nan = std::numeric_limits<double>::quiet_NaN();
     jam_crunch_report r{};
     certify(p, result.network, r);
-    report_verdict(verdict, p, r);
+    report_verdict(verdict, r);
     r.stop_reason = JAM_STOP_NONE;
     r.gain = r.max_step = r.gamma_residual = r.duality_gap = nan;
     r.seconds = sys->monitor.seconds();
-    r.status = status_of(result, verdict.result.jammed, resolution, p);
-    const Answer answer = answer_of(result, r.status, verdict.result.jammed, full);
+    r.status = status_of(result, verdict.jammed, resolution, p);
+    const Answer answer = answer_of(result, r.status, verdict.jammed, full);
     sys->contacts = std::move(result.network);
     sys->report = r;
     sys->has_report = true;

@@ -3,6 +3,7 @@
 #include <string>
 #include <utility>
 
+#include "core/sentence.hpp"
 #include "jam/jam.h"
 
 namespace jam::inside {
@@ -21,7 +22,5 @@ Answer stopped(jam_status status, int32_t stop_reason);
 
 // The same of runs that go on with resume = 1; another call begins anew.
 Answer stopped_run(jam_status status, int32_t stop_reason);
-
-__attribute__((format(printf, 1, 2))) std::string sentence(const char *format, ...);
 
 }  // namespace jam::inside

@@ -5,8 +5,8 @@
 #include "capi/proof.hpp"
 #include "core/checks.hpp"
 #include "crunch/crunch.hpp"
-#include "network/check.hpp"
-#include "proof/judge.hpp"
+#include "verdict/check.hpp"
+#include "verdict/text.hpp"
 
 using namespace jam::inside;
 
@@ -64,14 +64,14 @@ jam_status jam_check_options_init(jam_check_options *o, size_t size) {
 }
 
 jam_status jam_check_packing(jam_system *sys, const jam_check_options *o, jam_check_report *report) {
-  return guard_cancellable(sys, untested_check(), report, [&]() -> Answer {
+  return guard_cancellable(sys, blank_report(), report, [&]() -> Answer {
     jam_check_options full = default_check_options();
     take_options(o, full);
     check_flag(full.crunch, "crunch");
     check_flag(full.prove, "prove");
     if (full.prove) refuse_walls(sys->packing, "proved jammed despite rounding");
     if (!(full.wall_time > 0.0)) fail(JAM_E_ARGUMENT, "wall_time is %g, it must be > 0", full.wall_time);
-    CheckResult result = check_as_it_is(sys->packing, sys->known_contacts(), judge);
+    CheckResult result = check_as_it_is(sys->packing, sys->known_contacts());
     jam_check_report &r = result.report;
     r.struct_size = sizeof r;
     without_proof(r);
@@ -89,7 +89,7 @@ const char *jam_check_text(const jam_check_report *report) {
   guard([&]() -> jam_status {
     if (!report) return JAM_OK;
     check_out_struct(report, "report");
-    jam_check_report full = untested_check();  // what an older program does not know
+    jam_check_report full = blank_report();  // what an older program does not know
     std::memcpy(&full, report, std::min<size_t>(report->struct_size, sizeof full));
     std::snprintf(text, sizeof text, "%s", paragraph(full).c_str());
     return JAM_OK;

@@ -5,8 +5,8 @@
 
 #include "capi/analysis.hpp"
 #include "io/files.hpp"
+#include "proof/find.hpp"
 #include "proof/newton.hpp"
-#include "proof/verdict.hpp"
 
 using namespace jam::inside;
 

@@ -3,10 +3,8 @@
 #include "capi/analysis.hpp"
 #include "capi/table.hpp"
 #include "core/checks.hpp"
-#include "network/certificate.hpp"
-#include "network/rigidity_test.hpp"
-#include "network/room.hpp"
-#include "proof/judge.hpp"
+#include "verdict/clearance.hpp"
+#include "verdict/text.hpp"
 
 using namespace jam::inside;
 
@@ -17,45 +15,23 @@ Jamming take_kind(int32_t kind) {
   return kind == JAM_RIGIDITY_STRICT ? Jamming::strict : Jamming::collective;
 }
 
-// Why a packing is not known to be jammed.
-Answer answer_of(const jam_rigidity_report &r, const PackingVerdict &v, size_t spheres) {
-  const bool strict = r.kind == JAM_RIGIDITY_STRICT;
-  const double unresolved = v.unresolved;
-  const char *kind = strict ? "strictly" : "collectively", *stress = strict ? " with an isotropic stress" : "";
-  const auto n = [](int64_t x) { return static_cast<long long>(x); };
-  if (r.jammed == JAM_VERDICT_YES) return JAM_OK;
-  if (r.jammed == JAM_VERDICT_NO && r.contacts == 0)
-    return {JAM_NOT_JAMMED,
-            sentence("not %s jammed: no set of non-negative contact forces is in balance%s%s", kind, stress,
-                     spheres > 1 ? "; jam_flex gives a motion, jam_crunch makes a jammed packing"
-                                 : "; one sphere can be crunched only in a free cell without walls")};
-  if (r.jammed == JAM_VERDICT_NO)
-    return {JAM_NOT_JAMMED,
-            sentence("not %s jammed: forces on %lld contacts balance%s, at least %lld contacts are needed, "
-                     "and %lld motions keep all contacts closed; jam_flex gives one",
-                     kind, n(r.contacts), stress, n(r.contacts_needed), n(r.flexes))};
-  if (unresolved > 0.0)
-    return {JAM_AMBIGUOUS,
-            sentence("undecided whether the packing is %s jammed: a saddle, where contacts with forces of "
-                     "%.1e do not close together with all others, and without them spheres can move%s",
-                     kind, unresolved, v.unresolved_because.c_str())};
-  if (r.flexes > 0)
-    return {JAM_AMBIGUOUS,
-            sentence("undecided whether the packing is %s jammed: %lld motions keep all contacts closed; whether other "
-                     "pairs or the curvature of a round wall stop them is left open",
-                     kind, n(r.flexes))};
-  if (r.undecided_contacts == 0)
-    return {JAM_AMBIGUOUS, sentence("undecided whether the packing is %s jammed: doubles do not resolve which forces "
-                                    "or motions there are; the rigidity margin is %.1e",
-                                    kind, r.rigidity_margin)};
-  return {JAM_AMBIGUOUS,
-          sentence("undecided whether the packing is %s jammed: %lld pairs are nearly closed, and the rigidity margin "
-                   "is %.1e; jam_crunch closes contacts",
-                   kind, n(r.undecided_contacts), r.rigidity_margin)};
+PackingVerdict test(const jam_system *sys, Jamming kind) {
+  return verdict_of(sys->packing, sys->known_contacts(), kind);
 }
 
-PackingVerdict test(const jam_system *sys, Jamming kind) {
-  return judge(sys->packing, gap_resolution(sys->packing), sys->known_contacts(), kind);
+// The status of a verdict, why, and what to do.
+Answer answer_of(const PackingVerdict &v, const Packing &p, Jamming kind) {
+  if (v.jammed == Verdict::yes) return JAM_OK;
+  const VerdictNumbers numbers = numbers_of(v, p, gap_resolution(p), kind);
+  const char *name = kind == Jamming::strict ? "strictly" : "collectively";
+  const std::string why = name + (" jammed: " + why_not_jammed(numbers));
+  if (v.jammed == Verdict::no)
+    return {JAM_NOT_JAMMED, "not " + why +
+                                (v.result.contacts > 0 ? "; jam_flex gives a motion"
+                                 : p.n() > 1           ? "; jam_flex gives a motion, jam_crunch makes a jammed packing"
+                                             : "; one sphere can be crunched only in a free cell without walls")};
+  const bool open = numbers.reason == JAM_CHECK_GAPS || numbers.reason == JAM_CHECK_DIGITS;
+  return {JAM_AMBIGUOUS, "undecided whether the packing is " + why + (open ? "; jam_crunch closes contacts" : "")};
 }
 
 }  // namespace
@@ -70,23 +46,21 @@ jam_status jam_rigidity(jam_system *sys, int32_t kind, jam_rigidity_report *repo
   return guard_cancellable(sys, untested, report, [&]() -> Answer {
     const Jamming jamming = take_kind(kind);
     const PackingVerdict v = test(sys, jamming);
-    if (sys->has_report && jamming == Jamming::strict) sys->report.strictly_jammed = verdict_code(v.result.jammed);
+    if (sys->has_report && jamming == Jamming::strict) sys->report.strictly_jammed = verdict_code(v.jammed);
     jam_rigidity_report r{};
     r.kind = kind;
-    r.jammed = verdict_code(v.result.jammed);
+    r.jammed = verdict_code(v.jammed);
     r.stationary = verdict_code(v.result.stressed);
+    report_counts(v, r);
     r.stable = v.result.spheres;
     r.contacts = v.result.contacts;
     r.contacts_needed = v.result.contacts_needed;
     r.self_stresses = v.result.self_stresses;
-    r.flexes = v.result.flexes;
     r.undercoordinated = v.result.undercoordinated;
-    r.zero_force_contacts = v.result.zero_force_contacts;
-    r.undecided_contacts = v.undecided_contacts;
-    r.rigidity_margin = v.result.margin, r.curvature_margin = v.result.curvature;
+    r.curvature_margin = v.result.curvature;
     r.force_residual = v.result.force_residual;
     give_struct(r, report);
-    return answer_of(r, v, sys->packing.n());
+    return answer_of(v, sys->packing, jamming);
   });
 }
 
@@ -102,13 +76,13 @@ jam_status jam_flex(jam_system *sys, int32_t kind, double *out, size_t out_len, 
     if (!out && !strain) return JAM_OK;
     const PackingVerdict v = test(sys, jamming);
     if (v.contacts.size() > 0 && v.result.flex.empty())
-      fail(JAM_E_STATE, v.result.jammed == Verdict::yes ? "the packing is jammed: it has no flex"
-                                                        : "no flex was found; the verdict is undecided");
-    const double part = v.contacts.size() > 0 ? free_part(sys->packing, v) : 1.0;
-    if (part == 0.0)
+      fail(JAM_E_STATE, v.jammed == Verdict::yes ? "the packing is jammed: it has no flex"
+                                                 : "no flex was found; the verdict is undecided");
+    const double fraction = v.contacts.size() > 0 ? unblocked_fraction(sys->packing, v) : 1.0;
+    if (fraction == 0.0)
       fail(JAM_E_STATE,
            "no flex is known that keeps all contacts closed, though the test finds motions that nearly do");
-    const double unit = part * sys->diameter_mean;
+    const double unit = fraction * sys->diameter_mean;
     std::vector<double> motion(size, 0.0), eps(d * d, 0.0);
     if (v.contacts.size() == 0) {  // no pair is near: any motion will do
       const uint32_t closed = sys->packing.container.closed();
@@ -147,8 +121,7 @@ jam_status jam_bloch_rigidity(jam_system *sys, const int32_t *count, size_t coun
     made.check_room(m);
     if (rows) *rows = m;
     if (!table && !wave) return JAM_OK;
-    const PackingVerdict one_cell = judge(p, gap_resolution(p), sys->known_contacts(), Jamming::collective);
-    const BlochFlexes found = bloch_flexes(p, one_cell, copies);
+    const BlochFlexes found = bloch_flexes(p, test(sys, Jamming::collective), copies);
     put_output(found.wave, wave, m * count_len);
     made.give(m, [&](size_t k, auto &row) {
       row[JAM_BLOCH_FLEXES] = static_cast<double>(found.flexes[k]);

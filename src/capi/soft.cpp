@@ -29,14 +29,14 @@ Answer why_no_minimum(jam_status status, int32_t stop_reason) {
   return stopped(status, stop_reason);
 }
 
-SoftVerdict judge_by_crunch(const SoftResult &soft, Monitor &monitor, CrunchResult &hard) {
+SoftComparison compare_with_crunch(const SoftResult &soft, Monitor &monitor, CrunchResult &hard) {
   const double begun = monitor.seconds();
   jam_crunch_options options = default_crunch_options();
   options.wall_time = monitor.wall_time;
   hard = crunch(just_below_contact(soft), options, monitor);
   if (hard.status < 0)
     fail(hard.status, "crunch from below: %s", hard.text.empty() ? "out of memory" : hard.text.c_str());
-  SoftVerdict v = compare_with_jammed(soft.contacts, hard.contacts, hard.report);
+  SoftComparison v = compare_with_jammed(soft.contacts, hard.contacts, hard.report);
   v.seconds = monitor.seconds() - begun;
   return v;
 }
@@ -75,9 +75,10 @@ jam_status jam_decompress(jam_system *sys, const jam_decompress_options *o, jam_
     take_options(o, full);
     need_soft(sys);
     CrunchResult hard;
-    std::function<SoftVerdict(const SoftResult &)> judge;
-    if (full.crunch == 1) judge = [&](const SoftResult &soft) { return judge_by_crunch(soft, sys->monitor, hard); };
-    DecompressionResult result = decompress(sys->packing, full, sys->monitor, judge);
+    std::function<SoftComparison(const SoftResult &)> compare;
+    if (full.crunch == 1)
+      compare = [&](const SoftResult &soft) { return compare_with_crunch(soft, sys->monitor, hard); };
+    DecompressionResult result = decompress(sys->packing, full, sys->monitor, compare);
     const jam_decompress_report made = result.report;
     const jam_status status = result.status;
     refuse_outside(result.soft.packing);

@@ -1,5 +1,4 @@
 // Status codes, their texts and the thread-local last error.
-#include <cstdarg>
 #include <cstdio>
 
 #include "capi/guard.hpp"
@@ -100,14 +99,6 @@ Answer stopped_run(jam_status status, int32_t stop_reason) {
                            cancelled ? "jam_cancel or a callback stopped the call" : "wall_time came before the end")};
 }
 
-std::string sentence(const char *format, ...) {
-  char text[400];
-  va_list args;
-  va_start(args, format);
-  std::vsnprintf(text, sizeof text, format, args);
-  va_end(args);
-  return text;
-}
 }  // namespace jam::inside
 
 // One list for code and text; the numbers are checked against the header by the compiler through the switch.

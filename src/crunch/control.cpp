@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "network/certificate.hpp"
+#include "verdict/text.hpp"
 
 namespace jam::inside {
 
@@ -23,15 +23,15 @@ bool stop_if_interrupted(CrunchState &s) {
 void forget_contacts(CrunchState &s) {
   s.out.contacts = ContactNetwork();
   s.out.contacts.coordination.assign(s.out.packing.n(), 0);
-  report_verdict(PackingVerdict(), s.out.packing, s.out.report);
+  s.found.verdict = PackingVerdict();
+  report_verdict(s.found.verdict, s.out.report);
 }
 
 void restart_lps(CrunchState &s, double bound) {
   s.next.bound = bound;
   s.next.moved = 1.0;
   s.next.stalled = 0;
-  s.found.narrow = Verdicts::Narrow::none;
-  s.found.jammed = false;
+  s.found.narrow = CrunchFindings::Narrow::none;
   forget_contacts(s);
 }
 

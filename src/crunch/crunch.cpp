@@ -15,9 +15,9 @@
 #include "crunch/approach/lp_step.hpp"
 #include "crunch/control.hpp"
 #include "crunch/estimate.hpp"
+#include "crunch/identify/end.hpp"
 #include "crunch/identify/identify.hpp"
 #include "crunch/identify/narrow_lps.hpp"
-#include "crunch/identify/verdict.hpp"
 #include "crunch/path/phase.hpp"
 #include "crunch/report.hpp"
 
@@ -50,7 +50,7 @@ static Phase first_phase(CrunchState &s) {
   return from.path.mu > 0.0 ? Phase::barrier_path : Phase::approach;
 }
 
-// Nothing touches but spheres their own images: at fixed cell no diameter can grow, and no LP is needed to see it.
+// True if the only contacts are spheres with their own images. In a fixed cell no diameter can then grow.
 static bool fills_cell(CrunchState &s) {
   const Packing &p = s.out.packing;
   if (p.container || s.o.strain != JAM_STRAIN_NONE || diameter_max(p) < p.cell.shortest() * (1.0 - contact_gap_limit))
@@ -60,7 +60,7 @@ static bool fills_cell(CrunchState &s) {
     if (!touching.own_image(k)) return false;
   stop(s, JAM_STOP_UNJAMMED, JAM_NOT_JAMMED);
   give_verdict(s, {});
-  if (s.found.jammed) stop(s, JAM_STOP_CONVERGED, JAM_OK);  // their images hold them
+  if (s.found.verdict.jammed == Verdict::yes) stop(s, JAM_STOP_CONVERGED, JAM_OK);  // their images hold them
   return true;
 }
 
@@ -128,7 +128,7 @@ CrunchResult crunch(const Packing &start, const jam_crunch_options &o, Monitor &
   try {
     {
       const LeavingScope scope(CallScope::memory_limit(), &monitor);
-      touching = find_touching(start, o.strain != JAM_STRAIN_NONE);
+      touching = find_touching(start);
     }
     run_phases(s);
     report_end(s);

@@ -11,7 +11,6 @@
 #include "crunch/record.hpp"
 #include "crunch/tuning.hpp"
 #include "lp/packing_lp.hpp"
-#include "network/certificate.hpp"
 #include "network/contact_network.hpp"
 
 namespace jam::inside {

@@ -6,12 +6,14 @@
 #include "core/call_scope.hpp"
 #include "core/pair_rule.hpp"
 #include "crunch/control.hpp"
+#include "network/certificate.hpp"
 #include "network/resolution.hpp"
+#include "verdict/text.hpp"
 
 namespace jam::inside {
 
 // Closed pairs as in the test of jamming, and those that digits cannot distinguish from them.
-Touching find_touching(const Packing &start, bool own_images) {
+Touching find_touching(const Packing &start) {
   const GapResolution resolution = gap_resolution(start);
   const PairList pairs = find_pairs(start, resolution.reach(), 1.0 + contact_gap_limit);
   double r[JAM_MAX_DIM];
@@ -19,7 +21,6 @@ Touching find_touching(const Packing &start, bool own_images) {
   found.total = 0;
   for (size_t k = 0; k < pairs.size(); ++k) {
     const double sigma = contact_distance(start, pairs.i[k], pairs.j[k]);
-    if (pairs.own_image(k) && !own_images) continue;
     const double gap = std::sqrt(pair_vector(start, pairs, k, r)) / sigma - 1.0;
     if (!(gap < contact_gap_limit || gap * sigma < resolution.reach())) continue;
     ++found.images[{pairs.i[k], pairs.j[k]}], ++found.total;
@@ -78,11 +79,13 @@ void report_end(CrunchState &s) {
   jam_crunch_report &r = s.out.report;
   r.method = s.history.stage.path_taken ? JAM_CRUNCH_BARRIER_PATH : JAM_CRUNCH_SEQUENTIAL_LP;
   certify(s.out.packing, s.out.contacts, r, s.next.strain.count() > 0);
-  r.jammed = s.found.jammed &&
-             r.force_residual < (s.o.polish ? s.tuning.jammed_balance : InteriorPointTuning::balance) &&
-             r.min_force >= 0.0;
   r.strictly_jammed = s.found.strictly_jammed;
-  if (s.found.jammed && !r.jammed) stop(s, JAM_STOP_SOLVER, JAM_NOT_CONVERGED);
+  const bool balanced = r.force_residual < (s.o.polish ? s.tuning.jammed_balance : InteriorPointTuning::balance);
+  if (s.found.verdict.jammed == Verdict::yes && !(balanced && r.min_force >= 0.0)) {
+    s.found.verdict.hear(Rule::unbalanced, Verdict::undecided);
+    report_verdict(s.found.verdict, r);
+    stop(s, JAM_STOP_SOLVER, JAM_NOT_CONVERGED);
+  }
   mark_unknown_rattlers(s, r);
   r.decompressions = s.history.stage.decompressions;
   r.factorisations = s.system.factorisations;

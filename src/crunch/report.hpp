@@ -13,7 +13,7 @@ struct Touching {
   std::map<std::pair<int32_t, int32_t>, int64_t> images;  // that touch, of each pair
   int64_t total = -1;                                     // -1: not known, as the call was stopped
 };
-Touching find_touching(const Packing &start, bool own_images);
+Touching find_touching(const Packing &start);
 
 // The final network certified, the verdict and the counters of the work.
 void report_end(CrunchState &s);

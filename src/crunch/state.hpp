@@ -5,6 +5,7 @@
 #include "crunch/approach/active_set.hpp"
 #include "crunch/crunch.hpp"
 #include "lp/interior_point.hpp"
+#include "verdict/verdict.hpp"
 
 namespace jam::inside {
 
@@ -30,11 +31,11 @@ struct NextLp {
   int stalled = 0;              // LPs below the gain tolerance so far
 };
 
-struct Verdicts {
+struct CrunchFindings {
   enum class Narrow { none, by_interior_point, by_simplex };
   Narrow narrow = Narrow::none;  // the last LPs were narrow ones
   bool polished = false;         // the last polish closed its contacts
-  bool jammed = false;           // by the test of the final network
+  PackingVerdict verdict;        // on the packing as it ends
   int32_t strictly_jammed = JAM_VERDICT_UNTESTED;
   int flex_moves = 0;  // made so far
 };
@@ -53,7 +54,7 @@ struct CrunchState {
   InteriorPoint interior_point{system, tuning.single};
   LastLp last;
   NextLp next;
-  Verdicts found;
+  CrunchFindings found;
   double first_gain = 0.0;  // of an LP, for the progress
 };
 

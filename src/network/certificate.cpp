@@ -6,10 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
-#include <set>
-#include <utility>
 
 namespace jam::inside {
 namespace {
@@ -71,91 +68,6 @@ void certify(const Packing &p, const ContactNetwork &net, jam_crunch_report &rep
   report.theorem = JAM_THEOREM_NONE, report.proof_cause = JAM_CAUSE_NONE;
   report.proof_radius = std::numeric_limits<double>::infinity();
   report.proof_value = report.proof_bound = 0.0;
-}
-
-int32_t verdict_code(Verdict verdict) {
-  return verdict == Verdict::yes ? JAM_VERDICT_YES : verdict == Verdict::no ? JAM_VERDICT_NO : JAM_VERDICT_UNDECIDED;
-}
-
-void report_verdict(const PackingVerdict &v, const Packing &p, jam_crunch_report &report) {
-  report.jammed = v.result.jammed == Verdict::yes;
-  report.stationary = v.result.stressed == Verdict::yes;
-  report.strictly_jammed = JAM_VERDICT_UNTESTED;
-  report.flexes = v.result.flexes;
-  report.zero_force_contacts = v.result.zero_force_contacts;
-  report.undecided_contacts = v.undecided_contacts;
-  report.undercoordinated = v.result.undercoordinated;
-  report.strict_contacts_needed = strict_contacts_needed(v.result.spheres, p);
-  report.rigidity_margin = v.result.margin;
-}
-
-namespace {
-
-std::string why_undecided(const PackingVerdict &v) {
-  char line[320];
-  double widest = 0.0;
-  for (const double h : v.contacts.gap) widest = std::max(widest, h);
-  const auto pairs = static_cast<long long>(v.undecided_contacts);
-  if (v.undecided_contacts > 0 && v.when_closed != v.result.jammed)
-    std::snprintf(line, sizeof line,
-                  "undecided: %lld pairs, open by 1e-10 to %.1e, may be contacts or not; with them closed the packing "
-                  "would%s be jammed",
-                  pairs, widest,
-                  v.when_closed == Verdict::yes  ? ""
-                  : v.when_closed == Verdict::no ? " not"
-                                                 : " perhaps");
-  else if (v.result.contacts == 0)
-    std::snprintf(
-        line, sizeof line,
-        "undecided: doubles do not resolve which of the %zu closed pairs carry force, as some forces are too weak; "
-        "the network is left empty",
-        v.contacts.size());
-  else if (v.result.flexes > 0)
-    std::snprintf(line, sizeof line,
-                  "undecided: %lld motions keep the contacts closed; whether other pairs or the curvature of a round "
-                  "wall stop them is left open",
-                  static_cast<long long>(v.result.flexes));
-  else if (v.unresolved > 0.0)
-    std::snprintf(
-        line, sizeof line,
-        "undecided, a saddle: contacts with forces of %.1e do not close together with all others, and without "
-        "them spheres can move",
-        v.unresolved);
-  else if (v.result.spheres == 1)
-    std::snprintf(line, sizeof line, "undecided: only own images fix sphere and cell, and not in every strain");
-  else
-    std::snprintf(line, sizeof line,
-                  "undecided: doubles do not resolve a flex from a soft mode here, or a weak force from none (smallest "
-                  "eigenvalue %.1e, force residual %.1e)",
-                  v.result.margin, v.result.force_residual);
-  return line + v.unresolved_because;
-}
-
-}  // namespace
-
-std::string why_not_jammed(const PackingVerdict &v, Jamming kind) {
-  char line[320];
-  const bool strict = kind == Jamming::strict;
-  const auto number = [](int64_t x) { return static_cast<long long>(x); };
-  if (v.result.jammed == Verdict::yes) return "";
-  if (v.result.jammed == Verdict::undecided) return why_undecided(v);
-  if (v.result.slides > 0)
-    std::snprintf(
-        line, sizeof line,
-        "forces balance on %lld contacts, so the diameters cannot grow, but parts of the network slide past each "
-        "other in %lld way%s that keep%s all distances",
-        number(v.result.contacts), number(v.result.slides), v.result.slides == 1 ? "" : "s",
-        v.result.slides == 1 ? "s" : "");
-  else if (v.result.flexes > 0)
-    std::snprintf(line, sizeof line,
-                  "a saddle: forces balance on %lld contacts%s, and yet %lld motions%s keep them closed",
-                  number(v.result.contacts), strict ? " with an isotropic stress" : "", number(v.result.flexes),
-                  strict ? " of spheres and cell" : "");
-  else
-    std::snprintf(line, sizeof line,
-                  "no non-negative forces on the %zu closed pairs balance%s, so a motion%s opens them",
-                  v.contacts.size(), strict ? " with an isotropic stress" : "", strict ? " of spheres and cell" : "");
-  return line;
 }
 
 }  // namespace jam::inside

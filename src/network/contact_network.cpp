@@ -44,6 +44,15 @@ void measure_contacts(const Packing &p, ContactNetwork &net) {
   }
 }
 
+ContactNetwork unforced_pairs(const Packing &p, double reach, double slope) {
+  ContactNetwork out;
+  out.pairs = find_pairs(p, reach, slope);
+  measure_contacts(p, out);
+  out.coordination.assign(p.n(), 0);
+  out.force.assign(out.size(), 0.0);
+  return out;
+}
+
 void set_force_scale(const Packing &p, ContactNetwork &net) {
   double sum = 0.0;
   for (size_t k = 0; k < net.size(); ++k)  // sigma^2 / r = sigma / (1 + h)

@@ -6,6 +6,7 @@
 #include "core/call_scope.hpp"
 #include "core/error.hpp"
 #include "core/pair_rule.hpp"
+#include "network/rattlers.hpp"
 #include "network/tuning.hpp"
 
 namespace jam::inside {
@@ -207,7 +208,7 @@ GeometryResult contacts_from_geometry(const Packing &p, const jam_geometry_optio
   // hyperstatic.
   clear = clear || (wide && stress.dimension == 1 && stress.zero_modes == graph.symmetries() &&
                     r.excess_contacts == 0 && second_excess > 0);
-  out.when_closed = closed.jammed;
+  out.when_closed = closed.rigid;
   out.clear = clear;
   set_force_scale(p, out.network);
   return out;

@@ -1,6 +1,7 @@
 // The contact network from positions, diameters and box alone.
 #pragma once
 #include "network/contact_network.hpp"
+#include "network/resolution.hpp"
 #include "network/rigidity_test.hpp"
 #include "network/self_stress.hpp"
 

@@ -78,8 +78,8 @@ bool opens_by_curvature(const RigidityMatrix &carrying, const std::vector<double
   return form_of(carrying, weight, {std::move(flex)})(0, 0) > RigidityTuning::least_curvature * scale;
 }
 
-void judge_curvature(const RigidityMatrix &carrying, const std::vector<double> &force, Flexes &flexes,
-                     RigidityResult &out) {
+void test_prestress_stability(const RigidityMatrix &carrying, const std::vector<double> &force, Flexes &flexes,
+                              RigidityResult &out) {
   double scale = 0.0;
   const SymmetricEigen eigen = symmetric_eigen(form_of(carrying, curvatures(carrying, force, scale), flexes));
   const Eigen::Index last = eigen.values.size() - 1;
@@ -87,7 +87,7 @@ void judge_curvature(const RigidityMatrix &carrying, const std::vector<double> &
   std::vector<double> first = combine(flexes, eigen.vectors.col(last));
   if (most < -limit) {
     flexes[0] = std::move(first);
-    out.jammed = out.force_residual < RigidityTuning::most_residual ? Verdict::yes : Verdict::undecided;
+    out.rigid = out.force_residual < RigidityTuning::most_residual ? Verdict::yes : Verdict::undecided;
     out.curvature = -most / scale;
     return;
   }
@@ -98,7 +98,7 @@ void judge_curvature(const RigidityMatrix &carrying, const std::vector<double> &
   } else if (!(most > limit) || out.self_stresses > 1) {  // other states of self-stress might hold it
     std::vector<double> free = free_beside_walls(carrying, flexes);
     if (free.empty())
-      out.jammed = Verdict::undecided;
+      out.rigid = Verdict::undecided;
     else
       first = std::move(free);
   }

@@ -7,8 +7,8 @@
 namespace jam::inside {
 
 // carrying: K+ of `out`, with its forces and flexes. The first flex becomes that which curvature holds least.
-void judge_curvature(const RigidityMatrix &carrying, const std::vector<double> &force,
-                     std::vector<std::vector<double>> &flexes, RigidityResult &out);
+void test_prestress_stability(const RigidityMatrix &carrying, const std::vector<double> &force,
+                              std::vector<std::vector<double>> &flexes, RigidityResult &out);
 
 // Whether forces times second derivatives of distances are positive along a motion of the nodes of the matrix of which
 // `carrying` is a part, a flex of that part.

@@ -13,10 +13,10 @@ namespace jam::inside {
 bool keeps_contacts(const RigidityMatrix &g, const std::vector<double> &gap, const std::vector<double> &flex,
                     const std::vector<double> &strain);
 
-// x: a motion of the rows of `sub`, spheres that their contacts might hold; empty where there are none. Each released
-// sphere, the last one first, moves out of the way of its contacts. Into out.flex and out.strain, changed a little
-// where that keeps contacts closed. They stay empty where the motion closes contacts at more than the rate of rounding,
-// or one by more than the widest of them is open.
+// Writes to out.flex and out.strain a motion of all nodes: x on the spheres of `sub` (empty: none of them moves), and
+// each released sphere moved off its contacts, last released first. The motion is changed a little where that keeps
+// contacts closed. Both stay empty if a contact would close faster than rounding allows, or by more than the widest
+// contact with force is open.
 void complete_flex(const RigidityMatrix &g, const RigidityMatrix &sub, const ConstraintRows &sub_rows,
                    const std::vector<double> &x, const std::vector<Release> &released, bool strain,
                    RigidityResult &out);

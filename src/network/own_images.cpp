@@ -8,12 +8,8 @@
 namespace jam::inside {
 
 ContactNetwork unlisted_own_images(const Packing &p, const ContactNetwork &net, double limit) {
-  ContactNetwork own;
-  if (p.cell.shortest() > (1.0 + limit) * diameter_max(p)) return own;
-  own.pairs = find_pairs(p, 0.0, 1.0 + limit);
-  measure_contacts(p, own);
-  own.force.assign(own.size(), 0.0);
-  own.coordination.assign(p.n(), 0);
+  if (p.cell.shortest() > (1.0 + limit) * diameter_max(p)) return {};
+  const ContactNetwork own = unforced_pairs(p, 0.0, 1.0 + limit);
   ContactLookup known(p, net);
   std::vector<char> on(own.size(), 0);
   for (size_t k = 0; k < own.size(); ++k)

@@ -64,7 +64,7 @@ bool test_from_rigid_part(const RigidityMatrix &sub, const StressCone &cone, Jam
   solver.factorise(std::vector<double>(rows.rows(), 1.0), flex_eigenvalue);
   const SoftestModes modes = softest_modes(rows, solver, flex_eigenvalue, 1);
   if (!modes.flexes.empty() || modes.margin < undecided_eigenvalue) return false;
-  out.jammed = out.stressed = Verdict::yes;
+  out.rigid = out.stressed = Verdict::yes;
   out.margin = modes.margin;
   out.carrying = inside;
   out.force.assign(m, 0.0);
@@ -79,12 +79,12 @@ bool test_from_rigid_part(const RigidityMatrix &sub, const StressCone &cone, Jam
   if (rest.contacts() > 0) {
     const RigidityResult r = test_rigidity(rest, Jamming::collective);
     if (r.stressed != Verdict::no) {
-      out.jammed = r.jammed, out.stressed = r.stressed;
+      out.rigid = r.rigid, out.stressed = r.stressed;
       out.flexes = r.flexes, out.margin = std::min(out.margin, r.margin), out.curvature = r.curvature;
       bool held = false;  // by B
       for (size_t k = 0, at = 0; k < m; ++k)
         if (!inside[k] && (out.carrying[k] = r.carrying[at++])) held = held || body[sub.a[k]] || body[sub.b[k]];
-      if (!held) out.jammed = Verdict::undecided;
+      if (!held) out.rigid = Verdict::undecided;
       if (!r.flex.empty()) {
         out.flex.assign(sub.unknowns(), 0.0);
         const size_t d = static_cast<size_t>(sub.dim);

@@ -43,7 +43,7 @@ struct RigidityMatrix {
 };
 
 RigidityMatrix make_rigidity_matrix(const Packing &p, const ContactNetwork &network);
-// The rows that are `on`, and the nodes that they touch; its `sphere` are nodes of g, its `node` those of g too.
+// The selected rows and their nodes. `sphere` and `node` of the result number nodes of g, not spheres.
 RigidityMatrix subset(const RigidityMatrix &g, const std::vector<char> &on);
 
 // Adds factor times the displacements x of the nodes of such a subset to v, those of the nodes of g.

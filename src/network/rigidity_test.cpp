@@ -6,6 +6,7 @@
 #include "core/call_scope.hpp"
 #include "network/curvature_test.hpp"
 #include "network/flex.hpp"
+#include "network/rattlers.hpp"
 #include "network/rigid_part.hpp"
 #include "network/slides.hpp"
 #include "network/softest_modes.hpp"
@@ -32,7 +33,7 @@ void count_carrying(const RigidityMatrix &carrying, int strains, RigidityResult 
 
 // Without round walls the sum of forces times second derivatives of distances is positive, but for flexes that move
 // each part of the network as a whole. Where there are no others nothing opens.
-void judge_slides(const RigidityMatrix &carrying, std::vector<std::vector<double>> &flexes, RigidityResult &out) {
+void test_slides(const RigidityMatrix &carrying, std::vector<std::vector<double>> &flexes, RigidityResult &out) {
   Slides slides = find_slides(carrying);
   if (slides.count < out.flexes) return;
   out.slides = slides.count;
@@ -46,119 +47,87 @@ void spread(const std::vector<char> &on, const std::vector<char> &carrying, cons
     if (on[k]) out.carrying[k] = carrying[at], out.force[k] = force[at++];
 }
 
+// A list of contacts, and those of its spheres that their contacts might support.
+struct Supported {
+  const RigidityMatrix &g;
+  const bool strain;
+  std::vector<char> on;
+  const std::vector<Release> released;
+  const RigidityMatrix sub;
+  const ConstraintRows rows;
+  Supported(const RigidityMatrix &all, Jamming kind)
+      : g(all),
+        strain(kind == Jamming::strict),
+        on(all.contacts(), 1),
+        released(release_unbalanced(g.dim, static_cast<size_t>(g.nodes), g.a, g.b, g.normal, on)),
+        sub(subset(g, on)),
+        rows(sub, strain) {}
+  void complete(const std::vector<double> &motion, bool with_strain, RigidityResult &out) const {
+    complete_flex(g, sub, rows, motion, released, with_strain, out);
+  }
+};
+
 // Where the forces of the other contacts stay open: a positive state and a flex of its spheres that closes none of the
 // others make a no. False without such a flex.
-bool find_flex_of_part(const RigidityMatrix &g, const RigidityMatrix &sub, const ConstraintRows &rows,
-                       const StressCone &cone, const std::vector<char> &on, const std::vector<Release> &released,
-                       RigidityResult &out) {
-  if (cone.positive.empty() || rows.strains > 0 || g.round_axes > 0) return false;
-  const RigidityMatrix part = subset(sub, cone.positive);
+bool find_flex_of_part(const Supported &s, const StressCone &cone, RigidityResult &out) {
+  if (cone.positive.empty() || s.rows.strains > 0 || s.g.round_axes > 0) return false;
+  const RigidityMatrix part = subset(s.sub, cone.positive);
   const ConstraintRows kept(part, false);
   NormalSolver solver(kept);
   solver.factorise(std::vector<double>(kept.rows(), 1.0), flex_eigenvalue);
   const SoftestModes modes = softest_modes(kept, solver, flex_eigenvalue, RigidityTuning::most_flexes);
   for (const std::vector<double> &flex : modes.flexes)
     for (const double sign : {1.0, -1.0}) {
-      std::vector<double> x(rows.columns(), 0.0);
+      std::vector<double> x(s.rows.columns(), 0.0);
       scatter(part, flex.data(), sign, x);
       RigidityResult found = out;
       std::vector<double> force(cone.path_force);
       for (size_t k = 0; k < force.size(); ++k) force[k] *= cone.positive[k];
-      spread(on, cone.positive, force, found);
-      complete_flex(g, sub, rows, x, released, false, found);
+      spread(s.on, cone.positive, force, found);
+      s.complete(x, false, found);
       if (found.flex.empty()) continue;
       out = std::move(found);
-      out.jammed = Verdict::no, out.stressed = Verdict::yes;
+      out.rigid = Verdict::no, out.stressed = Verdict::yes;
       out.flexes = static_cast<int64_t>(modes.flexes.size()), out.margin = modes.margin;
       count_carrying(part, 0, out);
-      out.force_residual = balance_residual(g, out.force.data());
+      out.force_residual = balance_residual(s.g, out.force.data());
       return true;
     }
   return false;
 }
 
-}  // namespace
+// The centre of the forces was not found. A rigid part of the contacts, or a flex of a part, may decide.
+void test_undecided_cone(const Supported &s, const StressCone &cone, Jamming kind, RigidityResult &out) {
+  out.rigid = out.stressed = Verdict::undecided;
+  StressCone pushed;
+  pushed.positive = cone.pushed, pushed.path_force = cone.pushed_force;
+  RigidityResult part;
+  if (!test_from_rigid_part(s.sub, cone, kind, part) &&
+      !(test_from_rigid_part(s.sub, pushed, kind, part) && part.rigid == Verdict::yes)) {
+    if (find_flex_of_part(s, cone, out) || cone.path_motion.empty()) return;
+    out.attempt.assign(s.g.unknowns(), 0.0);
+    scatter(s.sub, cone.path_motion.data(), 1.0, out.attempt);
+    return;
+  }
+  out.rigid = part.rigid, out.stressed = part.stressed, out.margin = part.margin, out.flexes = part.flexes;
+  out.curvature = part.curvature;
+  out.force_residual = part.force_residual;
+  spread(s.on, part.carrying, part.force, out);
+  count_carrying(subset(s.sub, part.carrying), s.rows.strains, out);
+  if (out.rigid == Verdict::yes && !(out.force_residual < RigidityTuning::most_residual))
+    out.rigid = Verdict::undecided;
+  if (!part.flex.empty()) s.complete(part.flex, false, out);
+}
 
-static RigidityResult find_verdict(const RigidityMatrix &g, Jamming kind) {
-  CallScope::report_share();
-  const bool strain = kind == Jamming::strict;
-  const size_t m = g.contacts();
-  RigidityResult out;
-  out.carrying.assign(m, 0), out.force.assign(m, 0.0);
-  std::vector<char> on(m, 1);
-  const std::vector<Release> released = release_unbalanced(g.dim, static_cast<size_t>(g.nodes), g.a, g.b, g.normal, on);
-  const RigidityMatrix sub = subset(g, on);
-  const ConstraintRows rows(sub, strain);
-  out.zero_force_contacts = static_cast<int64_t>(m);
-  if (sub.contacts() == 0) {
-    complete_flex(g, sub, rows, {}, released, strain, out);
-    return out;
-  }
-  NormalSolver solver(rows);
-  solver.factorise(std::vector<double>(sub.contacts(), 1.0), flex_eigenvalue);
-  SoftestModes modes = softest_modes(rows, solver, flex_eigenvalue, RigidityTuning::most_flexes);
-  const int64_t rank =
-      static_cast<int64_t>(rows.columns()) - sub.symmetries() - static_cast<int64_t>(modes.flexes.size());
-  const int64_t states = modes.complete ? std::max<int64_t>(0, static_cast<int64_t>(sub.contacts()) - rank) : -1;
-  const StressCone cone = find_stress_cone(rows, solver, states);
-  if (!cone.decided) {
-    RigidityResult part;
-    out.jammed = out.stressed = Verdict::undecided;
-    out.margin = modes.margin;
-    StressCone pushed;
-    pushed.positive = cone.pushed, pushed.path_force = cone.pushed_force;
-    if (!test_from_rigid_part(sub, cone, kind, part) &&
-        !(test_from_rigid_part(sub, pushed, kind, part) && part.jammed == Verdict::yes)) {
-      if (find_flex_of_part(g, sub, rows, cone, on, released, out)) return out;
-      if (!cone.path_motion.empty()) {
-        out.attempt.assign(g.unknowns(), 0.0);
-        scatter(sub, cone.path_motion.data(), 1.0, out.attempt);
-      }
-      return out;
-    }
-    out.jammed = part.jammed, out.stressed = part.stressed, out.margin = part.margin, out.flexes = part.flexes;
-    out.curvature = part.curvature;
-    out.force_residual = part.force_residual;
-    spread(on, part.carrying, part.force, out);
-    count_carrying(subset(sub, part.carrying), rows.strains, out);
-    if (out.jammed == Verdict::yes && !(out.force_residual < RigidityTuning::most_residual))
-      out.jammed = Verdict::undecided;
-    if (!part.flex.empty()) complete_flex(g, sub, rows, part.flex, released, false, out);
-    return out;
-  }
-  spread(on, cone.carrying, cone.force, out);
-  const auto count = static_cast<size_t>(std::count(cone.carrying.begin(), cone.carrying.end(), 1));
-  if (count == 0) {
-    complete_flex(g, sub, rows, cone.motion, released, strain, out);
-    return out;
-  }
-  out.stressed = Verdict::yes;
-  const RigidityMatrix carrying = subset(sub, cone.carrying);
-  const ConstraintRows kept(carrying, strain);
-  if (count < sub.contacts()) {
-    NormalSolver inner(kept);
-    inner.factorise(std::vector<double>(count, 1.0), flex_eigenvalue);
-    modes = softest_modes(kept, inner, flex_eigenvalue, RigidityTuning::most_flexes);
-  }
-  out.flexes = static_cast<int64_t>(modes.flexes.size());
-  out.margin = modes.margin;
-  out.jammed = out.flexes > 0 ? Verdict::no : modes.margin < undecided_eigenvalue ? Verdict::undecided : Verdict::yes;
-  count_carrying(carrying, rows.strains, out);
-  std::vector<double> f;
-  for (size_t k = 0; k < sub.contacts(); ++k)
-    if (cone.carrying[k]) f.push_back(cone.force[k]);
-  out.force_residual = balance_residual(carrying, f.data());
-  if (out.jammed == Verdict::yes && !(out.force_residual < RigidityTuning::most_residual))
-    out.jammed = Verdict::undecided;
-  if (out.flexes > 0 && g.round_axes > 0 && modes.complete) judge_curvature(carrying, f, modes.flexes, out);
-  if (out.flexes > 0 && g.round_axes == 0 && modes.complete && !strain) judge_slides(carrying, modes.flexes, out);
-  if (out.flexes == 0 || out.jammed != Verdict::no) return out;
-  // A flex of B or its opposite, and as much of the motion that opens all other contacts as keeps them open.
+// A flex of B or its opposite, and as much of the motion that opens all other contacts as keeps them open.
+void find_flex(const Supported &s, const StressCone &cone, const RigidityMatrix &carrying, const ConstraintRows &kept,
+               const std::vector<double> &f, const std::vector<double> &flex, RigidityResult &out) {
+  const ConstraintRows &rows = s.rows;
   for (const double sign : {1.0, -1.0}) {
     std::vector<double> x(rows.columns(), 0.0), y0(rows.rows()), y1(rows.rows());
-    scatter(carrying, modes.flexes[0].data(), sign, x);
+    scatter(carrying, flex.data(), sign, x);
     for (int q = 0; q < rows.strains; ++q)
-      x[sub.unknowns() + q] = sign * modes.flexes[0][carrying.unknowns() + q] * rows.length / kept.length;
+      x[s.sub.unknowns() + q] = sign * flex[carrying.unknowns() + q] * rows.length / kept.length;
     if (!cone.motion.empty()) {
       rows.multiply(x.data(), y0.data());
       rows.multiply(cone.motion.data(), y1.data());
@@ -167,19 +136,73 @@ static RigidityResult find_verdict(const RigidityMatrix &g, Jamming kind) {
         if (!cone.carrying[k]) factor = std::max(factor, -y0[k] / y1[k]);
       for (size_t k = 0; k < x.size(); ++k) x[k] += factor * cone.motion[k];
       // What opens the others is a flex of K+ too, and the curvature of a round wall may hold the sum of both.
-      if (g.round_axes > 0 && factor > 0.0 && !opens_by_curvature(carrying, f, x)) continue;
+      if (s.g.round_axes > 0 && factor > 0.0 && !opens_by_curvature(carrying, f, x)) continue;
     }
-    complete_flex(g, sub, rows, x, released, strain, out);
-    if (!out.flex.empty()) break;
+    s.complete(x, s.strain, out);
+    if (!out.flex.empty()) return;
   }
+}
+
+// K+ and its forces are known: the rank of its rows decides.
+void test_rank(const Supported &s, const StressCone &cone, SoftestModes modes, RigidityResult &out) {
+  out.stressed = Verdict::yes;
+  const RigidityMatrix carrying = subset(s.sub, cone.carrying);
+  const ConstraintRows kept(carrying, s.strain);
+  if (carrying.contacts() < s.sub.contacts()) {
+    NormalSolver inner(kept);
+    inner.factorise(std::vector<double>(carrying.contacts(), 1.0), flex_eigenvalue);
+    modes = softest_modes(kept, inner, flex_eigenvalue, RigidityTuning::most_flexes);
+  }
+  out.flexes = static_cast<int64_t>(modes.flexes.size());
+  out.margin = modes.margin;
+  count_carrying(carrying, s.rows.strains, out);
+  std::vector<double> f;
+  for (size_t k = 0; k < s.sub.contacts(); ++k)
+    if (cone.carrying[k]) f.push_back(cone.force[k]);
+  out.force_residual = balance_residual(carrying, f.data());
+  const bool doubtful = modes.margin < undecided_eigenvalue || !(out.force_residual < RigidityTuning::most_residual);
+  out.rigid = out.flexes > 0 ? Verdict::no : doubtful ? Verdict::undecided : Verdict::yes;
+  if (out.flexes == 0) return;
+  if (s.g.round_axes > 0 && modes.complete) test_prestress_stability(carrying, f, modes.flexes, out);
+  if (s.g.round_axes == 0 && modes.complete && !s.strain) test_slides(carrying, modes.flexes, out);
+  if (out.rigid == Verdict::no) find_flex(s, cone, carrying, kept, f, modes.flexes[0], out);
+}
+
+RigidityResult test_rows(const RigidityMatrix &g, Jamming kind) {
+  CallScope::report_share();
+  RigidityResult out;
+  out.carrying.assign(g.contacts(), 0), out.force.assign(g.contacts(), 0.0);
+  out.zero_force_contacts = static_cast<int64_t>(g.contacts());
+  const Supported s(g, kind);
+  if (s.sub.contacts() == 0) {
+    s.complete({}, s.strain, out);
+    return out;
+  }
+  NormalSolver solver(s.rows);
+  solver.factorise(std::vector<double>(s.sub.contacts(), 1.0), flex_eigenvalue);
+  SoftestModes modes = softest_modes(s.rows, solver, flex_eigenvalue, RigidityTuning::most_flexes);
+  const int64_t rank =
+      static_cast<int64_t>(s.rows.columns()) - s.sub.symmetries() - static_cast<int64_t>(modes.flexes.size());
+  const int64_t states = modes.complete ? std::max<int64_t>(0, static_cast<int64_t>(s.sub.contacts()) - rank) : -1;
+  const StressCone cone = find_stress_cone(s.rows, solver, states);
+  out.margin = cone.decided ? 0.0 : modes.margin;
+  if (!cone.decided) {
+    test_undecided_cone(s, cone, kind, out);
+    return out;
+  }
+  spread(s.on, cone.carrying, cone.force, out);
+  if (std::count(cone.carrying.begin(), cone.carrying.end(), 1) == 0)
+    s.complete(cone.motion, s.strain, out);
+  else
+    test_rank(s, cone, std::move(modes), out);
   return out;
 }
 
 // What is held in every strain is held in the fixed cell: a motion of the spheres alone is one without strain. Other
 // contacts between spheres of the strict K+ carry force too, as their rows depend on its rows.
-static bool test_by_strict(const RigidityMatrix &g, RigidityResult &out) {
-  const RigidityResult strict = find_verdict(g, Jamming::strict);
-  if (strict.jammed != Verdict::yes) return false;
+bool test_by_strict(const RigidityMatrix &g, RigidityResult &out) {
+  const RigidityResult strict = test_rows(g, Jamming::strict);
+  if (strict.rigid != Verdict::yes) return false;
   StressCone cone;
   cone.positive = strict.carrying;
   for (const double share : RigidityTuning::dependent_forces) {
@@ -188,7 +211,7 @@ static bool test_by_strict(const RigidityMatrix &g, RigidityResult &out) {
       if (!strict.carrying[k]) cone.path_force[k] = share;
     RigidityResult part;
     part.zero_force_contacts = static_cast<int64_t>(g.contacts());
-    if (!test_from_rigid_part(g, cone, Jamming::collective, part) || part.jammed != Verdict::yes) return false;
+    if (!test_from_rigid_part(g, cone, Jamming::collective, part) || part.rigid != Verdict::yes) return false;
     for (size_t k = 0; k < g.contacts(); ++k) part.carrying[k] = part.force[k] > 0.0;
     count_carrying(subset(g, part.carrying), 0, part);
     if (!(part.force_residual < RigidityTuning::most_residual)) continue;
@@ -201,17 +224,17 @@ static bool test_by_strict(const RigidityMatrix &g, RigidityResult &out) {
 // Spheres whose contact vectors nearly but not quite balance, as two that are opposite but for 1e-6, carry no force,
 // and each can slip out. Vectors are known to rounding, so that none is too near to a balance. Without them the rest
 // may be proved jammed. False where it is not.
-static bool test_without_unbalanced(const RigidityMatrix &g, Jamming kind, RigidityResult &out) {
+bool test_without_unbalanced(const RigidityMatrix &g, Jamming kind, RigidityResult &out) {
   std::vector<char> clear(g.contacts(), 1), on(g.contacts(), 1);
   const auto nodes = static_cast<size_t>(g.nodes);
   release_unbalanced(g.dim, nodes, g.a, g.b, g.normal, on, direction_errors(g));
   drop_unbalanced(g.dim, nodes, g.a, g.b, g.normal, clear);
   if (on == clear || std::count(on.begin(), on.end(), 1) == 0) return false;
   const RigidityMatrix rest = subset(g, on);
-  RigidityResult part = find_verdict(rest, kind);
-  const bool open = part.jammed == Verdict::undecided || (part.jammed == Verdict::no && part.flex.empty());
+  RigidityResult part = test_rows(rest, kind);
+  const bool open = part.rigid == Verdict::undecided || (part.rigid == Verdict::no && part.flex.empty());
   if (kind == Jamming::collective && open) test_by_strict(rest, part);
-  if (part.jammed != Verdict::yes) return false;
+  if (part.rigid != Verdict::yes) return false;
   out = part;
   out.carrying.assign(g.contacts(), 0), out.force.assign(g.contacts(), 0.0);
   spread(on, part.carrying, part.force, out);
@@ -219,14 +242,16 @@ static bool test_without_unbalanced(const RigidityMatrix &g, Jamming kind, Rigid
   return true;
 }
 
+}  // namespace
+
 // A no is proved by its motion. Where none holds up, K+ was not what it seemed, and nothing is decided.
 RigidityResult test_rigidity(const RigidityMatrix &g, Jamming kind) {
-  RigidityResult out = find_verdict(g, kind);
-  if (out.jammed == Verdict::yes || g.contacts() == 0) return out;
+  RigidityResult out = test_rows(g, kind);
+  if (out.rigid == Verdict::yes || g.contacts() == 0) return out;
   if (test_without_unbalanced(g, kind, out)) return out;
-  const bool open = out.jammed == Verdict::undecided || out.flex.empty();
+  const bool open = out.rigid == Verdict::undecided || out.flex.empty();
   if (kind == Jamming::collective && open && test_by_strict(g, out)) return out;
-  if (out.jammed != Verdict::no || !out.flex.empty()) return out;
+  if (out.rigid != Verdict::no || !out.flex.empty()) return out;
   const bool stressed = out.stressed == Verdict::yes,
              useless = !(out.force_residual < RigidityTuning::useless_residual);
   if (stressed && useless) {
@@ -234,11 +259,9 @@ RigidityResult test_rigidity(const RigidityMatrix &g, Jamming kind) {
     out.carrying.assign(g.contacts(), 0), out.force.assign(g.contacts(), 0.0);
     out.zero_force_contacts = static_cast<int64_t>(g.contacts());
   }
-  out.jammed = Verdict::undecided;
+  out.rigid = Verdict::undecided;
   if (!stressed || !(out.force_residual < RigidityTuning::most_residual) || useless) out.stressed = Verdict::undecided;
   return out;
 }
-
-ContactNetwork PackingVerdict::carrying(int dim) const { return subset(contacts, result.carrying, dim); }
 
 }  // namespace jam::inside

@@ -20,14 +20,8 @@
 #pragma once
 #include <cmath>
 #include <cstdint>
-#include <string>
 #include <vector>
 
-#include "core/call_scope.hpp"
-#include "core/packing.hpp"
-#include "network/contact_network.hpp"
-#include "network/rattlers.hpp"
-#include "network/resolution.hpp"
 #include "network/rigidity_matrix.hpp"
 
 namespace jam::inside {
@@ -38,9 +32,9 @@ constexpr double flex_eigenvalue = 1e-12, undecided_eigenvalue = 1e-10;
 enum class Jamming { collective, strict };
 enum class Verdict { no = 0, yes = 1, undecided = 2 };
 
-// Of a fixed list of contacts, all taken as closed.
+// Of a fixed list of contacts, all taken as closed. The verdict on a packing, whose contacts may be open: verdict.hpp.
 struct RigidityResult {
-  Verdict jammed = Verdict::no;
+  Verdict rigid = Verdict::no;      // jammed, if these are its contacts
   Verdict stressed = Verdict::no;   // K+ is not empty: no motion grows the diameters to first order (stationary)
   std::vector<char> carrying;       // K+, one flag a contact
   std::vector<double> force;        // in the middle of all non-negative states, mean 1 over K+, 0 on all others
@@ -69,35 +63,5 @@ struct RigidityResult {
       attempt;  // (nodes, dim): where undecided, a motion that may open contacts; nothing is proved of it
 };
 RigidityResult test_rigidity(const RigidityMatrix &contacts, Jamming kind);
-
-// Of a packing: contacts are all pairs with gaps below contact_gap_limit, and those of `listed` (which may be NULL)
-// below undecided_gap_limit. Others are open: gaps are known to rounding. In doubt are those of `listed` below
-// listed_gap_limit, and pairs that digits of coordinates cannot distinguish from contacts. They are taken as closed,
-// then as open; where the two verdicts differ, or carrying contacts are open by contact_gap_limit or more, the packing
-// is undecided. What stays undecided is jammed where it is without unlisted pairs whose gaps are wider than their
-// rounding. Where both are jammed, contacts and forces are those of the closed pairs alone. With few digits directions
-// are wrong too, and weak forces may have lost their sign: then only spheres with too few pairs near them make a no.
-// Else a flex of contacts with force makes one where it has room (room.hpp), and a motion that opens all contacts where
-// it opens them clearly.
-struct PackingVerdict {
-  RigidityResult result;
-  ContactNetwork contacts;                   // all that the test looked at, force as in result
-  std::vector<int32_t> sphere;               // node of result.flex -> sphere
-  int64_t undecided_contacts = 0;            // pairs of `contacts` that are open by contact_gap_limit or more
-  Verdict when_closed = Verdict::undecided;  // with all pairs in doubt closed
-  // The least force of an undecided packing whose contacts do not close together in two doubles; else 0.
-  double unresolved = 0.0;
-  std::string unresolved_because;  // what might decide it and could not be tried, as the end of a sentence; or empty
-  // The carrying contacts and their forces: the network that crunch and analysis go on with.
-  ContactNetwork carrying(int dim) const;
-};
-PackingVerdict test_packing(const Packing &p, const ContactNetwork *listed, Jamming kind);
-// Whether a sphere may touch its own image. Such pairs are no contacts of the collective test.
-bool may_touch_own_image(const Packing &p, const GapResolution &resolution);
-// There the strict test can show jamming where the collective one does not; strictly jammed is collectively jammed.
-void take_strict(PackingVerdict &collective, const PackingVerdict &strict);
-// The same where the resolution of gaps is known.
-PackingVerdict test_packing(const Packing &p, const GapResolution &resolution, const ContactNetwork *listed,
-                            Jamming kind);
 
 }  // namespace jam::inside

@@ -68,14 +68,18 @@ void add_parts(const RigidityMatrix &g, const std::vector<int32_t> &part, const 
 
 Slides find_slides(const RigidityMatrix &g) {
   const size_t d = static_cast<size_t>(g.dim);
-  std::vector<std::vector<double>> found, translations;
-  for (size_t c = 0; c < d; ++c) {
-    if ((g.open_axes >> c & 1u) == 0) continue;
-    translations.emplace_back(g.unknowns(), 0.0);
-    for (size_t i = c; i < g.unknowns(); i += d) translations.back()[i] = 1.0;
-  }
   if (g.nodes == 0) return {};
-  add_parts(g, parts_of(g, std::vector<char>(static_cast<size_t>(g.nodes), 0)), translations, found);
+  std::vector<std::vector<double>> found, translations;
+  const std::vector<int32_t> part = parts_of(g, std::vector<char>(static_cast<size_t>(g.nodes), 0));
+  for (size_t c = 0; c < d; ++c) {
+    if (c < static_cast<size_t>(g.round_axes)) continue;
+    std::vector<char> stopped(part.size(), 0);
+    for (size_t k = 0; k < g.contacts(); ++k)
+      if (g.b[k] < 0 && g.normal[k * d + c] != 0.0) stopped[part[g.a[k]]] = 1;
+    translations.emplace_back(g.unknowns(), 0.0);
+    for (size_t i = 0; i < part.size(); ++i) translations.back()[i * d + c] = stopped[part[i]] ? 0.0 : 1.0;
+  }
+  add_parts(g, part, translations, found);
   if (!g.rotations.empty()) add_parts(g, parts_of(g, middle_of(g)), g.rotations, found);
   Slides out;
   out.count = static_cast<int64_t>(found.size());

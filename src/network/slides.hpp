@@ -8,8 +8,9 @@
 
 namespace jam::inside {
 
-// Independent ones beyond the motions of the whole, and one of them (nodes, dim). A part translates along axes without
-// walls, or rotates about the centre of a round wall: there all contacts with a sphere in the middle stay closed too.
+// Independent ones beyond the motions of the whole, and one of them (nodes, dim). A part translates along an axis
+// on which it touches no wall, or rotates about the centre of a round wall: there all contacts with a sphere in the
+// middle stay closed too.
 struct Slides {
   int64_t count = 0;
   std::vector<double> motion;

@@ -86,20 +86,13 @@ struct RigidityTuning {
   // Contacts of spheres that move less across than along open less. Where that closes a contact by more than this part
   // of rounding, the flex is changed so that contacts which it opens by less than rounding stay closed.
   static constexpr double least_across = 1e-6;
-  // Where a flex overlaps at pairs that touch, this part of it is tried, and again.
-  static constexpr double shorter_flex = 0.1;
   // Of a motion of length 1, the least part that is no symmetry.
   static constexpr double least_relative = 1e-6;
-  // A strain whose largest coefficient is 1 brings two spheres of mean size nearer by this at most, over a displacement
-  // of 1: its norm in d = 2 ... 8, of up to 35 coefficients, is below 6.
-  static constexpr double strained = 6.0;
   // The curvature of a round wall holds a flex, or does not, by more than this part of the mean force times curvature:
   // a flex itself closes contacts by up to 1e-6.
   static constexpr double least_curvature = 1e-5;
   // Spheres at round walls stay: squared displacements across them below this, in a flex of length 1.
   static constexpr double still = 1e-14;
-  // A sphere that touches a round wall farther from its axis, in radii, has one contact there.
-  static constexpr double off_axis = 1e-5;
   // A rotation of the spheres about a line through all of them leaves less than this of a length, by rounding.
   static constexpr double no_rotation = 1e-9;
   // What is left of the motion of a part, of its length, where it is the motion of the whole or of other parts.
@@ -107,8 +100,7 @@ struct RigidityTuning {
   // Forces that balance worse than this, over the mean force, prove nothing; worse than the second they do not even
   // name the contacts.
   static constexpr double most_residual = 1e-10, useless_residual = 1e-6;
-  // Forces of contacts that depend on those of a rigid part, over its mean force: the first at which none of them
-  // pulls.
+  // Trial forces for dependent contacts, over the mean force. The first value that leaves no tensile force is used.
   static constexpr double dependent_forces[] = {0.1, 1e-3, 0.0};
 };
 

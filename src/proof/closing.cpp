@@ -121,7 +121,7 @@ bool take_middle_forces(ProofScene &scene) {
     add_closed_pairs(s, opening);
     const RigidityMatrix g = rows_of(s);
     const RigidityResult r = test_rigidity(g, Jamming::collective);
-    if (r.jammed != Verdict::yes) continue;
+    if (r.rigid != Verdict::yes) continue;
     for (size_t c = 0; c < s.contacts(); ++c) s.force[c] = r.force[c] / g.sigma[c], on.push_back(r.force[c] > 0.0);
     keep_contacts(s, on);
     scene = std::move(s);
@@ -172,7 +172,7 @@ Exchange close_together(ProofScene &scene, LpsEnd *lps) {
   return changed ? Exchange::changed : Exchange::same;
 }
 
-Settled settle_exchange(ProofScene &scene, Exchange end) {
+Settled finish_exchange(ProofScene &scene, Exchange end) {
   if (end == Exchange::endless) return Settled::unchanged;
   ProofScene s = scene;
   const Settled out = take_middle_forces(s) ? Settled::held : Settled::changed;
@@ -191,7 +191,7 @@ double scale_of(const ProofScene &s) {
 
 }  // namespace
 
-void lean_on_closed(ProofScene &settled, const ProofScene &closed) {
+void mix_in_forces_of_closed(ProofScene &settled, const ProofScene &closed) {
   const size_t d = static_cast<size_t>(closed.dim);
   const auto key = [d](const ProofScene &s, size_t c) {
     const auto at = s.image.begin() + static_cast<std::ptrdiff_t>(c * d);

@@ -16,10 +16,10 @@ Exchange close_together(ProofScene &scene, LpsEnd *lps = nullptr);
 // contacts that have some; and rattlers move out of overlaps. `held`: the test of jamming finds these forces, and no
 // flex. `unchanged`: there was no end, and the scene is as it was.
 enum class Settled { unchanged, changed, held };
-Settled settle_exchange(ProofScene &scene, Exchange end);
+Settled finish_exchange(ProofScene &scene, Exchange end);
 
 // Adds the forces of the contacts that close to a small part of those in the middle: pairs that are not quite closed
 // carry little then, and a proof allows for their gaps.
-void lean_on_closed(ProofScene &settled, const ProofScene &closed);
+void mix_in_forces_of_closed(ProofScene &settled, const ProofScene &closed);
 
 }  // namespace jam::inside

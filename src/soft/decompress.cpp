@@ -128,10 +128,10 @@ namespace {
 class Decompression {
  public:
   Decompression(const Packing &start, const jam_decompress_options &o, Monitor &monitor,
-                const std::function<SoftVerdict(const SoftResult &)> &judge)
+                const std::function<SoftComparison(const SoftResult &)> &compare)
       : o_(o),
         monitor_(monitor),
-        judge_(judge),
+        compare_(compare),
         state_(first_state(start, PairEnergy(o.alpha, o.scale), o.precision)),
         before_(state_),
         factor_(o.energy_factor) {
@@ -222,7 +222,7 @@ class Decompression {
     report_.isostatic = is_isostatic(state_, out_.soft, effort_.factorisations);
     const bool target = at.pressure <= o_.pressure || at.distance <= o_.distance;
     if (target || (o_.isostatic && report_.isostatic)) {
-      const bool same = !judge_ || ask();
+      const bool same = !compare_ || same_as_hard();
       if (target || same) return end_with(JAM_OK, at.pressure <= o_.pressure ? JAM_STOP_PRESSURE : JAM_STOP_CONVERGED);
     }
     if (at.mean_overlap < overlap_resolution(out_.soft.packing)) return end_with(JAM_PRECISION, JAM_STOP_PRECISION);
@@ -230,15 +230,15 @@ class Decompression {
     return false;
   }
 
-  // Whether the judge's jammed packing has the same network; notes the verdict.
-  bool ask() {
-    const SoftVerdict verdict = judge_(out_.soft);
-    report_.same_network = verdict.same_network;
-    report_.common_contacts = verdict.common_contacts;
-    report_.crunch_fraction = verdict.packing_fraction;
-    report_.force_difference = verdict.force_difference;
-    report_.seconds_crunch += verdict.seconds;
-    return verdict.same_network;
+  // Whether the packing of a crunch from below has the same network. Records the comparison.
+  bool same_as_hard() {
+    const SoftComparison hard = compare_(out_.soft);
+    report_.same_network = hard.same_network;
+    report_.common_contacts = hard.common_contacts;
+    report_.crunch_fraction = hard.packing_fraction;
+    report_.force_difference = hard.force_difference;
+    report_.seconds_crunch += hard.seconds;
+    return hard.same_network;
   }
 
   void finish() {
@@ -262,7 +262,7 @@ class Decompression {
 
   const jam_decompress_options &o_;
   Monitor &monitor_;
-  const std::function<SoftVerdict(const SoftResult &)> &judge_;
+  const std::function<SoftComparison(const SoftResult &)> &compare_;
   SoftState state_, before_;  // now, and at the last minimum
   double factor_;             // of the energy in the next step
   Effort effort_;
@@ -273,10 +273,10 @@ class Decompression {
 }  // namespace
 
 DecompressionResult decompress(const Packing &start, const jam_decompress_options &o, Monitor &monitor,
-                               const std::function<SoftVerdict(const SoftResult &)> &judge) {
+                               const std::function<SoftComparison(const SoftResult &)> &compare) {
   check_decompress_options(o);
   monitor.wall_time = o.wall_time;
-  return Decompression(start, o, monitor, judge).run();
+  return Decompression(start, o, monitor, compare).run();
 }
 
 }  // namespace jam::inside

@@ -30,8 +30,8 @@ SoftResult relax(const Packing &start, const jam_relax_options &o, Monitor &moni
 constexpr size_t soft_columns = JAM_SOFT_SECONDS + 1;
 using SoftRow = std::array<double, soft_columns>;
 
-// What a jammed packing that was made from just below contact says of the soft one.
-struct SoftVerdict {
+// A soft packing beside the jammed one that a crunch made from just below contact.
+struct SoftComparison {
   bool same_network = false;
   int64_t common_contacts = -1;
   double packing_fraction = 0.0, force_difference = 0.0, seconds = 0.0;
@@ -44,9 +44,9 @@ struct DecompressionResult {
   jam_status status = JAM_OK;
 };
 
-// judge: called at a 1SS network; empty: not asked.
+// compare: called at a 1SS network; empty: not asked.
 DecompressionResult decompress(const Packing &start, const jam_decompress_options &o, Monitor &monitor,
-                               const std::function<SoftVerdict(const SoftResult &)> &judge);
+                               const std::function<SoftComparison(const SoftResult &)> &compare);
 
 // ---- parts
 
@@ -56,8 +56,8 @@ jam_crunch_report soft_certificate(const SoftResult &soft, double seconds);
 Packing just_below_contact(const SoftResult &soft);
 // Contacts that both have, and the largest difference of their forces where all are the same. report: of the crunch
 // that made `hard`.
-SoftVerdict compare_with_jammed(const ContactNetwork &soft, const ContactNetwork &hard,
-                                const jam_crunch_report &report);
+SoftComparison compare_with_jammed(const ContactNetwork &soft, const ContactNetwork &hard,
+                                   const jam_crunch_report &report);
 // Measures a state at its minimum: report without what was spent, network.
 SoftResult measure(SoftState &state, int32_t minimiser);
 // The state of a start; its search for pairs may be left by Cancelled.

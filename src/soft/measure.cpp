@@ -69,7 +69,6 @@ SoftResult measure(SoftState &state, int32_t minimiser) {
 jam_crunch_report soft_certificate(const SoftResult &soft, double seconds) {
   jam_crunch_report r{};
   certify(soft.packing, soft.contacts, r);
-  r.jammed = 0;
   r.stop_reason = JAM_STOP_NONE;
   r.gain = r.max_step = r.gamma_residual = r.duality_gap = std::nan("");
   r.seconds = seconds;
@@ -84,9 +83,9 @@ Packing just_below_contact(const SoftResult &soft) {
   return p;
 }
 
-SoftVerdict compare_with_jammed(const ContactNetwork &soft, const ContactNetwork &hard,
-                                const jam_crunch_report &report) {
-  SoftVerdict v;
+SoftComparison compare_with_jammed(const ContactNetwork &soft, const ContactNetwork &hard,
+                                   const jam_crunch_report &report) {
+  SoftComparison v;
   v.packing_fraction = report.packing_fraction;
   v.force_difference = std::nan("");
   const auto common = common_contacts(soft, hard);

@@ -8,7 +8,7 @@
 
 #include "core/create.hpp"
 #include "io/files.hpp"
-#include "network/rigidity_test.hpp"
+#include "verdict/verdict.hpp"
 
 using namespace jam::inside;
 
@@ -58,7 +58,7 @@ void measure(const std::string &name, const Packing &p, Jamming kind) {
       "\"contacts\": %lld, \"excess\": %lld, \"zero_force\": %lld, \"undecided\": %lld, \"flexes\": %lld, "
       "\"undercoordinated\": %lld, \"margin\": %.4g, \"residual\": %.2g, \"spheres\": %lld}",
       first ? "[" : ",\n ", name.c_str(), family(p, r), kind == Jamming::strict ? "strict" : "collective", p.dim, p.n(),
-      t[t.size() / 2], verdict[static_cast<int>(r.jammed)], static_cast<long long>(r.contacts),
+      t[t.size() / 2], verdict[static_cast<int>(v.jammed)], static_cast<long long>(r.contacts),
       static_cast<long long>(r.contacts - r.contacts_needed), static_cast<long long>(r.zero_force_contacts),
       static_cast<long long>(v.undecided_contacts), static_cast<long long>(r.flexes),
       static_cast<long long>(r.undercoordinated), r.margin, r.force_residual, static_cast<long long>(r.spheres));

@@ -130,7 +130,9 @@ def summary(rows):
     }
 
 
-STEERED = """#include <cstdlib>
+STEERED = """#ifndef JAM_STEERED
+#define JAM_STEERED
+#include <cstdlib>
 #include <cstring>
 namespace jam::inside {
 inline double steered(const char *name) {
@@ -139,18 +141,21 @@ inline double steered(const char *name) {
   return set && std::strncmp(set, name, n) == 0 && set[n] == '=' ? std::atof(set + n + 1) : 1.0;
 }
 }  // namespace jam::inside
+#endif
 """
 
 
 def steered(text):
     """The source with each of NUMBERS times what the environment says."""
     for name in NUMBERS.split():
+        if f" {name}" not in text:
+            continue  # it stands in the other file
         found = re.search(rf"\b{name}(?:\[\])? = (\{{[^}}]*\}}|[0-9.e+-]+)", text)
         value = re.sub(r"[0-9][0-9.e+-]*", rf'\g<0> * steered("{name}")', found[1])
         text = text[: found.start(1)] + value + text[found.end(1) :]
         begin = text.rindex("static ", 0, found.start())
         text = text[:begin] + re.sub("^static constexpr", "static inline const", text[begin:])
-    return text.replace("#include <cstddef>\n", "#include <cstddef>\n" + STEERED, 1)
+    return text.replace("#pragma once\n", "#pragma once\n" + STEERED, 1)
 
 
 def run(build, name, factor):
@@ -159,14 +164,16 @@ def run(build, name, factor):
 
 
 def numbers(checkout):
-    source, build = checkout / "src/network/tuning.hpp", checkout / "build"
-    kept = source.read_text(encoding="utf-8")
+    sources, build = [checkout / f"src/{layer}/tuning.hpp" for layer in ("network", "verdict")], checkout / "build"
+    kept = [source.read_text(encoding="utf-8") for source in sources]
     rows, before = [], None
     try:
-        source.write_text(steered(kept), encoding="utf-8")
+        for source, text in zip(sources, kept):
+            source.write_text(steered(text), encoding="utf-8")
         subprocess.run(["ninja", "-C", build, "-j2"], check=True, stdout=subprocess.DEVNULL)
     finally:
-        source.write_text(kept, encoding="utf-8")
+        for source, text in zip(sources, kept):
+            source.write_text(text, encoding="utf-8")
     for name, factor in [("", 1.0), *((name, f) for name in NUMBERS.split() for f in FACTORS.get(name, (10.0, 0.1)))]:
         now = run(build, name, factor)
         before = before or now

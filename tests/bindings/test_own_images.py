@@ -95,6 +95,26 @@ class OwnImages(unittest.TestCase):
                 self.assertEqual((t.bloch_rigidity([1] * dim).flexes.sum(), t.status.name), (0, "OK"))
                 self.assertEqual(t.bloch_rigidity([2] + [1] * (dim - 1)).flexes.sum(), dim - 1)  # rows slide
 
+    def test_every_call_counts_them_alike(self):
+        """Big spheres that own images alone hold, and a rattler: contacts are the closed pairs of images, by numpy."""
+        for dim, ratio, seed in ((2, 3.0, 1), (2, 6.0, 2), (3, 1.7, 1), (3, 3.0, 1)):
+            s = jam.System.random(dim=dim, diameters=[1.0, ratio], seed=seed, packing_fraction=0.1)
+            s.compress()
+            r = s.crunch()
+            steps = np.array([q for q in itertools.product((-1, 0, 1), repeat=dim) if q > (0,) * dim]) @ s.cell
+            own = (np.linalg.norm(steps, axis=1) < s.diameters.max() * (1 + 1e-10)).sum()
+            if own == 0:
+                continue
+            self.assertEqual(own, dim)
+            self.assertTrue(r.jammed)
+            check, rigidity = s.check(crunch=False), s.rigidity()
+            for found in (r, check, rigidity):
+                self.assertEqual(found.contacts, own)
+            self.assertEqual([r.stable, r.rattlers, check.rattlers, rigidity.stable], [1, 1, 1, 1])
+            self.assertEqual((s.rattlers.sum(), len(s.contacts), s.coordination.sum()), (1, own, 2 * own))
+            self.assertLess(r.force_residual, 1e-12)
+            self.assertEqual(jam.System.from_arrays(s.positions, s.diameters, cell=s.cell).check(crunch=False).contacts, own)
+
     def test_proofs_name_them(self):
         """Where a network does not list them, too."""
         one = jam.System.from_arrays([[0.25, 0.25]], 1.0, cell=np.eye(2))

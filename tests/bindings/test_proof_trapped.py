@@ -231,7 +231,7 @@ class Trapped(unittest.TestCase):
         system = disks_of("opposite_disks.txt")
         verdict = system.rigidity("collective")
         self.assertEqual(verdict.jammed, jam.Verdict.UNDECIDED)
-        self.assertIn("motions keep all contacts closed", verdict.status_text)
+        self.assertIn("1 motion keeps the contacts closed", verdict.status_text)
         self.assertEqual(system.check(crunch=False).jammed, jam.Verdict.UNDECIDED)
         x = [[Fraction(v) for v in row] for row in system.positions.tolist()]
         size = Fraction(float(system.diameters[0]))

@@ -169,21 +169,28 @@ class Slides(unittest.TestCase):
             self.assertGreater(s.packing_fraction, 0.25)
 
     def test_spheres_that_fill_a_slit_slide(self):
-        """Each touches both walls and no other sphere: no motion lets the diameters grow."""
-        for x, cell, walls in (
-            ([[0.5, 0.5], [0.5, 2.0], [0.5, 3.1]], [1, 4], "x"),
-            ([[0.5, 0.5, 0.5], [2.0, 1.7, 0.5], [1.2, 2.9, 0.5]], [3, 4, 1], "z"),
+        """Each touches both walls and no other sphere: no motion lets the diameters grow. Along an axis with walls, which they
+        do not touch, all three move on their own; along another one the motion of all together is none."""
+        disks, spheres = [[0.5, 0.7], [0.5, 2.0], [0.5, 3.1]], [[0.7, 0.6, 0.5], [2.0, 1.7, 0.5], [1.2, 2.9, 0.5]]
+        for x, cell, walls, slides in (
+            (disks, [1, 4], "x", 2),
+            (disks, [1, 4], "xy", 3),
+            (spheres, [3, 4, 1], "z", 4),
+            (spheres, [3, 4, 1], "xz", 5),
+            (spheres, [3, 4, 1], "xyz", 6),
         ):
             s = jam.System.from_arrays(x, 1.0, cell=cell, walls=walls, dim=len(cell))
             c = s.check(crunch=False)
-            axes = s.dim - 1
-            self.assertEqual((c.jammed, c.stationary, c.reason, c.flexes), (0, 1, jam.CheckReason.SLIDE, 2 * axes))
-            self.assertIn(f"slide past each other in {2 * axes} ways", str(c))
+            self.assertEqual((c.jammed, c.stationary, c.reason, c.flexes), (0, 1, jam.CheckReason.SLIDE, slides))
+            self.assertIn(f"slide past each other in {slides} ways", str(c))
+            before = s.positions.copy()
             r = s.crunch()
-            self.assertEqual((r.jammed, r.stop_reason), (0, jam.StopReason.SADDLE))
+            self.assertEqual((r.jammed, r.stop_reason, r.contacts), (0, jam.StopReason.SADDLE, 2 * s.n))
+            self.assertEqual(r.decompressions, 0)
+            self.assertLess(abs(s.positions - before).max(), 0.02)
             self.assertIn("slide past each other", jam.raw.jam_last_error())
             motion = s.flex()[0]
-            np.testing.assert_allclose(motion[:, "xyz".index(walls)], 0, atol=1e-12)
+            np.testing.assert_allclose(motion[:, "xyz".index(walls[-1] if s.dim == 3 else walls[0])], 0, atol=1e-12)
             self.assertGreater(np.ptp(motion, axis=0).max(), 0.1)
 
     def test_a_column_across_a_slit_opens(self):

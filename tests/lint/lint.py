@@ -18,14 +18,15 @@ LAYERS = {
     "linalg": ["core"],
     "lp": ["linalg", "core"],
     "network": ["linalg", "core"],
-    "crunch": ["proof", "lp", "network", "linalg", "core"],
+    "crunch": ["verdict", "lp", "network", "linalg", "core"],
     "soft": ["lp", "network", "linalg", "core"],
     "dynamics": ["soft", "network", "linalg", "core"],
-    "analysis": ["lp", "network", "linalg", "core"],
+    "analysis": ["verdict", "lp", "network", "linalg", "core"],
+    "verdict": ["proof", "network", "linalg", "core"],
     "proof": ["lp", "network", "linalg", "core"],
     "pore": ["network", "core"],
     "io": ["dynamics", "network", "proof", "pore", "core"],
-    "capi": ["core", "linalg", "lp", "network", "crunch", "soft", "dynamics", "analysis", "pore", "proof", "io"],
+    "capi": ["core", "linalg", "lp", "network", "crunch", "soft", "dynamics", "analysis", "pore", "verdict", "proof", "io"],
 }
 # Folders of a layer: each may include the layer's own headers, itself and those listed here.
 FOLDERS = {
@@ -52,6 +53,7 @@ TUNED = {
     "core": ["double_double.hpp", "limits.hpp", "math.cpp", "math.hpp", "math_normal.cpp", "packing.cpp", "pair_energy.hpp", "size_laws.cpp",
              "size_report.cpp"],
     "network": ["resolution.hpp"],
+    "verdict": [],
     "soft": [],
     "lp": [],
     "linalg": ["newton_system.hpp"],

@@ -6,7 +6,7 @@
 #include "core/create.hpp"
 #include "core/rng.hpp"
 #include "network/contacts_from_geometry.hpp"
-#include "proof/judge.hpp"
+#include "verdict/verdict.hpp"
 // Last: cmocka defines a macro `fail`.
 extern "C" {
 #include "test.h"
@@ -28,8 +28,8 @@ Look look(const Packing &p, double tolerance = 0.0) {
   Look out;
   static_cast<GeometryResult &>(out) = contacts_from_geometry(p, o);
   const GapResolution resolution = gap_resolution(p);
-  out.verdict = judge(p, resolution, &out.network, Jamming::collective);
-  out.status = status_of(out, out.verdict.result.jammed, resolution, p);
+  out.verdict = verdict_of(p, &out.network, Jamming::collective);
+  out.status = status_of(out, out.verdict.jammed, resolution, p);
   return out;
 }
 

@@ -6,8 +6,8 @@
 
 #include "capi/system.hpp"
 #include "core/pair_rule.hpp"
-#include "network/rigidity_test.hpp"
 #include "rigidity_oracle.hpp"
+#include "verdict/verdict.hpp"
 // Last: cmocka defines a macro `fail`.
 extern "C" {
 #include "start.h"
@@ -104,12 +104,12 @@ void deviations(void **) {
           assert_true(std::fabs(nearest_gap(q, p.n())) < 1e-12);
           const PackingVerdict v = test_packing(q, nullptr, Jamming::collective);
           if (deviation > 0.0) {
-            assert_true(v.result.jammed == Verdict::yes);
+            assert_true(v.jammed == Verdict::yes);
             assert_int_equal(v.result.contacts, base.result.contacts);
             assert_int_equal(v.result.spheres, base.result.spheres);
             continue;
           }
-          assert_true(v.result.jammed == Verdict::no && v.result.stressed == Verdict::yes);
+          assert_true(v.jammed == Verdict::no && v.result.stressed == Verdict::yes);
           assert_int_equal(v.result.flexes, dim - 1);
           assert_int_equal(v.result.undercoordinated, 1);
           assert_false(ask_oracle(make_rigidity_matrix(q, v.contacts), false).jammed);
@@ -148,7 +148,7 @@ RigidityMatrix with_weak_and_without(double tilt) {
 void weak_forces_beside_none(void **) {
   for (const double tilt : {1e-4, 1e-6, 1e-8, 1e-9, 3e-10}) {
     const RigidityResult r = test_rigidity(with_weak_and_without(tilt), Jamming::collective);
-    assert_true(r.jammed == Verdict::yes);
+    assert_true(r.rigid == Verdict::yes);
     assert_int_equal(r.spheres, 17);
     assert_int_equal(r.contacts, 51);
     assert_int_equal(r.zero_force_contacts, 6);
@@ -179,7 +179,7 @@ void contacts_without_force_at_a_round_wall(void **) {
     assert_true(r.stressed == Verdict::yes);
     assert_int_equal(r.contacts, 3);
     assert_int_equal(r.flexes, 2);
-    assert_true(r.jammed == (blocked ? Verdict::undecided : Verdict::no));
+    assert_true(r.rigid == (blocked ? Verdict::undecided : Verdict::no));
     assert_true(r.flex.empty() == blocked);
   }
 }

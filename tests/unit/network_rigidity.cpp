@@ -8,9 +8,9 @@
 #include "capi/system.hpp"
 #include "core/create.hpp"
 #include "core/rng.hpp"
-#include "network/check.hpp"
-#include "network/rigidity_test.hpp"
 #include "rigidity_oracle.hpp"
+#include "verdict/check.hpp"
+#include "verdict/verdict.hpp"
 // Last: cmocka defines a macro `fail`.
 extern "C" {
 #include "start.h"
@@ -87,13 +87,13 @@ RigidityResult confirmed(const RigidityMatrix &g, Jamming kind) {
   const RigidityResult r = test_rigidity(g, kind);
   const bool strain = kind == Jamming::strict;
   const Oracle o = ask_oracle(g, strain);
-  assert_true(r.jammed != Verdict::undecided);
-  assert_int_equal(r.jammed == Verdict::yes, o.jammed);
+  assert_true(r.rigid != Verdict::undecided);
+  assert_int_equal(r.rigid == Verdict::yes, o.jammed);
   for (size_t k = 0; k < g.contacts(); ++k) assert_int_equal(r.carrying[k], o.carrying[k]);
   if (r.stressed == Verdict::yes) assert_int_equal(r.flexes, o.flexes);
   check_stress(g, r);
-  if (r.jammed == Verdict::no && g.contacts() > 0) check_flex(g, r, strain);
-  if (r.jammed == Verdict::yes) assert_true(r.flex.empty());
+  if (r.rigid == Verdict::no && g.contacts() > 0) check_flex(g, r, strain);
+  if (r.rigid == Verdict::yes) assert_true(r.flex.empty());
   return r;
 }
 
@@ -102,9 +102,9 @@ void expect(const Case &c, bool collective, int64_t flexes, bool strict, int64_t
   const RigidityResult a = confirmed(g, Jamming::collective), b = confirmed(g, Jamming::strict);
   if (a.contacts > 0) assert_int_equal(a.contacts_needed, g.dim * (a.spheres - 1) + 1);
   if (b.contacts > 0) assert_int_equal(b.contacts_needed, g.dim * (b.spheres - 1) + g.dim * (g.dim + 1) / 2);
-  assert_int_equal(a.jammed == Verdict::yes, collective);
+  assert_int_equal(a.rigid == Verdict::yes, collective);
   if (flexes >= 0) assert_int_equal(a.flexes, flexes);
-  assert_int_equal(b.jammed == Verdict::yes, strict);
+  assert_int_equal(b.rigid == Verdict::yes, strict);
   if (strict_flexes >= 0) assert_int_equal(b.flexes, strict_flexes);
 }
 
@@ -150,8 +150,8 @@ void make(Sys &s, int dim, int64_t n, int64_t seed, double ratio, bool crunched)
   if (crunched) assert_int_equal(jam_crunch(s.sys, nullptr, nullptr), JAM_OK);
 }
 
-RigidityResult of_packing(const Packing &p, Jamming kind = Jamming::collective) {
-  return test_packing(p, nullptr, kind).result;
+Verdict answer_of(const Packing &p, Jamming kind = Jamming::collective) {
+  return test_packing(p, nullptr, kind).jammed;
 }
 
 // The contacts that the test looked at, as a list for the oracle.
@@ -166,29 +166,29 @@ void amorphous(void **) {
     const Packing &p = s.sys->packing;
     const RigidityMatrix g = list_of(p);
     const RigidityResult r = confirmed(g, Jamming::collective);
-    assert_true(r.jammed == Verdict::yes);
+    assert_true(r.rigid == Verdict::yes);
     assert_true(r.contacts >= r.contacts_needed && r.margin > 1e-8 && r.force_residual < 1e-10);
     // A fixed cube does not make it strictly jammed: too few contacts.
-    assert_true(confirmed(g, Jamming::strict).jammed == Verdict::no);
+    assert_true(confirmed(g, Jamming::strict).rigid == Verdict::no);
     // Without any one sphere of the backbone nothing is left that carries force.
     Packing fewer = p;
     const int32_t gone = g.sphere[static_cast<size_t>(g.a[0])];
     fewer.diameter.erase(fewer.diameter.begin() + gone);
     fewer.position.erase(fewer.position.begin() + gone * dim, fewer.position.begin() + (gone + 1) * dim);
     const RigidityResult hole = confirmed(list_of(fewer), Jamming::collective);
-    assert_true(hole.stressed == Verdict::no && hole.jammed == Verdict::no);
+    assert_true(hole.stressed == Verdict::no && hole.rigid == Verdict::no);
     assert_int_equal(hole.contacts, 0);
     // A gap of 1e-3 everywhere.
     Packing shrunk = p;
     for (double &x : shrunk.diameter) x *= 1.0 - 1e-3;
-    assert_true(of_packing(shrunk).jammed == Verdict::no);
+    assert_true(answer_of(shrunk) == Verdict::no);
     // Gaps are known to 1e-15: nothing touches.
     for (const double gap : {3e-10, 1e-9, 1e-8, 1e-7, 1e-6}) {
       Packing close = p;
       for (double &x : close.diameter) x *= 1.0 - gap;
       const PackingVerdict v = test_packing(close, nullptr, Jamming::collective);
-      assert_true(v.result.jammed == Verdict::no && v.result.stressed == Verdict::no);
-      assert_true(test_packing(close, nullptr, Jamming::strict).result.jammed == Verdict::no);
+      assert_true(v.jammed == Verdict::no && v.result.stressed == Verdict::no);
+      assert_true(answer_of(close, Jamming::strict) == Verdict::no);
       assert_int_equal(v.result.flex.size(), v.sphere.size() * static_cast<size_t>(dim));
       assert_true(check_as_it_is(close).report.reason == JAM_CHECK_APART);
     }
@@ -199,9 +199,9 @@ void fluids_are_not_jammed(void **) {
   for (int64_t seed = 1; seed <= 5; ++seed) {
     Sys s;
     make(s, 3, 64, seed, 1.0, false);
-    assert_true(of_packing(s.sys->packing).jammed == Verdict::no);
+    assert_true(answer_of(s.sys->packing) == Verdict::no);
     const ContactNetwork none;
-    assert_true(test_packing(s.sys->packing, &none, Jamming::collective).result.jammed == Verdict::no);
+    assert_true(test_packing(s.sys->packing, &none, Jamming::collective).jammed == Verdict::no);
   }
 }
 
@@ -247,7 +247,7 @@ void rattlers_by_force_alone(void **) {
     add_contact(sheet, i, (y + 1) % 4 * 4 + x, {0.0, y == 3 ? -4.0 : 0.0, 0.0});
   }
   const RigidityResult flat = confirmed(rows_of(sheet), Jamming::collective);
-  assert_true(flat.jammed == Verdict::no);
+  assert_true(flat.rigid == Verdict::no);
   assert_int_equal(flat.flexes, 8 + 16 - 3);
 }
 
@@ -257,7 +257,7 @@ void a_loose_sphere_in_doubt(void **) {
   Packing p = fcc_cube(4);
   p.diameter[9] *= 1.0 - 2e-8;
   const PackingVerdict v = test_packing(p, nullptr, Jamming::collective);
-  assert_true(v.result.jammed == Verdict::yes);
+  assert_true(v.jammed == Verdict::yes);
   assert_int_equal(v.undecided_contacts, 12);
   assert_int_equal(v.result.spheres, 255);
   assert_int_equal(v.result.contacts, 6 * 256 - 12);

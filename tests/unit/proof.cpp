@@ -9,13 +9,13 @@
 #include "linalg/shifted_factor.hpp"
 #include "lp/packing_lp.hpp"
 #include "proof/closing.hpp"
+#include "proof/find.hpp"
 #include "proof/free_rattler.hpp"
 #include "proof/newton.hpp"
 #include "proof/open_gaps.hpp"
 #include "proof/outward.hpp"
 #include "proof/refined_lp.hpp"
 #include "proof/theorem.hpp"
-#include "proof/verdict.hpp"
 // test.h comes last: it has a macro `fail`.
 #include "test.h"
 
@@ -235,7 +235,7 @@ void contacts_that_stay_open_leave_the_list(void **) {
     Lattice l = triangular(6, 6);
     l.packing.diameter[k] -= 1e-14;
     ProofScene s = make_proof_scene(l.packing, l.network, {});
-    assert_true(settle_exchange(s, close_together(s)) != Settled::unchanged);
+    assert_true(finish_exchange(s, close_together(s)) != Settled::unchanged);
     check_closed(s);
     assert_true(s.contacts() < l.network.size());
   }
@@ -284,7 +284,7 @@ void pairs_that_overlap_enter_the_list(void **) {
   for (size_t c = 0, left = 3; c < on.size(); ++c)
     if (left > 0 && (l.network.pairs.i[c] == 14 || l.network.pairs.j[c] == 14)) on[c] = 0, --left;
   ProofScene s = make_proof_scene(l.packing, subset(l.network, on, 2), {});
-  assert_true(settle_exchange(s, close_together(s)) != Settled::unchanged);
+  assert_true(finish_exchange(s, close_together(s)) != Settled::unchanged);
   check_closed(s);
   assert_true(s.node[14] >= 0);
 }
@@ -305,7 +305,7 @@ void check_that_it_moves_out(double diameter, double x) {
     return most;
   };
   assert_true(overlap() > 1e-15);
-  assert_true(settle_exchange(s, close_together(s)) != Settled::unchanged);
+  assert_true(finish_exchange(s, close_together(s)) != Settled::unchanged);
   assert_true(overlap() == 0.0);
 }
 void rattlers_move_out_of_overlaps(void **) {

@@ -202,7 +202,7 @@ void limits_are_told(void **) {
 void failed_steps_set_the_scale(void **) {
   Monitor monitor;
   monitor.begin();
-  const std::function<SoftVerdict(const SoftResult &)> nobody;
+  const std::function<SoftComparison(const SoftResult &)> nobody;
   jam_decompress_options o = default_decompress_options();
   o.isostatic = o.crunch = 0, o.distance = 1e-2;
   const DecompressionResult near = decompress(random_packing(3, 256, 0.70, 1), o, monitor, nobody);

@@ -1,7 +1,7 @@
 // Leaving a saddle: forces balance, but a flex opens contacts. The spheres move along it until pairs block.
 #pragma once
 #include "crunch/state.hpp"
-#include "network/rigidity_test.hpp"
+#include "verdict/verdict.hpp"
 
 namespace jam::inside {
 

@@ -2,9 +2,9 @@
 
 #include "crunch/approach/free_cell.hpp"
 #include "crunch/control.hpp"
+#include "crunch/identify/end.hpp"
 #include "crunch/identify/narrow_lps.hpp"
 #include "crunch/identify/recompress.hpp"
-#include "crunch/identify/verdict.hpp"
 
 namespace jam::inside {
 namespace {
@@ -41,7 +41,7 @@ Phase identify(CrunchState &s) {
     forget_contacts(s);
     return Phase::approach;
   }
-  if (s.o.polish && !s.found.polished && s.found.narrow == Verdicts::Narrow::none) return Phase::narrow_lps;
+  if (s.o.polish && !s.found.polished && s.found.narrow == CrunchFindings::Narrow::none) return Phase::narrow_lps;
   return decide_jamming(s);
 }
 

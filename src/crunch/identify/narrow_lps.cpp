@@ -5,12 +5,12 @@
 
 #include "crunch/approach/lp_step.hpp"
 #include "crunch/control.hpp"
-#include "crunch/identify/verdict.hpp"
+#include "crunch/identify/end.hpp"
 
 namespace jam::inside {
 namespace {
 
-using Narrow = Verdicts::Narrow;
+using Narrow = CrunchFindings::Narrow;
 
 // A basis for the simplex method from an interior point's answer: rows with force are tight, spheres with force free.
 LpSolution basis_of(const CrunchState &s) {

@@ -1,5 +1,5 @@
 // See check.hpp.
-#include "network/check.hpp"
+#include "verdict/check.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,9 +7,9 @@
 
 #include "core/error.hpp"
 #include "core/pair_rule.hpp"
-#include "network/certificate.hpp"
 #include "network/constraint_rows.hpp"
 #include "network/tuning.hpp"
+#include "verdict/text.hpp"
 
 namespace jam::inside {
 namespace {
@@ -18,7 +18,7 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 // Diameters of the tested packing are reduced until the worst pair just touches. That such a pair overlaps says that
 // gaps are known no better.
-GapResolution take_overlaps(CheckResult &out, bool &unexplained) {
+GapResolution take_overlaps(CheckResult &out, bool &overlapping) {
   Packing &p = out.tested;
   const ClosestPair closest = closest_contact(p);
   out.report.nearest_gap = closest.gap;
@@ -35,7 +35,7 @@ GapResolution take_overlaps(CheckResult &out, bool &unexplained) {
          closest.j, -closest.gap);
   // Beyond rounding and the digits of the coordinates the reduced spheres are another packing.
   const double overlap = -closest.gap * contact_distance(p, closest.i, closest.j);
-  unexplained = -closest.gap > undecided_gap_limit && overlap > resolution.reach();
+  overlapping = -closest.gap > undecided_gap_limit && overlap > resolution.reach();
   widen(resolution, p, overlap);
   out.report.diameter_factor = 1.0 + closest.gap;
   for (double &sigma : p.diameter) sigma *= out.report.diameter_factor;
@@ -61,36 +61,24 @@ void scan_pairs(const Packing &p, const std::vector<int32_t> &coordination, jam_
   }
 }
 
-void take_verdict(const Packing &p, const PackingVerdict &v, const ContactNetwork &net, jam_check_report &r) {
+void report_network(const Packing &p, const PackingVerdict &v, const ContactNetwork &net, jam_check_report &r) {
   r.contacts = static_cast<int64_t>(net.size());
   r.rattlers = static_cast<int64_t>(p.n()) - stable_spheres(net.coordination);
   r.excess_contacts = excess_contacts(net, p);
-  r.zero_force_contacts = v.result.zero_force_contacts;
-  r.undecided_contacts = v.undecided_contacts;
+  report_counts(v, r);
   r.self_stresses = v.result.self_stresses;
-  r.flexes = v.result.flexes;
   r.stationary = verdict_code(v.result.stressed);
   r.force_residual = net.size() ? v.result.force_residual : nan;
-  r.rigidity_margin = net.size() ? v.result.margin : nan, r.curvature_margin = v.result.curvature;
+  if (net.size() == 0) r.rigidity_margin = nan;
+  r.curvature_margin = v.result.curvature;
   r.max_contact_gap = net.size() ? 0.0 : nan;
   for (const double h : net.gap) r.max_contact_gap = std::max(r.max_contact_gap, std::fabs(h));
   scan_pairs(p, net.coordination, r);
 }
 
-int32_t reason_of(const jam_check_report &r, bool coarse, bool changes_when_closed, bool slides) {
-  if (r.jammed == JAM_VERDICT_YES) return JAM_CHECK_PROOF;
-  if (r.jammed == JAM_VERDICT_UNDECIDED) {
-    if (coarse) return r.diameter_factor < 1.0 && r.digits == 0 ? JAM_CHECK_OVERLAP : JAM_CHECK_DIGITS;
-    return changes_when_closed ? JAM_CHECK_GAPS : JAM_CHECK_MARGIN;
-  }
-  if (r.closed_pairs == 0) return JAM_CHECK_APART;
-  if (r.stationary != JAM_VERDICT_YES) return JAM_CHECK_NO_FORCE;
-  return slides ? JAM_CHECK_SLIDE : JAM_CHECK_FLEX;
-}
-
 }  // namespace
 
-jam_check_report untested_check() {
+jam_check_report blank_report() {
   jam_check_report r{};
   r.jammed = r.strictly_jammed = r.stationary = r.crunch_jammed = JAM_VERDICT_UNTESTED;
   r.reason = JAM_CHECK_MARGIN;
@@ -101,36 +89,33 @@ jam_check_report untested_check() {
   return r;
 }
 
-CheckResult check_as_it_is(const Packing &p, const ContactNetwork *known, Judge judge) {
+CheckResult check_as_it_is(const Packing &p, const ContactNetwork *known) {
   CheckResult out;
   out.tested = p;
   jam_check_report &r = out.report;
-  r = untested_check();
+  r = blank_report();
   r.dim = p.dim, r.n = static_cast<int64_t>(p.n());
   r.packing_fraction = packing_fraction(p);
-  bool unexplained = false;
-  const GapResolution resolution = take_overlaps(out, unexplained);
+  bool overlapping = false;
+  const GapResolution resolution = take_overlaps(out, overlapping);
   const Packing &q = out.tested;
   r.digits = resolution.digits(p), r.coordinate_step = resolution.step, r.resolution = resolution.relative(p);
-  const PackingVerdict verdict = judge(q, resolution, known, Jamming::collective);
-  r.jammed = verdict_code(verdict.result.jammed);
+  JammingTest test(q, resolution, known, overlapping);
+  const PackingVerdict &verdict = test.verdict(Jamming::collective);
   const bool strains = traceless_strains(p.dim, ~p.container.closed()) > 0;  // walls do not
   r.strictly_jammed = strains ? JAM_VERDICT_NO : JAM_VERDICT_UNTESTED;
   // Where no forces balance on the spheres none do on the cell. Own images alone may hold both.
   if (strains &&
-      (r.jammed != JAM_VERDICT_NO || verdict.result.stressed != Verdict::no || may_touch_own_image(q, resolution))) {
-    const PackingVerdict strict = judge(q, resolution, known, Jamming::strict);
-    r.strictly_jammed = verdict_code(strict.result.jammed);
+      (verdict.jammed != Verdict::no || verdict.result.stressed != Verdict::no || may_touch_own_image(q, resolution))) {
+    const PackingVerdict &strict = test.verdict(Jamming::strict);
+    r.strictly_jammed = verdict_code(strict.jammed);
     r.strict_flexes = strict.result.flexes;
   }
   out.carrying = verdict.carrying(q.dim);
-  take_verdict(q, verdict, out.carrying, r);
-  if (unexplained && r.jammed == JAM_VERDICT_YES) r.jammed = JAM_VERDICT_UNDECIDED;
-  if (r.jammed != JAM_VERDICT_YES && r.strictly_jammed == JAM_VERDICT_YES) r.strictly_jammed = r.jammed;
-  r.reason =
-      unexplained && r.jammed == JAM_VERDICT_UNDECIDED
-          ? JAM_CHECK_OVERLAP
-          : reason_of(r, resolution.coarse(p), verdict.when_closed != verdict.result.jammed, verdict.result.slides > 0);
+  report_network(q, verdict, out.carrying, r);
+  r.jammed = verdict_code(verdict.jammed);
+  r.reason = numbers_of(verdict, q, resolution, Jamming::collective).reason;
+  if (overlapping && r.jammed == JAM_VERDICT_UNDECIDED) r.reason = JAM_CHECK_OVERLAP;
   return out;
 }
 

@@ -1,7 +1,6 @@
-// Collectively jammed or not, from positions alone; and in a free cell strictly.
+// How a crunch ends: collectively jammed or not, from positions alone; and in a free cell strictly.
 #pragma once
 #include "crunch/state.hpp"
-#include "network/rigidity_test.hpp"
 
 namespace jam::inside {
 
@@ -9,7 +8,8 @@ namespace jam::inside {
 bool polish_contacts(CrunchState &s);
 // Tests the packing. LPs continue from a saddle; where contacts are undecided, narrow LPs follow.
 Phase decide_jamming(CrunchState &s);
-// Ends the crunch with the verdict of the judge; of_contacts: what is known of the contacts already, or nothing.
+// Ends the crunch with its verdict, the one that jam_rigidity would return. of_contacts: the test of its contacts, or
+// nothing.
 Phase give_verdict(CrunchState &s, const PackingVerdict &of_contacts);
 // Narrow LPs and moves along flexes belong to the optimum of the wide LPs. A looser tolerance may end before it.
 bool converged(const CrunchState &s);

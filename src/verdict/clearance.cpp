@@ -1,4 +1,4 @@
-#include "network/room.hpp"
+#include "verdict/clearance.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,12 +6,12 @@
 
 #include "core/pair_rule.hpp"
 #include "network/flex.hpp"
-#include "network/tuning.hpp"
+#include "verdict/tuning.hpp"
 
 namespace jam::inside {
 namespace {
 
-double way_of(const Packing &p, const ContactNetwork &carrying) {
+double length_needed(const Packing &p, const ContactNetwork &carrying) {
   double open = std::numeric_limits<double>::epsilon();
   for (const double gap : carrying.gap) open = std::max(open, std::fabs(gap));
   return std::sqrt(open) * diameter_mean(p);
@@ -26,8 +26,8 @@ std::vector<double> displacements(const Packing &p, const PackingVerdict &v) {
   return x;
 }
 
-// Whether the flex closes a pair on its way.
-bool closes(const Packing &p, const ContactNetwork &near, double way, const PackingVerdict &v) {
+// Whether the flex closes a pair within this length.
+bool closes(const Packing &p, const ContactNetwork &near, double length, const PackingVerdict &v) {
   const size_t d = static_cast<size_t>(p.dim);
   const std::vector<double> &strain = v.result.strain, x = displacements(p, v);
   for (size_t k = 0; k < near.size(); ++k) {
@@ -39,21 +39,17 @@ bool closes(const Packing &p, const ContactNetwork &near, double way, const Pack
       for (size_t q = 0; q < d && !strain.empty(); ++q) w += strain[c * d + q] * distance * n[q];
       closing -= n[c] * w;
     }
-    if (near.gap[k] * sigma < closing * way) return true;
+    if (near.gap[k] * sigma < closing * length) return true;
   }
   return false;
 }
 
 }  // namespace
 
-ContactNetwork pairs_in_the_way(const Packing &p, const ContactNetwork &carrying, const ContactNetwork &taken,
-                                bool strain, bool own_images) {
-  const double strained = strain ? RigidityTuning::strained * diameter_max(p) / diameter_mean(p) : 0.0;
-  ContactNetwork near;
-  near.pairs = find_pairs(p, (2.0 + strained) * way_of(p, carrying), 1.0);
-  measure_contacts(p, near);
-  near.coordination.assign(p.n(), 0);
-  near.force.assign(near.size(), 0.0);
+ContactNetwork blocking_pairs(const Packing &p, const ContactNetwork &carrying, const ContactNetwork &taken,
+                              bool strain, bool own_images) {
+  const double strained = strain ? VerdictTuning::strained * diameter_max(p) / diameter_mean(p) : 0.0;
+  const ContactNetwork near = unforced_pairs(p, (2.0 + strained) * length_needed(p, carrying), 1.0);
   ContactLookup known(p, taken);
   std::vector<char> on(near.size());
   for (size_t k = 0; k < near.size(); ++k)
@@ -61,21 +57,21 @@ ContactNetwork pairs_in_the_way(const Packing &p, const ContactNetwork &carrying
   return subset(near, on, p.dim);
 }
 
-bool find_flex_with_room(const Packing &p, const std::vector<char> &taken, Jamming kind, PackingVerdict &v) {
+bool find_unblocked_flex(const Packing &p, const std::vector<char> &taken, Jamming kind, PackingVerdict &v) {
   ContactNetwork carrying = v.carrying(p.dim), all = subset(v.contacts, taken, p.dim);
-  const ContactNetwork near = pairs_in_the_way(p, carrying, all, kind == Jamming::strict, kind == Jamming::strict);
-  if (!closes(p, near, way_of(p, carrying), v)) return true;
+  const ContactNetwork near = blocking_pairs(p, carrying, all, kind == Jamming::strict, kind == Jamming::strict);
+  if (!closes(p, near, length_needed(p, carrying), v)) return true;
   for (size_t k = 0; k < near.size(); ++k) add_contact(p, near.pairs, k, all);
   all.force.clear();
   const RigidityMatrix g = make_rigidity_matrix(p, all);
   RigidityResult other = test_rigidity(g, kind);
-  if (other.jammed != Verdict::no || other.flex.empty()) return false;
+  if (other.rigid != Verdict::no || other.flex.empty()) return false;
   v.result.flex = std::move(other.flex), v.result.strain = std::move(other.strain);
   v.sphere = g.sphere;
   return true;
 }
 
-double free_part(const Packing &p, const PackingVerdict &v) {
+double unblocked_fraction(const Packing &p, const PackingVerdict &v) {
   std::vector<char> touches;
   for (const double gap : v.contacts.gap) touches.push_back(gap < contact_gap_limit);
   const ContactNetwork net = subset(v.contacts, touches, p.dim);
@@ -84,11 +80,11 @@ double free_part(const Packing &p, const PackingVerdict &v) {
   const std::vector<double> all = displacements(p, v);
   std::vector<double> flex, strain = v.result.strain;
   for (const int32_t i : g.sphere) flex.insert(flex.end(), all.begin() + i * d, all.begin() + (i + 1) * d);
-  const double way = way_of(p, v.carrying(p.dim)) / diameter_mean(p);
-  for (double part = 1.0; part > way; part *= RigidityTuning::shorter_flex) {
+  const double least = length_needed(p, v.carrying(p.dim)) / diameter_mean(p);
+  for (double part = 1.0; part > least; part *= VerdictTuning::shorter_flex) {
     if (keeps_contacts(g, net.gap, flex, strain)) return part;
-    for (double &x : flex) x *= RigidityTuning::shorter_flex;
-    for (double &x : strain) x *= RigidityTuning::shorter_flex;
+    for (double &x : flex) x *= VerdictTuning::shorter_flex;
+    for (double &x : strain) x *= VerdictTuning::shorter_flex;
   }
   return 0.0;
 }

@@ -1,4 +1,4 @@
-#include "crunch/identify/verdict.hpp"
+#include "crunch/identify/end.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,8 +14,7 @@
 #include "crunch/identify/polish.hpp"
 #include "crunch/identify/recompress.hpp"
 #include "network/rattlers.hpp"
-#include "proof/judge.hpp"
-#include "proof/verdict.hpp"
+#include "verdict/text.hpp"
 
 namespace jam::inside {
 namespace {
@@ -43,10 +42,7 @@ void add_history_row(CrunchState &s) {
 
 // All closed pairs as contacts, of the spheres that they can balance; the test finds the forces.
 ContactNetwork closed_pairs(const Packing &p, bool own_images) {
-  ContactNetwork net;
-  net.pairs = find_pairs(p, 0.0, 1.0 + contact_gap_limit);
-  measure_contacts(p, net);
-  net.coordination.assign(p.n(), 0);
+  ContactNetwork net = unforced_pairs(p, 0.0, 1.0 + contact_gap_limit);
   net.force.assign(net.size(), 1.0);
   std::vector<char> on(net.size());
   for (size_t k = 0; k < net.size(); ++k) on[k] = own_images || !net.pairs.own_image(k);
@@ -58,21 +54,17 @@ void log_verdict(const CrunchState &s, const PackingVerdict &v) {
   const RigidityResult &r = v.result;
   const auto wide = [](int64_t x) { return static_cast<long long>(x); };
   s.monitor.log(JAM_LOG_INFO,
-                "test: jammed %d, stressed %d, contacts %lld of %zu, needed %lld, self-stresses %lld, flexes %lld, "
-                "margin %.1e, undecided contacts %lld, residual %.1e",
-                static_cast<int>(r.jammed), static_cast<int>(r.stressed), wide(r.contacts), s.out.contacts.size(),
-                wide(r.contacts_needed), wide(r.self_stresses), wide(r.flexes), r.margin, wide(v.undecided_contacts),
-                r.force_residual);
+                "test: jammed %d, rule %d, stressed %d, contacts %lld of %zu, needed %lld, self-stresses %lld, flexes "
+                "%lld, margin %.1e, undecided contacts %lld, residual %.1e",
+                static_cast<int>(v.jammed), static_cast<int>(v.rule), static_cast<int>(r.stressed), wide(r.contacts),
+                s.out.contacts.size(), wide(r.contacts_needed), wide(r.self_stresses), wide(r.flexes), r.margin,
+                wide(v.undecided_contacts), r.force_residual);
 }
 
 // Forces of the test, which are positive and balance as far as any do.
 void take_forces_of(CrunchState &s, const PackingVerdict &verdict) {
-  const double scale = s.out.contacts.force_scale;
-  const bool strains = s.next.strain.count() > 0;
+  const double scale = s.out.contacts.size() ? s.out.contacts.force_scale : verdict.contacts.force_scale;
   s.out.contacts = verdict.carrying(s.out.packing.dim);
-  std::vector<char> on(s.out.contacts.size());  // own images are no contacts of a fixed cell
-  for (size_t k = 0; k < on.size(); ++k) on[k] = strains || !s.out.contacts.pairs.own_image(k);
-  s.out.contacts = subset(s.out.contacts, on, s.out.packing.dim);
   s.out.contacts.force_scale = scale;
 }
 
@@ -100,36 +92,29 @@ bool tested(CrunchState &s, PackingVerdict &verdict, Test &&test) {
 // What the next phase follows from: the contacts that were found, as closed as they are. A soft mode is left to narrow
 // LPs, where there are any left.
 PackingVerdict test_contacts(const CrunchState &s, Jamming kind) {
-  PackingVerdict verdict = test_packing(s.out.packing, &s.out.contacts, kind);
-  if (kind == Jamming::collective && !s.out.packing.container) {
-    if (!narrow_lps_left(s)) decide_by_proof(s.out.packing, verdict);
-    confirm_by_exchange(s.out.packing, verdict);
-  }
-  return verdict;
+  return test_packing(s.out.packing, &s.out.contacts, kind, narrow_lps_left(s) ? Rule::weak_forces : Rule::trapped);
 }
 
-// The verdict of the report: that which everybody gets who asks about this packing. A yes on closed contacts is that
-// of the judge already.
-PackingVerdict judged(const CrunchState &s, const PackingVerdict &tested, Jamming kind) {
+// The verdict in the report is the one that jam_rigidity would return. A yes on closed contacts is that already.
+PackingVerdict final_verdict(const CrunchState &s, const PackingVerdict &tested, Jamming kind) {
   const std::vector<double> &gap = s.out.contacts.gap;
   const bool closed = std::all_of(gap.begin(), gap.end(), [](double h) { return h < contact_gap_limit; });
-  if (tested.result.jammed == Verdict::yes && closed) return tested;
-  return judge(s.out.packing, gap_resolution(s.out.packing), &s.out.contacts, kind);
+  return tested.jammed == Verdict::yes && closed ? tested : verdict_of(s.out.packing, &s.out.contacts, kind);
 }
 
 // In a free cell the strict test says whether its strains are at rest, and its one stress balances on the cell too.
 Phase decide_strict_jamming(CrunchState &s) {
   PackingVerdict strict;
   if (!tested(s, strict, [&] { return test_contacts(s, Jamming::strict); })) return Phase::done;
-  if (strict.result.jammed != Verdict::yes && s.o.strain == JAM_STRAIN_FREE && move_along_strained_flex(s, strict))
+  if (strict.jammed != Verdict::yes && s.o.strain == JAM_STRAIN_FREE && move_along_strained_flex(s, strict))
     return stop(s, JAM_STOP_NONE, JAM_OK), Phase::approach;
-  if (!tested(s, strict, [&] { return judged(s, strict, Jamming::strict); })) return Phase::done;
-  s.found.strictly_jammed = static_cast<int32_t>(strict.result.jammed);
-  if (strict.result.jammed == Verdict::yes) {
+  if (!tested(s, strict, [&] { return final_verdict(s, strict, Jamming::strict); })) return Phase::done;
+  s.found.strictly_jammed = verdict_code(strict.jammed);
+  if (strict.jammed == Verdict::yes) {
     take_forces_of(s, strict);
   } else if (s.o.strain == JAM_STRAIN_FREE) {
-    s.out.text = "collectively jammed; strictly: " + why_not_jammed(strict, Jamming::strict);
-    stop(s, strict.result.jammed == Verdict::no ? JAM_STOP_SADDLE : JAM_STOP_PRECISION, JAM_NOT_CONVERGED);
+    s.out.text = "collectively jammed; strictly: " + why_not_jammed(strict, s.out.packing, Jamming::strict);
+    stop(s, strict.jammed == Verdict::no ? JAM_STOP_SADDLE : JAM_STOP_PRECISION, JAM_NOT_CONVERGED);
   }
   return Phase::done;
 }
@@ -139,8 +124,6 @@ Phase end_jammed(CrunchState &s, const PackingVerdict &verdict) {
   // balances forces that polish refused.
   if (s.o.polish && (!s.found.polished || excess_contacts(s.out.contacts, s.out.packing) > 0))
     take_forces_of(s, verdict);
-  s.found.jammed = true;
-  report_verdict(verdict, s.out.packing, s.out.report);
   if (s.out.report.stop_reason != JAM_STOP_NONE) return Phase::done;  // jammed, though tolerances are not met
   stop(s, JAM_STOP_CONVERGED, JAM_OK);
   return s.next.strain.count() > 0 ? decide_strict_jamming(s) : Phase::done;
@@ -176,12 +159,12 @@ Phase decide_jamming(CrunchState &s) {
     s.system.release();  // the test has a factor of its own
     PackingVerdict verdict;
     if (!tested(s, verdict, [&] { return test_contacts(s, Jamming::collective); })) return Phase::done;
-    if (verdict.result.jammed == Verdict::yes) return give_verdict(s, verdict);
+    if (verdict.jammed == Verdict::yes) return give_verdict(s, verdict);
     // No slide opens a contact. In a periodic cell it may lead to other spheres, or a strain further.
     const bool slides = verdict.result.slides > 0 && s.out.packing.container;
     const bool open = s.o.polish && !slides;
     const auto recompressed = [&] {
-      return open && s.found.narrow != Verdicts::Narrow::none && converged(s) && recompress(s);
+      return open && s.found.narrow != CrunchFindings::Narrow::none && converged(s) && recompress(s);
     };
     if (verdict.result.flex.empty() && recompressed()) return Phase::approach;
     const FlexMove moved = converged(s) && !slides ? move_along_flex(s, verdict) : FlexMove::none;
@@ -200,14 +183,14 @@ Phase decide_jamming(CrunchState &s) {
 Phase give_verdict(CrunchState &s, const PackingVerdict &of_contacts) {
   s.system.release();
   PackingVerdict verdict;
-  if (of_contacts.result.jammed != Verdict::yes && of_contacts.contacts.size() > 0)
-    take_positive_forces(s, of_contacts);
-  if (!tested(s, verdict, [&] { return judged(s, of_contacts, Jamming::collective); })) return Phase::done;
-  if (verdict.result.jammed == Verdict::yes) return end_jammed(s, verdict);
-  report_verdict(verdict, s.out.packing, s.out.report);
+  if (of_contacts.jammed != Verdict::yes && of_contacts.contacts.size() > 0) take_positive_forces(s, of_contacts);
+  if (!tested(s, verdict, [&] { return final_verdict(s, of_contacts, Jamming::collective); })) return Phase::done;
+  s.found.verdict = verdict;
+  report_verdict(verdict, s.out.report);
+  if (verdict.jammed == Verdict::yes) return end_jammed(s, verdict);
   if (s.out.report.stop_reason != JAM_STOP_NONE) return Phase::done;
-  s.out.text = why_not_jammed(verdict);
-  if (verdict.result.jammed != Verdict::no)
+  s.out.text = why_not_jammed(verdict, s.out.packing);
+  if (verdict.jammed != Verdict::no)
     stop(s, verdict.unresolved > 0.0 ? JAM_STOP_SADDLE : JAM_STOP_PRECISION, JAM_NOT_CONVERGED);
   else if (verdict.result.flexes > 0)
     stop(s, JAM_STOP_SADDLE, JAM_NOT_CONVERGED);

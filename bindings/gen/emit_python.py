@@ -142,10 +142,10 @@ def emit(api):
             )
     out += ["}", "", "# tables: {C name: number of columns}", "TABLES = {"]
     out += [f'    "{f.name}": {len(columns_of(f, api).items)},' for f in api.functions if columns_of(f, api)]
-    out += ["}", "", "# extents of arrays that calls fill: {C name: {array: extents}}", "EXTENTS: dict[str, dict[str, tuple[str, ...]]] = {"]
+    out += ["}", "", "# extents of arrays: {C name: {array: extents}}", "EXTENTS: dict[str, dict[str, tuple[str, ...]]] = {"]
     for f in api.functions:
-        filled = {a.name: f.shapes[a.name] for a in f.args if a.role == "array_out" and a.name != "table"}
-        out += [f'    "{f.name}": {filled},'] * bool(filled)
+        shapes = {a: extents for a, extents in f.shapes.items() if a != "table"}
+        out += [f'    "{f.name}": {shapes},'] * bool(shapes)
     out += [
         "}",
         "",

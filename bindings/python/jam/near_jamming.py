@@ -196,8 +196,8 @@ def mode_weights(
     for m in range(len(mean)) if instants is None else instants:
         u = mean[m][stable]
         u = u / np.linalg.norm(u)
-        rows.append(system.project(modes.vectors.reshape(-1), u.reshape(-1)))
-        curved.append(system.curvature(u.reshape(-1), **hessian))
+        rows.append(system.project(modes.vectors, u))
+        curved.append(system.curvature(u, **hessian))
         noise.append(float(((u.sum(0) / np.sqrt(len(stable))) ** 2).mean()) / d)
     return ModeWeights(np.array(rows), np.array(curved), np.array(noise))
 

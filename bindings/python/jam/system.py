@@ -5,7 +5,7 @@ import os
 from typing import TYPE_CHECKING, Any
 
 from . import errors, raw
-from ._api.arrays import as_array
+from ._api.arrays import as_vector
 from ._api.calls import freeze
 from ._api.errors import METHODS
 from ._api.given import cell_of, enclosure_of, positions_of, refuse_start_options, refuse_unnamed_box, side_of, sizes_of
@@ -98,7 +98,7 @@ class System(Verbs, Writing, PoreSpace, Copies, Converting):
         >>> jam.System.random(n=100, dim=2, seed=7)
         System(n=100, dim=2, packing_fraction=0.2, box=1, seed=7)
         """
-        sizes = None if diameters is None else as_array(diameters, name="diameters").reshape(-1)
+        sizes = None if diameters is None else as_vector(diameters, name="diameters")
         packing_fraction = density_of(packing_fraction, porosity)
         if packing_fraction is None:
             packing_fraction = 0.0  # the library's own, by dimension

@@ -69,11 +69,29 @@ end
 "n numbers for a call to fill: NaN, or -1, where it writes nothing."
 unknown(::Type{T}, n...) where {T} = fill(T <: AbstractFloat ? T(NaN) : T(-1), n...)
 
-"An input as C takes it."
-function taken(a::Argument, value)
+"""
+Refuses an array that has not the header's shape, reversed as everywhere in Julia, nor is a vector: C checks its length.
+A transposed array of as many rows as columns cannot be seen.
+"""
+function check_shape(a::Argument, x::AbstractArray, known)
+    ndims(x) == 1 && length(a.extents) > 1 && return nothing
+    wanted = Any[extent(e, known) for e in reverse(a.extents)]
+    fits = ndims(x) == length(wanted) && all(w === nothing || w == k for (w, k) in zip(wanted, size(x)))
+    fits && return nothing
+    spelled = join([something(w, e) for (w, e) in zip(wanted, reverse(a.extents))], ", ")
+    throw(ArgumentError("$(a.name) must have the size ($spelled), not $(size(x))"))
+end
+
+"An input as C takes it; known: extents by letter."
+function taken(a::Argument, value, known)
     a.role === :handle && return handle(value)
     a.role === :string && return string(value)
-    a.role === :array_in && return value === nothing ? nothing : convert(Vector{a.type}, vec(collect(value))) .- a.type(a.index)
+    if a.role === :array_in
+        value === nothing && return nothing
+        x = collect(value)
+        check_shape(a, x, known)
+        return convert(Vector{a.type}, vec(x)) .- a.type(a.index)
+    end
     a.word !== :none && return number(a.word, value, a.name)
     try
         return convert(a.type, value) - a.type(a.index)
@@ -107,7 +125,7 @@ function call(s, name::Symbol, inputs::Tuple; progress = nothing, given...)
     made = split_options(structs, given)
     for a in c.arguments
         if a.role in PLAIN_ROLES
-            push!(passed, taken(a, popfirst!(left)))
+            push!(passed, taken(a, popfirst!(left), letters(s, inputs)))
         elseif a.role === :struct_in
             push!(passed, popfirst!(made))
         elseif a.role === :struct_out

@@ -24,6 +24,14 @@ def as_rows(columns: Any) -> Array:
     return rows
 
 
+def as_vector(values: Any, dtype: str = "double", name: str = "array") -> Array:
+    """as_array of one number or a row of them: a table would lose its shape without a word."""
+    found = as_array(values, dtype, name)
+    if found.ndim != 1:
+        raise ValueError(f"{name} must be a row of numbers, not an array of shape {found.shape}")
+    return found
+
+
 def as_array(values: Any, dtype: str = "double", name: str = "array") -> Array:
     """Values as a C-contiguous array of the C type, copied only if needed. Complex, masked numbers and text are refused,
     and integers that the type does not hold."""

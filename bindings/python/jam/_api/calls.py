@@ -2,13 +2,13 @@
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import Any, Iterable
 
 import numpy as np
 
 from .. import raw
 from . import errors, exceptions, generated
-from .arrays import DTYPES, as_array, unknown_array
+from .arrays import DTYPES, Array, as_array, unknown_array
 from .generated import CALLS, EXTENTS, OPTIONS, REPORTS, ROWS, StatusCode, TABLES
 from .options import as_enum, option_struct, unknown
 from .tuples import TUPLES
@@ -46,6 +46,46 @@ def _shape(extents: tuple[str, ...], count: str, m: int, d: int, n: int, alone: 
         return (m,)
     given = m // (math.prod(known.values()) if alone else n if count == "needed" else 1)
     return tuple(known.get(i, given + (given > 0 and e.endswith("+ 1"))) for i, e in enumerate(extents))
+
+
+def _spelled(shape: Iterable[Any]) -> str:
+    parts = [str(e) for e in shape]
+    return f"({', '.join(parts)}{',' if len(parts) == 1 else ''})"
+
+
+def _check_shape(name: str, array: Array, extents: tuple[str, ...], known: dict[str, Any]) -> None:
+    """Refuses an input that has not the header's @shape, nor is flat with as many elements, as in C. known: extents by
+    letter, or a callable that asks; a letter that nobody knows is what the first array makes it.
+    """
+    wanted: list[int | None] = []
+    for at, letter in enumerate(extents):
+        if callable(known.get(letter)):
+            known[letter] = known[letter]()
+        if letter not in known and array.ndim == len(extents):
+            known[letter] = array.shape[at]
+        wanted.append(int(letter) if letter.isdigit() else known.get(letter))
+    if array.ndim == len(extents) and all(a in (None, b) for a, b in zip(wanted, array.shape)):
+        return
+    if array.ndim == 1 and len(extents) > 1:
+        size = math.prod(e for e in wanted if e is not None)
+        if array.size == size or (None in wanted and size and array.size % size == 0):
+            return
+    shape = [e if n is None or e.isdigit() else n for e, n in zip(extents, wanted)]
+    hint = ": transposed?" if array.ndim == len(extents) and list(array.shape) == wanted[::-1] else ""
+    letters = "" if all(e.isdigit() or n is None for e, n in zip(extents, wanted)) else f"{_spelled(extents)} = "
+    raise ValueError(f"{name} must have shape {letters}{_spelled(shape)}, not {array.shape}{hint}")
+
+
+def _letters(handle: Any, dim: int) -> dict[str, Any]:
+    """Extents that a system has: d, n, and the N' stable spheres where there is a network."""
+
+    def stable() -> int | None:
+        try:
+            return int(raw.jam_hessian_map(handle, None)[1])
+        except exceptions.StateError:
+            return None  # the call itself says that there is none
+
+    return {} if handle is None else {"d": dim, "n": lambda: raw.jam_view_diameters(handle)[1][1], "N'": stable}
 
 
 INPUTS = ("scalar", "string", "array_in", "struct_in", "handle")
@@ -88,10 +128,14 @@ def invoke(handle: Any, dim: int, name: str, args: tuple[Any, ...], named: dict[
     passed: list[Any] = []
     outputs: dict[str, Any] = {}
     fills, asked = [], []
+    extents, known = EXTENTS.get("jam_" + name, {}), _letters(handle, dim)
     for arg, role, ctype in table:
         if role == "array_in":
             value = given.get(arg)
-            passed.append(None if value is None else as_array(value, ctype, arg).reshape(-1))
+            if value is not None:
+                value = as_array(value, ctype, arg)
+                _check_shape(arg, value, extents[arg], known)
+            passed.append(None if value is None else value.reshape(-1))
         elif role == "handle":
             passed.append(getattr(given[arg], "handle", given[arg]))
         elif role in INPUTS:
@@ -114,8 +158,7 @@ def invoke(handle: Any, dim: int, name: str, args: tuple[Any, ...], named: dict[
     if fills and count is not None and status in (0, StatusCode.AMBIGUOUS):
         m, spheres = scalars[count], raw.jam_view_diameters(handle)[1][1] if on_system else 0
         for arg, at, ctype in fills:
-            extents = EXTENTS.get("jam_" + name, {}).get(arg, ("m",))
-            shape = _shape(extents, asked[count], m, dim, spheres, len(fills) == 1)
+            shape = _shape(extents.get(arg, ("m",)), asked[count], m, dim, spheres, len(fills) == 1)
             outputs[arg] = unknown_array(shape, np.dtype(ROWS[ctype]) if ctype in ROWS else DTYPES[ctype])
             passed[at] = outputs[arg].reshape(-1)
         try:

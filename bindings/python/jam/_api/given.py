@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from .exceptions import UnsupportedError
-from .arrays import Array, as_array
+from .arrays import Array, as_array, as_vector
 from .generated import JAM_MAX_DIM
 
 
@@ -88,7 +88,7 @@ def side_of(box: Any) -> float | None:
     """The side of the cube for a file that names no box."""
     if box is None:
         return None
-    x = as_array(box, name="box").reshape(-1)
+    x = as_vector(box, name="box")
     if len(x) == 0 or (x != x[0]).any():
         raise ValueError("box for a file that names none must be one side: make other cells by System.from_arrays")
     return float(x[0])

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from .. import raw
-from .arrays import Array, as_array
+from .arrays import Array, as_array, as_vector
 from .calls import freeze, new_report
 from .generated import Container, SizeReport
 from .given import cell_of, enclosure_of
@@ -162,6 +162,6 @@ def size_report(diameters: Any, dim: int = 3) -> SizeReport:
     (0.1667, 1.4)
     """
     made = new_report("jam_size_report")
-    raw.jam_get_size_report(dim, as_array(diameters, name="diameters").reshape(-1), made)
+    raw.jam_get_size_report(dim, as_vector(diameters, name="diameters"), made)
     found: SizeReport = freeze(made, "jam_size_report")
     return found

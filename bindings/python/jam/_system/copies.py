@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from .. import raw
-from .._api.arrays import Array, as_array, unknown_array
+from .._api.arrays import Array, as_vector, unknown_array
 from .._api.calls import not_cancelled, same
 from .._api.generated import BlochColumn, ModeColumn
 from .._api.options import option_struct
@@ -56,7 +56,7 @@ class Copies(Base):
         >>> large.n, len(large.forces) == 6 * report.contacts
         (96, True)
         """
-        return type(self)._made(*raw.jam_tile(self.handle, as_array(count, "int32_t", "count")))  # type: ignore[attr-defined]
+        return type(self)._made(*raw.jam_tile(self.handle, as_vector(count, "int32_t", "count")))  # type: ignore[attr-defined]
 
     def bloch_modes(
         self,
@@ -103,7 +103,7 @@ class Copies(Base):
         m = self.dim * len(spheres)
         table, vectors = unknown_array((m, len(ModeColumn))), unknown_array((m, len(spheres), self.dim, 2))
         with self._reporting(progress):
-            flat = as_array(wave, name="wave")
+            flat = as_vector(wave, name="wave")
             status, _ = raw.jam_bloch_modes(self.handle, h, flat, raw.JAM_MODE_COLUMNS, table.reshape(-1), vectors.reshape(-1))
             self._note(not_cancelled(status))
             same(self._ask("hessian_map"), spheres)
@@ -132,7 +132,7 @@ class Copies(Base):
         margin : array, shape (m,)
             Least other eigenvalue of S^T S; below 1e-12: a flex. NaN where no contact carries force.
         """
-        copies = as_array(count, "int32_t", "count")
+        copies = as_vector(count, "int32_t", "count")
         with self._reporting(progress):
             status, rows = raw.jam_bloch_rigidity(self.handle, copies, None, raw.JAM_BLOCH_COLUMNS, None)
             not_cancelled(status)

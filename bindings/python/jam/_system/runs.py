@@ -13,7 +13,7 @@ from typing import Any, Sequence
 import numpy as np
 
 from .. import raw
-from .._api.arrays import Array, as_array
+from .._api.arrays import Array, as_array, as_vector
 from .._api.calls import same
 from .._api.generated import IsoconfColumn, StatusCode
 from .._api.options import option_struct
@@ -223,9 +223,7 @@ def make_runs(
     options: dict[str, Any],
 ) -> Runs:
     """What System.isoconfigurational calls."""
-    times = as_array(instants, name="instants")
-    if times.ndim != 1:
-        raise ValueError(f"instants must have shape (m,), not {times.shape}")
+    times = as_vector(instants, name="instants")
     made = option_struct("jam_isoconf_options", options)
     chosen = None if monte_carlo is None else option_struct("jam_monte_carlo_options", monte_carlo)
     kept = as_array(np.array([int(k) for k in keep], np.int64), "int32_t", "keep")

@@ -65,8 +65,8 @@ def _diameters(given: Any, n: int, dim: int) -> Any:
     if given is None:
         return None
     if not isinstance(given, Mapping):
-        sizes = np.asarray(given, float).reshape(-1)
-        if len(sizes) != n or not (np.isfinite(sizes) & (sizes > 0)).all():
+        sizes = np.asarray(given, float)
+        if sizes.shape != (n,) or not (np.isfinite(sizes) & (sizes > 0)).all():
             raise ProtocolError(f"start: diameters must be {n} finite numbers > 0, a law, or None")
         return sizes.tolist()
     law = {k: float(v) if isinstance(v, (int, float)) else v for k, v in given.items()}

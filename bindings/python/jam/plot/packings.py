@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from .._api.arrays import Array, as_array
+from .._api.arrays import Array, as_vector
 from .._api.generated import Container
 from .._api.given import closed_axes
 from ..errors import StateError
@@ -24,7 +24,7 @@ def _by_value(values: Any, n: int, colour_map: str) -> tuple[Array, Any]:
     from matplotlib.cm import ScalarMappable
     from matplotlib.colors import Normalize, to_rgb
 
-    x = as_array(values, name="values").reshape(-1)
+    x = as_vector(values, name="values")
     if len(x) != n:
         raise ValueError(f"values must have shape ({n},), a number for each sphere, not {np.shape(values)}")
     finite = np.isfinite(x)

@@ -23,7 +23,9 @@ import jam
 from jam import store
 from jam._formats.write_packing import write_file
 from jam.ensemble import Ensemble, LocalPool
-from jam.ensemble.folder import row_of
+from jam.ensemble import index
+from jam.ensemble.folder import Place
+from jam.ensemble.row import row_of
 
 SMALL = dict(n=24, dim=2, diameters={"law": "bidisperse"}, stages=[{"growth_rate": 0.1, "pressure": 100.0}])
 
@@ -47,8 +49,8 @@ def listing(folder, entries):
     e.run([1], progress=False, workers=1)
     first = next(iter(e))
     with store.open_file(first.path) as file:
-        row = row_of(file, e.name(1))
-    rows = []
+        row = row_of(file)
+    rows = {}
     for seed in range(2, entries + 1):
         name = e.name(seed)
         if seed % 50000 == 2:  # a file may have 65000 names
@@ -57,15 +59,16 @@ def listing(folder, entries):
             stat = source.stat()
         os.link(source, e.files.packing(name))
         row["seed"], row["name"] = seed, name
-        rows.append((name, stat.st_size, stat.st_mtime_ns, row.tobytes()))
-    e.files.index_add(rows)
+        key, stamp = e.files.indexed(e.files.packing(name))
+        rows[key] = stamp, row.tobytes()
+    index.add(e.files.index, rows)
     begin, cpu = time.perf_counter(), time.process_time()
     table = e.table()
     warm = {"wall": time.perf_counter() - begin, "processor": time.process_time() - cpu, "entries": len(table)}
     cold = []
-    for name, *_ in rows[:300]:
+    for seed in range(2, 302):
         begin = time.process_time()
-        e.files.row_from_file(name, str(e.files.packing(name)))
+        e.files.row(Place(e.files.packing(e.name(seed))))
         cold.append(time.process_time() - begin)
     return {**warm, "seconds_an_entry_without_index": statistics.median(cold)}
 

@@ -45,7 +45,7 @@ class Protocols(unittest.TestCase):
 
     def test_seeds_are_whole(self):
         with tempfile.TemporaryDirectory() as folder:
-            for wrong in (1.5, -1, 2**64):
+            for wrong in (1.5, -1, 2**63):
                 with self.assertRaisesRegex(ProtocolError, "seed"):
                     Ensemble(folder, SMALL).run([wrong], progress=False)
 
@@ -73,12 +73,12 @@ class Protocols(unittest.TestCase):
         for right in (dict(stages=[SOFT], crunch=None), dict(stages=[SOFT, SOFT, {"verb": "decompress"}]), dict(stages=[SOFT, {"verb": "relax"}])):
             jam.ensemble.complete(dict(right, n=10))
 
-    def test_names_depend_on_protocol_seed_and_version_alone(self):
+    def test_names_depend_on_protocol_seed_and_algorithm_alone(self):
         a, b = Ensemble("x", SMALL), Ensemble("y", dict(SMALL, n=26))
         self.assertEqual(a.name(1), Ensemble("z", a.protocol).name(1))
         self.assertNotEqual(a.name(1), a.name(2))
         self.assertNotEqual(a.name(1), b.name(1))
-        self.assertNotEqual(a.name(1), jam.ensemble.packing_name(a.id, 1, "other version"))
+        self.assertNotEqual(a.name(1), jam.ensemble.packing_name(a.id, 1, "other algorithm"))
 
     def test_laws_of_diameters_and_the_lattice(self):
         s = jam.ensemble.begin(

@@ -17,8 +17,8 @@ from .sealed import open_file
 from .write_packing import put
 
 
-def write_shard(path: str | os.PathLike[str], protocol: str, packings: Mapping[str, Path]) -> list[str]:
-    """Writes one file of many packings, a group each, from their files by name.
+def write_shard(path: str | os.PathLike[str], protocol: str, packings: Mapping[str, Path | tuple[Path, str | None]]) -> list[str]:
+    """Writes one file of many packings, a group each, from their files by name; (file, name): from a shard.
 
     Returns what is wrong with each file that cannot be read: it is left out.
     """
@@ -26,11 +26,13 @@ def write_shard(path: str | os.PathLike[str], protocol: str, packings: Mapping[s
 
     def fill(shard: Any) -> list[str]:
         shard.attrs["protocol"], made = protocol, []
-        for name, source in packings.items():
+        for name, place in packings.items():
+            source, inner = place if isinstance(place, tuple) else (place, None)
             try:
                 with open_file(source) as file:  # checked as a whole
-                    jam_of(file, source)
-                    copy(file, shard.create_group(name))
+                    packing: Any = file[inner] if inner else file
+                    jam_of(packing, source)
+                    copy(packing, shard.create_group(name))
                     made.append(name)
             except StoreError as error:
                 left_out.append(str(error.strerror))

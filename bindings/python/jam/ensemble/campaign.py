@@ -14,7 +14,9 @@ from typing import Any, Mapping
 from .. import store
 from .._formats.write_packing import write_file
 from ..errors import StoreError
-from .folder import Folder
+from . import index
+from .folder import Folder, Place
+from .index import Stamp
 from .protocol import identity, make, packing_name, to_json
 
 WINDOW = 1000  # calls handed to the executor ahead of time: bounds its memory, not the work
@@ -39,22 +41,23 @@ def make_packing(
     Returns
     -------
     tuple
-        ("done", name, size, changed, row), ("failed", name, text) or ("damaged", name, text).
+        ("done", key, stamp, row) of the index, ("failed", name, text) or ("damaged", name, text).
     """
     files, chosen = Folder(folder), json.loads(protocol)
     protocol_id = identity(chosen)
     name = packing_name(protocol_id, seed)
-    path = files.packing(name)
-    row = b""
+    path, row = files.free(name), None
     try:
-        row = files.row_from_file(name, path)  # somebody else may have made it since
+        row = files.row(Place(path))  # somebody else may have made it since
     except StoreError as error:
         if path.exists() and not remake_damaged:
             return "damaged", name, str(error.strerror)
-    if not row:
+    if row is None:
         start, cpu = time.monotonic(), time.process_time()
         try:
             system, results = make(chosen, seed)
+        except ImportError:  # of every packing here: there is nothing to record of this one
+            raise
         except Exception as error:  # a failure is a result too
             status = getattr(getattr(error, "status", None), "name", type(error).__name__)
             files.write_failure(name, protocol_id, seed, status.lower(), str(error))
@@ -62,10 +65,17 @@ def make_packing(
         times = {"seconds_made": time.monotonic() - start, "seconds_processor": time.process_time() - cpu}
         data = store.image(system, analysis=results, protocol=protocol, protocol_id=protocol_id, times=times)
         write_file(path, data, files.parts)
-        row = files.row_from_file(name, path)
+        row = files.row(Place(path))
     files.failure(name).unlink(missing_ok=True)
-    stat = path.stat()
-    return "done", name, stat.st_size, stat.st_mtime_ns, row
+    return "done", *files.indexed(path), row.tobytes()
+
+
+def lasts(failure: Mapping[str, Any]) -> bool:
+    """A failure that the library found in the protocol or its packing. All others may have been of the machine or the folder, or of
+    a worker that was killed: the next run tries them again.
+    """
+    status = str(failure["status"])
+    return status.startswith("e_") and status not in ("e_memory", "e_io", "e_busy")
 
 
 class Campaign:
@@ -77,8 +87,8 @@ class Campaign:
         self.pool, self.bar, self.files, self.remake_damaged = pool, bar, files, remake_damaged
         self.id, self.protocol = identity(protocol), to_json(protocol)
         self.pending: dict[Future[Any], tuple[int, int]] = {}
-        self.rows: list[tuple[str, int, int, bytes]] = []
-        self.flushed = time.monotonic()
+        self.rows: dict[str, tuple[Stamp, bytes]] = {}
+        self.flushed, self.made = time.monotonic(), 0
 
     def work(self, todo: list[int]) -> None:
         queue = [(s, 1) for s in reversed(todo)]
@@ -118,15 +128,16 @@ class Campaign:
             self.files.write_failure(packing_name(self.id, seed), self.id, seed, "worker_lost", text)
             answer = ("failed", "", text)
         if answer[0] == "done":
-            self.rows.append(answer[1:])
+            self.rows[answer[1]] = answer[2:]
+            self.made += 1
         if self.bar is not None:
             self.bar.update(1)
         return None
 
     def _flush(self, after: float) -> None:
         if time.monotonic() - self.flushed >= after:
-            self.files.index_add(self.rows)
-            self.rows, self.flushed = [], time.monotonic()
+            index.add(self.files.index, self.rows)
+            self.rows, self.flushed = {}, time.monotonic()
 
 
 def progress_bar(progress: bool, total: int, done: int) -> Any:

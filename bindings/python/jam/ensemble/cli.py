@@ -154,6 +154,7 @@ def _run(o: argparse.Namespace) -> Status:
             retry=o.retry,
             workers=o.workers,
             remake_damaged=o.remake_damaged,
+            search=o.part is None,
         )
     return status
 
@@ -188,7 +189,7 @@ def main(arguments: list[str] | None = None) -> int:
         return _refuse(o, REFUSED, str(error))
     code = PARTIAL if status.failed or status.missing or status.damaged else DONE
     if o.verb == "status" and o.json:
-        names = ("asked", "done", "jammed", "failed", "missing", "damaged", "builds")
+        names = ("asked", "done", "jammed", "failed", "missing", "damaged", "odd", "builds")
         print(_json(code, "", **{k: getattr(status, k) for k in names}))
     elif o.verb == "status" or not o.quiet:
         print(status)

@@ -1,6 +1,7 @@
 """Packings of one protocol in a folder: making them, and reading what is there.
 
-A file that is damaged is named by a DamagedWarning and by status(), and left out of all that is read.
+A file that is damaged, or that holds a packing which another file holds too, is named by a DamagedWarning and by status(),
+and left out of all that is read.
 """
 from __future__ import annotations
 
@@ -8,6 +9,7 @@ import os
 import random
 from concurrent.futures import Executor
 from contextlib import suppress
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, Iterable, Iterator, Mapping
 
@@ -17,12 +19,13 @@ from .._api.arrays import Array
 from .._formats.replacing import remove_abandoned
 from .._formats.shard import write_shard
 from ..errors import StoreError
-from .campaign import Campaign, progress_bar
+from .campaign import Campaign, lasts, progress_bar
 from .capacity import Capacity, capacity, check_plan
 from .entry import Entry
-from .folder import Folder, builds_of
+from .folder import Content, Folder, Place
 from .pool import LocalPool
 from .protocol import ProtocolError, complete, identity, packing_name, to_json, whole_seed
+from .row import builds_of
 from .status import Status, warn
 from .tables import as_table
 
@@ -50,14 +53,14 @@ class Ensemble:
     ) -> None:
         self.files = Folder(folder, unverified)
         if protocol is None or isinstance(protocol, str):
-            names = self.files.protocol_names()
-            known = [k for k in names if k.startswith(protocol or "")]
+            there = self.files.protocols()
+            known = [k for k in there if k.startswith(protocol or "")]
             if len(known) != 1:
                 asked = "" if protocol is None else f", {len(known)} of them begin with {protocol!r}"
                 raise ProtocolError(
-                    f"{folder} contains {len(names)} protocols ({', '.join(names) or 'none'}){asked}: give one, or its name"
+                    f"{folder} contains {len(there)} protocols ({', '.join(there) or 'none'}){asked}: give one, or its name"
                 )
-            protocol = self.files.protocol(known[0])  # as it was written: later options have their defaults in it
+            protocol = there[known[0]]()  # as it was written: later options have their defaults in it
         else:
             protocol = complete(protocol)
         #: The protocol with every default spelled out
@@ -66,7 +69,7 @@ class Ensemble:
         self.id = identity(self.protocol)
 
     def name(self, seed: int) -> str:
-        """Name of the packing of a seed, with this version of libjam."""
+        """Name of the packing of a seed, by the algorithm of this version of libjam."""
         return packing_name(self.id, seed)
 
     # ---- making
@@ -78,6 +81,7 @@ class Ensemble:
         retry: bool = False,
         workers: int | None = None,
         remake_damaged: bool = False,
+        search: bool = True,
     ) -> Status:
         """Makes the packings of these seeds that are not there yet.
 
@@ -94,11 +98,14 @@ class Ensemble:
             Also those that failed before.
         remake_damaged : bool
             Also those whose file cannot be read: it is replaced. Without it such a file stays, and status() names it.
+        search : bool
+            False looks for the names of these seeds alone, and not through the whole folder: for many jobs that share a
+            disk. It does not find files that were renamed.
 
         Returns
         -------
         Status
-            What is there of these seeds.
+            What is there of these seeds, and how many were made now.
 
         Raises
         ------
@@ -108,18 +115,21 @@ class Ensemble:
         seeds = list(dict.fromkeys(map(whole_seed, seeds)))
         self.files.prepare()
         self.files.keep_protocol(self.id, to_json(self.protocol))
-        done, failed = self.files.scan()
         names = {s: self.name(s) for s in seeds}
-        left_out = self.files.rows({k: done[k] for k in names.values() if k in done})[1] if remake_damaged else {}
-        todo = [
-            s for s in seeds if (names[s] not in done and (retry or names[s] not in failed)) or names[s] in left_out
-        ]
+        content = self.files.content(None if search else names.values())
+        failures = self.files.failures(names.values())
+        there = set(content.rows["name"].tolist())
+        broken = {s for s in seeds if self.files.packing(names[s]) in content.damaged}
+        left = [s for s in seeds if names[s].encode() not in there and (remake_damaged or s not in broken)]
+        todo = [s for s in left if retry or names[s] not in failures or not lasts(failures[names[s]])]
+        broken.intersection_update(todo)
         random.shuffle(todo)  # two campaigns with the same seeds then share the work
         own = executor is None
         pool = LocalPool(workers) if executor is None else executor
         try:
             bar = progress_bar(progress, len(seeds), len(seeds) - len(todo))
-            Campaign(self.files, self.protocol, pool, bar, remake_damaged).work(todo)
+            campaign = Campaign(self.files, self.protocol, pool, bar, remake_damaged)
+            campaign.work(todo)
         except BaseException:
             if own:
                 pool.shutdown(cancel_futures=True)  # packings under way are dropped, their workers killed
@@ -128,7 +138,9 @@ class Ensemble:
             raise
         if own:
             pool.shutdown()
-        return self.status(seeds)
+        content = self.files.content(None if search else names.values())
+        remade = [p for p in (self.files.packing(names[s]) for s in sorted(broken)) if p not in content.damaged]
+        return replace(self._status(content, seeds), made=campaign.made, remade=tuple(map(str, remade)))
 
     def advise(self, wall_time: float = 3600.0, workers: int | None = None, seed: int = 1) -> Capacity:
         """How many packings of this protocol a time allows, from the seconds that those in the folder took.
@@ -150,41 +162,50 @@ class Ensemble:
             This packing failed; the text says why.
         """
         count = check_plan(wall_time, workers)
-        rows = self._rows()
+        rows = self._counted()[0]
         if not np.isfinite(rows["seconds_made"]).any():
             self.run([seed], progress=False, workers=1)
-            rows = self._rows()
+            rows = self._counted()[0]
         rows, failures = rows[np.isfinite(rows["seconds_made"])], self.failures()
         if not len(rows):
             raise ProtocolError(f"there is no packing to measure, and that of seed {seed} failed: {failures[-1]['text']}")
-        sizes = [self.files.packing(name.decode()).stat().st_size for name in rows["name"]]
+        sizes = [stamp.size for stamp in self.files.scan()[0].values()] or [0]
         return capacity(rows, len(failures), sizes, wall_time, count)
 
     # ---- reading
     def status(self, seeds: Iterable[int] | None = None) -> Status:
         """What is there of the seeds; None: of all that were made or failed."""
-        done, failed = self.files.scan()
-        rows, left_out = self.files.rows(done)
-        rows = rows[rows["protocol"] == self.id.encode()]
-        if seeds is None:
-            lost = sum(f["protocol"] == self.id for f in self.files.failures(failed))
-            asked = len(rows) + lost + len(left_out)
-        else:
-            names = [self.name(s) for s in dict.fromkeys(map(whole_seed, seeds))]
-            rows = rows[np.isin(rows["name"], np.array(names, "S32"))]
-            left_out = {k: v for k, v in left_out.items() if k in set(names)}
-            asked, lost = len(names), sum(n in failed for n in names)
-        jammed = int((rows["jammed"] != 0).sum())
-        return Status(asked, len(rows), jammed, lost, tuple(left_out.values()), builds_of(rows))
+        return self._status(self.files.content(), None if seeds is None else list(dict.fromkeys(map(whole_seed, seeds))))
 
-    def _rows(self) -> Array:
-        rows = _readable(self.files)
-        found: Array = rows[rows["protocol"] == self.id.encode()]
-        return found
+    def _status(self, content: Content, seeds: list[int] | None) -> Status:
+        rows, damaged = content.rows[content.rows["protocol"] == self.id.encode()], content.damaged
+        if seeds is None:
+            done = {self.name(s) for s in rows["seed"].tolist()}
+            lost = sum(f["protocol"] == self.id and name not in done for name, f in self.files.failures().items())
+            asked = len(rows) + lost + len(damaged)
+        else:
+            rows = rows[np.isin(rows["seed"], seeds)]
+            done = {self.name(s) for s in rows["seed"].tolist()}
+            names = [name for name in map(self.name, seeds) if name not in done]
+            homes = [self.files.packing(name) for name in names]
+            damaged = {path: damaged[path] for path in homes if path in damaged}
+            asked, lost = len(seeds), sum(self.files.packing(name) not in damaged for name in self.files.failures(names))
+        jammed, odd = int((rows["jammed"] != 0).sum()), {**content.doubles, **content.misnamed}
+        return Status(
+            asked, len(rows), jammed, lost, tuple(damaged.values()), tuple(odd.values()), builds=builds_of(rows)
+        )
+
+    def _counted(self) -> tuple[Array, list[Place]]:
+        """Rows of the packings that count, and where each lies; a warning names the files that are left out."""
+        rows, places = _readable(self.files)
+        mine = rows["protocol"] == self.id.encode()
+        return rows[mine], [place for place, own in zip(places, mine) if own]
 
     def damaged(self) -> dict[Path, str]:
-        """Files of the folder that cannot be read, of any protocol, and what is wrong with each."""
-        return {self.files.packing(name): text for name, text in self.files.rows()[1].items()}
+        """Odd files of the folder, of any protocol, and what is wrong with each: those that cannot be read, those that hold
+        a packing which another file holds too, and those that have the name of another packing."""
+        content = self.files.content()
+        return {**content.damaged, **content.doubles, **content.misnamed}
 
     def table(self, pandas: bool = False) -> Any:
         """Reports of all packings of this protocol, a row each, by seed.
@@ -192,30 +213,28 @@ class Ensemble:
         Returns
         -------
         numpy structured array, or pandas.DataFrame
-            Fields: seed, name, protocol, version, commit and library (the build), n, dim, the fields of CrunchReport
+            Fields: seed, name, protocol, version, commit and library (the build), algorithm, n, dim, the fields of CrunchReport
             (enums as numbers, in a DataFrame as words), crystal_score, seconds_made, written. Without a crunch
-            packing_fraction and diameter_mean are those of the packing, other numbers nan or -1. Files that cannot be read
-            have no row.
+            packing_fraction and diameter_mean are those of the packing, other numbers nan or -1. Each seed has one row,
+            whatever files hold it. Files that cannot be read have none.
         """
-        return as_table(self._rows(), pandas)
+        return as_table(self._counted()[0], pandas)
 
     def failures(self) -> list[dict[str, Any]]:
         """Records of the seeds that failed: seed, status, text, machine, time.
 
         Records that cannot be read, of any protocol, come first: seed -1, status "damaged_record".
         """
-        found: list[dict[str, Any]] = sorted(
-            (f for f in self.files.failures() if f["protocol"] in (self.id, "")), key=lambda f: int(f["seed"])
-        )
-        return found
+        found = [f for f in self.files.failures().values() if f["protocol"] in (self.id, "")]
+        return sorted(found, key=lambda f: int(f["seed"]))
 
     def __len__(self) -> int:
-        return len(self._rows())
+        return len(self._counted()[0])
 
     def __iter__(self) -> Iterator[Entry]:
         """Entries by seed."""
-        for row in self._rows():
-            yield Entry(row, self.files.packing(row["name"].decode()), self.files.unverified)
+        for row, place in zip(*self._counted()):
+            yield Entry(row, place, self.files.unverified)
 
     def each(self, *names: str, jammed: bool = True, max_crystal_score: float = np.inf) -> Iterator[Any]:
         """Results of one packing after the other: an array for one name, a tuple for several.
@@ -240,7 +259,8 @@ class Ensemble:
             yield found[0] if len(names) == 1 else found
 
     def export(self, folder: str | os.PathLike[str], per_shard: int = 1000) -> list[Path]:
-        """Packs the packings into HDF5 files of `per_shard` each, a group a packing; jam.load(path, name) reads one.
+        """Packs the packings into HDF5 files of `per_shard` each, a group a packing; Ensemble(folder) reads them, and
+        jam.load(path, name) one.
 
         Returns
         -------
@@ -249,27 +269,25 @@ class Ensemble:
         """
         target = Path(folder)
         target.mkdir(parents=True, exist_ok=True)
-        rows, made = self._rows(), []
+        (rows, places), made = self._counted(), []
         for k in range(0, len(rows), per_shard):
             names = [name.decode() for name in rows["name"][k : k + per_shard]]
             path = target / f"{self.id}-{k // per_shard:05d}.h5"
-            left_out = write_shard(path, to_json(self.protocol), {n: self.files.packing(n) for n in names})
-            warn(left_out)
+            warn(write_shard(path, to_json(self.protocol), dict(zip(names, places[k : k + per_shard]))))
             made.append(path)
         return made
 
 
-def _readable(files: Folder) -> Array:
-    """Rows of the files that can be read; a warning names the others."""
-    rows, left_out = files.rows()
-    warn(left_out.values())
-    return rows
+def _readable(files: Folder) -> tuple[Array, list[Place]]:
+    """Packings that count, and where they lie; a warning names the files that are left out."""
+    content = files.content()
+    warn([*content.damaged.values(), *content.doubles.values()])
+    return content.rows, content.places
 
 
 def protocols(folder: str | os.PathLike[str]) -> dict[str, dict[str, Any]]:
-    """The protocols of a folder by name; Ensemble(folder, name) opens one."""
-    files = Folder(folder)
-    return {name: files.protocol(name) for name in files.protocol_names()}
+    """The protocols of a folder, a dict by name; Ensemble(folder, name) opens one."""
+    return {name: read() for name, read in Folder(folder).protocols().items()}
 
 
 def table(
@@ -281,5 +299,5 @@ def table(
     does by itself, such as start.n or stages.0.growth_rate.
     """
     files = Folder(folder, unverified)
-    known = {name: files.protocol(name) for name in files.protocol_names()} if options else None
-    return as_table(_readable(files), pandas or options, known)
+    known = {name: read() for name, read in files.protocols().items()} if options else None
+    return as_table(_readable(files)[0], pandas or options, known)

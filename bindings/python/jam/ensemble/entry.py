@@ -1,7 +1,6 @@
 """One packing of an ensemble."""
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Any
 
 from .. import store
@@ -9,7 +8,8 @@ from .._api.results import Contacts
 from .._formats.read_packing import jam_of, plain
 from .._formats.sealed import open_file
 from ..system import System
-from .folder import FIELDS
+from .folder import Place
+from .row import FIELDS
 
 
 class Entry:
@@ -23,7 +23,7 @@ class Entry:
     `analysis(name)`, any other result; and the numbers of the report, by their names or as row["rattlers"].
     """
 
-    __slots__ = ("row", "path", "_unverified")
+    __slots__ = ("row", "path", "_inner", "_unverified")
 
     _PLACES = {
         "pairs": "contacts/pairs",
@@ -38,11 +38,11 @@ class Entry:
     }
     _MADE = ("positions", "contacts", "rattlers", "bucklers")  # from several places, or with another layout
 
-    def __init__(self, row: Any, path: Path, unverified: bool = False) -> None:
+    def __init__(self, row: Any, place: Place, unverified: bool = False) -> None:
         #: The row of the table
         self.row = row
-        #: The file
-        self.path = path
+        #: The file, which may be a shard
+        self.path, self._inner = place
         self._unverified = unverified
 
     seed = property(lambda self: int(self.row["seed"]))
@@ -50,8 +50,9 @@ class Entry:
     def read(self, *names: str) -> tuple[Any, ...]:
         """Several of the stored attributes with one opening of the file."""
         with open_file(self.path, self._unverified) as file:
-            jam_of(file, self.path)
-            return tuple(self._get(file, name) for name in names)
+            packing: Any = file[self._inner] if self._inner else file
+            jam_of(packing, self.path)
+            return tuple(self._get(packing, name) for name in names)
 
     def _get(self, file: Any, name: str) -> Any:
         if name == "rattlers":
@@ -96,7 +97,7 @@ class Entry:
 
     def system(self) -> System:
         """The packing itself."""
-        return store.load(self.path, unverified=self._unverified)
+        return store.load(self.path, self._inner, unverified=self._unverified)
 
     def __repr__(self) -> str:
         return f"Entry(seed={self.seed}, n={self.row['n']}, jammed={self.row['jammed']}, {self.path.name})"

@@ -1,102 +1,59 @@
-"""The folder of an ensemble: where the files lie, what is there, and an index that only saves time.
+"""The folder of an ensemble: where the files lie, and what is there.
 
     protocols/<id>.json          each protocol with every default spelled out
     packings/ab/<name>.h5        one packing; ab are the first two digits of its name
     packings/ab/<name>.json      a failure: status and text
+    *.h5                         shards of many packings, as Ensemble.export writes
     parts/                       unfinished files
-    index.sqlite                 rows of packings by name, size and time of change; made again from the files at any time
+    index.sqlite                 rows of packings: see index.py
 
-The existence of a file is the only truth: a row of the index counts only for a file of the same size and time, and
-with the checksum that was written with it. A file that is damaged is named and left out; nobody removes it unasked.
+A packing is known by what stands in its file: protocol, seed and algorithm. Its name, which follows from them, only says
+where to look first. Where several files hold the packing of one seed, one counts and the others are named. So is a file that
+is damaged, or that has the name of another packing. Nobody removes one unasked.
 """
 from __future__ import annotations
 
-import hashlib
 import json
-import math
 import os
-import sqlite3
 import time
-from dataclasses import fields
+from contextlib import suppress
+from functools import partial
 from pathlib import Path
-from typing import Any, Iterator, NamedTuple
+from typing import Any, Callable, Iterable, Iterator, NamedTuple
 
 import numpy as np
 
 from .._api.arrays import Array
-from .._api.generated import CrunchReport
-from .._formats.groups import refusing
-from .._formats.provenance import provenance
-from .._formats.read_packing import jam_of
-from .._formats.records import dtype_of, unknown
+from .._formats.groups import Shard, refusing
+from .._formats.provenance import ALGORITHM, provenance
+from .._formats.read_packing import jam_of, plain
 from .._formats.replacing import check_writable, remove_abandoned
 from .._formats.sealed import open_file
 from .._formats.write_packing import write_file
 from ..errors import StoreError
-from .protocol import identity
+from . import index
+from .index import Stamp
+from .protocol import identity, packing_name
+from .row import ROW, hash_of_row, row_of
 
-_REPORT = dtype_of(CrunchReport)
-_REPORT_FIELDS: tuple[str, ...] = _REPORT.names or ()
-#: A row of a table: what distinguishes packings, the report of the crunch, and the crystal score (nan: not asked for).
-ROW = np.dtype(
-    [
-        *[("seed", "i8"), ("name", "S32"), ("protocol", "S12"), ("version", "S24")],
-        *[("commit", "S12"), ("library", "S16"), ("n", "i4"), ("dim", "i4")],
-        *[(k, _REPORT[k]) for k in _REPORT_FIELDS],
-        *[("crystal_score", "f8"), ("seconds_made", "f8"), ("written", "f8")],
-    ]
-)
-FIELDS: tuple[str, ...] = ROW.names or ()
+__all__ = ["Content", "Folder", "Place", "hash_of_row"]
 
 
-class Found(NamedTuple):
-    """A file that is there."""
+class Place(NamedTuple):
+    """Where a packing lies: its file, and its name in a shard."""
 
-    path: str
-    size: int
-    changed: int
-
-
-_CHECK = 16  # bytes of the checksum behind a row in the index
+    path: Path
+    inner: str | None = None
 
 
-def row_of(file: Any, name: str) -> Array:
-    """The row of a packing from its open file."""
-    made, jam = np.zeros((), ROW), file["jam"]
-    attributes = jam.attrs
-    for key in ("seed", "protocol", "version", "written"):
-        made[key] = attributes[key]
-    for key, absent in (("commit", ""), ("library", ""), ("seconds_made", np.nan)):  # older files have no builds
-        made[key] = attributes.get(key, absent)
-    made["name"], made["n"] = name, len(jam["diameters"])
-    made["dim"] = file["particles/spheres/position/value"].shape[2]
-    for f in fields(CrunchReport):
-        made[f.name] = unknown(str(f.type))
-    made["packing_fraction"], made["diameter_mean"] = _of_spheres(file)
-    if "report" in jam:
-        report = jam["report"]
-        for key in set(_REPORT_FIELDS) & set(report.dtype.names):
-            made[key] = report[key]
-    score = jam.get("analysis/crystal_score")
-    made["crystal_score"] = np.nan if score is None or score.dtype.kind != "f" else score[()]
-    return made
+class Content(NamedTuple):
+    """The packings of a folder."""
 
-
-def _of_spheres(file: Any) -> tuple[float, float]:
-    """Packing fraction and mean diameter, which need no crunch."""
-    sigma, cell = file["jam/diameters"], file["particles/spheres/box/edges/value"][0]
-    d = len(cell)
-    ball = math.pi ** (d / 2) / math.gamma(d / 2 + 1) / 2**d
-    return ball * float((sigma**d).sum()) / abs(float(np.linalg.det(cell))), float(sigma.mean())
-
-
-def builds_of(rows: Array) -> tuple[str, ...]:
-    """The builds of libjam that made the packings of a table: version, commit, digest of the library."""
-    found = np.unique(rows[["version", "commit", "library"]])
-    return tuple(
-        " ".join(f"{word} {part.decode()}".strip() for word, part in zip(("", "commit", "library"), row) if part)
-        for row in found
-    )
+    rows: Array  # of those that count, by seed
+    places: list[Place]  # of each row
+    damaged: dict[Path, str]  # files that cannot be read, and what is wrong with each
+    doubles: dict[Path, str]  # files whose packings do not count, as others hold them
+    misnamed: dict[Path, str]  # files that count, though they have the name of another packing
 
 
 class Folder:
@@ -104,14 +61,28 @@ class Folder:
 
     def __init__(self, path: str | os.PathLike[str], unverified: bool = False) -> None:
         self.path, self.unverified = Path(path), unverified
-        self.packings, self.parts = self.path / "packings", self.path / "parts"
+        self.packings, self.parts, self.index = self.path / "packings", self.path / "parts", self.path / "index.sqlite"
 
     # ---- names
     def packing(self, name: str) -> Path:
+        """Where the packing of a name belongs."""
         return self.packings / name[:2] / (name + ".h5")
 
     def failure(self, name: str) -> Path:
         return self.packings / name[:2] / (name + ".json")
+
+    def free(self, name: str) -> Path:
+        """Where a packing may be written that is not there: beside its own place, where a file of another one has that."""
+        path, k = self.packing(name), 1
+        while path.exists():
+            try:
+                if self.row(Place(path))["name"] == name.encode():
+                    break
+            except StoreError:
+                break  # damaged: the caller knows whether it may be replaced
+            k += 1
+            path = self.packing(name).with_name(f"{name}-{k}.h5")
+        return path
 
     def prepare(self) -> None:
         """Makes the folders and looks whether they can be written; removes what killed writers left."""
@@ -124,22 +95,15 @@ class Folder:
         remove_abandoned(self.parts)
 
     # ---- protocols
-    def protocol_names(self) -> list[str]:
-        """Names of the protocols, in order."""
-        return sorted(p.stem for p in (self.path / "protocols").glob("*.json"))
-
-    def protocol(self, name: str) -> dict[str, Any]:
-        """The protocol of a name, as it was written: later options have their defaults in it."""
-        path = self.path / "protocols" / (name + ".json")
-        with refusing(path):
-            found: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
-            if identity(found) != name:
-                raise StoreError(
-                    22,
-                    f"{path} does not contain the protocol of its name: it was changed, or this version has other "
-                    "defaults. Give the protocol itself",
-                )
-        return found
+    def protocols(self) -> dict[str, Callable[[], dict[str, Any]]]:
+        """The names of the protocols, in order, and what reads each as it was written: later options have defaults in it."""
+        found = {p.stem: partial(_protocol, p, p.stem) for p in (self.path / "protocols").glob("*.json")}
+        for path in self._shards():
+            with open_file(path, self.unverified) as shard, refusing(path):
+                jam = jam_of(shard[next(iter(shard))], path)
+                name = str(jam.attrs["protocol"])
+                found.setdefault(name, partial(_protocol, path, name, plain(jam["protocol"])))
+        return dict(sorted(found.items()))
 
     def keep_protocol(self, name: str, text: str) -> None:
         path = self.path / "protocols" / (name + ".json")
@@ -147,111 +111,123 @@ class Folder:
             write_file(path, text.encode() + b"\n", self.parts)
 
     # ---- what is there
-    def scan(self) -> tuple[dict[str, Found], dict[str, Found]]:
-        """Packings and failures by name. A failure that was mended later is no failure any more."""
-        done: dict[str, Found] = {}
-        failed: dict[str, Found] = {}
-        try:
-            folders = [e.path for e in os.scandir(self.packings)]
-        except FileNotFoundError:
-            return done, failed
-        for folder in folders:
-            with os.scandir(folder) as entries:
-                for entry in entries:
-                    name, _, kind = entry.name.partition(".")
-                    if kind in ("h5", "json"):
-                        stat = entry.stat()
-                        (done if kind == "h5" else failed)[name] = Found(entry.path, stat.st_size, stat.st_mtime_ns)
-        return done, {k: v for k, v in failed.items() if k not in done}
+    def _shards(self) -> list[Path]:
+        return sorted(self.path.glob("*.h5"))
 
-    def rows(self, done: dict[str, Found] | None = None) -> tuple[Array, dict[str, str]]:
-        """Rows of all packings that are there, by seed: from the index where it fits, else from the files.
+    def scan(self, names: Iterable[str] | None = None) -> tuple[dict[Path, Stamp], list[Path]]:
+        """Files of packings with what tells whether they have changed, and records of failures: all, or those of names."""
+        found: dict[Path, Stamp] = {}
+        failures: list[Path] = []
+        for path in self._files() if names is None else map(self.packing, names):
+            if path.suffix == ".json":
+                failures.append(path)
+            elif path.suffix == ".h5":
+                with suppress(FileNotFoundError):
+                    found[path] = _stamp(path)
+        return found, failures
 
-        Files that cannot be read have no row: the second answer has a text for the name of each.
-        """
-        done = self.scan()[0] if done is None else done
-        blobs, fresh = [], []
-        left_out: dict[str, str] = {}
-        known = self._index_read()
-        for name, found in done.items():
-            size, changed, blob = known.get(name, (0, 0, b""))
-            if (size, changed) != found[1:] or not isinstance(blob, bytes):
-                blob = b""
-            if blob[ROW.itemsize :] != _checksum(name, found.size, found.changed, blob[: ROW.itemsize]):
-                try:
-                    row = self.row_from_file(name, found.path)
-                except StoreError as error:
-                    if os.path.exists(found.path):  # else removed by somebody since the scan
-                        left_out[name] = str(error.strerror)
-                    continue
-                blob = row + _checksum(name, found.size, found.changed, row)
-                fresh.append((name, found.size, found.changed, row))
-            blobs.append(blob[: ROW.itemsize])
-        if not self.unverified:
-            self.index_add(fresh)
-        rows = np.frombuffer(b"".join(blobs), ROW)
-        return rows[np.argsort(rows["seed"], kind="stable")], left_out
+    def _files(self) -> Iterator[Path]:
+        with suppress(FileNotFoundError):
+            for folder in os.scandir(self.packings):
+                yield from map(Path(folder.path).joinpath, os.listdir(folder.path))
 
-    def row_from_file(self, name: str, path: str | os.PathLike[str]) -> bytes:
+    def _places(self, names: Iterable[str] | None) -> tuple[dict[Place, Stamp], dict[Path, str]]:
+        """The places of packings, in files of one and in shards; what is wrong with shards that cannot be read."""
+        found, wrong = {Place(path): stamp for path, stamp in self.scan(names)[0].items()}, {}
+        for path in self._shards():
+            try:
+                with open_file(path, self.unverified) as shard, refusing(path):
+                    found.update((Place(path, inner), _stamp(path)) for inner in shard if isinstance(shard, Shard))
+            except StoreError as error:
+                wrong[path] = str(error.strerror)
+        return found, wrong
+
+    def _key(self, place: Place) -> str:
+        return f"{place.path.name}:{place.inner}" if place.inner else f"{place.path.parent.name}/{place.path.name}"
+
+    def indexed(self, path: Path) -> tuple[str, Stamp]:
+        """What the index calls a file, and what tells whether it has changed."""
+        return self._key(Place(path)), _stamp(path)
+
+    def row(self, place: Place) -> Array:
         """The row of a packing from its file."""
-        with open_file(path, self.unverified) as file, refusing(path):
-            jam_of(file, path)
-            return row_of(file, name).tobytes()
+        with open_file(place.path, self.unverified) as file, refusing(place.path):
+            packing: Any = file[place.inner] if place.inner else file
+            jam_of(packing, place.path)
+            return row_of(packing)
 
-    # ---- index
-    def _index(self) -> sqlite3.Connection:
-        base = sqlite3.connect(self.path / "index.sqlite", timeout=5.0)
-        version = hash_of_row()
-        if base.execute("PRAGMA user_version").fetchone()[0] != version:
-            base.executescript(
-                "DROP TABLE IF EXISTS rows;"
-                "CREATE TABLE rows (name TEXT PRIMARY KEY, size INTEGER, changed INTEGER, row BLOB) WITHOUT ROWID;"
-                f"PRAGMA user_version = {version};"
-            )
-        return base
+    def content(self, names: Iterable[str] | None = None) -> Content:
+        """The packings that are there: all, or those of some names and of shards."""
+        stamps, damaged = self._places(names)
+        known = index.read(self.index, {self._key(place): stamp for place, stamp in stamps.items()})
+        fresh, rows = {}, []
+        for place, stamp in list(stamps.items()):
+            row = known.get(self._key(place))
+            if row is None:
+                try:
+                    row = self.row(place).tobytes()
+                except StoreError as error:
+                    if os.path.exists(place.path):  # else removed by somebody meanwhile
+                        damaged[place.path] = str(error.strerror)
+                    del stamps[place]
+                    continue
+                fresh[self._key(place)] = stamp, row
+            rows.append(row)
+        if not self.unverified:
+            index.add(self.index, fresh)
+        return self._counted(np.frombuffer(b"".join(rows), ROW), list(stamps), damaged)
 
-    def _index_read(self) -> dict[str, tuple[int, int, bytes]]:
-        if not (self.path / "index.sqlite").exists():
-            return {}
-        try:
-            base = self._index()
-            try:
-                return {r[0]: r[1:] for r in base.execute("SELECT name, size, changed, row FROM rows")}
-            finally:
-                base.close()
-        except sqlite3.Error:
-            return {}  # busy or damaged: the files say all
+    def _is_home(self, name: str, place: Place) -> bool:
+        """A packing has its own name, or the one that free() gave it."""
+        return place.inner is None and place.path.parent.name == name[:2] and place.path.stem.partition("-")[0] == name
 
-    def index_add(self, rows: list[tuple[str, int, int, bytes]]) -> None:
-        """Adds name, size, time of change and row. Nothing is lost where that cannot be: the files are read instead."""
-        if not rows:
-            return
-        try:
-            base = self._index()
-            try:
-                with base:
-                    checked = [(k, size, at, row + _checksum(k, size, at, row)) for k, size, at, row in rows]
-                    base.executemany("INSERT OR REPLACE INTO rows VALUES (?, ?, ?, ?)", checked)
-            finally:
-                base.close()
-        except sqlite3.DatabaseError as error:
-            if "malformed" in str(error) or "not a database" in str(error):
-                (self.path / "index.sqlite").unlink(missing_ok=True)
+    def _counted(self, rows: Array, places: list[Place], damaged: dict[Path, str]) -> Content:
+        """One packing for each protocol and seed: of this library's algorithm, under its own name, the oldest."""
+        homes = [self._is_home(name.decode(), place) for name, place in zip(rows["name"], places)]
+        order = sorted(
+            range(len(rows)),
+            key=lambda k: (rows["algorithm"][k] != ALGORITHM.encode(), not homes[k], rows["written"][k], str(places[k])),
+        )
+        counts: dict[tuple[bytes, int], int] = {}
+        doubles: dict[Path, list[int]] = {}
+        misnamed: dict[Path, str] = {}
+        for k in order:
+            claim = rows["protocol"][k], int(rows["seed"][k])
+            if counts.setdefault(claim, k) != k:
+                doubles.setdefault(places[k].path, []).append(k)
+            elif not homes[k] and places[k].inner is None:
+                misnamed[places[k].path] = f"{places[k].path} has another name than {_what(rows[k])}, which it holds"
+        kept = sorted(counts.values(), key=lambda k: (int(rows["seed"][k]), rows["protocol"][k]))
+        texts = {}
+        for path, found in doubles.items():
+            first = rows[found[0]]
+            other = counts[first["protocol"], int(first["seed"])]
+            more = f" and {len(found) - 1} more, which other files hold too" if len(found) > 1 else ""
+            same = first[_BUILD].item() == rows[other][_BUILD].item()
+            builds = "" if same else f"; made by {_build(first)} and by {_build(rows[other])}"
+            texts[path] = f"{path} holds {_what(first)}, as {places[other].path} does, which counts{more}{builds}"
+        return Content(rows[kept], [places[k] for k in kept], damaged, texts, misnamed)
 
     # ---- failures
-    def failures(self, failed: dict[str, Found] | None = None) -> Iterator[dict[str, Any]]:
-        """Records of failures: seed, protocol, status, text, version, commit, machine, time.
+    def failures(self, names: Iterable[str] | None = None) -> dict[str, dict[str, Any]]:
+        """Records of failures by name: seed, protocol, status, text, version, commit, machine, time.
 
         One that cannot be read has the status "damaged_record", the seed -1 and no protocol.
         """
-        for found in (self.scan()[1] if failed is None else failed).values():
+        found: dict[str, dict[str, Any]] = {}
+        for path in self.scan()[1] if names is None else map(self.failure, names):
             try:
-                with refusing(found.path), open(found.path, encoding="utf-8") as file:
+                with refusing(path), open(path, encoding="utf-8") as file:
                     record = json.load(file)
                     record = {**record, "seed": int(record["seed"]), "protocol": str(record["protocol"])}
+                    name = packing_name(record["protocol"], record["seed"], record.get("algorithm", "1.0.0"))
             except StoreError as error:
-                record = {"seed": -1, "protocol": "", "status": "damaged_record", "text": error.strerror, "time": 0.0}
-            yield record
+                if not path.exists():
+                    continue
+                name, text = path.stem, error.strerror
+                record = {"seed": -1, "protocol": "", "status": "damaged_record", "text": text, "time": 0.0}
+            found.setdefault(name, record)
+        return found
 
     def write_failure(self, name: str, protocol_id: str, seed: int, status: str, text: str) -> None:
         record = {"seed": seed, "protocol": protocol_id, "status": status, "text": text, "time": time.time()}
@@ -259,12 +235,30 @@ class Folder:
         write_file(self.failure(name), data, self.parts)
 
 
-def hash_of_row() -> int:
-    """A number that changes with ROW and with what stands for unknown: an index of another layout is made again."""
-    absent = [unknown(str(f.type)) for f in fields(CrunchReport)]
-    return int.from_bytes(hashlib.sha256(f"{ROW.descr} {absent} {_CHECK}".encode()).digest()[:3], "big") + 1
+def _stamp(path: Path) -> Stamp:
+    stat = path.stat()
+    return Stamp(stat.st_size, stat.st_mtime_ns)
 
 
-def _checksum(name: str, size: int, changed: int, row: bytes) -> bytes:
-    """Behind a row in the index: a changed row, or one of another file, is read from its file again."""
-    return hashlib.sha256(f"{name} {size} {changed} ".encode() + row).digest()[:_CHECK]
+_BUILD = ["version", "commit", "library", "algorithm"]
+
+
+def _what(row: Any) -> str:
+    return f"the packing of seed {row['seed']} of protocol {row['protocol'].decode()}"
+
+
+def _build(row: Any) -> str:
+    version, commit, library, algorithm = (row[k].decode() for k in _BUILD)
+    return f"{version} commit {commit or 'unknown'} library {library or 'unknown'} (algorithm {algorithm})"
+
+
+def _protocol(path: Path, name: str, text: str | None = None) -> dict[str, Any]:
+    with refusing(path):
+        found: dict[str, Any] = json.loads(path.read_text(encoding="utf-8") if text is None else text)
+        if identity(found) != name:
+            raise StoreError(
+                22,
+                f"{path} does not contain the protocol of its name: it was changed, or this version has other "
+                "defaults. Give the protocol itself",
+            )
+    return found

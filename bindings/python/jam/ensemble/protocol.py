@@ -20,13 +20,14 @@ from typing import Any, Mapping, Sequence
 
 import numpy as np
 
-from .. import errors, raw
+from .. import errors
 from .._api import generated
 from .._api.arrays import Array
 from .._api.generated import GROWTH_STAGES, OPTIONS, StatusCode
 from .._api.given import CONTAINERS, cell_of, enclosure_of
 from .._api.options import option_struct, spelled_out
 from .._api.size_laws import sizes as draw_sizes
+from .._formats.provenance import ALGORITHM
 from ..system import System
 
 PARTS = ("start", "stages", "crunch", "analysis")
@@ -250,21 +251,21 @@ def minimal(protocol: Mapping[str, Any]) -> dict[str, Any]:
 
 def identity(protocol: Mapping[str, Any]) -> str:
     """12 hex digits that name a complete protocol: of its minimal form, so that an option which a later libjam adds
-    renames nothing. What the defaults are belongs to the version, which stands beside it in the name of a packing."""
+    renames nothing. What the defaults are belongs to the algorithm, which stands beside it in the name of a packing."""
     return hashlib.sha256(json.dumps(minimal(protocol), sort_keys=True).encode()).hexdigest()[:12]
 
 
 def whole_seed(seed: Any) -> int:
-    """A seed as an int; 1.5 and 2**64 are none."""
+    """A seed as an int; 1.5 and 2**63 are none."""
     whole = int(seed)
-    if whole != seed or not 0 <= whole < 1 << 64:
-        raise ProtocolError(f"a seed must be a whole number from 0 to 2**64 - 1, not {seed!r}")
+    if whole != seed or not 0 <= whole < 1 << 63:
+        raise ProtocolError(f"a seed must be a whole number from 0 to 2**63 - 1, not {seed!r}")
     return whole
 
 
-def packing_name(protocol_id: str, seed: int, version: str | None = None) -> str:
-    """32 hex digits that name one packing: of the protocol, the seed and the version of libjam."""
-    text = f"{protocol_id} {whole_seed(seed)} {version or raw.jam_version()}"
+def packing_name(protocol_id: str, seed: int, algorithm: str = ALGORITHM) -> str:
+    """32 hex digits that name one packing: of the protocol, the seed and the algorithm."""
+    text = f"{protocol_id} {whole_seed(seed)} {algorithm}"
     return hashlib.sha256(text.encode()).hexdigest()[:32]
 
 

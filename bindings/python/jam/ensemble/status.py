@@ -28,6 +28,12 @@ class Status:
     failed: int
     #: What is wrong with each file that cannot be read; a text names its file. Without seeds: of any protocol.
     damaged: tuple[str, ...] = ()
+    #: Files that hold the packing of a seed that another file holds too, or that have the name of another packing.
+    odd: tuple[str, ...] = ()
+    #: Files that could not be read, whose packings run() has made again.
+    remade: tuple[str, ...] = ()
+    #: Packings that run() has made.
+    made: int = 0
     #: Builds of libjam that made the packings: more than one may differ in the last bits. The table has columns of it.
     builds: tuple[str, ...] = field(default=())
 
@@ -43,6 +49,10 @@ class Status:
         )
         if self.damaged:
             text += f"; {len(self.damaged)} damaged and omitted: " + "; ".join(self.damaged[:3])
+        if self.odd:
+            text += f"; {len(self.odd)} files are odd: " + "; ".join(self.odd[:3])
+        if self.remade:
+            text += f"; made again: {', '.join(self.remade)}"
         if len(self.builds) > 1:
             text += f"; made by {len(self.builds)} builds: " + ", ".join(self.builds)
         return text

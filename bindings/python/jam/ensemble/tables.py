@@ -8,8 +8,8 @@ from typing import Any, Iterator, Mapping
 from .._api import generated
 from .._api.arrays import Array
 from .._api.generated import CrunchReport
-from .folder import FIELDS
 from .protocol import minimal
+from .row import FIELDS
 
 #: Enum of each field of the table that has one.
 ENUMS: dict[str, type[IntEnum]] = {

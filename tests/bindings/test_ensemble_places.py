@@ -1,0 +1,322 @@
+"""What counts in an ensemble's folder: packings are known by what stands in their files, each seed counts once, every odd
+file is named, and an index or files that somebody planted lead nowhere."""
+import json
+import os
+import resource
+import shutil
+import sqlite3
+import tempfile
+import time
+import unittest
+import unittest.mock
+import warnings
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import numpy as np
+
+import jam
+from jam.ensemble import DamagedWarning, Ensemble
+from jam.ensemble import folder as places
+from jam.ensemble.folder import hash_of_row
+from packings import same_bits
+
+SMALL = dict(n=16, dim=2, diameters={"law": "bidisperse"}, stages=[{"growth_rate": 0.1, "pressure": 100.0}])
+OTHER = dict(SMALL, n=18)
+
+
+class Case(unittest.TestCase):
+    def setUp(self):
+        holder = tempfile.TemporaryDirectory()
+        self.addCleanup(holder.cleanup)
+        self.top = Path(holder.name)
+        self.e = Ensemble(self.top / "e", SMALL)
+
+    def make(self, seeds, e=None, **more):
+        """In this process, where tests can patch what is written."""
+        with ThreadPoolExecutor(1) as pool:
+            return (self.e if e is None else e).run(seeds, pool, progress=False, **more)
+
+    def file(self, seed):
+        return self.e.files.packing(self.e.name(seed))
+
+    def written_by(self, **changes):
+        """Files that another release writes: a value of None is left out."""
+        made = {**jam.store.provenance(), **changes}
+        made = {k: v for k, v in made.items() if v is not None}
+        return unittest.mock.patch("jam._formats.write_packing.provenance", lambda: made)
+
+    def seeds(self):
+        return self.e.table()["seed"].tolist()
+
+    def warned(self, text):
+        return self.assertWarnsRegex(DamagedWarning, text)
+
+
+class Names(Case):
+    def test_a_copy_counts_once_and_is_named(self):
+        self.make([1, 2, 3])
+        copies = [self.file(1).with_name("a backup copy.h5"), self.file(1).with_name(self.file(1).stem + " copy.h5")]
+        elsewhere = self.e.files.packings / "00" / "moved.h5"
+        for copy in [*copies, elsewhere]:
+            shutil.copy(self.file(1), copy)
+        with self.warned("3 files are omitted: .*holds the packing of seed 1 .*, as .* does, which counts"):
+            self.assertEqual(self.seeds(), [1, 2, 3])
+        with self.warned("omitted"):
+            self.assertEqual(len(list(self.e.each("forces"))), 3)
+        status = self.e.status()
+        self.assertEqual((status.asked, status.done, status.missing, status.damaged), (3, 3, 0, ()))
+        for copy in [*copies, elsewhere]:
+            self.assertIn(str(copy), " ".join(status.odd))
+        self.assertEqual(set(self.e.damaged()), {*copies, elsewhere})
+        self.assertEqual(self.make([1, 2, 3]).made, 0)
+
+    def test_a_renamed_file_is_the_packing_that_it_holds(self):
+        self.make([1, 2])
+        renamed = self.file(1).rename(self.e.files.packings / "00" / "my best packing.h5")
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")  # nothing is left out
+            self.assertEqual(self.seeds(), [1, 2])
+        status = self.make([1, 2])
+        self.assertEqual((status.made, status.done), (0, 2))
+        self.assertRegex(str(status), f"{renamed} has another name than the packing of seed 1")
+        first = next(iter(self.e))
+        self.assertEqual(first.path, renamed)
+        same_bits(first.system(), jam.ensemble.make(self.e.protocol, 1)[0])
+
+    def test_a_file_under_another_seeds_name_blocks_no_seed_and_is_not_overwritten(self):
+        self.make([1, 2])
+        data = self.file(1).read_bytes()
+        self.file(3).write_bytes(data)
+        with self.warned("omitted"):
+            self.assertEqual(self.seeds(), [1, 2])
+        status = self.make([1, 2, 3])
+        self.assertEqual((status.made, status.done, status.missing), (1, 3, 0))
+        self.assertIn(str(self.file(3)), str(status))
+        self.assertEqual(self.file(3).read_bytes(), data)
+        with self.warned("omitted"):
+            self.assertEqual(self.seeds(), [1, 2, 3])
+        self.file(1).unlink()  # the other one is the packing of seed 1
+        self.assertEqual(self.seeds(), [1, 2, 3])
+        self.assertEqual(self.make([1, 2, 3]).made, 0)
+
+    def test_a_file_of_another_protocol_under_a_seeds_name(self):
+        self.make([1])
+        other = Ensemble(self.top / "f", OTHER)
+        self.make([5], other)
+        shutil.copy(other.files.packing(other.name(5)), self.file(2))
+        self.assertEqual(self.seeds(), [1])
+        self.assertRegex(self.e.damaged()[self.file(2)], f"seed 5 of protocol {other.id}")
+        self.assertEqual(self.e.status([1, 2]).missing, 1)
+        status = self.make([1, 2])
+        self.assertEqual((status.made, status.done, status.missing), (1, 2, 0))
+        self.assertEqual(self.seeds(), [1, 2])
+        table = jam.ensemble.table(self.top / "e")
+        self.assertEqual(sorted(zip(table["protocol"].tolist(), table["seed"].tolist())),
+                         sorted([(self.e.id.encode(), 1), (self.e.id.encode(), 2), (other.id.encode(), 5)]))
+
+    def test_a_file_that_is_damaged_is_made_again_on_request_and_run_says_so(self):
+        self.make([1, 2])
+        self.file(2).write_bytes(b"nothing")
+        self.assertEqual(self.make([1, 2]).missing, 0)
+        status = self.make([1, 2], remake_damaged=True)
+        self.assertEqual((status.made, status.remade, status.damaged), (1, (str(self.file(2)),), ()))
+        self.assertIn(f"made again: {self.file(2)}", str(status))
+
+    def test_look_for_own_names_opens_no_other_file(self):
+        self.make(range(1, 9))
+        self.e.files.index.unlink()
+        opened = []
+
+        def seen(path, *more):
+            opened.append(Path(path))
+            return real(path, *more)
+
+        real = places.open_file
+        with unittest.mock.patch.object(places, "open_file", seen), unittest.mock.patch.object(places.Folder, "_files", None):
+            status = self.make([3, 5, 9], search=False)
+        self.assertEqual((status.asked, status.done, status.made), (3, 3, 1))
+        self.assertEqual(set(opened), {self.file(k) for k in (3, 5, 9)})
+
+
+class Releases(Case):
+    def test_a_later_release_goes_on_with_what_1_0_0_made(self):
+        with self.written_by(version="1.0.0", algorithm=None):  # as 1.0.0 wrote
+            self.make([1, 2])
+        with unittest.mock.patch("jam.raw.jam_version", lambda: "1.0.9"), self.written_by(version="1.0.9"):
+            status = self.make([1, 2, 3])
+        self.assertEqual((status.made, status.done), (1, 3))
+        self.assertIn("made by 2 builds", str(status))
+        self.assertEqual(self.seeds(), [1, 2, 3])
+        self.assertEqual(self.e.table()["algorithm"].tolist(), [b"1.0.0"] * 3)
+
+    def test_names_are_those_of_1_0_0(self):
+        """sha256 of protocol, seed and 1.0.0, as that release wrote them."""
+        self.assertEqual(jam.ensemble.packing_name("0123456789ab", 7), "762912a1e7700110d118aa0e8f6cdad6")
+
+    def test_of_two_builds_with_one_seed_one_counts_and_a_warning_names_both(self):
+        with self.written_by(version="1.0.0", algorithm=None):
+            self.make([1])
+        twin = self.e.files.packing(jam.ensemble.packing_name(self.e.id, 1, "1.0.1"))  # the name that 1.0.1 would give
+        kept = self.file(1).read_bytes()
+        self.file(1).unlink()
+        with self.written_by(version="1.0.1", algorithm=None):
+            self.make([1])
+        os.rename(self.file(1), twin)
+        self.file(1).write_bytes(kept)
+        with self.warned(f"{twin} holds the packing of seed 1 .*made by 1.0.1 .* and by 1.0.0"):
+            self.assertEqual(self.e.table()["version"].tolist(), [b"1.0.0"])
+
+    def test_packings_of_another_algorithm_count_until_this_one_has_made_them(self):
+        with self.written_by(version="0.9.0", algorithm="0.9.0"):
+            self.make([1, 2])
+        old = {seed: self.file(seed).rename(self.e.files.packing(jam.ensemble.packing_name(self.e.id, seed, "0.9.0"))) for seed in (1, 2)}
+        self.assertEqual(self.seeds(), [1, 2])
+        self.assertEqual(self.e.status([1, 2]).missing, 0)
+        self.assertEqual(self.make([1]).made, 1)
+        with self.warned(f"{old[1]} .*algorithm 0.9.0.*algorithm 1.0.0"):
+            self.assertEqual(self.e.table()["algorithm"].tolist(), [b"1.0.0", b"0.9.0"])
+
+    def test_the_algorithm_rises_with_a_default(self):
+        """The complete default protocol of the algorithm; options that later releases add are not in it. A default that
+        differs is another algorithm: see ALGORITHM in _formats/provenance.py."""
+        kept = json.loads(Path(__file__).with_name(f"protocol_{jam._formats.provenance.ALGORITHM}.json").read_text())
+        now = jam.ensemble.complete({})
+        for part in ("start", "crunch"):
+            self.assertEqual({k: now[part][k] for k in kept[part]}, kept[part])
+        self.assertEqual(len(now["stages"]), len(kept["stages"]))
+        for stage, before in zip(now["stages"], kept["stages"]):
+            self.assertEqual({k: stage[k] for k in before}, before)
+        self.assertEqual(now["analysis"], kept["analysis"])
+
+
+class Failures(Case):
+    def test_what_the_machine_caused_is_tried_again(self):
+        wrong = iter([OSError(28, "No space left"), AttributeError("module 'queue' has no attribute 'SimpleQueue'"),
+                      jam.errors.MemoryError("the limit is 1 GB")])
+
+        def fail(*_):
+            raise next(wrong)
+
+        for _ in range(3):
+            with unittest.mock.patch("jam.ensemble.campaign.make", fail):
+                self.assertEqual(self.make([1]).failed, 1)
+        status = self.make([1])
+        self.assertEqual((status.done, status.failed, status.made), (1, 0, 1))
+        self.assertEqual(self.e.failures(), [])
+
+    def test_what_the_packing_caused_is_kept(self):
+        tried = []
+
+        def fail(_, seed):
+            tried.append(seed)
+            error = jam.errors.UnplaceableError("too dense")
+            error.status = jam.StatusCode.E_UNPLACEABLE
+            raise error
+
+        with unittest.mock.patch("jam.ensemble.campaign.make", fail):
+            self.make([1]), self.make([1])
+            self.assertEqual(tried, [1])
+            self.make([1], retry=True)
+        self.assertEqual(tried, [1, 1])
+
+    def test_a_module_that_workers_lack_ends_the_campaign_and_fails_no_seed(self):
+        with unittest.mock.patch("jam.ensemble.campaign.make", side_effect=ImportError("no scipy")):
+            with self.assertRaisesRegex(ImportError, "no scipy"):
+                self.make([1])
+        self.assertEqual(self.e.failures(), [])
+
+
+class Planted(Case):
+    """An index of somebody else: its views, triggers and rows are not asked for anything."""
+
+    VIEW = (
+        "CREATE VIEW rows AS WITH RECURSIVE c(x) AS (SELECT 1 UNION ALL SELECT x + 1 FROM c) "
+        "SELECT 'a' || x AS name, 1 AS size, 1 AS changed, zeroblob(100000) AS row FROM c"
+    )
+    TABLE = "CREATE TABLE rows (name TEXT PRIMARY KEY, size INTEGER, changed INTEGER, row BLOB) WITHOUT ROWID"
+
+    def test_the_table_is_that_of_the_files(self):
+        self.make([1, 2])
+        rows = self.e.table()
+        for number, script in enumerate((
+            self.VIEW,
+            f"{self.TABLE}; CREATE TRIGGER t AFTER INSERT ON rows BEGIN DELETE FROM rows; END",
+            "CREATE TABLE rows (name TEXT, size INTEGER, changed INTEGER, row BLOB AS (zeroblob(1000000000)))",
+            "CREATE VIRTUAL TABLE rows USING fts4(name, size, changed, row)",
+            f"{self.TABLE}; INSERT INTO rows VALUES ('00/a.h5', 1, 1, zeroblob(100000000)), ('00/b.h5', 'x', 'y', 'text')",
+        )):
+            self.e.files.index.unlink()
+            base = sqlite3.connect(self.e.files.index)
+            try:
+                base.executescript(script)
+            except sqlite3.OperationalError:
+                continue  # this sqlite has no such tables
+            base.execute(f"PRAGMA user_version = {hash_of_row()}")
+            base.commit()
+            base.close()
+            begin, most = time.monotonic(), resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+            np.testing.assert_array_equal(self.e.table(), rows)
+            np.testing.assert_array_equal(self.e.table(), rows)
+            self.assertLess(time.monotonic() - begin, 30.0, script)  # the view has no end
+            self.assertLess(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - most, 500_000, script)  # kB
+
+    def test_a_row_with_a_right_checksum_of_another_file_is_not_taken(self):
+        self.make([1, 2])
+        rows = self.e.table()
+        base = sqlite3.connect(self.e.files.index)
+        with base:
+            (one, first), (two, second) = base.execute("SELECT name, row FROM rows").fetchall()
+            base.execute("UPDATE rows SET row = ? WHERE name = ?", (first, two))
+            base.execute("UPDATE rows SET row = ? WHERE name = ?", (second, one))
+        base.close()
+        np.testing.assert_array_equal(self.e.table(), rows)
+
+
+class Shards(Case):
+    def setUp(self):
+        super().setUp()
+        self.make([1, 2, 3])
+        self.shards = self.e.export(self.top / "shards", per_shard=2)
+        self.s = Ensemble(self.top / "shards")
+
+    def test_an_ensemble_of_shards_is_that_of_the_files(self):
+        self.assertEqual((self.s.id, self.s.protocol), (self.e.id, self.e.protocol))
+        np.testing.assert_array_equal(self.s.table(), self.e.table())
+        np.testing.assert_array_equal(jam.ensemble.table(self.top / "shards"), self.e.table())
+        self.assertEqual(jam.ensemble.protocols(self.top / "shards"), {self.e.id: self.e.protocol})
+        for name in ("forces", "gaps", "positions", "coordination"):
+            for ours, theirs in zip(self.s.each(name), self.e.each(name), strict=True):
+                np.testing.assert_array_equal(ours, theirs)
+        for ours, theirs in zip(self.s, self.e):
+            same_bits(ours.system(), theirs.system())
+        self.assertEqual(str(self.s.status()), str(self.e.status()))
+
+    def test_the_files_may_go_and_a_campaign_goes_on_in_the_shards(self):
+        shutil.rmtree(self.top / "e")
+        status = self.make([1, 2, 3, 4], self.s)
+        self.assertEqual((status.done, status.made), (4, 1))
+        self.assertEqual(self.make([3, 4], self.s, search=False).made, 0)
+        self.s.export(self.top / "again")
+        again = Ensemble(self.top / "again")
+        self.assertEqual(again.table()["seed"].tolist(), [1, 2, 3, 4])
+
+    def test_a_shard_beside_its_files_is_named_and_counts_nothing(self):
+        for shard in self.shards:
+            shutil.copy(shard, self.top / "e")
+        with self.warned("2 files are omitted: .*and 1 more, which other files hold too"):
+            self.assertEqual(self.seeds(), [1, 2, 3])
+
+    def test_a_damaged_shard_is_named(self):
+        data = bytearray(self.shards[0].read_bytes())
+        data[100] ^= 1
+        self.shards[0].write_bytes(data)
+        with self.assertRaisesRegex(jam.ensemble.StoreError, self.shards[0].name):
+            Ensemble(self.top / "shards")
+        s = Ensemble(self.top / "shards", SMALL)
+        with self.warned(self.shards[0].name):
+            self.assertEqual(s.table()["seed"].tolist(), [3])
+
+
+if __name__ == "__main__":
+    unittest.main()

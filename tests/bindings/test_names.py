@@ -39,6 +39,17 @@ class Names(unittest.TestCase):
             for name in names.split():
                 self.assertTrue(hasattr(found, name), f"{module}.{name}")
 
+    def test_dir_lists_what_a_module_is_for(self):
+        for module, names in NAMES.items():
+            found = importlib.import_module(module)
+            shown = dir(found)
+            self.assertLessEqual(set(names.split()) - {"__version__"}, set(shown), module)
+            for name in set(shown) - set(NAMES["jam"].split()):
+                value = getattr(found, name)
+                home = getattr(value, "__module__", "jam") or "jam"
+                self.assertTrue(home.startswith("jam") and not name.startswith("_"), f"{module}.{name}")
+            self.assertFalse({"Any", "np", "annotations", "Array", "os"} & set(shown), module)
+
     def test_every_module_is_there_without_an_import_of_its_own(self):
         for module in NAMES:
             code = f"import jam; {module}"

@@ -265,6 +265,20 @@ class Package(unittest.TestCase):
     def test_pair_correlation_has_its_distances(self):
         r = jam.System.distances(2.0, 40)
         self.assertEqual((len(r), r[0], r[-1]), (40, 0.025, 1.975))
+        s = jam.System.random(n=64, dim=3, seed=1)
+        g = s.pair_correlation(2.0, 40)
+        np.testing.assert_array_equal(g.r, r)
+        # the pairs below 2 mean diameters that it stands for: n (n - 1) / 2 per volume of the cell
+        shells = 4.0 / 3.0 * np.pi * np.diff((np.arange(41) * 0.05 * s.diameters.mean()) ** 3)
+        x = s.positions
+        apart = x[:, None] - x[None]
+        apart -= np.rint(apart)
+        lengths = np.sqrt((apart**2).sum(-1))[np.triu_indices(64, 1)]
+        pairs = ((lengths < 2.0 * s.diameters.mean())).sum()
+        self.assertAlmostEqual(float((g * shells).sum()) * 64 * 64 / 2, pairs, delta=1e-9 * pairs)
+        for made in (np.asarray(g), g + 1.0, g == 0.0, np.sqrt(g)):  # as programs for 1.0 take it
+            self.assertIs(type(made), np.ndarray)
+        self.assertNotIsInstance(g.max(), np.ndarray)
 
 
 if __name__ == "__main__":

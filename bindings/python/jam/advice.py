@@ -6,6 +6,10 @@ from dataclasses import dataclass
 from typing import Any
 
 from ._api.generated import GROWTH_STAGES
+from ._api.shown import only
+
+__all__ = ["Advice", "advise"]
+__dir__ = only(__all__)
 
 # Made by tests/bench/advise.py --table: (dimension, spheres): (seconds of growth, (seconds of crunch, largest error of
 # phi_J) for each of OPTIONS). One thread.

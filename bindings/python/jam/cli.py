@@ -8,8 +8,12 @@ from typing import Any
 from . import raw
 from ._api.calls import freeze
 from ._api.generated import OPTIONS, Container
+from ._api.shown import only
 from .errors import JamError
 from .system import System
+
+__all__ = ["main"]
+__dir__ = only(__all__)
 
 NAME = "python3 -m jam"
 

@@ -14,10 +14,17 @@ from ._api.arrays import Array
 from ._api.calls import not_cancelled
 from ._api.results import Modes
 from ._api.given import refuse_walls
+from ._api.shown import only
 from ._formats import ase, gsd
 from ._formats.replacing import replacing
 from .errors import StateError
 from .system import System
+
+__all__ = [
+    "half_bonds", "read_ase", "read_gsd", "write_contacts_csv", "write_csv", "write_gaps_csv", "write_gsd",
+    "write_spectrum_csv", "write_structure_csv", "write_vtk", "write_vtk_network",
+]
+__dir__ = only(__all__)
 
 
 def half_bonds(system: System) -> tuple[Array, Array]:

@@ -15,8 +15,17 @@ import numpy as np
 
 from . import statistics
 from ._api.arrays import Array
+from ._api.shown import only
 from ._system.runs import Runs, campaign, make_runs as run, take_runs  # noqa: F401  public here
 from .statistics import Estimate
+
+__all__ = [
+    "Estimate", "ModeWeights", "Prediction", "Predictors", "Runs", "campaign", "clone_distance", "clone_overlap",
+    "collapse_exponent", "correlation_errors", "correlations", "decay_curve", "is_caged", "median_over_mean",
+    "mode_weights", "overlap", "prediction", "predictors", "propensity", "reliability", "run", "self_scattering",
+    "take_runs",
+]
+__dir__ = only(__all__)
 
 # ---- predictors
 

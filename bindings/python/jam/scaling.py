@@ -14,6 +14,13 @@ from typing import Any, Callable, NamedTuple, Sequence
 import numpy as np
 
 from ._api.arrays import Array
+from ._api.shown import only
+
+__all__ = [
+    "Cdf", "Collapse", "Estimate", "Exponent", "bootstrap", "cdf_grid", "cdf_pooled", "cdf_ranked", "collapse",
+    "crossover", "draw_left_power", "fit_crossover", "fit_power", "local_exponent", "quality", "tail_scaling",
+]
+__dir__ = only(__all__)
 
 RESAMPLES = 200  # of a bootstrap: its error is then good to 5 %
 

@@ -6,6 +6,13 @@ from typing import Any, Callable, Iterable, NamedTuple, Sequence
 import numpy as np
 
 from ._api.arrays import Array
+from ._api.shown import only
+
+__all__ = [
+    "Estimate", "bootstrap", "collapse", "collapse_estimate", "deciles", "roc_area", "spearman",
+    "spearman_components", "velocity_spectrum",
+]
+__dir__ = only(__all__)
 
 
 class Estimate(NamedTuple):

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from ._api.shown import only
 from ._formats import write_packing
 from ._formats.groups import damaged, refusing
 from ._formats.provenance import provenance
@@ -18,6 +19,7 @@ from .errors import JamError, StoreError
 from .system import System, restore
 
 __all__ = ["StoreError", "image", "load", "provenance", "save", "write_shard"]
+__dir__ = only(__all__)
 
 
 def image(system: System, *, refined: bool = False, **more: Any) -> bytes:

@@ -4,6 +4,7 @@ from __future__ import annotations
 import os
 from typing import TYPE_CHECKING, Any
 
+from ._api.shown import only
 from . import errors, raw
 from ._api.arrays import as_vector
 from ._api.calls import freeze
@@ -22,6 +23,7 @@ from ._system.verbs import Verbs
 from ._system.writing import Writing
 
 __all__ = ["Contacts", "Modes", "System"]
+__dir__ = only(__all__)
 
 
 class System(Verbs, Writing, PoreSpace, Copies, Converting):

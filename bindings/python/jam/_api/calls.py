@@ -73,7 +73,7 @@ def _check_shape(name: str, array: Array, extents: tuple[str, ...], known: dict[
     shape = [e if n is None or e.isdigit() else n for e, n in zip(extents, wanted)]
     hint = ": transposed?" if array.ndim == len(extents) and list(array.shape) == wanted[::-1] else ""
     letters = "" if all(e.isdigit() or n is None for e, n in zip(extents, wanted)) else f"{_spelled(extents)} = "
-    raise ValueError(f"{name} must have shape {letters}{_spelled(shape)}, not {array.shape}{hint}")
+    raise exceptions.ArgumentError(f"{name} must have shape {letters}{_spelled(shape)}, not {array.shape}{hint}")
 
 
 def _letters(handle: Any, dim: int) -> dict[str, Any]:

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -46,6 +47,21 @@ class Contacts:
             rows[name] = self.vectors[:, k]
         rows["gap"], rows["force"] = self.gaps, self.forces
         return rows
+
+
+class Correlation(np.ndarray[Any, np.dtype[np.float64]]):
+    """g(r), shape (bins,): an array, so that programs for 1.0 run on. What is computed of it is a plain one.
+
+    Attributes
+    ----------
+    r : array, shape (bins,)
+        The middles of the bins, in mean diameters.
+    """
+
+    r: Array
+
+    def __array_wrap__(self, made: Any, *_: Any) -> Any:
+        return np.asarray(made)[()]
 
 
 @dataclass(frozen=True)

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 from dataclasses import fields
 from enum import IntEnum
-from typing import Any
+from typing import Any, Callable
 
 import numpy as np
 
@@ -54,3 +54,8 @@ def _rows(result: Any) -> str:
     widths = [max(map(len, column)) for column in columns]
     lines = ["  ".join(f"{cell:>{width}}" for cell, width in zip(row, widths)) for row in zip(*columns)]
     return "\n  ".join([type(result).__name__, *lines])
+
+
+def only(names: list[str]) -> Callable[[], list[str]]:
+    """`__dir__` of a module: what it is for, without what it imports."""
+    return lambda: sorted(names)

@@ -10,7 +10,7 @@ from .._api.arrays import Array, as_rows, unknown_array
 from .._api.calls import freeze, invoke, new_report, not_cancelled, same
 from .._api.generated import CheckReport, CrunchReport, ModeColumn, ModesWhich, RigidityReport, StatusCode
 from .._api.options import as_enum, option_struct
-from .._api.results import Contacts, Modes
+from .._api.results import Contacts, Correlation, Modes
 from .._api.tuples import FlexResult, GapsResult, RefinedPositionsResult, StressStatesResult
 from .handle import Base
 
@@ -182,8 +182,8 @@ class Network(Base):
 
     def pair_correlation(
         self, r_max: float = 4.0, bins: int = 200, *, kind: Any = None, a: int = -1, b: int = -1
-    ) -> Array:
-        """g(r) in equal bins from 0 to r_max, at the distances `distances(r_max, bins)`. No contact network is needed.
+    ) -> Correlation:
+        """g(r) in equal bins from 0 to r_max: an array with the distances as its attribute `r`. No contact network is needed.
 
         Parameters
         ----------
@@ -205,15 +205,16 @@ class Network(Base):
         >>> g = jam.System.random(n=64, dim=3, seed=1).pair_correlation(2.0, 40)
         >>> g.shape, (g[:20] == 0).all()
         ((40,), True)
-        >>> jam.System.distances(2.0, 40)[:2]
+        >>> g.r[:2]
         array([0.025, 0.075])
         """
-        found: Array = self.call("pair_correlation", kind, a=a, b=b, r_max=r_max, bins=bins)
+        found: Correlation = self.call("pair_correlation", kind, a=a, b=b, r_max=r_max, bins=bins).view(Correlation)
+        found.r = self.distances(r_max, bins)
         return found
 
     @staticmethod
     def distances(r_max: float = 4.0, bins: int = 200) -> Array:
-        """Distances of pair_correlation: the middles of its bins, in mean diameters."""
+        """The distances `r` of pair_correlation: the middles of its bins, in mean diameters."""
         return (np.arange(bins) + 0.5) * (r_max / bins)
 
     def stress_states(self, *, progress: Any = None) -> StressStatesResult:

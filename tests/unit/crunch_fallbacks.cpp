@@ -95,6 +95,25 @@ void nobody_solves(void **) {
   assert_true(closest_pair(r.packing).gap > -1e-13);
 }
 
+// Loose tolerances of the LPs are no reason to change the solver, nor to go round until max_lps. What a crunch cannot
+// use is said.
+void loose_tolerances_keep_the_solver(void **) {
+  const Packing p = start(60, 3, 0.3, 6);
+  for (const int32_t method : {JAM_CRUNCH_BARRIER_PATH, JAM_CRUNCH_SEQUENTIAL_LP})
+    for (const double tolerance : {1e-12, 1e-9, 1e-7, 1e-2}) {
+      jam_crunch_options o = default_crunch_options();
+      o.method = method, o.lp_tolerance = tolerance;
+      std::string log;
+      Monitor monitor;
+      listen(monitor, log);
+      const CrunchResult r = crunch(p, o, monitor, nullptr, nullptr);
+      assert_int_equal(r.status, JAM_OK);
+      assert_int_equal(r.report.lp_solver, JAM_LP_IPM);
+      assert_true(r.report.jammed && r.report.force_residual < 1e-12);
+      assert_true((log.find("lp_tolerance is") != std::string::npos) == (tolerance > 1e-9));
+    }
+}
+
 // A refusal of the polish is followed by narrow LPs, whose network is as good as any. The log says so.
 void refused_polish_takes_narrow_lps(void **) {
   const Packing p = start(60, 3, 0.3, 6);
@@ -255,6 +274,7 @@ int main() {
   const CMUnitTest tests[] = {cmocka_unit_test(threads_repeat),
                               cmocka_unit_test(clp_takes_over),
                               cmocka_unit_test(clp_alone),
+                              cmocka_unit_test(loose_tolerances_keep_the_solver),
                               cmocka_unit_test(nobody_solves),
                               cmocka_unit_test(refused_polish_takes_narrow_lps),
                               cmocka_unit_test(a_stop_behind_a_refused_polish_leaves_no_contacts),

@@ -32,7 +32,8 @@ LpAnswer try_solver(CrunchState &s, jam_lp_solver solver, const IpmControl &cont
     s.out.report.gamma_residual = check.gamma;
     s.out.report.duality_gap = std::fabs(check.gap);
     ++s.out.report.lp_solves;
-    s.last.early = control.early_fraction > 0.0 && std::fabs(check.gap) > s.next.gain_tolerance;
+    s.last.early =
+        control.early_fraction > 0.0 && std::fabs(check.gap) > std::max(s.next.gain_tolerance, control.tolerance);
     return LpAnswer::kept;
   }
   if (s.monitor.interrupted()) return LpAnswer::interrupted;

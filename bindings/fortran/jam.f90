@@ -860,7 +860,7 @@ module jam
     real(c_double) :: gain_tolerance = 0
     ! on max |s_i| of non-rattlers, > 0, default 1e-9
     real(c_double) :: step_tolerance = 0
-    ! relative complementarity and residual of one LP, default 1e-15
+    ! relative complementarity, residual of an LP, default 1e-15; above 1e-9 it acts as 1e-9
     real(c_double) :: lp_tolerance = 0
     ! largest pair distance in an LP; 0, the default: adapts
     real(c_double) :: neighbour_radius = 0
@@ -1610,8 +1610,8 @@ module jam
       integer(c_int32_t) :: status
     end function jam_abi_version
 
-    ! Name of the kernel that OpenBLAS chose for this processor, e.g. "Haswell"; "builtin" in a build with
-    ! loops of its own. If another BLAS library computes in place of OpenBLAS: the path of that library.
+    ! Who computes the matrix products of packings: "builtin", libjam's own loops, the default. In a build with a BLAS
+    ! library the kernel that OpenBLAS chose for this processor, e.g. "Haswell", or the path of another library.
     function jam_blas_kernel() &
         bind(c, name="jam_blas_kernel") result(status)
       import

@@ -426,8 +426,8 @@ ratio_i times the power of two at or below V^(1/d). Where no ratios are given, e
 %feature("docstring") jam_commit "Commit of the source that the library was built from, 12 hex digits, without uncommitted changes; \"\" when the build
 did not find one."
 %feature("docstring") jam_abi_version "JAM_ABI of the library that is loaded."
-%feature("docstring") jam_blas_kernel "Name of the kernel that OpenBLAS chose for this processor, e.g. \"Haswell\"; \"builtin\" in a build with
-loops of its own. If another BLAS library computes in place of OpenBLAS: the path of that library."
+%feature("docstring") jam_blas_kernel "Who computes the matrix products of packings: \"builtin\", libjam's own loops, the default. In a build with a BLAS
+library the kernel that OpenBLAS chose for this processor, e.g. \"Haswell\", or the path of another library."
 %feature("docstring") jam_status_string "One-line text of a status code (\"unknown status\" for others)."
 %feature("docstring") jam_stop_string "One-word name of a jam_stop_reason, e.g. \"converged\"."
 %feature("docstring") jam_last_error "Reason for the last status other than JAM_OK on this thread, with the name and value at fault; \"\" when there was

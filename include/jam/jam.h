@@ -67,13 +67,11 @@
  * - Distinct handles are independent. On one handle, calls that take it as const may run together. Any other call must
  *   be alone. While it runs, calls of other threads get JAM_E_BUSY, and its callback may use const calls. jam_cancel
  *   may be called from any thread or signal handler at any time. Calls without a handle may be called from any thread.
- * - The same seed, build, options and processor give the same packing bit for bit on one thread. On 2 to 64 threads
- *   all give one packing, perhaps another. On another processor OpenBLAS may choose another kernel (jam_blas_kernel),
- *   whose sums round otherwise. Then a crunch can end at another jamming point. The variable OPENBLAS_CORETYPE chooses
- *   one kernel for all. Molecular dynamics and Monte Carlo give the same bits on every processor.
- * - While a call factorises a matrix or solves a linear program by Clp, OpenBLAS has one thread in the whole process.
- *   libjam restores the previous number of threads afterwards. Host threads that use OpenBLAS meanwhile run on one
- *   thread each.
+ * - The same seed and options give the same packing bit for bit on every processor, on one thread. On 2 to 64 threads
+ *   all give one packing, perhaps another. All modes by LAPACK (jam_modes, jam_bloch_modes) differ in the last digits.
+ *   In a build whose products are those of a BLAS library (jam_blas_kernel) a crunch depends on the processor.
+ * - While a call computes all modes by LAPACK, OpenBLAS has one thread in the whole process. libjam restores the
+ *   previous number of threads afterwards. Host threads that use OpenBLAS meanwhile run on one thread each.
  * - Calls compute in the default floating-point environment of C: rounding mode, traps, exception flags, treatment of
  *   denormal numbers. libjam restores the caller's environment after each call, and while a callback runs.
  * - A thread that calls libjam needs a stack of 256 kB plus the stack of its callbacks.
@@ -177,8 +175,8 @@ JAM_API const char *jam_version(void);
 JAM_API const char *jam_commit(void);
 /* JAM_ABI of the library that is loaded. */
 JAM_API int32_t jam_abi_version(void);
-/* Name of the kernel that OpenBLAS chose for this processor, e.g. "Haswell"; "builtin" in a build with
- * loops of its own. If another BLAS library computes in place of OpenBLAS: the path of that library. */
+/* Who computes the matrix products of packings: "builtin", libjam's own loops, the default. In a build with a BLAS
+ * library the kernel that OpenBLAS chose for this processor, e.g. "Haswell", or the path of another library. */
 JAM_API const char *jam_blas_kernel(void);
 /* One-line text of a status code ("unknown status" for others). */
 JAM_API const char *jam_status_string(jam_status code);
@@ -862,7 +860,7 @@ typedef struct jam_crunch_options {
   int32_t threads;         /* 1 .. 64, default 1; 2 to 64 give the same bits, 1 may give others */
   double gain_tolerance;   /* on sqrt(Gamma) - 1, > 0, default 1e-12 */
   double step_tolerance;   /* on max |s_i| of non-rattlers, > 0, default 1e-9 */
-  double lp_tolerance;     /* relative complementarity and residual of one LP, default 1e-15 */
+  double lp_tolerance;     /* relative complementarity, residual of an LP, default 1e-15; above 1e-9 it acts as 1e-9 */
   double neighbour_radius; /* largest pair distance in an LP; 0, the default: adapts */
   double step_bound;       /* bound on each |s_i| component, 1e-15 .. 1000; 0, the default: adapts */
   double wall_time;        /* limit of the call */

@@ -23,7 +23,7 @@ constexpr double velocity_max = 1e6;     // root of sum m v^2 / (d n): no dynami
 constexpr double wave_max = 1e6;         // component of a wave vector: whole turns are taken off without loss
 constexpr double rounding = 1e-9;        // a limit that the library's own steps may exceed, relative
 constexpr double duality_gap_min = 1e-12, duality_gap_max = 1e-2;  // at which a crunch may end
-constexpr int threads_max = 64;                                    // of one call; OpenBLAS takes a buffer for each
+constexpr int threads_max = 64;                                    // of one call
 constexpr int keep_steps_max = 1000;                               // states of a crunch that are kept
 constexpr int64_t kept_coordinates = 1 << 24;  // in all kept states: 64 MiB, and 90 MB in the file of a page
 

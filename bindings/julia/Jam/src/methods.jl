@@ -271,7 +271,7 @@ same at `:info`. Takes as long as a few steps.
 - `threads`: 1 .. 64, default 1; 2 to 64 give the same bits, 1 may give others
 - `gain_tolerance`: on sqrt(Gamma) - 1, > 0, default 1e-12
 - `step_tolerance`: on max |`s_i`| of non-rattlers, > 0, default 1e-9
-- `lp_tolerance`: relative complementarity and residual of one LP, default 1e-15
+- `lp_tolerance`: relative complementarity, residual of an LP, default 1e-15; above 1e-9 it acts as 1e-9
 - `neighbour_radius`: largest pair distance in an LP; 0, the default: adapts
 - `step_bound`: bound on each |`s_i`| component, 1e-15 .. 1000; 0, the default: adapts
 - `wall_time`: limit of the call

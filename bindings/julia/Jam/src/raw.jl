@@ -941,7 +941,7 @@ of CALiPPSO.jl beside each.
 - `threads`: 1 .. 64, default 1; 2 to 64 give the same bits, 1 may give others
 - `gain_tolerance`: on sqrt(Gamma) - 1, > 0, default 1e-12
 - `step_tolerance`: on max |`s_i`| of non-rattlers, > 0, default 1e-9
-- `lp_tolerance`: relative complementarity and residual of one LP, default 1e-15
+- `lp_tolerance`: relative complementarity, residual of an LP, default 1e-15; above 1e-9 it acts as 1e-9
 - `neighbour_radius`: largest pair distance in an LP; 0, the default: adapts
 - `step_bound`: bound on each |`s_i`| component, 1e-15 .. 1000; 0, the default: adapts
 - `wall_time`: limit of the call
@@ -962,7 +962,7 @@ mutable struct jam_crunch_options
     threads::Int32  # 1 .. 64, default 1; 2 to 64 give the same bits, 1 may give others
     gain_tolerance::Cdouble  # on sqrt(Gamma) - 1, > 0, default 1e-12
     step_tolerance::Cdouble  # on max |s_i| of non-rattlers, > 0, default 1e-9
-    lp_tolerance::Cdouble  # relative complementarity and residual of one LP, default 1e-15
+    lp_tolerance::Cdouble  # relative complementarity, residual of an LP, default 1e-15; above 1e-9 it acts as 1e-9
     neighbour_radius::Cdouble  # largest pair distance in an LP; 0, the default: adapts
     step_bound::Cdouble  # bound on each |s_i| component, 1e-15 .. 1000; 0, the default: adapts
     wall_time::Cdouble  # limit of the call
@@ -1830,8 +1830,8 @@ end
 """
     jam_blas_kernel()
 
-Name of the kernel that OpenBLAS chose for this processor, e.g. "Haswell"; "builtin" in a build with
-loops of its own. If another BLAS library computes in place of OpenBLAS: the path of that library.
+Who computes the matrix products of packings: "builtin", libjam's own loops, the default. In a build with a BLAS
+library the kernel that OpenBLAS chose for this processor, e.g. "Haswell", or the path of another library.
 """
 function jam_blas_kernel()
     return ccall((:jam_blas_kernel, libjam), Cstring, ())

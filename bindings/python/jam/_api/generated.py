@@ -1345,7 +1345,7 @@ OPTIONS = {
         "threads": ("int", '1 .. 64, default 1; 2 to 64 give the same bits, 1 may give others'),
         "gain_tolerance": ("float", 'on sqrt(Gamma) - 1, > 0, default 1e-12'),
         "step_tolerance": ("float", 'on max |s_i| of non-rattlers, > 0, default 1e-9'),
-        "lp_tolerance": ("float", 'relative complementarity and residual of one LP, default 1e-15'),
+        "lp_tolerance": ("float", 'relative complementarity, residual of an LP, default 1e-15; above 1e-9 it acts as 1e-9'),
         "neighbour_radius": ("float", 'largest pair distance in an LP; 0, the default: adapts'),
         "step_bound": ("float", 'bound on each |s_i| component, 1e-15 .. 1000; 0, the default: adapts'),
         "wall_time": ("float", 'limit of the call'),

@@ -429,7 +429,7 @@ class Methods:
         step_tolerance : float, optional
             on max |s_i| of non-rattlers, > 0, default 1e-9
         lp_tolerance : float, optional
-            relative complementarity and residual of one LP, default 1e-15
+            relative complementarity, residual of an LP, default 1e-15; above 1e-9 it acts as 1e-9
         neighbour_radius : float, optional
             largest pair distance in an LP; 0, the default: adapts
         step_bound : float, optional

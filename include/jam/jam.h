@@ -69,9 +69,11 @@
  *   may be called from any thread or signal handler at any time. Calls without a handle may be called from any thread.
  * - The same seed and options give the same packing bit for bit on every processor, on one thread. On 2 to 64 threads
  *   all give one packing, perhaps another. All modes by LAPACK (jam_modes, jam_bloch_modes) differ in the last digits.
- *   In a build whose products are those of a BLAS library (jam_blas_kernel) a crunch depends on the processor.
+ *   In a build whose products are those of a BLAS library (jam_blas_kernel) a crunch can end at another jamming point
+ *   on another processor. The variable OPENBLAS_CORETYPE chooses one kernel of OpenBLAS for all.
  * - While a call computes all modes by LAPACK, OpenBLAS has one thread in the whole process. libjam restores the
- *   previous number of threads afterwards. Host threads that use OpenBLAS meanwhile run on one thread each.
+ *   previous number of threads afterwards. Host threads that use OpenBLAS meanwhile run on one thread each. No other
+ *   call of the default build touches OpenBLAS.
  * - Calls compute in the default floating-point environment of C: rounding mode, traps, exception flags, treatment of
  *   denormal numbers. libjam restores the caller's environment after each call, and while a callback runs.
  * - A thread that calls libjam needs a stack of 256 kB plus the stack of its callbacks.

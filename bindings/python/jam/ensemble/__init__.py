@@ -12,11 +12,13 @@
 from .._api.shown import only
 from ..errors import StoreError
 from .capacity import Capacity
-from .ensemble import Ensemble, protocols, table
+from .ensemble import Ensemble
 from .entry import Entry
 from .pool import LocalPool, WorkerDied
-from .protocol import ProtocolError, begin, complete, identity, make, minimal, packing_name, to_json
+from .making import begin, make
+from .protocol import ProtocolError, complete, identity, minimal, packing_name, to_json
 from .status import DamagedWarning, Status
+from .tables import protocols, table
 
 __all__ = [
     "Capacity",

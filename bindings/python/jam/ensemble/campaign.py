@@ -17,7 +17,8 @@ from ..errors import StoreError
 from . import index
 from .folder import Folder, Place
 from .index import Stamp
-from .protocol import identity, make, packing_name, to_json
+from .making import make
+from .protocol import identity, packing_name, to_json
 
 WINDOW = 1000  # calls handed to the executor ahead of time: bounds its memory, not the work
 ATTEMPTS = 3  # workers that may be lost over one packing before it is recorded as a failure

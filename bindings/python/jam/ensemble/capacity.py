@@ -4,9 +4,6 @@ from __future__ import annotations
 import math
 import os
 from dataclasses import dataclass
-from typing import Sequence
-
-import numpy as np
 
 from .._api.arrays import Array
 
@@ -43,8 +40,8 @@ def check_plan(wall_time: float, workers: int | None) -> int:
     return count
 
 
-def capacity(rows: Array, failed: int, sizes: Sequence[int], wall_time: float, workers: int) -> Capacity:
-    """From the rows of packings with their seconds, the number of seeds that failed and the bytes of the files."""
+def capacity(rows: Array, failed: int, size: float, wall_time: float, workers: int) -> Capacity:
+    """From the rows of packings with their seconds, the number of seeds that failed and the bytes of a packing."""
     seconds = rows["seconds_made"]
     return Capacity(
         packings=int(workers * wall_time / seconds.mean()),
@@ -55,5 +52,5 @@ def capacity(rows: Array, failed: int, sizes: Sequence[int], wall_time: float, w
         measured=len(rows),
         jammed=float((rows["jammed"] == 1).mean()),
         failed=failed / (failed + len(rows)),
-        bytes=float(np.mean(sizes)),
+        bytes=size,
     )

@@ -27,7 +27,7 @@ from .pool import LocalPool
 from .protocol import ProtocolError, complete, identity, packing_name, to_json, whole_seed
 from .row import builds_of
 from .status import Status, warn
-from .tables import as_table
+from .tables import as_table, readable
 
 
 class Ensemble:
@@ -162,15 +162,15 @@ class Ensemble:
             This packing failed; the text says why.
         """
         count = check_plan(wall_time, workers)
-        rows = self._counted()[0]
+        rows, places = self._counted()
         if not np.isfinite(rows["seconds_made"]).any():
             self.run([seed], progress=False, workers=1)
-            rows = self._counted()[0]
+            rows, places = self._counted()
         rows, failures = rows[np.isfinite(rows["seconds_made"])], self.failures()
         if not len(rows):
             raise ProtocolError(f"there is no packing to measure, and that of seed {seed} failed: {failures[-1]['text']}")
-        sizes = [stamp.size for stamp in self.files.scan()[0].values()] or [0]
-        return capacity(rows, len(failures), sizes, wall_time, count)
+        size = sum(path.stat().st_size for path in {place.path for place in places}) / len(places)  # a shard has many
+        return capacity(rows, len(failures), size, wall_time, count)
 
     # ---- reading
     def status(self, seeds: Iterable[int] | None = None) -> Status:
@@ -197,7 +197,7 @@ class Ensemble:
 
     def _counted(self) -> tuple[Array, list[Place]]:
         """Rows of the packings that count, and where each lies; a warning names the files that are left out."""
-        rows, places = _readable(self.files)
+        rows, places = readable(self.files)
         mine = rows["protocol"] == self.id.encode()
         return rows[mine], [place for place, own in zip(places, mine) if own]
 
@@ -276,28 +276,3 @@ class Ensemble:
             warn(write_shard(path, to_json(self.protocol), dict(zip(names, places[k : k + per_shard]))))
             made.append(path)
         return made
-
-
-def _readable(files: Folder) -> tuple[Array, list[Place]]:
-    """Packings that count, and where they lie; a warning names the files that are left out."""
-    content = files.content()
-    warn([*content.damaged.values(), *content.doubles.values()])
-    return content.rows, content.places
-
-
-def protocols(folder: str | os.PathLike[str]) -> dict[str, dict[str, Any]]:
-    """The protocols of a folder, a dict by name; Ensemble(folder, name) opens one."""
-    return {name: read() for name, read in Folder(folder).protocols().items()}
-
-
-def table(
-    folder: str | os.PathLike[str], pandas: bool = False, unverified: bool = False, options: bool = False
-) -> Any:
-    """Reports of all packings of a folder, of every protocol: the table of Ensemble, whose column `protocol` names it.
-
-    options: a DataFrame that also has a column for each option that one of the protocols sets otherwise than the library
-    does by itself, such as start.n or stages.0.growth_rate.
-    """
-    files = Folder(folder, unverified)
-    known = {name: read() for name, read in files.protocols().items()} if options else None
-    return as_table(_readable(files)[0], pandas or options, known)

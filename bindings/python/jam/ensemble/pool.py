@@ -1,9 +1,9 @@
 """Worker processes of this machine as a concurrent.futures.Executor.
 
-The pool of the standard library cannot be used after one of its workers was killed, and does not say which call that
-worker ran. Here each worker is a process of its own behind a pair of pipes: a killed worker fails one call, and the
-next call gets a new worker. A worker ends when its pipe closes, so none outlives a killed campaign. Workers import
-jam and not the user's script, which therefore needs no `if __name__ == "__main__"`.
+The pool of processes in the standard library cannot be used after one of its workers was killed, and does not say which call
+that worker ran. Here each thread of a pool of threads has a worker process of its own behind a pair of pipes: a killed worker
+fails one call, and the next call gets a new worker. A worker ends when its pipe closes, so none outlives a killed campaign.
+Workers import jam and not the user's script, which therefore needs no `if __name__ == "__main__"`.
 
 The folder that a program is called in may belong to anybody, and a file there may have the name of a module: workers import
 nothing from it. A callable of another package than jam brings the folders along that the caller imports from; they come
@@ -13,15 +13,13 @@ from __future__ import annotations
 
 import os
 import pickle
-import queue
 import signal
 import subprocess
 import sys
 import threading
-from concurrent.futures import Executor, Future
+from concurrent.futures import Future, ThreadPoolExecutor
 from pathlib import Path
 from typing import Any, Callable
-
 
 _OWN_PATH = "import sys; sys.path[:] = filter(None, sys.path)"  # "" stands for the current folder
 
@@ -30,7 +28,7 @@ class WorkerDied(RuntimeError):
     """The worker process ended before it answered; the text says by which signal or with which exit status."""
 
 
-class LocalPool(Executor):
+class LocalPool(ThreadPoolExecutor):
     """Processes of this machine.
 
     Parameters
@@ -40,75 +38,49 @@ class LocalPool(Executor):
     """
 
     def __init__(self, workers: int | None = None) -> None:
-        self._count = workers or len(os.sched_getaffinity(0))
-        self._work: queue.SimpleQueue[Any] = queue.SimpleQueue()
-        self._processes: dict[int, subprocess.Popen[bytes]] = {}
-        self._lock = threading.Lock()
-        self._closed = self._killed = False
-        self._threads = [threading.Thread(target=self._serve, args=(k,), daemon=True) for k in range(self._count)]
-        for thread in self._threads:
-            thread.start()
+        super().__init__(workers or len(os.sched_getaffinity(0)))
+        self._workers: dict[int, subprocess.Popen[bytes]] = {}  # by thread
+        self._begins, self._killed = threading.Lock(), False
 
     @property
     def pids(self) -> list[int]:
         """Process ids of the workers that live now."""
-        with self._lock:
-            return [p.pid for p in self._processes.values() if p.poll() is None]
+        return [p.pid for p in list(self._workers.values()) if p.poll() is None]
 
     def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
         """Calls fn in a worker; fn is found there by its module and name, arguments and answer go by pickle."""
-        future: Future[Any] = Future()
-        with self._lock:
-            if self._closed:
-                raise RuntimeError("the pool is shut down")
-            call = pickle.dumps((_folders_for(fn), pickle.dumps((fn, args, kwargs))))
-            self._work.put((future, pickle.dumps(call)))
-        return future
+        call = pickle.dumps((_folders_for(fn), pickle.dumps((fn, args, kwargs))))
+        return super().submit(self._call, pickle.dumps(call))
 
     def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:
         """Ends the pool. With cancel_futures also the calls that run now: their workers are killed."""
-        with self._lock:
-            first, self._closed = not self._closed, True
-            if cancel_futures:
-                while True:
-                    try:
-                        item = self._work.get_nowait()
-                    except queue.Empty:
-                        break
-                    if item:
-                        item[0].cancel()
-            for _ in self._threads if first or cancel_futures else ():
-                self._work.put(None)
-            if cancel_futures:
+        super().shutdown(wait=False, cancel_futures=cancel_futures)
+        if cancel_futures:
+            with self._begins:
                 self._killed = True
-                for process in self._processes.values():
+                for process in self._workers.values():
                     process.kill()
+        super().shutdown(wait=wait)
         if wait:
-            for thread in self._threads:
-                thread.join()
+            for process in self._workers.values():
+                _end(process)
 
-    def _begin(self, k: int) -> subprocess.Popen[bytes]:
+    def _begin(self) -> subprocess.Popen[bytes]:
         home = str(Path(__file__).resolve().parents[2])
         paths = [home] + [p for p in os.environ.get("PYTHONPATH", "").split(os.pathsep) if p and p != home]
         environment = dict(os.environ, PYTHONPATH=os.pathsep.join(paths), OPENBLAS_NUM_THREADS="1")
-        process = subprocess.Popen(
-            [sys.executable, "-c", f"{_OWN_PATH}; from jam.ensemble.pool import main; main()"],
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            env=environment,
-        )
-        with self._lock:
-            self._processes[k] = process
-            if self._killed:  # shutdown came while the worker was started
-                process.kill()
+        command = [sys.executable, "-c", f"{_OWN_PATH}; from jam.ensemble.pool import main; main()"]
+        with self._begins:
+            if self._killed:
+                raise WorkerDied("the pool was shut down before the worker began")
+            process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, env=environment)
+            self._workers[threading.get_ident()] = process
         return process
 
-    def _call(
-        self, k: int, process: subprocess.Popen[bytes] | None, call: bytes, future: Future[Any]
-    ) -> subprocess.Popen[bytes] | None:
-        """Runs one call; returns the worker, or None when it died."""
+    def _call(self, call: bytes) -> Any:
+        process = self._workers.get(threading.get_ident())
         if process is None or process.poll() is not None:
-            process = self._begin(k)
+            process = self._begin()
         try:
             assert process.stdin and process.stdout  # both are pipes
             process.stdin.write(call)
@@ -118,22 +90,10 @@ class LocalPool(Executor):
             process.kill()
             status = _end(process)
             how = f"signal {signal.Signals(-status).name}" if status < 0 else f"exit status {status}"
-            future.set_exception(WorkerDied(f"worker {process.pid} ended by {how}"))
-            return None
-        if done:
-            future.set_result(answer)
-        else:
-            future.set_exception(answer)
-        return process
-
-    def _serve(self, k: int) -> None:
-        process = None
-        while (item := self._work.get()) is not None:
-            future, call = item
-            if future.set_running_or_notify_cancel():
-                process = self._call(k, process, call, future)
-        if process is not None:
-            _end(process)
+            raise WorkerDied(f"worker {process.pid} ended by {how}") from None
+        if not done:
+            raise answer
+        return answer
 
 
 def _folders_for(fn: Callable[..., Any]) -> list[str]:

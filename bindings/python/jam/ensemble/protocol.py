@@ -15,20 +15,18 @@ import copy
 import hashlib
 import inspect
 import json
-import math
 from typing import Any, Mapping, Sequence
 
 import numpy as np
 
 from .. import errors
 from .._api import generated
-from .._api.arrays import Array
-from .._api.generated import GROWTH_STAGES, OPTIONS, StatusCode
+from .._api.generated import GROWTH_STAGES, OPTIONS
 from .._api.given import CONTAINERS, cell_of, enclosure_of
 from .._api.options import option_struct, spelled_out
-from .._api.size_laws import sizes as draw_sizes
 from .._formats.provenance import ALGORITHM
 from ..system import System
+from .making import SCENE, sizes_of_law
 
 PARTS = ("start", "stages", "crunch", "analysis")
 LATTICES = ("fcc",)
@@ -40,7 +38,6 @@ ANALYSIS: dict[str, dict[str, Any]] = {"gaps": {"h_max": 1.0, "stable_only": 1},
 _FEW = 1e-12  # packing fraction of a sphere that fits into any scene
 _NO_TIME = 1e-9  # seconds
 _OF_TWO_SPHERES = (errors.TooFewError, errors.StateError)  # what calls without time say of two spheres, not of the protocol
-_NO_SCENE = {"cell": None, "walls": None, "container": "brick"}
 _CHECKED = ("model", "non_additivity")  # of what the scene allows, beside itself
 _NOT_IN_START = ("seed", "overlap")  # the seed is the packing's own; a start never overlaps
 
@@ -77,7 +74,7 @@ def _diameters(given: Any, n: int, dim: int) -> Any:
             raise ProtocolError(f"start: diameters {dict(given)!r}: bidisperse takes a ratio > 0 and a share in (0, 1)")
         return law
     try:
-        _sizes(law, n, dim, 1)
+        sizes_of_law(law, n, dim, 1)
     except (errors.JamError, TypeError, ValueError) as error:
         raise ProtocolError(f"start: diameters {dict(given)!r}: {error}") from None
     return law
@@ -85,7 +82,7 @@ def _diameters(given: Any, n: int, dim: int) -> Any:
 
 def _scene(rest: dict[str, Any]) -> dict[str, Any]:
     """Takes cell, walls and container out: vectors or None, truth values of the axes or None, a word."""
-    cell, walls, container = (rest.pop(key, None) for key in _NO_SCENE)
+    cell, walls, container = (rest.pop(key, None) for key in SCENE)
     try:
         side, vectors = cell_of(rest.get("box"), cell, rest["dim"])
         kind, flat = enclosure_of(container, walls, rest["dim"])
@@ -117,7 +114,7 @@ def _start(given: Mapping[str, Any]) -> dict[str, Any]:
             raise ProtocolError(f"start: lattice {lattice!r} is none of {', '.join(LATTICES)}")
         if made["dim"] != 3 or round((made["n"] / 4) ** (1 / 3)) ** 3 * 4 != made["n"]:
             raise ProtocolError(f"start: an fcc lattice needs dim 3 and n = 4 m^3, not {made['dim']} and {made['n']}")
-        if scene != _NO_SCENE:
+        if scene != SCENE:
             raise ProtocolError("start: an fcc lattice fills a cube without walls: leave out cell, walls and container")
     return {**made, **scene, "diameters": _diameters(sizes, made["n"], made["dim"]), "lattice": lattice}
 
@@ -163,7 +160,7 @@ def _analysis(name: str, given: Mapping[str, Any]) -> dict[str, Any]:
 def _check_calls(made: Mapping[str, Any]) -> None:
     """Calls that the scene or model refuses, such as a free cell between walls: asked of two spheres that have no time."""
     start = made["start"]
-    scene = {k: start[k] for k in _NO_SCENE}
+    scene = {k: start[k] for k in SCENE}
     two = System.random(2, start["dim"], packing_fraction=_FEW, **{k: start[k] for k in _CHECKED}, **scene)
     calls = [(f"stages[{k}]", stage) for k, stage in enumerate(made["stages"])]
     if made["crunch"] is not None:
@@ -267,66 +264,3 @@ def packing_name(protocol_id: str, seed: int, algorithm: str = ALGORITHM) -> str
     """32 hex digits that name one packing: of the protocol, the seed and the algorithm."""
     text = f"{protocol_id} {whole_seed(seed)} {algorithm}"
     return hashlib.sha256(text.encode()).hexdigest()[:32]
-
-
-def _sizes(law: Any, n: int, dim: int, seed: int) -> Array | None:
-    """Ratios of the diameters."""
-    if law is None or isinstance(law, list):
-        return None if law is None else np.array(law)
-    if law["law"] == "bidisperse":
-        return np.where(np.arange(n) < round(law["share"] * n), 1.0, law["ratio"])
-    fields: dict[str, Any] = {"draw": "random", "seed": seed, **{k: v for k, v in law.items() if k != "law"}}
-    return draw_sizes(str(law["law"]), n, dim=dim, **fields)
-
-
-def _fcc(n: int, box: float) -> Array:
-    m = round((n / 4) ** (1 / 3))
-    corners = np.stack(np.meshgrid(*[np.arange(m)] * 3, indexing="ij"), axis=-1).reshape(-1, 1, 3)
-    basis = np.array([[0, 0, 0], [0, 1, 1], [1, 0, 1], [1, 1, 0]]) / 2.0
-    found: Array = ((corners + basis + 0.25) * (box / m)).reshape(-1, 3)
-    return found
-
-
-def begin(protocol: Mapping[str, Any], seed: int) -> System:
-    """The start of a complete protocol."""
-    given = {k: v for k, v in protocol["start"].items() if k != "lattice"}
-    scene = {k: given.pop(k, None) for k in _NO_SCENE}
-    sizes = _sizes(given.pop("diameters"), given["n"], given["dim"], seed)
-    if protocol["start"]["lattice"] is None:
-        if scene["cell"] is not None:
-            del given["box"]
-        return System.random(seed=seed, diameters=sizes, **given, **scene)
-    n, box, dim, phi = given.pop("n"), given.pop("box"), given.pop("dim"), given.pop("packing_fraction")
-    sizes = np.ones(n) if sizes is None else sizes
-    unit = math.pi ** (dim / 2) / math.gamma(dim / 2 + 1) * (sizes / 2) ** dim
-    return System.from_arrays(
-        _fcc(n, box), sizes * (phi * box**dim / unit.sum()) ** (1 / dim), box, seed=seed, overlap="shrink", **given
-    )
-
-
-def make(protocol: Mapping[str, Any], seed: int) -> tuple[System, dict[str, Any]]:
-    """Makes one packing.
-
-    Returns
-    -------
-    System
-        The packing, also when it is not jammed: its report says so.
-    dict
-        Results of the analysis by name. A call that this packing cannot answer, such as one that needs a jammed network, gives
-        its error's text.
-    """
-    system = begin(protocol, seed)
-    for stage in protocol["stages"]:
-        given = dict(stage)
-        report = getattr(system, given.pop("verb"))(**given)
-        if getattr(report, "status", StatusCode.OK) in (StatusCode.CANCELLED, StatusCode.LIMIT):
-            break  # as System.compress: a stage that stopped early ends the sequence
-    if protocol["crunch"] is not None:
-        system.crunch(**protocol["crunch"])
-    results = {}
-    for name, given in protocol["analysis"].items():
-        try:
-            results[name] = getattr(system, name)(**given)
-        except (errors.StateError, errors.UnsupportedError) as error:
-            results[name] = f"not available: {error}"
-    return system, results

@@ -1,6 +1,7 @@
 """Rows of packings as tables: numpy as they are stored, pandas with words for enums and options as columns."""
 from __future__ import annotations
 
+import os
 from dataclasses import fields
 from enum import IntEnum
 from typing import Any, Iterator, Mapping
@@ -8,8 +9,10 @@ from typing import Any, Iterator, Mapping
 from .._api import generated
 from .._api.arrays import Array
 from .._api.generated import CrunchReport
+from .folder import Folder, Place
 from .protocol import minimal
 from .row import FIELDS
+from .status import warn
 
 #: Enum of each field of the table that has one.
 ENUMS: dict[str, type[IntEnum]] = {
@@ -67,3 +70,28 @@ def as_table(rows: Array, pandas: bool, protocols: Mapping[str, Mapping[str, Any
     if protocols is not None:
         columns.update(option_columns(protocols, list(columns["protocol"])))
     return pd.DataFrame(columns)
+
+
+def readable(files: Folder) -> tuple[Array, list[Place]]:
+    """Packings that count, and where they lie; a warning names the files that are left out."""
+    content = files.content()
+    warn([*content.damaged.values(), *content.doubles.values()])
+    return content.rows, content.places
+
+
+def protocols(folder: str | os.PathLike[str]) -> dict[str, dict[str, Any]]:
+    """The protocols of a folder, a dict by name; Ensemble(folder, name) opens one."""
+    return {name: read() for name, read in Folder(folder).protocols().items()}
+
+
+def table(
+    folder: str | os.PathLike[str], pandas: bool = False, unverified: bool = False, options: bool = False
+) -> Any:
+    """Reports of all packings of a folder, of every protocol: the table of Ensemble, whose column `protocol` names it.
+
+    options: a DataFrame that also has a column for each option that one of the protocols sets otherwise than the library
+    does by itself, such as start.n or stages.0.growth_rate.
+    """
+    files = Folder(folder, unverified)
+    known = {name: read() for name, read in files.protocols().items()} if options else None
+    return as_table(readable(files)[0], pandas or options, known)

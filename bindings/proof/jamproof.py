@@ -1,14 +1,17 @@
 #!/usr/bin/env python3
-"""Checks a proof file of a jammed packing: jamproof.py FILE [OUT]
+"""Checks a proof file of a jammed packing: jamproof.py FILE [OUT] [--xyz PACKING.xyz]
 
 Proved is: exactly one packing within the printed radius touches exactly in the contacts that the file lists. All its
 forces are positive, all other pairs are open, and its stable spheres are collectively jammed; of a file with the word
 strict strictly: every motion and strain without overlap enlarges the volume. Integers and fractions decide. Forces
-and inverse are hints: bad ones lose the proof, they cannot make one. Exit status: 0 proved, 1 not proved, 2 a file
-cannot be read or written, 3 trapped but not proved. Files beside this one are for some proof files:
-jamproof_inverse.py for those without inverse (OUT is then the file with it), jamproof_implied.py where some contacts
-follow from others, and jamproof_trapped.py for crystals and all else with more contacts than unknowns. The page "The
-theorems behind proofs" of the guide has the proofs.
+and inverse are hints: bad ones lose the proof, they cannot make one. A file without inverse gets one by floats, from
+numpy or else computed here; OUT is then the file with it. A second line says what packing that is: spheres, contacts,
+rattlers, and the packing fraction to the digits that are proved.
+
+Exit status: 0 proved, 1 not proved, 2 a file cannot be read or written, or PACKING.xyz is another packing, 3 trapped
+but not proved, 4 could not try: a file that this one needs is not beside it. Such files are jamproof_implied.py where
+some contacts follow from others, jamproof_trapped.py for crystals and all else with more contacts than unknowns, and
+jamproof_xyz.py for --xyz. The page "The theorems behind proofs" of the guide has the proofs.
 
 Theorem A. Unknown are the centres x of the stable spheres but the first, and G; if strict, in place of G the cell
 vectors H, a lower triangle. F_c = |r_c|^2 - G sigma_c^2, r_c = x_i - x_j + n H, is to be 0 for each contact c = (i, j,
@@ -23,6 +26,7 @@ the maximum norm, delta >= |1 - A J|, eta >= |A F|, alpha >= |A|, and beta = D a
 import base64
 import decimal
 import math
+import re
 import runpy
 import sys
 import time
@@ -46,14 +50,25 @@ class Refused(ValueError):
     """The file cannot be read, or nothing was proved, and why."""
 
 
+class Missing(Exception):
+    """A file that is needed is not beside this one."""
+
+
 def refuse(wrong, words):
     if wrong:
         raise Refused(words)
 
 
+def integer(word):
+    """As libjam writes one: digits alone, no plus sign, no leading zero."""
+    refuse(not re.fullmatch("0|-?[1-9][0-9]*", word, re.ASCII), f"{word!r} is not a whole number")
+    return int(word)
+
+
 def number(word):
     """m p e is m 2^e; several with commas are a sum."""
-    parts = [[int(x) for x in part.split("p")] for part in word.split(",")]
+    parts = [[integer(x) for x in part.split("p")] for part in word.split(",")]
+    refuse(any(len(part) != 2 for part in parts), f"{word!r} is not of the form m p e")
     refuse(max(abs(e) for _, e in parts) > FARTHEST, f"an exponent of two is beyond {FARTHEST}")
     return sum(m * TWO**e for m, e in parts)
 
@@ -77,7 +92,8 @@ def watched(items, what, power=1):
 def beside(name, function, *arguments):
     """Calls a function in a file beside this one. That imports from here, under whatever name this one runs."""
     path = Path(__file__).resolve().with_name(name + ".py")
-    refuse(not path.is_file(), f"{path.name}, which this file needs, is not beside jamproof.py")
+    if not path.is_file():
+        raise Missing(f"{path.name}, which this file needs, is not beside jamproof.py")
     sys.modules["jamproof"] = HERE
     return runpy.run_path(str(path))[function](*arguments)
 
@@ -86,7 +102,9 @@ class Scene:
     """The exact numbers of a file. Lengths `x` and `cell` are integers over `one`, `size` of spheres over `per`."""
 
     def __init__(self, path):
-        self.text = Path(path).read_text(encoding="ascii")
+        self.text = Path(path).read_bytes().decode("ascii")
+        strange = re.search("[^ -~\n]", self.text)
+        refuse(strange, "a character, such as a carriage return, is neither printable ASCII nor a line feed")
         lines = [line.split() for line in self.text.split("\n") if line.strip()]
         refuse(lines[:1] != [["jamproof", "1"]], "the first line is not 'jamproof 1'")
 
@@ -100,19 +118,18 @@ class Scene:
             return rows
 
         ((dim,),), ((unit,),), ((cross,),), ((gamma,),) = (take(name, 1) for name in ONE)
-        self.dim = d = int(dim)
+        self.dim = d = integer(dim)
         refuse(d < 1, "dim is not 1 or more")
         (cell,), spheres = take("cell", d * (d + 1) // 2), take("sphere", d + 2)
         contacts = take("contact", d + 3, d + 4)
         self.unit, self.gamma, cross = number(unit), number(gamma), 1 + number(cross)
+        refuse(any(s[0] not in ("0", "1") for s in spheres), "a sphere is neither 1, stable, nor 0, a rattler")
         self.stable, self.ratio = [s[0] == "1" for s in spheres], [number(s[1]) for s in spheres]
-        self.contacts = [(int(i), int(j), tuple(map(int, n[:d]))) for i, j, *n in contacts]
+        self.contacts = [(integer(i), integer(j), tuple(map(integer, n[:d]))) for i, j, *n in contacts]
         forces = [list(map(number, rest[d + 2 :])) for rest in contacts]
         self.force, self.row = [f[0] for f in forces], [f[-1] for f in forces]  # row: without implied contacts
-        self.tiles = [(name, list(map(int, ring))) for name, *ring in lines if name in ("tile", "implied")]
-        self.inverse = self.hint = None
-        for e, data in take("inverse", 2):
-            self.inverse = int(e), array("i", zlib.decompress(base64.b64decode(data)))
+        self.tiles = [(name, list(map(integer, ring))) for name, *ring in lines if name in ("tile", "implied")]
+        self.within, self.hint, packed = None, None, take("inverse", 2)
         self.strict = bool(take("strict", 0))
         for name in (line[0] for line in lines[1:]):
             refuse(name not in WORDS, f"unknown word {name}")
@@ -120,10 +137,12 @@ class Scene:
         self.cell = [lengths[r * (r + 1) // 2 : (r + 1) * (r + 2) // 2] + [0] * (d - r - 1) for r in range(d)]
         self.x = [lengths[at : at + d] for at in range(len(cell), len(lengths), d)]
         ends, named = {i for c in self.contacts for i in c[:2]}, {c for _, ring in self.tiles for c in ring}
+        again = {(j, i, tuple(-v for v in n)) for i, j, n in self.contacts} | set(self.contacts)
         positive = [self.unit, self.gamma, *self.ratio, *(self.cell[q][q] for q in range(d))]
         refuse(not 0 < cross <= 2, "non_additivity must be above -1 and at most 1")
         refuse(not any(self.stable), "no sphere is stable")
         refuse(not contacts, "the file lists no contact")
+        refuse(len(again) != 2 * len(contacts), "a contact is there twice, or of a sphere with itself")
         refuse(not ends <= {*range(len(spheres))}, "a contact names a sphere that is not there")
         refuse(not named <= {*range(len(contacts))}, "a tile or an implied contact names a contact that is not there")
         refuse(min(positive) <= 0, "a diameter, a cell edge, unit or gamma is not positive")
@@ -131,7 +150,15 @@ class Scene:
         self.first = {i: d * k for k, i in enumerate([i for i, yes in enumerate(self.stable) if yes][1:])}
         at = [d * len(self.first) + q * (q + 1) // 2 for q in range(d + 1)]  # the first unknown of each cell vector
         self.vectors, self.unknowns = (at[:-1], at[-1]) if self.strict else ([], at[0])  # their number without G
+        self.inverse = self.unpacked(*packed[-1]) if packed else None
         self.gradient = {k + q: Fraction(self.one, self.cell[q][q]) for q, k in enumerate(self.vectors)}  # b
+
+    def unpacked(self, e, data):
+        """The inverse of the file: no more than a column of unknowns for each contact is unpacked."""
+        stream, size = zlib.decompressobj(), array("i").itemsize * self.unknowns * len(self.contacts)
+        flat = stream.decompress(base64.b64decode(data, validate=True), size + 1)
+        refuse(len(flat) > size or not stream.eof, "the line 'inverse' has more numbers than the equations, or too few")
+        return integer(e), array("i", flat)
 
     def vector(self, i, j, n):
         """r = x_i - x_j + n H."""
@@ -215,9 +242,57 @@ class Scene:
         return least
 
 
+def float_inverse(rows):
+    """Of a square matrix, without numpy by Gauss and Jordan."""
+    try:
+        import numpy
+
+        return numpy.linalg.inv(numpy.array(rows)).tolist()
+    except ImportError:
+        n = len(rows)
+    a = [[*row, *(float(k == i) for k in range(n))] for i, row in enumerate(rows)]
+    for c in watched(range(n), "columns of the inverse"):
+        p = max(range(c, n), key=lambda r: abs(a[r][c]))
+        a[p], a[c] = a[c], [v / a[p][c] for v in a[p]]
+        for r, row in enumerate(a):
+            if r != c and row[c]:
+                a[r] = [x - row[c] * y for x, y in zip(row, a[c])]
+    return [row[n:] for row in a]
+
+
+def left_inverse(rows):
+    """(R^T R)^-1 R^T of floats."""
+    if len(rows) == len(rows[0]):
+        return float_inverse(rows)
+    try:
+        import numpy
+
+        r = numpy.array(rows)
+        return (numpy.linalg.inv(r.T @ r) @ r.T).tolist()
+    except ImportError:
+        flat = list(zip(*rows))
+    square = float_inverse([[sum(map(mul, a, b)) for b in flat] for a in watched(flat, "rows of J^T J")])
+    return [[sum(map(mul, a, b)) for b in rows] for a in square]
+
+
+def hint(unknowns, j, count):
+    """(e, the inverse of the columns j without its row of G, column by column in units of 2^e); `count`: rows of j. It
+    is a hint: `bounds` bounds 1 - A J in integers."""
+    rows = [[0.0] * len(j) for _ in range(count)]
+    for l, column in enumerate(j):
+        for c, value in column:
+            rows[c][l] += value / 2.0**BITS
+    try:
+        a = left_inverse(rows)
+        e = int(max(max(map(abs, row)) for row in a)).bit_length() - 30
+        return e, array("i", [round(v * 2.0**-e) for column in zip(*a[:unknowns]) for v in column])
+    except Exception as error:  # of a hint, whoever made it
+        raise Refused(f"singular: {error}") from None
+
+
 def inverse_of(s, j, count):
     """A without its row of G as (e, columns of 32-bit integers in units of 2^e), a hint; `count`: rows of J."""
-    e, flat = s.hint = s.inverse or beside("jamproof_inverse", "hint", s.unknowns, j, count)
+    e, flat = s.hint = s.inverse or hint(s.unknowns, j, count)
     refuse(len(flat) != count * s.unknowns or e < -FARTHEST, "singular: the inverse does not fit the equations")
     return e, [flat[c * s.unknowns : (c + 1) * s.unknowns] for c in range(count)]
 
@@ -266,14 +341,15 @@ def check(s):
     eta_g, alpha_g = abs(sum(map(mul, f, row))), sum(map(abs, row))  # the row of G is minus a state of self-stress
     largest = max([max(max(map(abs, column)) for column in inverse) * TWO**e, *map(abs, row)])
     delta, eta, alpha = max(delta + [delta_g]), max(eta + [eta_g]), max(alpha + [alpha_g])
-    wide = s.dim * (2 + s.strict * max(sum(map(abs, n)) for *_, n in s.contacts)) ** 2  # D
+    ways = 2 + s.strict * max(sum(map(abs, n)) for *_, n in s.contacts)  # a contact vector moves by ways r at most
+    wide = s.dim * ways**2  # D
     beta, room = wide * alpha, (1 - delta) ** 2
     wrong = delta >= 1 or 4 * beta * eta >= room
     refuse(wrong, f"singular: delta {float(delta):.3g}, 4 beta eta {float(4 * beta * eta):.3g}")
     r = eta / (1 - delta) * (1 + 4 * beta * eta / room)
     wrong = eta + delta * r + beta * r * r > r or delta + 2 * beta * r >= 1  # (1)
     refuse(wrong, f"singular: radius {float(r):.3g}, beta {float(beta):.3g}")
-    wrong = s.tiles and r**2 * 10**12 > s.gamma * min(s.ratio) ** 2
+    wrong = s.tiles and (ways * r) ** 2 * 10**12 > s.gamma * min(s.ratio) ** 2
     refuse(wrong, f"excess: radius {float(r):.3g} is too large for the angles of tiles")
     r_g = eta_g + delta_g * r + wide * alpha_g * r * r
     # Forces on implied contacts are free: those of the file. The others balance them, with this A.
@@ -284,6 +360,7 @@ def check(s):
     off += sum(r / (h * (h - r)) for h in edges)
     error, mean = (off + 2 * wide * size * r) / (1 - delta - 2 * beta * r) * largest, size / len(forces)  # (2)
     refuse(least <= error, f"force: the least is {float(least / mean):.3g}, its error {float(error / mean):.3g}")
+    s.within = [v * r for v in s.gradient.values()] if s.strict else r_g / s.gamma
     found = {"radius": r * s.unit, **({} if s.strict else {"gamma_error": r_g / s.gamma})}
     found["least_gap"] = gap(s.least_opening(r, s.gamma + r_g))
     return {**found, "delta": delta, "least_force": least / mean, "force_error": error / mean}
@@ -302,38 +379,103 @@ def shown(found):
     return ", ".join(f"{name} {float(digits(name)):.3g}" for name in found)
 
 
+def pi_between():
+    """Two fractions about pi, 10^-120 apart: 16 atan(1/5) - 4 atan(1/239) (Machin)."""
+    one, total = 10**130, 0
+    for times, x in ((16, 5), (-4, 239)):
+        power, k, sign = one // x, 0, times
+        while power:
+            total, power, k, sign = total + sign * (power // (2 * k + 1)), power // x**2, k + 1, -sign
+    return Fraction(total - 10**10, one), Fraction(total + 10**10, one)
+
+
+def fraction(s):
+    """The packing fraction, rattlers included, from below and above: pi^(d/2) / (2^d Gamma(d/2 + 1)) sum sigma^d / V.
+    sigma^2 of a sphere is G ratio^2, G known to `within`; strict V is known to that part of each edge."""
+    d, root = s.dim, lambda v, up: Fraction(math.isqrt(math.floor(v * 4**400)) + up, 2**400)
+    volume = Fraction(math.prod(s.cell[q][q] for q in range(d)), s.one**d)
+    balls = sum(v**d for v in s.ratio) * Fraction(1, 2**d)
+    balls *= Fraction(2 ** ((d + 1) // 2), math.prod(range(d, 0, -2))) if d % 2 else Fraction(1, math.factorial(d // 2))
+    ends = []
+    for up, pi in enumerate(pi_between()):
+        change = Fraction(1)
+        for v in s.within if s.strict else []:
+            change *= 1 / (1 - v) if up else 1 / (1 + v)
+        gamma = s.gamma if s.strict else s.gamma * (1 + (2 * up - 1) * s.within)
+        ends.append(balls * pi ** (d // 2) * gamma ** (d // 2) * (root(gamma, up) if d % 2 else 1) * change / volume)
+    return ends
+
+
+def summary(s):
+    """What packing that is; the digits of phi are those that both bounds share."""
+    low, high = (str(math.floor(v * 10**100)).zfill(101) for v in fraction(s)) if s.within is not None else ("", "")
+    same = next((k for k, (a, b) in enumerate(zip(low, high)) if a != b), len(low))
+    point = len(low) - 100
+    digits = f", phi = {low[:point]}.{low[point:same]}..." if same > point > 0 else ""
+    loose = s.stable.count(False)
+    return f"d = {s.dim}, N = {len(s.x)}, {len(s.contacts)} contacts, {loose} rattler{'s' * (loose != 1)}{digits}"
+
+
 def conclusion(s):
     """Exit status and text."""
     strictly = " strictly" * s.strict
     try:
         return 0, f"proved{strictly}: {shown(check(s))}"
+    except Missing as why:
+        return 4, f"could not try: {why}"
     except (Refused, OverflowError, ZeroDivisionError) as why:
         text = f"not proved: {why}"
     if not text.startswith("not proved: excess"):
         return 1, text
     try:
         return 3, f"trapped{strictly}: {shown(beside('jamproof_trapped', 'trapped', s))}; {text}"
+    except Missing as why:
+        return 4, f"could not try: {why}"
     except (Refused, OverflowError, ZeroDivisionError) as why:
         return 1, f"{text}; not trapped: {why}"
 
 
-def main(path, out=None):
+def complete(scene, out):
+    """Writes the file again, with the inverse that was made for it, if any."""
+    text = scene.text
+    if scene.hint and not scene.inverse:
+        e, flat = scene.hint
+        text = text.rstrip("\n") + f"\ninverse {e} {base64.b64encode(zlib.compress(flat.tobytes())).decode()}\n"
+    Path(out).write_text(text, encoding="ascii")
+
+
+def main(path, out=None, xyz=None):
     try:
         scene = Scene(path)
     except (OSError, ValueError, LookupError, TypeError, OverflowError, MemoryError, zlib.error) as error:
         print(f"{path}: cannot be read: {error}")
         return 2
-    status, text = conclusion(scene)
-    print(text)
     try:
-        return beside("jamproof_inverse", "complete", scene, out) or status if out else status
-    except (OSError, Refused) as error:
+        status, text = conclusion(scene)
+        print(text, summary(scene), sep="\n")
+        same, compared = beside("jamproof_xyz", "compare", scene, xyz) if xyz else (True, None)
+        if xyz:
+            print(f"{xyz}: {compared}")
+    except Missing as why:
+        print(f"could not try: {why}")
+        return 4
+    except MemoryError:
+        print("could not try: there is not enough memory")
+        return 4
+    try:
+        if out:
+            complete(scene, out)
+    except OSError as error:
         print(f"{out}: cannot be written: {error}", file=sys.stderr)
         return 2
+    return status if same else 2
 
 
 if __name__ == "__main__":
-    if len(sys.argv) not in (2, 3) or sys.argv[1].startswith("-"):
+    words = sys.argv[1:]
+    at = words.index("--xyz") if "--xyz" in words else len(words)
+    other, words = words[at + 1 : at + 2], words[:at] + words[at + 2 :]
+    if len(words) not in (1, 2) or words[0].startswith("-") or at < len(sys.argv) - 1 and not other:
         print(__doc__)
         sys.exit(2)
-    sys.exit(main(*sys.argv[1:]))
+    sys.exit(main(words[0], *words[1:], **({"xyz": other[0]} if other else {})))

@@ -12,7 +12,7 @@ p, p, q. Of vectors of equal length, those whose directions differ by 60 degrees
 """
 from jamproof import refuse
 
-CONVEX = 2000  # sines of the corners of a tile exceed 1 / CONVEX; the radius is a millionth of a diameter at most
+CONVEX = 2000  # sines of the corners of a tile exceed 1 / CONVEX; no contact vector moves by a millionth of a diameter
 SIXTHS = ((1, 0), (0, 1), (-1, 1), (-1, 0), (0, -1), (1, -1))  # exp(i k pi / 3) = a + b exp(i pi / 3)
 
 

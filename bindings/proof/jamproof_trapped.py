@@ -62,6 +62,7 @@ def closed(s, columns):
         off = sum(map(abs, rest)) * max(max(map(abs, column)) for column in inverse) * TWO**e
         wrong = off >= (1 - delta) * least
         refuse(wrong, f"force: the least is {float(least):.3g}, what balances them {float(off):.3g}")
+    s.within = [] if s.strict else 0
     return {"radius": 0, "gamma_error": 0, "least_gap": gap(s.least_opening(0, s.gamma))}
 
 
@@ -109,6 +110,7 @@ def trapped(s):
     above = opened + rest * inner + square * inner**2  # over weight: above s.gamma of the densest packing within inner
     error = (gamma - s.gamma + (0 if s.strict else above / weight)) / gamma
     outer = min([left / (2 * second * top)] + [h / 2 for h in edges])
+    s.within = [2 * above + s.dim * error] if s.strict else 2 * error  # s.gamma is the file's less at most error
     refuse(s.strict and inner >= outer, f"singular: inner {float(inner):.3g} is not below outer {float(outer):.3g}")
     found = {"inner": inner * s.unit, **({"outer": outer * s.unit} if outer > inner else {})}
     found.update({"volume_error": above} if s.strict else {}, gamma_error=error)

@@ -349,8 +349,8 @@ class Proofs(unittest.TestCase):
         lines = io.StringIO()
         square = [[2.0, 1.0], [1.0, 3.0]]
         with mock.patch.object(jamproof, "WAIT", -1), mock.patch.dict(sys.modules, numpy=None), contextlib.redirect_stderr(lines):
-            inverse = jamproof.beside("jamproof_inverse", "float_inverse", square)
-            left = jamproof.beside("jamproof_inverse", "left_inverse", square + [[0.0, 0.0]])
+            inverse = jamproof.float_inverse(square)
+            left = jamproof.left_inverse(square + [[0.0, 0.0]])
             self.assertIn("radius", verdict(self.files[0][0]))
         for found in (inverse, [row[:2] for row in left]):
             self.assertLess(abs(np.array(found) @ np.array(square) - np.eye(2)).max(), 1e-14)

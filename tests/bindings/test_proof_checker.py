@@ -1,21 +1,25 @@
 """The checker as a program: its files, what it prints where one of them is missing, and the gaps that it prints."""
 import ast
+import base64
+import decimal
 import itertools
 import math
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
 import tempfile
 import unittest
+import zlib
 from fractions import Fraction
 
 from test_proof import CHECKER, ROOT, File, file_of, jamproof, packing, scene_of, value, word
 from test_proof_bounds import fcc
 
 FILES = sorted(CHECKER.parent.glob("*.py"))
-LENGTHS = {"jamproof.py": 250, "jamproof_implied.py": 70, "jamproof_inverse.py": 50, "jamproof_trapped.py": 100}
+LENGTHS = {"jamproof.py": 360, "jamproof_implied.py": 70, "jamproof_trapped.py": 100, "jamproof_xyz.py": 50}
 
 
 def run(program, *arguments):
@@ -109,23 +113,24 @@ class Program(unittest.TestCase):
         self.assertEqual(run(CHECKER, self.folder / "none").returncode, 2)
         self.assertEqual(run(CHECKER, self.write(self.text.replace("sphere 1", "sphere 0", 1))).returncode, 1)
 
-    def test_alone_it_proves_isostatic_packings_and_names_the_file_that_others_need(self):
-        alone, complete = shutil.copy(CHECKER, self.folder), self.folder / "b.jamproof"
-        found = run(CHECKER, self.write(self.text), complete)
-        self.assertEqual(run(alone, complete).stdout, found.stdout)
+    def test_alone_it_proves_what_libjam_writes_and_names_the_file_that_others_need(self):
+        alone = shutil.copy(CHECKER, self.folder)
+        path = self.write(self.text)
+        self.assertEqual(run(alone, path).stdout, run(CHECKER, path).stdout)
         f = File(self.text)
-        f.lines.append(list(f.contacts[0]))  # a contact too many
-        for text, name, start in (
-            (self.text, "jamproof_inverse.py", "not proved: "),
-            ("\n".join(fcc()) + "\n", "jamproof_trapped.py", "not proved: "),
-            (flower(), "jamproof_implied.py", "not proved: "),
-            (f.text(), "jamproof_trapped.py", "not proved: excess: "),
+        taken = {frozenset(c[1:3]) for c in f.contacts} | {frozenset([f.contacts[0][1]])}
+        other = next(k for k in range(len(f.spheres)) if frozenset([f.contacts[0][1], str(k)]) not in taken)
+        f.lines.append([*f.contacts[0][:2], str(other), *f.contacts[0][3:]])  # a contact too many
+        for text, name in (
+            ("\n".join(fcc()) + "\n", "jamproof_trapped.py"),
+            (flower(), "jamproof_implied.py"),
+            (f.text(), "jamproof_trapped.py"),
         ):
             done = run(alone, self.write(text))
-            self.assertEqual((done.returncode, done.stderr), (1, ""), done.stdout)
-            self.assertTrue(done.stdout.startswith(start), done.stdout)
-            self.assertTrue(done.stdout.endswith(f"{name}, which this file needs, is not beside jamproof.py\n"), done.stdout)
-            self.assertEqual(done.stdout.count("\n"), 1)
+            self.assertEqual((done.returncode, done.stderr), (4, ""), done.stdout)
+            first = done.stdout.splitlines()[0]
+            self.assertEqual(first, f"could not try: {name}, which this file needs, is not beside jamproof.py")
+        self.assertEqual(run(alone, self.write(self.text), "--xyz", "none.xyz").returncode, 4)
         os.symlink(CHECKER, self.folder / "link.py")  # files are beside the one that the link leads to
         self.assertEqual(run(self.folder / "link.py", self.write("\n".join(fcc()) + "\n")).returncode, 0)
 
@@ -156,11 +161,100 @@ class Program(unittest.TestCase):
         self.assertEqual(run(CHECKER, path, other).returncode, 0)
         self.assertEqual(other.read_bytes(), path.read_bytes())
 
+    def test_only_what_libjam_writes_is_read(self):
+        """A flag that is neither 0 nor 1, signs and zeros in front, carriage returns, a contact twice: each is refused by name."""
+        contact, sphere = ([line for line in self.text.splitlines() if line.startswith(word)][0] for word in ("contact", "sphere 1"))
+        i, j = contact.split()[1:3]
+        image = " ".join(str(-int(n)) for n in contact.split()[3:6])
+        again = f"contact {j} {i} {image} {contact.split()[6]}"
+        for old, new, why in (
+            ("sphere 1", "sphere True", "neither 1, stable, nor 0"),
+            ("sphere 1", "sphere 01", "neither 1, stable, nor 0"),
+            (sphere, sphere.replace("p-", "p-0", 1), "not a whole number"),
+            (sphere, sphere.replace("sphere 1 ", "sphere 1 +", 1), "not a whole number"),
+            (sphere, sphere.replace("sphere 1 ", "sphere 1 \u0661", 1), "ascii"),
+            (sphere, sphere.replace("p-", "p-1p-", 1), "not of the form m p e"),
+            (contact, contact.replace(f"contact {i}", f"contact +{i}"), "not a whole number"),
+            (contact, contact.replace(f"contact {i}", f"contact 0{i}"), "not a whole number"),
+            (contact, contact + "\n" + contact, "a contact is there twice"),
+            (contact, contact + "\n" + again, "a contact is there twice"),
+            (contact, f"{contact}\rcontact 0 1 0 0 0 1p0", "carriage return"),
+        ):
+            path = self.folder / "a.jamproof"
+            path.write_bytes(self.text.replace(old, new, 1).encode())
+            done = run(CHECKER, path)
+            self.assertEqual((done.returncode, done.stderr), (2, ""), (new, done.stdout))
+            self.assertIn(why, done.stdout, new)
+
+    def test_an_inverse_takes_no_more_memory_than_the_equations(self):
+        """A hundred megabytes of zeros: the line 'inverse' is unpacked to the size that the contacts give, and no further."""
+        bomb = base64.b64encode(zlib.compress(bytes(10**8), 9)).decode()
+        path = self.write(self.text + f"inverse 0 {bomb}\n")
+        words = [sys.executable, "-I", "-S", "-B", "-c", LIMITED, str(CHECKER), str(path)]
+        done = subprocess.run(words, capture_output=True, text=True, check=False)
+        self.assertEqual((done.returncode, done.stderr), (2, ""), done.stdout)
+        self.assertIn("more numbers than the equations", done.stdout)
+
+    def test_it_says_what_was_proved(self):
+        """The second line: all digits of phi that it prints are those of the exact packing near the centres of the file."""
+        for text in (self.text, "\n".join(fcc()) + "\n", flower()):
+            path = self.write(text)
+            line = run(CHECKER, path).stdout.splitlines()[1]
+            scene = jamproof.Scene(path)
+            self.assertTrue(line.startswith(f"d = {scene.dim}, N = {len(scene.x)}, {len(scene.contacts)} contacts, "), line)
+            shown = line.split("phi = ")[1]
+            self.assertRegex(shown, r"^0\.\d{28,}\.\.\.$")
+            with decimal.localcontext() as context:  # pi from Gauss and Legendre; the file's own diameters and cell
+                context.prec = 60
+                edge = decimal.Decimal(math.prod(scene.cell[q][q] for q in range(scene.dim))) / decimal.Decimal(scene.one) ** scene.dim
+                root = decimal.Decimal(scene.gamma.numerator) / decimal.Decimal(scene.gamma.denominator)
+                size = [(decimal.Decimal(v.numerator) / v.denominator) ** scene.dim for v in scene.ratio]
+                ball = {2: gauss_legendre() / 4, 3: gauss_legendre() / 6}[scene.dim]
+                phi = ball * sum(size) * root ** (decimal.Decimal(scene.dim) / 2) / edge
+            self.assertTrue(str(phi).startswith(shown[:26]), (shown, phi))
+
+    def test_it_is_compared_with_an_xyz_file(self):
+        system, ratio = packing(16, 3, 7)
+        path, xyz = self.write(file_of(system, ratio)), self.folder / "a.xyz"
+        system.write(str(xyz))
+        done = run(CHECKER, path, "--xyz", xyz)
+        self.assertIn("the same packing: stable centres within", done.stdout)
+        self.assertIn(done.returncode, (0, 3), done.stdout)
+        within = float(re.search("stable centres within ([^,]*),", done.stdout).group(1))
+        self.assertLess(within, 1e-15)
+        head, *rows = xyz.read_text().split("\n")[1:-1]
+        for change, why in (
+            (rows[:-1], "another packing: 15 spheres"),
+            ([rows[1], rows[0], *rows[2:]], "another packing: stable centres"),
+            (None, "cannot be read"),
+        ):
+            xyz.write_text("\n".join([str(len(change)), head, *change]) + "\n" if change else "16\nno header\n")
+            done = run(CHECKER, path, "--xyz", xyz)
+            self.assertEqual(done.returncode, 2, done.stdout)
+            self.assertIn(why, done.stdout)
+
     def test_words_without_numbers_are_no_traceback(self):
         for line in ("implied", "tile", "inverse", "dim", "gamma", "sphere", "contact"):
             done = run(CHECKER, self.write(self.text + line + "\n"))
             self.assertIn(done.returncode, (1, 2, 3), line)
-            self.assertEqual((done.stderr, done.stdout.count("\n")), ("", 1), line)
+            self.assertEqual((done.stderr, done.stdout.count("\n")), ("", 1 if done.returncode == 2 else 2), line)
+
+
+LIMITED = """
+import resource, runpy, sys
+resource.setrlimit(resource.RLIMIT_AS, (96 << 20, 96 << 20))
+sys.argv = sys.argv[1:]
+runpy.run_path(sys.argv[0], run_name="__main__")
+"""
+
+
+def gauss_legendre():
+    """pi to 60 digits, by another series than the checker's."""
+    a, b, t, p = decimal.Decimal(1), 1 / decimal.Decimal(2).sqrt(), decimal.Decimal("0.25"), 1
+    for _ in range(7):
+        a, b, t, p, last = (a + b) / 2, (a * b).sqrt(), t, 2 * p, a
+        t -= decimal.Decimal(p) / 2 * (last - a) ** 2
+    return (a + b) ** 2 / (4 * t)
 
 
 def least_gap(scene):

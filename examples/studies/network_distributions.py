@@ -20,6 +20,9 @@ import numpy as np  # noqa: E402
 import jam  # noqa: E402
 import tail_exponents as tail  # noqa: E402
 
+from jam._tails import KINDS  # noqa: E402
+from jam.scaling import tail_exponent  # noqa: E402
+
 LOCALISED, SMALLEST = 1, 2  # flags of jam_contact_classes
 EXPECTED = {
     "extended forces": 0.42311,
@@ -64,10 +67,9 @@ def measure(path, with_modes):
 
 
 def fit(samples, name):
-    """Values of each packing, those of tail_exponents.fit, and the lower end they start from."""
-    values, gaps = [s[name] for s in samples if name in s], name == "gaps"
-    floor = tail.GAP_FLOOR if gaps else tail.FLOOR
-    return values, tail.fit(values, samples[0]["spheres"], tail.GAP_POWERS if gaps else tail.POWERS, floor), floor
+    """Values of each packing, those of jam.scaling.tail_exponent, and the lower end they start from."""
+    values, kind = [s[name] for s in samples if name in s], "gaps" if name == "gaps" else "forces"
+    return values, tail_exponent(values, samples[0]["spheres"], kind), KINDS[kind][1]
 
 
 def draw_cdf(axis, values, name, result):
@@ -75,13 +77,13 @@ def draw_cdf(axis, values, name, result):
     cdf = np.arange(1, len(pooled) + 1) / len(pooled)
     shown = np.unique(np.geomspace(1, len(pooled), 400).astype(int)) - 1
     axis.loglog(pooled[shown], cdf[shown], ".", markersize=3, label=name)
-    x, at = np.geomspace(result["low"], result["high"], 50), np.searchsorted(pooled, result["low"])
+    x, at = np.geomspace(result.low, result.high, 50), np.searchsorted(pooled, result.low)
     for a, style, text in (
-        (result["exponent"], "-", f"fit: 1 + a = {1 + result['exponent']:.3f} ± {result['error']:.3f}"),
+        (result.value, "-", f"fit: 1 + a = {1 + result.value:.3f} ± {result.error:.3f}"),
         (EXPECTED[name], "--", f"expected {1 + EXPECTED[name]:.3f}"),
     ):
         axis.plot(x, cdf[at] * (x / pooled[at]) ** (1 + a), style, linewidth=1.5, label=text)
-    axis.axvspan(result["low"], result["high"], color="0.92", zorder=0)
+    axis.axvspan(result.low, result.high, color="0.92", zorder=0)
     axis.set(xlabel={"gaps": "h", "frequencies": "omega"}.get(name, "f"), ylabel="cumulative distribution")
     axis.legend(fontsize=8)
 
@@ -90,8 +92,8 @@ def draw_drift(axis, values, name, result, spheres, floor):
     high, a = tail.apparent(values, spheres, floor)
     axis.semilogx(high, a, "o-", markersize=3, label="power law alone, up to x")
     axis.axhspan(
-        result["exponent"] - result["error"],
-        result["exponent"] + result["error"],
+        result.value - result.error,
+        result.value + result.error,
         color="C1",
         alpha=0.25,
         label="with corrections, all ranges",
@@ -140,8 +142,8 @@ def main():
             continue
         values, r, floor = fit(samples, name)
         print(
-            f"{name:18} {r['low']:9.2e} .. {r['high']:7.3g} {r['count']:7d} {r['exponent']:9.4f} {r['error']:7.4f} {EXPECTED[name]:9.4f}"
-            f" {abs(r['exponent'] - EXPECTED[name]) / r['error']:7.1f}",
+            f"{name:18} {r.low:9.2e} .. {r.high:7.3g} {r.count:7d} {r.value:9.4f} {r.error:7.4f} {EXPECTED[name]:9.4f}"
+            f" {abs(r.value - EXPECTED[name]) / r.error:7.1f}",
             flush=True,
         )
         if k < 4:

@@ -162,7 +162,9 @@ jam_glass fit_glass(const double *fraction, const double *pressure, size_t count
   g.jammed_fraction = fraction[0] + mean_x + distance;
   g.jammed_error = std::sqrt(variance * (1.0 / m + distance * distance / sxx)) / std::fabs(b);
   g.dimension = -1.0 / (b * g.jammed_fraction);
-  g.dimension_error = g.dimension * std::sqrt(variance / sxx) / std::fabs(b);
+  // d' = 1 / a, with a the intercept at fraction 0, whose variance is that of a line's value there.
+  const double mean = fraction[0] + mean_x;
+  g.dimension_error = g.dimension * g.dimension * std::sqrt(variance * (1.0 / m + mean * mean / sxx));
   g.r_squared = 1.0 - residual / syy;
   return g;
 }

@@ -10,22 +10,23 @@ sys.path.insert(0, sys.argv.pop())
 import tail_exponents as tail  # noqa: E402
 
 import jam  # noqa: E402
+from jam import scaling  # noqa: E402
 
 LOCALISED = 1  # flag JAM_CONTACT_LOCALISED
 
 
-def fits(law, powers, floor, repeats=12, packings=20):
+def fits(law, kind, repeats=12, **powers):
     for k in range(repeats):
         rng = np.random.default_rng(k)
-        yield tail.fit([law.draw(rng) for _ in range(packings)], 1024, powers, floor)
+        yield scaling.tail_exponent([law.draw(rng) for _ in range(20)], 1024, kind, **powers)
 
 
 class KnownLaws(unittest.TestCase):
-    def covered(self, family, powers, floor, largest):
+    def covered(self, family, kind, largest):
         law = dict(tail.families())[family]
-        found = list(fits(law, powers, floor))
-        off = np.array([f["exponent"] - law.a for f in found])
-        error = np.array([f["error"] for f in found])
+        found = list(fits(law, kind))
+        off = np.array([f.value - law.a for f in found])
+        error = np.array([f.error for f in found])
         # 95 % lie within two errors; fewer than 9 of 12 would be one case in 500, less than 0.2 % of such runs
         self.assertGreaterEqual(np.sum(abs(off) < 2 * error), 9, f"{family}: {off / error}")
         self.assertLess(np.median(error), largest)  # or anything would be covered
@@ -33,26 +34,40 @@ class KnownLaws(unittest.TestCase):
         return law
 
     def test_extended(self):
-        law = self.covered("extended gamma", tail.POWERS, tail.FLOOR, 0.15)
-        for f in fits(law, (), tail.FLOOR, 3):  # without corrections to the law it is seen to be wrong
-            self.assertLess(f["exponent"], law.a - 2 * f["error"])
+        law = self.covered("extended gamma", "forces", 0.15)
+        for f in fits(law, "forces", 3, powers=()):  # without corrections to the law it is seen to be wrong
+            self.assertLess(f.value, law.a - 2 * f.error)
 
     def test_localised(self):
-        self.covered("localised weibull", tail.POWERS, tail.FLOOR, 0.17)
+        self.covered("localised weibull", "forces", 0.17)
 
     def test_gaps(self):
-        self.covered("gaps constant background, flat", tail.GAP_POWERS, tail.GAP_FLOOR, 0.04)
+        self.covered("gaps constant background, flat", "gaps", 0.04)
 
     def test_frequencies(self):
-        self.covered("frequencies falling", tail.POWERS, tail.FLOOR, 0.07)
+        self.covered("frequencies falling", "forces", 0.07)
 
     def test_range_starts_where_finite_size_ends(self):
         x = [np.random.default_rng(k).random(10000) for k in range(5)]
-        self.assertAlmostEqual(tail.fit(x, 1000, floor=10.0)["low"], 0.01, delta=0.002)  # N c(x) = 10
+        self.assertAlmostEqual(scaling.tail_exponent(x, 1000, "gaps").low, 0.01, delta=0.002)  # N c(x) = 10
 
     def test_no_range(self):
         with self.assertRaises(ValueError):  # ten spheres: finite size up to the crossover
-            tail.fit([np.random.default_rng(k).random(30) for k in range(5)], 10)
+            scaling.tail_exponent([np.random.default_rng(k).random(30) for k in range(5)], 10)
+
+
+class OneRange(unittest.TestCase):
+    def test_the_error_of_one_range_is_too_small(self):
+        """Gaps with a constant background: ranges that one may choose differ by many errors of fit_power, not of tail_exponent."""
+        law = dict(tail.families())["gaps constant background, flat"]
+        rng = np.random.default_rng(1)
+        samples = [law.draw(rng) for _ in range(90)]
+        one = [scaling.fit_power(samples, high=high, low=low) for high, low in ((0.05, 1e-4), (0.05, 1e-3), (0.1, 1e-4), (0.02, 1e-4))]
+        values = np.array([f.value for f in one])
+        self.assertGreater(np.ptp(values), 3 * min(f.error for f in one))
+        every = scaling.tail_exponent(samples, 1024, "gaps")
+        self.assertLess(abs(every.value - law.a), 3 * every.error)
+        self.assertGreater(every.error, min(f.error for f in one))
 
 
 class Packings(unittest.TestCase):
@@ -68,16 +83,14 @@ class Packings(unittest.TestCase):
                 values["gaps"].append(packing.gaps(h_max=1.0, stable_only=1).gap)
         for name, expected in (("extended", 0.42311), ("localised", 0.17462), ("gaps", -0.41269)):
             gaps = name == "gaps"
-            f = tail.fit(
-                values[name], 1024, tail.GAP_POWERS if gaps else tail.POWERS, tail.GAP_FLOOR if gaps else tail.FLOOR
-            )
+            f = scaling.tail_exponent(values[name], 1024, "gaps" if gaps else "forces")
             print(
-                f"{name}: {f['exponent']:.3f} +- {f['error']:.3f} from {f['low']:.2g} to {f['high']:.2g}, published {expected:.3f}"
+                f"{name}: {f.value:.3f} +- {f.error:.3f} from {f.low:.2g} to {f.high:.2g}, published {expected:.3f}"
             )
             self.assertLess(
-                abs(f["exponent"] - expected), 4 * f["error"]
+                abs(f.value - expected), 4 * f.error
             )  # one sample, and another one in every version
-            self.assertLess(f["error"], 0.2 if gaps else 0.6)  # two packings say no more
+            self.assertLess(f.error, 0.2 if gaps else 0.6)  # two packings say no more
 
 
 if __name__ == "__main__":

@@ -15,10 +15,12 @@ import numpy as np
 
 from ._api.arrays import Array
 from ._api.shown import only
+from ._tails import TailExponent, tail_exponent
 
 __all__ = [
-    "Cdf", "Collapse", "Estimate", "Exponent", "bootstrap", "cdf_grid", "cdf_pooled", "cdf_ranked", "collapse",
-    "crossover", "draw_left_power", "fit_crossover", "fit_power", "local_exponent", "quality", "tail_scaling",
+    "Cdf", "Collapse", "Estimate", "Exponent", "TailExponent", "bootstrap", "cdf_grid", "cdf_pooled", "cdf_ranked", "collapse",
+    "crossover", "draw_left_power", "fit_crossover", "fit_power", "local_exponent", "quality", "tail_exponent",
+    "tail_scaling",
 ]
 __dir__ = only(__all__)
 
@@ -140,7 +142,10 @@ def _solve(mean: Array, span: float) -> Array:
 def fit_power(
     samples: Sequence[Array], high: float, low: float | None = None, resamples: int = RESAMPLES, seed: int = 0
 ) -> Exponent:
-    """Maximum likelihood of p(x) ~ x^a, error by bootstrap over packings.
+    """Maximum likelihood of p(x) ~ x^a on one range, without corrections to the law.
+
+    The error is that between packings alone, by bootstrap. It does not contain that another range, or a correction, gives
+    another exponent, which is often ten times as much: `tail_exponent` averages over both.
 
     Parameters
     ----------

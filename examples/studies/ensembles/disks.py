@@ -20,7 +20,6 @@ from finite_size import collapse_tail
 from jam import scaling
 
 sys.path.insert(0, str(HERE.parent))
-from tail_exponents import FLOOR, GAP_FLOOR, GAP_POWERS, POWERS, fit  # noqa: E402
 
 
 def protocol(n):
@@ -94,19 +93,19 @@ def main():
     ideal = np.mean(4.0 - 2.0 / s.rows["stable"])
     r.add("10", f"disks: mean z, N = {n}: 2d + 2(1-d)/N'", ("exact", round(float(ideal), 6)), np.concatenate(s.z).mean())
     r.add("10", f"disks: psi_6, N = {n}", "none", *mean_error(s.order))
-    for name, text, known, powers, floor in (
-        ("extended", "extended forces", THETA_E, POWERS, FLOOR),
-        ("localised", "localised forces", THETA_L, POWERS, FLOOR),
-        ("forces", "all forces", 0.19, POWERS, FLOOR),
-        ("gaps", "gaps", -GAMMA, GAP_POWERS, GAP_FLOOR),
+    for name, text, known in (
+        ("extended", "extended forces", THETA_E),
+        ("localised", "localised forces", THETA_L),
+        ("forces", "all forces", 0.19),
+        ("gaps", "gaps", -GAMMA),
     ):
         try:
-            found = fit(getattr(s, name), n, powers, floor)
+            found = scaling.tail_exponent(getattr(s, name), n, "gaps" if name == "gaps" else "forces")
         except ValueError as error:
             print(f"{name}: {error}")
             continue
         text = f"disks: exponent of {text}, N = {n}, averaged over ranges"
-        r.add("10", text, known, found["exponent"], found["error"])
+        r.add("10", text, known, found.value, found.error)
     ends = (1e-3, 1e-2, 3e-2, 1e-1, 3e-1)
     below = {h: np.array([np.mean(f < h) for f in s.localised]) for h in ends}
     for low, high in zip(ends, ends[1:]):

@@ -19,7 +19,6 @@ from common import GAMMA, HERE, THETA_E, THETA_L, Results, arguments, ensemble, 
 from jam import scaling
 
 sys.path.insert(0, str(HERE.parent))
-from tail_exponents import FLOOR, GAP_FLOOR, GAP_POWERS, POWERS, fit  # noqa: E402
 
 GAPS_END = {"euclid": 1.0, "mk": 1e-3}  # fits look no further: beyond, Mari-Kurchan pairs are those of a liquid
 CROSSOVER = (0.179008, 0.223543, -1.25569)  # published a, b, q of gaps: Mari-Kurchan packings, N = 4096
@@ -133,26 +132,26 @@ def table(r, sizes, model, top):
     share, error = mean_error(rows["rattlers"] / largest)
     r.add(figure + ".1", "share of rattlers", "0.15 to 0.20" if model == "mk" else "0.015 to 0.03", share, error)
     spheres = model == "euclid"
-    for name, a, floor, label in (
-        ("extended", THETA_E, FLOOR, ".2" if spheres else ".3"),
-        ("gaps", -GAMMA, GAP_FLOOR, ".5" if spheres else ".4"),
-        ("localised", THETA_L if spheres else 0.0, FLOOR, ".7" if spheres else ".6"),
-        ("forces", 0.25 if spheres else 0.1, FLOOR, ".7" if spheres else ".6"),
+    for name, a, label in (
+        ("extended", THETA_E, ".2" if spheres else ".3"),
+        ("gaps", -GAMMA, ".5" if spheres else ".4"),
+        ("localised", THETA_L if spheres else 0.0, ".7" if spheres else ".6"),
+        ("forces", 0.25 if spheres else 0.1, ".7" if spheres else ".6"),
     ):
         values = [v[v < GAPS_END[model]] for v in s.gaps] if name == "gaps" else getattr(s, name)
         try:
-            found = fit(values, largest, GAP_POWERS if name == "gaps" else POWERS, floor)
+            found = scaling.tail_exponent(values, largest, "gaps" if name == "gaps" else "forces")
         except ValueError as error:
             print(f"{name}: {error}")
             continue
         label = figure + label
         text = f"exponent of {name}, N = {largest}, averaged over ranges"
-        r.add(label, text, a, found["exponent"], found["error"])
+        r.add(label, text, a, found.value, found.error)
         if name == "gaps":
-            cut = scaling.fit_power(values, found["high"], found["low"])
-            r.add(label, f"gaps, one law on {found['low']:.1e} ... {found['high']:.2g}", a, cut.value, cut.error)
-            whole = scaling.fit_power(values, found["high"])
-            r.add(label, f"gaps, one law below {found['high']:.2g}, no truncation", a, whole.value, whole.error)
+            cut = scaling.fit_power(values, found.high, found.low)
+            r.add(label, f"gaps, one law on {found.low:.1e} ... {found.high:.2g}", a, cut.value, cut.error)
+            whole = scaling.fit_power(values, found.high)
+            r.add(label, f"gaps, one law below {found.high:.2g}, no truncation", a, whole.value, whole.error)
     for name, a, low, high, label in (("extended", THETA_E, 0.3, 10, ".2"), ("gaps", -GAMMA, 0.1, top, ".5")):
         if len(sizes) < 2:
             continue

@@ -18,8 +18,9 @@ import numpy as np
 from common import GAMMA, HERE, THETA_E, Results, arguments, ensemble, mean_error
 from finite_size import MAX_ORDER, protocol
 
+from jam.scaling import tail_exponent
+
 sys.path.insert(0, str(HERE.parent))
-from tail_exponents import FLOOR, POWERS, fit  # noqa: E402
 
 
 def slope(sizes, values):
@@ -100,8 +101,8 @@ def main():
     share, error = mean_error(found[largest][:, 4])
     r.add("9", f"share of contacts with Sigma = s_return / s_plus > 1, N = {largest}", "stable: all", share, error)
     try:
-        law = fit(weights[largest], largest, POWERS, FLOOR)
-        r.add("9", f"exponent of W of extended modes, N = {largest}", THETA_E, law["exponent"], law["error"])
+        law = tail_exponent(weights[largest], largest)
+        r.add("9", f"exponent of W of extended modes, N = {largest}", THETA_E, law.value, law.error)
     except ValueError as problem:
         print(problem)
     for axis, x, y in zip(axes, ("b sqrt(N)", "W / mean", "N"), ("cdf", "cdf", "relative to the smallest N")):

@@ -20,6 +20,8 @@ import jam
 sys.path.insert(0, str(HERE.parent))
 import tail_exponents as tail  # noqa: E402
 
+from jam.scaling import tail_exponent  # noqa: E402
+
 PUBLISHED = {2: 0.19, 3: 0.25, 4: 0.30}
 
 
@@ -46,17 +48,17 @@ def main():
         if len(values) < 4:
             continue
         r.made(f"d = {dim}, N = {n}, G = 1e-2 to p = 500, 3e-3 to 1e7, crunch", len(values))
-        fit = tail.fit(values, n)
-        r.add("1, 3", f"d = {dim}: exponent of all forces, averaged over ranges", law, fit["exponent"], fit["error"])
-        r.add("1, 3", f"d = {dim}: the part of this error from the choice of range and correction", "none", fit["spread"])
+        fit = tail_exponent(values, n)
+        r.add("1, 3", f"d = {dim}: exponent of all forces, averaged over ranges", law, fit.value, fit.error)
+        r.add("1, 3", f"d = {dim}: the part of this error from the choice of range and correction", "none", fit.spread)
         pool = np.sort(np.concatenate(values))
         c = np.arange(1, len(pool) + 1) / len(pool)
         axes[0].loglog(pool, c, "-", color=f"C{k}", lw=1, label=f"d = {dim}")
-        x = np.array([fit["low"], 0.5])
-        axes[0].loglog(x, np.interp(fit["low"], pool, c) * (x / x[0]) ** (1 + law), ":", color=f"C{k}", label=f"slope {1 + law:.2f}")
+        x = np.array([fit.low, 0.5])
+        axes[0].loglog(x, np.interp(fit.low, pool, c) * (x / x[0]) ** (1 + law), ":", color=f"C{k}", label=f"slope {1 + law:.2f}")
         high, a = tail.apparent(values, n)
         axes[1].semilogx(high, a, "o-", ms=3, color=f"C{k}", label=f"d = {dim}, power alone up to f")
-        axes[1].errorbar(1.4 * 1.2**k, fit["exponent"], fit["error"], fmt="s", color=f"C{k}", capsize=4)
+        axes[1].errorbar(1.4 * 1.2**k, fit.value, fit.error, fmt="s", color=f"C{k}", capsize=4)
         axes[1].axhline(law, color=f"C{k}", ls=":", lw=1)
     axes[0].set(xlabel="f over the mean force", ylabel="c, all forces", ylim=(1e-4, 1.2))
     axes[1].set(xlabel="upper end of the range of f", ylabel="exponent; squares: all ranges, dotted: published")

@@ -196,9 +196,36 @@ static void glass_fit(void **state) {
   assert_int_equal(jam_glass_fit(NULL, 0, p, 40, &g), JAM_E_NULL);
 }
 
+/* Errors against the covariance matrix of least squares, y = a + c phi: d' = 1 / a and phi_J = -a / c, to first order.
+ */
+static void glass_fit_errors(void **state) {
+  static const double ranges[3][2] = {{0.60, 0.63}, {0.50, 0.60}, {0.40, 0.55}};
+  double f[9], p[9];
+  int range, k;
+  (void)state;
+  for (range = 0; range < 3; ++range) {
+    jam_glass g;
+    double m = 9.0, sx = 0.0, sxx = 0.0, sy = 0.0, sxy = 0.0, rest = 0.0, a, c, det, va, vc, vac;
+    g.struct_size = sizeof g;
+    for (k = 0; k < 9; ++k) {
+      f[k] = ranges[range][0] + (ranges[range][1] - ranges[range][0]) * k / 8.0;
+      p[k] = 1.0 / ((1.0 - f[k] / 0.64) / 2.9 + 1e-5 * sin(5.0 * k + range));
+      sx += f[k], sxx += f[k] * f[k], sy += 1.0 / p[k], sxy += f[k] / p[k];
+    }
+    det = m * sxx - sx * sx, c = (m * sxy - sx * sy) / det, a = (sy - c * sx) / m;
+    for (k = 0; k < 9; ++k) rest += pow(1.0 / p[k] - a - c * f[k], 2.0);
+    rest /= m - 2.0, va = rest * sxx / det, vc = rest * m / det, vac = -rest * sx / det;
+    assert_int_equal(jam_glass_fit(f, 9, p, 9, &g), JAM_OK);
+    assert_true(fabs(g.dimension * a - 1.0) < 1e-9 && fabs(g.jammed_fraction * c / a + 1.0) < 1e-9);
+    assert_true(fabs(g.dimension_error * a * a / sqrt(va) - 1.0) < 1e-6);
+    assert_true(fabs(g.jammed_error / sqrt(va / (c * c) + a * a * vc / pow(c, 4.0) - 2.0 * a * vac / pow(c, 3.0)) -
+                     1.0) < 1e-6);
+  }
+}
+
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(resumes_to_the_same_bits),
-                                     cmocka_unit_test(refuses_what_is_no_checkpoint),
-                                     cmocka_unit_test(equations_of_state), cmocka_unit_test(glass_fit)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(resumes_to_the_same_bits), cmocka_unit_test(refuses_what_is_no_checkpoint),
+      cmocka_unit_test(equations_of_state), cmocka_unit_test(glass_fit), cmocka_unit_test(glass_fit_errors)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -85,7 +85,7 @@ Answer give_proof(ProofScene &scene, jam_proof_report *report) {
 }
 
 Answer write_scene(ProofScene scene, const char *path) {
-  if (scene.nodes() == 0) fail(JAM_E_STATE, "no sphere is stable: a proof file needs contacts that hold spheres");
+  if (scene.nodes() == 0) fail(JAM_E_STATE, "no sphere is stable: a proof file lists the contacts of stable spheres");
   ProofEquations equations;
   Proof proof;
   const bool refined = find_proof(scene, equations, proof);

@@ -166,8 +166,26 @@ static jam_status work(jam_system *sys, const options *o, terminal *t, outcome *
 #undef LEFT
 }
 
+/* Whole spheres of one size, or of a few, miss the density asked for by up to half a sphere: it is theirs that they
+ * grow to. */
+static void take_density_of_sizes(options *o, jam_system *sys, double mean) {
+  jam_info info = {.struct_size = sizeof info};
+  char line[200];
+  double density;
+  if (!(o->given.density > 0) || !o->given.sizes || o->given.n || o->resume || !(mean > 0)) return;
+  jam_get_info(sys, &info);
+  density = info.packing_fraction * pow(mean / info.diameter_mean, info.dim);
+  if (fabs(density / o->given.density - 1) < 1e-11) return;
+  snprintf(line, sizeof line,
+           "%lld whole spheres of --sizes have the packing fraction %.9g, nearest to the %g asked for: they grow to it",
+           (long long)info.n, density, o->given.density);
+  jam_add_note(sys, line);
+  o->given.density = density;
+}
+
 /* The job of one command line, from its start to its files. */
-int run_job(const options *o) {
+int run_job(const options *given) {
+  options own = *given, *const o = &own;
   outcome result;
   terminal t = {"start", seconds_now(), 0, 0, 0, NULL, NULL, NULL};
   jam_system *sys = NULL;
@@ -179,6 +197,7 @@ int run_job(const options *o) {
       check_formats(o, sys))
     code = EXIT_USAGE;
   if (!code) print_warnings(jam_notes(sys)), result.diameter_given = mean_given(o, sys);
+  if (!code) take_density_of_sizes(o, sys, result.diameter_given);
   watch_signals(sys);
   if (!code && start_progress(&t, o, sys)) code = EXIT_OUTPUT;
   if (code) {

@@ -53,6 +53,8 @@ static int refused_start(const options *o, jam_status status) {
   const int takes_it = o->input && !o->shrink && o->given.verb <= VERB_CRUNCH;
   if (status == JAM_E_OVERLAP && takes_it && !strstr(text, "the same centre") && !strstr(text, "lies outside"))
     complain("%s; --shrink multiplies all diameters by the factor that brings the worst pair to contact", text);
+  else if (status == JAM_E_UNPLACEABLE && !o->input)
+    complain("%s; --phi0 sets it", text);
   else
     complain("%s", text);
   if (status == JAM_E_OVERLAP && o->input && !is_host_format(o, o->input)) complain_assumptions(o);
@@ -78,6 +80,23 @@ static int tile(const options *o, jam_system **sys) {
     *sys = copies;
   }
   return 0;
+}
+
+/* The library starts lower where the usual density leaves no place. So does a start at the density to grow to. */
+static jam_status create_start(const options *o, jam_create_options *create, const jam_start *from, jam_system **sys) {
+  const double first = create->packing_fraction;
+  char line[120];
+  jam_status status = jam_create(create, from, sys);
+  while (status == JAM_E_UNPLACEABLE && first > 0 && !(o->phi0 > 0) && create->packing_fraction > 1e-3 * first) {
+    create->packing_fraction *= 0.7;
+    status = jam_create(create, from, sys);
+  }
+  if (status >= 0 && *sys && create->packing_fraction < first) {
+    snprintf(line, sizeof line, "the random start has the packing fraction %.4g: at %g these spheres found no place",
+             create->packing_fraction, first);
+    jam_add_note(*sys, line);
+  }
+  return status;
 }
 
 int start(const options *o, jam_progress_fn stop, jam_system **sys) {
@@ -117,7 +136,7 @@ int start(const options *o, jam_progress_fn stop, jam_system **sys) {
       from.cell = cell;
       from.cell_len = (size_t)(o->dim * o->dim);
     }
-    status = jam_create(&create, &from, sys);
+    status = create_start(o, &create, &from, sys);
     free(diameters);
   }
   if (status < 0) return refused_start(o, status);

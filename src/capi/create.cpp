@@ -19,10 +19,10 @@ using namespace jam::inside;
 
 void jam_system::note_diameters() noexcept {
   packing_fraction = jam::inside::packing_fraction(packing);
-  diameter_mean = jam::inside::diameter_mean(packing);
   const double first = packing.diameter[0];
   monodisperse =
       std::all_of(packing.diameter.begin(), packing.diameter.end(), [first](double s) { return s == first; });
+  diameter_mean = monodisperse ? first : jam::inside::diameter_mean(packing);
 }
 
 void jam_system::commit(const Packing &result, Results &&found) noexcept {

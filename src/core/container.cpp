@@ -172,7 +172,10 @@ void refuse_outside(const Packing &p) {
   for (int w = 0; w < p.container.count(); ++w) {
     const ClosestWall now = closest_to_wall(p, w);
     if (now.gap < -1.0)
-      fail(JAM_E_OVERLAP, "the centre of sphere %d lies outside %s", now.sphere, p.container.name(w).c_str());
+      fail(JAM_E_OVERLAP,
+           "the centre of sphere %d lies outside %s: positions count from the corner of the cell; if yours count from "
+           "its centre, add half of each edge",
+           now.sphere, p.container.name(w).c_str());
   }
 }
 

@@ -155,7 +155,7 @@ void settle_overlaps(Packing &p, int32_t policy) {
   if (p.container && !p.position.empty()) refuse_outside(p);
   if (p.container) refuse_too_wide(p, JAM_E_OVERLAP);
   if (policy == JAM_OVERLAP_ALLOW) {
-    if (diameter_max(p) > p.cell.shortest())
+    if (diameter_max(p) > p.cell.shortest() * (1.0 + overlap_tolerance))
       refuse_unfitting(p);  // overlaps of a sphere with its own images are not moved
     return;
   }
@@ -216,6 +216,37 @@ void say_cell(const ReducedCell &reduced, int dim, Notes *notes) {
   if (reduced.rotated) notes->say("the spheres were rotated with the cell, whose vectors are lower-triangular now");
 }
 
+// A random start at this packing fraction, with the ratios of the diameters.
+void start_at(Packing &p, double wanted) {
+  const double scale = math::pow(wanted / packing_fraction(p), 1.0 / p.dim);
+  for (double &s : p.diameter) s *= scale;
+  check_diameters(p.diameter, p.cell);
+  if (p.overlap_allowed)
+    place_uniformly(p);
+  else if (p.model == JAM_MODEL_MK && p.mk_zeta > 0.0)
+    plant(p);
+  else
+    place_at_random(p);
+}
+
+// A random start at the usual packing fraction, or where the spheres find no place in a narrow scene at a lower one.
+void start_below(Packing &p, double usual, Notes *notes) {
+  const std::vector<double> ratios = p.diameter;
+  for (double wanted = usual;; wanted *= PlaceTuning::lower) {
+    try {
+      p.diameter = ratios;
+      start_at(p, wanted);
+      if (notes && wanted < usual)
+        notes->say("the random start has the packing fraction %.4g: at the usual %g these spheres found no place",
+                   wanted, usual);
+      return;
+    } catch (const Error &e) {
+      const bool no_place = e.code() == JAM_E_UNPLACEABLE || e.code() == JAM_E_OVERLAP;
+      if (!no_place || wanted < PlaceTuning::least * usual) throw;
+    }
+  }
+}
+
 }  // namespace
 
 Packing make_packing(const jam_create_options &o, const double *positions, size_t positions_len,
@@ -264,16 +295,10 @@ Packing make_packing(const jam_create_options &o, const double *positions, size_
     if (!(o.packing_fraction >= 0.0) || !std::isfinite(o.packing_fraction))
       fail(JAM_E_ARGUMENT, "packing_fraction is %g, it must be positive and finite, or 0 for the default",
            o.packing_fraction);
-    const double wanted = o.packing_fraction == 0.0 ? default_packing_fraction(p.dim) : o.packing_fraction;
-    const double scale = math::pow(wanted / packing_fraction(p), 1.0 / p.dim);
-    for (double &s : p.diameter) s *= scale;
-    check_diameters(p.diameter, p.cell);
-    if (p.overlap_allowed)
-      place_uniformly(p);
-    else if (p.model == JAM_MODEL_MK && p.mk_zeta > 0.0)
-      plant(p);
+    if (o.packing_fraction > 0.0)
+      start_at(p, o.packing_fraction);
     else
-      place_at_random(p);
+      start_below(p, default_packing_fraction(p.dim), notes);
   }
   p.velocity.assign(n * o.dim, 0.0);
   return p;

@@ -20,6 +20,7 @@ struct Rule {
   size_t count, sample;
 };
 constexpr Rule most_coordinates{0.0, Tuning::most_part, Tuning::most_count, Tuning::sample},
+    nearly_all{0.0, Tuning::nearly_all_part, Tuning::nearly_all_count, Tuning::sample},
     some_coordinates{Tuning::rounded, Tuning::some_part, Tuning::some_count, Tuning::large_sample},
     most_lengths{Tuning::rounded, Tuning::most_part, Tuning::most_count, Tuning::sample};
 // Doubles above it are integers whatever they came from.
@@ -96,12 +97,13 @@ GivenDigits coordinate_digits(int dim, const std::vector<double> &position, doub
   return out;
 }
 
-GivenDigits fraction_digits(const Packing &p) {
+GivenDigits fraction_digits(const Packing &p, bool some) {
   GivenDigits out;
   const double smallest = *std::min_element(p.diameter.begin(), p.diameter.end()), side = p.cell.side();
   std::vector<double> s(p.position);
   for (size_t i = 0; i < p.n(); ++i) p.cell.fraction(&s[i * p.dim], &s[i * p.dim]);
-  for (const Rule &rule : {most_coordinates, some_coordinates}) look_at(s, 1.0, smallest / side, side, rule, out);
+  look_at(s, 1.0, smallest / side, side, nearly_all, out);
+  if (some) look_at(s, 1.0, smallest / side, side, some_coordinates, out);
   return out;
 }
 

@@ -13,7 +13,8 @@ GivenDigits digits_of(int dim, const std::vector<double> &position, const std::v
                       const std::vector<double> &rows);
 // From coordinates alone.
 GivenDigits coordinate_digits(int dim, const std::vector<double> &position, double smallest_diameter);
-// The same from the positions along the cell vectors.
-GivenDigits fraction_digits(const Packing &p);
+// The same from the positions along the cell vectors: nearly all are multiples of one step. Of multiples of a length a
+// part, up to half of them, are multiples along a vector too, so `some` may count only where there is no such length.
+GivenDigits fraction_digits(const Packing &p, bool some);
 
 }  // namespace jam::inside

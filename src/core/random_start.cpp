@@ -142,7 +142,9 @@ void place_at_random(Packing &p) {
     int64_t tries = 0;
     do {
       if (++tries > PlaceTuning::most_tries || ++total > most_total)
-        fail(JAM_E_UNPLACEABLE, "random sequential addition reached packing fraction %.6f of the requested %.6f",
+        fail(JAM_E_UNPLACEABLE,
+             "random sequential addition reached packing fraction %.6f of the requested %.6f: start at a lower "
+             "packing_fraction, and grow the spheres",
              placed, packing_fraction(p));
       // A try takes long where one large sphere leaves few cells, and each of them holds many small ones.
       if (total % PlaceTuning::tries_between_looks == 0) CallScope::look();

@@ -182,7 +182,7 @@ std::vector<double> draw_diameters(const Options &o, const double *curve, size_t
   const double wanted = o.packing_fraction * o.cell_volume;
   std::vector<double> s = drawing.filling(wanted);
   if (o.draw == JAM_DRAW_QUANTILES) check_shares(*law, s);
-  adjust_last(drawing, o.dim, wanted, s);
+  if (law->single_sizes().empty()) adjust_last(drawing, o.dim, wanted, s);  // else it would be the only one of its size
   check_sizes(s);
   return s;
 }

@@ -13,8 +13,11 @@
 namespace jam::inside {
 namespace {
 
+// x ascends. Differences from the least are summed: that of equal numbers is exact.
 double mean_of(const std::vector<double> &x) {
-  return std::accumulate(x.begin(), x.end(), 0.0) / static_cast<double>(x.size());
+  double more = 0.0;
+  for (const double v : x) more += v - x.front();
+  return x.front() + more / static_cast<double>(x.size());
 }
 
 double deviation_of(const std::vector<double> &x, double mean) {

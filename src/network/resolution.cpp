@@ -53,7 +53,7 @@ GapResolution gap_resolution(const Packing &p) {
   out.rounding = 8.0 * std::numeric_limits<double>::epsilon() * side / smallest;  // of coordinates as large as the box
   if (p.n() < 2) return out;  // one sphere touches only its own images, wherever it stands
   GivenDigits digits = coordinate_digits(p.dim, p.position, smallest);
-  digits.take(fraction_digits(p));
+  digits.take(fraction_digits(p, digits.step == 0.0));
   digits.take(p.given);
   out.step = digits.step, out.base = digits.base;
   widen(out, p, std::sqrt(static_cast<double>(p.dim)) * out.step);

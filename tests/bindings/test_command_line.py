@@ -277,6 +277,34 @@ class CommandLine(unittest.TestCase):
             self.assertEqual((code, said["status"], sorted(said["written"])), (REFUSED, REFUSED, ["tube.data", "z.csv"]), err)
             self.assertIn("cylinder", said["text"])
 
+    def test_narrow_starts(self):
+        """A start by default may be lower, as may one at the density to grow to; a density that is given is met, or named."""
+        tube = "--n 40 --cell 1,1,20 --container cylinder --quiet --output t.xyz --report t.json".split()
+        for program in self.programs():
+            for words in ((), ("--packing-fraction", "0.199"), ("--phi0", "0.1")):
+                code, _, err = self.run_words(program, "compress", *tube, *words)
+                self.assertEqual(code, 0, err)
+                notes = json.loads((self.dir / "t.json").read_text())["notes"]
+                self.assertEqual(len(notes), int("--phi0" not in words), notes)
+                self.assertIn("random start", "".join(notes) or "random start")
+            code, _, err = self.run_words(program, "compress", *tube, "--phi0", "0.2")
+            self.assertEqual((code, "--phi0" in err), (REFUSED, True), err)
+
+    def test_equal_spheres_stay_equal(self):
+        """A density that whole spheres of one size or of two do not meet: they keep their sizes, and the density is said."""
+        for sizes, diameters in (("equal:mean=1.4", {1.4}), ("list:1=0.7,1.6=0.3", {1.0, 1.6})):
+            for program in self.programs():
+                words = f"compress --cell 9,8,7 --walls xyz --sizes {sizes} --packing-fraction 0.3 --output e.xyz --report e.json --quiet"
+                code, _, err = self.run_words(program, *words.split())
+                self.assertEqual(code, 0, err)
+                s = jam.System.read(str(self.dir / "e.xyz"))
+                for sigma in s.diameters:
+                    self.assertLess(min(abs(sigma / of - 1) for of in diameters), 1e-11)
+                self.assertLess(abs(s.packing_fraction - 0.3) * 504, 3.1416 / 6 * max(diameters) ** 3)
+                report = json.loads((self.dir / "e.json").read_text())
+                self.assertAlmostEqual(report["packing_fraction"], s.packing_fraction, 12)
+                self.assertIn(f"{s.n} whole spheres of --sizes have the packing fraction", report["notes"][0])
+
     def test_json_of_a_job_has_its_end(self):
         for program in self.programs():
             code, out, err = self.run_words(program, *"--n 20 --no-md --json --wall-time 1e-9".split())

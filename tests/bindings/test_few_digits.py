@@ -120,6 +120,16 @@ class FewDigits(unittest.TestCase):
         t.run(collisions_per_particle=5)
         self.assertEqual(t.check(crunch=False).digits, 0)
 
+    def test_step_is_that_of_the_file(self):
+        """Decimals of a length in any box; a part of their multiples are multiples of a coarser step along the cell."""
+        x, diameters, cell = state(packing(60, 3, 4))
+        for box in (7.0, 0.15, 3.0, 2.0, 12.5, 0.3, 30.0, 1.25):
+            scale = box / cell[0, 0]
+            for step in (1e-4, 1e-5):
+                y = np.round(x * scale / step) * step
+                t = jam.System.from_arrays(y, diameters * scale, box=box, overlap="shrink")
+                self.assertIn(f"multiples of {step:.3g})", str(t.check(crunch=False)), (box, step))
+
     def test_liquid_stays_no(self):
         s = fluid(100, 3, 1, 0.6)
         for digits in (6, 7, 8, "single"):

@@ -33,7 +33,7 @@ class Arguments(unittest.TestCase):
     def test_sizes_count_for_the_container(self):
         for container, dim, share in (("ball", 3, np.pi / 6), ("ball", 2, np.pi / 4), ("cylinder", 3, np.pi / 4), (None, 3, 1)):
             given = dict(porosity=0.6, cell=np.eye(dim) * 10, dim=dim)
-            law = "list:1=0.5,1.5=0.5"
+            law = "uniform:low=1,high=1.5"
             sigma = jam.sizes(law, container=container, **given)
             volume = (np.pi / 6 * sigma**3 if dim == 3 else np.pi / 4 * sigma**2).sum()
             self.assertAlmostEqual(volume / (share * 10**dim), 0.4, 12)

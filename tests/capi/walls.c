@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
+#include "start.h"
 
 static double distance(const walled *s, int w, const double *x) {
   const int round = s->container == JAM_CONTAINER_BALL ? s->dim : s->container == JAM_CONTAINER_CYLINDER ? 2 : 0;
@@ -89,6 +90,8 @@ static void overlaps_with_walls_are_named_or_shrunk(void **state) {
                                                         : "sphere 0 overlaps the round wall by 0.5"));
     assert_int_equal(from_arrays(&walled_scenes[k], outside, 2, 0.2, JAM_OVERLAP_ALLOW, &sys), JAM_E_OVERLAP);
     assert_non_null(strstr(jam_last_error(), "the centre of sphere 0 lies outside"));
+    assert_non_null(
+        strstr(jam_last_error(), "positions count from the corner of the cell; if yours count from its centre, add"));
     assert_int_equal(from_arrays(&walled_scenes[k], x, 2, 0.2, JAM_OVERLAP_SHRINK, &sys), JAM_OK);
     jam_view_diameters(sys, &sigma, &len);
     assert_true(fabs(sigma[0] - 0.1) < 1e-14);
@@ -305,9 +308,51 @@ static void a_sphere_that_fills_its_container_stalls(void **state) {
   }
 }
 
+/* Tubes, channels and boxes in which the usual density leaves no place, or is that of spheres wider than the scene: the
+ * start is lower, and a note says so. A density that is given is met or refused. */
+static void narrow_scenes_start_lower(void **state) {
+  static const struct {
+    int32_t dim, container, walls;
+    double edge[3];
+  } scenes[] = {{3, JAM_CONTAINER_CYLINDER, 0, {1, 1, 20}}, {3, JAM_CONTAINER_CYLINDER, 4, {1, 1, 20}},
+                {3, JAM_CONTAINER_BRICK, 3, {1, 1, 20}},    {3, JAM_CONTAINER_BRICK, 1, {0.2, 2, 2}},
+                {3, JAM_CONTAINER_BALL, 0, {1, 1, 1}},      {2, JAM_CONTAINER_BALL, 0, {1, 1, 1}},
+                {2, JAM_CONTAINER_BRICK, 2, {10, 0.5, 1}},  {3, JAM_CONTAINER_BRICK, 0, {1, 1, 30}}};
+  static const int64_t counts[] = {1, 2, 3, 5, 8, 13, 20, 30, 40, 60};
+  int lower = 0;
+  (void)state;
+  for (size_t k = 0; k < sizeof scenes / sizeof *scenes; ++k)
+    for (size_t q = 0; q < sizeof counts / sizeof *counts; ++q)
+      for (int64_t seed = 1; seed <= 2; ++seed) {
+        double cell[9] = {0.0};
+        jam_create_options o;
+        jam_system *sys = NULL;
+        jam_info info = {.struct_size = sizeof info};
+        const int d = scenes[k].dim;
+        jam_create_options_init(&o, sizeof o);
+        o.dim = d, o.n = counts[q], o.seed = seed, o.container = scenes[k].container, o.walls = scenes[k].walls;
+        for (int c = 0; c < d; ++c) cell[c * (d + 1)] = scenes[k].edge[c];
+        if (create_in_cell(&o, cell, (size_t)(d * d), NULL, 0, NULL, 0, &sys) != JAM_OK)
+          fail_msg("scene %zu, %lld spheres: %s", k, (long long)counts[q], jam_last_error());
+        assert_int_equal(jam_get_info(sys, &info), JAM_OK);
+        if (info.packing_fraction > 0.2 * (1 - 1e-12)) {
+          assert_string_equal(jam_notes(sys), "");
+        } else {
+          ++lower;
+          assert_non_null(strstr(jam_notes(sys), "the random start has the packing fraction"));
+          jam_destroy(sys);
+          sys = NULL, o.packing_fraction = 0.2;
+          assert_true(create_in_cell(&o, cell, (size_t)(d * d), NULL, 0, NULL, 0, &sys) < 0);
+        }
+        jam_destroy(sys);
+      }
+  assert_true(lower > 10);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(random_start_lies_inside),
+      cmocka_unit_test(narrow_scenes_start_lower),
       cmocka_unit_test(overlaps_with_walls_are_named_or_shrunk),
       cmocka_unit_test(spheres_do_not_meet_across_a_wall),
       cmocka_unit_test(bad_containers_are_named),

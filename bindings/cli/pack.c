@@ -177,7 +177,7 @@ static void take_density_of_sizes(options *o, jam_system *sys, double mean) {
   density = info.packing_fraction * pow(mean / info.diameter_mean, info.dim);
   if (fabs(density / o->given.density - 1) < 1e-11) return;
   snprintf(line, sizeof line,
-           "%lld whole spheres of --sizes have the packing fraction %.9g, nearest to the %g asked for: they grow to it",
+           "%lld whole spheres of --sizes have the packing fraction %.9g, nearest to the requested %g: they grow to it",
            (long long)info.n, density, o->given.density);
   jam_add_note(sys, line);
   o->given.density = density;

@@ -201,9 +201,9 @@ contains
   end function do_cell
 
   ! Replaces the cell; a left-handed, singular or flat one is refused. Positions keep their Cartesian values in the
-  ! frame of `cell`, diameters stay, results of crunch are dropped. transform, integers T: the reduced vectors are T
-  ! times `cell`. rotation Q: a point x has gone to Q x. *rows = d. Mari-Kurchan shifts are fractions of the cell
-  ! vectors, so with other vectors the system is another one.
+  ! frame of `cell`, diameters stay, results of crunch are dropped. transform, integers T: the vectors are T `cell`, T
+  ! is 1 where they are kept. rotation Q: a point x has gone to Q x. *rows = d. Mari-Kurchan shifts are fractions of the
+  ! cell vectors, so with other vectors the system is another one.
   ! Shapes: cell (d, d), transform (d, d), rotation (d, d).
   ! Errors: JAM_E_OVERLAP.
   subroutine do_set_cell(self, cell, transform, rotation)
@@ -231,10 +231,11 @@ contains
     call self%done(status)
   end subroutine do_set_cell
 
-  ! Deforms cell and positions by r -> (1 + strain) r; diameters stay, results of crunch are dropped. The new cell is
-  ! reduced: a simple shear of any size is one call. Velocities change only by the rotation of a reduction.
+  ! Deforms cell and positions by r -> (1 + strain) r; diameters stay, results of crunch are dropped. The cell
+  ! vectors deform too; jam_notes says when shorter ones replace them, and when a rotation keeps them a lower triangle.
+  ! Velocities only rotate.
   ! Shapes: strain (d, d).
-  ! Errors: JAM_E_OVERLAP, JAM_E_UNSUPPORTED (Mari-Kurchan shifts, where the reduction changes the vectors).
+  ! Errors: JAM_E_OVERLAP, JAM_E_UNSUPPORTED (Mari-Kurchan shifts, other vectors).
   subroutine do_strain(self, strain)
     class(packing), intent(inout) :: self
     real(c_double), intent(in), contiguous, target, optional :: strain(..)

@@ -97,7 +97,7 @@ TABLE = {
             "cell",
             "cell",
             "LX,LY,..",
-            "sides of a periodic brick for a random start, or all components of its cell vectors, one vector after the other",
+            "sides of a periodic brick for a random start, which keep their axes, or all components of its cell vectors, one vector after the other",
             without=("input", "resume", "box"),
         ),
         Option(

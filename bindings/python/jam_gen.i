@@ -461,26 +461,27 @@ Shapes: table (m, jam_wall_column)."
 %feature("docstring") jam_get_cell "Cell vectors in normal form.
 Shapes: out (d, d)."
 %feature("docstring") jam_set_cell "Replaces the cell; a left-handed, singular or flat one is refused. Positions keep their Cartesian values in the
-frame of `cell`, diameters stay, results of crunch are dropped. transform, integers T: the reduced vectors are T
-times `cell`. rotation Q: a point x has gone to Q x. *rows = d. Mari-Kurchan shifts are fractions of the cell
-vectors, so with other vectors the system is another one.
+frame of `cell`, diameters stay, results of crunch are dropped. transform, integers T: the vectors are T `cell`, T
+is 1 where they are kept. rotation Q: a point x has gone to Q x. *rows = d. Mari-Kurchan shifts are fractions of the
+cell vectors, so with other vectors the system is another one.
 Shapes: cell (d, d), transform (d, d), rotation (d, d).
 Errors: JAM_E_OVERLAP."
-%feature("docstring") jam_strain "Deforms cell and positions by r -> (1 + strain) r; diameters stay, results of crunch are dropped. The new cell is
-reduced: a simple shear of any size is one call. Velocities change only by the rotation of a reduction.
+%feature("docstring") jam_strain "Deforms cell and positions by r -> (1 + strain) r; diameters stay, results of crunch are dropped. The cell
+vectors deform too; jam_notes says when shorter ones replace them, and when a rotation keeps them a lower triangle.
+Velocities only rotate.
 Shapes: strain (d, d).
-Errors: JAM_E_OVERLAP, JAM_E_UNSUPPORTED (Mari-Kurchan shifts, where the reduction changes the vectors)."
+Errors: JAM_E_OVERLAP, JAM_E_UNSUPPORTED (Mari-Kurchan shifts, other vectors)."
 %feature("docstring") jam_tile "Copies of src side by side, count[c] along cell vector a_c. Copy (k_0, k_1, ...) stands at sum of k_c a_c; its sphere
-i is number i + n (k_0 + count[0] (k_1 + count[1] ...)). The cell has the vectors count[c] a_c, less multiples of
-earlier ones where that shortens them, in this order. Velocities, contacts, gaps and forces are copied, without steps
-and histories. Where an own image becomes a contact of copies and src lists none, they have no network and a note.
+i is number i + n (k_0 + count[0] (k_1 + count[1] ...)). The cell has the vectors count[c] a_c. Velocities, contacts,
+gaps and forces are copied, without steps and histories. Where an own image becomes a contact of copies and src lists
+none, they have no network and a note.
 The report of several copies has no verdicts: they may have flexes that src has not. Along walled axes count is 1.
 Shapes: count (d).
 Errors: JAM_E_UNSUPPORTED (Mari-Kurchan model, walls), JAM_E_OVERLAP (coordinates no longer resolve the gaps)."
 %feature("docstring") jam_diameters_options_init ""
 %feature("docstring") jam_diameters "Diameters of a law. Quantiles ascend. curve: of LIST and SIEVE, else NULL. Where n follows from packing_fraction, the
-last sphere is adjusted, so that the volumes add up to packing_fraction * cell_volume, to 1e-13 of it. The largest
-sphere that stays below the largest of all is taken for this. UNPLACEABLE gives the packing fraction in reach.
+volumes add up to packing_fraction * cell_volume: of EQUAL and LIST to half a sphere; of others to 1e-13 of it, by
+the last sphere, the largest that stays below the largest of all. UNPLACEABLE gives the packing fraction in reach.
 Example: examples/c/sieve.c
 Shapes: curve (rows, 2), out (m).
 Errors: JAM_E_DIMENSION, JAM_E_UNPLACEABLE (packing_fraction)."
@@ -513,7 +514,7 @@ line without newline is refused if its last number may have lost digits. callbac
 Errors: JAM_E_IO, JAM_E_FORMAT (line named), JAM_E_UNSUPPORTED (a box that is not periodic), JAM_E_DIMENSION, JAM_E_OVERLAP, JAM_E_UNPLACEABLE."
 %feature("docstring") jam_notes "What was changed or assumed when sys was made, one sentence per line; \"\" when nothing was. Examples: shrunk
 diameters, wrapped or sorted spheres, columns and frames that were not read. A warning begins with `warning: `.
-jam_set_log logs these lines too. Valid until jam_add_note or jam_destroy; \"\" for NULL. Checkpoints hold it."
+jam_set_log logs these lines too. Valid until one is added or jam_destroy; \"\" for NULL. Checkpoints hold it."
 %feature("docstring") jam_add_note "Adds one sentence to jam_notes, for programs that read other formats: what they changed or assumed. text is one line,
 not empty."
 %feature("docstring") jam_write "Writes the packing with 17 digits, so that reading gives the same bits. The file is written under another name and

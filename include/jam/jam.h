@@ -16,8 +16,8 @@
  *
  * Cells
  * - Cell vectors are the rows of a (d, d) matrix, as in ASE, extended XYZ and H5MD.
- * - libjam keeps them short (Lenstra, Lenstra, Lovasz 1982) and lower-triangular, with a positive diagonal. A cell
- *   given in another form is reduced, and rotated where it must be. The spheres rotate with it.
+ * - They stay as they are given, if they are a lower triangle with a positive diagonal; else they are rotated to one,
+ *   and the spheres with them. Vectors whose lengths have a product above 2^(d+2) V are replaced by shorter ones.
  * - Positions lie in the brick [0, a_00) x [0, a_11) x ..., which repeats as the cell does.
  * - The plain text format has cubes only. All else works in any cell.
  * - With walls, d (N' - 1) in a count of contacts is d N' less the rigid motions that the walls allow.
@@ -350,20 +350,20 @@ JAM_API jam_status jam_walls(const jam_system *sys, int32_t columns, double *tab
 /* Cell vectors in normal form. @shape out (d, d) */
 JAM_API jam_status jam_get_cell(const jam_system *sys, double *out, size_t out_len, size_t *needed);
 /* Replaces the cell; a left-handed, singular or flat one is refused. Positions keep their Cartesian values in the
- * frame of `cell`, diameters stay, results of crunch are dropped. transform, integers T: the reduced vectors are T
- * times `cell`. rotation Q: a point x has gone to Q x. *rows = d. Mari-Kurchan shifts are fractions of the cell
- * vectors, so with other vectors the system is another one. @shape cell (d, d), transform (d, d), rotation (d, d)
+ * frame of `cell`, diameters stay, results of crunch are dropped. transform, integers T: the vectors are T `cell`, T
+ * is 1 where they are kept. rotation Q: a point x has gone to Q x. *rows = d. Mari-Kurchan shifts are fractions of the
+ * cell vectors, so with other vectors the system is another one. @shape cell (d, d), transform (d, d), rotation (d, d)
  * @errors OVERLAP */
 JAM_API jam_status jam_set_cell(jam_system *sys, const double *cell, size_t cell_len, int64_t *transform,
                                 size_t transform_len, double *rotation, size_t rotation_len, size_t *rows);
-/* Deforms cell and positions by r -> (1 + strain) r; diameters stay, results of crunch are dropped. The new cell is
- * reduced: a simple shear of any size is one call. Velocities change only by the rotation of a reduction. @shape strain
- * (d, d) @errors OVERLAP, UNSUPPORTED (Mari-Kurchan shifts, where the reduction changes the vectors) */
+/* Deforms cell and positions by r -> (1 + strain) r; diameters stay, results of crunch are dropped. The cell
+ * vectors deform too; jam_notes says when shorter ones replace them, and when a rotation keeps them a lower triangle.
+ * Velocities only rotate. @shape strain (d, d) @errors OVERLAP, UNSUPPORTED (Mari-Kurchan shifts, other vectors) */
 JAM_API jam_status jam_strain(jam_system *sys, const double *strain, size_t strain_len);
 /* Copies of src side by side, count[c] along cell vector a_c. Copy (k_0, k_1, ...) stands at sum of k_c a_c; its sphere
- * i is number i + n (k_0 + count[0] (k_1 + count[1] ...)). The cell has the vectors count[c] a_c, less multiples of
- * earlier ones where that shortens them, in this order. Velocities, contacts, gaps and forces are copied, without steps
- * and histories. Where an own image becomes a contact of copies and src lists none, they have no network and a note.
+ * i is number i + n (k_0 + count[0] (k_1 + count[1] ...)). The cell has the vectors count[c] a_c. Velocities, contacts,
+ * gaps and forces are copied, without steps and histories. Where an own image becomes a contact of copies and src lists
+ * none, they have no network and a note.
  * The report of several copies has no verdicts: they may have flexes that src has not. Along walled axes count is 1.
  * @shape count (d) @errors UNSUPPORTED (Mari-Kurchan model, walls), OVERLAP (coordinates no longer resolve the gaps) */
 JAM_API jam_status jam_tile(const jam_system *src, const int32_t *count, size_t count_len, jam_system **out);
@@ -408,8 +408,8 @@ typedef struct jam_diameters_options {
 } jam_diameters_options;
 JAM_API jam_status jam_diameters_options_init(jam_diameters_options *o, size_t size);
 /* Diameters of a law. Quantiles ascend. curve: of LIST and SIEVE, else NULL. Where n follows from packing_fraction, the
- * last sphere is adjusted, so that the volumes add up to packing_fraction * cell_volume, to 1e-13 of it. The largest
- * sphere that stays below the largest of all is taken for this. UNPLACEABLE gives the packing fraction in reach.
+ * volumes add up to packing_fraction * cell_volume: of EQUAL and LIST to half a sphere; of others to 1e-13 of it, by
+ * the last sphere, the largest that stays below the largest of all. UNPLACEABLE gives the packing fraction in reach.
  * Example: examples/c/sieve.c @shape curve (rows, 2), out (m) @errors DIMENSION, UNPLACEABLE (packing_fraction) */
 JAM_API jam_status jam_diameters(const jam_diameters_options *o, const double *curve, size_t curve_len, double *out,
                                  size_t out_len, size_t *needed);
@@ -497,7 +497,7 @@ JAM_API jam_status jam_read(const char *path, const jam_create_options *o, jam_p
                             jam_system **out);
 /* What was changed or assumed when sys was made, one sentence per line; "" when nothing was. Examples: shrunk
  * diameters, wrapped or sorted spheres, columns and frames that were not read. A warning begins with `warning: `.
- * jam_set_log logs these lines too. Valid until jam_add_note or jam_destroy; "" for NULL. Checkpoints hold it. */
+ * jam_set_log logs these lines too. Valid until one is added or jam_destroy; "" for NULL. Checkpoints hold it. */
 JAM_API const char *jam_notes(const jam_system *sys);
 /* Adds one sentence to jam_notes, for programs that read other formats: what they changed or assumed. text is one line,
  * not empty. */

@@ -6,6 +6,7 @@
 #include "analysis/structure.hpp"
 #include "analysis/tuning.hpp"
 #include "core/call_scope.hpp"
+#include "core/cell_reduction.hpp"
 #include "core/error.hpp"
 #include "core/math.hpp"
 #ifdef JAM_HAVE_VORO
@@ -198,8 +199,9 @@ std::vector<double> volumes_within_walls(const Packing &p, int blocks) {
 
 std::vector<double> volumes_in_cell(const Packing &p, int blocks) {
   const double side = p.cell.side();
-  const double *b = p.cell.row(1), *c = p.cell.row(2);
-  voro::container_periodic_poly box(p.cell.edge(0) / side, b[0] / side, b[1] / side, c[0] / side, c[1] / side,
+  const Cell cell = upright(p.cell);
+  const double *b = cell.row(1), *c = cell.row(2);
+  voro::container_periodic_poly box(cell.edge(0) / side, b[0] / side, b[1] / side, c[0] / side, c[1] / side,
                                     c[2] / side, blocks, blocks, blocks, 8);
   put_spheres(p, box);
   return cell_volumes<voro::c_loop_all_periodic>(

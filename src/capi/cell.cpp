@@ -5,7 +5,7 @@
 #include "capi/analysis.hpp"
 #include "capi/guard.hpp"
 #include "capi/table.hpp"
-#include "core/cell_reduction.hpp"
+#include "core/cell_change.hpp"
 #include "core/create.hpp"
 #include "core/digits.hpp"
 #include "network/certificate.hpp"
@@ -16,11 +16,12 @@ using namespace jam::inside;
 
 namespace {
 
-// What follows a change of the cell: overlaps are settled as at creation.
-void take_cell(jam_system *sys, Packing &p) {
+// What follows a change of the cell: overlaps are settled as at creation, and vectors that were not kept are noted.
+void take_cell(jam_system *sys, Packing &p, const NormalCell &normal) {
   settle_overlaps(p, p.overlap_allowed ? JAM_OVERLAP_ALLOW : JAM_OVERLAP_REFUSE);
   sys->commit(p);
   sys->packing.given = p.given;
+  note_cell(normal, true, sys->notes);
 }
 
 // Of the copies of a packing with a report: what follows from positions and forces. Forces balance as before; whether
@@ -83,12 +84,12 @@ jam_status jam_set_cell(jam_system *sys, const double *cell, size_t cell_len, in
     check_matrix_len("cell", cell_len, p.dim);
     check_output(transform, transform_len, cell_len, "transform");
     check_output(rotation, rotation_len, cell_len, "rotation");
-    const ReducedCell reduced = reduce_cell(p.dim, cell);
+    const NormalCell normal = normal_cell(p.dim, cell);
     p.given.take(digits_of(p.dim, p.position, p.diameter, std::vector<double>(cell, cell + cell_len)));
-    enter_cell(p, reduced);
-    take_cell(sys, p);
-    put_output(reduced.transform, transform, cell_len);
-    put_output(reduced.rotation, rotation, cell_len);
+    enter_cell(p, normal);
+    take_cell(sys, p, normal);
+    put_output(normal.transform, transform, cell_len);
+    put_output(normal.rotation, rotation, cell_len);
     if (rows) *rows = static_cast<size_t>(p.dim);
     return JAM_OK;
   });
@@ -101,8 +102,8 @@ jam_status jam_strain(jam_system *sys, const double *strain, size_t strain_len) 
     refuse_walls(p, "strained");
     check_matrix_len("strain", strain_len, p.dim);
     check_array_in(strain, strain_len, "strain");
-    strain_affinely(p, strain);
-    take_cell(sys, p);
+    const NormalCell normal = strain_affinely(p, strain);
+    take_cell(sys, p, normal);
     return JAM_OK;
   });
 }

@@ -71,6 +71,7 @@ jam_status jam_crunch(jam_system *sys, const jam_crunch_options *o, jam_crunch_r
     found.has_report = found.has_history = true;
     // Also after a failure: the state reached is valid and nothing is lost.
     sys->commit(result.packing, std::move(found));
+    if (sys->notes.text().find(result.notes.text()) == std::string::npos) sys->notes.append(result.notes);
     if (result.status == JAM_CANCELLED || result.status == JAM_LIMIT ||
         result.report.stop_reason == JAM_STOP_DUALITY_GAP)
       sys->crunch_paused = history.stage;

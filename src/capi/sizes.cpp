@@ -48,9 +48,7 @@ jam_status jam_cell_volume(int32_t dim, const double *cell, size_t cell_len, dou
     check_dim(dim);
     check_matrix_len("cell", cell_len, dim);
     check_array_in(cell, cell_len, "cell");
-    *volume = 1.0;
-    const Cell reduced = reduce_cell(dim, cell).cell;
-    for (int c = 0; c < dim; ++c) *volume *= reduced.edge(c);
+    *volume = normal_cell(dim, cell).cell.volume();
     return JAM_OK;
   });
 }

@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "capi/table.hpp"
+#include "core/cell_change.hpp"
 #include "crunch/crunch.hpp"
 #include "soft/decompression.hpp"
 
@@ -59,6 +60,7 @@ jam_status jam_relax(jam_system *sys, const jam_relax_options *o, jam_relax_repo
     const jam_relax_report made = result.report;
     const jam_status status = result.status;
     refuse_outside(result.packing);
+    straighten_cell(result.packing, sys->notes);
     sys->commit(result.packing, soft_results(result, made.seconds));
     give_struct(made, report);
     return why_no_minimum(status, made.stop_reason);

@@ -12,6 +12,8 @@
 namespace jam::inside {
 namespace {
 
+constexpr double most_tilt = 0.5 + 1e-12;  // over the edge: half an edge either way is the same lattice
+
 // Gram-Schmidt: row k = sum_j mu[k][j] star_j.
 struct Orthogonal {
   std::vector<double> star, mu, length2;
@@ -36,6 +38,11 @@ class Reduction {
     for (int k = 0; k < d_; ++k) t_[k * d_ + k] = 1;
   }
 
+  void shorten_tilts() {
+    for (int k = 1; k < d_; ++k)
+      for (int j = k - 1; j >= 0; --j) shorten(k, j);
+  }
+
   void run() {
     int64_t left = ReductionTuning::most_steps;
     for (int k = 1; k < d_ && --left > 0;) {
@@ -52,8 +59,8 @@ class Reduction {
     if (odd_) negate(0);  // the determinant stays positive
   }
 
-  ReducedCell result() const {
-    ReducedCell out;
+  NormalCell result() const {
+    NormalCell out;
     out.transform = t_;
     out.rotation.assign(b_.size(), 0.0);
     const Orthogonal g(d_, b_);
@@ -77,7 +84,7 @@ class Reduction {
   void shorten(int k, int j) {
     const Orthogonal g(d_, b_);
     // Half an edge either way is the same lattice: only more than that is taken off.
-    if (std::fabs(g.mu[k * d_ + j]) <= 0.5 + 1e-12) return;
+    if (std::fabs(g.mu[k * d_ + j]) <= most_tilt) return;
     const double m = std::nearbyint(g.mu[k * d_ + j]);
     constexpr double largest = 1e15;  // integers of that size and their sums are exact in doubles
     for (int c = 0; c < d_; ++c) {
@@ -126,9 +133,7 @@ double determinant(int d, std::vector<double> m) {
   return product;
 }
 
-}  // namespace
-
-ReducedCell reduce_cell(int dim, const double *rows) {
+void check_vectors(int dim, const double *rows) {
   const size_t count = static_cast<size_t>(dim) * dim;
   std::vector<double> unit(rows, rows + count);
   double largest = 0.0;
@@ -144,57 +149,78 @@ ReducedCell reduce_cell(int dim, const double *rows) {
     fail(JAM_E_ARGUMENT, "the cell vectors have the determinant %g, it must be positive: %s", volume,
          volume < 0.0 ? "exchange two of them" : "they are linearly dependent");
   check_box(math::pow(volume, 1.0 / dim) * largest);
+}
+
+double relative_height(const Cell &cell) { return cell.height_min() / cell.side(); }
+
+}  // namespace
+
+bool NormalCell::same_vectors() const {
+  const auto d = static_cast<size_t>(cell.dim());
+  for (size_t k = 0; k < d * d; ++k)
+    if (transform[k] != (k % (d + 1) == 0 ? 1 : 0)) return false;
+  return true;
+}
+
+double orthogonality_defect(const Cell &cell) {
+  double product = 1.0;
+  for (int c = 0; c < cell.dim(); ++c) {
+    double r2 = 0.0;
+    for (int k = 0; k <= c; ++k) r2 += cell.row(c)[k] / cell.edge(c) * (cell.row(c)[k] / cell.edge(c));
+    product *= std::sqrt(r2);
+  }
+  return product;
+}
+
+// Reduced vectors of dense lattices have up to 2^(d/2). A search for images looks at up to 3^d times as many.
+double defect_max(int dim) { return std::ldexp(1.0, dim + 2); }
+
+Cell upright(const Cell &cell) {
+  const int d = cell.dim();
+  std::vector<double> rows = cell.rows();
+  bool changed = false;
+  for (int c = 1; c < d; ++c)
+    for (int k = c - 1; k >= 0; --k) {
+      const double tilt = rows[c * d + k] / rows[k * d + k];
+      if (std::fabs(tilt) <= most_tilt) continue;
+      for (int e = 0; e <= k; ++e) rows[c * d + e] -= std::nearbyint(tilt) * rows[k * d + e];
+      changed = true;
+    }
+  if (!changed) return cell;
+  Cell out = Cell::from_triangle(d, rows.data());
+  out.close(cell.closed());
+  return out;
+}
+
+Cell search_cell(const Packing &p) { return p.model == JAM_MODEL_MK ? p.cell : upright(p.cell); }
+
+NormalCell reduce_cell(int dim, const double *rows) {
+  check_vectors(dim, rows);
   Reduction reduction(dim, rows);
   reduction.run();
-  ReducedCell out = reduction.result();
-  const double height = out.cell.height_min() / out.cell.side();
+  NormalCell out = reduction.result();
+  const double height = relative_height(out.cell);
   if (!(height >= limits::cell_height_min))
     fail(JAM_E_ARGUMENT, "the cell is flat: two faces are %g V^(1/d) apart, at least %g is supported", height,
          limits::cell_height_min);
   return out;
 }
 
-void enter_cell(Packing &p, const ReducedCell &reduced) {
-  const size_t d = static_cast<size_t>(p.dim);
-  p.cell = reduced.cell;
-  if (reduced.rotated)
-    for (auto *of : {&p.position, &p.velocity})
-      for (size_t i = 0; i < of->size() / d; ++i) {
-        Cell::Vector x{};
-        for (size_t k = 0; k < d; ++k)
-          for (size_t c = 0; c < d; ++c) x[k] += reduced.rotation[k * d + c] * (*of)[i * d + c];
-        std::copy(x.begin(), x.begin() + d, of->begin() + i * d);
-      }
-  if (!p.position.empty()) wrap_positions(p);
-}
-
-bool keeps_shifts(const Packing &p, const ReducedCell &reduced) {
-  bool same = true;
-  for (int r = 0; r < p.dim; ++r)
-    for (int c = 0; c < p.dim; ++c) same &= reduced.transform[static_cast<size_t>(r) * p.dim + c] == (r == c ? 1 : 0);
-  return same || p.model != JAM_MODEL_MK;
-}
-
-void strain_affinely(Packing &p, const double *strain) {
-  refuse_walls(p, "strained");
-  const int d = p.dim;
-  const auto deform = [&](const double *x, double *y) {
-    for (int a = 0; a < d; ++a) {
-      y[a] = x[a];
-      for (int b = 0; b < d; ++b) y[a] += strain[a * d + b] * x[b];
-    }
-  };
-  std::vector<double> rows(static_cast<size_t>(d) * d);
-  for (int c = 0; c < d; ++c) deform(p.cell.row(c), &rows[c * d]);
-  for (size_t i = 0; i < p.n(); ++i) {
-    Cell::Vector y{};
-    deform(&p.position[i * d], y.data());
-    std::copy(y.begin(), y.begin() + d, p.position.begin() + i * d);
+NormalCell normal_cell(int dim, const double *rows, double most_defect) {
+  check_vectors(dim, rows);
+  for (const bool shorten : {false, true}) {
+    Reduction reduction(dim, rows);
+    if (shorten) reduction.shorten_tilts();
+    NormalCell out = reduction.result();
+    out.most_defect = most_defect;
+    if (orthogonality_defect(out.cell) <= most_defect && relative_height(upright(out.cell)) >= limits::cell_height_min)
+      return out;
   }
-  const ReducedCell reduced = reduce_cell(d, rows.data());
-  if (!keeps_shifts(p, reduced))
-    fail(JAM_E_UNSUPPORTED, "so large a strain gives the cell other vectors, and with them other Mari-Kurchan shifts");
-  enter_cell(p, reduced);
+  NormalCell out = reduce_cell(dim, rows);
+  out.most_defect = most_defect;
+  return out;
 }
+
+NormalCell normal_cell(int dim, const double *rows) { return normal_cell(dim, rows, defect_max(dim)); }
 
 }  // namespace jam::inside

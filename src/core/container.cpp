@@ -131,24 +131,13 @@ void Container::random_point(const Cell &cell, Rng &rng, double radius, double *
 double scene_volume(const Packing &p) { return p.container ? p.container.volume() : p.cell.volume(); }
 
 Cell walled_cell(int dim, const double *rows, const Enclosure &given) {
-  const ReducedCell reduced = reduce_cell(dim, rows);  // for its checks
-  bool triangle = true, brick = true, same = !reduced.rotated;
-  for (int k = 0; k < dim; ++k)
-    for (int c = 0; c < dim; ++c) {
-      const double x = rows[k * dim + c];
-      triangle = triangle && (c == k ? x > 0.0 : c < k || x == 0.0);
-      brick = brick && (c == k ? x > 0.0 : x == 0.0);
-      same = same && reduced.transform[static_cast<size_t>(k) * dim + c] == (k == c ? 1 : 0);
-    }
-  if (triangle) {
-    const Cell cell = Cell::from_triangle(dim, rows);
-    const Container named(given.container, given.walls, cell);  // names a tilted axis
-    if (brick) return cell;
-  }
-  if (!same)
-    fail(JAM_E_ARGUMENT,
-         "with walls the cell is a brick, or its vectors are those that jam_get_cell gives without walls");
-  return reduced.cell;
+  const NormalCell normal = normal_cell(dim, rows);
+  if (!normal.rotated)
+    const Container named(given.container, given.walls, Cell::from_triangle(dim, rows));  // a tilted axis
+  if (normal.rotated || !normal.same_vectors())
+    fail(JAM_E_ARGUMENT, "with walls the cell is a brick, or its vectors are lower-triangular and %s",
+         normal.same_vectors() ? "have a positive diagonal" : "lean less");
+  return normal.cell;
 }
 
 void enclose(Packing &p, const Enclosure &given) {

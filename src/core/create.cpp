@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "core/call_scope.hpp"
-#include "core/cell_reduction.hpp"
+#include "core/cell_change.hpp"
 #include "core/digits.hpp"
 #include "core/error.hpp"
 #include "core/limits.hpp"
@@ -107,8 +107,6 @@ jam_create_options default_create_options() {
   return o;
 }
 
-double default_packing_fraction(int dim) { return std::ldexp(start_fraction_3d, -std::max(0, dim - 3)); }
-
 void check_create_limits(const jam_create_options &o) {
   check_positive(o.wall_time, "wall_time");
   if (!(o.memory_limit >= 0.0)) fail(JAM_E_ARGUMENT, "memory_limit is %g, it must not be negative", o.memory_limit);
@@ -204,51 +202,6 @@ void shrink_to_contact(Packing &p, double least, Notes *notes) {
                 packing_fraction(p), before);
 }
 
-namespace {
-
-// A lattice has many sets of cell vectors: what became of those that were given.
-void say_cell(const ReducedCell &reduced, int dim, Notes *notes) {
-  if (!notes) return;
-  bool same = true;
-  const size_t d = static_cast<size_t>(dim);
-  for (size_t k = 0; k < d * d; ++k) same = same && reduced.transform[k] == (k % (d + 1) == 0 ? 1 : 0);
-  if (!same) notes->say("the cell vectors were replaced by shorter ones of the same lattice");
-  if (reduced.rotated) notes->say("the spheres were rotated with the cell, whose vectors are lower-triangular now");
-}
-
-// A random start at this packing fraction, with the ratios of the diameters.
-void start_at(Packing &p, double wanted) {
-  const double scale = math::pow(wanted / packing_fraction(p), 1.0 / p.dim);
-  for (double &s : p.diameter) s *= scale;
-  check_diameters(p.diameter, p.cell);
-  if (p.overlap_allowed)
-    place_uniformly(p);
-  else if (p.model == JAM_MODEL_MK && p.mk_zeta > 0.0)
-    plant(p);
-  else
-    place_at_random(p);
-}
-
-// A random start at the usual packing fraction, or where the spheres find no place in a narrow scene at a lower one.
-void start_below(Packing &p, double usual, Notes *notes) {
-  const std::vector<double> ratios = p.diameter;
-  for (double wanted = usual;; wanted *= PlaceTuning::lower) {
-    try {
-      p.diameter = ratios;
-      start_at(p, wanted);
-      if (notes && wanted < usual)
-        notes->say("the random start has the packing fraction %.4g: at the usual %g these spheres found no place",
-                   wanted, usual);
-      return;
-    } catch (const Error &e) {
-      const bool no_place = e.code() == JAM_E_UNPLACEABLE || e.code() == JAM_E_OVERLAP;
-      if (!no_place || wanted < PlaceTuning::least * usual) throw;
-    }
-  }
-}
-
-}  // namespace
-
 Packing make_packing(const jam_create_options &o, const double *positions, size_t positions_len,
                      const double *diameters, size_t diameters_len, const double *cell, Notes *notes) {
   check_options(o);
@@ -279,9 +232,9 @@ Packing make_packing(const jam_create_options &o, const double *positions, size_
       enclose(p, enclosure);
       wrap_positions(p);
     } else if (cell) {
-      const ReducedCell reduced = reduce_cell(p.dim, cell);
-      say_cell(reduced, p.dim, notes);
-      enter_cell(p, reduced);
+      const NormalCell normal = normal_cell(p.dim, cell);
+      if (notes) note_cell(normal, true, *notes);
+      enter_cell(p, normal);
     } else {
       wrap_positions(p);
     }
@@ -290,15 +243,18 @@ Packing make_packing(const jam_create_options &o, const double *positions, size_
     else
       settle_overlaps(p, o.overlap);
   } else {
-    if (cell) p.cell = walled ? walled_cell(p.dim, cell, enclosure) : reduce_cell(p.dim, cell).cell;
-    if (walled) enclose(p, enclosure);
+    if (walled) {
+      if (cell) p.cell = walled_cell(p.dim, cell, enclosure);
+      enclose(p, enclosure);
+    } else if (cell) {
+      const NormalCell normal = normal_cell(p.dim, cell);
+      if (notes) note_cell(normal, false, *notes);
+      p.cell = normal.cell;
+    }
     if (!(o.packing_fraction >= 0.0) || !std::isfinite(o.packing_fraction))
       fail(JAM_E_ARGUMENT, "packing_fraction is %g, it must be positive and finite, or 0 for the default",
            o.packing_fraction);
-    if (o.packing_fraction > 0.0)
-      start_at(p, o.packing_fraction);
-    else
-      start_below(p, default_packing_fraction(p.dim), notes);
+    start_at_random(p, o.packing_fraction, notes);
   }
   p.velocity.assign(n * o.dim, 0.0);
   return p;

@@ -34,6 +34,9 @@ void settle_overlaps(Packing &p, int32_t policy);
 void shrink_to_contact(Packing &p, double least, Notes *notes);
 // Throws JAM_E_OVERLAP naming the worst pair, and how to mend it, where one overlaps by more than the tolerance.
 void refuse_overlaps(const Packing &p, double tolerance);
+// A random start with the ratios of the diameters at this packing fraction; 0: at the default, or where the spheres
+// find no place in a narrow scene at a lower one, which is noted.
+void start_at_random(Packing &p, double packing_fraction, Notes *notes);
 // Independent uniform points (JAM_OVERLAP_ALLOW).
 void place_uniformly(Packing &p);
 // Random sequential addition, largest spheres first, at the diameters that p holds. JAM_E_UNPLACEABLE with

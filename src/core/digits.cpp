@@ -19,8 +19,10 @@ struct Rule {
   double least, part;
   size_t count, sample;
 };
+// nearly_all, of positions along a cell vector: more than the half that multiples of a length may reach, too many for
+// chance.
 constexpr Rule most_coordinates{0.0, Tuning::most_part, Tuning::most_count, Tuning::sample},
-    nearly_all{0.0, Tuning::nearly_all_part, Tuning::nearly_all_count, Tuning::sample},
+    nearly_all{0.0, 0x1.ep-1, 8, Tuning::sample},
     some_coordinates{Tuning::rounded, Tuning::some_part, Tuning::some_count, Tuning::large_sample},
     most_lengths{Tuning::rounded, Tuning::most_part, Tuning::most_count, Tuning::sample};
 // Doubles above it are integers whatever they came from.

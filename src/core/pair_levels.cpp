@@ -4,11 +4,13 @@
 #include <cmath>
 
 #include "core/call_scope.hpp"
+#include "core/cell_reduction.hpp"
 #include "core/math.hpp"
 
 namespace jam::inside {
 
-PairCells::PairCells(const Packing &p, const std::vector<int32_t> &spheres, int64_t side) : dim_(p.dim), side_(side) {
+PairCells::PairCells(const Packing &p, const std::vector<int32_t> &spheres, int64_t side)
+    : dim_(p.dim), side_(side), basis_(upright(p.cell)) {
   int64_t cells = 1;
   for (int c = 0; c < dim_; ++c) cells *= side_;
   start_.assign(static_cast<size_t>(cells) + 1, 0);
@@ -30,7 +32,7 @@ PairCells::PairCells(const Packing &p, const std::vector<int32_t> &spheres, int6
 
 void PairCells::place(const Packing &p, int32_t i, int64_t *at) const {
   Cell::Vector s{};
-  p.cell.fraction(&p.position[static_cast<size_t>(i) * dim_], s.data());
+  basis_.fraction(&p.position[static_cast<size_t>(i) * dim_], s.data());
   for (int c = 0; c < dim_; ++c) {
     // A soft sphere beyond a wall belongs to the outermost cell.
     const double part = p.cell.repeats(c) ? wrap(s[c], 1.0) : std::min(std::max(s[c], 0.0), 1.0);
@@ -53,6 +55,7 @@ std::vector<PairLevel> pair_levels(const Packing &p, const std::vector<double> &
     longest[halved] = std::max(longest[halved], reach[i]);
     largest[halved] = std::max(largest[halved], p.diameter[i]);
   }
+  const double height = upright(p.cell).height_min();
   double reach_max = 0.0, diameter_max = 0.0;  // of a level and all finer ones
   for (size_t k = most + 1; k-- > 0;) {
     reach_max = std::max(reach_max, longest[k]);
@@ -60,7 +63,7 @@ std::vector<PairLevel> pair_levels(const Packing &p, const std::vector<double> &
     const double n = static_cast<double>(level[k].member.size());
     // As many cells as spheres are enough; a side is never shorter than the cutoff. Nearest images are enough from
     // three cells on: two cells in a row would already need a second image.
-    const double fit = p.cell.height_min() / (reach_max + per_diameter * diameter_max),
+    const double fit = height / (reach_max + per_diameter * diameter_max),
                  enough = std::ceil(math::pow(n, 1.0 / p.dim)) + 1.0;
     const auto side = static_cast<int64_t>(std::min(fit * (1.0 - 1e-12), enough));
     if (n > 0.0 && side >= 4) level[k].cells = std::make_unique<PairCells>(p, level[k].member, side);

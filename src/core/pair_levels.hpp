@@ -45,6 +45,7 @@ class PairCells {
   }
   int dim_;
   int64_t side_;
+  Cell basis_;
   std::vector<int32_t> start_, members_;
 };
 

@@ -5,8 +5,10 @@
 #include <numeric>
 
 #include "core/call_scope.hpp"
+#include "core/cell_reduction.hpp"
 #include "core/create.hpp"
 #include "core/error.hpp"
+#include "core/limits.hpp"
 #include "core/math.hpp"
 #include "core/pair_rule.hpp"
 #include "core/pairs.hpp"
@@ -20,8 +22,8 @@ namespace {
 // Cells at least as wide as the largest diameter, as linked lists, since spheres are added one by one.
 class GrowingCells {
  public:
-  GrowingCells(const Packing &p, double cutoff) : p_(p) {
-    const double fit = p.cell.height_min() / cutoff,
+  GrowingCells(const Packing &p, double cutoff) : p_(p), basis_(upright(p.cell)) {
+    const double fit = basis_.height_min() / cutoff,
                  enough = std::ceil(math::pow(static_cast<double>(p.n()), 1.0 / p.dim));
     side_ = std::max<int64_t>(1, static_cast<int64_t>(std::min(fit * (1.0 - 1e-12), enough)));
     if (side_ < 3) side_ = 1;
@@ -39,7 +41,7 @@ class GrowingCells {
   bool blocked(const double *x, int32_t i) const {
     if (side_ == 1) return in_cell(0, x, i);
     Cell::Vector s{};
-    p_.cell.fraction(x, s.data());
+    basis_.fraction(x, s.data());
     return visit(p_.dim - 1, 0, s.data(), x, i);
   }
 
@@ -49,7 +51,7 @@ class GrowingCells {
   }
   int64_t cell_of(const double *x) const {
     Cell::Vector s{};
-    p_.cell.fraction(x, s.data());
+    basis_.fraction(x, s.data());
     int64_t cell = 0;
     for (int c = p_.dim - 1; c >= 0; --c) cell = cell * side_ + index(s[c]);
     return cell;
@@ -79,6 +81,7 @@ class GrowingCells {
     return false;
   }
   const Packing &p_;
+  const Cell basis_;
   int64_t side_;
   std::vector<int32_t> head_, next_;
 };
@@ -200,6 +203,50 @@ void plant(Packing &p) {
       if (attempt > 0) p.mk_redrawn.push_back({i, j, attempt});
     }
   }
+}
+
+double default_packing_fraction(int dim) { return std::ldexp(start_fraction_3d, -std::max(0, dim - 3)); }
+
+namespace {
+
+// A random start at this packing fraction, with the ratios of the diameters.
+void start_at(Packing &p, double wanted) {
+  const double scale = math::pow(wanted / packing_fraction(p), 1.0 / p.dim);
+  for (double &s : p.diameter) s *= scale;
+  check_diameters(p.diameter, p.cell);
+  if (p.overlap_allowed)
+    place_uniformly(p);
+  else if (p.model == JAM_MODEL_MK && p.mk_zeta > 0.0)
+    plant(p);
+  else
+    place_at_random(p);
+}
+
+// A random start at the usual packing fraction, or where the spheres find no place in a narrow scene at a lower one.
+void start_below(Packing &p, double usual, Notes *notes) {
+  const std::vector<double> ratios = p.diameter;
+  for (double wanted = usual;; wanted *= 0.5) {
+    try {
+      p.diameter = ratios;
+      start_at(p, wanted);
+      if (notes && wanted < usual)
+        notes->say("the random start has the packing fraction %.4g: at the usual %g these spheres found no place",
+                   wanted, usual);
+      return;
+    } catch (const Error &e) {
+      const bool no_place = e.code() == JAM_E_UNPLACEABLE || e.code() == JAM_E_OVERLAP;
+      if (!no_place || wanted < 1e-6 * usual) throw;
+    }
+  }
+}
+
+}  // namespace
+
+void start_at_random(Packing &p, double packing_fraction, Notes *notes) {
+  if (packing_fraction > 0.0)
+    start_at(p, packing_fraction);
+  else
+    start_below(p, default_packing_fraction(p.dim), notes);
 }
 
 }  // namespace jam::inside

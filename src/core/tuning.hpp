@@ -15,8 +15,6 @@ struct PlaceTuning {
       200000;  // for each sphere; well below saturation about one point in 100 is free
   static constexpr int64_t tries_per_sphere = 20000, tries_between_looks = 16, tries_between_reports = 4096;
   static constexpr int32_t most_draws = 2000;  // of the shift of a planted pair
-  // Where the usual packing fraction leaves no place, the next try has this part of it, down to `least` of the usual.
-  static constexpr double lower = 0.7, least = 1e-3;
 };
 
 // ---- reports of progress, in seconds
@@ -42,9 +40,6 @@ struct DigitsTuning {
   // significant digits, 0.25 or 1.4 say, may have been chosen; one of four was rounded.
   static constexpr double rounded = 1000.0, most_part = 0.5, some_part = 0.05;
   static constexpr size_t most_count = 1, some_count = 8;
-  // Of positions along a cell vector: more than the half that multiples of a length may reach, too many for chance.
-  static constexpr double nearly_all_part = 0.9;
-  static constexpr size_t nearly_all_count = 8;
   // One of ten multiples of a step, or one of two, is a multiple of the next coarser one. The step is the coarsest that
   // has more than this part of the multiples of the next finer one.
   static constexpr double kept = 0.75;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/monitor.hpp"
+#include "core/notes.hpp"
 #include "core/packing.hpp"
 #include "crunch/options.hpp"
 #include "crunch/record.hpp"
@@ -20,6 +21,7 @@ struct CrunchResult {
   ContactNetwork contacts;  // of the last LP; empty if none was solved
   jam_crunch_report report{};
   jam_status status = JAM_OK;
+  Notes notes;       // what became of the vectors of a free cell
   std::string text;  // why, when status is not JAM_OK; empty where the stop reason says it all
 };
 

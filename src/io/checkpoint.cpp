@@ -2,6 +2,7 @@
 // refuses the file.
 #include "io/checkpoint.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -20,9 +21,10 @@
 namespace jam::inside {
 namespace {
 
-// Largest tilt of a cell vector, over the edge along which it leans. Reduced cells have 1/2 at most, and a crunch adds
-// strains of order one. Coordinates lose digits where the tilt is large.
-constexpr double tilt_max = 16.0;
+// Largest tilt of a cell vector, over the longer of its own edge and that along which it leans. Coordinates lose digits
+// where the tilt is large: vectors whose orthogonality defect is larger are not kept, and a crunch adds strains of
+// order one.
+double tilt_max(int dim) { return 2.0 * defect_max(dim); }
 // Lattice vectors that the search for the shortest one may look at. Of 1500 reduced cells in d = 8 none had more
 // than 1.1e4.
 constexpr double vectors_max = 1e7;
@@ -62,7 +64,7 @@ bool has_searchable_cell(const Header &h) {
     for (int c = r + 1; c < h.dim; ++c)
       if (at(r, c) != 0.0) return false;
     for (int c = 0; c <= r; ++c) {
-      if (c < r && !(std::fabs(at(r, c)) <= tilt_max * at(c, c))) return false;
+      if (c < r && !(std::fabs(at(r, c)) <= tilt_max(h.dim) * std::max(at(c, c), at(r, r)))) return false;
       r2 += at(r, c) * at(r, c);
     }
     least2 = std::min(least2, r2);

@@ -109,7 +109,7 @@ void take_cell(const LineReader &in, std::vector<double> rows, FileContent &cont
     content.box = rows[0];
     return;
   }
-  at_line(in, [&] { reduce_cell(content.dim, rows.data()); });
+  at_line(in, [&] { normal_cell(content.dim, rows.data()); });
   content.cell = std::move(rows);
 }
 

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "core/call_scope.hpp"
+#include "core/cell_reduction.hpp"
 #include "core/create.hpp"
 #include "core/error.hpp"
 #include "core/limits.hpp"
@@ -22,21 +23,15 @@ void refuse_walled_axis(const Packing &p, int c, int32_t count) {
        walls.name(w).c_str());
 }
 
-// The vectors count[c] a_c, less multiples of earlier ones where a tilt is more than half an edge.
+// The vectors count[c] a_c.
 Cell tiled_cell(const Cell &cell, const Copies &copies) {
   const int d = cell.dim();
   std::vector<double> rows = cell.rows();
   for (int c = 0; c < d; ++c)
     for (int k = 0; k <= c; ++k) rows[c * d + k] *= copies.along(c);
-  for (int c = 1; c < d; ++c)
-    for (int k = c - 1; k >= 0; --k) {
-      const double tilt = rows[c * d + k] / rows[k * d + k];
-      if (std::fabs(tilt) <= 0.5 + limits::rounding) continue;
-      for (int e = 0; e <= k; ++e) rows[c * d + e] -= std::nearbyint(tilt) * rows[k * d + e];
-    }
   Cell large = Cell::from_triangle(d, rows.data());
   check_box(large.side());
-  const double height = large.height_min() / large.side();
+  const double height = upright(large).height_min() / large.side();
   if (!(height >= limits::cell_height_min))
     fail(JAM_E_ARGUMENT, "so many copies make a flat cell: two faces are %g V^(1/d) apart, at least %g is supported",
          height, limits::cell_height_min);

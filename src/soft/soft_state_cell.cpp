@@ -71,12 +71,6 @@ std::vector<double> SoftState::fold_strain() {
       for (int b = a; b < c; ++b) sum -= at_.low[a * d + b] * rows[c * d + b];
       at_.low[a * d + c] = sum / rows[c * d + c];
     }
-  // Long vectors get shorter by whole others, in place: axes stay. Mari-Kurchan shifts belong to these vectors.
-  for (int c = 1; c < d && base_.model != JAM_MODEL_MK; ++c)
-    for (int k = c - 1; k >= 0; --k) {
-      const double m = std::nearbyint(rows[c * d + k] / rows[k * d + k]);
-      for (int a = 0; a <= k; ++a) rows[c * d + a] -= m * rows[k * d + a];
-    }
   base_.cell = strained_cell(d, rows);
   std::fill(displacement_.begin() + spheres(), displacement_.end(), 0.0);
   return s.e;

@@ -206,7 +206,7 @@ void reduction_of_long_vectors(void **) {
         const double times = std::floor(7.0 * rng.uniform()) - 3.0;
         for (int k = 0; k < d; ++k) rows[to * d + k] += times * rows[from * d + k];
       }
-      const ReducedCell reduced = reduce_cell(d, rows.data());
+      const NormalCell reduced = reduce_cell(d, rows.data());
       assert_true(std::fabs(reduced.cell.volume() / cell.volume() - 1.0) < 1e-11);
       assert_true(std::fabs(reduced.cell.shortest() / cell.shortest() - 1.0) < 1e-9);
       double longest = 0.0;

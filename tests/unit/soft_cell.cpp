@@ -4,7 +4,7 @@
 #include "core/error.hpp"  // before cmocka's macro `fail`
 #include "test.h"
 
-#include "core/cell_reduction.hpp"
+#include "core/cell_change.hpp"
 #include "core/rng.hpp"
 #include "soft/decompression.hpp"
 #include "unit/random_packing.hpp"

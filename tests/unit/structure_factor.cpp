@@ -3,7 +3,7 @@
 #include <complex>
 
 #include "analysis/structure.hpp"
-#include "core/cell_reduction.hpp"
+#include "core/cell_change.hpp"
 #include "core/math.hpp"
 #include "core/rng.hpp"
 // Last: cmocka defines a macro `fail`.

@@ -1,6 +1,5 @@
 #include "crunch/approach/free_cell.hpp"
 
-#include "core/cell_reduction.hpp"
 #include "crunch/control.hpp"
 
 namespace jam::inside {
@@ -18,11 +17,6 @@ Phase free_cell(CrunchState &s) {
   s.history.stage.path_taken = false;
   s.history.stage.cell_free = true;
   return Phase::approach;
-}
-
-void shorten_cell(Packing &p) {
-  const ReducedCell reduced = reduce_cell(p.dim, p.cell.rows().data());
-  if (keeps_shifts(p, reduced)) enter_cell(p, reduced);
 }
 
 }  // namespace jam::inside

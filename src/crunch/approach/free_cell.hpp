@@ -10,7 +10,5 @@ namespace jam::inside {
 bool frees_cell(const CrunchState &s);
 // The strains join the LPs.
 Phase free_cell(CrunchState &s);
-// Shorter lattice vectors of the same lattice, where strains made them long.
-void shorten_cell(Packing &p);
 
 }  // namespace jam::inside

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/cell_change.hpp"
 #include "core/error.hpp"
 #include "core/math.hpp"
 #include "core/motion.hpp"
 #include "core/pair_rule.hpp"
-#include "crunch/approach/free_cell.hpp"
 #include "crunch/control.hpp"
 #include "crunch/spacing.hpp"
 
@@ -109,7 +109,7 @@ double take_step(Packing &p, PairList &pairs, double reach, const LpSolution &x,
 
 double build_lp(CrunchState &s, double reach) {
   s.last.active = ActiveSet();  // it belongs to the list that is replaced: an interrupted LP leaves no contacts
-  if (s.next.strain.count() > 0) shorten_cell(s.out.packing);
+  if (s.next.strain.count() > 0) shorten_cell(s.out.packing, s.out.notes);
   PairList pairs = find_pairs(s.out.packing, reach, 1.0);
   // A few spheres, or very unequal ones, may be farther apart than their bound lets them move. Something must bound
   // their growth: the nearest pair, at last a sphere and its own image.

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/cell_reduction.hpp"
+#include "core/cell_change.hpp"
 #include "core/motion.hpp"
 #include "core/pair_rule.hpp"
 #include "crunch/approach/lp_step.hpp"
@@ -47,9 +47,9 @@ bool deform_into(Packing &q, const Packing &p, const std::vector<double> &v, con
   for (int c = 0; c < d; ++c) deform(&rows[c * d]);
   for (size_t k = 0; k < q.position.size(); k += d) deform(&q.position[k]);
   for (size_t k = 0; k < v.size(); ++k) q.position[k] += t * v[k];
-  const ReducedCell reduced = reduce_cell(d, rows.data());
-  if (!keeps_shifts(p, reduced)) return false;
-  enter_cell(q, reduced);
+  const NormalCell normal = normal_cell(d, rows.data());
+  if (!keeps_shifts(p, normal)) return false;
+  enter_cell(q, normal);
   const double back = p.cell.side() / q.cell.side();
   rows = q.cell.rows();
   for (double &x : rows) x *= back;

@@ -2,6 +2,7 @@
 #pragma once
 #include <algorithm>
 
+#include "core/cell_reduction.hpp"
 #include "core/math.hpp"
 #include "dynamics/event_driven/engine_of.hpp"
 
@@ -9,11 +10,11 @@ namespace jam::inside {
 
 template <int D, Offsets O>
 EngineOf<D, O>::EngineOf(const Packing &p, const EngineOptions &o, Archive *from)
-    : Units<O>(p.cell),
+    : Units<O>(search_cell(p)),
       options_(o),
       kernel_(pair_kernel<D>(o.instruction_set)),
       cell_of_packing_(p.cell),
-      lattice_(p.cell, listed ? scale : 0x1p61),
+      lattice_(search_cell(p), listed ? scale : 0x1p61),
       spheres_(p),
       clock_(p.n()),
       calendar_(p.n()),

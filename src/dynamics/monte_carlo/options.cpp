@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/call_scope.hpp"
+#include "core/cell_reduction.hpp"
 #include "core/checks.hpp"
 #include "core/create.hpp"
 #include "core/error.hpp"
@@ -23,7 +24,7 @@ std::unique_ptr<MonteCarlo> make_monte_carlo_of(const Packing &p, const jam_mont
 double largest_monte_carlo_step(const Packing &p) {
   // Along a cell vector a step in a cube of that half side goes no farther than the share of it.
   const double far = p.cell.cube() ? 1.0 : std::sqrt(static_cast<double>(p.dim));
-  return MonteCarloTuning::longest_step * p.cell.height_min() / far / diameter_mean(p);
+  return MonteCarloTuning::longest_step * search_cell(p).height_min() / far / diameter_mean(p);
 }
 
 std::unique_ptr<MonteCarlo> make_monte_carlo(const Packing &p, const jam_monte_carlo_options &o, int64_t run) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/call_scope.hpp"
+#include "core/cell_reduction.hpp"
 #include "core/error.hpp"
 #include "core/math.hpp"
 #include "core/pair_rule.hpp"
@@ -23,7 +24,7 @@ class MonteCarloSpheres : public MonteCarlo {
         n_(static_cast<int32_t>(p.n())),
         swap_share_(o.swap_share),
         hard_(o.alpha == 0.0),
-        geometry_(p.cell, contact_distance_max(p) / p.cell.side()),
+        geometry_(search_cell(p), contact_distance_max(p) / p.cell.side()),
         x_(p.n()),
         radius_(p.n()),
         centre_(p.n()),

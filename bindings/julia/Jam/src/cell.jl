@@ -18,8 +18,8 @@ end
     set_cell!(s, vectors) -> (transform, rotation)
 
 Replaces the cell by the columns of `vectors`, or by d sides. Positions keep their Cartesian values and diameters stay; results
-of a crunch are dropped. The cell is reduced: a point `x` has gone to `rotation * x`, and the reduced vectors are
-`rotation * vectors * transform`.
+of a crunch are dropped. The vectors stay, but are rotated to an upper triangle where they are none: a point `x` has gone to
+`rotation * x`. `notes(s)` tells where extreme vectors were replaced: they are `rotation * vectors * transform` now.
 """
 function set_cell!(s::System, vectors)
     made = call(s, :jam_set_cell, (check_square(s, vectors, "cell"),))

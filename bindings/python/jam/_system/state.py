@@ -117,10 +117,10 @@ class State(Base):
 
     @property
     def cell(self) -> Array:
-        """Cell vectors, shape (d, d), one a row: short and lower-triangular.
+        """Cell vectors as they were given, shape (d, d), one a row, lower-triangular.
 
-        Assign other vectors to change the cell at fixed Cartesian positions. The spheres rotate with the cell where it
-        must be rotated.
+        Assign other vectors to change the cell at fixed Cartesian positions. Vectors that are no lower triangle are
+        rotated to one, and the spheres with them; `notes` says so.
         """
         out = np.empty((self.dim, self.dim))
         raw.jam_get_cell(self.handle, out.reshape(-1))

@@ -1,0 +1,90 @@
+#include "core/cell_change.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <string>
+
+#include "core/error.hpp"
+
+namespace jam::inside {
+
+void enter_cell(Packing &p, const NormalCell &normal) {
+  const size_t d = static_cast<size_t>(p.dim);
+  p.cell = normal.cell;
+  if (normal.rotated)
+    for (auto *of : {&p.position, &p.velocity})
+      for (size_t i = 0; i < of->size() / d; ++i) {
+        Cell::Vector x{};
+        for (size_t k = 0; k < d; ++k)
+          for (size_t c = 0; c < d; ++c) x[k] += normal.rotation[k * d + c] * (*of)[i * d + c];
+        std::copy(x.begin(), x.begin() + d, of->begin() + i * d);
+      }
+  if (!p.position.empty()) wrap_positions(p);
+}
+
+bool keeps_shifts(const Packing &p, const NormalCell &normal) {
+  return p.model != JAM_MODEL_MK || normal.same_vectors();
+}
+
+namespace {
+
+void say_once(Notes &notes, const std::string &line) {
+  if (notes.text().find(line) == std::string::npos) notes.say("%s", line.c_str());
+}
+
+void note_other_vectors(double most_defect, Notes &notes) {
+  char line[200];
+  std::snprintf(line, sizeof line,
+                "the cell vectors were replaced by shorter ones of the same lattice: the product of their lengths was "
+                "over %g V",
+                most_defect);
+  say_once(notes, line);
+}
+
+}  // namespace
+
+void note_cell(const NormalCell &normal, bool spheres, Notes &notes) {
+  if (!normal.same_vectors()) note_other_vectors(normal.most_defect, notes);
+  if (normal.rotated)
+    say_once(notes, spheres ? "the spheres were rotated with the cell, whose vectors are lower-triangular now"
+                            : "the cell was rotated: its vectors are lower-triangular now");
+}
+
+bool shorten_cell(Packing &p, Notes &notes) {
+  const NormalCell normal = normal_cell(p.dim, p.cell.rows().data(), 0.5 * defect_max(p.dim));
+  if (normal.same_vectors() || !keeps_shifts(p, normal)) return false;
+  enter_cell(p, normal);
+  note_cell(normal, true, notes);
+  return true;
+}
+
+void straighten_cell(Packing &p, Notes &notes) {
+  if (p.model == JAM_MODEL_MK || orthogonality_defect(p.cell) <= defect_max(p.dim)) return;
+  p.cell = upright(p.cell);
+  note_other_vectors(defect_max(p.dim), notes);
+}
+
+NormalCell strain_affinely(Packing &p, const double *strain) {
+  refuse_walls(p, "strained");
+  const int d = p.dim;
+  const auto deform = [&](const double *x, double *y) {
+    for (int a = 0; a < d; ++a) {
+      y[a] = x[a];
+      for (int b = 0; b < d; ++b) y[a] += strain[a * d + b] * x[b];
+    }
+  };
+  std::vector<double> rows(static_cast<size_t>(d) * d);
+  for (int c = 0; c < d; ++c) deform(p.cell.row(c), &rows[c * d]);
+  for (size_t i = 0; i < p.n(); ++i) {
+    Cell::Vector y{};
+    deform(&p.position[i * d], y.data());
+    std::copy(y.begin(), y.begin() + d, p.position.begin() + i * d);
+  }
+  NormalCell normal = normal_cell(d, rows.data());
+  if (!keeps_shifts(p, normal))
+    fail(JAM_E_UNSUPPORTED, "so large a strain gives the cell other vectors, and with them other Mari-Kurchan shifts");
+  enter_cell(p, normal);
+  return normal;
+}
+
+}  // namespace jam::inside

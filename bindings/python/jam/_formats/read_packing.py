@@ -74,9 +74,3 @@ def plain(node: Any) -> Any:
         return {k: plain(v) for k, v in node.items()}
     value = node[()]
     return value.decode() if isinstance(value, bytes) else value
-
-
-def analysis_of(jam: Group) -> dict[str, Any]:
-    """Results of the analysis in a group `jam`: named tuples come back as dicts."""
-    found: dict[str, Any] = plain(jam["analysis"]) if "analysis" in jam else {}
-    return found

@@ -212,7 +212,8 @@ class Folder:
     def failures(self, names: Iterable[str] | None = None) -> dict[str, dict[str, Any]]:
         """Records of failures by name: seed, protocol, status, text, version, commit, machine, time.
 
-        One that cannot be read has the status "damaged_record", the seed -1 and no protocol.
+        One that cannot be read has the status "damaged_record", the seed -1 and no protocol. One of a packing that was made
+        since is none.
         """
         found: dict[str, dict[str, Any]] = {}
         for path in self.scan()[1] if names is None else map(self.failure, names):
@@ -227,7 +228,7 @@ class Folder:
                 name, text = path.stem, error.strerror
                 record = {"seed": -1, "protocol": "", "status": "damaged_record", "text": text, "time": 0.0}
             found.setdefault(name, record)
-        return found
+        return {name: record for name, record in found.items() if not self.packing(name).exists()}
 
     def write_failure(self, name: str, protocol_id: str, seed: int, status: str, text: str) -> None:
         record = {"seed": seed, "protocol": protocol_id, "status": status, "text": text, "time": time.time()}

@@ -57,11 +57,11 @@ def read(path: Path, places: Mapping[str, Stamp]) -> dict[str, bytes]:
     rows: dict[str, bytes] = {}
 
     def collect(base: sqlite3.Connection) -> None:
-        asked = "SELECT name, row FROM rows WHERE typeof(row) = 'blob' AND length(row) = ?"
-        for place, blob in base.execute(asked, (ROW.itemsize + _CHECK,)):
-            row, stamp = blob[:-_CHECK], places.get(place)
-            if stamp and blob[-_CHECK:] == _checksum(place, stamp, row):
-                rows[place] = row
+        asked = "SELECT row FROM rows WHERE name = ? AND typeof(row) = 'blob' AND length(row) = ?"
+        for place, stamp in places.items():
+            for (blob,) in base.execute(asked, (place, ROW.itemsize + _CHECK)):
+                if blob[-_CHECK:] == _checksum(place, stamp, blob[:-_CHECK]):
+                    rows[place] = blob[:-_CHECK]
 
     if path.exists():
         _ask(path, collect)

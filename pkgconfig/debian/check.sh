@@ -7,6 +7,10 @@ build=$(cd "$1" && pwd)
 for tool in dpkg-parsechangelog dpkg-gensymbols dh; do
   command -v $tool >/dev/null || { echo "$tool is not installed (Debian: dpkg-dev, debhelper)"; exit 77; }
 done
+grep -qx 'CMAKE_INSTALL_PREFIX:[A-Z]*=/usr' "$build/CMakeCache.txt" || { echo "the build is not for /usr"; exit 77; }
+for part in PYTHON FORTRAN STATIC CLI; do
+  grep -qx "JAM_BUILD_$part:BOOL=ON" "$build/CMakeCache.txt" || { echo "JAM_BUILD_$part is not ON"; exit 77; }
+done
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 mkdir "$work/source" && cp -r "$here" "$work/source/debian"

@@ -1,9 +1,14 @@
 """A packing as objects of other packages has the numbers of the packing."""
+import importlib.util
 import unittest
 
 import numpy as np
 
 import jam
+
+
+def needs(name):
+    return unittest.skipUnless(importlib.util.find_spec(name), f"python3-{name} is not installed")
 
 
 def disks():
@@ -13,6 +18,7 @@ def disks():
 
 
 class Converting(unittest.TestCase):
+    @needs("pandas")
     def test_frames_have_the_numbers_and_words(self):
         packing = disks()
         spheres, contacts, steps = (packing.to_pandas(what) for what in ("spheres", "contacts", "history"))
@@ -26,18 +32,21 @@ class Converting(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "spheres, contacts, history"):
             packing.to_pandas("forces")
 
+    @needs("pandas")
     def test_before_a_crunch_there_are_spheres_alone(self):
         loose = jam.System.random(n=8, dim=4)
         self.assertEqual(list(loose.to_pandas()), ["x0", "x1", "x2", "x3", "diameter"])
         with self.assertRaises(jam.errors.StateError):
             loose.to_pandas("contacts")
 
+    @needs("pandas")
     def test_a_frame_is_a_copy(self):
         packing = disks()
         before = packing.positions.copy()
         packing.to_pandas()["x"][:] = 0.0
         np.testing.assert_array_equal(packing.positions, before)
 
+    @needs("networkx")
     def test_the_graph_balances(self):
         packing = disks()
         graph = packing.to_networkx()
@@ -51,6 +60,7 @@ class Converting(unittest.TestCase):
         alone = [i for i, kind in graph.nodes(data="kind") if kind == "rattler"]
         self.assertEqual(alone, list(np.flatnonzero(packing.rattlers)))
 
+    @needs("ase")
     def test_ase_and_back_has_the_same_bits(self):
         cells = {2: [[1.0, 0.0], [0.3, 1.0]], 3: [[1.0, 0.0, 0.0], [0.3, 1.0, 0.0], [0.1, 0.2, 1.0]]}
         for dim, cell in cells.items():

@@ -1,7 +1,9 @@
 """Examples in the docstrings of the Python package run and give what they show; words that newcomers try are answered."""
 import contextlib
 import doctest
-import importlib
+import importlib.util
+import inspect
+import re
 import shutil
 import subprocess
 import sys
@@ -16,14 +18,44 @@ import jam
 MODULES = ("system", "_system.verbs", "_system.network", "_system.state", "_system.observe", "_system.writing", "_system.converting", "plot.motions", "_api.results", "_api.size_laws", "advice")
 
 
+def missing_package(function):
+    """The first package that a function imports and that is not installed, or None."""
+    try:
+        source = inspect.getsource(function)
+    except (OSError, TypeError):
+        return None
+    names = re.findall(r"^\s+import (\w+)|^\s+from (\w+)[\w.]* import", source, re.M)
+    return next((name for pair in names for name in pair if name and not importlib.util.find_spec(name)), None)
+
+
+def examples_of(module):
+    """The examples of a module's docstrings, but those of functions that need a package which is not installed."""
+    for test in doctest.DocTestFinder().find(module):
+        function = module
+        for part in test.name[len(module.__name__) + 1 :].split("."):
+            function = getattr(function, part, function)
+        missing = inspect.isfunction(function) and missing_package(function)
+        if missing:
+            print(f"{test.name}: python3-{missing} is not installed, so its examples are left out")
+        else:
+            yield test
+
+
 class Examples(unittest.TestCase):
     def test_docstrings_run(self):
-        run = 0
+        run, failed = 0, 0
+        runner = doctest.DocTestRunner()
         with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder):  # examples write files
             for name in MODULES:
-                found = doctest.testmod(importlib.import_module("jam." + name))
-                self.assertEqual(found.failed, 0, name)
-                run += found.attempted
+                try:
+                    module = importlib.import_module("jam." + name)
+                except ModuleNotFoundError as error:
+                    print(f"jam.{name}: {error.name} is not installed, so its examples are left out")
+                    continue
+                for test in examples_of(module):
+                    found = runner.run(test)
+                    run, failed = run + found.attempted, failed + found.failed
+        self.assertEqual(failed, 0)
         self.assertGreater(run, 20)
 
 

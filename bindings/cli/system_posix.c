@@ -59,13 +59,21 @@ int close_text(FILE *file, char **text, size_t *size) {
   return -1;
 }
 
+/* Owner, where the system lets it, and permissions; never the bits that lend the rights of the owner. Rights of a group
+ * that the file cannot be given are no rights of another group. */
+static int keep_rights(int fd, const struct stat *there, mode_t mode) {
+  if (there && there->st_uid != geteuid()) (void)!fchown(fd, there->st_uid, (gid_t)-1);
+  if (there && fchown(fd, (uid_t)-1, there->st_gid)) mode = (mode & ~(mode_t)070) | (mode & 07) << 3;
+  return fchmod(fd, mode);
+}
+
 int replace_file(const char *path, const char *text, size_t size) {
   struct stat there;
   char *const real = realpath(path, NULL); /* a link stays a link */
   const char *const target = real ? real : path, *const slash = strrchr(target, '/');
   const size_t folder = slash ? (size_t)(slash - target) + 1 : 0;
   const mode_t mask = umask(0);
-  const mode_t mode = real && stat(real, &there) == 0 ? there.st_mode & 07777 : 0666 & ~mask;
+  const mode_t mode = real && stat(real, &there) == 0 ? there.st_mode & 0777 : 0666 & ~mask;
   char *const beside = malloc(folder + 32);
   int bad = -1, fd = -1, error;
   umask(mask);
@@ -74,7 +82,7 @@ int replace_file(const char *path, const char *text, size_t size) {
     fd = mkstemp(beside);
   }
   if (fd >= 0) {
-    bad = put_bytes(fd, text, size) || fchmod(fd, mode) || fsync(fd);
+    bad = put_bytes(fd, text, size) || keep_rights(fd, real ? &there : NULL, mode) || fsync(fd);
     error = errno;
     if (close(fd) && !bad) bad = -1, error = errno;
     if (!bad && rename(beside, target)) bad = -1, error = errno;

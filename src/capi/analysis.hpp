@@ -18,7 +18,7 @@ inline void need_network(const jam_system *sys) {
 }
 // A verb whose work is left by Cancelled when the monitor says so; nothing has been written then.
 template <class F>
-jam_status guard_cancellable(jam_system *sys, F &&f) noexcept {
+jam_status guard_cancellable(jam_system *sys, F &&f) {
   return guard_verb(sys, [&]() -> Answer {
     const LeavingScope scope;
     try {
@@ -30,7 +30,7 @@ jam_status guard_cancellable(jam_system *sys, F &&f) noexcept {
 }
 // The same with a report, which is `unknown` where the call was left.
 template <class Report, class F>
-jam_status guard_cancellable(jam_system *sys, Report unknown, Report *report, F &&f) noexcept {
+jam_status guard_cancellable(jam_system *sys, Report unknown, Report *report, F &&f) {
   return guard_cancellable(sys, [&]() -> Answer {
     check_out_struct(report, "report");
     try {

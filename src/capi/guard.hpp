@@ -5,6 +5,9 @@
 #include <cstring>
 #include <limits>
 #include <new>
+#if __has_include(<cxxabi.h>)
+#include <cxxabi.h>
+#endif
 #include "capi/answer.hpp"
 #include "capi/system.hpp"
 #include "capi/unmade.hpp"
@@ -12,6 +15,7 @@
 #include "core/create.hpp"
 #include "core/error.hpp"
 #include "core/host_environment.hpp"
+#include "core/host_thread.hpp"
 #include "core/validate.hpp"
 
 namespace jam::inside {
@@ -23,6 +27,7 @@ class OwnEnvironmentOfCall {
   ~OwnEnvironmentOfCall();
 
  private:
+  const HostThread thread_;
   const OwnEnvironment own_;
 };
 
@@ -43,14 +48,18 @@ template <class F>
 }
 
 // Runs f() in libjam's environment and maps what it throws to a status and text. f returns jam_status
-// or Answer.
+// or Answer. Nothing leaves it but the unwinding of a thread that its host has cancelled (core/host_thread.hpp).
 template <class F>
-jam_status guard(F &&f) noexcept {
+jam_status guard(F &&f) {
   const OwnEnvironmentOfCall own;
   try {
     const Answer answer = compute(f);
     if (answer.status != JAM_OK) set_last_error(why(answer));
     return answer.status;
+#ifdef __GLIBCXX__
+  } catch (abi::__forced_unwind &) {
+    throw;
+#endif
   } catch (...) {
     return status_of_exception();
   }
@@ -94,7 +103,7 @@ Answer run_short(const jam_system *sys, F &&f) {
 
 // A const call on a handle that computes: checks the handle inside the try.
 template <class F>
-jam_status guard_const(const jam_system *sys, F &&f, const char *name = "sys") noexcept {
+jam_status guard_const(const jam_system *sys, F &&f, const char *name = "sys") {
   return guard([&] {
     const Reading reading(sys, name);
     return run_short(sys, f);
@@ -104,7 +113,7 @@ jam_status guard_const(const jam_system *sys, F &&f, const char *name = "sys") n
 // A const call that copies what the handle holds: nothing in it is long enough to be stopped, and a monitor of its own
 // would take ten times as long as a view.
 template <class F>
-jam_status guard_read(const jam_system *sys, F &&f) noexcept {
+jam_status guard_read(const jam_system *sys, F &&f) {
   return guard([&] {
     const Reading reading(sys);
     return f();
@@ -138,7 +147,7 @@ class Busy {
 
 // A short call that changes the handle: alone on it, and a cancel that waits for the next verb goes on waiting.
 template <class F>
-jam_status guard_set(jam_system *sys, F &&f) noexcept {
+jam_status guard_set(jam_system *sys, F &&f) {
   return guard([&] {
     const Busy busy(sys);
     const Answer answer = run_short(sys, f);
@@ -151,7 +160,7 @@ jam_status guard_set(jam_system *sys, F &&f) noexcept {
 // also if it was called before;
 // the cancel flag is cleared when the verb returns.
 template <class F>
-jam_status guard_verb(jam_system *sys, F &&f) noexcept {
+jam_status guard_verb(jam_system *sys, F &&f) {
   return guard([&] {
     const Busy busy(sys);
     struct Release {
@@ -245,7 +254,7 @@ void give_struct(const T &full, T *out) {
 // A verb that may be left by Cancelled before it has changed anything; the report then gives the reason and leaves all
 // else unknown.
 template <class Report, class F>
-jam_status guard_reporting(jam_system *sys, Report *report, F &&f) noexcept {
+jam_status guard_reporting(jam_system *sys, Report *report, F &&f) {
   return guard_verb(sys, [&]() -> Answer {
     check_out_struct(report, "report");
     try {

@@ -10,6 +10,7 @@
 
 #include "core/call_scope.hpp"
 #include "core/error.hpp"
+#include "core/host_thread.hpp"
 #include "io/platform.hpp"
 
 namespace jam::inside {
@@ -49,6 +50,7 @@ InputFile::~InputFile() {
 size_t InputFile::read(char *to, size_t size) {
   for (;;) {
     CallScope::look();
+    HostThread::take_cancellation();
     if (!platform::readable(fd_, platform::silence)) continue;
     const std::ptrdiff_t got = platform::read(fd_, to, std::min(size, platform::chunk));
     if (got >= 0) return static_cast<size_t>(got);

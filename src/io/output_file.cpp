@@ -10,6 +10,7 @@
 
 #include "core/call_scope.hpp"
 #include "core/error.hpp"
+#include "core/host_thread.hpp"
 #include "io/part_file.hpp"
 #include "io/platform.hpp"
 
@@ -48,7 +49,12 @@ OutputFile::OutputFile(const char *path) : path_(path) {
     fail_errno("write");
   }
   if (target.descriptor >= 0 || target.open || there == platform::Kind::other) {
-    fd_ = platform::open_in_place(target, path);
+    while ((fd_ = platform::open_in_place(target, path)) < 0 && (errno == EAGAIN || errno == EINTR)) {
+      const bool waits = errno == EAGAIN;  // for somebody to read the pipe
+      CallScope::look();
+      HostThread::take_cancellation();
+      if (waits) platform::pause(platform::silence);
+    }
     if (fd_ < 0) fail_errno("open");
     return;
   }
@@ -73,9 +79,10 @@ void OutputFile::put(const char *from, size_t left) {
   const bool in_place = temporary_.empty();
   while (left > 0) {
     CallScope::look();
+    if (in_place) HostThread::take_cancellation();
     if (in_place && !platform::writable(fd_, platform::silence)) continue;
     const std::ptrdiff_t done = platform::write(fd_, from, in_place ? std::min(left, platform::at_once) : left);
-    if (done < 0 && errno == EINTR) continue;
+    if (done < 0 && (errno == EINTR || errno == EAGAIN)) continue;
     if (done < 0) fail_errno("write");
     from += done;
     left -= static_cast<size_t>(done);

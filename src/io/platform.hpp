@@ -29,19 +29,25 @@ Target follow_links(std::string path);
 
 // Opening a pipe does not wait for its writer: readable() does.
 int open_input(const char *path);
-// A copy of the target's descriptor, which goes on where its host stands, or the path opened to append to it.
+// A copy of the target's descriptor, which goes on where its host stands, or the path opened to append to it. EAGAIN: a
+// pipe that nobody reads yet.
 int open_in_place(const Target &target, const char *path);
+void pause(int milliseconds);
 // Within so many milliseconds: a read or write of up to at_once bytes will not wait.
 bool readable(int file, int milliseconds);
 bool writable(int file, int milliseconds);
 extern const size_t at_once;
 std::ptrdiff_t read(int file, char *to, size_t size);
+// A pipe whose reader has gone away is EPIPE, a limit on the size of files EFBIG, without the signals of both, which
+// would end the process of the host.
 std::ptrdiff_t write(int file, const char *from, size_t size);
 bool sync(int file);  // to the disk
 bool close(int file);
 
 // A new file under a lock, which falls with its process. EEXIST: another name is to be tried.
 int create_locked(const std::string &name);
+// Owner, where the system lets it, and permissions of the file that a new one replaces. Never the bits that lend its
+// owner's rights to who runs it: a plain rewrite takes them off too.
 void take_permissions(int file, const char *of);
 // Renames an open file from create_locked onto another; a crash of the machine soon after keeps one of the two.
 bool rename_locked(int file, const std::string &from, const std::string &onto);

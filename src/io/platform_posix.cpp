@@ -1,6 +1,8 @@
 #include <dirent.h>
 #include <fcntl.h>
 #include <poll.h>
+#include <pthread.h>
+#include <signal.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -96,14 +98,44 @@ int open_input(const char *path) {
 }
 
 int open_in_place(const Target &target, const char *path) {
-  return target.descriptor >= 0 ? ::fcntl(target.descriptor, F_DUPFD_CLOEXEC, 0)
-                                : ::open(path, O_WRONLY | O_APPEND | O_CLOEXEC);
+  if (target.descriptor >= 0) return ::fcntl(target.descriptor, F_DUPFD_CLOEXEC, 0);
+  struct stat there;
+  const bool pipe = ::stat(path, &there) == 0 && S_ISFIFO(there.st_mode);
+  const int file = ::open(path, O_WRONLY | O_APPEND | O_CLOEXEC | (pipe ? O_NONBLOCK : 0));
+  if (file < 0 && pipe && errno == ENXIO) errno = EAGAIN;
+  return file;
 }
+
+void pause(int milliseconds) { (void)::poll(nullptr, 0, milliseconds); }
 
 bool readable(int file, int milliseconds) { return wait_for(file, POLLIN, milliseconds); }
 bool writable(int file, int milliseconds) { return wait_for(file, POLLOUT, milliseconds); }
 std::ptrdiff_t read(int file, char *to, size_t size) { return ::read(file, to, size); }
-std::ptrdiff_t write(int file, const char *from, size_t size) { return ::write(file, from, size); }
+
+// Both signals are ones of the thread that writes: they are blocked there, and taken back where the write raised one.
+std::ptrdiff_t write(int file, const char *from, size_t size) {
+  sigset_t own, before, waiting, raised;
+  sigemptyset(&own);
+  sigaddset(&own, SIGPIPE);
+  sigaddset(&own, SIGXFSZ);
+  pthread_sigmask(SIG_BLOCK, &own, &before);
+  sigpending(&waiting);
+  const std::ptrdiff_t done = ::write(file, from, size);
+  const int error = errno;
+  if (done < 0 && (error == EPIPE || error == EFBIG)) {
+    const int number = error == EPIPE ? SIGPIPE : SIGXFSZ;
+    sigpending(&raised);
+    if (sigismember(&raised, number) == 1 && sigismember(&waiting, number) == 0) {
+      int taken = 0;
+      sigemptyset(&own);
+      sigaddset(&own, number);
+      sigwait(&own, &taken);
+    }
+  }
+  pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  errno = error;
+  return done;
+}
 bool sync(int file) { return ::fsync(file) == 0; }
 bool close(int file) { return ::close(file) == 0; }
 
@@ -120,8 +152,14 @@ int create_locked(const std::string &name) {
 }
 
 void take_permissions(int file, const char *of) {
-  struct stat there;
-  if (::stat(of, &there) == 0) (void)!::fchmod(file, there.st_mode & 07777);
+  struct stat there, now;
+  if (::stat(of, &there) != 0 || ::fstat(file, &now) != 0) return;
+  mode_t mode = there.st_mode & 0777;
+  if (there.st_uid != now.st_uid) (void)!::fchown(file, there.st_uid, static_cast<gid_t>(-1));
+  // Rights of a group that the file cannot be given are no rights of another group.
+  if (there.st_gid != now.st_gid && ::fchown(file, static_cast<uid_t>(-1), there.st_gid) != 0)
+    mode = (mode & ~mode_t{070}) | (mode & 07) << 3;
+  (void)!::fchmod(file, mode);
 }
 
 bool rename_locked(int, const std::string &from, const std::string &onto) {

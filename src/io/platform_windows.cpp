@@ -148,6 +148,8 @@ int open_in_place(const Target &target, const char *path) {
                        _O_WRONLY | _O_APPEND);
 }
 
+void pause(int milliseconds) { ::Sleep(static_cast<DWORD>(milliseconds)); }
+
 // A pipe without a writer is at its end, which read() finds.
 bool readable(int file, int milliseconds) {
   if (::GetFileType(handle_of(file)) != FILE_TYPE_PIPE) return true;

@@ -1,5 +1,6 @@
 /* Writing: whole or not at all, nothing left behind, nobody's file harmed. */
 #include <fcntl.h>
+#include <pthread.h>
 #include <signal.h>
 #include <sys/resource.h>
 #include "io_helpers.h"
@@ -30,7 +31,8 @@ static void targets_that_cannot_be_written_are_refused(void **state) {
   jam_destroy(sys);
 }
 
-/* A full disk: the special file /dev/full, and a file-size limit in the middle of the temporary file. */
+/* A full disk: the special file /dev/full, and a file-size limit in the middle of the temporary file, whose signal
+ * would end the process. */
 static void a_full_disk_leaves_the_old_file(void **state) {
   jam_system *sys = some_packing(3, 400, 1.4, 1.0);
   struct rlimit limit, small;
@@ -45,7 +47,6 @@ static void a_full_disk_leaves_the_old_file(void **state) {
   }
   put_bytes(path, old_text, strlen(old_text));
   files = count_files();
-  signal(SIGXFSZ, SIG_IGN);
   assert_int_equal(getrlimit(RLIMIT_FSIZE, &limit), 0);
   small = limit;
   small.rlim_cur = 1000;
@@ -97,6 +98,84 @@ static void links_and_permissions_are_kept(void **state) {
   jam_destroy(sys);
 }
 
+/* The new file has the owner's permissions, and not the bits that lend the rights of its new owner. */
+static void no_rights_are_lent(void **state) {
+  jam_system *sys = some_packing(3, 5, 1.0, 1.0);
+  const char *path = in_scratch("lent.dat");
+  int k;
+  (void)state;
+  for (k = 0; k < 3; ++k) {
+    struct stat there;
+    jam_status status;
+    put_bytes(path, old_text, strlen(old_text));
+    if (geteuid() == 0) assert_int_equal(chown(path, 65534, 65534), 0);
+    assert_int_equal(chmod(path, 07751), 0);
+    status = k == 0   ? jam_write(sys, path, JAM_FORMAT_PLAIN)
+             : k == 1 ? jam_write_checkpoint(sys, path)
+                      : jam_write_page(sys, path, "", 0, "", NULL, 0);
+    assert_int_equal(status, JAM_OK);
+    assert_int_equal(stat(path, &there), 0);
+    assert_int_equal(there.st_mode & 07777, 0751);
+    if (geteuid() == 0) assert_int_equal(there.st_uid, 65534); /* as after a plain rewrite */
+    if (geteuid() == 0) assert_int_equal(there.st_gid, 65534);
+    assert_int_equal(unlink(path), 0);
+  }
+  jam_destroy(sys);
+}
+
+typedef struct pipe_writer {
+  jam_system *sys;
+  const char *path;
+  jam_status status;
+} pipe_writer;
+
+static void *write_to_pipe(void *with) {
+  pipe_writer *const job = with;
+  job->status = jam_write(job->sys, job->path, JAM_FORMAT_XYZ);
+  return NULL;
+}
+
+static void *read_a_little(void *path) {
+  char bytes[64];
+  const int fd = open(path, O_RDONLY);
+  (void)!read(fd, bytes, sizeof bytes);
+  close(fd);
+  return NULL;
+}
+
+/* A pipe that nobody reads, that somebody stops to read, and a thread that its host cancels there. */
+static void pipes_leave_the_host_alone(void **state) {
+  pipe_writer job = {some_packing(3, 20000, 1.0, 1.0), in_scratch("pipe"), JAM_OK};
+  struct timespec moment = {0, 200000000};
+  pthread_t thread;
+  sigset_t pending;
+  void *result;
+  int fd;
+  (void)state;
+  assert_int_equal(mkfifo(job.path, 0600), 0);
+  pthread_create(&thread, NULL, read_a_little, (void *)job.path);
+  write_to_pipe(&job); /* SIGPIPE would end this process */
+  pthread_join(thread, NULL);
+  assert_int_equal(job.status, JAM_E_IO);
+  assert_non_null(strstr(jam_last_error(), strerror(EPIPE)));
+  sigpending(&pending);
+  assert_false(sigismember(&pending, SIGPIPE));
+  pthread_create(&thread, NULL, write_to_pipe, &job); /* without a reader */
+  nanosleep(&moment, NULL);
+  assert_int_equal(jam_cancel(job.sys), JAM_OK);
+  pthread_join(thread, NULL);
+  assert_int_equal(job.status, JAM_CANCELLED);
+  fd = open(job.path, O_RDWR); /* a reader that does not read */
+  pthread_create(&thread, NULL, write_to_pipe, &job);
+  nanosleep(&moment, NULL);
+  pthread_cancel(thread);
+  pthread_join(thread, &result);
+  assert_ptr_equal(result, PTHREAD_CANCELED);
+  close(fd);
+  assert_int_equal(jam_write(job.sys, in_scratch("after.xyz"), 0), JAM_OK); /* the handle is free */
+  jam_destroy(job.sys);
+}
+
 static void read_only_files_are_kept(void **state) {
   jam_system *sys = some_packing(3, 5, 1.0, 1.0);
   const char *path = in_scratch("readonly.dat");
@@ -119,6 +198,8 @@ int main(void) {
       cmocka_unit_test(a_full_disk_leaves_the_old_file),
       cmocka_unit_test(special_files_are_written_in_place),
       cmocka_unit_test(links_and_permissions_are_kept),
+      cmocka_unit_test(no_rights_are_lent),
+      cmocka_unit_test(pipes_leave_the_host_alone),
       cmocka_unit_test(read_only_files_are_kept),
   };
   return cmocka_run_group_tests(tests, make_scratch, remove_scratch);

@@ -44,7 +44,7 @@ GUESTS = {
     r"Spectra/": ["src/analysis/modes.cpp"],
     r"(cblas|lapacke|openblas|f77blas)\w*": ["src/linalg/"],
     r"[ds]mumps_c\.h": ["src/linalg/"],
-    r"(dirent|dlfcn|fcntl|io|poll|pthread|unistd|windows)\.h|sys/": ["src/io/platform_", "src/core/memory_", "src/linalg/"],
+    r"(dirent|dlfcn|fcntl|io|poll|pthread|unistd|windows)\.h|sys/": ["src/io/platform_", "src/core/memory_", "src/core/host_thread_", "src/linalg/"],
     r"Eigen/": ["src/linalg/", "src/network/", "src/analysis/", "src/soft/"],
 }
 GENERATED = ["bindings/fortran/jam.f90", "bindings/fortran/jam_packing.f90", "tests/bindings/layout.c"]
@@ -213,8 +213,8 @@ def file_sizes():
         elif count > 300:
             print(f"note: {path.relative_to(root)} has {count} lines, 300 is the aim")
     header = len((root / "include/jam/jam.h").read_text().splitlines())
-    if header > 1750:
-        problem(root / "include/jam/jam.h", header, "more than 1750 lines")
+    if header > 1800:  # 139 calls, of which each has its comment
+        problem(root / "include/jam/jam.h", header, "more than 1800 lines")
     for path in files(
         "examples/c/*.c", "examples/cpp/*.cpp", "examples/python/*.py", "examples/fortran/*.f90", "examples/julia/*.jl"
     ):

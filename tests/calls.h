@@ -198,6 +198,14 @@ static inline jam_status read_back(CALL_INPUT *in, jam_system *sys) {
   return made(jam_read(call_file(), o, NULL, NULL, &other), &other);
 }
 
+static inline jam_status read_as_back(CALL_INPUT *in, jam_system *sys) {
+  const jam_status status = jam_write(sys, call_file(), JAM_FORMAT_XYZ);
+  jam_create_options *o = create_options(in);
+  if (status < 0) return status;
+  o->n = 0, o->dim = 3, o->overlap = JAM_OVERLAP_ALLOW;
+  return made(jam_read_as(call_file(), "", o, NULL, NULL, &other), &other);
+}
+
 static inline jam_status checkpoint_back(jam_system *sys) {
   const jam_status status = jam_write_checkpoint(sys, call_file());
   return status < 0 ? status : made(jam_read_checkpoint(call_file(), NULL, NULL, &other), &other);

@@ -23,6 +23,7 @@ typedef struct given {
   const char *sizes, *diameters_file;     /* of --sizes: the text of a law, or a file of diameters */
   double cell[JAM_MAX_DIM * JAM_MAX_DIM]; /* of --cell: sides or vectors */
   int cell_count;                         /* of its numbers */
+  const char *cell_text;                  /* of --cell as it was given */
   int32_t copies[JAM_MAX_DIM];            /* of --tile, along each cell vector */
   int copies_count;                       /* of its numbers; 0: not given */
   double density;                         /* of --packing-fraction or --porosity, 0: not given */
@@ -59,7 +60,7 @@ typedef struct outcome {
 typedef struct terminal {
   const char *stage;
   double begin, told, kept; /* seconds on the clock of seconds_now: of the job, the last line, the last checkpoint */
-  int is_terminal;
+  int is_terminal, has_counted; /* counted: the number of spheres has been told */
   FILE *log;
   const options *o;
   const jam_system *sys;
@@ -86,6 +87,8 @@ int is_host_format(const options *o, const char *path); /* whether the host read
 int settle_formats(const options *o);
 int check_formats(const options *o, const jam_system *sys);
 
+/* The part of the command line that says what a file does not say, as jam_read_as takes it. */
+const char *layout_of(const options *o);
 /* start.c: start returns 0 or an exit code after a message on stderr. */
 int start(const options *o, jam_progress_fn stop, jam_system **sys);
 /* The packing of --input as it is: spheres may overlap, as in every file with few digits. 0, and *sys NULL when it was

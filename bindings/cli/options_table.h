@@ -17,6 +17,8 @@ typedef struct options {
   const char *input;
   int64_t frame;
   double box;
+  const char *origin;
+  const char *columns;
   int64_t walls;
   int64_t container;
   int shrink;
@@ -36,6 +38,8 @@ typedef struct options {
   int64_t threads;
   int no_crunch;
   const char *output;
+  double scale;
+  double density;
   const char *page;
   int64_t page_steps;
   const char *contacts;
@@ -68,7 +72,7 @@ typedef struct options {
   double near_gap;
   double wall_time;
   given given; /* what has a form of its own */
-  unsigned char named[66]; /* of each row of the table, whether it is on the command line */
+  unsigned char named[70]; /* of each row of the table, whether it is on the command line */
 } options;
 
 /* First words of a command line. */
@@ -87,13 +91,13 @@ enum {
   TAKE_NOT_NEGATIVE,
   TAKE_INPUT,
   TAKE_CELL,
+  TAKE_TEXT,
   TAKE_COPIES,
   TAKE_SWITCH,
   TAKE_STAGE,
   TAKE_PRESSURE,
   TAKE_FRACTION,
-  TAKE_OUTPUT,
-  TAKE_TEXT
+  TAKE_OUTPUT
 };
 enum { AFTER_CRUNCH = 1, TAKES_STDOUT = 2, NEEDS_HOST = 4, TAKES_GZIP = 8 };
 typedef struct option_row {
@@ -136,7 +140,11 @@ static const option_row table[] = {
     {"--box", TAKE_POSITIVE, offsetof(options, box), 0, 0, 0, 0,
      NULL, 0, "", "", 127},
     {"--cell", TAKE_CELL, 0, 0, 0, 0, 0,
-     NULL, 0, "--input --resume --box", "", 3},
+     NULL, 0, "--resume --box", "", 127},
+    {"--origin", TAKE_TEXT, offsetof(options, origin), 0, 0, 0, 0,
+     NULL, 0, "", "--input", 127},
+    {"--columns", TAKE_TEXT, offsetof(options, columns), 0, 0, 0, 0,
+     NULL, 0, "", "--input", 127},
     {"--tile", TAKE_COPIES, 0, 0, 0, 0, 0,
      NULL, 0, "--resume", "--input", 127},
     {"--walls", TAKE_CHOICE, offsetof(options, walls), 0, 0, 0, 0,
@@ -179,6 +187,10 @@ static const option_row table[] = {
      NULL, 0, "", "", 1},
     {"--output", TAKE_OUTPUT, offsetof(options, output), 0, 0, 0, 0,
      NULL, TAKES_GZIP, "", "", 39},
+    {"--scale", TAKE_POSITIVE, offsetof(options, scale), 0, 0, 1e-12, 1000000000000.0,
+     NULL, 0, "", "--output", 32},
+    {"--density", TAKE_POSITIVE, offsetof(options, density), 0, 0, 0, 0,
+     NULL, 0, "", "--output", 32},
     {"--page", TAKE_OUTPUT, offsetof(options, page), 0, 0, 0, 0,
      NULL, TAKES_GZIP, "", "", 71},
     {"--page-steps", TAKE_INTEGER, offsetof(options, page_steps), 0, 1000, 0, 0,
@@ -206,7 +218,7 @@ static const option_row table[] = {
     {"--vtk", TAKE_TEXT, offsetof(options, vtk), 0, 0, 0, 0,
      NULL, 0, "", "", 37},
     {"--plot", TAKE_OUTPUT, offsetof(options, plot), 0, 0, 0, 0,
-     NULL, NEEDS_HOST, "", "", 7},
+     NULL, NEEDS_HOST, "", "", 103},
     {"--json", TAKE_SWITCH, offsetof(options, json), 0, 0, 0, 0,
      NULL, 0, "--report", "", 127},
     {"--quiet", TAKE_SWITCH, offsetof(options, quiet), 0, 0, 0, 0,
@@ -268,6 +280,8 @@ static const options defaults = {
     .lp = 0,
     .duality_gap = 0.0,
     .threads = 1,
+    .scale = 1.0,
+    .density = 1.0,
     .page_steps = 0,
     .modes = NOT_GIVEN,
     .stl_edge = 0.2,
@@ -359,9 +373,12 @@ static const help_line help[] = {
     {383, "  --frame K              which packing of an --input with several: 0 is the first, -1 the"},
     {383, "                         last (-1)"},
     {383, "  --box L                side of the box, for a random start or a file that gives no box (1)"},
-    {259, "  --cell LX,LY,..        sides of a periodic brick for a random start, which keep their"},
-    {259, "                         axes, or all components of its cell vectors, one vector after the"},
-    {259, "                         other"},
+    {383, "  --cell LX,LY,..        sides of the periodic brick of a random start, which keep their"},
+    {383, "                         axes, or of a file that names no cell; or all components of the"},
+    {383, "                         cell vectors, one vector after the other"},
+    {383, "  --origin X,Y,..        where the corner of the cell is in a file that does not say it (0)"},
+    {383, "  --columns A,B,..       what the columns of a table contain, in order: x, y, z (or x1, x2,"},
+    {383, "                         ..) and radius or diameter; others are not read"},
     {383, "  --tile NX,NY,..        NX x NY x .. copies of the packing of the file, side by side along"},
     {383, "                         the cell vectors"},
     {383, "  --walls none|x|y|xy|z|xz|yz|xyz"},
@@ -414,6 +431,8 @@ static const help_line help[] = {
     {295, "  --output FILE          the packing. The ending sets the format: extended XYZ (.xyz,"},
     {295, "                         .extxyz), LAMMPS (.data, .lmp), ParaView (.vtp), plain text (.dat,"},
     {295, "                         .txt, none). With .gz appended the file is compressed"},
+    {288, "  --scale S              all lengths of --output times S (1)"},
+    {288, "  --density RHO          of the spheres, in the unit of --output, which is LAMMPS data (1)"},
     {327, "  --page FILE.html       a page that shows the packing in a browser, with forces,"},
     {327, "                         certificate and distributions; needs no network"},
     {261, "  --page-steps K         --page gets a slider over at most K states of the crunch before its"},
@@ -437,7 +456,7 @@ static const help_line help[] = {
     {263, "  --log FILE|-           messages of the library on each stage and LP, one line each with"},
     {263, "                         its time"},
     {293, "  --vtk PREFIX           PREFIX.vtp and PREFIX-forces.vtp for ParaView"},
-    {263, "\t  --plot PICTURE         spheres, forces and the way there, by matplotlib"},
+    {359, "\t  --plot PICTURE         spheres, forces and the way there, by matplotlib"},
     {383, "  --json                 JSON on standard output in place of the summary"},
     {383, "  --quiet                no progress, no summary"},
     {288, "Pore space"},

@@ -187,7 +187,7 @@ static void take_density_of_sizes(options *o, jam_system *sys, double mean) {
 int run_job(const options *given) {
   options own = *given, *const o = &own;
   outcome result;
-  terminal t = {"start", seconds_now(), 0, 0, 0, NULL, NULL, NULL};
+  terminal t = {"start", seconds_now(), 0, 0, 0, 0, NULL, NULL, NULL};
   jam_system *sys = NULL;
   jam_status status = JAM_OK;
   int bad, code;

@@ -49,6 +49,12 @@ static int32_t show_progress(const jam_progress *p, void *user) {
   if (!t->is_terminal && now - t->told < seconds_between_lines) return 0;
   t->told = now;
   if (t->is_terminal) fputs("\r\033[K", stderr);
+  if (!t->has_counted) { /* hours of work should not begin with the wrong number of spheres */
+    jam_info info = {.struct_size = sizeof info};
+    jam_get_info(t->sys, &info);
+    fprintf(stderr, "%lld spheres in d = %d\n", (long long)info.n, (int)info.dim);
+    t->has_counted = 1;
+  }
   if (p->phase == JAM_PHASE_RUN || p->phase == JAM_PHASE_COMPRESS)
     fprintf(stderr, "%s  p %.4g  phi %.6f  %.3g collisions  %.1f s", t->stage, p->pressure, p->packing_fraction,
             (double)p->collisions, now - t->begin);

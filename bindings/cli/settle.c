@@ -117,7 +117,7 @@ static int settle_density(options *o) {
 
 static int settle_cell(const options *o) {
   const int d = (int)o->dim, count = o->given.cell_count;
-  if (!count || count == d || count == d * d) return 0;
+  if (!count || o->input || count == d || count == d * d) return 0;
   complain("--cell has %d numbers, in d = %d it needs %d sides or %d components of vectors", count, d, d, d * d);
   return -1;
 }
@@ -131,6 +131,19 @@ static const char *first_named(const options *o, const char *list, char name[32]
     list += length + (list[length] == ' ');
   }
   return NULL;
+}
+
+/* What a file of the host gives itself. */
+static int settle_host(const options *o) {
+  const char *const named = o->given.cell_text ? "--cell" : o->origin ? "--origin" : o->columns ? "--columns" : NULL;
+  if (named && is_host_format(o, o->input)) {
+    complain("%s has no effect: %s gives it", named, o->input);
+    return -1;
+  }
+  if ((o->scale == 1 && o->density == 1) || !is_host_format(o, o->output)) return 0;
+  complain("%s has no effect on %s: write extended XYZ or LAMMPS data", o->scale != 1 ? "--scale" : "--density",
+           o->output);
+  return -1;
 }
 
 /* Nothing is ignored in silence: an option that can have no effect beside the others is refused. */
@@ -185,20 +198,10 @@ static int settle_stages(options *o) {
   return -1;
 }
 
-static int holds_walls(const char *ending) {
-  static const char *const formats[] = {"xyz", "extxyz", "data", "lmp", "vtp"};
-  size_t k;
-  for (k = 0; k < sizeof formats / sizeof *formats; ++k)
-    if (!strcmp(ending, formats[k])) return 1;
-  return 0;
-}
-
 /* What a scene with walls cannot do yet. */
 static int settle_walls(const options *o) {
-  char ending[8] = "";
   const char *const name = o->container ? "--container" : "--walls";
   if (!o->walls && !o->container) return 0;
-  if (o->output) ending_of(o->output, ending);
   if (o->prove || o->proof || o->strict_proof)
     complain("%s contradicts %s: theorems are for scenes without walls", name,
              o->prove   ? "--prove"
@@ -206,8 +209,6 @@ static int settle_walls(const options *o) {
                         : "--strict-proof");
   else if (o->strain != JAM_STRAIN_NONE)
     complain("%s contradicts --strain: walls do not strain", name);
-  else if (o->output && !is_host_format(o, o->output) && !holds_walls(ending))
-    complain("%s needs an --output that ends in .xyz, .extxyz, .data, .lmp or .vtp: plain text has no walls", name);
   else
     return 0;
   return -1;
@@ -265,7 +266,8 @@ int settle(options *o) {
     complain("--model euclid contradicts %s", isfinite(o->zeta) ? "--zeta" : "--plant");
     return -1;
   }
-  if (settle_effects(o) || settle_stdout(o) || settle_cell(o) || settle_walls(o) || settle_crunch(o)) return -1;
+  if (settle_effects(o) || settle_stdout(o) || settle_cell(o) || settle_host(o) || settle_walls(o) || settle_crunch(o))
+    return -1;
   g->n = o->n != NOT_GIVEN;
   if (!g->n) o->n = 1024;
   if (isfinite(o->zeta) || isfinite(o->plant)) o->model = JAM_MODEL_MK;

@@ -3,29 +3,78 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 #include "jam-pack.h"
 #include "system.h"
 
+/* Why a line is no diameter, and what its file may be instead. */
+static void refuse_line(const char *path, int line, const char *text, int columns) {
+  if (columns > 1)
+    complain(
+        "%s line %d has %d columns, but a file of diameters has one: for sizes and their shares use --sizes list:%s, "
+        "for a sieve curve --sizes sieve:%s; a table x y z radius goes to --input; decimal points, not commas",
+        path, line, columns, path, path);
+  else
+    complain("%s line %d: '%.40s' is no diameter, a finite number > 0%s", path, line, text,
+             strchr(text, ',') || strchr(text, ';') ? ": write one on each line, with a decimal point" : "");
+}
+
+/* What a line says before its comment, without blanks around it; *columns of it, which blanks, commas or semicolons
+ * part. Ends of lines as of old Macs are blanks: such a file is one line of many columns. */
+static char *plain_line(char *text, int first, int *columns) {
+  const char *const parting = " \t,;";
+  char *word = text + (first && !strncmp(text, "\xef\xbb\xbf", 3) ? 3 : 0), *at;
+  for (at = word; *at; ++at)
+    if (*at == '\r' || *at == '\n') *at = ' ';
+  word[strcspn(word, "#")] = '\0';
+  word += strspn(word, " \t");
+  for (at = word + strlen(word); at > word && (at[-1] == ' ' || at[-1] == '\t');) *--at = '\0';
+  *columns = 0;
+  for (at = word; *at; at += strspn(at, parting)) {
+    const size_t length = strcspn(at, parting);
+    *columns += length > 0;
+    at += length;
+  }
+  return word;
+}
+
+/* One number in each line, below a heading or none. A heading of radii doubles them. */
 static int read_diameters(const char *path, double **out, int64_t *count) {
   FILE *file = open_stream(path, "r");
-  double *list = NULL, x;
+  double *list = NULL, factor = 1;
   int64_t n = 0, room = 0;
-  int got = 1;
+  int line = 0, bad = 0, headed = 0;
+  char text[4096], *word, *end;
   if (!file) {
     complain("cannot open %s: %s", path, strerror(errno));
     return -1;
   }
-  while ((got = fscanf(file, "%lf", &x)) == 1 && isfinite(x) && x > 0) {
+  while (!bad && fgets(text, sizeof text, file)) {
+    int columns;
+    double x;
+    word = plain_line(text, ++line == 1, &columns);
+    if (!*word) continue;
+    x = strtod(word, &end);
+    if (n == 0 && !headed && end == word && columns == 1) {
+      factor = !strncasecmp(word, "radi", 4) || !strcasecmp(word, "r") ? 2 : 1;
+      headed = 1;
+      continue;
+    }
+    if ((bad = columns > 1 || *end || !isfinite(x) || !(x > 0))) {
+      refuse_line(path, line, word, columns);
+      break;
+    }
     if (n == room) {
       double *wider = realloc(list, (size_t)(room = 2 * room + 1024) * sizeof *list);
-      if (!wider) break;
+      if ((bad = !wider)) complain("out of memory");
+      if (bad) break;
       list = wider;
     }
-    list[n++] = x;
+    list[n++] = factor * x;
   }
   fclose(file);
-  if (got != EOF || n == 0) {
-    complain("%s: number %lld is no diameter, a finite number > 0", path, (long long)n + 1);
+  if (!bad && n == 0) complain("%s contains no diameter", path);
+  if (bad || n == 0) {
     free(list);
     return -1;
   }
@@ -137,7 +186,7 @@ int take_sizes(const char *value, options *o) {
   status = jam_parse_diameters(value, &law, NULL, 0, &rows);
   if (status >= 0 || status == JAM_E_IO || status == JAM_E_FORMAT)
     o->given.sizes = value;
-  else if (*value && !strchr(value, ':'))
+  else if (*value && (!strchr(value, ':') || kind_of(value) == KIND_FILE))
     o->given.diameters_file = value;
   else {
     complain("--sizes is '%s': %s", value, *value ? jam_last_error() : "it must be a law or a file of diameters");
@@ -146,21 +195,25 @@ int take_sizes(const char *value, options *o) {
   return 0;
 }
 
-int take_cell(const char *value, options *o) {
-  const char *at = value;
+/* Numbers parted by commas: how many, or 0 where the text is something else or longer. */
+static int take_numbers(const char *value, double *out, int most) {
   char *end;
   int count = 0;
-  while (count < JAM_MAX_DIM * JAM_MAX_DIM) {
-    o->given.cell[count] = strtod(at, &end);
-    if (end == at || !isfinite(o->given.cell[count])) break;
+  while (count < most) {
+    out[count] = strtod(value, &end);
+    if (end == value || !isfinite(out[count])) return 0;
     ++count;
-    if (!*end) {
-      o->given.cell_count = count;
-      return 0;
-    }
-    if (*end != ',') break;
-    at = end + 1;
+    if (!*end) return count;
+    if (*end != ',') return 0;
+    value = end + 1;
   }
+  return 0;
+}
+
+int take_cell(const char *value, options *o) {
+  o->given.cell_text = value;
+  o->given.cell_count = take_numbers(value, o->given.cell, JAM_MAX_DIM * JAM_MAX_DIM);
+  if (o->given.cell_count) return 0;
   complain("--cell is '%s', it must be d sides or d * d components of vectors, parted by commas", value);
   return -1;
 }

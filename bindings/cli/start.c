@@ -33,6 +33,14 @@ static void complain_note(const char *line, int warns, void *with) {
 
 void complain_notes(const jam_system *sys) { each_note(jam_notes(sys), complain_note, NULL); }
 
+const char *layout_of(const options *o) {
+  static char text[2048];
+  snprintf(text, sizeof text, "%s%s%s%s%s%s", o->given.cell_text ? "cell=" : "",
+           o->given.cell_text ? o->given.cell_text : "", o->origin ? " origin=" : "", o->origin ? o->origin : "",
+           o->columns ? " columns=" : "", o->columns ? o->columns : "");
+  return text;
+}
+
 /* What reading assumed may be why spheres overlap: a box of side 1 for a file without one. */
 static void complain_assumptions(const options *o) {
   jam_create_options create;
@@ -43,7 +51,7 @@ static void complain_assumptions(const options *o) {
   create.container = (int32_t)o->container;
   create.walls = (int32_t)o->walls;
   create.overlap = JAM_OVERLAP_ALLOW;
-  if (jam_read(o->input, &create, stop_if_asked, NULL, &sys) >= 0 && sys) complain_notes(sys);
+  if (jam_read_as(o->input, layout_of(o), &create, stop_if_asked, NULL, &sys) >= 0 && sys) complain_notes(sys);
   jam_destroy(sys);
 }
 
@@ -58,8 +66,9 @@ static int refused_start(const options *o, jam_status status) {
   else
     complain("%s", text);
   if (status == JAM_E_OVERLAP && o->input && !is_host_format(o, o->input)) complain_assumptions(o);
-  return status == JAM_E_ARGUMENT && (is_named(o, "box") || is_named(o, "non-additivity") || is_named(o, "frame") ||
-                                      is_named(o, "walls") || is_named(o, "container"))
+  return status == JAM_E_ARGUMENT &&
+                 (is_named(o, "box") || is_named(o, "non-additivity") || is_named(o, "frame") || is_named(o, "walls") ||
+                  is_named(o, "container") || is_named(o, "cell") || is_named(o, "origin") || is_named(o, "columns"))
              ? EXIT_USAGE
              : EXIT_FAILED;
 }
@@ -119,7 +128,7 @@ int start(const options *o, jam_progress_fn stop, jam_system **sys) {
   else if (is_host_format(o, o->input)) {
     if (o->given.host->read(o->input, &create, o->given.host->user, sys)) return refused_start(o, JAM_E_IO);
   } else if (o->input)
-    status = jam_read(o->input, &create, stop, NULL, sys);
+    status = jam_read_as(o->input, layout_of(o), &create, stop, NULL, sys);
   else {
     create.n = o->n;
     if (make_diameters(o, &diameters, &create.n)) {
@@ -157,7 +166,7 @@ int read_as_it_is(const options *o, jam_system **sys) {
   create.walls = (int32_t)o->walls;
   create.overlap = JAM_OVERLAP_ALLOW;
   if (!is_host_format(o, o->input))
-    status = jam_read(o->input, &create, stop_if_asked, NULL, sys);
+    status = jam_read_as(o->input, layout_of(o), &create, stop_if_asked, NULL, sys);
   else if (o->given.host->read(o->input, &create, o->given.host->user, sys))
     status = JAM_E_IO;
   if (status < 0) return refused_start(o, status);

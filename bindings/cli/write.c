@@ -58,7 +58,7 @@ static int finish_by_host(const jam_system *sys, const options *o) {
 int write_files(jam_system *sys, const options *o, int known, double deadline, int *cut_short) {
   int bad = 0, network = 0;
   if (o->output && !is_host_format(o, o->output))
-    bad |= missing(o->output, has_failed(jam_write(sys, o->output, JAM_FORMAT_AUTO)));
+    bad |= missing(o->output, has_failed(jam_write_scaled(sys, o->output, JAM_FORMAT_AUTO, o->scale, o->density)));
   if (o->contacts && known) bad |= missing(o->contacts, write_contacts(sys, o->contacts));
   if (o->proof && known) bad |= missing(o->proof, has_failed(jam_write_proof(sys, o->proof, NULL, 0)));
   if (o->strict_proof && known)

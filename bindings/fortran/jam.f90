@@ -862,7 +862,7 @@ module jam
     real(c_double) :: step_tolerance = 0
     ! relative complementarity, residual of an LP, default 1e-15; above 1e-9 it acts as 1e-9
     real(c_double) :: lp_tolerance = 0
-    ! an LP has the pairs of gap < this - the largest diameter; 0, the default: adapts
+    ! largest pair distance in an LP; 0, the default: adapts
     real(c_double) :: neighbour_radius = 0
     ! bound on each |s_i| component, 1e-15 .. 1000; 0, the default: adapts
     real(c_double) :: step_bound = 0
@@ -1770,6 +1770,16 @@ module jam
       integer(c_int32_t) :: status
     end function jam_set_memory_limit
 
+    ! The formats of files as text, one a line, in fields parted by tabs: what a file contains (packings, contacts,
+    ! images); its number, of jam_format or jam_contact_format, or 0; a word; its name; endings of names parted by blanks,
+    ! - for none; the largest dimension; what it holds of spheres, walls, cells (other than cubes) and non_additivity;
+    ! read, write or both.
+    function jam_formats() &
+        bind(c, name="jam_formats") result(status)
+      import
+      type(c_ptr) :: status
+    end function jam_formats
+
     ! What was changed or assumed when sys was made, one sentence per line; "" when nothing was. Examples: shrunk
     ! diameters, wrapped or sorted spheres, columns and frames that were not read. A warning begins with `warning: `.
     ! jam_set_log logs these lines too. Valid until one is added or jam_destroy; "" for NULL. Checkpoints hold it.
@@ -2308,6 +2318,17 @@ module jam
       type(c_ptr), intent(out) :: out
       integer(c_int32_t) :: status
     end function c_jam_read
+    function c_jam_read_as(path, layout, o, callback, user, out) &
+        bind(c, name="jam_read_as") result(status)
+      import
+      character(kind=c_char), intent(in) :: path(*)
+      character(kind=c_char), intent(in) :: layout(*)
+      type(jam_create_options), intent(in), optional :: o
+      type(c_funptr), value :: callback
+      type(c_ptr), value :: user
+      type(c_ptr), intent(out) :: out
+      integer(c_int32_t) :: status
+    end function c_jam_read_as
     function c_jam_add_note(sys, text) &
         bind(c, name="jam_add_note") result(status)
       import
@@ -2323,6 +2344,16 @@ module jam
       integer(c_int32_t), value :: format
       integer(c_int32_t) :: status
     end function c_jam_write
+    function c_jam_write_scaled(sys, path, format, scale, density) &
+        bind(c, name="jam_write_scaled") result(status)
+      import
+      type(c_ptr), value :: sys
+      character(kind=c_char), intent(in) :: path(*)
+      integer(c_int32_t), value :: format
+      real(c_double), value :: scale
+      real(c_double), value :: density
+      integer(c_int32_t) :: status
+    end function c_jam_write_scaled
     function c_jam_write_contacts(sys, path, format) &
         bind(c, name="jam_write_contacts") result(status)
       import
@@ -3229,8 +3260,10 @@ module jam
   private :: c_jam_cell_volume
   private :: c_jam_get_size_report
   private :: c_jam_read
+  private :: c_jam_read_as
   private :: c_jam_add_note
   private :: c_jam_write
+  private :: c_jam_write_scaled
   private :: c_jam_write_contacts
   private :: c_jam_write_page
   private :: c_jam_write_checkpoint
@@ -3449,13 +3482,12 @@ contains
   end function jam_message
 
   ! For programs that end at the first failure: call jam_check(jam_crunch(sys)). Statuses above 0, stopped early with a valid
-  ! state, are told and passed. It writes to standard error, as the caller may be in the middle of a line of output.
+  ! state, are told and passed.
   subroutine jam_check(status)
-    use, intrinsic :: iso_fortran_env, only: error_unit
     integer(c_int32_t), intent(in) :: status
-    if (status > 0) write (error_unit, '(2a)') 'stopped early: ', jam_message()
+    if (status > 0) print '(2a)', 'stopped early: ', jam_message()
     if (status >= 0) return
-    write (error_unit, '(2a)') 'failed: ', jam_message()
+    print '(2a)', 'failed: ', jam_message()
     error stop 1
   end subroutine jam_check
   ! Sets the text that jam_last_error() returns on this thread; NULL sets "". For language bindings that check arguments
@@ -3899,6 +3931,28 @@ contains
     status = c_jam_read(jam_c_string(path), o, c_callback, c_user, out)
   end function jam_read
 
+  ! jam_read for files that do not say all; layout: words parted by blanks, "" for none. cell=5,5,8: sides of the cell,
+  ! or all components of its vectors. origin=-2.5,-2.5,0: where its corner is in the file, 0 without this word.
+  ! columns=x,y,z,radius: what the columns of a table contain, in order; x1 to x8 are coordinates too, diameter is the
+  ! other size, and columns of other names are not read. A file that gives such a thing itself refuses the word.
+  ! Errors: JAM_E_IO, JAM_E_FORMAT (line named), JAM_E_UNSUPPORTED (a box that is not periodic), JAM_E_DIMENSION, JAM_E_OVERLAP, JAM_E_UNPLACEABLE.
+  function jam_read_as(path, layout, o, callback, user, out) result(status)
+    character(*), intent(in) :: path
+    character(*), intent(in) :: layout
+    type(jam_create_options), intent(in), optional :: o
+    type(c_funptr), intent(in), optional :: callback
+    type(c_ptr), intent(in), optional :: user
+    type(c_ptr), intent(out) :: out
+    integer(c_int32_t) :: status
+    type(c_funptr) :: c_callback
+    type(c_ptr) :: c_user
+    c_callback = c_null_funptr
+    if (present(callback)) c_callback = callback
+    c_user = c_null_ptr
+    if (present(user)) c_user = user
+    status = c_jam_read_as(jam_c_string(path), jam_c_string(layout), o, c_callback, c_user, out)
+  end function jam_read_as
+
   ! Adds one sentence to jam_notes, for programs that read other formats: what they changed or assumed. text is one line,
   ! not empty.
   function jam_add_note(sys, text) result(status)
@@ -3910,9 +3964,10 @@ contains
 
   ! Writes the packing with 17 digits, so that reading gives the same bits. The file is written under another name and
   ! then renamed. Links are followed. Pipes, devices and open descriptors (/dev/stdout, /dev/fd/N) are written in place;
-  ! a file opened with >> gets the packing at its end. The shifts of JAM_MODEL_MK are not saved: read the file with the
-  ! same seed and mk_zeta. Planted shifts are not saved either: use jam_write_checkpoint. Only XYZ can store
-  ! non_additivity; only XYZ, LAMMPS and VTP can store walls or a cell that is no cube; others give JAM_E_UNSUPPORTED.
+  ! a file opened with >> gets the packing at its end. A pipe whose reader goes away, and a limit of the process on the
+  ! size of files, give JAM_E_IO without a signal. The shifts of JAM_MODEL_MK are not saved: read the file with the same
+  ! seed and mk_zeta. Planted shifts are not saved either: use jam_write_checkpoint. Only XYZ can store non_additivity;
+  ! only XYZ, LAMMPS and VTP can store walls or a cell that is no cube; others give JAM_E_UNSUPPORTED.
   ! Errors: JAM_E_UNSUPPORTED, JAM_E_IO.
   function jam_write(sys, path, format) result(status)
     type(c_ptr), intent(in) :: sys
@@ -3921,6 +3976,20 @@ contains
     integer(c_int32_t) :: status
     status = c_jam_write(sys, jam_c_string(path), format)
   end function jam_write
+
+  ! jam_write in another unit: all lengths of the packing times scale, 1e-12 to 1e12. density: of the spheres, above 0,
+  ! in the unit of LAMMPS data, which alone have a place for it; other formats need 1. With scale = 1 the bits are those
+  ! of jam_write; another scale rounds.
+  ! Errors: JAM_E_UNSUPPORTED, JAM_E_IO.
+  function jam_write_scaled(sys, path, format, scale, density) result(status)
+    type(c_ptr), intent(in) :: sys
+    character(*), intent(in) :: path
+    integer(c_int32_t), intent(in) :: format
+    real(c_double), intent(in) :: scale
+    real(c_double), intent(in) :: density
+    integer(c_int32_t) :: status
+    status = c_jam_write_scaled(sys, jam_c_string(path), format, scale, density)
+  end function jam_write_scaled
 
   ! Writes the contact network of the last crunch. The file appears as of jam_write.
   ! Errors: JAM_E_STATE, JAM_E_UNSUPPORTED, JAM_E_IO.

@@ -106,10 +106,6 @@ contains
     integer(c_int32_t), intent(in) :: status
     self%status = status
     if (status >= 0) return
-    select case (jam_message())
-    case ('sys is NULL', 'src is NULL', 'other is NULL')
-      call jam_set_error('a packing is empty: make or read one first')
-    end select
     if (associated(handler)) then
       call handler(status, from_one(jam_message()))
     else
@@ -171,13 +167,19 @@ contains
     call self%done(jam_create(o, x, diameters, cell, self%sys))
   end subroutine from_arrays
 
-  ! A file of any format that jam_read knows; notes() has what was changed or assumed.
-  subroutine read_file(self, path, options)
+  ! A file of any format that jam_read knows; notes() has what was changed or assumed. layout: what the file does not
+  ! say, as jam_read_as takes it.
+  subroutine read_file(self, path, options, layout)
     class(jam_handle), intent(inout) :: self
     character(*), intent(in) :: path
     type(jam_create_options), intent(in), optional :: options
+    character(*), intent(in), optional :: layout
     call self%free()
-    call self%done(jam_read(path, options, out=self%sys))
+    if (present(layout)) then
+      call self%done(jam_read_as(path, layout, options, out=self%sys))
+    else
+      call self%done(jam_read(path, options, out=self%sys))
+    end if
   end subroutine read_file
 
   ! A file of write_checkpoint.

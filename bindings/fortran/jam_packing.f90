@@ -18,6 +18,7 @@ module jam_packing
     procedure :: strain => do_strain
     procedure :: set_memory_limit => do_set_memory_limit
     procedure :: add_note => do_add_note
+    procedure :: write_scaled => do_write_scaled
     procedure :: write_contacts => do_write_contacts
     procedure :: write_page => do_write_page
     procedure :: run => do_run
@@ -100,12 +101,13 @@ module jam_packing
 
   private :: do_info, do_set_positions, do_set_velocities, do_scale_diameters, do_walls, &
     do_cell, do_set_cell, do_strain, do_set_memory_limit, do_add_note, &
-    do_write_contacts, do_write_page, do_run, do_compress, do_write_checkpoint, &
-    do_observe, do_stop_observing, do_observed_series, do_observed_spheres, &
-    do_observed_pairs, do_observed_gaps, do_observed_correlation, do_monte_carlo, &
-    do_isoconfigurational, do_isoconf_report, do_isoconf_series, &
-    do_isoconf_displacements, do_isoconf_distances, do_isoconf_kept, do_crunch, &
-    do_estimate_crunch, do_report, do_crunch_history, do_crunch_step_displacements, &
+    do_write_scaled, do_write_contacts, do_write_page, do_run, do_compress, &
+    do_write_checkpoint, do_observe, do_stop_observing, do_observed_series, &
+    do_observed_spheres, do_observed_pairs, do_observed_gaps, &
+    do_observed_correlation, do_monte_carlo, do_isoconfigurational, &
+    do_isoconf_report, do_isoconf_series, do_isoconf_displacements, &
+    do_isoconf_distances, do_isoconf_kept, do_crunch, do_estimate_crunch, &
+    do_report, do_crunch_history, do_crunch_step_displacements, &
     do_crunch_step_contacts, do_crunch_step_vectors, do_crunch_step_duals, &
     do_relax, do_decompress, do_decompress_history, do_contacts, &
     do_contact_vectors, do_contact_gaps, do_forces, do_coordination, &
@@ -265,6 +267,21 @@ contains
     status = jam_add_note(self%sys, text=text)
     call self%done(status)
   end subroutine do_add_note
+
+  ! jam_write in another unit: all lengths of the packing times scale, 1e-12 to 1e12. density: of the spheres, above 0,
+  ! in the unit of LAMMPS data, which alone have a place for it; other formats need 1. With scale = 1 the bits are those
+  ! of jam_write; another scale rounds.
+  ! Errors: JAM_E_UNSUPPORTED, JAM_E_IO.
+  subroutine do_write_scaled(self, path, format, scale, density)
+    class(packing), intent(inout) :: self
+    character(*), intent(in) :: path
+    integer, intent(in) :: format
+    real(c_double), intent(in) :: scale
+    real(c_double), intent(in) :: density
+    integer(c_int32_t) :: status
+    status = jam_write_scaled(self%sys, path=path, format=int(format, c_int32_t), scale=scale, density=density)
+    call self%done(status)
+  end subroutine do_write_scaled
 
   ! Writes the contact network of the last crunch. The file appears as of jam_write.
   ! Errors: JAM_E_STATE, JAM_E_UNSUPPORTED, JAM_E_IO.

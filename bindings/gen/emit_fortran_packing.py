@@ -16,7 +16,7 @@ module jam_packing
 '''
 # Written by hand in jam_base.f90, or of no use with arrays that allocate themselves.
 BY_HAND = frozenset("""jam_destroy jam_copy jam_set_progress jam_set_log jam_view_positions jam_view_velocities jam_view_diameters jam_write
-    jam_cancel jam_read jam_notes""".split())
+    jam_cancel jam_read jam_read_as jam_notes""".split())
 NAMES = {"get_crunch_report": "report", "get_info": "info", "get_cell": "cell", "check_packing": "check", "get_isoconf_report": "isoconf_report"}
 LETTERS = {"d": "d_of", "n": "n_of", "N'": "stable_of", "n_c": "contacts_of", "contacts": "contacts_of"}
 

@@ -4,10 +4,10 @@ from option import INT32_MAX, INT64_MAX, STAGES, Option, Verb
 
 NO_CRUNCH = ("no-crunch", "packing-fraction", "porosity")  # what leaves the crunch out
 
-READING = "input frame box walls container non-additivity tile quiet wall-time json"
+READING = "input frame box cell origin columns walls container non-additivity tile quiet wall-time json"
 STARTING = "seed model zeta shrink shrink-min output report log plot page checkpoint checkpoint-every resume"
 GROWING = (
-    "n dim phi0 diameters-ratio sizes plant cell nve growth pressure packing-fraction porosity"
+    "n dim phi0 diameters-ratio sizes plant nve growth pressure packing-fraction porosity"
 )
 TABLES = "contacts spectrum modes gaps structure vtk"
 PORES = (
@@ -27,11 +27,11 @@ VERBS = (
     ),
     Verb("check", ("input",), "is the packing of a file jammed as it is? Nothing moves", f"{READING} prove proof strict-proof"),
     Verb("info", ("input",), "what a file contains: cell, sizes, packing fraction, nearest pair", READING),
-    Verb("export", ("input", "output"), "the packing of a file in other formats, its tables and its pore space", f"{READING} output {TABLES} {PORES}"),
-    Verb("page", ("input", "page"), "a page that shows the packing of a file in a browser", f"{READING} page"),
+    Verb("export", ("input", "output"), "the packing of a file in other formats, its tables and its pore space", f"{READING} output scale density plot {TABLES} {PORES}"),
+    Verb("page", ("input", "page"), "a page that shows the packing of a file in a browser", f"{READING} page plot"),
     Verb("ensemble", (), "many packings in one folder: python3 -m jam ensemble --help", ""),
 )
-ALONE = PORES.split()  # options that no job of pack takes
+ALONE = PORES.split() + ["scale", "density"]  # options that no job of pack takes
 
 TABLE = {
     "Start": (
@@ -97,8 +97,23 @@ TABLE = {
             "cell",
             "cell",
             "LX,LY,..",
-            "sides of a periodic brick for a random start, which keep their axes, or all components of its cell vectors, one vector after the other",
-            without=("input", "resume", "box"),
+            "sides of the periodic brick of a random start, which keep their axes, or of a file that names no cell; or all components of the cell "
+            "vectors, one vector after the other",
+            without=("resume", "box"),
+        ),
+        Option(
+            "origin",
+            "text",
+            "X,Y,..",
+            "where the corner of the cell is in a file that does not say it (0)",
+            needs=("input",),
+        ),
+        Option(
+            "columns",
+            "text",
+            "A,B,..",
+            "what the columns of a table contain, in order: x, y, z (or x1, x2, ..) and radius or diameter; others are not read",
+            needs=("input",),
         ),
         Option(
             "tile",
@@ -248,6 +263,8 @@ TABLE = {
             "plain text (.dat, .txt, none). With .gz appended the file is compressed",
             gzip=True,
         ),
+        Option("scale", "positive", "S", "all lengths of --output times S (1)", 1.0, 1e-12, 1e12, needs=("output",)),
+        Option("density", "positive", "RHO", "of the spheres, in the unit of --output, which is LAMMPS data (1)", 1.0, needs=("output",)),
         Option(
             "page",
             "output",

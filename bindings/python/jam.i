@@ -276,8 +276,9 @@ jam_status make_from_arrays(const jam_create_options *o, const double *positions
                      jam_on_progress, callable == Py_None ? NULL : (void *)callable};
   return jam_create(o, &start, out);
 }
-jam_status make_from_file(const char *path, const jam_create_options *o, PyObject *callable, jam_system **out) {
-  return jam_read(path, o, jam_on_progress, callable == Py_None ? NULL : (void *)callable, out);
+jam_status make_from_file(const char *path, const char *layout, const jam_create_options *o, PyObject *callable,
+                          jam_system **out) {
+  return jam_read_as(path, layout, o, jam_on_progress, callable == Py_None ? NULL : (void *)callable, out);
 }
 jam_status make_from_checkpoint(const char *path, PyObject *callable, jam_system **out) {
   return jam_read_checkpoint(path, jam_on_progress, callable == Py_None ? NULL : (void *)callable, out);

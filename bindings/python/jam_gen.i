@@ -59,6 +59,7 @@
 %ignore jam_start;
 %ignore jam_create;
 %ignore jam_read;
+%ignore jam_read_as;
 %ignore jam_read_checkpoint;
 %extend jam_progress {
   jam_progress() {
@@ -506,11 +507,20 @@ on sys stops, unless it is a setter. jam_cancel only increments an atomic counte
 infinity: no limit. A call that needs more fails with JAM_E_MEMORY before it allocates them. jam_crunch compares the
 memory of jam_estimate_crunch with the limit before it begins, and that of each matrix before it factorises it. The
 default is half the machine's memory. An option memory_limit can lower the limit for its own call."
+%feature("docstring") jam_formats "The formats of files as text, one a line, in fields parted by tabs: what a file contains (packings, contacts,
+images); its number, of jam_format or jam_contact_format, or 0; a word; its name; endings of names parted by blanks,
+- for none; the largest dimension; what it holds of spheres, walls, cells (other than cubes) and non_additivity;
+read, write or both."
 %feature("docstring") jam_read "Reads plain text, extended XYZ, LAMMPS data and dumps with diameters, or a table of columns. It recognises the format
 by the content. For a file of another format the error names that format and what to do. o: overlap policy, seed,
 model, frame; box, dim, container and walls where the file gives none. A line that does not fit the format is an
 error; jam_notes lists what was not kept. Spheres keep the order of the file; LAMMPS data are sorted by id. A last
 line without newline is refused if its last number may have lost digits. callback, user: as in jam_start.
+Errors: JAM_E_IO, JAM_E_FORMAT (line named), JAM_E_UNSUPPORTED (a box that is not periodic), JAM_E_DIMENSION, JAM_E_OVERLAP, JAM_E_UNPLACEABLE."
+%feature("docstring") jam_read_as "jam_read for files that do not say all; layout: words parted by blanks, \"\" for none. cell=5,5,8: sides of the cell,
+or all components of its vectors. origin=-2.5,-2.5,0: where its corner is in the file, 0 without this word.
+columns=x,y,z,radius: what the columns of a table contain, in order; x1 to x8 are coordinates too, diameter is the
+other size, and columns of other names are not read. A file that gives such a thing itself refuses the word.
 Errors: JAM_E_IO, JAM_E_FORMAT (line named), JAM_E_UNSUPPORTED (a box that is not periodic), JAM_E_DIMENSION, JAM_E_OVERLAP, JAM_E_UNPLACEABLE."
 %feature("docstring") jam_notes "What was changed or assumed when sys was made, one sentence per line; \"\" when nothing was. Examples: shrunk
 diameters, wrapped or sorted spheres, columns and frames that were not read. A warning begins with `warning: `.
@@ -519,9 +529,14 @@ jam_set_log logs these lines too. Valid until one is added or jam_destroy; \"\" 
 not empty."
 %feature("docstring") jam_write "Writes the packing with 17 digits, so that reading gives the same bits. The file is written under another name and
 then renamed. Links are followed. Pipes, devices and open descriptors (/dev/stdout, /dev/fd/N) are written in place;
-a file opened with >> gets the packing at its end. The shifts of JAM_MODEL_MK are not saved: read the file with the
-same seed and mk_zeta. Planted shifts are not saved either: use jam_write_checkpoint. Only XYZ can store
-non_additivity; only XYZ, LAMMPS and VTP can store walls or a cell that is no cube; others give JAM_E_UNSUPPORTED.
+a file opened with >> gets the packing at its end. A pipe whose reader goes away, and a limit of the process on the
+size of files, give JAM_E_IO without a signal. The shifts of JAM_MODEL_MK are not saved: read the file with the same
+seed and mk_zeta. Planted shifts are not saved either: use jam_write_checkpoint. Only XYZ can store non_additivity;
+only XYZ, LAMMPS and VTP can store walls or a cell that is no cube; others give JAM_E_UNSUPPORTED.
+Errors: JAM_E_UNSUPPORTED, JAM_E_IO."
+%feature("docstring") jam_write_scaled "jam_write in another unit: all lengths of the packing times scale, 1e-12 to 1e12. density: of the spheres, above 0,
+in the unit of LAMMPS data, which alone have a place for it; other formats need 1. With scale = 1 the bits are those
+of jam_write; another scale rounds.
 Errors: JAM_E_UNSUPPORTED, JAM_E_IO."
 %feature("docstring") jam_write_contacts "Writes the contact network of the last crunch. The file appears as of jam_write.
 Errors: JAM_E_STATE, JAM_E_UNSUPPORTED, JAM_E_IO."

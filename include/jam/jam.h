@@ -76,6 +76,8 @@
  *   call of the default build touches OpenBLAS.
  * - Calls compute in the default floating-point environment of C: rounding mode, traps, exception flags, treatment of
  *   denormal numbers. libjam restores the caller's environment after each call, and while a callback runs.
+ * - A call defers pthread_cancel of its thread to its end, or to where it waits for the other end of a pipe; jam_cancel
+ *   ends calls sooner.
  * - A thread that calls libjam needs a stack of 256 kB plus the stack of its callbacks.
  *
  * Trust
@@ -487,6 +489,11 @@ typedef enum jam_format {
   JAM_FORMAT_LAMMPS = 3, /* LAMMPS data, atom_style sphere, density 1, d = 2, 3, any cell; walls in its title */
   JAM_FORMAT_VTP = 4     /* VTK PolyData in binary, d = 2 and 3. Written only */
 } jam_format;
+/* The formats of files as text, one a line, in fields parted by tabs: what a file contains (packings, contacts,
+ * images); its number, of jam_format or jam_contact_format, or 0; a word; its name; endings of names parted by blanks,
+ * - for none; the largest dimension; what it holds of spheres, walls, cells (other than cubes) and non_additivity;
+ * read, write or both. */
+JAM_API const char *jam_formats(void);
 /* Reads plain text, extended XYZ, LAMMPS data and dumps with diameters, or a table of columns. It recognises the format
  * by the content. For a file of another format the error names that format and what to do. o: overlap policy, seed,
  * model, frame; box, dim, container and walls where the file gives none. A line that does not fit the format is an
@@ -495,6 +502,13 @@ typedef enum jam_format {
  * FORMAT (line named), UNSUPPORTED (a box that is not periodic), DIMENSION, OVERLAP, UNPLACEABLE */
 JAM_API jam_status jam_read(const char *path, const jam_create_options *o, jam_progress_fn callback, void *user,
                             jam_system **out);
+/* jam_read for files that do not say all; layout: words parted by blanks, "" for none. cell=5,5,8: sides of the cell,
+ * or all components of its vectors. origin=-2.5,-2.5,0: where its corner is in the file, 0 without this word.
+ * columns=x,y,z,radius: what the columns of a table contain, in order; x1 to x8 are coordinates too, diameter is the
+ * other size, and columns of other names are not read. A file that gives such a thing itself refuses the word.
+ * @errors IO, FORMAT (line named), UNSUPPORTED (a box that is not periodic), DIMENSION, OVERLAP, UNPLACEABLE */
+JAM_API jam_status jam_read_as(const char *path, const char *layout, const jam_create_options *o,
+                               jam_progress_fn callback, void *user, jam_system **out);
 /* What was changed or assumed when sys was made, one sentence per line; "" when nothing was. Examples: shrunk
  * diameters, wrapped or sorted spheres, columns and frames that were not read. A warning begins with `warning: `.
  * jam_set_log logs these lines too. Valid until one is added or jam_destroy; "" for NULL. Checkpoints hold it. */
@@ -504,11 +518,17 @@ JAM_API const char *jam_notes(const jam_system *sys);
 JAM_API jam_status jam_add_note(jam_system *sys, const char *text);
 /* Writes the packing with 17 digits, so that reading gives the same bits. The file is written under another name and
  * then renamed. Links are followed. Pipes, devices and open descriptors (/dev/stdout, /dev/fd/N) are written in place;
- * a file opened with >> gets the packing at its end. The shifts of JAM_MODEL_MK are not saved: read the file with the
- * same seed and mk_zeta. Planted shifts are not saved either: use jam_write_checkpoint. Only XYZ can store
- * non_additivity; only XYZ, LAMMPS and VTP can store walls or a cell that is no cube; others give JAM_E_UNSUPPORTED.
+ * a file opened with >> gets the packing at its end. A pipe whose reader goes away, and a limit of the process on the
+ * size of files, give JAM_E_IO without a signal. The shifts of JAM_MODEL_MK are not saved: read the file with the same
+ * seed and mk_zeta. Planted shifts are not saved either: use jam_write_checkpoint. Only XYZ can store non_additivity;
+ * only XYZ, LAMMPS and VTP can store walls or a cell that is no cube; others give JAM_E_UNSUPPORTED.
  * @enum format jam_format @errors UNSUPPORTED, IO */
 JAM_API jam_status jam_write(const jam_system *sys, const char *path, int32_t format);
+/* jam_write in another unit: all lengths of the packing times scale, 1e-12 to 1e12. density: of the spheres, above 0,
+ * in the unit of LAMMPS data, which alone have a place for it; other formats need 1. With scale = 1 the bits are those
+ * of jam_write; another scale rounds. @enum format jam_format @errors UNSUPPORTED, IO */
+JAM_API jam_status jam_write_scaled(const jam_system *sys, const char *path, int32_t format, double scale,
+                                    double density);
 /* Formats of contact networks. */
 typedef enum jam_contact_format {
   JAM_CONTACTS_AUTO = 0, /* by name: .csv, .dump, .vtp; with .gz behind it compressed; others are refused */
@@ -863,7 +883,7 @@ typedef struct jam_crunch_options {
   double gain_tolerance;   /* on sqrt(Gamma) - 1, > 0, default 1e-12 */
   double step_tolerance;   /* on max |s_i| of non-rattlers, > 0, default 1e-9 */
   double lp_tolerance;     /* relative complementarity, residual of an LP, default 1e-15; above 1e-9 it acts as 1e-9 */
-  double neighbour_radius; /* an LP has the pairs of gap < this - the largest diameter; 0, the default: adapts */
+  double neighbour_radius; /* largest pair distance in an LP; 0, the default: adapts */
   double step_bound;       /* bound on each |s_i| component, 1e-15 .. 1000; 0, the default: adapts */
   double wall_time;        /* limit of the call */
   int32_t steps;           /* @bool the callback is called at every step and may call jam_crunch_step_*; default 0 */

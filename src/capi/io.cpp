@@ -1,12 +1,16 @@
-// Header section "files": jam_read, jam_notes, jam_add_note, jam_write, jam_write_contacts.
+// Header section "files": jam_formats, jam_read, jam_read_as, jam_notes, jam_add_note, jam_write,
+// jam_write_scaled, jam_write_contacts.
 #include <cstring>
 #include <string>
 
 #include "capi/analysis.hpp"
 #include "capi/guard.hpp"
 #include "capi/make_system.hpp"
+#include "core/checks.hpp"
 #include "core/create.hpp"
+#include "core/limits.hpp"
 #include "io/files.hpp"
+#include "io/formats.hpp"
 
 using namespace jam::inside;
 
@@ -50,16 +54,25 @@ void settle_options(const char *path, const FileContent &file, jam_create_option
 
 extern "C" {
 
+const char *jam_formats(void) { return formats_text(); }
+
 jam_status jam_read(const char *path, const jam_create_options *o, jam_progress_fn callback, void *user,
                     jam_system **out) {
+  return jam_read_as(path, "", o, callback, user, out);
+}
+
+jam_status jam_read_as(const char *path, const char *layout, const jam_create_options *o, jam_progress_fn callback,
+                       void *user, jam_system **out) {
   return guard([&]() -> Answer {
     need(path, "path");
+    need(layout, "layout");
     need(out, "out");
     jam_create_options full = default_create_options();
     take_options(o, full);
     check_create_limits(full);
+    const ReadOptions options{full.dim, full.box, full.frame, {full.container, full.walls}, layout_of(layout)};
     return make_system(full, callback, user, out, [&](jam_system &sys) {
-      const FileContent file = read_file(path, {full.dim, full.box, full.frame, {full.container, full.walls}});
+      const FileContent file = read_file(path, options);
       settle_options(path, file, full);
       sys.notes = file.notes;
       try {
@@ -85,9 +98,16 @@ jam_status jam_add_note(jam_system *sys, const char *text) {
 }
 
 jam_status jam_write(const jam_system *sys, const char *path, int32_t format) {
+  return jam_write_scaled(sys, path, format, 1.0, 1.0);
+}
+
+jam_status jam_write_scaled(const jam_system *sys, const char *path, int32_t format, double scale, double density) {
   return guard_const(sys, [&]() -> jam_status {
     need(path, "path");
-    write_file(sys->packing, sys->known_contacts() ? &sys->contacts.coordination : nullptr, path, format);
+    check_range("scale", scale, 1e-12, 1e12);
+    check_positive_finite(density, "density");
+    const Beside beside{sys->known_contacts() ? &sys->contacts.coordination : nullptr, density};
+    write_file(scale == 1.0 ? sys->packing : scaled(sys->packing, scale), beside, path, format);
     return JAM_OK;
   });
 }

@@ -81,20 +81,27 @@ std::vector<SizeClass> classes_of_list(const double *curve, size_t rows) {
   return classes;
 }
 
+// From the finest sieve to the coarsest, or the other way round, as test sheets list them.
 std::vector<SizeClass> classes_of_sieve(const double *curve, size_t rows) {
   if (rows < 2) fail(JAM_E_ARGUMENT, "a sieve curve of %zu row(s): it needs 2 or more", rows);
+  const bool coarse_first = curve[0] > curve[2 * rows - 2];
+  const auto row = [&](size_t k) { return coarse_first ? rows - 1 - k : k; };
+  const auto size = [&](size_t k) { return curve[2 * row(k)]; };
+  const auto passing = [&](size_t k) { return curve[2 * row(k) + 1]; };
+  const auto refuse = [&](size_t k, const char *why) { refuse_row(row(k), curve, why); };
   for (size_t k = 1; k < rows; ++k)
-    if (!(curve[2 * k + 1] >= curve[2 * k - 1])) refuse_row(k, curve, "the sieve curve falls");
-  const double whole = curve[2 * rows - 1];
+    if (!(passing(k) >= passing(k - 1)))
+      refuse(k, "the sieve curve falls: less passes this sieve than the next finer one");
+  const double whole = passing(rows - 1);
   if (whole != 1.0 && whole != 100.0)
-    refuse_row(rows - 1, curve, "a sieve curve must end at 1, or at 100 for per cent: add the size that all passes");
-  if (curve[1] != 0.0)
-    refuse_row(0, curve, "a sieve curve must begin at 0: add the size of the finest spheres, that nothing passes");
+    refuse(rows - 1, "a sieve curve must end at 1, or at 100 for per cent: add the size that all passes");
+  if (passing(0) != 0.0)
+    refuse(0, "a sieve curve must begin at 0: add the size of the finest spheres, that nothing passes");
   std::vector<SizeClass> classes;
   for (size_t k = 1; k < rows; ++k) {
-    if (!(curve[2 * k] > curve[2 * k - 2])) refuse_row(k, curve, "sizes of a sieve curve must rise");
-    const double part = curve[2 * k + 1] - curve[2 * k - 1];
-    if (part > 0.0) classes.push_back({curve[2 * k - 2], curve[2 * k], part / whole, -1.0});
+    if (!(size(k) > size(k - 1))) refuse(k, "sizes of a sieve curve must rise, or all fall");
+    const double part = passing(k) - passing(k - 1);
+    if (part > 0.0) classes.push_back({size(k - 1), size(k), part / whole, -1.0});
   }
   return classes;
 }

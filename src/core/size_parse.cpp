@@ -40,6 +40,9 @@ void take_item(std::string_view item, jam_diameters_options &o, std::vector<doub
   if (equals == std::string_view::npos) {
     if (item.empty()) refuse(item, "an item is empty");
     if (is_number(item, x)) refuse(item, "a number needs its field, as in deviation=0.3, or its share, as in 0.5=0.12");
+    const size_t colon = item.find(':');
+    if (colon != std::string_view::npos && is_number(trimmed(item.substr(0, colon)), x))
+      refuse(item, "a size and its share are joined by =, as in 0.5=0.12");
     files.emplace_back(item);
     return;
   }

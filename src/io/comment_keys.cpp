@@ -4,6 +4,14 @@
 
 namespace jam::inside {
 
+std::string plain_list(std::string_view value) {
+  std::string plain(value);
+  if (plain.compare(0, 5, "_JSON") == 0) plain.erase(0, 5);
+  std::replace_if(
+      plain.begin(), plain.end(), [](char c) { return c == '[' || c == ']' || c == ','; }, ' ');
+  return plain;
+}
+
 bool is_true(std::string_view word) {
   const std::string w = lower(word);
   return w == "t" || w == "true" || w == "1";
@@ -19,10 +27,7 @@ size_t read_container(const LineReader &in, CommentKeys &keys, Enclosure &enclos
     if (!named) return 0;
     in.fail(JAM_E_FORMAT, "container= without walls=, a word T or F for each axis");
   }
-  std::string plain(value);  // ASE writes a list as _JSON [false, true], and reads [F, T], too
-  if (plain.compare(0, 5, "_JSON") == 0) plain.erase(0, 5);
-  std::replace_if(
-      plain.begin(), plain.end(), [](char c) { return c == '[' || c == ']' || c == ','; }, ' ');
+  const std::string plain = plain_list(value);
   std::vector<std::string_view> words;
   split(plain, words);
   if (words.empty() || words.size() > JAM_MAX_DIM)

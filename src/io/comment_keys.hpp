@@ -49,6 +49,9 @@ class CommentKeys {
     }
     return found;
   }
+  bool has(std::string_view name) const {
+    return std::any_of(keys_.begin(), keys_.end(), [&](const Key &key) { return key.name == name; });
+  }
   std::vector<std::string> unread() const {
     std::vector<std::string> names;
     for (const Key &key : keys_)
@@ -78,6 +81,8 @@ class CommentKeys {
   std::vector<Key> keys_;
 };
 
+// A list with blanks alone between its words: ASE writes _JSON [false, true], others [1, 0, 0] or 1,0,0.
+std::string plain_list(std::string_view value);
 // Whether the word of a truth value is T, True or 1.
 bool is_true(std::string_view word);
 // container=, and walls= with a word for each axis: what container_keys writes; walls= alone are those of a brick. The

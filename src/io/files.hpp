@@ -22,10 +22,21 @@ struct FileContent {
   std::vector<double> position;  // (n, dim) as written, not wrapped
   std::vector<double> diameter;  // n, or 1 for all
   std::vector<double> origin;    // what the reader has subtracted from the positions of the file; empty: nothing
+  bool knows_origin = false;     // the file says where the corner of its cell is
   GivenDigits given() const;     // of the numbers as they stand in the file
   Notes notes;                   // what of the file was dropped, wrapped, sorted or assumed
   bool has_box() const { return box > 0.0 || !cell.empty(); }
 };
+
+// What the caller says of a file that does not say it.
+struct Layout {
+  std::vector<double> cell;          // sides or (dim, dim) components; empty: not said
+  std::vector<double> origin;        // where the corner of the cell is in the file; empty: not said
+  std::vector<std::string> columns;  // of a table, by name; empty: not said
+  bool any() const { return !cell.empty() || !origin.empty() || !columns.empty(); }
+};
+// From the text of jam_read_as. JAM_E_ARGUMENT names the word that does not fit.
+Layout layout_of(const std::string &text);
 
 // What a reader must know besides the file.
 struct ReadOptions {
@@ -33,13 +44,23 @@ struct ReadOptions {
   double box = 1.0;       // of files that do not say it; 1 is what such a file means, other values the caller gave
   int64_t frame = -1;     // which of several packings, from 0, or from the end where it is negative
   Enclosure enclosure{};  // walls that the caller names, for files that do not
+  Layout layout{};
+  // Whether the caller has said which box positions refer to.
+  bool says_box() const { return box != 1.0 || !layout.cell.empty() || !layout.origin.empty(); }
 };
 
 // Goes by the content (recognise.hpp). Memory grows with the data read, never with the count in the header.
 FileContent read_file(const char *path, const ReadOptions &options = {});
 
-// format: a jam_format. coordination (n) becomes the contacts column of XYZ; NULL leaves that column out.
-void write_file(const Packing &p, const std::vector<int32_t> *coordination, const char *path, int32_t format);
+// What is written beside positions and diameters, by the formats that have a place for it.
+struct Beside {
+  const std::vector<int32_t> *coordination = nullptr;  // (n) contacts of each sphere, if they are known
+  double density = 1.0;                                // of the spheres
+};
+// format: a jam_format.
+void write_file(const Packing &p, const Beside &beside, const char *path, int32_t format);
+// The packing with all lengths times scale.
+Packing scaled(const Packing &p, double scale);
 
 // format: a jam_contact_format.
 void write_contacts(const Packing &p, const ContactNetwork &net, const char *path, int32_t format);

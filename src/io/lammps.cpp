@@ -1,11 +1,8 @@
 #include "io/lammps.hpp"
 
-#include "core/error.hpp"
-
 namespace jam::inside {
 
-LammpsBox lammps_box(const Packing &p, const char *format) {
-  if (p.dim > 3) fail(JAM_E_UNSUPPORTED, "%s has d = 2 or d = 3, this packing has d = %d", format, p.dim);
+LammpsBox lammps_box(const Packing &p) {
   LammpsBox box;
   for (int c = 0; c < p.dim; ++c) box.high[c] = p.cell.edge(c);
   if (p.dim == 2) {

@@ -18,7 +18,6 @@ struct LammpsBox {
   std::array<double, 3> low{}, high{}, tilt{};  // tilt: xy, xz, yz
   bool tilted = false;
 };
-// JAM_E_UNSUPPORTED but in d = 2 and 3. format: its name in the error.
-LammpsBox lammps_box(const Packing &p, const char *format);
+LammpsBox lammps_box(const Packing &p);  // of d = 2 and 3
 
 }  // namespace jam::inside

@@ -6,7 +6,7 @@
 
 #include "core/byte_order.hpp"
 #include "core/error.hpp"
-#include "io/files.hpp"
+#include "io/formats.hpp"
 #include "io/output_file.hpp"
 #include "io/text.hpp"
 #include "pore/balls.hpp"
@@ -74,9 +74,7 @@ int64_t bytes_of_image(const VoxelGrid &grid, int lines) { return grid.total() *
 
 void write_image(const VoxelImage &image, const VoxelGrid &grid, int dim, int lines, const char *path,
                  const std::function<void(const double *layer)> &f) {
-  const std::string ending = file_ending(path);
-  if (ending != "npy" && ending != "mha" && ending != "vti")
-    fail(JAM_E_UNSUPPORTED, "%s: an image is written as .npy, .mha (MetaImage) or .vti (VTK)", path);
+  const std::string ending = format_to_write(Content::image, path, 0).word;
   OutputFile file(path);
   std::string &out = file.text();
   if (ending == "npy") put_npy_header(out, grid, dim, lines);

@@ -3,6 +3,7 @@
 #include "core/digits.hpp"
 #include "core/error.hpp"
 #include "io/files.hpp"
+#include "io/formats.hpp"
 #include "io/read_helpers.hpp"
 #include "io/recognise.hpp"
 #include "io/text.hpp"
@@ -66,12 +67,15 @@ FileContent read_file(const char *path, const ReadOptions &options) {
          "columns x y z radius; jam.files.read_ase of Python reads more",
          path, head.first + 1, shown(line).c_str());
   }
-  if (!known->read) fail(JAM_E_FORMAT, "%s is %s: %s", path, known->name, known->way_out);
-  const bool frames = known->read == read_xyz || known->read == read_dump;
-  if (!frames && options.frame != -1 && options.frame != 0)
+  if (known->way_out) fail(JAM_E_FORMAT, "%s is %s: %s", path, known->name, known->way_out);
+  const Format &format = format_of_name(known->name);
+  if (!format.frames && options.frame != -1 && options.frame != 0)
     fail(JAM_E_ARGUMENT, "%s: frame is %lld, but %s contains one packing", path, static_cast<long long>(options.frame),
          known->name);
-  FileContent content = known->read(in, options);
+  FileContent content = format.read(in, options);
+  if (!options.layout.columns.empty() && format.read != read_table)
+    fail(JAM_E_ARGUMENT, "%s is %s: the option columns is for tables", path, format.name);
+  take_layout(path, options, content);
   settle_walls(path, options.enclosure, content);
   say_wrapped(content, options.box);
   return content;

@@ -141,6 +141,7 @@ void read_atoms(LineReader &in, int64_t n, const Box &box, const DumpColumns &co
     if (columns.has_id) ids.push_back(parse_count(in, words[columns.id], "the number of an atom"));
   }
   const bool plane = columns.count == 2;
+  content.knows_origin = true;
   take_plane(position, plane ? -1.0 : box.low[2], plane ? 1.0 : box.low[2] + box.rows[8], content);
   if (!columns.scaled)
     measure_from_corner(&box.low[0], content);
@@ -179,7 +180,7 @@ bool read_frame(LineReader &in, const Enclosure &given, FileContent &content) {
     } else if (item == "NUMBER" && words.size() == 4 && words[3] == "ATOMS") {
       if (n >= 0) in.fail(JAM_E_FORMAT, "NUMBER OF ATOMS is given twice in one frame");
       if (!next_words(in, line, words)) in.fail(JAM_E_FORMAT, "the file ends before the number of atoms");
-      n = take_count(in, parse_count(in, words[0], "a number of atoms"));
+      n = take_count_of_frame(in, parse_count(in, words[0], "a number of atoms"));
     } else if (item == "BOX" && words.size() >= 3 && words[2] == "BOUNDS") {
       if (has_box) in.fail(JAM_E_FORMAT, "BOX BOUNDS are given twice in one frame");
       const std::string kept(line);
@@ -190,6 +191,7 @@ bool read_frame(LineReader &in, const Enclosure &given, FileContent &content) {
       if (n < 0 || !has_box) in.fail(JAM_E_FORMAT, "NUMBER OF ATOMS and BOX BOUNDS must come before ITEM: ATOMS");
       const std::string names(line);
       split(names, words);
+      if (n == 0) return true;
       const DumpColumns columns = read_columns(in, Words(words.begin() + 2, words.end()));
       read_atoms(in, n, box, columns, content);
       const size_t d = static_cast<size_t>(content.dim);

@@ -101,16 +101,46 @@ void measure_from_corner(const double *corner, FileContent &content) {
 }
 
 void take_cell(const LineReader &in, std::vector<double> rows, FileContent &content) {
+  at_line(in, [&] { take_rows(std::move(rows), content); });
+}
+
+void take_rows(std::vector<double> rows, FileContent &content) {
   const size_t d = static_cast<size_t>(content.dim);
   bool cube = true;
   for (size_t k = 0; k < rows.size(); ++k) cube = cube && rows[k] == (k % (d + 1) == 0 ? rows[0] : 0.0);
   if (cube && rows[0] > 0.0) {
-    at_line(in, [&] { check_box(rows[0]); });
+    check_box(rows[0]);
     content.box = rows[0];
     return;
   }
-  at_line(in, [&] { normal_cell(content.dim, rows.data()); });
+  normal_cell(content.dim, rows.data());
   content.cell = std::move(rows);
+}
+
+std::vector<std::string> column_names(std::string_view line, char comma) {
+  std::vector<std::string> names;
+  if (line.find(comma) == std::string_view::npos) {
+    std::vector<std::string_view> words;
+    split(line, words);
+    names.assign(words.begin(), words.end());
+    return names;
+  }
+  for (size_t k = 0; k <= line.size();) {
+    const size_t stop = std::min(line.find(comma, k), line.size());
+    names.emplace_back(line.substr(k, stop - k));
+    k = stop + 1;
+  }
+  return names;
+}
+
+void check_inside(const LineReader &in, int64_t line, double x, const ReadOptions &options) {
+  constexpr double rounding = 1e-6;  // six digits round to the face itself
+  if (options.says_box() || (x >= -rounding && x <= 1.0 + rounding)) return;
+  inside::fail(
+      JAM_E_FORMAT,
+      "%s line %lld: the coordinate %g lies outside the box [0, 1], and the file names no box: write 'box <side>' "
+      "behind the diameter on line 3 of plain text, or give the option box or cell",
+      in.path().c_str(), static_cast<long long>(line), x);
 }
 
 void take_plane(const std::vector<double> &positions, double low, double high, FileContent &content) {

@@ -31,6 +31,9 @@ inline int64_t take_count(const LineReader &in, int64_t n) {
   return n;
 }
 
+// Of a frame among others: a run that pours grains begins with none, and choose_frame() skips or names such frames.
+inline int64_t take_count_of_frame(const LineReader &in, int64_t n) { return n == 0 ? 0 : take_count(in, n); }
+
 inline double positive(const LineReader &in, std::string_view word, const char *what) {
   const double x = parse_number(in, word);
   if (!(x > 0.0)) in.fail(JAM_E_ARGUMENT, "the %s is %g, it must be positive", what, x);
@@ -95,8 +98,22 @@ void say_unread(FileContent &content, const std::vector<std::string> &names, con
 // so.
 void measure_from_corner(const double *corner, FileContent &content);
 
+// The names of columns on a line, parted by commas where there is one, else by blanks; quotes stay.
+std::vector<std::string> column_names(std::string_view line, char comma = ',');
+
+// Whether a first line names coordinates of a table.
+bool names_coordinates(std::string_view line);
+
+// Refuses a coordinate outside the box [0, 1] where neither file nor caller say which box it is in: it would be
+// wrapped.
+void check_inside(const LineReader &in, int64_t line, double x, const ReadOptions &options);
+
+// Gives a file the cell and the origin that the caller names.
+void take_layout(const char *path, const ReadOptions &options, FileContent &content);
+
 // The d rows of cell vectors, of any form: a cube along the axes becomes content.box, other cells are checked.
 void take_cell(const LineReader &in, std::vector<double> rows, FileContent &content);
+void take_rows(std::vector<double> rows, FileContent &content);  // the same, errors without a line
 
 // Whether all spheres lie in the plane z = 0 and the box reaches to both sides of it, as LAMMPS has d = 2; then their
 // third coordinates go, and the file's dimension is 2. positions: (n, 3).
@@ -111,6 +128,7 @@ FileContent read_table(LineReader &in, const ReadOptions &options);
 FileContent read_xyz(LineReader &in, const ReadOptions &options);
 FileContent read_lammps(LineReader &in, const ReadOptions &options);
 FileContent read_dump(LineReader &in, const ReadOptions &options);
+FileContent read_mercury(LineReader &in, const ReadOptions &options);
 
 template <class ReadOne>
 FileContent choose_frame(LineReader &in, int64_t frame, ReadOne &&read_one) {
@@ -127,13 +145,20 @@ FileContent choose_frame(LineReader &in, int64_t frame, ReadOne &&read_one) {
     }
     if (kept.size() == most) kept.erase(kept.begin());
     kept.push_back(std::move(content));
-    if (count == frame) return std::move(kept.back());
+    if (count == frame) {
+      ++count;
+      break;
+    }
   }
-  if (frame >= 0 || kept.size() < most)
+  if ((frame >= 0 && count != frame + 1) || kept.size() < most)
     jam::inside::fail(JAM_E_ARGUMENT, "%s: frame is %lld, the file has %lld (0 to %lld, or -1 for the last)",
                       in.path().c_str(), static_cast<long long>(frame), static_cast<long long>(count),
                       static_cast<long long>(count - 1));
   FileContent &chosen = kept.front();
+  if (chosen.diameter.empty())
+    jam::inside::fail(JAM_E_ARGUMENT,
+                      "%s: in frame %lld n is 0, it must be 1 or more: name another one by the option frame",
+                      in.path().c_str(), static_cast<long long>(frame < 0 ? count + frame : frame));
   if (count > 1 && frame == -1)
     chosen.notes.say("the last of %lld frames was read; frame=0 to %lld read others", static_cast<long long>(count),
                      static_cast<long long>(count - 1));

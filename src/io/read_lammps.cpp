@@ -235,6 +235,7 @@ void make_content(const LineReader &in, Header &header, const std::vector<Atom> 
     take_plane(position, low, low + cell[8], content);
   const size_t d = static_cast<size_t>(content.dim);
   measure_from_corner(&header.low[0], content);
+  content.knows_origin = true;
   if (d == 2 && (cell[6] != 0.0 || cell[7] != 0.0))
     in.fail(JAM_E_UNSUPPORTED, "all spheres lie at z = 0, but the cell leaves that plane");
   std::vector<double> rows;

@@ -1,22 +1,9 @@
-// Plain text, and tables of columns.
-#include <algorithm>
+// Plain text: ours, and that of the code of Torquato and Jiao, which has cell vectors behind the diameter.
 
 #include "io/read_helpers.hpp"
-#include "io/recognise.hpp"
 
 namespace jam::inside {
 namespace {
-
-// Files that name no box mean a side of 1. Positions beyond it would be wrapped, and a box of another size lost. Six
-// digits round to the face itself.
-void check_inside(const LineReader &in, double x, const ReadOptions &options) {
-  constexpr double rounding = 1e-6;
-  if (options.box != 1.0 || (x >= -rounding && x <= 1.0 + rounding)) return;
-  in.fail(JAM_E_FORMAT,
-          "the coordinate %g lies outside the box [0, 1], and the file names no box: write 'box <side>' behind the "
-          "diameter on line 3, or give the option box",
-          x);
-}
 
 // The third line: `<diameter>` or `diameters`, then perhaps `box <L>`. Returns whether each sphere has its own.
 bool read_diameter_line(LineReader &in, FileContent &content) {
@@ -32,93 +19,28 @@ bool read_diameter_line(LineReader &in, FileContent &content) {
   return each;
 }
 
-// The columns of a table: coordinates x, y, z or x1, x2, ...; a size; others, which are not read.
-struct TableColumns {
-  std::vector<size_t> axis;
-  SizeColumn size;
-  size_t total = 0;
-  bool assumed = false;
-  std::vector<std::string> unread;
-};
-
-// False when the words name no coordinates.
-bool name_columns(const LineReader &in, const std::vector<std::string_view> &words, TableColumns &columns) {
-  static constexpr std::string_view axes[] = {"x", "y", "z"};
-  std::vector<std::pair<size_t, size_t>> axis;  // number of the coordinate, column
-  for (size_t k = 0; k < words.size(); ++k) {
-    std::string name = lower(words[k]);
-    const size_t letter = static_cast<size_t>(std::find(axes, axes + 3, name) - axes);
-    if (letter < 3)
-      axis.emplace_back(letter, k);
-    else if (name.size() == 2 && name[0] == 'x' && name[1] >= '1' && name[1] <= '8')
-      axis.emplace_back(static_cast<size_t>(name[1] - '1'), k);
-    else if (!columns.size.take(in, name == "r" ? "radius" : name == "d" || name == "sigma" ? "diameter" : name, k))
-      columns.unread.emplace_back(words[k]);
-  }
-  std::sort(axis.begin(), axis.end());
-  for (size_t k = 0; k < axis.size(); ++k)
-    if (axis[k].first != k) return false;
-  if (axis.size() < 2) return false;
-  if (!columns.size.found())
-    in.fail(JAM_E_FORMAT, "the columns have no size: name one of them radius or diameter (r or d)");
-  for (const auto &a : axis) columns.axis.push_back(a.second);
-  columns.total = words.size();
-  return true;
+std::string joined(const std::vector<std::string_view> &words) {
+  std::string all;
+  for (const std::string_view word : words) all += (all.empty() ? "" : " ") + std::string(word);
+  return all;
 }
 
-// Without names: d coordinates and the radius.
-void assume_columns(const LineReader &in, const std::vector<std::string_view> &words, const ReadOptions &options,
-                    FileContent &content, TableColumns &columns) {
-  const size_t d = static_cast<size_t>(options.dim);
-  columns.total = words.size();
-  if (columns.total != d + 1)
-    in.fail(JAM_E_FORMAT,
-            "%zu columns, a table without names has %zu in d = %d (coordinates and radius): name the columns on the "
-            "first line (x y z radius), or give the option dim",
-            columns.total, d + 1, options.dim);
-  for (size_t c = 0; c < d; ++c) columns.axis.push_back(c);
-  columns.size.take(in, "radius", d);
-  columns.assumed = true;
-  content.notes.warn("the file does not name its %zu columns: %zu coordinates and the radius were assumed", d + 1, d);
+[[noreturn]] void refuse_more(const LineReader &in, int64_t line, int64_t n, const std::string &row) {
+  inside::fail(JAM_E_FORMAT, "%s line %lld: there is more after the %lld spheres that the header announces: '%s'",
+               in.path().c_str(), static_cast<long long>(line), static_cast<long long>(n), shown(row).c_str());
 }
 
-void refuse_counting(const LineReader &in, const FileContent &content) {
-  const std::vector<double> &x = content.position;
-  const size_t d = static_cast<size_t>(content.dim), n = x.size() / d;
-  if (n < 3 || (x[0] != 0.0 && x[0] != 1.0)) return;
-  for (size_t k = 0; k < n; ++k)
-    if (x[k * d] != x[0] + static_cast<double>(k)) return;
-  in.fail(JAM_E_FORMAT, "the first column counts the rows, so it is not a coordinate: name the columns on line 1");
-}
-
-// Reads the lines before the first row of numbers. Names stand on the last of them, or in a comment of as many words as
-// the row has.
-TableColumns find_names(LineReader &in) {
-  const auto parted = [](std::string line) {
-    std::replace(line.begin(), line.end(), ',', ' ');
-    std::replace(line.begin(), line.end(), '#', ' ');
-    return line;
-  };
-  const Head head(in.head(), "");
-  const size_t first = head.first;
-  std::vector<std::string_view> row, words;
-  const std::string text = parted(std::string(head.lines[first]));
-  split(text, row);
-  const bool named = !is_number(row[0]);
-  TableColumns columns;
-  std::string_view line;
-  for (size_t k = 0; k < first + (named ? 1 : 0); ++k) {
-    in.next(line);
-    const std::string names = parted(std::string(line));
-    split(names, words);
-    if (k < first && (named || words.size() != row.size())) continue;  // a comment
-    TableColumns found;
-    if (name_columns(in, words, found))
-      columns = std::move(found);
-    else if (k == first)
-      in.fail(JAM_E_FORMAT, "'%s' names no columns: x, y, z and radius or diameter are needed", shown(line).c_str());
-  }
-  return columns;
+// The first d of n + d rows are cell vectors.
+void take_vectors(const LineReader &in, FileContent &content) {
+  const size_t d = static_cast<size_t>(content.dim);
+  const auto behind = content.position.begin() + static_cast<std::ptrdiff_t>(d * d);
+  std::vector<double> rows(content.position.begin(), behind);
+  content.position.erase(content.position.begin(), behind);
+  content.notes.say(
+      "the file has %zu rows more than spheres: the first %zu were read as cell vectors, as the code of "
+      "Torquato and Jiao writes them",
+      d, d);
+  take_cell(in, std::move(rows), content);
 }
 
 }  // namespace
@@ -136,44 +58,27 @@ FileContent read_plain(LineReader &in, const ReadOptions &options) {
   content.enclosure = options.enclosure;
   content.knows_walls = true;  // the format is one of periodic cubes: only the caller can name walls
   const size_t columns = static_cast<size_t>(content.dim) + (each ? 1 : 0);
+  const bool may_have_vectors = !each && !content.has_box();
   Rows rows(in, true);
-  for (int64_t k = 0; k < n; ++k) {
-    if (!rows.next(words)) ends_early(in, k, n);
+  std::vector<int64_t> at;  // the line of each row
+  std::string behind;       // the first row that no sphere needs
+  for (; at.size() < static_cast<size_t>(n + (may_have_vectors ? content.dim : 0)) && rows.next(words);
+       at.push_back(in.number())) {
+    if (at.size() == static_cast<size_t>(n)) behind = joined(words);
+    if (at.size() >= static_cast<size_t>(n) && words.size() != columns) refuse_more(in, in.number(), n, behind);
     if (words.size() != columns)
       in.fail(JAM_E_FORMAT, "%zu columns, %zu are needed (%s)", words.size(), columns,
               each ? "coordinates and diameter" : "coordinates");
-    for (int c = 0; c < content.dim; ++c) {
-      const double x = parse_number(in, words[c]);
-      if (!content.has_box()) check_inside(in, x, options);
-      content.position.push_back(x);
-    }
+    for (int c = 0; c < content.dim; ++c) content.position.push_back(parse_number(in, words[c]));
     if (each) content.diameter.push_back(positive(in, words.back(), "diameter"));
   }
+  const int64_t found = static_cast<int64_t>(at.size());
+  if (found < n) ends_early(in, found, n);
+  if (found > n && found < n + content.dim) refuse_more(in, at[static_cast<size_t>(n)], n, behind);
+  if (found > n) take_vectors(in, content);
+  for (size_t k = 0; k < content.position.size() && !content.has_box(); ++k)
+    check_inside(in, at[k / static_cast<size_t>(content.dim)], content.position[k], options);
   check_end(in, n);
-  return content;
-}
-
-FileContent read_table(LineReader &in, const ReadOptions &options) {
-  FileContent content;
-  TableColumns columns = find_names(in);
-  std::vector<std::string_view> words;
-  Rows rows(in, true);
-  while (rows.next(words)) {
-    if (columns.total == 0) assume_columns(in, words, options, content, columns);
-    if (words.size() != columns.total)
-      in.fail(JAM_E_FORMAT, "%zu columns, the first rows have %zu", words.size(), columns.total);
-    for (const size_t column : columns.axis) {
-      const double x = parse_number(in, words[column]);
-      check_inside(in, x, options);
-      content.position.push_back(x);
-    }
-    content.diameter.push_back(columns.size.diameter(in, words));
-  }
-  if (content.diameter.empty()) in.fail(JAM_E_FORMAT, "the file ends before the first row");
-  content.dim = take_dim(in, static_cast<int64_t>(columns.axis.size()));
-  if (columns.assumed) refuse_counting(in, content);
-  say_unread(content, columns.unread);
-  content.notes.say("the file names no box: its side is taken as %.17g", options.box);
   return content;
 }
 

@@ -51,8 +51,9 @@ XyzColumns read_properties(const LineReader &in, std::string_view properties) {
 // The d vectors of a cell in rows of `width` numbers; what does not belong to them must be 0 (d = 2 in three columns,
 // its third vector aside).
 void read_cell(const LineReader &in, std::string_view text, const char *name, size_t width, FileContent &content) {
+  const std::string plain = plain_list(text);
   std::vector<std::string_view> words;
-  split(text, words);
+  split(plain, words);
   if (words.size() != width * width)
     in.fail(JAM_E_FORMAT, "%s has %zu numbers, %zu are needed", name, words.size(), width * width);
   const size_t d = std::min(width, static_cast<size_t>(content.dim));
@@ -79,8 +80,9 @@ void read_cell(const LineReader &in, std::string_view text, const char *name, si
 // three are named. Files of other programs do not say whether walls stand where nothing repeats: the caller may.
 void check_periodic(const LineReader &in, std::string_view pbc, const FileContent &content) {
   const int dim = content.dim;
+  const std::string plain = plain_list(pbc);
   std::vector<std::string_view> words;
-  split(pbc, words);
+  split(plain, words);
   const size_t needed = static_cast<size_t>(std::min(dim, 3));
   bool periodic = words.size() >= needed;
   for (size_t k = 0; k < std::min(words.size(), static_cast<size_t>(dim)); ++k) {
@@ -104,9 +106,10 @@ void read_cells(const LineReader &in, CommentKeys &keys, FileContent &content) {
   if (content.dim <= 3 || !keys.find("cell", whole)) return read_cell(in, lattice, "Lattice", 3, content);
   const size_t d = static_cast<size_t>(content.dim);
   read_cell(in, whole, "cell", d, content);
+  const std::string plain_lattice = plain_list(lattice), plain_cell = plain_list(whole);
   std::vector<std::string_view> of_lattice, of_cell;
-  split(lattice, of_lattice);
-  split(whole, of_cell);
+  split(plain_lattice, of_lattice);
+  split(plain_cell, of_cell);
   bool same = of_lattice.size() == 9;
   for (size_t k = 0; k < 9 && same; ++k)
     same = parse_number(in, of_lattice[k]) == parse_number(in, of_cell[d * (k / 3) + k % 3]);
@@ -119,8 +122,9 @@ std::vector<double> read_origin(const LineReader &in, CommentKeys &keys, int dim
   std::string_view text;
   std::vector<double> origin(static_cast<size_t>(std::max(dim, 3)), 0.0);
   if (!keys.find("Origin", text)) return origin;
+  const std::string plain = plain_list(text);
   std::vector<std::string_view> words;
-  split(text, words);
+  split(plain, words);
   if (words.size() != 3 && words.size() != static_cast<size_t>(dim))
     in.fail(JAM_E_FORMAT, "Origin has %zu numbers, 3 are needed", words.size());
   if (words.size() < static_cast<size_t>(dim))
@@ -145,6 +149,7 @@ XyzColumns read_keys(const LineReader &in, CommentKeys &keys, const ReadOptions 
     in.fail(JAM_E_FORMAT, "dim is %d but pos has %zu columns", content.dim, columns.pos_count);
   read_cells(in, keys, content);
   columns.origin = read_origin(in, keys, content.dim);
+  content.knows_origin = keys.has("Origin");
   const size_t axes = read_container(in, keys, content.enclosure);
   if (axes > 0 && axes != static_cast<size_t>(content.dim))
     in.fail(JAM_E_FORMAT, "walls has %zu words, %d are needed", axes, content.dim);
@@ -201,8 +206,9 @@ bool read_frame(LineReader &in, const ReadOptions &options, int64_t k, int64_t &
   if (k > 0 && (words.size() != 1 || !is_count(words[0])))
     in.fail(JAM_E_FORMAT, "there is more after the %lld spheres that the header announces: '%s'",
             static_cast<long long>(n), shown(line).c_str());
-  n = take_count(in, parse_count(in, words[0], "a number of spheres"));
+  n = take_count_of_frame(in, parse_count(in, words[0], "a number of spheres"));
   if (!in.next(line)) in.fail(JAM_E_FORMAT, "the file ends before the line of keys");
+  if (n == 0) return true;
   const std::string comment(line);
   CommentKeys keys(in, comment);
   const XyzColumns columns = read_keys(in, keys, options, content);

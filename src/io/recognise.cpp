@@ -56,6 +56,13 @@ bool is_basic_xyz(const Head &h) { return count_at(h, 0) && !count_at(h, 1) && h
 
 bool is_plain(const Head &h) { return count_at(h, 0); }
 
+// Eight numbers, the first one a count; then rows of fourteen, or after an empty frame eight again.
+bool is_mercury(const Head &h) {
+  const Words header = h.words(h.first), row = h.words(h.first + 1);
+  if (header.size() != 8 || !is_count(header[0]) || !all_numbers(header) || !all_numbers(row)) return false;
+  return row.size() == 14 || (row.size() == 8 && header[0] == "0");
+}
+
 // Rows of numbers, perhaps under a line that names the columns.
 bool is_table(const Head &h) {
   if (h.first == h.lines.size()) return false;
@@ -63,8 +70,22 @@ bool is_table(const Head &h) {
   std::replace(line.begin(), line.end(), ',', ' ');
   Words words;
   split(line, words);
-  if (all_numbers(words)) return words.size() >= 3;
-  return std::any_of(words.begin(), words.end(), [](std::string_view w) { return lower(w) == "x" || w == "x1"; });
+  return all_numbers(words) ? words.size() >= 3 : names_coordinates(h.lines[h.first]);
+}
+
+// The same with semicolons, as where a comma is the decimal point.
+bool is_semicolon_table(const Head &h) {
+  if (h.first == h.lines.size() || h.lines[h.first].find(';') == std::string_view::npos) return false;
+  const std::vector<std::string> parts = column_names(h.lines[h.first], ';');
+  bool numbers = true;
+  for (std::string part : parts) {
+    std::replace(part.begin(), part.end(), ',', '.');
+    Words words;
+    split(part, words);
+    numbers = numbers && words.size() == 1 && is_number(words[0]);
+    if (names_coordinates(part)) return true;
+  }
+  return numbers;
 }
 
 bool is_binary(const Head &h) { return h.bytes.find('\0') != std::string_view::npos; }
@@ -78,67 +99,71 @@ constexpr const char *no_diameters = "it has no diameters and few digits; jam.fi
 
 // Order: bytes that are no text, and VTK, whose arrays may be binary; then text, the particular before the general.
 constexpr KnownFile table[] = {
-    {"a packing of System.save", [](const Head &h) { return begins(h, "jam packing file"); }, nullptr,
+    {"a packing of System.save", [](const Head &h) { return begins(h, "jam packing file"); },
      "jam.load of Python reads it"},
-    {"HDF5", [](const Head &h) { return begins(h, "\x89HDF\r\n\x1a\n"); }, nullptr,
+    {"HDF5", [](const Head &h) { return begins(h, "\x89HDF\r\n\x1a\n"); },
      "jam.load of Python reads what System.save wrote; read others with h5py and System.from_arrays"},
-    {"GSD of HOOMD-blue", [](const Head &h) { return begins(h, "\xdf\x65\xdf\x65\xdf\x65\xdf\x65"); }, nullptr,
+    {"GSD of HOOMD-blue", [](const Head &h) { return begins(h, "\xdf\x65\xdf\x65\xdf\x65\xdf\x65"); },
      "System.read of Python reads it where its name ends in .gsd, with Python's package gsd"},
-    {"a checkpoint of libjam", [](const Head &h) { return begins(h, "jamstat"); }, nullptr,
-     "jam_read_checkpoint reads it"},
-    {"an array of numpy (npy)", [](const Head &h) { return begins(h, "\x93NUMPY"); }, nullptr, own_arrays},
-    {"a zip archive (or npz of numpy)", [](const Head &h) { return begins(h, "PK\x03\x04"); }, nullptr,
+    {"a checkpoint of libjam", [](const Head &h) { return begins(h, "jamstat"); }, "jam_read_checkpoint reads it"},
+    {"an array of numpy (npy)", [](const Head &h) { return begins(h, "\x93NUMPY"); }, own_arrays},
+    {"a zip archive (or npz of numpy)", [](const Head &h) { return begins(h, "PK\x03\x04"); },
      "unpack it; arrays of an npz go to System.from_arrays in Python"},
-    {"packed twice by gzip", [](const Head &h) { return begins(h, "\x1f\x8b"); }, nullptr, unpack},
-    {"packed by bzip2", [](const Head &h) { return begins(h, "BZh"); }, nullptr, unpack},
+    {"packed twice by gzip", [](const Head &h) { return begins(h, "\x1f\x8b"); }, unpack},
+    {"packed by bzip2", [](const Head &h) { return begins(h, "BZh"); }, unpack},
     {"packed by xz",
      [](const Head &h) {
        return begins(h,
                      "\xfd"
                      "7zXZ");
      },
-     nullptr, unpack},
-    {"packed by zstd", [](const Head &h) { return begins(h, "\x28\xb5\x2f\xfd"); }, nullptr, unpack},
-    {"packed by 7z", [](const Head &h) { return begins(h, "7z\xbc\xaf"); }, nullptr, unpack},
-    {"a tar archive", [](const Head &h) { return begins(h, "ustar", 257); }, nullptr, unpack},
-    {"NetCDF", [](const Head &h) { return begins(h, "CDF\x01") || begins(h, "CDF\x02"); }, nullptr, own_arrays},
-    {"MATLAB", [](const Head &h) { return begins(h, "MATLAB "); }, nullptr, own_arrays},
+     unpack},
+    {"packed by zstd", [](const Head &h) { return begins(h, "\x28\xb5\x2f\xfd"); }, unpack},
+    {"packed by 7z", [](const Head &h) { return begins(h, "7z\xbc\xaf"); }, unpack},
+    {"a tar archive", [](const Head &h) { return begins(h, "ustar", 257); }, unpack},
+    {"NetCDF", [](const Head &h) { return begins(h, "CDF\x01") || begins(h, "CDF\x02"); }, own_arrays},
+    {"MATLAB", [](const Head &h) { return begins(h, "MATLAB "); }, own_arrays},
     {"a pickle of Python", [](const Head &h) { return begins(h, "\x80\x04\x95") || begins(h, "\x80\x05\x95"); },
-     nullptr, "load it in Python, if you trust it"},
-    {"a DCD trajectory", [](const Head &h) { return begins(h, "CORD", 4); }, nullptr, no_diameters},
+     "load it in Python, if you trust it"},
+    {"a DCD trajectory", [](const Head &h) { return begins(h, "CORD", 4); }, no_diameters},
     {"a trajectory of GROMACS", [](const Head &h) { return begins(h, "\0\0\x07\xcb") || begins(h, "\0\0\x07\xc9"); },
-     nullptr, no_diameters},
+     no_diameters},
     {"a binary dump of LAMMPS", [](const Head &h) { return begins(h, "DUMPATOM", 8) || begins(h, "DUMPCUSTOM", 8); },
-     nullptr, "let LAMMPS write the dump as text: dump custom with id radius x y z, in a file not named .bin"},
-    {"a restart file of LAMMPS", [](const Head &h) { return begins(h, "LammpS RestartT"); }, nullptr,
+     "let LAMMPS write the dump as text: dump custom with id radius x y z, in a file not named .bin"},
+    {"a restart file of LAMMPS", [](const Head &h) { return begins(h, "LammpS RestartT"); },
      "turn it into data: lmp -restart2data FILE out.data"},
-    {"a picture or a document", [](const Head &h) { return begins(h, "\x89PNG") || begins(h, "%PDF"); }, nullptr,
+    {"a picture or a document", [](const Head &h) { return begins(h, "\x89PNG") || begins(h, "%PDF"); },
      "it contains no packing"},
-    {"text in UTF-16", [](const Head &h) { return begins(h, "\xff\xfe") || begins(h, "\xfe\xff"); }, nullptr,
+    {"text in UTF-16", [](const Head &h) { return begins(h, "\xff\xfe") || begins(h, "\xfe\xff"); },
      "save it as plain text (ASCII or UTF-8)"},
-    {"VTK", [](const Head &h) { return begins(h, "# vtk") || begins(h, "<?xml") || begins(h, "<VTKFile"); }, nullptr,
+    {"VTK", [](const Head &h) { return begins(h, "# vtk") || begins(h, "<?xml") || begins(h, "<VTKFile"); },
      "such files are written only: write extended XYZ beside them"},
-    {"a binary file of an unknown format", is_binary, nullptr, own_arrays},
-    {"a LAMMPS dump", [](const Head &h) { return first_word_is_one_of(h, {"ITEM:"}); }, read_dump, nullptr},
-    {"LAMMPS data", is_lammps_data, read_lammps, nullptr},
-    {"extended XYZ", has_keys, read_xyz, nullptr},
-    {"a file of the code of Skoge and Donev", is_skoge_donev, nullptr,
-     "of equal spheres `sed -e 2d -e 5,6d FILE` makes plain text: dimension, number, diameter, then the positions"},
-    {"a snapshot of EDMD (.sph)", is_edmd, nullptr, with_keys},
-    {"XYZ without keys on line 2", is_basic_xyz, nullptr, with_keys},
-    {"plain text", is_plain, read_plain, nullptr},
+    {"a binary file of an unknown format", is_binary, own_arrays},
+    {"a LAMMPS dump", [](const Head &h) { return first_word_is_one_of(h, {"ITEM:"}); }, nullptr},
+    {"LAMMPS data", is_lammps_data, nullptr},
+    {"extended XYZ", has_keys, nullptr},
+    {"a file of the code of Skoge and Donev", is_skoge_donev,
+     "of equal spheres `sed -e 2d -e 5,6d FILE` makes plain text: dimension, number, diameter, then the positions; "
+     "with "
+     "several species give positions, and the diameters of each species, to System.from_arrays in Python"},
+    {"a snapshot of EDMD (.sph)", is_edmd, with_keys},
+    {"XYZ without keys on line 2", is_basic_xyz, with_keys},
+    {"plain text", is_plain, nullptr},
     {"PDB",
      [](const Head &h) {
        return first_word_is_one_of(h, {"HEADER", "ATOM", "HETATM", "CRYST1", "REMARK", "MODEL", "COMPND"});
      },
-     nullptr, no_diameters},
-    {"CIF", [](const Head &h) { return begins(h, "data_"); }, nullptr, no_diameters},
-    {"a page in HTML", [](const Head &h) { return begins(h, "<!") || begins(h, "<html"); }, nullptr,
+     no_diameters},
+    {"CIF", [](const Head &h) { return begins(h, "data_"); }, no_diameters},
+    {"a page in HTML", [](const Head &h) { return begins(h, "<!") || begins(h, "<html"); },
      "a page only shows a packing: read the packing file that was written with it"},
-    {"JSON", [](const Head &h) { return begins(h, "{") || begins(h, "["); }, nullptr,
+    {"JSON", [](const Head &h) { return begins(h, "{") || begins(h, "["); },
      "it contains no packing: read the packing file that was written with it"},
-    {"a table of columns", is_table, read_table, nullptr},
-    {"LAMMPS data", [](const Head &h) { return h.ending == "data" || h.ending == "lmp"; }, read_lammps, nullptr},
+    {"a table whose columns are parted by semicolons", is_semicolon_table,
+     "part them by commas, with decimal points: sed -e 's/,/./g' -e 's/;/,/g' FILE"},
+    {"data of MercuryDPM", is_mercury, nullptr},
+    {"a table of columns", is_table, nullptr},
+    {"LAMMPS data", [](const Head &h) { return h.ending == "data" || h.ending == "lmp"; }, nullptr},
 };
 
 }  // namespace

@@ -20,10 +20,9 @@ struct Head {
 };
 
 struct KnownFile {
-  const char *name;
+  const char *name;  // of a row of formats.cpp, where the file is read
   bool (*is)(const Head &);
-  FileContent (*read)(LineReader &, const ReadOptions &);  // NULL: not read
-  const char *way_out;
+  const char *way_out;  // NULL: it is read
 };
 
 // The first row of the table that fits; NULL when none does.

@@ -95,18 +95,22 @@ void split(std::string_view line, std::vector<std::string_view> &words) {
 void split_columns(const LineReader &in, std::string_view line, std::vector<std::string_view> &words) {
   split(line, words);
   if (line.find(',') == std::string_view::npos) return;
-  std::vector<std::string_view> part;
-  std::vector<std::string_view> columns;
+  std::vector<std::string_view> part, columns;
   for (size_t k = 0; k <= line.size();) {
     const size_t stop = std::min(line.find(',', k), line.size());
     split(line.substr(k, stop - k), part);
-    if (part.size() != 1)
+    if (part.empty()) in.fail(JAM_E_FORMAT, "column %zu is empty", columns.size() + 1);
+    std::string_view whole = line.substr(k, stop - k);
+    whole = whole.substr(static_cast<size_t>(part[0].data() - whole.data()));
+    whole = whole.substr(0, static_cast<size_t>(part.back().data() + part.back().size() - whole.data()));
+    const bool quoted = whole.size() >= 2 && whole.front() == '"' && whole.back() == '"';
+    if (part.size() != 1 && !quoted)
       in.fail(JAM_E_FORMAT,
               "'%s' has a comma: write decimal points, and separate columns only by blanks or only by commas",
               shown(*std::find_if(words.begin(), words.end(), [](std::string_view w) {
                 return w.find(',') != std::string_view::npos;
               })).c_str());
-    columns.push_back(part[0]);
+    columns.push_back(quoted ? whole.substr(1, whole.size() - 2) : whole);
     k = stop + 1;
   }
   words = columns;

@@ -1,15 +1,15 @@
 #include "core/checks.hpp"
-#include "core/error.hpp"
+#include "core/limits.hpp"
 #include "io/files.hpp"
+#include "io/formats.hpp"
 #include "io/lammps.hpp"
-#include "io/output_file.hpp"
 #include "io/text.hpp"
 #include "io/vtp.hpp"
+#include "io/writers.hpp"
 
 namespace jam::inside {
-namespace {
 
-void write_plain(const Packing &p, OutputFile &file) {
+void write_plain(const Packing &p, const Beside &, OutputFile &file) {
   std::string &out = file.text();
   bool each = false;
   for (double s : p.diameter) each = each || s != p.diameter[0];
@@ -37,6 +37,8 @@ void write_plain(const Packing &p, OutputFile &file) {
   }
 }
 
+namespace {
+
 // The first `width` cell vectors; those that the dimension does not have are `box` along their axis.
 void write_cell(const Packing &p, int width, std::string &out) {
   for (int row = 0; row < width; ++row)
@@ -61,8 +63,11 @@ std::string container_keys(const Packing &p) {
   return p.container ? std::string(" container=") + p.container.word() + " walls=\"" + walls_word(p) + '"' : "";
 }
 
+}  // namespace
+
 // d = 2 gets a third coordinate 0, because OVITO and ASE expect three. Readers go by `dim`.
-void write_xyz(const Packing &p, const std::vector<int32_t> *coordination, OutputFile &file) {
+void write_xyz(const Packing &p, const Beside &beside, OutputFile &file) {
+  const std::vector<int32_t> *const coordination = beside.coordination;
   std::string &out = file.text();
   const int columns = p.dim == 2 ? 3 : p.dim;
   out += std::to_string(p.n()) + "\nLattice=\"";
@@ -102,8 +107,8 @@ void write_xyz(const Packing &p, const std::vector<int32_t> *coordination, Outpu
 }
 
 // Contacts of each sphere as classes: 0 rattler, 1 buckler, 2 other.
-void write_points(const Packing &p, const std::vector<int32_t> *coordination, OutputFile &file) {
-  if (p.dim > 3) fail(JAM_E_UNSUPPORTED, "VTP has d = 2 or d = 3, this packing has d = %d", p.dim);
+void write_points(const Packing &p, const Beside &beside, OutputFile &file) {
+  const std::vector<int32_t> *const coordination = beside.coordination;
   const size_t d = static_cast<size_t>(p.dim);
   std::vector<double> points;
   for (size_t i = 0; i < p.n(); ++i)
@@ -126,8 +131,8 @@ void write_points(const Packing &p, const std::vector<int32_t> *coordination, Ou
   spheres.write(file);
 }
 
-void write_lammps(const Packing &p, OutputFile &file) {
-  const LammpsBox box = lammps_box(p, "LAMMPS data");
+void write_lammps(const Packing &p, const Beside &beside, OutputFile &file) {
+  const LammpsBox box = lammps_box(p);
   std::string &out = file.text();
   out += std::string(lammps_title) + ", atom_style sphere, dimension " + std::to_string(p.dim) + container_keys(p) +
          "\n\n" + std::to_string(p.n()) + " atoms\n1 atom types\n\n";
@@ -149,7 +154,8 @@ void write_lammps(const Packing &p, OutputFile &file) {
   for (size_t i = 0; i < p.n(); ++i) {
     out += std::to_string(i + 1) + " 1 ";
     append_number(out, p.diameter[i]);
-    out += " 1";
+    out += ' ';
+    append_number(out, beside.density);
     for (int c = 0; c < 3; ++c) {
       out += ' ';
       append_number(out, c < p.dim ? p.position[i * p.dim + c] : 0.0);
@@ -159,34 +165,6 @@ void write_lammps(const Packing &p, OutputFile &file) {
   }
 }
 
-// Names of other programs' formats are refused: plain text under the name x.gsd would mislead. Without an ending, or
-// with one of digits alone (run.12), a name means plain text.
-int32_t format_by_name(const char *path) {
-  const std::string ending = file_ending(path);
-  if (ending == "xyz" || ending == "extxyz") return JAM_FORMAT_XYZ;
-  if (ending == "data" || ending == "lmp") return JAM_FORMAT_LAMMPS;
-  if (ending == "vtp") return JAM_FORMAT_VTP;
-  if (ending == "dat" || ending == "txt" || ending.find_first_not_of("0123456789") == std::string::npos)
-    return JAM_FORMAT_PLAIN;
-  fail(JAM_E_ARGUMENT,
-       "%.200s: no format is known by the ending .%.20s: write .xyz or .extxyz (extended XYZ), .data or .lmp (LAMMPS), "
-       ".vtp (ParaView), .dat or .txt (plain text), with .gz behind it or without, or name the format",
-       path, ending.c_str());
-}
-
-// What a format cannot hold is refused, not left out.
-void check_fits(const Packing &p, int32_t format) {
-  if (format != JAM_FORMAT_XYZ && p.non_additivity != 0.0)
-    fail(JAM_E_UNSUPPORTED, "only extended XYZ and checkpoints can store non_additivity = %g", p.non_additivity);
-  if (format == JAM_FORMAT_PLAIN && p.container)
-    fail(JAM_E_UNSUPPORTED, "plain text cannot store walls: write extended XYZ, LAMMPS data or a checkpoint");
-  if (format == JAM_FORMAT_PLAIN && !p.cell.cube())
-    fail(JAM_E_UNSUPPORTED,
-         "plain text cannot store a cell that is no cube: write extended XYZ, LAMMPS data or a checkpoint");
-}
-
-}  // namespace
-
 std::string file_ending(const char *path) {
   std::string name(path);
   name = name.substr(name.find_last_of('/') + 1);
@@ -195,19 +173,24 @@ std::string file_ending(const char *path) {
   return dot == std::string::npos || dot == 0 ? "" : name.substr(dot + 1);
 }
 
-void write_file(const Packing &p, const std::vector<int32_t> *coordination, const char *path, int32_t format) {
+Packing scaled(const Packing &p, double scale) {
+  Packing made = p;
+  std::vector<double> rows = p.cell.rows();
+  for (double &x : rows) x *= scale;
+  made.cell = p.cell.cube() ? Cell(p.dim, p.cell.side() * scale) : Cell::from_triangle(p.dim, rows.data());
+  if (p.container) enclose(made, {p.container.kind(), p.container.flat()});
+  for (double &x : made.position) x *= scale;
+  for (double &s : made.diameter) s *= scale;
+  check_box(made.cell.side());
+  return made;
+}
+
+void write_file(const Packing &p, const Beside &beside, const char *path, int32_t format) {
   check_enum(format, JAM_FORMAT_AUTO, JAM_FORMAT_VTP, "format", "jam_format");
-  if (format == JAM_FORMAT_AUTO) format = format_by_name(path);
-  check_fits(p, format);
+  const Format &row = format_to_write(Content::packing, path, format);
+  check_fits(p, row, beside.density);
   OutputFile file(path);
-  if (format == JAM_FORMAT_XYZ)
-    write_xyz(p, coordination, file);
-  else if (format == JAM_FORMAT_LAMMPS)
-    write_lammps(p, file);
-  else if (format == JAM_FORMAT_VTP)
-    write_points(p, coordination, file);
-  else
-    write_plain(p, file);
+  row.write(p, beside, file);
   file.commit();
 }
 

@@ -3,13 +3,13 @@
 #include <array>
 
 #include "core/checks.hpp"
-#include "core/error.hpp"
 #include "core/pair_rule.hpp"
 #include "io/files.hpp"
+#include "io/formats.hpp"
 #include "io/lammps.hpp"
-#include "io/output_file.hpp"
 #include "io/text.hpp"
 #include "io/vtp.hpp"
+#include "io/writers.hpp"
 
 namespace jam::inside {
 namespace {
@@ -30,7 +30,9 @@ void put_rows(const Packing &p, const ContactNetwork &net, int first, char betwe
   }
 }
 
-void write_csv(const Packing &p, const ContactNetwork &net, OutputFile &file) {
+}  // namespace
+
+void write_contacts_csv(const Packing &p, const ContactNetwork &net, OutputFile &file) {
   file.text() += "i,j";
   for (int c = 0; c < p.dim; ++c) file.text() += ",n" + std::to_string(c + 1);
   file.text() += ",gap,force\n";
@@ -38,8 +40,8 @@ void write_csv(const Packing &p, const ContactNetwork &net, OutputFile &file) {
 }
 
 // A dump of a tilted cell names the smallest brick around it.
-void write_dump(const Packing &p, const ContactNetwork &net, OutputFile &file) {
-  const LammpsBox box = lammps_box(p, "a LAMMPS dump");
+void write_contacts_dump(const Packing &p, const ContactNetwork &net, OutputFile &file) {
+  const LammpsBox box = lammps_box(p);
   std::string &out = file.text();
   out += "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ENTRIES\n" + std::to_string(net.size()) + "\nITEM: BOX BOUNDS ";
   if (box.tilted) out += "xy xz yz ";
@@ -63,8 +65,7 @@ void write_dump(const Packing &p, const ContactNetwork &net, OutputFile &file) {
   put_rows(p, net, 1, ' ', file);
 }
 
-void write_lines(const Packing &p, const ContactNetwork &net, OutputFile &file) {
-  if (p.dim > 3) fail(JAM_E_UNSUPPORTED, "VTP has d = 2 or d = 3, this packing has d = %d", p.dim);
+void write_contacts_vtp(const Packing &p, const ContactNetwork &net, OutputFile &file) {
   const size_t d = static_cast<size_t>(p.dim);
   std::vector<double> points, force, gap;
   std::vector<int64_t> contact;
@@ -89,29 +90,12 @@ void write_lines(const Packing &p, const ContactNetwork &net, OutputFile &file) 
   lines.write(file);
 }
 
-int32_t contact_format_by_name(const char *path) {
-  const std::string ending = file_ending(path);
-  if (ending == "csv") return JAM_CONTACTS_CSV;
-  if (ending == "dump") return JAM_CONTACTS_DUMP;
-  if (ending == "vtp") return JAM_CONTACTS_VTP;
-  fail(JAM_E_ARGUMENT,
-       "%.200s: no format of contacts is known by the ending '%.20s': write .csv, .dump (LAMMPS) or .vtp (ParaView), "
-       "with .gz behind it or without, or name the format",
-       path, ending.c_str());
-}
-
-}  // namespace
-
 void write_contacts(const Packing &p, const ContactNetwork &net, const char *path, int32_t format) {
   check_enum(format, JAM_CONTACTS_AUTO, JAM_CONTACTS_VTP, "format", "jam_contact_format");
-  if (format == JAM_CONTACTS_AUTO) format = contact_format_by_name(path);
+  const Format &row = format_to_write(Content::contacts, path, format);
+  check_fits(p, row);
   OutputFile file(path);
-  if (format == JAM_CONTACTS_CSV)
-    write_csv(p, net, file);
-  else if (format == JAM_CONTACTS_DUMP)
-    write_dump(p, net, file);
-  else
-    write_lines(p, net, file);
+  row.write_contacts(p, net, file);
   file.commit();
 }
 

@@ -161,6 +161,8 @@ class CommandLine(unittest.TestCase):
                 words += ["--input", self.file]
             if o.name == "input":
                 words += {"export": ["--output", "out.data"], "page": ["--page", "page.html"]}.get(verb.name, [])
+            if verb.name == "page" and o.name == "plot":
+                words += ["--page", "page.html"]
             if o.name == "checkpoint" and verb.name == "crunch":
                 words += ["--input", self.file]
             status = OUTPUT if o.kind == "output" else USAGE if verb.name == "check" else REFUSED
@@ -245,7 +247,48 @@ class CommandLine(unittest.TestCase):
         for program in self.programs():
             code, out, err = self.run_words(program, "export", "start.xyz", "--stl", "m.stl")
             self.assertEqual((code, "network   none: the mesh joins no spheres" in out), (0, True), out)
-            self.assertRegex(err, r"^[^:]+: the mesh has about \S+ triangles, \S+ [kM]B\n$")
+            self.assertRegex(err, r"^[^:]+: the mesh has about \S+ triangles, \S+ MB\n$")
+
+    def test_a_table_is_no_list_of_diameters(self):
+        """Every number of it would be a diameter."""
+        sizes = self.dir / "sizes.txt"
+        words = "pack --sizes sizes.txt --no-md --no-crunch --output o.xyz --quiet".split()
+        for program in self.programs():
+            for text, columns in (
+                ("1.5 0.3\n2 0.5\n", 2), ("0.5,0\n1,100\n", 2), ("0 0 0 1\n2 2 2 1\n", 4), ("1 2 3\n", 3),
+                ("size,share\n1,0.5\n2,0.5\n", 2), ("Sieve (mm) Passing\n1 0\n2 100\n", 3), ("1;2\n", 2),
+            ):
+                sizes.write_text(text)
+                code, _, err = self.run_words(program, *words)
+                self.assertEqual((code, f"has {columns} columns" in err), (REFUSED, True), text + err)
+                for part in ("--sizes list:", "--sizes sieve:", "--input"):
+                    self.assertIn(part, err)
+            for text, ratio in (("radius\n1\n2\n", 2.0), ("\ufeffdiameter\r\n2\r\n3\r\n", 1.5), ("1\n\n# a\n3 # b", 3.0)):
+                sizes.write_text(text, newline="")
+                code, _, err = self.run_words(program, *words)
+                self.assertEqual(code, 0, err)
+                d = jam.System.read(self.dir / "o.xyz").diameters
+                self.assertAlmostEqual(d.max() / d.min(), ratio, 12)
+            sizes.write_text("1.61,\n2.34\n")
+            self.assertIn("decimal point", self.run_words(program, *words)[2])
+            code, _, err = self.run_words(program, "compress", "--sizes", "list:1:0.5,1.4:0.5", "--output", "o.xyz")
+            self.assertEqual((code, "joined by =" in err), (USAGE, True), err)
+
+    def test_what_a_table_does_not_say(self):
+        (self.dir / "t.txt").write_text("-1 -1 -3 7 .5\n1 1 3 7 .5\n")
+        for program in self.programs():
+            words = "export t.txt o.data --cell 4,4,8 --origin -2,-2,-4 --columns x,y,z,kind,radius"
+            code, _, err = self.run_words(program, *words.split(), "--scale", "0.5", "--density", "2500")
+            self.assertEqual(code, 0, err)
+            made = (self.dir / "o.data").read_text()
+            self.assertIn("0 4 zlo zhi", made)
+            self.assertIn("2 1 0.5 2500 1.5 1.5 3.5", made)
+            code, _, err = self.run_words(program, *words.replace("o.data", "o.xyz").split(), "--density", "2500")
+            self.assertEqual((code, "extended XYZ has no place for a density" in err), (USAGE, True), err)
+            code, _, err = self.run_words(program, *"info t.txt --cell 4,4,8".split())
+            self.assertEqual((code, "option columns" in err), (REFUSED, True), err)
+            code, _, err = self.run_words(program, *"info o.data --cell 4,4,8".split())
+            self.assertEqual((code, "gives its cell" in err), (USAGE, True), err)
 
     def test_files_that_are_not_written_are_not_listed(self):
         s = jam.System.random(200, 3, 1)

@@ -204,7 +204,7 @@ class CommandLine(unittest.TestCase):
         programs = ([PACK], [sys.executable, "-m", "jam"])
         with tempfile.TemporaryDirectory() as folder:
             sizes = Path(folder, "sizes")
-            sizes.write_text("1 1.5\n2 " * 20)
+            sizes.write_text("1\n1.5\n2\n" * 20)
             common = ["--quiet", "--no-crunch", "--growth", "0.1:30", "--growth", "0.1:300"]
 
             def run(program, name, *more):

@@ -182,7 +182,7 @@ class Given(unittest.TestCase):
             jam.System.random(n=10, dim=2, box=2.0).write(path)
             self.assertEqual(jam.System.read(path, box=2.0).box, 2.0)
             self.refused(["box"], jam.System.read, path, box=3.0)
-            self.refused(["one side"], jam.System.read, path, box=[1, 2])
+            self.refused(["gives its cell"], jam.System.read, path, box=[1, 2])
 
 
 if __name__ == "__main__":

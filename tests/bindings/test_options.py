@@ -70,7 +70,7 @@ class Options(unittest.TestCase):
             s.contacts_from_geometry()
             self.assertEqual(s.rigidity("strict").jammed, jam.Verdict.YES)
             refused = self.pack("--strain", "free", "--output", f"{folder}/s.dat")
-            self.assertEqual((refused.returncode, "plain text has cubes" in refused.stderr), (2, True))
+            self.assertEqual((refused.returncode, "no cells but cubes" in refused.stderr), (2, True))
 
     def test_log(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -84,7 +84,7 @@ class Options(unittest.TestCase):
 
     def test_a_line_now_and_then_in_a_pipe(self):
         said = self.pack(*"--n 4000 --growth 1e-5:1e9 --no-crunch --wall-time 11.5".split())
-        self.assertRegex(said.stderr, r"^growth 1e-05  p [\d.]+  phi 0\.\d+ .* 10\.\d s  \d+ %, .* s left \(.*\)\n")
+        self.assertRegex(said.stderr, r"^4000 spheres in d = 3\ngrowth 1e-05  p [\d.]+  phi 0\.\d+ .* 10\.\d s  \d+ %, .* s left \(.*\)\n")
         self.assertNotIn("\r", said.stderr)
 
     def test_options_without_effect(self):

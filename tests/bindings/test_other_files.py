@@ -385,7 +385,8 @@ class NoReader(Folder):
     def test_sizes_for_files_that_hold_them(self):
         path = os.path.join(self.folder, "a.dat")
         jam.System.random(n=10, dim=2).write(path)
-        for name in ("diameters", "radii", "cell"):
+        self.refused(["cell has 1 numbers, in d = 2 it needs 2"], jam.System.read, path, cell=0.1)
+        for name in ("diameters", "radii"):
             self.refused([name, "from_arrays"], jam.System.read, path, kind=TypeError, **{name: 0.1})
         self.refused(["packing_fraction"], jam.System.read, path, packing_fraction=0.3)
 

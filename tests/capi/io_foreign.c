@@ -55,7 +55,7 @@ static void odd_plain_text(void **state) {
   same_three(read_text("3\n3\n2.0D-01\n1.0D-01 0.2d0 3D-1\n0.6 0.7 0.8\n0.35 0.9 0.15\n"));
   expect_refused("3\n1\n0.2\n0,1 0,2 0,3\n", JAM_E_FORMAT, "line 4: '0,1' has a comma: write decimal points");
   expect_refused("2\n1\n0.2\n0,1; 0,2\n", JAM_E_FORMAT, "line 4: '0,1;' has a comma");
-  expect_refused("2\n1\n0.2\n0.1,,0.2\n", JAM_E_FORMAT, "line 4: '0.1,,0.2' has a comma");
+  expect_refused("2\n1\n0.2\n0.1,,0.2\n", JAM_E_FORMAT, "line 4: column 2 is empty");
   expect_refused("2\n1\n0.2\n0.1 1D\n", JAM_E_FORMAT, "line 4: '1D' is not a number");
 }
 

@@ -230,6 +230,23 @@ static void laws_are_read_from_text(void **state) {
   (void)state;
 }
 
+/* Test sheets list the coarse sieve first: the same curve, the same spheres. */
+static void curves_may_begin_at_either_end(void **state) {
+  static const double turned[] = {4, 100, 2, 50, 1, 10, 0.5, 0}, mixed[] = {4, 100, 1, 10, 2, 50, 0.5, 0};
+  jam_diameters_options o = options(JAM_SIZES_SIEVE);
+  double *a, *b;
+  size_t n, m;
+  o.n = 500;
+  a = draw(&o, curve, 8, &n);
+  b = draw(&o, turned, 8, &m);
+  assert_int_equal(n, m);
+  assert_memory_equal(a, b, n * sizeof *a);
+  refused(&o, mixed, 8, JAM_E_ARGUMENT, "row 1 (1, 10): the sieve curve falls");
+  free(a);
+  free(b);
+  (void)state;
+}
+
 static void curves_are_read_from_files(void **state) {
   const char *const name = "jam_curve.csv";
   char text[64];
@@ -249,6 +266,12 @@ static void curves_are_read_from_files(void **state) {
   fclose(file);
   assert_int_equal(jam_parse_diameters(text, &o, NULL, 0, &needed), JAM_E_FORMAT);
   assert_non_null(strstr(jam_last_error(), "line 2"));
+  file = fopen(name, "w");
+  assert_non_null(file);
+  fputs("Sieve size (mm),Passing (%)\n0.5,0\n1,40\n2,100\n", file);
+  fclose(file);
+  assert_int_equal(jam_parse_diameters(text, &o, rows, 6, &needed), JAM_OK);
+  assert_true(needed == 6 && rows[2] == 1 && rows[3] == 40 && rows[5] == 100);
   remove(name);
   (void)state;
 }
@@ -282,6 +305,7 @@ int main(void) {
       cmocka_unit_test(seeds_reproduce_and_differ),
       cmocka_unit_test(bad_laws_are_refused_by_name),
       cmocka_unit_test(laws_are_read_from_text),
+      cmocka_unit_test(curves_may_begin_at_either_end),
       cmocka_unit_test(curves_are_read_from_files),
       cmocka_unit_test(fluids_do_not_begin_to_grow_beyond_their_reach),
   };

@@ -415,13 +415,13 @@ class JamPack(unittest.TestCase):
         self.assertAlmostEqual(d[99] / d[0], 1.4, 12)
         self.assertEqual(sum(x > d[0] * 1.1 for x in d), 50)
         sizes = self.dir / "sizes.txt"
-        sizes.write_text("1 2\n3.5 1\n")
+        sizes.write_text("# mine\n1\n2\n3.5\n1\n")
         self.assertEqual(self.report("--sizes", sizes, *job)["n"], 4)
         d = [float(line.split()[4]) for line in (self.dir / "p.xyz").read_text().splitlines()[2:]]
         self.assertAlmostEqual(d[2] / d[0], 3.5, 12)
         self.refused(3, "--n", 5, "--sizes", sizes, *job)
-        sizes.write_text("1 2 -3\n")
-        self.assertIn("number 3", self.refused(3, "--sizes", sizes, *job))
+        sizes.write_text("1\n2\n-3\n")
+        self.assertIn("line 3", self.refused(3, "--sizes", sizes, *job))
         self.refused(2, "--sizes", "lognormal:-1")
         self.refused(3, "--sizes", self.dir / "none.txt")
 

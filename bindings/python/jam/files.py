@@ -5,7 +5,7 @@ System.write and System.write_contacts write most of them by the ending of the n
 from __future__ import annotations
 
 import os
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -25,6 +25,38 @@ __all__ = [
     "write_spectrum_csv", "write_structure_csv", "write_vtk", "write_vtk_network",
 ]
 __dir__ = only(__all__)
+
+
+class Format(NamedTuple):
+    """A format of files."""
+
+    content: str  # packings, contacts or images
+    word: str  # as System.write and System.write_contacts take it
+    name: str
+    endings: tuple[str, ...]  # of names; an empty one stands for none
+    dim: int  # the largest
+    holds: tuple[str, ...]  # of spheres, walls, cells (other than cubes), non_additivity
+    read: bool
+    write: bool
+
+
+def formats() -> list[Format]:
+    """The formats that System.read reads, and those that System.write, write_contacts and write_voxels write.
+
+    Files of System.save and checkpoints are none of them.
+
+    Examples
+    --------
+    >>> import jam
+    >>> [f.word for f in jam.files.formats() if f.content == "packings" and f.write and "walls" in f.holds]
+    ['xyz', 'lammps', 'vtp']
+    """
+    found = []
+    for line in raw.jam_formats().splitlines():
+        content, _, word, name, endings, dim, holds, use = line.split("\t")
+        names = tuple("" if e == "-" else "." + e for e in endings.split())
+        found.append(Format(content, word, name, names, int(dim), tuple(holds.split()), "read" in use, "write" in use))
+    return [*found, Format("packings", "gsd", "GSD of HOOMD-blue", (".gsd",), 3, ("spheres", "cells"), True, True)]
 
 
 def half_bonds(system: System) -> tuple[Array, Array]:

@@ -9,7 +9,7 @@ from . import errors, raw
 from ._api.arrays import as_vector
 from ._api.calls import freeze
 from ._api.errors import METHODS
-from ._api.given import cell_of, enclosure_of, positions_of, refuse_start_options, refuse_unnamed_box, side_of, sizes_of
+from ._api.given import cell_of, enclosure_of, layout_of, positions_of, refuse_start_options, refuse_unnamed_box, sizes_of
 from ._api.options import option_struct, other_word
 from ._api.results import Contacts, Modes
 from ._api.size_laws import density_of
@@ -174,24 +174,34 @@ class System(Verbs, Writing, PoreSpace, Copies, Converting):
         path : path-like
             The file. Positions and diameters come back with the bits that were written.
         **options
-            overlap ('refuse' or 'shrink'), seed, model, mk_zeta, masses, non_additivity, frame; box where the file names
-            none; walls and container, as of from_arrays, where the file does not name its walls. GSD files take the
-            keywords of jam.files.read_gsd too.
+            overlap ('refuse' or 'shrink'), seed, model, mk_zeta, masses, non_additivity, frame; box, or cell as of
+            from_arrays, where the file names none; origin, (d,), where the corner of the cell is in a file that does not
+            say it; columns, names of what the columns of a table contain, in order: x, y, z (or x1, x2, ...), radius or
+            diameter, others are not read; walls and container, as of from_arrays, where the file does not name its
+            walls. GSD files take the keywords of jam.files.read_gsd too.
+
+        Examples
+        --------
+        >>> import jam
+        >>> with open("grains.csv", "w") as file:
+        ...     _ = file.write("x,y,z,mass,r\\n0,0,3,1,0.5\\n1,1,-3,1,0.5\\n")
+        >>> jam.System.read("grains.csv", cell=[4, 4, 8], origin=[-2, -2, -4]).cell.diagonal()
+        array([4., 4., 8.])
         """
         name = os.fsdecode(path)
         if name.lower().endswith(".gsd"):
             given = {key: value for key, value in options.items() if value is not None}
             return cls._noted(*gsd.arguments(name, **given))
-        for unknown in ("diameters", "radii", "cell"):
+        for unknown in ("diameters", "radii"):
             if unknown in options:
                 raise TypeError(
                     f"{unknown}= goes with GSD files and jam.files.read_ase alone: "
-                    "read other files without sizes or cell by numpy, and pass the arrays to System.from_arrays"
+                    "read other files without sizes by numpy, and pass the arrays to System.from_arrays"
                 )
         walls = options.get("walls")
-        options["box"] = side_of(options.get("box"))
+        layout = layout_of(options)
         options["container"], options["walls"] = enclosure_of(options.get("container"), walls, None)
-        made = cls._made(*raw.jam_read(name, option_struct("jam_create_options", options), None))
+        made = cls._made(*raw.jam_read(name, layout, option_struct("jam_create_options", options), None))
         if walls is not None and not isinstance(walls, str):
             enclosure_of(None, walls, made.dim)  # as many truth values as the file has axes
         return made

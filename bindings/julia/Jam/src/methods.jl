@@ -4,6 +4,7 @@ export walls,
        cell_volume,
        set_memory_limit!,
        add_note!,
+       write_scaled,
        observe!,
        stop_observing!,
        observed_series,
@@ -99,6 +100,20 @@ not empty.
 """
 function add_note!(s::System, text; progress = nothing)
     return call(s, :jam_add_note, (text, ); progress = progress)
+end
+
+"""
+    write_scaled(s, path, format, scale, density)
+
+`write` in another unit: all lengths of the packing times scale, 1e-12 to 1e12. density: of the spheres, above 0, in
+the unit of LAMMPS data, which alone have a place for it; other formats need 1. With scale = 1 the bits are those of
+`write`; another scale rounds.
+
+- `format`: one of `:auto`, `:plain`, `:xyz`, `:lammps`, `:vtp`
+- errors: `:unsupported`, `:io`
+"""
+function write_scaled(s::System, path, format, scale, density)
+    return call(s, :jam_write_scaled, (path, format, scale, density, ); progress = nothing)
 end
 
 """
@@ -272,7 +287,7 @@ same at `:info`. Takes as long as a few steps.
 - `gain_tolerance`: on sqrt(Gamma) - 1, > 0, default 1e-12
 - `step_tolerance`: on max |`s_i`| of non-rattlers, > 0, default 1e-9
 - `lp_tolerance`: relative complementarity, residual of an LP, default 1e-15; above 1e-9 it acts as 1e-9
-- `neighbour_radius`: an LP has the pairs of gap < this - the largest diameter; 0, the default: adapts
+- `neighbour_radius`: largest pair distance in an LP; 0, the default: adapts
 - `step_bound`: bound on each |`s_i`| component, 1e-15 .. 1000; 0, the default: adapts
 - `wall_time`: limit of the call
 - `steps`: Bool; the callback is called at every step and may call `jam_crunch_step_`...; default 0

@@ -54,6 +54,7 @@ end
 function System(; diameters = nothing, radii = nothing, porosity = nothing, progress = nothing, given...)
     diameters === nothing || radii === nothing || throw(ArgumentError("give either diameters or radii"))
     sizes = diameters === nothing ? radii : diameters  # of a random start only ratios count
+    sizes isa AbstractMatrix && throw(ArgumentError("diameters must be a vector, not a $(join(size(sizes), "x")) matrix"))
     sizes = sizes === nothing ? nothing : vec(dense(sizes))
     count = sizes === nothing ? 1024 : length(sizes)
     return create((; n = count, with_density((; given...), porosity)...), nothing, sizes; progress = progress)
@@ -71,10 +72,16 @@ end
 
 function System(path::AbstractString; given...)
     refuse(given, (:packing_fraction, :porosity), "the file gives it")
-    refuse(given, (:diameters, :radii, :cell), "files give sizes and cell")
+    refuse(given, (:diameters, :radii), "files give sizes")
     walls, out = get(given, :walls, nothing), Ref{Ptr{Cvoid}}(C_NULL)
+    words = String[]
+    for name in (:cell, :origin, :columns)
+        value = get(given, name, nothing)
+        value === nothing || push!(words, "$name=" * (value isa AbstractString ? value : join(value, ",")))
+    end
+    given = Base.structdiff(NamedTuple(given), NamedTuple{(:cell, :origin, :columns)})
     own = (; given..., walls = walls_of(walls, walls isa AbstractString || walls === nothing ? 3 : length(walls)))
-    written(jam_read(path, options(jam_create_options, own), nothing, nothing, out))
+    written(jam_read_as(path, join(words, " "), options(jam_create_options, own), nothing, nothing, out))
     made = System(out[])
     walls === nothing || walls isa AbstractString || length(walls) == info(made).dim ||
         throw(ArgumentError("walls must have $(info(made).dim) truth values for this file, not $(length(walls))"))

@@ -183,6 +183,12 @@ const CALLS = Dict{Symbol, Call}(
         Argument(:path, :string, Cchar, String[], :none, false),
         Argument(:format, :scalar, Int32, String[], :format, false),
     ]),
+    :jam_write_scaled => Call(jam_write_scaled, true, true, [
+        Argument(:path, :string, Cchar, String[], :none, false),
+        Argument(:format, :scalar, Int32, String[], :format, false),
+        Argument(:scale, :scalar, Cdouble, String[], :none, false),
+        Argument(:density, :scalar, Cdouble, String[], :none, false),
+    ]),
     :jam_write_contacts => Call(jam_write_contacts, true, true, [
         Argument(:path, :string, Cchar, String[], :none, false),
         Argument(:format, :scalar, Int32, String[], :contact_format, false),

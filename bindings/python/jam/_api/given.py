@@ -84,14 +84,20 @@ def refuse_walls(system: Any, done: str) -> None:
         raise UnsupportedError(f"a scene with walls cannot be {done} yet")
 
 
-def side_of(box: Any) -> float | None:
-    """The side of the cube for a file that names no box."""
-    if box is None:
-        return None
-    x = as_vector(box, name="box")
-    if len(x) == 0 or (x != x[0]).any():
-        raise ValueError("box for a file that names none must be one side: make other cells by System.from_arrays")
-    return float(x[0])
+def layout_of(options: dict[str, Any]) -> str:
+    """What a file does not say, as jam_read_as takes it, from box, cell, origin and columns. A box of one side stays in
+    the options."""
+    box, cell = options.get("box"), options.pop("cell", None)
+    if box is not None and cell is not None:
+        raise TypeError("box and cell both name the periodic cell: give one of them")
+    if box is not None and np.ndim(box) > 0:
+        cell, options["box"] = box, None
+    given = {"cell": cell, "origin": options.pop("origin", None)}
+    words = [name + "=" + ",".join(repr(float(v)) for v in np.ravel(as_array(x, name=name))) for name, x in given.items() if x is not None]
+    columns = options.pop("columns", None)
+    if columns is not None:
+        words.append("columns=" + ",".join([columns] if isinstance(columns, str) else columns))
+    return " ".join(words)
 
 
 def sizes_of(diameters: Any, radii: Any, n: int, names: tuple[str, str] = ("diameters", "radii")) -> Array:

@@ -74,6 +74,24 @@ class Methods:
         """
         self.call('add_note', text, progress=progress)
 
+    def write_scaled(self, path: str, format: int | str, scale: float, density: float) -> None:
+        """write() in another unit: all lengths of the packing times scale, 1e-12 to 1e12. density: of the spheres, above
+        0, in the unit of LAMMPS data, which alone have a place for it; other formats need 1. With scale = 1 the bits
+        are those of write(); another scale rounds.
+
+        Parameters
+        ----------
+        path : str
+        format : {'auto', 'plain', 'xyz', 'lammps', 'vtp'}
+        scale : float
+        density : float
+
+        Raises
+        ------
+        ArgumentError, UnsupportedError, IoError
+        """
+        self.call('write_scaled', path, format, scale, density)
+
     def write_checkpoint(self, path: str) -> None:
         """Writes all that the dynamics depend on to a binary file: positions, diameters, velocities, shifts of the MK
         model, and a stage that was stopped early or runs now.
@@ -431,7 +449,7 @@ class Methods:
         lp_tolerance : float, optional
             relative complementarity, residual of an LP, default 1e-15; above 1e-9 it acts as 1e-9
         neighbour_radius : float, optional
-            an LP has the pairs of gap < this - the largest diameter; 0, the default: adapts
+            largest pair distance in an LP; 0, the default: adapts
         step_bound : float, optional
             bound on each |s_i| component, 1e-15 .. 1000; 0, the default: adapts
         wall_time : float, optional

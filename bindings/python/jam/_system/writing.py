@@ -22,13 +22,13 @@ from .network import Network
 from .passing_file import passing_file
 from .state import State
 
-_TEXT_FORMATS = (".xyz", ".extxyz", ".data", ".lmp", ".dump", ".dat", ".txt", ".csv", ".html")
-
 
 class Writing(State, Network):
     """Files of a system."""
 
-    def write(self, path: str | os.PathLike[str], format: int | str = "auto") -> None:
+    def write(
+        self, path: str | os.PathLike[str], format: int | str = "auto", *, scale: float = 1.0, density: float = 1.0
+    ) -> None:
         """Writes positions and diameters with 17 digits.
 
         Parameters
@@ -38,14 +38,20 @@ class Writing(State, Network):
         format : {'auto', 'plain', 'xyz', 'lammps', 'vtp'}
             'auto' goes by the ending: .xyz and .extxyz are extended XYZ; .data and .lmp LAMMPS data; .vtp ParaView's;
             .gsd HOOMD's (needs python3-gsd); .dat, .txt and no ending plain text. With .gz behind it the file is
-            compressed. Other endings are refused.
+            compressed. Other endings are refused. jam.files.formats() lists them.
+        scale : float
+            All lengths times this, 1e-12 to 1e12. With 1 reading gives the same bits; another scale rounds.
+        density : float
+            Of the spheres, in the unit of LAMMPS data, which alone have a place for it.
         """
         name = os.fsdecode(path)
         if format == "auto" and name.endswith(".gsd"):
+            if scale != 1.0 or density != 1.0:
+                raise ValueError("GSD files are written without scale and density")
             still = self.copy()
             refuse_walls(still, "written as GSD")
             return gsd.write(name, still.positions, still.diameters, still.cell)
-        finished(raw.jam_write(self.handle, name, as_enum(format, "Format")))
+        finished(raw.jam_write_scaled(self.handle, name, as_enum(format, "Format"), float(scale), float(density)))
 
     def write_contacts(self, path: str | os.PathLike[str], format: int | str = "auto") -> None:
         """Writes the contact network: pairs, unit vectors, gaps and forces.

@@ -1,0 +1,223 @@
+/* Tables as other programs write them, what the caller says of a file that does not say it (jam_read_as), cells of the
+ * code of Torquato and Jiao, frames without spheres, and what jam_formats lists. */
+#include "io_helpers.h"
+
+static jam_system *read_as(const char *text, const char *layout, double box) {
+  jam_create_options o;
+  jam_system *sys = NULL;
+  jam_create_options_init(&o, sizeof o);
+  o.box = box;
+  put_bytes(in_scratch("in.any"), text, strlen(text));
+  if (jam_read_as(in_scratch("in.any"), layout, &o, NULL, NULL, &sys) != JAM_OK)
+    fail_msg("%s; layout '%s', input:\n%s", jam_last_error(), layout, text);
+  return sys;
+}
+
+static void expect_refused_as(const char *text, const char *layout, jam_status status, const char *part) {
+  jam_system *sys = NULL;
+  jam_status got;
+  put_bytes(in_scratch("in.any"), text, strlen(text));
+  got = jam_read_as(in_scratch("in.any"), layout, NULL, NULL, NULL, &sys);
+  if (got != status || !strstr(jam_last_error(), part))
+    fail_msg("status %d, text '%s', expected %d and '%s'; input:\n%s", got, jam_last_error(), status, part, text);
+  assert_null(sys);
+}
+
+/* The system has these numbers; it is freed. */
+static void expect(jam_system *sys, int32_t dim, int64_t n, const double *x, const double *diameters) {
+  const double *view;
+  size_t len;
+  jam_info info;
+  info.struct_size = sizeof info;
+  jam_get_info(sys, &info);
+  assert_int_equal(info.dim, dim);
+  assert_int_equal(info.n, n);
+  jam_view_positions(sys, &view, &len);
+  assert_memory_equal(view, x, len * sizeof *x);
+  jam_view_diameters(sys, &view, &len);
+  assert_memory_equal(view, diameters, len * sizeof *diameters);
+  jam_destroy(sys);
+}
+
+static const double two[] = {0.5, 0.5, 0.5, 1.5, 1.5, 1.5}, sizes[] = {0.4, 0.5};
+
+static void headings(void **state) {
+  static const char *const texts[] = {
+      "X [m],Y [m],Z [m],Radius [m]\n0.5,0.5,0.5,0.2\n1.5,1.5,1.5,0.25\n",
+      "\"radius\",\"id\",\"Points:0\",\"Points:1\",\"Points:2\"\n0.2,1,0.5,0.5,0.5\n0.25,2,1.5,1.5,1.5\n",
+      "ID,X-Coordinate (mm),Y-Coordinate (mm),Z-Coordinate (mm),Particle Diameter "
+      "(mm)\n7,.5,.5,.5,.4\n8,1.5,1.5,1.5,.5\n",
+      "Center X, Center Y, Center Z, Diameter\r\n.5, .5, .5, .4\r\n1.5, 1.5, 1.5, .5\r\n",
+      "\xef\xbb\xbfname,x_coord,y_coord,z_coord,vx,r\n\"grain, a\",.5,.5,.5,9,.2\n\"b c\",1.5,1.5,1.5,9,.25\n",
+      "# pos_x pos_y pos_z radius\n.5 .5 .5 .2\n1.5 1.5 1.5 .25\n",
+      "#format x_y_z_r_matId\n.5 .5 .5 .2 1\n1.5 1.5 1.5 .25 1\n",
+      "z;y", /* see below */
+  };
+  size_t k;
+  (void)state;
+  /* a name with a comma inside its quotes parts the row */
+  expect_refused_as(texts[4], "cell=3,3,3", JAM_E_FORMAT, "line 2");
+  for (k = 0; k < 7; ++k)
+    if (k != 4) expect(read_as(texts[k], "", 3.0), 3, 2, two, sizes);
+  expect(read_as("x,y,z,what,r\n.5,.5,.5,\"a b\",.2\n1.5,1.5,1.5,\"c d\",.25\n", "", 3.0), 3, 2, two, sizes);
+  expect_refused("x;y;z;r\n0,5;0,5;0,5;0,2\n", JAM_E_FORMAT, "parted by semicolons");
+  expect_refused("0,5;0,5;0,5;0,2\n", JAM_E_FORMAT, "parted by semicolons");
+  expect_refused("x,y,z,X,r\n.1,.1,.1,.1,.1\n", JAM_E_FORMAT, "two columns are coordinate 1");
+  expect_refused("vx,vy,vz,r\n.1,.1,.1,.1\n", JAM_E_FORMAT, "begins no file");
+  expect_refused("x,y,z\n.1,.1,.1\n", JAM_E_FORMAT, "no size");
+  /* neither program nor bindings have an option dim for it */
+  expect_refused(".1 .1 .1 .1 7\n", JAM_E_FORMAT, "or by the option columns");
+}
+
+static void what_the_caller_says(void **state) {
+  static const char rows[] = "-2 -2 -3.5 1 .2\n-1 -1 -2.5 2 .25\n";
+  static const double moved[] = {0.5, 0.5, 0.5, 1.5, 1.5, 1.5};
+  double cell[9], want[9] = {5, 0, 0, 0, 5, 0, 0, 0, 8};
+  size_t needed;
+  jam_system *sys = read_as(rows, "cell=5,5,8 origin=-2.5,-2.5,-4 columns=x,y,z,mass,radius", 1.0);
+  (void)state;
+  assert_int_equal(jam_get_cell(sys, cell, 9, &needed), JAM_OK);
+  assert_memory_equal(cell, want, sizeof cell);
+  assert_non_null(strstr(jam_notes(sys), "mass"));
+  assert_non_null(strstr(jam_notes(sys), "-2.5 -2.5 -4"));
+  expect(sys, 3, 2, moved, sizes);
+  sys = read_as("x y r\n.5 .5 .1\n", "cell=2,0,0.5,3", 1.0);
+  want[0] = 2, want[1] = 0, want[2] = 0.5, want[3] = 3;
+  assert_int_equal(jam_get_cell(sys, cell, 9, &needed), JAM_OK);
+  assert_memory_equal(cell, want, 4 * sizeof *cell);
+  jam_destroy(sys);
+  /* Yade names its periodic cell in a comment */
+  sys = read_as("##PERIODIC:: 5 5 8\n#format x_y_z_r\n.5 .5 .5 .2\n1.5 1.5 1.5 .25\n", "", 1.0);
+  assert_int_equal(jam_get_cell(sys, cell, 9, &needed), JAM_OK);
+  want[0] = 5, want[2] = 0, want[3] = 0, want[4] = 5;
+  assert_memory_equal(cell, want, sizeof cell);
+  expect(sys, 3, 2, two, sizes);
+  expect(read_as("x y z r\n.5 .5 .5 .2\n1.5 1.5 1.5 .25\n", "cell=3,3,3", 1.0), 3, 2, two, sizes);
+  /* plain text and XYZ have no origin of their own */
+  expect(read_as("3\n1\n0.4\n-1 -1 -1\n", "cell=3,3,3 origin=-1.5,-1.5,-1.5", 1.0), 3, 1, two, sizes);
+  expect_refused_as(rows, "cell=5,5 columns=x,y,z,mass,radius", JAM_E_ARGUMENT, "cell has 2 numbers, in d = 3");
+  expect_refused_as(rows, "cell=5,5,a", JAM_E_ARGUMENT, "cell is '5,5,a'");
+  expect_refused_as(rows, "sell=5,5,5", JAM_E_ARGUMENT, "'sell=5,5,5' is none of");
+  expect_refused_as(rows, "cell=5,5,8 origin=1 columns=x,y,z,mass,radius", JAM_E_ARGUMENT, "origin has 1 numbers");
+  expect_refused_as(rows, "cell=5,5,8 columns=x,y,z,radius", JAM_E_FORMAT, "5 columns, columns names 4");
+  expect_refused_as(rows, "columns=a,b,c,e,radius", JAM_E_ARGUMENT, "columns names no coordinates");
+  expect_refused_as("1\nLattice=\"1 0 0 0 1 0 0 0 1\" Properties=pos:R:3:radius:R:1\n0 0 0 .1\n", "cell=2,2,2",
+                    JAM_E_ARGUMENT, "gives its cell");
+  expect_refused_as("1\nLattice=\"1 0 0 0 1 0 0 0 1\" Properties=pos:R:3:radius:R:1 Origin=\"0 0 0\"\n0 0 0 .1\n",
+                    "origin=0,0,0", JAM_E_ARGUMENT, "says where the corner");
+  expect_refused_as("3\n1\n0.4\n.5 .5 .5\n", "columns=x,y,z,r", JAM_E_ARGUMENT, "for tables");
+}
+
+static void disks_in_a_plane(void **state) {
+  static const double flat[] = {1, 1, 1, 2.5, 4, 4}, widths[] = {1, 0.75, 1};
+  static const char text[] = "x y z r\n1 1 0.5 0.5\n1 2.5 0.5 0.375\n4 4 0.5 0.5\n";
+  jam_system *sys = read_as(text, "", 5.0);
+  (void)state;
+  assert_non_null(strstr(jam_notes(sys), "d = 2"));
+  expect(sys, 2, 3, flat, widths);
+  expect(read_as(text, "cell=5,5", 1.0), 2, 3, flat, widths);
+  sys = read_as(text, "cell=5,5,5", 1.0); /* a third side keeps the third direction */
+  assert_null(strstr(jam_notes(sys), "d = 2"));
+  jam_destroy(sys);
+}
+
+static void cells_of_torquato_and_jiao(void **state) {
+  static const double x[] = {0.1, 0.2, 0.3, 1.6, 0.7, 0.1}, widths[] = {0.3, 0.3};
+  const double want[9] = {2, 0, 0, 0.25, 1, 0, 0, 0, 1};
+  double cell[9];
+  size_t needed;
+  jam_system *sys =
+      read_as("3\n2\n0.3\n2\t0\t0\t\n0.25\t1\t0\t\n0\t0\t1\t\n0.1\t0.2\t0.3\t\n1.6\t0.7\t0.1\t\n", "", 1.0);
+  (void)state;
+  assert_non_null(strstr(jam_notes(sys), "Torquato and Jiao"));
+  assert_int_equal(jam_get_cell(sys, cell, 9, &needed), JAM_OK);
+  assert_memory_equal(cell, want, sizeof cell);
+  expect(sys, 3, 2, x, widths);
+  /* another number of rows is an error, with the line of the first */
+  expect_refused("3\n1\n0.3\n1 0 0\n0 1 0\n", JAM_E_FORMAT, "line 5: there is more after the 1 spheres");
+  expect_refused("2\n1\n0.3\n1 0\n0 1\n.5 .5\n.2 .2\n", JAM_E_FORMAT, "line 7: there is more after the 1 spheres");
+}
+
+static void frames_without_spheres(void **state) {
+  static const char dump[] =
+      "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n0\nITEM: BOX BOUNDS pp pp pp\n0 3\n0 3\n0 3\nITEM: ATOMS id x y z "
+      "radius\nITEM: TIMESTEP\n1\nITEM: NUMBER OF ATOMS\n2\nITEM: BOX BOUNDS pp pp pp\n0 3\n0 3\n0 3\nITEM: ATOMS id x "
+      "y "
+      "z radius\n1 .5 .5 .5 .2\n2 1.5 1.5 1.5 .25\n";
+  static const char xyz[] =
+      "0\nLattice=\"3 0 0 0 3 0 0 0 3\" Properties=pos:R:3:radius:R:1\n2\nLattice=\"[3,0,0,0,3,0,0,0,3]\" "
+      "Properties=pos:R:3:radius:R:1 pbc=\"[T, T, T]\"\n.5 .5 .5 .2\n1.5 1.5 1.5 .25\n";
+  const char *const texts[] = {dump, xyz};
+  size_t k;
+  (void)state;
+  for (k = 0; k < 2; ++k) {
+    jam_create_options o;
+    jam_system *sys = NULL;
+    expect(read_as(texts[k], "", 1.0), 3, 2, two, sizes);
+    jam_create_options_init(&o, sizeof o);
+    o.frame = 1;
+    assert_int_equal(jam_read(in_scratch("in.any"), &o, NULL, NULL, &sys), JAM_OK);
+    expect(sys, 3, 2, two, sizes);
+    o.frame = 0;
+    assert_int_equal(jam_read(in_scratch("in.any"), &o, NULL, NULL, &sys), JAM_E_ARGUMENT);
+    assert_non_null(strstr(jam_last_error(), "in frame 0 n is 0"));
+    o.frame = 2;
+    assert_int_equal(jam_read(in_scratch("in.any"), &o, NULL, NULL, &sys), JAM_E_ARGUMENT);
+    assert_non_null(strstr(jam_last_error(), "the file has 2"));
+  }
+}
+
+static void data_of_mercury_dpm(void **state) {
+  static const double moved[] = {0.5, 0.5, 0.5, 1.5, 1.5, 1.5}, want[9] = {2, 0, 0, 0, 3, 0, 0, 0, 4};
+  static const char frame[] =
+      "0 0 -1 -1 -1 1 2 3\n"
+      "2 0.5 -1 -1 -1 1 2 3\n-.5 -.5 -.5 9 9 9 .2 0 0 0 1 1 1 0\n.5 .5 .5 8 8 8 .25 0 0 0 1 1 1 1\n";
+  double cell[9];
+  size_t needed;
+  jam_system *sys = read_as(frame, "", 1.0);
+  (void)state;
+  assert_int_equal(jam_get_cell(sys, cell, 9, &needed), JAM_OK);
+  assert_memory_equal(cell, want, sizeof cell);
+  assert_non_null(strstr(jam_notes(sys), "the corner of the cell is at -1 -1 -1"));
+  expect(sys, 3, 2, moved, sizes);
+  expect_refused("1 0 0 0 0 1 1 1\n.5 .5 .5 0 0 0 .2 0 0 0 0 0 0 0\n.5 .5\n", JAM_E_FORMAT, "where a frame begins");
+  expect_refused("2 0 0 0 0 1 1 1\n.5 .5 .5 0 0 0 .2 0 0 0 0 0 0 0\n", JAM_E_FORMAT, "after 1 of 2 spheres");
+}
+
+/* Every row says the truth: what is listed as written is written, and what it holds. */
+static void the_list_of_formats(void **state) {
+  const char *at = jam_formats();
+  jam_system *sys = some_packing(3, 10, 1.0, 1.0);
+  int rows = 0;
+  (void)state;
+  for (; *at; at = strchr(at, '\n') + 1, ++rows) {
+    char content[16], word[16], name[48], endings[64], holds[64], use[16];
+    int number, dim;
+    assert_int_equal(sscanf(at, "%15[^\t]\t%d\t%15[^\t]\t%47[^\t]\t%63[^\t]\t%d\t%63[^\t]\t%15[^\n]", content, &number,
+                            word, name, endings, &dim, holds, use),
+                     8);
+    if (strcmp(content, "packings") || !strstr(use, "write")) continue;
+    assert_int_equal(jam_write(sys, in_scratch("out.any"), number), JAM_OK);
+    assert_int_equal(jam_write_scaled(sys, in_scratch("out.any"), number, 2.0, 1.0), JAM_OK);
+    assert_int_equal(jam_write_scaled(sys, in_scratch("out.any"), number, 1.0, 2.0),
+                     strstr(holds, "density") ? JAM_OK : JAM_E_UNSUPPORTED);
+    if (!strstr(use, "read")) continue;
+    jam_destroy(sys);
+    assert_int_equal(jam_read(in_scratch("out.any"), NULL, NULL, NULL, &sys), JAM_OK);
+  }
+  assert_true(rows > 8);
+  jam_destroy(sys);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(headings),
+      cmocka_unit_test(what_the_caller_says),
+      cmocka_unit_test(disks_in_a_plane),
+      cmocka_unit_test(cells_of_torquato_and_jiao),
+      cmocka_unit_test(frames_without_spheres),
+      cmocka_unit_test(data_of_mercury_dpm),
+      cmocka_unit_test(the_list_of_formats),
+  };
+  return cmocka_run_group_tests(tests, make_scratch, remove_scratch);
+}

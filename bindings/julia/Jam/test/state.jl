@@ -23,6 +23,6 @@ strain!(t, [0 0.05; 0 0])
 moved = positions(t) .- before
 k = argmin(abs.(before[2, :] .- 0.5) .+ abs.(before[1, :] .- 0.5))
 @test moved[1, k] ≈ 0.05 * before[2, k] && moved[2, k] == 0
-turned = set_cell!(t, [1 1; 0 1])  # another basis of a lattice: reduced
+turned = set_cell!(t, [1 1; 0 1])  # another basis of a lattice
 @test turned.rotation * [1 1; 0 1] * turned.transform ≈ cell(t)
 @test det(turned.rotation) ≈ 1

@@ -79,7 +79,7 @@ function System(path::AbstractString; given...)
         value = get(given, name, nothing)
         value === nothing || push!(words, "$name=" * (value isa AbstractString ? value : join(value, ",")))
     end
-    given = Base.structdiff(NamedTuple(given), NamedTuple{(:cell, :origin, :columns)})
+    given = Base.structdiff(values(given), NamedTuple{(:cell, :origin, :columns)})
     own = (; given..., walls = walls_of(walls, walls isa AbstractString || walls === nothing ? 3 : length(walls)))
     written(jam_read_as(path, join(words, " "), options(jam_create_options, own), nothing, nothing, out))
     made = System(out[])

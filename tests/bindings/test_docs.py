@@ -122,7 +122,7 @@ class Stumbles(unittest.TestCase):
                     s.write(Path(folder, name))
             self.assertEqual(list(Path(folder).iterdir()), [])
             s.write(Path(folder, "q.hoomd"), "plain")
-            with self.assertRaisesRegex(ValueError, r"\.csv, \.dump"):
+            with self.assertRaisesRegex(ValueError, r"\.csv \(a table\), \.dump"):
                 s.crunch()
                 s.write_contacts(Path(folder, "q.json"))
 

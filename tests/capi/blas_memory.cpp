@@ -95,7 +95,7 @@ int spectrum_with(unsigned long bytes) {
   static double table[2 * 300];
   if (crunch(sys, 1) != JAM_OK) return JAM_E_STATE;
   leave_address_space(bytes);
-  return jam_modes(sys, nullptr, &o, table, sizeof table / sizeof *table, nullptr, 0, &rows);
+  return jam_modes(sys, nullptr, &o, 2, table, sizeof table / sizeof *table, nullptr, 0, &rows);
 }
 int spectrum() { return spectrum_with(64 * mega); }
 int spectrum_with_enough() { return spectrum_with(512 * mega); }

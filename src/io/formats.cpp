@@ -14,25 +14,26 @@ constexpr Content packing = Content::packing, contacts = Content::contacts, imag
 constexpr int any = JAM_MAX_DIM;
 
 constexpr Format table[] = {
-    // content, number, word, name, endings, most_dim, stores, frames, read, write, write_contacts
-    {packing, JAM_FORMAT_XYZ, "xyz", "extended XYZ", "xyz extxyz", any, walls | cells | non_additivity, true, read_xyz,
-     write_xyz, nullptr},
-    {packing, JAM_FORMAT_LAMMPS, "lammps", "LAMMPS data", "data lmp", 3, walls | cells | density, false, read_lammps,
-     write_lammps, nullptr},
-    {packing, JAM_FORMAT_VTP, "vtp", "VTP of ParaView", "vtp", 3, walls | cells, false, nullptr, write_points, nullptr},
+    // content, number, word, name, endings, most_dim, what, frames, read, write, write_contacts
+    {packing, JAM_FORMAT_XYZ, "xyz", "extended XYZ", "xyz extxyz", any, stores::scene, true, read_xyz, write_xyz,
+     nullptr},
+    {packing, JAM_FORMAT_LAMMPS, "lammps", "LAMMPS data", "data lmp", 3,
+     stores::walls | stores::cells | stores::density, false, read_lammps, write_lammps, nullptr},
+    {packing, JAM_FORMAT_VTP, "vtp", "VTP of ParaView", "vtp", 3, stores::walls | stores::cells, false, nullptr,
+     write_points, nullptr},
     {packing, JAM_FORMAT_PLAIN, "plain", "plain text", "dat txt -", any, 0, false, read_plain, write_plain, nullptr},
-    {packing, 0, "dump", "a LAMMPS dump", "dump lammpstrj", 3, cells, true, read_dump, nullptr, nullptr},
-    {packing, 0, "mercury", "data of MercuryDPM", "data", 3, cells, true, read_mercury, nullptr, nullptr},
-    {packing, 0, "table", "a table of columns", "csv txt", any, 0, false, read_table, nullptr, nullptr},
-    {contacts, JAM_CONTACTS_CSV, "csv", "a table", "csv", any, walls | cells | non_additivity, false, nullptr, nullptr,
+    {packing, 0, "dump", "a LAMMPS dump", "dump lammpstrj", 3, stores::cells, true, read_dump, nullptr, nullptr},
+    {packing, 0, "mercury", "data of MercuryDPM", "data", 3, stores::cells, true, read_mercury, nullptr, nullptr},
+    {packing, 0, "table", "a table of columns", "csv txt", any, stores::cells, false, read_table, nullptr, nullptr},
+    {contacts, JAM_CONTACTS_CSV, "csv", "a table", "csv", any, stores::scene, false, nullptr, nullptr,
      write_contacts_csv},
-    {contacts, JAM_CONTACTS_DUMP, "dump", "a LAMMPS dump local", "dump", 3, walls | cells | non_additivity, false,
-     nullptr, nullptr, write_contacts_dump},
-    {contacts, JAM_CONTACTS_VTP, "vtp", "VTP of ParaView", "vtp", 3, walls | cells | non_additivity, false, nullptr,
-     nullptr, write_contacts_vtp},
-    {image, 1, "npy", "an array of numpy", "npy", 3, walls | cells | non_additivity, false, nullptr, nullptr, nullptr},
-    {image, 2, "mha", "MetaImage", "mha", 3, walls | cells | non_additivity, false, nullptr, nullptr, nullptr},
-    {image, 3, "vti", "an image of VTK", "vti", 3, walls | cells | non_additivity, false, nullptr, nullptr, nullptr},
+    {contacts, JAM_CONTACTS_DUMP, "dump", "a LAMMPS dump local", "dump", 3, stores::scene, false, nullptr, nullptr,
+     write_contacts_dump},
+    {contacts, JAM_CONTACTS_VTP, "vtp", "VTP of ParaView", "vtp", 3, stores::scene, false, nullptr, nullptr,
+     write_contacts_vtp},
+    {image, 1, "npy", "an array of numpy", "npy", 3, stores::scene, false, nullptr, nullptr, nullptr},
+    {image, 2, "mha", "MetaImage", "mha", 3, stores::scene, false, nullptr, nullptr, nullptr},
+    {image, 3, "vti", "an image of VTK", "vti", 3, stores::scene, false, nullptr, nullptr, nullptr},
 };
 
 constexpr const char *content_words[] = {"packings", "contacts", "images"};
@@ -76,7 +77,7 @@ std::string endings_of(Content content) {
 std::string alternatives(uint32_t what) {
   std::string all;
   for (const Format &row : table)
-    if (row.write && row.read && row.stores & what) all += (all.empty() ? "" : ", ") + std::string(row.name);
+    if (row.write && row.read && row.what & what) all += (all.empty() ? "" : ", ") + std::string(row.name);
   return all;
 }
 
@@ -99,21 +100,21 @@ const Format &format_to_write(Content content, const char *path, int32_t number)
        path, ending.c_str(), content_words[static_cast<size_t>(content)], endings_of(content).c_str());
 }
 
-void check_fits(const Packing &p, const Format &format, double given_density) {
+void check_fits(const Packing &p, const Format &format, double density) {
   if (p.dim > format.most_dim)
     fail(JAM_E_UNSUPPORTED, "%s has d = 2 or d = %d, this packing has d = %d", format.name, format.most_dim, p.dim);
-  if (p.non_additivity != 0.0 && !(format.stores & non_additivity))
+  if (p.non_additivity != 0.0 && !(format.what & stores::non_additivity))
     fail(JAM_E_UNSUPPORTED, "%s cannot store non_additivity = %g: write %s or a checkpoint", format.name,
-         p.non_additivity, alternatives(non_additivity).c_str());
-  if (given_density != 1.0 && !(format.stores & density))
-    fail(JAM_E_UNSUPPORTED, "%s has no place for a density, here %g: write %s", format.name, given_density,
-         alternatives(density).c_str());
-  if (p.container && !(format.stores & walls))
+         p.non_additivity, alternatives(stores::non_additivity).c_str());
+  if (density != 1.0 && !(format.what & stores::density))
+    fail(JAM_E_UNSUPPORTED, "%s has no place for a density, here %g: write %s", format.name, density,
+         alternatives(stores::density).c_str());
+  if (p.container && !(format.what & stores::walls))
     fail(JAM_E_UNSUPPORTED, "%s cannot store walls: write %s or a checkpoint", format.name,
-         alternatives(walls).c_str());
-  if (!p.cell.cube() && !(format.stores & cells))
+         alternatives(stores::walls).c_str());
+  if (!p.cell.cube() && !(format.what & stores::cells))
     fail(JAM_E_UNSUPPORTED, "%s cannot store a cell that is no cube: write %s or a checkpoint", format.name,
-         alternatives(cells).c_str());
+         alternatives(stores::cells).c_str());
 }
 
 const char *formats_text() {
@@ -123,12 +124,12 @@ const char *formats_text() {
     Text() {
       size_t used = 0;
       for (const Format &row : table) {
-        const int put =
-            std::snprintf(text + used, sizeof text - used, "%s\t%d\t%s\t%s\t%s\t%d\tspheres%s%s%s%s\t%s%s%s\n",
-                          content_words[static_cast<size_t>(row.content)], row.number, row.word, row.name, row.endings,
-                          row.most_dim, row.stores & walls ? " walls" : "", row.stores & cells ? " cells" : "",
-                          row.stores & non_additivity ? " non_additivity" : "", row.stores & density ? " density" : "",
-                          row.read ? "read" : "", row.read && written(row) ? " " : "", written(row) ? "write" : "");
+        const int put = std::snprintf(
+            text + used, sizeof text - used, "%s\t%d\t%s\t%s\t%s\t%d\tspheres%s%s%s%s\t%s%s%s\n",
+            content_words[static_cast<size_t>(row.content)], row.number, row.word, row.name, row.endings, row.most_dim,
+            row.what & stores::walls ? " walls" : "", row.what & stores::cells ? " cells" : "",
+            row.what & stores::non_additivity ? " non_additivity" : "", row.what & stores::density ? " density" : "",
+            row.read ? "read" : "", row.read && written(row) ? " " : "", written(row) ? "write" : "");
         used += put > 0 ? static_cast<size_t>(put) : 0;
         if (used >= sizeof text) break;
       }

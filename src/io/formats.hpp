@@ -17,7 +17,9 @@ class OutputFile;
 enum class Content { packing, contacts, image };
 
 // What a file of a format can store beside positions and diameters. Cells: other than cubes.
-constexpr uint32_t walls = 1, cells = 2, non_additivity = 4, density = 8;
+namespace stores {
+constexpr uint32_t walls = 1, cells = 2, non_additivity = 4, density = 8, scene = walls | cells | non_additivity;
+}
 
 struct Format {
   Content content;
@@ -26,7 +28,7 @@ struct Format {
   const char *name;     // in sentences
   const char *endings;  // of names, parted by blanks; "-" is a name without an ending
   int most_dim;
-  uint32_t stores;                                         // sum of what is below
+  uint32_t what;                                           // sum of `stores`
   bool frames;                                             // a file may contain several packings
   FileContent (*read)(LineReader &, const ReadOptions &);  // NULL: written only
   void (*write)(const Packing &, const Beside &, OutputFile &);
@@ -39,7 +41,7 @@ const Format &format_of_name(const char *name);
 // endings, where none fits.
 const Format &format_to_write(Content content, const char *path, int32_t number);
 // JAM_E_UNSUPPORTED, naming the formats that can, where this one cannot hold the packing: nothing is left out.
-void check_fits(const Packing &p, const Format &format, double given_density = 1.0);
+void check_fits(const Packing &p, const Format &format, double density = 1.0);
 // All rows as text: see jam_formats in jam.h.
 const char *formats_text();
 

@@ -133,14 +133,16 @@ std::vector<std::string> column_names(std::string_view line, char comma) {
   return names;
 }
 
-void check_inside(const LineReader &in, int64_t line, double x, const ReadOptions &options) {
+bool is_inside(double x, const ReadOptions &options) {
   constexpr double rounding = 1e-6;  // six digits round to the face itself
-  if (options.says_box() || (x >= -rounding && x <= 1.0 + rounding)) return;
-  inside::fail(
-      JAM_E_FORMAT,
-      "%s line %lld: the coordinate %g lies outside the box [0, 1], and the file names no box: write 'box <side>' "
-      "behind the diameter on line 3 of plain text, or give the option box or cell",
-      in.path().c_str(), static_cast<long long>(line), x);
+  return options.says_box() || (x >= -rounding && x <= 1.0 + rounding);
+}
+
+void refuse_outside(const LineReader &in, int64_t line, double x) {
+  inside::fail(JAM_E_FORMAT,
+               "%s line %lld: the coordinate %g lies outside the box [0, 1], and the file names no box: write 'box "
+               "<side>' behind the diameter on line 3 of plain text, or give the option box or cell",
+               in.path().c_str(), static_cast<long long>(line), x);
 }
 
 void take_plane(const std::vector<double> &positions, double low, double high, FileContent &content) {

@@ -104,9 +104,9 @@ std::vector<std::string> column_names(std::string_view line, char comma = ',');
 // Whether a first line names coordinates of a table.
 bool names_coordinates(std::string_view line);
 
-// Refuses a coordinate outside the box [0, 1] where neither file nor caller say which box it is in: it would be
-// wrapped.
-void check_inside(const LineReader &in, int64_t line, double x, const ReadOptions &options);
+// Whether a coordinate lies in the box [0, 1], or file or caller say which box it is in: it would be wrapped.
+bool is_inside(double x, const ReadOptions &options);
+[[noreturn]] void refuse_outside(const LineReader &in, int64_t line, double x);
 
 // Gives a file the cell and the origin that the caller names.
 void take_layout(const char *path, const ReadOptions &options, FileContent &content);

@@ -43,6 +43,33 @@ void take_vectors(const LineReader &in, FileContent &content) {
   take_cell(in, std::move(rows), content);
 }
 
+// n rows; where cell vectors may stand before them, up to `more` others.
+void read_rows(LineReader &in, int64_t n, bool each, int more, const ReadOptions &options, FileContent &content) {
+  const size_t columns = static_cast<size_t>(content.dim) + (each ? 1 : 0);
+  std::vector<std::string_view> words;
+  Rows rows(in, true);
+  int64_t found = 0, line_behind = 0, line_outside = 0;
+  std::string behind;    // the first row that no sphere needs
+  double outside = 0.0;  // the first coordinate that no box of side 1 has
+  for (; found < n + more && rows.next(words); ++found) {
+    if (found == n) behind = joined(words), line_behind = in.number();
+    if (words.size() != columns && found >= n) refuse_more(in, line_behind, n, behind);
+    if (words.size() != columns)
+      in.fail(JAM_E_FORMAT, "%zu columns, %zu are needed (%s)", words.size(), columns,
+              each ? "coordinates and diameter" : "coordinates");
+    for (int c = 0; c < content.dim; ++c) {
+      content.position.push_back(parse_number(in, words[c]));
+      if (line_outside == 0 && !is_inside(content.position.back(), options))
+        line_outside = in.number(), outside = content.position.back();
+    }
+    if (each) content.diameter.push_back(positive(in, words.back(), "diameter"));
+  }
+  if (found < n) ends_early(in, found, n);
+  if (found > n && found < n + more) refuse_more(in, line_behind, n, behind);
+  if (found > n) take_vectors(in, content);
+  if (!content.has_box() && line_outside > 0) refuse_outside(in, line_outside, outside);
+}
+
 }  // namespace
 
 FileContent read_plain(LineReader &in, const ReadOptions &options) {
@@ -57,27 +84,8 @@ FileContent read_plain(LineReader &in, const ReadOptions &options) {
   const bool each = read_diameter_line(in, content);
   content.enclosure = options.enclosure;
   content.knows_walls = true;  // the format is one of periodic cubes: only the caller can name walls
-  const size_t columns = static_cast<size_t>(content.dim) + (each ? 1 : 0);
   const bool may_have_vectors = !each && !content.has_box();
-  Rows rows(in, true);
-  std::vector<int64_t> at;  // the line of each row
-  std::string behind;       // the first row that no sphere needs
-  for (; at.size() < static_cast<size_t>(n + (may_have_vectors ? content.dim : 0)) && rows.next(words);
-       at.push_back(in.number())) {
-    if (at.size() == static_cast<size_t>(n)) behind = joined(words);
-    if (at.size() >= static_cast<size_t>(n) && words.size() != columns) refuse_more(in, in.number(), n, behind);
-    if (words.size() != columns)
-      in.fail(JAM_E_FORMAT, "%zu columns, %zu are needed (%s)", words.size(), columns,
-              each ? "coordinates and diameter" : "coordinates");
-    for (int c = 0; c < content.dim; ++c) content.position.push_back(parse_number(in, words[c]));
-    if (each) content.diameter.push_back(positive(in, words.back(), "diameter"));
-  }
-  const int64_t found = static_cast<int64_t>(at.size());
-  if (found < n) ends_early(in, found, n);
-  if (found > n && found < n + content.dim) refuse_more(in, at[static_cast<size_t>(n)], n, behind);
-  if (found > n) take_vectors(in, content);
-  for (size_t k = 0; k < content.position.size() && !content.has_box(); ++k)
-    check_inside(in, at[k / static_cast<size_t>(content.dim)], content.position[k], options);
+  read_rows(in, n, each, may_have_vectors ? content.dim : 0, options, content);
   check_end(in, n);
   return content;
 }

@@ -223,7 +223,7 @@ FileContent read_table(LineReader &in, const ReadOptions &options) {
               named.empty() ? "the first rows have" : "columns names", columns.total);
     for (const size_t column : columns.axis) {
       const double x = parse_number(in, words[column]);
-      if (!content.has_box()) check_inside(in, in.number(), x, options);
+      if (!content.has_box() && !is_inside(x, options)) refuse_outside(in, in.number(), x);
       content.position.push_back(x);
     }
     content.diameter.push_back(columns.size.diameter(in, words));

@@ -10,16 +10,18 @@ typedef struct network {
   char doubt[1024]; /* why it is empty, or not the only one, or no jammed one; empty where none of these */
 } network;
 
-/* Contacts by the gaps of the file, which needs no crunch. */
-/* Spheres without forces are a fault where the network is asked for, not where a mesh would join touching ones. */
-static void find_network(jam_system *sys, network *found, int wanted) {
-  jam_geometry_report report = {.struct_size = sizeof report};
+/* Contacts by the gaps of the file, which needs no crunch: those that balance, or with --contact-gap all within it.
+ * Spheres without forces are a fault where the network is asked for, not where a mesh would join touching ones. */
+static void find_network(const options *o, jam_system *sys, network *found, int wanted) {
   jam_status status;
+  size_t numbers = 0;
   cancel_on_signal(sys);
-  status = jam_contacts_from_geometry(sys, NULL, &report);
+  status = isfinite(o->contact_gap) ? jam_contacts_by_distance(sys, o->contact_gap)
+                                    : jam_contacts_from_geometry(sys, NULL, NULL);
   cancel_on_signal(NULL);
   found->known = status >= 0 && status != JAM_CANCELLED;
-  found->contacts = found->known ? report.contacts : 0;
+  if (found->known) jam_contacts(sys, NULL, 0, &numbers);
+  found->contacts = (int64_t)(numbers / 2);
   if (status == JAM_OK || (!wanted && found->known && found->contacts == 0)) return;
   in_own_words(jam_last_error(), found->doubt, sizeof found->doubt);
   complain("%s%s", found->known ? "warning: " : "no contact network: ", jam_last_error());
@@ -53,6 +55,7 @@ static int write_json(const options *o, const jam_system *sys, int code, const n
   put_number(out.file, "packing_fraction", info.packing_fraction);
   fprintf(out.file, "  \"network\": %s,\n", found->contacts > 0 ? "true" : "false");
   put_count(out.file, "contacts", found->contacts, found->known);
+  put_number(out.file, "contact_gap", info.contact_gap);
   fputs("  \"written\": [", out.file);
   each_output(o, put_path, &list);
   fputs("],\n", out.file);
@@ -69,14 +72,15 @@ static int print_path(const char *path, void *with) {
 
 int export_file(const options *o) {
   const int tables = o->contacts || o->spectrum || o->gaps || o->structure;
-  const int wanted = tables || o->vtk || o->page || (o->stl && isfinite(o->stl_bridge));
+  const int bridges = o->stl && isfinite(o->stl_bridge) && !isfinite(o->stl_bridge_gap);
+  const int wanted = tables || o->vtk || o->page || bridges;
   network found = {0, 0, ""};
   jam_system *sys = NULL;
   int code = read_as_it_is(o, &sys), cut_short = 0;
   if (!code && !sys) code = EXIT_FAILED;
   if (!code && check_formats(o, sys)) code = EXIT_USAGE;
   if (code) return leave(sys, code);
-  if (wanted || (o->stl && !isfinite(o->stl_shrink))) find_network(sys, &found, wanted);
+  if (wanted || (o->stl && !isfinite(o->stl_shrink))) find_network(o, sys, &found, wanted);
   if (!found.known)
     note_omitted(o->contacts), note_omitted(o->spectrum), note_omitted(o->gaps), note_omitted(o->structure);
   if (write_files(sys, o, found.known, seconds_now() + o->wall_time, &cut_short))

@@ -60,6 +60,8 @@ typedef struct options {
   double stl_edge;
   double stl_shrink;
   double stl_bridge;
+  double stl_bridge_gap;
+  const char *stl_walls;
   const char *voxels;
   double voxel_size;
   int64_t voxel_lines;
@@ -69,10 +71,11 @@ typedef struct options {
   int64_t pore_points;
   int64_t pore_seed;
   const char *near_coordination;
+  double contact_gap;
   double near_gap;
   double wall_time;
   given given; /* what has a form of its own */
-  unsigned char named[70]; /* of each row of the table, whether it is on the command line */
+  unsigned char named[73]; /* of each row of the table, whether it is on the command line */
 } options;
 
 /* First words of a command line. */
@@ -226,11 +229,15 @@ static const option_row table[] = {
     {"--stl", TAKE_OUTPUT, offsetof(options, stl), 0, 0, 0, 0,
      NULL, TAKES_GZIP, "", "", 32},
     {"--stl-edge", TAKE_POSITIVE, offsetof(options, stl_edge), 0, 0, 0.03, 1,
-     NULL, 0, "", "--stl", 32},
+     NULL, 0, "", "--stl --stl-walls", 32},
     {"--stl-shrink", TAKE_FRACTION, offsetof(options, stl_shrink), 0, 0, 0, 0,
      NULL, 0, "", "--stl", 32},
     {"--stl-bridge", TAKE_POSITIVE, offsetof(options, stl_bridge), 0, 0, 0.02, 0.45,
      NULL, 0, "--stl-shrink", "--stl", 32},
+    {"--stl-bridge-gap", TAKE_FRACTION, offsetof(options, stl_bridge_gap), 0, 0, 0, 0,
+     NULL, 0, "", "--stl-bridge", 32},
+    {"--stl-walls", TAKE_OUTPUT, offsetof(options, stl_walls), 0, 0, 0, 0,
+     NULL, TAKES_GZIP, "", "", 32},
     {"--voxels", TAKE_OUTPUT, offsetof(options, voxels), 0, 0, 0, 0,
      NULL, TAKES_GZIP, "", "", 32},
     {"--voxel-size", TAKE_POSITIVE, offsetof(options, voxel_size), 0, 0, 0, 0,
@@ -249,6 +256,8 @@ static const option_row table[] = {
      NULL, 0, "", "--pores", 32},
     {"--near-coordination", TAKE_OUTPUT, offsetof(options, near_coordination), 0, 0, 0, 0,
      NULL, 0, "", "", 32},
+    {"--contact-gap", TAKE_FRACTION, offsetof(options, contact_gap), 0, 0, 0, 0,
+     NULL, 0, "", "--contacts --gaps --structure --vtk --page --stl-bridge", 96},
     {"--near-gap", TAKE_FRACTION, offsetof(options, near_gap), 0, 0, 0, 0,
      NULL, 0, "", "--near-coordination", 32},
     {"--wall-time", TAKE_POSITIVE, offsetof(options, wall_time), 0, 0, 0, 0,
@@ -287,11 +296,13 @@ static const options defaults = {
     .stl_edge = 0.2,
     .stl_shrink = INFINITY,
     .stl_bridge = INFINITY,
+    .stl_bridge_gap = INFINITY,
     .voxel_size = INFINITY,
     .voxel_lines = 0,
     .profile_bins = 100,
     .pore_points = 10000,
     .pore_seed = 1,
+    .contact_gap = INFINITY,
     .near_gap = 0.01,
     .wall_time = INFINITY,
 };
@@ -459,13 +470,17 @@ static const help_line help[] = {
     {359, "\t  --plot PICTURE         spheres, forces and the way there, by matplotlib"},
     {383, "  --json                 JSON on standard output in place of the summary"},
     {383, "  --quiet                no progress, no summary"},
-    {288, "Pore space"},
+    {352, "Pore space"},
     {288, "  --stl FILE.stl         the solid as a closed mesh of triangles, spheres cut at the faces"},
     {288, "                         of the cell; d = 3"},
     {288, "  --stl-edge A           edge of the triangles over the radius, 0.03..1 (0.2)"},
     {288, "  --stl-shrink F         all diameters of the mesh times F, so that no spheres touch"},
     {288, "  --stl-bridge B         a cylinder along each contact, its radius B times that of the"},
     {288, "                         smaller sphere, 0.02..0.45"},
+    {288, "  --stl-bridge-gap H     bridges between all pairs within this gap over the contact"},
+    {288, "                         distance, in place of contacts that balance"},
+    {288, "  --stl-walls FILE.stl   the walls of the container as a mesh of their own, with --stl-edge;"},
+    {288, "                         d = 3"},
     {288, "  --voxels FILE          the solid as an image, .npy, .mha (MetaImage) or .vti (VTK): 0"},
     {288, "                         void, 1 solid, 2 outside a round container"},
     {288, "  --voxel-size A         edge of a voxel, about (a hundredth of the box)"},
@@ -480,6 +495,9 @@ static const help_line help[] = {
     {288, "  --pore-seed S          of these points (1)"},
     {288, "  --near-coordination FILE.csv"},
     {288, "                         spheres within a gap of each sphere; needs no contact network"},
+    {352, "  --contact-gap H        contacts are all pairs within this gap over the contact distance,"},
+    {352, "                         whether forces on them balance or not: for beds under weight and"},
+    {352, "                         friction. Tables then have no forces"},
     {288, "  --near-gap H           this gap over the contact distance (0.01)"},
     {511, "Other"},
     {383, "  --wall-time SECONDS    limit for the whole run"},

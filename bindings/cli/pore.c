@@ -4,6 +4,18 @@
 #include <stdlib.h>
 #include "jam-pack.h"
 
+/* The walls alone, in a file of their own: programs give them conditions of their own. */
+static int write_walls(const jam_system *sys, const options *o) {
+  jam_mesh_options mesh;
+  jam_mesh_report r = {.struct_size = sizeof r};
+  jam_mesh_options_init(&mesh, sizeof mesh);
+  mesh.edge = o->stl_edge;
+  mesh.walls = JAM_MESH_WALLS;
+  if (has_failed(jam_write_stl(sys, o->stl_walls, &mesh, &r))) return -1;
+  if (!o->quiet && !o->json) printf("  walls     %lld triangles\n", (long long)r.triangles);
+  return 0;
+}
+
 /* The size of the file is said before the work. */
 static int write_mesh(const jam_system *sys, const options *o) {
   jam_mesh_options mesh;
@@ -12,11 +24,11 @@ static int write_mesh(const jam_system *sys, const options *o) {
   mesh.edge = o->stl_edge;
   if (isfinite(o->stl_shrink)) mesh.contacts = JAM_MESH_SHRUNK, mesh.factor = o->stl_shrink;
   if (isfinite(o->stl_bridge)) mesh.contacts = JAM_MESH_BRIDGED, mesh.bridge = o->stl_bridge;
+  if (isfinite(o->stl_bridge_gap)) mesh.bridge_gap = o->stl_bridge_gap;
   if (has_failed(jam_write_stl(sys, NULL, &mesh, &r))) return -1;
   if (!o->quiet) complain("the mesh has about %.2g triangles, %.2g MB", (double)r.triangles, 1e-6 * (double)r.bytes);
   if (has_failed(jam_write_stl(sys, o->stl, &mesh, &r))) return -1;
-  if (isfinite(o->stl_bridge) && r.bridges == 0)
-    complain("warning: %s has no bridge, since the contact network is empty", o->stl);
+  if (isfinite(o->stl_bridge) && r.bridges == 0) complain("warning: %s has no bridge: %s", o->stl, jam_last_error());
   if (!o->quiet && !o->json)
     printf("  mesh      %lld triangles, %.3g MB, volume %.6g of exactly %.6g\n", (long long)r.triangles,
            1e-6 * (double)r.bytes, r.volume, r.solid);
@@ -119,12 +131,13 @@ static int write_coordination(const jam_system *sys, const options *o) {
 
 int write_pore_space(jam_system *sys, const options *o) {
   const int bad[] = {o->stl ? missing(o->stl, write_mesh(sys, o)) : 0,
+                     o->stl_walls ? missing(o->stl_walls, write_walls(sys, o)) : 0,
                      o->voxels ? missing(o->voxels, write_image(sys, o)) : 0,
                      o->profile ? missing(o->profile, write_profile(sys, o)) : 0,
                      o->near_coordination ? missing(o->near_coordination, write_coordination(sys, o)) : 0,
                      o->pores ? missing(o->pores, write_pores(sys, o)) : 0};
   int worst = 0, k;
-  for (k = 0; k < 5; ++k)
+  for (k = 0; k < (int)(sizeof bad / sizeof *bad); ++k)
     if (bad[k] && worst >= 0) worst = bad[k];
   return worst;
 }

@@ -64,8 +64,10 @@ jam_status jam_pack_gaps(const jam_system *sys, double h_max, char **text) {
   return status;
 }
 
-/* Columns: sphere,z,class,c1..cd,s,fs,q6,phi; phi is left empty where there is no Voronoi cell to take it from. */
-static void print_structure(FILE *f, const jam_info *info, const int32_t *z, const double *c, const double *phi) {
+/* Columns: sphere,z,class,c1..cd,s,fs,q6,phi; phi is left empty where there is no Voronoi cell to take it from, class
+ * and fs where contacts are by distance. */
+static void print_structure(FILE *f, const jam_info *info, const int32_t *z, const double *c, const double *phi,
+                            int has_forces) {
   const size_t n = (size_t)info->n, d = (size_t)info->dim;
   const double *const s = c + d * n, *const fs = s + n, *const q = fs + n;
   size_t i, x;
@@ -73,9 +75,12 @@ static void print_structure(FILE *f, const jam_info *info, const int32_t *z, con
   for (x = 0; x < d; ++x) fprintf(f, ",c%zu", x + 1);
   fputs(",s,fs,q6,phi\n", f);
   for (i = 0; i < n; ++i) {
-    fprintf(f, "%zu,%d,%s", i, (int)z[i], z[i] == 0 ? "rattler" : z[i] == info->dim + 1 ? "buckler" : "stable");
+    fprintf(f, "%zu,%d,", i, (int)z[i]);
+    if (has_forces) fputs(z[i] == 0 ? "rattler" : z[i] == info->dim + 1 ? "buckler" : "stable", f);
     for (x = 0; x < d; ++x) fprintf(f, ",%.17g", c[d * i + x]);
-    fprintf(f, ",%.17g,%.17g,%.17g,", s[i], fs[i], q[i]);
+    fprintf(f, ",%.17g,", s[i]);
+    if (has_forces) fprintf(f, "%.17g", fs[i]);
+    fprintf(f, ",%.17g,", q[i]);
     if (phi) fprintf(f, "%.17g", phi[i]);
     fputc('\n', f);
   }
@@ -87,13 +92,14 @@ jam_status jam_pack_structure(const jam_system *sys, char **text) {
   double *c = NULL, *s, *phi;
   int32_t *z = NULL;
   FILE *f = NULL;
-  int has_phi = 0;
+  int has_phi = 0, has_forces;
   jam_status status = info_of(sys, &info);
   if (status != JAM_OK) return status;
   n = (size_t)info.n, d = (size_t)info.dim;
   status = coordination(sys, n, &z);
   c = malloc((d + 4) * n * sizeof *c);
   if (!c && status == JAM_OK) status = no_memory();
+  has_forces = !isfinite(info.contact_gap); /* else contacts by distance */
   s = c + d * n, phi = s + 3 * n;
   if (status == JAM_OK) {
     const jam_status found = jam_local_fraction(sys, phi, n, NULL);
@@ -101,11 +107,11 @@ jam_status jam_pack_structure(const jam_system *sys, char **text) {
     if (found > 0) status = found;
   }
   if (status == JAM_OK) status = jam_sphere_structure(sys, 0, c, d * n, s, n, NULL);
-  if (status == JAM_OK) status = jam_sphere_structure(sys, 1, NULL, 0, s + n, n, NULL);
+  if (status == JAM_OK && has_forces) status = jam_sphere_structure(sys, 1, NULL, 0, s + n, n, NULL);
   if (status == JAM_OK) status = jam_bond_order(sys, 6, 1.2, s + 2 * n, n, NULL);
   if (status == JAM_OK && !(f = open_text(text, &length))) status = no_memory();
   if (status == JAM_OK) {
-    print_structure(f, &info, z, c, has_phi ? phi : NULL);
+    print_structure(f, &info, z, c, has_phi ? phi : NULL, has_forces);
     status = finished(f, text, &length);
   }
   free(c), free(z);

@@ -380,10 +380,17 @@ module jam
   integer(c_int32_t), parameter :: JAM_STRUCTURE_S = 1
 
   ! jam_mesh_contacts: Solid and void inside the brick [0, a_00) x [0, a_11) x ..., which repeats as the cell does; spheres are cut at its
-  ! faces. d = 2 and 3, no Mari-Kurchan shifts: else JAM_E_UNSUPPORTED. What becomes of contacts in a mesh:
+  ! faces. The solid is the union of the spheres: volume that spheres share counts once. d = 2 and 3, no Mari-Kurchan
+  ! shifts: else JAM_E_UNSUPPORTED. What becomes of contacts in a mesh:
   integer(c_int32_t), parameter :: JAM_MESH_KEPT = 0
   integer(c_int32_t), parameter :: JAM_MESH_SHRUNK = 1
   integer(c_int32_t), parameter :: JAM_MESH_BRIDGED = 2
+
+  ! jam_mesh_walls: What of the walls a mesh has: triangles around them, turned outwards, whose planes touch a round wall from outside,
+  ! so that no sphere inside passes them.
+  integer(c_int32_t), parameter :: JAM_MESH_SPHERES = 0
+  integer(c_int32_t), parameter :: JAM_MESH_AND_WALLS = 1
+  integer(c_int32_t), parameter :: JAM_MESH_WALLS = 2
 
   ! jam_profile_column: Columns of jam_solid_profile.
   integer(c_int32_t), parameter :: JAM_PROFILE_LOW = 0
@@ -508,7 +515,7 @@ module jam
 
   ! What the system is now.
   type, bind(c) :: jam_info
-    integer(c_int32_t) :: struct_size = 96
+    integer(c_int32_t) :: struct_size = 104
     ! d
     integer(c_int32_t) :: dim = 0
     ! number of spheres
@@ -539,6 +546,8 @@ module jam
     integer(c_int32_t) :: walls = 0
     ! V of the container, else of the cell
     real(c_double) :: volume = 0
+    ! of jam_contacts_by_distance, while its contacts are kept; else NaN
+    real(c_double) :: contact_gap = 0
   end type jam_info
 
   ! Options of jam_diameters. Lengths are in the user's unit. NaN and 0 stand for what is not given.
@@ -1441,6 +1450,11 @@ module jam
     real(c_double) :: factor = 0
     ! of BRIDGED: radius of a cylinder over that of the smaller sphere, 0.02 .. 0.45, default 0.2
     real(c_double) :: bridge = 0
+    ! of BRIDGED: bridges between all pairs with h < bridge_gap <= 1, as in jam_near_coordination, which needs no network; default 0: along the contacts of the network
+    real(c_double) :: bridge_gap = 0
+    ! jam_mesh_walls, default SPHERES
+    integer(c_int32_t) :: walls = 0
+    integer(c_int32_t) :: reserved = 0
   end type jam_mesh_options
 
   ! What jam_write_stl wrote.
@@ -2057,6 +2071,20 @@ module jam
       type(jam_geometry_report), intent(inout), optional :: report
       integer(c_int32_t) :: status
     end function jam_contacts_from_geometry
+
+    ! Contacts by distance alone, of any packing: all pairs with h < gap, 0 < gap <= 1, every image, and walls. No balance
+    ! is required or tested, so there are no forces, no rattlers, no report and no verdict: for beds under weight and
+    ! friction. jam_contacts, jam_contact_vectors, jam_contact_gaps, jam_coordination, jam_fabric_tensor, jam_gaps,
+    ! jam_contact_dots and jam_sphere_structure (not weighted), jam_write_contacts, jam_write_stl and jam_write_page take
+    ! them; jam_forces gives NaN, tables have no column of forces, pages say so, and jam_info.contact_gap is the gap.
+    ! Status: JAM_NOT_JAMMED when there are none
+    function jam_contacts_by_distance(sys, gap) &
+        bind(c, name="jam_contacts_by_distance") result(status)
+      import
+      type(c_ptr), value :: sys
+      real(c_double), value :: gap
+      integer(c_int32_t) :: status
+    end function jam_contacts_by_distance
 
     ! Tests whether the packing is jammed. Nothing changes but strictly_jammed in the stored crunch report. Contacts are
     ! pairs with gaps below 1e-10, whether a network lists them or not: none is needed, and the check answers the same.
@@ -4911,7 +4939,7 @@ contains
 
   ! Contact forces, mean 1; times report.force_scale they are lambda r. With more than one state of self-stress
   ! (excess_contacts > 0: crystals, disks of two sizes) they are not unique. A jammed packing then has those in the
-  ! middle of all non-negative states, as jam_stress_states gives.
+  ! middle of all non-negative states, as jam_stress_states gives. NaN after jam_contacts_by_distance.
   ! Shapes: out (contacts).
   ! Errors: JAM_E_STATE.
   function jam_forces(sys, out, out_len, needed) result(status)
@@ -4936,7 +4964,7 @@ contains
     status = c_jam_forces(sys, at_out, count_out, needed)
   end function jam_forces
 
-  ! Number of contacts of each sphere; 0 for rattlers.
+  ! Number of contacts of each sphere; 0 for rattlers, or spheres without contacts by distance.
   ! Shapes: out (n).
   ! Errors: JAM_E_STATE.
   function jam_coordination(sys, out, out_len, needed) result(status)
@@ -6280,9 +6308,11 @@ contains
     status = c_jam_local_fraction(sys, at_out, count_out, needed)
   end function jam_local_fraction
 
-  ! Binary STL of the solid, d = 3, closed: each edge belongs to two triangles, which pass it in opposite directions. No
-  ! cylinder leads to a wall; cylinders that would meet are refused with their numbers. The file appears as of jam_write;
-  ! path NULL: none, and triangles and bytes are an estimate. Status: JAM_NOT_JAMMED (BRIDGED, and no spheres touch).
+  ! Binary STL of the solid, d = 3, closed: each edge belongs to two triangles, which pass it in opposite directions. Two
+  ! spheres that overlap are joined along their common circle. A third sphere there, and a sphere inside another, would
+  ! make the mesh cut itself and are refused with their numbers, as are cylinders that would meet. No cylinder leads to a
+  ! wall. The file appears as of jam_write; path NULL: none, and triangles and bytes are an estimate. Status:
+  ! JAM_NOT_JAMMED (BRIDGED, and there is no bridge).
   ! Errors: JAM_E_STATE (BRIDGED, no network), JAM_E_UNSUPPORTED, JAM_E_IO.
   function jam_write_stl(sys, path, o, report) result(status)
     type(c_ptr), intent(in) :: sys
@@ -6332,8 +6362,8 @@ contains
     status = c_jam_write_voxels(sys, jam_c_string(path), o, report)
   end function jam_write_voxels
 
-  ! Solid fraction in equal bins, exact: axis 0 .. d-1, slabs between the faces of the cell that a_axis joins; axis = d,
-  ! shells of a ball or a cylinder (there to 1e-12).
+  ! Solid fraction in equal bins, exact also where spheres overlap or pass a wall: axis 0 .. d-1, slabs between the faces
+  ! of the cell that a_axis joins; axis = d, shells of a ball or a cylinder (there to 1e-12).
   ! Shapes: table (bins, jam_profile_column).
   ! Errors: JAM_E_UNSUPPORTED.
   function jam_solid_profile(sys, axis, bins, columns, table, table_len, needed) result(status)
@@ -6386,8 +6416,8 @@ contains
     status = c_jam_near_coordination(sys, h_max, at_out, count_out, needed)
   end function jam_near_coordination
 
-  ! Pore sizes at random points of the void, exact; not in a cylinder. The time grows with the fourth power of the
-  ! number of neighbours of a point: use it above packing fractions of about 0.4.
+  ! Pore sizes at random points of the void, exact; in a cylinder to 1e-9 of the spacing of spheres. The time grows with
+  ! the fourth power of the number of neighbours of a point: use it above packing fractions of about 0.4.
   ! Shapes: table (points, jam_pore_column).
   ! Errors: JAM_E_UNSUPPORTED.
   function jam_pore_sizes(sys, points, seed, columns, table, table_len, needed) result(status)

@@ -59,6 +59,7 @@ module jam_packing
     procedure :: modes => do_modes
     procedure :: bloch_modes => do_bloch_modes
     procedure :: contacts_from_geometry => do_contacts_from_geometry
+    procedure :: contacts_by_distance => do_contacts_by_distance
     procedure :: contact_candidates => do_contact_candidates
     procedure :: stress_states => do_stress_states
     procedure :: rigidity => do_rigidity
@@ -112,13 +113,13 @@ module jam_packing
     do_relax, do_decompress, do_decompress_history, do_contacts, &
     do_contact_vectors, do_contact_gaps, do_forces, do_coordination, &
     do_hessian_map, do_hessian, do_modes, do_bloch_modes, &
-    do_contacts_from_geometry, do_contact_candidates, do_stress_states, &
-    do_rigidity, do_flex, do_bloch_rigidity, do_check, do_prove, do_prove_strict, &
-    do_write_proof, do_write_proof_strict, do_refined_positions, do_gaps, &
-    do_contact_classes, do_sphere_structure, do_contact_dots, do_fabric_tensor, &
-    do_local_values, do_histogram, do_pair_correlation, do_mk_shifts, &
-    do_structure_factor, do_bond_order, do_crystal_score, do_local_fraction, &
-    do_write_stl, do_voxels, do_write_voxels, do_solid_profile, &
+    do_contacts_from_geometry, do_contacts_by_distance, do_contact_candidates, &
+    do_stress_states, do_rigidity, do_flex, do_bloch_rigidity, do_check, do_prove, &
+    do_prove_strict, do_write_proof, do_write_proof_strict, do_refined_positions, &
+    do_gaps, do_contact_classes, do_sphere_structure, do_contact_dots, &
+    do_fabric_tensor, do_local_values, do_histogram, do_pair_correlation, &
+    do_mk_shifts, do_structure_factor, do_bond_order, do_crystal_score, &
+    do_local_fraction, do_write_stl, do_voxels, do_write_voxels, do_solid_profile, &
     do_near_coordination, do_pore_sizes, do_floppy_mode, do_floppy_modes, &
     do_density_of_states, do_project, do_curvature, do_moduli, do_elastic_tensor, &
     do_compare
@@ -907,7 +908,7 @@ contains
 
   ! Contact forces, mean 1; times report.force_scale they are lambda r. With more than one state of self-stress
   ! (excess_contacts > 0: crystals, disks of two sizes) they are not unique. A jammed packing then has those in the
-  ! middle of all non-negative states, as jam_stress_states gives.
+  ! middle of all non-negative states, as jam_stress_states gives. NaN after jam_contacts_by_distance.
   ! Shapes: out (contacts).
   ! Errors: JAM_E_STATE.
   function do_forces(self) result(found)
@@ -926,7 +927,7 @@ contains
     call self%done(status)
   end function do_forces
 
-  ! Number of contacts of each sphere; 0 for rattlers.
+  ! Number of contacts of each sphere; 0 for rattlers, or spheres without contacts by distance.
   ! Shapes: out (n).
   ! Errors: JAM_E_STATE.
   function do_coordination(self) result(found)
@@ -1088,6 +1089,20 @@ contains
     status = jam_contacts_from_geometry(self%sys, o=o, report=found)
     call self%done(status)
   end function do_contacts_from_geometry
+
+  ! Contacts by distance alone, of any packing: all pairs with h < gap, 0 < gap <= 1, every image, and walls. No balance
+  ! is required or tested, so there are no forces, no rattlers, no report and no verdict: for beds under weight and
+  ! friction. jam_contacts, jam_contact_vectors, jam_contact_gaps, jam_coordination, jam_fabric_tensor, jam_gaps,
+  ! jam_contact_dots and jam_sphere_structure (not weighted), jam_write_contacts, jam_write_stl and jam_write_page take
+  ! them; jam_forces gives NaN, tables have no column of forces, pages say so, and jam_info.contact_gap is the gap.
+  ! Status: JAM_NOT_JAMMED when there are none
+  subroutine do_contacts_by_distance(self, gap)
+    class(packing), intent(inout) :: self
+    real(c_double), intent(in) :: gap
+    integer(c_int32_t) :: status
+    status = jam_contacts_by_distance(self%sys, gap=gap)
+    call self%done(status)
+  end subroutine do_contacts_by_distance
 
   ! Candidates for the contact tolerance, for packings where no jump is clear; m is at most 12. A candidate is a jump of
   ! the sorted gaps below window, as in jam_geometry_options, with enough contacts for a rigid network below it. The
@@ -1618,9 +1633,11 @@ contains
     call self%done(status)
   end function do_local_fraction
 
-  ! Binary STL of the solid, d = 3, closed: each edge belongs to two triangles, which pass it in opposite directions. No
-  ! cylinder leads to a wall; cylinders that would meet are refused with their numbers. The file appears as of jam_write;
-  ! path NULL: none, and triangles and bytes are an estimate. Status: JAM_NOT_JAMMED (BRIDGED, and no spheres touch).
+  ! Binary STL of the solid, d = 3, closed: each edge belongs to two triangles, which pass it in opposite directions. Two
+  ! spheres that overlap are joined along their common circle. A third sphere there, and a sphere inside another, would
+  ! make the mesh cut itself and are refused with their numbers, as are cylinders that would meet. No cylinder leads to a
+  ! wall. The file appears as of jam_write; path NULL: none, and triangles and bytes are an estimate. Status:
+  ! JAM_NOT_JAMMED (BRIDGED, and there is no bridge).
   ! Errors: JAM_E_STATE (BRIDGED, no network), JAM_E_UNSUPPORTED, JAM_E_IO.
   function do_write_stl(self, path, o) result(found)
     class(packing), intent(inout) :: self
@@ -1670,8 +1687,8 @@ contains
     call self%done(status)
   end function do_write_voxels
 
-  ! Solid fraction in equal bins, exact: axis 0 .. d-1, slabs between the faces of the cell that a_axis joins; axis = d,
-  ! shells of a ball or a cylinder (there to 1e-12).
+  ! Solid fraction in equal bins, exact also where spheres overlap or pass a wall: axis 0 .. d-1, slabs between the faces
+  ! of the cell that a_axis joins; axis = d, shells of a ball or a cylinder (there to 1e-12).
   ! Shapes: table (bins, jam_profile_column).
   ! Errors: JAM_E_UNSUPPORTED.
   function do_solid_profile(self, axis, bins) result(found)
@@ -1713,8 +1730,8 @@ contains
     call self%done(status)
   end function do_near_coordination
 
-  ! Pore sizes at random points of the void, exact; not in a cylinder. The time grows with the fourth power of the
-  ! number of neighbours of a point: use it above packing fractions of about 0.4.
+  ! Pore sizes at random points of the void, exact; in a cylinder to 1e-9 of the spacing of spheres. The time grows with
+  ! the fourth power of the number of neighbours of a point: use it above packing fractions of about 0.4.
   ! Shapes: table (points, jam_pore_column).
   ! Errors: JAM_E_UNSUPPORTED.
   function do_pore_sizes(self, points, seed) result(found)

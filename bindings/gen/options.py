@@ -11,8 +11,8 @@ GROWING = (
 )
 TABLES = "contacts spectrum modes gaps structure vtk"
 PORES = (
-    "stl stl-edge stl-shrink stl-bridge voxels voxel-size voxel-lines profile profile-bins pores pore-points pore-seed "
-    "near-coordination near-gap"
+    "stl stl-edge stl-shrink stl-bridge stl-bridge-gap stl-walls voxels voxel-size voxel-lines profile profile-bins pores pore-points pore-seed "
+    "near-coordination near-gap contact-gap"
 )
 
 # Words that files may stand for, what the verb does, and the options that it takes.
@@ -28,7 +28,7 @@ VERBS = (
     Verb("check", ("input",), "is the packing of a file jammed as it is? Nothing moves", f"{READING} prove proof strict-proof"),
     Verb("info", ("input",), "what a file contains: cell, sizes, packing fraction, nearest pair", READING),
     Verb("export", ("input", "output"), "the packing of a file in other formats, its tables and its pore space", f"{READING} output scale density plot {TABLES} {PORES}"),
-    Verb("page", ("input", "page"), "a page that shows the packing of a file in a browser", f"{READING} page plot"),
+    Verb("page", ("input", "page"), "a page that shows the packing of a file in a browser", f"{READING} page plot contact-gap"),
     Verb("ensemble", (), "many packings in one folder: python3 -m jam ensemble --help", ""),
 )
 ALONE = PORES.split() + ["scale", "density"]  # options that no job of pack takes
@@ -358,7 +358,7 @@ TABLE = {
     ),
     "Pore space": (
         Option("stl", "output", "FILE.stl", "the solid as a closed mesh of triangles, spheres cut at the faces of the cell; d = 3", gzip=True),
-        Option("stl-edge", "positive", "A", "edge of the triangles over the radius, 0.03..1 (0.2)", 0.2, 0.03, 1, needs=("stl",)),
+        Option("stl-edge", "positive", "A", "edge of the triangles over the radius, 0.03..1 (0.2)", 0.2, 0.03, 1, needs=("stl", "stl-walls")),
         Option("stl-shrink", "fraction", "F", "all diameters of the mesh times F, so that no spheres touch", needs=("stl",)),
         Option(
             "stl-bridge",
@@ -371,6 +371,14 @@ TABLE = {
             without=("stl-shrink",),
             needs=("stl",),
         ),
+        Option(
+            "stl-bridge-gap",
+            "fraction",
+            "H",
+            "bridges between all pairs within this gap over the contact distance, in place of contacts that balance",
+            needs=("stl-bridge",),
+        ),
+        Option("stl-walls", "output", "FILE.stl", "the walls of the container as a mesh of their own, with --stl-edge; d = 3", gzip=True),
         Option(
             "voxels",
             "output",
@@ -400,6 +408,14 @@ TABLE = {
         Option("pore-points", "integer", "K", "points of --pores (10000)", 10000, 1, 1000000000, needs=("pores",)),
         Option("pore-seed", "integer", "S", "of these points (1)", 1, -INT64_MAX, INT64_MAX, needs=("pores",)),
         Option("near-coordination", "output", "FILE.csv", "spheres within a gap of each sphere; needs no contact network"),
+        Option(
+            "contact-gap",
+            "fraction",
+            "H",
+            "contacts are all pairs within this gap over the contact distance, whether forces on them balance or not: for "
+            "beds under weight and friction. Tables then have no forces",
+            needs=("contacts", "gaps", "structure", "vtk", "page", "stl-bridge"),
+        ),
         Option("near-gap", "fraction", "H", "this gap over the contact distance (0.01)", 0.01, needs=("near-coordination",)),
     ),
     "Other": (

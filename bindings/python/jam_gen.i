@@ -696,10 +696,10 @@ Shapes: out (contacts).
 Errors: JAM_E_STATE."
 %feature("docstring") jam_forces "Contact forces, mean 1; times report.force_scale they are lambda r. With more than one state of self-stress
 (excess_contacts > 0: crystals, disks of two sizes) they are not unique. A jammed packing then has those in the
-middle of all non-negative states, as jam_stress_states gives.
+middle of all non-negative states, as jam_stress_states gives. NaN after jam_contacts_by_distance.
 Shapes: out (contacts).
 Errors: JAM_E_STATE."
-%feature("docstring") jam_coordination "Number of contacts of each sphere; 0 for rattlers.
+%feature("docstring") jam_coordination "Number of contacts of each sphere; 0 for rattlers, or spheres without contacts by distance.
 Shapes: out (n).
 Errors: JAM_E_STATE."
 %feature("docstring") jam_hessian_options_init ""
@@ -730,6 +730,12 @@ self-stress. JAM_AMBIGUOUS: another candidate fits too (see second_*), or there 
 Also where gaps above 1e-7 leave the verdict open, or where coordinates have too few digits for a no. JAM_NOT_JAMMED:
 not jammed with these contacts closed, or none found: gaps above 0.01 need a jump of 100.
 Errors: JAM_E_SOLVER, JAM_E_OVERLAP."
+%feature("docstring") jam_contacts_by_distance "Contacts by distance alone, of any packing: all pairs with h < gap, 0 < gap <= 1, every image, and walls. No balance
+is required or tested, so there are no forces, no rattlers, no report and no verdict: for beds under weight and
+friction. jam_contacts, jam_contact_vectors, jam_contact_gaps, jam_coordination, jam_fabric_tensor, jam_gaps,
+jam_contact_dots and jam_sphere_structure (not weighted), jam_write_contacts, jam_write_stl and jam_write_page take
+them; jam_forces gives NaN, tables have no column of forces, pages say so, and jam_info.contact_gap is the gap.
+Status: JAM_NOT_JAMMED when there are none"
 %feature("docstring") jam_contact_candidates "Candidates for the contact tolerance, for packings where no jump is clear; m is at most 12. A candidate is a jump of
 the sorted gaps below window, as in jam_geometry_options, with enough contacts for a rigid network below it. The
 largest jump comes first.
@@ -838,9 +844,11 @@ about 10 in a perfect FCC crystal."
 Shapes: out (n).
 Errors: JAM_E_UNSUPPORTED (d, no voro++, walls of a tilted cell)."
 %feature("docstring") jam_mesh_options_init ""
-%feature("docstring") jam_write_stl "Binary STL of the solid, d = 3, closed: each edge belongs to two triangles, which pass it in opposite directions. No
-cylinder leads to a wall; cylinders that would meet are refused with their numbers. The file appears as of jam_write;
-path NULL: none, and triangles and bytes are an estimate. Status: JAM_NOT_JAMMED (BRIDGED, and no spheres touch).
+%feature("docstring") jam_write_stl "Binary STL of the solid, d = 3, closed: each edge belongs to two triangles, which pass it in opposite directions. Two
+spheres that overlap are joined along their common circle. A third sphere there, and a sphere inside another, would
+make the mesh cut itself and are refused with their numbers, as are cylinders that would meet. No cylinder leads to a
+wall. The file appears as of jam_write; path NULL: none, and triangles and bytes are an estimate. Status:
+JAM_NOT_JAMMED (BRIDGED, and there is no bridge).
 Errors: JAM_E_STATE (BRIDGED, no network), JAM_E_UNSUPPORTED, JAM_E_IO."
 %feature("docstring") jam_voxel_options_init ""
 %feature("docstring") jam_voxels "Image of the solid: 0 or 1, or shares; -1 outside a round container. x is fastest. out NULL: the report gives size
@@ -849,14 +857,14 @@ Shapes: out (voxels)."
 %feature("docstring") jam_write_voxels "Writes it layer by layer: .npy (image[x, y, z]), .mha (MetaImage), .vti (VTK), as bytes 0 void, 1 solid, 2 outside;
 with lines as float.
 Errors: JAM_E_UNSUPPORTED, JAM_E_IO."
-%feature("docstring") jam_solid_profile "Solid fraction in equal bins, exact: axis 0 .. d-1, slabs between the faces of the cell that a_axis joins; axis = d,
-shells of a ball or a cylinder (there to 1e-12).
+%feature("docstring") jam_solid_profile "Solid fraction in equal bins, exact also where spheres overlap or pass a wall: axis 0 .. d-1, slabs between the faces
+of the cell that a_axis joins; axis = d, shells of a ball or a cylinder (there to 1e-12).
 Shapes: table (bins, jam_profile_column).
 Errors: JAM_E_UNSUPPORTED."
 %feature("docstring") jam_near_coordination "Spheres with a gap h < h_max <= 1 to each one, every image; walls do not count. Needs no crunch.
 Shapes: out (n)."
-%feature("docstring") jam_pore_sizes "Pore sizes at random points of the void, exact; not in a cylinder. The time grows with the fourth power of the
-number of neighbours of a point: use it above packing fractions of about 0.4.
+%feature("docstring") jam_pore_sizes "Pore sizes at random points of the void, exact; in a cylinder to 1e-9 of the spacing of spheres. The time grows with
+the fourth power of the number of neighbours of a point: use it above packing fractions of about 0.4.
 Shapes: table (points, jam_pore_column).
 Errors: JAM_E_UNSUPPORTED."
 %feature("docstring") jam_floppy_mode "Floppy mode: displacement over s when a contact opens by s. To first order all other contacts stay closed, all

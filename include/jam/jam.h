@@ -316,6 +316,7 @@ typedef struct jam_info {
   double non_additivity; /* Delta of a non-additive mixture, 0 for additive diameters */
   int32_t container, walls; /* @enum jam_container; as in jam_create_options */
   double volume;            /* V of the container, else of the cell */
+  double contact_gap;       /* of jam_contacts_by_distance, while its contacts are kept; else NaN */
 } jam_info;
 /* Fills *info. */
 JAM_API jam_status jam_get_info(const jam_system *sys, jam_info *info);
@@ -1169,16 +1170,19 @@ JAM_API jam_status jam_contact_vectors(const jam_system *sys, double *out, size_
 JAM_API jam_status jam_contact_gaps(const jam_system *sys, double *out, size_t out_len, size_t *needed);
 /* Contact forces, mean 1; times report.force_scale they are lambda r. With more than one state of self-stress
  * (excess_contacts > 0: crystals, disks of two sizes) they are not unique. A jammed packing then has those in the
- * middle of all non-negative states, as jam_stress_states gives. @shape out (contacts) @errors STATE */
+ * middle of all non-negative states, as jam_stress_states gives. NaN after jam_contacts_by_distance. @shape out
+ * (contacts) @errors STATE */
 JAM_API jam_status jam_forces(const jam_system *sys, double *out, size_t out_len, size_t *needed);
-/* Number of contacts of each sphere; 0 for rattlers. @shape out (n) @errors STATE */
+/* Number of contacts of each sphere; 0 for rattlers, or spheres without contacts by distance. @shape out (n) @errors
+ * STATE */
 JAM_API jam_status jam_coordination(const jam_system *sys, int32_t *out, size_t out_len, size_t *needed);
 
 /* ------------------------------------------------------------------ analysis of the contact network */
 /* In this section N' = report.stable, n_c = report.contacts; rows and modes run over stable spheres only, in the order
  * of jam_hessian_map. Calls on a const handle are quick. The others take long, report JAM_PHASE_ANALYSE and can be
  * cancelled. None changes the packing. Calls with `@errors STATE` need a contact network: JAM_E_STATE before jam_crunch
- * or jam_contacts_from_geometry, JAM_NOT_JAMMED when it is empty. */
+ * or jam_contacts_from_geometry, JAM_NOT_JAMMED when it is empty. Those that need no forces take the contacts of
+ * jam_contacts_by_distance too, as its comment lists them; the others give JAM_E_STATE. */
 
 /* ------------- Hessian, modes */
 /* Stiffness k of a contact, 1 at the mean force. SOFT: after jam_relax, or jam_decompress with crunch = 0; prestress is
@@ -1282,6 +1286,13 @@ JAM_API jam_status jam_geometry_options_init(jam_geometry_options *o, size_t siz
  * not jammed with these contacts closed, or none found: gaps above 0.01 need a jump of 100. @errors SOLVER, OVERLAP */
 JAM_API jam_status jam_contacts_from_geometry(jam_system *sys, const jam_geometry_options *o,
                                               jam_geometry_report *report);
+/* Contacts by distance alone, of any packing: all pairs with h < gap, 0 < gap <= 1, every image, and walls. No balance
+ * is required or tested, so there are no forces, no rattlers, no report and no verdict: for beds under weight and
+ * friction. jam_contacts, jam_contact_vectors, jam_contact_gaps, jam_coordination, jam_fabric_tensor, jam_gaps,
+ * jam_contact_dots and jam_sphere_structure (not weighted), jam_write_contacts, jam_write_stl and jam_write_page take
+ * them; jam_forces gives NaN, tables have no column of forces, pages say so, and jam_info.contact_gap is the gap.
+ * Status: JAM_NOT_JAMMED when there are none */
+JAM_API jam_status jam_contacts_by_distance(jam_system *sys, double gap);
 /* Columns of jam_contact_candidates. */
 typedef enum jam_candidate_column {
   JAM_CANDIDATE_LIMIT = 0,    /* tolerance on |h| */
@@ -1592,19 +1603,31 @@ JAM_API jam_status jam_local_fraction(const jam_system *sys, double *out, size_t
 
 /* ------------- the pore space */
 /* Solid and void inside the brick [0, a_00) x [0, a_11) x ..., which repeats as the cell does; spheres are cut at its
- * faces. d = 2 and 3, no Mari-Kurchan shifts: else JAM_E_UNSUPPORTED. What becomes of contacts in a mesh: */
+ * faces. The solid is the union of the spheres: volume that spheres share counts once. d = 2 and 3, no Mari-Kurchan
+ * shifts: else JAM_E_UNSUPPORTED. What becomes of contacts in a mesh: */
 typedef enum jam_mesh_contacts {
   JAM_MESH_KEPT = 0,   /* spheres touch at a common vertex where there is a contact network, else nearly */
   JAM_MESH_SHRUNK = 1, /* all diameters times `factor` */
-  JAM_MESH_BRIDGED = 2 /* a cylinder along each contact of the network */
+  JAM_MESH_BRIDGED = 2 /* a cylinder along each contact of the network, or between pairs within `bridge_gap` */
 } jam_mesh_contacts;
+/* What of the walls a mesh has: triangles around them, turned outwards, whose planes touch a round wall from outside,
+ * so that no sphere inside passes them. */
+typedef enum jam_mesh_walls {
+  JAM_MESH_SPHERES = 0,   /* nothing */
+  JAM_MESH_AND_WALLS = 1, /* spheres and walls */
+  JAM_MESH_WALLS = 2      /* the walls alone */
+} jam_mesh_walls;
 /* Options of jam_write_stl. */
 typedef struct jam_mesh_options {
   uint32_t struct_size;
-  int32_t contacts; /* @enum jam_mesh_contacts; default KEPT */
-  double edge;      /* of triangles, over the radius of the sphere: 0.03 .. 1, default 0.2 */
-  double factor;    /* of SHRUNK, between 0 and 1, default 0.99 */
-  double bridge;    /* of BRIDGED: radius of a cylinder over that of the smaller sphere, 0.02 .. 0.45, default 0.2 */
+  int32_t contacts;  /* @enum jam_mesh_contacts; default KEPT */
+  double edge;       /* of triangles, over the radius of the sphere: 0.03 .. 1, default 0.2 */
+  double factor;     /* of SHRUNK, between 0 and 1, default 0.99 */
+  double bridge;     /* of BRIDGED: radius of a cylinder over that of the smaller sphere, 0.02 .. 0.45, default 0.2 */
+  double bridge_gap; /* of BRIDGED: bridges between all pairs with h < bridge_gap <= 1, as in jam_near_coordination,
+                        which needs no network; default 0: along the contacts of the network */
+  int32_t walls;     /* @enum jam_mesh_walls, default SPHERES */
+  int32_t reserved;
 } jam_mesh_options;
 /* What jam_write_stl wrote. */
 typedef struct jam_mesh_report {
@@ -1614,10 +1637,11 @@ typedef struct jam_mesh_report {
   double volume, solid; /* enclosed by the mesh, unit^d; exact, of the spheres and cylinders it stands for */
 } jam_mesh_report;
 JAM_API jam_status jam_mesh_options_init(jam_mesh_options *o, size_t size);
-/* Binary STL of the solid, d = 3, closed: each edge belongs to two triangles, which pass it in opposite directions. No
- * cylinder leads to a wall; cylinders that would meet are refused with their numbers. The file appears as of jam_write;
- * path NULL: none, and triangles and bytes are an estimate. Status: JAM_NOT_JAMMED (BRIDGED, and no spheres touch).
- * @errors STATE (BRIDGED, no network), UNSUPPORTED, IO */
+/* Binary STL of the solid, d = 3, closed: each edge belongs to two triangles, which pass it in opposite directions. Two
+ * spheres that overlap are joined along their common circle. A third sphere there, and a sphere inside another, would
+ * make the mesh cut itself and are refused with their numbers, as are cylinders that would meet. No cylinder leads to a
+ * wall. The file appears as of jam_write; path NULL: none, and triangles and bytes are an estimate. Status:
+ * JAM_NOT_JAMMED (BRIDGED, and there is no bridge). @errors STATE (BRIDGED, no network), UNSUPPORTED, IO */
 JAM_API jam_status jam_write_stl(const jam_system *sys, const char *path, const jam_mesh_options *o,
                                  jam_mesh_report *report);
 /* Options of jam_voxels and jam_write_voxels. */
@@ -1653,8 +1677,9 @@ typedef enum jam_profile_column {
   JAM_PROFILE_SOLID = 2 /* share of the bin (of its part in the container) inside spheres */
 } jam_profile_column;
 #define JAM_PROFILE_COLUMNS 3
-/* Solid fraction in equal bins, exact: axis 0 .. d-1, slabs between the faces of the cell that a_axis joins; axis = d,
- * shells of a ball or a cylinder (there to 1e-12). @shape table (bins, jam_profile_column) @errors UNSUPPORTED */
+/* Solid fraction in equal bins, exact also where spheres overlap or pass a wall: axis 0 .. d-1, slabs between the faces
+ * of the cell that a_axis joins; axis = d, shells of a ball or a cylinder (there to 1e-12). @shape table (bins,
+ * jam_profile_column) @errors UNSUPPORTED */
 JAM_API jam_status jam_solid_profile(const jam_system *sys, int32_t axis, int32_t bins, int32_t columns, double *table,
                                      size_t table_len, size_t *needed);
 /* Spheres with a gap h < h_max <= 1 to each one, every image; walls do not count. Needs no crunch. @shape out (n) */
@@ -1669,9 +1694,9 @@ typedef enum jam_pore_column {
   JAM_PORE_RADIUS = 4    /* of the largest sphere that contains the point and no solid */
 } jam_pore_column;
 #define JAM_PORE_COLUMNS 5
-/* Pore sizes at random points of the void, exact; not in a cylinder. The time grows with the fourth power of the
- * number of neighbours of a point: use it above packing fractions of about 0.4. @shape table (points, jam_pore_column)
- * @errors UNSUPPORTED */
+/* Pore sizes at random points of the void, exact; in a cylinder to 1e-9 of the spacing of spheres. The time grows with
+ * the fourth power of the number of neighbours of a point: use it above packing fractions of about 0.4. @shape table
+ * (points, jam_pore_column) @errors UNSUPPORTED */
 JAM_API jam_status jam_pore_sizes(jam_system *sys, int64_t points, int64_t seed, int32_t columns, double *table,
                                   size_t table_len, size_t *needed);
 

@@ -9,12 +9,22 @@
 
 namespace jam::inside {
 
+// One whose forces balance.
 inline void need_network(const jam_system *sys) {
+  if (sys->by_distance())
+    fail(JAM_E_STATE,
+         "the contacts are those within a gap of %g (jam_contacts_by_distance), which have no forces: "
+         "jam_contacts_from_geometry or jam_crunch gives a network that balances",
+         sys->contact_gap);
   if (sys->has_report && !sys->known_contacts())
     fail(JAM_E_STATE,
          "the crunch stopped before its contacts were known: crunch to the end, or call jam_contacts_from_geometry");
   if (!sys->has_report)
     fail(JAM_E_STATE, "there is no contact network: call jam_crunch or jam_contacts_from_geometry first");
+}
+// One that may be of contacts by distance, which have no forces.
+inline void need_contacts(const jam_system *sys) {
+  if (!sys->by_distance()) need_network(sys);
 }
 // A verb whose work is left by Cancelled when the monitor says so; nothing has been written then.
 template <class F>

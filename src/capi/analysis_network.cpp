@@ -3,6 +3,7 @@
 #include "capi/table.hpp"
 #include "crunch/crunch.hpp"
 #include "network/certificate.hpp"
+#include "network/contacts_by_distance.hpp"
 #include "network/contacts_from_geometry.hpp"
 #include "verdict/text.hpp"
 
@@ -15,8 +16,9 @@ Answer answer_of(const GeometryResult &found, jam_status status, Verdict as_it_i
   const jam_geometry_report &r = found.report;
   const auto n = [](int64_t x) { return static_cast<long long>(x); };
   if (status == JAM_NOT_JAMMED && r.contacts == 0)
-    return {JAM_NOT_JAMMED, sentence("no set of contacts with gaps up to %.2g carries balanced forces: raise window or "
-                                     "tolerance, or call jam_crunch",
+    return {JAM_NOT_JAMMED, sentence("no set of contacts with gaps up to %.2g carries balanced forces without friction "
+                                     "and weight: jam_contacts_by_distance takes pairs by their distance alone; "
+                                     "jam_crunch moves spheres until contacts balance",
                                      o.tolerance > 0.0 ? o.tolerance : o.window)};
   if (status == JAM_NOT_JAMMED)
     return {JAM_NOT_JAMMED,
@@ -71,10 +73,20 @@ jam_status jam_contacts_from_geometry(jam_system *sys, const jam_geometry_option
     r.status = status_of(result, verdict.jammed, resolution, p);
     const Answer answer = answer_of(result, r.status, verdict.jammed, full);
     sys->contacts = std::move(result.network);
+    sys->contact_gap = nan;
     sys->report = r;
     sys->has_report = true;
     give_struct(result.report, report);
     return answer;
+  });
+}
+
+jam_status jam_contacts_by_distance(jam_system *sys, double gap) {
+  return guard_verb(sys, [&]() -> Answer {
+    sys->take_contacts_by_distance(contacts_by_distance(sys->packing, gap), gap);
+    if (empty_network(sys))
+      return {JAM_NOT_JAMMED, sentence("no pair of spheres, and no sphere and wall, has a gap below %g", gap)};
+    return JAM_OK;
   });
 }
 

@@ -30,8 +30,8 @@ extern "C" {
 jam_status jam_gaps(const jam_system *sys, double h_max, int32_t stable_only, double *gap, size_t gap_len,
                     int32_t *pair, size_t pair_len, size_t *needed) {
   return guard_const(sys, [&]() -> jam_status {
-    if (stable_only) need_network(sys);
-    const Gaps g = find_gaps(sys->packing, sys->known_contacts(), h_max, stable_only != 0);
+    if (stable_only) need_contacts(sys);
+    const Gaps g = find_gaps(sys->packing, sys->contacts_of_any_kind(), h_max, stable_only != 0);
     if (!needed && !gap && !pair) fail(JAM_E_NULL, "needed is NULL and there is no output array");
     if (needed) *needed = g.gap.size();
     check_output(gap, gap_len, g.gap.size(), "gap");
@@ -53,7 +53,7 @@ jam_status jam_contact_classes(const jam_system *sys, int32_t *out, size_t out_l
 jam_status jam_sphere_structure(const jam_system *sys, int32_t weighted, double *c, size_t c_len, double *s,
                                 size_t s_len, size_t *needed) {
   return guard_const(sys, [&]() -> jam_status {
-    need_network(sys);
+    weighted ? need_network(sys) : need_contacts(sys);
     if (!needed && !c && !s) fail(JAM_E_NULL, "needed is NULL and there is no output array");
     if (needed) *needed = sys->packing.n();
     check_output(c, c_len, sys->packing.position.size(), "c");
@@ -68,7 +68,7 @@ jam_status jam_sphere_structure(const jam_system *sys, int32_t weighted, double 
 jam_status jam_contact_dots(const jam_system *sys, int32_t weighted, double *dot, size_t dot_len, int32_t *sphere,
                             size_t sphere_len, size_t *needed) {
   return guard_const(sys, [&]() -> jam_status {
-    need_network(sys);
+    weighted ? need_network(sys) : need_contacts(sys);
     const ContactDots t = contact_dots(sys->packing, sys->contacts, weighted != 0);
     if (!needed && !dot && !sphere) fail(JAM_E_NULL, "needed is NULL and there is no output array");
     if (needed) *needed = t.dot.size();
@@ -82,7 +82,7 @@ jam_status jam_contact_dots(const jam_system *sys, int32_t weighted, double *dot
 
 jam_status jam_fabric_tensor(const jam_system *sys, double *out, size_t out_len, size_t *needed) {
   return guard_const(sys, [&]() -> jam_status {
-    need_network(sys);
+    need_contacts(sys);
     const std::vector<double> fabric = fabric_tensor(sys->contacts, sys->packing.dim);
     const jam_status status = give_array(fabric.data(), fabric.size(), out, out_len, needed);
     return status == JAM_OK && empty_network(sys) ? JAM_NOT_JAMMED : status;

@@ -132,6 +132,9 @@ jam_status jam_tile(const jam_system *src, const int32_t *count, size_t count_le
     if (copies.number() > 1)
       sys->notes.say("%lld copies of a packing of %zu spheres side by side", static_cast<long long>(copies.number()),
                      p.n());
+    if (src->by_distance())
+      sys->notes.say(
+          "the copies have no contacts: those by distance are not copied; jam_contacts_by_distance finds them");
     if (own.size() > 0)
       sys->notes.say(
           "the copies have no contact network: sphere %d touches its own image, a contact of the copies that "

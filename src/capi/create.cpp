@@ -136,6 +136,7 @@ jam_status jam_get_info(const jam_system *sys, jam_info *info) {
     full.container = p.container.kind();
     full.walls = p.container.flat();
     full.volume = scene_volume(p);
+    full.contact_gap = sys->contact_gap;
     full.paused = sys->paused ? sys->paused->phase() : sys->crunch_paused ? JAM_PHASE_CRUNCH : 0;
     give_struct(full, info);
     return JAM_OK;

@@ -12,7 +12,7 @@ namespace {
 template <class F>
 jam_status with_contacts(const jam_system *sys, F &&f) noexcept {
   return guard_read(sys, [&]() -> jam_status {
-    need_network(sys);
+    need_contacts(sys);
     return f(sys->contacts);
   });
 }

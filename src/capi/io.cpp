@@ -115,7 +115,7 @@ jam_status jam_write_scaled(const jam_system *sys, const char *path, int32_t for
 jam_status jam_write_contacts(const jam_system *sys, const char *path, int32_t format) {
   return guard_const(sys, [&]() -> jam_status {
     need(path, "path");
-    need_network(sys);
+    need_contacts(sys);
     write_contacts(sys->packing, sys->contacts, path, format);
     return JAM_OK;
   });

@@ -76,6 +76,30 @@ void take_steps(const jam_system *sys, PageContent &content) {
   content.steps.back().packing_fraction = packing_fraction(sys->packing);
 }
 
+// A search that found no contacts leaves a report of an empty network: nothing in it was computed.
+void take_network(const jam_system *sys, bool small, PageContent &content) {
+  content.network = sys->contacts_of_any_kind();
+  content.by_distance = sys->by_distance();
+  content.text_of_network = "No contact network: no crunch has been made.";
+  if (content.by_distance)
+    content.text_of_network = sentence(
+        "Contacts by distance: all pairs with gaps below %g of their contact distance. "
+        "Whether forces on them balance was not tested.",
+        sys->contact_gap);
+  if (sys->has_report && !sys->has_history && sys->soft_history.empty() && sys->contacts.size() == 0) {
+    content.network = nullptr;
+    content.text_of_network = "No contacts found: no set of contacts carries balanced forces.";
+  } else if (sys->has_report) {
+    const jam_crunch_report &r = sys->report;
+    content.report = &r;
+    content.crunched = sys->has_history;
+    content.stop_reason = jam_stop_string(r.stop_reason);
+    if (r.theorem != JAM_THEOREM_NONE || r.proof_cause != JAM_CAUSE_NONE)
+      content.proof = proof_text(r.theorem, r.proof_cause, r.proof_radius, r.proof_value, r.proof_bound);
+  }
+  if (!small && content.network) content.gaps = find_gaps(sys->packing, content.network, gap_reach, true).gap;
+}
+
 }  // namespace
 
 extern "C" jam_status jam_write_page(const jam_system *sys, const char *path, const char *title, int32_t small,
@@ -89,15 +113,7 @@ extern "C" jam_status jam_write_page(const jam_system *sys, const char *path, co
     content.title = title;
     content.small = small;
     take_columns(sys, names, values, values_len, content);
-    if (sys->has_report) {
-      content.network = sys->known_contacts();
-      content.report = &sys->report;
-      content.stop_reason = jam_stop_string(sys->report.stop_reason);
-      const jam_crunch_report &r = sys->report;
-      if (r.theorem != JAM_THEOREM_NONE || r.proof_cause != JAM_CAUSE_NONE)
-        content.proof = proof_text(r.theorem, r.proof_cause, r.proof_radius, r.proof_value, r.proof_bound);
-      if (!small && content.network) content.gaps = find_gaps(sys->packing, &sys->contacts, gap_reach, true).gap;
-    }
+    take_network(sys, small, content);
     if (sys->has_history) take_steps(sys, content);
     write_page(content, path);
     return JAM_OK;

@@ -69,13 +69,14 @@ jam_status jam_write_stl(const jam_system *sys, const char *path, const jam_mesh
     check_out_struct(report, "report");
     jam_mesh_options full = default_mesh_options();
     take_options(o, full);
-    if (full.contacts == JAM_MESH_BRIDGED) need_network(sys);
+    const bool bridges = full.contacts == JAM_MESH_BRIDGED && full.walls != JAM_MESH_WALLS;
+    if (bridges && full.bridge_gap == 0.0) need_contacts(sys);
     if (!path) {
-      const int64_t triangles = estimated_triangles(sys->packing, sys->known_contacts(), full);
+      const int64_t triangles = estimated_triangles(sys->packing, sys->contacts_of_any_kind(), full);
       give_struct({sizeof(jam_mesh_report), 0, triangles, 0, stl_bytes(triangles), NAN, NAN}, report);
       return JAM_OK;
     }
-    const SolidMesh mesh = solid_mesh(sys->packing, sys->known_contacts(), full);
+    const SolidMesh mesh = solid_mesh(sys->packing, sys->contacts_of_any_kind(), full);
     jam_mesh_report r{};
     r.struct_size = sizeof r;
     r.bytes = write_stl(mesh, path);
@@ -84,8 +85,12 @@ jam_status jam_write_stl(const jam_system *sys, const char *path, const jam_mesh
     r.volume = mesh.volume;
     r.solid = mesh.solid;
     give_struct(r, report);
-    if (full.contacts == JAM_MESH_BRIDGED && r.bridges == 0)
-      return {JAM_NOT_JAMMED, "the contact network joins no two spheres: the mesh has no bridge"};
+    if (bridges && r.bridges == 0)
+      return {JAM_NOT_JAMMED,
+              full.bridge_gap > 0.0
+                  ? sentence("no two spheres are within a gap of %g: the mesh has no bridge", full.bridge_gap)
+                  : "the contact network joins no two spheres that a bridge could join: the mesh has "
+                    "no bridge; bridge_gap bridges pairs by their distance"};
     return JAM_OK;
   });
 }

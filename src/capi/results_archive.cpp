@@ -30,14 +30,14 @@ double resolution(const Packing &p, double sigma) {
   return of_contact * sigma + of_coordinate * p.cell.half_diagonal();
 }
 
-void check_network(const ContactNetwork &c, const Packing &p) {
+void check_network(const ContactNetwork &c, const Packing &p, bool by_distance) {
   const size_t m = c.pairs.i.size(), n = p.n(), d = static_cast<size_t>(p.dim);
   check(c.pairs.j.size() == m && c.pairs.offset.size() == m * d && c.vector.size() == m * d && c.gap.size() == m);
   check(c.force.size() == m && (c.stiffness.empty() || c.stiffness.size() == m));
   check(c.prestress.size() == c.stiffness.size());
   check(c.coordination.size() == n || (c.coordination.empty() && m == 0));
-  for (const auto *x : {&c.pairs.offset, &c.vector, &c.gap, &c.force, &c.stiffness, &c.prestress})
-    check(all_finite(*x));
+  for (const auto *x : {&c.pairs.offset, &c.vector, &c.gap, &c.stiffness, &c.prestress}) check(all_finite(*x));
+  for (const double f : c.force) check(by_distance ? std::isnan(f) : std::isfinite(f));
   std::vector<int32_t> coordination(c.coordination.size(), 0);
   double r[JAM_MAX_DIM];
   for (size_t k = 0; k < m; ++k) {
@@ -103,7 +103,6 @@ void Results::archive(Archive &a, const Packing &p) {
   a(kept);
   if (a.reading()) {
     check(!has_report || std::max<int64_t>(0, report.contacts) == static_cast<int64_t>(contacts.size()));
-    check_network(contacts, p);
     check_history(history);
     check(kept <= history.size() + 1);
     kept_steps.resize(kept);
@@ -114,6 +113,11 @@ void Results::archive(Archive &a, const Packing &p) {
     check(s.step > last);
     last = s.step;
   }
+  // Follows only where there is one, so that other checkpoints keep the format of 1.0.
+  if (a.reading() ? a.more() : by_distance()) a(contact_gap);
+  if (!a.reading()) return;
+  check(!by_distance() || (!has_report && contact_gap > 0.0 && contact_gap <= 1.0));
+  check_network(contacts, p, by_distance());
 }
 
 std::string archive_beside(const SystemState &s, const Moving &moving) {
@@ -126,7 +130,7 @@ std::string archive_beside(const SystemState &s, const Moving &moving) {
   if (s.runs) w.runs = write_dynamics(*s.runs);
   w.sweeps = s.sweeps;
   w.notes = s.notes.text();
-  w.has_results = !moves && (s.has_report || s.has_history || !s.soft_history.empty());
+  w.has_results = !moves && (s.has_report || s.by_distance() || s.has_history || !s.soft_history.empty());
   Archive a;
   w.archive(a);
   if (w.has_results) {

@@ -70,7 +70,7 @@ void put_as(OutputFile &file, const std::vector<From> &values) {
   put_numbers(file, as.data(), as.size());
 }
 
-void put_network(OutputFile &file, const ContactNetwork &net) {
+void put_network(OutputFile &file, const ContactNetwork &net, bool by_distance) {
   std::vector<int32_t> pair;
   for (size_t k = 0; k < net.size(); ++k) {
     pair.push_back(net.pairs.i[k]);
@@ -82,8 +82,10 @@ void put_network(OutputFile &file, const ContactNetwork &net) {
   put_as<float>(file, net.vector);
   file.text() += ", \"gap\": ";
   put_as<float>(file, net.gap);
-  file.text() += ", \"force\": ";
-  put_as<float>(file, net.force);
+  if (!by_distance) {
+    file.text() += ", \"force\": ";
+    put_as<float>(file, net.force);
+  }
   file.text() += "}";
 }
 
@@ -98,11 +100,12 @@ void put_named(std::string &out, const std::vector<std::pair<const char *, doubl
   out += "}";
 }
 
-void put_report(std::string &out, const jam_crunch_report &r, const std::string &stop_reason,
+// crunched: else rows of the way to the packing are left out.
+void put_report(std::string &out, const jam_crunch_report &r, bool crunched, const std::string &stop_reason,
                 const std::string &proof) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const auto known = [&](int64_t count) { return r.rattlers < 0 ? nan : static_cast<double>(count); };
-  const std::vector<std::pair<const char *, double>> rows = {
+  std::vector<std::pair<const char *, double>> rows = {
       {"contacts", known(r.contacts)},
       {"contacts above isostatic", known(r.excess_contacts)},
       {"rattlers", known(r.rattlers)},
@@ -114,6 +117,8 @@ void put_report(std::string &out, const jam_crunch_report &r, const std::string 
       {"smallest force", r.min_force},
       {"smallest gap of no contact", r.min_gap},
       {"rigidity margin", r.rigidity_margin},
+  };
+  const std::vector<std::pair<const char *, double>> way = {
       {"duality gap of the last LP", r.duality_gap},
       {"packing fraction before the crunch", r.packing_fraction_start},
       {"largest displacement in it (diameters)", r.displacement_max},
@@ -123,6 +128,7 @@ void put_report(std::string &out, const jam_crunch_report &r, const std::string 
       {"of these kept", r.contacts_kept < 0 ? nan : static_cast<double>(r.contacts_kept)},
       {"seconds of the crunch", r.seconds},
   };
+  if (crunched) rows.insert(rows.end(), way.begin(), way.end());
   out += ",\n\"report\": {\"jammed\": ";
   out += r.jammed ? "true" : "false";
   out += ", \"stop_reason\": ";
@@ -220,8 +226,10 @@ void write_page(const PageContent &content, const char *path) {
   put_numbers(file, p.position.data(), p.position.size());
   out += ",\n\"diameter\": ";
   put_numbers(file, p.diameter.data(), p.diameter.size());
-  if (content.network) put_network(file, *content.network);
-  if (content.report) put_report(out, *content.report, content.stop_reason, content.proof);
+  out += ",\n\"network\": ";
+  put_string(out, content.text_of_network);
+  if (content.network) put_network(file, *content.network, content.by_distance);
+  if (content.report) put_report(out, *content.report, content.crunched, content.stop_reason, content.proof);
   put_gaps(out, content.gaps);
   out += ",\n\"history\": [";
   for (size_t k = 0; k < content.history.size(); ++k) {

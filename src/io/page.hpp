@@ -28,7 +28,10 @@ struct PageStep {
 struct PageContent {
   const Packing &packing;
   const ContactNetwork *network = nullptr;    // NULL before a crunch, like the report
+  bool by_distance = false;                   // its contacts have no forces, and there is no report
+  std::string text_of_network{};              // shown in place of the certificate where there is no report
   const jam_crunch_report *report = nullptr;  // its numbers are shown as the certificate
+  bool crunched = false;                      // the report is of a crunch
   std::string stop_reason{};
   std::string proof{};            // what was proved; empty where nothing was asked for
   std::vector<double> gaps{};     // of pairs that are no contacts, ascending

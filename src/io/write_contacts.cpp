@@ -1,6 +1,7 @@
 // Contact networks as files: a table, a LAMMPS dump local, lines for ParaView.
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "core/checks.hpp"
 #include "core/pair_rule.hpp"
@@ -14,6 +15,9 @@
 namespace jam::inside {
 namespace {
 
+// Contacts by distance have none, and their files no column of them.
+bool has_forces(const ContactNetwork &net) { return net.size() == 0 || !std::isnan(net.force[0]); }
+
 // Rows of both text formats; first: the number of the first sphere.
 void put_rows(const Packing &p, const ContactNetwork &net, int first, char between, OutputFile &file) {
   std::string &out = file.text();
@@ -21,7 +25,7 @@ void put_rows(const Packing &p, const ContactNetwork &net, int first, char betwe
   for (size_t k = 0; k < net.size(); ++k) {
     (out += std::to_string(net.pairs.i[k] + first)) += between;
     out += std::to_string(net.pairs.wall(k) ? net.pairs.j[k] : net.pairs.j[k] + first);
-    for (size_t c = 0; c < d + 2; ++c) {
+    for (size_t c = 0; c < d + (has_forces(net) ? 2 : 1); ++c) {
       out += between;
       append_number(out, c < d ? net.vector[k * d + c] : c == d ? net.gap[k] : net.force[k]);
     }
@@ -35,7 +39,7 @@ void put_rows(const Packing &p, const ContactNetwork &net, int first, char betwe
 void write_contacts_csv(const Packing &p, const ContactNetwork &net, OutputFile &file) {
   file.text() += "i,j";
   for (int c = 0; c < p.dim; ++c) file.text() += ",n" + std::to_string(c + 1);
-  file.text() += ",gap,force\n";
+  file.text() += has_forces(net) ? ",gap,force\n" : ",gap\n";
   put_rows(p, net, 0, ',', file);
 }
 
@@ -61,7 +65,7 @@ void write_contacts_dump(const Packing &p, const ContactNetwork &net, OutputFile
   }
   out += "ITEM: ENTRIES i j";
   for (int c = 0; c < p.dim; ++c) out += std::string(" n") + "xyz"[c];
-  out += " gap force\n";
+  out += has_forces(net) ? " gap force\n" : " gap\n";
   put_rows(p, net, 1, ' ', file);
 }
 
@@ -83,8 +87,10 @@ void write_contacts_vtp(const Packing &p, const ContactNetwork &net, OutputFile 
   std::vector<double> at_points;  // ParaView's filter Tube takes its radius from data of points
   for (const double f : force) at_points.insert(at_points.end(), {f, f});
   VtpFile lines(std::move(points), 2);
-  lines.add_point_data("force", std::move(at_points));
-  lines.add_cell_data("force", std::move(force));
+  if (has_forces(net)) {
+    lines.add_point_data("force", std::move(at_points));
+    lines.add_cell_data("force", std::move(force));
+  }
   lines.add_cell_data("gap", std::move(gap));
   lines.add_cell_data("contact", std::move(contact));
   lines.write(file);

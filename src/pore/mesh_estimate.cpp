@@ -4,6 +4,7 @@
 
 #include "core/math.hpp"
 #include "pore/images.hpp"
+#include "pore/joints.hpp"
 #include "pore/solid_mesh.hpp"
 #include "pore/sphere_hull.hpp"
 #include "pore/tuning.hpp"
@@ -28,6 +29,16 @@ double of_image(const Packing &p, const SphereImage &image, double radius, doubl
   return share * (whole + passing);
 }
 
+// At an end of a cylinder: two triangles a rim point up to the middle, and at each rim two in the sphere, less those of
+// the disc inside and of the grid's points that give way, of which each has sqrt(3) / 2 edge^2.
+double of_end(const Joint &t, double cap, double edge) {
+  if (t.kind == JointKind::point) return 0.0;
+  const double gone = cap + MeshTuning::clear_of_points * edge;
+  const double rim = t.rim, lost = 4.0 * math::pi * (1.0 - math::cos(std::min(gone, math::pi)));
+  const double in_sphere = rim + 2.0 - lost / (0.5 * std::sqrt(3.0) * edge * edge);
+  return in_sphere + (t.kind == JointKind::cylinder ? 2.0 * rim : 0.0);
+}
+
 }  // namespace
 
 int32_t points_of_rim(const jam_mesh_options &o) {
@@ -41,16 +52,17 @@ int64_t estimated_triangles(const Packing &p, const ContactNetwork *network, con
   std::vector<double> radius;
   for (const double s : p.diameter) radius.push_back(0.5 * factor * s);
   double sum = 0.0;
+  if (o.walls != JAM_MESH_SPHERES) {
+    SolidMesh walls;
+    add_walls(p, o, walls);
+    sum += static_cast<double>(walls.triangle.size());
+  }
+  if (o.walls == JAM_MESH_WALLS) return std::llround(sum);
   for (const SphereImage &image : images_near_brick(p, radius))
     sum += of_image(p, image, radius[static_cast<size_t>(image.sphere)], whole);
-  if (network && o.contacts == JAM_MESH_BRIDGED) {
-    // At each end: two triangles a rim point up to the middle, and two in the sphere, less those of the disc inside and
-    // of the grid's points that give way, of which each has sqrt(3) / 2 edge^2.
-    const double rim = points_of_rim(o), gone = o.bridge + MeshTuning::clear_of_points * o.edge;
-    const double end = 3.0 * rim + 2.0 - 2.0 * math::pi * gone * gone / (0.5 * std::sqrt(3.0) * o.edge * o.edge);
-    for (size_t k = 0; k < network->size(); ++k)
-      if (!network->pairs.wall(k)) sum += 2.0 * end;
-  }
+  const Joints joints(p, network, o);
+  for (const Joint &t : joints.all())
+    for (const int32_t s : {t.i, t.j}) sum += of_end(t, joints.cap_angle(t, s), o.edge);
   return std::llround(sum);
 }
 

@@ -8,6 +8,7 @@
 #include "core/rng.hpp"
 #include "jam/jam.h"
 #include "pore/balls.hpp"
+#include "pore/tube_spheres.hpp"
 #include "pore/tuning.hpp"
 
 namespace jam::inside {
@@ -16,11 +17,6 @@ namespace {
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double rounding = PoreSizeTuning::rounding;
 
-// One equation d . c + q r = b for the centre c and radius r of a sphere that touches a ball; c from a base point.
-struct Row {
-  Point d;
-  double q, b;
-};
 Row touching(const Ball &base, const Ball &ball) {
   const Point d = minus(ball.x, base.x);
   return {d, ball.r - base.r, 0.5 * (dot(d, d) - ball.r * ball.r + base.r * base.r)};
@@ -129,13 +125,18 @@ class Pores {
     row_.clear();
     for (const Ball &b : near_) row_.push_back(touching(base, b));
     for (int w = 0; w < p_.container.count(); ++w)
-      if (p_.container.distance(w, base.x.data()) <= base.r + 2.0 * most_)
+      if (p_.container.distance(w, base.x.data()) <= base.r + 2.0 * most_ && !(in_tube() && p_.container.is_round(w)))
         row_.push_back(touching_wall(base, p_.container, w));
   }
+  bool in_tube() const { return p_.dim == 3 && p_.container.round_axes() == 2; }
+  // Calls f with the spheres that touch the wall of a cylinder, the base and rows of it.
+  template <class F>
+  void solve_in_tube(const Ball &base, const F &f);
   // A round wall bends towards the void: a sphere that touches it is widest with one surface less, in the plane or on
   // the line of the others. Its row is the last.
-  bool curved() const { return p_.container.round_axes() > 0 && row_.size() > near_.size(); }
+  bool curved() const { return p_.container.round_axes() > 0 && !in_tube() && row_.size() > near_.size(); }
   void keep_between_walls();
+  void keep_at_ends();
   // No pore is wider: clearance grows by no more than the way from the nearest point of a grid.
   double bound_radius() const;
   void find_vertices();
@@ -152,6 +153,7 @@ class Pores {
   Balls balls_;
   std::vector<Ball> near_;
   std::vector<Row> row_;  // of near_, then of walls
+  std::vector<Ball> found_;
   std::vector<Ball> vertex_;
   std::vector<std::vector<int32_t>> vertices_at_;  // those that reach into each box of balls_
 };
@@ -180,7 +182,7 @@ double Pores::bound_radius() const {
   }
 }
 
-// Spheres that touch d + 1 balls: where clearance is largest. Found from the ball of lowest number among them.
+// Spheres that touch d + 1 surfaces: where clearance is largest. Found from the ball of lowest number among them.
 void Pores::find_vertices() {
   const std::vector<Row> &rows = row_;
   std::vector<Ball> others;
@@ -201,13 +203,28 @@ void Pores::find_vertices() {
         else
           for (size_t c = b + 1; c < rows.size(); ++c) solve(base, rows[a], rows[b], rows[c], keep);
     }
+    if (in_tube()) solve_in_tube(base, keep);
     if (!curved()) continue;
     for (size_t a = 0; p_.dim == 3 && a < near_.size(); ++a)
       solve(base, rows[a], rows.back(), in_plane_of(rows[a], rows.back()), keep);
     solve_on_line(base, rows.back(), keep);
   }
   keep_between_walls();
+  keep_at_ends();
   balls_.sort_into_boxes(vertex_, vertices_at_);
+}
+
+template <class F>
+void Pores::solve_in_tube(const Ball &base, const F &f) {
+  const Tube tube(0.5 * p_.cell.edge(0));
+  found_.clear();
+  tube.about_axis(base, found_);
+  for (size_t a = 0; a < row_.size(); ++a) {
+    CallScope::look();
+    tube.widest(base, row_[a], found_);
+    for (size_t b = a + 1; b < row_.size(); ++b) tube.touching(base, row_[a], row_[b], found_);
+  }
+  for (const Ball &s : found_) f(s);
 }
 
 // Spheres that touch walls alone, in a closed brick: opposite ones along an axis, and one along each other.
@@ -223,6 +240,17 @@ void Pores::keep_between_walls() {
     }
 }
 
+// Spheres as wide as a cylinder at its flat ends.
+void Pores::keep_at_ends() {
+  if (!in_tube() || p_.cell.repeats(2)) return;
+  const double radius = 0.5 * p_.cell.edge(0);
+  for (const double z : {radius, p_.cell.edge(2) - radius}) {
+    const Ball s{{radius, radius, z}, radius};
+    balls_.near(s.x, s.r, near_);
+    if (is_free(s, near_)) vertex_.push_back(s);
+  }
+}
+
 double Pores::largest_at(const Point &x) {
   const Ball point{x, 0.0};
   double best = clearance(x);
@@ -234,7 +262,9 @@ double Pores::largest_at(const Point &x) {
   balls_.near(x, 2.0 * most_, near_);
   take_rows(point);
   const auto keep = [&](const Ball &s) {
-    if (s.r > best && s.r <= most_ && is_free(s, near_)) best = s.r;
+    const Point d = minus(s.x, x);
+    const double reach = s.r + rounding * length_;  // Newton's steps may end at another sphere
+    if (s.r > best && s.r <= most_ && dot(d, d) <= reach * reach && is_free(s, near_)) best = s.r;
   };
   for (size_t a = 0; a < row_.size(); ++a) {
     CallScope::look();
@@ -244,6 +274,11 @@ double Pores::largest_at(const Point &x) {
     }
   }
   if (curved()) solve_on_line(point, row_.back(), keep);
+  if (in_tube()) {
+    const double radius = 0.5 * p_.cell.edge(0);
+    keep({{radius, radius, x[2]}, radius});
+    solve_in_tube(point, keep);
+  }
   return best;
 }
 
@@ -251,10 +286,6 @@ double Pores::largest_at(const Point &x) {
 
 void check_pore_points(const Packing &p, int64_t points) {
   check_has_pores(p);
-  if (p.dim == 3 && p.container.round_axes() == 2)
-    fail(JAM_E_UNSUPPORTED,
-         "pore sizes in a cylinder: spheres that touch its wall and three others are roots of a quartic, which is not "
-         "solved; an image of jam_write_voxels with a program for local thickness gives them to its resolution");
   if (points < 1 || points > 1000000000)
     fail(JAM_E_ARGUMENT, "points is %lld, it must be in 1..1e9", static_cast<long long>(points));
 }
@@ -263,13 +294,20 @@ std::vector<std::array<double, 5>> pore_sizes(const Packing &p, int64_t points, 
   Pores pores(p);
   Rng rng(seed, Stream::pore_points);
   std::vector<std::array<double, 5>> out;
+  int64_t misses = 0;
   while (static_cast<int64_t>(out.size()) < points) {
     CallScope::report_share(static_cast<int64_t>(out.size()),
                             static_cast<double>(out.size()) / static_cast<double>(points));
     Point x{};
     for (int c = 0; c < p.dim; ++c) x[c] = rng.uniform() * p.cell.edge(c);
     const double clear = pores.clearance(x);
-    if (!(clear > 0.0)) continue;  // in the solid, or outside of a round wall
+    if (!(clear > 0.0)) {  // in the solid, or outside of a round wall
+      if (++misses > PoreSizeTuning::most_misses)
+        fail(JAM_E_STATE, "there is no void: %lld random points in turn lie in spheres",
+             static_cast<long long>(misses));
+      continue;
+    }
+    misses = 0;
     const double z = p.dim == 3 ? x[2] : std::numeric_limits<double>::quiet_NaN();
     out.push_back({x[0], x[1], z, clear, pores.largest_at(x)});
   }

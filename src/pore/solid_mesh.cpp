@@ -9,37 +9,17 @@
 #include "core/math.hpp"
 #include "pore/clipped.hpp"
 #include "pore/images.hpp"
-#include "pore/profile.hpp"
+#include "pore/joints.hpp"
 #include "pore/sphere_hull.hpp"
 #include "pore/tuning.hpp"
 
 namespace jam::inside {
 namespace {
 
-// A contact as its first sphere sees it. Both spheres take from here what they share, to the bit.
-struct Joint {
-  int32_t i, j;
-  std::array<int, 3> cells;  // the image of i that touches j
-  Point towards;             // unit vector from i to j
-  double length, split;      // distance of the centres; of i and the middle of the joint
-  double radius;             // of the cylinder
-  int32_t rim;               // points round it
-  Point u, v;                // across
-};
-
-struct End {  // of a joint at one sphere
-  size_t joint;
-  bool second;
-};
-
 class Mesher {
  public:
   Mesher(const Packing &p, const ContactNetwork *network, const jam_mesh_options &o)
-      : p_(p), o_(o), grid_(divided_icosahedron(o.edge)), ends_(p.n()) {
-    factor_ = o.contacts == JAM_MESH_SHRUNK ? o.factor : 1.0;
-    if (network && o.contacts != JAM_MESH_SHRUNK) take_joints(*network);
-    if (o.contacts == JAM_MESH_BRIDGED) check_bridges();
-  }
+      : p_(p), o_(o), grid_(divided_icosahedron(o.edge)), joints_(p, network, o) {}
   SolidMesh make();
 
  private:
@@ -52,18 +32,9 @@ class Mesher {
     Triangle corner;
     bool surface;
   };
-  double radius(int32_t i) const { return 0.5 * factor_ * p_.diameter[static_cast<size_t>(i)]; }
-  bool bridged() const { return o_.contacts == JAM_MESH_BRIDGED; }
-  double cap_angle(const Joint &t, int32_t sphere) const { return math::asin(t.radius / radius(sphere)); }
-  Point direction(const End &e) const {
-    const Point &d = joint_[e.joint].towards;
-    return e.second ? Point{-d[0], -d[1], -d[2]} : d;
-  }
-  void take_joints(const ContactNetwork &network);
-  void check_bridges() const;
-  void refuse_third_sphere(const Joint &t, const Point &x, double r, int32_t sphere) const;
-  double bridge_volume(const Joint &t) const;
+  double radius(int32_t i) const { return joints_.radius(i); }
   void build(int32_t sphere);
+  void add_half(const End &e, int32_t first);
   void add_end(const End &e, int32_t sphere, std::vector<Point> &point, std::vector<int32_t> &owner);
   Point place(const Corner &c, const SphereImage &image) const;
   void emit(const SphereImage &image, SolidMesh &mesh) const;
@@ -72,102 +43,17 @@ class Mesher {
   const Packing &p_;
   const jam_mesh_options &o_;
   SphereGrid grid_;
-  double factor_;
-  std::vector<Joint> joint_;
-  std::vector<std::vector<End>> ends_;
+  Joints joints_;
   std::vector<Corner> corner_;  // of the sphere at hand
   std::vector<Part> part_;
 };
 
-void Mesher::take_joints(const ContactNetwork &network) {
-  for (size_t k = 0; k < network.size(); ++k) {
-    if (network.pairs.wall(k)) continue;  // no cylinder leads to a wall
-    Joint t;
-    t.i = network.pairs.i[k], t.j = network.pairs.j[k];
-    t.cells = cells_of(p_.cell, &network.pairs.offset[3 * k]);
-    double r[3];
-    t.length = std::sqrt(pair_vector(p_, network.pairs, k, r));
-    t.towards = {-r[0] / t.length, -r[1] / t.length, -r[2] / t.length};
-    t.split = t.length * radius(t.i) / (radius(t.i) + radius(t.j));
-    const double least = std::min(radius(t.i), radius(t.j));
-    t.radius = bridged() ? o_.bridge * least : 0.0;
-    t.rim = points_of_rim(o_);
-    const size_t c = std::fabs(t.towards[0]) < 0.5 ? 0 : 1;  // an axis well away from it
-    Point axis{};
-    axis[c] = 1.0;
-    t.u = cross(t.towards, axis);
-    const double across = std::sqrt(dot(t.u, t.u));
-    for (double &x : t.u) x /= across;
-    t.v = cross(t.towards, t.u);
-    ends_[static_cast<size_t>(t.i)].push_back({joint_.size(), false});
-    ends_[static_cast<size_t>(t.j)].push_back({joint_.size(), true});
-    joint_.push_back(t);
-  }
-}
-
-// A closed mesh alone is no valid one: its parts must not cut each other.
-void Mesher::refuse_third_sphere(const Joint &t, const Point &x, double r, int32_t sphere) const {
-  const double along = dot(x, t.towards);
-  const double low = radius(t.i) * math::cos(cap_angle(t, t.i));
-  const double high = t.length - radius(t.j) * math::cos(cap_angle(t, t.j));
-  const double nearest = std::min(std::max(along, low), high);
-  const double off2 = std::max(0.0, dot(x, x) - along * along);
-  const double need = r + t.radius;
-  if (off2 + (along - nearest) * (along - nearest) < need * need)
-    fail(JAM_E_ARGUMENT, "bridge is %g: the cylinder between spheres %d and %d would meet sphere %d", o_.bridge, t.i,
-         t.j, sphere);
-}
-
-void Mesher::check_bridges() const {
-  for (size_t s = 0; s < ends_.size(); ++s)
-    for (size_t a = 0; a < ends_[s].size(); ++a)
-      for (size_t b = 0; b < a; ++b) {
-        const auto sphere = static_cast<int32_t>(s);
-        const Joint &t = joint_[ends_[s][a].joint], &q = joint_[ends_[s][b].joint];
-        const double angle =
-            math::acos(std::min(1.0, std::max(-1.0, dot(direction(ends_[s][a]), direction(ends_[s][b])))));
-        if (angle < cap_angle(t, sphere) + cap_angle(q, sphere) + MeshTuning::between_rims)
-          fail(JAM_E_ARGUMENT, "bridge is %g: two cylinders at sphere %d would meet (contacts %zu and %zu)", o_.bridge,
-               sphere, ends_[s][a].joint, ends_[s][b].joint);
-      }
-  const PairList pairs = find_pairs(p_, 0.0, 1.0 + o_.bridge);
-  for (size_t k = 0; k < pairs.size(); ++k) {
-    if (pairs.wall(k)) continue;
-    double r[3];
-    pair_vector(p_, pairs, k, r);
-    for (const bool second : {false, true}) {  // whether the joint is at the second sphere of the pair
-      const int32_t own = second ? pairs.j[k] : pairs.i[k], other = second ? pairs.i[k] : pairs.j[k];
-      for (const End &e : ends_[static_cast<size_t>(own)]) {
-        const Joint &t = joint_[e.joint];
-        Point x, off;  // the other from the first sphere of the joint; from the partner
-        for (size_t c = 0; c < 3; ++c) {
-          x[c] = (second ? r[c] : -r[c]) + (e.second ? t.length * t.towards[c] : 0.0);
-          off[c] = x[c] - (e.second ? 0.0 : t.length * t.towards[c]);
-        }
-        const double same = 1e-6 * t.length;
-        if (dot(off, off) > same * same) refuse_third_sphere(t, x, radius(other), other);
-      }
-    }
-  }
-}
-
-// What a cylinder adds to the two spheres.
-double Mesher::bridge_volume(const Joint &t) const {
-  double length = t.length, caps = 0.0;
-  for (const int32_t s : {t.i, t.j}) {
-    const double depth = radius(s) * math::cos(cap_angle(t, s));
-    length -= depth;
-    caps += volume_below(3, radius(s), -depth);
-  }
-  return math::pi * t.radius * t.radius * length - caps;
-}
-
 // The points of the sphere at one end: of its rim, or the contact itself. `owner` says which corners a rim has.
 void Mesher::add_end(const End &e, int32_t sphere, std::vector<Point> &point, std::vector<int32_t> &owner) {
-  const Joint &t = joint_[e.joint];
-  const Point d = direction(e);
+  const Joint &t = joints_.of(e);
+  const Point d = joints_.direction(e);
   const auto joint = static_cast<int32_t>(e.joint);
-  if (!bridged()) {
+  if (t.kind == JointKind::point) {
     point.push_back(d);
     owner.push_back(-1);
     corner_.push_back({{}, joint, -1, e.second});
@@ -180,14 +66,17 @@ void Mesher::add_end(const End &e, int32_t sphere, std::vector<Point> &point, st
     Point x;
     for (size_t q = 0; q < 3; ++q) x[q] = c * d[q] + s * (co * t.u[q] + si * t.v[q]);
     point.push_back(x);
-    owner.push_back(static_cast<int32_t>(&e - ends_[static_cast<size_t>(sphere)].data()));
+    owner.push_back(static_cast<int32_t>(&e - joints_.ends(sphere).data()));
     for (double &y : x) y *= radius(sphere);
-    corner_.push_back({x, -1, 0, false});
+    if (t.kind == JointKind::circle)
+      corner_.push_back({{}, joint, k, e.second});  // both spheres have it
+    else
+      corner_.push_back({x, -1, 0, false});
   }
 }
 
 void Mesher::build(int32_t sphere) {
-  const std::vector<End> &ends = ends_[static_cast<size_t>(sphere)];
+  const std::vector<End> &ends = joints_.ends(sphere);
   std::vector<Point> point;
   std::vector<int32_t> owner;
   corner_.clear(), part_.clear();
@@ -199,9 +88,8 @@ void Mesher::build(int32_t sphere) {
   for (const Point &x : grid_.point) {
     bool free = true;
     for (const End &e : ends) {
-      const double angle =
-          (bridged() ? cap_angle(joint_[e.joint], sphere) : 0.0) + MeshTuning::clear_of_points * o_.edge;
-      free = free && dot(x, direction(e)) < math::cos(std::min(angle, math::pi));
+      const double angle = joints_.cap_angle(joints_.of(e), sphere) + MeshTuning::clear_of_points * o_.edge;
+      free = free && dot(x, joints_.direction(e)) < math::cos(std::min(angle, math::pi));
     }
     if (!free) continue;
     point.push_back(x);
@@ -213,20 +101,27 @@ void Mesher::build(int32_t sphere) {
     const bool cap = o >= 0 && o == owner[static_cast<size_t>(t[1])] && o == owner[static_cast<size_t>(t[2])];
     if (!cap) part_.push_back({t, true});
   }
-  for (size_t e = 0; bridged() && e < ends.size();
-       ++e) {  // the wall of the cylinder up to its middle, and the end there
-    const Joint &t = joint_[ends[e].joint];
-    const auto joint = static_cast<int32_t>(ends[e].joint), ring = static_cast<int32_t>(corner_.size()),
-               middle = ring + t.rim;
-    for (int32_t k = 0; k < t.rim; ++k) corner_.push_back({{}, joint, k, ends[e].second});
-    corner_.push_back({{}, joint, -1, ends[e].second});
-    for (int32_t k = 0; k < t.rim; ++k) {
-      int32_t a = k, b = (k + 1) % t.rim;
-      if (ends[e].second) std::swap(a, b);  // seen from the other side the ring runs the other way
-      part_.push_back({{first[e] + a, first[e] + b, ring + b}, true});
-      part_.push_back({{first[e] + a, ring + b, ring + a}, true});
-      part_.push_back({{ring + a, ring + b, middle}, false});
+  for (size_t e = 0; e < ends.size(); ++e) add_half(ends[e], first[e]);
+}
+
+// Of a cylinder: its wall up to its middle. Then, and of a circle, the disc that both spheres share.
+void Mesher::add_half(const End &e, int32_t first) {
+  const Joint &t = joints_.of(e);
+  if (t.kind == JointKind::point) return;
+  const auto joint = static_cast<int32_t>(e.joint);
+  const bool wall = t.kind == JointKind::cylinder;
+  const int32_t ring = wall ? static_cast<int32_t>(corner_.size()) : first;
+  for (int32_t k = 0; wall && k < t.rim; ++k) corner_.push_back({{}, joint, k, e.second});
+  const auto middle = static_cast<int32_t>(corner_.size());
+  corner_.push_back({{}, joint, -1, e.second});
+  for (int32_t k = 0; k < t.rim; ++k) {
+    int32_t a = k, b = (k + 1) % t.rim;
+    if (e.second) std::swap(a, b);  // from the other side the ring runs the other way
+    if (wall) {
+      part_.push_back({{first + a, first + b, ring + b}, true});
+      part_.push_back({{first + a, ring + b, ring + a}, true});
     }
+    part_.push_back({{ring + a, ring + b, middle}, false});
   }
 }
 
@@ -237,7 +132,7 @@ Point Mesher::place(const Corner &c, const SphereImage &image) const {
     for (size_t q = 0; q < 3; ++q) x[q] += c.x[q];
     return x;
   }
-  const Joint &t = joint_[static_cast<size_t>(c.joint)];
+  const Joint &t = joints_.all()[static_cast<size_t>(c.joint)];
   std::array<int, 3> cells = image.cells;
   for (size_t q = 0; q < 3 && c.second; ++q) cells[q] += t.cells[q];
   x = image_centre(p_, t.i, cells);
@@ -303,17 +198,15 @@ SolidMesh Mesher::make() {
   std::vector<double> reach;
   for (size_t i = 0; i < p_.n(); ++i) {
     double far = radius(static_cast<int32_t>(i));
-    for (const End &e : ends_[i]) {
-      const Joint &t = joint_[e.joint];
+    for (const End &e : joints_.ends(static_cast<int32_t>(i))) {
+      const Joint &t = joints_.of(e);
       const double half = e.second ? t.length - t.split : t.split;
       far = std::max(far, std::sqrt(half * half + t.radius * t.radius));
     }
     reach.push_back(far * (1.0 + 1e-12));
-    mesh.solid += volume_below(3, radius(static_cast<int32_t>(i)), radius(static_cast<int32_t>(i)));
   }
-  for (const Joint &t : joint_)
-    if (bridged()) mesh.solid += bridge_volume(t);
-  mesh.bridges = bridged() ? static_cast<int64_t>(joint_.size()) : 0;
+  mesh.solid = joints_.volume();
+  for (const Joint &t : joints_.all()) mesh.bridges += t.kind == JointKind::cylinder;
   const std::vector<SphereImage> images = images_near_brick(p_, reach);
   CallScope::need_memory(
       static_cast<double>(images.size()) * static_cast<double>(grid_.triangle.size()) * sizeof(std::array<float, 9>),
@@ -347,6 +240,9 @@ void check_mesh(const Packing &p, const jam_mesh_options &o) {
   if (!(o.factor > 0.0 && o.factor < 1.0)) fail(JAM_E_ARGUMENT, "factor is %g, it must lie between 0 and 1", o.factor);
   if (!(o.bridge >= MeshTuning::thinnest_bridge && o.bridge <= MeshTuning::widest_bridge))
     fail(JAM_E_ARGUMENT, "bridge is %g, it must be in 0.02..0.45", o.bridge);
+  if (!(o.bridge_gap >= 0.0 && o.bridge_gap <= 1.0))
+    fail(JAM_E_ARGUMENT, "bridge_gap is %g, it must be in 0..1", o.bridge_gap);
+  check_enum(o.walls, JAM_MESH_SPHERES, JAM_MESH_WALLS, "walls", "jam_mesh_walls");
   check_has_pores(p);
   if (p.dim != 3) fail(JAM_E_UNSUPPORTED, "a mesh of triangles needs d = 3, this packing has d = %d", p.dim);
   const double smallest = *std::min_element(p.diameter.begin(), p.diameter.end());
@@ -359,7 +255,10 @@ void check_mesh(const Packing &p, const jam_mesh_options &o) {
 
 SolidMesh solid_mesh(const Packing &p, const ContactNetwork *network, const jam_mesh_options &o) {
   check_mesh(p, o);
-  return Mesher(p, network, o).make();
+  SolidMesh mesh;
+  if (o.walls != JAM_MESH_WALLS) mesh = Mesher(p, network, o).make();
+  if (o.walls != JAM_MESH_SPHERES) add_walls(p, o, mesh);
+  return mesh;
 }
 
 }  // namespace jam::inside

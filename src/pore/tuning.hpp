@@ -28,6 +28,12 @@ struct MeshTuning {
   // Points of the grid this near to a contact or a rim, in edges, give way to it.
   static constexpr double clear_of_points = 0.5;
   static constexpr double between_rims = 0.01;  // least angle of two
+  // The circle in which two spheres overlap: in edges, below which it is one point; over the smaller radius, beyond
+  // which that sphere has too little left around its centre.
+  static constexpr double narrowest_circle = 0.25, widest_circle = 0.98;
+  static constexpr double same_centre = 1e-6;  // of the length of a joint: an image of its partner, not a third sphere
+  // Corners of a round wall: its edges have the length of those of the largest sphere.
+  static constexpr double fewest_corners = 24.0, most_corners = 4096.0;
   // Edges of a triangle, in steps of the floats of the file: shorter ones have errors of a per cent.
   static constexpr double least_steps = 100.0;
   // Estimate of triangles that a plane passes on a sphere of T: so many times sqrt(T) r, where it cuts the sphere in a
@@ -46,10 +52,21 @@ struct VoxelTuning {
   static constexpr double default_size = 0.01, most = 100000.0;  // V^(1/d); voxels along an edge
 };
 
+// Spheres that touch the wall of a cylinder.
+struct TubeTuning {
+  static constexpr double flat = 1e-9;          // sine below which two directions count as parallel
+  static constexpr double double_root = 1e-10;  // of the sum of the terms of a polynomial that touches 0
+  static constexpr int bisections = 60, newton_steps = 4;
+  // Around the wall, between which widest spheres are searched; near the base denser by the factor exp(denser).
+  static constexpr int azimuths = 64;
+  static constexpr double denser = 8.0;
+};
+
 struct PoreSizeTuning {
-  static constexpr double rounding = 1e-9;  // of lengths, over the spacing
-  static constexpr double grid = 5.0;       // points for each spacing, from which the largest pore is bounded
-  static constexpr double flat = 1e-3;      // sine below which three directions lie nearly in a plane
+  static constexpr double rounding = 1e-9;           // of lengths, over the spacing
+  static constexpr double grid = 5.0;                // points for each spacing, from which the largest pore is bounded
+  static constexpr int64_t most_misses = 10000000;  // random points in the solid, one after the other
+  static constexpr double flat = 1e-3;               // sine below which three directions lie nearly in a plane
 };
 
 }  // namespace jam::inside

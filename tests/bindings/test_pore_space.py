@@ -387,14 +387,72 @@ class Pores(unittest.TestCase):
             self.assertTrue((best <= p.radius * (1 + 1e-9)).all())
             self.assertGreater((best > 0.98 * p.radius).mean(), 0.7)  # others end in a neighbouring hole
 
+    def test_body_centred_lattice(self):
+        s = jam.System.from_arrays([[0, 0, 0], [0.5, 0.5, 0.5]], 0.8, cell=np.eye(3), dim=3)
+        p = s.pore_sizes(2000, 1)
+        self.assertAlmostEqual(p.radius.max(), math.sqrt(5) / 4 - 0.4, 9)
+
+    def test_one_sphere_in_a_tube(self):
+        """Spheres as wide as the tube fit above and below; a point between is in one of them or has a smaller radius."""
+        for closed in ("", "z"):
+            for a in (0.05, 0.2, 0.4):
+                s = jam.System.from_arrays([[0.5, 0.5, 1.0]], 2 * a, cell=[1, 1, 4], container="cylinder", walls=closed)
+                p = s.pore_sizes(200, 1)
+                low, high = (0.5, 1.0 - a - 0.5) if closed else (1.0 + a + 0.5 - 4, 1.0 - a - 0.5)
+                held = np.zeros(200, bool)
+                for first, last in ((low, high), (1.0 + a + 0.5, 3.5 if closed else 5 - a - 0.5)):
+                    if last < first:
+                        continue
+                    z = np.clip(p.z, first, last)
+                    held |= (p.x - 0.5) ** 2 + (p.y - 0.5) ** 2 + (p.z - z) ** 2 < 0.25 - 1e-9
+                self.assertTrue(held.any())
+                np.testing.assert_allclose(p.radius[held], 0.5, atol=1e-9)
+                self.assertTrue((p.radius[~held] < 0.5 + 1e-9).all())
+
+    def test_nothing_larger_is_found_in_a_tube(self):
+        for walls, length, n, grown in (("", 1.0, 12, False), ("z", 1.5, 30, False), ("z", 0.8, 20, True)):
+            s = jam.System.random(n, 3, 2, packing_fraction=0.2, container="cylinder", walls=walls, cell=[1, 1, length])
+            if grown:
+                s.compress(growth_rate=1e-1, pressure=300)
+            p = s.pore_sizes(40, 2)
+            x = np.stack([p.x, p.y, p.z], 1)
+            rng = np.random.default_rng(1)
+
+            def clearance(c):
+                d = c[:, None] - s.positions
+                if not walls:
+                    d[..., 2] -= length * np.rint(d[..., 2] / length)
+                r = (np.sqrt((d * d).sum(-1)) - s.radii).min(1)
+                r = np.minimum(r, 0.5 - np.hypot(c[:, 0] - 0.5, c[:, 1] - 0.5))
+                return np.minimum(r, np.minimum(c[:, 2], length - c[:, 2])) if walls else r
+
+            np.testing.assert_allclose(clearance(x), p.distance, atol=1e-12)
+            best = p.distance.copy()
+            for k in range(len(x)):
+                for _ in range(2):
+                    centre, step = x[k][None], p.radius[k]
+                    for _ in range(50):
+                        tries = np.vstack([centre, centre + step * rng.normal(size=(200, 3))])
+                        r = clearance(tries)
+                        d = tries - x[k]
+                        r[(d * d).sum(1) > r * r] = -1
+                        centre, best[k] = tries[[r.argmax()]], max(best[k], r.max())
+                        step *= 0.85
+            self.assertTrue((best <= p.radius * (1 + 1e-7)).all())
+            self.assertGreater((best > 0.98 * p.radius).mean(), 0.7)
+
+    def test_a_solid_without_void_is_named(self):
+        x = np.array(list(itertools.product((0.25, 0.75), repeat=3)))
+        s = jam.System.from_arrays(x, 0.9, cell=np.eye(3), dim=3, overlap="allow")
+        with self.assertRaisesRegex(jam.errors.StateError, "no void"):
+            s.pore_sizes(5, 1)
+
     def test_seeds_and_refusals(self):
         s = jam.System.random(20, packing_fraction=0.3)
         a, b, c = (s.pore_sizes(50, seed) for seed in (1, 1, 2))
         self.assertTrue((a.x == b.x).all() and (a.x != c.x).all())
         with self.assertRaises(jam.errors.ArgumentError):
             s.pore_sizes(0, 1)
-        with self.assertRaisesRegex(jam.errors.UnsupportedError, "pore sizes"):
-            jam.System.random(20, packing_fraction=0.1, container="cylinder").pore_sizes(5, 1)
 
 
 @unittest.skipUnless(PACK, "jam-pack is not built")

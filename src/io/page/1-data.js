@@ -17,14 +17,16 @@ const radius = (i) => 0.5 * growth * diameter[diameter.length > 1 ? i : 0];
 let meanDiameter = 0;
 for (const s of diameter) meanDiameter += s / diameter.length;
 
-// Rows of contacts: spheres i and j, the unit vector from j to i, gap and force (mean 1).
+// Rows of contacts: spheres i and j, the unit vector from j to i, gap and force (mean 1). Contacts by distance have no
+// forces: all are drawn as the mean force would be.
 const network = data.contacts && {
   pair: numbers(data.contacts.pair, Int32Array),
   vector: numbers(data.contacts.vector, Float32Array),
   gap: numbers(data.contacts.gap, Float32Array),
-  force: numbers(data.contacts.force, Float32Array),
+  force: data.contacts.force ? numbers(data.contacts.force, Float32Array) : null,
 };
-const contactCount = network ? network.force.length : 0;
+const contactCount = network ? network.gap.length : 0, balanced = !!network && network.force !== null;
+if (network && !balanced) network.force = new Float32Array(contactCount).fill(1);
 const coordination = new Int32Array(n), load = new Float64Array(n), contactsOf = new Map();
 for (let k = 0; k < contactCount; ++k)
   for (const end of [network.pair[2 * k], network.pair[2 * k + 1]]) {
@@ -39,13 +41,16 @@ const CLASSES = [
   { name: "buckler", letter: "B", colour: [230, 159, 0] },
   { name: "rattler", letter: "R", colour: [190, 190, 190] },
 ];
-const classOf = (i) => (!network ? 0 : coordination[i] === 0 ? 2 : coordination[i] === dim + 1 ? 1 : 0);
+const classOf = (i) => (!balanced ? 0 : coordination[i] === 0 ? 2 : coordination[i] === dim + 1 ? 1 : 0);
 
 // What spheres can be coloured by: a name and a number a sphere.
 const quantities = [{ name: "diameter", of: (i) => 2 * radius(i) }];
-if (network)
-  quantities.unshift({ name: "class", of: classOf, classes: true },
-    { name: "coordination", of: (i) => coordination[i], whole: true }, { name: "sum of forces", of: (i) => load[i] });
+if (network) quantities.unshift({ name: "coordination", of: (i) => coordination[i], whole: true });
+if (balanced) {
+  quantities.unshift({ name: "class", of: classOf, classes: true });
+  quantities.splice(2, 0, { name: "sum of forces", of: (i) => load[i] });
+}
+const described = quantities.length; // by other lines of the text on a sphere
 if (data.steps) quantities.push({ name: "distance to the end", of: (i) => distance[i], range: () => [0, farthest] });
 for (const own of data.values) {
   const list = numbers(own.values, Float64Array);

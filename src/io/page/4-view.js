@@ -155,10 +155,11 @@ function drawLabels(view) {
 function describe(i, digits) {
   const x = Array.from({ length: dim }, (_, c) => shownNumber(position[i * dim + c], atEnd() ? digits : 6));
   const lines = [`sphere ${i}` +
-    (network ? `, ${atEnd() ? "" : "in the end "}${CLASSES[classOf(i)].name}, ${coordination[i]} contacts` : "")];
+    (balanced ? `, ${atEnd() ? "" : "in the end "}${CLASSES[classOf(i)].name}` : "") +
+    (network ? `, ${coordination[i]} contacts` : "")];
   lines.push(`position ${x.join("  ")}`, `diameter ${shownNumber(2 * radius(i), digits)}`);
-  if (network && atEnd()) lines.push(`sum of forces ${shownNumber(load[i], digits)}`);
-  for (const q of quantities.slice(network ? 4 : 1)) lines.push(`${q.name} ${shownNumber(q.of(i), digits)}`);
+  if (balanced && atEnd()) lines.push(`sum of forces ${shownNumber(load[i], digits)}`);
+  for (const q of quantities.slice(described)) lines.push(`${q.name} ${shownNumber(q.of(i), digits)}`);
   return lines;
 }
 function pointed(event) {

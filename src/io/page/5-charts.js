@@ -69,8 +69,9 @@ function showCharts() {
   let out = "";
   if (network && contactCount) {
     for (const z of coordination) counts.set(z, (counts.get(z) || 0) + 1);
-    out += chart("Contact forces", "force over the mean", "share up to it", cumulative(network.force),
-      { logX: true, logY: true });
+    if (balanced)
+      out += chart("Contact forces", "force over the mean", "share up to it", cumulative(network.force),
+        { logX: true, logY: true });
     const near = closed.some((c) => c) ? "pairs and walls" : "pairs";
     out += chart(`Gaps of ${near} that do not touch`, "gap in diameters", "pairs up to it, a sphere",
       data.gaps.map(([gap, count]) => [gap, count / n]), { logX: true, logY: true });

@@ -7,11 +7,13 @@ function caption() {
   const known = r ? CAPTIONED.filter((name) => r.numbers[name] !== null) : [];
   const verdict = r && r.jammed ? "collectively jammed" : "not jammed";
   if (r) lines.push(`${verdict}, ${network ? contactCount : "unknown"} contacts`);
+  if (!r && network) lines.push(data.network);
   if (known.length) lines.push(known.map((name) => `${name} ${shownNumber(r.numbers[name], 3)}`).join(", "));
   const classes = [0, 1, 2].map((k) => scene.tint.values.filter((x) => x === k).length);
   lines.push(q.classes ? CLASSES.map((c, k) => `${classes[k]} ${c.name} (${["blue", "orange", "grey"][k]})`).join(", ")
     : `colour: ${q.name} from ${shownNumber(low, 4)} (dark) to ${shownNumber(high, 4)} (light)`);
-  if (network && state.forces && atEnd()) lines.push("lines: contacts, as wide as their forces" +
+  if (network && !balanced && state.forces) lines.push("lines: contacts");
+  if (balanced && state.forces && atEnd()) lines.push("lines: contacts, as wide as their forces" +
     (state.forceColours ? `, from light to dark at ${STRONG} mean forces` : "") +
     (state.threshold > 0 ? `, those above ${shownNumber(state.threshold, 3)} mean forces` : ""));
   if (state.gap > 0) lines.push(`thin black lines: pairs with gaps below ${shownNumber(state.gap, 3)}`);

@@ -39,15 +39,19 @@ function makeControls() {
   parts.colour = choice("Colour", quantities.map((q) => q.name), 0, (k) => (state.colour = k), "C: the next one");
   parts.size = slider("Spheres", 0, 1, state.size, (x) => (state.size = x), "size of the spheres; 0 hides them");
   if (network) {
-    parts.forces = tick("Forces", "forces", "F: contact forces as cylinders; spheres in space shrink to show them");
+    const shown = balanced ? "contact forces" : "contacts";
+    parts.forces = tick(balanced ? "Forces" : "Contacts", "forces",
+      `F: ${shown} as cylinders; spheres in space shrink to show them`);
     parts.forces.addEventListener("change", () => {
       if (dim === 2 || (state.forces && state.size < 1)) return;
       parts.size.value = state.forces ? 0.35 : 1;
       parts.size.dispatchEvent(new Event("input"));
     });
+    slider("Width", 0.2, 3, 1, (x) => (state.width = x), "width of the cylinders");
+  }
+  if (balanced) {
     parts.forceColours = tick("coloured", "forceColours",
       "contacts from light (weak) to dark (three mean forces and more)");
-    slider("Width", 0.2, 3, 1, (x) => (state.width = x), "width of the force cylinders");
     slider("Forces above", 0, 4, 0, (x) => (state.threshold = x), "in units of the mean force");
     for (const [k, one] of CLASSES.entries()) {
       const box = document.createElement("input");
@@ -116,7 +120,7 @@ function showLegend() {
     place.innerHTML = `<span>${escaped(q.name)} ${shownNumber(low, 4)}` +
       `<b style="background:linear-gradient(90deg,${steps})"></b>${shownNumber(high, 4)}</span>`;
   }
-  if (network && state.forces && state.forceColours && atEnd()) {
+  if (balanced && state.forces && state.forceColours && atEnd()) {
     const steps = Array.from({ length: 9 }, (_, k) => `rgb(${tone(FORCES, k / 8)})`).join(",");
     place.innerHTML +=
       `<span>force 0<b style="background:linear-gradient(90deg,${steps})"></b>${STRONG} and more</span>`;
@@ -130,8 +134,9 @@ function choose(i) {
   let out = "<p>None. Click a sphere, or press N.</p>";
   if (i >= 0) out = describe(i, 12).map((s) => `<p>${escaped(s)}</p>`).join("");
   if (i >= 0 && network && atEnd() && coordination[i])
-    out += "<table><tr><th>touches</th><th>force</th><th>gap</th></tr>" + contacts(i).map((c) =>
-      `<tr><td>${c.other < 0 ? `wall ${-1 - c.other}` : c.other}</td><td>${shownNumber(c.force)}</td>` +
+    out += `<table><tr><th>touches</th>${balanced ? "<th>force</th>" : ""}<th>gap</th></tr>` + contacts(i).map((c) =>
+      `<tr><td>${c.other < 0 ? `wall ${-1 - c.other}` : c.other}</td>` +
+      (balanced ? `<td>${shownNumber(c.force)}</td>` : "") +
       `<td>${shownNumber(c.gap, 3)}</td></tr>`).join("") + "</table>";
   place.innerHTML = out;
   redraw();
@@ -142,7 +147,7 @@ function showReport() {
   document.getElementById("title").textContent = document.title = data.title || `${n} spheres in d = ${dim}`;
   document.getElementById("about").textContent =
     `N = ${n}, d = ${dim}, packing fraction ${shownNumber(data.packing_fraction, 12)}, seed ${data.seed}`;
-  if (!r) return void (place.innerHTML = "<p>No crunch has been made.</p>");
+  if (!r) return void (place.innerHTML = `<p>${escaped(data.network)}</p>`);
   const rows = Object.entries(r.numbers).map(([name, x]) => `<tr><td>${name}</td><td>${shownNumber(x, 12)}</td></tr>`);
   const verdict = `${r.jammed ? "Collectively jammed" : "Not jammed"} (${r.stop_reason})` +
     (r.proof ? `; ${r.proof}` : "");
@@ -194,7 +199,7 @@ function startPage() {
     problem.textContent = "This browser has no WebGL2, so the picture cannot be drawn. The numbers are beside it.";
     return;
   }
-  canvas.setAttribute("aria-label", `${n} spheres in d = ${dim}` + (network ? `, ${contactCount} contact forces` : "") +
+  canvas.setAttribute("aria-label", `${n} spheres in d = ${dim}` + (network ? `, ${contactCount} ${balanced ? "contact forces" : "contacts"}` : "") +
     ". Keys: arrows turn, N chooses the next sphere, L shows labels.");
   home();
   makeControls();

@@ -25,6 +25,7 @@ export walls,
        contact_gaps,
        hessian_map,
        contacts_from_geometry!,
+       contacts_by_distance,
        contact_candidates,
        stress_states,
        rigidity,
@@ -412,6 +413,19 @@ function contacts_from_geometry!(s::System; progress = nothing, given...)
 end
 
 """
+    contacts_by_distance(s, gap; progress)
+
+Contacts by distance alone, of any packing: all pairs with h < gap, 0 < gap <= 1, every image, and walls. No balance
+is required or tested, so there are no forces, no rattlers, no report and no verdict: for beds under weight and
+friction. `contacts`, `contact_vectors`, `contact_gaps`, `coordination`, `fabric_tensor`, `gaps`, `contact_dots` and
+`sphere_structure` (not weighted), `write_contacts`, `write_stl` and `page` take them; `forces` gives NaN, tables have
+no column of forces, pages say so, and `jam_info.contact_gap` is the gap. Status: `:not_jammed` when there are none
+"""
+function contacts_by_distance(s::System, gap; progress = nothing)
+    return call(s, :jam_contacts_by_distance, (gap, ); progress = progress)
+end
+
+"""
     contact_candidates(s, window) -> table
 
 Candidates for the contact tolerance, for packings where no jump is clear; m is at most 12. A candidate is a jump of
@@ -700,16 +714,21 @@ function local_fraction(s::System)
 end
 
 """
-    write_stl(s, path; contacts, edge, factor, bridge) -> report
+    write_stl(s, path; contacts, edge, factor, bridge, bridge_gap, walls) -> report
 
-Binary STL of the solid, d = 3, closed: each edge belongs to two triangles, which pass it in opposite directions. No
-cylinder leads to a wall; cylinders that would meet are refused with their numbers. The file appears as of `write`;
-path `nothing`: none, and triangles and bytes are an estimate. Status: `:not_jammed` (BRIDGED, and no spheres touch).
+Binary STL of the solid, d = 3, closed: each edge belongs to two triangles, which pass it in opposite directions. Two
+spheres that overlap are joined along their common circle. A third sphere there, and a sphere inside another, would
+make the mesh cut itself and are refused with their numbers, as are cylinders that would meet. No cylinder leads to a
+wall. The file appears as of `write`; path `nothing`: none, and triangles and bytes are an estimate. Status:
+`:not_jammed` (BRIDGED, and there is no bridge).
 
 - `contacts`: one of `:kept`, `:shrunk`, `:bridged`; ; default `:kept`
 - `edge`: of triangles, over the radius of the sphere: 0.03 .. 1, default 0.2
 - `factor`: of SHRUNK, between 0 and 1, default 0.99
 - `bridge`: of BRIDGED: radius of a cylinder over that of the smaller sphere, 0.02 .. 0.45, default 0.2
+- `bridge_gap`: of BRIDGED: bridges between all pairs with h < `bridge_gap` <= 1, as in `near_coordination`, which
+  needs no network; default 0: along the contacts of the network
+- `walls`: one of `:spheres`, `:and_walls`, `:walls`; default `:spheres`
 - errors: `:state` (BRIDGED, no network), `:unsupported`, `:io`
 """
 function write_stl(s::System, path; given...)
@@ -755,8 +774,8 @@ end
 """
     solid_profile(s, axis, bins) -> table
 
-Solid fraction in equal bins, exact: axis 0 .. d-1, slabs between the faces of the cell that `a_axis` joins; axis = d,
-shells of a ball or a cylinder (there to 1e-12).
+Solid fraction in equal bins, exact also where spheres overlap or pass a wall: axis 0 .. d-1, slabs between the faces
+of the cell that `a_axis` joins; axis = d, shells of a ball or a cylinder (there to 1e-12).
 
 - errors: `:unsupported`
 """
@@ -778,8 +797,8 @@ end
 """
     pore_sizes(s, points, seed; progress) -> table
 
-Pore sizes at random points of the void, exact; not in a cylinder. The time grows with the fourth power of the number
-of neighbours of a point: use it above packing fractions of about 0.4.
+Pore sizes at random points of the void, exact; in a cylinder to 1e-9 of the spacing of spheres. The time grows with
+the fourth power of the number of neighbours of a point: use it above packing fractions of about 0.4.
 
 - errors: `:unsupported`
 """

@@ -367,10 +367,15 @@ const JAM_POPULATION_MEDIAN = Int32(4)  # forces only: the (lower) median of one
 const JAM_STRUCTURE_Q = Int32(0)  # |q| times the mean diameter, ascending
 const JAM_STRUCTURE_S = Int32(1)  # S(q), its average over all q of this length
 
-# jam_mesh_contacts: Solid and void inside the brick [0, a_00) x [0, a_11) x ..., which repeats as the cell does; spheres are cut at its faces. d = 2 and 3, no Mari-Kurchan shifts: else JAM_E_UNSUPPORTED. What becomes of contacts in a mesh:
+# jam_mesh_contacts: Solid and void inside the brick [0, a_00) x [0, a_11) x ..., which repeats as the cell does; spheres are cut at its faces. The solid is the union of the spheres: volume that spheres share counts once. d = 2 and 3, no Mari-Kurchan shifts: else JAM_E_UNSUPPORTED. What becomes of contacts in a mesh:
 const JAM_MESH_KEPT = Int32(0)  # spheres touch at a common vertex where there is a contact network, else nearly
 const JAM_MESH_SHRUNK = Int32(1)  # all diameters times `factor`
-const JAM_MESH_BRIDGED = Int32(2)  # a cylinder along each contact of the network
+const JAM_MESH_BRIDGED = Int32(2)  # a cylinder along each contact of the network, or between pairs within `bridge_gap`
+
+# jam_mesh_walls: What of the walls a mesh has: triangles around them, turned outwards, whose planes touch a round wall from outside, so that no sphere inside passes them.
+const JAM_MESH_SPHERES = Int32(0)  # nothing
+const JAM_MESH_AND_WALLS = Int32(1)  # spheres and walls
+const JAM_MESH_WALLS = Int32(2)  # the walls alone
 
 # jam_profile_column: Columns of jam_solid_profile.
 const JAM_PROFILE_LOW = Int32(0)  # where the bin begins: distance to the face of the cell, or to the centre or axis
@@ -532,6 +537,7 @@ What the system is now.
 - `container`: one of `:brick`, `:cylinder`, `:ball`
 - `walls`: as in `jam_create_options`
 - `volume`: V of the container, else of the cell
+- `contact_gap`: of `contacts_by_distance`, while its contacts are kept; else NaN
 """
 mutable struct jam_info
     struct_size::UInt32
@@ -550,7 +556,8 @@ mutable struct jam_info
     container::Int32  # jam_container
     walls::Int32  # as in jam_create_options
     volume::Cdouble  # V of the container, else of the cell
-    jam_info() = new(96, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
+    contact_gap::Cdouble  # of jam_contacts_by_distance, while its contacts are kept; else NaN
+    jam_info() = new(104, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
 end
 
 """
@@ -1640,6 +1647,9 @@ Options of `write_stl`.
 - `edge`: of triangles, over the radius of the sphere: 0.03 .. 1, default 0.2
 - `factor`: of SHRUNK, between 0 and 1, default 0.99
 - `bridge`: of BRIDGED: radius of a cylinder over that of the smaller sphere, 0.02 .. 0.45, default 0.2
+- `bridge_gap`: of BRIDGED: bridges between all pairs with h < `bridge_gap` <= 1, as in `near_coordination`, which
+  needs no network; default 0: along the contacts of the network
+- `walls`: one of `:spheres`, `:and_walls`, `:walls`; default `:spheres`
 """
 mutable struct jam_mesh_options
     struct_size::UInt32
@@ -1647,7 +1657,10 @@ mutable struct jam_mesh_options
     edge::Cdouble  # of triangles, over the radius of the sphere: 0.03 .. 1, default 0.2
     factor::Cdouble  # of SHRUNK, between 0 and 1, default 0.99
     bridge::Cdouble  # of BRIDGED: radius of a cylinder over that of the smaller sphere, 0.02 .. 0.45, default 0.2
-    jam_mesh_options() = new(32, 0, 0, 0, 0)
+    bridge_gap::Cdouble  # of BRIDGED: bridges between all pairs with h < bridge_gap <= 1, as in jam_near_coordination, which needs no network; default 0: along the contacts of the network
+    walls::Int32  # jam_mesh_walls, default SPHERES
+    reserved::Int32
+    jam_mesh_options() = new(48, 0, 0, 0, 0, 0, 0, 0)
 end
 
 """
@@ -2729,7 +2742,7 @@ end
 
 Contact forces, mean 1; times `report.force_scale` they are lambda r. With more than one state of self-stress
 (`excess_contacts` > 0: crystals, disks of two sizes) they are not unique. A jammed packing then has those in the
-middle of all non-negative states, as `jam_stress_states` gives.
+middle of all non-negative states, as `jam_stress_states` gives. NaN after `jam_contacts_by_distance`.
 Shapes: out (contacts).
 Errors: `JAM_E_STATE`.
 """
@@ -2740,7 +2753,7 @@ end
 """
     jam_coordination(sys, out, out_len, needed)
 
-Number of contacts of each sphere; 0 for rattlers.
+Number of contacts of each sphere; 0 for rattlers, or spheres without contacts by distance.
 Shapes: out (n).
 Errors: `JAM_E_STATE`.
 """
@@ -2832,6 +2845,20 @@ Errors: `JAM_E_SOLVER`, `JAM_E_OVERLAP`.
 """
 function jam_contacts_from_geometry(sys, o, report)
     return ccall((:jam_contacts_from_geometry, libjam), Int32, (Ptr{Cvoid}, Ref{jam_geometry_options}, Ref{jam_geometry_report}), sys, _ref(jam_geometry_options, o), _ref(jam_geometry_report, report))
+end
+
+"""
+    jam_contacts_by_distance(sys, gap)
+
+Contacts by distance alone, of any packing: all pairs with h < gap, 0 < gap <= 1, every image, and walls. No balance
+is required or tested, so there are no forces, no rattlers, no report and no verdict: for beds under weight and
+friction. `jam_contacts`, `jam_contact_vectors`, `jam_contact_gaps`, `jam_coordination`, `jam_fabric_tensor`, `jam_gaps`,
+`jam_contact_dots` and `jam_sphere_structure` (not weighted), `jam_write_contacts`, `jam_write_stl` and `jam_write_page` take
+them; `jam_forces` gives NaN, tables have no column of forces, pages say so, and `jam_info.contact_gap` is the gap.
+Status: `JAM_NOT_JAMMED` when there are none
+"""
+function jam_contacts_by_distance(sys, gap)
+    return ccall((:jam_contacts_by_distance, libjam), Int32, (Ptr{Cvoid}, Cdouble), sys, gap)
 end
 
 """
@@ -3171,9 +3198,11 @@ end
 """
     jam_write_stl(sys, path, o, report)
 
-Binary STL of the solid, d = 3, closed: each edge belongs to two triangles, which pass it in opposite directions. No
-cylinder leads to a wall; cylinders that would meet are refused with their numbers. The file appears as of `jam_write`;
-path NULL: none, and triangles and bytes are an estimate. Status: `JAM_NOT_JAMMED` (BRIDGED, and no spheres touch).
+Binary STL of the solid, d = 3, closed: each edge belongs to two triangles, which pass it in opposite directions. Two
+spheres that overlap are joined along their common circle. A third sphere there, and a sphere inside another, would
+make the mesh cut itself and are refused with their numbers, as are cylinders that would meet. No cylinder leads to a
+wall. The file appears as of `jam_write`; path NULL: none, and triangles and bytes are an estimate. Status:
+`JAM_NOT_JAMMED` (BRIDGED, and there is no bridge).
 Errors: `JAM_E_STATE` (BRIDGED, no network), `JAM_E_UNSUPPORTED`, `JAM_E_IO`.
 """
 function jam_write_stl(sys, path, o, report)
@@ -3212,8 +3241,8 @@ end
 """
     jam_solid_profile(sys, axis, bins, columns, table, table_len, needed)
 
-Solid fraction in equal bins, exact: axis 0 .. d-1, slabs between the faces of the cell that `a_axis` joins; axis = d,
-shells of a ball or a cylinder (there to 1e-12).
+Solid fraction in equal bins, exact also where spheres overlap or pass a wall: axis 0 .. d-1, slabs between the faces
+of the cell that `a_axis` joins; axis = d, shells of a ball or a cylinder (there to 1e-12).
 Shapes: table (bins, `jam_profile_column`).
 Errors: `JAM_E_UNSUPPORTED`.
 """
@@ -3234,8 +3263,8 @@ end
 """
     jam_pore_sizes(sys, points, seed, columns, table, table_len, needed)
 
-Pore sizes at random points of the void, exact; not in a cylinder. The time grows with the fourth power of the
-number of neighbours of a point: use it above packing fractions of about 0.4.
+Pore sizes at random points of the void, exact; in a cylinder to 1e-9 of the spacing of spheres. The time grows with
+the fourth power of the number of neighbours of a point: use it above packing fractions of about 0.4.
 Shapes: table (points, `jam_pore_column`).
 Errors: `JAM_E_UNSUPPORTED`.
 """

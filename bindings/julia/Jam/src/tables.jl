@@ -49,6 +49,7 @@ const WORDS = (
     population = (all = 0, localised = 1, extended = 2, smallest = 3, median = 4,),
     structure_column = (q = 0, s = 1,),
     mesh_contacts = (kept = 0, shrunk = 1, bridged = 2,),
+    mesh_walls = (spheres = 0, and_walls = 1, walls = 2,),
     profile_column = (low = 0, high = 1, solid = 2,),
     pore_column = (x = 0, y = 1, z = 2, distance = 3, radius = 4,),
     floppy_column = (median = 0, weight = 1, s_plus = 2, s_star = 3, stability = 4, s_return = 5,),
@@ -82,7 +83,7 @@ kinds(::Type{jam_rigidity_report}) = (kind = :rigidity_kind, jammed = :verdict, 
 kinds(::Type{jam_check_options}) = (crunch = :bool, prove = :bool,)
 kinds(::Type{jam_check_report}) = (jammed = :verdict, strictly_jammed = :verdict, stationary = :verdict, reason = :check_reason, crunch_jammed = :verdict, theorem = :theorem, proof_cause = :proof_cause,)
 kinds(::Type{jam_proof_report}) = (theorem = :theorem, cause = :proof_cause,)
-kinds(::Type{jam_mesh_options}) = (contacts = :mesh_contacts,)
+kinds(::Type{jam_mesh_options}) = (contacts = :mesh_contacts, walls = :mesh_walls,)
 
 # Option structs and what fills in their defaults.
 defaults(::Type{jam_create_options}) = jam_create_options_init
@@ -426,6 +427,9 @@ const CALLS = Dict{Symbol, Call}(
     :jam_contacts_from_geometry => Call(jam_contacts_from_geometry, true, false, [
         Argument(:o, :struct_in, jam_geometry_options, String[], :none, false),
         Argument(:report, :struct_out, jam_geometry_report, String[], :none, false),
+    ]),
+    :jam_contacts_by_distance => Call(jam_contacts_by_distance, true, false, [
+        Argument(:gap, :scalar, Cdouble, String[], :none, false),
     ]),
     :jam_contact_candidates => Call(jam_contact_candidates, true, true, [
         Argument(:window, :scalar, Cdouble, String[], :none, false),

@@ -474,10 +474,19 @@ class StructureColumn(_Word):
 
 class MeshContacts(_Word):
     """Solid and void inside the brick [0, a_00) x [0, a_11) x ..., which repeats as the cell does; spheres are cut at its
-    faces. d = 2 and 3, no Mari-Kurchan shifts: else JAM_E_UNSUPPORTED. What becomes of contacts in a mesh:"""
+    faces. The solid is the union of the spheres: volume that spheres share counts once. d = 2 and 3, no Mari-Kurchan
+    shifts: else JAM_E_UNSUPPORTED. What becomes of contacts in a mesh:"""
     KEPT = 0  # spheres touch at a common vertex where there is a contact network, else nearly
     SHRUNK = 1  # all diameters times `factor`
-    BRIDGED = 2  # a cylinder along each contact of the network
+    BRIDGED = 2  # a cylinder along each contact of the network, or between pairs within `bridge_gap`
+
+
+class MeshWalls(_Word):
+    """What of the walls a mesh has: triangles around them, turned outwards, whose planes touch a round wall from outside,
+    so that no sphere inside passes them."""
+    SPHERES = 0  # nothing
+    AND_WALLS = 1  # spheres and walls
+    WALLS = 2  # the walls alone
 
 
 class ProfileColumn(_Word):
@@ -579,7 +588,8 @@ class Info(Report):
     non_additivity: Delta of a non-additive mixture, 0 for additive diameters
     container: jam_container
     walls: as in jam_create_options
-    volume: V of the container, else of the cell"""
+    volume: V of the container, else of the cell
+    contact_gap: of jam_contacts_by_distance, while its contacts are kept; else NaN"""
     dim: int
     n: int
     seed: int
@@ -595,6 +605,7 @@ class Info(Report):
     container: Container
     walls: int
     volume: float
+    contact_gap: float
 
 
 @dataclass(frozen=True, repr=False)
@@ -1415,6 +1426,8 @@ OPTIONS = {
         "edge": ("float", 'of triangles, over the radius of the sphere: 0.03 .. 1, default 0.2'),
         "factor": ("float", 'of SHRUNK, between 0 and 1, default 0.99'),
         "bridge": ("float", 'of BRIDGED: radius of a cylinder over that of the smaller sphere, 0.02 .. 0.45, default 0.2'),
+        "bridge_gap": ("float", 'of BRIDGED: bridges between all pairs with h < bridge_gap <= 1, as in near_coordination(), which needs no network; default 0: along the contacts of the network'),
+        "walls": ("MeshWalls", 'MeshWalls, default SPHERES'),
     },
     "jam_voxel_options": {
         "lines": ("int", '0, the default: the centre of a voxel decides. Else: share of the voxel that is solid, from lines^(d-1) lines along x, each with its exact length inside spheres; at most 64'),
@@ -1607,6 +1620,7 @@ CALLS = {
     "jam_modes": (True, (("h", "struct_in", "jam_hessian_options"), ("o", "struct_in", "jam_modes_options"), ("columns", "columns", "int32_t"), ("table", "array_out", "double"), ("table_len", "len", "size_t"), ("vector", "array_out", "double"), ("vector_len", "len", "size_t"), ("rows", "scalar_out", "size_t"))),
     "jam_bloch_modes": (True, (("h", "struct_in", "jam_hessian_options"), ("wave", "array_in", "double"), ("wave_len", "len", "size_t"), ("columns", "columns", "int32_t"), ("table", "array_out", "double"), ("table_len", "len", "size_t"), ("vector", "array_out", "double"), ("vector_len", "len", "size_t"), ("rows", "scalar_out", "size_t"))),
     "jam_contacts_from_geometry": (True, (("o", "struct_in", "jam_geometry_options"), ("report", "struct_out", "jam_geometry_report"))),
+    "jam_contacts_by_distance": (True, (("gap", "scalar", "double"),)),
     "jam_contact_candidates": (True, (("window", "scalar", "double"), ("columns", "columns", "int32_t"), ("table", "array_out", "double"), ("table_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_stress_states": (True, (("force", "array_out", "double"), ("force_len", "len", "size_t"), ("basis", "array_out", "double"), ("basis_len", "len", "size_t"), ("residual", "scalar_out", "double"), ("rows", "scalar_out", "size_t"))),
     "jam_rigidity": (True, (("kind", "scalar", "RigidityKind"), ("report", "struct_out", "jam_rigidity_report"))),

@@ -25,7 +25,7 @@ _MEANING = {
     "jam/contacts/pairs": ("", "spheres i < j of each contact, from 0; i = j: a sphere and its own image"),
     "jam/contacts/vectors": ("1", "unit vector from the centre of j to that of i, of the image that touches"),
     "jam/contacts/gaps": ("1", "h = r / sigma_ij - 1: 0 touches, > 0 open, < 0 overlaps"),
-    "jam/contacts/forces": ("1", "force of each contact, mean 1; > 0 pushes the spheres apart"),
+    "jam/contacts/forces": ("1", "force of each contact, mean 1; > 0 pushes the spheres apart; NaN: contacts by distance"),
     "jam/coordination": ("1", "contacts of each sphere (n,); 0: a rattler"),
     "jam/report": ("", "report of the crunch: jam_crunch_report of jam.h"),
     "jam/history": ("", "steps of the crunch in order, one a row"),

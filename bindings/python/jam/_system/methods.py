@@ -705,6 +705,27 @@ class Methods:
         answer: GeometryReport = self.call('contacts_from_geometry', tolerance=tolerance, window=window, progress=progress)
         return answer
 
+    def contacts_by_distance(self, gap: float, *, progress: Progressing = None) -> None:
+        """Contacts by distance alone, of any packing: all pairs with h < gap, 0 < gap <= 1, every image, and walls.
+
+        No balance is required or tested, so there are no forces, no rattlers, no report and no verdict: for beds
+        under weight and friction. contacts(), contact_vectors(), contact_gaps(), coordination(), fabric_tensor(),
+        gaps(), contact_dots() and sphere_structure() (not weighted), write_contacts(), write_stl() and write_page()
+        take them; forces() gives NaN, tables have no column of forces, pages say so, and info.contact_gap is the gap.
+        Status: 'not_jammed' when there are none
+
+        Parameters
+        ----------
+        gap : float
+        progress : bool or callable, optional
+            True: a line that changes. A callable gets a Progress; a true answer stops the call.
+
+        Raises
+        ------
+        ArgumentError, MemoryError, BusyError
+        """
+        self.call('contacts_by_distance', gap, progress=progress)
+
     def contact_candidates(self, window: float) -> ContactCandidatesResult:
         """Candidates for the contact tolerance, for packings where no jump is clear; m is at most 12. A candidate is a
         jump of the sorted gaps below window, as in geometry_options, with enough contacts for a rigid network below
@@ -1134,13 +1155,14 @@ class Methods:
         answer: Array = self.call('local_fraction')
         return answer
 
-    def write_stl(self, path: str, *, contacts: int | str | None = None, edge: float | None = None, factor: float | None = None, bridge: float | None = None) -> MeshReport:
+    def write_stl(self, path: str, *, contacts: int | str | None = None, edge: float | None = None, factor: float | None = None, bridge: float | None = None, bridge_gap: float | None = None, walls: int | str | None = None) -> MeshReport:
         """Binary STL of the solid, d = 3, closed: each edge belongs to two triangles, which pass it in opposite
         directions.
 
-        No cylinder leads to a wall; cylinders that would meet are refused with their numbers. The file appears as of
-        write(); path None: none, and triangles and bytes are an estimate. Status: 'not_jammed' (BRIDGED, and no
-        spheres touch).
+        Two spheres that overlap are joined along their common circle. A third sphere there, and a sphere inside
+        another, would make the mesh cut itself and are refused with their numbers, as are cylinders that would meet.
+        No cylinder leads to a wall. The file appears as of write(); path None: none, and triangles and bytes are an
+        estimate. Status: 'not_jammed' (BRIDGED, and there is no bridge).
 
         Parameters
         ----------
@@ -1153,6 +1175,11 @@ class Methods:
             of SHRUNK, between 0 and 1, default 0.99
         bridge : float, optional
             of BRIDGED: radius of a cylinder over that of the smaller sphere, 0.02 .. 0.45, default 0.2
+        bridge_gap : float, optional
+            of BRIDGED: bridges between all pairs with h < bridge_gap <= 1, as in near_coordination(), which needs no
+            network; default 0: along the contacts of the network
+        walls : {'spheres', 'and_walls', 'walls'}, optional
+            MeshWalls, default SPHERES
 
         Returns
         -------
@@ -1162,7 +1189,7 @@ class Methods:
         ------
         ArgumentError, StateError, UnsupportedError, IoError
         """
-        answer: MeshReport = self.call('write_stl', path, contacts=contacts, edge=edge, factor=factor, bridge=bridge)
+        answer: MeshReport = self.call('write_stl', path, contacts=contacts, edge=edge, factor=factor, bridge=bridge, bridge_gap=bridge_gap, walls=walls)
         return answer
 
     def voxels(self, *, lines: int | None = None, nx: int | None = None, ny: int | None = None, nz: int | None = None, size: float | None = None) -> VoxelsResult:
@@ -1227,8 +1254,8 @@ class Methods:
         return answer
 
     def solid_profile(self, axis: int, bins: int) -> SolidProfileResult:
-        """Solid fraction in equal bins, exact: axis 0.. d-1, slabs between the faces of the cell that a_axis joins; axis
-        = d, shells of a ball or a cylinder (there to 1e-12).
+        """Solid fraction in equal bins, exact also where spheres overlap or pass a wall: axis 0.. d-1, slabs between the
+        faces of the cell that a_axis joins; axis = d, shells of a ball or a cylinder (there to 1e-12).
 
         Parameters
         ----------
@@ -1272,7 +1299,7 @@ class Methods:
         return answer
 
     def pore_sizes(self, points: int, seed: int, *, progress: Progressing = None) -> PoreSizesResult:
-        """Pore sizes at random points of the void, exact; not in a cylinder.
+        """Pore sizes at random points of the void, exact; in a cylinder to 1e-9 of the spacing of spheres.
 
         The time grows with the fourth power of the number of neighbours of a point: use it above packing fractions of
         about 0.4.

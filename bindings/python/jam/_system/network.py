@@ -16,7 +16,7 @@ from .handle import Base
 
 
 class Network(Base):
-    """The contact network that crunch or contacts_from_geometry found."""
+    """The contact network that crunch or contacts_from_geometry found; of contacts_by_distance what needs no forces."""
 
     @property
     def report(self) -> CrunchReport:
@@ -33,7 +33,7 @@ class Network(Base):
 
     @property
     def contacts(self) -> Contacts:
-        """Pairs, unit vectors, gaps and forces of the contacts, as copies.
+        """Pairs, unit vectors, gaps and forces of the contacts, as copies. Forces are NaN after contacts_by_distance.
 
         Examples
         --------

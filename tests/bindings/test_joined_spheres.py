@@ -1,0 +1,336 @@
+"""Meshes of spheres that overlap or nearly touch, walls as meshes, and contacts by distance."""
+import itertools
+import json
+import math
+import os
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+import jam
+import numpy as np
+from test_pore_space import open_edges, triangles, volume
+
+PACK = os.environ.get("JAM_PACK")
+
+
+def soft(x, radii, **options):
+    return jam.System.from_arrays(np.asarray(x, float), 2 * np.asarray(radii, float), dim=3, overlap="allow", **options)
+
+
+def turned(n, seed):
+    """Unit vectors."""
+    v = np.random.default_rng(seed).normal(size=(n, 3))
+    return v / np.linalg.norm(v, axis=1)[:, None]
+
+
+def inside_polyhedron(corners, points):
+    """How often a closed surface turns around each point: solid angles of its triangles (van Oosterom and Strackee 1983)."""
+    total = np.zeros(len(points))
+    for t in corners.astype(float):
+        a, b, c = (t[k] - points for k in range(3))
+        la, lb, lc = (np.linalg.norm(v, axis=1) for v in (a, b, c))
+        top = np.einsum("ij,ij->i", a, np.cross(b, c))
+        total += 2 * np.arctan2(top, la * lb * lc + (a * b).sum(1) * lc + (b * c).sum(1) * la + (c * a).sum(1) * lb)
+    return total / (4 * math.pi)
+
+
+class Folder(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+
+    def mesh(self, s, **options):
+        path = self.folder / "m.stl"
+        report = s.write_stl(str(path), **options)
+        corners = triangles(path)
+        self.assertEqual(open_edges(corners), 0)
+        about = s.write_stl(None, **options)
+        self.assertEqual(report.triangles, len(corners))
+        # points that give way to two circles at once count twice in the estimate
+        self.assertLess(abs(about.triangles / report.triangles - 1), 0.35)
+        return report, corners
+
+
+class Overlaps(Folder):
+    def test_two_spheres_enclose_their_union(self):
+        for r, q, d in ((0.25, 0.25, 0.2 * 2), (0.25, 0.25, 0.3), (0.25, 0.15, 0.3), (0.25, 0.25, 0.4999), (0.2, 0.2, 0.4 - 1e-7)):
+            for n in turned(3, 1):
+                s = soft([[0.5, 0.5, 0.5] - 0.5 * d * n, [0.5, 0.5, 0.5] + 0.5 * d * n], [r, q])
+                exact = s.solid_profile(0, 1).solid[0]
+                lost = []
+                for edge in (0.4, 0.2, 0.1):
+                    report, corners = self.mesh(s, edge=edge)
+                    self.assertAlmostEqual(report.solid, exact, 12)
+                    self.assertAlmostEqual(report.volume, volume(corners), 6)
+                    lost.append(1 - report.volume / exact)
+                self.assertTrue(lost[0] > lost[1] > lost[2] > 0, lost)
+                self.assertLess(lost[2], 0.3 * 0.1**2)
+
+    def test_no_point_lies_in_the_surface_twice(self):
+        s = soft([[0.35, 0.5, 0.5], [0.65, 0.5, 0.52]], [0.2, 0.18])
+        _, corners = self.mesh(s, edge=0.5)
+        points = np.array([0.5, 0.5, 0.51]) + np.random.default_rng(2).normal(scale=0.08, size=(300, 3))
+        times = inside_polyhedron(corners, points)
+        self.assertLess(np.abs(times - np.rint(times)).max(), 1e-3)
+        self.assertEqual(set(np.rint(times)), {0, 1})
+
+    def test_soft_packings(self):
+        """Chains of overlapping pairs and cut images; slightly soft packings in full."""
+        for seed in (1, 2):
+            s = jam.System.random(n=40, seed=seed, packing_fraction=0.66, overlap="allow")
+            s.relax()
+            report, _ = self.mesh(s, edge=0.15)
+            self.assertAlmostEqual(report.solid, s.solid_profile(2, 1).solid[0], 11)
+            self.assertTrue(0 < 1 - report.volume / report.solid < 0.012)
+
+    def test_shrinking_parts_or_keeps_overlaps(self):
+        s = soft([[0.3, 0.5, 0.5], [0.7, 0.5, 0.5]], [0.25, 0.25])
+        for factor in (0.9, 0.7):
+            report, _ = self.mesh(s, contacts="shrunk", factor=factor)
+            shrunk = soft(s.positions, [0.25 * factor] * 2)
+            self.assertAlmostEqual(report.solid, shrunk.solid_profile(0, 1).solid[0], 12)
+
+    def test_non_additive_contacts(self):
+        for delta, joined in ((-0.1, True), (0.1, False)):
+            s = jam.System.random(n=24, seed=1, diameters=[1.0, 1.3] * 12, non_additivity=delta)
+            s.compress(growth_rate=1e-2, pressure=1e4)
+            s.crunch()
+            if joined and s.solid_profile(0, 1).solid[0] < 1:
+                try:
+                    report, _ = self.mesh(s)
+                except jam.errors.UnsupportedError:
+                    continue
+            else:
+                report, _ = self.mesh(s)
+            self.assertAlmostEqual(report.solid, s.solid_profile(0, 1).solid[0], 11)
+
+    def test_what_would_cut_itself_is_refused(self):
+        three = [[0.5 + 0.15 * math.cos(t), 0.5 + 0.15 * math.sin(t), 0.5] for t in (0, 2.1, 4.2)]
+        for x, r, text in (
+            (three, [0.2] * 3, "spheres 0, 1 and 2 overlap at one place"),
+            ([[0.5, 0.5, 0.5], [0.55, 0.5, 0.5]], [0.3, 0.1], "sphere 1 inside sphere 0"),
+            ([[0.5, 0.5, 0.5], [0.78, 0.5, 0.5]], [0.3, 0.1], "spheres 0 and 1 overlap so far"),
+        ):
+            with self.assertRaisesRegex(jam.errors.UnsupportedError, text):
+                soft(x, r).write_stl(str(self.folder / "none.stl"))
+            self.assertFalse((self.folder / "none.stl").exists())
+
+
+class Bridges(Folder):
+    def bed(self):
+        s = jam.System.random(n=200, seed=3)
+        s.compress(packing_fraction=0.55)
+        return s
+
+    def test_pairs_within_a_gap(self):
+        """A bed of given porosity, which has no contact that balances."""
+        s = self.bed()
+        for gap in (0.001, 0.01, 0.03):
+            pairs = int(s.near_coordination(gap).sum()) // 2
+            self.assertGreater(pairs, 0)
+            report, _ = self.mesh(s, contacts="bridged", bridge=0.1, bridge_gap=gap)
+            self.assertEqual(report.bridges, pairs)
+            self.assertGreater(report.solid, s.packing_fraction)
+            self.assertTrue(0 < 1 - report.volume / report.solid < 0.02)
+        none = self.mesh(s, contacts="bridged", bridge_gap=1e-12)[0]
+        self.assertEqual((none.bridges, none.status.name), (0, "NOT_JAMMED"))
+        self.assertIn("within a gap of 1e-12", str(none))
+        with self.assertRaisesRegex(jam.errors.ArgumentError, "bridge_gap is 2"):
+            s.write_stl(None, bridge_gap=2.0)
+
+    def test_the_same_bridges_by_contacts_by_distance(self):
+        s = self.bed()
+        by_gap = self.mesh(s, contacts="bridged", bridge=0.1, bridge_gap=0.02)[0]
+        s.contacts_by_distance(0.02)
+        self.assertEqual(self.mesh(s, contacts="bridged", bridge=0.1)[0].bridges, by_gap.bridges)
+
+    def test_overlapping_pairs_are_joined_by_their_circle(self):
+        s = soft([[0.3, 0.5, 0.5], [0.7, 0.5, 0.5]], [0.25, 0.25])
+        for bridge, count in ((0.1, 0), (0.45, 0)):  # a circle of 0.6 radii is wider than both
+            report, _ = self.mesh(s, contacts="bridged", bridge=bridge, bridge_gap=0.01)
+            self.assertEqual(report.bridges, count)
+        slightly = soft([[0.3, 0.5, 0.5], [0.7, 0.5, 0.5]], [0.2005, 0.2005])
+        report, _ = self.mesh(slightly, contacts="bridged", bridge=0.3, bridge_gap=0.01)
+        self.assertEqual(report.bridges, 1)
+        # both caps and the cylinder between them, by Archimedes
+        r, b = 0.2005, 0.3 * 0.2005
+        h = math.sqrt(r * r - b * b)
+        cap = math.pi * (r - h) ** 2 * (2 * r + h) / 3
+        self.assertAlmostEqual(report.solid, 2 * (4 / 3 * math.pi * r**3 - cap) + math.pi * b * b * (0.4 - 2 * h), 12)
+
+
+class Walls(Folder):
+    def test_walls_alone(self):
+        cases = (
+            ({"container": "cylinder", "walls": "z", "cell": [1, 1, 2]}, 2 * math.pi / 4, True),
+            ({"container": "ball"}, math.pi / 6, True),
+            ({"walls": "xyz", "cell": [1, 2, 1.5]}, 3.0, True),
+            ({"container": "cylinder", "cell": [1, 1, 2]}, None, False),
+            ({"walls": "z"}, None, False),
+        )
+        for options, exact, closed in cases:
+            s = jam.System.random(30, packing_fraction=0.1, seed=1, **options)
+            path = self.folder / "w.stl"
+            report = s.write_stl(str(path), walls="walls")
+            corners = triangles(path)
+            self.assertEqual((report.triangles, report.bridges), (len(corners), 0))
+            self.assertEqual(open_edges(corners) == 0, closed)
+            if closed:
+                self.assertAlmostEqual(report.solid, exact, 12)
+                self.assertAlmostEqual(report.volume, volume(corners), 5)
+                self.assertTrue(0 <= report.volume / exact - 1 < 0.01 or exact == 3.0)
+            else:
+                self.assertTrue(math.isnan(report.volume) and math.isnan(report.solid))
+            # no centre of a sphere is nearer to a triangle's plane than its radius
+            a, b, c = corners.astype(float).transpose(1, 0, 2)
+            normal = np.cross(b - a, c - a)
+            normal /= np.linalg.norm(normal, axis=1)[:, None]
+            depth = ((a[:, None] - s.positions) * normal[:, None]).sum(-1)  # outwards: positive inside
+            self.assertTrue((depth > s.radii - 1e-5).all())
+
+    def test_with_the_spheres(self):
+        s = jam.System.random(30, packing_fraction=0.1, seed=1, container="ball")
+        alone, walls = self.mesh(s)[0], s.write_stl(None, walls="walls").triangles
+        both, corners = self.mesh(s, walls="and_walls")
+        self.assertEqual(both.triangles, alone.triangles + walls)
+        self.assertEqual((both.volume, both.solid), (alone.volume, alone.solid))
+        with self.assertRaisesRegex(jam.errors.ArgumentError, "no walls"):
+            jam.System.random(30, packing_fraction=0.1).write_stl(None, walls="walls")
+
+
+class ByDistance(Folder):
+    """A bed at rest: overlaps and gaps as friction and weight leave them, so that no forces along normals balance."""
+
+    def bed(self, **options):
+        s = jam.System.random(n=80, seed=5, packing_fraction=0.2, cell=[1, 1, 1.2], **options)
+        rng = np.random.default_rng(1)
+        s.compress(packing_fraction=0.6)
+        x = np.clip(s.positions + rng.normal(scale=2e-3, size=(80, 3)), 0.02, [0.98, 0.98, 1.18])
+        return jam.System.from_arrays(x, s.diameters, cell=s.cell, overlap="allow", **options)
+
+    def expected(self, s, gap, closed):
+        found = []
+        steps = [(0,) if axis in closed else (-1, 0, 1) for axis in "xyz"]
+        for shift in np.array(list(itertools.product(*steps))) @ s.cell:
+            d = s.positions[:, None] - s.positions - shift
+            h = np.linalg.norm(d, axis=-1) / (s.radii[:, None] + s.radii) - 1
+            i, j = np.nonzero(h < gap)
+            found += [(a, b) for a, b in zip(i.tolist(), j.tolist()) if a < b]
+        for w, (axis, side) in enumerate((a, b) for a in "xyz" if a in closed for b in (0, 1)):
+            c = "xyz".index(axis)
+            distance = s.cell[c, c] - s.positions[:, c] if side else s.positions[:, c]
+            found += [(a, -1 - w) for a in np.nonzero(distance / s.radii - 1 < gap)[0].tolist()]
+        return sorted(found)
+
+    def test_all_pairs_and_walls_within_the_gap(self):
+        for closed in ("", "z", "xyz"):
+            s = self.bed(walls=closed) if closed else self.bed()
+            for gap in (1e-9, 0.01, 0.05):
+                status = s.contacts_by_distance(gap)
+                c = s.contacts
+                self.assertEqual(sorted(map(tuple, c.pairs.tolist())), self.expected(s, gap, closed))
+                self.assertEqual(s.info.contact_gap, gap)
+                self.assertTrue(np.isnan(c.forces).all() and (c.gaps < gap).all())
+                z = np.bincount(c.pairs[c.pairs >= 0], minlength=80)
+                np.testing.assert_array_equal(s.coordination, z)
+            np.testing.assert_allclose(s.fabric_tensor(), c.vectors.T @ c.vectors / len(c), atol=1e-14)
+
+    def test_no_balance_is_claimed(self):
+        s = self.bed(walls="z")
+        s.contacts_by_distance(0.01)
+        with self.assertRaisesRegex(jam.errors.StateError, "no report|within a gap of 0.01"):
+            s.report
+        for call in (lambda: s.hessian(), lambda: s.stress_states(), lambda: s.modes(3)):
+            with self.assertRaisesRegex(jam.errors.StateError, "within a gap of 0.01"):
+                call()
+        before = s.rigidity().jammed
+        s.contacts_from_geometry()
+        self.assertTrue(math.isnan(s.info.contact_gap))
+        self.assertEqual(s.rigidity().jammed, before)
+        for gap in (0.0, 1.5, math.nan):
+            with self.assertRaisesRegex(jam.errors.ArgumentError, "gap is"):
+                s.contacts_by_distance(gap)
+
+    def test_the_advice_helps(self):
+        s = self.bed()
+        found = s.contacts_from_geometry()
+        self.assertEqual(found.contacts, 0)
+        self.assertIn("contacts_by_distance", str(found))
+        s.contacts_by_distance(0.02)
+        self.assertGreater(len(s.contacts), 0)
+
+    def test_files_say_so(self):
+        s = self.bed(walls="z")
+        s.contacts_by_distance(0.02)
+        csv, dump, vtp, page = (str(self.folder / n) for n in ("c.csv", "c.dump", "c.vtp", "p.html"))
+        for path in (csv, dump, vtp):
+            s.write_contacts(path)
+        self.assertEqual(Path(csv).read_text().splitlines()[0], "i,j,n1,n2,n3,gap")
+        self.assertEqual(len(Path(csv).read_text().splitlines()), 1 + len(s.contacts))
+        self.assertIn("ITEM: ENTRIES i j nx ny nz gap\n", Path(dump).read_text())
+        self.assertNotIn(b'"force"', Path(vtp).read_bytes())
+        s.page(page)
+        text = Path(page).read_text()
+        self.assertIn("Contacts by distance: all pairs with gaps below 0.02", text)
+        self.assertNotIn('"report": {', text)
+
+    def test_copies_and_files_keep_them(self):
+        s = self.bed(walls="z")
+        for gap in (0.02, 1e-12):
+            s.contacts_by_distance(gap)
+            path = str(self.folder / "b.h5")
+            s.write_checkpoint(str(self.folder / "b.chk"))
+            made = [s.copy(), jam.System.from_checkpoint(str(self.folder / "b.chk"))]
+            try:
+                s.save(path)
+                made.append(jam.load(path))
+            except ImportError:
+                pass
+            for other in made:
+                self.assertEqual(other.info.contact_gap, gap)
+                np.testing.assert_array_equal(other.contacts.pairs, s.contacts.pairs)
+
+    def test_a_page_without_contacts_shows_no_report(self):
+        s = self.bed()
+        s.contacts_from_geometry()
+        s.page(str(self.folder / "p.html"))
+        text = (self.folder / "p.html").read_text()
+        self.assertIn("No contacts found", text)
+        self.assertNotIn('"report": {', text)
+        self.assertNotIn('"contacts": {', text)
+
+    @unittest.skipUnless(PACK, "jam-pack is not built")
+    def test_the_program(self):
+        s = self.bed(walls="z")
+        xyz, csv, stl, walls, page, table = (str(self.folder / n) for n in ("b.xyz", "c.csv", "b.stl", "w.stl", "p.html", "s.csv"))
+        s.write(xyz)
+
+        def run(*words):
+            done = subprocess.run([PACK, *words], capture_output=True, text=True, timeout=120)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            return done
+
+        done = run("export", xyz, "--contacts", csv, "--structure", table, "--contact-gap", "0.02", "--stl-walls", walls, "--json")
+        s.contacts_by_distance(0.02)
+        answer = json.loads(done.stdout)
+        self.assertEqual((answer["contacts"], answer["contact_gap"]), (len(s.contacts), 0.02))
+        self.assertEqual(len(Path(csv).read_text().splitlines()), 1 + len(s.contacts))
+        self.assertEqual(Path(table).read_text().splitlines()[1].split(",")[2], "")
+        self.assertEqual(len(triangles(walls)), 4)
+        done = run("page", xyz, page)
+        self.assertIn("--contact-gap", done.stderr)
+        self.assertIn("No contacts found", Path(page).read_text())
+        run("page", xyz, page, "--contact-gap", "0.02")
+        self.assertIn("Contacts by distance", Path(page).read_text())
+        open_bed = str(self.folder / "open.xyz")
+        hard = jam.System.random(n=200, seed=3)
+        hard.compress(packing_fraction=0.55)
+        hard.write(open_bed)
+        run("export", open_bed, "--stl", stl, "--stl-bridge", "0.1", "--stl-bridge-gap", "0.01")
+
+
+if __name__ == "__main__":
+    unittest.main()

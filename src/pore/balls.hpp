@@ -24,22 +24,23 @@ inline Point cross(const Point &a, const Point &b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-// The unit of lengths of pores: the larger of the mean diameter and half of the mean distance of spheres, so that no
-// count of boxes or points grows as spheres shrink.
+// The unit of lengths of pores: the mean diameter, or a share of the mean distance of spheres where this is longer. So
+// the numbers of boxes and of points stay the same as spheres shrink.
 inline double spacing(const Packing &p) {
-  return std::max(diameter_mean(p), 0.5 * math::pow(p.cell.volume() / static_cast<double>(p.n()), 1.0 / p.dim));
+  return std::max(diameter_mean(p),
+                  BallsTuning::of_distance * math::pow(p.cell.volume() / static_cast<double>(p.n()), 1.0 / p.dim));
 }
 
 class Balls {
  public:
-  // All whose surface is within `reach` of the brick.
+  // All balls whose surface is within `reach` of the brick.
   Balls(const Packing &p, double reach) : p_(p) {
     std::vector<double> far(p.n());
     for (size_t i = 0; i < p.n(); ++i) {
       far[i] = 0.5 * p.diameter[i] + reach;
       widest_ = std::max(widest_, 0.5 * p.diameter[i]);
     }
-    const double side = std::max(spacing(p), 0.5 * reach);
+    const double side = std::max(spacing(p), BallsTuning::of_reach * reach);
     for (int c = 0; c < p.dim; ++c) {
       low_[c] = -(reach + widest_);
       const double length = p.cell.edge(c) - 2.0 * low_[c];
@@ -59,8 +60,8 @@ class Balls {
     return static_cast<size_t>((box(x[2], 2) * count_[1] + box(x[1], 1)) * count_[0] + box(x[0], 0));
   }
 
-  // Those whose surface is at most s from x; with `from`, only spheres of this number and above, without that one
-  // itself.
+  // Balls whose surface is at most s from x. With `from`: only those of spheres of this number and above; of sphere
+  // `from` its images alone.
   void near(const Point &x, double s, std::vector<Ball> &out, int32_t from = -1) const {
     out.clear();
     each_near(x, s, [&](size_t k, double distance) {

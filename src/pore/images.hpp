@@ -1,5 +1,5 @@
-// Spheres as the pore space has them: in the brick of the cell, with their images cut at its faces. The brick repeats
-// as the cell does, so what is inside it is the whole solid once.
+// Spheres and their images in the brick of the cell, which repeats as the cell does: the part of all images inside the
+// brick is the solid of one cell.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -13,7 +13,7 @@ namespace jam::inside {
 struct SphereImage {
   int32_t sphere;
   std::array<int, 3> cells;
-  std::array<double, 3> centre;  // by image_centre: to the bit the same wherever this image is named
+  std::array<double, 3> centre;  // by image_centre, which gives the same bits for the same image
 };
 std::array<double, 3> image_centre(const Packing &p, int32_t sphere, const std::array<int, 3> &cells);
 

@@ -6,15 +6,9 @@
 #include <limits>
 #include <vector>
 
-#include "pore/balls.hpp"
+#include "pore/touching_spheres.hpp"
 
 namespace jam::inside {
-
-// One equation d . c + q r = b for the centre c and radius r of a sphere that touches a surface; c from a base point.
-struct Row {
-  Point d;
-  double q, b;
-};
 
 class Tube {
  public:

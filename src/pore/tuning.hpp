@@ -3,9 +3,12 @@
 
 namespace jam::inside {
 
-// Cells that find spheres near a point: at most so many along an edge.
+// Boxes that find spheres near a point.
 struct BallsTuning {
-  static constexpr double most_cells = 1000.0;
+  static constexpr double most_cells = 1000.0;  // along an edge
+  // The unit of lengths over the mean distance of small spheres, and the edge of a box over the reach of a search. Half
+  // of each: a search then visits at most some five boxes along an axis.
+  static constexpr double of_distance = 0.5, of_reach = 0.5;
 };
 
 struct SolidTuning {
@@ -63,10 +66,10 @@ struct TubeTuning {
 };
 
 struct PoreSizeTuning {
-  static constexpr double rounding = 1e-9;           // of lengths, over the spacing
-  static constexpr double grid = 5.0;                // points for each spacing, from which the largest pore is bounded
+  static constexpr double rounding = 1e-9;          // of lengths, over the spacing
+  static constexpr double grid = 5.0;               // points for each spacing, from which the largest pore is bounded
   static constexpr int64_t most_misses = 10000000;  // random points in the solid, one after the other
-  static constexpr double flat = 1e-3;               // sine below which three directions lie nearly in a plane
+  static constexpr double flat = 1e-3;              // sine below which three directions lie nearly in a plane
 };
 
 }  // namespace jam::inside

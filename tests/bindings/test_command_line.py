@@ -306,19 +306,20 @@ class CommandLine(unittest.TestCase):
             self.assertEqual((code, re.findall("written +(.*)", out)), (1, ["g.csv"]))
 
     def test_what_was_written_before_a_refusal_is_listed(self):
-        """Pore sizes are refused in a cylinder, after the profile and before nothing."""
-        s = jam.System.random(20, 3, 1, packing_fraction=0.1, container="cylinder")
-        s.write(str(self.dir / "tube.xyz"))
-        words = "export tube.xyz --profile z.csv --pores p.csv --output tube.data".split()
+        """Pore sizes are refused where spheres leave no void, after the profile and before nothing."""
+        x = [[0.25 + 0.5 * (k >> c & 1) for c in range(3)] for k in range(8)]
+        s = jam.System.from_arrays(x, 0.9, cell=[1.0, 1.0, 1.0], overlap="allow")
+        s.write(str(self.dir / "full.xyz"))
+        words = "export full.xyz --profile z.csv --pores p.csv --output full.data".split()
         for program in self.programs():
             code, out, err = self.run_words(program, *words)
-            self.assertEqual((code, "pore sizes" in err or "cylinder" in err), (REFUSED, True), err)
-            self.assertEqual(sorted(re.findall("written +(.*)", out)), ["tube.data", "z.csv"])
-            self.assertEqual([(self.dir / name).exists() for name in ("tube.data", "z.csv", "p.csv")], [True, True, False])
+            self.assertEqual((code, "no void" in err), (REFUSED, True), err)
+            self.assertEqual(sorted(re.findall("written +(.*)", out)), ["full.data", "z.csv"])
+            self.assertEqual([(self.dir / name).exists() for name in ("full.data", "z.csv", "p.csv")], [True, True, False])
             code, out, err = self.run_words(program, *words, "--json")
             said = json.loads(out)
-            self.assertEqual((code, said["status"], sorted(said["written"])), (REFUSED, REFUSED, ["tube.data", "z.csv"]), err)
-            self.assertIn("cylinder", said["text"])
+            self.assertEqual((code, said["status"], sorted(said["written"])), (REFUSED, REFUSED, ["full.data", "z.csv"]), err)
+            self.assertIn("no void", said["text"])
 
     def test_narrow_starts(self):
         """A start by default may be lower, as may one at the density to grow to; a density that is given is met, or named."""

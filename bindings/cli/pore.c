@@ -16,22 +16,33 @@ static int write_walls(const jam_system *sys, const options *o) {
   return 0;
 }
 
+/* A number of bytes in the unit that fits: 112 kB. */
+static const char *in_bytes(double bytes, char text[32]) {
+  static const char *const units[] = {"bytes", "kB", "MB", "GB", "TB"};
+  int unit = 0;
+  for (; bytes >= 999.5 && unit < 4; ++unit) bytes /= 1000.0;
+  snprintf(text, 32, "%.3g %s", bytes, units[unit]);
+  return text;
+}
+
 /* The size of the file is said before the work. */
 static int write_mesh(const jam_system *sys, const options *o) {
   jam_mesh_options mesh;
   jam_mesh_report r = {.struct_size = sizeof r};
+  char size[32];
   jam_mesh_options_init(&mesh, sizeof mesh);
   mesh.edge = o->stl_edge;
   if (isfinite(o->stl_shrink)) mesh.contacts = JAM_MESH_SHRUNK, mesh.factor = o->stl_shrink;
   if (isfinite(o->stl_bridge)) mesh.contacts = JAM_MESH_BRIDGED, mesh.bridge = o->stl_bridge;
   if (isfinite(o->stl_bridge_gap)) mesh.bridge_gap = o->stl_bridge_gap;
   if (has_failed(jam_write_stl(sys, NULL, &mesh, &r))) return -1;
-  if (!o->quiet) complain("the mesh has about %.2g triangles, %.2g MB", (double)r.triangles, 1e-6 * (double)r.bytes);
+  if (!o->quiet)
+    complain("the mesh has about %.2g triangles, %s", (double)r.triangles, in_bytes((double)r.bytes, size));
   if (has_failed(jam_write_stl(sys, o->stl, &mesh, &r))) return -1;
   if (isfinite(o->stl_bridge) && r.bridges == 0) complain("warning: %s has no bridge: %s", o->stl, jam_last_error());
   if (!o->quiet && !o->json)
-    printf("  mesh      %lld triangles, %.3g MB, volume %.6g of exactly %.6g\n", (long long)r.triangles,
-           1e-6 * (double)r.bytes, r.volume, r.solid);
+    printf("  mesh      %lld triangles, %s, volume %.6g of exactly %.6g\n", (long long)r.triangles,
+           in_bytes((double)r.bytes, size), r.volume, r.solid);
   return 0;
 }
 
@@ -39,12 +50,13 @@ static int write_mesh(const jam_system *sys, const options *o) {
 static int write_image(const jam_system *sys, const options *o) {
   jam_voxel_options image;
   jam_voxel_report r = {.struct_size = sizeof r};
+  char size[32];
   jam_voxel_options_init(&image, sizeof image);
   if (isfinite(o->voxel_size)) image.size = o->voxel_size;
   image.lines = (int32_t)o->voxel_lines;
   if (has_failed(jam_voxels(sys, &image, &r, NULL, 0, NULL))) return -1;
   if (!o->quiet)
-    complain("the image has %d x %d x %d voxels, %.3g MB", (int)r.nx, (int)r.ny, (int)r.nz, 1e-6 * (double)r.bytes);
+    complain("the image has %d x %d x %d voxels, %s", (int)r.nx, (int)r.ny, (int)r.nz, in_bytes((double)r.bytes, size));
   if (has_failed(jam_write_voxels(sys, o->voxels, &image, &r))) return -1;
   if (!o->quiet && !o->json) printf("  image     porosity %.9f\n", r.porosity);
   return 0;

@@ -871,7 +871,7 @@ module jam
     real(c_double) :: step_tolerance = 0
     ! relative complementarity, residual of an LP, default 1e-15; above 1e-9 it acts as 1e-9
     real(c_double) :: lp_tolerance = 0
-    ! largest pair distance in an LP; 0, the default: adapts
+    ! an LP has the pairs of gap < this - the largest diameter; 0, the default: adapts
     real(c_double) :: neighbour_radius = 0
     ! bound on each |s_i| component, 1e-15 .. 1000; 0, the default: adapts
     real(c_double) :: step_bound = 0
@@ -3510,12 +3510,13 @@ contains
   end function jam_message
 
   ! For programs that end at the first failure: call jam_check(jam_crunch(sys)). Statuses above 0, stopped early with a valid
-  ! state, are told and passed.
+  ! state, are told and passed. It writes to standard error, as the caller may be in the middle of a line of output.
   subroutine jam_check(status)
+    use, intrinsic :: iso_fortran_env, only: error_unit
     integer(c_int32_t), intent(in) :: status
-    if (status > 0) print '(2a)', 'stopped early: ', jam_message()
+    if (status > 0) write (error_unit, '(2a)') 'stopped early: ', jam_message()
     if (status >= 0) return
-    print '(2a)', 'failed: ', jam_message()
+    write (error_unit, '(2a)') 'failed: ', jam_message()
     error stop 1
   end subroutine jam_check
   ! Sets the text that jam_last_error() returns on this thread; NULL sets "". For language bindings that check arguments

@@ -106,6 +106,10 @@ contains
     integer(c_int32_t), intent(in) :: status
     self%status = status
     if (status >= 0) return
+    select case (jam_message())
+    case ('sys is NULL', 'src is NULL', 'other is NULL')
+      call jam_set_error('a packing is empty: make or read one first')
+    end select
     if (associated(handler)) then
       call handler(status, from_one(jam_message()))
     else

@@ -65,6 +65,6 @@ def emit(api):
         out.append(
             "\n" + raw(f"{f.name}({', '.join(a.name for a in f.args)})", f.doc)
             + f"function {f.name}({', '.join(a.name for a in f.args)})\n"
-            f"    return ccall((:{f.name}, libjam), {result_type(f.result)}, ({types}){passed})\nend"
+            f"    return ccall(symbol(:{f.name}), {result_type(f.result)}, ({types}){passed})\nend"
         )
     return "\n".join(out) + "\n"

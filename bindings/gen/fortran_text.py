@@ -121,12 +121,13 @@ contains
   end function jam_message
 
   ! For programs that end at the first failure: call jam_check(jam_crunch(sys)). Statuses above 0, stopped early with a valid
-  ! state, are told and passed.
+  ! state, are told and passed. It writes to standard error, as the caller may be in the middle of a line of output.
   subroutine jam_check(status)
+    use, intrinsic :: iso_fortran_env, only: error_unit
     integer(c_int32_t), intent(in) :: status
-    if (status > 0) print '(2a)', 'stopped early: ', jam_message()
+    if (status > 0) write (error_unit, '(2a)') 'stopped early: ', jam_message()
     if (status >= 0) return
-    print '(2a)', 'failed: ', jam_message()
+    write (error_unit, '(2a)') 'failed: ', jam_message()
     error stop 1
   end subroutine jam_check
 

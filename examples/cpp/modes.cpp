@@ -1,4 +1,5 @@
-// Lowest vibrational modes of a packing. What jam.hpp does not wrap is called in C, on get(), with check() around it.
+// Lowest vibrational modes of a packing, and its moduli. What jam.hpp does not wrap is called in C, on get(), with
+// check() around it.
 #include <cmath>
 #include <cstdio>
 #include <vector>
@@ -9,14 +10,14 @@ int main() try {
   jam::System packing = jam::System::random(128, 3, 1);
   packing.compress();
   packing.crunch();
-  jam_modes_options o = jam::options(jam_modes_options_init);
+  jam_modes_options o = jam::modes_options();
   o.count = 8;
-  std::vector<double> table(8 * 2);
-  std::size_t m = 0;
-  jam::check(jam_modes(packing.get(), nullptr, &o, JAM_MODE_COLUMNS, table.data(), table.size(), nullptr, 0, &m));
+  const std::vector<double> table = packing.modes(o).table;
+  const std::size_t m = table.size() / JAM_MODE_COLUMNS;
   for (std::size_t k = 0; k < m; ++k)
-    std::printf("omega %.5f  participation %.4f\n", std::sqrt(std::fmax(table[2 * k + JAM_MODE_LAMBDA], 0)),
-                table[2 * k + JAM_MODE_PARTICIPATION]);
+    std::printf("omega %.5f  participation %.4f\n",
+                std::sqrt(std::fmax(table[JAM_MODE_COLUMNS * k + JAM_MODE_LAMBDA], 0)),
+                table[JAM_MODE_COLUMNS * k + JAM_MODE_PARTICIPATION]);
 
   jam_moduli_report moduli = jam::report<jam_moduli_report>();
   jam::check(jam_moduli(packing.get(), nullptr, &moduli));

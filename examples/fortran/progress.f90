@@ -1,5 +1,6 @@
 ! Watches a crunch by a callback, stops it after five reports, and continues from the valid state that was reached.
 module watching
+  use, intrinsic :: iso_fortran_env, only: error_unit
   use jam_packing
   implicit none
   integer, save :: reports = 0, most = 5
@@ -18,7 +19,7 @@ contains
   subroutine complain(status, text)
     integer(c_int32_t), intent(in) :: status
     character(*), intent(in) :: text
-    print '(a, i0, 2a)', 'failure ', status, ': ', text
+    write (error_unit, '(a, i0, 2a)') 'failure ', status, ': ', text
   end subroutine complain
 end module watching
 

@@ -884,7 +884,7 @@ typedef struct jam_crunch_options {
   double gain_tolerance;   /* on sqrt(Gamma) - 1, > 0, default 1e-12 */
   double step_tolerance;   /* on max |s_i| of non-rattlers, > 0, default 1e-9 */
   double lp_tolerance;     /* relative complementarity, residual of an LP, default 1e-15; above 1e-9 it acts as 1e-9 */
-  double neighbour_radius; /* largest pair distance in an LP; 0, the default: adapts */
+  double neighbour_radius; /* an LP has the pairs of gap < this - the largest diameter; 0, the default: adapts */
   double step_bound;       /* bound on each |s_i| component, 1e-15 .. 1000; 0, the default: adapts */
   double wall_time;        /* limit of the call */
   int32_t steps;           /* @bool the callback is called at every step and may call jam_crunch_step_*; default 0 */

@@ -87,6 +87,9 @@ inline jam_create_options create_options() { return options(jam_create_options_i
 inline jam_run_options run_options() { return options(jam_run_options_init); }
 inline jam_compress_options compress_options() { return options(jam_compress_options_init); }
 inline jam_crunch_options crunch_options() { return options(jam_crunch_options_init); }
+inline jam_relax_options relax_options() { return options(jam_relax_options_init); }
+inline jam_modes_options modes_options() { return options(jam_modes_options_init); }
+inline jam_check_options check_options() { return options(jam_check_options_init); }
 
 // Count, then fill: calls f(buffer, length, &needed) twice and returns the array.
 template <class T, class F>
@@ -174,6 +177,8 @@ class System {
   View positions() const { return view(jam_view_positions, static_cast<std::size_t>(info().dim)); }
   View velocities() const { return view(jam_view_velocities, static_cast<std::size_t>(info().dim)); }
   View diameters() const { return view(jam_view_diameters, 1); }
+  // Cell vectors (d, d), one a row.
+  std::vector<double> cell() const { return array<double>(jam_get_cell); }
   void set_positions(const std::vector<double> &x) { done(jam_set_positions(get(), x.data(), x.size())); }
   void set_velocities(const std::vector<double> &v) { done(jam_set_velocities(get(), v.data(), v.size())); }
   void scale_diameters(double factor) { done(jam_scale_diameters(get(), factor)); }
@@ -196,6 +201,27 @@ class System {
     return verb<jam_crunch_report>(jam_crunch, static_cast<const jam_crunch_options *>(nullptr));
   }
   jam_crunch_report crunch(const jam_crunch_options &o) { return verb<jam_crunch_report>(jam_crunch, &o); }
+  // Overlapping (soft) spheres: minimises their energy.
+  jam_relax_report relax(const jam_relax_options &o = relax_options()) { return verb<jam_relax_report>(jam_relax, &o); }
+  // Tests the packing as it is; jam_check_text gives the report as a paragraph.
+  jam_check_report check_packing(const jam_check_options &o = check_options()) {
+    return verb<jam_check_report>(jam_check_packing, &o);
+  }
+  // Vibrational modes of the network: table (m, jam_mode_column), vectors (m, stable spheres, d).
+  struct Modes {
+    std::vector<double> table, vectors;
+  };
+  Modes modes(const jam_modes_options &o = modes_options(), const jam_hessian_options *h = nullptr) {
+    const auto stable = array<std::int32_t>(jam_hessian_map).size(), d = static_cast<std::size_t>(info().dim);
+    std::size_t m = 0;
+    check(jam_modes(get(), h, &o, JAM_MODE_COLUMNS, nullptr, 0, nullptr, 0, &m));
+    Modes found{std::vector<double>(JAM_MODE_COLUMNS * m), std::vector<double>(m * stable * d)};
+    const jam_status status = jam_modes(get(), h, &o, JAM_MODE_COLUMNS, found.table.data(), found.table.size(),
+                                        found.vectors.data(), found.vectors.size(), &m);
+    rethrow();
+    status_ = check(status);
+    return found;
+  }
   // Status of the last verb: 0 done, > 0 stopped early.
   jam_status status() const { return status_; }
   // From any thread or signal handler.

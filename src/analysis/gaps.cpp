@@ -20,8 +20,8 @@ void check_pair_count(const Packing &p, double reach) {
                n = static_cast<double>(p.n());
   const double pairs = 0.5 * n * n * ball, bytes = pairs * (8.0 * p.dim + GapsTuning::bytes_a_pair);
   if (bytes > CallScope::memory_limit())
-    fail(JAM_E_MEMORY, "about %.3g pairs lie within %g: their list needs %.3g bytes, more than %.3g", pairs, reach,
-         bytes, CallScope::memory_limit());
+    fail(JAM_E_MEMORY, "about %.3g pairs lie within %g: their list needs %s, more than %s", pairs, reach,
+         bytes_text(bytes).c_str(), bytes_text(CallScope::memory_limit()).c_str());
 }
 
 PairList pairs_without_contacts(const Packing &p, const ContactNetwork *net, double h_max, bool stable_only) {

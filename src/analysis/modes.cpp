@@ -42,8 +42,9 @@ void check_modes_options(const jam_modes_options &o, const RigidityMatrix &g) {
                dense = ModesTuning::dense_bytes * n * n;
   const double need = o.which == JAM_MODES_ALL ? dense : std::min(krylov, dense);
   if (!(need <= o.memory_limit))
-    fail(JAM_E_MEMORY, "%s of %.0f unknowns needs about %.3g bytes, memory_limit is %.3g",
-         o.which == JAM_MODES_ALL ? "the full spectrum" : "this many modes", n, need, o.memory_limit);
+    fail(JAM_E_MEMORY, "%s of %.0f unknowns needs about %s, memory_limit is %s",
+         o.which == JAM_MODES_ALL ? "the full spectrum" : "this many modes", n, bytes_text(need).c_str(),
+         bytes_text(o.memory_limit).c_str());
 }
 
 namespace {

@@ -3,6 +3,7 @@
 #pragma once
 #include <mutex>
 
+#include "core/bytes.hpp"
 #include "core/error.hpp"
 #include "core/monitor.hpp"
 
@@ -28,7 +29,8 @@ class CallScope {
   static double memory_limit() { return current() ? current()->memory_limit_ : default_memory_limit(); }
   static void need_memory(double bytes, const char *what) {
     if (bytes > memory_limit())
-      fail(JAM_E_MEMORY, "%s need %.3g GB, this call may have %.3g GB", what, 1e-9 * bytes, 1e-9 * memory_limit());
+      fail(JAM_E_MEMORY, "%s need %s, this call may have %s", what, bytes_text(bytes).c_str(),
+           bytes_text(memory_limit()).c_str());
   }
   // In long loops. In a LeavingScope it throws Cancelled when the call has been cancelled or its time is over.
   static void look() {

@@ -27,8 +27,8 @@ double list_bytes_max() { return PairListTuning::share_of_memory * CallScope::me
 void check_list_size(double pairs, int dim) {
   const double bytes = pairs * static_cast<double>(2 * sizeof(int32_t) + dim * sizeof(double));
   if (bytes > list_bytes_max())
-    fail(JAM_E_MEMORY, "%.3g pairs of spheres within the cutoff need %.3g GB, a list may have %.3g GB", pairs,
-         1e-9 * bytes, 1e-9 * list_bytes_max());
+    fail(JAM_E_MEMORY, "%.3g pairs of spheres within the cutoff need %s, a list may have %s", pairs,
+         bytes_text(bytes).c_str(), bytes_text(list_bytes_max()).c_str());
 }
 
 // One sphere may have most of the pairs: the limits hold while its own gather too.

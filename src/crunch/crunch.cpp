@@ -101,9 +101,8 @@ static void check_estimate(const Packing &start, const jam_crunch_options &o, Mo
   if (!logs && full_matrix < CallScope::memory_limit()) return;
   const jam_estimate e = estimate(start, o);
   if (logs)
-    monitor.log(JAM_LOG_INFO,
-                "estimate: %.3g MB, %lld pairs, %.3g flops a factorisation, about %.3g s for %.0f of them",
-                e.bytes / 1e6, static_cast<long long>(e.pairs), e.flops, e.seconds, e.factorisations);
+    monitor.log(JAM_LOG_INFO, "estimate: %s, %lld pairs, %.3g flops a factorisation, about %.3g s for %.0f of them",
+                bytes_text(e.bytes).c_str(), static_cast<long long>(e.pairs), e.flops, e.seconds, e.factorisations);
   // An estimate may be too high: between this and the limit each matrix decides before it is factorised.
   if (e.bytes > EstimateTuning::too_high * CallScope::memory_limit())
     CallScope::need_memory(e.bytes, "the linear programs of this packing, as jam_estimate_crunch gives it,");

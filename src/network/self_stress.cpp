@@ -172,7 +172,7 @@ StressStates find_stress(const RigidityMatrix &g, const NullSpace &space, bool w
   if (out.dimension == 1) out.positive = out.min_force > 0.0;
   if (with_basis) {
     if (static_cast<double>(out.dimension) * static_cast<double>(m) * 8.0 > 1e9)
-      fail(JAM_E_MEMORY, "a basis of %lld states of %zu contacts needs more than 1e9 bytes",
+      fail(JAM_E_MEMORY, "a basis of %lld states of %zu contacts needs more than 1 GB",
            static_cast<long long>(out.dimension), m);
     q.clear();
     for (uint64_t k = 0;

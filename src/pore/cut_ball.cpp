@@ -14,8 +14,6 @@
 namespace jam::inside {
 namespace {
 
-constexpr double infinite = std::numeric_limits<double>::infinity();
-
 // The angle of the direction (x, y), x >= 0, with the digits of the smaller component.
 double angle_of(double x, double y) {
   const double length = std::sqrt(x * x + y * y);
@@ -214,7 +212,10 @@ HalfSpace seen_from(const Point &origin, const HalfSpace &h) { return {h.normal,
 HalfSpace nearer_by_power(double own, const Point &centre, double radius, bool first) {
   const double apart = std::sqrt(dot(centre, centre));
   const double larger = (own - radius) * (own + radius);
-  if (apart == 0.0) return {{1.0, 0.0, 0.0}, larger > 0.0 || (larger == 0.0 && first) ? infinite : -infinite};
+  if (apart == 0.0) {
+    constexpr double infinite = std::numeric_limits<double>::infinity();  // all of space, or nothing
+    return {{1.0, 0.0, 0.0}, larger > 0.0 || (larger == 0.0 && first) ? infinite : -infinite};
+  }
   return {{centre[0] / apart, centre[1] / apart, centre[2] / apart}, 0.5 * (apart + larger / apart)};
 }
 

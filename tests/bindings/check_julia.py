@@ -62,7 +62,7 @@ def main():
         declared[name] = (result.strip(), params)
     called = {}
     for name, result, types, passed in re.findall(
-        r"ccall\(\(:(\w+), libjam\), ([\w{}]+), \(([^)]*)\)((?:, (?:_\w+\([^)]*\)|\w+))*)\)", text
+        r"ccall\(symbol\(:(\w+)\), ([\w{}]+), \(([^)]*)\)((?:, (?:_\w+\([^)]*\)|\w+))*)\)", text
     ):
         called[name] = (result, [t.strip() for t in types.split(",") if t.strip()], passed)
     for name, (result, params) in declared.items():

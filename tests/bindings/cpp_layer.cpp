@@ -96,6 +96,34 @@ void test_crunch_and_forces(void **) {
   assert_int_equal(s.array<std::int32_t>(jam_hessian_map).size(), static_cast<std::size_t>(r.stable));
 }
 
+void test_cell_check_and_modes(void **) {
+  jam::System s = jam::System::random(60, 2, 3, 0.0, two_sizes(60));
+  assert_true(s.cell() == (std::vector<double>{1, 0, 0, 1}));
+  assert_int_equal(s.check_packing().jammed, JAM_VERDICT_NO);
+  s.crunch();
+  const jam_check_report sure = s.check_packing();
+  assert_int_equal(sure.jammed, JAM_VERDICT_YES);
+  assert_non_null(std::strstr(jam_check_text(&sure), "jammed"));
+  jam_modes_options o = jam::modes_options();
+  o.count = 4;
+  const jam::System::Modes found = s.modes(o);
+  const std::size_t unknowns = 2 * s.array<std::int32_t>(jam_hessian_map).size();
+  assert_int_equal(found.table.size(), 8);
+  assert_int_equal(found.vectors.size(), 4 * unknowns);
+  for (std::size_t k = 0; k < 4; ++k) {  // of unit length
+    double square = 0.0;
+    for (std::size_t c = 0; c < unknowns; ++c) square += std::pow(found.vectors[k * unknowns + c], 2);
+    assert_true(std::fabs(square - 1.0) < 1e-12);
+  }
+  jam_create_options dense = jam::create_options();
+  dense.n = 60, dense.dim = 2, dense.packing_fraction = 0.95, dense.overlap = JAM_OVERLAP_ALLOW;
+  jam::System soft(dense);
+  assert_true(soft.relax().pressure > 0.0);  // denser than disks can lie apart
+  assert_int_equal(soft.status(), JAM_OK);
+  jam::System loose = jam::System::random(20, 2);
+  assert_true(throws<jam::Error>([&] { loose.modes(); }));
+}
+
 void test_callbacks(void **) {
   jam::System s = jam::System::random(300, 3, 1, 0.3);
   int calls = 0;
@@ -121,8 +149,11 @@ void test_callbacks(void **) {
 }  // namespace
 
 int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(test_ownership), cmocka_unit_test(test_checkpoint),
-                              cmocka_unit_test(test_errors), cmocka_unit_test(test_crunch_and_forces),
+  const CMUnitTest tests[] = {cmocka_unit_test(test_ownership),
+                              cmocka_unit_test(test_checkpoint),
+                              cmocka_unit_test(test_errors),
+                              cmocka_unit_test(test_crunch_and_forces),
+                              cmocka_unit_test(test_cell_check_and_modes),
                               cmocka_unit_test(test_callbacks)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -166,6 +166,9 @@ contains
     before = caught
     force = none%forces()
     call expect(caught == before + 1 .and. none%status == JAM_E_NULL .and. size(force) == 0, 'nothing made')
+    call expect(text == 'a packing is empty: make or read one first' .and. none%why() == text, text)
+    call few%tile(none, [2, 2])
+    call expect(few%status == JAM_E_NULL .and. index(text, 'empty') > 0, text)
     call few%random(n=8, dim=2)
     force = few%forces()
     call expect(few%status == JAM_E_STATE .and. size(force) == 0, 'no network: '//text)

@@ -247,7 +247,7 @@ class CommandLine(unittest.TestCase):
         for program in self.programs():
             code, out, err = self.run_words(program, "export", "start.xyz", "--stl", "m.stl")
             self.assertEqual((code, "network   none: the mesh joins no spheres" in out), (0, True), out)
-            self.assertRegex(err, r"^[^:]+: the mesh has about \S+ triangles, \S+ MB\n$")
+            self.assertRegex(err, r"^[^:]+: the mesh has about \S+ triangles, \S+ [kM]B\n$")
 
     def test_a_table_is_no_list_of_diameters(self):
         """Every number of it would be a diameter."""

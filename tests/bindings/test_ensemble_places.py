@@ -121,7 +121,7 @@ class Names(Case):
         self.assertEqual(self.make([1, 2]).missing, 0)
         status = self.make([1, 2], remake_damaged=True)
         self.assertEqual((status.made, status.remade, status.damaged), (1, (str(self.file(2)),), ()))
-        self.assertIn(f"made again: {self.file(2)}", str(status))
+        self.assertIn(f"1 made now; made again: {self.file(2)}", str(status))
 
     def test_look_for_own_names_opens_no_other_file(self):
         self.make(range(1, 9))

@@ -467,7 +467,7 @@ class Program(unittest.TestCase):
             words += f"--pores {pores} --pore-points 50 --near-coordination {z} --near-gap 1e-6"
             done = subprocess.run([PACK, *words.split()], capture_output=True, text=True, timeout=120)
             self.assertEqual(done.returncode, 0, done.stderr)
-            self.assertIn("50 x 50 x 50 voxels, 0.125 MB", done.stderr)
+            self.assertIn("50 x 50 x 50 voxels, 125 kB", done.stderr)
             self.assertEqual(open_edges(triangles(stl)), 0)
             np.testing.assert_array_equal(np.load(npy), s.image(size=0.02))
             rows = np.genfromtxt(profile, delimiter=",", names=True, dtype=None, encoding="ascii")

@@ -194,6 +194,7 @@ static void bad_arguments_are_refused(void **state) {
   assert_non_null(strstr(jam_last_error(), "bytes"));
   assert_int_equal(jam_gaps(s, -1.0, 0, NULL, 0, NULL, 0, &m), JAM_E_ARGUMENT);
   assert_int_equal(jam_gaps(t, 1000.0, 0, NULL, 0, NULL, 0, &m), JAM_E_MEMORY);
+  assert_non_null(strstr(jam_last_error(), "B, more than ")); /* in units that fit */
   assert_int_equal(jam_correlation_options_init(&pairs, sizeof pairs), JAM_OK);
   pairs.bins = 10;
   assert_int_equal(jam_pair_correlation(s, &pairs, i, 3, x, 10, &m), JAM_E_ARGUMENT);

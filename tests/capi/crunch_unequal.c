@@ -72,6 +72,44 @@ static void short_steps(void **state) {
   jam_destroy(sys);
 }
 
+/* An LP has the pairs whose gap is below neighbour_radius minus the largest diameter, in mean diameters. A smaller
+ * radius is refused with that number; a larger one gives the pairs that are counted from positions. */
+static void radius_and_largest_diameter(void **state) {
+  double diameters[16] = {8, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1}, history[JAM_HISTORY_COLUMNS * 4];
+  const double mean = 23.0 / 16.0, radius = 8.0 / mean + 0.8;
+  jam_create_options o;
+  jam_crunch_options c;
+  jam_system *sys = NULL;
+  const double *x, *sigma;
+  size_t length, rows;
+  int pairs = 0;
+  (void)state;
+  assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
+  assert_int_equal(jam_crunch_options_init(&c, sizeof c), JAM_OK);
+  o.n = 16, o.dim = 2, o.packing_fraction = 0.3;
+  const jam_start start = {.struct_size = sizeof start, .diameters = diameters, .diameters_len = 16};
+  assert_int_equal(jam_create(&o, &start, &sys), JAM_OK);
+  assert_int_equal(jam_view_positions(sys, &x, &length), JAM_OK);
+  assert_int_equal(jam_view_diameters(sys, &sigma, &length), JAM_OK);
+  const double unit = sigma[1] * mean, reach = radius * unit - sigma[0];
+  for (int i = 0; i < 16; ++i)
+    for (int j = 0; j < i; ++j)
+      for (int k = -1; k <= 1; ++k) /* images too: the box is 1, and the reach less than half of it */
+        for (int l = -1; l <= 1; ++l) {
+          const double r = hypot(x[2 * i] - x[2 * j] + k, x[2 * i + 1] - x[2 * j + 1] + l);
+          pairs += r - 0.5 * (sigma[i] + sigma[j]) < reach;
+        }
+  c.method = JAM_CRUNCH_SEQUENTIAL_LP, c.full_lps = 1, c.max_lps = 1, c.polish = 0;
+  c.neighbour_radius = 2.0, c.step_bound = 0.1;
+  assert_int_equal(jam_crunch(sys, &c, NULL), JAM_E_ARGUMENT);
+  assert_non_null(strstr(jam_last_error(), "neighbour radius 2 is below the largest diameter, 5.57"));
+  c.neighbour_radius = radius;
+  if (jam_crunch(sys, &c, NULL) < 0) fail_msg("%s", jam_last_error());
+  assert_int_equal(jam_crunch_history(sys, JAM_HISTORY_COLUMNS, history, JAM_HISTORY_COLUMNS * 4, &rows), JAM_OK);
+  assert_int_equal((int)history[JAM_HISTORY_PAIRS], pairs);
+  jam_destroy(sys);
+}
+
 /* Rods of height h, and a flat cell. The volume is 1. */
 static void thin_cells(void **state) {
   const struct {
@@ -115,6 +153,6 @@ static void thin_cells(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(very_unequal_spheres), cmocka_unit_test(short_steps),
-                                     cmocka_unit_test(thin_cells)};
+                                     cmocka_unit_test(thin_cells), cmocka_unit_test(radius_and_largest_diameter)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -107,6 +107,18 @@ double take_step(Packing &p, PairList &pairs, double reach, const LpSolution &x,
   return alpha;
 }
 
+// Rows are the pairs whose gap is below the radius minus the largest diameter (lp_reach): there must be one.
+static void check_radius(const Packing &p, double radius, const PairList &pairs) {
+  const double widest = contact_distance_max(p) / diameter_mean(p);
+  if (radius > 0.0 && radius < widest)
+    fail(JAM_E_ARGUMENT, "the neighbour radius %g is below the largest diameter, %.3g (both in mean diameters)", radius,
+         widest);
+  if (pairs.size() == 0)
+    fail(JAM_E_ARGUMENT,
+         "no pair within the neighbour radius %g: it leaves gaps below %.3g beside the largest diameter", radius,
+         radius - widest);
+}
+
 double build_lp(CrunchState &s, double reach) {
   s.last.active = ActiveSet();  // it belongs to the list that is replaced: an interrupted LP leaves no contacts
   if (s.next.strain.count() > 0) shorten_cell(s.out.packing, s.out.notes);
@@ -115,7 +127,7 @@ double build_lp(CrunchState &s, double reach) {
   // their growth: the nearest pair, at last a sphere and its own image.
   for (; pairs.size() == 0 && s.o.neighbour_radius == 0.0; reach *= 2.0)
     pairs = find_pairs(s.out.packing, 2.0 * reach, 1.0);
-  if (pairs.size() == 0) fail(JAM_E_ARGUMENT, "no pair within the neighbour radius %g", s.o.neighbour_radius);
+  check_radius(s.out.packing, s.o.neighbour_radius, pairs);
   s.last.pairs = std::move(pairs);
   s.last.lp = make_lp(s.out.packing, s.last.pairs, diameter_mean(s.out.packing), s.next.strain);
   s.last.lp.bound = s.next.bound;

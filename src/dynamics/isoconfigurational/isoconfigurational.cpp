@@ -79,8 +79,9 @@ void Isoconfigurational::check_memory() const {
   const double sets = 8.0 * spheres * d * static_cast<double>(o.runs) * static_cast<double>(kept_instants_.size());
   const double records = 8.0 * m * spheres * d * static_cast<double>(o.threads > 1 ? EnsembleTuning::runs_ahead : 1);
   if (sums + sets + records > o.memory_limit)
-    fail(JAM_E_MEMORY, "%.3g bytes are needed (sums of %g blocks %.3g, displacement sets %.3g), memory_limit is %.3g",
-         sums + sets + records, blocks, sums, sets, o.memory_limit);
+    fail(JAM_E_MEMORY, "%s are needed (sums of %g blocks %s, displacement sets %s), memory_limit is %s",
+         bytes_text(sums + sets + records).c_str(), blocks, bytes_text(sums).c_str(), bytes_text(sets).c_str(),
+         bytes_text(o.memory_limit).c_str());
 }
 
 // Positions are doubles, so a contact is closed to a few 1e-16 of the box. Gaps opened by less than some hundred times

@@ -10,10 +10,9 @@ int main() {
   jam::System disks = jam::System::random(600, 2);
   disks.compress();
   disks.crunch();
-  jam_modes_options o = jam::options<jam_modes_options>(jam_modes_options_init);
+  jam_modes_options o = jam::modes_options();
   o.count = 5;
-  std::vector<double> table(static_cast<std::size_t>(2 * o.count));
-  const jam_status status = jam_modes(disks.get(), nullptr, &o, table.data(), table.size(), nullptr, 0, nullptr);
+  const std::vector<double> table = disks.modes(o).table;
   std::printf("%.4f\n", mine.squaredNorm());
-  return status == JAM_OK && table[0] > 0.0 ? 0 : 1;
+  return table.size() == 5 * JAM_MODE_COLUMNS && table[0] > 0.0 ? 0 : 1;
 }

@@ -11,14 +11,21 @@ Jammed packings of hard spheres, made and analysed by libjam.
 
 Arrays are d-by-n matrices, a column for each sphere: the bytes of C's (n, d). Indices count from 1, except in the functions of
 C, `Jam.jam_...`, which are all there too. Options are keywords under their C names, enums are given as words:
-`crunch!(s; method = :sequential_lp)`. The library is found as libjam.so.1, or by the environment variable JAM_LIBRARY when the
-package is precompiled.
+`crunch!(s; method = :sequential_lp)`. `using Jam` loads libjam.so.1, or the file that the environment variable JAM_LIBRARY
+names in that session.
 """
 module Jam
 
-using Logging, Printf, SparseArrays
+using Libdl, Logging, Printf, SparseArrays
 
-const libjam = get(ENV, "JAM_LIBRARY", "libjam.so.1")
+# Opened when the package is loaded, not when it is precompiled: a later session may name another library.
+const library = Ref{Ptr{Cvoid}}(C_NULL)
+symbol(name) = dlsym(library[], name)
+
+function __init__()
+    named = get(ENV, "JAM_LIBRARY", "")
+    library[] = dlopen(isempty(named) ? "libjam.so.1" : named)
+end
 
 # one a concept; each takes from those above it
 include("raw.jl")           # C's functions and structs, generated

@@ -9,8 +9,10 @@ displacements follow its three stages. Each LP is solved to its optimum. `on_lp`
 `true` stops. Other keywords are options of `crunch!`, such as `lp_solver`.
 
 Returns a table with a row for each LP: gain (√Γ - 1), phi, step_max (largest displacement of a stable sphere, unit of the box),
-contacts, excess, rattlers, pairs (rows of the LP), radius and bound (unit of the box), seconds. Equal spheres only, as R is
-one number there; for mixtures R is the mean radius. Call `crunch!(s)` after it for contacts, forces and certificate.
+contacts, excess, rattlers, pairs (rows of the LP), radius and bound (unit of the box), seconds. R of mixtures is the largest
+radius, as in CALiPPSO 0.2.2. A row for each pair whose gap is below radius - 2 R; theirs has one for each pair at a distance
+below the radius. The bound keeps the others apart, so that the optimum is the same. Call `crunch!(s)` after it for contacts, forces and
+certificate.
 
 ```jldoctest
 julia> s = System(n = 64, dim = 3, seed = 1); compress!(s; growth_rate = 0.1, pressure = 1000);
@@ -31,26 +33,31 @@ function calippso!(s::System; l0 = nothing, ℓ0 = l0, sqrGamma0 = 1.01, sqrΓ0 
         name in ours || haskey(CALIPPSO, name) || throw(ArgumentError("unknown option $name" * suggestion(string(name), string.(ours))))
     end
     gain, d = sqrΓ0 - 1, Int(info(s).dim)
-    cutoff = ℓ0 === nothing ? 2 * info(s).diameter_mean : Float64(ℓ0)  # 4 R
+    widest() = maximum(diameters(s))
+    cutoff = ℓ0 === nothing ? 2 * widest() : Float64(ℓ0)  # 4 R
     rows = NamedTuple[]
     for _ in 1:max_iters
         sigma = info(s).diameter_mean
-        radius, bound = stage(gain, cutoff, sigma / 2, d, thresholds_bounds, sbound)
-        bound > 0 || throw(ArgumentError("l0 = $cutoff is too small for spheres of radius R = $(sigma / 2): displacements in the first stage are " *
+        R = widest() / 2
+        radius, bound = stage(gain, cutoff, R, d, thresholds_bounds, sbound)
+        bound > 0 || throw(ArgumentError("l0 = $cutoff is too small for spheres of radius R = $R: displacements in the first stage are " *
                                          "bounded by (l0 - $(2 * max(1.5, 1 + gain)) R) / (2 sqrt(d)); the default is 4 R"))
         r = crunch!(s; method = :sequential_lp, max_lps = 1, full_lps = true, polish = false, neighbour_radius = radius / sigma,
                 step_bound = bound / sigma, given...)
         last = history(s)[end]
         now = info(s).diameter_mean
-        push!(rows, (gain = last.gain, phi = last.phi, step_max = r.max_step * now, contacts = last.contacts, excess = last.excess,
-                     rattlers = last.rattlers, pairs = last.pairs, radius = radius, bound = bound, seconds = last.seconds))
+        push!(rows, (gain = last.gain, phi = last.phi, step_max = r.max_step * now, contacts = whole(last.contacts), excess = whole(last.excess),
+                     rattlers = whole(last.rattlers), pairs = whole(last.pairs), radius = radius, bound = bound, seconds = last.seconds))
         on_lp !== nothing && on_lp(rows[end]) === true && break
         gain = last.gain
         gain <= tol_Γ_convergence && r.max_step * now <= tol_S_convergence && break
     end
     names = (:gain, :phi, :step_max, :contacts, :excess, :rattlers, :pairs, :radius, :bound, :seconds)
-    return Table(NamedTuple{names}(Tuple(Float64[row[name] for row in rows] for name in names)))
+    return Table(NamedTuple{names}(Tuple([row[name] for row in rows] for name in names)))
 end
+
+"A number of the history; -1 where the step has none."
+whole(x) = isnan(x) ? -1 : Int(x)
 
 "Radius of influence and bound of the displacements of one of the three stages, by the gain of the LP before (their bounds_and_cutoff)."
 function stage(gain, l0, R, d, thresholds, sbound)

@@ -114,8 +114,8 @@ end
 """
     call(s, :jam_name, inputs; progress, options...)
 
-Calls a function of the C header: `inputs` in its order, members of its option structs as keywords. Returns its output, or a
-NamedTuple of several. The size of arrays is queried first. `s` is `nothing` for functions without a system.
+Calls a function of the C header: `inputs` in its order, members of its option structs as keywords. Returns its output, or
+[`Results`](@ref) of several. The size of arrays is queried first. `s` is `nothing` for functions without a system.
 """
 function call(s, name::Symbol, inputs::Tuple; progress = nothing, given...)
     c = CALLS[name]
@@ -173,7 +173,7 @@ function call(s, name::Symbol, inputs::Tuple; progress = nothing, given...)
         end
     end
     order = [a.name for a in c.arguments if haskey(outputs, a.name)]
-    length(order) > 1 && return NamedTuple{Tuple(order)}(Tuple(outputs[n] for n in order))
+    length(order) > 1 && return Results(NamedTuple{Tuple(order)}(Tuple(outputs[n] for n in order)))
     return isempty(order) ? nothing : outputs[order[1]]
 end
 

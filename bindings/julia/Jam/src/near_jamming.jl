@@ -8,7 +8,7 @@ Runs from the packing as it is, each with velocities of its own; `s` does not ch
 NamedTuple of options of `monte_carlo!`, instead of molecular dynamics. `kept`: numbers of the instants whose displacements
 `isoconf_kept(s, k)` gives of every run.
 
-A NamedTuple of means over the runs: `displacement` (d, n, instants), `propensity` = mean of |dr|^2 (n, instants), and a value
+Returns [`Results`](@ref), means over the runs: `displacement` (d, n, instants), `propensity` = mean of |dr|^2 (n, instants), and a value
 an instant of `time`, `msd`, `scattering`, `overlap`, ... `report` is the Report.
 """
 function isoconfigurational(s::System, instants; kept = nothing, monte_carlo = nothing, progress = nothing, given...)
@@ -17,7 +17,7 @@ function isoconfigurational(s::System, instants; kept = nothing, monte_carlo = n
     made, t = jam_isoconf_report(), vec(dense(instants))
     k = kept === nothing ? nothing : Int32.(collect(kept)) .- Int32(1)
     r = verb(h -> jam_isoconfigurational(h, o, m, t, length(t), k, length(something(k, ())), made), s, made, progress)
-    return merge((report = r, instants = t), isoconf_means(s))
+    return Results(merge((report = r, instants = t), isoconf_means(s)))
 end
 
 "Means over all runs of the handle."
@@ -43,7 +43,7 @@ function predictors(s::System)
     for k in eachindex(f), side in 1:2
         pairs[side, k] > 0 && (total[pairs[side, k]] += f[k])  # below 0: a wall
     end
-    return (c = plain.c, s = plain.s, force_sum = total, force_pairs = weighted.s, rattlers = rattlers(s))
+    return Results(c = plain.c, s = plain.s, force_sum = total, force_pairs = weighted.s, rattlers = rattlers(s))
 end
 
 "Ranks from 1; equal values share their mean rank."
@@ -89,5 +89,5 @@ function correlations(runs, structure; rattlers::Bool = true)
     d, m = size(structure.c, 1), size(runs.propensity, 2)
     c = [sum(spearman(structure.c[k, use], runs.displacement[k, use, t]) for k in 1:d) / d for t in 1:m]
     with(x) = [spearman(x[use], runs.propensity[use, t]) for t in 1:m]
-    return (c = c, s = with(structure.s), force_sum = with(structure.force_sum), force_pairs = with(structure.force_pairs))
+    return Results(c = c, s = with(structure.s), force_sum = with(structure.force_sum), force_pairs = with(structure.force_pairs))
 end

@@ -88,7 +88,7 @@ end
 """
     modes(s, k = 10; which, frequency, stiffness, alpha, prestress, tolerance, memory_limit, progress)
 
-Vibrational modes: a NamedTuple of `values` (omega^2, ascending), `vectors` (one column per mode, of unit length), `participation`
+Vibrational modes: [`Results`](@ref) with `values` (omega^2, ascending), `vectors` (one column per mode, of unit length), `participation`
 (inverse ratio: 1 / N of a uniform mode), `frequencies` (negative where the value is) and `spheres`, those that move. `which`: `:lowest`, `:highest`, `:near` (a
 `frequency`) or `:all`. `reshape(m.vectors[:, 1], d, :)` has a column for each of the `spheres`.
 """
@@ -97,8 +97,8 @@ function modes(s::System, k::Integer = 10; progress = nothing, given...)
     omega(x) = x < 0 ? -sqrt(-x) : sqrt(x)
     found = columns(made.table)
     vectors = reshape(made.vector, :, length(found.lambda))
-    return (values = found.lambda, vectors = vectors, participation = found.participation,
-            frequencies = omega.(found.lambda), spheres = hessian_map(s))
+    return Results(values = found.lambda, vectors = vectors, participation = found.participation,
+                   frequencies = omega.(found.lambda), spheres = hessian_map(s))
 end
 
 """
@@ -111,8 +111,8 @@ function bloch_modes(s::System, wave; progress = nothing, given...)
     made = call(s, :jam_bloch_modes, (collect(Float64, wave),); progress = progress, given...)
     found = columns(made.table)
     parts = reshape(made.vector, 2, :, length(found.lambda))
-    return (values = found.lambda, vectors = complex.(parts[1, :, :], parts[2, :, :]), participation = found.participation,
-            spheres = hessian_map(s))
+    return Results(values = found.lambda, vectors = complex.(parts[1, :, :], parts[2, :, :]), participation = found.participation,
+                   spheres = hessian_map(s))
 end
 
 """
@@ -125,7 +125,7 @@ eigenvalue of S'S.
 function bloch_rigidity(s::System, count; progress = nothing)
     made = call(s, :jam_bloch_rigidity, (collect(Int32, count),); progress = progress)
     found = columns(made.table)
-    return (wave = made.wave, flexes = Int.(found.flexes), margin = found.margin)
+    return Results(wave = made.wave, flexes = Int.(found.flexes), margin = found.margin)
 end
 
 """
@@ -135,5 +135,5 @@ g(r) in equal bins up to `r_max` mean diameters; with `labels`, a whole number a
 """
 function pair_correlation(s::System, r_max = 4.0, bins = 200; labels = nothing, a = -1, b = -1)
     g = call(s, :jam_pair_correlation, (labels,); a = a, b = b, r_max = r_max, bins = bins)
-    return (r = (collect(1:bins) .- 0.5) .* (r_max / bins), g = g)
+    return Results(r = (collect(1:bins) .- 0.5) .* (r_max / bins), g = g)
 end

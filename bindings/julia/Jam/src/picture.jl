@@ -74,7 +74,7 @@ end
 Writes disks (d = 2) as SVG: rattlers grey, bucklers orange, forces as lines of their width. Notebooks show `s` like this by
 themselves. `page(path, s)` shows three dimensions.
 """
-picture(path::AbstractString, s::System; given...) = (open(io -> svg(io, s; given...), path, "w"); nothing)
+picture(path::AbstractString, s::System; given...) = (write(path, sprint(io -> svg(io, s; given...))); nothing)  # drawn before it opens
 
 Base.showable(::MIME"image/svg+xml", s::System) = s.handle != C_NULL && info(s).dim == 2 && info(s).n <= 20000
 Base.show(io::IO, ::MIME"image/svg+xml", s::System) = svg(io, s)

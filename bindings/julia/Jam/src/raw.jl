@@ -949,7 +949,7 @@ of CALiPPSO.jl beside each.
 - `gain_tolerance`: on sqrt(Gamma) - 1, > 0, default 1e-12
 - `step_tolerance`: on max |`s_i`| of non-rattlers, > 0, default 1e-9
 - `lp_tolerance`: relative complementarity, residual of an LP, default 1e-15; above 1e-9 it acts as 1e-9
-- `neighbour_radius`: largest pair distance in an LP; 0, the default: adapts
+- `neighbour_radius`: an LP has the pairs of gap < this - the largest diameter; 0, the default: adapts
 - `step_bound`: bound on each |`s_i`| component, 1e-15 .. 1000; 0, the default: adapts
 - `wall_time`: limit of the call
 - `steps`: Bool; the callback is called at every step and may call `jam_crunch_step_`...; default 0
@@ -970,7 +970,7 @@ mutable struct jam_crunch_options
     gain_tolerance::Cdouble  # on sqrt(Gamma) - 1, > 0, default 1e-12
     step_tolerance::Cdouble  # on max |s_i| of non-rattlers, > 0, default 1e-9
     lp_tolerance::Cdouble  # relative complementarity, residual of an LP, default 1e-15; above 1e-9 it acts as 1e-9
-    neighbour_radius::Cdouble  # largest pair distance in an LP; 0, the default: adapts
+    neighbour_radius::Cdouble  # an LP has the pairs of gap < this - the largest diameter; 0, the default: adapts
     step_bound::Cdouble  # bound on each |s_i| component, 1e-15 .. 1000; 0, the default: adapts
     wall_time::Cdouble  # limit of the call
     steps::Int32  # 1: the callback is called at every step and may call jam_crunch_step_*; default 0
@@ -1818,7 +1818,7 @@ end
 Version of the library, e.g. "1.0.0". Static storage, as the texts of the next five calls.
 """
 function jam_version()
-    return ccall((:jam_version, libjam), Cstring, ())
+    return ccall(symbol(:jam_version), Cstring, ())
 end
 
 """
@@ -1828,7 +1828,7 @@ Commit of the source that the library was built from, 12 hex digits, without unc
 did not find one.
 """
 function jam_commit()
-    return ccall((:jam_commit, libjam), Cstring, ())
+    return ccall(symbol(:jam_commit), Cstring, ())
 end
 
 """
@@ -1837,7 +1837,7 @@ end
 `JAM_ABI` of the library that is loaded.
 """
 function jam_abi_version()
-    return ccall((:jam_abi_version, libjam), Int32, ())
+    return ccall(symbol(:jam_abi_version), Int32, ())
 end
 
 """
@@ -1847,7 +1847,7 @@ Who computes the matrix products of packings: "builtin", libjam's own loops, the
 library the kernel that OpenBLAS chose for this processor, e.g. "Haswell", or the path of another library.
 """
 function jam_blas_kernel()
-    return ccall((:jam_blas_kernel, libjam), Cstring, ())
+    return ccall(symbol(:jam_blas_kernel), Cstring, ())
 end
 
 """
@@ -1856,7 +1856,7 @@ end
 One-line text of a status code ("unknown status" for others).
 """
 function jam_status_string(code)
-    return ccall((:jam_status_string, libjam), Cstring, (Int32,), code)
+    return ccall(symbol(:jam_status_string), Cstring, (Int32,), code)
 end
 
 """
@@ -1865,7 +1865,7 @@ end
 One-word name of a `jam_stop_reason`, e.g. "converged".
 """
 function jam_stop_string(reason)
-    return ccall((:jam_stop_string, libjam), Cstring, (Int32,), reason)
+    return ccall(symbol(:jam_stop_string), Cstring, (Int32,), reason)
 end
 
 """
@@ -1875,7 +1875,7 @@ Reason for the last status other than `JAM_OK` on this thread, with the name and
 none. The log callback receives the same sentence. Valid until the next status other than `JAM_OK` on this thread.
 """
 function jam_last_error()
-    return ccall((:jam_last_error, libjam), Cstring, ())
+    return ccall(symbol(:jam_last_error), Cstring, ())
 end
 
 """
@@ -1885,7 +1885,7 @@ Sets the text that `jam_last_error()` returns on this thread; NULL sets "". For 
 themselves. Long texts are truncated.
 """
 function jam_set_error(text)
-    return ccall((:jam_set_error, libjam), Cvoid, (Cstring,), text)
+    return ccall(symbol(:jam_set_error), Cvoid, (Cstring,), text)
 end
 
 """
@@ -1894,7 +1894,7 @@ end
 Fills `*o` with the defaults. size = sizeof `*o` as the caller compiled it. So do all calls of this name.
 """
 function jam_create_options_init(o, size)
-    return ccall((:jam_create_options_init, libjam), Int32, (Ref{jam_create_options}, Csize_t), _ref(jam_create_options, o), size)
+    return ccall(symbol(:jam_create_options_init), Int32, (Ref{jam_create_options}, Csize_t), _ref(jam_create_options, o), size)
 end
 
 """
@@ -1907,7 +1907,7 @@ examples/c/first.c
 Errors: `JAM_E_DIMENSION`, `JAM_E_OVERLAP`, `JAM_E_UNPLACEABLE` (the text gives the fraction in reach).
 """
 function jam_create(o, start, out)
-    return ccall((:jam_create, libjam), Int32, (Ref{jam_create_options}, Ref{jam_start}, Ref{Ptr{Cvoid}}), _ref(jam_create_options, o), _ref(jam_start, start), out)
+    return ccall(symbol(:jam_create), Int32, (Ref{jam_create_options}, Ref{jam_start}, Ref{Ptr{Cvoid}}), _ref(jam_create_options, o), _ref(jam_start, start), out)
 end
 
 """
@@ -1917,7 +1917,7 @@ Deep copy of src with its results and observations (`jam_observe` stays on), wit
 seed of src: where both draw velocities, they draw the same ones. For independent runs use `jam_set_velocities`.
 """
 function jam_copy(src, out)
-    return ccall((:jam_copy, libjam), Int32, (Ptr{Cvoid}, Ref{Ptr{Cvoid}}), src, out)
+    return ccall(symbol(:jam_copy), Int32, (Ptr{Cvoid}, Ref{Ptr{Cvoid}}), src, out)
 end
 
 """
@@ -1926,7 +1926,7 @@ end
 Frees a system; NULL is fine.
 """
 function jam_destroy(sys)
-    return ccall((:jam_destroy, libjam), Cvoid, (Ptr{Cvoid},), sys)
+    return ccall(symbol(:jam_destroy), Cvoid, (Ptr{Cvoid},), sys)
 end
 
 """
@@ -1935,7 +1935,7 @@ end
 Fills `*info`.
 """
 function jam_get_info(sys, info)
-    return ccall((:jam_get_info, libjam), Int32, (Ptr{Cvoid}, Ref{jam_info}), sys, _ref(jam_info, info))
+    return ccall(symbol(:jam_get_info), Int32, (Ptr{Cvoid}, Ref{jam_info}), sys, _ref(jam_info, info))
 end
 
 """
@@ -1945,7 +1945,7 @@ View of positions (n, d) in [0, box), in other cells in the brick. The pointer s
 content changes only at the end of calls that move spheres.
 """
 function jam_view_positions(sys, view, view_len)
-    return ccall((:jam_view_positions, libjam), Int32, (Ptr{Cvoid}, Ref{Ptr{Cdouble}}, Ref{Csize_t}), sys, view, view_len)
+    return ccall(symbol(:jam_view_positions), Int32, (Ptr{Cvoid}, Ref{Ptr{Cdouble}}, Ref{Csize_t}), sys, view, view_len)
 end
 
 """
@@ -1954,7 +1954,7 @@ end
 View of the n diameters; lifetime as `jam_view_positions`.
 """
 function jam_view_diameters(sys, view, view_len)
-    return ccall((:jam_view_diameters, libjam), Int32, (Ptr{Cvoid}, Ref{Ptr{Cdouble}}, Ref{Csize_t}), sys, view, view_len)
+    return ccall(symbol(:jam_view_diameters), Int32, (Ptr{Cvoid}, Ref{Ptr{Cdouble}}, Ref{Csize_t}), sys, view, view_len)
 end
 
 """
@@ -1963,7 +1963,7 @@ end
 View of velocities (n, d), kT/m = 1; zero until the first MD call draws them. Lifetime as `jam_view_positions`.
 """
 function jam_view_velocities(sys, view, view_len)
-    return ccall((:jam_view_velocities, libjam), Int32, (Ptr{Cvoid}, Ref{Ptr{Cdouble}}, Ref{Csize_t}), sys, view, view_len)
+    return ccall(symbol(:jam_view_velocities), Int32, (Ptr{Cvoid}, Ref{Ptr{Cdouble}}, Ref{Csize_t}), sys, view, view_len)
 end
 
 """
@@ -1974,7 +1974,7 @@ Shapes: positions (n, d).
 Errors: `JAM_E_OVERLAP`.
 """
 function jam_set_positions(sys, positions, positions_len)
-    return ccall((:jam_set_positions, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t), sys, _ptr(positions), positions_len)
+    return ccall(symbol(:jam_set_positions), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t), sys, _ptr(positions), positions_len)
 end
 
 """
@@ -1985,7 +1985,7 @@ as they are. `jam_compress` rescales them to kT/m = 1.
 Shapes: velocities (n, d).
 """
 function jam_set_velocities(sys, velocities, velocities_len)
-    return ccall((:jam_set_velocities, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t), sys, _ptr(velocities), velocities_len)
+    return ccall(symbol(:jam_set_velocities), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t), sys, _ptr(velocities), velocities_len)
 end
 
 """
@@ -1995,7 +1995,7 @@ Multiplies all diameters by factor > 0; results of crunch are dropped.
 Errors: `JAM_E_OVERLAP` (when growing).
 """
 function jam_scale_diameters(sys, factor)
-    return ccall((:jam_scale_diameters, libjam), Int32, (Ptr{Cvoid}, Cdouble), sys, factor)
+    return ccall(symbol(:jam_scale_diameters), Int32, (Ptr{Cvoid}, Cdouble), sys, factor)
 end
 
 """
@@ -2005,7 +2005,7 @@ One row per wall: flat ones axis by axis, then the round one.
 Shapes: table (m, `jam_wall_column`).
 """
 function jam_walls(sys, columns, table, table_len, needed)
-    return ccall((:jam_walls, libjam), Int32, (Ptr{Cvoid}, Int32, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, columns, _ptr(table), table_len, _ref(Csize_t, needed))
+    return ccall(symbol(:jam_walls), Int32, (Ptr{Cvoid}, Int32, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, columns, _ptr(table), table_len, _ref(Csize_t, needed))
 end
 
 """
@@ -2015,7 +2015,7 @@ Cell vectors in normal form.
 Shapes: out (d, d).
 """
 function jam_get_cell(sys, out, out_len, needed)
-    return ccall((:jam_get_cell, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(out), out_len, _ref(Csize_t, needed))
+    return ccall(symbol(:jam_get_cell), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(out), out_len, _ref(Csize_t, needed))
 end
 
 """
@@ -2029,7 +2029,7 @@ Shapes: cell (d, d), transform (d, d), rotation (d, d).
 Errors: `JAM_E_OVERLAP`.
 """
 function jam_set_cell(sys, cell, cell_len, transform, transform_len, rotation, rotation_len, rows)
-    return ccall((:jam_set_cell, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ptr{Int64}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(cell), cell_len, _ptr(transform), transform_len, _ptr(rotation), rotation_len, _ref(Csize_t, rows))
+    return ccall(symbol(:jam_set_cell), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ptr{Int64}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(cell), cell_len, _ptr(transform), transform_len, _ptr(rotation), rotation_len, _ref(Csize_t, rows))
 end
 
 """
@@ -2042,7 +2042,7 @@ Shapes: strain (d, d).
 Errors: `JAM_E_OVERLAP`, `JAM_E_UNSUPPORTED` (Mari-Kurchan shifts, other vectors).
 """
 function jam_strain(sys, strain, strain_len)
-    return ccall((:jam_strain, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t), sys, _ptr(strain), strain_len)
+    return ccall(symbol(:jam_strain), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t), sys, _ptr(strain), strain_len)
 end
 
 """
@@ -2057,14 +2057,14 @@ Shapes: count (d).
 Errors: `JAM_E_UNSUPPORTED` (Mari-Kurchan model, walls), `JAM_E_OVERLAP` (coordinates no longer resolve the gaps).
 """
 function jam_tile(src, count, count_len, out)
-    return ccall((:jam_tile, libjam), Int32, (Ptr{Cvoid}, Ptr{Int32}, Csize_t, Ref{Ptr{Cvoid}}), src, _ptr(count), count_len, out)
+    return ccall(symbol(:jam_tile), Int32, (Ptr{Cvoid}, Ptr{Int32}, Csize_t, Ref{Ptr{Cvoid}}), src, _ptr(count), count_len, out)
 end
 
 """
     jam_diameters_options_init(o, size)
 """
 function jam_diameters_options_init(o, size)
-    return ccall((:jam_diameters_options_init, libjam), Int32, (Ref{jam_diameters_options}, Csize_t), _ref(jam_diameters_options, o), size)
+    return ccall(symbol(:jam_diameters_options_init), Int32, (Ref{jam_diameters_options}, Csize_t), _ref(jam_diameters_options, o), size)
 end
 
 """
@@ -2078,7 +2078,7 @@ Shapes: curve (rows, 2), out (m).
 Errors: `JAM_E_DIMENSION`, `JAM_E_UNPLACEABLE` (`packing_fraction`).
 """
 function jam_diameters(o, curve, curve_len, out, out_len, needed)
-    return ccall((:jam_diameters, libjam), Int32, (Ref{jam_diameters_options}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), _ref(jam_diameters_options, o), _ptr(curve), curve_len, _ptr(out), out_len, _ref(Csize_t, needed))
+    return ccall(symbol(:jam_diameters), Int32, (Ref{jam_diameters_options}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), _ref(jam_diameters_options, o), _ptr(curve), curve_len, _ptr(out), out_len, _ref(Csize_t, needed))
 end
 
 """
@@ -2091,7 +2091,7 @@ Shapes: curve (rows, 2).
 Errors: `JAM_E_IO`, `JAM_E_FORMAT` (the text names the line).
 """
 function jam_parse_diameters(text, o, curve, curve_len, needed)
-    return ccall((:jam_parse_diameters, libjam), Int32, (Cstring, Ref{jam_diameters_options}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), text, _ref(jam_diameters_options, o), _ptr(curve), curve_len, _ref(Csize_t, needed))
+    return ccall(symbol(:jam_parse_diameters), Int32, (Cstring, Ref{jam_diameters_options}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), text, _ref(jam_diameters_options, o), _ptr(curve), curve_len, _ref(Csize_t, needed))
 end
 
 """
@@ -2102,7 +2102,7 @@ Shapes: cell (m).
 Errors: `JAM_E_DIMENSION`.
 """
 function jam_cell_volume(dim, cell, cell_len, volume)
-    return ccall((:jam_cell_volume, libjam), Int32, (Int32, Ptr{Cdouble}, Csize_t, Ref{Cdouble}), dim, _ptr(cell), cell_len, _ref(Cdouble, volume))
+    return ccall(symbol(:jam_cell_volume), Int32, (Int32, Ptr{Cdouble}, Csize_t, Ref{Cdouble}), dim, _ptr(cell), cell_len, _ref(Cdouble, volume))
 end
 
 """
@@ -2113,7 +2113,7 @@ Shapes: diameters (n).
 Errors: `JAM_E_DIMENSION`.
 """
 function jam_get_size_report(dim, diameters, diameters_len, report)
-    return ccall((:jam_get_size_report, libjam), Int32, (Int32, Ptr{Cdouble}, Csize_t, Ref{jam_size_report}), dim, _ptr(diameters), diameters_len, _ref(jam_size_report, report))
+    return ccall(symbol(:jam_get_size_report), Int32, (Int32, Ptr{Cdouble}, Csize_t, Ref{jam_size_report}), dim, _ptr(diameters), diameters_len, _ref(jam_size_report, report))
 end
 
 """
@@ -2124,7 +2124,7 @@ too. Const calls that run together on one handle each call it on their own threa
 its handle does not call it again.
 """
 function jam_set_progress(sys, callback, user)
-    return ccall((:jam_set_progress, libjam), Int32, (Ptr{Cvoid}, Ptr{Cvoid}, Ptr{Cvoid}), sys, _ptr(callback), _ptr(user))
+    return ccall(symbol(:jam_set_progress), Int32, (Ptr{Cvoid}, Ptr{Cvoid}, Ptr{Cvoid}), sys, _ptr(callback), _ptr(user))
 end
 
 """
@@ -2133,7 +2133,7 @@ end
 Sets (or with NULL removes) the log callback and its level. It first logs the lines of `jam_notes`.
 """
 function jam_set_log(sys, callback, level, user)
-    return ccall((:jam_set_log, libjam), Int32, (Ptr{Cvoid}, Ptr{Cvoid}, Int32, Ptr{Cvoid}), sys, _ptr(callback), level, _ptr(user))
+    return ccall(symbol(:jam_set_log), Int32, (Ptr{Cvoid}, Ptr{Cvoid}, Int32, Ptr{Cvoid}), sys, _ptr(callback), level, _ptr(user))
 end
 
 """
@@ -2143,7 +2143,7 @@ Requests that all calls on sys stop soon with `JAM_CANCELLED`. When no call runs
 on sys stops, unless it is a setter. `jam_cancel` only increments an atomic counter.
 """
 function jam_cancel(sys)
-    return ccall((:jam_cancel, libjam), Int32, (Ptr{Cvoid},), sys)
+    return ccall(symbol(:jam_cancel), Int32, (Ptr{Cvoid},), sys)
 end
 
 """
@@ -2155,7 +2155,7 @@ memory of `jam_estimate_crunch` with the limit before it begins, and that of eac
 default is half the machine's memory. An option `memory_limit` can lower the limit for its own call.
 """
 function jam_set_memory_limit(sys, bytes)
-    return ccall((:jam_set_memory_limit, libjam), Int32, (Ptr{Cvoid}, Cdouble), sys, bytes)
+    return ccall(symbol(:jam_set_memory_limit), Int32, (Ptr{Cvoid}, Cdouble), sys, bytes)
 end
 
 """
@@ -2167,7 +2167,7 @@ images); its number, of `jam_format` or `jam_contact_format`, or 0; a word; its 
 read, write or both.
 """
 function jam_formats()
-    return ccall((:jam_formats, libjam), Cstring, ())
+    return ccall(symbol(:jam_formats), Cstring, ())
 end
 
 """
@@ -2181,7 +2181,7 @@ line without newline is refused if its last number may have lost digits. callbac
 Errors: `JAM_E_IO`, `JAM_E_FORMAT` (line named), `JAM_E_UNSUPPORTED` (a box that is not periodic), `JAM_E_DIMENSION`, `JAM_E_OVERLAP`, `JAM_E_UNPLACEABLE`.
 """
 function jam_read(path, o, callback, user, out)
-    return ccall((:jam_read, libjam), Int32, (Cstring, Ref{jam_create_options}, Ptr{Cvoid}, Ptr{Cvoid}, Ref{Ptr{Cvoid}}), path, _ref(jam_create_options, o), _ptr(callback), _ptr(user), out)
+    return ccall(symbol(:jam_read), Int32, (Cstring, Ref{jam_create_options}, Ptr{Cvoid}, Ptr{Cvoid}, Ref{Ptr{Cvoid}}), path, _ref(jam_create_options, o), _ptr(callback), _ptr(user), out)
 end
 
 """
@@ -2194,7 +2194,7 @@ other size, and columns of other names are not read. A file that gives such a th
 Errors: `JAM_E_IO`, `JAM_E_FORMAT` (line named), `JAM_E_UNSUPPORTED` (a box that is not periodic), `JAM_E_DIMENSION`, `JAM_E_OVERLAP`, `JAM_E_UNPLACEABLE`.
 """
 function jam_read_as(path, layout, o, callback, user, out)
-    return ccall((:jam_read_as, libjam), Int32, (Cstring, Cstring, Ref{jam_create_options}, Ptr{Cvoid}, Ptr{Cvoid}, Ref{Ptr{Cvoid}}), path, layout, _ref(jam_create_options, o), _ptr(callback), _ptr(user), out)
+    return ccall(symbol(:jam_read_as), Int32, (Cstring, Cstring, Ref{jam_create_options}, Ptr{Cvoid}, Ptr{Cvoid}, Ref{Ptr{Cvoid}}), path, layout, _ref(jam_create_options, o), _ptr(callback), _ptr(user), out)
 end
 
 """
@@ -2205,7 +2205,7 @@ diameters, wrapped or sorted spheres, columns and frames that were not read. A w
 `jam_set_log` logs these lines too. Valid until one is added or `jam_destroy`; "" for NULL. Checkpoints hold it.
 """
 function jam_notes(sys)
-    return ccall((:jam_notes, libjam), Cstring, (Ptr{Cvoid},), sys)
+    return ccall(symbol(:jam_notes), Cstring, (Ptr{Cvoid},), sys)
 end
 
 """
@@ -2215,7 +2215,7 @@ Adds one sentence to `jam_notes`, for programs that read other formats: what the
 not empty.
 """
 function jam_add_note(sys, text)
-    return ccall((:jam_add_note, libjam), Int32, (Ptr{Cvoid}, Cstring), sys, text)
+    return ccall(symbol(:jam_add_note), Int32, (Ptr{Cvoid}, Cstring), sys, text)
 end
 
 """
@@ -2230,7 +2230,7 @@ only XYZ, LAMMPS and VTP can store walls or a cell that is no cube; others give 
 Errors: `JAM_E_UNSUPPORTED`, `JAM_E_IO`.
 """
 function jam_write(sys, path, format)
-    return ccall((:jam_write, libjam), Int32, (Ptr{Cvoid}, Cstring, Int32), sys, path, format)
+    return ccall(symbol(:jam_write), Int32, (Ptr{Cvoid}, Cstring, Int32), sys, path, format)
 end
 
 """
@@ -2242,7 +2242,7 @@ of `jam_write`; another scale rounds.
 Errors: `JAM_E_UNSUPPORTED`, `JAM_E_IO`.
 """
 function jam_write_scaled(sys, path, format, scale, density)
-    return ccall((:jam_write_scaled, libjam), Int32, (Ptr{Cvoid}, Cstring, Int32, Cdouble, Cdouble), sys, path, format, scale, density)
+    return ccall(symbol(:jam_write_scaled), Int32, (Ptr{Cvoid}, Cstring, Int32, Cdouble, Cdouble), sys, path, format, scale, density)
 end
 
 """
@@ -2252,7 +2252,7 @@ Writes the contact network of the last crunch. The file appears as of `jam_write
 Errors: `JAM_E_STATE`, `JAM_E_UNSUPPORTED`, `JAM_E_IO`.
 """
 function jam_write_contacts(sys, path, format)
-    return ccall((:jam_write_contacts, libjam), Int32, (Ptr{Cvoid}, Cstring, Int32), sys, path, format)
+    return ccall(symbol(:jam_write_contacts), Int32, (Ptr{Cvoid}, Cstring, Int32), sys, path, format)
 end
 
 """
@@ -2266,21 +2266,21 @@ Shapes: values (k, n).
 Errors: `JAM_E_IO`.
 """
 function jam_write_page(sys, path, title, small, names, values, values_len)
-    return ccall((:jam_write_page, libjam), Int32, (Ptr{Cvoid}, Cstring, Cstring, Int32, Cstring, Ptr{Cdouble}, Csize_t), sys, path, title, small, names, _ptr(values), values_len)
+    return ccall(symbol(:jam_write_page), Int32, (Ptr{Cvoid}, Cstring, Cstring, Int32, Cstring, Ptr{Cdouble}, Csize_t), sys, path, title, small, names, _ptr(values), values_len)
 end
 
 """
     jam_run_options_init(o, size)
 """
 function jam_run_options_init(o, size)
-    return ccall((:jam_run_options_init, libjam), Int32, (Ref{jam_run_options}, Csize_t), _ref(jam_run_options, o), size)
+    return ccall(symbol(:jam_run_options_init), Int32, (Ref{jam_run_options}, Csize_t), _ref(jam_run_options, o), size)
 end
 
 """
     jam_compress_options_init(o, size)
 """
 function jam_compress_options_init(o, size)
-    return ccall((:jam_compress_options_init, libjam), Int32, (Ref{jam_compress_options}, Csize_t), _ref(jam_compress_options, o), size)
+    return ccall(symbol(:jam_compress_options_init), Int32, (Ref{jam_compress_options}, Csize_t), _ref(jam_compress_options, o), size)
 end
 
 """
@@ -2297,7 +2297,7 @@ reason of the last two.
 Errors: `JAM_E_OVERLAP`.
 """
 function jam_run(sys, o, report)
-    return ccall((:jam_run, libjam), Int32, (Ptr{Cvoid}, Ref{jam_run_options}, Ref{jam_md_report}), sys, _ref(jam_run_options, o), _ref(jam_md_report, report))
+    return ccall(symbol(:jam_run), Int32, (Ptr{Cvoid}, Ref{jam_run_options}, Ref{jam_md_report}), sys, _ref(jam_run_options, o), _ref(jam_md_report, report))
 end
 
 """
@@ -2314,7 +2314,7 @@ a fluid, a packing fraction that these sizes do not reach in disorder is refused
 Errors: `JAM_E_OVERLAP`, `JAM_E_UNPLACEABLE`.
 """
 function jam_compress(sys, o, report)
-    return ccall((:jam_compress, libjam), Int32, (Ptr{Cvoid}, Ref{jam_compress_options}, Ref{jam_md_report}), sys, _ref(jam_compress_options, o), _ref(jam_md_report, report))
+    return ccall(symbol(:jam_compress), Int32, (Ptr{Cvoid}, Ref{jam_compress_options}, Ref{jam_md_report}), sys, _ref(jam_compress_options, o), _ref(jam_md_report, report))
 end
 
 """
@@ -2329,7 +2329,7 @@ crunch starts again from the packing that it had reached; from dilute starts it 
 Errors: `JAM_E_IO`.
 """
 function jam_write_checkpoint(sys, path)
-    return ccall((:jam_write_checkpoint, libjam), Int32, (Ptr{Cvoid}, Cstring), sys, path)
+    return ccall(symbol(:jam_write_checkpoint), Int32, (Ptr{Cvoid}, Cstring), sys, path)
 end
 
 """
@@ -2339,14 +2339,14 @@ Makes a system from such a file. callback, user: as in `jam_start`.
 Errors: `JAM_E_IO`, `JAM_E_FORMAT` (no checkpoint, or damaged, or from a machine with another byte order), `JAM_E_OVERLAP`.
 """
 function jam_read_checkpoint(path, callback, user, out)
-    return ccall((:jam_read_checkpoint, libjam), Int32, (Cstring, Ptr{Cvoid}, Ptr{Cvoid}, Ref{Ptr{Cvoid}}), path, _ptr(callback), _ptr(user), out)
+    return ccall(symbol(:jam_read_checkpoint), Int32, (Cstring, Ptr{Cvoid}, Ptr{Cvoid}, Ref{Ptr{Cvoid}}), path, _ptr(callback), _ptr(user), out)
 end
 
 """
     jam_observe_options_init(o, size)
 """
 function jam_observe_options_init(o, size)
-    return ccall((:jam_observe_options_init, libjam), Int32, (Ref{jam_observe_options}, Csize_t), _ref(jam_observe_options, o), size)
+    return ccall(symbol(:jam_observe_options_init), Int32, (Ref{jam_observe_options}, Csize_t), _ref(jam_observe_options, o), size)
 end
 
 """
@@ -2357,7 +2357,7 @@ dropped. Recording does not change the dynamics. At a snapshot the views show th
 callback is called with `jam_progress`.snapshot > 0: every const call works on that state there.
 """
 function jam_observe(sys, o)
-    return ccall((:jam_observe, libjam), Int32, (Ptr{Cvoid}, Ref{jam_observe_options}), sys, _ref(jam_observe_options, o))
+    return ccall(symbol(:jam_observe), Int32, (Ptr{Cvoid}, Ref{jam_observe_options}), sys, _ref(jam_observe_options, o))
 end
 
 """
@@ -2366,7 +2366,7 @@ end
 Stops recording; what was recorded can still be read.
 """
 function jam_stop_observing(sys)
-    return ccall((:jam_stop_observing, libjam), Int32, (Ptr{Cvoid},), sys)
+    return ccall(symbol(:jam_stop_observing), Int32, (Ptr{Cvoid},), sys)
 end
 
 """
@@ -2377,7 +2377,7 @@ Shapes: table (samples, `jam_series_column`).
 Errors: `JAM_E_STATE` (nothing observed).
 """
 function jam_observed_series(sys, columns, table, table_len, needed)
-    return ccall((:jam_observed_series, libjam), Int32, (Ptr{Cvoid}, Int32, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, columns, _ptr(table), table_len, _ref(Csize_t, needed))
+    return ccall(symbol(:jam_observed_series), Int32, (Ptr{Cvoid}, Int32, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, columns, _ptr(table), table_len, _ref(Csize_t, needed))
 end
 
 """
@@ -2388,7 +2388,7 @@ Shapes: collisions (n), displacement (n, d).
 Errors: `JAM_E_STATE`.
 """
 function jam_observed_spheres(sys, collisions, collisions_len, displacement, displacement_len, rows)
-    return ccall((:jam_observed_spheres, libjam), Int32, (Ptr{Cvoid}, Ptr{Int64}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(collisions), collisions_len, _ptr(displacement), displacement_len, _ref(Csize_t, rows))
+    return ccall(symbol(:jam_observed_spheres), Int32, (Ptr{Cvoid}, Ptr{Int64}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(collisions), collisions_len, _ptr(displacement), displacement_len, _ref(Csize_t, rows))
 end
 
 """
@@ -2400,7 +2400,7 @@ Shapes: pair (m, 2), collisions (m), momentum (m).
 Errors: `JAM_E_STATE`.
 """
 function jam_observed_pairs(sys, pair, pair_len, collisions, collisions_len, momentum, momentum_len, time, rows)
-    return ccall((:jam_observed_pairs, libjam), Int32, (Ptr{Cvoid}, Ptr{Int32}, Csize_t, Ptr{Int64}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Cdouble}, Ref{Csize_t}), sys, _ptr(pair), pair_len, _ptr(collisions), collisions_len, _ptr(momentum), momentum_len, _ref(Cdouble, time), _ref(Csize_t, rows))
+    return ccall(symbol(:jam_observed_pairs), Int32, (Ptr{Cvoid}, Ptr{Int32}, Csize_t, Ptr{Int64}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Cdouble}, Ref{Csize_t}), sys, _ptr(pair), pair_len, _ptr(collisions), collisions_len, _ptr(momentum), momentum_len, _ref(Cdouble, time), _ref(Csize_t, rows))
 end
 
 """
@@ -2412,7 +2412,7 @@ Shapes: table (bins, `jam_gap_column`).
 Errors: `JAM_E_STATE`.
 """
 function jam_observed_gaps(sys, columns, table, table_len, needed)
-    return ccall((:jam_observed_gaps, libjam), Int32, (Ptr{Cvoid}, Int32, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, columns, _ptr(table), table_len, _ref(Csize_t, needed))
+    return ccall(symbol(:jam_observed_gaps), Int32, (Ptr{Cvoid}, Int32, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, columns, _ptr(table), table_len, _ref(Csize_t, needed))
 end
 
 """
@@ -2423,7 +2423,7 @@ Shapes: table (bins, `jam_correlation_column`).
 Errors: `JAM_E_STATE`.
 """
 function jam_observed_correlation(sys, columns, table, table_len, needed)
-    return ccall((:jam_observed_correlation, libjam), Int32, (Ptr{Cvoid}, Int32, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, columns, _ptr(table), table_len, _ref(Csize_t, needed))
+    return ccall(symbol(:jam_observed_correlation), Int32, (Ptr{Cvoid}, Int32, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, columns, _ptr(table), table_len, _ref(Csize_t, needed))
 end
 
 """
@@ -2433,7 +2433,7 @@ pressure of a form.
 Errors: `JAM_E_DIMENSION`, `JAM_E_UNSUPPORTED`.
 """
 function jam_eos(form, dim, packing_fraction, jammed_fraction, pressure)
-    return ccall((:jam_eos, libjam), Int32, (Int32, Int32, Cdouble, Cdouble, Ref{Cdouble}), form, dim, packing_fraction, jammed_fraction, _ref(Cdouble, pressure))
+    return ccall(symbol(:jam_eos), Int32, (Int32, Int32, Cdouble, Cdouble, Ref{Cdouble}), form, dim, packing_fraction, jammed_fraction, _ref(Cdouble, pressure))
 end
 
 """
@@ -2444,14 +2444,14 @@ Shapes: fraction (m), pressure (m).
 Errors: `JAM_E_TOO_FEW`.
 """
 function jam_glass_fit(fraction, fraction_len, pressure, pressure_len, fit)
-    return ccall((:jam_glass_fit, libjam), Int32, (Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{jam_glass}), _ptr(fraction), fraction_len, _ptr(pressure), pressure_len, _ref(jam_glass, fit))
+    return ccall(symbol(:jam_glass_fit), Int32, (Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{jam_glass}), _ptr(fraction), fraction_len, _ptr(pressure), pressure_len, _ref(jam_glass, fit))
 end
 
 """
     jam_monte_carlo_options_init(o, size)
 """
 function jam_monte_carlo_options_init(o, size)
-    return ccall((:jam_monte_carlo_options_init, libjam), Int32, (Ref{jam_monte_carlo_options}, Csize_t), _ref(jam_monte_carlo_options, o), size)
+    return ccall(symbol(:jam_monte_carlo_options_init), Int32, (Ref{jam_monte_carlo_options}, Csize_t), _ref(jam_monte_carlo_options, o), size)
 end
 
 """
@@ -2464,14 +2464,14 @@ dropped. `jam_observed_spheres` gives the displacements. An early stop can be re
 Errors: `JAM_E_STATE`, `JAM_E_UNSUPPORTED` (Mari-Kurchan model), `JAM_E_OVERLAP` (of hard spheres).
 """
 function jam_monte_carlo(sys, o, report)
-    return ccall((:jam_monte_carlo, libjam), Int32, (Ptr{Cvoid}, Ref{jam_monte_carlo_options}, Ref{jam_monte_carlo_report}), sys, _ref(jam_monte_carlo_options, o), _ref(jam_monte_carlo_report, report))
+    return ccall(symbol(:jam_monte_carlo), Int32, (Ptr{Cvoid}, Ref{jam_monte_carlo_options}, Ref{jam_monte_carlo_report}), sys, _ref(jam_monte_carlo_options, o), _ref(jam_monte_carlo_report, report))
 end
 
 """
     jam_isoconf_options_init(o, size)
 """
 function jam_isoconf_options_init(o, size)
-    return ccall((:jam_isoconf_options_init, libjam), Int32, (Ref{jam_isoconf_options}, Csize_t), _ref(jam_isoconf_options, o), size)
+    return ccall(symbol(:jam_isoconf_options_init), Int32, (Ref{jam_isoconf_options}, Csize_t), _ref(jam_isoconf_options, o), size)
 end
 
 """
@@ -2488,7 +2488,7 @@ Shapes: instant (instants), kept (k).
 Errors: `JAM_E_STATE` (nothing to resume, or not the same), `JAM_E_OVERLAP`, `JAM_E_UNSUPPORTED`.
 """
 function jam_isoconfigurational(sys, o, m, instant, instant_len, kept, kept_len, report)
-    return ccall((:jam_isoconfigurational, libjam), Int32, (Ptr{Cvoid}, Ref{jam_isoconf_options}, Ref{jam_monte_carlo_options}, Ptr{Cdouble}, Csize_t, Ptr{Int32}, Csize_t, Ref{jam_isoconf_report}), sys, _ref(jam_isoconf_options, o), _ref(jam_monte_carlo_options, m), _ptr(instant), instant_len, _ptr(kept), kept_len, _ref(jam_isoconf_report, report))
+    return ccall(symbol(:jam_isoconfigurational), Int32, (Ptr{Cvoid}, Ref{jam_isoconf_options}, Ref{jam_monte_carlo_options}, Ptr{Cdouble}, Csize_t, Ptr{Int32}, Csize_t, Ref{jam_isoconf_report}), sys, _ref(jam_isoconf_options, o), _ref(jam_monte_carlo_options, m), _ptr(instant), instant_len, _ptr(kept), kept_len, _ref(jam_isoconf_report, report))
 end
 
 """
@@ -2498,7 +2498,7 @@ The report of these runs as they are now.
 Errors: `JAM_E_STATE` (no runs).
 """
 function jam_get_isoconf_report(sys, report)
-    return ccall((:jam_get_isoconf_report, libjam), Int32, (Ptr{Cvoid}, Ref{jam_isoconf_report}), sys, _ref(jam_isoconf_report, report))
+    return ccall(symbol(:jam_get_isoconf_report), Int32, (Ptr{Cvoid}, Ref{jam_isoconf_report}), sys, _ref(jam_isoconf_report, report))
 end
 
 """
@@ -2509,7 +2509,7 @@ Shapes: table (instants, `jam_isoconf_column`).
 Errors: `JAM_E_STATE`.
 """
 function jam_isoconf_series(sys, block, columns, table, table_len, needed)
-    return ccall((:jam_isoconf_series, libjam), Int32, (Ptr{Cvoid}, Int64, Int32, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, block, columns, _ptr(table), table_len, _ref(Csize_t, needed))
+    return ccall(symbol(:jam_isoconf_series), Int32, (Ptr{Cvoid}, Int64, Int32, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, block, columns, _ptr(table), table_len, _ref(Csize_t, needed))
 end
 
 """
@@ -2521,7 +2521,7 @@ Shapes: displacement (instants, n, d), square (instants, n, d).
 Errors: `JAM_E_STATE`.
 """
 function jam_isoconf_displacements(sys, block, displacement, displacement_len, square, square_len, rows)
-    return ccall((:jam_isoconf_displacements, libjam), Int32, (Ptr{Cvoid}, Int64, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, block, _ptr(displacement), displacement_len, _ptr(square), square_len, _ref(Csize_t, rows))
+    return ccall(symbol(:jam_isoconf_displacements), Int32, (Ptr{Cvoid}, Int64, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, block, _ptr(displacement), displacement_len, _ptr(square), square_len, _ref(Csize_t, rows))
 end
 
 """
@@ -2532,7 +2532,7 @@ Shapes: distance2 (instants, n), distance4 (instants, n).
 Errors: `JAM_E_STATE`.
 """
 function jam_isoconf_distances(sys, block, distance2, distance2_len, distance4, distance4_len, rows)
-    return ccall((:jam_isoconf_distances, libjam), Int32, (Ptr{Cvoid}, Int64, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, block, _ptr(distance2), distance2_len, _ptr(distance4), distance4_len, _ref(Csize_t, rows))
+    return ccall(symbol(:jam_isoconf_distances), Int32, (Ptr{Cvoid}, Int64, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, block, _ptr(distance2), distance2_len, _ptr(distance4), distance4_len, _ref(Csize_t, rows))
 end
 
 """
@@ -2543,14 +2543,14 @@ Shapes: out (runs, n, d).
 Errors: `JAM_E_STATE`.
 """
 function jam_isoconf_kept(sys, instant, out, out_len, needed)
-    return ccall((:jam_isoconf_kept, libjam), Int32, (Ptr{Cvoid}, Int32, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, instant, _ptr(out), out_len, _ref(Csize_t, needed))
+    return ccall(symbol(:jam_isoconf_kept), Int32, (Ptr{Cvoid}, Int32, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, instant, _ptr(out), out_len, _ref(Csize_t, needed))
 end
 
 """
     jam_crunch_options_init(o, size)
 """
 function jam_crunch_options_init(o, size)
-    return ccall((:jam_crunch_options_init, libjam), Int32, (Ref{jam_crunch_options}, Csize_t), _ref(jam_crunch_options, o), size)
+    return ccall(symbol(:jam_crunch_options_init), Int32, (Ref{jam_crunch_options}, Csize_t), _ref(jam_crunch_options, o), size)
 end
 
 """
@@ -2566,7 +2566,7 @@ is the last valid one.
 Errors: `JAM_E_OVERLAP`, `JAM_E_TOO_FEW` (one sphere in a fixed cell), `JAM_E_SOLVER` (last good state kept).
 """
 function jam_crunch(sys, o, report)
-    return ccall((:jam_crunch, libjam), Int32, (Ptr{Cvoid}, Ref{jam_crunch_options}, Ref{jam_crunch_report}), sys, _ref(jam_crunch_options, o), _ref(jam_crunch_report, report))
+    return ccall(symbol(:jam_crunch), Int32, (Ptr{Cvoid}, Ref{jam_crunch_options}, Ref{jam_crunch_report}), sys, _ref(jam_crunch_options, o), _ref(jam_crunch_report, report))
 end
 
 """
@@ -2577,7 +2577,7 @@ same at `JAM_LOG_INFO`. Takes as long as a few steps.
 Errors: `JAM_E_OVERLAP`, `JAM_E_TOO_FEW`.
 """
 function jam_estimate_crunch(sys, o, estimated)
-    return ccall((:jam_estimate_crunch, libjam), Int32, (Ptr{Cvoid}, Ref{jam_crunch_options}, Ref{jam_estimate}), sys, _ref(jam_crunch_options, o), _ref(jam_estimate, estimated))
+    return ccall(symbol(:jam_estimate_crunch), Int32, (Ptr{Cvoid}, Ref{jam_crunch_options}, Ref{jam_estimate}), sys, _ref(jam_crunch_options, o), _ref(jam_estimate, estimated))
 end
 
 """
@@ -2587,7 +2587,7 @@ The report of the last crunch.
 Errors: `JAM_E_STATE`.
 """
 function jam_get_crunch_report(sys, report)
-    return ccall((:jam_get_crunch_report, libjam), Int32, (Ptr{Cvoid}, Ref{jam_crunch_report}), sys, _ref(jam_crunch_report, report))
+    return ccall(symbol(:jam_get_crunch_report), Int32, (Ptr{Cvoid}, Ref{jam_crunch_report}), sys, _ref(jam_crunch_report, report))
 end
 
 """
@@ -2598,7 +2598,7 @@ Shapes: table (steps, `jam_history_column`).
 Errors: `JAM_E_STATE`.
 """
 function jam_crunch_history(sys, columns, table, table_len, needed)
-    return ccall((:jam_crunch_history, libjam), Int32, (Ptr{Cvoid}, Int32, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, columns, _ptr(table), table_len, _ref(Csize_t, needed))
+    return ccall(symbol(:jam_crunch_history), Int32, (Ptr{Cvoid}, Int32, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, columns, _ptr(table), table_len, _ref(Csize_t, needed))
 end
 
 """
@@ -2611,7 +2611,7 @@ Shapes: out (n, d).
 Errors: `JAM_E_STATE`.
 """
 function jam_crunch_step_displacements(sys, out, out_len, needed)
-    return ccall((:jam_crunch_step_displacements, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(out), out_len, _ref(Csize_t, needed))
+    return ccall(symbol(:jam_crunch_step_displacements), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(out), out_len, _ref(Csize_t, needed))
 end
 
 """
@@ -2622,7 +2622,7 @@ Shapes: out (m, 2).
 Errors: `JAM_E_STATE`.
 """
 function jam_crunch_step_contacts(sys, out, out_len, needed)
-    return ccall((:jam_crunch_step_contacts, libjam), Int32, (Ptr{Cvoid}, Ptr{Int32}, Csize_t, Ref{Csize_t}), sys, _ptr(out), out_len, _ref(Csize_t, needed))
+    return ccall(symbol(:jam_crunch_step_contacts), Int32, (Ptr{Cvoid}, Ptr{Int32}, Csize_t, Ref{Csize_t}), sys, _ptr(out), out_len, _ref(Csize_t, needed))
 end
 
 """
@@ -2633,7 +2633,7 @@ Shapes: out (m, d).
 Errors: `JAM_E_STATE`.
 """
 function jam_crunch_step_vectors(sys, out, out_len, needed)
-    return ccall((:jam_crunch_step_vectors, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(out), out_len, _ref(Csize_t, needed))
+    return ccall(symbol(:jam_crunch_step_vectors), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(out), out_len, _ref(Csize_t, needed))
 end
 
 """
@@ -2645,14 +2645,14 @@ Shapes: out (m).
 Errors: `JAM_E_STATE`.
 """
 function jam_crunch_step_duals(sys, out, out_len, needed)
-    return ccall((:jam_crunch_step_duals, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(out), out_len, _ref(Csize_t, needed))
+    return ccall(symbol(:jam_crunch_step_duals), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(out), out_len, _ref(Csize_t, needed))
 end
 
 """
     jam_relax_options_init(o, size)
 """
 function jam_relax_options_init(o, size)
-    return ccall((:jam_relax_options_init, libjam), Int32, (Ref{jam_relax_options}, Csize_t), _ref(jam_relax_options, o), size)
+    return ccall(symbol(:jam_relax_options_init), Int32, (Ref{jam_relax_options}, Csize_t), _ref(jam_relax_options, o), size)
 end
 
 """
@@ -2667,14 +2667,14 @@ examples/c/soft.c
 Errors: `JAM_E_STATE` (made without `JAM_OVERLAP_ALLOW`).
 """
 function jam_relax(sys, o, report)
-    return ccall((:jam_relax, libjam), Int32, (Ptr{Cvoid}, Ref{jam_relax_options}, Ref{jam_relax_report}), sys, _ref(jam_relax_options, o), _ref(jam_relax_report, report))
+    return ccall(symbol(:jam_relax), Int32, (Ptr{Cvoid}, Ref{jam_relax_options}, Ref{jam_relax_report}), sys, _ref(jam_relax_options, o), _ref(jam_relax_report, report))
 end
 
 """
     jam_decompress_options_init(o, size)
 """
 function jam_decompress_options_init(o, size)
-    return ccall((:jam_decompress_options_init, libjam), Int32, (Ref{jam_decompress_options}, Csize_t), _ref(jam_decompress_options, o), size)
+    return ccall(symbol(:jam_decompress_options_init), Int32, (Ref{jam_decompress_options}, Csize_t), _ref(jam_decompress_options, o), size)
 end
 
 """
@@ -2688,7 +2688,7 @@ rounding of positions before a target. `JAM_NOT_CONVERGED`: the last minimum is 
 Errors: `JAM_E_STATE`, `JAM_E_TOO_FEW`, `JAM_E_SOLVER`.
 """
 function jam_decompress(sys, o, report)
-    return ccall((:jam_decompress, libjam), Int32, (Ptr{Cvoid}, Ref{jam_decompress_options}, Ref{jam_decompress_report}), sys, _ref(jam_decompress_options, o), _ref(jam_decompress_report, report))
+    return ccall(symbol(:jam_decompress), Int32, (Ptr{Cvoid}, Ref{jam_decompress_options}, Ref{jam_decompress_report}), sys, _ref(jam_decompress_options, o), _ref(jam_decompress_report, report))
 end
 
 """
@@ -2699,7 +2699,7 @@ Shapes: table (minima, `jam_soft_column`).
 Errors: `JAM_E_STATE`.
 """
 function jam_decompress_history(sys, columns, table, table_len, needed)
-    return ccall((:jam_decompress_history, libjam), Int32, (Ptr{Cvoid}, Int32, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, columns, _ptr(table), table_len, _ref(Csize_t, needed))
+    return ccall(symbol(:jam_decompress_history), Int32, (Ptr{Cvoid}, Int32, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, columns, _ptr(table), table_len, _ref(Csize_t, needed))
 end
 
 """
@@ -2711,7 +2711,7 @@ Shapes: out (contacts, 2).
 Errors: `JAM_E_STATE` (no crunch yet).
 """
 function jam_contacts(sys, out, out_len, needed)
-    return ccall((:jam_contacts, libjam), Int32, (Ptr{Cvoid}, Ptr{Int32}, Csize_t, Ref{Csize_t}), sys, _ptr(out), out_len, _ref(Csize_t, needed))
+    return ccall(symbol(:jam_contacts), Int32, (Ptr{Cvoid}, Ptr{Int32}, Csize_t, Ref{Csize_t}), sys, _ptr(out), out_len, _ref(Csize_t, needed))
 end
 
 """
@@ -2722,7 +2722,7 @@ Shapes: out (contacts, d).
 Errors: `JAM_E_STATE`.
 """
 function jam_contact_vectors(sys, out, out_len, needed)
-    return ccall((:jam_contact_vectors, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(out), out_len, _ref(Csize_t, needed))
+    return ccall(symbol(:jam_contact_vectors), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(out), out_len, _ref(Csize_t, needed))
 end
 
 """
@@ -2734,7 +2734,7 @@ Shapes: out (contacts).
 Errors: `JAM_E_STATE`.
 """
 function jam_contact_gaps(sys, out, out_len, needed)
-    return ccall((:jam_contact_gaps, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(out), out_len, _ref(Csize_t, needed))
+    return ccall(symbol(:jam_contact_gaps), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(out), out_len, _ref(Csize_t, needed))
 end
 
 """
@@ -2747,7 +2747,7 @@ Shapes: out (contacts).
 Errors: `JAM_E_STATE`.
 """
 function jam_forces(sys, out, out_len, needed)
-    return ccall((:jam_forces, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(out), out_len, _ref(Csize_t, needed))
+    return ccall(symbol(:jam_forces), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(out), out_len, _ref(Csize_t, needed))
 end
 
 """
@@ -2758,21 +2758,21 @@ Shapes: out (n).
 Errors: `JAM_E_STATE`.
 """
 function jam_coordination(sys, out, out_len, needed)
-    return ccall((:jam_coordination, libjam), Int32, (Ptr{Cvoid}, Ptr{Int32}, Csize_t, Ref{Csize_t}), sys, _ptr(out), out_len, _ref(Csize_t, needed))
+    return ccall(symbol(:jam_coordination), Int32, (Ptr{Cvoid}, Ptr{Int32}, Csize_t, Ref{Csize_t}), sys, _ptr(out), out_len, _ref(Csize_t, needed))
 end
 
 """
     jam_hessian_options_init(o, size)
 """
 function jam_hessian_options_init(o, size)
-    return ccall((:jam_hessian_options_init, libjam), Int32, (Ref{jam_hessian_options}, Csize_t), _ref(jam_hessian_options, o), size)
+    return ccall(symbol(:jam_hessian_options_init), Int32, (Ref{jam_hessian_options}, Csize_t), _ref(jam_hessian_options, o), size)
 end
 
 """
     jam_modes_options_init(o, size)
 """
 function jam_modes_options_init(o, size)
-    return ccall((:jam_modes_options_init, libjam), Int32, (Ref{jam_modes_options}, Csize_t), _ref(jam_modes_options, o), size)
+    return ccall(symbol(:jam_modes_options_init), Int32, (Ref{jam_modes_options}, Csize_t), _ref(jam_modes_options, o), size)
 end
 
 """
@@ -2783,7 +2783,7 @@ Shapes: out (N').
 Errors: `JAM_E_STATE`.
 """
 function jam_hessian_map(sys, out, out_len, needed)
-    return ccall((:jam_hessian_map, libjam), Int32, (Ptr{Cvoid}, Ptr{Int32}, Csize_t, Ref{Csize_t}), sys, _ptr(out), out_len, _ref(Csize_t, needed))
+    return ccall(symbol(:jam_hessian_map), Int32, (Ptr{Cvoid}, Ptr{Int32}, Csize_t, Ref{Csize_t}), sys, _ptr(out), out_len, _ref(Csize_t, needed))
 end
 
 """
@@ -2794,7 +2794,7 @@ Shapes: `row_start` (d N' + 1), column (entries), value (entries).
 Errors: `JAM_E_STATE`.
 """
 function jam_hessian(sys, h, row_start, row_start_len, column, column_len, value, value_len, rows)
-    return ccall((:jam_hessian, libjam), Int32, (Ptr{Cvoid}, Ref{jam_hessian_options}, Ptr{Int32}, Csize_t, Ptr{Int32}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ref(jam_hessian_options, h), _ptr(row_start), row_start_len, _ptr(column), column_len, _ptr(value), value_len, _ref(Csize_t, rows))
+    return ccall(symbol(:jam_hessian), Int32, (Ptr{Cvoid}, Ref{jam_hessian_options}, Ptr{Int32}, Csize_t, Ptr{Int32}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ref(jam_hessian_options, h), _ptr(row_start), row_start_len, _ptr(column), column_len, _ptr(value), value_len, _ref(Csize_t, rows))
 end
 
 """
@@ -2806,7 +2806,7 @@ Shapes: table (m, `jam_mode_column`), vector (m, N', d).
 Errors: `JAM_E_STATE`, `JAM_E_SOLVER`.
 """
 function jam_modes(sys, h, o, columns, table, table_len, vector, vector_len, rows)
-    return ccall((:jam_modes, libjam), Int32, (Ptr{Cvoid}, Ref{jam_hessian_options}, Ref{jam_modes_options}, Int32, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ref(jam_hessian_options, h), _ref(jam_modes_options, o), columns, _ptr(table), table_len, _ptr(vector), vector_len, _ref(Csize_t, rows))
+    return ccall(symbol(:jam_modes), Int32, (Ptr{Cvoid}, Ref{jam_hessian_options}, Ref{jam_modes_options}, Int32, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ref(jam_hessian_options, h), _ref(jam_modes_options, o), columns, _ptr(table), table_len, _ptr(vector), vector_len, _ref(Csize_t, rows))
 end
 
 """
@@ -2820,14 +2820,14 @@ Shapes: wave (d), table (m, `jam_mode_column`), vector (m, N', d, 2).
 Errors: `JAM_E_STATE`, `JAM_E_SOLVER`, `JAM_E_UNSUPPORTED` (unlisted own images).
 """
 function jam_bloch_modes(sys, h, wave, wave_len, columns, table, table_len, vector, vector_len, rows)
-    return ccall((:jam_bloch_modes, libjam), Int32, (Ptr{Cvoid}, Ref{jam_hessian_options}, Ptr{Cdouble}, Csize_t, Int32, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ref(jam_hessian_options, h), _ptr(wave), wave_len, columns, _ptr(table), table_len, _ptr(vector), vector_len, _ref(Csize_t, rows))
+    return ccall(symbol(:jam_bloch_modes), Int32, (Ptr{Cvoid}, Ref{jam_hessian_options}, Ptr{Cdouble}, Csize_t, Int32, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ref(jam_hessian_options, h), _ptr(wave), wave_len, columns, _ptr(table), table_len, _ptr(vector), vector_len, _ref(Csize_t, rows))
 end
 
 """
     jam_geometry_options_init(o, size)
 """
 function jam_geometry_options_init(o, size)
-    return ccall((:jam_geometry_options_init, libjam), Int32, (Ref{jam_geometry_options}, Csize_t), _ref(jam_geometry_options, o), size)
+    return ccall(symbol(:jam_geometry_options_init), Int32, (Ref{jam_geometry_options}, Csize_t), _ref(jam_geometry_options, o), size)
 end
 
 """
@@ -2844,7 +2844,7 @@ not jammed with these contacts closed, or none found: gaps above 0.01 need a jum
 Errors: `JAM_E_SOLVER`, `JAM_E_OVERLAP`.
 """
 function jam_contacts_from_geometry(sys, o, report)
-    return ccall((:jam_contacts_from_geometry, libjam), Int32, (Ptr{Cvoid}, Ref{jam_geometry_options}, Ref{jam_geometry_report}), sys, _ref(jam_geometry_options, o), _ref(jam_geometry_report, report))
+    return ccall(symbol(:jam_contacts_from_geometry), Int32, (Ptr{Cvoid}, Ref{jam_geometry_options}, Ref{jam_geometry_report}), sys, _ref(jam_geometry_options, o), _ref(jam_geometry_report, report))
 end
 
 """
@@ -2858,7 +2858,7 @@ them; `jam_forces` gives NaN, tables have no column of forces, pages say so, and
 Status: `JAM_NOT_JAMMED` when there are none
 """
 function jam_contacts_by_distance(sys, gap)
-    return ccall((:jam_contacts_by_distance, libjam), Int32, (Ptr{Cvoid}, Cdouble), sys, gap)
+    return ccall(symbol(:jam_contacts_by_distance), Int32, (Ptr{Cvoid}, Cdouble), sys, gap)
 end
 
 """
@@ -2870,7 +2870,7 @@ largest jump comes first.
 Shapes: table (m, `jam_candidate_column`).
 """
 function jam_contact_candidates(sys, window, columns, table, table_len, needed)
-    return ccall((:jam_contact_candidates, libjam), Int32, (Ptr{Cvoid}, Cdouble, Int32, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, window, columns, _ptr(table), table_len, _ref(Csize_t, needed))
+    return ccall(symbol(:jam_contact_candidates), Int32, (Ptr{Cvoid}, Cdouble, Int32, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, window, columns, _ptr(table), table_len, _ref(Csize_t, needed))
 end
 
 """
@@ -2883,7 +2883,7 @@ Shapes: force (`n_c`), basis (m, `n_c`).
 Errors: `JAM_E_STATE`, `JAM_E_SOLVER`.
 """
 function jam_stress_states(sys, force, force_len, basis, basis_len, residual, rows)
-    return ccall((:jam_stress_states, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Cdouble}, Ref{Csize_t}), sys, _ptr(force), force_len, _ptr(basis), basis_len, _ref(Cdouble, residual), _ref(Csize_t, rows))
+    return ccall(symbol(:jam_stress_states), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Cdouble}, Ref{Csize_t}), sys, _ptr(force), force_len, _ptr(basis), basis_len, _ref(Cdouble, residual), _ref(Csize_t, rows))
 end
 
 """
@@ -2901,7 +2901,7 @@ Status: `JAM_OK`, `JAM_NOT_JAMMED`, `JAM_AMBIGUOUS` (undecided).
 Errors: `JAM_E_SOLVER`, `JAM_E_OVERLAP`.
 """
 function jam_rigidity(sys, kind, report)
-    return ccall((:jam_rigidity, libjam), Int32, (Ptr{Cvoid}, Int32, Ref{jam_rigidity_report}), sys, kind, _ref(jam_rigidity_report, report))
+    return ccall(symbol(:jam_rigidity), Int32, (Ptr{Cvoid}, Int32, Ref{jam_rigidity_report}), sys, kind, _ref(jam_rigidity_report, report))
 end
 
 """
@@ -2914,7 +2914,7 @@ Shapes: out (n, d), strain (d, d).
 Errors: `JAM_E_SOLVER`, `JAM_E_STATE` (jammed, or undecided without a motion).
 """
 function jam_flex(sys, kind, out, out_len, strain, strain_len, needed)
-    return ccall((:jam_flex, libjam), Int32, (Ptr{Cvoid}, Int32, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, kind, _ptr(out), out_len, _ptr(strain), strain_len, _ref(Csize_t, needed))
+    return ccall(symbol(:jam_flex), Int32, (Ptr{Cvoid}, Int32, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, kind, _ptr(out), out_len, _ptr(strain), strain_len, _ref(Csize_t, needed))
 end
 
 """
@@ -2928,14 +2928,14 @@ Shapes: count (d), wave (m, d), table (m, `jam_bloch_column`).
 Errors: `JAM_E_SOLVER`, `JAM_E_UNSUPPORTED` (Mari-Kurchan model, round walls).
 """
 function jam_bloch_rigidity(sys, count, count_len, wave, wave_len, columns, table, table_len, rows)
-    return ccall((:jam_bloch_rigidity, libjam), Int32, (Ptr{Cvoid}, Ptr{Int32}, Csize_t, Ptr{Cdouble}, Csize_t, Int32, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(count), count_len, _ptr(wave), wave_len, columns, _ptr(table), table_len, _ref(Csize_t, rows))
+    return ccall(symbol(:jam_bloch_rigidity), Int32, (Ptr{Cvoid}, Ptr{Int32}, Csize_t, Ptr{Cdouble}, Csize_t, Int32, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(count), count_len, _ptr(wave), wave_len, columns, _ptr(table), table_len, _ref(Csize_t, rows))
 end
 
 """
     jam_check_options_init(o, size)
 """
 function jam_check_options_init(o, size)
-    return ccall((:jam_check_options_init, libjam), Int32, (Ref{jam_check_options}, Csize_t), _ref(jam_check_options, o), size)
+    return ccall(symbol(:jam_check_options_init), Int32, (Ref{jam_check_options}, Csize_t), _ref(jam_check_options, o), size)
 end
 
 """
@@ -2949,7 +2949,7 @@ every status above 0.
 Errors: `JAM_E_OVERLAP` (above one half), `JAM_E_SOLVER`.
 """
 function jam_check_packing(sys, o, report)
-    return ccall((:jam_check_packing, libjam), Int32, (Ptr{Cvoid}, Ref{jam_check_options}, Ref{jam_check_report}), sys, _ref(jam_check_options, o), _ref(jam_check_report, report))
+    return ccall(symbol(:jam_check_packing), Int32, (Ptr{Cvoid}, Ref{jam_check_options}, Ref{jam_check_report}), sys, _ref(jam_check_options, o), _ref(jam_check_report, report))
 end
 
 """
@@ -2959,7 +2959,7 @@ The report of `jam_check_packing` as one paragraph: the verdict, its figures, ho
 for NULL or a wrong `struct_size`. Valid until this thread's next call of it.
 """
 function jam_check_text(report)
-    return ccall((:jam_check_text, libjam), Cstring, (Ref{jam_check_report},), _ref(jam_check_report, report))
+    return ccall(symbol(:jam_check_text), Cstring, (Ref{jam_check_report},), _ref(jam_check_report, report))
 end
 
 """
@@ -2974,7 +2974,7 @@ Shapes: ratio (n).
 Errors: `JAM_E_STATE` (no network), `JAM_E_UNSUPPORTED` (Mari-Kurchan model).
 """
 function jam_prove(sys, ratio, ratio_len, report)
-    return ccall((:jam_prove, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ref{jam_proof_report}), sys, _ptr(ratio), ratio_len, _ref(jam_proof_report, report))
+    return ccall(symbol(:jam_prove), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ref{jam_proof_report}), sys, _ptr(ratio), ratio_len, _ref(jam_proof_report, report))
 end
 
 """
@@ -2987,7 +2987,7 @@ exact cell. Status: `JAM_AMBIGUOUS` not proved.
 Errors: `JAM_E_STATE` (no network), `JAM_E_UNSUPPORTED`.
 """
 function jam_prove_strict(sys, report)
-    return ccall((:jam_prove_strict, libjam), Int32, (Ptr{Cvoid}, Ref{jam_proof_report}), sys, _ref(jam_proof_report, report))
+    return ccall(symbol(:jam_prove_strict), Int32, (Ptr{Cvoid}, Ref{jam_proof_report}), sys, _ref(jam_proof_report, report))
 end
 
 """
@@ -2998,7 +2998,7 @@ What was proved, in a few words: "proved, radius 4e-31", "trapped within 3e-28, 
 this thread's next call of it.
 """
 function jam_proof_text(theorem, cause, radius, value, bound)
-    return ccall((:jam_proof_text, libjam), Cstring, (Int32, Int32, Cdouble, Cdouble, Cdouble), theorem, cause, radius, value, bound)
+    return ccall(symbol(:jam_proof_text), Cstring, (Int32, Int32, Cdouble, Cdouble, Cdouble), theorem, cause, radius, value, bound)
 end
 
 """
@@ -3011,7 +3011,7 @@ Shapes: ratio (n).
 Errors: `JAM_E_STATE`, `JAM_E_UNSUPPORTED`, `JAM_E_IO`.
 """
 function jam_write_proof(sys, path, ratio, ratio_len)
-    return ccall((:jam_write_proof, libjam), Int32, (Ptr{Cvoid}, Cstring, Ptr{Cdouble}, Csize_t), sys, path, _ptr(ratio), ratio_len)
+    return ccall(symbol(:jam_write_proof), Int32, (Ptr{Cvoid}, Cstring, Ptr{Cdouble}, Csize_t), sys, path, _ptr(ratio), ratio_len)
 end
 
 """
@@ -3021,7 +3021,7 @@ The same of `jam_prove_strict`: refined centres and cell.
 Errors: `JAM_E_STATE`, `JAM_E_UNSUPPORTED`, `JAM_E_IO`.
 """
 function jam_write_proof_strict(sys, path)
-    return ccall((:jam_write_proof_strict, libjam), Int32, (Ptr{Cvoid}, Cstring), sys, path)
+    return ccall(symbol(:jam_write_proof_strict), Int32, (Ptr{Cvoid}, Cstring), sys, path)
 end
 
 """
@@ -3033,7 +3033,7 @@ Shapes: ratio (n), high (n, d), low (n, d).
 Errors: `JAM_E_STATE`, `JAM_E_UNSUPPORTED`.
 """
 function jam_refined_positions(sys, ratio, ratio_len, high, high_len, low, low_len, needed)
-    return ccall((:jam_refined_positions, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(ratio), ratio_len, _ptr(high), high_len, _ptr(low), low_len, _ref(Csize_t, needed))
+    return ccall(symbol(:jam_refined_positions), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(ratio), ratio_len, _ptr(high), high_len, _ptr(low), low_len, _ref(Csize_t, needed))
 end
 
 """
@@ -3045,7 +3045,7 @@ Shapes: gap (gaps), pair (gaps, 2).
 Errors: `JAM_E_STATE`.
 """
 function jam_gaps(sys, h_max, stable_only, gap, gap_len, pair, pair_len, rows)
-    return ccall((:jam_gaps, libjam), Int32, (Ptr{Cvoid}, Cdouble, Int32, Ptr{Cdouble}, Csize_t, Ptr{Int32}, Csize_t, Ref{Csize_t}), sys, h_max, stable_only, _ptr(gap), gap_len, _ptr(pair), pair_len, _ref(Csize_t, rows))
+    return ccall(symbol(:jam_gaps), Int32, (Ptr{Cvoid}, Cdouble, Int32, Ptr{Cdouble}, Csize_t, Ptr{Int32}, Csize_t, Ref{Csize_t}), sys, h_max, stable_only, _ptr(gap), gap_len, _ptr(pair), pair_len, _ref(Csize_t, rows))
 end
 
 """
@@ -3056,7 +3056,7 @@ Shapes: out (`n_c`).
 Errors: `JAM_E_STATE`.
 """
 function jam_contact_classes(sys, out, out_len, needed)
-    return ccall((:jam_contact_classes, libjam), Int32, (Ptr{Cvoid}, Ptr{Int32}, Csize_t, Ref{Csize_t}), sys, _ptr(out), out_len, _ref(Csize_t, needed))
+    return ccall(symbol(:jam_contact_classes), Int32, (Ptr{Cvoid}, Ptr{Int32}, Csize_t, Ref{Csize_t}), sys, _ptr(out), out_len, _ref(Csize_t, needed))
 end
 
 """
@@ -3067,7 +3067,7 @@ Shapes: c (n, d), s (n).
 Errors: `JAM_E_STATE`.
 """
 function jam_sphere_structure(sys, weighted, c, c_len, s, s_len, rows)
-    return ccall((:jam_sphere_structure, libjam), Int32, (Ptr{Cvoid}, Int32, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, weighted, _ptr(c), c_len, _ptr(s), s_len, _ref(Csize_t, rows))
+    return ccall(symbol(:jam_sphere_structure), Int32, (Ptr{Cvoid}, Int32, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, weighted, _ptr(c), c_len, _ptr(s), s_len, _ref(Csize_t, rows))
 end
 
 """
@@ -3078,7 +3078,7 @@ Shapes: dot (pairs), sphere (pairs).
 Errors: `JAM_E_STATE`.
 """
 function jam_contact_dots(sys, weighted, dot, dot_len, sphere, sphere_len, rows)
-    return ccall((:jam_contact_dots, libjam), Int32, (Ptr{Cvoid}, Int32, Ptr{Cdouble}, Csize_t, Ptr{Int32}, Csize_t, Ref{Csize_t}), sys, weighted, _ptr(dot), dot_len, _ptr(sphere), sphere_len, _ref(Csize_t, rows))
+    return ccall(symbol(:jam_contact_dots), Int32, (Ptr{Cvoid}, Int32, Ptr{Cdouble}, Csize_t, Ptr{Int32}, Csize_t, Ref{Csize_t}), sys, weighted, _ptr(dot), dot_len, _ptr(sphere), sphere_len, _ref(Csize_t, rows))
 end
 
 """
@@ -3090,7 +3090,7 @@ Shapes: out (d, d).
 Errors: `JAM_E_STATE`.
 """
 function jam_fabric_tensor(sys, out, out_len, needed)
-    return ccall((:jam_fabric_tensor, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(out), out_len, _ref(Csize_t, needed))
+    return ccall(symbol(:jam_fabric_tensor), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(out), out_len, _ref(Csize_t, needed))
 end
 
 """
@@ -3101,7 +3101,7 @@ Shapes: out (values).
 Errors: `JAM_E_STATE`.
 """
 function jam_local_values(sys, quantity, population, out, out_len, needed)
-    return ccall((:jam_local_values, libjam), Int32, (Ptr{Cvoid}, Int32, Int32, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, quantity, population, _ptr(out), out_len, _ref(Csize_t, needed))
+    return ccall(symbol(:jam_local_values), Int32, (Ptr{Cvoid}, Int32, Int32, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, quantity, population, _ptr(out), out_len, _ref(Csize_t, needed))
 end
 
 """
@@ -3113,14 +3113,14 @@ Shapes: out (bins).
 Errors: `JAM_E_STATE`.
 """
 function jam_histogram(sys, quantity, population, low, high, bins, out, out_len, needed)
-    return ccall((:jam_histogram, libjam), Int32, (Ptr{Cvoid}, Int32, Int32, Cdouble, Cdouble, Int64, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, quantity, population, low, high, bins, _ptr(out), out_len, _ref(Csize_t, needed))
+    return ccall(symbol(:jam_histogram), Int32, (Ptr{Cvoid}, Int32, Int32, Cdouble, Cdouble, Int64, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, quantity, population, low, high, bins, _ptr(out), out_len, _ref(Csize_t, needed))
 end
 
 """
     jam_correlation_options_init(o, size)
 """
 function jam_correlation_options_init(o, size)
-    return ccall((:jam_correlation_options_init, libjam), Int32, (Ref{jam_correlation_options}, Csize_t), _ref(jam_correlation_options, o), size)
+    return ccall(symbol(:jam_correlation_options_init), Int32, (Ref{jam_correlation_options}, Csize_t), _ref(jam_correlation_options, o), size)
 end
 
 """
@@ -3130,7 +3130,7 @@ end
 Shapes: kind (n), out (bins).
 """
 function jam_pair_correlation(sys, o, kind, kind_len, out, out_len, needed)
-    return ccall((:jam_pair_correlation, libjam), Int32, (Ptr{Cvoid}, Ref{jam_correlation_options}, Ptr{Int32}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ref(jam_correlation_options, o), _ptr(kind), kind_len, _ptr(out), out_len, _ref(Csize_t, needed))
+    return ccall(symbol(:jam_pair_correlation), Int32, (Ptr{Cvoid}, Ref{jam_correlation_options}, Ptr{Int32}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ref(jam_correlation_options, o), _ptr(kind), kind_len, _ptr(out), out_len, _ref(Csize_t, needed))
 end
 
 """
@@ -3141,7 +3141,7 @@ Shapes: pair (m, 2), out (m, d).
 Errors: `JAM_E_UNSUPPORTED` (other model).
 """
 function jam_mk_shifts(sys, pair, pair_len, out, out_len, needed)
-    return ccall((:jam_mk_shifts, libjam), Int32, (Ptr{Cvoid}, Ptr{Int32}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(pair), pair_len, _ptr(out), out_len, _ref(Csize_t, needed))
+    return ccall(symbol(:jam_mk_shifts), Int32, (Ptr{Cvoid}, Ptr{Int32}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(pair), pair_len, _ptr(out), out_len, _ref(Csize_t, needed))
 end
 
 """
@@ -3153,7 +3153,7 @@ Shapes: table (m, `jam_structure_column`).
 Errors: `JAM_E_UNSUPPORTED` (no such axis).
 """
 function jam_structure_factor(sys, q_max, columns, table, table_len, needed)
-    return ccall((:jam_structure_factor, libjam), Int32, (Ptr{Cvoid}, Cdouble, Int32, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, q_max, columns, _ptr(table), table_len, _ref(Csize_t, needed))
+    return ccall(symbol(:jam_structure_factor), Int32, (Ptr{Cvoid}, Cdouble, Int32, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, q_max, columns, _ptr(table), table_len, _ref(Csize_t, needed))
 end
 
 """
@@ -3164,7 +3164,7 @@ Bond order `Q_l` of each sphere (d = 2: |`psi_l`|) over neighbours with |r| < cu
 Shapes: out (n).
 """
 function jam_bond_order(sys, l, cutoff, out, out_len, needed)
-    return ccall((:jam_bond_order, libjam), Int32, (Ptr{Cvoid}, Int32, Cdouble, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, l, cutoff, _ptr(out), out_len, _ref(Csize_t, needed))
+    return ccall(symbol(:jam_bond_order), Int32, (Ptr{Cvoid}, Int32, Cdouble, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, l, cutoff, _ptr(out), out_len, _ref(Csize_t, needed))
 end
 
 """
@@ -3174,7 +3174,7 @@ Crystal score: g at sqrt 2 over its mean in 1.2..1.6 (mean diameters); below 1 i
 about 10 in a perfect FCC crystal.
 """
 function jam_crystal_score(sys, score)
-    return ccall((:jam_crystal_score, libjam), Int32, (Ptr{Cvoid}, Ref{Cdouble}), sys, _ref(Cdouble, score))
+    return ccall(symbol(:jam_crystal_score), Int32, (Ptr{Cvoid}, Ref{Cdouble}), sys, _ref(Cdouble, score))
 end
 
 """
@@ -3185,14 +3185,14 @@ Shapes: out (n).
 Errors: `JAM_E_UNSUPPORTED` (d, no voro++, walls of a tilted cell).
 """
 function jam_local_fraction(sys, out, out_len, needed)
-    return ccall((:jam_local_fraction, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(out), out_len, _ref(Csize_t, needed))
+    return ccall(symbol(:jam_local_fraction), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(out), out_len, _ref(Csize_t, needed))
 end
 
 """
     jam_mesh_options_init(o, size)
 """
 function jam_mesh_options_init(o, size)
-    return ccall((:jam_mesh_options_init, libjam), Int32, (Ref{jam_mesh_options}, Csize_t), _ref(jam_mesh_options, o), size)
+    return ccall(symbol(:jam_mesh_options_init), Int32, (Ref{jam_mesh_options}, Csize_t), _ref(jam_mesh_options, o), size)
 end
 
 """
@@ -3206,14 +3206,14 @@ wall. The file appears as of `jam_write`; path NULL: none, and triangles and byt
 Errors: `JAM_E_STATE` (BRIDGED, no network), `JAM_E_UNSUPPORTED`, `JAM_E_IO`.
 """
 function jam_write_stl(sys, path, o, report)
-    return ccall((:jam_write_stl, libjam), Int32, (Ptr{Cvoid}, Cstring, Ref{jam_mesh_options}, Ref{jam_mesh_report}), sys, path, _ref(jam_mesh_options, o), _ref(jam_mesh_report, report))
+    return ccall(symbol(:jam_write_stl), Int32, (Ptr{Cvoid}, Cstring, Ref{jam_mesh_options}, Ref{jam_mesh_report}), sys, path, _ref(jam_mesh_options, o), _ref(jam_mesh_report, report))
 end
 
 """
     jam_voxel_options_init(o, size)
 """
 function jam_voxel_options_init(o, size)
-    return ccall((:jam_voxel_options_init, libjam), Int32, (Ref{jam_voxel_options}, Csize_t), _ref(jam_voxel_options, o), size)
+    return ccall(symbol(:jam_voxel_options_init), Int32, (Ref{jam_voxel_options}, Csize_t), _ref(jam_voxel_options, o), size)
 end
 
 """
@@ -3224,7 +3224,7 @@ and memory before the work.
 Shapes: out (voxels).
 """
 function jam_voxels(sys, o, report, out, out_len, needed)
-    return ccall((:jam_voxels, libjam), Int32, (Ptr{Cvoid}, Ref{jam_voxel_options}, Ref{jam_voxel_report}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ref(jam_voxel_options, o), _ref(jam_voxel_report, report), _ptr(out), out_len, _ref(Csize_t, needed))
+    return ccall(symbol(:jam_voxels), Int32, (Ptr{Cvoid}, Ref{jam_voxel_options}, Ref{jam_voxel_report}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ref(jam_voxel_options, o), _ref(jam_voxel_report, report), _ptr(out), out_len, _ref(Csize_t, needed))
 end
 
 """
@@ -3235,7 +3235,7 @@ with lines as float.
 Errors: `JAM_E_UNSUPPORTED`, `JAM_E_IO`.
 """
 function jam_write_voxels(sys, path, o, report)
-    return ccall((:jam_write_voxels, libjam), Int32, (Ptr{Cvoid}, Cstring, Ref{jam_voxel_options}, Ref{jam_voxel_report}), sys, path, _ref(jam_voxel_options, o), _ref(jam_voxel_report, report))
+    return ccall(symbol(:jam_write_voxels), Int32, (Ptr{Cvoid}, Cstring, Ref{jam_voxel_options}, Ref{jam_voxel_report}), sys, path, _ref(jam_voxel_options, o), _ref(jam_voxel_report, report))
 end
 
 """
@@ -3247,7 +3247,7 @@ Shapes: table (bins, `jam_profile_column`).
 Errors: `JAM_E_UNSUPPORTED`.
 """
 function jam_solid_profile(sys, axis, bins, columns, table, table_len, needed)
-    return ccall((:jam_solid_profile, libjam), Int32, (Ptr{Cvoid}, Int32, Int32, Int32, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, axis, bins, columns, _ptr(table), table_len, _ref(Csize_t, needed))
+    return ccall(symbol(:jam_solid_profile), Int32, (Ptr{Cvoid}, Int32, Int32, Int32, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, axis, bins, columns, _ptr(table), table_len, _ref(Csize_t, needed))
 end
 
 """
@@ -3257,7 +3257,7 @@ Spheres with a gap h < `h_max` <= 1 to each one, every image; walls do not count
 Shapes: out (n).
 """
 function jam_near_coordination(sys, h_max, out, out_len, needed)
-    return ccall((:jam_near_coordination, libjam), Int32, (Ptr{Cvoid}, Cdouble, Ptr{Int32}, Csize_t, Ref{Csize_t}), sys, h_max, _ptr(out), out_len, _ref(Csize_t, needed))
+    return ccall(symbol(:jam_near_coordination), Int32, (Ptr{Cvoid}, Cdouble, Ptr{Int32}, Csize_t, Ref{Csize_t}), sys, h_max, _ptr(out), out_len, _ref(Csize_t, needed))
 end
 
 """
@@ -3269,7 +3269,7 @@ Shapes: table (points, `jam_pore_column`).
 Errors: `JAM_E_UNSUPPORTED`.
 """
 function jam_pore_sizes(sys, points, seed, columns, table, table_len, needed)
-    return ccall((:jam_pore_sizes, libjam), Int32, (Ptr{Cvoid}, Int64, Int64, Int32, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, points, seed, columns, _ptr(table), table_len, _ref(Csize_t, needed))
+    return ccall(symbol(:jam_pore_sizes), Int32, (Ptr{Cvoid}, Int64, Int64, Int32, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, points, seed, columns, _ptr(table), table_len, _ref(Csize_t, needed))
 end
 
 """
@@ -3282,7 +3282,7 @@ Shapes: out (N', d).
 Errors: `JAM_E_STATE`, `JAM_E_SOLVER`.
 """
 function jam_floppy_mode(sys, contact, out, out_len, needed)
-    return ccall((:jam_floppy_mode, libjam), Int32, (Ptr{Cvoid}, Int64, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, contact, _ptr(out), out_len, _ref(Csize_t, needed))
+    return ccall(symbol(:jam_floppy_mode), Int32, (Ptr{Cvoid}, Int64, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, contact, _ptr(out), out_len, _ref(Csize_t, needed))
 end
 
 """
@@ -3293,14 +3293,14 @@ Shapes: table (`n_c`, `jam_floppy_column`).
 Errors: `JAM_E_STATE`, `JAM_E_SOLVER`.
 """
 function jam_floppy_modes(sys, columns, table, table_len, needed)
-    return ccall((:jam_floppy_modes, libjam), Int32, (Ptr{Cvoid}, Int32, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, columns, _ptr(table), table_len, _ref(Csize_t, needed))
+    return ccall(symbol(:jam_floppy_modes), Int32, (Ptr{Cvoid}, Int32, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, columns, _ptr(table), table_len, _ref(Csize_t, needed))
 end
 
 """
     jam_dos_options_init(o, size)
 """
 function jam_dos_options_init(o, size)
-    return ccall((:jam_dos_options_init, libjam), Int32, (Ref{jam_dos_options}, Csize_t), _ref(jam_dos_options, o), size)
+    return ccall(symbol(:jam_dos_options_init), Int32, (Ref{jam_dos_options}, Csize_t), _ref(jam_dos_options, o), size)
 end
 
 """
@@ -3313,7 +3313,7 @@ Shapes: table (points, `jam_dos_column`).
 Errors: `JAM_E_STATE`, `JAM_E_SOLVER`, `JAM_E_TOO_FEW`.
 """
 function jam_density_of_states(sys, h, o, columns, table, table_len, needed)
-    return ccall((:jam_density_of_states, libjam), Int32, (Ptr{Cvoid}, Ref{jam_hessian_options}, Ref{jam_dos_options}, Int32, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ref(jam_hessian_options, h), _ref(jam_dos_options, o), columns, _ptr(table), table_len, _ref(Csize_t, needed))
+    return ccall(symbol(:jam_density_of_states), Int32, (Ptr{Cvoid}, Ref{jam_hessian_options}, Ref{jam_dos_options}, Int32, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ref(jam_hessian_options, h), _ref(jam_dos_options, o), columns, _ptr(table), table_len, _ref(Csize_t, needed))
 end
 
 """
@@ -3325,7 +3325,7 @@ Shapes: vector (m, N', d), u (N', d), out (m).
 Errors: `JAM_E_STATE`.
 """
 function jam_project(sys, vector, vector_len, u, u_len, out, out_len, needed)
-    return ccall((:jam_project, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(vector), vector_len, _ptr(u), u_len, _ptr(out), out_len, _ref(Csize_t, needed))
+    return ccall(symbol(:jam_project), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(vector), vector_len, _ptr(u), u_len, _ptr(out), out_len, _ref(Csize_t, needed))
 end
 
 """
@@ -3336,7 +3336,7 @@ Shapes: u (N', d).
 Errors: `JAM_E_STATE`.
 """
 function jam_curvature(sys, h, u, u_len, value)
-    return ccall((:jam_curvature, libjam), Int32, (Ptr{Cvoid}, Ref{jam_hessian_options}, Ptr{Cdouble}, Csize_t, Ref{Cdouble}), sys, _ref(jam_hessian_options, h), _ptr(u), u_len, _ref(Cdouble, value))
+    return ccall(symbol(:jam_curvature), Int32, (Ptr{Cvoid}, Ref{jam_hessian_options}, Ptr{Cdouble}, Csize_t, Ref{Cdouble}), sys, _ref(jam_hessian_options, h), _ptr(u), u_len, _ref(Cdouble, value))
 end
 
 """
@@ -3347,7 +3347,7 @@ of planes of two axes without walls.
 Errors: `JAM_E_STATE`, `JAM_E_SOLVER`, `JAM_E_UNSUPPORTED` (not two such axes; unlisted own images).
 """
 function jam_moduli(sys, h, moduli)
-    return ccall((:jam_moduli, libjam), Int32, (Ptr{Cvoid}, Ref{jam_hessian_options}, Ref{jam_moduli_report}), sys, _ref(jam_hessian_options, h), _ref(jam_moduli_report, moduli))
+    return ccall(symbol(:jam_moduli), Int32, (Ptr{Cvoid}, Ref{jam_hessian_options}, Ref{jam_moduli_report}), sys, _ref(jam_hessian_options, h), _ref(jam_moduli_report, moduli))
 end
 
 """
@@ -3360,7 +3360,7 @@ Shapes: affine (d, d, d, d), relaxed (d, d, d, d).
 Errors: `JAM_E_STATE`, `JAM_E_SOLVER`, `JAM_E_UNSUPPORTED` (only walled axes; own images).
 """
 function jam_elastic_tensor(sys, h, affine, affine_len, relaxed, relaxed_len, needed)
-    return ccall((:jam_elastic_tensor, libjam), Int32, (Ptr{Cvoid}, Ref{jam_hessian_options}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ref(jam_hessian_options, h), _ptr(affine), affine_len, _ptr(relaxed), relaxed_len, _ref(Csize_t, needed))
+    return ccall(symbol(:jam_elastic_tensor), Int32, (Ptr{Cvoid}, Ref{jam_hessian_options}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ref(jam_hessian_options, h), _ptr(affine), affine_len, _ptr(relaxed), relaxed_len, _ref(Csize_t, needed))
 end
 
 """
@@ -3372,5 +3372,5 @@ ratios of diameters differ, or one of the two has no network.
 Shapes: out (n, d).
 """
 function jam_compare(sys, other, comparison, out, out_len, needed)
-    return ccall((:jam_compare, libjam), Int32, (Ptr{Cvoid}, Ptr{Cvoid}, Ref{jam_comparison}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, other, _ref(jam_comparison, comparison), _ptr(out), out_len, _ref(Csize_t, needed))
+    return ccall(symbol(:jam_compare), Int32, (Ptr{Cvoid}, Ptr{Cvoid}, Ref{jam_comparison}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, other, _ref(jam_comparison, comparison), _ptr(out), out_len, _ref(Csize_t, needed))
 end

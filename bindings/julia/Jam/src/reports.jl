@@ -36,7 +36,8 @@ figure(x::AbstractFloat) = @sprintf("%.12g", x)
 figure(x) = string(x)
 
 function Base.show(io::IO, r::Report{T}) where {T}
-    print(io, title(T), "(", r.status, ", ", length(members(T)), " members)")
+    get(io, :compact, false) && return print(io, title(T), "(", r.status, ", ", length(members(T)), " members)")
+    print(io, title(T), "(", join(("$m = $(figure(getproperty(r, m)))" for m in (:status, members(T)...)), ", "), ")")
 end
 
 function Base.show(io::IO, ::MIME"text/plain", r::Report{T}) where {T}
@@ -45,6 +46,31 @@ function Base.show(io::IO, ::MIME"text/plain", r::Report{T}) where {T}
     width = maximum(length(string(m)) for m in members(T))
     for m in members(T)
         print(io, "\n  ", rpad(m, width), "  ", figure(getproperty(r, m)))
+    end
+end
+
+"""
+    Results(; name = value, ...)
+
+Several results of one call: `m.values`, or in their order, `gap, pair = gaps(s)`. It prints the sizes of arrays, not their elements.
+`NamedTuple(m)` has the same members.
+"""
+struct Results{N<:NamedTuple}
+    data::N
+end
+Results(; given...) = Results((; given...))
+Base.NamedTuple(m::Results) = getfield(m, :data)
+Base.getproperty(m::Results, name::Symbol) = getproperty(NamedTuple(m), name)
+Base.propertynames(m::Results, private::Bool = false) = keys(m)
+for f in (:keys, :values, :pairs, :length, :iterate, :getindex)
+    @eval Base.$f(m::Results, at...) = $f(NamedTuple(m), at...)
+end
+Base.:(==)(a::Results, b::Results) = NamedTuple(a) == NamedTuple(b)
+Base.show(io::IO, m::Results) = print(io, "Results(", join(keys(m), ", "), ")")
+function Base.show(io::IO, ::MIME"text/plain", m::Results)
+    width = maximum(length(string(name)) for name in keys(m))
+    for (k, (name, value)) in enumerate(pairs(m))
+        print(io, k == 1 ? "" : "\n", rpad(name, width), "  ", value isa AbstractArray ? summary(value) : sprint(show, value; context = :compact => true))
     end
 end
 

@@ -38,6 +38,20 @@ certificate = crunch!(u)
 @test occursin("l0 = 0.1 is too small", failure(() -> calippso!(u; l0 = 0.1, max_iters = 1)))
 @test occursin("tol_Γ_convergence", failure(() -> calippso!(u; tol_Γ = 1e-9)))
 
+# R of a mixture is the largest radius. Pairs beyond the rows stay apart: more of them leave the optimum as it is.
+m = System(n = 64, dim = 2, seed = 2, packing_fraction = 0.5, diameters = repeat([1.0, 1.4], 32))
+widest, unit, more = maximum(diameters(m)), info(m).diameter_mean, copy(m)
+lps = calippso!(m; max_iters = 1)
+@test lps.radius[1] ≈ 2 * widest && lps.bound[1] ≈ (lps.radius[1] - 1.5 * widest) / (2 * sqrt(2))
+@test eltype(lps.contacts) == eltype(lps.pairs) == Int
+crunch!(more; method = :sequential_lp, max_lps = 1, full_lps = true, polish = false, neighbour_radius = 1.5 * lps.radius[1] / unit,
+        step_bound = lps.bound[1] / unit)
+@test history(more)[end].pairs > lps.pairs[1]
+@test history(more)[end].gain ≈ lps.gain[1] rtol = 1e-8
+lps = calippso!(m)
+@test lps.bound[end] ≈ 0.01 * maximum(diameters(m)) / 2 rtol = 1e-3
+@test crunch!(m).jammed
+
 # The packing as it is.
 @test judge(s).status === :ok && startswith(judge(s).text, "Collectively jammed")
 @test sprint(show, MIME"text/plain"(), judge(s)) == judge(s).text

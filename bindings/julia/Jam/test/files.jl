@@ -35,6 +35,16 @@ let a = cell(s), far = lines[2:3:end, :] - positions(s)'[contacts(s)[2, :], :]
     shift = far / a'
     @test maximum(abs.(shift - round.(shift))) < 1e-10
 end
+# A picture that is refused leaves the file of its name alone.
+kept = joinpath(folder, "keep.svg")
+picture(kept, s)
+before = read(kept, String)
+@test startswith(before, "<svg") && occursin("d = 2", failure(() -> picture(kept, System(n = 8, dim = 3)))) && read(kept, String) == before
+# Each session loads the library that JAM_LIBRARY names in it, however the package was precompiled.
+other = joinpath(folder, "libjam-other.so")
+cp(realpath(Libdl.dlpath(Jam.library[])), other)
+loads(path) = withenv(() -> read(`$(Base.julia_cmd()) -O0 -e "using Jam, Libdl; print(dlpath(Jam.library[]))"`, String), "JAM_LIBRARY" => path)
+@test realpath(loads(other)) == realpath(other) && realpath(loads(Libdl.dlpath(Jam.library[]))) != realpath(other)
 # RecipesBase is no part of the standard library: the recipe is parsed alone
 recipe = Base.parse_input_line(read(joinpath(dirname(pathof(Jam)), "..", "ext", "JamRecipesBaseExt.jl"), String))
 @test recipe.args[end].head == :module

@@ -49,6 +49,12 @@ for k in (1, length(g.gap))
     @test norm(r) / ((sigma[i] + sigma[j]) / 2) - 1 ≈ g.gap[k] atol = 1e-12
 end
 @test all(gaps(s).gap .<= 1)
+# What the REPL shows of several results is their sizes.
+gap, pair = g
+text = sprint(show, MIME"text/plain"(), g)
+@test gap == g.gap && pair == g[2] && keys(g) == (:gap, :pair) && length(text) < 200 && occursin("$(length(gap))-element", text)
+@test length(sprint(show, MIME"text/plain"(), compare(s, copy(s)))) < 300
+@test occursin("dim = 2", string(info(s)))
 
 t = contact_table(s)
 @test t isa AbstractVector && t[1] isa NamedTuple && t.force == f && columns(t).i == c[1, :]

@@ -1,5 +1,5 @@
 # Run with: JAM_LIBRARY=/path/libjam.so julia --project=bindings/julia/Jam -e 'using Pkg; Pkg.test()'
-using Jam, LinearAlgebra, Logging, SparseArrays, Test
+using Jam, Libdl, LinearAlgebra, Logging, SparseArrays, Test
 
 "What a failing call says; \"\" when it does not fail."
 failure(f) = try f(); "" catch e; sprint(showerror, e) end
@@ -9,7 +9,7 @@ disks(n = 60) = (s = System(n = n, dim = 2, seed = 3, diameters = repeat([1.4, 1
 # Each part has a module of its own, so that none sees names of another.
 function run_part(name)
     part = Module(Symbol(name))
-    Core.eval(part, :(using Jam, LinearAlgebra, Logging, SparseArrays, Test; using Main: failure, disks))
+    Core.eval(part, :(using Jam, Libdl, LinearAlgebra, Logging, SparseArrays, Test; using Main: failure, disks))
     Core.eval(part, :(include(path) = Base.include($part, path)))
     Base.include(part, joinpath(@__DIR__, name * ".jl"))
 end

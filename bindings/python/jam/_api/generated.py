@@ -1357,7 +1357,7 @@ OPTIONS = {
         "gain_tolerance": ("float", 'on sqrt(Gamma) - 1, > 0, default 1e-12'),
         "step_tolerance": ("float", 'on max |s_i| of non-rattlers, > 0, default 1e-9'),
         "lp_tolerance": ("float", 'relative complementarity, residual of an LP, default 1e-15; above 1e-9 it acts as 1e-9'),
-        "neighbour_radius": ("float", 'largest pair distance in an LP; 0, the default: adapts'),
+        "neighbour_radius": ("float", 'an LP has the pairs of gap < this - the largest diameter; 0, the default: adapts'),
         "step_bound": ("float", 'bound on each |s_i| component, 1e-15 .. 1000; 0, the default: adapts'),
         "wall_time": ("float", 'limit of the call'),
         "steps": ("bool", '1: the callback is called at every step and may call crunch_step_*; default 0'),

@@ -449,7 +449,7 @@ class Methods:
         lp_tolerance : float, optional
             relative complementarity, residual of an LP, default 1e-15; above 1e-9 it acts as 1e-9
         neighbour_radius : float, optional
-            largest pair distance in an LP; 0, the default: adapts
+            an LP has the pairs of gap < this - the largest diameter; 0, the default: adapts
         step_bound : float, optional
             bound on each |s_i| component, 1e-15 .. 1000; 0, the default: adapts
         wall_time : float, optional

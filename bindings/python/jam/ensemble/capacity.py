@@ -26,8 +26,17 @@ class Capacity:
         return (
             f"{self.packings} packings in {self.wall_time:g} s by {self.workers} workers: {self.seconds:.3g} s each "
             f"(measured on {self.measured}); {self.jammed:.0%} jammed, {self.failed:.0%} failed; "
-            f"{self.packings * self.bytes / 1e6:.3g} MB on disk"
+            f"{_in_bytes(self.packings * self.bytes)} on disk"
         )
+
+
+def _in_bytes(number: float) -> str:
+    """In the unit that fits: 112 kB."""
+    for unit in ("bytes", "kB", "MB", "GB"):
+        if number < 999.5:
+            return f"{number:.3g} {unit}"
+        number /= 1000
+    return f"{number:.3g} TB"
 
 
 def check_plan(wall_time: float, workers: int | None) -> int:

@@ -47,6 +47,8 @@ class Status:
             f"{self.done} of {self.asked} packings are there, {self.jammed} jammed; {self.failed} failed, "
             f"{self.missing} to be made"
         )
+        if self.made:
+            text += f"; {self.made} made now"
         if self.damaged:
             text += f"; {len(self.damaged)} damaged and omitted: " + "; ".join(self.damaged[:3])
         if self.odd:

@@ -39,6 +39,7 @@ static int write_json(const options *o, int code, const jam_check_report *r, con
   put_count(f, "digits", r->digits, r->digits > 0);
   put_count(f, "contacts", r->contacts, 1);
   put_count(f, "excess_contacts", r->excess_contacts, 1);
+  put_count(f, "strict_excess_contacts", r->strict_excess_contacts, 1);
   put_count(f, "rattlers", r->rattlers, 1);
   put_count(f, "closed_pairs", r->closed_pairs, 1);
   put_count(f, "undecided_contacts", r->undecided_contacts, 1);
@@ -63,7 +64,8 @@ static int write_json(const options *o, int code, const jam_check_report *r, con
 
 /* The proof, then the text or the JSON; returns the exit code. */
 static int say(jam_system *sys, const options *o, jam_status status, const jam_check_report *report) {
-  int code = status == JAM_OK ? CHECK_YES : status == JAM_NOT_JAMMED ? CHECK_NO : CHECK_UNDECIDED;
+  const int32_t verdict = o->strict ? report->strictly_jammed : report->jammed;
+  int code = verdict == JAM_VERDICT_YES ? CHECK_YES : verdict == JAM_VERDICT_NO ? CHECK_NO : CHECK_UNDECIDED;
   const char *const proof = o->proof ? o->proof : o->strict_proof;
   if (proof && status != JAM_OK)
     complain("%s is not written: the packing is not jammed", proof);

@@ -50,6 +50,7 @@ typedef struct options {
   int prove;
   const char *proof;
   const char *strict_proof;
+  int strict;
   const char *report;
   const char *log;
   const char *vtk;
@@ -75,7 +76,7 @@ typedef struct options {
   double near_gap;
   double wall_time;
   given given; /* what has a form of its own */
-  unsigned char named[73]; /* of each row of the table, whether it is on the command line */
+  unsigned char named[74]; /* of each row of the table, whether it is on the command line */
 } options;
 
 /* First words of a command line. */
@@ -214,6 +215,8 @@ static const option_row table[] = {
      NULL, AFTER_CRUNCH | TAKES_GZIP, "", "", 13},
     {"--strict-proof", TAKE_OUTPUT, offsetof(options, strict_proof), 0, 0, 0, 0,
      NULL, AFTER_CRUNCH | TAKES_GZIP, "", "", 13},
+    {"--strict", TAKE_SWITCH, offsetof(options, strict), 0, 0, 0, 0,
+     NULL, 0, "", "", 8},
     {"--report", TAKE_OUTPUT, offsetof(options, report), 0, 0, 0, 0,
      NULL, TAKES_STDOUT, "", "", 7},
     {"--log", TAKE_OUTPUT, offsetof(options, log), 0, 0, 0, 0,
@@ -463,6 +466,8 @@ static const help_line help[] = {
     {269, "  --proof FILE           the exact numbers of the proof, for the checker jamproof.py"},
     {269, "  --strict-proof FILE    the same of strict jamming, where the cell deforms too: of packings"},
     {269, "                         that --strain free makes"},
+    {264, "  --strict               check: the exit status is that of strict jamming, where the cell"},
+    {264, "                         deforms too"},
     {263, "  --report FILE|-        numbers, protocol and certificate as JSON; - is standard output"},
     {263, "  --log FILE|-           messages of the library on each stage and LP, one line each with"},
     {263, "                         its time"},
@@ -514,8 +519,8 @@ static const help_line help[] = {
     {256, ""},
     {256, "With --input the verdict is that of the end state, after the crunch. 'check FILE' tests the"},
     {256, "packing of a file as it is and moves nothing. One paragraph says whether it is jammed,"},
-    {256, "strictly jammed, not jammed or undecided, and why. Exit status of check 0: jammed. 1: not."},
-    {256, "3: undecided. 2: wrong command line, or the file is refused."},
+    {256, "strictly jammed, not jammed or undecided, and why. Exit status of check 0: jammed (with"},
+    {256, "--strict: strictly). 1: not. 3: undecided. 2: wrong command line, or the file is refused."},
     {0, NULL}};
 
 typedef struct verb_row {

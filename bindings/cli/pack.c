@@ -96,6 +96,10 @@ static jam_status run_crunch(jam_system *sys, const options *o, double wall_time
   result->crunch.struct_size = sizeof result->crunch;
   if (status >= 0) status = jam_crunch(sys, &crunch, &result->crunch);
   result->has_crunch = status >= 0;
+  if (result->has_crunch && o->prove && o->strict_proof && result->crunch.jammed) {
+    result->strict.struct_size = sizeof result->strict;
+    result->has_strict = jam_prove_strict(sys, &result->strict) >= 0;
+  }
   if (status == JAM_CANCELLED || status == JAM_LIMIT ||
       (status == JAM_OK && result->crunch.stop_reason == JAM_STOP_DUALITY_GAP))
     write_checkpoint(sys, o);

@@ -92,8 +92,14 @@ static void put_walls(FILE *f, const outcome *result) {
   fputs("],\n", f);
 }
 
-static const char *proof_of(const jam_crunch_report *r) {
+/* The strict proof where its file was asked for, else the collective one. */
+static const char *proof_of(const outcome *result) {
+  const jam_crunch_report *r = &result->crunch;
+  const jam_proof_report *s = &result->strict;
   if (!r->jammed) return "not tried: not jammed";
+  if (result->has_strict)
+    return jam_proof_text(s->theorem, s->cause, s->theorem == JAM_THEOREM_EXACT ? s->radius : s->inner, s->cause_value,
+                          s->cause_bound);
   return jam_proof_text(r->theorem, r->proof_cause, r->proof_radius, r->proof_value, r->proof_bound);
 }
 
@@ -150,7 +156,7 @@ int write_report(const options *o, const outcome *result, const char *path) {
     fputs("  \"jammed\": null,\n", f);
   fputs("  \"proof\": ", f);
   if (o->prove && crunched)
-    put_text(f, proof_of(r));
+    put_text(f, proof_of(result));
   else
     fputs("null", f);
   fputs(",\n", f);
@@ -188,6 +194,7 @@ static void print_changes(const options *o, const outcome *result) {
 
 void print_summary(const options *o, const outcome *result) {
   const jam_crunch_report *r = &result->crunch;
+  const int strict = r->strictly_jammed == JAM_VERDICT_YES;
   const jam_info *info = &result->info;
   printf("%lld spheres in d = %d, seed %lld: packing fraction %.12f\n", (long long)info->n, (int)info->dim,
          (long long)info->seed, info->packing_fraction);
@@ -213,10 +220,11 @@ void print_summary(const options *o, const outcome *result) {
   if (r->stop_reason == JAM_STOP_DUALITY_GAP)
     printf("  gap       %.2e, so that phi_J is about %.12f; %lld undecided pairs\n", r->duality_gap,
            info->packing_fraction * pow(1.0 + r->duality_gap, 0.5 * info->dim), (long long)r->undecided_contacts);
-  printf("  network   %lld contacts (isostatic %+lld), %lld rattlers, %lld bucklers\n", (long long)r->contacts,
-         (long long)r->excess_contacts, (long long)r->rattlers, (long long)r->bucklers);
+  printf("  network   %lld contacts (isostatic %+lld%s), %lld rattlers, %lld bucklers\n", (long long)r->contacts,
+         (long long)(strict ? r->contacts - r->strict_contacts_needed : r->excess_contacts),
+         strict ? " for a cell that deforms" : "", (long long)r->rattlers, (long long)r->bucklers);
   printf("  certified largest overlap %.1e, force imbalance %.1e, smallest force %.1e, smallest gap %.1e\n",
          r->max_overlap, r->force_residual, r->min_force, r->min_gap);
-  if (o->prove) printf("  proof     %s\n", proof_of(r));
+  if (o->prove) printf("  proof     %s%s\n", result->has_strict ? "strict jamming: " : "", proof_of(result));
   print_changes(o, result);
 }

@@ -1005,7 +1005,7 @@ module jam
 
   ! Memory and time of a crunch, estimated from the graph of pairs and its elimination tree.
   type, bind(c) :: jam_estimate
-    integer(c_int32_t) :: struct_size = 64
+    integer(c_int32_t) :: struct_size = 80
     integer(c_int32_t) :: reserved = 0
     ! of the longest neighbour list
     integer(c_int64_t) :: pairs = 0
@@ -1021,6 +1021,8 @@ module jam
     real(c_double) :: step_seconds = 0
     ! the product of both
     real(c_double) :: seconds = 0
+    real(c_double) :: seconds_low = 0
+    real(c_double) :: seconds_high = 0
   end type jam_estimate
 
   ! Options of jam_relax. A free cell is minimised after the minimum of the fixed one.
@@ -1305,7 +1307,7 @@ module jam
   ! Verdict on a packing as it is. Gaps are relative to sigma_ij, displacements in mean diameters without their mean.
   ! Closed pairs have gaps below 1e-10. NaN, and -1 for contacts: not known. crunch_*: of the crunched copy.
   type, bind(c) :: jam_check_report
-    integer(c_int32_t) :: struct_size = 256
+    integer(c_int32_t) :: struct_size = 264
     ! jam_verdict: collectively jammed
     integer(c_int32_t) :: jammed = 0
     ! jam_verdict; NO where jammed is NO; UNTESTED where walls allow no strain
@@ -1378,6 +1380,8 @@ module jam
     real(c_double) :: proof_bound = 0
     ! as in jam_rigidity_report
     real(c_double) :: curvature_margin = 0
+    ! contacts - (d (N' - 1) + d (d + 1) / 2), walls allow fewer strains; 0 without
+    integer(c_int64_t) :: strict_excess_contacts = 0
   end type jam_check_report
 
   ! What jam_prove found. Bounds are rounded outward; NaN where they do not apply. The exact diameters are sqrt(Gamma)
@@ -2089,9 +2093,9 @@ module jam
     ! Tests whether the packing is jammed. Nothing changes but strictly_jammed in the stored crunch report. Contacts are
     ! pairs with gaps below 1e-10, whether a network lists them or not: none is needed, and the check answers the same.
     ! Where coordinates have few digits, pairs within their rounding are undecided, and the answer is a no only where
-    ! spheres have too few of them. A sphere and its own image are a contact in the strict test, in the collective one
-    ! where the network lists them or no others balance. There a sphere that they alone hold needs forces on the cell to
-    ! balance. Let S v be the opening of contacts by a motion v, and E eps that by a strain eps. Collectively jammed: S v
+    ! spheres have too few of them. A sphere and its own image are a contact in the strict test; in the collective one if
+    ! the network lists them or nothing else balances (a crunch lists them then), and if forces on the cell balance too.
+    ! Let S v be the opening of contacts by a motion v, and E eps that by a strain eps. Collectively jammed: S v
     ! >= 0 only for translations of B. Strictly jammed: S v + E eps >= 0 with tr eps <= 0 only for those and eps = 0. Both
     ! hold for this cell, not for copies of it (jam_bloch_rigidity): Donev et al., J. Comput. Phys. 197, 139 (2004).
     ! Status: JAM_OK, JAM_NOT_JAMMED, JAM_AMBIGUOUS (undecided).

@@ -1160,9 +1160,9 @@ contains
   ! Tests whether the packing is jammed. Nothing changes but strictly_jammed in the stored crunch report. Contacts are
   ! pairs with gaps below 1e-10, whether a network lists them or not: none is needed, and the check answers the same.
   ! Where coordinates have few digits, pairs within their rounding are undecided, and the answer is a no only where
-  ! spheres have too few of them. A sphere and its own image are a contact in the strict test, in the collective one
-  ! where the network lists them or no others balance. There a sphere that they alone hold needs forces on the cell to
-  ! balance. Let S v be the opening of contacts by a motion v, and E eps that by a strain eps. Collectively jammed: S v
+  ! spheres have too few of them. A sphere and its own image are a contact in the strict test; in the collective one if
+  ! the network lists them or nothing else balances (a crunch lists them then), and if forces on the cell balance too.
+  ! Let S v be the opening of contacts by a motion v, and E eps that by a strain eps. Collectively jammed: S v
   ! >= 0 only for translations of B. Strictly jammed: S v + E eps >= 0 with tr eps <= 0 only for those and eps = 0. Both
   ! hold for this cell, not for copies of it (jam_bloch_rigidity): Donev et al., J. Comput. Phys. 197, 139 (2004).
   ! Status: JAM_OK, JAM_NOT_JAMMED, JAM_AMBIGUOUS (undecided).

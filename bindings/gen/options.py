@@ -25,13 +25,13 @@ VERBS = (
         "the packing of a file to its jamming point",
         f"{READING} {STARTING} {TABLES} method strain lp duality-gap threads page-steps prove proof strict-proof",
     ),
-    Verb("check", ("input",), "is the packing of a file jammed as it is? Nothing moves", f"{READING} prove proof strict-proof"),
+    Verb("check", ("input",), "is the packing of a file jammed as it is? Nothing moves", f"{READING} prove proof strict-proof strict"),
     Verb("info", ("input",), "what a file contains: cell, sizes, packing fraction, nearest pair", READING),
     Verb("export", ("input", "output"), "the packing of a file in other formats, its tables and its pore space", f"{READING} output scale density plot {TABLES} {PORES}"),
     Verb("page", ("input", "page"), "a page that shows the packing of a file in a browser", f"{READING} page plot contact-gap"),
     Verb("ensemble", (), "many packings in one folder: python3 -m jam ensemble --help", ""),
 )
-ALONE = PORES.split() + ["scale", "density"]  # options that no job of pack takes
+ALONE = PORES.split() + ["scale", "density", "strict"]  # options that no job of pack takes
 
 TABLE = {
     "Start": (
@@ -341,6 +341,7 @@ TABLE = {
             after_crunch=True,
             gzip=True,
         ),
+        Option("strict", "switch", "", "check: the exit status is that of strict jamming, where the cell deforms too"),
         Option(
             "report", "output", "FILE|-", "numbers, protocol and certificate as JSON; - is standard output", stdout=True
         ),
@@ -436,7 +437,7 @@ NOTES = (
     "Exit status 0: done, and jammed unless --no-crunch. 1: stopped early, a stage stalled, or not jammed; the valid state reached is written. "
     "2: wrong command line. 3: request or input refused, or the computation failed. 4: an output cannot be written.",
     "With --input the verdict is that of the end state, after the crunch. 'check FILE' tests the packing of a file as it "
-    "is and moves nothing. One paragraph says whether it is jammed, strictly jammed, not jammed or undecided, and why. Exit status of check 0: jammed. 1: not. "
+    "is and moves nothing. One paragraph says whether it is jammed, strictly jammed, not jammed or undecided, and why. Exit status of check 0: jammed (with --strict: strictly). 1: not. "
     "3: undecided. 2: wrong command line, or the file is refused.",
 )
 # Exit status of the verbs: those that compute, check, those that write what a file holds.

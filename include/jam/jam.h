@@ -968,6 +968,9 @@ typedef struct jam_estimate {
   double factorisations; /* median of packings as near to jamming; single ones scatter by a factor of 2 */
   double step_seconds;   /* of one factorisation and what goes with it, on this core; mean over first LP and path */
   double seconds;        /* the product of both */
+  /* Nine of ten crunches take between these. Decompressions, narrow linear programs and saddles of equal disks and of
+   * crystals cannot be counted before. */
+  double seconds_low, seconds_high;
 } jam_estimate;
 /* Estimates memory and time of jam_crunch with these options (NULL: defaults) without running it; jam_crunch logs the
  * same at JAM_LOG_INFO. Takes as long as a few steps. @errors OVERLAP, TOO_FEW */
@@ -1349,9 +1352,9 @@ typedef struct jam_rigidity_report {
 /* Tests whether the packing is jammed. Nothing changes but strictly_jammed in the stored crunch report. Contacts are
  * pairs with gaps below 1e-10, whether a network lists them or not: none is needed, and the check answers the same.
  * Where coordinates have few digits, pairs within their rounding are undecided, and the answer is a no only where
- * spheres have too few of them. A sphere and its own image are a contact in the strict test, in the collective one
- * where the network lists them or no others balance. There a sphere that they alone hold needs forces on the cell to
- * balance. Let S v be the opening of contacts by a motion v, and E eps that by a strain eps. Collectively jammed: S v
+ * spheres have too few of them. A sphere and its own image are a contact in the strict test; in the collective one if
+ * the network lists them or nothing else balances (a crunch lists them then), and if forces on the cell balance too.
+ * Let S v be the opening of contacts by a motion v, and E eps that by a strain eps. Collectively jammed: S v
  * >= 0 only for translations of B. Strictly jammed: S v + E eps >= 0 with tr eps <= 0 only for those and eps = 0. Both
  * hold for this cell, not for copies of it (jam_bloch_rigidity): Donev et al., J. Comput. Phys. 197, 139 (2004).
  * Status: JAM_OK, JAM_NOT_JAMMED, JAM_AMBIGUOUS (undecided). @enum kind jam_rigidity_kind @errors SOLVER, OVERLAP */
@@ -1433,6 +1436,7 @@ typedef struct jam_check_report {
   double proof_radius;          /* unit of the box: radius of EXACT, inner of TRAPPED (jam_proof_report), or infinite */
   double proof_value, proof_bound; /* the two numbers of the cause */
   double curvature_margin;         /* as in jam_rigidity_report */
+  int64_t strict_excess_contacts;  /* contacts - (d (N' - 1) + d (d + 1) / 2), walls allow fewer strains; 0 without */
 } jam_check_report;
 JAM_API jam_status jam_check_options_init(jam_check_options *o, size_t size);
 /* Tests a packing without moving it, by positions, diameters and cell alone, whatever network the handle has. Nothing

@@ -23,9 +23,10 @@
 
 namespace jam::inside {
 
-CrunchState::CrunchState(const Packing &start, const jam_crunch_options &options, Monitor &monitor_of_call,
+CrunchState::CrunchState(const Packing &packing_of_call, const jam_crunch_options &options, Monitor &monitor_of_call,
                          History &history_of_call, const CrunchHooks &hooks_of_call)
-    : o(options),
+    : start(packing_of_call),
+      o(options),
       tuning(hooks_of_call.tuning),
       monitor(monitor_of_call),
       history(history_of_call),

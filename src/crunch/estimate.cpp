@@ -150,6 +150,20 @@ double measured_rate(int size) {
   return best;
 }
 
+struct Spread {
+  double low, high;
+};
+
+// Equal disks crystallise in parts, and crystals have more contacts than unknowns: narrow LPs, moves along flexes and
+// decompressions follow a path that says nothing of them.
+Spread spread_of(const Packing &p) {
+  const bool alike = ratio_of_diameters(p) < T::alike;
+  const PairList closed = find_pairs(p, 0.0, 1.0 + T::crystal_gap);
+  if (2 * closed.size() > static_cast<size_t>(p.dim) * p.n()) return {T::low_crystal, T::high_crystal};
+  if (alike && p.dim == 2) return {T::low_disks, T::high_disks};
+  return {T::low, T::high};
+}
+
 }  // namespace
 
 jam_estimate estimate(const Packing &p, const jam_crunch_options &o) {
@@ -171,6 +185,9 @@ jam_estimate estimate(const Packing &p, const jam_crunch_options &o) {
                    0.5 * in_lp * (lp.seconds(rate, o.threads) + lp.seconds(full, o.threads));
   if (o.method != JAM_CRUNCH_SEQUENTIAL_LP) e.step_seconds += (1.0 - in_lp) * list_seconds(p);
   e.seconds = e.factorisations * e.step_seconds;
+  const Spread spread = spread_of(p);
+  const double rounds = o.strain == JAM_STRAIN_NONE ? 1.0 : T::rounds_of_free_cell;
+  e.seconds_low = e.seconds * spread.low, e.seconds_high = e.seconds * spread.high * rounds;
   return e;
 }
 

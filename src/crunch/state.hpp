@@ -37,13 +37,15 @@ struct CrunchFindings {
   bool polished = false;         // the last polish closed its contacts
   PackingVerdict verdict;        // on the packing as it ends
   int32_t strictly_jammed = JAM_VERDICT_UNTESTED;
-  int flex_moves = 0;  // made so far
+  int flex_moves = 0;         // made so far
+  bool start_tested = false;  // the verdict on the start was asked for
 };
 
 struct CrunchState {
-  CrunchState(const Packing &start, const jam_crunch_options &options, Monitor &monitor_of_call,
+  CrunchState(const Packing &packing_of_call, const jam_crunch_options &options, Monitor &monitor_of_call,
               History &history_of_call, const CrunchHooks &hooks_of_call);
 
+  const Packing &start;
   const jam_crunch_options o;
   const Tuning tuning;
   Monitor &monitor;

@@ -74,6 +74,11 @@ struct Tuning {
   int max_excess = 8;            // contacts too many that are dropped where they do not close; a crystal has more
   double jammed_balance = 1e-6;  // net forces of a jammed packing after polish, over the mean
   double longest_flex_move = 0.02;
+  // A start that cannot grow but has flexes: phi rises by less than this where a crunch has not left its density. Of so
+  // many spheres all decompressions are tried before it ends there (64 disks with vacancies need up to three; of 400
+  // and 900 none helps, in 3 and 13 s), of more the first.
+  double same_density = 1e-9;
+  size_t most_retried = 1000;
   // Where a packing is not shown to be jammed: parts of diameters by which it is decompressed, one after the other, and
   // the share of the gaps that each of two spheres may use up when all are displaced.
   std::array<double, 4> decompression{1e-4, 1e-3, 1e-2, 3e-2};
@@ -131,6 +136,12 @@ struct EstimateTuning {
   static constexpr double front_rate = 0.5, per_factor = 6e-9, per_pair = 4e-7;
   // A list gets shorter after this part of the growth to jamming; late where the largest diameter is so many means.
   static constexpr double grown = 0.3, mixed = 1.3;
+  // What nine of ten crunches took, over the estimate: of most packings (grown spheres and mixtures of 128 to 512, d =
+  // 2 and 3: 0.75 to 3.8), of disks in d = 2 that differ in size by less than `alike` (128 to 1000: 1.4 to 23; twenty
+  // of 1000: median 19, one 705), and of crystals, where pairs closed to crystal_gap are half as many as unknowns. A
+  // free cell follows a fixed one.
+  static constexpr double low = 0.3, high = 5.0, alike = 1.1, low_disks = 0.5, high_disks = 300.0, crystal_gap = 1e-3,
+                          low_crystal = 0.02, high_crystal = 100.0, rounds_of_free_cell = 3.0;
   // Over what crunches took: to 1.6 in tests/bench/estimate.py, 1.8 in d = 8. Above the memory limit a crunch is
   // refused.
   static constexpr double too_high = 2.0;

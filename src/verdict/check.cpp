@@ -65,6 +65,7 @@ void report_network(const Packing &p, const PackingVerdict &v, const ContactNetw
   r.contacts = static_cast<int64_t>(net.size());
   r.rattlers = static_cast<int64_t>(p.n()) - stable_spheres(net.coordination);
   r.excess_contacts = excess_contacts(net, p);
+  r.strict_excess_contacts = net.size() ? r.excess_contacts - traceless_strains(p.dim, ~p.container.closed()) : 0;
   report_counts(v, r);
   r.self_stresses = v.result.self_stresses;
   r.stationary = verdict_code(v.result.stressed);

@@ -71,6 +71,36 @@ bool find_unblocked_flex(const Packing &p, const std::vector<char> &taken, Jammi
   return true;
 }
 
+bool leads_free(const Packing &p, const StraightMotion &motion, double length) {
+  if (motion.flex.empty() || p.container.round_axes() > 0) return false;
+  const size_t d = static_cast<size_t>(p.dim);
+  const double unit = length * diameter_mean(p);
+  std::vector<double> x(p.position.size(), 0.0);
+  for (size_t k = 0; k < motion.flex.size(); ++k)
+    x[static_cast<size_t>(motion.sphere[k / d]) * d + k % d] = unit * motion.flex[k];
+  const double strained = motion.strain.empty() ? 0.0 : VerdictTuning::strained * diameter_max(p) / diameter_mean(p);
+  const ContactNetwork near = unforced_pairs(p, (2.0 + strained) * unit, 1.0);
+  for (size_t k = 0; k < near.size(); ++k) {
+    const int32_t i = near.pairs.i[k], j = near.pairs.j[k];
+    const bool wall = near.pairs.wall(k);
+    const double sigma = contact_distance(p, i, j), distance = (1.0 + near.gap[k]) * sigma;
+    double along = 0.0, all = 0.0;
+    for (size_t c = 0; c < d; ++c) {
+      double w = x[static_cast<size_t>(i) * d + c] - (wall ? 0.0 : x[static_cast<size_t>(j) * d + c]);
+      for (size_t q = 0; q < d && !motion.strain.empty(); ++q)
+        w += unit * motion.strain[c * d + q] * distance * near.vector[k * d + q];
+      along += w * near.vector[k * d + c], all += w * w;
+    }
+    if (wall) all = along * along;
+    // |r + t w|^2 is least at this t of 0 to 1.
+    const double t = all > 0.0 ? std::min(1.0, std::max(0.0, -distance * along / all)) : 0.0;
+    const double least = distance * distance + t * (2.0 * distance * along + t * all);
+    const double allowed = sigma * (1.0 + std::min(0.0, near.gap[k]) - VerdictTuning::rounding_of_a_motion);
+    if (least < allowed * allowed) return false;
+  }
+  return true;
+}
+
 double unblocked_fraction(const Packing &p, const PackingVerdict &v) {
   std::vector<char> touches;
   for (const double gap : v.contacts.gap) touches.push_back(gap < contact_gap_limit);

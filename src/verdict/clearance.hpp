@@ -15,6 +15,15 @@ ContactNetwork blocking_pairs(const Packing &p, const ContactNetwork &carrying, 
 // that keeps these pairs as well is looked for, and replaces it.
 bool find_unblocked_flex(const Packing &p, const std::vector<char> &taken, Jamming kind, PackingVerdict &v);
 
+// A motion of some spheres and a strain (empty: none), the largest displacement 1.
+struct StraightMotion {
+  const std::vector<int32_t> &sphere;
+  const std::vector<double> &flex, &strain;
+};
+// Whether it leads in a straight line over this length, in mean diameters, without an overlap beyond rounding. False
+// between round walls and for no motion.
+bool leads_free(const Packing &p, const StraightMotion &motion, double length);
+
 // The fraction of the flex of v along which no pair that touches overlaps beyond rounding: 1, or less where positions
 // are noisy and the flex closes contacts at the rate of that noise. 0 where it is shorter than the flex must be.
 double unblocked_fraction(const Packing &p, const PackingVerdict &v);

@@ -167,8 +167,9 @@ bool opens_contacts(const PackingVerdict &v) {
          std::any_of(v.contacts.gap.begin(), v.contacts.gap.end(), touches);
 }
 
-// With the contacts of `open` beside those that touch, all taken as closed.
-Verdict with_closed(const JammingCase &c, const ContactNetwork &open, double widest) {
+// With the contacts of `open` beside those that touch, all taken as closed. A motion that opens them slowly counts
+// where it leads the spheres far beyond what their gaps leave open, and is the flex then.
+Verdict with_closed(JammingCase &c, const ContactNetwork &open, double widest) {
   ContactNetwork all = unforced_pairs(c.p, 0.0, 1.0 + 2.0 * widest);
   ContactLookup in_open(c.p, open), in_touching(c.p, c.v.contacts);
   std::vector<char> on(all.size());
@@ -176,9 +177,13 @@ Verdict with_closed(const JammingCase &c, const ContactNetwork &open, double wid
     const bool listed = in_open.holds(all.pairs, k), tested = in_touching.holds(all.pairs, k);
     on[k] = listed || (tested && touches(all.gap[k]));
   }
-  const RigidityResult r = test_rigidity(make_rigidity_matrix(c.p, subset(all, on, c.p.dim)), c.kind);
-  const bool slow = r.rigid == Verdict::no && r.stressed == Verdict::no && !r.opens_clearly(widest);
-  return slow ? Verdict::undecided : r.rigid;
+  const RigidityMatrix g = make_rigidity_matrix(c.p, subset(all, on, c.p.dim));
+  RigidityResult r = test_rigidity(g, c.kind);
+  if (r.rigid != Verdict::no || r.stressed != Verdict::no || r.opens_clearly(widest)) return r.rigid;
+  const double far = VerdictTuning::far_beyond_gaps * std::sqrt(widest);
+  if (!leads_free(c.p, {g.sphere, r.flex, r.strain}, far)) return Verdict::undecided;
+  c.v.result.flex = std::move(r.flex), c.v.result.strain = std::move(r.strain), c.v.sphere = g.sphere;
+  return Verdict::no;
 }
 
 // A pair touches, and others that would hold spheres with it are open. Their contacts may have been closed before

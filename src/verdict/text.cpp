@@ -111,17 +111,29 @@ const char *headline(const Report &r) {
   return "Collectively jammed; undecided whether strictly.";
 }
 
+// "excess 5 = d (d + 1) / 2 - 1: isostatic for a cell that deforms"
+std::string excess_of(const Report &r) {
+  const std::string excess = sentence("excess %lld", wide(r.excess_contacts));
+  if (r.strictly_jammed != JAM_VERDICT_YES) return excess + " over one state of self-stress";
+  const int64_t strains = r.excess_contacts - r.strict_excess_contacts;
+  if (r.strict_excess_contacts != 0)
+    return excess +
+           sentence(", %lld over one state of self-stress of a cell that deforms", wide(r.strict_excess_contacts));
+  return excess + (strains == r.dim * (r.dim + 1) / 2 - 1 ? " = d (d + 1) / 2 - 1" : "") +
+         ": isostatic for a cell that deforms";
+}
+
 void add_network(const Report &r, std::string &out) {
   if (r.contacts == 0) return;
   std::string held = sentence("%lld contact%s hold%s %lld sphere%s", wide(r.contacts), plural(r.contacts),
                               r.contacts == 1 ? "s" : "", wide(r.n - r.rattlers), plural(r.n - r.rattlers));
   // Forces of own images cancel on a single sphere: no number of contacts is isostatic.
-  if (r.n > 1)
-    held += sentence(" (excess %lld over one state of self-stress), %lld rattler%s", wide(r.excess_contacts),
-                     wide(r.rattlers), plural(r.rattlers));
+  if (r.n > 1) held += " (" + excess_of(r) + sentence("), %lld rattler%s", wide(r.rattlers), plural(r.rattlers));
   add_sentence(out, held);
-  if (r.self_stresses > 1)
-    add(out, sentence("Forces are not unique: %lld states of self-stress.", wide(r.self_stresses)));
+  if (r.self_stresses <= 1) return;
+  const bool unique = r.strictly_jammed == JAM_VERDICT_YES && r.strict_excess_contacts == 0;
+  add(out, sentence("Forces are not unique%s: %lld states of self-stress%s.", unique ? " in a fixed cell" : "",
+                    wide(r.self_stresses), unique ? ", one of them with an isotropic stress" : ""));
 }
 
 void add_proof(const Report &r, std::string &out) {
@@ -159,8 +171,11 @@ void add_resolution(const Report &r, std::string &out) {
 }
 
 void add_crunch(const Report &r, std::string &out) {
+  const char *strictly = r.strictly_jammed == JAM_VERDICT_UNTESTED
+                             ? ""
+                             : "Whether it is strictly jammed, a crunch with a free cell decides (strain=free).";
   if (r.crunch_jammed == JAM_VERDICT_UNTESTED) {
-    if (r.n > 1) add(out, "A crunch closes the contacts and decides.");
+    if (r.n > 1) out += " A crunch closes the contacts and decides." + std::string(strictly[0] ? " " : "") + strictly;
     return;
   }
   if (!std::isfinite(r.crunch_displacement_max))  // no sphere has contacts
@@ -170,6 +185,7 @@ void add_crunch(const Report &r, std::string &out) {
                     "fraction %.9f and finds %lld contacts, %s.",
                     r.crunch_displacement_max, r.crunch_displacement_rms, r.crunch_packing_fraction,
                     wide(r.crunch_contacts), r.crunch_jammed == JAM_VERDICT_YES ? "jammed" : "not shown to be jammed"));
+  if (strictly[0]) add(out, strictly);
 }
 
 Numbers numbers_of(const Report &r) {

@@ -2,6 +2,7 @@
 
 Verdicts are judged by jamming_oracle.py, which shares no code with the library.
 """
+import itertools
 import json
 import os
 import subprocess
@@ -88,6 +89,26 @@ class AsItIs(unittest.TestCase):
             sigma = np.r_[np.full(9, 1 - open_by), np.full(9, 2**0.5 - 1 - gap)] * edge / 3 * (1 - 2e-16)
             s = jam.System.from_arrays(np.mod(x, edge), sigma, box=edge)
             self.assertEqual([str(s.rigidity().jammed), str(s.check().jammed)], [wanted] * 2, (gap, open_by))
+
+    def test_strictly_jammed_packings_are_counted_by_their_own_number(self):
+        """d (N' - 1) + d (d + 1) / 2 contacts: a cell that deforms has as many more unknowns as traceless strains."""
+        counted = 0
+        for dim, n, seed in itertools.product((2, 3), (12, 20), (1, 2, 3)):
+            s = jam.System.random(n, dim, seed, diameters=[1.0] * (n // 2) + [1.4] * (n - n // 2))
+            if s.crunch(strain="free").strictly_jammed != Verdict.YES:
+                continue
+            r, strains = s.check(crunch=False), dim * (dim + 1) // 2 - 1
+            stable = r.n - r.rattlers
+            self.assertEqual(r.strict_excess_contacts, r.contacts - (dim * (stable - 1) + 1 + strains))
+            self.assertEqual(r.strict_excess_contacts, s.report.contacts - s.report.strict_contacts_needed)
+            if r.strict_excess_contacts == 0:
+                counted += 1
+                self.assertIn(f"excess {strains} = d (d + 1) / 2 - 1: isostatic for a cell that deforms", str(r))
+                self.assertIn("one of them with an isotropic stress", str(r))
+            rounded = jam.System.from_arrays(np.round(s.positions, 8), s.diameters, cell=s.cell, overlap="shrink").check()
+            self.assertEqual(rounded.jammed, Verdict.UNDECIDED)
+            self.assertIn("strain=free", str(rounded))
+        self.assertGreater(counted, 4)
 
     def test_strictly_jammed_and_own_images(self):
         for n, dim, seed in ((20, 2, 1), (12, 3, 2)):

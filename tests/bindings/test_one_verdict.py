@@ -146,6 +146,22 @@ class OneVerdict(unittest.TestCase):
             for seed, noise in itertools.product(seeds, (0, 1e-12, 1e-11, 1e-10, 1e-8, 1e-6)):
                 self.same(with_vacancies(make, seed, noise), len(make[0]), seed, noise)
 
+    def test_a_crunch_of_a_saddle_that_cannot_grow_names_its_flexes(self):
+        """A triangular lattice of disks without 2 % of them, two side by side. Straight rows of disks cross the box, so that
+        diameters cannot grow; the disks at the divacancy can move (docs: 2 flexes)."""
+        m = 20
+        x = np.array([[i + 0.5 * (j % 2), j * 0.75**0.5] for j in range(m) for i in range(m)])
+        kept = np.sort(np.random.default_rng(5).permutation(m * m)[8:])
+        s = jam.System.from_arrays(x[kept], 1.0, cell=np.diag([m, m * 0.75**0.5]), overlap="shrink")
+        before, found = s.rigidity(), s.copy()
+        self.assertEqual((before.jammed, before.flexes), (Verdict.NO, 2))
+        r = s.crunch(wall_time=300)
+        self.assertEqual((r.stop_reason, r.status), (jam.StopReason.SADDLE, jam.StatusCode.NOT_CONVERGED))
+        self.assertEqual((r.flexes, r.contacts, r.stable), (before.flexes, before.contacts, before.stable))
+        self.assertIn("2 independent motions keep all contacts closed", r.status_text)
+        np.testing.assert_array_equal(s.positions, found.positions)
+        self.assertLess(abs(s.packing_fraction / found.packing_fraction - 1), 1e-12)
+
     def test_a_flex_without_room_shows_nothing(self):
         """A slide by t opens contacts by t^2, which must be more than they are open by rounding, or by what they lack: in a
         cell that deforms, too, and in copies of it."""
@@ -159,6 +175,26 @@ class OneVerdict(unittest.TestCase):
 
 
 class Flexes(unittest.TestCase):
+    def test_slow_motions_that_lead_far_are_shown(self):
+        """Square and simple cubic lattices whose spheres are off their sites by noise: rows slide on, though the contacts open slowly
+        at first. In steps along the flex no two spheres come nearer than they were, but for rounding."""
+        for dim, m, noises in ((2, 5, [1e-6]), (3, 3, [1e-6])):
+            sites = np.array(list(itertools.product(range(m), repeat=dim)), float)
+            for noise in noises:
+                x = (sites + noise * np.random.default_rng(101).standard_normal(sites.shape)) % m
+                s = jam.System.from_arrays(x, 1.0, box=float(m), overlap="shrink")
+                self.assertEqual([s.rigidity(kind).jammed for kind in ("collective", "strict")], [Verdict.NO] * 2)
+                self.assertEqual(s.check(crunch=False).jammed, Verdict.NO)
+                x, sizes, cell = state(s)
+                v, wide = s.flex().out, 10 * noise**0.5
+                v *= wide / abs(v).max()
+                for part in np.linspace(0, 1, 21):
+                    y = x + part * v
+                    r = y[:, None] - y[None]
+                    r -= np.diag(cell) * np.round(r / np.diag(cell))
+                    apart = np.linalg.norm(r, axis=2) + 2 * np.eye(s.n)
+                    self.assertGreater((apart / sizes[0]).min(), 1 - 1e-13, (dim, noise, part))
+
     def test_no_pair_that_touches_overlaps_along_them(self):
         """By the squared distance along it: from its gap, a pair loses y t and gains (w t)^2 / 2. Where positions are noisy the
         motion is shorter, and much longer than the gaps of contacts need."""

@@ -105,6 +105,9 @@ class Strict(unittest.TestCase):
             scene = ["--n", "32", "--dim", "2", "--diameters-ratio", "1.4", "--seed", "3", "--strain", "free", "--quiet"]
             for words in (scene + ["--output", packing, "--strict-proof", made], ["check", packing, "--strict-proof", read]):
                 subprocess.run([os.environ["JAM_PACK"], *words], check=True, capture_output=True)
+            told = subprocess.run([os.environ["JAM_PACK"], *scene[:-1], "--strict-proof", made, "--prove"], check=True, capture_output=True, text=True)
+            self.assertRegex(told.stdout, "proof     strict jamming: proved, radius .*e-3")
+            self.assertRegex(told.stdout, r"contacts \(isostatic \+0 for a cell that deforms\)")
             for path in (made, read):
                 found = verdict(pathlib.Path(path).read_text(encoding="ascii"))
                 self.assertLess(found["radius"], 1e-30)

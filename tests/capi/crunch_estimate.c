@@ -107,6 +107,7 @@ static void estimates_scale_with_the_number_of_spheres(void **state) {
   assert_true(b.pairs > 1.8 * (double)a.pairs && b.pairs < 2.2 * (double)a.pairs);
   assert_true(b.flops > 2.0 * a.flops && b.bytes > 1.9 * a.bytes);
   assert_true(a.seconds == a.factorisations * a.step_seconds && a.step_seconds > 0.0);
+  assert_true(0.0 < a.seconds_low && a.seconds_low < a.seconds && a.seconds < a.seconds_high);
   jam_crunch_options_init(&o, sizeof o);
   o.threads = 2;
   two = estimated(large, &o);

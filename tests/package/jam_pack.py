@@ -59,7 +59,7 @@ class JamPack(unittest.TestCase):
         """Disks with one state of self-stress are jammed in one cell, and not in four."""
         one, four = self.dir / "one.xyz", self.dir / "four.xyz"
         self.report("--n", 12, "--dim", 2, "--seed", 1, "--diameters-ratio", 1.4, "--output", one)
-        self.assertEqual((run("check", one).returncode, run("check", one, "--tile", "2,2").returncode), (0, 1))
+        self.assertEqual([run("check", one, *more).returncode for more in ([], ["--tile", "2,2"], ["--strict"])], [0, 1, 1])
         self.assertEqual((run("export", one, four, "--tile", "2,2").returncode, json.loads(run("info", four, "--json").stdout)["n"]), (0, 48))
         for wrong, why in (("0,2", "whole numbers above 0"), ("2,2,2", "--tile: count has 3 numbers, it must have dim = 2")):
             self.refuse(2, why, "check", one, "--tile", wrong)

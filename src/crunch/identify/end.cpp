@@ -129,6 +129,28 @@ Phase end_jammed(CrunchState &s, const PackingVerdict &verdict) {
   return s.next.strain.count() > 0 ? decide_strict_jamming(s) : Phase::done;
 }
 
+// Whether decompressions led back to the density of the start, to contacts that are not shown to be jammed: the first
+// one of a large packing, all of a small one. True the first time.
+bool is_back_at_start(CrunchState &s) {
+  const double grown = packing_fraction(s.out.packing) / packing_fraction(s.start) - 1.0;
+  const size_t wanted = s.start.n() > s.tuning.most_retried ? 1 : s.tuning.decompression.size();
+  const bool decompressed = s.history.stage.decompressions >= wanted;
+  if (!decompressed || s.found.start_tested || s.next.strain.count() > 0 || grown > s.tuning.same_density) return false;
+  return s.found.start_tested = true;
+}
+
+// Diameters of the start cannot grow, and yet its spheres can move, as in a crystal with vacancies side by side. Other
+// contacts that balance at its density say less than its own, whose flexes are known.
+Phase end_at_start(CrunchState &s, const PackingVerdict &of_start) {
+  s.monitor.log(JAM_LOG_INFO, "back at the density of the start, a saddle with %lld flexes: ends there",
+                static_cast<long long>(of_start.result.flexes));
+  s.out.packing = s.start;
+  s.out.contacts = of_start.carrying(s.start.dim);
+  s.found.polished = false;
+  record_opening(s);
+  return give_verdict(s, of_start);
+}
+
 }  // namespace
 
 bool polish_contacts(CrunchState &s) {
@@ -160,6 +182,11 @@ Phase decide_jamming(CrunchState &s) {
     PackingVerdict verdict;
     if (!tested(s, verdict, [&] { return test_contacts(s, Jamming::collective); })) return Phase::done;
     if (verdict.jammed == Verdict::yes) return give_verdict(s, verdict);
+    if (is_back_at_start(s)) {
+      PackingVerdict of_start;
+      if (!tested(s, of_start, [&] { return verdict_of(s.start, nullptr, Jamming::collective); })) return Phase::done;
+      if (of_start.jammed == Verdict::no && of_start.result.flexes > 0) return end_at_start(s, of_start);
+    }
     // No slide opens a contact. In a periodic cell it may lead to other spheres, or a strain further.
     const bool slides = verdict.result.slides > 0 && s.out.packing.container;
     const bool open = s.o.polish && !slides;

@@ -1119,6 +1119,8 @@ Memory and time of a crunch, estimated from the graph of pairs and its eliminati
 - `factorisations`: median of packings as near to jamming; single ones scatter by a factor of 2
 - `step_seconds`: of one factorisation and what goes with it, on this core; mean over first LP and path
 - `seconds`: the product of both
+- `seconds_low`:
+- `seconds_high`:
 """
 mutable struct jam_estimate
     struct_size::UInt32
@@ -1130,7 +1132,9 @@ mutable struct jam_estimate
     factorisations::Cdouble  # median of packings as near to jamming; single ones scatter by a factor of 2
     step_seconds::Cdouble  # of one factorisation and what goes with it, on this core; mean over first LP and path
     seconds::Cdouble  # the product of both
-    jam_estimate() = new(64, 0, 0, 0, 0, 0, 0, 0, 0)
+    seconds_low::Cdouble
+    seconds_high::Cdouble
+    jam_estimate() = new(80, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
 end
 
 """
@@ -1524,6 +1528,7 @@ Closed pairs have gaps below 1e-10. NaN, and -1 for contacts: not known. crunch_
 - `proof_value`: the two numbers of the cause
 - `proof_bound`: the two numbers of the cause
 - `curvature_margin`: as in `jam_rigidity_report`
+- `strict_excess_contacts`: contacts - (d (N' - 1) + d (d + 1) / 2), walls allow fewer strains; 0 without
 """
 mutable struct jam_check_report
     struct_size::UInt32
@@ -1563,7 +1568,8 @@ mutable struct jam_check_report
     proof_value::Cdouble  # the two numbers of the cause
     proof_bound::Cdouble  # the two numbers of the cause
     curvature_margin::Cdouble  # as in jam_rigidity_report
-    jam_check_report() = new(256, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
+    strict_excess_contacts::Int64  # contacts - (d (N' - 1) + d (d + 1) / 2), walls allow fewer strains; 0 without
+    jam_check_report() = new(264, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
 end
 
 """
@@ -2892,9 +2898,9 @@ end
 Tests whether the packing is jammed. Nothing changes but `strictly_jammed` in the stored crunch report. Contacts are
 pairs with gaps below 1e-10, whether a network lists them or not: none is needed, and the check answers the same.
 Where coordinates have few digits, pairs within their rounding are undecided, and the answer is a no only where
-spheres have too few of them. A sphere and its own image are a contact in the strict test, in the collective one
-where the network lists them or no others balance. There a sphere that they alone hold needs forces on the cell to
-balance. Let S v be the opening of contacts by a motion v, and E eps that by a strain eps. Collectively jammed: S v
+spheres have too few of them. A sphere and its own image are a contact in the strict test; in the collective one if
+the network lists them or nothing else balances (a crunch lists them then), and if forces on the cell balance too.
+Let S v be the opening of contacts by a motion v, and E eps that by a strain eps. Collectively jammed: S v
 >= 0 only for translations of B. Strictly jammed: S v + E eps >= 0 with tr eps <= 0 only for those and eps = 0. Both
 hold for this cell, not for copies of it (`jam_bloch_rigidity`): Donev et al., J. Comput. Phys. 197, 139 (2004).
 Status: `JAM_OK`, `JAM_NOT_JAMMED`, `JAM_AMBIGUOUS` (undecided).

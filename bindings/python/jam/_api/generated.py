@@ -867,7 +867,9 @@ class Estimate(Report):
     flops: of one factorisation on the path (sequential LPs: of the widest LP)
     factorisations: median of packings as near to jamming; single ones scatter by a factor of 2
     step_seconds: of one factorisation and what goes with it, on this core; mean over first LP and path
-    seconds: the product of both"""
+    seconds: the product of both
+    seconds_low:
+    seconds_high:"""
     pairs: int
     bytes: float
     factor_bytes: float
@@ -875,6 +877,8 @@ class Estimate(Report):
     factorisations: float
     step_seconds: float
     seconds: float
+    seconds_low: float
+    seconds_high: float
 
 
 @dataclass(frozen=True, repr=False)
@@ -1091,7 +1095,8 @@ class CheckReport(Report):
     proof_radius: unit of the box: radius of EXACT, inner of TRAPPED (jam_proof_report), or infinite
     proof_value: the two numbers of the cause
     proof_bound: the two numbers of the cause
-    curvature_margin: as in jam_rigidity_report"""
+    curvature_margin: as in jam_rigidity_report
+    strict_excess_contacts: contacts - (d (N' - 1) + d (d + 1) / 2), walls allow fewer strains; 0 without"""
     jammed: Verdict
     strictly_jammed: Verdict
     stationary: Verdict
@@ -1128,6 +1133,7 @@ class CheckReport(Report):
     proof_value: float
     proof_bound: float
     curvature_margin: float
+    strict_excess_contacts: int
 
 
 @dataclass(frozen=True, repr=False)

@@ -26,14 +26,15 @@ static __thread int64_t large[CALL_ROOM];
 static __thread size_t needed;
 static __thread const double *view;
 static __thread jam_system *other;
-static const double instants[] = {1.0, 3.0}, falling[] = {0.60, 0.62, 0.63}, rising[] = {20.0, 50.0, 120.0},
-                    square_cell[] = {1.0, 0.0, 0.0, 1.0};
+static const double instants[] = {1.0, 3.0}, rising[] = {20.0, 50.0, 120.0};
+static const int64_t first_contact[] = {0};
 static const int32_t first_instant[] = {0};
 static const jam_progress_fn call_progress = CALL_PROGRESS;
 #define REALS(k) real[k], (size_t)CALL_ROOM
 #define WHOLES(k) whole[k], (size_t)CALL_ROOM
 #define LARGE large, (size_t)CALL_ROOM
 #define WHOLE_ZERO first_instant
+#define LARGE_ZERO first_contact
 
 /* A report to be filled: only its struct_size is set. */
 static inline void *call_report(uint32_t size) {
@@ -121,10 +122,9 @@ static inline jam_monte_carlo_options *monte_carlo_options(CALL_INPUT *in, doubl
 }
 
 /* Copies what a view shows to real[0]; its length. */
-static inline size_t numbers_of(CALL_INPUT *in, jam_system *sys,
-                                jam_status (*look)(const jam_system *, const double **, size_t *)) {
+static inline size_t numbers_of(CALL_INPUT *in, jam_system *sys, int32_t array) {
   size_t length = 1, k;
-  if (!sys || look(sys, &view, &length) < 0 || length > CALL_ROOM) return 1;
+  if (!sys || jam_view(sys, array, &view, &length) < 0 || length > CALL_ROOM) return 1;
   for (k = 0; k < length; ++k) real[0][k] = view[k];
   if (length) real[0][0] = NUMBER(real[0][0]);
   (void)in;
@@ -171,23 +171,6 @@ static inline size_t wave_of(CALL_INPUT *in, jam_system *sys) {
   for (k = 0; k < d; ++k) real[0][k] = NUMBER(0.3);
   (void)in;
   return (size_t)d;
-}
-
-/* Calls with a displacement of the stable spheres, whose number may fail to be found. */
-static inline jam_status stable_numbers(const jam_system *sys, size_t *numbers) {
-  const jam_status status = jam_hessian_map(sys, NULL, 0, numbers);
-  *numbers *= (size_t)dimension_of(sys);
-  return status;
-}
-static inline jam_status project(const jam_system *sys) {
-  size_t n = 0;
-  const jam_status status = stable_numbers(sys, &n);
-  return status < 0 ? status : jam_project(sys, real[0], n, real[1], n, REALS(2), &needed);
-}
-static inline jam_status curvature(CALL_INPUT *in, const jam_system *sys) {
-  size_t n = 0;
-  const jam_status status = stable_numbers(sys, &n);
-  return status < 0 ? status : jam_curvature(sys, hessian_options(in), real[0], n, real[1]);
 }
 
 static inline jam_status read_back(CALL_INPUT *in, jam_system *sys) {
@@ -252,7 +235,7 @@ static inline jam_system *system_for(call_start start) {
   if (start == MINIMUM) status = jam_decompress(sys, NULL, NULL);
   if (start == OBSERVED) status = call_jam_observe(NULL, sys);
   if (start == OBSERVED && status >= 0) status = call_jam_run(NULL, sys);
-  if (start == RUNS) status = call_jam_isoconfigurational(NULL, sys);
+  if (start == RUNS) status = call_jam_isoconf(NULL, sys);
   if (status >= 0) return sys;
   jam_destroy(sys);
   return NULL;

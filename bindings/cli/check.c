@@ -8,8 +8,8 @@ enum { CHECK_YES = 0, CHECK_NO = 1, CHECK_REFUSED = 2, CHECK_UNDECIDED = 3 };
 /* Proofs speak of the contacts of the file's packing. */
 static jam_status write_proofs(jam_system *sys, const options *o) {
   jam_status status = jam_contacts_from_geometry(sys, NULL, NULL);
-  if (status >= 0 && o->proof) status = jam_write_proof(sys, o->proof, NULL, 0);
-  if (status >= 0 && o->strict_proof) status = jam_write_proof_strict(sys, o->strict_proof);
+  if (status >= 0 && o->proof) status = jam_write_proof(sys, o->proof, JAM_RIGIDITY_COLLECTIVE, NULL, 0);
+  if (status >= 0 && o->strict_proof) status = jam_write_proof(sys, o->strict_proof, JAM_RIGIDITY_STRICT, NULL, 0);
   return status;
 }
 

@@ -51,7 +51,7 @@ static jam_status look(const jam_system *sys, content *c) {
   c->info.struct_size = sizeof c->info;
   c->sizes.struct_size = sizeof c->sizes;
   status = jam_get_info(sys, &c->info);
-  if (status >= 0) status = jam_view_diameters(sys, &diameters, &n);
+  if (status >= 0) status = jam_view(sys, JAM_VIEW_DIAMETERS, &diameters, &n);
   if (status >= 0) status = jam_get_size_report(c->info.dim, diameters, n, &c->sizes);
   if (status >= 0) status = jam_get_cell(sys, c->cell, sizeof c->cell / sizeof *c->cell, NULL);
   if (status >= 0) status = find_nearest_gap(sys, &c->nearest_gap);

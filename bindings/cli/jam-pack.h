@@ -41,7 +41,7 @@ typedef struct given {
 typedef struct outcome {
   jam_info info;
   jam_crunch_report crunch;
-  jam_proof_report strict; /* of jam_prove_strict, where --strict-proof goes with --prove */
+  jam_proof_report strict; /* of the strict jam_prove, where --strict-proof goes with --prove */
   int has_md, has_crunch, has_strict;
   int32_t md_stop;
   int64_t collisions;

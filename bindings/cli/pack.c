@@ -98,7 +98,7 @@ static jam_status run_crunch(jam_system *sys, const options *o, double wall_time
   result->has_crunch = status >= 0;
   if (result->has_crunch && o->prove && o->strict_proof && result->crunch.jammed) {
     result->strict.struct_size = sizeof result->strict;
-    result->has_strict = jam_prove_strict(sys, &result->strict) >= 0;
+    result->has_strict = jam_prove(sys, JAM_RIGIDITY_STRICT, NULL, 0, &result->strict) >= 0;
   }
   if (status == JAM_CANCELLED || status == JAM_LIMIT ||
       (status == JAM_OK && result->crunch.stop_reason == JAM_STOP_DUALITY_GAP))

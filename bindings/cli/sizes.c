@@ -93,6 +93,28 @@ static int read_law(const char *text, jam_diameters_options *law, double **curve
   return -1;
 }
 
+/* Of a (d, d) matrix, which is lost: elimination with row pivots. */
+static double determinant(double *a, int d) {
+  double product = 1;
+  int k, r, c;
+  for (k = 0; k < d; ++k) {
+    int pivot = k;
+    for (r = k + 1; r < d; ++r)
+      if (fabs(a[r * d + k]) > fabs(a[pivot * d + k])) pivot = r;
+    if (!(fabs(a[pivot * d + k]) > 0)) return 0;
+    for (c = 0; pivot != k && c < d; ++c) {
+      const double kept = a[k * d + c];
+      a[k * d + c] = a[pivot * d + c], a[pivot * d + c] = -kept;
+    }
+    product *= a[k * d + k];
+    for (r = k + 1; r < d; ++r) {
+      const double factor = a[r * d + k] / a[k * d + k];
+      for (c = k; c < d; ++c) a[r * d + c] -= factor * a[k * d + c];
+    }
+  }
+  return product;
+}
+
 /* Of the container, which takes this share of its cell. */
 static int find_volume(const options *o, double *volume) {
   const double pi = 3.14159265358979323846;
@@ -101,9 +123,13 @@ static int find_volume(const options *o, double *volume) {
                                                                           : pi / 4;
   double cell[JAM_MAX_DIM * JAM_MAX_DIM];
   fill_cell(o, cell);
-  if (has_failed(jam_cell_volume((int32_t)o->dim, cell, (size_t)(o->dim * o->dim), volume))) return 1;
-  *volume *= share;
-  return 0;
+  *volume = determinant(cell, (int)o->dim);
+  if (*volume > 0 && *volume < INFINITY) {
+    *volume *= share;
+    return 0;
+  }
+  complain("the cell has the volume %g: its vectors are left-handed, or lie in one plane", *volume);
+  return 1;
 }
 
 static int draw_law(const options *o, double **out, int64_t *n) {

@@ -60,9 +60,10 @@ int write_files(jam_system *sys, const options *o, int known, double deadline, i
   if (o->output && !is_host_format(o, o->output))
     bad |= missing(o->output, has_failed(jam_write_scaled(sys, o->output, JAM_FORMAT_AUTO, o->scale, o->density)));
   if (o->contacts && known) bad |= missing(o->contacts, write_contacts(sys, o->contacts));
-  if (o->proof && known) bad |= missing(o->proof, has_failed(jam_write_proof(sys, o->proof, NULL, 0)));
+  if (o->proof && known)
+    bad |= missing(o->proof, has_failed(jam_write_proof(sys, o->proof, JAM_RIGIDITY_COLLECTIVE, NULL, 0)));
   if (o->strict_proof && known)
-    bad |= missing(o->strict_proof, has_failed(jam_write_proof_strict(sys, o->strict_proof)));
+    bad |= missing(o->strict_proof, has_failed(jam_write_proof(sys, o->strict_proof, JAM_RIGIDITY_STRICT, NULL, 0)));
   if (o->page) bad |= missing(o->page, has_failed(jam_write_page(sys, o->page, "", 0, "", NULL, 0)));
   cancel_on_signal(sys); /* a large spectrum takes long */
   jam_set_progress(sys, stop_late, &deadline);

@@ -25,6 +25,7 @@ def header(text):
         text,
         flags=re.M,
     )
+    text = re.sub(r"^(?=#define JAM_\w+_COLUMNS \d)", "/* Number of columns of the table. */\n", text, flags=re.M)
     # One declaration each: Sphinx takes `typedef struct X {...} X` for two.
     text = re.sub(r"^typedef (struct|enum) (\w+) \{(.*?)^\} \2;", r"\1 \2 {\3};", text, flags=re.S | re.M)
     text = re.sub(r"^ +(\w+) (\w+(?:,\s+\w+)+);\s*/\* ((?:(?!\*/).)*)\*/", each, text, flags=re.S | re.M)

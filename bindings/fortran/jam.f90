@@ -18,7 +18,6 @@ module jam
   integer(c_int32_t), parameter :: JAM_HISTORY_COLUMNS = 20
   integer(c_int32_t), parameter :: JAM_SOFT_COLUMNS = 11
   integer(c_int32_t), parameter :: JAM_MODE_COLUMNS = 2
-  integer(c_int32_t), parameter :: JAM_CANDIDATE_COLUMNS = 4
   integer(c_int32_t), parameter :: JAM_BLOCH_COLUMNS = 2
   integer(c_int32_t), parameter :: JAM_STRUCTURE_COLUMNS = 2
   integer(c_int32_t), parameter :: JAM_PROFILE_COLUMNS = 3
@@ -80,7 +79,7 @@ module jam
   integer(c_int32_t), parameter :: JAM_PHASE_RELAX = 6
   integer(c_int32_t), parameter :: JAM_PHASE_DECOMPRESS = 7
   integer(c_int32_t), parameter :: JAM_PHASE_MONTE_CARLO = 8
-  integer(c_int32_t), parameter :: JAM_PHASE_ISOCONFIGURATIONAL = 9
+  integer(c_int32_t), parameter :: JAM_PHASE_ISOCONF = 9
   integer(c_int32_t), parameter :: JAM_PHASE_CREATE = 10
 
   ! jam_overlap_policy: What to do with overlaps in given positions.
@@ -102,6 +101,11 @@ module jam
   integer(c_int32_t), parameter :: JAM_CONTAINER_BRICK = 0
   integer(c_int32_t), parameter :: JAM_CONTAINER_CYLINDER = 1
   integer(c_int32_t), parameter :: JAM_CONTAINER_BALL = 2
+
+  ! jam_view_array: What jam_view shows.
+  integer(c_int32_t), parameter :: JAM_VIEW_POSITIONS = 0
+  integer(c_int32_t), parameter :: JAM_VIEW_DIAMETERS = 1
+  integer(c_int32_t), parameter :: JAM_VIEW_VELOCITIES = 2
 
   ! jam_wall_column: Columns of jam_walls.
   integer(c_int32_t), parameter :: JAM_WALL_AXIS = 0
@@ -178,16 +182,6 @@ module jam
   ! jam_correlation_column: Columns of jam_observed_correlation, one row per bin.
   integer(c_int32_t), parameter :: JAM_CORRELATION_R = 0
   integer(c_int32_t), parameter :: JAM_CORRELATION_G = 1
-
-  ! jam_eos_form: Equations of state p(phi) in closed form, of equal spheres.
-  integer(c_int32_t), parameter :: JAM_EOS_CARNAHAN_STARLING = 0
-  integer(c_int32_t), parameter :: JAM_EOS_PY_VIRIAL = 1
-  integer(c_int32_t), parameter :: JAM_EOS_PY_COMPRESSIBILITY = 2
-  integer(c_int32_t), parameter :: JAM_EOS_VIRIAL = 3
-  integer(c_int32_t), parameter :: JAM_EOS_MK = 4
-  integer(c_int32_t), parameter :: JAM_EOS_FREE_VOLUME = 5
-  integer(c_int32_t), parameter :: JAM_EOS_HENDERSON = 6
-  integer(c_int32_t), parameter :: JAM_EOS_PADE = 7
 
   ! jam_energy_unit: Unit of the overlap x of a soft pair.
   integer(c_int32_t), parameter :: JAM_ENERGY_LENGTH = 0
@@ -306,12 +300,6 @@ module jam
   integer(c_int32_t), parameter :: JAM_MODE_LAMBDA = 0
   integer(c_int32_t), parameter :: JAM_MODE_PARTICIPATION = 1
 
-  ! jam_candidate_column: Columns of jam_contact_candidates.
-  integer(c_int32_t), parameter :: JAM_CANDIDATE_LIMIT = 0
-  integer(c_int32_t), parameter :: JAM_CANDIDATE_JUMP = 1
-  integer(c_int32_t), parameter :: JAM_CANDIDATE_CONTACTS = 2
-  integer(c_int32_t), parameter :: JAM_CANDIDATE_EXCESS = 3
-
   ! jam_rigidity_kind: Which motions must not open contacts.
   integer(c_int32_t), parameter :: JAM_RIGIDITY_COLLECTIVE = 0
   integer(c_int32_t), parameter :: JAM_RIGIDITY_STRICT = 1
@@ -358,7 +346,7 @@ module jam
   integer(c_int32_t), parameter :: JAM_CONTACT_SMALLEST = 2
   integer(c_int32_t), parameter :: JAM_CONTACT_MEDIAN = 4
 
-  ! jam_local_quantity: Quantity of which jam_local_values and jam_histogram take the values.
+  ! jam_local_quantity: Quantity of which jam_local_values takes the values.
   integer(c_int32_t), parameter :: JAM_LOCAL_FORCE = 0
   integer(c_int32_t), parameter :: JAM_LOCAL_VECTOR_SUM = 1
   integer(c_int32_t), parameter :: JAM_LOCAL_VECTOR_PAIRS = 2
@@ -404,7 +392,7 @@ module jam
   integer(c_int32_t), parameter :: JAM_PORE_DISTANCE = 3
   integer(c_int32_t), parameter :: JAM_PORE_RADIUS = 4
 
-  ! jam_floppy_column: Columns of jam_floppy_modes, one row per contact; dr is the field of jam_floppy_mode, and F the mean force. Openings
+  ! jam_floppy_column: Columns of jam_floppy_modes, one row per mode; dr is its vector, and F the mean force. Openings
   ! have the unit of positions: divide by the diameter to compare packings of different N. B = sum_k f_k |dr_perp|^2 /
   ! r_k. S_RETURN is s* of R. Diaz Hernandez Rojas, PhD thesis, Sapienza 2021, whose index is twice stability.
   integer(c_int32_t), parameter :: JAM_FLOPPY_MEDIAN = 0
@@ -711,22 +699,6 @@ module jam
     real(c_double) :: snapshot_factor = 0
   end type jam_observe_options
 
-  ! A fit of the glass branch p = d' / (1 - phi/phi_J). Errors are standard errors.
-  type, bind(c) :: jam_glass
-    integer(c_int32_t) :: struct_size = 48
-    integer(c_int32_t) :: reserved = 0
-    ! phi_J
-    real(c_double) :: jammed_fraction = 0
-    ! its error
-    real(c_double) :: jammed_error = 0
-    ! d', free, near d for a good glass
-    real(c_double) :: dimension = 0
-    ! its error
-    real(c_double) :: dimension_error = 0
-    ! of the straight line 1/p against phi
-    real(c_double) :: r_squared = 0
-  end type jam_glass
-
   ! Metropolis Monte Carlo at constant volume. A sweep is one trial of each sphere.
   type, bind(c) :: jam_monte_carlo_options
     integer(c_int32_t) :: struct_size = 0
@@ -788,7 +760,7 @@ module jam
     real(c_double) :: seconds = 0
   end type jam_monte_carlo_report
 
-  ! Options of jam_isoconfigurational.
+  ! Options of jam_isoconf.
   type, bind(c) :: jam_isoconf_options
     integer(c_int32_t) :: struct_size = 0
     ! 1 .. 64, default 1; the bits do not depend on it
@@ -877,7 +849,7 @@ module jam
     real(c_double) :: step_bound = 0
     ! limit of the call
     real(c_double) :: wall_time = 0
-    ! 1: the callback is called at every step and may call jam_crunch_step_*; default 0
+    ! 1: the callback is called at every step and may call jam_crunch_step; default 0
     integer(c_int32_t) :: steps = 0
     ! 1: every LP is solved to lp_tolerance, so that its network balances; default 0
     integer(c_int32_t) :: full_lps = 0
@@ -1004,7 +976,7 @@ module jam
   end type jam_crunch_report
 
   ! Memory and time of a crunch, estimated from the graph of pairs and its elimination tree.
-  type, bind(c) :: jam_estimate
+  type, bind(c) :: jam_estimate_report
     integer(c_int32_t) :: struct_size = 80
     integer(c_int32_t) :: reserved = 0
     ! of the longest neighbour list
@@ -1023,7 +995,7 @@ module jam
     real(c_double) :: seconds = 0
     real(c_double) :: seconds_low = 0
     real(c_double) :: seconds_high = 0
-  end type jam_estimate
+  end type jam_estimate_report
 
   ! Options of jam_relax. A free cell is minimised after the minimum of the fixed one.
   type, bind(c) :: jam_relax_options
@@ -1550,7 +1522,7 @@ module jam
   end type jam_moduli_report
 
   ! What jam_compare found between sys, a, and other, b. Contacts are -1 and overlaps NaN where one has no network.
-  type, bind(c) :: jam_comparison
+  type, bind(c) :: jam_comparison_report
     integer(c_int32_t) :: struct_size = 80
     integer(c_int32_t) :: reserved = 0
     ! of sys
@@ -1571,7 +1543,7 @@ module jam
     real(c_double) :: displacement_rms = 0
     ! of these (or all) without their mean, in mean diameters of sys
     real(c_double) :: displacement_max = 0
-  end type jam_comparison
+  end type jam_comparison_report
 
   ! call jam_defaults(o) fills any option type with the defaults of the library.
   interface jam_defaults
@@ -1695,36 +1667,17 @@ module jam
       integer(c_int32_t) :: status
     end function jam_get_info
 
-    ! View of positions (n, d) in [0, box), in other cells in the brick. The pointer stays valid as long as the handle. Its
-    ! content changes only at the end of calls that move spheres.
-    function jam_view_positions(sys, view, view_len) &
-        bind(c, name="jam_view_positions") result(status)
+    ! View of an array of the system. The pointer stays valid as long as the handle. Its content changes only at the end of
+    ! calls that move spheres.
+    function jam_view(sys, array, view, view_len) &
+        bind(c, name="jam_view") result(status)
       import
       type(c_ptr), value :: sys
+      integer(c_int32_t), value :: array
       type(c_ptr), intent(out) :: view
       integer(c_size_t), intent(out) :: view_len
       integer(c_int32_t) :: status
-    end function jam_view_positions
-
-    ! View of the n diameters; lifetime as jam_view_positions.
-    function jam_view_diameters(sys, view, view_len) &
-        bind(c, name="jam_view_diameters") result(status)
-      import
-      type(c_ptr), value :: sys
-      type(c_ptr), intent(out) :: view
-      integer(c_size_t), intent(out) :: view_len
-      integer(c_int32_t) :: status
-    end function jam_view_diameters
-
-    ! View of velocities (n, d), kT/m = 1; zero until the first MD call draws them. Lifetime as jam_view_positions.
-    function jam_view_velocities(sys, view, view_len) &
-        bind(c, name="jam_view_velocities") result(status)
-      import
-      type(c_ptr), value :: sys
-      type(c_ptr), intent(out) :: view
-      integer(c_size_t), intent(out) :: view_len
-      integer(c_int32_t) :: status
-    end function jam_view_velocities
+    end function jam_view
 
     ! Multiplies all diameters by factor > 0; results of crunch are dropped.
     ! Errors: JAM_E_OVERLAP (when growing).
@@ -1887,19 +1840,6 @@ module jam
       integer(c_int32_t) :: status
     end function jam_stop_observing
 
-    ! pressure of a form.
-    ! Errors: JAM_E_DIMENSION, JAM_E_UNSUPPORTED.
-    function jam_eos(form, dim, packing_fraction, jammed_fraction, pressure) &
-        bind(c, name="jam_eos") result(status)
-      import
-      integer(c_int32_t), value :: form
-      integer(c_int32_t), value :: dim
-      real(c_double), value :: packing_fraction
-      real(c_double), value :: jammed_fraction
-      real(c_double), intent(out), optional :: pressure
-      integer(c_int32_t) :: status
-    end function jam_eos
-
     function jam_monte_carlo_options_init(o, size) &
         bind(c, name="jam_monte_carlo_options_init") result(status)
       import
@@ -1968,12 +1908,12 @@ module jam
     ! Estimates memory and time of jam_crunch with these options (NULL: defaults) without running it; jam_crunch logs the
     ! same at JAM_LOG_INFO. Takes as long as a few steps.
     ! Errors: JAM_E_OVERLAP, JAM_E_TOO_FEW.
-    function jam_estimate_crunch(sys, o, estimated) &
+    function jam_estimate_crunch(sys, o, report) &
         bind(c, name="jam_estimate_crunch") result(status)
       import
       type(c_ptr), value :: sys
       type(jam_crunch_options), intent(in), optional :: o
-      type(jam_estimate), intent(inout), optional :: estimated
+      type(jam_estimate_report), intent(inout), optional :: report
       integer(c_int32_t) :: status
     end function jam_estimate_crunch
 
@@ -2141,19 +2081,6 @@ module jam
       type(c_ptr) :: status
     end function jam_check_text
 
-    ! The same where the cell deforms too: the diameters are fixed, and the cell vectors are unknowns. EXACT: strictly
-    ! jammed, and the volume is a strict local minimum. TRAPPED: of all motions and strains that do not enlarge the volume.
-    ! Lengths of the report count displacements and entries of the cell vectors alike, packing_fraction is that of the
-    ! exact cell. Status: JAM_AMBIGUOUS not proved.
-    ! Errors: JAM_E_STATE (no network), JAM_E_UNSUPPORTED.
-    function jam_prove_strict(sys, report) &
-        bind(c, name="jam_prove_strict") result(status)
-      import
-      type(c_ptr), value :: sys
-      type(jam_proof_report), intent(inout), optional :: report
-      integer(c_int32_t) :: status
-    end function jam_prove_strict
-
     ! What was proved, in a few words: "proved, radius 4e-31", "trapped within 3e-28, excess 130, 129", "not proved, force
     ! 1e-12, 3e-11". Arguments as in the reports; "" for numbers that are no jam_theorem or jam_proof_cause. Valid until
     ! this thread's next call of it.
@@ -2175,16 +2102,6 @@ module jam
       integer(c_size_t), value :: size
       integer(c_int32_t) :: status
     end function jam_correlation_options_init
-
-    ! Crystal score: g at sqrt 2 over its mean in 1.2..1.6 (mean diameters); below 1 in a good glass of equal spheres,
-    ! about 10 in a perfect FCC crystal.
-    function jam_crystal_score(sys, score) &
-        bind(c, name="jam_crystal_score") result(status)
-      import
-      type(c_ptr), value :: sys
-      real(c_double), intent(out), optional :: score
-      integer(c_int32_t) :: status
-    end function jam_crystal_score
 
     function jam_mesh_options_init(o, size) &
         bind(c, name="jam_mesh_options_init") result(status)
@@ -2213,12 +2130,12 @@ module jam
     ! Elastic moduli; JAM_E_STATE also when prestress makes the network unstable. With walls bulk is NaN, and shear is that
     ! of planes of two axes without walls.
     ! Errors: JAM_E_STATE, JAM_E_SOLVER, JAM_E_UNSUPPORTED (not two such axes; unlisted own images).
-    function jam_moduli(sys, h, moduli) &
+    function jam_moduli(sys, h, report) &
         bind(c, name="jam_moduli") result(status)
       import
       type(c_ptr), value :: sys
       type(jam_hessian_options), intent(in), optional :: h
-      type(jam_moduli_report), intent(inout), optional :: moduli
+      type(jam_moduli_report), intent(inout), optional :: report
       integer(c_int32_t) :: status
     end function jam_moduli
 
@@ -2322,15 +2239,6 @@ module jam
       integer(c_size_t), intent(out), optional :: needed
       integer(c_int32_t) :: status
     end function c_jam_parse_diameters
-    function c_jam_cell_volume(dim, cell, cell_len, volume) &
-        bind(c, name="jam_cell_volume") result(status)
-      import
-      integer(c_int32_t), value :: dim
-      type(c_ptr), value :: cell
-      integer(c_size_t), value :: cell_len
-      real(c_double), intent(out), optional :: volume
-      integer(c_int32_t) :: status
-    end function c_jam_cell_volume
     function c_jam_get_size_report(dim, diameters, diameters_len, report) &
         bind(c, name="jam_get_size_report") result(status)
       import
@@ -2478,18 +2386,8 @@ module jam
       integer(c_size_t), intent(out), optional :: needed
       integer(c_int32_t) :: status
     end function c_jam_observed_correlation
-    function c_jam_glass_fit(fraction, fraction_len, pressure, pressure_len, fit) &
-        bind(c, name="jam_glass_fit") result(status)
-      import
-      type(c_ptr), value :: fraction
-      integer(c_size_t), value :: fraction_len
-      type(c_ptr), value :: pressure
-      integer(c_size_t), value :: pressure_len
-      type(jam_glass), intent(inout), optional :: fit
-      integer(c_int32_t) :: status
-    end function c_jam_glass_fit
-    function c_jam_isoconfigurational(sys, o, m, instant, instant_len, kept, kept_len, report) &
-        bind(c, name="jam_isoconfigurational") result(status)
+    function c_jam_isoconf(sys, o, m, instant, instant_len, kept, kept_len, report) &
+        bind(c, name="jam_isoconf") result(status)
       import
       type(c_ptr), value :: sys
       type(jam_isoconf_options), intent(in), optional :: o
@@ -2500,7 +2398,7 @@ module jam
       integer(c_size_t), value :: kept_len
       type(jam_isoconf_report), intent(inout), optional :: report
       integer(c_int32_t) :: status
-    end function c_jam_isoconfigurational
+    end function c_jam_isoconf
     function c_jam_isoconf_series(sys, block, columns, table, table_len, needed) &
         bind(c, name="jam_isoconf_series") result(status)
       import
@@ -2556,42 +2454,22 @@ module jam
       integer(c_size_t), intent(out), optional :: needed
       integer(c_int32_t) :: status
     end function c_jam_crunch_history
-    function c_jam_crunch_step_displacements(sys, out, out_len, needed) &
-        bind(c, name="jam_crunch_step_displacements") result(status)
+    function c_jam_crunch_step(sys, displacement, displacement_len, pair, pair_len, vector, vector_len, dual, &
+      dual_len, rows) &
+        bind(c, name="jam_crunch_step") result(status)
       import
       type(c_ptr), value :: sys
-      type(c_ptr), value :: out
-      integer(c_size_t), value :: out_len
-      integer(c_size_t), intent(out), optional :: needed
+      type(c_ptr), value :: displacement
+      integer(c_size_t), value :: displacement_len
+      type(c_ptr), value :: pair
+      integer(c_size_t), value :: pair_len
+      type(c_ptr), value :: vector
+      integer(c_size_t), value :: vector_len
+      type(c_ptr), value :: dual
+      integer(c_size_t), value :: dual_len
+      integer(c_size_t), intent(out), optional :: rows
       integer(c_int32_t) :: status
-    end function c_jam_crunch_step_displacements
-    function c_jam_crunch_step_contacts(sys, out, out_len, needed) &
-        bind(c, name="jam_crunch_step_contacts") result(status)
-      import
-      type(c_ptr), value :: sys
-      type(c_ptr), value :: out
-      integer(c_size_t), value :: out_len
-      integer(c_size_t), intent(out), optional :: needed
-      integer(c_int32_t) :: status
-    end function c_jam_crunch_step_contacts
-    function c_jam_crunch_step_vectors(sys, out, out_len, needed) &
-        bind(c, name="jam_crunch_step_vectors") result(status)
-      import
-      type(c_ptr), value :: sys
-      type(c_ptr), value :: out
-      integer(c_size_t), value :: out_len
-      integer(c_size_t), intent(out), optional :: needed
-      integer(c_int32_t) :: status
-    end function c_jam_crunch_step_vectors
-    function c_jam_crunch_step_duals(sys, out, out_len, needed) &
-        bind(c, name="jam_crunch_step_duals") result(status)
-      import
-      type(c_ptr), value :: sys
-      type(c_ptr), value :: out
-      integer(c_size_t), value :: out_len
-      integer(c_size_t), intent(out), optional :: needed
-      integer(c_int32_t) :: status
-    end function c_jam_crunch_step_duals
+    end function c_jam_crunch_step
     function c_jam_decompress_history(sys, columns, table, table_len, needed) &
         bind(c, name="jam_decompress_history") result(status)
       import
@@ -2699,17 +2577,6 @@ module jam
       integer(c_size_t), intent(out), optional :: rows
       integer(c_int32_t) :: status
     end function c_jam_bloch_modes
-    function c_jam_contact_candidates(sys, window, columns, table, table_len, needed) &
-        bind(c, name="jam_contact_candidates") result(status)
-      import
-      type(c_ptr), value :: sys
-      real(c_double), value :: window
-      integer(c_int32_t), value :: columns
-      type(c_ptr), value :: table
-      integer(c_size_t), value :: table_len
-      integer(c_size_t), intent(out), optional :: needed
-      integer(c_int32_t) :: status
-    end function c_jam_contact_candidates
     function c_jam_stress_states(sys, force, force_len, basis, basis_len, residual, rows) &
         bind(c, name="jam_stress_states") result(status)
       import
@@ -2748,31 +2615,26 @@ module jam
       integer(c_size_t), intent(out), optional :: rows
       integer(c_int32_t) :: status
     end function c_jam_bloch_rigidity
-    function c_jam_prove(sys, ratio, ratio_len, report) &
+    function c_jam_prove(sys, kind, ratio, ratio_len, report) &
         bind(c, name="jam_prove") result(status)
       import
       type(c_ptr), value :: sys
+      integer(c_int32_t), value :: kind
       type(c_ptr), value :: ratio
       integer(c_size_t), value :: ratio_len
       type(jam_proof_report), intent(inout), optional :: report
       integer(c_int32_t) :: status
     end function c_jam_prove
-    function c_jam_write_proof(sys, path, ratio, ratio_len) &
+    function c_jam_write_proof(sys, path, kind, ratio, ratio_len) &
         bind(c, name="jam_write_proof") result(status)
       import
       type(c_ptr), value :: sys
       character(kind=c_char), intent(in) :: path(*)
+      integer(c_int32_t), value :: kind
       type(c_ptr), value :: ratio
       integer(c_size_t), value :: ratio_len
       integer(c_int32_t) :: status
     end function c_jam_write_proof
-    function c_jam_write_proof_strict(sys, path) &
-        bind(c, name="jam_write_proof_strict") result(status)
-      import
-      type(c_ptr), value :: sys
-      character(kind=c_char), intent(in) :: path(*)
-      integer(c_int32_t) :: status
-    end function c_jam_write_proof_strict
     function c_jam_refined_positions(sys, ratio, ratio_len, high, high_len, low, low_len, needed) &
         bind(c, name="jam_refined_positions") result(status)
       import
@@ -2852,20 +2714,6 @@ module jam
       integer(c_size_t), intent(out), optional :: needed
       integer(c_int32_t) :: status
     end function c_jam_local_values
-    function c_jam_histogram(sys, quantity, population, low, high, bins, out, out_len, needed) &
-        bind(c, name="jam_histogram") result(status)
-      import
-      type(c_ptr), value :: sys
-      integer(c_int32_t), value :: quantity
-      integer(c_int32_t), value :: population
-      real(c_double), value :: low
-      real(c_double), value :: high
-      integer(c_int64_t), value :: bins
-      type(c_ptr), value :: out
-      integer(c_size_t), value :: out_len
-      integer(c_size_t), intent(out), optional :: needed
-      integer(c_int32_t) :: status
-    end function c_jam_histogram
     function c_jam_pair_correlation(sys, o, kind, kind_len, out, out_len, needed) &
         bind(c, name="jam_pair_correlation") result(status)
       import
@@ -2983,24 +2831,18 @@ module jam
       integer(c_size_t), intent(out), optional :: needed
       integer(c_int32_t) :: status
     end function c_jam_pore_sizes
-    function c_jam_floppy_mode(sys, contact, out, out_len, needed) &
-        bind(c, name="jam_floppy_mode") result(status)
-      import
-      type(c_ptr), value :: sys
-      integer(c_int64_t), value :: contact
-      type(c_ptr), value :: out
-      integer(c_size_t), value :: out_len
-      integer(c_size_t), intent(out), optional :: needed
-      integer(c_int32_t) :: status
-    end function c_jam_floppy_mode
-    function c_jam_floppy_modes(sys, columns, table, table_len, needed) &
+    function c_jam_floppy_modes(sys, contact, contact_len, columns, table, table_len, vector, vector_len, rows) &
         bind(c, name="jam_floppy_modes") result(status)
       import
       type(c_ptr), value :: sys
+      type(c_ptr), value :: contact
+      integer(c_size_t), value :: contact_len
       integer(c_int32_t), value :: columns
       type(c_ptr), value :: table
       integer(c_size_t), value :: table_len
-      integer(c_size_t), intent(out), optional :: needed
+      type(c_ptr), value :: vector
+      integer(c_size_t), value :: vector_len
+      integer(c_size_t), intent(out), optional :: rows
       integer(c_int32_t) :: status
     end function c_jam_floppy_modes
     function c_jam_density_of_states(sys, h, o, columns, table, table_len, needed) &
@@ -3015,29 +2857,6 @@ module jam
       integer(c_size_t), intent(out), optional :: needed
       integer(c_int32_t) :: status
     end function c_jam_density_of_states
-    function c_jam_project(sys, vector, vector_len, u, u_len, out, out_len, needed) &
-        bind(c, name="jam_project") result(status)
-      import
-      type(c_ptr), value :: sys
-      type(c_ptr), value :: vector
-      integer(c_size_t), value :: vector_len
-      type(c_ptr), value :: u
-      integer(c_size_t), value :: u_len
-      type(c_ptr), value :: out
-      integer(c_size_t), value :: out_len
-      integer(c_size_t), intent(out), optional :: needed
-      integer(c_int32_t) :: status
-    end function c_jam_project
-    function c_jam_curvature(sys, h, u, u_len, value) &
-        bind(c, name="jam_curvature") result(status)
-      import
-      type(c_ptr), value :: sys
-      type(jam_hessian_options), intent(in), optional :: h
-      type(c_ptr), value :: u
-      integer(c_size_t), value :: u_len
-      real(c_double), intent(out), optional :: value
-      integer(c_int32_t) :: status
-    end function c_jam_curvature
     function c_jam_elastic_tensor(sys, h, affine, affine_len, relaxed, relaxed_len, needed) &
         bind(c, name="jam_elastic_tensor") result(status)
       import
@@ -3055,7 +2874,7 @@ module jam
       import
       type(c_ptr), value :: sys
       type(c_ptr), value :: other
-      type(jam_comparison), intent(inout), optional :: comparison
+      type(jam_comparison_report), intent(inout), optional :: comparison
       type(c_ptr), value :: out
       integer(c_size_t), value :: out_len
       integer(c_size_t), intent(out), optional :: needed
@@ -3102,14 +2921,6 @@ module jam
     module procedure l_jam_observed_pairs
   end interface jam_observed_pairs
 
-  ! Least squares on 1/pressure against fraction, at least 3 points; the line must fall.
-  ! Shapes: fraction (m), pressure (m).
-  ! Errors: JAM_E_TOO_FEW.
-  interface jam_glass_fit
-    module procedure f_jam_glass_fit
-    module procedure l_jam_glass_fit
-  end interface jam_glass_fit
-
   ! Isoconfigurational ensemble (Widmer-Cooper et al., Phys. Rev. Lett. 93, 135701 (2004)): runs from the packing as it
   ! is, with all diameters scaled to density_ratio; one whose gaps are rounding is refused. Run k draws its velocities
   ! from a stream of its own. m NULL: molecular dynamics; else Monte Carlo by these options (sweeps, run, first_sweep,
@@ -3119,10 +2930,10 @@ module jam
   ! jam_read_checkpoint. Status: JAM_NOT_CONVERGED (a run cannot move).
   ! Shapes: instant (instants), kept (k).
   ! Errors: JAM_E_STATE (nothing to resume, or not the same), JAM_E_OVERLAP, JAM_E_UNSUPPORTED.
-  interface jam_isoconfigurational
-    module procedure f_jam_isoconfigurational
-    module procedure l_jam_isoconfigurational
-  end interface jam_isoconfigurational
+  interface jam_isoconf
+    module procedure f_jam_isoconf
+    module procedure l_jam_isoconf
+  end interface jam_isoconf
 
   ! For that block, sums over runs of the displacement dr_c of each sphere, unit of the box, and of its square. *rows =
   ! instants.
@@ -3140,6 +2951,18 @@ module jam
     module procedure f_jam_isoconf_distances
     module procedure l_jam_isoconf_distances
   end interface jam_isoconf_distances
+
+  ! The step that has just ended, in the progress callback of jam_crunch with steps = 1 alone. displacement: of all
+  ! spheres, unit of box, images followed; over all steps they lead from the start to the end. The others are the linear
+  ! contact network of an LP, pairs of rows with a positive dual, rattlers included; other steps have none. *rows = m.
+  ! vector: r_ij before the step. dual: lambda, sum_j lambda_ij r_ij = 0 on every sphere without an active step bound,
+  ! and sum lambda_ij sigma_ij^2 = 1 with the diameters before the step.
+  ! Shapes: displacement (n, d), pair (m, 2), vector (m, d), dual (m).
+  ! Errors: JAM_E_STATE.
+  interface jam_crunch_step
+    module procedure f_jam_crunch_step
+    module procedure l_jam_crunch_step
+  end interface jam_crunch_step
 
   ! Hessian in compressed rows, both triangles, *rows = entries. Unit: stiffness at the mean force.
   ! Shapes: row_start (d N' + 1), column (entries), value (entries).
@@ -3249,14 +3072,16 @@ module jam
     module procedure l_jam_mk_shifts
   end interface jam_mk_shifts
 
-  ! Projections u . v of a displacement u on the modes `vector` of jam_modes. Over all d N' modes their squares add up to
-  ! |u|^2.
-  ! Shapes: vector (m, N', d), u (N', d), out (m).
-  ! Errors: JAM_E_STATE.
-  interface jam_project
-    module procedure f_jam_project
-    module procedure l_jam_project
-  end interface jam_project
+  ! Floppy modes of contacts given by their indices, or of all, contact = NULL; *rows = their number m. vector:
+  ! displacement over s when the contact opens by s. To first order all other contacts stay closed, all diameters change
+  ! by the factor 1 - s f / sum f sigma, and there is no net translation. Needs a single state of self-stress
+  ! (JAM_E_STATE says how many there are).
+  ! Shapes: contact (k), table (m, jam_floppy_column), vector (m, N', d).
+  ! Errors: JAM_E_STATE, JAM_E_SOLVER.
+  interface jam_floppy_modes
+    module procedure f_jam_floppy_modes
+    module procedure l_jam_floppy_modes
+  end interface jam_floppy_modes
 
   ! Elastic tensor c_abcd: second derivative of the energy a volume by E_ab and E_cd of x -> (1 + E) x. Unit as
   ! jam_moduli, *needed = d^4. affine: spheres move by E alone; relaxed: then forces balance. With prestress c_abcd and
@@ -3289,7 +3114,6 @@ module jam
   private :: c_jam_tile
   private :: c_jam_diameters
   private :: c_jam_parse_diameters
-  private :: c_jam_cell_volume
   private :: c_jam_get_size_report
   private :: c_jam_read
   private :: c_jam_read_as
@@ -3305,17 +3129,13 @@ module jam
   private :: c_jam_observed_pairs
   private :: c_jam_observed_gaps
   private :: c_jam_observed_correlation
-  private :: c_jam_glass_fit
-  private :: c_jam_isoconfigurational
+  private :: c_jam_isoconf
   private :: c_jam_isoconf_series
   private :: c_jam_isoconf_displacements
   private :: c_jam_isoconf_distances
   private :: c_jam_isoconf_kept
   private :: c_jam_crunch_history
-  private :: c_jam_crunch_step_displacements
-  private :: c_jam_crunch_step_contacts
-  private :: c_jam_crunch_step_vectors
-  private :: c_jam_crunch_step_duals
+  private :: c_jam_crunch_step
   private :: c_jam_decompress_history
   private :: c_jam_contacts
   private :: c_jam_contact_vectors
@@ -3326,13 +3146,11 @@ module jam
   private :: c_jam_hessian
   private :: c_jam_modes
   private :: c_jam_bloch_modes
-  private :: c_jam_contact_candidates
   private :: c_jam_stress_states
   private :: c_jam_flex
   private :: c_jam_bloch_rigidity
   private :: c_jam_prove
   private :: c_jam_write_proof
-  private :: c_jam_write_proof_strict
   private :: c_jam_refined_positions
   private :: c_jam_gaps
   private :: c_jam_contact_classes
@@ -3340,7 +3158,6 @@ module jam
   private :: c_jam_contact_dots
   private :: c_jam_fabric_tensor
   private :: c_jam_local_values
-  private :: c_jam_histogram
   private :: c_jam_pair_correlation
   private :: c_jam_mk_shifts
   private :: c_jam_structure_factor
@@ -3352,11 +3169,8 @@ module jam
   private :: c_jam_solid_profile
   private :: c_jam_near_coordination
   private :: c_jam_pore_sizes
-  private :: c_jam_floppy_mode
   private :: c_jam_floppy_modes
   private :: c_jam_density_of_states
-  private :: c_jam_project
-  private :: c_jam_curvature
   private :: c_jam_elastic_tensor
   private :: c_jam_compare
   private :: c_jam_create
@@ -3369,14 +3183,14 @@ module jam
   private :: l_jam_observed_spheres
   private :: f_jam_observed_pairs
   private :: l_jam_observed_pairs
-  private :: f_jam_glass_fit
-  private :: l_jam_glass_fit
-  private :: f_jam_isoconfigurational
-  private :: l_jam_isoconfigurational
+  private :: f_jam_isoconf
+  private :: l_jam_isoconf
   private :: f_jam_isoconf_displacements
   private :: l_jam_isoconf_displacements
   private :: f_jam_isoconf_distances
   private :: l_jam_isoconf_distances
+  private :: f_jam_crunch_step
+  private :: l_jam_crunch_step
   private :: f_jam_hessian
   private :: l_jam_hessian
   private :: f_jam_modes
@@ -3401,8 +3215,8 @@ module jam
   private :: l_jam_pair_correlation
   private :: f_jam_mk_shifts
   private :: l_jam_mk_shifts
-  private :: f_jam_project
-  private :: l_jam_project
+  private :: f_jam_floppy_modes
+  private :: l_jam_floppy_modes
   private :: f_jam_elastic_tensor
   private :: l_jam_elastic_tensor
 
@@ -3453,8 +3267,8 @@ contains
     n = 0
     d = 0
     if (.not. c_associated(sys)) return
-    if (jam_view_diameters(sys, view, n) /= JAM_OK) return
-    if (jam_view_positions(sys, view, coordinates) /= JAM_OK) return
+    if (jam_view(sys, JAM_VIEW_DIAMETERS, view, n) /= JAM_OK) return
+    if (jam_view(sys, JAM_VIEW_POSITIONS, view, coordinates) /= JAM_OK) return
     if (n > 0) d = coordinates/n
   end subroutine sizes_of
 
@@ -3891,31 +3705,6 @@ contains
     end if
     status = c_jam_parse_diameters(jam_c_string(text), o, at_curve, count_curve, needed)
   end function jam_parse_diameters
-
-  ! volume of a cell of d = dim vectors, row after row, with a positive determinant.
-  ! Shapes: cell (m).
-  ! Errors: JAM_E_DIMENSION.
-  function jam_cell_volume(dim, cell, cell_len, volume) result(status)
-    integer(c_int32_t), intent(in) :: dim
-    real(c_double), intent(in), target, contiguous, optional :: cell(..)
-    integer(c_size_t), intent(in), optional :: cell_len
-    real(c_double), intent(out), optional :: volume
-    integer(c_int32_t) :: status
-    type(c_ptr) :: at_cell
-    integer(c_size_t) :: count_cell
-    at_cell = c_null_ptr
-    count_cell = 0
-    if (present(cell)) then
-      at_cell = c_loc(cell)
-      count_cell = size(cell, kind=c_size_t)
-    end if
-    if (present(cell_len)) count_cell = cell_len
-    if (present(cell)) then
-      status = checked('cell', shape(cell, kind=c_size_t), 0_c_size_t, count_cell)
-      if (status /= JAM_OK) return
-    end if
-    status = c_jam_cell_volume(dim, at_cell, count_cell, volume)
-  end function jam_cell_volume
 
   ! Describes diameters > 0 in dimension dim.
   ! Shapes: diameters (n).
@@ -4355,75 +4144,7 @@ contains
     status = c_jam_observed_correlation(sys, columns, at_table, count_table, needed)
   end function jam_observed_correlation
 
-  function f_jam_glass_fit(fraction, pressure, fit) result(status)
-    real(c_double), intent(in), target, contiguous, optional :: fraction(..)
-    real(c_double), intent(in), target, contiguous, optional :: pressure(..)
-    type(jam_glass), intent(inout), optional :: fit
-    integer(c_int32_t) :: status
-    type(c_ptr) :: at_fraction
-    integer(c_size_t) :: count_fraction
-    type(c_ptr) :: at_pressure
-    integer(c_size_t) :: count_pressure
-    at_fraction = c_null_ptr
-    count_fraction = 0
-    if (present(fraction)) then
-      at_fraction = c_loc(fraction)
-      count_fraction = size(fraction, kind=c_size_t)
-    end if
-    if (present(fraction)) then
-      status = checked('fraction', shape(fraction, kind=c_size_t), 0_c_size_t, count_fraction)
-      if (status /= JAM_OK) return
-    end if
-    at_pressure = c_null_ptr
-    count_pressure = 0
-    if (present(pressure)) then
-      at_pressure = c_loc(pressure)
-      count_pressure = size(pressure, kind=c_size_t)
-    end if
-    if (present(pressure)) then
-      status = checked('pressure', shape(pressure, kind=c_size_t), 0_c_size_t, count_pressure)
-      if (status /= JAM_OK) return
-    end if
-    status = c_jam_glass_fit(at_fraction, count_fraction, at_pressure, count_pressure, fit)
-  end function f_jam_glass_fit
-
-  function l_jam_glass_fit(fraction, fraction_len, pressure, pressure_len, fit) result(status)
-    real(c_double), intent(in), target, contiguous, optional :: fraction(..)
-    integer(c_size_t), intent(in) :: fraction_len
-    real(c_double), intent(in), target, contiguous, optional :: pressure(..)
-    integer(c_size_t), intent(in) :: pressure_len
-    type(jam_glass), intent(inout), optional :: fit
-    integer(c_int32_t) :: status
-    type(c_ptr) :: at_fraction
-    integer(c_size_t) :: count_fraction
-    type(c_ptr) :: at_pressure
-    integer(c_size_t) :: count_pressure
-    at_fraction = c_null_ptr
-    count_fraction = 0
-    if (present(fraction)) then
-      at_fraction = c_loc(fraction)
-      count_fraction = size(fraction, kind=c_size_t)
-    end if
-    count_fraction = fraction_len
-    if (present(fraction)) then
-      status = checked('fraction', shape(fraction, kind=c_size_t), 0_c_size_t, count_fraction)
-      if (status /= JAM_OK) return
-    end if
-    at_pressure = c_null_ptr
-    count_pressure = 0
-    if (present(pressure)) then
-      at_pressure = c_loc(pressure)
-      count_pressure = size(pressure, kind=c_size_t)
-    end if
-    count_pressure = pressure_len
-    if (present(pressure)) then
-      status = checked('pressure', shape(pressure, kind=c_size_t), 0_c_size_t, count_pressure)
-      if (status /= JAM_OK) return
-    end if
-    status = c_jam_glass_fit(at_fraction, count_fraction, at_pressure, count_pressure, fit)
-  end function l_jam_glass_fit
-
-  function f_jam_isoconfigurational(sys, o, m, instant, kept, report) result(status)
+  function f_jam_isoconf(sys, o, m, instant, kept, report) result(status)
     type(c_ptr), intent(in) :: sys
     type(jam_isoconf_options), intent(in), optional :: o
     type(jam_monte_carlo_options), intent(in), optional :: m
@@ -4455,10 +4176,10 @@ contains
       status = checked('kept', shape(kept, kind=c_size_t), 0_c_size_t, count_kept)
       if (status /= JAM_OK) return
     end if
-    status = c_jam_isoconfigurational(sys, o, m, at_instant, count_instant, at_kept, count_kept, report)
-  end function f_jam_isoconfigurational
+    status = c_jam_isoconf(sys, o, m, at_instant, count_instant, at_kept, count_kept, report)
+  end function f_jam_isoconf
 
-  function l_jam_isoconfigurational(sys, o, m, instant, instant_len, kept, kept_len, report) result(status)
+  function l_jam_isoconf(sys, o, m, instant, instant_len, kept, kept_len, report) result(status)
     type(c_ptr), intent(in) :: sys
     type(jam_isoconf_options), intent(in), optional :: o
     type(jam_monte_carlo_options), intent(in), optional :: m
@@ -4494,8 +4215,8 @@ contains
       status = checked('kept', shape(kept, kind=c_size_t), 0_c_size_t, count_kept)
       if (status /= JAM_OK) return
     end if
-    status = c_jam_isoconfigurational(sys, o, m, at_instant, count_instant, at_kept, count_kept, report)
-  end function l_jam_isoconfigurational
+    status = c_jam_isoconf(sys, o, m, at_instant, count_instant, at_kept, count_kept, report)
+  end function l_jam_isoconf
 
   ! Sums over the runs of one block, or of all for block = -1.
   ! Shapes: table (instants, jam_isoconf_column).
@@ -4730,112 +4451,138 @@ contains
     status = c_jam_crunch_history(sys, columns, at_table, count_table, needed)
   end function jam_crunch_history
 
-  ! Displacements of all spheres in the step that has just ended, unit of box, images followed. Their sum over the steps
-  ! leads from the start to the end. This call and the next three work only in the progress callback of jam_crunch with
-  ! steps = 1, when a step has just ended.
-  ! Shapes: out (n, d).
-  ! Errors: JAM_E_STATE.
-  function jam_crunch_step_displacements(sys, out, out_len, needed) result(status)
+  function f_jam_crunch_step(sys, displacement, pair, vector, dual, rows) result(status)
     type(c_ptr), intent(in) :: sys
-    real(c_double), intent(inout), target, contiguous, optional :: out(..)
-    integer(c_size_t), intent(in), optional :: out_len
-    integer(c_size_t), intent(out), optional :: needed
+    real(c_double), intent(inout), target, contiguous, optional :: displacement(..)
+    integer(c_int32_t), intent(inout), target, contiguous, optional :: pair(..)
+    real(c_double), intent(inout), target, contiguous, optional :: vector(..)
+    real(c_double), intent(inout), target, contiguous, optional :: dual(..)
+    integer(c_size_t), intent(out), optional :: rows
     integer(c_int32_t) :: status
-    type(c_ptr) :: at_out
-    integer(c_size_t) :: count_out
+    type(c_ptr) :: at_displacement
+    integer(c_size_t) :: count_displacement
+    type(c_ptr) :: at_pair
+    integer(c_size_t) :: count_pair
+    type(c_ptr) :: at_vector
+    integer(c_size_t) :: count_vector
+    type(c_ptr) :: at_dual
+    integer(c_size_t) :: count_dual
     integer(c_size_t) :: n_of_c, d_of_c
     call sizes_of(sys, n_of_c, d_of_c)
-    at_out = c_null_ptr
-    count_out = 0
-    if (present(out)) then
-      at_out = c_loc(out)
-      count_out = size(out, kind=c_size_t)
+    at_displacement = c_null_ptr
+    count_displacement = 0
+    if (present(displacement)) then
+      at_displacement = c_loc(displacement)
+      count_displacement = size(displacement, kind=c_size_t)
     end if
-    if (present(out_len)) count_out = out_len
-    if (present(out)) then
-      status = checked('out', shape(out, kind=c_size_t), d_of_c, count_out)
+    if (present(displacement)) then
+      status = checked('displacement', shape(displacement, kind=c_size_t), d_of_c, count_displacement)
       if (status /= JAM_OK) return
     end if
-    status = c_jam_crunch_step_displacements(sys, at_out, count_out, needed)
-  end function jam_crunch_step_displacements
-
-  ! Linear contact network of an LP step: pairs of rows with a positive dual, rattlers included. Other steps have none.
-  ! Shapes: out (m, 2).
-  ! Errors: JAM_E_STATE.
-  function jam_crunch_step_contacts(sys, out, out_len, needed) result(status)
-    type(c_ptr), intent(in) :: sys
-    integer(c_int32_t), intent(inout), target, contiguous, optional :: out(..)
-    integer(c_size_t), intent(in), optional :: out_len
-    integer(c_size_t), intent(out), optional :: needed
-    integer(c_int32_t) :: status
-    type(c_ptr) :: at_out
-    integer(c_size_t) :: count_out
-    at_out = c_null_ptr
-    count_out = 0
-    if (present(out)) then
-      at_out = c_loc(out)
-      count_out = size(out, kind=c_size_t)
+    at_pair = c_null_ptr
+    count_pair = 0
+    if (present(pair)) then
+      at_pair = c_loc(pair)
+      count_pair = size(pair, kind=c_size_t)
     end if
-    if (present(out_len)) count_out = out_len
-    if (present(out)) then
-      status = checked('out', shape(out, kind=c_size_t), 2_c_size_t, count_out)
+    if (present(pair)) then
+      status = checked('pair', shape(pair, kind=c_size_t), 2_c_size_t, count_pair)
       if (status /= JAM_OK) return
     end if
-    status = c_jam_crunch_step_contacts(sys, at_out, count_out, needed)
-  end function jam_crunch_step_contacts
+    at_vector = c_null_ptr
+    count_vector = 0
+    if (present(vector)) then
+      at_vector = c_loc(vector)
+      count_vector = size(vector, kind=c_size_t)
+    end if
+    if (present(vector)) then
+      status = checked('vector', shape(vector, kind=c_size_t), d_of_c, count_vector)
+      if (status /= JAM_OK) return
+    end if
+    at_dual = c_null_ptr
+    count_dual = 0
+    if (present(dual)) then
+      at_dual = c_loc(dual)
+      count_dual = size(dual, kind=c_size_t)
+    end if
+    if (present(dual)) then
+      status = checked('dual', shape(dual, kind=c_size_t), 0_c_size_t, count_dual)
+      if (status /= JAM_OK) return
+    end if
+    status = c_jam_crunch_step(sys, at_displacement, count_displacement, at_pair, count_pair, at_vector, &
+      count_vector, at_dual, count_dual, rows)
+  end function f_jam_crunch_step
 
-  ! r_ij of these pairs before the step, unit of box.
-  ! Shapes: out (m, d).
-  ! Errors: JAM_E_STATE.
-  function jam_crunch_step_vectors(sys, out, out_len, needed) result(status)
+  function l_jam_crunch_step(sys, displacement, displacement_len, pair, pair_len, vector, vector_len, dual, &
+    dual_len, rows) result(status)
     type(c_ptr), intent(in) :: sys
-    real(c_double), intent(inout), target, contiguous, optional :: out(..)
-    integer(c_size_t), intent(in), optional :: out_len
-    integer(c_size_t), intent(out), optional :: needed
+    real(c_double), intent(inout), target, contiguous, optional :: displacement(..)
+    integer(c_size_t), intent(in) :: displacement_len
+    integer(c_int32_t), intent(inout), target, contiguous, optional :: pair(..)
+    integer(c_size_t), intent(in) :: pair_len
+    real(c_double), intent(inout), target, contiguous, optional :: vector(..)
+    integer(c_size_t), intent(in) :: vector_len
+    real(c_double), intent(inout), target, contiguous, optional :: dual(..)
+    integer(c_size_t), intent(in) :: dual_len
+    integer(c_size_t), intent(out), optional :: rows
     integer(c_int32_t) :: status
-    type(c_ptr) :: at_out
-    integer(c_size_t) :: count_out
+    type(c_ptr) :: at_displacement
+    integer(c_size_t) :: count_displacement
+    type(c_ptr) :: at_pair
+    integer(c_size_t) :: count_pair
+    type(c_ptr) :: at_vector
+    integer(c_size_t) :: count_vector
+    type(c_ptr) :: at_dual
+    integer(c_size_t) :: count_dual
     integer(c_size_t) :: n_of_c, d_of_c
     call sizes_of(sys, n_of_c, d_of_c)
-    at_out = c_null_ptr
-    count_out = 0
-    if (present(out)) then
-      at_out = c_loc(out)
-      count_out = size(out, kind=c_size_t)
+    at_displacement = c_null_ptr
+    count_displacement = 0
+    if (present(displacement)) then
+      at_displacement = c_loc(displacement)
+      count_displacement = size(displacement, kind=c_size_t)
     end if
-    if (present(out_len)) count_out = out_len
-    if (present(out)) then
-      status = checked('out', shape(out, kind=c_size_t), d_of_c, count_out)
+    count_displacement = displacement_len
+    if (present(displacement)) then
+      status = checked('displacement', shape(displacement, kind=c_size_t), d_of_c, count_displacement)
       if (status /= JAM_OK) return
     end if
-    status = c_jam_crunch_step_vectors(sys, at_out, count_out, needed)
-  end function jam_crunch_step_vectors
-
-  ! Duals lambda of these pairs: sum_j lambda_ij r_ij = 0 on every sphere without an active step bound, and sum lambda_ij
-  ! sigma_ij^2 = 1 with the diameters before the step.
-  ! Shapes: out (m).
-  ! Errors: JAM_E_STATE.
-  function jam_crunch_step_duals(sys, out, out_len, needed) result(status)
-    type(c_ptr), intent(in) :: sys
-    real(c_double), intent(inout), target, contiguous, optional :: out(..)
-    integer(c_size_t), intent(in), optional :: out_len
-    integer(c_size_t), intent(out), optional :: needed
-    integer(c_int32_t) :: status
-    type(c_ptr) :: at_out
-    integer(c_size_t) :: count_out
-    at_out = c_null_ptr
-    count_out = 0
-    if (present(out)) then
-      at_out = c_loc(out)
-      count_out = size(out, kind=c_size_t)
+    at_pair = c_null_ptr
+    count_pair = 0
+    if (present(pair)) then
+      at_pair = c_loc(pair)
+      count_pair = size(pair, kind=c_size_t)
     end if
-    if (present(out_len)) count_out = out_len
-    if (present(out)) then
-      status = checked('out', shape(out, kind=c_size_t), 0_c_size_t, count_out)
+    count_pair = pair_len
+    if (present(pair)) then
+      status = checked('pair', shape(pair, kind=c_size_t), 2_c_size_t, count_pair)
       if (status /= JAM_OK) return
     end if
-    status = c_jam_crunch_step_duals(sys, at_out, count_out, needed)
-  end function jam_crunch_step_duals
+    at_vector = c_null_ptr
+    count_vector = 0
+    if (present(vector)) then
+      at_vector = c_loc(vector)
+      count_vector = size(vector, kind=c_size_t)
+    end if
+    count_vector = vector_len
+    if (present(vector)) then
+      status = checked('vector', shape(vector, kind=c_size_t), d_of_c, count_vector)
+      if (status /= JAM_OK) return
+    end if
+    at_dual = c_null_ptr
+    count_dual = 0
+    if (present(dual)) then
+      at_dual = c_loc(dual)
+      count_dual = size(dual, kind=c_size_t)
+    end if
+    count_dual = dual_len
+    if (present(dual)) then
+      status = checked('dual', shape(dual, kind=c_size_t), 0_c_size_t, count_dual)
+      if (status /= JAM_OK) return
+    end if
+    status = c_jam_crunch_step(sys, at_displacement, count_displacement, at_pair, count_pair, at_vector, &
+      count_vector, at_dual, count_dual, rows)
+  end function l_jam_crunch_step
 
   ! Minima of the last decompression.
   ! Shapes: table (minima, jam_soft_column).
@@ -5305,34 +5052,6 @@ contains
       count_vector, rows)
   end function l_jam_bloch_modes
 
-  ! Candidates for the contact tolerance, for packings where no jump is clear; m is at most 12. A candidate is a jump of
-  ! the sorted gaps below window, as in jam_geometry_options, with enough contacts for a rigid network below it. The
-  ! largest jump comes first.
-  ! Shapes: table (m, jam_candidate_column).
-  function jam_contact_candidates(sys, window, columns, table, table_len, needed) result(status)
-    type(c_ptr), intent(in) :: sys
-    real(c_double), intent(in) :: window
-    integer(c_int32_t), intent(in) :: columns
-    real(c_double), intent(inout), target, contiguous, optional :: table(..)
-    integer(c_size_t), intent(in), optional :: table_len
-    integer(c_size_t), intent(out), optional :: needed
-    integer(c_int32_t) :: status
-    type(c_ptr) :: at_table
-    integer(c_size_t) :: count_table
-    at_table = c_null_ptr
-    count_table = 0
-    if (present(table)) then
-      at_table = c_loc(table)
-      count_table = size(table, kind=c_size_t)
-    end if
-    if (present(table_len)) count_table = table_len
-    if (present(table)) then
-      status = checked('table', shape(table, kind=c_size_t), int(columns, c_size_t), count_table)
-      if (status /= JAM_OK) return
-    end if
-    status = c_jam_contact_candidates(sys, window, columns, at_table, count_table, needed)
-  end function jam_contact_candidates
-
   function f_jam_stress_states(sys, force, basis, residual, rows) result(status)
     type(c_ptr), intent(in) :: sys
     real(c_double), intent(inout), target, contiguous, optional :: force(..)
@@ -5590,12 +5309,17 @@ contains
   ! Proves, despite rounding, that the packing is jammed. Contacts and forces are those of the network. Newton's
   ! steps take the centres to two doubles (jam_refined_positions). A factorisation with a bound of its rounding gives the
   ! smallest singular value, and Kantorovich's theorem the rest: the guide's page "Proofs" has theorems and limits.
-  ! ratio: the exact ratios of the diameters, in any unit; NULL takes the diameters as they are. Status: JAM_OK proved
-  ! exact or trapped, JAM_AMBIGUOUS not proved (jam_last_error names the cause).
+  ! JAM_RIGIDITY_STRICT: the cell deforms too, its vectors are unknowns and the diameters are fixed. EXACT: strictly
+  ! jammed, and the volume is a strict local minimum. TRAPPED: of all motions and strains that do not enlarge the volume.
+  ! Lengths of the report count displacements and entries of the cell vectors alike, packing_fraction is that of the
+  ! exact cell. ratio: the exact ratios of the diameters, in any unit, of JAM_RIGIDITY_COLLECTIVE alone; NULL takes the
+  ! diameters as they are. Status: JAM_OK proved exact or trapped, JAM_AMBIGUOUS not proved (jam_last_error names the
+  ! cause).
   ! Shapes: ratio (n).
   ! Errors: JAM_E_STATE (no network), JAM_E_UNSUPPORTED (Mari-Kurchan model).
-  function jam_prove(sys, ratio, ratio_len, report) result(status)
+  function jam_prove(sys, kind, ratio, ratio_len, report) result(status)
     type(c_ptr), intent(in) :: sys
+    integer(c_int32_t), intent(in) :: kind
     real(c_double), intent(in), target, contiguous, optional :: ratio(..)
     integer(c_size_t), intent(in), optional :: ratio_len
     type(jam_proof_report), intent(inout), optional :: report
@@ -5613,17 +5337,18 @@ contains
       status = checked('ratio', shape(ratio, kind=c_size_t), 0_c_size_t, count_ratio)
       if (status /= JAM_OK) return
     end if
-    status = c_jam_prove(sys, at_ratio, count_ratio, report)
+    status = c_jam_prove(sys, kind, at_ratio, count_ratio, report)
   end function jam_prove
 
-  ! Writes the exact numbers of the proof: refined centres, contacts, forces. bindings/proof/jamproof.py checks such a
-  ! file with integers alone, without libjam. ratio: as for jam_prove. The file appears whole or not at all. Status:
-  ! JAM_AMBIGUOUS (dependent contacts: centres are not refined).
+  ! Writes the exact numbers of the proof: refined centres, contacts, forces, and of JAM_RIGIDITY_STRICT the refined
+  ! cell. bindings/proof/jamproof.py checks such a file with integers alone, without libjam. kind, ratio: as for
+  ! jam_prove. The file appears whole or not at all. Status: JAM_AMBIGUOUS (dependent contacts: centres are not refined).
   ! Shapes: ratio (n).
   ! Errors: JAM_E_STATE, JAM_E_UNSUPPORTED, JAM_E_IO.
-  function jam_write_proof(sys, path, ratio, ratio_len) result(status)
+  function jam_write_proof(sys, path, kind, ratio, ratio_len) result(status)
     type(c_ptr), intent(in) :: sys
     character(*), intent(in) :: path
+    integer(c_int32_t), intent(in) :: kind
     real(c_double), intent(in), target, contiguous, optional :: ratio(..)
     integer(c_size_t), intent(in), optional :: ratio_len
     integer(c_int32_t) :: status
@@ -5640,17 +5365,8 @@ contains
       status = checked('ratio', shape(ratio, kind=c_size_t), 0_c_size_t, count_ratio)
       if (status /= JAM_OK) return
     end if
-    status = c_jam_write_proof(sys, jam_c_string(path), at_ratio, count_ratio)
+    status = c_jam_write_proof(sys, jam_c_string(path), kind, at_ratio, count_ratio)
   end function jam_write_proof
-
-  ! The same of jam_prove_strict: refined centres and cell.
-  ! Errors: JAM_E_STATE, JAM_E_UNSUPPORTED, JAM_E_IO.
-  function jam_write_proof_strict(sys, path) result(status)
-    type(c_ptr), intent(in) :: sys
-    character(*), intent(in) :: path
-    integer(c_int32_t) :: status
-    status = c_jam_write_proof_strict(sys, jam_c_string(path))
-  end function jam_write_proof_strict
 
   function f_jam_refined_positions(sys, ratio, high, low, needed) result(status)
     type(c_ptr), intent(in) :: sys
@@ -6056,37 +5772,6 @@ contains
     status = c_jam_local_values(sys, quantity, population, at_out, count_out, needed)
   end function jam_local_values
 
-  ! Histogram of the values of jam_local_values: density in `bins` equal bins of [low, high), its integral the share of
-  ! values there.
-  ! Shapes: out (bins).
-  ! Errors: JAM_E_STATE.
-  function jam_histogram(sys, quantity, population, low, high, bins, out, out_len, needed) result(status)
-    type(c_ptr), intent(in) :: sys
-    integer(c_int32_t), intent(in) :: quantity
-    integer(c_int32_t), intent(in) :: population
-    real(c_double), intent(in) :: low
-    real(c_double), intent(in) :: high
-    integer(c_int64_t), intent(in) :: bins
-    real(c_double), intent(inout), target, contiguous, optional :: out(..)
-    integer(c_size_t), intent(in), optional :: out_len
-    integer(c_size_t), intent(out), optional :: needed
-    integer(c_int32_t) :: status
-    type(c_ptr) :: at_out
-    integer(c_size_t) :: count_out
-    at_out = c_null_ptr
-    count_out = 0
-    if (present(out)) then
-      at_out = c_loc(out)
-      count_out = size(out, kind=c_size_t)
-    end if
-    if (present(out_len)) count_out = out_len
-    if (present(out)) then
-      status = checked('out', shape(out, kind=c_size_t), 0_c_size_t, count_out)
-      if (status /= JAM_OK) return
-    end if
-    status = c_jam_histogram(sys, quantity, population, low, high, bins, at_out, count_out, needed)
-  end function jam_histogram
-
   function f_jam_pair_correlation(sys, o, kind, out, needed) result(status)
     type(c_ptr), intent(in) :: sys
     type(jam_correlation_options), intent(in), optional :: o
@@ -6450,61 +6135,111 @@ contains
     status = c_jam_pore_sizes(sys, points, seed, columns, at_table, count_table, needed)
   end function jam_pore_sizes
 
-  ! Floppy mode: displacement over s when a contact opens by s. To first order all other contacts stay closed, all
-  ! diameters change by the factor 1 - s f / sum f sigma, and there is no net translation. contact in 0..n_c-1. Needs a
-  ! single state of self-stress (JAM_E_STATE says how many there are).
-  ! Shapes: out (N', d).
-  ! Errors: JAM_E_STATE, JAM_E_SOLVER.
-  function jam_floppy_mode(sys, contact, out, out_len, needed) result(status)
+  function f_jam_floppy_modes(sys, contact, columns, table, vector, rows) result(status)
     type(c_ptr), intent(in) :: sys
-    integer(c_int64_t), intent(in) :: contact
-    real(c_double), intent(inout), target, contiguous, optional :: out(..)
-    integer(c_size_t), intent(in), optional :: out_len
-    integer(c_size_t), intent(out), optional :: needed
-    integer(c_int32_t) :: status
-    type(c_ptr) :: at_out
-    integer(c_size_t) :: count_out
-    integer(c_size_t) :: n_of_c, d_of_c
-    call sizes_of(sys, n_of_c, d_of_c)
-    at_out = c_null_ptr
-    count_out = 0
-    if (present(out)) then
-      at_out = c_loc(out)
-      count_out = size(out, kind=c_size_t)
-    end if
-    if (present(out_len)) count_out = out_len
-    if (present(out)) then
-      status = checked('out', shape(out, kind=c_size_t), d_of_c, count_out)
-      if (status /= JAM_OK) return
-    end if
-    status = c_jam_floppy_mode(sys, contact, at_out, count_out, needed)
-  end function jam_floppy_mode
-
-  ! The floppy mode of every contact, measured.
-  ! Shapes: table (n_c, jam_floppy_column).
-  ! Errors: JAM_E_STATE, JAM_E_SOLVER.
-  function jam_floppy_modes(sys, columns, table, table_len, needed) result(status)
-    type(c_ptr), intent(in) :: sys
+    integer(c_int64_t), intent(in), target, contiguous, optional :: contact(..)
     integer(c_int32_t), intent(in) :: columns
     real(c_double), intent(inout), target, contiguous, optional :: table(..)
-    integer(c_size_t), intent(in), optional :: table_len
-    integer(c_size_t), intent(out), optional :: needed
+    real(c_double), intent(inout), target, contiguous, optional :: vector(..)
+    integer(c_size_t), intent(out), optional :: rows
     integer(c_int32_t) :: status
+    type(c_ptr) :: at_contact
+    integer(c_size_t) :: count_contact
     type(c_ptr) :: at_table
     integer(c_size_t) :: count_table
+    type(c_ptr) :: at_vector
+    integer(c_size_t) :: count_vector
+    integer(c_size_t) :: n_of_c, d_of_c
+    call sizes_of(sys, n_of_c, d_of_c)
+    at_contact = c_null_ptr
+    count_contact = 0
+    if (present(contact)) then
+      at_contact = c_loc(contact)
+      count_contact = size(contact, kind=c_size_t)
+    end if
+    if (present(contact)) then
+      status = checked('contact', shape(contact, kind=c_size_t), 0_c_size_t, count_contact)
+      if (status /= JAM_OK) return
+    end if
     at_table = c_null_ptr
     count_table = 0
     if (present(table)) then
       at_table = c_loc(table)
       count_table = size(table, kind=c_size_t)
     end if
-    if (present(table_len)) count_table = table_len
     if (present(table)) then
       status = checked('table', shape(table, kind=c_size_t), int(columns, c_size_t), count_table)
       if (status /= JAM_OK) return
     end if
-    status = c_jam_floppy_modes(sys, columns, at_table, count_table, needed)
-  end function jam_floppy_modes
+    at_vector = c_null_ptr
+    count_vector = 0
+    if (present(vector)) then
+      at_vector = c_loc(vector)
+      count_vector = size(vector, kind=c_size_t)
+    end if
+    if (present(vector)) then
+      status = checked('vector', shape(vector, kind=c_size_t), d_of_c, count_vector)
+      if (status /= JAM_OK) return
+    end if
+    status = c_jam_floppy_modes(sys, at_contact, count_contact, columns, at_table, count_table, at_vector, &
+      count_vector, rows)
+  end function f_jam_floppy_modes
+
+  function l_jam_floppy_modes(sys, contact, contact_len, columns, table, table_len, vector, vector_len, rows) result(status)
+    type(c_ptr), intent(in) :: sys
+    integer(c_int64_t), intent(in), target, contiguous, optional :: contact(..)
+    integer(c_size_t), intent(in) :: contact_len
+    integer(c_int32_t), intent(in) :: columns
+    real(c_double), intent(inout), target, contiguous, optional :: table(..)
+    integer(c_size_t), intent(in) :: table_len
+    real(c_double), intent(inout), target, contiguous, optional :: vector(..)
+    integer(c_size_t), intent(in) :: vector_len
+    integer(c_size_t), intent(out), optional :: rows
+    integer(c_int32_t) :: status
+    type(c_ptr) :: at_contact
+    integer(c_size_t) :: count_contact
+    type(c_ptr) :: at_table
+    integer(c_size_t) :: count_table
+    type(c_ptr) :: at_vector
+    integer(c_size_t) :: count_vector
+    integer(c_size_t) :: n_of_c, d_of_c
+    call sizes_of(sys, n_of_c, d_of_c)
+    at_contact = c_null_ptr
+    count_contact = 0
+    if (present(contact)) then
+      at_contact = c_loc(contact)
+      count_contact = size(contact, kind=c_size_t)
+    end if
+    count_contact = contact_len
+    if (present(contact)) then
+      status = checked('contact', shape(contact, kind=c_size_t), 0_c_size_t, count_contact)
+      if (status /= JAM_OK) return
+    end if
+    at_table = c_null_ptr
+    count_table = 0
+    if (present(table)) then
+      at_table = c_loc(table)
+      count_table = size(table, kind=c_size_t)
+    end if
+    count_table = table_len
+    if (present(table)) then
+      status = checked('table', shape(table, kind=c_size_t), int(columns, c_size_t), count_table)
+      if (status /= JAM_OK) return
+    end if
+    at_vector = c_null_ptr
+    count_vector = 0
+    if (present(vector)) then
+      at_vector = c_loc(vector)
+      count_vector = size(vector, kind=c_size_t)
+    end if
+    count_vector = vector_len
+    if (present(vector)) then
+      status = checked('vector', shape(vector, kind=c_size_t), d_of_c, count_vector)
+      if (status /= JAM_OK) return
+    end if
+    status = c_jam_floppy_modes(sys, at_contact, count_contact, columns, at_table, count_table, at_vector, &
+      count_vector, rows)
+  end function l_jam_floppy_modes
 
   ! Density of states D(omega) and its integral by the kernel polynomial method: no modes are computed, translations are
   ! omitted. With prestress omega starts below 0: unstable modes are listed at -sqrt(-lambda), and resolution is lower
@@ -6535,136 +6270,6 @@ contains
     end if
     status = c_jam_density_of_states(sys, h, o, columns, at_table, count_table, needed)
   end function jam_density_of_states
-
-  function f_jam_project(sys, vector, u, out, needed) result(status)
-    type(c_ptr), intent(in) :: sys
-    real(c_double), intent(in), target, contiguous, optional :: vector(..)
-    real(c_double), intent(in), target, contiguous, optional :: u(..)
-    real(c_double), intent(inout), target, contiguous, optional :: out(..)
-    integer(c_size_t), intent(out), optional :: needed
-    integer(c_int32_t) :: status
-    type(c_ptr) :: at_vector
-    integer(c_size_t) :: count_vector
-    type(c_ptr) :: at_u
-    integer(c_size_t) :: count_u
-    type(c_ptr) :: at_out
-    integer(c_size_t) :: count_out
-    integer(c_size_t) :: n_of_c, d_of_c
-    call sizes_of(sys, n_of_c, d_of_c)
-    at_vector = c_null_ptr
-    count_vector = 0
-    if (present(vector)) then
-      at_vector = c_loc(vector)
-      count_vector = size(vector, kind=c_size_t)
-    end if
-    if (present(vector)) then
-      status = checked('vector', shape(vector, kind=c_size_t), d_of_c, count_vector)
-      if (status /= JAM_OK) return
-    end if
-    at_u = c_null_ptr
-    count_u = 0
-    if (present(u)) then
-      at_u = c_loc(u)
-      count_u = size(u, kind=c_size_t)
-    end if
-    if (present(u)) then
-      status = checked('u', shape(u, kind=c_size_t), d_of_c, count_u)
-      if (status /= JAM_OK) return
-    end if
-    at_out = c_null_ptr
-    count_out = 0
-    if (present(out)) then
-      at_out = c_loc(out)
-      count_out = size(out, kind=c_size_t)
-    end if
-    if (present(out)) then
-      status = checked('out', shape(out, kind=c_size_t), 0_c_size_t, count_out)
-      if (status /= JAM_OK) return
-    end if
-    status = c_jam_project(sys, at_vector, count_vector, at_u, count_u, at_out, count_out, needed)
-  end function f_jam_project
-
-  function l_jam_project(sys, vector, vector_len, u, u_len, out, out_len, needed) result(status)
-    type(c_ptr), intent(in) :: sys
-    real(c_double), intent(in), target, contiguous, optional :: vector(..)
-    integer(c_size_t), intent(in) :: vector_len
-    real(c_double), intent(in), target, contiguous, optional :: u(..)
-    integer(c_size_t), intent(in) :: u_len
-    real(c_double), intent(inout), target, contiguous, optional :: out(..)
-    integer(c_size_t), intent(in) :: out_len
-    integer(c_size_t), intent(out), optional :: needed
-    integer(c_int32_t) :: status
-    type(c_ptr) :: at_vector
-    integer(c_size_t) :: count_vector
-    type(c_ptr) :: at_u
-    integer(c_size_t) :: count_u
-    type(c_ptr) :: at_out
-    integer(c_size_t) :: count_out
-    integer(c_size_t) :: n_of_c, d_of_c
-    call sizes_of(sys, n_of_c, d_of_c)
-    at_vector = c_null_ptr
-    count_vector = 0
-    if (present(vector)) then
-      at_vector = c_loc(vector)
-      count_vector = size(vector, kind=c_size_t)
-    end if
-    count_vector = vector_len
-    if (present(vector)) then
-      status = checked('vector', shape(vector, kind=c_size_t), d_of_c, count_vector)
-      if (status /= JAM_OK) return
-    end if
-    at_u = c_null_ptr
-    count_u = 0
-    if (present(u)) then
-      at_u = c_loc(u)
-      count_u = size(u, kind=c_size_t)
-    end if
-    count_u = u_len
-    if (present(u)) then
-      status = checked('u', shape(u, kind=c_size_t), d_of_c, count_u)
-      if (status /= JAM_OK) return
-    end if
-    at_out = c_null_ptr
-    count_out = 0
-    if (present(out)) then
-      at_out = c_loc(out)
-      count_out = size(out, kind=c_size_t)
-    end if
-    count_out = out_len
-    if (present(out)) then
-      status = checked('out', shape(out, kind=c_size_t), 0_c_size_t, count_out)
-      if (status /= JAM_OK) return
-    end if
-    status = c_jam_project(sys, at_vector, count_vector, at_u, count_u, at_out, count_out, needed)
-  end function l_jam_project
-
-  ! value = u . H . u for a displacement u.
-  ! Shapes: u (N', d).
-  ! Errors: JAM_E_STATE.
-  function jam_curvature(sys, h, u, u_len, value) result(status)
-    type(c_ptr), intent(in) :: sys
-    type(jam_hessian_options), intent(in), optional :: h
-    real(c_double), intent(in), target, contiguous, optional :: u(..)
-    integer(c_size_t), intent(in), optional :: u_len
-    real(c_double), intent(out), optional :: value
-    integer(c_int32_t) :: status
-    type(c_ptr) :: at_u
-    integer(c_size_t) :: count_u
-    integer(c_size_t) :: n_of_c, d_of_c
-    call sizes_of(sys, n_of_c, d_of_c)
-    at_u = c_null_ptr
-    count_u = 0
-    if (present(u)) then
-      at_u = c_loc(u)
-      count_u = size(u, kind=c_size_t)
-    end if
-    if (present(u_len)) count_u = u_len
-    if (present(u)) then
-      status = checked('u', shape(u, kind=c_size_t), d_of_c, count_u)
-      if (status /= JAM_OK) return
-    end if
-    status = c_jam_curvature(sys, h, at_u, count_u, value)
-  end function jam_curvature
 
   function f_jam_elastic_tensor(sys, h, affine, relaxed, needed) result(status)
     type(c_ptr), intent(in) :: sys
@@ -6749,7 +6354,7 @@ contains
   function jam_compare(sys, other, comparison, out, out_len, needed) result(status)
     type(c_ptr), intent(in) :: sys
     type(c_ptr), intent(in) :: other
-    type(jam_comparison), intent(inout), optional :: comparison
+    type(jam_comparison_report), intent(inout), optional :: comparison
     real(c_double), intent(inout), target, contiguous, optional :: out(..)
     integer(c_size_t), intent(in), optional :: out_len
     integer(c_size_t), intent(out), optional :: needed

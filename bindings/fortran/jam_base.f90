@@ -276,7 +276,7 @@ contains
     integer(c_size_t) :: length, d, n
     integer(c_int32_t) :: status
     call self%extents(d, n)
-    status = jam_view_positions(self%sys, view, length)
+    status = jam_view(self%sys, JAM_VIEW_POSITIONS, view, length)
     x = reshape(copy_view(status, view, length), [d, n])
     call self%done(status)
   end function positions
@@ -289,7 +289,7 @@ contains
     integer(c_size_t) :: length, d, n
     integer(c_int32_t) :: status
     call self%extents(d, n)
-    status = jam_view_velocities(self%sys, view, length)
+    status = jam_view(self%sys, JAM_VIEW_VELOCITIES, view, length)
     v = reshape(copy_view(status, view, length), [d, n])
     call self%done(status)
   end function velocities
@@ -301,7 +301,7 @@ contains
     type(c_ptr) :: view
     integer(c_size_t) :: length
     integer(c_int32_t) :: status
-    status = jam_view_diameters(self%sys, view, length)
+    status = jam_view(self%sys, JAM_VIEW_DIAMETERS, view, length)
     sigma = copy_view(status, view, length)
     call self%done(status)
   end function diameters

@@ -32,7 +32,7 @@ module jam_packing
     procedure :: observed_gaps => do_observed_gaps
     procedure :: observed_correlation => do_observed_correlation
     procedure :: monte_carlo => do_monte_carlo
-    procedure :: isoconfigurational => do_isoconfigurational
+    procedure :: isoconf => do_isoconf
     procedure :: isoconf_report => do_isoconf_report
     procedure :: isoconf_series => do_isoconf_series
     procedure :: isoconf_displacements => do_isoconf_displacements
@@ -42,10 +42,7 @@ module jam_packing
     procedure :: estimate_crunch => do_estimate_crunch
     procedure :: report => do_report
     procedure :: crunch_history => do_crunch_history
-    procedure :: crunch_step_displacements => do_crunch_step_displacements
-    procedure :: crunch_step_contacts => do_crunch_step_contacts
-    procedure :: crunch_step_vectors => do_crunch_step_vectors
-    procedure :: crunch_step_duals => do_crunch_step_duals
+    procedure :: crunch_step => do_crunch_step
     procedure :: relax => do_relax
     procedure :: decompress => do_decompress
     procedure :: decompress_history => do_decompress_history
@@ -60,16 +57,13 @@ module jam_packing
     procedure :: bloch_modes => do_bloch_modes
     procedure :: contacts_from_geometry => do_contacts_from_geometry
     procedure :: contacts_by_distance => do_contacts_by_distance
-    procedure :: contact_candidates => do_contact_candidates
     procedure :: stress_states => do_stress_states
     procedure :: rigidity => do_rigidity
     procedure :: flex => do_flex
     procedure :: bloch_rigidity => do_bloch_rigidity
     procedure :: check => do_check
     procedure :: prove => do_prove
-    procedure :: prove_strict => do_prove_strict
     procedure :: write_proof => do_write_proof
-    procedure :: write_proof_strict => do_write_proof_strict
     procedure :: refined_positions => do_refined_positions
     procedure :: gaps => do_gaps
     procedure :: contact_classes => do_contact_classes
@@ -77,12 +71,10 @@ module jam_packing
     procedure :: contact_dots => do_contact_dots
     procedure :: fabric_tensor => do_fabric_tensor
     procedure :: local_values => do_local_values
-    procedure :: histogram => do_histogram
     procedure :: pair_correlation => do_pair_correlation
     procedure :: mk_shifts => do_mk_shifts
     procedure :: structure_factor => do_structure_factor
     procedure :: bond_order => do_bond_order
-    procedure :: crystal_score => do_crystal_score
     procedure :: local_fraction => do_local_fraction
     procedure :: write_stl => do_write_stl
     procedure :: voxels => do_voxels
@@ -90,11 +82,8 @@ module jam_packing
     procedure :: solid_profile => do_solid_profile
     procedure :: near_coordination => do_near_coordination
     procedure :: pore_sizes => do_pore_sizes
-    procedure :: floppy_mode => do_floppy_mode
     procedure :: floppy_modes => do_floppy_modes
     procedure :: density_of_states => do_density_of_states
-    procedure :: project => do_project
-    procedure :: curvature => do_curvature
     procedure :: moduli => do_moduli
     procedure :: elastic_tensor => do_elastic_tensor
     procedure :: compare => do_compare
@@ -105,24 +94,20 @@ module jam_packing
     do_write_scaled, do_write_contacts, do_write_page, do_run, do_compress, &
     do_write_checkpoint, do_observe, do_stop_observing, do_observed_series, &
     do_observed_spheres, do_observed_pairs, do_observed_gaps, &
-    do_observed_correlation, do_monte_carlo, do_isoconfigurational, &
-    do_isoconf_report, do_isoconf_series, do_isoconf_displacements, &
-    do_isoconf_distances, do_isoconf_kept, do_crunch, do_estimate_crunch, &
-    do_report, do_crunch_history, do_crunch_step_displacements, &
-    do_crunch_step_contacts, do_crunch_step_vectors, do_crunch_step_duals, &
-    do_relax, do_decompress, do_decompress_history, do_contacts, &
+    do_observed_correlation, do_monte_carlo, do_isoconf, do_isoconf_report, &
+    do_isoconf_series, do_isoconf_displacements, do_isoconf_distances, &
+    do_isoconf_kept, do_crunch, do_estimate_crunch, do_report, do_crunch_history, &
+    do_crunch_step, do_relax, do_decompress, do_decompress_history, do_contacts, &
     do_contact_vectors, do_contact_gaps, do_forces, do_coordination, &
     do_hessian_map, do_hessian, do_modes, do_bloch_modes, &
-    do_contacts_from_geometry, do_contacts_by_distance, do_contact_candidates, &
-    do_stress_states, do_rigidity, do_flex, do_bloch_rigidity, do_check, do_prove, &
-    do_prove_strict, do_write_proof, do_write_proof_strict, do_refined_positions, &
-    do_gaps, do_contact_classes, do_sphere_structure, do_contact_dots, &
-    do_fabric_tensor, do_local_values, do_histogram, do_pair_correlation, &
-    do_mk_shifts, do_structure_factor, do_bond_order, do_crystal_score, &
-    do_local_fraction, do_write_stl, do_voxels, do_write_voxels, do_solid_profile, &
-    do_near_coordination, do_pore_sizes, do_floppy_mode, do_floppy_modes, &
-    do_density_of_states, do_project, do_curvature, do_moduli, do_elastic_tensor, &
-    do_compare
+    do_contacts_from_geometry, do_contacts_by_distance, do_stress_states, &
+    do_rigidity, do_flex, do_bloch_rigidity, do_check, do_prove, do_write_proof, &
+    do_refined_positions, do_gaps, do_contact_classes, do_sphere_structure, &
+    do_contact_dots, do_fabric_tensor, do_local_values, do_pair_correlation, &
+    do_mk_shifts, do_structure_factor, do_bond_order, do_local_fraction, &
+    do_write_stl, do_voxels, do_write_voxels, do_solid_profile, &
+    do_near_coordination, do_pore_sizes, do_floppy_modes, do_density_of_states, &
+    do_moduli, do_elastic_tensor, do_compare
 
 contains
 
@@ -218,16 +203,17 @@ contains
     real(c_double), allocatable :: made_rotation(:, :)
     integer(c_int32_t) :: status
     integer(c_size_t) :: given, d_of, n_of
-    allocate (made_transform(0, 0))
-    allocate (made_rotation(0, 0))
+    if (present(transform)) allocate (made_transform(0, 0))
+    if (present(rotation)) allocate (made_rotation(0, 0))
     call self%extents(d_of, n_of)
     status = jam_set_cell(self%sys, cell=cell, rows=given)
     if (status >= 0) then
-      deallocate (made_transform)
-      allocate (made_transform(d_of, d_of))
-      deallocate (made_rotation)
-      allocate (made_rotation(d_of, d_of))
-      status = jam_set_cell(self%sys, cell=cell, transform=made_transform, rotation=made_rotation)
+      if (present(transform)) deallocate (made_transform)
+      if (present(transform)) allocate (made_transform(d_of, d_of))
+      if (present(rotation)) deallocate (made_rotation)
+      if (present(rotation)) allocate (made_rotation(d_of, d_of))
+      status = jam_set_cell(self%sys, cell=cell, transform=made_transform, rotation=made_rotation, &
+        rows=given)
     end if
     if (present(transform)) call move_alloc(made_transform, transform)
     if (present(rotation)) call move_alloc(made_rotation, rotation)
@@ -414,16 +400,16 @@ contains
     real(c_double), allocatable :: made_displacement(:, :)
     integer(c_int32_t) :: status
     integer(c_size_t) :: given, d_of, n_of
-    allocate (made_collisions(0))
-    allocate (made_displacement(0, 0))
+    if (present(collisions)) allocate (made_collisions(0))
+    if (present(displacement)) allocate (made_displacement(0, 0))
     call self%extents(d_of, n_of)
     status = jam_observed_spheres(self%sys, rows=given)
     if (status >= 0) then
-      deallocate (made_collisions)
-      allocate (made_collisions(n_of))
-      deallocate (made_displacement)
-      allocate (made_displacement(d_of, n_of))
-      status = jam_observed_spheres(self%sys, collisions=made_collisions, displacement=made_displacement)
+      if (present(collisions)) deallocate (made_collisions)
+      if (present(collisions)) allocate (made_collisions(n_of))
+      if (present(displacement)) deallocate (made_displacement)
+      if (present(displacement)) allocate (made_displacement(d_of, n_of))
+      status = jam_observed_spheres(self%sys, collisions=made_collisions, displacement=made_displacement, rows=given)
     end if
     if (present(collisions)) call move_alloc(made_collisions, collisions)
     if (present(displacement)) call move_alloc(made_displacement, displacement)
@@ -446,21 +432,21 @@ contains
     real(c_double) :: made_time
     integer(c_int32_t) :: status
     integer(c_size_t) :: given, d_of, n_of
-    allocate (made_pair(0, 0))
-    allocate (made_collisions(0))
-    allocate (made_momentum(0))
+    if (present(pair)) allocate (made_pair(0, 0))
+    if (present(collisions)) allocate (made_collisions(0))
+    if (present(momentum)) allocate (made_momentum(0))
     call self%extents(d_of, n_of)
     status = jam_observed_pairs(self%sys, rows=given)
     if (status >= 0) then
-      deallocate (made_pair)
-      allocate (made_pair(2_c_size_t, given))
-      deallocate (made_collisions)
-      allocate (made_collisions(given))
-      deallocate (made_momentum)
-      allocate (made_momentum(given))
+      if (present(pair)) deallocate (made_pair)
+      if (present(pair)) allocate (made_pair(2_c_size_t, given))
+      if (present(collisions)) deallocate (made_collisions)
+      if (present(collisions)) allocate (made_collisions(given))
+      if (present(momentum)) deallocate (made_momentum)
+      if (present(momentum)) allocate (made_momentum(given))
       status = jam_observed_pairs(self%sys, pair=made_pair, collisions=made_collisions, momentum=made_momentum, &
-        time=made_time)
-      if (status >= 0) then
+        time=made_time, rows=given)
+      if (status >= 0 .and. allocated(made_pair)) then
         where (made_pair >= 0) made_pair = made_pair + 1
       end if
     end if
@@ -533,17 +519,19 @@ contains
   ! jam_read_checkpoint. Status: JAM_NOT_CONVERGED (a run cannot move).
   ! Shapes: instant (instants), kept (k).
   ! Errors: JAM_E_STATE (nothing to resume, or not the same), JAM_E_OVERLAP, JAM_E_UNSUPPORTED.
-  function do_isoconfigurational(self, o, m, instant, kept) result(found)
+  function do_isoconf(self, o, m, instant, kept) result(found)
     class(packing), intent(inout) :: self
     type(jam_isoconf_options), intent(in), optional :: o
     type(jam_monte_carlo_options), intent(in), optional :: m
     real(c_double), intent(in), contiguous, target, optional :: instant(..)
-    integer(c_int32_t), intent(in), contiguous, target, optional :: kept(..)
+    integer, intent(in), optional :: kept(:)
     type(jam_isoconf_report) :: found
+    integer(c_int32_t), allocatable :: from_0_kept(:)
     integer(c_int32_t) :: status
-    status = jam_isoconfigurational(self%sys, o=o, m=m, instant=instant, kept=kept, report=found)
+    if (present(kept)) allocate (from_0_kept, source=int(kept, c_int32_t) - 1_c_int32_t)
+    status = jam_isoconf(self%sys, o=o, m=m, instant=instant, kept=from_0_kept, report=found)
     call self%done(status)
-  end function do_isoconfigurational
+  end function do_isoconf
 
   ! The report of these runs as they are now.
   ! Errors: JAM_E_STATE (no runs).
@@ -588,17 +576,17 @@ contains
     real(c_double), allocatable :: made_square(:, :, :)
     integer(c_int32_t) :: status
     integer(c_size_t) :: given, d_of, n_of
-    allocate (made_displacement(0, 0, 0))
-    allocate (made_square(0, 0, 0))
+    if (present(displacement)) allocate (made_displacement(0, 0, 0))
+    if (present(square)) allocate (made_square(0, 0, 0))
     call self%extents(d_of, n_of)
     status = jam_isoconf_displacements(self%sys, block=int(block, c_int64_t), rows=given)
     if (status >= 0) then
-      deallocate (made_displacement)
-      allocate (made_displacement(d_of, n_of, given))
-      deallocate (made_square)
-      allocate (made_square(d_of, n_of, given))
+      if (present(displacement)) deallocate (made_displacement)
+      if (present(displacement)) allocate (made_displacement(d_of, n_of, given))
+      if (present(square)) deallocate (made_square)
+      if (present(square)) allocate (made_square(d_of, n_of, given))
       status = jam_isoconf_displacements(self%sys, block=int(block, c_int64_t), displacement=made_displacement, &
-        square=made_square)
+        square=made_square, rows=given)
     end if
     if (present(displacement)) call move_alloc(made_displacement, displacement)
     if (present(square)) call move_alloc(made_square, square)
@@ -617,17 +605,17 @@ contains
     real(c_double), allocatable :: made_distance4(:, :)
     integer(c_int32_t) :: status
     integer(c_size_t) :: given, d_of, n_of
-    allocate (made_distance2(0, 0))
-    allocate (made_distance4(0, 0))
+    if (present(distance2)) allocate (made_distance2(0, 0))
+    if (present(distance4)) allocate (made_distance4(0, 0))
     call self%extents(d_of, n_of)
     status = jam_isoconf_distances(self%sys, block=int(block, c_int64_t), rows=given)
     if (status >= 0) then
-      deallocate (made_distance2)
-      allocate (made_distance2(n_of, given))
-      deallocate (made_distance4)
-      allocate (made_distance4(n_of, given))
+      if (present(distance2)) deallocate (made_distance2)
+      if (present(distance2)) allocate (made_distance2(n_of, given))
+      if (present(distance4)) deallocate (made_distance4)
+      if (present(distance4)) allocate (made_distance4(n_of, given))
       status = jam_isoconf_distances(self%sys, block=int(block, c_int64_t), distance2=made_distance2, &
-        distance4=made_distance4)
+        distance4=made_distance4, rows=given)
     end if
     if (present(distance2)) call move_alloc(made_distance2, distance2)
     if (present(distance4)) call move_alloc(made_distance4, distance4)
@@ -677,9 +665,9 @@ contains
   function do_estimate_crunch(self, o) result(found)
     class(packing), intent(inout) :: self
     type(jam_crunch_options), intent(in), optional :: o
-    type(jam_estimate) :: found
+    type(jam_estimate_report) :: found
     integer(c_int32_t) :: status
-    status = jam_estimate_crunch(self%sys, o=o, estimated=found)
+    status = jam_estimate_crunch(self%sys, o=o, report=found)
     call self%done(status)
   end function do_estimate_crunch
 
@@ -712,87 +700,52 @@ contains
     call self%done(status)
   end function do_crunch_history
 
-  ! Displacements of all spheres in the step that has just ended, unit of box, images followed. Their sum over the steps
-  ! leads from the start to the end. This call and the next three work only in the progress callback of jam_crunch with
-  ! steps = 1, when a step has just ended.
-  ! Shapes: out (n, d).
+  ! The step that has just ended, in the progress callback of jam_crunch with steps = 1 alone. displacement: of all
+  ! spheres, unit of box, images followed; over all steps they lead from the start to the end. The others are the linear
+  ! contact network of an LP, pairs of rows with a positive dual, rattlers included; other steps have none. *rows = m.
+  ! vector: r_ij before the step. dual: lambda, sum_j lambda_ij r_ij = 0 on every sphere without an active step bound,
+  ! and sum lambda_ij sigma_ij^2 = 1 with the diameters before the step.
+  ! Shapes: displacement (n, d), pair (m, 2), vector (m, d), dual (m).
   ! Errors: JAM_E_STATE.
-  function do_crunch_step_displacements(self) result(found)
+  subroutine do_crunch_step(self, displacement, pair, vector, dual)
     class(packing), intent(inout) :: self
-    real(c_double), allocatable :: found(:, :)
+    real(c_double), allocatable, intent(out), optional :: displacement(:, :)
+    real(c_double), allocatable :: made_displacement(:, :)
+    integer(c_int32_t), allocatable, intent(out), optional :: pair(:, :)
+    integer(c_int32_t), allocatable :: made_pair(:, :)
+    real(c_double), allocatable, intent(out), optional :: vector(:, :)
+    real(c_double), allocatable :: made_vector(:, :)
+    real(c_double), allocatable, intent(out), optional :: dual(:)
+    real(c_double), allocatable :: made_dual(:)
     integer(c_int32_t) :: status
     integer(c_size_t) :: given, d_of, n_of
-    allocate (found(0, 0))
+    if (present(displacement)) allocate (made_displacement(0, 0))
+    if (present(pair)) allocate (made_pair(0, 0))
+    if (present(vector)) allocate (made_vector(0, 0))
+    if (present(dual)) allocate (made_dual(0))
     call self%extents(d_of, n_of)
-    status = jam_crunch_step_displacements(self%sys, needed=given)
+    status = jam_crunch_step(self%sys, rows=given)
     if (status >= 0) then
-      deallocate (found)
-      allocate (found(d_of, n_of))
-      status = jam_crunch_step_displacements(self%sys, out=found)
-    end if
-    call self%done(status)
-  end function do_crunch_step_displacements
-
-  ! Linear contact network of an LP step: pairs of rows with a positive dual, rattlers included. Other steps have none.
-  ! Shapes: out (m, 2).
-  ! Errors: JAM_E_STATE.
-  function do_crunch_step_contacts(self) result(found)
-    class(packing), intent(inout) :: self
-    integer(c_int32_t), allocatable :: found(:, :)
-    integer(c_int32_t) :: status
-    integer(c_size_t) :: given, d_of, n_of
-    allocate (found(0, 0))
-    call self%extents(d_of, n_of)
-    status = jam_crunch_step_contacts(self%sys, needed=given)
-    if (status >= 0) then
-      deallocate (found)
-      allocate (found(2_c_size_t, given/max(2_c_size_t, 1_c_size_t)))
-      status = jam_crunch_step_contacts(self%sys, out=found)
-      if (status >= 0) then
-        where (found >= 0) found = found + 1
+      if (present(displacement)) deallocate (made_displacement)
+      if (present(displacement)) allocate (made_displacement(d_of, n_of))
+      if (present(pair)) deallocate (made_pair)
+      if (present(pair)) allocate (made_pair(2_c_size_t, given))
+      if (present(vector)) deallocate (made_vector)
+      if (present(vector)) allocate (made_vector(d_of, given))
+      if (present(dual)) deallocate (made_dual)
+      if (present(dual)) allocate (made_dual(given))
+      status = jam_crunch_step(self%sys, displacement=made_displacement, pair=made_pair, vector=made_vector, &
+        dual=made_dual, rows=given)
+      if (status >= 0 .and. allocated(made_pair)) then
+        where (made_pair >= 0) made_pair = made_pair + 1
       end if
     end if
+    if (present(displacement)) call move_alloc(made_displacement, displacement)
+    if (present(pair)) call move_alloc(made_pair, pair)
+    if (present(vector)) call move_alloc(made_vector, vector)
+    if (present(dual)) call move_alloc(made_dual, dual)
     call self%done(status)
-  end function do_crunch_step_contacts
-
-  ! r_ij of these pairs before the step, unit of box.
-  ! Shapes: out (m, d).
-  ! Errors: JAM_E_STATE.
-  function do_crunch_step_vectors(self) result(found)
-    class(packing), intent(inout) :: self
-    real(c_double), allocatable :: found(:, :)
-    integer(c_int32_t) :: status
-    integer(c_size_t) :: given, d_of, n_of
-    allocate (found(0, 0))
-    call self%extents(d_of, n_of)
-    status = jam_crunch_step_vectors(self%sys, needed=given)
-    if (status >= 0) then
-      deallocate (found)
-      allocate (found(d_of, given/max(d_of, 1_c_size_t)))
-      status = jam_crunch_step_vectors(self%sys, out=found)
-    end if
-    call self%done(status)
-  end function do_crunch_step_vectors
-
-  ! Duals lambda of these pairs: sum_j lambda_ij r_ij = 0 on every sphere without an active step bound, and sum lambda_ij
-  ! sigma_ij^2 = 1 with the diameters before the step.
-  ! Shapes: out (m).
-  ! Errors: JAM_E_STATE.
-  function do_crunch_step_duals(self) result(found)
-    class(packing), intent(inout) :: self
-    real(c_double), allocatable :: found(:)
-    integer(c_int32_t) :: status
-    integer(c_size_t) :: given, d_of, n_of
-    allocate (found(0))
-    call self%extents(d_of, n_of)
-    status = jam_crunch_step_duals(self%sys, needed=given)
-    if (status >= 0) then
-      deallocate (found)
-      allocate (found(given))
-      status = jam_crunch_step_duals(self%sys, out=found)
-    end if
-    call self%done(status)
-  end function do_crunch_step_duals
+  end subroutine do_crunch_step
 
   ! Minimises the energy of overlapping spheres at fixed diameters, and at a fixed cell unless `strain` frees it. A free
   ! cell ends when stresses too are below force_tolerance. Keeps the contact network with its forces and stiffnesses for
@@ -860,7 +813,7 @@ contains
       deallocate (found)
       allocate (found(2_c_size_t, contacts_of))
       status = jam_contacts(self%sys, out=found)
-      if (status >= 0) then
+      if (status >= 0 .and. allocated(found)) then
         where (found >= 0) found = found + 1
       end if
     end if
@@ -961,7 +914,7 @@ contains
       deallocate (found)
       allocate (found(stable_of))
       status = jam_hessian_map(self%sys, out=found)
-      if (status >= 0) then
+      if (status >= 0 .and. allocated(found)) then
         where (found >= 0) found = found + 1
       end if
     end if
@@ -982,23 +935,24 @@ contains
     real(c_double), allocatable :: made_value(:)
     integer(c_int32_t) :: status
     integer(c_size_t) :: given, d_of, n_of, stable_of
-    allocate (made_row_start(0))
-    allocate (made_column(0))
-    allocate (made_value(0))
+    if (present(row_start)) allocate (made_row_start(0))
+    if (present(column)) allocate (made_column(0))
+    if (present(value)) allocate (made_value(0))
     call self%extents(d_of, n_of, stable=stable_of)
     status = jam_hessian(self%sys, h=h, rows=given)
     if (status >= 0) then
-      deallocate (made_row_start)
-      allocate (made_row_start(d_of*stable_of + 1))
-      deallocate (made_column)
-      allocate (made_column(given))
-      deallocate (made_value)
-      allocate (made_value(given))
-      status = jam_hessian(self%sys, h=h, row_start=made_row_start, column=made_column, value=made_value)
-      if (status >= 0) then
+      if (present(row_start)) deallocate (made_row_start)
+      if (present(row_start)) allocate (made_row_start(d_of*stable_of + 1))
+      if (present(column)) deallocate (made_column)
+      if (present(column)) allocate (made_column(given))
+      if (present(value)) deallocate (made_value)
+      if (present(value)) allocate (made_value(given))
+      status = jam_hessian(self%sys, h=h, row_start=made_row_start, column=made_column, value=made_value, &
+        rows=given)
+      if (status >= 0 .and. allocated(made_row_start)) then
         where (made_row_start >= 0) made_row_start = made_row_start + 1
       end if
-      if (status >= 0) then
+      if (status >= 0 .and. allocated(made_column)) then
         where (made_column >= 0) made_column = made_column + 1
       end if
     end if
@@ -1022,17 +976,17 @@ contains
     real(c_double), allocatable :: made_vector(:, :, :)
     integer(c_int32_t) :: status
     integer(c_size_t) :: given, d_of, n_of, stable_of
-    allocate (made_table(0, 0))
-    allocate (made_vector(0, 0, 0))
+    if (present(table)) allocate (made_table(0, 0))
+    if (present(vector)) allocate (made_vector(0, 0, 0))
     call self%extents(d_of, n_of, stable=stable_of)
     status = jam_modes(self%sys, h=h, o=o, columns=JAM_MODE_COLUMNS, rows=given)
     if (status >= 0) then
-      deallocate (made_table)
-      allocate (made_table(2_c_size_t, given))
-      deallocate (made_vector)
-      allocate (made_vector(d_of, stable_of, given))
+      if (present(table)) deallocate (made_table)
+      if (present(table)) allocate (made_table(2_c_size_t, given))
+      if (present(vector)) deallocate (made_vector)
+      if (present(vector)) allocate (made_vector(d_of, stable_of, given))
       status = jam_modes(self%sys, h=h, o=o, columns=JAM_MODE_COLUMNS, table=made_table, &
-        vector=made_vector)
+        vector=made_vector, rows=given)
     end if
     if (present(table)) call move_alloc(made_table, table)
     if (present(vector)) call move_alloc(made_vector, vector)
@@ -1055,17 +1009,17 @@ contains
     real(c_double), allocatable :: made_vector(:, :, :, :)
     integer(c_int32_t) :: status
     integer(c_size_t) :: given, d_of, n_of, stable_of
-    allocate (made_table(0, 0))
-    allocate (made_vector(0, 0, 0, 0))
+    if (present(table)) allocate (made_table(0, 0))
+    if (present(vector)) allocate (made_vector(0, 0, 0, 0))
     call self%extents(d_of, n_of, stable=stable_of)
     status = jam_bloch_modes(self%sys, h=h, wave=wave, columns=JAM_MODE_COLUMNS, rows=given)
     if (status >= 0) then
-      deallocate (made_table)
-      allocate (made_table(2_c_size_t, given))
-      deallocate (made_vector)
-      allocate (made_vector(2_c_size_t, d_of, stable_of, given))
+      if (present(table)) deallocate (made_table)
+      if (present(table)) allocate (made_table(2_c_size_t, given))
+      if (present(vector)) deallocate (made_vector)
+      if (present(vector)) allocate (made_vector(2_c_size_t, d_of, stable_of, given))
       status = jam_bloch_modes(self%sys, h=h, wave=wave, columns=JAM_MODE_COLUMNS, table=made_table, &
-        vector=made_vector)
+        vector=made_vector, rows=given)
     end if
     if (present(table)) call move_alloc(made_table, table)
     if (present(vector)) call move_alloc(made_vector, vector)
@@ -1104,27 +1058,6 @@ contains
     call self%done(status)
   end subroutine do_contacts_by_distance
 
-  ! Candidates for the contact tolerance, for packings where no jump is clear; m is at most 12. A candidate is a jump of
-  ! the sorted gaps below window, as in jam_geometry_options, with enough contacts for a rigid network below it. The
-  ! largest jump comes first.
-  ! Shapes: table (m, jam_candidate_column).
-  function do_contact_candidates(self, window) result(found)
-    class(packing), intent(inout) :: self
-    real(c_double), intent(in) :: window
-    real(c_double), allocatable :: found(:, :)
-    integer(c_int32_t) :: status
-    integer(c_size_t) :: given, d_of, n_of
-    allocate (found(0, 0))
-    call self%extents(d_of, n_of)
-    status = jam_contact_candidates(self%sys, window=window, columns=JAM_CANDIDATE_COLUMNS, needed=given)
-    if (status >= 0) then
-      deallocate (found)
-      allocate (found(4_c_size_t, given/4))
-      status = jam_contact_candidates(self%sys, window=window, columns=JAM_CANDIDATE_COLUMNS, table=found)
-    end if
-    call self%done(status)
-  end function do_contact_candidates
-
   ! States of self-stress of the network: *rows = their number m; force, mean 1, from the null space of S^T, not from LP
   ! duals; basis orthonormal; residual: one number, as force_residual. Status: JAM_AMBIGUOUS (m > 1: force is the centre
   ! of the non-negative ones), JAM_NOT_JAMMED (m = 0 or no force of one sign).
@@ -1140,16 +1073,16 @@ contains
     real(c_double) :: made_residual
     integer(c_int32_t) :: status
     integer(c_size_t) :: given, d_of, n_of, contacts_of
-    allocate (made_force(0))
-    allocate (made_basis(0, 0))
+    if (present(force)) allocate (made_force(0))
+    if (present(basis)) allocate (made_basis(0, 0))
     call self%extents(d_of, n_of, contacts=contacts_of)
     status = jam_stress_states(self%sys, rows=given)
     if (status >= 0) then
-      deallocate (made_force)
-      allocate (made_force(contacts_of))
-      deallocate (made_basis)
-      allocate (made_basis(contacts_of, given))
-      status = jam_stress_states(self%sys, force=made_force, basis=made_basis, residual=made_residual)
+      if (present(force)) deallocate (made_force)
+      if (present(force)) allocate (made_force(contacts_of))
+      if (present(basis)) deallocate (made_basis)
+      if (present(basis)) allocate (made_basis(contacts_of, given))
+      status = jam_stress_states(self%sys, force=made_force, basis=made_basis, residual=made_residual, rows=given)
     end if
     if (present(force)) call move_alloc(made_force, force)
     if (present(basis)) call move_alloc(made_basis, basis)
@@ -1190,16 +1123,17 @@ contains
     real(c_double), allocatable :: made_strain(:, :)
     integer(c_int32_t) :: status
     integer(c_size_t) :: given, d_of, n_of
-    allocate (made_out(0, 0))
-    allocate (made_strain(0, 0))
+    if (present(out)) allocate (made_out(0, 0))
+    if (present(strain)) allocate (made_strain(0, 0))
     call self%extents(d_of, n_of)
     status = jam_flex(self%sys, kind=int(kind, c_int32_t), needed=given)
     if (status >= 0) then
-      deallocate (made_out)
-      allocate (made_out(d_of, n_of))
-      deallocate (made_strain)
-      allocate (made_strain(d_of, d_of))
-      status = jam_flex(self%sys, kind=int(kind, c_int32_t), out=made_out, strain=made_strain)
+      if (present(out)) deallocate (made_out)
+      if (present(out)) allocate (made_out(d_of, n_of))
+      if (present(strain)) deallocate (made_strain)
+      if (present(strain)) allocate (made_strain(d_of, d_of))
+      status = jam_flex(self%sys, kind=int(kind, c_int32_t), out=made_out, strain=made_strain, &
+        needed=given)
     end if
     if (present(out)) call move_alloc(made_out, out)
     if (present(strain)) call move_alloc(made_strain, strain)
@@ -1221,17 +1155,17 @@ contains
     real(c_double), allocatable :: made_table(:, :)
     integer(c_int32_t) :: status
     integer(c_size_t) :: given, d_of, n_of
-    allocate (made_wave(0, 0))
-    allocate (made_table(0, 0))
+    if (present(wave)) allocate (made_wave(0, 0))
+    if (present(table)) allocate (made_table(0, 0))
     call self%extents(d_of, n_of)
     status = jam_bloch_rigidity(self%sys, count=count, columns=JAM_BLOCH_COLUMNS, rows=given)
     if (status >= 0) then
-      deallocate (made_wave)
-      allocate (made_wave(d_of, given))
-      deallocate (made_table)
-      allocate (made_table(2_c_size_t, given))
+      if (present(wave)) deallocate (made_wave)
+      if (present(wave)) allocate (made_wave(d_of, given))
+      if (present(table)) deallocate (made_table)
+      if (present(table)) allocate (made_table(2_c_size_t, given))
       status = jam_bloch_rigidity(self%sys, count=count, columns=JAM_BLOCH_COLUMNS, wave=made_wave, &
-        table=made_table)
+        table=made_table, rows=given)
     end if
     if (present(wave)) call move_alloc(made_wave, wave)
     if (present(table)) call move_alloc(made_table, table)
@@ -1256,55 +1190,38 @@ contains
   ! Proves, despite rounding, that the packing is jammed. Contacts and forces are those of the network. Newton's
   ! steps take the centres to two doubles (jam_refined_positions). A factorisation with a bound of its rounding gives the
   ! smallest singular value, and Kantorovich's theorem the rest: the guide's page "Proofs" has theorems and limits.
-  ! ratio: the exact ratios of the diameters, in any unit; NULL takes the diameters as they are. Status: JAM_OK proved
-  ! exact or trapped, JAM_AMBIGUOUS not proved (jam_last_error names the cause).
+  ! JAM_RIGIDITY_STRICT: the cell deforms too, its vectors are unknowns and the diameters are fixed. EXACT: strictly
+  ! jammed, and the volume is a strict local minimum. TRAPPED: of all motions and strains that do not enlarge the volume.
+  ! Lengths of the report count displacements and entries of the cell vectors alike, packing_fraction is that of the
+  ! exact cell. ratio: the exact ratios of the diameters, in any unit, of JAM_RIGIDITY_COLLECTIVE alone; NULL takes the
+  ! diameters as they are. Status: JAM_OK proved exact or trapped, JAM_AMBIGUOUS not proved (jam_last_error names the
+  ! cause).
   ! Shapes: ratio (n).
   ! Errors: JAM_E_STATE (no network), JAM_E_UNSUPPORTED (Mari-Kurchan model).
-  function do_prove(self, ratio) result(found)
+  function do_prove(self, kind, ratio) result(found)
     class(packing), intent(inout) :: self
+    integer, intent(in) :: kind
     real(c_double), intent(in), contiguous, target, optional :: ratio(..)
     type(jam_proof_report) :: found
     integer(c_int32_t) :: status
-    status = jam_prove(self%sys, ratio=ratio, report=found)
+    status = jam_prove(self%sys, kind=int(kind, c_int32_t), ratio=ratio, report=found)
     call self%done(status)
   end function do_prove
 
-  ! The same where the cell deforms too: the diameters are fixed, and the cell vectors are unknowns. EXACT: strictly
-  ! jammed, and the volume is a strict local minimum. TRAPPED: of all motions and strains that do not enlarge the volume.
-  ! Lengths of the report count displacements and entries of the cell vectors alike, packing_fraction is that of the
-  ! exact cell. Status: JAM_AMBIGUOUS not proved.
-  ! Errors: JAM_E_STATE (no network), JAM_E_UNSUPPORTED.
-  function do_prove_strict(self) result(found)
-    class(packing), intent(inout) :: self
-    type(jam_proof_report) :: found
-    integer(c_int32_t) :: status
-    status = jam_prove_strict(self%sys, report=found)
-    call self%done(status)
-  end function do_prove_strict
-
-  ! Writes the exact numbers of the proof: refined centres, contacts, forces. bindings/proof/jamproof.py checks such a
-  ! file with integers alone, without libjam. ratio: as for jam_prove. The file appears whole or not at all. Status:
-  ! JAM_AMBIGUOUS (dependent contacts: centres are not refined).
+  ! Writes the exact numbers of the proof: refined centres, contacts, forces, and of JAM_RIGIDITY_STRICT the refined
+  ! cell. bindings/proof/jamproof.py checks such a file with integers alone, without libjam. kind, ratio: as for
+  ! jam_prove. The file appears whole or not at all. Status: JAM_AMBIGUOUS (dependent contacts: centres are not refined).
   ! Shapes: ratio (n).
   ! Errors: JAM_E_STATE, JAM_E_UNSUPPORTED, JAM_E_IO.
-  subroutine do_write_proof(self, path, ratio)
+  subroutine do_write_proof(self, path, kind, ratio)
     class(packing), intent(inout) :: self
     character(*), intent(in) :: path
+    integer, intent(in) :: kind
     real(c_double), intent(in), contiguous, target, optional :: ratio(..)
     integer(c_int32_t) :: status
-    status = jam_write_proof(self%sys, path=path, ratio=ratio)
+    status = jam_write_proof(self%sys, path=path, kind=int(kind, c_int32_t), ratio=ratio)
     call self%done(status)
   end subroutine do_write_proof
-
-  ! The same of jam_prove_strict: refined centres and cell.
-  ! Errors: JAM_E_STATE, JAM_E_UNSUPPORTED, JAM_E_IO.
-  subroutine do_write_proof_strict(self, path)
-    class(packing), intent(inout) :: self
-    character(*), intent(in) :: path
-    integer(c_int32_t) :: status
-    status = jam_write_proof_strict(self%sys, path=path)
-    call self%done(status)
-  end subroutine do_write_proof_strict
 
   ! Centres of the jammed packing as sums of two doubles, high + low, unit of the box: about 31 digits. Rattlers move
   ! out of overlaps alone. ratio: as for jam_prove. Status: JAM_AMBIGUOUS (dependent contacts, nothing is written).
@@ -1319,16 +1236,16 @@ contains
     real(c_double), allocatable :: made_low(:, :)
     integer(c_int32_t) :: status
     integer(c_size_t) :: given, d_of, n_of
-    allocate (made_high(0, 0))
-    allocate (made_low(0, 0))
+    if (present(high)) allocate (made_high(0, 0))
+    if (present(low)) allocate (made_low(0, 0))
     call self%extents(d_of, n_of)
     status = jam_refined_positions(self%sys, ratio=ratio, needed=given)
     if (status >= 0) then
-      deallocate (made_high)
-      allocate (made_high(d_of, n_of))
-      deallocate (made_low)
-      allocate (made_low(d_of, n_of))
-      status = jam_refined_positions(self%sys, ratio=ratio, high=made_high, low=made_low)
+      if (present(high)) deallocate (made_high)
+      if (present(high)) allocate (made_high(d_of, n_of))
+      if (present(low)) deallocate (made_low)
+      if (present(low)) allocate (made_low(d_of, n_of))
+      status = jam_refined_positions(self%sys, ratio=ratio, high=made_high, low=made_low, needed=given)
     end if
     if (present(high)) call move_alloc(made_high, high)
     if (present(low)) call move_alloc(made_low, low)
@@ -1349,20 +1266,20 @@ contains
     integer(c_int32_t), allocatable :: made_pair(:, :)
     integer(c_int32_t) :: status
     integer(c_size_t) :: given, d_of, n_of
-    allocate (made_gap(0))
-    allocate (made_pair(0, 0))
+    if (present(gap)) allocate (made_gap(0))
+    if (present(pair)) allocate (made_pair(0, 0))
     call self%extents(d_of, n_of)
     status = jam_gaps(self%sys, h_max=h_max, &
       stable_only=merge(1_c_int32_t, 0_c_int32_t, stable_only), rows=given)
     if (status >= 0) then
-      deallocate (made_gap)
-      allocate (made_gap(given))
-      deallocate (made_pair)
-      allocate (made_pair(2_c_size_t, given))
+      if (present(gap)) deallocate (made_gap)
+      if (present(gap)) allocate (made_gap(given))
+      if (present(pair)) deallocate (made_pair)
+      if (present(pair)) allocate (made_pair(2_c_size_t, given))
       status = jam_gaps(self%sys, h_max=h_max, &
         stable_only=merge(1_c_int32_t, 0_c_int32_t, stable_only), gap=made_gap, &
-        pair=made_pair)
-      if (status >= 0) then
+        pair=made_pair, rows=given)
+      if (status >= 0 .and. allocated(made_pair)) then
         where (made_pair >= 0) made_pair = made_pair + 1
       end if
     end if
@@ -1402,16 +1319,17 @@ contains
     real(c_double), allocatable :: made_s(:)
     integer(c_int32_t) :: status
     integer(c_size_t) :: given, d_of, n_of
-    allocate (made_c(0, 0))
-    allocate (made_s(0))
+    if (present(c)) allocate (made_c(0, 0))
+    if (present(s)) allocate (made_s(0))
     call self%extents(d_of, n_of)
     status = jam_sphere_structure(self%sys, weighted=merge(1_c_int32_t, 0_c_int32_t, weighted), rows=given)
     if (status >= 0) then
-      deallocate (made_c)
-      allocate (made_c(d_of, n_of))
-      deallocate (made_s)
-      allocate (made_s(n_of))
-      status = jam_sphere_structure(self%sys, weighted=merge(1_c_int32_t, 0_c_int32_t, weighted), c=made_c, s=made_s)
+      if (present(c)) deallocate (made_c)
+      if (present(c)) allocate (made_c(d_of, n_of))
+      if (present(s)) deallocate (made_s)
+      if (present(s)) allocate (made_s(n_of))
+      status = jam_sphere_structure(self%sys, weighted=merge(1_c_int32_t, 0_c_int32_t, weighted), c=made_c, &
+        s=made_s, rows=given)
     end if
     if (present(c)) call move_alloc(made_c, c)
     if (present(s)) call move_alloc(made_s, s)
@@ -1430,18 +1348,18 @@ contains
     integer(c_int32_t), allocatable :: made_sphere(:)
     integer(c_int32_t) :: status
     integer(c_size_t) :: given, d_of, n_of
-    allocate (made_dot(0))
-    allocate (made_sphere(0))
+    if (present(dot)) allocate (made_dot(0))
+    if (present(sphere)) allocate (made_sphere(0))
     call self%extents(d_of, n_of)
     status = jam_contact_dots(self%sys, weighted=merge(1_c_int32_t, 0_c_int32_t, weighted), rows=given)
     if (status >= 0) then
-      deallocate (made_dot)
-      allocate (made_dot(given))
-      deallocate (made_sphere)
-      allocate (made_sphere(given))
+      if (present(dot)) deallocate (made_dot)
+      if (present(dot)) allocate (made_dot(given))
+      if (present(sphere)) deallocate (made_sphere)
+      if (present(sphere)) allocate (made_sphere(given))
       status = jam_contact_dots(self%sys, weighted=merge(1_c_int32_t, 0_c_int32_t, weighted), dot=made_dot, &
-        sphere=made_sphere)
-      if (status >= 0) then
+        sphere=made_sphere, rows=given)
+      if (status >= 0 .and. allocated(made_sphere)) then
         where (made_sphere >= 0) made_sphere = made_sphere + 1
       end if
     end if
@@ -1492,35 +1410,6 @@ contains
     end if
     call self%done(status)
   end function do_local_values
-
-  ! Histogram of the values of jam_local_values: density in `bins` equal bins of [low, high), its integral the share of
-  ! values there.
-  ! Shapes: out (bins).
-  ! Errors: JAM_E_STATE.
-  function do_histogram(self, quantity, population, low, high, bins) result(found)
-    class(packing), intent(inout) :: self
-    integer, intent(in) :: quantity
-    integer, intent(in) :: population
-    real(c_double), intent(in) :: low
-    real(c_double), intent(in) :: high
-    integer, intent(in) :: bins
-    real(c_double), allocatable :: found(:)
-    integer(c_int32_t) :: status
-    integer(c_size_t) :: given, d_of, n_of
-    allocate (found(0))
-    call self%extents(d_of, n_of)
-    status = jam_histogram(self%sys, quantity=int(quantity, c_int32_t), &
-      population=int(population, c_int32_t), low=low, high=high, &
-      bins=int(bins, c_int64_t), needed=given)
-    if (status >= 0) then
-      deallocate (found)
-      allocate (found(given))
-      status = jam_histogram(self%sys, quantity=int(quantity, c_int32_t), &
-        population=int(population, c_int32_t), low=low, high=high, &
-        bins=int(bins, c_int64_t), out=found)
-    end if
-    call self%done(status)
-  end function do_histogram
 
   ! g_ab(r) of labels a, b in kind (or NULL). Walls, d < 4: over centres spread evenly.
   ! Shapes: kind (n), out (bins).
@@ -1604,16 +1493,6 @@ contains
     call self%done(status)
   end function do_bond_order
 
-  ! Crystal score: g at sqrt 2 over its mean in 1.2..1.6 (mean diameters); below 1 in a good glass of equal spheres,
-  ! about 10 in a perfect FCC crystal.
-  function do_crystal_score(self) result(found)
-    class(packing), intent(inout) :: self
-    real(c_double) :: found
-    integer(c_int32_t) :: status
-    status = jam_crystal_score(self%sys, score=found)
-    call self%done(status)
-  end function do_crystal_score
-
   ! Packing fraction of each sphere in its radical Voronoi cell within the walls (a round one to 1e-5), d = 3.
   ! Shapes: out (n).
   ! Errors: JAM_E_UNSUPPORTED (d, no voro++, walls of a tilted cell).
@@ -1661,13 +1540,13 @@ contains
     real(c_double), allocatable :: made_out(:)
     integer(c_int32_t) :: status
     integer(c_size_t) :: given, d_of, n_of
-    allocate (made_out(0))
+    if (present(out)) allocate (made_out(0))
     call self%extents(d_of, n_of)
     status = jam_voxels(self%sys, o=o, needed=given)
     if (status >= 0) then
-      deallocate (made_out)
-      allocate (made_out(given))
-      status = jam_voxels(self%sys, o=o, report=made_report, out=made_out)
+      if (present(out)) deallocate (made_out)
+      if (present(out)) allocate (made_out(given))
+      status = jam_voxels(self%sys, o=o, report=made_report, out=made_out, needed=given)
     end if
     if (present(report)) report = made_report
     if (present(out)) call move_alloc(made_out, out)
@@ -1754,46 +1633,39 @@ contains
     call self%done(status)
   end function do_pore_sizes
 
-  ! Floppy mode: displacement over s when a contact opens by s. To first order all other contacts stay closed, all
-  ! diameters change by the factor 1 - s f / sum f sigma, and there is no net translation. contact in 0..n_c-1. Needs a
-  ! single state of self-stress (JAM_E_STATE says how many there are).
-  ! Shapes: out (N', d).
+  ! Floppy modes of contacts given by their indices, or of all, contact = NULL; *rows = their number m. vector:
+  ! displacement over s when the contact opens by s. To first order all other contacts stay closed, all diameters change
+  ! by the factor 1 - s f / sum f sigma, and there is no net translation. Needs a single state of self-stress
+  ! (JAM_E_STATE says how many there are).
+  ! Shapes: contact (k), table (m, jam_floppy_column), vector (m, N', d).
   ! Errors: JAM_E_STATE, JAM_E_SOLVER.
-  function do_floppy_mode(self, contact) result(found)
+  subroutine do_floppy_modes(self, contact, table, vector)
     class(packing), intent(inout) :: self
-    integer, intent(in) :: contact
-    real(c_double), allocatable :: found(:, :)
+    integer, intent(in), optional :: contact(:)
+    real(c_double), allocatable, intent(out), optional :: table(:, :)
+    real(c_double), allocatable :: made_table(:, :)
+    real(c_double), allocatable, intent(out), optional :: vector(:, :, :)
+    real(c_double), allocatable :: made_vector(:, :, :)
+    integer(c_int64_t), allocatable :: from_0_contact(:)
     integer(c_int32_t) :: status
     integer(c_size_t) :: given, d_of, n_of, stable_of
-    allocate (found(0, 0))
+    if (present(contact)) allocate (from_0_contact, source=int(contact, c_int64_t) - 1_c_int64_t)
+    if (present(table)) allocate (made_table(0, 0))
+    if (present(vector)) allocate (made_vector(0, 0, 0))
     call self%extents(d_of, n_of, stable=stable_of)
-    status = jam_floppy_mode(self%sys, contact=int(contact, c_int64_t) - 1, needed=given)
+    status = jam_floppy_modes(self%sys, contact=from_0_contact, columns=JAM_FLOPPY_COLUMNS, rows=given)
     if (status >= 0) then
-      deallocate (found)
-      allocate (found(d_of, stable_of))
-      status = jam_floppy_mode(self%sys, contact=int(contact, c_int64_t) - 1, out=found)
+      if (present(table)) deallocate (made_table)
+      if (present(table)) allocate (made_table(6_c_size_t, given))
+      if (present(vector)) deallocate (made_vector)
+      if (present(vector)) allocate (made_vector(d_of, stable_of, given))
+      status = jam_floppy_modes(self%sys, contact=from_0_contact, columns=JAM_FLOPPY_COLUMNS, table=made_table, &
+        vector=made_vector, rows=given)
     end if
+    if (present(table)) call move_alloc(made_table, table)
+    if (present(vector)) call move_alloc(made_vector, vector)
     call self%done(status)
-  end function do_floppy_mode
-
-  ! The floppy mode of every contact, measured.
-  ! Shapes: table (n_c, jam_floppy_column).
-  ! Errors: JAM_E_STATE, JAM_E_SOLVER.
-  function do_floppy_modes(self) result(found)
-    class(packing), intent(inout) :: self
-    real(c_double), allocatable :: found(:, :)
-    integer(c_int32_t) :: status
-    integer(c_size_t) :: given, d_of, n_of
-    allocate (found(0, 0))
-    call self%extents(d_of, n_of)
-    status = jam_floppy_modes(self%sys, columns=JAM_FLOPPY_COLUMNS, needed=given)
-    if (status >= 0) then
-      deallocate (found)
-      allocate (found(6_c_size_t, given/6))
-      status = jam_floppy_modes(self%sys, columns=JAM_FLOPPY_COLUMNS, table=found)
-    end if
-    call self%done(status)
-  end function do_floppy_modes
+  end subroutine do_floppy_modes
 
   ! Density of states D(omega) and its integral by the kernel polynomial method: no modes are computed, translations are
   ! omitted. With prestress omega starts below 0: unstable modes are listed at -sqrt(-lambda), and resolution is lower
@@ -1818,41 +1690,6 @@ contains
     call self%done(status)
   end function do_density_of_states
 
-  ! Projections u . v of a displacement u on the modes `vector` of jam_modes. Over all d N' modes their squares add up to
-  ! |u|^2.
-  ! Shapes: vector (m, N', d), u (N', d), out (m).
-  ! Errors: JAM_E_STATE.
-  function do_project(self, vector, u) result(found)
-    class(packing), intent(inout) :: self
-    real(c_double), intent(in), contiguous, target, optional :: vector(..)
-    real(c_double), intent(in), contiguous, target, optional :: u(..)
-    real(c_double), allocatable :: found(:)
-    integer(c_int32_t) :: status
-    integer(c_size_t) :: given, d_of, n_of
-    allocate (found(0))
-    call self%extents(d_of, n_of)
-    status = jam_project(self%sys, vector=vector, u=u, needed=given)
-    if (status >= 0) then
-      deallocate (found)
-      allocate (found(given))
-      status = jam_project(self%sys, vector=vector, u=u, out=found)
-    end if
-    call self%done(status)
-  end function do_project
-
-  ! value = u . H . u for a displacement u.
-  ! Shapes: u (N', d).
-  ! Errors: JAM_E_STATE.
-  function do_curvature(self, h, u) result(found)
-    class(packing), intent(inout) :: self
-    type(jam_hessian_options), intent(in), optional :: h
-    real(c_double), intent(in), contiguous, target, optional :: u(..)
-    real(c_double) :: found
-    integer(c_int32_t) :: status
-    status = jam_curvature(self%sys, h=h, u=u, value=found)
-    call self%done(status)
-  end function do_curvature
-
   ! Elastic moduli; JAM_E_STATE also when prestress makes the network unstable. With walls bulk is NaN, and shear is that
   ! of planes of two axes without walls.
   ! Errors: JAM_E_STATE, JAM_E_SOLVER, JAM_E_UNSUPPORTED (not two such axes; unlisted own images).
@@ -1861,7 +1698,7 @@ contains
     type(jam_hessian_options), intent(in), optional :: h
     type(jam_moduli_report) :: found
     integer(c_int32_t) :: status
-    status = jam_moduli(self%sys, h=h, moduli=found)
+    status = jam_moduli(self%sys, h=h, report=found)
     call self%done(status)
   end function do_moduli
 
@@ -1879,16 +1716,16 @@ contains
     real(c_double), allocatable :: made_relaxed(:, :, :, :)
     integer(c_int32_t) :: status
     integer(c_size_t) :: given, d_of, n_of
-    allocate (made_affine(0, 0, 0, 0))
-    allocate (made_relaxed(0, 0, 0, 0))
+    if (present(affine)) allocate (made_affine(0, 0, 0, 0))
+    if (present(relaxed)) allocate (made_relaxed(0, 0, 0, 0))
     call self%extents(d_of, n_of)
     status = jam_elastic_tensor(self%sys, h=h, needed=given)
     if (status >= 0) then
-      deallocate (made_affine)
-      allocate (made_affine(d_of, d_of, d_of, d_of))
-      deallocate (made_relaxed)
-      allocate (made_relaxed(d_of, d_of, d_of, d_of))
-      status = jam_elastic_tensor(self%sys, h=h, affine=made_affine, relaxed=made_relaxed)
+      if (present(affine)) deallocate (made_affine)
+      if (present(affine)) allocate (made_affine(d_of, d_of, d_of, d_of))
+      if (present(relaxed)) deallocate (made_relaxed)
+      if (present(relaxed)) allocate (made_relaxed(d_of, d_of, d_of, d_of))
+      status = jam_elastic_tensor(self%sys, h=h, affine=made_affine, relaxed=made_relaxed, needed=given)
     end if
     if (present(affine)) call move_alloc(made_affine, affine)
     if (present(relaxed)) call move_alloc(made_relaxed, relaxed)
@@ -1902,19 +1739,20 @@ contains
   subroutine do_compare(self, other, comparison, out)
     class(packing), intent(inout) :: self
     class(jam_handle), intent(in) :: other
-    type(jam_comparison), intent(inout), optional :: comparison
-    type(jam_comparison) :: made_comparison
+    type(jam_comparison_report), intent(inout), optional :: comparison
+    type(jam_comparison_report) :: made_comparison
     real(c_double), allocatable, intent(out), optional :: out(:, :)
     real(c_double), allocatable :: made_out(:, :)
     integer(c_int32_t) :: status
     integer(c_size_t) :: given, d_of, n_of
-    allocate (made_out(0, 0))
+    if (present(out)) allocate (made_out(0, 0))
     call self%extents(d_of, n_of)
     status = jam_compare(self%sys, other=other%sys, needed=given)
     if (status >= 0) then
-      deallocate (made_out)
-      allocate (made_out(d_of, n_of))
-      status = jam_compare(self%sys, other=other%sys, comparison=made_comparison, out=made_out)
+      if (present(out)) deallocate (made_out)
+      if (present(out)) allocate (made_out(d_of, n_of))
+      status = jam_compare(self%sys, other=other%sys, comparison=made_comparison, out=made_out, &
+        needed=given)
     end if
     if (present(comparison)) comparison = made_comparison
     if (present(out)) call move_alloc(made_out, out)

@@ -1,5 +1,5 @@
 """The tags in the comments of the header. They and the declarations are all that code is generated from; prose goes into
-documentation alone. The top of the header says how they are written.
+documentation alone. bindings/README.md says how they are written.
 
     @shape out (n, d), table (m, jam_x_column)    of a function: shape of every array
     @enum kind jam_x, form jam_y                  of a function: whose values an argument takes

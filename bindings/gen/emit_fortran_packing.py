@@ -15,10 +15,15 @@ module jam_packing
   implicit none
 '''
 # Written by hand in jam_base.f90, or of no use with arrays that allocate themselves.
-BY_HAND = frozenset("""jam_destroy jam_copy jam_set_progress jam_set_log jam_view_positions jam_view_velocities jam_view_diameters jam_write
+BY_HAND = frozenset("""jam_destroy jam_copy jam_set_progress jam_set_log jam_view jam_write
     jam_cancel jam_read jam_read_as jam_notes""".split())
 NAMES = {"get_crunch_report": "report", "get_info": "info", "get_cell": "cell", "check_packing": "check", "get_isoconf_report": "isoconf_report"}
 LETTERS = {"d": "d_of", "n": "n_of", "N'": "stable_of", "n_c": "contacts_of", "contacts": "contacts_of"}
+
+
+def _from_one(f, a):
+    """Whether an array in has indices, which count from 1 here."""
+    return a.role == "array_in" and len(f.shapes[a.name]) == 1 and is_index(f, a)
 
 
 def _dummy(f, a):
@@ -29,6 +34,8 @@ def _dummy(f, a):
         return f"type({a.type.base}), intent(in), optional :: {a.name}"
     if a.role == "string":
         return f"character(*), intent(in) :: {a.name}"
+    if _from_one(f, a):
+        return f"integer, intent(in), optional :: {a.name}(:)"
     if a.role == "array_in":
         return f"{TYPES[a.type.scalar][2]}, intent(in), contiguous, target, optional :: {a.name}(..)"
     if a.name in f.bools:
@@ -40,6 +47,8 @@ def _given(f, a):
     """What the module jam gets for it."""
     if a.role == "handle":
         return f"{a.name}%sys"
+    if _from_one(f, a):
+        return f"from_0_{a.name}"
     if a.role != "scalar" or a.type.scalar == "double":
         return a.name
     if a.name in f.bools:
@@ -102,17 +111,25 @@ def _procedure(f, name, api):
         if not one:
             lines.append(f"    {_result_type(a)}{allocatable}, intent({'out' if shape or a.role != 'struct_out' else 'inout'}), optional :: {a.name}{shape}")
         lines.append(f"    {_result_type(a)}{allocatable} :: {result[a.name]}{shape}")
+    lines += [f"    {TYPES[a.type.scalar][2]}, allocatable :: from_0_{a.name}(:)" for a in dummies if _from_one(f, a)]
     shapes = {a.name: _shape(f, a, count.name if count else "", len(fills) == 1, api) for a in fills}
     used = {word for s in shapes.values() for e in s for word in LETTERS.values() if word in e}
     lines.append("    integer(c_int32_t) :: status")
     if fills:
         lines.append("    integer(c_size_t) :: given, d_of, n_of" + "".join(f", {w}" for w in ("stable_of", "contacts_of") if w in used))
+    # what is not allocated is not present in the call
+    wanted = {a.name: "" if one else f"if (present({a.name})) " for a in fills}
+    for a in dummies:
+        if _from_one(f, a):
+            of_c = TYPES[a.type.scalar][2][8:-1]
+            lines.append(f"    if (present({a.name})) allocate (from_0_{a.name}, source=int({a.name}, {of_c}) - 1_{of_c})")
     passed = [f"{a.name}={_given(f, a)}" for a in args if a in dummies]
     passed += [f"columns={count_of_columns(columns_of(f, api))[0]}" for a in args if a.role == "columns"]
     filled = [f"{a.name}={result[a.name]}" for a in outputs]
+    filled += [f"{count.name}=given"] if fills and count and not one else []
     pad = "    "
     if fills:
-        lines += [f"    allocate ({result[a.name]}({', '.join(['0'] * rank[a.name])}))" for a in fills]
+        lines += [f"    {wanted[a.name]}allocate ({result[a.name]}({', '.join(['0'] * rank[a.name])}))" for a in fills]
         letters = "".join(f", {k}={w}" for k, w in (("stable", "stable_of"), ("contacts", "contacts_of")) if w in used)
         lines.append(f"    call self%extents(d_of, n_of{letters})")
         if count:
@@ -120,12 +137,12 @@ def _procedure(f, name, api):
             lines.append("    if (status >= 0) then")
             pad = "      "
         for a in fills:
-            lines.append(f"{pad}deallocate ({result[a.name]})")
-            lines.append(f"{pad}allocate ({result[a.name]}({_wrap(shapes[a.name], pad)}))")
+            lines.append(f"{pad}{wanted[a.name]}deallocate ({result[a.name]})")
+            lines.append(f"{pad}{wanted[a.name]}allocate ({result[a.name]}({_wrap(shapes[a.name], pad)}))")
     lines.append(f"{pad}status = {f.name}({_wrap(['self%sys'] + passed + filled, pad)})")
     for a in fills:
         if is_index(f, a):  # below 0: a wall
-            lines += [f"{pad}if (status >= 0) then", f"{pad}  where ({result[a.name]} >= 0) {result[a.name]} = {result[a.name]} + 1", f"{pad}end if"]
+            lines += [f"{pad}if (status >= 0 .and. allocated({result[a.name]})) then", f"{pad}  where ({result[a.name]} >= 0) {result[a.name]} = {result[a.name]} + 1", f"{pad}end if"]
     if len(pad) > 4:
         lines.append("    end if")
     if not one:

@@ -1,6 +1,6 @@
 """The natural Julia layer as far as the header gives it: words of the enums, a table of calls, a method for each call."""
 from annotations import HeaderError, columns_of
-from emit_methods import PLAIN, SKIP
+from emit_methods import PLAIN, SKIP, reports_progress
 from emit_python import is_free
 from juliadoc import docstring, enum_name, julia_name, word_of
 from model import TYPES, item_names, options_init
@@ -12,9 +12,9 @@ INDICES = {
     ("jam_hessian", "row_start"),
     ("jam_hessian", "column"),
     ("jam_contact_dots", "sphere"),
-    ("jam_floppy_mode", "contact"),
+    ("jam_floppy_modes", "contact"),
     ("jam_isoconf_kept", "instant"),
-    ("jam_isoconfigurational", "kept"),
+    ("jam_isoconf", "kept"),
 }
 COUNTS = {  # whole numbers that are none
     ("jam_coordination", "out"),
@@ -27,8 +27,6 @@ COUNTS = {  # whole numbers that are none
     ("jam_tile", "count"),
     ("jam_bloch_rigidity", "count"),
 }
-# Words that other packages export too.
-NOT_EXPORTED = ("histogram", "project")
 # Bodies in system.jl and network.jl, which call by the same table.
 BY_HAND = SKIP | {"jam_modes", "jam_hessian", "jam_crunch_history", "jam_decompress_history", "jam_write_checkpoint",
                   "jam_isoconf_displacements", "jam_isoconf_distances", "jam_isoconf_series", "jam_get_isoconf_report"}
@@ -84,7 +82,7 @@ def _method(f, api):
     members = [m for a in args if a.role == "struct_in" for m in api.struct(a.type.base).members if not m.name.startswith(("struct_size", "reserved"))]
     optional = [a.name for a in plain if a.role == "array_in" and on_system and all(b.role == "array_in" for b in plain[plain.index(a):])]
     head = [f"{a.name} = nothing" if a.name in optional else f"{a.name} = 0" if a.name in f.optional else a.name for a in plain]
-    verb = on_system and not f.args[0].type.const
+    verb = reports_progress(f)
     words = (["progress = nothing"] if verb else []) + (["given..."] if members else [])
     shown = [m.name for m in members] + ["progress"] * verb
     outputs = [a.name for a in args if a.role in ("array_out", "struct_out") or (a.role == "scalar_out" and a.name not in ("needed", "rows"))]
@@ -106,5 +104,5 @@ def emit_methods(api):
         if f.name in BY_HAND or {"callback", "new_handle", "view"} & {a.role for a in f.args} or not (on_system or is_free(f, inits)):
             continue
         made.append(_method(f, api))
-    names = [n for n, _ in made if n not in NOT_EXPORTED]
+    names = [n for n, _ in made]
     return MADE + "\nexport " + ",\n       ".join(names) + "\n\n" + "\n".join(text for _, text in made)

@@ -1,4 +1,4 @@
-"""Python methods, typed and documented, for every call on a system (the class that System builds on), and functions without one."""
+"""Python methods, typed and documented, for every call on a system: the class that System builds on."""
 import keyword
 
 import numpydoc
@@ -34,28 +34,20 @@ from .arrays import Array
 from .generated import *  # noqa: F403  report classes
 from .shown import by_shapes as _by_shapes
 '''
-FUNCTIONS = f'''{MADE}
-from __future__ import annotations
-
-from typing import Any
-
-from .calls import invoke
-from .generated import *  # noqa: F403  report classes
-
-
-def _call(name: str, *args: Any, **named: Any) -> Any:
-    return invoke(None, 0, name, args, named)[1]
-
-'''
 SHOWN = "\n\n    def __repr__(self) -> str:\n        return _by_shapes(self)"
 SKIP = {"jam_destroy", "jam_copy", "jam_set_progress", "jam_set_log", "jam_set_positions", "jam_set_velocities", "jam_get_info",
-        "jam_get_crunch_report", "jam_view_positions", "jam_view_velocities", "jam_view_diameters", "jam_run", "jam_compress", "jam_crunch", "jam_relax", "jam_decompress",
+        "jam_get_crunch_report", "jam_view", "jam_run", "jam_compress", "jam_crunch", "jam_relax", "jam_decompress",
         "jam_scale_diameters", "jam_get_cell", "jam_set_cell", "jam_strain", "jam_cancel", "jam_write", "jam_write_page", "jam_write_contacts", "jam_contacts", "jam_forces", "jam_coordination", "jam_hessian",
-        "jam_modes", "jam_bloch_modes", "jam_bloch_rigidity", "jam_tile", "jam_notes", "jam_check_packing", "jam_pair_correlation", "jam_isoconfigurational",
-        "jam_diameters", "jam_parse_diameters", "jam_get_size_report"}  # written by hand
+        "jam_modes", "jam_bloch_modes", "jam_bloch_rigidity", "jam_tile", "jam_notes", "jam_check_packing", "jam_pair_correlation", "jam_isoconf",
+        "jam_prove", "jam_write_proof", "jam_floppy_modes", "jam_diameters", "jam_parse_diameters", "jam_get_size_report"}  # written by hand
 PLAIN = ("scalar", "string", "array_in", "handle")
 
 
+
+
+def reports_progress(f):
+    """A call that works on a system and gives something back may take long; a setter gives nothing."""
+    return f.args[0].role == "handle" and not f.args[0].type.const and any(a.role in ("array_out", "struct_out") for a in f.args)
 
 
 def _hint(f, arg):
@@ -104,7 +96,7 @@ class Call:
                 "\n".join(f"    {a.name}{'_' if keyword.iskeyword(a.name) else ''}: {_output(a)}" for a in self.outputs) + SHOWN]
 
     def text(self, indent):
-        verb = self.on_system and not self.f.args[0].type.const
+        verb = reports_progress(self.f)
         head = (["self"] if self.on_system else []) + [
             f"{a.name}: {_hint(self.f, a)}" + (" = 0" if a.name in self.f.optional else " = None" if a.role == "array_in" and self.on_system and all(
                 b.role == "array_in" for b in self.plain[self.plain.index(a):]) else "") for a in self.plain]
@@ -149,12 +141,14 @@ def _calls(api):
     for f in api.functions:
         if f.name not in SKIP and not {"callback", "new_handle", "view"} & {a.role for a in f.args}:
             call = Call(f, api)
-            if call.on_system or is_free(f, inits):
+            if call.on_system:
                 yield call
+            elif is_free(f, inits):
+                raise HeaderError(f"{f.name} needs no system: write its Python by hand")
 
 
 def emit(api):
-    return METHODS + "\n".join(c.text("    ") for c in _calls(api) if c.on_system) + "\n"
+    return METHODS + "\n".join(c.text("    ") for c in _calls(api)) + "\n"
 
 
 def emit_tuples(api):
@@ -162,7 +156,3 @@ def emit_tuples(api):
     table = "".join(f'    "{c.f.name.removeprefix("jam_")}": {c.result},\n' for c in made)
     return (TUPLES + "\n".join("".join(c.tuple_class()) for c in made)
             + "\n\n\n# {name of a call: what it returns}\nTUPLES: dict[str, type] = {\n" + table + "}\n")
-
-
-def emit_functions(api):
-    return FUNCTIONS + "\n\n".join(c.text("") for c in _calls(api) if not c.on_system) + "\n"

@@ -60,8 +60,8 @@ contains
     n = 0
     d = 0
     if (.not. c_associated(sys)) return
-    if (jam_view_diameters(sys, view, n) /= JAM_OK) return
-    if (jam_view_positions(sys, view, coordinates) /= JAM_OK) return
+    if (jam_view(sys, JAM_VIEW_DIAMETERS, view, n) /= JAM_OK) return
+    if (jam_view(sys, JAM_VIEW_POSITIONS, view, coordinates) /= JAM_OK) return
     if (n > 0) d = coordinates/n
   end subroutine sizes_of
 

@@ -29,7 +29,6 @@ FILES = {
     "bindings/python/jam/_api/generated.py": emit_python.emit,
     "bindings/python/jam/_api/exceptions.py": emit_python.emit_errors,
     "bindings/python/jam/_api/tuples.py": emit_methods.emit_tuples,
-    "bindings/python/jam/_api/functions.py": emit_methods.emit_functions,
     "bindings/python/jam/_system/methods.py": emit_methods.emit,
     "tests/bindings/layout.c": emit_c.emit,
     "bindings/cli/options_table.h": emit_options.emit_c,

@@ -13,7 +13,6 @@
 %apply (const int32_t *IN, size_t IN_LEN) {(const int32_t *count, size_t count_len)};
 %apply (const double *IN, size_t IN_LEN) {(const double *curve, size_t curve_len)};
 %apply (double *FILL, size_t FILL_LEN) {(double *curve, size_t curve_len)};
-%apply double *RESULT {double *volume};
 %apply (const double *IN, size_t IN_LEN) {(const double *diameters, size_t diameters_len)};
 %apply (const double *IN, size_t IN_LEN) {(const double *values, size_t values_len)};
 %apply (int64_t *FILL, size_t FILL_LEN) {(int64_t *collisions, size_t collisions_len)};
@@ -21,19 +20,17 @@
 %apply (int32_t *FILL, size_t FILL_LEN) {(int32_t *pair, size_t pair_len)};
 %apply (double *FILL, size_t FILL_LEN) {(double *momentum, size_t momentum_len)};
 %apply double *RESULT {double *time};
-%apply double *RESULT {double *pressure};
-%apply (const double *IN, size_t IN_LEN) {(const double *fraction, size_t fraction_len)};
-%apply (const double *IN, size_t IN_LEN) {(const double *pressure, size_t pressure_len)};
 %apply (const double *IN, size_t IN_LEN) {(const double *instant, size_t instant_len)};
 %apply (const int32_t *IN, size_t IN_LEN) {(const int32_t *kept, size_t kept_len)};
 %apply (double *FILL, size_t FILL_LEN) {(double *square, size_t square_len)};
 %apply (double *FILL, size_t FILL_LEN) {(double *distance2, size_t distance2_len)};
 %apply (double *FILL, size_t FILL_LEN) {(double *distance4, size_t distance4_len)};
+%apply (double *FILL, size_t FILL_LEN) {(double *vector, size_t vector_len)};
+%apply (double *FILL, size_t FILL_LEN) {(double *dual, size_t dual_len)};
 %apply (int32_t *FILL, size_t FILL_LEN) {(int32_t *out, size_t out_len)};
 %apply (int32_t *FILL, size_t FILL_LEN) {(int32_t *row_start, size_t row_start_len)};
 %apply (int32_t *FILL, size_t FILL_LEN) {(int32_t *column, size_t column_len)};
 %apply (double *FILL, size_t FILL_LEN) {(double *value, size_t value_len)};
-%apply (double *FILL, size_t FILL_LEN) {(double *vector, size_t vector_len)};
 %apply (const double *IN, size_t IN_LEN) {(const double *wave, size_t wave_len)};
 %apply (double *FILL, size_t FILL_LEN) {(double *force, size_t force_len)};
 %apply (double *FILL, size_t FILL_LEN) {(double *basis, size_t basis_len)};
@@ -50,10 +47,7 @@
 %apply (int32_t *FILL, size_t FILL_LEN) {(int32_t *sphere, size_t sphere_len)};
 %apply (const int32_t *IN, size_t IN_LEN) {(const int32_t *kind, size_t kind_len)};
 %apply (const int32_t *IN, size_t IN_LEN) {(const int32_t *pair, size_t pair_len)};
-%apply double *RESULT {double *score};
-%apply (const double *IN, size_t IN_LEN) {(const double *vector, size_t vector_len)};
-%apply (const double *IN, size_t IN_LEN) {(const double *u, size_t u_len)};
-%apply double *RESULT {double *value};
+%apply (const int64_t *IN, size_t IN_LEN) {(const int64_t *contact, size_t contact_len)};
 %apply (double *FILL, size_t FILL_LEN) {(double *affine, size_t affine_len)};
 %apply (double *FILL, size_t FILL_LEN) {(double *relaxed, size_t relaxed_len)};
 %ignore jam_start;
@@ -146,15 +140,6 @@ a per cent of sigma."
   ~jam_observe_options() { free($self); }
 }
 %feature("docstring") jam_observe_options "What jam_observe records."
-%extend jam_glass {
-  jam_glass() {
-    jam_glass *made = (jam_glass *)calloc(1, sizeof *made);
-    if (made) { made->struct_size = sizeof *made; }
-    return made;
-  }
-  ~jam_glass() { free($self); }
-}
-%feature("docstring") jam_glass "A fit of the glass branch p = d' / (1 - phi/phi_J). Errors are standard errors."
 %extend jam_monte_carlo_options {
   jam_monte_carlo_options() {
     jam_monte_carlo_options *made = (jam_monte_carlo_options *)calloc(1, sizeof *made);
@@ -181,7 +166,7 @@ a per cent of sigma."
   }
   ~jam_isoconf_options() { free($self); }
 }
-%feature("docstring") jam_isoconf_options "Options of jam_isoconfigurational."
+%feature("docstring") jam_isoconf_options "Options of jam_isoconf."
 %extend jam_isoconf_report {
   jam_isoconf_report() {
     jam_isoconf_report *made = (jam_isoconf_report *)calloc(1, sizeof *made);
@@ -224,15 +209,15 @@ numbers from packing_fraction_start to contacts_kept say what the crunch did to 
 displacements in mean diameters without their mean over these spheres; rattlers count, and so does a strain of the
 cell. They are NaN or -1 where no crunch made the report. After JAM_STOP_DUALITY_GAP undecided_contacts are pairs
 whose force on the path over the mean is within a factor of 1e4 of twice their gap."
-%extend jam_estimate {
-  jam_estimate() {
-    jam_estimate *made = (jam_estimate *)calloc(1, sizeof *made);
+%extend jam_estimate_report {
+  jam_estimate_report() {
+    jam_estimate_report *made = (jam_estimate_report *)calloc(1, sizeof *made);
     if (made) { made->struct_size = sizeof *made; }
     return made;
   }
-  ~jam_estimate() { free($self); }
+  ~jam_estimate_report() { free($self); }
 }
-%feature("docstring") jam_estimate "Memory and time of a crunch, estimated from the graph of pairs and its elimination tree."
+%feature("docstring") jam_estimate_report "Memory and time of a crunch, estimated from the graph of pairs and its elimination tree."
 %extend jam_relax_options {
   jam_relax_options() {
     jam_relax_options *made = (jam_relax_options *)calloc(1, sizeof *made);
@@ -414,15 +399,15 @@ ratio_i times the power of two at or below V^(1/d). Where no ratios are given, e
   ~jam_moduli_report() { free($self); }
 }
 %feature("docstring") jam_moduli_report "Elastic moduli, unit: stiffness at the mean force times length^(2-d). Affine: without the non-affine part."
-%extend jam_comparison {
-  jam_comparison() {
-    jam_comparison *made = (jam_comparison *)calloc(1, sizeof *made);
+%extend jam_comparison_report {
+  jam_comparison_report() {
+    jam_comparison_report *made = (jam_comparison_report *)calloc(1, sizeof *made);
     if (made) { made->struct_size = sizeof *made; }
     return made;
   }
-  ~jam_comparison() { free($self); }
+  ~jam_comparison_report() { free($self); }
 }
-%feature("docstring") jam_comparison "What jam_compare found between sys, a, and other, b. Contacts are -1 and overlaps NaN where one has no network."
+%feature("docstring") jam_comparison_report "What jam_compare found between sys, a, and other, b. Contacts are -1 and overlaps NaN where one has no network."
 %feature("docstring") jam_version "Version of the library, e.g. \"1.0.0\". Static storage, as the texts of the next five calls."
 %feature("docstring") jam_commit "Commit of the source that the library was built from, 12 hex digits, without uncommitted changes; \"\" when the build
 did not find one."
@@ -445,10 +430,8 @@ Errors: JAM_E_DIMENSION, JAM_E_OVERLAP, JAM_E_UNPLACEABLE (the text gives the fr
 seed of src: where both draw velocities, they draw the same ones. For independent runs use jam_set_velocities."
 %feature("docstring") jam_destroy "Frees a system; NULL is fine."
 %feature("docstring") jam_get_info "Fills *info."
-%feature("docstring") jam_view_positions "View of positions (n, d) in [0, box), in other cells in the brick. The pointer stays valid as long as the handle. Its
-content changes only at the end of calls that move spheres."
-%feature("docstring") jam_view_diameters "View of the n diameters; lifetime as jam_view_positions."
-%feature("docstring") jam_view_velocities "View of velocities (n, d), kT/m = 1; zero until the first MD call draws them. Lifetime as jam_view_positions."
+%feature("docstring") jam_view "View of an array of the system. The pointer stays valid as long as the handle. Its content changes only at the end of
+calls that move spheres."
 %feature("docstring") jam_set_positions "Replaces the positions, wrapped into the box; results of crunch are dropped.
 Shapes: positions (n, d).
 Errors: JAM_E_OVERLAP."
@@ -491,9 +474,6 @@ Errors: JAM_E_DIMENSION, JAM_E_UNPLACEABLE (packing_fraction)."
 (`0.5=0.12`), or a file of two columns, with comments behind #.
 Shapes: curve (rows, 2).
 Errors: JAM_E_IO, JAM_E_FORMAT (the text names the line)."
-%feature("docstring") jam_cell_volume "volume of a cell of d = dim vectors, row after row, with a positive determinant.
-Shapes: cell (m).
-Errors: JAM_E_DIMENSION."
 %feature("docstring") jam_get_size_report "Describes diameters > 0 in dimension dim.
 Shapes: diameters (n).
 Errors: JAM_E_DIMENSION."
@@ -597,11 +577,6 @@ Errors: JAM_E_STATE."
 %feature("docstring") jam_observed_correlation "g(r), pairs over N (N - 1) / 2, sampled likewise.
 Shapes: table (bins, jam_correlation_column).
 Errors: JAM_E_STATE."
-%feature("docstring") jam_eos "pressure of a form.
-Errors: JAM_E_DIMENSION, JAM_E_UNSUPPORTED."
-%feature("docstring") jam_glass_fit "Least squares on 1/pressure against fraction, at least 3 points; the line must fall.
-Shapes: fraction (m), pressure (m).
-Errors: JAM_E_TOO_FEW."
 %feature("docstring") jam_monte_carlo_options_init ""
 %feature("docstring") jam_monte_carlo "Metropolis Monte Carlo (J. Chem. Phys. 21, 1087 (1953)) of hard or soft spheres. A step of 0 is tuned in a
 preliminary run and then frozen; JAM_E_ARGUMENT when no step is accepted. After soft spheres the system allows
@@ -609,7 +584,7 @@ overlaps, as by JAM_OVERLAP_ALLOW. Random numbers depend on seed, run, sweep and
 dropped. jam_observed_spheres gives the displacements. An early stop can be resumed, also from jam_write_checkpoint.
 Errors: JAM_E_STATE, JAM_E_UNSUPPORTED (Mari-Kurchan model), JAM_E_OVERLAP (of hard spheres)."
 %feature("docstring") jam_isoconf_options_init ""
-%feature("docstring") jam_isoconfigurational "Isoconfigurational ensemble (Widmer-Cooper et al., Phys. Rev. Lett. 93, 135701 (2004)): runs from the packing as it
+%feature("docstring") jam_isoconf "Isoconfigurational ensemble (Widmer-Cooper et al., Phys. Rev. Lett. 93, 135701 (2004)): runs from the packing as it
 is, with all diameters scaled to density_ratio; one whose gaps are rounding is refused. Run k draws its velocities
 from a stream of its own. m NULL: molecular dynamics; else Monte Carlo by these options (sweeps, run, first_sweep,
 resume and wall_time are refused). instant: ascending, > 0. kept: indices of instants whose displacements are kept
@@ -650,20 +625,12 @@ Errors: JAM_E_STATE."
 %feature("docstring") jam_crunch_history "Steps of the last crunch.
 Shapes: table (steps, jam_history_column).
 Errors: JAM_E_STATE."
-%feature("docstring") jam_crunch_step_displacements "Displacements of all spheres in the step that has just ended, unit of box, images followed. Their sum over the steps
-leads from the start to the end. This call and the next three work only in the progress callback of jam_crunch with
-steps = 1, when a step has just ended.
-Shapes: out (n, d).
-Errors: JAM_E_STATE."
-%feature("docstring") jam_crunch_step_contacts "Linear contact network of an LP step: pairs of rows with a positive dual, rattlers included. Other steps have none.
-Shapes: out (m, 2).
-Errors: JAM_E_STATE."
-%feature("docstring") jam_crunch_step_vectors "r_ij of these pairs before the step, unit of box.
-Shapes: out (m, d).
-Errors: JAM_E_STATE."
-%feature("docstring") jam_crunch_step_duals "Duals lambda of these pairs: sum_j lambda_ij r_ij = 0 on every sphere without an active step bound, and sum lambda_ij
-sigma_ij^2 = 1 with the diameters before the step.
-Shapes: out (m).
+%feature("docstring") jam_crunch_step "The step that has just ended, in the progress callback of jam_crunch with steps = 1 alone. displacement: of all
+spheres, unit of box, images followed; over all steps they lead from the start to the end. The others are the linear
+contact network of an LP, pairs of rows with a positive dual, rattlers included; other steps have none. *rows = m.
+vector: r_ij before the step. dual: lambda, sum_j lambda_ij r_ij = 0 on every sphere without an active step bound,
+and sum lambda_ij sigma_ij^2 = 1 with the diameters before the step.
+Shapes: displacement (n, d), pair (m, 2), vector (m, d), dual (m).
 Errors: JAM_E_STATE."
 %feature("docstring") jam_relax_options_init ""
 %feature("docstring") jam_relax "Minimises the energy of overlapping spheres at fixed diameters, and at a fixed cell unless `strain` frees it. A free
@@ -736,10 +703,6 @@ friction. jam_contacts, jam_contact_vectors, jam_contact_gaps, jam_coordination,
 jam_contact_dots and jam_sphere_structure (not weighted), jam_write_contacts, jam_write_stl and jam_write_page take
 them; jam_forces gives NaN, tables have no column of forces, pages say so, and jam_info.contact_gap is the gap.
 Status: JAM_NOT_JAMMED when there are none"
-%feature("docstring") jam_contact_candidates "Candidates for the contact tolerance, for packings where no jump is clear; m is at most 12. A candidate is a jump of
-the sorted gaps below window, as in jam_geometry_options, with enough contacts for a rigid network below it. The
-largest jump comes first.
-Shapes: table (m, jam_candidate_column)."
 %feature("docstring") jam_stress_states "States of self-stress of the network: *rows = their number m; force, mean 1, from the null space of S^T, not from LP
 duals; basis orthonormal; residual: one number, as force_residual. Status: JAM_AMBIGUOUS (m > 1: force is the centre
 of the non-negative ones), JAM_NOT_JAMMED (m = 0 or no force of one sign).
@@ -778,24 +741,21 @@ for NULL or a wrong struct_size. Valid until this thread's next call of it."
 %feature("docstring") jam_prove "Proves, despite rounding, that the packing is jammed. Contacts and forces are those of the network. Newton's
 steps take the centres to two doubles (jam_refined_positions). A factorisation with a bound of its rounding gives the
 smallest singular value, and Kantorovich's theorem the rest: the guide's page \"Proofs\" has theorems and limits.
-ratio: the exact ratios of the diameters, in any unit; NULL takes the diameters as they are. Status: JAM_OK proved
-exact or trapped, JAM_AMBIGUOUS not proved (jam_last_error names the cause).
-Shapes: ratio (n).
-Errors: JAM_E_STATE (no network), JAM_E_UNSUPPORTED (Mari-Kurchan model)."
-%feature("docstring") jam_prove_strict "The same where the cell deforms too: the diameters are fixed, and the cell vectors are unknowns. EXACT: strictly
+JAM_RIGIDITY_STRICT: the cell deforms too, its vectors are unknowns and the diameters are fixed. EXACT: strictly
 jammed, and the volume is a strict local minimum. TRAPPED: of all motions and strains that do not enlarge the volume.
 Lengths of the report count displacements and entries of the cell vectors alike, packing_fraction is that of the
-exact cell. Status: JAM_AMBIGUOUS not proved.
-Errors: JAM_E_STATE (no network), JAM_E_UNSUPPORTED."
+exact cell. ratio: the exact ratios of the diameters, in any unit, of JAM_RIGIDITY_COLLECTIVE alone; NULL takes the
+diameters as they are. Status: JAM_OK proved exact or trapped, JAM_AMBIGUOUS not proved (jam_last_error names the
+cause).
+Shapes: ratio (n).
+Errors: JAM_E_STATE (no network), JAM_E_UNSUPPORTED (Mari-Kurchan model)."
 %feature("docstring") jam_proof_text "What was proved, in a few words: \"proved, radius 4e-31\", \"trapped within 3e-28, excess 130, 129\", \"not proved, force
 1e-12, 3e-11\". Arguments as in the reports; \"\" for numbers that are no jam_theorem or jam_proof_cause. Valid until
 this thread's next call of it."
-%feature("docstring") jam_write_proof "Writes the exact numbers of the proof: refined centres, contacts, forces. bindings/proof/jamproof.py checks such a
-file with integers alone, without libjam. ratio: as for jam_prove. The file appears whole or not at all. Status:
-JAM_AMBIGUOUS (dependent contacts: centres are not refined).
+%feature("docstring") jam_write_proof "Writes the exact numbers of the proof: refined centres, contacts, forces, and of JAM_RIGIDITY_STRICT the refined
+cell. bindings/proof/jamproof.py checks such a file with integers alone, without libjam. kind, ratio: as for
+jam_prove. The file appears whole or not at all. Status: JAM_AMBIGUOUS (dependent contacts: centres are not refined).
 Shapes: ratio (n).
-Errors: JAM_E_STATE, JAM_E_UNSUPPORTED, JAM_E_IO."
-%feature("docstring") jam_write_proof_strict "The same of jam_prove_strict: refined centres and cell.
 Errors: JAM_E_STATE, JAM_E_UNSUPPORTED, JAM_E_IO."
 %feature("docstring") jam_refined_positions "Centres of the jammed packing as sums of two doubles, high + low, unit of the box: about 31 digits. Rattlers move
 out of overlaps alone. ratio: as for jam_prove. Status: JAM_AMBIGUOUS (dependent contacts, nothing is written).
@@ -821,10 +781,6 @@ Errors: JAM_E_STATE."
 %feature("docstring") jam_local_values "Values of a quantity in a population, in the order of contacts, spheres or jam_contact_dots.
 Shapes: out (values).
 Errors: JAM_E_STATE."
-%feature("docstring") jam_histogram "Histogram of the values of jam_local_values: density in `bins` equal bins of [low, high), its integral the share of
-values there.
-Shapes: out (bins).
-Errors: JAM_E_STATE."
 %feature("docstring") jam_correlation_options_init ""
 %feature("docstring") jam_pair_correlation "g_ab(r) of labels a, b in kind (or NULL). Walls, d < 4: over centres spread evenly.
 Shapes: kind (n), out (bins)."
@@ -838,8 +794,6 @@ Errors: JAM_E_UNSUPPORTED (no such axis)."
 %feature("docstring") jam_bond_order "Bond order Q_l of each sphere (d = 2: |psi_l|) over neighbours with |r| < cutoff sigma_ij; l in 1..64, cutoff in (0,
 3] (1.2 is usual).
 Shapes: out (n)."
-%feature("docstring") jam_crystal_score "Crystal score: g at sqrt 2 over its mean in 1.2..1.6 (mean diameters); below 1 in a good glass of equal spheres,
-about 10 in a perfect FCC crystal."
 %feature("docstring") jam_local_fraction "Packing fraction of each sphere in its radical Voronoi cell within the walls (a round one to 1e-5), d = 3.
 Shapes: out (n).
 Errors: JAM_E_UNSUPPORTED (d, no voro++, walls of a tilted cell)."
@@ -867,13 +821,11 @@ Shapes: out (n)."
 the fourth power of the number of neighbours of a point: use it above packing fractions of about 0.4.
 Shapes: table (points, jam_pore_column).
 Errors: JAM_E_UNSUPPORTED."
-%feature("docstring") jam_floppy_mode "Floppy mode: displacement over s when a contact opens by s. To first order all other contacts stay closed, all
-diameters change by the factor 1 - s f / sum f sigma, and there is no net translation. contact in 0..n_c-1. Needs a
-single state of self-stress (JAM_E_STATE says how many there are).
-Shapes: out (N', d).
-Errors: JAM_E_STATE, JAM_E_SOLVER."
-%feature("docstring") jam_floppy_modes "The floppy mode of every contact, measured.
-Shapes: table (n_c, jam_floppy_column).
+%feature("docstring") jam_floppy_modes "Floppy modes of contacts given by their indices, or of all, contact = NULL; *rows = their number m. vector:
+displacement over s when the contact opens by s. To first order all other contacts stay closed, all diameters change
+by the factor 1 - s f / sum f sigma, and there is no net translation. Needs a single state of self-stress
+(JAM_E_STATE says how many there are).
+Shapes: contact (k), table (m, jam_floppy_column), vector (m, N', d).
 Errors: JAM_E_STATE, JAM_E_SOLVER."
 %feature("docstring") jam_dos_options_init ""
 %feature("docstring") jam_density_of_states "Density of states D(omega) and its integral by the kernel polynomial method: no modes are computed, translations are
@@ -881,13 +833,6 @@ omitted. With prestress omega starts below 0: unstable modes are listed at -sqrt
 near 0.
 Shapes: table (points, jam_dos_column).
 Errors: JAM_E_STATE, JAM_E_SOLVER, JAM_E_TOO_FEW."
-%feature("docstring") jam_project "Projections u . v of a displacement u on the modes `vector` of jam_modes. Over all d N' modes their squares add up to
-|u|^2.
-Shapes: vector (m, N', d), u (N', d), out (m).
-Errors: JAM_E_STATE."
-%feature("docstring") jam_curvature "value = u . H . u for a displacement u.
-Shapes: u (N', d).
-Errors: JAM_E_STATE."
 %feature("docstring") jam_moduli "Elastic moduli; JAM_E_STATE also when prestress makes the network unstable. With walls bulk is NaN, and shear is that
 of planes of two axes without walls.
 Errors: JAM_E_STATE, JAM_E_SOLVER, JAM_E_UNSUPPORTED (not two such axes; unlisted own images)."

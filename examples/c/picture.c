@@ -35,8 +35,8 @@ int main(int argc, char **argv) {
   if (jam_forces(sys, f, contacts, NULL) < 0 || jam_contact_vectors(sys, n, 2 * contacts, NULL) < 0 ||
       jam_contacts(sys, pair, 2 * contacts, NULL) < 0 || jam_coordination(sys, z, N, NULL) < 0)
     return failed(jam_last_error());
-  jam_view_positions(sys, &x, &length); /* no copy: the library's own memory */
-  jam_view_diameters(sys, &sigma, &length);
+  jam_view(sys, JAM_VIEW_POSITIONS, &x, &length); /* no copy: the library's own memory */
+  jam_view(sys, JAM_VIEW_DIAMETERS, &sigma, &length);
 
   svg = fopen(argc > 1 ? argv[1] : "picture.svg", "w");
   if (!svg) return failed("cannot write the picture");

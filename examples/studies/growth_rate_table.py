@@ -32,7 +32,7 @@ PUBLISHED = {  # kappa: (phi_J of the fit, from 1e3, from 1e5, standard error)
     1e-5: (0.64301, 0.64299, 0.64301, 0.00023),
 }
 TO_KAPPA = 1.0 / (2.0 * math.sqrt(3.0))
-ORDERED = 1.0  # jam_crystal_score above this: not a glass, and left out
+ORDERED = 1.0  # crystal_score above this: not a glass, and left out
 
 
 def crunched(packing):
@@ -62,8 +62,7 @@ def one(n, seed, rate):
             target *= 1.5
             md = packing.compress([(rate, target)])
             p.append(md.pressure), phi.append(md.packing_fraction)
-        fit = jam.raw.jam_glass()
-        jam.raw.jam_glass_fit(np.array(phi), np.array(p), fit)
+        fit = jam.glass_fit(phi, p)
         row["fit"] = {
             "phi": fit.jammed_fraction,
             "error": fit.jammed_error,

@@ -49,19 +49,9 @@
  *   Outputs are written only when the status is >= 0.
  * - Calls that work on a system or make one may return JAM_CANCELLED, those with a wall_time JAM_LIMIT. A setter or a
  *   const call that returns one of them has changed nothing and written no output.
+ * - Comments end in tags: @shape of arrays, @enum, @bool and @optional of arguments, @errors beside those of any call.
  * - Errors of any call: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT (a value or a length is out of its range),
  *   JAM_E_NONFINITE, JAM_E_BUFFER, JAM_E_MEMORY, JAM_E_BUSY. Comments name the others.
- *
- * How a comment here is written
- * - It gives what the call computes, equation, source, unit and range, and omits what is said above: common errors,
- *   threads, sizes, null pointers. All is since 1.0 unless `@since` says otherwise.
- * - Members that share a line share its comment, which has a part for each between semicolons, or one for all.
- * - Tags end it. The bindings are made from declarations and tags alone, prose changes none:
- *   @shape a (n, d), table (m, jam_x_column)   shape of each array; an enum: its columns
- *   @enum kind jam_x, form jam_y               whose values an argument takes
- *   @bool weighted; @optional fraction         arguments that are 1 or 0; last ones that may be left out, then 0
- *   @errors STATE (why), IO                    JAM_E_STATE and JAM_E_IO beside the common ones
- *   A member has `@enum jam_x`, or `@bool` when it is 1 or 0. Text after @bool describes 1.
  *
  * Threads
  * - Distinct handles are independent. On one handle, calls that take it as const may run together. Any other call must
@@ -110,6 +100,14 @@
 #define JAM_API __attribute__((visibility("default")))
 #else
 #define JAM_API
+#endif
+
+/* Marks a call that a later version replaces, with the name of the other one, for example
+ * JAM_DEPRECATED("jam_other") JAM_API jam_status jam_one(...). It works until the ABI number changes. */
+#if defined(__GNUC__) && !defined(SWIG)
+#define JAM_DEPRECATED(instead) __attribute__((deprecated("use " instead)))
+#else
+#define JAM_DEPRECATED(instead)
 #endif
 
 #ifdef __cplusplus
@@ -197,16 +195,16 @@ JAM_API void jam_set_error(const char *text);
 
 /* Which part reports progress. */
 typedef enum jam_phase {
-  JAM_PHASE_RUN = 1,                /* NVE molecular dynamics */
-  JAM_PHASE_COMPRESS = 2,           /* molecular dynamics with growth */
-  JAM_PHASE_CRUNCH = 3,             /* one LP or re-linearised Newton step done */
-  JAM_PHASE_POLISH = 4,             /* refinement of the final network */
-  JAM_PHASE_ANALYSE = 5,            /* long analysis calls, and setters that search for overlaps */
-  JAM_PHASE_RELAX = 6,              /* minimising the energy of soft spheres */
-  JAM_PHASE_DECOMPRESS = 7,         /* soft spheres on their way down to jamming; steps: decompressions so far */
-  JAM_PHASE_MONTE_CARLO = 8,        /* Metropolis sweeps */
-  JAM_PHASE_ISOCONFIGURATIONAL = 9, /* runs from one configuration; steps counts those that are done */
-  JAM_PHASE_CREATE = 10             /* making a system; steps counts the spheres placed */
+  JAM_PHASE_RUN = 1,         /* NVE molecular dynamics */
+  JAM_PHASE_COMPRESS = 2,    /* molecular dynamics with growth */
+  JAM_PHASE_CRUNCH = 3,      /* one LP or re-linearised Newton step done */
+  JAM_PHASE_POLISH = 4,      /* refinement of the final network */
+  JAM_PHASE_ANALYSE = 5,     /* long analysis calls, and setters that search for overlaps */
+  JAM_PHASE_RELAX = 6,       /* minimising the energy of soft spheres */
+  JAM_PHASE_DECOMPRESS = 7,  /* soft spheres on their way down to jamming; steps: decompressions so far */
+  JAM_PHASE_MONTE_CARLO = 8, /* Metropolis sweeps */
+  JAM_PHASE_ISOCONF = 9,     /* runs from one configuration; steps counts those that are done */
+  JAM_PHASE_CREATE = 10      /* making a system; steps counts the spheres placed */
 } jam_phase;
 /* Given to the progress callback; valid during the call only. NaN: not known. */
 typedef struct jam_progress {
@@ -230,6 +228,7 @@ typedef struct jam_progress {
 typedef int32_t (*jam_progress_fn)(const jam_progress *progress, void *user);
 
 /* ------------------------------------------------------------------ the system */
+/* jam_create and jam_read make a system, jam_get_info describes it, jam_view shows its arrays, jam_destroy frees it. */
 
 /* N spheres in a cell; opaque. Made by jam_create, jam_read, jam_read_checkpoint, jam_copy or jam_tile. */
 typedef struct jam_system jam_system;
@@ -320,13 +319,15 @@ typedef struct jam_info {
 } jam_info;
 /* Fills *info. */
 JAM_API jam_status jam_get_info(const jam_system *sys, jam_info *info);
-/* View of positions (n, d) in [0, box), in other cells in the brick. The pointer stays valid as long as the handle. Its
- * content changes only at the end of calls that move spheres. */
-JAM_API jam_status jam_view_positions(const jam_system *sys, const double **view, size_t *view_len);
-/* View of the n diameters; lifetime as jam_view_positions. */
-JAM_API jam_status jam_view_diameters(const jam_system *sys, const double **view, size_t *view_len);
-/* View of velocities (n, d), kT/m = 1; zero until the first MD call draws them. Lifetime as jam_view_positions. */
-JAM_API jam_status jam_view_velocities(const jam_system *sys, const double **view, size_t *view_len);
+/* What jam_view shows. */
+typedef enum jam_view_array {
+  JAM_VIEW_POSITIONS = 0, /* (n, d), in [0, box), in other cells in the brick */
+  JAM_VIEW_DIAMETERS = 1, /* n */
+  JAM_VIEW_VELOCITIES = 2 /* (n, d), kT/m = 1; zero until the first MD call draws them */
+} jam_view_array;
+/* View of an array of the system. The pointer stays valid as long as the handle. Its content changes only at the end of
+ * calls that move spheres. @enum array jam_view_array */
+JAM_API jam_status jam_view(const jam_system *sys, int32_t array, const double **view, size_t *view_len);
 /* Replaces the positions, wrapped into the box; results of crunch are dropped. @shape positions (n, d)
  * @errors OVERLAP */
 JAM_API jam_status jam_set_positions(jam_system *sys, const double *positions, size_t positions_len);
@@ -422,9 +423,6 @@ JAM_API jam_status jam_diameters(const jam_diameters_options *o, const double *c
  * @errors IO, FORMAT (the text names the line) */
 JAM_API jam_status jam_parse_diameters(const char *text, jam_diameters_options *o, double *curve, size_t curve_len,
                                        size_t *needed);
-/* *volume of a cell of d = dim vectors, row after row, with a positive determinant. @shape cell (m)
- * @errors DIMENSION */
-JAM_API jam_status jam_cell_volume(int32_t dim, const double *cell, size_t cell_len, double *volume);
 /* Where jam_size_report.jammed_fraction comes from. */
 typedef enum jam_reach_source {
   JAM_REACH_FARR_GROOT = 1, /* d = 3: spheres as rods on a line (Farr, Groot, J. Chem. Phys. 131, 244104 (2009)) */
@@ -548,6 +546,8 @@ JAM_API jam_status jam_write_page(const jam_system *sys, const char *path, const
                                   const char *names, const double *values, size_t values_len);
 
 /* ------------------------------------------------------------------ molecular dynamics */
+/* jam_compress makes a dense packing, which jam_crunch takes to its jamming point. jam_run is for measurements at one
+ * density; jam_observe records what happens in both. */
 
 /* Limits of jam_run (NVE). Whichever comes first ends the run. All but wall_time count since the run began. */
 typedef struct jam_run_options {
@@ -691,34 +691,8 @@ typedef enum jam_correlation_column {
 JAM_API jam_status jam_observed_correlation(const jam_system *sys, int32_t columns, double *table, size_t table_len,
                                             size_t *needed);
 
-/* Equations of state p(phi) in closed form, of equal spheres. */
-typedef enum jam_eos_form {
-  JAM_EOS_CARNAHAN_STARLING = 0,  /* d = 3, as the next three */
-  JAM_EOS_PY_VIRIAL = 1,          /* Percus-Yevick, virial route */
-  JAM_EOS_PY_COMPRESSIBILITY = 2, /* Percus-Yevick, compressibility route */
-  JAM_EOS_VIRIAL = 3,             /* series to the seventh coefficient */
-  JAM_EOS_MK = 4,                 /* 1 + 2^d phi / 2, exact for zeta infinite */
-  JAM_EOS_FREE_VOLUME = 5,        /* glass: d / (1 - phi / jammed_fraction) */
-  JAM_EOS_HENDERSON = 6,          /* d = 2: (1 + phi^2 / 8) / (1 - phi)^2 */
-  JAM_EOS_PADE = 7 /* liquid, any d: Pade [4/5] of B_2 .. B_10 (J. Stat. Phys. 122, 15), where it rises */
-} jam_eos_form;
-/* *pressure of a form. @enum form jam_eos_form @optional jammed_fraction @errors DIMENSION, UNSUPPORTED */
-JAM_API jam_status jam_eos(int32_t form, int32_t dim, double packing_fraction, double jammed_fraction,
-                           double *pressure);
-/* A fit of the glass branch p = d' / (1 - phi/phi_J). Errors are standard errors. */
-typedef struct jam_glass {
-  uint32_t struct_size;
-  int32_t reserved;
-  double jammed_fraction, jammed_error; /* phi_J; its error */
-  double dimension, dimension_error;    /* d', free, near d for a good glass; its error */
-  double r_squared;                     /* of the straight line 1/p against phi */
-} jam_glass;
-/* Least squares on 1/pressure against fraction, at least 3 points; the line must fall. @shape fraction (m), pressure
- * (m) @errors TOO_FEW */
-JAM_API jam_status jam_glass_fit(const double *fraction, size_t fraction_len, const double *pressure,
-                                 size_t pressure_len, jam_glass *fit);
-
 /* ------------------------------------------------------------------ Monte Carlo, runs from one configuration */
+/* jam_monte_carlo moves the packing; jam_isoconf makes many runs from it, which leave it as it is. */
 
 /* Unit of the overlap x of a soft pair. */
 typedef enum jam_energy_unit {
@@ -766,7 +740,7 @@ typedef enum jam_clock {
   JAM_CLOCK_COLLISIONS = 0, /* collisions per particle; each collision counts for both of its spheres */
   JAM_CLOCK_TIME = 1        /* simulated time, box / sqrt(kT/m) at T = 1 */
 } jam_clock;
-/* Options of jam_isoconfigurational. */
+/* Options of jam_isoconf. */
 typedef struct jam_isoconf_options {
   uint32_t struct_size;
   int32_t threads;         /* 1 .. 64, default 1; the bits do not depend on it */
@@ -818,9 +792,9 @@ JAM_API jam_status jam_isoconf_options_init(jam_isoconf_options *o, size_t size)
  * sums in the order of their numbers. An early stop keeps the runs that were made; resume continues, also after
  * jam_read_checkpoint. Status: JAM_NOT_CONVERGED (a run cannot move). @shape instant (instants), kept (k) @errors STATE
  * (nothing to resume, or not the same), OVERLAP, UNSUPPORTED */
-JAM_API jam_status jam_isoconfigurational(jam_system *sys, const jam_isoconf_options *o,
-                                          const jam_monte_carlo_options *m, const double *instant, size_t instant_len,
-                                          const int32_t *kept, size_t kept_len, jam_isoconf_report *report);
+JAM_API jam_status jam_isoconf(jam_system *sys, const jam_isoconf_options *o, const jam_monte_carlo_options *m,
+                               const double *instant, size_t instant_len, const int32_t *kept, size_t kept_len,
+                               jam_isoconf_report *report);
 /* The report of these runs as they are now. @errors STATE (no runs) */
 JAM_API jam_status jam_get_isoconf_report(const jam_system *sys, jam_isoconf_report *report);
 /* Sums over the runs of one block, or of all for block = -1. @shape table (instants, jam_isoconf_column)
@@ -839,6 +813,8 @@ JAM_API jam_status jam_isoconf_kept(const jam_system *sys, int32_t instant, doub
                                     size_t *needed);
 
 /* ------------------------------------------------------------------ crunch to the jamming point */
+/* jam_crunch is the call for users, and its report the certificate. jam_estimate_crunch gives memory and time before
+ * it; history and steps are for those who study the algorithm. */
 
 /* How the LPs are solved. */
 typedef enum jam_lp_solver {
@@ -887,7 +863,7 @@ typedef struct jam_crunch_options {
   double neighbour_radius; /* an LP has the pairs of gap < this - the largest diameter; 0, the default: adapts */
   double step_bound;       /* bound on each |s_i| component, 1e-15 .. 1000; 0, the default: adapts */
   double wall_time;        /* limit of the call */
-  int32_t steps;           /* @bool the callback is called at every step and may call jam_crunch_step_*; default 0 */
+  int32_t steps;           /* @bool the callback is called at every step and may call jam_crunch_step; default 0 */
   int32_t full_lps;        /* @bool every LP is solved to lp_tolerance, so that its network balances; default 0 */
   int32_t strain;          /* @enum jam_free_strain, default NONE */
   int32_t keep_steps;      /* states before the end that are kept for jam_write_page, 0 .. 1000, default 0 */
@@ -958,7 +934,7 @@ JAM_API jam_status jam_crunch_options_init(jam_crunch_options *o, size_t size);
 JAM_API jam_status jam_crunch(jam_system *sys, const jam_crunch_options *o, jam_crunch_report *report);
 
 /* Memory and time of a crunch, estimated from the graph of pairs and its elimination tree. */
-typedef struct jam_estimate {
+typedef struct jam_estimate_report {
   uint32_t struct_size;
   int32_t reserved;
   int64_t pairs;         /* of the longest neighbour list */
@@ -971,10 +947,10 @@ typedef struct jam_estimate {
   /* Nine of ten crunches take between these. Decompressions, narrow linear programs and saddles of equal disks and of
    * crystals cannot be counted before. */
   double seconds_low, seconds_high;
-} jam_estimate;
+} jam_estimate_report;
 /* Estimates memory and time of jam_crunch with these options (NULL: defaults) without running it; jam_crunch logs the
  * same at JAM_LOG_INFO. Takes as long as a few steps. @errors OVERLAP, TOO_FEW */
-JAM_API jam_status jam_estimate_crunch(const jam_system *sys, const jam_crunch_options *o, jam_estimate *estimated);
+JAM_API jam_status jam_estimate_crunch(const jam_system *sys, const jam_crunch_options *o, jam_estimate_report *report);
 /* The report of the last crunch. @errors STATE */
 JAM_API jam_status jam_get_crunch_report(const jam_system *sys, jam_crunch_report *report);
 
@@ -1012,18 +988,15 @@ typedef enum jam_history_column {
 /* Steps of the last crunch. @shape table (steps, jam_history_column) @errors STATE */
 JAM_API jam_status jam_crunch_history(const jam_system *sys, int32_t columns, double *table, size_t table_len,
                                       size_t *needed);
-/* Displacements of all spheres in the step that has just ended, unit of box, images followed. Their sum over the steps
- * leads from the start to the end. This call and the next three work only in the progress callback of jam_crunch with
- * steps = 1, when a step has just ended. @shape out (n, d) @errors STATE */
-JAM_API jam_status jam_crunch_step_displacements(const jam_system *sys, double *out, size_t out_len, size_t *needed);
-/* Linear contact network of an LP step: pairs of rows with a positive dual, rattlers included. Other steps have none.
- * @shape out (m, 2) @errors STATE */
-JAM_API jam_status jam_crunch_step_contacts(const jam_system *sys, int32_t *out, size_t out_len, size_t *needed);
-/* r_ij of these pairs before the step, unit of box. @shape out (m, d) @errors STATE */
-JAM_API jam_status jam_crunch_step_vectors(const jam_system *sys, double *out, size_t out_len, size_t *needed);
-/* Duals lambda of these pairs: sum_j lambda_ij r_ij = 0 on every sphere without an active step bound, and sum lambda_ij
- * sigma_ij^2 = 1 with the diameters before the step. @shape out (m) @errors STATE */
-JAM_API jam_status jam_crunch_step_duals(const jam_system *sys, double *out, size_t out_len, size_t *needed);
+/* The step that has just ended, in the progress callback of jam_crunch with steps = 1 alone. displacement: of all
+ * spheres, unit of box, images followed; over all steps they lead from the start to the end. The others are the linear
+ * contact network of an LP, pairs of rows with a positive dual, rattlers included; other steps have none. *rows = m.
+ * vector: r_ij before the step. dual: lambda, sum_j lambda_ij r_ij = 0 on every sphere without an active step bound,
+ * and sum lambda_ij sigma_ij^2 = 1 with the diameters before the step. @shape displacement (n, d), pair (m, 2), vector
+ * (m, d), dual (m) @errors STATE */
+JAM_API jam_status jam_crunch_step(const jam_system *sys, double *displacement, size_t displacement_len, int32_t *pair,
+                                   size_t pair_len, double *vector, size_t vector_len, double *dual, size_t dual_len,
+                                   size_t *rows);
 
 /* ------------------------------------------------------------------ soft spheres */
 /* Spheres that overlap repel by an energy U = sum of v over overlapping pairs, v = c ((sigma_ij - r) / l)^alpha.
@@ -1160,6 +1133,7 @@ JAM_API jam_status jam_decompress_history(const jam_system *sys, int32_t columns
                                           size_t *needed);
 
 /* ------------------------------------------------------------------ contact network */
+/* Row k of each array is the same contact. */
 
 /* Contact pairs, i < j save for walls (j = -1 - w) and images of one sphere (i = j). Hard spheres have images only
  * after a crunch with a free cell. One stands for both opposite images, so it adds 2 to the coordination. @shape out
@@ -1250,6 +1224,8 @@ JAM_API jam_status jam_bloch_modes(jam_system *sys, const jam_hessian_options *h
                                    size_t *rows);
 
 /* ------------- network from geometry, states of self-stress */
+/* jam_contacts_from_geometry finds the network of a packing from elsewhere. After jam_crunch the network is there. */
+
 /* Options of jam_contacts_from_geometry. */
 typedef struct jam_geometry_options {
   uint32_t struct_size;
@@ -1296,19 +1272,6 @@ JAM_API jam_status jam_contacts_from_geometry(jam_system *sys, const jam_geometr
  * them; jam_forces gives NaN, tables have no column of forces, pages say so, and jam_info.contact_gap is the gap.
  * Status: JAM_NOT_JAMMED when there are none */
 JAM_API jam_status jam_contacts_by_distance(jam_system *sys, double gap);
-/* Columns of jam_contact_candidates. */
-typedef enum jam_candidate_column {
-  JAM_CANDIDATE_LIMIT = 0,    /* tolerance on |h| */
-  JAM_CANDIDATE_JUMP = 1,     /* ratio of the gaps above and below it */
-  JAM_CANDIDATE_CONTACTS = 2, /* contacts within it on spheres that can balance */
-  JAM_CANDIDATE_EXCESS = 3    /* contacts - (d (N' - 1) + 1) */
-} jam_candidate_column;
-#define JAM_CANDIDATE_COLUMNS 4
-/* Candidates for the contact tolerance, for packings where no jump is clear; m is at most 12. A candidate is a jump of
- * the sorted gaps below window, as in jam_geometry_options, with enough contacts for a rigid network below it. The
- * largest jump comes first. @shape table (m, jam_candidate_column) */
-JAM_API jam_status jam_contact_candidates(const jam_system *sys, double window, int32_t columns, double *table,
-                                          size_t table_len, size_t *needed);
 /* States of self-stress of the network: *rows = their number m; force, mean 1, from the null space of S^T, not from LP
  * duals; basis orthonormal; residual: one number, as force_residual. Status: JAM_AMBIGUOUS (m > 1: force is the centre
  * of the non-negative ones), JAM_NOT_JAMMED (m = 0 or no force of one sign). @shape force (n_c), basis (m, n_c)
@@ -1317,6 +1280,9 @@ JAM_API jam_status jam_stress_states(jam_system *sys, double *force, size_t forc
                                      double *residual, size_t *rows);
 
 /* ------------- jammed or not */
+/* jam_check_packing is the call for users: the verdict on a packing as it is, with its reason. jam_rigidity is one of
+ * the tests in it by itself, jam_flex the motion behind a no, jam_bloch_rigidity the test for copies of the cell. */
+
 /* Which motions must not open contacts. */
 typedef enum jam_rigidity_kind {
   JAM_RIGIDITY_COLLECTIVE = 0, /* all motions of the spheres in a fixed cell */
@@ -1450,6 +1416,8 @@ JAM_API jam_status jam_check_packing(jam_system *sys, const jam_check_options *o
 JAM_API const char *jam_check_text(const jam_check_report *report);
 
 /* ------------- proof */
+/* jam_prove proves, jam_write_proof writes what others can check. jam_crunch and jam_check_packing can prove, too. */
+
 /* What was proved. TRAPPED: no motion without overlap takes a stable sphere farther than inner, but translations of
  * all. No packing as dense lies between inner and outer. */
 typedef enum jam_theorem {
@@ -1490,25 +1458,24 @@ typedef struct jam_proof_report {
 /* Proves, despite rounding, that the packing is jammed. Contacts and forces are those of the network. Newton's
  * steps take the centres to two doubles (jam_refined_positions). A factorisation with a bound of its rounding gives the
  * smallest singular value, and Kantorovich's theorem the rest: the guide's page "Proofs" has theorems and limits.
- * ratio: the exact ratios of the diameters, in any unit; NULL takes the diameters as they are. Status: JAM_OK proved
- * exact or trapped, JAM_AMBIGUOUS not proved (jam_last_error names the cause). @shape ratio (n) @errors STATE (no
- * network), UNSUPPORTED (Mari-Kurchan model) */
-JAM_API jam_status jam_prove(const jam_system *sys, const double *ratio, size_t ratio_len, jam_proof_report *report);
-/* The same where the cell deforms too: the diameters are fixed, and the cell vectors are unknowns. EXACT: strictly
+ * JAM_RIGIDITY_STRICT: the cell deforms too, its vectors are unknowns and the diameters are fixed. EXACT: strictly
  * jammed, and the volume is a strict local minimum. TRAPPED: of all motions and strains that do not enlarge the volume.
  * Lengths of the report count displacements and entries of the cell vectors alike, packing_fraction is that of the
- * exact cell. Status: JAM_AMBIGUOUS not proved. @errors STATE (no network), UNSUPPORTED */
-JAM_API jam_status jam_prove_strict(const jam_system *sys, jam_proof_report *report);
+ * exact cell. ratio: the exact ratios of the diameters, in any unit, of JAM_RIGIDITY_COLLECTIVE alone; NULL takes the
+ * diameters as they are. Status: JAM_OK proved exact or trapped, JAM_AMBIGUOUS not proved (jam_last_error names the
+ * cause). @shape ratio (n) @enum kind jam_rigidity_kind @errors STATE (no network), UNSUPPORTED (Mari-Kurchan model) */
+JAM_API jam_status jam_prove(const jam_system *sys, int32_t kind, const double *ratio, size_t ratio_len,
+                             jam_proof_report *report);
 /* What was proved, in a few words: "proved, radius 4e-31", "trapped within 3e-28, excess 130, 129", "not proved, force
  * 1e-12, 3e-11". Arguments as in the reports; "" for numbers that are no jam_theorem or jam_proof_cause. Valid until
  * this thread's next call of it. @enum theorem jam_theorem, cause jam_proof_cause */
 JAM_API const char *jam_proof_text(int32_t theorem, int32_t cause, double radius, double value, double bound);
-/* Writes the exact numbers of the proof: refined centres, contacts, forces. bindings/proof/jamproof.py checks such a
- * file with integers alone, without libjam. ratio: as for jam_prove. The file appears whole or not at all. Status:
- * JAM_AMBIGUOUS (dependent contacts: centres are not refined). @shape ratio (n) @errors STATE, UNSUPPORTED, IO */
-JAM_API jam_status jam_write_proof(const jam_system *sys, const char *path, const double *ratio, size_t ratio_len);
-/* The same of jam_prove_strict: refined centres and cell. @errors STATE, UNSUPPORTED, IO */
-JAM_API jam_status jam_write_proof_strict(const jam_system *sys, const char *path);
+/* Writes the exact numbers of the proof: refined centres, contacts, forces, and of JAM_RIGIDITY_STRICT the refined
+ * cell. bindings/proof/jamproof.py checks such a file with integers alone, without libjam. kind, ratio: as for
+ * jam_prove. The file appears whole or not at all. Status: JAM_AMBIGUOUS (dependent contacts: centres are not refined).
+ * @shape ratio (n) @enum kind jam_rigidity_kind @errors STATE, UNSUPPORTED, IO */
+JAM_API jam_status jam_write_proof(const jam_system *sys, const char *path, int32_t kind, const double *ratio,
+                                   size_t ratio_len);
 /* Centres of the jammed packing as sums of two doubles, high + low, unit of the box: about 31 digits. Rattlers move
  * out of overlaps alone. ratio: as for jam_prove. Status: JAM_AMBIGUOUS (dependent contacts, nothing is written).
  * @shape ratio (n), high (n, d), low (n, d) @errors STATE, UNSUPPORTED */
@@ -1516,6 +1483,8 @@ JAM_API jam_status jam_refined_positions(const jam_system *sys, const double *ra
                                          size_t high_len, double *low, size_t low_len, size_t *needed);
 
 /* ------------- gaps, classes and angles of contacts */
+/* jam_gaps lists pairs near contact, jam_local_values what a distribution is made from. */
+
 /* Flags of a contact. A buckler is a stable sphere with d + 1 contacts. */
 typedef enum jam_contact_class {
   JAM_CONTACT_LOCALISED = 1, /* touches a buckler; without it: extended */
@@ -1539,7 +1508,7 @@ JAM_API jam_status jam_contact_dots(const jam_system *sys, int32_t weighted, dou
 /* Fabric tensor F_ab = <n_a n_b>, the mean over all contacts: symmetric, of trace 1; delta_ab / d when the contacts
  * have no preferred direction. Status: JAM_NOT_JAMMED (no contacts: NaN). @shape out (d, d) @errors STATE */
 JAM_API jam_status jam_fabric_tensor(const jam_system *sys, double *out, size_t out_len, size_t *needed);
-/* Quantity of which jam_local_values and jam_histogram take the values. */
+/* Quantity of which jam_local_values takes the values. */
 typedef enum jam_local_quantity {
   JAM_LOCAL_FORCE = 0,        /* contacts: f over its mean in the population */
   JAM_LOCAL_VECTOR_SUM = 1,   /* stable spheres: |C_i| */
@@ -1562,11 +1531,6 @@ typedef enum jam_population {
  * (values) @enum quantity jam_local_quantity, population jam_population @errors STATE */
 JAM_API jam_status jam_local_values(const jam_system *sys, int32_t quantity, int32_t population, double *out,
                                     size_t out_len, size_t *needed);
-/* Histogram of the values of jam_local_values: density in `bins` equal bins of [low, high), its integral the share of
- * values there. @shape out (bins) @enum quantity jam_local_quantity, population jam_population @errors STATE */
-JAM_API jam_status jam_histogram(const jam_system *sys, int32_t quantity, int32_t population, double low, double high,
-                                 int64_t bins, double *out, size_t out_len, size_t *needed);
-
 /* ------------- structure of the packing */
 /* Options of jam_pair_correlation. Beside walls more than 8 different diameters are taken as 8 classes of sizes. */
 typedef struct jam_correlation_options {
@@ -1598,9 +1562,6 @@ JAM_API jam_status jam_structure_factor(jam_system *sys, double q_max, int32_t c
  * 3] (1.2 is usual). @shape out (n) */
 JAM_API jam_status jam_bond_order(const jam_system *sys, int32_t l, double cutoff, double *out, size_t out_len,
                                   size_t *needed);
-/* Crystal score: g at sqrt 2 over its mean in 1.2..1.6 (mean diameters); below 1 in a good glass of equal spheres,
- * about 10 in a perfect FCC crystal. */
-JAM_API jam_status jam_crystal_score(const jam_system *sys, double *score);
 /* Packing fraction of each sphere in its radical Voronoi cell within the walls (a round one to 1e-5), d = 3. @shape out
  * (n) @errors UNSUPPORTED (d, no voro++, walls of a tilted cell) */
 JAM_API jam_status jam_local_fraction(const jam_system *sys, double *out, size_t out_len, size_t *needed);
@@ -1705,11 +1666,7 @@ JAM_API jam_status jam_pore_sizes(jam_system *sys, int64_t points, int64_t seed,
                                   size_t table_len, size_t *needed);
 
 /* ------------- floppy modes */
-/* Floppy mode: displacement over s when a contact opens by s. To first order all other contacts stay closed, all
- * diameters change by the factor 1 - s f / sum f sigma, and there is no net translation. contact in 0..n_c-1. Needs a
- * single state of self-stress (JAM_E_STATE says how many there are). @shape out (N', d) @errors STATE, SOLVER */
-JAM_API jam_status jam_floppy_mode(jam_system *sys, int64_t contact, double *out, size_t out_len, size_t *needed);
-/* Columns of jam_floppy_modes, one row per contact; dr is the field of jam_floppy_mode, and F the mean force. Openings
+/* Columns of jam_floppy_modes, one row per mode; dr is its vector, and F the mean force. Openings
  * have the unit of positions: divide by the diameter to compare packings of different N. B = sum_k f_k |dr_perp|^2 /
  * r_k. S_RETURN is s* of R. Diaz Hernandez Rojas, PhD thesis, Sapienza 2021, whose index is twice stability. */
 typedef enum jam_floppy_column {
@@ -1721,8 +1678,13 @@ typedef enum jam_floppy_column {
   JAM_FLOPPY_S_RETURN = 5   /* opening 2 s_star at which, to second order, the diameters are back at their start */
 } jam_floppy_column;
 #define JAM_FLOPPY_COLUMNS 6
-/* The floppy mode of every contact, measured. @shape table (n_c, jam_floppy_column) @errors STATE, SOLVER */
-JAM_API jam_status jam_floppy_modes(jam_system *sys, int32_t columns, double *table, size_t table_len, size_t *needed);
+/* Floppy modes of contacts given by their indices, or of all, contact = NULL; *rows = their number m. vector:
+ * displacement over s when the contact opens by s. To first order all other contacts stay closed, all diameters change
+ * by the factor 1 - s f / sum f sigma, and there is no net translation. Needs a single state of self-stress
+ * (JAM_E_STATE says how many there are). @shape contact (k), table (m, jam_floppy_column), vector (m, N', d)
+ * @errors STATE, SOLVER */
+JAM_API jam_status jam_floppy_modes(jam_system *sys, const int64_t *contact, size_t contact_len, int32_t columns,
+                                    double *table, size_t table_len, double *vector, size_t vector_len, size_t *rows);
 
 /* ------------- spectrum, moduli, comparison */
 /* Options of jam_density_of_states. */
@@ -1743,7 +1705,7 @@ typedef struct jam_moduli_report {
   double shear_min, shear_max; /* smallest G of the planes, both directions averaged; largest of them */
 } jam_moduli_report;
 /* What jam_compare found between sys, a, and other, b. Contacts are -1 and overlaps NaN where one has no network. */
-typedef struct jam_comparison {
+typedef struct jam_comparison_report {
   uint32_t struct_size;
   int32_t reserved;
   int64_t contacts_a, contacts_b;            /* of sys; of other */
@@ -1752,7 +1714,7 @@ typedef struct jam_comparison {
   double overlap, overlap_a;                 /* common over union; common over contacts_a: sys as the reference */
   double packing_fraction_change;            /* phi of other minus phi of sys */
   double displacement_rms, displacement_max; /* of these (or all) without their mean, in mean diameters of sys */
-} jam_comparison;
+} jam_comparison_report;
 /* Columns of jam_density_of_states, one row per bin of the frequency omega. */
 typedef enum jam_dos_column {
   JAM_DOS_OMEGA = 0,           /* middle of the bin */
@@ -1769,16 +1731,9 @@ JAM_API jam_status jam_dos_options_init(jam_dos_options *o, size_t size);
  * near 0. @shape table (points, jam_dos_column) @errors STATE, SOLVER, TOO_FEW */
 JAM_API jam_status jam_density_of_states(jam_system *sys, const jam_hessian_options *h, const jam_dos_options *o,
                                          int32_t columns, double *table, size_t table_len, size_t *needed);
-/* Projections u . v of a displacement u on the modes `vector` of jam_modes. Over all d N' modes their squares add up to
- * |u|^2. @shape vector (m, N', d), u (N', d), out (m) @errors STATE */
-JAM_API jam_status jam_project(const jam_system *sys, const double *vector, size_t vector_len, const double *u,
-                               size_t u_len, double *out, size_t out_len, size_t *needed);
-/* *value = u . H . u for a displacement u. @shape u (N', d) @errors STATE */
-JAM_API jam_status jam_curvature(const jam_system *sys, const jam_hessian_options *h, const double *u, size_t u_len,
-                                 double *value);
 /* Elastic moduli; JAM_E_STATE also when prestress makes the network unstable. With walls bulk is NaN, and shear is that
  * of planes of two axes without walls. @errors STATE, SOLVER, UNSUPPORTED (not two such axes; unlisted own images) */
-JAM_API jam_status jam_moduli(jam_system *sys, const jam_hessian_options *h, jam_moduli_report *moduli);
+JAM_API jam_status jam_moduli(jam_system *sys, const jam_hessian_options *h, jam_moduli_report *report);
 /* Elastic tensor c_abcd: second derivative of the energy a volume by E_ab and E_cd of x -> (1 + E) x. Unit as
  * jam_moduli, *needed = d^4. affine: spheres move by E alone; relaxed: then forces balance. With prestress c_abcd and
  * c_bacd differ: a rotation of stressed contacts counts. NaN where an axis has walls, which do not strain. @shape
@@ -1788,8 +1743,8 @@ JAM_API jam_status jam_elastic_tensor(jam_system *sys, const jam_hessian_options
 /* Compares two packings sphere by sphere. out is the displacement from sys to other by nearest images. Its mean over
  * spheres stable in both, or over all when none is, is taken out. n, dim, cell and model must agree. JAM_AMBIGUOUS:
  * ratios of diameters differ, or one of the two has no network. @shape out (n, d) */
-JAM_API jam_status jam_compare(const jam_system *sys, const jam_system *other, jam_comparison *comparison, double *out,
-                               size_t out_len, size_t *needed);
+JAM_API jam_status jam_compare(const jam_system *sys, const jam_system *other, jam_comparison_report *comparison,
+                               double *out, size_t out_len, size_t *needed);
 
 #ifdef __cplusplus
 }

@@ -174,9 +174,9 @@ class System {
     check(jam_get_info(get(), &made));
     return made;
   }
-  View positions() const { return view(jam_view_positions, static_cast<std::size_t>(info().dim)); }
-  View velocities() const { return view(jam_view_velocities, static_cast<std::size_t>(info().dim)); }
-  View diameters() const { return view(jam_view_diameters, 1); }
+  View positions() const { return view(JAM_VIEW_POSITIONS, static_cast<std::size_t>(info().dim)); }
+  View velocities() const { return view(JAM_VIEW_VELOCITIES, static_cast<std::size_t>(info().dim)); }
+  View diameters() const { return view(JAM_VIEW_DIAMETERS, 1); }
   // Cell vectors (d, d), one a row.
   std::vector<double> cell() const { return array<double>(jam_get_cell); }
   void set_positions(const std::vector<double> &x) { done(jam_set_positions(get(), x.data(), x.size())); }
@@ -300,11 +300,10 @@ class System {
     if (!made) throw Error(status);
     handle_.reset(made);
   }
-  template <class F>
-  View view(F function, std::size_t columns) const {
+  View view(jam_view_array array, std::size_t columns) const {
     const double *data = nullptr;
     std::size_t size = 0;
-    check(function(get(), &data, &size));
+    check(jam_view(get(), array, &data, &size));
     return View(data, size, columns);
   }
   template <class R, class F, class O>

@@ -88,17 +88,4 @@ std::vector<double> local_values(const Packing &p, const ContactNetwork &net, in
   return out;
 }
 
-std::vector<double> histogram(const std::vector<double> &values, double low, double high, size_t bins) {
-  if (!(high > low && std::isfinite(low) && std::isfinite(high)))
-    fail(JAM_E_ARGUMENT, "low is %g and high %g: they must be finite and low < high", low, high);
-  if (bins < 1 || bins > 100000000) fail(JAM_E_ARGUMENT, "bins is %zu, it must be in 1..1e8", bins);
-  std::vector<double> out(bins, 0.0);
-  const double width = (high - low) / static_cast<double>(bins);
-  for (double x : values)
-    if (x >= low && x < high)
-      out[std::min(bins - 1, static_cast<size_t>((x - low) / width))] +=
-          1.0 / (width * static_cast<double>(values.size()));
-  return out;
-}
-
 }  // namespace jam::inside

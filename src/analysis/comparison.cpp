@@ -115,7 +115,7 @@ void compare_positions(const Packing &a, const Packing &b, const std::vector<cha
 }
 
 void compare_contacts(const ContactNetwork *na, const ContactNetwork *nb, Comparison &c) {
-  jam_comparison &found = c.numbers;
+  jam_comparison_report &found = c.numbers;
   found.contacts_a = na ? static_cast<int64_t>(na->size()) : -1;
   found.contacts_b = nb ? static_cast<int64_t>(nb->size()) : -1;
   if (!na != !nb) doubt(c.doubts, "%s has no contact network: contacts were not compared", na ? "other" : "sys");

@@ -8,7 +8,7 @@
 namespace jam::inside {
 
 struct Comparison {
-  jam_comparison numbers{};
+  jam_comparison_report numbers{};
   std::vector<double> displacement;  // (n, d) from a to b without its mean over spheres stable in both
   std::string doubts;                // what differs and makes an answer one of several; empty when nothing does
 };

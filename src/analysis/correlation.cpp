@@ -78,9 +78,12 @@ double zonal(int d, int l, double x) {
 
 // Q_l^2 = 4 pi / (2 l + 1) sum_m |mean_j Y_lm(n_j)|^2 = mean over pairs (j, k) of P_l(n_j . n_k), by the addition
 // theorem.
-std::vector<double> bond_order(const Packing &p, int l, double cutoff) {
+void check_bond_order(int l, double cutoff) {
   if (l < 1 || l > 64) fail(JAM_E_ARGUMENT, "l is %d, it must be in 1..64", l);
   if (!(cutoff > 0.0 && cutoff <= 3.0)) fail(JAM_E_ARGUMENT, "cutoff is %g, it must be in (0, 3]", cutoff);
+}
+
+std::vector<double> bond_order(const Packing &p, int l, double cutoff) {
   const int d = p.dim;
   const PairList all = find_pairs(p, 0.0, cutoff);
   std::vector<std::vector<double>> of(p.n());
@@ -109,19 +112,6 @@ std::vector<double> bond_order(const Packing &p, int l, double cutoff) {
     q[i] = std::sqrt(std::max(0.0, sum)) / static_cast<double>(z);
   }
   return q;
-}
-
-double crystal_score(const Packing &p) {
-  using Tuning = CrystalTuning;
-  const auto bins = static_cast<size_t>(Tuning::reach / Tuning::bin + 0.5);
-  const std::vector<double> g = pair_correlation(p, nullptr, 0, -1, -1, Tuning::reach, bins);
-  double near = 0.0, around = 0.0, weight_near = 0.0, weight_around = 0.0;
-  for (size_t k = 0; k < bins; ++k) {
-    const double r = Tuning::bin * (static_cast<double>(k) + 0.5), shell = math::pow(r, p.dim - 1);
-    if (std::fabs(r - std::sqrt(2.0)) < Tuning::half_width) near += g[k] * shell, weight_near += shell;
-    if (r > Tuning::from && r < Tuning::to) around += g[k] * shell, weight_around += shell;
-  }
-  return around > 0.0 ? (near / weight_near) / (around / weight_around) : 0.0;
 }
 
 }  // namespace jam::inside

@@ -62,7 +62,7 @@ void FloppySolver::fields(size_t first, int count, std::vector<double> &dr) cons
     for (size_t x = 0; x < n; ++x) dr[q * n + x] += inflation(first + q) * uniform_[x];
 }
 
-void FloppySolver::measure(size_t l, const double *dr, FloppyModes &out) const {
+void FloppySolver::measure(size_t l, const double *dr, FloppyModes &out, size_t at) const {
   const size_t d = static_cast<size_t>(g_.dim);
   std::vector<double> size(g_.nodes);
   double all = 0.0;
@@ -73,8 +73,8 @@ void FloppySolver::measure(size_t l, const double *dr, FloppyModes &out) const {
     size[i] = std::sqrt(s);
   }
   const double middle = median_of(size);
-  out.median[l] = middle / std::sqrt(all);
-  out.weight[l] = force_[l] / middle;
+  out.median[at] = middle / std::sqrt(all);
+  out.weight[at] = force_[l] / middle;
   const double gamma = inflation(l);
   double s_plus = std::numeric_limits<double>::infinity();
   for (size_t k = 0; k < i_.size(); ++k) {
@@ -88,23 +88,26 @@ void FloppySolver::measure(size_t l, const double *dr, FloppyModes &out) const {
     const double across = force_[k] * g_.stretch(k, dr).across();
     bend += g_.b[k] < 0 ? across * g_.bending[k] : across / g_.distance[k];
   }
-  out.s_plus[l] = s_plus;
-  out.s_star[l] = bend > 0.0 ? force_[l] / bend : std::numeric_limits<double>::infinity();
-  out.stability[l] = out.s_star[l] / s_plus;
-  out.s_return[l] = 2.0 * out.s_star[l];  // d(s) = f s - B s^2 / 2 is a parabola
+  out.s_plus[at] = s_plus;
+  out.s_star[at] = bend > 0.0 ? force_[l] / bend : std::numeric_limits<double>::infinity();
+  out.stability[at] = out.s_star[at] / s_plus;
+  out.s_return[at] = 2.0 * out.s_star[at];  // d(s) = f s - B s^2 / 2 is a parabola
 }
 
-FloppyModes all_floppy_modes(const Packing &p, const ContactNetwork &network, const RigidityMatrix &g) {
+FloppyModes floppy_modes(const Packing &p, const ContactNetwork &network, const RigidityMatrix &g,
+                         const std::vector<size_t> &contacts, std::vector<double> *vector) {
   const FloppySolver solver(p, network, g);
-  const size_t m = g.contacts(), n = g.unknowns(), block = 64;
+  const size_t m = contacts.size(), n = g.unknowns(), block = 64;
   FloppyModes out;
   out.resize(m);
+  if (vector) vector->clear(), vector->reserve(m * n);
   std::vector<double> dr;
-  for (size_t first = 0; first < m; first += block) {
+  for (size_t first = 0, count = 0; first < m; first += count) {
     CallScope::report_share(static_cast<int64_t>(first), static_cast<double>(first) / static_cast<double>(m));
-    const int count = static_cast<int>(std::min(block, m - first));
-    solver.fields(first, count, dr);
-    for (int q = 0; q < count; ++q) solver.measure(first + q, &dr[q * n], out);
+    for (count = 1; count < block && first + count < m && contacts[first + count] == contacts[first] + count;) ++count;
+    solver.fields(contacts[first], static_cast<int>(count), dr);
+    for (size_t q = 0; q < count; ++q) solver.measure(contacts[first] + q, &dr[q * n], out, first + q);
+    if (vector) vector->insert(vector->end(), dr.begin(), dr.begin() + static_cast<std::ptrdiff_t>(count * n));
   }
   return out;
 }

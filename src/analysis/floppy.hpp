@@ -25,8 +25,8 @@ class FloppySolver {
   // dr (count, nodes, dim) of contacts first .. first + count - 1.
   void fields(size_t first, int count, std::vector<double> &dr) const;
   double inflation(size_t contact) const { return -force_[contact] / force_sigma_; }
-  // Entry l of all figures, from the field dr of contact l.
-  void measure(size_t l, const double *dr, FloppyModes &out) const;
+  // Entry `at` of all figures, from the field dr of contact l.
+  void measure(size_t l, const double *dr, FloppyModes &out, size_t at) const;
 
  private:
   const RigidityMatrix &g_;
@@ -39,7 +39,8 @@ class FloppySolver {
   std::vector<double> normal_, open_, sigma_;
 };
 
-// All contacts, in blocks.
-FloppyModes all_floppy_modes(const Packing &p, const ContactNetwork &network, const RigidityMatrix &g);
+// Of these contacts, which are solved in blocks of consecutive ones. vector: (contacts, nodes, dim), or NULL.
+FloppyModes floppy_modes(const Packing &p, const ContactNetwork &network, const RigidityMatrix &g,
+                         const std::vector<size_t> &contacts, std::vector<double> *vector);
 
 }  // namespace jam::inside

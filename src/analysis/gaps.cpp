@@ -66,8 +66,11 @@ Gaps find_gaps(const Packing &p, const ContactNetwork *net, double h_max, bool s
   return out;
 }
 
-std::vector<int32_t> near_coordination(const Packing &p, double h_max) {
+void check_near_coordination(double h_max) {
   if (!(h_max > 0.0 && h_max <= 1.0)) fail(JAM_E_ARGUMENT, "h_max is %g, it must be in (0, 1]", h_max);
+}
+
+std::vector<int32_t> near_coordination(const Packing &p, double h_max) {
   check_pair_count(p, (1.0 + h_max) * diameter_mean(p));
   const PairList near = find_pairs(p, 0.0, 1.0 + h_max);
   std::vector<int32_t> z(p.n(), 0);

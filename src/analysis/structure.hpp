@@ -21,7 +21,8 @@ struct Gaps {
 // Their gaps.
 Gaps find_gaps(const Packing &p, const ContactNetwork *network, double h_max, bool stable_only);
 
-// Spheres within a gap h < h_max of each one, every image; JAM_E_ARGUMENT unless 0 < h_max <= 1.
+// Spheres within a gap h < h_max of each one, every image.
+void check_near_coordination(double h_max);  // before the work: JAM_E_ARGUMENT unless 0 < h_max <= 1
 std::vector<int32_t> near_coordination(const Packing &p, double h_max);
 
 // Flags of jam_contact_class for every contact.
@@ -43,8 +44,6 @@ std::vector<double> fabric_tensor(const ContactNetwork &network, int dim);
 
 // Values of a jam_local_quantity that belong to a jam_population; JAM_E_ARGUMENT for an unknown combination.
 std::vector<double> local_values(const Packing &p, const ContactNetwork &network, int32_t quantity, int32_t which);
-// Their density in equal bins of [low, high): its integral is the share of values there.
-std::vector<double> histogram(const std::vector<double> &values, double low, double high, size_t bins);
 
 // g_ab(r) in `bins` bins up to r_max mean diameters. kind: one label a sphere or empty; a, b < 0: any.
 std::vector<double> pair_correlation(const Packing &p, const int32_t *kind, size_t kind_len, int32_t a, int32_t b,
@@ -56,11 +55,12 @@ struct StructureFactor {
 // lengths_only: q is right, s is not.
 StructureFactor structure_factor(const Packing &p, double q_max, bool lengths_only = false);
 
+// Before the work: throws JAM_E_ARGUMENT.
+void check_bond_order(int l, double cutoff);
 // Q_l of every sphere from all neighbours with |r| < cutoff sigma_ij.
 std::vector<double> bond_order(const Packing &p, int l, double cutoff);
-// Mean of g within 0.02 of sqrt 2 over its mean in 1.2 .. 1.6 (mean diameters).
-double crystal_score(const Packing &p);
 // Volume of a sphere over that of its radical Voronoi cell; d = 3, needs voro++ at build time (JAM_E_UNSUPPORTED).
 std::vector<double> local_fractions(const Packing &p);
+void check_local_fractions(const Packing &p);  // before the work
 
 }  // namespace jam::inside

@@ -47,9 +47,4 @@ struct CellsTuning {
   static constexpr int slices = 8;  // of a cell that a round wall cuts, between two heights where its shape changes
 };
 
-// ---- jam_crystal_score: g(r) at sqrt 2, where disordered packings have a minimum, over the mean around it
-struct CrystalTuning {
-  static constexpr double reach = 2.0, bin = 0.005, half_width = 0.02, from = 1.2, to = 1.6;
-};
-
 }  // namespace jam::inside

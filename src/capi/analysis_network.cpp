@@ -1,6 +1,5 @@
 // Header section "analysis": the network from geometry, states of self-stress.
 #include "capi/analysis.hpp"
-#include "capi/table.hpp"
 #include "crunch/crunch.hpp"
 #include "network/certificate.hpp"
 #include "network/contacts_by_distance.hpp"
@@ -86,22 +85,6 @@ jam_status jam_contacts_by_distance(jam_system *sys, double gap) {
     sys->take_contacts_by_distance(contacts_by_distance(sys->packing, gap), gap);
     if (empty_network(sys))
       return {JAM_NOT_JAMMED, sentence("no pair of spheres, and no sphere and wall, has a gap below %g", gap)};
-    return JAM_OK;
-  });
-}
-
-jam_status jam_contact_candidates(const jam_system *sys, double window, int32_t columns, double *table,
-                                  size_t table_len, size_t *needed) {
-  return guard_const(sys, [&]() -> jam_status {
-    const Table<JAM_CANDIDATE_COLUMNS> made(columns, table, table_len);
-    const ContactCandidates c = contact_candidates(sys->packing, window);
-    if (!made.wanted(c.limit.size(), needed)) return JAM_OK;
-    made.give(c.limit.size(), [&](size_t k, auto &row) {
-      row[JAM_CANDIDATE_LIMIT] = c.limit[k];
-      row[JAM_CANDIDATE_JUMP] = c.jump[k];
-      row[JAM_CANDIDATE_CONTACTS] = static_cast<double>(c.contacts[k]);
-      row[JAM_CANDIDATE_EXCESS] = static_cast<double>(c.excess[k]);
-    });
     return JAM_OK;
   });
 }

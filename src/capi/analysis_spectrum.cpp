@@ -1,4 +1,4 @@
-// Header section "analysis": density of states, moduli, projections, comparing packings.
+// Header section "analysis": density of states, moduli, comparing packings.
 #include <algorithm>
 #include "analysis/comparison.hpp"
 #include "analysis/spectrum.hpp"
@@ -40,52 +40,19 @@ jam_status jam_density_of_states(jam_system *sys, const jam_hessian_options *h, 
   });
 }
 
-jam_status jam_curvature(const jam_system *sys, const jam_hessian_options *h, const double *u, size_t u_len,
-                         double *value) {
-  return guard_const(sys, [&]() -> jam_status {
-    const jam_hessian_options options = take_hessian_options(h);
-    need(value, "value");
-    check_array_in(u, u_len, "u");
-    need_network(sys);
-    const RigidityMatrix g = make_rigidity_matrix(sys->packing, sys->contacts);
-    if (u_len != g.unknowns()) fail(JAM_E_ARGUMENT, "u_len is %zu, it must be d N' = %zu", u_len, g.unknowns());
-    *value = curvature(g, contact_weights(g, diameter_mean(sys->packing), options), u);
-    return JAM_OK;
-  });
-}
-
-jam_status jam_project(const jam_system *sys, const double *vector, size_t vector_len, const double *u, size_t u_len,
-                       double *out, size_t out_len, size_t *needed) {
-  return guard_const(sys, [&]() -> jam_status {
-    check_array_in(vector, vector_len, "vector");
-    check_array_in(u, u_len, "u");
-    need_network(sys);
-    const size_t n = make_rigidity_matrix(sys->packing, sys->contacts).unknowns();
-    if (u_len != n) fail(JAM_E_ARGUMENT, "u_len is %zu, it must be d N' = %zu", u_len, n);
-    if (vector_len % std::max<size_t>(n, 1) != 0)
-      fail(JAM_E_ARGUMENT, "vector_len is %zu, no multiple of d N' = %zu", vector_len, n);
-    std::vector<double> c(n ? vector_len / n : 0, 0.0);
-    for (size_t m = 0; m < c.size(); ++m) {
-      CallScope::look();
-      for (size_t k = 0; k < n; ++k) c[m] += vector[m * n + k] * u[k];
-    }
-    return give_array(c.data(), c.size(), out, out_len, needed);
-  });
-}
-
-jam_status jam_moduli(jam_system *sys, const jam_hessian_options *h, jam_moduli_report *moduli) {
+jam_status jam_moduli(jam_system *sys, const jam_hessian_options *h, jam_moduli_report *report) {
   return guard_cancellable(sys, [&]() -> jam_status {
     const jam_hessian_options options = take_hessian_options(h);
-    need(moduli, "moduli");
-    check_out_struct(moduli, "moduli");
+    need(report, "report");
+    check_out_struct(report, "report");
     refuse_closed(sys->packing, 2, "elastic moduli");
     need_network(sys);
     refuse_own_images(unlisted_own_images(sys->packing, sys->contacts), "elastic moduli");
     const double nan = std::numeric_limits<double>::quiet_NaN();
-    give_struct(jam_moduli_report{sizeof(jam_moduli_report), 0, nan, nan, nan, nan, nan, nan}, moduli);
+    give_struct(jam_moduli_report{sizeof(jam_moduli_report), 0, nan, nan, nan, nan, nan, nan}, report);
     if (empty_network(sys)) return JAM_NOT_JAMMED;
     const RigidityMatrix g = make_rigidity_matrix(sys->packing, sys->contacts);
-    give_struct(elastic_moduli(sys->packing, g, contact_weights(g, diameter_mean(sys->packing), options)), moduli);
+    give_struct(elastic_moduli(sys->packing, g, contact_weights(g, diameter_mean(sys->packing), options)), report);
     return JAM_OK;
   });
 }
@@ -112,7 +79,7 @@ jam_status jam_elastic_tensor(jam_system *sys, const jam_hessian_options *h, dou
   });
 }
 
-jam_status jam_compare(const jam_system *sys, const jam_system *other, jam_comparison *comparison, double *out,
+jam_status jam_compare(const jam_system *sys, const jam_system *other, jam_comparison_report *comparison, double *out,
                        size_t out_len, size_t *needed) {
   return guard_const(sys, [&]() -> Answer {
     const Reading reading(other, "other");

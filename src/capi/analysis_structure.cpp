@@ -45,6 +45,7 @@ jam_status jam_gaps(const jam_system *sys, double h_max, int32_t stable_only, do
 jam_status jam_contact_classes(const jam_system *sys, int32_t *out, size_t out_len, size_t *needed) {
   return guard_const(sys, [&]() -> jam_status {
     need_network(sys);
+    if (!array_wanted(sys->contacts.size(), out, out_len, needed)) return JAM_OK;
     const std::vector<int32_t> flags = classify_contacts(sys->packing, sys->contacts);
     return give_array(flags.data(), flags.size(), out, out_len, needed);
   });
@@ -95,17 +96,6 @@ jam_status jam_local_values(const jam_system *sys, int32_t quantity, int32_t pop
     need_network(sys);
     const std::vector<double> v = local_values(sys->packing, sys->contacts, quantity, population);
     return give_array(v.data(), v.size(), out, out_len, needed);
-  });
-}
-
-jam_status jam_histogram(const jam_system *sys, int32_t quantity, int32_t population, double low, double high,
-                         int64_t bins, double *out, size_t out_len, size_t *needed) {
-  return guard_const(sys, [&]() -> jam_status {
-    check_bins(bins);
-    need_network(sys);
-    const std::vector<double> density = histogram(local_values(sys->packing, sys->contacts, quantity, population), low,
-                                                  high, static_cast<size_t>(bins));
-    return give_array(density.data(), density.size(), out, out_len, needed);
   });
 }
 
@@ -168,21 +158,17 @@ jam_status jam_structure_factor(jam_system *sys, double q_max, int32_t columns, 
 jam_status jam_bond_order(const jam_system *sys, int32_t l, double cutoff, double *out, size_t out_len,
                           size_t *needed) {
   return guard_const(sys, [&]() -> jam_status {
+    check_bond_order(l, cutoff);
+    if (!array_wanted(sys->packing.n(), out, out_len, needed)) return JAM_OK;
     const std::vector<double> q = bond_order(sys->packing, l, cutoff);
     return give_array(q.data(), q.size(), out, out_len, needed);
   });
 }
 
-jam_status jam_crystal_score(const jam_system *sys, double *score) {
-  return guard_const(sys, [&]() -> jam_status {
-    need(score, "score");
-    *score = crystal_score(sys->packing);
-    return JAM_OK;
-  });
-}
-
 jam_status jam_local_fraction(const jam_system *sys, double *out, size_t out_len, size_t *needed) {
   return guard_const(sys, [&]() -> jam_status {
+    check_local_fractions(sys->packing);
+    if (!array_wanted(sys->packing.n(), out, out_len, needed)) return JAM_OK;
     const std::vector<double> phi = local_fractions(sys->packing);
     return give_array(phi.data(), phi.size(), out, out_len, needed);
   });

@@ -53,17 +53,6 @@ void jam_system::show(const Packing &result) noexcept {
 }
 
 namespace {
-jam_status view(const jam_system *sys, const std::vector<double> Packing::*member, const double **out,
-                size_t *len) noexcept {
-  return guard_read(sys, [&]() -> jam_status {
-    need(out, "view");
-    need(len, "view_len");
-    *out = (sys->packing.*member).data();
-    *len = (sys->packing.*member).size();
-    return JAM_OK;
-  });
-}
-
 // A line each, at the level of what it says.
 void log_notes(const jam_system &sys) {
   std::string_view text = sys.notes.text();
@@ -143,14 +132,19 @@ jam_status jam_get_info(const jam_system *sys, jam_info *info) {
   });
 }
 
-jam_status jam_view_positions(const jam_system *sys, const double **v, size_t *len) {
-  return view(sys, &Packing::position, v, len);
-}
-jam_status jam_view_diameters(const jam_system *sys, const double **v, size_t *len) {
-  return view(sys, &Packing::diameter, v, len);
-}
-jam_status jam_view_velocities(const jam_system *sys, const double **v, size_t *len) {
-  return view(sys, &Packing::velocity, v, len);
+jam_status jam_view(const jam_system *sys, int32_t array, const double **view, size_t *view_len) {
+  return guard_read(sys, [&]() -> jam_status {
+    check_enum(array, JAM_VIEW_POSITIONS, JAM_VIEW_VELOCITIES, "array", "jam_view_array");
+    need(view, "view");
+    need(view_len, "view_len");
+    const Packing &p = sys->packing;
+    const std::vector<double> &shown = array == JAM_VIEW_POSITIONS   ? p.position
+                                       : array == JAM_VIEW_DIAMETERS ? p.diameter
+                                                                     : p.velocity;
+    *view = shown.data();
+    *view_len = shown.size();
+    return JAM_OK;
+  });
 }
 
 jam_status jam_set_positions(jam_system *sys, const double *positions, size_t positions_len) {

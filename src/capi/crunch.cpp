@@ -17,14 +17,6 @@ jam_status with_contacts(const jam_system *sys, F &&f) noexcept {
   });
 }
 
-template <class F>
-jam_status with_step(const jam_system *sys, F &&f) noexcept {
-  return guard_read(sys, [&]() -> jam_status {
-    if (!sys->crunching || !sys->crunching->step().shown)
-      fail(JAM_E_STATE, "no step to return: call this from the progress callback of jam_crunch with steps = 1");
-    return f(sys->crunching->step());
-  });
-}
 // A crunch is not lost where its proof ends early.
 void prove_end(const Packing &p, Results &found, Monitor &monitor) {
   if (!found.report.jammed || p.model != JAM_MODEL_EUCLID) return;
@@ -84,13 +76,13 @@ jam_status jam_crunch(jam_system *sys, const jam_crunch_options *o, jam_crunch_r
   });
 }
 
-jam_status jam_estimate_crunch(const jam_system *sys, const jam_crunch_options *o, jam_estimate *estimated) {
+jam_status jam_estimate_crunch(const jam_system *sys, const jam_crunch_options *o, jam_estimate_report *report) {
   return guard_const(sys, [&]() -> jam_status {
-    need(estimated, "estimated");
-    check_out_struct(estimated, "estimated");
+    need(report, "report");
+    check_out_struct(report, "report");
     jam_crunch_options full = default_crunch_options();
     take_options(o, full);
-    give_struct(estimate(sys->packing, full), estimated);
+    give_struct(estimate(sys->packing, full), report);
     return JAM_OK;
   });
 }
@@ -111,22 +103,25 @@ jam_status jam_crunch_history(const jam_system *sys, int32_t columns, double *ta
     return give_table(sys->history, columns, table, table_len, needed);
   });
 }
-jam_status jam_crunch_step_displacements(const jam_system *sys, double *out, size_t out_len, size_t *needed) {
-  return with_step(sys, [&](const CrunchStep &s) {
-    return give_array(s.displacement.data(), s.displacement.size(), out, out_len, needed);
-  });
-}
-jam_status jam_crunch_step_contacts(const jam_system *sys, int32_t *out, size_t out_len, size_t *needed) {
-  return with_step(sys,
-                   [&](const CrunchStep &s) { return give_array(s.pair.data(), s.pair.size(), out, out_len, needed); });
-}
-jam_status jam_crunch_step_vectors(const jam_system *sys, double *out, size_t out_len, size_t *needed) {
-  return with_step(
-      sys, [&](const CrunchStep &s) { return give_array(s.vector.data(), s.vector.size(), out, out_len, needed); });
-}
-jam_status jam_crunch_step_duals(const jam_system *sys, double *out, size_t out_len, size_t *needed) {
-  return with_step(sys, [&](const CrunchStep &s) {
-    return give_array(s.multiplier.data(), s.multiplier.size(), out, out_len, needed);
+jam_status jam_crunch_step(const jam_system *sys, double *displacement, size_t displacement_len, int32_t *pair,
+                           size_t pair_len, double *vector, size_t vector_len, double *dual, size_t dual_len,
+                           size_t *rows) {
+  return guard_read(sys, [&]() -> jam_status {
+    if (!sys->crunching || !sys->crunching->step().shown)
+      fail(JAM_E_STATE, "no step to return: call this from the progress callback of jam_crunch with steps = 1");
+    const CrunchStep &s = sys->crunching->step();
+    if (!rows && !displacement && !pair && !vector && !dual)
+      fail(JAM_E_NULL, "rows is NULL and there is no output array");
+    if (rows) *rows = s.multiplier.size();
+    check_output(displacement, displacement_len, s.displacement.size(), "displacement");
+    check_output(pair, pair_len, s.pair.size(), "pair");
+    check_output(vector, vector_len, s.vector.size(), "vector");
+    check_output(dual, dual_len, s.multiplier.size(), "dual");
+    put_output(s.displacement, displacement, s.displacement.size());
+    put_output(s.pair, pair, s.pair.size());
+    put_output(s.vector, vector, s.vector.size());
+    put_output(s.multiplier, dual, s.multiplier.size());
+    return JAM_OK;
   });
 }
 

@@ -12,7 +12,7 @@ namespace {
 template <class F>
 jam_status with_runs(const jam_system *sys, F &&f) noexcept {
   return guard_read(sys, [&]() -> jam_status {
-    if (!sys->runs) fail(JAM_E_STATE, "there are no runs: call jam_isoconfigurational first");
+    if (!sys->runs) fail(JAM_E_STATE, "there are no runs: call jam_isoconf first");
     return f(*sys->runs);
   });
 }
@@ -57,9 +57,9 @@ jam_status jam_isoconf_options_init(jam_isoconf_options *o, size_t size) {
   return init_options(o, size, default_isoconf_options());
 }
 
-jam_status jam_isoconfigurational(jam_system *sys, const jam_isoconf_options *o, const jam_monte_carlo_options *m,
-                                  const double *instant, size_t instant_len, const int32_t *kept, size_t kept_len,
-                                  jam_isoconf_report *report) {
+jam_status jam_isoconf(jam_system *sys, const jam_isoconf_options *o, const jam_monte_carlo_options *m,
+                       const double *instant, size_t instant_len, const int32_t *kept, size_t kept_len,
+                       jam_isoconf_report *report) {
   return guard_reporting(sys, report, [&]() -> Answer {
     jam_isoconf_options full = default_isoconf_options();
     jam_monte_carlo_options monte_carlo = default_monte_carlo_options();

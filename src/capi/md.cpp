@@ -9,7 +9,6 @@
 #include "core/create.hpp"
 #include "core/math.hpp"
 #include "core/size_laws.hpp"
-#include "dynamics/equation_of_state.hpp"
 #include "dynamics/event_driven/run.hpp"
 #include "io/checkpoint.hpp"
 
@@ -200,28 +199,6 @@ jam_status jam_read_checkpoint(const char *path, jam_progress_fn callback, void 
       settle_overlaps(sys.packing, sys.packing.overlap_allowed ? JAM_OVERLAP_ALLOW : JAM_OVERLAP_REFUSE);
       read_beside(sys, std::move(beside));
     });
-  });
-}
-
-jam_status jam_eos(int32_t form, int32_t dim, double packing_fraction, double jammed_fraction, double *pressure) {
-  return guard([&]() -> jam_status {
-    need(pressure, "pressure");
-    *pressure = equation_of_state(form, dim, packing_fraction, jammed_fraction);
-    return JAM_OK;
-  });
-}
-
-jam_status jam_glass_fit(const double *fraction, size_t fraction_len, const double *pressure, size_t pressure_len,
-                         jam_glass *fit) {
-  return guard([&]() -> jam_status {
-    need(fraction, "fraction");
-    need(pressure, "pressure");
-    need(fit, "fit");
-    check_out_struct(fit, "fit");
-    if (fraction_len != pressure_len)
-      fail(JAM_E_ARGUMENT, "fraction_len is %zu, pressure_len is %zu", fraction_len, pressure_len);
-    give_struct(fit_glass(fraction, pressure, fraction_len), fit);
-    return JAM_OK;
   });
 }
 

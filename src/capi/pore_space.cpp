@@ -143,8 +143,9 @@ jam_status jam_solid_profile(const jam_system *sys, int32_t axis, int32_t bins, 
                              size_t table_len, size_t *needed) {
   return guard_const(sys, [&]() -> jam_status {
     const Table<JAM_PROFILE_COLUMNS> made(columns, table, table_len);
+    check_solid_profile(sys->packing, axis, bins);
+    if (!made.wanted(static_cast<size_t>(bins), needed)) return JAM_OK;
     const Profile profile = solid_profile(sys->packing, axis, bins);
-    if (!made.wanted(profile.low.size(), needed)) return JAM_OK;
     made.give(profile.low.size(), [&](size_t k, auto &row) {
       row[JAM_PROFILE_LOW] = profile.low[k];
       row[JAM_PROFILE_HIGH] = profile.high[k];
@@ -156,6 +157,8 @@ jam_status jam_solid_profile(const jam_system *sys, int32_t axis, int32_t bins, 
 
 jam_status jam_near_coordination(const jam_system *sys, double h_max, int32_t *out, size_t out_len, size_t *needed) {
   return guard_const(sys, [&]() -> jam_status {
+    check_near_coordination(h_max);
+    if (!array_wanted(sys->packing.n(), out, out_len, needed)) return JAM_OK;
     const std::vector<int32_t> z = near_coordination(sys->packing, h_max);
     return give_array(z.data(), z.size(), out, out_len, needed);
   });

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "capi/analysis.hpp"
+#include "core/checks.hpp"
 #include "io/files.hpp"
 #include "proof/find.hpp"
 #include "proof/newton.hpp"
@@ -34,9 +35,14 @@ ProofScene take_scene(const jam_system *sys, const double *ratio, size_t ratio_l
   return make_proof_scene(p, sys->contacts, exact);
 }
 
-ProofScene take_strict_scene(const jam_system *sys) {
-  ProofScene scene = take_scene(sys, nullptr, 0);
-  scene.strict = true, scene.implied.clear();
+// Of a jam_rigidity_kind. Where the cell deforms too, the diameters are as they are.
+ProofScene take_scene(const jam_system *sys, int32_t kind, const double *ratio, size_t ratio_len) {
+  check_enum(kind, JAM_RIGIDITY_COLLECTIVE, JAM_RIGIDITY_STRICT, "kind", "jam_rigidity_kind");
+  const bool strict = kind == JAM_RIGIDITY_STRICT;
+  if (strict && (ratio || ratio_len != 0))
+    fail(JAM_E_ARGUMENT, "ratio must be NULL: a strict proof takes the diameters as they are");
+  ProofScene scene = take_scene(sys, ratio, ratio_len);
+  if (strict) scene.strict = true, scene.implied.clear();
   return scene;
 }
 
@@ -115,18 +121,11 @@ std::string jam::inside::proof_text(int32_t theorem, int32_t cause, double radiu
 
 extern "C" {
 
-jam_status jam_prove(const jam_system *sys, const double *ratio, size_t ratio_len, jam_proof_report *report) {
+jam_status jam_prove(const jam_system *sys, int32_t kind, const double *ratio, size_t ratio_len,
+                     jam_proof_report *report) {
   return guard_const(sys, [&]() -> Answer {
     check_out_struct(report, "report");
-    ProofScene scene = take_scene(sys, ratio, ratio_len);
-    return give_proof(scene, report);
-  });
-}
-
-jam_status jam_prove_strict(const jam_system *sys, jam_proof_report *report) {
-  return guard_const(sys, [&]() -> Answer {
-    check_out_struct(report, "report");
-    ProofScene scene = take_strict_scene(sys);
+    ProofScene scene = take_scene(sys, kind, ratio, ratio_len);
     return give_proof(scene, report);
   });
 }
@@ -141,17 +140,11 @@ const char *jam_proof_text(int32_t theorem, int32_t cause, double radius, double
   return text;
 }
 
-jam_status jam_write_proof(const jam_system *sys, const char *path, const double *ratio, size_t ratio_len) {
+jam_status jam_write_proof(const jam_system *sys, const char *path, int32_t kind, const double *ratio,
+                           size_t ratio_len) {
   return guard_const(sys, [&]() -> Answer {
     need(path, "path");
-    return write_scene(take_scene(sys, ratio, ratio_len), path);
-  });
-}
-
-jam_status jam_write_proof_strict(const jam_system *sys, const char *path) {
-  return guard_const(sys, [&]() -> Answer {
-    need(path, "path");
-    return write_scene(take_strict_scene(sys), path);
+    return write_scene(take_scene(sys, kind, ratio, ratio_len), path);
   });
 }
 

@@ -153,7 +153,7 @@ void read_beside(SystemState &s, std::string bytes) {
   if (!w.paused.empty()) s.paused = read_dynamics(s.packing, std::move(w.paused));
   if (w.runs.empty()) return;
   std::unique_ptr<Dynamics> runs = read_dynamics(s.packing, std::move(w.runs));
-  check(runs->phase() == JAM_PHASE_ISOCONFIGURATIONAL && (!s.paused || s.paused->phase() != runs->phase()));
+  check(runs->phase() == JAM_PHASE_ISOCONF && (!s.paused || s.paused->phase() != runs->phase()));
   s.runs.reset(static_cast<Isoconfigurational *>(runs.release()));
 }
 

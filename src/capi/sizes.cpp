@@ -41,18 +41,6 @@ jam_status jam_parse_diameters(const char *text, jam_diameters_options *o, doubl
   });
 }
 
-jam_status jam_cell_volume(int32_t dim, const double *cell, size_t cell_len, double *volume) {
-  return guard([&]() -> jam_status {
-    need(cell, "cell");
-    need(volume, "volume");
-    check_dim(dim);
-    check_matrix_len("cell", cell_len, dim);
-    check_array_in(cell, cell_len, "cell");
-    *volume = normal_cell(dim, cell).cell.volume();
-    return JAM_OK;
-  });
-}
-
 jam_status jam_get_size_report(int32_t dim, const double *diameters, size_t diameters_len, jam_size_report *report) {
   return guard([&]() -> jam_status {
     need(report, "report");

@@ -100,7 +100,7 @@ static void check_estimate(const Packing &start, const jam_crunch_options &o, Mo
   const bool logs = monitor.log_fn && monitor.log_level >= JAM_LOG_INFO;
   const double unknowns = static_cast<double>(start.position.size()), full_matrix = 8.0 * unknowns * unknowns;
   if (!logs && full_matrix < CallScope::memory_limit()) return;
-  const jam_estimate e = estimate(start, o);
+  const jam_estimate_report e = estimate(start, o);
   if (logs)
     monitor.log(JAM_LOG_INFO, "estimate: %s, %lld pairs, %.3g flops a factorisation, about %.3g s for %.0f of them",
                 bytes_text(e.bytes).c_str(), static_cast<long long>(e.pairs), e.flops, e.seconds, e.factorisations);

@@ -166,7 +166,7 @@ Spread spread_of(const Packing &p) {
 
 }  // namespace
 
-jam_estimate estimate(const Packing &p, const jam_crunch_options &o) {
+jam_estimate_report estimate(const Packing &p, const jam_crunch_options &o) {
   check_options(p, o);
   const double d = p.dim, n = static_cast<double>(p.n());
   const Part lp = largest_lp(p, o), path = o.method == JAM_CRUNCH_SEQUENTIAL_LP ? lp : barrier_path(p, o);
@@ -174,7 +174,7 @@ jam_estimate estimate(const Packing &p, const jam_crunch_options &o) {
   const bool floats = path.sizes.flops > Tuning().single.work * static_cast<double>(path.sizes.factor);
   const double full = measured_rate<double>(192), rate = floats ? measured_rate<float>(192) : full;
 
-  jam_estimate e{};
+  jam_estimate_report e{};
   e.pairs = static_cast<int64_t>(std::max(lp.rows, path.rows));
   e.flops = path.sizes.flops;
   e.factor_bytes = most.factor_bytes();

@@ -6,6 +6,6 @@
 namespace jam::inside {
 
 // Memory and work of a crunch before it runs. Throws for bad options.
-[[gnu::cold]] jam_estimate estimate(const Packing &start, const jam_crunch_options &o);
+[[gnu::cold]] jam_estimate_report estimate(const Packing &start, const jam_crunch_options &o);
 
 }  // namespace jam::inside

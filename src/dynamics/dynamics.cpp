@@ -28,7 +28,7 @@ std::unique_ptr<Dynamics> read_dynamics(const Packing &p, std::string bytes) {
     case JAM_PHASE_MONTE_CARLO:
       dynamics = std::make_unique<MonteCarloRun>(p, from);
       break;
-    case JAM_PHASE_ISOCONFIGURATIONAL:
+    case JAM_PHASE_ISOCONF:
       dynamics = std::make_unique<Isoconfigurational>(p, from);
       break;
     default:

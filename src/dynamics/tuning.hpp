@@ -152,11 +152,6 @@ struct SampleTuning {
   static constexpr size_t first_bins = 4096;
 };
 
-// ---- equation of state by Pade: the search for its pole or maximum below a density
-struct PadeTuning {
-  static constexpr int parts = 1000, halvings = 40;
-};
-
 // ---- isoconfigurational ensemble
 struct EnsembleTuning {
   // A run that has begun is at most so many numbers ahead of the sums; its record waits in memory.

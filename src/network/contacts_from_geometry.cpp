@@ -122,23 +122,6 @@ void check_window(double window) {
 
 }  // namespace
 
-ContactCandidates contact_candidates(const Packing &p, double window) {
-  check_window(window);
-  ContactCandidates out;
-  const GapList g = pairs_below(p, window);
-  for (const Jump &jump : find_jumps(p, g, gap_resolution(p).relative(p), window)) {
-    if (out.limit.size() == JumpTuning::most_candidates) break;
-    CallScope::look();
-    const ContactNetwork net = network_of(p, g, std::sqrt(jump.below * jump.above));
-    if (!may_be_network(net, p, jump)) continue;
-    out.limit.push_back(std::sqrt(jump.below * jump.above));
-    out.jump.push_back(jump.ratio);
-    out.contacts.push_back(static_cast<int32_t>(net.size()));
-    out.excess.push_back(static_cast<int32_t>(excess_contacts(net, p)));
-  }
-  return out;
-}
-
 GeometryResult contacts_from_geometry(const Packing &p, const jam_geometry_options &o) {
   if (!(o.tolerance >= 0.0 && o.tolerance < 1.0))
     fail(JAM_E_ARGUMENT, "tolerance is %g, it must be in [0, 1)", o.tolerance);

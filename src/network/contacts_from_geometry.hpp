@@ -22,11 +22,4 @@ GeometryResult contacts_from_geometry(const Packing &p, const jam_geometry_optio
 // JAM_AMBIGUOUS, JAM_NOT_JAMMED.
 jam_status status_of(const GeometryResult &found, Verdict as_it_is, const GapResolution &resolution, const Packing &p);
 
-// Where the sorted gaps jump, largest jump first: the tolerances that give enough contacts for a rigid network.
-struct ContactCandidates {
-  std::vector<double> limit, jump;
-  std::vector<int32_t> contacts, excess;
-};
-ContactCandidates contact_candidates(const Packing &p, double window);
-
 }  // namespace jam::inside

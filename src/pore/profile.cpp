@@ -89,13 +89,16 @@ Point normal_of_faces(const Packing &p, int axis) {
 
 }  // namespace
 
-Profile solid_profile(const Packing &p, int axis, int bins) {
+void check_solid_profile(const Packing &p, int axis, int bins) {
   check_has_pores(p);
-  const bool radial = axis == p.dim;
   if (axis < 0 || axis > p.dim) fail(JAM_E_ARGUMENT, "axis is %d, it must be in 0..%d", axis, p.dim);
   if (bins < 1 || bins > 1000000) fail(JAM_E_ARGUMENT, "bins is %d, it must be in 1..1e6", bins);
-  if (radial && p.container.round_axes() == 0)
+  if (axis == p.dim && p.container.round_axes() == 0)
     fail(JAM_E_UNSUPPORTED, "axis is %d, which is radial: that needs a cylinder or a ball as container", axis);
+}
+
+Profile solid_profile(const Packing &p, int axis, int bins) {
+  const bool radial = axis == p.dim;
   const auto count = static_cast<size_t>(bins);
   const double height = radial ? 0.5 * p.cell.edge(0) : p.cell.height(axis);
   std::vector<double> solid(count, 0.0), s(static_cast<size_t>(p.dim));

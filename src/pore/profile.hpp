@@ -19,6 +19,7 @@ struct Profile {
 };
 // axis < d: slabs between the faces of the cell that a_axis joins, by their distance; axis == d: shells about the
 // centre of a ball or the axis of a cylinder. JAM_E_UNSUPPORTED for shells without a round container.
+void check_solid_profile(const Packing &p, int axis, int bins);  // before the work
 Profile solid_profile(const Packing &p, int axis, int bins);
 
 }  // namespace jam::inside

@@ -35,7 +35,7 @@ static double fraction_of(const jam_system *sys) {
   const double *sigma = NULL;
   size_t n = 0, i;
   double area = 0.0;
-  CHECK(jam_view_diameters(sys, &sigma, &n) == JAM_OK && n == 40);
+  CHECK(jam_view(sys, JAM_VIEW_DIAMETERS, &sigma, &n) == JAM_OK && n == 40);
   for (i = 0; i < n; ++i) area += 0.25 * pi * sigma[i] * sigma[i];
   return area / 4.0;
 }
@@ -98,8 +98,8 @@ static void crunched(jam_system *sys) {
   CHECK(jam_set_progress(sys, NULL, NULL) == JAM_OK && s.calls > 0 && s.wrong == 0);
   CHECK(jam_contacts(sys, pairs, 2 * 200, &needed) == JAM_OK && needed == 2 * (size_t)r.contacts);
   CHECK(jam_forces(sys, force, 200, &needed) == JAM_OK && needed == (size_t)r.contacts);
-  CHECK(jam_view_positions(sys, &x, &len) == JAM_OK && len == 80);
-  CHECK(jam_view_diameters(sys, &sigma, &len) == JAM_OK);
+  CHECK(jam_view(sys, JAM_VIEW_POSITIONS, &x, &len) == JAM_OK && len == 80);
+  CHECK(jam_view(sys, JAM_VIEW_DIAMETERS, &sigma, &len) == JAM_OK);
   if (failures) return;
   for (k = 0; k < needed; ++k) {
     const int32_t a = pairs[2 * k], b = pairs[2 * k + 1];

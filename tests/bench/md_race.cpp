@@ -27,7 +27,7 @@ struct Library {
   decltype(&jam_destroy) destroy;
   decltype(&jam_run) run;
   decltype(&jam_compress) compress;
-  decltype(&jam_view_positions) view_positions;
+  decltype(&jam_view) view;
 
   explicit Library(const char *path) {
     void *handle = dlopen(path, RTLD_NOW | RTLD_LOCAL);
@@ -50,7 +50,7 @@ struct Library {
     find(destroy, "jam_destroy");
     find(run, "jam_run");
     find(compress, "jam_compress");
-    find(view_positions, "jam_view_positions");
+    find(view, "jam_view");
   }
 };
 
@@ -185,7 +185,7 @@ void race(const Library (&jam)[2], const Scene &s, double seconds, const char *c
   const double *x[2] = {nullptr, nullptr};
   for (int k = 0; k < 2; ++k) {
     size_t length = 0;
-    jam[k].view_positions(sys[k], &x[k], &length);
+    jam[k].view(sys[k], JAM_VIEW_POSITIONS, &x[k], &length);
   }
   for (size_t c = 0; c < words; ++c) {
     const double d = x[0][c] - x[1][c];

@@ -37,7 +37,7 @@ def measure(packing, structure, instants, options, most):
     for count in counts(most):
         first = runs.runs if runs else 0
         begin = time.process_time()
-        made = packing.isoconfigurational(instants, first_run=first, runs=count - first, block=10, **options)
+        made = packing.isoconf(instants, first_run=first, runs=count - first, block=10, **options)
         seconds += time.process_time() - begin
         runs = runs.merge(made) if runs else made
         k, e = nj.correlations(runs, structure), nj.correlation_errors(runs, structure, 40)

@@ -15,8 +15,8 @@ inline Packing packing_of(jam_system *sys) {
   jam_info info;
   info.struct_size = sizeof info;
   jam_get_info(sys, &info);
-  jam_view_positions(sys, &x, &nx);
-  jam_view_diameters(sys, &s, &ns);
+  jam_view(sys, JAM_VIEW_POSITIONS, &x, &nx);
+  jam_view(sys, JAM_VIEW_DIAMETERS, &s, &ns);
   p.set_cube(info.dim, info.box);
   p.position.assign(x, x + nx);
   p.diameter.assign(s, s + ns);

@@ -68,7 +68,7 @@ def arrays():
     result = {"doubles": v.size, "velocities_in_and_out": median(in_and_out), "same_by_raw_pointers": median(baseline)}
     assert (out == v).all()
     result["view_positions"] = median(lambda: s.positions, 200)
-    result["view_is_library_memory"] = s.positions.ctypes.data == jam.raw.jam_view_positions(s.handle)[1][0]
+    result["view_is_library_memory"] = s.positions.ctypes.data == jam.raw.jam_view(s.handle, jam.raw.JAM_VIEW_POSITIONS)[1][0]
     wide = np.zeros((n, 4), np.float32)
     wide[:, ::2] = v
     result["strided_float32_in"] = median(lambda: setattr(s, "velocities", wide[:, ::2]))

@@ -49,7 +49,7 @@ program fortran_layer
   status = jam_get_info(sys, info)
   call expect(info%n == n .and. info%dim == d, 'info')
   call expect(jam_text(jam_notes(sys)) == '', 'nothing was changed')
-  status = jam_view_positions(sys, view, view_len)
+  status = jam_view(sys, JAM_VIEW_POSITIONS, view, view_len)
   call expect(view_len == d*n, 'view length')
   call c_f_pointer(view, seen, [d, n])
   x = modulo(seen + 0.25_c_double, 1.0_c_double)

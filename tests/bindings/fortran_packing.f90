@@ -102,18 +102,19 @@ contains
       hu(k) = dot_product(value(row(k):row(k + 1) - 1), u(column(row(k):row(k + 1) - 1)))
     end do
     call expect(maxval(abs(hu(:m) - lambda(1)*u(:m))) < 1e-8_c_double, 'an eigenvector')
-    table = disks%floppy_modes()
+    call disks%floppy_modes(table=table)
     call expect(all(shape(table) == [6, size(force)]), 'a table')
     rigid = disks%rigidity(JAM_RIGIDITY_COLLECTIVE)
     call expect(rigid%jammed == JAM_VERDICT_YES, 'rigidity')
-    call expect(size(disks%floppy_mode(1), 2) == size(spheres), 'of the first contact')
+    call disks%floppy_modes([size(force)], vector=vector)
+    call expect(all(shape(vector) == [2, size(spheres), 1]), 'of the last contact')
     table = disks%crunch_history()
     call expect(abs(table(JAM_HISTORY_PHI + 1, size(table, 2)) - report%packing_fraction) < 1e-12_c_double, 'history')
   end subroutine network
 
   subroutine copies_and_cells()
     type(packing) :: one, other
-    type(jam_comparison) :: found
+    type(jam_comparison_report) :: found
     real(c_double), allocatable :: shift(:, :), cell(:, :)
     real(c_double) :: tilted(2, 2), x(2, 2)
     type(jam_crunch_report) :: report

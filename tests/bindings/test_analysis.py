@@ -1,4 +1,5 @@
 """Analysis calls from Python: hessian, modes, and the methods that are made from the header."""
+import inspect
 import unittest
 
 import numpy as np
@@ -37,8 +38,6 @@ class Network(unittest.TestCase):
         np.testing.assert_allclose(h.toarray(), a.T @ a, atol=1e-12)
         hard = s.hessian("hard").toarray()
         np.testing.assert_allclose(hard, a.T @ (c.forces[:, None] ** 2 * a), atol=1e-10)
-        u = np.random.default_rng(0).normal(size=(self.r.stable, 2))
-        self.assertAlmostEqual(s.curvature(u, stiffness="hard") / (u.reshape(-1) @ hard @ u.reshape(-1)), 1, 10)
 
     def test_modes(self):
         s, h = self.s, self.s.hessian()
@@ -61,9 +60,7 @@ class Network(unittest.TestCase):
         self.assertAlmostEqual(extended.mean(), 1, 12)
         z = s.local_values("coordination", "all")
         self.assertEqual((len(z), z.sum()), (r.stable, 2 * r.contacts))
-        density = s.histogram("vector_dot", "all", -1.013, 1.017, 37)  # no edge at the cosines of equal disks in touch
-        expected, _ = np.histogram(s.contact_dots(weighted=0).dot, 37, (-1.013, 1.017), density=True)
-        np.testing.assert_allclose(density, expected, rtol=1e-10)
+        np.testing.assert_allclose(s.local_values("vector_dot", "all"), s.contact_dots(weighted=0).dot, rtol=1e-12)
         with self.assertRaises(jam.errors.ArgumentError):
             s.local_values("coordination", "median")
 
@@ -71,9 +68,9 @@ class Network(unittest.TestCase):
         s = self.s
         every = s.modes(which="all")
         u = np.random.default_rng(1).normal(size=(self.r.stable, 2))
-        c = s.project(every.vectors, u)
-        np.testing.assert_allclose(c, every.vectors.reshape(len(every), -1) @ u.reshape(-1), atol=1e-12)
+        c = every.vectors.reshape(len(every), -1) @ u.reshape(-1)
         self.assertAlmostEqual((c**2).sum() / (u**2).sum(), 1, 11)
+        self.assertAlmostEqual((every.values * c**2).sum() / (u.reshape(-1) @ s.hessian() @ u.reshape(-1)), 1, 10)
         low = s.density_of_states(points=60, vectors=32)
         exact = np.searchsorted(every.values[2:], low.edge**2) / (len(every) - 2)
         self.assertLess(np.abs(low.cumulative - exact).max(), 0.05)
@@ -89,11 +86,6 @@ class Network(unittest.TestCase):
         np.testing.assert_allclose(np.linalg.norm(r, axis=1), s.diameters[0], rtol=1e-12)
         with self.assertRaises(jam.errors.UnsupportedError):
             self.s.mk_shifts(pairs)
-
-    def test_candidates(self):
-        found = self.s.contact_candidates(0.1)
-        self.assertEqual((found.contacts[0], found.excess[0]), (self.r.contacts, self.r.excess_contacts))
-        self.assertGreater(found.jump[0], 1e6)
 
     def test_bins_of_pair_correlation_do_not_depend_on_r_max(self):
         s = jam.System.random(n=100, seed=1)  # equal spheres touch at r = 1, an edge of bins
@@ -117,10 +109,6 @@ class Network(unittest.TestCase):
         self.assertEqual(len(g), 30)
         kinds = np.arange(s.n) % 2
         self.assertTrue((s.pair_correlation(2.0, 30, kind=kinds, a=0, b=1) != g).any())
-        big = s.local_values("force", "extended")
-        np.testing.assert_allclose(
-            s.histogram("force", jam.Population.EXTENDED, 0, 10, 40).sum() * 0.25, (big < 10).mean(), rtol=1e-12
-        )
         moduli = s.moduli()
         self.assertGreater(moduli.bulk, 0)
         tensor = s.elastic_tensor()
@@ -141,13 +129,20 @@ class Network(unittest.TestCase):
         c, _ = s.compare(other)
         self.assertEqual(c.overlap_a, c.common_contacts / c.contacts_a)
         self.assertNotEqual(c.overlap_a, c.overlap)
-        self.assertIsInstance(s.crystal_score(), float)
+        self.assertLess(other.crystal_score(), 3)
 
     def test_contacts_from_geometry(self):
         s = jam.System.from_arrays(self.s.positions, self.s.diameters)
         report = s.contacts_from_geometry()
         self.assertEqual((report.contacts, report.self_stresses), (self.r.contacts, 1))
         np.testing.assert_allclose(np.sort(s.forces), np.sort(self.s.forces), atol=1e-8)
+
+    def test_order_by_the_pair_correlation(self):
+        cube = np.indices((4, 4, 4)).reshape(3, -1).T
+        sites = np.concatenate([cube + shift for shift in ([0, 0, 0], [0, 0.5, 0.5], [0.5, 0, 0.5], [0.5, 0.5, 0])])
+        crystal = jam.System.from_arrays(sites, 0.7, box=4)
+        self.assertGreater(crystal.crystal_score(), 5)
+        self.assertLess(jam.System.random(2000, 3, 1, packing_fraction=0.3).crystal_score(), 1.5)
 
     def test_functions_without_a_system(self):
         phi = np.array([0.5, 0.55, 0.6])
@@ -171,11 +166,15 @@ class Network(unittest.TestCase):
         with self.assertRaisesRegex(TypeError, "h_max"):
             self.s.call("gaps", stable_only=1)
         with self.assertRaisesRegex(TypeError, "stifness"):
-            self.s.curvature(np.zeros(3), stifness="hard")
+            self.s.moduli(stifness="hard")
         with self.assertRaisesRegex(TypeError, "stifness"):
-            self.s.call("curvature", np.zeros(3), stifness="hard")
+            self.s.call("moduli", stifness="hard")
         with self.assertRaises(jam.errors.ArgumentError):
-            self.s.curvature(np.zeros(3))
+            self.s.floppy_mode(len(self.s.forces))
+        with self.assertRaises(jam.errors.ArgumentError):
+            self.s.prove([1.0] * self.s.n, strict=True)
+        for setter in (self.s.add_note, self.s.set_memory_limit, self.s.stop_observing):
+            self.assertNotIn("progress", inspect.signature(setter).parameters)  # nothing that takes long
         with self.assertRaises(jam.errors.ArgumentError):
             self.s.gaps(-1.0, True)
         with self.assertRaises(jam.errors.StateError):

@@ -29,7 +29,7 @@ def refused(error, f, *args, **named):
 def test_runs(packing):
     structure = nj.predictors(packing)
     options = dict(density_ratio=0.99, block=10)
-    runs = packing.isoconfigurational([2, 10, 50], runs=60, keep=[1], **options)
+    runs = packing.isoconf([2, 10, 50], runs=60, keep=[1], **options)
     assert runs.runs == 60 and runs.blocks == 6 and runs.status == jam.StatusCode.OK
     sets = runs.kept[1]
     assert sets.shape == (60, packing.n, 3)
@@ -40,8 +40,8 @@ def test_runs(packing):
     q = (sets**2).sum((1, 2)) / packing.n
     assert np.allclose(q.std(), runs.deviation("msd")[1], rtol=1e-6)
     # parts of a campaign are the campaign, bit for bit
-    first = packing.isoconfigurational([2, 10, 50], runs=20, keep=[1], **options)
-    second = packing.isoconfigurational([2, 10, 50], first_run=20, runs=40, keep=[1], **options)
+    first = packing.isoconf([2, 10, 50], runs=20, keep=[1], **options)
+    second = packing.isoconf([2, 10, 50], first_run=20, runs=40, keep=[1], **options)
     joined = first.merge(second)
     for name in ("displacement", "square", "distance2", "distance4"):
         assert np.array_equal(joined.total(name), runs.total(name))
@@ -49,7 +49,7 @@ def test_runs(packing):
     assert refused(ValueError, second.merge, first)
     other = packing.copy()
     other.scale_diameters(0.999)
-    assert refused(ValueError, first.merge, other.isoconfigurational([2, 10, 50], first_run=20, runs=20, **options))
+    assert refused(ValueError, first.merge, other.isoconf([2, 10, 50], first_run=20, runs=20, **options))
     with tempfile.TemporaryDirectory() as folder:
         file = os.path.join(folder, "runs.npz")
         runs.save(file)
@@ -98,7 +98,7 @@ def test_scenes_are_not_mixed():
     x, diameters, cell = box.positions, box.diameters, np.array(box.cell)
     make = functools.partial(jam.System.from_arrays, x, diameters, seed=box.seed)
     scenes = [box, make(cell=cell), make(cell=2 * cell), make(cell=cell, masses="volume"), make(cell=cell, walls="x")]
-    runs = [s.isoconfigurational([2], runs=20, first_run=20 * k, block=20) for k, s in enumerate(scenes)]
+    runs = [s.isoconf([2], runs=20, first_run=20 * k, block=20) for k, s in enumerate(scenes)]
     for k, first in enumerate(runs[:-1]):
         for second in runs[k + 1 :]:
             assert refused(ValueError, first.merge, replace(second, first_run=20 * (k + 1)))
@@ -107,7 +107,7 @@ def test_scenes_are_not_mixed():
 def test_campaign(packing):
     """A campaign that was stopped goes on to the same bits; another one does not touch its file."""
     options = dict(density_ratio=0.99, block=4, keep=[0])
-    whole = packing.isoconfigurational([2, 5], runs=20, **options)
+    whole = packing.isoconf([2, 5], runs=20, **options)
     with tempfile.TemporaryDirectory() as folder:
         file = os.path.join(folder, "runs.npz")
         part = nj.campaign(packing, file, [2, 5], 10, part=4, **options)  # as if it was stopped amid a block
@@ -129,10 +129,10 @@ def test_campaign(packing):
         path = os.path.join(folder, "carlo.npz")
         carlo = nj.campaign(packing, path, [2, 5], 4, monte_carlo={}, **options)
         assert nj.campaign(packing, path, [2, 5], 8, monte_carlo={}, **options).runs == 8
-        assert refused(ValueError, carlo.merge, packing.isoconfigurational([2, 5], first_run=4, runs=4, **options))
+        assert refused(ValueError, carlo.merge, packing.isoconf([2, 5], first_run=4, runs=4, **options))
         with packing.copy() as again:
-            again.isoconfigurational([2, 5], runs=4, **options)
-            assert again.isoconfigurational([2, 5], runs=8, resume=True, **options).origin == whole.origin
+            again.isoconf([2, 5], runs=4, **options)
+            assert again.isoconf([2, 5], runs=8, resume=True, **options).origin == whole.origin
         # a part that is refused loses nothing
         tight = dict(options, memory_limit=1e3)
         assert refused(jam.JamError, nj.campaign, packing, file, [2, 5], 40, **tight)
@@ -142,15 +142,15 @@ def test_campaign(packing):
 def test_edges(packing):
     """Where the method ends it says so: beyond the cage, and without a network."""
     structure = nj.predictors(packing)
-    runs = packing.isoconfigurational([2, 500], runs=40, density_ratio=0.8, block=10)
+    runs = packing.isoconf([2, 500], runs=40, density_ratio=0.8, block=10)
     assert list(nj.is_caged(runs, packing)) == [True, False]
     k = nj.correlations(runs, structure)
     assert k["c"][0] > 0.25 and k["c"][1] < 0.6 * k["c"][0] and abs(k["s"][1]) < 0.2
     # sums fit into the memory, whole sets do not
     limit = 1e6
-    assert packing.isoconfigurational([2], runs=100, density_ratio=0.9, block=100, memory_limit=limit).runs == 100
+    assert packing.isoconf([2], runs=100, density_ratio=0.9, block=100, memory_limit=limit).runs == 100
     wide = dict(runs=1000, keep=[0], density_ratio=0.9, block=1000, memory_limit=limit)
-    assert refused(jam.JamError, packing.isoconfigurational, [2], **wide)
+    assert refused(jam.JamError, packing.isoconf, [2], **wide)
     # spheres that touch nothing: rattlers only
     loose = jam.System.from_arrays(np.array([[0.2, 0.2, 0.2], [0.7, 0.7, 0.7], [0.2, 0.7, 0.2]]), [0.1] * 3)
     assert loose.contacts_from_geometry().contacts == 0
@@ -162,18 +162,18 @@ def test_masses():
     sizes = [1.0] * 30 + [1.5] * 30
     for masses, ratio in (("equal", 1.0), ("volume", 1.5**3)):
         mixture = jam.System.random(n=60, dim=3, seed=2, packing_fraction=0.1, diameters=sizes, masses=masses)
-        runs = mixture.isoconfigurational([1e-6], clock="time", runs=200, block=200)
+        runs = mixture.isoconf([1e-6], clock="time", runs=200, block=200)
         mobility = nj.propensity(runs)[0]
         assert abs(mobility[:30].mean() / mobility[30:].mean() / ratio - 1.0) < 0.06
 
 
 def test_monte_carlo(packing):
-    runs = packing.isoconfigurational([10, 100], monte_carlo=dict(alpha=2, temperature=1e-6), runs=20, block=5)
+    runs = packing.isoconf([10, 100], monte_carlo=dict(alpha=2, temperature=1e-6), runs=20, block=5)
     assert 0.4 < runs.acceptance < 0.5 and runs.step > 0
     k = nj.correlations(runs, nj.predictors(packing))
     assert k["s"][0] > 0.3
     # so hot that the packing melts: said by is_caged, and the network predicts nothing
-    hot = packing.isoconfigurational([400], monte_carlo=dict(alpha=2, temperature=1.0), runs=20, block=5)
+    hot = packing.isoconf([400], monte_carlo=dict(alpha=2, temperature=1.0), runs=20, block=5)
     assert not nj.is_caged(hot, packing).any()
     before = packing.positions.copy()
     moved = packing.copy()
@@ -185,10 +185,10 @@ def test_monte_carlo(packing):
 def test_errors():
     fluid = jam.System.random(n=32, dim=3, seed=1)
     assert refused(jam.errors.StateError, nj.predictors, fluid)
-    assert refused(jam.errors.ArgumentError, fluid.isoconfigurational, [2, 1])
-    assert refused(jam.errors.ArgumentError, fluid.isoconfigurational, [1], temperature=0)
-    assert refused(TypeError, fluid.isoconfigurational, [1], no_such_option=1)
-    one = fluid.isoconfigurational([1], runs=2, block=2)
+    assert refused(jam.errors.ArgumentError, fluid.isoconf, [2, 1])
+    assert refused(jam.errors.ArgumentError, fluid.isoconf, [1], temperature=0)
+    assert refused(TypeError, fluid.isoconf, [1], no_such_option=1)
+    one = fluid.isoconf([1], runs=2, block=2)
     assert refused(ValueError, one.halves)
     assert refused(ValueError, st.spearman, [1, 2], [1, 2])
     assert refused(ValueError, st.spearman, [1, 2, 3], [1, 2])
@@ -231,14 +231,14 @@ def test_statistics():
 def test_checkpoint(packing):
     packing = packing.copy()
     options = dict(density_ratio=0.99, block=2)
-    whole = packing.isoconfigurational([2, 10], runs=8, **options)
-    packing.isoconfigurational([2, 10], runs=3, **options)
+    whole = packing.isoconf([2, 10], runs=8, **options)
+    packing.isoconf([2, 10], runs=3, **options)
     with tempfile.TemporaryDirectory() as folder:
         file = os.path.join(folder, "state")
         packing.write_checkpoint(file)
         again = jam.System.from_checkpoint(file)
     assert nj.take_runs(again).runs == 3
-    rest = again.isoconfigurational([2, 10], runs=8, resume=1, **options)
+    rest = again.isoconf([2, 10], runs=8, resume=1, **options)
     assert np.array_equal(rest.total("displacement"), whole.total("displacement"))
 
 

@@ -121,7 +121,7 @@ class OwnImages(unittest.TestCase):
         two = jam.System.from_arrays([[0, 0], [0.5, np.sqrt(0.75)]], 1 - 1e-15, cell=[1, np.sqrt(3)])
         for s in (one, two):
             s.contacts_from_geometry()
-            for proof in (s.prove(), s.prove_strict()):
+            for proof in (s.prove(), s.prove(strict=True)):
                 self.assertEqual((proof.theorem, proof.cause), (jam.Theorem.NONE, jam.ProofCause.IMAGES))
 
     def test_a_free_cell_lists_them(self):

@@ -27,7 +27,7 @@ def packed(n, dim, seed, strain="free"):
 def strict_file(system):
     with tempfile.TemporaryDirectory() as folder:
         path = folder + "/a.jamproof"
-        system.write_proof_strict(path)
+        system.write_proof(path, strict=True)
         return pathlib.Path(path).read_text(encoding="ascii")
 
 
@@ -43,7 +43,7 @@ class Strict(unittest.TestCase):
         proved = 0
         for dim, seed in ((2, 1), (2, 2), (2, 3), (3, 1), (3, 2), (3, 3)):
             system = packed(32, dim, seed)
-            proof = system.prove_strict()
+            proof = system.prove(strict=True)
             pairs, h = system.contacts.pairs, system.cell
             stable = sorted(set(pairs.ravel().tolist()))
             place = {s: k for k, s in enumerate(stable)}
@@ -81,7 +81,7 @@ class Strict(unittest.TestCase):
     def test_a_packing_of_a_fixed_cell_is_not_strict(self):
         for dim, seed in ((2, 1), (3, 1)):
             system = packed(32, dim, seed, "none")
-            report = system.prove_strict()
+            report = system.prove(strict=True)
             self.assertEqual((report.theorem, report.cause), (jam.Theorem.NONE, jam.ProofCause.EXCESS))
             needed = dim * (report.stable - 1) + dim * (dim + 1) // 2
             self.assertEqual((report.cause_value, report.cause_bound), (report.contacts, needed))
@@ -115,7 +115,7 @@ class Strict(unittest.TestCase):
     def test_a_crystal_is(self):
         system = jam.System.from_arrays(fcc(), 0.5 * 0.5**0.5 * (1 - 1e-16))
         system.contacts_from_geometry()
-        self.assertEqual(system.prove_strict().theorem, jam.Theorem.EXACT)
+        self.assertEqual(system.prove(strict=True).theorem, jam.Theorem.EXACT)
         self.assertEqual(verdict(strict_file(system))["radius"], 0.0)
 
 
@@ -151,13 +151,13 @@ class Files(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.systems = [packed(n, dim, seed) for n, dim in ((16, 2), (24, 2), (14, 3)) for seed in range(1, 6)]
-        cls.exact = [s for s in cls.systems if s.report.jammed and s.prove_strict().theorem == jam.Theorem.EXACT]
+        cls.exact = [s for s in cls.systems if s.report.jammed and s.prove(strict=True).theorem == jam.Theorem.EXACT]
         cls.texts = [strict_file(s) for s in cls.exact]
 
     def test_the_checker_agrees_with_the_library(self):
         self.assertGreaterEqual(len(self.exact), 6)
         for system, text in zip(self.exact, self.texts):
-            proof, found = system.prove_strict(), verdict(text)
+            proof, found = system.prove(strict=True), verdict(text)
             self.assertIsInstance(found, dict, found)
             self.assertLess(max(found["radius"], proof.radius), 1e-28)
             self.assertAlmostEqual(proof.least_force / found["least_force"], 1.0, delta=1e-6)
@@ -191,7 +191,7 @@ class Files(unittest.TestCase):
         places = np.stack(np.meshgrid(*[np.arange(3)] * 3, indexing="ij"), -1).reshape(-1, 3)
         system = jam.System.from_arrays(((places[:, None] + 2 * fcc()[:4]).reshape(-1, 3)) / 3.0, 0.5**0.5 / 3.0 * (1 - 1e-15))
         system.contacts_from_geometry()
-        self.assertEqual(system.prove_strict().theorem, jam.Theorem.TRAPPED)
+        self.assertEqual(system.prove(strict=True).theorem, jam.Theorem.TRAPPED)
         program, text = checker(), strict_file(system)
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder) / "a.jamproof"
@@ -246,7 +246,7 @@ def grain_across_the_boundary(text):
 
 class Bounds(unittest.TestCase):
     def test_each_bound_is_needed(self):
-        exact = next(s for s in (packed(16, 2, seed) for seed in range(1, 20)) if s.prove_strict().theorem == jam.Theorem.EXACT)
+        exact = next(s for s in (packed(16, 2, seed) for seed in range(1, 20)) if s.prove(strict=True).theorem == jam.Theorem.EXACT)
         table = (
             ("one pressure on all axes", "or len(pressure) > 1", "", crystal_with_one_axis_pressed()),
             ("cell vectors in a gap", "* (i != j) + self.strict * sum(map(abs, n))", "* (i != j)", grain_across_the_boundary(strict_file(exact))),

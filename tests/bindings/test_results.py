@@ -162,7 +162,7 @@ class Statuses(unittest.TestCase):
     def test_isoconfigurational_runs_that_stop_early_say_so(self):
         base = jam.System.random(n=100, dim=3, seed=1)
         for keep in ((), (0,)):
-            runs = base.isoconfigurational([50, 200], runs=100000, block=7, keep=keep, wall_time=0.2)
+            runs = base.isoconf([50, 200], runs=100000, block=7, keep=keep, wall_time=0.2)
             self.assertEqual(runs.status, jam.StatusCode.LIMIT)
             self.assertEqual(base.status, jam.StatusCode.LIMIT)
 
@@ -182,10 +182,10 @@ class Statuses(unittest.TestCase):
 
     def test_sentences_of_runs_say_how_they_go_on(self):
         s = jam.System.random(n=60, dim=3, seed=1)
-        first = s.isoconfigurational([50], runs=100000, wall_time=0.3, density_ratio=0.9)
+        first = s.isoconf([50], runs=100000, wall_time=0.3, density_ratio=0.9)
         self.assertIn("resume = 1 continues", s.status_text)
         self.assertIn("starts again", s.status_text)
-        again = s.isoconfigurational([50], runs=100000, wall_time=0.3, density_ratio=0.9, resume=1)
+        again = s.isoconf([50], runs=100000, wall_time=0.3, density_ratio=0.9, resume=1)
         self.assertGreater(again.runs, first.runs)
         s.monte_carlo(sweeps=10**7, wall_time=0.2)
         self.assertIn("resume = 1 continues", s.status_text)
@@ -212,7 +212,7 @@ class Statuses(unittest.TestCase):
 
     def test_runs_have_the_shapes_of_the_header(self):
         s = jam.System.random(n=20, dim=3, seed=1)
-        runs = s.isoconfigurational([1, 2], runs=3, density_ratio=0.9, keep=[1])
+        runs = s.isoconf([1, 2], runs=3, density_ratio=0.9, keep=[1])
         np.testing.assert_array_equal(s.isoconf_kept(1), runs.kept[1])
         self.assertEqual(s.isoconf_kept(1).shape, (3, 20, 3))
         sums, distances = s.isoconf_displacements(-1), s.isoconf_distances(-1)

@@ -114,7 +114,7 @@ class Views(unittest.TestCase):
         s = jam.System.random(n=10)
         a, b = s.positions, s.positions
         self.assertEqual(a.ctypes.data, b.ctypes.data)
-        self.assertEqual(a.ctypes.data, jam.raw.jam_view_positions(s.handle)[1][0])
+        self.assertEqual(a.ctypes.data, jam.raw.jam_view(s.handle, jam.raw.JAM_VIEW_POSITIONS)[1][0])
         with self.assertRaises(ValueError):
             a[0, 0] = 1
         with self.assertRaises(ValueError):

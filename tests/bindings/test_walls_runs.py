@@ -15,7 +15,7 @@ class Runs(unittest.TestCase):
             for monte_carlo in (None, {"step": 0.1}):
                 n = 30
                 s = jam.System.random(n=n, seed=4, packing_fraction=0.2, diameters=1 + 0.5 * (np.arange(n) % 2), **OPEN[name])
-                runs = s.isoconfigurational([5, 20], runs=20, keep=[0, 1], monte_carlo=monte_carlo, density_ratio=0.999)
+                runs = s.isoconf([5, 20], runs=20, keep=[0, 1], monte_carlo=monte_carlo, density_ratio=0.999)
                 a = s.diameters / 2 * 0.999 ** (1 / s.dim)
                 for m in (0, 1):
                     for moved in runs.kept[m]:
@@ -25,7 +25,7 @@ class Runs(unittest.TestCase):
 
     def test_walls_take_momentum_and_open_axes_keep_it(self):
         s = start("slit", 60, 2)
-        runs = s.isoconfigurational([3.0], runs=10, keep=[0], density_ratio=0.999)
+        runs = s.isoconf([3.0], runs=10, keep=[0], density_ratio=0.999)
         for moved in runs.kept[0]:
             np.testing.assert_allclose(moved.mean(0)[:2], 0, atol=1e-12)
             self.assertGreater(abs(moved.mean(0)[2]), 1e-6)
@@ -33,7 +33,7 @@ class Runs(unittest.TestCase):
     def test_mean_pressure_is_that_of_one_long_run(self):
         s = jam.System.random(n=100, seed=4, packing_fraction=0.25, **OPEN["slit"])
         s.run(collisions_per_particle=50)
-        runs = s.isoconfigurational([200.0], runs=30)
+        runs = s.isoconf([200.0], runs=30)
         p = s.run(collisions_per_particle=2500).pressure
         self.assertLess(abs(runs.series["pressure"].sum(0)[-1] / 30 / p - 1), 0.02)
 
@@ -98,7 +98,7 @@ class SoftMonteCarlo(unittest.TestCase):
                             energy += (max(0, sigma - r) / (sigma if unit == "relative" else 1)) ** 2.5
                 self.assertGreater(walls, 1e-6 * energy)
                 options = {"alpha": 2.5, "energy_unit": unit, "temperature": 1e-12, "step": 1e-12}
-                runs = s.isoconfigurational([1], runs=1, monte_carlo=options)
+                runs = s.isoconf([1], runs=1, monte_carlo=options)
                 self.assertAlmostEqual(runs.series["energy"].sum() * n / energy, 1, 9, (name, unit))
 
     @staticmethod

@@ -82,7 +82,7 @@ void watching_changes_nothing(void **) {
   assert_int_equal(jam_create(&o, &start, &watched), JAM_OK);
   const double *a = nullptr, *b = nullptr;
   size_t len = 0;
-  jam_view_positions(plain, &a, &len), jam_view_positions(watched, &b, &len);
+  jam_view(plain, JAM_VIEW_POSITIONS, &a, &len), jam_view(watched, JAM_VIEW_POSITIONS, &b, &len);
   assert_memory_equal(a, b, len * sizeof *a);
   jam_destroy(plain), jam_destroy(watched);
 }
@@ -148,9 +148,9 @@ void memory_limit_of_factors(void **) {
   jam_system *sys = make(6000, 0.3);
   const double *view = nullptr;
   size_t len = 0;
-  jam_view_positions(sys, &view, &len);
+  jam_view(sys, JAM_VIEW_POSITIONS, &view, &len);
   const std::vector<double> before(view, view + len);
-  jam_estimate e;
+  jam_estimate_report e;
   e.struct_size = sizeof e;
   assert_int_equal(jam_estimate_crunch(sys, nullptr, &e), JAM_OK);
   jam_crunch_options o;
@@ -226,7 +226,7 @@ void lists_of_verbs_are_left(void **) {
   assert_int_equal(jam_create(&o, nullptr, &sys), JAM_OK);
   const double *view = nullptr;
   size_t len = 0;
-  jam_view_positions(sys, &view, &len);
+  jam_view(sys, JAM_VIEW_POSITIONS, &view, &len);
   const std::vector<double> before(view, view + len);
   for (const bool by_callback : {true, false}) {
     jam_set_progress(sys, by_callback ? stop_at_once : nullptr, nullptr);
@@ -266,7 +266,7 @@ void lists_of_verbs_keep_to_the_memory(void **) {
   jam_system *sys = make(3000, 0.3);
   const double *view = nullptr;
   size_t len = 0;
-  jam_view_positions(sys, &view, &len);
+  jam_view(sys, JAM_VIEW_POSITIONS, &view, &len);
   const std::vector<double> before(view, view + len);
   assert_int_equal(jam_set_memory_limit(sys, 1e4), JAM_OK);
   jam_run_options run;

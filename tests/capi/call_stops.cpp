@@ -41,13 +41,13 @@ int32_t stop_at_once(const jam_progress *, void *user) {
 std::vector<double> positions(const jam_system *sys) {
   const double *view = nullptr;
   size_t len = 0;
-  jam_view_positions(sys, &view, &len);
+  jam_view(sys, JAM_VIEW_POSITIONS, &view, &len);
   return {view, view + len};
 }
 std::vector<double> diameters(const jam_system *sys) {
   const double *view = nullptr;
   size_t len = 0;
-  jam_view_diameters(sys, &view, &len);
+  jam_view(sys, JAM_VIEW_DIAMETERS, &view, &len);
   return {view, view + len};
 }
 
@@ -127,7 +127,7 @@ void const_calls_are_stopped(void **) {
   std::vector<double> out(n);
   size_t rows = 0;
   int calls = 0;
-  jam_estimate e;
+  jam_estimate_report e;
   e.struct_size = sizeof e;
   jam_crunch_options wide;
   jam_crunch_options_init(&wide, sizeof wide);

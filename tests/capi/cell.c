@@ -49,7 +49,7 @@ static void lower_triangle(void **state) {
     }
     for (int c = 0; c < 3; ++c) assert_true(fabs(dot(rotation + 3 * c, given + 3 * r, 3) - taken[3 * r + c]) < 1e-13);
   }
-  assert_int_equal(jam_view_positions(sys, &at, &needed), JAM_OK);
+  assert_int_equal(jam_view(sys, JAM_VIEW_POSITIONS, &at, &needed), JAM_OK);
   assert_true(at[0] >= 0.0 && at[0] < taken[0] && at[1] < taken[4] && at[2] < taken[8]);
   /* a lower triangle comes back to the last bit, and nothing rotates */
   assert_int_equal(jam_set_cell(sys, taken, 9, transform, 9, rotation, 9, NULL), JAM_OK);
@@ -180,7 +180,7 @@ static void strain_is_affine(void **state) {
   assert_int_equal(jam_get_cell(sys, cell, 4, NULL), JAM_OK);
   assert_true(fabs(cell[0] - 1.5) < 1e-15 && cell[1] == 0.0);
   assert_true(fabs(cell[2] - 0.25) < 1e-15 && fabs(cell[3] - 1.25) < 1e-15);
-  assert_int_equal(jam_view_positions(sys, &at, &len), JAM_OK);
+  assert_int_equal(jam_view(sys, JAM_VIEW_POSITIONS, &at, &len), JAM_OK);
   assert_true(fabs(at[0] - 0.4) < 1e-15 && fabs(at[1] - 0.5) < 1e-15);
   jam_destroy(sys);
 }
@@ -199,7 +199,7 @@ static void files(void **state) {
     o.packing_fraction = 0.01;
     assert_int_equal(create_in_cell(&o, cell, count, NULL, 0, NULL, 0, &sys), JAM_OK);
     assert_int_equal(jam_get_cell(sys, cell, count, NULL), JAM_OK);
-    assert_int_equal(jam_view_positions(sys, &x, &len), JAM_OK);
+    assert_int_equal(jam_view(sys, JAM_VIEW_POSITIONS, &x, &len), JAM_OK);
     assert_int_equal(jam_write(sys, plain, JAM_FORMAT_AUTO), JAM_E_UNSUPPORTED);
     assert_int_equal(jam_write(sys, path, JAM_FORMAT_AUTO), JAM_OK);
     assert_int_equal(jam_write_checkpoint(sys, check), JAM_OK);
@@ -208,7 +208,7 @@ static void files(void **state) {
                        JAM_OK);
       assert_int_equal(jam_get_cell(other, back, count, NULL), JAM_OK);
       assert_memory_equal(back, cell, count * sizeof *cell);
-      assert_int_equal(jam_view_positions(other, &y, &len), JAM_OK);
+      assert_int_equal(jam_view(other, JAM_VIEW_POSITIONS, &y, &len), JAM_OK);
       assert_memory_equal(x, y, len * sizeof *x);
       jam_destroy(other);
     }

@@ -39,9 +39,9 @@ static void expect_same_bits(jam_system *a, jam_system *b) {
   jam_get_info(a, &info);
   assert_int_equal(jam_get_cell(a, cell, (size_t)(info.dim * info.dim), NULL), JAM_OK);
   expect_cell(b, cell, info.dim);
-  jam_view_positions(a, &x, &len), jam_view_positions(b, &y, &len);
+  jam_view(a, JAM_VIEW_POSITIONS, &x, &len), jam_view(b, JAM_VIEW_POSITIONS, &y, &len);
   assert_memory_equal(x, y, len * sizeof *x);
-  jam_view_diameters(a, &x, &len), jam_view_diameters(b, &y, &len);
+  jam_view(a, JAM_VIEW_DIAMETERS, &x, &len), jam_view(b, JAM_VIEW_DIAMETERS, &y, &len);
   assert_memory_equal(x, y, len * sizeof *x);
 }
 
@@ -53,7 +53,7 @@ static void expect_read_back(jam_system *sys, int walls) {
     assert_int_equal(jam_read(path[k], NULL, NULL, NULL, &other), JAM_OK);
     expect_same_bits(sys, other);
     if (!walls) {
-      jam_comparison same = {.struct_size = sizeof same};
+      jam_comparison_report same = {.struct_size = sizeof same};
       assert_true(jam_compare(sys, other, &same, NULL, 0, NULL) >= 0);
       assert_true(same.displacement_max == 0.0);
     }
@@ -123,7 +123,7 @@ static void cells_stay(void **state) {
                        jam_last_error());
             assert_string_equal(jam_notes(sys), "");
             expect_cell(sys, cell, dim);
-            jam_view_positions(sys, &x, &len), jam_view_diameters(sys, &s, &n);
+            jam_view(sys, JAM_VIEW_POSITIONS, &x, &len), jam_view(sys, JAM_VIEW_DIAMETERS, &s, &n);
             assert_int_equal(create_in_cell(&o, cell, (size_t)(dim * dim), x, len, s, n, &given), JAM_OK);
             assert_string_equal(jam_notes(given), "");
             expect_same_bits(sys, given);
@@ -157,7 +157,7 @@ static void names_of_axes_do_not_matter(void **state) {
     go.r_max = 3.0, go.bins = 40;
     make_cell(dim, 0, 7.0, 0.0, cell);
     assert_int_equal(create_in_cell(&o, cell, (size_t)(dim * dim), NULL, 0, NULL, 0, &sys), JAM_OK);
-    jam_view_positions(sys, &x, &len), jam_view_diameters(sys, &s, &n);
+    jam_view(sys, JAM_VIEW_POSITIONS, &x, &len), jam_view(sys, JAM_VIEW_DIAMETERS, &s, &n);
     for (int shift = 0; shift < dim; ++shift) {
       size_t needed;
       for (size_t k = 0; k < len; ++k) y[k - k % (size_t)dim + (k + (size_t)shift) % (size_t)dim] = x[k];

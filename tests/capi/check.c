@@ -69,7 +69,7 @@ static void leaves_the_handle_alone(void **state) {
   check(sys, 1, JAM_NOT_JAMMED);
   assert_int_equal(jam_contacts(sys, NULL, 0, &m), JAM_E_STATE);
   assert_int_equal(jam_crunch(sys, NULL, &before), JAM_OK);
-  assert_int_equal(jam_view_positions(sys, &x, &len), JAM_OK);
+  assert_int_equal(jam_view(sys, JAM_VIEW_POSITIONS, &x, &len), JAM_OK);
   memcpy(kept, x, sizeof kept);
   const jam_check_report r = check(sys, 1, JAM_OK);
   assert_true(r.jammed == JAM_VERDICT_YES && r.reason == JAM_CHECK_PROOF && r.contacts == before.contacts);
@@ -111,8 +111,8 @@ static void crunch_out_of_time(void **state) {
   assert_int_equal(jam_create(&start, NULL, &sys), JAM_OK);
   assert_int_equal(jam_compress(sys, NULL, NULL), JAM_OK);
   assert_int_equal(jam_crunch(sys, NULL, NULL), JAM_OK);
-  assert_int_equal(jam_view_diameters(sys, &sigma, &len), JAM_OK);
-  assert_int_equal(jam_view_positions(sys, &x, &len), JAM_OK);
+  assert_int_equal(jam_view(sys, JAM_VIEW_DIAMETERS, &sigma, &len), JAM_OK);
+  assert_int_equal(jam_view(sys, JAM_VIEW_POSITIONS, &x, &len), JAM_OK);
   for (size_t k = 0; k < len; ++k) few[k] = floor(x[k] * 1e6 + 0.5) * 1e-6;
   start.overlap = JAM_OVERLAP_ALLOW;
   assert_int_equal(create_from(&start, few, len, sigma, 1, &rounded), JAM_OK);

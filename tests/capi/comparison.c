@@ -21,7 +21,7 @@ static jam_system *made(const jam_create_options *o, const double *positions, si
   return sys;
 }
 
-static jam_status compare(const jam_system *a, const jam_system *b, jam_comparison *c) {
+static jam_status compare(const jam_system *a, const jam_system *b, jam_comparison_report *c) {
   memset(c, 0, sizeof *c);
   c->struct_size = sizeof *c;
   return jam_compare(a, b, c, NULL, 0, NULL);
@@ -29,7 +29,7 @@ static jam_status compare(const jam_system *a, const jam_system *b, jam_comparis
 
 /* Destroys both. */
 static void refused(jam_system *a, jam_system *b, const char *what) {
-  jam_comparison c;
+  jam_comparison_report c;
   const jam_status status = compare(a, b, &c);
   if (status != JAM_E_ARGUMENT || !strstr(jam_last_error(), what))
     fail_msg("status %d, '%s', wanted '%s'", status, status ? jam_last_error() : "", what);
@@ -71,7 +71,7 @@ static void models_must_agree(void **state) {
 static void equal_models_are_compared(void **state) {
   jam_create_options o = defaults(3, 20);
   jam_system *a, *b = NULL;
-  jam_comparison c;
+  jam_comparison_report c;
   (void)state;
   o.model = JAM_MODEL_MK;
   a = made(&o, NULL, 0, NULL);
@@ -97,7 +97,7 @@ static void diameters_that_differ_are_named(void **state) {
   const double sigma[4] = {0.25, 0.25, 0.125, 0.25}, swapped[4] = {0.25, 0.125, 0.25, 0.25};
   jam_create_options o = defaults(2, 4);
   jam_system *a = made(&o, x, 8, sigma), *b = made(&o, x, 8, sigma);
-  jam_comparison c;
+  jam_comparison_report c;
   double moved[8];
   size_t m, k;
   (void)state;
@@ -121,7 +121,7 @@ static void diameters_that_differ_are_named(void **state) {
 static void a_network_that_is_missing_is_named(void **state) {
   jam_create_options o = defaults(2, 32);
   jam_system *a = made(&o, NULL, 0, NULL), *b = NULL;
-  jam_comparison c;
+  jam_comparison_report c;
   (void)state;
   assert_int_equal(jam_crunch(a, NULL, NULL), JAM_OK);
   assert_int_equal(jam_copy(a, &b), JAM_OK);

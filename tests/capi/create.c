@@ -132,7 +132,7 @@ static void overlap_is_named_or_shrunk(void **state) {
   refused(&o, x, 6, &s, 1, JAM_E_OVERLAP, "spheres 0 and 1 overlap by 0.2");
   o.overlap = JAM_OVERLAP_SHRINK;
   assert_int_equal(create_from(&o, x, 6, &s, 1, &sys), JAM_OK);
-  assert_int_equal(jam_view_diameters(sys, &view, &len), JAM_OK);
+  assert_int_equal(jam_view(sys, JAM_VIEW_DIAMETERS, &view, &len), JAM_OK);
   assert_int_equal(len, 2);
   assert_true(fabs(view[0] - 0.08) < 1e-15 && view[1] == view[0]);
   jam_destroy(sys);
@@ -151,7 +151,7 @@ static void spheres_wider_than_the_box_are_refused_or_shrunk(void **state) {
           "they did not fit the cell: to shrink means to multiply all diameters by 1e-09");
   o.shrink_min = 0.0;
   assert_int_equal(create_from(&o, x, 3, &s, 1, &sys), JAM_OK);
-  jam_view_diameters(sys, &view, &len);
+  jam_view(sys, JAM_VIEW_DIAMETERS, &view, &len);
   assert_true(view[0] == 1.0);
   jam_destroy(sys);
 }
@@ -164,7 +164,7 @@ static void positions_outside_are_wrapped(void **state) {
   jam_system *sys = NULL;
   (void)state;
   assert_int_equal(create_from(NULL, x, 6, &s, 1, &sys), JAM_OK);
-  assert_int_equal(jam_view_positions(sys, &view, &len), JAM_OK);
+  assert_int_equal(jam_view(sys, JAM_VIEW_POSITIONS, &view, &len), JAM_OK);
   for (k = 0; k < 6; ++k) assert_true(view[k] == expected[k]);
   jam_destroy(sys);
 }
@@ -180,7 +180,8 @@ static void same_seed_same_bits(void **state) {
   assert_int_equal(jam_create(&o, NULL, &b), JAM_OK);
   o.seed = 43;
   assert_int_equal(jam_create(&o, NULL, &c), JAM_OK);
-  jam_view_positions(a, &xa, &len), jam_view_positions(b, &xb, &len), jam_view_positions(c, &xc, &len);
+  jam_view(a, JAM_VIEW_POSITIONS, &xa, &len), jam_view(b, JAM_VIEW_POSITIONS, &xb, &len),
+      jam_view(c, JAM_VIEW_POSITIONS, &xc, &len);
   assert_memory_equal(xa, xb, len * sizeof(double));
   assert_true(memcmp(xa, xc, len * sizeof(double)) != 0);
   jam_destroy(a), jam_destroy(b), jam_destroy(c);
@@ -195,12 +196,12 @@ static void setters_and_copies(void **state) {
   (void)state;
   o.n = 4, o.packing_fraction = 0.05;
   assert_int_equal(jam_create(&o, NULL, &sys), JAM_OK);
-  jam_view_positions(sys, &x, &len), jam_view_diameters(sys, &s, &len);
+  jam_view(sys, JAM_VIEW_POSITIONS, &x, &len), jam_view(sys, JAM_VIEW_DIAMETERS, &s, &len);
   assert_int_equal(jam_copy(sys, &copy), JAM_OK);
   for (k = 0; k < 12; ++k) moved[k] = (double)(k / 3) * 0.25 + 1.0;
   assert_int_equal(jam_set_positions(sys, moved, 11), JAM_E_ARGUMENT);
   assert_int_equal(jam_set_positions(sys, moved, 12), JAM_OK);
-  jam_view_positions(sys, &again, &len);
+  jam_view(sys, JAM_VIEW_POSITIONS, &again, &len);
   assert_ptr_equal(again, x);
   assert_true(x[3] == 0.25);
   moved[3] = moved[0], moved[4] = moved[1], moved[5] = moved[2];
@@ -209,7 +210,7 @@ static void setters_and_copies(void **state) {
   assert_int_equal(jam_scale_diameters(sys, 100.0), JAM_E_OVERLAP);
   assert_int_equal(jam_scale_diameters(sys, NAN), JAM_E_ARGUMENT);
   assert_int_equal(jam_scale_diameters(sys, 0.5), JAM_OK);
-  jam_view_positions(copy, &again, &len);
+  jam_view(copy, JAM_VIEW_POSITIONS, &again, &len);
   assert_true(again[0] != x[0]);
   jam_destroy(sys);
   jam_destroy(copy);
@@ -220,7 +221,7 @@ static void null_handles_are_refused(void **state) {
   const double *v;
   size_t len;
   (void)state;
-  assert_int_equal(jam_view_positions(NULL, &v, &len), JAM_E_NULL);
+  assert_int_equal(jam_view(NULL, JAM_VIEW_POSITIONS, &v, &len), JAM_E_NULL);
   assert_int_equal(jam_cancel(NULL), JAM_E_NULL);
   assert_int_equal(jam_get_info(NULL, NULL), JAM_E_NULL);
   assert_int_equal(jam_set_log(NULL, NULL, 0, NULL), JAM_E_NULL);
@@ -246,7 +247,7 @@ static void random_starts_have_no_overlaps(void **state) {
     for (i = 0; i < 60; ++i) diameters[i] = 1.0 + (double)(i % 7);
     o.n = 60, o.dim = d, o.packing_fraction = pow(2.0, 2 - d) * 0.3, o.box = 3.0;
     assert_int_equal(create_from(&o, NULL, 0, diameters, 60, &sys), JAM_OK);
-    jam_view_positions(sys, &x, &len), jam_view_diameters(sys, &s, &len);
+    jam_view(sys, JAM_VIEW_POSITIONS, &x, &len), jam_view(sys, JAM_VIEW_DIAMETERS, &s, &len);
     for (i = 0; i < 60; ++i)
       for (j = 0; j < i; ++j) {
         double r2 = 0.0;

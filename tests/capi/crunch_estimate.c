@@ -19,8 +19,8 @@ static jam_system *start(int64_t n, double phi) {
   return sys;
 }
 
-static jam_estimate estimated(const jam_system *sys, const jam_crunch_options *o) {
-  jam_estimate e;
+static jam_estimate_report estimated(const jam_system *sys, const jam_crunch_options *o) {
+  jam_estimate_report e;
   e.struct_size = sizeof e;
   assert_int_equal(jam_estimate_crunch(sys, o, &e), JAM_OK);
   return e;
@@ -101,7 +101,7 @@ static void memory_estimate_is_good_to_a_half(void **state) {
 static void estimates_scale_with_the_number_of_spheres(void **state) {
   jam_system *small = start(300, 0.3), *large = start(600, 0.3);
   jam_crunch_options o;
-  jam_estimate a, b, two;
+  jam_estimate_report a, b, two;
   (void)state;
   a = estimated(small, NULL), b = estimated(large, NULL);
   assert_true(b.pairs > 1.8 * (double)a.pairs && b.pairs < 2.2 * (double)a.pairs);
@@ -128,7 +128,7 @@ static void wide_mixtures_take_more_steps(void **state) {
     o.n = 256;
     for (int i = 0; i < 256; ++i) sizes[i] = i < 128 ? 1.0 : ratio;
     assert_int_equal(create_from(&o, NULL, 0, sizes, 256, &sys), JAM_OK);
-    const jam_estimate e = estimated(sys, NULL);
+    const jam_estimate_report e = estimated(sys, NULL);
     assert_true(e.factorisations > 1.3 * before && e.seconds == e.factorisations * e.step_seconds);
     before = e.factorisations;
     jam_destroy(sys);
@@ -140,7 +140,7 @@ static void the_path_factorises_fewer_pairs_than_the_lps(void **state) {
   jam_system *sys = start(300, 0.3);
   jam_compress_options c;
   jam_crunch_options o;
-  jam_estimate path, lps, wide;
+  jam_estimate_report path, lps, wide;
   (void)state;
   jam_compress_options_init(&c, sizeof c);
   c.growth_rate = 0.1, c.pressure = 1e4;
@@ -169,7 +169,7 @@ static void keep_estimate(int32_t level, const char *line, void *user) {
 static void the_estimate_is_logged_first(void **state) {
   jam_system *sys = start(60, 0.3);
   char line[400] = "", expected[40];
-  jam_estimate e = estimated(sys, NULL);
+  jam_estimate_report e = estimated(sys, NULL);
   (void)state;
   jam_set_log(sys, keep_estimate, JAM_LOG_INFO, line);
   assert_int_equal(jam_crunch(sys, NULL, NULL), JAM_OK);
@@ -183,7 +183,7 @@ static void the_estimate_is_logged_first(void **state) {
 static void bad_calls_are_refused(void **state) {
   jam_system *sys = start(60, 0.3), *one = start(1, 0.1);
   jam_crunch_options o;
-  jam_estimate e;
+  jam_estimate_report e;
   (void)state;
   e.struct_size = sizeof e;
   assert_int_equal(jam_estimate_crunch(NULL, NULL, &e), JAM_E_NULL);

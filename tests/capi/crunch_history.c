@@ -1,4 +1,4 @@
-/* jam_crunch_history and jam_crunch_step_*: every column against what the state and the report tell, and the physics of
+/* jam_crunch_history and jam_crunch_step: every column against what the state and the report tell, and the physics of
  * a step: displacements add up to the whole move, the linear network of every LP is in balance. */
 #include <math.h>
 #include <stdlib.h>
@@ -48,14 +48,12 @@ static void look_at_network(watch *w, const double *displacement) {
   double *vector, *dual, force[3 * N], most = 0.0, total = 0.0, gamma = 0.0, growth;
   size_t m, k;
   int c;
-  assert_int_equal(jam_crunch_step_contacts(w->sys, NULL, 0, &m), JAM_OK);
+  assert_int_equal(jam_crunch_step(w->sys, NULL, 0, NULL, 0, NULL, 0, NULL, 0, &m), JAM_OK);
   if (m == 0) return;
-  pair = malloc(m * sizeof *pair), m /= 2;
+  pair = malloc(2 * m * sizeof *pair);
   vector = malloc(m * w->dim * sizeof *vector), dual = malloc(m * sizeof *dual);
-  assert_int_equal(jam_crunch_step_contacts(w->sys, pair, 2 * m, NULL), JAM_OK);
-  assert_int_equal(jam_crunch_step_vectors(w->sys, vector, m * w->dim, NULL), JAM_OK);
-  assert_int_equal(jam_crunch_step_duals(w->sys, dual, m, NULL), JAM_OK);
-  assert_int_equal(jam_crunch_step_duals(w->sys, dual, m - 1, NULL), JAM_E_BUFFER);
+  assert_int_equal(jam_crunch_step(w->sys, NULL, 0, pair, 2 * m, vector, m * w->dim, dual, m, NULL), JAM_OK);
+  assert_int_equal(jam_crunch_step(w->sys, NULL, 0, NULL, 0, NULL, 0, dual, m - 1, NULL), JAM_E_BUFFER);
   memset(force, 0, sizeof force);
   growth = pow(w->phi / w->phi0, 1.0 / w->dim); /* of the diameters, up to the step before */
   for (k = 0; k < m; ++k) {
@@ -85,12 +83,11 @@ static void look_at_network(watch *w, const double *displacement) {
 static int32_t each_step(const jam_progress *p, void *user) {
   watch *w = user;
   double displacement[3 * N];
-  size_t needed, k;
-  const jam_status status = jam_crunch_step_displacements(w->sys, displacement, N * w->dim, &needed);
+  size_t k;
+  const jam_status status = jam_crunch_step(w->sys, displacement, N * w->dim, NULL, 0, NULL, 0, NULL, 0, NULL);
   if (status == JAM_E_STATE) return 0; /* called amid a step */
   assert_int_equal(status, JAM_OK);
-  assert_int_equal(needed, N * w->dim);
-  for (k = 0; k < needed; ++k) w->sum[k] += displacement[k];
+  for (k = 0; k < (size_t)(N * w->dim); ++k) w->sum[k] += displacement[k];
   look_at_network(w, displacement);
   w->phi = p->packing_fraction;
   ++w->steps;
@@ -125,8 +122,8 @@ static void steps_add_up(int dim, int32_t method) {
   memset(&w, 0, sizeof w), memset(&r, 0, sizeof r);
   r.struct_size = sizeof r, info.struct_size = sizeof info;
   jam_get_info(sys, &info);
-  jam_view_positions(sys, &x, &len), memcpy(x0, x, len * sizeof *x);
-  jam_view_diameters(sys, &s, &len), memcpy(w.sigma0, s, len * sizeof *s);
+  jam_view(sys, JAM_VIEW_POSITIONS, &x, &len), memcpy(x0, x, len * sizeof *x);
+  jam_view(sys, JAM_VIEW_DIAMETERS, &s, &len), memcpy(w.sigma0, s, len * sizeof *s);
   w.sys = sys, w.dim = dim, w.phi = w.phi0 = info.packing_fraction;
   jam_crunch_options_init(&o, sizeof o);
   o.method = method, o.steps = 1, o.full_lps = 1;
@@ -209,7 +206,7 @@ static int32_t asks_in_vain(const jam_progress *p, void *user) {
   jam_system *sys = *(jam_system **)user;
   size_t needed;
   (void)p;
-  assert_int_equal(jam_crunch_step_displacements(sys, NULL, 0, &needed), JAM_E_STATE);
+  assert_int_equal(jam_crunch_step(sys, NULL, 0, NULL, 0, NULL, 0, NULL, 0, &needed), JAM_E_STATE);
   assert_non_null(strstr(jam_last_error(), "steps = 1"));
   return 0;
 }
@@ -224,17 +221,15 @@ static void history_errors_are_named(void **state) {
   (void)state;
   assert_int_equal(jam_crunch_history(NULL, JAM_HISTORY_COLUMNS, NULL, 0, &needed), JAM_E_NULL);
   assert_int_equal(jam_crunch_history(sys, JAM_HISTORY_COLUMNS, NULL, 0, &needed), JAM_E_STATE);
-  assert_int_equal(jam_crunch_step_displacements(NULL, NULL, 0, &needed), JAM_E_NULL);
-  assert_int_equal(jam_crunch_step_contacts(sys, NULL, 0, &needed), JAM_E_STATE);
-  assert_int_equal(jam_crunch_step_vectors(sys, NULL, 0, &needed), JAM_E_STATE);
-  assert_int_equal(jam_crunch_step_duals(sys, NULL, 0, &needed), JAM_E_STATE);
+  assert_int_equal(jam_crunch_step(NULL, NULL, 0, NULL, 0, NULL, 0, NULL, 0, &needed), JAM_E_NULL);
+  assert_int_equal(jam_crunch_step(sys, NULL, 0, NULL, 0, NULL, 0, NULL, 0, &needed), JAM_E_STATE);
   jam_crunch_options_init(&o, sizeof o);
   o.steps = 2;
   assert_int_equal(jam_crunch(sys, &o, NULL), JAM_E_ARGUMENT);
   assert_non_null(strstr(jam_last_error(), "steps is 2"));
   jam_set_progress(sys, asks_in_vain, &sys);
   assert_int_equal(jam_crunch(sys, NULL, NULL), JAM_OK);
-  assert_int_equal(jam_crunch_step_duals(sys, NULL, 0, &needed), JAM_E_STATE);
+  assert_int_equal(jam_crunch_step(sys, NULL, 0, NULL, 0, NULL, 0, NULL, 0, &needed), JAM_E_STATE);
   rows = column(sys, JAM_HISTORY_PHI, v);
   assert_int_equal(jam_crunch_history(sys, JAM_HISTORY_COLUMNS, v, rows * COLUMNS - 1, &needed), JAM_E_BUFFER);
   assert_int_equal(needed, rows * COLUMNS);

@@ -32,9 +32,9 @@ double fraction(const jam_system *sys) {
 void assert_valid(const jam_system *sys) {
   const double *x, *s;
   size_t n;
-  jam_view_diameters(sys, &s, &n);
+  jam_view(sys, JAM_VIEW_DIAMETERS, &s, &n);
   size_t len;
-  jam_view_positions(sys, &x, &len);
+  jam_view(sys, JAM_VIEW_POSITIONS, &x, &len);
   for (size_t i = 0; i < n; ++i)
     for (size_t j = 0; j < i; ++j) {
       double r2 = 0.0;
@@ -107,7 +107,7 @@ void getters(void **) {
   for (long k = 0; k < 40; ++k) {
     const long clean = alive;
     static int32_t pairs[4000];
-    jam_estimate e;
+    jam_estimate_report e;
     e.struct_size = sizeof e;
     until_failure = k;
     const jam_status a = k ? JAM_OK : jam_contacts(sys, pairs, 4000, nullptr);

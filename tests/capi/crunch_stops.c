@@ -112,7 +112,7 @@ static void wall_time_inside_an_lp(void **state) {
     memset(&a, 0, sizeof a);
     a.sys = sys, a.word = solver ? "estimate" : "ipm", a.wait = 0, a.sleep = solver ? 0.0001 : 1.6;
     o.lp_solver = solver, o.wall_time = solver ? 0.5 : 1.5;
-    jam_view_positions(sys, &x, &len), memcpy(before, x, len * sizeof *x);
+    jam_view(sys, JAM_VIEW_POSITIONS, &x, &len), memcpy(before, x, len * sizeof *x);
     jam_set_log(sys, spring, JAM_LOG_DEBUG, &a);
     r = crunch(sys, &o, JAM_LIMIT);
     assert_true(a.sprung && r.stop_reason == JAM_STOP_WALL_TIME && r.lp_solves == 0 && r.contacts == -1);
@@ -140,7 +140,7 @@ static void a_stopped_polish_leaves_the_lp_answer(void **state) {
   jam_crunch_options_init(&o, sizeof o);
   o.polish = 0;
   b = crunch(plain, &o, JAM_OK);
-  jam_view_positions(plain, &y, &len);
+  jam_view(plain, JAM_VIEW_POSITIONS, &y, &len);
   for (way = 0; way < 3;
        ++way) { /* before it begins, by the progress callback; in its first round; out of time there */
     jam_system *sys = start(100);
@@ -161,7 +161,7 @@ static void a_stopped_polish_leaves_the_lp_answer(void **state) {
     assert_true(a.stop_reason == (way == 2 ? JAM_STOP_WALL_TIME : JAM_STOP_CANCELLED) && !a.jammed);
     assert_true(a.contacts == b.contacts && a.packing_fraction == b.packing_fraction &&
                 a.force_residual == b.force_residual);
-    jam_view_positions(sys, &x, &len);
+    jam_view(sys, JAM_VIEW_POSITIONS, &x, &len);
     assert_memory_equal(x, y, len * sizeof *x);
     jam_destroy(sys);
   }

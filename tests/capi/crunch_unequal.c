@@ -89,8 +89,8 @@ static void radius_and_largest_diameter(void **state) {
   o.n = 16, o.dim = 2, o.packing_fraction = 0.3;
   const jam_start start = {.struct_size = sizeof start, .diameters = diameters, .diameters_len = 16};
   assert_int_equal(jam_create(&o, &start, &sys), JAM_OK);
-  assert_int_equal(jam_view_positions(sys, &x, &length), JAM_OK);
-  assert_int_equal(jam_view_diameters(sys, &sigma, &length), JAM_OK);
+  assert_int_equal(jam_view(sys, JAM_VIEW_POSITIONS, &x, &length), JAM_OK);
+  assert_int_equal(jam_view(sys, JAM_VIEW_DIAMETERS, &sigma, &length), JAM_OK);
   const double unit = sigma[1] * mean, reach = radius * unit - sigma[0];
   for (int i = 0; i < 16; ++i)
     for (int j = 0; j < i; ++j)

@@ -27,7 +27,7 @@ static void what_is_missing_is_reported(void **state) {
   int k;
   (void)state;
   assert_non_null(fluid);
-  assert_int_equal(jam_view_positions(fluid, &x, &length), JAM_OK);
+  assert_int_equal(jam_view(fluid, JAM_VIEW_POSITIONS, &x, &length), JAM_OK);
   assert_int_equal(length, 24);
   memcpy(before, x, sizeof before);
   for (k = 0; k < CALLS; ++k) {

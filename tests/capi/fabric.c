@@ -47,7 +47,7 @@ static void large_packing_is_isotropic(void **state) {
   o.n = N, o.seed = 7;
   assert_int_equal(jam_create(&o, NULL, &sys), JAM_OK);
   if (jam_crunch(sys, NULL, NULL) != JAM_OK) fail_msg("%s", jam_last_error());
-  assert_int_equal(jam_view_positions(sys, &x, &len), JAM_OK);
+  assert_int_equal(jam_view(sys, JAM_VIEW_POSITIONS, &x, &len), JAM_OK);
   assert_int_equal(jam_contacts(sys, pair, 2 * 4 * N, &needed), JAM_OK);
   contacts = needed / 2;
   for (size_t k = 0; k < contacts; ++k) {

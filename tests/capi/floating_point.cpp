@@ -83,7 +83,7 @@ struct Work {
   void keep(jam_system *sys) {
     const double *view = nullptr;
     size_t len = 0;
-    call("jam_view_positions", [&] { return jam_view_positions(sys, &view, &len); });
+    call("jam_view", [&] { return jam_view(sys, JAM_VIEW_POSITIONS, &view, &len); });
     numbers.insert(numbers.end(), view, view + len);
   }
 };
@@ -126,8 +126,7 @@ void life(Work &w, Seen &seen, int dim, int model) {
   jam_isoconf_options_init(&runs, sizeof runs);
   runs.runs = 4, runs.threads = 2, runs.density_ratio = 0.9;
   const double instant = 2.0;
-  w.call("jam_isoconfigurational",
-         [&] { return jam_isoconfigurational(sys, &runs, nullptr, &instant, 1, nullptr, 0, nullptr); });
+  w.call("jam_isoconf", [&] { return jam_isoconf(sys, &runs, nullptr, &instant, 1, nullptr, 0, nullptr); });
   jam_monte_carlo_options mc;
   jam_monte_carlo_options_init(&mc, sizeof mc);
   mc.sweeps = 10;

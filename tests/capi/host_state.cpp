@@ -84,7 +84,7 @@ Positions life_of_a_packing(bool check) {
        [&] { return jam_modes(sys, nullptr, nullptr, JAM_MODE_COLUMNS, nullptr, 0, nullptr, 0, &needed); });
   const double *view = nullptr;
   size_t len = 0;
-  assert_int_equal(jam_view_positions(sys, &view, &len), JAM_OK);
+  assert_int_equal(jam_view(sys, JAM_VIEW_POSITIONS, &view, &len), JAM_OK);
   Positions out{std::vector<double>(view, view + len)};
   jam_destroy(sys);
   return out;

@@ -18,7 +18,7 @@ static void keys_of_xyz(void **state) {
   size_t len;
   (void)state;
   sys = read_text("1\n" BOX P "Origin=\"-0.5 -0.25 1\"\n-0.25 0.25 1.125 .1\n");
-  jam_view_positions(sys, &x, &len);
+  jam_view(sys, JAM_VIEW_POSITIONS, &x, &len);
   assert_true(x[0] == 0.25 && x[1] == 0.5 && x[2] == 0.125);
   assert_string_equal(jam_notes(sys),
                       "the corner of the cell is at -0.5 -0.25 1 in the file: positions are measured from there");
@@ -27,7 +27,7 @@ static void keys_of_xyz(void **state) {
   assert_string_equal(jam_notes(sys), "keys of the file that were not read: Time, energy");
   jam_destroy(sys);
   sys = read_text("1\n" BOX P "dim=2 Origin=\"-0.5 -0.5 0\"\n-.25 .25 2 .1\n");
-  jam_view_positions(sys, &x, &len);
+  jam_view(sys, JAM_VIEW_POSITIONS, &x, &len);
   assert_true(len == 2 && x[0] == 0.25 && x[1] == 0.75);
   assert_non_null(strstr(jam_notes(sys), "the third coordinate, 2 of every disk, was omitted"));
   jam_destroy(sys);
@@ -53,7 +53,7 @@ static void corners_elsewhere(void **state) {
                         "ITEM: ATOMS id x y z radius\n1 0 1 1 0.1\n"
                       : "t\n\n1 atoms\n1 atom types\n-1 1 xlo xhi\n0 2 ylo yhi\n0.5 2.5 zlo zhi\n\nAtoms # sphere\n\n"
                         "1 1 0.2 1 0 1 1\n");
-    jam_view_positions(sys, &x, &len);
+    jam_view(sys, JAM_VIEW_POSITIONS, &x, &len);
     assert_true(x[0] == 1.0 && x[1] == 1.0 && x[2] == 0.5);
     assert_non_null(strstr(jam_notes(sys), corner));
     jam_destroy(sys);

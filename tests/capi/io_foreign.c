@@ -32,10 +32,10 @@ static void same_three(jam_system *sys) {
   static const double want[9] = {0.1, 0.2, 0.3, 0.6, 0.7, 0.8, 0.35, 0.9, 0.15};
   const double *x, *s;
   size_t len, k;
-  jam_view_positions(sys, &x, &len);
+  jam_view(sys, JAM_VIEW_POSITIONS, &x, &len);
   assert_int_equal(len, 9);
   for (k = 0; k < 9; ++k) assert_true(x[k] == want[k]);
-  jam_view_diameters(sys, &s, &len);
+  jam_view(sys, JAM_VIEW_DIAMETERS, &s, &len);
   for (k = 0; k < 3; ++k) assert_true(s[k] == 0.2);
   jam_destroy(sys);
 }
@@ -95,7 +95,7 @@ static void tables(void **state) {
   same_three(read_text("Radius id X Z Y\n0.1 7 0.1 0.3 0.2\n0.1 8 0.6 0.8 0.7\n0.1 9 0.35 0.15 0.9\n"));
   sys = read_text("x1 x2 x3 x4 d mass\n.1 .2 .3 .4 .1 7\n");
   assert_non_null(strstr(jam_notes(sys), "columns of the file that were not read: mass"));
-  jam_view_diameters(sys, &s, &len);
+  jam_view(sys, JAM_VIEW_DIAMETERS, &s, &len);
   assert_true(len == 1 && s[0] == 0.1);
   jam_destroy(sys);
   o.dim = 2;
@@ -159,13 +159,13 @@ static void frames(void **state) {
   (void)state;
   for (len = k = 0; k < 3; ++k) len += (size_t)snprintf(text + len, sizeof text - len, frame, 0.125 * (double)(k + 1));
   sys = read_text(text);
-  jam_view_positions(sys, &x, &k);
+  jam_view(sys, JAM_VIEW_POSITIONS, &x, &k);
   assert_true(x[0] == 0.375);
   assert_string_equal(jam_notes(sys), "the last of 3 frames was read; frame=0 to 2 read others");
   jam_destroy(sys);
   for (o.frame = -3; o.frame <= 2; ++o.frame) {
     sys = read_with(text, len, &o);
-    jam_view_positions(sys, &x, &k);
+    jam_view(sys, JAM_VIEW_POSITIONS, &x, &k);
     assert_true(x[0] == 0.125 * (double)((o.frame + 3) % 3 + 1));
     jam_destroy(sys);
   }

@@ -121,12 +121,12 @@ static inline void assert_same_bits(const jam_system *a, const jam_system *b) {
   assert_int_equal(ia.dim, ib.dim);
   assert_int_equal(ia.n, ib.n);
   assert_memory_equal(&ia.box, &ib.box, sizeof ia.box);
-  jam_view_positions(a, &x, &x_len);
-  jam_view_positions(b, &y, &y_len);
+  jam_view(a, JAM_VIEW_POSITIONS, &x, &x_len);
+  jam_view(b, JAM_VIEW_POSITIONS, &y, &y_len);
   assert_int_equal(x_len, y_len);
   assert_memory_equal(x, y, x_len * sizeof *x);
-  jam_view_diameters(a, &x, &x_len);
-  jam_view_diameters(b, &y, &y_len);
+  jam_view(a, JAM_VIEW_DIAMETERS, &x, &x_len);
+  jam_view(b, JAM_VIEW_DIAMETERS, &y, &y_len);
   assert_int_equal(x_len, y_len);
   assert_memory_equal(x, y, x_len * sizeof *x);
 }

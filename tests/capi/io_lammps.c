@@ -20,10 +20,10 @@ static void same_spheres(jam_system *sys, int32_t dim, size_t n, const double *x
   assert_int_equal(info.dim, dim);
   assert_int_equal(info.n, n);
   assert_true(fabs(info.box / box - 1) < 1e-14);
-  jam_view_positions(sys, &y, &len);
+  jam_view(sys, JAM_VIEW_POSITIONS, &y, &len);
   for (k = 0; k < len; ++k)
     if (!(fabs(x[k] - y[k]) < 1e-14 * box)) fail_msg("coordinate %zu is %.17g, not %.17g", k, y[k], x[k]);
-  jam_view_diameters(sys, &s, &len);
+  jam_view(sys, JAM_VIEW_DIAMETERS, &s, &len);
   for (k = 0; k < len; ++k) assert_true(s[k] == sizes[k]);
   jam_destroy(sys);
 }
@@ -181,7 +181,7 @@ static void tilted_dumps(void **state) {
       "ITEM: ATOMS radius xs ys zs\n0.1 0.125 0.2 0.5\n");
   jam_get_cell(sys, cell, 4, NULL);
   assert_memory_equal(cell, flat, sizeof flat);
-  jam_view_positions(sys, &x, &len);
+  jam_view(sys, JAM_VIEW_POSITIONS, &x, &len);
   assert_int_equal(len, 2);
   assert_true(fabs(x[0] - at[0]) < 1e-15 && fabs(x[1] - at[1]) < 1e-15);
   jam_destroy(sys);

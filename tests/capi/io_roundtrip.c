@@ -137,7 +137,7 @@ static jam_system *read_text(const char *text, const jam_create_options *o) {
 static double coordinate(const jam_system *sys, size_t k) {
   const double *x;
   size_t len;
-  jam_view_positions(sys, &x, &len);
+  jam_view(sys, JAM_VIEW_POSITIONS, &x, &len);
   assert_true(k < len);
   return x[k];
 }

@@ -32,9 +32,9 @@ static void expect(jam_system *sys, int32_t dim, int64_t n, const double *x, con
   jam_get_info(sys, &info);
   assert_int_equal(info.dim, dim);
   assert_int_equal(info.n, n);
-  jam_view_positions(sys, &view, &len);
+  jam_view(sys, JAM_VIEW_POSITIONS, &view, &len);
   assert_memory_equal(view, x, len * sizeof *x);
-  jam_view_diameters(sys, &view, &len);
+  jam_view(sys, JAM_VIEW_DIAMETERS, &view, &len);
   assert_memory_equal(view, diameters, len * sizeof *diameters);
   jam_destroy(sys);
 }

@@ -37,7 +37,7 @@ static jam_isoconf_options options(void) {
 
 static jam_status run(jam_system *sys, const jam_isoconf_options *o, jam_isoconf_report *r) {
   if (r) r->struct_size = sizeof *r;
-  return jam_isoconfigurational(sys, o, NULL, instants, M, NULL, 0, r);
+  return jam_isoconf(sys, o, NULL, instants, M, NULL, 0, r);
 }
 
 typedef struct sums {
@@ -106,7 +106,7 @@ static void bits_do_not_depend_on_threads_or_handles(void **state) {
 
 static int32_t stop(const jam_progress *p, void *user) {
   (void)user;
-  assert_int_equal(p->phase, JAM_PHASE_ISOCONFIGURATIONAL);
+  assert_int_equal(p->phase, JAM_PHASE_ISOCONF);
   return 1;
 }
 
@@ -168,7 +168,7 @@ static void sums_are_those_of_whole_sets(void **state) {
   static sums a;
   size_t needed = 0, i, k, c;
   (void)state;
-  assert_int_equal(jam_isoconfigurational(sys, &o, NULL, instants, M, kept, 1, NULL), JAM_OK);
+  assert_int_equal(jam_isoconf(sys, &o, NULL, instants, M, kept, 1, NULL), JAM_OK);
   get(sys, -1, &a);
   assert_int_equal(jam_isoconf_kept(sys, 1, NULL, 0, &needed), JAM_OK);
   assert_int_equal(needed, RUNS * N * D);
@@ -212,7 +212,7 @@ static void time_and_temperature_are_those_asked_for(void **state) {
   (void)state;
   o.clock = JAM_CLOCK_TIME;
   o.temperature = 0.1;
-  assert_int_equal(jam_isoconfigurational(sys, &o, NULL, times, 2, NULL, 0, NULL), JAM_OK);
+  assert_int_equal(jam_isoconf(sys, &o, NULL, times, 2, NULL, 0, NULL), JAM_OK);
   assert_int_equal(jam_isoconf_series(sys, -1, JAM_ISOCONF_COLUMNS, first, 2 * COLUMNS, NULL), JAM_OK);
   assert_true(fabs(second[JAM_ISOCONF_TIME] / RUNS / 2e-7 - 1.0) < 1e-12);
   assert_true(fabs(first[JAM_ISOCONF_MSD] / RUNS / (D * 0.1 * 1e-14) - 1.0) < 1e-3);
@@ -232,13 +232,13 @@ static void bad_input_is_named(void **state) {
   (void)state;
   r.struct_size = sizeof r;
   assert_int_equal(jam_get_isoconf_report(sys, &r), JAM_E_STATE);
-  assert_int_equal(jam_isoconfigurational(sys, &o, NULL, falling, 2, NULL, 0, NULL), JAM_E_ARGUMENT);
+  assert_int_equal(jam_isoconf(sys, &o, NULL, falling, 2, NULL, 0, NULL), JAM_E_ARGUMENT);
   assert_non_null(strstr(jam_last_error(), "ascending"));
-  assert_int_equal(jam_isoconfigurational(sys, &o, NULL, none, 1, NULL, 0, NULL), JAM_E_ARGUMENT);
-  assert_int_equal(jam_isoconfigurational(sys, &o, NULL, NULL, 0, NULL, 0, NULL), JAM_E_ARGUMENT);
-  assert_int_equal(jam_isoconfigurational(sys, &o, NULL, NULL, 3, NULL, 0, NULL), JAM_E_NULL);
-  assert_int_equal(jam_isoconfigurational(sys, &o, NULL, instants, M, twice, 2, NULL), JAM_E_ARGUMENT);
-  assert_int_equal(jam_isoconfigurational(sys, &o, NULL, instants, M, beyond, 1, NULL), JAM_E_ARGUMENT);
+  assert_int_equal(jam_isoconf(sys, &o, NULL, none, 1, NULL, 0, NULL), JAM_E_ARGUMENT);
+  assert_int_equal(jam_isoconf(sys, &o, NULL, NULL, 0, NULL, 0, NULL), JAM_E_ARGUMENT);
+  assert_int_equal(jam_isoconf(sys, &o, NULL, NULL, 3, NULL, 0, NULL), JAM_E_NULL);
+  assert_int_equal(jam_isoconf(sys, &o, NULL, instants, M, twice, 2, NULL), JAM_E_ARGUMENT);
+  assert_int_equal(jam_isoconf(sys, &o, NULL, instants, M, beyond, 1, NULL), JAM_E_ARGUMENT);
 #define REFUSED(member, value, code) \
   o = options();                     \
   o.member = value;                  \
@@ -272,11 +272,11 @@ static void bad_input_is_named(void **state) {
   REFUSED(memory_limit, 1e4, JAM_E_MEMORY);
   REFUSED(density_ratio, 1.0 - 1e-12, JAM_E_ARGUMENT);
   o = options();
-  assert_int_equal(jam_isoconfigurational(sys, &o, NULL, falling, 2, NULL, 0, NULL), JAM_E_ARGUMENT);
+  assert_int_equal(jam_isoconf(sys, &o, NULL, falling, 2, NULL, 0, NULL), JAM_E_ARGUMENT);
   assert_int_equal(jam_monte_carlo_options_init(&m, sizeof m), JAM_OK);
   m.alpha = 2.0;
   m.temperature = 0.0;
-  assert_int_equal(jam_isoconfigurational(sys, &o, &m, instants, M, NULL, 0, NULL), JAM_E_ARGUMENT);
+  assert_int_equal(jam_isoconf(sys, &o, &m, instants, M, NULL, 0, NULL), JAM_E_ARGUMENT);
   assert_int_equal(jam_get_isoconf_report(sys, &r), JAM_OK); /* what was there is still there */
   assert_int_equal(r.runs, RUNS);
   assert_int_equal(jam_isoconf_series(sys, 3, JAM_ISOCONF_COLUMNS, &x, 1, NULL), JAM_E_ARGUMENT);
@@ -294,7 +294,7 @@ static void no_option_is_ignored(void **state) {
   assert_int_equal(jam_monte_carlo_options_init(&m, sizeof m), JAM_OK); \
   m.alpha = 2.0;                                                        \
   m.member = value;                                                     \
-  assert_int_equal(jam_isoconfigurational(sys, &o, &m, instants, M, NULL, 0, NULL), code)
+  assert_int_equal(jam_isoconf(sys, &o, &m, instants, M, NULL, 0, NULL), code)
 #define UNUSED(member, value)                 \
   MONTE_CARLO(member, value, JAM_E_ARGUMENT); \
   assert_non_null(strstr(jam_last_error(), #member))

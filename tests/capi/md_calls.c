@@ -288,8 +288,8 @@ static void cancels_with_a_valid_state(void **state) {
     assert_int_equal(jam_compress(sys, NULL, &report), JAM_CANCELLED);
     assert_int_equal(report.stop_reason, JAM_STOP_CANCELLED);
     /* Valid: jam_create takes it without an overlap. */
-    jam_view_positions(sys, &x, &x_len);
-    jam_view_diameters(sys, &d, &d_len);
+    jam_view(sys, JAM_VIEW_POSITIONS, &x, &x_len);
+    jam_view(sys, JAM_VIEW_DIAMETERS, &d, &d_len);
     jam_create_options_init(&o, sizeof o);
     o.n = 300;
     assert_int_equal(create_from(&o, x, x_len, d, d_len, &again), JAM_OK);
@@ -315,9 +315,9 @@ static void box_only_scales(void **state) {
   jam_md_report ra = empty_report(), rb = empty_report();
   int k;
   (void)state;
-  jam_view_positions(a, &x, &len);
+  jam_view(a, JAM_VIEW_POSITIONS, &x, &len);
   for (k = 0; k < 180; ++k) scaled[k] = 8.0 * x[k];
-  jam_view_diameters(a, &d, &len);
+  jam_view(a, JAM_VIEW_DIAMETERS, &d, &len);
   diameter = 8.0 * d[0];
   jam_create_options_init(&o, sizeof o);
   o.n = 60;
@@ -326,9 +326,9 @@ static void box_only_scales(void **state) {
   assert_int_equal(jam_compress(a, NULL, &ra), JAM_OK);
   assert_int_equal(jam_compress(b, NULL, &rb), JAM_OK);
   assert_true(ra.pressure == rb.pressure && ra.collisions == rb.collisions && ra.time == rb.time);
-  jam_view_positions(b, &y, &len);
+  jam_view(b, JAM_VIEW_POSITIONS, &y, &len);
   for (k = 0; k < 180; ++k) assert_true(y[k] == 8.0 * x[k]);
-  jam_view_diameters(b, &e, &len);
+  jam_view(b, JAM_VIEW_DIAMETERS, &e, &len);
   assert_true(e[0] == 8.0 * d[0]);
   jam_destroy(a);
   jam_destroy(b);

@@ -59,7 +59,7 @@ static void light_spheres_may_be_fast(void **state) {
     r.collisions_per_particle = 1.0;
     if (jam_run(sys, &r, &report) != JAM_OK) fail_msg("d = %zu: %s", d, jam_last_error());
     assert_true(report.energy_drift < 1e-9);
-    assert_int_equal(jam_view_velocities(sys, &v, &len), JAM_OK);
+    assert_int_equal(jam_view(sys, JAM_VIEW_VELOCITIES, &v, &len), JAM_OK);
     for (k = 0; k < 20; ++k) mean += pow(sizes[k] / cases[q].ratio, (double)d) / 20.0;
     for (k = 0; k < len; ++k) kinetic += pow(sizes[k / d] / cases[q].ratio, (double)d) / mean * v[k] * v[k];
     assert_true(fabs(kinetic / (20.0 * (double)d) - 1.0) < 1e-9);
@@ -106,7 +106,7 @@ static void growth_ends_at_the_own_image(void **state) {
     g.growth_rate = pow(10.0, -1.0 + (double)(seed % 4)), g.pressure = 1e5;
     status = jam_compress(sys, &g, &r);
     if (status < 0) fail_msg("d = %d, h = %g: %s", d, h, jam_last_error());
-    assert_int_equal(jam_view_diameters(sys, &sigma, &len), JAM_OK);
+    assert_int_equal(jam_view(sys, JAM_VIEW_DIAMETERS, &sigma, &len), JAM_OK);
     assert_true(sigma[0] <= h * (1.0 + 1e-12));
     if (status == JAM_NOT_CONVERGED && sigma[0] > 0.999 * h) {
       ++met;
@@ -207,8 +207,8 @@ static void a_very_dilute_gas_runs_on(void **state) {
       if (jam_run(sys, &r, &report) != JAM_OK) fail_msg("seed %d: %s", (int)seed, jam_last_error());
       assert_true(report.max_overlap < 1e-8); /* 3e-9 were seen; eps (L / sigma)^2 is 9e-8 */
     }
-    assert_int_equal(jam_view_positions(sys, &x, &coordinates), JAM_OK);
-    assert_int_equal(jam_view_diameters(sys, &sigma, &n), JAM_OK);
+    assert_int_equal(jam_view(sys, JAM_VIEW_POSITIONS, &x, &coordinates), JAM_OK);
+    assert_int_equal(jam_view(sys, JAM_VIEW_DIAMETERS, &sigma, &n), JAM_OK);
     assert_int_equal(create_from(&o, x, coordinates, sigma, n, &again), JAM_OK);
     jam_destroy(again);
     jam_destroy(sys);

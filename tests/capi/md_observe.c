@@ -38,7 +38,7 @@ static jam_md_report run(jam_system *sys, double collisions) {
 static void copy_positions(const jam_system *sys, double *out) {
   const double *x;
   size_t len;
-  jam_view_positions(sys, &x, &len);
+  jam_view(sys, JAM_VIEW_POSITIONS, &x, &len);
   memcpy(out, x, len * sizeof *x);
 }
 
@@ -96,7 +96,7 @@ static void series_pairs_and_displacements_agree(void **state) {
   assert_int_equal(
       jam_observed_pairs(sys, pair, 2 * needed, pair_collisions, needed, momentum, needed, &total_time, &needed),
       JAM_OK);
-  jam_view_diameters(sys, &d, &len);
+  jam_view(sys, JAM_VIEW_DIAMETERS, &d, &len);
   for (k = 0; k < needed; ++k) {
     assert_true(pair[2 * k] >= 0 && pair[2 * k] < pair[2 * k + 1] && pair[2 * k + 1] < N && momentum[k] > 0.0);
     if (k) assert_true(pair[2 * k] > pair[2 * k - 2] || pair[2 * k + 1] > pair[2 * k - 1]);
@@ -105,7 +105,7 @@ static void series_pairs_and_displacements_agree(void **state) {
   }
   assert_int_equal(sum_pairs, 400 * N);
   /* p = 1 + (N - 1) / N sum sigma |dp| / (2 K t), for d (N - 1) degrees of freedom: what the two reports say. */
-  jam_view_velocities(sys, &v, &len);
+  jam_view(sys, JAM_VIEW_VELOCITIES, &v, &len);
   for (k = 0; k < len; ++k) twice_kinetic += v[k] * v[k];
   mean = (report.pressure * report.time + second.pressure * second.time) / (report.time + second.time);
   assert_true(fabs((1.0 + (N - 1.0) / N * virial / (twice_kinetic * total_time)) / mean - 1.0) < 1e-9);
@@ -202,7 +202,7 @@ static int32_t look(const jam_progress *p, void *user) {
   if (!p->snapshot) return 0;
   assert_int_equal(p->snapshot, s->count + 1);
   s->at[s->count++] = p->collisions;
-  jam_view_positions(s->sys, &x, &len);
+  jam_view(s->sys, JAM_VIEW_POSITIONS, &x, &len);
   jam_correlation_options_init(&o, sizeof o);
   o.r_max = 2.0, o.bins = 20;
   assert_int_equal(jam_pair_correlation(s->sys, &o, NULL, 0, g, 20, &needed), JAM_OK);

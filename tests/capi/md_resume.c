@@ -38,14 +38,12 @@ static jam_system *make(int32_t model, int32_t dim, int64_t n, double fraction) 
 }
 
 static void same(const jam_system *a, const jam_system *b) {
-  jam_status (*const views[])(const jam_system *, const double **, size_t *) = {jam_view_positions, jam_view_diameters,
-                                                                                jam_view_velocities};
-  int k;
-  for (k = 0; k < 3; ++k) {
+  int32_t k;
+  for (k = JAM_VIEW_POSITIONS; k <= JAM_VIEW_VELOCITIES; ++k) {
     const double *x, *y;
     size_t n, m;
-    views[k](a, &x, &n);
-    views[k](b, &y, &m);
+    jam_view(a, k, &x, &n);
+    jam_view(b, k, &y, &m);
     assert_int_equal(n, m);
     assert_memory_equal(x, y, n * sizeof(double));
   }
@@ -236,7 +234,7 @@ static void finished_stages_cannot_be_resumed(void **state) {
   assert_int_equal(paused(sys), JAM_PHASE_COMPRESS);
   assert_int_equal(jam_run(sys, &r, NULL), JAM_E_STATE); /* the other verb */
   assert_int_equal(paused(sys), JAM_PHASE_COMPRESS);
-  jam_view_velocities(sys, &v, &len);
+  jam_view(sys, JAM_VIEW_VELOCITIES, &v, &len);
   memcpy(other, v, sizeof other);
   assert_int_equal(jam_set_velocities(sys, other, len), JAM_OK); /* re-aimed: another future */
   assert_int_equal(paused(sys), 0);

@@ -35,7 +35,7 @@ static jam_compress_options defaults(void) {
 static void same_packing(const jam_system *a, const jam_system *b) {
   const double *x, *y;
   size_t m, k;
-  jam_view_positions(a, &x, &m), jam_view_positions(b, &y, &k);
+  jam_view(a, JAM_VIEW_POSITIONS, &x, &m), jam_view(b, JAM_VIEW_POSITIONS, &y, &k);
   assert_int_equal(m, k);
   assert_memory_equal(x, y, m * sizeof *x);
 }

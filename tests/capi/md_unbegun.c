@@ -34,14 +34,14 @@ static jam_system *move(jam_system *sys, int way) {
 static void assert_same(jam_system *a, jam_system *b) {
   const double *x, *y;
   size_t m, n;
-  assert_int_equal(jam_view_positions(a, &x, &m), JAM_OK);
-  assert_int_equal(jam_view_positions(b, &y, &n), JAM_OK);
+  assert_int_equal(jam_view(a, JAM_VIEW_POSITIONS, &x, &m), JAM_OK);
+  assert_int_equal(jam_view(b, JAM_VIEW_POSITIONS, &y, &n), JAM_OK);
   assert_true(m == n && !memcmp(x, y, n * sizeof *x));
-  assert_int_equal(jam_view_velocities(a, &x, &m), JAM_OK);
-  assert_int_equal(jam_view_velocities(b, &y, &n), JAM_OK);
+  assert_int_equal(jam_view(a, JAM_VIEW_VELOCITIES, &x, &m), JAM_OK);
+  assert_int_equal(jam_view(b, JAM_VIEW_VELOCITIES, &y, &n), JAM_OK);
   assert_true(m == n && !memcmp(x, y, n * sizeof *x));
-  assert_int_equal(jam_view_diameters(a, &x, &m), JAM_OK);
-  assert_int_equal(jam_view_diameters(b, &y, &n), JAM_OK);
+  assert_int_equal(jam_view(a, JAM_VIEW_DIAMETERS, &x, &m), JAM_OK);
+  assert_int_equal(jam_view(b, JAM_VIEW_DIAMETERS, &y, &n), JAM_OK);
   assert_true(m == n && !memcmp(x, y, n * sizeof *x));
 }
 
@@ -176,16 +176,16 @@ static void a_tuning_of_runs_is_resumed(void **state) {
   jam_isoconf_options_init(&o, sizeof o);
   jam_monte_carlo_options_init(&mc, sizeof mc);
   o.runs = 3;
-  assert_int_equal(jam_isoconfigurational(whole, &o, &mc, instants, 2, NULL, 0, &r[0]), JAM_OK);
+  assert_int_equal(jam_isoconf(whole, &o, &mc, instants, 2, NULL, 0, &r[0]), JAM_OK);
   o.wall_time = 1e-9;
   do {
-    status = jam_isoconfigurational(sys, &o, &mc, instants, 2, NULL, 0, &r[1]);
+    status = jam_isoconf(sys, &o, &mc, instants, 2, NULL, 0, &r[1]);
     if (calls % 100 == 50) sys = move(sys, FILE_);
     o.resume = 1;
   } while (status == JAM_LIMIT && !(r[1].step > 0.0) && ++calls < 1000);
   assert_true(calls > 100 && calls < 1000);
   o.wall_time = INFINITY;
-  assert_int_equal(jam_isoconfigurational(sys, &o, &mc, instants, 2, NULL, 0, &r[1]), JAM_OK);
+  assert_int_equal(jam_isoconf(sys, &o, &mc, instants, 2, NULL, 0, &r[1]), JAM_OK);
   assert_true(r[0].step == r[1].step && r[1].runs == 3);
   jam_destroy(whole), jam_destroy(sys);
 }
@@ -202,13 +202,13 @@ static void isoconfigurational_runs_resume(void **state) {
   assert_int_equal(jam_isoconf_options_init(&o, sizeof o), JAM_OK);
   assert_int_equal(jam_monte_carlo_options_init(&mc, sizeof mc), JAM_OK);
   o.runs = 2, o.wall_time = 1e-9;
-  assert_int_equal(jam_isoconfigurational(sys, &o, &mc, instants, 2, NULL, 0, &r), JAM_LIMIT);
+  assert_int_equal(jam_isoconf(sys, &o, &mc, instants, 2, NULL, 0, &r), JAM_LIMIT);
   assert_int_equal(r.stop_reason, JAM_STOP_WALL_TIME);
   o.resume = 1;
-  assert_int_equal(jam_isoconfigurational(sys, &o, &mc, instants, 2, NULL, 0, &r), JAM_LIMIT);
+  assert_int_equal(jam_isoconf(sys, &o, &mc, instants, 2, NULL, 0, &r), JAM_LIMIT);
   sys = move(sys, FILE_);
   o.wall_time = INFINITY;
-  assert_int_equal(jam_isoconfigurational(sys, &o, &mc, instants, 2, NULL, 0, &r), JAM_OK);
+  assert_int_equal(jam_isoconf(sys, &o, &mc, instants, 2, NULL, 0, &r), JAM_OK);
   assert_int_equal(r.runs, 2);
   assert_true(r.step > 0.0);
   jam_destroy(sys);

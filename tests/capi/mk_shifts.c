@@ -29,8 +29,8 @@ static void distances_are_those_of_the_gaps(void **state) {
       size_t len, gaps, needed;
       jam_info info = {.struct_size = sizeof info};
       assert_int_equal(jam_get_info(sys, &info), JAM_OK);
-      assert_int_equal(jam_view_positions(sys, &x, &len), JAM_OK);
-      assert_int_equal(jam_view_diameters(sys, &sigma, &len), JAM_OK);
+      assert_int_equal(jam_view(sys, JAM_VIEW_POSITIONS, &x, &len), JAM_OK);
+      assert_int_equal(jam_view(sys, JAM_VIEW_DIAMETERS, &sigma, &len), JAM_OK);
       assert_int_equal(jam_gaps(sys, 0.3, 0, gap, MOST, pair, 2 * MOST, &gaps), JAM_OK);
       assert_true(gaps > 50);
       assert_int_equal(jam_mk_shifts(sys, pair, 2 * gaps, shift, 3 * MOST, &needed), JAM_OK);

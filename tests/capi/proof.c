@@ -34,26 +34,28 @@ static void bad_arguments_are_refused(void **state) {
   (void)state;
   jam_create_options_init(&o, sizeof o);
   o.n = 20;
-  assert_int_equal(jam_prove(NULL, NULL, 0, NULL), JAM_E_NULL);
+  assert_int_equal(jam_prove(NULL, JAM_RIGIDITY_COLLECTIVE, NULL, 0, NULL), JAM_E_NULL);
   assert_int_equal(jam_create(&o, NULL, &sys), JAM_OK);
-  assert_int_equal(jam_prove(sys, NULL, 0, &r), JAM_E_STATE);
+  assert_int_equal(jam_prove(sys, JAM_RIGIDITY_COLLECTIVE, NULL, 0, &r), JAM_E_STATE);
   assert_int_equal(jam_refined_positions(sys, NULL, 0, NULL, 0, NULL, 0, &needed), JAM_OK);
   assert_int_equal(needed, 60);
   jam_destroy(sys);
   sys = jammed();
-  assert_int_equal(jam_prove(sys, NULL, 0, &wrong), JAM_E_STRUCT_SIZE);
+  assert_int_equal(jam_prove(sys, JAM_RIGIDITY_COLLECTIVE, NULL, 0, &wrong), JAM_E_STRUCT_SIZE);
   memcpy(ratio, sizes, sizeof ratio);
-  assert_int_equal(jam_prove(sys, ratio, n - 1, &r), JAM_E_ARGUMENT);
-  assert_int_equal(jam_prove(sys, NULL, n, &r), JAM_E_NULL);
+  assert_int_equal(jam_prove(sys, JAM_RIGIDITY_COLLECTIVE, ratio, n - 1, &r), JAM_E_ARGUMENT);
+  assert_int_equal(jam_prove(sys, JAM_RIGIDITY_COLLECTIVE, NULL, n, &r), JAM_E_NULL);
   ratio[5] = 1.4 * (1.0 + 1e-6); /* not the packing's ratios */
-  assert_int_equal(jam_prove(sys, ratio, n, &r), JAM_E_ARGUMENT);
+  assert_int_equal(jam_prove(sys, JAM_RIGIDITY_COLLECTIVE, ratio, n, &r), JAM_E_ARGUMENT);
   assert_non_null(strstr(jam_last_error(), "ratio[5]"));
   ratio[5] = NAN;
-  assert_int_equal(jam_prove(sys, ratio, n, &r), JAM_E_NONFINITE);
+  assert_int_equal(jam_prove(sys, JAM_RIGIDITY_COLLECTIVE, ratio, n, &r), JAM_E_NONFINITE);
   ratio[5] = -1.4;
-  assert_int_equal(jam_prove(sys, ratio, n, &r), JAM_E_ARGUMENT);
-  assert_int_equal(jam_write_proof(sys, NULL, NULL, 0), JAM_E_NULL);
-  assert_int_equal(jam_write_proof(sys, "/no/such/folder/x", NULL, 0), JAM_E_IO);
+  assert_int_equal(jam_prove(sys, JAM_RIGIDITY_COLLECTIVE, ratio, n, &r), JAM_E_ARGUMENT);
+  assert_int_equal(jam_prove(sys, 2, NULL, 0, &r), JAM_E_ARGUMENT);
+  assert_int_equal(jam_prove(sys, JAM_RIGIDITY_STRICT, sizes, n, &r), JAM_E_ARGUMENT); /* diameters as they are */
+  assert_int_equal(jam_write_proof(sys, NULL, JAM_RIGIDITY_COLLECTIVE, NULL, 0), JAM_E_NULL);
+  assert_int_equal(jam_write_proof(sys, "/no/such/folder/x", JAM_RIGIDITY_COLLECTIVE, NULL, 0), JAM_E_IO);
   assert_int_equal(jam_refined_positions(sys, NULL, 0, NULL, 0, NULL, 0, NULL), JAM_E_NULL);
   assert_int_equal(jam_refined_positions(sys, NULL, 0, NULL, 0, low, 2 * n - 1, &needed), JAM_E_BUFFER);
   jam_destroy(sys);
@@ -69,10 +71,10 @@ static void a_packing_of_two_sizes_is_proved(void **state) {
   size_t len;
   int i;
   (void)state;
-  jam_view_positions(sys, &before, &len);
+  jam_view(sys, JAM_VIEW_POSITIONS, &before, &len);
   memcpy(kept, before, sizeof kept);
-  assert_int_equal(jam_prove(sys, sizes, n, &r), JAM_OK);
-  assert_int_equal(jam_prove(sys, NULL, 0, &plain), JAM_OK);
+  assert_int_equal(jam_prove(sys, JAM_RIGIDITY_COLLECTIVE, sizes, n, &r), JAM_OK);
+  assert_int_equal(jam_prove(sys, JAM_RIGIDITY_COLLECTIVE, NULL, 0, &plain), JAM_OK);
   assert_int_equal(r.theorem, JAM_THEOREM_EXACT);
   assert_int_equal(r.cause, JAM_CAUSE_NONE);
   assert_int_equal(r.contacts, 2 * (r.stable - 1) + 1);
@@ -82,7 +84,7 @@ static void a_packing_of_two_sizes_is_proved(void **state) {
   assert_true(r.inner == r.radius && r.outer > 1e-10); /* about the exact packing itself nothing moves */
   assert_true(fabs(r.packing_fraction - plain.packing_fraction) < 1e-12);
   assert_int_equal(jam_refined_positions(sys, sizes, n, high, 2 * n, low, 2 * n, NULL), JAM_OK);
-  jam_view_positions(sys, &x, &len);
+  jam_view(sys, JAM_VIEW_POSITIONS, &x, &len);
   assert_memory_equal(x, kept, sizeof kept); /* const: nothing moved */
   for (i = 0; i < 2 * n; ++i) {
     assert_true(fabs(high[i] - x[i]) < 1e-12);
@@ -102,13 +104,13 @@ static void the_rounding_mode_of_the_host_changes_nothing(void **state) {
   double high[2 * n], low[2 * n], again[2 * n], rest[2 * n];
   size_t k;
   (void)state;
-  assert_int_equal(jam_prove(sys, sizes, n, &nearest), JAM_OK);
+  assert_int_equal(jam_prove(sys, JAM_RIGIDITY_COLLECTIVE, sizes, n, &nearest), JAM_OK);
   assert_int_equal(jam_refined_positions(sys, sizes, n, high, 2 * n, low, 2 * n, NULL), JAM_OK);
   for (k = 0; k < sizeof modes / sizeof *modes; ++k) {
     jam_proof_report r = {.struct_size = sizeof r};
     jam_status status;
     assert_int_equal(fesetround(modes[k]), 0);
-    status = jam_prove(sys, sizes, n, &r);
+    status = jam_prove(sys, JAM_RIGIDITY_COLLECTIVE, sizes, n, &r);
     assert_int_equal(fegetround(), modes[k]);
     assert_int_equal(jam_refined_positions(sys, sizes, n, again, 2 * n, rest, 2 * n, NULL), JAM_OK);
     fesetround(FE_TONEAREST);
@@ -137,7 +139,7 @@ static void crunch_and_check_prove_when_asked(void **state) {
   assert_int_equal(jam_crunch(sys, &crunch, NULL), JAM_E_ARGUMENT);
   crunch.prove = 1;
   assert_int_equal(jam_crunch(sys, &crunch, &crunched), JAM_OK);
-  assert_int_equal(jam_prove(sys, NULL, 0, &proof), JAM_OK);
+  assert_int_equal(jam_prove(sys, JAM_RIGIDITY_COLLECTIVE, NULL, 0, &proof), JAM_OK);
   assert_int_equal(crunched.theorem, JAM_THEOREM_EXACT);
   assert_true(crunched.proof_radius == proof.radius);
   jam_check_options_init(&check, sizeof check);
@@ -175,8 +177,8 @@ static void shifted_pairs_are_refused_by_name(void **state) {
   o.n = 40, o.model = JAM_MODEL_MK, o.packing_fraction = 0.2;
   assert_int_equal(jam_create(&o, NULL, &sys), JAM_OK);
   assert_true(jam_crunch(sys, NULL, &r) >= 0);
-  assert_int_equal(jam_prove(sys, NULL, 0, NULL), JAM_E_UNSUPPORTED);
-  assert_int_equal(jam_prove_strict(sys, NULL), JAM_E_UNSUPPORTED);
+  assert_int_equal(jam_prove(sys, JAM_RIGIDITY_COLLECTIVE, NULL, 0, NULL), JAM_E_UNSUPPORTED);
+  assert_int_equal(jam_prove(sys, JAM_RIGIDITY_STRICT, NULL, 0, NULL), JAM_E_UNSUPPORTED);
   jam_destroy(sys);
 }
 

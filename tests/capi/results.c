@@ -66,7 +66,7 @@ static long size_of(const char *name) {
 
 static void same_results(const jam_system *a, const jam_system *b, int crunched) {
   jam_crunch_report r, s;
-  jam_comparison c;
+  jam_comparison_report c;
   memset(&r, 0, sizeof r), memset(&s, 0, sizeof s), memset(&c, 0, sizeof c);
   r.struct_size = s.struct_size = sizeof r, c.struct_size = sizeof c;
   assert_int_equal(jam_get_crunch_report(a, &r), JAM_OK);
@@ -176,7 +176,7 @@ static void each_move(int move, jam_system *sys) {
       assert_int_equal(jam_scale_diameters(sys, 0.9), JAM_OK);
       break;
     case 1:
-      assert_int_equal(jam_view_positions(sys, &view, &len), JAM_OK);
+      assert_int_equal(jam_view(sys, JAM_VIEW_POSITIONS, &view, &len), JAM_OK);
       assert_int_equal(jam_set_positions(sys, view, len), JAM_OK);
       break;
     case 2:
@@ -203,7 +203,7 @@ static void every_move_clears_all(void **state) {
   jam_system *jammed = start(2, 50, 0.4, JAM_OVERLAP_REFUSE);
   (void)state;
   crunch(jammed, JAM_STRAIN_NONE, 0, 0.0, 0);
-  assert_int_equal(jam_view_positions(jammed, &v, &len), JAM_OK);
+  assert_int_equal(jam_view(jammed, JAM_VIEW_POSITIONS, &v, &len), JAM_OK);
   assert_int_equal(jam_set_velocities(jammed, v, len), JAM_OK); /* any will do */
   assert_int_equal(knows(jammed), 3);                           /* velocities move nothing */
   for (move = 0; move < 6; ++move) {
@@ -245,7 +245,7 @@ static void pressures_are_of_this_packing(void **state) {
     jam_system *sys = NULL;
     assert_int_equal(jam_copy(grown, &sys), JAM_OK);
     assert_true(pressure_of(sys) == pressure_of(grown));
-    assert_int_equal(jam_view_positions(sys, &v, &len), JAM_OK);
+    assert_int_equal(jam_view(sys, JAM_VIEW_POSITIONS, &v, &len), JAM_OK);
     if (move == 0) assert_true(crunch(sys, JAM_STRAIN_NONE, 0, 0.0, 0) >= 0);
     if (move == 1) assert_int_equal(jam_monte_carlo(sys, &mc, NULL), JAM_OK);
     if (move == 2) assert_int_equal(jam_scale_diameters(sys, 0.9), JAM_OK);
@@ -355,8 +355,8 @@ static void streams_go_on_after_a_checkpoint(void **state) {
   assert_int_equal(jam_read_checkpoint(path, NULL, NULL, &again), JAM_OK);
   assert_int_equal(jam_monte_carlo(sys, &mc, NULL), JAM_OK);
   assert_int_equal(jam_monte_carlo(again, &mc, NULL), JAM_OK);
-  assert_int_equal(jam_view_positions(sys, &x, &len), JAM_OK);
-  assert_int_equal(jam_view_positions(again, &y, &len), JAM_OK);
+  assert_int_equal(jam_view(sys, JAM_VIEW_POSITIONS, &x, &len), JAM_OK);
+  assert_int_equal(jam_view(again, JAM_VIEW_POSITIONS, &y, &len), JAM_OK);
   assert_memory_equal(x, y, len * sizeof *x);
   jam_destroy(again);
   jam_destroy(sys);

@@ -101,7 +101,7 @@ static void flex_of_a_lattice(void **state) {
     trace = strain[0] + strain[3];
     assert_true(largest > 1e-3 && largest < 1.0 + 1e-9 && trace < 1e-12);
     if (kind == JAM_RIGIDITY_COLLECTIVE) {
-      assert_int_equal(jam_view_positions(sys, &x, &n), JAM_OK);
+      assert_int_equal(jam_view(sys, JAM_VIEW_POSITIONS, &x, &n), JAM_OK);
       for (size_t k = 0; k < n; ++k) moved[k] = x[k] + 0.02 * out[k];
       assert_int_equal(jam_set_positions(sys, moved, n), JAM_OK); /* refused if a pair overlapped */
     }

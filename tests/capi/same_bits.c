@@ -22,9 +22,9 @@ static void say(const char *what, int dim, const jam_system *sys) {
   const double *view;
   size_t len;
   uint64_t hash = 14695981039346656037u;
-  if (jam_view_positions(sys, &view, &len)) exit(1);
+  if (jam_view(sys, JAM_VIEW_POSITIONS, &view, &len)) exit(1);
   hash = hash_of(hash, view, len * sizeof *view);
-  if (jam_view_diameters(sys, &view, &len)) exit(1);
+  if (jam_view(sys, JAM_VIEW_DIAMETERS, &view, &len)) exit(1);
   printf("d=%d %s %016" PRIx64 "\n", dim, what, hash_of(hash, view, len * sizeof *view));
 }
 static void need(jam_status status) {

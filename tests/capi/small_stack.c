@@ -41,7 +41,7 @@ static void analyse(jam_system *sys, int dim) {
   check(jam_modes(sys, NULL, NULL, JAM_MODE_COLUMNS, out, 100000, NULL, 0, &needed), "jam_modes", dim);
   check(jam_moduli(sys, NULL, &moduli), "jam_moduli", dim);
   check(jam_gaps(sys, 0.1, 0, out, 100000, NULL, 0, &needed), "jam_gaps", dim);
-  check(jam_floppy_modes(sys, JAM_FLOPPY_COLUMNS, NULL, 0, &needed), "jam_floppy_modes", dim);
+  check(jam_floppy_modes(sys, NULL, 0, JAM_FLOPPY_COLUMNS, NULL, 0, NULL, 0, &needed), "jam_floppy_modes", dim);
   check(jam_stress_states(sys, out, 100000, NULL, 0, NULL, &needed), "jam_stress_states", dim);
   check(jam_contacts(sys, whole, 100000, &needed), "jam_contacts", dim);
   check(jam_dos_options_init(&dos, sizeof dos), "jam_dos_options_init", dim);
@@ -86,7 +86,7 @@ static void live(int dim) {
   check(jam_monte_carlo(sys, &mc, NULL), "jam_monte_carlo", dim);
   check(jam_isoconf_options_init(&runs, sizeof runs), "jam_isoconf_options_init", dim);
   runs.runs = 2;
-  check(jam_isoconfigurational(sys, &runs, NULL, &instant, 1, NULL, 0, NULL), "jam_isoconfigurational", dim);
+  check(jam_isoconf(sys, &runs, NULL, &instant, 1, NULL, 0, NULL), "jam_isoconf", dim);
   check(jam_compress_options_init(&grow, sizeof grow), "jam_compress_options_init", dim);
   grow.growth_rate = 0.3, grow.pressure = 1e3;
   check(jam_compress(sys, &grow, NULL), "jam_compress", dim);

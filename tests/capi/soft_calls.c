@@ -32,7 +32,7 @@ static void expect_overlap(jam_status status) {
 static void hard_verbs_refuse_overlaps(void **state) {
   (void)state;
   jam_system *sys = soft_start(60, 0.7, 1), *copy = NULL;
-  jam_estimate e = {.struct_size = sizeof e};
+  jam_estimate_report e = {.struct_size = sizeof e};
   expect_overlap(jam_run(sys, NULL, NULL));
   expect_overlap(jam_compress(sys, NULL, NULL));
   expect_overlap(jam_crunch(sys, NULL, NULL));
@@ -50,7 +50,7 @@ static void hard_verbs_refuse_overlaps(void **state) {
   /* Setters take overlaps here, and nowhere else. */
   const double *x;
   size_t len;
-  assert_int_equal(jam_view_positions(sys, &x, &len), JAM_OK);
+  assert_int_equal(jam_view(sys, JAM_VIEW_POSITIONS, &x, &len), JAM_OK);
   double *same = malloc(len * sizeof *same);
   for (size_t k = 0; k < len; ++k) same[k] = 0.5 * x[k];
   assert_int_equal(jam_set_positions(sys, same, len), JAM_OK);

@@ -42,7 +42,7 @@ static double closest(const jam_system *sys, int n, int dim) {
   const double *x;
   size_t len;
   double least = 1.0;
-  jam_view_positions(sys, &x, &len);
+  jam_view(sys, JAM_VIEW_POSITIONS, &x, &len);
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < i; ++j) {
       double r2 = 0.0;
@@ -114,7 +114,7 @@ static void coincident_pairs_are_counted(void **state) {
   const double *p;
   size_t len, rows = 0;
   int64_t pairs = 0;
-  jam_view_positions(sys, &p, &len);
+  jam_view(sys, JAM_VIEW_POSITIONS, &p, &len);
   for (int i = 0; i < 64; ++i) /* sigma is half the box: each pair overlaps through one image at most */
     for (int j = 0; j < i; ++j) {
       double r2 = 0.0;
@@ -140,7 +140,7 @@ static void seeds_choose_the_direction(void **state) {
       const double *p;
       size_t len;
       relaxed(sys, JAM_MINIMISER_NEWTON, 1e-12);
-      jam_view_positions(sys, &p, &len);
+      jam_view(sys, JAM_VIEW_POSITIONS, &p, &len);
       if (again) assert_memory_equal(first, p, sizeof first);
       if (!again && seed > 1) assert_memory_not_equal(first, p, sizeof first);
       memcpy(first, p, sizeof first);

@@ -41,8 +41,8 @@ std::vector<jam_status> const_calls(jam_system *sys, const char *path) {
   size_t len = 0, needed = 0;
   jam_system *copy = nullptr;
   std::vector<jam_status> out{info_of(sys),
-                              jam_view_positions(sys, &view, &len),
-                              jam_view_diameters(sys, &view, &len),
+                              jam_view(sys, JAM_VIEW_POSITIONS, &view, &len),
+                              jam_view(sys, JAM_VIEW_DIAMETERS, &view, &len),
                               jam_copy(sys, &copy),
                               jam_write_checkpoint(sys, path),
                               jam_gaps(sys, 0.1, 0, nullptr, 0, nullptr, 0, &needed)};

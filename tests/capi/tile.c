@@ -38,8 +38,8 @@ static void one_copy_has_the_bits_of_the_packing(void **state) {
     const double *x, *y;
     size_t x_len, y_len;
     assert_int_equal(jam_tile(sys, once, (size_t)dim, &one), JAM_OK);
-    assert_int_equal(jam_view_positions(sys, &x, &x_len), JAM_OK);
-    assert_int_equal(jam_view_positions(one, &y, &y_len), JAM_OK);
+    assert_int_equal(jam_view(sys, JAM_VIEW_POSITIONS, &x, &x_len), JAM_OK);
+    assert_int_equal(jam_view(one, JAM_VIEW_POSITIONS, &y, &y_len), JAM_OK);
     assert_int_equal(x_len, y_len);
     assert_memory_equal(x, y, x_len * sizeof *x);
     assert_same(sys, one, jam_get_cell);
@@ -64,8 +64,8 @@ static void copies_of_copies_are_copies(void **state) {
   assert_int_equal(jam_tile(sys, along_x, 2, &half), JAM_OK);
   assert_int_equal(jam_tile(half, along_y, 2, &twice), JAM_OK);
   assert_int_equal(jam_tile(sys, both, 2, &at_once), JAM_OK);
-  assert_int_equal(jam_view_positions(twice, &x, &len), JAM_OK);
-  assert_int_equal(jam_view_positions(at_once, &y, &needed), JAM_OK);
+  assert_int_equal(jam_view(twice, JAM_VIEW_POSITIONS, &x, &len), JAM_OK);
+  assert_int_equal(jam_view(at_once, JAM_VIEW_POSITIONS, &y, &needed), JAM_OK);
   assert_int_equal(len, 2 * 6 * N);
   assert_int_equal(needed, len);
   for (size_t k = 0; k < len; ++k) assert_true(x[k] - y[k] < 1e-15 && y[k] - x[k] < 1e-15);

@@ -49,9 +49,9 @@ void assert_valid(const jam_system *sys) {
   assert_int_equal(jam_get_info(sys, &info), JAM_OK);
   const double *x = nullptr;
   size_t len = 0;
-  jam_view_positions(sys, &x, &len);
+  jam_view(sys, JAM_VIEW_POSITIONS, &x, &len);
   for (size_t k = 0; k < len; ++k) assert_true(x[k] >= 0.0 && x[k] < info.box);
-  jam_view_diameters(sys, &x, &len);
+  jam_view(sys, JAM_VIEW_DIAMETERS, &x, &len);
   for (size_t k = 0; k < len; ++k) assert_true(x[k] > 0.0 && std::isfinite(x[k]));
 }
 
@@ -130,8 +130,8 @@ jam_status isoconfigurational(jam_system *sys) {
   o.runs = 4, o.block = 2, m.step = 0.1;
   const double instant[] = {1.0, 3.0};
   const int32_t kept = 1;
-  const jam_status status = jam_isoconfigurational(sys, &o, nullptr, instant, 2, &kept, 1, nullptr);
-  return status < 0 ? status : jam_isoconfigurational(sys, &o, &m, instant, 2, &kept, 1, nullptr);
+  const jam_status status = jam_isoconf(sys, &o, nullptr, instant, 2, &kept, 1, nullptr);
+  return status < 0 ? status : jam_isoconf(sys, &o, &m, instant, 2, &kept, 1, nullptr);
 }
 jam_status relax(jam_system *sys) {
   auto o = defaults(jam_relax_options_init);

@@ -42,8 +42,8 @@ static void random_start_lies_inside(void **state) {
     assert_int_equal(info.container, s->container);
     assert_int_equal(info.walls, s->walls);
     assert_true(fabs(info.volume / volume(s) - 1.0) < 1e-14);
-    jam_view_positions(sys, &x, &len);
-    jam_view_diameters(sys, &sigma, &len);
+    jam_view(sys, JAM_VIEW_POSITIONS, &x, &len);
+    jam_view(sys, JAM_VIEW_DIAMETERS, &sigma, &len);
     for (size_t i = 0; i < len; ++i) sum += pow(sigma[i], s->dim) * (s->dim == 2 ? M_PI / 4.0 : M_PI / 6.0);
     assert_true(fabs(sum / volume(s) / 0.15 - 1.0) < 1e-12 && fabs(info.packing_fraction / 0.15 - 1.0) < 1e-12);
     for (int w = 0; w < count_walls(sys); ++w) {
@@ -93,7 +93,7 @@ static void overlaps_with_walls_are_named_or_shrunk(void **state) {
     assert_non_null(
         strstr(jam_last_error(), "positions count from the corner of the cell; if yours count from its centre, add"));
     assert_int_equal(from_arrays(&walled_scenes[k], x, 2, 0.2, JAM_OVERLAP_SHRINK, &sys), JAM_OK);
-    jam_view_diameters(sys, &sigma, &len);
+    jam_view(sys, JAM_VIEW_DIAMETERS, &sigma, &len);
     assert_true(fabs(sigma[0] - 0.1) < 1e-14);
     jam_destroy(sys);
   }
@@ -148,12 +148,11 @@ static void bad_containers_are_named(void **state) {
   assert_int_equal(create_walled(&flat, 4, 0.5, 1, NULL, &sys), JAM_E_UNPLACEABLE);
 }
 
-static int same(const jam_system *a, const jam_system *b,
-                jam_status (*view)(const jam_system *, const double **, size_t *)) {
+static int same(const jam_system *a, const jam_system *b, jam_view_array array) {
   const double *x, *y;
   size_t n, m;
-  assert_int_equal(view(a, &x, &n), JAM_OK);
-  assert_int_equal(view(b, &y, &m), JAM_OK);
+  assert_int_equal(jam_view(a, (int32_t)array, &x, &n), JAM_OK);
+  assert_int_equal(jam_view(b, (int32_t)array, &y, &m), JAM_OK);
   return n == m && memcmp(x, y, n * sizeof *x) == 0;
 }
 
@@ -172,7 +171,7 @@ static void files_keep_the_container(void **state) {
       assert_int_equal(jam_read(path, NULL, NULL, NULL, &back), JAM_OK);
       jam_get_info(sys, &a), jam_get_info(back, &b);
       assert_true(a.container == b.container && a.walls == b.walls && a.volume == b.volume);
-      assert_true(same(sys, back, jam_view_positions) && same(sys, back, jam_view_diameters));
+      assert_true(same(sys, back, JAM_VIEW_POSITIONS) && same(sys, back, JAM_VIEW_DIAMETERS));
       jam_destroy(back);
     }
     assert_int_equal(jam_write(sys, path, JAM_FORMAT_PLAIN), JAM_E_UNSUPPORTED);
@@ -234,8 +233,8 @@ static void checkpoints_go_on_to_the_same_bits(void **state) {
     jam_compress_options_init(&o, sizeof o);
     o.growth_rate = 1e-2, o.pressure = 50.0, o.resume = 1;
     assert_int_equal(jam_compress(back, &o, NULL), JAM_OK);
-    assert_true(same(whole, back, jam_view_positions) && same(whole, back, jam_view_velocities) &&
-                same(whole, back, jam_view_diameters));
+    assert_true(same(whole, back, JAM_VIEW_POSITIONS) && same(whole, back, JAM_VIEW_VELOCITIES) &&
+                same(whole, back, JAM_VIEW_DIAMETERS));
     for (int w = 0; w < count_walls(whole); ++w)
       assert_true(of_wall(whole, w, JAM_WALL_PRESSURE) == of_wall(back, w, JAM_WALL_PRESSURE));
     jam_destroy(whole), jam_destroy(part), jam_destroy(back);
@@ -263,7 +262,7 @@ static void calls_that_know_no_walls_refuse(void **state) {
   const jam_status statuses[] = {jam_crunch(sys, &crunch[0], NULL),
                                  jam_crunch(sys, &crunch[1], NULL),
                                  jam_check_packing(sys, &check, NULL),
-                                 jam_prove(sys, NULL, 0, NULL),
+                                 jam_prove(sys, JAM_RIGIDITY_COLLECTIVE, NULL, 0, NULL),
                                  jam_moduli(tube, NULL, &moduli),
                                  jam_elastic_tensor(ball, NULL, real, 81, NULL, 0, &needed),
                                  jam_structure_factor(ball, 10.0, JAM_STRUCTURE_COLUMNS, real, 4096, &needed),

@@ -43,7 +43,7 @@ void diameters_of_the_box(void **) {
     assert_int_equal(create(x, 0.01, JAM_OVERLAP_SHRINK, JAM_MODEL_EUCLID, &small), JAM_OK);
     const double *a = nullptr, *b = nullptr;
     size_t len = 0;
-    jam_view_diameters(sys, &a, &len), jam_view_diameters(small, &b, &len);
+    jam_view(sys, JAM_VIEW_DIAMETERS, &a, &len), jam_view(small, JAM_VIEW_DIAMETERS, &b, &len);
     assert_true(std::fabs(a[0] - b[0]) < 1e-12 * b[0]);
     jam_destroy(sys), jam_destroy(small);
   }

@@ -14,7 +14,6 @@ static void call_network(input *in, jam_system *sys) {
   jam_geometry_options_init(&o, sizeof o);
   damage(in, &o, sizeof o);
   check_status(jam_contacts_from_geometry(sys, &o, NULL));
-  check_status(jam_contact_candidates(sys, number(in), JAM_CANDIDATE_COLUMNS, values[0], many, &needed));
   check_status(jam_contacts(sys, integers[0], many, &needed));
   check_status(jam_forces(sys, values[0], many, &needed));
   check_status(jam_stress_states(sys, values[0], many, values[1], many, values[2], &needed));
@@ -32,7 +31,7 @@ static void call_rigidity(input *in, jam_system *sys) {
   o.wall_time = at_most(o.wall_time, 0.1);
   check_status(jam_check_packing(sys, &o, &check));
   jam_check_text(&check);
-  check_status(jam_prove(sys, NULL, 0, NULL));
+  check_status(jam_prove(sys, kind, NULL, 0, NULL));
   check_status(jam_refined_positions(sys, NULL, 0, values[0], many, values[1], many, &needed));
 }
 
@@ -66,7 +65,7 @@ static void call_spectrum(input *in, jam_system *sys) {
 /* A copy is as good as the packing, and the two compare. */
 static void call_compared(input *in, jam_system *sys) {
   jam_system *copy = NULL;
-  jam_comparison c;
+  jam_comparison_report c;
   size_t needed;
   (void)in;
   check_status(jam_copy(sys, &copy));
@@ -96,7 +95,7 @@ static void call_compress(input *in, jam_system *sys) {
 
 static void call_crunch(input *in, jam_system *sys) {
   jam_crunch_options o;
-  jam_estimate e;
+  jam_estimate_report e;
   jam_crunch_options_init(&o, sizeof o);
   o.strain = byte(in) % 8 == 0 ? JAM_STRAIN_FREE : JAM_STRAIN_NONE;
   damage(in, &o, sizeof o);
@@ -130,7 +129,7 @@ static void call_isoconfigurational(input *in, jam_system *sys) {
   damage(in, &m, sizeof m);
   if (byte(in) % 8 == 0) instant[byte(in) % 3] = number(in);
   o.memory_limit = at_most(o.memory_limit, 1e8);
-  check_status(jam_isoconfigurational(sys, &o, byte(in) % 2 ? &m : NULL, instant, 3, &kept, 1, NULL));
+  check_status(jam_isoconf(sys, &o, byte(in) % 2 ? &m : NULL, instant, 3, &kept, 1, NULL));
   memset(&report, 0, sizeof report);
   report.struct_size = sizeof report;
   check_status(jam_get_isoconf_report(sys, &report));

@@ -65,7 +65,7 @@ static jam_system *make(int kind) {
     const double instant[2] = {1.0, 2.0};
     jam_isoconf_options runs;
     jam_isoconf_options_init(&runs, sizeof runs);
-    demand(jam_isoconfigurational(sys, &runs, NULL, instant, 2, NULL, 0, NULL) == JAM_CANCELLED, "runs");
+    demand(jam_isoconf(sys, &runs, NULL, instant, 2, NULL, 0, NULL) == JAM_CANCELLED, "runs");
   }
   if (kind == 6) {
     int64_t first = 0;
@@ -116,8 +116,8 @@ static void demand_apart(const jam_system *sys) {
   demand(jam_get_cell(sys, cell, JAM_MAX_DIM * JAM_MAX_DIM, &len) == JAM_OK, "cell");
   for (c = 0; c < len; ++c)
     if (cell[c] != (c % (d + 1) ? 0.0 : cell[0])) return;
-  jam_view_positions(sys, &x, &len);
-  jam_view_diameters(sys, &sigma, &len);
+  jam_view(sys, JAM_VIEW_POSITIONS, &x, &len);
+  jam_view(sys, JAM_VIEW_DIAMETERS, &sigma, &len);
   for (i = 0; i < len; ++i)
     for (j = 0; j < i; ++j) {
       const double mean = 0.5 * (sigma[i] + sigma[j]), factor = sigma[i] == sigma[j] ? 1.0 : 1.0 + info.non_additivity;

@@ -34,11 +34,12 @@ static inline void check_state(const jam_system *sys) {
   demand(jam_get_info(sys, &info) == JAM_OK && info.n > 0 && info.box > 0.0 && isfinite(info.box), "info");
   d = (size_t)info.dim;
   demand(jam_get_cell(sys, cell, JAM_MAX_DIM * JAM_MAX_DIM, &len) == JAM_OK && len == d * d, "cell");
-  demand(jam_view_positions(sys, &x, &len) == JAM_OK && len == (size_t)info.n * (size_t)info.dim, "positions");
+  demand(jam_view(sys, JAM_VIEW_POSITIONS, &x, &len) == JAM_OK && len == (size_t)info.n * (size_t)info.dim,
+         "positions");
   for (k = 0; k < len; ++k) demand(x[k] >= 0.0 && x[k] < cell[k % d * (d + 1)], "positions in the brick");
-  demand(jam_view_diameters(sys, &x, &len) == JAM_OK && len == (size_t)info.n, "diameters");
+  demand(jam_view(sys, JAM_VIEW_DIAMETERS, &x, &len) == JAM_OK && len == (size_t)info.n, "diameters");
   for (k = 0; k < len; ++k) demand(x[k] > 0.0 && isfinite(x[k]), "diameters are positive");
-  demand(jam_view_velocities(sys, &x, &len) == JAM_OK, "velocities");
+  demand(jam_view(sys, JAM_VIEW_VELOCITIES, &x, &len) == JAM_OK, "velocities");
   for (k = 0; k < len; ++k) demand(isfinite(x[k]), "velocities are finite");
 }
 #endif

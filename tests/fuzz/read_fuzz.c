@@ -28,11 +28,11 @@ static void check_round_trip(const jam_system *sys, int32_t format) {
   if (format != JAM_FORMAT_XYZ && written == JAM_E_UNSUPPORTED) return; /* a cell, Delta or d that it cannot hold */
   demand(written == JAM_OK, "what was read can be written");
   demand(jam_read(path, NULL, NULL, NULL, &back) == JAM_OK, "what was written can be read");
-  jam_view_positions(sys, &x, &x_len);
-  jam_view_positions(back, &y, &y_len);
+  jam_view(sys, JAM_VIEW_POSITIONS, &x, &x_len);
+  jam_view(back, JAM_VIEW_POSITIONS, &y, &y_len);
   demand(x_len == y_len && !memcmp(x, y, x_len * sizeof *x), "the same positions");
-  jam_view_diameters(sys, &x, &x_len);
-  jam_view_diameters(back, &y, &y_len);
+  jam_view(sys, JAM_VIEW_DIAMETERS, &x, &x_len);
+  jam_view(back, JAM_VIEW_DIAMETERS, &y, &y_len);
   demand(x_len == y_len && !memcmp(x, y, x_len * sizeof *x), "the same diameters");
   jam_destroy(back);
   unlink(path);

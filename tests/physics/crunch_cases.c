@@ -33,7 +33,7 @@ static void certify(const jam_system *sys, const jam_crunch_report *r, double to
   info.struct_size = sizeof info;
   jam_get_info(sys, &info);
   d = info.dim;
-  jam_view_positions(sys, &x, &len), jam_view_diameters(sys, &s, &len);
+  jam_view(sys, JAM_VIEW_POSITIONS, &x, &len), jam_view(sys, JAM_VIEW_DIAMETERS, &s, &len);
   assert_int_equal(jam_contacts(sys, NULL, 0, &m), JAM_OK);
   assert_int_equal(m, 2 * r->contacts);
   pairs = malloc((m + 1) * sizeof *pairs), z = malloc(info.n * sizeof *z);
@@ -286,7 +286,7 @@ static void cancel_and_resume(void **state) {
       assert_int_equal(r.rattlers + r.stable, 100);
     else /* before the end of an LP they are unknown */
       assert_true(r.contacts == -1 && r.rattlers == -1 && r.stable == 0);
-    jam_view_diameters(sys, &s, &len);
+    jam_view(sys, JAM_VIEW_DIAMETERS, &s, &len);
     assert_true(s[0] > 0.0);
     jam_set_progress(sys, NULL, NULL);
     if (calls < 10) {
@@ -356,7 +356,7 @@ static void threads_and_determinism(void **state) {
     assert_true(ok != NULL);
   }
   assert_non_null(crunch_thread(sys[2]));
-  for (k = 0; k < 3; ++k) jam_view_positions(sys[k], &x[k], &len);
+  for (k = 0; k < 3; ++k) jam_view(sys[k], JAM_VIEW_POSITIONS, &x[k], &len);
   assert_memory_equal(x[0], x[2], len * sizeof(double));
   assert_memory_equal(x[1], x[2], len * sizeof(double));
   for (k = 0; k < 3; ++k) jam_destroy(sys[k]);
@@ -371,9 +371,9 @@ static void box_does_not_matter(void **state) {
   double y[300], t[100];
   size_t len, k;
   (void)state;
-  jam_view_positions(small, &x, &len);
+  jam_view(small, JAM_VIEW_POSITIONS, &x, &len);
   for (k = 0; k < 300; ++k) y[k] = x[k] * 1024.0;
-  jam_view_diameters(small, &s, &len);
+  jam_view(small, JAM_VIEW_DIAMETERS, &s, &len);
   for (k = 0; k < 100; ++k) t[k] = s[k] * 1024.0;
   jam_create_options_init(&o, sizeof o);
   o.box = 1024.0;

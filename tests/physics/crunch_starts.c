@@ -18,7 +18,7 @@ static double smallest_gap(const jam_system *sys, int reach) {
   double least = INFINITY;
   info.struct_size = sizeof info;
   jam_get_info(sys, &info);
-  jam_view_positions(sys, &x, &len), jam_view_diameters(sys, &s, &n);
+  jam_view(sys, JAM_VIEW_POSITIONS, &x, &len), jam_view(sys, JAM_VIEW_DIAMETERS, &s, &n);
   for (i = 0; i < n; ++i)
     for (j = 0; j <= i; ++j) {
       int code, count = 1, k;
@@ -52,7 +52,7 @@ static void certify(const jam_system *sys, const jam_crunch_report *r, int reach
   if (!r->jammed) return;
   info.struct_size = sizeof info;
   jam_get_info(sys, &info), d = info.dim;
-  jam_view_positions(sys, &x, &len), jam_view_diameters(sys, &s, &len);
+  jam_view(sys, JAM_VIEW_POSITIONS, &x, &len), jam_view(sys, JAM_VIEW_DIAMETERS, &s, &len);
   jam_contacts(sys, NULL, 0, &m);
   pair = malloc(m * sizeof *pair), z = calloc(info.n, sizeof *z), m /= 2;
   v = malloc(m * d * sizeof *v), f = malloc(m * sizeof *f), total = calloc(info.n * d, sizeof *total);

@@ -135,8 +135,8 @@ void verdict_holds(int64_t seed) {
   const jam_status status = jam_crunch(sys.get(), nullptr, &r);
   const double *x = nullptr, *s = nullptr;
   size_t len = 0;
-  assert_int_equal(jam_view_positions(sys.get(), &x, &len), JAM_OK);
-  assert_int_equal(jam_view_diameters(sys.get(), &s, &len), JAM_OK);
+  assert_int_equal(jam_view(sys.get(), JAM_VIEW_POSITIONS, &x, &len), JAM_OK);
+  assert_int_equal(jam_view(sys.get(), JAM_VIEW_DIAMETERS, &s, &len), JAM_OK);
   const std::vector<Closed> closed = pairs_below(x, s[0], 1e-10);
   for (const Closed &c : closed) assert_true(c.gap > -1e-13);
   print_message("seed %d: jammed %d, %s, residual %.1e, contacts %d\n", static_cast<int>(seed), r.jammed,
@@ -166,7 +166,7 @@ void the_check_sees_motion(void **) {
   assert_int_equal(jam_crunch(sys.get(), nullptr, nullptr), JAM_OK);
   const double *x = nullptr, *s = nullptr;
   size_t len = 0;
-  jam_view_positions(sys.get(), &x, &len), jam_view_diameters(sys.get(), &s, &len);
+  jam_view(sys.get(), JAM_VIEW_POSITIONS, &x, &len), jam_view(sys.get(), JAM_VIEW_DIAMETERS, &s, &len);
   std::vector<Closed> closed = pairs_below(x, s[0], 1e-10);
   std::vector<int32_t> z(disks);
   jam_coordination(sys.get(), z.data(), z.size(), &len);

@@ -41,7 +41,7 @@ static jam_md_report run(jam_system *sys, double collisions_per_particle) {
 static void moments(const jam_system *sys, double *energy, double *momentum) {
   const double *v = NULL;
   size_t len = 0;
-  assert_int_equal(jam_view_velocities(sys, &v, &len), JAM_OK);
+  assert_int_equal(jam_view(sys, JAM_VIEW_VELOCITIES, &v, &len), JAM_OK);
   *energy = momentum[0] = momentum[1] = momentum[2] = 0.0;
   for (size_t k = 0; k < len; ++k) *energy += v[k] * v[k], momentum[k % 3] += v[k];
 }

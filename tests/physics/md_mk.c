@@ -91,8 +91,8 @@ static void no_shift_is_euclidean(void **state) {
   o.n = 60;
   o.seed = 4;
   assert_int_equal(jam_create(&o, NULL, &b), JAM_OK);
-  jam_view_positions(a, &x, &len);
-  jam_view_positions(b, &y, &len);
+  jam_view(a, JAM_VIEW_POSITIONS, &x, &len);
+  jam_view(b, JAM_VIEW_POSITIONS, &y, &len);
   assert_memory_equal(x, y, len * sizeof(double));
   ra.struct_size = rb.struct_size = sizeof ra;
   assert_int_equal(jam_run(a, NULL, &ra), JAM_OK);

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "crystal.h"
 #include "start.h"
 #include "test.h"
 
@@ -44,7 +45,7 @@ static void draw_velocities(jam_system *sys) {
   const double *old;
   size_t len, k;
   uint64_t bits = 88172645463325252u;
-  assert_int_equal(jam_view_velocities(sys, &old, &len), JAM_OK);
+  assert_int_equal(jam_view(sys, JAM_VIEW_VELOCITIES, &old, &len), JAM_OK);
   assert_true(len <= sizeof v / sizeof v[0]);
   for (k = 0; k < len; ++k) { /* sums of twelve uniform numbers are normal enough */
     int draw;
@@ -149,12 +150,6 @@ static void forces_by_collisions(void **state) {
   jam_destroy(jammed);
 }
 
-static double score(const jam_system *sys) {
-  double s = -1;
-  assert_int_equal(jam_crystal_score(sys, &s), JAM_OK);
-  return s;
-}
-
 /* The two-stage protocol shows no peak of g(r) at sqrt 2. A crystal that has run at 0.58, just above melting, and was
  * then compressed does; at 0.58 itself its peaks are as wide as their distance, so the score is for compressed states.
  */
@@ -179,12 +174,12 @@ static void crystal_score_tells_crystals_from_glasses(void **state) {
   diameter = cbrt(0.58 * 6.0 / (3.14159265358979 * 500)); /* above melting, 0.545 */
   assert_int_equal(create_from(&o, x, 1500, &diameter, 1, &crystal), JAM_OK);
   run(crystal, 300);
-  shaken = score(crystal);
+  shaken = crystal_score(crystal);
   compress(crystal, 1e-2, 1e4);
-  print_message("score of the glass %.2f, of the crystal at 0.58 %.2f, compressed %.2f\n", score(glass), shaken,
-                score(crystal));
-  assert_true(score(glass) < 1.0);
-  assert_true(score(crystal) > 3.0);
+  print_message("score of the glass %.2f, of the crystal at 0.58 %.2f, compressed %.2f\n", crystal_score(glass), shaken,
+                crystal_score(crystal));
+  assert_true(crystal_score(glass) < 1.0);
+  assert_true(crystal_score(crystal) > 3.0);
   jam_destroy(glass);
   jam_destroy(crystal);
 }
@@ -217,8 +212,8 @@ static void fluid_crystallises(void **state) {
     if (fabs(pair[k][JAM_CORRELATION_R] - 1.25) < 0.03) before = fmax(before, pair[k][JAM_CORRELATION_G]);
   }
   print_message("crystal after %d x 1000 collisions per sphere, p %.2f; score %.2f, g %.2f at sqrt 2, %.2f at 1.25\n",
-                blocks, p, score(sys), at_sqrt2, before);
-  assert_true(score(sys) > 1.5 && at_sqrt2 > 1.3 * before); /* six seeds: scores 2.8 to 4.3; a glass 0.9 */
+                blocks, p, crystal_score(sys), at_sqrt2, before);
+  assert_true(crystal_score(sys) > 1.5 && at_sqrt2 > 1.3 * before); /* six seeds: scores 2.8 to 4.3; a glass 0.9 */
   jam_destroy(sys);
 }
 

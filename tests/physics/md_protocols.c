@@ -148,12 +148,12 @@ static void masses_by_volume(void **state) {
     error[masses] = report.pressure_error;
     assert_true(report.energy_drift < 1e-11);
     assert_int_equal(info_of(sys).masses, masses);
-    jam_view_diameters(sys, &d, &n);
+    jam_view(sys, JAM_VIEW_DIAMETERS, &d, &n);
     for (k = 0; k < n; ++k) cubes += d[k] * d[k] * d[k] / (double)n;
     r.collisions_per_particle = 10;
     for (sample = 0; sample < 100; ++sample) {
       assert_int_equal(jam_run(sys, &r, NULL), JAM_OK);
-      jam_view_velocities(sys, &v, &len);
+      jam_view(sys, JAM_VIEW_VELOCITIES, &v, &len);
       for (k = 0; k < len; ++k) {
         const double m = masses ? d[k / 3] * d[k / 3] * d[k / 3] / cubes : 1.0;
         *(k / 3 % 2 ? &large : &small) += m * v[k] * v[k] / (200.0 * 3.0 * 100.0);

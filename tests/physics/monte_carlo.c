@@ -118,7 +118,7 @@ static void three_disks_and_swaps_have_the_boltzmann_averages(void **state) {
     o.swap_share = with_swaps ? 0.5 : 0.0;
     r = run(sys, &o);
     assert_true(fabs(r.energy - u) < 4.0 * r.energy_error && r.energy_error < 0.03 * u);
-    assert_int_equal(jam_view_diameters(sys, &now, &len), JAM_OK);
+    assert_int_equal(jam_view(sys, JAM_VIEW_DIAMETERS, &now, &len), JAM_OK);
     assert_true(fabs(now[0] + now[1] + now[2] - 1.16) < 1e-6);
     if (with_swaps)
       assert_true(r.swap_acceptance > 0.05 && r.swap_acceptance < 0.95);
@@ -188,8 +188,8 @@ static void a_resumed_run_has_the_same_bits(void **state) {
   r = run(b, &o);
   assert_int_equal(r.sweeps, 3000);
   assert_true(r.energy == whole.energy && r.pressure == whole.pressure && r.msd == whole.msd);
-  assert_int_equal(jam_view_positions(a, &x, &len), JAM_OK);
-  assert_int_equal(jam_view_positions(b, &y, &len), JAM_OK);
+  assert_int_equal(jam_view(a, JAM_VIEW_POSITIONS, &x, &len), JAM_OK);
+  assert_int_equal(jam_view(b, JAM_VIEW_POSITIONS, &y, &len), JAM_OK);
   assert_memory_equal(x, y, len * sizeof *x);
   assert_int_equal(jam_monte_carlo(b, &o, &r), JAM_E_STATE);
   /* The next run goes on with new random numbers. */
@@ -224,8 +224,8 @@ static void dilute_spheres_stay_apart_and_resume(void **state) {
     o.swap_share = 0.1;
     r = run(a, &o);
     assert_true(r.acceptance > 0.3 && r.step > 0.15);
-    assert_int_equal(jam_view_positions(a, &x, &len), JAM_OK);
-    assert_int_equal(jam_view_diameters(a, &sigma, &sizes), JAM_OK);
+    assert_int_equal(jam_view(a, JAM_VIEW_POSITIONS, &x, &len), JAM_OK);
+    assert_int_equal(jam_view(a, JAM_VIEW_DIAMETERS, &sigma, &sizes), JAM_OK);
     assert_int_equal(create_from(&c, x, len, sigma, sizes, &again), JAM_OK);
     r.struct_size = sizeof r;
     assert_int_equal(jam_set_progress(b, stop, NULL), JAM_OK);
@@ -233,7 +233,7 @@ static void dilute_spheres_stay_apart_and_resume(void **state) {
     assert_int_equal(jam_set_progress(b, NULL, NULL), JAM_OK);
     o.resume = 1;
     run(b, &o);
-    assert_int_equal(jam_view_positions(b, &y, &len), JAM_OK);
+    assert_int_equal(jam_view(b, JAM_VIEW_POSITIONS, &y, &len), JAM_OK);
     assert_memory_equal(x, y, len * sizeof *x);
     jam_destroy(a);
     jam_destroy(b);
@@ -253,13 +253,13 @@ static void runs_from_one_state_have_streams_of_their_own(void **state) {
   i.runs = 2;
   i.block = 1;
   o.step = 0.05;
-  assert_int_equal(jam_isoconfigurational(sys, &i, &o, instants, 2, NULL, 0, NULL), JAM_OK);
+  assert_int_equal(jam_isoconf(sys, &i, &o, instants, 2, NULL, 0, NULL), JAM_OK);
   for (k = 0; k < 2; ++k)
     assert_int_equal(jam_isoconf_displacements(sys, (int64_t)k, displacement[k], 18, NULL, 0, NULL), JAM_OK);
   assert_memory_not_equal(displacement[0], displacement[1], sizeof displacement[0]);
   i.first_run = 1;
   i.runs = 1;
-  assert_int_equal(jam_isoconfigurational(sys, &i, &o, instants, 2, NULL, 0, NULL), JAM_OK);
+  assert_int_equal(jam_isoconf(sys, &i, &o, instants, 2, NULL, 0, NULL), JAM_OK);
   assert_int_equal(jam_isoconf_displacements(sys, 0, alone, 18, NULL, 0, NULL), JAM_OK);
   assert_memory_equal(alone, displacement[1], sizeof alone);
   jam_destroy(sys);

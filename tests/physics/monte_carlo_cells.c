@@ -141,8 +141,8 @@ static void a_cube_in_disguise(void **state) {
     const jam_monte_carlo_report r = run(a, &o), s = run(b, &o);
     assert_true(r.acceptance == s.acceptance && r.acceptance > 0.01);
     assert_true(fabs(r.msd - s.msd) <= 1e-9 * r.msd && fabs(r.energy - s.energy) <= 1e-9 * fabs(r.energy));
-    assert_int_equal(jam_view_positions(a, &x, &len), JAM_OK);
-    assert_int_equal(jam_view_positions(b, &y, &len), JAM_OK);
+    assert_int_equal(jam_view(a, JAM_VIEW_POSITIONS, &x, &len), JAM_OK);
+    assert_int_equal(jam_view(b, JAM_VIEW_POSITIONS, &y, &len), JAM_OK);
     for (size_t c = 0; c < len; ++c) assert_true(fabs(remainder(x[c] - y[c], 1.0)) < 1e-9);
     jam_destroy(a), jam_destroy(b);
   }
@@ -170,8 +170,8 @@ static void hard_fluid(void **state) {
   assert_true(r.pressure_error < 0.02 * r.pressure && r.swap_acceptance > 0.0);
   jam_create_options_init(&c, sizeof c);
   c.n = 256;
-  assert_int_equal(jam_view_positions(sys, &x, &len), JAM_OK);
-  assert_int_equal(jam_view_diameters(sys, &sigma, &sizes), JAM_OK);
+  assert_int_equal(jam_view(sys, JAM_VIEW_POSITIONS, &x, &len), JAM_OK);
+  assert_int_equal(jam_view(sys, JAM_VIEW_DIAMETERS, &sigma, &sizes), JAM_OK);
   assert_int_equal(jam_get_cell(sys, cell, 9, NULL), JAM_OK);
   assert_int_equal(create_in_cell(&c, cell, 9, x, len, sigma, sizes, &again), JAM_OK); /* it refuses overlaps */
   jam_destroy(sys), jam_destroy(again);
@@ -201,8 +201,8 @@ static void a_resumed_run_has_the_same_bits(void **state) {
     assert_int_equal(jam_read_checkpoint(path, NULL, NULL, &b), JAM_OK);
     o.resume = 1;
     run(b, &o);
-    assert_int_equal(jam_view_positions(a, &x, &len), JAM_OK);
-    assert_int_equal(jam_view_positions(b, &y, &len), JAM_OK);
+    assert_int_equal(jam_view(a, JAM_VIEW_POSITIONS, &x, &len), JAM_OK);
+    assert_int_equal(jam_view(b, JAM_VIEW_POSITIONS, &y, &len), JAM_OK);
     assert_memory_equal(x, y, len * sizeof *x);
     jam_destroy(a), jam_destroy(b);
   }

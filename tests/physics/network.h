@@ -67,7 +67,7 @@ static inline struct network open_network(jam_system *s) {
   w.stable = (int64_t)m;
   for (k = 0; k < w.n; ++k) w.node[k] = -1;
   for (k = 0; k < w.stable; ++k) w.node[w.map[k]] = (int32_t)k;
-  assert_int_equal(jam_view_diameters(s, &diameters, &m), JAM_OK);
+  assert_int_equal(jam_view(s, JAM_VIEW_DIAMETERS, &diameters, &m), JAM_OK);
   for (k = 0; k < w.n; ++k) w.diameter[k] = diameters[k];
   return w;
 }

@@ -25,8 +25,8 @@ static double worst_gap(const jam_system *sys, double delta, double tolerance, i
   info.struct_size = sizeof info;
   assert_int_equal(jam_get_info(sys, &info), JAM_OK);
   assert_true(info.non_additivity == delta);
-  jam_view_positions(sys, &x, &len);
-  jam_view_diameters(sys, &s, &len);
+  jam_view(sys, JAM_VIEW_POSITIONS, &x, &len);
+  jam_view(sys, JAM_VIEW_DIAMETERS, &s, &len);
   *unlike = 0;
   for (i = 0; i < len; ++i)
     for (j = 0; j < i; ++j) {

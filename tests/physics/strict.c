@@ -31,8 +31,8 @@ static double shear_stress(jam_system *sys, int dim) {
   size_t n = 0, len = 0, needed = 0;
   const double *x = NULL, *s = NULL;
   double stress[16] = {0.0}, trace = 0.0, worst = 0.0;
-  assert_int_equal(jam_view_positions(sys, &x, &len), JAM_OK);
-  assert_int_equal(jam_view_diameters(sys, &s, &n), JAM_OK);
+  assert_int_equal(jam_view(sys, JAM_VIEW_POSITIONS, &x, &len), JAM_OK);
+  assert_int_equal(jam_view(sys, JAM_VIEW_DIAMETERS, &s, &n), JAM_OK);
   assert_int_equal(jam_forces(sys, NULL, 0, &needed), JAM_OK);
   double *force = malloc(needed * sizeof *force), *vector = malloc(needed * (size_t)dim * sizeof *vector);
   int32_t *pairs = malloc(2 * needed * sizeof *pairs);

@@ -26,7 +26,7 @@ static void one_sphere_has_its_exact_pressure(void **state) {
   size_t len;
   double sum = 0.0;
   assert_int_equal(jam_set_positions(sys, x, 3), JAM_OK);
-  jam_view_diameters(sys, &diameter, &len);
+  jam_view(sys, JAM_VIEW_DIAMETERS, &diameter, &len);
   assert_int_equal(jam_scale_diameters(sys, sigma / diameter[0]), JAM_OK);
   assert_int_equal(jam_set_velocities(sys, v, 3), JAM_OK);
   run(sys, 4e5, &report);
@@ -52,7 +52,7 @@ static void one_sphere_between_two_walls(void **state) {
     const double *diameter;
     size_t len;
     assert_int_equal(create_walled(&walled_scenes[SLIT], 1, 0.01, seed, NULL, &sys), JAM_OK);
-    jam_view_diameters(sys, &diameter, &len);
+    jam_view(sys, JAM_VIEW_DIAMETERS, &diameter, &len);
     const double exact = 1.0 / (1.0 - diameter[0]);
     run(sys, 1e5, &report);
     for (int w = 0; w < 2; ++w) assert_true(fabs(of_wall(sys, w, JAM_WALL_PRESSURE) / exact - 1.0) < 1e-3);
@@ -103,8 +103,8 @@ static void contact_theorem_and_bulk_pressure(void **state) {
   double wall = 0.0, middle = 0.0, near[2] = {0.0, 0.0};
   (void)state;
   assert_int_equal(create_walled(&slit, N, 0.25, 3, NULL, &sys), JAM_OK);
-  jam_view_positions(sys, &x, &len);
-  jam_view_diameters(sys, &sigma, &len);
+  jam_view(sys, JAM_VIEW_POSITIONS, &x, &len);
+  jam_view(sys, JAM_VIEW_DIAMETERS, &sigma, &len);
   const double s = sigma[0], width = 0.04 * s, centre = 1.2, half = 2.5 * s;
   run(sys, 100.0, &report);
   for (int k = 0; k < SAMPLES; ++k) {

@@ -38,9 +38,9 @@ static void say(const char *rests_on, const char *what, const char *stage, const
   double cell[9];
   size_t len, cell_len = 0;
   uint64_t hash;
-  need(jam_view_positions(sys, &view, &len));
+  need(jam_view(sys, JAM_VIEW_POSITIONS, &view, &len));
   hash = hash_of(begin, view, len);
-  need(jam_view_diameters(sys, &view, &len));
+  need(jam_view(sys, JAM_VIEW_DIAMETERS, &view, &len));
   hash = hash_of(hash, view, len);
   need(jam_get_cell(sys, cell, 9, &cell_len));
   printf("%s %s, %s %016" PRIx64 "\n", rests_on, what, stage, hash_of(hash, cell, cell_len));

@@ -20,7 +20,7 @@ refuse_another_python()
 
 from . import errors as errors, raw as raw
 from ._api.generated import *  # noqa: F401,F403  enums and report dataclasses
-from ._api.functions import eos as eos, glass_fit as glass_fit
+from ._api.equations import EosForm as EosForm, Glass as Glass, eos as eos, glass_fit as glass_fit
 from ._api.generated import JAM_ABI, StatusCode as StatusCode
 from .advice import Advice as Advice, advise as advise
 from ._api.size_laws import size_report as size_report, sizes as sizes

@@ -2,7 +2,7 @@
 
     packing.crunch()
     structure = jam.near_jamming.predictors(packing)
-    runs = packing.isoconfigurational([2, 10, 100], runs=300, density_ratio=0.995)
+    runs = packing.isoconf([2, 10, 100], runs=300, density_ratio=0.995)
     jam.near_jamming.correlations(runs, structure)["c"]        # K[C, <dr>] at each instant
 
 Formulas: R. Diaz Hernandez Rojas, thesis (Sapienza 2021), chapter 3.
@@ -195,18 +195,16 @@ class ModeWeights(NamedTuple):
     noise: Array
 
 
-def mode_weights(
-    system: Any, runs: Runs, modes: Any, instants: Sequence[int] | None = None, **hessian: Any
-) -> ModeWeights:
-    """<dr> of the stable spheres, normalised, against modes of system.modes(which='all') with the same `hessian` options."""
+def mode_weights(system: Any, runs: Runs, modes: Any, instants: Sequence[int] | None = None) -> ModeWeights:
+    """<dr> of the stable spheres, normalised, against the modes of system.modes(which='all')."""
     stable, d = system.hessian_map(), system.dim
     mean = runs.mean("displacement")
     rows, curved, noise = [], [], []
     for m in range(len(mean)) if instants is None else instants:
         u = mean[m][stable]
         u = u / np.linalg.norm(u)
-        rows.append(system.project(modes.vectors, u))
-        curved.append(system.curvature(u, **hessian))
+        rows.append(modes.vectors.reshape(len(modes), -1) @ u.reshape(-1))
+        curved.append(float(modes.values @ rows[-1] ** 2))
         noise.append(float(((u.sum(0) / np.sqrt(len(stable))) ** 2).mean()) / d)
     return ModeWeights(np.array(rows), np.array(curved), np.array(noise))
 

@@ -66,7 +66,7 @@ def deciles(predictor: Any, observed: Any, share: float = 0.1) -> tuple[float, f
 def bootstrap(f: Callable[[Array], Any], blocks: int, times: int = 200, seed: int = 1) -> Array:
     """f(weights) for `times` resamples of `blocks` blocks with replacement; weights (blocks,) count how often each is drawn."""
     if blocks < 2:
-        raise ValueError(f"{blocks} blocks of runs cannot be resampled: make more runs, or give a smaller block= to isoconfigurational()")
+        raise ValueError(f"{blocks} blocks of runs cannot be resampled: make more runs, or give a smaller block= to isoconf()")
     draw = np.random.default_rng(seed)
     return np.array([f(np.bincount(draw.integers(0, blocks, blocks), minlength=blocks)) for _ in range(times)])
 

@@ -45,7 +45,7 @@ def pressures(n, seed, sweeps):
                     with packing.copy() as soft:
                         soft.monte_carlo(sweeps=1, **{**how, "temperature": 1e-3 * how["temperature"]})
                         soft.scale_diameters((1 + x * overlap) ** (1 / 3))
-                        runs = soft.isoconfigurational(instants, monte_carlo=how, runs=1, block=1)
+                        runs = soft.isoconf(instants, monte_carlo=how, runs=1, block=1)
                         found = runs.series["pressure"][0]
                     p[a, t, k], drift[a, t, k] = found.mean(), np.log(found[20:].mean() / found[:20].mean())
         return {"p": p, "drift": drift}

@@ -101,7 +101,7 @@ class Isoconfigurational final : public Dynamics {
   void continue_with(const Packing &p, const jam_isoconf_options &o, const jam_monte_carlo_options *mc,
                      const std::vector<double> &instants, const std::vector<int32_t> &kept);
 
-  int32_t phase() const override { return JAM_PHASE_ISOCONFIGURATIONAL; }
+  int32_t phase() const override { return JAM_PHASE_ISOCONF; }
   // Until options.runs runs are made; of the limits wall_time counts.
   jam_status run(const Limits &limits, const Listeners &listeners) override;
   const Packing &packing() const override { return packing_; }  // as given: the runs do not change it

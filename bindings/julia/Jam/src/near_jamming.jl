@@ -2,7 +2,7 @@
 # Diaz Hernandez Rojas, thesis (Sapienza 2021), chapter 3.
 
 """
-    isoconfigurational(s, instants; runs, density_ratio, kept, monte_carlo, first_run, block, clock, threads, ..., progress)
+    isoconf(s, instants; runs, density_ratio, kept, monte_carlo, first_run, block, clock, threads, ..., progress)
 
 Runs from the packing as it is, each with velocities of its own; `s` does not change. `instants` ascend. `monte_carlo`: a
 NamedTuple of options of `monte_carlo!`, instead of molecular dynamics. `kept`: numbers of the instants whose displacements
@@ -11,12 +11,12 @@ NamedTuple of options of `monte_carlo!`, instead of molecular dynamics. `kept`: 
 Returns [`Results`](@ref), means over the runs: `displacement` (d, n, instants), `propensity` = mean of |dr|^2 (n, instants), and a value
 an instant of `time`, `msd`, `scattering`, `overlap`, ... `report` is the Report.
 """
-function isoconfigurational(s::System, instants; kept = nothing, monte_carlo = nothing, progress = nothing, given...)
+function isoconf(s::System, instants; kept = nothing, monte_carlo = nothing, progress = nothing, given...)
     o = options(jam_isoconf_options, given)
     m = monte_carlo === nothing ? nothing : options(jam_monte_carlo_options, (; monte_carlo...))
     made, t = jam_isoconf_report(), vec(dense(instants))
     k = kept === nothing ? nothing : Int32.(collect(kept)) .- Int32(1)
-    r = verb(h -> jam_isoconfigurational(h, o, m, t, length(t), k, length(something(k, ())), made), s, made, progress)
+    r = verb(h -> jam_isoconf(h, o, m, t, length(t), k, length(something(k, ())), made), s, made, progress)
     return Results(merge((report = r, instants = t), isoconf_means(s)))
 end
 
@@ -81,7 +81,7 @@ end
 """
     correlations(runs, structure; rattlers = true)
 
-Spearman's K at each instant of what `isoconfigurational` returned: `c` = K[C, <dr>], mean of components; `s`, `force_sum` and
+Spearman's K at each instant of what `isoconf` returned: `c` = K[C, <dr>], mean of components; `s`, `force_sum` and
 `force_pairs` with the propensity.
 """
 function correlations(runs, structure; rattlers::Bool = true)

@@ -129,6 +129,55 @@ function bloch_rigidity(s::System, count; progress = nothing)
 end
 
 """
+    prove(s, ratio = nothing; strict = false)
+
+Proves, despite rounding, that the packing is jammed; `theorem` of the report is `:none`, `:trapped` or `:exact`. `ratio`: the exact
+ratios of the diameters, in any unit. `strict`: the cell deforms too, with the diameters as they are.
+"""
+prove(s::System, ratio = nothing; strict = false) = call(s, :jam_prove, (strict ? :strict : :collective, ratio))
+
+"""
+    write_proof(s, path, ratio = nothing; strict = false)
+
+Writes the exact numbers of the proof, which `jamproof.py` checks with integers alone.
+"""
+write_proof(s::System, path, ratio = nothing; strict = false) =
+    call(s, :jam_write_proof, (path, strict ? :strict : :collective, ratio))
+
+"Table and vectors (d N' for each mode) of the floppy modes of contacts, from 1, or of all; vectors only where they are wanted."
+function floppy(s::System, contact, moved, progress)
+    m = contact === nothing ? count_of(s, :jam_contact_gaps) : length(contact)
+    names = keys(WORDS.floppy_column)
+    table = unknown(Cdouble, m * length(names))
+    vector = unknown(Cdouble, moved ? m * count_of(s, :jam_hessian_map) * Int(info(s).dim) : 0)
+    chosen = contact === nothing ? nothing : Int64.(contact) .- 1
+    status = watched(handle(s), progress) do
+        jam_floppy_modes(handle(s), chosen, contact === nothing ? 0 : m, length(names), table, length(table),
+                         moved ? vector : nothing, length(vector), Ref{Csize_t}(0))
+    end
+    written(status)
+    note!(s, status)
+    rows = reshape(table, length(names), m)
+    return Table(NamedTuple{names}(Tuple(rows[k, :] for k in 1:length(names)))), vector
+end
+
+"""
+    floppy_modes(s; progress)
+
+The floppy mode of every contact, measured: a table of `median`, `weight`, `s_plus`, `s_star`, `stability`, `s_return`. Needs a
+single state of self-stress.
+"""
+floppy_modes(s::System; progress = nothing) = first(floppy(s, nothing, false, progress))
+
+"""
+    floppy_mode(s, contact; progress)
+
+Displacement over s, d-by-N', of the stable spheres when one contact opens by s and all others stay closed to first order.
+"""
+floppy_mode(s::System, contact::Integer; progress = nothing) =
+    reshape(last(floppy(s, [contact], true, progress)), Int(info(s).dim), :)
+
+"""
     pair_correlation(s, r_max = 4, bins = 200; labels, a, b) -> (r, g)
 
 g(r) in equal bins up to `r_max` mean diameters; with `labels`, a whole number a sphere, that of spheres `a` around `b`.

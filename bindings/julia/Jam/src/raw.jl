@@ -17,7 +17,6 @@ const JAM_ISOCONF_COLUMNS = Int32(14)
 const JAM_HISTORY_COLUMNS = Int32(20)
 const JAM_SOFT_COLUMNS = Int32(11)
 const JAM_MODE_COLUMNS = Int32(2)
-const JAM_CANDIDATE_COLUMNS = Int32(4)
 const JAM_BLOCH_COLUMNS = Int32(2)
 const JAM_STRUCTURE_COLUMNS = Int32(2)
 const JAM_PROFILE_COLUMNS = Int32(3)
@@ -79,7 +78,7 @@ const JAM_PHASE_ANALYSE = Int32(5)  # long analysis calls, and setters that sear
 const JAM_PHASE_RELAX = Int32(6)  # minimising the energy of soft spheres
 const JAM_PHASE_DECOMPRESS = Int32(7)  # soft spheres on their way down to jamming; steps: decompressions so far
 const JAM_PHASE_MONTE_CARLO = Int32(8)  # Metropolis sweeps
-const JAM_PHASE_ISOCONFIGURATIONAL = Int32(9)  # runs from one configuration; steps counts those that are done
+const JAM_PHASE_ISOCONF = Int32(9)  # runs from one configuration; steps counts those that are done
 const JAM_PHASE_CREATE = Int32(10)  # making a system; steps counts the spheres placed
 
 # jam_overlap_policy: What to do with overlaps in given positions.
@@ -99,6 +98,11 @@ const JAM_MASSES_VOLUME = Int32(1)  # as the volumes, sigma_i^d
 const JAM_CONTAINER_BRICK = Int32(0)  # the cell: flat walls on the axes of `walls`, the other axes periodic
 const JAM_CONTAINER_CYLINDER = Int32(1)  # d = 3, about z, periodic or between flat walls; its diameter: the edges x and y
 const JAM_CONTAINER_BALL = Int32(2)  # d = 2 a circle, d = 3 a ball; its diameter: the edge of the cube
+
+# jam_view_array: What jam_view shows.
+const JAM_VIEW_POSITIONS = Int32(0)  # (n, d), in [0, box), in other cells in the brick
+const JAM_VIEW_DIAMETERS = Int32(1)  # n
+const JAM_VIEW_VELOCITIES = Int32(2)  # (n, d), kT/m = 1; zero until the first MD call draws them
 
 # jam_wall_column: Columns of jam_walls.
 const JAM_WALL_AXIS = Int32(0)  # of a flat wall; d: the round wall
@@ -172,16 +176,6 @@ const JAM_GAP_ERROR = Int32(3)  # its standard error over samples
 # jam_correlation_column: Columns of jam_observed_correlation, one row per bin.
 const JAM_CORRELATION_R = Int32(0)  # middle of the bin, mean diameters
 const JAM_CORRELATION_G = Int32(1)  # g(r)
-
-# jam_eos_form: Equations of state p(phi) in closed form, of equal spheres.
-const JAM_EOS_CARNAHAN_STARLING = Int32(0)  # d = 3, as the next three
-const JAM_EOS_PY_VIRIAL = Int32(1)  # Percus-Yevick, virial route
-const JAM_EOS_PY_COMPRESSIBILITY = Int32(2)  # Percus-Yevick, compressibility route
-const JAM_EOS_VIRIAL = Int32(3)  # series to the seventh coefficient
-const JAM_EOS_MK = Int32(4)  # 1 + 2^d phi / 2, exact for zeta infinite
-const JAM_EOS_FREE_VOLUME = Int32(5)  # glass: d / (1 - phi / jammed_fraction)
-const JAM_EOS_HENDERSON = Int32(6)  # d = 2: (1 + phi^2 / 8) / (1 - phi)^2
-const JAM_EOS_PADE = Int32(7)  # liquid, any d: Pade [4/5] of B_2 .. B_10 (J. Stat. Phys. 122, 15), where it rises
 
 # jam_energy_unit: Unit of the overlap x of a soft pair.
 const JAM_ENERGY_LENGTH = Int32(0)  # x = sigma_ij - r, unit of the box
@@ -295,12 +289,6 @@ const JAM_MODES_ALL = Int32(3)  # all d N', translations among them; dense, 24 (
 const JAM_MODE_LAMBDA = Int32(0)  # lambda = omega^2
 const JAM_MODE_PARTICIPATION = Int32(1)  # inverse participation ratio, sum |v_i|^4 / (sum |v_i|^2)^2
 
-# jam_candidate_column: Columns of jam_contact_candidates.
-const JAM_CANDIDATE_LIMIT = Int32(0)  # tolerance on |h|
-const JAM_CANDIDATE_JUMP = Int32(1)  # ratio of the gaps above and below it
-const JAM_CANDIDATE_CONTACTS = Int32(2)  # contacts within it on spheres that can balance
-const JAM_CANDIDATE_EXCESS = Int32(3)  # contacts - (d (N' - 1) + 1)
-
 # jam_rigidity_kind: Which motions must not open contacts.
 const JAM_RIGIDITY_COLLECTIVE = Int32(0)  # all motions of the spheres in a fixed cell
 const JAM_RIGIDITY_STRICT = Int32(1)  # and symmetric strains of the axes without walls that do not enlarge the volume
@@ -346,7 +334,7 @@ const JAM_CONTACT_LOCALISED = Int32(1)  # touches a buckler; without it: extende
 const JAM_CONTACT_SMALLEST = Int32(2)  # has the smallest force of one of its spheres
 const JAM_CONTACT_MEDIAN = Int32(4)  # has the (lower) median force of one of its spheres
 
-# jam_local_quantity: Quantity of which jam_local_values and jam_histogram take the values.
+# jam_local_quantity: Quantity of which jam_local_values takes the values.
 const JAM_LOCAL_FORCE = Int32(0)  # contacts: f over its mean in the population
 const JAM_LOCAL_VECTOR_SUM = Int32(1)  # stable spheres: |C_i|
 const JAM_LOCAL_VECTOR_PAIRS = Int32(2)  # stable spheres: S_i
@@ -389,7 +377,7 @@ const JAM_PORE_Z = Int32(2)  # of the point, NaN in d = 2
 const JAM_PORE_DISTANCE = Int32(3)  # to the nearest surface: radius of the largest sphere about the point
 const JAM_PORE_RADIUS = Int32(4)  # of the largest sphere that contains the point and no solid
 
-# jam_floppy_column: Columns of jam_floppy_modes, one row per contact; dr is the field of jam_floppy_mode, and F the mean force. Openings have the unit of positions: divide by the diameter to compare packings of different N. B = sum_k f_k |dr_perp|^2 / r_k. S_RETURN is s* of R. Diaz Hernandez Rojas, PhD thesis, Sapienza 2021, whose index is twice stability.
+# jam_floppy_column: Columns of jam_floppy_modes, one row per mode; dr is its vector, and F the mean force. Openings have the unit of positions: divide by the diameter to compare packings of different N. B = sum_k f_k |dr_perp|^2 / r_k. S_RETURN is s* of R. Diaz Hernandez Rojas, PhD thesis, Sapienza 2021, whose index is twice stability.
 const JAM_FLOPPY_MEDIAN = Int32(0)  # b = median |dr_i| / |dr|: far below 1/sqrt(N') when the mode is localised
 const JAM_FLOPPY_WEIGHT = Int32(1)  # W = f / median |dr_i|: f equals W times the displacement far away
 const JAM_FLOPPY_S_PLUS = Int32(2)  # opening at which, to first order, the next contact forms
@@ -411,7 +399,7 @@ const JAM_DOS_CUMULATIVE_ERROR = Int32(5)  # its standard error
 Given to the progress callback; valid during the call only. NaN: not known.
 
 - `phase`: one of `:run`, `:compress`, `:crunch`, `:polish`, `:analyse`, `:relax`, `:decompress`, `:monte_carlo`,
-  `:isoconfigurational`, `:create`
+  `:isoconf`, `:create`
 - `packing_fraction`: now
 - `pressure`: MD: reduced pressure of the last window
 - `gain`: crunch: sqrt(Gamma) - 1 of the last LP; on the barrier path its duality gap
@@ -532,7 +520,7 @@ What the system is now.
 - `monodisperse`: Bool; all diameters are equal
 - `masses`: one of `:equal`, `:volume`
 - `paused`: one of `:run`, `:compress`, `:crunch`, `:polish`, `:analyse`, `:relax`, `:decompress`, `:monte_carlo`,
-  `:isoconfigurational`, `:create`; of what was stopped early and can continue (crunch: by `crunch!`), or 0
+  `:isoconf`, `:create`; of what was stopped early and can continue (crunch: by `crunch!`), or 0
 - `non_additivity`: Delta of a non-additive mixture, 0 for additive diameters
 - `container`: one of `:brick`, `:cylinder`, `:ball`
 - `walls`: as in `jam_create_options`
@@ -761,28 +749,6 @@ mutable struct jam_observe_options
 end
 
 """
-    jam_glass
-
-A fit of the glass branch p = d' / (1 - phi/`phi_J`). Errors are standard errors.
-
-- `jammed_fraction`: `phi_J`
-- `jammed_error`: its error
-- `dimension`: d', free, near d for a good glass
-- `dimension_error`: its error
-- `r_squared`: of the straight line 1/p against phi
-"""
-mutable struct jam_glass
-    struct_size::UInt32
-    reserved::Int32
-    jammed_fraction::Cdouble  # phi_J
-    jammed_error::Cdouble  # its error
-    dimension::Cdouble  # d', free, near d for a good glass
-    dimension_error::Cdouble  # its error
-    r_squared::Cdouble  # of the straight line 1/p against phi
-    jam_glass() = new(48, 0, 0, 0, 0, 0, 0)
-end
-
-"""
     jam_monte_carlo_options
 
 Metropolis Monte Carlo at constant volume. A sweep is one trial of each sphere.
@@ -860,7 +826,7 @@ end
 """
     jam_isoconf_options
 
-Options of `isoconfigurational`.
+Options of `isoconf`.
 
 - `threads`: 1 .. 64, default 1; the bits do not depend on it
 - `clock`: one of `:collisions`, `:time`; default `:collisions`
@@ -952,7 +918,7 @@ of CALiPPSO.jl beside each.
 - `neighbour_radius`: an LP has the pairs of gap < this - the largest diameter; 0, the default: adapts
 - `step_bound`: bound on each |`s_i`| component, 1e-15 .. 1000; 0, the default: adapts
 - `wall_time`: limit of the call
-- `steps`: Bool; the callback is called at every step and may call `jam_crunch_step_`...; default 0
+- `steps`: Bool; the callback is called at every step and may call `crunch_step`; default 0
 - `full_lps`: Bool; every LP is solved to `lp_tolerance`, so that its network balances; default 0
 - `strain`: one of `:none`, `:edges`, `:tilts`, `:free`, `:volume`, `:edges_volume`, `:tilts_volume`, `:all`; default
   `:none`
@@ -973,7 +939,7 @@ mutable struct jam_crunch_options
     neighbour_radius::Cdouble  # an LP has the pairs of gap < this - the largest diameter; 0, the default: adapts
     step_bound::Cdouble  # bound on each |s_i| component, 1e-15 .. 1000; 0, the default: adapts
     wall_time::Cdouble  # limit of the call
-    steps::Int32  # 1: the callback is called at every step and may call jam_crunch_step_*; default 0
+    steps::Int32  # 1: the callback is called at every step and may call jam_crunch_step; default 0
     full_lps::Int32  # 1: every LP is solved to lp_tolerance, so that its network balances; default 0
     strain::Int32  # jam_free_strain, default NONE
     keep_steps::Int32  # states before the end that are kept for jam_write_page, 0 .. 1000, default 0
@@ -1108,7 +1074,7 @@ mutable struct jam_crunch_report
 end
 
 """
-    jam_estimate
+    jam_estimate_report
 
 Memory and time of a crunch, estimated from the graph of pairs and its elimination tree.
 
@@ -1122,7 +1088,7 @@ Memory and time of a crunch, estimated from the graph of pairs and its eliminati
 - `seconds_low`:
 - `seconds_high`:
 """
-mutable struct jam_estimate
+mutable struct jam_estimate_report
     struct_size::UInt32
     reserved::Int32
     pairs::Int64  # of the longest neighbour list
@@ -1134,7 +1100,7 @@ mutable struct jam_estimate
     seconds::Cdouble  # the product of both
     seconds_low::Cdouble
     seconds_high::Cdouble
-    jam_estimate() = new(80, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
+    jam_estimate_report() = new(80, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
 end
 
 """
@@ -1789,7 +1755,7 @@ mutable struct jam_moduli_report
 end
 
 """
-    jam_comparison
+    jam_comparison_report
 
 What `compare` found between sys, a, and other, b. Contacts are -1 and overlaps NaN where one has no network.
 
@@ -1803,7 +1769,7 @@ What `compare` found between sys, a, and other, b. Contacts are -1 and overlaps 
 - `displacement_rms`: of these (or all) without their mean, in mean diameters of sys
 - `displacement_max`: of these (or all) without their mean, in mean diameters of sys
 """
-mutable struct jam_comparison
+mutable struct jam_comparison_report
     struct_size::UInt32
     reserved::Int32
     contacts_a::Int64  # of sys
@@ -1815,7 +1781,7 @@ mutable struct jam_comparison
     packing_fraction_change::Cdouble  # phi of other minus phi of sys
     displacement_rms::Cdouble  # of these (or all) without their mean, in mean diameters of sys
     displacement_max::Cdouble  # of these (or all) without their mean, in mean diameters of sys
-    jam_comparison() = new(80, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
+    jam_comparison_report() = new(80, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
 end
 
 """
@@ -1945,31 +1911,13 @@ function jam_get_info(sys, info)
 end
 
 """
-    jam_view_positions(sys, view, view_len)
+    jam_view(sys, array, view, view_len)
 
-View of positions (n, d) in [0, box), in other cells in the brick. The pointer stays valid as long as the handle. Its
-content changes only at the end of calls that move spheres.
+View of an array of the system. The pointer stays valid as long as the handle. Its content changes only at the end of
+calls that move spheres.
 """
-function jam_view_positions(sys, view, view_len)
-    return ccall(symbol(:jam_view_positions), Int32, (Ptr{Cvoid}, Ref{Ptr{Cdouble}}, Ref{Csize_t}), sys, view, view_len)
-end
-
-"""
-    jam_view_diameters(sys, view, view_len)
-
-View of the n diameters; lifetime as `jam_view_positions`.
-"""
-function jam_view_diameters(sys, view, view_len)
-    return ccall(symbol(:jam_view_diameters), Int32, (Ptr{Cvoid}, Ref{Ptr{Cdouble}}, Ref{Csize_t}), sys, view, view_len)
-end
-
-"""
-    jam_view_velocities(sys, view, view_len)
-
-View of velocities (n, d), kT/m = 1; zero until the first MD call draws them. Lifetime as `jam_view_positions`.
-"""
-function jam_view_velocities(sys, view, view_len)
-    return ccall(symbol(:jam_view_velocities), Int32, (Ptr{Cvoid}, Ref{Ptr{Cdouble}}, Ref{Csize_t}), sys, view, view_len)
+function jam_view(sys, array, view, view_len)
+    return ccall(symbol(:jam_view), Int32, (Ptr{Cvoid}, Int32, Ref{Ptr{Cdouble}}, Ref{Csize_t}), sys, array, view, view_len)
 end
 
 """
@@ -2098,17 +2046,6 @@ Errors: `JAM_E_IO`, `JAM_E_FORMAT` (the text names the line).
 """
 function jam_parse_diameters(text, o, curve, curve_len, needed)
     return ccall(symbol(:jam_parse_diameters), Int32, (Cstring, Ref{jam_diameters_options}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), text, _ref(jam_diameters_options, o), _ptr(curve), curve_len, _ref(Csize_t, needed))
-end
-
-"""
-    jam_cell_volume(dim, cell, cell_len, volume)
-
-volume of a cell of d = dim vectors, row after row, with a positive determinant.
-Shapes: cell (m).
-Errors: `JAM_E_DIMENSION`.
-"""
-function jam_cell_volume(dim, cell, cell_len, volume)
-    return ccall(symbol(:jam_cell_volume), Int32, (Int32, Ptr{Cdouble}, Csize_t, Ref{Cdouble}), dim, _ptr(cell), cell_len, _ref(Cdouble, volume))
 end
 
 """
@@ -2433,27 +2370,6 @@ function jam_observed_correlation(sys, columns, table, table_len, needed)
 end
 
 """
-    jam_eos(form, dim, packing_fraction, jammed_fraction, pressure)
-
-pressure of a form.
-Errors: `JAM_E_DIMENSION`, `JAM_E_UNSUPPORTED`.
-"""
-function jam_eos(form, dim, packing_fraction, jammed_fraction, pressure)
-    return ccall(symbol(:jam_eos), Int32, (Int32, Int32, Cdouble, Cdouble, Ref{Cdouble}), form, dim, packing_fraction, jammed_fraction, _ref(Cdouble, pressure))
-end
-
-"""
-    jam_glass_fit(fraction, fraction_len, pressure, pressure_len, fit)
-
-Least squares on 1/pressure against fraction, at least 3 points; the line must fall.
-Shapes: fraction (m), pressure (m).
-Errors: `JAM_E_TOO_FEW`.
-"""
-function jam_glass_fit(fraction, fraction_len, pressure, pressure_len, fit)
-    return ccall(symbol(:jam_glass_fit), Int32, (Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{jam_glass}), _ptr(fraction), fraction_len, _ptr(pressure), pressure_len, _ref(jam_glass, fit))
-end
-
-"""
     jam_monte_carlo_options_init(o, size)
 """
 function jam_monte_carlo_options_init(o, size)
@@ -2481,7 +2397,7 @@ function jam_isoconf_options_init(o, size)
 end
 
 """
-    jam_isoconfigurational(sys, o, m, instant, instant_len, kept, kept_len, report)
+    jam_isoconf(sys, o, m, instant, instant_len, kept, kept_len, report)
 
 Isoconfigurational ensemble (Widmer-Cooper et al., Phys. Rev. Lett. 93, 135701 (2004)): runs from the packing as it
 is, with all diameters scaled to `density_ratio`; one whose gaps are rounding is refused. Run k draws its velocities
@@ -2493,8 +2409,8 @@ sums in the order of their numbers. An early stop keeps the runs that were made;
 Shapes: instant (instants), kept (k).
 Errors: `JAM_E_STATE` (nothing to resume, or not the same), `JAM_E_OVERLAP`, `JAM_E_UNSUPPORTED`.
 """
-function jam_isoconfigurational(sys, o, m, instant, instant_len, kept, kept_len, report)
-    return ccall(symbol(:jam_isoconfigurational), Int32, (Ptr{Cvoid}, Ref{jam_isoconf_options}, Ref{jam_monte_carlo_options}, Ptr{Cdouble}, Csize_t, Ptr{Int32}, Csize_t, Ref{jam_isoconf_report}), sys, _ref(jam_isoconf_options, o), _ref(jam_monte_carlo_options, m), _ptr(instant), instant_len, _ptr(kept), kept_len, _ref(jam_isoconf_report, report))
+function jam_isoconf(sys, o, m, instant, instant_len, kept, kept_len, report)
+    return ccall(symbol(:jam_isoconf), Int32, (Ptr{Cvoid}, Ref{jam_isoconf_options}, Ref{jam_monte_carlo_options}, Ptr{Cdouble}, Csize_t, Ptr{Int32}, Csize_t, Ref{jam_isoconf_report}), sys, _ref(jam_isoconf_options, o), _ref(jam_monte_carlo_options, m), _ptr(instant), instant_len, _ptr(kept), kept_len, _ref(jam_isoconf_report, report))
 end
 
 """
@@ -2576,14 +2492,14 @@ function jam_crunch(sys, o, report)
 end
 
 """
-    jam_estimate_crunch(sys, o, estimated)
+    jam_estimate_crunch(sys, o, report)
 
 Estimates memory and time of `jam_crunch` with these options (NULL: defaults) without running it; `jam_crunch` logs the
 same at `JAM_LOG_INFO`. Takes as long as a few steps.
 Errors: `JAM_E_OVERLAP`, `JAM_E_TOO_FEW`.
 """
-function jam_estimate_crunch(sys, o, estimated)
-    return ccall(symbol(:jam_estimate_crunch), Int32, (Ptr{Cvoid}, Ref{jam_crunch_options}, Ref{jam_estimate}), sys, _ref(jam_crunch_options, o), _ref(jam_estimate, estimated))
+function jam_estimate_crunch(sys, o, report)
+    return ccall(symbol(:jam_estimate_crunch), Int32, (Ptr{Cvoid}, Ref{jam_crunch_options}, Ref{jam_estimate_report}), sys, _ref(jam_crunch_options, o), _ref(jam_estimate_report, report))
 end
 
 """
@@ -2608,50 +2524,18 @@ function jam_crunch_history(sys, columns, table, table_len, needed)
 end
 
 """
-    jam_crunch_step_displacements(sys, out, out_len, needed)
+    jam_crunch_step(sys, displacement, displacement_len, pair, pair_len, vector, vector_len, dual, dual_len, rows)
 
-Displacements of all spheres in the step that has just ended, unit of box, images followed. Their sum over the steps
-leads from the start to the end. This call and the next three work only in the progress callback of `jam_crunch` with
-steps = 1, when a step has just ended.
-Shapes: out (n, d).
+The step that has just ended, in the progress callback of `jam_crunch` with steps = 1 alone. displacement: of all
+spheres, unit of box, images followed; over all steps they lead from the start to the end. The others are the linear
+contact network of an LP, pairs of rows with a positive dual, rattlers included; other steps have none. `*rows` = m.
+vector: `r_ij` before the step. dual: lambda, `sum_j` `lambda_ij` `r_ij` = 0 on every sphere without an active step bound,
+and sum `lambda_ij` `sigma_ij`^2 = 1 with the diameters before the step.
+Shapes: displacement (n, d), pair (m, 2), vector (m, d), dual (m).
 Errors: `JAM_E_STATE`.
 """
-function jam_crunch_step_displacements(sys, out, out_len, needed)
-    return ccall(symbol(:jam_crunch_step_displacements), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(out), out_len, _ref(Csize_t, needed))
-end
-
-"""
-    jam_crunch_step_contacts(sys, out, out_len, needed)
-
-Linear contact network of an LP step: pairs of rows with a positive dual, rattlers included. Other steps have none.
-Shapes: out (m, 2).
-Errors: `JAM_E_STATE`.
-"""
-function jam_crunch_step_contacts(sys, out, out_len, needed)
-    return ccall(symbol(:jam_crunch_step_contacts), Int32, (Ptr{Cvoid}, Ptr{Int32}, Csize_t, Ref{Csize_t}), sys, _ptr(out), out_len, _ref(Csize_t, needed))
-end
-
-"""
-    jam_crunch_step_vectors(sys, out, out_len, needed)
-
-`r_ij` of these pairs before the step, unit of box.
-Shapes: out (m, d).
-Errors: `JAM_E_STATE`.
-"""
-function jam_crunch_step_vectors(sys, out, out_len, needed)
-    return ccall(symbol(:jam_crunch_step_vectors), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(out), out_len, _ref(Csize_t, needed))
-end
-
-"""
-    jam_crunch_step_duals(sys, out, out_len, needed)
-
-Duals lambda of these pairs: `sum_j` `lambda_ij` `r_ij` = 0 on every sphere without an active step bound, and sum `lambda_ij`
-`sigma_ij`^2 = 1 with the diameters before the step.
-Shapes: out (m).
-Errors: `JAM_E_STATE`.
-"""
-function jam_crunch_step_duals(sys, out, out_len, needed)
-    return ccall(symbol(:jam_crunch_step_duals), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(out), out_len, _ref(Csize_t, needed))
+function jam_crunch_step(sys, displacement, displacement_len, pair, pair_len, vector, vector_len, dual, dual_len, rows)
+    return ccall(symbol(:jam_crunch_step), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ptr{Int32}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(displacement), displacement_len, _ptr(pair), pair_len, _ptr(vector), vector_len, _ptr(dual), dual_len, _ref(Csize_t, rows))
 end
 
 """
@@ -2868,18 +2752,6 @@ function jam_contacts_by_distance(sys, gap)
 end
 
 """
-    jam_contact_candidates(sys, window, columns, table, table_len, needed)
-
-Candidates for the contact tolerance, for packings where no jump is clear; m is at most 12. A candidate is a jump of
-the sorted gaps below window, as in `jam_geometry_options`, with enough contacts for a rigid network below it. The
-largest jump comes first.
-Shapes: table (m, `jam_candidate_column`).
-"""
-function jam_contact_candidates(sys, window, columns, table, table_len, needed)
-    return ccall(symbol(:jam_contact_candidates), Int32, (Ptr{Cvoid}, Cdouble, Int32, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, window, columns, _ptr(table), table_len, _ref(Csize_t, needed))
-end
-
-"""
     jam_stress_states(sys, force, force_len, basis, basis_len, residual, rows)
 
 States of self-stress of the network: `*rows` = their number m; force, mean 1, from the null space of S^T, not from LP
@@ -2969,31 +2841,22 @@ function jam_check_text(report)
 end
 
 """
-    jam_prove(sys, ratio, ratio_len, report)
+    jam_prove(sys, kind, ratio, ratio_len, report)
 
 Proves, despite rounding, that the packing is jammed. Contacts and forces are those of the network. Newton's
 steps take the centres to two doubles (`jam_refined_positions`). A factorisation with a bound of its rounding gives the
 smallest singular value, and Kantorovich's theorem the rest: the guide's page "Proofs" has theorems and limits.
-ratio: the exact ratios of the diameters, in any unit; NULL takes the diameters as they are. Status: `JAM_OK` proved
-exact or trapped, `JAM_AMBIGUOUS` not proved (`jam_last_error` names the cause).
+`JAM_RIGIDITY_STRICT`: the cell deforms too, its vectors are unknowns and the diameters are fixed. EXACT: strictly
+jammed, and the volume is a strict local minimum. TRAPPED: of all motions and strains that do not enlarge the volume.
+Lengths of the report count displacements and entries of the cell vectors alike, `packing_fraction` is that of the
+exact cell. ratio: the exact ratios of the diameters, in any unit, of `JAM_RIGIDITY_COLLECTIVE` alone; NULL takes the
+diameters as they are. Status: `JAM_OK` proved exact or trapped, `JAM_AMBIGUOUS` not proved (`jam_last_error` names the
+cause).
 Shapes: ratio (n).
 Errors: `JAM_E_STATE` (no network), `JAM_E_UNSUPPORTED` (Mari-Kurchan model).
 """
-function jam_prove(sys, ratio, ratio_len, report)
-    return ccall(symbol(:jam_prove), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ref{jam_proof_report}), sys, _ptr(ratio), ratio_len, _ref(jam_proof_report, report))
-end
-
-"""
-    jam_prove_strict(sys, report)
-
-The same where the cell deforms too: the diameters are fixed, and the cell vectors are unknowns. EXACT: strictly
-jammed, and the volume is a strict local minimum. TRAPPED: of all motions and strains that do not enlarge the volume.
-Lengths of the report count displacements and entries of the cell vectors alike, `packing_fraction` is that of the
-exact cell. Status: `JAM_AMBIGUOUS` not proved.
-Errors: `JAM_E_STATE` (no network), `JAM_E_UNSUPPORTED`.
-"""
-function jam_prove_strict(sys, report)
-    return ccall(symbol(:jam_prove_strict), Int32, (Ptr{Cvoid}, Ref{jam_proof_report}), sys, _ref(jam_proof_report, report))
+function jam_prove(sys, kind, ratio, ratio_len, report)
+    return ccall(symbol(:jam_prove), Int32, (Ptr{Cvoid}, Int32, Ptr{Cdouble}, Csize_t, Ref{jam_proof_report}), sys, kind, _ptr(ratio), ratio_len, _ref(jam_proof_report, report))
 end
 
 """
@@ -3008,26 +2871,16 @@ function jam_proof_text(theorem, cause, radius, value, bound)
 end
 
 """
-    jam_write_proof(sys, path, ratio, ratio_len)
+    jam_write_proof(sys, path, kind, ratio, ratio_len)
 
-Writes the exact numbers of the proof: refined centres, contacts, forces. bindings/proof/jamproof.py checks such a
-file with integers alone, without libjam. ratio: as for `jam_prove`. The file appears whole or not at all. Status:
-`JAM_AMBIGUOUS` (dependent contacts: centres are not refined).
+Writes the exact numbers of the proof: refined centres, contacts, forces, and of `JAM_RIGIDITY_STRICT` the refined
+cell. bindings/proof/jamproof.py checks such a file with integers alone, without libjam. kind, ratio: as for
+`jam_prove`. The file appears whole or not at all. Status: `JAM_AMBIGUOUS` (dependent contacts: centres are not refined).
 Shapes: ratio (n).
 Errors: `JAM_E_STATE`, `JAM_E_UNSUPPORTED`, `JAM_E_IO`.
 """
-function jam_write_proof(sys, path, ratio, ratio_len)
-    return ccall(symbol(:jam_write_proof), Int32, (Ptr{Cvoid}, Cstring, Ptr{Cdouble}, Csize_t), sys, path, _ptr(ratio), ratio_len)
-end
-
-"""
-    jam_write_proof_strict(sys, path)
-
-The same of `jam_prove_strict`: refined centres and cell.
-Errors: `JAM_E_STATE`, `JAM_E_UNSUPPORTED`, `JAM_E_IO`.
-"""
-function jam_write_proof_strict(sys, path)
-    return ccall(symbol(:jam_write_proof_strict), Int32, (Ptr{Cvoid}, Cstring), sys, path)
+function jam_write_proof(sys, path, kind, ratio, ratio_len)
+    return ccall(symbol(:jam_write_proof), Int32, (Ptr{Cvoid}, Cstring, Int32, Ptr{Cdouble}, Csize_t), sys, path, kind, _ptr(ratio), ratio_len)
 end
 
 """
@@ -3111,18 +2964,6 @@ function jam_local_values(sys, quantity, population, out, out_len, needed)
 end
 
 """
-    jam_histogram(sys, quantity, population, low, high, bins, out, out_len, needed)
-
-Histogram of the values of `jam_local_values`: density in `bins` equal bins of [low, high), its integral the share of
-values there.
-Shapes: out (bins).
-Errors: `JAM_E_STATE`.
-"""
-function jam_histogram(sys, quantity, population, low, high, bins, out, out_len, needed)
-    return ccall(symbol(:jam_histogram), Int32, (Ptr{Cvoid}, Int32, Int32, Cdouble, Cdouble, Int64, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, quantity, population, low, high, bins, _ptr(out), out_len, _ref(Csize_t, needed))
-end
-
-"""
     jam_correlation_options_init(o, size)
 """
 function jam_correlation_options_init(o, size)
@@ -3171,16 +3012,6 @@ Shapes: out (n).
 """
 function jam_bond_order(sys, l, cutoff, out, out_len, needed)
     return ccall(symbol(:jam_bond_order), Int32, (Ptr{Cvoid}, Int32, Cdouble, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, l, cutoff, _ptr(out), out_len, _ref(Csize_t, needed))
-end
-
-"""
-    jam_crystal_score(sys, score)
-
-Crystal score: g at sqrt 2 over its mean in 1.2..1.6 (mean diameters); below 1 in a good glass of equal spheres,
-about 10 in a perfect FCC crystal.
-"""
-function jam_crystal_score(sys, score)
-    return ccall(symbol(:jam_crystal_score), Int32, (Ptr{Cvoid}, Ref{Cdouble}), sys, _ref(Cdouble, score))
 end
 
 """
@@ -3279,27 +3110,17 @@ function jam_pore_sizes(sys, points, seed, columns, table, table_len, needed)
 end
 
 """
-    jam_floppy_mode(sys, contact, out, out_len, needed)
+    jam_floppy_modes(sys, contact, contact_len, columns, table, table_len, vector, vector_len, rows)
 
-Floppy mode: displacement over s when a contact opens by s. To first order all other contacts stay closed, all
-diameters change by the factor 1 - s f / sum f sigma, and there is no net translation. contact in 0..`n_c`-1. Needs a
-single state of self-stress (`JAM_E_STATE` says how many there are).
-Shapes: out (N', d).
+Floppy modes of contacts given by their indices, or of all, contact = NULL; `*rows` = their number m. vector:
+displacement over s when the contact opens by s. To first order all other contacts stay closed, all diameters change
+by the factor 1 - s f / sum f sigma, and there is no net translation. Needs a single state of self-stress
+(`JAM_E_STATE` says how many there are).
+Shapes: contact (k), table (m, `jam_floppy_column`), vector (m, N', d).
 Errors: `JAM_E_STATE`, `JAM_E_SOLVER`.
 """
-function jam_floppy_mode(sys, contact, out, out_len, needed)
-    return ccall(symbol(:jam_floppy_mode), Int32, (Ptr{Cvoid}, Int64, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, contact, _ptr(out), out_len, _ref(Csize_t, needed))
-end
-
-"""
-    jam_floppy_modes(sys, columns, table, table_len, needed)
-
-The floppy mode of every contact, measured.
-Shapes: table (`n_c`, `jam_floppy_column`).
-Errors: `JAM_E_STATE`, `JAM_E_SOLVER`.
-"""
-function jam_floppy_modes(sys, columns, table, table_len, needed)
-    return ccall(symbol(:jam_floppy_modes), Int32, (Ptr{Cvoid}, Int32, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, columns, _ptr(table), table_len, _ref(Csize_t, needed))
+function jam_floppy_modes(sys, contact, contact_len, columns, table, table_len, vector, vector_len, rows)
+    return ccall(symbol(:jam_floppy_modes), Int32, (Ptr{Cvoid}, Ptr{Int64}, Csize_t, Int32, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(contact), contact_len, columns, _ptr(table), table_len, _ptr(vector), vector_len, _ref(Csize_t, rows))
 end
 
 """
@@ -3323,37 +3144,14 @@ function jam_density_of_states(sys, h, o, columns, table, table_len, needed)
 end
 
 """
-    jam_project(sys, vector, vector_len, u, u_len, out, out_len, needed)
-
-Projections u . v of a displacement u on the modes `vector` of `jam_modes`. Over all d N' modes their squares add up to
-|u|^2.
-Shapes: vector (m, N', d), u (N', d), out (m).
-Errors: `JAM_E_STATE`.
-"""
-function jam_project(sys, vector, vector_len, u, u_len, out, out_len, needed)
-    return ccall(symbol(:jam_project), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(vector), vector_len, _ptr(u), u_len, _ptr(out), out_len, _ref(Csize_t, needed))
-end
-
-"""
-    jam_curvature(sys, h, u, u_len, value)
-
-value = u . H . u for a displacement u.
-Shapes: u (N', d).
-Errors: `JAM_E_STATE`.
-"""
-function jam_curvature(sys, h, u, u_len, value)
-    return ccall(symbol(:jam_curvature), Int32, (Ptr{Cvoid}, Ref{jam_hessian_options}, Ptr{Cdouble}, Csize_t, Ref{Cdouble}), sys, _ref(jam_hessian_options, h), _ptr(u), u_len, _ref(Cdouble, value))
-end
-
-"""
-    jam_moduli(sys, h, moduli)
+    jam_moduli(sys, h, report)
 
 Elastic moduli; `JAM_E_STATE` also when prestress makes the network unstable. With walls bulk is NaN, and shear is that
 of planes of two axes without walls.
 Errors: `JAM_E_STATE`, `JAM_E_SOLVER`, `JAM_E_UNSUPPORTED` (not two such axes; unlisted own images).
 """
-function jam_moduli(sys, h, moduli)
-    return ccall(symbol(:jam_moduli), Int32, (Ptr{Cvoid}, Ref{jam_hessian_options}, Ref{jam_moduli_report}), sys, _ref(jam_hessian_options, h), _ref(jam_moduli_report, moduli))
+function jam_moduli(sys, h, report)
+    return ccall(symbol(:jam_moduli), Int32, (Ptr{Cvoid}, Ref{jam_hessian_options}, Ref{jam_moduli_report}), sys, _ref(jam_hessian_options, h), _ref(jam_moduli_report, report))
 end
 
 """
@@ -3378,5 +3176,5 @@ ratios of diameters differ, or one of the two has no network.
 Shapes: out (n, d).
 """
 function jam_compare(sys, other, comparison, out, out_len, needed)
-    return ccall(symbol(:jam_compare), Int32, (Ptr{Cvoid}, Ptr{Cvoid}, Ref{jam_comparison}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, other, _ref(jam_comparison, comparison), _ptr(out), out_len, _ref(Csize_t, needed))
+    return ccall(symbol(:jam_compare), Int32, (Ptr{Cvoid}, Ptr{Cvoid}, Ref{jam_comparison_report}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, other, _ref(jam_comparison_report, comparison), _ptr(out), out_len, _ref(Csize_t, needed))
 end

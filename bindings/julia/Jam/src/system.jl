@@ -160,18 +160,18 @@ end
 
 # ---- state
 
-function view_of(s::System, f)
+function view_of(s::System, array)
     p, count = Ref{Ptr{Cdouble}}(C_NULL), Ref{Csize_t}(0)
-    check(f(handle(s), p, count))
+    check(jam_view(handle(s), array, p, count))
     return GC.@preserve s copy(unsafe_wrap(Array, p[], Int(count[])))
 end
 
 "d-by-n copy of the positions, in [0, box) of a cube, in other cells in the brick of the cell's diagonal."
-positions(s::System) = reshape(view_of(s, jam_view_positions), Int(info(s).dim), :)
+positions(s::System) = reshape(view_of(s, JAM_VIEW_POSITIONS), Int(info(s).dim), :)
 "d-by-n copy of the velocities, kT/m = 1; zero until a first run draws them."
-velocities(s::System) = reshape(view_of(s, jam_view_velocities), Int(info(s).dim), :)
+velocities(s::System) = reshape(view_of(s, JAM_VIEW_VELOCITIES), Int(info(s).dim), :)
 "Copy of the n diameters."
-diameters(s::System) = view_of(s, jam_view_diameters)
+diameters(s::System) = view_of(s, JAM_VIEW_DIAMETERS)
 "Copy of the n radii."
 radii(s::System) = diameters(s) ./ 2
 

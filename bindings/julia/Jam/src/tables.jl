@@ -4,11 +4,12 @@
 const WORDS = (
     status_code = (ok = 0, cancelled = 1, limit = 2, not_converged = 3, precision = 4, not_jammed = 5, ambiguous = 6, null = -1, struct_size = -2, argument = -3, dimension = -4, nonfinite = -5, overlap = -6, unplaceable = -7, buffer = -8, memory = -9, io = -10, format = -11, state = -12, solver = -13, too_few = -14, busy = -15, unsupported = -16, internal = -17,),
     stop_reason = (none = 0, pressure = 1, packing_fraction = 2, collisions = 3, wall_time = 4, cancelled = 5, stalled = 6, precision = 7, converged = 8, lp_limit = 9, solver = 10, unjammed = 11, time = 12, evaluations = 13, steps = 14, saddle = 15, duality_gap = 16,),
-    phase = (run = 1, compress = 2, crunch = 3, polish = 4, analyse = 5, relax = 6, decompress = 7, monte_carlo = 8, isoconfigurational = 9, create = 10,),
+    phase = (run = 1, compress = 2, crunch = 3, polish = 4, analyse = 5, relax = 6, decompress = 7, monte_carlo = 8, isoconf = 9, create = 10,),
     overlap_policy = (refuse = 0, shrink = 1, allow = 2,),
     model = (euclid = 0, mk = 1,),
     masses = (equal = 0, volume = 1,),
     container = (brick = 0, cylinder = 1, ball = 2,),
+    view_array = (positions = 0, diameters = 1, velocities = 2,),
     wall_column = (axis = 0, side = 1, area = 2, pressure = 3, gap = 4, stress = 5,),
     size_law = (equal = 0, list = 1, uniform = 2, normal = 3, lognormal = 4, power = 5, weibull = 6, sieve = 7,),
     size_share = (usual = 0, number = 1, volume = 2,),
@@ -21,7 +22,6 @@ const WORDS = (
     series_column = (time = 0, collisions = 1, fraction = 2, pressure = 3, error = 4, msd = 5,),
     gap_column = (low = 0, high = 1, density = 2, error = 3,),
     correlation_column = (r = 0, g = 1,),
-    eos_form = (carnahan_starling = 0, py_virial = 1, py_compressibility = 2, virial = 3, mk = 4, free_volume = 5, henderson = 6, pade = 7,),
     energy_unit = (length = 0, relative = 1,),
     clock = (collisions = 0, time = 1,),
     isoconf_column = (time = 0, time2 = 1, msd = 2, msd2 = 3, scattering = 4, scattering2 = 5, overlap = 6, overlap2 = 7, energy = 8, energy2 = 9, velocity = 10, collisions = 11, pressure = 12, runs = 13,),
@@ -37,7 +37,6 @@ const WORDS = (
     stiffness = (harmonic = 0, power = 1, hard = 2, soft = 3,),
     modes_which = (lowest = 0, highest = 1, near = 2, all = 3,),
     mode_column = (lambda = 0, participation = 1,),
-    candidate_column = (limit = 0, jump = 1, contacts = 2, excess = 3,),
     rigidity_kind = (collective = 0, strict = 1,),
     verdict = (untested = -1, no = 0, yes = 1, undecided = 2,),
     bloch_column = (flexes = 0, margin = 1,),
@@ -160,12 +159,6 @@ const CALLS = Dict{Symbol, Call}(
         Argument(:curve_len, :len, Csize_t, String[], :none, false),
         Argument(:needed, :scalar_out, Csize_t, String[], :none, false),
     ]),
-    :jam_cell_volume => Call(jam_cell_volume, false, true, [
-        Argument(:dim, :scalar, Int32, String[], :none, false),
-        Argument(:cell, :array_in, Cdouble, ["m"], :none, false),
-        Argument(:cell_len, :len, Csize_t, String[], :none, false),
-        Argument(:volume, :scalar_out, Cdouble, String[], :none, false),
-    ]),
     :jam_get_size_report => Call(jam_get_size_report, false, true, [
         Argument(:dim, :scalar, Int32, String[], :none, false),
         Argument(:diameters, :array_in, Cdouble, ["n"], :none, false),
@@ -253,25 +246,11 @@ const CALLS = Dict{Symbol, Call}(
         Argument(:table_len, :len, Csize_t, String[], :none, false),
         Argument(:needed, :scalar_out, Csize_t, String[], :none, false),
     ]),
-    :jam_eos => Call(jam_eos, false, true, [
-        Argument(:form, :scalar, Int32, String[], :eos_form, false),
-        Argument(:dim, :scalar, Int32, String[], :none, false),
-        Argument(:packing_fraction, :scalar, Cdouble, String[], :none, false),
-        Argument(:jammed_fraction, :scalar, Cdouble, String[], :none, false),
-        Argument(:pressure, :scalar_out, Cdouble, String[], :none, false),
-    ]),
-    :jam_glass_fit => Call(jam_glass_fit, false, true, [
-        Argument(:fraction, :array_in, Cdouble, ["m"], :none, false),
-        Argument(:fraction_len, :len, Csize_t, String[], :none, false),
-        Argument(:pressure, :array_in, Cdouble, ["m"], :none, false),
-        Argument(:pressure_len, :len, Csize_t, String[], :none, false),
-        Argument(:fit, :struct_out, jam_glass, String[], :none, false),
-    ]),
     :jam_monte_carlo => Call(jam_monte_carlo, true, false, [
         Argument(:o, :struct_in, jam_monte_carlo_options, String[], :none, false),
         Argument(:report, :struct_out, jam_monte_carlo_report, String[], :none, false),
     ]),
-    :jam_isoconfigurational => Call(jam_isoconfigurational, true, false, [
+    :jam_isoconf => Call(jam_isoconf, true, false, [
         Argument(:o, :struct_in, jam_isoconf_options, String[], :none, false),
         Argument(:m, :struct_in, jam_monte_carlo_options, String[], :none, false),
         Argument(:instant, :array_in, Cdouble, ["instants"], :none, false),
@@ -318,7 +297,7 @@ const CALLS = Dict{Symbol, Call}(
     ]),
     :jam_estimate_crunch => Call(jam_estimate_crunch, true, true, [
         Argument(:o, :struct_in, jam_crunch_options, String[], :none, false),
-        Argument(:estimated, :struct_out, jam_estimate, String[], :none, false),
+        Argument(:report, :struct_out, jam_estimate_report, String[], :none, false),
     ]),
     :jam_get_crunch_report => Call(jam_get_crunch_report, true, true, [
         Argument(:report, :struct_out, jam_crunch_report, String[], :none, false),
@@ -329,25 +308,16 @@ const CALLS = Dict{Symbol, Call}(
         Argument(:table_len, :len, Csize_t, String[], :none, false),
         Argument(:needed, :scalar_out, Csize_t, String[], :none, false),
     ]),
-    :jam_crunch_step_displacements => Call(jam_crunch_step_displacements, true, true, [
-        Argument(:out, :array_out, Cdouble, ["n", "d"], :none, false),
-        Argument(:out_len, :len, Csize_t, String[], :none, false),
-        Argument(:needed, :scalar_out, Csize_t, String[], :none, false),
-    ]),
-    :jam_crunch_step_contacts => Call(jam_crunch_step_contacts, true, true, [
-        Argument(:out, :array_out, Int32, ["m", "2"], :none, true),
-        Argument(:out_len, :len, Csize_t, String[], :none, false),
-        Argument(:needed, :scalar_out, Csize_t, String[], :none, false),
-    ]),
-    :jam_crunch_step_vectors => Call(jam_crunch_step_vectors, true, true, [
-        Argument(:out, :array_out, Cdouble, ["m", "d"], :none, false),
-        Argument(:out_len, :len, Csize_t, String[], :none, false),
-        Argument(:needed, :scalar_out, Csize_t, String[], :none, false),
-    ]),
-    :jam_crunch_step_duals => Call(jam_crunch_step_duals, true, true, [
-        Argument(:out, :array_out, Cdouble, ["m"], :none, false),
-        Argument(:out_len, :len, Csize_t, String[], :none, false),
-        Argument(:needed, :scalar_out, Csize_t, String[], :none, false),
+    :jam_crunch_step => Call(jam_crunch_step, true, true, [
+        Argument(:displacement, :array_out, Cdouble, ["n", "d"], :none, false),
+        Argument(:displacement_len, :len, Csize_t, String[], :none, false),
+        Argument(:pair, :array_out, Int32, ["m", "2"], :none, true),
+        Argument(:pair_len, :len, Csize_t, String[], :none, false),
+        Argument(:vector, :array_out, Cdouble, ["m", "d"], :none, false),
+        Argument(:vector_len, :len, Csize_t, String[], :none, false),
+        Argument(:dual, :array_out, Cdouble, ["m"], :none, false),
+        Argument(:dual_len, :len, Csize_t, String[], :none, false),
+        Argument(:rows, :scalar_out, Csize_t, String[], :none, false),
     ]),
     :jam_relax => Call(jam_relax, true, false, [
         Argument(:o, :struct_in, jam_relax_options, String[], :none, false),
@@ -431,13 +401,6 @@ const CALLS = Dict{Symbol, Call}(
     :jam_contacts_by_distance => Call(jam_contacts_by_distance, true, false, [
         Argument(:gap, :scalar, Cdouble, String[], :none, false),
     ]),
-    :jam_contact_candidates => Call(jam_contact_candidates, true, true, [
-        Argument(:window, :scalar, Cdouble, String[], :none, false),
-        Argument(:columns, :columns, Int32, String[], :candidate_column, false),
-        Argument(:table, :array_out, Cdouble, ["m", "jam_candidate_column"], :candidate_column, false),
-        Argument(:table_len, :len, Csize_t, String[], :none, false),
-        Argument(:needed, :scalar_out, Csize_t, String[], :none, false),
-    ]),
     :jam_stress_states => Call(jam_stress_states, true, false, [
         Argument(:force, :array_out, Cdouble, ["n_c"], :none, false),
         Argument(:force_len, :len, Csize_t, String[], :none, false),
@@ -473,20 +436,16 @@ const CALLS = Dict{Symbol, Call}(
         Argument(:report, :struct_out, jam_check_report, String[], :none, false),
     ]),
     :jam_prove => Call(jam_prove, true, true, [
+        Argument(:kind, :scalar, Int32, String[], :rigidity_kind, false),
         Argument(:ratio, :array_in, Cdouble, ["n"], :none, false),
         Argument(:ratio_len, :len, Csize_t, String[], :none, false),
-        Argument(:report, :struct_out, jam_proof_report, String[], :none, false),
-    ]),
-    :jam_prove_strict => Call(jam_prove_strict, true, true, [
         Argument(:report, :struct_out, jam_proof_report, String[], :none, false),
     ]),
     :jam_write_proof => Call(jam_write_proof, true, true, [
         Argument(:path, :string, Cchar, String[], :none, false),
+        Argument(:kind, :scalar, Int32, String[], :rigidity_kind, false),
         Argument(:ratio, :array_in, Cdouble, ["n"], :none, false),
         Argument(:ratio_len, :len, Csize_t, String[], :none, false),
-    ]),
-    :jam_write_proof_strict => Call(jam_write_proof_strict, true, true, [
-        Argument(:path, :string, Cchar, String[], :none, false),
     ]),
     :jam_refined_positions => Call(jam_refined_positions, true, true, [
         Argument(:ratio, :array_in, Cdouble, ["n"], :none, false),
@@ -539,16 +498,6 @@ const CALLS = Dict{Symbol, Call}(
         Argument(:out_len, :len, Csize_t, String[], :none, false),
         Argument(:needed, :scalar_out, Csize_t, String[], :none, false),
     ]),
-    :jam_histogram => Call(jam_histogram, true, true, [
-        Argument(:quantity, :scalar, Int32, String[], :local_quantity, false),
-        Argument(:population, :scalar, Int32, String[], :population, false),
-        Argument(:low, :scalar, Cdouble, String[], :none, false),
-        Argument(:high, :scalar, Cdouble, String[], :none, false),
-        Argument(:bins, :scalar, Int64, String[], :none, false),
-        Argument(:out, :array_out, Cdouble, ["bins"], :none, false),
-        Argument(:out_len, :len, Csize_t, String[], :none, false),
-        Argument(:needed, :scalar_out, Csize_t, String[], :none, false),
-    ]),
     :jam_pair_correlation => Call(jam_pair_correlation, true, true, [
         Argument(:o, :struct_in, jam_correlation_options, String[], :none, false),
         Argument(:kind, :array_in, Int32, ["n"], :none, false),
@@ -577,9 +526,6 @@ const CALLS = Dict{Symbol, Call}(
         Argument(:out, :array_out, Cdouble, ["n"], :none, false),
         Argument(:out_len, :len, Csize_t, String[], :none, false),
         Argument(:needed, :scalar_out, Csize_t, String[], :none, false),
-    ]),
-    :jam_crystal_score => Call(jam_crystal_score, true, true, [
-        Argument(:score, :scalar_out, Cdouble, String[], :none, false),
     ]),
     :jam_local_fraction => Call(jam_local_fraction, true, true, [
         Argument(:out, :array_out, Cdouble, ["n"], :none, false),
@@ -625,17 +571,15 @@ const CALLS = Dict{Symbol, Call}(
         Argument(:table_len, :len, Csize_t, String[], :none, false),
         Argument(:needed, :scalar_out, Csize_t, String[], :none, false),
     ]),
-    :jam_floppy_mode => Call(jam_floppy_mode, true, false, [
-        Argument(:contact, :scalar, Int64, String[], :none, true),
-        Argument(:out, :array_out, Cdouble, ["N'", "d"], :none, false),
-        Argument(:out_len, :len, Csize_t, String[], :none, false),
-        Argument(:needed, :scalar_out, Csize_t, String[], :none, false),
-    ]),
     :jam_floppy_modes => Call(jam_floppy_modes, true, false, [
+        Argument(:contact, :array_in, Int64, ["k"], :none, true),
+        Argument(:contact_len, :len, Csize_t, String[], :none, false),
         Argument(:columns, :columns, Int32, String[], :floppy_column, false),
-        Argument(:table, :array_out, Cdouble, ["n_c", "jam_floppy_column"], :floppy_column, false),
+        Argument(:table, :array_out, Cdouble, ["m", "jam_floppy_column"], :floppy_column, false),
         Argument(:table_len, :len, Csize_t, String[], :none, false),
-        Argument(:needed, :scalar_out, Csize_t, String[], :none, false),
+        Argument(:vector, :array_out, Cdouble, ["m", "N'", "d"], :none, false),
+        Argument(:vector_len, :len, Csize_t, String[], :none, false),
+        Argument(:rows, :scalar_out, Csize_t, String[], :none, false),
     ]),
     :jam_density_of_states => Call(jam_density_of_states, true, false, [
         Argument(:h, :struct_in, jam_hessian_options, String[], :none, false),
@@ -645,24 +589,9 @@ const CALLS = Dict{Symbol, Call}(
         Argument(:table_len, :len, Csize_t, String[], :none, false),
         Argument(:needed, :scalar_out, Csize_t, String[], :none, false),
     ]),
-    :jam_project => Call(jam_project, true, true, [
-        Argument(:vector, :array_in, Cdouble, ["m", "N'", "d"], :none, false),
-        Argument(:vector_len, :len, Csize_t, String[], :none, false),
-        Argument(:u, :array_in, Cdouble, ["N'", "d"], :none, false),
-        Argument(:u_len, :len, Csize_t, String[], :none, false),
-        Argument(:out, :array_out, Cdouble, ["m"], :none, false),
-        Argument(:out_len, :len, Csize_t, String[], :none, false),
-        Argument(:needed, :scalar_out, Csize_t, String[], :none, false),
-    ]),
-    :jam_curvature => Call(jam_curvature, true, true, [
-        Argument(:h, :struct_in, jam_hessian_options, String[], :none, false),
-        Argument(:u, :array_in, Cdouble, ["N'", "d"], :none, false),
-        Argument(:u_len, :len, Csize_t, String[], :none, false),
-        Argument(:value, :scalar_out, Cdouble, String[], :none, false),
-    ]),
     :jam_moduli => Call(jam_moduli, true, false, [
         Argument(:h, :struct_in, jam_hessian_options, String[], :none, false),
-        Argument(:moduli, :struct_out, jam_moduli_report, String[], :none, false),
+        Argument(:report, :struct_out, jam_moduli_report, String[], :none, false),
     ]),
     :jam_elastic_tensor => Call(jam_elastic_tensor, true, false, [
         Argument(:h, :struct_in, jam_hessian_options, String[], :none, false),
@@ -674,7 +603,7 @@ const CALLS = Dict{Symbol, Call}(
     ]),
     :jam_compare => Call(jam_compare, true, true, [
         Argument(:other, :handle, Nothing, String[], :none, false),
-        Argument(:comparison, :struct_out, jam_comparison, String[], :none, false),
+        Argument(:comparison, :struct_out, jam_comparison_report, String[], :none, false),
         Argument(:out, :array_out, Cdouble, ["n", "d"], :none, false),
         Argument(:out_len, :len, Csize_t, String[], :none, false),
         Argument(:needed, :scalar_out, Csize_t, String[], :none, false),

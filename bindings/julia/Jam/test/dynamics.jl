@@ -14,7 +14,6 @@ end
 @test size(seen.spheres.displacement) == (2, 64) && length(seen.correlation.g) == 20
 @test run!(s; wall_time = 1e-9, collisions_per_particle = 1e6).status === :limit
 @test monte_carlo!(s; sweeps = 20).sweeps == 20
-@test eos(:carnahan_starling, 3, 0.3) ≈ (1 + 0.3 + 0.3^2 - 0.3^3) / 0.7^3
 
 t = System(n = 300, dim = 3, packing_fraction = 0.3)
 phases = Symbol[]

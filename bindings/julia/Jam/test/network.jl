@@ -28,7 +28,7 @@ values_, vectors = modes(s, 4)
 @test norm(vectors[:, 1]) ≈ 1 && vectors[:, 1]' * h * vectors[:, 1] ≈ values_[1]
 @test modes(s; which = :all).frequencies[end] ≈ sqrt(eigmax(Symmetric(h)))
 @test length(modes(s).values) == 10
-@test curvature(s, vectors[:, 2]) ≈ values_[2] rtol = 1e-6
+@test vectors[:, 2]' * h * vectors[:, 2] ≈ values_[2] rtol = 1e-6
 
 # Copies: their spectrum and their flexes from one cell.
 t = tile(s, (2, 1))
@@ -76,10 +76,9 @@ opening = [dot(n[:, k], floppy[:, place[c[1, k]]] - floppy[:, place[c[2, k]]]) f
 @test argmax(abs.(opening)) == 7
 @test length(floppy_modes(s)) == length(f)
 @test length(density_of_states(s; moments = 40, points = 50)) == 50
-@test length(contact_candidates(s, 0.1).limit) <= 12
 @test contacts_from_geometry!(copy(s)).contacts == length(f)
 @test local_values(s, :coordination, :all) == filter(>(0), coordination(s))
-@test sum(Jam.histogram(s, :force, :all, 0, 20, 10)) * 2 ≈ 1
+@test all(local_values(s, :force, :all) .≈ forces(s))
 @test sum(pair_correlation(s, 3, 60).g) > 0
 loose = System(n = 8, dim = 2)
 @test occursin("call crunch! or contacts_from_geometry! first", failure(() -> forces(loose)))

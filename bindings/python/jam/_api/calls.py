@@ -85,7 +85,7 @@ def _letters(handle: Any, dim: int) -> dict[str, Any]:
         except exceptions.StateError:
             return None  # the call itself says that there is none
 
-    return {} if handle is None else {"d": dim, "n": lambda: raw.jam_view_diameters(handle)[1][1], "N'": stable}
+    return {} if handle is None else {"d": dim, "n": lambda: raw.jam_view(handle, raw.JAM_VIEW_DIAMETERS)[1][1], "N'": stable}
 
 
 INPUTS = ("scalar", "string", "array_in", "struct_in", "handle")
@@ -156,7 +156,7 @@ def invoke(handle: Any, dim: int, name: str, args: tuple[Any, ...], named: dict[
     status, *scalars = answer if isinstance(answer, (list, tuple)) else [answer]
     count = next((k for k, arg in enumerate(asked) if arg in ("needed", "rows")), None)
     if fills and count is not None and status in (0, StatusCode.AMBIGUOUS):
-        m, spheres = scalars[count], raw.jam_view_diameters(handle)[1][1] if on_system else 0
+        m, spheres = scalars[count], raw.jam_view(handle, raw.JAM_VIEW_DIAMETERS)[1][1] if on_system else 0
         for arg, at, ctype in fills:
             shape = _shape(extents.get(arg, ("m",)), asked[count], m, dim, spheres, len(fills) == 1)
             outputs[arg] = unknown_array(shape, np.dtype(ROWS[ctype]) if ctype in ROWS else DTYPES[ctype])

@@ -16,7 +16,6 @@ JAM_ISOCONF_COLUMNS = 14
 JAM_HISTORY_COLUMNS = 20
 JAM_SOFT_COLUMNS = 11
 JAM_MODE_COLUMNS = 2
-JAM_CANDIDATE_COLUMNS = 4
 JAM_BLOCH_COLUMNS = 2
 JAM_STRUCTURE_COLUMNS = 2
 JAM_PROFILE_COLUMNS = 3
@@ -86,7 +85,7 @@ class Phase(_Word):
     RELAX = 6  # minimising the energy of soft spheres
     DECOMPRESS = 7  # soft spheres on their way down to jamming; steps: decompressions so far
     MONTE_CARLO = 8  # Metropolis sweeps
-    ISOCONFIGURATIONAL = 9  # runs from one configuration; steps counts those that are done
+    ISOCONF = 9  # runs from one configuration; steps counts those that are done
     CREATE = 10  # making a system; steps counts the spheres placed
 
 
@@ -116,6 +115,13 @@ class Container(_Word):
     BRICK = 0  # the cell: flat walls on the axes of `walls`, the other axes periodic
     CYLINDER = 1  # d = 3, about z, periodic or between flat walls; its diameter: the edges x and y
     BALL = 2  # d = 2 a circle, d = 3 a ball; its diameter: the edge of the cube
+
+
+class ViewArray(_Word):
+    """What jam_view shows."""
+    POSITIONS = 0  # (n, d), in [0, box), in other cells in the brick
+    DIAMETERS = 1  # n
+    VELOCITIES = 2  # (n, d), kT/m = 1; zero until the first MD call draws them
 
 
 class WallColumn(_Word):
@@ -216,18 +222,6 @@ class CorrelationColumn(_Word):
     """Columns of jam_observed_correlation, one row per bin."""
     R = 0  # middle of the bin, mean diameters
     G = 1  # g(r)
-
-
-class EosForm(_Word):
-    """Equations of state p(phi) in closed form, of equal spheres."""
-    CARNAHAN_STARLING = 0  # d = 3, as the next three
-    PY_VIRIAL = 1  # Percus-Yevick, virial route
-    PY_COMPRESSIBILITY = 2  # Percus-Yevick, compressibility route
-    VIRIAL = 3  # series to the seventh coefficient
-    MK = 4  # 1 + 2^d phi / 2, exact for zeta infinite
-    FREE_VOLUME = 5  # glass: d / (1 - phi / jammed_fraction)
-    HENDERSON = 6  # d = 2: (1 + phi^2 / 8) / (1 - phi)^2
-    PADE = 7  # liquid, any d: Pade [4/5] of B_2 .. B_10 (J. Stat. Phys. 122, 15), where it rises
 
 
 class EnergyUnit(_Word):
@@ -377,14 +371,6 @@ class ModeColumn(_Word):
     PARTICIPATION = 1  # inverse participation ratio, sum |v_i|^4 / (sum |v_i|^2)^2
 
 
-class CandidateColumn(_Word):
-    """Columns of jam_contact_candidates."""
-    LIMIT = 0  # tolerance on |h|
-    JUMP = 1  # ratio of the gaps above and below it
-    CONTACTS = 2  # contacts within it on spheres that can balance
-    EXCESS = 3  # contacts - (d (N' - 1) + 1)
-
-
 class RigidityKind(_Word):
     """Which motions must not open contacts."""
     COLLECTIVE = 0  # all motions of the spheres in a fixed cell
@@ -446,7 +432,7 @@ class ContactClass(_Word):
 
 
 class LocalQuantity(_Word):
-    """Quantity of which jam_local_values and jam_histogram take the values."""
+    """Quantity of which jam_local_values takes the values."""
     FORCE = 0  # contacts: f over its mean in the population
     VECTOR_SUM = 1  # stable spheres: |C_i|
     VECTOR_PAIRS = 2  # stable spheres: S_i
@@ -506,7 +492,7 @@ class PoreColumn(_Word):
 
 
 class FloppyColumn(_Word):
-    """Columns of jam_floppy_modes, one row per contact; dr is the field of jam_floppy_mode, and F the mean force. Openings
+    """Columns of jam_floppy_modes, one row per mode; dr is its vector, and F the mean force. Openings
     have the unit of positions: divide by the diameter to compare packings of different N. B = sum_k f_k |dr_perp|^2 /
     r_k. S_RETURN is s* of R. Diaz Hernandez Rojas, PhD thesis, Sapienza 2021, whose index is twice stability."""
     MEDIAN = 0  # b = median |dr_i| / |dr|: far below 1/sqrt(N') when the mode is localised
@@ -670,22 +656,6 @@ class MdReport(Report):
     max_overlap: float
     seconds: float
     growth_rate: float
-
-
-@dataclass(frozen=True, repr=False)
-class Glass(Report):
-    """A fit of the glass branch p = d' / (1 - phi/phi_J). Errors are standard errors.
-
-    jammed_fraction: phi_J
-    jammed_error: its error
-    dimension: d', free, near d for a good glass
-    dimension_error: its error
-    r_squared: of the straight line 1/p against phi"""
-    jammed_fraction: float
-    jammed_error: float
-    dimension: float
-    dimension_error: float
-    r_squared: float
 
 
 @dataclass(frozen=True, repr=False)
@@ -858,7 +828,7 @@ class CrunchReport(Report):
 
 
 @dataclass(frozen=True, repr=False)
-class Estimate(Report):
+class EstimateReport(Report):
     """Memory and time of a crunch, estimated from the graph of pairs and its elimination tree.
 
     pairs: of the longest neighbour list
@@ -1238,7 +1208,7 @@ class ModuliReport(Report):
 
 
 @dataclass(frozen=True, repr=False)
-class Comparison(Report):
+class ComparisonReport(Report):
     """What jam_compare found between sys, a, and other, b. Contacts are -1 and overlaps NaN where one has no network.
 
     contacts_a: of sys
@@ -1366,7 +1336,7 @@ OPTIONS = {
         "neighbour_radius": ("float", 'an LP has the pairs of gap < this - the largest diameter; 0, the default: adapts'),
         "step_bound": ("float", 'bound on each |s_i| component, 1e-15 .. 1000; 0, the default: adapts'),
         "wall_time": ("float", 'limit of the call'),
-        "steps": ("bool", '1: the callback is called at every step and may call crunch_step_*; default 0'),
+        "steps": ("bool", '1: the callback is called at every step and may call crunch_step(); default 0'),
         "full_lps": ("bool", '1: every LP is solved to lp_tolerance, so that its network balances; default 0'),
         "strain": ("FreeStrain", 'FreeStrain, default NONE'),
         "keep_steps": ("int", 'states before the end that are kept for write_page(), 0 .. 1000, default 0'),
@@ -1458,11 +1428,10 @@ REPORTS = {
     "jam_info": Info,
     "jam_size_report": SizeReport,
     "jam_md_report": MdReport,
-    "jam_glass": Glass,
     "jam_monte_carlo_report": MonteCarloReport,
     "jam_isoconf_report": IsoconfReport,
     "jam_crunch_report": CrunchReport,
-    "jam_estimate": Estimate,
+    "jam_estimate_report": EstimateReport,
     "jam_relax_report": RelaxReport,
     "jam_decompress_report": DecompressReport,
     "jam_geometry_report": GeometryReport,
@@ -1472,7 +1441,7 @@ REPORTS = {
     "jam_mesh_report": MeshReport,
     "jam_voxel_report": VoxelReport,
     "jam_moduli_report": ModuliReport,
-    "jam_comparison": Comparison,
+    "jam_comparison_report": ComparisonReport,
 }
 
 # rows: {C name: numpy dtype}, for arrays of structs
@@ -1490,7 +1459,6 @@ TABLES = {
     "jam_decompress_history": 11,
     "jam_modes": 2,
     "jam_bloch_modes": 2,
-    "jam_contact_candidates": 4,
     "jam_bloch_rigidity": 2,
     "jam_structure_factor": 2,
     "jam_solid_profile": 3,
@@ -1509,20 +1477,15 @@ EXTENTS: dict[str, dict[str, tuple[str, ...]]] = {
     "jam_tile": {'count': ('d',)},
     "jam_diameters": {'curve': ('rows', '2'), 'out': ('m',)},
     "jam_parse_diameters": {'curve': ('rows', '2')},
-    "jam_cell_volume": {'cell': ('m',)},
     "jam_get_size_report": {'diameters': ('n',)},
     "jam_write_page": {'values': ('k', 'n')},
     "jam_observed_spheres": {'collisions': ('n',), 'displacement': ('n', 'd')},
     "jam_observed_pairs": {'pair': ('m', '2'), 'collisions': ('m',), 'momentum': ('m',)},
-    "jam_glass_fit": {'fraction': ('m',), 'pressure': ('m',)},
-    "jam_isoconfigurational": {'instant': ('instants',), 'kept': ('k',)},
+    "jam_isoconf": {'instant': ('instants',), 'kept': ('k',)},
     "jam_isoconf_displacements": {'displacement': ('instants', 'n', 'd'), 'square': ('instants', 'n', 'd')},
     "jam_isoconf_distances": {'distance2': ('instants', 'n'), 'distance4': ('instants', 'n')},
     "jam_isoconf_kept": {'out': ('runs', 'n', 'd')},
-    "jam_crunch_step_displacements": {'out': ('n', 'd')},
-    "jam_crunch_step_contacts": {'out': ('m', '2')},
-    "jam_crunch_step_vectors": {'out': ('m', 'd')},
-    "jam_crunch_step_duals": {'out': ('m',)},
+    "jam_crunch_step": {'displacement': ('n', 'd'), 'pair': ('m', '2'), 'vector': ('m', 'd'), 'dual': ('m',)},
     "jam_contacts": {'out': ('contacts', '2')},
     "jam_contact_vectors": {'out': ('contacts', 'd')},
     "jam_contact_gaps": {'out': ('contacts',)},
@@ -1544,16 +1507,13 @@ EXTENTS: dict[str, dict[str, tuple[str, ...]]] = {
     "jam_contact_dots": {'dot': ('pairs',), 'sphere': ('pairs',)},
     "jam_fabric_tensor": {'out': ('d', 'd')},
     "jam_local_values": {'out': ('values',)},
-    "jam_histogram": {'out': ('bins',)},
     "jam_pair_correlation": {'kind': ('n',), 'out': ('bins',)},
     "jam_mk_shifts": {'pair': ('m', '2'), 'out': ('m', 'd')},
     "jam_bond_order": {'out': ('n',)},
     "jam_local_fraction": {'out': ('n',)},
     "jam_voxels": {'out': ('voxels',)},
     "jam_near_coordination": {'out': ('n',)},
-    "jam_floppy_mode": {'out': ("N'", 'd')},
-    "jam_project": {'vector': ('m', "N'", 'd'), 'u': ("N'", 'd'), 'out': ('m',)},
-    "jam_curvature": {'u': ("N'", 'd')},
+    "jam_floppy_modes": {'contact': ('k',), 'vector': ('m', "N'", 'd')},
     "jam_elastic_tensor": {'affine': ('d', 'd', 'd', 'd'), 'relaxed': ('d', 'd', 'd', 'd')},
     "jam_compare": {'out': ('n', 'd')},
 }
@@ -1562,9 +1522,7 @@ EXTENTS: dict[str, dict[str, tuple[str, ...]]] = {
 CALLS = {
     "jam_copy": (True, (("out", "new_handle", "jam_system"),)),
     "jam_get_info": (True, (("info", "struct_out", "jam_info"),)),
-    "jam_view_positions": (True, (("view", "view", "double"), ("view_len", "view_len", "size_t"))),
-    "jam_view_diameters": (True, (("view", "view", "double"), ("view_len", "view_len", "size_t"))),
-    "jam_view_velocities": (True, (("view", "view", "double"), ("view_len", "view_len", "size_t"))),
+    "jam_view": (True, (("array", "scalar", "ViewArray"), ("view", "view", "double"), ("view_len", "view_len", "size_t"))),
     "jam_set_positions": (True, (("positions", "array_in", "double"), ("positions_len", "len", "size_t"))),
     "jam_set_velocities": (True, (("velocities", "array_in", "double"), ("velocities_len", "len", "size_t"))),
     "jam_scale_diameters": (True, (("factor", "scalar", "double"),)),
@@ -1575,7 +1533,6 @@ CALLS = {
     "jam_tile": (True, (("count", "array_in", "int32_t"), ("count_len", "len", "size_t"), ("out", "new_handle", "jam_system"))),
     "jam_diameters": (False, (("o", "struct_in", "jam_diameters_options"), ("curve", "array_in", "double"), ("curve_len", "len", "size_t"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_parse_diameters": (False, (("text", "string", "char"), ("o", "struct_out", "jam_diameters_options"), ("curve", "array_out", "double"), ("curve_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
-    "jam_cell_volume": (False, (("dim", "scalar", "int32_t"), ("cell", "array_in", "double"), ("cell_len", "len", "size_t"), ("volume", "scalar_out", "double"))),
     "jam_get_size_report": (False, (("dim", "scalar", "int32_t"), ("diameters", "array_in", "double"), ("diameters_len", "len", "size_t"), ("report", "struct_out", "jam_size_report"))),
     "jam_set_progress": (True, (("callback", "callback", "jam_progress_fn"), ("user", "user", "void"))),
     "jam_set_log": (True, (("callback", "callback", "jam_log_fn"), ("level", "scalar", "LogLevel"), ("user", "user", "void"))),
@@ -1596,23 +1553,18 @@ CALLS = {
     "jam_observed_pairs": (True, (("pair", "array_out", "int32_t"), ("pair_len", "len", "size_t"), ("collisions", "array_out", "int64_t"), ("collisions_len", "len", "size_t"), ("momentum", "array_out", "double"), ("momentum_len", "len", "size_t"), ("time", "scalar_out", "double"), ("rows", "scalar_out", "size_t"))),
     "jam_observed_gaps": (True, (("columns", "columns", "int32_t"), ("table", "array_out", "double"), ("table_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_observed_correlation": (True, (("columns", "columns", "int32_t"), ("table", "array_out", "double"), ("table_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
-    "jam_eos": (False, (("form", "scalar", "EosForm"), ("dim", "scalar", "int32_t"), ("packing_fraction", "scalar", "double"), ("jammed_fraction", "scalar", "double"), ("pressure", "scalar_out", "double"))),
-    "jam_glass_fit": (False, (("fraction", "array_in", "double"), ("fraction_len", "len", "size_t"), ("pressure", "array_in", "double"), ("pressure_len", "len", "size_t"), ("fit", "struct_out", "jam_glass"))),
     "jam_monte_carlo": (True, (("o", "struct_in", "jam_monte_carlo_options"), ("report", "struct_out", "jam_monte_carlo_report"))),
-    "jam_isoconfigurational": (True, (("o", "struct_in", "jam_isoconf_options"), ("m", "struct_in", "jam_monte_carlo_options"), ("instant", "array_in", "double"), ("instant_len", "len", "size_t"), ("kept", "array_in", "int32_t"), ("kept_len", "len", "size_t"), ("report", "struct_out", "jam_isoconf_report"))),
+    "jam_isoconf": (True, (("o", "struct_in", "jam_isoconf_options"), ("m", "struct_in", "jam_monte_carlo_options"), ("instant", "array_in", "double"), ("instant_len", "len", "size_t"), ("kept", "array_in", "int32_t"), ("kept_len", "len", "size_t"), ("report", "struct_out", "jam_isoconf_report"))),
     "jam_get_isoconf_report": (True, (("report", "struct_out", "jam_isoconf_report"),)),
     "jam_isoconf_series": (True, (("block", "scalar", "int64_t"), ("columns", "columns", "int32_t"), ("table", "array_out", "double"), ("table_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_isoconf_displacements": (True, (("block", "scalar", "int64_t"), ("displacement", "array_out", "double"), ("displacement_len", "len", "size_t"), ("square", "array_out", "double"), ("square_len", "len", "size_t"), ("rows", "scalar_out", "size_t"))),
     "jam_isoconf_distances": (True, (("block", "scalar", "int64_t"), ("distance2", "array_out", "double"), ("distance2_len", "len", "size_t"), ("distance4", "array_out", "double"), ("distance4_len", "len", "size_t"), ("rows", "scalar_out", "size_t"))),
     "jam_isoconf_kept": (True, (("instant", "scalar", "int32_t"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_crunch": (True, (("o", "struct_in", "jam_crunch_options"), ("report", "struct_out", "jam_crunch_report"))),
-    "jam_estimate_crunch": (True, (("o", "struct_in", "jam_crunch_options"), ("estimated", "struct_out", "jam_estimate"))),
+    "jam_estimate_crunch": (True, (("o", "struct_in", "jam_crunch_options"), ("report", "struct_out", "jam_estimate_report"))),
     "jam_get_crunch_report": (True, (("report", "struct_out", "jam_crunch_report"),)),
     "jam_crunch_history": (True, (("columns", "columns", "int32_t"), ("table", "array_out", "double"), ("table_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
-    "jam_crunch_step_displacements": (True, (("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
-    "jam_crunch_step_contacts": (True, (("out", "array_out", "int32_t"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
-    "jam_crunch_step_vectors": (True, (("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
-    "jam_crunch_step_duals": (True, (("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_crunch_step": (True, (("displacement", "array_out", "double"), ("displacement_len", "len", "size_t"), ("pair", "array_out", "int32_t"), ("pair_len", "len", "size_t"), ("vector", "array_out", "double"), ("vector_len", "len", "size_t"), ("dual", "array_out", "double"), ("dual_len", "len", "size_t"), ("rows", "scalar_out", "size_t"))),
     "jam_relax": (True, (("o", "struct_in", "jam_relax_options"), ("report", "struct_out", "jam_relax_report"))),
     "jam_decompress": (True, (("o", "struct_in", "jam_decompress_options"), ("report", "struct_out", "jam_decompress_report"))),
     "jam_decompress_history": (True, (("columns", "columns", "int32_t"), ("table", "array_out", "double"), ("table_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
@@ -1627,16 +1579,13 @@ CALLS = {
     "jam_bloch_modes": (True, (("h", "struct_in", "jam_hessian_options"), ("wave", "array_in", "double"), ("wave_len", "len", "size_t"), ("columns", "columns", "int32_t"), ("table", "array_out", "double"), ("table_len", "len", "size_t"), ("vector", "array_out", "double"), ("vector_len", "len", "size_t"), ("rows", "scalar_out", "size_t"))),
     "jam_contacts_from_geometry": (True, (("o", "struct_in", "jam_geometry_options"), ("report", "struct_out", "jam_geometry_report"))),
     "jam_contacts_by_distance": (True, (("gap", "scalar", "double"),)),
-    "jam_contact_candidates": (True, (("window", "scalar", "double"), ("columns", "columns", "int32_t"), ("table", "array_out", "double"), ("table_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_stress_states": (True, (("force", "array_out", "double"), ("force_len", "len", "size_t"), ("basis", "array_out", "double"), ("basis_len", "len", "size_t"), ("residual", "scalar_out", "double"), ("rows", "scalar_out", "size_t"))),
     "jam_rigidity": (True, (("kind", "scalar", "RigidityKind"), ("report", "struct_out", "jam_rigidity_report"))),
     "jam_flex": (True, (("kind", "scalar", "RigidityKind"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("strain", "array_out", "double"), ("strain_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_bloch_rigidity": (True, (("count", "array_in", "int32_t"), ("count_len", "len", "size_t"), ("wave", "array_out", "double"), ("wave_len", "len", "size_t"), ("columns", "columns", "int32_t"), ("table", "array_out", "double"), ("table_len", "len", "size_t"), ("rows", "scalar_out", "size_t"))),
     "jam_check_packing": (True, (("o", "struct_in", "jam_check_options"), ("report", "struct_out", "jam_check_report"))),
-    "jam_prove": (True, (("ratio", "array_in", "double"), ("ratio_len", "len", "size_t"), ("report", "struct_out", "jam_proof_report"))),
-    "jam_prove_strict": (True, (("report", "struct_out", "jam_proof_report"),)),
-    "jam_write_proof": (True, (("path", "string", "char"), ("ratio", "array_in", "double"), ("ratio_len", "len", "size_t"))),
-    "jam_write_proof_strict": (True, (("path", "string", "char"),)),
+    "jam_prove": (True, (("kind", "scalar", "RigidityKind"), ("ratio", "array_in", "double"), ("ratio_len", "len", "size_t"), ("report", "struct_out", "jam_proof_report"))),
+    "jam_write_proof": (True, (("path", "string", "char"), ("kind", "scalar", "RigidityKind"), ("ratio", "array_in", "double"), ("ratio_len", "len", "size_t"))),
     "jam_refined_positions": (True, (("ratio", "array_in", "double"), ("ratio_len", "len", "size_t"), ("high", "array_out", "double"), ("high_len", "len", "size_t"), ("low", "array_out", "double"), ("low_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_gaps": (True, (("h_max", "scalar", "double"), ("stable_only", "scalar", "int32_t"), ("gap", "array_out", "double"), ("gap_len", "len", "size_t"), ("pair", "array_out", "int32_t"), ("pair_len", "len", "size_t"), ("rows", "scalar_out", "size_t"))),
     "jam_contact_classes": (True, (("out", "array_out", "int32_t"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
@@ -1644,12 +1593,10 @@ CALLS = {
     "jam_contact_dots": (True, (("weighted", "scalar", "int32_t"), ("dot", "array_out", "double"), ("dot_len", "len", "size_t"), ("sphere", "array_out", "int32_t"), ("sphere_len", "len", "size_t"), ("rows", "scalar_out", "size_t"))),
     "jam_fabric_tensor": (True, (("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_local_values": (True, (("quantity", "scalar", "LocalQuantity"), ("population", "scalar", "Population"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
-    "jam_histogram": (True, (("quantity", "scalar", "LocalQuantity"), ("population", "scalar", "Population"), ("low", "scalar", "double"), ("high", "scalar", "double"), ("bins", "scalar", "int64_t"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_pair_correlation": (True, (("o", "struct_in", "jam_correlation_options"), ("kind", "array_in", "int32_t"), ("kind_len", "len", "size_t"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_mk_shifts": (True, (("pair", "array_in", "int32_t"), ("pair_len", "len", "size_t"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_structure_factor": (True, (("q_max", "scalar", "double"), ("columns", "columns", "int32_t"), ("table", "array_out", "double"), ("table_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_bond_order": (True, (("l", "scalar", "int32_t"), ("cutoff", "scalar", "double"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
-    "jam_crystal_score": (True, (("score", "scalar_out", "double"),)),
     "jam_local_fraction": (True, (("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_write_stl": (True, (("path", "string", "char"), ("o", "struct_in", "jam_mesh_options"), ("report", "struct_out", "jam_mesh_report"))),
     "jam_voxels": (True, (("o", "struct_in", "jam_voxel_options"), ("report", "struct_out", "jam_voxel_report"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
@@ -1657,12 +1604,9 @@ CALLS = {
     "jam_solid_profile": (True, (("axis", "scalar", "int32_t"), ("bins", "scalar", "int32_t"), ("columns", "columns", "int32_t"), ("table", "array_out", "double"), ("table_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_near_coordination": (True, (("h_max", "scalar", "double"), ("out", "array_out", "int32_t"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_pore_sizes": (True, (("points", "scalar", "int64_t"), ("seed", "scalar", "int64_t"), ("columns", "columns", "int32_t"), ("table", "array_out", "double"), ("table_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
-    "jam_floppy_mode": (True, (("contact", "scalar", "int64_t"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
-    "jam_floppy_modes": (True, (("columns", "columns", "int32_t"), ("table", "array_out", "double"), ("table_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_floppy_modes": (True, (("contact", "array_in", "int64_t"), ("contact_len", "len", "size_t"), ("columns", "columns", "int32_t"), ("table", "array_out", "double"), ("table_len", "len", "size_t"), ("vector", "array_out", "double"), ("vector_len", "len", "size_t"), ("rows", "scalar_out", "size_t"))),
     "jam_density_of_states": (True, (("h", "struct_in", "jam_hessian_options"), ("o", "struct_in", "jam_dos_options"), ("columns", "columns", "int32_t"), ("table", "array_out", "double"), ("table_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
-    "jam_project": (True, (("vector", "array_in", "double"), ("vector_len", "len", "size_t"), ("u", "array_in", "double"), ("u_len", "len", "size_t"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
-    "jam_curvature": (True, (("h", "struct_in", "jam_hessian_options"), ("u", "array_in", "double"), ("u_len", "len", "size_t"), ("value", "scalar_out", "double"))),
-    "jam_moduli": (True, (("h", "struct_in", "jam_hessian_options"), ("moduli", "struct_out", "jam_moduli_report"))),
+    "jam_moduli": (True, (("h", "struct_in", "jam_hessian_options"), ("report", "struct_out", "jam_moduli_report"))),
     "jam_elastic_tensor": (True, (("h", "struct_in", "jam_hessian_options"), ("affine", "array_out", "double"), ("affine_len", "len", "size_t"), ("relaxed", "array_out", "double"), ("relaxed_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
-    "jam_compare": (True, (("other", "handle", "jam_system"), ("comparison", "struct_out", "jam_comparison"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_compare": (True, (("other", "handle", "jam_system"), ("comparison", "struct_out", "jam_comparison_report"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
 }

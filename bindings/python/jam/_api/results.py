@@ -1,13 +1,14 @@
-"""What calls return: the contact network, modes."""
+"""What calls return: the contact network, modes, floppy modes."""
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from .arrays import Array
 from .generated import StatusCode
+from .shown import by_shapes
 
 
 @dataclass(frozen=True)
@@ -100,3 +101,18 @@ class Modes:
         return f"Modes({len(self)} modes of {len(self.spheres)} spheres" + (
             f", omega {w[0]:.4g}..{w[-1]:.4g})" if len(w) else ")"
         )
+
+
+class FloppyModesResult(NamedTuple):
+    """Floppy modes by contact, shape (contacts,) each; dr is the mode and F the mean force. Openings have the unit of
+    positions. s_return is s* of R. Diaz Hernandez Rojas, PhD thesis, Sapienza 2021, whose index is twice stability."""
+
+    median: Array  # b = median |dr_i| / |dr|: far below 1/sqrt(N') when the mode is localised
+    weight: Array  # W = f / median |dr_i|: f equals W times the displacement far away
+    s_plus: Array  # opening at which, to first order, the next contact forms
+    s_star: Array  # opening at which, to second order, the diameters are least
+    stability: Array  # s_star / s_plus
+    s_return: Array  # opening 2 s_star at which, to second order, the diameters are back at their start
+
+    def __repr__(self) -> str:
+        return by_shapes(self)

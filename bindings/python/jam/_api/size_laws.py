@@ -107,7 +107,9 @@ def sizes(
     side, vectors = cell_of(box, cell, dim)
     if side is not None:
         vectors = side * np.eye(dim)
-    volume = None if vectors is None else raw.jam_cell_volume(dim, vectors.reshape(-1))[1]
+    volume = None if vectors is None else float(np.linalg.det(vectors))
+    if volume is not None and not volume > 0:
+        raise ValueError(f"cell has the volume {volume:g}: its vectors are left-handed, or lie in one plane")
     if container is not None and volume is not None:
         volume *= _share(enclosure_of(container, None, dim)[0], dim)
     if fraction is not None and volume is None:

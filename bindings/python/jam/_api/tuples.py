@@ -150,6 +150,18 @@ class CrunchHistoryResult(NamedTuple):
         return _by_shapes(self)
 
 
+class CrunchStepResult(NamedTuple):
+    """What crunch_step returns."""
+
+    displacement: Array
+    pair: Array
+    vector: Array
+    dual: Array
+
+    def __repr__(self) -> str:
+        return _by_shapes(self)
+
+
 class DecompressHistoryResult(NamedTuple):
     """What decompress_history returns, column by column."""
 
@@ -164,18 +176,6 @@ class DecompressHistoryResult(NamedTuple):
     evaluations: Array  # of the forces, in this step
     factorisations: Array  # in this step
     seconds: Array  # wall time of the step
-
-    def __repr__(self) -> str:
-        return _by_shapes(self)
-
-
-class ContactCandidatesResult(NamedTuple):
-    """What contact_candidates returns, column by column."""
-
-    limit: Array  # tolerance on |h|
-    jump: Array  # ratio of the gaps above and below it
-    contacts: Array  # contacts within it on spheres that can balance
-    excess: Array  # contacts - (d (N' - 1) + 1)
 
     def __repr__(self) -> str:
         return _by_shapes(self)
@@ -286,20 +286,6 @@ class PoreSizesResult(NamedTuple):
         return _by_shapes(self)
 
 
-class FloppyModesResult(NamedTuple):
-    """What floppy_modes returns, column by column."""
-
-    median: Array  # b = median |dr_i| / |dr|: far below 1/sqrt(N') when the mode is localised
-    weight: Array  # W = f / median |dr_i|: f equals W times the displacement far away
-    s_plus: Array  # opening at which, to first order, the next contact forms
-    s_star: Array  # opening f / B at which, to second order, the diameters are least
-    stability: Array  # s_star / s_plus = sigma f / (N c F s_plus), F the mean force, c = sigma B / (N F)
-    s_return: Array  # opening 2 s_star at which, to second order, the diameters are back at their start
-
-    def __repr__(self) -> str:
-        return _by_shapes(self)
-
-
 class DensityOfStatesResult(NamedTuple):
     """What density_of_states returns, column by column."""
 
@@ -327,7 +313,7 @@ class ElasticTensorResult(NamedTuple):
 class CompareResult(NamedTuple):
     """What compare returns."""
 
-    comparison: Comparison
+    comparison: ComparisonReport
     out: Array
 
     def __repr__(self) -> str:
@@ -346,8 +332,8 @@ TUPLES: dict[str, type] = {
     "isoconf_displacements": IsoconfDisplacementsResult,
     "isoconf_distances": IsoconfDistancesResult,
     "crunch_history": CrunchHistoryResult,
+    "crunch_step": CrunchStepResult,
     "decompress_history": DecompressHistoryResult,
-    "contact_candidates": ContactCandidatesResult,
     "stress_states": StressStatesResult,
     "flex": FlexResult,
     "refined_positions": RefinedPositionsResult,
@@ -358,7 +344,6 @@ TUPLES: dict[str, type] = {
     "voxels": VoxelsResult,
     "solid_profile": SolidProfileResult,
     "pore_sizes": PoreSizesResult,
-    "floppy_modes": FloppyModesResult,
     "density_of_states": DensityOfStatesResult,
     "elastic_tensor": ElasticTensorResult,
     "compare": CompareResult,

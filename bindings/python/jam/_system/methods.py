@@ -37,7 +37,7 @@ class Methods:
         answer: WallsResult = self.call('walls')
         return answer
 
-    def set_memory_limit(self, bytes: float, *, progress: Progressing = None) -> None:
+    def set_memory_limit(self, bytes: float) -> None:
         """Limits the bytes that pair lists, factorised matrices and arrays made from them may take in one call on sys, >
         0; infinity: no limit.
 
@@ -48,16 +48,14 @@ class Methods:
         Parameters
         ----------
         bytes : float
-        progress : bool or callable, optional
-            True: a line that changes. A callable gets a Progress; a true answer stops the call.
 
         Raises
         ------
         ArgumentError, MemoryError, BusyError
         """
-        self.call('set_memory_limit', bytes, progress=progress)
+        self.call('set_memory_limit', bytes)
 
-    def add_note(self, text: str, *, progress: Progressing = None) -> None:
+    def add_note(self, text: str) -> None:
         """Adds one sentence to notes(), for programs that read other formats: what they changed or assumed.
 
         text is one line, not empty.
@@ -65,14 +63,12 @@ class Methods:
         Parameters
         ----------
         text : str
-        progress : bool or callable, optional
-            True: a line that changes. A callable gets a Progress; a true answer stops the call.
 
         Raises
         ------
         MemoryError, BusyError
         """
-        self.call('add_note', text, progress=progress)
+        self.call('add_note', text)
 
     def write_scaled(self, path: str, format: int | str, scale: float, density: float) -> None:
         """write() in another unit: all lengths of the packing times scale, 1e-12 to 1e12. density: of the spheres, above
@@ -112,7 +108,7 @@ class Methods:
         """
         self.call('write_checkpoint', path)
 
-    def observe(self, *, collisions: bool | None = None, gap_bins: int | None = None, r_bins: int | None = None, sample_every: float | None = None, gap_min: float | None = None, gap_max: float | None = None, r_max: float | None = None, snapshot_every: float | None = None, snapshot_factor: float | None = None, progress: Progressing = None) -> None:
+    def observe(self, *, collisions: bool | None = None, gap_bins: int | None = None, r_bins: int | None = None, sample_every: float | None = None, gap_min: float | None = None, gap_max: float | None = None, r_max: float | None = None, snapshot_every: float | None = None, snapshot_factor: float | None = None) -> None:
         """From now on run() and compress() record, over all calls, until stop_observing().
 
         What was recorded before is dropped. Recording does not change the dynamics. At a snapshot the views show the
@@ -139,28 +135,21 @@ class Methods:
             collisions per particle before the first snapshot; 0, the default: none
         snapshot_factor : float, optional
             each interval between snapshots is so many times the one before, >= 1, default 1
-        progress : bool or callable, optional
-            True: a line that changes. A callable gets a Progress; a true answer stops the call.
 
         Raises
         ------
         ArgumentError, MemoryError, BusyError
         """
-        self.call('observe', collisions=collisions, gap_bins=gap_bins, r_bins=r_bins, sample_every=sample_every, gap_min=gap_min, gap_max=gap_max, r_max=r_max, snapshot_every=snapshot_every, snapshot_factor=snapshot_factor, progress=progress)
+        self.call('observe', collisions=collisions, gap_bins=gap_bins, r_bins=r_bins, sample_every=sample_every, gap_min=gap_min, gap_max=gap_max, r_max=r_max, snapshot_every=snapshot_every, snapshot_factor=snapshot_factor)
 
-    def stop_observing(self, *, progress: Progressing = None) -> None:
+    def stop_observing(self) -> None:
         """Stops recording; what was recorded can still be read.
-
-        Parameters
-        ----------
-        progress : bool or callable, optional
-            True: a line that changes. A callable gets a Progress; a true answer stops the call.
 
         Raises
         ------
         MemoryError, BusyError
         """
-        self.call('stop_observing', progress=progress)
+        self.call('stop_observing')
 
     def observed_series(self) -> ObservedSeriesResult:
         """Series of samples.
@@ -426,7 +415,7 @@ class Methods:
         answer: Array = self.call('isoconf_kept', instant)
         return answer
 
-    def estimate_crunch(self, *, lp_solver: int | str | None = None, method: int | str | None = None, polish: bool | None = None, max_lps: int | None = None, threads: int | None = None, gain_tolerance: float | None = None, step_tolerance: float | None = None, lp_tolerance: float | None = None, neighbour_radius: float | None = None, step_bound: float | None = None, wall_time: float | None = None, steps: bool | None = None, full_lps: bool | None = None, strain: int | str | None = None, keep_steps: int | None = None, duality_gap: float | None = None, prove: bool | None = None) -> Estimate:
+    def estimate_crunch(self, *, lp_solver: int | str | None = None, method: int | str | None = None, polish: bool | None = None, max_lps: int | None = None, threads: int | None = None, gain_tolerance: float | None = None, step_tolerance: float | None = None, lp_tolerance: float | None = None, neighbour_radius: float | None = None, step_bound: float | None = None, wall_time: float | None = None, steps: bool | None = None, full_lps: bool | None = None, strain: int | str | None = None, keep_steps: int | None = None, duality_gap: float | None = None, prove: bool | None = None) -> EstimateReport:
         """Estimates memory and time of crunch() with these options (None: defaults) without running it; crunch() logs
         the same at 'info'. Takes as long as a few steps.
 
@@ -455,7 +444,7 @@ class Methods:
         wall_time : float, optional
             limit of the call
         steps : bool, optional
-            1: the callback is called at every step and may call crunch_step_*; default 0
+            1: the callback is called at every step and may call crunch_step(); default 0
         full_lps : bool, optional
             1: every LP is solved to lp_tolerance, so that its network balances; default 0
         strain : {'none', 'edges', 'tilts', 'free', 'volume', 'edges_volume', 'tilts_volume', 'all'}, optional
@@ -469,13 +458,13 @@ class Methods:
 
         Returns
         -------
-        Estimate
+        EstimateReport
 
         Raises
         ------
         ArgumentError, OverlapError, TooFewError
         """
-        answer: Estimate = self.call('estimate_crunch', lp_solver=lp_solver, method=method, polish=polish, max_lps=max_lps, threads=threads, gain_tolerance=gain_tolerance, step_tolerance=step_tolerance, lp_tolerance=lp_tolerance, neighbour_radius=neighbour_radius, step_bound=step_bound, wall_time=wall_time, steps=steps, full_lps=full_lps, strain=strain, keep_steps=keep_steps, duality_gap=duality_gap, prove=prove)
+        answer: EstimateReport = self.call('estimate_crunch', lp_solver=lp_solver, method=method, polish=polish, max_lps=max_lps, threads=threads, gain_tolerance=gain_tolerance, step_tolerance=step_tolerance, lp_tolerance=lp_tolerance, neighbour_radius=neighbour_radius, step_bound=step_bound, wall_time=wall_time, steps=steps, full_lps=full_lps, strain=strain, keep_steps=keep_steps, duality_gap=duality_gap, prove=prove)
         return answer
 
     def crunch_history(self) -> CrunchHistoryResult:
@@ -531,66 +520,26 @@ class Methods:
         answer: CrunchHistoryResult = self.call('crunch_history')
         return answer
 
-    def crunch_step_displacements(self) -> Array:
-        """Displacements of all spheres in the step that has just ended, unit of box, images followed.
+    def crunch_step(self) -> CrunchStepResult:
+        """The step that has just ended, in the progress callback of crunch() with steps = 1 alone.
 
-        Their sum over the steps leads from the start to the end. This call and the next three work only in the
-        progress callback of crunch() with steps = 1, when a step has just ended.
+        displacement: of all spheres, unit of box, images followed; over all steps they lead from the start to the
+        end. The others are the linear contact network of an LP, pairs of rows with a positive dual, rattlers
+        included; other steps have none. vector: r_ij before the step. dual: lambda, sum_j lambda_ij r_ij = 0 on every
+        sphere without an active step bound, and sum lambda_ij sigma_ij^2 = 1 with the diameters before the step.
 
         Returns
         -------
-        array, shape (n, d)
+        displacement : array, shape (n, d)
+        pair : array, shape (m, 2)
+        vector : array, shape (m, d)
+        dual : array, shape (m,)
 
         Raises
         ------
         StateError
         """
-        answer: Array = self.call('crunch_step_displacements')
-        return answer
-
-    def crunch_step_contacts(self) -> Array:
-        """Linear contact network of an LP step: pairs of rows with a positive dual, rattlers included.
-
-        Other steps have none.
-
-        Returns
-        -------
-        array, shape (m, 2)
-
-        Raises
-        ------
-        StateError
-        """
-        answer: Array = self.call('crunch_step_contacts')
-        return answer
-
-    def crunch_step_vectors(self) -> Array:
-        """r_ij of these pairs before the step, unit of box.
-
-        Returns
-        -------
-        array, shape (m, d)
-
-        Raises
-        ------
-        StateError
-        """
-        answer: Array = self.call('crunch_step_vectors')
-        return answer
-
-    def crunch_step_duals(self) -> Array:
-        """Duals lambda of these pairs: sum_j lambda_ij r_ij = 0 on every sphere without an active step bound, and sum
-        lambda_ij sigma_ij^2 = 1 with the diameters before the step.
-
-        Returns
-        -------
-        array, shape (m,)
-
-        Raises
-        ------
-        StateError
-        """
-        answer: Array = self.call('crunch_step_duals')
+        answer: CrunchStepResult = self.call('crunch_step')
         return answer
 
     def decompress_history(self) -> DecompressHistoryResult:
@@ -705,7 +654,7 @@ class Methods:
         answer: GeometryReport = self.call('contacts_from_geometry', tolerance=tolerance, window=window, progress=progress)
         return answer
 
-    def contacts_by_distance(self, gap: float, *, progress: Progressing = None) -> None:
+    def contacts_by_distance(self, gap: float) -> None:
         """Contacts by distance alone, of any packing: all pairs with h < gap, 0 < gap <= 1, every image, and walls.
 
         No balance is required or tested, so there are no forces, no rattlers, no report and no verdict: for beds
@@ -717,43 +666,12 @@ class Methods:
         Parameters
         ----------
         gap : float
-        progress : bool or callable, optional
-            True: a line that changes. A callable gets a Progress; a true answer stops the call.
 
         Raises
         ------
         ArgumentError, MemoryError, BusyError
         """
-        self.call('contacts_by_distance', gap, progress=progress)
-
-    def contact_candidates(self, window: float) -> ContactCandidatesResult:
-        """Candidates for the contact tolerance, for packings where no jump is clear; m is at most 12. A candidate is a
-        jump of the sorted gaps below window, as in geometry_options, with enough contacts for a rigid network below
-        it.
-
-        The largest jump comes first.
-
-        Parameters
-        ----------
-        window : float
-
-        Returns
-        -------
-        limit : array
-            tolerance on |h|
-        jump : array
-            ratio of the gaps above and below it
-        contacts : array
-            contacts within it on spheres that can balance
-        excess : array
-            contacts - (d (N' - 1) + 1)
-
-        Raises
-        ------
-        ArgumentError
-        """
-        answer: ContactCandidatesResult = self.call('contact_candidates', window)
-        return answer
+        self.call('contacts_by_distance', gap)
 
     def stress_states(self, *, progress: Progressing = None) -> StressStatesResult:
         """States of self-stress of the network:; force, mean 1, from the null space of S^T, not from LP duals; basis
@@ -834,78 +752,6 @@ class Methods:
         """
         answer: FlexResult = self.call('flex', kind, progress=progress)
         return answer
-
-    def prove(self, ratio: Any = None) -> ProofReport:
-        """Proves, despite rounding, that the packing is jammed.
-
-        Contacts and forces are those of the network. Newton's steps take the centres to two doubles
-        (refined_positions()). A factorisation with a bound of its rounding gives the smallest singular value, and
-        Kantorovich's theorem the rest: the guide's page "Proofs" has theorems and limits. ratio: the exact ratios of
-        the diameters, in any unit; None takes the diameters as they are. Status: 'ok' proved exact or trapped,
-        'ambiguous' not proved (last_error() names the cause).
-
-        Parameters
-        ----------
-        ratio : array_like, shape (n,)
-
-        Returns
-        -------
-        ProofReport
-
-        Raises
-        ------
-        ArgumentError, NonfiniteError, StateError, UnsupportedError
-        """
-        answer: ProofReport = self.call('prove', ratio)
-        return answer
-
-    def prove_strict(self) -> ProofReport:
-        """The same where the cell deforms too: the diameters are fixed, and the cell vectors are unknowns.
-
-        EXACT: strictly jammed, and the volume is a strict local minimum. TRAPPED: of all motions and strains that do
-        not enlarge the volume. Lengths of the report count displacements and entries of the cell vectors alike,
-        packing_fraction is that of the exact cell. Status: 'ambiguous' not proved.
-
-        Returns
-        -------
-        ProofReport
-
-        Raises
-        ------
-        StateError, UnsupportedError
-        """
-        answer: ProofReport = self.call('prove_strict')
-        return answer
-
-    def write_proof(self, path: str, ratio: Any = None) -> None:
-        """Writes the exact numbers of the proof: refined centres, contacts, forces.
-
-        bindings/proof/jamproof.py checks such a file with integers alone, without libjam. ratio: as for prove(). The
-        file appears whole or not at all. Status: 'ambiguous' (dependent contacts: centres are not refined).
-
-        Parameters
-        ----------
-        path : str
-        ratio : array_like, shape (n,)
-
-        Raises
-        ------
-        ArgumentError, NonfiniteError, StateError, UnsupportedError, IoError
-        """
-        self.call('write_proof', path, ratio)
-
-    def write_proof_strict(self, path: str) -> None:
-        """The same of prove_strict(): refined centres and cell.
-
-        Parameters
-        ----------
-        path : str
-
-        Raises
-        ------
-        StateError, UnsupportedError, IoError
-        """
-        self.call('write_proof_strict', path)
 
     def refined_positions(self, ratio: Any = None) -> RefinedPositionsResult:
         """Centres of the jammed packing as sums of two doubles, high + low, unit of the box: about 31 digits.
@@ -1043,29 +889,6 @@ class Methods:
         answer: Array = self.call('local_values', quantity, population)
         return answer
 
-    def histogram(self, quantity: int | str, population: int | str, low: float, high: float, bins: int) -> Array:
-        """Histogram of the values of local_values(): density in `bins` equal bins of [low, high), its integral the share
-        of values there.
-
-        Parameters
-        ----------
-        quantity : {'force', 'vector_sum', 'vector_pairs', 'vector_dot', 'force_sum', 'force_pairs', 'force_dot', 'coordination'}
-        population : {'all', 'localised', 'extended', 'smallest', 'median'}
-        low : float
-        high : float
-        bins : int
-
-        Returns
-        -------
-        array, shape (bins,)
-
-        Raises
-        ------
-        ArgumentError, StateError
-        """
-        answer: Array = self.call('histogram', quantity, population, low, high, bins)
-        return answer
-
     def mk_shifts(self, pair: Any = None) -> Array:
         """Shifts A_ij of the Mari-Kurchan model, unit of the box: r_ij = r_i - r_j + A_ij by nearest images, A_ji =
         -A_ij.
@@ -1128,17 +951,6 @@ class Methods:
         ArgumentError
         """
         answer: Array = self.call('bond_order', l, cutoff)
-        return answer
-
-    def crystal_score(self) -> float:
-        """Crystal score: g at sqrt 2 over its mean in 1.2..1.6 (mean diameters); below 1 in a good glass of equal
-        spheres, about 10 in a perfect FCC crystal.
-
-        Returns
-        -------
-        float
-        """
-        answer: float = self.call('crystal_score')
         return answer
 
     def local_fraction(self) -> Array:
@@ -1331,60 +1143,6 @@ class Methods:
         answer: PoreSizesResult = self.call('pore_sizes', points, seed, progress=progress)
         return answer
 
-    def floppy_mode(self, contact: int, *, progress: Progressing = None) -> Array:
-        """Floppy mode: displacement over s when a contact opens by s.
-
-        To first order all other contacts stay closed, all diameters change by the factor 1 - s f / sum f sigma, and
-        there is no net translation. contact in 0..n_c-1. Needs a single state of self-stress (StateError says how
-        many there are).
-
-        Parameters
-        ----------
-        contact : int
-        progress : bool or callable, optional
-            True: a line that changes. A callable gets a Progress; a true answer stops the call.
-
-        Returns
-        -------
-        array, shape (N', d)
-
-        Raises
-        ------
-        ArgumentError, StateError, SolverError, MemoryError, BusyError
-        """
-        answer: Array = self.call('floppy_mode', contact, progress=progress)
-        return answer
-
-    def floppy_modes(self, *, progress: Progressing = None) -> FloppyModesResult:
-        """The floppy mode of every contact, measured.
-
-        Parameters
-        ----------
-        progress : bool or callable, optional
-            True: a line that changes. A callable gets a Progress; a true answer stops the call.
-
-        Returns
-        -------
-        median : array
-            b = median |dr_i| / |dr|: far below 1/sqrt(N') when the mode is localised
-        weight : array
-            W = f / median |dr_i|: f equals W times the displacement far away
-        s_plus : array
-            opening at which, to first order, the next contact forms
-        s_star : array
-            opening f / B at which, to second order, the diameters are least
-        stability : array
-            s_star / s_plus = sigma f / (N c F s_plus), F the mean force, c = sigma B / (N F)
-        s_return : array
-            opening 2 s_star at which, to second order, the diameters are back at their start
-
-        Raises
-        ------
-        StateError, SolverError, MemoryError, BusyError
-        """
-        answer: FloppyModesResult = self.call('floppy_modes', progress=progress)
-        return answer
-
     def density_of_states(self, *, stiffness: int | str | None = None, alpha: float | None = None, prestress: float | None = None, moments: int | None = None, vectors: int | None = None, points: int | None = None, seed: int | None = None, low: float | None = None, high: float | None = None, progress: Progressing = None) -> DensityOfStatesResult:
         """Density of states D(omega) and its integral by the kernel polynomial method: no modes are computed,
         translations are omitted.
@@ -1435,53 +1193,6 @@ class Methods:
         ArgumentError, StateError, SolverError, TooFewError, MemoryError, BusyError
         """
         answer: DensityOfStatesResult = self.call('density_of_states', stiffness=stiffness, alpha=alpha, prestress=prestress, moments=moments, vectors=vectors, points=points, seed=seed, low=low, high=high, progress=progress)
-        return answer
-
-    def project(self, vector: Any = None, u: Any = None) -> Array:
-        """Projections u.
-
-        v of a displacement u on the modes `vector` of modes(). Over all d N' modes their squares add up to |u|^2.
-
-        Parameters
-        ----------
-        vector : array_like, shape (m, N', d)
-        u : array_like, shape (N', d)
-
-        Returns
-        -------
-        array, shape (m,)
-
-        Raises
-        ------
-        ArgumentError, NonfiniteError, StateError
-        """
-        answer: Array = self.call('project', vector, u)
-        return answer
-
-    def curvature(self, u: Any = None, *, stiffness: int | str | None = None, alpha: float | None = None, prestress: float | None = None) -> float:
-        """value = u.
-
-        H. u for a displacement u.
-
-        Parameters
-        ----------
-        u : array_like, shape (N', d)
-        stiffness : {'harmonic', 'power', 'hard', 'soft'}, optional
-            Stiffness, default HARMONIC
-        alpha : float, optional
-            POWER: > 1, default 2
-        prestress : float, optional
-            overlap (HARD: gap) at the mean force over mean diameter, below 1, default 0; SOFT: a share
-
-        Returns
-        -------
-        float
-
-        Raises
-        ------
-        ArgumentError, NonfiniteError, StateError
-        """
-        answer: float = self.call('curvature', u, stiffness=stiffness, alpha=alpha, prestress=prestress)
         return answer
 
     def moduli(self, *, stiffness: int | str | None = None, alpha: float | None = None, prestress: float | None = None, progress: Progressing = None) -> ModuliReport:
@@ -1553,7 +1264,7 @@ class Methods:
 
         Returns
         -------
-        comparison : Comparison
+        comparison : ComparisonReport
         out : array, shape (n, d)
         """
         answer: CompareResult = self.call('compare', other)

@@ -12,10 +12,10 @@ from .._api.generated import CheckReport, CrunchReport, ModeColumn, ModesWhich, 
 from .._api.options import as_enum, option_struct
 from .._api.results import Contacts, Correlation, Modes
 from .._api.tuples import FlexResult, GapsResult, RefinedPositionsResult, StressStatesResult
-from .handle import Base
+from .analysis import Analysis
 
 
-class Network(Base):
+class Network(Analysis):
     """The contact network that crunch or contacts_from_geometry found; of contacts_by_distance what needs no forces."""
 
     @property

@@ -102,9 +102,7 @@ class Observing(Base):
         def on_progress(p: Any) -> bool:
             stop = bool(user(p)) if user else False
             try:
-                step = Step(
-                    *(self._ask("crunch_step_" + name) for name in ("displacements", "contacts", "vectors", "duals"))
-                )
+                step = Step(*self._ask("crunch_step"))
             except errors.StateError:  # amid a step
                 return stop
             return bool(on_step(step)) or stop

@@ -108,7 +108,7 @@ class Runs:
     def halves(self) -> tuple[Array, Array]:
         """Weights of two halves of the blocks, even and odd."""
         if self.blocks < 2:
-            raise ValueError("one block of runs has no halves: make more runs, or give a smaller block= to isoconfigurational()")
+            raise ValueError("one block of runs has no halves: make more runs, or give a smaller block= to isoconf()")
         odd = np.arange(self.blocks) % 2
         return 1.0 - odd, odd.astype(float)
 
@@ -222,14 +222,14 @@ def make_runs(
     progress: Any,
     options: dict[str, Any],
 ) -> Runs:
-    """What System.isoconfigurational calls."""
+    """What System.isoconf calls."""
     times = as_vector(instants, name="instants")
     made = option_struct("jam_isoconf_options", options)
     chosen = None if monte_carlo is None else option_struct("jam_monte_carlo_options", monte_carlo)
     kept = as_array(np.array([int(k) for k in keep], np.int64), "int32_t", "keep")
     origin = _origin(system, dict(options, block=made.block, keep=keep, monte_carlo=monte_carlo))
     with system._reporting(progress):
-        status = raw.jam_isoconfigurational(
+        status = raw.jam_isoconf(
             system.handle, made, chosen, times, kept if kept.size else None, raw.jam_isoconf_report()
         )
         system._note(status)
@@ -273,7 +273,7 @@ def campaign(
 ) -> Runs:
     """Makes `runs` runs in parts and saves them to the .npz file `path` after each: a killed campaign continues.
 
-    part: runs between two savings, rounded up to whole blocks. options: those of System.isoconfigurational but first_run.
+    part: runs between two savings, rounded up to whole blocks. options: those of System.isoconf but first_run.
     A file of another packing, other instants or options is a ValueError, and stays as it is.
     """
     _require_npz(path)
@@ -287,7 +287,7 @@ def campaign(
         done = done.whole_blocks()  # one that was stopped ends amid a block, which is made again
     while done is None or done.runs < runs:
         first = 0 if done is None else done.runs
-        made = system.isoconfigurational(instants, first_run=first, runs=min(part, runs - first), **options)
+        made = system.isoconf(instants, first_run=first, runs=min(part, runs - first), **options)
         done = made if done is None else done.merge(made)
         done.save(path)
         if made.status > 0:

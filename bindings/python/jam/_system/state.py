@@ -67,10 +67,10 @@ class State(Base):
             self._first_info = self.info
         return self._first_info
 
-    def _show(self, function: Callable[..., Any], flat: bool = False) -> Array:
+    def _show(self, array: int, flat: bool = False) -> Array:
         handle = self.handle
-        _, (address, count) = function(handle)
-        n = raw.jam_view_diameters(handle)[1][1]
+        _, (address, count) = raw.jam_view(handle, array)
+        n = raw.jam_view(handle, raw.JAM_VIEW_DIAMETERS)[1][1]
         return np.asarray(_View(handle, address, (n,) if flat else (n, count // n)))
 
     @property
@@ -79,7 +79,7 @@ class State(Base):
 
         Assign a new array to move the spheres.
         """
-        return self._show(raw.jam_view_positions)
+        return self._show(raw.JAM_VIEW_POSITIONS)
 
     @positions.setter
     def positions(self, values: Any) -> None:
@@ -91,7 +91,7 @@ class State(Base):
 
         Assign a new array to set them; contacts and report stay.
         """
-        return self._show(raw.jam_view_velocities)
+        return self._show(raw.JAM_VIEW_VELOCITIES)
 
     @velocities.setter
     def velocities(self, values: Any) -> None:
@@ -99,7 +99,7 @@ class State(Base):
 
     def _set(self, function: Callable[..., Any], values: Any, name: str) -> None:
         x = as_array(values, name=name)
-        shape = self._show(raw.jam_view_positions).shape
+        shape = self._show(raw.JAM_VIEW_POSITIONS).shape
         if x.shape != shape:
             raise ValueError(f"{name} must have shape {shape}, not {x.shape}")
         finished(function(self.handle, x.reshape(-1)))
@@ -107,7 +107,7 @@ class State(Base):
     @property
     def diameters(self) -> Array:
         """Diameters in the unit of the box, shape (n,): a read-only view."""
-        return self._show(raw.jam_view_diameters, flat=True)
+        return self._show(raw.JAM_VIEW_DIAMETERS, flat=True)
 
     @property
     def radii(self) -> Array:

@@ -219,7 +219,7 @@ class Verbs(Observing):
         return on_progress
 
     @takes("jam_isoconf_options")
-    def isoconfigurational(
+    def isoconf(
         self,
         instants: Any,
         *,

@@ -8,6 +8,11 @@
 #else
 #define JAM_API
 #endif
+#if defined(__GNUC__) && !defined(SWIG)
+#define JAM_DEPRECATED(instead) __attribute__((deprecated("use " instead)))
+#else
+#define JAM_DEPRECATED(instead)
+#endif
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -76,7 +81,7 @@ typedef enum jam_phase {
   JAM_PHASE_RELAX = 6,
   JAM_PHASE_DECOMPRESS = 7,
   JAM_PHASE_MONTE_CARLO = 8,
-  JAM_PHASE_ISOCONFIGURATIONAL = 9,
+  JAM_PHASE_ISOCONF = 9,
   JAM_PHASE_CREATE = 10
 } jam_phase;
 typedef struct jam_progress {
@@ -161,11 +166,15 @@ typedef struct jam_info {
   double non_additivity;
   int32_t container, walls;
   double volume;
+  double contact_gap;
 } jam_info;
 JAM_API jam_status jam_get_info(const jam_system *sys, jam_info *info);
-JAM_API jam_status jam_view_positions(const jam_system *sys, const double **view, size_t *view_len);
-JAM_API jam_status jam_view_diameters(const jam_system *sys, const double **view, size_t *view_len);
-JAM_API jam_status jam_view_velocities(const jam_system *sys, const double **view, size_t *view_len);
+typedef enum jam_view_array {
+  JAM_VIEW_POSITIONS = 0,
+  JAM_VIEW_DIAMETERS = 1,
+  JAM_VIEW_VELOCITIES = 2
+} jam_view_array;
+JAM_API jam_status jam_view(const jam_system *sys, int32_t array, const double **view, size_t *view_len);
 JAM_API jam_status jam_set_positions(jam_system *sys, const double *positions, size_t positions_len);
 JAM_API jam_status jam_set_velocities(jam_system *sys, const double *velocities, size_t velocities_len);
 JAM_API jam_status jam_scale_diameters(jam_system *sys, double factor);
@@ -221,7 +230,6 @@ JAM_API jam_status jam_diameters(const jam_diameters_options *o, const double *c
                                  size_t out_len, size_t *needed);
 JAM_API jam_status jam_parse_diameters(const char *text, jam_diameters_options *o, double *curve, size_t curve_len,
                                        size_t *needed);
-JAM_API jam_status jam_cell_volume(int32_t dim, const double *cell, size_t cell_len, double *volume);
 typedef enum jam_reach_source {
   JAM_REACH_FARR_GROOT = 1,
   JAM_REACH_MEASURED = 2,
@@ -260,11 +268,16 @@ typedef enum jam_format {
   JAM_FORMAT_LAMMPS = 3,
   JAM_FORMAT_VTP = 4
 } jam_format;
+JAM_API const char *jam_formats(void);
 JAM_API jam_status jam_read(const char *path, const jam_create_options *o, jam_progress_fn callback, void *user,
                             jam_system **out);
+JAM_API jam_status jam_read_as(const char *path, const char *layout, const jam_create_options *o,
+                               jam_progress_fn callback, void *user, jam_system **out);
 JAM_API const char *jam_notes(const jam_system *sys);
 JAM_API jam_status jam_add_note(jam_system *sys, const char *text);
 JAM_API jam_status jam_write(const jam_system *sys, const char *path, int32_t format);
+JAM_API jam_status jam_write_scaled(const jam_system *sys, const char *path, int32_t format, double scale,
+                                    double density);
 typedef enum jam_contact_format {
   JAM_CONTACTS_AUTO = 0,
   JAM_CONTACTS_CSV = 1,
@@ -364,27 +377,6 @@ typedef enum jam_correlation_column {
 #define JAM_CORRELATION_COLUMNS 2
 JAM_API jam_status jam_observed_correlation(const jam_system *sys, int32_t columns, double *table, size_t table_len,
                                             size_t *needed);
-typedef enum jam_eos_form {
-  JAM_EOS_CARNAHAN_STARLING = 0,
-  JAM_EOS_PY_VIRIAL = 1,
-  JAM_EOS_PY_COMPRESSIBILITY = 2,
-  JAM_EOS_VIRIAL = 3,
-  JAM_EOS_MK = 4,
-  JAM_EOS_FREE_VOLUME = 5,
-  JAM_EOS_HENDERSON = 6,
-  JAM_EOS_PADE = 7
-} jam_eos_form;
-JAM_API jam_status jam_eos(int32_t form, int32_t dim, double packing_fraction, double jammed_fraction,
-                           double *pressure);
-typedef struct jam_glass {
-  uint32_t struct_size;
-  int32_t reserved;
-  double jammed_fraction, jammed_error;
-  double dimension, dimension_error;
-  double r_squared;
-} jam_glass;
-JAM_API jam_status jam_glass_fit(const double *fraction, size_t fraction_len, const double *pressure,
-                                 size_t pressure_len, jam_glass *fit);
 typedef enum jam_energy_unit {
   JAM_ENERGY_LENGTH = 0,
   JAM_ENERGY_RELATIVE = 1
@@ -462,9 +454,9 @@ typedef enum jam_isoconf_column {
 } jam_isoconf_column;
 #define JAM_ISOCONF_COLUMNS 14
 JAM_API jam_status jam_isoconf_options_init(jam_isoconf_options *o, size_t size);
-JAM_API jam_status jam_isoconfigurational(jam_system *sys, const jam_isoconf_options *o,
-                                          const jam_monte_carlo_options *m, const double *instant, size_t instant_len,
-                                          const int32_t *kept, size_t kept_len, jam_isoconf_report *report);
+JAM_API jam_status jam_isoconf(jam_system *sys, const jam_isoconf_options *o, const jam_monte_carlo_options *m,
+                               const double *instant, size_t instant_len, const int32_t *kept, size_t kept_len,
+                               jam_isoconf_report *report);
 JAM_API jam_status jam_get_isoconf_report(const jam_system *sys, jam_isoconf_report *report);
 JAM_API jam_status jam_isoconf_series(const jam_system *sys, int64_t block, int32_t columns, double *table,
                                       size_t table_len, size_t *needed);
@@ -561,7 +553,7 @@ typedef struct jam_crunch_report {
 } jam_crunch_report;
 JAM_API jam_status jam_crunch_options_init(jam_crunch_options *o, size_t size);
 JAM_API jam_status jam_crunch(jam_system *sys, const jam_crunch_options *o, jam_crunch_report *report);
-typedef struct jam_estimate {
+typedef struct jam_estimate_report {
   uint32_t struct_size;
   int32_t reserved;
   int64_t pairs;
@@ -571,8 +563,9 @@ typedef struct jam_estimate {
   double factorisations;
   double step_seconds;
   double seconds;
-} jam_estimate;
-JAM_API jam_status jam_estimate_crunch(const jam_system *sys, const jam_crunch_options *o, jam_estimate *estimated);
+  double seconds_low, seconds_high;
+} jam_estimate_report;
+JAM_API jam_status jam_estimate_crunch(const jam_system *sys, const jam_crunch_options *o, jam_estimate_report *report);
 JAM_API jam_status jam_get_crunch_report(const jam_system *sys, jam_crunch_report *report);
 typedef enum jam_step_phase {
   JAM_STEP_PATH = 1,
@@ -604,10 +597,9 @@ typedef enum jam_history_column {
 #define JAM_HISTORY_COLUMNS 20
 JAM_API jam_status jam_crunch_history(const jam_system *sys, int32_t columns, double *table, size_t table_len,
                                       size_t *needed);
-JAM_API jam_status jam_crunch_step_displacements(const jam_system *sys, double *out, size_t out_len, size_t *needed);
-JAM_API jam_status jam_crunch_step_contacts(const jam_system *sys, int32_t *out, size_t out_len, size_t *needed);
-JAM_API jam_status jam_crunch_step_vectors(const jam_system *sys, double *out, size_t out_len, size_t *needed);
-JAM_API jam_status jam_crunch_step_duals(const jam_system *sys, double *out, size_t out_len, size_t *needed);
+JAM_API jam_status jam_crunch_step(const jam_system *sys, double *displacement, size_t displacement_len, int32_t *pair,
+                                   size_t pair_len, double *vector, size_t vector_len, double *dual, size_t dual_len,
+                                   size_t *rows);
 typedef enum jam_soft_scale {
   JAM_SOFT_RELATIVE = 0,
   JAM_SOFT_ABSOLUTE = 1,
@@ -785,15 +777,7 @@ typedef struct jam_geometry_report {
 JAM_API jam_status jam_geometry_options_init(jam_geometry_options *o, size_t size);
 JAM_API jam_status jam_contacts_from_geometry(jam_system *sys, const jam_geometry_options *o,
                                               jam_geometry_report *report);
-typedef enum jam_candidate_column {
-  JAM_CANDIDATE_LIMIT = 0,
-  JAM_CANDIDATE_JUMP = 1,
-  JAM_CANDIDATE_CONTACTS = 2,
-  JAM_CANDIDATE_EXCESS = 3
-} jam_candidate_column;
-#define JAM_CANDIDATE_COLUMNS 4
-JAM_API jam_status jam_contact_candidates(const jam_system *sys, double window, int32_t columns, double *table,
-                                          size_t table_len, size_t *needed);
+JAM_API jam_status jam_contacts_by_distance(jam_system *sys, double gap);
 JAM_API jam_status jam_stress_states(jam_system *sys, double *force, size_t force_len, double *basis, size_t basis_len,
                                      double *residual, size_t *rows);
 typedef enum jam_rigidity_kind {
@@ -885,6 +869,7 @@ typedef struct jam_check_report {
   double proof_radius;
   double proof_value, proof_bound;
   double curvature_margin;
+  int64_t strict_excess_contacts;
 } jam_check_report;
 JAM_API jam_status jam_check_options_init(jam_check_options *o, size_t size);
 JAM_API jam_status jam_check_packing(jam_system *sys, const jam_check_options *o, jam_check_report *report);
@@ -921,11 +906,11 @@ typedef struct jam_proof_report {
   double singular;
   double eigenvalue, rounding;
 } jam_proof_report;
-JAM_API jam_status jam_prove(const jam_system *sys, const double *ratio, size_t ratio_len, jam_proof_report *report);
-JAM_API jam_status jam_prove_strict(const jam_system *sys, jam_proof_report *report);
+JAM_API jam_status jam_prove(const jam_system *sys, int32_t kind, const double *ratio, size_t ratio_len,
+                             jam_proof_report *report);
 JAM_API const char *jam_proof_text(int32_t theorem, int32_t cause, double radius, double value, double bound);
-JAM_API jam_status jam_write_proof(const jam_system *sys, const char *path, const double *ratio, size_t ratio_len);
-JAM_API jam_status jam_write_proof_strict(const jam_system *sys, const char *path);
+JAM_API jam_status jam_write_proof(const jam_system *sys, const char *path, int32_t kind, const double *ratio,
+                                   size_t ratio_len);
 JAM_API jam_status jam_refined_positions(const jam_system *sys, const double *ratio, size_t ratio_len, double *high,
                                          size_t high_len, double *low, size_t low_len, size_t *needed);
 typedef enum jam_contact_class {
@@ -960,8 +945,6 @@ typedef enum jam_population {
 } jam_population;
 JAM_API jam_status jam_local_values(const jam_system *sys, int32_t quantity, int32_t population, double *out,
                                     size_t out_len, size_t *needed);
-JAM_API jam_status jam_histogram(const jam_system *sys, int32_t quantity, int32_t population, double low, double high,
-                                 int64_t bins, double *out, size_t out_len, size_t *needed);
 typedef struct jam_correlation_options {
   uint32_t struct_size;
   int32_t a, b;
@@ -983,19 +966,26 @@ JAM_API jam_status jam_structure_factor(jam_system *sys, double q_max, int32_t c
                                         size_t *needed);
 JAM_API jam_status jam_bond_order(const jam_system *sys, int32_t l, double cutoff, double *out, size_t out_len,
                                   size_t *needed);
-JAM_API jam_status jam_crystal_score(const jam_system *sys, double *score);
 JAM_API jam_status jam_local_fraction(const jam_system *sys, double *out, size_t out_len, size_t *needed);
 typedef enum jam_mesh_contacts {
   JAM_MESH_KEPT = 0,
   JAM_MESH_SHRUNK = 1,
   JAM_MESH_BRIDGED = 2
 } jam_mesh_contacts;
+typedef enum jam_mesh_walls {
+  JAM_MESH_SPHERES = 0,
+  JAM_MESH_AND_WALLS = 1,
+  JAM_MESH_WALLS = 2
+} jam_mesh_walls;
 typedef struct jam_mesh_options {
   uint32_t struct_size;
   int32_t contacts;
   double edge;
   double factor;
   double bridge;
+  double bridge_gap;
+  int32_t walls;
+  int32_t reserved;
 } jam_mesh_options;
 typedef struct jam_mesh_report {
   uint32_t struct_size;
@@ -1045,7 +1035,6 @@ typedef enum jam_pore_column {
 #define JAM_PORE_COLUMNS 5
 JAM_API jam_status jam_pore_sizes(jam_system *sys, int64_t points, int64_t seed, int32_t columns, double *table,
                                   size_t table_len, size_t *needed);
-JAM_API jam_status jam_floppy_mode(jam_system *sys, int64_t contact, double *out, size_t out_len, size_t *needed);
 typedef enum jam_floppy_column {
   JAM_FLOPPY_MEDIAN = 0,
   JAM_FLOPPY_WEIGHT = 1,
@@ -1055,7 +1044,8 @@ typedef enum jam_floppy_column {
   JAM_FLOPPY_S_RETURN = 5
 } jam_floppy_column;
 #define JAM_FLOPPY_COLUMNS 6
-JAM_API jam_status jam_floppy_modes(jam_system *sys, int32_t columns, double *table, size_t table_len, size_t *needed);
+JAM_API jam_status jam_floppy_modes(jam_system *sys, const int64_t *contact, size_t contact_len, int32_t columns,
+                                    double *table, size_t table_len, double *vector, size_t vector_len, size_t *rows);
 typedef struct jam_dos_options {
   uint32_t struct_size;
   int32_t moments;
@@ -1071,7 +1061,7 @@ typedef struct jam_moduli_report {
   double shear, shear_affine;
   double shear_min, shear_max;
 } jam_moduli_report;
-typedef struct jam_comparison {
+typedef struct jam_comparison_report {
   uint32_t struct_size;
   int32_t reserved;
   int64_t contacts_a, contacts_b;
@@ -1080,7 +1070,7 @@ typedef struct jam_comparison {
   double overlap, overlap_a;
   double packing_fraction_change;
   double displacement_rms, displacement_max;
-} jam_comparison;
+} jam_comparison_report;
 typedef enum jam_dos_column {
   JAM_DOS_OMEGA = 0,
   JAM_DOS_DENSITY = 1,
@@ -1093,15 +1083,11 @@ typedef enum jam_dos_column {
 JAM_API jam_status jam_dos_options_init(jam_dos_options *o, size_t size);
 JAM_API jam_status jam_density_of_states(jam_system *sys, const jam_hessian_options *h, const jam_dos_options *o,
                                          int32_t columns, double *table, size_t table_len, size_t *needed);
-JAM_API jam_status jam_project(const jam_system *sys, const double *vector, size_t vector_len, const double *u,
-                               size_t u_len, double *out, size_t out_len, size_t *needed);
-JAM_API jam_status jam_curvature(const jam_system *sys, const jam_hessian_options *h, const double *u, size_t u_len,
-                                 double *value);
-JAM_API jam_status jam_moduli(jam_system *sys, const jam_hessian_options *h, jam_moduli_report *moduli);
+JAM_API jam_status jam_moduli(jam_system *sys, const jam_hessian_options *h, jam_moduli_report *report);
 JAM_API jam_status jam_elastic_tensor(jam_system *sys, const jam_hessian_options *h, double *affine, size_t affine_len,
                                       double *relaxed, size_t relaxed_len, size_t *needed);
-JAM_API jam_status jam_compare(const jam_system *sys, const jam_system *other, jam_comparison *comparison, double *out,
-                               size_t out_len, size_t *needed);
+JAM_API jam_status jam_compare(const jam_system *sys, const jam_system *other, jam_comparison_report *comparison,
+                               double *out, size_t out_len, size_t *needed);
 #ifdef __cplusplus
 }
 #endif

@@ -14,7 +14,7 @@ from jam import near_jamming as nj  # noqa: E402
 # ---- options
 
 LARGE = {"runs": 5000, "mc_runs": 1000, "long_runs": 1000}  # what --large makes
-LAST_SWEEP = {False: 120, True: 250}
+LAST_SWEEP = 250  # as published
 
 
 def arguments(doc, *flags, result=False, **small):
@@ -45,9 +45,11 @@ def save(figure, picture):
 # ---- packing and runs
 
 RATIOS = (0.96, 0.98, 0.99, 0.995, 0.999)  # phi / phi_J
-INSTANTS = [1, 2, 3, 5, 7, 10, 14, 20, 30, 50, 70, 100]  # collisions per particle
+# tau: collisions of the system over N, as in the thesis. Each counts for two spheres, so jam.h's collisions per particle are 2 tau.
+PER_PARTICLE = 2
+INSTANTS = [1, 2, 3, 5, 7, 10, 14, 20, 30, 50, 70, 100]  # tau
 LONG_RATIOS = (0.96, 0.98, 0.99, 0.999)
-LONG_INSTANTS = [50, 100, 200, 300, 500, 700, 1000]
+LONG_INSTANTS = [100, 300, 1000, 2000, 3000, 5000, 7000, 10000]  # the last is 100 times that of the others, as published
 TEMPERATURES = {1.5: (1e-4, 3.16e-4, 1e-3), 2.0: (4.64e-6, 2.15e-5, 1e-4), 2.5: (2.15e-7, 1.47e-6, 1e-5)}
 
 
@@ -66,12 +68,17 @@ def make_packing(seed, n=1024, quenched=False):
     return packing
 
 
+def taus(runs):
+    """tau at the instants of runs."""
+    return runs.instants / PER_PARTICLE
+
+
 def md_runs(packing, folder, name, ratio, count):
     """Runs at one density, from the file of an earlier call if it contains them. Those at 0.995 keep all at tau = 20."""
     return nj.campaign(
         packing,
         os.path.join(folder, f"md_{name}_{ratio}.npz"),
-        INSTANTS,
+        [PER_PARTICLE * tau for tau in INSTANTS],
         count,
         part=500,
         density_ratio=ratio,
@@ -82,15 +89,16 @@ def md_runs(packing, folder, name, ratio, count):
 
 def long_md_runs(packing, folder, name, ratio, count):
     path = os.path.join(folder, f"long_{name}_{ratio}.npz")
-    return nj.campaign(packing, path, LONG_INSTANTS, count, part=50, density_ratio=ratio, block=5)
+    instants = [PER_PARTICLE * tau for tau in LONG_INSTANTS]
+    return nj.campaign(packing, path, instants, count, part=5, density_ratio=ratio, block=5)
 
 
-def mc_runs(packing, folder, name, alpha, temperature, large, count):
+def mc_runs(packing, folder, name, alpha, temperature, count):
     """Runs at one energy and temperature, from the file of an earlier call if it contains them."""
     return nj.campaign(
         packing,
         os.path.join(folder, f"mc_{name}_{alpha}_{temperature}.npz"),
-        np.unique(np.round(np.geomspace(2, LAST_SWEEP[large], 12))),
+        np.unique(np.round(np.geomspace(2, LAST_SWEEP, 12))),
         count,
         monte_carlo=dict(alpha=alpha, temperature=temperature),
         block=20 if count >= 200 else 2,

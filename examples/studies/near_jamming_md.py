@@ -2,8 +2,8 @@
 """How well the contact network predicts the motion of hard spheres just below jamming: isoconfigurational runs.
 
 usage: near_jamming_md.py FOLDER PICTURE.png [--large] [--quenched] [--runs RUNS] [--long-runs RUNS] [--seed SEED]
-Default: 100 runs at five densities. --large: 5000 runs at seven densities and 1000 to tau = 1000 at four, some 20 minutes
-of one core. Long runs end beyond the cage's edge: the MSD reaches its plateau.
+Default: 100 runs at five densities. --large: 5000 runs at seven densities and 1000 to tau = 1e4 at four, four hours
+of one core (20 long runs: 25 minutes). Long runs end beyond the cage's edge: the MSD reaches its plateau.
 --quenched: the packing by sequential linear programs from random spheres, as published, not by growth.
 Runs are saved in FOLDER; a study that was stopped continues. Small and large ones need folders of their own.
 Needs jam, numpy, scipy, matplotlib. Prints tables.
@@ -24,8 +24,8 @@ def table(ensembles, structure, errors):
     print("|---" * (4 + len(NAMES)) + "|")
     for ratio, runs in ensembles.items():
         k, e = nj.correlations(runs, structure), nj.correlation_errors(runs, structure, errors)
-        for m, tau in enumerate(runs.instants):
-            if tau in (2, 10, 20, 100, 300, 1000):
+        for m, tau in enumerate(common.taus(runs)):
+            if tau in (2, 10, 20, 100, 300, 1000, 10000):
                 cells = " | ".join(f"{k[name][m]:.3f}({e[name][m]:.3f})" for name in NAMES)
                 print(f"| {ratio} | {tau:g} | {runs.time[m]:.3g} | {runs.msd[m]:.2e} | {cells} |")
 
@@ -36,16 +36,16 @@ def draw(ensembles, long_ones, structure, exponents, picture):
         k = nj.correlations(runs, structure)
         label = f"phi/phi_J = {ratio}"
         axes[0, 0].errorbar(
-            runs.instants, runs.time / runs.time[0], runs.deviation("time") / runs.time[0], color=color, label=label
+            common.taus(runs), runs.time / runs.time[0], runs.deviation("time") / runs.time[0], color=color, label=label
         )
-        axes[0, 1].loglog(runs.instants, runs.msd, ".-", color=color)
-        axes[0, 2].semilogx(runs.instants, k["variance"], ".-", color=color)
+        axes[0, 1].loglog(common.taus(runs), runs.msd, ".-", color=color)
+        axes[0, 2].semilogx(common.taus(runs), k["variance"], ".-", color=color)
         for row, name in ((axes[1, 0], "c"), (axes[1, 1], "s")):
             row.loglog(runs.msd / (1 - ratio) ** exponents[name].value, k[name], ".-", color=color, label=label)
     for ratio, runs in long_ones.items():
         color = plt.cm.viridis(0.9 * list(ensembles).index(ratio) / (len(ensembles) - 1))
         k = nj.correlations(runs, structure)
-        axes[0, 1].loglog(runs.instants, runs.msd, "-", color=color, lw=1)
+        axes[0, 1].loglog(common.taus(runs), runs.msd, "-", color=color, lw=1)
         for row, name in ((axes[1, 0], "c"), (axes[1, 1], "s")):
             row.loglog(runs.msd / (1 - ratio) ** exponents[name].value, k[name], "-", color=color, lw=1)
     axes[0, 0].set(xscale="log", yscale="log", xlabel="tau", ylabel="time over that at tau = 1")
@@ -69,7 +69,7 @@ def draw(ensembles, long_ones, structure, exponents, picture):
     axes[0, 1].legend(fontsize=7)
     ratio = min(ensembles, key=lambda r: abs(r - 0.995))
     runs = ensembles[ratio]
-    m = list(runs.instants).index(10)
+    m = list(common.taus(runs)).index(10)
     c, dr = structure.c[:, 2], runs.mean("displacement")[m][:, 2]
     axes[1, 2].plot(c[~structure.rattlers], dr[~structure.rattlers], ".", ms=2)
     axes[1, 2].plot(c[structure.rattlers], dr[structure.rattlers], "r.", ms=3, label="rattlers")

@@ -2,7 +2,7 @@
 """How well the contact network predicts the motion of soft spheres at phi_J: Metropolis runs at nine pairs (alpha, T).
 
 usage: near_jamming_monte_carlo.py FOLDER PICTURE.png [--large] [--mc-runs RUNS] [--seed SEED]
-Default: 40 runs of 120 sweeps for each pair. --large: 1000 runs of 250 sweeps, a quarter of an hour of one core.
+Default: 40 runs of 250 sweeps for each pair. --large: 1000 runs, a quarter of an hour of one core.
 Runs are saved in FOLDER; a study that was stopped continues. Needs jam, numpy, scipy, matplotlib. Prints a table.
 
 Source: R. Diaz Hernandez Rojas, PhD thesis (Sapienza 2021), chapter 3: U = |2R - r|^alpha. Temperatures are ours but for
@@ -27,7 +27,7 @@ def main():
     for column, (alpha, temperatures) in enumerate(common.TEMPERATURES.items()):
         ensembles = []
         for temperature in temperatures:
-            runs = common.mc_runs(packing, args.folder, args.seed, alpha, temperature, args.large, args.mc_runs)
+            runs = common.mc_runs(packing, args.folder, args.seed, alpha, temperature, args.mc_runs)
             k = nj.correlations(runs, structure)
             print(
                 f"| {alpha} | {temperature:g} | {runs.step:.3g} | {runs.acceptance:.2f} "

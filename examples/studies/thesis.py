@@ -19,7 +19,7 @@ HERE = Path(__file__).resolve().parent
 sys.path.append(str(HERE.parents[1] / "bindings/docs"))
 import figures  # noqa: E402
 
-COLUMNS = ["figure", "shows", "picture, script", "thesis", "here", "verdict"]
+COLUMNS = ["figure", "shows", "picture", "command", "thesis", "here", "verdict"]
 VALUES = ["figure", "quantity", "published", "ours", "errors between"]
 VERDICTS = ("reproduced", "smaller", "part", "different", "missing")
 LIMIT = 3.0
@@ -74,12 +74,13 @@ def row(entry):
     off = [sigma for *_, sigma, _ in found if sigma is not None]
     if entry["verdict"] in ("reproduced", "smaller") and any(s > LIMIT for s in off) and "because" not in entry:
         raise SystemExit(f"{name} is called {entry['verdict']}, but {max(off)} errors lie between")
-    commands = dict.fromkeys(command.split()[0] for *_, command in found)
-    picture = f"[{', '.join(f'`{c}`' for c in commands) or 'none'}]({entry['picture']})"
+    commands = dict.fromkeys(command for *_, command in found)
+    picture = f"[picture]({entry['picture']})"
+    how = "; ".join(f"`{c}`" for c in commands)
     verdict = entry["verdict"] + (f": {entry['because']}" if "because" in entry else "")
     shown = [value.get("says", quantity) for value, (quantity, *_) in zip(entry["values"], found)]
     values = [[name, quantity] + [str(x) if str(x) != "None" else "" for x in numbers] for quantity, (_, *numbers, _) in zip(shown, found)]
-    return [name, entry["shows"], picture, entry["thesis"], entry["here"], verdict], values
+    return [name, entry["shows"], picture, how, entry["thesis"], entry["here"], verdict], values
 
 
 def made():

@@ -3,7 +3,7 @@
 
 usage: both_sides.py [--large] [--sizes N ...] [--particles K ...] [--folder DIR] [--only-read] [--out DIR]
 
-Below: growth by the default protocol, then a crunch. Above: harmonic soft spheres from random points at 0.72, decompressed to one
+Below: growth and crunch as in finite_size.py. Above: harmonic soft spheres from random points at 0.72, decompressed to one
 state of self-stress, then compared with a crunch from just below contact. Forces, gaps below 1 and coordination of each packing
 are kept. Small: N = 128 and 256, 3000 particles each. Large: N = 256 to 4096, 2e5.
 """
@@ -13,6 +13,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from common import GAMMA, THETA_E, THETA_L, Results, arguments, kept, mean_error
+from finite_size import protocol
 
 import jam
 from jam import scaling
@@ -33,7 +34,7 @@ def jammed(side, n, seed):
     else:
         mk = side == "mk"
         packing = jam.System.random(n=n, seed=seed, **({"model": "mk", "packing_fraction": 2.5} if mk else {}))
-        packing.compress(**({"growth_rate": 5e-3, "pressure": 1e6} if mk else {}))
+        packing.compress([(stage["growth_rate"], stage["pressure"]) for stage in protocol(side if mk else "euclid", n)["stages"]])
         report = packing.crunch()
     with packing:
         good = report.jammed and report.excess_contacts == 0

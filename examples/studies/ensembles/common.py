@@ -22,13 +22,14 @@ SOURCE = "R. Diaz Hernandez Rojas, PhD thesis, Sapienza 2021"
 
 
 def arguments(text: str) -> argparse.ArgumentParser:
-    """--large, --folder, --workers, --only-read, --out."""
+    """--large, --folder, --workers, --only-read, --out, --update."""
     p = argparse.ArgumentParser(description=text)
     p.add_argument("--large", action="store_true", help="the real thing: hours; a run that was killed goes on")
     p.add_argument("--folder", default="packings", help="where the packings are kept (packings)")
     p.add_argument("--workers", type=int, help="processes (all cores)")
     p.add_argument("--only-read", action="store_true", help="make no packing: what is there is analysed")
-    p.add_argument("--out", type=Path, default=HERE, help="folder with results/ and pictures/ (that of the script)")
+    p.add_argument("--out", type=Path, default=Path("studies"), help="folder with results/ and pictures/ (studies)")
+    p.add_argument("--update", dest="out", action="store_const", const=HERE, help="write them into the checkout, which the pages show")
     return p
 
 
@@ -63,7 +64,7 @@ def command(words: list[str]) -> str:
     made, skip = [Path(words[0]).name], False
     for word in words[1:]:
         name = word.split("=")[0]
-        if not skip and name not in ("--only-read", "--folder", "--out", "--workers"):
+        if not skip and name not in ("--only-read", "--update", "--folder", "--out", "--workers"):
             made.append(word)
         skip = not skip and word in ("--folder", "--out", "--workers")
     return " ".join(made)

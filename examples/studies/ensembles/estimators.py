@@ -113,32 +113,35 @@ def exponents(r, found, sizes):
 
 
 def equivalence(r, found, sizes):
-    """4.18, 4.19: three estimators of three distributions for all N, with errors over packings."""
-    for side, label in (("below", "4.18"), ("mk", "4.19")):
-        there = [n for n in sizes if (side, n) in found]
-        figure, axes = plt.subplots(len(there), 3, figsize=(14, 3.6 * len(there)), squeeze=False)
-        for row, n in enumerate(there):
-            for axis, name in zip(axes[row], NAMES):
-                values = getattr(found[side, n], name)
-                x = np.geomspace(*SPANS[name], 25)
-                fixed, pooled, ranked = scaling.cdf_grid(values, x), scaling.cdf_pooled(values), scaling.cdf_ranked(values)
-                use = fixed.c > 0
-                axis.errorbar(x[use], fixed.c[use], fixed.c_error[use] * len(values) ** 0.5, fmt="o", ms=3, lw=1, label="fixed points")
-                axis.plot(pooled.x, pooled.c, "-", lw=1, label="pooled")
-                axis.errorbar(ranked.x[::9], ranked.c[::9], xerr=ranked.x_error[::9], fmt="s", ms=2, lw=0.7, label="ranked")
-                axis.set(xscale="log", yscale="log", xlabel=("h" if name == "gaps" else "f") + f", {name}, N = {n}", ylabel="c")
-                few = np.array([np.searchsorted(v, x) for v in values]).sum(axis=0) >= 30  # enough values for an error
-                few &= (x < ranked.x[-1]) & (fixed.c < 0.5)  # packings with few values end the ranked one
-                for text, c in (
-                    ("pooled", np.searchsorted(pooled.x, x, "right") / len(pooled.x)),
-                    ("ranked", np.interp(x, ranked.x, ranked.c)),
-                ):
-                    off = np.max((np.abs(c - fixed.c) / np.maximum(fixed.c_error, 1e-12))[few])
-                    r.add(label, f"{name}, {SIDES[side]}, N = {n}: {text} against fixed points, most, in errors", "agree", off)
-                least = np.array([v[0] for v in values if len(v)])
-                r.add(label, f"{name}, {SIDES[side]}, N = {n}: deviation of the least value over its mean", "gaps scatter most", least.std(ddof=1) / least.mean())
+    """4.18 (forces) and 4.19 (gaps) of hard spheres: three estimators of the distribution for all N; bars: deviation over packings."""
+    there = [n for n in sizes if ("below", n) in found]
+    for label, names, text in (("4.18", ("extended", "localised"), "forces"), ("4.19", ("gaps",), "gaps")):
+        figure, axes = plt.subplots(len(names), len(there), figsize=(4.6 * len(there), 3.6 * len(names)), squeeze=False)
+        for row, name in zip(axes, names):
+            for axis, n in zip(row, there):
+                compare(r, axis, label, name, n, getattr(found["below", n], name))
         axes[0, 0].legend(fontsize=7)
-        r.picture(figure, f"estimators_equivalence_{'spheres' if side == 'below' else 'mk'}")
+        r.picture(figure, f"estimators_equivalence_{text}")
+
+
+def compare(r, axis, label, name, n, values):
+    x = np.geomspace(*SPANS[name], 25)
+    fixed, pooled, ranked = scaling.cdf_grid(values, x), scaling.cdf_pooled(values), scaling.cdf_ranked(values)
+    use = fixed.c > 0
+    axis.errorbar(x[use], fixed.c[use], fixed.c_error[use] * len(values) ** 0.5, fmt="o", ms=3, lw=1, label="fixed points")
+    axis.plot(pooled.x, pooled.c, "-", lw=1, label="pooled")
+    axis.errorbar(ranked.x[::9], ranked.c[::9], xerr=ranked.x_error[::9], fmt="s", ms=2, lw=0.7, label="ranked")
+    axis.set(xscale="log", yscale="log", xlabel=("h" if name == "gaps" else f"f, {name}") + f", N = {n}", ylabel="c")
+    few = np.array([np.searchsorted(v, x) for v in values]).sum(axis=0) >= 30  # enough values for an error
+    few &= (x < ranked.x[-1]) & (fixed.c < 0.5)  # packings with few values end the ranked one
+    for text, c in (
+        ("pooled", np.searchsorted(pooled.x, x, "right") / len(pooled.x)),
+        ("ranked", np.interp(x, ranked.x, ranked.c)),
+    ):
+        off = np.max((np.abs(c - fixed.c) / np.maximum(fixed.c_error, 1e-12))[few])
+        r.add(label, f"{name}, N = {n}: {text} against fixed points, most, in errors", "agree", off)
+    least = np.array([v[0] for v in values if len(v)])
+    r.add(label, f"{name}, N = {n}: deviation of the least value over its mean", "gaps scatter most", least.std(ddof=1) / least.mean())
 
 
 def main():

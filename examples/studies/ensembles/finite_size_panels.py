@@ -62,8 +62,29 @@ def contact_shapes(r, figure, axes, entries, n, model):
     axes[1].set(xlabel="S", ylabel="spheres", yscale="log")
 
 
+def flatness(r, sizes):
+    """4.13, upper panel: power of f that is left in c / f^1.42311, over the two decades above the scaled force 1 of each N; lower panel:
+    quality of the collapse of N^(theta/(1+theta)) c / f."""
+    for n, s in sizes.items():
+        grid = np.geomspace(1, 30, 12) * n ** (-1 / (1 + THETA_E))
+
+        def left(some, grid=grid):
+            return np.polyfit(np.log(grid), np.log(scaling.cdf_grid(some, grid).c + 1e-12), 1)[0] - 1 - THETA_E
+
+        found = scaling.bootstrap(s.extended, left, 40)
+        r.add("4.13", f"power of f left in c / f^1.42311, scaled f = 1 to 30, N = {n}", "0: flat", found.value, found.error)
+    if len(sizes) > 1:
+        for high in (3, 10):
+            curves = []
+            for n, s in sizes.items():
+                c = scaling.cdf_grid(s.extended, np.geomspace(0.3, high, 20) * n ** (-1 / (1 + THETA_E)))
+                factor = n ** (THETA_E / (1 + THETA_E)) / c.x
+                curves.append((n, c._replace(c=c.c * factor, c_error=c.c_error * factor)))
+            r.add("4.13", f"S of N^(theta/(1+theta)) c / f, scaled f = 0.3 to {high}", "about 1", scaling.quality(curves, 1 / (1 + THETA_E), 0.0))
+
+
 def ratios(r, figure, axes, sizes):
-    """c / f^b for four b, and c - 0.25 / N."""
+    """c / f^b for four b. Spheres: c - 0.25 / N (4.5). Mari-Kurchan packings: N^(theta/(1+theta)) c / f (4.13)."""
     x = np.geomspace(1e-4, 3, 60)
     largest = max(sizes)
     for k, (n, s) in enumerate(sizes.items()):
@@ -73,9 +94,12 @@ def ratios(r, figure, axes, sizes):
             axes[0].loglog(
                 x[use], c[use] / x[use] ** b, style, color=f"C{k}", lw=1, label=f"b = {b:.3f}" if n == largest else None
             )
-        axes[1].loglog(x * n ** (1 / (1 + THETA_E)), np.maximum(n * c - OFFSET, 1e-3), lw=1, label=f"N = {n}")
+        lower = n ** (THETA_E / (1 + THETA_E)) * c / x if figure == "6.6" else np.maximum(n * c - OFFSET, 1e-3)
+        axes[1].loglog(x * n ** (1 / (1 + THETA_E)), lower, lw=1, label=f"N = {n}")
     axes[0].set(xlabel="f, extended", ylabel="c / f^b", ylim=(1e-2, 1e2))
-    axes[1].set(xlabel="f N^(1/(1+theta_e))", ylabel="N c - 0.25", ylim=(1e-2, None))
+    axes[1].set(xlabel="f N^(1/(1+theta_e))", ylabel="N^(theta/(1+theta)) c / f" if figure == "6.6" else "N c - 0.25", ylim=(1e-2, None))
+    if figure == "6.6":
+        flatness(r, sizes)
     low, high = 10 * largest ** (-1 / (1 + THETA_E)), 0.3
     for name, text, published in (("extended", "extended", 1 + THETA_E), ("localised", "localised", None)):
         values = getattr(sizes[largest], name)

@@ -42,7 +42,7 @@ def main():
     found, weights = {}, {}
     figure, axes = plt.subplots(1, 3, figsize=(13, 4))
     for n in o.sizes or ((256, 512, 1024) if o.large else (200, 400)):
-        e = ensemble(o, protocol("euclid", n), round(o.particles / n) if o.large else 3200 // n)
+        e = ensemble(o, protocol("euclid", n, floppy_modes={}), round(o.particles / n) if o.large else 3200 // n)
         rows, w, all_b = [], [], []
         for entry in e:
             if not entry.row["jammed"] or entry.row["excess_contacts"] or entry.row["crystal_score"] > MAX_ORDER:

@@ -7,6 +7,8 @@ Runs are those of path_to_jamming.py for several (N, kappa). Beside them: Mari-K
 liquid at 2.5, whose glass branch is fitted with free d; and small systems grown slowly from 0.2, which order in part.
 Small: (256, 1e-3), and N = 256, 512, 1024 at 3e-4, 3 seeds. Slow: also N = 1024, 2048 and 4096 at 1e-4, half an hour. Large: N = 1024 at four rates, N = 2048 and 4096 at 1e-4, 10 seeds.
 """
+import time
+
 import matplotlib
 
 matplotlib.use("Agg")
@@ -53,6 +55,9 @@ def against_pressure(r, every, pressures):
         r.add("2.8", f"phi_J from p_target = {high:.0e}, {where}", "rises as kappa falls", *mean_error(phi[-1]))
         r.add("2.8", f"|phi_J - reference|, p_target = {low:.0e}, {where}", "falls with p", off[0])
         r.add("2.8", f"|phi_J - reference|, p_target = {pressures[-2]:.0e}, {where}", "falls with p", off[-2])
+        for t in (1e3, 1e5):
+            lower = numbers(made, "phi", [t])[0] < numbers(made, "phi", [1e7])[0] - 1e-12
+            r.add("2.12", f"share of packings whose phi_J from {t:.0e} is below that from 1e7, {where}", "most", lower.mean())
         r.add("2.9", f"contacts of the reference, p_target = {low:.0e}, {where}", "rises to 1", *mean_error(shared[0]))
         r.add("2.9", f"contacts of the reference, p_target = {pressures[-2]:.0e}, {where}", "rises to 1", *mean_error(shared[-2]))
         r.add("2.15", f"seconds of growth to p_target = {high:.0e}, {where}", "grow with 1/kappa and N", *mean_error(growth[-1]))
@@ -67,9 +72,43 @@ def against_pressure(r, every, pressures):
     r.picture(figure, "growth_panels_pressure")
 
 
+TOGETHER = 10  # growths that advance in one process, as published
+
+
+def together(n, seed, pressure=1e7):
+    """2.15, lower panels: seconds of growth of one packing alone, and of each of TOGETHER that advance by turns."""
+    found = []
+    for count in (1, TOGETHER):
+        packings = [jam.System.random(n, seed=100 * seed + k) for k in range(count)]
+        begin = time.process_time()
+        for growth, target in [(5e-3 * G_OF_KAPPA, 500.0)] + [(1e-3 * G_OF_KAPPA, 10.0**k) for k in range(3, round(np.log10(pressure)) + 1)]:
+            for packing in packings:
+                packing.compress([(growth, float(target))])
+        found.append((time.process_time() - begin) / count)
+    return {"alone": found[0], "together": found[1]}
+
+
+def side_by_side(o, r, sizes, seeds):
+    figure, axis = plt.subplots(figsize=(5.6, 4.2))
+    rows = []
+    for n in sizes:
+        made = [kept(o, "growth_panels_together", f"n{n}_seed{s}", lambda: together(n, s)) for s in range(1, seeds + 1)]
+        made = [m for m in made if m is not None]
+        if made:
+            rows.append((n, np.mean([m["alone"] for m in made]), np.mean([m["together"] for m in made])))
+            ratio = mean_error([m["together"] / m["alone"] for m in made])
+            r.add("2.15", f"seconds of growth of each of {TOGETHER} at once over one alone, N = {n}, p = 1e7", "in the picture", *ratio)
+    if rows:
+        n, alone, several = np.array(rows).T
+        axis.loglog(n, alone, "o-", label="one alone"), axis.loglog(n, several, "s--", label=f"each of {TOGETHER} at once")
+        axis.set(xlabel="N", ylabel="processor s of growth to p = 1e7")
+        axis.legend()
+        r.picture(figure, "growth_panels_together")
+
+
 def steps(r, every, pressures):
-    """2.13: lg |s_i| of the last LP by p, of the first by kappa, and of every LP of one run."""
-    figure, axes = plt.subplots(1, 4, figsize=(18, 4.4))
+    """2.13: lg |s_i| of the first and the last LP by p and by kappa, and of every LP of one run; null displacements."""
+    figure, axes = plt.subplots(1, 5, figsize=(22, 4.4))
     first_key = next(iter(every))
     middles = 0.5 * (STEP_BINS[1:] + STEP_BINS[:-1])
     for k, which in ((0, 0), (1, -1)):
@@ -83,7 +122,13 @@ def steps(r, every, pressures):
         axes[2].step(middles, counts / counts.sum() / 0.25, where="mid", lw=1, label=f"N = {n}, kappa = {kappa:g}")
         peak = middles[np.argmax(counts)]
         r.add("2.13", f"most likely lg |s_i| of the first LP, p = {at:.0e}, N = {n}, kappa = {kappa:g}", "in the picture", peak)
+        counts = sum(m[f"each_{at:.0e}"][-1] for m in made)
+        axes[4].step(middles, counts / counts.sum() / 0.25, where="mid", lw=1, label=f"N = {n}, kappa = {kappa:g}")
+        for prefix, how in (("", "LPs solved in full"), ("stopped_", "LPs stopped at 1e-9, no polish")):
+            nulls = [np.mean([m[f"{prefix}nulls_{t:.0e}"][-1] for t in pressures if t >= 1e7]) for m in made]
+            r.add("2.13", f"share of s_i = 0 in the last LP, p from 1e7, {how}, N = {n}, kappa = {kappa:g}", "more at larger kappa", *mean_error(nulls))
     axes[2].set(title=f"first LP from p = {at:.0e}")
+    axes[4].set(title=f"last LP from p = {at:.0e}")
     each = max((m[f"each_{at:.0e}"] for m in every[first_key]), key=len)
     for k, counts in enumerate(each):
         axes[3].step(middles, counts / counts.sum() / 0.25, where="mid", lw=1, color=plt.cm.viridis(k / len(each)))
@@ -104,7 +149,13 @@ def glass(m, low, high, jammed):
     if use.sum() < 4:
         return None
     fit = jam.glass_fit(m["md_phi"][use], m["p"][use])
-    return fit.jammed_fraction - jammed, fit.jammed_error, fit.dimension / 3, fit.r_squared
+    return fit.jammed_fraction - jammed, fit.jammed_error, fit.dimension / 3, fit.r_squared, error_without_covariance(m["md_phi"][use], m["p"][use])
+
+
+def error_without_covariance(phi, p):
+    """Error of phi_J = a / b in 1/p = a - b phi if the covariance of a and b is left out: phi_J sqrt((da/a)^2 + (db/b)^2)."""
+    (slope, a), cov = np.polyfit(phi, 1 / p, 1, cov=True)
+    return a / -slope * np.sqrt(cov[1, 1] / a**2 + cov[0, 0] / slope**2)
 
 
 def fits(r, every, pressures):
@@ -113,13 +164,15 @@ def fits(r, every, pressures):
     for k, ((n, kappa), made) in enumerate(every.items()):
         jammed = [m[f"phi_{pressures[-1]:.0e}"] for m in made]
         for (low, high), marker in (((1e5, 1e12), "o"), ((1e5, 1e7), "x")):
-            off, error, d, r2 = np.array([glass(m, low, high, j) for m, j in zip(made, jammed)]).T
+            off, error, d, r2, naive = np.array([glass(m, low, high, j) for m, j in zip(made, jammed)]).T
             off = np.abs(off)
             x = k + (0.1 if marker == "x" else -0.1) + 0.03 * np.arange(len(off))
             axis.semilogy(x, np.maximum(off, 1e-17), marker, color=f"C{k}", label="" if k else f"fit to {high:.0e}")
             axis.fill_between(x, 1e-17, np.full(len(x), error.mean()), color=f"C{k}", alpha=0.2)
+            axis.plot(x, np.full(len(x), naive.mean()), ":", color=f"C{k}", lw=2)
             where = f"N = {n}, kappa = {kappa:g}, p = {low:.0e} to {min(high, pressures[-1]):.0e}"
             r.add("2.11", f"|phi_J - phi_J of the fit| over the fit's error, {where}", "below 1", np.median(off / error))
+            r.add("2.11", f"error of the fit without the covariance over |phi_J - phi_J of the fit|, {where}", "100 and more", np.median(naive / off))
             r.add("2.11", f"d of the fit over 3, {where}", "1 to 1.07", d.mean())
             r.add("2.11", f"least R^2, {where}", ">= 0.999", r2.min())
         shown = []
@@ -137,7 +190,7 @@ def fits(r, every, pressures):
             beside.loglog(p, off, "o-", color=f"C{k}", label=f"N = {n}, kappa = {kappa:g}")
             beside.loglog(p, error, "--", color=f"C{k}", lw=1)
     axis.set(xticks=range(len(every)), xticklabels=[f"{n}\n{kappa:g}" for n, kappa in every], xlabel="N, kappa")
-    axis.set(ylabel="|phi_J - phi_J of the fit|; band: error of the fit")
+    axis.set(ylabel="|phi_J - phi_J of the fit|; band: error of the fit; dotted: without covariance")
     beside.set(xlabel="p, fits of two decades", ylabel="|phi_J - phi_J of the fit|; dashed: error of the fit")
     for one in (axis, beside):
         one.legend(fontsize=6)
@@ -236,6 +289,7 @@ def main():
         against_pressure(r, every, pressures)
         steps(r, every, pressures)
         fits(r, every, pressures)
+        side_by_side(o, r, sorted({n for n, _ in every}), seeds)
         correlations(o, r, every, pressures, 10)
     r.write()
 

@@ -4,7 +4,7 @@
 usage: motion_mc.py [--large] [--runs RUNS] [--folder DIR] [--out DIR]
 
 The packing of motion_md.py, energy (2R - r)^alpha at phi_J; three temperatures for each alpha (ours: equal overlaps T^(1/alpha);
-published is T = 1e-4 for alpha = 2). Small: 40 runs of 120 sweeps for each of nine pairs, a minute. Large: 1000 of 250. Runs are kept.
+published is T = 1e-4 for alpha = 2). Small: 40 runs of 250 sweeps for each of nine pairs, two minutes. Large: 1000. Runs are kept.
 """
 import sys
 
@@ -106,8 +106,8 @@ def main():
     every = {}
     for alpha, temperatures in near.TEMPERATURES.items():
         for t in temperatures:
-            every[alpha, t] = near.mc_runs(packing, o.folder, "1q", alpha, t, o.large, count)
-    r.made(f"N = 1024 by sequential LPs, seed 1, nine pairs (alpha, T), {near.LAST_SWEEP[o.large]} sweeps", count)
+            every[alpha, t] = near.mc_runs(packing, o.folder, "1q", alpha, t, count)
+    r.made(f"N = 1024 by sequential LPs, seed 1, nine pairs (alpha, T), {near.LAST_SWEEP} sweeps", count)
     energies(r, every, packing.n)
     scatters(r, structure, every, radius)
     decays(r, structure, every, radius)

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 """Which spheres move below jamming: figures 3.5 to 3.10, 3.15, 3.16, 3.21 and 3.22 of the thesis, hard spheres.
 
-usage: motion_md.py [--large] [--runs RUNS] [--folder DIR] [--out DIR]
+usage: motion_md.py [--large] [--runs RUNS] [--long-runs RUNS] [--folder DIR] [--out DIR]
 
 Packings as published: N = 1024, sequential LPs from random spheres, seeds 1 and 2. Runs from one packing with other velocities, its
-diameters reduced to phi / phi_J = 0.96 to 0.999; tau counts collisions of each sphere. Small: 100 runs, and
-20 that are ten times as long. Large: 5000 and 250.
+diameters reduced to phi / phi_J = 0.96 to 0.999. tau is the number of collisions over N, as in the thesis. Small: 100 runs, and
+5 that are 100 times as long, as published. Large: 5000 and 1000; of the second packing 500.
 Runs are kept in the folder, as those of ../near_jamming_md.py.
 """
 import sys
@@ -148,7 +148,7 @@ def decays(r, structure, md, long_ones, radius):
     for ratio, runs in md.items():
         shrunk = radius * ratio ** (1 / 3)  # of the spheres that move; the unit of time has kT = m = 1
         axes[0].loglog(runs.time / shrunk, runs.msd / shrunk**2, ".-", label=f"phi/phi_J = {ratio}")
-        axes[1].errorbar(runs.instants, runs.time / shrunk, runs.deviation("time") / shrunk, label=f"{ratio}")
+        axes[1].errorbar(near.taus(runs), runs.time / shrunk, runs.deviation("time") / shrunk, label=f"{ratio}")
     for ratio in (0.99, 0.999):
         runs = md[ratio]
         share = runs.deviation("time")[at(20)] / runs.time[at(20)]
@@ -163,7 +163,7 @@ def decays(r, structure, md, long_ones, radius):
         colour = f"C{list(md).index(ratio)}"
         axes[0].loglog(runs.time / shrunk, runs.msd / shrunk**2, "-", lw=1, color=colour, label=f"{ratio}, long")
         late = np.log(runs.msd[-1] / runs.msd[-2]) / np.log(runs.time[-1] / runs.time[-2])
-        r.add("3.5", f"slope of the MSD in t, {ratio}, tau = 700 to 1000", "to 0: plateau", late)
+        r.add("3.5", f"slope of the MSD in t, {ratio}, tau = 7000 to 10000", "to 0: plateau", late)
     t = axes[0].lines[0].get_xdata()[:3]
     axes[0].loglog(t, 0.5 * axes[0].lines[0].get_ydata()[0] * (t / t[0]) ** 2, "k--", lw=1, label="slope 2")
     axes[1].set(xscale="log", yscale="log", xlabel="tau", ylabel="t / (R sqrt(m / kT))")
@@ -173,15 +173,17 @@ def decays(r, structure, md, long_ones, radius):
 
 def main():
     p = arguments(__doc__.splitlines()[0])
-    p.add_argument("--runs", type=int, help="runs for each density (small 100, large 5000)")
+    p.add_argument("--runs", type=int, help="runs for each density (small 100, large 5000; 500 at most of the second packing)")
+    p.add_argument("--long-runs", type=int, help="runs to tau = 1e4 (small 5, large 1000)")
     o = p.parse_args()
-    count = o.runs or (5000 if o.large else 100)
+    count, long_count = o.runs or (5000 if o.large else 100), o.long_runs or (1000 if o.large else 5)
     r = Results(o, "motion_md")
     for seed, name, ratios in ((1, "", near.RATIOS), (2, "_second", (RATIO,))):
         packing = panels.quenched(o.folder, seed)
         structure, radius = nj.predictors(packing), 0.5 * packing.diameters.mean()
-        md = {q: near.md_runs(packing, o.folder, f"{seed}q", q, count) for q in ratios}
-        r.made(f"N = 1024 by sequential LPs, seed {seed}, phi/phi_J = {', '.join(map(str, ratios))}", count)
+        runs = min(count, 500) if name else count  # the second packing: 500, as published
+        md = {q: near.md_runs(packing, o.folder, f"{seed}q", q, runs) for q in ratios}
+        r.made(f"N = 1024 by sequential LPs, seed {seed}, phi/phi_J = {', '.join(map(str, ratios))}", runs)
         r.add("3.1", f"phi_J of seed {seed}", "0.635", packing.packing_fraction)
         r.add("3.1", f"share of rattlers of seed {seed}", "0.013 to 0.014", structure.rattlers.mean())
         scatters(r, name, structure, md, radius)
@@ -190,9 +192,8 @@ def main():
         displacements(r, structure, md[RATIO], radius)
         spread(r, structure, md[RATIO], radius)
         late(r, structure, {q: md[q] for q in (0.99, RATIO, 0.999)}, radius)
-        few = max(20, count // 20)
-        long_ones = {q: near.long_md_runs(packing, o.folder, f"{seed}q", q, few) for q in near.LONG_RATIOS}
-        r.made(f"the same, to tau = 1000, phi/phi_J = {', '.join(map(str, near.LONG_RATIOS))}", few)
+        long_ones = {q: near.long_md_runs(packing, o.folder, f"{seed}q", q, long_count) for q in near.LONG_RATIOS}
+        r.made(f"the same, to tau = 1e4, phi/phi_J = {', '.join(map(str, near.LONG_RATIOS))}", long_count)
         decays(r, structure, md, long_ones, radius)
         figure, axes = plt.subplots(1, 2, figsize=(10, 4.2))
         panels.ranking(axes, structure, md[0.99], radius, "phi/phi_J = 0.99")

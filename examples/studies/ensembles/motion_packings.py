@@ -3,8 +3,8 @@
 
 usage: motion_packings.py [--large] [--folder DIR] [--out DIR] [--only-read]
 
-As motion_mc.py, alpha = 2 at the middle temperature, last sweep, from packings of other seeds. Small: 8 packings with 100 runs of 120
-sweeps, about 8 minutes. Large: 20 with 1000 of 250. Runs are kept.
+As motion_mc.py, alpha = 2 at the middle temperature, last sweep, from packings of other seeds. Small: 8 packings with 100 runs of 250
+sweeps, about 15 minutes. Large: 20 with 1000. Runs are kept.
 """
 import sys
 
@@ -26,7 +26,7 @@ def correlations(o, seed, count):
     packing = panels.quenched(o.folder, seed)
     structure = nj.predictors(packing)
     t = near.TEMPERATURES[ALPHA][MIDDLE]
-    runs = near.mc_runs(packing, o.folder, f"{seed}q", ALPHA, t, o.large, count)
+    runs = near.mc_runs(packing, o.folder, f"{seed}q", ALPHA, t, count)
     square = runs.mean("distance2")[-1]
     return [jam.statistics.spearman(getattr(structure, name), square) for name in panels.SCALARS]
 
@@ -36,7 +36,7 @@ def main():
     packings, count = (20, 1000) if o.large else (8, 100)
     r = Results(o, "motion_packings")
     k = np.array([correlations(o, seed, count) for seed in range(1, packings + 1)])
-    r.made(f"N = 1024 by sequential LPs, seeds 1 to {packings}, alpha = 2, {near.LAST_SWEEP[o.large]} sweeps", packings * count)
+    r.made(f"N = 1024 by sequential LPs, seeds 1 to {packings}, alpha = 2, {near.LAST_SWEEP} sweeps", packings * count)
     for column, text in enumerate(panels.SCALARS.values()):
         r.add("3.14", f"K[{text}, <|dr|^2>], alpha = 2, mean of {packings} packings", "largest |K| for S", *mean_error(k[:, column]))
         r.add("3.14", f"the same, standard deviation between packings, {text}", "one packing", k[:, column].std(ddof=1))

@@ -30,8 +30,12 @@ def log_lengths(steps):
     return np.log10(np.maximum(np.linalg.norm(steps, axis=1), 1e-18))
 
 
-def crunched(packing):
-    """Crunch of a copy by LPs: contacts, phi_J, and the displacements |s_i| of the first and the last LP."""
+STOPPED = dict(polish=False, lp_tolerance=1e-9)  # LPs as published: an interior point that stops at 1e-9, and no polish
+
+
+def crunched(packing, **how):
+    """Crunch of a copy by LPs: contacts, phi_J, and the displacements |s_i| of the first and the last LP. msd is that of the spheres
+    themselves, as published; msd_without_drift takes the mean displacement of the stable spheres out."""
     steps = []
     with packing.copy() as copy:
         begin = time.process_time()
@@ -40,11 +44,14 @@ def crunched(packing):
             on_step=lambda s: steps.append(s.displacements.copy()) if len(s.duals) else None,
             method="sequential_lp",
             full_lps=1,
+            **how,
         )
         stable = ~copy.rattlers
         moved = np.cumsum(steps, axis=0)[:, stable]
-        moved = moved - moved.mean(axis=1, keepdims=True)
-        msd = np.mean(np.sum(moved**2, axis=2), axis=1)
+        msd, without = (
+            np.mean(np.sum(m**2, axis=2), axis=1) for m in (moved, moved - moved.mean(axis=1, keepdims=True))
+        )
+        seen = [0, min(1, len(msd) - 1), -1]
         return {
             "phi": report.packing_fraction,
             "jammed": report.jammed and report.excess_contacts == 0,
@@ -54,7 +61,9 @@ def crunched(packing):
             "first": np.linalg.norm(steps[0][stable], axis=1),
             "last": np.linalg.norm(steps[-1][stable], axis=1),
             "each": [np.histogram(log_lengths(s[stable]), STEP_BINS)[0] for s in steps],
-            "msd": [msd[0], msd[min(1, len(msd) - 1)], msd[-1]],
+            "nulls": [np.mean(np.all(s[stable] == 0, axis=1)) for s in steps],
+            "msd": msd[seen],
+            "msd_without_drift": without[seen],
             "g": copy.pair_correlation(4.0, 400),
         }
 
@@ -72,9 +81,11 @@ def one(n, seed, kappa, pressures):
                 p.append(md.pressure), phi.append(md.packing_fraction)
             seconds += time.process_time() - begin
             made[f"md_seconds_{target:.0e}"] = seconds
-            found = crunched(packing)
-            for name in ("phi", "jammed", "lps", "seconds", "contacts", "first", "last", "each", "msd", "g"):
-                made[f"{name}_{target:.0e}"] = found[name]
+            for name, value in crunched(packing).items():
+                made[f"{name}_{target:.0e}"] = value
+            stopped = crunched(packing, **STOPPED)
+            for name in ("lps", "contacts", "nulls", "msd", "msd_without_drift"):
+                made[f"stopped_{name}_{target:.0e}"] = stopped[name]
         return {**made, "p": p, "md_phi": phi, "score": packing.crystal_score()}
 
 
@@ -119,6 +130,18 @@ def rows(r, kappa, made, pressures):
     return phi, off, shared.mean(axis=1), lps.mean(axis=1)
 
 
+def displacements(r, kappa, made, pressures):
+    """2.14, 2.16: MSD of the crunch with and without the drift of the packing, and by LPs that stop as the published ones do."""
+    far = pressures >= 1e5
+    for prefix, text in (("", "LPs solved in full"), ("stopped_", "LPs stopped at 1e-9, no polish")):
+        for name, drift in (("msd", "with drift"), ("msd_without_drift", "without drift")):
+            last = np.array([[m[f"{prefix}{name}_{t:.0e}"][-1] for m in made] for t in pressures]).mean(axis=1)
+            slope = np.polyfit(np.log(pressures[far]), np.log(np.maximum(last[far], 1e-36)), 1)[0]
+            r.add("2.14", f"power of p in MSD_LP above 1e5, {text}, {drift}, kappa = {kappa:g}", "0: plateau", slope)
+        lps = numbers(made, f"{prefix}lps", pressures)[far].mean(axis=0)
+        r.add("2.16", f"LPs from p_target = 1e5 and more, {text}, kappa = {kappa:g}", "about 3", *mean_error(lps))
+
+
 def draw(axes, kappa, made, pressures, found, first):
     phi, off, shared, lps = found
     label = f"kappa = {kappa:g}"
@@ -126,9 +149,12 @@ def draw(axes, kappa, made, pressures, found, first):
     axes[0, 1].loglog(pressures[:-1], np.maximum(off[:-1], 1e-17), "o-")
     axes[0, 2].semilogx(pressures, shared, "o-")
     axes[0, 3].semilogx(pressures, lps, "o-")
+    colour = axes[0, 0].lines[-1].get_color()
     msd = np.array([[m[f"msd_{t:.0e}"] for m in made] for t in pressures]).mean(axis=1)
     for k, style in ((0, "v:"), (1, "s--"), (2, "o-")):
-        axes[1, 0].loglog(pressures, msd[:, k], style, ms=3, color=axes[0, 0].lines[-1].get_color())
+        axes[1, 0].loglog(pressures, msd[:, k], style, ms=3, color=colour)
+    stopped = np.array([[m[f"stopped_msd_{t:.0e}"][-1] for m in made] for t in pressures]).mean(axis=1)
+    axes[1, 0].loglog(pressures, np.maximum(stopped, 1e-36), "x-.", ms=4, lw=0.7, color=colour)
     if first:
         for k, which in enumerate(("first", "last")):
             for t in pressures:
@@ -141,7 +167,6 @@ def draw(axes, kappa, made, pressures, found, first):
     for m in made:
         distance = m[f"phi_{pressures[-1]:.0e}"] - m["md_phi"]
         axes[1, 3].loglog(m["p"][distance > 0], distance[distance > 0] / m["md_phi"][-1], lw=0.5)
-    return msd
 
 
 def kept_paths(o):
@@ -177,14 +202,12 @@ def main():
         r.made(f"N = {n}, kappa = 5e-3 to p = 500, then {kappa:g}, crunches by LPs", len(made))
         glass(r, kappa, made, numbers(made, "phi", pressures)[-1])
         numbers_found = rows(r, kappa, made, pressures)
-        msd = draw(axes, kappa, made, pressures, numbers_found, k == 0)
-        far = pressures >= 1e5
-        slope = np.polyfit(np.log(pressures[far]), np.log(msd[far, 2]), 1)[0]
-        r.add("7", f"power of p in MSD_LP above 1e5, kappa = {kappa:g}", "0: plateau", slope)
+        draw(axes, kappa, made, pressures, numbers_found, k == 0)
+        displacements(r, kappa, made, pressures)
     texts = ("phi_J", "mean |phi_J - phi_J(largest p)|", "contacts of the reference found", "LPs of the crunch")
     for axis, text in zip(axes[0], texts):
         axis.set(xlabel="p where growth stops", ylabel=text)
-    axes[1, 0].set(xlabel="p where growth stops", ylabel="MSD_LP after LP 1 (dotted), 2 (dashed), last")
+    axes[1, 0].set(xlabel="p where growth stops", ylabel="MSD_LP after LP 1 (dotted), 2 (dashed), last; x: LPs stopped at 1e-9")
     axes[1, 3].set(xlabel="p", ylabel="1 - phi / phi_J of the growth")
     axes[1, 3].loglog([1e3, 1e11], [3e-3, 3e-11], "k--", lw=1, label="3 / p")
     axes[0, 0].legend(fontsize=8)

@@ -94,47 +94,47 @@ def collision(r, axis):
     r.add("2.4", "distance less the sum of radii at the collision", ("contact", 0.0), off)
 
 
-def states(r, axis):
-    """2.12: displacements from the jammed state in the plane of their two largest components."""
-    n = 64
-    packing = jam.System.random(n=n, dim=2, seed=2, packing_fraction=0.4, diameters=np.where(np.arange(n) % 2, 1.4, 1.0))
+PATH, LEAST = (1e3, 1e5, 1e7), 1e-12  # pressures of figure 2.12; distances below are drawn there
+
+
+def states(r, axis, n):
+    """2.12: one growing packing and the jammed states that crunches find on its way, by their distance from the
+    last one. Rattlers lie where dynamics left them and are left out."""
+    packing = jam.System.random(n=n, seed=1)
+    packing.compress([(1e-2, 500.0)])
     sets, jammed, held, densities = [], [], [], []
-    for pressure in (30.0, 300.0, 3000.0):
-        packing.compress([(1e-2, pressure)])
+    for pressure in PATH:
+        packing.compress([(3e-3, pressure)])
         with packing.copy() as copy:
-            for k in range(12):
-                copy.run(20)
+            for k in range(8):
+                copy.run(10)
                 sets.append((pressure, copy.positions.copy()))
-                if k % 3 == 0:
+                if k % 2 == 0:
                     with copy.copy() as end:
                         report = end.crunch()
                         jammed.append((pressure, end.positions.copy()))
                         held.append(end.coordination > 0)
                         densities.append(report.packing_fraction)
-    origin = jammed[-1][1]
+    stable, origin = np.array(held).all(axis=0), jammed[-1][1]
 
     def away(x):
-        d = x - origin
+        d = (x - origin)[stable]
         d -= np.round(d)
         return (d - d.mean(axis=0)).ravel()
 
-    md, ends = np.array([away(x) for _, x in sets]), np.array([away(x) for _, x in jammed])
-    plane = np.linalg.svd(md - md.mean(axis=0), full_matrices=False)[2][:2]
-    unit = packing.diameters.mean()
-    for colour, pressure in zip(("C0", "C1", "C2"), (30.0, 300.0, 3000.0)):
-        few = np.array([p == pressure for p, _ in sets])
-        axis.plot(*(md[few] @ plane.T).T / unit, ".", color=colour, label=f"dynamics, p = {pressure:g}")
+    ends = np.array([away(x) for _, x in jammed])
+    unit = packing.diameters.mean() * stable.sum() ** 0.5
+    for colour, pressure in zip(("C0", "C1", "C2"), PATH):
+        moving = [np.linalg.norm(away(x)) / unit for p, x in sets if p == pressure]
+        axis.loglog(pressure * 1.12 ** np.arange(len(moving)), moving, ".", color=colour, label=f"dynamics, p = {pressure:g}")
         few = np.array([p == pressure for p, _ in jammed])
-        axis.plot(*(ends[few] @ plane.T).T / unit, "*", ms=9, color=colour, mec="k", mew=0.5, label="jammed states from there")
-        # of the spheres that no state leaves as rattlers: these lie where dynamics left them
-        stable = np.array(held)[few].all(axis=0)
-        there = ends[few].reshape(few.sum(), n, 2)[:, stable]
-        there = there - there.mean(axis=1, keepdims=True)
-        spread = np.sqrt(((there - there.mean(axis=0)) ** 2).sum(axis=2).mean()) / unit
+        still = np.maximum(np.linalg.norm(ends[few], axis=1) / unit, LEAST)
+        axis.loglog(pressure * 1.25 ** np.arange(len(still)), still, "*", ms=9, color=colour, mec="k", mew=0.5, label="jammed states from there")
+        spread = np.sqrt(((ends[few] - ends[few].mean(axis=0)) ** 2).sum(axis=1).mean()) / unit
         r.add("2.12", f"root mean square distance of the jammed states from p = {pressure:g}, diameters", "falls with p", spread)
-        different = len(set(np.round(np.array(densities)[few], 12)))
-        r.add("2.12", f"different jammed states of four from p = {pressure:g}", "falls with p", different)
-    axis.set(xlabel="first direction / mean diameter", ylabel="second direction", title=f"2.12 {n} disks")
+        r.add("2.12", f"mean phi_J from p = {pressure:g}", "rises with p", np.array(densities)[few].mean())
+    axis.set(xlabel="reduced pressure; points beside each other: later", ylabel=f"rms distance from the last jammed state / diameter (0: {LEAST:g})")
+    axis.set(title=f"2.12 one packing, {n} spheres")
     axis.legend(fontsize=6)
 
 
@@ -159,12 +159,14 @@ def disks(r, axis, n):
 def main():
     p = arguments(__doc__.splitlines()[0])
     p.add_argument("--disks", type=int, default=1024, help="of figure 2.3 (1024)")
+    p.add_argument("--spheres", type=int, default=1024, help="of figure 2.12 (1024)")
     o = p.parse_args()
     r = Results(o, "sketches")
     figure, axes = plt.subplots(2, 2, figsize=(10.5, 10))
-    for axis, draw in zip(axes.flat, (constraints, one_lp, collision, states)):
+    for axis, draw in zip(axes.flat, (constraints, one_lp, collision)):
         draw(r, axis)
-    r.made("5 disks; 2 growing disks; 64 disks of size ratio 1.4", 1)
+    states(r, axes.flat[3], o.spheres)
+    r.made(f"5 disks; 2 growing disks; one packing of {o.spheres} spheres", 1)
     r.picture(figure)
     figure, axis = plt.subplots(figsize=(9, 9))
     disks(r, axis, o.disks)

@@ -11,7 +11,7 @@ namespace {
 constexpr size_t header_words = 8, row_words = 14, radius_at = 6;
 
 // Frame k; false at the end of the file.
-bool read_frame(LineReader &in, const Enclosure &given, FileContent &content) {
+bool read_mercury_frame(LineReader &in, const Enclosure &given, FileContent &content) {
   std::string_view line;
   std::vector<std::string_view> words;
   if (!in.next_filled(line)) return false;
@@ -50,7 +50,7 @@ bool read_frame(LineReader &in, const Enclosure &given, FileContent &content) {
 
 FileContent read_mercury(LineReader &in, const ReadOptions &options) {
   return choose_frame(in, options.frame,
-                      [&](FileContent &content, int64_t) { return read_frame(in, options.enclosure, content); });
+                      [&](FileContent &content, int64_t) { return read_mercury_frame(in, options.enclosure, content); });
 }
 
 }  // namespace jam::inside

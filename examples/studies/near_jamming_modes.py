@@ -85,7 +85,7 @@ def main():
     rows = []
     for line, stiffness in zip(axes, ("harmonic", "hard")):
         modes = packing.modes(which="all", stiffness=stiffness)
-        weights = nj.mode_weights(packing, runs, modes, shown, stiffness=stiffness)
+        weights = nj.mode_weights(packing, runs, modes, shown)
         omega = np.sqrt(np.maximum(modes.values, 0.0))[packing.dim :]
         every = ranks(mean[shown].T).T @ ranks(modes.vectors.reshape(len(modes.values), -1).T)
         for m, tau in enumerate(SHOWN):

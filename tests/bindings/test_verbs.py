@@ -90,9 +90,8 @@ class MolecularDynamics(unittest.TestCase):
 
         def look(p):
             try:
-                seen.append(
-                    (s.call("crunch_step_displacements"), s.call("crunch_step_contacts"), s.call("crunch_step_duals"))
-                )
+                step = s.call("crunch_step")
+                seen.append((step.displacement, step.pair, step.dual))
             except jam.errors.StateError:  # amid a step
                 pass
 

@@ -266,7 +266,6 @@ static void calls_that_know_no_walls_refuse(void **state) {
                                  jam_moduli(tube, NULL, &moduli),
                                  jam_elastic_tensor(ball, NULL, real, 81, NULL, 0, &needed),
                                  jam_structure_factor(ball, 10.0, JAM_STRUCTURE_COLUMNS, real, 4096, &needed),
-                                 jam_pore_sizes(tube, 10, 1, JAM_PORE_COLUMNS, real, 4096, &needed),
                                  jam_set_cell(sys, cell, 9, NULL, 0, NULL, 0, NULL),
                                  jam_strain(sys, cell, 9)};
   for (size_t k = 0; k < sizeof statuses / sizeof *statuses; ++k) {

@@ -49,8 +49,9 @@ bool read_mercury_frame(LineReader &in, const Enclosure &given, FileContent &con
 }  // namespace
 
 FileContent read_mercury(LineReader &in, const ReadOptions &options) {
-  return choose_frame(in, options.frame,
-                      [&](FileContent &content, int64_t) { return read_mercury_frame(in, options.enclosure, content); });
+  return choose_frame(in, options.frame, [&](FileContent &content, int64_t) {
+    return read_mercury_frame(in, options.enclosure, content);
+  });
 }
 
 }  // namespace jam::inside

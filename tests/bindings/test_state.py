@@ -220,7 +220,7 @@ class Copies(unittest.TestCase):
                 a.write_checkpoint(folder + "/c")
                 b = jam.System.from_checkpoint(folder + "/c")
             c = pickle.loads(pickle.dumps(a))
-            self.assertEqual((b.info, c.info), (a.info, a.info))
+            self.assertEqual((str(b.info), str(c.info)), (str(a.info), str(a.info)))  # contact_gap is NaN, which equals nothing
             for s in (a, b, c):
                 s.compress(growth_rate=0.1, pressure=300)
             self.check_same(a, b)

@@ -115,7 +115,7 @@ end
     call(s, :jam_name, inputs; progress, options...)
 
 Calls a function of the C header: `inputs` in its order, members of its option structs as keywords. Returns its output, or
-[`Results`](@ref) of several. The size of arrays is queried first. `s` is `nothing` for functions without a system.
+`Results` of several. The size of arrays is queried first. `s` is `nothing` for functions without a system.
 """
 function call(s, name::Symbol, inputs::Tuple; progress = nothing, given...)
     c = CALLS[name]

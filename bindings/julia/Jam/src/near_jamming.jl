@@ -8,7 +8,7 @@ Runs from the packing as it is, each with velocities of its own; `s` does not ch
 NamedTuple of options of `monte_carlo!`, instead of molecular dynamics. `kept`: numbers of the instants whose displacements
 `isoconf_kept(s, k)` gives of every run.
 
-Returns [`Results`](@ref), means over the runs: `displacement` (d, n, instants), `propensity` = mean of |dr|^2 (n, instants), and a value
+Returns `Results`, means over the runs: `displacement` (d, n, instants), `propensity` = mean of |dr|^2 (n, instants), and a value
 an instant of `time`, `msd`, `scattering`, `overlap`, ... `report` is the Report.
 """
 function isoconf(s::System, instants; kept = nothing, monte_carlo = nothing, progress = nothing, given...)

@@ -88,7 +88,7 @@ end
 """
     modes(s, k = 10; which, frequency, stiffness, alpha, prestress, tolerance, memory_limit, progress)
 
-Vibrational modes: [`Results`](@ref) with `values` (omega^2, ascending), `vectors` (one column per mode, of unit length), `participation`
+Vibrational modes: `Results` with `values` (omega^2, ascending), `vectors` (one column per mode, of unit length), `participation`
 (inverse ratio: 1 / N of a uniform mode), `frequencies` (negative where the value is) and `spheres`, those that move. `which`: `:lowest`, `:highest`, `:near` (a
 `frequency`) or `:all`. `reshape(m.vectors[:, 1], d, :)` has a column for each of the `spheres`.
 """

@@ -33,10 +33,10 @@ def stable_part(pairs, n, dim):
 
 def network(packing):
     """The linear network of the LP that has just ended, or None."""
-    pairs = packing.crunch_step_contacts()
+    step = packing.crunch_step()
+    pairs, r, duals = step.pair, step.vector, step.dual
     if len(pairs) == 0:
         return None
-    r, duals = packing.crunch_step_vectors(), packing.crunch_step_duals()
     sums = np.zeros((packing.n, packing.dim))
     np.add.at(sums, pairs[:, 0], duals[:, None] * r)
     np.subtract.at(sums, pairs[:, 1], duals[:, None] * r)

@@ -84,7 +84,7 @@ static void verdicts_say_why(void **state) {
   said(jam_rigidity(lattice, JAM_RIGIDITY_STRICT, NULL), JAM_NOT_JAMMED, "not strictly jammed");
   jam_geometry_options_init(&g, sizeof g);
   g.tolerance = 1e-8;
-  said(jam_contacts_from_geometry(fluid, &g, NULL), JAM_NOT_JAMMED, "tolerance");
+  said(jam_contacts_from_geometry(fluid, &g, NULL), JAM_NOT_JAMMED, "jam_contacts_by_distance");
   assert_true(jam_contacts_from_geometry(lattice, NULL, NULL) > 0);
   logged[0] = 0;
   said(jam_stress_states(lattice, NULL, 0, NULL, 0, NULL, &m), JAM_AMBIGUOUS, "states of self-stress");

@@ -39,8 +39,8 @@ end
 "The step that has just ended; `nothing` during a step."
 function step_of(s)
     try
-        return (displacements = crunch_step_displacements(s), pairs = crunch_step_contacts(s), vectors = crunch_step_vectors(s),
-                duals = crunch_step_duals(s))
+        step = crunch_step(s)
+        return (displacements = step.displacement, pairs = step.pair, vectors = step.vector, duals = step.dual)
     catch e
         e isa JamError && e.status === :state && return nothing
         rethrow()

@@ -260,7 +260,7 @@ class Image(unittest.TestCase):
             s.image(shape=(3, 3))
         with self.assertRaisesRegex(jam.errors.ArgumentError, "voxels"):
             s.image(size=1e-9)
-        with self.assertRaisesRegex(jam.errors.UnsupportedError, ".npy, .mha"):
+        with self.assertRaisesRegex(jam.errors.UnsupportedError, r"\.npy.*\.mha.*\.vti"):
             s.write_voxels("/tmp/image.tif")
 
 

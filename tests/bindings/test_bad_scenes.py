@@ -31,7 +31,7 @@ SCENES = (
 )
 # jam.sizes, the text of --sizes or the rows of a curve in a file, the fault
 LAWS = (
-    (("sieve", {"curve": [(1, 0), (0.5, 1)]}), "1,0\n0.5,1", "sizes of a sieve curve must rise"),
+    (("sieve", {"curve": [(1, 0), (0.5, 1)]}), "1,0\n0.5,1", "the sieve curve falls"),
     (("sieve", {"curve": [(1, 0), (2, 0.5), (3, 0.4), (4, 1)]}), "1,0\n2,0.5\n3,0.4\n4,1", "row 2 .*the sieve curve falls"),
     (("sieve", {"curve": [(1, 0.2), (2, 1)]}), "1,0.2\n2,1", "must begin at 0"),
     (("sieve", {"curve": [(1, 0), (2, 0.7)]}), "1,0\n2,0.7", "must end at 1"),

@@ -212,12 +212,12 @@ class Stress(unittest.TestCase):
             "strain": lambda s: s.strain(np.zeros((dim, dim))),
             "structure_factor": lambda s: s.structure_factor(10.0),
             "tile": lambda s: s.tile((2, 1)),
+            "contacts_by_distance": lambda s: s.copy().contacts_by_distance(0.01),
             "contact_dots": lambda s: s.contact_dots(False),
             "write": lambda s: s.write(file(".xyz")),
             "write_checkpoint": lambda s: s.write_checkpoint(str(file(".jam"))),
             "write_contacts": lambda s: s.write_contacts(file(".csv")),
             "write_proof": lambda s: s.write_proof(str(file(".proof"))),
-            "write_proof_strict": lambda s: s.write_proof_strict(str(file(".proof"))),
             "write_stl": lambda s: s.write_stl(str(file(".stl"))),
             "write_voxels": lambda s: image(s, nx=8, ny=8),
         }

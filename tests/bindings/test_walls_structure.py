@@ -178,10 +178,6 @@ class PoreSizes(unittest.TestCase):
         s = jam.System.from_arrays([[0.1, 0.1, 0.9]], 0.1, cell=[1, 1.1, 1.2], walls="xyz")
         self.assertAlmostEqual(s.pore_sizes(200, 1).radius.max(), 0.5, 12)
 
-    def test_a_cylinder_is_refused_with_the_way_round(self):
-        with self.assertRaisesRegex(jam.errors.UnsupportedError, "quartic.*write_voxels"):
-            start("tube", 10, 1, packing_fraction=0.1).pore_sizes(10, 1)
-
 
 if __name__ == "__main__":
     unittest.main()

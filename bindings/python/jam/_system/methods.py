@@ -70,24 +70,6 @@ class Methods:
         """
         self.call('add_note', text)
 
-    def write_scaled(self, path: str, format: int | str, scale: float, density: float) -> None:
-        """write() in another unit: all lengths of the packing times scale, 1e-12 to 1e12. density: of the spheres, above
-        0, in the unit of LAMMPS data, which alone have a place for it; other formats need 1. With scale = 1 the bits
-        are those of write(); another scale rounds.
-
-        Parameters
-        ----------
-        path : str
-        format : {'auto', 'plain', 'xyz', 'lammps', 'vtp'}
-        scale : float
-        density : float
-
-        Raises
-        ------
-        ArgumentError, UnsupportedError, IoError
-        """
-        self.call('write_scaled', path, format, scale, density)
-
     def write_checkpoint(self, path: str) -> None:
         """Writes all that the dynamics depend on to a binary file: positions, diameters, velocities, shifts of the MK
         model, and a stage that was stopped early or runs now.

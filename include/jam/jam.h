@@ -103,7 +103,7 @@
 #endif
 
 /* Marks a call that a later version replaces, with the name of the other one, for example
- * JAM_DEPRECATED("jam_other") JAM_API jam_status jam_one(...). It works until the ABI number changes. */
+ * JAM_DEPRECATED("jam_other") in front of JAM_API. Such a call works until the ABI number changes. */
 #if defined(__GNUC__) && !defined(SWIG)
 #define JAM_DEPRECATED(instead) __attribute__((deprecated("use " instead)))
 #else

@@ -816,8 +816,8 @@ module jam
 
   ! Options of jam_crunch. Lengths are in mean diameters. The guide's page "Coming from other programs" names the
   ! parameter of CALiPPSO.jl beside each.
-  ! - polish: then a crunch also ends where LPs below gain_tolerance still move rattlers. 0 keeps the LP's answer.
-  ! - full_lps: else an LP that gains more than 1e-7 ends at a duality gap of 0.02 of its gain.
+  ! - polish: 1 also stops where LPs that gain less than gain_tolerance still move rattlers. 0: the last LP's answer.
+  ! - full_lps: 0 stops an LP that gains more than 1e-7 at a duality gap of 0.02 times its gain.
   ! - strain: the cell deforms at fixed volume after the fixed cell's optimum; FREE ends strictly jammed. One sphere
   ! alone needs a strain: its contacts are its own images, which only strains move.
   ! - keep_steps: where there are more states, or more than 2^24 coordinates in all, every second, fourth, ... is kept.
@@ -868,8 +868,8 @@ module jam
   ! contacts are unknown, for example after an early stop; calls that need the network then return JAM_E_STATE. The
   ! numbers from packing_fraction_start to contacts_kept say what the crunch did to the packing that it was given:
   ! displacements in mean diameters without their mean over these spheres; rattlers count, and so does a strain of the
-  ! cell. They are NaN or -1 where no crunch made the report. After JAM_STOP_DUALITY_GAP undecided_contacts are pairs
-  ! whose force on the path over the mean is within a factor of 1e4 of twice their gap.
+  ! cell. They are NaN or -1 where no crunch made the report. After JAM_STOP_DUALITY_GAP undecided_contacts counts
+  ! pairs with 1e-4 < f / (2 h) < 1e4, f the force on the barrier path over the mean force, h the gap.
   type, bind(c) :: jam_crunch_report
     integer(c_int32_t) :: struct_size = 368
     ! 1: collectively jammed by the test of jam_rigidity; 0: not, undecided, untested
@@ -1387,7 +1387,7 @@ module jam
     real(c_double) :: least_force = 0
     ! of every force, over the mean force
     real(c_double) :: force_error = 0
-    ! relative, of pairs that are no contacts; 1e-3 if none is smaller
+    ! bound from below of the relative gaps of pairs that are no contacts, <= 1e-3
     real(c_double) :: least_gap = 0
     ! unit of the box: see jam_theorem
     real(c_double) :: inner = 0
@@ -2017,10 +2017,10 @@ module jam
     end function jam_contacts_from_geometry
 
     ! Contacts by distance alone, of any packing: all pairs with h < gap, 0 < gap <= 1, every image, and walls. No balance
-    ! is required or tested, so there are no forces, no rattlers, no report and no verdict: for beds under weight and
-    ! friction. jam_contacts, jam_contact_vectors, jam_contact_gaps, jam_coordination, jam_fabric_tensor, jam_gaps,
-    ! jam_contact_dots and jam_sphere_structure (not weighted), jam_write_contacts, jam_write_stl and jam_write_page take
-    ! them; jam_forces gives NaN, tables have no column of forces, pages say so, and jam_info.contact_gap is the gap.
+    ! is required or tested, so there are no forces, no report and no verdict: for beds under weight and friction.
+    ! jam_contacts, jam_contact_vectors, jam_contact_gaps, jam_coordination, jam_fabric_tensor, jam_gaps, jam_contact_dots
+    ! and jam_sphere_structure (not weighted), jam_write_contacts, jam_write_stl and jam_write_page take them; jam_forces
+    ! gives NaN, pages say so, and jam_info.contact_gap is the gap.
     ! Status: JAM_NOT_JAMMED when there are none
     function jam_contacts_by_distance(sys, gap) &
         bind(c, name="jam_contacts_by_distance") result(status)
@@ -4610,8 +4610,9 @@ contains
     status = c_jam_decompress_history(sys, columns, at_table, count_table, needed)
   end function jam_decompress_history
 
-  ! Contact pairs, i < j save for walls (j = -1 - w) and images of one sphere (i = j). Hard spheres have images only
-  ! after a crunch with a free cell. One stands for both opposite images, so it adds 2 to the coordination.
+  ! Contact pairs, i < j save for walls (j = -1 - w) and images of one sphere (i = j). Networks of hard spheres have
+  ! images of one sphere after a crunch with a free cell, or where no other contacts balance. One is both opposite images
+  ! and adds 2 to the coordination.
   ! Shapes: out (contacts, 2).
   ! Errors: JAM_E_STATE (no crunch yet).
   function jam_contacts(sys, out, out_len, needed) result(status)

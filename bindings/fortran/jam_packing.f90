@@ -797,8 +797,9 @@ contains
     call self%done(status)
   end function do_decompress_history
 
-  ! Contact pairs, i < j save for walls (j = -1 - w) and images of one sphere (i = j). Hard spheres have images only
-  ! after a crunch with a free cell. One stands for both opposite images, so it adds 2 to the coordination.
+  ! Contact pairs, i < j save for walls (j = -1 - w) and images of one sphere (i = j). Networks of hard spheres have
+  ! images of one sphere after a crunch with a free cell, or where no other contacts balance. One is both opposite images
+  ! and adds 2 to the coordination.
   ! Shapes: out (contacts, 2).
   ! Errors: JAM_E_STATE (no crunch yet).
   function do_contacts(self) result(found)
@@ -1045,10 +1046,10 @@ contains
   end function do_contacts_from_geometry
 
   ! Contacts by distance alone, of any packing: all pairs with h < gap, 0 < gap <= 1, every image, and walls. No balance
-  ! is required or tested, so there are no forces, no rattlers, no report and no verdict: for beds under weight and
-  ! friction. jam_contacts, jam_contact_vectors, jam_contact_gaps, jam_coordination, jam_fabric_tensor, jam_gaps,
-  ! jam_contact_dots and jam_sphere_structure (not weighted), jam_write_contacts, jam_write_stl and jam_write_page take
-  ! them; jam_forces gives NaN, tables have no column of forces, pages say so, and jam_info.contact_gap is the gap.
+  ! is required or tested, so there are no forces, no report and no verdict: for beds under weight and friction.
+  ! jam_contacts, jam_contact_vectors, jam_contact_gaps, jam_coordination, jam_fabric_tensor, jam_gaps, jam_contact_dots
+  ! and jam_sphere_structure (not weighted), jam_write_contacts, jam_write_stl and jam_write_page take them; jam_forces
+  ! gives NaN, pages say so, and jam_info.contact_gap is the gap.
   ! Status: JAM_NOT_JAMMED when there are none
   subroutine do_contacts_by_distance(self, gap)
     class(packing), intent(inout) :: self

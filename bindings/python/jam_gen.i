@@ -186,8 +186,8 @@ a per cent of sigma."
 }
 %feature("docstring") jam_crunch_options "Options of jam_crunch. Lengths are in mean diameters. The guide's page \"Coming from other programs\" names the
 parameter of CALiPPSO.jl beside each.
-- polish: then a crunch also ends where LPs below gain_tolerance still move rattlers. 0 keeps the LP's answer.
-- full_lps: else an LP that gains more than 1e-7 ends at a duality gap of 0.02 of its gain.
+- polish: 1 also stops where LPs that gain less than gain_tolerance still move rattlers. 0: the last LP's answer.
+- full_lps: 0 stops an LP that gains more than 1e-7 at a duality gap of 0.02 times its gain.
 - strain: the cell deforms at fixed volume after the fixed cell's optimum; FREE ends strictly jammed. One sphere
 alone needs a strain: its contacts are its own images, which only strains move.
 - keep_steps: where there are more states, or more than 2^24 coordinates in all, every second, fourth, ... is kept.
@@ -207,8 +207,8 @@ alone needs a strain: its contacts are its own images, which only strains move.
 contacts are unknown, for example after an early stop; calls that need the network then return JAM_E_STATE. The
 numbers from packing_fraction_start to contacts_kept say what the crunch did to the packing that it was given:
 displacements in mean diameters without their mean over these spheres; rattlers count, and so does a strain of the
-cell. They are NaN or -1 where no crunch made the report. After JAM_STOP_DUALITY_GAP undecided_contacts are pairs
-whose force on the path over the mean is within a factor of 1e4 of twice their gap."
+cell. They are NaN or -1 where no crunch made the report. After JAM_STOP_DUALITY_GAP undecided_contacts counts
+pairs with 1e-4 < f / (2 h) < 1e4, f the force on the barrier path over the mean force, h the gap."
 %extend jam_estimate_report {
   jam_estimate_report() {
     jam_estimate_report *made = (jam_estimate_report *)calloc(1, sizeof *made);
@@ -650,8 +650,9 @@ Errors: JAM_E_STATE, JAM_E_TOO_FEW, JAM_E_SOLVER."
 %feature("docstring") jam_decompress_history "Minima of the last decompression.
 Shapes: table (minima, jam_soft_column).
 Errors: JAM_E_STATE."
-%feature("docstring") jam_contacts "Contact pairs, i < j save for walls (j = -1 - w) and images of one sphere (i = j). Hard spheres have images only
-after a crunch with a free cell. One stands for both opposite images, so it adds 2 to the coordination.
+%feature("docstring") jam_contacts "Contact pairs, i < j save for walls (j = -1 - w) and images of one sphere (i = j). Networks of hard spheres have
+images of one sphere after a crunch with a free cell, or where no other contacts balance. One is both opposite images
+and adds 2 to the coordination.
 Shapes: out (contacts, 2).
 Errors: JAM_E_STATE (no crunch yet)."
 %feature("docstring") jam_contact_vectors "Unit vectors n = (r_i - r_j)/|r_i - r_j| of each pair.
@@ -698,10 +699,10 @@ Also where gaps above 1e-7 leave the verdict open, or where coordinates have too
 not jammed with these contacts closed, or none found: gaps above 0.01 need a jump of 100.
 Errors: JAM_E_SOLVER, JAM_E_OVERLAP."
 %feature("docstring") jam_contacts_by_distance "Contacts by distance alone, of any packing: all pairs with h < gap, 0 < gap <= 1, every image, and walls. No balance
-is required or tested, so there are no forces, no rattlers, no report and no verdict: for beds under weight and
-friction. jam_contacts, jam_contact_vectors, jam_contact_gaps, jam_coordination, jam_fabric_tensor, jam_gaps,
-jam_contact_dots and jam_sphere_structure (not weighted), jam_write_contacts, jam_write_stl and jam_write_page take
-them; jam_forces gives NaN, tables have no column of forces, pages say so, and jam_info.contact_gap is the gap.
+is required or tested, so there are no forces, no report and no verdict: for beds under weight and friction.
+jam_contacts, jam_contact_vectors, jam_contact_gaps, jam_coordination, jam_fabric_tensor, jam_gaps, jam_contact_dots
+and jam_sphere_structure (not weighted), jam_write_contacts, jam_write_stl and jam_write_page take them; jam_forces
+gives NaN, pages say so, and jam_info.contact_gap is the gap.
 Status: JAM_NOT_JAMMED when there are none"
 %feature("docstring") jam_stress_states "States of self-stress of the network: *rows = their number m; force, mean 1, from the null space of S^T, not from LP
 duals; basis orthonormal; residual: one number, as force_residual. Status: JAM_AMBIGUOUS (m > 1: force is the centre

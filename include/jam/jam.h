@@ -3,8 +3,8 @@
  * The only public header. C99. SPDX-License-Identifier: MIT
  *
  * Typical use: jam_create or jam_read makes a system. jam_run and jam_compress move it by event-driven molecular
- * dynamics. jam_crunch brings it to its jamming point by linear programming. jam_get_crunch_report, jam_contacts,
- * jam_forces, jam_hessian and jam_modes then describe the jammed packing.
+ * dynamics. jam_crunch brings it to its jamming point by a barrier method and linear programs. jam_get_crunch_report,
+ * jam_contacts, jam_forces, jam_hessian and jam_modes then describe the jammed packing.
  *
  * Units
  * - Lengths are in the user's unit. The box is a periodic cube of side `box` (default 1), or any periodic cell
@@ -28,11 +28,11 @@
  * - Arrays in: pointer and length in elements. The length is checked.
  * - Arrays out: the caller's buffer, its length in elements, and `needed`, in elements too. NULL and 0 only return the
  *   size. A buffer that is too short gives JAM_E_BUFFER, sets `needed` and is not written.
- * - Several numbers a row are a `table` of shape (rows, columns). An enum names its columns. Pass the number of columns
- *   that your program knows, such as JAM_HISTORY_COLUMNS, or fewer: then each row has the first ones alone. Counts are
- *   whole numbers in a table, and NaN is given where a column has no meaning, or is not in this library.
- * - Arrays of several types or shapes have `rows` in place of `needed`: the shapes given there, for that many rows, are
- *   the lengths. Each of these arrays may be NULL with length 0.
+ * - A `table` has shape (rows, columns), and an enum lists its columns. Pass the number of columns of your header, such
+ *   as JAM_HISTORY_COLUMNS; of fewer the call writes the first ones. Counts are whole numbers in a table. NaN is given
+ *   where a column has no meaning, or is not in this library.
+ * - A call with several arrays out gives the number of rows in `rows` in place of `needed`; the length of each array
+ *   follows from its @shape. Each of these arrays may be NULL with length 0.
  * - Options, reports and other structs begin with struct_size, which the caller sets to sizeof. Fill options by
  *   jam_X_options_init(&o, sizeof o), then change what differs. A NULL option pointer means all defaults. Fields named
  *   `reserved` must be 0.
@@ -46,7 +46,7 @@
  * Status, for every call unless its comment says otherwise
  * - 0 done; > 0 stopped early, or the answer is negative, imprecise or not unique: the state is valid and kept; < 0
  *   failed, the state is as before the call. For every status but 0 jam_last_error() gives the reason in one sentence.
- *   Outputs are written only when the status is >= 0.
+ *   A status < 0 writes no output but `needed` with JAM_E_BUFFER.
  * - Calls that work on a system or make one may return JAM_CANCELLED, those with a wall_time JAM_LIMIT. A setter or a
  *   const call that returns one of them has changed nothing and written no output.
  * - Comments end in tags: @shape of arrays, @enum, @bool and @optional of arguments, @errors beside those of any call.
@@ -841,8 +841,8 @@ typedef enum jam_free_strain {
 } jam_free_strain;
 /* Options of jam_crunch. Lengths are in mean diameters. The guide's page "Coming from other programs" names the
  * parameter of CALiPPSO.jl beside each.
- * - polish: then a crunch also ends where LPs below gain_tolerance still move rattlers. 0 keeps the LP's answer.
- * - full_lps: else an LP that gains more than 1e-7 ends at a duality gap of 0.02 of its gain.
+ * - polish: 1 also stops where LPs that gain less than gain_tolerance still move rattlers. 0: the last LP's answer.
+ * - full_lps: 0 stops an LP that gains more than 1e-7 at a duality gap of 0.02 times its gain.
  * - strain: the cell deforms at fixed volume after the fixed cell's optimum; FREE ends strictly jammed. One sphere
  * alone needs a strain: its contacts are its own images, which only strains move.
  * - keep_steps: where there are more states, or more than 2^24 coordinates in all, every second, fourth, ... is kept.
@@ -875,8 +875,8 @@ typedef struct jam_crunch_options {
  * contacts are unknown, for example after an early stop; calls that need the network then return JAM_E_STATE. The
  * numbers from packing_fraction_start to contacts_kept say what the crunch did to the packing that it was given:
  * displacements in mean diameters without their mean over these spheres; rattlers count, and so does a strain of the
- * cell. They are NaN or -1 where no crunch made the report. After JAM_STOP_DUALITY_GAP undecided_contacts are pairs
- * whose force on the path over the mean is within a factor of 1e4 of twice their gap. */
+ * cell. They are NaN or -1 where no crunch made the report. After JAM_STOP_DUALITY_GAP undecided_contacts counts
+ * pairs with 1e-4 < f / (2 h) < 1e4, f the force on the barrier path over the mean force, h the gap. */
 typedef struct jam_crunch_report {
   uint32_t struct_size;
   int32_t jammed;          /* @bool collectively jammed by the test of jam_rigidity; 0: not, undecided, untested */
@@ -1135,9 +1135,9 @@ JAM_API jam_status jam_decompress_history(const jam_system *sys, int32_t columns
 /* ------------------------------------------------------------------ contact network */
 /* Row k of each array is the same contact. */
 
-/* Contact pairs, i < j save for walls (j = -1 - w) and images of one sphere (i = j). Hard spheres have images only
- * after a crunch with a free cell. One stands for both opposite images, so it adds 2 to the coordination. @shape out
- * (contacts, 2) @errors STATE (no crunch yet) */
+/* Contact pairs, i < j save for walls (j = -1 - w) and images of one sphere (i = j). Networks of hard spheres have
+ * images of one sphere after a crunch with a free cell, or where no other contacts balance. One is both opposite images
+ * and adds 2 to the coordination. @shape out (contacts, 2) @errors STATE (no crunch yet) */
 JAM_API jam_status jam_contacts(const jam_system *sys, int32_t *out, size_t out_len, size_t *needed);
 /* Unit vectors n = (r_i - r_j)/|r_i - r_j| of each pair. @shape out (contacts, d) @errors STATE */
 JAM_API jam_status jam_contact_vectors(const jam_system *sys, double *out, size_t out_len, size_t *needed);
@@ -1266,10 +1266,10 @@ JAM_API jam_status jam_geometry_options_init(jam_geometry_options *o, size_t siz
 JAM_API jam_status jam_contacts_from_geometry(jam_system *sys, const jam_geometry_options *o,
                                               jam_geometry_report *report);
 /* Contacts by distance alone, of any packing: all pairs with h < gap, 0 < gap <= 1, every image, and walls. No balance
- * is required or tested, so there are no forces, no rattlers, no report and no verdict: for beds under weight and
- * friction. jam_contacts, jam_contact_vectors, jam_contact_gaps, jam_coordination, jam_fabric_tensor, jam_gaps,
- * jam_contact_dots and jam_sphere_structure (not weighted), jam_write_contacts, jam_write_stl and jam_write_page take
- * them; jam_forces gives NaN, tables have no column of forces, pages say so, and jam_info.contact_gap is the gap.
+ * is required or tested, so there are no forces, no report and no verdict: for beds under weight and friction.
+ * jam_contacts, jam_contact_vectors, jam_contact_gaps, jam_coordination, jam_fabric_tensor, jam_gaps, jam_contact_dots
+ * and jam_sphere_structure (not weighted), jam_write_contacts, jam_write_stl and jam_write_page take them; jam_forces
+ * gives NaN, pages say so, and jam_info.contact_gap is the gap.
  * Status: JAM_NOT_JAMMED when there are none */
 JAM_API jam_status jam_contacts_by_distance(jam_system *sys, double gap);
 /* States of self-stress of the network: *rows = their number m; force, mean 1, from the null space of S^T, not from LP
@@ -1353,7 +1353,7 @@ typedef enum jam_check_reason {
   JAM_CHECK_FLEX = 3,     /* not: forces balance, and yet spheres can move (a saddle) */
   JAM_CHECK_DIGITS = 4,   /* undecided: the coordinates have too few digits to say which spheres touch */
   JAM_CHECK_OVERLAP = 5,  /* undecided: spheres overlap, so gaps are known no better than that */
-  JAM_CHECK_GAPS = 6,     /* undecided: with pairs closed that are open by 1e-10 or more it would be jammed */
+  JAM_CHECK_GAPS = 6,     /* undecided: would or may be jammed if pairs open by 1e-10 or more were closed */
   JAM_CHECK_MARGIN = 7,   /* undecided: doubles do not resolve a flex from a soft mode, or a weak force from none */
   JAM_CHECK_SLIDE = 8     /* not: as FLEX, but parts slide past each other at kept distances, so nothing can grow */
 } jam_check_reason;
@@ -1450,7 +1450,7 @@ typedef struct jam_proof_report {
   double packing_fraction;         /* of the exact packing, rounded to double */
   double fraction_error;           /* relative error of phi_J from gamma + gamma_low */
   double least_force, force_error; /* over the mean force; of every force, over the mean force */
-  double least_gap;                /* relative, of pairs that are no contacts; 1e-3 if none is smaller */
+  double least_gap;                /* bound from below of the relative gaps of pairs that are no contacts, <= 1e-3 */
   double inner, outer;             /* unit of the box: see jam_theorem */
   double singular;             /* below the smallest singular value of the rows 2 r_c, in units of that power of two */
   double eigenvalue, rounding; /* estimate of its square; error bound that was taken off the square */

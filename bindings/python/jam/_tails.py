@@ -84,7 +84,11 @@ def bins(samples: Sequence[Any], n: int, floor: float) -> tuple[Array, Array]:
     edges = 10.0 ** (np.arange(-int(np.ceil(-np.log10(low) * PER_DECADE)), top + 1) / PER_DECADE)
     if len(edges) < LEAST_BINS + 2:  # two upper ends to average over
         end = 10.0 ** (top / PER_DECADE)
-        raise ValueError(f"finite size ends at {low:.2g} only, which leaves no range below {end:.2g}: larger packings are needed")
+        have, need = max(0.0, np.log10(end / low)), (LEAST_BINS + 1) / PER_DECADE
+        raise ValueError(
+            f"from the end of finite size, {low:.2g}, to {end:.2g} are {have:.1f} decades, and {need:.1f} are needed: larger "
+            "packings reach smaller values"
+        )
     edges[0] = low
     return edges, np.array([np.histogram(s, edges)[0] for s in samples])
 

@@ -331,10 +331,10 @@ end
     contacts_by_distance(s, gap)
 
 Contacts by distance alone, of any packing: all pairs with h < gap, 0 < gap <= 1, every image, and walls. No balance
-is required or tested, so there are no forces, no rattlers, no report and no verdict: for beds under weight and
-friction. `contacts`, `contact_vectors`, `contact_gaps`, `coordination`, `fabric_tensor`, `gaps`, `contact_dots` and
-`sphere_structure` (not weighted), `write_contacts`, `write_stl` and `page` take them; `forces` gives NaN, tables have
-no column of forces, pages say so, and `jam_info.contact_gap` is the gap. Status: `:not_jammed` when there are none
+is required or tested, so there are no forces, no report and no verdict: for beds under weight and friction.
+`contacts`, `contact_vectors`, `contact_gaps`, `coordination`, `fabric_tensor`, `gaps`, `contact_dots` and
+`sphere_structure` (not weighted), `write_contacts`, `write_stl` and `page` take them; `forces` gives NaN, pages say
+so, and `jam_info.contact_gap` is the gap. Status: `:not_jammed` when there are none
 """
 function contacts_by_distance(s::System, gap)
     return call(s, :jam_contacts_by_distance, (gap, ); progress = nothing)

@@ -310,7 +310,7 @@ const JAM_CHECK_NO_FORCE = Int32(2)  # not: no non-negative forces on the contac
 const JAM_CHECK_FLEX = Int32(3)  # not: forces balance, and yet spheres can move (a saddle)
 const JAM_CHECK_DIGITS = Int32(4)  # undecided: the coordinates have too few digits to say which spheres touch
 const JAM_CHECK_OVERLAP = Int32(5)  # undecided: spheres overlap, so gaps are known no better than that
-const JAM_CHECK_GAPS = Int32(6)  # undecided: with pairs closed that are open by 1e-10 or more it would be jammed
+const JAM_CHECK_GAPS = Int32(6)  # undecided: would or may be jammed if pairs open by 1e-10 or more were closed
 const JAM_CHECK_MARGIN = Int32(7)  # undecided: doubles do not resolve a flex from a soft mode, or a weak force from none
 const JAM_CHECK_SLIDE = Int32(8)  # not: as FLEX, but parts slide past each other at kept distances, so nothing can grow
 
@@ -897,8 +897,8 @@ end
 Options of `crunch!`. Lengths are in mean diameters. The guide's page "Coming from other programs" names the parameter
 of CALiPPSO.jl beside each.
 
-- polish: then a crunch also ends where LPs below `gain_tolerance` still move rattlers. 0 keeps the LP's answer.
-- `full_lps`: else an LP that gains more than 1e-7 ends at a duality gap of 0.02 of its gain.
+- polish: 1 also stops where LPs that gain less than `gain_tolerance` still move rattlers. 0: the last LP's answer.
+- `full_lps`: 0 stops an LP that gains more than 1e-7 at a duality gap of 0.02 times its gain.
 - strain: the cell deforms at fixed volume after the fixed cell's optimum; FREE ends strictly jammed. One sphere alone
   needs a strain: its contacts are its own images, which only strains move.
 - `keep_steps`: where there are more states, or more than 2^24 coordinates in all, every second, fourth, ... is kept.
@@ -956,8 +956,8 @@ Result and certificate of `crunch!`. All gaps, overlaps and lengths relative to 
 contacts are unknown, for example after an early stop; calls that need the network then return an error `:state`. The
 numbers from `packing_fraction_start` to `contacts_kept` say what the crunch did to the packing that it was given:
 displacements in mean diameters without their mean over these spheres; rattlers count, and so does a strain of the
-cell. They are NaN or -1 where no crunch made the report. After `:duality_gap` `undecided_contacts` are pairs whose
-force on the path over the mean is within a factor of 1e4 of twice their gap.
+cell. They are NaN or -1 where no crunch made the report. After `:duality_gap` `undecided_contacts` counts pairs with
+1e-4 < f / (2 h) < 1e4, f the force on the barrier path over the mean force, h the gap.
 
 - `jammed`: Bool; collectively jammed by the test of `rigidity`; 0: not, undecided, untested
 - `stop_reason`: one of `:none`, `:pressure`, `:packing_fraction`, `:collisions`, `:wall_time`, `:cancelled`,
@@ -1558,7 +1558,7 @@ What `prove` found. Bounds are rounded outward; NaN where they do not apply. The
 - `fraction_error`: relative error of `phi_J` from gamma + `gamma_low`
 - `least_force`: over the mean force
 - `force_error`: of every force, over the mean force
-- `least_gap`: relative, of pairs that are no contacts; 1e-3 if none is smaller
+- `least_gap`: bound from below of the relative gaps of pairs that are no contacts, <= 1e-3
 - `inner`: unit of the box: see `jam_theorem`
 - `outer`: unit of the box: see `jam_theorem`
 - `singular`: below the smallest singular value of the rows 2 `r_c`, in units of that power of two
@@ -1581,7 +1581,7 @@ mutable struct jam_proof_report
     fraction_error::Cdouble  # relative error of phi_J from gamma + gamma_low
     least_force::Cdouble  # over the mean force
     force_error::Cdouble  # of every force, over the mean force
-    least_gap::Cdouble  # relative, of pairs that are no contacts; 1e-3 if none is smaller
+    least_gap::Cdouble  # bound from below of the relative gaps of pairs that are no contacts, <= 1e-3
     inner::Cdouble  # unit of the box: see jam_theorem
     outer::Cdouble  # unit of the box: see jam_theorem
     singular::Cdouble  # below the smallest singular value of the rows 2 r_c, in units of that power of two
@@ -2595,8 +2595,9 @@ end
 """
     jam_contacts(sys, out, out_len, needed)
 
-Contact pairs, i < j save for walls (j = -1 - w) and images of one sphere (i = j). Hard spheres have images only
-after a crunch with a free cell. One stands for both opposite images, so it adds 2 to the coordination.
+Contact pairs, i < j save for walls (j = -1 - w) and images of one sphere (i = j). Networks of hard spheres have
+images of one sphere after a crunch with a free cell, or where no other contacts balance. One is both opposite images
+and adds 2 to the coordination.
 Shapes: out (contacts, 2).
 Errors: `JAM_E_STATE` (no crunch yet).
 """
@@ -2741,10 +2742,10 @@ end
     jam_contacts_by_distance(sys, gap)
 
 Contacts by distance alone, of any packing: all pairs with h < gap, 0 < gap <= 1, every image, and walls. No balance
-is required or tested, so there are no forces, no rattlers, no report and no verdict: for beds under weight and
-friction. `jam_contacts`, `jam_contact_vectors`, `jam_contact_gaps`, `jam_coordination`, `jam_fabric_tensor`, `jam_gaps`,
-`jam_contact_dots` and `jam_sphere_structure` (not weighted), `jam_write_contacts`, `jam_write_stl` and `jam_write_page` take
-them; `jam_forces` gives NaN, tables have no column of forces, pages say so, and `jam_info.contact_gap` is the gap.
+is required or tested, so there are no forces, no report and no verdict: for beds under weight and friction.
+`jam_contacts`, `jam_contact_vectors`, `jam_contact_gaps`, `jam_coordination`, `jam_fabric_tensor`, `jam_gaps`, `jam_contact_dots`
+and `jam_sphere_structure` (not weighted), `jam_write_contacts`, `jam_write_stl` and `jam_write_page` take them; `jam_forces`
+gives NaN, pages say so, and `jam_info.contact_gap` is the gap.
 Status: `JAM_NOT_JAMMED` when there are none
 """
 function jam_contacts_by_distance(sys, gap)

@@ -399,7 +399,7 @@ class CheckReason(_Word):
     FLEX = 3  # not: forces balance, and yet spheres can move (a saddle)
     DIGITS = 4  # undecided: the coordinates have too few digits to say which spheres touch
     OVERLAP = 5  # undecided: spheres overlap, so gaps are known no better than that
-    GAPS = 6  # undecided: with pairs closed that are open by 1e-10 or more it would be jammed
+    GAPS = 6  # undecided: would or may be jammed if pairs open by 1e-10 or more were closed
     MARGIN = 7  # undecided: doubles do not resolve a flex from a soft mode, or a weak force from none
     SLIDE = 8  # not: as FLEX, but parts slide past each other at kept distances, so nothing can grow
 
@@ -722,8 +722,8 @@ class CrunchReport(Report):
     contacts are unknown, for example after an early stop; calls that need the network then return JAM_E_STATE. The
     numbers from packing_fraction_start to contacts_kept say what the crunch did to the packing that it was given:
     displacements in mean diameters without their mean over these spheres; rattlers count, and so does a strain of the
-    cell. They are NaN or -1 where no crunch made the report. After JAM_STOP_DUALITY_GAP undecided_contacts are pairs
-    whose force on the path over the mean is within a factor of 1e4 of twice their gap.
+    cell. They are NaN or -1 where no crunch made the report. After JAM_STOP_DUALITY_GAP undecided_contacts counts
+    pairs with 1e-4 < f / (2 h) < 1e4, f the force on the barrier path over the mean force, h the gap.
 
     jammed: 1: collectively jammed by the test of jam_rigidity; 0: not, undecided, untested
     stop_reason: jam_stop_reason
@@ -1124,7 +1124,7 @@ class ProofReport(Report):
     fraction_error: relative error of phi_J from gamma + gamma_low
     least_force: over the mean force
     force_error: of every force, over the mean force
-    least_gap: relative, of pairs that are no contacts; 1e-3 if none is smaller
+    least_gap: bound from below of the relative gaps of pairs that are no contacts, <= 1e-3
     inner: unit of the box: see jam_theorem
     outer: unit of the box: see jam_theorem
     singular: below the smallest singular value of the rows 2 r_c, in units of that power of two

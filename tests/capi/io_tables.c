@@ -45,8 +45,8 @@ static void headings(void **state) {
   static const char *const texts[] = {
       "X [m],Y [m],Z [m],Radius [m]\n0.5,0.5,0.5,0.2\n1.5,1.5,1.5,0.25\n",
       "\"radius\",\"id\",\"Points:0\",\"Points:1\",\"Points:2\"\n0.2,1,0.5,0.5,0.5\n0.25,2,1.5,1.5,1.5\n",
-      "ID,X-Coordinate (mm),Y-Coordinate (mm),Z-Coordinate (mm),Particle Diameter "
-      "(mm)\n7,.5,.5,.5,.4\n8,1.5,1.5,1.5,.5\n",
+      ("ID,X-Coordinate (mm),Y-Coordinate (mm),Z-Coordinate (mm),Particle Diameter "
+       "(mm)\n7,.5,.5,.5,.4\n8,1.5,1.5,1.5,.5\n"),
       "Center X, Center Y, Center Z, Diameter\r\n.5, .5, .5, .4\r\n1.5, 1.5, 1.5, .5\r\n",
       "\xef\xbb\xbfname,x_coord,y_coord,z_coord,vx,r\n\"grain, a\",.5,.5,.5,9,.2\n\"b c\",1.5,1.5,1.5,9,.25\n",
       "# pos_x pos_y pos_z radius\n.5 .5 .5 .2\n1.5 1.5 1.5 .25\n",

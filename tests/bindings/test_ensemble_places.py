@@ -54,6 +54,18 @@ class Case(unittest.TestCase):
 
 
 class Names(Case):
+    def test_files_beside_the_folders_of_packings(self):
+        """What a file manager leaves there is nothing of the ensemble, and a packing copied one level too high counts once."""
+        self.make([1, 2])
+        (self.e.files.packings / ".DS_Store").write_bytes(b"x")
+        self.assertEqual(self.seeds(), [1, 2])
+        self.assertEqual(self.make([1, 2]).made, 0)
+        shutil.copy(self.file(2), self.e.files.packings / "high.h5")
+        with self.warned("high.h5"):
+            self.assertEqual(self.seeds(), [1, 2])
+        self.file(2).unlink()
+        self.assertEqual(self.seeds(), [1, 2])
+
     def test_a_copy_counts_once_and_is_named(self):
         self.make([1, 2, 3])
         copies = [self.file(1).with_name("a backup copy.h5"), self.file(1).with_name(self.file(1).stem + " copy.h5")]
@@ -311,11 +323,13 @@ class Shards(Case):
         data = bytearray(self.shards[0].read_bytes())
         data[100] ^= 1
         self.shards[0].write_bytes(data)
+        for s in (Ensemble(self.top / "shards"), Ensemble(self.top / "shards", SMALL)):
+            with self.warned(self.shards[0].name):
+                self.assertEqual(s.table()["seed"].tolist(), [3])
+            self.assertIn(self.shards[0].name, str(s.damaged()))
+        self.shards[1].write_bytes(b"")
         with self.assertRaisesRegex(jam.ensemble.StoreError, self.shards[0].name):
             Ensemble(self.top / "shards")
-        s = Ensemble(self.top / "shards", SMALL)
-        with self.warned(self.shards[0].name):
-            self.assertEqual(s.table()["seed"].tolist(), [3])
 
 
 if __name__ == "__main__":

@@ -56,6 +56,25 @@ class KnownLaws(unittest.TestCase):
             scaling.tail_exponent([np.random.default_rng(k).random(30) for k in range(5)], 10)
 
 
+class OddInput(unittest.TestCase):
+    def test_is_refused_by_name(self):
+        good = [np.random.default_rng(k).random(3000) for k in range(3)]
+        for samples, n, options, words in (
+            (good[:1], 1024, {}, "at least 2"),
+            ([good[0], np.append(good[1], np.inf)], 1024, {}, "not finite"),
+            ([good[0], np.append(good[1], np.nan)], 1024, {}, "not finite"),
+            (good, 0, {}, "number of spheres"),
+            (good, float("nan"), {}, "number of spheres"),
+            (good, 1024, {"kind": "force"}, "'forces' or 'gaps'"),
+            (good, 1024, {"powers": [0.0]}, "above 0"),
+            (good, 1024, {"powers": [float("nan")]}, "above 0"),
+        ):
+            with self.assertRaisesRegex(ValueError, words):
+                scaling.tail_exponent(samples, n, **options)
+        one, other = scaling.tail_exponent(good, 1024), scaling.tail_exponent(iter(good), 1024)
+        self.assertEqual(one, other)
+
+
 class OneRange(unittest.TestCase):
     def test_the_error_of_one_range_is_too_small(self):
         """Gaps with a constant background: ranges that one may choose differ by many errors of fit_power, not of tail_exponent."""

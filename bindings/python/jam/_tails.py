@@ -57,10 +57,18 @@ def tail_exponent(samples: Sequence[Any], n: int, kind: str = "forces", powers: 
     """
     if kind not in KINDS:
         raise ValueError(f"kind is {kind!r}: 'forces' or 'gaps'")
+    samples = list(samples)
     if len(samples) < 2:
         raise ValueError("errors over packings need at least 2 of them")
     if any(np.ndim(sample) == 0 for sample in samples):
         raise ValueError("samples has one number for a packing: give an array for each packing, as [a.forces, b.forces]")
+    samples = [np.asarray(sample, float).reshape(-1) for sample in samples]
+    if not all(np.isfinite(sample).all() for sample in samples):
+        raise ValueError("samples has values that are not finite")
+    if not 1 <= n < np.inf:
+        raise ValueError(f"n is {n}: the number of spheres of a packing")
+    if powers is not None and not all(0 < q < np.inf for q in powers):
+        raise ValueError(f"powers is {tuple(powers)}: each must be above 0")
     corrections, floor = KINDS[kind]
     edges, counts = bins(samples, n, floor)
     total = counts.sum(axis=0)

@@ -97,12 +97,17 @@ class Folder:
     # ---- protocols
     def protocols(self) -> dict[str, Callable[[], dict[str, Any]]]:
         """The names of the protocols, in order, and what reads each as it was written: later options have defaults in it."""
-        found = {p.stem: partial(_protocol, p, p.stem) for p in (self.path / "protocols").glob("*.json")}
+        found, wrong = {p.stem: partial(_protocol, p, p.stem) for p in (self.path / "protocols").glob("*.json")}, []
         for path in self._shards():
-            with open_file(path, self.unverified) as shard, refusing(path):
-                jam = jam_of(shard[next(iter(shard))], path)
-                name = str(jam.attrs["protocol"])
-                found.setdefault(name, partial(_protocol, path, name, plain(jam["protocol"])))
+            try:
+                with open_file(path, self.unverified) as shard, refusing(path):
+                    jam = jam_of(shard[next(iter(shard))], path)
+                    name = str(jam.attrs["protocol"])
+                    found.setdefault(name, partial(_protocol, path, name, plain(jam["protocol"])))
+            except StoreError as error:  # where other files know the protocol, _places() says what is wrong with this one
+                wrong.append(error)
+        if wrong and not found:
+            raise wrong[0]
         return dict(sorted(found.items()))
 
     def keep_protocol(self, name: str, text: str) -> None:
@@ -127,9 +132,12 @@ class Folder:
         return found, failures
 
     def _files(self) -> Iterator[Path]:
-        with suppress(FileNotFoundError):
-            for folder in os.scandir(self.packings):
-                yield from map(Path(folder.path).joinpath, os.listdir(folder.path))
+        with suppress(FileNotFoundError), os.scandir(self.packings) as entries:
+            for entry in entries:
+                if entry.is_dir():
+                    yield from map(Path(entry.path).joinpath, os.listdir(entry.path))
+                else:  # where a file manager or a user put it
+                    yield Path(entry.path)
 
     def _places(self, names: Iterable[str] | None) -> tuple[dict[Place, Stamp], dict[Path, str]]:
         """The places of packings, in files of one and in shards; what is wrong with shards that cannot be read."""

@@ -20,6 +20,19 @@ Point vector_of(const Packing &p, const PairList &pairs, size_t k) {
   return d;
 }
 
+// Spheres that another one with the same centre covers, of equal ones all but the first. Their cells are empty, so they
+// cut no other cell: of two equal planes each would be taken off.
+std::vector<char> covered_by_concentric(const Packing &p, const PairList &pairs) {
+  std::vector<char> covered(p.n(), 0);
+  for (size_t k = 0; k < pairs.size(); ++k) {
+    const Point d = vector_of(p, pairs, k);
+    if (dot(d, d) > 0.0) continue;
+    const bool smaller = radius_of(p, pairs.i[k]) < radius_of(p, pairs.j[k]);
+    covered[static_cast<size_t>(smaller ? pairs.i[k] : pairs.j[k])] = 1;
+  }
+  return covered;
+}
+
 }  // namespace
 
 PairList overlapping_pairs(const Packing &p) {
@@ -44,10 +57,11 @@ Solid::Solid(const Packing &p) : p_(p) {
     const HalfSpace h = nearer_by_power(radius_of(p, i), d, radius_of(p, j), first);
     if (h.offset < radius_of(p, i)) cuts_[static_cast<size_t>(i)].push_back(h);
   };
+  const std::vector<char> covered = covered_by_concentric(p, pairs);
   for (size_t k = 0; k < pairs.size(); ++k) {
     const Point d = vector_of(p, pairs, k);
-    add(pairs.i[k], pairs.j[k], d, true);
-    add(pairs.j[k], pairs.i[k], {-d[0], -d[1], -d[2]}, false);
+    if (!covered[static_cast<size_t>(pairs.j[k])]) add(pairs.i[k], pairs.j[k], d, true);
+    if (!covered[static_cast<size_t>(pairs.i[k])]) add(pairs.j[k], pairs.i[k], {-d[0], -d[1], -d[2]}, false);
   }
   cut_by_walls();
 }

@@ -107,6 +107,16 @@ class ClosedForms(unittest.TestCase):
             # twice the same one
             self.assertAlmostEqual(solid(soft([[0.5] * dim, [0.5 + 1e-15] * dim], [0.3, 0.3])), ball(0.3, dim), 13)
 
+    def test_spheres_with_one_centre_count_once(self):
+        """Copies and smaller spheres at the same centre change nothing, in any order of rows."""
+        for x in ([[0.3, 0.3], [0.5, 0.4]], [[0.25, 0.25, 0.75], [0.5, 0.25, 0.75], [0.5, 0.5, 0.75]]):
+            dim = len(x[0])
+            true = soft(x, 0.25, cell=[1] * dim).solid_profile(0, 1).solid[0]
+            more, radii = x + [x[-1], x[0], x[-1]], [0.25] * len(x) + [0.25, 0.125, 0.25]
+            for order in itertools.islice(itertools.permutations(range(len(more))), 0, None, 7):
+                s = soft([more[k] for k in order], [radii[k] for k in order], cell=[1] * dim)
+                self.assertAlmostEqual(s.solid_profile(0, 1).solid[0], true, 13)
+
     def test_three_disks(self):
         """Centres one radius apart: what all three share is a Reuleaux triangle."""
         r = 0.2

@@ -20,7 +20,9 @@ inline void need_network(const jam_system *sys) {
     fail(JAM_E_STATE,
          "the crunch stopped before its contacts were known: crunch to the end, or call jam_contacts_from_geometry");
   if (!sys->has_report)
-    fail(JAM_E_STATE, "there is no contact network: call jam_crunch or jam_contacts_from_geometry first");
+    fail(JAM_E_STATE,
+         "there is no contact network: call jam_crunch or jam_contacts_from_geometry first, or "
+         "jam_contacts_by_distance for contacts without forces");
 }
 // One that may be of contacts by distance, which have no forces.
 inline void need_contacts(const jam_system *sys) {

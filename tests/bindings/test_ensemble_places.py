@@ -6,7 +6,6 @@ import resource
 import shutil
 import sqlite3
 import tempfile
-import time
 import unittest
 import unittest.mock
 import warnings
@@ -267,10 +266,10 @@ class Planted(Case):
             base.execute(f"PRAGMA user_version = {hash_of_row()}")
             base.commit()
             base.close()
-            begin, most = time.monotonic(), resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+            most = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
             np.testing.assert_array_equal(self.e.table(), rows)
             np.testing.assert_array_equal(self.e.table(), rows)
-            self.assertLess(time.monotonic() - begin, 30.0, script)  # the view has no end
+            # the view has no end: who reads it never comes here, or runs out of memory
             self.assertLess(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - most, 500_000, script)  # kB
 
     def test_a_row_with_a_right_checksum_of_another_file_is_not_taken(self):

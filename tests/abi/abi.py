@@ -1,11 +1,14 @@
 #!/usr/bin/env python3
-"""abi.py symbols|constants|abidiff|update BUILD: compares the interface with what is recorded in this folder, or records it.
+"""abi.py check|update BUILD: compares jam.h and the library with the recorded header, or records what was added.
 
-From JAM_ABI 1 on `update` records additions alone, until the number is raised.
+recorded/jam/jam.h is the header with which the ABI number began, which old programs were compiled with; what later versions
+added under this number is in recorded/latest/jam/jam.h. From JAM_ABI 1 on `update` records additions alone, until the number
+is raised.
 """
 import itertools
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -13,31 +16,32 @@ import tempfile
 here = pathlib.Path(__file__).resolve().parent
 root = here.parent.parent
 build = pathlib.Path(sys.argv[2])
-SYMBOLS, CONSTANTS, DUMP = here / "symbols.txt", here / "constants.c", here / "libjam.abi"
-HEADER = here / "recorded/jam/jam.h"  # what old_program.c is compiled with
+HEADER = root / "include/jam/jam.h"
+FIRST, LATEST = here / "recorded/jam/jam.h", here / "recorded/latest/jam/jam.h"
 DEBIAN = root / "pkgconfig/debian"
 UPDATE = "if that is wanted: python3 tests/abi/abi.py update BUILD_FOLDER"
 
 
-def run(*command, ok=(0,)):
+def run(*command):
     done = subprocess.run([str(c) for c in command], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-    if done.returncode not in ok:
+    if done.returncode:
         sys.exit(f"{' '.join(map(str, command))} failed with {done.returncode}:\n{done.stdout}")
-    return done
+    return done.stdout
 
 
 def exported():
-    lines = run("nm", "-D", "--defined-only", build / "libjam.so").stdout.splitlines()
-    return sorted({line.split()[-1].split("@")[0] for line in lines})
+    rows = map(str.split, run("nm", "-D", "--defined-only", build / "libjam.so").splitlines())
+    return sorted({row[-1].split("@")[0] for row in rows if row[-2] != "A"})  # A: the version node
 
 
-def header_text():
-    return re.sub(r"/\*.*?\*/", "", (root / "include/jam/jam.h").read_text(), flags=re.S)
+def plain(path):
+    """The header without its comments."""
+    text = re.sub(r"/\*.*?\*/", "", path.read_text(), flags=re.S)
+    return re.sub(r"\s*\n(?=\s*\n)|[ \t]+$", "", text, flags=re.M).lstrip()
 
 
-def items():
-    """Names of constants whose values compiled programs hold. Structs are compared by abidiff and tests/bindings/layout.c."""
-    text = header_text()
+def constants(text):
+    """Names of constants whose values compiled programs hold."""
     found = []
     for body in re.findall(r"typedef enum \w+ \{(.*?)\}", text, flags=re.S):
         found += re.findall(r"(JAM_\w+)\s*=", body)
@@ -47,65 +51,15 @@ def items():
     return found
 
 
-def measured(names):
-    """Their values, as the C compiler sees them."""
+def measured(header, terms):
+    """{term: its value}, as the C compiler sees them with this header."""
     with tempfile.TemporaryDirectory() as folder:
         source = pathlib.Path(folder) / "values.c"
-        lines = "".join(f'  printf("%lld\\n", (long long)({e}));\n' for e in names)
-        source.write_text(f"#include <jam/jam.h>\n#include <stdio.h>\nint main(void) {{\n{lines}  return 0;\n}}\n")
-        run("cc", "-I", root / "include", source, "-o", source.with_suffix(""))
-        return run(source.with_suffix("")).stdout.split()
-
-
-def constants_text():
-    names = items()
-    lines = "".join(f"CHECK({name} == {value})\n" for name, value in zip(names, measured(names)))
-    return f"""/* Made by tests/abi/abi.py. Values that compiled programs hold; a line that fails to compile is a break of the binary
- * interface. */
-#include <jam/jam.h>
-#define JOIN(a, b) a##b
-#define NAMED(a, b) JOIN(a, b)
-#define CHECK(truth) typedef char NAMED(check_, __LINE__)[(truth) ? 1 : -1];
-#if defined(__GNUC__)
-#pragma GCC diagnostic ignored "-Wunused-local-typedefs"
-#endif
-
-{lines}
-/* The library that is loaded must be of the same interface as the header. */
-int main(void) {{ return jam_abi_version() == JAM_ABI ? 0 : 1; }}
-"""
-
-
-def differences(recorded, now, what):
-    lost, new = sorted(set(recorded) - set(now)), sorted(set(now) - set(recorded))
-    for text in lost:
-        print(f"{what} gone: {text}")
-    for text in new:
-        print(f"{what} not recorded: {text}")
-    if lost or new:
-        sys.exit(UPDATE)
-
-
-def fixed_constants(text):
-    """Lines of constants that stay as they are. The number of columns of a table may grow."""
-    return set(re.findall(r"^CHECK\((?!JAM_\w+_COLUMNS ==).*\)", text, flags=re.M))
-
-
-def symbols():
-    differences(SYMBOLS.read_text().split(), exported(), "symbol")
-
-
-def constants():
-    pattern = r"CHECK\((.*) == -?\d+\)"
-    differences(re.findall(pattern, CONSTANTS.read_text()), items(), "constant")
-
-
-def abidiff():
-    # Bits of the exit status: 1 error, 2 usage, 4 some change, 8 an incompatible change. Additions are left to `symbols`.
-    done = run("abidiff", "--no-added-syms", DUMP, build / "tests/abi/libjam_abi.so", ok=range(16))
-    print(done.stdout)
-    if done.returncode:
-        sys.exit(f"abidiff returned {done.returncode}; {UPDATE}")
+        lines = "".join(f'  printf("%lld\\n", (long long)({e}));\n' for e in terms)
+        heads = "#include <jam/jam.h>\n#include <stddef.h>\n#include <stdio.h>\n"
+        source.write_text(f"{heads}int main(void) {{\n{lines}  return 0;\n}}\n")
+        run("cc", "-I", header.parents[1], source, "-o", source.with_suffix(""))
+        return dict(zip(terms, map(int, run(source.with_suffix("")).split())))
 
 
 def abi_number(text):
@@ -114,7 +68,11 @@ def abi_number(text):
 
 def frozen():
     """From ABI 1 on a number keeps the header with which it began, as old programs do."""
-    return HEADER.exists() and abi_number(header_text()) == abi_number(HEADER.read_text()) >= 1
+    return FIRST.exists() and abi_number(plain(HEADER)) == abi_number(plain(FIRST)) >= 1
+
+
+def records():
+    return [path for path in (FIRST, LATEST) if path.exists()]
 
 
 def declared(text):
@@ -144,86 +102,93 @@ def broken_tables(old, now):
             yield f"{name}: the columns are not numbered from 0 to {len(columns) - 1}"
 
 
-def refuse_breaks():
-    """What went or changed needs the next number. Functions, constants, members at the end of a struct and columns at the
-    end of a table may come."""
-    broken = sorted(set(SYMBOLS.read_text().split()) - set(exported()))
-    broken += sorted(fixed_constants(CONSTANTS.read_text()) - fixed_constants(constants_text()))
-    broken += broken_tables(tables(HEADER.read_text()), tables(header_text()))
-    (old_calls, old_structs), (calls, structs) = declared(HEADER.read_text()), declared(header_text())
-    broken += [call for call in old_calls if call not in calls]
+def names_of(calls):
+    return {found.group(1) for call in calls if (found := re.match(r"JAM_API [^(]*?\b(jam_\w+)\(", call))}
+
+
+def breaks(record):
+    """What programs compiled with the recorded header would meet. Functions, constants, members at the end of a struct and
+    columns at the end of a table may come."""
+    before, text = plain(record), plain(HEADER)
+    (old_calls, old_structs), (calls, structs) = declared(before), declared(text)
+    broken = [f"{call} is gone or another one" for call in old_calls if call not in calls]
+    broken += [f"{name} is not exported" for name in sorted(names_of(old_calls) - set(exported()))]
+    broken += broken_tables(tables(before), tables(text))
+    offsets = []
     for name, old in old_structs.items():
-        for before, now in itertools.zip_longest(old, structs.get(name, [])[: len(old)], fillvalue="nothing"):
-            # what was reserved may be used
-            if before != now and not (" reserved" in before and before.split()[0] == now.split()[0]):
-                broken.append(f"{name}: {before} is {now} now")
+        for was, now in itertools.zip_longest(old, structs.get(name, [])[: len(old)], fillvalue="nothing"):
+            if was == now:
+                member = re.search(r"\w+(?=(?:\[\w+\])*$)", was).group()
+                offsets.append(f"offsetof({name}, {member})")
+            elif not (" reserved" in was and was.split()[0] == now.split()[0]):  # what was reserved may be used
+                broken.append(f"{name}: {was} is {now} now")
+    kept = set(constants(text))
+    broken += [f"{name} is gone" for name in constants(before) if name not in kept]
+    # the number of columns of a table may grow
+    terms = offsets + [name for name in constants(before) if name in kept and not name.endswith("_COLUMNS")]
+    if not broken:
+        then, now = measured(record, terms), measured(HEADER, terms)
+        broken += [f"{term} was {then[term]} and is {now[term]}" for term in terms if then[term] != now[term]]
+    return broken
+
+
+def refuse_breaks():
+    broken = [line for record in records() for line in breaks(record)]
     if broken:
-        sys.exit("\n".join(broken) + "\nold programs would break: raise JAM_ABI in jam.h first")
+        sys.exit("\n".join(dict.fromkeys(broken)) + "\nold programs would break: raise JAM_ABI in jam.h first")
 
 
-def record_header():
-    """The header without its comments."""
-    now = re.sub(r"\s*\n(?=\s*\n)|[ \t]+$", "", header_text(), flags=re.M)
-    HEADER.parent.mkdir(parents=True, exist_ok=True)
-    HEADER.write_text("/* Made by tests/abi/abi.py: jam.h as old programs were compiled with. */\n" + now.lstrip())
+def check():
+    refuse_breaks()
+    declared_names = names_of(declared(plain(HEADER))[0])
+    wrong = [f"{name}: declared or exported, not both" for name in sorted(declared_names ^ set(exported()))]
+    if plain(records()[-1]) != plain(HEADER):
+        wrong.append("jam.h has what is not recorded; " + UPDATE)
+    if wrong:
+        sys.exit("\n".join(wrong))
+
+
+def record_header(path):
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text("/* Made by tests/abi/abi.py: jam.h as programs were compiled with. */\n" + plain(HEADER))
 
 
 def grown():
     """Calls that take a struct or give a table which has grown since the last record: a program that uses what is new needs
     this library, though the name of the call is older."""
-    sizes = dict(re.findall(r"<class-decl name='(jam_\w+)' size-in-bits='(\d+)'", DUMP.read_text()))
-    text = header_text()
-    sizes = {name: int(size) for name, size in sizes.items() if f"}} {name};" in text}
-    now = dict(zip(sizes, map(int, measured([f"8 * sizeof({name})" for name in sizes]))))
-    new = {name for name, size in sizes.items() if size < now[name]}
-    columns = dict(re.findall(r"CHECK\((JAM_\w+_COLUMNS) == (\d+)\)", CONSTANTS.read_text()))
-    for enum, found in tables(text).items():
-        count = f"JAM_{found[0][0].split('_')[1]}_COLUMNS"
-        new |= {enum} if int(columns.get(count, len(found))) < len(found) else set()
-    header = (root / "include/jam/jam.h").read_text()
-    calls = re.findall(r"/\*((?:(?!\*/).)*)\*/\s*JAM_API[^;(]*?\b(jam_\w+)\(([^;]*);", header, flags=re.S)
+    last = records()[-1]
+    sizes = [f"sizeof({name})" for name in declared(plain(last))[1]]
+    then, now = measured(last, sizes), measured(HEADER, sizes)
+    new = {size[7:-1] for size in sizes if then[size] < now[size]}
+    columns = tables(plain(last))
+    new |= {enum for enum, found in tables(plain(HEADER)).items() if len(columns.get(enum, found)) < len(found)}
+    calls = re.findall(r"/\*((?:(?!\*/).)*)\*/\s*JAM_API[^;(]*?\b(jam_\w+)\(([^;]*);", HEADER.read_text(), flags=re.S)
     return {call for comment, call, arguments in calls if new & set(re.findall(r"jam_\w+", comment + arguments))}
 
 
-def record_debian():
+def record_debian(newer):
     """Debian's list says with which version a symbol came, or what it takes or gives last grew."""
-    number = abi_number(header_text())
+    number = abi_number(plain(HEADER))
     file = DEBIAN / f"libjam{number}.symbols"
     if not file.exists():
         print(f"{file.relative_to(root)} is missing: rename Debian's files to the new number")
         return
     version = re.search(r"project\(jam VERSION ([\d.]+)", (root / "CMakeLists.txt").read_text()).group(1)
     had = dict(re.findall(rf"^ (\S+)@JAM_{number} (\S+)$", file.read_text(), flags=re.M))
-    newer = grown() if DUMP.exists() else set()
     lines = [f" {name}@JAM_{number} {version if name in newer else had.get(name, version)}" for name in exported()]
     head = f"libjam.so.{number} libjam{number} #MINVER#\n* Build-Depends-Package: libjam-dev\n"
     file.write_text(head + "\n".join(lines) + "\n")
 
 
 def update():
-    if frozen():
-        refuse_breaks()
-    else:
-        record_header()
-    record_debian()
-    SYMBOLS.write_text("\n".join(exported()) + "\n")
-    CONSTANTS.write_text(constants_text())
-    library = build / "tests/abi/libjam_abi.so"
-    if library.exists():
-        run(
-            "abidw",
-            "--exported-interfaces-only",
-            "--no-corpus-path",
-            "--no-comp-dir-path",
-            "--no-show-locs",
-            "--drop-private-types",
-            "--headers-dir",
-            root / "include",
-            "--out-file",
-            DUMP,
-            library,
-        )
-        DUMP.write_text(DUMP.read_text().replace(f"{root}/", ""))  # where the tree lies is no part of the interface
+    if not frozen():  # a new number, or none yet
+        shutil.rmtree(LATEST.parents[1], ignore_errors=True)
+        record_header(FIRST)
+    refuse_breaks()
+    newer = grown()
+    if plain(records()[-1]) != plain(HEADER):
+        record_header(LATEST)
+    record_debian(newer)
 
 
-{"symbols": symbols, "constants": constants, "abidiff": abidiff, "update": update}[sys.argv[1]]()
+{"check": check, "update": update}[sys.argv[1]]()

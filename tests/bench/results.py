@@ -66,28 +66,6 @@ def size(raw):
     return ["N", "barrier path: factorisations", "barrier path (s)", "sequential LPs: factorisations", "sequential LPs (s)"], rows
 
 
-def clp(raw):
-    """clp_race FILE 3 30"""
-    rows = []
-    for row in raw["solvers"]:
-        answer = row["solved"] == 1
-        rows.append(
-            [row["solver"] + ("" if answer else " (no answer)"), row["seconds"], row["ratio"], row["gain_error"] if answer else None]
-        )
-    return ["solver", "processor time (s)", "over the interior point", "error of the gain"], rows
-
-
-def resume(*raws):
-    """crunch_resume.py FILE.json 500 3 [PRESSURE]"""
-    rows = []
-    for raw in raws:
-        start = f"growth at G = 1e-2 to p = {raw['pressure']:g}" if raw["pressure"] else "random points at 0.3"
-        runs = raw["rows"]
-        cost = sum(r["stopped"] for r in runs) / sum(r["whole"] for r in runs)
-        rows.append([start, len(runs), cost, sum(r["same"] for r in runs), sum(r["jammed"] for r in runs)])
-    return ["start", "stops", "factorisations with the stop over without", "same packing", "jammed"], rows
-
-
 def disks(*raws):
     """disks.py N SEEDS FIRST_SEED"""
     rows = []
@@ -141,88 +119,8 @@ def verdict_numbers(raw):
     return ["number", "times", "verdicts changed", "networks from geometry changed", f"undecided, of {raw[0]['verdicts']}", "wrong", "no without a flex", "ratio of times"], rows
 
 
-def strict(raw):
-    """strict.py --seeds 3 --sizes2 256,1024 --sizes3 256,1024"""
-    rows = []
-    for dim, n in sorted({(r["dim"], r["n"]) for r in raw}):
-        runs = [r for r in raw if (r["dim"], r["n"]) == (dim, n)]
-        for_cell = []
-        for cell in ("fixed", "free"):
-            for_cell += [whole([r[cell]["factorisations"] for r in runs]), spread([r[cell]["seconds"] for r in runs])]
-        ratio = statistics.median(r["free"]["seconds"] / r["fixed"]["seconds"] for r in runs)
-        gain = spread([r["free"]["phi"] - r["fixed"]["phi"] for r in runs])
-        rows.append([dim, n, *for_cell, ratio, gain, f"{sum(all(r['jammed']) for r in runs)} of {len(runs)}"])
-    return ["d", "N", "fixed cell: factorisations", "fixed cell (s)", "free cell: factorisations", "free cell (s)", "ratio of times", "gain of packing fraction", "strictly jammed"], rows  # fmt: skip
-
-
-def ratios(raw):
-    """ratios.py --n 2000"""
-    rows = [
-        [r["d"], int(r["ratio"]), r["large"], r["volume_of_large"], r["growth_seconds"], r["rate"] / 1e6, r["trial_rate"] / 1e6, r["crunch_seconds"], r["factorisations"], r["contacts"], "yes" if r["jammed"] else "no"]  # fmt: skip
-        for r in raw
-    ]
-    return ["d", "ratio", "large of 2000", "share of volume", "growth (s)", "million collisions per second", "million trials per second", "crunch (s)", "factorisations", "contacts", "jammed"], rows  # fmt: skip
-
-
 def with_error(value, error):
     return {"value": value, "error": error}
-
-
-def mixtures(raw):
-    """mixtures.py"""
-    names = {"equal": "equal", "two sizes": "two sizes, ratio", "log-normal": "log-normal, deviation"}
-    laws = dict.fromkeys((r["law"], r["value"]) for r in raw)
-    of = {(r["law"], r["value"], r["d"]): r for r in raw}
-    rows = [
-        [names[law] + (f" {value:g}" if law != "equal" else "")]
-        + [x for d in (2, 3) for x in (of[law, value, d]["rate"] / 1e6, of[law, value, d]["ratio"])]
-        for law, value in laws
-    ]
-    return ["diameters"] + [f"d = {d}, {what}" for d in (2, 3) for what in ("million collisions per second", "over equal")], rows
-
-
-def md_misses(*raws):
-    """md_misses.py"""
-    runs = [run for raw in raws for run in raw]
-    names = ("instructions", "misses of 32 kB", "misses of 1 MB", "mispredicted branches")
-    rows = []
-    for part in [*runs[0]["parts"], "all"]:
-        counts = [run["total"] if part == "all" else run["parts"][part] for run in runs]
-        rows.append([part] + [x for k in (0, 1, 2, 3) for x in ([counts[-1][k]] if k in (0, 3) else [c[k] for c in counts])])
-    last = f"N = {runs[-1]['n']}"
-    columns = ["per collision"]
-    for k, name in enumerate(names):
-        columns += [f"{name} at {last}"] if k in (0, 3) else [f"{name} at N = {run['n']}" for run in runs]
-    return columns, rows
-
-
-def md_threads(raw):
-    """md_threads"""
-    line, rows = raw["line_ns"], []
-    for r in raw["runs"]:
-        two, four = (s for s in r["slabs"] if s["synchronise_ns"] > 0)
-        # A collision has two predictions, other events one. The result takes two lines of the cache; at most, the first
-        # thread takes six back that it writes and the other has read.
-        left = r["event_ns"] - r["valid"]["8"] * (2 - r["exits"] - r["stale"]) * r["prediction_ns"]
-        ahead = [r["event_ns"] / (left + lines * line) for lines in (8, 2)]
-        rows.append([r["n"], r["packing_fraction"], r["event_ns"], r["parallel"], two["across"], two["gain"], four["gain"], r["valid"]["8"], *ahead])
-    columns = ["N", "packing fraction", "an event (ns)", "events over the longest chain", "in both of two slabs", "two slabs, gain at most", "four slabs, gain at most"]
-    return columns + ["predictions valid 8 events later", "predictions ahead, gain, lines counted", "predictions ahead, gain at most"], rows
-
-
-def md_windows(runs):
-    """md_windows N PHI WINDOWS EVENTS"""
-    rows = []
-    for key in dict.fromkeys((r["n"], r["packing_fraction"], r["events_per_sphere"]) for r in runs):
-        some = [r for r in runs if (r["n"], r["packing_fraction"], r["events_per_sphere"]) == key]
-        count = sum(r["windows"] for r in some)
-        late, differ = (sum(r[what] for r in some) / count for what in ("late", "differ"))
-        processors = [r["one_thread_ns"] / r["in_turn_ns"] for r in some]
-        wall = [r["wall_gain"][2] for r in some]
-        again = [statistics.median(1 / (1 / g + share) for g in wall) for share in (late, differ)]
-        rows.append([*key, len(some), some[0]["put_off"], late, differ, sum(r["unseen"] for r in some), spread(processors), spread(wall), *again])
-    columns = ["N", "packing fraction", "events per sphere in a window", "runs", "put off", "windows flagged", "windows with other bits", "of these not flagged"]
-    return columns + ["gain, in turn on one core", "gain on two cores", "with flagged windows again", "with those of other bits again"], rows
 
 
 def ensemble(*raws):
@@ -312,29 +210,6 @@ def monte_carlo(raw):
     return ["system (N = 1024)", "step in diameters", "millions of trials per second", "over a plain cell-list code"], rows
 
 
-def near_jamming(raw):
-    """near_jamming_accuracy.py PICTURE.png 1000"""
-    rows = [
-        [r["scene"], r["instant"], r["runs"], r["seconds"], {"value": r["k"], "error": r["error"]}]
-        for r in raw
-        if r["runs"] in (100, 1000)
-    ]
-    return ["dynamics", "collisions or sweeps", "runs", "processor time (s)", "K"], rows
-
-
-def soft_cell(raw):
-    """soft_cell.py FILE.json 512"""
-    rows = []
-    for pressure in sorted({r["pressure"] for r in raw["race"]}, reverse=True):
-        line = [pressure]
-        for minimiser in ("newton", "fire", "lbfgs"):
-            runs = [r for r in raw["race"] if (r["pressure"], r["minimiser"]) == (pressure, minimiser)]
-            best = [r for r in runs if r["residual"] < 1e-12]
-            line.append(min(best, key=lambda r: r["residual"])["seconds"] if best else "not reached")
-        rows.append(line)
-    return ["pressure (stiffness over diameter)", "Newton (s)", "FIRE (s)", "L-BFGS (s)"], rows
-
-
 def pore_space(raw):
     """pore_space.py --n 1024"""
     rows = []
@@ -342,39 +217,6 @@ def pore_space(raw):
         what = f"{run['at']:g} of the radius" if run["kind"].startswith("mesh") else f"{run['at']} voxels along each edge"
         rows.append([run["kind"], what, run["error"], run["seconds"], run["bytes"] / 1e6])
     return ["what", "resolution", "error of the volume or the porosity", "seconds", "MB"], rows
-
-
-def structure(raw):
-    """structure.py OUT.json PICTURE.png"""
-    rows = [[r["task"], r["n"], r["at"], r["seconds"], r["error"]] for r in raw if r["task"] != "g(r)" or r["at"] == "160 bins"]
-    return ["task", "N", "resolution", "processor time (s)", "relative error"], rows
-
-
-def factorisation(raw):
-    """single_precision"""
-    rows = []
-    for case in raw["cases"]:
-        doubles = statistics.median(p["seconds"] for p in case["points"] if p["precision"] == "double")
-        row = [case["decades"], doubles]
-        for asked in (1e-2, 1e-10):
-            found = [p for p in case["points"] if p["precision"] == "single" and p["asked"] == asked and p["found"]]
-            row += [found[0]["seconds"] if found else "not converged"]
-        rows.append(row)
-    return ["decades of weights (N = 4096)", "doubles (s)", "floats, error 1e-2 (s)", "floats, error 1e-10 (s)"], rows
-
-
-def liquid(raw):
-    """liquid.py"""
-    columns = ["d", "phi", "p of dynamics", "pade", "pade, difference (%)", "closed form", "closed form, difference (%)"]
-    rows = []
-    for run in raw:
-        row = [run["dim"], run["fraction"], {"value": run["pressure"], "error": run["error"]}]
-        for form in ("pade", {2: "henderson", 3: "carnahan_starling"}.get(run["dim"])):
-            p = run.get(form)
-            off = None if p is None else {"value": 100 * (p / run["pressure"] - 1), "error": 100 * run["error"] / run["pressure"]}
-            row += [None if p is None else f"{p:.4f}", off]
-        rows.append(row)
-    return columns, rows
 
 
 def advise(raw):
@@ -472,12 +314,6 @@ def threads(*raws):
     for runs in zip(*(raw["runs"] for raw in raws)):
         rows.append([runs[0]["n"], span([round(r["jam_1"]["factorise_s"] / r["jam_2"]["factorise_s"], 2) for r in runs])])
     return ["N", "two threads over one (rate)"], rows
-
-
-def task_graph(raw):
-    """fronts N > FRONTS.json for N = 4096 and 16384; task_graph.py FRONTS.json..."""
-    rows = [[row["n"], row["cores"]] + [round(row[plan], 2) for plan in ("tree", "lists", "queue")] for row in raw["rows"]]
-    return ["N", "cores", "a front is a task", "subtrees, then front by front", "parts of fronts in one queue"], rows
 
 
 def read(path):

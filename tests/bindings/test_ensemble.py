@@ -198,7 +198,6 @@ class Campaigns(unittest.TestCase):
             jam.load(shards[0])
 
     def test_killed_workers_lose_no_finished_packing(self):
-        """The long form, with 1000 kills, is tests/bench/ensemble_store.py."""
         e, kills, seen, seeds = Ensemble(self.folder, SMALL), [0], {}, 0
         with LocalPool(3) as pool:
             ended = threading.Event()

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Sets version and ABI number in every file of the tree that names them, and lists where another one is left.
 
-usage: set_version.py ROOT VERSION ABI     Then: bindings/gen/regenerate.sh, a build, tests/abi/abi.py update BUILD.
+usage: set_version.py ROOT VERSION ABI     Then: a build, tests/abi/abi.py update BUILD.
 VERSION is that of a release, 1.2.3, or of the tree between two releases, 1.2.3-dev. The latter leaves the recipes, the citation
 and Debian's changelog alone: they name the last release.
 """

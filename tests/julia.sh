@@ -1,11 +1,11 @@
 #!/bin/sh
 # julia.sh BUILD: runs the Julia layer's tests and all examples with a real Julia. Takes a Julia on PATH, or else
-# fetches Debian 11's package (1.5.3) with what it needs into BUILD/julia: nothing is installed, and apt's own lists
+# fetches Debian 11's package (1.5.3) with what it needs into BUILD/julia-run: nothing is installed, and apt's own lists
 # stay as they are. Exit status 77 (skipped) where no Julia can be had.
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
 build=$(cd "$1" && pwd)
-home=$build/julia
+home=$build/julia-run
 skip() { echo "skipped: $*"; exit 77; }
 
 fetch() {
@@ -52,11 +52,11 @@ fi
 # Debian 11's Julia loads libunwind, whose unwinder aborts in C++ exceptions. libgcc's must come first.
 run() { LD_PRELOAD=${JULIA_LIBRARIES:+libgcc_s.so.1} LD_LIBRARY_PATH=${JULIA_LIBRARIES:-} "$julia" -O0 "$@"; }
 run --version
-export JULIA_DEPOT_PATH="$home/depot" JULIA_LOAD_PATH="$root/bindings/julia:@stdlib" JAM_LIBRARY="$build/libjam.so"
+export JULIA_DEPOT_PATH="$home/depot" JULIA_LOAD_PATH="$build/julia:@stdlib" JAM_LIBRARY="$build/libjam.so"
 work=$home/work
 rm -rf "$work" && mkdir -p "$work"
 cd "$work"
-run "$root/bindings/julia/Jam/test/runtests.jl"
+run "$build/julia/Jam/test/runtests.jl"
 # the programs of the guide's page
 block() { sed -n "/^## $1/,/^## /p" "$root/bindings/docs/julia.md" | sed -n '/^```julia$/,/^```$/p' | grep -v '^```'; }
 block "From nothing" >guide.jl

@@ -33,11 +33,16 @@ def _short_docstrings(text):
             yield signature.replace("::System", ""), body
 
 
-def julia(folder):
+def _text(folders, name):
+    """The file, which stands in one of the folders."""
+    return next(folder / name for folder in folders if (folder / name).exists()).read_text()
+
+
+def julia(folders):
     """Docstrings of the package, by file, without the raw layer."""
     pages = [JULIA]
-    for name in re.findall(r'include\("(\w+\.jl)"\)', (folder / "Jam.jl").read_text()):
-        text = (folder / name).read_text()
+    for name in re.findall(r'include\("(\w+\.jl)"\)', _text(folders, "Jam.jl")):
+        text = _text(folders, name)
         blocks = [] if name in ("raw.jl", "tables.jl") else [*_docstrings(text), *_short_docstrings(text)]
         if not blocks:
             continue
@@ -71,10 +76,10 @@ def _procedures(text):
     return found
 
 
-def fortran(folder):
+def fortran(folders):
     pages = [FORTRAN]
     for name, title in (("jam_base.f90", "Made, copied, written, watched"), ("jam_packing.f90", "Calls of the header")):
-        text = (folder / name).read_text()
+        text = _text(folders, name)
         procedures = _procedures(text)
         pages.append(f"\n## {title}\n")
         for shown, body in re.findall(r"^    procedure :: (\w+)(?: => (\w+))?$", text, re.M):

@@ -44,7 +44,7 @@ breathe_show_include = False
 c_id_attributes = ["JAM_API"]
 
 # ---- the Python package. Its C layer is not needed for its text, so a stand-in takes its place.
-sys.path.insert(0, str(root / "bindings/python"))
+sys.path.insert(0, str(Path(os.environ["JAM_XML"]).parent / "python"))  # by site.py
 autodoc_member_order = "bysource"
 autodoc_typehints = "signature"
 python_use_unqualified_type_names = True

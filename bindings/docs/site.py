@@ -127,7 +127,7 @@ def api_pages(header):
 
 
 def main():
-    root, folder = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
+    root, generated, folder = (Path(name).resolve() for name in sys.argv[1:])
     source = folder / "source"
     shutil.rmtree(folder, ignore_errors=True)  # a kept environment would hide warnings of pages that did not change
     (source / "api").mkdir(parents=True)
@@ -152,9 +152,12 @@ def main():
         "# C++\n\nThe header `jam/jam.hpp` needs C++17 and nothing but `jam.h`.\n\n"
         "```{doxygennamespace} jam\n:members:\n:undoc-members:\n:content-only:\n```\n"
     )
+    # the package as a build puts it together; conf.py imports it
+    for part in (root / "bindings/python/jam", generated / "python/jam"):
+        shutil.copytree(part, folder / "python/jam", dirs_exist_ok=True)
     (source / "api" / "python.md").write_text(PYTHON)
-    (source / "api" / "julia.md").write_text(api_layers.julia(root / "bindings/julia/Jam/src"))
-    (source / "api" / "fortran.md").write_text(api_layers.fortran(root / "bindings/fortran"))
+    (source / "api" / "julia.md").write_text(api_layers.julia([root / "bindings/julia/Jam/src", generated / "julia"]))
+    (source / "api" / "fortran.md").write_text(api_layers.fortran([root / "bindings/fortran", generated / "fortran"]))
     tables = root / "examples/studies/ensembles/tables.py"
     subprocess.run([sys.executable, "-B", str(tables), str(source / "ensemble_tables.md")], check=True)
 

@@ -1,3 +1,3 @@
 #!/bin/sh
-# Writes the generated files of all bindings from include/jam/jam.h. Needs swig and Debian's python3.
+# Writes the options of jam-pack, its completion and its page, which are committed. Needs swig and Debian's python3.
 exec /usr/bin/python3 -B "$(dirname "$0")/generate.py" "$@"

@@ -1,5 +1,5 @@
 # From nothing to a jammed packing of disks, and its picture.  usage: first.jl [PICTURE.svg]
-# Run: JAM_LIBRARY=build/libjam.so julia --project=bindings/julia/Jam examples/julia/first.jl
+# Run: JAM_LIBRARY=build/libjam.so julia --project=build/julia/Jam examples/julia/first.jl
 using Jam
 
 # 200 disks, half of them 1.4 times as large so that they do not crystallise

@@ -43,7 +43,7 @@ def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--layout", required=True)
     parser.add_argument("--library", required=True)
-    parser.add_argument("--julia", default=ROOT / "bindings/julia/Jam/src/raw.jl")
+    parser.add_argument("--julia", required=True)
     args = parser.parse_args()
     text = Path(args.julia).read_text()
     header = re.sub(r"/\*.*?\*/", " ", (ROOT / "include/jam/jam.h").read_text(), flags=re.S)

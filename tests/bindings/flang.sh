@@ -1,7 +1,7 @@
 #!/bin/sh
 # The Fortran layer, its two tests and the examples by LLVM's compiler, beside gfortran, which builds all else. flang
 # before 20 does not compile arguments of any rank: skipped (77) without a later one.
-# usage: flang.sh ROOT FOLDER_OF_LIBJAM
+# usage: flang.sh ROOT FOLDER_OF_LIBJAM FOLDER_OF_GENERATED_SOURCES
 set -eu
 flang=
 for name in flang-24 flang-23 flang-22 flang-21 flang-20; do
@@ -11,7 +11,9 @@ done
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work"
-for file in jam jam_base jam_packing; do "$flang" -O1 -c "$1/bindings/fortran/$file.f90" -o $file.o; done
+for file in "$3/jam" "$1/bindings/fortran/jam_base" "$3/jam_packing"; do
+  "$flang" -O1 -c "$file.f90" -o "$(basename "$file").o"
+done
 run() {
   "$flang" -O1 "$1" jam.o jam_base.o jam_packing.o -L"$library" -ljam -Wl,-rpath,"$library" -o program
   shift

@@ -1,6 +1,6 @@
 #!/bin/sh
-# mypy.sh PACKAGE CACHE: the Python package under mypy --strict, by its mypy.ini, and a program that uses it, by its
-# installed types.
+# mypy.sh CONFIG FOLDER CACHE: the Python package in the folder under mypy --strict, and a program that uses it, by its
+# types.
 command -v mypy >/dev/null || { echo "mypy is not installed (Debian: mypy): the types were not checked"; exit 77; }
 program=$(cd "$(dirname "$0")" && pwd)/typed_program.py
-cd "$1" && mypy --cache-dir "$2" && mypy --strict --config-file mypy.ini --cache-dir "$2" "$program"
+cd "$2" && mypy --config-file "$1" --cache-dir "$3" && mypy --strict --config-file "$1" --cache-dir "$3" "$program"

@@ -1,4 +1,4 @@
-# Run with: JAM_LIBRARY=/path/libjam.so julia --project=bindings/julia/Jam -e 'using Pkg; Pkg.test()'
+# Run with: JAM_LIBRARY=/path/libjam.so julia --project=build/julia/Jam -e 'using Pkg; Pkg.test()'
 using Jam, Libdl, LinearAlgebra, Logging, SparseArrays, Test
 
 "What a failing call says; \"\" when it does not fail."

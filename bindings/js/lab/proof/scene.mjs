@@ -1,0 +1,219 @@
+// A proof file: its exact numbers, and the equations of its contacts. The rules are those of the head of jamproof.py.
+import { Exact, ONE, floorOver, refuse, root, whole, total, most } from './exact.mjs';
+
+export const BITS = 24; // digits of J
+const MOST_IMAGES = 1000000n, FARTHEST = 10000n; // of a pair; exponents of two
+export const SEEN = Exact.ratio(9n, 8n); // gaps are those of pairs closer than SEEN times their sigma
+const ONE_NUMBER = ["dim", "unit", "non_additivity", "gamma"], HEADER = [...ONE_NUMBER, "cell"];
+const WORDS = new Set([...HEADER, "sphere", "contact", "tile", "implied", "inverse", "strict"]);
+
+const quoted = (word) => (word.includes("'") && !word.includes('"') ? `"${word}"` : `'${word.replace(/['\\]/g, "\\$&")}'`);
+/** As libjam writes one: digits alone, no plus sign, no leading zero. */
+function integer(word) {
+  refuse(!/^(0|-?[1-9][0-9]*)$/.test(word), () => `${quoted(word)} is not a whole number`);
+  return BigInt(word);
+}
+/** m p e is m 2^e; several with commas are a sum. */
+function number(word) {
+  const parts = word.split(",").map((part) => part.split("p").map(integer));
+  refuse(parts.some((part) => part.length !== 2), () => `${quoted(word)} is not of the form m p e`);
+  refuse(parts.some(([, e]) => e > FARTHEST || -e > FARTHEST), `an exponent of two is beyond ${FARTHEST}`);
+  return total(parts.map(([m, e]) => new Exact(m, -Number(e))));
+}
+export const keyOf = (i, j, n) => `${i},${j},${n}`;
+const reversed = (n) => n.map((v) => -v);
+
+/** Text of the bytes, or what is wrong with them. */
+function textOf(bytes) {
+  const at = bytes.findIndex((b) => b > 127), hex = at < 0 ? "" : bytes[at].toString(16);
+  refuse(at >= 0, `'ascii' codec can't decode byte 0x${hex} in position ${at}: ordinal not in range(128)`);
+  return new TextDecoder().decode(bytes);
+}
+
+/** What zlib packed, but for one byte more than `size` no more than that. */
+async function unpacked(text, size) {
+  const packed = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
+  const reader = new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate")).getReader(), all = [];
+  for (let have = 0; ;) {
+    const { value, done } = await reader.read();
+    if (done) break;
+    all.push(value);
+    have += value.length;
+    refuse(have > size, "the line 'inverse' has more numbers than the equations, or too few");
+  }
+  return new Int32Array(await new Blob(all).arrayBuffer());
+}
+
+/** The file. Lengths `x` and `cell` are whole numbers over `one`, `size` of spheres over `per`. */
+export class Scene {
+  static async read(bytes) {
+    const s = new Scene(textOf(bytes));
+    if (s.packed) {
+      const [e, data] = s.packed;
+      s.inverse = { flat: await unpacked(data, 4 * s.unknowns * s.contacts.length), e: Number(integer(e)) };
+    }
+    return s;
+  }
+  constructor(text) {
+    refuse(/[^ -~\n]/.test(text), "a character, such as a carriage return, is neither printable ASCII nor a line feed");
+    const lines = text.split("\n").map((line) => line.split(" ").filter((w) => w)).filter((line) => line.length);
+    refuse(!lines.length || lines[0].join(" ") !== "jamproof 1", "the first line is not 'jamproof 1'");
+    this.readLines(lines.slice(1));
+    this.test();
+    this.count();
+  }
+  readLines(lines) {
+    // What follows a word in its lines, as many numbers as it must; in the header there is one line of it.
+    const take = (name, ...counts) => {
+      const rows = lines.filter((line) => line[0] === name).map((line) => line.slice(1));
+      const what = `${HEADER.includes(name) ? "the" : "a"} line '${name}'`;
+      refuse(HEADER.includes(name) && rows.length !== 1, `${what} is there ${rows.length} times, not once`);
+      refuse(rows.some((rest) => !counts.includes(rest.length)),
+        `${what} has not as many numbers as ${ONE_NUMBER.includes(name) ? "it must, one" : "dim asks for"}`);
+      return rows;
+    };
+    const [dim, unit, cross, gamma] = ONE_NUMBER.map((name) => take(name, 1)[0][0]);
+    const d = (this.dim = Number(integer(dim)));
+    refuse(d < 1, "dim is not 1 or more");
+    const [cell] = take("cell", (d * (d + 1)) / 2), spheres = take("sphere", d + 2);
+    const contacts = take("contact", d + 3, d + 4);
+    [this.unit, this.gamma, this.add] = [number(unit), number(gamma), ONE.plus(number(cross))];
+    refuse(spheres.some((s) => s[0] !== "0" && s[0] !== "1"), "a sphere is neither 1, stable, nor 0, a rattler");
+    this.stable = spheres.map((s) => s[0] === "1");
+    this.ratio = spheres.map((s) => number(s[1]));
+    this.contacts = contacts.map((row) => row.slice(0, d + 2).map(integer).map(Number))
+      .map(([i, j, ...n]) => ({ i, j, n }));
+    const forces = contacts.map((row) => row.slice(d + 2).map(number));
+    [this.force, this.row] = [forces.map((f) => f[0]), forces.map((f) => f[f.length - 1])]; // row: without implied ones
+    this.tiles = lines.filter(([name]) => name === "tile" || name === "implied")
+      .map(([word, ...ring]) => ({ word, ring: ring.map((c) => Number(integer(c))) }));
+    this.packed = take("inverse", 2).pop();
+    this.strict = take("strict", 0).length > 0;
+    this.inverse = this.within = null;
+    for (const [name] of lines) refuse(!WORDS.has(name), `unknown word ${name}`);
+    const [lengths, one] = whole([cell, ...spheres.map((s) => s.slice(2))].flat().map(number));
+    this.one = one;
+    this.cell = Array.from({ length: d }, (_, r) =>
+      Array.from({ length: d }, (_, c) => (c <= r ? lengths[(r * (r + 1)) / 2 + c] : 0n)));
+    this.x = spheres.map((_, k) => lengths.slice(cell.length + d * k, cell.length + d * (k + 1)));
+  }
+  test() {
+    const { contacts, dim: d, x } = this, again = new Set();
+    for (const { i, j, n } of contacts) again.add(keyOf(i, j, n)).add(keyOf(j, i, reversed(n)));
+    const outside = (c, count) => c < 0 || c >= count;
+    const positive = [this.unit, this.gamma, ...this.ratio, ...this.cell.map((row, q) => new Exact(row[q]))];
+    refuse(this.add.n <= 0n || new Exact(2n).below(this.add), "non_additivity must be above -1 and at most 1");
+    refuse(!this.stable.includes(true), "no sphere is stable");
+    refuse(!contacts.length, "the file lists no contact");
+    refuse(again.size !== 2 * contacts.length, "a contact is there twice, or of a sphere with itself");
+    refuse(contacts.some(({ i, j }) => outside(i, x.length) || outside(j, x.length)),
+      "a contact names a sphere that is not there");
+    refuse(this.tiles.some(({ ring }) => ring.some((c) => outside(c, contacts.length))),
+      "a tile or an implied contact names a contact that is not there");
+    refuse(positive.some((v) => v.n <= 0n), "a diameter, a cell edge, unit or gamma is not positive");
+    this.closed = again;
+    x.forEach((_, i) => again.add(keyOf(i, i, Array(d).fill(0))));
+  }
+  /** Where the unknowns stand, without G: `first` of each sphere, `vectors` of the cell. */
+  count() {
+    const d = this.dim;
+    [this.size, this.per] = whole(this.ratio);
+    this.cross = this.add.times(this.add);
+    const moving = this.stable.map((yes, i) => (yes ? i : -1)).filter((i) => i >= 0).slice(1);
+    this.first = new Map(moving.map((i, k) => [i, d * k]));
+    this.vectors = this.strict ? this.cell.map((_, q) => d * moving.length + (q * (q + 1)) / 2) : [];
+    this.unknowns = d * moving.length + (this.strict ? (d * (d + 1)) / 2 : 0);
+    this.gradient = new Map(this.vectors.map((k, q) => [k + q, Exact.ratio(this.one, this.cell[q][q])])); // b
+  }
+  /** r = x_i - x_j + n H. */
+  vector({ i, j, n }) {
+    return this.x[i].map((a, c) => n.reduce((sum, m, q) => sum + BigInt(m) * this.cell[q][c], a - this.x[j][c]));
+  }
+  /** sigma^2, with sigma the mean of two diameters, times 1 + Delta where they differ. */
+  sigma2(i, j) {
+    const square = Exact.ratio((this.size[i] + this.size[j]) ** 2n, (2n * this.per) ** 2n);
+    return this.size[i] === this.size[j] ? square : square.times(this.cross);
+  }
+  square(r) {
+    return Exact.ratio(r.reduce((sum, v) => sum + v * v, 0n), this.one * this.one);
+  }
+  /** Of the contacts kept: F, sigma^2 and the columns of R as [row, whole number over one]. */
+  equations(kept) {
+    const f = [], sigma2 = [], columns = Array.from({ length: this.unknowns }, () => []);
+    kept.map((k) => this.contacts[k]).forEach((contact, c) => {
+      const { i, j, n } = contact;
+      refuse(i === j || !this.stable[i] || !this.stable[j], `images: contact ${c} is not of two stable ones`);
+      const r = this.vector(contact), ends = [];
+      sigma2.push(this.sigma2(i, j));
+      f.push(this.square(r).minus(this.gamma.times(sigma2[c])));
+      for (const [k, times] of [[i, 2], [j, -2]])
+        if (this.first.has(k)) ends.push([this.first.get(k), times, this.dim]);
+      this.vectors.forEach((at, q) => ends.push([at, 2 * n[q], q + 1]));
+      for (const [at, times, many] of ends)
+        for (let k = 0; k < many; ++k) columns[at + k].push([c, BigInt(times) * r[k]]);
+    });
+    return { f, sigma2, columns };
+  }
+  /** Entries in units of 2^-BITS, off by half a unit. */
+  rounded(columns) {
+    const one = new Exact(this.one);
+    return columns.map((column) => column.map(([c, v]) => [c, Number(new Exact(v, -BITS).over(one).round())]));
+  }
+  /** R^T f - b. */
+  unbalanced(columns, forces) {
+    const [list, per] = whole(forces), over = new Exact(this.one * per);
+    return columns.map((column, k) => {
+      const net = new Exact(column.reduce((sum, [c, v]) => sum + v * list[c], 0n)).over(over);
+      return this.gradient.has(k) ? net.minus(this.gradient.get(k)) : net;
+    });
+  }
+  /** Spheres are open where a component of r is larger, and farther apart than SEEN. There is room for 4 radii, and
+   * strict for one more of each cell vector between them. */
+  reach(radius, gamma) {
+    const { cell, one, x } = this, way = radius.times(new Exact(one)).ceil(), images = Array(this.dim).fill(0n);
+    const ratio = most(this.ratio), seen = SEEN.times(new Exact(one));
+    const largest = ratio.times(ratio).times(most([ONE, this.cross]));
+    const reach = root(gamma.times(largest).times(seen).times(seen).ceil()) + 1n + 4n * way;
+    for (let c = this.vectors.length - 1; c >= 0; --c) { // images: |n| of spheres this near, in any cell in the radius
+      refuse(cell[c][c] <= 2n * way, "gap: the cell is not larger than the radius");
+      const at = x.map((v) => v[c]).reduce(([a, b], v) => [v < a ? v : a, v > b ? v : b], [x[0][c], x[0][c]]);
+      const apart = cell.reduce((sum, row, q) => sum + images[q] * ((row[c] < 0n ? -row[c] : row[c]) + way), at[1] - at[0]);
+      images[c] = (reach + apart) / (cell[c][c] - way) + 1n;
+    }
+    return reach + images.reduce((a, b) => a + b) * way;
+  }
+  /** Refuses if (3) fails for this part of gamma; the least left side over gamma sigma^2 below SEEN^2, or null. */
+  leastOpening(radius, gamma, part = ONE) {
+    const reach = this.reach(radius, gamma), seen = SEEN.times(SEEN), { x, stable, cell } = this;
+    let found = null;
+    const many = cell.reduce((times, row, c) => times * (floorOver(2n * reach, row[c]) + 1n), 1n);
+    refuse(many > MOST_IMAGES, `gap: the cell is so thin that a sphere meets more than ${MOST_IMAGES} images`);
+    for (let i = 0; i < x.length; ++i)
+      for (let j = 0; j <= i; ++j)
+        for (const { n, r } of this.near(i, j, reach)) {
+          if (this.closed.has(keyOf(i, j, n))) continue;
+          const images = this.strict ? n.reduce((sum, m) => sum + Math.abs(m), 0) : 0;
+          const moving = (i !== j ? stable[i] + stable[j] : 0) + images;
+          const way = Exact.ratio(r.reduce((sum, v) => sum + (v < 0n ? -v : v), 0n), this.one).times(radius);
+          const have = this.square(r).minus(way.times(new Exact(BigInt(2 * moving)))).over(gamma.times(this.sigma2(i, j)));
+          const image = n.length > 1 ? n.join(", ") : `${n[0]},`;
+          refuse(!part.below(have), () => `gap: spheres ${i} and ${j} are not open (image (${image}))`);
+          if (have.below(seen)) found = found && found.n ? (have.below(found) ? have : found) : have;
+        }
+    return found;
+  }
+  /** Images n of sphere i, and their vectors r from sphere j with components within reach. */
+  near(i, j, reach) {
+    let list = [{ n: [], r: this.x[i].map((v, c) => v - this.x[j][c]) }];
+    for (let c = this.dim - 1; c >= 0; --c) {
+      const row = this.cell[c], next = [];
+      for (const { n, r } of list) {
+        const end = floorOver(reach - r[c], row[c]);
+        for (let m = -floorOver(reach + r[c], row[c]); m <= end; ++m)
+          next.push({ n: [Number(m), ...n], r: m ? r.map((v, k) => v + m * row[k]) : r });
+      }
+      list = next;
+    }
+    return list;
+  }
+}

@@ -39,6 +39,16 @@ class Pictures(unittest.TestCase):
         self.assertGreaterEqual(sum(len(c.get_offsets()) for c in ax.collections), 60)
         self.assertTrue(all(len(c.get_offsets()) for c in ax.collections))  # an empty one would draw a stray circle
 
+    def test_spheres_in_three_dimensions_are_one_collection_from_far_to_near(self):
+        ax = jam.plot.packing(self.deep, view=(0, 0), legend=False)
+        (balls,) = ax.collections  # one for each sphere took 6 ms a sphere
+        centres, colours = balls.get_offsets(), balls.get_facecolors()
+        order = np.argsort(-self.deep.positions[:, 1])  # the view is along the second axis
+        expected = self.deep.positions[order][:, [0, 2]] - 0.5 * self.deep.box
+        self.assertLess(abs(centres[::2] - expected).max(), 1e-12)
+        self.assertLess(abs(np.linalg.norm(centres[1::2] - centres[::2], axis=1) / self.deep.diameters[order] - 0.21).max(), 0.01)
+        self.assertTrue((colours[1::2, :3] >= colours[::2, :3]).all())  # highlights are lighter
+
     def test_summary_of_soft_spheres(self):
         s = jam.System.random(64, 3, packing_fraction=0.7, overlap="allow", seed=1)
         s.relax()

@@ -80,6 +80,25 @@ def _circles(ax: Any, centres: Array, diameters: Any, colours: Any, **more: Any)
     )
 
 
+def _balls(ax: Any, centres: Array, diameters: Array, colours: Array) -> None:
+    """Spheres from far to near, each with its highlight: one collection, which is drawn in its order."""
+
+    def in_turn(sphere: Array, highlight: Array) -> Array:
+        return np.stack([sphere, highlight], axis=1).reshape(-1, *sphere.shape[1:])
+
+    opaque = np.ones((len(centres), 1))
+    edges = np.hstack([0.55 * colours, opaque])
+    _circles(
+        ax,
+        in_turn(centres, centres + diameters[:, None] * np.array([-0.14, 0.16])),
+        in_turn(diameters, 0.3 * diameters),
+        in_turn(colours, 1 - 0.55 * (1 - colours)),
+        edgecolors=in_turn(edges, 0 * edges),
+        linewidths=np.tile([0.35, 0.0], len(centres)),
+        zorder=2,
+    )
+
+
 def _brick(ax: Any, edges: Array, view: tuple[float, float], front: bool) -> None:
     corners = np.array([[i, j, k] for i in (0, 1) for j in (0, 1) for k in (0, 1)], float) * edges
     flat, depth = _project(corners, edges, view)
@@ -202,24 +221,7 @@ def packing(
         kind = system.info.container
         if kind == Container.BRICK:
             _brick(ax, edges, view, False)
-        for k, sphere in enumerate(order):  # far to near, each with a highlight
-            _circles(
-                ax,
-                flat[[sphere]],
-                s[sphere],
-                shaded[[k]],
-                edgecolors=[shaded[k] * 0.55],
-                linewidths=0.35,
-                zorder=2 + k * 1e-6,
-            )
-            _circles(
-                ax,
-                flat[[sphere]] + s[sphere] * np.array([-0.14, 0.16]),
-                0.3 * s[sphere],
-                [1 - (1 - shaded[k]) * 0.55],
-                edgecolors="none",
-                zorder=2 + (k + 0.5) * 1e-6,
-            )
+        _balls(ax, flat[order], s[order], shaded)
         if kind == Container.BRICK:
             _brick(ax, edges, view, True)
         else:

@@ -63,7 +63,7 @@ class Browser:
         elif kind == "Runtime.consoleAPICalled" and about["type"] in ("error", "warning", "assert"):
             self.errors.append(str(about["args"]))
         elif kind == "Network.requestWillBeSent" and not about["request"]["url"].startswith(
-            ("file:", "data:", "about:")
+            ("file:", "data:", "about:", "blob:")
         ):
             self.errors.append("asked the network for " + about["request"]["url"])
         return found
@@ -91,6 +91,19 @@ class Browser:
 
     def resize(self, width, height):
         self.ask("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False)
+
+    def media(self, scheme):
+        """The scheme that the reader prefers: 'dark' or 'light'."""
+        self.ask("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": scheme}])
+
+    def give(self, selector, path):
+        """A file to an input of the page."""
+        root = self.ask("DOM.getDocument")["root"]["nodeId"]
+        node = self.ask("DOM.querySelector", nodeId=root, selector=selector)["nodeId"]
+        self.ask("DOM.setFileInputFiles", nodeId=node, files=[str(path)])
+
+    def download_to(self, folder):
+        self.ask("Page.setDownloadBehavior", behavior="allow", downloadPath=str(folder))
 
     def settle(self):
         """Until what was asked for is drawn."""

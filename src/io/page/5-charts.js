@@ -17,10 +17,10 @@ function chart(name, xName, yName, points, { logX = false, logY = false, bars = 
   let out = `<svg viewBox="0 0 ${SVG.width} ${SVG.height}" role="img" aria-label="${name}: ${yName} against ${xName}">`;
   out += `<text class="name" x="${SVG.left}" y="12">${name}</text>`;
   for (const t of ticks(x0, x1, logX))
-    out += `<path d="M${X(t)} ${SVG.top}V${floor + 4}" stroke="#e4e7ec"/>` +
+    out += `<path d="M${X(t)} ${SVG.top}V${floor + 4}" stroke="var(--grid)"/>` +
       `<text x="${X(t)}" y="${floor + 15}" text-anchor="middle">${mark(t, logX)}</text>`;
   for (const t of ticks(y0, y1, logY))
-    out += `<path d="M${SVG.left - 4} ${Y(t)}H${SVG.width - SVG.right}" stroke="#e4e7ec"/>` +
+    out += `<path d="M${SVG.left - 4} ${Y(t)}H${SVG.width - SVG.right}" stroke="var(--grid)"/>` +
       `<text x="${SVG.left - 7}" y="${Y(t) + 4}" text-anchor="end">${mark(t, logY)}</text>`;
   if (bars) {
     const wide = Math.min(28, 0.8 * (X(1) - X(0)));
@@ -32,7 +32,7 @@ function chart(name, xName, yName, points, { logX = false, logY = false, bars = 
   }
   if (pointer)
     out += `<path id="${pointer}" data-scale="${X(0)} ${X(1) - X(0)}" d="" stroke="#d0006f" stroke-width="1.5"/>`;
-  out += `<path d="M${SVG.left} ${SVG.top}V${floor}H${SVG.width - SVG.right}" fill="none" stroke="#566070"/>`;
+  out += `<path d="M${SVG.left} ${SVG.top}V${floor}H${SVG.width - SVG.right}" fill="none" stroke="var(--soft)"/>`;
   const middle = [0.5 * (SVG.left + SVG.width - SVG.right), 0.5 * (SVG.top + floor)];
   out += `<text x="${middle[0]}" y="${SVG.height - 4}" text-anchor="middle">${xName}</text>`;
   out += `<text transform="translate(11 ${middle[1]}) rotate(-90)" text-anchor="middle">${yName}</text>`;

@@ -36,6 +36,15 @@ function takeStep(k) {
   rebuild();
 }
 
+// A moment of a packing that grows, from the page around this one: all diameters have one factor.
+function showMoment(positions, diameters, rows) {
+  position = positions;
+  growth = diameters[0] / diameter[0];
+  cell = Array.from({ length: dim }, (_, r) => Array.from(rows.slice(r * dim, (r + 1) * dim)));
+  cube = isCube(cell);
+  rebuild();
+}
+
 function makeStepSlider() {
   takeState(0); // for the scale of distances
   takeState(lastStep);

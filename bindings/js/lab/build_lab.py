@@ -1,0 +1,43 @@
+"""Makes lab.html, one file, from the parts beside this program and the package for JavaScript.
+
+usage: build_lab.py PACKAGE OUT     PACKAGE has jam.wasm, jam.bundle.mjs and worker.bundle.js
+"""
+import base64
+import gzip
+import re
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+LAB = "texts recipe parts engine keep view session panel_make panel_check panel_look main".split()
+PROOF = "exact scene inverse implied trapped theorem check serve_proof".split()
+EXPORT = re.compile(r"^export (?=(?:async )?(?:const|let|function|class) )|^export \{[^}]*\}.*\n", re.M)
+
+
+def joined(folder, names):
+    with tempfile.TemporaryDirectory() as place:
+        out = Path(place) / "joined.js"
+        subprocess.run([sys.executable, "-B", HERE.parent / "bundle.py", folder, out, *names], check=True)
+        return out.read_text("utf-8")
+
+
+def script(text):
+    """Inside a script element, which nothing in it may end."""
+    if re.search("</script|<!--", text, re.I):
+        sys.exit("a part has </script> or <!--")
+    return text
+
+
+def page(package):
+    library = EXPORT.sub("", (package / "jam.bundle.mjs").read_text("utf-8"))
+    js = f"const {{ spawnOn, webPort }} = (() => {{\n{library}\nreturn {{ spawnOn, webPort }};\n}})();\n{joined(HERE, LAB)}"
+    wasm = base64.b64encode(gzip.compress((package / "jam.wasm").read_bytes(), 9, mtime=0)).decode()
+    parts = {"CSS": (HERE / "lab.css").read_text("utf-8"), "JS": script(js), "WASM": wasm,
+             "ENGINE": script((package / "worker.bundle.js").read_text("utf-8")), "CHECKER": script(joined(HERE / "proof", PROOF))}  # fmt: skip
+    return re.sub("@([A-Z]+)@", lambda m: parts[m[1]], (HERE / "lab.html").read_text("utf-8"))
+
+
+if __name__ == "__main__":
+    Path(sys.argv[2]).write_text(page(Path(sys.argv[1])), "utf-8")

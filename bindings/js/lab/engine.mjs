@@ -1,0 +1,119 @@
+// The library in a worker, from what the page holds, and the work that takes several of its calls.
+import { growthOf, isCrunched, lawOf, ratioOf, startOf, twoSizes } from './recipe.mjs';
+import { TEXT } from './texts.mjs';
+
+const FRAMES = 0.25; // seconds between pictures of a packing that grows
+const LARGEST = 2 ** 26, ROOM = 2 ** 31; // bytes of a file; of memory that a crunch may take
+const SHOWN = 8; // contacts in the table of the strongest
+
+const held = (id) => document.getElementById(id).textContent.trim();
+async function unpackedWasm() {
+  if (typeof DecompressionStream === 'undefined') throw new Error(TEXT.noUnpack);
+  const packed = Uint8Array.from(atob(held('wasm')), (c) => c.charCodeAt(0));
+  return new Uint8Array(await new Response(new Blob([packed]).stream().pipeThrough(new DecompressionStream('gzip'))).arrayBuffer());
+}
+const workerOf = (id) => new Worker(URL.createObjectURL(new Blob([held(id)], { type: 'text/javascript' })));
+
+/** Sentences for what a browser refuses; others are the library's. */
+export function sentenceOf(error) {
+  if (error instanceof WebAssembly.CompileError || error instanceof WebAssembly.LinkError) return TEXT.noWasm;
+  if (error instanceof RangeError || /out of memory/i.test(error.message)) return TEXT.noMemory;
+  return error.message;
+}
+
+export async function startEngine() {
+  if (typeof WebAssembly === 'undefined' || typeof Worker === 'undefined') throw new Error(TEXT.noWasm);
+  return spawnOn(() => webPort(workerOf('engine')), await unpackedWasm());
+}
+
+/** Answer of the checker, which is a worker of its own. */
+export function checkedProof(bytes) {
+  const worker = workerOf('checker');
+  return new Promise((resolve, reject) => {
+    worker.onmessage = ({ data }) => resolve(data);
+    worker.onerror = (event) => reject(new Error(event.message));
+    worker.postMessage(bytes);
+  }).finally(() => worker.terminate());
+}
+
+async function diametersOf(jam, r) {
+  if (r.law === 'two') return twoSizes(r.n, ratioOf(r));
+  const law = lawOf(r);
+  if (!law) return undefined;
+  const { options, curve } = await jam.parseDiameters(law);
+  const given = Object.fromEntries(Object.entries(options).filter(([, v]) => v !== 0 && !Number.isNaN(v)));
+  return jam.diameters(curve.length ? curve : null, { ...given, n: r.n, dim: r.dim, seed: r.seed });
+}
+
+/** A random start, growth and crunch; `shown(frame)` and `told(phase, progress)` follow it. */
+export async function made(jam, r, { begun, shown, told }) {
+  const diameters = await diametersOf(jam, r);
+  const packing = await jam.random({ ...startOf(r), ...(diameters ? { diameters } : {}) });
+  await begun(packing);
+  const follow = (phase) => (now) => {
+    if (now.frame) shown(now.frame);
+    told(phase, now);
+  };
+  await packing.compress({ ...growthOf(r), progress: follow('growing'), frames: FRAMES });
+  if (!isCrunched(r)) return { packing, report: null };
+  const estimate = await packing.estimateCrunch();
+  if (estimate.memory > ROOM) throw new Error(TEXT.make.memory(Math.round(estimate.memory / 1e6), Math.round(ROOM / 1e6)));
+  return { packing, report: await packing.crunch({ progress: follow('crunching'), frames: FRAMES }) };
+}
+
+/** A packing of a file, and what was assumed. */
+export async function opened(jam, file) {
+  if (file.size > LARGEST) throw new Error(TEXT.tooLarge(Math.round(file.size / 1e6)));
+  if (file.size === 0) throw new Error(TEXT.empty(file.name));
+  return jam.read(new Uint8Array(await file.arrayBuffer()), { name: file.name });
+}
+
+/** The report of the check, and what a reader wants to see of it: strongest and weakest contacts, rattlers, the flex. */
+export async function checked(packing, progress) {
+  const report = await packing.check({ progress });
+  const found = { report, strongest: [], weakest: null, rattlers: [], motion: null };
+  if (report.jammed !== 'yes') {
+    if (report.flexes > 0) found.motion = await flexOf(packing);
+    if (!found.motion) return found;
+  }
+  const status = await networkOf(packing);
+  if (!status) return found;
+  const [pairs, forces, gaps, counts] = await Promise.all(['contacts', 'forces', 'contactGaps', 'coordination'].map((name) => packing[name]()));
+  const order = Array.from(forces.keys()).filter((k) => Number.isFinite(forces[k])).sort((a, b) => forces[b] - forces[a]);
+  const row = (k) => ({ i: pairs[2 * k], j: pairs[2 * k + 1], force: forces[k], gap: gaps[k] });
+  found.strongest = order.slice(0, SHOWN).map(row);
+  if (order.length) found.weakest = row(order.at(-1));
+  found.rattlers = Array.from(counts.keys()).filter((i) => counts[i] === 0);
+  return found;
+}
+/** A motion that the contacts leave, d rows of n numbers; null where there is none. */
+async function flexOf(packing) {
+  try {
+    const { out: flat } = await packing.flex('collective');
+    if (!flat.length) return null;
+    return Float64Array.from({ length: flat.length }, (_, k) => flat[(k % packing.n) * packing.dim + Math.floor(k / packing.n)]);
+  } catch {
+    return null; // the network has none: the paragraph of the check says what there is
+  }
+}
+/** Contacts of a file's packing come from its geometry, where they balance. */
+async function networkOf(packing) {
+  try {
+    await packing.contacts();
+    return true;
+  } catch {
+    try {
+      await packing.contactsFromGeometry();
+      return true;
+    } catch {
+      return false; // the check says why
+    }
+  }
+}
+
+/** The page of a packing, as the library writes it. */
+export async function pageOf(packing, title, small, motion) {
+  const none = { names: '', values: null }, more = motion ? { names: `${TEXT.check.flexName}[]`, values: motion } : none;
+  const answer = await packing.writePage('page.html', title, small, more.names, more.values);
+  return new TextDecoder().decode(answer.bytes ?? answer);
+}

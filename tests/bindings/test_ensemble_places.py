@@ -1,10 +1,8 @@
 """What counts in an ensemble's folder: packings are known by what stands in their files, each seed counts once, every odd
-file is named, and an index or files that somebody planted lead nowhere."""
+file is named."""
 import json
 import os
-import resource
 import shutil
-import sqlite3
 import tempfile
 import unittest
 import unittest.mock
@@ -17,7 +15,6 @@ import numpy as np
 import jam
 from jam.ensemble import DamagedWarning, Ensemble
 from jam.ensemble import folder as places
-from jam.ensemble.folder import hash_of_row
 from packings import same_bits
 
 SMALL = dict(n=16, dim=2, diameters={"law": "bidisperse"}, stages=[{"growth_rate": 0.1, "pressure": 100.0}])
@@ -143,8 +140,8 @@ class Names(Case):
             opened.append(Path(path))
             return real(path, *more)
 
-        real = places.open_file
-        with unittest.mock.patch.object(places, "open_file", seen), unittest.mock.patch.object(places.Folder, "_files", None):
+        real = places.read_packing
+        with unittest.mock.patch.object(places, "read_packing", seen), unittest.mock.patch.object(places.Folder, "found", None):
             status = self.make([3, 5, 9], search=False)
         self.assertEqual((status.asked, status.done, status.made), (3, 3, 1))
         self.assertEqual(set(opened), {self.file(k) for k in (3, 5, 9)})
@@ -236,52 +233,6 @@ class Failures(Case):
             with self.assertRaisesRegex(ImportError, "no scipy"):
                 self.make([1])
         self.assertEqual(self.e.failures(), [])
-
-
-class Planted(Case):
-    """An index of somebody else: its views, triggers and rows are not asked for anything."""
-
-    VIEW = (
-        "CREATE VIEW rows AS WITH RECURSIVE c(x) AS (SELECT 1 UNION ALL SELECT x + 1 FROM c) "
-        "SELECT 'a' || x AS name, 1 AS size, 1 AS changed, zeroblob(100000) AS row FROM c"
-    )
-    TABLE = "CREATE TABLE rows (name TEXT PRIMARY KEY, size INTEGER, changed INTEGER, row BLOB) WITHOUT ROWID"
-
-    def test_the_table_is_that_of_the_files(self):
-        self.make([1, 2])
-        rows = self.e.table()
-        for number, script in enumerate((
-            self.VIEW,
-            f"{self.TABLE}; CREATE TRIGGER t AFTER INSERT ON rows BEGIN DELETE FROM rows; END",
-            "CREATE TABLE rows (name TEXT, size INTEGER, changed INTEGER, row BLOB AS (zeroblob(1000000000)))",
-            "CREATE VIRTUAL TABLE rows USING fts4(name, size, changed, row)",
-            f"{self.TABLE}; INSERT INTO rows VALUES ('00/a.h5', 1, 1, zeroblob(100000000)), ('00/b.h5', 'x', 'y', 'text')",
-        )):
-            self.e.files.index.unlink()
-            base = sqlite3.connect(self.e.files.index)
-            try:
-                base.executescript(script)
-            except sqlite3.OperationalError:
-                continue  # this sqlite has no such tables
-            base.execute(f"PRAGMA user_version = {hash_of_row()}")
-            base.commit()
-            base.close()
-            most = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-            np.testing.assert_array_equal(self.e.table(), rows)
-            np.testing.assert_array_equal(self.e.table(), rows)
-            # the view has no end: who reads it never comes here, or runs out of memory
-            self.assertLess(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - most, 500_000, script)  # kB
-
-    def test_a_row_with_a_right_checksum_of_another_file_is_not_taken(self):
-        self.make([1, 2])
-        rows = self.e.table()
-        base = sqlite3.connect(self.e.files.index)
-        with base:
-            (one, first), (two, second) = base.execute("SELECT name, row FROM rows").fetchall()
-            base.execute("UPDATE rows SET row = ? WHERE name = ?", (first, two))
-            base.execute("UPDATE rows SET row = ? WHERE name = ?", (second, one))
-        base.close()
-        np.testing.assert_array_equal(self.e.table(), rows)
 
 
 class Shards(Case):

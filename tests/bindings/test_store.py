@@ -258,7 +258,7 @@ class Crafted(Case):
             (link, "link"),
             (soft, "link"),
             (huge, "compressed|more bytes"),
-            (loop, "deep|more bytes"),
+            (loop, None),
             (virtual, "chunked or virtual"),
         ):
             path = self.written(self.good)
@@ -267,8 +267,11 @@ class Crafted(Case):
             signal.alarm(60)
             with self.assertRaisesRegex(StoreError, "damaged"):
                 jam.load(path)
-            with self.assertRaisesRegex(StoreError, text):  # not even on the user's word
-                jam.load(path, unverified=True)
+            if text is None:  # each object is read once
+                np.testing.assert_array_equal(jam.load(path, unverified=True).forces, self.disks.forces)
+            else:
+                with self.assertRaisesRegex(StoreError, text):  # not even on the user's word
+                    jam.load(path, unverified=True)
             data = path.read_bytes()  # the old index under a new seal: only its places are read
             place = re.search(rb"index (\d{20}) (\d{20})\nindex sha256 ([0-9a-f]{64})", data)
             index = [int(place[1]), int(place[2]), place[3].decode()]

@@ -9,11 +9,10 @@ import numpy as np
 
 from ._api.shown import only
 from ._formats import write_packing
-from ._formats.groups import damaged, refusing
+from ._formats.content import damaged, refusing
 from ._formats.provenance import provenance
 from ._formats.replacing import require_ending
-from ._formats.read_packing import checked, jam_of, results_of
-from ._formats.sealed import open_file
+from ._formats.sealed import read_packing
 from ._formats.shard import write_shard
 from .errors import JamError, StoreError
 from .system import System, restore
@@ -62,24 +61,25 @@ def load(
     StoreError
         The file is not there, is damaged, was changed since it was written, or contains no packing. The text names it.
     """
-    with open_file(path, unverified, memory_limit) as file, refusing(path):
-        if name is not None and name not in file:
-            raise StoreError(22, f"{path} holds no packing {name!r}")
-        packing: Any = file if name is None else file[name]
-        jam, places = jam_of(packing, path), packing["particles/spheres/position/value"]
-        n = len(checked("diameters", jam["diameters"], "f8", -1))
-        dim = checked("position/value", places, "f8", 1, n, -1).shape[2]
-        calls = json.loads(bytes(jam["calls"][()]))
+    packing = read_packing(path, name, unverified, memory_limit)
+    with refusing(path):
+        sizes = packing.array("jam/diameters", "f8", -1)
+        n = len(sizes)
+        places = packing.array("particles/spheres/position/value", "f8", 1, n, -1)
+        calls = json.loads(packing.get("jam/calls"))
         if not (isinstance(calls, list) and all(isinstance(c, dict) for c in calls)):
             raise ValueError("jam/calls is not a list of calls")
+        packing.check_record("jam/report")
+        packing.check_record("jam/history", -1)
+        contacts = packing.contacts(n, places.shape[2])
         try:
-            made, stored = restore(jam["state"][()].tobytes(), calls, []), results_of(jam, n, dim)
-            same = not stored or stored[1] is None or stored[1].table().tobytes() == made.contacts.table().tobytes()
+            made = restore(packing.arrays["jam/state"].tobytes(), calls, [])
+            same = contacts is None or contacts.table().tobytes() == made.contacts.table().tobytes()
         except JamError as error:
             if isinstance(error, MemoryError):
                 raise
             raise _unfit(path, f"jam/state: {error}", unverified) from error
-        if not (np.array_equal(made.positions, places[0]) and np.array_equal(made.diameters, jam["diameters"])):
+        if not (np.array_equal(made.positions, places[0]) and np.array_equal(made.diameters, sizes)):
             raise _unfit(path, "positions or diameters are not those of jam/state", unverified)
         if not same:
             raise _unfit(path, "contacts are not those of jam/state", unverified)

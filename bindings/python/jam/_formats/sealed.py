@@ -2,23 +2,23 @@
 from __future__ import annotations
 
 import contextlib
-import hashlib
 import json
 import os
 import re
-from typing import Any, Iterator, Mapping, Sequence
+from typing import IO, Any, Callable, Iterator, Mapping, Sequence
 
 import numpy as np
 
 from .._api.arrays import Array
 from ..errors import StoreError
 from . import unsealed
-from .groups import Group, Shard, damaged, refusing
+from .content import SCHEMA, Packing, damaged, refusing
 from .replacing import open_regular
-from .seal import BEGIN, USER_BLOCK, check_names, head_of, size_of, type_of
+from .seal import BEGIN, USER_BLOCK, check_names, digest, digest_of_rest, head_of, size_of, type_of
 
 _LARGEST_INDEX = 1 << 22  # bytes; 1000 packings of a shard take 0.1 MB
-_CHUNK = 1 << 20
+#: Names of the packings of a shard, None for a file of one; and what reads one of them.
+Content = tuple[Sequence[str] | None, Callable[[str | None], Packing]]
 
 
 def _small(digits: str) -> int:
@@ -35,9 +35,9 @@ def _largest() -> int:
 class _File:
     """An open file: bytes at a place, and what the seal says of them."""
 
-    def __init__(self, path: Any, descriptor: int, limit: float | None) -> None:
-        self.path, self.descriptor = path, descriptor
-        self.length = os.fstat(descriptor).st_size
+    def __init__(self, path: Any, file: IO[bytes], limit: float | None) -> None:
+        self.path, self.file = path, file
+        self.length = os.fstat(file.fileno()).st_size
         most = _largest() if limit is None else limit
         if self.length > most:
             raise StoreError(
@@ -45,59 +45,42 @@ class _File:
                 f"{path} has {self.length:.3g} bytes, at most {most:.3g} are read: give memory_limit= if the file is your own",
             )
 
-    def read(self, at: int, size: int) -> memoryview:
+    def read(self, at: int, size: int) -> bytearray:
         if not (isinstance(at, int) and isinstance(size, int) and 0 <= at and 0 <= size <= self.length - at):
             raise ValueError(f"{size} bytes at {at} lie outside of the file")
-        data = memoryview(bytearray(size))
-        done = 0
-        while done < size:
-            count = os.preadv(self.descriptor, [data[done : done + (1 << 30)]], at + done)
-            if count == 0:
-                raise ValueError("the file got shorter while it was read")
-            done += count
+        data, _ = bytearray(size), self.file.seek(at)
+        if self.file.readinto(data) != size:  # type: ignore[attr-defined]
+            raise ValueError("the file got shorter while it was read")
         return data
-
-    def digest(self) -> str:
-        """SHA-256 of all behind the user block."""
-        found, at = hashlib.sha256(), USER_BLOCK
-        while at < self.length:
-            size = min(_CHUNK, self.length - at)
-            found.update(self.read(at, size))
-            at += size
-        return found.hexdigest()
 
     def index(self, place: Sequence[Any]) -> dict[str, Any]:
         """An index, checked against its digest."""
-        at, size, digest = place
+        at, size, expected = place
         if not 0 < size <= _LARGEST_INDEX:
             raise ValueError(f"an index of {size} bytes")
         data = self.read(at, size)
-        if hashlib.sha256(data).hexdigest() != digest:
+        if digest(data) != expected:
             raise damaged(self.path, "the index differs from its checksum")
         found: dict[str, Any] = json.loads(bytes(data), parse_int=_small)
         return found
 
-    def group(self, index: Mapping[str, Any]) -> Group:
+    def array(self, name: str, at: int, shape: Sequence[int], kind: Any, expected: str) -> Array:
+        if not all(isinstance(k, int) and 0 <= k <= self.length for k in shape):
+            raise ValueError(f"{name} has the shape {shape}")
+        data = self.read(at, size_of(shape, type_of(kind)))
+        if digest(data) != expected:
+            raise damaged(self.path, f"{name} differs from its checksum")
+        found: Array = np.frombuffer(data, type_of(kind)).reshape(shape)
+        return found
+
+    def packing(self, index: Mapping[str, Any]) -> Packing:
         data: Mapping[str, Any] = index["data"]
         check_names(data)
         if sum(size_of(shape, type_of(kind)) for _, shape, kind, _ in data.values()) > self.length:
             raise ValueError("the arrays together are longer than the file")
+        return Packing({name: self.array(name, *entry) for name, entry in data.items()}, index["attributes"])
 
-        def fetch(name: str) -> Array:
-            with refusing(self.path):
-                at, shape, kind, digest = data[name]
-                if not all(isinstance(k, int) and 0 <= k <= self.length for k in shape):
-                    raise ValueError(f"{name} has the shape {shape}")
-                bytes_ = self.read(at, size_of(shape, type_of(kind)))
-                if hashlib.sha256(bytes_).hexdigest() != digest:
-                    raise damaged(self.path, f"{name} differs from its checksum")
-                found: Array = np.frombuffer(bytes_, type_of(kind)).reshape(shape)
-                return found
-
-        return Group(list(data), fetch, index["attributes"])
-
-    def opened(self) -> tuple[Group | None, dict[str, Any]]:
-        """The packing of the file; of a shard None, and the places of its packings' indices."""
+    def content(self) -> Content:
         head = bytes(self.read(0, min(USER_BLOCK, self.length)))
         if not head.startswith(BEGIN):
             raise StoreError(22, f"{self.path} {_what_it_is(head)}")
@@ -109,12 +92,16 @@ class _File:
             raise damaged(self.path, f"its seal does not fit a file of {self.length} bytes")
         index = self.index(place)
         if "packings" in index:
-            return None, dict(index["packings"])
-        if self.digest() != whole:
-            for name in (group := self.group(index)).all:  # names what is damaged, where that is an array
-                group[name]
-            raise damaged(self.path, "the file differs from its checksum, though its arrays are intact")
-        return self.group(index), {}
+            places = dict(index["packings"])
+            return list(places), lambda name: self.packing(self.index(places[name]))
+
+        def one(_: str | None) -> Packing:
+            made = self.packing(index)  # names what is damaged, where that is an array
+            if digest_of_rest(self.file) != whole:
+                raise damaged(self.path, "the file differs from its checksum, though its arrays are intact")
+            return made
+
+        return None, one
 
 
 def _what_it_is(head: bytes) -> str:
@@ -127,10 +114,25 @@ def _what_it_is(head: bytes) -> str:
 
 
 @contextlib.contextmanager
-def open_file(
-    path: str | os.PathLike[str], unverified: bool = False, memory_limit: float | None = None
-) -> Iterator[Group | Shard]:
-    """Opens a file of packings: the content of one as a Group, several as a Shard.
+def _opened(path: str | os.PathLike[str], unverified: bool, memory_limit: float | None = None) -> Iterator[Content]:
+    with refusing(path), open_regular(path) as bytes_:
+        file = _File(path, bytes_, memory_limit)
+        yield unsealed.content(path, file.read(0, file.length)) if unverified else file.content()
+
+
+def names_in(path: str | os.PathLike[str], unverified: bool = False) -> Sequence[str]:
+    """Names of the packings of a shard; none of a file of one packing."""
+    with _opened(path, unverified) as (names, _):
+        return names or ()
+
+
+def read_packing(
+    path: str | os.PathLike[str],
+    name: str | None = None,
+    unverified: bool = False,
+    memory_limit: float | None = None,
+) -> Packing:
+    """A packing from its file, or by its name from a shard.
 
     Parameters
     ----------
@@ -140,18 +142,14 @@ def open_file(
     memory_limit : float, optional
         Bytes of the largest file that is read; default a quarter of the machine's memory.
     """
-    with refusing(path):
-        bytes_ = open_regular(path)
-    with bytes_:
-        with refusing(path):
-            opened = _content(_File(path, bytes_.fileno(), memory_limit), unverified)
-        yield opened
-
-
-def _content(file: _File, unverified: bool) -> Group | Shard:
-    if unverified:
-        return unsealed.content(file.path, file.read(0, file.length))
-    group, places = file.opened()
-    if group is not None:
-        return group
-    return Shard(list(places), lambda name: file.group(file.index(places[name])))
+    with _opened(path, unverified, memory_limit) as (names, packing):
+        if names is not None and name is None:
+            raise StoreError(22, f"{path} is a shard of {len(names)} packings: name one, e.g. name={names[0]!r}")
+        if name is not None and name not in (names or ()):
+            raise StoreError(22, f"{path} holds no packing {name!r}")
+        found = packing(name)
+        if "schema" not in found.attributes.get("jam", ()):
+            raise StoreError(22, f"{path} contains no packing of jam (no group `jam`)")
+        if int(found.jam["schema"]) > SCHEMA:
+            raise StoreError(22, f"{path}: schema {found.jam['schema']} is newer than the schema {SCHEMA} of this jam")
+        return found

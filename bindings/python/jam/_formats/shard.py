@@ -7,13 +7,12 @@ from typing import Any, Mapping
 
 from .._api.generated import CrunchReport
 from ..errors import StoreError
+from .content import Packing
 from .explain import explain
-from .groups import Group
-from .read_packing import jam_of
 from .records import unpack
 from .replacing import replacing
 from .seal import seal
-from .sealed import open_file
+from .sealed import read_packing
 from .write_packing import put
 
 
@@ -27,20 +26,19 @@ def write_shard(path: str | os.PathLike[str], protocol: str, packings: Mapping[s
     def fill(shard: Any) -> list[str]:
         shard.attrs["protocol"], made = protocol, []
         for name, place in packings.items():
-            source, inner = place if isinstance(place, tuple) else (place, None)
             try:
-                with open_file(source) as file:  # checked as a whole
-                    packing: Any = file[inner] if inner else file
-                    jam_of(packing, source)
-                    copy(packing, shard.create_group(name))
-                    made.append(name)
+                source, inner = place if isinstance(place, tuple) else (place, None)
+                packing = read_packing(source, inner)
             except StoreError as error:
                 left_out.append(str(error.strerror))
+                continue
+            _copy(packing, shard.create_group(name))
+            made.append(name)
         return made
 
     try:
-        with replacing(path, "w+b") as memory:
-            seal(memory, fill)
+        with replacing(path, "w+b") as file:
+            seal(file, fill)
     except StoreError:
         raise
     except OSError as error:
@@ -48,13 +46,12 @@ def write_shard(path: str | os.PathLike[str], protocol: str, packings: Mapping[s
     return left_out
 
 
-def copy(source: Any, target: Any, at: str = "") -> None:
-    """A group of a file into another file."""
-    target.attrs.update(source.attrs)
-    for name, node in source.items():
-        if isinstance(node, Group):
-            copy(node, target.create_group(name), f"{at}{name}/")
-        elif at + name == "jam/report":
-            put(target, name, unpack(node, CrunchReport))
+def _copy(packing: Packing, target: Any) -> None:
+    """A packing into a group of another file."""
+    for path, attributes in packing.attributes.items():
+        target.require_group(path or ".").attrs.update(attributes)
+    for path, value in packing.arrays.items():
+        if path == "jam/report":
+            put(target, path, unpack(value, CrunchReport))
         else:
-            explain(target.create_dataset(name, data=node), at + name)
+            explain(target.create_dataset(path, data=value), path)

@@ -35,14 +35,12 @@ import numpy as np
 from .. import raw
 from .._api.given import closed_axes, container_word, walls_of
 from ..errors import StateError, StoreError
+from .content import CONTACTS, SCHEMA
 from .explain import explain, report_text, report_type
 from .provenance import provenance
 from .records import pack
 from .replacing import MENDED, replacing
 from .seal import seal
-
-SCHEMA = 1
-CONTACTS = ("pairs", "vectors", "gaps", "forces")
 
 
 def _text(value: str) -> Any:

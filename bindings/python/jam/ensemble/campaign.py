@@ -1,33 +1,29 @@
 """Making packings: what a worker does, and who hands out the work.
 
 Data flow: protocol x seed -> make_packing in a worker -> a file -> the folder, which all later calls read.
-The worker writes the file itself; only a row of the table goes back. Bits do not depend on the executor.
+The worker writes the file itself; only a word goes back. Bits do not depend on the executor.
 """
 from __future__ import annotations
 
+import contextlib
 import json
 import os
 import time
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, wait
-from typing import Any, Mapping
+from typing import Any, Callable, Iterator, Mapping, Sequence
 
 from .. import store
 from .._formats.write_packing import write_file
 from ..errors import StoreError
-from . import index
-from .folder import Folder, Place
-from .index import Stamp
+from .folder import Folder
 from .making import make
 from .protocol import identity, packing_name, to_json
 
 WINDOW = 1000  # calls handed to the executor ahead of time: bounds its memory, not the work
 ATTEMPTS = 3  # workers that may be lost over one packing before it is recorded as a failure
-INDEX_SECONDS = 10.0  # rows are added to the index so often
 
 
-def make_packing(
-    folder: str, protocol: str, seed: int, attempt: int = 1, remake_damaged: bool = False
-) -> tuple[Any, ...]:
+def make_packing(folder: str, protocol: str, seed: int, attempt: int = 1, remake_damaged: bool = False) -> str:
     """Makes one packing and its file: the call that an executor runs.
 
     Parameters
@@ -41,19 +37,17 @@ def make_packing(
 
     Returns
     -------
-    tuple
-        ("done", key, stamp, row) of the index, ("failed", name, text) or ("damaged", name, text).
+    str
+        "done", "failed" or "damaged".
     """
     files, chosen = Folder(folder), json.loads(protocol)
     protocol_id = identity(chosen)
     name = packing_name(protocol_id, seed)
-    path, row = files.free(name), None
     try:
-        row = files.row(Place(path))  # somebody else may have made it since
-    except StoreError as error:
-        if path.exists() and not remake_damaged:
-            return "damaged", name, str(error.strerror)
-    if row is None:
+        path, there = files.free(name, remake_damaged)  # somebody else may have made it since
+    except StoreError:
+        return "damaged"
+    if not there:
         start, cpu = time.monotonic(), time.process_time()
         try:
             system, results = make(chosen, seed)
@@ -62,13 +56,12 @@ def make_packing(
         except Exception as error:  # a failure is a result too
             status = getattr(getattr(error, "status", None), "name", type(error).__name__)
             files.write_failure(name, protocol_id, seed, status.lower(), str(error))
-            return "failed", name, f"{status}: {error}"
+            return "failed"
         times = {"seconds_made": time.monotonic() - start, "seconds_processor": time.process_time() - cpu}
         data = store.image(system, analysis=results, protocol=protocol, protocol_id=protocol_id, times=times)
         write_file(path, data, files.parts)
-        row = files.row(Place(path))
     files.failure(name).unlink(missing_ok=True)
-    return "done", *files.indexed(path), row.tobytes()
+    return "done"
 
 
 def lasts(failure: Mapping[str, Any]) -> bool:
@@ -79,75 +72,54 @@ def lasts(failure: Mapping[str, Any]) -> bool:
     return status.startswith("e_") and status not in ("e_memory", "e_io", "e_busy")
 
 
-class Campaign:
-    """One campaign: hands calls to the executor and takes their answers."""
-
-    def __init__(
-        self, files: Folder, protocol: Mapping[str, Any], pool: Executor, bar: Any, remake_damaged: bool
-    ) -> None:
-        self.pool, self.bar, self.files, self.remake_damaged = pool, bar, files, remake_damaged
-        self.id, self.protocol = identity(protocol), to_json(protocol)
-        self.pending: dict[Future[Any], tuple[int, int]] = {}
-        self.rows: dict[str, tuple[Stamp, bytes]] = {}
-        self.flushed, self.made = time.monotonic(), 0
-
-    def work(self, todo: list[int]) -> None:
-        queue = [(s, 1) for s in reversed(todo)]
-        try:
-            while queue or self.pending:
-                while queue and len(self.pending) < WINDOW:
-                    self._submit(*queue.pop())
-                for future in wait(self.pending, return_when=FIRST_COMPLETED).done:
-                    again = self._take(future, *self.pending.pop(future))
-                    if again:
-                        queue.append(again)
-                self._flush(INDEX_SECONDS)
-        except BaseException:
-            for future in self.pending:
-                future.cancel()
-            raise
-        finally:
-            self._flush(0.0)
-            if self.bar is not None:
-                self.bar.close()
-
-    def _submit(self, seed: int, attempt: int) -> None:
-        folder = os.fspath(self.files.path.resolve())
-        call = self.pool.submit(make_packing, folder, self.protocol, seed, attempt, self.remake_damaged)
-        self.pending[call] = (seed, attempt)
-
-    def _take(self, future: Future[Any], seed: int, attempt: int) -> tuple[int, int] | None:
-        """Takes an answer; returns what must be tried again."""
-        try:
-            answer = future.result()
-        except (StoreError, BrokenExecutor, ImportError):
-            raise  # nothing more can be written or run, or the workers have no jam
-        except Exception as error:  # the worker is lost, not the packing
-            if attempt < ATTEMPTS:
-                return seed, attempt + 1
-            text = f"{attempt} workers were lost over this packing; the last: {type(error).__name__}: {error}"
-            self.files.write_failure(packing_name(self.id, seed), self.id, seed, "worker_lost", text)
-            answer = ("failed", "", text)
-        if answer[0] == "done":
-            self.rows[answer[1]] = answer[2:]
-            self.made += 1
-        if self.bar is not None:
-            self.bar.update(1)
-        return None
-
-    def _flush(self, after: float) -> None:
-        if time.monotonic() - self.flushed >= after:
-            index.add(self.files.index, self.rows)
-            self.rows, self.flushed = {}, time.monotonic()
-
-
-def progress_bar(progress: bool, total: int, done: int) -> Any:
-    """A bar by tqdm, None where none is wanted or tqdm is missing."""
-    if not progress:
-        return None
+def campaign(
+    files: Folder,
+    protocol: Mapping[str, Any],
+    seeds: Sequence[int],
+    pool: Executor,
+    done_one: Callable[[], Any],
+    remake_damaged: bool,
+) -> int:
+    """Hands one call a seed to the executor and takes the answers; returns how many packings were made."""
+    folder, text, made = os.fspath(files.path.resolve()), to_json(protocol), 0
+    queue = [(seed, 1) for seed in reversed(seeds)]
+    pending: dict[Future[str], tuple[int, int]] = {}
     try:
+        while queue or pending:
+            while queue and len(pending) < WINDOW:
+                seed, attempt = queue.pop()
+                pending[pool.submit(make_packing, folder, text, seed, attempt, remake_damaged)] = seed, attempt
+            for future in wait(pending, return_when=FIRST_COMPLETED).done:
+                seed, attempt = pending.pop(future)
+                try:
+                    made += future.result() == "done"
+                except (StoreError, BrokenExecutor, ImportError):
+                    raise  # nothing more can be written or run, or the workers have no jam
+                except Exception as error:  # the worker is lost, not the packing
+                    if attempt < ATTEMPTS:
+                        queue.append((seed, attempt + 1))
+                        continue
+                    lost = f"{attempt} workers were lost over this packing; the last: {type(error).__name__}: {error}"
+                    protocol_id = identity(protocol)
+                    files.write_failure(packing_name(protocol_id, seed), protocol_id, seed, "worker_lost", lost)
+                done_one()
+    except BaseException:
+        for future in pending:
+            future.cancel()
+        raise
+    return made
+
+
+@contextlib.contextmanager
+def progress_bar(progress: bool, total: int, done: int) -> Iterator[Callable[[], Any]]:
+    """What counts one packing: a bar by tqdm, or nothing where none is wanted or tqdm is missing."""
+    try:
+        if not progress:
+            raise ImportError
         from tqdm import tqdm
     except ImportError:
-        return None
-    make: Any = tqdm  # stubs of tqdm that some machines have do not know disable=None: no bar where no terminal is
-    return make(total=total, initial=done, unit="packing", disable=None)
+        yield lambda: None
+        return
+    make_bar: Any = tqdm  # stubs of tqdm that some machines have do not know disable=None: no bar where no terminal is
+    with make_bar(total=total, initial=done, unit="packing", disable=None) as bar:
+        yield bar.update

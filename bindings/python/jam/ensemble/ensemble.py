@@ -8,7 +8,7 @@ from __future__ import annotations
 import os
 import random
 from concurrent.futures import Executor
-from contextlib import suppress
+from contextlib import ExitStack, suppress
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, Iterable, Iterator, Mapping
@@ -19,7 +19,7 @@ from .._api.arrays import Array
 from .._formats.replacing import remove_abandoned
 from .._formats.shard import write_shard
 from ..errors import StoreError
-from .campaign import Campaign, lasts, progress_bar
+from .campaign import campaign, lasts, progress_bar
 from .capacity import Capacity, capacity, check_plan
 from .entry import Entry
 from .folder import Content, Folder, Place
@@ -116,31 +116,25 @@ class Ensemble:
         self.files.prepare()
         self.files.keep_protocol(self.id, to_json(self.protocol))
         names = {s: self.name(s) for s in seeds}
-        content = self.files.content(None if search else names.values())
-        failures = self.files.failures(names.values())
+        asked = None if search else names.values()
+        content, failures = self.files.content(asked), self.files.failures(names.values())
         there = set(content.rows["name"].tolist())
         broken = {s for s in seeds if self.files.packing(names[s]) in content.damaged}
         left = [s for s in seeds if names[s].encode() not in there and (remake_damaged or s not in broken)]
         todo = [s for s in left if retry or names[s] not in failures or not lasts(failures[names[s]])]
-        broken.intersection_update(todo)
         random.shuffle(todo)  # two campaigns with the same seeds then share the work
-        own = executor is None
-        pool = LocalPool(workers) if executor is None else executor
         try:
-            bar = progress_bar(progress, len(seeds), len(seeds) - len(todo))
-            campaign = Campaign(self.files, self.protocol, pool, bar, remake_damaged)
-            campaign.work(todo)
-        except BaseException:
-            if own:
-                pool.shutdown(cancel_futures=True)  # packings under way are dropped, their workers killed
-                with suppress(OSError):  # the error that ended the campaign is the one to report
-                    remove_abandoned(self.files.parts)  # a worker may have been killed while it wrote
-            raise
-        if own:
-            pool.shutdown()
-        content = self.files.content(None if search else names.values())
-        remade = [p for p in (self.files.packing(names[s]) for s in sorted(broken)) if p not in content.damaged]
-        return replace(self._status(content, seeds), made=campaign.made, remade=tuple(map(str, remade)))
+            with ExitStack() as stack:
+                pool = stack.enter_context(LocalPool(workers)) if executor is None else executor
+                with progress_bar(progress, len(seeds), len(seeds) - len(todo)) as done_one:
+                    made = campaign(self.files, self.protocol, todo, pool, done_one, remake_damaged)
+        finally:
+            if executor is None:
+                with suppress(OSError):  # a worker may have been killed while it wrote
+                    remove_abandoned(self.files.parts)
+        content = self.files.content(asked)
+        remade = [p for p in (self.files.packing(names[s]) for s in sorted(broken & set(todo))) if p not in content.damaged]
+        return replace(self._status(content, seeds), made=made, remade=tuple(map(str, remade)))
 
     def advise(self, wall_time: float = 3600.0, workers: int | None = None, seed: int = 1) -> Capacity:
         """How many packings of this protocol a time allows, from the seconds that those in the folder took.

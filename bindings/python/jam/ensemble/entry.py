@@ -5,8 +5,8 @@ from typing import Any
 
 from .. import store
 from .._api.results import Contacts
-from .._formats.read_packing import jam_of, plain
-from .._formats.sealed import open_file
+from .._formats.content import Packing
+from .._formats.sealed import read_packing
 from ..system import System
 from .folder import Place
 from .row import FIELDS
@@ -49,27 +49,25 @@ class Entry:
 
     def read(self, *names: str) -> tuple[Any, ...]:
         """Several of the stored attributes with one opening of the file."""
-        with open_file(self.path, self._unverified) as file:
-            packing: Any = file[self._inner] if self._inner else file
-            jam_of(packing, self.path)
-            return tuple(self._get(packing, name) for name in names)
+        packing = read_packing(self.path, self._inner, self._unverified)
+        return tuple(self._get(packing, name) for name in names)
 
-    def _get(self, file: Any, name: str) -> Any:
+    def _get(self, packing: Packing, name: str) -> Any:
         if name == "rattlers":
-            return self._get(file, "coordination") == 0
+            return self._get(packing, "coordination") == 0
         if name == "bucklers":
-            return self._get(file, "coordination") == int(self.row["dim"]) + 1
+            return self._get(packing, "coordination") == int(self.row["dim"]) + 1
         if name == "contacts":
-            return Contacts(*(self._get(file, part) for part in ("pairs", "vectors", "contact_gaps", "forces")))
+            return Contacts(*(self._get(packing, part) for part in ("pairs", "vectors", "contact_gaps", "forces")))
         if name == "positions":
-            return file["particles/spheres/position/value"][0]
+            return packing.arrays["particles/spheres/position/value"][0]
         if name in FIELDS and name not in self._PLACES:
             return self.row[name]
-        place = self._PLACES.get(name, "analysis/" + name)
-        if place not in file["jam"]:
-            there = [*self._PLACES, *self._MADE, *file["jam"].get("analysis", ())]
+        found = packing.get("jam/" + self._PLACES.get(name, "analysis/" + name))
+        if found is None:
+            there = [*self._PLACES, *self._MADE, *(packing.get("jam/analysis") or ())]
             raise KeyError(f"{self.path} contains no {name!r}; there may be {', '.join(there)}")
-        return plain(file["jam/" + place])
+        return found
 
     def __getattr__(self, name: str) -> Any:
         if name.startswith("_"):

@@ -5,7 +5,7 @@
     packings/ab/<name>.json      a failure: status and text
     *.h5                         shards of many packings, as Ensemble.export writes
     parts/                       unfinished files
-    index.sqlite                 rows of packings: see index.py
+    index.bin                    rows of packings: see index.py
 
 A packing is known by what stands in its file: protocol, seed and algorithm. Its name, which follows from them, only says
 where to look first. Where several files hold the packing of one seed, one counts and the others are named. So is a file that
@@ -18,25 +18,22 @@ import os
 import time
 from contextlib import suppress
 from functools import partial
+from itertools import count
 from pathlib import Path
 from typing import Any, Callable, Iterable, Iterator, NamedTuple
 
 import numpy as np
 
 from .._api.arrays import Array
-from .._formats.groups import Shard, refusing
+from .._formats.content import refusing
 from .._formats.provenance import ALGORITHM, provenance
-from .._formats.read_packing import jam_of, plain
 from .._formats.replacing import check_writable, remove_abandoned
-from .._formats.sealed import open_file
+from .._formats.sealed import names_in, read_packing
 from .._formats.write_packing import write_file
 from ..errors import StoreError
 from . import index
-from .index import Stamp
 from .protocol import identity, packing_name
-from .row import ROW, hash_of_row, row_of
-
-__all__ = ["Content", "Folder", "Place", "hash_of_row"]
+from .row import ROW, row_of
 
 
 class Place(NamedTuple):
@@ -61,7 +58,7 @@ class Folder:
 
     def __init__(self, path: str | os.PathLike[str], unverified: bool = False) -> None:
         self.path, self.unverified = Path(path), unverified
-        self.packings, self.parts, self.index = self.path / "packings", self.path / "parts", self.path / "index.sqlite"
+        self.packings, self.parts, self.index = self.path / "packings", self.path / "parts", self.path / "index.bin"
 
     # ---- names
     def packing(self, name: str) -> Path:
@@ -69,20 +66,23 @@ class Folder:
         return self.packings / name[:2] / (name + ".h5")
 
     def failure(self, name: str) -> Path:
-        return self.packings / name[:2] / (name + ".json")
+        return self.packing(name).with_suffix(".json")
 
-    def free(self, name: str) -> Path:
-        """Where a packing may be written that is not there: beside its own place, where a file of another one has that."""
-        path, k = self.packing(name), 1
-        while path.exists():
+    def free(self, name: str, remake_damaged: bool) -> tuple[Path, bool]:
+        """Where a packing lies or may be written, and whether it is there: beside its own place, where a file of another one
+        has that. A damaged file there is an error, or may be replaced."""
+        for k in count(1):
+            path = self.packing(name if k == 1 else f"{name}-{k}")
+            if not path.exists():
+                break
             try:
                 if self.row(Place(path))["name"] == name.encode():
-                    break
+                    return path, True
             except StoreError:
-                break  # damaged: the caller knows whether it may be replaced
-            k += 1
-            path = self.packing(name).with_name(f"{name}-{k}.h5")
-        return path
+                if not remake_damaged:
+                    raise
+                break
+        return path, False
 
     def prepare(self) -> None:
         """Makes the folders and looks whether they can be written; removes what killed writers left."""
@@ -100,10 +100,11 @@ class Folder:
         found, wrong = {p.stem: partial(_protocol, p, p.stem) for p in (self.path / "protocols").glob("*.json")}, []
         for path in self._shards():
             try:
-                with open_file(path, self.unverified) as shard, refusing(path):
-                    jam = jam_of(shard[next(iter(shard))], path)
-                    name = str(jam.attrs["protocol"])
-                    found.setdefault(name, partial(_protocol, path, name, plain(jam["protocol"])))
+                with refusing(path):
+                    for first in names_in(path, self.unverified)[:1]:
+                        packing = read_packing(path, first, self.unverified)
+                        name = str(packing.jam["protocol"])
+                        found.setdefault(name, partial(_protocol, path, name, packing.get("jam/protocol")))
             except StoreError as error:  # where other files know the protocol, _places() says what is wrong with this one
                 wrong.append(error)
         if wrong and not found:
@@ -119,71 +120,46 @@ class Folder:
     def _shards(self) -> list[Path]:
         return sorted(self.path.glob("*.h5"))
 
-    def scan(self, names: Iterable[str] | None = None) -> tuple[dict[Path, Stamp], list[Path]]:
-        """Files of packings with what tells whether they have changed, and records of failures: all, or those of names."""
-        found: dict[Path, Stamp] = {}
-        failures: list[Path] = []
-        for path in self._files() if names is None else map(self.packing, names):
-            if path.suffix == ".json":
-                failures.append(path)
-            elif path.suffix == ".h5":
-                with suppress(FileNotFoundError):
-                    found[path] = _stamp(path)
-        return found, failures
-
-    def _files(self) -> Iterator[Path]:
+    def found(self, ending: str) -> Iterator[Path]:
+        """All files of packings, .h5, or records of failures, .json."""
         with suppress(FileNotFoundError), os.scandir(self.packings) as entries:
-            for entry in entries:
-                if entry.is_dir():
-                    yield from map(Path(entry.path).joinpath, os.listdir(entry.path))
-                else:  # where a file manager or a user put it
-                    yield Path(entry.path)
+            for entry in entries:  # a file beside the folders: a file manager or a user put it there
+                names = os.listdir(entry.path) if entry.is_dir() else [""]
+                yield from (path for name in names if (path := Path(entry.path, name)).suffix == ending)
 
-    def _places(self, names: Iterable[str] | None) -> tuple[dict[Place, Stamp], dict[Path, str]]:
-        """The places of packings, in files of one and in shards; what is wrong with shards that cannot be read."""
-        found, wrong = {Place(path): stamp for path, stamp in self.scan(names)[0].items()}, {}
+    def _places(self, names: Iterable[str] | None, wrong: dict[Path, str]) -> Iterator[Place]:
+        """The places of packings, in files of one and in shards. Tells what is wrong with shards that cannot be read."""
+        yield from map(Place, self.found(".h5") if names is None else map(self.packing, names))
         for path in self._shards():
             try:
-                with open_file(path, self.unverified) as shard, refusing(path):
-                    found.update((Place(path, inner), _stamp(path)) for inner in shard if isinstance(shard, Shard))
+                yield from [Place(path, inner) for inner in names_in(path, self.unverified)]
             except StoreError as error:
                 wrong[path] = str(error.strerror)
-        return found, wrong
-
-    def _key(self, place: Place) -> str:
-        return f"{place.path.name}:{place.inner}" if place.inner else f"{place.path.parent.name}/{place.path.name}"
-
-    def indexed(self, path: Path) -> tuple[str, Stamp]:
-        """What the index calls a file, and what tells whether it has changed."""
-        return self._key(Place(path)), _stamp(path)
 
     def row(self, place: Place) -> Array:
         """The row of a packing from its file."""
-        with open_file(place.path, self.unverified) as file, refusing(place.path):
-            packing: Any = file[place.inner] if place.inner else file
-            jam_of(packing, place.path)
+        packing = read_packing(*place, self.unverified)
+        with refusing(place.path):
             return row_of(packing)
 
     def content(self, names: Iterable[str] | None = None) -> Content:
         """The packings that are there: all, or those of some names and of shards."""
-        stamps, damaged = self._places(names)
-        known = index.read(self.index, {self._key(place): stamp for place, stamp in stamps.items()})
-        fresh, rows = {}, []
-        for place, stamp in list(stamps.items()):
-            row = known.get(self._key(place))
-            if row is None:
+        known = index.read(self.index) if names is None else {}
+        rows: dict[bytes, bytes] = {}
+        places: list[Place] = []
+        damaged: dict[Path, str] = {}
+        for place in self._places(names, damaged):
+            with suppress(FileNotFoundError):  # there is none of this name, or somebody removed it meanwhile
+                key = index.key_of(*place)
                 try:
-                    row = self.row(place).tobytes()
+                    rows[key] = known.get(key) or self.row(place).tobytes()
+                    places.append(place)
                 except StoreError as error:
-                    if os.path.exists(place.path):  # else removed by somebody meanwhile
+                    if place.path.exists():
                         damaged[place.path] = str(error.strerror)
-                    del stamps[place]
-                    continue
-                fresh[self._key(place)] = stamp, row
-            rows.append(row)
-        if not self.unverified:
-            index.add(self.index, fresh)
-        return self._counted(np.frombuffer(b"".join(rows), ROW), list(stamps), damaged)
+        if names is None and not self.unverified and rows != known:
+            index.write(self.index, rows)
+        return self._counted(np.frombuffer(b"".join(rows.values()), ROW), places, damaged)
 
     def _is_home(self, name: str, place: Place) -> bool:
         """A packing has its own name, or the one that free() gave it."""
@@ -196,25 +172,27 @@ class Folder:
             range(len(rows)),
             key=lambda k: (rows["algorithm"][k] != ALGORITHM.encode(), not homes[k], rows["written"][k], str(places[k])),
         )
-        counts: dict[tuple[bytes, int], int] = {}
-        doubles: dict[Path, list[int]] = {}
-        misnamed: dict[Path, str] = {}
+        claims: dict[tuple[int, bytes], list[int]] = {}
         for k in order:
-            claim = rows["protocol"][k], int(rows["seed"][k])
-            if counts.setdefault(claim, k) != k:
-                doubles.setdefault(places[k].path, []).append(k)
-            elif not homes[k] and places[k].inner is None:
-                misnamed[places[k].path] = f"{places[k].path} has another name than {_what(rows[k])}, which it holds"
-        kept = sorted(counts.values(), key=lambda k: (int(rows["seed"][k]), rows["protocol"][k]))
-        texts = {}
-        for path, found in doubles.items():
-            first = rows[found[0]]
-            other = counts[first["protocol"], int(first["seed"])]
-            more = f" and {len(found) - 1} more, which other files hold too" if len(found) > 1 else ""
-            same = first[_BUILD].item() == rows[other][_BUILD].item()
-            builds = "" if same else f"; made by {_build(first)} and by {_build(rows[other])}"
-            texts[path] = f"{path} holds {_what(first)}, as {places[other].path} does, which counts{more}{builds}"
-        return Content(rows[kept], [places[k] for k in kept], damaged, texts, misnamed)
+            claims.setdefault((int(rows["seed"][k]), rows["protocol"][k]), []).append(k)
+        kept = [claims[claim][0] for claim in sorted(claims)]
+        others: dict[Path, list[tuple[int, int]]] = {}  # each packing of a file that does not count, with the one that does
+        for first, *rest in claims.values():
+            for k in rest:
+                others.setdefault(places[k].path, []).append((k, first))
+        doubles = {}
+        for path, pairs in others.items():
+            ours, theirs = (rows[k] for k in pairs[0])
+            more = f" and {len(pairs) - 1} more, which other files hold too" if len(pairs) > 1 else ""
+            builds = "" if _build(ours) == _build(theirs) else f"; made by {_build(ours)} and by {_build(theirs)}"
+            text = f"{path} holds {_what(ours)}, as {places[pairs[0][1]].path} does, which counts{more}{builds}"
+            doubles[path] = text
+        misnamed = {
+            places[k].path: f"{places[k].path} has another name than {_what(rows[k])}, which it holds"
+            for k in kept
+            if not homes[k] and places[k].inner is None
+        }
+        return Content(rows[kept], [places[k] for k in kept], damaged, doubles, misnamed)
 
     # ---- failures
     def failures(self, names: Iterable[str] | None = None) -> dict[str, dict[str, Any]]:
@@ -224,7 +202,7 @@ class Folder:
         since is none.
         """
         found: dict[str, dict[str, Any]] = {}
-        for path in self.scan()[1] if names is None else map(self.failure, names):
+        for path in self.found(".json") if names is None else map(self.failure, names):
             try:
                 with refusing(path), open(path, encoding="utf-8") as file:
                     record = json.load(file)
@@ -244,20 +222,12 @@ class Folder:
         write_file(self.failure(name), data, self.parts)
 
 
-def _stamp(path: Path) -> Stamp:
-    stat = path.stat()
-    return Stamp(stat.st_size, stat.st_mtime_ns)
-
-
-_BUILD = ["version", "commit", "library", "algorithm"]
-
-
 def _what(row: Any) -> str:
     return f"the packing of seed {row['seed']} of protocol {row['protocol'].decode()}"
 
 
 def _build(row: Any) -> str:
-    version, commit, library, algorithm = (row[k].decode() for k in _BUILD)
+    version, commit, library, algorithm = (row[k].decode() for k in ("version", "commit", "library", "algorithm"))
     return f"{version} commit {commit or 'unknown'} library {library or 'unknown'} (algorithm {algorithm})"
 
 

@@ -1,80 +1,57 @@
-"""index.sqlite of an ensemble's folder: rows of the table by place, size and time of change. It only saves time.
+"""index.bin of an ensemble's folder: rows of the table, each by a digest of its file's place, size and time of change.
 
-It lies in the folder and may be anybody's, so it is asked for nothing but rows of our own table, of which each counts only
-for a file of the same size and time and with the checksum that was written with it.
+It only saves time. It lies in the folder and may be anybody's: it is read as bytes of fixed length behind their checksum,
+and a row counts only for the file that its digest names.
 """
 from __future__ import annotations
 
 import contextlib
 import hashlib
-import sqlite3
+import os
+from dataclasses import fields
 from pathlib import Path
-from typing import Any, Callable, Mapping, NamedTuple
+from typing import Mapping
 
-from .row import ROW, hash_of_row
+from .._api.generated import CrunchReport
+from .._formats.records import unknown
+from .._formats.replacing import open_regular
+from .._formats.write_packing import write_file
+from .row import ROW
 
-_CHECK = 16  # bytes of the checksum behind a row
-_SQL = "CREATE TABLE rows (name TEXT PRIMARY KEY, size INTEGER, changed INTEGER, row BLOB) WITHOUT ROWID"
-
-
-class Stamp(NamedTuple):
-    """What tells whether a file has changed."""
-
-    size: int
-    changed: int
+_KEY = 32  # bytes of a digest
+_LARGEST = 1 << 30  # bytes; 1e5 packings take 70 MB
 
 
-def _checksum(place: str, stamp: Stamp, row: bytes) -> bytes:
-    return hashlib.sha256(f"{place} {stamp.size} {stamp.changed} ".encode() + row).digest()[:_CHECK]
+def key_of(path: Path, inner: str | None) -> bytes:
+    """What the index calls a packing, of a file as it is now."""
+    stat = path.stat()
+    text = f"{path.parent.name}/{path.name}:{inner or ''} {stat.st_size} {stat.st_mtime_ns}"
+    return hashlib.sha256(text.encode(errors="surrogateescape")).digest()
 
 
-def _ask(path: Path, question: Callable[[sqlite3.Connection], Any]) -> Any:
-    """The answer to a question to our table, made anew in place of any other layout, view or trigger. None where the file
-    is busy, may not be written or is no database, which goes: the files of the folder say all.
-    """
+def _checksum(rows: bytes) -> bytes:
+    """Changes with the rows, with their layout, and with what stands for unknown in them."""
+    absent = [unknown(str(f.type)) for f in fields(CrunchReport)]
+    return hashlib.sha256(f"{ROW.descr} {absent}".encode() + rows).digest()
+
+
+def read(path: Path) -> dict[bytes, bytes]:
+    """Rows by key; none where it is not the index that was written."""
     try:
-        with contextlib.closing(sqlite3.connect(path, timeout=5.0)) as base:
-            there = base.execute("SELECT type, name, sql FROM sqlite_master LIMIT 2").fetchall()
-            if base.execute("PRAGMA user_version").fetchone()[0] == hash_of_row() and there == [("table", "rows", _SQL)]:
-                return question(base)
-        _remove(path)
-        with contextlib.closing(sqlite3.connect(path, timeout=5.0)) as base:
-            base.executescript(f"{_SQL}; PRAGMA user_version = {hash_of_row()};")
-            return question(base)
-    except sqlite3.DatabaseError as error:
-        if "malformed" in str(error) or "not a database" in str(error):
-            _remove(path)
-        return None
+        with open_regular(path) as file:
+            data = file.read() if os.fstat(file.fileno()).st_size <= _LARGEST else b""
+    except OSError:
+        return {}
+    if data[:_KEY] != _checksum(data[_KEY:]):
+        return {}
+    size = _KEY + ROW.itemsize
+    return {data[k : k + _KEY]: data[k + _KEY : k + size] for k in range(_KEY, len(data), size)}
 
 
-def _remove(path: Path) -> None:
-    for ending in ("", "-journal", "-wal", "-shm"):
-        path.with_name(path.name + ending).unlink(missing_ok=True)
-
-
-def read(path: Path, places: Mapping[str, Stamp]) -> dict[str, bytes]:
-    """Rows of these places, as far as they are known and right."""
-    rows: dict[str, bytes] = {}
-
-    def collect(base: sqlite3.Connection) -> None:
-        asked = "SELECT row FROM rows WHERE name = ? AND typeof(row) = 'blob' AND length(row) = ?"
-        for place, stamp in places.items():
-            for (blob,) in base.execute(asked, (place, ROW.itemsize + _CHECK)):
-                if blob[-_CHECK:] == _checksum(place, stamp, blob[:-_CHECK]):
-                    rows[place] = blob[:-_CHECK]
-
-    if path.exists():
-        _ask(path, collect)
-    return rows
-
-
-def add(path: Path, rows: Mapping[str, tuple[Stamp, bytes]]) -> None:
-    """Adds rows. Nothing is lost where that cannot be."""
-
-    def insert(base: sqlite3.Connection) -> None:
-        made = [(place, *stamp, row + _checksum(place, stamp, row)) for place, (stamp, row) in rows.items()]
-        with base:
-            base.executemany("INSERT OR REPLACE INTO rows VALUES (?, ?, ?, ?)", made)
-
-    if rows:
-        _ask(path, insert)
+def write(path: Path, rows: Mapping[bytes, bytes]) -> None:
+    """Nothing is lost where that cannot be."""
+    data = b"".join(key + row for key, row in rows.items())
+    with contextlib.suppress(OSError):
+        if path.is_symlink():  # somebody's: what it leads to is not replaced
+            path.unlink()
+        write_file(path, _checksum(data) + data)

@@ -65,6 +65,10 @@ class LocalPool(ThreadPoolExecutor):
             for process in self._workers.values():
                 _end(process)
 
+    def __exit__(self, kind: Any, *_: Any) -> None:
+        """After an exception, packings under way are dropped and their workers killed."""
+        self.shutdown(cancel_futures=kind is not None)
+
     def _begin(self) -> subprocess.Popen[bytes]:
         home = str(Path(__file__).resolve().parents[2])
         paths = [home] + [p for p in os.environ.get("PYTHONPATH", "").split(os.pathsep) if p and p != home]

@@ -1,15 +1,14 @@
 """A row of an ensemble's table: what one packing is and how its crunch ended, taken from its file."""
 from __future__ import annotations
 
-import hashlib
 import math
 from dataclasses import fields
-from typing import Any
 
 import numpy as np
 
 from .._api.arrays import Array
 from .._api.generated import CrunchReport
+from .._formats.content import Packing
 from .._formats.records import dtype_of, unknown
 from .protocol import packing_name
 
@@ -27,10 +26,9 @@ ROW = np.dtype(
 FIELDS: tuple[str, ...] = ROW.names or ()
 
 
-def row_of(file: Any) -> Array:
-    """The row of a packing from its open file. Its name follows from protocol, seed and algorithm, not from the file's."""
-    made, jam = np.zeros((), ROW), file["jam"]
-    attributes = jam.attrs
+def row_of(packing: Packing) -> Array:
+    """The row of a packing. Its name follows from protocol, seed and algorithm, not from the file's."""
+    made, arrays, attributes = np.zeros((), ROW), packing.arrays, packing.jam
     for key in ("seed", "protocol", "version", "written"):
         made[key] = attributes[key]
     # 1.0.0 wrote no algorithm, and was the first; older files have no builds
@@ -38,32 +36,20 @@ def row_of(file: Any) -> Array:
         made[key] = attributes.get(key, absent)
     algorithm = str(attributes.get("algorithm", "1.0.0"))
     made["name"] = packing_name(attributes["protocol"], attributes["seed"], algorithm)
-    made["n"] = len(jam["diameters"])
-    made["dim"] = file["particles/spheres/position/value"].shape[2]
+    sigma, cell = arrays["jam/diameters"], arrays["particles/spheres/box/edges/value"][0]
+    made["n"], made["dim"] = len(sigma), len(cell)
     for f in fields(CrunchReport):
         made[f.name] = unknown(str(f.type))
-    made["packing_fraction"], made["diameter_mean"] = _of_spheres(file)
-    if "report" in jam:
-        report = jam["report"]
-        for key in set(_REPORT_FIELDS) & set(report.dtype.names):
+    ball = math.pi ** (len(cell) / 2) / math.gamma(len(cell) / 2 + 1) / 2 ** len(cell)
+    made["packing_fraction"] = ball * (sigma ** len(cell)).sum() / abs(np.linalg.det(cell))
+    made["diameter_mean"] = sigma.mean()
+    if "jam/report" in arrays:
+        report = arrays["jam/report"]
+        for key in set(_REPORT_FIELDS) & set(report.dtype.names or ()):
             made[key] = report[key]
-    score = jam.get("analysis/crystal_score")
+    score = arrays.get("jam/analysis/crystal_score")
     made["crystal_score"] = np.nan if score is None or score.dtype.kind != "f" else score[()]
     return made
-
-
-def _of_spheres(file: Any) -> tuple[float, float]:
-    """Packing fraction and mean diameter, which need no crunch."""
-    sigma, cell = file["jam/diameters"], file["particles/spheres/box/edges/value"][0]
-    d = len(cell)
-    ball = math.pi ** (d / 2) / math.gamma(d / 2 + 1) / 2**d
-    return ball * float((sigma**d).sum()) / abs(float(np.linalg.det(cell))), float(sigma.mean())
-
-
-def hash_of_row() -> int:
-    """A number that changes with ROW and with what stands for unknown: an index of another layout is made again."""
-    absent = [unknown(str(f.type)) for f in fields(CrunchReport)]
-    return int.from_bytes(hashlib.sha256(f"{ROW.descr} {absent}".encode()).digest()[:3], "big") + 1
 
 
 def builds_of(rows: Array) -> tuple[str, ...]:

@@ -4,7 +4,6 @@ usage: site.py ROOT FOLDER      then: sphinx-build -c ROOT/bindings/docs FOLDER/
 """
 import re
 import shutil
-import subprocess
 import sys
 from pathlib import Path
 
@@ -158,8 +157,6 @@ def main():
     (source / "api" / "python.md").write_text(PYTHON)
     (source / "api" / "julia.md").write_text(api_layers.julia([root / "bindings/julia/Jam/src", generated / "julia"]))
     (source / "api" / "fortran.md").write_text(api_layers.fortran([root / "bindings/fortran", generated / "fortran"]))
-    tables = root / "examples/studies/ensembles/tables.py"
-    subprocess.run([sys.executable, "-B", str(tables), str(source / "ensemble_tables.md")], check=True)
 
 
 if __name__ == "__main__":

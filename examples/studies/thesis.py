@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """Every own figure and table of the thesis in its order: picture, command, statistics there and here, values, verdict.
 
-usage: thesis.py            writes results/thesis.json, thesis_values.json and thesis_verdicts.json from thesis.json and the other
-                            results
-       thesis.py --check    exit status 1 when they differ from what would be written
+usage: thesis.py                 writes results/thesis.json, thesis_values.json and thesis_verdicts.json from thesis.json and the
+                                 other results
+       thesis.py --check         exit status 1 when they differ from what would be written
+       thesis.py 2.15 3.3 ...    prints the commands of these figures, small ones and those that made the values; all: of every figure
 
 thesis.json lists what each figure shows and which rows of results/*.json or ensembles/results/*.json belong to it; no value of ours
 stands there. `says` is what the page calls a value whose row has a shorter name. Verdicts: `reproduced`: the same size and comparable statistics, values agree; `smaller`: all panels, fewer or smaller
@@ -19,10 +20,42 @@ HERE = Path(__file__).resolve().parent
 sys.path.append(str(HERE.parents[1] / "bindings/docs"))
 import figures  # noqa: E402
 
-COLUMNS = ["figure", "shows", "picture", "command", "thesis", "here", "verdict"]
+COLUMNS = ["figure", "shows", "picture", "small", "large", "thesis", "here", "verdict"]
 VALUES = ["figure", "quantity", "published", "ours", "errors between"]
 VERDICTS = ("reproduced", "smaller", "part", "different", "missing")
 LIMIT = 3.0
+# The smallest run of each script that has all its panels; the others take a minute or two without options.
+SMALL = {
+    "both_sides.py": "--sizes 96 --particles 576",
+    "complexity.py": "--sizes 32 64 128 --seeds 2",
+    "estimators.py": "--sizes 64 128 --particles 600",
+    "finite_size.py": "--sizes 64 128",
+    "finite_size_panels.py": "--sizes 64 128",
+    "gap_plateau.py": "PICTURE.png --n 64 --seeds 2",
+    "growth_rate_table.py": "run TABLE.jsonl 64 2",
+    "lp_noise.py": "--n 64",
+    "lp_tolerance.py": "--n 100 --seeds 2",
+    "motion_mc.py": "--n 128 --runs 20",
+    "motion_md.py": "--n 128 --runs 20 --long-runs 5",
+    "near_jamming_exponents.py": "RUNS PICTURE.png --runs 20",
+    "near_jamming_modes.py": "RUNS PICTURE.png --runs 20",
+    "near_jamming_monte_carlo.py": "RUNS PICTURE.png --mc-runs 20",
+    "near_jamming_packings.py": "RUNS PICTURE.png --runs 20",
+    "network_distributions.py": "PICTURE.png PACKINGS",
+    "network_floppy_modes.py": "PICTURE.png 64 1",
+    "network_products.py": "--n 64 --count 4",
+    "path_to_jamming.py": "--n 64 --seeds 2 --kappas 1e-3",
+    "sketches.py": "--disks 64 --spheres 64",
+}
+# Of them those of a few seconds, from which the tests choose.
+SECONDS = (
+    "complexity.py",
+    "finite_size_panels.py",
+    "lp_noise.py",
+    "network_floppy_modes.py",
+    "network_products.py",
+    "path_to_jamming.py",
+)
 FIGURES, TABLES = 63, 2
 
 
@@ -62,6 +95,24 @@ def value_error(text):
     return float(found.group(1)), error
 
 
+def commands(entry):
+    """{large: small}: the commands that made the values of a figure, and the small ones."""
+    found = {}
+    for value in entry["values"]:
+        large = json.loads((HERE / value["from"]).read_text(encoding="utf-8"))["command"]
+        name, *options = large.split()
+        model = " --model mk" if "mk" in options else ""
+        found[large] = " ".join([name, *SMALL.get(name, "").split()]) + model
+    return found
+
+
+def runnable(command):
+    """The command from the root of the checkout; scripts of ensembles write into studies, the others where PICTURE.png is."""
+    name, *options = command.split()
+    folder = "examples/studies" + "/ensembles" * (HERE / "ensembles" / name).is_file()
+    return " ".join(["python3", f"{folder}/{name}", *options])
+
+
 def row(entry):
     """The figure's row, and a row for each of its values."""
     name = entry["figure"]
@@ -74,13 +125,13 @@ def row(entry):
     off = [sigma for *_, sigma, _ in found if sigma is not None]
     if entry["verdict"] in ("reproduced", "smaller") and any(s > LIMIT for s in off) and "because" not in entry:
         raise SystemExit(f"{name} is called {entry['verdict']}, but {max(off)} errors lie between")
-    commands = dict.fromkeys(command for *_, command in found)
+    large = commands(entry)
     picture = f"[picture]({entry['picture']})"
-    how = "; ".join(f"`{c}`" for c in commands)
+    how = ["; ".join(f"`{c}`" for c in dict.fromkeys(which)) for which in (large.values(), large)]
     verdict = entry["verdict"] + (f": {entry['because']}" if "because" in entry else "")
     shown = [value.get("says", quantity) for value, (quantity, *_) in zip(entry["values"], found)]
     values = [[name, quantity] + [str(x) if str(x) != "None" else "" for x in numbers] for quantity, (_, *numbers, _) in zip(shown, found)]
-    return [name, entry["shows"], picture, how, entry["thesis"], entry["here"], verdict], values
+    return [name, entry["shows"], picture, *how, entry["thesis"], entry["here"], verdict], values
 
 
 def made():
@@ -109,7 +160,21 @@ def made():
     return texts
 
 
+def printed(wanted):
+    """The commands of the figures wanted, one a line."""
+    entries = json.loads((HERE / "thesis.json").read_text(encoding="utf-8"))
+    unknown = set(wanted) - {e["figure"] for e in entries} - {"all"}
+    if unknown:
+        raise SystemExit(f"no figure {', '.join(sorted(unknown))}")
+    for entry in entries:
+        if entry["figure"] in wanted or "all" in wanted:
+            for large, small in commands(entry).items():
+                print(f"{entry['figure']}\tsmall\t{runnable(small)}\n{entry['figure']}\tlarge\t{runnable(large)}")
+
+
 def main():
+    if any(not word.startswith("-") for word in sys.argv[1:]):
+        return printed(sys.argv[1:])
     different = []
     for path, text in made().items():
         if not path.exists() or path.read_text(encoding="utf-8") != text:

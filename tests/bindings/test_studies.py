@@ -1,6 +1,8 @@
 """Studies on ensembles, on a few small packings: scripts run, keep what they made, and their rows hold what jamming demands."""
 import importlib
 import json
+import random
+import shlex
 import subprocess
 import sys
 import tempfile
@@ -81,9 +83,26 @@ class Studies(unittest.TestCase):
         self.assertEqual(set(map(tuple, np.sort(pairs, axis=1).tolist())), set(map(tuple, np.sort(found[0], axis=1).tolist())))
         self.assertAlmostEqual(phi, found[2], delta=1e-8)
 
-    def imported(self, name):
-        sys.path.insert(0, str(HERE))
-        self.addCleanup(sys.path.remove, str(HERE))
+    def test_commands_of_figures_at_random(self):
+        # As printed, from another folder: each writes a picture or a result there, and nothing into the checkout.
+        studies = HERE.parent
+        thesis = self.imported("thesis", studies)
+        entries = json.loads((studies / "thesis.json").read_text(encoding="utf-8"))
+        of_seconds = sorted({small for e in entries for small in thesis.commands(e).values() if small.split()[0] in thesis.SECONDS})
+        self.assertGreater(len(of_seconds), 6)
+        before = {path: path.stat().st_mtime_ns for path in studies.rglob("*")}
+        for small in random.Random(66).sample(of_seconds, 5):
+            with self.subTest(command=small), tempfile.TemporaryDirectory() as here:
+                _, script, *options = shlex.split(thesis.runnable(small))
+                call = [sys.executable, "-B", str(studies.parents[1] / script), *options]
+                made = subprocess.run([w.replace("PICTURE", "picture") for w in call], cwd=here, capture_output=True, text=True, check=False)
+                self.assertEqual(made.returncode, 0, made.stdout + made.stderr)
+                self.assertTrue(list(Path(here).rglob("*.png")))
+        self.assertEqual({path: path.stat().st_mtime_ns for path in studies.rglob("*")}, before)
+
+    def imported(self, name, folder=HERE):
+        sys.path.insert(0, str(folder))
+        self.addCleanup(sys.path.remove, str(folder))
         return importlib.import_module(name)
 
     def test_complexity(self):

@@ -70,6 +70,16 @@ def command(words: list[str]) -> str:
     return " ".join(made)
 
 
+def shown(path: Path, rows: list[dict]) -> list[dict]:
+    """The rows that the checkout has, made anew: pages refer to them by number. Without the file all rows are stored."""
+    there = json.loads(path.read_text(encoding="utf-8"))["rows"]
+    anew = {(row["figure"], row["quantity"]): row for row in rows}
+    gone = [row["quantity"] for row in there if (row["figure"], row["quantity"]) not in anew]
+    if gone:
+        raise SystemExit(f"{path.name} has rows that this run did not make; remove the file to store others: {'; '.join(gone)}")
+    return [anew[row["figure"], row["quantity"]] for row in there]
+
+
 class Results:
     """Rows (figure, quantity, published, ours, error, sigma between) of one study, and what made them."""
 
@@ -115,8 +125,10 @@ class Results:
     def write(self, figure=None) -> None:
         """results/<name>.json, and the picture of the study."""
         (self.out / "results").mkdir(parents=True, exist_ok=True)
-        made = {"source": SOURCE, "command": command(sys.argv), **figures.made_by(), "sets": self.sets, "rows": self.rows}
-        (self.out / "results" / f"{self.name}.json").write_text(json.dumps(made, indent=1) + "\n", encoding="utf-8")
+        path = self.out / "results" / f"{self.name}.json"
+        rows = shown(path, self.rows) if self.out == HERE and path.exists() else self.rows
+        made = {"source": SOURCE, "command": command(sys.argv), **figures.made_by(), "sets": self.sets, "rows": rows}
+        path.write_text(json.dumps(made, indent=1) + "\n", encoding="utf-8")
         if figure is not None:
             self.picture(figure, dpi=80)
 

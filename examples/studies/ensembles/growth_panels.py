@@ -1,10 +1,9 @@
 #!/usr/bin/env python3
-"""Rates and sizes on the path to jamming: figures 2.6, 2.8 to 2.11, 2.13, 2.15 and 2.16 of the thesis.
+"""Rates and sizes on the path to jamming: figures 2.8 to 2.11, 2.13, 2.15 and 2.16 of the thesis.
 
 usage: growth_panels.py [--large | --slow] [--seeds K] [--folder DIR] [--only-read] [--out DIR]
 
-Runs are those of path_to_jamming.py for several (N, kappa). Beside them: Mari-Kurchan spheres grown from 0.3 and from the planted
-liquid at 2.5, whose glass branch is fitted with free d; and small systems grown slowly from 0.2, which order in part.
+Runs are those of path_to_jamming.py for several (N, kappa), and small systems grown slowly from 0.2, which order in part.
 Small: (256, 1e-3), and N = 256, 512, 1024 at 3e-4, 3 seeds. Slow: also N = 1024, 2048 and 4096 at 1e-4, half an hour. Large: N = 1024 at four rates, N = 2048 and 4096 at 1e-4, 10 seeds.
 """
 import time
@@ -233,44 +232,6 @@ def correlations(o, r, every, pressures, count):
     r.picture(figure, "growth_panels_correlation")
 
 
-def mari_kurchan(n, seed, phi):
-    """(p, phi) on the way to p = 1e6, and phi_J of the crunch."""
-    p, density = [], []
-    with jam.System.random(n, seed=seed, model="mk", packing_fraction=phi) as packing:
-        for target in 10.0 ** np.arange(0.8, 6.01, 0.2):
-            if target > 1.2 * (1 + 4 * phi):
-                md = packing.compress([(3e-3, float(target))])
-                p.append(md.pressure), density.append(md.packing_fraction)
-        report = packing.crunch()
-        return {"p": p, "phi": density, "phi_j": report.packing_fraction, "jammed": report.jammed}
-
-
-def glasses(o, r, n, seeds):
-    """2.6: Mari-Kurchan liquid and glass, planted or not, with a fit of the glass branch whose d is free."""
-    figure, axis = plt.subplots(figsize=(7, 4.8))
-    line = np.linspace(0.3, 3.2, 100)
-    axis.semilogy(line, 1 / (1 + 4 * line), "k--", lw=1, label="1 + 4 phi")
-    for k, (start, text) in enumerate(((0.3, "not planted, from 0.3"), (2.5, "planted at 2.5"))):
-        make = [kept(o, f"growth_panels_mk{n}", f"from{start:g}_seed{s}", lambda: mari_kurchan(n, s, start)) for s in range(1, seeds + 1)]
-        made = [m for m in make if m is not None and m["jammed"]]
-        if len(made) < 2:
-            continue
-        fits = [jam.glass_fit(m["phi"][m["p"] > 1e3], m["p"][m["p"] > 1e3]) for m in made]
-        for m, fit in zip(made, fits):
-            first = m is made[0]
-            axis.semilogy(m["phi"], 1 / m["p"], ".-", ms=3, lw=0.7, color=f"C{k}", label=text if first else None)
-            x = np.linspace(0.75 * fit.jammed_fraction, fit.jammed_fraction * (1 - 1e-5), 60)
-            axis.semilogy(x, (1 - x / fit.jammed_fraction) / fit.dimension, ":", color=f"C{k}", label="fit, d free" if first else None)
-        r.made(f"Mari-Kurchan, N = {n}, {text}, G = 3e-3 to p = 1e6", len(made))
-        r.add("2.6", f"d of the fit of the glass branch, {text}", "free", *mean_error([f.dimension for f in fits]))
-        r.add("2.6", f"phi_J of the fit less that of the crunch, {text}", "0", *mean_error([f.jammed_fraction - m["phi_j"] for f, m in zip(fits, made)]))
-        r.add("2.6", f"phi_J, {text}", ">= 3.1 planted", *mean_error([m["phi_j"] for m in made]))
-    axis.axvline(1.776, color="0.7", lw=1)
-    axis.set(xlabel="phi; vertical line: phi_d = 1.776", ylabel="1 / p", ylim=(1e-5, 1))
-    axis.legend(fontsize=7)
-    r.picture(figure, "growth_panels_mk")
-
-
 def main():
     p = arguments(__doc__.splitlines()[0])
     p.add_argument("--seeds", type=int, help="packings for each (N, kappa) (small 3, large 10)")
@@ -278,7 +239,6 @@ def main():
     o = p.parse_args()
     seeds, pressures = o.seeds or (10 if o.large else 3), 10.0 ** np.arange(3, 12, 1 if o.large else 2)
     r, every = Results(o, "growth_panels"), {}
-    glasses(o, r, 1024 if o.large else 200, seeds)
     for n, kappa in LARGE if o.large else SLOW if o.slow else SMALL:
         good, there = runs(o, n, kappa, seeds, pressures)
         print(f"N = {n}, kappa = {kappa:g}: {len(good)} of {there} are isostatic and without order")

@@ -128,6 +128,8 @@ def main():
     made = [kept(o, f"lp_tolerance_n{n}_kappa{KAPPA:g}", f"seed{s}", lambda: growth(n, s)) for s in range(1, seeds + 1)]
     made = [m for m in made if m is not None and m["good"]]
     r.made(f"N = {n}, kappa = 5e-3 to p = 500, {KAPPA:g} to {PRESSURES[-1]:.0e}", len(made))
+    if not made:
+        raise SystemExit(f"no packing of N = {n} has one state of self-stress and no order")
     lg = lambda values: mean_error(np.log10(values))  # noqa: E731
     figure, axes = plt.subplots(1, 3, figsize=(15, 4.4))
     r.add("2.9", "lg of max 1 / (f s_plus), predicted pressure of final contacts", "none", *lg([m[f"settled_{PRESSURES[-1]:.0e}"] for m in made]))

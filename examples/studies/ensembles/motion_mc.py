@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Which soft spheres move at jamming: figures 3.11 to 3.15 and 3.17 of the thesis, Metropolis Monte Carlo.
 
-usage: motion_mc.py [--large] [--runs RUNS] [--folder DIR] [--out DIR]
+usage: motion_mc.py [--large] [--n N] [--runs RUNS] [--folder DIR] [--out DIR]
 
 The packing of motion_md.py, energy (2R - r)^alpha at phi_J; three temperatures for each alpha (ours: equal overlaps T^(1/alpha);
 published is T = 1e-4 for alpha = 2). Small: 40 runs of 250 sweeps for each of nine pairs, two minutes. Large: 1000. Runs are kept.
@@ -97,17 +97,18 @@ def decays(r, structure, every, radius):
 
 def main():
     p = arguments(__doc__.splitlines()[0])
+    p.add_argument("--n", type=int, default=1024, help="spheres (1024)")
     p.add_argument("--runs", type=int, help="runs for each pair (small 40, large 1000)")
     o = p.parse_args()
     count = o.runs or (1000 if o.large else 40)
     r = Results(o, "motion_mc")
-    packing = panels.quenched(o.folder, 1)
+    packing = panels.quenched(o.folder, 1, o.n)
     structure, radius = nj.predictors(packing), 0.5 * packing.diameters.mean()
     every = {}
     for alpha, temperatures in near.TEMPERATURES.items():
         for t in temperatures:
             every[alpha, t] = near.mc_runs(packing, o.folder, "1q", alpha, t, count)
-    r.made(f"N = 1024 by sequential LPs, seed 1, nine pairs (alpha, T), {near.LAST_SWEEP} sweeps", count)
+    r.made(f"N = {o.n} by sequential LPs, seed 1, nine pairs (alpha, T), {near.LAST_SWEEP} sweeps", count)
     energies(r, every, packing.n)
     scatters(r, structure, every, radius)
     decays(r, structure, every, radius)

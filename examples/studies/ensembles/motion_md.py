@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Which spheres move below jamming: figures 3.5 to 3.10, 3.15, 3.16, 3.21 and 3.22 of the thesis, hard spheres.
 
-usage: motion_md.py [--large] [--runs RUNS] [--long-runs RUNS] [--folder DIR] [--out DIR]
+usage: motion_md.py [--large] [--n N] [--runs RUNS] [--long-runs RUNS] [--folder DIR] [--out DIR]
 
 Packings as published: N = 1024, sequential LPs from random spheres, seeds 1 and 2. Runs from one packing with other velocities, its
 diameters reduced to phi / phi_J = 0.96 to 0.999. tau is the number of collisions over N, as in the thesis. Small: 100 runs, and
@@ -173,17 +173,18 @@ def decays(r, structure, md, long_ones, radius):
 
 def main():
     p = arguments(__doc__.splitlines()[0])
+    p.add_argument("--n", type=int, default=1024, help="spheres (1024)")
     p.add_argument("--runs", type=int, help="runs for each density (small 100, large 5000; 500 at most of the second packing)")
     p.add_argument("--long-runs", type=int, help="runs to tau = 1e4 (small 5, large 1000)")
     o = p.parse_args()
     count, long_count = o.runs or (5000 if o.large else 100), o.long_runs or (1000 if o.large else 5)
     r = Results(o, "motion_md")
     for seed, name, ratios in ((1, "", near.RATIOS), (2, "_second", (RATIO,))):
-        packing = panels.quenched(o.folder, seed)
+        packing = panels.quenched(o.folder, seed, o.n)
         structure, radius = nj.predictors(packing), 0.5 * packing.diameters.mean()
         runs = min(count, 500) if name else count  # the second packing: 500, as published
         md = {q: near.md_runs(packing, o.folder, f"{seed}q", q, runs) for q in ratios}
-        r.made(f"N = 1024 by sequential LPs, seed {seed}, phi/phi_J = {', '.join(map(str, ratios))}", runs)
+        r.made(f"N = {o.n} by sequential LPs, seed {seed}, phi/phi_J = {', '.join(map(str, ratios))}", runs)
         r.add("3.1", f"phi_J of seed {seed}", "0.635", packing.packing_fraction)
         r.add("3.1", f"share of rattlers of seed {seed}", "0.013 to 0.014", structure.rattlers.mean())
         scatters(r, name, structure, md, radius)

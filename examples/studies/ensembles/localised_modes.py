@@ -1,0 +1,113 @@
+#!/usr/bin/env python3
+"""Localised floppy modes and stability of three models: p(b), Sigma, the criterion of the median force, and figure 4.13.
+
+usage: localised_modes.py [--large] [--folder DIR] [--only-read] [--out DIR]
+
+b is the median displacement of a mode over its norm, Sigma = s_return / s_plus; a contact with Sigma < 1 is not stable by this second-order
+measure. Mean field: p(b) ~ b^theta_l for localised modes, and b independent of W = f / displacement. For Mari-Kurchan packings and
+near-crystals theta_l is about 0, which breaks gamma >= (1 - theta_l) / 2. Localised: at a buckler. The other criterion takes the smallest
+force of each sphere as localised and its median force as extended. Spheres and Mari-Kurchan packings are those of final_network.py;
+those give c / f^(1+theta_e) and N^(theta_e/(1+theta_e)) c / f of Mari-Kurchan packings too, figure 4.13 of the thesis;
+near-crystals are FCC lattices of 108 spheres whose diameters spread by 1 %, grown as in near_crystals.py. Small: N = 128. Large: 256, 512.
+"""
+from types import SimpleNamespace
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+from common import THETA_E, THETA_L, Results, arguments, kept, mean_error
+from final_network import MODELS, SEEDS, SIZES, network, networks
+from finite_size_panels import flatness
+from near_crystals import protocol
+from thermodynamics import fcc
+
+import jam
+from jam import scaling
+
+LOCALISED, SMALLEST, MEDIAN = (int(c) for c in (jam.ContactClass.LOCALISED, jam.ContactClass.SMALLEST, jam.ContactClass.MEDIAN))
+
+
+def near_crystal(seed, deviation=1e-2):
+    """FCC sites and log-normal diameters."""
+    stages = protocol(108, deviation)["stages"]
+    sizes = np.exp(np.log1p(deviation**2) ** 0.5 * np.random.default_rng(seed).normal(size=108))
+    with fcc(3, 0.7, sizes, seed) as packing:
+        packing.compress([(stage["growth_rate"], stage["pressure"]) for stage in stages])
+        return network(packing, "crystal")
+
+
+def exponent(r, label, values, n, known):
+    try:
+        law = scaling.tail_exponent([np.sort(v) for v in values], n)
+        r.add("modes", label, known, law.value, law.error)
+    except ValueError as why:
+        print(f"{label}: {why}")
+
+
+def look(r, axes, k, text, n, made):
+    where = f"{text}, N = {n}"
+    local = [(m["flags"] & LOCALISED) != 0 for m in made]
+    share = lambda use: mean_error([np.mean(m["sigma"][u] < 1) for m, u in zip(made, use) if u.any()])  # noqa: E731
+    r.add("modes", f"share of contacts with Sigma < 1, {where}", "stable: 0", *share([np.ones(len(u), bool) for u in local]))
+    r.add("modes", f"the same, localised contacts, {where}", "stable: 0", *share(local))
+    least = [m["sigma"][u].min() for m, u in zip(made, local) if u.any()]
+    r.add("modes", f"median of the least Sigma of localised contacts, {where}", "stable: > 1", np.median(least))
+    exponent(r, f"exponent of b of localised modes, {where}", [m["b"][u] for m, u in zip(made, local)], n, THETA_L if text == "spheres" else 0.0)
+    rank = [jam.statistics.spearman(m["b"][u], m["w"][u]) for m, u in zip(made, local) if u.sum() > 5]
+    r.add("modes", f"rank correlation of b and W of localised modes, {where}", "0: independent", *mean_error(rank))
+    for flag, name, known in ((SMALLEST, "smallest", THETA_L if text == "spheres" else 0.0), (MEDIAN, "median", THETA_E)):
+        exponent(r, f"exponent of the {name} force of each sphere, {where}", [m["f"][(m["flags"] & flag) != 0] for m in made], n, known)
+    b = np.sort(np.concatenate([m["b"][u] for m, u in zip(made, local)])) * n**0.5
+    sigma = np.sort(np.concatenate([m["sigma"][u] for m, u in zip(made, local)]))
+    axes[0].loglog(b, np.arange(1, len(b) + 1) / len(b), lw=1, color=f"C{k}", label=where)
+    axes[1].loglog(sigma, np.arange(1, len(sigma) + 1) / len(sigma), lw=1, color=f"C{k}", label=where)
+
+
+def forces(o, r):
+    """4.13: extended forces of Mari-Kurchan packings over their power of f and, below the least force, over f."""
+    figure, axes = plt.subplots(1, 2, figsize=(11, 4.4))
+    sizes = {}
+    for n, count in zip(SIZES, SEEDS if o.large else [8, 8]):
+        good, _ = networks(o, "mk", n, count)
+        extended = [np.sort(m["f"][(m["flags"] & LOCALISED) == 0]) for m in good]
+        if len(extended) > 3:
+            sizes[n] = SimpleNamespace(extended=extended)
+            f = np.geomspace(0.1, 100, 40) * n ** (-1 / (1 + THETA_E))
+            c = scaling.cdf_grid(extended, f).c
+            axes[0].loglog(f[c > 0], (c / f ** (1 + THETA_E))[c > 0], lw=1, label=f"N = {n}")
+            axes[1].loglog((f * n ** (1 / (1 + THETA_E)))[c > 0], (n ** (THETA_E / (1 + THETA_E)) * c / f)[c > 0], lw=1)
+    flatness(r, sizes)
+    axes[0].set(xlabel="f", ylabel="c / f^1.42311"), axes[0].legend(fontsize=8)
+    axes[1].set(xlabel="f N^(1/(1+theta_e))", ylabel="N^(theta_e/(1+theta_e)) c / f")
+    r.picture(figure, "localised_modes_forces")
+
+
+def main():
+    o = arguments(__doc__.splitlines()[0]).parse_args()
+    sizes = SIZES[2:4] if o.large else [128]
+    r, (figure, axes) = Results(o, "localised_modes"), plt.subplots(1, 2, figsize=(11, 4.4))
+    k = 0
+    for model, text in MODELS.items():
+        for n in sizes:
+            good, there = networks(o, model, n, SEEDS[SIZES.index(n)] if o.large else 8)
+            if len(good) > 3:
+                r.made(f"{text}, N = {n}, {there} packings", len(good))
+                look(r, axes, k, text, n, good)
+                k += 1
+    made = [kept(o, "localised_modes", f"crystal_seed{s}", lambda: near_crystal(s)) for s in range(1, (100 if o.large else 8) + 1)]
+    good = [m for m in made if m is not None and m["good"]]
+    if len(good) > 3:
+        r.made(f"near-crystals, N = 108, {len(made)} packings", len(good))
+        look(r, axes, k, "near-crystals", 108, good)
+    forces(o, r)
+    axes[0].set(xlabel="b sqrt N of localised modes", ylabel="share below")
+    axes[1].set(xlabel="Sigma of localised contacts; below 1: not stable", ylabel="share below")
+    axes[1].axvline(1, color="0.7", lw=1)
+    axes[0].legend(fontsize=7)
+    r.write(figure)
+
+
+if __name__ == "__main__":
+    main()

@@ -34,6 +34,7 @@ class Libjam(CMakePackage):
     depends_on("openblas~ilp64", when="+lapack ^[virtuals=lapack] openblas")
     depends_on("clp", when="+clp")
     depends_on("swig@4:", type="build", when="+python")
+    depends_on("swig@4:", type="build", when="+fortran")
     depends_on("python@3.10:", type=("build", "run"), when="+python")
     depends_on("py-numpy@1.20:", type=("build", "run"), when="+python")
     extends("python", when="+python")

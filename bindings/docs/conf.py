@@ -24,6 +24,7 @@ include_patterns = [
     "examples/studies/near_jamming.md",
     "examples/studies/scenes.md",
     "examples/studies/thesis.md",
+    "examples/studies/errors_of_fits.md",
     "examples/studies/errors_of_programs.md",
     "examples/studies/ensembles/README.md",
     "examples/studies/ensembles/glasses.md",

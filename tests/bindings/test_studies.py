@@ -132,6 +132,7 @@ class Studies(unittest.TestCase):
                 self.assertEqual(made.returncode, 0, made.stdout + made.stderr)
                 self.assertTrue(list(Path(here).rglob("*.png")))
         self.assertEqual({path: path.stat().st_mtime_ns for path in studies.rglob("*")}, before)
+        self.assertEqual([path.name for path in HERE.glob("*.py") if "out=HERE" in path.read_text(encoding="utf-8")], [])
 
     def imported(self, name, folder=HERE):
         sys.path.insert(0, str(folder))

@@ -7,8 +7,7 @@ import numpy as np
 
 import jam
 from jam.ensemble import Ensemble, ProtocolError
-
-SMALL = dict(n=24, dim=2, diameters={"law": "bidisperse"}, stages=[{"growth_rate": 0.1, "pressure": 100.0}])
+from packings import SMALL
 
 
 class Entries(unittest.TestCase):

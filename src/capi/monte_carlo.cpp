@@ -43,7 +43,7 @@ jam_status jam_monte_carlo(jam_system *sys, const jam_monte_carlo_options *o, ja
       check_packing(stage->packing(), JAM_E_STATE);  // a stage from a file may lead anywhere
       sys->commit(stage->packing());
     } else {
-      sys->crunch_paused.reset();  // of what waits, a handle keeps the last
+      sys->crunch_paused.reset();  // a handle keeps only the last paused run
     }
     sys->sweeps = made.next_sweep;
     if (status != JAM_OK) sys->paused = std::move(stage);

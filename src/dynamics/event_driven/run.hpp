@@ -57,7 +57,7 @@ class EventDrivenRun final : public Dynamics {
   bool begun() const { return engine_ != nullptr; }
   // Why the last run ended before its aim, in a sentence; empty where it did not.
   std::string text() const;
-  // Each run adds to it, so that stages that follow each other give one report. Not part of the archive.
+  // Summed over run() calls, so that a protocol of several stages has one report. Not part of the archive.
   jam_md_report report{};
 
  private:

@@ -208,6 +208,40 @@ static void checkpoint_from_the_callback(void **state) {
   remove(path);
 }
 
+static int32_t write_in_growth(const jam_progress *p, void *user) {
+  struct writer *w = user;
+  if (p->pressure > 20.0 && !w->written) {
+    assert_int_equal(jam_write_checkpoint(w->sys, path), JAM_OK);
+    w->written = 1;
+  }
+  return 0;
+}
+
+/* Also while the spheres grow, where the callback comes at the end of a window of the pressure too. */
+static void checkpoint_from_the_callback_in_growth(void **state) {
+  jam_system *sys = make(JAM_MODEL_EUCLID, 3, 500, 0.3), *again = NULL;
+  struct writer w = {sys, 0};
+  jam_compress_options c;
+  jam_md_report one, two;
+  (void)state;
+  one.struct_size = two.struct_size = sizeof one;
+  jam_compress_options_init(&c, sizeof c);
+  c.growth_rate = 1e-2;
+  c.pressure = 1e4;
+  jam_set_progress(sys, write_in_growth, &w);
+  assert_int_equal(jam_compress(sys, &c, &one), JAM_OK);
+  assert_true(w.written);
+  assert_int_equal(jam_read_checkpoint(path, NULL, NULL, &again), JAM_OK);
+  c.resume = 1;
+  c.collisions_per_particle = 1e6; /* a run that never ends its windows ends here */
+  assert_int_equal(jam_compress(again, &c, &two), JAM_OK);
+  same(sys, again);
+  assert_true(two.pressure == one.pressure);
+  jam_destroy(sys);
+  jam_destroy(again);
+  remove(path);
+}
+
 static int32_t paused(const jam_system *sys) {
   jam_info info;
   info.struct_size = sizeof info;
@@ -327,9 +361,12 @@ static void checkpoints_of_another_version_are_refused(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(growth_goes_on_to_the_same_bits), cmocka_unit_test(cancelled_runs_go_on_to_the_same_bits),
-      cmocka_unit_test(checkpoint_from_the_callback),    cmocka_unit_test(finished_stages_cannot_be_resumed),
-      cmocka_unit_test(damaged_checkpoints_are_refused), cmocka_unit_test(checkpoints_of_another_version_are_refused)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(growth_goes_on_to_the_same_bits),
+                                     cmocka_unit_test(cancelled_runs_go_on_to_the_same_bits),
+                                     cmocka_unit_test(checkpoint_from_the_callback),
+                                     cmocka_unit_test(checkpoint_from_the_callback_in_growth),
+                                     cmocka_unit_test(finished_stages_cannot_be_resumed),
+                                     cmocka_unit_test(damaged_checkpoints_are_refused),
+                                     cmocka_unit_test(checkpoints_of_another_version_are_refused)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

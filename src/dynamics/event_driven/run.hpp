@@ -76,6 +76,7 @@ class EventDrivenRun final : public Dynamics {
   // -- windows.cpp
   int32_t run_windows(const Listeners &listeners);
   int32_t advance_part(const Listeners &listeners);
+  int32_t end_of_part(int32_t reason);
   void begin_part();
   void end_part();
   void plan_window();

@@ -175,7 +175,7 @@ typedef enum jam_stop_reason {
 } jam_stop_reason;
 /* Version of the library, e.g. "1.0.0". Static storage, as the texts of the next five calls. */
 JAM_API const char *jam_version(void);
-/* Commit of the source that the library was built from, 12 hex digits, or ""; without uncommitted changes. */
+/* Commit of the source that the library was built from, 12 hex digits, or ""; uncommitted changes do not show. */
 JAM_API const char *jam_commit(void);
 /* JAM_ABI of the library that is loaded. */
 JAM_API int32_t jam_abi_version(void);
@@ -209,18 +209,18 @@ typedef enum jam_phase {
 } jam_phase;
 /* Given to the progress callback; valid during the call only. NaN: unknown. */
 typedef struct jam_progress {
-  uint32_t struct_size;          /* as in this library */
-  int32_t phase;                 /* @enum jam_phase */
-  double packing_fraction;       /* now */
-  double pressure;               /* MD: reduced pressure of the last window */
-  double gain;                   /* crunch: sqrt(Gamma) - 1 of the last LP; on the barrier path its duality gap */
-  double max_step;               /* crunch: largest |s_i| over mean diameter */
-  double seconds;                /* since the call began */
-  double fraction;               /* done of this call, 0..1: never decreases, may be an estimate, ignores wall_time */
-  int64_t collisions;            /* MD: so far in this call */
+  uint32_t struct_size;    /* as in this library */
+  int32_t phase;           /* @enum jam_phase */
+  double packing_fraction; /* now */
+  double pressure;         /* MD: reduced pressure of the last window */
+  double gain;             /* crunch: sqrt(Gamma) - 1 of the last LP; on the barrier path its duality gap */
+  double max_step;         /* crunch: largest |s_i| over mean diameter */
+  double seconds;          /* since the call began */
+  double fraction;         /* share of this call done, 0..1: never decreases, may be an estimate, ignores wall_time */
+  int64_t collisions;      /* MD: so far in this call */
   int64_t steps, factorisations; /* crunch: LPs so far, analysis: items done; crunch: so far */
   int64_t snapshot;              /* number of the snapshot (jam_observe) that the views show now; 0: no snapshot */
-  double seconds_left;           /* estimated from the growth of `fraction` */
+  double seconds_left;           /* until the end, estimated from the growth of `fraction` */
   double seconds_left_spread;    /* s > 1: two of three calls end between seconds_left / s and s seconds_left */
 } jam_progress;
 /* Progress callback, on the calling thread. A non-zero return stops the call with JAM_CANCELLED and a valid state. It
@@ -263,7 +263,7 @@ typedef struct jam_create_options {
   int32_t dim;               /* 2..8, default 3 */
   int64_t n, seed;           /* spheres, default 0: as many as the arrays have; of every random stream, default 1 */
   double box;                /* side of the cube, > 0, default 1 */
-  double packing_fraction;   /* of a random start, > 0; default 0: by dim, 0.2 halved for each dimension above 3 */
+  double packing_fraction;   /* of a random start, > 0; default 0: 0.2, halved for each dimension above 3 */
   int32_t overlap, model;    /* @enum jam_overlap_policy, default REFUSE; @enum jam_model, default EUCLID */
   double mk_zeta;            /* MK: strength of the shifts, 0..1e15; default infinity: uniform shifts */
   int32_t masses, container; /* @enum jam_masses, default EQUAL; @enum jam_container, default BRICK */
@@ -274,7 +274,7 @@ typedef struct jam_create_options {
   int64_t frame;     /* which packing of a file with several, from 0; negative: from the end; default -1, the last */
   double shrink_min; /* JAM_OVERLAP_SHRINK refuses a smaller factor (a sign of wrong units), in 0..1, default 1e-3 */
 } jam_create_options;
-/* Fills *o with the defaults. size = sizeof *o as the caller compiled it. So do all calls of this name. */
+/* Fills *o with the defaults. size = sizeof *o as the caller compiled it. So do all jam_X_options_init. */
 JAM_API jam_status jam_create_options_init(jam_create_options *o, size_t size);
 /* The start of a system. NULL instead of the struct: a random sequential start of equal spheres in a cube. */
 typedef struct jam_start {
@@ -352,10 +352,10 @@ JAM_API jam_status jam_walls(const jam_system *sys, int32_t columns, double *tab
 
 /* Cell vectors in normal form. @shape out (d, d) */
 JAM_API jam_status jam_get_cell(const jam_system *sys, double *out, size_t out_len, size_t *needed);
-/* Replaces the cell; a left-handed, singular or flat one is refused. Positions keep their Cartesian values in the frame
- * of `cell`; drops results of a crunch. transform: integers T; the new vectors are T `cell`, rotated by Q, which takes
- * a point x to Q x. *rows = d. Mari-Kurchan shifts are fractions of the cell vectors: other vectors give another
- * system. @shape cell (d, d), transform (d, d), rotation (d, d) @errors OVERLAP */
+/* Replaces the cell; a left-handed, singular or flat one is refused. Diameters and Cartesian positions, in the frame of
+ * `cell`, stay; results of a crunch are dropped. transform: integers T; the new vectors are T `cell`, rotated by Q,
+ * which takes a point x to Q x. *rows = d. Mari-Kurchan shifts are fractions of the cell vectors: other vectors give
+ * another system. @shape cell (d, d), transform (d, d), rotation (d, d) @errors OVERLAP */
 JAM_API jam_status jam_set_cell(jam_system *sys, const double *cell, size_t cell_len, int64_t *transform,
                                 size_t transform_len, double *rotation, size_t rotation_len, size_t *rows);
 /* Deforms cell and positions by r -> (1 + strain) r; diameters stay, results of crunch are dropped. The cell vectors
@@ -398,7 +398,7 @@ typedef enum jam_size_draw {
 typedef struct jam_diameters_options {
   uint32_t struct_size;
   int32_t law, share; /* @enum jam_size_law, default EQUAL; @enum jam_size_share, default USUAL */
-  int32_t draw, dim;  /* @enum jam_size_draw, default QUANTILES; 2..8, default 3: of volumes */
+  int32_t draw, dim;  /* @enum jam_size_draw, default QUANTILES; 2..8, default 3, for volumes */
   int32_t reserved;
   int64_t n, seed;         /* number of spheres, default 0: by packing_fraction; of RANDOM, default 1 */
   double mean, deviation;  /* diameter, > 0, default 1; its standard deviation, > 0, default NaN */
@@ -474,8 +474,8 @@ JAM_API jam_status jam_set_memory_limit(jam_system *sys, double bytes);
 /* ------------------------------------------------------------------ files */
 
 /* File formats. A further ending .gz compresses the file. PLAIN: line 1: d. Line 2: N. Line 3: the diameter, or the
- * word `diameters`; then, when it is not 1, the box as `box <L>`. Then one line per sphere: position, after `diameters`
- * also its diameter, with 17 digits. XYZ: Lattice, dim, Properties=id:I:1:pos:R:d:radius:R:1 and, after a crunch,
+ * word `diameters`; then, when it is not 1, the box as `box <L>`. Then one line per sphere: position, and diameter if
+ * line 3 is `diameters`, with 17 digits. XYZ: Lattice, dim, Properties=id:I:1:pos:R:d:radius:R:1 and, after a crunch,
  * contacts:I:1. VTP: points with diameter, and after a crunch contacts, kind (0 rattler, 1 buckler, 2 other). */
 typedef enum jam_format {
   JAM_FORMAT_AUTO = 0, /* .xyz, .extxyz: XYZ; .data, .lmp: LAMMPS; .vtp: VTP; .dat, .txt, none: PLAIN; others refused */
@@ -526,13 +526,13 @@ typedef enum jam_contact_format {
   JAM_CONTACTS_DUMP = 2, /* the same as a LAMMPS dump local, whose spheres count from 1; d = 2 and 3 */
   JAM_CONTACTS_VTP = 3 /* VTK PolyData in binary, d = 2, 3: two half lines a contact, with force, gap and its number */
 } jam_contact_format;
-/* Writes the contact network of the last crunch. The file is written as by jam_write. @enum format jam_contact_format
- * @errors STATE, UNSUPPORTED, IO */
+/* Writes the contact network, to a file as of jam_write. @enum format jam_contact_format @errors STATE, UNSUPPORTED,
+ * IO */
 JAM_API jam_status jam_write_contacts(const jam_system *sys, const char *path, int32_t format);
 /* Writes one HTML file that shows the packing in a browser, offline: spheres and forces to turn and to slice, numbers
  * of each sphere, certificate, distributions, and a slider over the steps of a crunch with keep_steps. title: a heading
  * or "". small: the picture alone. values: k rows of numbers, one per sphere, that colour the spheres, or NULL. names:
- * one line per row, or ""; a name ending in [] has d rows, a motion. @shape values (k, n) @bool small @errors IO */
+ * one line per row, or ""; a name ending in [] has d rows: a motion. @shape values (k, n) @bool small @errors IO */
 JAM_API jam_status jam_write_page(const jam_system *sys, const char *path, const char *title, int32_t small,
                                   const char *names, const double *values, size_t values_len);
 
@@ -693,13 +693,13 @@ typedef struct jam_monte_carlo_options {
   int32_t resume;      /* @bool continue the stopped run; only limits are taken from here; default 0 */
   int32_t energy_unit; /* @enum jam_energy_unit, default LENGTH */
   int32_t reserved;
-  double alpha, energy_scale; /* 0, default: hard, or > 1: overlaps x cost energy_scale x^alpha; > 0, default 1 */
+  double alpha, energy_scale; /* 0 (default): hard, > 1: overlap x costs energy_scale x^alpha; > 0, default 1 */
   double temperature;         /* of soft spheres, k_B T > 0, default 1 */
   double step;                /* half side of the cube of trial displacements, mean diameters; 0, the default: tuned */
   double acceptance;          /* that a tuned step aims at, in (0, 1), default 0.45 */
   double swap_share;          /* share of trials that exchange two diameters, in [0, 1), default 0 */
   int64_t sweeps;             /* since the run began, >= 1, default 1000 */
-  int64_t run;                /* number of the random stream beside the seed, >= 0, default 0 */
+  int64_t run;                /* number of the random stream of this seed, >= 0, default 0 */
   int64_t first_sweep;        /* number of the first sweep in its stream; -1, the default: after the earlier ones */
   double wall_time;           /* seconds of this call */
 } jam_monte_carlo_options;
@@ -776,9 +776,9 @@ JAM_API jam_status jam_isoconf_options_init(jam_isoconf_options *o, size_t size)
  * packing, which does not change, with its diameters scaled to density_ratio (refused if gaps are then rounding
  * errors). Run k draws its velocities from its own stream. m NULL: molecular dynamics; else Monte Carlo with these
  * options (not sweeps, run, first_sweep, resume, wall_time). instant: ascending, > 0. kept: indices of instants whose
- * displacements are kept of every run, or NULL. The handle keeps the sums, added in the order of run numbers, until the
- * next call. A stopped call keeps the finished runs, also in checkpoints; resume continues. Status: JAM_NOT_CONVERGED
- * (a run cannot move). @shape instant (instants), kept (k) @errors STATE (nothing to resume, or not the same), OVERLAP,
+ * displacements every run keeps, or NULL. The handle keeps the sums, added in the order of run numbers, until the next
+ * call. A stopped call keeps the finished runs, also in checkpoints; resume continues. Status: JAM_NOT_CONVERGED (a run
+ * cannot move). @shape instant (instants), kept (k) @errors STATE (nothing to resume, or not the same), OVERLAP,
  * UNSUPPORTED */
 JAM_API jam_status jam_isoconf(jam_system *sys, const jam_isoconf_options *o, const jam_monte_carlo_options *m,
                                const double *instant, size_t instant_len, const int32_t *kept, size_t kept_len,
@@ -832,7 +832,7 @@ typedef enum jam_free_strain {
  * - full_lps: 0 stops an LP that gains more than 1e-7 at a duality gap of 0.02 times its gain.
  * - strain: after the optimum in the fixed cell, the cell deforms at fixed volume; FREE ends strictly jammed. A single
  *   sphere needs a strain, since its contacts are with its own images.
- * - keep_steps: of more states, or more than 2^24 coordinates in all, every second, fourth, ... state is kept.
+ * - keep_steps: if there are more states, or more than 2^24 coordinates, every second, fourth, ... state is kept.
  * - duality_gap: for packings too large to reach the jamming point. The barrier path ends at this duality gap, and an
  *   LP determines contacts and balanced forces. The report gives the duality gap e of these forces: to first order no
  *   motion increases Gamma by more than e, so phi_J is about phi (1 + e)^(d/2). Contacts that a smaller gap may change
@@ -861,7 +861,7 @@ typedef struct jam_crunch_options {
 /* Result and certificate of jam_crunch. Counts are -1 if contacts are unknown, for example after an early stop; calls
  * that need the network then return JAM_E_STATE. Members from packing_fraction_start to contacts_kept compare the
  * packing before and after the crunch; displacements include rattlers and a strain of the cell. After
- * JAM_STOP_DUALITY_GAP undecided_contacts counts pairs with 1e-4 < f / (2 h) < 1e4, f the path's force / mean. */
+ * JAM_STOP_DUALITY_GAP undecided_contacts counts pairs with 1e-4 < f / (2 h) < 1e4, f: force / mean force. */
 typedef struct jam_crunch_report {
   uint32_t struct_size;
   int32_t jammed;          /* @bool collectively jammed by the test of jam_rigidity; 0: not, undecided, untested */
@@ -912,10 +912,10 @@ JAM_API jam_status jam_crunch_options_init(jam_crunch_options *o, size_t size);
 /* Brings the packing to its jamming point and keeps the contact network (o->method; Artiaco et al., Phys. Rev. E 106,
  * 055310 (2022)). No step creates an overlap. If the packing is not shown to be jammed, the crunch decreases the
  * diameters by 1e-4 to 0.03, displaces the spheres at random by less than half of that, and compresses again. A stopped
- * crunch leaves a valid packing; another call, also from a checkpoint, continues on the path at its mu, perhaps to
- * other bits, and the report counts steps and times of that call. Status: JAM_OK jammed, or at the duality gap of the
- * options (`jammed` is then 0, and another call continues); JAM_NOT_CONVERGED, JAM_NOT_JAMMED with the last valid
- * state. @errors OVERLAP, TOO_FEW (one sphere in a fixed cell), SOLVER (last good state kept) */
+ * crunch leaves a valid packing. Another call, also from a checkpoint, continues on the path at its mu; bits may
+ * differ, and its report counts its own steps and times. Status: JAM_OK jammed, or at the duality gap of the options
+ * (`jammed` is then 0, and another call continues); JAM_NOT_CONVERGED, JAM_NOT_JAMMED with the last valid state.
+ * @errors OVERLAP, TOO_FEW (one sphere in a fixed cell), SOLVER (last good state kept) */
 JAM_API jam_status jam_crunch(jam_system *sys, const jam_crunch_options *o, jam_crunch_report *report);
 
 /* Memory and time of a crunch, estimated from the graph of pairs and its elimination tree. */
@@ -945,7 +945,7 @@ typedef enum jam_step_phase {
   JAM_STEP_LP = 2,    /* an LP and the move to its solution */
   JAM_STEP_POLISH = 3 /* contacts closed and forces balanced to rounding */
 } jam_step_phase;
-/* Columns of the history of a crunch, one row per step. Displacements as in reports, after the step. */
+/* Columns of the history of a crunch, one row per step. Displacements: as in reports. */
 typedef enum jam_history_column {
   JAM_HISTORY_PHASE = 0,           /* a jam_step_phase */
   JAM_HISTORY_GAIN = 1,            /* sqrt(Gamma) - 1: relative growth of the diameters in this step */
@@ -965,7 +965,7 @@ typedef enum jam_history_column {
   JAM_HISTORY_HELD = 15,           /* LP: displacement components at the step bound, whose forces do not balance */
   JAM_HISTORY_PART = 16,  /* LP: part of the step that was made; below 1 where an unlisted pair would overlap */
   JAM_HISTORY_BOUND = 17, /* LP: step bound */
-  JAM_HISTORY_STEP_MSD_STABLE = 18, /* LP, polish: STEP_MSD over stable spheres alone, their mean taken out */
+  JAM_HISTORY_STEP_MSD_STABLE = 18, /* LP, polish: STEP_MSD over stable spheres only, relative to their mean */
   JAM_HISTORY_TOTAL_MSD_STABLE = 19 /* LP, polish: TOTAL_MSD over the spheres that are stable now */
 } jam_history_column;
 #define JAM_HISTORY_COLUMNS 20
@@ -973,10 +973,10 @@ typedef enum jam_history_column {
 JAM_API jam_status jam_crunch_history(const jam_system *sys, int32_t columns, double *table, size_t table_len,
                                       size_t *needed);
 /* The step that has just ended; only in the progress callback of jam_crunch with steps = 1. displacement of all
- * spheres, unit of box, without wrapping: those of all steps add up from start to end. The other arrays, empty except
- * after an LP, are its *rows = m pairs with a positive dual, rattlers included. vector: r_ij, dual: lambda_ij, with
- * sum_j lambda_ij r_ij = 0 on every sphere without an active step bound and sum lambda_ij sigma_ij^2 = 1, r and sigma
- * before the step. @shape displacement (n, d), pair (m, 2), vector (m, d), dual (m) @errors STATE */
+ * spheres, unit of box, without wrapping: those of all steps add up from start to end. The other arrays describe an LP:
+ * its *rows = m pairs with a positive dual, rattlers included; m = 0 after other steps. vector: r_ij, dual: lambda_ij,
+ * with sum_j lambda_ij r_ij = 0 on every sphere without an active step bound and sum lambda_ij sigma_ij^2 = 1, r and
+ * sigma before the step. @shape displacement (n, d), pair (m, 2), vector (m, d), dual (m) @errors STATE */
 JAM_API jam_status jam_crunch_step(const jam_system *sys, double *displacement, size_t displacement_len, int32_t *pair,
                                    size_t pair_len, double *vector, size_t vector_len, double *dual, size_t dual_len,
                                    size_t *rows);
@@ -1016,7 +1016,7 @@ typedef struct jam_relax_options {
   double wall_time;        /* limit of the call */
   int32_t strain;          /* @enum jam_free_strain, default NONE */
   int32_t reserved;
-  double pressure; /* P > 0 with JAM_STRAIN_VOLUME: U + P V is minimised, also from no contacts; else 0, the default */
+  double pressure; /* P > 0 with JAM_STRAIN_VOLUME: U + P V is minimised, also without contacts; else 0, the default */
   int64_t components; /* bit c d + k: component (c, k) of the strain may change, c <= k, default -1: all */
 } jam_relax_options;
 /* What jam_relax found. */
@@ -1037,7 +1037,7 @@ typedef struct jam_relax_report {
   int64_t stable, rattlers;            /* n - rattlers; spheres not in the network */
   int64_t evaluations, factorisations; /* of the forces; of the Hessian */
   double seconds;                      /* wall time */
-  double stress_residual;              /* largest stress that a free cell leaves, less the target, over the pressure */
+  double stress_residual;              /* free cell: largest difference of stress and target, over the pressure */
 } jam_relax_report;
 JAM_API jam_status jam_relax_options_init(jam_relax_options *o, size_t size);
 /* Minimises the energy of overlapping spheres at fixed diameters, and at a fixed cell unless `strain` frees it. With a
@@ -1049,9 +1049,9 @@ JAM_API jam_status jam_relax_options_init(jam_relax_options *o, size_t size);
 JAM_API jam_status jam_relax(jam_system *sys, const jam_relax_options *o, jam_relax_report *report);
 
 /* Options of jam_decompress. The target reached first ends the decompression. With crunch, a copy is crunched from just
- * below contact, and the decompression continues until both have the same network; the system then is the crunched
- * packing, else the soft one. max_evaluations: a later step may take 4 times the evaluations of all earlier ones, but
- * at least 1/20 of this limit and at most the limit. */
+ * below contact, and the decompression continues until both have the same network; the system ends as the crunched
+ * packing. Without crunch it ends as the soft one. max_evaluations: a later step may take 4 times the evaluations of
+ * all earlier ones, but at least 1/20 of this limit and at most the limit. */
 typedef struct jam_decompress_options {
   uint32_t struct_size;
   int32_t minimiser;         /* @enum jam_minimiser, default NEWTON */
@@ -1117,7 +1117,7 @@ JAM_API jam_status jam_decompress_history(const jam_system *sys, int32_t columns
 /* ------------------------------------------------------------------ contact network */
 /* Row k of each array is the same contact. */
 
-/* Contact pairs, i < j save for walls (j = -1 - w) and images of one sphere (i = j). Networks of hard spheres list
+/* Contact pairs, i < j except for walls (j = -1 - w) and images of one sphere (i = j). Networks of hard spheres list
  * images of one sphere after a crunch with a free cell, or if no other contacts balance. Such a contact stands for two
  * opposite images and adds 2 to the coordination. @shape out (contacts, 2) @errors STATE (no crunch yet) */
 JAM_API jam_status jam_contacts(const jam_system *sys, int32_t *out, size_t out_len, size_t *needed);
@@ -1289,17 +1289,17 @@ typedef struct jam_rigidity_report {
   int64_t undercoordinated;    /* spheres of B with d contacts of K+ or fewer */
   int64_t zero_force_contacts; /* closed pairs that are not in K+ */
   int64_t undecided_contacts;  /* pairs with gaps of 1e-10 to 1e-7 */
-  double rigidity_margin;      /* least eigenvalue of S^T S (strict, own images: with E) on K+ but symmetries, flexes */
+  double rigidity_margin;      /* least eigenvalue of S^T S on K+ (strict, own images: with E) but symmetries, flexes */
   double force_residual;       /* largest |sum_j f_ij n_ij| over the mean force, of the forces in the certificate */
   double curvature_margin;     /* see above; 0 if no flex is blocked in this way */
 } jam_rigidity_report;
 /* Tests whether the packing is jammed; changes only strictly_jammed of the stored crunch report. Contacts are all pairs
  * with gaps below 1e-10; no network is needed. If coordinates have few digits, pairs within their rounding are
- * undecided, and the answer is no only if spheres have too few such neighbours. A sphere's contact with its own image
- * counts in the strict test; in the collective one only if the network lists it, or if no other contacts balance and
- * the forces on the cell do. A motion v opens contacts by S v, a strain eps by E eps. Collectively jammed: S v >= 0
- * only for translations of B. Strictly jammed: S v + E eps >= 0 with tr eps <= 0 only for these and eps = 0. Copies of
- * the cell need jam_bloch_rigidity. Donev et al., J. Comput. Phys. 197, 139 (2004). Status: JAM_NOT_JAMMED,
+ * undecided, and the answer is no only if spheres have too few such neighbours. A contact of a sphere with its own
+ * image counts in the strict test. In the collective test it counts if the network lists it, or if no other contacts
+ * balance and the forces on the cell do. A motion v opens contacts by S v, a strain eps by E eps. Collectively jammed:
+ * S v >= 0 only for translations of B. Strictly jammed: S v + E eps >= 0 with tr eps <= 0 only for these and eps = 0.
+ * Copies of the cell need jam_bloch_rigidity. Donev et al., J. Comput. Phys. 197, 139 (2004). Status: JAM_NOT_JAMMED,
  * JAM_AMBIGUOUS (undecided). @enum kind jam_rigidity_kind @errors SOLVER, OVERLAP */
 JAM_API jam_status jam_rigidity(jam_system *sys, int32_t kind, jam_rigidity_report *report);
 /* A motion of a packing that is not jammed: displacements out, unit of the box, at most 1 mean diameter, and strain
@@ -1356,7 +1356,7 @@ typedef struct jam_check_report {
   int64_t contacts;               /* closed pairs that carry force */
   int64_t excess_contacts;        /* contacts - (d (N' - 1) + 1), 0 without contacts */
   int64_t rattlers;               /* n - N': spheres without force */
-  int64_t closed_pairs;           /* with those of rattlers */
+  int64_t closed_pairs;           /* also those of rattlers */
   int64_t zero_force_contacts;    /* tested pairs without force in every state of self-stress */
   int64_t undecided_contacts;     /* pairs that may be contacts or not, by rounding or for lack of digits */
   int64_t self_stresses;          /* independent states; with more than one, forces are not unique */
@@ -1411,20 +1411,20 @@ typedef enum jam_proof_cause {
   JAM_CAUSE_SADDLE = 7    /* least force over the mean, and largest relative gap: contacts do not close together */
 } jam_proof_cause;
 /* What jam_prove found. Bounds are rounded outward; NaN where they do not apply. The exact diameters are sqrt(Gamma)
- * ratio_i times the power of two at or below V^(1/d). Where no ratios are given, equal spheres have 1. */
+ * ratio_i times the power of two at or below V^(1/d). Without given ratios, equal spheres have ratio 1. */
 typedef struct jam_proof_report {
   uint32_t struct_size;
   int32_t theorem; /* @enum jam_theorem */
   int32_t cause;   /* @enum jam_proof_cause: why theorem is not JAM_THEOREM_EXACT */
   int32_t reserved;
-  int64_t stable, contacts;        /* spheres with contacts, N'; equations: d (N' - 1) + 1 unknowns */
+  int64_t stable, contacts;        /* spheres with contacts, N'; equations, for d (N' - 1) + 1 unknowns */
   double cause_value, cause_bound; /* see jam_proof_cause */
   double radius;                   /* unit of the box: no refined centre is farther from the exact one */
   double gamma, gamma_low;         /* Gamma is about the sum of both */
   double packing_fraction;         /* of the exact packing, rounded to double */
   double fraction_error;           /* relative error of phi_J from gamma + gamma_low */
   double least_force, force_error; /* over the mean force; of every force, over the mean force */
-  double least_gap;                /* bound from below of the relative gaps of pairs that are no contacts, <= 1e-3 */
+  double least_gap;                /* lower bound of relative gaps of pairs that are no contacts, <= 1e-3 */
   double inner, outer;             /* unit of the box: see jam_theorem */
   double singular;             /* bound below the smallest singular value of rows 2 r_c, in units of that power of 2 */
   double eigenvalue, rounding; /* estimate of singular^2; error bound subtracted from it */
@@ -1515,8 +1515,8 @@ typedef struct jam_correlation_options {
   int64_t bins; /* of equal width from 0 to r_max, 1 .. 1e8, default 200; edges are 1e-10 lower */
 } jam_correlation_options;
 JAM_API jam_status jam_correlation_options_init(jam_correlation_options *o, size_t size);
-/* g_ab(r) of labels a, b in kind (or NULL). Between walls, d < 4: over evenly spread centres. @shape kind (n), out
- * (bins) */
+/* g_ab(r) of labels a, b in kind (or NULL). Between walls, d < 4: relative to evenly spread centres. @shape kind (n),
+ * out (bins) */
 JAM_API jam_status jam_pair_correlation(const jam_system *sys, const jam_correlation_options *o, const int32_t *kind,
                                         size_t kind_len, double *out, size_t out_len, size_t *needed);
 /* Shifts A_ij of the Mari-Kurchan model, unit of the box: r_ij = r_i - r_j + A_ij by nearest images, A_ji = -A_ij.
@@ -1529,8 +1529,9 @@ typedef enum jam_structure_column {
   JAM_STRUCTURE_S = 1  /* S(q), its average over all q of this length */
 } jam_structure_column;
 #define JAM_STRUCTURE_COLUMNS 2
-/* S(q) on the wave vectors of the cell (in a cube 2 pi n / box), along axes without walls, with |q| <= q_max. Lengths
- * within 5e-13 of |q| are one. @shape table (m, jam_structure_column) @errors UNSUPPORTED (no such axis) */
+/* S(q) on the wave vectors of the cell (in a cube 2 pi n / box), along axes without walls, with |q| <= q_max.
+ * Lengths that differ by less than 5e-13 |q| are one. @shape table (m, jam_structure_column) @errors UNSUPPORTED (no
+ * such axis) */
 JAM_API jam_status jam_structure_factor(jam_system *sys, double q_max, int32_t columns, double *table, size_t table_len,
                                         size_t *needed);
 /* Bond order Q_l of each sphere (d = 2: |psi_l|) over neighbours with |r| < cutoff sigma_ij; l in 1..64, cutoff in (0,
@@ -1686,7 +1687,7 @@ typedef struct jam_comparison_report {
   int64_t stable_in_both;                    /* spheres that are rattlers in neither */
   double overlap, overlap_a;                 /* common over union; common over contacts_a: sys as the reference */
   double packing_fraction_change;            /* phi of other minus phi of sys */
-  double displacement_rms, displacement_max; /* of these (or all) without their mean, in mean diameters of sys */
+  double displacement_rms, displacement_max; /* of these, or of all if there are none, in mean diameters of sys */
 } jam_comparison_report;
 /* Columns of jam_density_of_states, one row per bin of the frequency omega. */
 typedef enum jam_dos_column {
@@ -1707,7 +1708,7 @@ JAM_API jam_status jam_density_of_states(jam_system *sys, const jam_hessian_opti
 /* Elastic moduli; JAM_E_STATE also when prestress makes the network unstable. With walls bulk is NaN, and shear is that
  * of planes of two axes without walls. @errors STATE, SOLVER, UNSUPPORTED (not two such axes; unlisted own images) */
 JAM_API jam_status jam_moduli(jam_system *sys, const jam_hessian_options *h, jam_moduli_report *report);
-/* Elastic tensor c_abcd: second derivative of the energy a volume by E_ab and E_cd of x -> (1 + E) x. Unit as
+/* Elastic tensor c_abcd: second derivative of the energy a volume by E_ab and E_cd of x -> (1 + E) x. Unit as in
  * jam_moduli, *needed = d^4. affine: spheres follow E; relaxed: after forces balance. With prestress c_abcd and c_bacd
  * differ, since rotations of stressed contacts cost energy. Components of axes with walls are NaN: walls do not strain.
  * @shape affine (d, d, d, d), relaxed (d, d, d, d) @errors STATE, SOLVER, UNSUPPORTED (only walled axes; own images) */

@@ -18,16 +18,33 @@ from .status import Status
 DONE, PARTIAL, USAGE, REFUSED, OUTPUT = range(5)  # exit status, as python3 -m jam
 
 
-class _Parser(argparse.ArgumentParser):
-    """Takes options by their whole names, and answers in JSON where that was asked for."""
+class _Once(argparse.Action):
+    """An option that stands once: a second value would replace the first one in silence."""
 
-    words: list[str] = []  # of the command line
+    def __call__(self, p: argparse.ArgumentParser, o: argparse.Namespace, value: Any, name: str | None = None) -> None:
+        given = vars(o).setdefault("_given", set())
+        if name and self.dest in given:
+            p.error(f"{name} is given twice: leave one out")
+        given.add(self.dest)
+        vars(o)[self.dest] = self.const if self.nargs == 0 else value
+
+
+class _Parser(argparse.ArgumentParser):
+    """Takes options by their whole names, each once, and answers in JSON where that was asked for."""
+
+    arguments: list[str] = []
 
     def __init__(self, **more: Any) -> None:
         super().__init__(allow_abbrev=False, **more)
 
+    def flag(self, name: str, **more: Any) -> None:
+        self.add_argument(name, action=_Once, nargs=0, const=True, default=False, **more)
+
+    def option(self, *names: str, **more: Any) -> None:
+        self.add_argument(*names, action=_Once, **more)
+
     def error(self, message: str) -> NoReturn:
-        if "--json" in _Parser.words:
+        if "--json" in _Parser.arguments:
             print(_json(USAGE, message))
         super().error(message)
 
@@ -52,10 +69,14 @@ def _seeds(text: str) -> list[int]:
 
 
 def _part(text: str) -> tuple[int, int]:
-    found = re.fullmatch(r"([0-9]+)/([0-9]+)", text)
-    if not found or int(found[1]) >= int(found[2]):
+    k, slash, m = text.partition("/")
+    try:
+        part = int(k), int(m)
+    except ValueError:
+        part = (-1, 0)
+    if not slash or not 0 <= part[0] < part[1]:
         raise argparse.ArgumentTypeError(f"{text!r} must be K/M with K in 0..M-1, e.g. $SLURM_ARRAY_TASK_ID/10")
-    return int(found[1]), int(found[2])
+    return part
 
 
 def parser() -> argparse.ArgumentParser:
@@ -73,30 +94,30 @@ def parser() -> argparse.ArgumentParser:
     ):
         v = verbs.add_parser(verb, help=text)
         v.add_argument("folder", metavar="DIR")
-        v.add_argument(
+        v.option(
             "--protocol",
             metavar="FILE.json|NAME",
             help="the protocol, or the name of one of DIR; default that of DIR, if it has one only",
         )
-        v.add_argument("--n", type=int, help="spheres: with the default protocol instead of a file")
-        v.add_argument("--dim", type=int, help="dimension: with the default protocol instead of a file")
+        v.option("--n", type=int, help="spheres: with the default protocol instead of a file")
+        v.option("--dim", type=int, help="dimension: with the default protocol instead of a file")
         if verb != "export":
-            v.add_argument("--seeds", type=_seeds, required=verb == "run", metavar="A-B", help="seeds, e.g. 1-100,205")
+            v.option("--seeds", type=_seeds, required=verb == "run", metavar="A-B", help="seeds, e.g. 1-100,205")
         if verb == "run":
-            v.add_argument(
+            v.option(
                 "--part", type=_part, metavar="K/M", help="only each M-th seed, from the K-th: for job arrays"
             )
-            v.add_argument("--executor", choices=["process", "mpi", "dask"], default="process")
-            v.add_argument("--workers", type=int, help="processes of --executor process (all cores)")
-            v.add_argument("--scheduler", metavar="ADDRESS", help="dask scheduler, e.g. tcp://host:8786")
-            v.add_argument("--retry", action="store_true", help="also the seeds that failed before")
-            v.add_argument("--remake-damaged", action="store_true", help="also the seeds whose file cannot be read")
-            v.add_argument("--quiet", action="store_true")
+            v.option("--executor", choices=["process", "mpi", "dask"], default="process")
+            v.option("--workers", type=int, help="processes of --executor process (all cores)")
+            v.option("--scheduler", metavar="ADDRESS", help="dask scheduler, e.g. tcp://host:8786")
+            v.flag("--retry", help="also the seeds that failed before")
+            v.flag("--remake-damaged", help="also the seeds whose file cannot be read")
+            v.flag("--quiet")
         if verb == "status":
-            v.add_argument("--json", action="store_true")
+            v.flag("--json")
         if verb == "export":
             v.add_argument("target", metavar="OUT", help="folder of the shards")
-            v.add_argument("--shard", type=int, default=1000, help="packings a file (1000)")
+            v.option("--shard", type=int, default=1000, help="packings a file (1000)")
     return p
 
 
@@ -112,25 +133,29 @@ def _ensemble(o: argparse.Namespace) -> Ensemble:
     return Ensemble(o.folder, chosen)
 
 
-def _executor(o: argparse.Namespace, stack: ExitStack) -> Any:
-    """The executor that was asked for; None for processes of this machine."""
-    if o.executor == "mpi":
-        from mpi4py.futures import MPIPoolExecutor
-
-        return stack.enter_context(MPIPoolExecutor())
-    if o.executor == "dask":
-        from distributed import Client
-
-        return stack.enter_context(Client(o.scheduler, set_as_default=False)).get_executor()
-    return None
-
-
 def _run(o: argparse.Namespace) -> Status:
-    seeds, options = o.seeds, dict(progress=not o.quiet, retry=o.retry, workers=o.workers, remake_damaged=o.remake_damaged)
-    if o.part:
-        seeds = seeds[o.part[0] :: o.part[1]]
+    ensemble = _ensemble(o)
+    seeds = o.seeds[o.part[0] :: o.part[1]] if o.part else o.seeds
     with ExitStack() as stack:
-        status = _ensemble(o).run(seeds, _executor(o, stack), search=o.part is None, **options)
+        executor: Any = None
+        if o.executor == "mpi":
+            from mpi4py.futures import MPIPoolExecutor
+
+            executor = stack.enter_context(MPIPoolExecutor())
+        elif o.executor == "dask":
+            from distributed import Client
+
+            client = stack.enter_context(Client(o.scheduler, set_as_default=False))
+            executor = client.get_executor()
+        status = ensemble.run(
+            seeds,
+            executor,
+            progress=not o.quiet,
+            retry=o.retry,
+            workers=o.workers,
+            remake_damaged=o.remake_damaged,
+            search=o.part is None,
+        )
     return status
 
 
@@ -144,12 +169,8 @@ def _refuse(o: argparse.Namespace, code: int, text: str) -> int:
 def main(arguments: list[str] | None = None) -> int:
     """Returns the exit status."""
     p = parser()
-    _Parser.words = words = sys.argv[1:] if arguments is None else arguments
-    names = [word.partition("=")[0] for word in words if word.startswith("--")]
-    for name in names:
-        if names.count(name) > 1:  # the second value would replace the first one in silence
-            p.error(f"{name} is given twice: leave one out")
-    o = p.parse_args(words)
+    _Parser.arguments = sys.argv[1:] if arguments is None else arguments
+    o = p.parse_args(arguments)
     if o.verb == "run" and (o.executor == "dask") != (o.scheduler is not None):
         p.error("--executor dask and --scheduler ADDRESS belong together")
     try:
@@ -168,8 +189,8 @@ def main(arguments: list[str] | None = None) -> int:
         return _refuse(o, REFUSED, str(error))
     code = PARTIAL if status.failed or status.missing or status.damaged else DONE
     if o.verb == "status" and o.json:
-        shown = ("asked", "done", "jammed", "failed", "missing", "damaged", "odd", "builds")
-        print(_json(code, "", **{k: getattr(status, k) for k in shown}))
+        names = ("asked", "done", "jammed", "failed", "missing", "damaged", "odd", "builds")
+        print(_json(code, "", **{k: getattr(status, k) for k in names}))
     elif o.verb == "status" or not o.quiet:
         print(status)
     return code

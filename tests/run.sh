@@ -18,10 +18,11 @@
 #               libc++: tests/platforms. Where the compilers cannot be installed they skip, saying so
 #   coverage    which branches of src the unit tests and those of the C interface reach, by Clang; tests/README.md has
 #               the table. It fails below the floor of tests/coverage.py
+#   browser     libjam for JavaScript by Emscripten, its tests by Node, and the page lab.html where ./build is there
 #   sanitized_physics  address and undefined behaviour by GCC, over all that runs without other programs, those ten too
 # `sh tests/run.sh`, from any folder; the builds are ./build, ./build-wheel (also of a test in ./build), ./build-asan
-# (of two parts), ./build-tsan, ./build-clang, ./build-asan-gcc, ./build-openblas and ./build-two. Uses ccache where
-# it is installed. Parts can be named: `sh tests/run.sh release clang`.
+# (of two parts), ./build-tsan, ./build-clang, ./build-asan-gcc, ./build-openblas, ./build-two and ./build-wasm.
+# Uses ccache where it is installed. Parts can be named: `sh tests/run.sh release clang`.
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
 cd "$root"
@@ -161,6 +162,20 @@ rm -rf build-coverage/profile
 LLVM_PROFILE_FILE="$root/build-coverage/profile/%m.profraw" ctest --test-dir build-coverage -j "$at_once" \
   -L 'unit|capi' -LE long -E '^fuzz/' --timeout 900 --output-on-failure --no-tests=error || status=1
 /usr/bin/python3 tests/coverage.py build-coverage || status=1
+fi
+
+if wants browser; then
+part "browser"
+if (need_packages emscripten nodejs npm swig) >/dev/null 2>&1; then
+cmake --preset wasm >/dev/null
+cmake --build build-wasm -j "$jobs"
+ctest --test-dir build-wasm -j "$at_once" --output-on-failure --no-tests=error || status=1
+if [ -f build-wasm/lab.html ] && [ -d build ]; then
+JAM_LAB=$root/build-wasm/lab.html ctest --test-dir build -R python_lab --output-on-failure --no-tests=error || status=1
+fi
+else
+echo "skipped: emscripten, nodejs, npm and swig cannot all be installed here"
+fi
 fi
 
 if wants processors; then sh tests/platforms/processors.sh || status=1; fi

@@ -10,7 +10,7 @@ OWN_FORM = ("stage", "sizes", "cell", "copies")  # kinds whose values have a for
 COLUMN = 25  # where the help begins what it says of an option
 
 
-def _wrapped(text, width):
+def _wrapped(text, width=120):
     """Lines of the text. An option such as --no-crunch stays whole."""
     return textwrap.wrap(text, width, break_on_hyphens=False)
 
@@ -251,7 +251,8 @@ def emit_page(_api):
         "|---|---|",
         *(f"| `{v.usage}` | {_marked(v.help)} |" for v in VERBS),
         "",
-        "`jam-pack VERB --help` shows the options of one verb; an option that a verb does not take is refused, and so is one that is given twice, except `--growth`.",
+        "`jam-pack VERB --help` shows the options of one verb. Options that the verb does not take are refused, and so are options",
+        "that are given twice, except `--growth`.",
         "",
         "```sh",
         "jam-pack compress --n 512 --pressure 1e4 --output dense.xyz",
@@ -266,10 +267,9 @@ def emit_page(_api):
         out += [f"## {section}", ""]
         if all(verbs_of(o) == ["export"] for o in rows):
             out += ["Only `jam-pack export` takes these options.", ""]
-        out += ["| option | meaning |", "|---|---|"]
         for o in rows:
-            mark = " (Python)" if o.host else ""
-            out.append(f"| `{usage(o).replace('|', chr(92) + '|')}`{mark} | {_marked(o.help)} |")
+            said = f"- `{usage(o)}`{' (Python)' if o.host else ''}: {_marked(o.help)}"
+            out += textwrap.wrap(said, 120, subsequent_indent="  ", break_on_hyphens=False)
         out.append("")
     out += ["## How it ends", ""]
     for note in NOTES:
@@ -282,14 +282,18 @@ def emit_page(_api):
         "|---|---|---|---|",
         *("| " + " | ".join(row) + " |" for row in EXITS),
         "",
-        "`ensemble` runs `python3 -m jam ensemble`. 0: all packings are there. 1: some failed or are missing. 2: wrong command line. 3: protocol or "
-        "folder refused, or Python has no module `jam`. 4: the folder cannot be written.",
+        *_wrapped(
+            "`ensemble` runs `python3 -m jam ensemble`. 0: all packings are there. 1: some failed or are missing. 2: wrong "
+            "command line. 3: protocol or folder refused, or Python has no module `jam`. 4: the folder cannot be written."
+        ),
         "",
-        "With `--json` standard output is one JSON object and nothing else, also after a failure; messages go to standard error. The "
-        "objects of these verbs have `file`, `status` (the exit status), `text` (the messages; of `check` the verdict), `n`, `dim` and "
-        "`packing_fraction` of the packing reached (`null` if the failure came before any packing) and `version`. The results of the verb "
-        "follow them. `ensemble status --json` has `status` and `text` too. `notes` gives the reason if the table of contacts is empty, is "
-        "not the only one possible, or is not that of a jammed packing.",
+        *_wrapped(
+            "With `--json` standard output is one JSON object and nothing else, also after a failure; messages go to standard "
+            "error. The objects of these verbs have `file`, `status` (the exit status), `text` (the messages; of `check` the "
+            "verdict), `n`, `dim` and `packing_fraction` of the packing reached (`null` if the failure came before any packing) "
+            "and `version`. The results of the verb follow them. `ensemble status --json` has `status` and `text` too. `notes` "
+            "gives the reason if the table of contacts is empty, is not the only one possible, or is not that of a jammed packing."
+        ),
         "",
     ]
     out += ["Completion for bash and zsh is installed with the program, and `man jam-pack` shows these lines.", ""]

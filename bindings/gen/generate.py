@@ -12,6 +12,7 @@ from pathlib import Path
 import emit_c
 import emit_fortran
 import emit_fortran_packing
+import emit_js
 import emit_julia
 import emit_julia_calls
 import emit_methods
@@ -39,6 +40,8 @@ BUILT = {
     "python/jam/_api/exceptions.py": emit_python.emit_errors,
     "python/jam/_api/tuples.py": emit_methods.emit_tuples,
     "python/jam/_system/methods.py": emit_methods.emit,
+    "js/api.mjs": emit_js.emit,
+    "js/index.d.ts": emit_js.emit_types,
     "layout.c": emit_c.emit,
 }
 

@@ -62,7 +62,7 @@ Answer run_md(jam_system *sys, std::unique_ptr<EventDrivenRun> &stage, const Lim
     check_packing(stage->packing(), JAM_E_STATE);  // a stage from a file may lead anywhere
     sys->commit_measured(stage->packing());
   } else {
-    sys->crunch_paused.reset();  // of what waits, a handle keeps the last
+    sys->crunch_paused.reset();  // a handle keeps only the last paused run
   }
   if (status == JAM_CANCELLED || status == JAM_LIMIT) sys->paused = std::move(stage);
   return text.empty() ? stopped(status, report.stop_reason) : Answer(status, std::move(text));

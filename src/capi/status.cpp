@@ -1,5 +1,6 @@
 // Status codes, their texts and the thread-local last error.
 #include <cstdio>
+#include <stdexcept>
 
 #include "capi/guard.hpp"
 #include "linalg/blas.hpp"
@@ -20,6 +21,9 @@ jam_status status_of_exception() noexcept {
     set_last_error(e.what());
     return e.code();
   } catch (const std::bad_alloc &) {
+    set_last_error("out of memory");
+    return JAM_E_MEMORY;
+  } catch (const std::length_error &) {  // more elements than pointers reach
     set_last_error("out of memory");
     return JAM_E_MEMORY;
   } catch (const std::exception &e) {

@@ -80,8 +80,8 @@ struct jam_system : jam::inside::SystemState {
   void show(const jam::inside::Packing &state) noexcept;
   // What jam_info gives of the diameters, once for each change of them.
   void note_diameters() noexcept;
-  // The end of every move: shows its packing with what is known of it. A stage that waits has lost its packing, and all
-  // earlier results are of other positions; so are pressures, but where dynamics has measured those of the result.
+  // The end of every move: shows its packing and results. Drops a paused stage and all earlier results. Pressures
+  // are kept only by commit_measured, after dynamics that measured them for this packing.
   void commit(const jam::inside::Packing &result, jam::inside::Results &&found = {}) noexcept;
   void commit_measured(const jam::inside::Packing &result, jam::inside::Results &&found = {}) noexcept;
 };

@@ -93,7 +93,7 @@ class SparseLook {
   uint32_t steps_ = 0;
 };
 
-// Work that look() may leave by Cancelled. Whoever makes one catches it, or is done when it is thrown.
+// In this scope look() throws Cancelled. The code that makes the scope catches it, or ends with it.
 class LeavingScope : public CallScope {
  public:
   LeavingScope(double memory_limit, Monitor *monitor) : CallScope(memory_limit, monitor, nullptr, true) {}

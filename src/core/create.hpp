@@ -7,8 +7,8 @@ namespace jam::inside {
 
 // Overlaps up to this fraction of sigma_ij are rounding of a file's digits, not a user's error.
 constexpr double overlap_tolerance = 1e-12;
-// Squared distances of spheres that meet from across the cell are sharp to a part of the squared edge. So dynamics of a
-// dilute gas leaves overlaps up to this part of a contact distance; of a thousand spheres near jamming it is 5e-15.
+// Squared distances across the cell are rounded relative to the squared edge. So dynamics of a dilute gas leaves
+// overlaps up to this part of a contact distance; of a thousand spheres near jamming it is 5e-15.
 double overlap_of_long_flights(const Packing &p);
 
 jam_create_options default_create_options();

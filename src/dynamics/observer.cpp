@@ -136,7 +136,7 @@ bool Observer::end_block(const PressureSums &block) {
   blocks_.push_back(block);
   left = PressureSums();
   ++blocks_made_;
-  // Histograms: amid the second half of the sample. Collisions by then do not know of this one.
+  // Histograms are taken inside the second half of a sample, at a time that is not tied to a collision.
   const bool wanted = gaps_.bins() > 0 || correlation_.bins() > 0;
   if (wanted && 2 * blocks_.size() == blocks && std::isinf(histograms_at_))
     histograms_at_ = time + 0.5 * (time - sample_time_);

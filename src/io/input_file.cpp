@@ -1,16 +1,14 @@
 #include "io/input_file.hpp"
 
-#include <zlib.h>
-
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <new>
 #include <system_error>
 
 #include "core/call_scope.hpp"
 #include "core/error.hpp"
 #include "core/host_thread.hpp"
+#include "io/gzip.hpp"
 #include "io/platform.hpp"
 
 namespace jam::inside {
@@ -19,19 +17,6 @@ namespace {
 constexpr unsigned char gzip_mark[] = {0x1f, 0x8b};
 
 }  // namespace
-
-// One member of gzip's format after the other.
-struct InputFile::Gzip {
-  Gzip() {
-    constexpr int with_gzip_header = 15 + 16;
-    if (::inflateInit2(&stream, with_gzip_header) != Z_OK) throw std::bad_alloc();
-  }
-  ~Gzip() { ::inflateEnd(&stream); }
-  Gzip(const Gzip &) = delete;
-  Gzip &operator=(const Gzip &) = delete;
-  z_stream stream{};
-  bool inside = true;  // a member has begun and has not ended
-};
 
 void InputFile::fail_errno(const char *what) const {
   const int code = errno;
@@ -76,7 +61,7 @@ size_t InputFile::read_unpacked(char *to, size_t size) {
       end_ += got;
     }
     if (end_ >= sizeof gzip_mark && std::memcmp(packed_.data(), gzip_mark, sizeof gzip_mark) == 0)
-      gzip_ = std::make_unique<Gzip>();
+      gzip_ = std::make_unique<Unpacker>(path_);
   }
   if (gzip_) return unpack(to, size);
   if (begin_ == end_) return read(to, size);
@@ -87,30 +72,19 @@ size_t InputFile::read_unpacked(char *to, size_t size) {
 }
 
 size_t InputFile::unpack(char *to, size_t size) {
-  z_stream &s = gzip_->stream;
-  s.next_out = reinterpret_cast<Bytef *>(to);
-  s.avail_out = static_cast<uInt>(std::min(size, platform::chunk));
-  const uInt room = s.avail_out;
-  while (s.avail_out == room) {
+  size_t given = 0;
+  while (given == 0) {
     if (!fill()) {
-      if (gzip_->inside) fail(JAM_E_FORMAT, "%s: the compressed file is cut short", path_.c_str());
+      if (gzip_->inside()) fail(JAM_E_FORMAT, "%s: the compressed file is cut short", path_.c_str());
       return 0;
     }
-    if (!gzip_->inside) {  // another member may follow
-      ::inflateReset(&s);
-      gzip_->inside = true;
-    }
-    s.next_in = reinterpret_cast<Bytef *>(packed_.data() + begin_);
-    s.avail_in = static_cast<uInt>(end_ - begin_);
-    const int code = ::inflate(&s, Z_NO_FLUSH);
-    begin_ = end_ - s.avail_in;
-    if (code == Z_MEM_ERROR) throw std::bad_alloc();
-    if (code == Z_STREAM_END) gzip_->inside = false;
-    if (code != Z_OK && code != Z_STREAM_END && code != Z_BUF_ERROR)
-      fail(JAM_E_FORMAT, "%s: not a valid gzip file: %s", path_.c_str(), s.msg ? s.msg : "damaged");
+    const Unpacker::Done done =
+        gzip_->unpack(packed_.data() + begin_, end_ - begin_, to, std::min(size, platform::chunk));
+    begin_ += done.used;
+    given = done.given;
     CallScope::look();
   }
-  return room - s.avail_out;
+  return given;
 }
 
 }  // namespace jam::inside

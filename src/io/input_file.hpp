@@ -7,6 +7,8 @@
 
 namespace jam::inside {
 
+class Unpacker;
+
 // Errors are thrown with the path and errno's text: JAM_E_IO, and JAM_E_FORMAT for damaged gzip. A signal does not end
 // a read.
 class InputFile {
@@ -23,7 +25,6 @@ class InputFile {
   bool packed() const { return gzip_ != nullptr; }  // after a first read_unpacked()
 
  private:
-  struct Gzip;
   bool fill();
   size_t unpack(char *to, size_t size);
   [[noreturn]] void fail_errno(const char *what) const;
@@ -32,7 +33,7 @@ class InputFile {
   std::vector<char> packed_;  // read, but not given yet: [begin_, end_)
   size_t begin_ = 0, end_ = 0;
   bool begun_ = false;
-  std::unique_ptr<Gzip> gzip_;  // NULL: the text is not packed
+  std::unique_ptr<Unpacker> gzip_;  // NULL: the text is not packed
 };
 
 }  // namespace jam::inside

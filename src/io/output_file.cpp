@@ -1,36 +1,18 @@
 #include "io/output_file.hpp"
 
-#include <zlib.h>
-
 #include <algorithm>
 #include <cerrno>
 #include <memory>
 #include <system_error>
-#include <vector>
 
 #include "core/call_scope.hpp"
 #include "core/error.hpp"
 #include "core/host_thread.hpp"
+#include "io/gzip.hpp"
 #include "io/part_file.hpp"
 #include "io/platform.hpp"
 
 namespace jam::inside {
-
-// A stream of zlib with gzip's header, whose time is 0: the same packing gives the same bytes.
-struct OutputFile::Gzip {
-  Gzip() {
-    constexpr int with_gzip_header = 15 + 16, memory_level = 8;
-    if (::deflateInit2(&stream, Z_DEFAULT_COMPRESSION, Z_DEFLATED, with_gzip_header, memory_level,
-                       Z_DEFAULT_STRATEGY) != Z_OK)
-      throw std::bad_alloc();
-  }
-  ~Gzip() { ::deflateEnd(&stream); }
-  Gzip(const Gzip &) = delete;
-  Gzip &operator=(const Gzip &) = delete;
-  z_stream stream{};
-  std::vector<unsigned char> packed = std::vector<unsigned char>(platform::chunk);
-  bool finish = false;  // no more text comes
-};
 
 void OutputFile::fail_errno(const char *what) const {
   const int code = errno;
@@ -39,7 +21,7 @@ void OutputFile::fail_errno(const char *what) const {
 
 OutputFile::OutputFile(const char *path) : path_(path) {
   text_.reserve(platform::chunk + 1024);
-  if (path_.size() > 3 && path_.compare(path_.size() - 3, 3, ".gz") == 0) gzip_ = std::make_unique<Gzip>();
+  if (path_.size() > 3 && path_.compare(path_.size() - 3, 3, ".gz") == 0) gzip_ = std::make_unique<Packer>(path_);
   const platform::Target target = platform::follow_links(path_);
   target_ = target.file;
   const platform::Kind there = platform::kind_of(path);
@@ -89,30 +71,20 @@ void OutputFile::put(const char *from, size_t left) {
   }
 }
 
-void OutputFile::flush() {
-  if (!gzip_) {
+void OutputFile::flush(bool finish) {
+  if (gzip_)
+    gzip_->pack(text_, finish, [&](const char *from, size_t size) { put(from, size); });
+  else
     put(text_.data(), text_.size());
-  } else {
-    z_stream &s = gzip_->stream;
-    s.next_in = reinterpret_cast<Bytef *>(&text_[0]);
-    s.avail_in = static_cast<uInt>(text_.size());
-    do {
-      s.next_out = gzip_->packed.data();
-      s.avail_out = static_cast<uInt>(gzip_->packed.size());
-      ::deflate(&s, gzip_->finish ? Z_FINISH : Z_NO_FLUSH);
-      put(reinterpret_cast<const char *>(gzip_->packed.data()), gzip_->packed.size() - s.avail_out);
-    } while (s.avail_out == 0);
-  }
   text_.clear();
 }
 
 void OutputFile::flush_if_full() {
-  if (text_.size() >= platform::chunk) flush();
+  if (text_.size() >= platform::chunk) flush(false);
 }
 
 void OutputFile::commit() {
-  if (gzip_) gzip_->finish = true;
-  flush();
+  flush(true);
   // Without fsync a crash of the machine soon after the rename can leave an empty file in place of the old one.
   if (!temporary_.empty() && !platform::sync(fd_)) fail_errno("write");
   // The lock holds until the file has its name. What fsync has taken, close cannot lose.

@@ -5,6 +5,8 @@
 
 namespace jam::inside {
 
+class Packer;
+
 // Text goes to a new file beside the target, which commit() renames onto it. Without commit nothing changes.
 // A symbolic link keeps pointing where it points. What is no regular file under a name of its own is written in place:
 // a pipe, a device, and descriptors (/dev/stdout, /dev/fd/N), whatever is open there. Under a name that ends in .gz the
@@ -21,13 +23,12 @@ class OutputFile {
   void commit();
 
  private:
-  struct Gzip;
-  void flush();
+  void flush(bool finish);
   void put(const char *from, size_t left);
   [[noreturn]] void fail_errno(const char *what) const;
   std::string path_, target_, temporary_;
   std::string text_;
-  std::unique_ptr<Gzip> gzip_;  // NULL: the text is written as it is
+  std::unique_ptr<Packer> gzip_;  // NULL: the text is written as it is
   int fd_ = -1;
 };
 

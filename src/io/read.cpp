@@ -32,8 +32,8 @@ void say_wrapped(FileContent &content, double box) {
                       static_cast<long long>(outside), static_cast<long long>(content.position.size() / d));
 }
 
-// A file that does not name its walls has those of the caller; one that says nothing at all is taken as periodic, and
-// it is said.
+// A file that does not name its walls has those of the caller. If neither names walls, the packing is taken as
+// periodic, and a note says so.
 void settle_walls(const char *path, const Enclosure &given, FileContent &content) {
   if (!content.knows_walls) {
     content.enclosure = given;

@@ -13,8 +13,8 @@ struct WorkingSetTuning {
   static constexpr double per_bound = 0.1;   // in an LP also those that a step may well close: slack over its bound
   static constexpr double nearly_all = 0.9;  // where the working set is this share of all rows, it is all
   static constexpr size_t rows_per_dim = 4;  // a sphere with at most d rows gets so many times d of its tightest
-  // The step may take this share of a screened row's slack. Rows that lost much of the threshold join, and with one of
-  // them all that lost half.
+  // The step may take this share of a screened row's slack. A row joins when it has lost `joins` of
+  // the threshold; then all rows that have lost `joins_too` join too.
   static constexpr double of_screened = 0.9, joins = 0.3, joins_too = 0.5;
   static constexpr double blocks = 0.5;  // a screened row that leaves less of the step joins
   // On the path the set is chosen again when a screened row has less than this share of the limit, or when fewer rows

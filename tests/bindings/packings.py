@@ -5,6 +5,9 @@ import numpy as np
 
 import jam
 
+#: A protocol of an ensemble whose packings take a tenth of a second
+SMALL = dict(n=24, dim=2, diameters={"law": "bidisperse"}, stages=[{"growth_rate": 0.1, "pressure": 100.0}])
+
 
 def fluid(n=64, dim=3, seed=1, fraction=0.55):
     s = jam.System.random(n, dim, seed)

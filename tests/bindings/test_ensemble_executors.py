@@ -72,10 +72,6 @@ class Executors(unittest.TestCase):
             for name in ("positions", "diameters", "velocities", "forces"):
                 np.testing.assert_array_equal(getattr(made, name), getattr(expected, name))
 
-    def test_processes_of_this_machine(self):
-        self.ensemble.run(SEEDS, progress=False, workers=2)
-        self.check()
-
     def test_pools_of_the_standard_library(self):
         with ProcessPoolExecutor(2, mp_context=get_context("spawn")) as pool:
             self.ensemble.run(SEEDS[:3], pool, progress=False)

@@ -15,9 +15,8 @@ import numpy as np
 import jam
 from jam.ensemble import DamagedWarning, Ensemble
 from jam.ensemble import folder as places
-from packings import same_bits
+from packings import SMALL, same_bits
 
-SMALL = dict(n=16, dim=2, diameters={"law": "bidisperse"}, stages=[{"growth_rate": 0.1, "pressure": 100.0}])
 OTHER = dict(SMALL, n=18)
 
 
@@ -123,14 +122,6 @@ class Names(Case):
         self.assertEqual(sorted(zip(table["protocol"].tolist(), table["seed"].tolist())),
                          sorted([(self.e.id.encode(), 1), (self.e.id.encode(), 2), (other.id.encode(), 5)]))
 
-    def test_a_file_that_is_damaged_is_made_again_on_request_and_run_says_so(self):
-        self.make([1, 2])
-        self.file(2).write_bytes(b"nothing")
-        self.assertEqual(self.make([1, 2]).missing, 0)
-        status = self.make([1, 2], remake_damaged=True)
-        self.assertEqual((status.made, status.remade, status.damaged), (1, (str(self.file(2)),), ()))
-        self.assertIn(f"1 made now; made again: {self.file(2)}", str(status))
-
     def test_look_for_own_names_opens_no_other_file(self):
         self.make(range(1, 9))
         self.e.files.index.unlink()
@@ -151,11 +142,13 @@ class Releases(Case):
     def test_a_later_release_goes_on_with_what_1_0_0_made(self):
         with self.written_by(version="1.0.0", algorithm=None):  # as 1.0.0 wrote
             self.make([1, 2])
-        with unittest.mock.patch("jam.raw.jam_version", lambda: "1.0.9"), self.written_by(version="1.0.9"):
+        with unittest.mock.patch("jam.raw.jam_version", lambda: "1.0.9"), self.written_by(version="1.0.9", commit="0123456789ab", library="f" * 16):
             status = self.make([1, 2, 3])
         self.assertEqual((status.made, status.done), (1, 3))
         self.assertIn("made by 2 builds", str(status))
+        self.assertIn("1.0.9 commit 0123456789ab library ffffffffffffffff", str(status))
         self.assertEqual(self.seeds(), [1, 2, 3])
+        self.assertEqual(self.e.table()["commit"].tolist(), [*[jam.raw.jam_commit().encode()] * 2, b"0123456789ab"])
         self.assertEqual(self.e.table()["algorithm"].tolist(), [b"1.0.0"] * 3)
 
     def test_names_are_those_of_1_0_0(self):
@@ -213,21 +206,6 @@ class Failures(Case):
         self.assertEqual((status.done, status.failed, status.made), (1, 0, 1))
         self.assertEqual(self.e.failures(), [])
 
-    def test_what_the_packing_caused_is_kept(self):
-        tried = []
-
-        def fail(_, seed):
-            tried.append(seed)
-            error = jam.errors.UnplaceableError("too dense")
-            error.status = jam.StatusCode.E_UNPLACEABLE
-            raise error
-
-        with unittest.mock.patch("jam.ensemble.campaign.make", fail):
-            self.make([1]), self.make([1])
-            self.assertEqual(tried, [1])
-            self.make([1], retry=True)
-        self.assertEqual(tried, [1, 1])
-
     def test_a_module_that_workers_lack_ends_the_campaign_and_fails_no_seed(self):
         with unittest.mock.patch("jam.ensemble.campaign.make", side_effect=ImportError("no scipy")):
             with self.assertRaisesRegex(ImportError, "no scipy"):
@@ -251,7 +229,9 @@ class Shards(Case):
             for ours, theirs in zip(self.s.each(name), self.e.each(name), strict=True):
                 np.testing.assert_array_equal(ours, theirs)
         for ours, theirs in zip(self.s, self.e):
-            same_bits(ours.system(), theirs.system())
+            same_bits(jam.load(ours.path, self.e.name(ours.seed)), theirs.system())
+        with self.assertRaisesRegex(jam.ensemble.StoreError, "shard of 2 packings"):
+            jam.load(self.shards[0])
         self.assertEqual(str(self.s.status()), str(self.e.status()))
 
     def test_the_files_may_go_and_a_campaign_goes_on_in_the_shards(self):

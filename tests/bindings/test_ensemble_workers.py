@@ -8,10 +8,8 @@ import time
 import unittest
 from pathlib import Path
 
-import jam
 from jam.ensemble import Ensemble, LocalPool, WorkerDied
-
-SMALL = dict(n=24, dim=2, diameters={"law": "bidisperse"}, stages=[{"growth_rate": 0.1, "pressure": 100.0}])
+from packings import SMALL
 
 
 class Pool(unittest.TestCase):

@@ -9,9 +9,10 @@ import jam
 
 NAMES = {
     "jam": "Advice Contacts JamError Modes Observed Step StatusCode System advise eos errors glass_fit load raw size_report sizes __version__ "
-    "cli ensemble files near_jamming plot scaling statistics store",
+    "cli digits ensemble files near_jamming plot scaling statistics store",
     "jam.advice": "Advice advise",
     "jam.cli": "main",
+    "jam.digits": "Refined refine",
     "jam.ensemble": "DamagedWarning Ensemble Entry LocalPool ProtocolError Status StoreError WorkerDied begin complete "
     "identity make minimal packing_name protocols table to_json",
     "jam.errors": "ArgumentError BufferError BusyError ClosedError DimensionError FormatError InternalError IoError JamError "

@@ -32,7 +32,7 @@ class Options(unittest.TestCase):
         self.assertEqual(names((ROOT / "bindings/cli/completion/_jam-pack").read_text()), mine)
         self.assertEqual(names((ROOT / "bindings/cli/completion/jam-pack.bash").read_text()), mine)
         page = (ROOT / "bindings/docs/command_line.md").read_text()
-        self.assertEqual({"--" + n for n in re.findall(r"^\| `--([\w-]+)", page, re.M)}, mine | {"--plot"})
+        self.assertEqual({"--" + n for n in re.findall(r"^- `--([\w-]+)", page, re.M)}, mine | {"--plot"})
 
     def complete(self, *words):
         script = (

@@ -83,6 +83,39 @@ class Studies(unittest.TestCase):
         self.assertEqual(set(map(tuple, np.sort(pairs, axis=1).tolist())), set(map(tuple, np.sort(found[0], axis=1).tolist())))
         self.assertAlmostEqual(phi, found[2], delta=1e-8)
 
+    def test_error_of_a_fit_of_the_glass_branch(self):
+        # The error of phi_J is its scatter over draws of the noise; without the covariance it is larger by orders of magnitude.
+        study, rng, p = self.imported("fit_error"), np.random.default_rng(5), 10 ** np.arange(5, 9, 0.25)
+        found = np.array([study.fit(0.64 * (1 - 3 / p), p * (1 + 1e-2 * rng.normal(size=len(p)))) for _ in range(400)])
+        phi_j, error, naive, d, r2 = found.T
+        far = np.abs(phi_j - 0.64) / error
+        self.assertAlmostEqual(np.mean(d), 1, delta=0.01)
+        self.assertGreater(np.mean(r2), 0.99)
+        # 1/p has errors in proportion to it, so the first points scatter most and the weights are not the best ones: within a factor of two
+        self.assertTrue(0.25 < np.median(far) < 1.4, np.median(far))
+        self.assertGreater(np.median(naive / error), 1e3)
+
+    def test_coexistence_of_crystal_and_liquid(self):
+        # Simulations give 0.4917 and 0.5433 (Frenkel and Smit); Hall's and Carnahan and Starling's equations are off by a few parts in a thousand.
+        study = self.imported("thermodynamics")
+        liquid, solid = study.densities()
+        self.assertAlmostEqual(liquid, 0.492, delta=0.003)
+        self.assertAlmostEqual(solid, 0.544, delta=0.003)
+        self.assertAlmostEqual(liquid * study.carnahan_starling(liquid), solid * study.hall(solid), delta=1e-9)
+
+    def test_final_network_is_that_of_the_weakest_contact(self):
+        study = self.imported("final_network")
+        found = study.grown("euclid", 64, 5)
+        self.assertTrue(found["good"] and found["proved"])
+        p = 10 ** study.threshold(found)
+        with study.jam.System.random(64, seed=5) as packing:
+            packing.compress([(1e-2, 500.0), (3e-3, 1e5), (1e-3, 30 * p)])
+            packing.crunch()
+            pairs = set(map(tuple, packing.contacts.pairs.tolist()))
+            packing.compress([(1e-3, 300 * p)])
+            packing.crunch()
+            self.assertEqual(set(map(tuple, packing.contacts.pairs.tolist())), pairs)
+
     def test_commands_of_figures_at_random(self):
         # As printed, from another folder: each writes a picture or a result there, and nothing into the checkout.
         studies = HERE.parent
@@ -99,6 +132,7 @@ class Studies(unittest.TestCase):
                 self.assertEqual(made.returncode, 0, made.stdout + made.stderr)
                 self.assertTrue(list(Path(here).rglob("*.png")))
         self.assertEqual({path: path.stat().st_mtime_ns for path in studies.rglob("*")}, before)
+        self.assertEqual([path.name for path in HERE.glob("*.py") if "out=HERE" in path.read_text(encoding="utf-8")], [])
 
     def imported(self, name, folder=HERE):
         sys.path.insert(0, str(folder))

@@ -100,7 +100,7 @@ def attempt(data, expected):
                 file.write(data)
             try:
                 answer = "same" if values(jam.load("changed.h5")) == expected else "OTHER VALUES"
-            except seal.StoreError as error:
+            except jam.store.StoreError as error:
                 answer = "StoreError" if "changed.h5" in str(error) else "UNNAMED " + str(error)
             except BaseException as error:
                 answer = f"{type(error).__name__}: {error}"

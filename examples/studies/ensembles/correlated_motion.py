@@ -56,7 +56,7 @@ def main():
     r.made(f"N = {n}, phi/phi_J = {RATIO}, {runs} runs of each packing", len(made))
     chi, g4, ranks = (np.array([m[key] for m in made]) for key in ("chi", "g4", "ranks"))
     peak = chi.mean(axis=0).argmax()
-    r.add("chi_4", f"largest chi_4, at {INSTANTS[peak]:g} collisions a sphere", "a peak", *mean_error(chi[:, peak]))
+    r.add("chi_4", f"largest chi_4, after {INSTANTS[peak]:g} collisions per sphere", "a peak", *mean_error(chi[:, peak]))
     r.add("chi_4", "sum of G_4 over all pairs over chi_4", 1, np.mean(g4[:, peak, -1] / chi[:, peak]))
     r.add("G_4", f"G_4 near contact over that beyond r = {EDGES[-2]:g} sigma", "> 1: correlated", *mean_error(g4[:, peak, 0] / np.abs(g4[:, peak, -2])))
     for k, radius in enumerate(RADII):
@@ -64,7 +64,7 @@ def main():
     axes[0].errorbar(INSTANTS, chi.mean(axis=0), chi.std(axis=0, ddof=1) / len(chi) ** 0.5, fmt="o-")
     axes[1].errorbar(0.5 * (EDGES[1:] + EDGES[:-1]), g4[:, peak, :-1].mean(axis=0), g4[:, peak, :-1].std(axis=0, ddof=1) / len(g4) ** 0.5, fmt="o-")
     axes[2].errorbar(RADII, ranks.mean(axis=0), ranks.std(axis=0, ddof=1) / len(ranks) ** 0.5, fmt="o-")
-    axes[0].set(xscale="log", xlabel="collisions a sphere", ylabel="chi_4")
+    axes[0].set(xscale="log", xlabel="collisions per sphere", ylabel="chi_4")
     axes[1].set(xlabel="r / sigma", ylabel="G_4(r) at the peak of chi_4")
     axes[2].set(xlabel="R / sigma of the average of S", ylabel="K[S averaged within R, mobility]")
     r.write(figure)

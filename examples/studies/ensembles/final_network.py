@@ -4,9 +4,8 @@
 usage: final_network.py [--large] [--sizes N ...] [--seeds K ...] [--folder DIR] [--only-read] [--out DIR]
 
 Below jamming contact k is open by sigma / (p f_k), forces with mean 1, and at an opening s_plus_k the next contact forms. No contact is
-exchanged above p_th = max 1 / (f_k s_plus_k), s_plus in diameters. If the least force goes as N^(-1/(1+theta_e)) and the least s_plus as
-N^(-1/(1-gamma)), and one contact could have both, p_th ~ N^(1/(1+theta_e) + 1/(1-gamma)) = N^2.405; if the two are independent in a
-packing, the maximum of the product decides. Growth as in finite_size.py, to p = 1e5. Packings with order or more than one state of
+exchanged above p_th = max 1 / (f_k s_plus_k), s_plus in diameters. If the least force goes as N^(-1/(1+theta_e)), s_plus as
+N^(-1/(1-gamma)), and the two are independent, p_th ~ N^(1/(1+theta_e) + 1/(1-gamma)) = N^2.405. Growth as in finite_size.py, to p = 1e5. Packings with order or more than one state of
 self-stress are left out; each network of spheres is proved. Small: N = 64, 128. Large: to 1024.
 """
 import matplotlib

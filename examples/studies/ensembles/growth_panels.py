@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Rates and sizes on the path to jamming: figures 2.8 to 2.11, 2.13, 2.15 and 2.16 of the thesis.
+"""Rates and sizes on the path to jamming: figures 2.8 to 2.10, 2.13, 2.15 and 2.16 of the thesis.
 
 usage: growth_panels.py [--large | --slow] [--seeds K] [--folder DIR] [--only-read] [--out DIR]
 
@@ -142,60 +142,6 @@ def steps(r, every, pressures):
     r.picture(figure, "growth_panels_steps")
 
 
-def glass(m, low, high, jammed):
-    """phi_J of the glass fit between two pressures less that of the LPs, the fit's error, d / 3 and R^2; None with three points or fewer."""
-    use = (m["p"] > 0.99 * low) & (m["p"] <= high * 1.01)
-    if use.sum() < 4:
-        return None
-    fit = jam.glass_fit(m["md_phi"][use], m["p"][use])
-    return fit.jammed_fraction - jammed, fit.jammed_error, fit.dimension / 3, fit.r_squared, error_without_covariance(m["md_phi"][use], m["p"][use])
-
-
-def error_without_covariance(phi, p):
-    """Error of phi_J = a / b in 1/p = a - b phi if the covariance of a and b is left out: phi_J sqrt((da/a)^2 + (db/b)^2)."""
-    (slope, a), cov = np.polyfit(phi, 1 / p, 1, cov=True)
-    return a / -slope * np.sqrt(cov[1, 1] / a**2 + cov[0, 0] / slope**2)
-
-
-def fits(r, every, pressures):
-    """2.11: phi_J of the LPs less that of the glass fit for each sample, with the error that the fit gives; fits of two decades each."""
-    figure, (axis, beside) = plt.subplots(1, 2, figsize=(13, 4.6))
-    for k, ((n, kappa), made) in enumerate(every.items()):
-        jammed = [m[f"phi_{pressures[-1]:.0e}"] for m in made]
-        for (low, high), marker in (((1e5, 1e12), "o"), ((1e5, 1e7), "x")):
-            off, error, d, r2, naive = np.array([glass(m, low, high, j) for m, j in zip(made, jammed)]).T
-            off = np.abs(off)
-            x = k + (0.1 if marker == "x" else -0.1) + 0.03 * np.arange(len(off))
-            axis.semilogy(x, np.maximum(off, 1e-17), marker, color=f"C{k}", label="" if k else f"fit to {high:.0e}")
-            axis.fill_between(x, 1e-17, np.full(len(x), error.mean()), color=f"C{k}", alpha=0.2)
-            axis.plot(x, np.full(len(x), naive.mean()), ":", color=f"C{k}", lw=2)
-            where = f"N = {n}, kappa = {kappa:g}, p = {low:.0e} to {min(high, pressures[-1]):.0e}"
-            r.add("2.11", f"|phi_J - phi_J of the fit| over the fit's error, {where}", "below 1", np.median(off / error))
-            r.add("2.11", f"error of the fit without the covariance over |phi_J - phi_J of the fit|, {where}", "100 and more", np.median(naive / off))
-            r.add("2.11", f"d of the fit over 3, {where}", "1 to 1.07", d.mean())
-            r.add("2.11", f"least R^2, {where}", ">= 0.999", r2.min())
-        shown = []
-        for low in (1e3, 1e5, 1e7, 1e9):
-            found = [glass(m, low, 100 * low, j) for m, j in zip(made, jammed)]
-            if None in found:
-                continue
-            off, error, *_ = np.array(found).T
-            shown.append((10 * low, np.median(np.abs(off)), np.median(error)))
-            where = f"N = {n}, kappa = {kappa:g}, p = {low:.0e} to {100 * low:.0e}"
-            r.add("2.11", f"phi_J of the fit less that of the LPs, {where}", "0", *mean_error(off))
-            r.add("2.11", f"mean error that the fit gives, {where}", "none", error.mean())
-        if shown:
-            p, off, error = np.array(shown).T
-            beside.loglog(p, off, "o-", color=f"C{k}", label=f"N = {n}, kappa = {kappa:g}")
-            beside.loglog(p, error, "--", color=f"C{k}", lw=1)
-    axis.set(xticks=range(len(every)), xticklabels=[f"{n}\n{kappa:g}" for n, kappa in every], xlabel="N, kappa")
-    axis.set(ylabel="|phi_J - phi_J of the fit|; band: error of the fit; dotted: without covariance")
-    beside.set(xlabel="p, fits of two decades", ylabel="|phi_J - phi_J of the fit|; dashed: error of the fit")
-    for one in (axis, beside):
-        one.legend(fontsize=6)
-    r.picture(figure, "growth_panels_fit")
-
-
 def ordered(n, seed):
     with jam.System.random(n, seed=seed) as packing:
         packing.compress([(1e-3, 1e4)])
@@ -248,7 +194,6 @@ def main():
     if every:
         against_pressure(r, every, pressures)
         steps(r, every, pressures)
-        fits(r, every, pressures)
         side_by_side(o, r, sorted({n for n, _ in every}), seeds)
         correlations(o, r, every, pressures, 10)
     r.write()

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Localised floppy modes and stability of three models: p(b), Sigma, the criterion of the median force, and figure 4.13.
+"""Localised floppy modes and stability of three models: p(b), Sigma, and the criterion of the median force.
 
 usage: localised_modes.py [--large] [--folder DIR] [--only-read] [--out DIR]
 
@@ -7,11 +7,8 @@ b is the median displacement of a mode over its norm, Sigma = s_return / s_plus;
 measure. Mean field: p(b) ~ b^theta_l for localised modes, and b independent of W = f / displacement. For Mari-Kurchan packings and
 near-crystals theta_l is about 0, which breaks gamma >= (1 - theta_l) / 2. Localised: at a buckler. The other criterion takes the smallest
 force of each sphere as localised and its median force as extended. Spheres and Mari-Kurchan packings are those of final_network.py;
-those give c / f^(1+theta_e) and N^(theta_e/(1+theta_e)) c / f of Mari-Kurchan packings too, figure 4.13 of the thesis;
 near-crystals are FCC lattices of 108 spheres whose diameters spread by 1 %, grown as in near_crystals.py. Small: N = 128. Large: 256, 512.
 """
-from types import SimpleNamespace
-
 import matplotlib
 
 matplotlib.use("Agg")
@@ -19,13 +16,13 @@ import matplotlib.pyplot as plt
 import numpy as np
 from common import THETA_E, THETA_L, Results, arguments, kept, mean_error
 from final_network import MODELS, SEEDS, SIZES, network, networks
-from finite_size_panels import flatness
 from near_crystals import protocol
 from thermodynamics import fcc
 
 import jam
 from jam import scaling
 
+RANGE = np.array((0.12, 0.4))  # b sqrt N between which one law is fitted: above, modes are extended; below, there are few
 LOCALISED, SMALLEST, MEDIAN = (int(c) for c in (jam.ContactClass.LOCALISED, jam.ContactClass.SMALLEST, jam.ContactClass.MEDIAN))
 
 
@@ -54,34 +51,18 @@ def look(r, axes, k, text, n, made):
     r.add("modes", f"the same, localised contacts, {where}", "stable: 0", *share(local))
     least = [m["sigma"][u].min() for m, u in zip(made, local) if u.any()]
     r.add("modes", f"median of the least Sigma of localised contacts, {where}", "stable: > 1", np.median(least))
-    exponent(r, f"exponent of b of localised modes, {where}", [m["b"][u] for m, u in zip(made, local)], n, THETA_L if text == "spheres" else 0.0)
+    b = [np.sort(m["b"][u]) for m, u in zip(made, local)]
+    low, high = RANGE * n**-0.5
+    law = scaling.fit_power(b, high, low)
+    r.add("modes", f"power of b in p(b) of localised modes, b sqrt N = 0.12 to 0.4, {where}", THETA_L if text == "spheres" else 0.0, law.value, law.error)
     rank = [jam.statistics.spearman(m["b"][u], m["w"][u]) for m, u in zip(made, local) if u.sum() > 5]
     r.add("modes", f"rank correlation of b and W of localised modes, {where}", "0: independent", *mean_error(rank))
     for flag, name, known in ((SMALLEST, "smallest", THETA_L if text == "spheres" else 0.0), (MEDIAN, "median", THETA_E)):
         exponent(r, f"exponent of the {name} force of each sphere, {where}", [m["f"][(m["flags"] & flag) != 0] for m in made], n, known)
-    b = np.sort(np.concatenate([m["b"][u] for m, u in zip(made, local)])) * n**0.5
+    b = np.sort(np.concatenate(b)) * n**0.5
     sigma = np.sort(np.concatenate([m["sigma"][u] for m, u in zip(made, local)]))
     axes[0].loglog(b, np.arange(1, len(b) + 1) / len(b), lw=1, color=f"C{k}", label=where)
     axes[1].loglog(sigma, np.arange(1, len(sigma) + 1) / len(sigma), lw=1, color=f"C{k}", label=where)
-
-
-def forces(o, r):
-    """4.13: extended forces of Mari-Kurchan packings over their power of f and, below the least force, over f."""
-    figure, axes = plt.subplots(1, 2, figsize=(11, 4.4))
-    sizes = {}
-    for n, count in zip(SIZES, SEEDS if o.large else [8, 8]):
-        good, _ = networks(o, "mk", n, count)
-        extended = [np.sort(m["f"][(m["flags"] & LOCALISED) == 0]) for m in good]
-        if len(extended) > 3:
-            sizes[n] = SimpleNamespace(extended=extended)
-            f = np.geomspace(0.1, 100, 40) * n ** (-1 / (1 + THETA_E))
-            c = scaling.cdf_grid(extended, f).c
-            axes[0].loglog(f[c > 0], (c / f ** (1 + THETA_E))[c > 0], lw=1, label=f"N = {n}")
-            axes[1].loglog((f * n ** (1 / (1 + THETA_E)))[c > 0], (n ** (THETA_E / (1 + THETA_E)) * c / f)[c > 0], lw=1)
-    flatness(r, sizes)
-    axes[0].set(xlabel="f", ylabel="c / f^1.42311"), axes[0].legend(fontsize=8)
-    axes[1].set(xlabel="f N^(1/(1+theta_e))", ylabel="N^(theta_e/(1+theta_e)) c / f")
-    r.picture(figure, "localised_modes_forces")
 
 
 def main():
@@ -101,7 +82,6 @@ def main():
     if len(good) > 3:
         r.made(f"near-crystals, N = 108, {len(made)} packings", len(good))
         look(r, axes, k, "near-crystals", 108, good)
-    forces(o, r)
     axes[0].set(xlabel="b sqrt N of localised modes", ylabel="share below")
     axes[1].set(xlabel="Sigma of localised contacts; below 1: not stable", ylabel="share below")
     axes[1].axvline(1, color="0.7", lw=1)

@@ -1,13 +1,10 @@
 #!/usr/bin/env python3
 """Does the interval of one standard error contain the true exponent in 68 % of trials? jam.scaling on synthetic packings.
 
-usage: scaling_coverage.py [TRIALS]        default 1000; each packing has 6 N values, the plateau of the density is set by N
+usage: scaling_coverage.py [TRIALS] [--out DIR]        default 1000; each packing has 6 N values, the plateau of the density is set by N
 """
-import sys
-from types import SimpleNamespace
-
 import numpy as np
-from common import GAMMA, HERE, THETA_E, THETA_L, Results
+from common import GAMMA, THETA_E, THETA_L, Results, arguments
 
 from jam import scaling
 
@@ -18,8 +15,10 @@ def packings(rng, n, a, m):
 
 
 def main():
-    trials = int(sys.argv[1]) if len(sys.argv) > 1 else 1000
-    r = Results(SimpleNamespace(out=HERE), "scaling_coverage")
+    p = arguments(__doc__.splitlines()[0])
+    p.add_argument("trials", type=int, nargs="?", default=1000)
+    o = p.parse_args()
+    trials, r = o.trials, Results(o, "scaling_coverage")
     for name, a in (("extended forces", THETA_E), ("gaps", -GAMMA), ("localised forces", THETA_L)):
         for n, m in ((64, 100), (256, 30)):
             rng, cut, whole = np.random.default_rng(11), [], []

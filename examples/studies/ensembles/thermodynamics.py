@@ -73,7 +73,7 @@ def coexistence(o, r, axis, cells, collisions):
         r.add("crystal", f"p of the crystal, phi = {x:g}", ("Hall", round(hall(x), 4)), value, e)
     cubed = 6 / np.pi  # P sigma^3 = 6 phi p / pi
     solid = cubed * MELTING * np.array([p[1], error[1]])
-    r.add("crystal", "P sigma^3 of the crystal at 0.545", ("liquid at 0.494", round(cubed * FREEZING * carnahan_starling(FREEZING), 3)), *solid)
+    r.add("crystal", "P sigma^3 of the crystal at 0.545", f"liquid at 0.494: {cubed * FREEZING * carnahan_starling(FREEZING):.4g}", *solid)
     for name, value, known in zip(("liquid", "crystal"), densities(), (FREEZING, MELTING)):
         r.add("crystal", f"density of the {name} in coexistence", known, value)
     grid = np.linspace(0.5, 0.73, 100)

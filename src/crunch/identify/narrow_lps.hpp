@@ -1,11 +1,8 @@
-// Narrow LPs, where the wide one leaves it open which contacts carry force. Doubles then cannot distinguish a weak
-// force from a narrow gap: a force of 1e-7 across a gap of 1e-8 is below the tolerance of an LP, and near a saddle the
-// slope of the density is smaller still. In units of a narrow bound both are plain: the duality gap of a narrow LP is
-// as much smaller as its bound. The bound follows the steps, which shrink as those of Newton's method do, down to the
-// motion whose square is rounding. What an interior point leaves open Clp's simplex method solves once more: rows in
-// the basis of a vertex are closed to rounding, however many close together. It is slower, for layers by a factor
-// of 50. No diagonal holds the spheres: a sphere between nearly opposite contacts, as in layers at a wall, finds its
-// third one by a force that such a diagonal would take.
+// Narrow LPs find which contacts carry force when the tolerance of a wide LP hides a weak force or a narrow gap: the
+// duality gap of an LP shrinks with its step bound. The bound follows the steps down to a motion whose square is
+// rounding. Clp's simplex solves again what the interior point leaves open, since rows in the basis of a vertex close
+// to rounding; for layers it is 50 times slower. No regularising diagonal is added: it would take the weak force of the
+// third contact of a sphere between two nearly opposite ones.
 #pragma once
 #include "crunch/state.hpp"
 

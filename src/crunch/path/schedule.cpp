@@ -6,7 +6,7 @@
 namespace jam::inside {
 
 // A saddle shows by steps that stay short while the decrement no longer falls. The first two steps at a new mu may be
-// short on any way. At a larger mu the same way is fewer steps.
+// short in any case. At a larger mu the same distance takes fewer steps.
 double BarrierSchedule::next_factor(const Step &last) {
   if (steps_ == 0) short_steps_ = 0, least_ = mark_ = std::numeric_limits<double>::infinity();
   const bool falls = last.decrement < InteriorPointTuning::progress * least_;

@@ -57,7 +57,7 @@ class EventDrivenRun final : public Dynamics {
   bool begun() const { return engine_ != nullptr; }
   // Why the last run ended before its aim, in a sentence; empty where it did not.
   std::string text() const;
-  // Each run adds to it, so that stages that follow each other give one report. Not part of the archive.
+  // Summed over run() calls, so that a protocol of several stages has one report. Not part of the archive.
   jam_md_report report{};
 
  private:
@@ -76,6 +76,7 @@ class EventDrivenRun final : public Dynamics {
   // -- windows.cpp
   int32_t run_windows(const Listeners &listeners);
   int32_t advance_part(const Listeners &listeners);
+  int32_t end_of_part(int32_t reason);
   void begin_part();
   void end_part();
   void plan_window();

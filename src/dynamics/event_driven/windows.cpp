@@ -82,30 +82,36 @@ int32_t EventDrivenRun::advance_part(const Listeners &listeners) {
   return JAM_STOP_NONE;
 }
 
+// Why a part came back, as the report has it; a stage that ends within a part has a pressure from what there is.
+int32_t EventDrivenRun::end_of_part(int32_t reason) {
+  // Collisions at contact, in which no time has passed, are no run.
+  if (reason == JAM_STOP_COLLISIONS && !sums().time_has_passed() && sums().virial > 0.0) {
+    ++frozen_;
+    reason = JAM_STOP_STALLED;
+  }
+  if (reason == JAM_STOP_PACKING_FRACTION || (reason == JAM_STOP_COLLISIONS && std::isnan(pressure_))) {
+    const PressureSums last = window_.whole + window_.of_part + engine_->sums.of_pressure;
+    if (last.time_has_passed()) pressure_ = reduced_pressure(last);
+    note_wall_pressure(last, window_.walls);
+  }
+  return reason;
+}
+
 int32_t EventDrivenRun::run_windows(const Listeners &listeners) {
   for (;;) {
-    int32_t reason = advance_part(listeners);
-    // Collisions at contact, in which no time has passed, are no run.
-    if (reason == JAM_STOP_COLLISIONS && !sums().time_has_passed() && sums().virial > 0.0) {
-      ++frozen_;
-      reason = JAM_STOP_STALLED;
-    }
-    if (reason == JAM_STOP_PACKING_FRACTION || (reason == JAM_STOP_COLLISIONS && std::isnan(pressure_))) {
-      const PressureSums last = window_.whole + window_.of_part + engine_->sums.of_pressure;
-      if (last.time_has_passed()) pressure_ = reduced_pressure(last);
-      note_wall_pressure(last, window_.walls);
-    }
-    if (reason != JAM_STOP_NONE) return reason;
-    end_part();
-    const bool whole = window_.part == parts();
+    if (window_.part < parts()) {
+      const int32_t reason = end_of_part(advance_part(listeners));
+      if (reason != JAM_STOP_NONE) return reason;
+      end_part();
+    }  // else it continues from a checkpoint of the callback at the end of a window, which is made again
     bool stop = false;
-    if (whole) {
+    if (window_.part >= parts()) {
       if (window_.whole.time_has_passed()) pressure_ = reduced_pressure(window_.whole);
       note_wall_pressure(window_.whole, window_.walls);
-      window_.walls = wall_momentum();
       stop = listeners.monitor->report(progress());
       const int32_t end = reason_to_end();
       if (end != JAM_STOP_NONE) return end;
+      window_.walls = wall_momentum();
       thermostat();
       slow_down();
       window_.part = 0;

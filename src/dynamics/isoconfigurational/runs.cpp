@@ -12,8 +12,8 @@
 
 namespace jam::inside {
 
-// What the threads share. A thread takes the next number, makes the run, and hands its record in. Whoever hands in the
-// run that comes next in the sums folds it, and those that wait behind it.
+// What the threads share. A thread takes the next number, makes the run, and hands its record in. The thread that
+// delivers the next run in order adds it to the sums, with all later runs that wait.
 struct Isoconfigurational::Queue {
   std::mutex mutex;  // of all below, of the sums and of the report
   std::condition_variable moved;

@@ -4,15 +4,15 @@ from __future__ import annotations
 import functools
 import inspect
 import re
-from dataclasses import fields
+from dataclasses import astuple, fields
 from enum import IntEnum
 from typing import Any
 
 import h5py
 import numpy as np
 
-from .._api import generated
 from .._api.generated import HistoryColumn, StepPhase
+from .records import dtype_of, enum_of
 
 #: Unit and meaning of each array by its name. Lengths have the unit of the box.
 _MEANING = {
@@ -48,29 +48,23 @@ def _words(cls: type) -> str:
     return "; ".join(f"{int(m)} {m.name.lower()}" + (f": {text}" if text else "") for m, text in _members(cls))
 
 
-def _enum(kind: str) -> Any:
-    found = getattr(generated, kind, None)
-    return found if isinstance(found, type) and issubclass(found, IntEnum) else None
+def _as_enum(enum: Any) -> Any:
+    """An enum of HDF5, with its names."""
+    return h5py.enum_dtype({m.name: int(m) for m in enum}, basetype="i4") if enum else "i4"
 
 
 @functools.lru_cache(maxsize=None)
-def report_type(cls: type) -> np.dtype[Any]:
-    """The type of a report in a file: enums are enums of HDF5 there, with their names."""
-    kinds: dict[str, Any] = {"int": "i8", "bool": "i8", "float": "f8"}
-    made = []
-    for f in fields(cls):
-        enum = _enum(str(f.type))
-        named = enum and h5py.enum_dtype({m.name: int(m) for m in enum}, basetype="i4")
-        made.append((f.name, named or kinds.get(str(f.type), "i4")))
-    return np.dtype(made)
+def _report(cls: type) -> tuple[np.dtype[Any], dict[str, str]]:
+    """The type of a report in a file, and its attributes: its fields, and the numbers of each enum."""
+    enums = {str(f.type): enum_of(str(f.type)) for f in fields(cls)}
+    text = {kind: _words(enum) for kind, enum in enums.items() if enum}
+    return dtype_of(cls, _as_enum), {"fields": inspect.cleandoc(cls.__doc__ or ""), **text}
 
 
-@functools.lru_cache(maxsize=None)
-def report_text(cls: type) -> dict[str, str]:
-    """Attributes of a report: its fields, and the numbers of each enum."""
-    text = inspect.cleandoc(cls.__doc__ or "")
-    enums = {str(f.type): _enum(str(f.type)) for f in fields(cls)}
-    return {"fields": text, **{kind: _words(enum) for kind, enum in enums.items() if enum}}
+def put_report(group: Any, name: str, report: Any) -> None:
+    cls: Any = type(report)
+    kind, text = _report(cls)
+    group.create_dataset(name, data=np.array(astuple(report), kind)).attrs.update(text)
 
 
 @functools.lru_cache(maxsize=None)

@@ -5,9 +5,7 @@ Needs python3-gsd.
 from __future__ import annotations
 
 import os
-from dataclasses import dataclass, field
-from functools import partial
-from typing import Any, Callable
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -23,25 +21,13 @@ _KEPT = (_POSITION, _DIAMETER, _CELL)
 _READ = {"configuration/step", "configuration/dimensions", "configuration/box", "particles/N", "particles/position"}
 _SIZES = {"particles/diameter"}
 
-Bad = Callable[[str], Exception]  # the exception for what is no packing
 
+class Doubles(NamedTuple):
+    """What libjam keeps beside the float32 of a frame."""
 
-@dataclass
-class Doubles:
     positions: Array
     diameters: Array
     cell: Array
-
-
-@dataclass
-class Found:
-    dim: int
-    positions: Array  # (n, 3), float32, around the centre of the cell
-    diameters: Array | None
-    cell: Array  # (3, 3), one vector a row
-    doubles: Doubles | None
-    boxed: bool  # the file names its box
-    unread: list[str] = field(default_factory=list)  # chunks that hold more
 
 
 def write(path: str | os.PathLike[str], positions: Array, diameters: Array, cell: Array) -> None:
@@ -81,15 +67,24 @@ def arguments(
     except RuntimeError as error:  # the package's only word for a file that is none of GSD
         raise bad(name, f"no GSD file that can be read: {error}") from None
     with opened as file:
-        at, by_hand = in_range(name, frame, len(file)), diameters is not None or radii is not None
-        found, notes = _read(file, at, partial(bad, name), not by_hand, doubles), notes_of(frame, len(file))
-    d, cell, sizes = found.dim, found.cell[: found.dim, : found.dim], found.diameters
-    x = plane(name, found.positions, found.cell, d, notes)
-    say_unread(notes, "chunks", found.unread)
-    if found.doubles is not None:
-        x, sizes, cell = found.doubles.positions, found.doubles.diameters, found.doubles.cell
+        at, notes = in_range(name, frame, len(file)), notes_of(frame, len(file))
+        found = _Frame(name, file, at)
+        by_hand = diameters is not None or radii is not None
+        x, whole, boxed = found.positions()
+        kept = found.doubles() if doubles else None
+        read = _READ | (_SIZES | {"log/" + key for key in _KEPT} if kept else set())
+        if not by_hand and kept is None:
+            sizes, places = found.diameters()
+            read = read | places
+        unread = sorted(found.chunks() - read)
+    d = found.dim
+    cell = whole[:d, :d]
+    x = plane(name, x, whole, d, notes)
+    say_unread(notes, "chunks", unread)
+    if kept is not None:
+        x, sizes, cell = kept
     else:
-        if not found.boxed:
+        if not boxed:
             notes.append("the file names no box: its side is taken as 1")
         notes.append("positions of the file have single precision, about 7 digits")
         x = from_corner(x, -0.5 * cell.sum(0), notes)
@@ -118,131 +113,117 @@ def _centred(x: Array, cell: Array) -> Array:
     return found
 
 
-def _read(file: Any, frame: int, bad: Bad, sizes: bool, doubles: bool) -> Found:
-    """One frame, with its diameters and with libjam's doubles where they are asked for."""
-    one = file[frame]
-    d, n = int(one.configuration.dimensions), int(one.particles.N)
-    if d not in (2, 3):
-        raise bad(f"configuration/dimensions is {d}, it must be 2 or 3")
-    if n == 0:
-        raise bad(f"frame {frame} has no sphere")
-    if n > 1 and _chunk(file, frame, "particles/position") is None:
-        raise bad(f"frame {frame} has no chunk particles/position")
-    lx, ly, lz, xy, xz, yz = (float(v) for v in one.configuration.box)
-    cell = np.array([[lx, 0, 0], [xy * ly, ly, 0], [xz * lz, yz * lz, lz]])
-    x = np.asarray(one.particles.position)
-    # GSD leaves its default box of side 1 out, so a file without a box holds either that one or none
-    boxed = _chunk(file, frame, "configuration/box") is not None
-    if not boxed and np.abs(x[:, :d]).max() > 0.5 + 1e-6:
-        raise bad("no chunk configuration/box, and some positions lie outside the default box of side 1")
-    kept = _doubles(file, frame, one, bad) if doubles else None
-    found = Found(d, x, None, cell, kept, boxed)
-    read = _READ | (_SIZES | {"log/" + name for name in _KEPT} if kept else set())
-    if sizes and kept is None:
-        found.diameters, places = _diameters(file, frame, one, bad)
-        read = read | places
-    found.unread = sorted(_names(file, frame) - read)
-    return found
+class _Frame:
+    """One frame of an open file. A chunk that it does not have is that of frame 0: the rule of the schema."""
 
+    def __init__(self, path: str, file: Any, at: int) -> None:
+        self.path, self.at, self.file, self.one = path, at, file.file, file[at]
+        self.dim, self.n = int(self.one.configuration.dimensions), int(self.one.particles.N)
+        if self.dim not in (2, 3):
+            raise self.bad(f"configuration/dimensions is {self.dim}, it must be 2 or 3")
+        if self.n == 0:
+            raise self.bad(f"frame {at} has no sphere")
 
-def _names(file: Any, frame: int) -> set[str]:
-    """The chunks that this frame has, of its own or from frame 0."""
-    names = file.file.find_matching_chunk_names("")
-    return {name for name in names if any(file.file.chunk_exists(frame=k, name=name) for k in (frame, 0))}
+    def bad(self, text: str) -> Exception:
+        return bad(self.path, text)
 
+    def chunks(self) -> set[str]:
+        """Those that this frame has, of its own or from frame 0."""
+        return {name for name in self.file.find_matching_chunk_names("") if self.chunk_of(name) is not None}
 
-def _chunk(file: Any, frame: int, name: str) -> Any:
-    """A chunk of this frame, or of frame 0 where this frame has none: the rule of the schema."""
-    for k in (frame, 0):
-        if file.file.chunk_exists(frame=k, name=name):
-            return file.file.read_chunk(frame=k, name=name)
-    return None
+    def chunk_of(self, name: str) -> int | None:
+        """The frame that has the chunk."""
+        return next((k for k in (self.at, 0) if self.file.chunk_exists(frame=k, name=name)), None)
 
+    def chunk(self, name: str) -> Any:
+        k = self.chunk_of(name)
+        return None if k is None else self.file.read_chunk(frame=k, name=name)
 
-def _doubles(file: Any, frame: int, one: Any, bad: Bad) -> Doubles | None:
-    """What libjam kept, where it belongs to this frame: its float32 are the rounded doubles.
+    def positions(self) -> tuple[Array, Array, bool]:
+        """Positions (n, 3) around the centre of the cell, its vectors (3, 3), and whether the file names its box."""
+        if self.n > 1 and self.chunk_of("particles/position") is None:
+            raise self.bad(f"frame {self.at} has no chunk particles/position")
+        lx, ly, lz, xy, xz, yz = (float(v) for v in self.one.configuration.box)
+        cell = np.array([[lx, 0, 0], [xy * ly, ly, 0], [xz * lz, yz * lz, lz]])
+        x = np.asarray(self.one.particles.position)
+        # GSD leaves its default box of side 1 out, so a file without a box holds either that one or none
+        boxed = self.chunk_of("configuration/box") is not None
+        if not boxed and np.abs(x[:, : self.dim]).max() > 0.5 + 1e-6:
+            raise self.bad("no chunk configuration/box, and some positions lie outside the default box of side 1")
+        return x, cell, boxed
 
-    GSD hands out frame 0's log for frames without one. Those are left out when they do not fit; a frame's own are
-    refused, for another program changed one of the two.
-    """
-    log = {name: one.log.get(name) for name in _KEPT}
-    if any(value is None for value in log.values()):
-        return None
-    own = any(file.file.chunk_exists(frame=frame, name="log/" + name) for name in _KEPT)
-    kept = Doubles(np.asarray(log[_POSITION]), np.asarray(log[_DIAMETER]).reshape(-1), np.asarray(log[_CELL]))
-    wrong = _difference(kept, one)
-    if wrong and own:
-        raise bad(
-            f"{wrong} of frame {frame} does not agree with the copy of libjam in log/jam: another program changed the frame. "
-            "doubles=False reads the frame alone",
-        )
-    return None if wrong else kept
+    def doubles(self) -> Doubles | None:
+        """What libjam kept, where it belongs to this frame: its float32 are the rounded doubles.
 
-
-def _difference(kept: Doubles, one: Any) -> str:
-    d, n = int(one.configuration.dimensions), int(one.particles.N)
-    if kept.positions.shape != (n, d) or kept.diameters.shape != (n,) or kept.cell.shape != (d, d):
-        return "the number of spheres or dimensions"
-    if not np.array_equal(_box(kept.cell).astype(np.float32)[: 6 if d == 3 else 2], one.configuration.box[: 6 if d == 3 else 2]):
-        return "configuration/box"
-    if not np.array_equal(_centred(kept.positions, kept.cell).astype(np.float32)[:, :d], one.particles.position[:, :d]):
-        return "particles/position"
-    if not np.array_equal(kept.diameters.astype(np.float32), one.particles.diameter):
-        return "particles/diameter"
-    return ""
-
-
-def _diameters(file: Any, frame: int, one: Any, bad: Bad) -> tuple[Array, set[str]]:
-    """Diameters (n,) from each place of the schema that names some, and the chunks that were read for them."""
-    found: dict[str, Array] = {}
-    if _chunk(file, frame, "particles/diameter") is not None:
-        found["particles/diameter"] = np.asarray(one.particles.diameter, float)
-    kinds = np.asarray(one.particles.typeid, int)
-    by_type = {
-        "particles/type_shapes": _of_shapes(one, bad) if _chunk(file, frame, "particles/type_shapes") is not None else None,
-        "state/hpmc/sphere/radius": _of_state(file, frame, bad),
-    }
-    for name, values in by_type.items():
-        if values is None:
-            continue
-        if kinds.min() < 0 or kinds.max() >= len(values):
-            raise bad(f"{name} has {len(values)} types, and particles/typeid reaches {kinds.max()}")
-        found[name] = values[kinds]
-    if not found:
-        raise bad(
-            "no diameters in the file (particles/diameter, particles/type_shapes, state/hpmc/sphere/radius): give "
-            "diameters=, also where they are 1, which GSD does not write",
-        )
-    first, *others = found
-    for name in others:
-        if not np.allclose(found[name], found[first], rtol=1e-6, atol=0.0):
-            i = int(np.argmax(np.abs(found[name] - found[first])))
-            raise bad(
-                f"sphere {i} has the diameter {found[first][i]:g} by {first} and {found[name][i]:g} by {name}: "
-                "give diameters=",
+        GSD hands out frame 0's log for frames without one. Those are left out when they do not fit; a frame's own are
+        refused, for another program changed one of the two.
+        """
+        log = [self.one.log.get(name) for name in _KEPT]
+        if any(value is None for value in log):
+            return None
+        kept = Doubles(np.asarray(log[0]), np.asarray(log[1]).reshape(-1), np.asarray(log[2]))
+        wrong = self.difference(kept)
+        if wrong and any(self.file.chunk_exists(frame=self.at, name="log/" + name) for name in _KEPT):
+            raise self.bad(
+                f"{wrong} of frame {self.at} does not agree with the copy of libjam in log/jam: another program changed the "
+                "frame. doubles=False reads the frame alone",
             )
-    return found[first], set(found) | ({"particles/typeid", "particles/types"} if set(found) - _SIZES else set())
+        return None if wrong else kept
 
+    def difference(self, kept: Doubles) -> str:
+        d, n, one = self.dim, self.n, self.one
+        if kept.positions.shape != (n, d) or kept.diameters.shape != (n,) or kept.cell.shape != (d, d):
+            return "the number of spheres or dimensions"
+        sides = slice(6 if d == 3 else 2)
+        if not np.array_equal(_box(kept.cell).astype(np.float32)[sides], one.configuration.box[sides]):
+            return "configuration/box"
+        if not np.array_equal(_centred(kept.positions, kept.cell).astype(np.float32)[:, :d], one.particles.position[:, :d]):
+            return "particles/position"
+        return "" if np.array_equal(kept.diameters.astype(np.float32), one.particles.diameter) else "particles/diameter"
 
-def _of_shapes(one: Any, bad: Bad) -> Array | None:
-    """Diameters a type from the shapes of HOOMD; None where no type has a shape."""
-    shapes = list(one.particles.type_shapes)
-    if not any(shapes):
-        return None
-    sizes = np.empty(len(shapes))
-    for k, shape in enumerate(shapes):
-        if shape.get("type") not in ("Sphere", "Disk") or "diameter" not in shape:
-            raise bad(f"particles/type_shapes: type {k} is {shape}, and no sphere with a diameter: give diameters=")
-        sizes[k] = float(shape["diameter"])
-    return sizes
+    def diameters(self) -> tuple[Array, set[str]]:
+        """Diameters (n,) from each place of the schema that names some, and the chunks that were read for them."""
+        found: dict[str, Array] = {}
+        if self.chunk_of("particles/diameter") is not None:
+            found["particles/diameter"] = np.asarray(self.one.particles.diameter, float)
+        kinds = np.asarray(self.one.particles.typeid, int)
+        for name, values in (("particles/type_shapes", self.of_shapes()), ("state/hpmc/sphere/radius", self.of_state())):
+            if values is None:
+                continue
+            if kinds.min() < 0 or kinds.max() >= len(values):
+                raise self.bad(f"{name} has {len(values)} types, and particles/typeid reaches {kinds.max()}")
+            found[name] = values[kinds]
+        if not found:
+            raise self.bad(
+                "no diameters in the file (particles/diameter, particles/type_shapes, state/hpmc/sphere/radius): give "
+                "diameters=, also where they are 1, which GSD does not write",
+            )
+        first, *others = found
+        for name in others:
+            if not np.allclose(found[name], found[first], rtol=1e-6, atol=0.0):
+                i = int(np.argmax(np.abs(found[name] - found[first])))
+                raise self.bad(
+                    f"sphere {i} has the diameter {found[first][i]:g} by {first} and {found[name][i]:g} by {name}: "
+                    "give diameters=",
+                )
+        return found[first], set(found) | ({"particles/typeid", "particles/types"} if set(found) - _SIZES else set())
 
+    def of_shapes(self) -> Array | None:
+        """Diameters a type from the shapes of HOOMD; None where no type has a shape."""
+        shapes = list(self.one.particles.type_shapes) if self.chunk_of("particles/type_shapes") is not None else []
+        if not any(shapes):
+            return None
+        for k, shape in enumerate(shapes):
+            if shape.get("type") not in ("Sphere", "Disk") or "diameter" not in shape:
+                raise self.bad(f"particles/type_shapes: type {k} is {shape}, and no sphere with a diameter: give diameters=")
+        return np.array([float(shape["diameter"]) for shape in shapes])
 
-def _of_state(file: Any, frame: int, bad: Bad) -> Array | None:
-    """Diameters a type from the state of an HPMC integrator of spheres."""
-    prefix = "state/hpmc/"
-    names = {name for name in file.file.find_matching_chunk_names(prefix)}
-    shapes = {name[len(prefix) :].split("/")[0] for name in names if name.count("/") > 2} - {"integrate"}
-    if shapes - {"sphere"}:
-        raise bad(f"{prefix}: the shapes are {', '.join(sorted(shapes))}, libjam takes spheres: give diameters=")
-    radius = _chunk(file, frame, prefix + "sphere/radius")
-    return None if radius is None else 2.0 * np.asarray(radius, float).reshape(-1)
+    def of_state(self) -> Array | None:
+        """Diameters a type from the state of an HPMC integrator of spheres."""
+        prefix = "state/hpmc/"
+        names = self.file.find_matching_chunk_names(prefix)
+        shapes = {name[len(prefix) :].split("/")[0] for name in names if name.count("/") > 2} - {"integrate"}
+        if shapes - {"sphere"}:
+            raise self.bad(f"{prefix}: the shapes are {', '.join(sorted(shapes))}, libjam takes spheres: give diameters=")
+        radius = self.chunk(prefix + "sphere/radius")
+        return None if radius is None else 2.0 * np.asarray(radius, float).reshape(-1)

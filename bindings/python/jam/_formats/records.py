@@ -3,7 +3,7 @@ from __future__ import annotations
 
 from dataclasses import fields
 from enum import IntEnum
-from typing import Any
+from typing import Any, Callable
 
 import numpy as np
 
@@ -12,9 +12,16 @@ from .._api.arrays import Array
 from .._api.generated import StatusCode, Verdict
 
 
-def dtype_of(cls: type) -> np.dtype[Any]:
+def enum_of(kind: str) -> Any:
+    """The enum of a field's type; None of numbers and truth values."""
+    found = getattr(generated, kind, None)
+    return found if isinstance(found, type) and issubclass(found, IntEnum) else None
+
+
+def dtype_of(cls: type, of_enum: Callable[[Any], Any] = lambda _: "i4") -> np.dtype[Any]:
+    """A report as one compound value; of_enum: what an enum is in it."""
     kinds = {"int": "i8", "bool": "i8", "float": "f8"}
-    return np.dtype([(f.name, kinds.get(str(f.type), "i4")) for f in fields(cls)])
+    return np.dtype([(f.name, kinds.get(str(f.type)) or of_enum(enum_of(str(f.type)))) for f in fields(cls)])
 
 
 def unknown(kind: str) -> Any:
@@ -26,22 +33,11 @@ def unknown(kind: str) -> Any:
     return known.get(kind, 0)
 
 
-def pack(report: Any) -> Array:
-    """A report as one compound value; enums as their numbers."""
-    made = np.zeros((), dtype_of(type(report)))
-    for f in fields(report):
-        made[f.name] = getattr(report, f.name)
-    return made
-
-
 def unpack(value: Array, cls: type) -> Any:
     """A report of a class from a compound value; what an older file does not hold is unknown."""
     given: dict[str, Any] = {}
     for f in fields(cls):
         known, kind = f.name in (value.dtype.names or ()), str(f.type)
-        number = value[f.name].item() if known else unknown(kind)
-        enum = getattr(generated, kind, None) if kind not in ("int", "bool", "float") else None
-        if isinstance(enum, type) and issubclass(enum, IntEnum) and number in set(enum):
-            number = enum(number)
-        given[f.name] = bool(number) if kind == "bool" else number
+        number, enum = value[f.name].item() if known else unknown(kind), enum_of(kind)
+        given[f.name] = bool(number) if kind == "bool" else enum(number) if enum and number in set(enum) else number
     return cls(**given)

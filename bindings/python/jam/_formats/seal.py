@@ -19,15 +19,12 @@ from typing import IO, Any, Callable, Collection, Sequence
 
 import numpy as np
 
-from ..errors import StoreError
 from .content import plain_value
 
 try:
     import h5py
 except ImportError as error:  # pragma: no cover
     raise ImportError("packings are stored by h5py: install python3-h5py") from error
-
-__all__ = ["StoreError"]  # what readers of sealed files raise
 
 USER_BLOCK = 512
 INDEX = "seal"

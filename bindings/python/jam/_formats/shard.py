@@ -8,12 +8,11 @@ from typing import Any, Mapping
 from .._api.generated import CrunchReport
 from ..errors import StoreError
 from .content import Packing
-from .explain import explain
+from .explain import explain, put_report
 from .records import unpack
 from .replacing import replacing
 from .seal import seal
 from .sealed import read_packing
-from .write_packing import put
 
 
 def write_shard(path: str | os.PathLike[str], protocol: str, packings: Mapping[str, Path | tuple[Path, str | None]]) -> list[str]:
@@ -52,6 +51,6 @@ def _copy(packing: Packing, target: Any) -> None:
         target.require_group(path or ".").attrs.update(attributes)
     for path, value in packing.arrays.items():
         if path == "jam/report":
-            put(target, path, unpack(value, CrunchReport))
+            put_report(target, path, unpack(value, CrunchReport))
         else:
             explain(target.create_dataset(path, data=value), path)

@@ -36,9 +36,8 @@ from .. import raw
 from .._api.given import closed_axes, container_word, walls_of
 from ..errors import StateError, StoreError
 from .content import CONTACTS, SCHEMA
-from .explain import explain, report_text, report_type
+from .explain import explain, put_report
 from .provenance import provenance
-from .records import pack
 from .replacing import MENDED, replacing
 from .seal import seal
 
@@ -56,9 +55,7 @@ def put(group: Any, name: str, value: Any) -> None:
         for key, part in value._asdict().items():
             put(inner, key, part)
     elif is_dataclass(value):
-        cls: Any = type(value)
-        node = group.create_dataset(name, data=pack(value).astype(report_type(cls)))
-        node.attrs.update(report_text(cls))
+        put_report(group, name, value)
     elif value is not None:
         node = group.create_dataset(name, data=_text(value) if isinstance(value, str) else value)
         explain(node, node.name.lstrip("/"))

@@ -18,33 +18,16 @@ from .status import Status
 DONE, PARTIAL, USAGE, REFUSED, OUTPUT = range(5)  # exit status, as python3 -m jam
 
 
-class _Once(argparse.Action):
-    """An option that stands once: a second value would replace the first one in silence."""
-
-    def __call__(self, p: argparse.ArgumentParser, o: argparse.Namespace, value: Any, name: str | None = None) -> None:
-        given = vars(o).setdefault("_given", set())
-        if name and self.dest in given:
-            p.error(f"{name} is given twice: leave one out")
-        given.add(self.dest)
-        vars(o)[self.dest] = self.const if self.nargs == 0 else value
-
-
 class _Parser(argparse.ArgumentParser):
-    """Takes options by their whole names, each once, and answers in JSON where that was asked for."""
+    """Takes options by their whole names, and answers in JSON where that was asked for."""
 
-    arguments: list[str] = []
+    words: list[str] = []  # of the command line
 
     def __init__(self, **more: Any) -> None:
         super().__init__(allow_abbrev=False, **more)
 
-    def flag(self, name: str, **more: Any) -> None:
-        self.add_argument(name, action=_Once, nargs=0, const=True, default=False, **more)
-
-    def option(self, *names: str, **more: Any) -> None:
-        self.add_argument(*names, action=_Once, **more)
-
     def error(self, message: str) -> NoReturn:
-        if "--json" in _Parser.arguments:
+        if "--json" in _Parser.words:
             print(_json(USAGE, message))
         super().error(message)
 
@@ -69,14 +52,10 @@ def _seeds(text: str) -> list[int]:
 
 
 def _part(text: str) -> tuple[int, int]:
-    k, slash, m = text.partition("/")
-    try:
-        part = int(k), int(m)
-    except ValueError:
-        part = (-1, 0)
-    if not slash or not 0 <= part[0] < part[1]:
+    found = re.fullmatch(r"([0-9]+)/([0-9]+)", text)
+    if not found or int(found[1]) >= int(found[2]):
         raise argparse.ArgumentTypeError(f"{text!r} must be K/M with K in 0..M-1, e.g. $SLURM_ARRAY_TASK_ID/10")
-    return part
+    return int(found[1]), int(found[2])
 
 
 def parser() -> argparse.ArgumentParser:
@@ -94,30 +73,30 @@ def parser() -> argparse.ArgumentParser:
     ):
         v = verbs.add_parser(verb, help=text)
         v.add_argument("folder", metavar="DIR")
-        v.option(
+        v.add_argument(
             "--protocol",
             metavar="FILE.json|NAME",
             help="the protocol, or the name of one of DIR; default that of DIR, if it has one only",
         )
-        v.option("--n", type=int, help="spheres: with the default protocol instead of a file")
-        v.option("--dim", type=int, help="dimension: with the default protocol instead of a file")
+        v.add_argument("--n", type=int, help="spheres: with the default protocol instead of a file")
+        v.add_argument("--dim", type=int, help="dimension: with the default protocol instead of a file")
         if verb != "export":
-            v.option("--seeds", type=_seeds, required=verb == "run", metavar="A-B", help="seeds, e.g. 1-100,205")
+            v.add_argument("--seeds", type=_seeds, required=verb == "run", metavar="A-B", help="seeds, e.g. 1-100,205")
         if verb == "run":
-            v.option(
+            v.add_argument(
                 "--part", type=_part, metavar="K/M", help="only each M-th seed, from the K-th: for job arrays"
             )
-            v.option("--executor", choices=["process", "mpi", "dask"], default="process")
-            v.option("--workers", type=int, help="processes of --executor process (all cores)")
-            v.option("--scheduler", metavar="ADDRESS", help="dask scheduler, e.g. tcp://host:8786")
-            v.flag("--retry", help="also the seeds that failed before")
-            v.flag("--remake-damaged", help="also the seeds whose file cannot be read")
-            v.flag("--quiet")
+            v.add_argument("--executor", choices=["process", "mpi", "dask"], default="process")
+            v.add_argument("--workers", type=int, help="processes of --executor process (all cores)")
+            v.add_argument("--scheduler", metavar="ADDRESS", help="dask scheduler, e.g. tcp://host:8786")
+            v.add_argument("--retry", action="store_true", help="also the seeds that failed before")
+            v.add_argument("--remake-damaged", action="store_true", help="also the seeds whose file cannot be read")
+            v.add_argument("--quiet", action="store_true")
         if verb == "status":
-            v.flag("--json")
+            v.add_argument("--json", action="store_true")
         if verb == "export":
             v.add_argument("target", metavar="OUT", help="folder of the shards")
-            v.option("--shard", type=int, default=1000, help="packings a file (1000)")
+            v.add_argument("--shard", type=int, default=1000, help="packings a file (1000)")
     return p
 
 
@@ -133,29 +112,25 @@ def _ensemble(o: argparse.Namespace) -> Ensemble:
     return Ensemble(o.folder, chosen)
 
 
+def _executor(o: argparse.Namespace, stack: ExitStack) -> Any:
+    """The executor that was asked for; None for processes of this machine."""
+    if o.executor == "mpi":
+        from mpi4py.futures import MPIPoolExecutor
+
+        return stack.enter_context(MPIPoolExecutor())
+    if o.executor == "dask":
+        from distributed import Client
+
+        return stack.enter_context(Client(o.scheduler, set_as_default=False)).get_executor()
+    return None
+
+
 def _run(o: argparse.Namespace) -> Status:
-    ensemble = _ensemble(o)
-    seeds = o.seeds[o.part[0] :: o.part[1]] if o.part else o.seeds
+    seeds, options = o.seeds, dict(progress=not o.quiet, retry=o.retry, workers=o.workers, remake_damaged=o.remake_damaged)
+    if o.part:
+        seeds = seeds[o.part[0] :: o.part[1]]
     with ExitStack() as stack:
-        executor: Any = None
-        if o.executor == "mpi":
-            from mpi4py.futures import MPIPoolExecutor
-
-            executor = stack.enter_context(MPIPoolExecutor())
-        elif o.executor == "dask":
-            from distributed import Client
-
-            client = stack.enter_context(Client(o.scheduler, set_as_default=False))
-            executor = client.get_executor()
-        status = ensemble.run(
-            seeds,
-            executor,
-            progress=not o.quiet,
-            retry=o.retry,
-            workers=o.workers,
-            remake_damaged=o.remake_damaged,
-            search=o.part is None,
-        )
+        status = _ensemble(o).run(seeds, _executor(o, stack), search=o.part is None, **options)
     return status
 
 
@@ -169,8 +144,12 @@ def _refuse(o: argparse.Namespace, code: int, text: str) -> int:
 def main(arguments: list[str] | None = None) -> int:
     """Returns the exit status."""
     p = parser()
-    _Parser.arguments = sys.argv[1:] if arguments is None else arguments
-    o = p.parse_args(arguments)
+    _Parser.words = words = sys.argv[1:] if arguments is None else arguments
+    names = [word.partition("=")[0] for word in words if word.startswith("--")]
+    for name in names:
+        if names.count(name) > 1:  # the second value would replace the first one in silence
+            p.error(f"{name} is given twice: leave one out")
+    o = p.parse_args(words)
     if o.verb == "run" and (o.executor == "dask") != (o.scheduler is not None):
         p.error("--executor dask and --scheduler ADDRESS belong together")
     try:
@@ -189,8 +168,8 @@ def main(arguments: list[str] | None = None) -> int:
         return _refuse(o, REFUSED, str(error))
     code = PARTIAL if status.failed or status.missing or status.damaged else DONE
     if o.verb == "status" and o.json:
-        names = ("asked", "done", "jammed", "failed", "missing", "damaged", "odd", "builds")
-        print(_json(code, "", **{k: getattr(status, k) for k in names}))
+        shown = ("asked", "done", "jammed", "failed", "missing", "damaged", "odd", "builds")
+        print(_json(code, "", **{k: getattr(status, k) for k in shown}))
     elif o.verb == "status" or not o.quiet:
         print(status)
     return code

@@ -15,14 +15,13 @@ from typing import Any, Iterable, Iterator, Mapping
 
 import numpy as np
 
-from .._api.arrays import Array
 from .._formats.replacing import remove_abandoned
 from .._formats.shard import write_shard
 from ..errors import StoreError
 from .campaign import campaign, lasts, progress_bar
 from .capacity import Capacity, capacity, check_plan
 from .entry import Entry
-from .folder import Content, Folder, Place
+from .folder import Content, Folder
 from .pool import LocalPool
 from .protocol import ProtocolError, complete, identity, packing_name, to_json, whole_seed
 from .row import builds_of
@@ -156,10 +155,10 @@ class Ensemble:
             This packing failed; the text says why.
         """
         count = check_plan(wall_time, workers)
-        rows, places = self._counted()
+        rows, places = readable(self.files, self.id)
         if not np.isfinite(rows["seconds_made"]).any():
             self.run([seed], progress=False, workers=1)
-            rows, places = self._counted()
+            rows, places = readable(self.files, self.id)
         rows, failures = rows[np.isfinite(rows["seconds_made"])], self.failures()
         if not len(rows):
             raise ProtocolError(f"there is no packing to measure, and that of seed {seed} failed: {failures[-1]['text']}")
@@ -173,27 +172,20 @@ class Ensemble:
 
     def _status(self, content: Content, seeds: list[int] | None) -> Status:
         rows, damaged = content.rows[content.rows["protocol"] == self.id.encode()], content.damaged
+        every = seeds is None
         if seeds is None:
-            done = {self.name(s) for s in rows["seed"].tolist()}
-            lost = sum(f["protocol"] == self.id and name not in done for name, f in self.files.failures().items())
-            asked = len(rows) + lost + len(damaged)
-        else:
-            rows = rows[np.isin(rows["seed"], seeds)]
-            done = {self.name(s) for s in rows["seed"].tolist()}
-            names = [name for name in map(self.name, seeds) if name not in done]
-            homes = [self.files.packing(name) for name in names]
-            damaged = {path: damaged[path] for path in homes if path in damaged}
-            asked, lost = len(seeds), sum(self.files.packing(name) not in damaged for name in self.files.failures(names))
+            failed = [f["seed"] for f in self.files.failures().values() if f["protocol"] == self.id]
+            seeds = list({*rows["seed"].tolist(), *failed})
+        rows = rows[np.isin(rows["seed"], seeds)]
+        left = [self.name(s) for s in set(seeds).difference(rows["seed"].tolist())]
+        if not every:
+            damaged = {path: damaged[path] for path in map(self.files.packing, left) if path in damaged}
+        asked = len(seeds) + (len(damaged) if every else 0)
         jammed, odd = int((rows["jammed"] != 0).sum()), {**content.doubles, **content.misnamed}
+        lost = len(self.files.failures(left))  # none of a packing whose file is there, though damaged
         return Status(
             asked, len(rows), jammed, lost, tuple(damaged.values()), tuple(odd.values()), builds=builds_of(rows)
         )
-
-    def _counted(self) -> tuple[Array, list[Place]]:
-        """Rows of the packings that count, and where each lies; a warning names the files that are left out."""
-        rows, places = readable(self.files)
-        mine = rows["protocol"] == self.id.encode()
-        return rows[mine], [place for place, own in zip(places, mine) if own]
 
     def damaged(self) -> dict[Path, str]:
         """Odd files of the folder, of any protocol, and what is wrong with each: those that cannot be read, those that hold
@@ -212,7 +204,7 @@ class Ensemble:
             packing_fraction and diameter_mean are those of the packing, other numbers nan or -1. Each seed has one row,
             whatever files hold it. Files that cannot be read have none.
         """
-        return as_table(self._counted()[0], pandas)
+        return as_table(readable(self.files, self.id)[0], pandas)
 
     def failures(self) -> list[dict[str, Any]]:
         """Records of the seeds that failed: seed, status, text, machine, time.
@@ -223,11 +215,11 @@ class Ensemble:
         return sorted(found, key=lambda f: int(f["seed"]))
 
     def __len__(self) -> int:
-        return len(self._counted()[0])
+        return len(readable(self.files, self.id)[0])
 
     def __iter__(self) -> Iterator[Entry]:
         """Entries by seed."""
-        for row, place in zip(*self._counted()):
+        for row, place in zip(*readable(self.files, self.id)):
             yield Entry(row, place, self.files.unverified)
 
     def each(self, *names: str, jammed: bool = True, max_crystal_score: float = np.inf) -> Iterator[Any]:
@@ -263,7 +255,7 @@ class Ensemble:
         """
         target = Path(folder)
         target.mkdir(parents=True, exist_ok=True)
-        (rows, places), made = self._counted(), []
+        (rows, places), made = readable(self.files, self.id), []
         for k in range(0, len(rows), per_shard):
             names = [name.decode() for name in rows["name"][k : k + per_shard]]
             path = target / f"{self.id}-{k // per_shard:05d}.h5"

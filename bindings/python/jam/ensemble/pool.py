@@ -49,8 +49,7 @@ class LocalPool(ThreadPoolExecutor):
 
     def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
         """Calls fn in a worker; fn is found there by its module and name, arguments and answer go by pickle."""
-        call = pickle.dumps((_folders_for(fn), pickle.dumps((fn, args, kwargs))))
-        return super().submit(self._call, pickle.dumps(call))
+        return super().submit(self._call, pickle.dumps((_folders_for(fn), pickle.dumps((fn, args, kwargs)))))
 
     def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:
         """Ends the pool. With cancel_futures also the calls that run now: their workers are killed."""
@@ -106,13 +105,6 @@ def _folders_for(fn: Callable[..., Any]) -> list[str]:
     return [] if package in ("jam", "builtins") else [os.path.abspath(p) for p in sys.path]
 
 
-def _run(call: bytes) -> Any:
-    folders, inner = pickle.loads(call)
-    sys.path += [p for p in folders if p not in sys.path]
-    fn, args, kwargs = pickle.loads(inner)
-    return fn(*args, **kwargs)
-
-
 def _end(process: subprocess.Popen[bytes]) -> int:
     """Closes the pipes, waits for the worker and returns its exit status."""
     assert process.stdin and process.stdout  # both are pipes
@@ -131,19 +123,24 @@ def main() -> None:
     os.dup2(2, 1)  # what a library prints must not get between the answers
     while True:
         try:
-            call = pickle.load(calls)
+            folders, call = pickle.load(calls)
         except EOFError:
             return
         try:
-            answer: tuple[Any, ...] = (True, _run(call))
-        except Exception as error:
-            answer = (False, error)
-        try:
-            data = pickle.dumps(answer)
-        except Exception as error:
-            data = pickle.dumps((False, RuntimeError(f"the answer cannot be sent: {error}")))
-        try:
-            answers.write(data)
+            answers.write(_answer(folders, call))
             answers.flush()
         except BrokenPipeError:
             os._exit(1)  # the campaign is gone: nobody reads this answer
+
+
+def _answer(folders: list[str], call: bytes) -> bytes:
+    """Whether the call ended well, and what it returned or raised."""
+    sys.path += [p for p in folders if p not in sys.path]
+    try:
+        fn, args, kwargs = pickle.loads(call)
+        return pickle.dumps((True, fn(*args, **kwargs)))
+    except Exception as error:
+        try:
+            return pickle.dumps((False, error))
+        except Exception:
+            return pickle.dumps((False, RuntimeError(f"the answer cannot be sent: {error}")))

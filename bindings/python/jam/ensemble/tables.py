@@ -72,11 +72,12 @@ def as_table(rows: Array, pandas: bool, protocols: Mapping[str, Mapping[str, Any
     return pd.DataFrame(columns)
 
 
-def readable(files: Folder) -> tuple[Array, list[Place]]:
-    """Packings that count, and where they lie; a warning names the files that are left out."""
-    content = files.content()
-    warn([*content.damaged.values(), *content.doubles.values()])
-    return content.rows, content.places
+def readable(files: Folder, protocol: str | None = None) -> tuple[Array, list[Place]]:
+    """Packings that count, of a protocol or of all, and where each lies; a warning names the files that are left out."""
+    rows, places, damaged, doubles, _ = files.content()
+    warn([*damaged.values(), *doubles.values()])
+    mine = [k for k, name in enumerate(rows["protocol"].tolist()) if protocol in (None, name.decode())]
+    return rows[mine], [places[k] for k in mine]
 
 
 def protocols(folder: str | os.PathLike[str]) -> dict[str, dict[str, Any]]:

@@ -1,0 +1,256 @@
+"""Any number of digits of a jammed packing, with a proved radius.
+
+Unknown are the centres x of the stable spheres but the first, and G, the square of the factor of all diameters. Of each
+contact F = |x_i - x_j + n H|^2 - G sigma^2 is 0, so an isostatic packing has as many equations as unknowns. Newton's steps
+with one factor J of doubles gain some 14 digits each, if F is computed in integers. Where A is the inverse of J in doubles,
+|1 - A J| <= delta, |A F| <= eta and beta = 4 d |A| (maximum norms), exactly one zero of F lies within r = 2 eta if
+delta r + beta r^2 <= eta and delta + 2 beta r < 1: theorem A of the guide's page on proofs.
+"""
+from __future__ import annotations
+
+import math
+from decimal import Decimal, localcontext
+from fractions import Fraction
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ._api.arrays import Array
+from ._api.shown import only
+from .errors import StateError
+from .system import System
+
+__all__ = ["Refined", "refine"]
+__dir__ = only(__all__)
+
+GUARD = 64  # bits behind the last digit that is asked for
+SLACK = 16  # of these may stay wrong when the steps end
+ULP = 2.0**-53
+STEPS = 40  # without a gain of digits a step fails long before
+
+
+class Refined(NamedTuple):
+    """A jammed packing in decimals. Nothing in it is farther from the exact packing than the radius beside it."""
+
+    packing_fraction: Decimal
+    packing_fraction_radius: Decimal
+    positions: Array  #: (n, d) of Decimal, in the unit of the box; rattlers stay where they were
+    radius: Decimal  #: of each coordinate of a stable sphere
+    forces: Array  #: (contacts,) of Decimal, mean 1
+    forces_radius: Decimal
+    steps: int  #: of Newton's method
+
+
+def _integers(values: Any, bits: int) -> Array:
+    """Doubles times 2^bits, as Python's integers: exact."""
+    flat = [int(Fraction(float(v)) * (1 << bits)) for v in np.ravel(values)]
+    return np.array(flat, dtype=object).reshape(np.shape(values))
+
+
+def _doubles(values: Array, bits: int) -> tuple[Array, int]:
+    """Integers over 2^bits as doubles times 2^power, with the largest near 1."""
+    power = max((int(abs(v)).bit_length() for v in values), default=0)
+    return np.array([math.ldexp(int(v) >> max(power - 64, 0), max(power - 64, 0) - power) for v in values]), power - bits
+
+
+def _pi(bits: int) -> int:
+    """Machin: pi/4 = 4 atan(1/5) - atan(1/239)."""
+
+    def atan_inverse(k: int) -> int:
+        term, total, n = (1 << (bits + 32)) // k, 0, 0
+        while term:
+            total += (-1) ** n * (term // (2 * n + 1))
+            term //= k * k
+            n += 1
+        return total
+
+    return (4 * (4 * atan_inverse(5) - atan_inverse(239))) >> 32
+
+
+class _Equations:
+    """F, its derivative, and what both need, with numbers of `bits` bits behind the point."""
+
+    def __init__(self, system: System, bits: int):
+        info, contacts = system.info, system.contacts
+        self.unit = 2.0 ** round(math.log2(info.box))  # an exact factor
+        cell, x, sigma = system.cell / self.unit, system.positions / self.unit, system.diameters / self.unit
+        if info.container or info.walls or info.model:
+            raise StateError("digits: only periodic packings of the Euclidean model have a proof of their digits")
+        self.d, self.bits, self.pairs, self.cell, self.sigma = info.dim, bits, contacts.pairs, cell, sigma
+        i, j = self.pairs.T
+        distance = 0.5 * (sigma[i] + sigma[j]) * np.where(sigma[i] == sigma[j], 1.0, 1.0 + info.non_additivity)
+        inverse = np.linalg.inv(cell)
+        images = [(sign * distance[:, None] * contacts.vectors - (x[i] - x[j])) @ inverse for sign in (1, -1)]
+        image = min(images, key=lambda n: float(abs(n - np.round(n)).max()))
+        self.stable = np.unique(self.pairs)
+        self.index = np.full(info.n, -1)
+        self.index[self.stable[1:]] = np.arange(len(self.stable) - 1)  # the first one stands still
+        self.unknowns = self.d * (len(self.stable) - 1) + 1
+        if len(self.pairs) != self.unknowns:
+            raise StateError(
+                f"digits: {len(self.pairs)} contacts and {self.unknowns} unknowns: only isostatic packings are refined"
+            )
+        whole = np.array([[int(v) for v in row] for row in np.round(image)], dtype=object)
+        self.shift = whole @ _integers(cell, bits)
+        half = _integers(sigma, bits)
+        delta = Fraction(info.non_additivity)
+        # sigma of each contact, exactly, and its square
+        exact = [Fraction(1) * (half[a] + half[b]) * (1 if half[a] == half[b] else 1 + delta) / 2 for a, b in self.pairs]
+        self.distance = np.array([int(v) for v in exact], dtype=object)
+        self.square = np.array([int(v * v) >> bits for v in exact], dtype=object)
+        self.x, self.gamma = _integers(x, bits), 1 << bits
+
+    def separations(self) -> Array:
+        i, j = self.pairs.T
+        found: Array = self.x[i] - self.x[j] + self.shift
+        return found
+
+    def residuals(self) -> Array:
+        r = self.separations()
+        found: Array = ((r * r).sum(1) - self.gamma * self.square) >> self.bits
+        return found
+
+    def derivative(self) -> Array:
+        """J in doubles, each entry rounded once."""
+        m, d = len(self.pairs), self.d
+        r = np.array([[math.ldexp(int(v) >> (self.bits - 80), -80) for v in row] for row in self.separations()])
+        found = np.zeros((m, self.unknowns))
+        for column, sign in ((0, 2.0), (1, -2.0)):
+            at = self.index[self.pairs[:, column]]
+            rows = np.flatnonzero(at >= 0)
+            for k in range(d):
+                found[rows, d * at[rows] + k] += sign * r[rows, k]
+        found[:, -1] = [-math.ldexp(int(v) >> (self.bits - 80), -80) for v in self.square]
+        return found
+
+    def move(self, step: Array, power: int) -> None:
+        """x and G less step times 2^power."""
+        shift = self.bits + power - 60
+        whole = [int(v) for v in np.round(step * 2.0**60)]
+        whole = [v << shift if shift >= 0 else v >> -shift for v in whole]
+        self.x[self.stable[1:]] -= np.array(whole[:-1], dtype=object).reshape(-1, self.d)
+        self.gamma -= whole[-1]
+
+    def imbalance(self, forces: Array) -> Array:
+        """J^T f + e_G, which is 0 where forces balance and sum f sigma^2 = 1."""
+        net = np.zeros((len(self.index), self.d), dtype=object)
+        part = (2 * forces[:, None] * self.separations()) >> self.bits
+        np.add.at(net, self.pairs[:, 0], part)
+        np.subtract.at(net, self.pairs[:, 1], part)
+        last = (1 << self.bits) - (int((forces * self.square).sum()) >> self.bits)
+        return np.append(net[self.stable[1:]].ravel(), last)
+
+
+def _bounds(derivative: Array, inverse: Array) -> tuple[float, float]:
+    """delta and alpha: bounds of |1 - A J| and |A| that contain all rounding, of J's entries too."""
+    m = len(inverse)
+    alpha = float(abs(inverse).sum(1).max()) * (1 + 2 * m * ULP)
+    left = np.eye(m) - inverse @ derivative
+    rounding = 2 * (m + 4) * ULP * alpha * float(abs(derivative).sum(1).max())
+    return float(abs(left).sum(1).max()) * (1 + 2 * m * ULP) + rounding, alpha
+
+
+def _decimal(value: int, bits: int) -> Decimal:
+    return Decimal(value) / (1 << bits)
+
+
+def _solved(equations: _Equations, inverse: Array, goal: int) -> int:
+    """Newton's steps until F has only its last bits; their number."""
+    for step in range(STEPS + goal // 8):
+        wrong, power = _doubles(equations.residuals(), equations.bits)
+        if power <= -goal:
+            return step
+        equations.move(inverse @ wrong, power)
+    raise StateError("digits: Newton's steps gain no digits; contacts nearly depend on each other")
+
+
+def _balanced(equations: _Equations, inverse: Array, goal: int) -> Array:
+    forces, bits = np.array([0] * len(inverse), dtype=object), equations.bits
+    for _ in range(STEPS + goal // 8):
+        wrong, power = _doubles(equations.imbalance(forces), bits)
+        if power <= -goal:
+            return forces
+        shift = bits + power - 60
+        whole = [int(v) for v in np.round((inverse.T @ wrong) * 2.0**60)]
+        forces = forces - np.array([v << shift if shift >= 0 else v >> -shift for v in whole], dtype=object)
+    raise StateError("digits: the forces gain no digits; contacts nearly depend on each other")
+
+
+def _fraction(equations: _Equations) -> int:
+    """The packing fraction: that of the diameters as they are, times G^(d/2)."""
+    d, bits = equations.d, equations.bits
+    k, pi = d // 2, _pi(bits)
+    ball = Fraction(1, math.factorial(k)) if d % 2 == 0 else Fraction(2 * math.factorial(k) * 4**k, math.factorial(d))
+    volume = Fraction(1)
+    for row, entry in enumerate(np.diag(equations.cell)):  # a lower triangle
+        volume *= Fraction(float(entry))
+    ball *= sum((Fraction(float(s)) ** d for s in equations.sigma), Fraction(0)) / volume / 2**d
+    value = int(ball * (1 << bits))
+    root = math.isqrt(equations.gamma << bits)
+    for factor in [pi] * k + [root] * d:
+        value = value * factor >> bits
+    return value
+
+
+def refine(system: System, digits: int = 1000) -> Refined:
+    """Packing fraction, centres and forces of a jammed packing to so many digits, with the radius that is proved.
+
+    Parameters
+    ----------
+    system : System
+        After a crunch: periodic, Euclidean, isostatic. Its contacts are taken as exact, and its diameters and cell as they
+        are. That the packing is jammed, `system.prove()` shows.
+    digits : int
+        From 20 on.
+
+    Raises
+    ------
+    StateError
+        No contacts, not isostatic, walls, the Mari-Kurchan model, or contacts so nearly dependent that doubles cannot
+        factor their equations.
+
+    Examples
+    --------
+    >>> import jam, jam.digits
+    >>> disks = jam.System.random(n=32, dim=2, seed=1, diameters=[1.0, 1.4] * 16)
+    >>> report = disks.crunch()
+    >>> found = jam.digits.refine(disks, 60)
+    >>> abs(float(found.packing_fraction) - report.packing_fraction) < 1e-13, found.packing_fraction_radius < 1e-60
+    (True, True)
+    """
+    if digits < 20:
+        raise ValueError(f"digits is {digits}; doubles have nearly 16, so 20 and more are computed here")
+    bits = int(digits * math.log2(10)) + GUARD
+    e = _Equations(system, bits)
+    try:
+        inverse = np.linalg.inv(e.derivative())
+    except np.linalg.LinAlgError:
+        raise StateError("digits: the contacts depend on each other") from None
+    steps = _solved(e, inverse, bits - SLACK)
+    delta, alpha = _bounds(e.derivative(), inverse)
+    last = max(abs(int(v)) for v in e.residuals()) + e.d + 4  # with the rounding of its sums
+    eta, beta = Fraction(alpha) * Fraction(last, 1 << bits), 4 * e.d * Fraction(alpha)
+    r = 2 * eta
+    share = Fraction(delta) + 2 * beta * r
+    if not (Fraction(delta) * r + beta * r * r <= eta and share < 1):
+        raise StateError(f"digits: nothing is proved, since |1 - A J| is only known to be at most {delta:.2g}")
+    forces = _balanced(e, inverse, bits - SLACK)
+    wrong = sum(abs(int(v)) for v in e.imbalance(forces)) + (len(forces) + 1) * (e.d + 2)
+    near = Fraction(wrong, 1 << bits) + 8 * e.d * r * Fraction(sum(abs(int(f)) for f in forces), 1 << bits)
+    near *= Fraction(float(abs(inverse).max())) / (1 - share)
+    longest = Fraction(max(int(s) for s in e.distance), 1 << bits)
+    forces = forces * e.distance >> bits  # of f = force / distance
+    near, total = near * longest + Fraction(1, 1 << bits), int(forces.sum())
+    mean, largest = Fraction(total, len(forces) << bits), Fraction(max(int(f) for f in forces), 1 << bits)
+    phi, unit = _fraction(e), Decimal(e.unit)
+    with localcontext() as context:
+        context.prec = digits + 20
+        gamma, radius = Fraction(e.gamma, 1 << bits), Decimal(r.numerator) / r.denominator
+        spread = near / mean * (1 + largest / (mean - near))
+        scaled = [Decimal(int(f) * len(forces)) / total for f in forces]
+        grown = Fraction(phi, 1 << bits) * Fraction(e.d, 2) * r / (gamma - r) + Fraction(32, 1 << bits)
+        where = np.array([[_decimal(int(v), bits) * unit for v in row] for row in e.x], dtype=object)
+        return Refined(
+            _decimal(phi, bits), Decimal(grown.numerator) / grown.denominator, where, radius * unit,
+            np.array(scaled, dtype=object), Decimal(spread.numerator) / spread.denominator, steps,
+        )

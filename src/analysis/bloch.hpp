@@ -26,7 +26,7 @@ void refuse_own_images_at(const Packing &p, const ContactNetwork &net, const dou
 // JAM_E_MEMORY before any work.
 void need_memory_for_bloch(const RigidityMatrix &g);
 // Modes of the Hessian at the wave vector q (dim): lambda ascending; vector (d N', nodes, dim, 2), of unit length, left
-// out unless asked for.
+// out unless requested.
 Modes bloch_modes(const RigidityMatrix &g, const ContactWeights &w, const CellsBack &back, const double *q,
                   bool vectors);
 

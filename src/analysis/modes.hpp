@@ -30,7 +30,7 @@ bool dense_eigen_builtin(int n, std::vector<double> &a, std::vector<double> &lam
                          const std::function<bool(double)> &stop);
 // modes_dense.cpp: eigenvalues and vectors of the whole Hessian; JAM_CANCELLED when stopped.
 jam_status all_modes(const BlockMatrix &h, Monitor &monitor, Modes &out);
-// Reduces them to the modes asked for. The d translations are removed first.
+// Reduces them to the modes requested. The d translations are removed first.
 void select_modes(const RigidityMatrix &g, const jam_modes_options &o, Modes &all);
 // Y = sum |v_i|^4 / (sum |v_i|^2)^2 of a field (nodes, dim).
 double inverse_participation(int dim, int32_t nodes, const double *v);

@@ -28,7 +28,7 @@ struct DenseTuning {
   static constexpr int strip = 16;               // rows of the vectors that a rotation turns at once
   static constexpr size_t most_waiting = 50000;  // rotations, which fit into the second cache with a strip
   static constexpr int most_iterations = 60;     // of QL for an eigenvalue; two are usual
-  static constexpr int back_columns = 512;       // vectors that are turned back between two looks at the callback
+  static constexpr int back_columns = 512;       // vectors that are turned back between two checks of the callback
   // Shares of the time: reduction, and product of the reflections, by own loops and by LAPACK; LAPACK's vectors.
   static constexpr double reduction = 0.4, reflections = 0.2, lapack_reduction = 0.6, lapack_vectors = 0.2;
 };
@@ -38,7 +38,7 @@ struct DosTuning {
   static constexpr double above_largest = 1.05;  // bound over the Ritz value, to which two residuals are added
 };
 
-// ---- pairs within a distance, and the blocks in which voro++ looks for neighbours
+// ---- pairs within a distance, and the blocks in which voro++ searches for neighbours
 struct GapsTuning {
   static constexpr double bytes_a_pair = 48.0;  // beside d doubles
 };

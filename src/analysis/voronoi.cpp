@@ -58,8 +58,8 @@ class CutCell {
     });
   }
   // The volume within the wall: slices along z between heights of corners, of ends of the ball, of points where an edge
-  // meets the wall and of slices in which a side touches the wall. In between the area is smooth but for powers of 3/2
-  // at the ends.
+  // meets the wall and of slices in which a side touches the wall. In between the area is smooth except for powers of
+  // 3/2 at the ends.
   double volume() const {
     std::vector<double> height;
     for (const auto &c : corner_) height.push_back(c[2]);

@@ -20,7 +20,7 @@ const char *meaning_of(jam_status status);
 // Of a call that ended for a jam_stop_reason: what stopped it, and the way out.
 Answer stopped(jam_status status, int32_t stop_reason);
 
-// The same of runs that go on with resume = 1; another call begins anew.
+// The same of runs that continue with resume = 1; another call starts again.
 Answer stopped_run(jam_status status, int32_t stop_reason);
 
 }  // namespace jam::inside

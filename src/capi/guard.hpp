@@ -145,7 +145,7 @@ class Busy {
   jam_system *sys_;
 };
 
-// A short call that changes the handle: alone on it, and a cancel that waits for the next verb goes on waiting.
+// A short call that changes the handle: alone on it, and a cancel that waits for the next verb continues to wait.
 template <class F>
 jam_status guard_set(jam_system *sys, F &&f) {
   return guard([&] {

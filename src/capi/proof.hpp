@@ -15,7 +15,7 @@ jam_proof_report prove_network(const Packing &p, const ContactNetwork &network);
 // jam_proof_text.
 std::string proof_text(int32_t theorem, int32_t cause, double radius, double value, double bound);
 
-// What a report says where no proof was asked for, or none is possible.
+// What a report says where no proof was requested, or none is possible.
 template <class Report>
 void without_proof(Report &r) {
   r.theorem = JAM_THEOREM_NONE, r.proof_cause = JAM_CAUSE_NONE;

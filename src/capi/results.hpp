@@ -23,7 +23,7 @@ struct Results {
   bool has_report = false;
   std::vector<HistoryRow> history;  // of the crunch that led here; valid when has_history
   bool has_history = false;
-  std::vector<KeptStep> kept_steps;   // of the same crunch; empty unless asked for
+  std::vector<KeptStep> kept_steps;   // of the same crunch; empty unless requested
   std::vector<SoftRow> soft_history;  // of the decompression that led here; empty without one
 
   // The contacts of a network that balances. NULL where no call searched for them, or a crunch was stopped before it

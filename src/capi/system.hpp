@@ -42,7 +42,7 @@ struct SystemState : Results {
   std::optional<CrunchStage> crunch_paused;      // the last change of spheres was a crunch that did not reach its end
   Owned<Dynamics> paused;                        // was stopped early and can be resumed
   Owned<Isoconfigurational> runs;                // the last ones from one configuration, complete or not
-  int64_t sweeps = 0;                            // of Monte Carlo made so far: where its streams go on
+  int64_t sweeps = 0;                            // of Monte Carlo made so far: where its streams continue
   Owned<Observer> observer;                      // what was observed
   bool observing = false;                        // and still is
   double memory_limit = default_memory_limit();  // bytes that one call may take

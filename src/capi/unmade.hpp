@@ -1,5 +1,5 @@
 // Reports of calls that were stopped before they had made anything: measured numbers are NaN, counts of what was never
-// looked for -1, and the packing fraction is that of the state. Work done is 0, which is true.
+// searched for -1, and the packing fraction is that of the state. Work done is 0, which is true.
 #pragma once
 #include <cmath>
 

@@ -17,7 +17,7 @@ struct Cancelled {};  // thrown by CallScope::look; the entry points turn it int
 // Made at the boundary for each call; calls that callbacks make nest. look() is how work learns that it must stop.
 class CallScope {
  public:
-  // With a monitor look() calls its callback, so that Ctrl-C is heard; the work goes on until it asks the monitor.
+  // With a monitor look() calls its callback, so that Ctrl-C is heard; the work continues until it asks the monitor.
   // quiet: held while the callback runs, where other threads work for the same call.
   explicit CallScope(double memory_limit, Monitor *monitor = nullptr, std::mutex *quiet = nullptr)
       : CallScope(memory_limit, monitor, quiet, false) {}

@@ -4,7 +4,7 @@
 // dynamics/monte_carlo/geometry.hpp.
 //
 // The rows of a lower-triangular matrix are the cell vectors a_0, a_1, ...; its diagonal is positive. Then a_c is the
-// only vector up to c with a component c. So spheres can stand in the brick [0, a_00) x [0, a_11) x ..., which repeats
+// only vector up to c with a component c. So spheres can be in the brick [0, a_00) x [0, a_11) x ..., which repeats
 // on the lattice as the cell does. Likewise images are found one component after the other, from the last one.
 #pragma once
 #include <algorithm>

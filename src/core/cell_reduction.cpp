@@ -172,7 +172,7 @@ double orthogonality_defect(const Cell &cell) {
   return product;
 }
 
-// Reduced vectors of dense lattices have up to 2^(d/2). A search for images looks at up to 3^d times as many.
+// Reduced vectors of dense lattices have up to 2^(d/2). A search for images examines up to 3^d times as many.
 double defect_max(int dim) { return std::ldexp(1.0, dim + 2); }
 
 Cell upright(const Cell &cell) {

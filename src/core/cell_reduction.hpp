@@ -31,7 +31,8 @@ double orthogonality_defect(const Cell &cell);
 double defect_max(int dim);
 // The same lattice and the same brick by vectors whose tilts are at most half an edge; `cell` itself where they are.
 Cell upright(const Cell &cell);
-// The cell in which dynamics looks for pairs: upright, but for Mari-Kurchan shifts, which are fractions of the vectors.
+// The cell in which dynamics searches for pairs: upright, except for Mari-Kurchan shifts, which are fractions of the
+// vectors.
 Cell search_cell(const Packing &p);
 
 }  // namespace jam::inside

@@ -201,7 +201,7 @@ struct Enclosure {
   bool any() const { return container != JAM_CONTAINER_BRICK || walls != 0; }
   bool operator==(const Enclosure &other) const { return container == other.container && walls == other.walls; }
 };
-// The cell of these vectors, (dim, dim): no vector is replaced by a shorter one, as walls stand on the axes given.
+// The cell of these vectors, (dim, dim): no vector is replaced by a shorter one, as walls lie on the axes given.
 Cell walled_cell(int dim, const double *rows, const Enclosure &given);
 // The jam_container of a word of files; -1: none.
 int32_t container_of_word(const char *word);

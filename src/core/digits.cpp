@@ -49,7 +49,7 @@ Share multiples(const std::vector<double> &x, double scale, double noise, int ba
 }
 
 // The coarsest power of the base, no wider than `widest`, of which x are multiples; 0 without one. A sample says no at
-// once where the rule asks for more than half.
+// once where the rule requires more than half.
 double step_of(const std::vector<double> &x, double largest, double widest, int base, const Rule &rule) {
   if (!(largest > 0.0 && std::isfinite(widest))) return 0.0;
   const size_t stride = std::max<size_t>(1, x.size() / rule.sample) | 1;

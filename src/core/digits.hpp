@@ -1,5 +1,5 @@
 // How many digits the numbers have that a packing was given by. Numbers that came from a file may have been rounded:
-// then they are multiples of one step. It must be looked for before positions are wrapped, shifted or rotated.
+// then they are multiples of one step. It must be searched for before positions are wrapped, shifted or rotated.
 #pragma once
 #include <vector>
 

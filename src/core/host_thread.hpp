@@ -1,6 +1,6 @@
 // The host may cancel its thread (pthread_cancel) while a call runs. Unwinding from any system call would pass through
 // code that must finish, and through catch (...), which ends the process. So a call defers cancellation, and takes it
-// where it only waits for the other end of a pipe, which may be for ever.
+// where it only waits for the other end of a pipe, which may have no end.
 #pragma once
 
 namespace jam::inside {

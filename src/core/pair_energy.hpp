@@ -34,7 +34,7 @@ class PairEnergy {
 
   double alpha() const { return alpha_; }
   bool relative() const { return relative_; }
-  // f(v), where v(x) is the energy of x > 0. A loop inside f does not ask for the exponent at every pair.
+  // f(v), where v(x) is the energy of x > 0. A loop inside f does not test the exponent at every pair.
   template <class F>
   double with_value(F &&f) const {
     const double c = c_, alpha = alpha_;

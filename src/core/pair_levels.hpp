@@ -10,7 +10,7 @@
 
 namespace jam::inside {
 
-// The level of a reach: how often it is halved from the widest one, but for less than a factor of two.
+// The level of a reach: how often it is halved from the widest one, except for less than a factor of two.
 constexpr size_t most_halvings = 30;  // 1e9 between the widest and the narrowest
 inline size_t halvings(double reach, double widest) {
   size_t count = 0;

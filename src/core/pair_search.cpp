@@ -158,8 +158,8 @@ PairList by_brute_force(const Cutoff &cutoff) {
   return list;
 }
 
-// The pairs of spheres with those of their own level and coarser ones: the finer sphere looks for the coarser one in
-// the cells of the coarser level. A level whose cells would be too few is wide: its spheres look at all images of all
+// The pairs of spheres with those of their own level and coarser ones: the finer sphere searches for the coarser one in
+// the cells of the coarser level. A level whose cells would be too few is wide: its spheres examine all images of all
 // spheres as fine.
 class LevelSearch {
  public:

@@ -1,4 +1,4 @@
-// Every number that steers what core does. Limits of the input stand in limits.hpp, series and constants of functions
+// Every number that steers what core does. Limits of the input are in limits.hpp, series and constants of functions
 // in math.cpp and math_normal.cpp, fits to packings and quantiles of reports in size_report.cpp.
 #pragma once
 #include <cstddef>
@@ -20,7 +20,7 @@ struct PlaceTuning {
 // ---- reports of progress, in seconds
 struct ReportTuning {
   static constexpr double shortest_interval = 0.05;
-  static constexpr double longest_silence = 0.1;  // callers are promised one of 0.2 at most, between two looks
+  static constexpr double longest_silence = 0.1;  // callers are granted one of 0.2 at most, between two checks
 };
 
 // ---- the time that is left: records that are kept, and how many are needed

@@ -24,7 +24,7 @@ struct Limits {
   double wall_time = no_limit;     // seconds, of this call
 };
 
-// Who hears of a run while it goes on; observer and on_snapshot may be empty.
+// The listeners during a run; observer and on_snapshot may be empty.
 struct Listeners {
   Monitor *monitor = nullptr;  // cancellation, progress, log
   Observer *observer = nullptr;
@@ -41,7 +41,7 @@ class Dynamics {
   virtual jam_status run(const Limits &limits, const Listeners &listeners) = 0;
   // The state when the last run returned.
   virtual const Packing &packing() const = 0;
-  // The state now, for listeners while a run goes on.
+  // The state now, for listeners during a run.
   virtual Packing current() const = 0;
   // Writes or reads all that the coming events depend on. Observers are not part of it.
   virtual void archive(Archive &a) = 0;

@@ -1,5 +1,5 @@
-// Every number that steers a dynamics: what is chosen for speed, and what tells noise from physics. Limits of the input
-// stand in core/limits.hpp, the numbers of a file's format and of physics where they belong.
+// Every number that steers a dynamics: what is chosen for speed, and what separates noise from physics. Limits of the
+// input are in core/limits.hpp, the numbers of a file's format and of physics where they belong.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -9,7 +9,7 @@ namespace jam::inside {
 // Overlaps of the start that a run takes as rounding, in contact distances.
 constexpr double overlap_of_rounding = 1e-10;
 
-// ---- event-driven: neighbour lists. Lengths in diameters; the unit of cost is one neighbour looked at.
+// ---- event-driven: neighbour lists. Lengths in diameters; the unit of cost is one neighbour examined.
 struct ListTuning {
   // The shell s: a sphere may go so far before its list is made again. At first it is `first_shell` less `per_fraction`
   // times the packing fraction; the Mari-Kurchan model, whose searches cost more, has a wider one.
@@ -22,7 +22,7 @@ struct ListTuning {
   // How far lists may reach, in V^(1/d): without images differences must not wrap, with them the integers must hold it.
   static constexpr double reach_wrapped = 0.4999, reach_cube = 1.4, reach_cell = 2.8;
   static constexpr double longest_distance = 12.0;  // of two spheres in each other's list: integers hold it in any cell
-  // The shell is chosen anew after so many collisions or exits a sphere. A collision costs 2 (14 + L) for a list of L;
+  // The shell is chosen again after so many collisions or exits a sphere. A collision costs 2 (14 + L) for a list of L;
   // each of the exits that come with it costs 30 + 4 L + the search. Exits fall as s^-1.6. With this the rate was
   // within 6 % of the best of fixed shells at packing fractions 0.27 to 0.6. A gain below 3 % does not pay for new
   // lists.

@@ -25,7 +25,7 @@ namespace {
 // where the tilt is large: vectors whose orthogonality defect is larger are not kept, and a crunch adds strains of
 // order one.
 double tilt_max(int dim) { return 2.0 * defect_max(dim); }
-// Lattice vectors that the search for the shortest one may look at. Of 1500 reduced cells in d = 8 none had more
+// Lattice vectors that the search for the shortest one may examine. Of 1500 reduced cells in d = 8 none had more
 // than 1.1e4.
 constexpr double vectors_max = 1e7;
 

@@ -23,7 +23,7 @@ struct FileContent {
   std::vector<double> diameter;  // n, or 1 for all
   std::vector<double> origin;    // what the reader has subtracted from the positions of the file; empty: nothing
   bool knows_origin = false;     // the file says where the corner of its cell is
-  GivenDigits given() const;     // of the numbers as they stand in the file
+  GivenDigits given() const;     // of the numbers as they are in the file
   Notes notes;                   // what of the file was dropped, wrapped, sorted or assumed
   bool has_box() const { return box > 0.0 || !cell.empty(); }
 };

@@ -23,7 +23,7 @@ constexpr uint32_t walls = 1, cells = 2, non_additivity = 4, density = 8, scene 
 
 struct Format {
   Content content;
-  int32_t number;       // jam_format or jam_contact_format; 0: none, as nobody chooses it by number
+  int32_t number;       // jam_format or jam_contact_format; 0: it cannot be chosen by number
   const char *word;     // one word for it, as in the enum
   const char *name;     // in sentences
   const char *endings;  // of names, parted by blanks; "-" is a name without an ending

@@ -1,4 +1,4 @@
-// The page to look at: one HTML file with the packing in it. Its text and scripts are in io/page.
+// The page to view: one HTML file with the packing in it. Its text and scripts are in io/page.
 #pragma once
 #include <string>
 #include <utility>
@@ -33,7 +33,7 @@ struct PageContent {
   const jam_crunch_report *report = nullptr;  // its numbers are shown as the certificate
   bool crunched = false;                      // the report is of a crunch
   std::string stop_reason{};
-  std::string proof{};            // what was proved; empty where nothing was asked for
+  std::string proof{};            // what was proved; empty where nothing was requested
   std::vector<double> gaps{};     // of pairs that are no contacts, ascending
   std::vector<double> history{};  // relative growth of the diameters in each step of the crunch
   std::vector<PageStep> steps{};  // the slider: the last one is the packing itself; empty: no slider

@@ -29,8 +29,8 @@ Target follow_links(std::string path);
 
 // Opening a pipe does not wait for its writer: readable() does.
 int open_input(const char *path);
-// A copy of the target's descriptor, which goes on where its host stands, or the path opened to append to it. EAGAIN: a
-// pipe that nobody reads yet.
+// A copy of the target's descriptor, which continues where its host stands, or the path opened to append to it. EAGAIN:
+// a pipe without a reader.
 int open_in_place(const Target &target, const char *path);
 void pause(int milliseconds);
 // Within so many milliseconds: a read or write of up to at_once bytes will not wait.

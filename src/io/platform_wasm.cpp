@@ -1,5 +1,5 @@
 // Files where there is no file system, in WebAssembly: bytes in memory under a name, which the bindings put and take by
-// the calls at the end. Nobody else can open them, so there are no links, pipes, locks or permissions.
+// the calls at the end. No other process can open them, so there are no links, pipes, locks or permissions.
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
@@ -133,7 +133,7 @@ void sync_folder_of(const std::string &) {}
 void remove(const std::string &name) { files().erase(plain(name)); }
 void remove_unlocked(const std::string &name) {
   const auto file = files().find(plain(name));
-  if (file != files().end() && file->second.use_count() == 1) files().erase(file);  // nobody has it open
+  if (file != files().end() && file->second.use_count() == 1) files().erase(file);  // it is open nowhere
 }
 long process() { return 1; }
 

@@ -95,7 +95,7 @@ Kind kind_of(const char *path) {
   BY_HANDLE_FILE_INFORMATION about;
   if (!there.there()) {
     set_errno();
-    return errno == EACCES ? Kind::file : Kind::none;  // one that nobody else may open is there
+    return errno == EACCES ? Kind::file : Kind::none;  // one that no other process may open is there
   }
   if (::GetFileType(there.handle) != FILE_TYPE_DISK || !::GetFileInformationByHandle(there.handle, &about))
     return Kind::other;
@@ -170,7 +170,7 @@ std::ptrdiff_t write(int file, const char *from, size_t size) {
 bool sync(int file) { return ::_commit(file) == 0; }
 bool close(int file) { return ::_close(file) == 0; }
 
-// The lock: nobody else may open it to write while it is open here.
+// The lock: no other process may open it to write while it is open here.
 int create_locked(const std::string &name) {
   return descriptor_of(::CreateFileW(wide(name).c_str(), GENERIC_WRITE | DELETE, FILE_SHARE_READ | FILE_SHARE_DELETE,
                                      nullptr, CREATE_NEW, FILE_ATTRIBUTE_NORMAL, nullptr),

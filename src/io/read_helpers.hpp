@@ -119,7 +119,7 @@ void take_rows(std::vector<double> rows, FileContent &content);  // the same, er
 // third coordinates go, and the file's dimension is 2. positions: (n, 3).
 void take_plane(const std::vector<double> &positions, double low, double high, FileContent &content);
 
-// The frame that was asked for. read_one(content, k) reads frame k, false where the file ends before it.
+// The frame that was requested. read_one(content, k) reads frame k, false where the file ends before it.
 template <class ReadOne>
 FileContent choose_frame(LineReader &in, int64_t frame, ReadOne &&read_one);
 

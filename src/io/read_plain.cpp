@@ -43,7 +43,7 @@ void take_vectors(const LineReader &in, FileContent &content) {
   take_cell(in, std::move(rows), content);
 }
 
-// n rows; where cell vectors may stand before them, up to `more` others.
+// n rows; where cell vectors may be before them, up to `more` others.
 void read_rows(LineReader &in, int64_t n, bool each, int more, const ReadOptions &options, FileContent &content) {
   const size_t columns = static_cast<size_t>(content.dim) + (each ? 1 : 0);
   std::vector<std::string_view> words;

@@ -1,4 +1,4 @@
-// Tables of columns: blanks or commas part them, names stand on the first line, in a comment, or nowhere.
+// Tables of columns: blanks or commas part them, names are on the first line, in a comment, or nowhere.
 #include <algorithm>
 
 #include "io/read_helpers.hpp"
@@ -136,7 +136,7 @@ bool read_yade(const LineReader &in, std::string_view comment, FileContent &cont
   return true;
 }
 
-// Reads the lines before the first row of numbers. Names stand on the last of them, or in a comment of as many words as
+// Reads the lines before the first row of numbers. Names are on the last of them, or in a comment of as many words as
 // the row has.
 TableColumns find_names(LineReader &in, FileContent &content) {
   const Head head(in.head(), "");

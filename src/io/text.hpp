@@ -18,7 +18,7 @@ class LineReader {
   // The first 64 KiB, or less: which decide the format. Before the first next().
   std::string_view head() const { return {buffer_.data() + begin_, end_ - begin_}; }
   // The next line without its end in `line`; false at the end of the file. A last line without an end is refused, as
-  // the file may be cut inside its last number, unless the caller looks at cut_short() itself.
+  // the file may be cut inside its last number, unless the caller tests cut_short() itself.
   bool next(std::string_view &line, bool looks = false);
   // As next, skipping blank lines.
   bool next_filled(std::string_view &line, bool looks = false);

@@ -1,6 +1,6 @@
 // The dense products and triangular solves of the factorisation, by one of two files that CMake's JAM_BLAS chooses:
 // blas/builtin.cpp has loops of its own, the default, blas/fortran.cpp calls a BLAS library. Matrices are stored by
-// columns; ld: the distance of two columns. L is lower triangular, and what stands above its diagonal is never read.
+// columns; ld: the distance of two columns. L is lower triangular, and what is above its diagonal is never read.
 #pragma once
 #include <cstddef>
 #include <memory>
@@ -33,7 +33,7 @@ struct Blas {
 // bits of sums depend (blas/single_thread.hpp).
 const char *blas_kernel();
 
-// Of the threads that a call asks for, those that may compute products side by side while this lives: all of them by
+// Of the threads that a call requests, those that may compute products side by side while this lives: all of them by
 // our own loops, perhaps fewer by a library (blas/single_thread.hpp).
 class BlasThreads {
  public:

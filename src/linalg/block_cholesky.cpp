@@ -81,7 +81,7 @@ void BlockCholesky::extend_add(int32_t child, Real *update, Workers &workers) {
   });
 }
 
-// A parent's Schur complement goes on the other of two stacks than its children's, which are dropped from the top of
+// A parent's Schur complement is put on the other of two stacks than its children's, which are dropped from the top of
 // theirs when it is done: nothing is ever moved.
 template <class Real>
 void BlockCholesky::eliminate(int32_t index, const double *diag, const double *off, Stack &stack, Workers &workers,

@@ -33,7 +33,7 @@ class BlockCholesky {
   // component of the solution at 0 (S. J. Wright, Primal-Dual Interior-Point Methods, SIAM 1997, ch. 11). Returns how
   // many were; -1: the result is not finite. In single precision it takes some half of the time, and solutions have six
   // digits over the condition number; matrix and solutions stay doubles. A pivot lost there is replaced by the bound,
-  // so that the factor still serves as a preconditioner.
+  // so that the factor can still be a preconditioner.
   int factorise(const double *diag, const double *off, Precision precision = Precision::full);
   // x := A^-1 x, n * dim. May run on several x at once from different threads.
   void solve(double *x) const { solve_many(x, 1); }

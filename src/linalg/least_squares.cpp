@@ -7,7 +7,7 @@
 namespace jam::inside {
 
 // Conjugate gradients on A^T A u = A^T b from 0: the directions stay in the range of A^T, so that u is the shortest
-// one. They end after d steps but for rounding; as many again take that out.
+// one. They end after d steps except for rounding; as many again take that out.
 std::vector<double> least_squares(int d, const std::vector<double> &a, const std::vector<double> &b) {
   const size_t n = static_cast<size_t>(d), m = b.size();
   std::vector<double> u(n, 0.0), down(n, 0.0), slope(n), left(b), along(m);

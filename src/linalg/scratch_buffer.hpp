@@ -7,7 +7,7 @@ namespace jam::inside {
 
 // Doubles, or as many floats in half the room, that are written before they are read. Nothing is cleared, since
 // gigabytes take seconds. The old block goes before the new one comes. A new one is an eighth larger than asked, so
-// that a list with a few pairs more fits into it. Pages beyond what was asked for stay untouched.
+// that a list with a few pairs more fits into it. Pages beyond what was requested stay untouched.
 class ScratchBuffer {
  public:
   void need(size_t size) {

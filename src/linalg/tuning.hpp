@@ -38,7 +38,7 @@ struct BlasTuning {
   static constexpr int most = 120;   // of all calls together; the rest is left to the host
 };
 
-// ---- sizes of the parts that threads take, and of the work between two looks at the caller's callback
+// ---- sizes of the parts that threads take, and of the work between two checks of the caller's callback
 struct ThreadTuning {
   static constexpr int most_parts = 4;          // of one product: narrower ones take more time in all
   static constexpr double product = 1e7;        // multiplications of a part of a dense product

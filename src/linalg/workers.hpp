@@ -13,7 +13,7 @@ class Workers {
  public:
   // If the system starts fewer threads, those that run take all parts.
   explicit Workers(int threads) : Workers(threads, threads > 1) {}
-  // cuts: whether work is cut into parts. A call that asked for several threads and got one cuts too, for the same
+  // cuts: whether work is cut into parts. A call that requested several threads and got one cuts too, for the same
   // bits.
   Workers(int threads, bool cuts);
   ~Workers();

@@ -1,4 +1,4 @@
-// A build without Clp (JAM_CLP=OFF): what asks for it gets no answer, and the log says why.
+// A build without Clp (JAM_CLP=OFF): a call that needs it gets no answer, and the log says why.
 #include "lp/packing_lp.hpp"
 
 namespace jam::inside {

@@ -12,7 +12,7 @@ namespace jam::inside {
 class CentralPath {
  public:
   explicit CentralPath(const ConstraintRows &rows);
-  // One step towards a smaller mu. False where steps have become too short to go on.
+  // One step towards a smaller mu. False where steps have become too short to continue.
   bool step();
 
   double mu() const { return mu_; }

@@ -99,7 +99,7 @@ bool normalise(const RigidityMatrix &g, std::vector<double> &v) {
   return true;
 }
 
-// Least rate at which contacts open, but for those of released spheres, and of them.
+// Least rate at which contacts open, except for those of released spheres, and of them.
 struct Opening {
   double held = std::numeric_limits<double>::infinity(), released = held;
 };

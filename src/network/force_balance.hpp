@@ -27,7 +27,7 @@ bool pushes_only(const ContactNetwork &net);
 class GapRows {
  public:
   // system: holds the graph of the contacts. ground: diagonal that fixes translations; on rattlers it is 1. Iterative
-  // refinement wins back the accuracy. net and a are kept by reference.
+  // refinement restores the accuracy. net and a are kept by reference.
   GapRows(const ContactNetwork &net, int dim, const std::vector<double> &a, double ground, NewtonSystem &system);
   // Weights of the rows in the norms below, instead of 1; before factorise().
   void weigh(const std::vector<double> &weight) { weight_ = weight; }

@@ -19,7 +19,7 @@ class NearestPoint {
   explicit NearestPoint(int dim) : d_(dim) {}
 
   // The largest s found for which a unit vector `direction` has n . direction >= s for every contact vector n: the
-  // distance of the hull from the origin but for rounding. 0 where the origin is inside.
+  // distance of the hull from the origin except for rounding. 0 where the origin is inside.
   double distance(const std::vector<double> &normal, std::vector<double> &direction) {
     const int z = static_cast<int>(normal.size()) / d_;
     support_.assign(1, 0), weight_.assign(1, 1.0);

@@ -1,6 +1,6 @@
 // The rule for rattlers: a sphere is a rattler when no contact on it can carry force in a balance of non-negative
 // forces. The number of its contacts does not matter: two opposite contacts can squeeze a sphere, and d + 1 contacts on
-// one side cannot. Here each sphere is looked at by itself, which finds most of them at once; rigidity_test.hpp decides
+// one side cannot. Here each sphere is examined by itself, which finds most of them at once; rigidity_test.hpp decides
 // on the whole network.
 #pragma once
 #include <cstddef>

@@ -2,8 +2,8 @@
 // and the check of a packing ask here.
 //
 // Numbers that came from a file may have few digits. Rounding coordinates to multiples of a step moves each of two
-// spheres by up to sqrt(d) step / 2, so the distance of a contact is wrong by up to sqrt(d) step. The same bound serves
-// for rounded diameters (by step) and cell vectors (by sqrt(d) step / 2).
+// spheres by up to sqrt(d) step / 2, so the distance of a contact is wrong by up to sqrt(d) step. The same bound is
+// used for rounded diameters (by step) and cell vectors (by sqrt(d) step / 2).
 #pragma once
 #include <cstdint>
 

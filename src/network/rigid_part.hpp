@@ -1,7 +1,7 @@
 // Jamming from a part of the contacts: a set K with a positive self-stress whose rows hold their spheres B rigidly.
 // B then balances any load, so that every contact within B carries force too, however weak. The rest is tested with B
 // as one body. This decides networks with forces of 1e-8 of the mean, where no certificate of all contacts at once
-// stands above rounding.
+// is above rounding.
 #pragma once
 #include "network/rigidity_test.hpp"
 #include "network/stress_cone.hpp"

@@ -31,7 +31,7 @@ void count_carrying(const RigidityMatrix &carrying, int strains, RigidityResult 
   out.undercoordinated = std::count_if(z.begin(), z.end(), [d](int32_t c) { return c <= d; });
 }
 
-// Without round walls the sum of forces times second derivatives of distances is positive, but for flexes that move
+// Without round walls the sum of forces times second derivatives of distances is positive, except for flexes that move
 // each part of the network as a whole. Where there are no others nothing opens.
 void test_slides(const RigidityMatrix &carrying, std::vector<std::vector<double>> &flexes, RigidityResult &out) {
   Slides slides = find_slides(carrying);
@@ -221,7 +221,7 @@ bool test_by_strict(const RigidityMatrix &g, RigidityResult &out) {
   return false;
 }
 
-// Spheres whose contact vectors nearly but not quite balance, as two that are opposite but for 1e-6, carry no force,
+// Spheres whose contact vectors nearly but not quite balance, as two that are opposite except for 1e-6, carry no force,
 // and each can slip out. Vectors are known to rounding, so that none is too near to a balance. Without them the rest
 // may be proved jammed. False where it is not.
 bool test_without_unbalanced(const RigidityMatrix &g, Jamming kind, RigidityResult &out) {

@@ -44,9 +44,9 @@ struct RigidityResult {
   int64_t zero_force_contacts = 0;  // contacts without force in every state
   int64_t contacts_needed = 0;      // collective: d (N' - 1) + 1; strict: d (N' - 1) + d (d + 1) / 2
   int64_t self_stresses = 0;        // states of self-stress on K+
-  int64_t flexes = 0;  // motions of B with S v = 0 on K+ beyond symmetries; 0 without a stress. Of a jammed
-                       // packing the curvature of a round wall stabilises them
-  int64_t slides = 0;  // of these flexes, where these keep all distances for ever and no other is free (slides.hpp)
+  int64_t flexes = 0;            // motions of B with S v = 0 on K+ beyond symmetries; 0 without a stress. Of a jammed
+                                 // packing the curvature of a round wall stabilises them
+  int64_t slides = 0;            // of these flexes, if no other flex is free (slides.hpp)
   int64_t undercoordinated = 0;  // spheres of B with d contacts of K+ or fewer
   // Smallest eigenvalue on K+ of S^T S of motions that are neither symmetries nor flexes, with strains in the strict
   // test and where own images alone hold a sphere; 0 where there is no other motion.

@@ -29,7 +29,7 @@ struct StressStates {
   int64_t dimension = 0;
   int64_t zero_modes = 0;
   std::vector<double> force;  // mean 1; the analytic centre of the non-negative ones when dimension > 1
-  std::vector<double> basis;  // (dimension, contacts) orthonormal, when asked for
+  std::vector<double> basis;  // (dimension, contacts) orthonormal, when requested
   double residual = 0.0;      // largest |sum_j f_ij n_ij| over mean force
   double min_force = 0.0;     // over the mean
   bool positive = false;      // all forces > 0 (>= 0 when dimension > 1) and one is > 0

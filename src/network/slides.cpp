@@ -9,7 +9,7 @@
 namespace jam::inside {
 namespace {
 
-// The part of each node: nodes with a contact between them are in one, but for nodes that are `left` out.
+// The part of each node: nodes with a contact between them are in one, except for nodes that are `left` out.
 std::vector<int32_t> parts_of(const RigidityMatrix &g, const std::vector<char> &left) {
   std::vector<int32_t> part(static_cast<size_t>(g.nodes));
   std::iota(part.begin(), part.end(), 0);

@@ -1,5 +1,5 @@
-// Motions of parts of a network that keep all distances for ever: two parts that no contact joins slide past each
-// other.
+// Motions of parts of a network that keep all distances at any amplitude: two parts that no contact joins slide past
+// each other.
 #pragma once
 #include <cstdint>
 #include <vector>

@@ -1,6 +1,6 @@
 // Supercells: copies of a packing side by side, with its contacts and forces.
 //
-// Copy k = (k_0, k_1, ...) stands at sum k_c a_c. A contact of i and j whose partner is shifted by -sum s_c a_c joins
+// Copy k = (k_0, k_1, ...) is at sum k_c a_c. A contact of i and j whose partner is shifted by -sum s_c a_c joins
 // copy k of i and copy (k - s) mod count of j; what the modulus takes off is a vector of the new lattice.
 #pragma once
 #include <array>

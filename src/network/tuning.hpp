@@ -1,4 +1,4 @@
-// Every number that steers the work on contact networks. Limits of gaps stand in resolution.hpp, those of eigenvalues
+// Every number that steers the work on contact networks. Limits of gaps are in resolution.hpp, those of eigenvalues
 // in rigidity_test.hpp: they are part of what a verdict means.
 #pragma once
 #include <cstddef>

@@ -1,4 +1,4 @@
-// Balls cut by half-spaces, and by one more ball or a cylinder: their volumes, in closed form but for the cylinder.
+// Balls cut by half-spaces, and by one more ball or a cylinder: their volumes, in closed form except for the cylinder.
 #pragma once
 #include <vector>
 

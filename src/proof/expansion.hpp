@@ -39,7 +39,7 @@ class Expansion {
     for (size_t k = 0; k < a.count_; ++k)
       for (size_t q = 0; q < b.count_; ++q) add_product(sign * a.part_[k], b.part_[q]);
   }
-  // The nearest double but for one rounding.
+  // The nearest double except for one rounding.
   double value() const {
     double s = 0.0;
     for (size_t k = 0; k < count_; ++k) s += part_[k];

@@ -141,7 +141,7 @@ NormalMatrix::Bound NormalMatrix::bound() {
                           forming_error());
     const double left = sub_down(mu, out.rounding);
     if (!(left > 0.0)) continue;
-    // R differs from its rounded rows by half_ulp in each entry; a row stands at each of its ends.
+    // R differs from its rounded rows by half_ulp in each entry; a row is at each of its ends.
     const double all = mul_up(rows, sqrt_up(largest_weight(scene_)));
     out.singular = std::max(0.0, sub_down(sqrt_down(left), mul_up(2.0 * half_ulp, mul_up(2.0, all))));
     if (out.singular > 0.0) return out;

@@ -20,7 +20,7 @@ struct NearPair {
   std::vector<int32_t> image;  // n of x_i - x_j + n A
   double opening;              // |r|^2 / sigma^2 - Gamma at the scene's exact numbers, rounded once
 };
-// All pairs that are no contacts with relative gaps up to proof_tuning::near, but for a sphere and its own images.
+// All pairs that are no contacts with relative gaps up to proof_tuning::near, except for a sphere and its own images.
 std::vector<NearPair> near_pairs(const ProofScene &scene);
 Expansion apart(const ProofScene &scene, const NearPair &pair, size_t component);  // of x_i - x_j + n A
 double opening_of(const ProofScene &scene, const NearPair &pair);

@@ -79,7 +79,7 @@ ProofScene make_proof_scene(const Packing &p, const ContactNetwork &network, con
 // The same without the search for implied contacts, which takes most of the time of a crystal of disks.
 ProofScene scene_of_contacts(const Packing &p, const ContactNetwork &network, const std::vector<double> &ratio);
 
-// The integer vector n with offset = n A but for rounding; false where it is none (Mari-Kurchan shifts).
+// The integer vector n with offset = n A except for rounding; false where it is none (Mari-Kurchan shifts).
 bool lattice_image(const Cell &cell, const double *offset, int32_t *n);
 
 // All equations at the scene's numbers, rounded once, and the rows of their derivatives.

@@ -28,6 +28,6 @@ constexpr double weak = 1e-5;         // forces over the mean, below which liste
 constexpr double parts_of_eigenvalue[] = {0.6, 0.3, 0.1};
 constexpr int patch = 6;             // tiles that far from a contact may imply it
 constexpr double clear_turn = 1e-3;  // least sine of a tile's corner: far above any radius
-constexpr double near = 1e-3;        // relative gaps up to this are looked at with exact numbers
+constexpr double near = 1e-3;        // relative gaps up to this are examined with exact numbers
 
 }  // namespace jam::inside::proof_tuning

@@ -71,7 +71,7 @@ DescentEnd newton(Relaxation &r, double tolerance, SoftHessian &hessian, double 
 DescentEnd hybrid(Relaxation &r, double tolerance, bool near_minimum) {
   SoftHessian hessian;
   // Below alpha = 2 the stiffness of a contact grows without bound as it opens. The time step of FIRE follows the mean
-  // one, so such contacts chatter: at alpha = 3/2 it stays at a residual of 1e-4, while L-BFGS goes on.
+  // one, so such contacts chatter: at alpha = 3/2 it stays at a residual of 1e-4, while L-BFGS continues.
   const bool stiffens_at_contact = r.state.energy().alpha() < 2.0;
   double target = NewtonTuning::settled;
   for (bool descend = !near_minimum;; descend = true) {

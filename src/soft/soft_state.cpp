@@ -265,7 +265,7 @@ std::vector<char> stable_contacts(const SoftState &state, const SoftContacts &co
   std::vector<char> on;
   for (const size_t k : contacts.pair) {
     list.i.push_back(state.pairs().i[k]), list.j.push_back(state.pairs().j[k]);
-    // An image of the same sphere holds nothing, but for the cell.
+    // An image of the same sphere holds nothing, except for the cell.
     on.push_back(state.strains() > 0 || list.i.back() != list.j.back());
   }
   drop_loose(state.dim(), state.n(), state.base().container, list.i, list.j, on);

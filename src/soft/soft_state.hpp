@@ -1,7 +1,7 @@
 // Soft spheres: positions to twice the digits of a double, and the energy, forces and contacts that follow from them.
 //
 // In plain doubles the overlap of a pair is known to 1e-16 of a diameter, so that forces balance to 1e-16 / overlap at
-// best. Here a sphere stands at base + displacement. Each pair keeps sigma^2 - r^2 of the base positions, taken in
+// best. Here a sphere is at base + displacement. Each pair keeps sigma^2 - r^2 of the base positions, taken in
 // double-double, and small displacements change it without cancellation:
 //     sigma^2 - r^2 = reference - du . (2 r0 + du),     overlap = (sigma^2 - r^2) / (sigma + r).
 // A wall is a contact at distance r = sigma = radius; its reference is the overlap itself, which the container changes.
@@ -78,7 +78,7 @@ class SoftState {
   // Displacements since the last rebase; call moved() after a change.
   std::vector<double> &displacement() { return displacement_; }
   const std::vector<double> &displacement() const { return displacement_; }
-  // Makes the neighbour list and its references anew where spheres have gone farther than the list allows. True then:
+  // Makes the neighbour list and its references again where spheres have gone farther than the list allows. True then:
   // displacements have got another origin.
   bool moved();
   // The same in any case. Left by Cancelled, the state is where the list before was made.

@@ -1,5 +1,5 @@
 // Walls of a soft state: a sphere at a wall is a contact at distance r = sigma = radius. Beyond the wall r is negative,
-// and the force goes on growing.
+// and the force continues to grow.
 #include <algorithm>
 
 #include "soft/soft_state.hpp"

@@ -23,15 +23,15 @@ struct LbfgsTuning {
   static constexpr double least_return = 0.1;  // of the way to a point behind the minimum
 };
 
-// ---- both: evaluations between two looks at which spheres are stable
+// ---- both: evaluations between two tests of which spheres are stable
 constexpr int64_t evaluations_between_looks = 64;
 
 // ---- Newton's method after FIRE or BFGS, by Levenberg and Marquardt
 struct NewtonTuning {
-  static constexpr double settled = 1e-4;       // residual from which Newton is tried first
-  static constexpr double next_target = 0.1;    // after Newton has failed, descent goes on to this part of the residual
-  static constexpr double longest_move = 0.05;  // in one step
-  static constexpr double good_factor = 0.2;    // a step that leaves less of the residual needs no new factor
+  static constexpr double settled = 1e-4;     // residual from which Newton is tried first
+  static constexpr double next_target = 0.1;  // after Newton has failed, descent continues to this part of the residual
+  static constexpr double longest_move = 0.05;       // in one step
+  static constexpr double good_factor = 0.2;         // a step that leaves less of the residual needs no new factor
   static constexpr double energy_is_blind = 1e-6;    // residual below which the slope is tested in place of the energy
   static constexpr double leaves_saddle = 100.0;     // growth of the residual: the start was near a saddle
   static constexpr double rattlers_balanced = 1e-6;  // forces on rattlers: what touches them is done
@@ -58,7 +58,7 @@ struct CageTuning {
   static constexpr int sweeps = 120;
 };
 
-// ---- neighbour lists: reach beyond contact. It grows where lists are made anew within few evaluations.
+// ---- neighbour lists: reach beyond contact. It grows where lists are rebuilt within few evaluations.
 struct SkinTuning {
   static constexpr double shortest = 0.1, longest = 0.4, grow = 1.5, shrink = 0.5;
   static constexpr int64_t few_evaluations = 25, many_evaluations = 250;
@@ -75,7 +75,7 @@ struct RelaxTuning {
   // The minimum of a fixed cell is found to this residual before the cell is free. Mean forces below the part weak_part
   // of what the pressure makes of one contact a sphere are none.
   static constexpr double before_strain = 1e-6, weak_part = 1e-3;
-  // The state that is handed out has rounded positions. Where they do not balance, the descent goes on, at most this
+  // The resulting state has rounded positions. Where they do not balance, the descent continues, at most this
   // many times.
   static constexpr int most_roundings = 4;
 };

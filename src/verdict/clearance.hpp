@@ -12,7 +12,7 @@ ContactNetwork blocking_pairs(const Packing &p, const ContactNetwork &carrying, 
                               bool strain, bool own_images);
 
 // Whether no pair blocks the flex of a no, `taken` being the contacts of v that count as closed. If one does, a flex
-// that keeps these pairs as well is looked for, and replaces it.
+// that keeps these pairs as well is searched for, and replaces it.
 bool find_unblocked_flex(const Packing &p, const std::vector<char> &taken, Jamming kind, PackingVerdict &v);
 
 // A motion of some spheres and a strain (empty: none), the largest displacement 1.

@@ -139,7 +139,7 @@ Says test_single_sphere(JammingCase &c) {
   return strict.stressed == Verdict::yes ? Verdict::yes : Verdict::undecided;
 }
 
-// A contact that stays open is none: only closed ones prove a packing jammed, whoever lists them.
+// A contact that stays open is none: only closed ones prove a packing jammed, whatever list has them.
 Says doubt_open_contacts(JammingCase &c) {
   bool open = false;
   for (size_t k = 0; k < c.v.contacts.size(); ++k)

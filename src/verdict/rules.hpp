@@ -1,4 +1,4 @@
-// The rules of a verdict. Each looks at one packing and one kind of jamming, and says an answer or nothing.
+// The rules of a verdict. Each examines one packing and one kind of jamming, and gives an answer or nothing.
 #pragma once
 #include <optional>
 #include <vector>
@@ -41,7 +41,7 @@ void try_rules(JammingCase &c, Rule first, Rule last);
 // saddle, as far as two doubles show.
 Says recheck_weak_forces(JammingCase &c);
 // Undecided contacts that carry force: a yes where theorem.hpp proves that their spheres are trapped. Soft modes that
-// doubles cannot tell from flexes are decided so.
+// doubles cannot distinguish from flexes are decided so.
 Says raise_if_trapped(JammingCase &c);
 
 }  // namespace jam::inside

@@ -1,4 +1,4 @@
-// Every number that steers the verdict on a packing. Limits of gaps stand in network/resolution.hpp, those of
+// Every number that steers the verdict on a packing. Limits of gaps are in network/resolution.hpp, those of
 // eigenvalues in network/rigidity_test.hpp: they are part of what a verdict means.
 #pragma once
 

@@ -45,14 +45,14 @@ enum class Rule {
 // What an answer rests on.
 struct Evidence {
   RigidityResult result;                              // of the contacts: forces, counts, motions
-  ContactNetwork contacts;                            // all that the test looked at, force as in result
+  ContactNetwork contacts;                            // all that the test examined, force as in result
   std::vector<int32_t> sphere;                        // node of result.flex -> sphere
   int64_t undecided_contacts = 0;                     // of `contacts` that are open by contact_gap_limit or more
   Verdict answer_if_all_closed = Verdict::undecided;  // with all pairs in doubt closed
   // The least force of an undecided packing whose contacts do not close together in two doubles; else 0.
   double unresolved = 0.0;
   std::string unresolved_because;  // what might decide it and could not be tried, as the end of a sentence; or empty
-  // The carrying contacts and their forces: the network that crunch and analysis go on with.
+  // The carrying contacts and their forces: the network that crunch and analysis continue with.
   ContactNetwork carrying(int dim) const { return subset(contacts, result.carrying, dim); }
 };
 
@@ -70,10 +70,10 @@ bool may_touch_own_image(const Packing &p, const GapResolution &resolution);
 // Both questions about one packing. They share their tests, each of which is made when it is needed.
 class JammingTest {
  public:
-  // known: the network that is stored with the packing, or NULL. Positions alone say which spheres touch, but for own
-  // images. A "no" becomes "undecided" if some pairs touch and the packing would be jammed with its nearly closed pairs
-  // closed (pairs of the known network, or those before the largest jump of gaps).
-  // overlapping: spheres overlapped beyond digits and rounding, and p has smaller ones.
+  // known: the network that is stored with the packing, or NULL. Positions alone say which spheres touch, except for
+  // own images. A "no" becomes "undecided" if some pairs touch and the packing would be jammed with its nearly closed
+  // pairs closed (pairs of the known network, or those before the largest jump of gaps). overlapping: spheres
+  // overlapped beyond digits and rounding, and p has smaller ones.
   JammingTest(const Packing &p, const GapResolution &resolution, const ContactNetwork *known, bool overlapping = false)
       : p_(p), resolution_(resolution), known_(known), overlapping_(overlapping) {}
   const PackingVerdict &verdict(Jamming kind) { return kind == Jamming::strict ? strict() : collective(); }

@@ -1,5 +1,5 @@
 // The engine to bytes and back: all that the coming events depend on, in one list. What follows from the packing (the
-// shifts of the Mari-Kurchan model) is made anew.
+// shifts of the Mari-Kurchan model) is rebuilt.
 #pragma once
 #include <algorithm>
 #include <cmath>

@@ -14,7 +14,7 @@ namespace jam::inside {
 
 constexpr double never = std::numeric_limits<double>::infinity();
 
-// What happens to a sphere next; the time stands apart, so that many times fit into a line of the cache.
+// What happens to a sphere next; the time is stored apart, so that many times fit into a line of the cache.
 struct Event {
   int32_t partner = -1;                   // sphere to collide with; -1: leaves its safe sphere; -2 - w: meets wall w
   uint32_t partner_count = 0, count = 0;  // collisions of the partner when this was predicted; own collisions

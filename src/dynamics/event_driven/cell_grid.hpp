@@ -93,7 +93,7 @@ struct CellGrid {
     const double width = 2.0 * static_cast<double>(range_within(reach)) + 1.0;
     return math::pow(std::min(width, static_cast<double>(side)), D);
   }
-  // Of a search among n spheres, which looks at all of them where they are fewer than the cells.
+  // Of a search among n spheres, which examines all of them where they are fewer than the cells.
   double cost_within(double reach, int32_t n, const Lattice<D> &lattice) const {
     const double all = 0.5 * n, cells = used() ? cells_within(reach, lattice) : all;
     return used() ? std::min(all, 0.5 * cells * (1.0 + n / static_cast<double>(total()))) : all;

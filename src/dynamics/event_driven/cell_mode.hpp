@@ -92,7 +92,7 @@ struct CellMode {
     a(on);
     a(cell);
   }
-  // Each sphere stands in its cell, and in no other.
+  // Each sphere is in its cell, and in no other.
   void check(int32_t n, const Lattice<D> &lattice) {
     const double cells = grid.check(n, lattice);
     Archive::check(on == 1 && grid.side >= static_cast<int64_t>(CellModeTuning::fewest) && grid.range == 1);

@@ -53,7 +53,7 @@ struct Clock {
     }
     for (double *special : {&lists_end, &full_time, &time_end, &step_end}) *special -= t;
     rate /= 1.0 + factor;
-    // Anew from the radii, as differences of times would pile up errors.
+    // Recomputed from the radii, as differences of times would pile up errors.
     if (target_radius > 0.0) {
       const double first = static_cast<double>(spheres.body[0].radius), left = target_radius - first - left_over[0];
       fraction_time = std::max(0.0, left / first / rate);

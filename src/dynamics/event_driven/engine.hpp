@@ -9,7 +9,7 @@
 // Events. Invariant: for each pair in the lists, the earlier of the two scheduled events is not later than the
 // collision of the pair. The prediction of sphere i may therefore skip a partner k whose own event comes before their
 // collision: k is predicted again by then. If the partner of an event has collided since, the event is stale and is
-// predicted anew.
+// predicted again.
 //
 // Lists. Each sphere has a safe sphere around the place c where its list was made. It leaves the safe sphere by an
 // event that remakes this list alone. Two spheres are neighbours when |c_i - c_k| < rho_i + rho_k, where rho = radius
@@ -41,7 +41,7 @@ enum class Halt { window, packing_fraction, time, box_full, stalled, interrupted
 
 // In box units and masses of 1. Checkpoints hold it as it is.
 struct MdSums {
-  PressureSums of_pressure;  // whoever runs the engine may set them to 0
+  PressureSums of_pressure;  // the code that runs the engine may set them to 0
   int64_t collisions = 0;    // since construction, never reset
   int64_t events = 0;        // likewise
   double time = 0.0;         // likewise
@@ -66,7 +66,7 @@ class Engine {
   // From now on (or, with nullptr, no more) the observer gets collisions and places of lists. Not part of the archive.
   virtual void observe(Observer *observer) = 0;
   virtual void displacements(std::vector<double> &out) const = 0;  // user's order, unit box, since observe()
-  virtual void archive(Archive &a) = 0;                            // everything: the run goes on to the same bits
+  virtual void archive(Archive &a) = 0;                            // everything: the run continues to the same bits
   virtual double twice_kinetic() const = 0;
   virtual double packing_fraction() const = 0;
   virtual double mean_diameter() const = 0;
@@ -89,8 +89,8 @@ struct EngineOptions {
 };
 
 std::unique_ptr<Engine> make_engine(const Packing &p, const EngineOptions &o);
-// One that goes on where another was archived; p is the packing that it was made from. Null where `not_begun`
-// (dynamics.hpp) stands in its place.
+// One that continues where another was archived; p is the packing that it was made from. Null where `not_begun`
+// (dynamics.hpp) is in its place.
 std::unique_ptr<Engine> make_engine(const Packing &p, Archive &from);
 
 }  // namespace jam::inside

@@ -1,4 +1,4 @@
-// The engine of D dimensions, made of its parts (engine.hpp). Its functions stand in the files that the comments name.
+// The engine of D dimensions, made of its parts (engine.hpp). Its functions are in the files that the comments name.
 #pragma once
 #include <array>
 #include <cmath>

@@ -9,7 +9,7 @@
 
 namespace jam::inside {
 
-// r^2 - sigma^2 from integers; a and b need not stand at clock_.now.
+// r^2 - sigma^2 from integers; a and b need not be at clock_.now.
 template <int D, Offsets O>
 double EngineOf<D, O>::exact_gap(const Body<D> &a, const Body<D> &b, const int64_t *offset) const {
   const double da = clock_.now - a.time, db = clock_.now - b.time;
@@ -35,7 +35,7 @@ void EngineOf<D, O>::note_overlap(const Body<D> &a, const Body<D> &b, const int6
   max_overlap = std::max(max_overlap, -gap / (1.0 + std::sqrt(1.0 + gap)));
 }
 
-// When sphere i, which stands at clock_.now, leaves its safe sphere.
+// When sphere i, which is at clock_.now, leaves its safe sphere.
 template <int D, Offsets O>
 double EngineOf<D, O>::exit_time(int32_t i) const {
   const Body<D> &b = spheres_.body[i];
@@ -55,7 +55,7 @@ double EngineOf<D, O>::exit_time(int32_t i) const {
   return clock_.now + (rv > 0.0 ? room / (rv + root) : (root - rv) / vv);
 }
 
-// When sphere `self`, which stands at clock_.now, meets `other`: time from now, infinity if never. The kernel computes
+// When sphere `self`, which is at clock_.now, meets `other`: time from now, infinity if never. The kernel computes
 // this for nearly all pairs; here are all cases.
 template <int D, Offsets O>
 double EngineOf<D, O>::collision_time(const Body<D> &self, const Body<D> &other, const int64_t *offset) {
@@ -88,7 +88,7 @@ template <int D, Offsets O>
   max_overlap = std::max(max_overlap, walls_->first(self, clock_, time, partner));
 }
 
-// Earliest event of sphere i, which stands at clock_.now. Of collisions at one time the first of the list counts.
+// Earliest event of sphere i, which is at clock_.now. Of collisions at one time the first of the list counts.
 template <int D, Offsets O>
 void EngineOf<D, O>::predict(int32_t i) {
   const Body<D> &self = spheres_.body[i];
@@ -120,7 +120,7 @@ void EngineOf<D, O>::predict(int32_t i) {
   if (partner >= 0) event.partner_count = calendar_[partner].count;
 }
 
-// r_i - r_k of two spheres that both stand at clock_.now; of several images the nearest that approaches. (In a box of
+// r_i - r_k of two spheres that are both at clock_.now; of several images the nearest that approaches. (In a box of
 // less than two diameters a pair can be in contact through two images at once, and the one that recedes may be nearer
 // by rounding.)
 template <int D, Offsets O>
@@ -166,7 +166,7 @@ void EngineOf<D, O>::collide(int32_t i, int32_t k) {
   double push = growth - vn;
   if (push <= 0.0) return;  // a grazing pair that rounding has let go
   push = std::max(push, CollisionTuning::least_push *
-                            scale);  // never so little that the sum is lost: the pair would collide for ever
+                            scale);  // never so little that the sum is lost: the pair would collide without end
   double twice_reduced = 1.0;        // mass of the pair
   if (spheres_.mass.empty()) {
     for (int c = 0; c < D; ++c) {

@@ -57,7 +57,7 @@ void EngineOf<D, O>::begin(const Packing &p) {
   refresh(1.0, true);
 }
 
-// Lists stay, as their ends move with the rate; all events are predicted anew.
+// Lists stay, as their ends move with the rate; all events are predicted again.
 template <int D, Offsets O>
 void EngineOf<D, O>::set_growth(double growth) {
   for (Body<D> &b : spheres_.body) move(b);
@@ -99,7 +99,7 @@ void EngineOf<D, O>::rebase() {
     sort_calendar();
 }
 
-// Brings all spheres to the present, scales velocities, remakes lists if asked or needed, predicts everything.
+// Brings all spheres to the present, scales velocities, remakes lists if requested or needed, predicts everything.
 template <int D, Offsets O>
 void EngineOf<D, O>::refresh(double velocity_factor, bool lists) {
   for (Body<D> &b : spheres_.body) {

@@ -42,12 +42,12 @@ struct ImageGrid {
   using Offset = std::array<int64_t, D>;
 
   int64_t in_use = 0;
-  int32_t unused_range = 1;                // stands in archives
+  int32_t unused_range = 1;                // is in archives
   std::array<int64_t, D> side{}, range{};  // along each cell vector
 
   bool used() const { return in_use != 0; }
   // Cells that reach over `range` others along each vector; more along those whose faces are near each other. None when
-  // looking at all spheres costs less. Returns the cost of a search in units of ListTuning.
+  // examining all spheres costs less. Returns the cost of a search in units of ListTuning.
   double choose(int32_t n, double wanted, const Lattice<D> &lattice) {
     forbid();
     const double reach = wanted * (1.0 + 1e-9);  // places are known to 1e-15 of the cell
@@ -70,7 +70,7 @@ struct ImageGrid {
     }
     return best;
   }
-  // No cells: all partners are looked at.
+  // No cells: all partners are examined.
   void forbid() {
     in_use = 0;
     side.fill(1);
@@ -110,7 +110,7 @@ struct ImageGrid {
     for (const int64_t over : range_within(reach, lattice)) cells *= 2.0 * static_cast<double>(over) + 1.0;
     return cells;
   }
-  // Of a search among n spheres, which looks at all of them where they are fewer than the cells.
+  // Of a search among n spheres, which examines all of them where they are fewer than the cells.
   double cost_within(double reach, int32_t n, const Lattice<D> &lattice) const {
     const double all = n;
     return used() ? std::min(all, 0.5 * cells_within(reach, lattice) * (1.0 + n / static_cast<double>(total()))) : all;

@@ -20,7 +20,7 @@ class Levels {
   using Grid = std::conditional_t<listed, ImageGrid<D>, CellGrid<D>>;
   using Place = std::array<uint64_t, D>;
   struct Level {
-    Grid grid;                    // unused: all members are looked at
+    Grid grid;                    // unused: all members are examined
     ListCells<D> cells;           // of the grid
     std::vector<int32_t> member;  // of a level without cells, and of one that larger spheres search
     double rho_max = 0.0;         // the longest list radius
@@ -48,7 +48,7 @@ class Levels {
     of_.clear();
     if (!single())
       for (const int32_t h : halved) of_.push_back(joined[h]);
-    // The images of a small cube are looked at one by one.
+    // The images of a small cube are examined one by one.
     if (listed && lattice.cube() && single() && !level_[0].grid.used())
       return static_cast<double>(rho.size()) * ListTuning::look;
     return cost;
@@ -93,7 +93,7 @@ class Levels {
       a(l.member);
     }
   }
-  // Each sphere stands in its level and cell, and in no other.
+  // Each sphere is in its level and cell, and in no other.
   void check(const std::vector<double> &rho, const std::vector<Place> &centre, const Lattice<D> &lattice) {
     const auto n = static_cast<int32_t>(rho.size());
     Archive::check(of_.size() == (level_.size() > 1 ? rho.size() : 0));

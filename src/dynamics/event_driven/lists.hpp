@@ -10,7 +10,7 @@
 
 namespace jam::inside {
 
-// The entry of sphere k where it stands in the list once, as nearly always; else -1.
+// The entry of sphere k where it is in the list once, as nearly always; else -1.
 int32_t only_entry(const int32_t *list, int32_t count, int32_t k);
 
 template <int D, Offsets O>
@@ -31,7 +31,7 @@ struct Lists {
   explicit Lists(size_t n) : centre(n), rho(n), safe(n), count(n, 0), shifted(listed ? n : 0, 0) {}
 
   // Whether lists without offsets can hold for this largest contact distance, unit box: then both spheres of a pair may
-  // stand at the far ends of their safe spheres and differences still wrap to the image of the list.
+  // are at the far ends of their safe spheres and differences still wrap to the image of the list.
   static bool fit_wrapped(double sigma_max) {
     return sigma_max * (1.0 + 4.0 * ListTuning::smallest_shell + ListTuning::smallest_margin) <
            ListTuning::reach_wrapped;

@@ -20,7 +20,7 @@ std::unique_ptr<Engine> choose(const Packing &p, const EngineOptions &o, bool im
 
 int32_t only_entry(const int32_t *list, int32_t count, int32_t k) {
   int32_t entry = -1, times = 0;
-  for (int32_t e = 0; e < count; ++e) {  // without branches the compiler looks at four entries at a time
+  for (int32_t e = 0; e < count; ++e) {  // without branches the compiler processes four entries at a time
     entry = list[e] == k ? e : entry;
     times += list[e] == k;
   }

@@ -37,7 +37,7 @@ class MariKurchan {
     for (const MkRedrawn &r : shifts_.redrawn()) redrawn_[at[r.i]++] = {r.j, r.attempt};
     table_ = std::make_unique<PartnerTable<D>>(shifts_, lattice_, static_cast<int32_t>(n));
   }
-  // The search looks for partners of the user's sphere `number` where its list is. reach: in V^(1/d).
+  // The search finds partners of the user's sphere `number` where its list is. reach: in V^(1/d).
   void note_centre(int32_t number, const std::array<uint64_t, D> &centre, double reach) {
     table_->set(number, centre, reach);
   }

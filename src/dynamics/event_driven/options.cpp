@@ -1,4 +1,4 @@
-// Options of event-driven molecular dynamics, and the stages that they ask for.
+// Options of event-driven molecular dynamics, and the stages that they request.
 #include "dynamics/event_driven/options.hpp"
 
 #include <algorithm>

@@ -14,7 +14,7 @@ struct GrowthStage {
   double time = no_limit;                // simulated, from the beginning of the stage
   double growth_end = 0.0;               // > 0: growth falls as a power of p, to this at the target pressure
   int64_t relative = 0;                  // 1: constant relative rate of growth
-  double then = 0.0;                     // > 0: the protocol goes on after this stage, up to this pressure
+  double then = 0.0;                     // > 0: the protocol continues after this stage, up to this pressure
   Limits limits() const { return {collisions_per_particle, time, wall_time}; }
 };
 

@@ -77,7 +77,7 @@ struct Pace {
   }
 
  private:
-  // The median of the times to come. On a lattice most spheres may stand at an edge of their cell and leave it now:
+  // The median of the times to come. On a lattice most spheres may be at an edge of their cell and leave it now:
   // then a part of the mean, which costs at most a longer heap.
   void guess_width(const Calendar &calendar, int32_t n) {
     std::vector<double> times;

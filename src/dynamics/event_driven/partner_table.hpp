@@ -27,7 +27,7 @@ class PartnerTable {
     spheres_.x = x_.data();
     spheres_.reach = reach_.data();
   }
-  PartnerTable(const PartnerTable &) = delete;  // the loop's pointers look into this table
+  PartnerTable(const PartnerTable &) = delete;  // the loop's pointers point into this table
   PartnerTable &operator=(const PartnerTable &) = delete;
 
   // number: the user's; place: in integer units; reach: in V^(1/d). The factor covers the rounding of floats. Two

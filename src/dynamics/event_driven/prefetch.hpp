@@ -1,5 +1,5 @@
 // The engine loads memory ahead of its use. A load from main memory takes 150 ns when the program waits for it and 20
-// ns when it was asked for early. The buckets of the calendar say which spheres come next: their events are loaded
+// ns when it was requested early. The buckets of the calendar say which spheres come next: their events are loaded
 // first, then bodies and lists, then neighbours. Below LookAhead::smallest spheres all of it stays in the cache.
 #pragma once
 #include "dynamics/event_driven/engine_of.hpp"

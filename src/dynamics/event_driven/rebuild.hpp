@@ -1,4 +1,4 @@
-// The engine: making all lists anew, or that of one sphere.
+// The engine: rebuilding all lists, or that of one sphere.
 #pragma once
 #include <algorithm>
 
@@ -9,7 +9,7 @@
 namespace jam::inside {
 
 // Growth uses up the margin. Lists reach 1 + margin + 2 shells. Without images the difference of two places must stay
-// below half the box, or it wraps to another image than that of the list: both spheres may stand at the far ends of
+// below half the box, or it wraps to another image than that of the list: both spheres may be at the far ends of
 // their safe spheres, two shells further. With images lists reach as far as the integers hold.
 template <int D, Offsets O>
 void EngineOf<D, O>::choose_margin(double sigma) {
@@ -210,7 +210,7 @@ void EngineOf<D, O>::candidates(int32_t i, F &&f) const {
   }
 }
 
-// Sphere i, which stands at the present, gets a new safe sphere and list.
+// Sphere i, which is at the present, gets a new safe sphere and list.
 template <int D, Offsets O>
 void EngineOf<D, O>::recentre(int32_t i) {
   Body<D> &b = spheres_.body[i];

@@ -19,7 +19,7 @@ EventDrivenRun::EventDrivenRun(Packing p, const GrowthStage &stage)
   take_limits(stage.limits());
 }
 
-// Searches for overlaps and makes the engine. A reason to stop: the next run begins anew.
+// Searches for overlaps and makes the engine. A reason to stop: the next run starts again.
 int32_t EventDrivenRun::begin(Monitor &monitor) {
   if (engine_) return JAM_STOP_NONE;
   drawn_ = !p_.has_velocity || (growing() && !(twice_kinetic(p_) > 0.0));

@@ -1,5 +1,5 @@
 // One run of event-driven dynamics, at constant volume or growing: windows of pressure, thermostat, limits, report. It
-// can stop between any two events and go on to the same bits, in this process or another. So every value that a
+// can stop between any two events and continue to the same bits, in this process or another. So every value that a
 // decision uses is in archive().
 #pragma once
 #include <string>

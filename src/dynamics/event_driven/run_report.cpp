@@ -1,4 +1,4 @@
-// What a run of event-driven dynamics reports while it goes on and at its end: observers, progress, report.
+// What a run of event-driven dynamics reports while it runs and at its end: observers, progress, report.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -30,7 +30,7 @@ void EventDrivenRun::detach(Observer *observer) {
   observer->left = sums() - call_.block;
 }
 
-// What is due at this collision; true when the callback asks to stop.
+// What is due at this collision; true when the callback requests a stop.
 bool EventDrivenRun::observe(const Listeners &listeners) {
   Observer &observer = *listeners.observer;
   update(observer);

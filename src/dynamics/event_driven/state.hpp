@@ -69,8 +69,8 @@ void EngineOf<D, O>::write_state(Packing &p, double ahead) const {
   }
 }
 
-// In a build that asks for it: no pair at all overlaps, in the lists or not. The search is that of core/pairs, which
-// knows nothing of the lists here; positions as doubles are good to 1e-15 of a diameter or better.
+// In a build that requests it: no pair at all overlaps, in the lists or not. The search is that of core/pairs, which
+// does not use the lists here; positions as doubles are good to 1e-15 of a diameter or better.
 template <int D, Offsets O>
 void EngineOf<D, O>::check_pairs() const {
 #ifdef JAM_CHECK_PAIRS

@@ -20,7 +20,7 @@ struct Walls {
   double share_of_cell;          // V of the cell over that of the container
   double widest;                 // edge with walls, V^(1/d)
   std::vector<double> momentum;  // that each wall received, V^(1/d) and masses of 1; without the growth part
-  std::vector<char> near;        // of each sphere: whether it can meet a wall before its list is made anew
+  std::vector<char> near;        // of each sphere: whether it can meet a wall before its list is rebuilt
 
   Walls(const Packing &p, const Lattice<D> &lattice, bool listed)
       : container(p.container),
@@ -50,7 +50,7 @@ struct Walls {
             !container.has_room<D>(reach, edge);
     near[static_cast<size_t>(i)] = any;
   }
-  // Where sphere b, which stands at the present, meets a wall before `time` from now: lowers it and sets the partner of
+  // Where sphere b, which is at the present, meets a wall before `time` from now: lowers it and sets the partner of
   // the event. Returns the largest overlap, -h.
   double first(const Body<D> &b, const Clock &clock, double &time, int32_t &partner) const {
     double worst = 0.0;

@@ -150,7 +150,7 @@ double EventDrivenRun::finest_pressure() const {
 }
 
 // At the end of a window: the reason why the stage ends here, or JAM_STOP_NONE. Limits are checked in advance_part,
-// which leaves a stage that can go on.
+// which leaves a stage that can continue.
 int32_t EventDrivenRun::reason_to_end() {
   if (!window_.whole.time_has_passed() && window_.whole.virial > 0.0)
     return ++frozen_ > WindowTuning::frozen ? JAM_STOP_STALLED : JAM_STOP_NONE;

@@ -69,7 +69,7 @@ void Isoconfigurational::take_diameters() {
   plan_.fraction = packing_fraction(plan_.start);
 }
 
-// What all runs asked for will take; said before anything is run.
+// What all requested runs will take; reported before anything is run.
 void Isoconfigurational::check_memory() const {
   const double spheres = static_cast<double>(n()), d = static_cast<double>(dim()),
                m = static_cast<double>(plan_.instants.size());

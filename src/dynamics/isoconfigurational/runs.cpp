@@ -57,7 +57,7 @@ void Isoconfigurational::report_step(Monitor &monitor) const {
   monitor.report(p);
 }
 
-// Hands a number out, and memory for its record. False: no more.
+// Gives a run number, and memory for its record. False: no more.
 bool Isoconfigurational::take(Queue &queue, int64_t &run, RunRecord &record) const {
   std::unique_lock<std::mutex> lock(queue.mutex);
   const int64_t first = plan_.options.first_run;

@@ -15,7 +15,7 @@ class MonteCarloCells {
 
   bool in_use() const { return in_use_; }
   void clear() { in_use_ = false; }
-  // side: cells along the box, at least 3, and none narrower than what is looked for.
+  // side: cells along the box, at least 3, and none narrower than what is searched for.
   void build(const std::vector<Place> &x, size_t side) {
     begin(x, side);
     for (size_t i = 0; i < x.size(); ++i) put(static_cast<int32_t>(i), cell_at(x[i]));

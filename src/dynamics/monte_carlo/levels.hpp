@@ -1,5 +1,5 @@
-// Spheres of very different size by level, with cells for each. Lists are made from them: a sphere looks for those of
-// its own level and of coarser ones. Or the cells are kept, move by move, where lists would last for no sweep. The
+// Spheres of very different size by level, with cells for each. Lists are made from them: a sphere searches for those
+// of its own level and of coarser ones. Or the cells are kept, move by move, where lists would last for no sweep. The
 // levels are those of core/pair_levels.hpp.
 #pragma once
 #include <algorithm>

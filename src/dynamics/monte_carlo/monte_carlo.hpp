@@ -6,7 +6,7 @@
 //
 // Lists. Each sphere lists those within the longest contact distance and a skin. Lists hold until a sphere has moved by
 // half the skin; then all are made again from cells. Dilute hard spheres take such long steps that lists would hold for
-// no sweep: they look into cells instead. Both give the same bits. Sizes that differ much have cells by level.
+// no sweep: they search cells instead. Both give the same bits. Sizes that differ much have cells by level.
 //
 // A sweep is one trial of each sphere in the order of their numbers. Every single trial keeps the Boltzmann
 // distribution, so a sweep does. Random numbers are a function of (seed, run, sweep, sphere).
@@ -40,7 +40,7 @@ class MonteCarlo {
   virtual ~MonteCarlo() = default;
   virtual void sweep(int64_t number) = 0;
   virtual void set_step(double step) = 0;  // half side of the cube of trial displacements, unit of the box side
-  virtual double energy() const = 0;       // U, counted anew
+  virtual double energy() const = 0;       // U, recomputed
   // Sum over pairs of r f (soft), unit of energy.
   virtual double virial() const = 0;
   // Pairs by gap h < h_max, `bins` equal bins: hard spheres' pressure comes from the density at h = 0.
@@ -81,7 +81,7 @@ class MonteCarloMeans {
   std::vector<double> gaps_;               // hard: (samples, bins)
 };
 
-// A Monte Carlo run as it goes on. Per particle, the limits count sweeps since it began.
+// A Monte Carlo run in progress. Per particle, the limits count sweeps since it began.
 class MonteCarloRun final : public Dynamics {
  public:
   MonteCarloRun(const Packing &p, const jam_monte_carlo_options &o);

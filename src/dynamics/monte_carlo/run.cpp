@@ -1,4 +1,4 @@
-// A Monte Carlo run as it goes on: samples, progress, report.
+// A Monte Carlo run in progress: samples, progress, report.
 #include <algorithm>
 #include <cmath>
 
@@ -14,7 +14,7 @@ MonteCarloRun::MonteCarloRun(const Packing &p, const jam_monte_carlo_options &o)
   check_monte_carlo(p_, options_);
 }
 
-// Tunes the step if it is 0, and makes lists. false: the call must stop; making lists begins anew in the next run.
+// Tunes the step if it is 0, and makes lists. false: the call must stop; making lists starts again in the next run.
 bool MonteCarloRun::begin(Monitor &monitor) {
   if (engine_) return true;
   jam_progress q = progress_of(phase());

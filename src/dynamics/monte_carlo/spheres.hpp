@@ -51,7 +51,7 @@ class MonteCarloSpheres : public MonteCarlo {
     const double best =
         std::min(longest, std::max(Tuning::shortest_skin, Tuning::skin_steps * step / skin_unit_)) * skin_unit_;
     skin_ = std::max(least, std::min(best, room));
-    if (skin_ > room) skin_ = everything;  // a small box: all pairs are listed, for ever
+    if (skin_ > room) skin_ = everything;  // a small box: all pairs are listed permanently
     choose_cells();
     if (!in_cells()) make_lists();
   }

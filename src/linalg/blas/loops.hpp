@@ -2,7 +2,7 @@
 // computed by the same operations in the same order, whatever the vectors' length and the blocks' size: products are
 // subtracted one after the other in the order of k, and sums of products have as many parts everywhere. Products are
 // rounded before they are added, since not all processors can fuse the two.
-// The file that includes this header defines, beside what core/simd.hpp asks for,
+// The file that includes this header defines, beside what core/simd.hpp requires,
 //   JAM_SIMD_BYTES    the length of a register,
 //   JAM_SIMD_COLUMNS  the columns of a tile, three registers high, that fit into the registers.
 #pragma once

@@ -60,7 +60,7 @@ std::string file_of_blas() {
 }
 
 // OpenBLAS maps a buffer for each thread that is inside it at once, and keeps it. Where the system has no memory for
-// one it asks again and again without end. So buffers are asked for here first.
+// one it asks again and again without end. So buffers are requested here first.
 void reserve_buffers(Host &h, int wanted) {
   constexpr size_t size_of_buffer = size_t{128} << 20;  // BUFFER_SIZE of its builds for x86-64, the largest
   if (wanted <= h.buffers || !openblas_answers()) return;

@@ -16,7 +16,7 @@ class BlasSingleThread {
   ~BlasSingleThread();
   BlasSingleThread(const BlasSingleThread &) = delete;
   BlasSingleThread &operator=(const BlasSingleThread &) = delete;
-  // How many of the threads that were asked for may compute: fewer where other calls of the process compute too.
+  // How many of the threads that were requested may compute: fewer where other calls of the process compute too.
   int threads() const { return threads_; }
 
  private:

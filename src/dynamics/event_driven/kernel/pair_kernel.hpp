@@ -9,7 +9,7 @@
 
 namespace jam::inside {
 
-// One sphere. Loops load it as words of 64 bits, so the members stand in this order without gaps.
+// One sphere. Loops load it as words of 64 bits, so the members are in this order without gaps.
 template <int D>
 struct alignas(64) Body {
   uint64_t x[D];
@@ -34,7 +34,7 @@ struct alignas(32) Block {
 // the quenched shift of the pair.
 enum class Offsets { wrapped, listed };
 
-// Pairs of sphere `self`, which stands at `now`, with those of `list`.
+// Pairs of sphere `self`, which is at `now`, with those of `list`.
 template <int D>
 struct PairBatch {
   const Body<D> *body;

@@ -26,6 +26,7 @@ include_patterns = [
     "examples/studies/thesis.md",
     "examples/studies/errors_of_fits.md",
     "examples/studies/errors_of_programs.md",
+    "examples/studies/final_network.md",
     "examples/studies/ensembles/README.md",
     "examples/studies/ensembles/glasses.md",
     "src/README.md",

@@ -144,12 +144,3 @@ def replacing(
             os.fsync(place)
         finally:
             os.close(place)
-
-
-def check_writable(folder: str | os.PathLike[str]) -> None:
-    """Makes an empty file in a folder and removes it, to fail early where that cannot be."""
-    descriptor, name = _locked(os.fspath(folder), _begin("probe"))
-    try:
-        os.unlink(name)
-    finally:
-        os.close(descriptor)

@@ -113,13 +113,15 @@ def campaign(
 @contextlib.contextmanager
 def progress_bar(progress: bool, total: int, done: int) -> Iterator[Callable[[], Any]]:
     """What counts one packing: a bar by tqdm, or nothing where none is wanted or tqdm is missing."""
+    bar = None
+    if progress:
+        with contextlib.suppress(ImportError):
+            from tqdm import tqdm
+
+            make_bar: Any = tqdm  # stubs of tqdm that some machines have do not know disable=None: no bar where no terminal is
+            bar = make_bar(total=total, initial=done, unit="packing", disable=None)
     try:
-        if not progress:
-            raise ImportError
-        from tqdm import tqdm
-    except ImportError:
-        yield lambda: None
-        return
-    make_bar: Any = tqdm  # stubs of tqdm that some machines have do not know disable=None: no bar where no terminal is
-    with make_bar(total=total, initial=done, unit="packing", disable=None) as bar:
-        yield bar.update
+        yield bar.update if bar is not None else lambda: None
+    finally:
+        if bar is not None:
+            bar.close()

@@ -20,6 +20,7 @@ from contextlib import suppress
 from functools import partial
 from itertools import count
 from pathlib import Path
+from tempfile import TemporaryFile
 from typing import Any, Callable, Iterable, Iterator, NamedTuple
 
 import numpy as np
@@ -27,7 +28,7 @@ import numpy as np
 from .._api.arrays import Array
 from .._formats.content import refusing
 from .._formats.provenance import ALGORITHM, provenance
-from .._formats.replacing import check_writable, remove_abandoned
+from .._formats.replacing import remove_abandoned
 from .._formats.sealed import names_in, read_packing
 from .._formats.write_packing import write_file
 from ..errors import StoreError
@@ -89,7 +90,7 @@ class Folder:
         try:
             for part in [self.path / "protocols", self.parts] + [self.packings / f"{k:02x}" for k in range(256)]:
                 part.mkdir(parents=True, exist_ok=True)
-            check_writable(self.parts)
+            TemporaryFile(dir=self.parts).close()
         except OSError as error:
             raise StoreError(error.errno, f"{self.path}: this folder cannot be written to: {error.strerror}") from error
         remove_abandoned(self.parts)

@@ -76,26 +76,26 @@ int parse_options(int argc, char **argv, const jam_pack_host *host, options *o);
 /* Calls f for every file that will be written, until it returns something else than 0. */
 int each_output(const options *o, int (*f)(const char *path, void *with), void *with);
 
-/* settle.c: 0, or -1 after a message on stderr. What contradicts itself, and what follows from the rest. */
+/* settle.c: 0, or -1 after a message on stderr. Refuses options that contradict each other, and completes the rest. */
 int settle(options *o);
 int is_named(const options *o, const char *name); /* whether the command line has this option, without dashes */
 
-/* formats.c: what stands behind the last dot of a name, without .gz; at most 7 letters of it. */
+/* formats.c: the ending of a file name, without .gz; at most 7 letters of it. */
 void ending_of(const char *path, char ending[8]);
 int is_host_format(const options *o, const char *path); /* whether the host reads and writes such a file */
-/* Each returns 0, or -1 after a message on stderr. Whether the library knows the formats of the names; whether the
- * formats can hold this packing, and a crunch can take it. Both are said before the work. */
+/* Each returns 0, or -1 after a message on stderr. They test before the work whether the library has the formats of the
+ * file names, and whether the formats can store this packing and a crunch can take it. */
 int settle_formats(const options *o);
 int check_formats(const options *o, const jam_system *sys);
 
-/* The part of the command line that says what a file does not say, as jam_read_as takes it. */
+/* The options that give what a file lacks, as a layout of jam_read_as. */
 const char *layout_of(const options *o);
 /* start.c: start returns 0 or an exit code after a message on stderr. */
 int start(const options *o, jam_progress_fn stop, jam_system **sys);
 /* The packing of --input as it is: spheres may overlap, as in every file with few digits. 0, and *sys NULL when it was
  * interrupted; else an exit code after a message on stderr. */
-void complain_notes(const jam_system *sys); /* those of jam_notes, on stderr */
 int read_as_it_is(const options *o, jam_system **sys);
+void complain_notes(const jam_system *sys); /* those of jam_notes, on stderr */
 
 /* sizes.c: each int is 0, or -1 after a message on stderr. */
 int take_sizes(const char *value, options *o);

@@ -85,7 +85,6 @@ static jam_status run_crunch(jam_system *sys, const options *o, double wall_time
   jam_crunch_options crunch;
   jam_status status = jam_crunch_options_init(&crunch, sizeof crunch);
   crunch.lp_solver = (int32_t)o->lp;
-
   crunch.method = (int32_t)o->method;
   crunch.strain = (int32_t)o->strain;
   crunch.threads = (int32_t)o->threads;

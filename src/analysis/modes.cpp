@@ -225,7 +225,7 @@ jam_status find_modes(const RigidityMatrix &g, const ContactWeights &w, const ja
     if (status == JAM_CANCELLED) out = Modes();
     if (status == JAM_OK && o.which != JAM_MODES_ALL) select_modes(g, o, out);
   } else {
-    const LeavingScope scope(CallScope::memory_limit(), &monitor);
+    const CancellableScope scope(CallScope::memory_limit(), &monitor);
     try {
       status = few_modes(g, w, h, o, out);
     } catch (const Cancelled &) {

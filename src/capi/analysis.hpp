@@ -32,7 +32,7 @@ inline void need_contacts(const jam_system *sys) {
 template <class F>
 jam_status guard_cancellable(jam_system *sys, F &&f) {
   return guard_verb(sys, [&]() -> Answer {
-    const LeavingScope scope;
+    const CancellableScope scope;
     try {
       return f();
     } catch (const Cancelled &) {

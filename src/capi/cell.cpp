@@ -18,7 +18,7 @@ namespace {
 
 // What follows a change of the cell: overlaps are settled as at creation, and vectors that were not kept are noted.
 void take_cell(jam_system *sys, Packing &p, const NormalCell &normal) {
-  settle_overlaps(p, p.overlap_allowed ? JAM_OVERLAP_ALLOW : JAM_OVERLAP_REFUSE);
+  apply_overlap_policy(p, p.overlap_allowed ? JAM_OVERLAP_ALLOW : JAM_OVERLAP_REFUSE);
   sys->commit(p);
   sys->packing.given = p.given;
   note_cell(normal, true, sys->notes);
@@ -122,7 +122,7 @@ jam_status jam_tile(const jam_system *src, const int32_t *count, size_t count_le
     const bool known = src->known_contacts() && own.size() == 0;
     if (known) sys->contacts = src->contacts;
     sys->packing = tile(p, copies, known ? &sys->contacts : nullptr);
-    sys->note_diameters();
+    sys->update_diameters();
     sys->has_report = known;
     if (known)
       sys->report =

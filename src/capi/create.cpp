@@ -17,7 +17,7 @@
 
 using namespace jam::inside;
 
-void jam_system::note_diameters() noexcept {
+void jam_system::update_diameters() noexcept {
   packing_fraction = jam::inside::packing_fraction(packing);
   const double first = packing.diameter[0];
   monodisperse =
@@ -49,7 +49,7 @@ void jam_system::show(const Packing &result) noexcept {
   packing.pressure = result.pressure;
   packing.has_velocity = result.has_velocity;
   packing.overlap_allowed = result.overlap_allowed;
-  note_diameters();
+  update_diameters();
 }
 
 namespace {
@@ -157,7 +157,7 @@ jam_status jam_set_positions(jam_system *sys, const double *positions, size_t po
     p.position.assign(positions, positions + positions_len);
     p.given.take(digits_of(p.dim, p.position, p.diameter, p.cell.rows()));
     wrap_positions(p);
-    settle_overlaps(p, p.overlap_allowed ? JAM_OVERLAP_ALLOW : JAM_OVERLAP_REFUSE);
+    apply_overlap_policy(p, p.overlap_allowed ? JAM_OVERLAP_ALLOW : JAM_OVERLAP_REFUSE);
     sys->commit(p);
     sys->packing.given = p.given;
     return JAM_OK;
@@ -186,7 +186,7 @@ jam_status jam_scale_diameters(jam_system *sys, double factor) {
     Packing p = sys->packing;
     for (double &s : p.diameter) s *= factor;
     check_diameters(p.diameter, p.cell);
-    if (factor > 1.0) settle_overlaps(p, p.overlap_allowed ? JAM_OVERLAP_ALLOW : JAM_OVERLAP_REFUSE);
+    if (factor > 1.0) apply_overlap_policy(p, p.overlap_allowed ? JAM_OVERLAP_ALLOW : JAM_OVERLAP_REFUSE);
     sys->commit(p);
     return JAM_OK;
   });

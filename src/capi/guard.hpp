@@ -9,8 +9,8 @@
 #include <cxxabi.h>
 #endif
 #include "capi/answer.hpp"
+#include "capi/blank_report.hpp"
 #include "capi/system.hpp"
-#include "capi/unmade.hpp"
 #include "core/call_scope.hpp"
 #include "core/create.hpp"
 #include "core/error.hpp"
@@ -38,7 +38,7 @@ void set_last_error(const char *text) noexcept;
 jam_status status_of_exception() noexcept;
 
 inline const char *why(const Answer &answer) {
-  return answer.text.empty() ? meaning_of(answer.status) : answer.text.c_str();
+  return answer.text.empty() ? text_of_status(answer.status) : answer.text.c_str();
 }
 
 // Not inlined, so that the compiler moves no computation of f out of the environment that guard sets.
@@ -92,7 +92,7 @@ Answer run_short(const jam_system *sys, F &&f) {
   const bool inside = CallScope::inside(sys->monitor);
   Monitor monitor;
   monitor.begin_beside(sys->monitor, !inside);
-  const LeavingScope scope(sys->memory_limit, &monitor);
+  const CancellableScope scope(sys->memory_limit, &monitor);
   try {
     return f();
   } catch (const Cancelled &) {
@@ -145,7 +145,7 @@ class Busy {
   jam_system *sys_;
 };
 
-// A short call that changes the handle: alone on it, and a cancel that waits for the next verb continues to wait.
+// A short call that changes the handle. It must be the only call; a pending jam_cancel stays for the next long call.
 template <class F>
 jam_status guard_set(jam_system *sys, F &&f) {
   return guard([&] {
@@ -262,7 +262,7 @@ jam_status guard_reporting(jam_system *sys, Report *report, F &&f) {
     } catch (const Cancelled &) {
       const bool cancelled = sys->monitor.cancelled();
       Report r{};
-      set_unmade(*sys, r);
+      set_blank(*sys, r);
       r.stop_reason = cancelled ? JAM_STOP_CANCELLED : JAM_STOP_WALL_TIME;
       give_struct(r, report);
       return stopped(cancelled ? JAM_CANCELLED : JAM_LIMIT, r.stop_reason);

@@ -18,7 +18,7 @@ Answer make_system(const jam_create_options &o, jam_progress_fn callback, void *
   jam_progress begun = progress_of(JAM_PHASE_CREATE);
   begun.packing_fraction = 0.0;
   monitor.expect(begun);
-  const LeavingScope scope(sys->memory_limit, &monitor);
+  const CancellableScope scope(sys->memory_limit, &monitor);
   try {
     make(*sys);
   } catch (const Cancelled &) {
@@ -27,7 +27,7 @@ Answer make_system(const jam_create_options &o, jam_progress_fn callback, void *
     return {JAM_LIMIT, "wall_time ended before the system was made: raise wall_time"};
   }
   check_packing(sys->packing, JAM_E_INTERNAL);
-  sys->note_diameters();
+  sys->update_diameters();
   *out = sys.release();
   return JAM_OK;
 }

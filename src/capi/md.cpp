@@ -18,23 +18,23 @@ namespace {
 
 // While a stage runs, callbacks may read it: jam_write_checkpoint saves its state between two events. Snapshots appear
 // in the views, and then the handle has no results. If the call fails later, it gets its earlier state back.
-class Live {
+class VisibleRun {
  public:
-  Live(jam_system *sys, const Dynamics *stage, bool shows) : sys_(sys) {
+  VisibleRun(jam_system *sys, const Dynamics *stage, bool shows) : sys_(sys) {
     if (shows) {
       before_ = std::make_unique<Packing>(sys->packing);
       std::swap(results_, sys->results());
     }
     sys->live = stage;
   }
-  ~Live() {
+  ~VisibleRun() {
     sys_->live = nullptr;
     if (!before_) return;
     sys_->show(*before_);
     std::swap(results_, sys_->results());
   }
-  Live(const Live &) = delete;
-  Live &operator=(const Live &) = delete;
+  VisibleRun(const VisibleRun &) = delete;
+  VisibleRun &operator=(const VisibleRun &) = delete;
 
  private:
   jam_system *sys_;
@@ -52,7 +52,7 @@ Answer run_md(jam_system *sys, std::unique_ptr<EventDrivenRun> &stage, const Lim
   if (shows) listeners.on_snapshot = [sys](const Packing &p) { sys->show(p); };
   jam_status status = JAM_OK;
   {
-    const Live live(sys, stage.get(), shows);
+    const VisibleRun live(sys, stage.get(), shows);
     stage->report = report;
     status = stage->run(limits, listeners);
     report = stage->report;
@@ -148,7 +148,7 @@ Answer verb(jam_system *sys, const Options *o, Options full, Check &&check, jam_
   const Answer answer = run_stages(sys, take_stage(sys, full.resume == 1, stage), stage.limits(), made);
   if (made.packing_fraction == 0.0) {  // no stage has begun
     const jam_md_report bare = made;
-    set_unmade(*sys, made);
+    set_blank(*sys, made);
     made.stop_reason = bare.stop_reason, made.seconds = bare.seconds;
   }
   give_struct(made, report);
@@ -196,7 +196,7 @@ jam_status jam_read_checkpoint(const char *path, jam_progress_fn callback, void 
     return make_system(default_create_options(), callback, user, out, [&](jam_system &sys) {
       std::string beside;
       sys.packing = read_checkpoint(path, beside);
-      settle_overlaps(sys.packing, sys.packing.overlap_allowed ? JAM_OVERLAP_ALLOW : JAM_OVERLAP_REFUSE);
+      apply_overlap_policy(sys.packing, sys.packing.overlap_allowed ? JAM_OVERLAP_ALLOW : JAM_OVERLAP_REFUSE);
       read_beside(sys, std::move(beside));
     });
   });

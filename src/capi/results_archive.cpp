@@ -1,4 +1,4 @@
-// Results and unfinished work as bytes of a checkpoint. The bytes may come from a damaged file or a stranger, so all
+// Results and unfinished work as bytes of a checkpoint. The bytes may come from a damaged or malicious file, so all
 // that later calls rely on is checked: sizes, numbers of spheres, and that the contacts are those of the packing.
 #include <cmath>
 

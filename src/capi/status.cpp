@@ -35,7 +35,7 @@ jam_status status_of_exception() noexcept {
   }
 }
 
-const char *meaning_of(jam_status status) {
+const char *text_of_status(jam_status status) {
   switch (status) {
     case JAM_CANCELLED:
       return "jam_cancel or a callback stopped the call; the state is valid";
@@ -56,7 +56,7 @@ const char *meaning_of(jam_status status) {
 }
 
 namespace {
-const char *meaning_of_stop(int32_t reason) {
+const char *text_of_stop(int32_t reason) {
   switch (reason) {
     case JAM_STOP_COLLISIONS:
       return "collisions_per_particle came before the target; the packing reached is kept: raise it, or call again to "
@@ -92,7 +92,7 @@ const char *meaning_of_stop(int32_t reason) {
 }  // namespace
 
 Answer stopped(jam_status status, int32_t stop_reason) {
-  const char *text = status > 0 ? meaning_of_stop(stop_reason) : nullptr;
+  const char *text = status > 0 ? text_of_stop(stop_reason) : nullptr;
   return text ? Answer(status, text) : Answer(status);
 }
 

@@ -46,7 +46,7 @@ struct SystemState : Results {
   Owned<Observer> observer;                      // what was observed
   bool observing = false;                        // and still is
   double memory_limit = default_memory_limit();  // bytes that one call may take
-  double packing_fraction = 0.0, diameter_mean = 0.0;  // of the diameters in `packing`: note_diameters()
+  double packing_fraction = 0.0, diameter_mean = 0.0;  // of the diameters in `packing`: update_diameters()
   bool monodisperse = true;
   Notes notes;  // on how it was made
 
@@ -79,7 +79,7 @@ struct jam_system : jam::inside::SystemState {
   // Copies positions, diameters and velocities into the view buffers, whose addresses stay. Never throws.
   void show(const jam::inside::Packing &state) noexcept;
   // What jam_info gives of the diameters, once for each change of them.
-  void note_diameters() noexcept;
+  void update_diameters() noexcept;
   // The end of every move: shows its packing and results. Drops a paused stage and all earlier results. Pressures
   // are kept only by commit_measured, after dynamics that measured them for this packing.
   void commit(const jam::inside::Packing &result, jam::inside::Results &&found = {}) noexcept;

@@ -32,7 +32,7 @@ class CallScope {
       fail(JAM_E_MEMORY, "%s need %s, this call may have %s", what, bytes_text(bytes).c_str(),
            bytes_text(memory_limit()).c_str());
   }
-  // In long loops. In a LeavingScope it throws Cancelled when the call has been cancelled or its time is over.
+  // In long loops. In a CancellableScope it throws Cancelled when the call has been cancelled or its time is over.
   static void look() {
     ask([](Monitor &monitor) { return monitor.look(); });
   }
@@ -42,7 +42,7 @@ class CallScope {
       if (scope->monitor_ && (scope->monitor_ == &handle || scope->monitor_->beside(handle))) return true;
     return false;
   }
-  static bool can_tell() { return current() && current()->monitor_ && current()->monitor_->progress; }
+  static bool has_callback() { return current() && current()->monitor_ && current()->monitor_->progress; }
   // look() of an analysis, which reports where it begins and, if it knows, how far it is: items done, and their share
   // of all.
   static void report_share(int64_t items = 0, double share = std::numeric_limits<double>::quiet_NaN()) {
@@ -94,10 +94,10 @@ class SparseLook {
 };
 
 // In this scope look() throws Cancelled. The code that makes the scope catches it, or ends with it.
-class LeavingScope : public CallScope {
+class CancellableScope : public CallScope {
  public:
-  LeavingScope(double memory_limit, Monitor *monitor) : CallScope(memory_limit, monitor, nullptr, true) {}
-  LeavingScope() : CallScope(memory_limit(), monitor(), quiet(), true) {}  // in the scope of now
+  CancellableScope(double memory_limit, Monitor *monitor) : CallScope(memory_limit, monitor, nullptr, true) {}
+  CancellableScope() : CallScope(memory_limit(), monitor(), quiet(), true) {}  // in the scope of now
 };
 
 }  // namespace jam::inside

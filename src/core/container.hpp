@@ -1,7 +1,7 @@
-// The container: which walls enclose the spheres. This file and its .cpp say all that anyone knows of a wall: the
-// distance of a point, the inward normal, the curvature, areas and volume, where a sphere fits, and when a moving and
-// growing sphere meets it. Dynamics, Monte Carlo, energies, analysis and files ask here; another shape (a cone, a
-// rounded box) is added here alone.
+// The container: which walls enclose the spheres. This file and its .cpp have the geometry of walls: the distance of a
+// point, the inward normal, the curvature, areas and volume, where a sphere fits, and when a moving and growing sphere
+// meets a wall. Another shape (a cone, a rounded box) also needs the code that distinguishes round walls from flat ones
+// (round_axes, is_round).
 //
 // The container lies in the brick of its cell and touches its faces. Along `closed` axes nothing repeats (Cell::close).
 // Molecular dynamics lives on a torus all the same: images of a container do not overlap each other, so that spheres

@@ -148,7 +148,7 @@ void refuse_overlaps(const Packing &p, double tolerance) {
        same_centre(worst) ? ": they have the same centre" : "");
 }
 
-void settle_overlaps(Packing &p, int32_t policy) {
+void apply_overlap_policy(Packing &p, int32_t policy) {
   check_diameters(p.diameter, p.cell);
   if (p.container && !p.position.empty()) refuse_outside(p);
   if (p.container) refuse_too_wide(p, JAM_E_OVERLAP);
@@ -241,7 +241,7 @@ Packing make_packing(const jam_create_options &o, const double *positions, size_
     if (o.overlap == JAM_OVERLAP_SHRINK)
       shrink_to_contact(p, o.shrink_min, notes);
     else
-      settle_overlaps(p, o.overlap);
+      apply_overlap_policy(p, o.overlap);
   } else {
     if (walled) {
       if (cell) p.cell = walled_cell(p.dim, cell, enclosure);

@@ -28,7 +28,7 @@ Packing make_packing(const jam_create_options &o, const double *positions, size_
 // such bound on their volume.
 double fitting_factor(const Packing &p);
 // Throws JAM_E_OVERLAP naming the worst pair, or allows overlaps, as `policy` says.
-void settle_overlaps(Packing &p, int32_t policy);
+void apply_overlap_policy(Packing &p, int32_t policy);
 // JAM_OVERLAP_SHRINK: multiplies all diameters by the factor that brings the worst pair to contact, and notes it.
 // JAM_E_OVERLAP where the factor is below `least`, or no factor helps.
 void shrink_to_contact(Packing &p, double least, Notes *notes);

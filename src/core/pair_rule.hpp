@@ -1,5 +1,5 @@
 // The rule of a pair: at which distance two spheres touch, and in the Mari-Kurchan model by which vector their distance
-// is shifted. Every layer asks here; a new contact distance is added here alone.
+// is shifted. Inner loops of dynamics and Monte Carlo repeat it for speed, proofs in exact numbers.
 #pragma once
 #include <algorithm>
 #include <cmath>

@@ -161,7 +161,7 @@ void place_at_random(Packing &p) {
 }
 
 void place_uniformly(Packing &p) {
-  settle_overlaps(p, JAM_OVERLAP_ALLOW);
+  apply_overlap_policy(p, JAM_OVERLAP_ALLOW);
   refuse_too_wide(p, JAM_E_UNPLACEABLE);
   p.position.resize(p.n() * static_cast<size_t>(p.dim));
   Rng rng(p.seed, Stream::rsa_positions);

@@ -17,9 +17,9 @@ double part_done(const CrunchState &s, double path, double gain);
 // Calls the progress callback immediately; with `finished` it may read the details of the last step. True: stop.
 bool report_step(CrunchState &s, jam_phase phase, double gain, double step, bool finished = true);
 
-// A row of the history for the move since the last row; `displacement` as in History::moved.
 // A move that opens contacts and is no step of the path: its row, and its callback.
 void record_opening(CrunchState &s);
+// A row of the history for the move since the last row; `displacement` as in History::moved.
 HistoryRow &record_step(CrunchState &s, jam_step_phase phase, const double *displacement = nullptr);
 // Its columns of the network: so many contacts, and those of each sphere.
 void record_contacts(CrunchState &s, HistoryRow &row, size_t contacts, const std::vector<int32_t> &coordination);

@@ -70,7 +70,7 @@ static void run_phases(CrunchState &s) {
   jam_progress begun = progress_of(JAM_PHASE_CRUNCH);
   begun.packing_fraction = packing_fraction(s.out.packing);
   s.monitor.expect(begun);
-  const LeavingScope scope(CallScope::memory_limit(), &s.monitor);
+  const CancellableScope scope(CallScope::memory_limit(), &s.monitor);
   if (fills_cell(s)) return;
   s.next.bound = first_bound(s.out.packing, s.o, s.tuning);
   for (Phase phase = first_phase(s); phase != Phase::done;) {
@@ -93,9 +93,8 @@ static void run_phases(CrunchState &s) {
   }
 }
 
-// What is known before the first factorisation: the log says it, and what surely exceeds the memory of the call is
-// refused.
-// Small systems fit at any density.
+// Logs the estimate before the first factorisation, and refuses what surely exceeds the memory of the call. Small
+// systems fit at any density.
 static void check_estimate(const Packing &start, const jam_crunch_options &o, Monitor &monitor) {
   const bool logs = monitor.log_fn && monitor.log_level >= JAM_LOG_INFO;
   const double unknowns = static_cast<double>(start.position.size()), full_matrix = 8.0 * unknowns * unknowns;
@@ -127,7 +126,7 @@ CrunchResult crunch(const Packing &start, const jam_crunch_options &o, Monitor &
   CrunchState s(start, with_usable_tolerance(o, used.tuning, monitor), monitor, history ? *history : own_history, used);
   Touching touching;
   try {
-    const LeavingScope scope(CallScope::memory_limit(), &monitor);
+    const CancellableScope scope(CallScope::memory_limit(), &monitor);
     check_estimate(start, o, monitor);
   } catch (const Cancelled &) {
     stop_if_interrupted(s);
@@ -136,7 +135,7 @@ CrunchResult crunch(const Packing &start, const jam_crunch_options &o, Monitor &
   }
   try {
     {
-      const LeavingScope scope(CallScope::memory_limit(), &monitor);
+      const CancellableScope scope(CallScope::memory_limit(), &monitor);
       touching = find_touching(start);
     }
     run_phases(s);

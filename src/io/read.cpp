@@ -12,7 +12,7 @@ namespace jam::inside {
 namespace {
 
 // Counts the spheres outside the smallest brick that holds the cell and its normal form: they will be wrapped.
-void say_wrapped(FileContent &content, double box) {
+void note_wrapped(FileContent &content, double box) {
   const size_t d = static_cast<size_t>(content.dim);
   std::vector<double> low(d, 0.0), high(d, content.box > 0.0 ? content.box : box);
   if (!content.cell.empty())
@@ -34,7 +34,7 @@ void say_wrapped(FileContent &content, double box) {
 
 // A file that does not name its walls has those of the caller. If neither names walls, the packing is taken as
 // periodic, and a note says so.
-void settle_walls(const char *path, const Enclosure &given, FileContent &content) {
+void assign_walls(const char *path, const Enclosure &given, FileContent &content) {
   if (!content.knows_walls) {
     content.enclosure = given;
     if (!given.any())
@@ -76,8 +76,8 @@ FileContent read_file(const char *path, const ReadOptions &options) {
   if (!options.layout.columns.empty() && format.read != read_table)
     fail(JAM_E_ARGUMENT, "%s is %s: the option columns is for tables", path, format.name);
   take_layout(path, options, content);
-  settle_walls(path, options.enclosure, content);
-  say_wrapped(content, options.box);
+  assign_walls(path, options.enclosure, content);
+  note_wrapped(content, options.box);
   return content;
 }
 

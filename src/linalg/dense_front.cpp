@@ -7,8 +7,8 @@
 
 #include "core/call_scope.hpp"
 #include "linalg/blas.hpp"
+#include "linalg/report_while.hpp"
 #include "linalg/tuning.hpp"
-#include "linalg/while_telling.hpp"
 
 namespace jam::inside {
 namespace {
@@ -75,7 +75,7 @@ void minus_trapezoid(Real *c, int ldc, int rows, int columns, const Real *b, int
                      Workers &workers) {
   const auto work = [&] { minus_trapezoid_by(workers, c, ldc, rows, columns, b, ldb, k, result); };
   if (area_of(rows, columns) * k < ThreadTuning::long_product) return work();
-  while_telling(work);
+  report_while(work);
 }
 
 // work(first, count) for the parts of 0 .. size.

@@ -9,7 +9,7 @@ namespace {
 
 // Spheres with at most d working-set rows get their rows_per_dim * d tightest rows: else they would run until they meet
 // a screened one.
-void hold_loose_spheres(const PackingLp &lp, std::vector<char> &taken) {
+void add_rows_of_loose_spheres(const PackingLp &lp, std::vector<char> &taken) {
   std::vector<int32_t> degree(lp.n, 0);
   std::vector<std::vector<size_t>> rows(lp.n);
   for (size_t k = 0; k < taken.size(); ++k)
@@ -47,7 +47,7 @@ void WorkingSet::choose(const PackingLp &whole) {
     threshold = T::far_slack * (slack - smallest);
     if (std::isfinite(whole.bound)) threshold = std::max(threshold, T::per_bound * whole.bound);
     for (size_t k = 0; k < rows; ++k) taken[k] = whole.c[k] - smallest <= threshold;
-    hold_loose_spheres(whole, taken);
+    add_rows_of_loose_spheres(whole, taken);
     // Screening only a few saves nothing.
     if (std::count(taken.begin(), taken.end(), 1) > T::nearly_all * static_cast<double>(rows)) taken.assign(rows, 1);
   }

@@ -191,7 +191,7 @@ GeometryResult contacts_from_geometry(const Packing &p, const jam_geometry_optio
   // hyperstatic.
   clear = clear || (wide && stress.dimension == 1 && stress.zero_modes == graph.symmetries() &&
                     r.excess_contacts == 0 && second_excess > 0);
-  out.when_closed = closed.rigid;
+  out.answer_if_closed = closed.rigid;
   out.clear = clear;
   set_force_scale(p, out.network);
   return out;
@@ -199,10 +199,10 @@ GeometryResult contacts_from_geometry(const Packing &p, const jam_geometry_optio
 
 jam_status status_of(const GeometryResult &found, Verdict as_it_is, const GapResolution &resolution, const Packing &p) {
   // Contacts that the digits may hide forbid a no.
-  if (found.when_closed == Verdict::no && !(resolution.coarse(p) && as_it_is == Verdict::undecided))
+  if (found.answer_if_closed == Verdict::no && !(resolution.coarse(p) && as_it_is == Verdict::undecided))
     return JAM_NOT_JAMMED;
-  const bool wide_gaps = as_it_is != found.when_closed;
-  return found.report.self_stresses > 1 || !found.clear || found.when_closed == Verdict::undecided || wide_gaps
+  const bool wide_gaps = as_it_is != found.answer_if_closed;
+  return found.report.self_stresses > 1 || !found.clear || found.answer_if_closed == Verdict::undecided || wide_gaps
              ? JAM_AMBIGUOUS
              : JAM_OK;
 }

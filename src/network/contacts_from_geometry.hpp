@@ -12,8 +12,8 @@ jam_geometry_options default_geometry_options();
 struct GeometryResult {
   ContactNetwork network;
   jam_geometry_report report{};
-  Verdict when_closed = Verdict::no;  // with the contacts of the network closed
-  bool clear = false;                 // one jump of the gaps stands out
+  Verdict answer_if_closed = Verdict::no;  // with the contacts of the network closed
+  bool clear = false;                      // one jump of the gaps stands out
 };
 
 GeometryResult contacts_from_geometry(const Packing &p, const jam_geometry_options &o);

@@ -87,7 +87,7 @@ class Maximum {
 
 }  // namespace
 
-bool settle_at_curvature(Packing &p, ContactNetwork &net) {
+bool converge_at_curved_maximum(Packing &p, ContactNetwork &net) {
   Packing q = p;
   ContactNetwork now = net;
   double worst = HUGE_VAL;

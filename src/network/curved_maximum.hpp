@@ -9,6 +9,6 @@ namespace jam::inside {
 
 // Newton's method for all conditions of a maximum at once: forces balance, and contacts are closed. Small systems only,
 // as the matrix is dense. False where it does not converge; p and net are as before then.
-bool settle_at_curvature(Packing &p, ContactNetwork &net);
+bool converge_at_curved_maximum(Packing &p, ContactNetwork &net);
 
 }  // namespace jam::inside

@@ -180,7 +180,7 @@ Packing tile(const Packing &p, const Copies &copies, ContactNetwork *net) {
     sort_contacts(large, p.dim);
     *net = std::move(large);
   }
-  settle_overlaps(out, p.overlap_allowed ? JAM_OVERLAP_ALLOW : JAM_OVERLAP_REFUSE);
+  apply_overlap_policy(out, p.overlap_allowed ? JAM_OVERLAP_ALLOW : JAM_OVERLAP_REFUSE);
   return out;
 }
 

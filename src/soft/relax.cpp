@@ -44,12 +44,12 @@ void check_relax_options(const jam_relax_options &o) {
 }
 
 SoftState first_state(const Packing &p, const PairEnergy &energy, int32_t precision) {
-  const LeavingScope scope;
+  const CancellableScope scope;
   return SoftState(p, energy, precision);
 }
 
 DescentEnd minimise(Relaxation &r, int32_t minimiser, double tolerance, bool near_minimum) {
-  const LeavingScope scope;
+  const CancellableScope scope;
   try {
     switch (minimiser) {
       case JAM_MINIMISER_FIRE:
@@ -106,7 +106,7 @@ double overlap_resolution(const Packing &p) {
 // The minimum with the cell free, from the minimum of the fixed one.
 static DescentEnd relax_cell(Relaxation &r, const jam_relax_options &o, SoftResult &out) {
   const FreeCell cell = free_cell_of(r.state.dim(), o.strain, o.components, o.pressure);
-  const LeavingScope scope;
+  const CancellableScope scope;
   try {
     r.weak_force = 0.0;
     r.state.free_cell(cell);

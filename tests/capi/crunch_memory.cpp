@@ -48,7 +48,7 @@ void assert_valid(const jam_system *sys) {
     }
 }
 
-// The k-th allocation fails, for every k of the first `dense` and then for ever sparser ones.
+// The k-th allocation fails, for every k of the first `dense` and then for fewer and fewer.
 void fail_each(const jam_crunch_options &o, long dense) {
   long as_before = 0, advanced = 0, survived = 0;
   for (long k = 0;; k += 1 + k / dense * 17) {

@@ -3,7 +3,7 @@
  * both threads may meet on one.
  *
  * A handle is held alone for calls that change it and whose state is then checked. One call in four shares it: then
- * JAM_E_BUSY is an answer, and nobody looks into views. */
+ * JAM_E_BUSY is an answer, and no thread reads views. */
 #define _GNU_SOURCE
 #include <dirent.h>
 #include <malloc.h>

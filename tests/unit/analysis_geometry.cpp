@@ -191,7 +191,7 @@ void cancelling_anywhere_leaves_no_network(void **) {
   const NullSpace space(g);
   Monitor monitor;
   monitor.cancel();
-  const LeavingScope scope(default_memory_limit(), &monitor);
+  const CancellableScope scope(default_memory_limit(), &monitor);
   std::vector<double> f(g.contacts(), 1.0);
   f[0] = 2.0;
   int stopped = 0;

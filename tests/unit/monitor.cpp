@@ -7,7 +7,7 @@
 #include "core/error.hpp"
 #include "linalg/block_cholesky.hpp"
 #include "linalg/dense_front.hpp"
-#include "linalg/while_telling.hpp"
+#include "linalg/report_while.hpp"
 #include "test.h"
 
 using namespace jam::inside;
@@ -39,12 +39,12 @@ void silence_is_short(void **) {
   assert_in_range(calls_during(1.2, [](Monitor &) { CallScope::look(); }), 4, 20);
 }
 
-// Work that asks nobody: its end comes before that of the call, and nothing is told without a callback.
+// Work without polling: it ends before the call, and nothing is reported without a callback.
 void work_on_another_thread_tells(void **) {
   const auto nap = [] { std::this_thread::sleep_for(std::chrono::milliseconds(1200)); };
-  assert_in_range(calls_during(1.0, [&](Monitor &) { while_telling(nap); }), 4, 20);
+  assert_in_range(calls_during(1.0, [&](Monitor &) { report_while(nap); }), 4, 20);
   std::thread::id worker;
-  while_telling([&] { worker = std::this_thread::get_id(); });
+  report_while([&] { worker = std::this_thread::get_id(); });
   assert_true(worker == std::this_thread::get_id());
 }
 
@@ -97,7 +97,7 @@ void factorisations_are_left(void **) {
     monitor.begin();
     monitor.cancel();
     const auto leaves = [&](auto &&work) {
-      const LeavingScope scope(1e12, &monitor);
+      const CancellableScope scope(1e12, &monitor);
       try {
         work();
       } catch (const Cancelled &) {

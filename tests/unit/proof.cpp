@@ -211,7 +211,7 @@ void forces_that_do_not_balance_prove_nothing(void **) {
 
 void an_overlap_proves_nothing(void **) {
   Lattice l = triangular(6, 6);
-  // A disk that touches nobody in the list, put into a hole that is too small for it.
+  // A disk without contacts in the list, put into a hole that is too small for it.
   Packing &p = l.packing;
   p.position.push_back(0.5), p.position.push_back(0.28);
   p.diameter.push_back(0.4);

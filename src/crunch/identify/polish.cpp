@@ -43,7 +43,8 @@ class Polish {
     const bool round = p.container.round_axes() > 0;
     if (net.size() == 0 || (!round && excess_contacts(net, p) < 0)) return PolishEnd::too_few;
     balance_forces(p, net);
-    if (round && !(balance_residual(p.dim, p.n(), net) < RigidityTuning::most_residual) && !settle_at_curvature(p, net))
+    if (round && !(balance_residual(p.dim, p.n(), net) < RigidityTuning::most_residual) &&
+        !converge_at_curved_maximum(p, net))
       return PolishEnd::too_few;
     const bool one_state = excess_contacts(net, p) <= 0;
     // Forces of several states of self-stress are not unique: the test of the network decides which contacts carry.

@@ -34,7 +34,7 @@ int32_t EventDrivenRun::begin(Monitor &monitor) {
   jam_progress q = progress_of(phase());
   q.packing_fraction = packing_fraction(p_);
   monitor.expect(q);
-  const LeavingScope scope;
+  const CancellableScope scope;
   try {
     if (p_.overlap_allowed) refuse_overlaps(p_, overlap_of_rounding);
     engine_ = make_engine(p_, options());

@@ -56,7 +56,7 @@ double EventDrivenRun::until_histograms(const Observer *observer) const {
 bool EventDrivenRun::sample_histograms(Observer &observer, double at) const {
   Packing p = p_;
   engine_->write_state(p, at - time());
-  const LeavingScope scope;
+  const CancellableScope scope;
   try {
     observer.take_histograms(p);
   } catch (const Cancelled &) {

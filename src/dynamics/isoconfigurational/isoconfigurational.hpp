@@ -69,7 +69,7 @@ struct RunControl {
 // An engine, whose searches for pairs may be left: then null, and the record says why.
 template <class Make>
 auto make_engine_for(const RunControl &control, RunRecord &record, Make &&make) -> decltype(make()) {
-  const LeavingScope scope;
+  const CancellableScope scope;
   try {
     return make();
   } catch (const Cancelled &) {

@@ -22,7 +22,7 @@ bool MonteCarloRun::begin(Monitor &monitor) {
   monitor.expect(q);
   try {
     if (options_.step == 0.0 && !tuner_.tune(p_, options_, monitor)) return false;
-    const LeavingScope scope;
+    const CancellableScope scope;
     check_monte_carlo(p_, options_);
     engine_ = make_monte_carlo(p_, options_, options_.run);
     // Velocities of before belong to another state.

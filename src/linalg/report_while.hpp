@@ -12,9 +12,9 @@ namespace jam::inside {
 // Runs work(), which must not throw and cannot ask the monitor by itself, on another thread, while this one calls the
 // callback. The work is the same, so are the bits. A call that is cancelled is left when the work has ended.
 template <class Work>
-void while_telling(const Work &work) {
+void report_while(const Work &work) {
   constexpr std::chrono::milliseconds between_looks(20);
-  if (!CallScope::can_tell()) return work();
+  if (!CallScope::has_callback()) return work();
   std::future<void> done;
   try {
     done = std::async(std::launch::async, [&work, host = OwnEnvironment::host()] {

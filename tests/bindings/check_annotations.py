@@ -37,9 +37,11 @@ def code(name, text):
         text = re.sub(r'""".*?"""\n', "", text, flags=re.S)
     if name.endswith(".i"):
         text = re.sub(r'%feature\("docstring"\) (\w+) ".*?(?<!\\)"\n', r"\1\n", text, flags=re.S)
+    if name.endswith((".ts", ".mjs")):
+        text = re.sub(r"/\*.*?\*/", "", text, flags=re.S)
     comment = {".jl": "#", ".f90": "!"}.get(Path(name).suffix)
     lines = [line.split(comment)[0].rstrip() if comment else line for line in text.splitlines()]
-    return "\n".join(line for line in lines if line)
+    return "\n".join(line for line in lines if line.strip())
 
 
 def main():

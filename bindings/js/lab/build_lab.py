@@ -1,6 +1,7 @@
 """Makes lab.html, one file, from the parts beside this program and the package for JavaScript.
 
-usage: build_lab.py PACKAGE OUT     PACKAGE has jam.wasm, jam.bundle.mjs and worker.bundle.js
+usage: build_lab.py PACKAGE OUT [STORED]     PACKAGE has jam.wasm, jam.bundle.mjs and worker.bundle.js
+STORED: another lab.html, of an earlier build; status 1 if more than its WebAssembly, which names its commit, differs.
 """
 import base64
 import gzip
@@ -39,5 +40,12 @@ def page(package):
     return re.sub("@([A-Z]+)@", lambda m: parts[m[1]], (HERE / "lab.html").read_text("utf-8"))
 
 
+def without_wasm(text):
+    return re.sub('(id="wasm">)[^<]*', r"\1", text)
+
+
 if __name__ == "__main__":
-    Path(sys.argv[2]).write_text(page(Path(sys.argv[1])), "utf-8")
+    made = page(Path(sys.argv[1]))
+    Path(sys.argv[2]).write_text(made, "utf-8")
+    if sys.argv[3:] and without_wasm(Path(sys.argv[3]).read_text("utf-8")) != without_wasm(made):
+        sys.exit(f"{sys.argv[3]} is not what this tree makes: build it anew and commit it")

@@ -16,7 +16,7 @@ const workerOf = (id) => new Worker(URL.createObjectURL(new Blob([held(id)], { t
 
 /** Sentences for what a browser refuses; others are the library's. */
 export function sentenceOf(error) {
-  if (error instanceof WebAssembly.CompileError || error instanceof WebAssembly.LinkError) return TEXT.noWasm;
+  if (error.name === 'CompileError' || error.name === 'LinkError') return TEXT.noWasm;
   if (error instanceof RangeError || /out of memory/i.test(error.message)) return TEXT.noMemory;
   return error.message;
 }

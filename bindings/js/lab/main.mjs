@@ -62,6 +62,7 @@ async function startLab() {
     tell(TEXT.forgotten);
   });
   watchDrops(openTab);
+  window.addEventListener('beforeunload', (event) => session.running && event.preventDefault());
   if (!document.createElement('canvas').getContext('webgl2')) fault(TEXT.noView);
   tell(TEXT.starting);
   try {

@@ -2,7 +2,7 @@
 import { TEXT, STEPS } from './texts.mjs';
 import { RECIPE, isCrunched } from './recipe.mjs';
 import { made } from './engine.mjs';
-import { keep, keptValue } from './keep.mjs';
+import { canKeep, keep, keepPacking, keptValue } from './keep.mjs';
 import { adopt, fault, progress, run, session, tell } from './session.mjs';
 import { showMoment, showPacking } from './view.mjs';
 import { button, byId, choice, field, make, shown } from './parts.mjs';
@@ -71,7 +71,10 @@ export function makeIt() {
   keep('form', r);
   return run(TEXT.make.growing(0), async () => {
     let started = null;
+    let stored = null;
     const told = (phase, now) => {
+      const reached = started && session.jam.kept.get(started.id); // what a closed page finds again
+      if (reached && reached !== stored && canKeep()) keepPacking((stored = reached), { recipe: null, phi: now.packingFraction });
       const share = isCrunched(r) ? (phase === 'growing' ? GROWS * now.fraction : GROWS + (1 - GROWS) * now.fraction) : now.fraction;
       progress(share, now.secondsLeft);
       tell(M[phase](now.packingFraction));

@@ -1,6 +1,6 @@
 // All texts of the page, in English. Another language is another file like this one.
 export const TEXT = {
-  tabs: { learn: 'Learn', make: 'Make', check: 'Check', prove: 'Prove', look: 'Look', save: 'Save' },
+  tabs: { learn: 'Learn', make: 'Make', check: 'Check', prove: 'Prove', look: 'View', save: 'Save' },
   starting: 'The library starts.',
   ready: (version) => `libjam ${version} is ready. It runs in this page; nothing is sent anywhere.`,
   kept: 'This browser keeps your choices, your results of a class and the last packing in its storage, so that they are ' +
@@ -59,7 +59,7 @@ export const TEXT = {
     running2: 'The checker runs.', words: ['proved', 'not proved', 'cannot be read', 'trapped'],
   },
   look: {
-    title: 'Look, and count together', page: 'Open the page of this packing', add: 'Add this packing to the table',
+    title: 'View, and count together', page: 'Open the page of this packing', add: 'Add this packing to the table',
     table: 'Results of the class', csv: 'Save as CSV', load: 'Add a CSV of somebody else', clear: 'Empty the table',
     which: 'Histogram of', quantities: { phi: 'packing fraction', rattlers: 'rattlers', contacts: 'contacts' },
     few: 'Add at least two packings, each with a seed of its own.', rows: (k) => `${k} packings`,
@@ -84,7 +84,7 @@ export const STEPS = [
     form: { n: 100, dim: 2, seed: 4, law: 'two', items: '1.4' } },
   { title: '2. No single density', text: 'Two seeds give two packings with two densities. Many small packings scatter; ' +
     'large ones lie closer together. Slow growth gives denser packings. So a density belongs to a protocol and a size.',
-    task: 'Make the same packing with seed 5 and with seed 6. Add each to the table of Look.',
+    task: 'Make the same packing with seed 5 and with seed 6. Add each to the table of View.',
     form: { n: 100, dim: 2, seed: 5, law: 'two', items: '1.4' } },
   { title: '3. Rattlers', text: 'A few disks have no contact that carries force. Such a rattler lies in a cage of others ' +
     'and can move in it. Without rattlers the packing would stay jammed.',

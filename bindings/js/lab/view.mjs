@@ -16,7 +16,8 @@ export function showPage(text) {
   });
 }
 export async function showPacking(packing, { title = '', small = false, motion = null } = {}) {
-  return showPage(await pageOf(packing, title, small, motion));
+  const page = await showPage(await pageOf(packing, title, small, motion));
+  if (motion) page.startMotion(0);
 }
 /** Positions, diameters and cell of a moment, in the page that shows the start. */
 export function showMoment({ positions, diameters, cell }) {

@@ -63,7 +63,7 @@ function tints() {
     high = Math.max(high, values[i]);
   }
   if (q.range) [low, high] = q.range();
-  const of = q.classes ? (i) => CLASSES[values[i]].colour : (i) => viridis((values[i] - low) / (high - low || 1));
+  const of = q.classes ? (i) => CLASSES[values[i]].colour : (i) => viridis(high > low ? (values[i] - low) / (high - low) : 0.4);
   return { q, values, low, high, of };
 }
 

@@ -30,6 +30,12 @@ function play(on) {
   if (oscillation.running) requestAnimationFrame(swing);
   else setPhase(0);
 }
+// Shows a motion, from the page around this one.
+function startMotion(k) {
+  if (!parts.motion) return;
+  parts.motion.value = k + 1;
+  parts.motion.dispatchEvent(new Event("change"));
+}
 function makeMotionControls() {
   if (!motions.length) return;
   const still = window.matchMedia("(prefers-reduced-motion: reduce)");

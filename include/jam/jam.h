@@ -411,9 +411,8 @@ typedef struct jam_diameters_options {
 JAM_API jam_status jam_diameters_options_init(jam_diameters_options *o, size_t size);
 /* Diameters of a law. Quantiles ascend. curve: of LIST and SIEVE, else NULL. If packing_fraction is given instead of n,
  * the volumes add up to packing_fraction * cell_volume: for EQUAL and LIST to half a sphere, for other laws to 1e-13.
- * There the last sphere, the largest that stays below the largest of all, is adjusted. The error text gives the packing
- * fraction in reach. Example: examples/c/sieve.c @shape curve (rows, 2), out (m) @errors DIMENSION, UNPLACEABLE
- * (packing_fraction) */
+ * There the last sphere is adjusted, below the largest. The error text gives the fraction in reach. Example:
+ * examples/c/sieve.c @shape curve (rows, 2), out (m) @errors DIMENSION, UNPLACEABLE (packing_fraction) */
 JAM_API jam_status jam_diameters(const jam_diameters_options *o, const double *curve, size_t curve_len, double *out,
                                  size_t out_len, size_t *needed);
 /* Reads a law from text into *o, whose other fields stay as they are, and gives its curve. The text is `LAW` or
@@ -512,8 +511,8 @@ JAM_API jam_status jam_add_note(jam_system *sys, const char *text);
  * descriptors (/dev/stdout, /dev/fd/N) are written in place; a file opened with >> gets the packing at its end. A pipe
  * that closes, and the process's limit on file sizes, give JAM_E_IO without a signal. Shifts of JAM_MODEL_MK are not
  * saved: read the file with the same seed and mk_zeta; planted ones need jam_write_checkpoint. Only XYZ can store
- * non_additivity; only XYZ, LAMMPS and VTP walls or a cell that is no cube; others give JAM_E_UNSUPPORTED. @enum format
- * jam_format @errors UNSUPPORTED, IO */
+ * non_additivity; only XYZ, LAMMPS and VTP walls or a cell that is no cube. @enum format jam_format
+ * @errors UNSUPPORTED, IO */
 JAM_API jam_status jam_write(const jam_system *sys, const char *path, int32_t format);
 /* jam_write in another unit: all lengths are multiplied by scale, 1e-12 to 1e12; scale = 1 gives the bits of jam_write.
  * density of the spheres, > 0: for LAMMPS data; 1 in other formats. @enum format jam_format @errors UNSUPPORTED, IO */
@@ -555,9 +554,8 @@ typedef enum jam_growth_law {
       1 /* growth_rate is d ln<sigma>/dt box / (n^(1/d) sqrt(kT/m)), constant; ln(density) grows d times as fast */
 } jam_growth_law;
 /* Lubachevsky-Stillinger growth: one stage at a given growth rate, or the two stages of jam_compress, to which targets,
- * limits and growth_law apply too. The target reached first ends the growth. Limits count from the start of each stage.
- * At one growth_rate each law is the same protocol at every n. JAM_GROWTH_DENSITY sets a new rate at each 0.5 % of
- * sigma. */
+ * limits and growth_law apply too. The target reached first ends the growth. Limits count per stage. At one growth_rate
+ * each law is the same protocol at every n. JAM_GROWTH_DENSITY sets a new rate at each 0.5 % of sigma. */
 typedef struct jam_compress_options {
   uint32_t struct_size;
   int32_t resume;                 /* @bool continue the stopped stage; only limits are taken from here; default 0 */
@@ -772,14 +770,14 @@ typedef enum jam_isoconf_column {
 } jam_isoconf_column;
 #define JAM_ISOCONF_COLUMNS 14
 JAM_API jam_status jam_isoconf_options_init(jam_isoconf_options *o, size_t size);
-/* Isoconfigurational ensemble (Widmer-Cooper et al., Phys. Rev. Lett. 93, 135701 (2004)): runs that all start from the
- * packing, which does not change, with its diameters scaled to density_ratio (refused if gaps are then rounding
- * errors). Run k draws its velocities from its own stream. m NULL: molecular dynamics; else Monte Carlo with these
- * options (not sweeps, run, first_sweep, resume, wall_time). instant: ascending, > 0. kept: indices of instants whose
- * displacements every run keeps, or NULL. The handle keeps the sums, added in the order of run numbers, until the next
- * call. A stopped call keeps the finished runs, also in checkpoints; resume continues. Status: JAM_NOT_CONVERGED (a run
- * cannot move). @shape instant (instants), kept (k) @errors STATE (nothing to resume, or not the same), OVERLAP,
- * UNSUPPORTED */
+/* Isoconfigurational ensemble (Widmer-Cooper et al., Phys. Rev. Lett. 93, 135701 (2004)): runs that all start from
+ * the packing, which does not change, with its diameters scaled to density_ratio (refused if gaps are then
+ * rounding). Run k draws its velocities from its own stream. m NULL: molecular dynamics; else Monte Carlo with these
+ * options (not sweeps, run, first_sweep, resume, wall_time). instant: ascending, > 0. kept: indices of instants
+ * whose displacements every run keeps, or NULL. The handle keeps the sums, added in the order of run numbers, until
+ * the next call. A stopped call keeps the finished runs, also in checkpoints; resume continues. Status:
+ * JAM_NOT_CONVERGED (a run cannot move). @shape instant (instants), kept (k) @errors STATE (nothing to resume, or
+ * not the same), OVERLAP, UNSUPPORTED */
 JAM_API jam_status jam_isoconf(jam_system *sys, const jam_isoconf_options *o, const jam_monte_carlo_options *m,
                                const double *instant, size_t instant_len, const int32_t *kept, size_t kept_len,
                                jam_isoconf_report *report);
@@ -1123,9 +1121,9 @@ JAM_API jam_status jam_decompress_history(const jam_system *sys, int32_t columns
 JAM_API jam_status jam_contacts(const jam_system *sys, int32_t *out, size_t out_len, size_t *needed);
 /* Unit vectors n = (r_i - r_j)/|r_i - r_j| of each pair. @shape out (contacts, d) @errors STATE */
 JAM_API jam_status jam_contact_vectors(const jam_system *sys, double *out, size_t out_len, size_t *needed);
-/* Gaps h of the contacts. After a polish they are rounding errors, 1e-14. Of tens of thousands of spheres a few of the
- * weakest contacts may stay open by 2e-6, with sum f h below 3e-14 of sum f; a log line reports them. @shape out
- * (contacts) @errors STATE */
+/* Gaps h of the contacts. After a polish they are rounding errors, 1e-14. Among tens of thousands of spheres a few weak
+ * contacts may stay open by 2e-6, with sum f h < 3e-14 sum f; a log line reports them. @shape out (contacts)
+ * @errors STATE */
 JAM_API jam_status jam_contact_gaps(const jam_system *sys, double *out, size_t out_len, size_t *needed);
 /* Contact forces, mean 1; times report.force_scale they are lambda r. With several states of self-stress
  * (excess_contacts > 0: crystals, disks of two sizes) they are not unique; a jammed packing then has the forces of
@@ -1136,9 +1134,9 @@ JAM_API jam_status jam_coordination(const jam_system *sys, int32_t *out, size_t 
 
 /* ------------------------------------------------------------------ analysis of the contact network */
 /* In this section N' = report.stable, n_c = report.contacts; rows and modes run over stable spheres only, in the order
- * of jam_hessian_map. Calls on a const handle are quick. The others take long, report JAM_PHASE_ANALYSE and can be
- * cancelled. None changes the packing. Calls with `@errors STATE` need a contact network: JAM_E_STATE before jam_crunch
- * or jam_contacts_from_geometry, JAM_NOT_JAMMED when it is empty. jam_contacts_by_distance lists the calls that need no
+ * of jam_hessian_map. Calls on a const handle are quick; others report JAM_PHASE_ANALYSE and can be cancelled. None
+ * changes the packing. Calls with `@errors STATE` need a contact network: JAM_E_STATE before jam_crunch or
+ * jam_contacts_from_geometry, JAM_NOT_JAMMED when it is empty. jam_contacts_by_distance lists the calls that need no
  * forces. */
 
 /* ------------- Hessian, modes */
@@ -1195,10 +1193,9 @@ JAM_API jam_status jam_modes(jam_system *sys, const jam_hessian_options *h, cons
                              double *table, size_t table_len, double *vector, size_t vector_len, size_t *rows);
 /* All d N' modes of the Hessian at the wave vector sum of wave[c] b_c, with a_c . b_e = 2 pi delta_ce: the copy of a
  * sphere at distance sum of s_c a_c moves by exp(2 pi i sum wave[c] s_c) times the sphere's displacement. lambda
- * ascending; vector: real and imaginary parts, unit length. Dense: 96 (d N')^2 bytes. Wave 0 gives the modes of
- * jam_modes; all wave[c] = k / count[c], k = 0 .. count[c] - 1, those of jam_tile. Along an axis with walls wave is 0.
- * @shape wave (d), table (m, jam_mode_column), vector (m, N', d, 2) @errors STATE, SOLVER, UNSUPPORTED (unlisted own
- * images) */
+ * ascending; vector: real and imaginary parts, unit length. Dense: 96 (d N')^2 bytes. Wave 0: modes of jam_modes; all
+ * wave[c] = k / count[c], k = 0 .. count[c] - 1: those of jam_tile. Along an axis with walls wave is 0. @shape wave
+ * (d), table (m, jam_mode_column), vector (m, N', d, 2) @errors STATE, SOLVER, UNSUPPORTED (unlisted own images) */
 JAM_API jam_status jam_bloch_modes(jam_system *sys, const jam_hessian_options *h, const double *wave, size_t wave_len,
                                    int32_t columns, double *table, size_t table_len, double *vector, size_t vector_len,
                                    size_t *rows);
@@ -1302,10 +1299,9 @@ typedef struct jam_rigidity_report {
  * Copies of the cell need jam_bloch_rigidity. Donev et al., J. Comput. Phys. 197, 139 (2004). Status: JAM_NOT_JAMMED,
  * JAM_AMBIGUOUS (undecided). @enum kind jam_rigidity_kind @errors SOLVER, OVERLAP */
 JAM_API jam_status jam_rigidity(jam_system *sys, int32_t kind, jam_rigidity_report *report);
-/* A motion of a packing that is not jammed: displacements out, unit of the box, at most 1 mean diameter, and strain
- * (collective: 0). A small part of it keeps contacts closed or opens them. If no pair is near contact, one sphere
- * moves. @shape out (n, d), strain (d, d) @enum kind jam_rigidity_kind @errors SOLVER, STATE (jammed, or undecided
- * without a motion) */
+/* A motion of an unjammed packing: displacements out, unit of the box, at most 1 mean diameter, and strain (collective:
+ * 0). A small part of it keeps contacts closed or opens them. If no pair is near contact, one sphere moves. @shape out
+ * (n, d), strain (d, d) @enum kind jam_rigidity_kind @errors SOLVER, STATE (jammed, or undecided without a motion) */
 JAM_API jam_status jam_flex(jam_system *sys, int32_t kind, double *out, size_t out_len, double *strain,
                             size_t strain_len, size_t *needed);
 /* Columns of jam_bloch_rigidity. */
@@ -1315,10 +1311,10 @@ typedef enum jam_bloch_column {
 } jam_bloch_column;
 #define JAM_BLOCH_COLUMNS 2
 /* The collective test of jam_rigidity for count[c] copies along each cell vector (jam_tile), from one cell: one row per
- * wave vector of the copies, as in jam_bloch_modes; wave[0] runs fastest. K+ is that of one cell, in which the mean of
- * the copies' forces balances; the copies have the flexes of all rows. Status: JAM_NOT_JAMMED, JAM_AMBIGUOUS
- * (undecided). @shape count (d), wave (m, d), table (m, jam_bloch_column) @errors SOLVER, UNSUPPORTED (Mari-Kurchan
- * model, round walls) */
+ * wave vector of the copies, as in jam_bloch_modes; wave[0] runs fastest. K+ is that of one cell, where the copies'
+ * mean forces balance; the copies have the flexes of all rows. Status: JAM_NOT_JAMMED, JAM_AMBIGUOUS (undecided).
+ * @shape count (d), wave (m, d), table (m, jam_bloch_column) @errors SOLVER, UNSUPPORTED (Mari-Kurchan model, round
+ * walls) */
 JAM_API jam_status jam_bloch_rigidity(jam_system *sys, const int32_t *count, size_t count_len, double *wave,
                                       size_t wave_len, int32_t columns, double *table, size_t table_len, size_t *rows);
 
@@ -1529,9 +1525,8 @@ typedef enum jam_structure_column {
   JAM_STRUCTURE_S = 1  /* S(q), its average over all q of this length */
 } jam_structure_column;
 #define JAM_STRUCTURE_COLUMNS 2
-/* S(q) on the wave vectors of the cell (in a cube 2 pi n / box), along axes without walls, with |q| <= q_max.
- * Lengths that differ by less than 5e-13 |q| are one. @shape table (m, jam_structure_column) @errors UNSUPPORTED (no
- * such axis) */
+/* S(q) on the wave vectors of the cell (in a cube 2 pi n / box), along axes without walls, with |q| <= q_max. Lengths
+ * within 5e-13 |q| are merged. @shape table (m, jam_structure_column) @errors UNSUPPORTED (no such axis) */
 JAM_API jam_status jam_structure_factor(jam_system *sys, double q_max, int32_t columns, double *table, size_t table_len,
                                         size_t *needed);
 /* Bond order Q_l of each sphere (d = 2: |psi_l|) over neighbours with |r| < cutoff sigma_ij; l in 1..64, cutoff in (0,

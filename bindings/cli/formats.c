@@ -95,7 +95,7 @@ static int is_packed(const char *path) {
   return length > 3 && !strcmp(path + length - 3, ".gz");
 }
 
-/* A name that promises what is not done. */
+/* A file name whose ending asks for what is not done. */
 static int settle_gzip(const options *o) {
   size_t k;
   for (k = 0; k < sizeof table / sizeof *table; ++k) {

@@ -61,7 +61,7 @@ typedef struct outcome {
 typedef struct terminal {
   const char *stage;
   double begin, told, kept; /* seconds on the clock of seconds_now: of the job, the last line, the last checkpoint */
-  int is_terminal, has_counted; /* counted: the number of spheres has been told */
+  int is_terminal, has_counted; /* counted: the number of spheres was printed */
   FILE *log;
   const options *o;
   const jam_system *sys;

@@ -4,7 +4,7 @@
 // (round_axes, is_round).
 //
 // The container lies in the brick of its cell and touches its faces. Along `closed` axes nothing repeats (Cell::close).
-// Molecular dynamics lives on a torus all the same: images of a container do not overlap each other, so that spheres
+// Molecular dynamics is periodic nevertheless: images of a container do not overlap each other, so that spheres
 // inside it never meet across a wall before they meet the wall. That holds for additive contact distances, and for
 // smaller ones.
 //

@@ -43,7 +43,7 @@ void place_uniformly(Packing &p);
 // the fraction reached when many tries find no place for one sphere.
 void place_at_random(Packing &p);
 // Mari-Kurchan start at equilibrium at any density (Krzakala and Zdeborova, J. Chem. Phys. 134, 034513 (2011)):
-// uniform positions; then each pair draws its shift anew until it does not overlap.
+// uniform positions; then each pair draws its shift again until it does not overlap.
 void plant(Packing &p);
 
 }  // namespace jam::inside

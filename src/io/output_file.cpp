@@ -32,7 +32,7 @@ OutputFile::OutputFile(const char *path) : path_(path) {
   }
   if (target.descriptor >= 0 || target.open || there == platform::Kind::other) {
     while ((fd_ = platform::open_in_place(target, path)) < 0 && (errno == EAGAIN || errno == EINTR)) {
-      const bool waits = errno == EAGAIN;  // for somebody to read the pipe
+      const bool waits = errno == EAGAIN;  // for a reader of the pipe
       CallScope::look();
       HostThread::take_cancellation();
       if (waits) platform::pause(platform::silence);

@@ -38,7 +38,7 @@ class BarrierProblem {
   double longest_dual(const BarrierStep &x) const;
   // Row k after alpha x, with the bending that the linear row omits: c + alpha w + alpha^2 |s_i - s_j + E r|^2 /
   // sigma^2; of a flat wall the part of s_i along its normal. A round wall bends the other way, and not as a square:
-  // its distance is computed anew.
+  // its distance is computed again.
   double gap_after(const BarrierStep &x, size_t k, double alpha) const {
     if (!round_.empty() && round_of_[k] >= 0) return round_gap(x, k, alpha);
     return lp.c[k] + alpha * (x.w[k] + alpha * bend_[k]);

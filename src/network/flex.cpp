@@ -72,8 +72,8 @@ std::vector<Relative> relative_motion(const RigidityMatrix &g, const std::vector
   return out;
 }
 
-// The least change of the motion that keeps closed what it closes or hardly opens. Between contacts that carry force
-// some would else close as others open.
+// The least change of the motion that keeps the contacts closed that it closes or barely opens. Between contacts that
+// carry force some would else close as others open.
 void keep_closed(const RigidityMatrix &g, const ConstraintRows &rows, bool strain, std::vector<double> &v) {
   std::vector<double> y(rows.rows()), wanted;
   rows.multiply(v.data(), y.data());

@@ -1,4 +1,4 @@
-// Bounds that hold in spite of rounding: every operation here returns a number at or above (or below) the exact one.
+// Bounds that hold despite rounding: every operation here returns a number at or above (or below) the exact one.
 // Rounding to nearest is assumed; the guard of the C boundary sets it.
 #pragma once
 #include <cmath>

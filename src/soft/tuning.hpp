@@ -88,7 +88,7 @@ struct DecompressTuning {
   // takes more follows a weak instability, whose forces fall with the overlaps. A shorter step does the same at larger
   // overlaps.
   static constexpr int64_t work_share = 4;
-  // It may always take this share of max_evaluations: a start near its minimum takes hardly any and sets no scale.
+  // It may always take this share of max_evaluations: a start near its minimum takes almost none and sets no scale.
   static constexpr int64_t least_share = 20;
   static constexpr double longest_guess = 0.1;  // displacement that the Hessian predicts for smaller diameters
 };

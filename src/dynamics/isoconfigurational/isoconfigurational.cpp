@@ -176,7 +176,7 @@ void Isoconfigurational::archive(Archive &a) {
     take_diameters();
   }
   for (uint64_t k = 0; k < blocks; ++k) {
-    if (a.reading()) blocks_.emplace_back();  // one by one: the file ends where it promises too many
+    if (a.reading()) blocks_.emplace_back();  // one by one: a file with too large a count ends first
     blocks_[k].archive(a);
   }
   for (std::vector<double> &set : kept_) a(set);

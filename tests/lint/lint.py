@@ -347,13 +347,19 @@ def changelog():
 
 
 def columns():
-    """Lines end by column 120: build files, shell, Fortran and C (whose layout lint/format checks). Generated files are free."""
+    """Lines end by column 120: build files, shell, Fortran and C (lint/format checks its layout); by 160 in pages of the guide."""
     kinds = ("CMakeLists.txt", "*.cmake", "*.sh", "*.f90", "*.[ch]")
     below = [f"{folder.name}/**/{kind}" for folder in pages.folders(root) if folder.name[0] != "." for kind in kinds]
     for path in files("CMakeLists.txt", "src/**/*.[ch]pp", *below):
         for number, line in enumerate(path.read_text().splitlines(), 1):
             if len(line) > 120:
                 problem(path, number, f"{len(line)} columns, 120 are allowed")
+    for path in files("README.md", "CHANGELOG.md", "bindings/docs/*.md"):  # but tables that figures.py writes
+        tables = re.compile(r"<!-- figures.*?<!-- end of figures -->", re.S)
+        text = tables.sub(lambda m: "\n" * m.group().count("\n"), path.read_text(encoding="utf-8"))
+        for number, line in enumerate(text.splitlines(), 1):
+            if len(line) > 160:
+                problem(path, number, f"{len(line)} columns, 160 are allowed in a page")
 
 
 RULES = [layers, python_layers, private_headers, doc_comments, names, table_of_calls, file_sizes, namespaces, no_side_effects]

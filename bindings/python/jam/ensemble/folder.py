@@ -146,21 +146,24 @@ class Folder:
     def content(self, names: Iterable[str] | None = None) -> Content:
         """The packings that are there: all, or those of some names and of shards."""
         known = index.read(self.index) if names is None else {}
-        rows: dict[bytes, bytes] = {}
+        keys: list[bytes] = []
+        rows: list[bytes] = []
         places: list[Place] = []
         damaged: dict[Path, str] = {}
         for place in self._places(names, damaged):
             with suppress(FileNotFoundError):  # there is none of this name, or somebody removed it meanwhile
                 key = index.key_of(*place)
                 try:
-                    rows[key] = known.get(key) or self.row(place).tobytes()
+                    rows.append(known.get(key) or self.row(place).tobytes())
+                    keys.append(key)
                     places.append(place)
                 except StoreError as error:
                     if place.path.exists():
                         damaged[place.path] = str(error.strerror)
-        if names is None and not self.unverified and rows != known:
-            index.write(self.index, rows)
-        return self._counted(np.frombuffer(b"".join(rows.values()), ROW), places, damaged)
+        there = dict(zip(keys, rows))
+        if names is None and not self.unverified and there != known:
+            index.write(self.index, there)
+        return self._counted(np.frombuffer(b"".join(rows), ROW), places, damaged)
 
     def _is_home(self, name: str, place: Place) -> bool:
         """A packing has its own name, or the one that free() gave it."""

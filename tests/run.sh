@@ -167,7 +167,7 @@ fi
 if wants browser; then
 part "browser"
 if (need_packages emscripten nodejs npm swig) >/dev/null 2>&1; then
-cmake --preset wasm >/dev/null
+cmake -C pkgconfig/presets/wasm.cmake -S . -B build-wasm -G Ninja >/dev/null
 cmake --build build-wasm -j "$jobs"
 ctest --test-dir build-wasm -j "$at_once" --output-on-failure --no-tests=error || status=1
 if [ -f build-wasm/lab.html ] && [ -d build ]; then

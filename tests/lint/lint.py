@@ -219,7 +219,7 @@ def file_sizes():
         if count > 80:
             problem(path, count, "an example has more than 80 lines")
     allowed = {
-        "CMakeLists.txt", "CMakePresets.json",
+        "CMakeLists.txt",
         "README.md",
         "LICENSE",
         "CHANGELOG.md",

@@ -316,6 +316,13 @@ def threads(*raws):
     return ["N", "two threads over one (rate)"], rows
 
 
+def wasm(raw):
+    """JAM_BITS_SET=portable wasm.py BUILD-WASM BUILD --sizes 256 --rounds 2"""
+    rows = [["bytes of jam.wasm; gzipped", raw["bytes"], raw["gzipped"], raw["bytes"] / raw["gzipped"]]]
+    rows += [[key + " (s)", *times, times[0] / times[1]] for key, times in raw["rows"].items()]
+    return ["spheres, step", "WebAssembly", "native, portable loops", "ratio"], rows
+
+
 def read(path):
     text = Path(path).read_text(encoding="utf-8")
     return [json.loads(line) for line in text.splitlines()] if path.endswith(".jsonl") else json.loads(text)
@@ -323,7 +330,7 @@ def read(path):
 
 def main():
     name, raws = sys.argv[1], [read(path) for path in sys.argv[2:]]
-    made = {f.__name__: f for f in (crunch, size, clp, resume, disks, proofs, verdicts, verdict_numbers, strict, md, monte_carlo, near_jamming, soft_cell, pore_space, structure, liquid, advise, analysis, factorisation, ablation, decompressions, ratios, mixtures, md_misses, md_threads, md_windows, ensemble, ensemble_statistics, walls, walls_equal, walls_edge, products, threads, task_graph)}[name]
+    made = globals()[name]
     columns, rows = made(*raws)
     old = raws[0] if isinstance(raws[0], dict) and "commit" in raws[0] else None  # a result that was kept with its source
     source = old and {key: old[key] for key in ("machine", "commit", "date")}

@@ -909,7 +909,7 @@ typedef struct jam_crunch_report {
 JAM_API jam_status jam_crunch_options_init(jam_crunch_options *o, size_t size);
 /* Brings the packing to its jamming point and keeps the contact network (o->method; Artiaco et al., Phys. Rev. E 106,
  * 055310 (2022)). No step creates an overlap. If the packing is not shown to be jammed, the crunch decreases the
- * diameters by 1e-4 to 0.03, displaces the spheres at random by less than half of that, and compresses again. A stopped
+ * diameters by 1e-4 to 0.1, displaces the spheres at random by less than half of that, and compresses again. A stopped
  * crunch leaves a valid packing. Another call, also from a checkpoint, continues on the path at its mu; bits may
  * differ, and its report counts its own steps and times. Status: JAM_OK jammed, or at the duality gap of the options
  * (`jammed` is then 0, and another call continues); JAM_NOT_CONVERGED, JAM_NOT_JAMMED with the last valid state.
@@ -939,7 +939,7 @@ JAM_API jam_status jam_get_crunch_report(const jam_system *sys, jam_crunch_repor
 
 /* What kind of step a row of the history is. */
 typedef enum jam_step_phase {
-  JAM_STEP_PATH = 1,  /* a Newton step of the barrier path; or a move that opens contacts (flex, decompression) */
+  JAM_STEP_PATH = 1,  /* a Newton step of the barrier path; or a decompression, which opens contacts */
   JAM_STEP_LP = 2,    /* an LP and the move to its solution */
   JAM_STEP_POLISH = 3 /* contacts closed and forces balanced to rounding */
 } jam_step_phase;

@@ -154,8 +154,8 @@ struct Spread {
   double low, high;
 };
 
-// Equal disks crystallise in parts, and crystals have more contacts than unknowns: narrow LPs, moves along flexes and
-// decompressions follow a path that says nothing of them.
+// Equal disks crystallise in parts, and crystals have more contacts than unknowns: narrow LPs and decompressions follow
+// a path that says nothing of them.
 Spread spread_of(const Packing &p) {
   const bool alike = ratio_of_diameters(p) < T::alike;
   const PairList closed = find_pairs(p, 0.0, 1.0 + T::crystal_gap);

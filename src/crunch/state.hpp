@@ -37,7 +37,6 @@ struct CrunchFindings {
   bool polished = false;         // the last polish closed its contacts
   PackingVerdict verdict;        // on the packing as it ends
   int32_t strictly_jammed = JAM_VERDICT_UNTESTED;
-  int flex_moves = 0;         // made so far
   bool start_tested = false;  // the verdict on the start was asked for
 };
 

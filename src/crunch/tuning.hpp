@@ -13,7 +13,7 @@ namespace jam::inside {
 struct Tuning {
   // Round walls: of the growth that an LP promises, the least part that its step must bring (Armijo's rule).
   static constexpr double least_growth = 0.25;
-  int max_attempts = 30;  // LPs below the gain tolerance that lead to no verdict, and moves along flexes
+  int max_attempts = 30;  // LPs below the gain tolerance that lead to no verdict
 
   // ---- approach: sequential LPs
   // Bound of the first LP: part of a diameter plus a share of the free spacing, at most so many square roots of the
@@ -73,7 +73,6 @@ struct Tuning {
   int max_narrow_lps = 20;
   int max_excess = 8;            // contacts too many that are dropped where they do not close; a crystal has more
   double jammed_balance = 1e-6;  // net forces of a jammed packing after polish, over the mean
-  double longest_flex_move = 0.02;
   // A start that cannot grow but has flexes: phi rises by less than this where a crunch has not left its density. Of so
   // many spheres all decompressions are tried before it ends there (64 disks with vacancies need up to three; of 400
   // and 900 none helps, in 3 and 13 s), of more the first.
@@ -81,7 +80,7 @@ struct Tuning {
   size_t most_retried = 1000;
   // Where a packing is not shown to be jammed: parts of diameters by which it is decompressed, one after the other, and
   // the share of the gaps that each of two spheres may use up when all are displaced.
-  std::array<double, 4> decompression{1e-4, 1e-3, 1e-2, 3e-2};
+  std::array<double, 5> decompression{1e-4, 1e-3, 1e-2, 3e-2, 0.1};
   double displaced = 0.45;
 
   // ---- end at a finite duality gap

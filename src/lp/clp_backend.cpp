@@ -1,4 +1,4 @@
-// LPs by Clp's dual simplex: the packing LP, and motions of a packing. The only file that includes Clp.
+// The packing LP by Clp's dual simplex. The only file that includes Clp.
 #include <ClpEventHandler.hpp>
 #include <ClpFactorization.hpp>
 #include <ClpSimplex.hpp>
@@ -144,18 +144,6 @@ LpSolution solve_lp_clp(const PackingLp &lp, double tolerance, const Monitor *mo
   for (int k = 0; k < rows; ++k) out.basis_rows.push_back(1.0 + model.getRowStatus(k));
   for (int k = 0; k < columns; ++k) out.basis_columns.push_back(1.0 + model.getColumnStatus(k));
   return out;
-}
-
-LpSolution solve_motion_clp(const PackingLp &lp, const std::vector<double> &direction, int32_t fixed, uint32_t axes,
-                            const Monitor *monitor) {
-  PackingModel packing(lp, clp_tolerance, monitor);
-  if (!packing.usable) return packing.none();
-  for (size_t k = 0; k < direction.size(); ++k)
-    packing.model.setObjectiveCoefficient(static_cast<int>(k), -direction[k]);
-  for (int c = 0; c < lp.dim; ++c)
-    if (axes >> c & 1) packing.model.setColumnBounds(fixed * lp.dim + c, 0.0, 0.0);
-  packing.model.setColumnBounds(packing.model.numberColumns() - 1, 0.0, 0.0);
-  return packing.solve(false);
 }
 
 }  // namespace jam::inside

@@ -20,9 +20,5 @@ bool clp_is_built() { return false; }
 LpSolution solve_lp_clp(const PackingLp &lp, double, const Monitor *monitor, const LpSolution *) {
   return no_answer(lp, monitor);
 }
-LpSolution solve_motion_clp(const PackingLp &lp, const std::vector<double> &, int32_t, uint32_t,
-                            const Monitor *monitor) {
-  return no_answer(lp, monitor);
-}
 
 }  // namespace jam::inside

@@ -102,8 +102,5 @@ bool clp_is_built();
 constexpr double basis_inside = 2.0, basis_at_lower = 4.0;
 LpSolution solve_lp_clp(const PackingLp &lp, double tolerance = clp_tolerance, const Monitor *monitor = nullptr,
                         const LpSolution *start = nullptr);
-// The vertex farthest along `direction`, g = 0; sphere `fixed` stays along these axes (bits).
-LpSolution solve_motion_clp(const PackingLp &lp, const std::vector<double> &direction, int32_t fixed, uint32_t axes,
-                            const Monitor *monitor);
 
 }  // namespace jam::inside

@@ -104,9 +104,7 @@ void test_undecided_cone(const Supported &s, const StressCone &cone, Jamming kin
   RigidityResult part;
   if (!test_from_rigid_part(s.sub, cone, kind, part) &&
       !(test_from_rigid_part(s.sub, pushed, kind, part) && part.rigid == Verdict::yes)) {
-    if (find_flex_of_part(s, cone, out) || cone.path_motion.empty()) return;
-    out.attempt.assign(s.g.unknowns(), 0.0);
-    scatter(s.sub, cone.path_motion.data(), 1.0, out.attempt);
+    find_flex_of_part(s, cone, out);
     return;
   }
   out.rigid = part.rigid, out.stressed = part.stressed, out.margin = part.margin, out.flexes = part.flexes;

@@ -59,8 +59,6 @@ struct RigidityResult {
   // contacts turn by as much.
   double opening = 0.0;
   bool opens_clearly(double h) const { return opening > std::sqrt(h); }
-  std::vector<double>
-      attempt;  // (nodes, dim): where undecided, a motion that may open contacts; nothing is proved of it
 };
 RigidityResult test_rigidity(const RigidityMatrix &contacts, Jamming kind);
 

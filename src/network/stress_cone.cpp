@@ -281,7 +281,6 @@ StressCone find_stress_cone(const ConstraintRows &rows, const NormalSolver &solv
     out.carrying.assign(m, 0), out.force.assign(m, 0.0);
   }
   out.factorisations += path.steps();
-  if (!out.decided) out.path_motion = path.x();
   if (!out.decided || std::count(out.carrying.begin(), out.carrying.end(), 1) == 0) return out;
   const RigidityMatrix sub = subset(rows.g, out.carrying);
   const ConstraintRows kept(sub, rows.strains > 0);

@@ -18,7 +18,6 @@ struct StressCone {
   // The same for guesses without pulled contacts: they may prove a packing jammed, and nothing else.
   std::vector<char> pushed;
   std::vector<double> pushed_force;
-  std::vector<double> path_motion;  // where the path ended: opens what it can
   int factorisations = 0;
 };
 // states: dimension of the null space of A^T, -1 when not known. solver: of `rows`, factored with unit weights.

@@ -106,7 +106,7 @@ Says raise_if_trapped(JammingCase &c) {
   r.stressed = Verdict::yes;
   r.self_stresses -= r.flexes;
   r.flexes = 0;
-  r.flex.clear(), r.attempt.clear();
+  r.flex.clear();
   // R has rows 2 r_c.
   double length2 = 0.0;
   for (const double sigma2 : equations.sigma2) length2 += 4.0 * scene.gamma * sigma2;

@@ -28,11 +28,10 @@ RigidityResult test_part(const RigidityMatrix &g, const std::vector<char> &on, J
   for (size_t k = 0, at = 0; k < g.contacts(); ++k)
     if (on[k]) carrying[k] = r.carrying[at], force[k] = r.force[at++];
   r.carrying = std::move(carrying), r.force = std::move(force);
-  for (std::vector<double> *motion : {&r.flex, &r.attempt}) {
-    if (motion->empty()) continue;
+  if (!r.flex.empty()) {
     std::vector<double> v(g.unknowns(), 0.0);
-    scatter(part, motion->data(), 1.0, v);
-    *motion = std::move(v);
+    scatter(part, r.flex.data(), 1.0, v);
+    r.flex = std::move(v);
   }
   return r;
 }
@@ -157,7 +156,7 @@ Says doubt_contact_all_around(JammingCase &c) {
              (c.pairs.maybe_closed[k] && g.b[k] < 0 && !(-g.bending[k] * g.sigma[k] * VerdictTuning::off_axis < 1.0));
   if (!around) return {};
   c.v.result.stressed = c.v.answer_if_all_closed = Verdict::undecided;
-  c.v.result.flex.clear(), c.v.result.attempt.clear();
+  c.v.result.flex.clear();
   return Verdict::undecided;
 }
 

@@ -276,8 +276,9 @@ DECOMPRESSIONS = {
     "decompressions after 1": "1e-4",
     "decompressions after 2": "1e-4, 1e-3",
     "decompressions after 3": "1e-4, 1e-3, 1e-2",
-    "decompression by 1e-3": "1e-4, 1e-2, 0.03",
-    "none": "1e-4, 1e-3, 1e-2, 0.03",
+    "decompressions after 4": "1e-4, 1e-3, 1e-2, 0.03",
+    "decompression by 1e-3": "1e-4, 1e-2, 0.03, 0.1",
+    "none": "1e-4, 1e-3, 1e-2, 0.03, 0.1",
 }
 
 

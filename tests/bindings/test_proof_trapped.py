@@ -275,11 +275,11 @@ class Trapped(unittest.TestCase):
         self.assertLess(abs(off - np.round(off)).max(), 1e-12)  # images
         phases = np.asarray(whole.crunch_history().phase)
         self.assertEqual((phases == jam.StepPhase.LP).sum(), whole.report.lp_solves)
-        parts = np.array([1e-4, 1e-3, 1e-2, 3e-2])
+        parts = np.array([1e-4, 1e-3, 1e-2, 3e-2, 0.1])
         decompressions = lambda s: [(abs(np.asarray(s.crunch_history().gain) + part) < 1e-12).sum() for part in parts]
         self.assertGreater(whole.report.decompressions, 0)
         self.assertEqual(sum(decompressions(whole)), whole.report.decompressions)
-        made = np.zeros(4, dtype=int)
+        made = np.zeros(5, dtype=int)
         with tempfile.TemporaryDirectory() as folder:
             for k in range(100):
                 report = sliced.crunch(max_lps=12)
@@ -293,14 +293,16 @@ class Trapped(unittest.TestCase):
         self.assertEqual(made.sum(), report.decompressions)
 
     def becomes_jammed(self, system):
-        """From near a saddle: the nearest jammed packing is within some hundredths of a diameter."""
+        """From near a saddle: a jammed packing is within some hundredths of a diameter, or a tenth after the last decompression."""
         fraction = system.packing_fraction
         report = system.crunch()
         self.assertTrue(report.jammed)
         self.assertEqual(system.rigidity("collective").jammed, jam.Verdict.YES)
         self.assertIsInstance(trapped(file_of(system, [1.0] * 300)), dict)
-        self.assertLess(abs(system.packing_fraction - fraction), 1e-3)
-        self.assertLess(report.displacement_rms, 0.1)
+        # The way grows with the last decrease of the diameters: 0.1 instead of 0.03 or less after the fifth.
+        longer = 0.1 / 0.03 if report.decompressions == 5 else 1.0
+        self.assertLess(abs(system.packing_fraction - fraction), 1e-3 * longer)
+        self.assertLess(report.displacement_rms, 0.1 * longer)
 
     def test_each_bound_is_needed(self):
         """With one bound taken out of the checker a false file passes."""

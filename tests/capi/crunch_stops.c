@@ -221,7 +221,7 @@ static void free_cell_without_polish(void **state) {
   jam_destroy(sys);
 }
 
-/* A flex of the free cell moves the spheres after a verdict: until there is another one, the report has none. */
+/* A decompression in the free cell follows a verdict: until there is another one, the report has none. */
 static void a_limit_leaves_no_older_verdict(void **state) {
   int limits = 0;
   (void)state;
@@ -246,10 +246,10 @@ static void a_limit_leaves_no_older_verdict(void **state) {
   assert_true(limits > 10);
 }
 
-/* The same where the call is stopped in the LP behind that move. Two disks at the sites of a centred square lattice:
- * jammed in this cell, and a saddle of the free one by symmetry. Each LP keeps the symmetry but for rounding, and a
- * displacement of 1e-15 opens contacts by its square: no rounding makes an LP leave the saddle. (Behind a polish that
- * is refused: unit/crunch_fallbacks.) */
+/* The same where the call is stopped in the LP behind the decompression. Two disks at the sites of a centred square
+ * lattice: jammed in this cell, and a saddle of the free one by symmetry. Each LP keeps the symmetry but for rounding,
+ * and a displacement of 1e-15 opens contacts by its square: no rounding makes an LP leave the saddle. (Behind a polish
+ * that is refused: unit/crunch_fallbacks.) */
 static void a_stop_leaves_no_older_contacts(void **state) {
   const double sites[4] = {0.1, 0.2, 0.6, 0.7}, diameters[2] = {0.6, 0.6};
   jam_create_options c;
@@ -264,7 +264,7 @@ static void a_stop_leaves_no_older_contacts(void **state) {
   jam_crunch_options_init(&o, sizeof o);
   o.strain = JAM_STRAIN_FREE;
   memset(&a, 0, sizeof a);
-  a.sys = sys, a.armed = "saddle of the free cell", a.word = "ipm";
+  a.sys = sys, a.armed = "not shown to be jammed", a.word = "ipm";
   assert_int_equal(jam_set_log(sys, spring, JAM_LOG_DEBUG, &a), JAM_OK);
   r = crunch(sys, &o, JAM_CANCELLED);
   if (!a.sprung) fail_msg("no LP behind the saddle");

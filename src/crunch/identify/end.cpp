@@ -9,11 +9,9 @@
 #include "core/error.hpp"
 #include "core/pair_rule.hpp"
 #include "crunch/control.hpp"
-#include "crunch/identify/flex_move.hpp"
 #include "crunch/identify/narrow_lps.hpp"
 #include "crunch/identify/polish.hpp"
 #include "crunch/identify/recompress.hpp"
-#include "network/rattlers.hpp"
 #include "verdict/text.hpp"
 
 namespace jam::inside {
@@ -38,16 +36,6 @@ void add_history_row(CrunchState &s) {
   HistoryRow &row = record_step(s, JAM_STEP_POLISH);
   record_contacts(s, row, s.out.contacts.size(), s.out.contacts.coordination);
   if (s.history.details()) report_step(s, JAM_PHASE_POLISH, row[JAM_HISTORY_GAIN], row[JAM_HISTORY_STEP_MAX]);
-}
-
-// All closed pairs as contacts, of the spheres that they can balance; the test finds the forces.
-ContactNetwork closed_pairs(const Packing &p, bool own_images) {
-  ContactNetwork net = unforced_pairs(p, 0.0, 1.0 + contact_gap_limit);
-  net.force.assign(net.size(), 1.0);
-  std::vector<char> on(net.size());
-  for (size_t k = 0; k < net.size(); ++k) on[k] = own_images || !net.pairs.own_image(k);
-  drop_unbalanced(p.dim, p.n(), net.pairs.i, net.pairs.j, net.vector, on);
-  return subset(net, on, p.dim);
 }
 
 void log_verdict(const CrunchState &s, const PackingVerdict &v) {
@@ -103,12 +91,13 @@ PackingVerdict final_verdict(const CrunchState &s, const PackingVerdict &tested,
 }
 
 // In a free cell the strict test says whether its strains are at rest, and its one stress balances on the cell too.
+// Lattices whose cell is a saddle of the density by symmetry are no maximum of it: a decompression leads away.
 Phase decide_strict_jamming(CrunchState &s) {
   PackingVerdict strict;
   if (!tested(s, strict, [&] { return test_contacts(s, Jamming::strict); })) return Phase::done;
-  if (strict.jammed != Verdict::yes && s.o.strain == JAM_STRAIN_FREE && move_along_strained_flex(s, strict))
-    return stop(s, JAM_STOP_NONE, JAM_OK), Phase::approach;
   if (!tested(s, strict, [&] { return final_verdict(s, strict, Jamming::strict); })) return Phase::done;
+  if (strict.jammed != Verdict::yes && s.o.strain == JAM_STRAIN_FREE && s.o.polish && recompress(s))
+    return stop(s, JAM_STOP_NONE, JAM_OK), Phase::approach;
   s.found.strictly_jammed = verdict_code(strict.jammed);
   if (strict.jammed == Verdict::yes) {
     take_forces_of(s, strict);
@@ -177,34 +166,19 @@ bool polish_contacts(CrunchState &s) {
 bool converged(const CrunchState &s) { return s.out.report.gain <= default_crunch_options().gain_tolerance; }
 
 Phase decide_jamming(CrunchState &s) {
-  for (;;) {
-    s.system.release();  // the test has a factor of its own
-    PackingVerdict verdict;
-    if (!tested(s, verdict, [&] { return test_contacts(s, Jamming::collective); })) return Phase::done;
-    if (verdict.jammed == Verdict::yes) return give_verdict(s, verdict);
-    if (is_back_at_start(s)) {
-      PackingVerdict of_start;
-      if (!tested(s, of_start, [&] { return verdict_of(s.start, nullptr, Jamming::collective); })) return Phase::done;
-      if (of_start.jammed == Verdict::no && of_start.result.flexes > 0) return end_at_start(s, of_start);
-    }
-    // No slide opens a contact. In a periodic cell it may lead to other spheres, or a strain further.
-    const bool slides = verdict.result.slides > 0 && s.out.packing.container;
-    const bool open = s.o.polish && !slides;
-    const auto recompressed = [&] {
-      return open && s.found.narrow != CrunchFindings::Narrow::none && converged(s) && recompress(s);
-    };
-    if (verdict.result.flex.empty() && recompressed()) return Phase::approach;
-    const FlexMove moved = converged(s) && !slides ? move_along_flex(s, verdict) : FlexMove::none;
-    if (moved == FlexMove::free) return Phase::approach;
-    if (moved == FlexMove::blocked && s.o.polish) {
-      s.out.contacts = closed_pairs(s.out.packing, s.next.strain.count() > 0);
-      if (!polish_contacts(s)) return Phase::done;
-      continue;
-    }
-    if (recompressed()) return Phase::approach;
-    if (open && narrow_lps_left(s)) return Phase::narrow_lps;
-    return give_verdict(s, verdict);
+  s.system.release();  // the test has a factor of its own
+  PackingVerdict verdict;
+  if (!tested(s, verdict, [&] { return test_contacts(s, Jamming::collective); })) return Phase::done;
+  if (verdict.jammed == Verdict::yes) return give_verdict(s, verdict);
+  if (is_back_at_start(s)) {
+    PackingVerdict of_start;
+    if (!tested(s, of_start, [&] { return verdict_of(s.start, nullptr, Jamming::collective); })) return Phase::done;
+    if (of_start.jammed == Verdict::no && of_start.result.flexes > 0) return end_at_start(s, of_start);
   }
+  // No slide opens a contact. In a periodic cell it may lead to other spheres, or a strain further.
+  const bool open = s.o.polish && !(verdict.result.slides > 0 && s.out.packing.container);
+  if (open && s.found.narrow != CrunchFindings::Narrow::none && converged(s) && recompress(s)) return Phase::approach;
+  return open && narrow_lps_left(s) ? Phase::narrow_lps : give_verdict(s, verdict);
 }
 
 Phase give_verdict(CrunchState &s, const PackingVerdict &of_contacts) {

@@ -3,8 +3,7 @@
 //   active set of the LP -> closed contacts, balanced forces (polish) -> test of collective jamming -> jammed, or a
 //   flex
 //
-// A flex is a motion that opens contacts: the packing is a saddle of the density. The spheres move along it until a
-// pair blocks, and LPs continue.
+// A flex is a motion that opens contacts: the packing is a saddle of the density. A decompression leads away from it.
 #pragma once
 #include "crunch/state.hpp"
 

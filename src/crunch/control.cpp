@@ -31,7 +31,7 @@ void restart_lps(CrunchState &s, double bound) {
   s.next.bound = bound;
   s.next.moved = 1.0;
   s.next.stalled = 0;
-  s.found.narrow = CrunchFindings::Narrow::none;
+  s.found.narrow = false;
   forget_contacts(s);
 }
 

@@ -32,10 +32,9 @@ struct NextLp {
 };
 
 struct CrunchFindings {
-  enum class Narrow { none, by_interior_point, by_simplex };
-  Narrow narrow = Narrow::none;  // the last LPs were narrow ones
-  bool polished = false;         // the last polish closed its contacts
-  PackingVerdict verdict;        // on the packing as it ends
+  bool narrow = false;     // the last LPs were narrow ones
+  bool polished = false;   // the last polish closed its contacts
+  PackingVerdict verdict;  // on the packing as it ends
   int32_t strictly_jammed = JAM_VERDICT_UNTESTED;
   bool start_tested = false;  // the verdict on the start was asked for
 };

@@ -94,12 +94,11 @@ inline void transpose_times(const PackingLp &lp, const double *y, double *out) {
   columns_transpose_times(lp.strain.data(), static_cast<size_t>(lp.strains), lp.rows(), y, out + lp.spheres());
 }
 
-// Whether this build has Clp (JAM_CLP). Without it the two functions below give no answer, and the log says why.
+// Whether this build has Clp (JAM_CLP). Without it solve_lp_clp gives no answer, and the log says why.
 bool clp_is_built();
 // Clp's simplex on the same LP, an independent and slower solver. Thread-safe: each call has its own model. monitor,
 // which may be NULL, can interrupt it between two pivots. start: a basis from a former answer with rows for this LP (0:
 // not known), or NULL.
-constexpr double basis_inside = 2.0, basis_at_lower = 4.0;
 LpSolution solve_lp_clp(const PackingLp &lp, double tolerance = clp_tolerance, const Monitor *monitor = nullptr,
                         const LpSolution *start = nullptr);
 

@@ -9,7 +9,6 @@
 #include "core/error.hpp"
 #include "core/pair_rule.hpp"
 #include "crunch/control.hpp"
-#include "crunch/identify/narrow_lps.hpp"
 #include "crunch/identify/polish.hpp"
 #include "crunch/identify/recompress.hpp"
 #include "verdict/text.hpp"
@@ -77,10 +76,10 @@ bool tested(CrunchState &s, PackingVerdict &verdict, Test &&test) {
   return true;
 }
 
-// What the next phase follows from: the contacts that were found, as closed as they are. A soft mode is left to narrow
-// LPs, where there are any left.
+// What the next phase follows from: the contacts that were found, as closed as they are. What this leaves undecided
+// goes to narrow LPs and decompressions, which cost less than the proofs of the final verdict.
 PackingVerdict test_contacts(const CrunchState &s, Jamming kind) {
-  return test_packing(s.out.packing, &s.out.contacts, kind, narrow_lps_left(s) ? Rule::weak_forces : Rule::trapped);
+  return test_packing(s.out.packing, &s.out.contacts, kind, Rule::weak_forces);
 }
 
 // The verdict in the report is the one that jam_rigidity would return. A yes on closed contacts is that already.
@@ -177,8 +176,8 @@ Phase decide_jamming(CrunchState &s) {
   }
   // No slide opens a contact. In a periodic cell it may lead to other spheres, or a strain further.
   const bool open = s.o.polish && !(verdict.result.slides > 0 && s.out.packing.container);
-  if (open && s.found.narrow != CrunchFindings::Narrow::none && converged(s) && recompress(s)) return Phase::approach;
-  return open && narrow_lps_left(s) ? Phase::narrow_lps : give_verdict(s, verdict);
+  if (open && !s.found.narrow) return Phase::narrow_lps;
+  return open && converged(s) && recompress(s) ? Phase::approach : give_verdict(s, verdict);
 }
 
 Phase give_verdict(CrunchState &s, const PackingVerdict &of_contacts) {

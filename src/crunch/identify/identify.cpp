@@ -3,7 +3,6 @@
 #include "crunch/approach/free_cell.hpp"
 #include "crunch/control.hpp"
 #include "crunch/identify/end.hpp"
-#include "crunch/identify/narrow_lps.hpp"
 #include "crunch/identify/recompress.hpp"
 
 namespace jam::inside {
@@ -26,7 +25,7 @@ Phase end_early(CrunchState &s) {
 Phase identify(CrunchState &s) {
   if (frees_cell(s)) return free_cell(s);
   if (s.last.active.rows.empty()) {
-    if (s.out.report.stop_reason == JAM_STOP_NONE && narrow_lps_left(s) && s.o.polish) return Phase::narrow_lps;
+    if (s.out.report.stop_reason == JAM_STOP_NONE && !s.found.narrow && s.o.polish) return Phase::narrow_lps;
     if (s.out.report.stop_reason != JAM_STOP_NONE) return Phase::done;
     return s.o.polish && recompress(s) ? Phase::approach : give_verdict(s, {});
   }
@@ -41,7 +40,7 @@ Phase identify(CrunchState &s) {
     forget_contacts(s);
     return Phase::approach;
   }
-  if (s.o.polish && !s.found.polished && s.found.narrow == CrunchFindings::Narrow::none) return Phase::narrow_lps;
+  if (s.o.polish && !s.found.polished && !s.found.narrow) return Phase::narrow_lps;
   return decide_jamming(s);
 }
 

@@ -16,9 +16,8 @@ struct Tuning {
   int max_attempts = 30;  // LPs below the gain tolerance that lead to no verdict
 
   // ---- approach: sequential LPs
-  // Bound of the first LP: part of a diameter plus a share of the free spacing, at most so many square roots of the
-  // median contact gap. Floppy motion goes some tens of these square roots.
-  double first_bound = 0.1, bound_per_spacing = 0.6, bound_per_root_gap = 100.0;
+  // Bound of the first LP: part of a diameter plus a share of the free spacing.
+  double first_bound = 0.1, bound_per_spacing = 0.6;
   // Every LP allows motions up to min_bound, so that one without gain proves that no such motion gains. Longer steps
   // belong to the path.
   double min_bound = 1e-2, max_bound = 0.5;

@@ -133,7 +133,6 @@ const Mechanism mechanisms[] = {
     {"single precision", [](Tuning &t, jam_crunch_options &) { t.single.work = never; }},
     {"correctors", [](Tuning &t, jam_crunch_options &) { t.max_correctors = 0; }},
     {"leaving saddles of the path", [](Tuning &t, jam_crunch_options &) { t.increase = 1.0; }},
-    {"narrower first bound", [](Tuning &t, jam_crunch_options &) { t.bound_per_root_gap = never; }},
     {"neighbours of uncovered spheres", [](Tuning &t, jam_crunch_options &) { t.farthest_reach = 0.0; }},
     {"end of the path near rounding", [](Tuning &t, jam_crunch_options &) { t.end_roundings = 33.0; }},  // 1e-12
     {"dropped contacts", [](Tuning &t, jam_crunch_options &) { t.max_excess = 0; }},

@@ -136,9 +136,7 @@ double build_lp(CrunchState &s, double reach) {
 
 double first_bound(const Packing &p, const jam_crunch_options &o, const Tuning &t) {
   if (o.step_bound > 0.0) return o.step_bound;
-  const double spacing = t.first_bound + t.bound_per_spacing * free_spacing(p);
-  const double closed = t.bound_per_root_gap * std::sqrt(contact_gap(p));
-  return std::min(spacing, std::max(t.min_bound, closed));
+  return t.first_bound + t.bound_per_spacing * free_spacing(p);
 }
 
 double lp_reach(const Packing &p, const jam_crunch_options &o, const Tuning &t, double bound) {

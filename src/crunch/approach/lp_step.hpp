@@ -4,8 +4,7 @@
 
 namespace jam::inside {
 
-// Bound of the first LP: the free spacing of a dilute start, down to a tenth of a diameter near jamming and less where
-// gaps are closed.
+// Bound of the first LP: the free spacing of a dilute start, down to a tenth of a diameter near jamming.
 double first_bound(const Packing &p, const jam_crunch_options &o, const Tuning &t);
 // Pairs farther apart cannot meet in an LP of this bound.
 double lp_reach(const Packing &p, const jam_crunch_options &o, const Tuning &t, double bound);

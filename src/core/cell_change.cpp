@@ -22,11 +22,12 @@ void enter_cell(Packing &p, const NormalCell &normal) {
   if (!p.position.empty()) wrap_positions(p);
 }
 
+namespace {
+
+// Mari-Kurchan shifts are fractions of the cell vectors: with other vectors the system is another one.
 bool keeps_shifts(const Packing &p, const NormalCell &normal) {
   return p.model != JAM_MODEL_MK || normal.same_vectors();
 }
-
-namespace {
 
 void say_once(Notes &notes, const std::string &line) {
   if (notes.text().find(line) == std::string::npos) notes.say("%s", line.c_str());

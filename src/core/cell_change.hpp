@@ -7,8 +7,6 @@ namespace jam::inside {
 
 // The spheres of p in that cell: positions and velocities are rotated with it, then wrapped.
 void enter_cell(Packing &p, const NormalCell &normal);
-// Mari-Kurchan shifts are fractions of the cell vectors: with other vectors the system is another one.
-bool keeps_shifts(const Packing &p, const NormalCell &normal);
 // Notes, once, what became of vectors that were not kept. `spheres`: they were there before, and went with the cell.
 void note_cell(const NormalCell &normal, bool spheres, Notes &notes);
 // The vectors of a cell that deforms, where they have become extreme: upright ones, or else those of reduce_cell,

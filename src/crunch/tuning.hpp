@@ -26,9 +26,12 @@ struct Tuning {
   double reach_per_bound = 2.2;  // listed gaps over the bound: two spheres meet from either side
   double early_gap = 0.02;       // an LP ends at this share of its gain, or at its optimum
   double warm_step = 1e-5;       // after a shorter step the next LP starts from the last multipliers
+  // An answer may violate rows and shrink spheres by lp_rounding, and miss |sum y - 1| by lp_unit_sum.
+  static constexpr double lp_rounding = 1e-9, lp_unit_sum = 1e-6;
   // Loosest lp_tolerance: an answer with a larger gap may be worse than spheres that stay, by more than `acceptable`
   // allows, and Clp would be asked.
   double loosest_lp = 1e-9;
+  static constexpr double least_part = 1e-6;  // of the step of an answer; if less is safe, the input was bad
 
   // ---- from LPs to the barrier path and back
   double curvature_ratio = 10.0;  // a step l opens contacts by l^2; above so many gains LPs go in circles
@@ -66,6 +69,9 @@ struct Tuning {
   double farthest_reach = 2.4;
 
   // ---- identify: active set, narrow LPs, verdict
+  // Newton steps of the polish: so many, while they at least halve gaps that are above rounding.
+  static constexpr int polish_steps = 4;
+  static constexpr double polish_progress = 0.5, polish_end = 1e-16;
   double closing_gap = 1e-8;                    // a contact that stays wider when all are closed is none
   double closed_gap = 3e-14;                    // rounding of closed contacts in a box of ten diameters
   double narrow_bound = 1e-3, narrower = 0.01;  // of the first narrow LP; where an LP gains nothing, of the next

@@ -17,8 +17,8 @@ namespace {
 bool acceptable(const CrunchState &s, const LpSolution &x, bool early, LpCheck &check) {
   check = check_lp(s.last.lp, x);
   const double balance = early ? std::numeric_limits<double>::infinity() : InteriorPointTuning::rough_balance;
-  constexpr double rounding = 1e-9;
-  return x.solved && check.infeasibility < rounding && check.gamma < 1e-6 && check.balance < balance && x.g > -rounding;
+  return x.solved && check.infeasibility < Tuning::lp_rounding && check.gamma < Tuning::lp_unit_sum &&
+         check.balance < balance && x.g > -Tuning::lp_rounding;
 }
 
 LpAnswer try_solver(CrunchState &s, jam_lp_solver solver, const IpmControl &control) {

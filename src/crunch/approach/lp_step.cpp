@@ -93,7 +93,7 @@ double take_step(Packing &p, PairList &pairs, double reach, const LpSolution &x,
     alpha *= 0.5;
     shifted = pairs;
     q = moved(p, shifted, x, alpha, unit, basis);
-    return alpha < 1e-6;
+    return alpha < Tuning::least_part;
   };
   const auto fits = [&] { return fit_round_wall(q, p, 0.5 * alpha * x.g) || !(x.g > 0.0); };
   const double allowed = Tuning().step_overlap(p);

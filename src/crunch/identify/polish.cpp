@@ -106,14 +106,14 @@ class Polish {
     system_.set_graph(p.dim, static_cast<int32_t>(p.n()), net.pairs, threads_);
     const auto open = [&] { return excess_contacts(net, p) > 0 ? norm(net.gap) : largest(net.gap); };
     double worst = open();
-    for (int round = 0; round < 4 && worst > 1e-16; ++round) {
+    for (int round = 0; round < Tuning::polish_steps && worst > Tuning::polish_end; ++round) {
       log("polish %d largest gap %.2e", round, largest(net.gap));
       if (monitor_ && monitor_->interrupted()) return false;
       Packing p_old = p;
       ContactNetwork old = net;
       close_once(p, net);
       const double now = open();
-      if (!(now < 0.5 * worst)) {  // rounding, or the contacts cannot all close
+      if (!(now < Tuning::polish_progress * worst)) {  // rounding, or the contacts cannot all close
         if (!(now < worst)) p = std::move(p_old), net = std::move(old);
         break;
       }

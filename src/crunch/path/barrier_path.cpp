@@ -78,7 +78,7 @@ class BarrierPath {
       const size_t half = std::min(gaps.size() - 1, static_cast<size_t>(p_.dim) * p_.n() / 2);
       std::nth_element(gaps.begin(), gaps.begin() + half, gaps.end());
       const double smallest = *std::min_element(gaps.begin(), gaps.end());
-      const double opening = std::max(t_.opening * std::max(gaps[half], 1e-12), control_.opening);
+      const double opening = std::max(t_.opening * gaps[half], control_.opening);
       if (smallest < opening)
         for (double &s : p_.diameter) s *= std::sqrt((1.0 + smallest) / (1.0 + opening));
     }

@@ -201,24 +201,6 @@ def md(raw):
     return ["what", "N = 1024", "N = 16384", "N = 1e5"], rows
 
 
-def monte_carlo(raw):
-    """monte_carlo"""
-    rows = [
-        [r["scene"] + (f", alpha = {r['alpha']:g}, T = {r['temperature']:g}" if r["alpha"] else ""), r["step"], r["trials_a_second"] / 1e6, r["ratio"]]
-        for r in raw
-    ]  # fmt: skip
-    return ["system (N = 1024)", "step in diameters", "millions of trials per second", "over a plain cell-list code"], rows
-
-
-def pore_space(raw):
-    """pore_space.py --n 1024"""
-    rows = []
-    for run in raw["rows"]:
-        what = f"{run['at']:g} of the radius" if run["kind"].startswith("mesh") else f"{run['at']} voxels along each edge"
-        rows.append([run["kind"], what, run["error"], run["seconds"], run["bytes"] / 1e6])
-    return ["what", "resolution", "error of the volume or the porosity", "seconds", "MB"], rows
-
-
 def advise(raw):
     """advise.py 512"""
     rows = []

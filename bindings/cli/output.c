@@ -63,7 +63,12 @@ int close_output(output *out) {
     failed = fflush(stdout) || put_bytes(descriptor, out->text, out->size);
   } else if (!failed && kind_of(out->path) == KIND_OTHER) {
     const int fd = open_in_place(out->path);
-    failed = fd < 0 || put_bytes(fd, out->text, out->size);
+    failed = fd < 0;
+    if (!failed) {
+      ignore_lost_reader(1);
+      failed = put_bytes(fd, out->text, out->size);
+      ignore_lost_reader(0);
+    }
     if (fd >= 0) failed |= close(fd);
   } else if (!failed) {
     failed = replace_file(out->path, out->text, out->size);

@@ -50,9 +50,16 @@ static int read_diameters(const char *path, double **out, int64_t *count) {
     return -1;
   }
   while (!bad && fgets(text, sizeof text, file)) {
+    const size_t length = strlen(text);
     int columns;
     double x;
-    word = plain_line(text, ++line == 1, &columns);
+    ++line;
+    if ((bad = !length || (text[length - 1] != '\n' && !feof(file)))) {
+      complain("%s line %d has a zero byte or more than %d characters: this is no list of diameters", path, line,
+               (int)sizeof text - 2);
+      break;
+    }
+    word = plain_line(text, line == 1, &columns);
     if (!*word) continue;
     x = strtod(word, &end);
     if (n == 0 && !headed && end == word && columns == 1) {
@@ -60,7 +67,7 @@ static int read_diameters(const char *path, double **out, int64_t *count) {
       headed = 1;
       continue;
     }
-    if ((bad = columns > 1 || *end || !isfinite(x) || !(x > 0))) {
+    if ((bad = columns > 1 || *end || strpbrk(word, "xX") || !isfinite(x) || !(x > 0))) {
       refuse_line(path, line, word, columns);
       break;
     }

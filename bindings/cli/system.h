@@ -14,6 +14,7 @@ int may_create(const char *path); /* a file in the folder of this name: 0 or -1 
 char *resolve(const char *path);
 FILE *open_stream(const char *path, const char *mode); /* fopen */
 int open_in_place(const char *path);                   /* a descriptor to write to a pipe or a device */
+void ignore_lost_reader(int yes); /* of a pipe: then a write to it fails, and no signal ends the program */
 
 /* A stream that collects a text. *text, which the caller frees, and *size are there when close_text has returned 0. */
 FILE *open_text(char **text, size_t *size);

@@ -43,6 +43,7 @@ char *resolve(const char *path) {
 FILE *open_stream(const char *path, const char *mode) { return fopen(path, mode); }
 
 int open_in_place(const char *path) { return open(path, O_WRONLY); }
+void ignore_lost_reader(int yes) { signal(SIGPIPE, yes ? SIG_IGN : SIG_DFL); }
 
 FILE *open_text(char **text, size_t *size) {
   *text = NULL;

@@ -72,6 +72,8 @@ FILE *open_stream(const char *path, const char *mode) {
   return file;
 }
 
+void ignore_lost_reader(int yes) { (void)yes; } /* the system has no such signal */
+
 int open_in_place(const char *path) {
   wchar_t *const name = wide(path);
   const int fd = name ? _wopen(name, _O_WRONLY | _O_BINARY) : -1;

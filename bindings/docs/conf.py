@@ -88,4 +88,17 @@ html_copy_source = False
 html_show_sphinx = False
 html_static_path = ["static"]
 html_css_files = ["site.css"]
-html_theme_options = {"navigation_with_keys": True}
+html_js_files = ["copy.js"]
+pygments_style, pygments_dark_style = "tango", "monokai"
+# Debian's furo has no colours for dark systems of its own. Names of its variables without --color-.
+DARK = {
+    "foreground-primary": "#d8dadd", "foreground-secondary": "#a3a8ae", "foreground-muted": "#868c93", "foreground-border": "#6b7077",
+    "background-primary": "#15171a", "background-secondary": "#1c1f23", "background-hover": "#24282d", "background-item": "#4a4f55",
+    "background-hover--transparent": "#24282d00", "background-border": "#34393f", "brand-primary": "#6ea8fe", "brand-content": "#6ea8fe",
+    "problematic": "#ff7b72", "highlight-on-target": "#3a3a12", "highlighted-background": "#1d3b5c", "admonition-background": "#1c1f23",
+    "card-background": "#1c1f23", "guilabel-background": "#1d3b5c80", "guilabel-border": "#2f5a8880",
+}
+html_theme_options = {
+    "navigation_with_keys": True,
+    "dark_css_variables": {f"color-{name}": value for name, value in DARK.items()},
+}

@@ -134,10 +134,7 @@ def main():
         if (root / name).exists():
             (source / name).symlink_to(root / name)
     # The start page stands at the top, so that the site opens with it; its links begin with / and hold in both places.
-    start = (root / "bindings/docs/index.md").read_text()
-    pages = sorted(f"bindings/docs/{p.stem}" for p in (root / "bindings/docs").glob("*.md") if p.stem != "index")
-    more = [name for name in pages if f"\n{name}\n" not in start]
-    (source / "index.md").write_text(start.replace("bindings/docs/*", "\n".join(more)))
+    (source / "index.md").write_text((root / "bindings/docs/index.md").read_text())
     pages = api_pages((root / "include/jam/jam.h").read_text())
     for name, text in pages:
         (source / "api" / f"{name}.md").write_text(text)

@@ -105,8 +105,9 @@ class Scene:
         self.text = Path(path).read_bytes().decode("ascii")
         strange = re.search("[^ -~\n]", self.text)
         refuse(strange, "a character, such as a carriage return, is neither printable ASCII nor a line feed")
-        lines = [line.split() for line in self.text.split("\n") if line.strip()]
+        lines = [line.split() for line in self.text.removesuffix("\n").split("\n")]
         refuse(lines[:1] != [["jamproof", "1"]], "the first line is not 'jamproof 1'")
+        refuse([] in lines, "a line is empty")
 
         def take(name, *counts):
             """What follows a word in its lines, as many numbers as it must; in the header there is one line of it."""
@@ -130,7 +131,8 @@ class Scene:
         self.force, self.row = [f[0] for f in forces], [f[-1] for f in forces]  # row: without implied contacts
         self.tiles = [(name, list(map(integer, ring))) for name, *ring in lines if name in ("tile", "implied")]
         self.within, self.hint, packed = None, None, take("inverse", 2)
-        self.strict = bool(take("strict", 0))
+        self.strict = bool(strict := take("strict", 0))
+        refuse(max(len(strict), len(packed)) > 1, "a line 'strict' or 'inverse' is there twice")
         for name in (line[0] for line in lines[1:]):
             refuse(name not in WORDS, f"unknown word {name}")
         lengths, self.one = whole([number(x) for s in [cell] + [s[2:] for s in spheres] for x in s])

@@ -853,7 +853,7 @@ typedef struct jam_crunch_options {
   int32_t strain;          /* @enum jam_free_strain, default NONE */
   int32_t keep_steps;      /* states before the end that are kept for jam_write_page, 0 .. 1000, default 0 */
   double duality_gap;      /* 0, the default: to the jamming point; or 1e-12 .. 1e-2 */
-  int32_t prove;           /* @bool a packing that ends jammed is proved as by jam_prove, into the report; default 0 */
+  int32_t prove;           /* @bool a packing that ends jammed is proved collectively jammed by jam_prove; default 0 */
   int32_t reserved;
 } jam_crunch_options;
 /* Result and certificate of jam_crunch. Counts are -1 if contacts are unknown, for example after an early stop; calls
@@ -1245,7 +1245,8 @@ JAM_API jam_status jam_contacts_from_geometry(jam_system *sys, const jam_geometr
  * tested, so there are no forces, report or verdict: for beds under weight and friction. jam_contacts,
  * jam_contact_vectors, jam_contact_gaps, jam_coordination, jam_fabric_tensor, jam_gaps, jam_contact_dots and
  * jam_sphere_structure (not weighted), jam_write_contacts, jam_write_stl and jam_write_page accept these contacts;
- * jam_forces gives NaN, other calls JAM_E_STATE. Status: JAM_NOT_JAMMED (none) */
+ * jam_forces gives NaN, other calls JAM_E_STATE. jam_rigidity and the check test positions whatever these contacts are,
+ * and jam_tile does not copy them. Status: JAM_NOT_JAMMED (none) */
 JAM_API jam_status jam_contacts_by_distance(jam_system *sys, double gap);
 /* States of self-stress of the network, *rows = their number m. force: mean 1, from the null space of S^T, not from LP
  * duals. basis: orthonormal. residual: one number, as force_residual. Status: JAM_AMBIGUOUS (m > 1: force is the
@@ -1335,14 +1336,14 @@ typedef struct jam_check_options {
   uint32_t struct_size;
   int32_t crunch;   /* @bool if undecided, crunch a copy and report the changes (crunch_*); default 1 */
   double wall_time; /* limit of the crunch of the copy */
-  int32_t prove;    /* @bool a jammed packing is proved as by jam_prove, into the report; default 0 */
+  int32_t prove;    /* @bool a jammed packing is proved collectively jammed by jam_prove; default 0 */
   int32_t reserved;
 } jam_check_options;
 /* Verdict on a packing. Closed pairs have gaps below 1e-10. crunch_*: of the crunched copy. */
 typedef struct jam_check_report {
   uint32_t struct_size;
   int32_t jammed;                 /* @enum jam_verdict: collectively jammed */
-  int32_t strictly_jammed;        /* @enum jam_verdict; NO where jammed is NO; UNTESTED where walls allow no strain */
+  int32_t strictly_jammed;        /* @enum jam_verdict; NO where jammed is NO; as jammed between walls on all axes */
   int32_t stationary;             /* @enum jam_verdict: non-negative forces balance */
   int32_t reason;                 /* @enum jam_check_reason of jammed */
   int32_t dim;                    /* d */
@@ -1374,7 +1375,7 @@ typedef struct jam_check_report {
   double proof_radius;          /* unit of the box: radius of EXACT, inner of TRAPPED (jam_proof_report), or infinite */
   double proof_value, proof_bound; /* the two numbers of the cause */
   double curvature_margin;         /* as in jam_rigidity_report */
-  int64_t strict_excess_contacts;  /* contacts - (d (N' - 1) + strains), d (d + 1) / 2 without walls; 0: no contacts */
+  int64_t strict_excess_contacts;  /* with own images, less d (N' - 1) + d (d + 1) / 2; walls: fewer strains */
 } jam_check_report;
 JAM_API jam_status jam_check_options_init(jam_check_options *o, size_t size);
 /* Runs both tests of jam_rigidity on positions, diameters and cell, whatever the network; nothing on the handle

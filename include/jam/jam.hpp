@@ -108,12 +108,14 @@ class System {
   using Progress = std::function<bool(const jam_progress &)>;
   using Log = std::function<void(int level, const char *line)>;
 
+  // cell: (d, d), one vector a row; empty: the cube of the options.
   explicit System(const jam_create_options &o, const std::vector<double> &positions = {},
-                  const std::vector<double> &diameters = {}) {
+                  const std::vector<double> &diameters = {}, const std::vector<double> &cell = {}) {
     adopt([&](jam_system **out) {
       jam_start start = report<jam_start>();
       start.positions = positions.data(), start.positions_len = positions.size();
       start.diameters = diameters.data(), start.diameters_len = diameters.size();
+      if (!cell.empty()) start.cell = cell.data(), start.cell_len = cell.size();
       return jam_create(&o, &start, out);
     });
   }
@@ -137,6 +139,12 @@ class System {
     o.dim = dim;
     o.box = box;
     return System(o, positions, diameters);
+  }
+  static System from_arrays(int dim, const std::vector<double> &positions, const std::vector<double> &diameters,
+                            const std::vector<double> &cell) {
+    jam_create_options o = create_options();
+    o.dim = dim;
+    return System(o, positions, diameters, cell);
   }
   // layout: what the file does not say, as jam_read_as takes it.
   static System read(const std::string &path, const jam_create_options &o = create_options(),

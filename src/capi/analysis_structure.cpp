@@ -3,6 +3,7 @@
 #include "analysis/structure.hpp"
 #include "capi/analysis.hpp"
 #include "capi/table.hpp"
+#include "core/checks.hpp"
 #include "core/pair_rule.hpp"
 
 using namespace jam::inside;
@@ -30,6 +31,7 @@ extern "C" {
 jam_status jam_gaps(const jam_system *sys, double h_max, int32_t stable_only, double *gap, size_t gap_len,
                     int32_t *pair, size_t pair_len, size_t *needed) {
   return guard_const(sys, [&]() -> jam_status {
+    check_flag(stable_only, "stable_only");
     if (stable_only) need_contacts(sys);
     const Gaps g = find_gaps(sys->packing, sys->contacts_of_any_kind(), h_max, stable_only != 0);
     if (!needed && !gap && !pair) fail(JAM_E_NULL, "needed is NULL and there is no output array");
@@ -54,6 +56,7 @@ jam_status jam_contact_classes(const jam_system *sys, int32_t *out, size_t out_l
 jam_status jam_sphere_structure(const jam_system *sys, int32_t weighted, double *c, size_t c_len, double *s,
                                 size_t s_len, size_t *needed) {
   return guard_const(sys, [&]() -> jam_status {
+    check_flag(weighted, "weighted");
     weighted ? need_network(sys) : need_contacts(sys);
     if (!needed && !c && !s) fail(JAM_E_NULL, "needed is NULL and there is no output array");
     if (needed) *needed = sys->packing.n();
@@ -69,6 +72,7 @@ jam_status jam_sphere_structure(const jam_system *sys, int32_t weighted, double 
 jam_status jam_contact_dots(const jam_system *sys, int32_t weighted, double *dot, size_t dot_len, int32_t *sphere,
                             size_t sphere_len, size_t *needed) {
   return guard_const(sys, [&]() -> jam_status {
+    check_flag(weighted, "weighted");
     weighted ? need_network(sys) : need_contacts(sys);
     const ContactDots t = contact_dots(sys->packing, sys->contacts, weighted != 0);
     if (!needed && !dot && !sphere) fail(JAM_E_NULL, "needed is NULL and there is no output array");

@@ -51,8 +51,8 @@ std::string paragraph(const jam_check_report &r) {
   const bool tried = r.theorem != JAM_THEOREM_NONE || r.proof_cause != JAM_CAUSE_NONE;
   if (!tried) return text_of(r);
   return text_of(r) +
-         " Despite rounding: " + proof_text(r.theorem, r.proof_cause, r.proof_radius, r.proof_value, r.proof_bound) +
-         ".";
+         (r.strictly_jammed == JAM_VERDICT_YES ? " Despite rounding, in the fixed cell: " : " Despite rounding: ") +
+         proof_text(r.theorem, r.proof_cause, r.proof_radius, r.proof_value, r.proof_bound) + ".";
 }
 
 }  // namespace

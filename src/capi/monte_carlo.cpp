@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "capi/guard.hpp"
+#include "core/checks.hpp"
 #include "dynamics/monte_carlo/monte_carlo.hpp"
 
 using namespace jam::inside;
@@ -18,6 +19,7 @@ jam_status jam_monte_carlo(jam_system *sys, const jam_monte_carlo_options *o, ja
     take_options(o, full);
     check_monte_carlo_options(full);
     std::unique_ptr<MonteCarloRun> stage;
+    check_flag(full.resume, "resume");
     if (full.resume) {
       if (!sys->paused || sys->paused->phase() != JAM_PHASE_MONTE_CARLO)
         fail(JAM_E_STATE, "resume is 1 but no Monte Carlo run was stopped early on this handle");

@@ -132,12 +132,13 @@ jam_status jam_bloch_rigidity(jam_system *sys, const int32_t *count, size_t coun
       return {JAM_AMBIGUOUS,
               "undecided whether the copies are collectively jammed: doubles or the digits of the "
               "coordinates do not resolve it; jam_crunch closes contacts"};
-    return {JAM_NOT_JAMMED,
-            found.total > 0
-                ? sentence("the copies are not collectively jammed: %lld motions at these wave vectors keep "
-                           "all contacts with force closed",
-                           static_cast<long long>(found.total))
-                : "the copies are not jammed: no set of non-negative contact forces is in balance"};
+    return {
+        JAM_NOT_JAMMED,
+        found.total > 0
+            ? sentence("the copies are not collectively jammed: %lld motion%s at these wave vectors keep%s "
+                       "all contacts with force closed",
+                       static_cast<long long>(found.total), found.total == 1 ? "" : "s", found.total == 1 ? "s" : "")
+            : "the copies are not jammed: no set of non-negative contact forces is in balance"};
   });
 }
 

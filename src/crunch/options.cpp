@@ -39,6 +39,7 @@ void check_options(const Packing &p, const jam_crunch_options &o) {
   check_range("neighbour_radius", o.neighbour_radius, 0.0, limits::radius_max);
   // Smaller steps are lost in the rounding of positions; larger ones leave the numbers that the LP solvers take.
   if (o.step_bound != 0.0) check_range("step_bound", o.step_bound, 1e-15, limits::radius_max);
+  check_flag(o.polish, "polish");
   check_flag(o.full_lps, "full_lps");
   check_flag(o.steps, "steps");
   check_flag(o.prove, "prove");

@@ -167,6 +167,9 @@ TableColumns find_names(LineReader &in, FileContent &content) {
 
 // Skips the lines before the first row, whose columns the caller names.
 TableColumns take_names(LineReader &in, const std::vector<std::string> &names, FileContent &content) {
+  TableColumns columns;
+  if (!name_columns(in, names, columns))
+    fail(JAM_E_ARGUMENT, "columns names no coordinates x, y, z (or x1, x2, ...), one column each");
   const Head head(in.head(), "");
   std::string_view line;
   std::vector<std::string> unused;
@@ -175,9 +178,6 @@ TableColumns take_names(LineReader &in, const std::vector<std::string> &names, F
     in.next(line);
     if (k < head.first) read_yade(in, line, content, unused);
   }
-  TableColumns columns;
-  if (!name_columns(in, names, columns))
-    fail(JAM_E_ARGUMENT, "columns names no coordinates x, y, z (or x1, x2, ...), one column each");
   return columns;
 }
 

@@ -7,6 +7,8 @@
 namespace jam::inside {
 namespace {
 
+constexpr std::string_view own_numbers_of_contacts = "contacts";  // libjam writes them, and a network gives them
+
 struct XyzColumns {
   size_t total = 0, pos = 0, pos_count = 0, id = 0;
   bool has_pos = false, has_id = false;
@@ -37,7 +39,8 @@ XyzColumns read_properties(const LineReader &in, std::string_view properties) {
     } else if (part[k] == "id" && part[k + 1] == "I" && count == 1) {
       columns.has_id = true;
       columns.id = columns.total;
-    } else if (!(number && count == 1 && columns.size.take(in, part[k], columns.total))) {
+    } else if (!(number && count == 1 && columns.size.take(in, part[k], columns.total)) &&
+               part[k] != own_numbers_of_contacts) {
       columns.unread.emplace_back(part[k]);
     }
     columns.total += static_cast<size_t>(count);

@@ -28,6 +28,7 @@ void LineReader::fail(jam_status code, const char *format, ...) const {
   va_start(args, format);
   std::vsnprintf(text, sizeof text, format, args);
   va_end(args);
+  if (number_ == 0) jam::inside::fail(code, "%s: %s", path().c_str(), text);
   jam::inside::fail(code, "%s line %lld: %s", path().c_str(), static_cast<long long>(number_), text);
 }
 

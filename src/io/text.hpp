@@ -27,7 +27,7 @@ class LineReader {
   [[noreturn]] void fail_cut_short() const;
   int64_t number() const { return number_; }  // of the line read last, from 1
   const std::string &path() const { return file_.path(); }
-  // Throws with the path and the line read last before the text.
+  // Throws with the path and the line read last, if any, before the text.
   [[noreturn]] void fail(jam_status code, const char *format, ...) const __attribute__((format(printf, 3, 4)));
 
  private:

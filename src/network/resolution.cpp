@@ -16,20 +16,26 @@ namespace jam::inside {
 namespace {
 
 // As many pairs touch to 1e-10 as hold half of the spheres, and they are three of four that nearly touch: in a lattice
-// of few digits the pairs along an axis may touch exactly, and the others do not.
+// of few digits the pairs along an axis may touch exactly, and the others do not. Own images touch wherever the spheres
+// are: they hold some only where contacts join all spheres.
 bool has_exact_contacts(const Packing &p, double reach) {
   const double near = std::min(reach, ResolutionTuning::first_neighbours * diameter_mean(p));
   const PairList pairs = find_pairs(p, near, 1.0 + contact_gap_limit);
   double r[JAM_MAX_DIM];
-  size_t exact = 0, close = 0;
+  size_t exact = 0, close = 0, own = 0;
   for (size_t k = 0; k < pairs.size(); ++k) {
-    if (pairs.own_image(k)) continue;
     const double sigma = contact_distance(p, pairs.i[k], pairs.j[k]),
                  gap = std::sqrt(pair_vector(p, pairs, k, r)) - sigma;
+    const bool touches = std::fabs(gap) < contact_gap_limit * sigma;
+    if (pairs.own_image(k)) {
+      own += touches;
+      continue;
+    }
     if (gap < near) ++close;
-    exact += std::fabs(gap) < contact_gap_limit * sigma;
+    exact += touches;
   }
-  return 2 * exact >= p.n() * static_cast<size_t>(p.dim) && 4 * exact >= 3 * close;
+  if (exact + 1 < p.n()) own = 0;
+  return 2 * (exact + own) >= p.n() * static_cast<size_t>(p.dim) && 4 * exact >= 3 * close;
 }
 
 }  // namespace

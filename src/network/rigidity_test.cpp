@@ -240,10 +240,8 @@ bool test_without_unbalanced(const RigidityMatrix &g, Jamming kind, RigidityResu
   return true;
 }
 
-}  // namespace
-
 // A no is proved by its motion. Where none holds up, K+ was not what it seemed, and nothing is decided.
-RigidityResult test_rigidity(const RigidityMatrix &g, Jamming kind) {
+RigidityResult test_motions(const RigidityMatrix &g, Jamming kind) {
   RigidityResult out = test_rows(g, kind);
   if (out.rigid == Verdict::yes || g.contacts() == 0) return out;
   if (test_without_unbalanced(g, kind, out)) return out;
@@ -259,6 +257,34 @@ RigidityResult test_rigidity(const RigidityMatrix &g, Jamming kind) {
   }
   out.rigid = Verdict::undecided;
   if (!stressed || !(out.force_residual < RigidityTuning::most_residual) || useless) out.stressed = Verdict::undecided;
+  return out;
+}
+
+// One axis repeats alone: no strain keeps the volume, and a shorter period reduces it. Only contacts of K+ with a
+// component along that axis resist. Without them a no needs that no other contact closes.
+void test_single_period(const RigidityMatrix &g, RigidityResult &out) {
+  int axis = 0, open = 0;
+  for (int c = 0; c < g.dim; ++c)
+    if (g.open_axes >> c & 1u) axis = c, ++open;
+  if (open != 1) return;
+  double held = 0.0, closes = 0.0;
+  for (size_t k = 0; k < g.contacts(); ++k) {
+    double &largest = out.carrying[k] ? held : closes;
+    largest = std::max(largest, std::fabs(g.normal[k * g.dim + axis]));
+  }
+  if (held * held >= undecided_eigenvalue) return;
+  out.rigid = Verdict::undecided;
+  if (held * held >= flex_eigenvalue || closes * closes >= flex_eigenvalue) return;
+  out.rigid = Verdict::no, out.flexes = 1;
+  out.flex.assign(g.unknowns(), 0.0), out.strain.assign(static_cast<size_t>(g.dim) * g.dim, 0.0);
+  out.strain[axis * (g.dim + 1)] = -1.0;
+}
+
+}  // namespace
+
+RigidityResult test_rigidity(const RigidityMatrix &g, Jamming kind) {
+  RigidityResult out = test_motions(g, kind);
+  if (kind == Jamming::strict && out.rigid == Verdict::yes) test_single_period(g, out);
   return out;
 }
 

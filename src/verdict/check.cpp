@@ -65,7 +65,7 @@ void report_network(const Packing &p, const PackingVerdict &v, const ContactNetw
   r.contacts = static_cast<int64_t>(net.size());
   r.rattlers = static_cast<int64_t>(p.n()) - stable_spheres(net.coordination);
   r.excess_contacts = excess_contacts(net, p);
-  r.strict_excess_contacts = net.size() ? r.excess_contacts - traceless_strains(p.dim, ~p.container.closed()) : 0;
+  if (net.size()) r.strict_excess_contacts = r.excess_contacts - traceless_strains(p.dim, ~p.container.closed());
   report_counts(v, r);
   r.self_stresses = v.result.self_stresses;
   r.stationary = verdict_code(v.result.stressed);
@@ -103,17 +103,17 @@ CheckResult check_as_it_is(const Packing &p, const ContactNetwork *known) {
   r.digits = resolution.digits(p), r.coordinate_step = resolution.step, r.resolution = resolution.relative(p);
   JammingTest test(q, resolution, known, overlapping);
   const PackingVerdict &verdict = test.verdict(Jamming::collective);
-  const bool strains = traceless_strains(p.dim, ~p.container.closed()) > 0;  // walls do not
-  r.strictly_jammed = strains ? JAM_VERDICT_NO : JAM_VERDICT_UNTESTED;
+  out.carrying = verdict.carrying(q.dim);
+  report_network(q, verdict, out.carrying, r);
+  r.strictly_jammed = JAM_VERDICT_NO;
   // Where no forces balance on the spheres none do on the cell. Own images alone may hold both.
-  if (strains &&
-      (verdict.jammed != Verdict::no || verdict.result.stressed != Verdict::no || may_touch_own_image(q, resolution))) {
+  if (verdict.jammed != Verdict::no || verdict.result.stressed != Verdict::no || may_touch_own_image(q, resolution)) {
     const PackingVerdict &strict = test.verdict(Jamming::strict);
     r.strictly_jammed = verdict_code(strict.jammed);
     r.strict_flexes = strict.result.flexes;
+    if (strict.jammed == Verdict::yes)  // own images among them, which a fixed cell does not count
+      r.strict_excess_contacts = strict.result.contacts - strict.result.contacts_needed;
   }
-  out.carrying = verdict.carrying(q.dim);
-  report_network(q, verdict, out.carrying, r);
   r.jammed = verdict_code(verdict.jammed);
   r.reason = numbers_of(verdict, q, resolution, Jamming::collective).reason;
   if (overlapping && r.jammed == JAM_VERDICT_UNDECIDED) r.reason = JAM_CHECK_OVERLAP;

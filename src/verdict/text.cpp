@@ -114,12 +114,12 @@ const char *headline(const Report &r) {
 // "excess 5 = d (d + 1) / 2 - 1: isostatic for a cell that deforms"
 std::string excess_of(const Report &r) {
   const std::string excess = sentence("excess %lld", wide(r.excess_contacts));
-  if (r.strictly_jammed != JAM_VERDICT_YES) return excess + " over one state of self-stress";
-  const int64_t strains = r.excess_contacts - r.strict_excess_contacts;
+  if (r.strictly_jammed != JAM_VERDICT_YES || r.strict_excess_contacts == r.excess_contacts)
+    return excess + " over one state of self-stress";
   if (r.strict_excess_contacts != 0)
     return excess +
            sentence(", %lld over one state of self-stress of a cell that deforms", wide(r.strict_excess_contacts));
-  return excess + (strains == r.dim * (r.dim + 1) / 2 - 1 ? " = d (d + 1) / 2 - 1" : "") +
+  return excess + (r.excess_contacts == r.dim * (r.dim + 1) / 2 - 1 ? " = d (d + 1) / 2 - 1" : "") +
          ": isostatic for a cell that deforms";
 }
 

@@ -42,6 +42,14 @@ void test_ownership(void **) {
   assert_true(c.positions().data() == where);
 }
 
+void test_cell(void **) {
+  const std::vector<double> cell = {2.0, 0.0, 0.5, 1.5};
+  const jam::System s = jam::System::from_arrays(2, {0.5, 0.5}, {1.0}, cell);
+  const std::vector<double> got = s.cell();
+  for (std::size_t k = 0; k < 4; ++k) assert_true(got[k] == cell[k]);
+  assert_true(throws<jam::Error>([] { jam::System::from_arrays(2, {0.5, 0.5}, {1.0}, {1.0, 2.0, 3.0}); }));
+}
+
 void test_checkpoint(void **) {
   jam::System a = jam::System::random(64, 3, 7);
   a.run(10);
@@ -149,11 +157,9 @@ void test_callbacks(void **) {
 }  // namespace
 
 int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(test_ownership),
-                              cmocka_unit_test(test_checkpoint),
-                              cmocka_unit_test(test_errors),
-                              cmocka_unit_test(test_crunch_and_forces),
-                              cmocka_unit_test(test_cell_check_and_modes),
+  const CMUnitTest tests[] = {cmocka_unit_test(test_ownership),         cmocka_unit_test(test_cell),
+                              cmocka_unit_test(test_checkpoint),        cmocka_unit_test(test_errors),
+                              cmocka_unit_test(test_crunch_and_forces), cmocka_unit_test(test_cell_check_and_modes),
                               cmocka_unit_test(test_callbacks)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

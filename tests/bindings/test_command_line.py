@@ -249,6 +249,18 @@ class CommandLine(unittest.TestCase):
             self.assertEqual((code, "network   none: the mesh joins no spheres" in out), (0, True), out)
             self.assertRegex(err, r"^[^:]+: the mesh has about \S+ triangles, \S+ [kM]B\n$")
 
+    @unittest.skipUnless(PACK and hasattr(os, "mkfifo"), "no program, or no pipes with names")
+    def test_a_pipe_that_loses_its_reader_is_an_error(self):
+        """More than a pipe holds: 60000 bins. No signal ends the program."""
+        pipe = self.dir / "pipe"
+        os.mkfifo(pipe)
+        words = [PACK, *f"export {self.file} --profile {pipe} --profile-bins 60000 --quiet".split()]
+        with subprocess.Popen(words, stderr=subprocess.PIPE, text=True) as program:
+            with open(pipe, "rb") as reader:
+                reader.read(1)
+            err = program.communicate(timeout=60)[1]
+        self.assertEqual((program.returncode, "Broken pipe" in err), (OUTPUT, True), err)
+
     def test_a_table_is_no_list_of_diameters(self):
         """Every number of it would be a diameter."""
         sizes = self.dir / "sizes.txt"
@@ -263,6 +275,10 @@ class CommandLine(unittest.TestCase):
                 self.assertEqual((code, f"has {columns} columns" in err), (REFUSED, True), text + err)
                 for part in ("--sizes list:", "--sizes sieve:", "--input"):
                     self.assertIn(part, err)
+            for text in ("1\n0x1\n", "1\n2\0\n", "1\n\0\n"):
+                sizes.write_text(text)
+                code, _, err = self.run_words(program, *words)
+                self.assertEqual((code, "line 2" in err), (REFUSED, True), repr(text) + err)
             for text, ratio in (("radius\n1\n2\n", 2.0), ("\ufeffdiameter\r\n2\r\n3\r\n", 1.5), ("1\n\n# a\n3 # b", 3.0)):
                 sizes.write_text(text, newline="")
                 code, _, err = self.run_words(program, *words)

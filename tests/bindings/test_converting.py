@@ -40,6 +40,12 @@ class Converting(unittest.TestCase):
             loose.to_pandas("contacts")
 
     @needs("pandas")
+    def test_contacts_by_distance_have_no_forces(self):
+        bed = jam.System.from_arrays([[0.5, 0.5], [1.5, 0.5]], 0.99, cell=[3, 3], dim=2)
+        bed.contacts_by_distance(0.05)
+        self.assertEqual(list(bed.to_pandas("contacts")), ["i", "j", "nx", "ny", "gap"])
+
+    @needs("pandas")
     def test_a_frame_is_a_copy(self):
         packing = disks()
         before = packing.positions.copy()

@@ -74,7 +74,7 @@ class Campaigns(unittest.TestCase):
         np.testing.assert_array_equal(e.table(), rows[1:])
 
     def test_failures_are_files_and_are_tried_again_on_request(self):
-        wrong = dict(n=40, dim=3, packing_fraction=0.7)  # no random start is so dense
+        wrong = dict(n=5000, dim=3, packing_fraction=0.7)  # no random start is so dense; of so many none is tried before
         e = Ensemble(self.folder, wrong)
         status = e.run([1, 2], progress=False, workers=1)
         self.assertEqual((status.done, status.failed, status.missing), (0, 2, 0))

@@ -7,7 +7,32 @@ import numpy as np
 
 import jam
 from jam.ensemble import Ensemble, ProtocolError
+from jam.ensemble.making import begin
+from jam.ensemble.protocol import complete
 from packings import SMALL
+
+
+class Protocols(unittest.TestCase):
+    """What cannot be made is refused with its name, before any packing is."""
+
+    def test_wrong_entries_are_named(self):
+        for given, text in (
+            (dict(diameters={"law": "bidisperse", "rato": 1.3}), "bidisperse has no rato; it takes ratio and share"),
+            (dict(diameters={"law": "bidisperse", "ratio": "a"}), "a ratio > 0"),
+            (dict(diameters={"law": "lognormal", "ratio": 1.3}), "no law has ratio; there are .*deviation"),
+            (dict(analysis={"gap": {}}), "near to it: gaps"),
+            (dict(packing_fraction=0.95), "no packing of seeds 1, 2, 3 can begin"),
+        ):
+            with self.assertRaisesRegex(ProtocolError, text):
+                complete({**SMALL, **given})
+
+    def test_sizes_on_a_lattice_are_at_other_sites_for_each_seed(self):
+        for law in ({"law": "bidisperse"}, {"law": "lognormal", "draw": "quantiles"}):
+            start = complete(dict(n=32, dim=3, lattice="fcc", packing_fraction=0.3, diameters=law))
+            one, again, other = (begin(start, seed).diameters for seed in (1, 1, 2))
+            np.testing.assert_array_equal(one, again)
+            self.assertFalse(np.array_equal(one, other))
+            np.testing.assert_allclose(np.sort(one), np.sort(other), rtol=1e-15)
 
 
 class Entries(unittest.TestCase):
@@ -113,7 +138,7 @@ class Tables(unittest.TestCase):
             with self.assertRaises(ValueError):
                 e.advise(**wrong)
         with self.assertRaisesRegex(ProtocolError, "seed 1 failed"):
-            Ensemble(self.folder, dict(n=40, dim=3, packing_fraction=0.7)).advise()
+            Ensemble(self.folder, dict(n=5000, dim=3, packing_fraction=0.7)).advise()  # so many are not tried before
 
 
 if __name__ == "__main__":

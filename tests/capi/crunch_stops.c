@@ -1,5 +1,6 @@
 /* Cancel and wall time inside every phase of a crunch: path, LP by either solver, polish. The log callback tells the
- * phase. Each time the status says so, the state is valid, and the next call goes on from it. */
+ * phase. Each time the status says so, the state is valid, and the next call goes on from it. Time limits end in a
+ * phase because the callback sleeps there; one that ends before it is tried four times as long. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -24,7 +25,7 @@ typedef struct ambush {
   const char *armed; /* beginning of a log line that must come before; NULL: none */
   const char *word;  /* beginning of the log line that says what runs */
   int wait;          /* lines of it to let pass */
-  double sleep;      /* seconds to sleep there; 0: cancel */
+  double sleep;      /* seconds to sleep there, the time limit of the call; 0: cancel */
   int sprung, after; /* lines of it behind the trap: none but one that was on its way */
 } ambush;
 
@@ -58,22 +59,37 @@ static jam_crunch_report crunch(jam_system *sys, const jam_crunch_options *o, ja
   return r;
 }
 
-/* A trap in one phase, then the same call again without it. phi_min: nothing is lost. */
-static void trap(const char *word, int wait, double sleep, const jam_crunch_options *o, jam_status expected,
-                 jam_stop_reason reason) {
-  jam_system *sys = start(100);
+/* A crunch of the start that the trap ends: by jam_cancel, or timed by its limit of time. *sys is the system. */
+static jam_crunch_report crunch_into(const ambush *given, int n, int timed, jam_crunch_options o, jam_system **sys) {
+  double limit = timed ? 0.1 : INFINITY;
+  for (;;) {
+    ambush a = *given;
+    jam_crunch_report r;
+    *sys = start(n);
+    a.sys = *sys, a.sleep = timed ? limit : 0.0, o.wall_time = limit;
+    assert_int_equal(jam_set_log(*sys, spring, JAM_LOG_DEBUG, &a), JAM_OK);
+    r = crunch(*sys, &o, timed ? JAM_LIMIT : JAM_CANCELLED);
+    assert_int_equal(jam_set_log(*sys, NULL, 0, NULL), JAM_OK);
+    assert_int_equal(r.stop_reason, timed ? JAM_STOP_WALL_TIME : JAM_STOP_CANCELLED);
+    assert_true(!r.jammed && a.after <= 1);
+    if (a.sprung) return r;
+    if (!timed || limit > 1000.0) fail_msg("no line begins with '%s'", a.word);
+    jam_destroy(*sys);
+    limit *= 4.0;
+  }
+}
+
+/* A trap in one phase, then the same call again without it. Nothing is lost. */
+static void trap(const char *word, int wait, int timed, const jam_crunch_options *o) {
+  jam_system *sys;
   ambush a;
   jam_crunch_report r, done;
   memset(&a, 0, sizeof a);
-  a.sys = sys, a.word = word, a.wait = wait, a.sleep = sleep;
-  assert_int_equal(jam_set_log(sys, spring, JAM_LOG_DEBUG, &a), JAM_OK);
-  r = crunch(sys, o, expected);
-  if (!a.sprung) fail_msg("no line begins with '%s'", word);
-  assert_true(r.stop_reason == (int32_t)reason && !r.jammed && a.after <= 1);
+  a.word = word, a.wait = wait;
+  r = crunch_into(&a, 100, timed, *o, &sys);
   assert_true(r.max_overlap < 1e-12 && r.packing_fraction > 0.2);
   assert_int_equal(r.rattlers + r.stable, r.contacts > 0 ? 100 : -1); /* unknown without contacts */
   if (strcmp(word, "path") == 0) assert_int_equal(r.contacts, -1);    /* those of the LP before are not of this state */
-  assert_int_equal(jam_set_log(sys, NULL, 0, NULL), JAM_OK);
   done = crunch(sys, NULL, JAM_OK);
   assert_true(done.jammed && done.packing_fraction > r.packing_fraction * (1.0 - 1e-12) && done.max_overlap < 1e-12);
   jam_destroy(sys);
@@ -83,13 +99,13 @@ static void cancel_in_every_phase(void **state) {
   jam_crunch_options o;
   (void)state;
   jam_crunch_options_init(&o, sizeof o);
-  trap("path", 0, 0.0, &o, JAM_CANCELLED, JAM_STOP_CANCELLED);
-  trap("path", 20, 0.0, &o, JAM_CANCELLED, JAM_STOP_CANCELLED);
-  trap("ipm", 1, 0.0, &o, JAM_CANCELLED, JAM_STOP_CANCELLED);
-  trap("polish", 0, 0.0, &o, JAM_CANCELLED, JAM_STOP_CANCELLED);
+  trap("path", 0, 0, &o);
+  trap("path", 20, 0, &o);
+  trap("ipm", 1, 0, &o);
+  trap("polish", 0, 0, &o);
   o.method = JAM_CRUNCH_SEQUENTIAL_LP;
-  trap("ipm", 3, 0.0, &o, JAM_CANCELLED, JAM_STOP_CANCELLED);
-  trap("LP 3", 0, 0.0, &o, JAM_CANCELLED, JAM_STOP_CANCELLED);
+  trap("ipm", 3, 0, &o);
+  trap("LP 3", 0, 0, &o);
 }
 
 /* The time limit comes inside the first LP: the LP is dropped and no sphere has moved. */
@@ -98,28 +114,23 @@ static void wall_time_inside_an_lp(void **state) {
   int solver;
   (void)state;
   jam_crunch_options_init(&o, sizeof o);
-  o.wall_time = 1.5; /* a busy machine gets that far in time */
-  trap("path", 3, 1.6, &o, JAM_LIMIT, JAM_STOP_WALL_TIME);
+  trap("path", 3, 1, &o);
   o.method = JAM_CRUNCH_SEQUENTIAL_LP;
-  trap("ipm", 2, 1.6, &o, JAM_LIMIT, JAM_STOP_WALL_TIME);
+  trap("ipm", 2, 1, &o);
   for (solver = 0; solver < 2; ++solver) {
-    jam_system *sys = start(solver ? 600 : 100); /* 600: one LP by Clp takes far longer than the limit */
-    double before[1800];
-    const double *x;
+    jam_system *sys, *plain = start(solver ? 600 : 100); /* 600: one LP by Clp takes far longer than the limit */
+    const double *x, *y;
     size_t len;
     ambush a;
     jam_crunch_report r;
     memset(&a, 0, sizeof a);
-    a.sys = sys, a.word = solver ? "estimate" : "ipm", a.wait = 0, a.sleep = solver ? 0.0001 : 1.6;
-    o.lp_solver = solver, o.wall_time = solver ? 0.5 : 1.5;
-    jam_view(sys, JAM_VIEW_POSITIONS, &x, &len), memcpy(before, x, len * sizeof *x);
-    jam_set_log(sys, spring, JAM_LOG_DEBUG, &a);
-    r = crunch(sys, &o, JAM_LIMIT);
-    assert_true(a.sprung && r.stop_reason == JAM_STOP_WALL_TIME && r.lp_solves == 0 && r.contacts == -1);
-    assert_true(r.rattlers == -1 && r.stable == 0);
-    assert_true(r.seconds < 20.0);
-    assert_memory_equal(before, x, len * sizeof *x);
-    jam_destroy(sys);
+    a.word = solver ? "estimate" : "ipm";
+    o.lp_solver = solver;
+    r = crunch_into(&a, solver ? 600 : 100, 1, o, &sys);
+    assert_true(r.lp_solves == 0 && r.contacts == -1 && r.rattlers == -1 && r.stable == 0);
+    jam_view(plain, JAM_VIEW_POSITIONS, &x, &len), jam_view(sys, JAM_VIEW_POSITIONS, &y, &len);
+    assert_memory_equal(x, y, len * sizeof *x);
+    jam_destroy(plain), jam_destroy(sys);
   }
 }
 
@@ -141,24 +152,23 @@ static void a_stopped_polish_leaves_the_lp_answer(void **state) {
   o.polish = 0;
   b = crunch(plain, &o, JAM_OK);
   jam_view(plain, JAM_VIEW_POSITIONS, &y, &len);
+  jam_crunch_options_init(&o, sizeof o);
   for (way = 0; way < 3;
        ++way) { /* before it begins, by the progress callback; in its first round; out of time there */
-    jam_system *sys = start(100);
+    jam_system *sys;
     jam_crunch_report a;
-    ambush trap_set;
     int calls = 0;
-    memset(&trap_set, 0, sizeof trap_set);
-    trap_set.sys = sys, trap_set.word = "polish";
-    jam_crunch_options_init(&o, sizeof o);
-    /* Time enough to reach the polish, also on a slow machine and under sanitizers. */
-    if (way == 2) o.wall_time = 1.5 + 4.0 * b.seconds, trap_set.sleep = o.wall_time + 0.1;
-    if (way)
-      jam_set_log(sys, spring, JAM_LOG_DEBUG, &trap_set);
-    else
+    if (way) {
+      ambush trap_set;
+      memset(&trap_set, 0, sizeof trap_set);
+      trap_set.word = "polish";
+      a = crunch_into(&trap_set, 100, way == 2, o, &sys);
+    } else {
+      sys = start(100);
       jam_set_progress(sys, count_calls, &calls);
-    a = crunch(sys, &o, way == 2 ? JAM_LIMIT : JAM_CANCELLED);
-    assert_true(way ? trap_set.sprung : calls == 1);
-    assert_true(a.stop_reason == (way == 2 ? JAM_STOP_WALL_TIME : JAM_STOP_CANCELLED) && !a.jammed);
+      a = crunch(sys, &o, JAM_CANCELLED);
+      assert_true(calls == 1 && a.stop_reason == JAM_STOP_CANCELLED && !a.jammed);
+    }
     assert_true(a.contacts == b.contacts && a.packing_fraction == b.packing_fraction &&
                 a.force_residual == b.force_residual);
     jam_view(sys, JAM_VIEW_POSITIONS, &x, &len);
@@ -180,23 +190,17 @@ static void stops_in_a_free_cell(void **state) {
   jam_crunch_options o;
   int k;
   (void)state;
+  jam_crunch_options_init(&o, sizeof o);
+  o.strain = JAM_STRAIN_FREE;
   for (k = 0; k < 4; ++k) {
-    jam_system *sys = start(64);
+    jam_system *sys;
     ambush a;
     jam_crunch_report r;
-    const int timed = k == 3;
-    jam_crunch_options_init(&o, sizeof o);
-    o.strain = JAM_STRAIN_FREE;
-    if (timed) o.wall_time = 3.0; /* a busy machine gets that far in time */
     memset(&a, 0, sizeof a);
-    a.sys = sys, a.armed = "fixed cell", a.word = words[k], a.wait = k == 0 ? 3 : 0, a.sleep = timed ? 3.1 : 0.0;
-    assert_int_equal(jam_set_log(sys, spring, JAM_LOG_DEBUG, &a), JAM_OK);
-    r = crunch(sys, &o, timed ? JAM_LIMIT : JAM_CANCELLED);
-    if (!a.sprung) fail_msg("no line begins with '%s'", words[k]);
-    assert_true(!r.jammed && r.strictly_jammed != JAM_VERDICT_YES && a.after <= 1);
+    a.armed = "fixed cell", a.word = words[k], a.wait = k == 0 ? 3 : 0;
+    r = crunch_into(&a, 64, k == 3, o, &sys);
+    assert_true(r.strictly_jammed != JAM_VERDICT_YES);
     assert_true(r.max_overlap < 1e-12 && r.packing_fraction > 0.5 && fabs(volume(sys) - 1.0) < 1e-12);
-    assert_int_equal(jam_set_log(sys, NULL, 0, NULL), JAM_OK);
-    o.wall_time = INFINITY;
     r = crunch(sys, &o, JAM_OK);
     assert_true(r.jammed && r.strictly_jammed == JAM_VERDICT_YES && fabs(volume(sys) - 1.0) < 1e-12);
     jam_destroy(sys);

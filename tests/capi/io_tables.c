@@ -100,6 +100,7 @@ static void what_the_caller_says(void **state) {
   expect_refused_as(rows, "sell=5,5,5", JAM_E_ARGUMENT, "'sell=5,5,5' is none of");
   expect_refused_as(rows, "cell=5,5,8 origin=1 columns=x,y,z,mass,radius", JAM_E_ARGUMENT, "origin has 1 numbers");
   expect_refused_as(rows, "cell=5,5,8 columns=x,y,z,radius", JAM_E_FORMAT, "5 columns, columns names 4");
+  expect_refused_as(rows, "columns=x,y,z,r,radius", JAM_E_FORMAT, "in.any: two columns give sizes");
   expect_refused_as(rows, "columns=a,b,c,e,radius", JAM_E_ARGUMENT, "columns names no coordinates");
   expect_refused_as("1\nLattice=\"1 0 0 0 1 0 0 0 1\" Properties=pos:R:3:radius:R:1\n0 0 0 .1\n", "cell=2,2,2",
                     JAM_E_ARGUMENT, "gives its cell");

@@ -63,7 +63,7 @@ static void relax(int dim) {
   jam_create_options o;
   jam_system *sys = NULL;
   check(jam_create_options_init(&o, sizeof o), "jam_create_options_init", dim);
-  o.dim = dim, o.n = 60, o.packing_fraction = fraction[dim], o.overlap = JAM_OVERLAP_ALLOW;
+  o.dim = dim, o.n = 40, o.packing_fraction = fraction[dim], o.overlap = JAM_OVERLAP_ALLOW;
   check(jam_create(&o, NULL, &sys), "jam_create", dim);
   check(jam_decompress(sys, NULL, NULL), "jam_decompress", dim);
   jam_destroy(sys);
@@ -79,7 +79,7 @@ static void live(int dim) {
   jam_monte_carlo_options mc;
   jam_system *sys = NULL;
   check(jam_create_options_init(&o, sizeof o), "jam_create_options_init", dim);
-  o.dim = dim, o.n = dim <= 3 ? 200 : 60, o.seed = 3, o.packing_fraction = fraction[dim];
+  o.dim = dim, o.n = dim <= 3 ? 100 : 50, o.seed = 3, o.packing_fraction = fraction[dim];
   check(jam_create(&o, NULL, &sys), "jam_create", dim);
   check(jam_monte_carlo_options_init(&mc, sizeof mc), "jam_monte_carlo_options_init", dim);
   mc.sweeps = 5;

@@ -77,7 +77,7 @@ bool library_loses_memory() {
 #ifdef JAM_SANITIZED  // ten times slower: the release build has tried the others
 constexpr long dense = 100;
 #else
-constexpr long dense = 10000;
+constexpr long dense = 2000;
 #endif
 
 // The k-th allocation fails, alone or with all that follow, for every k of the first `dense` and then for some.

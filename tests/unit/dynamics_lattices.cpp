@@ -117,7 +117,7 @@ int side_for(const Crystal &l, double most) {
 void never_stalls_while_an_event_exists(void **) {
   int stalled = 0, runs = 0;
   for (const Crystal &l : crystals())
-    for (double most : {8.0, 70.0, 300.0})
+    for (double most : {8.0, 70.0, 150.0})
       for (double part : {0.05, 0.3, 0.6, 0.9, 0.999})
         for (double noise : {0.0, 1e-12, 1e-6})
           for (double growth : {0.0, 1e-2})

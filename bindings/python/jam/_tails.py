@@ -42,7 +42,8 @@ def tail_exponent(samples: Sequence[Any], n: int, kind: str = "forces", powers: 
     Parameters
     ----------
     samples : sequence of arrays
-        The values of each packing: forces over their mean, or positive gaps; at least 2 packings.
+        The values of each packing: forces over their mean, or gaps; at least 2 packings. Values of 0 and less,
+        of rattlers and of contacts that rounding closed, have no tail and are left out; the result counts the others.
     n : int
         Spheres of a packing: below N c(x) = 3 (forces) or 10 (gaps) values are those of a finite system and left out.
     kind : str

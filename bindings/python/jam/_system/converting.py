@@ -1,6 +1,7 @@
 """A packing as objects of other packages: pandas, NetworkX, ASE. Each is imported when it is asked for."""
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
@@ -21,7 +22,7 @@ class Converting(State, Network):
         ----------
         what : {'spheres', 'contacts', 'history'}
             'spheres': position, diameter and, after a crunch, contacts and kind (a word). 'contacts': i, j, unit vector
-            from j to i, gap and force. 'history': the steps of the last crunch, their phase as a word.
+            from j to i, gap and force, which contacts by distance do not have. 'history': the steps of the last crunch, their phase as a word.
 
         Examples
         --------
@@ -43,7 +44,7 @@ class Converting(State, Network):
         """The contact network as a networkx.MultiGraph: two spheres of a small cell may touch through two images.
 
         Nodes have position, diameter and kind ('sphere', 'buckler' or 'rattler'), edges force, gap and vector (from j to i,
-        of unit length). A wall that is touched is a node below 0, -1 - w, of kind 'wall'.
+        of unit length); contacts by distance have no force. A wall that is touched is a node below 0, -1 - w, of kind 'wall'.
 
         Examples
         --------
@@ -61,7 +62,8 @@ class Converting(State, Network):
             graph.add_node(i, position=tuple(x), diameter=float(size), kind=kinds[i])
         graph.add_nodes_from((int(j) for j in contacts.pairs[:, 1] if j < 0), kind="wall")
         for (i, j), vector, gap, force in zip(contacts.pairs, contacts.vectors, contacts.gaps, contacts.forces):
-            graph.add_edge(int(i), int(j), vector=tuple(vector), gap=float(gap), force=float(force))
+            carried = {"force": float(force)} if math.isfinite(force) else {}
+            graph.add_edge(int(i), int(j), vector=tuple(vector), gap=float(gap), **carried)
         return graph
 
     def to_ase(self, symbol: str = "X") -> Any:
@@ -112,7 +114,8 @@ class Converting(State, Network):
     def _contact_columns(self) -> dict[str, Any]:
         c = self.contacts
         axes = {"n" + axis: c.vectors[:, k].copy() for k, axis in enumerate(self._axes())}
-        return {"i": c.pairs[:, 0].copy(), "j": c.pairs[:, 1].copy(), **axes, "gap": c.gaps, "force": c.forces}
+        force = {} if math.isfinite(self.info.contact_gap) else {"force": c.forces}
+        return {"i": c.pairs[:, 0].copy(), "j": c.pairs[:, 1].copy(), **axes, "gap": c.gaps, **force}
 
     def _step_columns(self) -> dict[str, Any]:
         from .._api.generated import StepPhase

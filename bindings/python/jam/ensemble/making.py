@@ -26,6 +26,11 @@ def sizes_of_law(law: Any, n: int, dim: int, seed: int) -> Array | None:
     return draw_sizes(str(law["law"]), n, dim=dim, **fields)
 
 
+def _shuffled(sizes: Array, seed: int) -> Array:
+    """On other sites of a lattice for each seed. Sizes that ascend would part small from large."""
+    return sizes[np.argsort(draw_sizes("uniform", len(sizes), low=1.0, high=2.0, draw="random", seed=seed), kind="stable")]
+
+
 def _fcc(n: int, box: float) -> Array:
     m = round((n / 4) ** (1 / 3))
     corners = np.stack(np.meshgrid(*[np.arange(m)] * 3, indexing="ij"), axis=-1).reshape(-1, 1, 3)
@@ -44,7 +49,9 @@ def begin(protocol: Mapping[str, Any], seed: int) -> System:
             del given["box"]
         return System.random(seed=seed, diameters=sizes, **given, **scene)
     n, box, dim, phi = given.pop("n"), given.pop("box"), given.pop("dim"), given.pop("packing_fraction")
-    sizes = np.ones(n) if sizes is None else sizes
+    law = protocol["start"]["diameters"]
+    ordered = isinstance(law, dict) and (law["law"] == "bidisperse" or law.get("draw") == "quantiles")
+    sizes = np.ones(n) if sizes is None else _shuffled(sizes, seed) if ordered else sizes
     unit = math.pi ** (dim / 2) / math.gamma(dim / 2 + 1) * (sizes / 2) ** dim
     return System.from_arrays(
         _fcc(n, box), sizes * (phi * box**dim / unit.sum()) ** (1 / dim), box, seed=seed, overlap="shrink", **given

@@ -15,6 +15,7 @@ import copy
 import hashlib
 import inspect
 import json
+from difflib import get_close_matches
 from typing import Any, Mapping, Sequence
 
 import numpy as np
@@ -26,7 +27,7 @@ from .._api.given import CONTAINERS, cell_of, enclosure_of
 from .._api.options import option_struct, spelled_out
 from .._formats.provenance import ALGORITHM
 from ..system import System
-from .making import SCENE, sizes_of_law
+from .making import SCENE, begin, sizes_of_law
 
 PARTS = ("start", "stages", "crunch", "analysis")
 LATTICES = ("fcc",)
@@ -39,6 +40,8 @@ _FEW = 1e-12  # packing fraction of a sphere that fits into any scene
 _NO_TIME = 1e-9  # seconds
 _OF_TWO_SPHERES = (errors.TooFewError, errors.StateError)  # what calls without time say of two spheres, not of the protocol
 _CHECKED = ("model", "non_additivity")  # of what the scene allows, beside itself
+_OF_A_DRAW = {"dim", "n", "seed", "cell_volume", "packing_fraction"}  # what start and seed say
+_TRIED, _MOST_TRIED = (1, 2, 3), 4096  # seeds of starts, of so many spheres, that are made to see whether any has room
 _NOT_IN_START = ("seed", "overlap")  # the seed is the packing's own; a start never overlaps
 
 
@@ -70,9 +73,14 @@ def _diameters(given: Any, n: int, dim: int) -> Any:
     law = {k: float(v) if isinstance(v, (int, float)) else v for k, v in given.items()}
     law = {"law": law.pop("law", None), **LAWS.get(str(given.get("law")), {}), **law}
     if law["law"] == "bidisperse":
-        if set(law) != {"law", "ratio", "share"} or not (law["ratio"] > 0 and 0 < law["share"] < 1):
+        if unknown := set(law) - {"law", *LAWS["bidisperse"]}:
+            raise ProtocolError(f"start: diameters: bidisperse has no {', '.join(sorted(unknown))}; it takes ratio and share")
+        if not all(isinstance(v, float) for k, v in law.items() if k != "law") or not (law["ratio"] > 0 and 0 < law["share"] < 1):
             raise ProtocolError(f"start: diameters {dict(given)!r}: bidisperse takes a ratio > 0 and a share in (0, 1)")
         return law
+    known = {"law", *OPTIONS["jam_diameters_options"], "curve"} - _OF_A_DRAW
+    if unknown := set(law) - known:
+        raise ProtocolError(f"start: diameters: no law has {', '.join(sorted(unknown))}; there are {', '.join(sorted(known))}")
     try:
         sizes_of_law(law, n, dim, 1)
     except (errors.JamError, TypeError, ValueError) as error:
@@ -119,6 +127,19 @@ def _start(given: Mapping[str, Any]) -> dict[str, Any]:
     return {**made, **scene, "diameters": _diameters(sizes, made["n"], made["dim"]), "lattice": lattice}
 
 
+def _check_room(start: Mapping[str, Any]) -> None:
+    """A density that no seed reaches is one of the protocol."""
+    error = None
+    for seed in _TRIED if start["n"] <= _MOST_TRIED else ():
+        try:
+            begin({"start": start}, seed)
+            return
+        except errors.JamError as one:
+            error = one
+    if error is not None:
+        raise ProtocolError(f"start: no packing of seeds {', '.join(map(str, _TRIED))} can begin: {error}")
+
+
 def _stage(given: Mapping[str, Any] | Sequence[float], number: int) -> dict[str, Any]:
     """A stage: options with its verb, or as in System.compress a pair (growth_rate, pressure)."""
     if not isinstance(given, Mapping):
@@ -146,7 +167,9 @@ def _analysis(name: str, given: Mapping[str, Any]) -> dict[str, Any]:
     method = getattr(System, name, None)
     known = "jam_" + name in generated.CALLS or name in _OF_PYTHON
     if name.startswith("_") or not callable(method) or not known:
-        raise ProtocolError(f"{where}: System has no such analysis")
+        near = get_close_matches(name, [n for n in dir(System) if "jam_" + n in generated.CALLS] + list(_OF_PYTHON))
+        there = f"; near to it: {', '.join(near)}" if near else ""
+        raise ProtocolError(f"{where}: no method of System, such as gaps or rigidity, has this name{there}")
     made = {}
     for parameter in list(inspect.signature(method).parameters.values())[1:]:
         key = parameter.name
@@ -223,6 +246,7 @@ def complete(protocol: Mapping[str, Any] | None = None) -> dict[str, Any]:
         "analysis": {k: _analysis(k, v or {}) for k, v in (given.get("analysis", ANALYSIS) or {}).items()},
     }
     _check_calls(made)
+    _check_room(made["start"])
     try:
         found: dict[str, Any] = json.loads(to_json(made))
         return found

@@ -175,7 +175,8 @@ def record_debian(newer):
         return
     version = re.search(r"project\(jam VERSION ([\d.]+)", (root / "CMakeLists.txt").read_text()).group(1)
     had = dict(re.findall(rf"^ (\S+)@JAM_{number} (\S+)$", file.read_text(), flags=re.M))
-    lines = [f" {name}@JAM_{number} {version if name in newer else had.get(name, version)}" for name in exported()]
+    names = [f"JAM_{number}", *exported()]  # the version node too
+    lines = [f" {name}@JAM_{number} {version if name in newer else had.get(name, version)}" for name in names]
     head = f"libjam.so.{number} libjam{number} #MINVER#\n* Build-Depends-Package: libjam-dev\n"
     file.write_text(head + "\n".join(lines) + "\n")
 

@@ -84,7 +84,8 @@ struct Tuning {
   double same_density = 1e-9;
   size_t most_retried = 1000;
   // Where a packing is not shown to be jammed: parts of diameters by which it is decompressed, one after the other, and
-  // the share of the gaps that each of two spheres may use up when all are displaced.
+  // the share of the gaps that each of two spheres may use up when all are displaced. A free cell is strained by what
+  // this leaves.
   std::array<double, 5> decompression{1e-4, 1e-3, 1e-2, 3e-2, 0.1};
   double displaced = 0.45;
 

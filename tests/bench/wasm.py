@@ -3,7 +3,7 @@
 The first work of each kind, in which the engine of JavaScript compiles, takes up to half a second more and is left out.
 
 usage: wasm.py BUILD-WASM BUILD [--sizes 256,1024] [--rounds 3] [--gate]
-BUILD: a build with the Python module; JAM_BENCH_LIBRARY: another libjam.so.1 for it, such as one of portable loops.
+BUILD: a build with the Python module; JAM_BENCH_LIBRARY: another shared library for it, such as one of portable loops.
 --gate: fails where the module is 10 % larger than in results/wasm.json, or a step takes 5 % more native times than there.
 """
 import argparse

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/cell_change.hpp"
 #include "core/motion.hpp"
 #include "core/pair_rule.hpp"
 #include "core/rng.hpp"
@@ -10,6 +11,20 @@
 #include "crunch/control.hpp"
 
 namespace jam::inside {
+namespace {
+
+// A free cell changes its shape too: a lattice of one sphere has nothing else that could leave its saddle. Lengths
+// change by less than the share.
+void strain_at_random(Packing &p, Rng &rng, double share) {
+  const size_t d = static_cast<size_t>(p.dim);
+  std::vector<double> strain(d * d);
+  for (size_t a = 0; a < d; ++a)
+    for (size_t b = 0; b <= a; ++b)
+      strain[a * d + b] = strain[b * d + a] = (2.0 * rng.uniform() - 1.0) * share / static_cast<double>(d);
+  strain_affinely(p, strain.data());
+}
+
+}  // namespace
 
 bool recompress(CrunchState &s) {
   const auto &parts = s.tuning.decompression;
@@ -27,6 +42,7 @@ bool recompress(CrunchState &s) {
   for (size_t k = 0; k < p.position.size(); ++k)
     p.position[k] += (2.0 * rng.uniform() - 1.0) * room * p.diameter[k / d];
   for (double &diameter : p.diameter) diameter *= 1.0 - parts[done];
+  if (s.o.strain == JAM_STRAIN_FREE) strain_at_random(p, rng, (1.0 - 2.0 * s.tuning.displaced) * gap);
   wrap_positions(p);
   record_opening(s);
   s.history.stage.path_taken = false;

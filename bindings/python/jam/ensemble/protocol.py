@@ -239,14 +239,15 @@ def complete(protocol: Mapping[str, Any] | None = None) -> dict[str, Any]:
             raise ProtocolError(f"{key} is given twice, at the top and in start")
         start[key] = given[key]
     crunch = given.get("crunch", {})
+    begun = _start(start)
     made = {
-        "start": _start(start),
+        "start": begun,
         "stages": [_stage(s, k) for k, s in enumerate(given.get("stages", STAGES))],
         "crunch": None if crunch is None else _options("jam_crunch_options", crunch, "crunch"),
         "analysis": {k: _analysis(k, v or {}) for k, v in (given.get("analysis", ANALYSIS) or {}).items()},
     }
     _check_calls(made)
-    _check_room(made["start"])
+    _check_room(begun)
     try:
         found: dict[str, Any] = json.loads(to_json(made))
         return found

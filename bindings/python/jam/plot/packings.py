@@ -84,7 +84,8 @@ def _balls(ax: Any, centres: Array, diameters: Array, colours: Array) -> None:
     """Spheres from far to near, each with its highlight: one collection, which is drawn in its order."""
 
     def in_turn(sphere: Array, highlight: Array) -> Array:
-        return np.stack([sphere, highlight], axis=1).reshape(-1, *sphere.shape[1:])
+        pairs: Array = np.stack([sphere, highlight], axis=1)
+        return pairs.reshape(-1, *sphere.shape[1:])
 
     opaque = np.ones((len(centres), 1))
     edges = np.hstack([0.55 * colours, opaque])

@@ -32,7 +32,7 @@ class Strict(unittest.TestCase):
             self.assertTrue(s.crunch().jammed)
             collective, strict = s.rigidity(), s.rigidity("strict")
             self.assertEqual((strict.jammed, strict.contacts_needed), (1, collective.contacts_needed), name)
-            self.assertEqual(s.check().strictly_jammed, -1, name)  # no strain to test
+            self.assertEqual(s.check().strictly_jammed, strict.jammed, name)  # one answer
 
     def test_slits_agree_with_a_linear_program(self):
         # Jammed: no motion keeps all contacts closed or open, and opens one. The strain of the plane of the slit is traceless.

@@ -166,7 +166,10 @@ fi
 
 if wants browser; then
 part "browser"
-if (need_packages emscripten nodejs npm swig) >/dev/null 2>&1; then
+# A node of another source than Debian's brings its own npm.
+javascript=$(for pair in node:nodejs npm:npm; do command -v "${pair%:*}" >/dev/null || echo "${pair#*:}"; done)
+# shellcheck disable=SC2086
+if (need_packages emscripten swig $javascript) >/dev/null 2>&1; then
 cmake -C pkgconfig/presets/wasm.cmake -S . -B build-wasm -G Ninja >/dev/null
 cmake --build build-wasm -j "$jobs"
 ctest --test-dir build-wasm -j "$at_once" --output-on-failure --no-tests=error || status=1

@@ -1,4 +1,5 @@
 /* Diameters and the cell of a random start, as --sizes, --diameters-ratio and --cell ask. */
+#include <ctype.h>
 #include <errno.h>
 #include <math.h>
 #include <stdlib.h>
@@ -62,7 +63,7 @@ static int read_diameters(const char *path, double **out, int64_t *count) {
     word = plain_line(text, line == 1, &columns);
     if (!*word) continue;
     x = strtod(word, &end);
-    if (n == 0 && !headed && end == word && columns == 1) {
+    if (n == 0 && !headed && end == word && columns == 1 && isalpha((unsigned char)*word)) {
       factor = !strncasecmp(word, "radi", 4) || !strcasecmp(word, "r") ? 2 : 1;
       headed = 1;
       continue;

@@ -2,6 +2,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <signal.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -24,10 +25,18 @@ int may_create(const char *path) {
   return access(folder, W_OK | X_OK);
 }
 
-char *resolve(const char *path) {
+/* A link whose file is not there yet leads to the place where it would be made. */
+static char *resolve_links(const char *path, int links) {
   const char *const slash = strrchr(path, '/');
-  char *whole = realpath(path, NULL), *folder, *head;
+  const int head_length = slash ? (int)(slash - path) + 1 : 0;
+  char *whole = realpath(path, NULL), *folder, *head, target[4096], next[8192];
+  const ssize_t length = whole || links == 0 ? -1 : readlink(path, target, sizeof target - 1);
   if (whole) return whole;
+  if (length > 0) {
+    target[length] = '\0';
+    if (snprintf(next, sizeof next, "%.*s%s", *target == '/' ? 0 : head_length, path, target) < (int)sizeof next)
+      return resolve_links(next, links - 1);
+  }
   head = slash ? strdup(path) : strdup(".");
   if (!head) return NULL;
   if (slash) head[slash == path ? 1 : slash - path] = '\0';
@@ -39,6 +48,8 @@ char *resolve(const char *path) {
   free(folder);
   return whole;
 }
+
+char *resolve(const char *path) { return resolve_links(path, 40); }
 
 FILE *open_stream(const char *path, const char *mode) { return fopen(path, mode); }
 

@@ -1282,8 +1282,8 @@ typedef struct jam_rigidity_report {
   int32_t stationary;          /* @enum jam_verdict: K+ is not empty: to first order no motion lets diameters grow */
   int64_t stable, contacts;    /* N'; |K+| */
   int64_t contacts_needed;     /* collective d (N' - 1) + 1, strict d (N' - 1) + d (d + 1) / 2 */
-  int64_t self_stresses;       /* independent states of balanced forces on K+, of any sign */
-  int64_t flexes;              /* motions beyond symmetries that keep K+ closed; 0 without K+, 512 at most */
+  int64_t self_stresses;       /* independent states of balanced forces on K+, of any sign; -1: unknown */
+  int64_t flexes;              /* motions beyond symmetries that keep K+ closed; 0 without K+; 512 or more: at least */
   int64_t undercoordinated;    /* spheres of B with d contacts of K+ or fewer */
   int64_t zero_force_contacts; /* closed pairs that are not in K+ */
   int64_t undecided_contacts;  /* pairs with gaps of 1e-10 to 1e-7 */
@@ -1356,7 +1356,7 @@ typedef struct jam_check_report {
   int64_t closed_pairs;           /* also those of rattlers */
   int64_t zero_force_contacts;    /* tested pairs without force in every state of self-stress */
   int64_t undecided_contacts;     /* pairs that may be contacts or not, by rounding or for lack of digits */
-  int64_t self_stresses;          /* independent states; with more than one, forces are not unique */
+  int64_t self_stresses;          /* independent states, -1: unknown; with more than one, forces are not unique */
   int64_t flexes, strict_flexes;  /* motions that keep contacts with force closed; with strains, 0 untested */
   int64_t crunch_contacts;        /* contacts of the copy */
   double packing_fraction;        /* of the packing as it is */

@@ -174,6 +174,12 @@ bool is_number(std::string_view word) {
   return convert(word, x) != std::errc::invalid_argument;
 }
 
+bool is_name(std::string_view word) {
+  if (!word.empty() && (word[0] == '"' || word[0] == '\'')) word.remove_prefix(1);
+  const auto first = static_cast<unsigned char>(word.empty() ? '0' : word[0] | 0x20);
+  return (first >= 'a' && first <= 'z') || first >= 0x80;
+}
+
 double parse_number(const LineReader &in, std::string_view word) {
   double x = 0.0;
   const std::errc code = convert(word, x);

@@ -51,6 +51,7 @@ double parse_number(const LineReader &in, std::string_view word);
 int64_t parse_count(const LineReader &in, std::string_view word, const char *what);
 bool is_count(std::string_view word);   // digits, with a sign or without
 bool is_number(std::string_view word);  // as parse_number takes it
+bool is_name(std::string_view word);    // a letter comes first, perhaps behind a quote
 // In small letters.
 std::string lower(std::string_view word);
 // A word of a file, cut and cleaned for an error text.

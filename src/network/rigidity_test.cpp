@@ -24,7 +24,9 @@ void count_carrying(const RigidityMatrix &carrying, int strains, RigidityResult 
   out.zero_force_contacts -= out.contacts;
   const int64_t motions = d * out.spheres - carrying.symmetries() + strains;
   out.contacts_needed = motions + 1;
-  out.self_stresses = out.contacts - (motions - out.flexes);
+  // Flexes are counted up to a limit: above it the number of states is not known.
+  const bool counted = out.flexes < static_cast<int64_t>(RigidityTuning::most_flexes) || out.flexes >= motions;
+  out.self_stresses = counted ? out.contacts - (motions - out.flexes) : -1;
   std::vector<int32_t> z(carrying.nodes, 0);
   for (size_t k = 0; k < carrying.contacts(); ++k)
     for_spheres(carrying.a[k], carrying.b[k], [&](int32_t i) { ++z[i]; });

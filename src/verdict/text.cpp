@@ -6,6 +6,7 @@
 #include "core/math.hpp"
 #include "core/pairs.hpp"
 #include "core/sentence.hpp"
+#include "network/tuning.hpp"
 
 namespace jam::inside {
 namespace {
@@ -14,6 +15,10 @@ using Report = jam_check_report;
 using Numbers = VerdictNumbers;
 
 long long wide(int64_t x) { return static_cast<long long>(x); }
+// Flexes are counted up to a limit.
+const char *least(int64_t flexes) {
+  return flexes < static_cast<int64_t>(RigidityTuning::most_flexes) ? "" : "at least ";
+}
 const char *plural(int64_t x) { return x == 1 ? "" : "s"; }
 
 bool depends_on_open_pairs(Rule rule) {
@@ -53,14 +58,14 @@ std::string no_force(const Numbers &v) {
 std::string slide(const Numbers &v) {
   return balance_of(v) + sentence(
                              ", so the diameters cannot grow, but parts of the network slide past each other in "
-                             "%lld way%s that keep%s all distances",
-                             wide(v.flexes), plural(v.flexes), v.flexes == 1 ? "s" : "");
+                             "%s%lld way%s that keep%s all distances",
+                             least(v.flexes), wide(v.flexes), plural(v.flexes), v.flexes == 1 ? "s" : "");
 }
 
 std::string flex(const Numbers &v) {
   const char *whose = v.n == 1 ? " of the cell" : v.kind == Jamming::strict ? " of spheres and cell" : "";
-  return balance_of(v) + sentence(", and yet %lld independent motion%s%s keep%s all contacts closed: a saddle",
-                                  wide(v.flexes), plural(v.flexes), whose, v.flexes == 1 ? "s" : "");
+  return balance_of(v) + sentence(", and yet %s%lld independent motion%s%s keep%s all contacts closed: a saddle",
+                                  least(v.flexes), wide(v.flexes), plural(v.flexes), whose, v.flexes == 1 ? "s" : "");
 }
 
 std::string gaps(const Numbers &v) {
@@ -86,9 +91,9 @@ std::string margin(const Numbers &v) {
     return "only its own images hold the sphere, and their forces do not balance on the cell";
   if (v.flexes > 0)
     return sentence(
-        "%lld motion%s keep%s the contacts closed; whether other pairs or the curvature of a round wall "
+        "%s%lld motion%s keep%s the contacts closed; whether other pairs or the curvature of a round wall "
         "stop them is left open",
-        wide(v.flexes), plural(v.flexes), v.flexes == 1 ? "s" : "");
+        least(v.flexes), wide(v.flexes), plural(v.flexes), v.flexes == 1 ? "s" : "");
   return sentence(
       "doubles do not resolve a flex from a soft mode here, or a weak force from none (smallest eigenvalue "
       "%.1e, force residual %.1e)",
@@ -149,8 +154,8 @@ void add_proof(const Report &r, std::string &out) {
   if (r.strictly_jammed == JAM_VERDICT_NO && r.strict_flexes == 0)
     add(out, "In a cell that changes its shape no forces balance with an isotropic stress.");
   else if (r.strictly_jammed == JAM_VERDICT_NO)
-    add(out, sentence("With a cell that changes its shape there %s %lld flex%s.", r.strict_flexes == 1 ? "is" : "are",
-                      wide(r.strict_flexes), r.strict_flexes == 1 ? "" : "es"));
+    add(out, sentence("With a cell that changes its shape there %s %s%lld flex%s.", r.strict_flexes == 1 ? "is" : "are",
+                      least(r.strict_flexes), wide(r.strict_flexes), r.strict_flexes == 1 ? "" : "es"));
   add(out, sentence("Contacts are closed to %.1e.", r.max_contact_gap));
   if (std::isfinite(r.min_gap))
     add(out, sentence("The smallest gap of no contact is %.2e, 10^%.1f times wider.", r.min_gap,

@@ -285,6 +285,14 @@ class CommandLine(unittest.TestCase):
                 self.assertEqual(code, 0, err)
                 d = jam.System.read(self.dir / "o.xyz").diameters
                 self.assertAlmostEqual(d.max() / d.min(), ratio, 12)
+            for text in ('"1.5"\n2\n', "-\n2\n"):  # no heading, and no number
+                sizes.write_text(text)
+                code, _, err = self.run_words(program, *words)
+                self.assertEqual((code, "line 1" in err), (REFUSED, True), text + err)
+            for text in ("1.5;0.3\n2 0.5\n", "1.5mm 0.3\n2 0.5\n"):
+                sizes.write_text(text)
+                code, _, err = self.run_words(program, "pack", "--n", "8", "--dim", "2", "--sizes", "list:sizes.txt", *words[3:])
+                self.assertEqual((code, "line 1" in err), (REFUSED, True), text + err)
             sizes.write_text("1.61,\n2.34\n")
             self.assertIn("decimal point", self.run_words(program, *words)[2])
             code, _, err = self.run_words(program, "compress", "--sizes", "list:1:0.5,1.4:0.5", "--output", "o.xyz")

@@ -128,8 +128,40 @@ static void bad_calls(void **state) {
   jam_destroy(sys);
 }
 
+/* Columns of two disks that hold each other over the period: each is a part with one state of self-stress. Flexes are
+ * counted up to a limit, and the states then are not known. */
+static void flexes_beyond_the_limit(void **state) {
+  const int32_t columns[] = {100, 300};
+  (void)state;
+  for (int c = 0; c < 2; ++c) {
+    const int32_t m = columns[c];
+    const double cell[4] = {3.0 * m, 0.0, 0.0, 2.0}, diameter = 1.0;
+    double *x = malloc(4 * (size_t)m * sizeof *x);
+    jam_create_options o;
+    jam_start start = {.struct_size = sizeof start};
+    jam_system *sys = NULL;
+    assert_non_null(x);
+    for (int32_t k = 0; k < 2 * m; ++k) x[2 * k] = 3.0 * (k / 2) + 0.1, x[2 * k + 1] = 0.35 + k % 2;
+    assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
+    o.dim = 2, o.n = 2 * m;
+    start.positions = x, start.positions_len = 4 * (size_t)m, start.diameters = &diameter, start.diameters_len = 1;
+    start.cell = cell, start.cell_len = 4;
+    assert_int_equal(jam_create(&o, &start, &sys), JAM_OK);
+    const jam_rigidity_report r = rigidity_test(sys, JAM_RIGIDITY_COLLECTIVE, JAM_NOT_JAMMED);
+    assert_int_equal(r.contacts, 2 * m);
+    assert_int_equal(r.self_stresses, m == 100 ? m : -1);
+    if (m == 100)
+      assert_int_equal(r.flexes, 3 * m - 2);
+    else
+      assert_true(r.flexes >= 512 && strstr(jam_last_error(), "at least "));
+    jam_destroy(sys);
+    free(x);
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(fluids), cmocka_unit_test(crunched),
-                                     cmocka_unit_test(flex_of_a_lattice), cmocka_unit_test(bad_calls)};
+                                     cmocka_unit_test(flex_of_a_lattice), cmocka_unit_test(bad_calls),
+                                     cmocka_unit_test(flexes_beyond_the_limit)};
   return cmocka_run_group_tests_name("rigidity", tests, NULL, NULL);
 }

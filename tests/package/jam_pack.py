@@ -154,6 +154,7 @@ class JamPack(unittest.TestCase):
         ]:
             self.refuse(2, text, *args)
         (self.dir / "a.xyz").symlink_to(self.dir / "b.xyz")
+        self.refuse(2, "must be different", "--output", self.dir / "b.xyz", "--report", self.dir / "a.xyz")  # no file yet
         (self.dir / "b.xyz").touch()
         self.refuse(2, "must be different", "--output", self.dir / "a.xyz", "--page", self.dir / "b.xyz")
 

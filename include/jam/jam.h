@@ -1291,18 +1291,19 @@ typedef struct jam_rigidity_report {
   double force_residual;       /* largest |sum_j f_ij n_ij| over the mean force, of the forces in the certificate */
   double curvature_margin;     /* see above; 0 if no flex is blocked in this way */
 } jam_rigidity_report;
-/* Tests whether the packing is jammed; changes only strictly_jammed of the stored crunch report. Contacts are all pairs
- * with gaps below 1e-10; no network is needed. If coordinates have few digits, pairs within their rounding are
- * undecided, and the answer is no only if spheres have too few such neighbours. A contact of a sphere with its own
- * image counts in the strict test. In the collective test it counts if the network lists it, or if no other contacts
- * balance and the forces on the cell do. A motion v opens contacts by S v, a strain eps by E eps. Collectively jammed:
- * S v >= 0 only for translations of B. Strictly jammed: S v + E eps >= 0 with tr eps <= 0 only for these and eps = 0.
- * Copies of the cell need jam_bloch_rigidity. Donev et al., J. Comput. Phys. 197, 139 (2004). Status: JAM_NOT_JAMMED,
- * JAM_AMBIGUOUS (undecided). @enum kind jam_rigidity_kind @errors SOLVER, OVERLAP */
+/* Tests whether the packing is jammed; changes only strictly_jammed of the stored crunch report. Overlaps are treated
+ * as in jam_check_packing. Contacts are all pairs with gaps below 1e-10; no network is needed. If coordinates have few
+ * digits, pairs within their rounding are undecided, and the answer is no only if spheres have too few such neighbours.
+ * A contact of a sphere with its own image counts in the strict test. In the collective test it counts if the network
+ * lists it, or if no other contacts balance and the forces on the cell do. A motion v opens contacts by S v, a strain
+ * eps by E eps. Collectively jammed: S v >= 0 only for translations of B. Strictly jammed: S v + E eps >= 0 with tr eps
+ * <= 0 only for these and eps = 0. Copies of the cell need jam_bloch_rigidity. Donev et al., J. Comput. Phys. 197, 139
+ * (2004). Status: JAM_NOT_JAMMED, JAM_AMBIGUOUS (undecided). @enum kind jam_rigidity_kind @errors SOLVER, OVERLAP */
 JAM_API jam_status jam_rigidity(jam_system *sys, int32_t kind, jam_rigidity_report *report);
 /* A motion of an unjammed packing: displacements out, unit of the box, at most 1 mean diameter, and strain (collective:
  * 0). A small part of it keeps contacts closed or opens them. If no pair is near contact, one sphere moves. @shape out
- * (n, d), strain (d, d) @enum kind jam_rigidity_kind @errors SOLVER, STATE (jammed, or undecided without a motion) */
+ * (n, d), strain (d, d) @enum kind jam_rigidity_kind @errors SOLVER, OVERLAP, STATE (jammed, or undecided without a
+ * motion) */
 JAM_API jam_status jam_flex(jam_system *sys, int32_t kind, double *out, size_t out_len, double *strain,
                             size_t strain_len, size_t *needed);
 /* Columns of jam_bloch_rigidity. */
@@ -1314,8 +1315,8 @@ typedef enum jam_bloch_column {
 /* The collective test of jam_rigidity for count[c] copies along each cell vector (jam_tile), from one cell: one row per
  * wave vector of the copies, as in jam_bloch_modes; wave[0] runs fastest. K+ is that of one cell, where the copies'
  * mean forces balance; the copies have the flexes of all rows. Status: JAM_NOT_JAMMED, JAM_AMBIGUOUS (undecided).
- * @shape count (d), wave (m, d), table (m, jam_bloch_column) @errors SOLVER, UNSUPPORTED (Mari-Kurchan model, round
- * walls) */
+ * @shape count (d), wave (m, d), table (m, jam_bloch_column) @errors SOLVER, OVERLAP, UNSUPPORTED (Mari-Kurchan
+ * model, round walls) */
 JAM_API jam_status jam_bloch_rigidity(jam_system *sys, const int32_t *count, size_t count_len, double *wave,
                                       size_t wave_len, int32_t columns, double *table, size_t table_len, size_t *rows);
 

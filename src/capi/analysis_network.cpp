@@ -11,7 +11,8 @@ using namespace jam::inside;
 namespace {
 
 // Why the network of a geometry is not the only one, or not rigid.
-Answer answer_of(const GeometryResult &found, jam_status status, Verdict as_it_is, const jam_geometry_options &o) {
+Answer answer_of(const GeometryResult &found, jam_status status, const PackingVerdict &as_it_is,
+                 const TestedPacking &tested, const jam_geometry_options &o) {
   const jam_geometry_report &r = found.report;
   const auto n = [](int64_t x) { return static_cast<long long>(x); };
   if (status == JAM_NOT_JAMMED && r.contacts == 0)
@@ -39,7 +40,9 @@ Answer answer_of(const GeometryResult &found, jam_status status, Verdict as_it_i
         sentence("%lld states of self-stress, so forces are not unique: their analytic centre was taken, where the "
                  "product of the forces is largest",
                  n(r.self_stresses)));
-  if (as_it_is != Verdict::yes)
+  if (tested.overlapping && as_it_is.jammed == Verdict::undecided)
+    add(why_not_jammed(numbers_of(as_it_is, tested, Jamming::collective)));
+  else if (as_it_is.jammed != Verdict::yes)
     add(sentence("contacts have gaps of up to %.1e, and open ones prove nothing: jam_crunch closes the gaps",
                  r.gap_below));
   return {JAM_AMBIGUOUS, why};
@@ -59,9 +62,9 @@ jam_status jam_contacts_from_geometry(jam_system *sys, const jam_geometry_option
     jam_geometry_options full = default_geometry_options();
     take_options(o, full);
     const Packing &p = sys->packing;
-    const GapResolution resolution = gap_resolution(p);
     GeometryResult result = contacts_from_geometry(p, full);
-    const PackingVerdict verdict = verdict_of(p, &result.network, Jamming::collective);
+    const TestedPacking tested = without_overlaps(p);
+    const PackingVerdict verdict = verdict_of(tested, &result.network, Jamming::collective);
     const double nan = std::numeric_limits<double>::quiet_NaN();
     jam_crunch_report r{};
     certify(p, result.network, r);
@@ -69,8 +72,8 @@ jam_status jam_contacts_from_geometry(jam_system *sys, const jam_geometry_option
     r.stop_reason = JAM_STOP_NONE;
     r.gain = r.max_step = r.gamma_residual = r.duality_gap = nan;
     r.seconds = sys->monitor.seconds();
-    r.status = status_of(result, verdict.jammed, resolution, p);
-    const Answer answer = answer_of(result, r.status, verdict.jammed, full);
+    r.status = status_of(result, verdict.jammed, tested.resolution, p);
+    const Answer answer = answer_of(result, r.status, verdict, tested, full);
     sys->contacts = std::move(result.network);
     sys->contact_gap = nan;
     sys->report = r;

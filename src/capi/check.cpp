@@ -43,8 +43,8 @@ void crunch_copy(const Packing &tested, double wall_time, Monitor &monitor, jam_
 
 // Mari-Kurchan shifts are no cell vectors: there nothing is proved.
 void prove_tested(const CheckResult &result, jam_check_report &r) {
-  if (r.jammed == JAM_VERDICT_YES && result.tested.model == JAM_MODEL_EUCLID)
-    take_proof(result.tested, result.carrying, r);
+  if (r.jammed == JAM_VERDICT_YES && result.tested.packing.model == JAM_MODEL_EUCLID)
+    take_proof(result.tested.packing, result.carrying, r);
 }
 
 std::string paragraph(const jam_check_report &r) {
@@ -76,7 +76,8 @@ jam_status jam_check_packing(jam_system *sys, const jam_check_options *o, jam_ch
     r.struct_size = sizeof r;
     without_proof(r);
     if (full.prove) prove_tested(result, r);
-    if (full.crunch && r.jammed == JAM_VERDICT_UNDECIDED) crunch_copy(result.tested, full.wall_time, sys->monitor, r);
+    if (full.crunch && r.jammed == JAM_VERDICT_UNDECIDED)
+      crunch_copy(result.tested.packing, full.wall_time, sys->monitor, r);
     give_struct(r, report);
     if (r.jammed == JAM_VERDICT_YES) return JAM_OK;
     return {r.jammed == JAM_VERDICT_NO ? JAM_NOT_JAMMED : JAM_AMBIGUOUS, paragraph(r)};

@@ -15,21 +15,17 @@ Jamming take_kind(int32_t kind) {
   return kind == JAM_RIGIDITY_STRICT ? Jamming::strict : Jamming::collective;
 }
 
-PackingVerdict test(const jam_system *sys, Jamming kind) {
-  return verdict_of(sys->packing, sys->known_contacts(), kind);
-}
-
 // The status of a verdict, why, and what to do.
-Answer answer_of(const PackingVerdict &v, const Packing &p, Jamming kind) {
+Answer answer_of(const PackingVerdict &v, const TestedPacking &tested, Jamming kind) {
   if (v.jammed == Verdict::yes) return JAM_OK;
-  const VerdictNumbers numbers = numbers_of(v, p, gap_resolution(p), kind);
+  const VerdictNumbers numbers = numbers_of(v, tested, kind);
   const char *name = kind == Jamming::strict ? "strictly" : "collectively";
   const std::string why = name + (" jammed: " + why_not_jammed(numbers));
   if (v.jammed == Verdict::no)
     return {JAM_NOT_JAMMED, "not " + why +
                                 (v.result.contacts > 0 ? "; jam_flex gives a motion"
-                                 : p.n() > 1           ? "; jam_flex gives a motion, jam_crunch makes a jammed packing"
-                                             : "; one sphere can be crunched only in a free cell without walls")};
+                                 : numbers.n > 1       ? "; jam_flex gives a motion, jam_crunch makes a jammed packing"
+                                                 : "; one sphere can be crunched only in a free cell without walls")};
   const bool open = numbers.reason == JAM_CHECK_GAPS || numbers.reason == JAM_CHECK_DIGITS;
   return {JAM_AMBIGUOUS, "undecided whether the packing is " + why + (open ? "; jam_crunch closes contacts" : "")};
 }
@@ -45,7 +41,8 @@ jam_status jam_rigidity(jam_system *sys, int32_t kind, jam_rigidity_report *repo
   untested.rigidity_margin = untested.force_residual = std::numeric_limits<double>::quiet_NaN();
   return guard_cancellable(sys, untested, report, [&]() -> Answer {
     const Jamming jamming = take_kind(kind);
-    const PackingVerdict v = test(sys, jamming);
+    const TestedPacking tested = without_overlaps(sys->packing);
+    const PackingVerdict v = verdict_of(tested, sys->known_contacts(), jamming);
     if (sys->has_report && jamming == Jamming::strict) sys->report.strictly_jammed = verdict_code(v.jammed);
     jam_rigidity_report r{};
     r.kind = kind;
@@ -60,7 +57,7 @@ jam_status jam_rigidity(jam_system *sys, int32_t kind, jam_rigidity_report *repo
     r.curvature_margin = v.result.curvature;
     r.force_residual = v.result.force_residual;
     give_struct(r, report);
-    return answer_of(v, sys->packing, jamming);
+    return answer_of(v, tested, jamming);
   });
 }
 
@@ -74,11 +71,12 @@ jam_status jam_flex(jam_system *sys, int32_t kind, double *out, size_t out_len, 
     check_output(strain, strain_len, d * d, "strain");
     if (needed) *needed = size;
     if (!out && !strain) return JAM_OK;
-    const PackingVerdict v = test(sys, jamming);
+    const TestedPacking tested = without_overlaps(sys->packing);
+    const PackingVerdict v = verdict_of(tested, sys->known_contacts(), jamming);
     if (v.contacts.size() > 0 && v.result.flex.empty())
       fail(JAM_E_STATE, v.jammed == Verdict::yes ? "the packing is jammed: it has no flex"
                                                  : "no flex was found; the verdict is undecided");
-    const double fraction = v.contacts.size() > 0 ? unblocked_fraction(sys->packing, v) : 1.0;
+    const double fraction = v.contacts.size() > 0 ? unblocked_fraction(tested.packing, v) : 1.0;
     if (fraction == 0.0)
       fail(JAM_E_STATE,
            "no flex is known that keeps all contacts closed, though the test finds motions that nearly do");
@@ -121,7 +119,9 @@ jam_status jam_bloch_rigidity(jam_system *sys, const int32_t *count, size_t coun
     made.check_room(m);
     if (rows) *rows = m;
     if (!table && !wave) return JAM_OK;
-    const BlochFlexes found = bloch_flexes(p, test(sys, Jamming::collective), copies);
+    const TestedPacking tested = without_overlaps(p);
+    const PackingVerdict v = verdict_of(tested, sys->known_contacts(), Jamming::collective);
+    const BlochFlexes found = bloch_flexes(tested.packing, v, copies);
     put_output(found.wave, wave, m * count_len);
     made.give(m, [&](size_t k, auto &row) {
       row[JAM_BLOCH_FLEXES] = static_cast<double>(found.flexes[k]);
@@ -130,8 +130,9 @@ jam_status jam_bloch_rigidity(jam_system *sys, const int32_t *count, size_t coun
     if (found.jammed == Verdict::yes) return JAM_OK;
     if (found.jammed == Verdict::undecided)
       return {JAM_AMBIGUOUS,
-              "undecided whether the copies are collectively jammed: doubles or the digits of the "
-              "coordinates do not resolve it; jam_crunch closes contacts"};
+              std::string("undecided whether the copies are collectively jammed: ") +
+                  (tested.overlapping ? "spheres that overlap" : "doubles or the digits of the coordinates") +
+                  " do not resolve it; jam_crunch closes contacts"};
     return {
         JAM_NOT_JAMMED,
         found.total > 0

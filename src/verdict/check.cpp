@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "core/error.hpp"
 #include "core/pair_rule.hpp"
 #include "network/constraint_rows.hpp"
 #include "network/tuning.hpp"
@@ -15,32 +14,6 @@ namespace jam::inside {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
-// Diameters of the tested packing are reduced until the worst pair just touches. That such a pair overlaps says that
-// gaps are known no better.
-GapResolution take_overlaps(CheckResult &out, bool &overlapping) {
-  Packing &p = out.tested;
-  const ClosestPair closest = closest_contact(p);
-  out.report.nearest_gap = closest.gap;
-  out.report.diameter_factor = 1.0;
-  GapResolution resolution = gap_resolution(p);
-  p.overlap_allowed = false;
-  if (!(closest.gap < -contact_gap_limit)) return resolution;
-  if (closest.gap < -0.5 && closest.j < 0)
-    fail(JAM_E_OVERLAP, "sphere %d overlaps %s by %.3g of its radius: this is no packing of hard spheres", closest.i,
-         p.container.name(wall_partner(closest.j)).c_str(), -closest.gap);
-  if (closest.gap < -0.5)
-    fail(JAM_E_OVERLAP,
-         "spheres %d and %d overlap by %.3g of their contact distance: this is no packing of hard spheres", closest.i,
-         closest.j, -closest.gap);
-  // Beyond rounding and the digits of the coordinates the reduced spheres are another packing.
-  const double overlap = -closest.gap * contact_distance(p, closest.i, closest.j);
-  overlapping = -closest.gap > undecided_gap_limit && overlap > resolution.reach();
-  widen(resolution, p, overlap);
-  out.report.diameter_factor = 1.0 + closest.gap;
-  for (double &sigma : p.diameter) sigma *= out.report.diameter_factor;
-  return resolution;
-}
 
 // Closed pairs, and the smallest gap between stable spheres of one that is not closed.
 void scan_pairs(const Packing &p, const std::vector<int32_t> &coordination, jam_check_report &r) {
@@ -92,16 +65,16 @@ jam_check_report blank_report() {
 
 CheckResult check_as_it_is(const Packing &p, const ContactNetwork *known) {
   CheckResult out;
-  out.tested = p;
   jam_check_report &r = out.report;
   r = blank_report();
   r.dim = p.dim, r.n = static_cast<int64_t>(p.n());
   r.packing_fraction = packing_fraction(p);
-  bool overlapping = false;
-  const GapResolution resolution = take_overlaps(out, overlapping);
-  const Packing &q = out.tested;
+  out.tested = without_overlaps(p);
+  const Packing &q = out.tested.packing;
+  const GapResolution &resolution = out.tested.resolution;
+  r.nearest_gap = out.tested.nearest_gap, r.diameter_factor = out.tested.diameter_factor;
   r.digits = resolution.digits(p), r.coordinate_step = resolution.step, r.resolution = resolution.relative(p);
-  JammingTest test(q, resolution, known, overlapping);
+  JammingTest test(out.tested, known);
   const PackingVerdict &verdict = test.verdict(Jamming::collective);
   out.carrying = verdict.carrying(q.dim);
   report_network(q, verdict, out.carrying, r);
@@ -115,8 +88,7 @@ CheckResult check_as_it_is(const Packing &p, const ContactNetwork *known) {
       r.strict_excess_contacts = strict.result.contacts - strict.result.contacts_needed;
   }
   r.jammed = verdict_code(verdict.jammed);
-  r.reason = numbers_of(verdict, q, resolution, Jamming::collective).reason;
-  if (overlapping && r.jammed == JAM_VERDICT_UNDECIDED) r.reason = JAM_CHECK_OVERLAP;
+  r.reason = numbers_of(verdict, out.tested, Jamming::collective).reason;
   return out;
 }
 

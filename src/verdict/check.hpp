@@ -3,6 +3,7 @@
 #include "core/packing.hpp"
 #include "jam/jam.h"
 #include "network/contact_network.hpp"
+#include "verdict/overlaps.hpp"
 
 namespace jam::inside {
 
@@ -11,7 +12,7 @@ jam_check_report blank_report();
 
 struct CheckResult {
   jam_check_report report{};
-  Packing tested;           // with the diameters that were tested: no pair overlaps
+  TestedPacking tested;
   ContactNetwork carrying;  // contacts with force of the verdict
 };
 // known: the network that is stored with the packing, or NULL.

@@ -25,12 +25,13 @@ bool depends_on_open_pairs(Rule rule) {
   return rule == Rule::doubtful_pairs || rule == Rule::nearly_closed || rule == Rule::open_contacts;
 }
 
-int32_t reason_of(const PackingVerdict &v, int64_t closed_pairs, const Packing &p, const GapResolution &resolution) {
+int32_t reason_of(const PackingVerdict &v, int64_t closed_pairs, const TestedPacking &tested) {
   if (v.jammed == Verdict::yes) return JAM_CHECK_PROOF;
   if (v.jammed == Verdict::undecided) {
     // Without a step of the digits only overlaps make gaps uncertain.
-    if (v.rule == Rule::overlaps) return JAM_CHECK_OVERLAP;
-    if (resolution.coarse(p)) return resolution.step > 0.0 ? JAM_CHECK_DIGITS : JAM_CHECK_OVERLAP;
+    if (tested.overlapping) return JAM_CHECK_OVERLAP;
+    if (tested.resolution.coarse(tested.packing))
+      return tested.resolution.step > 0.0 ? JAM_CHECK_DIGITS : JAM_CHECK_OVERLAP;
     return depends_on_open_pairs(v.rule) ? JAM_CHECK_GAPS : JAM_CHECK_MARGIN;
   }
   if (closed_pairs == 0) return JAM_CHECK_APART;
@@ -208,11 +209,12 @@ int32_t verdict_code(Verdict verdict) {
   return verdict == Verdict::yes ? JAM_VERDICT_YES : verdict == Verdict::no ? JAM_VERDICT_NO : JAM_VERDICT_UNDECIDED;
 }
 
-VerdictNumbers numbers_of(const PackingVerdict &v, const Packing &p, const GapResolution &resolution, Jamming kind) {
+VerdictNumbers numbers_of(const PackingVerdict &v, const TestedPacking &tested, Jamming kind) {
+  const Packing &p = tested.packing;
   Numbers out;
   out.kind = kind, out.jammed = verdict_code(v.jammed), out.n = static_cast<int64_t>(p.n());
   out.closed_pairs = static_cast<int64_t>(find_pairs(p, 0.0, 1.0 + contact_gap_limit).size());
-  out.reason = reason_of(v, out.closed_pairs, p, resolution);
+  out.reason = reason_of(v, out.closed_pairs, tested);
   out.spheres = v.result.spheres, out.contacts = v.result.contacts, out.flexes = v.result.flexes;
   out.undecided_contacts = v.undecided_contacts;
   out.force_residual = v.result.force_residual, out.rigidity_margin = v.result.margin;
@@ -245,7 +247,7 @@ std::string why_not_jammed(const VerdictNumbers &v) {
 
 std::string why_not_jammed(const PackingVerdict &v, const Packing &p, Jamming kind) {
   const char *start = v.jammed == Verdict::undecided ? "undecided: " : "";
-  return v.jammed == Verdict::yes ? "" : start + why_not_jammed(numbers_of(v, p, gap_resolution(p), kind));
+  return v.jammed == Verdict::yes ? "" : start + why_not_jammed(numbers_of(v, without_overlaps(p), kind));
 }
 
 void report_verdict(const PackingVerdict &v, jam_crunch_report &r) {

@@ -20,7 +20,7 @@ struct VerdictNumbers {
 
 // jam_verdict of a Verdict.
 int32_t verdict_code(Verdict verdict);
-VerdictNumbers numbers_of(const PackingVerdict &v, const Packing &p, const GapResolution &resolution, Jamming kind);
+VerdictNumbers numbers_of(const PackingVerdict &v, const TestedPacking &tested, Jamming kind);
 // Why the packing is not known to be jammed, with its numbers: without a capital and a full stop. Empty where it is.
 std::string why_not_jammed(const VerdictNumbers &numbers);
 std::string why_not_jammed(const PackingVerdict &v, const Packing &p, Jamming kind = Jamming::collective);

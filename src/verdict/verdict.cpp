@@ -82,9 +82,8 @@ PackingVerdict test_packing(const Packing &p, const ContactNetwork *listed, Jamm
   return test_packing(p, gap_resolution(p), listed, kind, last);
 }
 
-PackingVerdict verdict_of(const Packing &p, const ContactNetwork *known, Jamming kind) {
-  const GapResolution resolution = gap_resolution(p);
-  return JammingTest(p, resolution, known).verdict(kind);
+PackingVerdict verdict_of(const TestedPacking &tested, const ContactNetwork *known, Jamming kind) {
+  return JammingTest(tested, known).verdict(kind);
 }
 
 const PackingVerdict &JammingTest::alone(Jamming kind) {
@@ -97,7 +96,7 @@ const PackingVerdict &JammingTest::collective() {
   std::optional<PackingVerdict> &v = final_[static_cast<int>(Jamming::collective)];
   if (v) return *v;
   v = alone(Jamming::collective);
-  JammingCase c{p_, resolution_, known_, Jamming::collective, overlapping_, {}, {}, {}};
+  JammingCase c{p_, resolution_, known_, Jamming::collective, tested_.overlapping, {}, {}, {}};
   if (v->jammed != Verdict::yes && !p_.container && may_touch_own_image(p_, resolution_)) {
     c.other = &alone(Jamming::strict);
     const bool balanced_by_images = v->jammed == Verdict::no && c.other->jammed == Verdict::no &&
@@ -114,7 +113,7 @@ const PackingVerdict &JammingTest::strict() {
   if (v) return *v;
   v = alone(Jamming::strict);
   if (v->jammed == Verdict::no) return *v;
-  JammingCase c{p_, resolution_, known_, Jamming::strict, overlapping_, {}, {}, std::move(*v)};
+  JammingCase c{p_, resolution_, known_, Jamming::strict, tested_.overlapping, {}, {}, std::move(*v)};
   c.other = c.v.jammed == Verdict::undecided ? &alone(Jamming::collective) : &collective();
   try_rules(c, Rule::moves_at_rest, Rule::overlaps);
   return *(v = std::move(c.v));

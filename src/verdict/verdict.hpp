@@ -18,6 +18,7 @@
 #include "network/contact_network.hpp"
 #include "network/resolution.hpp"
 #include "network/rigidity_test.hpp"
+#include "verdict/overlaps.hpp"
 
 namespace jam::inside {
 
@@ -72,10 +73,8 @@ class JammingTest {
  public:
   // known: the network that is stored with the packing, or NULL. Positions alone say which spheres touch, except for
   // own images. A "no" becomes "undecided" if some pairs touch and the packing would be jammed with its nearly closed
-  // pairs closed (pairs of the known network, or those before the largest jump of gaps). overlapping: spheres
-  // overlapped beyond digits and rounding, and p has smaller ones.
-  JammingTest(const Packing &p, const GapResolution &resolution, const ContactNetwork *known, bool overlapping = false)
-      : p_(p), resolution_(resolution), known_(known), overlapping_(overlapping) {}
+  // pairs closed (pairs of the known network, or those before the largest jump of gaps).
+  JammingTest(const TestedPacking &tested, const ContactNetwork *known) : tested_(tested), known_(known) {}
   const PackingVerdict &verdict(Jamming kind) { return kind == Jamming::strict ? strict() : collective(); }
 
  private:
@@ -83,13 +82,13 @@ class JammingTest {
   const PackingVerdict &strict();
   const PackingVerdict &alone(Jamming kind);
 
-  const Packing &p_;
-  const GapResolution &resolution_;
+  const TestedPacking &tested_;
+  const Packing &p_ = tested_.packing;
+  const GapResolution &resolution_ = tested_.resolution;
   const ContactNetwork *known_;
-  const bool overlapping_;
   std::optional<PackingVerdict> alone_[2], final_[2];
 };
-PackingVerdict verdict_of(const Packing &p, const ContactNetwork *known, Jamming kind);
+PackingVerdict verdict_of(const TestedPacking &tested, const ContactNetwork *known, Jamming kind);
 
 // The verdict of the rules up to `last` on the contacts that a list names, as closed as they are: what a phase of a
 // crunch follows from. listed: may be NULL.

@@ -122,6 +122,25 @@ class AsItIs(unittest.TestCase):
             self.assertEqual((r.jammed, r.strictly_jammed, r.rattlers), (Verdict.YES, Verdict.YES, 0), r)
             self.assertEqual(judge(*state(s), strict=True, reach=1)[:2], (True, r.contacts))
 
+    def test_overlaps_have_one_answer_by_every_call(self):
+        jammed = [packing(20, dim) for dim in (2, 3)]
+        for s, factor in itertools.product(jammed, (1 + 1e-9, 1 + 1e-6, 1.001, 1.05, 1.6)):
+            t = jam.System.from_arrays(s.positions, factor * s.diameters, cell=s.cell, overlap="allow")
+            r = t.check(crunch=False)
+            self.assertEqual(r.jammed == Verdict.YES, factor < 1 + 1e-7)
+            for kind, verdict in (("collective", r.jammed), ("strict", r.strictly_jammed)):
+                self.assertEqual(t.rigidity(kind).jammed, verdict, (factor, kind))
+            if r.jammed != Verdict.YES:
+                self.assertEqual(r.reason, CheckReason.OVERLAP)
+                t.bloch_rigidity([1] * t.dim)
+                self.assertEqual(t.status, jam.StatusCode.AMBIGUOUS)
+                t.contacts_from_geometry()
+                self.assertFalse(t.report.jammed)
+        soft = jam.System.from_arrays(s.positions, 2.5 * s.diameters, cell=s.cell, overlap="allow")
+        for call in (soft.check, soft.rigidity, soft.flex, soft.contacts_from_geometry):
+            with self.assertRaisesRegex(jam.JamError, "no packing of hard spheres"):
+                call()
+
     def test_models(self):
         half = [1.0] * 16 + [1.4] * 16
         for more in ({"diameters": half}, {"diameters": half, "non_additivity": 0.2}, {"diameters": half, "non_additivity": -0.2}):

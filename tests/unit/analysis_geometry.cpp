@@ -28,7 +28,7 @@ Look look(const Packing &p, double tolerance = 0.0) {
   Look out;
   static_cast<GeometryResult &>(out) = contacts_from_geometry(p, o);
   const GapResolution resolution = gap_resolution(p);
-  out.verdict = verdict_of(p, &out.network, Jamming::collective);
+  out.verdict = verdict_of(without_overlaps(p), &out.network, Jamming::collective);
   out.status = status_of(out, out.verdict.jammed, resolution, p);
   return out;
 }

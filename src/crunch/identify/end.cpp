@@ -86,7 +86,8 @@ PackingVerdict test_contacts(const CrunchState &s, Jamming kind) {
 PackingVerdict final_verdict(const CrunchState &s, const PackingVerdict &tested, Jamming kind) {
   const std::vector<double> &gap = s.out.contacts.gap;
   const bool closed = std::all_of(gap.begin(), gap.end(), [](double h) { return h < contact_gap_limit; });
-  return tested.jammed == Verdict::yes && closed ? tested : verdict_of(s.out.packing, &s.out.contacts, kind);
+  return tested.jammed == Verdict::yes && closed ? tested
+                                                 : verdict_of(without_overlaps(s.out.packing), &s.out.contacts, kind);
 }
 
 // In a free cell the strict test says whether its strains are at rest, and its one stress balances on the cell too.
@@ -171,7 +172,8 @@ Phase decide_jamming(CrunchState &s) {
   if (verdict.jammed == Verdict::yes) return give_verdict(s, verdict);
   if (is_back_at_start(s)) {
     PackingVerdict of_start;
-    if (!tested(s, of_start, [&] { return verdict_of(s.start, nullptr, Jamming::collective); })) return Phase::done;
+    if (!tested(s, of_start, [&] { return verdict_of(without_overlaps(s.start), nullptr, Jamming::collective); }))
+      return Phase::done;
     if (of_start.jammed == Verdict::no && of_start.result.flexes > 0) return end_at_start(s, of_start);
   }
   // No slide opens a contact. In a periodic cell it may lead to other spheres, or a strain further.

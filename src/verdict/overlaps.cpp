@@ -12,6 +12,9 @@ void refuse_soft(const Packing &p, const ClosestPair &closest) {
   if (closest.j < 0)
     fail(JAM_E_OVERLAP, "sphere %d overlaps %s by %.3g of its radius: this is no packing of hard spheres", closest.i,
          p.container.name(wall_partner(closest.j)).c_str(), -closest.gap);
+  if (closest.gap == -1.0)
+    fail(JAM_E_OVERLAP, "spheres %d and %d have the same centre: this is no packing of hard spheres", closest.i,
+         closest.j);
   fail(JAM_E_OVERLAP, "spheres %d and %d overlap by %.3g of their contact distance: this is no packing of hard spheres",
        closest.i, closest.j, -closest.gap);
 }

@@ -9,13 +9,15 @@ A page marks the place of a table by two comments; what stands between them is r
     <!-- figures results/crunch.json rows 1-3,7 + results/size.json; columns start, time --> <!-- end of figures -->
 
 Files are relative to the page, or to the root with a leading `/`. Several of them with the same columns make one table.
+A file of several results has each under its name: `results.json#finite_size rows 1-3`.
 `<!-- figures machine -->` gives the machine of all results of the page, which must be the same.
 
 A result has the keys machine, commit, date, command, columns and rows. Where an older measurement is kept, commit and date
 are those of the commit that published it. A cell is a text, a number (three digits are shown), a list, {"from", "to"} or
-{"value", "error"}. Rows of examples/studies/ensembles are dicts: quantity, published, ours, error, sigma.
+{"value", "error"}. A table with the columns `STORED` is shown with those of `STUDY`.
 """
 import datetime
+import fcntl
 import json
 import math
 import os
@@ -27,6 +29,7 @@ from pathlib import Path
 
 KEYS = ("machine", "commit", "date", "command", "columns", "rows")
 BLOCK = re.compile(r"(<!-- figures ([^\n]*?) -->)(.*?)(<!-- end of figures -->)", re.S)
+STORED = ["figure", "quantity", "published", "ours", "error", "sigma"]
 STUDY = ["quantity", "published", "ours", "errors between"]
 
 
@@ -38,12 +41,34 @@ def made_by():
     return {"machine": f"{model}, {os.cpu_count()} cores", "commit": commit, "date": datetime.date.today().isoformat()}
 
 
-def save(path, command, columns, rows, source=None):
-    """Writes a result, one row a line. source: machine, commit and date; those of now by default."""
-    head = {**(source or made_by()), "command": command, "columns": columns}
-    lines = [f" {json.dumps(key)}: {json.dumps(value, ensure_ascii=False)},\n" for key, value in head.items()]
-    body = ",\n".join("  " + json.dumps(row, ensure_ascii=False) for row in rows)
-    Path(path).write_text("{\n" + "".join(lines) + ' "rows": [\n' + body + "\n ]\n}\n", encoding="utf-8")
+def text_of(value, indent=""):
+    """JSON, one member a line; of a list of rows or of sets of packings each is a line."""
+    if isinstance(value, dict):
+        members = [f"{indent} {json.dumps(key)}: {text_of(item, indent + ' ')}" for key, item in value.items()]
+        return "{\n" + ",\n".join(members) + f"\n{indent}}}"
+    if isinstance(value, list) and value and isinstance(value[0], (list, dict)):
+        return "[\n" + ",\n".join(f"{indent} {json.dumps(item, ensure_ascii=False)}" for item in value) + f"\n{indent}]"
+    return json.dumps(value, ensure_ascii=False)
+
+
+def save(path, command, columns, rows, source=None, **more):
+    """Writes a result into a file, or into FILE#NAME beside others. source: machine, commit and date; those of now by default."""
+    result = {**(source or made_by()), "command": command, **more, "columns": columns, "rows": rows}
+    file, _, name = str(path).partition("#")
+    folder = os.open(os.path.dirname(file) or ".", os.O_RDONLY)
+    fcntl.flock(folder, fcntl.LOCK_EX)  # two studies may end at once
+    there = json.loads(Path(file).read_text(encoding="utf-8")) if name and os.path.exists(file) else {}
+    found = dict(sorted({**there, name: result}.items())) if name else result
+    Path(file + ".part").write_text(text_of(found) + "\n", encoding="utf-8")
+    os.replace(file + ".part", file)
+    os.close(folder)
+
+
+def load(path):
+    """The result of a file, or of FILE#NAME."""
+    file, _, name = str(path).partition("#")
+    found = json.loads(Path(file).read_text(encoding="utf-8"))
+    return found[name] if name else found
 
 
 def number(value, digits=3):
@@ -74,14 +99,15 @@ def cell(value):
 
 
 def study_row(row):
-    ours = {"value": row["ours"], "error": row["error"]} if row["error"] else number(row["ours"], 4)
-    published = number(row["published"], 6) if isinstance(row["published"], float) else row["published"]
-    return [row["quantity"], "" if published == "none" else published, ours, row["sigma"]]
+    """A row of the columns STUDY from one of the columns STORED."""
+    _, quantity, published, ours, error, sigma = row
+    published = number(published, 6) if isinstance(published, float) else published
+    return [quantity, "" if published == "none" else published, {"value": ours, "error": error} if error else number(ours, 4), sigma]
 
 
 def read(path):
-    result = json.loads(path.read_text(encoding="utf-8"))
-    if result.get("rows") and isinstance(result["rows"][0], dict):
+    result = load(path)
+    if result["columns"] == STORED:
         result.update(columns=STUDY, rows=[study_row(row) for row in result["rows"]])
     missing = [key for key in KEYS if key not in result]
     if missing or any(len(row) != len(result["columns"]) for row in result["rows"]):

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Gaps near contact at several pressures and two growth rates: a plateau up to h ~ 1/p, whose height the pressure fixes, then a power law.
 
-usage: gap_plateau.py PICTURE.png [--large] [--n N] [--seeds K] [--result FILE.json]
+usage: gap_plateau.py PICTURE.png [--large] [--n N] [--seeds K] [--result FILE.json#NAME]
 Small: 4 systems of N = 256, 300 collisions of each sphere observed. Large: 20 of N = 1024, 1000.
 Needs the Python package `jam`, numpy, matplotlib. Prints a table.
 

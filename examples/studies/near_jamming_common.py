@@ -19,7 +19,7 @@ LAST_SWEEP = 250  # as published
 
 def arguments(doc, *flags, result=False, **small):
     """Options of a study. small: runs it makes unless --large or --runs N is given, e.g. runs=100, mc_runs=40; flags: further
-    ones; result: whether it takes --result FILE.json. folder is made."""
+    ones; result: whether it takes --result FILE.json#NAME. folder is made."""
     parser = argparse.ArgumentParser(description=doc, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folder")
     parser.add_argument("picture")

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Do a few soft modes explain the motion near jamming? Mean displacements against the modes of two Hessians.
 
-usage: near_jamming_modes.py FOLDER PICTURE.png [--large] [--runs RUNS] [--result FILE.json]
+usage: near_jamming_modes.py FOLDER PICTURE.png [--large] [--runs RUNS] [--result FILE.json#NAME]
 Default: N = 256, 200 runs at phi/phi_J = 0.995. --large: N = 1024, 5000 runs, those of near_jamming_md.py --large when FOLDER
 is the same. Runs are saved in FOLDER.
 Needs jam, numpy, scipy, matplotlib. Prints a table.

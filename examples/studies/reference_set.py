@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 """Certified packings for tests of other programs: makes them, proves them, and lists phi_J to 25 digits.
 
-usage: reference_set.py FOLDER [--sizes 64,256,1024,4096] [--dims 2,3,4,5] [--count 10] [--minutes 30] [--results phi.json]
+usage: reference_set.py FOLDER [--sizes 64,256,1024,4096] [--dims 2,3,4,5] [--count 10] [--minutes 30] [--results FILE.json#NAME]
 
 A kind is a dimension, a number of spheres, and equal spheres or half of them 1.4 times wider. Seeds 1, 2, ... are tried until
-`count` packings of each kind are proved exact or, as equal disks, trapped within `radius`. FOLDER gets for each packing
+`count` packings of each kind are proved exact or, as equal disks, trapped within `radius`. FOLDER, which is made, gets
 
-    NAME.xyz        centres and diameters as doubles
+    dD-nN.xyz       a frame for each packing of this d and N: centres and diameters as doubles
     NAME.jamproof   the exact numbers: centres of two doubles, contacts, forces
 
 SHA256SUMS, and index.csv, which lists what was proved. `python3 jamproof.py NAME.jamproof` checks a file without libjam; it was
@@ -85,7 +85,11 @@ def made(folder, d, n, mixed, seed):
         print(f"{name}: {why}", file=sys.stderr, flush=True)
         file.unlink()
         return None
-    system.write(folder / f"{name}.xyz")
+    one = folder / f"{name}.xyz"
+    system.write(one)
+    with open(folder / f"d{d}-n{n}.xyz", "a", encoding="ascii") as frames:
+        frames.write(one.read_text(encoding="ascii"))
+    one.unlink()
     row = [name, d, n, "half 1.4" if mixed else "equal", seed, proof.theorem.name.lower(), packing_fraction(scene, error)]
     row += [f"{error:.1e}", f"{radius:.1e}", proof.contacts, n - proof.stable]
     return [*row, f"{proof.least_force:.3e}", f"{proof.least_gap:.3e}"]
@@ -99,9 +103,9 @@ def main():
     parser.add_argument("--dims", type=whole, default=[2, 3, 4, 5])
     parser.add_argument("--count", type=int, default=10)
     parser.add_argument("--minutes", type=float, default=30.0)
-    parser.add_argument("--results", type=Path)
+    parser.add_argument("--results")
     options = parser.parse_args()
-    options.folder.mkdir(parents=True, exist_ok=True)
+    options.folder.mkdir(parents=True)
     rows, begin, over = [], time.process_time(), False
     for n, d, mixed in itertools.product(options.sizes, options.dims, (False, True)):
         found, seed = 0, 0

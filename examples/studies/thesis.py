@@ -1,12 +1,11 @@
 #!/usr/bin/env python3
 """Every own figure and table of the thesis in its order: picture, command, statistics there and here, values, verdict.
 
-usage: thesis.py                 writes results/thesis.json, thesis_values.json and thesis_verdicts.json from thesis.json and the
-                                 other results
+usage: thesis.py                 writes thesis, thesis_values and thesis_verdicts of results.json from thesis.json and the other results
        thesis.py --check         exit status 1 when they differ from what would be written
        thesis.py 2.15 3.3 ...    prints the commands of these figures, small ones and those that made the values; all: of every figure
 
-thesis.json lists what each figure shows and which rows of results/*.json or ensembles/results/*.json belong to it; no value of ours
+thesis.json lists what each figure shows and which rows of results.json and ensembles/results.json belong to it; no value of ours
 stands there. `says` is what the page calls a value whose row has a shorter name. Verdicts: `reproduced`: the same size and comparable statistics, values agree; `smaller`: all panels, fewer or smaller
 packings; `part`: panels are missing; `different`: done, and the values or curves differ, with a paragraph on the page that says why;
 `missing`. A figure called reproduced or smaller whose rows differ by more than LIMIT errors is refused, unless it says why.
@@ -61,10 +60,9 @@ FIGURES, TABLES = 63, 2
 
 def cells(value):
     """(quantity, published, ours, errors between, command) of one reference to a result."""
-    path = HERE / value["from"]
-    result = json.loads(path.read_text(encoding="utf-8"))
+    result = figures.load(HERE / value["from"])
     if "quantity" in value:
-        rows = [row for row in result["rows"] if row["quantity"] == value["quantity"]]
+        rows = [row for row in result["rows"] if row[1] == value["quantity"]]
         if len(rows) != 1:
             raise SystemExit(f"{value['from']}: {len(rows)} rows are called {value['quantity']!r}")
         _, published, ours, sigma = figures.study_row(rows[0])
@@ -99,7 +97,7 @@ def commands(entry):
     """{large: small}: the commands that made the values of a figure, and the small ones."""
     found = {}
     for value in entry["values"]:
-        large = json.loads((HERE / value["from"]).read_text(encoding="utf-8"))["command"]
+        large = figures.load(HERE / value["from"])["command"]
         name, *options = large.split()
         model = " --model mk" if "mk" in options else ""
         found[large] = " ".join([name, *SMALL.get(name, "").split()]) + model
@@ -135,7 +133,7 @@ def row(entry):
 
 
 def made():
-    """{path: text} of the two results."""
+    """{name: (columns, rows)} of the three tables."""
     entries = json.loads((HERE / "thesis.json").read_text(encoding="utf-8"))
     made_rows = [row(e) for e in entries]
     rows, values = [first for first, _ in made_rows], [line for _, lines in made_rows for line in lines]
@@ -147,17 +145,8 @@ def made():
         these = [e for e in entries if e["verdict"] == verdict]
         of_tables = sum(e in tables for e in these)
         counts.append([verdict, len(these) - of_tables, of_tables, ", ".join(e["figure"] for e in these)])
-    head = {"machine": "that of each result", "commit": "", "date": ""}
-    texts = {}
-    for name, columns, body in (
-        ("thesis", COLUMNS, rows),
-        ("thesis_values", VALUES, values),
-        ("thesis_verdicts", ["verdict", "figures", "tables", "which"], counts),
-    ):
-        lines = [json.dumps(r, ensure_ascii=False) for r in body]
-        top = json.dumps({**head, "command": "", "columns": columns}, ensure_ascii=False)[:-1]
-        texts[HERE / f"results/{name}.json"] = top + ',\n "rows": [\n  ' + ",\n  ".join(lines) + "\n ]\n}\n"
-    return texts
+    of_verdicts = ["verdict", "figures", "tables", "which"], counts
+    return {"thesis": (COLUMNS, rows), "thesis_values": (VALUES, values), "thesis_verdicts": of_verdicts}
 
 
 def printed(wanted):
@@ -176,13 +165,15 @@ def main():
     if any(not word.startswith("-") for word in sys.argv[1:]):
         return printed(sys.argv[1:])
     different = []
-    for path, text in made().items():
-        if not path.exists() or path.read_text(encoding="utf-8") != text:
-            different.append(path.name)
+    there = json.loads((HERE / "results.json").read_text(encoding="utf-8"))
+    for name, (columns, rows) in made().items():
+        if name not in there or (there[name]["columns"], there[name]["rows"]) != (columns, rows):
+            different.append(name)
             if "--check" not in sys.argv[1:]:
-                path.write_text(text, encoding="utf-8")
+                source = {"machine": "that of each result", "commit": "", "date": ""}
+                figures.save(HERE / f"results.json#{name}", "", columns, rows, source)
     if different and "--check" in sys.argv[1:]:
-        sys.exit(f"examples/studies/results: run examples/studies/thesis.py, {', '.join(different)} would change")
+        sys.exit(f"examples/studies/results.json: run examples/studies/thesis.py, {', '.join(different)} would change")
 
 
 if __name__ == "__main__":

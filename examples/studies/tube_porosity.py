@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Porosity of jammed spheres in a tube against the distance from its wall, beside two correlations for packed beds.
 
-usage: tube_porosity.py PICTURE.png [--large] [--seeds K] [--result FILE.json]
+usage: tube_porosity.py PICTURE.png [--large] [--seeds K] [--result FILE.json#NAME]
 Small: 6 packings for each of the ratios 5 and 9 of tube and sphere. Large: 30.
 Needs the Python package `jam`, numpy, scipy, matplotlib. Prints a table.
 

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Jamming density against the distance of two walls: phi_J(H) = phi_bulk - C / H, as the layers at the walls fill space less well.
 
-usage: wall_distance.py PICTURE.png [--large] [--seeds K] [--result FILE.json]
-       wall_distance.py --disks N [--seeds K] [--result FILE.json]     how well N disks follow the law: (phi of periodic packings - phi) H
+usage: wall_distance.py PICTURE.png [--large] [--seeds K] [--result FILE.json#NAME]
+       wall_distance.py --disks N [--seeds K] [--result FILE.json#NAME]     how well N disks follow the law: (phi of periodic packings - phi) H
 Small: 10 packings per point, 300 disks or 400 spheres. Large: 40, of 1200 and 1600.
 Needs the Python package `jam`, numpy, matplotlib. Prints a table.
 

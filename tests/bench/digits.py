@@ -2,7 +2,6 @@
 
 usage: digits.py     writes results/digits.json, from which figures.py makes the table of the page on proofs
 """
-import json
 import sys
 import time
 from pathlib import Path
@@ -23,7 +22,4 @@ for n, digits in ((64, 100), (64, 1000), (256, 100), (256, 1000), (1024, 100), (
     begun = time.process_time()
     found = jam.digits.refine(packing, digits)
     rows.append([n, digits, found.steps, round(time.process_time() - begun, 3)])
-head = figures.made_by() | {"command": "digits.py", "columns": ["N", "digits", "Newton's steps", "seconds of processor time"]}
-lines = ",\n  ".join(map(json.dumps, rows))
-text = json.dumps(head | {"rows": []}).replace("[]", f"[\n  {lines}\n ]")
-(HERE / "results/digits.json").write_text(text + "\n")
+figures.save(HERE / "results/digits.json", "digits.py", ["N", "digits", "Newton's steps", "seconds of processor time"], rows)

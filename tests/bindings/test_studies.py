@@ -20,8 +20,9 @@ def run(script, out, *options):
     made = subprocess.run(call, capture_output=True, text=True, check=False)
     if made.returncode:
         raise AssertionError(made.stdout + made.stderr)
-    found = json.loads((Path(out) / "results" / (script + ".json")).read_text(encoding="utf-8"))
-    return found, {row["quantity"]: row for row in found["rows"]}, made.stdout
+    found = json.loads((Path(out) / "results.json").read_text(encoding="utf-8"))[script]
+    rows = [dict(zip(found["columns"], row)) for row in found["rows"]]
+    return found, {row["quantity"]: row for row in rows}, made.stdout
 
 
 class Studies(unittest.TestCase):

@@ -86,8 +86,11 @@ def figures(root, problem):
     made = subprocess.run([sys.executable, "-B", str(thesis), "--check"], capture_output=True, text=True)
     if made.returncode:
         problem(thesis, 0, (made.stdout + made.stderr).strip().splitlines()[-1])
-    for path in sorted({*root.glob("tests/bench/results/*.json"), *root.glob("examples/studies/**/results/*.json")}):
-        missing = {"machine", "commit", "date", "command"} - json.loads(path.read_text(encoding="utf-8")).keys()
+    results = [(path, json.loads(path.read_text(encoding="utf-8"))) for path in sorted(root.glob("tests/bench/results/*.json"))]
+    for path in root.glob("examples/studies/**/results.json"):
+        results += [(f"{path}#{name}", result) for name, result in json.loads(path.read_text(encoding="utf-8")).items()]
+    for path, result in results:
+        missing = {"machine", "commit", "date", "command"} - result.keys()
         if missing:
             problem(path, 0, f"no {', '.join(sorted(missing))}")
     if not re.search(MEASURED, "it takes 0.5 s") or re.search(MEASURED, "5 spheres"):

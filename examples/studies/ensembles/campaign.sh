@@ -20,7 +20,8 @@ study fit_error.py --large                           # 2.11, 2.12: 0.15 h
 study lp_noise.py --large                            # 2.9, 2.14: a minute
 study motion_mc.py --large                           # 3.11 to 3.15, 3.17: 0.3 h
 study network_products.py --large                    # 3.3: 0.3 h
-study ../gap_plateau.py "$folder/out/gap_plateau.png" --large --result "$folder/out/gap_plateau.json" # 2.7: 0.4 h
+study ../gap_plateau.py "$folder/out/gap_plateau.png" --large \
+  --result "$folder/out/results.json#gap_plateau"    # 2.7: 0.4 h
 study final_network.py --large                       # the pressure of the final network: 0.2 h, to N = 1024
 study localised_modes.py --large                     # its modes, and near-crystals: 0.1 h
 study thermodynamics.py --large                      # the crystal, entropy near jamming: a minute

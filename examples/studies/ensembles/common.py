@@ -2,7 +2,6 @@
 from __future__ import annotations
 
 import argparse
-import json
 import os
 import sys
 from pathlib import Path
@@ -18,7 +17,6 @@ import figures  # noqa: E402  # machine, commit and date of a result
 
 G_OF_KAPPA = 2 * 3**0.5  # growth rate of the diameter over the radius rate of the thesis
 THETA_E, GAMMA, THETA_L = 0.42311, 0.41269, 0.17462  # mean field; theta_l is empirical
-SOURCE = "R. Diaz Hernandez Rojas, PhD thesis, Sapienza 2021"
 
 
 def arguments(text: str) -> argparse.ArgumentParser:
@@ -28,7 +26,7 @@ def arguments(text: str) -> argparse.ArgumentParser:
     p.add_argument("--folder", default="packings", help="where the packings are kept (packings)")
     p.add_argument("--workers", type=int, help="processes (all cores)")
     p.add_argument("--only-read", action="store_true", help="make no packing: what is there is analysed")
-    p.add_argument("--out", type=Path, default=Path("studies"), help="folder with results/ and pictures/ (studies)")
+    p.add_argument("--out", type=Path, default=Path("studies"), help="folder of results.json and pictures/ (studies)")
     p.add_argument("--update", dest="out", action="store_const", const=HERE, help="write them into the checkout, which the pages show")
     return p
 
@@ -70,14 +68,17 @@ def command(words: list[str]) -> str:
     return " ".join(made)
 
 
-def shown(path: Path, rows: list[dict]) -> list[dict]:
-    """The rows that the checkout has, made anew: pages refer to them by number. Without the file all rows are stored."""
-    there = json.loads(path.read_text(encoding="utf-8"))["rows"]
-    anew = {(row["figure"], row["quantity"]): row for row in rows}
-    gone = [row["quantity"] for row in there if (row["figure"], row["quantity"]) not in anew]
+def shown(path: str, rows: list[list]) -> list[list]:
+    """The rows that the checkout has, made anew: pages refer to them by number. Without the study in the file all rows are stored."""
+    try:
+        there = figures.load(path)["rows"]
+    except (FileNotFoundError, KeyError):
+        return rows
+    anew = {tuple(row[:2]): row for row in rows}
+    gone = [row[1] for row in there if tuple(row[:2]) not in anew]
     if gone:
-        raise SystemExit(f"{path.name} has rows that this run did not make; remove the file to store others: {'; '.join(gone)}")
-    return [anew[row["figure"], row["quantity"]] for row in there]
+        raise SystemExit(f"{path} has rows that this run did not make; take the study out to store others: {'; '.join(gone)}")
+    return [anew[tuple(row[:2])] for row in there]
 
 
 class Results:
@@ -103,18 +104,9 @@ class Results:
         value = published[1] if isinstance(published, tuple) else published
         published = f"{published[0]}: {published[1]:g}" if isinstance(published, tuple) else published
         known = isinstance(value, (int, float)) and np.isfinite(error) and error > 0
-        row = {
-            "figure": figure,
-            "quantity": quantity,
-            "published": published,
-            "ours": float(ours),
-            "error": float(error),
-        }
-        row["sigma"] = round(abs(float(ours) - float(value)) / float(error), 1) if known else None
-        if not np.isfinite(error):
-            row["error"] = None
-        self.rows.append(row)
-        print(f"{figure:8} {quantity:58} {published!s:>12} {ours:12.5g} {error:10.2g}  {row['sigma']}", flush=True)
+        sigma = round(abs(float(ours) - float(value)) / float(error), 1) if known else None
+        self.rows.append([figure, quantity, published, float(ours), float(error) if np.isfinite(error) else None, sigma])
+        print(f"{figure:8} {quantity:58} {published!s:>12} {ours:12.5g} {error:10.2g}  {sigma}", flush=True)
 
     def picture(self, figure, name: str | None = None, dpi: int = 64) -> None:
         """pictures/<name>.png, by default named after the study."""
@@ -123,12 +115,11 @@ class Results:
         figure.savefig(self.out / "pictures" / f"{name or self.name}.png", dpi=dpi)
 
     def write(self, figure=None) -> None:
-        """results/<name>.json, and the picture of the study."""
-        (self.out / "results").mkdir(parents=True, exist_ok=True)
-        path = self.out / "results" / f"{self.name}.json"
-        rows = shown(path, self.rows) if self.out == HERE and path.exists() else self.rows
-        made = {"source": SOURCE, "command": command(sys.argv), **figures.made_by(), "sets": self.sets, "rows": rows}
-        path.write_text(json.dumps(made, indent=1) + "\n", encoding="utf-8")
+        """results.json#<name>, and the picture of the study."""
+        self.out.mkdir(parents=True, exist_ok=True)
+        path = f"{self.out}/results.json#{self.name}"
+        rows = shown(path, self.rows) if self.out == HERE else self.rows
+        figures.save(path, command(sys.argv), figures.STORED, rows, sets=self.sets)
         if figure is not None:
             self.picture(figure, dpi=80)
 

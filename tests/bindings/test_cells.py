@@ -7,17 +7,9 @@ import unittest
 
 import jam
 import numpy as np
+from compiled import compiled
 
 RATIOS = (1.0, 1.19, 1.21, 4.0, 50.0)
-
-
-def small_dimensions():
-    """2, 3 and 4, as far as they are compiled in."""
-    try:
-        jam.System.random(n=2, dim=4, seed=1)
-    except jam.JamError:
-        return 2, 3
-    return 2, 3, 4
 
 
 def bricks(dim):
@@ -158,7 +150,7 @@ class Cells(unittest.TestCase):
     def test_what_is_made_is_read(self):
         """Few spheres of very different sizes, crunched in a free cell until they touch their own images."""
         rng = np.random.default_rng(7)
-        made, dims = 0, small_dimensions()
+        made, dims = 0, compiled(2, 3, 4)
         for k in range(60):
             dim, n = int(rng.choice(dims)), int(rng.integers(1, 5))
             sizes = np.r_[rng.uniform(1, 15), np.ones(n - 1)] if n > 1 else np.ones(1)

@@ -12,6 +12,7 @@ import numpy as np
 import jam
 
 sys.path.insert(0, str(Path(__file__).parent))
+from compiled import compiled
 from test_proof import ROOT, jamproof
 
 FOLDER = ROOT / "examples/studies/reference_set"
@@ -78,11 +79,13 @@ class ReferenceSet(unittest.TestCase):
 
     def test_frames_are_the_proved_packings(self):
         # In the order of the index. A proof refines the centres that a crunch ends with, which are at the maximum to about 1e-13.
-        frames = {}
+        frames, dimensions = {}, compiled(2, 3, 4, 5)
         for row in self.rows:
             name = f"d{row['d']}-n{row['N']}.xyz"
             frames[name] = frames.get(name, -1) + 1
             scene = jamproof.Scene(FOLDER / (row["name"] + ".jamproof"))
+            if int(row["d"]) not in dimensions:
+                continue
             with jam.System.read(str(FOLDER / name), frame=frames[name]) as packing:
                 centres = np.array([[float(Fraction(x, scene.one)) for x in sphere] for sphere in scene.x])
                 off = (packing.positions - centres + 0.5) % 1 - 0.5

@@ -15,7 +15,7 @@ void read_curve(const char *path, std::vector<double> &curve) {
     const std::string_view text = before_comment(line);
     split(text.substr(0, text.find(',')), words);
     if (words.empty()) continue;
-    const bool heading = first && !is_number(words[0]) && is_name(words[0]);
+    const bool heading = first && is_name(words[0]) && is_heading(text);
     first = false;
     if (heading) continue;
     if (text.find(';') != std::string_view::npos)

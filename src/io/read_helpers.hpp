@@ -104,6 +104,9 @@ std::vector<std::string> column_names(std::string_view line, char comma = ',');
 // Whether a first line names coordinates of a table.
 bool names_coordinates(std::string_view line);
 
+// A first line without any number. A row may begin with a word, as the name of its sphere.
+bool is_heading(std::string_view line);
+
 // Whether a coordinate lies in the box [0, 1], or file or caller say which box it is in: it would be wrapped.
 bool is_inside(double x, const ReadOptions &options);
 [[noreturn]] void refuse_outside(const LineReader &in, int64_t line, double x);

@@ -54,28 +54,52 @@ std::string size_of(const std::string &name) {
   return name;
 }
 
+std::string_view trim(std::string_view s) {
+  const size_t from = s.find_first_not_of(" \t\"'"), to = s.find_last_not_of(" \t\"'");
+  return from == std::string_view::npos ? std::string_view() : s.substr(from, to - from + 1);
+}
+
 // A name as it counts: in small letters, without quotes and without the unit behind it, "X [m]" or "r (mm)".
 std::string plain_name(std::string_view name) {
-  const auto trim = [](std::string_view s) {
-    const size_t from = s.find_first_not_of(" \t\"'"), to = s.find_last_not_of(" \t\"'");
-    return from == std::string_view::npos ? std::string_view() : s.substr(from, to - from + 1);
-  };
   name = trim(name);
   const size_t unit = name.find_first_of("[(");
   if (unit != std::string_view::npos && unit > 0) name = trim(name.substr(0, unit));
   return lower(name);
 }
 
+std::string_view unit_of(std::string_view name) {
+  const size_t from = name.find_last_of("[(");
+  if (from == std::string_view::npos) return {};
+  name.remove_prefix(from + 1);
+  return trim(name.substr(0, name.find_first_of("])")));
+}
+
+// Coordinates and sizes are lengths of one unit, which is not converted. Units that are not named may be any.
+void refuse_two_units(const LineReader &in, const std::vector<std::string> &lengths) {
+  const std::string *first = nullptr;
+  for (const std::string &name : lengths) {
+    if (unit_of(name).empty()) continue;
+    if (first && unit_of(name) != unit_of(*first))
+      in.fail(JAM_E_FORMAT, "the columns '%s' and '%s' have two units: write all lengths in one unit",
+              shown(trim(*first)).c_str(), shown(trim(name)).c_str());
+    if (!first) first = &name;
+  }
+}
+
 // False when the names have no coordinates.
 bool name_columns(const LineReader &in, const std::vector<std::string> &names, TableColumns &columns) {
   std::vector<std::pair<size_t, size_t>> axis;  // number of the coordinate, column
+  std::vector<std::string> lengths;
   for (size_t k = 0; k < names.size(); ++k) {
     const std::string name = plain_name(names[k]);
     const int coordinate = axis_of(name);
     if (coordinate >= 0)
       axis.emplace_back(coordinate, k);
-    else if (!columns.size.take(in, size_of(name), k))
+    else if (!columns.size.take(in, size_of(name), k)) {
       columns.unread.emplace_back(names[k]);
+      continue;
+    }
+    lengths.push_back(names[k]);
   }
   std::sort(axis.begin(), axis.end());
   for (size_t k = 0; k < axis.size(); ++k) {
@@ -87,6 +111,7 @@ bool name_columns(const LineReader &in, const std::vector<std::string> &names, T
   if (axis.size() < 2) return false;
   if (!columns.size.found())
     in.fail(JAM_E_FORMAT, "the columns have no size: name one of them radius or diameter (r or d)");
+  refuse_two_units(in, lengths);
   for (const auto &a : axis) columns.axis.push_back(a.second);
   columns.total = names.size();
   return true;
@@ -142,7 +167,7 @@ TableColumns find_names(LineReader &in, FileContent &content) {
   const Head head(in.head(), "");
   const size_t first = head.first;
   const std::vector<std::string> row = column_names(before_comment(head.lines[first]));
-  const bool named = !is_number(plain_name(row[0]));
+  const bool named = is_heading(head.lines[first]);
   TableColumns columns;
   std::string_view line;
   for (size_t k = 0; k < first + (named ? 1 : 0); ++k) {
@@ -173,10 +198,14 @@ TableColumns take_names(LineReader &in, const std::vector<std::string> &names, F
   const Head head(in.head(), "");
   std::string_view line;
   std::vector<std::string> unused;
-  const bool named = !is_number(plain_name(column_names(before_comment(head.lines[head.first]))[0]));
-  for (size_t k = 0; k < head.first + (named ? 1 : 0); ++k) {
+  for (size_t k = 0; k < head.first; ++k) {
     in.next(line);
-    if (k < head.first) read_yade(in, line, content, unused);
+    read_yade(in, line, content, unused);
+  }
+  if (is_heading(head.lines[head.first])) {
+    in.next(line);
+    content.notes.say("line %zu, '%s', has no number and was taken as a heading, in place of which columns= counts",
+                      head.first + 1, shown(line).c_str());
   }
   return columns;
 }
@@ -208,6 +237,11 @@ bool names_coordinates(std::string_view line) {
   for (const std::string &name : column_names(line))
     if (axis_of(plain_name(name)) == 0) return true;
   return false;
+}
+
+bool is_heading(std::string_view line) {
+  const std::vector<std::string> words = column_names(before_comment(line));
+  return std::none_of(words.begin(), words.end(), [](const std::string &word) { return is_number(plain_name(word)); });
 }
 
 FileContent read_table(LineReader &in, const ReadOptions &options) {

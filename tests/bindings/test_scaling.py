@@ -60,6 +60,25 @@ class Estimators(unittest.TestCase):
             scaling.fit_power([np.array([0.1])], 1.0)
         with self.assertRaisesRegex(ValueError, "values in the range"):
             scaling.fit_power([np.array([0.1]), np.array([0.2])], 1e-3, 1e-4)
+        broken = [np.array([0.1, np.nan]), np.array([0.2])]
+        grid = np.linspace(0, 1, 4)
+        for call in (
+            lambda: scaling.fit_power(broken, 1.0), lambda: scaling.cdf_pooled(broken), lambda: scaling.cdf_ranked(broken),
+            lambda: scaling.cdf_grid(broken, grid), lambda: scaling.collapse({8: broken, 16: broken}, grid, [0.4]),
+        ):
+            with self.assertRaisesRegex(ValueError, "not finite"):
+                call()
+        with self.assertRaisesRegex(ValueError, "0 points"):
+            scaling.fit_crossover(grid, grid, np.full(4, np.nan), 0.4)
+
+    def test_values_of_zero_and_less_are_counted(self):
+        rng = np.random.default_rng(8)
+        samples = [scaling.draw_left_power(rng, 30000, 0.4, 1e-9) for _ in range(3)]
+        more = [np.append(x, [0.0, -1e-14]) for x in samples]
+        for fit in (lambda x: scaling.fit_power(x, 1.0), lambda x: scaling.tail_exponent(x, 1024)):
+            without, found = fit(samples), fit(more)
+            self.assertEqual((without.omitted, found.omitted), (0, 6))
+            self.assertEqual(without[:-1], found[:-1])
 
 
 class Coverage(unittest.TestCase):

@@ -63,6 +63,12 @@ static void headings(void **state) {
   expect_refused("x;y;z;r\n0,5;0,5;0,5;0,2\n", JAM_E_FORMAT, "parted by semicolons");
   expect_refused("0,5;0,5;0,5;0,2\n", JAM_E_FORMAT, "parted by semicolons");
   expect_refused("x,y,z,X,r\n.1,.1,.1,.1,.1\n", JAM_E_FORMAT, "two columns are coordinate 1");
+  /* lengths have one unit; columns that are not read may have any */
+  expect_refused("X [m],Y [m],Z [m],D [mm]\n.1,.1,.1,.1\n", JAM_E_FORMAT, "'X [m]' and 'D [mm]' have two units");
+  expect_refused("x,y (cm),z (m),r\n.1,.1,.1,.1\n", JAM_E_FORMAT, "'y (cm)' and 'z (m)' have two units");
+  expect_refused("# x[m] y[m] z[mm] r[m]\n.1 .1 .1 .1\n", JAM_E_FORMAT, "two units");
+  expect(read_as("x [mm],y (mm),z,mass [g],r (radius) [mm]\n.5,.5,.5,9,.2\n1.5,1.5,1.5,9,.25\n", "", 3.0), 3, 2, two,
+         sizes);
   expect_refused("vx,vy,vz,r\n.1,.1,.1,.1\n", JAM_E_FORMAT, "begins no file");
   expect_refused("x,y,z\n.1,.1,.1\n", JAM_E_FORMAT, "no size");
   /* neither program nor bindings have an option dim for it */
@@ -81,6 +87,14 @@ static void what_the_caller_says(void **state) {
   assert_non_null(strstr(jam_notes(sys), "mass"));
   assert_non_null(strstr(jam_notes(sys), "-2.5 -2.5 -4"));
   expect(sys, 3, 2, moved, sizes);
+  /* a row may begin with a word; a heading that columns= replaces is named */
+  sys = read_as("x 0.5 0.5 0.5 .2\ny 1.5 1.5 1.5 .25\n", "cell=5,5,8 columns=name,x,y,z,radius", 1.0);
+  assert_null(strstr(jam_notes(sys), "heading"));
+  expect(sys, 3, 2, two, sizes);
+  sys = read_as("# grains\nname X Y Z D\nb 0.5 0.5 0.5 .2\nc 1.5 1.5 1.5 .25\n", "cell=5,5,8 columns=name,x,y,z,radius",
+                1.0);
+  assert_non_null(strstr(jam_notes(sys), "line 2, 'name X Y Z D', has no number and was taken as a heading"));
+  expect(sys, 3, 2, two, sizes);
   sys = read_as("x y r\n.5 .5 .1\n", "cell=2,0,0.5,3", 1.0);
   want[0] = 2, want[1] = 0, want[2] = 0.5, want[3] = 3;
   assert_int_equal(jam_get_cell(sys, cell, 9, &needed), JAM_OK);

@@ -268,6 +268,12 @@ static void curves_are_read_from_files(void **state) {
   assert_non_null(strstr(jam_last_error(), "line 2"));
   file = fopen(name, "w");
   assert_non_null(file);
+  fputs("fine 0\n1 40\n", file); /* a row that lost its first number, and no heading */
+  fclose(file);
+  assert_int_equal(jam_parse_diameters(text, &o, NULL, 0, &needed), JAM_E_FORMAT);
+  assert_non_null(strstr(jam_last_error(), "line 1"));
+  file = fopen(name, "w");
+  assert_non_null(file);
   fputs("Sieve size (mm),Passing (%)\n0.5,0\n1,40\n2,100\n", file);
   fclose(file);
   assert_int_equal(jam_parse_diameters(text, &o, rows, 6, &needed), JAM_OK);

@@ -25,7 +25,8 @@ STEPS, SMALL = 12, 1e-9  # of reweighted least squares; a diagonal that keeps no
 
 class TailExponent(NamedTuple):
     """Exponent a with its standard error, the two parts of which are `statistic` (packings) and `spread` (ranges and models);
-    the lower end of the fits, the weighted mean of their upper ends, and how many values lie between."""
+    the lower end of the fits, the weighted mean of their upper ends, how many values lie between, and how many values were
+    `omitted` because they are 0 or less."""
 
     value: float
     error: float
@@ -34,6 +35,25 @@ class TailExponent(NamedTuple):
     low: float
     high: float
     count: int  # type: ignore[assignment]  # hides tuple.count
+    omitted: int
+
+
+def taken(samples: Sequence[Any], least: int = 1) -> list[Array]:
+    """The values of each packing as one array; refuses too few packings, one number a packing, and values that are not finite."""
+    samples = list(samples)
+    if len(samples) < least:
+        raise ValueError(f"errors over packings need at least {least} of them")
+    if any(np.ndim(sample) == 0 for sample in samples):
+        raise ValueError("samples has one number for a packing: give an array for each packing, as [a.forces, b.forces]")
+    samples = [np.asarray(sample, float).reshape(-1) for sample in samples]
+    if not all(np.isfinite(sample).all() for sample in samples):
+        raise ValueError("samples has values that are not finite")
+    return samples
+
+
+def not_positive(samples: Sequence[Array]) -> int:
+    """How many values a tail x^a, x > 0, cannot have."""
+    return int(sum(np.count_nonzero(sample <= 0) for sample in samples))
 
 
 def tail_exponent(samples: Sequence[Any], n: int, kind: str = "forces", powers: Sequence[float] | None = None) -> TailExponent:
@@ -43,7 +63,7 @@ def tail_exponent(samples: Sequence[Any], n: int, kind: str = "forces", powers: 
     ----------
     samples : sequence of arrays
         The values of each packing: forces over their mean, or gaps; at least 2 packings. Values of 0 and less,
-        of rattlers and of contacts that rounding closed, have no tail and are left out; the result counts the others.
+        of rattlers and of contacts that rounding closed, have no tail and are left out: `omitted` of the result is their number.
     n : int
         Spheres of a packing: below N c(x) = 3 (forces) or 10 (gaps) values are those of a finite system and left out.
     kind : str
@@ -58,14 +78,7 @@ def tail_exponent(samples: Sequence[Any], n: int, kind: str = "forces", powers: 
     """
     if kind not in KINDS:
         raise ValueError(f"kind is {kind!r}: 'forces' or 'gaps'")
-    samples = list(samples)
-    if len(samples) < 2:
-        raise ValueError("errors over packings need at least 2 of them")
-    if any(np.ndim(sample) == 0 for sample in samples):
-        raise ValueError("samples has one number for a packing: give an array for each packing, as [a.forces, b.forces]")
-    samples = [np.asarray(sample, float).reshape(-1) for sample in samples]
-    if not all(np.isfinite(sample).all() for sample in samples):
-        raise ValueError("samples has values that are not finite")
+    samples = taken(samples, 2)
     if not 1 <= n < np.inf:
         raise ValueError(f"n is {n}: the number of spheres of a packing")
     if powers is not None and not all(0 < q < np.inf for q in powers):
@@ -80,14 +93,17 @@ def tail_exponent(samples: Sequence[Any], n: int, kind: str = "forces", powers: 
     statistic, spread = np.sqrt(max(1.0, excess) * (weight @ variance)), np.sqrt(weight @ (a - mean) ** 2)
     high = np.exp(weight @ np.log(edges[last]))
     count = int(total[edges[1:] <= high * (1 + 1e-6)].sum())
-    return TailExponent(float(mean), float(np.hypot(statistic, spread)), float(statistic), float(spread), float(edges[0]), float(high), count)
+    error = float(np.hypot(statistic, spread))
+    return TailExponent(
+        float(mean), error, float(statistic), float(spread), float(edges[0]), float(high), count, not_positive(samples)
+    )
 
 
 def bins(samples: Sequence[Any], n: int, floor: float) -> tuple[Array, Array]:
     """Edges from x_low to 1, or to the last edge below the largest value where that is smaller, and the counts of each packing."""
-    pool = np.sort(np.concatenate([np.asarray(s)[np.asarray(s) > 0] for s in samples]))
+    pool = np.sort(np.concatenate([s[s > 0] for s in samples]))
     if len(pool) < 2:
-        raise ValueError(f"{len(pool)} positive values")
+        raise ValueError(f"{len(pool)} positive values, {not_positive(samples)} of 0 and less")
     low = pool[min(len(pool) - 1, int(floor * len(pool) / n))]
     top = min(0, int(np.floor(np.log10(pool[-1]) * PER_DECADE)))  # gaps are often kept up to a largest one
     edges = 10.0 ** (np.arange(-int(np.ceil(-np.log10(low) * PER_DECADE)), top + 1) / PER_DECADE)

@@ -15,7 +15,7 @@ import numpy as np
 
 from ._api.arrays import Array
 from ._api.shown import only
-from ._tails import TailExponent, tail_exponent
+from ._tails import TailExponent, not_positive, tail_exponent, taken
 
 __all__ = [
     "Cdf", "Collapse", "Estimate", "Exponent", "TailExponent", "bootstrap", "cdf_grid", "cdf_pooled", "cdf_ranked", "collapse",
@@ -45,11 +45,13 @@ class Estimate(NamedTuple):
 
 
 class Exponent(NamedTuple):
-    """Exponent of a density x^a, its standard error over packings, and how many values it comes from."""
+    """Exponent of a density x^a, its standard error over packings, how many values it comes from, and how many values were
+    `omitted` because they are 0 or less."""
 
     value: float
     error: float
-    count: int  # type: ignore[assignment]  # hides tuple.count, which a triple of numbers does not need
+    count: int  # type: ignore[assignment]  # hides tuple.count, which numbers do not need
+    omitted: int
 
 
 class Collapse(NamedTuple):
@@ -69,7 +71,7 @@ def cdf_pooled(samples: Sequence[Array]) -> Cdf:
     samples : sequence of arrays
         The values of each packing.
     """
-    x = np.sort(np.concatenate([np.asarray(s, float) for s in samples]))
+    x = np.sort(np.concatenate(taken(samples)))
     none = np.full(len(x), np.nan)
     return Cdf(x, np.arange(1, len(x) + 1) / len(x), none, none)
 
@@ -79,7 +81,7 @@ def cdf_ranked(samples: Sequence[Array]) -> Cdf:
 
     Packings with fewer values than others end the average early; c of the k-th is k over the mean number.
     """
-    ordered = [np.sort(np.asarray(s, float)) for s in samples]
+    ordered = [np.sort(s) for s in taken(samples)]
     least, mean = min(map(len, ordered)), np.mean([len(s) for s in ordered])
     rows = np.array([s[:least] for s in ordered])
     error = rows.std(axis=0, ddof=1) / np.sqrt(len(rows)) if len(rows) > 1 else np.full(least, np.nan)
@@ -88,7 +90,7 @@ def cdf_ranked(samples: Sequence[Array]) -> Cdf:
 
 def cdf_grid(samples: Sequence[Array], grid: Array) -> Cdf:
     """Evaluates the step function of each packing on one grid: the error is one of c."""
-    rows = np.array([np.searchsorted(np.sort(s), grid, side="right") / len(s) for s in samples])
+    rows = np.array([np.searchsorted(np.sort(s), grid, side="right") / len(s) for s in taken(samples)])
     error = rows.std(axis=0, ddof=1) / np.sqrt(len(rows)) if len(rows) > 1 else np.full(len(grid), np.nan)
     return Cdf(np.asarray(grid, float), rows.mean(axis=0), np.full(len(grid), np.nan), error)
 
@@ -160,13 +162,10 @@ def fit_power(
     ValueError
         Fewer than 2 packings, or no values in the range.
     """
-    if len(samples) < 2:
-        raise ValueError("errors over packings need at least 2 of them")
-    if any(np.ndim(sample) == 0 for sample in samples):
-        raise ValueError("samples has one number for a packing: give an array for each packing, as [a.forces, b.forces]")
+    samples = taken(samples, 2)
     counts, sums = np.empty(len(samples)), np.empty(len(samples))
     for k, sample in enumerate(samples):
-        inside = np.asarray(sample)[(sample <= high) & (sample >= (low or 0.0)) & (np.asarray(sample) > 0.0)]
+        inside = sample[(sample <= high) & (sample >= (low or 0.0)) & (sample > 0.0)]
         counts[k], sums[k] = len(inside), np.log(inside / (low or high)).sum()
     if counts.sum() < 2:
         raise ValueError(f"{int(counts.sum())} values in the range from {low or 0.0:g} to {high:g}")
@@ -176,7 +175,7 @@ def fit_power(
     mean = np.concatenate([[sums.sum()], weight @ sums]) / np.maximum(n, 1.0)
     b = -1.0 / mean if low is None else _solve(mean, np.log(high / low))
     b = b[np.isfinite(b)]
-    return Exponent(float(b[0] - 1.0), float(b[1:].std(ddof=1) * np.sqrt(m / (m - 1))), int(n[0]))
+    return Exponent(float(b[0] - 1.0), float(b[1:].std(ddof=1) * np.sqrt(m / (m - 1))), int(n[0]), not_positive(samples))
 
 
 # ---- collapse of several sizes
@@ -189,7 +188,7 @@ def quality(curves: Sequence[tuple[float, Cdf]], u: float, v: float) -> float:
     Parameters
     ----------
     curves : sequence of (N, Cdf)
-        With c_error, on any grids.
+        With c_error, on any grids. Points without c > 0 and an error > 0 are omitted.
     """
     scaled = []
     for n, curve in curves:
@@ -248,7 +247,7 @@ def collapse(
     from scipy.optimize import minimize
 
     grids = {n: np.asarray(grid(n) if callable(grid) else grid, float) for n in samples}
-    rows = {n: np.array([np.searchsorted(np.sort(s), grids[n], "right") / len(s) for s in samples[n]]) for n in samples}
+    rows = {n: np.array([np.searchsorted(np.sort(s), grids[n], "right") / len(s) for s in taken(samples[n], 2)]) for n in samples}
     errors = {n: r.std(axis=0, ddof=1) / np.sqrt(len(r)) for n, r in rows.items()}
 
     def best(picked: dict[int, Array], first: Sequence[float] | Array) -> tuple[Array, float]:
@@ -283,11 +282,14 @@ def fit_crossover(
 ) -> tuple[Array, float]:
     """Least squares of ln c = ln F: (a, b, q), and the mean square residual in units of the errors.
 
-    ln a and ln b are kept within 8 of 0, q in -10 ... -0.1: data without a bend do not determine them.
+    ln a and ln b are kept within 8 of 0, q in -10 ... -0.1: data without a bend do not determine them. Points without c > 0
+    and an error > 0, where no packing or every packing has a value, have no logarithm or weight and are omitted.
     """
     from scipy.optimize import least_squares
 
     use = (c > 0) & (error > 0)
+    if use.sum() < 3:
+        raise ValueError(f"{int(use.sum())} points with c > 0 and an error > 0: three parameters need as many")
     lc, weight = np.log(c[use]), c[use] / error[use]
 
     def residual(p: Array) -> Array:

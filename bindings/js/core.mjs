@@ -31,7 +31,9 @@ export class Core {
   /** @param {BufferSource | WebAssembly.Module} source */
   static async load(source) {
     const core = new Core();
-    const made = await WebAssembly.instantiate(source, imports(core));
+    const made = await WebAssembly.instantiate(source, imports(core)).catch((error) => {
+      throw error instanceof RangeError ? new JamError('memory', `WebAssembly is given no memory here (${error.message})`) : error;
+    });
     core.exports = (made.instance ?? made).exports;
     core.module = made.module ?? source;
     core.exports._initialize();

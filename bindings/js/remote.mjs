@@ -20,10 +20,11 @@ export class RemotePacking {
   copy() { return this.owner.make('copy', [], this.id); }
   tile(count) { return this.owner.make('tile', [count], this.id); }
   dispose() {
-    this.owner.kept.delete(this.id);
-    return this.owner.ask({ op: 'dispose', packing: this.id });
+    forgotten.unregister(this);
+    return this.owner.free(this.id);
   }
 }
+const forgotten = new FinalizationRegistry(({ owner, id }) => owner.free(id).catch(() => {})); // ended workers hold nothing
 if (Symbol.asyncDispose) RemotePacking.prototype[Symbol.asyncDispose] = RemotePacking.prototype.dispose;
 
 /** The library in a worker. */
@@ -95,7 +96,13 @@ export class RemoteJam {
   async make(how, args, from = 0) {
     const made = this.#next++;
     const { n, dim } = await this.asked({ op: 'make', how, made, from }, args);
-    return Object.assign(new RemotePacking(this, made), { n, dim });
+    const packing = Object.assign(new RemotePacking(this, made), { n, dim });
+    forgotten.register(packing, { owner: this, id: made }, packing);
+    return packing;
+  }
+  free(id) {
+    this.kept.delete(id);
+    return this.ask({ op: 'dispose', packing: id });
   }
   random(options = {}) { return this.make('random', [options]); }
   from(options) { return this.make('from', [options]); }

@@ -8,9 +8,12 @@ import subprocess
 import tempfile
 import time
 
+from closed_network import ClosedNetwork
+
 PREFERENCES = {
     "app.update.disabledForTesting": True, "browser.download.folderList": 2, "browser.shell.checkDefaultBrowser": False,
     "browser.startup.page": 0, "browser.tabs.warnOnClose": False, "datareporting.policy.dataSubmissionEnabled": False,
+    "network.proxy.allow_hijacking_localhost": True, "network.proxy.type": 1,
     "network.captive-portal-service.enabled": False, "network.connectivity-service.enabled": False,
     "services.settings.server": "data:,", "toolkit.telemetry.enabled": False, "webgl.force-enabled": True,
 }  # fmt: skip
@@ -29,11 +32,16 @@ def free_port():
 
 
 class Firefox:
-    """One page, with the calls of browser.Browser that need no more than WebDriver's commands."""
+    """One page, with the calls of browser.Browser that need no more than WebDriver's commands. `errors` collects what is
+    asked of the network, which is closed."""
 
     def __init__(self, width=1400, height=860, downloads=None):
         self.folder, port = tempfile.TemporaryDirectory(), free_port()
-        chosen = {**PREFERENCES, "marionette.port": port, **({"browser.download.dir": str(downloads)} if downloads else {})}
+        self.errors = []
+        self._network = ClosedNetwork(self.errors)
+        proxy = {f"network.proxy.{kind}": "127.0.0.1" for kind in ("http", "ssl")}
+        proxy |= {f"network.proxy.{kind}_port": self._network.port for kind in ("http", "ssl")}
+        chosen = {**PREFERENCES, **proxy, "marionette.port": port, **({"browser.download.dir": str(downloads)} if downloads else {})}
         with open(os.path.join(self.folder.name, "user.js"), "w", encoding="ascii") as file:
             file.writelines(f"user_pref({json.dumps(key)}, {json.dumps(value)});\n" for key, value in chosen.items())
         self.process = subprocess.Popen(
@@ -94,6 +102,16 @@ class Firefox:
         found = self.ask("WebDriver:FindElement", using="css selector", value=selector)["value"]
         self.ask("WebDriver:ElementSendKeys", id=next(iter(found.values())), text=str(path))
 
+    def drop(self, path):
+        """A file on the page, by an event of its own making: WebDriver has no drop of files."""
+        data = base64.b64encode(path.read_bytes()).decode()
+        self.run(f"""((bytes) => {{
+            const dataTransfer = new DataTransfer();
+            dataTransfer.items.add(new File([bytes], {path.name!r}));
+            for (const kind of ['dragover', 'drop'])
+              document.body.dispatchEvent(new DragEvent(kind, {{ dataTransfer, bubbles: true, cancelable: true }}));
+        }})(Uint8Array.from(atob('{data}'), (c) => c.charCodeAt(0)))""")
+
     def picture(self, path):
         with open(path, "wb") as file:
             file.write(base64.b64decode(self.ask("WebDriver:TakeScreenshot", full=False)["value"]))
@@ -109,4 +127,5 @@ class Firefox:
             self.process.kill()
             self.process.wait()
         self._socket.close()
+        self._network.close()
         self.folder.cleanup()

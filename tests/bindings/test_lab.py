@@ -1,26 +1,24 @@
 """examples/lab.html in real browsers: packings bit for bit as by jam-pack and Python, files of many kinds, proofs, stops.
 
-JAM_LAB names another lab.html, JAM_LAB_ALL=1 runs ten seeds. Each browser is skipped where it is not installed.
+JAM_LAB_ALL=1 runs ten seeds. Each browser is skipped where it is not installed.
 """
 import gzip
 import os
 import pathlib
+import re
 import shlex
 import subprocess
 import sys
 import tempfile
-import time
 import unittest
 
 import browser
 import firefox
+from lab_page import LAB, ROOT, Lab
 
 import jam
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-LAB = pathlib.Path(os.environ.get("JAM_LAB", ROOT / "examples/lab.html"))
 PROOFS = ROOT / "examples/studies/reference_set"
-LIMIT = 240  # seconds for one piece of work, under any load
 RECIPES = [
     {"n": 64, "dim": 3, "seed": 7},
     {"n": 60, "dim": 2, "seed": 3, "law": "two", "items": "1.4"},
@@ -29,65 +27,6 @@ RECIPES = [
     {"n": 80, "dim": 3, "seed": 9, "density": "0.5", "law": "sieve", "curve": "0.5 0\n0.8 0.4\n1 1"},
 ]  # fmt: skip
 SEEDS = [{"n": 256, "dim": 3, "seed": seed} for seed in (range(1, 11) if os.environ.get("JAM_LAB_ALL") else [1])]
-
-
-class Lab:
-    """The page in one browser, by what a reader can see and press."""
-
-    def __init__(self, kind, folder):
-        self.downloads = folder / "downloads"
-        self.downloads.mkdir(exist_ok=True)
-        if kind is firefox:
-            self.page = firefox.Firefox(downloads=self.downloads)
-        else:
-            self.page = browser.Browser()
-            self.page.download_to(self.downloads)
-        self.open()
-
-    def open(self):
-        self.page.open(LAB)
-        self.until("document.documentElement.dataset.ready === 'yes'")
-
-    def until(self, condition):
-        end = time.monotonic() + LIMIT
-        while not self.page.run(condition):
-            if time.monotonic() > end:
-                raise AssertionError(f"not within {LIMIT} s: {condition}; {self.text('status')} {self.text('error')}")
-            time.sleep(0.05)
-
-    def text(self, name):
-        return self.page.run(f"document.getElementById('{name}')?.textContent ?? ''")
-
-    def press(self, name, waits=True):
-        self.page.run(f"document.getElementById('{name}').click()")
-        if waits:
-            self.until("document.getElementById('work').hidden")
-
-    def fill(self, recipe):
-        for name in ("n", "dim", "seed", "law", "items", "curve", "walls", "density", "porosity", "protocol"):
-            value = str(recipe.get(name, {"law": "equal", "walls": "none", "protocol": "usual"}.get(name, "")))
-            self.page.run(f"((box) => {{ box.value = {value!r}; if (box.id === 'make-law') box.dispatchEvent(new Event('change')); }})"
-                          f"(document.getElementById('make-{name}'))")  # fmt: skip
-
-    def make(self, recipe):
-        self.fill(recipe)
-        self.press("make-go")
-
-    def give(self, name, path):
-        self.page.give("#" + name, path)
-        self.until("document.getElementById('work').hidden")
-
-    def saved(self, button, name):
-        """The bytes of a file that the page gives."""
-        path = self.downloads / name
-        path.unlink(missing_ok=True)
-        self.press(button)
-        end = time.monotonic() + LIMIT
-        while not path.exists() or not path.stat().st_size or list(self.downloads.glob("*.part")) or list(self.downloads.glob("*.crdownload")):
-            if time.monotonic() > end:
-                raise AssertionError(f"{name} was not saved: {self.text('error')}")
-            time.sleep(0.05)
-        return path.read_bytes()
 
 
 class InBrowser:
@@ -109,7 +48,14 @@ class InBrowser:
         cls.folder.cleanup()
 
     def tearDown(self):
-        self.assertEqual(getattr(self.lab.page, "errors", []), [])
+        self.assertEqual(self.lab.page.errors, [])
+
+    def by_the_command(self):
+        """What the page's command line writes."""
+        with tempfile.TemporaryDirectory() as place:
+            words = shlex.split(self.lab.text("command"))
+            subprocess.run([os.environ["JAM_PACK"], *words[1:], "--quiet"], cwd=place, check=True)
+            return (pathlib.Path(place) / "packing.xyz").read_bytes()
 
     def test_packings_have_the_bits_of_the_program_and_of_python(self):
         for recipe in self.recipes:
@@ -117,10 +63,7 @@ class InBrowser:
                 self.lab.make(recipe)
                 self.assertEqual(self.lab.text("error"), "")
                 own = self.lab.saved("save-xyz", "packing.xyz")
-                words = shlex.split(self.lab.text("command"))
-                subprocess.run([os.environ["JAM_PACK"], *words[1:], "--quiet"], cwd=place, check=True)
-                self.assertEqual((pathlib.Path(place) / "packing.xyz").read_bytes(), own)
-                (pathlib.Path(place) / "packing.xyz").unlink()
+                self.assertEqual(self.by_the_command(), own)
                 subprocess.run([sys.executable, "-c", self.lab.text("python")], cwd=place, check=True)
                 self.assertEqual((pathlib.Path(place) / "packing.xyz").read_bytes(), own)
 
@@ -138,22 +81,57 @@ class InBrowser:
         self.lab.give("proof-file", damaged)
         self.assertRegex(self.lab.text("answer"), "^not proved: ")
 
-    def test_a_stop_keeps_what_was_reached_and_a_reload_too(self):
-        self.lab.fill({"n": 2000, "dim": 3, "seed": 1, "protocol": "slow"})
+    def closed(self):
+        """The page is closed in the middle and opened again."""
+        self.lab.open()
+
+    def test_stopped_and_closed_in_the_middle_it_goes_on_to_the_same_bits(self):
+        self.lab.fill({"n": 150, "dim": 3, "seed": 4, "protocol": "slow"})
         self.lab.press("make-go", waits=False)
         self.lab.until("document.getElementById('left').textContent !== ''")
         self.lab.press("stop")
         self.assertIn("Stopped", self.lab.text("status"))
-        self.assertEqual(self.lab.text("error"), "")
         rows = self.lab.saved("save-xyz", "packing.xyz").splitlines()
-        self.assertEqual(int(rows[0]), 2000)
-        self.lab.open()
-        self.assertIn("2000", self.lab.text("status"))
+        self.assertEqual(int(rows[0]), 150)
+        self.closed()
+        self.assertIn("150 spheres", self.lab.text("status"))
         self.assertEqual(self.lab.saved("save-xyz", "packing.xyz").splitlines(), rows)
+        self.lab.press("check-own")  # it moves no sphere
+        self.lab.press("make-on", waits=False)
+        self.lab.until("document.getElementById('bar').value > 0.2")  # of 0.5 for the growth
+        self.closed()
+        self.assertIn("not finished", self.lab.text("status"))
+        self.lab.press("make-on")
+        self.assertEqual(self.lab.text("error"), "")
+        self.assertTrue(self.lab.page.run("document.getElementById('make-on').parentNode.hidden"))
+        self.assertEqual(self.lab.saved("save-xyz", "packing.xyz"), self.by_the_command())
+
+    def test_a_request_would_be_seen(self):
+        """As tearDown asks for none: of the page, of a worker, and to this machine."""
+        self.lab.page.run("""fetch('http://page.invalid/').catch(() => 0) && fetch('http://127.0.0.1:8080/').catch(() => 0) &&
+            new Worker(URL.createObjectURL(new Blob(["fetch('http://worker.invalid/').catch(() => 0)"]))) && 0""")
+        for host in ("page.invalid", "worker.invalid", "127.0.0.1:8080"):
+            self.lab.until_true(lambda host=host: any(host in line for line in self.lab.page.errors), host)
+        self.lab.page.run("0")  # what the console says of it has arrived
+        self.lab.page.errors.clear()
+
+    def test_a_file_is_dropped(self):
+        for path in (PROOFS / "d3-n64-equal-01.xyz", PROOFS / "d3-n64-equal-01.jamproof"):
+            self.lab.page.drop(path)
+            self.lab.until("!document.getElementById('work').hidden || document.getElementById('status').textContent !== ''")
+            self.lab.until("document.getElementById('work').hidden")
+            self.assertEqual(self.lab.text("error"), "")
+        self.assertRegex(self.lab.text("verdict"), "^Collectively jammed")
+        self.assertRegex(self.lab.text("answer"), "^proved: ")
 
 
 class InChromium(InBrowser, unittest.TestCase):
     recipes = [*SEEDS, *RECIPES]
+
+    def closed(self):
+        self.lab.page.new_tab()
+        self.lab.page.download_to(self.lab.downloads)
+        self.lab.open()
 
     def files(self):
         """Eight kinds of one jammed packing."""
@@ -214,16 +192,27 @@ class InChromium(InBrowser, unittest.TestCase):
         self.lab.until("document.getElementById('view').contentWindow.eval('typeof growth === \"number\" && growth > 1.2')")
         self.lab.press("stop")
 
+    def test_the_guide_lists_what_the_page_needs(self):
+        guide = (ROOT / "bindings/docs/browser.md").read_text("utf-8")
+        needs = re.findall(r"\['([^']+)', '([^']+)',", (ROOT / "bindings/js/lab/needs.mjs").read_text("utf-8"))
+        self.assertGreater(len(needs), 3)
+        for what, since in needs:
+            self.assertIn(f"| {what} | {since} |", guide)
+
     def test_what_a_browser_lacks_is_told(self):
-        lacks = {"delete window.WebAssembly": ("error", "WebAssembly"), "delete window.DecompressionStream": ("error", "unpack"),
+        no_memory = "WebAssembly.instantiate = () => Promise.reject(new RangeError('no room'));"
+        lacks = {"delete window.WebAssembly": ("error", "WebAssembly"), "delete window.DecompressionStream": ("error", "Firefox 113"),
+                 "WebAssembly.validate = (bytes) => bytes[9] === 5": ("error", "exceptions (Chrome 95"), "delete window.Worker": ("error", "jam-pack"),
+                 f"window.Blob = class extends Blob {{ constructor(parts, o = {{}}) {{ super(o.type === 'text/javascript' ? [`{no_memory}`, ...parts] : parts, o); }} }}": ("error", "Close other pages"),
                  "Object.defineProperty(window, 'localStorage', {get() { throw new Error('refused'); }})": ("kept", "refuses storage"),
                  "HTMLCanvasElement.prototype.getContext = () => null": ("error", "WebGL2")}  # fmt: skip
         for script, (place, words) in lacks.items():
             with self.subTest(script=script):
                 made = self.lab.page.ask("Page.addScriptToEvaluateOnNewDocument", source=f"if (window === top) {script}")
                 self.lab.open()
-                self.assertIn(words, self.lab.text(place))
                 self.lab.page.ask("Page.removeScriptToEvaluateOnNewDocument", identifier=made["identifier"])
+                self.assertIn(words, self.lab.text(place))
+                self.assertNotIn("stays", self.lab.text("status"))
         self.lab.open()
 
     def test_ten_thousand_spheres_stay_usable(self):

@@ -1,6 +1,8 @@
 // The library in a worker: promises, frames, stops, with memory that is shared and without.
 import assert from 'node:assert/strict';
 import test from 'node:test';
+import { setFlagsFromString } from 'node:v8';
+import { runInNewContext } from 'node:vm';
 import { JamError, load, spawn } from './package.mjs';
 
 const alone = await load();
@@ -51,6 +53,21 @@ test('frames show the packing as it moves', async () => {
   await assert.rejects(p.compress({ frames: 1e-9, progress: (now) => (frame = now.frame ?? frame)?.diameters[0] > before[0] }), { status: 'cancelled' });
   assert.equal(frame.positions.length, 3 * 256);
   assert.equal(frame.cell.length, 9);
+  jam.end();
+});
+
+test('packings that nothing refers to are freed in the worker', async () => {
+  setFlagsFromString('--expose-gc');
+  const jam = await spawn({ shared: false });
+  await (async () => { for (let k = 0; k < 4; ++k) await jam.random(start); })();
+  const last = await jam.random(start);
+  assert.equal(jam.kept.size, 5);
+  for (let k = 0; k < 100 && jam.kept.size > 1; ++k) {
+    runInNewContext('gc')();
+    await new Promise((resolve) => setTimeout(resolve, 10)); // finalisers run between tasks
+  }
+  assert.equal(jam.kept.size, 1);
+  assert.equal((await last.positions).length, 3 * 64);
   jam.end();
 });
 

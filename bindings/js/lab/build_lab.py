@@ -12,7 +12,7 @@ import tempfile
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
-LAB = "texts recipe parts engine keep view session panel_make panel_check panel_look main".split()
+LAB = "texts needs recipe parts engine keep view session panel_make panel_check panel_look main".split()
 PROOF = "exact scene inverse implied trapped theorem check serve_proof".split()
 EXPORT = re.compile(r"^export (?=(?:async )?(?:const|let|function|class) )|^export \{[^}]*\}.*\n", re.M)
 

@@ -1,4 +1,5 @@
 // The library in a worker, from what the page holds, and the work that takes several of its calls.
+import { missing } from './needs.mjs';
 import { growthOf, isCrunched, lawOf, ratioOf, startOf, twoSizes } from './recipe.mjs';
 import { TEXT } from './texts.mjs';
 
@@ -8,21 +9,14 @@ const SHOWN = 8; // contacts in the table of the strongest
 
 const held = (id) => document.getElementById(id).textContent.trim();
 async function unpackedWasm() {
-  if (typeof DecompressionStream === 'undefined') throw new Error(TEXT.noUnpack);
   const packed = Uint8Array.from(atob(held('wasm')), (c) => c.charCodeAt(0));
   return new Uint8Array(await new Response(new Blob([packed]).stream().pipeThrough(new DecompressionStream('gzip'))).arrayBuffer());
 }
 const workerOf = (id) => new Worker(URL.createObjectURL(new Blob([held(id)], { type: 'text/javascript' })));
 
-/** Sentences for what a browser refuses; others are the library's. */
-export function sentenceOf(error) {
-  if (error.name === 'CompileError' || error.name === 'LinkError') return TEXT.noWasm;
-  if (error instanceof RangeError || /out of memory/i.test(error.message)) return TEXT.noMemory;
-  return error.message;
-}
-
 export async function startEngine() {
-  if (typeof WebAssembly === 'undefined' || typeof Worker === 'undefined') throw new Error(TEXT.noWasm);
+  const lacks = missing();
+  if (lacks.length) throw new Error(TEXT.lacks(lacks.map(([what, since]) => `${what} (${since})`).join('; ')));
   return spawnOn(() => webPort(workerOf('engine')), await unpackedWasm());
 }
 
@@ -45,20 +39,23 @@ async function diametersOf(jam, r) {
   return jam.diameters(curve.length ? curve : null, { ...given, n: r.n, dim: r.dim, seed: r.seed });
 }
 
-/** A random start, growth and crunch; `shown(frame)` and `told(phase, progress)` follow it. */
-export async function made(jam, r, { begun, shown, told }) {
+export async function started(jam, r) {
   const diameters = await diametersOf(jam, r);
-  const packing = await jam.random({ ...startOf(r), ...(diameters ? { diameters } : {}) });
-  await begun(packing);
+  return jam.random({ ...startOf(r), ...(diameters ? { diameters } : {}) });
+}
+/** Growth and crunch, from a start or from where they were stopped; `shown(frame)` and `told(phase, progress)` follow. */
+export async function made(packing, r, { shown, told }) {
+  const { paused, pressure } = await packing.info(), resume = paused === 'compress';
   const follow = (phase) => (now) => {
     if (now.frame) shown(now.frame);
     told(phase, now);
   };
-  await packing.compress({ ...growthOf(r), progress: follow('growing'), frames: FRAMES });
-  if (!isCrunched(r)) return { packing, report: null };
+  if (resume || (paused !== 'crunch' && !Number.isFinite(pressure))) // growth that has ended leaves its pressure
+    await packing.compress({ ...growthOf(r), resume, progress: follow('growing'), frames: FRAMES });
+  if (!isCrunched(r)) return null;
   const estimate = await packing.estimateCrunch();
   if (estimate.memory > ROOM) throw new Error(TEXT.make.memory(Math.round(estimate.memory / 1e6), Math.round(ROOM / 1e6)));
-  return { packing, report: await packing.crunch({ progress: follow('crunching'), frames: FRAMES }) };
+  return packing.crunch({ progress: follow('crunching'), frames: FRAMES });
 }
 
 /** A packing of a file, and what was assumed. */

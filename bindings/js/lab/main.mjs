@@ -1,8 +1,8 @@
 // The start of the page: tabs, what was kept, and the library.
 import { TEXT } from './texts.mjs';
-import { sentenceOf, startEngine } from './engine.mjs';
+import { startEngine } from './engine.mjs';
 import { canKeep, forgetAll, keep, keptPacking, keptValue } from './keep.mjs';
-import { adopt, fault, session, tell } from './session.mjs';
+import { adopt, failed, fault, session, tell } from './session.mjs';
 import { learnPanel, makePanel, restoreForm } from './panel_make.mjs';
 import { checkPanel, provePanel, watchDrops } from './panel_check.mjs';
 import { lookPanel, savePanel, showClass } from './panel_look.mjs';
@@ -44,7 +44,7 @@ async function bringBack() {
   if (!kept) return false;
   const packing = await session.jam.readCheckpoint(kept.bytes);
   await adopt(packing, kept.about);
-  tell(TEXT.back(packing.n, packing.dim));
+  tell(kept.about.unfinished ? TEXT.half(packing.n, packing.dim) : TEXT.back(packing.n, packing.dim));
   return true;
 }
 
@@ -70,7 +70,7 @@ async function startLab() {
     if (!(await bringBack())) tell(TEXT.ready(session.jam.version));
   } catch (error) {
     tell('');
-    fault(sentenceOf(error));
+    failed(error);
   }
   document.documentElement.dataset.ready = 'yes';
 }

@@ -49,8 +49,8 @@ async function checkShown() {
   const { packing } = session, notes = await packing.notes;
   const found = await checked(packing, follow), { report } = found, place = byId('check-result');
   const name = (k) => (k < 0 ? T.wall(-1 - k) : String(k));
-  const [first, ...rest] = report.text.split(/(?<=\.) /);
-  const parts = [make('p', { id: 'verdict' }, make('b', { textContent: first }), ` ${rest.join(' ')}`)];
+  const { text } = report, first = text.slice(0, text.indexOf('. ') + 1 || text.length);
+  const parts = [make('p', { id: 'verdict' }, make('b', { textContent: first }), text.slice(first.length))];
   if (found.motion) parts.push(make('p', { textContent: T.flex }));
   if (found.weakest) {
     const { i, j, force } = found.weakest;

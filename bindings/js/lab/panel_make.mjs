@@ -1,10 +1,10 @@
 // Make: the form of a packing, and its growth on the screen.
 import { TEXT, STEPS } from './texts.mjs';
 import { RECIPE, isCrunched } from './recipe.mjs';
-import { made } from './engine.mjs';
-import { canKeep, keep, keepPacking, keptValue } from './keep.mjs';
-import { adopt, fault, progress, run, session, tell } from './session.mjs';
-import { showMoment, showPacking } from './view.mjs';
+import { made, started } from './engine.mjs';
+import { keep, keptValue } from './keep.mjs';
+import { adopt, fault, progress, run, session, store, tell, whenPacking } from './session.mjs';
+import { showMoment } from './view.mjs';
 import { button, byId, choice, field, make, shown } from './parts.mjs';
 
 const M = TEXT.make, LONG = ['list', 'sieve'];
@@ -56,7 +56,9 @@ export function makePanel() {
     event.preventDefault();
     makeIt();
   });
-  return make('section', {}, make('h2', { textContent: M.title }), form);
+  const again = make('div', { className: 'row', hidden: true }, button(M.goOn, goOn, 'make-on', true));
+  whenPacking(() => (again.hidden = !session.about.unfinished));
+  return make('section', {}, make('h2', { textContent: M.title }), again, form);
 }
 export const restoreForm = () => fillForm(keptValue('form', RECIPE));
 
@@ -69,33 +71,36 @@ export function resultOf(report, phi) {
 export function makeIt() {
   const r = readForm();
   keep('form', r);
-  return run(TEXT.make.growing(0), async () => {
-    let started = null;
-    let stored = null;
-    const told = (phase, now) => {
-      const reached = started && session.jam.kept.get(started.id); // what a closed page finds again
-      if (reached && reached !== stored && canKeep()) keepPacking((stored = reached), { recipe: null, phi: now.packingFraction });
-      const share = isCrunched(r) ? (phase === 'growing' ? GROWS * now.fraction : GROWS + (1 - GROWS) * now.fraction) : now.fraction;
-      progress(share, now.secondsLeft);
-      tell(M[phase](now.packingFraction));
-    };
-    const begun = async (packing) => {
-      started = packing;
-      if (window.matchMedia('(max-width: 900px)').matches) document.getElementById('stage').scrollIntoView();
-      await showPacking(packing, { small: true });
-    };
-    try {
-      const { packing, report } = await made(session.jam, r, { begun, shown: showMoment, told });
-      const { packingFraction: phi } = await packing.info();
-      const about = { recipe: r, phi, made: report && { phi, contacts: report.contacts, rattlers: report.rattlers, jammed: report.jammed } };
-      await adopt(packing, about);
-      tell(resultOf(report, phi));
-    } catch (error) {
-      // What was reached is kept: after a stop the packing is as its last checkpoint has it.
-      if (error.status === 'cancelled' && started) await adopt(started, { recipe: null, phi: (await started.info()).packingFraction });
-      throw error;
-    }
-  });
+  return run(M.growing(0), async () => grow(await started(session.jam, r), r));
+}
+/** What was stopped, or was running when the page was closed. */
+function goOn() {
+  const { packing, about } = session;
+  return run(M.growing(about.phi), () => grow(packing, about.unfinished));
+}
+/** `r` makes `packing`, which may be half made. Each state that is kept is one that the button goes on from. */
+async function grow(packing, r) {
+  const { paused } = await packing.info(), half = (phi) => ({ recipe: null, unfinished: r, phi });
+  let stored = null;
+  const told = (phase, now) => {
+    const reached = session.jam.kept.get(packing.id);
+    if (reached !== stored) store((stored = reached), half(now.packingFraction));
+    const share = isCrunched(r) ? (phase === 'growing' ? GROWS * now.fraction : GROWS + (1 - GROWS) * now.fraction) : now.fraction;
+    progress(share, now.secondsLeft);
+    tell(M[phase](now.packingFraction));
+  };
+  if (window.matchMedia('(max-width: 900px)').matches) byId('stage').scrollIntoView();
+  await adopt(packing, half((await packing.info()).packingFraction), { small: true });
+  try {
+    const report = await made(packing, r, { shown: showMoment, told }), { packingFraction: phi } = await packing.info();
+    const counted = report && { phi, contacts: report.contacts, rattlers: report.rattlers, jammed: report.jammed };
+    // Growth goes on to the same bits, a crunch need not.
+    await adopt(packing, { recipe: paused === 'crunch' ? null : r, phi, made: counted });
+    tell(resultOf(report, phi));
+  } catch (error) {
+    if (error.status === 'cancelled') await adopt(packing, half((await packing.info()).packingFraction));
+    throw error;
+  }
 }
 
 export function learnPanel(openTab) {

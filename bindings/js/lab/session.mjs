@@ -1,7 +1,6 @@
 // What all panels share: the library, the packing that is shown, one piece of work at a time, and what is told.
 import { TEXT } from './texts.mjs';
 import { byId } from './parts.mjs';
-import { sentenceOf } from './engine.mjs';
 import { canKeep, keepPacking } from './keep.mjs';
 import { showPacking } from './view.mjs';
 
@@ -16,6 +15,7 @@ export function fault(text) {
   place.textContent = text;
   place.hidden = !text;
 }
+export const failed = (error) => fault(error.status === 'memory' ? `${error.message}. ${TEXT.noMemory}` : error.message);
 export function progress(share, secondsLeft = NaN) {
   if (Number.isFinite(share)) byId('bar').value = share;
   else byId('bar').removeAttribute('value');
@@ -32,7 +32,15 @@ export async function adopt(packing, about, view = {}) {
   await showPacking(packing, { title: about.title ?? '', ...view });
   for (const work of session.listeners) work();
   if (old && old !== packing) old.dispose();
-  if (canKeep()) await keepPacking(await packing.checkpoint(), about);
+  await store(await packing.checkpoint(), about);
+}
+/** Into the browser's storage; where that refuses, the foot of the page says so. */
+export async function store(bytes, about) {
+  try {
+    if (canKeep()) await keepPacking(bytes, about);
+  } catch {
+    byId('kept').textContent = TEXT.notKept;
+  }
 }
 
 /** Runs one piece of work; its failures are told in the library's sentence. */
@@ -49,7 +57,7 @@ export async function run(text, work) {
   } catch (error) {
     const stopped = error.status === 'cancelled';
     tell(stopped ? TEXT.stopped : '');
-    if (!stopped) fault(sentenceOf(error));
+    if (!stopped) failed(error);
   } finally {
     session.running = false;
     byId('work').hidden = true;

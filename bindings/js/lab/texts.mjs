@@ -9,20 +9,18 @@ export const TEXT = {
   forget: 'Forget all', forgotten: 'Everything that this page kept is gone from the storage of the browser.',
   back: (n, dim) => `The last packing is back: ${n} spheres in d = ${dim}.`,
   stop: 'Stop', busy: 'Something runs: stop it first.',
+  half: (n, dim) => `A packing that was not finished is back: ${n} spheres in d = ${dim}. Continue, in Make, finishes it.`,
   stopped: 'Stopped. The packing is as it was about a second before.',
   left: (s) => (Number.isFinite(s) ? `about ${s < 90 ? `${Math.max(1, Math.round(s))} s` : `${Math.round(s / 60)} min`} left` : ''),
   noPacking: 'There is no packing yet: make one, or choose a file.',
   view: 'Picture of the packing, with its numbers',
-  noWasm: 'This browser cannot run WebAssembly with exceptions and vectors. Use Chrome 95, Firefox 100, Safari 16.4 or ' +
-    'newer, or the program jam-pack.',
-  noUnpack: 'This browser cannot unpack what this page holds (DecompressionStream). Use Chrome 80, Firefox 113, Safari ' +
-    '16.4 or newer, or the program jam-pack.',
+  lacks: (list) => `This browser lacks: ${list}. Use one of these versions or newer, or the program jam-pack.`,
   noView: 'This browser has no WebGL2, so pictures stay empty. All numbers are there.',
-  noMemory: 'The browser gave no memory. Close other pages, or use fewer spheres, or use the program jam-pack.',
+  noMemory: 'Close other pages, or use fewer spheres, or use the program jam-pack.',
   tooLarge: (mb) => `The file has ${mb} MB; this page takes up to 64 MB. Use jam-pack check FILE on a computer.`,
   empty: (name) => `${name} is empty.`,
   make: {
-    title: 'Make a packing', n: 'Spheres', dim: 'Dimension', seed: 'Seed', go: 'Make it', density: 'Packing fraction',
+    title: 'Make a packing', n: 'Spheres', dim: 'Dimension', seed: 'Seed', go: 'Make it', goOn: 'Continue', density: 'Packing fraction',
     densityHint: 'Empty: up to the jamming point. Or a number such as 0.57, at which growth ends.',
     porosity: 'or porosity', law: 'Sizes', items: 'Parameters', curve: 'Rows', walls: 'Walls', protocol: 'Protocol',
     laws: { equal: 'all equal', two: 'two sizes, half each', lognormal: 'lognormal', uniform: 'uniform', normal: 'normal',
@@ -69,7 +67,7 @@ export const TEXT = {
   save: {
     title: 'Save', xyz: 'Extended XYZ', lammps: 'LAMMPS data', csv: 'Contacts as CSV', stl: 'Surfaces (STL)',
     html: 'Page of this packing', again: 'The same packing, bit for bit',
-    program: 'On the command line', python: 'In Python', fromFile: 'This packing was read from a file: the lines check it.',
+    program: 'On the command line', python: 'In Python', fromFile: 'No seed makes this packing: save it, and these lines check the file.',
   },
   learn: 'Six steps to jamming',
   done: 'Do it',

@@ -63,7 +63,7 @@ bool test_from_rigid_part(const RigidityMatrix &sub, const StressCone &cone, Jam
   NormalSolver solver(rows);
   solver.factorise(std::vector<double>(rows.rows(), 1.0), flex_eigenvalue);
   const SoftestModes modes = softest_modes(rows, solver, flex_eigenvalue, 1);
-  if (!modes.flexes.empty() || modes.margin < undecided_eigenvalue) return false;
+  if (modes.count() > 0 || modes.margin < undecided_eigenvalue) return false;
   out.rigid = out.stressed = Verdict::yes;
   out.margin = modes.margin;
   out.carrying = inside;

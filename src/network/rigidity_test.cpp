@@ -8,7 +8,6 @@
 #include "network/flex.hpp"
 #include "network/rattlers.hpp"
 #include "network/rigid_part.hpp"
-#include "network/slides.hpp"
 #include "network/softest_modes.hpp"
 #include "network/stress_cone.hpp"
 #include "network/tuning.hpp"
@@ -16,17 +15,17 @@
 namespace jam::inside {
 namespace {
 
-// Counts of K+ with this many flexes.
-void count_carrying(const RigidityMatrix &carrying, int strains, RigidityResult &out) {
+bool is_below_limit(int64_t flexes) { return flexes < static_cast<int64_t>(RigidityTuning::most_flexes); }
+
+// Counts of K+ with this many flexes. counted: all of them; beyond a limit the number of states is not known.
+void count_carrying(const RigidityMatrix &carrying, int strains, bool counted, RigidityResult &out) {
   const int d = carrying.dim;
   out.spheres = carrying.nodes;
   out.contacts = static_cast<int64_t>(carrying.contacts());
   out.zero_force_contacts -= out.contacts;
   const int64_t motions = d * out.spheres - carrying.symmetries() + strains;
   out.contacts_needed = motions + 1;
-  // Flexes are counted up to a limit: above it the number of states is not known.
-  const bool counted = out.flexes < static_cast<int64_t>(RigidityTuning::most_flexes) || out.flexes >= motions;
-  out.self_stresses = counted ? out.contacts - (motions - out.flexes) : -1;
+  out.self_stresses = counted || out.flexes >= motions ? out.contacts - (motions - out.flexes) : -1;
   std::vector<int32_t> z(carrying.nodes, 0);
   for (size_t k = 0; k < carrying.contacts(); ++k)
     for_spheres(carrying.a[k], carrying.b[k], [&](int32_t i) { ++z[i]; });
@@ -35,11 +34,14 @@ void count_carrying(const RigidityMatrix &carrying, int strains, RigidityResult 
 
 // Without round walls the sum of forces times second derivatives of distances is positive, except for flexes that move
 // each part of the network as a whole. Where there are no others nothing opens.
-void test_slides(const RigidityMatrix &carrying, std::vector<std::vector<double>> &flexes, RigidityResult &out) {
-  Slides slides = find_slides(carrying);
-  if (slides.count < out.flexes) return;
-  out.slides = slides.count;
-  flexes[0] = std::move(slides.motion);
+bool only_slides(const SoftestModes &modes) { return modes.flexes.empty() && modes.slides.count() > 0; }
+
+// All flexes, one after the other.
+std::vector<double> flex_of(const SoftestModes &modes, size_t k, size_t columns) {
+  if (k < modes.flexes.size()) return modes.flexes[k];
+  std::vector<double> flex = modes.slides.motion(k - modes.flexes.size());
+  flex.resize(columns, 0.0);
+  return flex;
 }
 
 // Flags and forces of the rows that are `on` into those of all.
@@ -78,7 +80,8 @@ bool find_flex_of_part(const Supported &s, const StressCone &cone, RigidityResul
   NormalSolver solver(kept);
   solver.factorise(std::vector<double>(kept.rows(), 1.0), flex_eigenvalue);
   const SoftestModes modes = softest_modes(kept, solver, flex_eigenvalue, RigidityTuning::most_flexes);
-  for (const std::vector<double> &flex : modes.flexes)
+  for (size_t k = 0; k < std::min(static_cast<size_t>(modes.count()), RigidityTuning::most_flexes); ++k) {
+    const std::vector<double> flex = flex_of(modes, k, kept.columns());
     for (const double sign : {1.0, -1.0}) {
       std::vector<double> x(s.rows.columns(), 0.0);
       scatter(part, flex.data(), sign, x);
@@ -90,11 +93,12 @@ bool find_flex_of_part(const Supported &s, const StressCone &cone, RigidityResul
       if (found.flex.empty()) continue;
       out = std::move(found);
       out.rigid = Verdict::no, out.stressed = Verdict::yes;
-      out.flexes = static_cast<int64_t>(modes.flexes.size()), out.margin = modes.margin;
-      count_carrying(part, 0, out);
+      out.flexes = modes.count(), out.margin = modes.margin;
+      count_carrying(part, 0, modes.complete, out);
       out.force_residual = balance_residual(s.g, out.force.data());
       return true;
     }
+  }
   return false;
 }
 
@@ -113,7 +117,7 @@ void test_undecided_cone(const Supported &s, const StressCone &cone, Jamming kin
   out.curvature = part.curvature;
   out.force_residual = part.force_residual;
   spread(s.on, part.carrying, part.force, out);
-  count_carrying(subset(s.sub, part.carrying), s.rows.strains, out);
+  count_carrying(subset(s.sub, part.carrying), s.rows.strains, is_below_limit(part.flexes), out);
   if (out.rigid == Verdict::yes && !(out.force_residual < RigidityTuning::most_residual))
     out.rigid = Verdict::undecided;
   if (!part.flex.empty()) s.complete(part.flex, false, out);
@@ -153,9 +157,9 @@ void test_rank(const Supported &s, const StressCone &cone, SoftestModes modes, R
     inner.factorise(std::vector<double>(carrying.contacts(), 1.0), flex_eigenvalue);
     modes = softest_modes(kept, inner, flex_eigenvalue, RigidityTuning::most_flexes);
   }
-  out.flexes = static_cast<int64_t>(modes.flexes.size());
+  out.flexes = modes.count();
   out.margin = modes.margin;
-  count_carrying(carrying, s.rows.strains, out);
+  count_carrying(carrying, s.rows.strains, modes.complete, out);
   std::vector<double> f;
   for (size_t k = 0; k < s.sub.contacts(); ++k)
     if (cone.carrying[k]) f.push_back(cone.force[k]);
@@ -164,8 +168,8 @@ void test_rank(const Supported &s, const StressCone &cone, SoftestModes modes, R
   out.rigid = out.flexes > 0 ? Verdict::no : doubtful ? Verdict::undecided : Verdict::yes;
   if (out.flexes == 0) return;
   if (s.g.round_axes > 0 && modes.complete) test_prestress_stability(carrying, f, modes.flexes, out);
-  if (s.g.round_axes == 0 && modes.complete && !s.strain) test_slides(carrying, modes.flexes, out);
-  if (out.rigid == Verdict::no) find_flex(s, cone, carrying, kept, f, modes.flexes[0], out);
+  if (only_slides(modes) && !s.strain) out.slides = out.flexes;
+  if (out.rigid == Verdict::no) find_flex(s, cone, carrying, kept, f, flex_of(modes, 0, kept.columns()), out);
 }
 
 RigidityResult test_rows(const RigidityMatrix &g, Jamming kind) {
@@ -181,8 +185,7 @@ RigidityResult test_rows(const RigidityMatrix &g, Jamming kind) {
   NormalSolver solver(s.rows);
   solver.factorise(std::vector<double>(s.sub.contacts(), 1.0), flex_eigenvalue);
   SoftestModes modes = softest_modes(s.rows, solver, flex_eigenvalue, RigidityTuning::most_flexes);
-  const int64_t rank =
-      static_cast<int64_t>(s.rows.columns()) - s.sub.symmetries() - static_cast<int64_t>(modes.flexes.size());
+  const int64_t rank = static_cast<int64_t>(s.rows.columns()) - s.sub.symmetries() - modes.count();
   const int64_t states = modes.complete ? std::max<int64_t>(0, static_cast<int64_t>(s.sub.contacts()) - rank) : -1;
   const StressCone cone = find_stress_cone(s.rows, solver, states);
   out.margin = cone.decided ? 0.0 : modes.margin;
@@ -213,7 +216,7 @@ bool test_by_strict(const RigidityMatrix &g, RigidityResult &out) {
     part.zero_force_contacts = static_cast<int64_t>(g.contacts());
     if (!test_from_rigid_part(g, cone, Jamming::collective, part) || part.rigid != Verdict::yes) return false;
     for (size_t k = 0; k < g.contacts(); ++k) part.carrying[k] = part.force[k] > 0.0;
-    count_carrying(subset(g, part.carrying), 0, part);
+    count_carrying(subset(g, part.carrying), 0, is_below_limit(part.flexes), part);
     if (!(part.force_residual < RigidityTuning::most_residual)) continue;
     out = std::move(part);
     return true;

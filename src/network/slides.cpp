@@ -64,7 +64,54 @@ void add_parts(const RigidityMatrix &g, const std::vector<int32_t> &part, const 
   }
 }
 
+// Whether each part, by its root, touches a wall across this axis.
+std::vector<char> stopped_along(const RigidityMatrix &g, const std::vector<int32_t> &part, size_t axis) {
+  std::vector<char> stopped(part.size(), 0);
+  for (size_t k = 0; k < g.contacts(); ++k)
+    if (g.b[k] < 0 && g.normal[k * static_cast<size_t>(g.dim) + axis] != 0.0) stopped[part[g.a[k]]] = 1;
+  return stopped;
+}
+
 }  // namespace
+
+PartTranslations::PartTranslations(const RigidityMatrix &g)
+    : dim_(static_cast<size_t>(g.dim)), part_(parts_of(g, std::vector<char>(g.nodes, 0))), open_axes_(g.open_axes) {
+  if (g.round_axes > 0) return;
+  for (size_t c = 0; c < dim_; ++c) {
+    stopped_.push_back(stopped_along(g, part_, c));
+    bool whole = open_axes_ >> c & 1u;  // is a symmetry: one part less slides
+    for (int32_t root = 0; root < g.nodes; ++root) {
+      if (part_[root] != root || stopped_[c][root]) continue;
+      if (!whole) slides_.push_back({root, c});
+      whole = false;
+    }
+  }
+}
+
+void PartTranslations::remove(double *x) const {
+  if (slides_.empty()) return;
+  std::vector<double> sum(part_.size());
+  std::vector<int32_t> size(part_.size(), 0);
+  for (const int32_t root : part_) ++size[root];
+  for (size_t c = 0; c < dim_; ++c) {
+    std::fill(sum.begin(), sum.end(), 0.0);
+    for (size_t i = 0; i < part_.size(); ++i) sum[part_[i]] += x[i * dim_ + c];
+    for (size_t i = 0; i < part_.size(); ++i)
+      if (!stopped_[c][part_[i]]) x[i * dim_ + c] -= sum[part_[i]] / size[part_[i]];
+  }
+}
+
+std::vector<double> PartTranslations::motion(size_t k) const {
+  const auto [root, axis] = slides_[k];
+  std::vector<double> v(part_.size() * dim_, 0.0);
+  const double nodes = static_cast<double>(part_.size()),
+               own = static_cast<double>(std::count(part_.begin(), part_.end(), root)),
+               mean = open_axes_ >> axis & 1u ? own / nodes : 0.0;
+  for (size_t i = 0; i < part_.size(); ++i) v[i * dim_ + axis] = (part_[i] == root ? 1.0 : 0.0) - mean;
+  const double length = std::sqrt(std::inner_product(v.begin(), v.end(), v.begin(), 0.0));
+  for (double &u : v) u /= length;
+  return v;
+}
 
 Slides find_slides(const RigidityMatrix &g) {
   const size_t d = static_cast<size_t>(g.dim);
@@ -73,9 +120,7 @@ Slides find_slides(const RigidityMatrix &g) {
   const std::vector<int32_t> part = parts_of(g, std::vector<char>(static_cast<size_t>(g.nodes), 0));
   for (size_t c = 0; c < d; ++c) {
     if (c < static_cast<size_t>(g.round_axes)) continue;
-    std::vector<char> stopped(part.size(), 0);
-    for (size_t k = 0; k < g.contacts(); ++k)
-      if (g.b[k] < 0 && g.normal[k * d + c] != 0.0) stopped[part[g.a[k]]] = 1;
+    const std::vector<char> stopped = stopped_along(g, part, c);
     translations.emplace_back(g.unknowns(), 0.0);
     for (size_t i = 0; i < part.size(); ++i) translations.back()[i * d + c] = stopped[part[i]] ? 0.0 : 1.0;
   }

@@ -17,10 +17,12 @@ namespace {
 class BlockIteration {
  public:
   BlockIteration(const ConstraintRows &rows, const NormalSolver &solver, double limit, size_t most)
-      : rows_(rows), solver_(solver), limit_(limit), most_(most), random_(5, Stream::analysis_start) {}
+      : rows_(rows), solver_(solver), limit_(limit), most_(most), random_(5, Stream::analysis_start) {
+    out_.slides = PartTranslations(rows.g);
+  }
 
   SoftestModes run() {
-    const size_t known = static_cast<size_t>(rows_.g.symmetries());
+    const size_t known = static_cast<size_t>(rows_.g.symmetries() + out_.slides.count());
     const size_t motions = rows_.columns() > known ? rows_.columns() - known : 0;
     size_t block = SoftestModesTuning::first_block;
     double last = std::numeric_limits<double>::infinity();
@@ -57,6 +59,7 @@ class BlockIteration {
     for (int twice = 0; twice < 2; ++twice) {
       const double before = std::sqrt(dot(x, x));
       rows_.g.remove_symmetries(x.data());
+      out_.slides.remove(x.data());
       const auto take_out = [&](const std::vector<double> &q) {
         const double c = dot(q, x);
         for (size_t k = 0; k < x.size(); ++k) x[k] -= c * q[k];

@@ -3,13 +3,16 @@
 #include <vector>
 
 #include "network/constraint_rows.hpp"
+#include "network/slides.hpp"
 
 namespace jam::inside {
 
 struct SoftestModes {
-  std::vector<std::vector<double>> flexes;  // orthonormal motions x with |A x|^2 < `limit`, translations left out
+  PartTranslations slides;                  // flexes that need no search, of any number
+  std::vector<std::vector<double>> flexes;  // the others: orthonormal motions x with |A x|^2 < `limit`, no symmetries
   double margin = 0.0;                      // smallest eigenvalue of A^T A above them; infinity without another motion
-  bool complete = true;                     // false: there are more flexes than were requested
+  bool complete = true;                     // false: there are more of the others than were requested
+  int64_t count() const { return slides.count() + static_cast<int64_t>(flexes.size()); }
 };
 // solver: factored with unit weights and a shift near `limit`.
 SoftestModes softest_modes(const ConstraintRows &rows, const NormalSolver &solver, double limit, size_t most_flexes);

@@ -104,7 +104,7 @@ Says raise_if_trapped(JammingCase &c) {
   const Proof proof = prove(scene, equations);
   if (!proof.trapped && !proof.exact) return {};
   r.stressed = Verdict::yes;
-  r.self_stresses -= r.flexes;
+  r.self_stresses = r.contacts - (r.contacts_needed - 1);
   r.flexes = 0;
   r.flex.clear();
   // R has rows 2 r_c.

@@ -15,9 +15,9 @@ using Report = jam_check_report;
 using Numbers = VerdictNumbers;
 
 long long wide(int64_t x) { return static_cast<long long>(x); }
-// Flexes are counted up to a limit.
-const char *least(int64_t flexes) {
-  return flexes < static_cast<int64_t>(RigidityTuning::most_flexes) ? "" : "at least ";
+// Flexes are counted up to a limit, above which states of self-stress are not known; slides without one.
+const char *least(int64_t flexes, int64_t self_stresses = -1) {
+  return flexes < static_cast<int64_t>(RigidityTuning::most_flexes) || self_stresses >= 0 ? "" : "at least ";
 }
 const char *plural(int64_t x) { return x == 1 ? "" : "s"; }
 
@@ -60,13 +60,15 @@ std::string slide(const Numbers &v) {
   return balance_of(v) + sentence(
                              ", so the diameters cannot grow, but parts of the network slide past each other in "
                              "%s%lld way%s that keep%s all distances",
-                             least(v.flexes), wide(v.flexes), plural(v.flexes), v.flexes == 1 ? "s" : "");
+                             least(v.flexes, v.self_stresses), wide(v.flexes), plural(v.flexes),
+                             v.flexes == 1 ? "s" : "");
 }
 
 std::string flex(const Numbers &v) {
   const char *whose = v.n == 1 ? " of the cell" : v.kind == Jamming::strict ? " of spheres and cell" : "";
   return balance_of(v) + sentence(", and yet %s%lld independent motion%s%s keep%s all contacts closed: a saddle",
-                                  least(v.flexes), wide(v.flexes), plural(v.flexes), whose, v.flexes == 1 ? "s" : "");
+                                  least(v.flexes, v.self_stresses), wide(v.flexes), plural(v.flexes), whose,
+                                  v.flexes == 1 ? "s" : "");
 }
 
 std::string gaps(const Numbers &v) {
@@ -94,7 +96,7 @@ std::string margin(const Numbers &v) {
     return sentence(
         "%s%lld motion%s keep%s the contacts closed; whether other pairs or the curvature of a round wall "
         "stop them is left open",
-        least(v.flexes), wide(v.flexes), plural(v.flexes), v.flexes == 1 ? "s" : "");
+        least(v.flexes, v.self_stresses), wide(v.flexes), plural(v.flexes), v.flexes == 1 ? "s" : "");
   return sentence(
       "doubles do not resolve a flex from a soft mode here, or a weak force from none (smallest eigenvalue "
       "%.1e, force residual %.1e)",
@@ -198,7 +200,7 @@ Numbers numbers_of(const Report &r) {
   Numbers v;
   v.jammed = r.jammed, v.reason = r.reason, v.n = r.n;
   v.spheres = r.n - r.rattlers, v.contacts = r.contacts, v.closed_pairs = r.closed_pairs, v.flexes = r.flexes;
-  v.undecided_contacts = r.undecided_contacts;
+  v.undecided_contacts = r.undecided_contacts, v.self_stresses = r.self_stresses;
   v.force_residual = r.force_residual, v.rigidity_margin = r.rigidity_margin;
   return v;
 }
@@ -216,7 +218,7 @@ VerdictNumbers numbers_of(const PackingVerdict &v, const TestedPacking &tested, 
   out.closed_pairs = static_cast<int64_t>(find_pairs(p, 0.0, 1.0 + contact_gap_limit).size());
   out.reason = reason_of(v, out.closed_pairs, tested);
   out.spheres = v.result.spheres, out.contacts = v.result.contacts, out.flexes = v.result.flexes;
-  out.undecided_contacts = v.undecided_contacts;
+  out.undecided_contacts = v.undecided_contacts, out.self_stresses = v.result.self_stresses;
   out.force_residual = v.result.force_residual, out.rigidity_margin = v.result.margin;
   out.unresolved = v.unresolved, out.unresolved_because = v.unresolved_because;
   return out;

@@ -12,7 +12,7 @@ namespace jam::inside {
 struct VerdictNumbers {
   Jamming kind = Jamming::collective;
   int32_t jammed = JAM_VERDICT_UNTESTED, reason = JAM_CHECK_MARGIN;  // jam_verdict, jam_check_reason
-  int64_t n = 0, spheres = 0, contacts = 0, closed_pairs = 0, flexes = 0, undecided_contacts = 0;
+  int64_t n = 0, spheres = 0, contacts = 0, closed_pairs = 0, flexes = 0, self_stresses = 0, undecided_contacts = 0;
   double force_residual = 0.0, rigidity_margin = 0.0, resolution = 0.0;
   double unresolved = 0.0;  // of PackingVerdict
   std::string unresolved_because;

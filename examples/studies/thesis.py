@@ -38,7 +38,6 @@ SMALL = {
     "motion_md.py": "--n 128 --runs 20 --long-runs 5",
     "near_jamming_exponents.py": "RUNS PICTURE.png --runs 20",
     "near_jamming_modes.py": "RUNS PICTURE.png --runs 20",
-    "near_jamming_monte_carlo.py": "RUNS PICTURE.png --mc-runs 20",
     "near_jamming_packings.py": "RUNS PICTURE.png --runs 20",
     "network_distributions.py": "PICTURE.png PACKINGS",
     "network_floppy_modes.py": "PICTURE.png 64 1",

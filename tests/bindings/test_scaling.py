@@ -1,4 +1,4 @@
-"""Finite-size scaling on synthetic data of known exponents. examples/studies/scaling_coverage.py has the long form."""
+"""Finite-size scaling on synthetic data of known exponents."""
 import unittest
 
 import numpy as np

@@ -10,10 +10,6 @@ force. Small: 6 trials. Large: 50.
 """
 import sys
 
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
 import numpy as np
 from common import HERE, THETA_E, Results, arguments, mean_error
 
@@ -52,13 +48,11 @@ def main():
     trials = 50 if o.large else 6
     r = Results(o, "collapse_range")
     r.made(f"synthetic, N = {', '.join(map(str, SIZES))}, {PARTICLES:g} spheres each", trials)
-    figure, axis = plt.subplots(figsize=(6.4, 4.6))
-    for k, (text, bend) in enumerate(LAWS.items()):
+    for text, bend in LAWS.items():
         every = [draw(np.random.default_rng(700 + t), bend) for t in range(trials)]
         pool = np.sort(np.concatenate(every[0][SIZES[0]]))
         local = np.log(np.searchsorted(pool, 0.3) / np.searchsorted(pool, 0.1)) / np.log(3)
         r.add("4.12", f"{text}: power of c between f = 0.1 and 0.3", "like Mari-Kurchan packings" if bend else f"{1 + THETA_E}", local)
-        values = []
         for end in ENDS:
             found = [collapse(samples, end) for samples in every]
             value, error = mean_error([f[0] for f in found])
@@ -66,13 +60,7 @@ def main():
             r.add("4.12", f"{text}: scatter of a trial, to scaled f = {end:g}", "none", error * trials**0.5)
             for offset, q in zip((0.0, OFFSET), np.mean([f[1] for f in found], axis=0)):
                 r.add("4.13", f"{text}: S of c - {offset:g} / N to scaled f = {end:g}", "about 1", q)
-            values.append((value, error * trials**0.5))
-        v, e = np.array(values).T
-        axis.errorbar(np.array(ENDS) * (1 + 0.02 * k), v, e, fmt="os"[k] + "-", capsize=3, label=text)
-    axis.axhline(THETA_E, color="0.5", ls=":", label="true")
-    axis.set(xlabel="largest f N^(1/(1+theta_e)) of the collapse", ylabel="exponent; bars: scatter of a trial")
-    axis.legend(fontsize=8)
-    r.write(figure)
+    r.write()
 
 
 if __name__ == "__main__":

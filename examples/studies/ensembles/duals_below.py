@@ -6,10 +6,6 @@ usage: duals_below.py [--large] [--folder DIR] [--only-read] [--out DIR]
 Growth stops at p, a crunch by full LPs begins; the duals of its first LP, with mean 1, are compared with the forces of the jammed state:
 contacts in common, largest distance of the two cumulative distributions, and the share of small values. Small: N = 256, 4 seeds. Large: 1024, 10.
 """
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
 import numpy as np
 from common import Results, arguments, kept, mean_error
 
@@ -37,10 +33,10 @@ def one(n, seed, pressure):
 def main():
     o = arguments(__doc__.splitlines()[0]).parse_args()
     n, seeds = (1024, 10) if o.large else (256, 4)
-    r, (figure, axis) = Results(o, "duals_below"), plt.subplots(figsize=(6, 4.4))
+    r = Results(o, "duals_below")
     x = np.geomspace(1e-3, 10, 60)
     share = lambda values: np.searchsorted(np.sort(values), x) / len(values)  # noqa: E731
-    for k, pressure in enumerate(PRESSURES):
+    for pressure in PRESSURES:
         made = [kept(o, f"duals_below_n{n}", f"p{pressure:g}_seed{s}", lambda: one(n, s, pressure)) for s in range(1, seeds + 1)]
         good = [m for m in made if m is not None and m["good"]]
         if len(good) < 2:
@@ -53,12 +49,7 @@ def main():
         r.add("duals", f"largest distance of the two cumulative distributions, p = {pressure:g}", "0: the same law", *mean_error(off))
         few = [np.mean(m["duals"] < 0.1) / np.mean(m["forces"] < 0.1) for m in good]
         r.add("duals", f"duals below a tenth of the mean over forces below it, p = {pressure:g}", "1: the same law", *mean_error(few))
-        axis.loglog(x, np.mean([share(m["duals"]) for m in good], axis=0), color=f"C{k}", lw=1, label=f"duals, p = {pressure:g}")
-        last = np.mean([share(m["forces"]) for m in good], axis=0)
-    axis.loglog(x, last, "k--", lw=1, label="forces at jamming")
-    axis.set(xlabel="f over its mean", ylabel="share below")
-    axis.legend(fontsize=8)
-    r.write(figure)
+    r.write()
 
 
 if __name__ == "__main__":

@@ -6,21 +6,11 @@ usage: force_dimensions.py [--large] [--seeds K] [--folder DIR] [--only-read] [-
 Published for all forces together: 0.19 (d = 2), 0.25 (d = 3), 0.30 (d = 4). Fits as in tail_exponents.py: the error contains the
 choice of range and correction. Disks have diameters 1 and 1.4 in equal numbers. Small: N = 1024, 8 packings. Large: N = 2048, 40.
 """
-import sys
-
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
 import numpy as np
-from common import HERE, Results, arguments, kept
+from common import Results, arguments, kept
 
 import jam
-
-sys.path.insert(0, str(HERE.parent))
-import tail_exponents as tail  # noqa: E402
-
-from jam.scaling import tail_exponent  # noqa: E402
+from jam.scaling import tail_exponent
 
 PUBLISHED = {2: 0.19, 3: 0.25, 4: 0.30}
 
@@ -41,8 +31,7 @@ def main():
     o = p.parse_args()
     n, seeds = 2048 if o.large else 1024, o.seeds or (40 if o.large else 8)
     r = Results(o, "force_dimensions")
-    figure, axes = plt.subplots(1, 2, figsize=(11, 4.4))
-    for k, (dim, law) in enumerate(PUBLISHED.items()):
+    for dim, law in PUBLISHED.items():
         made = [kept(o, f"force_dimensions_{dim}d_n{n}", f"seed{s}", lambda: forces(dim, n, s)) for s in range(1, seeds + 1)]
         values = [m["forces"] for m in made if m is not None and len(m["forces"])]
         if len(values) < 4:
@@ -51,20 +40,7 @@ def main():
         fit = tail_exponent(values, n)
         r.add("1, 3", f"d = {dim}: exponent of all forces, averaged over ranges", law, fit.value, fit.error)
         r.add("1, 3", f"d = {dim}: the part of this error from the choice of range and correction", "none", fit.spread)
-        pool = np.sort(np.concatenate(values))
-        c = np.arange(1, len(pool) + 1) / len(pool)
-        axes[0].loglog(pool, c, "-", color=f"C{k}", lw=1, label=f"d = {dim}")
-        x = np.array([fit.low, 0.5])
-        axes[0].loglog(x, np.interp(fit.low, pool, c) * (x / x[0]) ** (1 + law), ":", color=f"C{k}", label=f"slope {1 + law:.2f}")
-        high, a = tail.apparent(values, n)
-        axes[1].semilogx(high, a, "o-", ms=3, color=f"C{k}", label=f"d = {dim}, power alone up to f")
-        axes[1].errorbar(1.4 * 1.2**k, fit.value, fit.error, fmt="s", color=f"C{k}", capsize=4)
-        axes[1].axhline(law, color=f"C{k}", ls=":", lw=1)
-    axes[0].set(xlabel="f over the mean force", ylabel="c, all forces", ylim=(1e-4, 1.2))
-    axes[1].set(xlabel="upper end of the range of f", ylabel="exponent; squares: all ranges, dotted: published")
-    for axis in axes:
-        axis.legend(fontsize=7)
-    r.write(figure)
+    r.write()
 
 
 if __name__ == "__main__":

@@ -12,7 +12,6 @@ import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
-import motion_panels as panels
 import numpy as np
 from common import HERE, Results, arguments
 
@@ -41,20 +40,20 @@ def energies(r, every, n):
 def scatters(r, structure, every, radius):
     pairs = [(alpha, near.TEMPERATURES[alpha][MIDDLE]) for alpha in near.TEMPERATURES]
     columns = [(f"alpha = {alpha}, T = {t:g}", every[alpha, t], -1) for alpha, t in pairs]
-    figure, k = panels.vectors(structure, columns, radius)
+    figure, k = near.vectors(structure, columns, radius)
     r.picture(figure, "motion_mc_vectors")
     for (title, _, _), value in zip(columns, k):
         r.add("3.12", f"K[C, <dr>], {title}", "grows with alpha", value)
-    figure, k, bare = panels.variances(structure, columns, radius)
+    figure, k, bare = near.variances(structure, columns, radius)
     r.picture(figure, "motion_mc_variance")
     for (title, _, _), value, without in zip(columns, k, bare):
         r.add("3.13", f"K[|C|, Var], {title}", "about 0", value)
         r.add("3.13", f"the same without rattlers, {title}", "about 0", without)
-    figure, k = panels.mobility(structure, columns, radius)
+    figure, k = near.mobility(structure, columns, radius)
     r.picture(figure, "motion_mc_mobility")
     for (title, runs, _), values in zip(columns, k):
         e = nj.correlation_errors(runs, structure, 10)
-        for text, name, value in zip(("sum f", "sum f.f", "S"), panels.SCALARS, values):
+        for text, name, value in zip(("sum f", "sum f.f", "S"), near.SCALARS, values):
             r.add("3.14", f"K[{text}, <|dr|^2>], {title}", "largest |K| for S; alpha = 2", value, e[name][-1])
 
 
@@ -76,7 +75,7 @@ def decays(r, structure, every, radius):
             r.add("3.17", f"exponent for {kind.upper()}, alpha = {alpha}", known, found.value, found.error)
             curves = []
             for style, one, t in zip((":", "-", "--"), runs, temperatures):
-                x, k = panels.decay(one, structure, kind)
+                x, k = nj.decay_curve(one, structure, kind)
                 x = x / radius**2
                 axes[row, 0].loglog(x, k, style, color=f"C{column}", label=f"alpha = {alpha}, T = {t:g}")
                 axes[row, 1].loglog(x / t**found.value, k, style, color=f"C{column}")
@@ -102,7 +101,7 @@ def main():
     o = p.parse_args()
     count = o.runs or (1000 if o.large else 40)
     r = Results(o, "motion_mc")
-    packing = panels.quenched(o.folder, 1, o.n)
+    packing = near.kept_packing(o.folder, 1, o.n)
     structure, radius = nj.predictors(packing), 0.5 * packing.diameters.mean()
     every = {}
     for alpha, temperatures in near.TEMPERATURES.items():
@@ -112,12 +111,9 @@ def main():
     energies(r, every, packing.n)
     scatters(r, structure, every, radius)
     decays(r, structure, every, radius)
-    figure, axes = plt.subplots(1, 2, figsize=(10, 4.2))
-    panels.ranking(axes, structure, every[2.0, 1e-4], radius, "alpha = 2, T = 1e-4")
     found = nj.prediction(every[2.0, 1e-4], structure)
     r.add("3.15", "area under the ROC curve, sign of <dr_c> by C_c, alpha = 2, T = 1e-4, last sweep", "> 0.5", found.c_area[-1])
     r.add("3.15", "the same, top tenth of <|dr|^2> by S", "> 0.5", found.s_area[-1])
-    r.picture(figure, "motion_mc_ranking")
     r.write()
 
 

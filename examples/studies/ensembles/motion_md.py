@@ -14,11 +14,9 @@ import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
-import motion_panels as panels
 import numpy as np
 from common import HERE, Results, arguments
 
-import jam
 from jam import near_jamming as nj
 
 sys.path.insert(0, str(HERE.parent))
@@ -94,13 +92,13 @@ def of_second(name):
 def scatters(r, name, structure, md, radius):
     runs = md[RATIO]
     columns = [(f"tau = {tau}", runs, at(tau)) for tau in SHOWN]
-    figure, k = panels.vectors(structure, columns, radius)
+    figure, k = near.vectors(structure, columns, radius)
     r.picture(figure, f"motion_md_vectors{name}")
     label = "3.21" if name else "3.8"
     for tau, value in zip(SHOWN, k):
         r.add(label, f"K[C, <dr>], {RATIO}, tau = {tau}{of_second(name)}", "in the picture", value)
     rows = [(f"phi/phi_J = {q}, tau = 10", md[q], at(10)) for q in ((0.999, 0.99) if not name else (RATIO,))]
-    figure, k = panels.mobility(structure, rows, radius)
+    figure, k = near.mobility(structure, rows, radius)
     r.picture(figure, f"motion_md_mobility{name}")
     for (title, _, _), values in zip(rows, k):
         best = ("sum f", "sum f.f", "S")[int(np.argmax(np.abs(values)))]
@@ -109,7 +107,7 @@ def scatters(r, name, structure, md, radius):
         print("best:", best)
     if name:
         return
-    figure, k, bare = panels.variances(structure, columns, radius)
+    figure, k, bare = near.variances(structure, columns, radius)
     r.picture(figure, "motion_md_variance")
     for tau, value, without in zip(SHOWN, k, bare):
         r.add("3.9", f"K[|C|, Var], {RATIO}, tau = {tau}", "about 0", value)
@@ -131,7 +129,7 @@ def decays(r, structure, md, long_ones, radius):
     ratios = [q for q in md if q >= 0.98]
     for row, kind, known in ((0, "c", near.MD_EXPONENTS["c"]), (1, "s", near.MD_EXPONENTS["s"])):
         for ratio, runs in md.items():
-            x, k = panels.decay(runs, structure, kind)
+            x, k = nj.decay_curve(runs, structure, kind)
             for axis, power in ((axes[row, 0], 0.0), (axes[row, 1], known)):
                 axis.loglog(x / radius**2 / (1 - ratio) ** power, k, ".-", label=f"{ratio}")
         text = "K[C, <dr>]" if kind == "c" else "K[S, <|dr|^2>]"
@@ -180,7 +178,7 @@ def main():
     count, long_count = o.runs or (5000 if o.large else 100), o.long_runs or (1000 if o.large else 5)
     r = Results(o, "motion_md")
     for seed, name, ratios in ((1, "", near.RATIOS), (2, "_second", (RATIO,))):
-        packing = panels.quenched(o.folder, seed, o.n)
+        packing = near.kept_packing(o.folder, seed, o.n)
         structure, radius = nj.predictors(packing), 0.5 * packing.diameters.mean()
         runs = min(count, 500) if name else count  # the second packing: 500, as published
         md = {q: near.md_runs(packing, o.folder, f"{seed}q", q, runs) for q in ratios}
@@ -197,7 +195,7 @@ def main():
         r.made(f"the same, to tau = 1e4, phi/phi_J = {', '.join(map(str, near.LONG_RATIOS))}", long_count)
         decays(r, structure, md, long_ones, radius)
         figure, axes = plt.subplots(1, 2, figsize=(10, 4.2))
-        panels.ranking(axes, structure, md[0.99], radius, "phi/phi_J = 0.99")
+        near.ranking(axes, structure, md[0.99], radius, "phi/phi_J = 0.99")
         found = nj.prediction(md[0.99], structure)
         for tau in (2, 100):
             r.add("3.15", f"area under the ROC curve, sign of <dr_c> by C_c, tau = {tau}", "> 0.5", found.c_area[at(tau)])

@@ -61,8 +61,6 @@ The package `jam`. Options are keywords under the names of the C header, and enu
    :members:
 .. autoclass:: jam.ensemble.Status
    :members:
-.. autoclass:: jam.ensemble.Capacity
-   :members:
 .. autofunction:: jam.ensemble.complete
 .. autofunction:: jam.ensemble.protocols
 .. autofunction:: jam.ensemble.table

@@ -108,38 +108,6 @@ class Tables(unittest.TestCase):
             self.assertEqual(list(words[name]), [enum(k).name.lower() for k in numbers[name]], name)
         self.assertEqual(list(words["stop_reason"]), ["converged", "converged"])
 
-    def test_options_of_all_protocols_are_columns(self):
-        slow = dict(SMALL, n=30, stages=[{"growth_rate": 0.05, "pressure": 50.0}, {"growth_rate": 0.02, "pressure": 200.0}])
-        for protocol in (SMALL, slow):
-            Ensemble(self.folder, protocol).run([1, 2], progress=False, workers=1)
-        table = jam.ensemble.table(self.folder, options=True)
-        self.assertEqual(len(table), 4)
-        of = table.groupby("start.n")
-        self.assertEqual(set(of.groups), {24, 30})
-        self.assertEqual(set(of.get_group(24)["stages.0.growth_rate"]), {0.1})
-        self.assertEqual(list(of.get_group(30)["stages.1.pressure"]), [200.0, 200.0])
-        self.assertTrue(of.get_group(24)["stages.1.pressure"].isna().all())  # that protocol has one stage
-        self.assertNotIn("start.packing_fraction", table)  # both take the library's
-        self.assertEqual(set(table["start.diameters.law"]), {"bidisperse"})
-
-    def test_advise_counts_from_what_was_measured(self):
-        e = Ensemble(self.folder, SMALL)
-        first = e.advise(wall_time=60.0, workers=2)
-        self.assertEqual((len(e), first.measured), (1, 1))  # it made one, and kept it
-        e.run([1, 2, 3], progress=False, workers=1)
-        found = e.advise(wall_time=60.0, workers=2)
-        seconds = e.table()["seconds_made"]
-        self.assertEqual(found.measured, 3)
-        self.assertAlmostEqual(found.seconds, seconds.mean(), 12)
-        self.assertEqual(found.packings, int(2 * 60.0 / seconds.mean()))
-        self.assertEqual((found.jammed, found.failed), ((e.table()["jammed"] == 1).mean(), 0.0))
-        self.assertIn(f"{found.packings} packings in 60 s by 2 workers", str(found))
-        for wrong in (dict(wall_time=0.0), dict(wall_time=np.inf), dict(workers=0)):
-            with self.assertRaises(ValueError):
-                e.advise(**wrong)
-        with self.assertRaisesRegex(ProtocolError, "seed 1 failed"):
-            Ensemble(self.folder, dict(n=5000, dim=3, packing_fraction=0.7)).advise()  # so many are not tried before
-
 
 if __name__ == "__main__":
     unittest.main()

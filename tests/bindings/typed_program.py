@@ -22,7 +22,6 @@ for array in (packing.positions, packing.forces, packing.gaps(1.0, True).gap, pa
 ensemble = jam.ensemble.Ensemble("packings", dict(n=64, dim=2))
 assert_type(ensemble, jam.ensemble.Ensemble)
 assert_type(ensemble.run(range(3)), jam.ensemble.Status)
-assert_type(ensemble.advise(60.0).packings, int)
 for entry in ensemble:
     assert_type(entry, jam.ensemble.Entry)
     assert_type(entry.system(), jam.System)

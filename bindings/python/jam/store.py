@@ -40,7 +40,6 @@ def load(
     path: str | os.PathLike[str],
     name: str | None = None,
     *,
-    unverified: bool = False,
     memory_limit: float | None = None,
 ) -> System:
     """A packing from a file of save(), of an ensemble, or, by its name, from a shard of Ensemble.export.
@@ -51,8 +50,6 @@ def load(
     ----------
     name : str, optional
         Of the packing in a shard.
-    unverified : bool
-        Reads a file that an older version wrote, or another program changed. Only for files of your own.
     memory_limit : float, optional
         Bytes of the largest file that is read; default a quarter of the machine's memory.
 
@@ -61,7 +58,7 @@ def load(
     StoreError
         The file is not there, is damaged, was changed since it was written, or contains no packing. The text names it.
     """
-    packing = read_packing(path, name, unverified, memory_limit)
+    packing = read_packing(path, name, memory_limit)
     with refusing(path):
         sizes = packing.array("jam/diameters", "f8", -1)
         n = len(sizes)
@@ -78,19 +75,9 @@ def load(
         except JamError as error:
             if isinstance(error, MemoryError):
                 raise
-            raise _unfit(path, f"jam/state: {error}", unverified) from error
+            raise damaged(path, f"jam/state: {error}") from error
         if not (np.array_equal(made.positions, places[0]) and np.array_equal(made.diameters, sizes)):
-            raise _unfit(path, "positions or diameters are not those of jam/state", unverified)
+            raise damaged(path, "positions or diameters are not those of jam/state")
         if not same:
-            raise _unfit(path, "contacts are not those of jam/state", unverified)
+            raise damaged(path, "contacts are not those of jam/state")
         return made
-
-
-def _unfit(path: Any, what: str, unverified: bool) -> StoreError:
-    """The error for a file whose parts do not fit each other."""
-    if not unverified:
-        return damaged(path, what)
-    return StoreError(
-        22,
-        f"{path}: {what}. h5py reads its arrays, and System.from_arrays takes positions, diameters and cell vectors",
-    )

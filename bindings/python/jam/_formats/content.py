@@ -18,8 +18,8 @@ def damaged(path: Any, what: str) -> StoreError:
     """The error for a file that is not what jam wrote."""
     return StoreError(
         5,
-        f"{path} is damaged, or was changed by another program: {what}. Use another copy or make it again. "
-        "unverified=True reads a file of your own without this check",
+        f"{path} is damaged, or was changed by another program: {what}. Use another copy or make it again; "
+        "h5py reads its arrays, and System.from_arrays takes positions, diameters and cell vectors",
     )
 
 

@@ -11,7 +11,6 @@ import numpy as np
 
 from .._api.arrays import Array
 from ..errors import StoreError
-from . import unsealed
 from .content import SCHEMA, Packing, damaged, refusing
 from .replacing import open_regular
 from .seal import BEGIN, USER_BLOCK, check_names, digest, digest_of_rest, head_of, size_of, type_of
@@ -107,42 +106,37 @@ class _File:
 def _what_it_is(head: bytes) -> str:
     if b"\x89HDF\r\n\x1a\n" in head:
         return (
-            "is HDF5 without the seal of jam: an older version or another program wrote it. If the file is your own, "
-            "unverified=True reads it, and save() seals it"
+            "is HDF5 without the seal of jam: another program wrote it. h5py reads its arrays, and System.from_arrays takes "
+            "positions, diameters and cell vectors"
         )
     return "is no file of packings"
 
 
 @contextlib.contextmanager
-def _opened(path: str | os.PathLike[str], unverified: bool, memory_limit: float | None = None) -> Iterator[Content]:
+def _opened(path: str | os.PathLike[str], memory_limit: float | None = None) -> Iterator[Content]:
     with refusing(path), open_regular(path) as bytes_:
-        file = _File(path, bytes_, memory_limit)
-        yield unsealed.content(path, file.read(0, file.length)) if unverified else file.content()
+        yield _File(path, bytes_, memory_limit).content()
 
 
-def names_in(path: str | os.PathLike[str], unverified: bool = False) -> Sequence[str]:
+def names_in(path: str | os.PathLike[str]) -> Sequence[str]:
     """Names of the packings of a shard; none of a file of one packing."""
-    with _opened(path, unverified) as (names, _):
+    with _opened(path) as (names, _):
         return names or ()
 
 
 def read_packing(
     path: str | os.PathLike[str],
     name: str | None = None,
-    unverified: bool = False,
     memory_limit: float | None = None,
 ) -> Packing:
     """A packing from its file, or by its name from a shard.
 
     Parameters
     ----------
-    unverified : bool
-        Reads files without a seal, or with one that does not fit, by libhdf5. Only for files of your own: libhdf5 can
-        be ended or stopped by a crafted file. Links, external data, filters and sizes beyond the file are refused.
     memory_limit : float, optional
         Bytes of the largest file that is read; default a quarter of the machine's memory.
     """
-    with _opened(path, unverified, memory_limit) as (names, packing):
+    with _opened(path, memory_limit) as (names, packing):
         if names is not None and name is None:
             raise StoreError(22, f"{path} is a shard of {len(names)} packings: name one, e.g. name={names[0]!r}")
         if name is not None and name not in (names or ()):

@@ -157,13 +157,13 @@ class Runs:
             np.savez(file, **arrays, sha256=np.array(_digest(arrays)))
 
     @classmethod
-    def load(cls, path: str | os.PathLike[str], unverified: bool = False) -> "Runs":
-        """Reads what save wrote. A damaged file is a jam.errors.StoreError; unverified: without the checksum."""
+    def load(cls, path: str | os.PathLike[str]) -> "Runs":
+        """Reads what save wrote. A damaged file is a jam.errors.StoreError."""
         try:
             with open_regular(path) as opened, np.load(opened) as file:
                 data = {k: file[k] for k in file.files}
-                if data.pop("sha256", "") != _digest(data) and not unverified:
-                    raise ValueError("its arrays differ from its checksum; unverified=True reads files of older versions")
+                if data.pop("sha256", "") != _digest(data):
+                    raise ValueError("its arrays differ from its checksum")
             plain = {f.name: data[f.name] for f in fields(cls) if f.name not in ("series", "kept")}
             series = {k[7:]: data[k] for k in data if k.startswith("series_")}
             kept = {int(k[5:]): data[k] for k in data if k.startswith("kept_")}

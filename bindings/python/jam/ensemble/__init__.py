@@ -5,13 +5,11 @@
     e.run(range(1, 101))                 # killed? run it again: what is there is not made twice
     e.table()["packing_fraction"]        # reports
     for forces, gaps in e.each("forces", "gaps"): ...   # one packing after the other, read on first use
-    jam.ensemble.table("folder", options=True)   # all protocols of a folder, with their options
-    print(e.advise())                    # how many packings in an hour
+    jam.ensemble.table("folder")         # all protocols of a folder
 """
 
 from .._api.shown import only
 from ..errors import StoreError
-from .capacity import Capacity
 from .ensemble import Ensemble
 from .entry import Entry
 from .pool import LocalPool, WorkerDied
@@ -21,7 +19,6 @@ from .status import DamagedWarning, Status
 from .tables import protocols, table
 
 __all__ = [
-    "Capacity",
     "DamagedWarning",
     "Ensemble",
     "Entry",

@@ -19,7 +19,6 @@ from .._formats.replacing import remove_abandoned
 from .._formats.shard import write_shard
 from ..errors import StoreError
 from .campaign import campaign, lasts, progress_bar
-from .capacity import Capacity, capacity, check_plan
 from .entry import Entry
 from .folder import Content, Folder
 from .pool import LocalPool
@@ -39,18 +38,10 @@ class Ensemble:
     protocol : mapping or str, optional
         See jam.ensemble.complete; ``dict(n=128, dim=3)`` is enough. A str is the name of one of the folder, or its
         beginning; None: the only one of the folder.
-    unverified : bool
-        Also reads files without a seal, or with one that does not fit: of an older version, or changed by another
-        program. Only for files of your own.
     """
 
-    def __init__(
-        self,
-        folder: str | os.PathLike[str],
-        protocol: Mapping[str, Any] | str | None = None,
-        unverified: bool = False,
-    ) -> None:
-        self.files = Folder(folder, unverified)
+    def __init__(self, folder: str | os.PathLike[str], protocol: Mapping[str, Any] | str | None = None) -> None:
+        self.files = Folder(folder)
         if protocol is None or isinstance(protocol, str):
             there = self.files.protocols()
             known = [k for k in there if k.startswith(protocol or "")]
@@ -135,36 +126,6 @@ class Ensemble:
         remade = [p for p in (self.files.packing(names[s]) for s in sorted(broken & set(todo))) if p not in content.damaged]
         return replace(self._status(content, seeds), made=made, remade=tuple(map(str, remade)))
 
-    def advise(self, wall_time: float = 3600.0, workers: int | None = None, seed: int = 1) -> Capacity:
-        """How many packings of this protocol a time allows, from the seconds that those in the folder took.
-
-        Where there is none, the packing of `seed` is made first; it stays in the folder.
-
-        Parameters
-        ----------
-        wall_time : float
-            Seconds; default one hour.
-        workers : int, optional
-            Default as of run: the number of cores that this process may use.
-        seed : int
-            Of the packing that is made where there is none.
-
-        Raises
-        ------
-        ProtocolError
-            This packing failed; the text says why.
-        """
-        count = check_plan(wall_time, workers)
-        rows, places = readable(self.files, self.id)
-        if not np.isfinite(rows["seconds_made"]).any():
-            self.run([seed], progress=False, workers=1)
-            rows, places = readable(self.files, self.id)
-        rows, failures = rows[np.isfinite(rows["seconds_made"])], self.failures()
-        if not len(rows):
-            raise ProtocolError(f"there is no packing to measure, and that of seed {seed} failed: {failures[-1]['text']}")
-        size = sum(path.stat().st_size for path in {place.path for place in places}) / len(places)  # a shard has many
-        return capacity(rows, len(failures), size, wall_time, count)
-
     # ---- reading
     def status(self, seeds: Iterable[int] | None = None) -> Status:
         """What is there of the seeds; None: of all that were made or failed."""
@@ -220,7 +181,7 @@ class Ensemble:
     def __iter__(self) -> Iterator[Entry]:
         """Entries by seed."""
         for row, place in zip(*readable(self.files, self.id)):
-            yield Entry(row, place, self.files.unverified)
+            yield Entry(row, place)
 
     def each(self, *names: str, jammed: bool = True, max_crystal_score: float = np.inf) -> Iterator[Any]:
         """Results of one packing after the other: an array for one name, a tuple for several.

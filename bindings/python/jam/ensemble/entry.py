@@ -23,7 +23,7 @@ class Entry:
     `analysis(name)`, any other result; and the numbers of the report, by their names or as row["rattlers"].
     """
 
-    __slots__ = ("row", "path", "_inner", "_unverified")
+    __slots__ = ("row", "path", "_inner")
 
     _PLACES = {
         "pairs": "contacts/pairs",
@@ -38,18 +38,17 @@ class Entry:
     }
     _MADE = ("positions", "contacts", "rattlers", "bucklers")  # from several places, or with another layout
 
-    def __init__(self, row: Any, place: Place, unverified: bool = False) -> None:
+    def __init__(self, row: Any, place: Place) -> None:
         #: The row of the table
         self.row = row
         #: The file, which may be a shard
         self.path, self._inner = place
-        self._unverified = unverified
 
     seed = property(lambda self: int(self.row["seed"]))
 
     def read(self, *names: str) -> tuple[Any, ...]:
         """Several of the stored attributes with one opening of the file."""
-        packing = read_packing(self.path, self._inner, self._unverified)
+        packing = read_packing(self.path, self._inner)
         return tuple(self._get(packing, name) for name in names)
 
     def _get(self, packing: Packing, name: str) -> Any:
@@ -95,7 +94,7 @@ class Entry:
 
     def system(self) -> System:
         """The packing itself."""
-        return store.load(self.path, self._inner, unverified=self._unverified)
+        return store.load(self.path, self._inner)
 
     def __repr__(self) -> str:
         return f"Entry(seed={self.seed}, n={self.row['n']}, jammed={self.row['jammed']}, {self.path.name})"

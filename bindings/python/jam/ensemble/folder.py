@@ -55,10 +55,10 @@ class Content(NamedTuple):
 
 
 class Folder:
-    """Files of one folder. unverified: also those without a seal, or with one that does not fit."""
+    """Files of one folder."""
 
-    def __init__(self, path: str | os.PathLike[str], unverified: bool = False) -> None:
-        self.path, self.unverified = Path(path), unverified
+    def __init__(self, path: str | os.PathLike[str]) -> None:
+        self.path = Path(path)
         self.packings, self.parts, self.index = self.path / "packings", self.path / "parts", self.path / "index.bin"
 
     # ---- names
@@ -102,8 +102,8 @@ class Folder:
         for path in self._shards():
             try:
                 with refusing(path):
-                    for first in names_in(path, self.unverified)[:1]:
-                        packing = read_packing(path, first, self.unverified)
+                    for first in names_in(path)[:1]:
+                        packing = read_packing(path, first)
                         name = str(packing.jam["protocol"])
                         found.setdefault(name, partial(_protocol, path, name, packing.get("jam/protocol")))
             except StoreError as error:  # where other files know the protocol, _places() says what is wrong with this one
@@ -133,13 +133,13 @@ class Folder:
         yield from map(Place, self.found(".h5") if names is None else map(self.packing, names))
         for path in self._shards():
             try:
-                yield from [Place(path, inner) for inner in names_in(path, self.unverified)]
+                yield from [Place(path, inner) for inner in names_in(path)]
             except StoreError as error:
                 wrong[path] = str(error.strerror)
 
     def row(self, place: Place) -> Array:
         """The row of a packing from its file."""
-        packing = read_packing(*place, self.unverified)
+        packing = read_packing(*place)
         with refusing(place.path):
             return row_of(packing)
 
@@ -161,7 +161,7 @@ class Folder:
                     if place.path.exists():
                         damaged[place.path] = str(error.strerror)
         there = dict(zip(keys, rows))
-        if names is None and not self.unverified and there != known:
+        if names is None and there != known:
             index.write(self.index, there)
         return self._counted(np.frombuffer(b"".join(rows), ROW), places, damaged)
 

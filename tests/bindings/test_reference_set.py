@@ -57,7 +57,7 @@ class ReferenceSet(unittest.TestCase):
         self.assertEqual({key[0] for key in kinds}, {"2", "3", "4", "5"})
         self.assertEqual(len(kinds), 8)
         for key, found in kinds.items():
-            self.assertEqual(len({seed for seed, _ in found}), 2 + (key[0] in "23"), key)
+            self.assertEqual(len({seed for seed, _ in found}), 1 + (key[2] == "equal" or key[0] == "2"), key)
             # Equal spheres are often symmetric and then only trapped, equal disks always.
             theorems = {"exact"} if key[2] != "equal" else {"trapped"} if key[0] == "2" else {"exact", "trapped"}
             self.assertEqual({theorem for _, theorem in found}, theorems, key)

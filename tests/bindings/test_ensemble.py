@@ -17,7 +17,7 @@ import numpy as np
 
 import jam
 from jam._formats import replacing
-from jam.ensemble import Ensemble, LocalPool, ProtocolError, StoreError
+from jam.ensemble import DamagedWarning, Ensemble, LocalPool, ProtocolError, StoreError, folder
 from packings import SMALL, same_bits
 
 
@@ -68,8 +68,20 @@ class Campaigns(unittest.TestCase):
         self.assertEqual(mine.read_bytes(), b"mine")
         index.unlink()
         e.table()
-        with unittest.mock.patch("jam.ensemble.folder.read_packing", None):  # rows of the index, where files are as they were
+        with unittest.mock.patch("jam.ensemble.folder.read_packing", wraps=folder.read_packing) as read:
+            np.testing.assert_array_equal(e.table(), rows)  # rows of the index, where files are as they were
+        self.assertEqual(read.call_count, folder.LOOKED_UP)
+
+        known = folder.index.read(index)  # wrong rows under a right checksum
+        forged = rows.copy()
+        forged["packing_fraction"] += 0.01
+        by_seed = {row["seed"]: row.tobytes() for row in forged}
+        folder.index.write(index, {k: by_seed[np.frombuffer(row, rows.dtype)[0]["seed"]] for k, row in known.items()})
+        with self.assertWarnsRegex(DamagedWarning, "index.bin has another row"):
             np.testing.assert_array_equal(e.table(), rows)
+        self.assertEqual(folder.index.read(index), known)
+        (self.folder / "index.sqlite").touch()
+        self.assertIn("index.sqlite is the index of an earlier version", str(e.status()))
         next(iter(e)).path.unlink()  # a file that is gone is gone from the table
         np.testing.assert_array_equal(e.table(), rows[1:])
 

@@ -142,7 +142,7 @@ class Ensemble:
         if not every:
             damaged = {path: damaged[path] for path in map(self.files.packing, left) if path in damaged}
         asked = len(seeds) + (len(damaged) if every else 0)
-        jammed, odd = int((rows["jammed"] != 0).sum()), {**content.doubles, **content.misnamed}
+        jammed, odd = int((rows["jammed"] != 0).sum()), {**content.doubles, **content.odd}
         lost = len(self.files.failures(left))  # none of a packing whose file is there, though damaged
         return Status(
             asked, len(rows), jammed, lost, tuple(damaged.values()), tuple(odd.values()), builds=builds_of(rows)
@@ -152,7 +152,7 @@ class Ensemble:
         """Odd files of the folder, of any protocol, and what is wrong with each: those that cannot be read, those that hold
         a packing which another file holds too, and those that have the name of another packing."""
         content = self.files.content()
-        return {**content.damaged, **content.doubles, **content.misnamed}
+        return {**content.damaged, **content.doubles, **content.odd}
 
     def table(self, pandas: bool = False) -> Any:
         """Reports of all packings of this protocol, a row each, by seed.

@@ -16,10 +16,12 @@ from __future__ import annotations
 import json
 import os
 import time
+import warnings
 from contextlib import suppress
 from functools import partial
 from itertools import count
 from pathlib import Path
+from random import SystemRandom
 from tempfile import TemporaryFile
 from typing import Any, Callable, Iterable, Iterator, NamedTuple
 
@@ -35,6 +37,9 @@ from ..errors import StoreError
 from . import index
 from .protocol import identity, packing_name
 from .row import ROW, row_of
+from .status import DamagedWarning
+
+LOOKED_UP = 2  # rows of the index, each time it is used
 
 
 class Place(NamedTuple):
@@ -51,7 +56,7 @@ class Content(NamedTuple):
     places: list[Place]  # of each row
     damaged: dict[Path, str]  # files that cannot be read, and what is wrong with each
     doubles: dict[Path, str]  # files whose packings do not count, as others hold them
-    misnamed: dict[Path, str]  # files that count, though they have the name of another packing
+    odd: dict[Path, str]  # files that count, though they have the name of another packing; an index that nothing reads
 
 
 class Folder:
@@ -145,7 +150,10 @@ class Folder:
 
     def content(self, names: Iterable[str] | None = None) -> Content:
         """The packings that are there: all, or those of some names and of shards."""
-        known = index.read(self.index) if names is None else {}
+        return self._content(names, index.read(self.index) if names is None else {})
+
+    def _content(self, names: Iterable[str] | None, known: dict[bytes, bytes]) -> Content:
+        """known: rows of the index. Where some that are looked up in their files differ, all are taken from the files."""
         keys: list[bytes] = []
         rows: list[bytes] = []
         places: list[Place] = []
@@ -160,6 +168,12 @@ class Folder:
                 except StoreError as error:
                     if place.path.exists():
                         damaged[place.path] = str(error.strerror)
+        by_index = [k for k, key in enumerate(keys) if key in known]
+        for k in SystemRandom().sample(by_index, min(LOOKED_UP, len(by_index))):
+            if self.row(places[k]).tobytes() != rows[k]:
+                text = f"{self.index} has another row for {places[k].path} than that file: rows are taken from all files"
+                warnings.warn(text, DamagedWarning, stacklevel=4)
+                return self._content(names, {})
         there = dict(zip(keys, rows))
         if names is None and there != known:
             index.write(self.index, there)
@@ -191,12 +205,15 @@ class Folder:
             builds = "" if _build(ours) == _build(theirs) else f"; made by {_build(ours)} and by {_build(theirs)}"
             text = f"{path} holds {_what(ours)}, as {places[pairs[0][1]].path} does, which counts{more}{builds}"
             doubles[path] = text
-        misnamed = {
+        odd = {
             places[k].path: f"{places[k].path} has another name than {_what(rows[k])}, which it holds"
             for k in kept
             if not homes[k] and places[k].inner is None
         }
-        return Content(rows[kept], [places[k] for k in kept], damaged, doubles, misnamed)
+        old = self.path / "index.sqlite"
+        if old.exists():
+            odd[old] = f"{old} is the index of an earlier version, which nothing reads: delete it"
+        return Content(rows[kept], [places[k] for k in kept], damaged, doubles, odd)
 
     # ---- failures
     def failures(self, names: Iterable[str] | None = None) -> dict[str, dict[str, Any]]:

@@ -1,7 +1,7 @@
 """index.bin of an ensemble's folder: rows of the table, each by a digest of its file's place, size and time of change.
 
 It only saves time. It lies in the folder and may be anybody's: it is read as bytes of fixed length behind their checksum,
-and a row counts only for the file that its digest names.
+and a row counts only for the file that its digest names. Some rows are compared with their files each time (folder.py).
 """
 from __future__ import annotations
 

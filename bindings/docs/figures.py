@@ -9,7 +9,8 @@ A page marks the place of a table by two comments; what stands between them is r
     <!-- figures results/crunch.json rows 1-3,7 + results/size.json; columns start, time --> <!-- end of figures -->
 
 Files are relative to the page, or to the root with a leading `/`. Several of them with the same columns make one table.
-A file of several results has each under its name: `results.json#finite_size rows 1-3`.
+A file of several results has each under its name: `results.json#finite_size rows 1-3`. Those of a script are what its
+`made()` returns, {name: (columns, rows)}.
 `<!-- figures machine -->` gives the machine of all results of the page, which must be the same.
 
 A result has the keys machine, commit, date, command, columns and rows. Where an older measurement is kept, commit and date
@@ -23,6 +24,7 @@ import math
 import os
 import platform
 import re
+import runpy
 import subprocess
 import sys
 from pathlib import Path
@@ -67,6 +69,9 @@ def save(path, command, columns, rows, source=None, **more):
 def load(path):
     """The result of a file, or of FILE#NAME."""
     file, _, name = str(path).partition("#")
+    if file.endswith(".py"):
+        columns, rows = runpy.run_path(file)["made"]()[name]
+        return {"machine": "that of each result", "commit": "", "date": "", "command": "", "columns": columns, "rows": rows}
     found = json.loads(Path(file).read_text(encoding="utf-8"))
     return found[name] if name else found
 

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Every own figure and table of the thesis in its order: picture, command, statistics there and here, values, verdict.
 
-usage: thesis.py                 writes thesis, thesis_values and thesis_verdicts of results.json from thesis.json and the other results
-       thesis.py --check         exit status 1 when they differ from what would be written
-       thesis.py 2.15 3.3 ...    prints the commands of these figures, small ones and those that made the values; all: of every figure
+usage: thesis.py 2.15 3.3 ...    prints the commands of these figures, small ones and those that made the values; all: of every figure
+
+bindings/docs/figures.py writes the tables of made() into the page.
 
 thesis.json lists what each figure shows and which rows of results.json and ensembles/results.json belong to it; no value of ours
 stands there. `says` is what the page calls a value whose row has a shorter name. Verdicts: `reproduced`: the same size and comparable statistics, values agree; `smaller`: all panels, fewer or smaller
@@ -160,20 +160,5 @@ def printed(wanted):
                 print(f"{entry['figure']}\tsmall\t{runnable(small)}\n{entry['figure']}\tlarge\t{runnable(large)}")
 
 
-def main():
-    if any(not word.startswith("-") for word in sys.argv[1:]):
-        return printed(sys.argv[1:])
-    different = []
-    there = json.loads((HERE / "results.json").read_text(encoding="utf-8"))
-    for name, (columns, rows) in made().items():
-        if name not in there or (there[name]["columns"], there[name]["rows"]) != (columns, rows):
-            different.append(name)
-            if "--check" not in sys.argv[1:]:
-                source = {"machine": "that of each result", "commit": "", "date": ""}
-                figures.save(HERE / f"results.json#{name}", "", columns, rows, source)
-    if different and "--check" in sys.argv[1:]:
-        sys.exit(f"examples/studies/results.json: run examples/studies/thesis.py, {', '.join(different)} would change")
-
-
 if __name__ == "__main__":
-    main()
+    printed(sys.argv[1:])

@@ -153,11 +153,11 @@ static int settle_effects(const options *o) {
   for (k = 0; k < ROWS; ++k) {
     const option_row *const row = &table[k];
     if (!o->named[k]) continue;
-    if (first_named(o, row->without, name)) {
+    if (row->without && first_named(o, row->without, name)) {
       complain("%s has no effect beside %s", row->name, name);
       return -1;
     }
-    if (*row->needs && !first_named(o, row->needs, name)) {
+    if (row->needs && !first_named(o, row->needs, name)) {
       complain("%s has no effect without %.*s", row->name, (int)strcspn(row->needs, " "), row->needs);
       return -1;
     }

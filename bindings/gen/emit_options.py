@@ -80,14 +80,14 @@ def emit_c(_api):
     table, defaults = [], []
     for o in rows:
         place = "0" if o.kind in OWN_FORM else f"offsetof(options, {o.field})"
-        low, high, least, most = (o.low, o.high, 0, 0) if o.kind == "integer" else (0, 0, o.low, o.high)
-        words = '"' + " ".join(o.words) + '"' if o.words else "NULL"
-        flags = " | ".join([f for f, on in (("AFTER_CRUNCH", o.after_crunch), ("TAKES_STDOUT", o.stdout), ("NEEDS_HOST", o.host), ("TAKES_GZIP", o.gzip)) if on]) or "0"
-        without, needs = ('"' + " ".join("--" + name for name in names) + '"' for names in (o.without, o.needs))
-        table.append(
-            f'    {{"--{o.name}", TAKE_{o.kind.upper()}, {place}, {low}, {high}, {least}, {most},\n'
-            f"     {words}, {flags}, {without}, {needs}, {_mask(verbs_of(o))}}},"
-        )
+        low, high = ("low", "high") if o.kind == "integer" else ("least", "most")
+        text = lambda names: names and '"' + " ".join(names) + '"'
+        flags = " | ".join([f for f, on in (("AFTER_CRUNCH", o.after_crunch), ("TAKES_STDOUT", o.stdout), ("NEEDS_HOST", o.host), ("TAKES_GZIP", o.gzip)) if on])
+        without, needs = ([f"--{name}" for name in names] for names in (o.without, o.needs))
+        more = {"words": text(o.words), "flags": flags, "without": text(without), "needs": text(needs), low: o.low, high: o.high}
+        begin = f'    {{"--{o.name}", TAKE_{o.kind.upper()}, {place}, .verbs = {_mask(verbs_of(o))}'
+        members = "".join(f", .{member} = {value}" for member, value in more.items() if value)
+        table.append(f"{begin}{members}}}," if len(begin + members) < 118 else f"{begin},\n    {members[1:]}}},")
         if _c_default(o):
             defaults.append(f"    .{o.field} = {_c_default(o)},")
     said = "\n".join(
@@ -130,7 +130,7 @@ typedef struct option_row {{
   double least, most;  /* of another number; 0, 0: no limits of its own */
   const char *words;
   int flags;
-  const char *without, *needs; /* names of options, with which and without which it has no effect */
+  const char *without, *needs; /* names of options, with which and without which it has no effect; or NULL */
   unsigned verbs;              /* bits of those that take it */
 }} option_row;
 

@@ -72,7 +72,7 @@ jam_status jam_contacts_from_geometry(jam_system *sys, const jam_geometry_option
     r.stop_reason = JAM_STOP_NONE;
     r.gain = r.max_step = r.gamma_residual = r.duality_gap = nan;
     r.seconds = sys->monitor.seconds();
-    r.status = status_of(result, verdict.jammed, tested.resolution, p);
+    r.status = status_of(result, verdict.jammed, gap_resolution(p), p);
     const Answer answer = answer_of(result, r.status, verdict, tested, full);
     sys->contacts = std::move(result.network);
     sys->contact_gap = nan;

@@ -75,6 +75,20 @@ class OwnImages(unittest.TestCase):
         self.assertIn("own image", s.tile((2, 1)).notes)
         self.assertEqual(s.tile((1, 2)).report.contacts, 8)
 
+    def test_forces_of_a_vertex_are_not_taken(self):
+        """Rows apart whose disks are as wide as the cell: an LP that simplex solves gives all force to one of them."""
+        for dim, n in ((2, 2), (3, 2), (2, 3)):
+            x = np.full((n, dim), 0.1)
+            x[:, -1] += 1.1 * np.arange(n)
+            for strain, polish in (("edges", True), ("tilts", True), ("tilts", False)):
+                s = jam.System.from_arrays(x, 1 - 1e-6, cell=[1] * (dim - 1) + [1.1 * n], dim=dim)
+                r = s.crunch(strain=strain, lp_solver="clp", polish=polish)
+                self.assertEqual(len(s.forces), r.contacts)
+                self.assertGreater(s.forces.min(), 0.1, (dim, n, strain, polish))
+                self.assertEqual(r.excess_contacts, r.contacts - (dim * (r.stable - 1) + 1))
+                if strain == "tilts":
+                    np.testing.assert_allclose(s.forces, 1.0, rtol=1e-12)  # nothing tells the rows apart
+
     def test_strict_contacts_are_counted_with_own_images(self):
         c, strict = self.s.check(), self.s.rigidity("strict")
         self.assertEqual((c.contacts, strict.contacts, strict.contacts_needed), (4, 6, 5))

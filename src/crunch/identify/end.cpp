@@ -56,11 +56,14 @@ void take_forces_of(CrunchState &s, const PackingVerdict &verdict) {
 }
 
 // A packing that is not jammed has no negative forces either: polish projects those of its last network. Where polish
-// refused, only the test has forces that balance.
+// refused, only the test has forces that balance. A vertex of the LP may leave contacts without force, as simplex has
+// it for spheres that only their own images hold: the test has the forces in the middle of all, and all that carry one.
 void take_positive_forces(CrunchState &s, const PackingVerdict &verdict) {
   const std::vector<double> &f = s.out.contacts.force;
   const bool refused = s.o.polish && !s.found.polished && verdict.result.contacts > 0;
-  if (refused || std::any_of(f.begin(), f.end(), [](double x) { return x < 0.0; })) take_forces_of(s, verdict);
+  const bool all = verdict.result.contacts == static_cast<int64_t>(f.size()),
+             idle = std::count(f.begin(), f.end(), 0.0) > 0 && (all || (s.o.polish && verdict.result.contacts > 0));
+  if (refused || idle || std::any_of(f.begin(), f.end(), [](double x) { return x < 0.0; })) take_forces_of(s, verdict);
 }
 
 // The packing as it is. False when the call was interrupted: then its contacts stay untested.

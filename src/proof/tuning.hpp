@@ -6,7 +6,7 @@ namespace jam::inside::proof_tuning {
 
 constexpr int refinements = 3;          // of a solve: each takes condition times rounding off
 constexpr int inverse_iterations = 30;  // to some percent of the smallest eigenvalue
-constexpr int newton_steps = 2;         // a third one gains nothing (tests/bench/results/proof.json)
+constexpr int newton_steps = 2;         // a third one gains nothing (tests/bench/README.md, "Proofs")
 constexpr double closed = 1e-26;        // |r|^2 / sigma^2 - Gamma in two doubles; rounding is 1e-32
 // The same over Gamma, of pairs that hold spheres: a motion of 1e-9 opens them by as much.
 constexpr double nearly_closed = 1e-18;

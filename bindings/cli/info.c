@@ -68,9 +68,9 @@ static void put_cell(FILE *f, const content *c) {
 }
 
 static void put_walls(FILE *f, const content *c) {
-  static const char *const shapes[] = {"brick", "cylinder", "ball"};
+  char word[32];
   int k;
-  fprintf(f, "  \"container\": \"%s\",\n  \"walls\": [", shapes[c->info.container]);
+  fprintf(f, "  \"container\": \"%s\",\n  \"walls\": [", word_of_choice("--container", c->info.container, word));
   for (k = 0; k < c->info.dim; ++k) fprintf(f, "%s%s", k ? ", " : "", c->info.walls >> k & 1 ? "true" : "false");
   fputs("],\n", f);
 }
@@ -105,10 +105,13 @@ static int write_json(const options *o, const content *c, const char *notes) {
 /* "  walls     a cylinder, flat walls at both ends of z" */
 static void print_walls(const content *c) {
   const char *before = c->info.container ? ", flat walls at both ends of " : "flat walls at both ends of ";
+  char word[32];
   int k;
   if (!c->info.container && !c->info.walls) return;
   fputs("  walls     ", stdout);
-  if (c->info.container) fputs(c->info.container == JAM_CONTAINER_BALL ? "a ball" : "a cylinder about z", stdout);
+  if (c->info.container)
+    printf("a %s%s", word_of_choice("--container", c->info.container, word),
+           c->info.container == JAM_CONTAINER_BALL ? "" : " about z");
   for (k = 0; k < c->info.dim && k < 3; ++k)
     if (c->info.walls >> k & 1) {
       printf("%s%c", before, "xyz"[k]);

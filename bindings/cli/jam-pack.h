@@ -78,6 +78,8 @@ int each_output(const options *o, int (*f)(const char *path, void *with), void *
 
 /* settle.c: 0, or -1 after a message on stderr. Refuses options that contradict each other, and completes the rest. */
 int settle(options *o);
+/* The word of a choice that has this number. */
+const char *word_of_choice(const char *option, int number, char word[32]);
 int is_named(const options *o, const char *name); /* whether the command line has this option, without dashes */
 
 /* formats.c: the ending of a file name, without .gz; at most 7 letters of it. */

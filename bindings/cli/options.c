@@ -126,6 +126,13 @@ static const option_row *find_option(const char *name, size_t length) {
   return NULL;
 }
 
+const char *word_of_choice(const char *option, int number, char word[32]) {
+  const char *at = find_option(option, strlen(option))->words;
+  while (number-- > 0) at = strchr(at, ' ') + 1;
+  snprintf(word, 32, "%.*s", (int)strcspn(at, " "), at);
+  return word;
+}
+
 /* What the verb takes, for those who gave it something else. */
 static void refuse_option(const options *o, const char *word) {
   const unsigned bit = 1u << o->given.verb;

@@ -123,19 +123,34 @@ static double determinant(double *a, int d) {
   return product;
 }
 
-/* Of the container, which takes this share of its cell. */
+/* Of the container in this cell, as the library has it: of a system with a small sphere in the middle. */
+static int find_room(const options *o, const double *cell, double *volume) {
+  double x[JAM_MAX_DIM] = {0}, size = HUGE_VAL;
+  const size_t d = (size_t)o->dim;
+  size_t k;
+  jam_create_options create;
+  jam_start start = {.struct_size = sizeof start, .positions = x, .diameters = &size, .diameters_len = 1, .cell = cell};
+  jam_info info = {.struct_size = sizeof info};
+  jam_system *sys = NULL;
+  int bad;
+  for (k = 0; k < d * d; ++k) x[k % d] += 0.5 * cell[k];
+  for (k = 0; k < d; ++k) size = fmin(size, 1e-3 * fabs(cell[k * d + k]));
+  jam_create_options_init(&create, sizeof create);
+  create.dim = (int32_t)d;
+  create.container = (int32_t)o->container;
+  start.positions_len = d, start.cell_len = d * d;
+  bad = has_failed(jam_create(&create, &start, &sys)) || has_failed(jam_get_info(sys, &info));
+  jam_destroy(sys);
+  *volume = info.volume;
+  return bad;
+}
+
 static int find_volume(const options *o, double *volume) {
-  const double pi = 3.14159265358979323846;
-  const double share = o->container == JAM_CONTAINER_BRICK                ? 1
-                       : o->container == JAM_CONTAINER_BALL && o->dim > 2 ? pi / 6
-                                                                          : pi / 4;
   double cell[JAM_MAX_DIM * JAM_MAX_DIM];
   fill_cell(o, cell);
+  if (o->container != JAM_CONTAINER_BRICK) return find_room(o, cell, volume);
   *volume = determinant(cell, (int)o->dim);
-  if (*volume > 0 && *volume < INFINITY) {
-    *volume *= share;
-    return 0;
-  }
+  if (*volume > 0 && *volume < INFINITY) return 0;
   complain("the cell has the volume %g: its vectors are left-handed, or lie in one plane", *volume);
   return 1;
 }

@@ -1,6 +1,11 @@
 """The options of jam-pack, which python3 -m jam runs: the one table that the parser, the help, the manual page, the completion
 of shells and the guide's page are made from. After a change: sh bindings/gen/regenerate.sh."""
+import re
+from pathlib import Path
+
 from option import INT32_MAX, INT64_MAX, STAGES, Option, Verb
+
+HEADER = Path(__file__).parents[2] / "include/jam/jam.h"
 
 NO_CRUNCH = ("no-crunch", "packing-fraction", "porosity")  # what leaves the crunch out
 
@@ -136,10 +141,10 @@ TABLE = {
             "container",
             "choice",
             "SHAPE",
-            "container of a random start or of a file that names none: the brick of the cell, a cylinder about z (--walls z closes its "
-            "ends), or a ball, in d = 2 a circle (brick). The diameter is the edge of the cell",
+            "container of a random start or of a file that names none: the brick of the cell (brick), or a shape in it that touches its "
+            "faces. --walls z closes the ends of a cylinder",
             "brick",
-            words=("brick", "cylinder", "ball"),
+            words=tuple(word.lower() for word in re.findall(r"^  JAM_CONTAINER_(\w+)", HEADER.read_text(), re.M)),
             without=("resume",),
         ),
         Option(

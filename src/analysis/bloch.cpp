@@ -138,8 +138,8 @@ Modes bloch_modes(const RigidityMatrix &g, const ContactWeights &w, const CellsB
   std::vector<double> block(static_cast<size_t>(d) * d);
   constexpr Phase one{1.0, 0.0};
   for (size_t k = 0; k < g.contacts(); ++k) {
-    contact_block(d, w.stiffness[k], w.transverse.empty() ? 0.0 : w.transverse[k], &g.normal[k * d],
-                  g.b[k] < 0 ? g.round_axes : d, block.data());
+    contact_block(d, w.stiffness[k], w.transverse.empty() ? 0.0 : w.transverse[k], &g.normal[k * d], g.turning(k),
+                  block.data());
     h.add(g.a[k], g.a[k], block.data(), 1.0, one, d);
     if (g.b[k] < 0) continue;
     const Phase phase = phase_of(q, back[k], d);

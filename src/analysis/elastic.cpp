@@ -22,10 +22,9 @@ struct Network {
     const double *n = &g.normal[k * g.dim], t = transverse(k);
     double along = 0.0;
     for (int c = 0; c < g.dim; ++c) along += n[c] * x[c];
-    for (int c = 0; c < g.dim; ++c) f[c] = (w.stiffness[k] + t) * along * n[c] - (c < curved(k) ? t * x[c] : 0.0);
+    for (int c = 0; c < g.dim; ++c)
+      f[c] = (w.stiffness[k] + t) * along * n[c] - (g.turning(k).along(c) ? t * x[c] : 0.0);
   }
-  // Axes along which the direction of a contact turns: of a wall those along which it is round.
-  int curved(size_t k) const { return g.b[k] < 0 ? g.round_axes : g.dim; }
   // sum over contacts of x . H_k . y
   double product(const std::vector<double> &x, const std::vector<double> &y) const {
     const size_t d = static_cast<size_t>(g.dim);
@@ -35,7 +34,7 @@ struct Network {
       double an = 0.0, bn = 0.0, ab = 0.0;
       for (size_t c = 0; c < d; ++c) {
         an += n[c] * a[c], bn += n[c] * b[c];
-        if (static_cast<int>(c) < curved(k)) ab += a[c] * b[c];
+        if (g.turning(k).along(static_cast<int>(c))) ab += a[c] * b[c];
       }
       sum += w.stiffness[k] * an * bn - transverse(k) * (ab - an * bn);
     }

@@ -85,7 +85,7 @@ void FloppySolver::measure(size_t l, const double *dr, FloppyModes &out, size_t 
   }
   double bend = 0.0;
   for (size_t k = 0; k < g_.contacts(); ++k) {
-    const double across = force_[k] * g_.stretch(k, dr).across();
+    const double across = force_[k] * g_.stretch(k, dr).across;
     bend += g_.b[k] < 0 ? across * g_.bending[k] : across / g_.distance[k];
   }
   out.s_plus[at] = s_plus;

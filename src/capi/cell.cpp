@@ -64,9 +64,9 @@ jam_status jam_walls(const jam_system *sys, int32_t columns, double *table, size
     const std::vector<double> stress = wall_stress(p, net ? *net : ContactNetwork());
     made.give(walls, [&](size_t k, auto &row) {
       const int w = static_cast<int>(k);
-      row[JAM_WALL_AXIS] = c.axis(w);
-      row[JAM_WALL_SIDE] = c.side(w);
-      row[JAM_WALL_AREA] = c.area(w);
+      row[JAM_WALL_AXIS] = c[w].axis();
+      row[JAM_WALL_SIDE] = c[w].side();
+      row[JAM_WALL_AREA] = c[w].area();
       if (!p.wall_pressure.empty()) row[JAM_WALL_PRESSURE] = p.wall_pressure[k];
       row[JAM_WALL_GAP] = closest_to_wall(p, w).gap;
       row[JAM_WALL_STRESS] = stress[k];

@@ -107,7 +107,7 @@ jam_status jam_bloch_rigidity(jam_system *sys, const int32_t *count, size_t coun
     need(count, "count");
     if (count_len != static_cast<size_t>(p.dim))
       fail(JAM_E_ARGUMENT, "count has %zu numbers, it must have dim = %d", count_len, p.dim);
-    if (p.container.round_axes() > 0)
+    if (p.container.curved() != 0)
       fail(JAM_E_UNSUPPORTED, "the curvature of a round wall may stabilise flexes: tile the packing, then test it");
     if (p.model == JAM_MODEL_MK)
       fail(JAM_E_UNSUPPORTED, "Mari-Kurchan spheres have no copies: shifts are drawn for each pair");

@@ -23,101 +23,101 @@ void check_axis(const Cell &cell, int c) {
              letter(c, cell.dim()), k, cell.row(k)[q], letter(q, cell.dim()));
 }
 
+// A shape: its curved wall goes round the first axes, and closes them; flat walls may close others.
+struct Shape {
+  const char *word;
+  int least_dim, most_dim, round_axes;
+  uint32_t flat;  // axes that may have flat walls
+  const char *dims, *flat_walls;
+};
+constexpr Shape shapes[] = {
+    {"brick", 1, JAM_MAX_DIM, 0, ~0u, "", ""},
+    {"cylinder", 3, 3, 2, 4u, "3", "may have flat walls on axis z alone (4)"},
+    {"ball", 2, 3, 3, 0u, "2 or 3", "has no flat walls"},
+};
+constexpr int32_t shape_count = sizeof shapes / sizeof *shapes;
+
+const Shape &shape_of(int32_t kind, int32_t walls, int dim) {
+  if (kind < 0 || kind >= shape_count)
+    fail(JAM_E_ARGUMENT, "container is %d, it must be a value of jam_container", kind);
+  if (walls < 0 || walls >= 1 << dim)
+    fail(JAM_E_ARGUMENT, "walls is %d, it must be a sum of 2^c over axes c below dim %d", walls, dim);
+  const Shape &shape = shapes[kind];
+  if (dim < shape.least_dim || dim > shape.most_dim)
+    fail(JAM_E_DIMENSION, "a %s needs dim %s, dim is %d", shape.word, shape.dims, dim);
+  if (static_cast<uint32_t>(walls) & ~shape.flat)
+    fail(JAM_E_ARGUMENT, "walls is %d: a %s %s", walls, shape.word, shape.flat_walls);
+  return shape;
+}
+
 }  // namespace
 
 Container::Container(int32_t kind, int32_t walls, const Cell &cell) : kind_(kind), flat_(walls), dim_(cell.dim()) {
-  if (kind < JAM_CONTAINER_BRICK || kind > JAM_CONTAINER_BALL)
-    fail(JAM_E_ARGUMENT, "container is %d, it must be a value of jam_container", kind);
-  if (walls < 0 || walls >= 1 << dim_)
-    fail(JAM_E_ARGUMENT, "walls is %d, it must be a sum of 2^c over axes c below dim %d", walls, dim_);
-  if (kind == JAM_CONTAINER_CYLINDER && dim_ != 3) fail(JAM_E_DIMENSION, "a cylinder needs dim 3, dim is %d", dim_);
-  if (kind == JAM_CONTAINER_BALL && dim_ > 3) fail(JAM_E_DIMENSION, "a ball needs dim 2 or 3, dim is %d", dim_);
-  if (kind == JAM_CONTAINER_CYLINDER && (walls & 3))
-    fail(JAM_E_ARGUMENT, "walls is %d: a cylinder may have flat walls on axis z alone (4)", walls);
-  if (kind == JAM_CONTAINER_BALL && walls) fail(JAM_E_ARGUMENT, "walls is %d: a ball has no flat walls", walls);
-  round_axes_ = kind == JAM_CONTAINER_CYLINDER ? 2 : kind == JAM_CONTAINER_BALL ? dim_ : 0;
-  closed_ = static_cast<uint32_t>(walls);
+  round_axes_ = std::min(dim_, shape_of(kind, walls, dim_).round_axes);
+  closed_ = static_cast<uint32_t>(walls) | ((1u << round_axes_) - 1u);
   for (int c = 0; c < dim_; ++c) {
     edge_[c] = cell.edge(c);
-    if (c < round_axes_) closed_ |= 1u << c;
-    if (walls >> c & 1) axis_[flat_walls_ / 2] = c, flat_walls_ += 2;
     if (!(closed_ >> c & 1)) continue;
     check_axis(cell, c);
     widest_ = std::min(widest_, edge_[c]);
   }
-  volume_ = cell.volume();
-  if (round_axes_ == 0) return;
   for (int c = 1; c < round_axes_; ++c)
     if (edge_[c] != edge_[0])
       fail(JAM_E_ARGUMENT, "a round container needs equal edges of the cell: x has %.17g, %c has %.17g", edge_[0],
            letter(c, dim_), edge_[c]);
-  radius_ = 0.5 * edge_[0];
-  volume_ = unit_sphere_volume(round_axes_);
-  for (int c = 0; c < dim_; ++c) volume_ *= edge_[c];
+  volume_ = round_axes_ > 0 ? unit_sphere_volume(round_axes_) : cell.volume();
+  for (int c = 0; c < dim_ && round_axes_ > 0; ++c) volume_ *= edge_[c];
+  for (int c = 0; c < dim_; ++c)
+    for (int side = 0; side < 2 && (walls >> c & 1); ++side)
+      walls_.push_back(Surface::plane(dim_, c, side, edge_[c], volume_ / edge_[c]));
+  const double radius = 0.5 * edge_[0];
+  if (round_axes_ > 0)  // area: d V / d R_c
+    walls_.push_back(Surface::round(dim_, round_axes_, radius, volume_ * round_axes_ / radius));
 }
 
-double Container::area(int w) const {
-  return is_round(w) ? volume_ * round_axes_ / radius_ : volume_ / edge_[axis(w)];  // round: d V / d R_c
-}
-
-namespace {
-constexpr const char *words[] = {"brick", "cylinder", "ball"};
-}
-
-const char *Container::word() const { return words[kind_]; }
+const char *Container::word() const { return shapes[kind_].word; }
 
 int32_t container_of_word(const char *word) {
-  for (int32_t k = 0; k < 3; ++k)
-    if (std::strcmp(words[k], word) == 0) return k;
+  for (int32_t k = 0; k < shape_count; ++k)
+    if (std::strcmp(shapes[k].word, word) == 0) return k;
   return -1;
 }
 
-std::string Container::name(int w) const {
-  if (is_round(w)) return "the round wall";
-  char text[64];
-  std::snprintf(text, sizeof text, "the wall %c = %g", letter(axis(w), dim_), side(w) ? edge_[axis(w)] : 0.0);
-  return text;
+std::string container_words() {
+  std::string all;
+  for (int32_t k = 0; k < shape_count; ++k)
+    all += std::string(k == 0 ? "" : k + 1 < shape_count ? ", " : " and ") + shapes[k].word;
+  return all;
+}
+
+bool Enclosure::closes(int c) const {
+  return (walls >> c & 1) != 0 || (container > 0 && container < shape_count && c < shapes[container].round_axes);
+}
+int Enclosure::count(int dim) const {
+  int all = container == JAM_CONTAINER_BRICK ? 0 : 1;
+  for (int c = 0; c < dim; ++c) all += walls >> c & 1 ? 2 : 0;
+  return all;
+}
+bool Enclosure::needs_space() const {
+  return (walls & 4) != 0 || (container > 0 && container < shape_count && shapes[container].least_dim > 2);
+}
+
+int Container::round_axes() const { return round_axes_; }
+
+std::vector<Container::Ring> Container::rings() const {
+  const double half = 0.5 * edge_[0];
+  if (round_axes_ == 0) return {};
+  if (dim_ == 2) return {{{0, 1}, {half, half, 0.0}, half}};
+  if (round_axes_ == 2) return {{{0, 1}, {half, half, 0.0}, half}, {{0, 1}, {half, half, edge_[2]}, half}};
+  const std::array<double, 3> middle{half, half, half};
+  return {{{0, 1}, middle, half}, {{0, 2}, middle, half}, {{1, 2}, middle, half}};
 }
 
 void Container::rotation(int q, const double *x, double *v) const {
   for (int c = 0; c < dim_; ++c) v[c] = 0.0;
   for (int a = 0; a < round_axes_; ++a)
     for (int b = a + 1; b < round_axes_; ++b)
-      if (q-- == 0) v[a] = radius_ - x[b], v[b] = x[a] - radius_;
-}
-
-void Container::normal(int w, const double *x, double *n) const {
-  for (int c = 0; c < dim_; ++c) n[c] = 0.0;
-  if (!is_round(w)) {
-    n[axis(w)] = side(w) ? -1.0 : 1.0;
-    return;
-  }
-  const double r = radius_ - distance(w, x);
-  if (!(r > 0.0))
-    n[0] = 1.0;  // at the centre all directions are alike
-  else
-    for (int c = 0; c < round_axes_; ++c) n[c] = (radius_ - x[c]) / r;
-}
-
-double Container::displaced(int w, const double *x, const double *u, double *n) const {
-  if (!is_round(w)) {
-    normal(w, x, n);
-    return side(w) ? -u[axis(w)] : u[axis(w)];
-  }
-  double r2 = 0.0, to2 = 0.0, change = 0.0, to[JAM_MAX_DIM];
-  for (int c = 0; c < round_axes_; ++c) {
-    const double r = x[c] - radius_;
-    to[c] = r + u[c];
-    r2 += r * r, to2 += to[c] * to[c], change += u[c] * (r + to[c]);
-  }
-  const double length = std::sqrt(to2), both = std::sqrt(r2) + length;
-  for (int c = 0; c < dim_; ++c) n[c] = c < round_axes_ && length > 0.0 ? -to[c] / length : 0.0;
-  if (!(length > 0.0)) n[0] = 1.0;
-  return both > 0.0 ? -change / both : 0.0;
-}
-
-double Container::curvature(int w, const double *x) const {
-  return is_round(w) ? 1.0 / (radius_ - distance(w, x)) : 0.0;
+      if (q-- == 0) v[a] = 0.5 * edge_[0] - x[b], v[b] = x[a] - 0.5 * edge_[0];
 }
 
 void Container::random_point(const Cell &cell, Rng &rng, double radius, double *x) const {
@@ -164,14 +164,14 @@ void refuse_outside(const Packing &p) {
       fail(JAM_E_OVERLAP,
            "the centre of sphere %d lies outside %s: positions count from the corner of the cell; if yours count from "
            "its centre, add half of each edge",
-           now.sphere, p.container.name(w).c_str());
+           now.sphere, p.container[w].name().c_str());
   }
 }
 
 ClosestWall closest_to_wall(const Packing &p, int w) {
   ClosestWall closest{std::numeric_limits<double>::infinity(), -1, w};
   for (size_t i = 0; i < p.n(); ++i) {
-    const double h = p.container.distance(w, &p.position[i * p.dim]) / (0.5 * p.diameter[i]) - 1.0;
+    const double h = p.container[w].distance(&p.position[i * p.dim]) / (0.5 * p.diameter[i]) - 1.0;
     if (h < closest.gap) closest = {h, static_cast<int32_t>(i), w};
   }
   return closest;

@@ -125,7 +125,7 @@ double overlap_of_long_flights(const Packing &p) {
 static void refuse_wall_overlaps(const Packing &p, double tolerance) {
   const ClosestWall worst = closest_wall(p);
   if (worst.gap >= -tolerance) return;
-  const std::string wall = p.container.name(worst.w);
+  const std::string wall = p.container[worst.w].name();
   if (p.overlap_allowed)
     fail(JAM_E_OVERLAP,
          "sphere %d overlaps %s by %.3g of its radius: this call is for hard spheres; jam_scale_diameters(sys, %.17g) "
@@ -190,7 +190,7 @@ void shrink_to_contact(Packing &p, double least, Notes *notes) {
     std::snprintf(cause, sizeof cause, "spheres %d and %d overlapped by %.3g of their contact distance", worst.i,
                   worst.j, 1.0 - (1.0 + worst.gap) * fit);
   if (at_wall)
-    std::snprintf(cause, sizeof cause, "sphere %d overlapped %s", wall.sphere, p.container.name(wall.w).c_str());
+    std::snprintf(cause, sizeof cause, "sphere %d overlapped %s", wall.sphere, p.container[wall.w].name().c_str());
   if (factor < least)
     fail(JAM_E_OVERLAP,
          "%s: to shrink means to multiply all diameters by %.3g, less than shrink_min %g; leave one of two duplicates "

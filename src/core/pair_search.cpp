@@ -104,7 +104,7 @@ void add_walls(const Cutoff &cutoff, int32_t i, std::vector<Candidate> &found) {
   const Packing &p = cutoff.p;
   for (int w = 0; w < p.container.count(); ++w)
     if (cutoff.wants(i, wall_partner(w)) &&
-        p.container.distance(w, &p.position[static_cast<size_t>(i) * p.dim]) < cutoff.of(i, wall_partner(w)))
+        p.container[w].distance(&p.position[static_cast<size_t>(i) * p.dim]) < cutoff.of(i, wall_partner(w)))
       keep(found, {wall_partner(w), {}}, p.dim);
 }
 

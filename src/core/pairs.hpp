@@ -74,7 +74,7 @@ void wrap_positions(Packing &p, PairList &pairs);
 inline double pair_vector(const Packing &p, const PairList &pairs, size_t k, double *r) {
   const int d = p.dim;
   if (pairs.wall(k))
-    return p.container.vector(wall_partner(pairs.j[k]), &p.position[static_cast<size_t>(pairs.i[k]) * d], r);
+    return p.container[wall_partner(pairs.j[k])].vector(&p.position[static_cast<size_t>(pairs.i[k]) * d], r);
   const double *a = &p.position[static_cast<size_t>(pairs.i[k]) * d],
                *b = &p.position[static_cast<size_t>(pairs.j[k]) * d];
   double r2 = 0.0;

@@ -50,15 +50,15 @@ class View {
     for (auto &ends : flat_) ends = {far_away, far_away};
     bool inside = true;
     for (int w = 0; w < c.count(); ++w) {
-      const double room = c.distance(w, x) - radius;
+      const double room = c[w].distance(x) - radius;
       inside = inside && room >= 0.0;
-      if (!c.is_round(w)) {
-        flat_[static_cast<size_t>(c.axis(w))][static_cast<size_t>(c.side(w))] = room;
+      if (!c[w].curved()) {
+        flat_[static_cast<size_t>(c[w].axis())][static_cast<size_t>(c[w].side())] = room;
         breaks_.push_back(std::fabs(room));
         continue;
       }
       round_axes_ = c.round_axes();
-      off_ = 1.0 / c.curvature(w, x);
+      off_ = 1.0 / c[w].curvature(x);
       round_ = room + off_;
       breaks_.push_back(std::fabs(room)), breaks_.push_back(round_ + off_);
     }
@@ -168,9 +168,9 @@ double room_of_centres(const Packing &p, double radius) {
   const Container &c = p.container;
   double volume = c.volume();
   for (int w = 0; w < c.count(); ++w) {
-    const double length = c.volume() / c.area(w);  // edge of the cell; of a round wall R_c over its axes
-    if (!c.is_round(w))
-      volume *= c.side(w) ? 1.0 : std::max(0.0, 1.0 - 2.0 * radius / length);
+    const double length = c.volume() / c[w].area();  // edge of the cell; of a round wall R_c over its axes
+    if (!c[w].curved())
+      volume *= c[w].side() ? 1.0 : std::max(0.0, 1.0 - 2.0 * radius / length);
     else
       volume *= math::pow(std::max(0.0, 1.0 - radius / (c.round_axes() * length)), c.round_axes());
   }

@@ -55,7 +55,7 @@ void report_changes(Touching start, double packing_fraction_start, CrunchState &
 static void explain(CrunchState &s) {
   const Packing &p = s.out.packing;
   const auto largest = std::max_element(p.diameter.begin(), p.diameter.end());
-  const bool round = p.container.round_axes() > 0;
+  const bool round = p.container.curved() != 0;
   if (s.out.status <= 0 || (p.container && !round) || s.o.strain != JAM_STRAIN_NONE ||
       *largest <
           (round ? p.container.widest() * (1.0 - undecided_gap_limit) : p.cell.shortest() * (1.0 - contact_gap_limit)))

@@ -47,12 +47,7 @@ constexpr int32_t flag_velocity = 1, flag_overlap_allowed = 2, flag_wall_pressur
 constexpr int container_at = 8, walls_at = 16;
 
 Enclosure enclosure_of(const Header &h) { return {h.flags >> container_at & 0xff, h.flags >> walls_at}; }
-size_t walls_of(const Header &h) {
-  const Enclosure e = enclosure_of(h);
-  size_t count = e.container == JAM_CONTAINER_BRICK ? 0 : 1;
-  for (int c = 0; c < h.dim; ++c) count += e.walls >> c & 1 ? 2 : 0;
-  return count;
-}
+size_t walls_of(const Header &h) { return static_cast<size_t>(enclosure_of(h).count(h.dim)); }
 
 // A lower triangle with positive edges, tilts in range, and few vectors as short as its shortest row.
 bool has_searchable_cell(const Header &h) {

@@ -22,7 +22,7 @@ size_t read_container(const LineReader &in, CommentKeys &keys, Enclosure &enclos
   const bool named = keys.find("container", value);
   if (named) enclosure.container = container_of_word(std::string(value).c_str());
   if (enclosure.container < 0)
-    in.fail(JAM_E_FORMAT, "container is '%s', known are brick, cylinder and ball", shown(value).c_str());
+    in.fail(JAM_E_FORMAT, "container is '%s', known are %s", shown(value).c_str(), container_words().c_str());
   if (!keys.find("walls", value)) {  // walls alone are those of a brick
     if (!named) return 0;
     in.fail(JAM_E_FORMAT, "container= without walls=, a word T or F for each axis");

@@ -170,12 +170,23 @@ void put_cell(std::string &out, const Cell &cell) {
   out += "]";
 }
 
-// What encloses the spheres: its shape, and on which axes there are flat walls.
+// What encloses the spheres: its shape, the axes on which nothing repeats, and circles of a curved wall.
 void put_container(std::string &out, const Packing &p) {
-  out += std::string(",\n\"container\": \"") + p.container.word() + "\", \"walls\": [";
-  for (int c = 0; c < p.dim; ++c) {
-    if (c) out += ", ";
-    out += p.container.flat() >> c & 1 ? "true" : "false";
+  out += std::string(",\n\"container\": \"") + p.container.word() + "\", \"closed\": [";
+  for (int c = 0; c < p.dim; ++c) out += std::string(c ? ", " : "") + (p.cell.repeats(c) ? "false" : "true");
+  out += "], \"rings\": [";
+  bool first = true;
+  for (const Container::Ring &ring : p.container.rings()) {
+    out += std::string(first ? "" : ", ") + "{\"axes\": [" + std::to_string(ring.axes[0]) + ", " +
+           std::to_string(ring.axes[1]) + "], \"centre\": [";
+    for (int c = 0; c < p.dim; ++c) {
+      if (c) out += ", ";
+      append_number(out, ring.centre[static_cast<size_t>(c)]);
+    }
+    out += "], \"radius\": ";
+    append_number(out, ring.radius);
+    out += "}";
+    first = false;
   }
   out += "]";
 }

@@ -213,8 +213,8 @@ TableColumns take_names(LineReader &in, const std::vector<std::string> &names, F
 // Spheres in one plane are disks, as in the files of LAMMPS, unless the caller speaks of a third direction.
 void take_disks(const ReadOptions &options, FileContent &content) {
   const size_t cell = options.layout.cell.size(), n = content.diameter.size();
-  const bool third = cell == 3 || cell == 9 || content.has_box() || options.enclosure.walls & 4 ||
-                     options.enclosure.container == JAM_CONTAINER_CYLINDER || options.layout.origin.size() == 3;
+  const bool third = cell == 3 || cell == 9 || content.has_box() || options.enclosure.needs_space() ||
+                     options.layout.origin.size() == 3;
   const std::vector<double> &x = content.position;
   if (content.dim != 3 || third || (n < 2 && options.dim != 2)) return;
   for (size_t k = 2; k < x.size(); k += 3)

@@ -24,46 +24,48 @@ bool BarrierProblem::linearise(const Packing &p) {
     sigma2_[k] = sigma * sigma;
     if (!(lp.c[k] > 0.0)) return false;
   }
-  if (p.container.round_axes() > 0) list_round_walls(p);
+  if (p.container.curved() != 0) list_curved_walls(p);
   return true;
 }
 
-void BarrierProblem::list_round_walls(const Packing &p) {
+void BarrierProblem::list_curved_walls(const Packing &p) {
   container_ = p.container;
-  round_.clear(), round_of_.assign(lp.rows(), -1);
+  curved_.clear(), curved_of_.assign(lp.rows(), -1);
   for (size_t k = 0; k < lp.rows(); ++k) {
-    if (!pairs.wall(k) || !container_.is_round(wall_partner(pairs.j[k]))) continue;
-    RoundRow row{k, {}, contact_distance(p, pairs.i[k], pairs.j[k]), 0.0, 0.0};
+    if (!pairs.wall(k) || !container_[wall_partner(pairs.j[k])].curved()) continue;
     const int w = wall_partner(pairs.j[k]);
+    const Surface &wall = container_[w];
+    CurvedRow row{k, w, {}, contact_distance(p, pairs.i[k], pairs.j[k]), 0.0, 0.0};
     std::copy_n(&p.position[static_cast<size_t>(pairs.i[k]) * p.dim], p.dim, row.x.begin());
-    row.distance = container_.distance(w, row.x.data());
+    row.distance = wall.distance(row.x.data());
     const double a = 2.0 * unit * row.distance / (row.radius * row.radius);
-    row.bending = a * unit * std::min(container_.curvature(w, row.x.data()), 1.0 / row.radius);  // a cone at the centre
-    round_of_[k] = static_cast<int32_t>(round_.size());
-    round_.push_back(row);
+    row.bending = a * unit * std::min(wall.curvature(row.x.data()), 1.0 / row.radius);  // a cone at the centre
+    curved_of_[k] = static_cast<int32_t>(curved_.size());
+    curved_.push_back(row);
   }
 }
 
 void BarrierProblem::add_wall_bending(std::vector<double> &diagonal) const {
-  for (const RoundRow &row : round_)
-    for (int c = 0; c < container_.round_axes(); ++c)
-      diagonal[static_cast<size_t>(pairs.i[row.k]) * lp.dim + c] += y[row.k] * row.bending;
+  for (const CurvedRow &row : curved_)
+    for (int c = 0; c < lp.dim; ++c)
+      if (container_[row.w].turning().along(c))
+        diagonal[static_cast<size_t>(pairs.i[row.k]) * lp.dim + c] += y[row.k] * row.bending;
 }
 
-double BarrierProblem::round_gap(const BarrierStep &x, size_t k, double alpha) const {
-  const RoundRow &row = round_[round_of_[k]];
+double BarrierProblem::curved_gap(const BarrierStep &x, size_t k, double alpha) const {
+  const CurvedRow &row = curved_[curved_of_[k]];
   std::array<double, JAM_MAX_DIM> to = row.x;
   for (int c = 0; c < lp.dim; ++c) to[c] += alpha * unit * x.s[static_cast<size_t>(pairs.i[k]) * lp.dim + c];
-  const double distance = container_.distance(wall_partner(pairs.j[k]), to.data());
+  const double distance = container_[row.w].distance(to.data());
   if (!(distance > 0.0)) return -1.0;
   return (distance - row.radius) * (distance + row.radius) / (row.radius * row.radius) - alpha * x.g;
 }
 
 // sqrt(1 + alpha g) <= 1 + alpha g / 2: the sphere meets the wall no earlier than with this growth of its radius.
-double BarrierProblem::time_to_round_wall(const BarrierStep &x, const RoundRow &row) const {
+double BarrierProblem::time_to_curved_wall(const BarrierStep &x, const CurvedRow &row) const {
   std::array<double, JAM_MAX_DIM> v{};
   for (int c = 0; c < lp.dim; ++c) v[c] = unit * x.s[static_cast<size_t>(pairs.i[row.k]) * lp.dim + c];
-  return container_.approach(row.x.data(), v.data(), row.radius, 0.5 * row.radius * x.g, row.distance).time();
+  return container_[row.w].approach(row.x.data(), v.data(), row.radius, 0.5 * row.radius * x.g, row.distance).time();
 }
 
 double BarrierProblem::duality_gap() const {
@@ -134,7 +136,7 @@ double BarrierProblem::max_feasible_alpha(const BarrierStep &x) const {
     const double c = lp.c[k], b = x.w[k], disc = b * b - 4.0 * bend_[k] * c;
     if (b < 0.0 && disc > 0.0) alpha = std::min(alpha, 2.0 * c / (-b + std::sqrt(disc)));
   }
-  for (const RoundRow &row : round_) alpha = std::min(alpha, time_to_round_wall(x, row));
+  for (const CurvedRow &row : curved_) alpha = std::min(alpha, time_to_curved_wall(x, row));
   return alpha;
 }
 

@@ -40,7 +40,7 @@ class BarrierProblem {
   // sigma^2; of a flat wall the part of s_i along its normal. A round wall bends the other way, and not as a square:
   // its distance is computed again.
   double gap_after(const BarrierStep &x, size_t k, double alpha) const {
-    if (!round_.empty() && round_of_[k] >= 0) return round_gap(x, k, alpha);
+    if (!curved_.empty() && curved_of_[k] >= 0) return curved_gap(x, k, alpha);
     return lp.c[k] + alpha * (x.w[k] + alpha * bend_[k]);
   }
 
@@ -56,22 +56,23 @@ class BarrierProblem {
   Best search(const BarrierStep &x);
 
  private:
-  struct RoundRow {
+  struct CurvedRow {
     size_t k;
+    int w;                              // the wall
     std::array<double, JAM_MAX_DIM> x;  // of the sphere
     double radius, distance, bending;   // 2nd derivative of the row across the normal, in units
   };
-  void list_round_walls(const Packing &p);
-  double round_gap(const BarrierStep &x, size_t k, double alpha) const;
-  double time_to_round_wall(const BarrierStep &x, const RoundRow &row) const;
+  void list_curved_walls(const Packing &p);
+  double curved_gap(const BarrierStep &x, size_t k, double alpha) const;
+  double time_to_curved_wall(const BarrierStep &x, const CurvedRow &row) const;
   void bend(const BarrierStep &x);
   double max_feasible_alpha(const BarrierStep &x) const;
   double merit(const BarrierStep &x, double alpha) const;
 
   std::vector<double> bend_, sigma2_, vector_;  // vector_: r_ij in units, of a free cell
   Container container_;
-  std::vector<RoundRow> round_;
-  std::vector<int32_t> round_of_;  // row -> RoundRow, -1: another; empty without round walls
+  std::vector<CurvedRow> curved_;
+  std::vector<int32_t> curved_of_;  // row -> CurvedRow, -1: another; empty without curved walls
 };
 
 }  // namespace jam::inside

@@ -27,9 +27,9 @@ void measure_contacts(const Packing &p, ContactNetwork &net) {
     const int32_t i = net.pairs.i[k], j = net.pairs.j[k];
     if (net.pairs.wall(k)) {
       const double *x = &p.position[static_cast<size_t>(i) * d];
-      p.container.normal(wall_partner(j), x, &net.vector[k * d]);
+      p.container[wall_partner(j)].normal(x, &net.vector[k * d]);
       const DoubleDouble radius = contact_distance<DoubleDouble>(p, i, j);
-      net.gap[k] = static_cast<double>((p.container.distance<DoubleDouble>(wall_partner(j), x) - radius) / radius);
+      net.gap[k] = static_cast<double>((p.container[wall_partner(j)].distance<DoubleDouble>(x) - radius) / radius);
       continue;
     }
     const double *a = &p.position[static_cast<size_t>(i) * d], *b = &p.position[static_cast<size_t>(j) * d];
@@ -68,7 +68,7 @@ std::vector<double> wall_stress(const Packing &p, const ContactNetwork &net) {
     if (net.pairs.wall(k)) out[static_cast<size_t>(wall_partner(net.pairs.j[k]))] += net.force[k];
   }
   for (size_t w = 0; w < out.size(); ++w)
-    out[w] = virial > 0.0 ? out[w] / p.container.area(static_cast<int>(w)) * p.dim * p.container.volume() / virial
+    out[w] = virial > 0.0 ? out[w] / p.container[static_cast<int>(w)].area() * p.dim * p.container.volume() / virial
                           : std::nan("");
   return out;
 }

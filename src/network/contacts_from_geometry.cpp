@@ -111,7 +111,7 @@ bool reaches_open_pairs(const ContactNetwork &net, const Jump &jump, double reso
 // rigid, as copies of a jammed one side by side: closed contacts whose forces balance are contacts, however few.
 bool may_be_network(const ContactNetwork &net, const Packing &p, const Jump &jump) {
   if (net.size() == 0) return false;
-  if (p.container.round_axes() > 0 || excess_contacts(net, p) >= 0) return true;
+  if (p.container.curved() != 0 || excess_contacts(net, p) >= 0) return true;
   return jump.ratio > JumpTuning::wide && jump.below < contact_gap_limit && jump.above > contact_gap_limit &&
          test_rigidity(make_rigidity_matrix(p, net), Jamming::collective).stressed == Verdict::yes;
 }

@@ -19,7 +19,7 @@ Eigen::MatrixXd form_of(const RigidityMatrix &g, const std::vector<double> &weig
   std::vector<double> sum(g.unknowns());
   const auto form = [&](const std::vector<double> &u) {
     double value = 0.0;
-    for (size_t k = 0; k < weight.size(); ++k) value += weight[k] * g.stretch(k, u.data()).across();
+    for (size_t k = 0; k < weight.size(); ++k) value += weight[k] * g.stretch(k, u.data()).across;
     return value;
   };
   for (Eigen::Index a = 0; a < m; ++a) q(a, a) = form(flexes[a]);

@@ -81,8 +81,8 @@ BlockMatrix make_hessian(const RigidityMatrix &g, const ContactWeights &w) {
   std::vector<double> block(dd);
   for (size_t k : order) {
     if (g.a[k] == g.b[k]) continue;  // both ends move together: no stretch, no contribution
-    contact_block(d, w.stiffness[k], w.transverse.empty() ? 0.0 : w.transverse[k], &g.normal[k * d],
-                  g.b[k] < 0 ? g.round_axes : d, block.data());
+    contact_block(d, w.stiffness[k], w.transverse.empty() ? 0.0 : w.transverse[k], &g.normal[k * d], g.turning(k),
+                  block.data());
     const auto [i, j] = key(k);
     if (i < 0) {
       for (int q = 0; q < dd; ++q) m.diag[static_cast<size_t>(j) * dd + q] += block[q];
@@ -108,7 +108,7 @@ double curvature(const RigidityMatrix &g, const ContactWeights &w, const double 
   for (size_t k = 0; k < g.contacts(); ++k) {
     const RigidityMatrix::Stretch s = g.stretch(k, u);
     sum += w.stiffness[k] * s.along * s.along;
-    if (!w.transverse.empty()) sum -= w.transverse[k] * s.across();
+    if (!w.transverse.empty()) sum -= w.transverse[k] * s.across;
   }
   return sum;
 }

@@ -17,11 +17,14 @@ struct ContactWeights {
   std::vector<double> transverse;  // empty without pre-stress
 };
 ContactWeights contact_weights(const RigidityMatrix &g, double sigma_mean, const jam_hessian_options &o);
-// Block of one contact: k n n^T - t (1 - n n^T), with the unit matrix of the first `curved` axes: d of a pair, of a
-// wall those along which it is round.
-inline void contact_block(int dim, double k, double t, const double *n, int curved, double *block) {
+// Block of one contact: k n n^T - t (P - m m^T), see Turning.
+inline void contact_block(int dim, double k, double t, const double *n, Turning turning, double *block) {
+  const double both = k + turning.lean * turning.lean * t;
   for (int r = 0; r < dim; ++r)
-    for (int c = 0; c < dim; ++c) block[r * dim + c] = (k + t) * n[r] * n[c] - (r == c && r < curved ? t : 0.0);
+    for (int c = 0; c < dim; ++c) {
+      const bool turns = turning.along(r) && turning.along(c);
+      block[r * dim + c] = (turns ? both : k) * n[r] * n[c] - (turns && r == c ? t : 0.0);
+    }
 }
 BlockMatrix make_hessian(const RigidityMatrix &g, const ContactWeights &w);
 // u . H . u as a sum over contacts: no cancellation between large entries, so small eigenvalues keep their digits.

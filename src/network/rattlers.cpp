@@ -159,14 +159,13 @@ void drop_unbalanced(int dim, size_t n, const std::vector<int32_t> &i, const std
 void drop_loose(int dim, size_t n, const Container &walls, const std::vector<int32_t> &i, const std::vector<int32_t> &j,
                 std::vector<char> &on) {
   std::vector<int32_t> z;
-  const int bends = std::max(0, walls.round_axes() - 1);
   for (bool again = true; again;) {
     again = false;
     z.assign(n, 0);
     for (size_t k = 0; k < on.size(); ++k)
       if (on[k]) for_spheres(i[k], j[k], [&](int32_t s) { ++z[s]; });
-    for (size_t k = 0; bends > 0 && k < on.size(); ++k)
-      if (on[k] && j[k] < 0 && walls.is_round(wall_partner(j[k]))) z[i[k]] += bends;
+    for (size_t k = 0; walls.curved() != 0 && k < on.size(); ++k)
+      if (on[k] && j[k] < 0) z[i[k]] += walls[wall_partner(j[k])].curved_directions();
     for (size_t k = 0; k < on.size(); ++k)
       if (on[k] && std::min(z[i[k]], z[j[k] < 0 ? i[k] : j[k]]) <= dim) on[k] = 0, again = true;
   }

@@ -40,7 +40,8 @@ void orthonormalise(std::vector<std::vector<double>> &vectors) {
 void take_symmetries(const Packing &p, RigidityMatrix &g) {
   const size_t d = static_cast<size_t>(p.dim);
   g.open_axes = ~p.container.closed();
-  g.round_axes = p.container.round_axes();
+  g.curved = p.container.curved();
+  for (const Surface &wall : p.container) g.wall.push_back(wall.turning());
   for (int q = 0; q < p.container.rotations(); ++q) {
     std::vector<double> v(g.unknowns());
     for (size_t i = 0; i < g.sphere.size(); ++i)
@@ -53,7 +54,7 @@ void take_symmetries(const Packing &p, RigidityMatrix &g) {
 [[noreturn]] void refuse_without_direction(const Packing &p, int32_t i, int32_t j) {
   if (j >= 0) fail(JAM_E_OVERLAP, "spheres %d and %d have the same centre: their contact has no direction", i, j);
   fail(JAM_E_OVERLAP, "the centre of sphere %d is on %s: the contact has no direction", i,
-       p.container.name(wall_partner(j)).c_str());
+       p.container[wall_partner(j)].name().c_str());
 }
 
 }  // namespace
@@ -83,7 +84,7 @@ RigidityMatrix make_rigidity_matrix(const Packing &p, const ContactNetwork &netw
     g.sigma.push_back(contact_distance(p, i, j));
     for (int c = 0; c < d; ++c) g.normal.push_back(r[c] / g.distance.back());
     g.bending.push_back(
-        j < 0 ? -p.container.curvature(wall_partner(j), &p.position[static_cast<size_t>(i) * static_cast<size_t>(d)])
+        j < 0 ? -p.container[wall_partner(j)].curvature(&p.position[static_cast<size_t>(i) * static_cast<size_t>(d)])
               : 1.0 / g.distance.back());
   }
   if (p.container) take_symmetries(p, g);
@@ -112,7 +113,7 @@ RigidityMatrix subset(const RigidityMatrix &g, const std::vector<char> &on) {
     if (!g.force.empty()) out.force.push_back(g.force[k]);
     if (!g.stiffness.empty()) out.stiffness.push_back(g.stiffness[k]), out.prestress.push_back(g.prestress[k]);
   }
-  out.open_axes = g.open_axes, out.round_axes = g.round_axes;
+  out.open_axes = g.open_axes, out.curved = g.curved, out.wall = g.wall;
   for (const std::vector<double> &all : g.rotations) {
     std::vector<double> v;
     for (const int32_t i : out.sphere)
@@ -137,22 +138,22 @@ void RigidityMatrix::remove_symmetries(double *x) const {
 RigidityMatrix::Stretch RigidityMatrix::stretch(size_t k, const double *u) const {
   const size_t d = static_cast<size_t>(dim);
   const double *n = &normal[k * d], *ua = u + static_cast<size_t>(a[k]) * d;
-  Stretch out{0.0, 0.0};
+  double along = 0.0, all = 0.0, turned = 0.0;
   if (b[k] < 0) {
+    const Turning turns = turning(k);
     for (size_t c = 0; c < d; ++c) {
-      out.along += n[c] * ua[c];
-      if (static_cast<int>(c) < round_axes) out.all += ua[c] * ua[c];
+      along += n[c] * ua[c];
+      if (turns.along(static_cast<int>(c))) all += ua[c] * ua[c], turned += turns.lean * n[c] * ua[c];
     }
-    if (bending[k] == 0.0) out.all = out.along * out.along;  // a flat wall
-    return out;
+    return {along, all - turned * turned};
   }
   const double *ub = u + static_cast<size_t>(b[k]) * d;
   for (size_t c = 0; c < d; ++c) {
     const double x = ua[c] - ub[c];
-    out.along += n[c] * x;
-    out.all += x * x;
+    along += n[c] * x;
+    all += x * x;
   }
-  return out;
+  return {along, all - along * along};
 }
 
 void scatter(const RigidityMatrix &sub, const double *x, double factor, std::vector<double> &v) {

@@ -19,9 +19,13 @@ struct RigidityMatrix {
   std::vector<double> normal;    // (contacts, dim) unit vector from b to a
   std::vector<double> distance;  // |r_ij| of each contact
   std::vector<double> sigma;     // sigma_ij of each contact
-  // Second derivative of |r_ij| across n_ij: 1 / |r_ij|, of walls their curvature along the first `round_axes` axes.
+  // Second derivative of |r_ij| where its direction turns: 1 / |r_ij|, of walls their negative curvature.
   std::vector<double> bending;
-  int round_axes = 0;
+  std::vector<Turning> wall;  // of each wall
+  uint32_t curved = 0;        // axes along which a wall is curved
+  Turning turning(size_t k) const {
+    return b[k] < 0 ? wall[static_cast<size_t>(wall_partner(b[k]))] : turning_of_pairs;
+  }
   double rounding = 0.0;                     // largest error of a vector r_ij, as coordinates are rounded
   std::vector<double> force;                 // mean 1; empty when it is not known
   std::vector<double> stiffness, prestress;  // of soft spheres, as in ContactNetwork; else empty
@@ -33,11 +37,9 @@ struct RigidityMatrix {
   std::vector<std::vector<double>> rotations;  // orthonormal, each (nodes, dim)
   int symmetries() const;
   void remove_symmetries(double *x) const;  // x (nodes, dim)
-  // Squared length of u_a - u_b of contact k, and of its part along n; of a wall without the axes along which it is
-  // straight.
+  // The part of u_a - u_b along n of contact k, and the squared part across, where n turns.
   struct Stretch {
-    double all, along;
-    double across() const { return all - along * along; }
+    double along, across;
   };
   Stretch stretch(size_t k, const double *u) const;
 };

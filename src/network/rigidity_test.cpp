@@ -74,7 +74,7 @@ struct Supported {
 // Where the forces of the other contacts stay open: a positive state and a flex of its spheres that closes none of the
 // others make a no. False without such a flex.
 bool find_flex_of_part(const Supported &s, const StressCone &cone, RigidityResult &out) {
-  if (cone.positive.empty() || s.rows.strains > 0 || s.g.round_axes > 0) return false;
+  if (cone.positive.empty() || s.rows.strains > 0 || s.g.curved != 0) return false;
   const RigidityMatrix part = subset(s.sub, cone.positive);
   const ConstraintRows kept(part, false);
   NormalSolver solver(kept);
@@ -140,7 +140,7 @@ void find_flex(const Supported &s, const StressCone &cone, const RigidityMatrix 
         if (!cone.carrying[k]) factor = std::max(factor, -y0[k] / y1[k]);
       for (size_t k = 0; k < x.size(); ++k) x[k] += factor * cone.motion[k];
       // What opens the others is a flex of K+ too, and the curvature of a round wall may hold the sum of both.
-      if (s.g.round_axes > 0 && factor > 0.0 && !opens_by_curvature(carrying, f, x)) continue;
+      if (s.g.curved != 0 && factor > 0.0 && !opens_by_curvature(carrying, f, x)) continue;
     }
     s.complete(x, s.strain, out);
     if (!out.flex.empty()) return;
@@ -167,7 +167,7 @@ void test_rank(const Supported &s, const StressCone &cone, SoftestModes modes, R
   const bool doubtful = modes.margin < undecided_eigenvalue || !(out.force_residual < RigidityTuning::most_residual);
   out.rigid = out.flexes > 0 ? Verdict::no : doubtful ? Verdict::undecided : Verdict::yes;
   if (out.flexes == 0) return;
-  if (s.g.round_axes > 0 && modes.complete) test_prestress_stability(carrying, f, modes.flexes, out);
+  if (s.g.curved != 0 && modes.complete) test_prestress_stability(carrying, f, modes.flexes, out);
   if (only_slides(modes) && !s.strain) out.slides = out.flexes;
   if (out.rigid == Verdict::no) find_flex(s, cone, carrying, kept, f, flex_of(modes, 0, kept.columns()), out);
 }

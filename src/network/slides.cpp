@@ -76,7 +76,7 @@ std::vector<char> stopped_along(const RigidityMatrix &g, const std::vector<int32
 
 PartTranslations::PartTranslations(const RigidityMatrix &g)
     : dim_(static_cast<size_t>(g.dim)), part_(parts_of(g, std::vector<char>(g.nodes, 0))), open_axes_(g.open_axes) {
-  if (g.round_axes > 0) return;
+  if (g.curved != 0) return;
   for (size_t c = 0; c < dim_; ++c) {
     stopped_.push_back(stopped_along(g, part_, c));
     bool whole = open_axes_ >> c & 1u;  // is a symmetry: one part less slides
@@ -119,7 +119,7 @@ Slides find_slides(const RigidityMatrix &g) {
   std::vector<std::vector<double>> found, translations;
   const std::vector<int32_t> part = parts_of(g, std::vector<char>(static_cast<size_t>(g.nodes), 0));
   for (size_t c = 0; c < d; ++c) {
-    if (c < static_cast<size_t>(g.round_axes)) continue;
+    if (g.curved >> c & 1) continue;
     const std::vector<char> stopped = stopped_along(g, part, c);
     translations.emplace_back(g.unknowns(), 0.0);
     for (size_t i = 0; i < part.size(); ++i) translations.back()[i * d + c] = stopped[part[i]] ? 0.0 : 1.0;

@@ -18,9 +18,9 @@ void refuse_walled_axis(const Packing &p, int c, int32_t count) {
   if (p.cell.repeats(c)) return;
   const Container &walls = p.container;
   int w = 0;
-  while (walls.axis(w) != c && !walls.is_round(w)) ++w;
+  while (walls[w].axis() != c && !walls[w].curved()) ++w;
   fail(JAM_E_UNSUPPORTED, "count[%d] is %d, and nothing repeats along this axis, which %s bounds", c, count,
-       walls.name(w).c_str());
+       walls[w].name().c_str());
 }
 
 // The vectors count[c] a_c.

@@ -29,7 +29,7 @@ class Pores {
 
  private:
   static double to_walls(const Packing &p, const Point &x, double least) {
-    for (int w = 0; w < p.container.count(); ++w) least = std::min(least, p.container.distance(w, x.data()));
+    for (int w = 0; w < p.container.count(); ++w) least = std::min(least, p.container[w].distance(x.data()));
     return least;
   }
   // Rows of the surfaces that a sphere which touches the base can touch too: of `near_` and of walls.
@@ -37,7 +37,7 @@ class Pores {
     row_.clear();
     for (const Ball &b : near_) row_.push_back(touching(base, b));
     for (int w = 0; w < p_.container.count(); ++w)
-      if (p_.container.distance(w, base.x.data()) <= base.r + 2.0 * most_ && !(in_tube() && p_.container.is_round(w)))
+      if (p_.container[w].distance(base.x.data()) <= base.r + 2.0 * most_ && !(in_tube() && p_.container[w].curved()))
         row_.push_back(touching_wall(base, p_.container, w));
   }
   bool in_tube() const { return p_.dim == 3 && p_.container.round_axes() == 2; }

@@ -71,15 +71,15 @@ void Solid::cut_by_walls() {
   for (size_t i = 0; i < p_.n(); ++i)
     for (int w = 0; w < p_.container.count(); ++w) {
       const double *x = &p_.position[i * static_cast<size_t>(p_.dim)], radius = 0.5 * p_.diameter[i];
-      const double distance = p_.container.distance(w, x);
+      const double distance = p_.container[w].distance(x);
       if (!(radius - distance > SolidTuning::overlap * radius)) continue;
       if (cuts_.empty()) cuts_.resize(p_.n()), passes_.resize(p_.n());
-      if (p_.container.is_round(w)) {
+      if (p_.container[w].curved()) {
         passes_[i] = 1;
         continue;
       }
       Point n{};
-      p_.container.normal(w, x, n.data());
+      p_.container[w].normal(x, n.data());
       cuts_[i].push_back({{-n[0], -n[1], -n[2]}, distance});
     }
 }

@@ -23,9 +23,9 @@ inline Row in_plane(const Point &normal) { return {normal, 0.0, 0.0}; }
 // Touching wall w from inside: a flat one has a distance linear in c, a round one is a ball of negative radius.
 inline Row touching_wall(const Ball &base, const Container &container, int w) {
   Point n{};
-  container.normal(w, base.x.data(), n.data());
-  const double distance = container.distance(w, base.x.data());
-  if (!container.is_round(w)) return {n, -1.0, -distance};
+  container[w].normal(base.x.data(), n.data());
+  const double distance = container[w].distance(base.x.data());
+  if (!container[w].curved()) return {n, -1.0, -distance};
   const double radius = 0.5 * container.widest(), off = radius - distance;
   return touching(base, {{base.x[0] + off * n[0], base.x[1] + off * n[1], base.x[2] + off * n[2]}, -radius});
 }

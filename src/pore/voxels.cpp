@@ -125,7 +125,7 @@ void VoxelImage::fill_layer(int64_t z, double *out) const {
     }
   }
   const int w = p_.container.count() - 1;
-  const bool round = w >= 0 && p_.container.is_round(w), passed = parts_.any_passes_round_wall();
+  const bool round = w >= 0 && p_.container[w].curved(), passed = parts_.any_passes_round_wall();
   for (int64_t y = 0; y < grid_.count[1]; ++y)
     for (int64_t x = 0; x < grid_.count[0]; ++x) {
       double &value = out[y * grid_.count[0] + x];
@@ -134,7 +134,7 @@ void VoxelImage::fill_layer(int64_t z, double *out) const {
       const double centre[] = {(static_cast<double>(x) + 0.5) * grid_.spacing[0],
                                (static_cast<double>(y) + 0.5) * grid_.spacing[1],
                                (static_cast<double>(z) + 0.5) * grid_.spacing[2]};
-      if (p_.container.distance(w, centre) < 0.0) value = voxel_outside;
+      if (p_.container[w].distance(centre) < 0.0) value = voxel_outside;
     }
 }
 

@@ -14,7 +14,7 @@ namespace {
 
 // Stable spheres with no contact too few. The curvature of a round wall may hold them with fewer.
 bool enough_contacts(const SoftResult &at) {
-  return at.report.stable > 0 && (at.report.excess_contacts >= 0 || at.packing.container.round_axes() > 0);
+  return at.report.stable > 0 && (at.report.excess_contacts >= 0 || at.packing.container.curved() != 0);
 }
 
 // Contacts of one state of self-stress that hold all stable spheres: the symmetries of the scene are the zero modes of

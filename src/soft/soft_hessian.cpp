@@ -83,7 +83,7 @@ void SoftHessian::assemble(const SoftState &state, const SoftContacts &contacts,
     if (on[q]) for_spheres(i, j, [&](int32_t s) { stable[s] = 1; });
     const double k = state.energy().stiffness(contacts.overlap[q], contacts.force[q]);
     contact_block(d, k, contacts.transverse[q], &contacts.normal[q * d],
-                  j < 0 ? state.base().container.round_axes() : d, block.data());
+                  j < 0 ? state.base().container[wall_partner(j)].turning() : turning_of_pairs, block.data());
     for_spheres(i, j, [&](int32_t s) { add(block, &diag_[static_cast<size_t>(s) * dd]); });
     sum += k;
     ++count;

@@ -74,7 +74,7 @@ void SoftState::take_references() {
       const double *x = &base_.position[static_cast<size_t>(i) * d];
       sigma_[k] = static_cast<double>(radius);
       inverse_[k] = 1.0 / sigma_[k];
-      reference_[k] = static_cast<double>(radius - base_.container.distance<DoubleDouble>(wall_partner(j), x));
+      reference_[k] = static_cast<double>(radius - base_.container[wall_partner(j)].distance<DoubleDouble>(x));
       continue;
     }
     const double *a = &base_.position[static_cast<size_t>(i) * d], *b = &base_.position[static_cast<size_t>(j) * d];

@@ -10,11 +10,11 @@ namespace jam::inside {
 double SoftState::wall_overlap(size_t k, double *normal) const {
   const size_t at = static_cast<size_t>(pairs_.i[k]) * static_cast<size_t>(base_.dim);
   const int w = wall_partner(pairs_.j[k]);
-  const double change = base_.container.displaced(w, &base_.position[at], &displacement_[at], normal);
+  const double change = base_.container[w].displaced(&base_.position[at], &displacement_[at], normal);
   if (precision_ != JAM_SOFT_DOUBLE) return reference_[k] - change;
   double x[JAM_MAX_DIM];
   for (int c = 0; c < base_.dim; ++c) x[c] = base_.position[at + c] + displacement_[at + c];
-  return sigma_[k] - base_.container.distance(w, x);
+  return sigma_[k] - base_.container[w].distance(x);
 }
 
 void SoftState::add_wall(size_t k, SoftSums &sums, std::vector<double> &force) const {
@@ -41,7 +41,7 @@ void SoftState::add_wall_contact(size_t k, SoftContacts &out) const {
   out.overlap.push_back(delta);
   out.force.push_back(energy_.force(delta, inverse_[k]));
   out.distance.push_back(sigma_[k] - delta);
-  const double bend = base_.container.curvature(wall_partner(pairs_.j[k]), x);
+  const double bend = base_.container[wall_partner(pairs_.j[k])].curvature(x);
   out.transverse.push_back(-out.force.back() * std::min(bend, 1.0 / (CoincidentTuning::distance * sigma_[k])));
   out.normal.insert(out.normal.end(), n, n + base_.dim);
 }

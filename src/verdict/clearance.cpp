@@ -72,7 +72,7 @@ bool find_unblocked_flex(const Packing &p, const std::vector<char> &taken, Jammi
 }
 
 bool leads_free(const Packing &p, const StraightMotion &motion, double length) {
-  if (motion.flex.empty() || p.container.round_axes() > 0) return false;
+  if (motion.flex.empty() || p.container.curved() != 0) return false;
   const size_t d = static_cast<size_t>(p.dim);
   const double unit = length * diameter_mean(p);
   std::vector<double> x(p.position.size(), 0.0);

@@ -11,7 +11,7 @@ void refuse_soft(const Packing &p, const ClosestPair &closest) {
   if (!(closest.gap < -0.5)) return;
   if (closest.j < 0)
     fail(JAM_E_OVERLAP, "sphere %d overlaps %s by %.3g of its radius: this is no packing of hard spheres", closest.i,
-         p.container.name(wall_partner(closest.j)).c_str(), -closest.gap);
+         p.container[wall_partner(closest.j)].name().c_str(), -closest.gap);
   if (closest.gap == -1.0)
     fail(JAM_E_OVERLAP, "spheres %d and %d have the same centre: this is no packing of hard spheres", closest.i,
          closest.j);

@@ -52,7 +52,7 @@ bool within_jammed(const JammingCase &c) {
 // Spheres with d contacts or fewer can slip out of a balance of forces (they are no part of a jammed network), and
 // others follow; round walls hold spheres with fewer. Whether any sphere is left does not depend on directions.
 bool could_be_supported(const RigidityMatrix &g) {
-  if (g.round_axes > 0) return g.contacts() > 0;
+  if (g.curved != 0) return g.contacts() > 0;
   std::vector<int32_t> degree(g.nodes, 0);
   std::vector<char> on(g.contacts(), 1);
   for (size_t k = 0; k < g.contacts(); ++k) for_spheres(g.a[k], g.b[k], [&](int32_t i) { ++degree[i]; });
@@ -151,7 +151,7 @@ Says doubt_open_contacts(JammingCase &c) {
 Says doubt_contact_all_around(JammingCase &c) {
   const RigidityMatrix &g = c.rows;
   bool around = false;
-  for (size_t k = 0; k < g.contacts() && g.round_axes > 0; ++k)
+  for (size_t k = 0; k < g.contacts() && g.curved != 0; ++k)
     around = around ||
              (c.pairs.maybe_closed[k] && g.b[k] < 0 && !(-g.bending[k] * g.sigma[k] * VerdictTuning::off_axis < 1.0));
   if (!around) return {};

@@ -16,7 +16,7 @@ TILTED = [[1, 0, 0], [0.3, 1, 0], [0, 0, 1]]
 SCENES = (
     ({"walls": "w"}, "--walls w", ("name axes of 'xyz'", "--walls is 'w'")),
     ({"walls": "z", "dim": 2}, "--walls z --dim 2", ("name axes of 'xy'", "walls is 4")),
-    ({"container": "cone"}, "--container cone", ("'brick', 'cylinder', 'ball', not 'cone'", "brick cylinder ball")),
+    ({"container": "torus"}, "--container torus", ("'brick', 'cylinder', 'ball'", "brick cylinder ball")),
     ({"container": "cylinder", "dim": 2}, "--container cylinder --dim 2", "a cylinder needs dim 3"),
     ({"container": "ball", "walls": "x"}, "--container ball --walls x", "a ball has no flat walls"),
     ({"container": "ball", "cell": [1, 1, 2]}, "--container ball --cell 1,1,2", "x has 1, z has 2"),

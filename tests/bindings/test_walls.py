@@ -24,7 +24,7 @@ class Arguments(unittest.TestCase):
             with self.assertRaisesRegex(ValueError, "walls must"):
                 jam.System.random(n=10, walls=walls)
         with self.assertRaisesRegex(ValueError, "container must be one of"):
-            jam.System.random(n=10, container="cone")
+            jam.System.random(n=10, container="torus")
         with self.assertRaisesRegex(ValueError, "does not fit between walls"):
             jam.System.random(n=4, packing_fraction=0.5, cell=[1, 1, 0.2], walls="z")
         with self.assertRaisesRegex(jam.errors.UnsupportedError, "cannot be crunched in a free cell yet"):
@@ -38,7 +38,7 @@ class Arguments(unittest.TestCase):
             volume = (np.pi / 6 * sigma**3 if dim == 3 else np.pi / 4 * sigma**2).sum()
             self.assertAlmostEqual(volume / (share * 10**dim), 0.4, 12)
         with self.assertRaisesRegex(ValueError, "container must be"):
-            jam.sizes("equal", container="cone", porosity=0.5, box=3)
+            jam.sizes("equal", container="torus", porosity=0.5, box=3)
         with self.assertRaisesRegex(TypeError, "give walls= to System.random"):
             jam.sizes("equal", 10, walls="z")
 

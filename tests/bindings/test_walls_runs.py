@@ -205,7 +205,7 @@ class Ensembles(unittest.TestCase):
 
     def test_wrong_scenes_are_named_before_the_work(self):
         for start, text in (
-            (dict(container="cone"), "container must be one of"),
+            (dict(container="torus"), "container must be one of"),
             (dict(walls="w"), "walls must name axes"),
             (dict(container="cylinder", dim=2), "cylinder needs dim 3"),
             (dict(container="ball", walls="x"), "no flat walls"),

@@ -203,20 +203,20 @@ void contact_comes_when_the_distance_is_the_radius(void **) {
           }
           const double radius = 0.5 * p.diameter[i], growth = 0.2;
           const Approach a =
-              p.container.approach<D>(w, x, v, static_cast<int64_t>(radius / side * scale), growth, edge);
+              p.container[w].approach<D>(x, v, static_cast<int64_t>(radius / side * scale), growth, edge);
           // In units of the integers time is the same as in lengths of V^(1/d) with velocities over the scale.
           const double t = a.time();
           if (!(t < 1e300)) continue;
           for (int c = 0; c < D; ++c) there[c] = p.position[i * D + c] + v[c] * t / scale * side;
           const double grown = radius + growth * t / scale * side;
-          assert_true(std::fabs(p.container.distance(w, there) - grown) < 1e-9 * side);
+          assert_true(std::fabs(p.container[w].distance(there) - grown) < 1e-9 * side);
           // The normal is the gradient of the distance.
-          p.container.normal(w, &p.position[i * D], n);
+          p.container[w].normal(&p.position[i * D], n);
           for (int c = 0; c < D; ++c) {
             double up[D], down[D];
             for (int k = 0; k < D; ++k) up[k] = down[k] = p.position[i * D + k];
             up[c] += 1e-6, down[c] -= 1e-6;
-            assert_true(std::fabs((p.container.distance(w, up) - p.container.distance(w, down)) / 2e-6 - n[c]) < 1e-5);
+            assert_true(std::fabs((p.container[w].distance(up) - p.container[w].distance(down)) / 2e-6 - n[c]) < 1e-5);
           }
         }
     };

@@ -167,7 +167,7 @@ void add_wall(RigidityMatrix &g, int32_t i, double x, double y, double bending) 
 void contacts_without_force_at_a_round_wall(void **) {
   for (const bool blocked : {false, true}) {
     RigidityMatrix g;
-    g.dim = 2, g.nodes = 2, g.round_axes = 2, g.open_axes = 0;
+    g.dim = 2, g.nodes = 2, g.curved = 3u, g.wall = {{3u, 1.0}}, g.open_axes = 0;
     g.sphere = {0, 1}, g.node = {0, 1};
     add_wall(g, 0, 1.0, 0.0, -20.0), add_wall(g, 1, -1.0, 0.0, -0.5);
     add_contact(g, 0, 1, -1.0, 0.0), g.bending.push_back(1.0);

@@ -143,8 +143,8 @@ class System(Verbs, Writing, PoreSpace, Copies, Converting):
             overlap ('refuse', the default, 'shrink': scales all diameters until no pair overlaps, or 'allow': soft
             spheres), seed, model, mk_zeta, masses, non_additivity, wall_time, memory_limit.
             walls: axes with flat walls at 0 and at the edge of the cell, as truth values (False, False, True) or as
-            letters "z". container: 'cylinder' (d = 3, about z; walls="z" closes its ends) or 'ball' (d = 2: a circle);
-            its diameter is the edge of the cell. Nothing repeats across a wall.
+            letters "z". container: a member of Container in small letters, such as 'cylinder' (about z; walls="z"
+            closes its ends). It touches the faces of the cell. Nothing repeats across a wall.
 
         Examples
         --------

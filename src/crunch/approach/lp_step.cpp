@@ -45,9 +45,9 @@ double closest_approach(const LpSolution &x, int dim, double unit) {
   return first + second;
 }
 
-// Makes the diameters of q as small as its round wall wants. False where they grow by less than a part of `growth`.
-bool fit_round_wall(Packing &q, const Packing &p, double growth) {
-  if (p.container.round_axes() == 0) return true;
+// Makes the diameters of q as small as a curved wall wants. False where they grow by less than a part of `growth`.
+bool fit_curved_wall(Packing &q, const Packing &p, double growth) {
+  if (p.container.curved() == 0) return true;
   const ClosestWall closest = closest_to_wall(q, p.container.count() - 1);
   if (closest.gap < 0.0)
     for (double &s : q.diameter) s *= 1.0 + closest.gap;
@@ -95,7 +95,7 @@ double take_step(Packing &p, PairList &pairs, double reach, const LpSolution &x,
     q = moved(p, shifted, x, alpha, unit, basis);
     return alpha < Tuning::least_part;
   };
-  const auto fits = [&] { return fit_round_wall(q, p, 0.5 * alpha * x.g) || !(x.g > 0.0); };
+  const auto fits = [&] { return fit_curved_wall(q, p, 0.5 * alpha * x.g) || !(x.g > 0.0); };
   const double allowed = Tuning().step_overlap(p);
   const bool may_meet = closest_approach(x, p.dim, unit) + growth + shorter > reach;
   while (!fits() || (may_meet && closest_contact(q).gap < -allowed))
@@ -162,7 +162,7 @@ LpStep make_step(CrunchState &s, double reach) {
       static_cast<long long>(s.out.report.lp_solves), gain, step, alpha, s.last.pairs.size(), s.last.answer.iterations,
       s.last.active.rows.size(), static_cast<long long>(s.last.active.stable), s.last.lp.bound,
       packing_fraction(s.out.packing));
-  const bool round = s.out.packing.container.round_axes() > 0;
+  const bool round = s.out.packing.container.curved() != 0;
   const double promised = math::expm1(0.5 * math::log1p(alpha * s.last.answer.g));
   add_history_row(s, alpha, unit, round ? diameter_mean(s.out.packing) / unit - 1.0 : promised);
   return {gain, step, alpha};

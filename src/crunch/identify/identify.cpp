@@ -12,7 +12,7 @@ namespace {
 // Newton's steps on contacts and forces may get there.
 bool curved_and_slow(const CrunchState &s) {
   const int32_t reason = s.out.report.stop_reason;
-  return s.out.packing.container.round_axes() > 0 && (reason == JAM_STOP_STALLED || reason == JAM_STOP_LP_LIMIT);
+  return s.out.packing.container.curved() != 0 && (reason == JAM_STOP_STALLED || reason == JAM_STOP_LP_LIMIT);
 }
 
 // Spheres that come no nearer may be jammed. A limit of the call says nothing about them.

@@ -40,7 +40,7 @@ class Polish {
   PolishEnd try_contacts(Packing &p, ContactNetwork &net) {
     if (!close_all(p, net)) return PolishEnd::interrupted;
     if (!(largest(net.gap) < t_.closing_gap)) return PolishEnd::open_contact;
-    const bool round = p.container.round_axes() > 0;
+    const bool round = p.container.curved() != 0;
     if (net.size() == 0 || (!round && excess_contacts(net, p) < 0)) return PolishEnd::too_few;
     balance_forces(p, net);
     if (round && !(balance_residual(p.dim, p.n(), net) < RigidityTuning::most_residual) &&

@@ -199,7 +199,7 @@ template <int D, Offsets O>
 [[gnu::noinline]] void EngineOf<D, O>::hit_wall(int32_t i, int w) {
   Body<D> &b = spheres_.body[i];
   double n[D], vn = 0.0;
-  walls_->container.template normal<D>(w, b.x, walls_->edge, n);
+  walls_->container[w].template normal<D>(b.x, walls_->edge, n);
   for (int c = 0; c < D; ++c) vn += b.v[c] * n[c];
   const double radius = static_cast<double>(b.radius), growth = radius * clock_.rate;
   double push = growth - vn;

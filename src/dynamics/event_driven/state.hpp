@@ -86,7 +86,7 @@ void EngineOf<D, O>::check_pairs() const {
   const ClosestWall wall = closest_wall(p);
   if (wall.gap < -sharp)
     fail(check_code_, "sphere %d overlaps %s by %g after %lld collisions", wall.sphere,
-         p.container.name(wall.w).c_str(), -wall.gap, static_cast<long long>(sums.collisions));
+         p.container[wall.w].name().c_str(), -wall.gap, static_cast<long long>(sums.collisions));
 #endif
 }
 

@@ -1,4 +1,4 @@
-// The walls of a container in the integers of the engine; what a wall is says core/container.hpp.
+// The walls of a container in the integers of the engine; what a wall is says core/surface.hpp.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -38,16 +38,13 @@ struct Walls {
     return wrapping_sum(b.radius, std::llrint(static_cast<double>(b.radius) * (clock.rate * clock.now)));
   }
   Approach approach(int w, const Body<D> &b, const Clock &clock) const {
-    return container.approach<D>(w, b.x, b.v, radius(b, clock), static_cast<double>(b.radius) * clock.rate, edge);
+    return container[w].approach<D>(b.x, b.v, radius(b, clock), static_cast<double>(b.radius) * clock.rate, edge);
   }
   // The list of sphere i was made here: it reaches rho, which covers growth and the way to the exit.
   void note_centre(int32_t i, const std::array<uint64_t, D> &centre, double rho) {
-    const double rest[D] = {};
     const int64_t reach = std::llrint(std::min(rho, 0x1p62));
     bool any = false;
-    for (int w = 0; w < container.count(); ++w)
-      any = any || container.approach<D>(w, centre.data(), rest, reach, 0.0, edge).gap < 0.0 ||
-            !container.has_room<D>(reach, edge);
+    for (const Surface &wall : container) any = any || wall.reached<D>(centre.data(), reach, edge);
     near[static_cast<size_t>(i)] = any;
   }
   // Where sphere b, which is at the present, meets a wall before `time` from now: lowers it and sets the partner of
@@ -56,7 +53,7 @@ struct Walls {
     double worst = 0.0;
     for (int w = 0; w < container.count(); ++w) {
       const Approach a = approach(w, b, clock);
-      if (a.gap < 0.0) worst = std::max(worst, container.overlap<D>(w, a.gap, radius(b, clock), edge));
+      if (a.gap < 0.0) worst = std::max(worst, a.overlap(static_cast<double>(radius(b, clock))));
       const double t = a.time();
       if (t < time) time = t, partner = -2 - w;
     }

@@ -137,7 +137,7 @@ void EventDrivenRun::note_wall_pressure(const PressureSums &time, const std::vec
   const double side = p_.cell.side();                                   // the unit of the engine
   for (size_t w = 0; w < p_.wall_pressure.size(); ++w) {
     const double momentum = p_.wall_pressure[w] - (before.empty() ? 0.0 : before[w]);
-    const double height = p_.container.volume() / p_.container.area(static_cast<int>(w)) / side;
+    const double height = p_.container.volume() / p_.container[static_cast<int>(w)].area() / side;
     p_.wall_pressure[w] = momentum * height * degrees / (n_ * time.kinetic_integral);
   }
 }

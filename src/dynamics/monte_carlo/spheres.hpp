@@ -148,7 +148,7 @@ class MonteCarloSpheres : public MonteCarlo {
     for (int32_t i = 0; i < n_; ++i) {
       geometry_.position(x_[i], a);
       for (int w = 0; w < p_.container.count(); ++w)
-        count(p_.container.distance(w, a) / (radius_[i] * p_.cell.side()) - 1.0);
+        count(p_.container[w].distance(a) / (radius_[i] * p_.cell.side()) - 1.0);
       for (int32_t e = first_[i]; e < first_[i + 1]; ++e) {
         const int32_t k = neighbour_[e];
         if (k < i) continue;

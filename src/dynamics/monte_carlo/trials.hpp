@@ -130,7 +130,7 @@ class MonteCarloOf final : public MonteCarloSpheres<D, Cube> {
     geometry_.position(x_[i], x);
     for (int c = 0; dx && c < D; ++c) x[c] += dx[c] * p_.cell.side();
     for (int w = 0; w < p_.container.count(); ++w) {
-      const double r = p_.container.distance(w, x) / p_.cell.side();
+      const double r = p_.container[w].distance(x) / p_.cell.side();
       if (r < radius_[i]) f(r, radius_[i]);
     }
   }

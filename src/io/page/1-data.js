@@ -59,8 +59,7 @@ for (const own of data.values) {
 
 // Displacements that are shown as an oscillation about the packing: d rows of n numbers.
 const motions = data.motions.map((m) => ({ name: m.name, rows: numbers(m.rows, Float32Array) }));
-// Axes on which nothing repeats: between flat walls, or inside a round one.
-const closed = cell.map((_, c) => data.walls[c] || c < { brick: 0, cylinder: 2, ball: dim }[data.container]);
+const closed = data.closed; // axes on which nothing repeats
 
 function shownNumber(x, digits = 6) {
   if (x === null || x === undefined || Number.isNaN(x)) return "–";

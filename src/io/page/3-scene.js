@@ -157,7 +157,7 @@ function buildSticks(renderer, where, visible, moved) {
     if (state.motion >= 0) (move.push(...from, 0), moveStop.push(...to, 0));
   };
   // The cell first: it is drawn in full while the view moves.
-  if (state.box && data.container !== "brick") roundWall((a, b) => stick(a, b, 0.02 * meanDiameter, [60, 66, 78]));
+  if (state.box && data.rings.length) curvedWall((a, b) => stick(a, b, 0.02 * meanDiameter, [60, 66, 78]));
   else if (state.box) {
     const a = shownCell(), thin = 0.012 * meanDiameter, m = state.axes.length;
     for (let corner = 0; corner < 1 << m; ++corner)
@@ -200,20 +200,19 @@ function buildSticks(renderer, where, visible, moved) {
   renderer.sticks({ ...scene.stick, ...moves }, scene.sticks, scene.frame);
 }
 
-// The round wall in pieces of lines: circles of a ball, both rings and four lines of a cylinder.
-function roundWall(line) {
-  const r = 0.5 * cell[0][0], pieces = 72, heights = data.container === "cylinder" ? [0, cell[2][2]] : [r];
-  const at = (plane, t, height) => {
-    const x = data.container === "cylinder" ? [r, r, height] : Array(dim).fill(r);
-    x[plane[0]] += r * Math.cos(t);
-    x[plane[1]] += r * Math.sin(t);
+// The curved wall in pieces of lines: its circles, and four lines from one to the next in the same plane.
+function curvedWall(line) {
+  const pieces = 72;
+  const at = (ring, t) => {
+    const x = [...ring.centre];
+    x[ring.axes[0]] += ring.radius * Math.cos(t);
+    x[ring.axes[1]] += ring.radius * Math.sin(t);
     return [0, 1, 2].map((c) => (c < state.axes.length ? x[state.axes[c]] : 0));
   };
-  const planes = data.container === "cylinder" || dim === 2 ? [[0, 1]] : [[0, 1], [0, 2], [1, 2]];
-  for (const plane of planes)
-    for (const height of heights)
-      for (let k = 0; k < pieces; ++k)
-        line(at(plane, (2 * Math.PI * k) / pieces, height), at(plane, (2 * Math.PI * (k + 1)) / pieces, height));
-  if (heights.length > 1)
-    for (let k = 0; k < 4; ++k) line(...heights.map((height) => at([0, 1], (Math.PI * k) / 2, height)));
+  data.rings.forEach((ring, r) => {
+    for (let k = 0; k < pieces; ++k) line(at(ring, (2 * Math.PI * k) / pieces), at(ring, (2 * Math.PI * (k + 1)) / pieces));
+    const last = data.rings[r - 1];
+    for (let k = 0; k < 4 && last && String(last.axes) === String(ring.axes); ++k)
+      line(at(last, (Math.PI * k) / 2), at(ring, (Math.PI * k) / 2));
+  });
 }

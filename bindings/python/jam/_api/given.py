@@ -7,7 +7,7 @@ import numpy as np
 
 from .exceptions import UnsupportedError
 from .arrays import Array, as_array, as_vector
-from .generated import JAM_MAX_DIM
+from .generated import JAM_MAX_DIM, Container
 
 
 def cell_of(box: Any, cell: Any, dim: int) -> tuple[float | None, Array | None]:
@@ -40,7 +40,7 @@ def cell_of(box: Any, cell: Any, dim: int) -> tuple[float | None, Array | None]:
     raise ValueError(f"{name} must be {wanted}, not an array of shape {x.shape}{hint}")
 
 
-CONTAINERS = {"brick": 0, "cylinder": 1, "ball": 2}  # jam_container
+CONTAINERS = {kind.name.lower(): int(kind) for kind in Container}
 
 
 def enclosure_of(container: Any, walls: Any, dim: int | None) -> tuple[int, int]:
@@ -64,7 +64,7 @@ def enclosure_of(container: Any, walls: Any, dim: int | None) -> tuple[int, int]
 
 
 def container_word(info: Any) -> str:
-    return next(word for word, kind in CONTAINERS.items() if kind == info.container)
+    return Container(info.container).name.lower()
 
 
 def walls_of(info: Any) -> list[bool]:
@@ -73,9 +73,8 @@ def walls_of(info: Any) -> list[bool]:
 
 
 def closed_axes(info: Any) -> list[bool]:
-    """Axes along which nothing repeats."""
-    round_axes = {"brick": 0, "cylinder": 2, "ball": info.dim}[container_word(info)]
-    return [c < round_axes or wall for c, wall in enumerate(walls_of(info))]
+    """Axes along which nothing repeats. A container closes all of them but z of a cylinder and, without flat walls, those of a brick."""
+    return [wall or info.container != Container.BRICK and (info.container, c) != (Container.CYLINDER, 2) for c, wall in enumerate(walls_of(info))]
 
 
 def refuse_walls(system: Any, done: str) -> None:

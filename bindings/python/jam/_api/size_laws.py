@@ -9,7 +9,7 @@ import numpy as np
 from .. import raw
 from .arrays import Array, as_array, as_vector
 from .calls import freeze, new_report
-from .generated import Container, SizeReport
+from .generated import SizeReport
 from .given import cell_of, enclosure_of
 from .options import option_struct
 
@@ -40,11 +40,12 @@ def _curve(curve: Any, law: str) -> tuple[str, Any]:
     return law, rows.reshape(-1)
 
 
-def _share(container: int, dim: int) -> float:
-    """Of the volume of the cell that the container takes."""
-    if container == Container.BALL:
-        return np.pi / (4 if dim == 2 else 6)
-    return np.pi / 4 if container == Container.CYLINDER else 1.0
+def _volume(container: int, cell: Array) -> float:
+    """Of the container in this cell, as the library has it. No system has no sphere: here is a small one in the middle."""
+    dim, size = len(cell), 1e-3 * float(np.abs(np.diag(cell)).min())
+    made, info = option_struct("jam_create_options", {"dim": dim, "container": container}), new_report("jam_info")
+    raw.jam_get_info(raw.jam_create(made, 0.5 * cell.sum(0)[None], np.array([size]), cell.reshape(-1), None)[1], info)
+    return float(info.volume)
 
 
 def sizes(
@@ -78,7 +79,7 @@ def sizes(
     cell, box : optional
         As of System.from_arrays. Spheres of more volume than that are refused.
     container : str, optional
-        As of System.random: a density is then one of the cylinder or ball in the cell. Flat walls change no volume.
+        As of System.random: a density is then one of this container in the cell. Flat walls change no volume.
     dim : int
         Dimension, of volumes.
     **options
@@ -110,8 +111,8 @@ def sizes(
     volume = None if vectors is None else float(np.linalg.det(vectors))
     if volume is not None and not volume > 0:
         raise ValueError(f"cell has the volume {volume:g}: its vectors are left-handed, or lie in one plane")
-    if container is not None and volume is not None:
-        volume *= _share(enclosure_of(container, None, dim)[0], dim)
+    if container not in (None, "brick") and vectors is not None:
+        volume = _volume(enclosure_of(container, None, dim)[0], vectors)
     if fraction is not None and volume is None:
         raise TypeError("a density needs cell or box")
     if n is None and fraction is None:

@@ -2,12 +2,13 @@
 from __future__ import annotations
 
 import os
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 
 from .._api.arrays import Array
-from .._api.given import enclosure_of, sizes_of
+from .._api.given import closed_axes, enclosure_of, sizes_of
 from .frames import bad, box_of, from_corner, in_range, notes_of, plane, refuse_cell, say_outside, say_unread
 from .replacing import open_regular
 
@@ -89,8 +90,7 @@ def _walls_in(path: str, atoms: Any, dim: int, named: dict[str, Any]) -> dict[st
     kind, flat = enclosure_of(given.get("container"), given.get("walls"), dim)
     if named and enclosure_of(named.get("container"), named.get("walls"), dim) != (kind, flat):
         raise bad(path, f"walls= and container= name other walls than info, {given}: leave them out")
-    round_axes = (0, 2, dim)[kind]
-    closed = [c < round_axes or bool(flat >> c & 1) for c in range(dim)]
+    closed = closed_axes(SimpleNamespace(dim=dim, container=kind, walls=flat))
     if [bool(p) for p in atoms.pbc[:dim]] != [not shut for shut in closed]:
         raise bad(path, f"pbc is {[bool(p) for p in atoms.pbc]}, but container and walls of {where} close the axes {closed}")
     return given

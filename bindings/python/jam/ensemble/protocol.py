@@ -22,8 +22,8 @@ import numpy as np
 
 from .. import errors
 from .._api import generated
-from .._api.generated import GROWTH_STAGES, OPTIONS
-from .._api.given import CONTAINERS, cell_of, enclosure_of
+from .._api.generated import GROWTH_STAGES, OPTIONS, Container
+from .._api.given import cell_of, enclosure_of
 from .._api.options import option_struct, spelled_out
 from .._formats.provenance import ALGORITHM
 from ..system import System
@@ -98,8 +98,7 @@ def _scene(rest: dict[str, Any]) -> dict[str, Any]:
         raise ProtocolError(f"start: {error}") from None
     rest["box"] = side
     axes = [bool(flat >> c & 1) for c in range(rest["dim"])] if flat else None
-    word = next(word for word, number in CONTAINERS.items() if number == kind)
-    return {"cell": None if vectors is None else vectors.tolist(), "walls": axes, "container": word}
+    return {"cell": None if vectors is None else vectors.tolist(), "walls": axes, "container": Container(kind).name.lower()}
 
 
 def _start(given: Mapping[str, Any]) -> dict[str, Any]:

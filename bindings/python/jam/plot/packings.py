@@ -111,15 +111,19 @@ def _brick(ax: Any, edges: Array, view: tuple[float, float], front: bool) -> Non
                 ax.plot(*flat[[i, j]].T, color=COLOURS["line"], lw=0.8, zorder=5 if front else 0)
 
 
+# Of a container about z the width at its end, over that at its beginning.
+_TAPER = {Container.CYLINDER: 1.0}
+
+
 def _round(ax: Any, edges: Array, view: tuple[float, float], kind: Container) -> None:
-    """The round wall: the silhouette of a ball, or both rings and two sides of a cylinder."""
+    """The curved wall: the silhouette of a ball, or both rings of another container and two sides."""
     line: dict[str, Any] = dict(color=COLOURS["line"], lw=0.8, zorder=5)
     t = np.linspace(0, 2 * np.pi, 361)
     ring = 0.5 * edges[0] * np.array([np.cos(t), np.sin(t), np.zeros_like(t)]).T
     if kind == Container.BALL:
         ax.plot(*ring[:, :2].T, **line)
         return
-    ends = [_project(ring + edges * (0.5, 0.5, z), edges, view)[0] for z in (0, 1)]
+    ends = [_project(width * ring + edges * (0.5, 0.5, z), edges, view)[0] for z, width in ((0, 1.0), (1, _TAPER[kind]))]
     for end in ends:
         ax.plot(*end.T, **line)
     for side in (np.argmin, np.argmax):

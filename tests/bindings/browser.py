@@ -116,6 +116,13 @@ class Browser:
         for kind in ("dragEnter", "dragOver", "drop"):
             self.ask("Input.dispatchDragEvent", type=kind, x=x, y=y, data=data)
 
+    def processes(self):
+        """Type and processor seconds of each process of the browser."""
+        own, self.session = self.session, None
+        found = self.ask("SystemInfo.getProcessInfo")["processInfo"]
+        self.session = own
+        return found
+
     def download_to(self, folder):
         self.ask("Page.setDownloadBehavior", behavior="allow", downloadPath=str(folder))
 

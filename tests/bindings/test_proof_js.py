@@ -139,6 +139,10 @@ class TwoCheckers(unittest.TestCase):
         completed = self.compare([self.folder / f"source{k}" for k, _ in enumerate(sources)], without_delta)
         self.assertEqual(len(completed), len(sources))
         texts, changed = [path.read_text(encoding="ascii") for path in completed], []
+        inverse = re.search("^inverse.*\n", texts[0], re.M)[0]
+        for k, text in enumerate((texts[0].replace("\n", "\n\n", 1), texts[0] + "\n", texts[0] + "strict\n", texts[0] + inverse)):
+            changed.append(self.folder / f"twice{k}")
+            changed[-1].write_text(text, encoding="ascii")
         for k in range(MUTANTS):
             changed.append(self.folder / f"mutant{k}")
             changed[-1].write_text(mutant(texts[k % len(texts)], r), encoding="utf-8")

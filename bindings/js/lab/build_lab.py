@@ -13,7 +13,7 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 LAB = "texts needs recipe parts engine keep view session panel_make panel_check panel_look main".split()
-PROOF = "exact scene inverse implied trapped theorem check serve_proof".split()
+PROOF = "exact scene inverse implied trapped check".split()
 EXPORT = re.compile(r"^export (?=(?:async )?(?:const|let|function|class) )|^export \{[^}]*\}.*\n", re.M)
 
 

@@ -125,8 +125,8 @@ export function whole(values) {
   return [all.map((n) => n >> BigInt(less)), power(k - less)];
 }
 
-/** As text of three digits, of the form of C's %.3g; `way`: -1 rounded down, 1 up, 0 to the nearest. */
-export function digits(x, way = 0) {
+/** As text of `count` digits, of the form of C's %.3g; `way`: -1 rounded down, 1 up, 0 to the nearest. */
+export function digits(x, way = 0, count = 3) {
   if (typeof x === "number") x = Exact.double(x);
   if (x.n === 0n) return "0";
   const [n, d] = x.parts(), size = absolute(n), sign = n < 0n ? -1 : 1;
@@ -134,11 +134,11 @@ export function digits(x, way = 0) {
   const tens = (k) => 10n ** BigInt(k);
   const reaches = (k) => (k >= 0 ? size >= d * tens(k) : size * tens(-k) >= d);
   while (reaches(e + 1)) ++e;
-  const lowest = Math.max(e, -307), up = 2 - lowest; // -307: of the doubles
-  const three = new Exact(BigInt(sign)).times(up >= 0 ? Exact.ratio(size * tens(up), d) : Exact.ratio(size, d * tens(-up)));
-  const m = way < 0 ? three.floor() : way > 0 ? three.ceil() : three.round();
-  const [mantissa, exponent] = Number(`${m}e${-up}`).toExponential(2).split("e").map(Number);
+  const lowest = Math.max(e, -307), up = count - 1 - lowest; // -307: of the doubles
+  const shifted = new Exact(BigInt(sign)).times(up >= 0 ? Exact.ratio(size * tens(up), d) : Exact.ratio(size, d * tens(-up)));
+  const m = way < 0 ? shifted.floor() : way > 0 ? shifted.ceil() : shifted.round();
+  const [mantissa, exponent] = Number(`${m}e${-up}`).toExponential(count - 1).split("e").map(Number);
   if (m === 0n) return "0";
-  if (exponent >= -4 && exponent < 3) return String(Number(`${m}e${-up}`));
+  if (exponent >= -4 && exponent < count) return String(Number(`${m}e${-up}`));
   return `${mantissa}e${exponent < 0 ? "-" : "+"}${String(Math.abs(exponent)).padStart(2, "0")}`;
 }

@@ -56,8 +56,9 @@ export class Scene {
   }
   constructor(text) {
     refuse(/[^ -~\n]/.test(text), "a character, such as a carriage return, is neither printable ASCII nor a line feed");
-    const lines = text.split("\n").map((line) => line.split(" ").filter((w) => w)).filter((line) => line.length);
-    refuse(!lines.length || lines[0].join(" ") !== "jamproof 1", "the first line is not 'jamproof 1'");
+    const lines = text.replace(/\n$/, "").split("\n").map((line) => line.split(" ").filter((w) => w));
+    refuse(lines[0].join(" ") !== "jamproof 1", "the first line is not 'jamproof 1'");
+    refuse(lines.some((line) => !line.length), "a line is empty");
     this.readLines(lines.slice(1));
     this.test();
     this.count();
@@ -87,8 +88,9 @@ export class Scene {
     [this.force, this.row] = [forces.map((f) => f[0]), forces.map((f) => f[f.length - 1])]; // row: without implied ones
     this.tiles = lines.filter(([name]) => name === "tile" || name === "implied")
       .map(([word, ...ring]) => ({ word, ring: ring.map((c) => Number(integer(c))) }));
-    this.packed = take("inverse", 2).pop();
-    this.strict = take("strict", 0).length > 0;
+    const packed = take("inverse", 2), strict = take("strict", 0);
+    [this.packed, this.strict] = [packed.pop(), strict.length > 0];
+    refuse(strict.length > 1 || packed.length, "a line 'strict' or 'inverse' is there twice");
     this.inverse = this.within = null;
     for (const [name] of lines) refuse(!WORDS.has(name), `unknown word ${name}`);
     const [lengths, one] = whole([cell, ...spheres.map((s) => s.slice(2))].flat().map(number));

@@ -93,7 +93,7 @@ export function trapped(s) {
   const opening = s.leastOpening(ZERO, smallest, new Exact(1n, 1)); // pairs without force may be closed too
   const own = smallest.times(least([ONE, opening && opening.n ? opening : ONE]));
   refuse(OFF.times(file).below(file.minus(own).abs()),
-    () => `gamma: without overlap it is ${sixDigits(own.number())}, not that of the file`);
+    () => `gamma: without overlap it is ${digits(own.number(), 0, 6)}, not that of the file`);
   // The smaller of both, as spheres of a smaller gamma have more room. What is shown of it is true of a larger one.
   s.gamma = new Exact(least([own, file]).scaled(GAMMA).floor(), GAMMA); // no pair overlaps: F >= 0
   const { f, sigma2, columns } = s.equations(every), j = s.rounded(columns), inverse = inverseOf(s, j, every.length);
@@ -153,11 +153,4 @@ function curvature(s, { e, columns }, stress, per, grown, top, edges) {
   square = square.plus(Exact.ratio(sum, per * BigInt(top * top)));
   const highest = alpha.reduce((a, b) => (a < b ? b : a), 0n);
   return { square, largest: largest.scaled(e), alpha: new Exact(highest, -e) };
-}
-
-/** As C's %.6g. */
-function sixDigits(x) {
-  const [mantissa, exponent] = x.toExponential(5).split("e").map(Number);
-  if (exponent >= -4 && exponent < 6) return String(Number(x.toPrecision(6)));
-  return `${mantissa}e${exponent < 0 ? "-" : "+"}${String(Math.abs(exponent)).padStart(2, "0")}`;
 }

@@ -101,6 +101,7 @@ OPTIONS(observe, (o->collisions = 1, o->gap_bins = o->r_bins = 8, o->sample_ever
 OPTIONS(isoconf, (o->runs = 3, o->block = 2), (BOUND(wall_time, SECONDS), BOUND(memory_limit, 1e8)))
 OPTIONS(crunch, (void)o, BOUND(wall_time, SECONDS))
 OPTIONS(relax, o->force_tolerance = 1e-6, BOUND(wall_time, SECONDS))
+OPTIONS(shear, (o->force_tolerance = 1e-8), BOUND(wall_time, SECONDS))
 OPTIONS(decompress, (o->energy_factor = 1e-3, o->force_tolerance = 1e-8), BOUND(wall_time, SECONDS))
 OPTIONS(hessian, (void)o, (void)o)
 OPTIONS(modes, o->count = 4, BOUND(memory_limit, 1e8))
@@ -194,7 +195,7 @@ static inline jam_status checkpoint_back(jam_system *sys) {
   return status < 0 ? status : made(jam_read_checkpoint(call_file(), NULL, NULL, &other), &other);
 }
 
-typedef enum call_start { NONE, ANY, SPACE, SOFT, NETWORK, MINIMUM, OBSERVED, RUNS, STEP } call_start;
+typedef enum call_start { NONE, ANY, SPACE, SOFT, NETWORK, SHEARED, MINIMUM, OBSERVED, RUNS, STEP } call_start;
 
 #define CALL(name, start, call)                                           \
   static inline jam_status call_##name(CALL_INPUT *in, jam_system *sys) { \
@@ -222,6 +223,7 @@ static inline jam_system *system_for(call_start start) {
   jam_system *sys = NULL;
   jam_status status = JAM_OK;
   double diameter[12];
+  const double shear_end = 1e-3;
   int k;
   if (start == NONE) return NULL;
   for (k = 0; k < 12; ++k) diameter[k] = k % 2 ? 1.0 : 1.4;
@@ -229,9 +231,10 @@ static inline jam_system *system_for(call_start start) {
   from.struct_size = sizeof from, from.diameters = diameter, from.diameters_len = 12;
   jam_create_options_init(&o, sizeof o);
   o.n = 12, o.dim = start == SPACE ? 3 : 2, o.seed = 3, o.packing_fraction = 0.3;
-  if (start == SOFT || start == MINIMUM) o.packing_fraction = 0.95, o.overlap = JAM_OVERLAP_ALLOW;
+  if (start == SOFT || start == SHEARED || start == MINIMUM) o.packing_fraction = 0.95, o.overlap = JAM_OVERLAP_ALLOW;
   if (jam_create(&o, &from, &sys) < 0) return NULL;
   if (start == NETWORK) status = jam_crunch(sys, NULL, NULL);
+  if (start == SHEARED) status = jam_shear(sys, NULL, &shear_end, 1, NULL, 0, NULL);
   if (start == MINIMUM) status = jam_decompress(sys, NULL, NULL);
   if (start == OBSERVED) status = call_jam_observe(NULL, sys);
   if (start == OBSERVED && status >= 0) status = call_jam_run(NULL, sys);

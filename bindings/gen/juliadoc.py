@@ -9,7 +9,7 @@ DROPPED = r"[,;.]? ?\*(?:rows|needed) = (?:their number )?\w+(?:\^\d)?(?: \w+)?(
 
 
 # Functions that change their system; their names end in ! in Julia.
-CHANGING = frozenset("""run compress crunch relax decompress monte_carlo contacts_from_geometry observe stop_observing add_note strain
+CHANGING = frozenset("""run compress crunch relax shear decompress monte_carlo contacts_from_geometry observe stop_observing add_note strain
     set_positions set_velocities set_cell scale_diameters set_memory_limit""".split())
 OTHER_NAMES = {"create": "System", "read": "System", "get_crunch_report": "report", "get_info": "info", "write_checkpoint": "checkpoint",
                "read_checkpoint": "from_checkpoint", "check_packing": "judge", "diameters": "sizes", "crunch_history": "history",

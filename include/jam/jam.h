@@ -171,7 +171,10 @@ typedef enum jam_stop_reason {
   JAM_STOP_EVALUATIONS = 13,     /* soft spheres: max_evaluations came first */
   JAM_STOP_STEPS = 14,           /* soft spheres: max_steps came first */
   JAM_STOP_SADDLE = 15,          /* crunch: forces balance, but a flex remains after every decompression */
-  JAM_STOP_DUALITY_GAP = 16      /* crunch: it reached the duality gap of its options */
+  JAM_STOP_DUALITY_GAP = 16,     /* crunch: it reached the duality gap of its options */
+  JAM_STOP_STRAIN = 17,          /* shear: the last strain */
+  JAM_STOP_EVENT = 18,           /* shear: the first plastic event */
+  JAM_STOP_JAMMED = 19           /* shear: contacts carry force */
 } jam_stop_reason;
 /* Version of the library, e.g. "1.0.0". Static storage, as the texts of the next five calls. */
 JAM_API const char *jam_version(void);
@@ -205,7 +208,8 @@ typedef enum jam_phase {
   JAM_PHASE_DECOMPRESS = 7,  /* soft spheres on their way down to jamming; steps: decompressions so far */
   JAM_PHASE_MONTE_CARLO = 8, /* Metropolis sweeps */
   JAM_PHASE_ISOCONF = 9,     /* runs from one configuration; steps counts those that are done */
-  JAM_PHASE_CREATE = 10      /* making a system; steps counts the spheres placed */
+  JAM_PHASE_CREATE = 10,     /* making a system; steps counts the spheres placed */
+  JAM_PHASE_SHEAR = 11       /* quasi-static shear; steps counts the minima */
 } jam_phase;
 /* Given to the progress callback; valid during the call only. NaN: unknown. */
 typedef struct jam_progress {
@@ -1112,6 +1116,85 @@ JAM_API jam_status jam_decompress(jam_system *sys, const jam_decompress_options 
 JAM_API jam_status jam_decompress_history(const jam_system *sys, int32_t columns, double *table, size_t table_len,
                                           size_t *needed);
 
+/* When a shear ends before its last strain. */
+typedef enum jam_shear_until {
+  JAM_UNTIL_STRAIN = 0,  /* it does not */
+  JAM_UNTIL_EVENT = 1,   /* behind the first plastic event */
+  JAM_UNTIL_JAMMED = 2,  /* at the first minimum whose contacts carry force */
+  JAM_UNTIL_UNJAMMED = 3 /* at the first minimum without such contacts */
+} jam_shear_until;
+/* Options of jam_shear. Those from minimiser to max_evaluations and from strain on are of soft spheres, as in
+ * jam_relax_options; with hard spheres they must have their defaults. */
+typedef struct jam_shear_options {
+  uint32_t struct_size;
+  int32_t minimiser;       /* @enum jam_minimiser, default NEWTON */
+  int32_t scale;           /* @enum jam_soft_scale, default RELATIVE */
+  int32_t precision;       /* @enum jam_soft_precision, default REFERENCE */
+  double alpha;            /* exponent of the energy, > 1, default 2 */
+  double force_tolerance;  /* on max |F_i| of stable spheres over the mean contact force, > 0, default 1e-12 */
+  int64_t max_evaluations; /* of the forces, for one minimum, >= 1, default 1e6 */
+  double wall_time;        /* limit of the call */
+  double step;             /* strain between two minima, > 0, default 1e-3 */
+  double resolution;       /* strain to which an event is located, in (0, step], default 1e-6, at most step */
+  int64_t max_steps;       /* minima, >= 1, default 1e6 */
+  int32_t until;           /* @enum jam_shear_until, default STRAIN */
+  int32_t strain;          /* @enum jam_free_strain, what else of the cell may change, default NONE */
+  double pressure;         /* P > 0 with JAM_STRAIN_VOLUME; else 0, the default */
+  int64_t components;      /* bit c d + k: component (c, k) may change too, c <= k, default -1: all but the sheared */
+} jam_shear_options;
+/* Columns of jam_shear_history: a row for the start, for every step, and for the states before and behind an event.
+ * Columns that compare do so with the row before. Stresses are positive in compression but for JAM_SHEAR_STRESS. Of
+ * soft spheres stresses have the unit epsilon / length^d, of hard ones that of the pressure. */
+typedef enum jam_shear_column {
+  JAM_SHEAR_STRAIN = 0,    /* amplitude of the mode since the start of the call */
+  JAM_SHEAR_STRESS = 1,    /* work per strain and volume, (1 / V) dU / dstrain = - sum of mode_ab S_ab, S: jam_stress */
+  JAM_SHEAR_PRESSURE = 2,  /* trace of the stress over d; hard spheres: 1 */
+  JAM_SHEAR_ENERGY = 3,    /* U / n; hard spheres: 0 */
+  JAM_SHEAR_PHI = 4,       /* packing fraction; hard spheres: phi_J */
+  JAM_SHEAR_CONTACTS = 5,  /* of stable spheres */
+  JAM_SHEAR_MADE = 6,      /* contacts that the row before does not have */
+  JAM_SHEAR_BROKEN = 7,    /* contacts of the row before that are gone */
+  JAM_SHEAR_NONAFFINE = 8, /* root mean square displacement beyond the affine one, of stable spheres, mean diameters */
+  JAM_SHEAR_EVENT = 9,     /* 1: a plastic event between the row before and this one, else 0 */
+  JAM_SHEAR_RATTLERS = 10, /* spheres not in the network */
+  JAM_SHEAR_EVALUATIONS = 11,   /* of the forces since the row before; hard spheres: 0 */
+  JAM_SHEAR_FACTORISATIONS = 12 /* since the row before */
+} jam_shear_column;
+#define JAM_SHEAR_COLUMNS 13
+/* What jam_shear found. Of the stress and its strains NaN where nothing was rigid. */
+typedef struct jam_shear_report {
+  uint32_t struct_size;
+  int32_t stop_reason; /* @enum jam_stop_reason: STRAIN at the last strain, else why before */
+  int32_t rigid;       /* @bool contacts carry force at the end */
+  int32_t reserved;
+  double strain;                       /* reached: amplitude at the end */
+  double stress, pressure;             /* at the end, as in the history */
+  double energy, packing_fraction;     /* U; of the diameters, hard spheres: phi_J */
+  double first_event;                  /* strain before the first event, known to the resolution; NaN: none */
+  double peak_stress, peak_strain;     /* largest |stress| of all rows, with its sign, and where */
+  int64_t events, steps;               /* plastic events; minima, those of located events too */
+  int64_t contacts, rattlers;          /* at the end */
+  int64_t evaluations, factorisations; /* of the forces; of matrices */
+  double seconds;                      /* wall time */
+} jam_shear_report;
+JAM_API jam_status jam_shear_options_init(jam_shear_options *o, size_t size);
+/* Athermal quasi-static shear: strains the cell by steps and finds the minimum after each, of the energy of soft
+ * spheres (JAM_OVERLAP_ALLOW), or of the volume of hard ones, which a crunch jams at each strain. `mode` is the strain
+ * of amplitude 1, upper-triangular; NULL: simple shear, x moves with y. At amplitude g positions are exp(g mode) times
+ * those of the start, with what the minima add. `turns`: amplitudes at which the direction turns, the last one ends the
+ * shear: {0.1} forward, {0.05, -0.05, 0} a cycle. Where the energy of a step departs from the work of the mean stress
+ * by more than a fifth of V times the changes of stress and strain, the step is halved down to the resolution; a step
+ * that does not return to its start when sheared back is a plastic event. An event that releases less stays hidden: a
+ * smaller `step` shows it. A call that begins where another ended continues to the same bits, if the steps are the
+ * same. Status: JAM_OK: the last strain or `until` was reached. JAM_LIMIT, JAM_NOT_CONVERGED: a minimum was not found;
+ * the last one is kept. JAM_NOT_JAMMED: hard spheres did not jam.
+ * @shape turns (turns), mode (d, d) @errors UNSUPPORTED (walls, Mari-Kurchan), SOLVER, TOO_FEW */
+JAM_API jam_status jam_shear(jam_system *sys, const jam_shear_options *o, const double *turns, size_t turns_len,
+                             const double *mode, size_t mode_len, jam_shear_report *report);
+/* Rows of the last shear. @shape table (rows, jam_shear_column) @errors STATE */
+JAM_API jam_status jam_shear_history(const jam_system *sys, int32_t columns, double *table, size_t table_len,
+                                     size_t *needed);
+
 /* ------------------------------------------------------------------ contact network */
 /* Row k of each array is the same contact. */
 
@@ -1480,6 +1563,11 @@ JAM_API jam_status jam_contact_dots(const jam_system *sys, int32_t weighted, dou
 /* Fabric tensor F_ab = <n_a n_b>, the mean over all contacts: symmetric, of trace 1; delta_ab / d when the contacts
  * have no preferred direction. Status: JAM_NOT_JAMMED (no contacts: NaN). @shape out (d, d) @errors STATE */
 JAM_API jam_status jam_fabric_tensor(const jam_system *sys, double *out, size_t out_len, size_t *needed);
+/* Stress tensor S_ab = sum of f r n_a n_b over contacts, over V: symmetric, positive in compression, trace d times the
+ * pressure; r from centre to centre, or to the wall. Of soft spheres in epsilon / length^d (jam_relax), of hard ones in
+ * units of their pressure, so that the trace is d: multiply by the pressure that confines them. Status: JAM_NOT_JAMMED
+ * (no contacts: NaN). @shape out (d, d) @errors STATE */
+JAM_API jam_status jam_stress(const jam_system *sys, double *out, size_t out_len, size_t *needed);
 /* Quantity of which jam_local_values takes the values. */
 typedef enum jam_local_quantity {
   JAM_LOCAL_FORCE = 0,        /* contacts: f over its mean in the population */

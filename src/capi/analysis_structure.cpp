@@ -94,6 +94,15 @@ jam_status jam_fabric_tensor(const jam_system *sys, double *out, size_t out_len,
   });
 }
 
+jam_status jam_stress(const jam_system *sys, double *out, size_t out_len, size_t *needed) {
+  return guard_const(sys, [&]() -> jam_status {
+    need_network(sys);
+    const std::vector<double> stress = stress_tensor(sys->packing, sys->contacts);
+    const jam_status status = give_array(stress.data(), stress.size(), out, out_len, needed);
+    return status == JAM_OK && empty_network(sys) ? JAM_NOT_JAMMED : status;
+  });
+}
+
 jam_status jam_local_values(const jam_system *sys, int32_t quantity, int32_t population, double *out, size_t out_len,
                             size_t *needed) {
   return guard_const(sys, [&]() -> jam_status {

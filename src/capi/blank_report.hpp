@@ -37,5 +37,11 @@ inline void set_blank(const SystemState &s, jam_decompress_report &r) {
   r.packing_fraction = s.packing_fraction;
   r.contacts = r.common_contacts = r.rattlers = -1;
 }
+inline void set_blank(const SystemState &s, jam_shear_report &r) {
+  r = {};
+  r.strain = r.stress = r.pressure = r.energy = r.first_event = r.peak_stress = r.peak_strain = NAN;
+  r.packing_fraction = s.packing_fraction;
+  r.contacts = r.rattlers = -1;
+}
 
 }  // namespace jam::inside

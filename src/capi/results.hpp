@@ -10,7 +10,7 @@
 #include "crunch/record.hpp"
 #include "jam/jam.h"
 #include "network/contact_network.hpp"
-#include "soft/decompression.hpp"
+#include "soft/shear.hpp"
 
 namespace jam::inside {
 
@@ -23,8 +23,9 @@ struct Results {
   bool has_report = false;
   std::vector<HistoryRow> history;  // of the crunch that led here; valid when has_history
   bool has_history = false;
-  std::vector<KeptStep> kept_steps;   // of the same crunch; empty unless requested
-  std::vector<SoftRow> soft_history;  // of the decompression that led here; empty without one
+  std::vector<KeptStep> kept_steps;     // of the same crunch; empty unless requested
+  std::vector<ShearRow> shear_history;  // of the shear that led here; empty without one, not in checkpoints
+  std::vector<SoftRow> soft_history;    // of the decompression that led here; empty without one
 
   // The contacts of a network that balances. NULL where no call searched for them, or a crunch was stopped before it
   // knew them.

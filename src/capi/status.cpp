@@ -75,6 +75,12 @@ const char *text_of_stop(int32_t reason) {
       return "max_lps came before convergence; the packing reached is kept: raise max_lps, or crunch again to continue";
     case JAM_STOP_SOLVER:
       return "no answer of the LP solver passed the checks; the packing reached is kept, without a certificate";
+    case JAM_STOP_STRAIN:
+      return "strain";
+    case JAM_STOP_EVENT:
+      return "event";
+    case JAM_STOP_JAMMED:
+      return "jammed";
     case JAM_STOP_UNJAMMED:
       return "the crunch converged without a rigid network: no contact forces are in balance; compress the packing "
              "further first, or take more spheres";

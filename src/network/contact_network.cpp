@@ -73,6 +73,23 @@ std::vector<double> wall_stress(const Packing &p, const ContactNetwork &net) {
   return out;
 }
 
+std::vector<double> stress_tensor(const Packing &p, const ContactNetwork &net) {
+  const size_t d = static_cast<size_t>(p.dim);
+  std::vector<double> sum(d * d, 0.0);
+  double virial = 0.0, unit = std::nan("");
+  for (size_t k = 0; k < net.size(); ++k) {
+    const double r = contact_distance(p, net.pairs.i[k], net.pairs.j[k]) * (1.0 + net.gap[k]), w = net.force[k] * r;
+    virial += w;
+    if (std::isnan(unit) && !net.prestress.empty() && !net.pairs.wall(k) && net.force[k] > 0.0)
+      unit = net.prestress[k] * r / net.force[k];
+    for (size_t a = 0; a < d; ++a)
+      for (size_t b = 0; b < d; ++b) sum[d * a + b] += w * (net.vector[d * k + a] * net.vector[d * k + b]);
+  }
+  const double factor = net.prestress.empty() ? static_cast<double>(d) / virial : unit / scene_volume(p);
+  for (double &x : sum) x *= factor;
+  return sum;
+}
+
 std::vector<std::pair<size_t, size_t>> common_contacts(const ContactNetwork &a, const ContactNetwork &b) {
   std::multimap<std::pair<int32_t, int32_t>, size_t> left;
   for (size_t k = 0; k < a.size(); ++k) left.emplace(std::make_pair(a.pairs.i[k], a.pairs.j[k]), k);

@@ -179,7 +179,7 @@ void every_allocation(void **) {
 
 // The table of calls, each on the system that it needs, but for what voro++ does: it loses memory of its own then.
 void every_allocation_of_every_call(void **) {
-  for (const call_start start : {ANY, SOFT, NETWORK, MINIMUM, OBSERVED, RUNS}) {
+  for (const call_start start : {ANY, SOFT, NETWORK, SHEARED, MINIMUM, OBSERVED, RUNS}) {
     jam_system *sys = system_for(start);
     assert_non_null(sys);
     for (const call_entry &entry : every_call)

@@ -53,7 +53,7 @@ include("plotted.jl")
 export System, JamError, Report, Table, columns, info, packing_fraction, notes, positions, velocities, diameters, radii,
        set_positions!, set_velocities!, scale_diameters!, cell, set_cell!, strain!, run!, compress!, crunch!, calippso!, cancel,
        observing, report, history, judge, contacts, forces, coordination, rattlers, bucklers, contact_table, sphere_table, hessian,
-       modes, prove, write_proof, floppy_modes, floppy_mode, tile, bloch_modes, bloch_rigidity, pair_correlation, relax!, decompress!, soft_history, sizes, size_report,
+       modes, prove, write_proof, floppy_modes, floppy_mode, tile, bloch_modes, bloch_rigidity, pair_correlation, relax!, shear!, shear_history, decompress!, soft_history, sizes, size_report,
        isoconf, predictors, spearman, correlations, write_contacts, page, checkpoint, from_checkpoint, picture
 
 end # module

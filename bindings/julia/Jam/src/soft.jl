@@ -31,5 +31,27 @@ function decompress!(s::System; progress = nothing, given...)
     return verb(h -> jam_decompress(h, o, made), s, made, progress)
 end
 
+"""
+    shear!(s, to, mode = nothing; step, resolution, until, strain, pressure, components, alpha, ..., progress)
+
+Athermal quasi-static shear of soft spheres, or of hard ones by a crunch at each strain. `to`: the last strain, or those at
+which the shear turns. `mode`: strain of amplitude 1, upper-triangular; simple shear without. Returns a Report.
+
+```jldoctest
+julia> s = System(n = 60, dim = 2, packing_fraction = 0.95, overlap = :allow, diameters = repeat([1.0, 1.4], 30));
+
+julia> shear!(s, 0.003).strain ≈ 0.003, length(shear_history(s)) >= 4
+(true, true)
+```
+"""
+function shear!(s::System, to, mode = nothing; progress = nothing, given...)
+    o, made = options(jam_shear_options, given), jam_shear_report()
+    turns = to isa Number ? [Float64(to)] : collect(Float64, to)
+    return verb(h -> jam_shear(h, o, turns, mode, made), s, made, progress)
+end
+
+"Rows of the last `shear!` as a table: strain, stress, pressure, energy, phi, contacts, ..."
+shear_history(s::System) = call(s, :jam_shear_history, ())
+
 "Minima of the last `decompress!` as a table: phi, pressure, energy, coordination, distance, ..."
 soft_history(s::System) = call(s, :jam_decompress_history, ())

@@ -8,10 +8,10 @@ from typing import Any, Callable, Iterable, Mapping, Sequence
 import numpy as np
 
 from .. import raw
-from .._api.arrays import Array, as_rows
+from .._api.arrays import Array, as_array, as_rows, as_vector
 from .._api.calls import freeze, new_report
 from .._api.documented import takes
-from .._api.generated import CrunchReport, DecompressReport, MdReport, MonteCarloReport, RelaxReport, StatusCode, StopReason
+from .._api.generated import CrunchReport, DecompressReport, MdReport, MonteCarloReport, RelaxReport, ShearReport, StatusCode, StopReason
 from .._api.options import as_enum, option_struct, spelled_out
 from .._api.size_laws import density_of
 from ..errors import JamError
@@ -23,7 +23,7 @@ from .runs import Runs, make_runs
 class Verbs(Observing):
     """Long calls on a system."""
 
-    def _verb(self, name: str, struct: str, report: str, progress: Any, options: Mapping[str, Any] | None) -> Any:
+    def _verb(self, name: str, struct: str, report: str, progress: Any, options: Mapping[str, Any] | None, *arrays: Any) -> Any:
         handle = self.handle
         chosen = None if options is None else option_struct(struct, dict(options))
         made = new_report(report)
@@ -32,7 +32,7 @@ class Verbs(Observing):
         self.calls.append(call)
         try:
             with self._reporting(progress):
-                status = getattr(raw, name)(handle, chosen, made)
+                status = getattr(raw, name)(handle, chosen, *arrays, made)
                 frozen = freeze(made, report)
                 self._note(status, frozen)
         except JamError:  # nothing has moved
@@ -273,6 +273,42 @@ class Verbs(Observing):
     def soft_history(self) -> Array:
         """Minima of the last decompression as a structured array: one field for each SoftColumn, in lower case."""
         return as_rows(self._ask("decompress_history"))
+
+    @takes("jam_shear_options")
+    def shear(self, to: Any, mode: Any = None, *, progress: Any = None, **options: Any) -> ShearReport:
+        """Athermal quasi-static shear of soft spheres (overlap="allow"), or of hard ones by a crunch at each strain.
+
+        Parameters
+        ----------
+        to : float or array_like
+            The last strain, or those at which the shear turns: [0.1, -0.1, 0] is a cycle.
+        mode : array_like (d, d), optional
+            Strain of amplitude 1, upper-triangular. Default: simple shear, x moves with y.
+
+        Returns
+        -------
+        ShearReport
+            shear_history has a row for each minimum. report.status > 0 means that the shear stopped early.
+
+        Examples
+        --------
+        >>> import jam
+        >>> soft = jam.System.random(n=64, dim=2, diameters=[1, 1.4] * 32, packing_fraction=0.9, overlap="allow", seed=1)
+        >>> report = soft.shear(0.01)
+        >>> len(soft.shear_history) >= 11, abs(report.strain - 0.01) < 1e-15
+        (True, True)
+        """
+        turns = as_vector(np.atleast_1d(to), name="to")
+        given = None if mode is None else as_array(mode, name="mode")
+        found: ShearReport = self._verb(
+            "jam_shear", "jam_shear_options", "jam_shear_report", progress, options or None, turns, given
+        )
+        return found
+
+    @property
+    def shear_history(self) -> Array:
+        """Rows of the last shear as a structured array: one field for each ShearColumn, in lower case."""
+        return as_rows(self._ask("shear_history"))
 
     def cancel(self) -> None:
         """Stops the call that runs on this system in another thread. If none runs, it stops the next call."""

@@ -12,7 +12,7 @@ from typing import Any
 from .._api.shown import only
 from ..errors import StateError
 from ..system import System
-from .curves import cdf, convergence, density_of_states, minima, trace
+from .curves import cdf, convergence, density_of_states, minima, stress_strain, trace
 from .motions import displacements, mode
 from .packings import COLOURS, VIEW, network, packing
 
@@ -27,6 +27,7 @@ __all__ = [
     "mode",
     "network",
     "packing",
+    "stress_strain",
     "summary",
     "trace",
 ]

@@ -80,6 +80,17 @@ def minima(system: System, ax: Any = None, **style: Any) -> Any:
     return ax
 
 
+def stress_strain(system: System, ax: Any = None, **style: Any) -> Any:
+    """Stress of a shear against strain (shear_history); circles mark plastic events."""
+    rows = system.shear_history
+    ax = axes_of(ax)
+    (line,) = ax.plot(rows["strain"], rows["stress"], **{"lw": 1.2, **style})
+    events = rows[rows["event"] == 1]
+    ax.plot(events["strain"], events["stress"], "o", mfc="none", ms=4, color=line.get_color())
+    ax.set(xlabel=r"strain $\gamma$", ylabel=r"stress $\partial U/\partial\gamma\,/\,V$")
+    return ax
+
+
 def cdf(values: Any, ax: Any = None, *, slopes: Sequence[float] = (), label: str | None = None, **style: Any) -> Any:
     """Cumulative distribution of positive values on log axes, with reference lines of the given slopes.
 

@@ -1,0 +1,263 @@
+#include "soft/shear.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "core/cell_change.hpp"
+#include "core/checks.hpp"
+#include "core/error.hpp"
+#include "soft/tuning.hpp"
+
+namespace jam::inside {
+namespace {
+
+// exp(amplitude mode) - 1 by its series, which ends: mode is triangular and steps are small.
+std::vector<double> finite_strain(const std::vector<double> &mode, double amplitude, int dim) {
+  const size_t d = static_cast<size_t>(dim);
+  std::vector<double> out(d * d, 0.0), term(d * d, 0.0), next(d * d);
+  for (size_t c = 0; c < d; ++c) term[c * (d + 1)] = 1.0;
+  for (int k = 1; k < 200; ++k) {
+    double most = 0.0;
+    for (size_t a = 0; a < d; ++a)
+      for (size_t b = 0; b < d; ++b) {
+        double sum = 0.0;
+        for (size_t c = 0; c < d; ++c) sum += term[a * d + c] * mode[c * d + b];
+        next[a * d + b] = sum * amplitude / k;
+        most = std::max(most, std::fabs(next[a * d + b]));
+      }
+    term = next;
+    for (size_t c = 0; c < d * d; ++c) out[c] += term[c];
+    if (most < std::numeric_limits<double>::epsilon() * 1e-3) break;
+  }
+  return out;
+}
+
+// Root mean square of what two packings differ by beyond an affine change of the cell, over spheres that contacts hold
+// in both, without their mean; in mean diameters.
+double nonaffine(const ShearPoint &from, const ShearPoint &to) {
+  const Packing &p = from.at.packing, &q = to.at.packing;
+  const size_t d = static_cast<size_t>(p.dim);
+  std::vector<double> all, mean(d, 0.0);
+  double diameter = 0.0;
+  for (size_t i = 0; i < p.n(); ++i) {
+    diameter += q.diameter[i] / static_cast<double>(p.n());
+    if (from.at.contacts.coordination[i] == 0 || to.at.contacts.coordination[i] == 0) continue;
+    Cell::Vector s{}, x{};
+    p.cell.fraction(&p.position[i * d], s.data());
+    q.cell.combine(s.data(), x.data());
+    for (size_t c = 0; c < d; ++c) x[c] = q.position[i * d + c] - x[c];
+    q.cell.nearest(x.data());
+    for (size_t c = 0; c < d; ++c) all.push_back(x[c]), mean[c] += x[c];
+  }
+  const double count = static_cast<double>(all.size() / d);
+  double sum = 0.0;
+  for (size_t k = 0; k < all.size(); ++k) {
+    const double x = all[k] - mean[k % d] / count;
+    sum += x * x;
+  }
+  return count > 0.0 ? std::sqrt(sum / count) / diameter : 0.0;
+}
+
+class Shear {
+ public:
+  Shear(const jam_shear_options &o, const ShearPath &path, const FindMinimum &minimum, Effort &effort, Monitor &monitor)
+      : o_(o), path_(path), minimum_(minimum), effort_(effort), monitor_(monitor) {
+    effort_.monitor = &monitor;
+    effort_.phase = JAM_PHASE_SHEAR;
+    effort_.pressure = std::nan("");
+    jam_shear_report &r = out_.report;
+    r.stress = r.pressure = r.first_event = r.peak_stress = r.peak_strain = std::nan("");
+  }
+
+  ShearResult run(const Packing &start) {
+    effort_.packing_fraction = packing_fraction(start);
+    out_.last = minimum_(start, true);
+    bool ended = !out_.last.found;
+    if (ended) {
+      fail_with(out_.last);
+    } else {
+      add_row(out_.last, 0.0, false);
+      ended = at_end(false);
+    }
+    double from = 0.0;
+    for (size_t k = 0; !ended && k < path_.turns.size(); ++k) {
+      ended = leg(from, path_.turns[k]);
+      from = path_.turns[k];
+    }
+    if (!ended) end_with(JAM_OK, JAM_STOP_STRAIN);
+    finish();
+    return std::move(out_);
+  }
+
+ private:
+  bool end_with(jam_status status, int32_t reason) {
+    out_.status = status, out_.report.stop_reason = reason;
+    return true;
+  }
+  bool fail_with(const ShearPoint &p) { return end_with(p.at.status, p.stop_reason); }
+
+  // From one turn to the next by equal steps, the last one what is left. Every step has the same bits wherever it is.
+  bool leg(double from, double to) {
+    const double way = to - from, step = std::copysign(o_.step, way);
+    const double whole = std::floor(std::fabs(way) / o_.step * (1.0 + 4.0 * std::numeric_limits<double>::epsilon()));
+    const double rest = way - whole * step;
+    for (double k = 0.0; k < whole; ++k)
+      if (advance(from + k * step, step)) return true;
+    if (std::fabs(rest) <= 1e-9 * o_.step) return false;  // rounding of the turns
+    return advance(from + whole * step, rest);
+  }
+
+  // One step. Where it does not add up, bisection finds two strains within the resolution: up to the first it does,
+  // from there to the second it does not. Then the step goes on from the second.
+  bool advance(double strain, double step) {
+    double bad = step, trial = step;
+    bool bracketed = false, located = false;  // bracketed: from here to `bad` it does not add up
+    for (at_.done = 0.0, at_.strain = strain; at_.done != step;) {
+      ShearPoint next = at(out_.last, trial - at_.done);
+      if (!next.found && bracketed && next.at.status != JAM_CANCELLED && !monitor_.interrupted()) {
+        located = true, trial = bad;  // so near to jamming minima cannot be found
+        continue;
+      }
+      if (!next.found) return fail_with(next);
+      const bool jump = suspicious(out_.last, next, trial - at_.done);
+      const double middle = at_.done + 0.5 * (trial - at_.done);
+      if (jump && !located && std::fabs(trial - at_.done) > o_.resolution && middle != at_.done) {
+        bad = trial, trial = middle, bracketed = true;
+        continue;
+      }
+      bool event = false;
+      if (jump && !is_event(next, trial - at_.done, event)) return true;
+      if ((event || out_.last.rigid != next.rigid) && !has_row_) add_row(out_.last, strain + at_.done, false);
+      out_.last = std::move(next), has_row_ = false;
+      at_.done = trial;
+      if (trial == bad) bracketed = located = false;
+      trial = !bracketed ? step : std::fabs(bad - at_.done) > o_.resolution ? at_.done + 0.5 * (bad - at_.done) : bad;
+      if (event || at_.done == step || out_.last.rigid != row_.rigid) add_row(out_.last, strain + at_.done, event);
+      if (at_end(event)) return true;
+    }
+    return false;
+  }
+
+  // Whether a step of the resolution's size cannot be taken back. False where a minimum was not found.
+  bool is_event(const ShearPoint &next, double step, bool &event) {
+    if (!out_.last.rigid || !next.rigid) return true;
+    const ShearPoint back = at(next, -step);
+    if (!back.found) return !fail_with(back);
+    event = !back.rigid || nonaffine(out_.last, back) > ShearTuning::irreversible * nonaffine(out_.last, next);
+    return true;
+  }
+
+  ShearPoint at(const ShearPoint &from, double step) {
+    ++effort_.steps;
+    Packing p = from.at.packing;
+    strain_affinely(p, finite_strain(path_.mode, step, p.dim).data());
+    return minimum_(p, false);
+  }
+
+  // (1 / V) d enthalpy / dstrain.
+  double stress(const ShearPoint &p) const {
+    double sum = 0.0;
+    const size_t d = static_cast<size_t>(p.at.packing.dim);
+    for (size_t c = 0; c < d * d && p.rigid; ++c) sum -= path_.mode[c] * p.stress[c];
+    return sum;
+  }
+  double work_stress(const ShearPoint &p) const {
+    double sum = stress(p);
+    const size_t d = static_cast<size_t>(p.at.packing.dim);
+    for (size_t c = 0; c < d; ++c) sum += path_.mode[c * (d + 1)] * p.confining;
+    return sum;
+  }
+
+  bool suspicious(const ShearPoint &a, const ShearPoint &b, double step) const {
+    if (a.rigid != b.rigid || !a.rigid) return a.rigid != b.rigid;
+    const double wa = a.volume * work_stress(a), wb = b.volume * work_stress(b);
+    const double departs = std::fabs(b.enthalpy - a.enthalpy - 0.5 * step * (wa + wb));
+    const double noise = ShearTuning::energy_digits * (std::fabs(a.enthalpy) + std::fabs(b.enthalpy));
+    return departs > ShearTuning::suspicious * std::fabs(step * (wb - wa)) + noise;
+  }
+
+  bool at_end(bool event) {
+    if (o_.until == JAM_UNTIL_EVENT && event) return end_with(JAM_OK, JAM_STOP_EVENT);
+    if (o_.until == JAM_UNTIL_JAMMED && out_.last.rigid) return end_with(JAM_OK, JAM_STOP_JAMMED);
+    if (o_.until == JAM_UNTIL_UNJAMMED && !out_.last.rigid) return end_with(JAM_OK, JAM_STOP_UNJAMMED);
+    if (effort_.steps >= o_.max_steps) return end_with(JAM_LIMIT, JAM_STOP_STEPS);
+    return false;
+  }
+
+  void add_row(const ShearPoint &p, double strain, bool event) {
+    const size_t d = static_cast<size_t>(p.at.packing.dim);
+    double trace = 0.0;
+    for (size_t c = 0; c < d && p.rigid; ++c) trace += p.stress[c * (d + 1)] / static_cast<double>(d);
+    ShearRow row{};
+    row[JAM_SHEAR_STRAIN] = strain;
+    row[JAM_SHEAR_STRESS] = stress(p);
+    row[JAM_SHEAR_PRESSURE] = trace;
+    row[JAM_SHEAR_ENERGY] = p.at.report.energy / static_cast<double>(p.at.packing.n());
+    row[JAM_SHEAR_PHI] = p.at.report.packing_fraction;
+    row[JAM_SHEAR_CONTACTS] = static_cast<double>(p.at.contacts.size());
+    row[JAM_SHEAR_RATTLERS] = static_cast<double>(p.at.report.rattlers);
+    row[JAM_SHEAR_EVENT] = event;
+    if (!out_.rows.empty()) {
+      const double common = static_cast<double>(common_contacts(row_.at.contacts, p.at.contacts).size());
+      row[JAM_SHEAR_MADE] = static_cast<double>(p.at.contacts.size()) - common;
+      row[JAM_SHEAR_BROKEN] = static_cast<double>(row_.at.contacts.size()) - common;
+      row[JAM_SHEAR_NONAFFINE] = nonaffine(row_, p);
+    }
+    row[JAM_SHEAR_EVALUATIONS] = static_cast<double>(effort_.evaluations - spent_.evaluations);
+    row[JAM_SHEAR_FACTORISATIONS] = static_cast<double>(effort_.factorisations - spent_.factorisations);
+    jam_shear_report &r = out_.report;
+    if (event && r.events++ == 0) r.first_event = out_.rows.back()[JAM_SHEAR_STRAIN];
+    if (p.rigid && !(std::fabs(row[JAM_SHEAR_STRESS]) <= std::fabs(r.peak_stress)))
+      r.peak_stress = row[JAM_SHEAR_STRESS], r.peak_strain = strain;
+    monitor_.log(JAM_LOG_INFO, "shear: strain %.9g stress %.6e%s, %lld evaluations", strain, row[JAM_SHEAR_STRESS],
+                 event ? ", event" : "", static_cast<long long>(effort_.evaluations - spent_.evaluations));
+    effort_.packing_fraction = p.at.report.packing_fraction, effort_.pressure = trace;
+    row_ = p, spent_ = effort_, has_row_ = true;
+    out_.rows.push_back(row);
+  }
+
+  void finish() {
+    jam_shear_report &r = out_.report;
+    const ShearPoint &p = out_.last;
+    r.rigid = p.found && p.rigid;
+    if (!out_.rows.empty()) {
+      if (!has_row_) add_row(p, at_.strain + at_.done, false);
+      const ShearRow &row = out_.rows.back();
+      r.strain = row[JAM_SHEAR_STRAIN];
+      if (p.rigid) r.stress = row[JAM_SHEAR_STRESS], r.pressure = row[JAM_SHEAR_PRESSURE];
+    }
+    r.energy = p.at.report.energy;
+    r.packing_fraction = p.at.report.packing_fraction;
+    r.contacts = static_cast<int64_t>(p.at.contacts.size());
+    r.rattlers = p.at.report.rattlers;
+    r.steps = effort_.steps;
+    r.evaluations = effort_.evaluations;
+    r.factorisations = effort_.factorisations;
+    r.seconds = monitor_.seconds();
+  }
+
+  const jam_shear_options &o_;
+  const ShearPath &path_;
+  const FindMinimum &minimum_;
+  Effort &effort_;
+  Monitor &monitor_;
+  struct {
+    double strain = 0.0, done = 0.0;
+  } at_;                  // of the last minimum: at the begin of its step, and behind that
+  bool has_row_ = false;  // the last minimum
+  ShearPoint row_;        // of the last row
+  Effort spent_;          // until it
+  ShearResult out_;
+};
+
+}  // namespace
+
+ShearResult shear(const Packing &start, const jam_shear_options &o, const ShearPath &path, const FindMinimum &minimum,
+                  Effort &effort, Monitor &monitor) {
+  monitor.wall_time = o.wall_time;
+  return Shear(o, path, minimum, effort, monitor).run(start);
+}
+
+}  // namespace jam::inside

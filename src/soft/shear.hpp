@@ -1,0 +1,53 @@
+// Quasi-static shear: a packing follows its minimum while its cell is strained. Data flow:
+//   minimum -> affine strain -> minimum -> work against energy -> halved steps around what does not add up -> rows
+// The minimum is that of soft spheres, or the jamming point of hard ones; both come as a function from outside.
+#pragma once
+#include <array>
+#include <functional>
+#include <vector>
+
+#include "soft/decompression.hpp"
+
+namespace jam::inside {
+
+// A minimum on the way. Its enthalpy is U + P V, or of hard spheres V over their own volume: P = 1 and lengths in
+// diameters.
+struct ShearPoint {
+  SoftResult at;  // of hard spheres: packing, contacts, the report's energy and pressure, NaN; status of the search
+  int32_t stop_reason = JAM_STOP_NONE;
+  bool found = false;                                    // a minimum; else status and stop_reason say why not
+  bool rigid = false;                                    // contacts carry force
+  double enthalpy = 0.0, volume = 0.0, confining = 0.0;  // confining: P where the volume is free, else 0
+  std::vector<double> stress;                            // (dim, dim), in units of d enthalpy / d volume
+};
+using FindMinimum = std::function<ShearPoint(const Packing &, bool first)>;
+
+constexpr size_t shear_columns = JAM_SHEAR_FACTORISATIONS + 1;
+using ShearRow = std::array<double, shear_columns>;
+
+struct ShearResult {
+  ShearPoint last;  // the last minimum
+  std::vector<ShearRow> rows;
+  jam_shear_report report{};
+  jam_status status = JAM_OK;
+};
+
+// Where to: an upper-triangular strain of unit amplitude (dim, dim), and the amplitudes at which the shear turns; it
+// ends at the last.
+struct ShearPath {
+  std::vector<double> mode;
+  std::vector<double> turns;
+};
+
+jam_shear_options default_shear_options();
+void check_shear_options(const jam_shear_options &o);
+// Simple shear, x moves with y, for an empty mode.
+ShearPath shear_path(int dim, const double *mode, size_t mode_len, const double *turns, size_t turns_len);
+
+// Minima of soft spheres for these options.
+FindMinimum soft_minimum(const jam_shear_options &o, const ShearPath &path, Effort &effort, Monitor &monitor);
+
+ShearResult shear(const Packing &start, const jam_shear_options &o, const ShearPath &path, const FindMinimum &minimum,
+                  Effort &effort, Monitor &monitor);
+
+}  // namespace jam::inside

@@ -1,0 +1,128 @@
+// What jam_shear asks for, and the minima of soft spheres on its way.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/call_scope.hpp"
+#include "core/checks.hpp"
+#include "core/error.hpp"
+#include "soft/shear.hpp"
+#include "soft/tuning.hpp"
+
+namespace jam::inside {
+
+jam_shear_options default_shear_options() {
+  const jam_relax_options r = default_relax_options();
+  jam_shear_options o{};
+  o.struct_size = sizeof o;
+  o.minimiser = r.minimiser, o.scale = r.scale, o.precision = r.precision;
+  o.alpha = r.alpha, o.force_tolerance = r.force_tolerance, o.max_evaluations = r.max_evaluations;
+  o.wall_time = r.wall_time;
+  o.step = 1e-3, o.resolution = 1e-6;
+  o.max_steps = 1000000;
+  o.until = JAM_UNTIL_STRAIN;
+  o.strain = r.strain, o.pressure = r.pressure, o.components = r.components;
+  return o;
+}
+
+static jam_relax_options relax_options(const jam_shear_options &o) {
+  jam_relax_options r = default_relax_options();
+  r.minimiser = o.minimiser, r.scale = o.scale, r.precision = o.precision;
+  r.alpha = o.alpha, r.force_tolerance = o.force_tolerance, r.max_evaluations = o.max_evaluations;
+  r.wall_time = o.wall_time;
+  r.strain = o.strain, r.pressure = o.pressure, r.components = o.components;
+  return r;
+}
+
+void check_shear_options(const jam_shear_options &o) {
+  check_relax_options(relax_options(o));
+  check_positive(o.step, "step");
+  check_positive(o.resolution, "resolution");
+  if (!std::isfinite(o.step)) fail(JAM_E_ARGUMENT, "step is infinite, it must be finite");
+  check_at_least(o.max_steps, 1, "max_steps");
+  check_enum(o.until, JAM_UNTIL_STRAIN, JAM_UNTIL_UNJAMMED, "until", "jam_shear_until");
+}
+
+ShearPath shear_path(int dim, const double *mode, size_t mode_len, const double *turns, size_t turns_len) {
+  const size_t d = static_cast<size_t>(dim);
+  ShearPath path;
+  path.mode.assign(d * d, 0.0);
+  if (!mode) {
+    if (mode_len != 0) fail(JAM_E_NULL, "mode is NULL but its length is %zu", mode_len);
+    path.mode[1] = 1.0;
+  } else {
+    if (mode_len != d * d) fail(JAM_E_ARGUMENT, "mode has %zu numbers, it must have d d = %zu", mode_len, d * d);
+    path.mode.assign(mode, mode + mode_len);
+  }
+  double most = 0.0;
+  for (size_t k = 0; k < d * d; ++k) {
+    if (!std::isfinite(path.mode[k])) fail(JAM_E_NONFINITE, "mode[%zu] is %g", k, path.mode[k]);
+    if (k / d > k % d && path.mode[k] != 0.0)
+      fail(JAM_E_ARGUMENT,
+           "mode[%zu] is %g, it must be 0: the strain is upper-triangular, and a rotation gives any other that form", k,
+           path.mode[k]);
+    most = std::max(most, std::fabs(path.mode[k]));
+  }
+  if (!(most > 0.0 && most <= 10.0))
+    fail(JAM_E_ARGUMENT, "the largest number of mode is %g, it must be above 0 and at most 10", most);
+  if (!turns) fail(JAM_E_NULL, "turns is NULL");
+  if (turns_len == 0) fail(JAM_E_ARGUMENT, "turns has no strain: the last one ends the shear");
+  double before = 0.0;
+  for (size_t k = 0; k < turns_len; ++k) {
+    if (!std::isfinite(turns[k])) fail(JAM_E_NONFINITE, "turns[%zu] is %g", k, turns[k]);
+    if (turns[k] == before) fail(JAM_E_ARGUMENT, "turns[%zu] is %g, as the strain before it", k, turns[k]);
+    before = turns[k];
+  }
+  path.turns.assign(turns, turns + turns_len);
+  return path;
+}
+
+FindMinimum soft_minimum(const jam_shear_options &o, const ShearPath &path, Effort &effort, Monitor &monitor) {
+  const int dim = static_cast<int>(std::lround(std::sqrt(static_cast<double>(path.mode.size()))));
+  int64_t free = o.components;
+  for (size_t k = 0; k < path.mode.size(); ++k)
+    if (path.mode[k] != 0.0) free &= ~(int64_t{1} << k);
+  const FreeCell cell = free_cell_of(dim, o.strain, free, o.pressure);
+  if (o.strain != JAM_STRAIN_NONE && cell.count() == 0)
+    fail(JAM_E_ARGUMENT, "components is %lld: no strain is free beside the sheared ones",
+         static_cast<long long>(o.components));
+  return [o, cell, &effort, &monitor](const Packing &p, bool first) {
+    ShearPoint out;
+    DescentEnd end = DescentEnd::interrupted;
+    const CancellableScope scope;
+    try {
+      SoftState state = first_state(p, PairEnergy(o.alpha, o.scale), o.precision);
+      effort.max_evaluations = effort.evaluations + o.max_evaluations;
+      Relaxation r(state, effort);
+      // A start that is a minimum stays as it is, to the last bit.
+      const bool near = !first || r.stable_residual() < RelaxTuning::before_strain;
+      end = DescentEnd::balanced;
+      if (cell.count() > 0) {
+        if (!near) end = minimise(r, o.minimiser, std::max(o.force_tolerance, RelaxTuning::before_strain), false);
+        if (end == DescentEnd::balanced || (end == DescentEnd::no_overlaps && o.pressure > 0.0)) {
+          state.free_cell(cell);
+          r.evaluate();
+          end = DescentEnd::balanced;
+        }
+      }
+      if (end == DescentEnd::balanced)
+        end = minimise_and_measure(r, o.minimiser, o.force_tolerance, near || cell.count() > 0, out.at);
+      else
+        out.at = measure(state, o.minimiser);
+    } catch (const Cancelled &) {  // in a search for pairs
+      out.at.packing = p;
+      out.at.contacts.coordination.assign(p.n(), 0);
+    }
+    out.at.status = status_of(end, monitor, out.stop_reason);
+    out.found = end == DescentEnd::balanced || end == DescentEnd::no_overlaps;
+    out.rigid = end == DescentEnd::balanced && out.at.report.contacts > 0;
+    if (!out.rigid) out.at.report.energy = 0.0;  // what is left is below the rounding of positions
+    out.volume = out.at.packing.cell.volume();
+    out.confining = cell.volume ? o.pressure : 0.0;
+    out.enthalpy = out.at.report.energy + out.confining * out.volume;
+    if (out.rigid) out.stress = stress_tensor(out.at.packing, out.at.contacts);
+    return out;
+  };
+}
+
+}  // namespace jam::inside

@@ -1,0 +1,208 @@
+"""Stress and quasi-static shear: against sums over pairs, finite differences, elastic moduli, and the way back."""
+from __future__ import annotations
+
+import os
+import tempfile
+import unittest
+
+import numpy as np
+
+import jam
+
+
+def soft(n=64, dim=2, phi=0.9, seed=1, **options):
+    s = jam.System.random(n=n, dim=dim, diameters=[1.0, 1.4] * (n // 2), packing_fraction=phi, overlap="allow", seed=seed)
+    s.relax(**options)
+    return s
+
+
+def pair_sums(s):
+    """Energy, stress sum of f r n n / V, of harmonic spheres, by all pairs and images of a cell that is no brick."""
+    x, sigma, cell = s.positions, s.diameters, s.cell
+    d = s.dim
+    energy, stress = 0.0, np.zeros((d, d))
+    shifts = np.array(np.meshgrid(*[[-1, 0, 1]] * d, indexing="ij")).reshape(d, -1).T @ cell
+    for i in range(s.n):
+        for j in range(i + 1, s.n):
+            r = x[i] - x[j] + shifts
+            length = np.sqrt((r * r).sum(axis=1))
+            contact = (sigma[i] + sigma[j]) / 2
+            for k in np.flatnonzero(length < contact):
+                h = 1 - length[k] / contact
+                energy += h * h / 2
+                stress += h / contact / length[k] * np.outer(r[k], r[k])
+    return energy, stress / np.linalg.det(cell)
+
+
+class Stress(unittest.TestCase):
+    def test_soft_packing_by_pairs(self):
+        for s in (soft(40), soft(32, 3, 0.72, 2)):
+            energy, stress = pair_sums(s)
+            scale = np.trace(stress)
+            np.testing.assert_allclose(s.stress(), stress, atol=1e-10 * scale)
+            self.assertTrue(np.array_equal(s.stress(), s.stress().T))
+
+    def test_hard_packing_has_trace_d(self):
+        s = jam.System.random(n=64, dim=3, seed=2)
+        s.compress()
+        s.crunch()
+        c, f, n = s.contacts.pairs, s.forces, s.contacts.vectors
+        r = (s.diameters[c[:, 0]] + s.diameters[c[:, 1]]) / 2
+        sums = np.einsum("k,ka,kb->ab", f * r, n, n)
+        np.testing.assert_allclose(s.stress(), 3 * sums / np.trace(sums), atol=1e-12)
+
+    def test_between_walls_the_normal_stress_is_that_of_the_walls(self):
+        s = jam.System.random(n=60, dim=2, walls="y", seed=3)
+        s.compress()
+        s.crunch()
+        for wall in s.walls().stress:
+            self.assertAlmostEqual(s.stress()[1, 1], wall, delta=1e-9)
+
+    def test_needs_forces(self):
+        s = jam.System.random(n=20, dim=2, seed=1)
+        with self.assertRaises(jam.JamError):
+            s.stress()
+
+
+class Shear(unittest.TestCase):
+    def test_stress_is_the_slope_of_the_energy(self):
+        for dim, phi in ((2, 0.9), (3, 0.72)):
+            s = soft(48, dim, phi)
+            volume, small = s.box**dim, 1e-6
+            ends = []
+            for way in (small, -small):
+                t = s.copy()
+                report = t.shear(way, step=small)
+                self.assertEqual(report.events, 0)
+                ends.append(report.energy)
+            report = s.shear(small, step=small)
+            start = s.shear_history[0]
+            scale = start["pressure"]
+            self.assertAlmostEqual((ends[0] - ends[1]) / (2 * small * volume) / scale, start["stress"] / scale, delta=1e-6)
+
+    def test_first_steps_have_the_modulus_of_the_elastic_tensor(self):
+        s = soft(64)
+        found = s.elastic_tensor(stiffness="soft", prestress=1.0).relaxed
+        rows = []
+        for way in (1e-6, -1e-6):
+            t = s.copy()
+            t.shear(way, step=abs(way))
+            rows.append(t.shear_history[-1]["stress"])
+        slope = (rows[0] - rows[1]) / 2e-6
+        self.assertAlmostEqual(slope / found[0, 1, 0, 1], 1.0, delta=1e-6)
+
+    def test_the_way_back_before_an_event(self):
+        s = soft(64)
+        t = s.copy()
+        t.shear(1.0, until="event", step=2e-3)
+        first = t.shear_history[-1]["strain"]
+        self.assertGreater(first, 0)
+        turn = min(0.5 * first, 4e-3)
+        u = s.copy()
+        report = u.shear([turn, 0.0], step=turn / 4)
+        self.assertEqual(report.events, 0)
+        moved = u.positions - s.positions
+        moved -= np.round(moved / s.box) * s.box
+        moved -= moved.mean(axis=0)
+        stable = s.coordination > 0
+        self.assertLess(np.abs(moved[stable]).max(), 1e-12 * s.box * 10)
+
+    def test_energy_is_the_work_but_at_events(self):
+        s = soft(64)
+        report = s.shear(0.1, step=1e-3)
+        h = s.shear_history
+        volume = s.box**2
+        self.assertGreater(report.events, 0)
+        self.assertEqual(report.events, h["event"].sum())
+        work = volume * np.diff(h["strain"]) * (h["stress"][1:] + h["stress"][:-1]) / 2
+        lost = work - np.diff(h["energy"]) * s.n
+        at = h["event"][1:] == 1
+        self.assertTrue((lost[at] > 0).all())
+        self.assertTrue((np.diff(h["strain"])[at] <= 1e-6 * 1.01).all())
+        typical = np.abs(volume * np.diff(h["strain"]) * np.diff(h["stress"]))[~at]
+        self.assertTrue((lost[~at] <= 0.2 * typical + 1e-12).all())
+
+    def test_a_sheared_cell_is_the_same_lattice(self):
+        s = soft(32)
+        s.shear(1.0, step=0.01)  # x has moved by one edge: the lattice of the cube again
+        side = s.box
+        t = jam.System.from_arrays(s.positions, s.diameters, box=side, overlap="allow")
+        before = s.shear_history[-1]["energy"] * s.n
+        energy, stress = pair_sums(t)
+        self.assertAlmostEqual(energy / before, 1.0, delta=1e-9)
+
+    def test_pieces_and_checkpoints_give_the_same_bits(self):
+        whole, parts = soft(48), soft(48)
+        whole.shear(0.02, step=1e-3)
+        parts.shear(0.007, step=1e-3)
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "sheared.jam")
+            parts.write_checkpoint(path)
+            parts = jam.System.from_checkpoint(path)
+        parts.shear(0.013, step=1e-3)
+        self.assertTrue(np.array_equal(whole.positions, parts.positions))
+        self.assertTrue(np.array_equal(whole.cell, parts.cell))
+
+    def test_pressure_and_single_components_are_held(self):
+        s = soft(64)
+        p = s.stress().trace() / 2
+        s.shear(0.02, strain="volume", pressure=p)
+        np.testing.assert_allclose(s.shear_history["pressure"], p, rtol=1e-9)
+        self.assertGreater(np.ptp(s.shear_history["phi"]), 0)
+        t = soft(64)
+        t.shear(0.02, strain="edges_volume", pressure=p, components=1 << 3)  # the edge along y alone
+        self.assertAlmostEqual(t.stress()[1, 1] / p, 1.0, delta=1e-9)
+        self.assertEqual(t.cell[0, 0], soft(64).cell[0, 0])
+
+    def test_jams_by_shear(self):
+        s = jam.System.random(n=64, dim=2, diameters=[1.0, 1.4] * 32, packing_fraction=0.83, overlap="allow", seed=6)
+        self.assertEqual(s.relax().contacts, 0)
+        self.assertEqual(s.shear(0.5, step=5e-3, until="jammed", resolution=1e-4, max_evaluations=30000).stop_reason, jam.StopReason.JAMMED)
+        self.assertGreater(s.shear_history[-1]["pressure"], 0)
+        self.assertEqual(s.shear_history[-2]["pressure"], 0)
+        self.assertLess(s.shear_history[-1]["strain"] - s.shear_history[-2]["strain"], 5e-3)
+
+    def test_hard_disks_dilate_by_their_stress(self):
+        s = jam.System.random(n=32, dim=2, diameters=[1.0, 1.4] * 16, seed=3)
+        s.compress()
+        s.crunch()
+        report = s.shear(0.004, step=1e-4)
+        h = s.shear_history
+        smooth = h["event"][1:] == 0
+        volume = 1 / h["phi"]
+        work = np.diff(h["strain"]) * (volume[1:] * h["stress"][1:] + volume[:-1] * h["stress"][:-1]) / 2
+        scale = np.abs(np.diff(h["strain"]) * np.diff(h["stress"]) * volume[1:])
+        self.assertTrue(((work - np.diff(volume))[smooth] <= 0.2 * scale[smooth] + 1e-12).all())
+        self.assertEqual(report.rigid, 1)
+        self.assertEqual(s.rigidity().jammed, jam.Verdict.YES)
+
+    def test_refusals(self):
+        s = soft(16)
+        for bad in (dict(to=[]), dict(to=[0.0]), dict(to=[0.1, 0.1]), dict(to=np.nan), dict(to=0.1, step=0.0),
+                    dict(to=0.1, mode=[[0, 0], [1, 0]]), dict(to=0.1, mode=np.zeros((2, 2))), dict(to=0.1, mode=np.eye(3)),
+                    dict(to=0.1, resolution=-1.0), dict(to=0.1, until="never"), dict(to=0.1, pressure=1.0)):
+            with self.assertRaises((jam.JamError, ValueError), msg=str(bad)):
+                s.shear(**bad)
+        hard = jam.System.random(n=16, dim=2, seed=1)
+        with self.assertRaisesRegex(jam.JamError, "these spheres are hard"):
+            hard.shear(0.1, alpha=2.5)
+        with self.assertRaises(jam.JamError):
+            jam.System.random(n=16, dim=2, walls="y", seed=1, overlap="allow").shear(0.1)
+
+    def test_a_stop_keeps_the_last_minimum(self):
+        s = soft(64)
+        seen = []
+
+        def stop(p):
+            seen.append(p.steps)
+            return p.steps >= 5
+
+        report = s.shear(0.1, step=1e-3, progress=stop)
+        self.assertEqual(report.stop_reason, jam.StopReason.CANCELLED)
+        self.assertEqual(report.strain, s.shear_history[-1]["strain"])
+        energy, _ = pair_sums(s)
+        self.assertAlmostEqual(energy, s.shear_history[-1]["energy"] * s.n, delta=1e-12)
+
+
+if __name__ == "__main__":
+    unittest.main()

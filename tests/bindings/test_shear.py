@@ -1,9 +1,14 @@
 """Stress and quasi-static shear: against sums over pairs, finite differences, elastic moduli, and the way back."""
 from __future__ import annotations
 
+import contextlib
+import importlib.util
+import io
 import os
+import re
 import tempfile
 import unittest
+from pathlib import Path
 
 import numpy as np
 
@@ -202,6 +207,26 @@ class Shear(unittest.TestCase):
         self.assertEqual(report.strain, s.shear_history[-1]["strain"])
         energy, _ = pair_sums(s)
         self.assertAlmostEqual(energy, s.shear_history[-1]["energy"] * s.n, delta=1e-12)
+
+
+class Pages(unittest.TestCase):
+    @unittest.skipUnless(importlib.util.find_spec("matplotlib"), "matplotlib is not installed, which draws the pages' picture")
+    def test_lines_of_the_pages_run(self):
+        import matplotlib
+
+        matplotlib.use("Agg")
+        docs = Path(__file__).resolve().parents[2] / "bindings" / "docs"
+        here = os.getcwd()
+        with tempfile.TemporaryDirectory() as folder:
+            os.chdir(folder)
+            try:
+                for page in ("shear.md", "units.md"):
+                    names = {}
+                    for lines in re.findall(r"```python\n(.*?)```", (docs / page).read_text(), re.S):
+                        with contextlib.redirect_stdout(io.StringIO()):
+                            exec(lines, names)
+            finally:
+                os.chdir(here)
 
 
 if __name__ == "__main__":

@@ -1,4 +1,5 @@
 // Header section "soft spheres": jam_relax, jam_decompress.
+#include <string>
 #include <utility>
 
 #include "capi/table.hpp"
@@ -96,6 +97,11 @@ jam_status jam_decompress(jam_system *sys, const jam_decompress_options *o, jam_
     found.soft_history = std::move(result.history);
     sys->commit(made.same_network == 1 ? hard.packing : result.soft.packing, std::move(found));
     give_struct(made, report);
+    if (status == JAM_PRECISION && full.isostatic == 1 && made.excess_contacts > 0)
+      return {status, "overlaps reached the rounding of positions; the packing has " +
+                          std::to_string(made.excess_contacts) +
+                          " contacts more than one state of self-stress needs, as crystals do, so that it never "
+                          "becomes isostatic: set isostatic = 0 and a pressure or a distance to end at"};
     return why_no_minimum(status, made.stop_reason);
   });
 }

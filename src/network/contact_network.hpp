@@ -35,8 +35,8 @@ void set_force_scale(const Packing &p, ContactNetwork &net);
 // Of each wall: the force of its contacts per area, over the pressure sum f r / (d V); NaN without forces.
 std::vector<double> wall_stress(const Packing &p, const ContactNetwork &net);
 
-// sum of f r n_a n_b / V (dim, dim), r to the wall where it is one. Soft spheres: in units of their energy; hard ones: of
-// trace dim. NaN without contacts, and of soft spheres where no two touch each other.
+// sum of f r n_a n_b / V (dim, dim), r to the wall where it is one. Soft spheres: in units of their energy; hard ones:
+// of trace dim. NaN without contacts, and of soft spheres where no two touch each other.
 std::vector<double> stress_tensor(const Packing &p, const ContactNetwork &net);
 
 // Contacts k of `a` and q of `b` between the same two spheres, in the order of b. Of several images as many as both

@@ -29,7 +29,7 @@ std::vector<double> finite_strain(const std::vector<double> &mode, double amplit
       }
     term = next;
     for (size_t c = 0; c < d * d; ++c) out[c] += term[c];
-    if (most < std::numeric_limits<double>::epsilon() * 1e-3) break;
+    if (most < ShearTuning::series_ends) break;
   }
   return out;
 }
@@ -105,7 +105,7 @@ class Shear {
     const double rest = way - whole * step;
     for (double k = 0.0; k < whole; ++k)
       if (advance(from + k * step, step)) return true;
-    if (std::fabs(rest) <= 1e-9 * o_.step) return false;  // rounding of the turns
+    if (std::fabs(rest) <= ShearTuning::rounding_of_turns * o_.step) return false;  // rounding of the turns
     return advance(from + whole * step, rest);
   }
 

@@ -301,6 +301,13 @@ class Threads(unittest.TestCase):
         thread.join(60)
         self.assertGreater(count, 1000)
 
+    def test_why_a_crystal_does_not_decompress_to_an_isostatic_packing(self):
+        rows = np.arange(4)
+        x = np.array([((i + 0.5 * (j % 2)) % 4, j * np.sqrt(0.75)) for j in rows for i in rows])
+        s = jam.System.from_arrays(x, 1.01, cell=[[4, 0], [0, 4 * np.sqrt(0.75)]], overlap="allow")
+        self.assertEqual(s.decompress(crunch=0).status, jam.StatusCode.PRECISION)
+        self.assertRegex(jam.raw.jam_last_error(), "17 contacts more than one state of self-stress needs")
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -210,8 +210,8 @@ def file_sizes():
         elif count > 300:
             print(f"note: {path.relative_to(root)} has {count} lines, 300 is the aim")
     header = len((root / "include/jam/jam.h").read_text().splitlines())
-    if header > 1760:  # 124 calls, of which each has its comment
-        problem(root / "include/jam/jam.h", header, "more than 1760 lines")
+    if header > 1820:  # 128 calls, of which each has its comment
+        problem(root / "include/jam/jam.h", header, "more than 1820 lines")
     for path in files(
         "examples/c/*.c", "examples/cpp/*.cpp", "examples/python/*.py", "examples/fortran/*.f90", "examples/julia/*.jl"
     ):

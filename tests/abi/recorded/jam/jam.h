@@ -1,4 +1,4 @@
-/* Made by tests/abi/abi.py: jam.h as old programs were compiled with. */
+/* Made by tests/abi/abi.py: jam.h as programs were compiled with. */
 #ifndef JAM_JAM_H
 #define JAM_JAM_H
 #include <stddef.h>
@@ -62,7 +62,10 @@ typedef enum jam_stop_reason {
   JAM_STOP_EVALUATIONS = 13,
   JAM_STOP_STEPS = 14,
   JAM_STOP_SADDLE = 15,
-  JAM_STOP_DUALITY_GAP = 16
+  JAM_STOP_DUALITY_GAP = 16,
+  JAM_STOP_STRAIN = 17,
+  JAM_STOP_EVENT = 18,
+  JAM_STOP_JAMMED = 19
 } jam_stop_reason;
 JAM_API const char *jam_version(void);
 JAM_API const char *jam_commit(void);
@@ -82,7 +85,8 @@ typedef enum jam_phase {
   JAM_PHASE_DECOMPRESS = 7,
   JAM_PHASE_MONTE_CARLO = 8,
   JAM_PHASE_ISOCONF = 9,
-  JAM_PHASE_CREATE = 10
+  JAM_PHASE_CREATE = 10,
+  JAM_PHASE_SHEAR = 11
 } jam_phase;
 typedef struct jam_progress {
   uint32_t struct_size;
@@ -702,6 +706,65 @@ JAM_API jam_status jam_decompress_options_init(jam_decompress_options *o, size_t
 JAM_API jam_status jam_decompress(jam_system *sys, const jam_decompress_options *o, jam_decompress_report *report);
 JAM_API jam_status jam_decompress_history(const jam_system *sys, int32_t columns, double *table, size_t table_len,
                                           size_t *needed);
+typedef enum jam_shear_until {
+  JAM_UNTIL_STRAIN = 0,
+  JAM_UNTIL_EVENT = 1,
+  JAM_UNTIL_JAMMED = 2,
+  JAM_UNTIL_UNJAMMED = 3
+} jam_shear_until;
+typedef struct jam_shear_options {
+  uint32_t struct_size;
+  int32_t minimiser;
+  int32_t scale;
+  int32_t precision;
+  double alpha;
+  double force_tolerance;
+  int64_t max_evaluations;
+  double wall_time;
+  double step;
+  double resolution;
+  int64_t max_steps;
+  int32_t until;
+  int32_t strain;
+  double pressure;
+  int64_t components;
+} jam_shear_options;
+typedef enum jam_shear_column {
+  JAM_SHEAR_STRAIN = 0,
+  JAM_SHEAR_STRESS = 1,
+  JAM_SHEAR_PRESSURE = 2,
+  JAM_SHEAR_ENERGY = 3,
+  JAM_SHEAR_PHI = 4,
+  JAM_SHEAR_CONTACTS = 5,
+  JAM_SHEAR_MADE = 6,
+  JAM_SHEAR_BROKEN = 7,
+  JAM_SHEAR_NONAFFINE = 8,
+  JAM_SHEAR_EVENT = 9,
+  JAM_SHEAR_RATTLERS = 10,
+  JAM_SHEAR_EVALUATIONS = 11,
+  JAM_SHEAR_FACTORISATIONS = 12
+} jam_shear_column;
+#define JAM_SHEAR_COLUMNS 13
+typedef struct jam_shear_report {
+  uint32_t struct_size;
+  int32_t stop_reason;
+  int32_t rigid;
+  int32_t reserved;
+  double strain;
+  double stress, pressure;
+  double energy, packing_fraction;
+  double first_event;
+  double peak_stress, peak_strain;
+  int64_t events, steps;
+  int64_t contacts, rattlers;
+  int64_t evaluations, factorisations;
+  double seconds;
+} jam_shear_report;
+JAM_API jam_status jam_shear_options_init(jam_shear_options *o, size_t size);
+JAM_API jam_status jam_shear(jam_system *sys, const jam_shear_options *o, const double *turns, size_t turns_len,
+                             const double *mode, size_t mode_len, jam_shear_report *report);
+JAM_API jam_status jam_shear_history(const jam_system *sys, int32_t columns, double *table, size_t table_len,
+                                     size_t *needed);
 JAM_API jam_status jam_contacts(const jam_system *sys, int32_t *out, size_t out_len, size_t *needed);
 JAM_API jam_status jam_contact_vectors(const jam_system *sys, double *out, size_t out_len, size_t *needed);
 JAM_API jam_status jam_contact_gaps(const jam_system *sys, double *out, size_t out_len, size_t *needed);
@@ -926,6 +989,7 @@ JAM_API jam_status jam_sphere_structure(const jam_system *sys, int32_t weighted,
 JAM_API jam_status jam_contact_dots(const jam_system *sys, int32_t weighted, double *dot, size_t dot_len,
                                     int32_t *sphere, size_t sphere_len, size_t *rows);
 JAM_API jam_status jam_fabric_tensor(const jam_system *sys, double *out, size_t out_len, size_t *needed);
+JAM_API jam_status jam_stress(const jam_system *sys, double *out, size_t out_len, size_t *needed);
 typedef enum jam_local_quantity {
   JAM_LOCAL_FORCE = 0,
   JAM_LOCAL_VECTOR_SUM = 1,

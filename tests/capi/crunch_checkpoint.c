@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "columns.h"
-#include "test.h"
+#include "steps.h"
 
 #include "jam/jam.h"
 
@@ -52,13 +52,6 @@ static jam_crunch_report crunch(jam_system *sys, int32_t steps, jam_status expec
   o.steps = steps;
   assert_int_equal(jam_crunch(sys, &o, &r), expected);
   return r;
-}
-
-static jam_info info_of(const jam_system *sys) {
-  jam_info info;
-  info.struct_size = sizeof info;
-  assert_int_equal(jam_get_info(sys, &info), JAM_OK);
-  return info;
 }
 
 /* Of the checkpoint that the first step behind this part of the call wrote: what it holds, and where a crunch from it

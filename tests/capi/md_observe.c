@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "test.h"
+#include "steps.h"
 
 enum { N = 500 };
 
@@ -24,16 +24,6 @@ static jam_system *fluid_of(int64_t n, double fraction) {
   return sys;
 }
 static jam_system *fluid(double fraction) { return fluid_of(N, fraction); }
-
-static jam_md_report run(jam_system *sys, double collisions) {
-  jam_run_options r;
-  jam_md_report report;
-  jam_run_options_init(&r, sizeof r);
-  r.collisions_per_particle = collisions;
-  report.struct_size = sizeof report;
-  assert_int_equal(jam_run(sys, &r, &report), JAM_OK);
-  return report;
-}
 
 static void copy_positions(const jam_system *sys, double *out) {
   const double *x;

@@ -5,8 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "start.h"
-#include "test.h"
+#include "steps.h"
 
 static const char *path = "md_resume_checkpoint.bin";
 
@@ -35,18 +34,6 @@ static jam_system *make_in(const double *cell, int32_t model, int32_t dim, int64
 
 static jam_system *make(int32_t model, int32_t dim, int64_t n, double fraction) {
   return make_in(NULL, model, dim, n, fraction);
-}
-
-static void same(const jam_system *a, const jam_system *b) {
-  int32_t k;
-  for (k = JAM_VIEW_POSITIONS; k <= JAM_VIEW_VELOCITIES; ++k) {
-    const double *x, *y;
-    size_t n, m;
-    jam_view(a, k, &x, &n);
-    jam_view(b, k, &y, &m);
-    assert_int_equal(n, m);
-    assert_memory_equal(x, y, n * sizeof(double));
-  }
 }
 
 static void from_file(jam_system **sys) {

@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "test.h"
+#include "steps.h"
 
 static const char *path = "md_state_checkpoint.bin";
 
@@ -17,18 +17,6 @@ static jam_system *make(int32_t model) {
   o.packing_fraction = model == JAM_MODEL_MK ? 1.5 : 0.3;
   assert_int_equal(jam_create(&o, NULL, &sys), JAM_OK);
   return sys;
-}
-
-static void same(const jam_system *a, const jam_system *b) {
-  int32_t k;
-  for (k = JAM_VIEW_POSITIONS; k <= JAM_VIEW_VELOCITIES; ++k) {
-    const double *x, *y;
-    size_t n, m;
-    jam_view(a, k, &x, &n);
-    jam_view(b, k, &y, &m);
-    assert_int_equal(n, m);
-    assert_memory_equal(x, y, n * sizeof(double));
-  }
 }
 
 static void resumes_to_the_same_bits(void **state) {

@@ -1,7 +1,6 @@
 /* Soft spheres by the C header: which calls take overlaps, what is refused, what comes back. */
 #include "columns.h"
-#include "start.h"
-#include "test.h"
+#include "steps.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -9,19 +8,6 @@
 #include <string.h>
 
 #include "jam/jam.h"
-
-/* Spheres of two sizes, 1 : 1.4: so few equal ones would order, and end with more contacts than isostatic. */
-static jam_system *soft_start(int64_t n, double phi, int64_t seed) {
-  jam_create_options o;
-  jam_system *sys = NULL;
-  double *size = malloc((size_t)n * sizeof *size);
-  for (int64_t k = 0; k < n; ++k) size[k] = k % 2 ? 1.4 : 1.0;
-  assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
-  o.n = n, o.packing_fraction = phi, o.seed = seed, o.overlap = JAM_OVERLAP_ALLOW;
-  assert_int_equal(create_from(&o, NULL, 0, size, (size_t)n, &sys), JAM_OK);
-  free(size);
-  return sys;
-}
 
 static void expect_overlap(jam_status status) {
   assert_int_equal(status, JAM_E_OVERLAP);

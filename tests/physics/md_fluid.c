@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "test.h"
+#include "steps.h"
 
 static jam_system *fluid(int64_t n, int32_t dim, double fraction) {
   jam_create_options o;
@@ -21,16 +21,6 @@ static jam_system *fluid(int64_t n, int32_t dim, double fraction) {
   c.packing_fraction = fraction;
   assert_int_equal(jam_compress(sys, &c, NULL), JAM_OK);
   return sys;
-}
-
-static jam_md_report run(jam_system *sys, double collisions_per_particle) {
-  jam_run_options r;
-  jam_md_report report;
-  jam_run_options_init(&r, sizeof r);
-  r.collisions_per_particle = collisions_per_particle;
-  report.struct_size = sizeof report;
-  assert_int_equal(jam_run(sys, &r, &report), JAM_OK);
-  return report;
 }
 
 /* Carnahan and Starling, J. Chem. Phys. 51, 635 (1969). */

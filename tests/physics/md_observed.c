@@ -4,8 +4,7 @@
 #include <stdlib.h>
 
 #include "crystal.h"
-#include "start.h"
-#include "test.h"
+#include "steps.h"
 
 static jam_system *start(int64_t n, double fraction, double ratio) {
   jam_create_options o;
@@ -26,16 +25,6 @@ static void compress(jam_system *sys, double growth, double pressure) {
   c.growth_rate = growth;
   c.pressure = pressure;
   assert_int_equal(jam_compress(sys, &c, NULL), JAM_OK);
-}
-
-static jam_md_report run(jam_system *sys, double collisions) {
-  jam_run_options r;
-  jam_md_report report;
-  jam_run_options_init(&r, sizeof r);
-  r.collisions_per_particle = collisions;
-  report.struct_size = sizeof report;
-  assert_int_equal(jam_run(sys, &r, &report), JAM_OK);
-  return report;
 }
 
 /* Rattlers exchange energy with the others so slowly that growth leaves them hotter or colder: one temperature for all

@@ -2,8 +2,7 @@
 #include <jam/jam.h>
 #include <math.h>
 
-#include "start.h"
-#include "test.h"
+#include "steps.h"
 
 static jam_system *start(int64_t n, double fraction, double ratio, int32_t masses, double box) {
   jam_create_options o;
@@ -18,13 +17,6 @@ static jam_system *start(int64_t n, double fraction, double ratio, int32_t masse
   for (k = 0; k < n; ++k) diameters[k] = k % 2 ? ratio : 1.0;
   assert_int_equal(create_from(&o, NULL, 0, diameters, (size_t)n, &sys), JAM_OK);
   return sys;
-}
-
-static jam_info info_of(const jam_system *sys) {
-  jam_info info;
-  info.struct_size = sizeof info;
-  assert_int_equal(jam_get_info(sys, &info), JAM_OK);
-  return info;
 }
 
 static void rates(void **state) {

@@ -1,25 +1,11 @@
 /* Soft spheres near jamming: the laws of energy and pressure, and forces by |h|^(alpha-1) and by the null vector. */
 #include "columns.h"
-#include "start.h"
-#include "test.h"
+#include "steps.h"
 
 #include <math.h>
 #include <stdlib.h>
 
 #include "jam/jam.h"
-
-/* Spheres of two sizes, 1 : 1.4: so few equal ones would order, and end with more contacts than isostatic. */
-static jam_system *soft_start(int64_t n, double phi, int64_t seed) {
-  jam_create_options o;
-  jam_system *sys = NULL;
-  double *size = malloc((size_t)n * sizeof *size);
-  for (int64_t k = 0; k < n; ++k) size[k] = k % 2 ? 1.4 : 1.0;
-  assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
-  o.n = n, o.packing_fraction = phi, o.seed = seed, o.overlap = JAM_OVERLAP_ALLOW;
-  assert_int_equal(create_from(&o, NULL, 0, size, (size_t)n, &sys), JAM_OK);
-  free(size);
-  return sys;
-}
 
 static double *column(const jam_system *sys, size_t which, size_t *n) {
   assert_int_equal(column_of(jam_decompress_history, sys, JAM_SOFT_SECONDS + 1, which, NULL, 0, n), JAM_OK);

@@ -42,12 +42,17 @@ julia> s = System(n = 60, dim = 2, packing_fraction = 0.95, overlap = :allow, di
 
 julia> shear!(s, 0.003).strain ≈ 0.003, length(shear_history(s)) >= 4
 (true, true)
+
+julia> abs(shear!(s, [0.002, 0], [0.5 0; 0 -0.5]).strain) < 1e-12
+true
 ```
 """
 function shear!(s::System, to, mode = nothing; progress = nothing, given...)
     o, made = options(jam_shear_options, given), jam_shear_report()
     turns = to isa Number ? [Float64(to)] : collect(Float64, to)
-    return verb(h -> jam_shear(h, o, turns, mode, made), s, made, progress)
+    m = mode === nothing ? Float64[] : collect(Float64, permutedims(check_square(s, mode, "mode")))
+    strain = mode === nothing ? nothing : m
+    return verb(h -> jam_shear(h, o, turns, length(turns), strain, length(m), made), s, made, progress)
 end
 
 "Rows of the last `shear!` as a table: strain, stress, pressure, energy, phi, contacts, ..."

@@ -81,7 +81,7 @@ class Shear(unittest.TestCase):
                 self.assertEqual(report.events, 0)
                 ends.append(report.energy)
             report = s.shear(small, step=small)
-            start = s.shear_history[0]
+            start = s.shear_rows[0]
             scale = start["pressure"]
             self.assertAlmostEqual((ends[0] - ends[1]) / (2 * small * volume) / scale, start["stress"] / scale, delta=1e-6)
 
@@ -92,7 +92,7 @@ class Shear(unittest.TestCase):
         for way in (1e-6, -1e-6):
             t = s.copy()
             t.shear(way, step=abs(way))
-            rows.append(t.shear_history[-1]["stress"])
+            rows.append(t.shear_rows[-1]["stress"])
         slope = (rows[0] - rows[1]) / 2e-6
         self.assertAlmostEqual(slope / found[0, 1, 0, 1], 1.0, delta=1e-6)
 
@@ -100,7 +100,7 @@ class Shear(unittest.TestCase):
         s = soft(64)
         t = s.copy()
         t.shear(1.0, until="event", step=2e-3)
-        first = t.shear_history[-1]["strain"]
+        first = t.shear_rows[-1]["strain"]
         self.assertGreater(first, 0)
         turn = min(0.5 * first, 4e-3)
         u = s.copy()
@@ -115,7 +115,7 @@ class Shear(unittest.TestCase):
     def test_energy_is_the_work_but_at_events(self):
         s = soft(64)
         report = s.shear(0.1, step=1e-3)
-        h = s.shear_history
+        h = s.shear_rows
         volume = s.box**2
         self.assertGreater(report.events, 0)
         self.assertEqual(report.events, h["event"].sum())
@@ -132,7 +132,7 @@ class Shear(unittest.TestCase):
         s.shear(1.0, step=0.01)  # x has moved by one edge: the lattice of the cube again
         side = s.box
         t = jam.System.from_arrays(s.positions, s.diameters, box=side, overlap="allow")
-        before = s.shear_history[-1]["energy"] * s.n
+        before = s.shear_rows[-1]["energy"] * s.n
         energy, stress = pair_sums(t)
         self.assertAlmostEqual(energy / before, 1.0, delta=1e-9)
 
@@ -152,8 +152,8 @@ class Shear(unittest.TestCase):
         s = soft(64)
         p = s.stress().trace() / 2
         s.shear(0.02, strain="volume", pressure=p)
-        np.testing.assert_allclose(s.shear_history["pressure"], p, rtol=1e-9)
-        self.assertGreater(np.ptp(s.shear_history["phi"]), 0)
+        np.testing.assert_allclose(s.shear_rows["pressure"], p, rtol=1e-9)
+        self.assertGreater(np.ptp(s.shear_rows["phi"]), 0)
         t = soft(64)
         t.shear(0.02, strain="edges_volume", pressure=p, components=1 << 3)  # the edge along y alone
         self.assertAlmostEqual(t.stress()[1, 1] / p, 1.0, delta=1e-9)
@@ -163,16 +163,16 @@ class Shear(unittest.TestCase):
         s = jam.System.random(n=64, dim=2, diameters=[1.0, 1.4] * 32, packing_fraction=0.83, overlap="allow", seed=6)
         self.assertEqual(s.relax().contacts, 0)
         self.assertEqual(s.shear(0.5, step=5e-3, until="jammed", resolution=1e-4, max_evaluations=30000).stop_reason, jam.StopReason.JAMMED)
-        self.assertGreater(s.shear_history[-1]["pressure"], 0)
-        self.assertEqual(s.shear_history[-2]["pressure"], 0)
-        self.assertLess(s.shear_history[-1]["strain"] - s.shear_history[-2]["strain"], 5e-3)
+        self.assertGreater(s.shear_rows[-1]["pressure"], 0)
+        self.assertEqual(s.shear_rows[-2]["pressure"], 0)
+        self.assertLess(s.shear_rows[-1]["strain"] - s.shear_rows[-2]["strain"], 5e-3)
 
     def test_hard_disks_dilate_by_their_stress(self):
         s = jam.System.random(n=32, dim=2, diameters=[1.0, 1.4] * 16, seed=3)
         s.compress()
         s.crunch()
         report = s.shear(0.004, step=1e-4)
-        h = s.shear_history
+        h = s.shear_rows
         smooth = h["event"][1:] == 0
         volume = 1 / h["phi"]
         work = np.diff(h["strain"]) * (volume[1:] * h["stress"][1:] + volume[:-1] * h["stress"][:-1]) / 2
@@ -204,9 +204,9 @@ class Shear(unittest.TestCase):
 
         report = s.shear(0.1, step=1e-3, progress=stop)
         self.assertEqual(report.stop_reason, jam.StopReason.CANCELLED)
-        self.assertEqual(report.strain, s.shear_history[-1]["strain"])
+        self.assertEqual(report.strain, s.shear_rows[-1]["strain"])
         energy, _ = pair_sums(s)
-        self.assertAlmostEqual(energy, s.shear_history[-1]["energy"] * s.n, delta=1e-12)
+        self.assertAlmostEqual(energy, s.shear_rows[-1]["energy"] * s.n, delta=1e-12)
 
 
 class Pages(unittest.TestCase):

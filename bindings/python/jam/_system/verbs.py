@@ -288,14 +288,14 @@ class Verbs(Observing):
         Returns
         -------
         ShearReport
-            shear_history has a row for each minimum. report.status > 0 means that the shear stopped early.
+            shear_rows has a row for each minimum. report.status > 0 means that the shear stopped early.
 
         Examples
         --------
         >>> import jam
         >>> soft = jam.System.random(n=64, dim=2, diameters=[1, 1.4] * 32, packing_fraction=0.9, overlap="allow", seed=1)
         >>> report = soft.shear(0.01)
-        >>> len(soft.shear_history) >= 11, abs(report.strain - 0.01) < 1e-15
+        >>> len(soft.shear_rows) >= 11, abs(report.strain - 0.01) < 1e-15
         (True, True)
         """
         turns = as_vector(np.atleast_1d(to), name="to")
@@ -306,7 +306,7 @@ class Verbs(Observing):
         return found
 
     @property
-    def shear_history(self) -> Array:
+    def shear_rows(self) -> Array:
         """Rows of the last shear as a structured array: one field for each ShearColumn, in lower case."""
         return as_rows(self._ask("shear_history"))
 

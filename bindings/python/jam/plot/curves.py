@@ -81,8 +81,8 @@ def minima(system: System, ax: Any = None, **style: Any) -> Any:
 
 
 def stress_strain(system: System, ax: Any = None, **style: Any) -> Any:
-    """Stress of a shear against strain (shear_history); circles mark plastic events."""
-    rows = system.shear_history
+    """Stress of a shear against strain (shear_rows); circles mark plastic events."""
+    rows = system.shear_rows
     ax = axes_of(ax)
     (line,) = ax.plot(rows["strain"], rows["stress"], **{"lw": 1.2, **style})
     events = rows[rows["event"] == 1]

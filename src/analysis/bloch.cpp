@@ -137,9 +137,11 @@ Modes bloch_modes(const RigidityMatrix &g, const ContactWeights &w, const CellsB
   Hermitian h(n, is_real(back, q, d));
   std::vector<double> block(static_cast<size_t>(d) * d);
   constexpr Phase one{1.0, 0.0};
+  const bool bends =
+      !w.transverse.empty();  // rows of rattlers that stay (add_rows) have no wall: they have springs alone
   for (size_t k = 0; k < g.contacts(); ++k) {
-    contact_block(d, w.stiffness[k], w.transverse.empty() ? 0.0 : w.transverse[k], &g.normal[k * d], g.turning(k),
-                  block.data());
+    contact_block(d, w.stiffness[k], bends ? w.transverse[k] : 0.0, &g.normal[k * d],
+                  bends ? g.turning(k) : turning_of_pairs, block.data());
     h.add(g.a[k], g.a[k], block.data(), 1.0, one, d);
     if (g.b[k] < 0) continue;
     const Phase phase = phase_of(q, back[k], d);

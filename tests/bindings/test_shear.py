@@ -184,7 +184,7 @@ class Shear(unittest.TestCase):
     def test_refusals(self):
         s = soft(16)
         for bad in (dict(to=[]), dict(to=[0.0]), dict(to=[0.1, 0.1]), dict(to=np.nan), dict(to=0.1, step=0.0),
-                    dict(to=0.1, mode=[[0, 0], [1, 0]]), dict(to=0.1, mode=np.zeros((2, 2))), dict(to=0.1, mode=np.eye(3)),
+                    dict(to=0.1, mode=[[0, 0], [1, 0]]), dict(to=0.1, mode=np.zeros((2, 2))), dict(to=0.1, mode=np.eye(3)), dict(to=0.1, mode=[0, 1, 0, 0]),
                     dict(to=0.1, resolution=-1.0), dict(to=0.1, until="never"), dict(to=0.1, pressure=1.0)):
             with self.assertRaises((jam.JamError, ValueError), msg=str(bad)):
                 s.shear(**bad)

@@ -300,6 +300,8 @@ class Verbs(Observing):
         """
         turns = as_vector(np.atleast_1d(to), name="to")
         given = None if mode is None else as_array(mode, name="mode")
+        if given is not None and given.shape != (self.dim, self.dim):
+            raise ValueError(f"mode has the shape {given.shape}, it must be ({self.dim}, {self.dim})")
         found: ShearReport = self._verb(
             "jam_shear", "jam_shear_options", "jam_shear_report", progress, options or None, turns, given
         )

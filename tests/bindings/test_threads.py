@@ -211,6 +211,7 @@ class Stress(unittest.TestCase):
             "sphere_structure": lambda s: s.sphere_structure(False),
             "strain": lambda s: s.strain(np.zeros((dim, dim))),
             "structure_factor": lambda s: s.structure_factor(10.0),
+            "shear": lambda s: s.shear(1e-4, step=1e-4),
             "tile": lambda s: s.tile((2, 1)),
             "contacts_by_distance": lambda s: s.copy().contacts_by_distance(0.01),
             "contact_dots": lambda s: s.contact_dots(False),

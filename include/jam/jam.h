@@ -823,7 +823,7 @@ typedef enum jam_free_strain {
   JAM_STRAIN_EDGES = 1,        /* the diagonal of the cell: lengths of a brick */
   JAM_STRAIN_TILTS = 2,        /* components off the diagonal */
   JAM_STRAIN_FREE = 3,         /* both */
-  JAM_STRAIN_VOLUME = 4,       /* the volume; this kind and the following: only jam_relax, with a pressure */
+  JAM_STRAIN_VOLUME = 4,       /* the volume; this kind and the following need a pressure: jam_relax, jam_shear */
   JAM_STRAIN_EDGES_VOLUME = 5, /* each edge by itself */
   JAM_STRAIN_TILTS_VOLUME = 6, /* tilts and the volume */
   JAM_STRAIN_ALL = 7           /* edges, tilts and the volume */
@@ -1119,7 +1119,7 @@ JAM_API jam_status jam_decompress_history(const jam_system *sys, int32_t columns
 /* When a shear ends before its last strain. */
 typedef enum jam_shear_until {
   JAM_UNTIL_STRAIN = 0,  /* it does not */
-  JAM_UNTIL_EVENT = 1,   /* behind the first plastic event */
+  JAM_UNTIL_EVENT = 1,   /* after the first plastic event */
   JAM_UNTIL_JAMMED = 2,  /* at the first minimum whose contacts carry force */
   JAM_UNTIL_UNJAMMED = 3 /* at the first minimum without such contacts */
 } jam_shear_until;
@@ -1135,19 +1135,19 @@ typedef struct jam_shear_options {
   int64_t max_evaluations; /* of the forces, for one minimum, >= 1, default 1e6 */
   double wall_time;        /* limit of the call */
   double step;             /* strain between two minima, > 0, default 1e-3 */
-  double resolution;       /* strain to which an event is located, in (0, step], default 1e-6, at most step */
+  double resolution;       /* uncertainty of the strain of an event, > 0, default 1e-6 */
   int64_t max_steps;       /* minima, >= 1, default 1e6 */
   int32_t until;           /* @enum jam_shear_until, default STRAIN */
   int32_t strain;          /* @enum jam_free_strain, what else of the cell may change, default NONE */
   double pressure;         /* P > 0 with JAM_STRAIN_VOLUME; else 0, the default */
-  int64_t components;      /* bit c d + k: component (c, k) may change too, c <= k, default -1: all but the sheared */
+  int64_t components;      /* bit c d + k: strain (c, k), c <= k, may change too; default -1: all but those of mode */
 } jam_shear_options;
-/* Columns of jam_shear_history: a row for the start, for every step, and for the states before and behind an event.
- * Columns that compare do so with the row before. Stresses are positive in compression but for JAM_SHEAR_STRESS. Of
- * soft spheres stresses have the unit epsilon / length^d, of hard ones that of the pressure. */
+/* Columns of jam_shear_history: a row for the start, every step, and the states just before and after an event.
+ * Comparisons are with the row before. Pressure is positive in compression, JAM_SHEAR_STRESS when the packing resists.
+ * Stresses of soft spheres are in epsilon / length^d, of hard spheres in multiples of the pressure. */
 typedef enum jam_shear_column {
   JAM_SHEAR_STRAIN = 0,    /* amplitude of the mode since the start of the call */
-  JAM_SHEAR_STRESS = 1,    /* work per strain and volume, (1 / V) dU / dstrain = - sum of mode_ab S_ab, S: jam_stress */
+  JAM_SHEAR_STRESS = 1,    /* (1 / V) dU / dstrain, rest of the cell fixed: - sum of mode_ab S_ab, S: jam_stress */
   JAM_SHEAR_PRESSURE = 2,  /* trace of the stress over d; hard spheres: 1 */
   JAM_SHEAR_ENERGY = 3,    /* U / n; hard spheres: 0 */
   JAM_SHEAR_PHI = 4,       /* packing fraction; hard spheres: phi_J */
@@ -1161,7 +1161,7 @@ typedef enum jam_shear_column {
   JAM_SHEAR_FACTORISATIONS = 12 /* since the row before */
 } jam_shear_column;
 #define JAM_SHEAR_COLUMNS 13
-/* What jam_shear found. Of the stress and its strains NaN where nothing was rigid. */
+/* What jam_shear found. stress, pressure, peak_stress and peak_strain are NaN where nothing was rigid. */
 typedef struct jam_shear_report {
   uint32_t struct_size;
   int32_t stop_reason; /* @enum jam_stop_reason: STRAIN at the last strain, else why before */
@@ -1178,16 +1178,16 @@ typedef struct jam_shear_report {
   double seconds;                      /* wall time */
 } jam_shear_report;
 JAM_API jam_status jam_shear_options_init(jam_shear_options *o, size_t size);
-/* Athermal quasi-static shear: strains the cell by steps and finds the minimum after each, of the energy of soft
- * spheres (JAM_OVERLAP_ALLOW), or of the volume of hard ones, which a crunch jams at each strain. `mode` is the strain
- * of amplitude 1, upper-triangular; NULL: simple shear, x moves with y. At amplitude g positions are exp(g mode) times
- * those of the start, with what the minima add. `turns`: amplitudes at which the direction turns, the last one ends the
- * shear: {0.1} forward, {0.05, -0.05, 0} a cycle. Where the energy of a step departs from the work of the mean stress
- * by more than a fifth of V times the changes of stress and strain, the step is halved down to the resolution; a step
- * that does not return to its start when sheared back is a plastic event. An event that releases less stays hidden: a
- * smaller `step` shows it. A call that begins where another ended continues to the same bits, if the steps are the
- * same. Status: JAM_OK: the last strain or `until` was reached. JAM_LIMIT, JAM_NOT_CONVERGED: a minimum was not found;
- * the last one is kept. JAM_NOT_JAMMED: hard spheres did not jam.
+/* Athermal quasi-static shear: after each strain step, minimises the energy of soft spheres (JAM_OVERLAP_ALLOW), or
+ * jams hard spheres by a crunch, which minimises their volume. `mode` is the strain of amplitude 1, upper-triangular;
+ * NULL: simple shear, x moves with y. At amplitude g positions are exp(g mode) times those of the start, plus
+ * non-affine displacements. `turns`: amplitudes at which the direction turns, the last one ends the shear: {0.1}
+ * forward, {0.05, -0.05, 0} a cycle. If the energy change of a step differs from the work of the mean stress by over V
+ * |change of stress| |change of strain| / 5, the step is halved down to the resolution. If the packing does not return
+ * when sheared back, the step is a plastic event. An event that releases less is not detected: a smaller `step` shows
+ * it. A call that begins where another ended continues to the same bits, if the steps are the same. Status: JAM_OK: the
+ * last strain or `until` was reached. JAM_LIMIT, JAM_NOT_CONVERGED: a minimum was not found; the last one is kept.
+ * JAM_NOT_JAMMED: hard spheres did not jam.
  * @shape turns (turns), mode (d, d) @errors UNSUPPORTED (walls, Mari-Kurchan), SOLVER, TOO_FEW */
 JAM_API jam_status jam_shear(jam_system *sys, const jam_shear_options *o, const double *turns, size_t turns_len,
                              const double *mode, size_t mode_len, jam_shear_report *report);
@@ -1564,9 +1564,9 @@ JAM_API jam_status jam_contact_dots(const jam_system *sys, int32_t weighted, dou
  * have no preferred direction. Status: JAM_NOT_JAMMED (no contacts: NaN). @shape out (d, d) @errors STATE */
 JAM_API jam_status jam_fabric_tensor(const jam_system *sys, double *out, size_t out_len, size_t *needed);
 /* Stress tensor S_ab = sum of f r n_a n_b over contacts, over V: symmetric, positive in compression, trace d times the
- * pressure; r from centre to centre, or to the wall. Of soft spheres in epsilon / length^d (jam_relax), of hard ones in
- * units of their pressure, so that the trace is d: multiply by the pressure that confines them. Status: JAM_NOT_JAMMED
- * (no contacts: NaN). @shape out (d, d) @errors STATE */
+ * pressure; r from centre to centre, or to the wall. Soft spheres (jam_relax): in epsilon / length^d. Hard ones: in
+ * multiples of their pressure, trace d; multiply by the confining pressure. Status: JAM_NOT_JAMMED (no contacts: NaN).
+ * @shape out (d, d) @errors STATE */
 JAM_API jam_status jam_stress(const jam_system *sys, double *out, size_t out_len, size_t *needed);
 /* Quantity of which jam_local_values takes the values. */
 typedef enum jam_local_quantity {

@@ -3,7 +3,7 @@
 The first work of each kind, in which the engine of JavaScript compiles, takes up to half a second more and is left out.
 
 usage: wasm.py BUILD-WASM BUILD [--sizes 256,1024] [--rounds 3] [--gate]
-BUILD: a build with the Python module; JAM_BENCH_LIBRARY: another shared library for it, such as one of portable loops.
+BUILD: a build with the Python module and the target jam_of_set, the library whose loops JAM_BITS_SET names.
 --gate: fails where the module is 10 % larger than in results/wasm.json, or a step takes 5 % more native times than there.
 """
 import argparse
@@ -56,11 +56,13 @@ def run(command, **more):
 
 def measure(args):
     rounds = []
-    library = {"LD_PRELOAD": os.environ["JAM_BENCH_LIBRARY"]} if "JAM_BENCH_LIBRARY" in os.environ else {}
+    library = args.native / "tests/libjam_of_set.so"
+    if not library.exists():
+        sys.exit(f"{library} is not there: cmake --build {args.native} --target jam_of_set")
     work = [args.sizes, ",".join(STEPS)]
     for _ in range(args.rounds):
         wasm = run(["node", "--input-type=module", "-e", WASM, *work], JAM_JS=str(args.wasm.resolve() / "js/node.mjs"))
-        native = run([sys.executable, "-c", NATIVE, *work], PYTHONPATH=str(args.native / "python"), **library)
+        native = run([sys.executable, "-c", NATIVE, *work], PYTHONPATH=str(args.native / "python"), LD_PRELOAD=str(library.resolve()))
         rounds.append((wasm, native))
     module = (args.wasm / "js/jam.wasm").read_bytes()
     # the least of each: other jobs only add

@@ -300,7 +300,7 @@ def threads(*raws):
 
 
 def wasm(raw):
-    """JAM_BITS_SET=portable wasm.py BUILD-WASM BUILD --sizes 256 --rounds 2"""
+    """JAM_BITS_SET=portable wasm.py BUILD-WASM BUILD --sizes 256,1024 --rounds 2"""
     rows = [["bytes of jam.wasm; gzipped", raw["bytes"], raw["gzipped"], raw["bytes"] / raw["gzipped"]]]
     rows += [[key + " (s)", *times, times[0] / times[1]] for key, times in raw["rows"].items()]
     return ["spheres, step", "WebAssembly", "native, portable loops", "ratio"], rows

@@ -101,7 +101,7 @@ OPTIONS(observe, (o->collisions = 1, o->gap_bins = o->r_bins = 8, o->sample_ever
 OPTIONS(isoconf, (o->runs = 3, o->block = 2), (BOUND(wall_time, SECONDS), BOUND(memory_limit, 1e8)))
 OPTIONS(crunch, (void)o, BOUND(wall_time, SECONDS))
 OPTIONS(relax, o->force_tolerance = 1e-6, BOUND(wall_time, SECONDS))
-OPTIONS(shear, (o->force_tolerance = 1e-8), BOUND(wall_time, SECONDS))
+OPTIONS(shear, (o->force_tolerance = 1e-8, o->max_steps = 2), (BOUND(max_steps, 20), BOUND(wall_time, SECONDS)))
 OPTIONS(decompress, (o->energy_factor = 1e-3, o->force_tolerance = 1e-8), BOUND(wall_time, SECONDS))
 OPTIONS(hessian, (void)o, (void)o)
 OPTIONS(modes, o->count = 4, BOUND(memory_limit, 1e8))

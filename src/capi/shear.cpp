@@ -1,8 +1,6 @@
 // Header section "soft spheres": jam_shear, of soft spheres and of hard ones.
 #include "soft/shear.hpp"
 
-#include <cmath>
-#include <limits>
 #include <utility>
 
 #include "capi/table.hpp"
@@ -36,6 +34,7 @@ ShearPoint hard_point(const Packing &p, const ContactNetwork &net, const jam_cru
   out.at.contacts = net;
   out.at.report.packing_fraction = report.packing_fraction;
   out.at.report.rattlers = report.rattlers;
+  out.crunch = report;
   out.found = out.rigid = true;
   out.enthalpy = out.volume = 1.0 / report.packing_fraction;
   out.confining = 1.0;
@@ -44,26 +43,27 @@ ShearPoint hard_point(const Packing &p, const ContactNetwork &net, const jam_cru
 }
 
 // Jamming points: diameters shrink until no spheres overlap, then a crunch jams them. A start that is jammed stays.
-FindMinimum jamming_point(const jam_system &sys, Effort &effort, Monitor &monitor, std::string &why) {
+FindMinimum jamming_point(const jam_system &sys, Effort &effort, Monitor &monitor) {
   return [&](const Packing &strained, bool first) {
     if (first && sys.known_contacts() && sys.report.jammed == 1) return hard_point(strained, sys.contacts, sys.report);
     Packing p = strained;
-    const double gap = closest_contact(p).gap;
-    for (double &s : p.diameter) s *= gap < 0.0 ? (1.0 + gap) * (1.0 - 1e-14) : 1.0;
-    CrunchResult hard = crunch(p, default_crunch_options(), monitor);
+    shrink_to_contact(p, 0.0, nullptr);
+    jam_crunch_options options = default_crunch_options();
+    options.wall_time = monitor.wall_time;
+    CrunchResult hard = crunch(p, options, monitor);
     effort.factorisations += hard.report.factorisations;
+    hard.report.status = hard.status;
     if (hard.status == JAM_OK && hard.report.jammed == 1) return hard_point(hard.packing, hard.contacts, hard.report);
     ShearPoint out;
     out.at.packing = hard.packing;
     out.at.contacts.coordination.assign(p.n(), 0);
-    out.at.status = hard.status == JAM_OK ? JAM_NOT_JAMMED : hard.status;
+    // Not even a failure of the solver takes back the strains before it.
+    out.at.status = hard.status == JAM_OK ? JAM_NOT_JAMMED : hard.status < 0 ? JAM_NOT_CONVERGED : hard.status;
     out.stop_reason = hard.report.stop_reason;
-    why = hard.text.empty() ? "a strained packing did not jam" : hard.text;
+    out.why = !hard.text.empty() ? hard.text : hard.status == JAM_OK ? "a strained packing did not jam" : "";
     return out;
   };
 }
-
-jam_crunch_report report_of(const ShearPoint &p, double seconds) { return soft_certificate(p.at, seconds); }
 
 }  // namespace
 
@@ -86,21 +86,19 @@ jam_status jam_shear(jam_system *sys, const jam_shear_options *o, const double *
     if (!soft) refuse_soft_options(full);
     const ShearPath path = shear_path(sys->packing.dim, mode, mode_len, turns, turns_len);
     Effort effort;
-    std::string why;
     const FindMinimum minimum =
-        soft ? soft_minimum(full, path, effort, sys->monitor) : jamming_point(*sys, effort, sys->monitor, why);
+        soft ? soft_minimum(full, path, effort, sys->monitor) : jamming_point(*sys, effort, sys->monitor);
     ShearResult result = shear(sys->packing, full, path, minimum, effort, sys->monitor);
-    if (result.status < 0) fail(result.status, "%s", why.c_str());
     const jam_shear_report made = result.report;
     refuse_outside(result.last.at.packing);
     Results found;
-    found.report = report_of(result.last, made.seconds);
+    found.report = soft ? soft_certificate(result.last.at, made.seconds) : result.last.crunch;
     found.contacts = std::move(result.last.at.contacts);
     found.has_report = result.last.found;
     found.shear_history = std::move(result.rows);
     sys->commit(result.last.at.packing, std::move(found));
     give_struct(made, report);
-    if (result.status > 0 && !why.empty()) return {result.status, why};
+    if (result.status > 0 && !result.why.empty()) return {result.status, result.why};
     return stopped(result.status, made.stop_reason);
   });
 }

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "core/cell_change.hpp"
-#include "core/checks.hpp"
 #include "core/error.hpp"
 #include "soft/tuning.hpp"
 
@@ -96,7 +95,10 @@ class Shear {
     out_.status = status, out_.report.stop_reason = reason;
     return true;
   }
-  bool fail_with(const ShearPoint &p) { return end_with(p.at.status, p.stop_reason); }
+  bool fail_with(const ShearPoint &p) {
+    out_.why = p.why;
+    return end_with(p.at.status, p.stop_reason);
+  }
 
   // From one turn to the next by equal steps, the last one what is left. Every step has the same bits wherever it is.
   bool leg(double from, double to) {
@@ -152,7 +154,14 @@ class Shear {
   ShearPoint at(const ShearPoint &from, double step) {
     ++effort_.steps;
     Packing p = from.at.packing;
-    strain_affinely(p, finite_strain(path_.mode, step, p.dim).data());
+    try {
+      strain_affinely(p, finite_strain(path_.mode, step, p.dim).data());
+    } catch (const Error &e) {  // beyond the limits of cells: what was reached is kept
+      ShearPoint none;
+      none.at.status = JAM_NOT_CONVERGED, none.stop_reason = JAM_STOP_STALLED;
+      none.why = std::string("the shear ends before its last strain: ") + e.what();
+      return none;
+    }
     return minimum_(p, false);
   }
 

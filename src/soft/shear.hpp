@@ -4,6 +4,7 @@
 #pragma once
 #include <array>
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "soft/decompression.hpp"
@@ -13,10 +14,12 @@ namespace jam::inside {
 // A minimum on the way. Its enthalpy is U + P V, or of hard spheres V over their own volume: P = 1 and lengths in
 // diameters.
 struct ShearPoint {
-  SoftResult at;  // of hard spheres: packing, contacts, the report's energy and pressure, NaN; status of the search
+  SoftResult at;  // of hard spheres: packing, contacts, packing fraction and rattlers; status of the search
+  jam_crunch_report crunch{};  // of hard spheres alone
   int32_t stop_reason = JAM_STOP_NONE;
-  bool found = false;                                    // a minimum; else status and stop_reason say why not
-  bool rigid = false;                                    // contacts carry force
+  std::string why;     // there is no minimum, where status and stop_reason do not say it
+  bool found = false;  // a minimum; else status and stop_reason say why not
+  bool rigid = false;  // contacts carry force
   double enthalpy = 0.0, volume = 0.0, confining = 0.0;  // confining: P where the volume is free, else 0
   std::vector<double> stress;                            // (dim, dim), in units of d enthalpy / d volume
 };
@@ -30,6 +33,7 @@ struct ShearResult {
   std::vector<ShearRow> rows;
   jam_shear_report report{};
   jam_status status = JAM_OK;
+  std::string why;  // of a status above 0, where the stop reason does not say it
 };
 
 // Where to: an upper-triangular strain of unit amplitude (dim, dim), and the amplitudes at which the shear turns; it

@@ -81,7 +81,7 @@ FindMinimum soft_minimum(const jam_shear_options &o, const ShearPath &path, Effo
   const int dim = static_cast<int>(std::lround(std::sqrt(static_cast<double>(path.mode.size()))));
   int64_t free = o.components;
   for (size_t k = 0; k < path.mode.size(); ++k)
-    if (path.mode[k] != 0.0) free &= ~(int64_t{1} << k);
+    if (path.mode[k] != 0.0) free &= static_cast<int64_t>(~(uint64_t{1} << k));
   const FreeCell cell = free_cell_of(dim, o.strain, free, o.pressure);
   if (o.strain != JAM_STRAIN_NONE && cell.count() == 0)
     fail(JAM_E_ARGUMENT, "components is %lld: no strain is free beside the sheared ones",

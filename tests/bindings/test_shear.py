@@ -180,6 +180,12 @@ class Shear(unittest.TestCase):
         self.assertTrue(((work - np.diff(volume))[smooth] <= 0.2 * scale[smooth] + 1e-12).all())
         self.assertEqual(report.rigid, 1)
         self.assertEqual(s.rigidity().jammed, jam.Verdict.YES)
+        self.assertTrue(s.report.jammed)
+        parts = s.copy()
+        s.shear(2e-3, step=1e-3)
+        for _ in range(2):
+            parts.shear(1e-3, step=1e-3)
+        self.assertTrue(np.array_equal(s.positions, parts.positions))
 
     def test_refusals(self):
         s = soft(16)
@@ -193,6 +199,19 @@ class Shear(unittest.TestCase):
             hard.shear(0.1, alpha=2.5)
         with self.assertRaises(jam.JamError):
             jam.System.random(n=16, dim=2, walls="y", seed=1, overlap="allow").shear(0.1)
+
+    def test_a_limit_of_the_cell_or_of_time_keeps_the_last_minimum(self):
+        s = soft(16)
+        report = s.shear(20.0, step=0.5, resolution=0.5, mode=[[1, 0], [0, -1]])
+        self.assertEqual(report.status, jam.StatusCode.NOT_CONVERGED)
+        self.assertIn("the cell is flat", report.status_text)
+        self.assertGreater(report.strain, 2.0)
+        hard = jam.System.random(n=32, dim=2, diameters=[1.0, 1.4] * 16, seed=3)
+        hard.compress()
+        hard.crunch()
+        report = hard.shear(100.0, step=1e-4, wall_time=0.5)
+        self.assertEqual(report.stop_reason, jam.StopReason.WALL_TIME)
+        self.assertTrue(hard.report.jammed)
 
     def test_a_stop_keeps_the_last_minimum(self):
         s = soft(64)

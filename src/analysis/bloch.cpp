@@ -35,7 +35,7 @@ Phase phase_of(const double *q, const std::array<int32_t, JAM_MAX_DIM> &s, int d
 // The lower triangle of the symmetric matrix that stands for the Hermitian one, column after column.
 class Hermitian {
  public:
-  Hermitian(int n, bool real) : n_(n), size_(real ? n : 2 * n), a_(static_cast<size_t>(size_) * size_, 0.0) {}
+  Hermitian(int n, bool real) : n_(n), size_(real ? n : 2 * n), a_(lapack_array(static_cast<size_t>(size_) * size_)) {}
   int size() const { return size_; }
   std::vector<double> &entries() { return a_; }
   // Adds block * phase to the block (i, j).

@@ -29,7 +29,7 @@ bool tridiagonalise(int n, std::vector<double> &a, double *d, double *e, double 
                     const std::function<bool(double)> &stop) {
   const int panel = DenseTuning::panel;
   const double one = 1.0, minus_one = -1.0;
-  std::vector<double> w(static_cast<size_t>(n) * panel);
+  std::vector<double> w = lapack_array(static_cast<size_t>(n) * panel);
   const auto at = [&](int row, int column) { return &a[static_cast<size_t>(column) * n + row]; };
   int k = 0;
   for (; k + 2 * panel < n; k += panel) {
@@ -52,10 +52,11 @@ bool tridiagonalise(int n, std::vector<double> &a, double *d, double *e, double 
 bool dense_eigen(int n, std::vector<double> &a, std::vector<double> &lambda, bool vectors,
                  const std::function<bool(double)> &stop) {
   const BlasSingleThread single;
-  lambda.assign(n, 0.0);
+  lambda = lapack_array(static_cast<size_t>(n));
   if (n == 0) return true;
-  std::vector<double> e(std::max(1, n - 1)), tau(std::max(1, n - 1));
-  std::vector<double> work(static_cast<size_t>(n) * 64 + 16);
+  const size_t less = static_cast<size_t>(std::max(1, n - 1));
+  std::vector<double> e = lapack_array(less), tau = lapack_array(less);
+  std::vector<double> work = lapack_array(static_cast<size_t>(n) * 64 + 16);
   int lwork = static_cast<int>(work.size()), info = 0;
   if (stop(0.0) || !tridiagonalise(n, a, lambda.data(), e.data(), tau.data(), stop) ||
       stop(DenseTuning::lapack_reduction))
@@ -65,14 +66,14 @@ bool dense_eigen(int n, std::vector<double> &a, std::vector<double> &lambda, boo
     if (info != 0) fail(JAM_E_SOLVER, "dsterf gave info %d: the spectrum did not converge", info);
     return true;
   }
-  std::vector<double> z(static_cast<size_t>(n) * n);
+  std::vector<double> z = lapack_array(static_cast<size_t>(n) * n);
   {
     double size = 0.0;
     int isize = 0;
     const int query = -1;
     dstedc_("I", &n, lambda.data(), e.data(), z.data(), &n, &size, &query, &isize, &query, &info);
     const int lw = static_cast<int>(size), li = isize;
-    std::vector<double> w(static_cast<size_t>(std::max(1, lw)));
+    std::vector<double> w = lapack_array(static_cast<size_t>(std::max(1, lw)));
     std::vector<int> iw(std::max(1, li));
     dstedc_("I", &n, lambda.data(), e.data(), z.data(), &n, w.data(), &lw, iw.data(), &li, &info);
   }

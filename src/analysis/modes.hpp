@@ -2,6 +2,7 @@
 #pragma once
 #include <functional>
 #include <vector>
+#include "analysis/tuning.hpp"
 #include "core/monitor.hpp"
 #include "network/hessian.hpp"
 
@@ -20,9 +21,16 @@ void check_modes_options(const jam_modes_options &o, const RigidityMatrix &g);
 jam_status find_modes(const RigidityMatrix &g, const ContactWeights &w, const jam_modes_options &o, Monitor &monitor,
                       Modes &out);
 
-// All eigenvalues (and vectors) of a dense symmetric matrix, whose lower triangle a gives column-major; the vectors
-// overwrite it. `stop` is asked between stages. False when stopped. By LAPACK where the build has it (JAM_LAPACK): its
-// bits depend on the processor.
+// Zeros for LAPACK, with room behind them that is allocated but not used.
+inline std::vector<double> lapack_array(size_t count) {
+  std::vector<double> out;
+  out.reserve(count + DenseTuning::read_behind);
+  out.resize(count);
+  return out;
+}
+// All eigenvalues (and vectors) of a dense symmetric matrix, whose lower triangle a (a lapack_array) gives
+// column-major; the vectors overwrite it. `stop` is asked between stages. False when stopped. By LAPACK where the build
+// has it (JAM_LAPACK): its bits depend on the processor.
 bool dense_eigen(int n, std::vector<double> &a, std::vector<double> &lambda, bool vectors,
                  const std::function<bool(double)> &stop);
 // The same by own loops: for eigenvalues that decide something. With all vectors it takes five times as long.

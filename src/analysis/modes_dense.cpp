@@ -11,7 +11,7 @@ namespace jam::inside {
 
 jam_status all_modes(const BlockMatrix &h, Monitor &monitor, Modes &out) {
   const int n = static_cast<int>(h.rows()), d = h.dim;
-  std::vector<double> a(static_cast<size_t>(n) * n, 0.0);
+  std::vector<double> a = lapack_array(static_cast<size_t>(n) * n);
   auto put = [&](int32_t i, int32_t j, const double *block) {
     for (int r = 0; r < d; ++r)
       for (int c = 0; c < d; ++c) a[static_cast<size_t>(j * d + c) * n + (i * d + r)] = block[r * d + c];

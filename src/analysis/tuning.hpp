@@ -24,6 +24,9 @@ struct ModesTuning {
 
 // ---- dense eigenvalue problems
 struct DenseTuning {
+  // Doubles that are allocated behind each array: the dsymv of OpenBLAS 0.3.21 for Prescott reads up to 64 bytes
+  // beyond its vectors, which crashes where an array ends with the memory that is mapped.
+  static constexpr size_t read_behind = 16;
   static constexpr int panel = 32;               // columns whose reflections change the rest of the matrix at once
   static constexpr int strip = 16;               // rows of the vectors that a rotation turns at once
   static constexpr size_t most_waiting = 50000;  // rotations, which fit into the second cache with a strip

@@ -35,7 +35,7 @@ if [ "$parts" != quick ]; then
   need_packages clang clang-format libopenblas-dev voro++-dev swig gfortran lintian debhelper dh-python \
     python3-dev python3-venv python3-numpy python3-scipy python3-matplotlib python3-h5py python3-pandas python3-tqdm \
     python3-mpi4py openmpi-bin python3-distributed python3-dask python3-networkx chromium python3-gsd python3-ase \
-    python3-mdanalysis python3-vtk9 lammps mypy python3-nbclient python3-ipykernel doxygen python3-sphinx \
+    python3-mdanalysis python3-vtk9 lammps liggghts mypy python3-nbclient python3-ipykernel doxygen python3-sphinx \
     python3-breathe python3-myst-parser furo locales
 fi
 

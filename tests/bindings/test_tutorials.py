@@ -20,7 +20,7 @@ GUIDE, PICTURES = ROOT / "bindings" / "docs", ROOT / "examples" / "pictures"
 FILES = {"c": "program.c", "fortran": "program.f90"}
 KINDS = {"glass", "calippso", "c", "fortran", "granular", "referee", "packager"}
 # Pages that show pictures of their own, and how many.
-PAGES = {**{f"tutorial_{kind}": 1 for kind in KINDS}, "theory": 4, "cite": 1, "sizes": 1, "vibrations": 1, "walls": 0, "pore_space": 0, "dem_cfd": 0}
+PAGES = {**{f"tutorial_{kind}": 1 for kind in KINDS}, "theory": 4, "cite": 1, "sizes": 1, "vibrations": 1, "walls": 0, "pore_space": 0, "dem_cfd": 1}
 LEAST_INK = 0.02  # of the pixels of a picture that is not empty
 # As of an installed library: what pkg-config would say of the build tree.
 PKG_CONFIG = f"""#!/bin/sh

@@ -139,6 +139,12 @@ class Stumbles(unittest.TestCase):
 
 
 class AnotherPython(unittest.TestCase):
+    def test_a_python_without_numpy_is_told(self):
+        words = [sys.executable, "-S", "-c", "import jam"]  # -S: no installed packages
+        done = subprocess.run(words, capture_output=True, text=True, env={"PYTHONPATH": str(Path(jam.__file__).parents[1])})
+        self.assertEqual(done.returncode, 1)
+        self.assertIn(f"ImportError: jam needs numpy, which {sys.executable} does not find", done.stderr)
+
     def test_the_import_names_the_python_that_it_was_built_for(self):
         with tempfile.TemporaryDirectory() as folder:
             copy = Path(shutil.copytree(Path(jam.__file__).parent, Path(folder, "jam")))

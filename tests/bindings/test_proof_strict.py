@@ -16,8 +16,8 @@ from test_proof_bounds import FAR, checker, crystal, square_lattice
 from test_proof_bounds import verdict as verdict_of
 
 
-def packed(n, dim, seed, strain="free"):
-    diameters = np.where(np.arange(n) % 2, 1.4, 1.0) if dim == 2 else np.ones(n)
+def packed(n, dim, seed, strain="free", every=2):
+    diameters = np.where(np.arange(n) % every == every - 1, 1.4, 1.0) if dim == 2 else np.ones(n)
     system = jam.System.random(n=n, dim=dim, seed=seed, diameters=diameters, packing_fraction={2: 0.3, 3: 0.2}[dim])
     system.compress(growth_rate=1e-2, pressure=1e4)
     system.crunch(strain=strain)
@@ -244,12 +244,49 @@ def grain_across_the_boundary(text):
     raise AssertionError("no place for a grain")
 
 
+def flower(system):
+    """Lines of a file for a disk with six of its size around it, which touch in a ring: five triangles imply the sixth contact of the ring."""
+    near = {}
+    for c, (i, j) in enumerate(system.contacts.pairs.tolist()):
+        near.setdefault(i, {})[j] = near.setdefault(j, {})[i] = c
+    for middle, spokes in near.items():
+        ring = {a: [b for b in spokes if b in near[a]] for a in spokes}
+        if len(ring) == 6 and all(len(beside) == 2 for beside in ring.values()) and not np.ptp(system.diameters[[middle, *ring]]):
+            order = [min(ring)]
+            while len(order) < 6:
+                order.append(next(a for a in ring[order[-1]] if a not in order))
+            spoke, edge = [spokes[a] for a in order], [near[a][b] for a, b in zip(order, order[1:] + order[:1])]
+            return [f"tile {spoke[k]} {edge[k]} {spoke[k + 1]}" for k in range(5)] + [f"implied {edge[5]} {spoke[5]} {spoke[0]}"]
+    return []
+
+
+def angles_of_tiles_in_a_free_cell():
+    """A centre is off, so that the radius is 0.42 millionths of the least diameter. Contact vectors across a side of the cell move by
+    three radii or more, those of a fixed cell by two: no more than a millionth may be."""
+    for seed in range(10, 30):
+        system = packed(32, 2, seed, every=8)
+        text = strict_file(system) + "".join(line + "\n" for line in flower(system))
+        if "\nimplied " in text and isinstance(verdict_of(checker(), text), dict):
+            break
+
+    def off(by):
+        f = File(text)
+        moved(by)(f, random.Random(1))
+        return f
+
+    trial, unit = Fraction(1, 10**10), value(next(line for line in off(0).lines if line[0] == "unit")[1])
+    least = Fraction(float(value(off(0).gamma[1])) ** 0.5) * min(value(s[2]) for s in off(0).spheres)
+    radius = Fraction(verdict_of(checker(), off(trial).text())["radius"]) / unit
+    return off(trial * Fraction(42, 10**8) * least / radius).text()
+
+
 class Bounds(unittest.TestCase):
     def test_each_bound_is_needed(self):
         exact = next(s for s in (packed(16, 2, seed) for seed in range(1, 20)) if s.prove(strict=True).theorem == jam.Theorem.EXACT)
         table = (
             ("one pressure on all axes", "or len(pressure) > 1", "", crystal_with_one_axis_pressed()),
             ("cell vectors in a gap", "* (i != j) + self.strict * sum(map(abs, n))", "* (i != j)", grain_across_the_boundary(strict_file(exact))),
+            ("cell vectors in the angles of tiles", "(ways * r)", "(2 * r)", angles_of_tiles_in_a_free_cell()),
         )
         for name, old, new, false in table:
             with self.subTest(bound=name):

@@ -26,6 +26,7 @@ static jam_system *jammed(void) {
 }
 
 static void bad_arguments_are_refused(void **state) {
+  static const char file[] = "no_stable.jamproof";
   jam_system *sys = NULL;
   jam_create_options o;
   jam_proof_report r = {.struct_size = sizeof r}, wrong = {.struct_size = 3};
@@ -39,6 +40,11 @@ static void bad_arguments_are_refused(void **state) {
   assert_int_equal(jam_prove(sys, JAM_RIGIDITY_COLLECTIVE, NULL, 0, &r), JAM_E_STATE);
   assert_int_equal(jam_refined_positions(sys, NULL, 0, NULL, 0, NULL, 0, &needed), JAM_OK);
   assert_int_equal(needed, 60);
+  remove(file);
+  assert_int_equal(jam_contacts_from_geometry(sys, NULL, NULL), JAM_NOT_JAMMED); /* a network without contacts */
+  assert_int_equal(jam_write_proof(sys, file, JAM_RIGIDITY_COLLECTIVE, NULL, 0), JAM_E_STATE);
+  assert_non_null(strstr(jam_last_error(), "no sphere is stable"));
+  assert_null(fopen(file, "r"));
   jam_destroy(sys);
   sys = jammed();
   assert_int_equal(jam_prove(sys, JAM_RIGIDITY_COLLECTIVE, NULL, 0, &wrong), JAM_E_STRUCT_SIZE);

@@ -199,6 +199,9 @@ class JamPack(unittest.TestCase):
     def test_refused_requests(self):
         self.refuse(3, "ends near 0.384", "--n", 50, "--phi0", 0.9)
         self.refuse(3, "No such file", "--input", self.dir / "none.dat")
+        one = ["--n", 1, "--container", "ball"]
+        self.refuse(2, "one sphere between walls needs no crunch: leave it out by --no-crunch", *one)
+        self.assertEqual(run(*one, "--no-crunch").returncode, 0)  # as advised
         bad = self.dir / "bad.dat"
         bad.write_text("3\n4\n0.1\n0.1 0.2 0.3\n")
         self.refuse(3, "line 5: the file ends after 1 of 4 spheres", "--input", bad)

@@ -13,6 +13,7 @@ struct TableColumns {
   SizeColumn size;
   size_t total = 0;
   bool assumed = false;
+  std::string sized;  // the column of sizes, where its name says neither radius nor diameter
   std::vector<std::string> unread;
 };
 
@@ -45,11 +46,14 @@ int axis_of(const std::string &name) {
   return number && !filled ? -1 : axis;
 }
 
+// Rocky calls the diameter of a sphere so.
+bool is_size_of_rocky(const std::string &name) { return name == "particle size"; }
+
 // What SizeColumn calls a size of this name.
 std::string size_of(const std::string &name) {
   if (name == "r" || name == "radii" || name == "particle radius" || name == "particle_radius") return "radius";
   if (name == "d" || name == "sigma" || name == "diameters" || name == "particle diameter" ||
-      name == "particle_diameter")
+      name == "particle_diameter" || is_size_of_rocky(name))
     return "diameter";
   return name;
 }
@@ -100,6 +104,7 @@ bool name_columns(const LineReader &in, const std::vector<std::string> &names, T
       continue;
     }
     lengths.push_back(names[k]);
+    if (is_size_of_rocky(name)) columns.sized = names[k];
   }
   std::sort(axis.begin(), axis.end());
   for (size_t k = 0; k < axis.size(); ++k) {
@@ -269,6 +274,8 @@ FileContent read_table(LineReader &in, const ReadOptions &options) {
   if (columns.assumed) refuse_counting(in, content);
   take_disks(options, content);
   say_unread(content, columns.unread);
+  if (!columns.sized.empty())
+    content.notes.say("the column '%s' was taken as the diameter", shown(trim(columns.sized)).c_str());
   if (!content.has_box() && options.layout.cell.empty())
     content.notes.say("the file names no box: its side is taken as %.17g", options.box);
   return content;

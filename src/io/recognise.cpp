@@ -147,6 +147,9 @@ constexpr KnownFile table[] = {
      "with "
      "several species give positions, and the diameters of each species, to System.from_arrays in Python"},
     {"a snapshot of EDMD (.sph)", is_edmd, with_keys},
+    {"particle input of MFIX", [](const Head &h) { return begins(h, "Version 2.0") || begins(h, "Version 3.0"); },
+     "its rows are a table: take away the lines above them (`sed 1,34d FILE` in version 2.0), and name the columns by "
+     "the option columns"},
     {"XYZ without keys on line 2", is_basic_xyz, with_keys},
     {"plain text", is_plain, nullptr},
     {"PDB",

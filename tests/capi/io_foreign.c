@@ -213,6 +213,7 @@ static void known_by_their_beginning(void **state) {
       FILE_OF("3\n3 1\n3\n0.2\n1 0 0 0 1 0 0 0 1\nT T T\n0.1 0.2 0.3\n",
               "Skoge and Donev: of equal spheres `sed -e 2d -e 5,6d FILE`"),
       FILE_OF("3\n1.0 1.0 1.0\na 0.1 0.2 0.3 0.1\n", "a snapshot of EDMD (.sph): make line 2 Lattice="),
+      FILE_OF("Version 2.0\n====\nInstructions:\n", "particle input of MFIX: its rows are a table"),
       FILE_OF("3\nmy packing\n1 0.1 0.2 0.3 0.1\n", "XYZ without keys on line 2: make line 2 Lattice="),
       FILE_OF("3\nt = 0\n1 0.1 0.2 0.3 0.1\n", "line 2: no Properties=, such as Properties=species:S:1"),
       FILE_OF("hello\n", "line 1: 'hello' begins no file that is read"),

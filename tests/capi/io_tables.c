@@ -51,13 +51,18 @@ static void headings(void **state) {
       "\xef\xbb\xbfname,x_coord,y_coord,z_coord,vx,r\n\"grain, a\",.5,.5,.5,9,.2\n\"b c\",1.5,1.5,1.5,9,.25\n",
       "# pos_x pos_y pos_z radius\n.5 .5 .5 .2\n1.5 1.5 1.5 .25\n",
       "#format x_y_z_r_matId\n.5 .5 .5 .2 1\n1.5 1.5 1.5 .25 1\n",
-      "z;y", /* see below */
+      /* ParaView of MFIX; particles of Rocky and of EDEM */
+      "\"Diameter\",\"Particle_ID\",\"Points:0\",\"Points:1\",\"Points:2\"\n.4,1,.5,.5,.5\n.5,2,1.5,1.5,1.5\n",
+      ("Particle X-Coordinate [m],Particle Y-Coordinate [m],Particle Z-Coordinate [m],Particle Size "
+       "[m]\n.5,.5,.5,.4\n1.5,1.5,1.5,.5\n"),
+      "Particle Position X (m),Particle Position Y (m),Particle Position Z (m),Particle Diameter (m)\n.5,.5,.5,.4\n"
+      "1.5,1.5,1.5,.5\n",
   };
   size_t k;
   (void)state;
   /* a name with a comma inside its quotes parts the row */
   expect_refused_as(texts[4], "cell=3,3,3", JAM_E_FORMAT, "line 2");
-  for (k = 0; k < 7; ++k)
+  for (k = 0; k < sizeof texts / sizeof *texts; ++k)
     if (k != 4) expect(read_as(texts[k], "", 3.0), 3, 2, two, sizes);
   expect(read_as("x,y,z,what,r\n.5,.5,.5,\"a b\",.2\n1.5,1.5,1.5,\"c d\",.25\n", "", 3.0), 3, 2, two, sizes);
   expect_refused("x;y;z;r\n0,5;0,5;0,5;0,2\n", JAM_E_FORMAT, "parted by semicolons");
@@ -87,6 +92,15 @@ static void what_the_caller_says(void **state) {
   assert_non_null(strstr(jam_notes(sys), "mass"));
   assert_non_null(strstr(jam_notes(sys), "-2.5 -2.5 -4"));
   expect(sys, 3, 2, moved, sizes);
+  /* rows of MFIX have no names: x y z radius density u v w */
+  sys = read_as(".5 .5 .5 .2 2500 0 0 0\n1.5 1.5 1.5 .25 2500 0 0 0\n", "cell=3,3,3 columns=x,y,z,radius,density,u,v,w",
+                1.0);
+  assert_non_null(strstr(jam_notes(sys), "not read: density, u, v, w"));
+  expect(sys, 3, 2, two, sizes);
+  /* Rocky's word for the diameter of a sphere is quoted */
+  sys = read_as("x,y,z,Particle Size (m)\n.5,.5,.5,.4\n1.5,1.5,1.5,.5\n", "cell=3,3,3", 1.0);
+  assert_non_null(strstr(jam_notes(sys), "the column 'Particle Size (m)' was taken as the diameter"));
+  expect(sys, 3, 2, two, sizes);
   /* a row may begin with a word; a heading that columns= replaces is named */
   sys = read_as("x 0.5 0.5 0.5 .2\ny 1.5 1.5 1.5 .25\n", "cell=5,5,8 columns=name,x,y,z,radius", 1.0);
   assert_null(strstr(jam_notes(sys), "heading"));

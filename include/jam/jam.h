@@ -1180,15 +1180,16 @@ typedef struct jam_shear_report {
 JAM_API jam_status jam_shear_options_init(jam_shear_options *o, size_t size);
 /* Athermal quasi-static shear: after each strain step, minimises the energy of soft spheres (JAM_OVERLAP_ALLOW), or
  * jams hard spheres by a crunch, which minimises their volume. `mode` is the strain of amplitude 1, upper-triangular;
- * NULL: simple shear, x moves with y. At amplitude g positions are exp(g mode) times those of the start, plus
+ * NULL: simple shear, x moves with y. A symmetric stress (d, d) may follow the mode: the free components of soft
+ * spheres then hold it, with pressure = 0. At amplitude g positions are exp(g mode) times those of the start, plus
  * non-affine displacements. `turns`: amplitudes at which the direction turns, the last one ends the shear: {0.1}
  * forward, {0.05, -0.05, 0} a cycle. If the energy change of a step differs from the work of the mean stress by over V
  * |change of stress| |change of strain| / 5, the step is halved down to the resolution. If the packing does not return
  * when sheared back, the step is a plastic event. An event that releases less is not detected: a smaller `step` shows
  * it. A call that begins where another ended continues to the same bits, if the steps are the same. Status: JAM_OK: the
- * last strain or `until` was reached. JAM_LIMIT, JAM_NOT_CONVERGED: a minimum was not found; the last one is kept.
- * JAM_NOT_JAMMED: hard spheres did not jam.
- * @shape turns (turns), mode (d, d) @errors UNSUPPORTED (walls, Mari-Kurchan), SOLVER, TOO_FEW */
+ * last strain or `until` was reached. JAM_LIMIT, JAM_NOT_CONVERGED: a minimum was not found, or the cell yields under
+ * the stress; the last minimum is kept. JAM_NOT_JAMMED: hard spheres did not jam.
+ * @shape turns (turns), mode (d or 2 d, d) @errors UNSUPPORTED (walls, Mari-Kurchan), SOLVER, TOO_FEW */
 JAM_API jam_status jam_shear(jam_system *sys, const jam_shear_options *o, const double *turns, size_t turns_len,
                              const double *mode, size_t mode_len, jam_shear_report *report);
 /* Rows of the last shear. @shape table (rows, jam_shear_column) @errors STATE */

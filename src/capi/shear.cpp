@@ -12,7 +12,7 @@ using namespace jam::inside;
 
 namespace {
 
-void refuse_soft_options(const jam_shear_options &o) {
+void refuse_soft_options(const jam_shear_options &o, const ShearPath &path) {
   jam_shear_options plain = default_shear_options();
   plain.step = o.step, plain.resolution = o.resolution, plain.max_steps = o.max_steps, plain.until = o.until;
   plain.wall_time = o.wall_time;
@@ -20,10 +20,11 @@ void refuse_soft_options(const jam_shear_options &o) {
                     plain.alpha == o.alpha && plain.force_tolerance == o.force_tolerance &&
                     plain.max_evaluations == o.max_evaluations && plain.strain == o.strain &&
                     plain.pressure == o.pressure && plain.components == o.components;
-  if (!same)
+  if (!same || !path.stress.empty())
     fail(JAM_E_ARGUMENT,
          "these spheres are hard, and an option is set that soft ones have: leave minimiser, scale, precision, alpha, "
-         "force_tolerance, max_evaluations, strain, pressure and components at their defaults, or make the system with "
+         "force_tolerance, max_evaluations, strain, pressure, components and stress at their defaults, or make the "
+         "system with "
          "overlap = JAM_OVERLAP_ALLOW");
 }
 
@@ -78,13 +79,13 @@ jam_status jam_shear(jam_system *sys, const jam_shear_options *o, const double *
   return guard_reporting(sys, report, [&]() -> Answer {
     jam_shear_options full = default_shear_options();
     take_options(o, full);
-    check_shear_options(full);
     refuse_walls(sys->packing, "sheared");
     if (sys->packing.model == JAM_MODEL_MK)
       fail(JAM_E_UNSUPPORTED, "Mari-Kurchan systems cannot be sheared: their shifts are fractions of the cell vectors");
     const bool soft = sys->packing.overlap_allowed;
-    if (!soft) refuse_soft_options(full);
     const ShearPath path = shear_path(sys->packing.dim, mode, mode_len, turns, turns_len);
+    check_shear_options(full, path);
+    if (!soft) refuse_soft_options(full, path);
     Effort effort;
     const FindMinimum minimum =
         soft ? soft_minimum(full, path, effort, sys->monitor) : jamming_point(*sys, effort, sys->monitor);

@@ -71,7 +71,8 @@ DescentEnd minimise_and_measure(Relaxation &r, int32_t minimiser, double toleran
     out = measure(r.state, minimiser);
     if (end != DescentEnd::balanced) return end;
     if (std::max(out.report.force_residual, out.report.stress_residual) < tolerance) return end;
-    if (attempt == RelaxTuning::most_roundings) return DescentEnd::stalled;
+    const bool loads = !r.state.cell().beyond.empty();
+    if (attempt == RelaxTuning::most_roundings + (loads ? RelaxTuning::most_loadings : 0)) return DescentEnd::stalled;
     r.evaluate();
     end = minimise(r, minimiser, tolerance, true);
   }
@@ -91,6 +92,7 @@ jam_status status_of(DescentEnd end, const Monitor &monitor, int32_t &stop_reaso
     case DescentEnd::interrupted:
       stop_reason = monitor.cancelled() ? JAM_STOP_CANCELLED : JAM_STOP_WALL_TIME;
       return monitor.cancelled() ? JAM_CANCELLED : JAM_LIMIT;
+    case DescentEnd::yields:
     case DescentEnd::stalled:
       break;
   }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "soft/tuning.hpp"
+
 namespace jam::inside {
 namespace {
 
@@ -45,6 +47,12 @@ double Relaxation::stable_residual() const {
   return std::max(largest(force, state.n(), state.dim(), &stable) * static_cast<double>(count) / sum, sums.stress);
 }
 
+bool Relaxation::yields() const {
+  if (state.cell().beyond.empty()) return false;
+  const std::vector<double> e = strain_between(start, state.base().cell);
+  return std::any_of(e.begin(), e.end(), [](double x) { return std::fabs(x) > RelaxTuning::most_strain; });
+}
+
 bool Relaxation::must_stop(DescentEnd &end, bool long_steps) const {
   if (effort.evaluations >= effort.max_evaluations) {
     end = DescentEnd::limit;
@@ -58,6 +66,10 @@ bool Relaxation::must_stop(DescentEnd &end, bool long_steps) const {
     p.factorisations = effort.factorisations;
     if (effort.monitor->report(p) || effort.monitor->interrupted()) {
       end = DescentEnd::interrupted;
+      return true;
+    }
+    if (yields()) {
+      end = DescentEnd::yields;
       return true;
     }
   }

@@ -16,6 +16,7 @@ enum class DescentEnd {
   no_overlaps,  // the energy is 0, at no pressure
   limit,        // evaluations are used up
   interrupted,  // cancelled, or wall time is over
+  yields,       // the cell strains on and on: it cannot hold the stress
   stalled       // the method made no progress
 };
 
@@ -32,7 +33,7 @@ struct Effort {
 // A state, its forces and sums at the present displacements.
 class Relaxation {
  public:
-  Relaxation(SoftState &state, Effort &effort) : state(state), effort(effort) { evaluate(); }
+  Relaxation(SoftState &state, Effort &effort) : state(state), effort(effort), start(state.base().cell) { evaluate(); }
 
   // Takes in changed displacements.
   void evaluate() {
@@ -53,11 +54,14 @@ class Relaxation {
   // Called once an evaluation: true when the descent must end, with the reason in `end`. The monitor is asked now and
   // then, or where steps are long at every one.
   bool must_stop(DescentEnd &end, bool long_steps = false) const;
+  // Whether a cell under loads that no energy bounds has strained too far to come to rest.
+  bool yields() const;
 
   SoftState &state;
   Effort &effort;
   std::vector<double> force;  // (blocks, dim)
   SoftSums sums;
+  Cell start;
   double weak_force = 0.0;  // mean force up to which a state counts as balanced
   double stiffness = 1.0;   // typical one of a contact, when there last was one
 };

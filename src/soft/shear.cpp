@@ -155,7 +155,8 @@ class Shear {
     ++effort_.steps;
     Packing p = from.at.packing;
     try {
-      strain_affinely(p, finite_strain(path_.mode, step, p.dim).data());
+      if (strain_affinely(p, finite_strain(path_.mode, step, p.dim).data()).rotated)
+        fail(JAM_E_UNSUPPORTED, "the cell has become so long that it must be rotated, and with it the strain");
     } catch (const Error &e) {  // beyond the limits of cells: what was reached is kept
       ShearPoint none;
       none.at.status = JAM_NOT_CONVERGED, none.stop_reason = JAM_STOP_STALLED;
@@ -179,10 +180,27 @@ class Shear {
     return sum;
   }
 
+  // Of loads beyond the pressure, by the logarithm of the strain from a to b.
+  double load_work(const ShearPoint &a, const ShearPoint &b, double step) const {
+    if (b.beyond.empty()) return 0.0;
+    const size_t d = static_cast<size_t>(b.at.packing.dim);
+    const std::vector<double> affine = finite_strain(path_.mode, step, b.at.packing.dim);
+    std::vector<double> e(d * d);
+    const auto product = [&](const std::vector<double> &x, const std::vector<double> &y, size_t at) {
+      double sum = 0.0;
+      for (size_t c = 0; c < d; ++c) sum += x[at / d * d + c] * y[c * d + at % d];
+      return sum;
+    };
+    for (size_t k = 0; k < d * d; ++k) e[k] = affine[k] + b.strain[k] + product(b.strain, affine, k);
+    double sum = 0.0;
+    for (size_t k = 0; k < d * d; ++k) sum += b.beyond[k] * (e[k] - 0.5 * product(e, e, k));
+    return 0.5 * (a.volume + b.volume) * sum;
+  }
+
   bool suspicious(const ShearPoint &a, const ShearPoint &b, double step) const {
     if (a.rigid != b.rigid || !a.rigid) return a.rigid != b.rigid;
     const double wa = a.volume * work_stress(a), wb = b.volume * work_stress(b);
-    const double departs = std::fabs(b.enthalpy - a.enthalpy - 0.5 * step * (wa + wb));
+    const double departs = std::fabs(b.enthalpy - a.enthalpy + load_work(a, b, step) - 0.5 * step * (wa + wb));
     const double noise = ShearTuning::energy_digits * (std::fabs(a.enthalpy) + std::fabs(b.enthalpy));
     return departs > ShearTuning::suspicious * std::fabs(step * (wb - wa)) + noise;
   }

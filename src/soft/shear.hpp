@@ -22,6 +22,7 @@ struct ShearPoint {
   bool rigid = false;  // contacts carry force
   double enthalpy = 0.0, volume = 0.0, confining = 0.0;  // confining: P where the volume is free, else 0
   std::vector<double> stress;                            // (dim, dim), in units of d enthalpy / d volume
+  std::vector<double> beyond, strain;  // loads beyond the pressure, as in FreeCell, and what the minimiser strained
 };
 using FindMinimum = std::function<ShearPoint(const Packing &, bool first)>;
 
@@ -40,12 +41,13 @@ struct ShearResult {
 // ends at the last.
 struct ShearPath {
   std::vector<double> mode;
+  std::vector<double> stress;  // (dim, dim), that free components are to hold; empty: the pressure of the options
   std::vector<double> turns;
 };
 
 jam_shear_options default_shear_options();
-void check_shear_options(const jam_shear_options &o);
-// Simple shear, x moves with y, for an empty mode.
+void check_shear_options(const jam_shear_options &o, const ShearPath &path);
+// Simple shear, x moves with y, for an empty mode. Numbers behind the mode are the stress.
 ShearPath shear_path(int dim, const double *mode, size_t mode_len, const double *turns, size_t turns_len);
 
 // Minima of soft spheres for these options.

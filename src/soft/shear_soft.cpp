@@ -1,6 +1,7 @@
 // What jam_shear asks for, and the minima of soft spheres on its way.
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 
 #include "core/call_scope.hpp"
@@ -34,8 +35,15 @@ static jam_relax_options relax_options(const jam_shear_options &o) {
   return r;
 }
 
-void check_shear_options(const jam_shear_options &o) {
-  check_relax_options(relax_options(o));
+void check_shear_options(const jam_shear_options &o, const ShearPath &path) {
+  jam_relax_options r = relax_options(o);
+  if (!path.stress.empty()) {
+    if (o.pressure != 0.0) fail(JAM_E_ARGUMENT, "pressure is %g, it must be 0: a stress is given", o.pressure);
+    if (o.strain == JAM_STRAIN_NONE)
+      fail(JAM_E_ARGUMENT, "a stress is given, but strain frees nothing that could hold it");
+    r.pressure = (o.strain & JAM_STRAIN_VOLUME) != 0 ? 1.0 : 0.0;  // of that stress
+  }
+  check_relax_options(r);
   check_positive(o.step, "step");
   check_positive(o.resolution, "resolution");
   if (!std::isfinite(o.step)) fail(JAM_E_ARGUMENT, "step is infinite, it must be finite");
@@ -51,8 +59,11 @@ ShearPath shear_path(int dim, const double *mode, size_t mode_len, const double 
     if (mode_len != 0) fail(JAM_E_NULL, "mode is NULL but its length is %zu", mode_len);
     path.mode[1] = 1.0;
   } else {
-    if (mode_len != d * d) fail(JAM_E_ARGUMENT, "mode has %zu numbers, it must have d d = %zu", mode_len, d * d);
-    path.mode.assign(mode, mode + mode_len);
+    if (mode_len != d * d && mode_len != 2 * d * d)
+      fail(JAM_E_ARGUMENT, "mode has %zu numbers, it must have d d = %zu, or with a stress twice as many", mode_len,
+           d * d);
+    path.mode.assign(mode, mode + d * d);
+    path.stress.assign(mode + d * d, mode + mode_len);
   }
   double most = 0.0;
   for (size_t k = 0; k < d * d; ++k) {
@@ -77,15 +88,37 @@ ShearPath shear_path(int dim, const double *mode, size_t mode_len, const double 
   return path;
 }
 
+// The held component that is farthest from its target.
+static std::string out_of_reach(const FreeCell &cell, const ShearPoint &p) {
+  const size_t d = static_cast<size_t>(cell.dim);
+  size_t worst = 0;
+  double most = -1.0, target = 0.0, is = 0.0;
+  for (size_t k = 0; k < d * d; ++k) {
+    const bool held = std::any_of(cell.matrices.begin(), cell.matrices.end(), [&](const double &x) {
+      return x != 0.0 && static_cast<size_t>(&x - cell.matrices.data()) % (d * d) == k;
+    });
+    const double t = cell.beyond[k] + (k % (d + 1) == 0 ? cell.pressure : 0.0),
+                 s = p.stress.empty() ? 0.0 : p.stress[k];
+    if (held && std::fabs(s - t) > most) most = std::fabs(s - t), worst = k, target = t, is = s;
+  }
+  char line[200];
+  std::snprintf(line, sizeof line,
+                "stress[%zu] cannot be held at %g: the cell yields, and strained by more than %g in one step while it "
+                "held %g",
+                worst, target, RelaxTuning::most_strain, is);
+  return line;
+}
+
 FindMinimum soft_minimum(const jam_shear_options &o, const ShearPath &path, Effort &effort, Monitor &monitor) {
   const int dim = static_cast<int>(std::lround(std::sqrt(static_cast<double>(path.mode.size()))));
   int64_t free = o.components;
   for (size_t k = 0; k < path.mode.size(); ++k)
     if (path.mode[k] != 0.0) free &= static_cast<int64_t>(~(uint64_t{1} << k));
-  const FreeCell cell = free_cell_of(dim, o.strain, free, o.pressure);
+  FreeCell cell = free_cell_of(dim, o.strain, free, o.pressure);
   if (o.strain != JAM_STRAIN_NONE && cell.count() == 0)
     fail(JAM_E_ARGUMENT, "components is %lld: no strain is free beside the sheared ones",
          static_cast<long long>(o.components));
+  if (!path.stress.empty()) hold_stress(cell, o.strain, path.stress.data());
   return [o, cell, &effort, &monitor](const Packing &p, bool first) {
     ShearPoint out;
     DescentEnd end = DescentEnd::interrupted;
@@ -99,7 +132,7 @@ FindMinimum soft_minimum(const jam_shear_options &o, const ShearPath &path, Effo
       end = DescentEnd::balanced;
       if (cell.count() > 0) {
         if (!near) end = minimise(r, o.minimiser, std::max(o.force_tolerance, RelaxTuning::before_strain), false);
-        if (end == DescentEnd::balanced || (end == DescentEnd::no_overlaps && o.pressure > 0.0)) {
+        if (end == DescentEnd::balanced || (end == DescentEnd::no_overlaps && cell.pressure > 0.0)) {
           state.free_cell(cell);
           r.evaluate();
           end = DescentEnd::balanced;
@@ -109,7 +142,8 @@ FindMinimum soft_minimum(const jam_shear_options &o, const ShearPath &path, Effo
         end = minimise_and_measure(r, o.minimiser, o.force_tolerance, near || cell.count() > 0, out.at);
       else
         out.at = measure(state, o.minimiser);
-    } catch (const Cancelled &) {  // in a search for pairs
+    } catch (const Cancelled &) {  // in a search for pairs, of the last measurement too
+      end = DescentEnd::interrupted;
       out.at.packing = p;
       out.at.contacts.coordination.assign(p.n(), 0);
     }
@@ -118,9 +152,15 @@ FindMinimum soft_minimum(const jam_shear_options &o, const ShearPath &path, Effo
     out.rigid = end == DescentEnd::balanced && out.at.report.contacts > 0;
     if (!out.rigid) out.at.report.energy = 0.0;  // what is left is below the rounding of positions
     out.volume = out.at.packing.cell.volume();
-    out.confining = cell.volume ? o.pressure : 0.0;
+    out.confining = cell.volume ? cell.pressure : 0.0;
     out.enthalpy = out.at.report.energy + out.confining * out.volume;
-    if (out.rigid) out.stress = stress_tensor(out.at.packing, out.at.contacts);
+    if (out.at.report.contacts > 0) out.stress = stress_tensor(out.at.packing, out.at.contacts);
+    if (cell.beyond.empty()) return out;
+    out.beyond = cell.beyond, out.strain = strain_between(p.cell, out.at.packing.cell);
+    if (end == DescentEnd::yields) {
+      out.why = out_of_reach(cell, out);
+      if (first) out.at.packing = p, out.at.contacts = {}, out.at.contacts.coordination.assign(p.n(), 0);
+    }
     return out;
   };
 }

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/error.hpp"
 #include "core/math.hpp"
 
 namespace jam::inside {
@@ -36,6 +37,54 @@ FreeCell free_cell_of(int dim, int32_t strain, int64_t components, double pressu
     for (int k = c + 1; k < dim; ++k)
       if (may(c, k)) matrix()[c * dim + k] = 1.0;
   return cell;
+}
+
+void hold_stress(FreeCell &cell, int32_t strain, const double *stress) {
+  const size_t d = static_cast<size_t>(cell.dim), block = d * d;
+  std::vector<char> held(block, 0);
+  for (size_t k = 0; k < cell.matrices.size(); ++k)
+    if (cell.matrices[k] != 0.0) held[k % block] = 1;
+  double sum = 0.0, count = 0.0;
+  for (size_t a = 0; a < d; ++a) {
+    for (size_t b = 0; b < d; ++b) {
+      const double t = stress[a * d + b];
+      if (!std::isfinite(t)) fail(JAM_E_NONFINITE, "stress[%zu] is %g", a * d + b, t);
+      if (t != stress[b * d + a])
+        fail(JAM_E_ARGUMENT, "stress[%zu] is %g and stress[%zu] is %g: a stress is symmetric", a * d + b, t, b * d + a,
+             stress[b * d + a]);
+    }
+    if (!held[a * (d + 1)]) continue;
+    sum += stress[a * (d + 1)], count += 1.0;
+    if (!(stress[a * (d + 1)] > 0.0))
+      fail(JAM_E_ARGUMENT, "stress[%zu] is %g, it must be above 0: spheres that repel hold no tension", a * (d + 1),
+           stress[a * (d + 1)]);
+  }
+  if (cell.volume) cell.pressure = sum / count;
+  cell.beyond.assign(block, 0.0);
+  for (size_t a = 0; a < d; ++a)
+    for (size_t b = a; b < d; ++b) {
+      if (!held[a * d + b]) continue;
+      const double t = stress[a * d + b], normal = stress[a * (d + 1)] * stress[b * (d + 1)];
+      if (a != b && held[a * (d + 1)] && held[b * (d + 1)] && t * t >= normal)
+        fail(JAM_E_ARGUMENT, "stress[%zu] is %g, its magnitude must be below %g: spheres that repel hold no tension",
+             a * d + b, t, std::sqrt(normal));
+      cell.beyond[a * d + b] = a == b ? t - sum / count : t;
+      if (a == b && (strain & JAM_STRAIN_EDGES) == 0 && t != stress[0])
+        fail(JAM_E_ARGUMENT, "stress[%zu] is %g and stress[0] is %g: edges that change together hold one stress",
+             a * (d + 1), t, stress[0]);
+    }
+}
+
+std::vector<double> strain_between(const Cell &from, const Cell &to) {
+  const size_t d = static_cast<size_t>(from.dim());
+  std::vector<double> e(d * d, 0.0);
+  for (size_t c = 0; c < d; ++c)
+    for (size_t a = 0; a <= c; ++a) {
+      double sum = to.row(c)[a] - from.row(c)[a];
+      for (size_t b = a; b < c; ++b) sum -= e[a * d + b] * from.row(c)[b];
+      e[a * d + c] = sum / from.row(c)[c];
+    }
+  return e;
 }
 
 CellStrain strain_of(const FreeCell &cell, const double *amplitude) {

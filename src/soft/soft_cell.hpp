@@ -5,21 +5,32 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/cell.hpp"
 #include "jam/jam.h"
 
 namespace jam::inside {
 
-// What may change. With a pressure P the enthalpy U + P V is minimised; without, U at fixed volume.
+// What may change. With a pressure P the enthalpy U + P V is minimised; without, U at fixed volume. A target tensor D
+// beyond P adds V0 D_ab E_ab, E from the cell of volume V0 where the pairs were last listed. Such work of fixed loads
+// has a potential, which that of a given Cauchy stress has not. Where E = 0 both agree: there the stress is P + D.
 struct FreeCell {
   int dim = 0;
   bool volume = false;
   double pressure = 0.0;
+  std::vector<double> beyond;    // D, (dim, dim), 0 for components that are not free; empty: none
   std::vector<double> matrices;  // (count, dim, dim): strain of amplitude 1
   int count() const { return dim ? static_cast<int>(matrices.size()) / (dim * dim) : 0; }
 };
 
 // strain: bits of jam_free_strain; components: bit c dim + k allows component (c, k), c <= k.
 FreeCell free_cell_of(int dim, int32_t strain, int64_t components, double pressure);
+
+// The free components are to hold this stress (dim, dim): sets pressure and beyond. JAM_E_ARGUMENT where repulsion
+// cannot.
+void hold_stress(FreeCell &cell, int32_t strain, const double *stress);
+
+// E with (1 + E) from = to, vector by vector, (dim, dim).
+std::vector<double> strain_between(const Cell &from, const Cell &to);
 
 struct CellStrain {
   std::vector<double> e;      // E, (dim, dim)

@@ -25,7 +25,7 @@ struct SoftSums {
   double virial = 0.0;   // sum of f r
   double force = 0.0;    // sum of f
   double overlap = 0.0;  // sum of sigma - r
-  double work = 0.0;     // P (V - V at the start), at fixed pressure
+  double work = 0.0;     // of the pressure and other loads of a free cell since the start
   double stress = 0.0;   // largest stress that a free cell leaves, less the target, over the pressure
   double enthalpy() const { return energy + work; }
   int64_t contacts = 0;
@@ -90,6 +90,7 @@ class SoftState {
   SoftSums evaluate_in(std::vector<double> &force, const CellStrain *strain) const;
   void add_cell(SoftSums &sums, const CellStrain &strain, const std::vector<double> &stress,
                 std::vector<double> &force) const;
+  double load_work(const CellStrain &strain) const;
   // Takes the strain into the cell, and returns it (dim, dim); the spheres follow in wrap_sphere.
   std::vector<double> fold_strain();
   void strain_sphere(const std::vector<double> &strain, const double *base, DoubleDouble *x) const;

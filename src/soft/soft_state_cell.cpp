@@ -25,17 +25,25 @@ CellStrain SoftState::strain() const {
   return s;
 }
 
+// Of pressure and loads since the list was made.
+double SoftState::load_work(const CellStrain &strain) const {
+  double sum = cell_.volume ? cell_.pressure * math::expm1(strain.log_volume) : 0.0;
+  for (size_t c = 0; c < cell_.beyond.size(); ++c) sum += cell_.beyond[c] * (strain.e[c] - at_.low[c]);
+  return sum * base_.cell.volume();
+}
+
 // Forces on strains from the sum of f n r0, and the part of the pressure.
 void SoftState::add_cell(SoftSums &sums, const CellStrain &strain, const std::vector<double> &stress,
                          std::vector<double> &force) const {
   const int d = base_.dim;
   const size_t block = stress.size();
   const double volume = base_.cell.volume(), p_v = cell_.volume ? cell_.pressure * volume : 0.0;
-  sums.work = at_.work + p_v * math::expm1(strain.log_volume);
+  sums.work = at_.work + load_work(strain);
   for (size_t k = 0; k < strains(); ++k) {
     const double *slope = &strain.slope[k * block];
     double f = 0.0;
     for (size_t c = 0; c < block; ++c) f += slope[c] * stress[c];
+    for (size_t c = 0; c < cell_.beyond.size(); ++c) f -= volume * cell_.beyond[c] * slope[c];
     for (int c = 0; cell_.volume && c < d; ++c)
       f -= p_v * math::exp(strain.log_volume) * slope[c * (d + 1)] / (1.0 + strain.e[c * (d + 1)]);
     force[spheres() + k] = f;
@@ -49,7 +57,7 @@ void SoftState::add_cell(SoftSums &sums, const CellStrain &strain, const std::ve
 std::vector<double> SoftState::fold_strain() {
   const int d = base_.dim;
   const CellStrain s = strain();
-  if (cell_.volume) at_.work += cell_.pressure * base_.cell.volume() * math::expm1(s.log_volume);
+  at_.work += load_work(s);
   std::vector<double> rows = base_.cell.rows(), rest(rows.size(), 0.0);
   double widest = 0.0;
   for (const double x : rows) widest = std::max(widest, std::fabs(x));

@@ -78,6 +78,10 @@ struct RelaxTuning {
   // The resulting state has rounded positions. Where they do not balance, the descent continues, at most this
   // many times.
   static constexpr int most_roundings = 4;
+  // Loads are fixed in the cell where they were last taken, which costs this many more descents. A cell that strains
+  // farther under them flows.
+  static constexpr int most_loadings = 40;
+  static constexpr double most_strain = 1.0;
 };
 
 // ---- decompression

@@ -21,6 +21,14 @@ def soft(n=64, dim=2, phi=0.9, seed=1, **options):
     return s
 
 
+#: Dimension, packing fraction and options of a soft packing: harmonic and Hertzian spheres, every minimiser.
+KINDS = (
+    (2, 0.9, {}),
+    (3, 0.72, {"alpha": 2.5, "minimiser": "fire"}),
+    (4, 0.55, {"alpha": 2.5, "minimiser": "lbfgs"}),
+)
+
+
 def pair_sums(s):
     """Energy, stress sum of f r n n / V, of harmonic spheres, by all pairs and images of a cell that is no brick."""
     x, sigma, cell = s.positions, s.diameters, s.cell
@@ -71,16 +79,16 @@ class Stress(unittest.TestCase):
 
 class Shear(unittest.TestCase):
     def test_stress_is_the_slope_of_the_energy(self):
-        for dim, phi in ((2, 0.9), (3, 0.72)):
-            s = soft(48, dim, phi)
+        for dim, phi, given in KINDS:
+            s = soft(48, dim, phi, **given)
             volume, small = s.box**dim, 1e-6
             ends = []
             for way in (small, -small):
                 t = s.copy()
-                report = t.shear(way, step=small)
+                report = t.shear(way, step=small, **given)
                 self.assertEqual(report.events, 0)
                 ends.append(report.energy)
-            report = s.shear(small, step=small)
+            report = s.shear(small, step=small, **given)
             start = s.shear_rows[0]
             scale = start["pressure"]
             self.assertAlmostEqual((ends[0] - ends[1]) / (2 * small * volume) / scale, start["stress"] / scale, delta=1e-6)
@@ -97,20 +105,22 @@ class Shear(unittest.TestCase):
         self.assertAlmostEqual(slope / found[0, 1, 0, 1], 1.0, delta=1e-6)
 
     def test_the_way_back_before_an_event(self):
-        s = soft(64)
-        t = s.copy()
-        t.shear(1.0, until="event", step=2e-3)
-        first = t.shear_rows[-1]["strain"]
-        self.assertGreater(first, 0)
-        turn = min(0.5 * first, 4e-3)
-        u = s.copy()
-        report = u.shear([turn, 0.0], step=turn / 4)
-        self.assertEqual(report.events, 0)
-        moved = u.positions - s.positions
-        moved -= np.round(moved / s.box) * s.box
-        moved -= moved.mean(axis=0)
-        stable = s.coordination > 0
-        self.assertLess(np.abs(moved[stable]).max(), 1e-12 * s.box * 10)
+        for dim, phi, given in KINDS:
+            with self.subTest(dim=dim, **given):
+                s = soft(64, dim, phi, **given)
+                t = s.copy()
+                t.shear(1.0, until="event", step=2e-3, **given)
+                first = t.shear_rows[-1]["strain"]
+                self.assertGreater(first, 0)
+                turn = min(0.5 * first, 4e-3)
+                u = s.copy()
+                report = u.shear([turn, 0.0], step=turn / 4, **given)
+                self.assertEqual(report.events, 0)
+                moved = u.positions - s.positions
+                moved -= np.round(moved / s.box) * s.box
+                moved -= moved.mean(axis=0)
+                stable = s.coordination > 0
+                self.assertLess(np.abs(moved[stable]).max(), 1e-12 * s.box * 10)
 
     def test_energy_is_the_work_but_at_events(self):
         s = soft(64)
@@ -158,6 +168,71 @@ class Shear(unittest.TestCase):
         t.shear(0.02, strain="edges_volume", pressure=p, components=1 << 3)  # the edge along y alone
         self.assertAlmostEqual(t.stress()[1, 1] / p, 1.0, delta=1e-9)
         self.assertEqual(t.cell[0, 0], soft(64).cell[0, 0])
+
+    def test_components_are_held_at_values_of_their_own(self):
+        for dim, phi, alpha in ((2, 0.9, 2.0), (3, 0.72, 2.5), (4, 0.55, 2.0)):
+            start = soft(40, dim, phi, alpha=alpha)
+            p = start.stress().trace() / dim
+            target = p * (np.diag(np.linspace(1.1, 0.9, dim)) + 0.03 * (1 - np.eye(dim)))
+            for minimiser in ("newton", "fire", "lbfgs"):
+                with self.subTest(dim=dim, minimiser=minimiser):
+                    s = start.copy()
+                    report = s.shear(1e-3, stress=target, strain="all", alpha=alpha, minimiser=minimiser)
+                    self.assertEqual(report.stop_reason, jam.StopReason.STRAIN)
+                    held = ~(np.eye(dim, k=1, dtype=bool) & (np.arange(dim) == 1))
+                    held &= held.T  # all but the component that the shear drives
+                    np.testing.assert_allclose(s.stress()[held], target[held], atol=1e-10 * p)
+
+    def test_loads_work(self):
+        s = soft(64)
+        p = s.stress().trace() / 2
+        target = np.array([[p, -0.05 * p], [-0.05 * p, p]])
+        given = dict(mode=[[1, 0], [0, -1]], stress=target, strain="tilts")
+        s.shear(1e-5, step=1e-5, **given)
+        for _ in range(4):
+            energy, before, step = s.shear_rows[-1]["energy"] * s.n, s.cell.T, 1e-4
+            self.assertEqual(s.shear(step, step=step, **given).events, 0)
+            stress = s.shear_rows["stress"]
+            e = s.cell.T @ np.linalg.inv(before) - np.eye(2)
+            load = target[0, 1] * (e - e @ e / 2)[0, 1] * s.box**2
+            work = s.box**2 * step * stress.mean()
+            gain = s.shear_rows[-1]["energy"] * s.n - energy
+            self.assertAlmostEqual((gain + load) / work, 1.0, delta=1e-3)
+
+    def test_a_stress_beyond_yield_keeps_the_last_minimum(self):
+        s = soft(64)
+        p = s.stress().trace() / 2
+        target = np.array([[p, -0.2 * p], [-0.2 * p, p]])
+        report = s.shear(0.3, mode=[[1, 0], [0, -1]], stress=target, strain="tilts", step=2e-3)
+        self.assertEqual(report.stop_reason, jam.StopReason.STALLED)
+        self.assertIn("stress[1] cannot be held", str(report))
+        self.assertGreater(report.strain, 0)
+        self.assertAlmostEqual(s.stress()[0, 1], target[0, 1], delta=1e-10 * p)
+        t = soft(64)
+        before = t.positions.copy()
+        report = t.shear(0.1, mode=[[1, 0], [0, -1]], stress=[[p, 0.9 * p], [0.9 * p, p]], strain="tilts")
+        self.assertEqual((report.strain, report.rigid), (0, False))
+        self.assertTrue(np.array_equal(before, t.positions))
+
+    def test_stresses_that_no_cell_holds_are_refused(self):
+        s = soft(32)
+        p = s.stress().trace() / 2
+        for stress, options in (
+            ([[p, 0], [0.1 * p, p]], {"strain": "all"}),  # not symmetric
+            ([[p, 0], [0, -p]], {"strain": "all"}),
+            ([[p, 0], [0, np.nan]], {"strain": "all"}),
+            ([[p, 0], [0, 2 * p]], {"strain": "volume"}),
+            ([[p, 0], [0, p]], {}),
+            ([[p, 0], [0, p]], {"strain": "all", "pressure": p}),
+        ):
+            with self.subTest(stress=stress, options=options), self.assertRaises(jam.JamError):
+                s.shear(0.01, stress=stress, **options)
+        solid = soft(24, 3, 0.72)
+        with self.assertRaisesRegex(jam.JamError, "magnitude"):
+            solid.shear(0.01, stress=np.eye(3) + 2 * np.eye(3)[:, [0, 2, 1]] * [0, 1, 1], strain="all")
+        hard = jam.System.random(n=20, dim=2, seed=1)
+        with self.assertRaisesRegex(jam.JamError, "hard"):
+            hard.shear(0.01, stress=np.eye(2), strain="all")
 
     def test_jams_by_shear(self):
         s = jam.System.random(n=64, dim=2, diameters=[1.0, 1.4] * 32, packing_fraction=0.83, overlap="allow", seed=6)

@@ -32,7 +32,13 @@ void forces_are_slopes(void **) {
   for (int dim = 2; dim <= 4; ++dim)
     for (const int32_t strain : {3, 4, 5, 7}) {
       SoftState state(random_packing(dim, 30, dim == 2 ? 0.95 : dim == 3 ? 0.8 : 0.6, dim), energy, JAM_SOFT_REFERENCE);
-      state.free_cell(free_cell_of(dim, strain, -1, strain >= JAM_STRAIN_VOLUME ? 0.3 : 0.0));
+      FreeCell cell = free_cell_of(dim, strain, -1, strain >= JAM_STRAIN_VOLUME ? 0.3 : 0.0);
+      if (strain == JAM_STRAIN_FREE || strain == JAM_STRAIN_ALL) {  // with loads of their own for all components
+        std::vector<double> stress(static_cast<size_t>(dim) * dim, 0.02);
+        for (int c = 0; c < dim; ++c) stress[c * (dim + 1)] = 0.3 + 0.05 * c;
+        hold_stress(cell, strain, stress.data());
+      }
+      state.free_cell(cell);
       Rng rng(4, Stream::velocities);
       const size_t strained = state.spheres() + state.strains();
       for (size_t k = 0; k < strained; ++k)

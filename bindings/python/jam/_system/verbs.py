@@ -275,7 +275,7 @@ class Verbs(Observing):
         return as_rows(self._ask("decompress_history"))
 
     @takes("jam_shear_options")
-    def shear(self, to: Any, mode: Any = None, *, progress: Any = None, **options: Any) -> ShearReport:
+    def shear(self, to: Any, mode: Any = None, *, stress: Any = None, progress: Any = None, **options: Any) -> ShearReport:
         """Athermal quasi-static shear of soft spheres (overlap="allow"), or of hard ones by a crunch at each strain.
 
         Parameters
@@ -284,6 +284,8 @@ class Verbs(Observing):
             The last strain, or those at which the shear turns: [0.1, -0.1, 0] is a cycle.
         mode : array_like (d, d), optional
             Strain of amplitude 1, upper-triangular. Default: simple shear, x moves with y.
+        stress : array_like (d, d), optional
+            What the components that strain= frees are to hold, in place of one pressure. Symmetric.
 
         Returns
         -------
@@ -299,9 +301,13 @@ class Verbs(Observing):
         (True, True)
         """
         turns = as_vector(np.atleast_1d(to), name="to")
-        given = None if mode is None else as_array(mode, name="mode")
-        if given is not None and given.shape != (self.dim, self.dim):
-            raise ValueError(f"mode has the shape {given.shape}, it must be ({self.dim}, {self.dim})")
+        if mode is None and stress is not None:
+            mode = np.eye(self.dim, k=1) * (np.arange(self.dim) == 1)
+        parts = [as_array(x, name=name) for name, x in (("mode", mode), ("stress", stress)) if x is not None]
+        for name, x in zip(("mode", "stress"), parts):
+            if x.shape != (self.dim, self.dim):
+                raise ValueError(f"{name} has the shape {x.shape}, it must be ({self.dim}, {self.dim})")
+        given = np.concatenate(parts) if parts else None
         found: ShearReport = self._verb(
             "jam_shear", "jam_shear_options", "jam_shear_report", progress, options or None, turns, given
         )

@@ -14,6 +14,7 @@ import os
 import re
 import subprocess
 import sys
+import sysconfig
 import tarfile
 import tempfile
 import zipfile
@@ -39,9 +40,13 @@ def _tag(files: dict[str, bytes]) -> str:
     return f"{python}-{python}-{wheel_tag.platform_tag(objects)}"
 
 
-def _metadata(licences: bool = True) -> str:
+def _metadata(licences: bool = True, objects: dict[str, bytes] | None = None) -> str:
     """METADATA.in, whose head an install by CMake has too, with the README as the description."""
     head = (ROOT / "bindings/python/METADATA.in").read_text().replace("@JAM_PYTHON_VERSION@", _version())
+    # zig's compilers put these two into the objects
+    for library, licence in (b"libz.so", "Zlib"), (b"libstdc++.so", "Apache-2.0 WITH LLVM-exception"):
+        if objects and not any(library in data for data in objects.values()):
+            head = re.sub("(?m)^License-Expression: .*", rf"\g<0> AND {licence}", head)
     named = "".join(f"License-File: {Path(path).name}\n" for path in LICENCES)
     source = re.search(r"Project-URL: Source, (.*)", head).group(1)
     release = re.search(r"(?m)^version: (.*)$", (ROOT / ".github/CITATION.cff").read_text()).group(1)
@@ -87,6 +92,7 @@ def build_wheel(
     wheel_directory: str, config_settings: dict | None = None, metadata_directory: str | None = None
 ) -> str:
     info = f"{NAME}-{_version()}.dist-info"
+    processor = sysconfig.get_platform().rpartition("-")[2]  # _PYTHON_HOST_PLATFORM names another one in a cross build
     with tempfile.TemporaryDirectory() as folder:
         files = {}
         prefix = _installed(folder, config_settings or {})
@@ -97,9 +103,9 @@ def build_wheel(
                 and "__pycache__" not in file.parts
                 and not re.search(r"\.so(\.\d+){3}$|jam\.so$", file.name)
             ):
-                files[str(file.relative_to(prefix))] = file.read_bytes()
+                files[str(file.relative_to(prefix)).replace(f"-{os.uname().machine}-", f"-{processor}-")] = file.read_bytes()
     tag = _tag(files)
-    files[f"{info}/METADATA"] = _metadata().encode()
+    files[f"{info}/METADATA"] = _metadata(objects={name: data for name, data in files.items() if ".so" in name}).encode()
     files[f"{info}/WHEEL"] = f"Wheel-Version: 1.0\nGenerator: jam\nRoot-Is-Purelib: false\nTag: {tag}\n".encode()
     for path in LICENCES:
         files[f"{info}/licenses/{Path(path).name}"] = (ROOT / path).read_bytes()

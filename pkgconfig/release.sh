@@ -2,6 +2,7 @@
 # release.sh VERSION FOLDER [PART...]: all files of a release, made from a clean clone of the tag vVERSION, or of HEAD
 # where there is none, and tried; CONTENTS.md says how. The same commit gives the same bytes. Parts: source, sdist,
 # wheels, debian, windows, npm. What this machine cannot make is left out, and both the script and CONTENTS.md say so.
+# JAM_RELEASE_OPTIONS: more options of CMake for a trial of wheels, debian and windows.
 set -eu
 version=$1 root=$(cd "$(dirname "$0")/.." && pwd)
 mkdir -p "$2"
@@ -12,18 +13,22 @@ commit=$(git -C "$root" rev-parse -q --verify "v$version^{commit}" || git -C "$r
 SOURCE_DATE_EPOCH=$(git -C "$root" show -s --format=%ct "$commit")
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-export SOURCE_DATE_EPOCH TZ=UTC TMPDIR="$work" LC_ALL=C CCACHE_BASEDIR="$work" CCACHE_NOHASHDIR=1 JAM_LIBRARIES=zlib
+export SOURCE_DATE_EPOCH TZ=UTC TMPDIR="$work" CCACHE_BASEDIR="$work" CCACHE_NOHASHDIR=1 JAM_LIBRARIES=zlib
 umask 022
 git clone -q --no-hardlinks "$root" "$work/libjam"
 cd "$work/libjam"
 git checkout -q --detach "$commit"
-found=$(sed -n 's/^project(jam VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt)$(sed -n 's/^set(JAM_VERSION_SUFFIX "\([^"]*\).*/\1/p' CMakeLists.txt)
+found=$(sed -n 's/^project(jam VERSION \([0-9.]*\).*/\1/p; s/^set(JAM_VERSION_SUFFIX "\([^"]*\).*/\1/p' CMakeLists.txt |
+  tr -d '\n')
 [ "$found" = "$version" ] || { echo "the tree is version $found: pkgconfig/set_version.py sets another" >&2; exit 2; }
 . tests/platforms/common.sh
-small="-DCMAKE_BUILD_TYPE=Release -DJAM_BUILD_TESTS=OFF"
+small="-DCMAKE_BUILD_TYPE=Release -DJAM_BUILD_TESTS=OFF ${JAM_RELEASE_OPTIONS:-}"
 python='env PYTHONPATH=bindings/python /usr/bin/python3 -B'
 
-row() { printf '| %s | %s | %s |\n' "$1" "$(stat -c %s "$out/$1" 2>/dev/null || echo -)" "$2" >>"$work/rows"; echo "$1: $2"; }
+row() { # row FILE HOW
+  printf '| %s | %s | %s |\n' "$1" "$(stat -c %s "$out/$1")" "$2" >>"$work/rows"
+  echo "$1: $2"
+}
 skip() { echo "- $1 left out: $2" | tee -a "$work/skipped"; }
 wants() { case " $parts " in *" $1 "*) ;; *) return 1 ;; esac; }
 run() { "$@" >"$work/log" 2>&1 || { tail -30 "$work/log" >&2; echo "failed: $*" >&2; exit 1; }; }
@@ -37,8 +42,8 @@ if begin source 'libjam-*.tar.gz'; then
   mkdir "$work/source"
   tar -xzf "$out/$file" -C "$work/source" --strip-components=1
   # without SWIG and without git: Fortran and Julia come from the generated layers
-  run cmake -S "$work/source" -B "$work/source/build" -G Ninja $small -DJAM_DIMENSIONS="2;3" -DJAM_WERROR=ON -DJAM_BUILD_FORTRAN=ON \
-    -DSWIG_PROGRAM=/nowhere -DGIT_PROGRAM=/nowhere
+  run cmake -S "$work/source" -B "$work/source/build" -G Ninja $small -DJAM_DIMENSIONS="2;3" -DJAM_WERROR=ON \
+    -DJAM_BUILD_FORTRAN=ON -DSWIG_PROGRAM=/nowhere -DGIT_PROGRAM=/nowhere
   run cmake --build "$work/source/build" -j "$jobs"
   run "$work/source/build/examples/example_first"
   run "$work/source/build/examples/example_fortran_first"
@@ -53,7 +58,7 @@ if begin sdist 'jamming-*.tar.gz'; then
     --config-settings cmake=-DCMAKE_UNITY_BUILD=ON \
     -w "$work/from_sdist" "$out/$file"
   run sh tests/bindings/wheel.sh "$work"/from_sdist/*.whl
-  row "$file" "pip made a wheel of it (d = 2 and 3) without git and an index; README's example ran in an empty environment"
+  row "$file" "pip made a wheel of it (d = 2 and 3) without git and an index; README's example ran with numpy alone"
 fi
 
 # wheel PROCESSOR: by zig for GLIBC 2.17, with its C++ library and zlib inside. CMake takes the build for a native one,
@@ -68,15 +73,16 @@ wheel() {
   # between 64-bit processors of one order of bytes nothing differs in what the module uses of it
   [ -f "$config" ] || config=$(ls /usr/include/*-linux-gnu/"$name"/pyconfig.h | head -1)
   cp "$config" "$libraries/python/$1-linux-gnu/$name"
-  run env CC="$tools/cc" CXX="$tools/c++" CFLAGS="-I$libraries/python" LDFLAGS=-s PKG_CONFIG_LIBDIR="$libraries/lib/pkgconfig" \
-    _PYTHON_HOST_PLATFORM="linux-$1" $python -c '
+  run env CC="$tools/cc" CXX="$tools/c++" CFLAGS="-I$libraries/python" LDFLAGS=-s \
+    PKG_CONFIG_LIBDIR="$libraries/lib/pkgconfig" _PYTHON_HOST_PLATFORM="linux-$1" $python -c '
 import build_wheel, sys
 out, build, *options = sys.argv[1:]
 build_wheel.build_wheel(out, {"build-dir": build, "cmake": options})' "$out" "$work/wheel-$1" -GNinja \
-    -DCMAKE_UNITY_BUILD=ON -DCMAKE_STRIP=/bin/true -DSPECTRA_INCLUDE="$libraries/include"
+    -DCMAKE_UNITY_BUILD=ON -DCMAKE_STRIP=/bin/true -DSPECTRA_INCLUDE="$libraries/include" ${JAM_RELEASE_OPTIONS:-}
 }
 if begin wheels 'jamming-*.whl'; then
-  if sh pkgconfig/zig.sh "$work/zig" x86_64-linux-gnu.2.17 && sh pkgconfig/zig.sh "$work/zig" aarch64-linux-gnu.2.17; then
+  if sh pkgconfig/zig.sh "$work/zig" x86_64-linux-gnu.2.17 &&
+    sh pkgconfig/zig.sh "$work/zig" aarch64-linux-gnu.2.17; then
     wheel x86_64
     file=$(named 'jamming-*x86_64.whl')
     run sh tests/bindings/wheel.sh "$out/$file"
@@ -89,7 +95,7 @@ if begin wheels 'jamming-*.whl'; then
       /usr/bin/python3 -m zipfile -e "$out/$file" "$work/arm"
       run aarch64-linux-gnu-gcc -Iinclude examples/c/first.c -o "$work/arm/first" "$work/arm/jam/libjam.so.1" -lm
       run qemu-aarch64 -L /usr/aarch64-linux-gnu -E LD_LIBRARY_PATH="$work/arm/jam" "$work/arm/first"
-      how="an example in C ran with its library under an emulator; the module was not imported: no Python for arm64 here"
+      how="an example in C ran with its library under an emulator; nothing imported the module"
     fi
     row "$file" "$how"
   else
@@ -98,25 +104,29 @@ if begin wheels 'jamming-*.whl'; then
 fi
 
 if begin debian '*.deb'; then
-  run cmake -S . -B build -G Ninja $small -DJAM_WERROR=ON -DCMAKE_INSTALL_PREFIX=/usr -DJAM_BUILD_PYTHON=ON -DJAM_BUILD_FORTRAN=ON \
-    -DJAM_BUILD_STATIC=ON -DJAM_BUILD_EXAMPLES=OFF
+  run cmake -S . -B build -G Ninja $small -DJAM_WERROR=ON -DCMAKE_INSTALL_PREFIX=/usr \
+    -DJAM_BUILD_PYTHON=ON -DJAM_BUILD_FORTRAN=ON -DJAM_BUILD_STATIC=ON -DJAM_BUILD_EXAMPLES=OFF
   run cmake --build build -j "$jobs"
   (cd build && run cpack -G DEB)
   cp build/*.deb "$out"
   run sh tests/bindings/deb.sh "$PWD" build
-  for file in $(named '*.deb'); do row "$file" "unpacked; programs in C, Fortran and Python and jam-pack ran; lintian"; done
+  for file in $(named "*.deb"); do
+    row "$file" "unpacked; programs in C, Fortran and Python and jam-pack ran; lintian finds nothing"
+  done
 fi
 
 if begin windows 'libjam-*-windows-x86_64.zip'; then
   triplet=x86_64-w64-mingw32 name=libjam-$version-windows-x86_64
   if need_or_skip g++-mingw-w64-x86-64-posix wine64 wine; then
     run sh tests/platforms/dependencies.sh "$work/libraries-windows" $triplet
-    run env PKG_CONFIG_LIBDIR="$work/libraries-windows/lib/pkgconfig" cmake -S . -B "$work/windows" -G Ninja $small -DCMAKE_UNITY_BUILD=ON \
+    export PKG_CONFIG_LIBDIR="$work/libraries-windows/lib/pkgconfig"
+    run cmake -S . -B "$work/windows" -G Ninja $small -DCMAKE_UNITY_BUILD=ON \
       -DCMAKE_SYSTEM_NAME=Windows -DCMAKE_SYSTEM_PROCESSOR=x86_64 -DCMAKE_C_COMPILER=$triplet-gcc-posix \
       -DCMAKE_CXX_COMPILER=$triplet-g++-posix -DCMAKE_RC_COMPILER=$triplet-windres -DJAM_LAPACK=OFF -DJAM_CLP=OFF \
       -DJAM_USE_VORO=OFF -DSPECTRA_INCLUDE="$work/libraries-windows/include" -DJAM_BUILD_EXAMPLES=OFF \
       -DCMAKE_SHARED_LINKER_FLAGS=-Wl,--no-insert-timestamp -DCMAKE_EXE_LINKER_FLAGS=-Wl,--no-insert-timestamp
     run cmake --build "$work/windows" -j "$jobs"
+    unset PKG_CONFIG_LIBDIR
     for component in runtime dev tools license; do
       run cmake --install "$work/windows" --prefix "$work/$name" --component $component --strip
     done
@@ -146,9 +156,9 @@ fi
 
 $python pkgconfig/spdx.py list "$commit" "$out"
 {
-  printf '# libjam %s\n\n`sh pkgconfig/release.sh %s FOLDER`, commit %s.\n\n| file | bytes | how it was tried |\n|---|---|---|\n' \
-    "$version" "$version" "$commit"
-  sort "$work/rows"
+  printf '# libjam %s\n\n`sh pkgconfig/release.sh %s FOLDER`, commit %s.\n\n' "$version" "$version" "$commit"
+  printf '| file | bytes | how it was tried |\n|---|---|---|\n'
+  LC_ALL=C sort "$work/rows"
   if [ -f "$work/skipped" ]; then echo && cat "$work/skipped"; fi
 } >"$out/CONTENTS.md"
 sh pkgconfig/checksums.sh "$out"

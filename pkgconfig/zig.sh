@@ -1,7 +1,8 @@
 #!/bin/sh
-# zig.sh FOLDER TARGET: zig's Clang, which brings the C and C++ libraries of its targets along, as FOLDER/TARGET/cc, c++,
-# ar and ranlib. Targets: aarch64-macos, x86_64-macos, x86_64-linux-gnu.2.17 (the oldest GLIBC), aarch64-linux-gnu.2.17.
-# ZIG names the program; else it is the one of PATH, else npm installs it below FOLDER. Exit status 77: it cannot be had.
+# zig.sh FOLDER TARGET: zig's Clang, which brings the C and C++ libraries of its targets along, as FOLDER/TARGET/cc,
+# c++, ar and ranlib. Targets: aarch64-macos, x86_64-macos, and x86_64-linux-gnu.2.17, aarch64-linux-gnu.2.17 for GLIBC
+# 2.17. ZIG names the program; else it is that of PATH, or npm installs it below FOLDER. Exit status 77: it cannot be
+# had.
 set -eu
 mkdir -p "$1/$2"
 folder=$(cd "$1" && pwd) target=$2

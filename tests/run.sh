@@ -45,6 +45,13 @@ at_once=$((jobs + 1))  # tests: some wait
 if command -v ccache >/dev/null; then export CMAKE_C_COMPILER_LAUNCHER=ccache CMAKE_CXX_COMPILER_LAUNCHER=ccache; fi
 bindings=
 if [ -f bindings/CMakeLists.txt ]; then bindings="-DJAM_BUILD_PYTHON=ON -DJAM_BUILD_FORTRAN=ON"; fi
+if [ -n "$bindings" ] && [ "$parts" != quick ]; then
+  if (need_packages octave liboctave-dev) >/dev/null 2>&1; then
+    bindings="$bindings -DJAM_BUILD_OCTAVE=ON"
+  else
+    echo "skipped: the module for Octave; octave and liboctave-dev cannot be installed here"
+  fi
+fi
 # OpenBLAS must not put more threads on cores that run tests side by side.
 export OPENBLAS_NUM_THREADS=1
 

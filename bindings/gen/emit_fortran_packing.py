@@ -153,7 +153,7 @@ def _procedure(f, name, api):
     return lines + [f"  end {kind} {name}", ""]
 
 
-def _calls(api):
+def calls(api):
     for f in api.functions:
         roles = {a.role for a in f.args}
         if f.args and f.args[0].role == "handle" and f.result.base == "jam_status" and f.name not in BY_HAND and not roles & {"callback", "new_handle", "view"}:
@@ -162,11 +162,11 @@ def _calls(api):
 
 
 def emit(api):
-    calls = list(_calls(api))
+    made = list(calls(api))
     out = [HEAD, "  type, extends(jam_handle) :: packing", "  contains"]
-    out += [f"    procedure :: {name} => do_{name}" for _, name in calls]
-    out += ["  end type packing", "", f"  private :: {_wrap(['do_' + name for _, name in calls], '  ')}", "", "contains", ""]
-    for f, name in calls:
+    out += [f"    procedure :: {name} => do_{name}" for _, name in made]
+    out += ["  end type packing", "", f"  private :: {_wrap(['do_' + name for _, name in made], '  ')}", "", "contains", ""]
+    for f, name in made:
         out += _procedure(f, "do_" + name, api)
     out.append("end module jam_packing")
     return "\n".join(line for block in out for line in block.rstrip("\n").split("\n")) + "\n"

@@ -96,13 +96,16 @@ def _method(f, api):
         f"function {julia}({', '.join(typed + head)}" + (f"; {', '.join(words)}" if words else "") + f")\n    return {call}\nend\n")
 
 
-def emit_methods(api):
+def calls(api):
+    """The functions of which methods are made."""
     inits = options_init(api)
-    made = []
     for f in api.functions:
         on_system = bool(f.args) and f.args[0].role == "handle" and f.result.base == "jam_status"
-        if f.name in BY_HAND or {"callback", "new_handle", "view"} & {a.role for a in f.args} or not (on_system or is_free(f, inits)):
-            continue
-        made.append(_method(f, api))
+        if f.name not in BY_HAND and not {"callback", "new_handle", "view"} & {a.role for a in f.args} and (on_system or is_free(f, inits)):
+            yield f
+
+
+def emit_methods(api):
+    made = [_method(f, api) for f in calls(api)]
     names = [n for n, _ in made]
     return MADE + "\nexport " + ",\n       ".join(names) + "\n\n" + "\n".join(text for _, text in made)

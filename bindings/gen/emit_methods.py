@@ -135,7 +135,7 @@ class Call:
         return numpydoc.docstring(self.f.prose, self.api, indent, rows, returns, numpydoc.errors(self.f))
 
 
-def _calls(api):
+def calls(api):
     """The functions that are called by the header's conventions."""
     inits = options_init(api)
     for f in api.functions:
@@ -148,11 +148,11 @@ def _calls(api):
 
 
 def emit(api):
-    return METHODS + "\n".join(c.text("    ") for c in _calls(api)) + "\n"
+    return METHODS + "\n".join(c.text("    ") for c in calls(api)) + "\n"
 
 
 def emit_tuples(api):
-    made = [c for c in _calls(api) if c.tuple_class()]
+    made = [c for c in calls(api) if c.tuple_class()]
     table = "".join(f'    "{c.f.name.removeprefix("jam_")}": {c.result},\n' for c in made)
     return (TUPLES + "\n".join("".join(c.tuple_class()) for c in made)
             + "\n\n\n# {name of a call: what it returns}\nTUPLES: dict[str, type] = {\n" + table + "}\n")

@@ -16,9 +16,11 @@ import emit_js
 import emit_julia
 import emit_julia_calls
 import emit_methods
+import emit_octave
 import emit_options
 import emit_python
 import emit_swig
+import languages
 from annotations import HeaderError
 from model import read_header
 
@@ -42,6 +44,7 @@ BUILT = {
     "python/jam/_system/methods.py": emit_methods.emit,
     "js/api.mjs": emit_js.emit,
     "js/index.d.ts": emit_js.emit_types,
+    "octave/jam_gen.i": emit_octave.emit,
     "layout.c": emit_c.emit,
 }
 
@@ -60,6 +63,7 @@ def main():
     args = parser.parse_args()
     try:
         api = read_header(args.header, args.swig)
+        languages.check(api)
     except HeaderError as error:
         sys.exit(f"{args.header}: {error}")
     if args.out:

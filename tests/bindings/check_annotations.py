@@ -11,6 +11,7 @@ sys.path.insert(0, str(ROOT / "bindings/gen"))
 
 import annotations  # noqa: E402
 import generate  # noqa: E402
+import languages  # noqa: E402
 from model import read_header  # noqa: E402
 
 HEADING = re.compile(r"^(\w+ : .*|Parameters|Returns|Raises|\w+Error(, \w+Error)*)$")
@@ -56,6 +57,14 @@ def main():
         copy = Path(folder) / "jam.h"
         copy.write_text(bare)
         full, without = read_header(header, swig), read_header(copy, swig)
+        # a call that neither a rule nor a list has ends the build, with its name
+        copy.write_text(header.read_text().replace("JAM_API const char *jam_notes", "JAM_API const char *jam_new_text(void);\nJAM_API const char *jam_notes"))
+        languages.check(full)
+        try:
+            languages.check(read_header(copy, swig))
+            sys.exit("a call that no language lists was taken")
+        except annotations.HeaderError as error:
+            assert "jam_new_text" in str(error), error
     assert len(generate.BUILT) >= 6, generate.BUILT
     changed = [n for n in generate.BUILT if code(n, generate.BUILT[n](full)) != code(n, generate.BUILT[n](without))]
     if changed:

@@ -1,0 +1,96 @@
+% The module for Octave: packings from words and options to reports, arrays as (n, d), indices from 1, errors with text.
+% usage: octave octave.m FOLDER     where files may be written
+jam;
+folder = argv(){end};
+function fails(id, text, f)
+  try
+    f();
+  catch problem
+    assert(problem.identifier, id);
+    assert(! isempty(strfind(problem.message, text)), problem.message);
+    return;
+  end
+  error("no error %s", id);
+end
+
+% starts, words and options, in both forms
+p = jam.random(64, "dim", 2, "seed", 7);
+q = jam.random(64, struct("dim", 2, "seed", 7));
+assert(p.positions(), q.positions());
+assert(size(p.positions()), [64, 2]);
+assert(size(p.diameters()), [64, 1]);
+assert(p.info().dim, 2);
+made = jam.create("n", 64, "dim", 2, "positions", p.positions(), "diameters", p.diameters(), "cell", p.cell());
+assert(made.positions(), p.positions());  % rows are spheres, on the way in and out
+other = p.copy();
+md = p.compress();
+assert(other.positions(), q.positions());  % copies are apart
+r = p.crunch("method", "sequential_lp", "polish", true);
+assert(r.status, "ok");
+assert(r.jammed && islogical(r.jammed));
+assert(r.stop_reason, "converged");
+
+% contacts: indices from 1, rows in the order of forces, which balance
+pairs = p.contacts();
+force = p.forces();
+assert(size(pairs), [numel(force), 2]);
+assert(min(pairs(:)) >= 1 && max(pairs(:)) <= 64 && all(pairs(:, 1) != pairs(:, 2)));
+v = p.contact_vectors();
+x = p.positions();
+for k = [1, numel(force)]
+  box = p.cell();
+  apart = x(pairs(k, 1), :) - x(pairs(k, 2), :);
+  apart -= round(apart / box) * box;
+  assert(apart / norm(apart), v(k, :), 1e-6);
+end
+net = zeros(64, 2);
+for axis = 1:2
+  net(:, axis) = accumarray(pairs(:), [force .* v(:, axis); -force .* v(:, axis)], [64, 1]);
+end
+assert(max(abs(net(:))) < 1e-8 * max(force));
+
+% tables, several outputs, ranks above two, other packings, texts
+history = p.crunch_history();
+assert(numel(history.phi), numel(history.gain));
+[gap, pair] = p.gaps(1.0, true);
+assert(size(pair), [numel(gap), 2]);
+[modes, vectors] = p.modes("count", 3);
+assert(size(vectors), [3, numel(p.hessian_map()), 2]);
+for k = 1:3
+  assert(abs(sum(vectors(k, :)(:) .^ 2) - 1) < 1e-9);  % normalised, whichever way the axes are turned
+end
+check = p.check("prove", true);
+assert(! isempty(check.text));
+assert(ischar(jam.version()) && ischar(p.notes()) && jam.abi_version() == 1);
+tiled = p.tile([2, 1]);
+assert(tiled.info().n, 128);
+
+% files and checkpoints
+file = fullfile(folder, "octave.xyz");
+p.write(file, "xyz");
+assert(max(abs(jam.read(file).positions() - p.positions())(:)) < 1e-12);
+p.write_checkpoint(fullfile(folder, "octave.jam"));
+assert(jam.read_checkpoint(fullfile(folder, "octave.jam")).positions(), p.positions());
+
+% a function that watches, stops and fails
+global calls = 0;
+function stop = watch(now)
+  global calls;
+  calls++;
+  assert(ischar(now.phase));
+  stop = true;
+end
+assert(q.crunch("progress", @watch).status, "cancelled");
+assert(calls >= 1);
+fails("mine:own", "of mine", @() q.crunch("progress", @(now) error("mine:own", "of mine")));
+
+% errors: the library's sentence, and what this layer refuses before a call
+fails("jam:argument", "n is -3", @() jam.random(-3));
+fails("jam:state", "crunch", @() q.forces());
+fails("jam:argument", "no option speed", @() q.crunch("speed", 1));
+fails("jam:argument", "sequential_lp", @() q.crunch("method", "newton"));
+fails("jam:argument", "must be a whole number", @() q.crunch("max_lps", 1.5));
+fails("jam:argument", "cannot have the size", @() q.set_positions(q.positions()'));
+fails("jam:null", "count", @() p.tile());
+fails("jam:io", "no_such_file", @() jam.read("no_such_file.xyz"));
+disp("Octave's module works");

@@ -22,6 +22,19 @@ QUESTIONS = {
     "jam_crunch": ("api/crunch_to_the_jamming_point",),
 }
 FIRST = 5  # results that a reader looks through
+# Of a page with code: colours of text and ground, of the article and of its code; margin; blocks without a button to copy;
+# columns of code that a laptop's window shows.
+LOOK = """(() => {
+  const pre = document.querySelector('.highlight pre'), style = (e) => getComputedStyle(e);
+  const ground = (e) => style(e).backgroundColor.startsWith('rgba') ? ground(e.parentElement) : style(e).backgroundColor;
+  const colours = [document.querySelector('article p'), pre].map((e) => [style(e).color, ground(e)]);
+  const row = document.createElement('span');
+  row.textContent = '0'.repeat(100);
+  pre.append(row);
+  const columns = (pre.clientWidth - 2 * parseFloat(style(pre).paddingLeft)) / (row.getBoundingClientRect().width / 100);
+  const blocks = [...document.querySelectorAll('div.highlight')].filter((block) => !block.querySelector('button.copy'));
+  return [colours, style(document.body).margin, blocks.length, columns];
+})()"""
 
 
 class Page(html.parser.HTMLParser):
@@ -71,6 +84,26 @@ def results(page, question):
     return [link.partition("?")[0].partition("#")[0].removesuffix(".html") for link in found]
 
 
+def luminance(colour):
+    red, green, blue = (int(c) / 255 for c in colour[4:-1].split(","))
+    return sum(w * (c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4) for w, c in ((0.2126, red), (0.7152, green), (0.0722, blue)))
+
+
+def unreadable(window):
+    """In systems that are light or dark: the page follows, its text has the contrast that WCAG asks for (4.5), lines of 88 columns fit."""
+    window.resize(1280, 900)
+    for scheme in ("light", "dark"):
+        window.media(scheme)
+        window.open(ROOT / "bindings/docs/quickstart.html")
+        colours, margin, without_button, columns = window.run(LOOK)
+        for what, pair in zip(("text", "code"), colours):
+            text, ground = map(luminance, pair)
+            if (max(text, ground) + 0.05) / (min(text, ground) + 0.05) < 4.5 or (ground > text) != (scheme == "light"):
+                yield f"{what} in a {scheme} system has the colours {pair}"
+        if (margin, without_button) != ("0px", 0) or columns < 88:
+            yield f"{scheme}: a margin of {margin}, {without_button} blocks of code without a button to copy, {columns:.0f} columns"
+
+
 def main():
     pages = {path: Page(path) for path in sorted(ROOT.rglob("*.html"))}
     wrong = list(dead_links(pages))
@@ -87,6 +120,7 @@ def main():
                 wrong.append(f"a search for {question!r} finds {found[:FIRST]}")
             elif "--show" in sys.argv:
                 print(question, found[:FIRST])
+        wrong += unreadable(window)
         window.close()
     for line in wrong:
         print(line)

@@ -54,6 +54,8 @@ typedef struct outcome {
   double diameter_given; /* mean of --sizes or of the file; NAN: no sizes in a unit of the user */
   double walls[2 * JAM_MAX_DIM + 1][JAM_WALL_STRESS + 1]; /* jam_walls, at the end */
   size_t wall_numbers;                                    /* of `walls` */
+  double stress[JAM_MAX_DIM * JAM_MAX_DIM];               /* jam_stress, at the end */
+  size_t stress_numbers;                                  /* of `stress`; 0: not known */
   const char *notes;                                      /* jam_notes: what reading changed */
 } outcome;
 
@@ -103,6 +105,7 @@ void complain_notes(const jam_system *sys); /* those of jam_notes, on stderr */
 int take_sizes(const char *value, options *o);
 int take_cell(const char *value, options *o);
 int take_copies(const char *value, options *o);
+int take_numbers(const char *value, double *out, int most);
 double mean_given(const options *o, const jam_system *sys);     /* of diameters; NAN where no unit was given */
 int make_diameters(const options *o, double **out, int64_t *n); /* *out NULL: all equal; the caller frees it */
 void fill_cell(const options *o, double *cell); /* (d, d): the vectors of --cell, or of the cube of --box */
@@ -134,6 +137,7 @@ int failure_code(void);                 /* EXIT_OUTPUT where none was noted */
  * known, are null. */
 void put_number(FILE *f, const char *key, double x);
 void put_count(FILE *f, const char *key, int64_t x, int known);
+void put_stress(FILE *f, const double *stress, size_t numbers); /* stress_tensor, row by row; 0 numbers: null */
 /* What all objects begin with: the file or NULL, the exit code, and what was said. */
 void begin_json(FILE *f, const char *file, int code, const char *text);
 void put_text(FILE *f, const char *text);                     /* the value alone */
@@ -172,8 +176,9 @@ int write_all(jam_system *sys, const options *o, double deadline, outcome *resul
 /* The files of the packing and, where its network is known, of the network. */
 int write_files(jam_system *sys, const options *o, int known, double deadline, int *cut_short);
 
-/* pack.c, check.c, info.c, export.c: what the verbs do; each returns the exit code. */
+/* pack.c, shear.c, check.c, info.c, export.c: what the verbs do; each returns the exit code. */
 int run_job(const options *o); /* pack, compress, crunch */
+int shear_file(const options *o);
 int check_file(const options *o);
 int show_info(const options *o);
 int export_file(const options *o); /* `page` too */

@@ -57,6 +57,13 @@ void put_text(FILE *f, const char *text) {
   fputc('"', f);
 }
 
+void put_stress(FILE *f, const double *stress, size_t numbers) {
+  size_t k;
+  fputs("  \"stress_tensor\": ", f);
+  for (k = 0; k < numbers; ++k) fprintf(f, "%s%.17g", k ? ", " : "[", stress[k]);
+  fputs(numbers ? "],\n" : "null,\n", f);
+}
+
 /* The lines of jam_notes: calls f with each, without its end. */
 void each_note(const char *notes, void (*f)(const char *line, int warns, void *with), void *with) {
   while (*notes) {

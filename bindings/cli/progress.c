@@ -22,7 +22,9 @@ void write_checkpoint(const jam_system *sys, const options *o) {
 
 /* A crunch cannot be cut into slices as dynamics can: its checkpoints are written while it runs. */
 static void keep_crunch(terminal *t, const jam_progress *p, double now) {
-  if ((p->phase != JAM_PHASE_CRUNCH && p->phase != JAM_PHASE_POLISH) || now - t->kept < t->o->checkpoint_every) return;
+  if (t->o->given.verb == VERB_SHEAR || (p->phase != JAM_PHASE_CRUNCH && p->phase != JAM_PHASE_POLISH) ||
+      now - t->kept < t->o->checkpoint_every)
+    return;
   t->kept = now;
   write_checkpoint(t->sys, t->o);
 }
@@ -58,6 +60,8 @@ static int32_t show_progress(const jam_progress *p, void *user) {
   if (p->phase == JAM_PHASE_RUN || p->phase == JAM_PHASE_COMPRESS)
     fprintf(stderr, "%s  p %.4g  phi %.6f  %.3g collisions  %.1f s", t->stage, p->pressure, p->packing_fraction,
             (double)p->collisions, now - t->begin);
+  else if (p->phase == JAM_PHASE_SHEAR)
+    fprintf(stderr, "%s  p %.4g  phi %.6f  %.1f s", t->stage, p->pressure, p->packing_fraction, now - t->begin);
   else
     fprintf(stderr, "%s  %lld LPs  %lld factorisations  gain %.3e  phi %.12f  %.1f s", t->stage, (long long)p->steps,
             (long long)p->factorisations, p->gain, p->packing_fraction, now - t->begin);

@@ -124,6 +124,7 @@ int write_report(const options *o, const outcome *result, const char *path) {
   put_number(f, "diameter_mean", info->diameter_mean);
   put_number(f, "diameter_mean_given", result->diameter_given);
   put_walls(f, result);
+  put_stress(f, result->stress, result->stress_numbers);
   put_number(f, "pressure", result->has_md ? result->pressure : NAN);
   put_count(f, "collisions", result->collisions, 1);
   put_number(f, "collisions_per_second", rate);

@@ -228,9 +228,14 @@ static int settle_verb(options *o) {
     case VERB_COMPRESS:
       o->no_crunch = 1;
       return 0;
+    case VERB_SHEAR:
+      o->no_md = 1;
+      if (!o->to) complain("shear needs --to, the last strain");
+      if (!o->to) return -1;
+      /* fall through */
     case VERB_CRUNCH:
       if (o->input || o->resume) return 0;
-      complain("crunch needs a FILE, or --resume");
+      complain("%s needs a FILE, or --resume", name);
       return -1;
     case VERB_ENSEMBLE:
       complain("ensemble is a verb of the program alone");

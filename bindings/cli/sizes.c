@@ -245,7 +245,7 @@ int take_sizes(const char *value, options *o) {
 }
 
 /* Numbers parted by commas: how many, or 0 where the text is something else or longer. */
-static int take_numbers(const char *value, double *out, int most) {
+int take_numbers(const char *value, double *out, int most) {
   char *end;
   int count = 0;
   while (count < most) {

@@ -31,6 +31,8 @@ int32_t stop_if_asked(const jam_progress *progress, void *user) {
 /* What the verb of a command line does; the exit code. */
 static int run_verb(options *o) {
   switch (o->given.verb) {
+    case VERB_SHEAR:
+      return shear_file(o);
     case VERB_CHECK:
       return check_file(o);
     case VERB_INFO:

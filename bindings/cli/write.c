@@ -82,6 +82,9 @@ int write_all(jam_system *sys, const options *o, double deadline, outcome *resul
   jam_get_info(sys, &result->info);
   result->notes = jam_notes(sys);
   jam_walls(sys, JAM_WALL_COLUMNS, &result->walls[0][0], sizeof result->walls / sizeof(double), &result->wall_numbers);
+  if (!result->has_crunch || jam_stress(sys, result->stress, sizeof result->stress / sizeof *result->stress,
+                                        &result->stress_numbers) != JAM_OK)
+    result->stress_numbers = 0;
   bad = write_files(sys, o, knows_contacts(o, result), deadline, &result->cut_short);
   if (bad)
     result->code = failure_code();

@@ -93,7 +93,7 @@ def emit_c(_api):
     said = "\n".join(
         f"    {{{verbs}, " + '"' + line.replace("\\", "\\\\").replace('"', '\\"').replace("\t", "\\t") + '"},' for verbs, line in help_text()
     )
-    names = ", ".join(f"VERB_{v.name.upper()}" for v in VERBS)
+    names = "\n  ".join(_wrapped(", ".join([f"VERB_{v.name.upper()}" for v in VERBS] + ["VERB_NONE"]), 116))
     verbs = "\n".join(
         f'    {{"{v.name}", ' + ", ".join(f'"--{v.files[k]}"' if k < len(v.files) else "NULL" for k in range(2)) + "}," for v in VERBS
     )
@@ -112,7 +112,9 @@ typedef struct options {{
 }} options;
 
 /* First words of a command line. */
-enum {{ {names}, VERB_NONE }};
+enum {{
+  {names}
+}};
 
 /* Packing fraction of a random start by default. */
 #define START_FRACTION(dim) ldexp({START[0]!r}, (dim) > {START[1]} ? {START[1]} - (int)(dim) : 0)

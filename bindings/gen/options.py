@@ -20,6 +20,8 @@ PORES = (
     "near-coordination near-gap contact-gap"
 )
 
+SHEARING = "to step resolution until alpha rows"
+
 # Words that files may stand for, what the verb does, and the options that it takes.
 VERBS = (
     Verb("pack", (), "start, molecular dynamics with growth, crunch: all of the work; the same without a verb", None),
@@ -30,13 +32,19 @@ VERBS = (
         "the packing of a file to its jamming point",
         f"{READING} {STARTING} {TABLES} method strain lp duality-gap threads page-steps prove proof strict-proof",
     ),
+    Verb(
+        "shear",
+        ("input", "output"),
+        "the packing of a file along a quasi-static shear",
+        f"{READING} shrink shrink-min output report log page contacts checkpoint checkpoint-every resume {SHEARING}",
+    ),
     Verb("check", ("input",), "is the packing of a file jammed as it is? Nothing moves", f"{READING} prove proof strict-proof strict"),
     Verb("info", ("input",), "what a file contains: cell, sizes, packing fraction, nearest pair", READING),
     Verb("export", ("input", "output"), "the packing of a file in other formats, its tables and its pore space", f"{READING} output scale density plot {TABLES} {PORES}"),
     Verb("page", ("input", "page"), "a page that shows the packing of a file in a browser", f"{READING} page plot contact-gap"),
     Verb("ensemble", (), "many packings in one folder: python3 -m jam ensemble --help", ""),
 )
-ALONE = PORES.split() + ["scale", "density", "strict"]  # options that no job of pack takes
+ALONE = PORES.split() + SHEARING.split() + ["scale", "density", "strict"]  # options that no job of pack takes
 
 TABLE = {
     "Start": (
@@ -258,6 +266,21 @@ TABLE = {
             without=NO_CRUNCH,
         ),
         Option("no-crunch", "switch", "", "stop after molecular dynamics"),
+    ),
+    "Shear": (
+        Option("to", "text", "G,..", "the last strain of a simple shear, x moves with y; of several the shear turns at the first ones: 0.1,-0.1,0"),
+        Option("step", "positive", "G", "strain between two minima (1e-3)", 1e-3),
+        Option("resolution", "positive", "G", "uncertainty of the strain of a plastic event (1e-6)", 1e-6),
+        Option(
+            "until",
+            "choice",
+            "",
+            "end before the last strain: after the first plastic event, or at the first minimum that is jammed, or not jammed",
+            "strain",
+            words=("strain", "event", "jammed", "unjammed"),
+        ),
+        Option("alpha", "positive", "A", "exponent of the energy of soft spheres; without, the spheres are hard, and a crunch jams them at each strain", without=("shrink",)),
+        Option("rows", "output", "FILE.csv", "strain, stress, pressure, energy, contacts and events of each minimum", stdout=True),
     ),
     "Output": (
         Option(

@@ -9,6 +9,7 @@
 #include "core/checks.hpp"
 #include "core/create.hpp"
 #include "core/limits.hpp"
+#include "core/math.hpp"
 #include "io/files.hpp"
 #include "io/formats.hpp"
 
@@ -106,7 +107,12 @@ jam_status jam_write_scaled(const jam_system *sys, const char *path, int32_t for
     need(path, "path");
     check_range("scale", scale, 1e-12, 1e12);
     check_positive_finite(density, "density");
-    const Beside beside{sys->known_contacts() ? &sys->contacts.coordination : nullptr, density};
+    Beside beside{sys->known_contacts() ? &sys->contacts.coordination : nullptr, density};
+    if (sys->known_contacts() && !sys->by_distance() && sys->contacts.size() > 0) {
+      beside.stress = stress_tensor(sys->packing, sys->contacts);
+      const bool absolute = !sys->contacts.prestress.empty();  // in epsilon / length^d
+      for (double &x : beside.stress) x *= absolute ? math::pow(scale, -sys->packing.dim) : 1.0;
+    }
     write_file(scale == 1.0 ? sys->packing : scaled(sys->packing, scale), beside, path, format);
     return JAM_OK;
   });

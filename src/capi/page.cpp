@@ -93,6 +93,7 @@ void take_network(const jam_system *sys, bool small, PageContent &content) {
     const jam_crunch_report &r = sys->report;
     content.report = &r;
     content.crunched = sys->has_history;
+    if (sys->contacts.size() > 0) content.stress = stress_tensor(sys->packing, sys->contacts);
     content.stop_reason = jam_stop_string(r.stop_reason);
     if (r.theorem != JAM_THEOREM_NONE || r.proof_cause != JAM_CAUSE_NONE)
       content.proof = proof_text(r.theorem, r.proof_cause, r.proof_radius, r.proof_value, r.proof_bound);

@@ -188,6 +188,12 @@ const char *jam_stop_string(int32_t reason) {
       return "saddle";
     case JAM_STOP_DUALITY_GAP:
       return "duality_gap";
+    case JAM_STOP_STRAIN:
+      return "strain";
+    case JAM_STOP_EVENT:
+      return "event";
+    case JAM_STOP_JAMMED:
+      return "jammed";
     default:
       return "unknown";
   }

@@ -56,6 +56,7 @@ FileContent read_file(const char *path, const ReadOptions &options = {});
 struct Beside {
   const std::vector<int32_t> *coordination = nullptr;  // (n) contacts of each sphere, if they are known
   double density = 1.0;                                // of the spheres
+  std::vector<double> stress{};                        // (dim, dim), positive in compression; empty: not known
 };
 // format: a jam_format.
 void write_file(const Packing &p, const Beside &beside, const char *path, int32_t format);

@@ -100,9 +100,20 @@ void put_named(std::string &out, const std::vector<std::pair<const char *, doubl
   out += "}";
 }
 
-// crunched: else rows of the way to the packing are left out.
-void put_report(std::string &out, const jam_crunch_report &r, bool crunched, const std::string &stop_reason,
-                const std::string &proof) {
+// |S / P - 1| of a stress S (dim, dim) with the mean normal stress P.
+double deviator(const std::vector<double> &stress, size_t dim) {
+  double pressure = 0.0, sum = stress.empty() ? std::numeric_limits<double>::quiet_NaN() : 0.0;
+  for (size_t c = 0; c < stress.size(); c += dim + 1) pressure += stress[c] / static_cast<double>(dim);
+  for (size_t k = 0; k < stress.size(); ++k) {
+    const double x = stress[k] / pressure - (k % (dim + 1) == 0 ? 1.0 : 0.0);
+    sum += x * x;
+  }
+  return std::sqrt(sum);
+}
+
+// Without a crunch rows of the way to the packing are left out.
+void put_report(std::string &out, const PageContent &content) {
+  const jam_crunch_report &r = *content.report;
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const auto known = [&](int64_t count) { return r.rattlers < 0 ? nan : static_cast<double>(count); };
   std::vector<std::pair<const char *, double>> rows = {
@@ -117,6 +128,7 @@ void put_report(std::string &out, const jam_crunch_report &r, bool crunched, con
       {"smallest force", r.min_force},
       {"smallest gap of no contact", r.min_gap},
       {"rigidity margin", r.rigidity_margin},
+      {"deviatoric stress over pressure", deviator(content.stress, static_cast<size_t>(content.packing.dim))},
   };
   const std::vector<std::pair<const char *, double>> way = {
       {"duality gap of the last LP", r.duality_gap},
@@ -128,13 +140,13 @@ void put_report(std::string &out, const jam_crunch_report &r, bool crunched, con
       {"of these kept", r.contacts_kept < 0 ? nan : static_cast<double>(r.contacts_kept)},
       {"seconds of the crunch", r.seconds},
   };
-  if (crunched) rows.insert(rows.end(), way.begin(), way.end());
+  if (content.crunched) rows.insert(rows.end(), way.begin(), way.end());
   out += ",\n\"report\": {\"jammed\": ";
   out += r.jammed ? "true" : "false";
   out += ", \"stop_reason\": ";
-  put_string(out, stop_reason);
+  put_string(out, content.stop_reason);
   out += ", \"proof\": ";
-  put_string(out, proof);
+  put_string(out, content.proof);
   out += ", \"numbers\": ";
   put_named(out, rows);
   out += "}";
@@ -240,7 +252,7 @@ void write_page(const PageContent &content, const char *path) {
   out += ",\n\"network\": ";
   put_string(out, content.text_of_network);
   if (content.network) put_network(file, *content.network, content.by_distance);
-  if (content.report) put_report(out, *content.report, content.crunched, content.stop_reason, content.proof);
+  if (content.report) put_report(out, content);
   put_gaps(out, content.gaps);
   out += ",\n\"history\": [";
   for (size_t k = 0; k < content.history.size(); ++k) {

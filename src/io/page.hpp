@@ -32,6 +32,7 @@ struct PageContent {
   std::string text_of_network{};              // shown in place of the certificate where there is no report
   const jam_crunch_report *report = nullptr;  // its numbers are shown as the certificate
   bool crunched = false;                      // the report is of a crunch
+  std::vector<double> stress{};               // (dim, dim), of its forces
   std::string stop_reason{};
   std::string proof{};            // what was proved; empty where nothing was requested
   std::vector<double> gaps{};     // of pairs that are no contacts, ascending

@@ -63,6 +63,17 @@ std::string container_keys(const Packing &p) {
   return p.container ? std::string(" container=") + p.container.word() + " walls=\"" + walls_word(p) + '"' : "";
 }
 
+// As ASE reads it: three by three numbers, positive in tension.
+void append_stress(int dim, const std::vector<double> &stress, std::string &out) {
+  out += " stress=\"";
+  for (int a = 0; a < 3; ++a)
+    for (int b = 0; b < 3; ++b) {
+      if (a + b > 0) out += ' ';
+      append_number(out, a < dim && b < dim ? 0.0 - stress[a * dim + b] : 0.0);
+    }
+  out += '"';
+}
+
 }  // namespace
 
 // d = 2 gets a third coordinate 0, because OVITO and ASE expect three. Readers go by `dim`.
@@ -88,6 +99,7 @@ void write_xyz(const Packing &p, const Beside &beside, OutputFile &file) {
     out += " non_additivity=";
     append_number(out, p.non_additivity);
   }
+  if (p.dim <= 3 && !beside.stress.empty()) append_stress(p.dim, beside.stress, out);
   out += '\n';
   for (size_t i = 0; i < p.n(); ++i) {
     out += std::to_string(i);

@@ -71,6 +71,28 @@ class Stress(unittest.TestCase):
         for wall in s.walls().stress:
             self.assertAlmostEqual(s.stress()[1, 1], wall, delta=1e-9)
 
+    def test_files_and_page_have_it(self):
+        hard = jam.System.random(n=40, dim=3, seed=2)
+        hard.compress()
+        hard.crunch()
+        with tempfile.TemporaryDirectory() as folder:
+            path, page = Path(folder, "packing.xyz"), Path(folder, "packing.html")
+            for s, scale, unit in ((hard, 2.0, 1.0), (soft(40), 2.0, 2.0**-2)):
+                whole = np.zeros((3, 3))
+                whole[: s.dim, : s.dim] = s.stress()
+                s.write(path, scale=scale)
+                read = re.search(r'stress="([^"]*)"', path.read_text().splitlines()[1])[1]
+                np.testing.assert_allclose(np.fromstring(read, sep=" ").reshape(3, 3), -whole * unit, rtol=1e-15, atol=0)
+                self.assertEqual(jam.System.read(path, overlap="allow").n, s.n)
+                s.page(page)
+                told = float(re.search(r'"deviatoric stress over pressure": ([-+.0-9e]+)', page.read_text())[1])
+                tensor = s.stress()
+                self.assertAlmostEqual(told, np.linalg.norm(s.dim * tensor / np.trace(tensor) - np.eye(s.dim)), 12)
+        loose = jam.System.random(n=20, dim=2, seed=1)
+        with tempfile.TemporaryDirectory() as folder:
+            loose.write(Path(folder, "loose.xyz"))
+            self.assertNotIn("stress", Path(folder, "loose.xyz").read_text())
+
     def test_needs_forces(self):
         s = jam.System.random(n=20, dim=2, seed=1)
         with self.assertRaises(jam.JamError):
@@ -287,6 +309,10 @@ class Shear(unittest.TestCase):
         report = hard.shear(100.0, step=1e-4, wall_time=0.5)
         self.assertEqual(report.stop_reason, jam.StopReason.WALL_TIME)
         self.assertTrue(hard.report.jammed)
+
+    def test_every_stop_reason_has_its_word(self):
+        for reason in jam.StopReason:
+            self.assertEqual(jam.raw.jam_stop_string(int(reason)), reason.name.lower())
 
     def test_a_stop_keeps_the_last_minimum(self):
         s = soft(64)

@@ -33,11 +33,51 @@ class Verbs(unittest.TestCase):
         self.assertAlmostEqual(report["diameter_mean_given"], 1, 1)
         self.assertAlmostEqual(float(re.search(r"diameters are (\S+) times those of --sizes", told.stdout)[1]), factor, 6)
         self.assertTrue(report["jammed"])
+        self.assertAlmostEqual(sum(report["stress_tensor"][::4]), 3, 12)
         self.assertEqual([(w["axis"], w["side"]) for w in report["walls"]], [(c, s) for c in range(3) for s in range(2)])
         work = sum(w["stress"] * w["area"] * (10, 10, 15)[w["axis"]] for w in report["walls"]) / 2
         self.assertAlmostEqual(work / (3 * 1500), 1, 9)  # their mean is the pressure
         open_cell = json.loads(run("pack", "--n", "20", "--quiet", "--report", "-", "--output", self.dir / "a.xyz").stdout)
         self.assertEqual((open_cell["walls"], open_cell["diameter_mean_given"]), ([], None))
+
+    def test_shear_goes_on_to_the_same_bits(self):
+        """A run that ends at its first event, and goes on from the state before it, against one that does not end."""
+        start, state, rows = self.dir / "start.xyz", self.dir / "state.jam", self.dir / "rows.csv"
+        run("--n", 40, "--dim", 2, "--diameters-ratio", 1.4, "--seed", 2, "--quiet", "--output", start)
+        overlapping = self.dir / "overlapping.txt"
+        spheres = [line.split()[1:] for line in start.read_text().splitlines()[2:]]
+        overlapping.write_text("".join(f"{x} {y} {float(radius) * 1.03:.17g}\n" for x, y, _, radius, *_ in spheres))
+        soft = (overlapping, "--columns", "x,y,radius", "--cell", "1,1", "--alpha", 2)
+        for begin, to in (soft, ("0.06", "-0.01")), ((start,), ("0.004",)):
+            alpha = begin[5:]
+            path = ("--to", ",".join(to), "--step", 1e-3 if alpha else 2e-4)
+            whole = run("shear", *begin, "--output", self.dir / "whole.xyz", *path, "--rows", self.dir / "whole.csv", "--json")
+            self.assertEqual(whole.returncode, 0, whole.stderr)
+            told = json.loads(whole.stdout)
+            self.assertEqual(told["stop_reason"], "strain")
+            self.assertAlmostEqual(told["strain"], float(to[-1]), 12)
+            self.assertAlmostEqual(sum(told["stress_tensor"][:: 3]) / 2, told["pressure"], delta=1e-10 * told["pressure"])
+            self.assertAlmostEqual(told["stress_tensor"][1], -told["stress"], delta=1e-12 * told["pressure"])
+            first = run("shear", *begin, *path, "--until", "event", "--rows", rows, "--checkpoint", state, "--checkpoint-every", 1e-9)
+            self.assertEqual(first.returncode, 0, first.stderr)
+            self.assertIn("(event)" if told["events"] else "(strain)", first.stdout)
+            if not state.exists():  # the first event came before the first state
+                continue
+            more = run("shear", "--resume", state, "--output", self.dir / "more.xyz", *path, *alpha, "--rows", rows, "--json")
+            self.assertEqual(more.returncode, 0, more.stderr)
+            self.assertEqual({**json.loads(more.stdout), "file": "", "notes": []}, {**told, "file": "", "notes": []})
+            self.assertEqual(rows.read_text(), (self.dir / "whole.csv").read_text())
+            atoms = [(self.dir / name).read_text().splitlines()[2:] for name in ("more.xyz", "whole.xyz")]
+            self.assertEqual(*atoms)
+            other = run("shear", "--resume", state, "--to", 0.5, *alpha)
+            self.assertEqual(other.returncode, 2)
+            self.assertIn("give the same", other.stderr)
+            rows.write_text("strain\n")
+            self.assertIn("has not the", run("shear", "--resume", state, *path, *alpha, "--rows", rows).stderr)
+            state.unlink()
+        for wrong in (("--to", "0"), ("--to", "a"), (), ("--to", 0.1, "--alpha", 2, "--shrink"), ("--to", 0.1, "--alpha", 0.5)):
+            self.assertIn(run("shear", start, *wrong).returncode, (2, 3))
+        self.assertEqual(run("shear", "--resume", start, "--to", 0.1).returncode, 3)
 
     def test_walls_of_a_file(self):
         """A sphere 0.0875 from a wall and 0.1 wide is the nearest of two; a file that says nothing is called periodic."""

@@ -1,6 +1,6 @@
 # Completion of jam-pack for bash: made by bindings/gen/generate.py from bindings/gen/options.py; do not edit.
 _jam_pack() {
-  local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]} takes='--n --dim --phi0 --diameters-ratio --sizes --non-additivity --model --zeta --plant --seed --input --frame --box --cell --origin --columns --tile --walls --container --shrink --shrink-min --nve --growth --pressure --packing-fraction --porosity --no-md --checkpoint --checkpoint-every --resume --method --strain --lp --duality-gap --threads --no-crunch --output --scale --density --page --page-steps --contacts --spectrum --modes --gaps --structure --prove --proof --strict-proof --strict --report --log --vtk --json --quiet --stl --stl-edge --stl-shrink --stl-bridge --stl-bridge-gap --stl-walls --voxels --voxel-size --voxel-lines --profile --profile-bins --pores --pore-points --pore-seed --near-coordination --contact-gap --near-gap --wall-time --help --version'
+  local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]} takes='--n --dim --phi0 --diameters-ratio --sizes --non-additivity --model --zeta --plant --seed --input --frame --box --cell --origin --columns --tile --walls --container --shrink --shrink-min --nve --growth --pressure --packing-fraction --porosity --no-md --checkpoint --checkpoint-every --resume --method --strain --lp --duality-gap --threads --no-crunch --to --step --resolution --until --alpha --rows --output --scale --density --page --page-steps --contacts --spectrum --modes --gaps --structure --prove --proof --strict-proof --strict --report --log --vtk --json --quiet --stl --stl-edge --stl-shrink --stl-bridge --stl-bridge-gap --stl-walls --voxels --voxel-size --voxel-lines --profile --profile-bins --pores --pore-points --pore-seed --near-coordination --contact-gap --near-gap --wall-time --help --version'
   COMPREPLY=()
   case $before in
     --model) COMPREPLY=($(compgen -W 'euclid mk' -- "$word")); return ;;
@@ -9,19 +9,21 @@ _jam_pack() {
     --method) COMPREPLY=($(compgen -W 'barrier sequential-lp' -- "$word")); return ;;
     --strain) COMPREPLY=($(compgen -W 'none edges tilts free' -- "$word")); return ;;
     --lp) COMPREPLY=($(compgen -W 'ipm clp' -- "$word")); return ;;
-    --sizes|--input|--checkpoint|--resume|--output|--page|--contacts|--spectrum|--gaps|--structure|--proof|--strict-proof|--report|--log|--stl|--stl-walls|--voxels|--profile|--pores|--near-coordination) COMPREPLY=($(compgen -f -- "$word")); return ;;
-    --n|--dim|--phi0|--diameters-ratio|--non-additivity|--zeta|--plant|--seed|--frame|--box|--cell|--origin|--columns|--tile|--shrink-min|--nve|--growth|--pressure|--packing-fraction|--porosity|--checkpoint-every|--duality-gap|--threads|--scale|--density|--page-steps|--modes|--vtk|--stl-edge|--stl-shrink|--stl-bridge|--stl-bridge-gap|--voxel-size|--voxel-lines|--profile-bins|--pore-points|--pore-seed|--contact-gap|--near-gap|--wall-time) return ;;
+    --until) COMPREPLY=($(compgen -W 'strain event jammed unjammed' -- "$word")); return ;;
+    --sizes|--input|--checkpoint|--resume|--rows|--output|--page|--contacts|--spectrum|--gaps|--structure|--proof|--strict-proof|--report|--log|--stl|--stl-walls|--voxels|--profile|--pores|--near-coordination) COMPREPLY=($(compgen -f -- "$word")); return ;;
+    --n|--dim|--phi0|--diameters-ratio|--non-additivity|--zeta|--plant|--seed|--frame|--box|--cell|--origin|--columns|--tile|--shrink-min|--nve|--growth|--pressure|--packing-fraction|--porosity|--checkpoint-every|--duality-gap|--threads|--to|--step|--resolution|--alpha|--scale|--density|--page-steps|--modes|--vtk|--stl-edge|--stl-shrink|--stl-bridge|--stl-bridge-gap|--voxel-size|--voxel-lines|--profile-bins|--pore-points|--pore-seed|--contact-gap|--near-gap|--wall-time) return ;;
   esac
   case ${COMP_WORDS[1]} in
     compress) takes='--n --dim --phi0 --diameters-ratio --sizes --non-additivity --model --zeta --plant --seed --input --frame --box --cell --origin --columns --tile --walls --container --shrink --shrink-min --nve --growth --pressure --packing-fraction --porosity --checkpoint --checkpoint-every --resume --output --page --report --log --json --quiet --wall-time --help --version' ;;
     crunch) takes='--non-additivity --model --zeta --seed --input --frame --box --cell --origin --columns --tile --walls --container --shrink --shrink-min --checkpoint --checkpoint-every --resume --method --strain --lp --duality-gap --threads --output --page --page-steps --contacts --spectrum --modes --gaps --structure --prove --proof --strict-proof --report --log --vtk --json --quiet --wall-time --help --version' ;;
+    shear) takes='--non-additivity --input --frame --box --cell --origin --columns --tile --walls --container --shrink --shrink-min --checkpoint --checkpoint-every --resume --to --step --resolution --until --alpha --rows --output --page --contacts --report --log --json --quiet --wall-time --help --version' ;;
     check) takes='--non-additivity --input --frame --box --cell --origin --columns --tile --walls --container --prove --proof --strict-proof --strict --json --quiet --wall-time --help --version' ;;
     info) takes='--non-additivity --input --frame --box --cell --origin --columns --tile --walls --container --json --quiet --wall-time --help --version' ;;
     export) takes='--non-additivity --input --frame --box --cell --origin --columns --tile --walls --container --output --scale --density --contacts --spectrum --modes --gaps --structure --vtk --json --quiet --stl --stl-edge --stl-shrink --stl-bridge --stl-bridge-gap --stl-walls --voxels --voxel-size --voxel-lines --profile --profile-bins --pores --pore-points --pore-seed --near-coordination --contact-gap --near-gap --wall-time --help --version' ;;
     page) takes='--non-additivity --input --frame --box --cell --origin --columns --tile --walls --container --page --json --quiet --contact-gap --wall-time --help --version' ;;
     ensemble) takes='--help --version' ;;
   esac
-  if [ "$COMP_CWORD" = 1 ]; then takes="pack compress crunch check info export page ensemble $takes"; fi
+  if [ "$COMP_CWORD" = 1 ]; then takes="pack compress crunch shear check info export page ensemble $takes"; fi
   case $word in
     -*) COMPREPLY=($(compgen -W "$takes" -- "$word")) ;;
     *) COMPREPLY=($(compgen -W "$takes" -- "$word") $(compgen -f -- "$word")) ;;

@@ -106,6 +106,7 @@ int take_sizes(const char *value, options *o);
 int take_cell(const char *value, options *o);
 int take_copies(const char *value, options *o);
 int take_numbers(const char *value, double *out, int most);
+/* Both with the shells of --least-distance. */
 double mean_given(const options *o, const jam_system *sys);     /* of diameters; NAN where no unit was given */
 int make_diameters(const options *o, double **out, int64_t *n); /* *out NULL: all equal; the caller frees it */
 void fill_cell(const options *o, double *cell); /* (d, d): the vectors of --cell, or of the cube of --box */

@@ -9,6 +9,7 @@ typedef struct options {
   int64_t dim;
   double phi0;
   double diameters_ratio;
+  double least_distance;
   double non_additivity;
   int64_t model;
   double zeta;
@@ -82,7 +83,7 @@ typedef struct options {
   double near_gap;
   double wall_time;
   given given; /* what has a form of its own */
-  unsigned char named[80]; /* of each row of the table, whether it is on the command line */
+  unsigned char named[81]; /* of each row of the table, whether it is on the command line */
 } options;
 
 /* First words of a command line. */
@@ -131,6 +132,8 @@ static const option_row table[] = {
     {"--phi0", TAKE_POSITIVE, offsetof(options, phi0), .verbs = 3, .without = "--input --plant"},
     {"--diameters-ratio", TAKE_POSITIVE, offsetof(options, diameters_ratio), .verbs = 3, .without = "--input --sizes"},
     {"--sizes", TAKE_SIZES, 0, .verbs = 3, .without = "--input"},
+    {"--least-distance", TAKE_POSITIVE, offsetof(options, least_distance), .verbs = 3,
+     .without = "--n --non-additivity --model --input --resume --checkpoint", .needs = "--sizes"},
     {"--non-additivity", TAKE_DELTA, offsetof(options, non_additivity), .verbs = 255,
      .needs = "--sizes --diameters-ratio --input --resume"},
     {"--model", TAKE_CHOICE, offsetof(options, model), .verbs = 7, .words = "euclid mk"},
@@ -233,6 +236,7 @@ static const options defaults = {
     .dim = 3,
     .phi0 = INFINITY,
     .diameters_ratio = 1.0,
+    .least_distance = 0.0,
     .non_additivity = 0.0,
     .model = 0,
     .zeta = INFINITY,
@@ -344,6 +348,9 @@ static const help_line help[] = {
     {515, "                         list:1=0.5,1.4=0.5, sieve:FILE with a cumulative curve. Or a file"},
     {515, "                         of diameters. Only ratios count, unless a density gives the number"},
     {515, "                         of spheres"},
+    {515, "  --least-distance H     the surfaces of all spheres of --sizes stay this far apart, in the"},
+    {515, "                         unit of the sizes, and half of it from walls: they grow in shells"},
+    {515, "                         of H/2; with a density, and without --n"},
     {767, "  --non-additivity D     spheres of unequal diameters touch at (1 + D) times their mean"},
     {767, "                         diameter, -1 < D <= 1 (0)"},
     {519, "  --model euclid|mk      distance: Euclidean (default) or Mari-Kurchan"},

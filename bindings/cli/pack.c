@@ -170,7 +170,7 @@ static jam_status work(jam_system *sys, const options *o, terminal *t, outcome *
 }
 
 /* Whole spheres of one size, or of a few, miss the density asked for by up to half a sphere: it is theirs that they
- * grow to. */
+ * grow to. With --least-distance it is that of their shells. */
 static void take_density_of_sizes(options *o, jam_system *sys, double mean) {
   jam_info info = {.struct_size = sizeof info};
   char line[200];
@@ -179,11 +179,58 @@ static void take_density_of_sizes(options *o, jam_system *sys, double mean) {
   jam_get_info(sys, &info);
   density = info.packing_fraction * pow(mean / info.diameter_mean, info.dim);
   if (fabs(density / o->given.density - 1) < 1e-11) return;
-  snprintf(line, sizeof line,
-           "%lld whole spheres of --sizes have the packing fraction %.9g, nearest to the requested %g: they grow to it",
-           (long long)info.n, density, o->given.density);
+  if (o->least_distance > 0)
+    snprintf(line, sizeof line,
+             "the spheres of --sizes grow in shells of %g to the packing fraction %.9g of the shells, and keep the "
+             "distance %g",
+             0.5 * o->least_distance, density, o->least_distance);
+  else
+    snprintf(line, sizeof line,
+             "%lld whole spheres of --sizes have the packing fraction %.9g, nearest to the requested %g: they grow to "
+             "it",
+             (long long)info.n, density, o->given.density);
   jam_add_note(sys, line);
   o->given.density = density;
+}
+
+static void copy_note(const char *line, int warns, void *to) {
+  char whole[1024];
+  snprintf(whole, sizeof whole, "%s%s", warns ? "warning: " : "", line);
+  jam_add_note(to, whole);
+}
+
+/* The spheres without the shells that kept them apart. Growth that fell short has left both smaller by one factor. */
+static jam_status leave_shells(const options *o, double mean, double asked, jam_system **sys) {
+  jam_info info = {.struct_size = sizeof info};
+  jam_create_options create;
+  jam_start from = {.struct_size = sizeof from};
+  jam_system *bare = NULL;
+  double cell[JAM_MAX_DIM * JAM_MAX_DIM], *diameters = NULL;
+  const double *shells;
+  size_t k, needed;
+  char line[160];
+  jam_status status = jam_create_options_init(&create, sizeof create);
+  jam_get_info(*sys, &info);
+  jam_view(*sys, JAM_VIEW_POSITIONS, &from.positions, &from.positions_len);
+  jam_view(*sys, JAM_VIEW_DIAMETERS, &shells, &from.diameters_len);
+  jam_get_cell(*sys, cell, sizeof cell / sizeof *cell, &needed);
+  diameters = malloc(from.diameters_len * sizeof *diameters);
+  if (!diameters) return JAM_E_MEMORY;
+  for (k = 0; k < from.diameters_len; ++k) diameters[k] = shells[k] - o->least_distance * (info.diameter_mean / mean);
+  create.dim = info.dim, create.seed = info.seed, create.container = info.container, create.walls = info.walls;
+  from.diameters = diameters, from.cell = cell, from.cell_len = needed;
+  if (status >= 0) status = jam_create(&create, &from, &bare);
+  free(diameters);
+  if (!bare) return status;
+  each_note(jam_notes(*sys), copy_note, bare);
+  jam_destroy(*sys);
+  *sys = bare;
+  jam_get_info(bare, &info);
+  if (fabs(info.packing_fraction / asked - 1) < 1e-11) return status;
+  snprintf(line, sizeof line, "without the shells the packing fraction is %.9g, requested was %g",
+           info.packing_fraction, asked);
+  jam_add_note(bare, line);
+  return status;
 }
 
 /* The job of one command line, from its start to its files. */
@@ -210,8 +257,13 @@ int run_job(const options *given) {
   if (!stop_if_asked(NULL, NULL)) status = work(sys, o, &t, &result);
   watch_signals(NULL);
   bad = end_progress(&t, o);
+  if (status >= 0 && o->least_distance > 0) {
+    const jam_status left = leave_shells(o, result.diameter_given, given->given.density, &sys);
+    result.diameter_given -= o->least_distance;
+    if (left < 0) status = left;
+  }
   if (status == JAM_E_UNPLACEABLE) { /* the density lies beyond reach: nothing was done that is worth a file */
-    complain("%s", jam_last_error());
+    complain("%s%s", o->least_distance > 0 ? "the spheres in their shells: " : "", jam_last_error());
     return leave(sys, EXIT_FAILED);
   }
   if (status < 0)

@@ -101,6 +101,11 @@ static int settle_density(options *o) {
   given *const g = &o->given;
   if (isfinite(o->packing_fraction)) g->density = o->packing_fraction;
   if (isfinite(o->porosity)) g->density = 1 - o->porosity;
+  if (o->least_distance > 0 && !(g->density > 0 && g->sizes && (g->cell_count || is_named(o, "box")))) {
+    complain(
+        "--least-distance needs a law of --sizes in the unit of --cell or --box, and --packing-fraction or --porosity");
+    return -1;
+  }
   if (!(g->density > 0)) return 0;
   o->no_crunch = 1;
   if (isfinite(o->phi0) && o->phi0 > g->density) {

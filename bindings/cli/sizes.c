@@ -158,7 +158,7 @@ static int find_volume(const options *o, double *volume) {
 static int draw_law(const options *o, double **out, int64_t *n) {
   jam_diameters_options law;
   double *curve = NULL;
-  size_t curve_len = 0, count = 0;
+  size_t curve_len = 0, count = 0, k;
   int bad;
   jam_diameters_options_init(&law, sizeof law);
   law.dim = (int32_t)o->dim;
@@ -175,6 +175,7 @@ static int draw_law(const options *o, double **out, int64_t *n) {
     bad = 1;
   }
   bad = bad || has_failed(jam_diameters(&law, curve, curve_len, *out, count, &count));
+  for (k = 0; !bad && k < count; ++k) (*out)[k] += o->least_distance;
   free(curve);
   *n = (int64_t)count;
   return bad ? -1 : 0;

@@ -12,7 +12,7 @@ NO_CRUNCH = ("no-crunch", "packing-fraction", "porosity")  # what leaves the cru
 READING = "input frame box cell origin columns walls container non-additivity tile quiet wall-time json"
 STARTING = "seed model zeta shrink shrink-min output report log plot page checkpoint checkpoint-every resume"
 GROWING = (
-    "n dim phi0 diameters-ratio sizes plant nve growth pressure packing-fraction porosity"
+    "n dim phi0 diameters-ratio sizes least-distance plant nve growth pressure packing-fraction porosity"
 )
 TABLES = "contacts spectrum modes gaps structure vtk"
 PORES = (
@@ -73,6 +73,16 @@ TABLE = {
             "lognormal:deviation=0.3,draw=random, list:1=0.5,1.4=0.5, sieve:FILE with a cumulative curve. Or a file of diameters. Only "
             "ratios count, unless a density gives the number of spheres",
             without=("input",),
+        ),
+        Option(
+            "least-distance",
+            "positive",
+            "H",
+            "the surfaces of all spheres of --sizes stay this far apart, in the unit of the sizes, and half of it from walls: they grow in "
+            "shells of H/2; with a density, and without --n",
+            0.0,
+            needs=("sizes",),
+            without=("n", "non-additivity", "model", "input", "resume", "checkpoint"),
         ),
         Option(
             "non-additivity",

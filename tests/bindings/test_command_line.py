@@ -14,6 +14,7 @@ import unittest
 from pathlib import Path
 
 import jam
+import numpy as np
 from jam import cli
 from jam.ensemble import cli as ensemble
 
@@ -372,6 +373,41 @@ class CommandLine(unittest.TestCase):
                 report = json.loads((self.dir / "e.json").read_text())
                 self.assertAlmostEqual(report["packing_fraction"], s.packing_fraction, 12)
                 self.assertIn(f"{s.n} whole spheres of --sizes have the packing fraction", report["notes"][0])
+
+    def test_a_least_distance(self):
+        """Surfaces of any two spheres are that far apart, half of it from walls; sizes and density are those asked for."""
+        for words, free in (("--sizes equal:mean=1.4 --walls z", (0, 1)), ("--sizes lognormal:deviation=0.2 --container cylinder", (2,))):
+            for program in self.programs():
+                code, _, err = self.run_words(
+                    program, *f"compress --cell 7,7,8 {words} --porosity 0.65 --least-distance 0.125 --output l.xyz --report l.json --quiet".split()
+                )
+                self.assertEqual(code, 0, err)
+                s = jam.System.read(str(self.dir / "l.xyz"))
+                report = json.loads((self.dir / "l.json").read_text())
+                self.assertAlmostEqual(report["diameter_mean"], report["diameter_mean_given"], 11)
+                self.assertLess(abs(s.packing_fraction - 0.35) * s.info.volume, 3.1416 / 6 * s.diameters.max() ** 3)
+                self.assertIn("shells of 0.0625", report["notes"][0])
+                if "equal" in words:
+                    self.assertIn(f"the packing fraction is {s.packing_fraction:.9g}, requested was 0.35", report["notes"][1])
+                    self.assertLess(abs(s.diameters - 1.4).max(), 1e-11)
+                else:
+                    self.assertAlmostEqual(s.packing_fraction, 0.35, 11)
+                apart = s.positions[:, None] - s.positions
+                for axis in free:
+                    apart[..., axis] -= s.cell[axis, axis] * np.rint(apart[..., axis] / s.cell[axis, axis])
+                far = np.sqrt((apart**2).sum(-1)) - s.radii[:, None] - s.radii
+                self.assertGreater(far[np.triu_indices(s.n, 1)].min(), 0.125 - 1e-11)
+                height, x, y = s.positions[:, 2], *(s.positions[:, :2] - 3.5).T
+                wall = np.minimum(height, 8 - height) if "walls" in words else 3.5 - np.hypot(x, y)
+                self.assertGreater((wall - s.radii).min(), 0.0625 - 1e-11)
+        for words, text in (
+            ("compress --sizes equal:mean=1.4 --least-distance 0.3", "needs a law of --sizes"),
+            ("compress --sizes equal:mean=1.4 --porosity 0.4 --cell 9,9,9 --least-distance 0.5", "in their shells"),
+            ("compress --sizes equal --porosity 0.6 --box 9 --least-distance 0.1 --checkpoint c", "no effect beside --checkpoint"),
+        ):
+            for program in self.programs():
+                code, _, err = self.run_words(program, *words.split(), "--output", "l.xyz")
+                self.assertEqual((code in (2, 3), text in err), (True, True), err)
 
     def test_json_of_a_job_has_its_end(self):
         for program in self.programs():

@@ -238,6 +238,34 @@ class ByDistance(Folder):
                 np.testing.assert_array_equal(s.coordination, z)
             np.testing.assert_allclose(s.fabric_tensor(), c.vectors.T @ c.vectors / len(c), atol=1e-14)
 
+    def test_round_walls_disks_and_own_images(self):
+        for dim, options, closed in (
+            (3, {"container": "cylinder", "cell": [1, 1, 1.2]}, "xy"),
+            (3, {"container": "cylinder", "walls": "z", "cell": [1, 1, 1.2]}, "xyz"),
+            (3, {"container": "ball"}, "xyz"),
+            (2, {"container": "ball"}, "xy"),
+            (2, {}, ""),
+        ):
+            made = jam.System.random(40, dim, 5, diameters=[1.0, 1.3] * 20, packing_fraction=0.2, **options)
+            made.compress(packing_fraction=0.5)
+            x = made.positions + np.random.default_rng(1).normal(scale=2e-3, size=(40, dim))
+            s = jam.System.from_arrays(x, made.diameters, cell=made.cell, overlap="allow", **{k: v for k, v in options.items() if k != "cell"})
+            for gap in (0.01, 0.2):
+                found, x = [], s.positions
+                for shift in np.array(list(itertools.product(*[(0,) if "xyz"[c] in closed else (-1, 0, 1) for c in range(dim)]))) @ s.cell:
+                    h = np.linalg.norm(x[:, None] - x - shift, axis=-1) / (s.radii[:, None] + s.radii) - 1
+                    found += [(a, b) for a, b in np.argwhere(h < gap).tolist() if a < b]
+                away = [] if "walls" not in options else [x[:, 2], s.cell[2, 2] - x[:, 2]]
+                if "container" in options:
+                    axes = 2 if options["container"] == "cylinder" else dim
+                    away.append(0.5 - np.linalg.norm(x[:, :axes] - 0.5, axis=1))
+                found += [(a, -1 - w) for w, far in enumerate(away) for a in np.flatnonzero(far / s.radii - 1 < gap).tolist()]
+                s.contacts_by_distance(gap)
+                self.assertEqual(sorted(map(tuple, s.contacts.pairs.tolist())), sorted(found), (dim, options))
+        alone = jam.System.from_arrays([[0.5, 0.5]], 0.95, cell=[1, 3])  # touches its own image along the short side
+        alone.contacts_by_distance(0.1)
+        self.assertEqual(alone.contacts.pairs.tolist(), [[0, 0]])
+
     def test_no_balance_is_claimed(self):
         s = self.bed(walls="z")
         s.contacts_by_distance(0.01)

@@ -63,6 +63,12 @@ class Protocols(unittest.TestCase):
             (dict(n=10, model="flat"), "flat"),
             (dict(n=10, stages=[(-1.0, 10.0)]), r"stages\[0\]: growth_rate is -1"),
             (dict(n=10, crunch={"strain": "volume"}), "crunch: strain is 4, which frees the volume"),
+            (dict(n=10, overlap="shrink"), "refuse"),
+            (dict(n=10, overlap="allow"), r"stages\[0\]: compress is for hard spheres"),
+            (dict(n=10, overlap="allow", stages=[{"verb": "shear"}], crunch=None), r"stages\[0\]: shear needs to"),
+            (dict(n=10, overlap="allow", stages=[{"verb": "shear", "to": 0.1}]), "crunch: crunch is for hard spheres"),
+            (dict(n=10, overlap="allow", stages=[{"verb": "shear", "to": 0.1, "step": -1}], crunch=None), "step"),
+            (dict(n=10, stages=[{"verb": "relax"}]), "overlap='allow'"),
             (dict(n=10, stages=[SOFT]), "crunch: crunch is for hard spheres, .* put decompress before it, or crunch=None"),
             (dict(n=10, stages=[SOFT, {"growth_rate": 0.1}]), r"stages\[1\]: compress is for hard spheres"),
         ):

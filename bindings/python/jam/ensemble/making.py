@@ -48,13 +48,14 @@ def begin(protocol: Mapping[str, Any], seed: int) -> System:
         if scene["cell"] is not None:
             del given["box"]
         return System.random(seed=seed, diameters=sizes, **given, **scene)
+    soft = given.pop("overlap", "refuse") == "allow"
     n, box, dim, phi = given.pop("n"), given.pop("box"), given.pop("dim"), given.pop("packing_fraction")
     law = protocol["start"]["diameters"]
     ordered = isinstance(law, dict) and (law["law"] == "bidisperse" or law.get("draw") == "quantiles")
     sizes = np.ones(n) if sizes is None else _shuffled(sizes, seed) if ordered else sizes
     unit = math.pi ** (dim / 2) / math.gamma(dim / 2 + 1) * (sizes / 2) ** dim
     return System.from_arrays(
-        _fcc(n, box), sizes * (phi * box**dim / unit.sum()) ** (1 / dim), box, seed=seed, overlap="shrink", **given
+        _fcc(n, box), sizes * (phi * box**dim / unit.sum()) ** (1 / dim), box, seed=seed, overlap="allow" if soft else "shrink", **given
     )
 
 

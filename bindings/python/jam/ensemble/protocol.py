@@ -39,10 +39,12 @@ ANALYSIS: dict[str, dict[str, Any]] = {"gaps": {"h_max": 1.0, "stable_only": 1},
 _FEW = 1e-12  # packing fraction of a sphere that fits into any scene
 _NO_TIME = 1e-9  # seconds
 _OF_TWO_SPHERES = (errors.TooFewError, errors.StateError)  # what calls without time say of two spheres, not of the protocol
-_CHECKED = ("model", "non_additivity")  # of what the scene allows, beside itself
+_CHECKED = ("model", "non_additivity", "overlap")  # of what the scene allows, beside itself
 _OF_A_DRAW = {"dim", "n", "seed", "cell_volume", "packing_fraction"}  # what start and seed say
 _TRIED, _MOST_TRIED = (1, 2, 3), 4096  # seeds of starts, of so many spheres, that are made to see whether any has room
-_NOT_IN_START = ("seed", "overlap")  # the seed is the packing's own; a start never overlaps
+_NOT_IN_START = ("seed",)  # the packing's own
+#: What a stage takes beside the options of its verb.
+_OF_STAGE: dict[str, dict[str, Any]] = {"shear": {"to": None, "mode": None, "stress": None}}
 
 
 class ProtocolError(ValueError):
@@ -114,6 +116,8 @@ def _start(given: Mapping[str, Any]) -> dict[str, Any]:
             made["packing_fraction"] = round(System.random(1, made["dim"]).packing_fraction, 12)
     except errors.JamError as error:
         raise ProtocolError(f"start: {error}") from None
+    if made["overlap"] == "shrink":
+        raise ProtocolError("start: overlap is 'refuse' (hard spheres) or 'allow' (soft ones)")
     if made["n"] < 1:
         raise ProtocolError(f"start: n = {made['n']} must be >= 1")
     if lattice is not None:
@@ -155,9 +159,12 @@ def _stage(given: Mapping[str, Any] | Sequence[float], number: int) -> dict[str,
     if struct not in OPTIONS or not hasattr(System, verb) or verb in ("crunch", "observe", "hessian", "modes"):
         verbs = [s[4:-8] for s in OPTIONS if hasattr(System, s[4:-8])]
         raise ProtocolError(f"stages[{number}]: no stage is called {verb!r}; calls with options are {', '.join(verbs)}")
-    return {"verb": verb, **_options(struct, rest, f"stages[{number}]", ("resume",))}
+    own = {k: rest.pop(k, v) for k, v in _OF_STAGE.get(verb, {}).items()}
+    own = {k: v if v is None else np.asarray(v, float).tolist() for k, v in own.items()}
+    return {"verb": verb, **own, **_options(struct, rest, f"stages[{number}]", ("resume",))}
 
 
+_OF_SOFT = ("relax", "decompress", "shear")  # stages of spheres that overlap
 _OF_PYTHON = ("crystal_score",)  # analyses that are no call of C
 
 
@@ -191,20 +198,19 @@ def _check_calls(made: Mapping[str, Any]) -> None:
     calls = [(f"stages[{k}]", stage) for k, stage in enumerate(made["stages"])]
     if made["crunch"] is not None:
         calls.append(("crunch", {"verb": "crunch", **made["crunch"]}))
-    soft = overlapping = False  # a start has no overlaps, and only soft Monte Carlo makes some
+    soft = overlapping = start["overlap"] == "allow"  # else only soft Monte Carlo makes overlaps
     for where, call in calls:
         options = dict(call)
         verb = options.pop("verb")
         if verb in ("relax", "decompress") and not soft:
-            raise ProtocolError(f"{where}: {verb} needs overlaps, which only Monte Carlo with alpha makes here")
+            raise ProtocolError(f"{where}: {verb} needs overlaps: start with overlap='allow', or by Monte Carlo with alpha")
         soft_moves = verb == "monte_carlo" and options["alpha"] > 0
-        if overlapping and not soft_moves and verb not in ("relax", "decompress"):
-            raise ProtocolError(
-                f"{where}: {verb} is for hard spheres, and Monte Carlo with alpha leaves overlaps: put decompress before it, "
-                "or crunch=None"
-            )
+        if overlapping and not soft_moves and verb not in _OF_SOFT:
+            raise ProtocolError(f"{where}: {verb} is for hard spheres, and these overlap: put decompress before it, or crunch=None")
         soft = soft or soft_moves
-        overlapping = soft_moves or (overlapping and verb not in ("relax", "decompress"))
+        overlapping = soft_moves or (soft and verb == "shear") or (overlapping and verb not in _OF_SOFT)
+        if verb == "shear" and options["to"] is None:
+            raise ProtocolError(f"{where}: shear needs to, its last strain")
         try:
             getattr(two, verb)(**{**options, "wall_time": _NO_TIME})
         except _OF_TWO_SPHERES:

@@ -12,27 +12,6 @@
 namespace jam::inside {
 namespace {
 
-// exp(amplitude mode) - 1 by its series, which ends: mode is triangular and steps are small.
-std::vector<double> finite_strain(const std::vector<double> &mode, double amplitude, int dim) {
-  const size_t d = static_cast<size_t>(dim);
-  std::vector<double> out(d * d, 0.0), term(d * d, 0.0), next(d * d);
-  for (size_t c = 0; c < d; ++c) term[c * (d + 1)] = 1.0;
-  for (int k = 1; k < 200; ++k) {
-    double most = 0.0;
-    for (size_t a = 0; a < d; ++a)
-      for (size_t b = 0; b < d; ++b) {
-        double sum = 0.0;
-        for (size_t c = 0; c < d; ++c) sum += term[a * d + c] * mode[c * d + b];
-        next[a * d + b] = sum * amplitude / k;
-        most = std::max(most, std::fabs(next[a * d + b]));
-      }
-    term = next;
-    for (size_t c = 0; c < d * d; ++c) out[c] += term[c];
-    if (most < ShearTuning::series_ends) break;
-  }
-  return out;
-}
-
 // Root mean square of what two packings differ by beyond an affine change of the cell, over spheres that contacts hold
 // in both, without their mean; in mean diameters.
 double nonaffine(const ShearPoint &from, const ShearPoint &to) {
@@ -111,9 +90,22 @@ class Shear {
     return advance(from + whole * step, rest);
   }
 
-  // One step. Where it does not add up, bisection finds two strains within the resolution: up to the first it does,
-  // from there to the second it does not. Then the step goes on from the second.
+  // One step. A cancel or the wall time takes back its part, so that the next call makes the same steps to the same
+  // bits.
   bool advance(double strain, double step) {
+    const Begun begun{out_.last, row_, has_row_, out_.rows.size(), out_.report};
+    if (!go_through(strain, step)) return false;
+    const int32_t reason = out_.report.stop_reason;
+    if (at_.done == 0.0 || (reason != JAM_STOP_CANCELLED && reason != JAM_STOP_WALL_TIME)) return true;
+    out_.last = begun.last, row_ = begun.row, has_row_ = begun.has_row, out_.report = begun.report;
+    out_.rows.resize(begun.rows);
+    at_.done = 0.0, out_.report.stop_reason = reason;
+    return true;
+  }
+
+  // Where a step does not add up, bisection finds two strains within the resolution: up to the first it does, from
+  // there to the second it does not. Then the step goes on from the second.
+  bool go_through(double strain, double step) {
     double bad = step, trial = step;
     bool bracketed = false, located = false;  // bracketed: from here to `bad` it does not add up
     for (at_.done = 0.0, at_.strain = strain; at_.done != step;) {
@@ -264,6 +256,13 @@ class Shear {
     r.factorisations = effort_.factorisations;
     r.seconds = monitor_.seconds();
   }
+
+  struct Begun {  // what a step began from
+    ShearPoint last, row;
+    bool has_row;
+    size_t rows;
+    jam_shear_report report;
+  };
 
   const jam_shear_options &o_;
   const ShearPath &path_;

@@ -48,6 +48,8 @@ struct ShearPath {
 jam_shear_options default_shear_options();
 void check_shear_options(const jam_shear_options &o, const ShearPath &path);
 // Simple shear, x moves with y, for an empty mode. Numbers behind the mode are the stress.
+// exp(amplitude mode) - 1.
+std::vector<double> finite_strain(const std::vector<double> &mode, double amplitude, int dim);
 ShearPath shear_path(int dim, const double *mode, size_t mode_len, const double *turns, size_t turns_len);
 
 // Minima of soft spheres for these options.

@@ -88,6 +88,27 @@ ShearPath shear_path(int dim, const double *mode, size_t mode_len, const double 
   return path;
 }
 
+// By its series, which ends: mode is triangular and steps are small.
+std::vector<double> finite_strain(const std::vector<double> &mode, double amplitude, int dim) {
+  const size_t d = static_cast<size_t>(dim);
+  std::vector<double> out(d * d, 0.0), term(d * d, 0.0), next(d * d);
+  for (size_t c = 0; c < d; ++c) term[c * (d + 1)] = 1.0;
+  for (int k = 1; k < 200; ++k) {
+    double most = 0.0;
+    for (size_t a = 0; a < d; ++a)
+      for (size_t b = 0; b < d; ++b) {
+        double sum = 0.0;
+        for (size_t c = 0; c < d; ++c) sum += term[a * d + c] * mode[c * d + b];
+        next[a * d + b] = sum * amplitude / k;
+        most = std::max(most, std::fabs(next[a * d + b]));
+      }
+    term = next;
+    for (size_t c = 0; c < d * d; ++c) out[c] += term[c];
+    if (most < ShearTuning::series_ends) break;
+  }
+  return out;
+}
+
 // The held component that is farthest from its target.
 static std::string out_of_reach(const FreeCell &cell, const ShearPoint &p) {
   const size_t d = static_cast<size_t>(cell.dim);

@@ -328,6 +328,20 @@ class Shear(unittest.TestCase):
         energy, _ = pair_sums(s)
         self.assertAlmostEqual(energy, s.shear_rows[-1]["energy"] * s.n, delta=1e-12)
 
+    def test_a_stop_within_a_step_continues_to_the_same_bits(self):
+        whole, parts = soft(24, seed=2), soft(24, seed=2)
+        self.assertGreater(whole.shear(0.02, step=2e-3).events, 0)
+        parts.log(lambda level, line: parts.cancel() if ", event" in line else None)
+        stopped = parts.shear(0.02, step=2e-3)
+        parts.log(None)
+        self.assertEqual(stopped.stop_reason, jam.StopReason.CANCELLED)
+        last = parts.shear_rows[-1]
+        self.assertEqual((last["strain"], last["event"], last["phi"]), (stopped.strain, 0, stopped.packing_fraction))
+        self.assertEqual((stopped.events, stopped.stress), (0, last["stress"]))
+        self.assertAlmostEqual(stopped.strain / 2e-3, round(stopped.strain / 2e-3), delta=1e-9)
+        parts.shear(0.02 - stopped.strain, step=2e-3)
+        self.assertTrue(np.array_equal(whole.positions, parts.positions))
+
 
 class Pages(unittest.TestCase):
     @unittest.skipUnless(importlib.util.find_spec("matplotlib"), "matplotlib is not installed, which draws the pages' picture")

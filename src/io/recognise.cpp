@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/decimal.hpp"
 #include "io/read_helpers.hpp"
 
 namespace jam::inside {
@@ -56,11 +57,28 @@ bool is_basic_xyz(const Head &h) { return count_at(h, 0) && !count_at(h, 1) && h
 
 bool is_plain(const Head &h) { return count_at(h, 0); }
 
-// Eight numbers, the first one a count; then rows of fourteen, or after an empty frame eight again.
+// Whether the words are a count, a time and two corners of a box.
+bool begins_frame_of_mercury(const Words &words) {
+  const size_t d = words.size() / 2 - 1;
+  bool wide = is_count(words[0]);
+  for (size_t c = 0; c < d; ++c) {
+    double low = 0.0, high = 0.0;
+    from_decimal(words[2 + c], low);
+    from_decimal(words[2 + d + c], high);
+    wide = wide && high > low;
+  }
+  return wide;
+}
+
+// The head of a frame; then rows of fourteen numbers, in d = 2 of eight, or after an empty frame the next head. A table
+// whose first column begins with 0 looks like the latter, but has no box.
 bool is_mercury(const Head &h) {
   const Words header = h.words(h.first), row = h.words(h.first + 1);
-  if (header.size() != 8 || !is_count(header[0]) || !all_numbers(header) || !all_numbers(row)) return false;
-  return row.size() == 14 || (row.size() == 8 && header[0] == "0");
+  if ((header.size() != 6 && header.size() != 8) || !is_count(header[0]) || !all_numbers(header) || !all_numbers(row))
+    return false;
+  if (row.size() == header.size())
+    return header[0] == "0" && begins_frame_of_mercury(header) && begins_frame_of_mercury(row);
+  return row.size() == (header.size() == 6 ? 8 : 14);
 }
 
 // Rows of numbers, perhaps under a line that names the columns.

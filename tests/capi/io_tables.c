@@ -201,16 +201,29 @@ static void data_of_mercury_dpm(void **state) {
   static const char frame[] =
       "0 0 -1 -1 -1 1 2 3\n"
       "2 0.5 -1 -1 -1 1 2 3\n-.5 -.5 -.5 9 9 9 .2 0 0 0 1 1 1 0\n.5 .5 .5 8 8 8 .25 0 0 0 1 1 1 1\n";
+  static const double flat[] = {0.5, 0.5, 1.5, 1.5};
+  static const char disks[] = "0 0 -1 -1 1 2\n2 0.5 -1 -1 1 2\n-.5 -.5 9 9 .2 0 1 0\n.5 .5 8 8 .25 0 1 1\n";
   double cell[9];
   size_t needed;
-  jam_system *sys = read_as(frame, "", 1.0);
+  jam_system *sys = read_as(disks, "", 1.0);
   (void)state;
+  assert_int_equal(jam_get_cell(sys, cell, 9, &needed), JAM_OK);
+  assert_memory_equal(cell, ((double[]){2, 0, 0, 3}), 4 * sizeof *cell);
+  expect(sys, 2, 2, flat, sizes);
+  expect(read_as(strchr(disks, '\n') + 1, "", 1.0), 2, 2, flat, sizes);
+  sys = read_as(frame, "", 1.0);
   assert_int_equal(jam_get_cell(sys, cell, 9, &needed), JAM_OK);
   assert_memory_equal(cell, want, sizeof cell);
   assert_non_null(strstr(jam_notes(sys), "the corner of the cell is at -1 -1 -1"));
   expect(sys, 3, 2, moved, sizes);
   expect_refused("1 0 0 0 0 1 1 1\n.5 .5 .5 0 0 0 .2 0 0 0 0 0 0 0\n.5 .5\n", JAM_E_FORMAT, "where a frame begins");
   expect_refused("2 0 0 0 0 1 1 1\n.5 .5 .5 0 0 0 .2 0 0 0 0 0 0 0\n", JAM_E_FORMAT, "after 1 of 2 spheres");
+  expect_refused("1 0 0 0 0 1\n.5 .5 0 0 .2 0 0 0\n", JAM_E_FORMAT, "no extent along x");
+  /* tables whose spheres count from 0, or lie at 0, are no empty frames */
+  expect(read_as("0 .5 .5 .5 .2 0 0 0\n1 1.5 1.5 1.5 .25 0 0 0\n", "cell=3,3,3 columns=id,x,y,z,radius,u,v,w", 1.0), 3,
+         2, two, sizes);
+  expect(read_as("0 .5 .5 .5 .2 7\n1 1.5 1.5 1.5 .25 7\n", "cell=3,3,3 columns=id,x,y,z,radius,kind", 1.0), 3, 2, two,
+         sizes);
 }
 
 /* Every row says the truth: what is listed as written is written, and what it holds. */

@@ -286,6 +286,15 @@ class Page(PageTest):
         self.page.resize(1200, 800)
         self.assertEqual(wide, 0)
 
+    def test_no_frame_shows_a_squeezed_picture(self):
+        """The first frame after a change of size has a picture of that size: a frame is done when a task after it runs."""
+        self.show(self.disks)
+        ratios = self.page.run("""new Promise((done) => {
+          document.body.style.width = "70%";
+          requestAnimationFrame(() => setTimeout(() => done([canvas.width / canvas.height, canvas.clientWidth / canvas.clientHeight])));
+        })""")
+        self.assertAlmostEqual(*ratios, delta=0.01)
+
     def test_no_slider_without_steps(self):
         self.show(self.disks)
         self.assertIsNone(self.page.run("document.querySelector('input.steps')"))

@@ -61,19 +61,36 @@ function showThinning() {
     (thin.coarse ? `, at ${COARSE} of the resolution` : "");
 }
 
+// Whether the size had to change, which clears the picture.
 function fitCanvas() {
   const ratio = window.devicePixelRatio || 1;
+  let changed = false;
   for (const one of [canvas, labels]) {
     const fine = ratio * (thin.moving && thin.coarse && one === canvas ? COARSE : 1);
     const width = Math.round(one.clientWidth * fine), height = Math.round(one.clientHeight * fine);
-    if (one.width !== width || one.height !== height) [one.width, one.height] = [width, height];
+    if (one.width === width && one.height === height) continue;
+    [one.width, one.height] = [width, height];
+    changed = true;
   }
+  return changed;
 }
+function draw() {
+  fitCanvas();
+  const view = viewNow(), began = performance.now();
+  renderer.draw(view, thin.moving ? thin.share : 1, oscillation.phase);
+  if (isLarge()) renderer.finish();
+  if (thin.moving) adapt(performance.now() - began);
+  else {
+    thin.whole = performance.now() - began;
+    drawLabels(view);
+  }
+  showThinning();
+}
+const isLarge = () => scene.count + scene.sticks >= THIN_FROM;
 let waiting = false;
 function redraw(moves = false) {
   if (!renderer) return;
-  const large = scene.count + scene.sticks >= THIN_FROM;
-  if (moves !== true || !large) thin.moving = false;
+  if (moves !== true || !isLarge()) thin.moving = false;
   else if (!thin.moving) beginMoving();
   if (thin.moving) {
     clearTimeout(thin.rest);
@@ -83,16 +100,7 @@ function redraw(moves = false) {
   waiting = true;
   requestAnimationFrame(() => {
     waiting = false;
-    fitCanvas();
-    const view = viewNow(), began = performance.now();
-    renderer.draw(view, thin.moving ? thin.share : 1, oscillation.phase);
-    if (large) renderer.finish();
-    if (thin.moving) adapt(performance.now() - began);
-    else {
-      thin.whole = performance.now() - began;
-      drawLabels(view);
-    }
-    showThinning();
+    draw();
   });
 }
 function rebuild() {
@@ -212,4 +220,4 @@ function zoom(factor) {
   camera.zoom = Math.min(Math.max(camera.zoom * factor, 0.2), 200);
   redraw(true);
 }
-new ResizeObserver(() => redraw()).observe(canvas);
+new ResizeObserver(() => renderer && fitCanvas() && draw()).observe(canvas); // at once: the next frame is too late

@@ -144,6 +144,19 @@ class Network(unittest.TestCase):
         self.assertGreater(crystal.crystal_score(), 5)
         self.assertLess(jam.System.random(2000, 3, 1, packing_fraction=0.3).crystal_score(), 1.5)
 
+    def test_minima_of_a_fixed_cell_may_be_unstable_against_shear(self):
+        """As the page on soft spheres says. A minimum in all strains has no negative modulus."""
+        fixed, free = [], []
+        for seed in range(1, 9):
+            s = jam.System.random(n=16, dim=2, seed=seed, packing_fraction=0.87, diameters=[1.0] * 8 + [1.4] * 8, overlap="allow")
+            pressure = s.relax().pressure
+            self.assertGreater(pressure, 0.0)
+            fixed.append(s.moduli(stiffness="soft", prestress=1.0).shear)
+            self.assertTrue(s.relax(strain="all", pressure=pressure).converged)
+            free.append(s.moduli(stiffness="soft", prestress=1.0).shear)
+        self.assertLess(min(fixed), 0.0)
+        self.assertGreater(min(free), 0.0)
+
     def test_functions_without_a_system(self):
         phi = np.array([0.5, 0.55, 0.6])
         p = [jam.eos("free_volume", 3, x, 0.64) for x in phi]

@@ -115,7 +115,9 @@ class Tutorials(unittest.TestCase):
         self.assertEqual(len(programs), 2)
         if needs_fortran([("fortran", "")]):
             self.skipTest("built without Fortran")
-        for text in programs:
+        within = programs[1].replace("call spheres%read_file('missing.xyz')", "print *, size(spheres%forces())")
+        self.assertNotEqual(within, programs[1])
+        for text in (*programs, within):  # the last: a handler that printed to the unit of the print would wait without end
             run_block("fortran", text, self.folder)
             build = "gfortran program.f90 $(pkg-config --cflags --libs jam-fortran) -o program && ./program"
             run_block("sh", build, self.folder)

@@ -75,7 +75,7 @@ wheel() {
   # between 64-bit processors of one order of bytes nothing differs in what the module uses of it
   [ -f "$config" ] || config=$(ls /usr/include/*-linux-gnu/"$name"/pyconfig.h | head -1)
   cp "$config" "$libraries/python/$1-linux-gnu/$name"
-  run env CC="$tools/cc" CXX="$tools/c++" CFLAGS="-I$libraries/python" LDFLAGS=-s \
+  run env CCACHE_DISABLE=1 CC="$tools/cc" CXX="$tools/c++" CFLAGS="-I$libraries/python" LDFLAGS=-s \
     PKG_CONFIG_LIBDIR="$libraries/lib/pkgconfig" _PYTHON_HOST_PLATFORM="linux-$1" $python -c '
 import build_wheel, sys
 out, build, *options = sys.argv[1:]
@@ -129,9 +129,7 @@ if begin windows 'libjam-*-windows-x86_64.zip'; then
       -DCMAKE_SHARED_LINKER_FLAGS=-Wl,--no-insert-timestamp -DCMAKE_EXE_LINKER_FLAGS=-Wl,--no-insert-timestamp
     run cmake --build "$work/windows" -j "$jobs"
     unset PKG_CONFIG_LIBDIR
-    for component in runtime dev tools license; do
-      run cmake --install "$work/windows" --prefix "$work/$name" --component $component --strip
-    done
+    run cmake --install "$work/windows" --prefix "$work/$name" --strip
     cp -r examples/c examples/cpp "$work/$name/share"
     cp examples/lab.html "$work/$name"
     run $python pkgconfig/spdx.py zip "$work/$name" "$out/$name.zip"

@@ -40,7 +40,7 @@ def make_list(commit, folder):
         parts.append(package("part-" + re.sub(r"[^A-Za-z0-9]+", "-", name).strip("-"), name, known, source,
                              comment=f"{licence}; in a build: {when}".replace("`", "")))
     target = folder / f"libjam-{version}.spdx.json"
-    made = [path for path in sorted(folder.iterdir()) if path.suffix not in (".md", ".json") and not path.name.startswith("SHA256")]
+    made = [path for path in sorted(folder.iterdir()) if path.is_file() and path.suffix not in (".md", ".json") and not path.name.startswith("SHA256")]
     files = [{"SPDXID": f"SPDXRef-file-{k}", "fileName": path.name,
               "checksums": [{"algorithm": "SHA256", "checksumValue": hashlib.sha256(path.read_bytes()).hexdigest()}]}
              for k, path in enumerate(made)]

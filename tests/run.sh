@@ -14,8 +14,9 @@
 #               only what a C library needs
 #   openblas    crunches by the products of OpenBLAS (JAM_BLAS=openblas), as on three processors: packings end
 #               elsewhere, and what the tests state must hold there too
-#   processors, windows, libcxx  cross builds for arm64, s390x and riscv64 under qemu; for Windows under wine; with
-#               libc++: tests/platforms. Where the compilers cannot be installed they skip, saying so
+#   processors, windows, macos, libcxx  cross builds for arm64, s390x and riscv64 under qemu; for Windows under wine;
+#               for macOS, which is not run; with libc++: tests/platforms. Where the compilers cannot be installed
+#               they skip, saying so
 #   coverage    which branches of src the unit tests and those of the C interface reach, by Clang; tests/README.md has
 #               the table. It fails below the floor of tests/coverage.py
 #   browser     libjam for JavaScript by Emscripten, its tests by Node, and the page lab.html where ./build is there
@@ -191,6 +192,7 @@ fi
 
 if wants processors; then sh tests/platforms/processors.sh || status=1; fi
 if wants windows; then sh tests/platforms/windows.sh || status=1; fi
+if wants macos; then sh tests/platforms/macos.sh || status=1; fi
 if wants libcxx; then sh tests/platforms/libcxx.sh || status=1; fi
 
 if wants fuzz; then

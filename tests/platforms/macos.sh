@@ -5,6 +5,8 @@ set -eu
 cd "$(dirname "$0")/../.."
 . tests/platforms/common.sh
 need_or_skip ninja-build cmake pkg-config libeigen3-dev libspectra-dev file || exit 0
+unset CMAKE_C_COMPILER_LAUNCHER CMAKE_CXX_COMPILER_LAUNCHER  # zig has a cache of its own
+fast="-O0 -fno-sanitize=undefined"  # zig's debug builds have the sanitizer
 for processor in ${*:-aarch64 x86_64}; do
   triplet=$processor-macos folder=build-$processor-macos status=0
   mkdir -p "$folder"
@@ -18,7 +20,8 @@ for processor in ${*:-aarch64 x86_64}; do
     -DCMAKE_RANLIB="$tools/ranlib"
   JAM_LIBRARIES=zlib CC="$tools/cc" AR="$tools/ar" sh tests/platforms/dependencies.sh "$folder-libraries" "$triplet"
   configure "$folder" "$@" -DCMAKE_C_COMPILER="$tools/cc" -DCMAKE_CXX_COMPILER="$tools/c++" \
-    -DCMAKE_UNITY_BUILD=ON -DSPECTRA_INCLUDE="$PWD/$folder-libraries/include" -DJAM_BUILD_EXAMPLES=ON \
+    -DCMAKE_UNITY_BUILD=ON -DCMAKE_C_FLAGS="$fast" -DCMAKE_CXX_FLAGS="$fast" -DJAM_BUILD_EXAMPLES=ON \
+    -DSPECTRA_INCLUDE="$PWD/$folder-libraries/include" \
     -DJAM_BUILD_TESTS=OFF
   cmake --build "$folder" -j "$jobs" >"$folder/build.log" 2>&1 ||
     { grep -m 20 -E 'error|FAILED' "$folder/build.log"; exit 1; }

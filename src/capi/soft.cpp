@@ -4,6 +4,7 @@
 
 #include "capi/table.hpp"
 #include "core/cell_change.hpp"
+#include "core/validate.hpp"
 #include "crunch/crunch.hpp"
 #include "soft/decompression.hpp"
 
@@ -61,6 +62,7 @@ jam_status jam_relax(jam_system *sys, const jam_relax_options *o, jam_relax_repo
     const jam_relax_report made = result.report;
     const jam_status status = result.status;
     refuse_outside(result.packing);
+    refuse_wider_than_periods(result.packing, JAM_E_OVERLAP);
     straighten_cell(result.packing, sys->notes);
     sys->commit(result.packing, soft_results(result, made.seconds));
     give_struct(made, report);

@@ -19,13 +19,19 @@ void check_packing(const Packing &p, jam_status code) {
                                    (p.position[k] == p.cell.edge(static_cast<int>(k % d)) && p.container &&
                                     !p.cell.repeats(static_cast<int>(k % d))))))
       fail(code, "positions[%zu] is %.17g, outside of 0 to %g", k, p.position[k], p.cell.edge(static_cast<int>(k % d)));
-  const double widest = p.cell.shortest() * (1.0 + overlap_tolerance);
   for (size_t i = 0; i < n; ++i)
-    if (!(p.diameter[i] > 0.0 && p.diameter[i] <= widest))
-      fail(code, "diameters[%zu] is %g where the shortest period of the cell is %g", i, p.diameter[i],
-           p.cell.shortest());
+    if (!(p.diameter[i] > 0.0)) fail(code, "diameters[%zu] is %g, it must be positive", i, p.diameter[i]);
+  refuse_wider_than_periods(p, code);
   check_diameters(p.diameter, p.cell);
   check_velocities(p, p.velocity, code);
+}
+
+void refuse_wider_than_periods(const Packing &p, jam_status code) {
+  const double widest = p.cell.shortest() * (1.0 + overlap_tolerance);
+  for (size_t i = 0; i < p.n(); ++i)
+    if (!(p.diameter[i] <= widest))
+      fail(code, "diameters[%zu] is %g where the shortest period of the cell is %g", i, p.diameter[i],
+           p.cell.shortest());
 }
 
 }  // namespace jam::inside

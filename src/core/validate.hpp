@@ -9,4 +9,7 @@ namespace jam::inside {
 // cell, diameters are within the limits and velocities too. Overlaps are another question.
 void check_packing(const Packing &p, jam_status code);
 
+// Throws `code` where a sphere is wider than the shortest period: pairs are no longer searched beyond nearest images.
+void refuse_wider_than_periods(const Packing &p, jam_status code);
+
 }  // namespace jam::inside

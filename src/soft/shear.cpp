@@ -7,6 +7,7 @@
 
 #include "core/cell_change.hpp"
 #include "core/error.hpp"
+#include "core/validate.hpp"
 #include "soft/tuning.hpp"
 
 namespace jam::inside {
@@ -149,13 +150,16 @@ class Shear {
     try {
       if (strain_affinely(p, finite_strain(path_.mode, step, p.dim).data()).rotated)
         fail(JAM_E_UNSUPPORTED, "the cell has become so long that it must be rotated, and with it the strain");
+      refuse_wider_than_periods(p, JAM_E_OVERLAP);
+      const ShearPoint to = minimum_(p, false);
+      refuse_wider_than_periods(to.at.packing, JAM_E_OVERLAP);  // a free cell
+      return to;
     } catch (const Error &e) {  // beyond the limits of cells: what was reached is kept
       ShearPoint none;
       none.at.status = JAM_NOT_CONVERGED, none.stop_reason = JAM_STOP_STALLED;
       none.why = std::string("the shear ends before its last strain: ") + e.what();
       return none;
     }
-    return minimum_(p, false);
   }
 
   // (1 / V) d enthalpy / dstrain.

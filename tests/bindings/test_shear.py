@@ -5,6 +5,7 @@ import contextlib
 import importlib.util
 import io
 import os
+import pickle
 import re
 import tempfile
 import unittest
@@ -341,6 +342,18 @@ class Shear(unittest.TestCase):
         self.assertAlmostEqual(stopped.strain / 2e-3, round(stopped.strain / 2e-3), delta=1e-9)
         parts.shear(0.02 - stopped.strain, step=2e-3)
         self.assertTrue(np.array_equal(whole.positions, parts.positions))
+
+    def test_no_cell_becomes_narrower_than_a_sphere(self):
+        s = soft(24, phi=0.95, seed=5)
+        report = s.shear(2.0, step=0.02, mode=[[1, 0], [0, -1]])
+        self.assertEqual((report.status, report.stop_reason), (jam.Status.NOT_CONVERGED, jam.StopReason.STALLED))
+        self.assertIn("shortest period", s.status_text)
+        self.assertLess(s.diameters.max(), s.cell[1, 1])
+        self.assertTrue(np.array_equal(pickle.loads(pickle.dumps(s)).positions, s.positions))
+        few = soft(6, phi=1.1, seed=3)
+        with self.assertRaisesRegex(jam.errors.OverlapError, "shortest period"):
+            few.relax(strain="all", pressure=50.0)
+        self.assertTrue(np.array_equal(pickle.loads(pickle.dumps(few)).positions, few.positions))
 
 
 class Pages(unittest.TestCase):

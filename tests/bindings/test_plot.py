@@ -93,6 +93,20 @@ class Pictures(unittest.TestCase):
             jam.plot.displacements(self.flat, np.zeros((3, 2)))
         self.assertEqual(len(jam.plot.displacements(self.flat, np.zeros((60, 2))).texts), 0)  # nothing moves
 
+    def test_contacts_without_forces(self):
+        for dim in (2, 3):
+            s = jam.System.random(n=100, dim=dim, seed=3, packing_fraction=0.3)
+            s.compress(packing_fraction=0.55)
+            s.contacts_by_distance(0.1)
+            ax = jam.plot.network(s)
+            self.assertIn("gaps below 0.1", ax.get_title())
+            widths = [w for c in ax.collections for w in c.get_linewidths()]
+            self.assertTrue(np.isfinite(widths).all())
+            self.assertGreater(ink(ax.figure), 0.01)
+            figure = jam.plot.summary(s)
+            gaps, spheres = (sum(bar.get_height() for bar in a.patches) for a in figure.axes[2:])
+            self.assertEqual((gaps, spheres), (len(s.contacts), 100))
+
     def test_before_crunch_and_wrong_dimension(self):
         self.assertGreater(ink(jam.plot.packing(jam.System.random(n=20, dim=2)).figure), 0.05)
         with self.assertRaises(jam.errors.StateError):

@@ -2,10 +2,10 @@
 
 const COLOURS = (rattler = "#c8c8c8", buckler = "#f2a541", other = "#4c78a8")
 
-"Contacts of each sphere and the network, or nothing before a crunch."
+"Contacts of each sphere and the network, or nothing before a crunch. Contacts by distance, without forces, get lines of one width."
 function network_of(s)
     try
-        return (coordination(s), contacts(s), contact_vectors(s), forces(s))
+        return (coordination(s), contacts(s), contact_vectors(s), replace(forces(s), NaN => 1.0))
     catch e
         e isa JamError && e.status in (:state, :not_jammed) || rethrow()
         return nothing

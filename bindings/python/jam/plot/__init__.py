@@ -7,7 +7,10 @@ otherwise they are free figures that need no display.
 """
 from __future__ import annotations
 
+from math import isnan
 from typing import Any
+
+import numpy as np
 
 from .._api.shown import only
 from ..errors import StateError
@@ -38,6 +41,7 @@ def summary(system: System) -> Any:
     """One figure of a packing with contacts: spheres, network, forces, and how it was reached. Returns the Figure.
 
     Of soft spheres with overlaps: forces without the slopes of jamming, and minima() or, without a decompression, overlaps.
+    Of contacts by distance, which have no forces: gaps and coordination.
     """
     from matplotlib.figure import Figure
 
@@ -46,6 +50,13 @@ def summary(system: System) -> Any:
     axes = figure.subplots(2, 2)
     packing(system, axes[0, 0])
     network(system, axes[0, 1])
+    if not isnan(system.info.contact_gap):
+        axes[1, 0].hist(gaps, bins=40, color=COLOURS["force"])
+        axes[1, 0].set(xlabel="gap / contact distance", ylabel="contacts")
+        numbers = np.bincount(system.coordination)
+        axes[1, 1].bar(range(len(numbers)), numbers, color=COLOURS["force"])
+        axes[1, 1].set(xlabel="contacts of a sphere", ylabel="spheres")
+        return figure
     if (gaps < -1e-7).any():  # overlaps of a hard packing are rounding
         cdf(system.forces, axes[1, 0], label="forces")
         try:

@@ -248,13 +248,16 @@ def network(
     width: float | None = None,
     colour: str | None = None,
 ) -> Any:
-    """The force network: each contact a line whose width grows with its force. width: points at the mean force."""
+    """The force network: each contact a line whose width grows with its force. width: points at the mean force, and of
+    each line where contacts_by_distance leaves the forces unknown.
+    """
     from matplotlib.collections import LineCollection
 
     dim, ax, cell = _drawable(system), axes_of(ax, True), system.cell
     edges, box = np.diag(cell), system.box
     ends, index = half_bonds(system)
-    force = system.forces[index]
+    known = bool(np.isnan(system.info.contact_gap))
+    force = system.forces[index] if known else np.ones(len(index))
     if dim == 2:
         width = width or 0.1 * 380 * float(system.diameters.mean()) / box
         for shift in _IMAGES:
@@ -290,5 +293,6 @@ def network(
         _brick(ax, edges, view, True)
     _frame(ax, edges)
     if legend:
-        ax.set_title(f"{len(system.contacts)} contacts, width by force", fontsize=10)
+        told = "width by force" if known else f"gaps below {system.info.contact_gap:g}"
+        ax.set_title(f"{len(system.contacts)} contacts, {told}", fontsize=10)
     return ax

@@ -142,6 +142,10 @@ class CommandLine(unittest.TestCase):
             self.assertGreater(os.path.getsize(f("p.png")), 10000)
             self.assertTrue(os.path.exists(f("v.vtp")) and os.path.exists(f("v-forces.vtp")))
             self.assertAlmostEqual(jam.System.read(f("out.dat")).packing_fraction, report["packing_fraction"], 14)
+            for verb, made in (("page", "a.html"), ("export", "a.data")):
+                done = self.run_jam(verb, f("out.dat"), f(made), "--plot", f(f"{verb}.svg"))
+                self.assertEqual(done.returncode, 0, done.stderr)
+                self.assertGreater(os.path.getsize(f(f"{verb}.svg")), 10000)
 
     @unittest.skipUnless(PACK, "jam-pack is not built")
     def test_same_options_and_same_files_as_jam_pack(self):

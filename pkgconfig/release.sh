@@ -95,7 +95,7 @@ if begin wheels 'jamming-*.whl'; then
     if need_or_skip qemu-user gcc-aarch64-linux-gnu >/dev/null; then
       mkdir "$work/arm"
       /usr/bin/python3 -m zipfile -e "$out/$file" "$work/arm"
-      run aarch64-linux-gnu-gcc -Iinclude examples/c/first.c -o "$work/arm/first" "$work/arm/jam/libjam.so.1" -lm
+      run aarch64-linux-gnu-gcc -Iinclude examples/c/first.c -o "$work/arm/first" "$work"/arm/jam/libjam.so.* -lm
       run qemu-aarch64 -L /usr/aarch64-linux-gnu -E LD_LIBRARY_PATH="$work/arm/jam" "$work/arm/first"
       how="an example in C ran with its library under an emulator; nothing imported the module"
     fi

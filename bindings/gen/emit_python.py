@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+from .shown import Answer as _Answer
 from .shown import Word as _Word
 from .shown import as_table as _as_table
 '''
@@ -110,7 +111,8 @@ def emit(api):
         out.append(f"{name} = {value}")
     out.append(f"# growth by default, of the library's source: rate and pressure of each stage\nGROWTH_STAGES = {STAGES!r}")
     for e in api.enums:
-        out += ["", "", f"class {camel(e.name)}(_Word):", _doc(e.doc)]
+        base = "_Answer" if {"YES", "NO"} <= set(item_names(e)) else "_Word"
+        out += ["", "", f"class {camel(e.name)}({base}):", _doc(e.doc)]
         out += [f"    {n} = {v}" + (f"  # {d}" if d else "") for n, (_, v, d) in zip(item_names(e), e.items)]
     out.append(REPORT)
     for s in structs:

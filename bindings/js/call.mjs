@@ -132,27 +132,36 @@ function results(core, rows, call, out, places, status) {
 
 /** packing: null for calls that need none. Gives one result as it is, several as an object, and the packing for none. */
 export function invoke(core, packing, name, args) {
+  const outcome = { last: null };
+  try {
+    return made(core, packing, name, args, outcome);
+  } catch (error) {
+    if (error instanceof JamError) packing?.noted(error.status, error.message);
+    else if (outcome.last) packing?.noted(outcome.last); // a progress function threw, which has stopped the call
+    throw error;
+  }
+}
+function made(core, packing, name, args, outcome) {
   const call = CALLS[name];
   const [given, options] = taken(name, call.args, args);
   const structs = sorted(name, call.args, options);
   return core.use((arena) => {
     const [out, places] = passed(core, arena, call.args, call, given, structs);
     const handle = call.system ? [packing.handle] : [];
-    let last;
-    const run = () => (last = core.check(core.call(call.c, ...handle, ...out)));
+    const run = () => (outcome.last = core.check(core.call(call.c, ...handle, ...out)));
     const status = call.system
       ? packing.reporting(options.progress, () => filled(core, arena, call.args, call, packing, out, places, run))
       : filled(core, arena, call.args, call, null, out, places, run);
-    const made = results(core, call.args, call, out, places, status);
-    if (packing) packing.noted(last);
-    const partial = Object.values(made).some((value) => value.stopReason !== undefined);
-    if (last === 'cancelled' && !partial) throw new JamError(last, core.reason());
+    const found = results(core, call.args, call, out, places, status);
+    if (packing) packing.noted(outcome.last);
+    const partial = Object.values(found).some((value) => value.stopReason !== undefined);
+    if (outcome.last === 'cancelled' && !partial) throw new JamError(outcome.last, core.reason());
     const file = call.args.find((row) => row[1] === 'file');
     if (file && given[file[0]] !== null) {
       const bytes = core.take(given[file[0]]);
-      return Object.keys(made).length ? { bytes, ...made } : bytes;
+      return Object.keys(found).length ? { bytes, ...found } : bytes;
     }
-    const keys = Object.keys(made);
-    return keys.length === 0 ? packing : keys.length === 1 ? made[keys[0]] : made;
+    const keys = Object.keys(found);
+    return keys.length === 0 ? packing : keys.length === 1 ? found[keys[0]] : found;
   });
 }

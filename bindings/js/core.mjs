@@ -4,6 +4,8 @@ import { JamError } from './errors.mjs';
 
 const text = new TextDecoder();
 const bytes = new TextEncoder();
+/** What the methods are called that jam.mjs has beside CALLS. */
+const BY_HAND = { jam_create: 'random() or from()', jam_read: 'read', jam_read_checkpoint: 'readCheckpoint', jam_write_checkpoint: 'checkpoint' };
 
 /** What the module imports: clocks, callbacks, and an environment without variables. */
 function imports(core) {
@@ -203,8 +205,8 @@ export class Core {
 
   /** Why the last call gave a status other than 'ok', with JavaScript's names of calls. */
   reason() {
-    const named = (c) => Object.keys(CALLS).find((name) => CALLS[name].c === c) ?? c;
-    return this.string(this.call('jam_last_error')).replace(/\bjam_\w+/g, named);
+    const named = (c) => BY_HAND[c] ?? Object.keys(CALLS).find((name) => CALLS[name].c === c) ?? c;
+    return this.string(this.call('jam_last_error')).replace(/\bjam_\w+/g, named).replaceAll('(sys, ', '(');
   }
   /** Throws where a call failed; gives the word of its status. */
   check(status) {

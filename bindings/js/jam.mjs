@@ -53,12 +53,12 @@ export class Packing {
   get notes() {
     return this.#core.string(this.#core.call('jam_notes', this.handle)).split('\n').filter((line) => line !== '');
   }
-  /** The status of the last call on this packing, and its reason unless it is 'ok'. */
+  /** The status of the last call on this packing, also of one that threw, and its reason unless it is 'ok'. */
   status = 'ok';
   statusText = '';
-  noted(status) {
+  noted(status, text = status === 'ok' ? '' : this.#core.reason()) {
     this.status = status;
-    this.statusText = status === 'ok' ? '' : this.#core.reason();
+    this.statusText = text;
   }
 
   /** All that the packing is, as bytes for Jam.readCheckpoint. A progress function may call it. */
@@ -124,6 +124,13 @@ function newHandle(core, call) {
   });
 }
 
+/** The content of a file, as all who read take it. */
+function content(bytes, call) {
+  if (ArrayBuffer.isView(bytes) && bytes.BYTES_PER_ELEMENT === 1) return bytes;
+  const given = typeof bytes === 'string' ? JSON.stringify(bytes) : Object.prototype.toString.call(bytes).slice(8, -1);
+  throw new JamError('argument', `${call} takes the bytes of a file, a Uint8Array, not ${given}`);
+}
+
 /** A file's bytes as they are before gzip. */
 async function unpacked(bytes, name) {
   if (bytes[0] !== 0x1f || bytes[1] !== 0x8b) return bytes;
@@ -176,12 +183,12 @@ export class Jam {
         written[`${key}Len`] = values.length;
       }
       for (const [key, value] of Object.entries(written)) core.view().setUint32(place(key), value, true);
-      const o = arena.options('jam_create_options', this.#known(options, 'jam_create_options'));
+      const o = arena.options('jam_create_options', this.#known(options, 'jam_create_options', [...Object.keys(given).filter((key) => key !== 'positions' || positions), 'progress']));
       return new Packing(core, newHandle(core, (out) => core.call('jam_create', o, start, out)));
     }));
   }
-  #known(options, struct) {
-    const names = STRUCTS[struct].members.map((m) => m[0]);
+  #known(options, struct, more) {
+    const names = [...more, ...STRUCTS[struct].members.map((m) => m[0])];
     const wrong = Object.keys(options).find((key) => !names.includes(key));
     if (wrong) throw new JamError('argument', `there is no option ${wrong}; there are ${names.join(', ')}`);
     return options;
@@ -200,16 +207,16 @@ export class Jam {
 
   /** Reads a file of any format that libjam reads, compressed or not. `name` stands in errors; `layout` as of jam_read_as. */
   async read(bytes, { name = 'packing', layout = '', progress, ...options } = {}) {
-    const plain = await unpacked(bytes, name);
+    const plain = await unpacked(content(bytes, 'read'), name);
     return this.#opened(plain, plain === bytes ? name : name.replace(/\.gz$/i, ''), (core, arena, path) => {
-      const o = arena.options('jam_create_options', this.#known(options, 'jam_create_options'));
+      const o = arena.options('jam_create_options', this.#known(options, 'jam_create_options', ['name', 'layout', 'progress']));
       const words = arena.string(layout);
       return this.#reporting(progress, (from, user) =>
         newHandle(core, (out) => core.call('jam_read_as', path, words, o, from, user, out)));
     });
   }
   readCheckpoint(bytes) {
-    return this.#opened(bytes, 'checkpoint', (core, arena, path) => newHandle(core, (out) => core.call('jam_read_checkpoint', path, 0, 0, out)));
+    return this.#opened(content(bytes, 'readCheckpoint'), 'checkpoint', (core, arena, path) => newHandle(core, (out) => core.call('jam_read_checkpoint', path, 0, 0, out)));
   }
   #opened(bytes, name, open) {
     const core = this.#core;

@@ -62,10 +62,10 @@
  *   make const calls. jam_cancel may be called from any thread or signal handler at any time. Calls without a handle
  *   may be called from any thread.
  * - The same seed and options give the same packing bit for bit on every processor, on one thread. 2 to 64 threads all
- *   give the same packing, which may differ from that of one thread. Full spectra by LAPACK (jam_modes,
- *   jam_bloch_modes) differ in the last digits between processors. In a build whose products are those of a BLAS
- *   library (jam_blas_kernel) a crunch can end at another jamming point on another processor, unless the environment
- *   variable OPENBLAS_CORETYPE selects the same kernel of OpenBLAS.
+ *   give the same packing, which may differ from that of one thread. Modes (jam_modes, jam_bloch_modes) differ in the
+ *   last digits: full spectra by LAPACK between processors, others between WebAssembly and native code. In a build
+ *   whose products are those of a BLAS library (jam_blas_kernel) a crunch can end at another jamming point on another
+ *   processor, unless the environment variable OPENBLAS_CORETYPE selects the same kernel of OpenBLAS.
  * - While a call computes all modes by LAPACK, OpenBLAS has one thread in the whole process. libjam restores the
  *   previous number of threads afterwards. Host threads that use OpenBLAS meanwhile run on one thread each. No other
  *   call of the default build touches OpenBLAS.
@@ -141,7 +141,7 @@ typedef enum jam_status_code {
   JAM_E_DIMENSION = -4,    /* dim is not in 2..JAM_MAX_DIM */
   JAM_E_NONFINITE = -5,    /* NaN or infinity where a number is needed */
   JAM_E_OVERLAP = -6,      /* spheres overlap; the text names the worst pair */
-  JAM_E_UNPLACEABLE = -7,  /* the random start cannot reach the packing fraction */
+  JAM_E_UNPLACEABLE = -7,  /* the spheres cannot reach the packing fraction */
   JAM_E_BUFFER = -8,       /* the caller's buffer is too short; *needed is the length */
   JAM_E_MEMORY = -9,       /* out of memory */
   JAM_E_IO = -10,          /* a file cannot be opened, read or written */
@@ -562,7 +562,7 @@ typedef enum jam_growth_law {
  * each law is the same protocol at every n. JAM_GROWTH_DENSITY sets a new rate at each 0.5 % of sigma. */
 typedef struct jam_compress_options {
   uint32_t struct_size;
-  int32_t resume;                 /* @bool continue the stopped stage; only limits are taken from here; default 0 */
+  int32_t resume;                 /* @bool continue the stopped stage, with the limits of this call; default 0 */
   double growth_rate;             /* G > 0: one stage at this rate; 0, the default: the two stages of jam_compress */
   double pressure;                /* target reduced pressure of the last stage, > 1, default 1e7 */
   double packing_fraction;        /* target, > 0, default infinity */
@@ -871,7 +871,7 @@ typedef struct jam_crunch_report {
   int32_t lp_solver;       /* @enum jam_lp_solver that gave the last LP */
   int32_t method;          /* @enum jam_crunch_method that led here: BARRIER_PATH if the path was followed */
   int32_t stationary;      /* @bool contact forces balance: to first order no motion lets diameters grow */
-  int32_t strictly_jammed; /* @enum jam_verdict of the strict test; UNTESTED until jam_rigidity runs it */
+  int32_t strictly_jammed; /* @enum jam_verdict of jam_rigidity, or of a crunch with a strain; else UNTESTED */
   int32_t reserved;
   double packing_fraction;        /* phi_J when jammed */
   double diameter_mean;           /* unit of box */
@@ -1348,7 +1348,7 @@ typedef enum jam_rigidity_kind {
   JAM_RIGIDITY_COLLECTIVE = 0, /* all motions of the spheres in a fixed cell */
   JAM_RIGIDITY_STRICT = 1      /* also symmetric strains along axes without walls that do not enlarge the volume */
 } jam_rigidity_kind;
-/* Answer of a test. */
+/* Answer of a test. Compare it with YES: in a condition of C, UNTESTED and UNDECIDED are true. */
 typedef enum jam_verdict {
   JAM_VERDICT_UNTESTED = -1, /* the test has not run */
   JAM_VERDICT_NO = 0,        /* not jammed, with a certificate in doubles: no balanced forces, or a flex */
@@ -1365,7 +1365,7 @@ typedef struct jam_rigidity_report {
   int32_t jammed;              /* @enum jam_verdict */
   int32_t stationary;          /* @enum jam_verdict: K+ is not empty: to first order no motion lets diameters grow */
   int64_t stable, contacts;    /* N'; |K+| */
-  int64_t contacts_needed;     /* collective d (N' - 1) + 1, strict d (N' - 1) + d (d + 1) / 2 */
+  int64_t contacts_needed;     /* collective d (N' - 1) + 1, strict d (N' - 1) + d (d + 1) / 2; -1 without K+ */
   int64_t self_stresses;       /* independent states of balanced forces on K+, of any sign; -1: unknown */
   int64_t flexes;              /* motions beyond symmetries that keep K+ closed; 0 without K+; 512 or more: at least */
   int64_t undercoordinated;    /* spheres of B with d contacts of K+ or fewer */

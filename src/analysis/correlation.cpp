@@ -16,7 +16,7 @@ std::vector<double> pair_correlation(const Packing &p, const int32_t *kind, size
                                      double r_max, size_t bins) {
   const double unit = diameter_mean(p);
   if (kind_len != 0 && kind_len != p.n())
-    fail(JAM_E_ARGUMENT, "kind_len is %zu, it must be 0 or n = %zu", kind_len, p.n());
+    fail(JAM_E_ARGUMENT, "kind has %zu numbers, it must have 0 or n = %zu", kind_len, p.n());
   if (!(r_max > 0.0 && r_max * unit <= 4.0 * p.cell.side()))
     fail(JAM_E_ARGUMENT, "r_max is %g mean diameters, it must be in (0, 4 boxes]", r_max);
   if (bins < 1 || bins > 100000000) fail(JAM_E_ARGUMENT, "bins is %zu, it must be in 1..1e8", bins);

@@ -83,7 +83,7 @@ jam_status jam_bloch_modes(jam_system *sys, const jam_hessian_options *h, const 
     const Packing &p = sys->packing;
     need(wave, "wave");
     if (wave_len != static_cast<size_t>(p.dim))
-      fail(JAM_E_ARGUMENT, "wave_len is %zu, it must be dim = %d", wave_len, p.dim);
+      fail(JAM_E_ARGUMENT, "wave has %zu numbers, it must have dim = %d", wave_len, p.dim);
     check_array_in(wave, wave_len, "wave");
     for (int c = 0; c < p.dim; ++c) {
       check_range("wave", wave[c], -limits::wave_max, limits::wave_max);

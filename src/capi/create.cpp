@@ -152,7 +152,7 @@ jam_status jam_set_positions(jam_system *sys, const double *positions, size_t po
     Packing p = sys->packing;
     need(positions, "positions");
     if (positions_len != p.position.size())
-      fail(JAM_E_ARGUMENT, "positions_len is %zu, n * dim is %zu", positions_len, p.position.size());
+      fail(JAM_E_ARGUMENT, "positions has %zu numbers, n * dim is %zu", positions_len, p.position.size());
     check_array_in(positions, positions_len, "positions");
     p.position.assign(positions, positions + positions_len);
     p.given.take(digits_of(p.dim, p.position, p.diameter, p.cell.rows()));
@@ -169,7 +169,7 @@ jam_status jam_set_velocities(jam_system *sys, const double *velocities, size_t 
     std::vector<double> &v = sys->packing.velocity;
     need(velocities, "velocities");
     if (velocities_len != v.size())
-      fail(JAM_E_ARGUMENT, "velocities_len is %zu, n * dim is %zu", velocities_len, v.size());
+      fail(JAM_E_ARGUMENT, "velocities has %zu numbers, n * dim is %zu", velocities_len, v.size());
     check_array_in(velocities, velocities_len, "velocities");
     check_velocities(sys->packing, std::vector<double>(velocities, velocities + velocities_len), JAM_E_ARGUMENT);
     std::copy(velocities, velocities + velocities_len, v.begin());

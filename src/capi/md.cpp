@@ -73,13 +73,16 @@ std::unique_ptr<EventDrivenRun> make_stage(jam_system *sys, const GrowthStage &s
 }
 
 // The stage that the handle keeps, or a new one.
-std::unique_ptr<EventDrivenRun> take_stage(jam_system *sys, bool resume, const GrowthStage &stage) {
-  if (!resume) return make_stage(sys, stage);
+template <class Options>
+std::unique_ptr<EventDrivenRun> take_stage(jam_system *sys, const Options &o, const GrowthStage &stage) {
+  if (!o.resume) return make_stage(sys, stage);
   if (!sys->paused) fail(JAM_E_STATE, "resume is 1 but no stage was stopped early on this handle");
   const int32_t phase = stage.growth > 0.0 ? JAM_PHASE_COMPRESS : JAM_PHASE_RUN, paused = sys->paused->phase();
   if (paused != phase)
     fail(JAM_E_STATE, "resume is 1 but the paused stage has jam_phase %d, this call resumes %d", paused, phase);
-  // The phase says that it is a EventDrivenRun. A failure from here on loses the stage, not the packing.
+  // The phase says that it is a EventDrivenRun.
+  check_resumed(o, static_cast<const EventDrivenRun &>(*sys->paused).plan());
+  // A failure from here on loses the stage, not the packing.
   return std::unique_ptr<EventDrivenRun>(static_cast<EventDrivenRun *>(sys->paused.release()));
 }
 
@@ -145,7 +148,7 @@ Answer verb(jam_system *sys, const Options *o, Options full, Check &&check, jam_
   check_aim(sys, full);
   const GrowthStage stage = stage_of(full);
   jam_md_report made{};
-  const Answer answer = run_stages(sys, take_stage(sys, full.resume == 1, stage), stage.limits(), made);
+  const Answer answer = run_stages(sys, take_stage(sys, full, stage), stage.limits(), made);
   if (made.packing_fraction == 0.0) {  // no stage has begun
     const jam_md_report bare = made;
     set_blank(*sys, made);

@@ -22,7 +22,7 @@ ProofScene take_scene(const jam_system *sys, const double *ratio, size_t ratio_l
   if (p.model != JAM_MODEL_EUCLID) fail(JAM_E_UNSUPPORTED, "proofs are for spheres without Mari-Kurchan shifts");
   check_array_in(ratio, ratio_len, "ratio");
   if (ratio_len != 0 && ratio_len != p.n())
-    fail(JAM_E_ARGUMENT, "ratio_len is %zu, it must be 0 or n = %zu", ratio_len, p.n());
+    fail(JAM_E_ARGUMENT, "ratio has %zu numbers, it must have 0 or n = %zu", ratio_len, p.n());
   // Only ratios count: by a power of two, which is exact, the unit is that of a number near 1.
   std::vector<double> exact(ratio, ratio + ratio_len);
   for (double &x : exact)

@@ -15,17 +15,24 @@ Jamming take_kind(int32_t kind) {
   return kind == JAM_RIGIDITY_STRICT ? Jamming::strict : Jamming::collective;
 }
 
-// The status of a verdict, why, and what to do.
-Answer answer_of(const PackingVerdict &v, const TestedPacking &tested, Jamming kind) {
+// The status of a verdict, why, and what to do. What is not strictly jammed may be so in its fixed cell.
+Answer answer_of(JammingTest &test, const TestedPacking &tested, Jamming kind) {
+  const PackingVerdict &v = test.verdict(kind);
   if (v.jammed == Verdict::yes) return JAM_OK;
   const VerdictNumbers numbers = numbers_of(v, tested, kind);
-  const char *name = kind == Jamming::strict ? "strictly" : "collectively";
-  const std::string why = name + (" jammed: " + why_not_jammed(numbers));
-  if (v.jammed == Verdict::no)
-    return {JAM_NOT_JAMMED, "not " + why +
-                                (v.result.contacts > 0 ? "; jam_flex gives a motion"
-                                 : numbers.n > 1       ? "; jam_flex gives a motion, jam_crunch makes a jammed packing"
-                                                 : "; one sphere can be crunched only in a free cell without walls")};
+  const bool strict = kind == Jamming::strict;
+  const std::string why = (strict ? "strictly jammed: " : "collectively jammed: ") + why_not_jammed(numbers);
+  if (v.jammed == Verdict::no) {
+    const bool held = strict && test.verdict(Jamming::collective).jammed == Verdict::yes;
+    std::string next = "; jam_flex gives a motion";
+    if (numbers.n == 1 && v.result.contacts == 0)
+      next = "; one sphere can be crunched only in a free cell without walls";
+    else if (strict && !tested.packing.container && (held || v.result.contacts == 0))
+      next += ", jam_crunch with a free cell (strain=free) makes a strictly jammed packing";
+    else if (v.result.contacts == 0 && !held)
+      next += ", jam_crunch makes a jammed packing";
+    return {JAM_NOT_JAMMED, (held ? "collectively jammed, but not " : "not ") + why + next};
+  }
   const bool open = numbers.reason == JAM_CHECK_GAPS || numbers.reason == JAM_CHECK_DIGITS;
   return {JAM_AMBIGUOUS, "undecided whether the packing is " + why + (open ? "; jam_crunch closes contacts" : "")};
 }
@@ -42,7 +49,8 @@ jam_status jam_rigidity(jam_system *sys, int32_t kind, jam_rigidity_report *repo
   return guard_cancellable(sys, untested, report, [&]() -> Answer {
     const Jamming jamming = take_kind(kind);
     const TestedPacking tested = without_overlaps(sys->packing);
-    const PackingVerdict v = verdict_of(tested, sys->known_contacts(), jamming);
+    JammingTest test(tested, sys->known_contacts());
+    const PackingVerdict &v = test.verdict(jamming);
     if (sys->has_report && jamming == Jamming::strict) sys->report.strictly_jammed = verdict_code(v.jammed);
     jam_rigidity_report r{};
     r.kind = kind;
@@ -51,13 +59,13 @@ jam_status jam_rigidity(jam_system *sys, int32_t kind, jam_rigidity_report *repo
     report_counts(v, r);
     r.stable = v.result.spheres;
     r.contacts = v.result.contacts;
-    r.contacts_needed = v.result.contacts_needed;
+    r.contacts_needed = v.result.contacts > 0 ? v.result.contacts_needed : -1;  // of no spheres it is unknown
     r.self_stresses = v.result.self_stresses;
     r.undercoordinated = v.result.undercoordinated;
     r.curvature_margin = v.result.curvature;
     r.force_residual = v.result.force_residual;
     give_struct(r, report);
-    return answer_of(v, tested, jamming);
+    return answer_of(test, tested, jamming);
   });
 }
 

@@ -126,7 +126,7 @@ Answer stopped_run(jam_status status, int32_t stop_reason) {
   X(JAM_E_DIMENSION, "the dimension is not supported")                                \
   X(JAM_E_NONFINITE, "NaN or infinity in the input")                                  \
   X(JAM_E_OVERLAP, "spheres overlap")                                                 \
-  X(JAM_E_UNPLACEABLE, "the random start cannot be placed")                           \
+  X(JAM_E_UNPLACEABLE, "the spheres cannot reach the packing fraction")               \
   X(JAM_E_BUFFER, "the output buffer is too short")                                   \
   X(JAM_E_MEMORY, "out of memory")                                                    \
   X(JAM_E_IO, "file cannot be opened, read or written")                               \

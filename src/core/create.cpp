@@ -38,14 +38,14 @@ void check_options(const jam_create_options &o) {
 size_t count_spheres(const jam_create_options &o, size_t positions_len, size_t diameters_len) {
   size_t n = static_cast<size_t>(o.n);
   if (positions_len % static_cast<size_t>(o.dim))
-    fail(JAM_E_ARGUMENT, "positions_len is %zu, not a multiple of dim %d", positions_len, o.dim);
+    fail(JAM_E_ARGUMENT, "positions has %zu numbers, not a multiple of dim %d", positions_len, o.dim);
   if (n == 0) n = positions_len ? positions_len / o.dim : diameters_len;
   if (n == 0) fail(JAM_E_ARGUMENT, "n is 0 and no arrays are given");
   check_n(static_cast<int64_t>(n));
   if (positions_len && positions_len != n * o.dim)
-    fail(JAM_E_ARGUMENT, "positions_len is %zu, n * dim is %zu", positions_len, n * o.dim);
+    fail(JAM_E_ARGUMENT, "positions has %zu numbers, n * dim is %zu", positions_len, n * o.dim);
   if (diameters_len > 1 && diameters_len != n)
-    fail(JAM_E_ARGUMENT, "diameters_len is %zu, it must be 1 or n = %zu", diameters_len, n);
+    fail(JAM_E_ARGUMENT, "diameters has %zu numbers, it must have 1 or n = %zu", diameters_len, n);
   if (positions_len && diameters_len == 0) fail(JAM_E_ARGUMENT, "positions are given without diameters");
   return n;
 }

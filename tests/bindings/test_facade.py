@@ -78,6 +78,17 @@ class Facade(unittest.TestCase):
         s = disks()
         self.assertIs(s.crunch(max_lps=1).jammed, False)
 
+    def test_a_verdict_is_true_for_yes_alone(self):
+        s = disks()
+        s.crunch()
+        self.assertTrue(s.rigidity().jammed)
+        self.assertFalse(s.rigidity("strict").jammed)
+        self.assertFalse(s.report.strictly_jammed)
+        s.crunch()
+        for open_ in (s.report.strictly_jammed, jam.Verdict.UNDECIDED):
+            with self.assertRaisesRegex(ValueError, f"{open_.name} is neither .*compare with Verdict.YES"):
+                bool(open_)
+
     def test_names_of_the_package(self):
         for name in dir(jam):
             self.assertNotIn(name, ("Any", "annotations", "dataclass", "IntEnum", "Array", "NamedTuple", "Callable"))

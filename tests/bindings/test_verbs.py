@@ -261,6 +261,37 @@ class Callbacks(unittest.TestCase):
                 s.crunch(progress=progress)
             self.check_valid(s)
 
+    def test_the_status_is_that_of_the_call_that_raised(self):
+        def raising(progress):
+            raise ValueError("of the callable")
+
+        s = jam.System.random(n=200, dim=3, seed=1)
+        s.rigidity()
+        self.assertEqual(s.status, jam.StatusCode.NOT_JAMMED)
+        threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT)).start()
+        with self.assertRaises(KeyboardInterrupt):
+            s.compress(growth_rate=1e-5)
+        self.assertEqual(s.status, jam.StatusCode.CANCELLED)
+        self.assertIn("resume", s.status_text)
+        for call, status in (
+            (lambda: s.moduli(), "E_STATE"),
+            (lambda: s.run(-1), "E_ARGUMENT"),
+            (lambda: s.run(1, colour=2), "E_ARGUMENT"),
+            (lambda: s.run(1, progress=raising), "CANCELLED"),
+            (lambda: s.call("bond_order", "x", 1.2), "E_ARGUMENT"),
+            (lambda: s.write("no/such/folder/x.xyz"), "E_IO"),
+            (lambda: s.scale_diameters(float("nan")), "E_ARGUMENT"),
+            (lambda: s.modes(3, colour=1), "E_ARGUMENT"),
+        ):
+            s.contacts_by_distance(0.1)
+            with self.assertRaises(Exception) as caught:
+                call()
+            self.assertEqual(s.status.name, status, caught.exception)
+            if status != "CANCELLED":
+                self.assertEqual(s.status_text, str(caught.exception))
+        s.scale_diameters(0.5)
+        self.assertEqual((s.status, s.status_text), (jam.StatusCode.OK, ""))
+
 
 class Threads(unittest.TestCase):
     def test_second_call_is_refused_and_harms_nothing(self):

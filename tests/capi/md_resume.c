@@ -274,6 +274,39 @@ static void finished_stages_cannot_be_resumed(void **state) {
   jam_destroy(sys);
 }
 
+/* What a stage has been begun with cannot be changed by a call that resumes it. */
+static void other_growth_is_not_resumed(void **state) {
+  jam_system *sys = make(JAM_MODEL_EUCLID, 3, 100, 0.3);
+  jam_compress_options c, o[5];
+  const char *name[5] = {"growth_rate", "growth_rate_end", "growth_law", "pressure", "packing_fraction"};
+  (void)state;
+  jam_compress_options_init(&c, sizeof c);
+  c.growth_rate = 1e-2, c.growth_rate_end = 1e-3, c.pressure = 1e3;
+  c.collisions_per_particle = 3;
+  assert_int_equal(jam_compress(sys, &c, NULL), JAM_LIMIT);
+  c.resume = 1, c.collisions_per_particle = 6;
+  for (int k = 0; k < 5; ++k) o[k] = c;
+  o[0].growth_rate = 0.1, o[1].growth_rate_end = 2e-3, o[2].growth_law = JAM_GROWTH_DENSITY;
+  o[3].pressure = 1e4, o[4].packing_fraction = 0.6;
+  for (int k = 0; k < 5; ++k) {
+    assert_int_equal(jam_compress(sys, &o[k], NULL), JAM_E_ARGUMENT);
+    assert_non_null(strstr(jam_last_error(), name[k]));
+    assert_int_equal(paused(sys), JAM_PHASE_COMPRESS);
+  }
+  assert_int_equal(jam_compress(sys, &c, NULL), JAM_LIMIT);
+  jam_compress_options_init(&c, sizeof c);
+  c.resume = 1, c.collisions_per_particle = 9;
+  assert_int_equal(jam_compress(sys, &c, NULL), JAM_LIMIT);
+  c.resume = 0; /* the protocol: its pressure is that of the last stage */
+  c.pressure = 1e4;
+  assert_int_equal(jam_compress(sys, &c, NULL), JAM_LIMIT);
+  c.resume = 1, c.collisions_per_particle = 12;
+  assert_int_equal(jam_compress(sys, &c, NULL), JAM_LIMIT);
+  c.pressure = 1e5;
+  assert_int_equal(jam_compress(sys, &c, NULL), JAM_E_ARGUMENT);
+  jam_destroy(sys);
+}
+
 /* Any byte of the stage may be damaged and the checksum made right again: an error or a run, never a crash or an
  * endless loop. */
 static uint64_t mix64(uint64_t x) {
@@ -356,6 +389,7 @@ int main(void) {
                                      cmocka_unit_test(checkpoint_from_the_callback),
                                      cmocka_unit_test(checkpoint_from_the_callback_in_growth),
                                      cmocka_unit_test(finished_stages_cannot_be_resumed),
+                                     cmocka_unit_test(other_growth_is_not_resumed),
                                      cmocka_unit_test(damaged_checkpoints_are_refused),
                                      cmocka_unit_test(checkpoints_of_another_version_are_refused)};
   return cmocka_run_group_tests(tests, NULL, NULL);

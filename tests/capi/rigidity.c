@@ -71,11 +71,19 @@ static void crunched(void **state) {
   assert_true(r.force_residual < 1e-10);
   assert_int_equal(jam_flex(sys, JAM_RIGIDITY_COLLECTIVE, out, 3 * 64, NULL, 0, &needed), JAM_E_STATE);
   /* With one contact more than isostatic at most, a fixed cube cannot be strictly jammed. */
-  rigidity_test(sys, JAM_RIGIDITY_STRICT, JAM_NOT_JAMMED);
+  r = rigidity_test(sys, JAM_RIGIDITY_STRICT, JAM_NOT_JAMMED);
+  assert_int_equal(r.contacts_needed, -1); /* no forces balance on the cell */
+  assert_non_null(strstr(jam_last_error(), "collectively jammed, but not strictly jammed: "));
+  assert_non_null(
+      strstr(jam_last_error(), "jam_crunch with a free cell (strain=free) makes a strictly jammed packing"));
   assert_int_equal(jam_get_crunch_report(sys, &report), JAM_OK);
   assert_int_equal(report.strictly_jammed, JAM_VERDICT_NO);
   assert_int_equal(jam_scale_diameters(sys, 1.0 - 1e-3), JAM_OK);
-  rigidity_test(sys, JAM_RIGIDITY_COLLECTIVE, JAM_NOT_JAMMED);
+  r = rigidity_test(sys, JAM_RIGIDITY_COLLECTIVE, JAM_NOT_JAMMED);
+  assert_int_equal(r.contacts_needed, -1);
+  assert_non_null(strstr(jam_last_error(), "; jam_flex gives a motion, jam_crunch makes a jammed packing"));
+  rigidity_test(sys, JAM_RIGIDITY_STRICT, JAM_NOT_JAMMED);
+  assert_int_equal(strncmp(jam_last_error(), "not strictly jammed: no pair touches; ", 38), 0);
   jam_destroy(sys);
 }
 

@@ -120,6 +120,37 @@ test('wrong arguments are named before C sees them', () => {
   fails(() => packing.write(), 'argument', 'path');
 });
 
+test('what is no file is refused by what it must be', async () => {
+  await assert.rejects(jam.read('disks.xyz'), { status: 'argument', message: 'read takes the bytes of a file, a Uint8Array, not "disks.xyz"' });
+  await assert.rejects(jam.read(new Float64Array(3)), { status: 'argument', message: /Uint8Array, not Float64Array/ });
+  fails(() => jam.readCheckpoint(undefined), 'argument', 'readCheckpoint', 'Uint8Array', 'Undefined');
+  await assert.rejects(jam.read(packing.checkpoint(), { name: 'a.jam' }), { status: 'format', message: /readCheckpoint reads it/ });
+});
+
+test('lists of options have those that the call takes', () => {
+  fails(() => jam.random({ n: 8, ratio: 1.4 }), 'argument', 'ratio', 'diameters', 'cell', 'seed');
+  assert.throws(() => jam.random({ n: 8, ratio: 1.4 }), (error) => !error.message.includes('positions'));
+  fails(() => jam.from({ positions: [0, 0, 0], ratio: 1.4 }), 'argument', 'positions', 'diameters');
+});
+
+test('the status is that of the call that threw', () => {
+  const p = jam.random(start);
+  assert.equal(p.rigidity('collective').status, 'not_jammed');
+  const error = new Error('of the page');
+  assert.throws(() => p.compress({ progress: () => { throw error; } }), error);
+  assert.equal(p.status, 'cancelled');
+  assert.match(p.statusText, /resume = 1 continues/);
+  fails(() => p.run({ collisionsPerParticle: -1 }), 'argument');
+  assert.equal(p.status, 'argument');
+  assert.match(p.statusText, /collisions_per_particle is -1/);
+  fails(() => p.forces(), 'state');
+  assert.equal(p.status, 'state');
+  fails(() => p.compress({ colour: 1 }), 'argument');
+  assert.match(p.statusText, /colour/);
+  p.scaleDiameters(0.9);
+  assert.deepEqual([p.status, p.statusText], ['ok', '']);
+});
+
 test('seeds of 64 bits come back whole', () => {
   const seed = 2n ** 62n + 1n;
   assert.equal(jam.random({ n: 8, seed }).info().seed, seed);

@@ -81,4 +81,18 @@ GrowthStage next_stage(const GrowthStage &stage) {
   return next;
 }
 
+void check_resumed(const jam_run_options &, const GrowthStage &) {}
+void check_resumed(const jam_compress_options &o, const GrowthStage &stopped) {
+  const jam_compress_options usual = default_compress_options();
+  const auto look = [](const char *name, double given, double by_default, double own) {
+    if (given != by_default && given != own)
+      fail(JAM_E_ARGUMENT, "resume: %s is %g, but the stage that was stopped has %g", name, given, own);
+  };
+  look("growth_rate", o.growth_rate, usual.growth_rate, stopped.growth);
+  look("growth_rate_end", o.growth_rate_end, usual.growth_rate_end, stopped.growth_end);
+  look("growth_law", o.growth_law, usual.growth_law, static_cast<double>(stopped.relative));
+  look("pressure", o.pressure, usual.pressure, stopped.then > 0.0 ? stopped.then : stopped.pressure);
+  look("packing_fraction", o.packing_fraction, usual.packing_fraction, stopped.packing_fraction);
+}
+
 }  // namespace jam::inside

@@ -26,6 +26,9 @@ void check_compress_options(const jam_compress_options &o);
 GrowthStage stage_of(const jam_run_options &o);
 GrowthStage stage_of(const jam_compress_options &o);  // the first one of the protocol without a growth rate
 GrowthStage next_stage(const GrowthStage &stage);     // of the protocol: stage.then > 0
+// Of a stage that was stopped: options beside limits are its own, or the defaults.
+void check_resumed(const jam_run_options &o, const GrowthStage &stopped);
+void check_resumed(const jam_compress_options &o, const GrowthStage &stopped);
 
 // Begins a stage, runs it and takes its packing: for tests and benchmarks.
 jam_status run_stage(Packing &p, const GrowthStage &stage, Monitor &monitor, jam_md_report &report);

@@ -144,14 +144,14 @@ std::string EventDrivenRun::text() const {
     std::snprintf(
         line, sizeof line,
         "spheres touch at the start: growth ended at pressure %.3g after %.2g collisions a sphere, at packing "
-        "fraction %.6g%s; unless they are jammed, scale_diameters(0.99) before growth lets them move apart",
+        "fraction %.6g%s; unless they are jammed, jam_scale_diameters(sys, 0.99) before growth lets them move apart",
         pressure_, 2.0 * static_cast<double>(report.collisions) / n_, packing_fraction(p_), aim);
     return line;
   }
   if (denser_than_wanted()) {
     std::snprintf(line, sizeof line,
                   "the packing fraction is %.6g already, above the %.6g that is wanted: growth does not lower it, "
-                  "scale_diameters does",
+                  "jam_scale_diameters does",
                   packing_fraction(p_), stage_.packing_fraction);
     return line;
   }

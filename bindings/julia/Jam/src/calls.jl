@@ -117,7 +117,8 @@ end
 Calls a function of the C header: `inputs` in its order, members of its option structs as keywords. Returns its output, or
 `Results` of several. The size of arrays is queried first. `s` is `nothing` for functions without a system.
 """
-function call(s, name::Symbol, inputs::Tuple; progress = nothing, given...)
+call(s, name::Symbol, inputs::Tuple; given...) = failing(() -> called(s, name, inputs; given...), s)
+function called(s, name::Symbol, inputs::Tuple; progress = nothing, given...)
     c = CALLS[name]
     left = Any[inputs...]
     passed, outputs = Any[], Dict{Symbol, Any}()

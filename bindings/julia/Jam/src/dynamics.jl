@@ -2,7 +2,7 @@
 
 "Runs f(handle), which fills the report `made`, watched by progress."
 function verb(f, s::System, made, progress)
-    note!(s, watched(() -> f(handle(s)), handle(s), progress))
+    failing(() -> note!(s, watched(() -> f(handle(s)), handle(s), progress)), s)
     return Report(made, s.status, s.why)
 end
 

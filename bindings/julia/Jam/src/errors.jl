@@ -31,9 +31,11 @@ function in_julia(text::AbstractString)
     text = replace(text, r"\bjam_(?:create|read)\b" => "System")
     text = replace(text, r"\bjam_\w+_options\.(\w+)" => s"the option \1")
     text = replace(text, r"\bjam_get_crunch_report\b" => "report")
+    text = replace(text, r"\bjam_read_checkpoint\b" => "from_checkpoint")
+    text = replace(text, r"\bjam_write_checkpoint\b" => "checkpoint")
     text = replace(text, Regex("\\bjam_($CHANGING)\\b") => s"\1!")
     text = replace(text, r"\bJAM_OVERLAP_\w+" => m -> "overlap = :" * lowercase(m[13:end]))
-    return replace(text, r"\bjam_(\w+)\b" => s"\1")
+    return replace(replace(text, r"\bjam_(\w+)\b" => s"\1"), "(sys, " => "(")
 end
 
 last_text() = in_julia(unsafe_string(jam_last_error()))

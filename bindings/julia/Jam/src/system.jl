@@ -42,7 +42,7 @@ julia> diameters(System([1.0 3.0; 1.0 3.0]; radii = 0.5, box = 4))
 """
 mutable struct System
     handle::Ptr{Cvoid}  # of C; the finalizer frees it
-    status::Symbol      # of the last call
+    status::Symbol      # of the last call, also of one that threw
     why::String         # a sentence, where the status is not :ok
     function System(handle::Ptr{Cvoid})
         s = new(handle, :ok, "")
@@ -105,6 +105,25 @@ end
 function note!(s::System, status::Integer)
     s.status, s.why = word(:status_code, check(status)), status > 0 ? last_text() : ""
     return s.status
+end
+
+"f(), a call on s: where it throws, its status and its text are those of s."
+function failing(f, s)
+    s isa System || return f()
+    jam_set_error("")
+    try
+        return f()
+    catch e
+        text = last_text()
+        if e isa JamError
+            s.status, s.why = e.status, e.text
+        elseif isempty(text)  # the library was not called
+            s.status, s.why = :argument, e isa ArgumentError ? e.msg : sprint(showerror, e)
+        else  # a function that watches has thrown, which stopped the call
+            s.status, s.why = :cancelled, text
+        end
+        rethrow()
+    end
 end
 
 "Deep copy with results. It has the same seed: set velocities to make its dynamics differ."

@@ -19,7 +19,13 @@ t = System(n = 300, dim = 3, packing_fraction = 0.3)
 phases = Symbol[]
 @test crunch!(t; progress = p -> (push!(phases, p.phase); true)).status === :cancelled
 @test t.status === :cancelled && !isempty(t.why) && phases[1] === :crunch
+t.status, t.why = :ok, ""
 @test_throws ErrorException crunch!(t; progress = p -> error("from the callback"))
+@test t.status === :cancelled && !isempty(t.why)  # of the call that threw
+@test_throws JamError forces(t)
+@test t.status === :state && occursin("contacts", t.why)
+@test_throws ArgumentError modes(t, 3; colour = 1)
+@test t.status === :argument && occursin("colour", t.why)
 @test occursin("progress must be", failure(() -> crunch!(t; progress = 3)))
 cancel(t)
 @test crunch!(t).status === :cancelled

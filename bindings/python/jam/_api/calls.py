@@ -83,6 +83,7 @@ def _letters(handle: Any, dim: int) -> dict[str, Any]:
         try:
             return int(raw.jam_hessian_map(handle, None)[1])
         except exceptions.StateError:
+            raw.jam_set_error("")
             return None  # the call itself says that there is none
 
     return {} if handle is None else {"d": dim, "n": lambda: raw.jam_view(handle, raw.JAM_VIEW_DIAMETERS)[1][1], "N'": stable}
@@ -195,4 +196,4 @@ def finished(answer: Any) -> None:
     """Raises where a cancel of another thread has ended a call that returns nothing."""
     status = answer[0] if isinstance(answer, (list, tuple)) else answer
     if status != 0:
-        raise errors.StoppedError(raw.jam_last_error())
+        raise errors.StoppedError(errors.last_text())

@@ -18,6 +18,16 @@ class Word(IntEnum):
         return int.__format__(self, spec) if spec[-1:] in tuple("bcdeEfFgGnoxX%") else format(str(self), spec)
 
 
+class Answer(Word):
+    """An enum with YES, NO and values that are neither: those have no truth."""
+
+    def __bool__(self) -> bool:
+        if self.name not in ("YES", "NO"):
+            kind = type(self).__name__
+            raise ValueError(f"a {kind} of {self.name} is neither true nor false: compare with {kind}.YES")
+        return self.name == "YES"
+
+
 def _text(value: Any) -> str:
     return f"{value:.12g}" if isinstance(value, float) else str(value)
 

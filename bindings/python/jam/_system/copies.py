@@ -98,11 +98,11 @@ class Copies(Base):
         >>> disks.bloch_modes((0.5, 0)).vectors.shape == (2 * report.stable, report.stable, 2)
         True
         """
-        h = option_struct("jam_hessian_options", {"stiffness": stiffness, "alpha": alpha, "prestress": prestress})
-        spheres = self._ask("hessian_map")
-        m = self.dim * len(spheres)
-        table, vectors = unknown_array((m, len(ModeColumn))), unknown_array((m, len(spheres), self.dim, 2))
         with self._reporting(progress):
+            h = option_struct("jam_hessian_options", {"stiffness": stiffness, "alpha": alpha, "prestress": prestress})
+            spheres = self._ask("hessian_map")
+            m = self.dim * len(spheres)
+            table, vectors = unknown_array((m, len(ModeColumn))), unknown_array((m, len(spheres), self.dim, 2))
             flat = as_vector(wave, name="wave")
             status, _ = raw.jam_bloch_modes(self.handle, h, flat, raw.JAM_MODE_COLUMNS, table.reshape(-1), vectors.reshape(-1))
             self._note(not_cancelled(status))
@@ -132,8 +132,8 @@ class Copies(Base):
         margin : array, shape (m,)
             Least other eigenvalue of S^T S; below 1e-12: a flex. NaN where no contact carries force.
         """
-        copies = as_vector(count, "int32_t", "count")
         with self._reporting(progress):
+            copies = as_vector(count, "int32_t", "count")
             status, rows = raw.jam_bloch_rigidity(self.handle, copies, None, raw.JAM_BLOCH_COLUMNS, None)
             not_cancelled(status)
             wave, table = unknown_array((rows, self.dim)), unknown_array((rows, len(BlochColumn)))

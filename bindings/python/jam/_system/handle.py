@@ -8,7 +8,7 @@ from typing import Any, Callable
 import numpy as np
 
 from .. import errors, raw
-from .._api.calls import freeze, invoke
+from .._api.calls import finished, freeze, invoke
 from .._api.errors import last_text
 from .._api.generated import Info, Progress, Report, StatusCode
 from .methods import Methods
@@ -78,7 +78,8 @@ class Base(Methods):
         self.calls: list[dict[str, Any]] = []
         #: Progress records of this system's calls, at most one every 0.05 s
         self.trace: list[Progress] = []
-        #: Status of the last call: > 0 where it stopped early or the answer is not unique. Properties leave it as it is
+        #: Status of the last call, also of one that raised: > 0 where it stopped early or the answer is not unique.
+        #: Reading a property leaves it as it is
         self.status: StatusCode = StatusCode.OK
         #: Why, in a sentence; "" for status OK
         self.status_text = ""
@@ -103,13 +104,35 @@ class Base(Methods):
 
     @contextmanager
     def _reporting(self, progress: Any) -> Any:
-        """Sends progress records of the calls inside to the trace and to the caller's callable."""
+        """Sends progress records of the calls inside to the trace and to the caller's callable. Keeps the status of an exception."""
         user = reporter(progress)
-        with self._dispatch.to(self._recorder(user)):
+        with self._failing(), self._dispatch.to(self._recorder(user)):
             try:
                 yield
             finally:
                 end(user)
+
+    @contextmanager
+    def _failing(self) -> Any:
+        """Keeps the status and the text of the call inside where it ends by an exception."""
+        raw.jam_set_error("")
+        try:
+            yield
+        except BaseException as error:
+            text = last_text()
+            if isinstance(error, errors.JamError) and error.status is not None:
+                self.status, self.status_text = error.status, str(error)
+            elif text:  # Ctrl-C, an exception of a callable or cancel() has stopped the library
+                self.status, self.status_text = StatusCode.CANCELLED, text
+            elif isinstance(error, Exception):  # the library was not called
+                self.status, self.status_text = StatusCode.E_ARGUMENT, str(error)
+            raise
+
+    def _done(self, work: Callable[[], Any]) -> None:
+        """A call of the library that returns nothing."""
+        with self._failing():
+            finished(work())
+            self._note(StatusCode.OK)
 
     def call(self, name: str, *args: Any, progress: Any = None, **named: Any) -> Any:
         """Calls the C function jam_<name> on this system by the header's conventions.

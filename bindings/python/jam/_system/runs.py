@@ -223,12 +223,12 @@ def make_runs(
     options: dict[str, Any],
 ) -> Runs:
     """What System.isoconf calls."""
-    times = as_vector(instants, name="instants")
-    made = option_struct("jam_isoconf_options", options)
-    chosen = None if monte_carlo is None else option_struct("jam_monte_carlo_options", monte_carlo)
-    kept = as_array(np.array([int(k) for k in keep], np.int64), "int32_t", "keep")
-    origin = _origin(system, dict(options, block=made.block, keep=keep, monte_carlo=monte_carlo))
     with system._reporting(progress):
+        times = as_vector(instants, name="instants")
+        made = option_struct("jam_isoconf_options", options)
+        chosen = None if monte_carlo is None else option_struct("jam_monte_carlo_options", monte_carlo)
+        kept = as_array(np.array([int(k) for k in keep], np.int64), "int32_t", "keep")
+        origin = _origin(system, dict(options, block=made.block, keep=keep, monte_carlo=monte_carlo))
         status = raw.jam_isoconf(
             system.handle, made, chosen, times, kept if kept.size else None, raw.jam_isoconf_report()
         )

@@ -7,7 +7,7 @@ import numpy as np
 
 from .. import raw
 from .._api.arrays import Array, as_array
-from .._api.calls import finished, freeze, new_report
+from .._api.calls import freeze, new_report
 from .._api.generated import Info
 from .handle import Base, _View
 
@@ -102,7 +102,7 @@ class State(Base):
         shape = self._show(raw.JAM_VIEW_POSITIONS).shape
         if x.shape != shape:
             raise ValueError(f"{name} must have shape {shape}, not {x.shape}")
-        finished(function(self.handle, x.reshape(-1)))
+        self._done(lambda: function(self.handle, x.reshape(-1)))
 
     @property
     def diameters(self) -> Array:
@@ -128,11 +128,11 @@ class State(Base):
 
     @cell.setter
     def cell(self, vectors: Any) -> None:
-        finished(raw.jam_set_cell(self.handle, self._matrix(vectors, "cell"), None, None))
+        self._done(lambda: raw.jam_set_cell(self.handle, self._matrix(vectors, "cell"), None, None))
 
     def strain(self, strain: Any) -> None:
         """Deforms cell and positions by r -> (1 + strain) r, strain of shape (d, d); diameters stay."""
-        finished(raw.jam_strain(self.handle, self._matrix(strain, "strain")))
+        self._done(lambda: raw.jam_strain(self.handle, self._matrix(strain, "strain")))
 
     def _matrix(self, values: Any, name: str) -> Array:
         x = as_array(values, name=name)
@@ -142,4 +142,4 @@ class State(Base):
 
     def scale_diameters(self, factor: float) -> None:
         """Multiplies all diameters by factor."""
-        finished(raw.jam_scale_diameters(self.handle, float(factor)))
+        self._done(lambda: raw.jam_scale_diameters(self.handle, float(factor)))

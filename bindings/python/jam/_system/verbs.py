@@ -25,7 +25,8 @@ class Verbs(Observing):
 
     def _verb(self, name: str, struct: str, report: str, progress: Any, options: Mapping[str, Any] | None, *arrays: Any) -> Any:
         handle = self.handle
-        chosen = None if options is None else option_struct(struct, dict(options))
+        with self._failing():
+            chosen = None if options is None else option_struct(struct, dict(options))
         made = new_report(report)
         call = {"verb": name.removeprefix("jam_"), "options": {} if chosen is None else spelled_out(chosen, struct)}
         call.update(status="running", stop_reason="none")  # what a callable saves meanwhile says so

@@ -11,7 +11,6 @@ import numpy as np
 
 from .. import raw
 from .._api.arrays import as_array
-from .._api.calls import finished
 from .._api.given import refuse_walls
 from .._api.options import as_enum
 from .._api.results import Modes
@@ -51,7 +50,7 @@ class Writing(State, Network):
             still = self.copy()
             refuse_walls(still, "written as GSD")
             return gsd.write(name, still.positions, still.diameters, still.cell)
-        finished(raw.jam_write_scaled(self.handle, name, as_enum(format, "Format"), float(scale), float(density)))
+        self._done(lambda: raw.jam_write_scaled(self.handle, name, as_enum(format, "Format"), float(scale), float(density)))
 
     def write_contacts(self, path: str | os.PathLike[str], format: int | str = "auto") -> None:
         """Writes the contact network: pairs, unit vectors, gaps and forces.
@@ -64,7 +63,7 @@ class Writing(State, Network):
             'auto' goes by the ending: .csv is a table, .dump a LAMMPS dump local, .vtp lines for ParaView. With .gz
             behind it the file is compressed.
         """
-        finished(raw.jam_write_contacts(self.handle, os.fspath(path), as_enum(format, "ContactFormat")))
+        self._done(lambda: raw.jam_write_contacts(self.handle, os.fspath(path), as_enum(format, "ContactFormat")))
 
     def page(
         self,
@@ -118,7 +117,7 @@ class Writing(State, Network):
                 whole[modes.spheres] = vectors
                 rows[f"mode {k}, omega {modes.frequencies[k]:.4g}[]"] = whole.T.reshape(-1)
         numbers = np.concatenate(list(rows.values())) if rows else None
-        finished(raw.jam_write_page(self.handle, os.fspath(path), title, int(small), "\n".join(rows), numbers))
+        self._done(lambda: raw.jam_write_page(self.handle, os.fspath(path), title, int(small), "\n".join(rows), numbers))
 
     def _repr_html_(self) -> str:
         """What notebooks show: the small page in a frame. Above 20000 spheres the text of repr, to keep notebooks small."""

@@ -650,6 +650,10 @@ typedef enum jam_series_column {
 /* Series of samples. @shape table (samples, jam_series_column) @errors STATE (nothing observed) */
 JAM_API jam_status jam_observed_series(const jam_system *sys, int32_t columns, double *table, size_t table_len,
                                        size_t *needed);
+/* Stress tensor since jam_observe, P_ab V / (N kT), positive in compression: momentum exchanged in collisions, and
+ * carried by the spheres. Its trace is d times the reduced pressure. NaN before a collision. @shape out (d, d) @errors
+ * STATE */
+JAM_API jam_status jam_observed_stress(const jam_system *sys, double *out, size_t out_len, size_t *needed);
 /* Collisions and unwrapped displacement of each sphere since jam_observe. *rows = n. @shape collisions (n),
  * displacement (n, d) @errors STATE */
 JAM_API jam_status jam_observed_spheres(const jam_system *sys, int64_t *collisions, size_t collisions_len,

@@ -70,6 +70,13 @@ jam_status jam_observed_series(const jam_system *sys, int32_t columns, double *t
   });
 }
 
+jam_status jam_observed_stress(const jam_system *sys, double *out, size_t out_len, size_t *needed) {
+  return with_observer(sys, [&](const Observer &o) -> jam_status {
+    const std::vector<double> stress = o.reduced_stress();
+    return give_array(stress.data(), stress.size(), out, out_len, needed);
+  });
+}
+
 jam_status jam_observed_spheres(const jam_system *sys, int64_t *collisions, size_t collisions_len, double *displacement,
                                 size_t displacement_len, size_t *needed) {
   return with_observer(sys, [&](const Observer &o) -> jam_status {

@@ -102,7 +102,8 @@ int64_t in_all(double per_particle, double n) {
 }  // namespace
 
 Observer::Observer(const Packing &p, const jam_observe_options &o)
-    : options_(o),
+    : stress(static_cast<size_t>(p.dim)),
+      options_(o),
       dim_(static_cast<size_t>(p.dim)),
       n_(static_cast<double>(p.n())),
       momentum_kept_(p.container.momentum_kept()),

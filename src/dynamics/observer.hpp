@@ -11,6 +11,7 @@
 
 #include "core/packing.hpp"
 #include "dynamics/pressure.hpp"
+#include "dynamics/stress_sums.hpp"
 #include "dynamics/tuning.hpp"
 
 namespace jam::inside {
@@ -67,6 +68,8 @@ class Observer {
   void wall_collision(int32_t i) {
     if (options_.collisions) ++collisions_[i];
   }
+  StressSums stress;
+  std::vector<double> reduced_stress() const { return stress.reduced(n_, momentum_kept_); }
   double *travel(int32_t i) { return &travel_[static_cast<size_t>(i) * dim_]; }
 
   // Called by the stage. Collisions are counted over all calls since jam_observe.

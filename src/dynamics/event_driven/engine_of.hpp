@@ -115,6 +115,8 @@ class EngineOf final : public Engine, private Units<O> {
   // -- state.hpp
   double way(int32_t i, int c) const;
   void note_path(int32_t i) const;
+  void count_momenta() const;
+  void count_momentum(const Body<D> &b, int32_t i, double sign);
   void check_pairs() const;
 
   // -- archive.hpp

@@ -151,6 +151,12 @@ void EngineOf<D, O>::separation(int32_t i, int32_t k, double *r) const {
   }
 }
 
+// What a sphere carries leaves the observer's sum at a collision, and comes back with another velocity.
+template <int D, Offsets O>
+void EngineOf<D, O>::count_momentum(const Body<D> &b, int32_t i, double sign) {
+  observer_->stress.template add<D>(sign * spheres_.mass_of(i) * unit * unit, b.v);
+}
+
 // Elastic collision of surfaces that move apart with the growth speed: the pair separates with at least that speed.
 template <int D, Offsets O>
 void EngineOf<D, O>::collide(int32_t i, int32_t k) {
@@ -167,7 +173,11 @@ void EngineOf<D, O>::collide(int32_t i, int32_t k) {
   if (push <= 0.0) return;  // a grazing pair that rounding has let go
   push = std::max(push, CollisionTuning::least_push *
                             scale);  // never so little that the sum is lost: the pair would collide without end
-  double twice_reduced = 1.0;        // mass of the pair
+  if (observer_) {
+    observer_->stress.template advance<D>(clock_.now, clock_.now);
+    count_momentum(a, i, -1.0), count_momentum(b, k, -1.0);
+  }
+  double twice_reduced = 1.0;  // mass of the pair
   if (spheres_.mass.empty()) {
     for (int c = 0; c < D; ++c) {
       const double dv = push * r[c] * inverse;
@@ -190,7 +200,11 @@ void EngineOf<D, O>::collide(int32_t i, int32_t k) {
   kinetic_.since = clock_.now;
   kinetic_.twice += twice_reduced * 2.0 * push * growth * unit * unit;
   ++sums.collisions;
-  if (observer_) observer_->collision(spheres_.user[i], spheres_.user[k], -twice_reduced * vn * unit);
+  if (!observer_) return;
+  for (double &x : r) x *= inverse;
+  observer_->stress.template collide<D>(-twice_reduced * rv * unit * unit, r);
+  count_momentum(a, i, 1.0), count_momentum(b, k, 1.0);
+  observer_->collision(spheres_.user[i], spheres_.user[k], -twice_reduced * vn * unit);
 }
 
 // The same with a wall: a fixed partner of endless mass, at the distance of one radius. The sphere leaves it with twice
@@ -205,6 +219,10 @@ template <int D, Offsets O>
   double push = growth - vn;
   if (push <= 0.0) return;
   push = std::max(push, CollisionTuning::least_push * scale);
+  if (observer_) {
+    observer_->stress.template advance<D>(clock_.now, clock_.now);
+    count_momentum(b, i, -1.0);
+  }
   for (int c = 0; c < D; ++c) b.v[c] += 2.0 * push * n[c];
   ++calendar_[i].count;
   const double momentum = -2.0 * spheres_.mass_of(i) * vn * unit;
@@ -214,7 +232,10 @@ template <int D, Offsets O>
   kinetic_.since = clock_.now;
   kinetic_.twice += 4.0 * spheres_.mass_of(i) * push * growth * unit * unit;
   ++sums.collisions;
-  if (observer_) observer_->wall_collision(spheres_.user[i]);
+  if (!observer_) return;
+  observer_->stress.template collide<D>(momentum * radius * clock_.grown() * unit, n);
+  count_momentum(b, i, 1.0);
+  observer_->wall_collision(spheres_.user[i]);
 }
 
 template <int D, Offsets O>

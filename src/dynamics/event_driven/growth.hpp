@@ -86,6 +86,7 @@ template <int D, Offsets O>
 void EngineOf<D, O>::move_origin() {
   sums.of_pressure.kinetic_integral += kinetic_.integral_to(clock_.now);
   kinetic_.since = 0.0;
+  if (observer_) observer_->stress.template advance<D>(clock_.now, 0.0);
   sums.time += clock_.move_origin(spheres_, calendar_);
 }
 
@@ -109,6 +110,7 @@ void EngineOf<D, O>::refresh(double velocity_factor, bool lists) {
   }
   move_origin();
   kinetic_.twice = spheres_.twice_kinetic(unit);
+  count_momenta();
   if (lists) build_lists();
   if (wants_images_) return;
   for (int32_t i = 0; i < spheres_.n; ++i) calendar_.time(i) = never;

@@ -105,12 +105,28 @@ void EngineOf<D, O>::note_path(int32_t i) const {
   for (int c = 0; c < D; ++c) travel[c] += way(i, c);
 }
 
+// All that spheres carry about the centre of mass, as Spheres::twice_kinetic counts it.
+template <int D, Offsets O>
+void EngineOf<D, O>::count_momenta() const {
+  if (!observer_) return;
+  StressSums &stress = observer_->stress;
+  double momentum[D] = {};
+  stress.restart(kinetic_.since);
+  for (int32_t i = 0; i < spheres_.n; ++i) {
+    stress.template add<D>(spheres_.mass_of(i) * unit * unit, spheres_.body[i].v);
+    for (int c = 0; c < D; ++c)
+      if ((spheres_.closed >> c & 1) == 0) momentum[c] += spheres_.mass_of(i) * spheres_.body[i].v[c] * unit;
+  }
+  if (spheres_.n > 1 || spheres_.closed) stress.template add<D>(-1.0 / spheres_.n, momentum);
+}
+
 template <int D, Offsets O>
 void EngineOf<D, O>::observe(Observer *observer) {
   if (observer_)
     for (int32_t i = 0; i < spheres_.n; ++i) note_path(i);
   observer_ = observer;
   if (!observer) return;
+  count_momenta();
   for (int32_t i = 0; i < spheres_.n; ++i)
     for (int c = 0; c < D; ++c) observer->travel(spheres_.user[i])[c] -= way(i, c);
 }

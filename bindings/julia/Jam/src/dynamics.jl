@@ -56,15 +56,16 @@ cancel(s::System) = (check(jam_cancel(handle(s))); nothing)
 """
     Observed(s)
 
-What a system has recorded since `observe!`. `series`, `gaps` and `correlation` are tables; `spheres` and `pairs` NamedTuples.
+What a system has recorded since `observe!`. `series`, `gaps` and `correlation` are tables; `spheres` and `pairs` NamedTuples; `stress` a matrix.
 """
 struct Observed
     system::System
 end
-Base.propertynames(::Observed, private::Bool = false) = (:series, :spheres, :pairs, :gaps, :correlation)
+Base.propertynames(::Observed, private::Bool = false) = (:series, :stress, :spheres, :pairs, :gaps, :correlation)
 function Base.getproperty(o::Observed, name::Symbol)
     s = getfield(o, :system)
     name === :series && return observed_series(s)
+    name === :stress && return observed_stress(s)
     name === :spheres && return observed_spheres(s)
     name === :pairs && return observed_pairs(s)
     name === :gaps && return observed_gaps(s)

@@ -48,6 +48,12 @@ class Observed:
         return as_rows(self._system._ask("observed_series"))
 
     @property
+    def stress(self) -> Array:
+        """Stress tensor (d, d) since observe(): P_ab V / (N kT), positive in compression, trace d times the reduced pressure."""
+        found: Array = self._system._ask("observed_stress")
+        return found
+
+    @property
     def spheres(self) -> ObservedSpheresResult:
         """collisions (n,) and unwrapped displacement (n, d). Collisions are counted with collisions=1 only."""
         found: ObservedSpheresResult = self._system._ask("observed_spheres")

@@ -360,6 +360,7 @@ typedef enum jam_series_column {
 #define JAM_SERIES_COLUMNS 6
 JAM_API jam_status jam_observed_series(const jam_system *sys, int32_t columns, double *table, size_t table_len,
                                        size_t *needed);
+JAM_API jam_status jam_observed_stress(const jam_system *sys, double *out, size_t out_len, size_t *needed);
 JAM_API jam_status jam_observed_spheres(const jam_system *sys, int64_t *collisions, size_t collisions_len,
                                         double *displacement, size_t displacement_len, size_t *rows);
 JAM_API jam_status jam_observed_pairs(const jam_system *sys, int32_t *pair, size_t pair_len, int64_t *collisions,

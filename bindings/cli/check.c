@@ -13,14 +13,6 @@ static jam_status write_proofs(jam_system *sys, const options *o) {
   return status;
 }
 
-static void put_verdict(FILE *f, const char *key, int32_t verdict) {
-  fprintf(f, "  \"%s\": %s,\n", key,
-          verdict == JAM_VERDICT_YES  ? "true"
-          : verdict == JAM_VERDICT_NO ? "false"
-                                      : "null");
-}
-
-/* A verdict that is open is null. */
 static int write_json(const options *o, int code, const jam_check_report *r, const char *notes) {
   static const char *const reasons[] = {"proof",   "apart", "no_force", "flex", "digits",
                                         "overlap", "gaps",  "margin",   "slide"};

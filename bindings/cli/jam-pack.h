@@ -138,6 +138,7 @@ int failure_code(void);                 /* EXIT_OUTPUT where none was noted */
  * known, are null. */
 void put_number(FILE *f, const char *key, double x);
 void put_count(FILE *f, const char *key, int64_t x, int known);
+void put_verdict(FILE *f, const char *key, int32_t verdict);
 void put_stress(FILE *f, const double *stress, size_t numbers); /* stress_tensor, row by row; 0 numbers: null */
 /* What all objects begin with: the file or NULL, the exit code, and what was said. */
 void begin_json(FILE *f, const char *file, int code, const char *text);

@@ -19,6 +19,14 @@ void put_count(FILE *f, const char *key, int64_t x, int known) {
     fprintf(f, "  \"%s\": null,\n", key);
 }
 
+/* A verdict that is open is null. */
+void put_verdict(FILE *f, const char *key, int32_t verdict) {
+  fprintf(f, "  \"%s\": %s,\n", key,
+          verdict == JAM_VERDICT_YES  ? "true"
+          : verdict == JAM_VERDICT_NO ? "false"
+                                      : "null");
+}
+
 /* Bytes of the character of UTF-8 that begins here (RFC 3629), 0 where none does. */
 static size_t character_length(const unsigned char *c) {
   const unsigned first = c[0], second = c[1];

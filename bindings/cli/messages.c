@@ -39,6 +39,7 @@ static const struct {
     {"bridge_gap", "--stl-bridge-gap"},
     {"call jam_crunch or jam_contacts_from_geometry first", "the verb crunch makes one"},
     {"jam_read_checkpoint", "--resume"},
+    {"jam_read", "--input"},
     {"jam_crunch", "the verb crunch"},
 };
 enum { PHRASES = sizeof phrases / sizeof *phrases };

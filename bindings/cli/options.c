@@ -126,6 +126,33 @@ static const option_row *find_option(const char *name, size_t length) {
   return NULL;
 }
 
+/* Letters to change, add or leave out between two words. */
+static int edits(const char *a, size_t length, const char *b) {
+  int row[64];
+  const size_t columns = strlen(b) < 63 ? strlen(b) : 63;
+  for (size_t j = 0; j <= columns; ++j) row[j] = (int)j;
+  for (size_t i = 0; i < length; ++i) {
+    int before = row[0]++;
+    for (size_t j = 0; j < columns; ++j) {
+      const int above = row[j + 1], kept = before + (a[i] != b[j]), other = 1 + (above < row[j] ? above : row[j]);
+      row[j + 1] = kept < other ? kept : other;
+      before = above;
+    }
+  }
+  return row[columns];
+}
+
+static void refuse_unknown(const char *name, size_t length) {
+  const char *nearest = "";
+  int least = length < 7 ? 1 + (int)(length - 1) / 3 : 3; /* above this two words have little in common */
+  for (size_t k = 0; k < sizeof table / sizeof *table; ++k) {
+    const int found = edits(name, length, table[k].name);
+    if (found < least) nearest = table[k].name, least = found;
+  }
+  complain("unknown option '%.*s'%s%s%s", (int)length, name, *nearest ? "; did you mean " : "", nearest,
+           *nearest ? "?" : "");
+}
+
 const char *word_of_choice(const char *option, int number, char word[32]) {
   const char *at = find_option(option, strlen(option))->words;
   while (number-- > 0) at = strchr(at, ' ') + 1;
@@ -172,7 +199,7 @@ static int take_file(const char *word, options *o) {
   const char *const place = o->given.file_count < 2 ? places[o->given.file_count] : NULL;
   o->given.file_count++;
   if (*word == '-' && word[1])
-    complain("unknown option '%s'", word);
+    refuse_unknown(word, strlen(word));
   else if (place)
     return take_once(find_option(place, strlen(place)), word, o);
   else if (o->given.words[0] == word)
@@ -195,7 +222,7 @@ static int take_argument(char **argv, int left, options *o) {
   if (strncmp(argv[0], "--", 2)) {
     if (!take_file(argv[0], o)) return 1;
   } else if (!row)
-    complain("unknown option '%.*s'", (int)length, argv[0]);
+    refuse_unknown(argv[0], length);
   else if (!(row->verbs >> o->given.verb & 1))
     refuse_option(o, row->name);
   else if (row->kind == TAKE_SWITCH) {

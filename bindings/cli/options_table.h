@@ -342,7 +342,7 @@ static const help_line help[] = {
     {515, "  --dim D                dimension, 2..8 (3)"},
     {515, "  --phi0 F               packing fraction of the random start (0.2; halved for each"},
     {515, "                         dimension above 3)"},
-    {515, "  --diameters-ratio R    half of the spheres are R times as large (1)"},
+    {515, "  --diameters-ratio R    the second half of the spheres is R times as large (1)"},
     {515, "  --sizes LAW            diameters by a law: equal, list, uniform, normal, lognormal, power,"},
     {515, "                         weibull or sieve. Examples: lognormal:deviation=0.3,draw=random,"},
     {515, "                         list:1=0.5,1.4=0.5, sieve:FILE with a cumulative curve. Or a file"},

@@ -103,6 +103,11 @@ static const char *proof_of(const outcome *result) {
   return jam_proof_text(r->theorem, r->proof_cause, r->proof_radius, r->proof_value, r->proof_bound);
 }
 
+/* A file says all that a packing is, unless spheres are moved at random. */
+static int has_seed(const options *o, const outcome *result) {
+  return !o->input || result->has_md || (result->has_crunch && result->crunch.decompressions > 0);
+}
+
 int write_report(const options *o, const outcome *result, const char *path) {
   const jam_info *info = &result->info;
   const jam_crunch_report *r = &result->crunch;
@@ -117,7 +122,7 @@ int write_report(const options *o, const outcome *result, const char *path) {
   begin_json(f, o->input ? o->input : o->resume, result->code, messages());
   put_count(f, "n", info->n, 1);
   put_count(f, "dim", info->dim, 1);
-  put_count(f, "seed", info->seed, 1);
+  put_count(f, "seed", info->seed, has_seed(o, result));
   put_protocol(f, o, result);
   put_notes(f, result->notes, "");
   put_number(f, "packing_fraction", info->packing_fraction);
@@ -151,10 +156,8 @@ int write_report(const options *o, const outcome *result, const char *path) {
   put_number(f, "displacement_rms_stable", crunched ? r->displacement_rms_stable : NAN);
   put_count(f, "contacts_start", r->contacts_start, crunched && r->contacts_start >= 0);
   put_count(f, "contacts_kept", r->contacts_kept, crunched && r->contacts_kept >= 0);
-  if (crunched)
-    fprintf(f, "  \"jammed\": %s,\n", r->jammed ? "true" : "false");
-  else
-    fputs("  \"jammed\": null,\n", f);
+  put_verdict(f, "jammed", crunched ? (r->jammed ? JAM_VERDICT_YES : JAM_VERDICT_NO) : JAM_VERDICT_UNTESTED);
+  put_verdict(f, "strictly_jammed", crunched ? r->strictly_jammed : JAM_VERDICT_UNTESTED);
   fputs("  \"proof\": ", f);
   if (o->prove && crunched)
     put_text(f, proof_of(result));
@@ -172,6 +175,7 @@ int write_report(const options *o, const outcome *result, const char *path) {
 }
 
 static const char *verdict(const jam_crunch_report *r) {
+  if (r->strictly_jammed == JAM_VERDICT_YES) return "strictly jammed";
   if (r->jammed) return "jammed";
   return r->stop_reason == JAM_STOP_DUALITY_GAP ? "not tested" : "not jammed";
 }
@@ -184,7 +188,7 @@ static void print_changes(const options *o, const outcome *result) {
   if (isfinite(r->displacement_max_stable))
     printf(", those with contacts by up to %.2g (rms %.2g)", r->displacement_max_stable, r->displacement_rms_stable);
   if (r->contacts_kept >= 0 && r->contacts_start > 0)
-    printf(", %lld of %lld contacts kept", (long long)r->contacts_kept, (long long)r->contacts_start);
+    printf(", %lld of the %lld contacts before it kept", (long long)r->contacts_kept, (long long)r->contacts_start);
   putchar('\n');
   if (o->input)
     printf(
@@ -197,8 +201,9 @@ void print_summary(const options *o, const outcome *result) {
   const jam_crunch_report *r = &result->crunch;
   const int strict = r->strictly_jammed == JAM_VERDICT_YES;
   const jam_info *info = &result->info;
-  printf("%lld spheres in d = %d, seed %lld: packing fraction %.12f\n", (long long)info->n, (int)info->dim,
-         (long long)info->seed, info->packing_fraction);
+  printf("%lld spheres in d = %d", (long long)info->n, (int)info->dim);
+  if (has_seed(o, result)) printf(", seed %lld", (long long)info->seed);
+  printf(": packing fraction %.12f\n", info->packing_fraction);
   each_note(result->notes, print_note, NULL);
   if (fabs(info->diameter_mean / result->diameter_given - 1.0) > 1e-9)
     printf("  diameters are %.9g times those %s, mean %.6g: the cell keeps its size\n",

@@ -61,7 +61,7 @@ TABLE = {
             "diameters-ratio",
             "positive",
             "R",
-            "half of the spheres are R times as large (1)",
+            "the second half of the spheres is R times as large (1)",
             1.0,
             without=("input", "sizes"),
         ),

@@ -113,9 +113,12 @@ class System {
                   const std::vector<double> &diameters = {}, const std::vector<double> &cell = {}) {
     adopt([&](jam_system **out) {
       jam_start start = report<jam_start>();
-      start.positions = positions.data(), start.positions_len = positions.size();
-      start.diameters = diameters.data(), start.diameters_len = diameters.size();
-      if (!cell.empty()) start.cell = cell.data(), start.cell_len = cell.size();
+      start.positions = positions.data();
+      start.positions_len = positions.size();
+      start.diameters = diameters.data();
+      start.diameters_len = diameters.size();
+      start.cell = cell.empty() ? nullptr : cell.data();
+      start.cell_len = cell.size();
       return jam_create(&o, &start, out);
     });
   }

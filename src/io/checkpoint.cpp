@@ -145,7 +145,7 @@ Packing read_checkpoint(const char *path, std::string &beside) {
       all[sizeof magic - 1] != magic[sizeof magic - 1])
     fail(JAM_E_FORMAT, "%s is a checkpoint of another version of libjam", path);
   if (all.size() < sizeof h + 8 || std::memcmp(all.data(), magic, sizeof magic) != 0)
-    fail(JAM_E_FORMAT, "%s is no checkpoint of libjam", path);
+    fail(JAM_E_FORMAT, "%s is no checkpoint of libjam; jam_read reads files of packings", path);
   std::memcpy(&h, all.data(), sizeof h);
   const int32_t other_dim = with_bytes_reversed(h.dim);
   if (other_dim >= 2 && other_dim <= JAM_MAX_DIM)

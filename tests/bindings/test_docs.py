@@ -84,6 +84,29 @@ class Stumbles(unittest.TestCase):
         with self.assertRaisesRegex(TypeError, "did you mean gain_tolerance"):
             s.crunch(gain_tolerence=1e-9)
 
+    def test_wrong_values_are_named_with_their_argument(self):
+        s = jam.System.random(n=8, dim=2)
+        for call, text in (
+            (lambda: s.crunch(method="lp"), "method='lp' is none of barrier_path, sequential_lp"),
+            (lambda: s.rigidity("weak"), "kind='weak' is none of collective, strict"),
+            (lambda: s.write("a.xyz", "x"), "format='x' is none of"),
+            (lambda: jam.System.random(n=8, diameters="1:1.4"), "diameters must be numbers, not text .*jam.sizes"),
+            (lambda: jam.System.random(n=8, diameters=[1, 1.4]), "diameters has 2 numbers, it must have 1 or n = 8"),
+            (lambda: s.compress(stages=[(1e-2)]), r"stages: each must be a pair \(growth_rate, pressure\).*not 0.01"),
+            (lambda: s.compress(stages=[(1e-2, 1e3, 3)]), "stages: each must be a pair"),
+            (lambda: jam.System.random(n=8, ratio=1.4), "there are diameters, cell, dim"),
+            (lambda: s.run(1).phi_J, "'phi_J'; did you mean packing_fraction"),
+            (lambda: s.run(1).colisions, "'colisions'; did you mean collisions"),
+        ):
+            with self.assertRaisesRegex((TypeError, ValueError, AttributeError), text):
+                call()
+        self.assertFalse(hasattr(s.run(1), "colour"))
+        with tempfile.TemporaryDirectory() as folder:
+            name = str(Path(folder, "a.xyz"))
+            s.write(name)
+            with self.assertRaisesRegex(ValueError, r"no checkpoint of libjam; System.read reads"):
+                jam.System.from_checkpoint(name)
+
     def test_messages_name_python_calls(self):
         s = jam.System.random(n=8, dim=2)
         with self.assertRaisesRegex(jam.errors.StateError, r"call crunch\(\) or contacts_from_geometry\(\) first"):

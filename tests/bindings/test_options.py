@@ -69,6 +69,14 @@ class Options(unittest.TestCase):
             s = jam.System.read(out)
             s.contacts_from_geometry()
             self.assertEqual(s.rigidity("strict").jammed, jam.Verdict.YES)
+            again = self.pack("crunch", out, "--strain", "free", "--json")
+            report = json.loads(again.stdout)
+            self.assertEqual((report["jammed"], report["strictly_jammed"]), (True, True))
+            self.assertIsNone(report["seed"])  # nothing was random
+            shown = self.pack("crunch", out, "--strain", "free").stdout
+            self.assertIn("crunch    strictly jammed (converged)", shown)
+            self.assertNotIn("seed", shown)
+            self.assertIsNone(json.loads(self.pack("crunch", out, "--json").stdout)["strictly_jammed"])
             refused = self.pack("--strain", "free", "--output", f"{folder}/s.dat")
             self.assertEqual((refused.returncode, "no cells but cubes" in refused.stderr), (2, True))
 
@@ -125,7 +133,7 @@ class Options(unittest.TestCase):
             (["--method", "fire"], "must be one of: barrier sequential-lp"),
             (["--n", "0"], "must be an integer in 1..2147483647"),
             (["--quiet=1"], "'--quiet' takes no value"),
-            (["--sead", "1"], "unknown option '--sead'"),
+            (["--sead", "1"], "unknown option '--sead'; did you mean --seed?"),
             (["--seed"], "'--seed' lacks its value"),
             (["--output", "x.gsd2"], "no format is known by this ending"),
             (["--contacts", "x.json"], "use .csv, .dump or .vtp"),

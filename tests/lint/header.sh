@@ -1,6 +1,6 @@
 #!/bin/sh
 # header.sh INCLUDE_DIR: jam.h is pedantic C99, later C and C++, twice in one file and alone, under every compiler
-# there is.
+# there is; jam.hpp is C++17 without a warning.
 set -eu
 include=$1
 scratch=$(mktemp -d)
@@ -17,5 +17,7 @@ for cc in gcc clang; do
   for std in c++11 c++17 c++20; do
     $cc -x c++ -std=$std $strict -I"$include" "$scratch/a.cpp"
   done
+  [ $cc = gcc ] || comma=-Wcomma
+  $cc -x c++ -std=c++17 $strict ${comma:-} -I"$include" -include jam/jam.hpp "$scratch/a.cpp"
   echo "$cc: ok"
 done

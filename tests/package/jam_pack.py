@@ -16,7 +16,7 @@ import unittest
 
 program = sys.argv.pop(1)
 KEYS = """n dim seed packing_fraction diameter_mean pressure collisions collisions_per_second lp_solves factorisations decompressions contacts
-rattlers bucklers isostatic_contacts excess_contacts max_overlap force_residual gamma_residual min_force min_gap stop_reason seconds_md
+rattlers bucklers isostatic_contacts excess_contacts strictly_jammed max_overlap force_residual gamma_residual min_force min_gap stop_reason seconds_md
 seconds_crunch version""".split()
 
 
@@ -74,7 +74,8 @@ class JamPack(unittest.TestCase):
 
     def test_wrong_command_line(self):
         for args, text in [
-            (["--colour", "red"], "unknown option '--colour'"),
+            (["--colour", "red"], "unknown option '--colour'\n"),
+            (["--seeds", "3"], "unknown option '--seeds'; did you mean --seed?"),
             (["--n"], "'--n' lacks its value"),
             (["packing.dat"], "unexpected argument 'packing.dat'"),
             (["--n", "many"], "--n is 'many'"),

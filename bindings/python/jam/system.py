@@ -251,7 +251,8 @@ class System(Verbs, Writing, PoreSpace, Copies, Converting):
     def _create(cls, options: dict[str, Any], positions: Any, diameters: Any, progress: Any = None) -> "System":
         box, vectors = cell_of(options.pop("box", None), options.pop("cell", None), options["dim"])
         container, walls = enclosure_of(options.pop("container", None), options.pop("walls", None), options["dim"])
-        made = option_struct("jam_create_options", dict(options, box=box, container=container, walls=walls))
+        beside = ("diameters", "cell") if positions is None else ("diameters", "radii", "cell")
+        made = option_struct("jam_create_options", dict(options, box=box, container=container, walls=walls), beside)
         told = reporter(progress)
 
         def on_progress(p: Any) -> bool:

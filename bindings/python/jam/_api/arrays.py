@@ -38,6 +38,9 @@ def as_array(values: Any, dtype: str = "double", name: str = "array") -> Array:
     if isinstance(values, np.ma.MaskedArray) and (masked := np.count_nonzero(values.mask)):
         raise ValueError(f"{name}: {masked} values are masked: fill them, or leave these spheres out")
     array = np.asarray(values)
+    if array.dtype.kind in "US":
+        hint = "; jam.sizes gives diameters of a law" if name == "diameters" else ""
+        raise TypeError(f"{name} must be numbers, not text ({values!r}){hint}")
     wanted = np.dtype(DTYPES[dtype])
     if array.dtype != wanted and not np.can_cast(array.dtype, wanted, "same_kind"):
         raise TypeError(f"{name}: cannot convert {array.dtype} to {wanted} without loss")

@@ -140,7 +140,7 @@ def invoke(handle: Any, dim: int, name: str, args: tuple[Any, ...], named: dict[
         elif role == "handle":
             passed.append(getattr(given[arg], "handle", given[arg]))
         elif role in INPUTS:
-            passed.append(as_enum(given[arg], ctype) if role == "scalar" and ctype not in DTYPES else given[arg])
+            passed.append(as_enum(given[arg], ctype, arg) if role == "scalar" and ctype not in DTYPES else given[arg])
         elif role == "columns":
             passed.append(TABLES["jam_" + name])
         elif role == "struct_out":

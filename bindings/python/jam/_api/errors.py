@@ -35,6 +35,7 @@ METHODS: set[str] = set()
 _NAMES = {
     "create": "System.random or System.from_arrays",
     "observe": "observing()",
+    "read": "System.read",
     "read_checkpoint": "System.from_checkpoint",
     "get_crunch_report": "report",
     "set_positions": "positions",

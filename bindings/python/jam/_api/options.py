@@ -10,14 +10,14 @@ from . import generated
 from .generated import OPTIONS
 
 
-def as_enum(value: Any, kind: str) -> int:
-    """An enum value given by number, member or name ('mk')."""
+def as_enum(value: Any, kind: str, name: str) -> int:
+    """An enum value of the argument `name`, given by number, member or word ('mk')."""
     if isinstance(value, str):
         enum = getattr(generated, kind)
         try:
             return int(enum[value.upper()])
         except KeyError:
-            raise ValueError(f"{value!r} is none of {', '.join(m.name.lower() for m in enum)}") from None
+            raise ValueError(f"{name}={value!r} is none of {', '.join(m.name.lower() for m in enum)}") from None
     return int(value)
 
 
@@ -102,20 +102,21 @@ def unknown(name: str, known: Any) -> str:
     return f"did you mean {' or '.join(near)}?" if near else f"there are {', '.join(known)}"
 
 
-def option_struct(struct: str, given: dict[str, Any]) -> Any:
-    """An option struct with the library's defaults and the given values. None keeps the default."""
+def option_struct(struct: str, given: dict[str, Any], beside: tuple[str, ...] = ()) -> Any:
+    """An option struct with the library's defaults and the given values. None keeps the default. beside: what the caller
+    takes too."""
     known = OPTIONS[struct]
     made = getattr(raw, struct)()
     for name, value in given.items():
         if name not in known:
-            raise TypeError(f"unknown option {name!r}; {unknown(name, known)}")
+            raise TypeError(f"unknown option {name!r}; {unknown(name, (*beside, *known))}")
         if value is None:
             continue
         kind = known[name][0]
         if kind in ("float", "int", "bool"):
             value = _number(value, kind, name)
         else:
-            value = as_enum(value, kind)
+            value = as_enum(value, kind, name)
         try:
             setattr(made, name, value)
         except OverflowError as error:

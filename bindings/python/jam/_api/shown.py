@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 from dataclasses import fields
+from difflib import get_close_matches
 from enum import IntEnum
 from typing import Any, Callable
 
@@ -41,6 +42,14 @@ def as_table(report: Any) -> str:
     if text := getattr(report, "status_text", ""):
         head += ": " + text
     return "\n".join([head] + lines)
+
+
+def no_member(report: Any, name: str) -> str:
+    """What to say of a member that a report does not have."""
+    known = [f.name for f in fields(report)]
+    density = name in ("phi", "phi_J", "phi_j", "density", "volume_fraction") and "packing_fraction" in known
+    near = ["packing_fraction"] if density else get_close_matches(name, known, 3)
+    return f"a {type(report).__name__} has no member {name!r}" + (f"; did you mean {' or '.join(near)}?" if near else "")
 
 
 _FEW_ROWS = 12

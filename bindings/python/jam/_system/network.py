@@ -146,7 +146,7 @@ class Network(Analysis):
             spheres = self._ask("hessian_map")
             m = (
                 min(k, self.dim * len(spheres))
-                if as_enum(which, "ModesWhich") != ModesWhich.ALL
+                if as_enum(which, "ModesWhich", "which") != ModesWhich.ALL
                 else self.dim * len(spheres)
             )
             table, vectors = unknown_array((m, len(ModeColumn))), unknown_array((m, len(spheres), self.dim))
@@ -323,6 +323,6 @@ class Network(Analysis):
         """
         out, strain = unknown_array((self.n, self.dim)), unknown_array((self.dim, self.dim))
         with self._reporting(progress):
-            kind = as_enum(kind, "RigidityKind")
+            kind = as_enum(kind, "RigidityKind", "kind")
             self._note(not_cancelled(raw.jam_flex(self.handle, kind, out.reshape(-1), strain.reshape(-1))[0]))
         return FlexResult(out, strain)

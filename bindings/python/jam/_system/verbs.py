@@ -20,6 +20,15 @@ from .progress import end, reporter
 from .runs import Runs, make_runs
 
 
+def _stage(given: Any) -> dict[str, float]:
+    """Options of one stage of growth."""
+    if isinstance(given, Mapping):
+        return dict(given)
+    if np.ndim(given) != 1 or len(given) != 2:
+        raise TypeError(f"stages: each must be a pair (growth_rate, pressure) or a dict of options, not {given!r}")
+    return dict(zip(("growth_rate", "pressure"), given))
+
+
 class Verbs(Observing):
     """Long calls on a system."""
 
@@ -120,7 +129,7 @@ class Verbs(Observing):
             options["packing_fraction"] = density_of(options.get("packing_fraction"), porosity)
         if stages is None:
             report = self._verb("jam_compress", "jam_compress_options", "jam_md_report", progress, options or None)
-        made = [dict(s) if isinstance(s, Mapping) else dict(zip(("growth_rate", "pressure"), s)) for s in stages or ()]
+        made = [_stage(s) for s in stages or ()]
         idle = [k for k, v in options.items() if v is not None and made and all(k in given for given in made)]
         if idle:
             raise ValueError(f"{', '.join(idle)} would have no effect: every stage gives its own")
@@ -325,4 +334,4 @@ class Verbs(Observing):
 
     def log(self, callback: Callable[[int, str], Any] | None, level: int | str = "info") -> None:
         """Sends the library's log lines of up to this level to callback(level, line); None silences it."""
-        raw.set_log(self.handle, callback, as_enum(level, "LogLevel"))
+        raw.set_log(self.handle, callback, as_enum(level, "LogLevel", "level"))

@@ -50,7 +50,7 @@ class Writing(State, Network):
             still = self.copy()
             refuse_walls(still, "written as GSD")
             return gsd.write(name, still.positions, still.diameters, still.cell)
-        self._done(lambda: raw.jam_write_scaled(self.handle, name, as_enum(format, "Format"), float(scale), float(density)))
+        self._done(lambda: raw.jam_write_scaled(self.handle, name, as_enum(format, "Format", "format"), float(scale), float(density)))
 
     def write_contacts(self, path: str | os.PathLike[str], format: int | str = "auto") -> None:
         """Writes the contact network: pairs, unit vectors, gaps and forces.
@@ -63,7 +63,7 @@ class Writing(State, Network):
             'auto' goes by the ending: .csv is a table, .dump a LAMMPS dump local, .vtp lines for ParaView. With .gz
             behind it the file is compressed.
         """
-        self._done(lambda: raw.jam_write_contacts(self.handle, os.fspath(path), as_enum(format, "ContactFormat")))
+        self._done(lambda: raw.jam_write_contacts(self.handle, os.fspath(path), as_enum(format, "ContactFormat", "format")))
 
     def page(
         self,

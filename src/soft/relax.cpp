@@ -1,10 +1,12 @@
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "core/call_scope.hpp"
 #include "core/checks.hpp"
 #include "core/error.hpp"
+#include "core/rng.hpp"
 #include "soft/decompression.hpp"
 #include "soft/tuning.hpp"
 
@@ -64,12 +66,31 @@ DescentEnd minimise(Relaxation &r, int32_t minimiser, double tolerance, bool nea
   }
 }
 
+// Forces balance on spheres that overlap, and no contact is stable.
+static bool is_saddle(const SoftResult &found) {
+  return found.report.contacts == 0 && found.report.max_overlap > overlap_resolution(found.packing);
+}
+
+static void displace_at_random(Relaxation &r, size_t attempt) {
+  Rng rng(r.state.base().seed, Stream::soft_saddle, static_cast<uint64_t>(attempt) << 40);
+  const double move = RelaxTuning::saddle_moves[attempt] * r.state.diameter_mean();
+  for (double &x : r.state.displacement()) x += (2.0 * rng.uniform() - 1.0) * move;
+}
+
 DescentEnd minimise_and_measure(Relaxation &r, int32_t minimiser, double tolerance, bool near_minimum,
                                 SoftResult &out) {
   DescentEnd end = minimise(r, minimiser, tolerance, near_minimum);
+  size_t saddles = 0;
   for (int attempt = 0;; ++attempt) {
     out = measure(r.state, minimiser);
     if (end != DescentEnd::balanced) return end;
+    if (is_saddle(out)) {
+      if (saddles == std::size(RelaxTuning::saddle_moves)) return DescentEnd::stalled;
+      displace_at_random(r, saddles++);
+      r.evaluate();
+      end = minimise(r, minimiser, tolerance, false);
+      continue;
+    }
     if (std::max(out.report.force_residual, out.report.stress_residual) < tolerance) return end;
     const bool loads = !r.state.cell().beyond.empty();
     if (attempt == RelaxTuning::most_roundings + (loads ? RelaxTuning::most_loadings : 0)) return DescentEnd::stalled;

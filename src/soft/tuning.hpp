@@ -82,6 +82,9 @@ struct RelaxTuning {
   // farther under them flows.
   static constexpr int most_loadings = 40;
   static constexpr double most_strain = 1.0;
+  // Straight lines of compressed spheres hold no sphere, and buckle: a saddle. Displacements of these parts of the mean
+  // diameter leave it, one after the other.
+  static constexpr double saddle_moves[] = {1e-6, 1e-4, 1e-2};
 };
 
 // ---- decompression

@@ -394,6 +394,17 @@ class Shear(unittest.TestCase):
             few.relax(strain="all", pressure=50.0)
         self.assertTrue(np.array_equal(pickle.loads(pickle.dumps(few)).positions, few.positions))
 
+    def test_lines_of_compressed_spheres_buckle(self):
+        s = jam.System.random(n=12, dim=2, seed=1, packing_fraction=1.0, overlap="allow")
+        s.relax()
+        s.shear(0.3, step=0.02, mode=[[1, 0], [0, -1]])
+        rows = s.shear_rows
+        self.assertGreater(rows["contacts"].min(), 0)
+        self.assertGreater(rows["energy"].min(), 0)
+        line = np.column_stack([np.arange(4) / 4 + 0.1, np.full(4, 0.5)])
+        row = jam.System.from_arrays(line, np.full(4, 0.26), cell=[1.0, 1.0], overlap="allow")
+        self.assertEqual(row.relax().energy, 0.0)  # it has room to buckle, and no overlap is left
+
 
 class Pages(unittest.TestCase):
     @unittest.skipUnless(importlib.util.find_spec("matplotlib"), "matplotlib is not installed, which draws the pages' picture")

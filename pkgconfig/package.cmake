@@ -80,7 +80,7 @@ jam_package(doc jam-doc doc "Jammed packings of hard spheres: guide and examples
 set(CPACK_DEBIAN_DOC_PACKAGE_ARCHITECTURE all)
 file(GLOB pages ${PROJECT_SOURCE_DIR}/bindings/docs/*.md ${PROJECT_SOURCE_DIR}/README.md)
 install(FILES ${pages} DESTINATION share/doc/jam-doc COMPONENT doc)
-foreach(language c cpp fortran julia python)
+foreach(language c cpp fortran julia octave python)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples/${language} DESTINATION share/doc/jam-doc/examples COMPONENT doc
           PATTERN __pycache__ EXCLUDE)
 endforeach()

@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "core/error.hpp"
+#include "io/gzip.hpp"
 #include "io/read_helpers.hpp"
 #include "io/writers.hpp"
 
@@ -94,10 +95,9 @@ const Format &format_to_write(Content content, const char *path, int32_t number)
   for (const Format &row : table)
     if (row.content == content && written(row) && (number ? row.number == number : has_ending(row, ending))) return row;
   const jam_status code = content == image ? JAM_E_UNSUPPORTED : JAM_E_ARGUMENT;
-  fail(code,
-       "%.200s: no format is known by the ending '%.20s'; of files of %s these are known: %s; each "
-       "with .gz behind it or without",
-       path, ending.c_str(), content_words[static_cast<size_t>(content)], endings_of(content).c_str());
+  fail(code, "%.200s: no format is known by the ending '%.20s'; of files of %s these are known: %s%s", path,
+       ending.c_str(), content_words[static_cast<size_t>(content)], endings_of(content).c_str(),
+       can_pack() ? "; each with .gz behind it or without" : "");
 }
 
 void check_fits(const Packing &p, const Format &format, double density) {

@@ -7,6 +7,9 @@
 
 namespace jam::inside {
 
+// Whether this build writes gzip's format.
+bool can_pack();
+
 // One member of gzip's format after the other. `path` is for the text of errors and outlives it.
 class Unpacker {
  public:

@@ -6,6 +6,8 @@ namespace jam::inside {
 struct Unpacker::Stream {};
 struct Packer::Stream {};
 
+bool can_pack() { return false; }
+
 Unpacker::Unpacker(const std::string &path) {
   fail(JAM_E_UNSUPPORTED, "%s is a gzip file, which this build of libjam cannot unpack: unpack it first", path.c_str());
 }

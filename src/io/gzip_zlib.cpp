@@ -20,6 +20,8 @@ struct Unpacker::Stream {
   bool inside = true;
 };
 
+bool can_pack() { return true; }
+
 Unpacker::Unpacker(const std::string &path) : stream_(std::make_unique<Stream>(path)) {
   if (::inflateInit2(&stream_->z, with_gzip_header) != Z_OK) throw std::bad_alloc();
 }

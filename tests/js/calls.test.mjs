@@ -92,6 +92,7 @@ test('compressed files are unpacked, and damaged ones are refused by name', asyn
   assert.deepEqual((await jam.read(packed, { name: 'a.xyz.gz' })).positions, packing.positions);
   await assert.rejects(jam.read(packed.subarray(0, 500), { name: 'cut.xyz.gz' }), { status: 'format', message: /cut\.xyz\.gz/ });
   fails(() => packing.write('a.xyz.gz'), 'unsupported', 'a.xyz.gz', 'without .gz');
+  assert.throws(() => packing.write('a.hoomd'), (error) => error.message.includes('.extxyz') && !error.message.includes('.gz'));
 });
 
 test('errors are the sentences of the library and leave the packing as it was', async () => {

@@ -1281,9 +1281,10 @@ JAM_API jam_status jam_modes(jam_system *sys, const jam_hessian_options *h, cons
                              double *table, size_t table_len, double *vector, size_t vector_len, size_t *rows);
 /* All d N' modes of the Hessian at the wave vector sum of wave[c] b_c, with a_c . b_e = 2 pi delta_ce: the copy of a
  * sphere at distance sum of s_c a_c moves by exp(2 pi i sum wave[c] s_c) times the sphere's displacement. lambda
- * ascending; vector: real and imaginary parts, unit length. Dense: 96 (d N')^2 bytes. Wave 0: modes of jam_modes; all
- * wave[c] = k / count[c], k = 0 .. count[c] - 1: those of jam_tile. Along an axis with walls wave is 0. @shape wave
- * (d), table (m, jam_mode_column), vector (m, N', d, 2) @errors STATE, SOLVER, UNSUPPORTED (unlisted own images) */
+ * ascending; vector: real and imaginary parts, unit length. Dense: 96 (d N')^2 bytes, 40 where all wave[c] are
+ * multiples of 1/2; the memory limit holds for *rows alone too. Wave 0: modes of jam_modes; all wave[c] = k / count[c],
+ * k < count: those of jam_tile. Along an axis with walls wave is 0. @shape wave (d), table (m, jam_mode_column), vector
+ * (m, N', d, 2) @errors STATE, SOLVER, UNSUPPORTED (unlisted own images) */
 JAM_API jam_status jam_bloch_modes(jam_system *sys, const jam_hessian_options *h, const double *wave, size_t wave_len,
                                    int32_t columns, double *table, size_t table_len, double *vector, size_t vector_len,
                                    size_t *rows);

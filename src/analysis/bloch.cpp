@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <limits>
 
 #include <Eigen/Dense>
 
@@ -11,17 +9,10 @@
 #include "core/call_scope.hpp"
 #include "core/math.hpp"
 #include "network/own_images.hpp"
-#include "verdict/clearance.hpp"
 
 namespace jam::inside {
-namespace {
 
-struct Phase {
-  double cosine, sine;
-};
-
-// exp(-2 pi i q . s); whole turns are taken off first, so that it is exact where it is real.
-Phase phase_of(const double *q, const std::array<int32_t, JAM_MAX_DIM> &s, int dim) {
+WavePhase phase_of(const double *q, const std::array<int32_t, JAM_MAX_DIM> &s, int dim) {
   double turns = 0.0;
   for (int c = 0; c < dim; ++c) {
     const double t = q[c] * s[c];
@@ -32,6 +23,12 @@ Phase phase_of(const double *q, const std::array<int32_t, JAM_MAX_DIM> &s, int d
   return {math::cos_of_turns(turns), real ? 0.0 : -math::cos_of_turns(turns - 0.25)};
 }
 
+bool is_real(const CellsBack &back, const double *q, int dim) {
+  return std::all_of(back.begin(), back.end(), [&](const auto &s) { return phase_of(q, s, dim).sine == 0.0; });
+}
+
+namespace {
+
 // The lower triangle of the symmetric matrix that stands for the Hermitian one, column after column.
 class Hermitian {
  public:
@@ -39,7 +36,7 @@ class Hermitian {
   int size() const { return size_; }
   std::vector<double> &entries() { return a_; }
   // Adds block * phase to the block (i, j).
-  void add(int32_t i, int32_t j, const double *block, double factor, Phase phase, int d) {
+  void add(int32_t i, int32_t j, const double *block, double factor, WavePhase phase, int d) {
     for (int r = 0; r < d; ++r)
       for (int c = 0; c < d; ++c) {
         const double x = factor * block[r * d + c];
@@ -105,10 +102,6 @@ bool stretches(const double *q, const std::array<int32_t, JAM_MAX_DIM> &s, int d
   return phase_of(q, s, dim).cosine != 1.0;
 }
 
-bool is_real(const CellsBack &back, const double *q, int dim) {
-  return std::all_of(back.begin(), back.end(), [&](const auto &s) { return phase_of(q, s, dim).sine == 0.0; });
-}
-
 }  // namespace
 
 CellsBack cells_back(const Packing &p, const ContactNetwork &net) {
@@ -126,9 +119,10 @@ void refuse_own_images_at(const Packing &p, const ContactNetwork &net, const dou
   refuse_own_images(subset(own, on, p.dim), "modes at this wave vector");
 }
 
-void need_memory_for_bloch(const RigidityMatrix &g) {
-  const auto n = 2.0 * static_cast<double>(g.unknowns());
-  CallScope::need_memory(ModesTuning::dense_bytes * n * n, "the modes at a wave vector");
+void need_memory_for_bloch(const RigidityMatrix &g, const CellsBack &back, const double *q) {
+  const auto n = static_cast<double>(g.unknowns());
+  const double bytes = is_real(back, q, g.dim) ? ModesTuning::real_wave_bytes : 4.0 * ModesTuning::dense_bytes;
+  CallScope::need_memory(bytes * n * n, "the modes at a wave vector");
 }
 
 Modes bloch_modes(const RigidityMatrix &g, const ContactWeights &w, const CellsBack &back, const double *q,
@@ -136,7 +130,7 @@ Modes bloch_modes(const RigidityMatrix &g, const ContactWeights &w, const CellsB
   const int d = g.dim, n = static_cast<int>(g.unknowns());
   Hermitian h(n, is_real(back, q, d));
   std::vector<double> block(static_cast<size_t>(d) * d);
-  constexpr Phase one{1.0, 0.0};
+  constexpr WavePhase one{1.0, 0.0};
   const bool bends =
       !w.transverse.empty();  // rows of rattlers that stay (add_rows) have no wall: they have springs alone
   for (size_t k = 0; k < g.contacts(); ++k) {
@@ -144,7 +138,7 @@ Modes bloch_modes(const RigidityMatrix &g, const ContactWeights &w, const CellsB
                   bends ? g.turning(k) : turning_of_pairs, block.data());
     h.add(g.a[k], g.a[k], block.data(), 1.0, one, d);
     if (g.b[k] < 0) continue;
-    const Phase phase = phase_of(q, back[k], d);
+    const WavePhase phase = phase_of(q, back[k], d);
     h.add(g.b[k], g.b[k], block.data(), 1.0, one, d);
     h.add(g.a[k], g.b[k], block.data(), -1.0, phase, d);
     h.add(g.b[k], g.a[k], block.data(), -1.0, {phase.cosine, -phase.sine}, d);
@@ -173,121 +167,6 @@ Modes bloch_modes(const RigidityMatrix &g, const ContactWeights &w, const CellsB
   write_vectors(v, out);
   for (int k = 0; k < n; ++k)  // a complex vector of d components has 2 d real ones
     out.participation.push_back(inverse_participation(2 * d, g.nodes, &out.vector[2 * static_cast<size_t>(n) * k]));
-  return out;
-}
-
-namespace {
-
-// Contacts that carry force in the copies: those that do in one cell, and spheres that touch their own images in
-// another copy, whose force balances.
-ContactNetwork carrying_contacts(const Packing &p, const PackingVerdict &verdict, const Copies &copies) {
-  ContactNetwork net = verdict.carrying(p.dim);
-  const ContactNetwork own = between_copies(p, unlisted_own_images(p, net, contact_gap_limit), copies);
-  for (size_t k = 0; k < own.size(); ++k) add_contact(p, own.pairs, k, net);
-  return net;
-}
-
-// The wave vectors of copies: what a matrix of one cell has at each of them.
-class WaveVectors {
- public:
-  WaveVectors(const Copies &copies, int dim) : copies_(copies), dim_(dim) {
-    for (int64_t row = 0; row < copies.number(); ++row) {
-      const auto q = copies.place(row);
-      for (int c = 0; c < dim; ++c) wave.push_back(static_cast<double>(q[c]) / copies.along(c));
-    }
-  }
-  // Ascending eigenvalues of S^T S; true: look no further.
-  void each(const RigidityMatrix &g, const CellsBack &back,
-            const std::function<bool(size_t row, const std::vector<double> &lambda)> &take) const {
-    const ContactWeights springs{std::vector<double>(g.contacts(), 1.0), {}};
-    const auto count = static_cast<size_t>(copies_.number());
-    for (size_t row = 0; row < count; ++row) {
-      CallScope::report_share(static_cast<int64_t>(row), static_cast<double>(row) / static_cast<double>(count));
-      if (opposite(row) >= row &&
-          take(row, bloch_modes(g, springs, back, &wave[row * static_cast<size_t>(dim_)], false).lambda))
-        return;
-    }
-  }
-  // The row of -q, whose matrix is the conjugate one.
-  size_t opposite(size_t row) const {
-    const auto q = copies_.place(static_cast<int64_t>(row));
-    size_t out = 0;
-    for (int c = dim_ - 1; c >= 0; --c)
-      out = out * static_cast<size_t>(copies_.along(c)) +
-            static_cast<size_t>((copies_.along(c) - q[c]) % copies_.along(c));
-    return out;
-  }
-  std::vector<double> wave;  // (copies, dim)
-
- private:
-  const Copies &copies_;
-  const int dim_;
-};
-
-int64_t flexes_of(const std::vector<double> &lambda, size_t rigid) {
-  return std::count_if(lambda.begin() + static_cast<std::ptrdiff_t>(std::min(rigid, lambda.size())), lambda.end(),
-                       [](double x) { return x < flex_eigenvalue; });
-}
-
-// Rows of further pairs of the spheres of g. A rattler stays where it is, as a wall does.
-void add_rows(const Packing &p, const ContactNetwork &near, RigidityMatrix &g, CellsBack &back) {
-  const RigidityMatrix rows = make_rigidity_matrix(p, near);
-  const CellsBack steps = cells_back(p, near);
-  const auto d = static_cast<std::ptrdiff_t>(p.dim);
-  for (size_t k = 0; k < near.size(); ++k) {
-    const int32_t a = g.node[near.pairs.i[k]], b = near.pairs.wall(k) ? -1 : g.node[near.pairs.j[k]];
-    if (a < 0 && b < 0) continue;
-    g.a.push_back(a < 0 ? b : a), g.b.push_back(a < 0 ? -1 : b);
-    const auto n = rows.normal.begin() + static_cast<std::ptrdiff_t>(k) * d;
-    g.normal.insert(g.normal.end(), n, n + d);
-    back.push_back(steps[k]);
-  }
-}
-
-// Whether the copies have a flex that keeps the pairs that block others. At q = 0 the test of one cell has looked.
-bool is_clear(const Packing &p, const ContactNetwork &net, const WaveVectors &waves) {
-  const ContactNetwork near = blocking_pairs(p, net, net, false, true);
-  if (near.size() == 0) return true;
-  RigidityMatrix g = make_rigidity_matrix(p, net);
-  CellsBack back = cells_back(p, net);
-  add_rows(p, near, g, back);
-  bool found = false;
-  waves.each(g, back, [&](size_t row, const std::vector<double> &lambda) {
-    return row > 0 && (found = flexes_of(lambda, 0) > 0);
-  });
-  return found;
-}
-
-}  // namespace
-
-BlochFlexes bloch_flexes(const Packing &p, const PackingVerdict &verdict, const Copies &copies) {
-  const auto count = static_cast<size_t>(copies.number());
-  const ContactNetwork net = carrying_contacts(p, verdict, copies);
-  const RigidityMatrix g = make_rigidity_matrix(p, net);
-  need_memory_for_bloch(g);
-  const WaveVectors waves(copies, p.dim);
-  BlochFlexes out;
-  out.wave = waves.wave;
-  out.flexes.assign(count, 0);
-  out.margin.assign(count, std::numeric_limits<double>::quiet_NaN());
-  if (net.size() > 0)
-    waves.each(g, cells_back(p, net), [&](size_t row, const std::vector<double> &lambda) {
-      const size_t rigid = std::min(lambda.size(), row == 0 ? static_cast<size_t>(g.symmetries()) : 0);
-      out.flexes[row] = flexes_of(lambda, rigid);
-      out.margin[row] = rigid < lambda.size() ? lambda[rigid] : std::numeric_limits<double>::infinity();
-      return false;
-    });
-  for (size_t row = 0; row < count; ++row) {
-    const size_t opposite = waves.opposite(row);
-    if (opposite < row) out.flexes[row] = out.flexes[opposite], out.margin[row] = out.margin[opposite];
-    out.total += out.flexes[row];
-  }
-  CopiesEvidence found;
-  found.empty = net.size() == 0, found.flexes_of_one = out.flexes[0], found.flexes = out.total;
-  found.clear = out.total > 0 && out.flexes[0] == 0 && is_clear(p, net, waves);
-  found.closed = std::all_of(net.gap.begin(), net.gap.end(), [](double h) { return h < contact_gap_limit; });
-  found.margin = *std::min_element(out.margin.begin(), out.margin.end());
-  out.jammed = verdict_of_copies(verdict, found);
   return out;
 }
 

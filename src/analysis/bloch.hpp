@@ -23,8 +23,15 @@ CellsBack cells_back(const Packing &p, const ContactNetwork &net);
 
 // JAM_E_UNSUPPORTED where a sphere touches its own image and `net` does not list it, unless both move alike at q.
 void refuse_own_images_at(const Packing &p, const ContactNetwork &net, const double *q);
+struct WavePhase {
+  double cosine, sine;
+};
+// exp(-2 pi i q . s); whole turns are taken off first, so that it is exact where it is real.
+WavePhase phase_of(const double *q, const std::array<int32_t, JAM_MAX_DIM> &s, int dim);
+// Whether all phases are: then the matrix is.
+bool is_real(const CellsBack &back, const double *q, int dim);
 // JAM_E_MEMORY before any work.
-void need_memory_for_bloch(const RigidityMatrix &g);
+void need_memory_for_bloch(const RigidityMatrix &g, const CellsBack &back, const double *q);
 // Modes of the Hessian at the wave vector q (dim): lambda ascending; vector (d N', nodes, dim, 2), of unit length, left
 // out unless requested.
 Modes bloch_modes(const RigidityMatrix &g, const ContactWeights &w, const CellsBack &back, const double *q,
@@ -34,7 +41,7 @@ Modes bloch_modes(const RigidityMatrix &g, const ContactWeights &w, const CellsB
 struct BlochFlexes {
   std::vector<double> wave;     // (copies, dim)
   std::vector<int64_t> flexes;  // beyond translations
-  std::vector<double> margin;   // least eigenvalue of S^T S that is no translation; NaN without K+
+  std::vector<double> margin;   // least eigenvalue of S^T S that is no translation or flex; NaN without K+
   int64_t total = 0;            // of the flexes
   Verdict jammed = Verdict::undecided;
 };

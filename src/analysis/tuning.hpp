@@ -11,7 +11,8 @@ struct ModesTuning {
   static constexpr size_t always_dense = 300, dense_for_lowest = 3000;
   static constexpr double dense_share = 0.25;
   static constexpr double dense_bytes = 24.0, krylov_vectors = 20.0;  // memory: a matrix entry; beside three a mode
-  static constexpr int restarts = 300;                                // of Lanczos
+  static constexpr double real_wave_bytes = 40.0;  // a matrix entry with the vectors at a real wave vector
+  static constexpr int restarts = 300;             // of Lanczos
   // Modes of one frequency are found one after the other: a probe of this tolerance from a new start asks whether one
   // was missed.
   static constexpr int probes = 200, probe_restarts = 20, at_once = 6;
@@ -20,6 +21,20 @@ struct ModesTuning {
   // Each frequency at a wave vector is found twice: frequencies this close, over the largest, may be mixed.
   static constexpr double mixed = 1e-11;
   static constexpr double leaning = 1e-2;  // and this close have products up to rounding over their distance
+};
+
+struct BlochTuning {
+  static constexpr size_t unknowns_a_flex = 8;  // with more flexes all eigenvalues cost less than the search
+};
+
+// ---- S(q): sums over spheres, exact or by a grid to 1e-12 of their number
+struct FourierTuning {
+  static constexpr double products = 1e8;  // of wave vectors and spheres: fewer are summed exactly
+  static constexpr double longest = 54.0;  // seconds
+  static constexpr double second_a_product = 2.7e-9, second_a_cell = 1.5e-9, second_a_point = 6e-9;
+  // Of the kernel: points across, grid points over waves, decay over the one at which aliases are as large as the cut.
+  static constexpr int width = 16, fine_steps = 32;
+  static constexpr double oversampling = 1.5, share_of_decay = 0.98;
 };
 
 // ---- dense eigenvalue problems

@@ -103,10 +103,10 @@ jam_status jam_bloch_modes(jam_system *sys, const jam_hessian_options *h, const 
     made.check_room(n);
     check_output(vector, vector_len, 2 * n * n, "vector");
     if (n == 0) return JAM_NOT_JAMMED;
+    const CellsBack back = cells_back(p, sys->contacts);
+    need_memory_for_bloch(g, back, wave);  // also of who asks for the size, before arrays are made for it
     if (!table && !vector) return JAM_OK;
-    need_memory_for_bloch(g);
-    const Modes modes =
-        bloch_modes(g, contact_weights(g, diameter_mean(p), options), cells_back(p, sys->contacts), wave, true);
+    const Modes modes = bloch_modes(g, contact_weights(g, diameter_mean(p), options), back, wave, true);
     put_output(modes.vector, vector, 2 * n * n);
     made.give(n, [&](size_t k, auto &row) {
       row[JAM_MODE_LAMBDA] = modes.lambda[k];

@@ -16,14 +16,11 @@ namespace {
 
 class BlockIteration {
  public:
-  BlockIteration(const ConstraintRows &rows, const NormalSolver &solver, double limit, size_t most)
-      : rows_(rows), solver_(solver), limit_(limit), most_(most), random_(5, Stream::analysis_start) {
-    out_.slides = PartTranslations(rows.g);
-  }
+  BlockIteration(const SoftRows &rows, double limit, size_t most)
+      : rows_(rows), limit_(limit), most_(most), random_(5, Stream::analysis_start) {}
 
   SoftestModes run() {
-    const size_t known = static_cast<size_t>(rows_.g.symmetries() + out_.slides.count());
-    const size_t motions = rows_.columns() > known ? rows_.columns() - known : 0;
+    const size_t motions = rows_.columns > rows_.known ? rows_.columns - rows_.known : 0;
     size_t block = SoftestModesTuning::first_block;
     double last = std::numeric_limits<double>::infinity();
     for (int pass = 0; pass < SoftestModesTuning::most_passes; ++pass) {
@@ -58,8 +55,7 @@ class BlockIteration {
   bool orthonormalise(std::vector<double> &x, size_t count) const {
     for (int twice = 0; twice < 2; ++twice) {
       const double before = std::sqrt(dot(x, x));
-      rows_.g.remove_symmetries(x.data());
-      out_.slides.remove(x.data());
+      rows_.remove(x.data());
       const auto take_out = [&](const std::vector<double> &q) {
         const double c = dot(q, x);
         for (size_t k = 0; k < x.size(); ++k) x[k] -= c * q[k];
@@ -75,7 +71,7 @@ class BlockIteration {
   void refill(size_t block) {
     if (x_.size() > block) x_.resize(block);
     while (x_.size() < block) {
-      std::vector<double> fresh(rows_.columns());
+      std::vector<double> fresh(rows_.columns);
       do
         for (double &v : fresh) v = random_.normal();
       while (!orthonormalise(fresh, x_.size()));
@@ -84,17 +80,17 @@ class BlockIteration {
   }
   // One pass of inverse iteration, then the Ritz vectors of A^T A in the block, ascending.
   void step() {
-    const size_t n = rows_.columns(), b = x_.size();
+    const size_t n = rows_.columns, b = x_.size();
     std::vector<double> all(n * b);
     for (size_t k = 0; k < b; ++k)
       std::copy(x_[k].begin(), x_[k].end(), all.begin() + static_cast<std::ptrdiff_t>(k * n));
-    solver_.solve(all.data(), static_cast<int>(b));
+    rows_.solve(all.data(), static_cast<int>(b));
     for (size_t k = 0; k < b; ++k) {
       std::copy_n(all.begin() + static_cast<std::ptrdiff_t>(k * n), n, x_[k].begin());
       while (!orthonormalise(x_[k], k))
         for (double &v : x_[k]) v = random_.normal();
     }
-    Eigen::MatrixXd ax(rows_.rows(), b);
+    Eigen::MatrixXd ax(rows_.rows, b);
     for (size_t k = 0; k < b; ++k) rows_.multiply(x_[k].data(), ax.col(static_cast<Eigen::Index>(k)).data());
     const SymmetricEigen ritz = symmetric_eigen(ax.transpose() * ax);
     std::vector<std::vector<double>> turned(b, std::vector<double>(n, 0.0));
@@ -105,7 +101,7 @@ class BlockIteration {
       }
     x_ = std::move(turned);
     value_.clear();
-    std::vector<double> y(rows_.rows());
+    std::vector<double> y(rows_.rows);
     for (const auto &x : x_) {  // from A x itself: the Gram matrix loses the digits of small values
       rows_.multiply(x.data(), y.data());
       value_.push_back(dot(y, y));
@@ -131,8 +127,7 @@ class BlockIteration {
     return count;
   }
 
-  const ConstraintRows &rows_;
-  const NormalSolver &solver_;
+  const SoftRows &rows_;
   const double limit_;
   const size_t most_;
   Rng random_;
@@ -143,8 +138,20 @@ class BlockIteration {
 
 }  // namespace
 
+SoftestModes softest_modes(const SoftRows &rows, double limit, size_t most_flexes) {
+  return BlockIteration(rows, limit, most_flexes).run();
+}
+
 SoftestModes softest_modes(const ConstraintRows &rows, const NormalSolver &solver, double limit, size_t most_flexes) {
-  return BlockIteration(rows, solver, limit, most_flexes).run();
+  const PartTranslations slides(rows.g);
+  SoftestModes out =
+      softest_modes({rows.rows(), rows.columns(), static_cast<size_t>(rows.g.symmetries() + slides.count()),
+                     [&](const double *x, double *y) { rows.multiply(x, y); },
+                     [&](double *x) { rows.g.remove_symmetries(x), slides.remove(x); },
+                     [&](double *x, int count) { solver.solve(x, count); }},
+                    limit, most_flexes);
+  out.slides = slides;
+  return out;
 }
 
 }  // namespace jam::inside

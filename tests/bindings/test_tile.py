@@ -192,6 +192,17 @@ class Rigidity(unittest.TestCase):
                 unjammed += moves
         self.assertGreater(unjammed, 8)
 
+    def test_many_spheres_have_the_flexes_and_margin_of_their_copies(self):
+        """At q = 0 and 1/2 the rows are real, at 1/3 complex. An iteration finds the margin, to 1e-3 a pass."""
+        s = jammed(160, 3, dim=2)
+        for count in ((2, 1), (3, 1)):
+            found, rows = s.bloch_rigidity(count), rows_of(s.tile(count))
+            rows = rows[:, np.abs(rows).sum(0) > 0]
+            eigenvalues = np.linalg.eigvalsh(rows.T @ rows)
+            flexes = (eigenvalues < 1e-12).sum()
+            self.assertEqual(found.flexes.sum(), flexes - 2)
+            np.testing.assert_allclose(found.margin.min(), eigenvalues[flexes], rtol=2e-2)
+
     def test_crystals_stay_jammed(self):
         t = jam.System.from_arrays([[0, 0]], 1.0 - 1e-13, cell=HEXAGONAL).tile((2, 2))
         t.contacts_from_geometry(tolerance=1e-9)

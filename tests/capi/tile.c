@@ -1,5 +1,7 @@
-/* jam_tile: one copy has the bits of the packing; what cannot be tiled is refused by name, before any work. */
+/* jam_tile: one copy has the bits of the packing; what cannot be tiled is refused by name, before any work,
+ * and modes at a wave vector before memory is taken. */
 #include <jam/jam.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -104,11 +106,31 @@ static void what_cannot_be_tiled_is_named(void **state) {
   jam_destroy(sys), jam_destroy(slit), jam_destroy(tube), jam_destroy(ball);
 }
 
+/* So that a binding that asks for the number of modes fills no array in vain. */
+static void modes_at_a_wave_vector_are_refused_with_their_number(void **state) {
+  const struct { double wave[3], bytes; } cases[] = {{{0.5, 0.0, 0.0}, 40.0}, {{0.5, 0.25, 0.0}, 96.0}};
+  jam_system *sys = crunched(3, 1);
+  (void)state;
+  for (int k = 0; k < 2; ++k) {
+    const double *q = cases[k].wave;
+    size_t rows = 0;
+    assert_int_equal(jam_set_memory_limit(sys, INFINITY), JAM_OK);
+    assert_int_equal(jam_bloch_modes(sys, NULL, q, 3, JAM_MODE_COLUMNS, NULL, 0, NULL, 0, &rows), JAM_OK);
+    const double bytes = cases[k].bytes * (double)(rows * rows);
+    assert_int_equal(jam_set_memory_limit(sys, 0.99 * bytes), JAM_OK);
+    assert_int_equal(jam_bloch_modes(sys, NULL, q, 3, JAM_MODE_COLUMNS, NULL, 0, NULL, 0, &rows), JAM_E_MEMORY);
+    assert_int_equal(jam_set_memory_limit(sys, 1.01 * bytes), JAM_OK);
+    assert_int_equal(jam_bloch_modes(sys, NULL, q, 3, JAM_MODE_COLUMNS, left, MOST, NULL, 0, &rows), JAM_OK);
+  }
+  jam_destroy(sys);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(one_copy_has_the_bits_of_the_packing),
       cmocka_unit_test(copies_of_copies_are_copies),
       cmocka_unit_test(what_cannot_be_tiled_is_named),
+      cmocka_unit_test(modes_at_a_wave_vector_are_refused_with_their_number),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

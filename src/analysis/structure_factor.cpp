@@ -1,8 +1,11 @@
 // S(q) on the wave vectors of a periodic cell, or of the axes of it that repeat.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
+#include "analysis/fourier_sums.hpp"
 #include "analysis/structure.hpp"
+#include "analysis/tuning.hpp"
 #include "core/call_scope.hpp"
 #include "core/error.hpp"
 #include "core/math.hpp"
@@ -86,23 +89,56 @@ std::vector<double> phases_of(const Packing &p) {
   return s;
 }
 
+// For each axis the largest coefficient of a wave vector. Waves across walls would show the container: those along the
+// axes that repeat are left.
+std::vector<int> most_coefficients(const Packing &p, double reach) {
+  const Reciprocal lattice(p.cell);
+  std::vector<int> out;
+  for (int c = 0; c < p.dim; ++c)
+    out.push_back(p.cell.repeats(c) ? static_cast<int>(std::floor(reach * lattice.length[c])) : 0);
+  return out;
+}
+
+FourierSums::Bounds bounds_of(const std::vector<int> &most) {
+  FourierSums::Bounds out{};
+  size_t axes = 0;
+  for (const int m : most)
+    if (m > 0) out[axes++] = m;
+  return out;
+}
+
+FourierSums fourier_sums(const Packing &p, const std::vector<int> &most) {
+  std::vector<double> s;
+  size_t axes = 0;
+  for (const int m : most) axes += m > 0;
+  Cell::Vector x{};
+  for (size_t i = 0; i < p.n(); ++i) {
+    p.cell.fraction(&p.position[i * most.size()], x.data());
+    for (size_t c = 0; c < most.size(); ++c)
+      if (most[c] > 0) s.push_back(x[c]);
+  }
+  return {s, axes, bounds_of(most)};
+}
+
+enum class SumsBy { lengths_only, products, grid };
+
 class Sum {
  public:
-  Sum(const Packing &p, double reach, double vectors, bool lengths_only)
+  Sum(const Packing &p, double reach, double vectors, SumsBy by)
       : lattice_(p.cell),
-        n_(lengths_only ? 0 : p.n()),
+        n_(by == SumsBy::products ? p.n() : 0),
         spheres_(static_cast<double>(p.n())),
         reach2_(reach * reach),
         vectors_(vectors),
+        most_(most_coefficients(p, reach)),
         re_(p.dim + 1, std::vector<double>(n_, 1.0)),
         im_(p.dim + 1, std::vector<double>(n_, 0.0)) {
     const int d = p.dim;
     const double step = 2.0 * math::pi / p.cell.side();
+    if (by == SumsBy::grid) sums_.emplace(fourier_sums(p, most_));
     const std::vector<double> s = phases_of(p);
     // cos and sin for every component, coefficient and sphere, so that inner loops run over spheres
     for (int c = 0; c < d; ++c) {
-      // Waves across walls would show the container: those along the axes that repeat are left.
-      most_.push_back(p.cell.repeats(c) ? static_cast<int>(std::floor(reach * lattice_.length[c])) : 0);
       const size_t width = 2 * static_cast<size_t>(most_[c]) + 1;
       CallScope::need_memory(static_cast<double>(width * n_) * 2.0 * sizeof(double), "phases of the spheres");
       co_.emplace_back(width * n_);
@@ -146,6 +182,12 @@ class Sum {
     CallScope::report_share(done_, static_cast<double>(done_) / vectors_);
     ++done_;
     double x = 0.0, y = 0.0;
+    if (sums_) {
+      int m[3] = {0, 0, 0}, axes = 0;
+      for (int c = 0; c < lattice_.dim; ++c)
+        if (most_[c] > 0) m[axes++] = static_cast<int>(coefficient_[c]);
+      x = sums_->at(m).real(), y = sums_->at(m).imag();
+    }
     for (size_t i = 0; i < n_; ++i) x += re_[lattice_.dim][i], y += im_[lattice_.dim][i];
     shells_.add(q2, (x * x + y * y) / spheres_);
   }
@@ -153,7 +195,8 @@ class Sum {
   const Reciprocal lattice_;
   const size_t n_;
   const double spheres_, reach2_, vectors_;
-  std::vector<int> most_;
+  const std::vector<int> most_;
+  std::optional<FourierSums> sums_;
   std::vector<std::vector<double>> co_, si_, re_, im_;
   Cell::Vector coefficient_{};
   int64_t done_ = 0;
@@ -169,9 +212,15 @@ StructureFactor structure_factor(const Packing &p, double q_max, bool lengths_on
   refuse_closed(p, 1, "S(q)");
   const double reach = q_max / unit / step;
   const double vectors = 0.5 * unit_sphere_volume(p.dim) * math::pow(2.0 * reach, p.dim);
-  if (vectors * static_cast<double>(p.n()) > 2e10)
+  const double products = vectors * static_cast<double>(p.n());
+  const std::vector<int> most = most_coefficients(p, reach);
+  const bool fits = std::count_if(most.begin(), most.end(), [](int m) { return m > 0; }) <= 3;
+  const double by_grid = fits ? FourierSums::seconds(p.n(), bounds_of(most)) : HUGE_VAL,
+               direct = FourierTuning::second_a_product * products;
+  const bool grid = products > FourierTuning::products && by_grid < direct;
+  if (std::min(by_grid, direct) > FourierTuning::longest)
     fail(JAM_E_ARGUMENT, "q_max = %g means %.3g wave vectors for %zu spheres: too much work", q_max, vectors, p.n());
-  Sum sum(p, reach, vectors, lengths_only);
+  Sum sum(p, reach, vectors, lengths_only ? SumsBy::lengths_only : grid ? SumsBy::grid : SumsBy::products);
   return sum.run(step, unit);
 }
 

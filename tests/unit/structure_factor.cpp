@@ -1,9 +1,12 @@
 // S(q) in tilted cells: against plain sums, in two bases of one lattice, on a crystal, and in the cube to the bit.
 #include <algorithm>
 #include <complex>
+#include <map>
 
+#include "analysis/fourier_sums.hpp"
 #include "analysis/structure.hpp"
 #include "core/cell_change.hpp"
+#include "core/create.hpp"
 #include "core/math.hpp"
 #include "core/rng.hpp"
 // Last: cmocka defines a macro `fail`.
@@ -141,10 +144,65 @@ void bits_in_the_cube(void **) {
   assert_int_equal(k, f.q.size());
 }
 
+// The sums on a grid against plain ones, for one axis to three; points lie on both sides of the cell's ends.
+void grid_sums_are_plain_sums(void **) {
+  for (const FourierSums::Bounds &most : {FourierSums::Bounds{9, 4, 6}, {30, 11, 0}, {17, 0, 0}, {1, 1, 1}}) {
+    const size_t axes = most[1] == 0 ? 1 : most[2] == 0 ? 2 : 3, points = 50;
+    Rng rng(3, Stream::analysis_start);
+    std::vector<double> s;
+    for (size_t k = 0; k < points * axes; ++k) s.push_back(2.5 * rng.uniform() - 0.75);
+    const FourierSums sums(s, axes, most);
+    for (int x = 0; x <= most[0]; ++x)
+      for (int y = -most[1]; y <= most[1]; ++y)
+        for (int z = -most[2]; z <= most[2]; ++z) {
+          const int m[3] = {x, y, z};
+          std::complex<double> plain = 0.0;
+          for (size_t i = 0; i < points; ++i) {
+            double turns = 0.0;
+            for (size_t c = 0; c < axes; ++c) turns += m[c] * s[i * axes + c];
+            plain += std::polar(1.0, 2.0 * M_PI * turns);
+          }
+          assert_true(std::abs(sums.at(m) - plain) < 1e-11 * points);
+        }
+  }
+}
+
+// Enough products that a grid is used: shells of the first lengths against plain sums, and one axis between walls.
+void many_spheres_by_a_grid(void **) {
+  for (const int32_t walls : {0, 2}) {
+    jam_create_options o = default_create_options();
+    o.n = walls ? 30000 : 4000, o.dim = 2, o.packing_fraction = 0.2, o.walls = walls;
+    const Packing p = make_packing(o, nullptr, 0, nullptr, 0);
+    const double unit = diameter_mean(p), step = 2.0 * M_PI * unit / p.cell.side();
+    const StructureFactor f = structure_factor(p, (walls ? 6000.0 : 170.0) * step);
+    const int last = walls ? 20 : 5;
+    std::map<int, std::pair<double, int>> shell;
+    for (int x = -last; x <= last; ++x)
+      for (int y = walls ? 0 : -last; y <= (walls ? 0 : last); ++y) {
+        const int n2 = x * x + y * y;
+        if (n2 == 0 || n2 > last * last) continue;
+        std::complex<double> rho = 0.0;
+        for (size_t i = 0; i < p.n(); ++i)
+          rho += std::polar(1.0, 2.0 * M_PI * (x * p.position[2 * i] + y * p.position[2 * i + 1]) / p.cell.side());
+        shell[n2].first += std::norm(rho) / static_cast<double>(p.n()), ++shell[n2].second;
+      }
+    size_t at = 0;
+    for (const auto &[n2, sum] : shell) {
+      assert_true(std::fabs(f.q[at] - step * std::sqrt(n2)) < 1e-12 * f.q[at]);
+      assert_true(std::fabs(f.s[at] - sum.first / sum.second) < 1e-9);
+      ++at;
+    }
+  }
+}
+
 }  // namespace
 
 int main() {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(plain_sum), cmocka_unit_test(the_basis_does_not_matter),
-                                     cmocka_unit_test(bragg_peaks), cmocka_unit_test(bits_in_the_cube)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(grid_sums_are_plain_sums),
+                                     cmocka_unit_test(many_spheres_by_a_grid),
+                                     cmocka_unit_test(plain_sum),
+                                     cmocka_unit_test(the_basis_does_not_matter),
+                                     cmocka_unit_test(bragg_peaks),
+                                     cmocka_unit_test(bits_in_the_cube)};
   return cmocka_run_group_tests_name("structure_factor", tests, nullptr, nullptr);
 }

@@ -15,18 +15,24 @@ typedef struct content {
   double porosity;    /* NAN: not computed, in d > 3 */
 } content;
 
+/* All but dilute packings have gaps within the first of these. */
 static jam_status find_nearest_gap(const jam_system *sys, double *gap) {
+  static const double within[] = {1e-3, 0.03, 1.0};
   double *all;
-  size_t m = 0;
-  jam_status status = jam_gaps(sys, 1.0, 0, NULL, 0, NULL, 0, &m);
+  size_t m = 0, k;
+  jam_status status = JAM_OK;
   *gap = INFINITY;
-  if (status < 0 || m == 0) return status;
+  for (k = 0; m == 0 && k < sizeof within / sizeof *within; ++k) {
+    status = jam_gaps(sys, within[k], 0, NULL, 0, NULL, 0, &m);
+    if (status < 0) return status;
+  }
+  if (m == 0) return status;
   all = malloc(m * sizeof *all);
   if (!all) {
     jam_set_error("out of memory");
     return JAM_E_MEMORY;
   }
-  status = jam_gaps(sys, 1.0, 0, all, m, NULL, 0, NULL);
+  status = jam_gaps(sys, within[k - 1], 0, all, m, NULL, 0, NULL);
   *gap = all[0];
   free(all);
   return status;

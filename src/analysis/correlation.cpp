@@ -7,6 +7,7 @@
 #include "core/call_scope.hpp"
 #include "core/error.hpp"
 #include "core/math.hpp"
+#include "core/pair_visit.hpp"
 #include "core/shells.hpp"
 #include "network/resolution.hpp"
 
@@ -20,7 +21,6 @@ std::vector<double> pair_correlation(const Packing &p, const int32_t *kind, size
   if (!(r_max > 0.0 && r_max * unit <= 4.0 * p.cell.side()))
     fail(JAM_E_ARGUMENT, "r_max is %g mean diameters, it must be in (0, 4 boxes]", r_max);
   if (bins < 1 || bins > 100000000) fail(JAM_E_ARGUMENT, "bins is %zu, it must be in 1..1e8", bins);
-  check_pair_count(p, r_max * unit);
   auto is = [&](int32_t i, int32_t which) { return which < 0 || kind_len == 0 || kind[i] == which; };
   std::vector<char> of(p.n()), with(p.n());
   double na = 0.0, nb = 0.0;
@@ -29,20 +29,18 @@ std::vector<double> pair_correlation(const Packing &p, const int32_t *kind, size
     nb += with[i] = is(static_cast<int32_t>(i), b);
   }
   std::vector<double> g(bins, 0.0), r(p.dim);
-  const PairList all = find_pairs(p, r_max * unit, 0.0);
-  SparseLook sparse_look;
-  for (size_t k = 0; k < all.size(); ++k) {
-    sparse_look();
-    if (all.wall(k)) continue;
-    // What counts as a contact, to both sides of its distance, must not fall into two bins where that is an edge.
-    // Beyond the last bin it belongs to none.
-    const double x = std::sqrt(pair_vector(p, all, k, r.data())) / (r_max * unit) * (1.0 + contact_gap_limit);
-    const auto bin = static_cast<size_t>(x * static_cast<double>(bins));
-    if (bin >= bins) continue;
-    const int32_t i = all.i[k], j = all.j[k];
-    // ordered pairs (a, b); an image of a sphere with itself stands once in the list for both directions
-    g[bin] += static_cast<double>(is(i, a) && is(j, b)) + static_cast<double>(is(j, a) && is(i, b));
-  }
+  visit_pairs(p, r_max * unit, 0.0, [&](const PairList &part) {
+    for (size_t k = 0; k < part.size(); ++k) {
+      // What counts as a contact, to both sides of its distance, must not fall into two bins where that is an edge.
+      // Beyond the last bin it belongs to none.
+      const double x = std::sqrt(pair_vector(p, part, k, r.data())) / (r_max * unit) * (1.0 + contact_gap_limit);
+      const auto bin = static_cast<size_t>(x * static_cast<double>(bins));
+      if (bin >= bins) continue;
+      const int32_t i = part.i[k], j = part.j[k];
+      // ordered pairs (a, b); an image of a sphere with itself stands once in the list for both directions
+      g[bin] += static_cast<double>(is(i, a) && is(j, b)) + static_cast<double>(is(j, a) && is(i, b));
+    }
+  });
   if (p.container) {
     std::vector<double> edge;
     for (size_t k = 0; k <= bins; ++k)

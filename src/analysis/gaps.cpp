@@ -11,10 +11,13 @@
 #include "core/limits.hpp"
 #include "core/math.hpp"
 #include "core/pair_rule.hpp"
+#include "core/pair_visit.hpp"
 #include "jam/jam.h"
 
 namespace jam::inside {
 
+namespace {
+// JAM_E_MEMORY with the estimate when a list of all pairs within `reach` would be unreasonably long.
 void check_pair_count(const Packing &p, double reach) {
   const double ball = unit_sphere_volume(p.dim) * math::pow(2.0 * reach / p.cell.side(), p.dim),
                n = static_cast<double>(p.n());
@@ -23,6 +26,7 @@ void check_pair_count(const Packing &p, double reach) {
     fail(JAM_E_MEMORY, "about %.3g pairs lie within %g: their list needs %s, more than %s", pairs, reach,
          bytes_text(bytes).c_str(), bytes_text(CallScope::memory_limit()).c_str());
 }
+}  // namespace
 
 PairList pairs_without_contacts(const Packing &p, const ContactNetwork *net, double h_max, bool stable_only) {
   check_pair_count(p, (1.0 + h_max) * diameter_mean(p));
@@ -41,10 +45,20 @@ PairList pairs_without_contacts(const Packing &p, const ContactNetwork *net, dou
   return out;
 }
 
-Gaps find_gaps(const Packing &p, const ContactNetwork *net, double h_max, bool stable_only) {
+namespace {
+PairList pairs_of_gaps(const Packing &p, const ContactNetwork *net, double h_max, bool stable_only) {
   if (!(h_max > 0.0 && h_max <= limits::radius_max))
     fail(JAM_E_ARGUMENT, "h_max is %g, it must be in (0, %g]", h_max, limits::radius_max);
-  const PairList all = pairs_without_contacts(p, net, h_max, stable_only);
+  return pairs_without_contacts(p, net, h_max, stable_only);
+}
+}  // namespace
+
+size_t count_gaps(const Packing &p, const ContactNetwork *net, double h_max, bool stable_only) {
+  return pairs_of_gaps(p, net, h_max, stable_only).size();
+}
+
+Gaps find_gaps(const Packing &p, const ContactNetwork *net, double h_max, bool stable_only) {
+  const PairList all = pairs_of_gaps(p, net, h_max, stable_only);
   std::vector<double> r(p.dim);
   std::vector<std::pair<double, size_t>> found(all.size());
   SparseLook sparse_look;
@@ -71,11 +85,10 @@ void check_near_coordination(double h_max) {
 }
 
 std::vector<int32_t> near_coordination(const Packing &p, double h_max) {
-  check_pair_count(p, (1.0 + h_max) * diameter_mean(p));
-  const PairList near = find_pairs(p, 0.0, 1.0 + h_max);
   std::vector<int32_t> z(p.n(), 0);
-  for (size_t k = 0; k < near.size(); ++k)
-    if (!near.wall(k)) ++z[near.i[k]], ++z[near.j[k]];
+  visit_pairs(p, 0.0, 1.0 + h_max, [&](const PairList &near) {
+    for (size_t k = 0; k < near.size(); ++k) ++z[near.i[k]], ++z[near.j[k]];
+  });
   return z;
 }
 

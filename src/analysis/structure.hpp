@@ -11,14 +11,12 @@ namespace jam::inside {
 // stable_only leaves out pairs with a rattler of the network.
 PairList pairs_without_contacts(const Packing &p, const ContactNetwork *network, double h_max, bool stable_only);
 
-// JAM_E_MEMORY with the estimate when a list of all pairs within `reach` would be unreasonably long.
-void check_pair_count(const Packing &p, double reach);
-
 struct Gaps {
   std::vector<double> gap;    // ascending
   std::vector<int32_t> pair;  // (gaps, 2)
 };
-// Their gaps.
+// Their gaps, and how many there are.
+size_t count_gaps(const Packing &p, const ContactNetwork *network, double h_max, bool stable_only);
 Gaps find_gaps(const Packing &p, const ContactNetwork *network, double h_max, bool stable_only);
 
 // Spheres within a gap h < h_max of each one, every image.

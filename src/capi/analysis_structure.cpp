@@ -33,8 +33,15 @@ jam_status jam_gaps(const jam_system *sys, double h_max, int32_t stable_only, do
   return guard_const(sys, [&]() -> jam_status {
     check_flag(stable_only, "stable_only");
     if (stable_only) need_contacts(sys);
-    const Gaps g = find_gaps(sys->packing, sys->contacts_of_any_kind(), h_max, stable_only != 0);
     if (!needed && !gap && !pair) fail(JAM_E_NULL, "needed is NULL and there is no output array");
+    if (!gap && !pair) {
+      const size_t count = count_gaps(sys->packing, sys->contacts_of_any_kind(), h_max, stable_only != 0);
+      check_output(gap, gap_len, count, "gap");
+      check_output(pair, pair_len, count, "pair");
+      *needed = count;
+      return JAM_OK;
+    }
+    const Gaps g = find_gaps(sys->packing, sys->contacts_of_any_kind(), h_max, stable_only != 0);
     if (needed) *needed = g.gap.size();
     check_output(gap, gap_len, g.gap.size(), "gap");
     check_output(pair, pair_len, g.pair.size(), "pair");

@@ -8,6 +8,7 @@
 #include "core/limits.hpp"
 #include "core/math.hpp"
 #include "core/pair_rule.hpp"
+#include "core/pair_visit.hpp"
 #include "core/pairs.hpp"
 #include "core/rng.hpp"
 #include "core/shells.hpp"
@@ -198,15 +199,16 @@ std::vector<double> Observer::between_walls(const Packing &p, const std::vector<
 // Number of pairs in each bin of the gap h over that of an ideal gas; for equal spheres this is g at contact.
 std::vector<double> Observer::sample_gaps(const Packing &p) const {
   std::vector<double> density(gaps_.bins(), 0.0);
-  const PairList pairs = find_pairs(p, 0.0, 1.0 + options_.gap_max);
-  double r[JAM_MAX_DIM];
-  for (size_t k = 0; k < pairs.size(); ++k) {
-    if (pairs.i[k] == pairs.j[k] || pairs.wall(k)) continue;
-    const double sigma = contact_distance(p, pairs.i[k], pairs.j[k]);
-    const double gap = std::sqrt(pair_vector(p, pairs, k, r)) / sigma - 1.0;
-    const auto at = std::upper_bound(gaps_.edge.begin() + 1, gaps_.edge.end(), gap);
-    if (at != gaps_.edge.end()) density[static_cast<size_t>(at - gaps_.edge.begin()) - 1] += 1.0;
-  }
+  visit_pairs(p, 0.0, 1.0 + options_.gap_max, [&](const PairList &pairs) {
+    double r[JAM_MAX_DIM];
+    for (size_t k = 0; k < pairs.size(); ++k) {
+      if (pairs.i[k] == pairs.j[k]) continue;
+      const double sigma = contact_distance(p, pairs.i[k], pairs.j[k]);
+      const double gap = std::sqrt(pair_vector(p, pairs, k, r)) / sigma - 1.0;
+      const auto at = std::upper_bound(gaps_.edge.begin() + 1, gaps_.edge.end(), gap);
+      if (at != gaps_.edge.end()) density[static_cast<size_t>(at - gaps_.edge.begin()) - 1] += 1.0;
+    }
+  });
   if (p.container) {
     std::vector<double> edge(gaps_.edge);
     for (double &h : edge) h += 1.0;
@@ -234,13 +236,14 @@ std::vector<double> Observer::sample_gaps(const Packing &p) const {
 std::vector<double> Observer::sample_correlation(const Packing &p) const {
   std::vector<double> density(correlation_.bins(), 0.0);
   const double sigma = diameter_mean(p), width = options_.r_max / options_.r_bins;
-  const PairList pairs = find_pairs(p, options_.r_max * sigma, 0.0);
-  double r[JAM_MAX_DIM];
-  for (size_t k = 0; k < pairs.size(); ++k) {
-    if (pairs.i[k] == pairs.j[k] || pairs.wall(k)) continue;
-    const auto bin = static_cast<size_t>(std::sqrt(pair_vector(p, pairs, k, r)) / (sigma * width));
-    if (bin < density.size()) density[bin] += 1.0;
-  }
+  visit_pairs(p, options_.r_max * sigma, 0.0, [&](const PairList &pairs) {
+    double r[JAM_MAX_DIM];
+    for (size_t k = 0; k < pairs.size(); ++k) {
+      if (pairs.i[k] == pairs.j[k]) continue;
+      const auto bin = static_cast<size_t>(std::sqrt(pair_vector(p, pairs, k, r)) / (sigma * width));
+      if (bin < density.size()) density[bin] += 1.0;
+    }
+  });
   if (p.container) {
     std::vector<double> edge(correlation_.edge);
     for (double &x : edge) x *= sigma;

@@ -4,7 +4,9 @@
 #include "test.h"
 
 #include "core/create.hpp"
-#include "core/pairs.hpp"
+#include "core/pair_rule.hpp"
+#include "core/pair_visit.hpp"
+#include "core/tuning.hpp"
 
 using namespace jam::inside;
 
@@ -121,6 +123,55 @@ void closest_pair_by_brute_force(void **) {
   assert_true(c.i == 0 && c.j == 1 && std::fabs(c.gap - 0.5) < 1e-14);
 }
 
+// From so many spheres on they are searched along a curve. The list is that of the numbers all the same, and those
+// that are only visited are the same pairs.
+void many_spheres_by_distance_to_all(void **) {
+  for (const bool levels : {false, true}) {
+    jam_create_options o = default_create_options();
+    o.n = static_cast<int32_t>(PairListTuning::along_curve_from), o.dim = 2, o.packing_fraction = 0.2;
+    std::vector<double> sizes(o.n, 1.0);
+    for (size_t k = 0; levels && k < sizes.size(); k += 1000) sizes[k] = 20.0;
+    const Packing p = make_packing(o, nullptr, 0, sizes.data(), sizes.size());
+    const PairList all = find_pairs(p, 0.0, 1.5);
+    double r[JAM_MAX_DIM];
+    ClosestPair least{HUGE_VAL, -1, -1};
+    for (size_t k = 0; k < all.size(); ++k) {
+      if (k > 0) assert_true(std::make_pair(all.i[k - 1], all.j[k - 1]) < std::make_pair(all.i[k], all.j[k]));
+      const double gap = std::sqrt(pair_vector(p, all, k, r)) / contact_distance(p, all.i[k], all.j[k]) - 1.0;
+      if (gap < least.gap) least = {gap, all.i[k], all.j[k]};
+    }
+    const ClosestPair found = closest_pair(p);
+    assert_true(found.gap == least.gap && found.i == least.i && found.j == least.j);
+    for (int32_t i = 0; i < o.n; i += o.n / 50) {  // pairs with all others
+      std::vector<size_t> listed;
+      for (size_t k = 0; k < all.size(); ++k)
+        if (all.i[k] == i || all.j[k] == i) listed.push_back(k);
+      size_t at = 0;
+      for (int32_t j = 0; j < o.n; ++j) {
+        if (j == i) continue;
+        const int32_t a = std::min(i, j), b = std::max(i, j);
+        double dx[2], shift[2], r2 = 0.0;
+        for (size_t c = 0; c < 2; ++c) dx[c] = p.position[2 * a + c] - p.position[2 * b + c];
+        p.cell.nearest_shift(dx, shift);
+        for (size_t c = 0; c < 2; ++c) r2 += (dx[c] + shift[c]) * (dx[c] + shift[c]);
+        if (!(std::sqrt(r2) < 1.5 * contact_distance(p, a, b))) continue;
+        assert_true(at < listed.size());
+        const size_t k = listed[at++];
+        assert_true(all.i[k] == a && all.j[k] == b && all.offset[2 * k] == shift[0] &&
+                    all.offset[2 * k + 1] == shift[1]);
+      }
+      assert_int_equal(at, listed.size());
+    }
+    std::vector<std::pair<int32_t, int32_t>> visited;
+    visit_pairs(p, 0.0, 1.5, [&](const PairList &part) {
+      for (size_t k = 0; k < part.size(); ++k) visited.emplace_back(part.i[k], part.j[k]);
+    });
+    std::sort(visited.begin(), visited.end());
+    assert_int_equal(visited.size(), all.size());
+    for (size_t k = 0; k < all.size(); ++k) assert_true(visited[k] == std::make_pair(all.i[k], all.j[k]));
+  }
+}
+
 }  // namespace
 
 int main() {
@@ -129,6 +180,7 @@ int main() {
                               cmocka_unit_test(own_images),
                               cmocka_unit_test(wrapping_keeps_vectors),
                               cmocka_unit_test(values_carried_over),
-                              cmocka_unit_test(closest_pair_by_brute_force)};
+                              cmocka_unit_test(closest_pair_by_brute_force),
+                              cmocka_unit_test(many_spheres_by_distance_to_all)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

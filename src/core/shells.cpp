@@ -42,6 +42,25 @@ double gauss_with_roots(const std::vector<double> &breaks, const F &f) {
   return sum;
 }
 
+// Area of the part of the unit sphere with x > a, y > b and z > c, none of them negative: angles less what arcs turn by
+// (theorem of Gauss and Bonnet).
+double corner(double a, double b, double c) {
+  if (!(a * a + b * b + c * c < 1.0)) return 0.0;
+  constexpr double quarter = 0.5 * math::pi;
+  if ((a == 0.0) + (b == 0.0) + (c == 0.0) >= 2) return quarter * (1.0 - std::max({a, b, c}));
+  const double at[3] = {a, b, c};
+  double sum = -math::pi, ring[3];
+  for (int k = 0; k < 3; ++k) ring[k] = std::sqrt(1.0 - at[k] * at[k]);
+  for (int k = 0; k < 3; ++k) {
+    const int m = (k + 1) % 3, n = (k + 2) % 3;
+    const double p = at[k] * at[m];
+    sum += p == 0.0 ? quarter : math::acos(clamped(p / (ring[k] * ring[m])));
+    if (at[k] == 0.0) continue;
+    sum -= at[k] * (math::acos(clamped(at[m] / ring[k])) + math::acos(clamped(at[n] / ring[k])) - quarter);
+  }
+  return std::max(0.0, sum);
+}
+
 // Walls as seen from a point, all moved inwards by the radius of the spheres that they hold.
 class View {
  public:
@@ -80,9 +99,9 @@ class View {
     if (r <= clear_) return 1.0;
     if (dim_ == 2) return circle(r);
     if (round_axes_ == 3) return 0.5 * (1.0 + cosine_out(r));
+    if (round_axes_ == 0) return box(r);
     const double below = std::max(-r, std::min(r, flat_[2][0])), above = std::max(-r, std::min(r, flat_[2][1]));
     if (below + above <= 0.0) return 0.0;
-    if (plane_is_open()) return (below + above) / (2.0 * r);
     // A slice at height z is a circle; equal heights hold equal shares of a sphere (Archimedes).
     std::vector<double> breaks{-below, above};
     const auto note = [&](double squared) {
@@ -91,18 +110,39 @@ class View {
         for (const double at : {-z, z})
           if (at > -below && at < above) breaks.push_back(at);
     };
-    if (round_axes_ == 2) note((round_ - off_) * (round_ - off_)), note((round_ + off_) * (round_ + off_));
-    for (const double a : flat_[0]) {
-      note(a * a);
-      for (const double b : flat_[1]) note(b * b), note(a * a + b * b);
-    }
+    note((round_ - off_) * (round_ - off_)), note((round_ + off_) * (round_ + off_));
     std::sort(breaks.begin(), breaks.end());
     return gauss_with_roots(breaks, [&](double z) { return circle(std::sqrt(std::max(0.0, r * r - z * z))); }) /
            (2.0 * r);
   }
-  bool plane_is_open() const {
-    return round_axes_ == 0 && flat_[0][0] == far_away && flat_[0][1] == far_away && flat_[1][0] == far_away &&
-           flat_[1][1] == far_away;
+  // Between flat walls: of each octant what lies beyond one bound along each axis and within the other, as corners with
+  // signs. Octants with the same bound are taken together.
+  double box(double r) const {
+    struct Bound {
+      double at, sign;
+    };
+    std::array<std::array<Bound, 3>, 3> bounds;
+    std::array<size_t, 3> count{};
+    for (size_t c = 0; c < 3; ++c)
+      for (size_t side = 0; side < 2; ++side) {
+        const double low = std::max(0.0, -flat_[c][1 - side] / r), high = flat_[c][side] / r;
+        if (!(low < std::min(1.0, high))) continue;
+        const auto add = [&](double at, double sign) {
+          if (count[c] > 0 && bounds[c][0].at == at)
+            bounds[c][0].sign += sign;
+          else
+            bounds[c][count[c]++] = {at, sign};
+        };
+        add(low, 1.0);
+        if (high < 1.0) add(high, -1.0);
+      }
+    double seen = 0.0;
+    for (size_t x = 0; x < count[0]; ++x)
+      for (size_t y = 0; y < count[1]; ++y)
+        for (size_t z = 0; z < count[2]; ++z)
+          seen += bounds[0][x].sign * bounds[1][y].sign * bounds[2][z].sign *
+                  corner(bounds[0][x].at, bounds[1][y].at, bounds[2][z].at);
+    return std::min(1.0, std::max(0.0, seen / (4.0 * math::pi)));
   }
   // Points at the distance r are within the round wall when the cosine of their angle to the outward direction is less.
   double cosine_out(double r) const {

@@ -4,6 +4,7 @@
 #include "analysis_networks.hpp"
 #include "core/create.hpp"
 #include "core/rng.hpp"
+#include "core/shells.hpp"
 #include "jam/jam.h"
 #include "network/contacts_from_geometry.hpp"
 // Last: cmocka defines a macro `fail`.
@@ -180,6 +181,54 @@ void contacts_lie_in_one_bin(void **) {
   }
 }
 
+// Where the centre of another sphere can be at a distance from one between flat walls: by directions on a spiral, which
+// divide a sphere evenly; and all of the room where no wall is farther.
+void room_between_flat_walls(void **) {
+  for (const int32_t walls : {1, 4, 3, 7}) {
+    jam_create_options o = default_create_options();
+    o.n = 12, o.packing_fraction = 0.1, o.walls = walls;
+    const std::vector<double> sizes = {1.0, 1.7, 1.0, 1.7, 1.0, 1.7, 1.0, 1.7, 1.0, 1.7, 1.0, 1.7};
+    const Packing p = make_packing(o, nullptr, 0, sizes.data(), sizes.size());
+    std::vector<double> edge, narrow;
+    for (int k = 0; k <= 18; ++k) edge.push_back(0.1 * k * p.cell.side());
+    for (int k = 0; k <= 180; ++k) narrow.push_back(0.01 * k * p.cell.side());
+    for (size_t i = 0; i < 2; ++i)
+      for (const size_t other : {0, 1}) {
+        std::vector<char> of(12, 0), with(12, 0);
+        of[i] = with[other] = 1;
+        const std::vector<double> found = pairs_of_even_spread(p, of, with, edge);
+        const double radius = 0.5 * p.diameter[other];
+        double room = p.cell.volume(), total = 0.0, scale = 0.1 * room;
+        for (int c = 0; c < 3; ++c) room *= walls >> c & 1 ? 1.0 - 2.0 * radius / p.cell.edge(c) : 1.0;
+        for (size_t k = 0; k < found.size(); ++k) {
+          double volume = 0.0;
+          constexpr int shells = 8, directions = 8000;
+          for (int s = 0; s < shells; ++s) {
+            const double r = edge[k] + (s + 0.5) / shells * (edge[k + 1] - edge[k]);
+            int seen = 0;
+            for (int m = 0; m < directions; ++m) {
+              const double z = (2.0 * m + 1.0) / directions - 1.0, flat = std::sqrt(1.0 - z * z),
+                           turn = m * M_PI * (3.0 - std::sqrt(5.0)),
+                           u[3] = {flat * std::cos(turn), flat * std::sin(turn), z};
+              bool inside = true;
+              for (int c = 0; c < 3; ++c) {
+                const double x = p.position[3 * i + c] + r * u[c];
+                inside = inside && (!(walls >> c & 1) || (x >= radius && x <= p.cell.edge(c) - radius));
+              }
+              seen += inside;
+            }
+            volume += 4.0 * M_PI * r * r * seen / directions * (edge[k + 1] - edge[k]) / shells;
+          }
+          scale = std::max(scale, volume);
+          // The two quadratures: directions along an edge, and 1/8 of a shell where a wall cuts it.
+          assert_true(std::fabs(found[k] * room - volume) < 0.02 * scale);
+        }
+        for (const double x : pairs_of_even_spread(p, of, with, narrow)) total += x;
+        if (walls == 7) assert_true(std::fabs(total - 1.0) < 1e-5);  // the share has kinks at edges and corners
+      }
+  }
+}
+
 void structure_factor_direct(void **) {
   const Packing p = fluid(2, 60, 0.2);
   const double unit = diameter_mean(p), step = 2.0 * M_PI * unit;
@@ -214,6 +263,7 @@ int main() {
       cmocka_unit_test(local_fraction_of_fcc),   cmocka_unit_test(contact_sums_match_their_pairs),
       cmocka_unit_test(gaps_by_brute_force),     cmocka_unit_test(classes),
       cmocka_unit_test(values_by_class),         cmocka_unit_test(partial_correlations_add_up),
-      cmocka_unit_test(structure_factor_direct), cmocka_unit_test(contacts_lie_in_one_bin)};
+      cmocka_unit_test(room_between_flat_walls), cmocka_unit_test(structure_factor_direct),
+      cmocka_unit_test(contacts_lie_in_one_bin)};
   return cmocka_run_group_tests_name("analysis_structure", tests, nullptr, nullptr);
 }

@@ -134,9 +134,12 @@ struct MonteCarloTuning {
   static constexpr int64_t fewest_cells = 4, spheres_between_looks = 64;
 };
 
-// ---- Monte Carlo: choice of the step, 480 sweeps, 0.1 s at n = 1024
+// ---- Monte Carlo: choice of the step, by 260 sweeps at n = 1024, 25 from n = 12288 on
 struct StepTuning {
-  static constexpr int coarse = 60, fine = 20, coarse_sweeps = 4, fine_sweeps = 12;
+  static constexpr int coarse = 60, fine = 20;
+  // Of a round: as many sweeps as these trials take, at most so many.
+  static constexpr int64_t coarse_trials = 4096, fine_trials = 12288, coarse_sweeps = 4, fine_sweeps = 12;
+  static constexpr double settled = 0.2;                  // relative change of the step that ends the coarse rounds
   static constexpr double first = 0.1, smallest = 1e-12;  // mean diameters
   static constexpr double least_share = 1e-3, most_growth = 2.0, most_fall = 0.3;
 };

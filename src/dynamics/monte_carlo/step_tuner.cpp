@@ -1,5 +1,5 @@
-// Acceptance falls about exponentially with the step: each round of sweeps gives a better one. The last rounds are
-// averaged.
+// Acceptance falls about exponentially with the step: each round of sweeps gives a better one. Coarse rounds end when
+// the step settles. The fine ones are averaged.
 #include "dynamics/monte_carlo/step_tuner.hpp"
 
 #include <algorithm>
@@ -17,12 +17,12 @@ namespace {
 constexpr int64_t no_run = -1;  // no run has this number
 constexpr int64_t rounds = StepTuning::coarse + StepTuning::fine;
 bool is_coarse(int64_t round) { return round < StepTuning::coarse; }
-int64_t sweeps_of(int64_t round) { return is_coarse(round) ? StepTuning::coarse_sweeps : StepTuning::fine_sweeps; }
 
 class Rounds {
  public:
   Rounds(const Packing &p, const jam_monte_carlo_options &o)
-      : largest_(largest_monte_carlo_step(p)),
+      : n_(static_cast<int64_t>(p.n())),
+        largest_(largest_monte_carlo_step(p)),
         length_(diameter_mean(p) / p.cell.side()),
         log_wanted_(math::log(o.acceptance)),
         step_(std::min(StepTuning::first, largest_)) {
@@ -58,6 +58,12 @@ class Rounds {
   }
 
  private:
+  // Acceptance needs trials, not sweeps.
+  int64_t sweeps_of(int64_t round) const {
+    const int64_t trials = is_coarse(round) ? StepTuning::coarse_trials : StepTuning::fine_trials,
+                  most = is_coarse(round) ? StepTuning::coarse_sweeps : StepTuning::fine_sweeps;
+    return std::min(most, (trials + n_ - 1) / n_);
+  }
   void make(const Packing &p, jam_monte_carlo_options o) {
     o.step = step_;
     mc_ = make_monte_carlo(p, o, no_run);
@@ -69,14 +75,19 @@ class Rounds {
         tried ? static_cast<double>(mc_->counts.moved - before_.moved) / static_cast<double>(tried) : 1.0;
     const double factor = math::log(std::max(share, StepTuning::least_share)) / log_wanted_,
                  change = math::pow(std::max(factor, StepTuning::least_share), is_coarse(round_) ? -1.0 : -0.5);
+    const double before = step_;
     step_ = std::min(largest_, step_ * std::min(StepTuning::most_growth, std::max(StepTuning::most_fall, change)));
     if (step_ < StepTuning::smallest)
       fail(JAM_E_ARGUMENT, "no step above %g mean diameters is accepted: the spheres are in contact",
            StepTuning::smallest);
     mc_->set_step(step_ * length_);
-    if (!is_coarse(round_)) mean_log_ += math::log(step_) / StepTuning::fine;
+    if (!is_coarse(round_))
+      mean_log_ += math::log(step_) / StepTuning::fine;
+    else if (std::fabs(step_ - before) < StepTuning::settled * before)
+      round_ = StepTuning::coarse - 1;
   }
 
+  int64_t n_;
   double largest_, length_, log_wanted_;  // of a step in mean diameters; its unit in box sides; log of the acceptance
   std::unique_ptr<MonteCarlo> mc_;
   MonteCarloCounts before_;                     // at the beginning of this round

@@ -60,6 +60,13 @@ class Pores {
     }
     return to_walls(p_, s.x, s.r) >= s.r - rounding * length_;
   }
+  // Whether one pore may touch two surfaces. Walls are not asked.
+  bool may_share(size_t a, size_t b) const {
+    if (std::max(a, b) >= near_.size()) return true;
+    const Point d = minus(near_[a].x, near_[b].x);
+    const double most = near_[a].r + near_[b].r + 2.0 * most_ + rounding * length_;
+    return dot(d, d) <= most * most;
+  }
   const Packing &p_;
   double length_, most_;
   Balls balls_;
@@ -80,17 +87,35 @@ double Pores::bound_radius() const {
   }
   for (double reach = length_;; reach *= 2.0) {  // until a surface is in reach of every point
     const Balls balls(p_, reach);
+    const auto clear = [&](int64_t x, int64_t y, int64_t z) {
+      const auto at = [&](int64_t k, int c) { return (static_cast<double>(k) + 0.5) * step[c]; };
+      const Point here{at(x, 0), at(y, 1), p_.dim == 3 ? at(z, 2) : 0.0};
+      return to_walls(p_, here, balls.clearance(here, reach));
+    };
+    // Blocks of three points along each axis: the middle ones first, then the blocks that may have a better one.
+    std::vector<double> middle;
     double most = 0.0;
-    for (int64_t z = 0; z < count[2]; ++z)
-      for (int64_t y = 0; y < count[1]; ++y) {
-        CallScope::look();
-        for (int64_t x = 0; x < count[0]; ++x) {
-          const auto at = [&](int64_t k, int c) { return (static_cast<double>(k) + 0.5) * step[c]; };
-          const Point here{at(x, 0), at(y, 1), p_.dim == 3 ? at(z, 2) : 0.0};
-          most = std::max(most, to_walls(p_, here, balls.clearance(here, reach)));
+    const auto middle_of = [&](int64_t first, int c) { return std::min(first + 1, count[c] - 1); };
+    const auto each_block = [&](const auto &f) {
+      for (int64_t z = 0; z < count[2]; z += 3)
+        for (int64_t y = 0; y < count[1]; y += 3) {
+          CallScope::look();
+          for (int64_t x = 0; x < count[0]; x += 3) f(x, y, z);
         }
-      }
-    if (most < reach) return most + 0.5 * std::sqrt(dot(step, step)) + rounding * length_;  // lattices reach the bound
+    };
+    each_block([&](int64_t x, int64_t y, int64_t z) {
+      middle.push_back(clear(middle_of(x, 0), middle_of(y, 1), middle_of(z, 2)));
+      most = std::max(most, middle.back());
+    });
+    const double diagonal = std::sqrt(dot(step, step));
+    size_t block = 0;
+    each_block([&](int64_t x, int64_t y, int64_t z) {
+      if (middle[block++] + diagonal + rounding * length_ < most) return;
+      for (int64_t c = z; c < std::min(z + 3, count[2]); ++c)
+        for (int64_t b = y; b < std::min(y + 3, count[1]); ++b)
+          for (int64_t a = x; a < std::min(x + 3, count[0]); ++a) most = std::max(most, clear(a, b, c));
+    });
+    if (most < reach) return most + 0.5 * diagonal + rounding * length_;  // lattices reach the bound
   }
 }
 
@@ -104,16 +129,21 @@ void Pores::find_vertices() {
     balls_.near(base.x, base.r + 2.0 * most_, near_, static_cast<int32_t>(i));
     take_rows(base);
     balls_.near(base.x, base.r + 2.0 * most_, others);
+    std::sort(others.begin(), others.end(), [&](const Ball &a, const Ball &b) {  // those that stop most pores first
+      const Point u = minus(a.x, base.x), v = minus(b.x, base.x);
+      return std::sqrt(dot(u, u)) - a.r < std::sqrt(dot(v, v)) - b.r;
+    });
     const auto keep = [&](const Ball &s) {
       if (s.r <= most_ && is_free(s, others)) vertex_.push_back(s);
     };
     for (size_t a = 0; a < rows.size(); ++a) {
       CallScope::look();
-      for (size_t b = a + 1; b < rows.size(); ++b)
-        if (p_.dim == 2)
-          solve(base, rows[a], rows[b], in_plane({0.0, 0.0, 1.0}), keep);
-        else
-          for (size_t c = b + 1; c < rows.size(); ++c) solve(base, rows[a], rows[b], rows[c], keep);
+      for (size_t b = a + 1; b < rows.size(); ++b) {
+        if (!may_share(a, b)) continue;
+        if (p_.dim == 2) solve(base, rows[a], rows[b], in_plane({0.0, 0.0, 1.0}), keep);
+        for (size_t c = b + 1; p_.dim == 3 && c < rows.size(); ++c)
+          if (may_share(a, c) && may_share(b, c)) solve(base, rows[a], rows[b], rows[c], keep);
+      }
     }
     if (in_tube()) solve_in_tube(base, keep);
     if (!curved()) continue;
@@ -181,8 +211,10 @@ double Pores::largest_at(const Point &x) {
   for (size_t a = 0; a < row_.size(); ++a) {
     CallScope::look();
     for (size_t b = a + 1; b < row_.size(); ++b) {
+      if (!may_share(a, b)) continue;
       solve(point, row_[a], row_[b], in_plane_of(row_[a], row_[b]), keep);
-      for (size_t c = b + 1; p_.dim == 3 && c < row_.size(); ++c) solve(point, row_[a], row_[b], row_[c], keep);
+      for (size_t c = b + 1; p_.dim == 3 && c < row_.size(); ++c)
+        if (may_share(a, c) && may_share(b, c)) solve(point, row_[a], row_[b], row_[c], keep);
     }
   }
   if (curved()) solve_on_line(point, row_.back(), keep);

@@ -41,4 +41,6 @@ class PoreSpace(Base):
         if lines:
             shares: Array = image.astype(np.float32)
             return shares
-        return np.where(image < 0, 2, image).astype(np.uint8)
+        solid: Array = (image != 0).view(np.uint8)
+        solid += image < 0
+        return solid

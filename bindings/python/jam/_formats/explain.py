@@ -61,10 +61,18 @@ def _report(cls: type) -> tuple[np.dtype[Any], dict[str, str]]:
     return dtype_of(cls, _as_enum), {"fields": inspect.cleandoc(cls.__doc__ or ""), **text}
 
 
+def report_value(report: Any) -> Any:
+    """A report as a file has it."""
+    return np.array(astuple(report), _report(type(report))[0])
+
+
+def report_text(report: Any) -> dict[str, str]:
+    """Its attributes: its fields, and the numbers of each enum."""
+    return _report(type(report))[1]
+
+
 def put_report(group: Any, name: str, report: Any) -> None:
-    cls: Any = type(report)
-    kind, text = _report(cls)
-    group.create_dataset(name, data=np.array(astuple(report), kind)).attrs.update(text)
+    group.create_dataset(name, data=report_value(report)).attrs.update(report_text(report))
 
 
 @functools.lru_cache(maxsize=None)
@@ -73,13 +81,17 @@ def _history_text() -> dict[str, str]:
     return {"fields": columns, "phase": _words(StepPhase)}
 
 
-def explain(node: Any, path: str) -> None:
+def explanation(path: str) -> dict[str, str]:
     """Attributes of an array, where its name is known."""
     unit, meaning = _MEANING.get(path, ("", ""))
+    found = {}
     # in H5MD's own group a unit is one of its list, and readers refuse others; ours has any unit of length
     if unit and not path.startswith("particles/"):
-        node.attrs["unit"] = unit
+        found["unit"] = unit
     if meaning:
-        node.attrs["description"] = meaning
-    if path == "jam/history":
-        node.attrs.update(_history_text())
+        found["description"] = meaning
+    return found | (_history_text() if path == "jam/history" else {})
+
+
+def explain(node: Any, path: str) -> None:
+    node.attrs.update(explanation(path))

@@ -15,7 +15,7 @@ import hashlib
 import json
 import math
 import re
-from typing import IO, Any, Callable, Collection, Sequence
+from typing import IO, Any, Callable, Collection, Mapping, Sequence
 
 import numpy as np
 
@@ -81,14 +81,18 @@ def digest_of_rest(file: IO[bytes]) -> str:
     return found.hexdigest()
 
 
+def entry(node: Any, value: Any) -> list[Any]:
+    """Place, shape, type and digest of a dataset (as h5py.h5d has it) of this value."""
+    kind = value.dtype
+    text: Any = kind.str if kind.names is None else [[k, kind[k].str] for k in kind.names]
+    return [int(node.get_offset()) if value.nbytes else USER_BLOCK, list(value.shape), text, digest(value.tobytes())]
+
+
 def _entry(path: str, node: Any) -> list[Any]:
-    """Place, shape, type and digest of a dataset."""
     kind, plan = node.dtype, node.id.get_create_plist()
     if kind.hasobject or plan.get_layout() != h5py.h5d.CONTIGUOUS:
         raise TypeError(f"{path}: only arrays of numbers and text of fixed length are stored, not {kind}")
-    text: Any = kind.str if kind.names is None else [[k, kind[k].str] for k in kind.names]
-    place = int(node.id.get_offset()) if node.nbytes else USER_BLOCK
-    return [place, list(node.shape), text, digest(np.asarray(node[()]).tobytes())]
+    return entry(node.id, np.asarray(node[()]))
 
 
 def _index_of(group: Any) -> dict[str, Any]:
@@ -112,7 +116,7 @@ def _put(group: Any, index: dict[str, Any]) -> list[Any]:
     return [int(node.id.get_offset()), len(text), digest(text)]
 
 
-def seal(file: IO[bytes], fill: Callable[[Any], Sequence[str]]) -> None:
+def seal(file: IO[bytes], fill: Callable[[Any], Mapping[str, Any]]) -> None:
     """Writes a sealed file.
 
     Parameters
@@ -120,12 +124,12 @@ def seal(file: IO[bytes], fill: Callable[[Any], Sequence[str]]) -> None:
     file : io.BytesIO, or a file open to be written and read
         Takes the bytes.
     fill : callable
-        Writes the content into an h5py.File: contiguous arrays, text of fixed length. Of a shard it returns the groups
-        that have an index each; of one packing none.
+        Writes the content into an h5py.File: contiguous arrays, text of fixed length. Of a shard it returns the index of
+        each group by its name; of one packing none.
     """
     with h5py.File(file, "w", userblock_size=USER_BLOCK, libver="earliest") as inside:  # every HDF5 reads it
         packings = fill(inside)
-        parts = {name: _put(inside[name], _index_of(inside[name])) for name in packings}
+        parts = {name: _put(inside[name], index) for name, index in packings.items()}
         place = _put(inside, {"packings": parts} if packings else _index_of(inside))
     length, whole = file.seek(0, 2), digest_of_rest(file)
     file.seek(0)

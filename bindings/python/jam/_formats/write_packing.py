@@ -117,7 +117,7 @@ def image(
         Centres as sums of two doubles: what System.refined_positions returns.
     """
 
-    def fill(file: Any) -> list[str]:
+    def fill(file: Any) -> dict[str, Any]:
         info, contacts, report = packing.info, _known(lambda: packing.contacts), _known(lambda: packing.report)
         closed = closed_axes(info)
         _h5md(file, packing, closed)
@@ -142,7 +142,7 @@ def image(
         results = group.create_group("analysis")
         for name, value in (analysis or {}).items():
             put(results, name, value)
-        return []
+        return {}
 
     memory = io.BytesIO()
     seal(memory, fill)

@@ -248,7 +248,7 @@ static const options defaults = {
     .container = 0,
     .shrink_min = 0.001,
     .nve = 0.0,
-    .pressure = 10000000.0,
+    .pressure = 1000000.0,
     .packing_fraction = INFINITY,
     .porosity = INFINITY,
     .checkpoint_every = 60.0,
@@ -280,7 +280,7 @@ static const options defaults = {
 };
 
 /* Stages of growth where --growth is not given; the last one goes to --pressure. */
-static const stage default_stages[] = {{0.01, 500.0}, {0.003, 10000000.0}};
+static const stage default_stages[] = {{0.01, 500.0}, {0.003, 1000000.0}};
 
 typedef struct help_line {
   unsigned verbs; /* bits of those that show it; VERB_NONE: the help of the whole program */
@@ -387,7 +387,7 @@ static const help_line help[] = {
     {515, "  --growth RATE[:P]      one stage: growth rate G = (d sigma/dt)/sqrt(kT/m) up to reduced"},
     {515, "                         pressure P. Repeat the option for more stages. Default: 1e-2:500,"},
     {515, "                         then 3e-3 up to --pressure"},
-    {515, "  --pressure P           target of stages without :P (1e7)"},
+    {515, "  --pressure P           target of stages without :P (1e6)"},
     {515, "  --packing-fraction F   grow to exactly this packing fraction, without a crunch, which"},
     {515, "                         would change it. With --sizes in the unit of --cell or --box, and"},
     {515, "                         without --n, the number of spheres follows from them, and the final"},

@@ -192,7 +192,7 @@ TABLE = {
             "one stage: growth rate G = (d sigma/dt)/sqrt(kT/m) up to reduced pressure P. Repeat the option for more stages. "
             "Default: 1e-2:500, then 3e-3 up to --pressure",
         ),
-        Option("pressure", "pressure", "P", "target of stages without :P (1e7)", STAGES[-1][1]),
+        Option("pressure", "pressure", "P", "target of stages without :P (1e6)", STAGES[-1][1]),
         Option(
             "packing-fraction",
             "fraction",

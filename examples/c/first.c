@@ -17,7 +17,7 @@ int main(void) {
   o.n = 128;
   o.seed = 1;
   if (jam_create(&o, NULL, &sys) < 0) return failed(sys);
-  if (jam_compress(sys, NULL, NULL) < 0) return failed(sys); /* grow slowly to reduced pressure 1e7 */
+  if (jam_compress(sys, NULL, NULL) < 0) return failed(sys); /* grow slowly to reduced pressure 1e6 */
   report.struct_size = sizeof report;
   if (jam_crunch(sys, NULL, &report) < 0) return failed(sys); /* to the jamming point */
   printf("%s: packing fraction %.9f, %lld contacts, %lld more than isostatic, force imbalance %.1e\n",

@@ -564,7 +564,7 @@ typedef struct jam_compress_options {
   uint32_t struct_size;
   int32_t resume;                 /* @bool continue the stopped stage, with the limits of this call; default 0 */
   double growth_rate;             /* G > 0: one stage at this rate; 0, the default: the two stages of jam_compress */
-  double pressure;                /* target reduced pressure of the last stage, > 1, default 1e7 */
+  double pressure;                /* target reduced pressure of the last stage, > 1, default 1e6 */
   double packing_fraction;        /* target, > 0, default infinity */
   double collisions_per_particle; /* limit, > 0, default infinity */
   double wall_time;               /* limit of this call */
@@ -599,7 +599,7 @@ JAM_API jam_status jam_compress_options_init(jam_compress_options *o, size_t siz
  * sphere, zero velocities, paths that never meet). The log gives the reason of both. @errors OVERLAP */
 JAM_API jam_status jam_run(jam_system *sys, const jam_run_options *o, jam_md_report *report);
 /* Lubachevsky-Stillinger compression (J. Stat. Phys. 60, 561 (1990)). Without a growth_rate or with o = NULL it runs
- * the two-stage protocol that avoids crystals in d = 3: G = 1e-2 to p = 500, then G = 3e-3 to the pressure of o, 1e7 by
+ * the two-stage protocol that avoids crystals in d = 3: G = 1e-2 to p = 500, then G = 3e-3 to the pressure of o, 1e6 by
  * default (a stage costs about d/sqrt(pi) (N/G) ln(p2/p1) collisions). For another protocol make one call per stage. A
  * thermostat keeps sum m v^2 within 5 % of d N, and at the end the velocities are scaled to it exactly. Status:
  * JAM_PRECISION; JAM_NOT_CONVERGED: the pressure was reached before the packing fraction, or immediately since spheres

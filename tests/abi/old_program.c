@@ -68,7 +68,7 @@ static jam_system *made(void) {
 static void grown(jam_system *sys) {
   jam_compress_options o;
   jam_md_report r;
-  CHECK(jam_compress_options_init(&o, sizeof o) == JAM_OK && o.pressure == 1e7 && o.growth_law == 0 && o.resume == 0);
+  CHECK(jam_compress_options_init(&o, sizeof o) == JAM_OK && o.pressure == 1e6 && o.growth_law == 0 && o.resume == 0);
   o.growth_rate = 1e-2, o.pressure = 1e4;
   memset(&r, 0, sizeof r);
   r.struct_size = sizeof r;

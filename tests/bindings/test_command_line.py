@@ -92,7 +92,7 @@ class CommandLine(unittest.TestCase):
         words = list(map(str, words))
         if program == "jam":
             return in_process(cli.main, words, self.dir)
-        done = subprocess.run([PACK, *words], capture_output=True, text=True, timeout=60, cwd=self.dir)
+        done = subprocess.run([PACK, *words], capture_output=True, text=True, timeout=300, cwd=self.dir)
         return done.returncode, done.stdout, done.stderr
 
     def refused(self, status, text, program, *words):

@@ -22,7 +22,7 @@ class Protocols(unittest.TestCase):
         self.assertEqual(jam.ensemble.complete(full), full)
         self.assertEqual(full["start"]["packing_fraction"], 0.2)
         self.assertEqual(full["crunch"]["wall_time"], "inf")
-        self.assertEqual([s["pressure"] for s in full["stages"]], [500.0, 1e7])
+        self.assertEqual([s["pressure"] for s in full["stages"]], [500.0, 1e6])
         self.assertEqual(full, jam.ensemble.complete({"start": {"n": 128}}))
 
     def test_what_no_crunch_made_is_unknown(self):

@@ -265,7 +265,7 @@ class JamPack(unittest.TestCase):
         report, xyz = self.job("--n", 128, "--diameters-ratio", 1.2, "--seed", 1)
         self.assertEqual((report["n"], report["dim"], report["seed"]), (128, 3, 1))
         self.assertTrue(0.60 < report["packing_fraction"] < 0.67, report["packing_fraction"])
-        self.assertGreater(report["pressure"], 9e6)
+        self.assertGreater(report["pressure"], 9e5)
         self.assertGreater(report["collisions"], 0)
         first = xyz.read_bytes()
         self.job("--n", 128, "--diameters-ratio", 1.2, "--seed", 1)

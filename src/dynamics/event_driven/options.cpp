@@ -20,7 +20,7 @@ jam_run_options default_run_options() {
 jam_compress_options default_compress_options() {
   jam_compress_options o{};
   o.struct_size = sizeof o;
-  o.pressure = 1e7;
+  o.pressure = 1e6;
   o.packing_fraction = o.collisions_per_particle = o.wall_time = o.time = no_limit;
   return o;
 }

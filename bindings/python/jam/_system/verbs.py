@@ -98,7 +98,7 @@ class Verbs(Observing):
         """Molecular dynamics while the diameters grow (Lubachevsky and Stillinger 1990).
 
         Without `stages` and growth_rate it runs the two stages that avoid crystals in d = 3: growth rate 1e-2 to p = 500,
-        then 3e-3 to `pressure`, 1e7 by default. Limits, targets and growth_law keep them. A growth_rate makes one stage
+        then 3e-3 to `pressure`, 1e6 by default. Limits, targets and growth_law keep them. A growth_rate makes one stage
         of that rate. With packing_fraction or porosity it ends at exactly this density. From a fluid one that these sizes
         do not reach in disorder is refused.
 

@@ -59,9 +59,9 @@ struct PairListTuning {
   // The closest pair is searched within this over the contact distance, and where that gives more pairs a sphere than
   // the second, within a part of it.
   static constexpr double first_slope = 1.1, pairs_per_sphere = 100.0;
-  // From so many spheres on, a search visits them along a space-filling curve. Pairs that are only visited come in
-  // parts of about so many.
-  static constexpr size_t along_curve_from = 100000, part = 16384;
+  // From so many spheres on, a search visits them along a space-filling curve: at 1e5 the sort costs more than it
+  // saves. Pairs that are only visited come in parts of about so many.
+  static constexpr size_t along_curve_from = 300000, part = 16384;
   static constexpr uint64_t spheres_between_looks = 16;  // one large sphere may have many small ones in its cells
 };
 

@@ -278,7 +278,7 @@ class Modes(unittest.TestCase):
         s = jammed(12, 5, dim=2, walls="y")
         with self.assertRaisesRegex(ValueError, "nothing repeats along this axis"):
             s.bloch_modes((0, 0.5))
-        for wave, why in (((0,), "wave_len"), ((np.nan, 0), "wave.0. is nan"), ((1e9, 0), "wave is 1e")):
+        for wave, why in (((0,), "wave has 1 numbers"), ((np.nan, 0), "wave.0. is nan"), ((1e9, 0), "wave is 1e")):
             with self.assertRaisesRegex((jam.errors.JamError, ValueError), why):
                 s.bloch_modes(wave)
         shifted = jam.System.random(n=20, dim=2, seed=1, model="mk", packing_fraction=0.8)

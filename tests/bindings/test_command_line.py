@@ -164,7 +164,9 @@ class CommandLine(unittest.TestCase):
                 words += {"export": ["--output", "out.data"], "page": ["--page", "page.html"]}.get(verb.name, [])
             if verb.name == "page" and o.name == "plot":
                 words += ["--page", "page.html"]
-            if o.name == "checkpoint" and verb.name == "crunch":
+            if verb.name == "shear":
+                words += ["--to", "0.01", "--output", "out.xyz"][: 2 if o.name == "output" else 4]
+            if o.name == "checkpoint" and verb.name in ("crunch", "shear"):
                 words += ["--input", self.file]
             status = OUTPUT if o.kind == "output" else USAGE if verb.name == "check" else REFUSED
             with self.subTest(verb=verb.name, option=o.name):

@@ -195,6 +195,7 @@ class CommandLine(unittest.TestCase):
                 continue
             words = [verb.name] + (["--input", self.file] if "input" in verb.files or verb.name == "pack" else [])
             words += ["p.html"] if verb.name == "page" else []
+            words += ["--to", "0.01", "--output", "out.xyz"] if verb.name == "shear" else []
             with self.subTest(verb=verb.name, option=o.name):
                 code, _, err = self.run_words(program, *words, f"--{o.name}", "f.csv.gz")
                 self.assertEqual((code, "leave .gz out" in err), (USAGE, True), err)

@@ -97,7 +97,7 @@ static void two_hard_disks(void **state) {
   const double exact = 1.0 + sigma * border / (2.0 * 2.0 * area);
   assert_true(border < 0.9 * 2.0 * M_PI * sigma); /* images cover a part */
   jam_system *sys = two_disks(oblique, sigma, JAM_OVERLAP_REFUSE);
-  const jam_monte_carlo_options o = options(0.0, 1.0, 400000);
+  const jam_monte_carlo_options o = options(0.0, 1.0, 1600000);
   const jam_monte_carlo_report r = run(sys, &o);
   print_message("two hard disks: p %.4f(%.4f), exact %.4f, acceptance %.3f\n", r.pressure, r.pressure_error, exact,
                 r.acceptance);

@@ -63,12 +63,12 @@ def _report(cls: type) -> tuple[np.dtype[Any], dict[str, str]]:
 
 def report_value(report: Any) -> Any:
     """A report as a file has it."""
-    return np.array(astuple(report), _report(type(report))[0])
+    return np.array(astuple(report), _report(report.__class__)[0])
 
 
 def report_text(report: Any) -> dict[str, str]:
     """Its attributes: its fields, and the numbers of each enum."""
-    return _report(type(report))[1]
+    return _report(report.__class__)[1]
 
 
 def put_report(group: Any, name: str, report: Any) -> None:

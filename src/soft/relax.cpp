@@ -74,6 +74,9 @@ static bool is_saddle(const SoftResult &found) {
 static void displace_at_random(Relaxation &r, size_t attempt) {
   Rng rng(r.state.base().seed, Stream::soft_saddle, static_cast<uint64_t>(attempt) << 40);
   const double move = RelaxTuning::saddle_moves[attempt] * r.state.diameter_mean();
+  if (r.effort.monitor)
+    r.effort.monitor->log(JAM_LOG_INFO, "a saddle: lines of spheres balance and would buckle; all move by up to %.1e",
+                          move);
   for (double &x : r.state.displacement()) x += (2.0 * rng.uniform() - 1.0) * move;
 }
 

@@ -95,6 +95,12 @@ class Stumbles(unittest.TestCase):
             (lambda: s.compress(stages=[(1e-2)]), r"stages: each must be a pair \(growth_rate, pressure\).*not 0.01"),
             (lambda: s.compress(stages=[(1e-2, 1e3, 3)]), "stages: each must be a pair"),
             (lambda: jam.System.random(n=8, ratio=1.4), "there are diameters, cell, dim"),
+            (lambda: jam.System.random(n=8, overlap=0.7), "overlap must be a whole number, not 0.7"),
+            (lambda: s.crunch(method=0.9), "method must be a whole number, not 0.9"),
+            (lambda: s.rigidity(0.5), "kind must be a whole number, not 0.5"),
+            (lambda: s.image(shape=(2.9, 3)), "shape must be a whole number, not 2.9"),
+            (lambda: s.isoconf([1.0], keep=[0.5], runs=2), "keep must be a whole number, not 0.5"),
+            (lambda: s.pair_correlation(2.0, 20, a=5, b=7), "a=5 and b=7 are kinds of spheres"),
             (lambda: s.run(1).phi_J, "'phi_J'; did you mean packing_fraction"),
             (lambda: s.run(1).colisions, "'colisions'; did you mean collisions"),
         ):

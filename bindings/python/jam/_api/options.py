@@ -18,7 +18,7 @@ def as_enum(value: Any, kind: str, name: str) -> int:
             return int(enum[value.upper()])
         except KeyError:
             raise ValueError(f"{name}={value!r} is none of {', '.join(m.name.lower() for m in enum)}") from None
-    return int(value)
+    return int(number(value, "int", name))
 
 
 # Options of CALiPPSO.jl, for users who come from it; bindings/docs/coming_from.md has the whole table.
@@ -114,7 +114,7 @@ def option_struct(struct: str, given: dict[str, Any], beside: tuple[str, ...] = 
             continue
         kind = known[name][0]
         if kind in ("float", "int", "bool"):
-            value = _number(value, kind, name)
+            value = number(value, kind, name)
         else:
             value = as_enum(value, kind, name)
         try:
@@ -125,7 +125,8 @@ def option_struct(struct: str, given: dict[str, Any], beside: tuple[str, ...] = 
     return made
 
 
-def _number(value: Any, kind: str, name: str) -> float | int:
+def number(value: Any, kind: str, name: str) -> float | int:
+    """A value of the kind float or int; what would lose a fraction is a TypeError."""
     try:
         if kind == "float":
             return float(value)

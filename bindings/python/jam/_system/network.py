@@ -209,6 +209,8 @@ class Network(Analysis):
         >>> g.r[:2]
         array([0.025, 0.075])
         """
+        if kind is None and (a, b) != (-1, -1):
+            raise ValueError(f"a={a} and b={b} are kinds of spheres: give the kind of each sphere as `kind`")
         found: Correlation = self.call("pair_correlation", kind, a=a, b=b, r_max=r_max, bins=bins).view(Correlation)
         found.r = self.distances(r_max, bins)
         return found

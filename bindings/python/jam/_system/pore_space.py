@@ -6,6 +6,7 @@ from typing import Any, Sequence
 import numpy as np
 
 from .._api.arrays import Array
+from .._api.options import number
 from .handle import Base
 
 
@@ -35,7 +36,7 @@ class PoreSpace(Base):
         if size is not None:
             given["size"] = size
         if shape is not None:
-            given.update(zip(("nx", "ny", "nz"), map(int, shape)))
+            given.update((axis, int(number(k, "int", "shape"))) for axis, k in zip(("nx", "ny", "nz"), shape))
         report, values = self.call("voxels", **given)
         image = values.reshape(report.nz, report.ny, report.nx).T[..., slice(None) if self.dim == 3 else 0]
         if lines:

@@ -16,7 +16,7 @@ from .. import raw
 from .._api.arrays import Array, as_array, as_vector
 from .._api.calls import same
 from .._api.generated import IsoconfColumn, StatusCode
-from .._api.options import option_struct
+from .._api.options import number, option_struct
 from .._formats.replacing import open_regular, replacing, require_ending
 from ..errors import StoreError
 
@@ -227,7 +227,7 @@ def make_runs(
         times = as_vector(instants, name="instants")
         made = option_struct("jam_isoconf_options", options)
         chosen = None if monte_carlo is None else option_struct("jam_monte_carlo_options", monte_carlo)
-        kept = as_array(np.array([int(k) for k in keep], np.int64), "int32_t", "keep")
+        kept = as_array(np.array([number(k, "int", "keep") for k in keep], np.int64), "int32_t", "keep")
         origin = _origin(system, dict(options, block=made.block, keep=keep, monte_carlo=monte_carlo))
         status = raw.jam_isoconf(
             system.handle, made, chosen, times, kept if kept.size else None, raw.jam_isoconf_report()
@@ -274,7 +274,8 @@ def campaign(
     """Makes `runs` runs in parts and saves them to the .npz file `path` after each: a killed campaign continues.
 
     part: runs between two savings, rounded up to whole blocks. options: those of System.isoconf but first_run.
-    A file of another packing, other instants or options is a ValueError, and stays as it is.
+    A file of another packing, other instants or options is a ValueError, and stays as it is. One of more runs is returned
+    whole.
     """
     _require_npz(path)
     block = int(options.setdefault("block", 20))

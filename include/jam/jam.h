@@ -1191,8 +1191,8 @@ JAM_API jam_status jam_shear_options_init(jam_shear_options *o, size_t size);
  * |change of stress| |change of strain| / 5, the step is halved down to the resolution. If the packing does not return
  * when sheared back, the step is a plastic event. An event that releases less is not detected: a smaller `step` shows
  * it. A call that begins where another ended continues to the same bits, if the steps are the same. Status: JAM_OK: the
- * last strain or `until` was reached. JAM_LIMIT, JAM_NOT_CONVERGED: a minimum was not found, or the cell yields under
- * the stress; the last minimum is kept. JAM_NOT_JAMMED: hard spheres did not jam.
+ * last strain or `until` was reached. JAM_LIMIT, JAM_NOT_CONVERGED: no minimum was found, or a strain diverged
+ * under the stress; the last minimum is kept. JAM_NOT_JAMMED: hard spheres did not jam.
  * @shape turns (turns), mode (d or 2 d, d) @errors UNSUPPORTED (walls, Mari-Kurchan), SOLVER, TOO_FEW */
 JAM_API jam_status jam_shear(jam_system *sys, const jam_shear_options *o, const double *turns, size_t turns_len,
                              const double *mode, size_t mode_len, jam_shear_report *report);
@@ -1370,7 +1370,7 @@ typedef struct jam_rigidity_report {
   int32_t jammed;              /* @enum jam_verdict */
   int32_t stationary;          /* @enum jam_verdict: K+ is not empty: to first order no motion lets diameters grow */
   int64_t stable, contacts;    /* N'; |K+| */
-  int64_t contacts_needed;     /* collective d (N' - 1) + 1, strict d (N' - 1) + d (d + 1) / 2; -1 without K+ */
+  int64_t contacts_needed;     /* collective d (N' - 1) + 1, strict d (N' - 1) + d (d + 1) / 2; -1: K+ empty */
   int64_t self_stresses;       /* independent states of balanced forces on K+, of any sign; -1: unknown */
   int64_t flexes;              /* motions beyond symmetries that keep K+ closed; 0 without K+; 512 or more: at least */
   int64_t undercoordinated;    /* spheres of B with d contacts of K+ or fewer */

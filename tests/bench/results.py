@@ -14,10 +14,6 @@ sys.path.append(str(HERE.parents[1] / "bindings/docs"))
 import figures  # noqa: E402
 
 
-def span(values):
-    return {"from": min(values), "to": max(values)}
-
-
 def spread(values):
     """median (least to most), the most to two digits"""
     low, high = f"{min(values):.2g}", f"{max(values):.2g}"
@@ -189,18 +185,6 @@ def walls_edge(*raws):
     return ["scene", "answer"], raws[0]["edges"]
 
 
-def md(raw):
-    """md_speed"""
-    rows = []
-    for fraction in sorted({r["packing_fraction"] for r in raw["nve"]}):
-        runs = {r["n"]: r["collisions_per_second"] / 1e6 for r in raw["nve"] if r["packing_fraction"] == fraction}
-        rows.append([f"packing fraction {fraction:g}, millions of collisions per second", *(runs[n] for n in (1024, 16384, 100000))])
-    for name, text in (("observed: series", "with `jam_observe`, series"), ("observed: collisions of pairs", "with `jam_observe`, collisions of all pairs")):  # fmt: skip
-        found = {r["n"]: r["rate_ratio"] for r in raw["against"] if r["rival"] == name}
-        rows.append([f"{text}: rate over the plain rate", *(found[n] for n in (1024, 16384, 100000))])
-    return ["what", "N = 1024", "N = 16384", "N = 1e5"], rows
-
-
 def advise(raw):
     """advise.py 512"""
     rows = []
@@ -273,30 +257,6 @@ def decompressions(runs):
         worse = sum(a["phi"] < b["phi"] - 1e-9 for a, b in zip(of, (r for r in runs if r["off"] == "decompressions")))
         rows.append([DECOMPRESSIONS[off], len(of), sum(r["jammed"] for r in of), worse, statistics.median(seconds), statistics.mean(seconds), max(seconds)])
     return ["relative decreases of diameters", "packings", "jammed", "of lower density than with none", "median (s)", "mean (s)", "longest (s)"], rows
-
-
-def products(raw):
-    """products.py OUT.json PICTURE.png FOLDER 2 512,1024,2048 OpenBLAS=... builtin=... reference=..."""
-    first = raw[0]["build"]
-    cost = {(r["n"], r["seed"], r["build"]): r["seconds"] / r["factorisations"] for r in raw}
-    rows = []
-    for n in dict.fromkeys(r["n"] for r in raw):
-        for build in dict.fromkeys(r["build"] for r in raw):
-            some = [r for r in raw if (r["n"], r["build"]) == (n, build)]
-            ratio = [cost[n, r["seed"], build] / cost[n, r["seed"], first] for r in some]
-            rows.append(
-                [n, build, whole([r["factorisations"] for r in some]), spread([r["seconds"] for r in some]), spread(ratio)]
-                + [max(r["residual"] for r in some), f"{sum(r['jammed'] for r in some)} of {len(some)}"]
-            )
-    return ["N", "products", "factorisations", "crunch (s)", "a factorisation, over " + first, "largest force residual", "jammed"], rows
-
-
-def threads(*raws):
-    """cholesky 16384 5 all 4096, three times"""
-    rows = []
-    for runs in zip(*(raw["runs"] for raw in raws)):
-        rows.append([runs[0]["n"], span([round(r["jam_1"]["factorise_s"] / r["jam_2"]["factorise_s"], 2) for r in runs])])
-    return ["N", "two threads over one (rate)"], rows
 
 
 def wasm(raw):

@@ -71,6 +71,21 @@ class Names(Case):
         with self.warned("3 files are omitted"):
             self.assertEqual(self.seeds(), [1, 2, 3])
 
+    def test_only_packings_are_counted(self):
+        """Of what cannot be read, that under a packing's name is one, unless another file holds it."""
+        self.make([1, 2])
+        folder = self.file(1).parent
+        os.mkfifo(folder / "fifo.h5")
+        (folder / "empty.h5").write_bytes(b"")
+        (folder / f"{self.file(1).stem}-2.h5").write_bytes(b"x")
+        (folder / f"{self.file(1).stem} copy.h5").mkdir()
+        status = self.e.status()
+        self.assertEqual((status.asked, status.done, status.missing), (2, 2, 0))
+        self.assertIn("2 of 2 packings are there", str(status))
+        self.assertIn("fifo.h5", " ".join(status.damaged))
+        self.file(2).write_bytes(b"x")
+        self.assertEqual((self.e.status().asked, self.e.status().done), (2, 1))
+
     def test_a_renamed_file_is_the_packing_that_it_holds(self):
         self.make([1, 2])
         renamed = self.file(1).rename(self.e.files.packings / "00" / "my best packing.h5")

@@ -130,8 +130,9 @@ class Damage(Case):
         for name, text in (("pipe", "no regular file"), (".", "no regular file"), ("none", "No such file")):
             with self.assertRaisesRegex(StoreError, text):
                 jam.load(self.folder / name)
-        with self.assertRaisesRegex(StoreError, "no file of packings"):
-            jam.load(self.written(b"2\n2\n0.1\n"))
+        for content, text in ((b"2\n2\n0.1\n", "System.read reads XYZ"), (b"", "is empty"), (b"jamstat", "from_checkpoint reads it")):
+            with self.assertRaisesRegex(StoreError, text):
+                jam.load(self.written(content))
 
 
 class Crafted(Case):

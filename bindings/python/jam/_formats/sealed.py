@@ -109,7 +109,9 @@ def _what_it_is(head: bytes) -> str:
             "is HDF5 without the seal of jam: another program wrote it. h5py reads its arrays, and System.from_arrays takes "
             "positions, diameters and cell vectors"
         )
-    return "is no file of packings"
+    if head.startswith(b"jamstat"):
+        return "is a checkpoint of libjam: System.from_checkpoint reads it"
+    return "is no file of System.save; System.read reads XYZ, LAMMPS and other text" if head else "is empty"
 
 
 @contextlib.contextmanager

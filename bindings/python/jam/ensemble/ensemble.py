@@ -141,7 +141,7 @@ class Ensemble:
         left = [self.name(s) for s in set(seeds).difference(rows["seed"].tolist())]
         if not every:
             damaged = {path: damaged[path] for path in map(self.files.packing, left) if path in damaged}
-        asked = len(seeds) + (len(damaged) if every else 0)
+        asked = len(seeds) + (self.files.lost(content) if every else 0)
         jammed, odd = int((rows["jammed"] != 0).sum()), {**content.doubles, **content.odd}
         lost = len(self.files.failures(left))  # none of a packing whose file is there, though damaged
         return Status(

@@ -15,6 +15,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import time
 import warnings
 from contextlib import suppress
@@ -186,6 +187,12 @@ class Folder:
     def _is_home(self, name: str, place: Place) -> bool:
         """A packing has its own name, or the one that free() gave it."""
         return place.inner is None and place.path.parent.name == name[:2] and place.path.stem.partition("-")[0] == name
+
+    def lost(self, content: Content) -> int:
+        """How many packings are in damaged files alone. A file of another name may be anything, and is none."""
+        there = {name.decode() for name in content.rows["name"]}
+        names = [path.stem.partition("-")[0] for path in content.damaged if self._is_home(path.stem[:32], Place(path, None))]
+        return len({name for name in names if re.fullmatch("[0-9a-f]{32}", name)} - there)
 
     def _counted(self, rows: Array, places: list[Place], damaged: dict[Path, str]) -> Content:
         """One packing for each protocol and seed: of this library's algorithm, under its own name, the oldest."""

@@ -26,7 +26,7 @@ NAMES = {
     "jam.plot": "COLOURS VIEW cdf convergence density_of_states displacements mode network packing summary trace",
     "jam.scaling": "Cdf Collapse Estimate Exponent bootstrap cdf_grid cdf_pooled cdf_ranked collapse crossover "
     "draw_left_power fit_crossover fit_power local_exponent quality tail_exponent tail_scaling TailExponent",
-    "jam.statistics": "Estimate bootstrap collapse collapse_estimate deciles roc_area spearman spearman_components "
+    "jam.statistics": "Estimate YieldPoint bootstrap collapse collapse_estimate deciles roc_area spearman spearman_components "
     "velocity_spectrum",
     "jam.store": "StoreError image load provenance save write_shard",
     "jam.system": "Contacts Modes System",

@@ -14,6 +14,7 @@ from pathlib import Path
 import numpy as np
 
 import jam
+from jam.statistics import yield_point
 
 
 def soft(n=64, dim=2, phi=0.9, seed=1, **options):
@@ -404,6 +405,57 @@ class Shear(unittest.TestCase):
         line = np.column_stack([np.arange(4) / 4 + 0.1, np.full(4, 0.5)])
         row = jam.System.from_arrays(line, np.full(4, 0.26), cell=[1.0, 1.0], overlap="allow")
         self.assertEqual(row.relax().energy, 0.0)  # it has room to buckle, and no overlap is left
+
+
+class Yield(unittest.TestCase):
+    """yield_point on curves of known flow, and on two halves of a run."""
+
+    def curve(self, rng, length=0.01, steps=1000):
+        """Rises to a flow of mean 1, with deviations that are correlated over `length`; the strain of its rise is 0.03."""
+        strain = np.arange(steps + 1) * 1e-3
+        kept, deviation = np.exp(-1e-3 / length), rng.normal(size=steps + 1)
+        for k in range(steps):
+            deviation[k + 1] = kept * deviation[k] + (1 - kept**2) ** 0.5 * deviation[k + 1]
+        return {"strain": strain, "stress": (1 - np.exp(-strain / 0.03)) * (1 + 0.1 * deviation)}
+
+    def test_errors_contain_the_correlation(self):
+        rng = np.random.default_rng(1)
+        found = [yield_point(self.curve(rng), 0.2) for _ in range(200)]
+        pulls = np.array([(y.stress.value - 1) / y.stress.error for y in found])
+        self.assertLess((pulls**2).mean(), 2)  # 7/5 for 8 blocks that are independent; rows taken as such give 20
+        self.assertGreater((pulls**2).mean(), 0.5)
+        self.assertLess(abs(pulls.mean()), 5 / 200**0.5)
+        for y in found:
+            self.assertGreaterEqual(y.strain.error, 1e-3 * (1 - 1e-9))
+
+    def test_a_curve_without_noise(self):
+        strain = np.linspace(0, 1, 1001)
+        for way in (1, -1):
+            rows = {"strain": way * strain, "stress": way * np.minimum(strain / 0.05, 2.0)}
+            y = yield_point(rows, way * 0.5)
+            self.assertAlmostEqual(y.stress.value, 2 * way, delta=1e-12)
+            self.assertAlmostEqual(y.strain.value, 0.1 * way, delta=1e-9)
+            self.assertLess(y.stress.error, 1e-12)
+            self.assertAlmostEqual(y.strain.error, 1e-3, delta=1e-9)
+
+    def test_halves_of_a_run_agree(self):
+        s = soft(32)
+        s.shear(2.0, step=5e-3, resolution=1e-3)
+        rows = s.shear_rows
+        whole, first, second = (
+            yield_point(r, b).stress for r, b in ((rows, 0.2), (rows[rows["strain"] < 1.1], 0.2), (rows, 1.1))
+        )
+        self.assertLess(abs(first.value - second.value), 5 * np.hypot(first.error, second.error))
+        self.assertLess(abs(first.value + second.value - 2 * whole.value), 2 * whole.error)
+        self.assertGreater(whole.value, 0)
+
+    def test_refusals(self):
+        rows = self.curve(np.random.default_rng(2))
+        cycle = {"strain": np.r_[rows["strain"], 0.9], "stress": np.r_[rows["stress"], 1.0]}
+        for bad, beyond, why in ((rows, 0.95, "51 rows lie"), (rows, -0.1, "beyond is"), (rows, 2.0, "beyond is"),
+                                 (cycle, 0.2, "turns"), (dict(rows, stress=rows["stress"] * np.nan), 0.2, "not finite")):
+            with self.assertRaisesRegex(ValueError, why):
+                yield_point(bad, beyond)
 
 
 class Pages(unittest.TestCase):

@@ -1,4 +1,4 @@
-"""Rank statistics, resampling and collapse of curves: what the studies of dynamics near jamming need beyond scipy."""
+"""Rank statistics, resampling, collapse of curves, yield: what studies near jamming and of shear need beyond scipy."""
 from __future__ import annotations
 
 from typing import Any, Callable, Iterable, NamedTuple, Sequence
@@ -9,8 +9,8 @@ from ._api.arrays import Array
 from ._api.shown import only
 
 __all__ = [
-    "Estimate", "bootstrap", "collapse", "collapse_estimate", "deciles", "roc_area", "spearman",
-    "spearman_components", "velocity_spectrum",
+    "Estimate", "YieldPoint", "bootstrap", "collapse", "collapse_estimate", "deciles", "roc_area", "spearman",
+    "spearman_components", "velocity_spectrum", "yield_point",
 ]
 __dir__ = only(__all__)
 
@@ -126,3 +126,50 @@ def velocity_spectrum(time: Any, correlation: Any, omega: Iterable[float]) -> Ar
         raise ValueError("times must be equally spaced")
     weighted = c * 0.5 * (1.0 + np.cos(np.pi * t / t[-1]))
     return np.array([2.0 / np.pi * np.trapz(weighted * np.cos(w * t), t) for w in omega])
+
+
+class YieldPoint(NamedTuple):
+    """Stress of the flow, and the strain where the stress first reaches it."""
+
+    stress: Estimate
+    strain: Estimate
+
+
+def yield_point(rows: Any, beyond: float) -> YieldPoint:
+    """Where a packing yields, from the rows of a shear in one direction, by this rule.
+
+    The yield stress is the mean of the stress over the strains beyond `beyond`, from where on the packing flows. Stresses there
+    are correlated: its error is the largest of those from 8, 16, 32 and 64 blocks of equal strain, and holds where an eighth of
+    these strains is longer than the correlation. The yield strain is the first one where the stress reaches the yield
+    stress. Its error is half the way between those where it reaches that stress minus and plus its error, at least a step.
+
+    Parameters
+    ----------
+    rows : System.shear_rows
+        Or anything whose fields strain and stress are arrays.
+    """
+    strain, stress = np.asarray(rows["strain"], float), np.asarray(rows["stress"], float)
+    way = 1.0 if strain[-1] >= strain[0] else -1.0
+    x, y = way * strain, way * stress
+    if (np.diff(x) < 0.0).any():
+        raise ValueError("the strain turns: give the rows of one direction")
+    if not np.isfinite(y).all():
+        raise ValueError("some stresses are not finite, as those of a minimum without contacts")
+    begin, end = way * beyond, x[-1]
+    if not x[0] <= begin < end or (x >= begin).sum() < 64:
+        raise ValueError(f"beyond is {beyond}: {int((x >= begin).sum())} rows lie beyond it, and at least 64 must")
+    integral = np.concatenate([[0.0], np.cumsum(np.diff(x) * (y[1:] + y[:-1]) / 2)])
+    error = 0.0
+    for blocks in (8, 16, 32, 64):
+        edges = np.linspace(begin, end, blocks + 1)
+        means = np.diff(np.interp(edges, x, integral)) / np.diff(edges)
+        error = max(error, float(means.std(ddof=1)) / blocks**0.5)
+    mean = float(means.mean())
+
+    def first(level: float) -> float:
+        k = int(np.argmax(y >= min(level, y.max())))
+        part = (min(level, y.max()) - y[k - 1]) / (y[k] - y[k - 1]) if k > 0 else 0.0
+        return float(x[k] - (1.0 - part) * (x[k] - x[k - 1])) if k > 0 else float(x[0])
+
+    uncertain = max((first(mean + error) - first(mean - error)) / 2, float(np.diff(x).max()))
+    return YieldPoint(Estimate(way * mean, error), Estimate(way * first(mean), uncertain))

@@ -17,6 +17,7 @@
 #   processors, windows, macos, libcxx  cross builds for arm64, s390x and riscv64 under qemu; for Windows under wine;
 #               for macOS, which is not run; with libc++: tests/platforms. Where the compilers cannot be installed
 #               they skip, saying so
+#   recipes     the recipes of package managers, executed without them: tests/package/recipes.py
 #   coverage    which branches of src the unit tests and those of the C interface reach, by Clang; tests/README.md has
 #               the table. It fails below the floor of tests/coverage.py
 #   browser     libjam for JavaScript by Emscripten, its tests by Node, and the page lab.html where ./build is there
@@ -190,6 +191,7 @@ echo "skipped: emscripten, nodejs, npm and swig cannot all be installed here"
 fi
 fi
 
+if wants recipes; then /usr/bin/python3 -B tests/package/recipes.py build-recipes || status=1; fi
 if wants processors; then sh tests/platforms/processors.sh || status=1; fi
 if wants windows; then sh tests/platforms/windows.sh || status=1; fi
 if wants macos; then sh tests/platforms/macos.sh || status=1; fi

@@ -12,6 +12,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import textwrap
 
 here = pathlib.Path(__file__).resolve().parent
 root = here.parent.parent
@@ -35,9 +36,11 @@ def exported():
 
 
 def plain(path):
-    """The header without its comments."""
+    """The header without its comments, a declaration or an instruction of the preprocessor in each line."""
     text = re.sub(r"/\*.*?\*/", "", path.read_text(), flags=re.S)
-    return re.sub(r"\s*\n(?=\s*\n)|[ \t]+$", "", text, flags=re.M).lstrip()
+    parts = re.split(r"^(#(?:.*\\\n)*.*)$", text, flags=re.M)
+    lines = [[part] if part.startswith("#") else re.findall(r"extern \"C\" \{|(?:\{[^}]*\}|[^;{}])+;?|\}", " ".join(part.split())) for part in parts]
+    return "".join(line.strip() + "\n" for line in itertools.chain(*lines) if line.strip())
 
 
 def constants(text):
@@ -150,7 +153,9 @@ def check():
 
 def record_header(path):
     path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text("/* Made by tests/abi/abi.py: jam.h as programs were compiled with. */\n" + plain(HEADER))
+    lines = ["/* Made by tests/abi/abi.py: jam.h as programs were compiled with. */", *plain(HEADER).splitlines()]
+    fill = lambda line: line if line.startswith("#") else textwrap.fill(line, 118, subsequent_indent="  ", break_on_hyphens=False)
+    path.write_text("".join(fill(line) + "\n" for line in lines))
 
 
 def grown():

@@ -1,23 +1,28 @@
-/* Linked into every C test: `capi_create` runs all its cases, `capi_create NAME` those whose names match (with * and
-   ?), `capi_create --list` names them. The linker sends main and CMocka's runner here (--wrap), so no test repeats it.
- */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
+/* main of every C test: `capi_create` runs all its cases, `capi_create NAME` those whose names match (with * and ?),
+   `capi_create --list` names them. */
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
+#include "test.h"
 
-int __real_main(int argc, char **argv);
-int __wrap_main(int argc, char **argv);
-int __real__cmocka_run_group_tests(const char *group, const struct CMUnitTest *tests, size_t count,
-                                   CMFixtureFunction setup, CMFixtureFunction teardown);
-int __wrap__cmocka_run_group_tests(const char *group, const struct CMUnitTest *tests, size_t count,
-                                   CMFixtureFunction setup, CMFixtureFunction teardown);
+static struct CMUnitTest cases[100];
+static size_t count;
+static CMFixtureFunction before_all, after_all;
+static int (*own_arguments)(int argc, char **argv);
 
-static const char *wanted;
+void add_case(const char *name, CMUnitTestFunction run) {
+  if (count == sizeof cases / sizeof *cases) abort();
+  cases[count].name = name;
+  cases[count++].test_func = run;
+}
+
+void add_fixture(CMFixtureFunction before, CMFixtureFunction after) {
+  before_all = before;
+  after_all = after;
+}
+
+void add_arguments(int (*take)(int argc, char **argv)) { own_arguments = take; }
 
 static int matches(const char *pattern, const char *name) {
   if (*pattern == '*') return matches(pattern + 1, name) || (*name && matches(pattern, name + 1));
@@ -25,27 +30,25 @@ static int matches(const char *pattern, const char *name) {
   return (*pattern == '?' || *pattern == *name) && matches(pattern + 1, name + 1);
 }
 
-int __wrap__cmocka_run_group_tests(const char *group, const struct CMUnitTest *tests, size_t count,
-                                   CMFixtureFunction setup, CMFixtureFunction teardown) {
+int main(int argc, char **argv) {
+  const int done = own_arguments ? own_arguments(argc, argv) : -1;
   size_t k, found = 0;
-  if (wanted && !strcmp(wanted, "--list")) {
-    for (k = 0; k < count; ++k) printf("%s\n", tests[k].name);
-    return 0;
-  }
-  for (k = 0; wanted && k < count; ++k) found += (size_t)matches(wanted, tests[k].name);
-  if (wanted && !found) {
-    fprintf(stderr, "no case matches %s; --list names the cases\n", wanted);
-    return 2;
-  }
-  if (wanted) cmocka_set_test_filter(wanted);
-  return __real__cmocka_run_group_tests(group, tests, count, setup, teardown);
-}
-
-int __wrap_main(int argc, char **argv) {
+  if (done >= 0) return done;
   if (argc > 2) {
     fprintf(stderr, "usage: %s [NAME | --list]\n", argv[0]);
     return 2;
   }
-  if (argc == 2) wanted = argv[1];
-  return __real_main(argc, argv);
+  if (argc == 2 && !strcmp(argv[1], "--list")) {
+    for (k = 0; k < count; ++k) printf("%s\n", cases[k].name);
+    return 0;
+  }
+  if (argc == 2) {
+    for (k = 0; k < count; ++k) found += (size_t)matches(argv[1], cases[k].name);
+    if (!found) {
+      fprintf(stderr, "no case matches %s; --list names the cases\n", argv[1]);
+      return 2;
+    }
+    cmocka_set_test_filter(argv[1]);
+  }
+  return _cmocka_run_group_tests("tests", cases, count, before_all, after_all);
 }

@@ -22,11 +22,10 @@ static inline void same(const jam_system *a, const jam_system *b) {
 
 /* Spheres of two sizes, 1 : 1.4: so few equal ones would order, and end with more contacts than isostatic. */
 static inline jam_system *soft_start(int64_t n, double phi, int64_t seed) {
-  jam_create_options o;
   jam_system *sys = NULL;
   double *size = malloc((size_t)n * sizeof *size);
   for (int64_t k = 0; k < n; ++k) size[k] = k % 2 ? 1.4 : 1.0;
-  assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
+  DEFAULTS(create, o);
   o.n = n, o.packing_fraction = phi, o.seed = seed, o.overlap = JAM_OVERLAP_ALLOW;
   assert_int_equal(create_from(&o, NULL, 0, size, (size_t)n, &sys), JAM_OK);
   free(size);
@@ -34,18 +33,15 @@ static inline jam_system *soft_start(int64_t n, double phi, int64_t seed) {
 }
 
 static inline jam_md_report run(jam_system *sys, double collisions) {
-  jam_run_options r;
-  jam_md_report report;
-  jam_run_options_init(&r, sizeof r);
+  DEFAULTS(run, r);
   r.collisions_per_particle = collisions;
-  report.struct_size = sizeof report;
+  SIZED(jam_md_report, report);
   assert_int_equal(jam_run(sys, &r, &report), JAM_OK);
   return report;
 }
 
 static inline jam_info info_of(const jam_system *sys) {
-  jam_info info;
-  info.struct_size = sizeof info;
+  SIZED(jam_info, info);
   assert_int_equal(jam_get_info(sys, &info), JAM_OK);
   return info;
 }

@@ -6,11 +6,10 @@
 #include "test.h"
 
 static inline jam_crunch_report crunch_with_strain(jam_system *sys, int32_t strain, jam_status expected) {
-  jam_crunch_options o;
   jam_crunch_report r;
   memset(&r, 0, sizeof r);
   r.struct_size = sizeof r;
-  assert_int_equal(jam_crunch_options_init(&o, sizeof o), JAM_OK);
+  DEFAULTS(crunch, o);
   o.strain = strain;
   assert_int_equal(jam_crunch(sys, &o, &r), expected);
   return r;

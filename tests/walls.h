@@ -23,9 +23,8 @@ static const walled walled_scenes[WALLED] = {
 static inline jam_status create_walled(const walled *s, int64_t n, double fraction, int64_t seed,
                                        const double *diameters, jam_system **out) {
   double cell[JAM_MAX_DIM * JAM_MAX_DIM] = {0.0};
-  jam_create_options o;
   jam_start start = {.struct_size = sizeof start};
-  jam_create_options_init(&o, sizeof o);
+  DEFAULTS(create, o);
   o.dim = s->dim, o.n = n, o.seed = seed, o.packing_fraction = fraction;
   for (int c = 0; c < s->dim; ++c) cell[c * s->dim + c] = s->edge[c];
   start.cell = cell, start.cell_len = (size_t)(s->dim * s->dim);

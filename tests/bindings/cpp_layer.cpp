@@ -28,7 +28,7 @@ bool throws(F &&f) {
   return false;
 }
 
-void test_ownership(void **) {
+CASE(test_ownership) {
   jam::System a = jam::System::random(50, 2, 7, 0.3);
   const double *where = a.positions().data();
   jam::System b = std::move(a);
@@ -42,7 +42,7 @@ void test_ownership(void **) {
   assert_true(c.positions().data() == where);
 }
 
-void test_cell(void **) {
+CASE(test_cell) {
   const std::vector<double> cell = {2.0, 0.0, 0.5, 1.5};
   const jam::System s = jam::System::from_arrays(2, {0.5, 0.5}, {1.0}, cell);
   const std::vector<double> got = s.cell();
@@ -50,7 +50,7 @@ void test_cell(void **) {
   assert_true(throws<jam::Error>([] { jam::System::from_arrays(2, {0.5, 0.5}, {1.0}, {1.0, 2.0, 3.0}); }));
 }
 
-void test_checkpoint(void **) {
+CASE(test_checkpoint) {
   jam::System a = jam::System::random(64, 3, 7);
   a.run(10);
   a.checkpoint("cpp_layer.state");
@@ -62,7 +62,7 @@ void test_checkpoint(void **) {
   assert_true(throws<jam::Error>([] { jam::System::from_checkpoint("/does/not/exist"); }));
 }
 
-void test_errors(void **) {
+CASE(test_errors) {
   try {
     jam::System::random(50, 9);
     fail_msg("dim 9 was taken");
@@ -80,7 +80,7 @@ void test_errors(void **) {
   assert_true(throws<jam::Error>([] { jam::System::random(10).forces(); }));
 }
 
-void test_crunch_and_forces(void **) {
+CASE(test_crunch_and_forces) {
   jam::System s = jam::System::random(60, 2, 3, 0.3, two_sizes(60));
   const jam_crunch_report r = s.crunch();
   assert_int_equal(s.status(), JAM_OK);
@@ -104,7 +104,7 @@ void test_crunch_and_forces(void **) {
   assert_int_equal(s.array<std::int32_t>(jam_hessian_map).size(), static_cast<std::size_t>(r.stable));
 }
 
-void test_cell_check_and_modes(void **) {
+CASE(test_cell_check_and_modes) {
   jam::System s = jam::System::random(60, 2, 3, 0.0, two_sizes(60));
   assert_true(s.cell() == (std::vector<double>{1, 0, 0, 1}));
   assert_int_equal(s.check_packing().jammed, JAM_VERDICT_NO);
@@ -132,7 +132,7 @@ void test_cell_check_and_modes(void **) {
   assert_true(throws<jam::Error>([&] { loose.modes(); }));
 }
 
-void test_callbacks(void **) {
+CASE(test_callbacks) {
   jam::System s = jam::System::random(300, 3, 1, 0.3);
   int calls = 0;
   s.on_progress([&](const jam_progress &) -> bool {
@@ -155,11 +155,3 @@ void test_callbacks(void **) {
 }
 
 }  // namespace
-
-int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(test_ownership),         cmocka_unit_test(test_cell),
-                              cmocka_unit_test(test_checkpoint),        cmocka_unit_test(test_errors),
-                              cmocka_unit_test(test_crunch_and_forces), cmocka_unit_test(test_cell_check_and_modes),
-                              cmocka_unit_test(test_callbacks)};
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}

@@ -7,9 +7,8 @@
 #include "test.h"
 
 static jam_system *fluid(void) {
-  jam_create_options o;
   jam_system *s = NULL;
-  assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
+  DEFAULTS(create, o);
   o.n = 50;
   assert_int_equal(jam_create(&o, NULL, &s), JAM_OK);
   return s;
@@ -17,12 +16,11 @@ static jam_system *fluid(void) {
 
 /* A square lattice of touching disks: hyperstatic, with floppy rows and columns. */
 static jam_system *square(void) {
-  jam_create_options o;
   jam_system *s = NULL;
   double x[32], one = 0.25;
   int i;
   for (i = 0; i < 16; ++i) x[2 * i] = 0.25 * (i % 4), x[2 * i + 1] = 0.25 * (i / 4);
-  assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
+  DEFAULTS(create, o);
   o.dim = 2;
   assert_int_equal(create_from(&o, x, 32, &one, 1, &s), JAM_OK);
   return s;
@@ -30,11 +28,10 @@ static jam_system *square(void) {
 
 static const int64_t contact = 0;
 
-static void flags_are_0_or_1(void **state) {
+CASE(flags_are_0_or_1) {
   jam_system *s = fluid();
   double x;
   size_t m;
-  (void)state;
   assert_int_equal(jam_gaps(s, 1.0, 2, &x, 1, NULL, 0, &m), JAM_E_ARGUMENT);
   assert_non_null(strstr(jam_last_error(), "stable_only is 2"));
   assert_int_equal(jam_sphere_structure(s, -1, &x, 1, NULL, 0, &m), JAM_E_ARGUMENT);
@@ -42,68 +39,32 @@ static void flags_are_0_or_1(void **state) {
   jam_destroy(s);
 }
 
-static void null_handles_are_refused(void **state) {
-  double x;
-  int32_t i;
-  size_t m;
-  (void)state;
+CASE(options_need_a_place) {
   assert_int_equal(jam_hessian_options_init(NULL, 8), JAM_E_NULL);
   assert_int_equal(jam_modes_options_init(NULL, 8), JAM_E_NULL);
   assert_int_equal(jam_geometry_options_init(NULL, 8), JAM_E_NULL);
   assert_int_equal(jam_dos_options_init(NULL, 8), JAM_E_NULL);
-  assert_int_equal(jam_hessian_map(NULL, &i, 1, &m), JAM_E_NULL);
-  assert_int_equal(jam_hessian(NULL, NULL, &i, 1, &i, 1, &x, 1, &m), JAM_E_NULL);
-  assert_int_equal(jam_modes(NULL, NULL, NULL, JAM_MODE_COLUMNS, &x, 1, NULL, 0, &m), JAM_E_NULL);
-  assert_int_equal(jam_contacts_from_geometry(NULL, NULL, NULL), JAM_E_NULL);
-  assert_int_equal(jam_stress_states(NULL, &x, 1, NULL, 0, NULL, &m), JAM_E_NULL);
-  assert_int_equal(jam_gaps(NULL, 1.0, 0, &x, 1, NULL, 0, &m), JAM_E_NULL);
-  assert_int_equal(jam_contact_classes(NULL, &i, 1, &m), JAM_E_NULL);
-  assert_int_equal(jam_sphere_structure(NULL, 0, &x, 1, NULL, 0, &m), JAM_E_NULL);
-  assert_int_equal(jam_contact_dots(NULL, 0, &x, 1, NULL, 0, &m), JAM_E_NULL);
-  assert_int_equal(jam_pair_correlation(NULL, NULL, NULL, 0, &x, 1, &m), JAM_E_NULL);
-  assert_int_equal(jam_structure_factor(NULL, 1.0, JAM_STRUCTURE_COLUMNS, &x, 1, &m), JAM_E_NULL);
-  assert_int_equal(jam_bond_order(NULL, 6, 1.2, &x, 1, &m), JAM_E_NULL);
-  assert_int_equal(jam_local_fraction(NULL, &x, 1, &m), JAM_E_NULL);
-  assert_int_equal(jam_floppy_modes(NULL, NULL, 0, JAM_FLOPPY_COLUMNS, &x, 1, NULL, 0, &m), JAM_E_NULL);
-  assert_int_equal(jam_density_of_states(NULL, NULL, NULL, JAM_DOS_COLUMNS, &x, 1, &m), JAM_E_NULL);
-  assert_int_equal(jam_local_values(NULL, 0, 0, &x, 1, &m), JAM_E_NULL);
-  assert_int_equal(jam_moduli(NULL, NULL, NULL), JAM_E_NULL);
-  assert_int_equal(jam_elastic_tensor(NULL, NULL, NULL, 0, NULL, 0, NULL), JAM_E_NULL);
-  assert_int_equal(jam_compare(NULL, NULL, NULL, NULL, 0, NULL), JAM_E_NULL);
 }
 
-static void calls_without_a_network_are_refused(void **state) {
+CASE(the_error_names_the_call_that_finds_contacts) {
   jam_system *s = fluid();
-  jam_moduli_report moduli = {.struct_size = sizeof(jam_moduli_report)};
-  int32_t i;
+  SIZED(jam_moduli_report, moduli);
   size_t m;
-  (void)state;
-  assert_int_equal(jam_hessian_map(s, &i, 1, &m), JAM_E_STATE);
-  assert_int_equal(jam_hessian(s, NULL, NULL, 0, NULL, 0, NULL, 0, &m), JAM_E_STATE);
-  assert_int_equal(jam_modes(s, NULL, NULL, JAM_MODE_COLUMNS, NULL, 0, NULL, 0, &m), JAM_E_STATE);
-  assert_int_equal(jam_stress_states(s, NULL, 0, NULL, 0, NULL, &m), JAM_E_STATE);
   assert_int_equal(jam_gaps(s, 1.0, 1, NULL, 0, NULL, 0, &m), JAM_E_STATE);
   assert_int_equal(jam_gaps(s, 1.0, 0, NULL, 0, NULL, 0, &m), JAM_OK);
-  assert_int_equal(jam_contact_classes(s, NULL, 0, &m), JAM_E_STATE);
-  assert_int_equal(jam_sphere_structure(s, 0, NULL, 0, NULL, 0, &m), JAM_E_STATE);
-  assert_int_equal(jam_contact_dots(s, 0, NULL, 0, NULL, 0, &m), JAM_E_STATE);
-  assert_int_equal(jam_floppy_modes(s, NULL, 0, JAM_FLOPPY_COLUMNS, NULL, 0, NULL, 0, &m), JAM_E_STATE);
-  assert_int_equal(jam_density_of_states(s, NULL, NULL, JAM_DOS_COLUMNS, NULL, 0, &m), JAM_E_STATE);
-  assert_int_equal(jam_local_values(s, 0, 0, NULL, 0, &m), JAM_E_STATE);
   assert_int_equal(jam_moduli(s, NULL, &moduli), JAM_E_STATE);
   assert_non_null(strstr(jam_last_error(), "jam_contacts_from_geometry"));
   jam_destroy(s);
 }
 
 /* A fluid has no contacts: the network is empty, the status says so, and later calls do not crash. */
-static void a_fluid_has_an_empty_network(void **state) {
+CASE(a_fluid_has_an_empty_network) {
   jam_system *s = fluid();
   jam_geometry_report r = {.struct_size = sizeof(jam_geometry_report)};
   jam_moduli_report moduli = {.struct_size = sizeof(jam_moduli_report)};
   double x[200];
   int32_t start[4];
   size_t m;
-  (void)state;
   assert_int_equal(jam_contacts_from_geometry(s, NULL, &r), JAM_NOT_JAMMED);
   assert_int_equal(r.contacts, 0);
   assert_int_equal(jam_hessian_map(s, NULL, 0, &m), JAM_OK);
@@ -127,13 +88,12 @@ static void a_fluid_has_an_empty_network(void **state) {
   jam_destroy(s);
 }
 
-static void hyperstatic_networks_have_several_self_stresses(void **state) {
+CASE(hyperstatic_networks_have_several_self_stresses) {
   jam_system *s = square();
   jam_geometry_report r = {.struct_size = sizeof(jam_geometry_report)};
   double f[32], basis[8 * 32], u[32], residual = 1.0;
   size_t m;
   int k;
-  (void)state;
   assert_int_equal(jam_contacts_from_geometry(s, NULL, &r), JAM_NOT_JAMMED);
   assert_int_equal(r.contacts, 32);
   assert_int_equal(r.excess_contacts, 32 - (2 * 15 + 1));
@@ -148,22 +108,16 @@ static void hyperstatic_networks_have_several_self_stresses(void **state) {
   jam_destroy(s);
 }
 
-static void bad_arguments_are_refused(void **state) {
+CASE(bad_arguments_are_refused) {
   jam_system *s = square(), *t = fluid();
-  jam_hessian_options h;
-  jam_modes_options o;
-  jam_dos_options q;
-  jam_geometry_options g;
-  jam_correlation_options pairs;
   jam_comparison_report c = {.struct_size = sizeof(jam_comparison_report)};
   double x[2000];
   int32_t i[2000];
   size_t m;
-  (void)state;
-  assert_int_equal(jam_hessian_options_init(&h, sizeof h), JAM_OK);
-  assert_int_equal(jam_modes_options_init(&o, sizeof o), JAM_OK);
-  assert_int_equal(jam_dos_options_init(&q, sizeof q), JAM_OK);
-  assert_int_equal(jam_geometry_options_init(&g, sizeof g), JAM_OK);
+  DEFAULTS(hessian, h);
+  DEFAULTS(modes, o);
+  DEFAULTS(dos, q);
+  DEFAULTS(geometry, g);
   g.tolerance = -1.0;
   assert_int_equal(jam_contacts_from_geometry(s, &g, NULL), JAM_E_ARGUMENT);
   g.tolerance = NAN;
@@ -195,7 +149,7 @@ static void bad_arguments_are_refused(void **state) {
   assert_int_equal(jam_gaps(s, -1.0, 0, NULL, 0, NULL, 0, &m), JAM_E_ARGUMENT);
   assert_int_equal(jam_gaps(t, 1000.0, 0, NULL, 0, NULL, 0, &m), JAM_E_MEMORY);
   assert_non_null(strstr(jam_last_error(), "B, more than ")); /* in units that fit */
-  assert_int_equal(jam_correlation_options_init(&pairs, sizeof pairs), JAM_OK);
+  DEFAULTS(correlation, pairs);
   pairs.bins = 10;
   assert_int_equal(jam_pair_correlation(s, &pairs, i, 3, x, 10, &m), JAM_E_ARGUMENT);
   pairs.r_max = 1e9;
@@ -221,15 +175,13 @@ static int32_t stop(const jam_progress *p, void *user) {
 }
 
 /* Every long call stops at the first callback that asks for it, writes no output, and works again afterwards. */
-static void every_long_call_can_be_cancelled(void **state) {
+CASE(every_long_call_can_be_cancelled) {
   jam_system *s = square(), *one = NULL;
-  jam_create_options o;
   jam_moduli_report moduli = {.struct_size = sizeof(jam_moduli_report), .bulk = 7.0};
   jam_geometry_report g = {.struct_size = sizeof(jam_geometry_report), .contacts = 7};
   int32_t phase = 0;
   double x[256] = {7.0}, f[256] = {7.0}, table[1200] = {7.0}, residual = 7.0;
   size_t m;
-  (void)state;
   assert_int_equal(jam_contacts_from_geometry(s, NULL, NULL), JAM_NOT_JAMMED);
   assert_int_equal(jam_set_progress(s, stop, &phase), JAM_OK);
   assert_int_equal(jam_contacts_from_geometry(s, NULL, &g), JAM_CANCELLED);
@@ -245,7 +197,7 @@ static void every_long_call_can_be_cancelled(void **state) {
                    JAM_AMBIGUOUS); /* the network is still there */
   jam_destroy(s);
   /* floppy modes need one state of self-stress */
-  assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
+  DEFAULTS(create, o);
   o.n = 40;
   assert_int_equal(jam_create(&o, NULL, &one), JAM_OK);
   assert_int_equal(jam_crunch(one, NULL, NULL), JAM_OK);
@@ -257,16 +209,14 @@ static void every_long_call_can_be_cancelled(void **state) {
   jam_destroy(one);
 }
 
-static void cancelled_calls_write_nothing(void **state) {
+CASE(cancelled_calls_write_nothing) {
   jam_system *s = square();
-  jam_modes_options o;
   int32_t phase = 0;
   double x[64] = {7.0};
   size_t m;
-  (void)state;
   assert_int_equal(jam_contacts_from_geometry(s, NULL, NULL), JAM_NOT_JAMMED);
   assert_int_equal(jam_set_progress(s, stop, &phase), JAM_OK);
-  assert_int_equal(jam_modes_options_init(&o, sizeof o), JAM_OK);
+  DEFAULTS(modes, o);
   o.which = JAM_MODES_ALL;
   assert_int_equal(jam_modes(s, NULL, &o, JAM_MODE_COLUMNS, x, 64, NULL, 0, &m), JAM_CANCELLED);
   assert_int_equal(phase, JAM_PHASE_ANALYSE);
@@ -274,16 +224,4 @@ static void cancelled_calls_write_nothing(void **state) {
   assert_int_equal(jam_set_progress(s, NULL, NULL), JAM_OK);
   assert_int_equal(jam_modes(s, NULL, &o, JAM_MODE_COLUMNS, x, 64, NULL, 0, &m), JAM_OK);
   jam_destroy(s);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(flags_are_0_or_1),
-                                     cmocka_unit_test(null_handles_are_refused),
-                                     cmocka_unit_test(calls_without_a_network_are_refused),
-                                     cmocka_unit_test(a_fluid_has_an_empty_network),
-                                     cmocka_unit_test(hyperstatic_networks_have_several_self_stresses),
-                                     cmocka_unit_test(bad_arguments_are_refused),
-                                     cmocka_unit_test(cancelled_calls_write_nothing),
-                                     cmocka_unit_test(every_long_call_can_be_cancelled)};
-  return cmocka_run_group_tests_name("analysis_errors", tests, NULL, NULL);
 }

@@ -10,9 +10,8 @@
 #include "test.h"
 
 static jam_system *spheres_with(int32_t policy, int dim, int n, double box, double diameter, const double *x) {
-  jam_create_options o;
   jam_system *s = NULL;
-  assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
+  DEFAULTS(create, o);
   o.dim = dim, o.n = n, o.box = box, o.overlap = policy;
   assert_int_equal(create_from(&o, x, (size_t)(n * dim), &diameter, 1, &s), JAM_OK);
   return s;
@@ -22,9 +21,8 @@ static jam_system *spheres(int dim, int n, double box, double diameter, const do
 }
 
 static jam_geometry_report look(jam_system *s, jam_status expected) {
-  jam_geometry_options o;
   jam_geometry_report g = {.struct_size = sizeof(jam_geometry_report)};
-  assert_int_equal(jam_geometry_options_init(&o, sizeof o), JAM_OK);
+  DEFAULTS(geometry, o);
   o.tolerance = 1e-9; /* what touches is given; whether it is a network is the question */
   assert_int_equal(jam_contacts_from_geometry(s, &o, &g), expected);
   return g;
@@ -38,13 +36,12 @@ static void refuses_floppy_modes(jam_system *s, const char *word) {
 }
 
 /* Five disks in a row through the box: as many contacts as spheres, and no stiffness sideways. */
-static void a_single_row_has_no_sideways_stiffness(void **state) {
+CASE(a_single_row_has_no_sideways_stiffness) {
   double x[10];
   jam_geometry_report g;
   jam_system *s;
   size_t m;
   int i;
-  (void)state;
   for (i = 0; i < 5; ++i) x[2 * i] = i, x[2 * i + 1] = 2.0;
   s = spheres(2, 5, 5.0, 1.0, x);
   g = look(s, JAM_NOT_JAMMED);
@@ -56,14 +53,12 @@ static void a_single_row_has_no_sideways_stiffness(void **state) {
 }
 
 /* Two strips of triangular rows that do not touch: each moves freely, and their forces are independent. */
-static void separate_clusters_have_separate_forces(void **state) {
+CASE(separate_clusters_have_separate_forces) {
   double x[72], f[84], l[72], residual = 1.0;
   jam_geometry_report g;
-  jam_modes_options o;
   jam_system *s;
   size_t m;
   int i, zero = 0;
-  (void)state;
   for (i = 0; i < 36; ++i)
     x[2 * i] = i % 6 + 0.5 * (i / 6 % 3 % 2), x[2 * i + 1] = 0.1 + 3.0 * (i / 18) + i / 6 % 3 * sqrt(0.75);
   s = spheres(2, 36, 6.0, 1.0, x);
@@ -72,7 +67,7 @@ static void separate_clusters_have_separate_forces(void **state) {
   assert_int_equal(g.self_stresses, 84 - (72 - 4)); /* counting of Maxwell and Calladine */
   assert_int_equal(jam_stress_states(s, f, 84, NULL, 0, &residual, &m), JAM_AMBIGUOUS);
   assert_true(m == (size_t)g.self_stresses && residual < 1e-12);
-  assert_int_equal(jam_modes_options_init(&o, sizeof o), JAM_OK);
+  DEFAULTS(modes, o);
   o.which = JAM_MODES_ALL;
   assert_int_equal(eigenvalues(s, &o, l, NULL, 72, &m), JAM_OK);
   for (i = 0; i < 72; ++i) zero += fabs(l[i]) < 1e-10;
@@ -82,12 +77,11 @@ static void separate_clusters_have_separate_forces(void **state) {
 }
 
 /* A sphere as large as its box touches its own images. These contacts cannot open, so they are counted and left out. */
-static void contacts_with_own_images_are_left_out(void **state) {
+CASE(contacts_with_own_images_are_left_out) {
   const double x[3] = {0.1, 0.2, 0.3};
   jam_system *s = spheres(3, 1, 1.0, 1.0, x);
   const jam_geometry_report g = look(s, JAM_NOT_JAMMED);
   size_t m;
-  (void)state;
   assert_true(g.self_contacts == 3 && g.contacts == 0);
   assert_int_equal(jam_contacts(s, NULL, 0, &m), JAM_OK);
   assert_int_equal(m, 0);
@@ -95,7 +89,7 @@ static void contacts_with_own_images_are_left_out(void **state) {
 }
 
 /* Two disks in a checkerboard touch through four images: four contacts of one pair, each with its own vector. */
-static void several_images_are_several_contacts(void **state) {
+CASE(several_images_are_several_contacts) {
   const double x[4] = {0.0, 0.0, 0.5, 0.5};
   jam_system *s = spheres(2, 2, 1.0, sqrt(0.5), x);
   const jam_geometry_report g = look(s, JAM_AMBIGUOUS);
@@ -103,7 +97,6 @@ static void several_images_are_several_contacts(void **state) {
   int32_t pair[8];
   size_t m;
   int k, c;
-  (void)state;
   assert_true(g.contacts == 4 && g.clusters == 1 && g.zero_modes == 2 && g.self_stresses == 2 &&
               g.excess_contacts == 1);
   assert_int_equal(jam_contacts(s, pair, 8, &m), JAM_OK);
@@ -125,15 +118,13 @@ static void several_images_are_several_contacts(void **state) {
 }
 
 /* Three disks jam with one state of self-stress although pairs touch through several images. All calls work. */
-static void three_disks_have_one_self_stress(void **state) {
-  jam_create_options o;
+CASE(three_disks_have_one_self_stress) {
   jam_crunch_report r = {.struct_size = sizeof(jam_crunch_report)};
   jam_geometry_report g;
   jam_system *s = NULL;
   double f[8], q[8], b[30];
   size_t m, k;
-  (void)state;
-  assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
+  DEFAULTS(create, o);
   o.dim = 2, o.n = 3, o.packing_fraction = 0.4;
   assert_int_equal(jam_create(&o, NULL, &s), JAM_OK);
   assert_int_equal(jam_crunch(s, NULL, &r), JAM_OK);
@@ -149,25 +140,13 @@ static void three_disks_have_one_self_stress(void **state) {
 }
 
 /* Of soft spheres: their contact has no direction, so no network of hard spheres has it. */
-static void spheres_with_one_centre_are_named(void **state) {
+CASE(spheres_with_one_centre_are_named) {
   const double x[] = {0.0, 0.0, 1.0, 0.0, 1.0, 0.0, 2.0, 0.0};
-  jam_geometry_options o;
   jam_system *s = spheres_with(JAM_OVERLAP_ALLOW, 2, 4, 3.0, 1.0, x);
-  (void)state;
-  assert_int_equal(jam_geometry_options_init(&o, sizeof o), JAM_OK);
+  DEFAULTS(geometry, o);
   assert_int_equal(jam_contacts_from_geometry(s, &o, NULL), JAM_E_OVERLAP);
   assert_non_null(strstr(jam_last_error(), "spheres 1 and 2 have the same centre"));
   assert_int_equal(jam_rigidity(s, JAM_RIGIDITY_COLLECTIVE, NULL), JAM_E_OVERLAP);
   assert_non_null(strstr(jam_last_error(), "spheres 1 and 2 have the same centre"));
   jam_destroy(s);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(a_single_row_has_no_sideways_stiffness),
-                                     cmocka_unit_test(separate_clusters_have_separate_forces),
-                                     cmocka_unit_test(contacts_with_own_images_are_left_out),
-                                     cmocka_unit_test(several_images_are_several_contacts),
-                                     cmocka_unit_test(three_disks_have_one_self_stress),
-                                     cmocka_unit_test(spheres_with_one_centre_are_named)};
-  return cmocka_run_group_tests_name("analysis_scenes", tests, NULL, NULL);
 }

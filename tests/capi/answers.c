@@ -24,9 +24,8 @@ static void said(jam_status status, jam_status expected, const char *words) {
 }
 
 static jam_system *start(int64_t n, double fraction, int32_t overlap) {
-  jam_create_options o;
   jam_system *sys = NULL;
-  jam_create_options_init(&o, sizeof o);
+  DEFAULTS(create, o);
   o.dim = 2, o.n = n, o.packing_fraction = fraction, o.overlap = overlap, o.seed = 3;
   assert_int_equal(jam_create(&o, NULL, &sys), JAM_OK);
   assert_int_equal(jam_set_log(sys, keep_line, JAM_LOG_WARNING, NULL), JAM_OK);
@@ -37,11 +36,10 @@ static jam_system *start(int64_t n, double fraction, int32_t overlap) {
 static jam_system *square(void) {
   double x[72];
   const double sigma = 1.0 / 6.0;
-  jam_create_options o;
   jam_system *sys = NULL;
   int k;
   for (k = 0; k < 36; ++k) x[2 * k] = (k % 6) / 6.0, x[2 * k + 1] = (k / 6) / 6.0;
-  jam_create_options_init(&o, sizeof o);
+  DEFAULTS(create, o);
   o.dim = 2, o.n = 36;
   assert_int_equal(create_from(&o, x, 72, &sigma, 1, &sys), JAM_OK);
   assert_int_equal(jam_set_log(sys, keep_line, JAM_LOG_WARNING, NULL), JAM_OK);
@@ -53,36 +51,30 @@ static int32_t stop(const jam_progress *p, void *user) {
   return 1;
 }
 
-static void stopped_calls_say_what_stopped_them(void **state) {
+CASE(stopped_calls_say_what_stopped_them) {
   jam_system *sys = start(60, 0.4, JAM_OVERLAP_REFUSE);
-  jam_run_options run;
-  jam_crunch_options crunch;
-  jam_monte_carlo_options mc;
-  (void)state;
-  jam_run_options_init(&run, sizeof run);
+  DEFAULTS(run, run);
   run.wall_time = 1e-3, run.collisions_per_particle = 1e9;
   said(jam_run(sys, &run, NULL), JAM_LIMIT, "wall_time");
-  jam_crunch_options_init(&crunch, sizeof crunch);
+  DEFAULTS(crunch, crunch);
   crunch.max_lps = 1, crunch.method = JAM_CRUNCH_SEQUENTIAL_LP;
   said(jam_crunch(sys, &crunch, NULL), JAM_LIMIT, "max_lps");
   jam_set_progress(sys, stop, NULL);
   said(jam_crunch(sys, NULL, NULL), JAM_CANCELLED, "callback");
   said(jam_compress(sys, NULL, NULL), JAM_CANCELLED, "callback");
-  jam_monte_carlo_options_init(&mc, sizeof mc);
+  DEFAULTS(monte_carlo, mc);
   mc.sweeps = 1000000;
   said(jam_monte_carlo(sys, &mc, NULL), JAM_CANCELLED, "callback");
   jam_destroy(sys);
 }
 
-static void verdicts_say_why(void **state) {
+CASE(verdicts_say_why) {
   jam_system *fluid = start(60, 0.4, JAM_OVERLAP_REFUSE), *lattice = square(),
              *soft = start(60, 0.2, JAM_OVERLAP_ALLOW);
-  jam_geometry_options g;
   size_t m;
-  (void)state;
   said(jam_rigidity(fluid, JAM_RIGIDITY_COLLECTIVE, NULL), JAM_NOT_JAMMED, "not collectively jammed");
   said(jam_rigidity(lattice, JAM_RIGIDITY_STRICT, NULL), JAM_NOT_JAMMED, "not strictly jammed");
-  jam_geometry_options_init(&g, sizeof g);
+  DEFAULTS(geometry, g);
   g.tolerance = 1e-8;
   said(jam_contacts_from_geometry(fluid, &g, NULL), JAM_NOT_JAMMED, "jam_contacts_by_distance");
   assert_true(jam_contacts_from_geometry(lattice, NULL, NULL) > 0);
@@ -95,14 +87,11 @@ static void verdicts_say_why(void **state) {
 }
 
 /* The report that the handle keeps has the status of its call. */
-static void reports_keep_their_status(void **state) {
+CASE(reports_keep_their_status) {
   jam_system *sys = start(60, 0.4, JAM_OVERLAP_REFUSE), *lattice = square();
-  jam_crunch_options o;
-  jam_crunch_report r;
   jam_status status;
-  (void)state;
-  r.struct_size = sizeof r;
-  jam_crunch_options_init(&o, sizeof o);
+  SIZED(jam_crunch_report, r);
+  DEFAULTS(crunch, o);
   o.max_lps = 1, o.method = JAM_CRUNCH_SEQUENTIAL_LP;
   assert_int_equal(jam_crunch(sys, &o, NULL), JAM_LIMIT);
   assert_int_equal(jam_get_crunch_report(sys, &r), JAM_OK);
@@ -119,19 +108,8 @@ static void reports_keep_their_status(void **state) {
 }
 
 /* A failing verb logs its text, too. */
-static void failures_are_logged(void **state) {
+CASE(failures_are_logged) {
   jam_system *sys = start(60, 0.4, JAM_OVERLAP_REFUSE);
-  (void)state;
   said(jam_relax(sys, NULL, NULL), JAM_E_STATE, "overlap");
   jam_destroy(sys);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(stopped_calls_say_what_stopped_them),
-      cmocka_unit_test(verdicts_say_why),
-      cmocka_unit_test(reports_keep_their_status),
-      cmocka_unit_test(failures_are_logged),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

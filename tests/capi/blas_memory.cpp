@@ -17,16 +17,14 @@ namespace {
 constexpr unsigned long mega = 1ul << 20;
 
 jam_system *start() {
-  jam_create_options o;
-  jam_create_options_init(&o, sizeof o);
+  DEFAULTS(create, o);
   o.n = 100, o.packing_fraction = 0.2;
   jam_system *sys = nullptr;
   if (jam_create(&o, nullptr, &sys) != JAM_OK) std::abort();
   return sys;
 }
 jam_status crunch(jam_system *sys, int threads) {
-  jam_crunch_options o;
-  jam_crunch_options_init(&o, sizeof o);
+  DEFAULTS(crunch, o);
   o.threads = threads, o.wall_time = 20.0;
   return jam_crunch(sys, &o, nullptr);
 }
@@ -88,8 +86,7 @@ int enough() {
 }
 int spectrum_with(unsigned long bytes) {
   jam_system *sys = start();
-  jam_modes_options o;
-  jam_modes_options_init(&o, sizeof o);
+  DEFAULTS(modes, o);
   o.which = JAM_MODES_ALL;
   size_t rows = 0;
   static double table[2 * 300];
@@ -100,7 +97,7 @@ int spectrum_with(unsigned long bytes) {
 int spectrum() { return spectrum_with(64 * mega); }
 int spectrum_with_enough() { return spectrum_with(512 * mega); }
 
-void a_call_without_room_for_a_buffer_says_so(void **) {
+CASE(a_call_without_room_for_a_buffer_says_so) {
 #ifdef JAM_SANITIZED
   skip();  // they map terabytes
 #endif
@@ -115,8 +112,3 @@ void a_call_without_room_for_a_buffer_says_so(void **) {
 }
 
 }  // namespace
-
-int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(a_call_without_room_for_a_buffer_says_so)};
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}

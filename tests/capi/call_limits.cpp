@@ -15,8 +15,7 @@ extern "C" {
 namespace {
 
 jam_create_options options(int64_t n, double fraction) {
-  jam_create_options o;
-  jam_create_options_init(&o, sizeof o);
+  DEFAULTS(create, o);
   o.n = n, o.packing_fraction = fraction;
   return o;
 }
@@ -48,7 +47,7 @@ jam_start watched_by(Seen &seen) {
 }
 
 // Near its limit a random start takes minutes.
-void slow_start_is_watched_and_stopped(void **) {
+CASE(slow_start_is_watched_and_stopped) {
   jam_create_options o = options(20000, 0.38);
   Seen seen;
   seen.stop_at = 3;
@@ -69,7 +68,7 @@ void slow_start_is_watched_and_stopped(void **) {
   assert_int_equal(jam_create(&o, nullptr, &sys), JAM_E_ARGUMENT);
 }
 
-void watching_changes_nothing(void **) {
+CASE(watching_changes_nothing) {
   const jam_create_options o = options(500, 0.25);
   Seen seen;
   const jam_start start = watched_by(seen);
@@ -83,7 +82,7 @@ void watching_changes_nothing(void **) {
 }
 
 // Shifts of all pairs of 20000 spheres: 2e8 searches.
-void planting_stops_in_time(void **) {
+CASE(planting_stops_in_time) {
   jam_create_options o = options(20000, 1.0);
   o.model = JAM_MODEL_MK, o.wall_time = 0.1;
   jam_system *sys = nullptr;
@@ -92,7 +91,7 @@ void planting_stops_in_time(void **) {
 }
 
 // Above saturation no number of trials helps: told at once, and not for mixtures or few spheres, which pack otherwise.
-void fractions_out_of_reach(void **) {
+CASE(fractions_out_of_reach) {
   for (int dim = 2; dim <= 8; ++dim) {
     static const double saturation[] = {0.547, 0.384, 0.26, 0.171, 0.109, 0.0684, 0.0423};
     jam_create_options o = options(20000, 1.02 * saturation[dim - 2]);
@@ -105,7 +104,7 @@ void fractions_out_of_reach(void **) {
   jam_destroy(one);
 }
 
-void memory_limit_of_a_call(void **) {
+CASE(memory_limit_of_a_call) {
   jam_system *sys = make(2000, 0.2);
   size_t rows = 0;
   assert_int_equal(jam_gaps(sys, 1.0, 0, nullptr, 0, nullptr, 0, &rows), JAM_OK);
@@ -135,19 +134,16 @@ void memory_limit_of_a_call(void **) {
 
 // A crunch whose estimate exceeds the limit twice does not begin; below that each matrix decides before it is
 // factorised. What fits runs.
-void memory_limit_of_factors(void **) {
+CASE(memory_limit_of_factors) {
   jam_system *sys = make(6000, 0.3);
   const double *view = nullptr;
   size_t len = 0;
   jam_view(sys, JAM_VIEW_POSITIONS, &view, &len);
   const std::vector<double> before(view, view + len);
-  jam_estimate_report e;
-  e.struct_size = sizeof e;
+  SIZED(jam_estimate_report, e);
   assert_int_equal(jam_estimate_crunch(sys, nullptr, &e), JAM_OK);
-  jam_crunch_options o;
-  jam_crunch_options_init(&o, sizeof o);
-  jam_crunch_report r;
-  r.struct_size = sizeof r;
+  DEFAULTS(crunch, o);
+  SIZED(jam_crunch_report, r);
   assert_int_equal(jam_set_memory_limit(sys, 0.4 * e.bytes), JAM_OK);
   largest = 0;
   assert_int_equal(jam_crunch(sys, &o, &r), JAM_E_MEMORY);
@@ -167,8 +163,7 @@ void memory_limit_of_factors(void **) {
   sys = make(400, 0.3);  // the rigidity test, and modes of its network
   assert_int_equal(jam_crunch(sys, nullptr, nullptr), JAM_OK);
   assert_int_equal(jam_set_memory_limit(sys, 1e5), JAM_OK);
-  jam_moduli_report moduli;
-  moduli.struct_size = sizeof moduli;
+  SIZED(jam_moduli_report, moduli);
   assert_int_equal(jam_moduli(sys, nullptr, &moduli), JAM_E_MEMORY);
   assert_non_null(strstr(jam_last_error(), "factorised"));
   jam_destroy(sys);
@@ -176,11 +171,10 @@ void memory_limit_of_factors(void **) {
 
 // One sphere that sees most of the pairs: the mean diameter does not announce them. Found by the soak test: 14 GB under
 // a limit of 0.1.
-void memory_limit_of_one_sphere(void **) {
+CASE(memory_limit_of_one_sphere) {
   const double x[] = {0.5, 0.5, 0.5, 0.0, 0.0, 0.0, 0.1, 0.0, 0.0, 0.2, 0.0, 0.0, 0.3, 0.0, 0.0, 0.4, 0.0, 0.0};
   const double diameters[] = {0.8, 1e-3, 1e-3, 1e-3, 1e-3, 1e-3};
-  jam_create_options o;
-  jam_create_options_init(&o, sizeof o);
+  DEFAULTS(create, o);
   o.n = 6, o.memory_limit = 1e8;
   jam_system *sys = nullptr;
   assert_int_equal(create_from(&o, x, 18, diameters, 6, &sys), JAM_OK);
@@ -193,10 +187,9 @@ void memory_limit_of_one_sphere(void **) {
 }
 
 // A search for many pairs inside a crunch: its time ends it, and the packing is kept.
-void crunch_of_many_pairs(void **) {
+CASE(crunch_of_many_pairs) {
   jam_system *sys = make(3000, 0.2);
-  jam_crunch_options o;
-  jam_crunch_options_init(&o, sizeof o);
+  DEFAULTS(crunch, o);
   o.neighbour_radius = 9.0, o.wall_time = 0.2;
   assert_int_equal(jam_set_memory_limit(sys, INFINITY), JAM_OK);
   assert_int_equal(jam_crunch(sys, &o, nullptr), JAM_LIMIT);
@@ -208,7 +201,7 @@ int32_t stop_at_once(const jam_progress *, void *) { return 1; }
 
 // Lists of all pairs of 20000 spheres take seconds. The callback, and the limit of time, end them before the first
 // event; the packing is as before.
-void lists_of_verbs_are_left(void **) {
+CASE(lists_of_verbs_are_left) {
   jam_create_options o = options(20000, 0.1);
   o.dim = 8, o.overlap = JAM_OVERLAP_ALLOW;  // in so few diameters a side, every search takes all pairs
   jam_system *sys = nullptr;
@@ -219,11 +212,9 @@ void lists_of_verbs_are_left(void **) {
   const std::vector<double> before(view, view + len);
   for (const bool by_callback : {true, false}) {
     jam_set_progress(sys, by_callback ? stop_at_once : nullptr, nullptr);
-    jam_relax_options soft;
-    jam_relax_options_init(&soft, sizeof soft);
+    DEFAULTS(relax, soft);
     if (!by_callback) soft.wall_time = 0.05;
-    jam_relax_report r;
-    r.struct_size = sizeof r;
+    SIZED(jam_relax_report, r);
     assert_int_equal(jam_relax(sys, &soft, &r), by_callback ? JAM_CANCELLED : JAM_LIMIT);
     assert_int_equal(r.stop_reason, by_callback ? JAM_STOP_CANCELLED : JAM_STOP_WALL_TIME);
     assert_int_equal(r.evaluations, 0);
@@ -237,11 +228,9 @@ void lists_of_verbs_are_left(void **) {
   assert_int_equal(jam_create(&quenched, nullptr, &sys), JAM_OK);
   for (const bool by_callback : {true, false}) {
     jam_set_progress(sys, by_callback ? stop_at_once : nullptr, nullptr);
-    jam_run_options run;
-    jam_run_options_init(&run, sizeof run);
+    DEFAULTS(run, run);
     if (!by_callback) run.wall_time = 0.05;
-    jam_md_report r;
-    r.struct_size = sizeof r;
+    SIZED(jam_md_report, r);
     assert_int_equal(jam_run(sys, &run, &r), by_callback ? JAM_CANCELLED : JAM_LIMIT);
     assert_int_equal(r.stop_reason, by_callback ? JAM_STOP_CANCELLED : JAM_STOP_WALL_TIME);
     assert_true(r.events == 0 && r.seconds == 0.0);  // it never began
@@ -249,17 +238,15 @@ void lists_of_verbs_are_left(void **) {
   jam_destroy(sys);
 }
 
-void lists_of_verbs_keep_to_the_memory(void **) {
+CASE(lists_of_verbs_keep_to_the_memory) {
   jam_system *sys = make(3000, 0.3);
   const double *view = nullptr;
   size_t len = 0;
   jam_view(sys, JAM_VIEW_POSITIONS, &view, &len);
   const std::vector<double> before(view, view + len);
   assert_int_equal(jam_set_memory_limit(sys, 1e4), JAM_OK);
-  jam_run_options run;
-  jam_run_options_init(&run, sizeof run);
-  jam_monte_carlo_options sweeps;
-  jam_monte_carlo_options_init(&sweeps, sizeof sweeps);
+  DEFAULTS(run, run);
+  DEFAULTS(monte_carlo, sweeps);
   sweeps.step = 0.01;
   for (const bool monte_carlo : {true, false}) {
     assert_int_equal(monte_carlo ? jam_monte_carlo(sys, &sweeps, nullptr) : jam_run(sys, &run, nullptr), JAM_E_MEMORY);
@@ -273,17 +260,3 @@ void lists_of_verbs_keep_to_the_memory(void **) {
 }
 
 }  // namespace
-
-int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(slow_start_is_watched_and_stopped),
-                              cmocka_unit_test(watching_changes_nothing),
-                              cmocka_unit_test(planting_stops_in_time),
-                              cmocka_unit_test(fractions_out_of_reach),
-                              cmocka_unit_test(memory_limit_of_a_call),
-                              cmocka_unit_test(memory_limit_of_factors),
-                              cmocka_unit_test(memory_limit_of_one_sphere),
-                              cmocka_unit_test(crunch_of_many_pairs),
-                              cmocka_unit_test(lists_of_verbs_are_left),
-                              cmocka_unit_test(lists_of_verbs_keep_to_the_memory)};
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}

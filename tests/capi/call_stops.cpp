@@ -54,7 +54,7 @@ std::vector<double> diameters(const jam_system *sys) {
 const double tilted[9] = {1, 0, 0, 0.25, 1, 0, 0, 0.25, 1};
 
 // By the callback, and by a cancel of another thread while the call runs. That one is answered: the next verb runs.
-void setters_are_stopped(void **) {
+CASE(setters_are_stopped) {
   jam_system *sys = make(quenched());
   const std::vector<double> x = positions(sys), s = diameters(sys);
   std::vector<double> other = x;
@@ -85,7 +85,7 @@ void setters_are_stopped(void **) {
 }
 
 // Each of them by the callback, those with options by the limit of time too.
-void makers_are_stopped(void **) {
+CASE(makers_are_stopped) {
   const jam_create_options o = quenched();
   jam_create_options timed = o;
   timed.wall_time = 0.05;
@@ -119,7 +119,7 @@ void makers_are_stopped(void **) {
 
 // Const calls that compare many pairs. One that a callback makes does not call it again. A cancel that came before
 // waits for the next verb.
-void const_calls_are_stopped(void **) {
+CASE(const_calls_are_stopped) {
   jam_create_options o;
   jam_create_options_init(&o, sizeof o);
   o.n = n;
@@ -177,7 +177,7 @@ int32_t look_inside(const jam_progress *, void *user) {
   return 1;
 }
 
-void callbacks_do_not_nest(void **) {
+CASE(callbacks_do_not_nest) {
   jam_create_options o;
   jam_create_options_init(&o, sizeof o);
   o.n = n;
@@ -194,8 +194,4 @@ void callbacks_do_not_nest(void **) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(setters_are_stopped), cmocka_unit_test(makers_are_stopped),
-                              cmocka_unit_test(const_calls_are_stopped), cmocka_unit_test(callbacks_do_not_nest)};
-  return cmocka_run_group_tests(tests, make_scratch, remove_scratch);
-}
+FIXTURE(make_scratch, remove_scratch)

@@ -9,8 +9,7 @@
 #include "test.h"
 
 static jam_create_options options(int32_t dim, int64_t n) {
-  jam_create_options o;
-  assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
+  DEFAULTS(create, o);
   o.dim = dim, o.n = n;
   return o;
 }
@@ -21,8 +20,7 @@ static double dot(const double *a, const double *b, int d) {
   return sum;
 }
 
-static void lower_triangle(void **state) {
-  (void)state;
+CASE(lower_triangle) {
   const double cell[9] = {5.0, 0.4, 0.1, 0.3, 1.1, 0.2, 0.2, 9.3, 2.0};
   double taken[9], rotation[9], given[9];
   int64_t transform[9];
@@ -85,8 +83,7 @@ static jam_rigidity_report rigidity(jam_system *sys, int32_t kind) {
 
 /* Donev, Torquato, Stillinger, Connelly, J. Comput. Phys. 197, 139 (2004): a vacancy leaves the triangular lattice
  * strictly jammed, two in a row do not. Flexes counted by an independent program. */
-static void triangular_lattices(void **state) {
-  (void)state;
+CASE(triangular_lattices) {
   const struct { int holes, jammed, flexes; } cases[] = {{0, 1, 0}, {1, 1, 0}, {2, 0, 2}, {3, 0, 6}};
   for (size_t k = 0; k < sizeof cases / sizeof *cases; ++k)
     for (int tilt = 0; tilt <= 5; tilt += 5) {
@@ -105,8 +102,7 @@ static void triangular_lattices(void **state) {
 }
 
 /* A random start in one basis, crunched in two: the same jammed packing. */
-static void crunch_does_not_depend_on_the_basis(void **state) {
-  (void)state;
+CASE(crunch_does_not_depend_on_the_basis) {
   for (int32_t dim = 2; dim <= 3; ++dim) {
     const int64_t n = 60;
     double cell[9] = {0.0}, wide[9], sizes[60], distance[2];
@@ -139,8 +135,7 @@ static void crunch_does_not_depend_on_the_basis(void **state) {
 }
 
 /* A shear and its reverse give the energy back, through a cell whose tilt exceeds half an edge. */
-static void shear_and_back(void **state) {
-  (void)state;
+CASE(shear_and_back) {
   jam_create_options o = options(2, 40);
   jam_system *sys = NULL;
   const double shear[3][4] = {{0.0, 0.8, 0.0, 0.0}, {0.0, -0.8, 0.0, 0.0}, {0.0}};
@@ -149,9 +144,8 @@ static void shear_and_back(void **state) {
   assert_int_equal(jam_create(&o, NULL, &sys), JAM_OK);
   for (int k = 0; k < 3; ++k) {
     jam_relax_report r = {.struct_size = sizeof r};
-    jam_relax_options ro;
     jam_system *copy = NULL;
-    assert_int_equal(jam_relax_options_init(&ro, sizeof ro), JAM_OK);
+    DEFAULTS(relax, ro);
     ro.max_evaluations = 1;
     assert_int_equal(jam_copy(sys, &copy), JAM_OK);
     assert_true(jam_relax(copy, &ro, &r) >= 0);
@@ -167,8 +161,7 @@ static void shear_and_back(void **state) {
 }
 
 /* r -> (1 + strain) r by numbers: a point and the cell vectors. */
-static void strain_is_affine(void **state) {
-  (void)state;
+CASE(strain_is_affine) {
   jam_create_options o = options(2, 1);
   jam_system *sys = NULL;
   const double x[2] = {0.2, 0.4}, sigma = 0.1, strain[4] = {0.5, 0.25, 0.0, 0.25};
@@ -185,8 +178,7 @@ static void strain_is_affine(void **state) {
   jam_destroy(sys);
 }
 
-static void files(void **state) {
-  (void)state;
+CASE(files) {
   const char *const path = "cell_test.xyz", *const plain = "cell_test.dat", *const check = "cell_test.check";
   for (int32_t dim = 2; dim <= 5; ++dim) {
     double cell[25] = {0.0}, back[25];
@@ -219,8 +211,7 @@ static void files(void **state) {
 
 /* Vectors of the lattice of the unit cube. With m = 1e6 they are reduced to it; with 1e12 the transform has m^2 = 1e24,
  * which 64-bit integers do not hold. */
-static void huge_multiples(void **state) {
-  (void)state;
+CASE(huge_multiples) {
   for (int much = 0; much < 2; ++much) {
     const double m = much ? 1e12 : 1e6, rows[9] = {1, 0, 0, m, 1, 0, 0, m, 1}, x[3] = {0}, sigma = 0.1;
     jam_create_options o = options(3, 1);
@@ -234,8 +225,7 @@ static void huge_multiples(void **state) {
   }
 }
 
-static void refused(void **state) {
-  (void)state;
+CASE(refused) {
   const double left[4] = {1, 0, 0, -1}, singular[4] = {1, 2, 2, 4}, flat[4] = {1, 0, 0, 1e-7},
                nan_cell[4] = {1, 0, NAN, 1}, zero[4] = {0}, tall[4] = {1.0, 0.0, 0.0, 2.0}, sigma = 0.9,
                x[4] = {0.0, 0.0, 0.5, 1.0};
@@ -275,15 +265,12 @@ static void refused(void **state) {
 
 /* Mari-Kurchan shifts are fractions of the cell vectors. A strain that would give the cell other vectors is refused; a
  * crunch with strains keeps the vectors that it has. */
-static void shifts_are_kept(void **state) {
+CASE(shifts_are_kept) {
   const double small[4] = {0.0, 0.3, 0.0, 0.0}, large[4] = {0.0, 17.0, 0.0, 0.0};
   double cell[4];
-  jam_create_options o;
-  jam_crunch_options c;
   jam_crunch_report r;
   jam_system *sys = NULL;
-  (void)state;
-  jam_create_options_init(&o, sizeof o);
+  DEFAULTS(create, o);
   o.dim = 2, o.n = 32, o.seed = 1, o.model = JAM_MODEL_MK, o.packing_fraction = 1e-3;
   assert_int_equal(jam_create(&o, NULL, &sys), JAM_OK);
   assert_int_equal(jam_strain(sys, large, 4), JAM_E_UNSUPPORTED);
@@ -294,7 +281,7 @@ static void shifts_are_kept(void **state) {
   assert_true(fabs(cell[2] - 0.3 * cell[0]) < 1e-15);
   jam_destroy(sys);
 
-  jam_crunch_options_init(&c, sizeof c);
+  DEFAULTS(crunch, c);
   memset(&r, 0, sizeof r), r.struct_size = sizeof r;
   c.strain = JAM_STRAIN_FREE;
   o.dim = 3, o.n = 48, o.packing_fraction = 1.5;
@@ -303,19 +290,4 @@ static void shifts_are_kept(void **state) {
   assert_true(r.jammed && r.strictly_jammed == JAM_VERDICT_YES && r.max_overlap < 1e-12);
   assert_true(r.contacts == 3 * (r.stable - 1) + 6); /* isostatic with six components of stress */
   jam_destroy(sys);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(lower_triangle),
-      cmocka_unit_test(triangular_lattices),
-      cmocka_unit_test(crunch_does_not_depend_on_the_basis),
-      cmocka_unit_test(shear_and_back),
-      cmocka_unit_test(strain_is_affine),
-      cmocka_unit_test(files),
-      cmocka_unit_test(huge_multiples),
-      cmocka_unit_test(refused),
-      cmocka_unit_test(shifts_are_kept),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -10,8 +10,7 @@
 enum { N = 24 };
 
 static jam_create_options options(int dim, double fraction) {
-  jam_create_options o;
-  assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
+  DEFAULTS(create, o);
   o.dim = dim, o.n = N, o.packing_fraction = fraction;
   return o;
 }
@@ -69,20 +68,17 @@ static void expect_read_back(jam_system *sys, int walls) {
 
 /* Growth, dynamics and Monte Carlo leave the cell, and copies and strains act along the axis that is named. */
 static void work_in(jam_system *sys, const double *cell, int dim, int axis, int walls) {
-  jam_compress_options c;
-  jam_run_options r;
-  jam_monte_carlo_options m;
   jam_system *copies = NULL;
   int32_t count[3] = {1, 1, 1};
   double tiled[9], strain[9] = {0.0};
   const size_t len = (size_t)(dim * dim);
-  jam_compress_options_init(&c, sizeof c);
+  DEFAULTS(compress, c);
   c.growth_rate = 0.03, c.pressure = 20.0;
   assert_true(jam_compress(sys, &c, NULL) >= 0);
-  jam_run_options_init(&r, sizeof r);
+  DEFAULTS(run, r);
   r.collisions_per_particle = 5.0;
   assert_true(jam_run(sys, &r, NULL) >= 0);
-  jam_monte_carlo_options_init(&m, sizeof m);
+  DEFAULTS(monte_carlo, m);
   m.sweeps = 5;
   assert_true(jam_monte_carlo(sys, &m, NULL) >= 0);
   expect_cell(sys, cell, dim);
@@ -103,9 +99,8 @@ static void work_in(jam_system *sys, const double *cell, int dim, int axis, int 
   expect_read_back(sys, 0);
 }
 
-static void cells_stay(void **state) {
+CASE(cells_stay) {
   static const double ratios[] = {1.0, 1.19, 1.21, 3.0, 50.0, 0.25}, leans[] = {0.0, 0.3, -0.5, 1.7};
-  (void)state;
   for (int dim = 2; dim <= 3; ++dim)
     for (int axis = 0; axis < dim; ++axis)
       for (size_t r = 0; r < sizeof ratios / sizeof *ratios; ++r)
@@ -144,16 +139,14 @@ static void cells_stay(void **state) {
 }
 
 /* The same spheres with the axes named in another order have the same pairs, distances and waves. */
-static void names_of_axes_do_not_matter(void **state) {
-  (void)state;
+CASE(names_of_axes_do_not_matter) {
   for (int dim = 2; dim <= 3; ++dim) {
     double g[3][40], cell[9], turned[9], y[3 * N];
     jam_create_options o = options(dim, 0.2);
     jam_system *sys = NULL, *other = NULL;
     const double *x, *s;
     size_t len, n;
-    jam_correlation_options go;
-    jam_correlation_options_init(&go, sizeof go);
+    DEFAULTS(correlation, go);
     go.r_max = 3.0, go.bins = 40;
     make_cell(dim, 0, 7.0, 0.0, cell);
     assert_int_equal(create_in_cell(&o, cell, (size_t)(dim * dim), NULL, 0, NULL, 0, &sys), JAM_OK);
@@ -174,14 +167,13 @@ static void names_of_axes_do_not_matter(void **state) {
 /* The lattice of given vectors by those of a handle: a tilt of many edges is taken off in place, vectors that are
  * nearly parallel are reduced. Vectors that are not lower-triangular are turned with the spheres, and stay what they
  * are. */
-static void extreme_vectors_are_replaced(void **state) {
+CASE(extreme_vectors_are_replaced) {
   static const struct {
     double cell[4];
     int same, rotated;
   } cases[] = {{{1, 0, 3.3, 1.1}, 1, 0},   {{1, 0, 9, 1}, 1, 0},         {{1, 0, 40, 1}, 0, 0},
                {{1, 0, 0.41, 0.01}, 0, 1}, {{0, 2, -1, 0}, 1, 1},        {{3, 4, -0.8, 0.6}, 1, 1},
                {{50, 0, 0, 1}, 1, 0},      {{50, 0, 0.3 * 50, 1}, 1, 0}, {{1, 0, 20, 50}, 1, 0}};
-  (void)state;
   for (size_t k = 0; k < sizeof cases / sizeof *cases; ++k) {
     const double *const given = cases[k].cell, x[2] = {0.3, 0.2}, sigma = 1e-3;
     double cell[4], rotation[4];
@@ -209,13 +201,12 @@ static void extreme_vectors_are_replaced(void **state) {
 }
 
 /* A shear goes on by one vector of the cell after the other; at last the vectors are replaced, once with a note. */
-static void shear_without_end(void **state) {
+CASE(shear_without_end) {
   const double shear[4] = {0.0, 0.7, 0.0, 0.0}, lower[4] = {0.0, 0.0, 0.1, 0.0};
   double cell[4];
   jam_create_options o = options(2, 0.02);
   jam_system *sys = NULL;
   int replaced = 0;
-  (void)state;
   o.overlap = JAM_OVERLAP_ALLOW;
   assert_int_equal(jam_create(&o, NULL, &sys), JAM_OK);
   for (int k = 1; k <= 60; ++k) {
@@ -230,14 +221,4 @@ static void shear_without_end(void **state) {
   assert_int_equal(jam_strain(sys, lower, 4), JAM_OK);
   assert_non_null(strstr(jam_notes(sys), "the spheres were rotated with the cell"));
   jam_destroy(sys);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(cells_stay),
-      cmocka_unit_test(names_of_axes_do_not_matter),
-      cmocka_unit_test(extreme_vectors_are_replaced),
-      cmocka_unit_test(shear_without_end),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

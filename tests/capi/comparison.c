@@ -9,8 +9,7 @@
 #include "jam/jam.h"
 
 static jam_create_options defaults(int32_t dim, int64_t n) {
-  jam_create_options o;
-  jam_create_options_init(&o, sizeof o);
+  DEFAULTS(create, o);
   o.dim = dim, o.n = n, o.seed = 5, o.packing_fraction = 0.05;
   return o;
 }
@@ -37,11 +36,10 @@ static void refused(jam_system *a, jam_system *b, const char *what) {
   jam_destroy(b);
 }
 
-static void sizes_and_cells_must_agree(void **state) {
+CASE(sizes_and_cells_must_agree) {
   jam_create_options a = defaults(2, 20), b = defaults(2, 20);
   const double cell[4] = {1.0, 0.0, 0.25, 1.0};
   jam_system *tilted = NULL;
-  (void)state;
   b.n = 21;
   refused(made(&a, NULL, 0, NULL), made(&b, NULL, 0, NULL), "n = 20 and 21");
   b = defaults(3, 20);
@@ -53,9 +51,8 @@ static void sizes_and_cells_must_agree(void **state) {
 }
 
 /* A pair that touches in one model need not touch in another. */
-static void models_must_agree(void **state) {
+CASE(models_must_agree) {
   jam_create_options a = defaults(3, 20), b = defaults(3, 20);
-  (void)state;
   b.model = JAM_MODEL_MK;
   refused(made(&a, NULL, 0, NULL), made(&b, NULL, 0, NULL), "other alone is of Mari and Kurchan");
   refused(made(&b, NULL, 0, NULL), made(&a, NULL, 0, NULL), "sys alone is of Mari and Kurchan");
@@ -68,11 +65,10 @@ static void models_must_agree(void **state) {
   refused(made(&a, NULL, 0, NULL), made(&b, NULL, 0, NULL), "non_additivity is 0 and 0.125");
 }
 
-static void equal_models_are_compared(void **state) {
+CASE(equal_models_are_compared) {
   jam_create_options o = defaults(3, 20);
   jam_system *a, *b = NULL;
   jam_comparison_report c;
-  (void)state;
   o.model = JAM_MODEL_MK;
   a = made(&o, NULL, 0, NULL);
   assert_int_equal(jam_copy(a, &b), JAM_OK);
@@ -92,7 +88,7 @@ static void equal_models_are_compared(void **state) {
 
 /* Growth multiplies all diameters by one factor: that is the change of the packing fraction. Other changes are named.
  */
-static void diameters_that_differ_are_named(void **state) {
+CASE(diameters_that_differ_are_named) {
   const double x[8] = {0.125, 0.125, 0.625, 0.125, 0.125, 0.625, 0.625, 0.625};
   const double sigma[4] = {0.25, 0.25, 0.125, 0.25}, swapped[4] = {0.25, 0.125, 0.25, 0.25};
   jam_create_options o = defaults(2, 4);
@@ -100,7 +96,6 @@ static void diameters_that_differ_are_named(void **state) {
   jam_comparison_report c;
   double moved[8];
   size_t m, k;
-  (void)state;
   assert_int_equal(jam_scale_diameters(b, 0.7), JAM_OK);
   assert_int_equal(compare(a, b, &c), JAM_OK);
   assert_true(fabs(c.packing_fraction_change + 0.51 * M_PI / 4 * (3 * 0.0625 + 0.015625)) < 1e-14);
@@ -118,11 +113,10 @@ static void diameters_that_differ_are_named(void **state) {
   jam_destroy(a);
 }
 
-static void a_network_that_is_missing_is_named(void **state) {
+CASE(a_network_that_is_missing_is_named) {
   jam_create_options o = defaults(2, 32);
   jam_system *a = made(&o, NULL, 0, NULL), *b = NULL;
   jam_comparison_report c;
-  (void)state;
   assert_int_equal(jam_crunch(a, NULL, NULL), JAM_OK);
   assert_int_equal(jam_copy(a, &b), JAM_OK);
   assert_int_equal(compare(a, b, &c), JAM_OK);
@@ -138,13 +132,4 @@ static void a_network_that_is_missing_is_named(void **state) {
   assert_true(isnan(c.overlap) && c.displacement_max == 0.0);
   jam_destroy(b);
   jam_destroy(a);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(sizes_and_cells_must_agree),         cmocka_unit_test(models_must_agree),
-      cmocka_unit_test(equal_models_are_compared),          cmocka_unit_test(diameters_that_differ_are_named),
-      cmocka_unit_test(a_network_that_is_missing_is_named),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

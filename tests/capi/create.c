@@ -9,8 +9,7 @@
 #include "jam/jam.h"
 
 static jam_create_options options(void) {
-  jam_create_options o;
-  assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
+  DEFAULTS(create, o);
   return o;
 }
 
@@ -23,9 +22,8 @@ static void refused(const jam_create_options *o, const double *x, size_t nx, con
   if (!strstr(jam_last_error(), part)) fail_msg("'%s' does not hold '%s'", jam_last_error(), part);
 }
 
-static void callers_set_the_text_of_an_error(void **state) {
+CASE(callers_set_the_text_of_an_error) {
   char longer[5000];
-  (void)state;
   jam_set_error("of my own");
   assert_string_equal(jam_last_error(), "of my own");
   memset(longer, 'x', sizeof longer - 1);
@@ -36,9 +34,8 @@ static void callers_set_the_text_of_an_error(void **state) {
   assert_string_equal(jam_last_error(), "");
 }
 
-static void bad_options_are_refused(void **state) {
+CASE(bad_options_are_refused) {
   jam_create_options o = options();
-  (void)state;
   refused(&o, NULL, 0, NULL, 0, JAM_E_ARGUMENT, "n is 0");
   o.n = (int64_t)1 << 31;
   refused(&o, NULL, 0, NULL, 0, JAM_E_ARGUMENT, "2147483648");
@@ -76,26 +73,23 @@ static void bad_options_are_refused(void **state) {
 }
 
 /* Members that an older, shorter struct lacks keep their defaults. */
-static void shorter_structs_keep_defaults(void **state) {
+CASE(shorter_structs_keep_defaults) {
   jam_create_options o = options();
   jam_system *sys = NULL;
-  jam_info info;
-  (void)state;
   o.n = 50, o.seed = 9, o.box = -1.0; /* box lies beyond the size told: it must not be read */
   o.struct_size = offsetof(jam_create_options, box);
   assert_int_equal(jam_create(&o, NULL, &sys), JAM_OK);
-  info.struct_size = sizeof info;
+  SIZED(jam_info, info);
   assert_int_equal(jam_get_info(sys, &info), JAM_OK);
   assert_true(info.box == 1.0 && info.seed == 9 && info.n == 50 && info.monodisperse == 1);
   assert_true(fabs(info.packing_fraction - 0.2) < 1e-14);
   jam_destroy(sys);
 }
 
-static void too_dense_starts_are_refused(void **state) {
+CASE(too_dense_starts_are_refused) {
   jam_create_options o = options();
   double mixture[500];
   int k;
-  (void)state;
   o.n = 500, o.packing_fraction = 0.55; /* saturation of random sequential addition is 0.384 in d = 3 */
   refused(&o, NULL, 0, NULL, 0, JAM_E_UNPLACEABLE, "ends near 0.384");
   for (k = 0; k < 500; ++k) mixture[k] = k ? 1.0 : 1.001; /* unequal spheres can pack more densely: they are tried */
@@ -104,10 +98,9 @@ static void too_dense_starts_are_refused(void **state) {
   refused(&o, NULL, 0, NULL, 0, JAM_E_UNPLACEABLE, "shortest period");
 }
 
-static void bad_arrays_are_refused(void **state) {
+CASE(bad_arrays_are_refused) {
   jam_create_options o = options();
   double x[9] = {0.1, 0.1, 0.1, 0.5, 0.5, 0.5, 0.9, 0.9, 0.9}, s = 0.2, three[3] = {0.2, -0.1, 0.2};
-  (void)state;
   refused(&o, x, 8, &s, 1, JAM_E_ARGUMENT, "not a multiple of dim");
   refused(&o, NULL, 9, &s, 1, JAM_E_NULL, "positions");
   refused(&o, x, 9, NULL, 1, JAM_E_NULL, "diameters");
@@ -122,13 +115,12 @@ static void bad_arrays_are_refused(void **state) {
   refused(&o, x, 9, &s, 1, JAM_E_NONFINITE, "sphere 1, component 1");
 }
 
-static void overlap_is_named_or_shrunk(void **state) {
+CASE(overlap_is_named_or_shrunk) {
   jam_create_options o = options();
   const double x[6] = {0.02, 0.5, 0.5, 0.94, 0.5, 0.5}, s = 0.1; /* 0.08 apart through the wall */
   const double *view;
   size_t len;
   jam_system *sys = NULL;
-  (void)state;
   refused(&o, x, 6, &s, 1, JAM_E_OVERLAP, "spheres 0 and 1 overlap by 0.2");
   o.overlap = JAM_OVERLAP_SHRINK;
   assert_int_equal(create_from(&o, x, 6, &s, 1, &sys), JAM_OK);
@@ -138,13 +130,12 @@ static void overlap_is_named_or_shrunk(void **state) {
   jam_destroy(sys);
 }
 
-static void spheres_wider_than_the_box_are_refused_or_shrunk(void **state) {
+CASE(spheres_wider_than_the_box_are_refused_or_shrunk) {
   jam_create_options o = options();
   const double x[3] = {0.5, 0.5, 0.5}, s = 1e9;
   const double *view;
   size_t len;
   jam_system *sys = NULL;
-  (void)state;
   refused(&o, x, 3, &s, 1, JAM_E_OVERLAP, "sphere 0 of diameter 1e+09 overlaps its own image");
   o.overlap = JAM_OVERLAP_SHRINK;
   refused(&o, x, 3, &s, 1, JAM_E_OVERLAP,
@@ -156,25 +147,23 @@ static void spheres_wider_than_the_box_are_refused_or_shrunk(void **state) {
   jam_destroy(sys);
 }
 
-static void positions_outside_are_wrapped(void **state) {
+CASE(positions_outside_are_wrapped) {
   const double x[6] = {-0.25, 1.5, -1e-20, 3.0, 2.25, 0.5}, s = 0.1;
   const double expected[6] = {0.75, 0.5, 0.0, 0.0, 0.25, 0.5};
   const double *view;
   size_t len, k;
   jam_system *sys = NULL;
-  (void)state;
   assert_int_equal(create_from(NULL, x, 6, &s, 1, &sys), JAM_OK);
   assert_int_equal(jam_view(sys, JAM_VIEW_POSITIONS, &view, &len), JAM_OK);
   for (k = 0; k < 6; ++k) assert_true(view[k] == expected[k]);
   jam_destroy(sys);
 }
 
-static void same_seed_same_bits(void **state) {
+CASE(same_seed_same_bits) {
   jam_create_options o = options();
   jam_system *a, *b, *c;
   const double *xa, *xb, *xc;
   size_t len;
-  (void)state;
   o.n = 300, o.seed = 42;
   assert_int_equal(jam_create(&o, NULL, &a), JAM_OK);
   assert_int_equal(jam_create(&o, NULL, &b), JAM_OK);
@@ -187,13 +176,12 @@ static void same_seed_same_bits(void **state) {
   jam_destroy(a), jam_destroy(b), jam_destroy(c);
 }
 
-static void setters_and_copies(void **state) {
+CASE(setters_and_copies) {
   jam_create_options o = options();
   jam_system *sys, *copy;
   const double *x, *s, *again;
   double moved[12];
   size_t len, k;
-  (void)state;
   o.n = 4, o.packing_fraction = 0.05;
   assert_int_equal(jam_create(&o, NULL, &sys), JAM_OK);
   jam_view(sys, JAM_VIEW_POSITIONS, &x, &len), jam_view(sys, JAM_VIEW_DIAMETERS, &s, &len);
@@ -217,15 +205,7 @@ static void setters_and_copies(void **state) {
   jam_destroy(NULL);
 }
 
-static void null_handles_are_refused(void **state) {
-  const double *v;
-  size_t len;
-  (void)state;
-  assert_int_equal(jam_view(NULL, JAM_VIEW_POSITIONS, &v, &len), JAM_E_NULL);
-  assert_int_equal(jam_cancel(NULL), JAM_E_NULL);
-  assert_int_equal(jam_get_info(NULL, NULL), JAM_E_NULL);
-  assert_int_equal(jam_set_log(NULL, NULL, 0, NULL), JAM_E_NULL);
-  assert_int_equal(jam_copy(NULL, NULL), JAM_E_NULL);
+CASE(statuses_and_builds_have_words) {
   assert_string_equal(jam_status_string(JAM_E_NULL), "a needed pointer is NULL");
   assert_string_equal(jam_status_string(12345), "unknown status");
   assert_string_equal(jam_stop_string(JAM_STOP_CONVERGED), "converged");
@@ -234,9 +214,8 @@ static void null_handles_are_refused(void **state) {
 }
 
 /* Random starts in every dimension have no overlap, checked pair by pair with nearest images. */
-static void random_starts_have_no_overlaps(void **state) {
+CASE(random_starts_have_no_overlaps) {
   int d;
-  (void)state;
   for (d = 2; d <= JAM_MAX_DIM; ++d) {
     jam_create_options o = options();
     const double *x, *s;
@@ -260,20 +239,4 @@ static void random_starts_have_no_overlaps(void **state) {
       }
     jam_destroy(sys);
   }
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(bad_options_are_refused),
-                                     cmocka_unit_test(callers_set_the_text_of_an_error),
-                                     cmocka_unit_test(shorter_structs_keep_defaults),
-                                     cmocka_unit_test(too_dense_starts_are_refused),
-                                     cmocka_unit_test(bad_arrays_are_refused),
-                                     cmocka_unit_test(overlap_is_named_or_shrunk),
-                                     cmocka_unit_test(spheres_wider_than_the_box_are_refused_or_shrunk),
-                                     cmocka_unit_test(positions_outside_are_wrapped),
-                                     cmocka_unit_test(same_seed_same_bits),
-                                     cmocka_unit_test(setters_and_copies),
-                                     cmocka_unit_test(null_handles_are_refused),
-                                     cmocka_unit_test(random_starts_have_no_overlaps)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

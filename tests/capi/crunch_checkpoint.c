@@ -80,10 +80,9 @@ static double go_on_from(double part, double cell, double *phi) {
   return whole.packing_fraction;
 }
 
-static void each_one_goes_on(void **state) {
+CASE(each_one_goes_on) {
   int k;
   double phi = 0.0, whole;
-  (void)state;
   for (k = 0; k < 6; ++k) go_on_from(0.15 * k, 0.0, &phi);
   go_on_from(0.2, 0.3, &phi); /* a sheared cell */
   whole = go_on_from(1.0, 0.0, &phi);
@@ -97,9 +96,8 @@ static int32_t stop(const jam_progress *p, void *user) {
 }
 
 /* The handle itself, its copies and its checkpoints know of a crunch that was stopped, until spheres change. */
-static void a_stopped_crunch_is_known(void **state) {
+CASE(a_stopped_crunch_is_known) {
   jam_system *sys = start(0.0), *copy = NULL, *again = NULL;
-  (void)state;
   assert_int_equal(jam_set_progress(sys, stop, NULL), JAM_OK);
   crunch(sys, 1, JAM_CANCELLED);
   assert_int_equal(info_of(sys).paused, JAM_PHASE_CRUNCH);
@@ -138,12 +136,11 @@ static int32_t stop_on_path(const jam_progress *p, void *user) {
 
 /* A path that was stopped goes on where it was: no LP comes first, and the duality gap is that of the stop, for which
  * mu stands. An LP would close it, a new path would begin at the first mu. By LPs alone it begins with one. */
-static void a_path_goes_on(void **state) {
+CASE(a_path_goes_on) {
   jam_system *sys = start(0.0), *again = NULL, *by_lps = NULL;
   jam_crunch_options o;
   lps last = {0, 0};
   double gap;
-  (void)state;
   assert_int_equal(jam_set_progress(sys, stop_on_path, &last), JAM_OK);
   crunch(sys, 1, JAM_CANCELLED);
   assert_true(history(sys, JAM_HISTORY_PHASE, 1) == JAM_STEP_PATH);
@@ -162,10 +159,4 @@ static void a_path_goes_on(void **state) {
   jam_destroy(by_lps);
   jam_destroy(again);
   jam_destroy(sys);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(each_one_goes_on), cmocka_unit_test(a_stopped_crunch_is_known),
-                                     cmocka_unit_test(a_path_goes_on)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

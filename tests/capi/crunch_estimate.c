@@ -11,17 +11,15 @@
 #include "jam/jam.h"
 
 static jam_system *start(int64_t n, double phi) {
-  jam_create_options o;
   jam_system *sys = NULL;
-  jam_create_options_init(&o, sizeof o);
+  DEFAULTS(create, o);
   o.n = n, o.packing_fraction = phi;
   assert_int_equal(jam_create(&o, NULL, &sys), JAM_OK);
   return sys;
 }
 
 static jam_estimate_report estimated(const jam_system *sys, const jam_crunch_options *o) {
-  jam_estimate_report e;
-  e.struct_size = sizeof e;
+  SIZED(jam_estimate_report, e);
   assert_int_equal(jam_estimate_crunch(sys, o, &e), JAM_OK);
   return e;
 }
@@ -46,16 +44,14 @@ typedef struct measured {
  * early. */
 static measured life(int64_t n, double phi, double pressure, int factorisations, int32_t threads) {
   jam_system *small = start(200, 0.3), *sys;
-  jam_crunch_options o;
-  jam_compress_options c;
   measured m;
   assert_int_equal(jam_crunch(small, NULL, NULL), JAM_OK); /* code and buffers of all libraries are in memory now */
   jam_destroy(small);
   sys = start(n, phi);
-  jam_compress_options_init(&c, sizeof c);
+  DEFAULTS(compress, c);
   c.growth_rate = 1e-2, c.pressure = pressure;
   if (pressure > 0.0) jam_compress(sys, &c, NULL);
-  jam_crunch_options_init(&o, sizeof o);
+  DEFAULTS(crunch, o);
   o.steps = 1; /* the callback hears of each */
   o.threads = threads;
   m.estimate = estimated(sys, &o).bytes;
@@ -90,25 +86,22 @@ static void memory(int64_t n, double phi, double pressure, int factorisations, i
   assert_true(m.taken > 0.0);
 }
 
-static void memory_estimate_is_good_to_a_half(void **state) {
-  (void)state;
+CASE(memory_estimate_is_good_to_a_half) {
   memory(4096, 0.3, 0.0, 2, 1, 0.5);        /* two factors in floats */
   memory(2000, 0.3, 500.0, 100000, 1, 1.0); /* to the verdict, which has a factor of its own */
   memory(2000, 0.3, 500.0, 100000, 2, 1.0);
 }
 
 /* Twice the spheres: pairs double, flops more than double; more threads need no less memory. */
-static void estimates_scale_with_the_number_of_spheres(void **state) {
+CASE(estimates_scale_with_the_number_of_spheres) {
   jam_system *small = start(300, 0.3), *large = start(600, 0.3);
-  jam_crunch_options o;
   jam_estimate_report a, b, two;
-  (void)state;
   a = estimated(small, NULL), b = estimated(large, NULL);
   assert_true(b.pairs > 1.8 * (double)a.pairs && b.pairs < 2.2 * (double)a.pairs);
   assert_true(b.flops > 2.0 * a.flops && b.bytes > 1.9 * a.bytes);
   assert_true(a.seconds == a.factorisations * a.step_seconds && a.step_seconds > 0.0);
   assert_true(0.0 < a.seconds_low && a.seconds_low < a.seconds && a.seconds < a.seconds_high);
-  jam_crunch_options_init(&o, sizeof o);
+  DEFAULTS(crunch, o);
   o.threads = 2;
   two = estimated(large, &o);
   assert_true(two.bytes >= b.bytes && two.flops == b.flops);
@@ -118,13 +111,11 @@ static void estimates_scale_with_the_number_of_spheres(void **state) {
 }
 
 /* Small spheres roam in holes: the path meets saddles, and makes a list a step. */
-static void wide_mixtures_take_more_steps(void **state) {
+CASE(wide_mixtures_take_more_steps) {
   double sizes[256], before = 0.0;
-  (void)state;
   for (int ratio = 1; ratio <= 100; ratio *= 10) {
-    jam_create_options o;
     jam_system *sys = NULL;
-    jam_create_options_init(&o, sizeof o);
+    DEFAULTS(create, o);
     o.n = 256;
     for (int i = 0; i < 256; ++i) sizes[i] = i < 128 ? 1.0 : ratio;
     assert_int_equal(create_from(&o, NULL, 0, sizes, 256, &sys), JAM_OK);
@@ -137,18 +128,16 @@ static void wide_mixtures_take_more_steps(void **state) {
 
 /* Crunches of equal disks took up to 705 times the estimate, those of crystals 100 times: the path says nothing of
  * their decompressions and narrow linear programs. Crunches of mixtures stay within a factor of 5. */
-static void equal_disks_and_crystals_have_a_wide_range(void **state) {
+CASE(equal_disks_and_crystals_have_a_wide_range) {
   static const struct {
     int32_t dim;
     int touching;              /* 16 x 16 disks of a square lattice */
     double ratio, least, most; /* of the highest time over the estimate */
   } cases[] = {{2, 0, 1.0, 100, 1000}, {2, 1, 1.0, 50, 1000}, {2, 0, 1.4, 2, 10}, {3, 0, 1.0, 2, 10}};
   double sizes[256], x[512];
-  (void)state;
   for (size_t k = 0; k < sizeof cases / sizeof *cases; ++k) {
-    jam_create_options o;
     jam_system *sys = NULL;
-    jam_create_options_init(&o, sizeof o);
+    DEFAULTS(create, o);
     for (int i = 0; i < 256; ++i) {
       sizes[i] = (i % 2 ? cases[k].ratio : 1.0) / 16;
       x[2 * i] = (i % 16) / 16.0, x[2 * i + 1] = (double)(i / 16) / 16.0;
@@ -163,16 +152,13 @@ static void equal_disks_and_crystals_have_a_wide_range(void **state) {
 }
 
 /* The path couples pairs near contact; an LP couples those too that its step bound lets close. */
-static void the_path_factorises_fewer_pairs_than_the_lps(void **state) {
+CASE(the_path_factorises_fewer_pairs_than_the_lps) {
   jam_system *sys = start(300, 0.3);
-  jam_compress_options c;
-  jam_crunch_options o;
   jam_estimate_report path, lps, wide;
-  (void)state;
-  jam_compress_options_init(&c, sizeof c);
+  DEFAULTS(compress, c);
   c.growth_rate = 0.1, c.pressure = 1e4;
   assert_int_equal(jam_compress(sys, &c, NULL), JAM_OK);
-  jam_crunch_options_init(&o, sizeof o);
+  DEFAULTS(crunch, o);
   o.neighbour_radius = 0.9; /* shorter than a contact */
   assert_true(estimated(sys, &o).pairs > 0);
   o.neighbour_radius = 1.5;
@@ -193,11 +179,10 @@ static void keep_estimate(int32_t level, const char *line, void *user) {
 }
 
 /* The first line of a crunch that is logged. */
-static void the_estimate_is_logged_first(void **state) {
+CASE(the_estimate_is_logged_first) {
   jam_system *sys = start(60, 0.3);
   char line[400] = "", expected[40];
   jam_estimate_report e = estimated(sys, NULL);
-  (void)state;
   jam_set_log(sys, keep_estimate, JAM_LOG_INFO, line);
   assert_int_equal(jam_crunch(sys, NULL, NULL), JAM_OK);
   snprintf(expected, sizeof expected,
@@ -207,30 +192,15 @@ static void the_estimate_is_logged_first(void **state) {
   jam_destroy(sys);
 }
 
-static void bad_calls_are_refused(void **state) {
+CASE(bad_calls_are_refused) {
   jam_system *sys = start(60, 0.3), *one = start(1, 0.1);
-  jam_crunch_options o;
-  jam_estimate_report e;
-  (void)state;
-  e.struct_size = sizeof e;
-  assert_int_equal(jam_estimate_crunch(NULL, NULL, &e), JAM_E_NULL);
+  SIZED(jam_estimate_report, e);
   assert_int_equal(jam_estimate_crunch(sys, NULL, NULL), JAM_E_NULL);
   assert_int_equal(jam_estimate_crunch(one, NULL, &e), JAM_E_TOO_FEW);
-  jam_crunch_options_init(&o, sizeof o);
+  DEFAULTS(crunch, o);
   o.max_lps = 0;
   assert_int_equal(jam_estimate_crunch(sys, &o, &e), JAM_E_ARGUMENT);
   e.struct_size = 0;
   assert_int_equal(jam_estimate_crunch(sys, NULL, &e), JAM_E_STRUCT_SIZE);
   jam_destroy(sys), jam_destroy(one);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(memory_estimate_is_good_to_a_half),
-                                     cmocka_unit_test(estimates_scale_with_the_number_of_spheres),
-                                     cmocka_unit_test(wide_mixtures_take_more_steps),
-                                     cmocka_unit_test(equal_disks_and_crystals_have_a_wide_range),
-                                     cmocka_unit_test(the_path_factorises_fewer_pairs_than_the_lps),
-                                     cmocka_unit_test(the_estimate_is_logged_first),
-                                     cmocka_unit_test(bad_calls_are_refused)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

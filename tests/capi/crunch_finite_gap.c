@@ -12,14 +12,12 @@
 enum { n = 256, most = 3000 };
 
 static jam_system *grown(int dim, int64_t seed) {
-  jam_create_options o;
-  jam_compress_options md;
   jam_system *sys = NULL;
   double sizes[n]; /* two of disks, as equal ones come near to a crystal, which LPs end at once */
   int k;
   for (k = 0; k < n; ++k) sizes[k] = dim == 2 && k % 2 ? 1.4 : 1.0;
-  jam_create_options_init(&o, sizeof o);
-  jam_compress_options_init(&md, sizeof md);
+  DEFAULTS(create, o);
+  DEFAULTS(compress, md);
   o.n = n, o.dim = dim, o.seed = seed;
   md.growth_rate = 1e-2, md.pressure = 1e4;
   assert_int_equal(create_from(&o, NULL, 0, sizes, n, &sys), JAM_OK);
@@ -28,11 +26,10 @@ static jam_system *grown(int dim, int64_t seed) {
 }
 
 static jam_crunch_report crunch(jam_system *sys, double gap, jam_status expected) {
-  jam_crunch_options o;
   jam_crunch_report r;
   memset(&r, 0, sizeof r);
   r.struct_size = sizeof r;
-  jam_crunch_options_init(&o, sizeof o);
+  DEFAULTS(crunch, o);
   o.duality_gap = gap;
   assert_int_equal(jam_crunch(sys, &o, &r), expected);
   return r;
@@ -55,11 +52,10 @@ static int64_t missing(const int32_t *a, size_t count_a, const int32_t *b, size_
   return count;
 }
 
-static void the_gap_tells_the_density(void **state) {
+CASE(the_gap_tells_the_density) {
   static int32_t named[2 * most], exact[2 * most];
   int dim, within = 0;
   int64_t seed;
-  (void)state;
   for (dim = 2; dim <= 4; ++dim)
     for (seed = 1; seed <= 2; ++seed) {
       jam_system *sys = grown(dim, seed);
@@ -93,11 +89,10 @@ static void the_gap_tells_the_density(void **state) {
 }
 
 /* A smaller gap decides more pairs, on the way of one and the same path. */
-static void a_smaller_gap_decides_more(void **state) {
+CASE(a_smaller_gap_decides_more) {
   jam_system *sys = grown(3, 4);
   jam_crunch_report last, r;
   double gap;
-  (void)state;
   last = crunch(sys, 1e-6, JAM_OK);
   for (gap = 1e-8; gap > 1e-11; gap *= 1e-2) {
     r = crunch(sys, gap, JAM_OK);
@@ -110,38 +105,25 @@ static void a_smaller_gap_decides_more(void **state) {
 }
 
 /* LPs know the jamming point of a jammed packing at once: there is no path, and the certificate is the exact one. */
-static void a_jammed_packing_stays_jammed(void **state) {
+CASE(a_jammed_packing_stays_jammed) {
   jam_system *sys = grown(3, 1);
   jam_crunch_report r;
-  (void)state;
   crunch(sys, 0.0, JAM_OK);
   r = crunch(sys, 1e-3, JAM_OK);
   assert_true(r.jammed && r.stop_reason == JAM_STOP_CONVERGED && r.force_residual < 1e-13);
   jam_destroy(sys);
 }
 
-static void bad_values_are_refused(void **state) {
+CASE(bad_values_are_refused) {
   const double bad[] = {-1e-8, 1e-13, 0.1, NAN, INFINITY};
   jam_system *sys = grown(2, 1);
-  jam_crunch_options o;
   size_t k;
-  (void)state;
   for (k = 0; k < sizeof bad / sizeof *bad; ++k) crunch(sys, bad[k], JAM_E_ARGUMENT);
-  jam_crunch_options_init(&o, sizeof o);
+  DEFAULTS(crunch, o);
   o.duality_gap = 1e-6, o.method = JAM_CRUNCH_SEQUENTIAL_LP;
   assert_int_equal(jam_crunch(sys, &o, NULL), JAM_E_ARGUMENT);
   o.method = JAM_CRUNCH_BARRIER_PATH, o.strain = JAM_STRAIN_FREE;
   assert_int_equal(jam_crunch(sys, &o, NULL), JAM_E_ARGUMENT);
   assert_int_equal(strcmp(jam_stop_string(JAM_STOP_DUALITY_GAP), "duality_gap"), 0);
   jam_destroy(sys);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(the_gap_tells_the_density),
-      cmocka_unit_test(a_smaller_gap_decides_more),
-      cmocka_unit_test(a_jammed_packing_stays_jammed),
-      cmocka_unit_test(bad_values_are_refused),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -13,17 +13,15 @@ extern "C" {
 namespace {
 
 jam_system *start() {
-  jam_create_options o;
   jam_system *sys = nullptr;
-  jam_create_options_init(&o, sizeof o);
+  DEFAULTS(create, o);
   o.n = 24, o.packing_fraction = 0.3, o.seed = 2;
   assert_int_equal(jam_create(&o, nullptr, &sys), JAM_OK);
   return sys;
 }
 
 double fraction(const jam_system *sys) {
-  jam_info info;
-  info.struct_size = sizeof info;
+  SIZED(jam_info, info);
   jam_get_info(sys, &info);
   return info.packing_fraction;
 }
@@ -90,9 +88,8 @@ const long dense_path = 200, dense_other = 100;
 const long dense_path = 1500, dense_other = 300;
 #endif
 
-void every_allocation(void **) {
-  jam_crunch_options o;
-  jam_crunch_options_init(&o, sizeof o);
+CASE(every_allocation) {
+  DEFAULTS(crunch, o);
   for (int method = 0; method < 2; ++method)
     for (int single = 0; single < 2; ++single) {
       o.method = method, once = single != 0, o.steps = single;
@@ -100,15 +97,14 @@ void every_allocation(void **) {
     }
 }
 
-void getters(void **) {
+CASE(getters) {
   jam_system *sys = start();
   assert_int_equal(jam_crunch(sys, nullptr, nullptr), JAM_OK);
   once = false;
   for (long k = 0; k < 40; ++k) {
     const long clean = alive;
     static int32_t pairs[4000];
-    jam_estimate_report e;
-    e.struct_size = sizeof e;
+    SIZED(jam_estimate_report, e);
     until_failure = k;
     const jam_status a = k ? JAM_OK : jam_contacts(sys, pairs, 4000, nullptr);
     const jam_status b = jam_estimate_crunch(sys, nullptr, &e);
@@ -120,8 +116,3 @@ void getters(void **) {
 }
 
 }  // namespace
-
-int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(every_allocation), cmocka_unit_test(getters)};
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}

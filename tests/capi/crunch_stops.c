@@ -12,9 +12,8 @@
 #include "test.h"
 
 static jam_system *start_with(int dim, int n, uint64_t seed) {
-  jam_create_options o;
   jam_system *sys = NULL;
-  jam_create_options_init(&o, sizeof o);
+  DEFAULTS(create, o);
   o.dim = dim, o.n = n, o.seed = seed;
   if (n > 2) o.packing_fraction = 0.3;
   assert_int_equal(jam_create(&o, NULL, &sys), JAM_OK);
@@ -132,21 +131,17 @@ static void trap_phases(const jam_crunch_options *o) {
   }
 }
 
-static void cancel_in_every_phase(void **state) {
-  jam_crunch_options o;
-  (void)state;
-  jam_crunch_options_init(&o, sizeof o);
+CASE(cancel_in_every_phase) {
+  DEFAULTS(crunch, o);
   trap_phases(&o);
   o.method = JAM_CRUNCH_SEQUENTIAL_LP;
   trap_phases(&o);
 }
 
 /* The time limit comes inside the first LP: the LP is dropped and no sphere has moved. */
-static void wall_time_inside_an_lp(void **state) {
-  jam_crunch_options o;
+CASE(wall_time_inside_an_lp) {
   int solver;
-  (void)state;
-  jam_crunch_options_init(&o, sizeof o);
+  DEFAULTS(crunch, o);
   trap("path", 0, 1, &o);
   o.method = JAM_CRUNCH_SEQUENTIAL_LP;
   trap("ipm", 1, 1, &o);
@@ -173,14 +168,12 @@ static int32_t count_calls(const jam_progress *p, void *user) {
 }
 
 /* A polish that is stopped, or has no time left, leaves the answer of the last LP. */
-static void a_stopped_polish_leaves_the_lp_answer(void **state) {
+CASE(a_stopped_polish_leaves_the_lp_answer) {
   jam_system *plain = start(100);
-  jam_crunch_options o;
   jam_crunch_report b;
   const double *x, *y;
   size_t len;
-  (void)state;
-  jam_crunch_options_init(&o, sizeof o);
+  DEFAULTS(crunch, o);
   const int ways = lines_of(NULL, "polish", 100, &o) > 0 ? 3 : 1;
   o.polish = 0;
   b = crunch(plain, &o, JAM_OK);
@@ -218,11 +211,9 @@ static double volume(const jam_system *sys) {
 }
 
 /* The same once the cell is free. The volume stays, and the next call with strains goes on to a strict packing. */
-static void stops_in_a_free_cell(void **state) {
+CASE(stops_in_a_free_cell) {
   const char *const words[] = {"path", "ipm", "polish", "path"};
-  jam_crunch_options o;
-  (void)state;
-  jam_crunch_options_init(&o, sizeof o);
+  DEFAULTS(crunch, o);
   o.strain = JAM_STRAIN_FREE;
   for (int k = 0; k < 4; ++k) {
     const int count = lines_of("fixed cell", words[k], 64, &o);
@@ -243,12 +234,10 @@ static void stops_in_a_free_cell(void **state) {
 }
 
 /* Without polish the LP's answer stays: contacts may be too wide for a verdict, but nothing overlaps. */
-static void free_cell_without_polish(void **state) {
-  jam_crunch_options o;
+CASE(free_cell_without_polish) {
   jam_crunch_report r;
   jam_system *sys = start(64);
-  (void)state;
-  jam_crunch_options_init(&o, sizeof o);
+  DEFAULTS(crunch, o);
   o.strain = JAM_STRAIN_FREE, o.polish = 0;
   memset(&r, 0, sizeof r), r.struct_size = sizeof r;
   assert_true(jam_crunch(sys, &o, &r) >= 0);
@@ -261,16 +250,14 @@ static void free_cell_without_polish(void **state) {
 }
 
 /* A decompression in the free cell follows a verdict: until there is another one, the report has none. */
-static void a_limit_leaves_no_older_verdict(void **state) {
+CASE(a_limit_leaves_no_older_verdict) {
   int limits = 0;
-  (void)state;
   for (int seed = 0; seed < 6; ++seed) {
     for (int lps = 2; lps <= 20; lps += 3) {
       for (int method = JAM_CRUNCH_BARRIER_PATH; method <= JAM_CRUNCH_SEQUENTIAL_LP; ++method) {
-        jam_crunch_options o;
         jam_crunch_report r;
         jam_system *sys = start_with(2, 2, (uint64_t)seed);
-        jam_crunch_options_init(&o, sizeof o);
+        DEFAULTS(crunch, o);
         o.strain = JAM_STRAIN_FREE, o.max_lps = lps, o.method = method;
         memset(&r, 0, sizeof r), r.struct_size = sizeof r;
         assert_true(jam_crunch(sys, &o, &r) >= 0);
@@ -289,18 +276,15 @@ static void a_limit_leaves_no_older_verdict(void **state) {
  * lattice: jammed in this cell, and a saddle of the free one by symmetry. Each LP keeps the symmetry but for rounding,
  * and a displacement of 1e-15 opens contacts by its square: no rounding makes an LP leave the saddle. (Behind a polish
  * that is refused: unit/crunch_fallbacks.) */
-static void a_stop_leaves_no_older_contacts(void **state) {
+CASE(a_stop_leaves_no_older_contacts) {
   const double sites[4] = {0.1, 0.2, 0.6, 0.7}, diameters[2] = {0.6, 0.6};
-  jam_create_options c;
-  jam_crunch_options o;
   jam_crunch_report r;
   jam_system *sys = NULL;
   ambush a;
-  (void)state;
-  jam_create_options_init(&c, sizeof c);
+  DEFAULTS(create, c);
   c.dim = 2, c.n = 2;
   assert_int_equal(create_from(&c, sites, 4, diameters, 2, &sys), JAM_OK);
-  jam_crunch_options_init(&o, sizeof o);
+  DEFAULTS(crunch, o);
   o.strain = JAM_STRAIN_FREE;
   memset(&a, 0, sizeof a);
   a.sys = sys, a.armed = "not shown to be jammed", a.word = "ipm";
@@ -309,15 +293,4 @@ static void a_stop_leaves_no_older_contacts(void **state) {
   if (!a.sprung) fail_msg("no LP behind the saddle");
   assert_true(r.contacts == -1 && r.rattlers == -1 && !r.stationary && isnan(r.max_contact_gap));
   jam_destroy(sys);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(cancel_in_every_phase),
-                                     cmocka_unit_test(wall_time_inside_an_lp),
-                                     cmocka_unit_test(a_stopped_polish_leaves_the_lp_answer),
-                                     cmocka_unit_test(stops_in_a_free_cell),
-                                     cmocka_unit_test(free_cell_without_polish),
-                                     cmocka_unit_test(a_limit_leaves_no_older_verdict),
-                                     cmocka_unit_test(a_stop_leaves_no_older_contacts)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

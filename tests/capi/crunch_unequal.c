@@ -25,22 +25,19 @@ static void assert_valid(const jam_system *sys, double before) {
 }
 
 /* One large sphere and five small ones: no pair lies within the bound of the first step. */
-static void very_unequal_spheres(void **state) {
+CASE(very_unequal_spheres) {
   const struct {
     int dim;
     double ratio;
   } cases[] = {{4, 10.0}, {3, 100.0}, {4, 100.0}, {2, 100.0}, {2, 5.0}, {3, 1000.0}};
-  (void)state;
   for (size_t k = 0; k < sizeof cases / sizeof *cases; ++k)
     for (int64_t seed = 1; seed <= 5; ++seed)
       for (int few = 0; few < 2; ++few) {
-        jam_create_options o;
-        jam_crunch_options c;
         jam_system *sys = NULL;
         double diameters[6] = {cases[k].ratio, 1, 1, 1, 1, 1};
         const size_t n = few ? 2 : 6;
-        assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
-        assert_int_equal(jam_crunch_options_init(&c, sizeof c), JAM_OK);
+        DEFAULTS(create, o);
+        DEFAULTS(crunch, c);
         o.n = (int64_t)n, o.dim = cases[k].dim, o.seed = seed, o.packing_fraction = 0.02;
         assert_int_equal(create_from(&o, NULL, 0, diameters, n, &sys), JAM_OK);
         c.wall_time = 20.0;
@@ -52,13 +49,10 @@ static void very_unequal_spheres(void **state) {
 }
 
 /* A small bound of the steps, by option, makes the lists as short. */
-static void short_steps(void **state) {
-  jam_create_options o;
-  jam_crunch_options c;
+CASE(short_steps) {
   jam_system *sys = NULL;
-  (void)state;
-  assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
-  assert_int_equal(jam_crunch_options_init(&c, sizeof c), JAM_OK);
+  DEFAULTS(create, o);
+  DEFAULTS(crunch, c);
   o.n = 6, o.packing_fraction = 0.05;
   assert_int_equal(jam_create(&o, NULL, &sys), JAM_OK);
   c.step_bound = 1e-3, c.max_lps = 30;
@@ -74,18 +68,15 @@ static void short_steps(void **state) {
 
 /* An LP has the pairs whose gap is below neighbour_radius minus the largest diameter, in mean diameters. A smaller
  * radius is refused with that number; a larger one gives the pairs that are counted from positions. */
-static void radius_and_largest_diameter(void **state) {
+CASE(radius_and_largest_diameter) {
   double diameters[16] = {8, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1}, history[JAM_HISTORY_COLUMNS * 4];
   const double mean = 23.0 / 16.0, radius = 8.0 / mean + 0.8;
-  jam_create_options o;
-  jam_crunch_options c;
   jam_system *sys = NULL;
   const double *x, *sigma;
   size_t length, rows;
   int pairs = 0;
-  (void)state;
-  assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
-  assert_int_equal(jam_crunch_options_init(&c, sizeof c), JAM_OK);
+  DEFAULTS(create, o);
+  DEFAULTS(crunch, c);
   o.n = 16, o.dim = 2, o.packing_fraction = 0.3;
   const jam_start start = {.struct_size = sizeof start, .diameters = diameters, .diameters_len = 16};
   assert_int_equal(jam_create(&o, &start, &sys), JAM_OK);
@@ -111,23 +102,20 @@ static void radius_and_largest_diameter(void **state) {
 }
 
 /* Rods of height h, and a flat cell. The volume is 1. */
-static void thin_cells(void **state) {
+CASE(thin_cells) {
   const struct {
     int dim, n;
     double height;
     int flat;
   } cases[] = {{3, 20, 1.1e-3, 0}, {4, 20, 1.1e-3, 0}, {4, 20, 1e-2, 0},   {4, 20, 5e-2, 0},
                {5, 20, 5e-2, 0},   {3, 20, 1e-2, 1},   {8, 10, 1.01e-3, 1}};
-  (void)state;
   for (size_t k = 0; k < sizeof cases / sizeof *cases; ++k) {
     const int d = cases[k].dim;
     const double h = cases[k].height, wide = cases[k].flat ? pow(h, -1.0 / (d - 1)) : h;
-    jam_create_options o;
-    jam_crunch_options c;
     jam_system *sys = NULL;
     double cell[64] = {0}, ball = pow(acos(-1.0), 0.5 * d) / tgamma(0.5 * d + 1.0);
-    assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
-    assert_int_equal(jam_crunch_options_init(&c, sizeof c), JAM_OK);
+    DEFAULTS(create, o);
+    DEFAULTS(crunch, c);
     for (int q = 0; q < d; ++q) cell[q * d + q] = wide;
     if (cases[k].flat)
       cell[0] = h;
@@ -149,10 +137,4 @@ static void thin_cells(void **state) {
     assert_valid(sys, o.packing_fraction);
     jam_destroy(sys);
   }
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(very_unequal_spheres), cmocka_unit_test(short_steps),
-                                     cmocka_unit_test(thin_cells), cmocka_unit_test(radius_and_largest_diameter)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -53,13 +53,11 @@ static void comma(void) {
   host_has_comma();
 }
 
-static void errors(void **state) {
+CASE(errors) {
   const double x[] = {0.0, 0.0, 0.5, 0.0}, diameter[] = {0.6};
-  jam_create_options o;
   jam_system *sys = NULL;
-  (void)state;
   comma();
-  assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
+  DEFAULTS(create, o);
   o.dim = 2, o.n = 2, o.box = 2.5;
   assert_int_equal(create_from(&o, x, 4, diameter, 1, &sys), JAM_E_OVERLAP);
   host_has_comma();
@@ -70,23 +68,19 @@ static void errors(void **state) {
   setlocale(LC_ALL, "C");
 }
 
-static void texts_and_callbacks(void **state) {
-  jam_create_options o;
-  jam_compress_options c;
-  jam_check_options k;
+CASE(texts_and_callbacks) {
   jam_check_report r = {.struct_size = sizeof r};
   jam_system *sys = NULL;
-  (void)state;
   comma();
-  assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
+  DEFAULTS(create, o);
   o.dim = 2, o.n = 30, o.packing_fraction = 0.4, o.seed = 3;
   assert_int_equal(jam_create(&o, NULL, &sys), JAM_OK);
   assert_int_equal(jam_set_log(sys, on_line, 3, NULL), JAM_OK);
   assert_int_equal(jam_set_progress(sys, on_progress, NULL), JAM_OK);
-  assert_int_equal(jam_compress_options_init(&c, sizeof c), JAM_OK);
+  DEFAULTS(compress, c);
   c.pressure = 100.0;
   assert_true(jam_compress(sys, &c, NULL) >= 0);
-  assert_int_equal(jam_check_options_init(&k, sizeof k), JAM_OK);
+  DEFAULTS(check, k);
   assert_true(jam_check_packing(sys, &k, &r) > 0);
   read_text(jam_check_text(&r));
   read_text(jam_last_error());
@@ -96,9 +90,4 @@ static void texts_and_callbacks(void **state) {
   host_has_comma();
   jam_destroy(sys);
   setlocale(LC_ALL, "C");
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(errors), cmocka_unit_test(texts_and_callbacks)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -8,10 +8,9 @@
 /* A random start, the two stages of growth and the crunch, all by default. Few spheres: in a small cell equal spheres
  * order, so the test asks for a proof of rigidity, and for a density between that of the start and that of the densest
  * lattices (Conway and Sloane, Sphere Packings, Lattices and Groups, table 1.2). */
-static void defaults_jam_in_every_dimension(void **state) {
+CASE(defaults_jam_in_every_dimension) {
   static const int64_t n[] = {0, 0, 40, 60, 60, 40, 40, 40, 60};
   static const double densest[] = {0, 0, 0.9069, 0.7405, 0.6169, 0.4653, 0.3730, 0.2953, 0.2537};
-  (void)state;
   for (int32_t dim = 2; dim <= JAM_MAX_DIM; ++dim) {
     jam_create_options o;
     jam_system *sys = NULL;
@@ -36,9 +35,4 @@ static void defaults_jam_in_every_dimension(void **state) {
     assert_true(r.packing_fraction > info.packing_fraction && r.force_residual < 1e-10);
     jam_destroy(sys);
   }
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(defaults_jam_in_every_dimension)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

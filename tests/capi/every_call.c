@@ -6,9 +6,8 @@ static void text_is_there(const char *name, jam_status status) {
   if (status != JAM_OK && jam_last_error()[0] == '\0') fail_msg("%s: status %d without a text", name, status);
 }
 
-static void a_null_handle_is_refused(void **state) {
+CASE(a_null_handle_is_refused) {
   int k;
-  (void)state;
   for (k = 0; k < CALLS; ++k) {
     jam_status status;
     if (every_call[k].start == NONE) continue;
@@ -19,13 +18,12 @@ static void a_null_handle_is_refused(void **state) {
 }
 
 /* A network, a minimum, observations, runs, a step: without them JAM_E_STATE, and nothing moves. */
-static void what_is_missing_is_reported(void **state) {
+CASE(what_is_missing_is_reported) {
   jam_system *fluid = system_for(ANY);
   const double *x;
   double before[24];
   size_t length;
   int k;
-  (void)state;
   assert_non_null(fluid);
   assert_int_equal(jam_view(fluid, JAM_VIEW_POSITIONS, &x, &length), JAM_OK);
   assert_int_equal(length, 24);
@@ -43,9 +41,8 @@ static void what_is_missing_is_reported(void **state) {
 }
 
 /* With what it needs no call fails, but for what belongs into a callback. */
-static void every_call_does_its_work(void **state) {
+CASE(every_call_does_its_work) {
   int k;
-  (void)state;
   for (k = 0; k < CALLS; ++k) {
     jam_system *sys = system_for(every_call[k].start);
     jam_status status;
@@ -58,13 +55,4 @@ static void every_call_does_its_work(void **state) {
     jam_destroy(sys);
   }
   remove(call_file()), remove(call_image());
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(a_null_handle_is_refused),
-      cmocka_unit_test(what_is_missing_is_reported),
-      cmocka_unit_test(every_call_does_its_work),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -8,18 +8,16 @@
 #include "test.h"
 
 /* Rows of touching disks, each shifted by cos(angle): contacts along (1, 0) and (cos, sin), equally many. */
-static void sheared_lattice_has_the_tensor_of_its_two_directions(void **state) {
+CASE(sheared_lattice_has_the_tensor_of_its_two_directions) {
   enum { L = 4 };
-  (void)state;
   for (int degrees = 70; degrees <= 90; degrees += 5) {
     const double c = cos(degrees * acos(-1.0) / 180.0), s = sin(degrees * acos(-1.0) / 180.0), sigma = 1.0 - 1e-13;
     const double cell[4] = {L, 0.0, L * c, L * s}, expected[4] = {(1.0 + c * c) / 2, c * s / 2, c * s / 2, s * s / 2};
     double x[2 * L * L], fabric[4];
-    jam_create_options o;
     jam_system *sys = NULL;
     size_t needed;
     for (int k = 0; k < L * L; ++k) x[2 * k] = k % L + k / L * c, x[2 * k + 1] = k / L * s;
-    assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
+    DEFAULTS(create, o);
     o.dim = 2;
     if (create_in_cell(&o, cell, 4, x, 2 * L * L, &sigma, 1, &sys) != JAM_OK) fail_msg("%s", jam_last_error());
     assert_int_equal(jam_fabric_tensor(sys, fabric, 4, &needed), JAM_E_STATE);
@@ -34,16 +32,14 @@ static void sheared_lattice_has_the_tensor_of_its_two_directions(void **state) {
 
 /* From positions alone, by nearest images. n_a n_b of isotropic directions has the variance 4/45 (a = b) or 1/15 in d =
  * 3: a mean over the contacts stays within five of its standard deviations. */
-static void large_packing_is_isotropic(void **state) {
+CASE(large_packing_is_isotropic) {
   enum { N = 500, D = 3 };
-  jam_create_options o;
   jam_system *sys = NULL;
   const double *x;
   size_t len, needed, contacts;
   static int32_t pair[2 * 4 * N];
   double fabric[D * D], sum[D * D] = {0.0}, trace = 0.0;
-  (void)state;
-  assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
+  DEFAULTS(create, o);
   o.n = N, o.seed = 7;
   assert_int_equal(jam_create(&o, NULL, &sys), JAM_OK);
   if (jam_crunch(sys, NULL, NULL) != JAM_OK) fail_msg("%s", jam_last_error());
@@ -73,24 +69,15 @@ static void large_packing_is_isotropic(void **state) {
   jam_destroy(sys);
 }
 
-static void no_contacts_have_no_tensor(void **state) {
+CASE(no_contacts_have_no_tensor) {
   const double x[4] = {0.0, 0.0, 0.5, 0.4}, sigma = 0.1;
   double fabric[4] = {0.0};
-  jam_create_options o;
   jam_system *sys = NULL;
-  (void)state;
-  assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
+  DEFAULTS(create, o);
   o.dim = 2;
   assert_int_equal(create_from(&o, x, 4, &sigma, 1, &sys), JAM_OK);
   assert_int_equal(jam_contacts_from_geometry(sys, NULL, NULL), JAM_NOT_JAMMED);
   assert_int_equal(jam_fabric_tensor(sys, fabric, 4, NULL), JAM_NOT_JAMMED);
   assert_true(isnan(fabric[0]) && isnan(fabric[3]));
   jam_destroy(sys);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(sheared_lattice_has_the_tensor_of_its_two_directions),
-                                     cmocka_unit_test(large_packing_is_isotropic),
-                                     cmocka_unit_test(no_contacts_have_no_tensor)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -99,14 +99,12 @@ void life(Work &w, Seen &seen, int dim, int model) {
   w.keep(sys);
   jam_set_progress(sys, on_progress, &seen);
   jam_set_log(sys, on_log, JAM_LOG_DEBUG, &seen);
-  jam_compress_options grow;
-  jam_compress_options_init(&grow, sizeof grow);
+  DEFAULTS(compress, grow);
   grow.pressure = 1e3;
   w.call("jam_compress", [&] { return jam_compress(sys, &grow, nullptr); });
   w.keep(sys);
   for (const int threads : {1, 2}) {
-    jam_crunch_options crunch;
-    jam_crunch_options_init(&crunch, sizeof crunch);
+    DEFAULTS(crunch, crunch);
     crunch.threads = threads;
     jam_system *copy = nullptr;
     w.call("jam_copy", [&] { return jam_copy(sys, &copy); });
@@ -122,13 +120,11 @@ void life(Work &w, Seen &seen, int dim, int model) {
     w.call("jam_rigidity", [&] { return jam_rigidity(copy, JAM_RIGIDITY_STRICT, nullptr); });
     jam_destroy(copy);
   }
-  jam_isoconf_options runs;
-  jam_isoconf_options_init(&runs, sizeof runs);
+  DEFAULTS(isoconf, runs);
   runs.runs = 4, runs.threads = 2, runs.density_ratio = 0.9;
   const double instant = 2.0;
   w.call("jam_isoconf", [&] { return jam_isoconf(sys, &runs, nullptr, &instant, 1, nullptr, 0, nullptr); });
-  jam_monte_carlo_options mc;
-  jam_monte_carlo_options_init(&mc, sizeof mc);
+  DEFAULTS(monte_carlo, mc);
   mc.sweeps = 10;
   if (model == JAM_MODEL_EUCLID) w.call("jam_monte_carlo", [&] { return jam_monte_carlo(sys, &mc, nullptr); });
   w.keep(sys);
@@ -138,8 +134,7 @@ void life(Work &w, Seen &seen, int dim, int model) {
 
 void soft_life(Work &w) {
   jam_system *sys = nullptr;
-  jam_create_options o;
-  jam_create_options_init(&o, sizeof o);
+  DEFAULTS(create, o);
   o.n = 64, o.packing_fraction = 0.75, o.overlap = JAM_OVERLAP_ALLOW;
   w.call("jam_create", [&] { return jam_create(&o, nullptr, &sys); });
   w.call("jam_decompress", [&] { return jam_decompress(sys, nullptr, nullptr); });
@@ -180,7 +175,7 @@ Work work_of(const Host &host) {
   return w;
 }
 
-void no_host_changes_a_bit(void **) {
+CASE(no_host_changes_a_bit) {
   const std::vector<Host> all = hosts();
   const Work plain = work_of(all[0]);
   for (const Host &host : all) {
@@ -196,9 +191,9 @@ int set_upward(const jam_progress *, void *) {
   fesetround(FE_UPWARD);
   return 0;
 }
-void callbacks_change_the_environment_of_the_host(void **) {
-  jam_create_options o;
-  jam_create_options_init(&o, sizeof o);
+
+CASE(callbacks_change_the_environment_of_the_host) {
+  DEFAULTS(create, o);
   o.n = 64;
   jam_system *sys = nullptr;
   assert_int_equal(jam_create(&o, nullptr, &sys), JAM_OK);
@@ -211,11 +206,3 @@ void callbacks_change_the_environment_of_the_host(void **) {
 }
 
 }  // namespace
-
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(no_host_changes_a_bit),
-      cmocka_unit_test(callbacks_change_the_environment_of_the_host),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}

@@ -65,16 +65,13 @@ Positions life_of_a_packing(bool check) {
       assert_int_equal(call(), JAM_OK);
   };
   jam_system *sys = nullptr;
-  jam_create_options o;
-  jam_create_options_init(&o, sizeof o);
+  DEFAULTS(create, o);
   o.n = 500, o.packing_fraction = 0.3, o.seed = 4;
   step("jam_create", [&] { return jam_create(&o, nullptr, &sys); });
-  jam_run_options r;
-  jam_run_options_init(&r, sizeof r);
+  DEFAULTS(run, r);
   r.collisions_per_particle = 5.0;
   step("jam_run", [&] { return jam_run(sys, &r, nullptr); });
-  jam_compress_options c;
-  jam_compress_options_init(&c, sizeof c);
+  DEFAULTS(compress, c);
   c.pressure = 500.0;
   step("jam_compress", [&] { return jam_compress(sys, &c, nullptr); });
   step("jam_crunch", [&] { return jam_crunch(sys, nullptr, nullptr); });
@@ -90,7 +87,7 @@ Positions life_of_a_packing(bool check) {
   return out;
 }
 
-void handlers_masks_and_random_numbers_stay(void **) {
+CASE(handlers_masks_and_random_numbers_stay) {
   struct sigaction mine, before;
   std::memset(&mine, 0, sizeof mine);
   mine.sa_sigaction = on_signal;
@@ -117,8 +114,3 @@ void handlers_masks_and_random_numbers_stay(void **) {
 }
 
 }  // namespace
-
-int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(handlers_masks_and_random_numbers_stay)};
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}

@@ -2,8 +2,7 @@
 #include <sys/resource.h>
 #include "io_helpers.h"
 
-static void bad_plain_files_are_refused(void **state) {
-  (void)state;
+CASE(bad_plain_files_are_refused) {
   expect_refused("", JAM_E_FORMAT, "is empty");
   expect_refused("\n\n", JAM_E_FORMAT, "is empty");
   expect_refused("three\n2\n0.1\n", JAM_E_FORMAT, "line 1: 'three'");
@@ -50,8 +49,7 @@ static void bad_plain_files_are_refused(void **state) {
 }
 
 #define LATTICE "Lattice=\"1 0 0 0 1 0 0 0 1\" "
-static void bad_xyz_files_are_refused(void **state) {
-  (void)state;
+CASE(bad_xyz_files_are_refused) {
   expect_refused("0\n" LATTICE "\n", JAM_E_ARGUMENT, "n is 0");
   expect_refused("1\n" LATTICE "\nA 0 0 0\n", JAM_E_FORMAT, "line 2: no Properties");
   expect_refused("1\nProperties=pos:R:3:radius:R:1\n0 0 0 0.1\n", JAM_E_FORMAT, "line 2: no Lattice");
@@ -81,10 +79,9 @@ static void bad_xyz_files_are_refused(void **state) {
 }
 
 /* A box that is open in some direction is refused; words for true are read, and in d = 2 the third one is ignored. */
-static void open_boundaries_refused(void **state) {
+CASE(open_boundaries_refused) {
   jam_system *sys = NULL;
   const char *good = "1\n" LATTICE "Properties=pos:R:3:radius:R:1 pbc=\"True T 1\"\n0 0 0 0.1\n";
-  (void)state;
   expect_refused("1\n" LATTICE "Properties=pos:R:3:radius:R:1 pbc=\"F T T\"\n0 0 0 0.1\n", JAM_E_UNSUPPORTED,
                  "line 2: pbc='F T T'");
   expect_refused("1\n" LATTICE "Properties=pos:R:3:radius:R:1 pbc=\"T T F\"\n0 0 0 0.1\n", JAM_E_UNSUPPORTED,
@@ -96,13 +93,12 @@ static void open_boundaries_refused(void **state) {
 
 /* Names of other programs' formats are refused with the list of ours, unless the format is named; nothing is written.
  */
-static void unknown_endings_refused(void **state) {
+CASE(unknown_endings_refused) {
   static const char *const refused[] = {"q.gsd", "q.gsd.gz", "q.XYZ", "q.lammps"};
   static const char *const taken[] = {"q", "q.dat", "q.txt", "q.12", "q.xyz", "q.extxyz", ".hidden"};
   jam_system *sys = some_packing(3, 12, 1.0, 1.0);
   size_t k;
   int before = count_files();
-  (void)state;
   for (k = 0; k < sizeof refused / sizeof *refused; ++k) {
     assert_int_equal(jam_write(sys, in_scratch(refused[k]), JAM_FORMAT_AUTO), JAM_E_ARGUMENT);
     assert_non_null(strstr(jam_last_error(), ".extxyz (extended XYZ), .data or .lmp"));
@@ -140,18 +136,16 @@ static void every_truncation(const char *name, double ratio) {
   jam_destroy(back);
 }
 
-static void cut_files_are_refused(void **state) {
-  (void)state;
+CASE(cut_files_are_refused) {
   every_truncation("t.dat", 1.0);
   every_truncation("t2.dat", 1.4);
   every_truncation("t.xyz", 1.4);
 }
 
 /* A count of 2^31-1 in the header, and a line that never ends, must not take memory. */
-static void header_counts_allocate_nothing(void **state) {
+CASE(header_counts_allocate_nothing) {
   struct rusage before, after;
   char *line = malloc(50u << 20);
-  (void)state;
   assert_non_null(line);
   memset(line, '7', 50u << 20);
   getrusage(RUSAGE_SELF, &before);
@@ -168,10 +162,9 @@ static void header_counts_allocate_nothing(void **state) {
   free(line);
 }
 
-static void missing_files_are_refused(void **state) {
+CASE(missing_files_are_refused) {
   jam_system *sys = NULL;
   jam_create_options o;
-  (void)state;
   assert_int_equal(jam_read(NULL, NULL, NULL, NULL, &sys), JAM_E_NULL);
   assert_int_equal(jam_read(in_scratch("none.dat"), NULL, NULL, NULL, NULL), JAM_E_NULL);
   assert_int_equal(jam_read(in_scratch("none.dat"), NULL, NULL, NULL, &sys), JAM_E_IO);
@@ -189,12 +182,11 @@ static void missing_files_are_refused(void **state) {
   assert_null(sys);
 }
 
-static void overlap_policy(void **state) {
+CASE(overlap_policy) {
   const char text[] = "2\n2\n0.4\n0.1 0.5\n0.4 0.5\n", huge[] = "2\n2\n1e6\n0.1 0.5\n0.4 0.5\n";
   jam_create_options o;
   jam_system *sys = NULL;
   jam_info info;
-  (void)state;
   info.struct_size = sizeof info;
   put_bytes(in_scratch("o.dat"), text, strlen(text));
   jam_create_options_init(&o, sizeof o);
@@ -214,11 +206,10 @@ static void overlap_policy(void **state) {
   jam_destroy(sys);
 }
 
-static void shared_file(void **state) {
+CASE(shared_file) {
   jam_system *sys = NULL, *back = NULL;
   jam_info info;
   const char *path = JAM_TEST_SHARED "/ls-n1024-d3.dat";
-  (void)state;
   if (access(path, R_OK)) {
     print_message("%s is not there: skipped\n", path);
     skip();
@@ -235,17 +226,4 @@ static void shared_file(void **state) {
   jam_destroy(back);
 }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(header_counts_allocate_nothing),
-      cmocka_unit_test(bad_plain_files_are_refused),
-      cmocka_unit_test(bad_xyz_files_are_refused),
-      cmocka_unit_test(cut_files_are_refused),
-      cmocka_unit_test(missing_files_are_refused),
-      cmocka_unit_test(overlap_policy),
-      cmocka_unit_test(shared_file),
-      cmocka_unit_test(open_boundaries_refused),
-      cmocka_unit_test(unknown_endings_refused),
-  };
-  return cmocka_run_group_tests(tests, make_scratch, remove_scratch);
-}
+FIXTURE(make_scratch, remove_scratch)

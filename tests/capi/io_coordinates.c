@@ -12,11 +12,10 @@ static jam_system *read_text(const char *text) {
 #define BOX "Lattice=\"1 0 0 0 1 0 0 0 1\" "
 #define P "Properties=pos:R:3:radius:R:1 "
 /* Keys that change what coordinates mean are honoured, the others named. */
-static void keys_of_xyz(void **state) {
+CASE(keys_of_xyz) {
   jam_system *sys;
   const double *x;
   size_t len;
-  (void)state;
   sys = read_text("1\n" BOX P "Origin=\"-0.5 -0.25 1\"\n-0.25 0.25 1.125 .1\n");
   jam_view(sys, JAM_VIEW_POSITIONS, &x, &len);
   assert_true(x[0] == 0.25 && x[1] == 0.5 && x[2] == 0.125);
@@ -42,12 +41,11 @@ static void keys_of_xyz(void **state) {
 }
 
 /* Where a file has its origin elsewhere, positions are not those of its rows: that is said. */
-static void corners_elsewhere(void **state) {
+CASE(corners_elsewhere) {
   static const char corner[] = "the corner of the cell is at -1 0 0.5 in the file: positions are measured from there";
   jam_system *sys;
   const double *x;
   size_t len, k;
-  (void)state;
   for (k = 0; k < 2; ++k) {
     sys = read_text(k ? "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS pp pp pp\n-1 1\n0 2\n0.5 2.5\n"
                         "ITEM: ATOMS id x y z radius\n1 0 1 1 0.1\n"
@@ -62,9 +60,8 @@ static void corners_elsewhere(void **state) {
 
 /* The cell of a handle is lower-triangular: another one is rotated, and the spheres with it. Extreme vectors give way.
  */
-static void cells_that_are_changed(void **state) {
+CASE(cells_that_are_changed) {
   jam_system *sys = read_text("1\nLattice=\"0 2 0 -2 0 0 0 0 2\" " P "\n.1 .2 .3 .1\n");
-  (void)state;
   assert_non_null(strstr(jam_notes(sys), "rotated with the cell"));
   assert_null(strstr(jam_notes(sys), "shorter"));
   jam_destroy(sys);
@@ -79,11 +76,4 @@ static void cells_that_are_changed(void **state) {
   jam_destroy(sys);
 }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(keys_of_xyz),
-      cmocka_unit_test(corners_elsewhere),
-      cmocka_unit_test(cells_that_are_changed),
-  };
-  return cmocka_run_group_tests(tests, make_scratch, remove_scratch);
-}
+FIXTURE(make_scratch, remove_scratch)

@@ -98,20 +98,18 @@ static void each_failure(writer save, const char *name) {
   jam_destroy(old), jam_destroy(sys);
 }
 
-static void every_system_call(void **state) {
-  (void)state;
+CASE(every_system_call) {
   each_failure(write_text, "faults.dat");
   each_failure(jam_write_checkpoint, "faults.jam");
 }
 
 /* One writer after the other is killed; some are caught amid a write. */
-static void kills(void **state) {
+CASE(kills) {
   const int times = 150;
   jam_system *sys = some_packing(3, 3000, 1.4, 1.0), *back = NULL;
   const char *path = in_scratch("killed.jam");
   int k, files, orphans = 0;
   unsigned random = 12345;
-  (void)state;
   assert_int_equal(jam_write_checkpoint(sys, path), JAM_OK);
   files = count_files();
   for (k = 0; k < times; ++k) {
@@ -146,7 +144,7 @@ static int count_parts(void) {
 }
 
 /* Not an orphan: another process still writes it, or a user made it, whatever its name ends in. */
-static void files_of_others_stay(void **state) {
+CASE(files_of_others_stay) {
   jam_system *sys = some_packing(2, 20000, 1.0, 1.0);
   char path[256];
   const char *users[] = {"mine.dat.part-00", "mine.dat.part-1-2", "mine.dat.part-2024-01-15", "mine.dat.part-old",
@@ -154,7 +152,6 @@ static void files_of_others_stay(void **state) {
   const int count = (int)(sizeof users / sizeof *users);
   int k, parts = count;
   pid_t child;
-  (void)state;
   strcpy(path, in_scratch("mine.dat"));
   for (k = 0; k < count; ++k) put_bytes(in_scratch(users[k]), "x", 1);
   child = fork();
@@ -178,12 +175,11 @@ static void files_of_others_stay(void **state) {
 }
 
 /* The longest names that a file may have, also where the cut falls amid a character of several bytes. */
-static void long_names(void **state) {
+CASE(long_names) {
   jam_system *sys = some_packing(2, 10, 1.0, 1.0), *back = NULL;
   char name[256], path[512];
   size_t length, k;
   int files;
-  (void)state;
   for (length = 230; length <= 255; ++length) {
     memset(name, 'a', length);
     for (k = length % 2; k + 1 < length - 4; k += 2) name[k] = '\xc3', name[k + 1] = '\xa4';
@@ -200,8 +196,4 @@ static void long_names(void **state) {
   jam_destroy(sys);
 }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(every_system_call), cmocka_unit_test(kills),
-                                     cmocka_unit_test(files_of_others_stay), cmocka_unit_test(long_names)};
-  return cmocka_run_group_tests(tests, make_scratch, remove_scratch);
-}
+FIXTURE(make_scratch, remove_scratch)

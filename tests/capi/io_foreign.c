@@ -40,8 +40,7 @@ static void same_three(jam_system *sys) {
   jam_destroy(sys);
 }
 
-static void odd_plain_text(void **state) {
-  (void)state;
+CASE(odd_plain_text) {
   same_three(
       read_text("\xef\xbb\xbf"
                 "3\n3\n0.2\n0.1 0.2 0.3\n0.6 0.7 0.8\n0.35 0.9 0.15\n"));        /* the mark of UTF-8 */
@@ -60,12 +59,11 @@ static void odd_plain_text(void **state) {
 }
 
 /* A box that is not named is 1. Positions beyond it say that it was another. */
-static void a_box_that_is_not_named(void **state) {
+CASE(a_box_that_is_not_named) {
   jam_create_options o = defaults();
   const char *text = "3\n3\n0.2\n0.1 0.2 0.3\n0.6 0.7 1.8\n0.35 0.9 0.15\n";
   jam_info info;
   jam_system *sys;
-  (void)state;
   expect_refused(text, JAM_E_FORMAT,
                  "line 5: the coordinate 1.8 lies outside the box [0, 1], and the file names no box");
   expect_refused("2\n1\n0.1\n0.1 -0.2\n", JAM_E_FORMAT, "line 4: the coordinate -0.2");
@@ -79,12 +77,11 @@ static void a_box_that_is_not_named(void **state) {
   jam_destroy(read_text("2\n2\n0.1\n0.1 1.000000\n-0.0000004 0.5\n")); /* rounding of six digits */
 }
 
-static void tables(void **state) {
+CASE(tables) {
   jam_create_options o = defaults();
   jam_system *sys;
   const double *s;
   size_t len;
-  (void)state;
   sys = read_text("0.1 0.2 0.3 0.1\n0.6 0.7 0.8 0.1\n0.35 0.9 0.15 0.1\n");
   assert_non_null(
       strstr(jam_notes(sys), "warning: the file does not name its 4 columns: 3 coordinates and the radius"));
@@ -113,11 +110,10 @@ static void tables(void **state) {
 }
 
 #define BOX "Lattice=\"1 0 0 0 1 0 0 0 1\" "
-static void odd_xyz(void **state) {
+CASE(odd_xyz) {
   jam_create_options o = defaults();
   jam_system *sys;
   jam_info info;
-  (void)state;
 #define R "1 0.1 0.2 0.3 0.1\n1 0.6 0.7 0.8 0.1\n1 0.35 0.9 0.15 0.1\n"
   same_three(
       read_text("3\nLattice={1 0 0 0 1 0 0 0 1} Properties=type:I:1:pos:R:3:radius:R:1 pbc=\"TRUE True t\"\n" R));
@@ -149,14 +145,13 @@ static void odd_xyz(void **state) {
   jam_destroy(sys);
 }
 
-static void frames(void **state) {
+CASE(frames) {
   jam_create_options o = defaults();
   static const char frame[] = "1\n" BOX "Properties=pos:R:3:radius:R:1\n%g .2 .3 .1\n";
   char text[600], cut[600];
   const double *x;
   size_t len, k;
   jam_system *sys;
-  (void)state;
   for (len = k = 0; k < 3; ++k) len += (size_t)snprintf(text + len, sizeof text - len, frame, 0.125 * (double)(k + 1));
   sys = read_text(text);
   jam_view(sys, JAM_VIEW_POSITIONS, &x, &k);
@@ -180,7 +175,7 @@ static void frames(void **state) {
 }
 
 /* One table knows files by their first bytes and words, whatever their names. */
-static void known_by_their_beginning(void **state) {
+CASE(known_by_their_beginning) {
   static const struct {
     const char *bytes;
     size_t length;
@@ -219,7 +214,6 @@ static void known_by_their_beginning(void **state) {
       FILE_OF("hello\n", "line 1: 'hello' begins no file that is read"),
   };
   size_t k;
-  (void)state;
   for (k = 0; k < sizeof files / sizeof *files; ++k) {
     jam_system *sys = NULL;
     put_bytes(in_scratch("in.any"), files[k].bytes, files[k].length);
@@ -236,10 +230,9 @@ static void known_by_their_beginning(void **state) {
 }
 
 /* Options that the file answers must agree with it. */
-static void options_that_contradict_the_file(void **state) {
+CASE(options_that_contradict_the_file) {
   const char *text = "3\n1\n0.2\n0.1 0.2 0.3\n", *xyz = "1\n" BOX "Properties=pos:R:3:radius:R:1\n.1 .2 .3 .1\n";
   jam_create_options o = defaults();
-  (void)state;
   o.n = 77;
   expect_refused_with(text, &o, JAM_E_ARGUMENT, "the option n is 77, but the file has 1");
   o = defaults(), o.dim = 4;
@@ -259,13 +252,12 @@ static void keep_line(int32_t level, const char *line, void *user) {
 }
 
 /* Shrinking changes all diameters: factor and pair are told, in the notes, in those of a copy and in the log. */
-static void shrinking_is_told(void **state) {
+CASE(shrinking_is_told) {
   jam_create_options o = defaults();
   jam_system *sys, *copy = NULL;
   const double x[4] = {0.1, 0.5, 0.4, 0.5}, sigma = 0.4;
   double factor = 0.0;
   int i = -1, j = -1;
-  (void)state;
   o.dim = 2;
   o.overlap = JAM_OVERLAP_SHRINK;
   assert_int_equal(create_from(&o, x, 4, &sigma, 1, &sys), JAM_OK);
@@ -284,10 +276,9 @@ static void shrinking_is_told(void **state) {
 }
 
 /* One duplicate must not take the diameters of all the others. */
-static void absurd_factors_are_refused(void **state) {
+CASE(absurd_factors_are_refused) {
   jam_create_options o = defaults();
   const char *near = "2\n3\n0.3\n0.1 0.5\n0.1000001 0.5\n0.6 0.6\n", *faces = "2\n3\n0.3\n0 0.5\n1 0.5\n0.5 0.1\n";
-  (void)state;
   o.overlap = JAM_OVERLAP_SHRINK;
   expect_refused_with(near, &o, JAM_E_OVERLAP, "spheres 0 and 1 overlapped by 1 of their contact distance");
   expect_refused_with(near, &o, JAM_E_OVERLAP, "less than shrink_min 0.001; leave one of two duplicates out");
@@ -299,17 +290,4 @@ static void absurd_factors_are_refused(void **state) {
   expect_refused_with(near, &o, JAM_E_ARGUMENT, "shrink_min is 2, supported are 0..1");
 }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(odd_plain_text),
-      cmocka_unit_test(a_box_that_is_not_named),
-      cmocka_unit_test(tables),
-      cmocka_unit_test(odd_xyz),
-      cmocka_unit_test(frames),
-      cmocka_unit_test(known_by_their_beginning),
-      cmocka_unit_test(options_that_contradict_the_file),
-      cmocka_unit_test(shrinking_is_told),
-      cmocka_unit_test(absurd_factors_are_refused),
-  };
-  return cmocka_run_group_tests(tests, make_scratch, remove_scratch);
-}
+FIXTURE(make_scratch, remove_scratch)

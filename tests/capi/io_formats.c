@@ -23,10 +23,9 @@ static void same_after(jam_system *sys, const char *name) {
   jam_destroy(back);
 }
 
-static void lammps_data_keeps_the_bits(void **state) {
+CASE(lammps_data_keeps_the_bits) {
   const double flat[4] = {1.0, 0.0, 0.4, 1.1}, solid[9] = {1.0, 0.0, 0.0, 0.3, 1.1, 0.0, -0.2, 0.45, 0.9};
   int32_t dim;
-  (void)state;
   for (dim = 2; dim <= 3; ++dim) {
     jam_system *cube = some_packing(dim, 60, 1.4, 7.3), *tilted = in_cell(dim, dim == 2 ? flat : solid), *back = NULL;
     double before[9], after[9];
@@ -44,11 +43,10 @@ static void lammps_data_keeps_the_bits(void **state) {
   }
 }
 
-static void compressed_files_keep_the_bits(void **state) {
+CASE(compressed_files_keep_the_bits) {
   jam_system *sys = some_packing(3, 500, 1.4, 7.3), *back = NULL;
   size_t plain, packed;
   char *bytes, *once;
-  (void)state;
   same_after(sys, "a.xyz.gz");
   same_after(sys, "a.dat.gz");
   same_after(sys, "a.xyz");
@@ -73,9 +71,8 @@ static void compressed_files_keep_the_bits(void **state) {
   jam_destroy(sys);
 }
 
-static void what_a_format_cannot_hold_is_refused(void **state) {
+CASE(what_a_format_cannot_hold_is_refused) {
   jam_system *four = some_packing(4, 60, 1.0, 1.0);
-  (void)state;
   assert_int_equal(jam_write(four, in_scratch("a.data"), JAM_FORMAT_AUTO), JAM_E_UNSUPPORTED);
   assert_int_equal(jam_write(four, in_scratch("a.vtp"), JAM_FORMAT_AUTO), JAM_E_UNSUPPORTED);
   assert_int_equal(jam_write_contacts(four, in_scratch("c.csv"), JAM_CONTACTS_AUTO), JAM_E_STATE);
@@ -90,12 +87,11 @@ static void what_a_format_cannot_hold_is_refused(void **state) {
   jam_destroy(four);
 }
 
-static void page_holds_its_data_and_nothing_else(void **state) {
+CASE(page_holds_its_data_and_nothing_else) {
   jam_system *sys = some_packing(2, 60, 1.4, 1.0);
   double values[120];
   size_t size, k;
   char *text;
-  (void)state;
   for (k = 0; k < 120; ++k) values[k] = (double)k;
   assert_int_equal(jam_write_page(sys, in_scratch("a.html"), "</script>\"", 0, "a\nb", values, 120), JAM_OK);
   text = get_bytes(in_scratch("a.html"), &size);
@@ -132,11 +128,10 @@ static int states_on_the_page(const jam_system *sys) {
   return count;
 }
 
-static void page_shows_the_steps_that_the_crunch_kept(void **state) {
+CASE(page_shows_the_steps_that_the_crunch_kept) {
   jam_system *sys = some_packing(2, 60, 1.4, 1.0), *plain = NULL, *copy = NULL;
   jam_crunch_options o;
   int states;
-  (void)state;
   jam_crunch_options_init(&o, sizeof o);
   assert_int_equal(jam_copy(sys, &plain), JAM_OK);
   for (o.keep_steps = -1; o.keep_steps <= 1001; o.keep_steps += 1002)
@@ -159,13 +154,4 @@ static void page_shows_the_steps_that_the_crunch_kept(void **state) {
   jam_destroy(copy);
 }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(lammps_data_keeps_the_bits),
-      cmocka_unit_test(compressed_files_keep_the_bits),
-      cmocka_unit_test(what_a_format_cannot_hold_is_refused),
-      cmocka_unit_test(page_holds_its_data_and_nothing_else),
-      cmocka_unit_test(page_shows_the_steps_that_the_crunch_kept),
-  };
-  return cmocka_run_group_tests(tests, make_scratch, remove_scratch);
-}
+FIXTURE(make_scratch, remove_scratch)

@@ -94,12 +94,11 @@ static inline void expect_refused(const char *text, jam_status status, const cha
 
 /* n spheres at random, diameters 50:50 with the given ratio. */
 static inline jam_system *some_packing(int32_t dim, int64_t n, double ratio, double box) {
-  jam_create_options o;
   jam_system *sys = NULL;
   double *diameters = (double *)malloc((size_t)n * sizeof *diameters);
   int64_t i;
   for (i = 0; i < n; ++i) diameters[i] = i % 2 ? ratio : 1.0;
-  assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
+  DEFAULTS(create, o);
   o.dim = dim;
   o.n = n;
   o.box = box;

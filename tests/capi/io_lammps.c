@@ -34,7 +34,7 @@ static void same_spheres(jam_system *sys, int32_t dim, size_t n, const double *x
 static const double three[9] = {0.1, 0.2, 0.3, 1.6, 1.7, 1.8, 0.35, 0.9, 0.15}, size[3] = {0.2, 0.2, 0.2};
 
 /* LAMMPS of September 2021 takes all of these but the D exponents, which can mean one thing only. */
-static void headers_as_lammps_takes_them(void **state) {
+CASE(headers_as_lammps_takes_them) {
   static const char *const texts[] = {
       HEAD BOX ROWS,
       HEAD "0 2 xlo xhi (x)\n0 2 ylo yhi ! y\n0 2 zlo zhi and more\n" ROWS,
@@ -48,15 +48,13 @@ static void headers_as_lammps_takes_them(void **state) {
       "\xef\xbb\xbf" HEAD BOX ROWS,
   };
   size_t k;
-  (void)state;
   for (k = 0; k < sizeof texts / sizeof *texts; ++k) same_spheres(read_text(texts[k]), 3, 3, three, size, 2.0);
   same_spheres(read_text("t\r\n\r\n3 atoms\r\n" BOX ROWS), 3, 3, three, size, 2.0);
 }
 
-static void what_is_not_read_is_said(void **state) {
+CASE(what_is_not_read_is_said) {
   jam_system *sys =
       read_text(HEAD "0 2 xlo xhi (x)\n0 2 ylo yhi\n0 2 zlo zhi\n" ROWS "\nVelocities\n\n1 0 0 0 0 0 0\n");
-  (void)state;
   assert_string_equal(jam_notes(sys),
                       "line 5: text behind 'xhi' was not read\nsections of the file that were not read: Velocities\n"
                       "the file does not say which directions are periodic: all are taken as periodic; the options "
@@ -65,19 +63,18 @@ static void what_is_not_read_is_said(void **state) {
 }
 
 /* As write_data of LAMMPS leaves it: a box that does not start at 0, atoms in any order, image counts, velocities. */
-static void lammps_writes_it_otherwise(void **state) {
+CASE(lammps_writes_it_otherwise) {
   static const char text[] =
       "LAMMPS data file via write_data\n\n3 atoms\n2 atom types\n\n-1 3 xlo xhi\n1 5 ylo yhi\n0 4 zlo zhi\n\n"
       "Atoms # sphere\n\n3 1 0.5 1.9 2 4 3 0 0 0\n1 1 1 1.9 -0.5 1.5 0.5 0 0 1\n2 2 0.25 1.9 1 3 2 0 0 0\n\n"
       "Velocities\n\n1 0 0 0 0 0 0\n2 0 0 0 0 0 0\n3 0 0 0 0 0 0\n";
   const double want[9] = {0.5, 0.5, 0.5, 2, 2, 2, 3, 3, 3}, sizes[3] = {1.0, 0.25, 0.5};
   jam_system *sys = read_text(text);
-  (void)state;
   assert_non_null(strstr(jam_notes(sys), "sorted by their ids"));
   same_spheres(sys, 3, 3, want, sizes, 4.0);
 }
 
-static void tilts_are_kept(void **state) {
+CASE(tilts_are_kept) {
   const double want[9] = {2, 0, 0, 0.5, 2, 0, 0, 0, 2};
   static const char *const texts[] = {
       HEAD BOX "0.5 0 0 xy xz yz tilt\n" ROWS,
@@ -85,7 +82,6 @@ static void tilts_are_kept(void **state) {
   };
   double cell[9];
   size_t k;
-  (void)state;
   for (k = 0; k < 2; ++k) {
     jam_system *sys = read_text(texts[k]);
     jam_get_cell(sys, cell, 9, NULL);
@@ -94,8 +90,7 @@ static void tilts_are_kept(void **state) {
   }
 }
 
-static void data_that_cannot_be_read(void **state) {
-  (void)state;
+CASE(data_that_cannot_be_read) {
 #define TWO "LAMMPS\n\n2 atoms\n\n0 1 xlo xhi\n0 1 ylo yhi\n0 1 zlo zhi\n\n"
   expect_refused(TWO "Atoms # atomic\n\n1 1 0 0 0\n", JAM_E_UNSUPPORTED, "atom_style 'atomic' has no diameters");
   expect_refused(TWO "Atoms\n\n1 1 0.1 1 0.2 0.2 0.2\n", JAM_E_FORMAT, "ends after 1 of 2 spheres");
@@ -122,10 +117,9 @@ static void data_that_cannot_be_read(void **state) {
 }
 
 /* Rows of atom_style full have as many columns as those of sphere: id, molecule, type, charge. */
-static void a_section_without_style(void **state) {
+CASE(a_section_without_style) {
   jam_system *sys =
       read_text(HEAD BOX "\nAtoms\n\n1 1 0.2 1 0.1 0.2 0.3\n2 1 0.2 1 1.6 1.7 1.8\n3 1 0.2 1 0.35 0.9 0.15\n");
-  (void)state;
   assert_non_null(strstr(jam_notes(sys), "warning: the section Atoms names no style: atom_style sphere was assumed"));
   same_spheres(sys, 3, 3, three, size, 2.0);
 #define FULL "t\n\n2 atoms\n2 atom types\n0 9 xlo xhi\n0 9 ylo yhi\n0 9 zlo zhi\n\nAtoms\n\n"
@@ -138,7 +132,7 @@ static void a_section_without_style(void **state) {
 #define DUMP "ITEM: TIMESTEP\n5\nITEM: NUMBER OF ATOMS\n3\n"
 #define BOUNDS "ITEM: BOX BOUNDS pp pp pp\n-1 1\n0 2\n1 3\n"
 #define DUMP1 "ITEM: TIMESTEP\n5\nITEM: NUMBER OF ATOMS\n1\n"
-static void dumps_in_any_form(void **state) {
+CASE(dumps_in_any_form) {
   static const char *const texts[] = {
       DUMP BOUNDS
       "ITEM: ATOMS id type radius x y z \n1 1 0.1 -0.9 0.2 1.3 \n2 1 0.1 0.6 1.7 2.8 \n3 1 0.1 -0.65 0.9 1.15 \n",
@@ -151,7 +145,6 @@ static void dumps_in_any_form(void **state) {
       "ITEM: ATOMS radius x y z\n0.1 -0.9 0.2 1.3\n0.1 0.6 1.7 2.8\n0.1 -0.65 0.9 1.15\n",
   };
   size_t k;
-  (void)state;
   for (k = 0; k < sizeof texts / sizeof *texts; ++k) {
     jam_system *sys = read_text(texts[k]);
     if (k == 0) assert_non_null(strstr(jam_notes(sys), "columns of the file that were not read: type"));
@@ -164,7 +157,7 @@ static void dumps_in_any_form(void **state) {
 }
 
 /* Bounds of a tilted box are those of the brick around it. */
-static void tilted_dumps(void **state) {
+CASE(tilted_dumps) {
   const double want[9] = {2, 0, 0, 0.5, 2, 0, -0.3, 0.25, 2}, flat[4] = {2, 0, 0.5, 2}, at[2] = {0.35, 0.4};
   double cell[9];
   const double *x;
@@ -172,7 +165,6 @@ static void tilted_dumps(void **state) {
   jam_system *sys = read_text(DUMP
                               "ITEM: BOX BOUNDS xy xz yz pp pp pp\n-0.3 2.5 0.5\n0 2.25 -0.3\n0 2 0.25\n"
                               "ITEM: ATOMS radius x y z\n0.1 0.5 0.5 0.5\n0.1 1 1 1\n0.1 1.5 1.5 1.5\n");
-  (void)state;
   jam_get_cell(sys, cell, 9, NULL);
   for (len = 0; len < 9; ++len) assert_true(fabs(cell[len] - want[len]) < 1e-15);
   jam_destroy(sys);
@@ -187,8 +179,7 @@ static void tilted_dumps(void **state) {
   jam_destroy(sys);
 }
 
-static void dumps_that_cannot_be_read(void **state) {
-  (void)state;
+CASE(dumps_that_cannot_be_read) {
 #define NAMES "ITEM: ATOMS id radius x y z\n"
   expect_refused(DUMP "ITEM: BOX BOUNDS pp pp\n0 1\n0 1\n0 1\n" NAMES, JAM_E_FORMAT, "2 boundaries instead of three");
   expect_refused(DUMP "ITEM: BOX BOUNDS pp pp fs\n0 1\n0 1\n0 1\n" NAMES, JAM_E_UNSUPPORTED,
@@ -233,7 +224,7 @@ static int32_t closed_by(const char *text, int32_t container, int32_t walls, int
 
 /* Files that do not say where walls stand are periodic with a note, or have the walls that the caller names. What a
  * file says is not overruled. */
-static void walls_are_named_by_the_file_or_the_caller(void **state) {
+CASE(walls_are_named_by_the_file_or_the_caller) {
   static const char data[] =
       "data\n\n1 atoms\n1 atom types\n0 1 xlo xhi\n0 1 ylo yhi\n0 1 zlo zhi\n"
       "\nAtoms # sphere\n\n1 1 0.2 1 0.5 0.5 0.5\n";
@@ -250,7 +241,6 @@ static void walls_are_named_by_the_file_or_the_caller(void **state) {
   const char *const silent[] = {data, table, open};
   jam_system *sys = NULL;
   int noted;
-  (void)state;
   for (size_t k = 0; k < 3; ++k) {
     assert_int_equal(closed_by(silent[k], JAM_CONTAINER_BRICK, 0, &noted), 0);
     assert_true(noted);
@@ -282,18 +272,4 @@ static void walls_are_named_by_the_file_or_the_caller(void **state) {
 #undef ONE
 #undef NAMES
 
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(headers_as_lammps_takes_them),
-      cmocka_unit_test(what_is_not_read_is_said),
-      cmocka_unit_test(lammps_writes_it_otherwise),
-      cmocka_unit_test(tilts_are_kept),
-      cmocka_unit_test(data_that_cannot_be_read),
-      cmocka_unit_test(a_section_without_style),
-      cmocka_unit_test(walls_are_named_by_the_file_or_the_caller),
-      cmocka_unit_test(dumps_in_any_form),
-      cmocka_unit_test(tilted_dumps),
-      cmocka_unit_test(dumps_that_cannot_be_read),
-  };
-  return cmocka_run_group_tests(tests, make_scratch, remove_scratch);
-}
+FIXTURE(make_scratch, remove_scratch)

@@ -27,7 +27,7 @@ long fail_each(Call &&call) {
   return -1;
 }
 
-void every_allocation(void **) {
+CASE(every_allocation) {
   jam_system *sys = some_packing(3, 40, 1.4, 1.0), *out = nullptr;
   char path[256];
   strcpy(path, in_scratch("m.xyz"));
@@ -51,7 +51,4 @@ void every_allocation(void **) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(every_allocation)};
-  return cmocka_run_group_tests(tests, make_scratch, remove_scratch);
-}
+FIXTURE(make_scratch, remove_scratch)

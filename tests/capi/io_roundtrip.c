@@ -29,10 +29,7 @@ static void all_round_trips(void) {
       }
 }
 
-static void written_files_read_back_to_the_same_bits(void **state) {
-  (void)state;
-  all_round_trips();
-}
+CASE(written_files_read_back_to_the_same_bits) { all_round_trips(); }
 
 /* A host program with a decimal comma must neither write nor read commas.
  * Every kind of file with numbers as text, below the scratch folder: NAME.ENDING. */
@@ -74,11 +71,10 @@ static void assert_all_equal(const char *first, const char *second) {
   }
 }
 
-static void locale_with_comma_changes_nothing(void **state) {
+CASE(locale_with_comma_changes_nothing) {
   jam_system *sys = some_packing(3, 30, 1.4, 7.3);
   size_t size;
   char *text;
-  (void)state;
   assert_true(jam_crunch(sys, NULL, NULL) >= 0);
   write_all(sys, "point");
   if (!set_comma_locale(scratch)) {
@@ -97,13 +93,12 @@ static void locale_with_comma_changes_nothing(void **state) {
   free(text);
 }
 
-static void layout_of_plain(void **state) {
+CASE(layout_of_plain) {
   const double x[] = {0.25, 0.5, 0.75, 0.125}, s[] = {0.25, 0.125}, one = 0.25;
   jam_create_options o;
   jam_system *sys;
   char *text;
   size_t size;
-  (void)state;
   jam_create_options_init(&o, sizeof o);
   o.dim = 2;
   assert_int_equal(create_from(&o, x, 4, &one, 1, &sys), JAM_OK);
@@ -143,11 +138,10 @@ static double coordinate(const jam_system *sys, size_t k) {
 }
 
 /* What other people's programs write: CRLF, blanks, plus signs, blank lines, further columns, other column orders. */
-static void foreign_layouts_are_read(void **state) {
+CASE(foreign_layouts_are_read) {
   jam_system *sys;
   jam_info info;
   jam_create_options o;
-  (void)state;
   info.struct_size = sizeof info;
   sys = read_text("3 \r\n2\r\n0.1\t\r\n+0.1 0.2 0.3 \r\n0.5  0.6\t0.7\r\n\r\n", NULL);
   assert_true(coordinate(sys, 0) == 0.1);
@@ -183,12 +177,4 @@ static void foreign_layouts_are_read(void **state) {
   jam_destroy(sys);
 }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(written_files_read_back_to_the_same_bits),
-      cmocka_unit_test(locale_with_comma_changes_nothing),
-      cmocka_unit_test(layout_of_plain),
-      cmocka_unit_test(foreign_layouts_are_read),
-  };
-  return cmocka_run_group_tests(tests, make_scratch, remove_scratch);
-}
+FIXTURE(make_scratch, remove_scratch)

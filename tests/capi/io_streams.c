@@ -31,12 +31,11 @@ static pid_t feed(const char *file, const char *fifo) {
   _exit(0);
 }
 
-static void signals_do_not_end_a_read(void **state) {
+CASE(signals_do_not_end_a_read) {
   jam_system *sys = some_packing(3, 3000, 1.4, 1.0), *back = NULL;
   const char *names[] = {"plain.dat", "packed.xyz.gz", "state.chk"};
   char fifo[256];
   int k;
-  (void)state;
   strcpy(fifo, in_scratch("fifo"));
   assert_int_equal(mkfifo(fifo, 0600), 0);
   for (k = 0; k < 3; ++k) {
@@ -61,12 +60,11 @@ static int32_t stop_at_once(const jam_progress *p, void *user) {
 }
 
 /* Nobody writes: the limit of time and the callback end the call. */
-static void silent_pipes_are_left(void **state) {
+CASE(silent_pipes_are_left) {
   jam_create_options o;
   jam_system *sys = NULL;
   char fifo[256];
   int writer;
-  (void)state;
   strcpy(fifo, in_scratch("silent"));
   assert_int_equal(mkfifo(fifo, 0600), 0);
   assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
@@ -87,11 +85,10 @@ static void pack(const char *text, const char *path, int append) {
 }
 
 /* A small compressed file can hold much: blank lines, or spheres. */
-static void reading_keeps_to_its_limits(void **state) {
+CASE(reading_keeps_to_its_limits) {
   jam_create_options o;
   jam_system *sys = NULL;
   const char *path = in_scratch("much.dat.gz");
-  (void)state;
   pack("printf '3\\n1\\n0.1\\n'; yes '' | head -c 300000000; echo 0 0 0", path, 0);
   assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
   o.wall_time = 0.1;
@@ -107,11 +104,10 @@ static void reading_keeps_to_its_limits(void **state) {
 }
 
 /* Members of gzip's format behind each other are one text; what else stands behind them is refused. */
-static void gzip_members(void **state) {
+CASE(gzip_members) {
   jam_system *sys = NULL;
   const char *path = in_scratch("members.dat.gz");
   FILE *more;
-  (void)state;
   pack("printf '3\\n1\\n0.1\\n0.25 0.'", path, 0);
   pack("printf '5 0.75\\n'", path, 1);
   assert_int_equal(jam_read(path, NULL, NULL, NULL, &sys), JAM_OK);
@@ -125,14 +121,13 @@ static void gzip_members(void **state) {
 }
 
 /* What a shell does with >>: earlier and later lines stay, also where a link leads there. */
-static void open_files_are_appended_to(void **state) {
+CASE(open_files_are_appended_to) {
   jam_system *sys = some_packing(3, 5, 1.0, 1.0);
   const char *path = in_scratch("log.txt"), *plain = in_scratch("alone.dat");
   char names[3][256], *text, *packing;
   const int fd = open(path, O_WRONLY | O_CREAT | O_APPEND, 0600);
   size_t size, one;
   int k;
-  (void)state;
   assert_int_equal(jam_write(sys, plain, JAM_FORMAT_PLAIN), JAM_OK);
   packing = get_bytes(plain, &one);
   sprintf(names[0], "/dev/fd/%d", fd);
@@ -153,11 +148,4 @@ static void open_files_are_appended_to(void **state) {
   jam_destroy(sys);
 }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(signals_do_not_end_a_read),   cmocka_unit_test(silent_pipes_are_left),
-      cmocka_unit_test(reading_keeps_to_its_limits), cmocka_unit_test(gzip_members),
-      cmocka_unit_test(open_files_are_appended_to),
-  };
-  return cmocka_run_group_tests(tests, make_scratch, remove_scratch);
-}
+FIXTURE(make_scratch, remove_scratch)

@@ -41,7 +41,7 @@ static void expect(jam_system *sys, int32_t dim, int64_t n, const double *x, con
 
 static const double two[] = {0.5, 0.5, 0.5, 1.5, 1.5, 1.5}, sizes[] = {0.4, 0.5};
 
-static void headings(void **state) {
+CASE(headings) {
   static const char *const texts[] = {
       "X [m],Y [m],Z [m],Radius [m]\n0.5,0.5,0.5,0.2\n1.5,1.5,1.5,0.25\n",
       "\"radius\",\"id\",\"Points:0\",\"Points:1\",\"Points:2\"\n0.2,1,0.5,0.5,0.5\n0.25,2,1.5,1.5,1.5\n",
@@ -59,7 +59,6 @@ static void headings(void **state) {
       "1.5,1.5,1.5,.5\n",
   };
   size_t k;
-  (void)state;
   /* a name with a comma inside its quotes parts the row */
   expect_refused_as(texts[4], "cell=3,3,3", JAM_E_FORMAT, "line 2");
   for (k = 0; k < sizeof texts / sizeof *texts; ++k)
@@ -80,13 +79,12 @@ static void headings(void **state) {
   expect_refused(".1 .1 .1 .1 7\n", JAM_E_FORMAT, "or by the option columns");
 }
 
-static void what_the_caller_says(void **state) {
+CASE(what_the_caller_says) {
   static const char rows[] = "-2 -2 -3.5 1 .2\n-1 -1 -2.5 2 .25\n";
   static const double moved[] = {0.5, 0.5, 0.5, 1.5, 1.5, 1.5};
   double cell[9], want[9] = {5, 0, 0, 0, 5, 0, 0, 0, 8};
   size_t needed;
   jam_system *sys = read_as(rows, "cell=5,5,8 origin=-2.5,-2.5,-4 columns=x,y,z,mass,radius", 1.0);
-  (void)state;
   assert_int_equal(jam_get_cell(sys, cell, 9, &needed), JAM_OK);
   assert_memory_equal(cell, want, sizeof cell);
   assert_non_null(strstr(jam_notes(sys), "mass"));
@@ -137,11 +135,10 @@ static void what_the_caller_says(void **state) {
   expect_refused_as("3\n1\n0.4\n.5 .5 .5\n", "columns=x,y,z,r", JAM_E_ARGUMENT, "for tables");
 }
 
-static void disks_in_a_plane(void **state) {
+CASE(disks_in_a_plane) {
   static const double flat[] = {1, 1, 1, 2.5, 4, 4}, widths[] = {1, 0.75, 1};
   static const char text[] = "x y z r\n1 1 0.5 0.5\n1 2.5 0.5 0.375\n4 4 0.5 0.5\n";
   jam_system *sys = read_as(text, "", 5.0);
-  (void)state;
   assert_non_null(strstr(jam_notes(sys), "d = 2"));
   expect(sys, 2, 3, flat, widths);
   expect(read_as(text, "cell=5,5", 1.0), 2, 3, flat, widths);
@@ -150,14 +147,13 @@ static void disks_in_a_plane(void **state) {
   jam_destroy(sys);
 }
 
-static void cells_of_torquato_and_jiao(void **state) {
+CASE(cells_of_torquato_and_jiao) {
   static const double x[] = {0.1, 0.2, 0.3, 1.6, 0.7, 0.1}, widths[] = {0.3, 0.3};
   const double want[9] = {2, 0, 0, 0.25, 1, 0, 0, 0, 1};
   double cell[9];
   size_t needed;
   jam_system *sys =
       read_as("3\n2\n0.3\n2\t0\t0\t\n0.25\t1\t0\t\n0\t0\t1\t\n0.1\t0.2\t0.3\t\n1.6\t0.7\t0.1\t\n", "", 1.0);
-  (void)state;
   assert_non_null(strstr(jam_notes(sys), "Torquato and Jiao"));
   assert_int_equal(jam_get_cell(sys, cell, 9, &needed), JAM_OK);
   assert_memory_equal(cell, want, sizeof cell);
@@ -167,7 +163,7 @@ static void cells_of_torquato_and_jiao(void **state) {
   expect_refused("2\n1\n0.3\n1 0\n0 1\n.5 .5\n.2 .2\n", JAM_E_FORMAT, "line 7: there is more after the 1 spheres");
 }
 
-static void frames_without_spheres(void **state) {
+CASE(frames_without_spheres) {
   static const char dump[] =
       "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n0\nITEM: BOX BOUNDS pp pp pp\n0 3\n0 3\n0 3\nITEM: ATOMS id x y z "
       "radius\nITEM: TIMESTEP\n1\nITEM: NUMBER OF ATOMS\n2\nITEM: BOX BOUNDS pp pp pp\n0 3\n0 3\n0 3\nITEM: ATOMS id x "
@@ -178,7 +174,6 @@ static void frames_without_spheres(void **state) {
       "Properties=pos:R:3:radius:R:1 pbc=\"[T, T, T]\"\n.5 .5 .5 .2\n1.5 1.5 1.5 .25\n";
   const char *const texts[] = {dump, xyz};
   size_t k;
-  (void)state;
   for (k = 0; k < 2; ++k) {
     jam_create_options o;
     jam_system *sys = NULL;
@@ -196,7 +191,7 @@ static void frames_without_spheres(void **state) {
   }
 }
 
-static void data_of_mercury_dpm(void **state) {
+CASE(data_of_mercury_dpm) {
   static const double moved[] = {0.5, 0.5, 0.5, 1.5, 1.5, 1.5}, want[9] = {2, 0, 0, 0, 3, 0, 0, 0, 4};
   static const char frame[] =
       "0 0 -1 -1 -1 1 2 3\n"
@@ -206,7 +201,6 @@ static void data_of_mercury_dpm(void **state) {
   double cell[9];
   size_t needed;
   jam_system *sys = read_as(disks, "", 1.0);
-  (void)state;
   assert_int_equal(jam_get_cell(sys, cell, 9, &needed), JAM_OK);
   assert_memory_equal(cell, ((double[]){2, 0, 0, 3}), 4 * sizeof *cell);
   expect(sys, 2, 2, flat, sizes);
@@ -227,11 +221,10 @@ static void data_of_mercury_dpm(void **state) {
 }
 
 /* Every row says the truth: what is listed as written is written, and what it holds. */
-static void the_list_of_formats(void **state) {
+CASE(the_list_of_formats) {
   const char *at = jam_formats();
   jam_system *sys = some_packing(3, 10, 1.0, 1.0);
   int rows = 0;
-  (void)state;
   for (; *at; at = strchr(at, '\n') + 1, ++rows) {
     char content[16], word[16], name[48], endings[64], holds[64], use[16];
     int number, dim;
@@ -251,15 +244,4 @@ static void the_list_of_formats(void **state) {
   jam_destroy(sys);
 }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(headings),
-      cmocka_unit_test(what_the_caller_says),
-      cmocka_unit_test(disks_in_a_plane),
-      cmocka_unit_test(cells_of_torquato_and_jiao),
-      cmocka_unit_test(frames_without_spheres),
-      cmocka_unit_test(data_of_mercury_dpm),
-      cmocka_unit_test(the_list_of_formats),
-  };
-  return cmocka_run_group_tests(tests, make_scratch, remove_scratch);
-}
+FIXTURE(make_scratch, remove_scratch)

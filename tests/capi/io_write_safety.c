@@ -14,11 +14,9 @@ static void assert_untouched(const char *path) {
   free(text);
 }
 
-static void targets_that_cannot_be_written_are_refused(void **state) {
+CASE(targets_that_cannot_be_written_are_refused) {
   jam_system *sys = some_packing(3, 50, 1.0, 1.0);
   int files = count_files();
-  (void)state;
-  assert_int_equal(jam_write(NULL, in_scratch("x.dat"), 0), JAM_E_NULL);
   assert_int_equal(jam_write(sys, NULL, 0), JAM_E_NULL);
   assert_int_equal(jam_write(sys, in_scratch("x.dat"), 5), JAM_E_ARGUMENT);
   assert_int_equal(jam_write(sys, in_scratch("x.dat"), -1), JAM_E_ARGUMENT);
@@ -33,13 +31,12 @@ static void targets_that_cannot_be_written_are_refused(void **state) {
 
 /* A full disk: the special file /dev/full, and a file-size limit in the middle of the temporary file, whose signal
  * would end the process. */
-static void a_full_disk_leaves_the_old_file(void **state) {
+CASE(a_full_disk_leaves_the_old_file) {
   jam_system *sys = some_packing(3, 400, 1.4, 1.0);
   struct rlimit limit, small;
   const char *path = in_scratch("precious.dat");
   int files;
   jam_status status;
-  (void)state;
   if (access("/dev/full", W_OK) == 0) {
     assert_int_equal(jam_write(sys, "/dev/full", 0), JAM_E_IO);
     assert_non_null(strstr(jam_last_error(), strerror(ENOSPC)));
@@ -62,22 +59,20 @@ static void a_full_disk_leaves_the_old_file(void **state) {
   jam_destroy(sys);
 }
 
-static void special_files_are_written_in_place(void **state) {
+CASE(special_files_are_written_in_place) {
   jam_system *sys = some_packing(3, 5, 1.0, 1.0);
   struct stat there;
-  (void)state;
   assert_int_equal(jam_write(sys, "/dev/null", 0), JAM_OK);
   assert_int_equal(stat("/dev/null", &there), 0);
   assert_true(S_ISCHR(there.st_mode));
   jam_destroy(sys);
 }
 
-static void links_and_permissions_are_kept(void **state) {
+CASE(links_and_permissions_are_kept) {
   jam_system *sys = some_packing(3, 5, 1.0, 1.0), *back = NULL;
   const char *real = in_scratch("real.dat"), *link = in_scratch("link.dat"), *dangling = in_scratch("dangling.dat");
   struct stat there;
   mode_t mask;
-  (void)state;
   put_bytes(real, old_text, strlen(old_text));
   assert_int_equal(chmod(real, 0640), 0);
   assert_int_equal(symlink("real.dat", link), 0);
@@ -99,11 +94,10 @@ static void links_and_permissions_are_kept(void **state) {
 }
 
 /* The new file has the owner's permissions, and not the bits that lend the rights of its new owner. */
-static void no_rights_are_lent(void **state) {
+CASE(no_rights_are_lent) {
   jam_system *sys = some_packing(3, 5, 1.0, 1.0);
   const char *path = in_scratch("lent.dat");
   int k;
-  (void)state;
   for (k = 0; k < 3; ++k) {
     struct stat there;
     jam_status status;
@@ -144,14 +138,13 @@ static void *read_a_little(void *path) {
 }
 
 /* A pipe that nobody reads, that somebody stops to read, and a thread that its host cancels there. */
-static void pipes_leave_the_host_alone(void **state) {
+CASE(pipes_leave_the_host_alone) {
   pipe_writer job = {some_packing(3, 20000, 1.0, 1.0), in_scratch("pipe"), JAM_OK};
   struct timespec moment = {0, 200000000};
   pthread_t thread;
   sigset_t pending;
   void *result;
   int fd;
-  (void)state;
   assert_int_equal(mkfifo(job.path, 0600), 0);
   pthread_create(&thread, NULL, read_a_little, (void *)job.path);
   write_to_pipe(&job); /* SIGPIPE would end this process */
@@ -176,10 +169,9 @@ static void pipes_leave_the_host_alone(void **state) {
   jam_destroy(job.sys);
 }
 
-static void read_only_files_are_kept(void **state) {
+CASE(read_only_files_are_kept) {
   jam_system *sys = some_packing(3, 5, 1.0, 1.0);
   const char *path = in_scratch("readonly.dat");
-  (void)state;
   if (geteuid() == 0) {
     jam_destroy(sys);
     print_message("root may write anything: skipped\n");
@@ -192,15 +184,4 @@ static void read_only_files_are_kept(void **state) {
   jam_destroy(sys);
 }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(targets_that_cannot_be_written_are_refused),
-      cmocka_unit_test(a_full_disk_leaves_the_old_file),
-      cmocka_unit_test(special_files_are_written_in_place),
-      cmocka_unit_test(links_and_permissions_are_kept),
-      cmocka_unit_test(no_rights_are_lent),
-      cmocka_unit_test(pipes_leave_the_host_alone),
-      cmocka_unit_test(read_only_files_are_kept),
-  };
-  return cmocka_run_group_tests(tests, make_scratch, remove_scratch);
-}
+FIXTURE(make_scratch, remove_scratch)

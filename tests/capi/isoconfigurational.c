@@ -13,22 +13,19 @@ enum { N = 60, D = 3, M = 3, RUNS = 12, BLOCK = 4 };
 static const double instants[M] = {1.0, 3.0, 9.0};
 
 static jam_system *packing(void) {
-  jam_create_options o;
-  jam_compress_options c;
   jam_system *sys = NULL;
-  jam_create_options_init(&o, sizeof o);
+  DEFAULTS(create, o);
   o.n = N;
   o.dim = D;
   assert_int_equal(jam_create(&o, NULL, &sys), JAM_OK);
-  jam_compress_options_init(&c, sizeof c);
+  DEFAULTS(compress, c);
   c.packing_fraction = 0.5;
   assert_int_equal(jam_compress(sys, &c, NULL), JAM_OK);
   return sys;
 }
 
 static jam_isoconf_options options(void) {
-  jam_isoconf_options o;
-  assert_int_equal(jam_isoconf_options_init(&o, sizeof o), JAM_OK);
+  DEFAULTS(isoconf, o);
   o.runs = RUNS;
   o.block = BLOCK;
   o.density_ratio = 0.95;
@@ -57,13 +54,12 @@ static void get(const jam_system *sys, int64_t block, sums *s) {
   s->runs = (int64_t)table[JAM_ISOCONF_RUNS];
 }
 
-static void bits_do_not_depend_on_threads_or_handles(void **state) {
+CASE(bits_do_not_depend_on_threads_or_handles) {
   enum { MANY = 4000 }; /* so many that threads overtake each other */
   jam_system *one = packing(), *two = packing();
   jam_isoconf_options o = options();
   static sums a, b;
   int64_t k;
-  (void)state;
   o.runs = o.block = MANY;
   assert_int_equal(run(one, &o, NULL), JAM_OK);
   o.threads = 2;
@@ -110,13 +106,12 @@ static int32_t stop(const jam_progress *p, void *user) {
   return 1;
 }
 
-static void stopped_runs_are_kept_and_resume(void **state) {
+CASE(stopped_runs_are_kept_and_resume) {
   char path[] = "isoconf_XXXXXX";
   jam_system *whole = packing(), *cut = packing(), *again = NULL;
   jam_isoconf_options o = options();
   jam_isoconf_report r;
   static sums a, b;
-  (void)state;
   assert_int_equal(run(whole, &o, NULL), JAM_OK);
   get(whole, -1, &a);
   o.runs = 6; /* amid a block */
@@ -159,7 +154,7 @@ static void stopped_runs_are_kept_and_resume(void **state) {
   jam_destroy(cut);
 }
 
-static void sums_are_those_of_whole_sets(void **state) {
+CASE(sums_are_those_of_whole_sets) {
   static double set[RUNS * N * D];
   static const int32_t kept[1] = {1};
   jam_system *sys = packing();
@@ -167,7 +162,6 @@ static void sums_are_those_of_whole_sets(void **state) {
   double series[M * COLUMNS], msd_sum = 0.0;
   static sums a;
   size_t needed = 0, i, k, c;
-  (void)state;
   assert_int_equal(jam_isoconf(sys, &o, NULL, instants, M, kept, 1, NULL), JAM_OK);
   get(sys, -1, &a);
   assert_int_equal(jam_isoconf_kept(sys, 1, NULL, 0, &needed), JAM_OK);
@@ -204,12 +198,11 @@ static void sums_are_those_of_whole_sets(void **state) {
 }
 
 /* In free flight, dr = v t: at short times |dr|^2 = d T t^2 and the velocities still agree with the first ones. */
-static void time_and_temperature_are_those_asked_for(void **state) {
+CASE(time_and_temperature_are_those_asked_for) {
   static const double times[2] = {1e-7, 2e-7};
   jam_system *sys = packing();
   jam_isoconf_options o = options();
   double first[2 * COLUMNS], *const second = first + COLUMNS;
-  (void)state;
   o.clock = JAM_CLOCK_TIME;
   o.temperature = 0.1;
   assert_int_equal(jam_isoconf(sys, &o, NULL, times, 2, NULL, 0, NULL), JAM_OK);
@@ -221,16 +214,14 @@ static void time_and_temperature_are_those_asked_for(void **state) {
   jam_destroy(sys);
 }
 
-static void bad_input_is_named(void **state) {
+CASE(bad_input_is_named) {
   static const double falling[2] = {2.0, 1.0}, none[1] = {0.0};
   static const int32_t twice[2] = {1, 1}, beyond[1] = {3};
   jam_system *sys = packing();
   jam_isoconf_options o = options();
   jam_monte_carlo_options m;
-  jam_isoconf_report r;
   double x;
-  (void)state;
-  r.struct_size = sizeof r;
+  SIZED(jam_isoconf_report, r);
   assert_int_equal(jam_get_isoconf_report(sys, &r), JAM_E_STATE);
   assert_int_equal(jam_isoconf(sys, &o, NULL, falling, 2, NULL, 0, NULL), JAM_E_ARGUMENT);
   assert_non_null(strstr(jam_last_error(), "ascending"));
@@ -285,11 +276,10 @@ static void bad_input_is_named(void **state) {
 }
 
 /* Options that these runs do not use, and others than those that the runs began with. */
-static void no_option_is_ignored(void **state) {
+CASE(no_option_is_ignored) {
   jam_system *sys = packing();
   jam_isoconf_options o = options();
   jam_monte_carlo_options m;
-  (void)state;
 #define MONTE_CARLO(member, value, code)                                \
   assert_int_equal(jam_monte_carlo_options_init(&m, sizeof m), JAM_OK); \
   m.alpha = 2.0;                                                        \
@@ -310,13 +300,11 @@ static void no_option_is_ignored(void **state) {
   jam_destroy(sys);
 }
 
-static void a_jammed_packing_needs_room(void **state) {
+CASE(a_jammed_packing_needs_room) {
   jam_system *sys = packing();
-  jam_compress_options c;
   jam_isoconf_options o = options();
   jam_isoconf_report r;
-  (void)state;
-  jam_compress_options_init(&c, sizeof c);
+  DEFAULTS(compress, c);
   c.pressure = 1e6;
   assert_int_equal(jam_compress(sys, &c, NULL), JAM_OK);
   assert_int_equal(jam_crunch(sys, NULL, NULL), JAM_OK);
@@ -330,32 +318,16 @@ static void a_jammed_packing_needs_room(void **state) {
   jam_destroy(sys);
 }
 
-static void one_sphere_cannot_run(void **state) {
+CASE(one_sphere_cannot_run) {
   const double x[3] = {0.1, 0.2, 0.3}, sigma = 0.3;
-  jam_create_options o;
   jam_isoconf_options i = options();
   jam_isoconf_report r;
   jam_system *sys = NULL;
-  (void)state;
-  jam_create_options_init(&o, sizeof o);
+  DEFAULTS(create, o);
   o.n = 1;
   assert_int_equal(create_from(&o, x, 3, &sigma, 1, &sys), JAM_OK);
   assert_int_equal(run(sys, &i, &r), JAM_NOT_CONVERGED);
   assert_int_equal(r.stop_reason, JAM_STOP_STALLED);
   assert_int_equal(r.runs, 0);
   jam_destroy(sys);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(bits_do_not_depend_on_threads_or_handles),
-      cmocka_unit_test(stopped_runs_are_kept_and_resume),
-      cmocka_unit_test(sums_are_those_of_whole_sets),
-      cmocka_unit_test(time_and_temperature_are_those_asked_for),
-      cmocka_unit_test(bad_input_is_named),
-      cmocka_unit_test(no_option_is_ignored),
-      cmocka_unit_test(a_jammed_packing_needs_room),
-      cmocka_unit_test(one_sphere_cannot_run),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -7,9 +7,8 @@
 #include "test.h"
 
 static jam_system *make(int64_t n, int32_t dim, double fraction) {
-  jam_create_options o;
   jam_system *sys = NULL;
-  jam_create_options_init(&o, sizeof o);
+  DEFAULTS(create, o);
   o.n = n;
   o.dim = dim;
   o.packing_fraction = fraction;
@@ -25,8 +24,7 @@ static jam_md_report empty_report(void) {
 }
 
 static double fraction_of(const jam_system *sys) {
-  jam_info info;
-  info.struct_size = sizeof info;
+  SIZED(jam_info, info);
   assert_int_equal(jam_get_info(sys, &info), JAM_OK);
   return info.packing_fraction;
 }
@@ -36,20 +34,17 @@ static void says(const char *word) {
   assert_non_null(strstr(jam_last_error(), word));
 }
 
-static void refuses_bad_arguments(void **state) {
+CASE(refuses_bad_arguments) {
   jam_system *sys = make(20, 3, 0.2);
   jam_run_options r;
   jam_compress_options c;
   jam_md_report report = empty_report();
   const double bad[] = {0.0, -1.0, NAN};
   int k;
-  (void)state;
   assert_int_equal(jam_run_options_init(NULL, sizeof r), JAM_E_NULL);
   assert_int_equal(jam_run_options_init(&r, 2), JAM_E_STRUCT_SIZE);
   assert_int_equal(jam_compress_options_init(NULL, sizeof c), JAM_E_NULL);
   assert_int_equal(jam_compress_options_init(&c, sizeof c + 520), JAM_E_STRUCT_SIZE);
-  assert_int_equal(jam_run(NULL, NULL, NULL), JAM_E_NULL);
-  assert_int_equal(jam_compress(NULL, NULL, NULL), JAM_E_NULL);
   report.struct_size = 0;
   assert_int_equal(jam_run(sys, NULL, &report), JAM_E_STRUCT_SIZE);
   assert_int_equal(jam_compress(sys, NULL, &report), JAM_E_STRUCT_SIZE);
@@ -85,11 +80,10 @@ static void refuses_bad_arguments(void **state) {
   jam_destroy(sys);
 }
 
-static void without_collisions_runs_end_at_once(void **state) {
+CASE(without_collisions_runs_end_at_once) {
   jam_system *sys = make(1, 3, 0.1);
   jam_md_report report = empty_report();
   double zero[60] = {0.0};
-  (void)state;
   assert_int_equal(jam_run(sys, NULL, &report), JAM_NOT_CONVERGED);
   assert_int_equal(report.stop_reason, JAM_STOP_STALLED);
   /* Growing ends when the sphere touches its own images. */
@@ -105,12 +99,10 @@ static void without_collisions_runs_end_at_once(void **state) {
   jam_destroy(sys);
 }
 
-static void exact_packing_fraction(void **state) {
+CASE(exact_packing_fraction) {
   jam_system *sys = make(100, 3, 0.2);
-  jam_compress_options c;
   jam_md_report report = empty_report();
-  (void)state;
-  jam_compress_options_init(&c, sizeof c);
+  DEFAULTS(compress, c);
   c.packing_fraction = 0.45;
   c.pressure = 1e12;
   assert_int_equal(jam_compress(sys, &c, &report), JAM_OK);
@@ -129,19 +121,16 @@ static void exact_packing_fraction(void **state) {
   jam_destroy(sys);
 }
 
-static void exact_collisions(void **state) {
+CASE(exact_collisions) {
   jam_system *sys = make(50, 3, 0.3);
-  jam_run_options r;
-  jam_compress_options c;
   jam_md_report report = empty_report();
-  (void)state;
-  jam_run_options_init(&r, sizeof r);
+  DEFAULTS(run, r);
   r.collisions_per_particle = 10.0;
   assert_int_equal(jam_run(sys, &r, &report), JAM_OK);
   assert_int_equal(report.stop_reason, JAM_STOP_COLLISIONS);
   assert_int_equal(report.collisions, 250);
   assert_true(report.events >= report.collisions && report.time > 0.0 && report.collisions_per_second > 0.0);
-  jam_compress_options_init(&c, sizeof c);
+  DEFAULTS(compress, c);
   c.collisions_per_particle = 4.0;
   assert_int_equal(jam_compress(sys, &c, &report), JAM_LIMIT);
   assert_int_equal(report.stop_reason, JAM_STOP_COLLISIONS);
@@ -152,7 +141,6 @@ static void exact_collisions(void **state) {
 /* A simple cubic lattice. */
 static jam_system *lattice(double diameter) {
   double x[27 * 3];
-  jam_create_options o;
   jam_system *sys = NULL;
   int k;
   for (k = 0; k < 27; ++k) {
@@ -160,28 +148,24 @@ static jam_system *lattice(double diameter) {
     x[3 * k + 1] = (k / 3 % 3) / 3.0;
     x[3 * k + 2] = (k / 9) / 3.0;
   }
-  jam_create_options_init(&o, sizeof o);
+  DEFAULTS(create, o);
   o.n = 27;
   assert_int_equal(create_from(&o, x, 81, &diameter, 1, &sys), JAM_OK);
   return sys;
 }
 
-static void starts_at_contact(void **state) {
+CASE(starts_at_contact) {
   /* A row of three that touch at the start, and one sphere apart. */
   const double row[] = {0.25, 0.5, 0.5, 0.5, 0.5, 0.5, 0.75, 0.5, 0.5, 0.5, 0.125, 0.125}, diameter = 0.25;
   jam_system *sys = NULL;
-  jam_create_options o;
-  jam_run_options r;
-  jam_compress_options c;
   jam_md_report report = empty_report();
   jam_status status;
-  (void)state;
-  jam_run_options_init(&r, sizeof r);
+  DEFAULTS(run, r);
   r.collisions_per_particle = 200.0;
   r.wall_time = 10.0;
-  jam_compress_options_init(&c, sizeof c);
+  DEFAULTS(compress, c);
   c.wall_time = 10.0;
-  jam_create_options_init(&o, sizeof o);
+  DEFAULTS(create, o);
   o.n = 4;
   assert_int_equal(create_from(&o, row, 12, &diameter, 1, &sys), JAM_OK);
   assert_int_equal(jam_run(sys, &r, &report), JAM_OK);
@@ -205,16 +189,14 @@ static void starts_at_contact(void **state) {
 }
 
 /* Compressing a jammed packing ends by pressure, precision or stall; it never hangs. */
-static void compressing_a_jammed_packing_ends(void **state) {
+CASE(compressing_a_jammed_packing_ends) {
   jam_system *sys = make(32, 3, 0.2);
-  jam_compress_options c;
   jam_md_report report = empty_report();
   jam_status status;
   double before;
-  (void)state;
   assert_int_equal(jam_compress(sys, NULL, &report), JAM_OK);
   before = fraction_of(sys);
-  jam_compress_options_init(&c, sizeof c);
+  DEFAULTS(compress, c);
   c.growth_rate = 1e-2;
   c.pressure = 1e19;
   c.wall_time = 20.0;
@@ -227,15 +209,13 @@ static void compressing_a_jammed_packing_ends(void **state) {
   jam_destroy(sys);
 }
 
-static void fast_growth_ends_by_a_status(void **state) {
+CASE(fast_growth_ends_by_a_status) {
   const double rates[] = {1.0, 10.0, 100.0};
   int k;
-  (void)state;
   for (k = 0; k < 3; ++k) {
     jam_system *sys = make(64, 3, 0.2);
-    jam_compress_options c;
     jam_md_report report = empty_report();
-    jam_compress_options_init(&c, sizeof c);
+    DEFAULTS(compress, c);
     c.growth_rate = rates[k];
     c.pressure = 1e6;
     c.wall_time = 10.0;
@@ -247,20 +227,17 @@ static void fast_growth_ends_by_a_status(void **state) {
   }
 }
 
-static void wall_time_ends_a_run(void **state) {
+CASE(wall_time_ends_a_run) {
   jam_system *sys = make(200, 3, 0.3);
-  jam_run_options r;
-  jam_compress_options c;
   jam_md_report report = empty_report();
-  (void)state;
-  jam_run_options_init(&r, sizeof r);
+  DEFAULTS(run, r);
   r.collisions_per_particle = INFINITY;
   assert_int_equal(jam_run(sys, &r, &report), JAM_E_ARGUMENT); /* would never end */
   r.wall_time = 0.05;
   assert_int_equal(jam_run(sys, &r, &report), JAM_LIMIT);
   assert_int_equal(report.stop_reason, JAM_STOP_WALL_TIME);
   assert_true(report.seconds < 2.0);
-  jam_compress_options_init(&c, sizeof c);
+  DEFAULTS(compress, c);
   c.growth_rate = 1e-9;
   c.wall_time = 0.05;
   assert_int_equal(jam_compress(sys, &c, &report), JAM_LIMIT);
@@ -274,15 +251,13 @@ static int32_t stop_after(const jam_progress *p, void *user) {
   return --*calls < 0;
 }
 
-static void cancels_with_a_valid_state(void **state) {
+CASE(cancels_with_a_valid_state) {
   int calls;
-  (void)state;
   for (calls = 0; calls < 4; ++calls) {
     jam_system *sys = make(300, 3, 0.2), *again = NULL;
     const double *x, *d;
     size_t x_len, d_len;
     int left = calls;
-    jam_create_options o;
     jam_md_report report = empty_report();
     assert_int_equal(jam_set_progress(sys, stop_after, &left), JAM_OK);
     assert_int_equal(jam_compress(sys, NULL, &report), JAM_CANCELLED);
@@ -290,7 +265,7 @@ static void cancels_with_a_valid_state(void **state) {
     /* Valid: jam_create takes it without an overlap. */
     jam_view(sys, JAM_VIEW_POSITIONS, &x, &x_len);
     jam_view(sys, JAM_VIEW_DIAMETERS, &d, &d_len);
-    jam_create_options_init(&o, sizeof o);
+    DEFAULTS(create, o);
     o.n = 300;
     assert_int_equal(create_from(&o, x, x_len, d, d_len, &again), JAM_OK);
     jam_destroy(again);
@@ -306,20 +281,18 @@ static void cancels_with_a_valid_state(void **state) {
 }
 
 /* Positions in a box of another side are the same packing, scaled. */
-static void box_only_scales(void **state) {
+CASE(box_only_scales) {
   jam_system *a = make(60, 3, 0.3), *b = NULL;
   const double *x, *d, *y, *e;
   double scaled[180], diameter;
   size_t len;
-  jam_create_options o;
   jam_md_report ra = empty_report(), rb = empty_report();
   int k;
-  (void)state;
   jam_view(a, JAM_VIEW_POSITIONS, &x, &len);
   for (k = 0; k < 180; ++k) scaled[k] = 8.0 * x[k];
   jam_view(a, JAM_VIEW_DIAMETERS, &d, &len);
   diameter = 8.0 * d[0];
-  jam_create_options_init(&o, sizeof o);
+  DEFAULTS(create, o);
   o.n = 60;
   o.box = 8.0;
   assert_int_equal(create_from(&o, scaled, 180, &diameter, 1, &b), JAM_OK);
@@ -332,20 +305,4 @@ static void box_only_scales(void **state) {
   assert_true(e[0] == 8.0 * d[0]);
   jam_destroy(a);
   jam_destroy(b);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(refuses_bad_arguments),
-      cmocka_unit_test(without_collisions_runs_end_at_once),
-      cmocka_unit_test(exact_packing_fraction),
-      cmocka_unit_test(exact_collisions),
-      cmocka_unit_test(starts_at_contact),
-      cmocka_unit_test(compressing_a_jammed_packing_ends),
-      cmocka_unit_test(fast_growth_ends_by_a_status),
-      cmocka_unit_test(wall_time_ends_a_run),
-      cmocka_unit_test(cancels_with_a_valid_state),
-      cmocka_unit_test(box_only_scales),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -12,18 +12,15 @@ static double volume_of_sphere(int d, double sigma) {
 }
 
 /* The largest ratio of diameters, 1e4, at every seed: rounding of the library's own takes it over no limit. */
-static void the_largest_ratio_stays_supported(void **state) {
+CASE(the_largest_ratio_stays_supported) {
   double sizes[20];
   int64_t seed;
   int k;
-  (void)state;
   for (k = 0; k < 20; ++k) sizes[k] = k < 4 ? 1e4 : 1.0;
   for (seed = 1; seed <= 20; ++seed) {
-    jam_create_options o;
-    jam_compress_options c;
     jam_system *sys = NULL;
-    jam_create_options_init(&o, sizeof o);
-    jam_compress_options_init(&c, sizeof c);
+    DEFAULTS(create, o);
+    DEFAULTS(compress, c);
     o.dim = 2, o.n = 20, o.seed = seed, o.packing_fraction = 0.1;
     assert_int_equal(create_from(&o, NULL, 0, sizes, 20, &sys), JAM_OK);
     c.growth_rate = 1.0, c.packing_fraction = 0.11, c.collisions_per_particle = 20.0;
@@ -34,25 +31,21 @@ static void the_largest_ratio_stays_supported(void **state) {
 }
 
 /* Masses as volumes: light spheres are as fast as kT says, and the energy stays. */
-static void light_spheres_may_be_fast(void **state) {
+CASE(light_spheres_may_be_fast) {
   const struct {
     int32_t dim;
     double ratio, fraction;
   } cases[] = {{2, 1e4, 0.05}, {3, 9e3, 0.05}, {4, 1e3, 0.02}, {5, 300.0, 0.005}, {8, 30.0, 1e-4}};
   size_t q;
-  (void)state;
   for (q = 0; q < sizeof cases / sizeof *cases; ++q) {
     double sizes[20], kinetic = 0.0, mean = 0.0;
     const double *v = NULL;
     size_t len = 0, k;
-    jam_create_options o;
-    jam_run_options r;
-    jam_md_report report;
     jam_system *sys = NULL;
     const size_t d = (size_t)cases[q].dim;
-    jam_create_options_init(&o, sizeof o);
-    jam_run_options_init(&r, sizeof r);
-    report.struct_size = sizeof report;
+    DEFAULTS(create, o);
+    DEFAULTS(run, r);
+    SIZED(jam_md_report, report);
     for (k = 0; k < 20; ++k) sizes[k] = k < 4 ? cases[q].ratio : 1.0;
     o.dim = cases[q].dim, o.n = 20, o.packing_fraction = cases[q].fraction, o.masses = JAM_MASSES_VOLUME;
     assert_int_equal(create_from(&o, NULL, 0, sizes, 20, &sys), JAM_OK);
@@ -76,10 +69,9 @@ static void light_spheres_may_be_fast(void **state) {
 }
 
 /* Growth ends where a sphere touches its own image: a status, a sentence and the state. */
-static void growth_ends_at_the_own_image(void **state) {
+CASE(growth_ends_at_the_own_image) {
   int64_t seed;
   int met = 0;
-  (void)state;
   for (seed = 0; seed < 60; ++seed) {
     const int d = 2 + (int)(seed % 5), n = 2 + (int)(seed % 3);
     const double h = pow(10.0, -0.2 - 0.03 * (double)(seed % 40));
@@ -87,14 +79,11 @@ static void growth_ends_at_the_own_image(void **state) {
     const double *sigma = NULL;
     size_t len = 0;
     int c;
-    jam_create_options o;
-    jam_compress_options g;
-    jam_md_report r;
     jam_system *sys = NULL;
     jam_status status;
-    jam_create_options_init(&o, sizeof o);
-    jam_compress_options_init(&g, sizeof g);
-    r.struct_size = sizeof r;
+    DEFAULTS(create, o);
+    DEFAULTS(compress, g);
+    SIZED(jam_md_report, r);
     for (c = 0; c < d; ++c) cell[c * d + c] = c == d - 1 ? pow(h, 1.0 - d) : h;
     o.dim = d, o.n = n, o.seed = seed, o.packing_fraction = n * volume_of_sphere(d, 0.25 * h);
     status = create_in_cell(&o, cell, (size_t)d * (size_t)d, NULL, 0, NULL, 0, &sys);
@@ -122,18 +111,14 @@ static void growth_ends_at_the_own_image(void **state) {
 }
 
 /* A crunch from there says the same; a free cell gives way. */
-static void a_sphere_fills_the_cell(void **state) {
+CASE(a_sphere_fills_the_cell) {
   int n;
-  (void)state;
   for (n = 2; n < 5; ++n) {
     double x[12] = {0, 0, 0, 0.5, 0.5, 0.5, 0.54, 0.54, 0.54, 0.46, 0.5, 0.54}, sizes[4] = {1.0, 0.01, 0.01, 0.01};
-    jam_create_options o;
-    jam_crunch_options c;
-    jam_crunch_report r;
     jam_system *sys = NULL;
-    jam_create_options_init(&o, sizeof o);
-    jam_crunch_options_init(&c, sizeof c);
-    r.struct_size = sizeof r;
+    DEFAULTS(create, o);
+    DEFAULTS(crunch, c);
+    SIZED(jam_crunch_report, r);
     assert_int_equal(create_from(&o, x, 3 * (size_t)n, sizes, (size_t)n, &sys), JAM_OK);
     assert_int_equal(jam_compress(sys, NULL, NULL), JAM_NOT_CONVERGED);
     assert_non_null(strstr(jam_last_error(), "sphere 0 touches its own image, nothing can grow here"));
@@ -148,16 +133,14 @@ static void a_sphere_fills_the_cell(void **state) {
 }
 
 /* Spheres that coordinates cannot resolve are refused, in every call that makes or changes a system. */
-static void a_rod_too_long_for_its_spheres_is_refused(void **state) {
+CASE(a_rod_too_long_for_its_spheres_is_refused) {
   const double heights[] = {1.1e-3, 1e-2, 5e-2};
   size_t k;
-  (void)state;
   for (k = 0; k < 3; ++k) {
     double cell[64] = {0};
     int c;
-    jam_create_options o;
     jam_system *sys = NULL;
-    jam_create_options_init(&o, sizeof o);
+    DEFAULTS(create, o);
     for (c = 0; c < 8; ++c) cell[c * 9] = c == 7 ? pow(heights[k], -7.0) : heights[k];
     o.dim = 8, o.n = 10, o.packing_fraction = 10.0 * volume_of_sphere(8, 0.7 * heights[k]);
     assert_int_equal(create_in_cell(&o, cell, 64, NULL, 0, NULL, 0, &sys), JAM_E_ARGUMENT);
@@ -166,16 +149,13 @@ static void a_rod_too_long_for_its_spheres_is_refused(void **state) {
 }
 
 /* The default start lies below saturation in every dimension. */
-static void default_starts_in_every_dimension(void **state) {
+CASE(default_starts_in_every_dimension) {
   int d;
-  (void)state;
   for (d = 2; d <= 8; ++d) {
     const double expected = 0.2 * pow(0.5, d > 3 ? d - 3 : 0);
-    jam_create_options o;
-    jam_info i;
     jam_system *sys = NULL;
-    i.struct_size = sizeof i;
-    jam_create_options_init(&o, sizeof o);
+    SIZED(jam_info, i);
+    DEFAULTS(create, o);
     o.dim = d, o.n = 300;
     assert_int_equal(jam_create(&o, NULL, &sys), JAM_OK);
     assert_int_equal(jam_get_info(sys, &i), JAM_OK);
@@ -186,20 +166,16 @@ static void default_starts_in_every_dimension(void **state) {
 
 /* A gas whose cell is 2e4 diameters wide: spheres that meet from across the cell touch to eps (L / sigma)^2 of a
  * contact distance. The next call must not take that for an error, nor a file of it. */
-static void a_very_dilute_gas_runs_on(void **state) {
+CASE(a_very_dilute_gas_runs_on) {
   int64_t seed;
   int k;
-  (void)state;
   for (seed = 1; seed <= 10; ++seed) {
-    jam_create_options o;
-    jam_run_options r;
-    jam_md_report report;
     jam_system *sys = NULL, *again = NULL;
     const double *x = NULL, *sigma = NULL;
     size_t coordinates = 0, n = 0;
-    jam_create_options_init(&o, sizeof o);
-    jam_run_options_init(&r, sizeof r);
-    report.struct_size = sizeof report;
+    DEFAULTS(create, o);
+    DEFAULTS(run, r);
+    SIZED(jam_md_report, report);
     o.dim = 2, o.n = 5, o.seed = seed, o.packing_fraction = 5 * volume_of_sphere(2, 5e-5);
     assert_int_equal(jam_create(&o, NULL, &sys), JAM_OK);
     r.collisions_per_particle = 20.0;
@@ -213,13 +189,4 @@ static void a_very_dilute_gas_runs_on(void **state) {
     jam_destroy(again);
     jam_destroy(sys);
   }
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(the_largest_ratio_stays_supported), cmocka_unit_test(light_spheres_may_be_fast),
-      cmocka_unit_test(growth_ends_at_the_own_image),      cmocka_unit_test(a_sphere_fills_the_cell),
-      cmocka_unit_test(a_very_dilute_gas_runs_on),         cmocka_unit_test(a_rod_too_long_for_its_spheres_is_refused),
-      cmocka_unit_test(default_starts_in_every_dimension)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

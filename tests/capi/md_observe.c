@@ -32,7 +32,7 @@ static void copy_positions(const jam_system *sys, double *out) {
   memcpy(out, x, len * sizeof *x);
 }
 
-static void series_pairs_and_displacements_agree(void **state) {
+CASE(series_pairs_and_displacements_agree) {
   jam_system *sys = fluid(0.25), *bare = NULL;
   jam_observe_options o;
   jam_md_report report, second;
@@ -45,7 +45,6 @@ static void series_pairs_and_displacements_agree(void **state) {
   int32_t *pair;
   double *momentum;
   size_t needed, k, len;
-  (void)state;
   assert_int_equal(jam_copy(sys, &bare), JAM_OK);
   assert_int_equal(jam_observe_options_init(&o, sizeof o), JAM_OK);
   o.collisions = 1;
@@ -112,12 +111,11 @@ static void series_pairs_and_displacements_agree(void **state) {
   jam_destroy(bare);
 }
 
-static void histograms_of_gaps_and_distances(void **state) {
+CASE(histograms_of_gaps_and_distances) {
   jam_system *sys = fluid(0.3);
   jam_observe_options o;
   double gap[21][4], pair[50][2], contact;
   size_t needed, k;
-  (void)state;
   jam_observe_options_init(&o, sizeof o);
   o.gap_bins = 21;
   o.gap_min = 0.01;
@@ -154,13 +152,12 @@ static void histograms_of_gaps_and_distances(void **state) {
 
 /* Of 20 spheres, a histogram taken at collisions would hold one pair in contact more than on average: in a first bin of
  * 1 / 50 that is 1 / (4 N phi (1.02^3 - 1)), a third of g. The pressure says what g is: p - 1 = 4 phi g (N - 1) / N. */
-static void histograms_are_not_taken_at_collisions(void **state) {
+CASE(histograms_are_not_taken_at_collisions) {
   const double n = 20.0, fraction = 0.3;
   jam_system *sys = fluid_of(20, fraction);
   jam_observe_options o;
   double gap[3][4], contact;
   size_t needed;
-  (void)state;
   jam_observe_options_init(&o, sizeof o);
   o.gap_bins = 3;
   o.gap_min = 0.02;
@@ -202,13 +199,12 @@ static int32_t look(const jam_progress *p, void *user) {
   return s->count == 20;
 }
 
-static void snapshots_show_the_present_state(void **state) {
+CASE(snapshots_show_the_present_state) {
   jam_system *sys = fluid(0.45), *bare = NULL;
   jam_observe_options o;
   struct seen s;
   double a[3 * N], b[3 * N];
   int64_t k;
-  (void)state;
   jam_copy(sys, &bare);
   jam_observe_options_init(&o, sizeof o);
   o.sample_every = INFINITY;
@@ -247,7 +243,7 @@ static void snapshots_show_the_present_state(void **state) {
   jam_destroy(bare);
 }
 
-static void bad_calls_are_refused(void **state) {
+CASE(bad_calls_are_refused) {
   jam_create_options c;
   jam_observe_options o;
   jam_system *sys = NULL;
@@ -255,11 +251,9 @@ static void bad_calls_are_refused(void **state) {
   double x[8];
   size_t needed = 77;
   int k;
-  (void)state;
   jam_create_options_init(&c, sizeof c);
   c.n = 8;
   assert_int_equal(jam_create(&c, NULL, &sys), JAM_OK);
-  assert_int_equal(jam_observe(NULL, NULL), JAM_E_NULL);
   assert_int_equal(jam_observed_series(sys, JAM_SERIES_COLUMNS, NULL, 0, &needed), JAM_E_STATE);
   assert_int_equal(jam_observed_gaps(sys, JAM_GAP_COLUMNS, NULL, 0, &needed), JAM_E_STATE);
   assert_int_equal(needed, 77);
@@ -284,12 +278,4 @@ static void bad_calls_are_refused(void **state) {
   assert_int_equal(needed, 0);
   assert_int_equal(jam_observed_series(sys, JAM_SERIES_COLUMNS, NULL, 4, &needed), JAM_E_NULL);
   jam_destroy(sys);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(series_pairs_and_displacements_agree), cmocka_unit_test(histograms_of_gaps_and_distances),
-      cmocka_unit_test(histograms_are_not_taken_at_collisions), cmocka_unit_test(snapshots_show_the_present_state),
-      cmocka_unit_test(bad_calls_are_refused)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

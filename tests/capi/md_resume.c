@@ -84,9 +84,8 @@ static jam_compress_options options_of(int k) {
   return c;
 }
 
-static void growth_goes_on_to_the_same_bits(void **state) {
+CASE(growth_goes_on_to_the_same_bits) {
   int k, with_file;
-  (void)state;
   for (k = 0; k < CASES; ++k) {
     jam_system *whole = make_in(cases[k].cell, cases[k].model, cases[k].dim, cases[k].n, cases[k].fraction);
     jam_compress_options c = options_of(k);
@@ -158,9 +157,8 @@ static int stops_of(double collisions_per_particle) {
   return stops;
 }
 
-static void cancelled_runs_go_on_to_the_same_bits(void **state) {
+CASE(cancelled_runs_go_on_to_the_same_bits) {
   double collisions_per_particle = 300.0; /* more on a fast machine */
-  (void)state;
   while (stops_of(collisions_per_particle) < 3) assert_true((collisions_per_particle *= 4.0) < 1e7);
 }
 
@@ -179,11 +177,10 @@ static int32_t write_once(const jam_progress *p, void *user) {
 }
 
 /* A checkpoint written by the callback, while the run goes on, leads to the same end. */
-static void checkpoint_from_the_callback(void **state) {
+CASE(checkpoint_from_the_callback) {
   jam_system *sys = make(JAM_MODEL_EUCLID, 3, 500, 0.3), *again = NULL;
   struct writer w = {sys, 0};
   jam_run_options r;
-  (void)state;
   jam_run_options_init(&r, sizeof r);
   r.collisions_per_particle = 1500.0;
   jam_set_progress(sys, write_once, &w);
@@ -208,12 +205,11 @@ static int32_t write_in_growth(const jam_progress *p, void *user) {
 }
 
 /* Also while the spheres grow, where the callback comes at the end of a window of the pressure too. */
-static void checkpoint_from_the_callback_in_growth(void **state) {
+CASE(checkpoint_from_the_callback_in_growth) {
   jam_system *sys = make(JAM_MODEL_EUCLID, 3, 500, 0.3), *again = NULL;
   struct writer w = {sys, 0};
   jam_compress_options c;
   jam_md_report one, two;
-  (void)state;
   one.struct_size = two.struct_size = sizeof one;
   jam_compress_options_init(&c, sizeof c);
   c.growth_rate = 1e-2;
@@ -239,14 +235,13 @@ static int32_t paused(const jam_system *sys) {
   return info.paused;
 }
 
-static void finished_stages_cannot_be_resumed(void **state) {
+CASE(finished_stages_cannot_be_resumed) {
   jam_system *sys = make(JAM_MODEL_EUCLID, 3, 100, 0.3);
   jam_run_options r;
   jam_compress_options c;
   const double *v;
   size_t len;
   double other[300];
-  (void)state;
   jam_run_options_init(&r, sizeof r);
   jam_compress_options_init(&c, sizeof c);
   r.resume = c.resume = 1;
@@ -275,11 +270,10 @@ static void finished_stages_cannot_be_resumed(void **state) {
 }
 
 /* What a stage has been begun with cannot be changed by a call that resumes it. */
-static void other_growth_is_not_resumed(void **state) {
+CASE(other_growth_is_not_resumed) {
   jam_system *sys = make(JAM_MODEL_EUCLID, 3, 100, 0.3);
   jam_compress_options c, o[5];
   const char *name[5] = {"growth_rate", "growth_rate_end", "growth_law", "pressure", "packing_fraction"};
-  (void)state;
   jam_compress_options_init(&c, sizeof c);
   c.growth_rate = 1e-2, c.growth_rate_end = 1e-3, c.pressure = 1e3;
   c.collisions_per_particle = 3;
@@ -362,16 +356,14 @@ static void refuse_damaged(int32_t model) {
   remove(path);
 }
 
-static void damaged_checkpoints_are_refused(void **state) {
-  (void)state;
+CASE(damaged_checkpoints_are_refused) {
   refuse_damaged(JAM_MODEL_EUCLID);
   refuse_damaged(JAM_MODEL_MK);
 }
 
-static void checkpoints_of_another_version_are_refused(void **state) {
+CASE(checkpoints_of_another_version_are_refused) {
   jam_system *sys = make(JAM_MODEL_EUCLID, 3, 10, 0.2), *out = NULL;
   FILE *f;
-  (void)state;
   assert_int_equal(jam_write_checkpoint(sys, path), JAM_OK);
   jam_destroy(sys);
   f = fopen(path, "rb+");
@@ -381,16 +373,4 @@ static void checkpoints_of_another_version_are_refused(void **state) {
   assert_int_equal(jam_read_checkpoint(path, NULL, NULL, &out), JAM_E_FORMAT);
   assert_non_null(strstr(jam_last_error(), "another version"));
   remove(path);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(growth_goes_on_to_the_same_bits),
-                                     cmocka_unit_test(cancelled_runs_go_on_to_the_same_bits),
-                                     cmocka_unit_test(checkpoint_from_the_callback),
-                                     cmocka_unit_test(checkpoint_from_the_callback_in_growth),
-                                     cmocka_unit_test(finished_stages_cannot_be_resumed),
-                                     cmocka_unit_test(other_growth_is_not_resumed),
-                                     cmocka_unit_test(damaged_checkpoints_are_refused),
-                                     cmocka_unit_test(checkpoints_of_another_version_are_refused)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -8,9 +8,8 @@
 #include "jam/jam.h"
 
 static jam_system *start_with(int64_t n) {
-  jam_create_options o;
   jam_system *sys = NULL;
-  jam_create_options_init(&o, sizeof o);
+  DEFAULTS(create, o);
   o.n = n, o.seed = 2;
   assert_int_equal(jam_create(&o, NULL, &sys), JAM_OK);
   return sys;
@@ -27,8 +26,7 @@ static jam_md_report grow(jam_system *sys, const jam_compress_options *o, jam_st
 }
 
 static jam_compress_options defaults(void) {
-  jam_compress_options o;
-  assert_int_equal(jam_compress_options_init(&o, sizeof o), JAM_OK);
+  DEFAULTS(compress, o);
   return o;
 }
 
@@ -41,11 +39,10 @@ static void same_packing(const jam_system *a, const jam_system *b) {
 }
 
 /* Options that change no stage give the bits of no options. */
-static void limits_keep_the_protocol(void **state) {
+CASE(limits_keep_the_protocol) {
   jam_system *plain = start(), *limited = start(), *law = start();
   jam_compress_options o = defaults();
   jam_md_report r;
-  (void)state;
   r = grow(plain, NULL, JAM_OK);
   assert_true(r.pressure > 0.9e6);
   o.wall_time = 1e6, o.collisions_per_particle = 1e9, o.packing_fraction = 0.9, o.time = 1e9;
@@ -62,11 +59,10 @@ static void limits_keep_the_protocol(void **state) {
   jam_destroy(plain);
 }
 
-static void targets_end_the_protocol(void **state) {
+CASE(targets_end_the_protocol) {
   jam_system *low = start(), *high = start(), *dense = start();
   jam_compress_options o = defaults();
   jam_md_report r;
-  (void)state;
   o.pressure = 30.0;
   r = grow(low, &o, JAM_OK);
   assert_true(r.pressure > 25.0 && r.pressure < 100.0);
@@ -84,11 +80,10 @@ static void targets_end_the_protocol(void **state) {
 }
 
 /* One stage of a rate of one's own goes to the same pressure as jam-pack --growth RATE. */
-static void a_rate_makes_one_stage(void **state) {
+CASE(a_rate_makes_one_stage) {
   jam_system *one = start(), *two = start();
   jam_compress_options o = defaults();
   jam_md_report r;
-  (void)state;
   o.growth_rate = 0.1;
   r = grow(one, &o, JAM_OK);
   assert_true(r.pressure > 0.9e6);
@@ -109,13 +104,12 @@ static int32_t stop_at_times(const jam_progress *p, void *user) {
 
 /* However often it is stopped, also between two stages and across checkpoints, it ends as if it had not been. 500
  * spheres, so that growth takes much longer than the 0.05 s between two callbacks. */
-static void a_stopped_protocol_goes_on(void **state) {
+CASE(a_stopped_protocol_goes_on) {
   jam_system *whole = start_with(500), *cut = start_with(500), *again = NULL;
   jam_compress_options o = defaults();
   int asked = 0, calls = 0;
   jam_status status;
   jam_info info;
-  (void)state;
   grow(whole, NULL, JAM_OK);
   for (;;) {
     assert_int_equal(jam_set_progress(cut, stop_at_times, &asked), JAM_OK);
@@ -140,16 +134,14 @@ static void a_stopped_protocol_goes_on(void **state) {
 }
 
 /* Slices of wall time: the limit is that of the call, not of each stage. */
-static void wall_time_cuts_the_protocol(void **state) {
+CASE(wall_time_cuts_the_protocol) {
   jam_system *whole = start(), *cut = start();
   jam_compress_options o = defaults();
   jam_status status;
-  (void)state;
   grow(whole, NULL, JAM_OK);
   o.wall_time = 0.01;
   while ((status = jam_compress(cut, &o, NULL)) == JAM_LIMIT) {
-    jam_info info;
-    info.struct_size = sizeof info;
+    SIZED(jam_info, info);
     assert_int_equal(jam_get_info(cut, &info), JAM_OK);
     o.resume = info.paused != 0;
   }
@@ -157,13 +149,4 @@ static void wall_time_cuts_the_protocol(void **state) {
   same_packing(whole, cut);
   jam_destroy(cut);
   jam_destroy(whole);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(limits_keep_the_protocol),    cmocka_unit_test(targets_end_the_protocol),
-      cmocka_unit_test(a_rate_makes_one_stage),      cmocka_unit_test(a_stopped_protocol_goes_on),
-      cmocka_unit_test(wall_time_cuts_the_protocol),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

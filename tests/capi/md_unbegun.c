@@ -8,9 +8,8 @@
 static const char *path = "md_unbegun_checkpoint.bin";
 
 static jam_system *dense(int32_t dim, int64_t n) {
-  jam_create_options o;
   jam_system *sys = NULL;
-  assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
+  DEFAULTS(create, o);
   o.dim = dim, o.n = n, o.seed = 5;
   assert_int_equal(jam_create(&o, NULL, &sys), JAM_OK);
   return sys;
@@ -46,8 +45,7 @@ static void assert_same(jam_system *a, jam_system *b) {
 }
 
 static int32_t paused(const jam_system *sys) {
-  jam_info i;
-  i.struct_size = sizeof i;
+  SIZED(jam_info, i);
   assert_int_equal(jam_get_info(sys, &i), JAM_OK);
   return i.paused;
 }
@@ -56,14 +54,11 @@ static int32_t paused(const jam_system *sys) {
 static jam_status md(jam_system *sys, int verb, int32_t resume, double wall_time, int32_t *reason) {
   jam_md_report r;
   jam_monte_carlo_report mc;
-  jam_run_options run;
-  jam_compress_options compress;
-  jam_monte_carlo_options carlo;
   jam_status status;
   r.struct_size = sizeof r, mc.struct_size = sizeof mc;
-  jam_run_options_init(&run, sizeof run);
-  jam_compress_options_init(&compress, sizeof compress);
-  jam_monte_carlo_options_init(&carlo, sizeof carlo);
+  DEFAULTS(run, run);
+  DEFAULTS(compress, compress);
+  DEFAULTS(monte_carlo, carlo);
   run.collisions_per_particle = 3.0, run.resume = resume, run.wall_time = wall_time;
   compress.pressure = 20.0, compress.growth_rate = 0.1, compress.resume = resume, compress.wall_time = wall_time;
   carlo.sweeps = 20, carlo.resume = resume, carlo.wall_time = wall_time;
@@ -77,11 +72,10 @@ static jam_status md(jam_system *sys, int verb, int32_t resume, double wall_time
   return status;
 }
 
-static void a_call_that_has_not_begun_is_resumed(void **state) {
+CASE(a_call_that_has_not_begun_is_resumed) {
   const int32_t verbs[] = {JAM_PHASE_RUN, JAM_PHASE_COMPRESS, JAM_PHASE_MONTE_CARLO};
   size_t v;
   int way, cut;
-  (void)state;
   for (v = 0; v < 3; ++v) {
     jam_system *whole = dense(3, 2000);
     assert_int_equal(md(whole, verbs[v], 0, INFINITY, NULL), JAM_OK);
@@ -110,15 +104,12 @@ static void a_call_that_has_not_begun_is_resumed(void **state) {
 
 /* Each call makes one sweep of the tuning at least: calls without any time come to the bits of one that has all of it.
  */
-static void a_tuning_is_resumed(void **state) {
+CASE(a_tuning_is_resumed) {
   jam_system *whole = dense(3, 200), *sys = dense(3, 200);
-  jam_monte_carlo_options o;
-  jam_monte_carlo_report r;
   int calls = 0;
-  (void)state;
   assert_int_equal(md(whole, JAM_PHASE_MONTE_CARLO, 0, INFINITY, NULL), JAM_OK);
-  r.struct_size = sizeof r;
-  jam_monte_carlo_options_init(&o, sizeof o);
+  SIZED(jam_monte_carlo_report, r);
+  DEFAULTS(monte_carlo, o);
   o.sweeps = 20, o.wall_time = 1e-9;
   do {
     o.resume = calls > 0;
@@ -133,14 +124,11 @@ static void a_tuning_is_resumed(void **state) {
 }
 
 /* A run that continues has its own options: another one is refused by its name, and the run waits on. */
-static void a_resumed_run_keeps_its_options(void **state) {
-  jam_monte_carlo_options o;
-  jam_monte_carlo_report r;
+CASE(a_resumed_run_keeps_its_options) {
   jam_system *sys = dense(3, 50);
   int k;
-  (void)state;
-  r.struct_size = sizeof r;
-  jam_monte_carlo_options_init(&o, sizeof o);
+  SIZED(jam_monte_carlo_report, r);
+  DEFAULTS(monte_carlo, o);
   o.sweeps = 20, o.step = 0.1, o.wall_time = 1e-9;
   assert_int_equal(jam_monte_carlo(sys, &o, &r), JAM_LIMIT);
   for (k = 0; k < 5; ++k) {
@@ -163,18 +151,15 @@ static void a_resumed_run_keeps_its_options(void **state) {
 }
 
 /* The same of runs from one configuration. */
-static void a_tuning_of_runs_is_resumed(void **state) {
-  jam_isoconf_options o;
-  jam_monte_carlo_options mc;
+CASE(a_tuning_of_runs_is_resumed) {
   jam_isoconf_report r[2];
   const double instants[] = {2.0, 5.0};
   jam_system *whole = dense(3, 200), *sys = dense(3, 200);
   jam_status status;
   int calls = 0;
-  (void)state;
   r[0].struct_size = r[1].struct_size = sizeof r[0];
-  jam_isoconf_options_init(&o, sizeof o);
-  jam_monte_carlo_options_init(&mc, sizeof mc);
+  DEFAULTS(isoconf, o);
+  DEFAULTS(monte_carlo, mc);
   o.runs = 3;
   assert_int_equal(jam_isoconf(whole, &o, &mc, instants, 2, NULL, 0, &r[0]), JAM_OK);
   o.wall_time = 1e-9;
@@ -191,16 +176,12 @@ static void a_tuning_of_runs_is_resumed(void **state) {
 }
 
 /* The whole protocol of NULL: what its first stage made is kept. */
-static void isoconfigurational_runs_resume(void **state) {
-  jam_isoconf_options o;
-  jam_monte_carlo_options mc;
-  jam_isoconf_report r;
+CASE(isoconfigurational_runs_resume) {
   const double instants[] = {2.0, 5.0};
   jam_system *sys = dense(3, 1000);
-  (void)state;
-  r.struct_size = sizeof r;
-  assert_int_equal(jam_isoconf_options_init(&o, sizeof o), JAM_OK);
-  assert_int_equal(jam_monte_carlo_options_init(&mc, sizeof mc), JAM_OK);
+  SIZED(jam_isoconf_report, r);
+  DEFAULTS(isoconf, o);
+  DEFAULTS(monte_carlo, mc);
   o.runs = 2, o.wall_time = 1e-9;
   assert_int_equal(jam_isoconf(sys, &o, &mc, instants, 2, NULL, 0, &r), JAM_LIMIT);
   assert_int_equal(r.stop_reason, JAM_STOP_WALL_TIME);
@@ -215,23 +196,13 @@ static void isoconfigurational_runs_resume(void **state) {
 }
 
 /* A call that has not begun leaves the results of a crunch: nothing has moved. */
-static void results_stay_until_something_moves(void **state) {
-  jam_crunch_report r;
+CASE(results_stay_until_something_moves) {
   size_t pairs = 0;
   jam_system *sys = dense(2, 30);
-  (void)state;
-  r.struct_size = sizeof r;
+  SIZED(jam_crunch_report, r);
   assert_true(jam_crunch(sys, NULL, &r) >= 0);
   assert_int_equal(md(sys, JAM_PHASE_RUN, 0, 1e-9, NULL), JAM_LIMIT);
   assert_int_equal(jam_contacts(sys, NULL, 0, &pairs), JAM_OK);
   assert_true(pairs > 0);
   jam_destroy(sys);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(a_call_that_has_not_begun_is_resumed), cmocka_unit_test(a_tuning_is_resumed),
-      cmocka_unit_test(a_tuning_of_runs_is_resumed),          cmocka_unit_test(a_resumed_run_keeps_its_options),
-      cmocka_unit_test(isoconfigurational_runs_resume),       cmocka_unit_test(results_stay_until_something_moves)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -8,9 +8,8 @@
 enum { N = 100, MOST = 20 * N };
 
 static jam_system *fluid(int32_t dim, int32_t model, double zeta) {
-  jam_create_options o;
   jam_system *sys = NULL;
-  assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
+  DEFAULTS(create, o);
   o.n = N, o.dim = dim, o.seed = 3, o.model = model, o.mk_zeta = zeta, o.packing_fraction = 0.6;
   if (model != JAM_MODEL_MK) o.packing_fraction = 0.2;
   if (jam_create(&o, NULL, &sys) != JAM_OK) fail_msg("%s", jam_last_error());
@@ -18,10 +17,9 @@ static jam_system *fluid(int32_t dim, int32_t model, double zeta) {
 }
 
 /* The gaps h of jam_gaps are r / sigma - 1 by these shifts and the nearest image, which is the only one so near. */
-static void distances_are_those_of_the_gaps(void **state) {
+CASE(distances_are_those_of_the_gaps) {
   static int32_t pair[2 * MOST];
   static double gap[MOST], shift[3 * MOST];
-  (void)state;
   for (int dim = 2; dim <= 3; ++dim)
     for (int strength = 0; strength < 2; ++strength) {
       jam_system *sys = fluid(dim, JAM_MODEL_MK, strength ? INFINITY : 0.7);
@@ -49,12 +47,11 @@ static void distances_are_those_of_the_gaps(void **state) {
     }
 }
 
-static void shifts_are_antisymmetric_and_other_pairs_are_refused(void **state) {
+CASE(shifts_are_antisymmetric_and_other_pairs_are_refused) {
   const int32_t pair[6] = {4, 17, 17, 4, 5, 5}, far[2] = {0, N};
   double shift[9];
   size_t needed;
   jam_system *sys = fluid(3, JAM_MODEL_MK, INFINITY), *plain = fluid(3, JAM_MODEL_EUCLID, 0.0);
-  (void)state;
   assert_int_equal(jam_mk_shifts(sys, pair, 6, shift, 9, &needed), JAM_OK);
   for (int c = 0; c < 3; ++c) {
     assert_true(shift[c] == -shift[3 + c] && shift[c] != 0.0 && fabs(shift[c]) <= 0.5);
@@ -68,10 +65,4 @@ static void shifts_are_antisymmetric_and_other_pairs_are_refused(void **state) {
   assert_int_equal(jam_mk_shifts(plain, pair, 6, shift, 9, &needed), JAM_E_UNSUPPORTED);
   jam_destroy(sys);
   jam_destroy(plain);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(distances_are_those_of_the_gaps),
-                                     cmocka_unit_test(shifts_are_antisymmetric_and_other_pairs_are_refused)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

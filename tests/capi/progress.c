@@ -28,9 +28,8 @@ static int32_t look(const jam_progress *p, void *user) {
 }
 
 static jam_system *random_start(int32_t dim, int64_t n, seen *s) {
-  jam_create_options o;
   jam_system *sys = NULL;
-  assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
+  DEFAULTS(create, o);
   o.dim = dim, o.n = n, o.seed = 2;
   assert_int_equal(jam_create(&o, NULL, &sys), JAM_OK);
   memset(s, 0, sizeof *s);
@@ -38,14 +37,12 @@ static jam_system *random_start(int32_t dim, int64_t n, seen *s) {
   return sys;
 }
 
-static void growth_knows_its_pressure(void **state) {
+CASE(growth_knows_its_pressure) {
   int kind;
-  (void)state;
   for (kind = 0; kind < 4; ++kind) {
     seen s;
     jam_system *sys = random_start(3, 1500, &s);
-    jam_compress_options c;
-    jam_compress_options_init(&c, sizeof c);
+    DEFAULTS(compress, c);
     c.growth_rate = 3e-2, c.pressure = 1e4;
     if (kind == 1) c.pressure = INFINITY, c.packing_fraction = 0.6;
     if (kind == 2) c.growth_rate_end = 1e-2;
@@ -63,24 +60,21 @@ static void growth_knows_its_pressure(void **state) {
 }
 
 /* The protocol of NULL is one call: the fraction counts both stages. */
-static void a_protocol_is_one_call(void **state) {
+CASE(a_protocol_is_one_call) {
   seen s;
   jam_system *sys = random_start(2, 300, &s);
-  (void)state;
   assert_int_equal(jam_compress(sys, NULL, NULL), JAM_OK);
   print_message("protocol: %d reports, last %.3f\n", s.reports, s.last);
   if (s.reports > 10) assert_true(s.last > 0.8);
   jam_destroy(sys);
 }
 
-static void a_crunch_knows_its_gap(void **state) {
+CASE(a_crunch_knows_its_gap) {
   int kind;
-  (void)state;
   for (kind = 0; kind < 3; ++kind) {
     seen s;
     jam_system *sys = random_start(3, kind == 1 ? 60 : 200, &s);
-    jam_crunch_options c;
-    jam_crunch_options_init(&c, sizeof c);
+    DEFAULTS(crunch, c);
     if (kind == 1) c.method = JAM_CRUNCH_SEQUENTIAL_LP;
     if (kind == 2) c.strain = JAM_STRAIN_FREE;
     assert_true(jam_crunch(sys, &c, NULL) >= 0);
@@ -90,11 +84,4 @@ static void a_crunch_knows_its_gap(void **state) {
     assert_true(s.known > 0 && s.last > (kind == 1 ? 0.3 : 0.8));
     jam_destroy(sys);
   }
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(growth_knows_its_pressure),
-                                     cmocka_unit_test(a_protocol_is_one_call),
-                                     cmocka_unit_test(a_crunch_knows_its_gap)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

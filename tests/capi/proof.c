@@ -13,10 +13,9 @@ enum { n = 64 };
 static double sizes[n];
 
 static jam_system *jammed(void) {
-  jam_create_options o;
   jam_system *sys = NULL;
   int i;
-  jam_create_options_init(&o, sizeof o);
+  DEFAULTS(create, o);
   o.n = n, o.dim = 2, o.seed = 1, o.packing_fraction = 0.3;
   for (i = 0; i < n; ++i) sizes[i] = i % 2 ? 1.4 : 1.0;
   assert_int_equal(create_from(&o, NULL, 0, sizes, n, &sys), JAM_OK);
@@ -25,17 +24,14 @@ static jam_system *jammed(void) {
   return sys;
 }
 
-static void bad_arguments_are_refused(void **state) {
+CASE(bad_arguments_are_refused) {
   static const char file[] = "no_stable.jamproof";
   jam_system *sys = NULL;
-  jam_create_options o;
   jam_proof_report r = {.struct_size = sizeof r}, wrong = {.struct_size = 3};
   double low[2 * n], ratio[n];
   size_t needed = 0;
-  (void)state;
-  jam_create_options_init(&o, sizeof o);
+  DEFAULTS(create, o);
   o.n = 20;
-  assert_int_equal(jam_prove(NULL, JAM_RIGIDITY_COLLECTIVE, NULL, 0, NULL), JAM_E_NULL);
   assert_int_equal(jam_create(&o, NULL, &sys), JAM_OK);
   assert_int_equal(jam_prove(sys, JAM_RIGIDITY_COLLECTIVE, NULL, 0, &r), JAM_E_STATE);
   assert_int_equal(jam_refined_positions(sys, NULL, 0, NULL, 0, NULL, 0, &needed), JAM_OK);
@@ -69,14 +65,13 @@ static void bad_arguments_are_refused(void **state) {
 
 /* The exact ratio 1.4 of the user is no double, so that the proof speaks of the double nearest to it; centres move by
    less than the radius that the diameters after the crunch would need. */
-static void a_packing_of_two_sizes_is_proved(void **state) {
+CASE(a_packing_of_two_sizes_is_proved) {
   jam_system *sys = jammed(), *copy;
   jam_proof_report r = {.struct_size = sizeof r}, plain = {.struct_size = sizeof plain};
   const double *x, *before;
   double high[2 * n], low[2 * n], kept[2 * n];
   size_t len;
   int i;
-  (void)state;
   jam_view(sys, JAM_VIEW_POSITIONS, &before, &len);
   memcpy(kept, before, sizeof kept);
   assert_int_equal(jam_prove(sys, JAM_RIGIDITY_COLLECTIVE, sizes, n, &r), JAM_OK);
@@ -103,13 +98,12 @@ static void a_packing_of_two_sizes_is_proved(void **state) {
 
 /* Bounds are rounded outward on the assumption of rounding to nearest, which the library sets: whatever the host's
    mode, every number of the report is the same, and the mode is as before. */
-static void the_rounding_mode_of_the_host_changes_nothing(void **state) {
+CASE(the_rounding_mode_of_the_host_changes_nothing) {
   static const int modes[] = {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO};
   jam_system *sys = jammed();
   jam_proof_report nearest = {.struct_size = sizeof nearest};
   double high[2 * n], low[2 * n], again[2 * n], rest[2 * n];
   size_t k;
-  (void)state;
   assert_int_equal(jam_prove(sys, JAM_RIGIDITY_COLLECTIVE, sizes, n, &nearest), JAM_OK);
   assert_int_equal(jam_refined_positions(sys, sizes, n, high, 2 * n, low, 2 * n, NULL), JAM_OK);
   for (k = 0; k < sizeof modes / sizeof *modes; ++k) {
@@ -129,18 +123,15 @@ static void the_rounding_mode_of_the_host_changes_nothing(void **state) {
 }
 
 /* Crunch and check take the option, and their reports agree with jam_prove. */
-static void crunch_and_check_prove_when_asked(void **state) {
+CASE(crunch_and_check_prove_when_asked) {
   jam_system *sys = jammed();
   jam_proof_report proof = {.struct_size = sizeof proof};
   jam_crunch_report crunched = {.struct_size = sizeof crunched};
   jam_check_report checked = {.struct_size = sizeof checked};
-  jam_crunch_options crunch;
-  jam_check_options check;
-  (void)state;
   assert_int_equal(jam_get_crunch_report(sys, &crunched), JAM_OK);
   assert_int_equal(crunched.theorem, JAM_THEOREM_NONE);
   assert_true(isinf(crunched.proof_radius));
-  jam_crunch_options_init(&crunch, sizeof crunch);
+  DEFAULTS(crunch, crunch);
   crunch.prove = 2;
   assert_int_equal(jam_crunch(sys, &crunch, NULL), JAM_E_ARGUMENT);
   crunch.prove = 1;
@@ -148,7 +139,7 @@ static void crunch_and_check_prove_when_asked(void **state) {
   assert_int_equal(jam_prove(sys, JAM_RIGIDITY_COLLECTIVE, NULL, 0, &proof), JAM_OK);
   assert_int_equal(crunched.theorem, JAM_THEOREM_EXACT);
   assert_true(crunched.proof_radius == proof.radius);
-  jam_check_options_init(&check, sizeof check);
+  DEFAULTS(check, check);
   assert_int_equal(jam_check_packing(sys, &check, &checked), JAM_OK);
   assert_int_equal(checked.theorem, JAM_THEOREM_NONE);
   assert_null(strstr(jam_check_text(&checked), "proved, radius"));
@@ -160,8 +151,7 @@ static void crunch_and_check_prove_when_asked(void **state) {
   jam_destroy(sys);
 }
 
-static void the_text_of_a_proof_is_short(void **state) {
-  (void)state;
+CASE(the_text_of_a_proof_is_short) {
   assert_string_equal(jam_proof_text(JAM_THEOREM_EXACT, JAM_CAUSE_NONE, 4e-31, NAN, NAN), "proved, radius 4e-31");
   assert_string_equal(jam_proof_text(JAM_THEOREM_TRAPPED, JAM_CAUSE_EXCESS, 3e-28, 130.0, 129.0),
                       "trapped within 3e-28, excess 130, 129");
@@ -174,26 +164,14 @@ static void the_text_of_a_proof_is_short(void **state) {
 }
 
 /* Mari-Kurchan shifts are no cell vectors. */
-static void shifted_pairs_are_refused_by_name(void **state) {
-  jam_create_options o;
+CASE(shifted_pairs_are_refused_by_name) {
   jam_crunch_report r = {.struct_size = sizeof r};
   jam_system *sys = NULL;
-  (void)state;
-  jam_create_options_init(&o, sizeof o);
+  DEFAULTS(create, o);
   o.n = 40, o.model = JAM_MODEL_MK, o.packing_fraction = 0.2;
   assert_int_equal(jam_create(&o, NULL, &sys), JAM_OK);
   assert_true(jam_crunch(sys, NULL, &r) >= 0);
   assert_int_equal(jam_prove(sys, JAM_RIGIDITY_COLLECTIVE, NULL, 0, NULL), JAM_E_UNSUPPORTED);
   assert_int_equal(jam_prove(sys, JAM_RIGIDITY_STRICT, NULL, 0, NULL), JAM_E_UNSUPPORTED);
   jam_destroy(sys);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(bad_arguments_are_refused),
-                                     cmocka_unit_test(a_packing_of_two_sizes_is_proved),
-                                     cmocka_unit_test(the_rounding_mode_of_the_host_changes_nothing),
-                                     cmocka_unit_test(crunch_and_check_prove_when_asked),
-                                     cmocka_unit_test(the_text_of_a_proof_is_short),
-                                     cmocka_unit_test(shifted_pairs_are_refused_by_name)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

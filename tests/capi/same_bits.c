@@ -125,9 +125,9 @@ static void run_again(const char *variable, const char *what, char *text, size_t
   text[got] = '\0';
   if (pclose(pipe) != 0) fail_msg("%s", text);
 }
-static void instructions_of_the_c_library_change_no_bit(void **state) {
+
+CASE(instructions_of_the_c_library_change_no_bit) {
   static char all[16384], fewer[16384];
-  (void)state;
   run_again("GLIBC_TUNABLES=", "all", all, sizeof all);
   run_again("GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4,-AVX512F", "all", fewer, sizeof fewer);
   char *behind = strchr(all, '\n'), *behind_fewer = strchr(fewer, '\n');
@@ -139,21 +139,18 @@ static void instructions_of_the_c_library_change_no_bit(void **state) {
   }
 }
 
-static void kernel_and_threads_of_openblas_change_no_bit(void **state) {
+CASE(kernel_and_threads_of_openblas_change_no_bit) {
   static char one[4096], two[4096];
-  (void)state;
   run_again("OPENBLAS_NUM_THREADS=1 OPENBLAS_CORETYPE=Prescott", "clp", one, sizeof one);
   run_again("OPENBLAS_NUM_THREADS=2 OPENBLAS_CORETYPE=Nehalem", "clp", two, sizeof two);
   assert_string_equal(one, two);
 }
 
-int main(int argc, char **argv) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(instructions_of_the_c_library_change_no_bit),
-      cmocka_unit_test(kernel_and_threads_of_openblas_change_no_bit),
-  };
+static int take(int argc, char **argv) {
   if (argc > 1 && strcmp(argv[1], "all") == 0) return say_all();
   if (argc > 1 && strcmp(argv[1], "clp") == 0) return say_clp();
   me = argv[0];
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return -1;
 }
+
+ARGUMENTS(take)

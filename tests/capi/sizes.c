@@ -7,8 +7,7 @@
 #include "test.h"
 
 static jam_diameters_options options(int32_t law) {
-  jam_diameters_options o;
-  assert_int_equal(jam_diameters_options_init(&o, sizeof o), JAM_OK);
+  DEFAULTS(diameters, o);
   o.law = law;
   return o;
 }
@@ -39,7 +38,7 @@ static double volume(const double *s, size_t n, int dim) {
 static const double curve[] = {0.5, 0, 1, 10, 2, 50, 4, 100};
 
 /* Sums of volume at the ends of each sphere's share of the number are those of the curve. */
-static void passing_curve_of_few_spheres_is_the_one_asked_for(void **state) {
+CASE(passing_curve_of_few_spheres_is_the_one_asked_for) {
   jam_diameters_options o = options(JAM_SIZES_SIEVE);
   size_t n, k;
   double *s, sum = 0, all;
@@ -62,10 +61,9 @@ static void passing_curve_of_few_spheres_is_the_one_asked_for(void **state) {
     assert_true(fabs(sum / all - asked) <= volume(s + k + 1, 1, 3) / all);
   }
   free(s);
-  (void)state;
 }
 
-static void density_is_exact_and_n_follows(void **state) {
+CASE(density_is_exact_and_n_follows) {
   static const int32_t laws[] = {JAM_SIZES_EQUAL, JAM_SIZES_NORMAL, JAM_SIZES_LOGNORMAL, JAM_SIZES_UNIFORM,
                                  JAM_SIZES_SIEVE};
   size_t law;
@@ -101,14 +99,12 @@ static void density_is_exact_and_n_follows(void **state) {
         free(s);
         free(again);
       }
-  (void)state;
 }
 
 /* A list keeps its sizes too, whatever the density asked for. */
-static void few_sizes_stay_whole(void **state) {
+CASE(few_sizes_stay_whole) {
   const double rows[] = {1.0, 0.5, 1.7, 0.3, 2.5, 0.2};
   double fraction;
-  (void)state;
   for (fraction = 0.3; fraction < 0.6; fraction += 0.037) {
     jam_diameters_options o = options(JAM_SIZES_LIST);
     size_t n, k;
@@ -122,10 +118,9 @@ static void few_sizes_stay_whole(void **state) {
 }
 
 /* The mean of equal diameters is that diameter, to the last bit. */
-static void mean_of_equal_diameters_is_exact(void **state) {
+CASE(mean_of_equal_diameters_is_exact) {
   static const double of[] = {0.8, 0.1, 1.4, 1e-7, 3e5};
   static double s[1000000];
-  (void)state;
   for (size_t q = 0; q < sizeof of / sizeof *of; ++q)
     for (size_t n = 7; n <= sizeof s / sizeof *s; n = n == 7 ? 999983 : n + 17) {
       jam_size_report r = {.struct_size = sizeof r};
@@ -135,7 +130,7 @@ static void mean_of_equal_diameters_is_exact(void **state) {
     }
 }
 
-static void seeds_reproduce_and_differ(void **state) {
+CASE(seeds_reproduce_and_differ) {
   jam_diameters_options o = options(JAM_SIZES_LOGNORMAL);
   size_t n;
   double *a, *b, *c;
@@ -147,10 +142,9 @@ static void seeds_reproduce_and_differ(void **state) {
   assert_memory_equal(a, b, n * sizeof *a);
   assert_true(a[0] != c[0]);
   free(a), free(b), free(c);
-  (void)state;
 }
 
-static void bad_laws_are_refused_by_name(void **state) {
+CASE(bad_laws_are_refused_by_name) {
   static const double falls[] = {1, 0, 2, 60, 3, 40, 4, 100}, short_of[] = {1, 0, 2, 87}, begins[] = {1, 5, 2, 100},
                       back[] = {1, 0, 3, 50, 2, 100}, zero_share[] = {1, 0.5, 2, 0}, one_large[] = {1, 0.9, 2, 0.1},
                       negative[] = {-1, 0.5, 2, 0.5}, nan_size[] = {NAN, 0, 2, 1};
@@ -210,10 +204,9 @@ static void bad_laws_are_refused_by_name(void **state) {
   assert_non_null(strstr(jam_last_error(), "random sequential addition ends near 0.384"));
   o.packing_fraction = 1.5;
   refused(&o, NULL, 0, JAM_E_ARGUMENT, "below 1");
-  (void)state;
 }
 
-static void laws_are_read_from_text(void **state) {
+CASE(laws_are_read_from_text) {
   static const char *const bad[] = {"gauss",          "lognormal:width=3", "lognormal:0.3", "lognormal:deviation=",
                                     "sieve:none.csv", "equal:share=mass",  "equal:,",       NULL};
   jam_diameters_options o = options(JAM_SIZES_EQUAL);
@@ -227,11 +220,10 @@ static void laws_are_read_from_text(void **state) {
   assert_true(o.law == JAM_SIZES_LIST && needed == 4 && rows[0] == 1 && rows[3] == 0.25);
   for (k = 0; bad[k]; ++k)
     if (jam_parse_diameters(bad[k], &o, NULL, 0, &needed) >= 0) fail_msg("%s was taken", bad[k]);
-  (void)state;
 }
 
 /* Test sheets list the coarse sieve first: the same curve, the same spheres. */
-static void curves_may_begin_at_either_end(void **state) {
+CASE(curves_may_begin_at_either_end) {
   static const double turned[] = {4, 100, 2, 50, 1, 10, 0.5, 0}, mixed[] = {4, 100, 1, 10, 2, 50, 0.5, 0};
   jam_diameters_options o = options(JAM_SIZES_SIEVE);
   double *a, *b;
@@ -244,10 +236,9 @@ static void curves_may_begin_at_either_end(void **state) {
   refused(&o, mixed, 8, JAM_E_ARGUMENT, "row 1 (1, 10): the sieve curve falls");
   free(a);
   free(b);
-  (void)state;
 }
 
-static void curves_are_read_from_files(void **state) {
+CASE(curves_are_read_from_files) {
   const char *const name = "jam_curve.csv";
   char text[64];
   jam_diameters_options o = options(JAM_SIZES_EQUAL);
@@ -279,18 +270,14 @@ static void curves_are_read_from_files(void **state) {
   assert_int_equal(jam_parse_diameters(text, &o, rows, 6, &needed), JAM_OK);
   assert_true(needed == 6 && rows[2] == 1 && rows[3] == 40 && rows[5] == 100);
   remove(name);
-  (void)state;
 }
 
-static void fluids_do_not_begin_to_grow_beyond_their_reach(void **state) {
-  jam_create_options c;
-  jam_compress_options o;
-  jam_md_report r;
+CASE(fluids_do_not_begin_to_grow_beyond_their_reach) {
   jam_system *sys;
-  jam_create_options_init(&c, sizeof c);
-  jam_compress_options_init(&o, sizeof o);
+  DEFAULTS(create, c);
+  DEFAULTS(compress, o);
   c.n = 1000;
-  r.struct_size = sizeof r;
+  SIZED(jam_md_report, r);
   assert_int_equal(jam_create(&c, NULL, &sys), JAM_OK);
   o.packing_fraction = 0.70;
   assert_int_equal(jam_compress(sys, &o, &r), JAM_E_UNPLACEABLE);
@@ -299,21 +286,4 @@ static void fluids_do_not_begin_to_grow_beyond_their_reach(void **state) {
   assert_int_equal(jam_compress(sys, &o, &r), JAM_OK);
   assert_true(fabs(r.packing_fraction - 0.45) < 1e-12);
   jam_destroy(sys);
-  (void)state;
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(passing_curve_of_few_spheres_is_the_one_asked_for),
-      cmocka_unit_test(density_is_exact_and_n_follows),
-      cmocka_unit_test(few_sizes_stay_whole),
-      cmocka_unit_test(mean_of_equal_diameters_is_exact),
-      cmocka_unit_test(seeds_reproduce_and_differ),
-      cmocka_unit_test(bad_laws_are_refused_by_name),
-      cmocka_unit_test(laws_are_read_from_text),
-      cmocka_unit_test(curves_may_begin_at_either_end),
-      cmocka_unit_test(curves_are_read_from_files),
-      cmocka_unit_test(fluids_do_not_begin_to_grow_beyond_their_reach),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -107,10 +107,9 @@ static void *on_small_stack(void *data) {
   return NULL;
 }
 
-static void a_small_stack_is_enough(void **state) {
+CASE(a_small_stack_is_enough) {
   pthread_attr_t attributes;
   pthread_t thread;
-  (void)state;
 #ifdef JAM_SANITIZED
   skip(); /* their frames are larger */
 #endif
@@ -118,9 +117,4 @@ static void a_small_stack_is_enough(void **state) {
   assert_int_equal(pthread_attr_setstacksize(&attributes, STACK), 0);
   assert_int_equal(pthread_create(&thread, &attributes, on_small_stack, NULL), 0);
   assert_int_equal(pthread_join(thread, NULL), 0);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(a_small_stack_is_enough)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

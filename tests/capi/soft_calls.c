@@ -15,8 +15,7 @@ static void expect_overlap(jam_status status) {
   assert_non_null(strstr(jam_last_error(), "jam_decompress"));
 }
 
-static void hard_verbs_refuse_overlaps(void **state) {
-  (void)state;
+CASE(hard_verbs_refuse_overlaps) {
   jam_system *sys = soft_start(60, 0.7, 1), *copy = NULL;
   jam_estimate_report e = {.struct_size = sizeof e};
   expect_overlap(jam_run(sys, NULL, NULL));
@@ -56,8 +55,7 @@ static void hard_verbs_refuse_overlaps(void **state) {
   jam_destroy(sys);
 }
 
-static void files_and_checkpoints(void **state) {
-  (void)state;
+CASE(files_and_checkpoints) {
   char name[] = "soft_calls_XXXXXX", check[64];
   jam_system *sys = soft_start(60, 0.7, 2), *back = NULL;
   jam_create_options o;
@@ -81,8 +79,7 @@ static void files_and_checkpoints(void **state) {
   jam_destroy(sys);
 }
 
-static void options_are_checked(void **state) {
-  (void)state;
+CASE(options_are_checked) {
   jam_system *sys = soft_start(30, 0.7, 1);
   jam_relax_options r;
   jam_decompress_options d;
@@ -128,8 +125,7 @@ static void options_are_checked(void **state) {
 }
 
 /* The network of a soft packing works in the analysis, with its own stiffness and pre-stress. */
-static void response(void **state) {
-  (void)state;
+CASE(response) {
   jam_system *sys = soft_start(80, 0.75, 3);
   jam_relax_report r = {.struct_size = sizeof r};
   jam_relax_options o;
@@ -172,8 +168,7 @@ static double strained_energy(const jam_system *sys, const double *e, double x) 
 }
 
 /* The relaxed tensor along any gradient is the curvature of the relaxed energy a volume. */
-static void elastic_tensor(void **state) {
-  (void)state;
+CASE(elastic_tensor) {
   enum { GRADIENTS = 3 };
   static const double gradient[GRADIENTS][9] = {
       {0.3, -0.8, 0.5, 0.1, 0.6, -0.4, 0.9, 0.2, -0.7},
@@ -226,8 +221,7 @@ static int32_t stop_soon(const jam_progress *p, void *user) {
   return ++*(int *)user > 1;
 }
 
-static void down_to_jamming(void **state) {
-  (void)state;
+CASE(down_to_jamming) {
   jam_system *sys = soft_start(80, 0.72, 5), *copy = NULL;
   jam_decompress_report d = {.struct_size = sizeof d};
   jam_crunch_report report = {.struct_size = sizeof report};
@@ -257,8 +251,7 @@ static void down_to_jamming(void **state) {
   jam_destroy(sys);
 }
 
-static void unjammed_start(void **state) {
-  (void)state;
+CASE(unjammed_start) {
   jam_system *sys = soft_start(60, 0.3, 1);
   jam_decompress_report d = {.struct_size = sizeof d};
   jam_relax_report r = {.struct_size = sizeof r};
@@ -271,12 +264,11 @@ static void unjammed_start(void **state) {
 }
 
 /* Hard spheres have no state that overlaps, and a Monte Carlo run of them would reject every step. */
-static void hard_monte_carlo_refuses_overlaps(void **state) {
+CASE(hard_monte_carlo_refuses_overlaps) {
   const double x[] = {0.4, 0.5, 0.6, 0.5}, sigma = 0.3;
   jam_create_options create;
   jam_monte_carlo_options o;
   jam_system *sys = NULL;
-  (void)state;
   jam_create_options_init(&create, sizeof create);
   create.dim = 2, create.overlap = JAM_OVERLAP_ALLOW;
   assert_int_equal(create_from(&create, x, 4, &sigma, 1, &sys), JAM_OK);
@@ -286,16 +278,4 @@ static void hard_monte_carlo_refuses_overlaps(void **state) {
   o.alpha = 2.0;
   assert_int_equal(jam_monte_carlo(sys, &o, NULL), JAM_OK);
   jam_destroy(sys);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(hard_verbs_refuse_overlaps),
-                                     cmocka_unit_test(files_and_checkpoints),
-                                     cmocka_unit_test(options_are_checked),
-                                     cmocka_unit_test(elastic_tensor),
-                                     cmocka_unit_test(response),
-                                     cmocka_unit_test(down_to_jamming),
-                                     cmocka_unit_test(unjammed_start),
-                                     cmocka_unit_test(hard_monte_carlo_refuses_overlaps)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -18,18 +18,16 @@ static void scatter(double *x, int count, unsigned seed) {
 }
 
 static jam_system *soft(const double *x, int n, int dim, double diameter, int64_t seed) {
-  jam_create_options o;
   jam_system *sys = NULL;
-  assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
+  DEFAULTS(create, o);
   o.dim = dim, o.overlap = JAM_OVERLAP_ALLOW, o.seed = seed;
   assert_int_equal(create_from(&o, x, (size_t)(n * dim), &diameter, 1, &sys), JAM_OK);
   return sys;
 }
 
 static jam_relax_report relaxed(jam_system *sys, int32_t minimiser, double tolerance) {
-  jam_relax_options o;
   jam_relax_report r = {.struct_size = sizeof r};
-  assert_int_equal(jam_relax_options_init(&o, sizeof o), JAM_OK);
+  DEFAULTS(relax, o);
   o.minimiser = minimiser, o.force_tolerance = tolerance;
   const jam_status status = jam_relax(sys, &o, &r);
   assert_true(status == JAM_OK || status == JAM_NOT_JAMMED);
@@ -57,8 +55,7 @@ static double closest(const jam_system *sys, int n, int dim) {
 
 /* Nothing else holds two spheres together: they part to energy 0. At one point, through the boundary, and so near that
  * the square of their distance is 0. */
-static void two_alone_part(void **state) {
-  (void)state;
+CASE(two_alone_part) {
   for (int dim = 2; dim <= 8; ++dim)
     for (int32_t minimiser = JAM_MINIMISER_NEWTON; minimiser <= JAM_MINIMISER_LBFGS; ++minimiser)
       for (int kind = 0; kind < 4; ++kind) {
@@ -77,9 +74,8 @@ static void two_alone_part(void **state) {
 
 /* In a dense system: three spheres at one centre and a pair at another. Minima of one dense system differ in energy by
  * far less than a pair that stays on one centre costs, 1/2 a pair. */
-static void dense_starts_part(void **state) {
+CASE(dense_starts_part) {
   double x[3 * 64], y[3 * 64];
-  (void)state;
   scatter(x, 3 * 64, 1);
   memcpy(x + 3 * 6, x + 3 * 5, 3 * sizeof *x);
   memcpy(x + 3 * 7, x + 3 * 5, 3 * sizeof *x);
@@ -97,16 +93,14 @@ static void dense_starts_part(void **state) {
 }
 
 /* Stopped at the start: the overlap of the pair is 1, and it counts among the contacts. The direction is the seed's. */
-static void coincident_pairs_are_counted(void **state) {
+CASE(coincident_pairs_are_counted) {
   double x[3 * 64];
-  jam_relax_options o;
-  (void)state;
   scatter(x, 3 * 64, 1);
   jam_system *without = soft(x, 64, 3, 0.5, 1);
   memcpy(x + 3 * 6, x + 3 * 5, 3 * sizeof *x);
   jam_system *sys = soft(x, 64, 3, 0.5, 1);
   jam_relax_report r = {.struct_size = sizeof r};
-  assert_int_equal(jam_relax_options_init(&o, sizeof o), JAM_OK);
+  DEFAULTS(relax, o);
   o.max_evaluations = 1;
   assert_int_equal(jam_relax(sys, &o, &r), JAM_LIMIT);
   assert_int_equal(r.converged, 0);
@@ -130,10 +124,9 @@ static void coincident_pairs_are_counted(void **state) {
   jam_destroy(sys), jam_destroy(without);
 }
 
-static void seeds_choose_the_direction(void **state) {
+CASE(seeds_choose_the_direction) {
   const double x[] = {0.3, 0.4, 0.5, 0.3, 0.4, 0.5};
   double first[3] = {0};
-  (void)state;
   for (int64_t seed = 1; seed <= 3; ++seed)
     for (int again = 0; again < 2; ++again) {
       jam_system *sys = soft(x, 2, 3, 0.2, seed);
@@ -149,32 +142,22 @@ static void seeds_choose_the_direction(void **state) {
 }
 
 /* Decompression finds a jammed network from such a start, and Monte Carlo moves its spheres apart. */
-static void other_calls(void **state) {
+CASE(other_calls) {
   double x[2 * 48];
-  jam_decompress_options o;
   jam_decompress_report r = {.struct_size = sizeof r};
-  jam_monte_carlo_options m;
-  (void)state;
   scatter(x, 2 * 48, 3);
   memcpy(x + 2 * 9, x + 2 * 8, 2 * sizeof *x);
   jam_system *sys = soft(x, 48, 2, 0.17, 1);
-  assert_int_equal(jam_decompress_options_init(&o, sizeof o), JAM_OK);
+  DEFAULTS(decompress, o);
   o.crunch = 0, o.isostatic = 0, o.distance = 1e-3;
   assert_int_equal(jam_decompress(sys, &o, &r), JAM_OK);
   assert_true(closest(sys, 48, 2) > 0.17 * 0.5);
   jam_destroy(sys);
 
   sys = soft(x, 48, 2, 0.1, 1);
-  assert_int_equal(jam_monte_carlo_options_init(&m, sizeof m), JAM_OK);
+  DEFAULTS(monte_carlo, m);
   m.alpha = 2.0, m.temperature = 1e-3, m.sweeps = 100;
   assert_int_equal(jam_monte_carlo(sys, &m, NULL), JAM_OK);
   assert_true(closest(sys, 48, 2) > 0.01);
   jam_destroy(sys);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(two_alone_part), cmocka_unit_test(dense_starts_part),
-                                     cmocka_unit_test(coincident_pairs_are_counted),
-                                     cmocka_unit_test(seeds_choose_the_direction), cmocka_unit_test(other_calls)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -79,13 +79,11 @@ static void *set_logs(void *unused) {
   return NULL;
 }
 
-static void every_call_from_several_threads(void **state) {
+CASE(every_call_from_several_threads) {
   static const int first[THREADS] = {0, 1, 2};
   pthread_t threads[THREADS], setter;
-  jam_info info;
   int k;
-  (void)state;
-  info.struct_size = sizeof info;
+  SIZED(jam_info, info);
   shared = system_for(NETWORK);
   assert_non_null(shared);
   assert_int_equal(pthread_create(&setter, NULL, set_logs, NULL), 0);
@@ -97,9 +95,4 @@ static void every_call_from_several_threads(void **state) {
   assert_int_equal(jam_get_info(shared, &info), JAM_OK); /* nobody is left inside */
   assert_int_equal(jam_set_log(shared, NULL, 0, NULL), JAM_OK);
   jam_destroy(shared);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(every_call_from_several_threads)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

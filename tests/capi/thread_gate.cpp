@@ -18,8 +18,7 @@ extern "C" {
 namespace {
 
 jam_system *start(int64_t n, double fraction) {
-  jam_create_options o;
-  jam_create_options_init(&o, sizeof o);
+  DEFAULTS(create, o);
   o.n = n, o.packing_fraction = fraction;
   jam_system *sys = nullptr;
   assert_int_equal(jam_create(&o, nullptr, &sys), JAM_OK);
@@ -66,7 +65,7 @@ int32_t on_progress(const jam_progress *, void *user) {
   return 0;
 }
 
-void only_the_callback_reads_during_a_verb(void **) {
+CASE(only_the_callback_reads_during_a_verb) {
   jam_system *sys = start(100, 0.2);
   std::vector<jam_status> seen;
   Visit visit{sys, file_name(), nullptr, 0};
@@ -78,8 +77,7 @@ void only_the_callback_reads_during_a_verb(void **) {
     seen.push_back(jam_scale_diameters(sys, 0.9));
   };
   assert_int_equal(jam_set_progress(sys, on_progress, &visit), JAM_OK);
-  jam_run_options o;
-  jam_run_options_init(&o, sizeof o);
+  DEFAULTS(run, o);
   o.collisions_per_particle = 100.0;
   assert_int_equal(jam_run(sys, &o, nullptr), JAM_OK);
   assert_true(visit.calls > 0);
@@ -96,7 +94,7 @@ void only_the_callback_reads_during_a_verb(void **) {
   jam_destroy(sys);
 }
 
-void races_end_in_a_status(void **) {
+CASE(races_end_in_a_status) {
   jam_system *sys = start(60, 0.3);
   const std::string path = file_name();
   std::atomic<bool> stop{false};
@@ -115,8 +113,7 @@ void races_end_in_a_status(void **) {
     }
   };
   std::thread first(reader, path), second(reader, path + "2");
-  jam_run_options o;
-  jam_run_options_init(&o, sizeof o);
+  DEFAULTS(run, o);
   o.collisions_per_particle = 20.0;
   int runs = 0;
   for (int turn = 0; turn < 4000 && runs < 40; ++turn) {
@@ -137,9 +134,3 @@ void races_end_in_a_status(void **) {
 }
 
 }  // namespace
-
-int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(only_the_callback_reads_during_a_verb),
-                              cmocka_unit_test(races_end_in_a_status)};
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}

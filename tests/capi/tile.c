@@ -12,9 +12,8 @@ enum { N = 20, MOST = 8192 };
 static double left[MOST], right[MOST];
 
 static jam_system *crunched(int dim, int64_t seed) {
-  jam_create_options o;
   jam_system *sys = NULL;
-  jam_create_options_init(&o, sizeof o);
+  DEFAULTS(create, o);
   o.dim = dim, o.n = N, o.seed = seed;
   assert_int_equal(jam_create(&o, NULL, &sys), JAM_OK);
   assert_true(jam_crunch(sys, NULL, NULL) >= 0);
@@ -31,9 +30,8 @@ static void assert_same(const jam_system *a, const jam_system *b, getter get) {
   assert_memory_equal(left, right, here * sizeof *left);
 }
 
-static void one_copy_has_the_bits_of_the_packing(void **state) {
+CASE(one_copy_has_the_bits_of_the_packing) {
   const int32_t once[3] = {1, 1, 1};
-  (void)state;
   for (int dim = 2; dim <= 3; ++dim) {
     jam_system *sys = crunched(dim, 1), *one = NULL;
     jam_crunch_report a = {.struct_size = sizeof a}, b = {.struct_size = sizeof b};
@@ -57,12 +55,11 @@ static void one_copy_has_the_bits_of_the_packing(void **state) {
 }
 
 /* Copies of copies are copies: the same spheres at the same places, to the rounding of one sum. */
-static void copies_of_copies_are_copies(void **state) {
+CASE(copies_of_copies_are_copies) {
   const int32_t along_x[2] = {2, 1}, along_y[2] = {1, 3}, both[2] = {2, 3};
   jam_system *sys = crunched(2, 3), *half = NULL, *twice = NULL, *at_once = NULL;
   const double *x, *y;
   size_t len, needed, contacts;
-  (void)state;
   assert_int_equal(jam_tile(sys, along_x, 2, &half), JAM_OK);
   assert_int_equal(jam_tile(half, along_y, 2, &twice), JAM_OK);
   assert_int_equal(jam_tile(sys, both, 2, &at_once), JAM_OK);
@@ -87,9 +84,8 @@ static void refuse(const jam_system *sys, int32_t x, int32_t y, int32_t z, size_
   if (!strstr(jam_last_error(), why)) fail_msg("%s", jam_last_error());
 }
 
-static void what_cannot_be_tiled_is_named(void **state) {
+CASE(what_cannot_be_tiled_is_named) {
   jam_system *sys = crunched(3, 2), *slit = NULL, *tube = NULL, *ball = NULL;
-  (void)state;
   refuse(sys, 1, 0, 1, 3, JAM_E_ARGUMENT, "count[1] is 0");
   refuse(sys, 1, 1, -5, 3, JAM_E_ARGUMENT, "count[2] is -5");
   refuse(sys, 1, 1, 1, 2, JAM_E_ARGUMENT, "count has 2 numbers");
@@ -107,10 +103,9 @@ static void what_cannot_be_tiled_is_named(void **state) {
 }
 
 /* So that a binding that asks for the number of modes fills no array in vain. */
-static void modes_at_a_wave_vector_are_refused_with_their_number(void **state) {
+CASE(modes_at_a_wave_vector_are_refused_with_their_number) {
   const struct { double wave[3], bytes; } cases[] = {{{0.5, 0.0, 0.0}, 40.0}, {{0.5, 0.25, 0.0}, 96.0}};
   jam_system *sys = crunched(3, 1);
-  (void)state;
   for (int k = 0; k < 2; ++k) {
     const double *q = cases[k].wave;
     size_t rows = 0;
@@ -123,14 +118,4 @@ static void modes_at_a_wave_vector_are_refused_with_their_number(void **state) {
     assert_int_equal(jam_bloch_modes(sys, NULL, q, 3, JAM_MODE_COLUMNS, left, MOST, NULL, 0, &rows), JAM_OK);
   }
   jam_destroy(sys);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(one_copy_has_the_bits_of_the_packing),
-      cmocka_unit_test(copies_of_copies_are_copies),
-      cmocka_unit_test(what_cannot_be_tiled_is_named),
-      cmocka_unit_test(modes_at_a_wave_vector_are_refused_with_their_number),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -44,8 +44,7 @@ jam_system *create(int dim, int64_t n, double fraction, int32_t overlap, int32_t
 }
 
 void assert_valid(const jam_system *sys) {
-  jam_info info;
-  info.struct_size = sizeof info;
+  SIZED(jam_info, info);
   assert_int_equal(jam_get_info(sys, &info), JAM_OK);
   const double *x = nullptr;
   size_t len = 0;
@@ -162,7 +161,7 @@ jam_status modes(jam_system *sys) {
   return JAM_OK;
 }
 
-void every_allocation(void **) {
+CASE(every_allocation) {
   jam_system *fluid = create(2, 12, 0.3, JAM_OVERLAP_REFUSE), *shifted = create(2, 8, 0.5, 0, JAM_MODEL_MK),
              *soft = create(2, 12, 0.95, JAM_OVERLAP_ALLOW), *jammed = copy_of(fluid);
   assert_int_equal(jam_crunch(jammed, nullptr, nullptr), JAM_OK);
@@ -178,7 +177,7 @@ void every_allocation(void **) {
 }
 
 // The table of calls, each on the system that it needs, but for what voro++ does: it loses memory of its own then.
-void every_allocation_of_every_call(void **) {
+CASE(every_allocation_of_every_call) {
   for (const call_start start : {ANY, SOFT, NETWORK, SHEARED, MINIMUM, OBSERVED, RUNS}) {
     jam_system *sys = system_for(start);
     assert_non_null(sys);
@@ -192,8 +191,3 @@ void every_allocation_of_every_call(void **) {
 }
 
 }  // namespace
-
-int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(every_allocation), cmocka_unit_test(every_allocation_of_every_call)};
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}

@@ -28,8 +28,7 @@ static double volume(const walled *s) {
   return s->edge[0] * s->edge[1] * (s->dim == 3 ? s->edge[2] : 1.0);
 }
 
-static void random_start_lies_inside(void **state) {
-  (void)state;
+CASE(random_start_lies_inside) {
   for (int k = 0; k < WALLED; ++k) {
     const walled *s = &walled_scenes[k];
     jam_system *sys = NULL;
@@ -78,12 +77,11 @@ static jam_status from_arrays(const walled *s, const double *x, int64_t n, doubl
   return jam_create(&o, &start, sys);
 }
 
-static void overlaps_with_walls_are_named_or_shrunk(void **state) {
+CASE(overlaps_with_walls_are_named_or_shrunk) {
   const double x[] = {0.5, 0.95, 0.5, 0.3}, outside[] = {0.5, 1.2, 0.5, 0.3};
   jam_system *sys = NULL;
   const double *sigma;
   size_t len;
-  (void)state;
   for (int k = LINES; k <= CIRCLE; ++k) {
     assert_int_equal(from_arrays(&walled_scenes[k], x, 2, 0.2, JAM_OVERLAP_REFUSE, &sys), JAM_E_OVERLAP);
     assert_non_null(strstr(jam_last_error(), k == LINES ? "sphere 0 overlaps the wall y = 1 by 0.5"
@@ -99,11 +97,10 @@ static void overlaps_with_walls_are_named_or_shrunk(void **state) {
   }
 }
 
-static void spheres_do_not_meet_across_a_wall(void **state) {
+CASE(spheres_do_not_meet_across_a_wall) {
   /* In a periodic cell these two would overlap. */
   const double x[] = {0.5, 0.11, 0.5, 0.89};
   jam_system *sys = NULL;
-  (void)state;
   assert_int_equal(from_arrays(&walled_scenes[LINES], x, 2, 0.21, JAM_OVERLAP_REFUSE, &sys), JAM_OK);
   jam_destroy(sys);
 }
@@ -122,9 +119,8 @@ static jam_status start_with(int32_t dim, const double *cell, int32_t container,
   return status;
 }
 
-static void bad_containers_are_named(void **state) {
+CASE(bad_containers_are_named) {
   const double tilted[] = {1, 0, 0, 0.3, 1, 0, 0, 0, 1}, brick[] = {2, 0, 0, 0, 1, 0, 0, 0, 3};
-  (void)state;
   assert_int_equal(start_with(3, NULL, 3, 0, 0, 0.0), JAM_E_ARGUMENT);
   assert_int_equal(start_with(3, NULL, 0, 8, 0, 0.0), JAM_E_ARGUMENT);
   assert_int_equal(start_with(3, NULL, 0, -1, 0, 0.0), JAM_E_ARGUMENT);
@@ -156,10 +152,9 @@ static int same(const jam_system *a, const jam_system *b, jam_view_array array) 
   return n == m && memcmp(x, y, n * sizeof *x) == 0;
 }
 
-static void files_keep_the_container(void **state) {
+CASE(files_keep_the_container) {
   char path[] = "/tmp/jam-walls-XXXXXX";
   const int file = mkstemp(path), formats[] = {JAM_FORMAT_XYZ, JAM_FORMAT_LAMMPS};
-  (void)state;
   assert_true(file >= 0);
   close(file);
   for (int k = 0; k < WALLED; ++k) {
@@ -183,7 +178,7 @@ static void files_keep_the_container(void **state) {
 }
 
 /* What pbc, container and walls say of an axis must agree. */
-static void contradicting_files_are_refused(void **state) {
+CASE(contradicting_files_are_refused) {
   const struct {
     const char *pbc, *walls;
     jam_status status;
@@ -191,7 +186,6 @@ static void contradicting_files_are_refused(void **state) {
                {"T T T", "F F T", JAM_E_FORMAT},
                {"F F F", "F F T", JAM_E_UNSUPPORTED},
                {"T T F", "a b c", JAM_E_FORMAT}};
-  (void)state;
   for (size_t k = 0; k < sizeof files / sizeof *files; ++k) {
     char path[] = "/tmp/jam-walls-XXXXXX", text[400];
     jam_system *sys = NULL;
@@ -212,10 +206,9 @@ static void contradicting_files_are_refused(void **state) {
 }
 
 /* A stopped run goes on from a checkpoint to the bits of one that never stopped. */
-static void checkpoints_go_on_to_the_same_bits(void **state) {
+CASE(checkpoints_go_on_to_the_same_bits) {
   char path[] = "/tmp/jam-walls-XXXXXX";
   const int file = mkstemp(path);
-  (void)state;
   assert_true(file >= 0);
   close(file);
   for (int k = 0; k < WALLED; ++k) {
@@ -243,12 +236,11 @@ static void checkpoints_go_on_to_the_same_bits(void **state) {
 }
 
 /* Every call that would give an answer for a cell without walls refuses. */
-static void calls_that_know_no_walls_refuse(void **state) {
+CASE(calls_that_know_no_walls_refuse) {
   jam_system *sys = NULL, *tube = NULL, *ball = NULL;
   double real[4096];
   size_t needed;
   const double cell[] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
-  (void)state;
   assert_int_equal(create_walled(&walled_scenes[SLIT], 20, 0.1, 1, NULL, &sys), JAM_OK);
   assert_int_equal(create_walled(&walled_scenes[TUBE], 20, 0.1, 1, NULL, &tube), JAM_OK);
   assert_int_equal(create_walled(&walled_scenes[BALL], 20, 0.1, 1, NULL, &ball), JAM_OK);
@@ -276,8 +268,7 @@ static void calls_that_know_no_walls_refuse(void **state) {
 }
 
 /* Lists of all pairs, for ever: few spheres, or steps as long as the cell. */
-static void dilute_monte_carlo_ends(void **state) {
-  (void)state;
+CASE(dilute_monte_carlo_ends) {
   for (int k = 0; k < WALLED; ++k) {
     jam_system *sys = NULL;
     jam_monte_carlo_options o;
@@ -292,10 +283,9 @@ static void dilute_monte_carlo_ends(void **state) {
 }
 
 /* At the centre of its container it touches the wall all around: no time passes. */
-static void a_sphere_that_fills_its_container_stalls(void **state) {
+CASE(a_sphere_that_fills_its_container_stalls) {
   const int scenes[] = {BALL, CIRCLE, CAN};
   const double centre[] = {0.5, 0.5, 0.5};
-  (void)state;
   for (int k = 0; k < 3; ++k) {
     jam_system *sys = NULL;
     jam_md_report report = {.struct_size = sizeof report};
@@ -308,7 +298,7 @@ static void a_sphere_that_fills_its_container_stalls(void **state) {
 
 /* Tubes, channels and boxes in which the usual density leaves no place, or is that of spheres wider than the scene: the
  * start is lower, and a note says so. A density that is given is met or refused. */
-static void narrow_scenes_start_lower(void **state) {
+CASE(narrow_scenes_start_lower) {
   static const struct {
     int32_t dim, container, walls;
     double edge[3];
@@ -318,7 +308,6 @@ static void narrow_scenes_start_lower(void **state) {
                 {2, JAM_CONTAINER_BRICK, 2, {10, 0.5, 1}},  {3, JAM_CONTAINER_BRICK, 0, {1, 1, 30}}};
   static const int64_t counts[] = {1, 2, 3, 5, 8, 13, 20, 30, 40, 60};
   int lower = 0;
-  (void)state;
   for (size_t k = 0; k < sizeof scenes / sizeof *scenes; ++k)
     for (size_t q = 0; q < sizeof counts / sizeof *counts; ++q)
       for (int64_t seed = 1; seed <= 2; ++seed) {
@@ -345,21 +334,4 @@ static void narrow_scenes_start_lower(void **state) {
         jam_destroy(sys);
       }
   assert_true(lower > 10);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(random_start_lies_inside),
-      cmocka_unit_test(narrow_scenes_start_lower),
-      cmocka_unit_test(overlaps_with_walls_are_named_or_shrunk),
-      cmocka_unit_test(spheres_do_not_meet_across_a_wall),
-      cmocka_unit_test(bad_containers_are_named),
-      cmocka_unit_test(files_keep_the_container),
-      cmocka_unit_test(checkpoints_go_on_to_the_same_bits),
-      cmocka_unit_test(calls_that_know_no_walls_refuse),
-      cmocka_unit_test(dilute_monte_carlo_ends),
-      cmocka_unit_test(a_sphere_that_fills_its_container_stalls),
-      cmocka_unit_test(contradicting_files_are_refused),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

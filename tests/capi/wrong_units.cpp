@@ -24,14 +24,13 @@ std::vector<double> many_points(size_t n) {
 }
 
 jam_status create(const std::vector<double> &x, double diameter, int32_t overlap, int32_t model, jam_system **out) {
-  jam_create_options o;
-  jam_create_options_init(&o, sizeof o);
+  DEFAULTS(create, o);
   o.n = static_cast<int64_t>(x.size() / 3), o.overlap = overlap, o.model = model;
   o.shrink_min = 0.0;  // by any factor
   return create_from(&o, x.data(), x.size(), &diameter, 1, out);
 }
 
-void diameters_of_the_box(void **) {
+CASE(diameters_of_the_box) {
   const std::vector<double> x = many_points(20000);
   for (const double diameter : {0.3, 0.99}) {
     jam_system *sys = nullptr;
@@ -49,9 +48,8 @@ void diameters_of_the_box(void **) {
   }
 }
 
-void radii_of_boxes(void **) {
-  jam_create_options o;
-  jam_create_options_init(&o, sizeof o);
+CASE(radii_of_boxes) {
+  DEFAULTS(create, o);
   o.n = 20000, o.packing_fraction = 0.2;
   jam_system *sys = nullptr;
   assert_int_equal(jam_create(&o, nullptr, &sys), JAM_OK);
@@ -61,14 +59,13 @@ void radii_of_boxes(void **) {
   jam_destroy(sys);
 }
 
-void fractions_in_any_box(void **) {
+CASE(fractions_in_any_box) {
   const std::vector<double> unit = many_points(40);
   std::vector<double> expected(40);
   for (const double box : {1.0, 1e-5, 1e-7, 1e-20, 1e20}) {
     std::vector<double> x = unit;
     for (double &v : x) v *= box;
-    jam_create_options o;
-    jam_create_options_init(&o, sizeof o);
+    DEFAULTS(create, o);
     o.n = 40, o.box = box, o.overlap = JAM_OVERLAP_SHRINK;
     const double diameter = 0.1 * box;
     jam_system *sys = nullptr;
@@ -85,16 +82,10 @@ void fractions_in_any_box(void **) {
 }
 
 // A device without an end is no checkpoint.
-void endless_file(void **) {
+CASE(endless_file) {
   jam_system *sys = nullptr;
   assert_int_equal(jam_read_checkpoint("/dev/zero", nullptr, nullptr, &sys), JAM_E_FORMAT);
   assert_null(sys);
 }
 
 }  // namespace
-
-int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(diameters_of_the_box), cmocka_unit_test(radii_of_boxes),
-                              cmocka_unit_test(fractions_in_any_box), cmocka_unit_test(endless_file)};
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}

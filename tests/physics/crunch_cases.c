@@ -28,9 +28,8 @@ static void certify(const jam_system *sys, const jam_crunch_report *r, double to
   size_t len, m = 0, k, i, j;
   int32_t *pairs, *z;
   double *n, *f, *total, worst_overlap = 0.0, mean = 0.0;
-  jam_info info;
   int c, d;
-  info.struct_size = sizeof info;
+  SIZED(jam_info, info);
   jam_get_info(sys, &info);
   d = info.dim;
   jam_view(sys, JAM_VIEW_POSITIONS, &x, &len), jam_view(sys, JAM_VIEW_DIAMETERS, &s, &len);
@@ -76,23 +75,21 @@ static void certify(const jam_system *sys, const jam_crunch_report *r, double to
 }
 
 static jam_system *random_start(int64_t n, int dim, double phi, const double *diameters, size_t len, int64_t seed) {
-  jam_create_options o;
   jam_system *sys;
-  jam_create_options_init(&o, sizeof o);
+  DEFAULTS(create, o);
   o.n = n, o.dim = dim, o.packing_fraction = phi, o.seed = seed;
   assert_int_equal(create_from(&o, NULL, 0, diameters, len, &sys), JAM_OK);
   return sys;
 }
 
 /* The real input: two independent programs give phi 0.643971236633, 3010 contacts, 20 rattlers, exactly 1SS. */
-static void shared_file(void **state) {
+CASE(shared_file) {
   const char *path = JAM_TEST_SHARED "/ls-n1024-d3.dat";
   FILE *file = fopen(path, "r");
   jam_crunch_options o;
   jam_system *sys;
   jam_crunch_report r;
   int method;
-  (void)state;
   if (!file) {
     print_message("skipped: %s is not there\n", path);
     skip();
@@ -114,14 +111,13 @@ static void shared_file(void **state) {
   }
 }
 
-static void random_starts(void **state) {
+CASE(random_starts) {
   const struct {
     int n, dim;
     double phi, ratio;
   } cases[] = {{64, 3, 0.05, 1.0}, {128, 3, 0.2, 1.0}, {128, 2, 0.4, 1.4}, {64, 4, 0.1, 1.0},
                {64, 3, 0.2, 4.0},  {48, 5, 0.05, 1.0}, {100, 3, 0.1, 10.0}};
   size_t k;
-  (void)state;
   for (k = 0; k < sizeof cases / sizeof *cases; ++k) {
     double diameters[256];
     int i;
@@ -154,8 +150,7 @@ static jam_system *lattice(int dim, int cells, const double *basis, int basis_le
     ++n;
   }
   {
-    jam_create_options o;
-    jam_create_options_init(&o, sizeof o);
+    DEFAULTS(create, o);
     o.dim = dim;
     assert_int_equal(create_from(&o, x, (size_t)n * dim, &sigma, 1, &sys), JAM_OK);
   }
@@ -164,10 +159,9 @@ static jam_system *lattice(int dim, int cells, const double *basis, int basis_le
 }
 
 /* Crystals have more contacts than one state of self-stress needs: they are certified, and the excess is reported. */
-static void crystals_are_certified_hyperstatic(void **state) {
+CASE(crystals_are_certified_hyperstatic) {
   const double fcc[12] = {0, 0, 0, 0, .5, .5, .5, 0, .5, .5, .5, 0}, bcc[6] = {0, 0, 0, .5, .5, .5}, square[2] = {0, 0};
   int vacancy;
-  (void)state;
   for (vacancy = 0; vacancy < 2; ++vacancy) {
     jam_system *sys = lattice(3, 3, fcc, 4, sqrt(0.5), 0.98, vacancy);
     jam_crunch_report r = crunch(sys, NULL, JAM_OK);
@@ -199,17 +193,15 @@ static void crystals_are_certified_hyperstatic(void **state) {
 /* Forces of a hyperstatic packing are not unique: a vertex of the simplex leaves contacts without any, the analytic
  * centre none. Either way all that touch are contacts, and the forces are those of least norm: equal ones in FCC, where
  * all sum to zero. */
-static void degenerate_forces(void **state) {
+CASE(degenerate_forces) {
   const double fcc[12] = {0, 0, 0, 0, .5, .5, .5, 0, .5, .5, .5, 0};
   int solver;
-  (void)state;
   for (solver = JAM_LP_IPM; solver <= JAM_LP_CLP; ++solver) {
     jam_system *sys = lattice(3, 3, fcc, 4, sqrt(0.5), 0.98, 0);
-    jam_crunch_options o;
     jam_crunch_report r;
     double f[648];
     int k;
-    jam_crunch_options_init(&o, sizeof o);
+    DEFAULTS(crunch, o);
     o.lp_solver = solver;
     r = crunch(sys, &o, JAM_OK);
     assert_true(r.jammed && r.contacts == 648 && r.rattlers == 0);
@@ -227,9 +219,8 @@ static void degenerate_forces(void **state) {
 }
 
 /* Boxes of one or two diameters: pairs meet through several images. */
-static void small_boxes_with_several_images(void **state) {
+CASE(small_boxes_with_several_images) {
   int n, d;
-  (void)state;
   for (d = 2; d <= 3; ++d)
     for (n = 2; n <= d + 2; ++n) {
       jam_system *sys = random_start(n, d, 0.1, NULL, 0, n);
@@ -260,12 +251,10 @@ static int32_t stop_at(const jam_progress *p, void *user) {
 }
 
 /* A crunch cancelled at any moment leaves a valid state, and the next call continues from it. */
-static void cancel_and_resume(void **state) {
+CASE(cancel_and_resume) {
   int calls, lps;
   jam_system *whole = random_start(100, 3, 0.3, NULL, 0, 5);
-  jam_crunch_options lp_only;
-  (void)state;
-  jam_crunch_options_init(&lp_only, sizeof lp_only);
+  DEFAULTS(crunch, lp_only);
   lp_only.method = JAM_CRUNCH_SEQUENTIAL_LP;
   lps = (int)crunch(whole, &lp_only, JAM_OK).lp_solves;
   jam_destroy(whole);
@@ -274,10 +263,9 @@ static void cancel_and_resume(void **state) {
     jam_system *sys = random_start(100, 3, 0.3, NULL, 0, 5);
     int left = calls;
     jam_crunch_report r;
-    jam_crunch_options o;
     const double *s;
     size_t len;
-    jam_crunch_options_init(&o, sizeof o);
+    DEFAULTS(crunch, o);
     o.method = JAM_CRUNCH_SEQUENTIAL_LP; /* it reports every LP */
     jam_set_progress(sys, stop_at, &left);
     r = crunch(sys, &o, JAM_CANCELLED);
@@ -298,9 +286,8 @@ static void cancel_and_resume(void **state) {
 }
 
 /* A cancel with no call running stops the next verb, and only that one. */
-static void a_cancel_stops_the_next_verb(void **state) {
+CASE(a_cancel_stops_the_next_verb) {
   jam_system *sys = random_start(60, 3, 0.3, NULL, 0, 5);
-  (void)state;
   assert_int_equal(jam_cancel(sys), JAM_OK);
   assert_int_equal(jam_set_progress(sys, NULL, NULL), JAM_OK);
   assert_int_equal(jam_scale_diameters(sys, 0.99), JAM_OK);
@@ -309,14 +296,12 @@ static void a_cancel_stops_the_next_verb(void **state) {
   jam_destroy(sys);
 }
 
-static void limits_and_options(void **state) {
+CASE(limits_and_options) {
   jam_system *sys = random_start(100, 3, 0.3, NULL, 0, 5);
-  jam_crunch_options o;
   jam_crunch_report r;
   size_t needed;
-  (void)state;
   assert_int_equal(jam_forces(sys, NULL, 0, &needed), JAM_E_STATE);
-  jam_crunch_options_init(&o, sizeof o);
+  DEFAULTS(crunch, o);
   o.max_lps = 0;
   crunch(sys, &o, JAM_E_ARGUMENT);
   assert_non_null(strstr(jam_last_error(), "max_lps is 0"));
@@ -341,14 +326,13 @@ static void *crunch_thread(void *user) {
 }
 
 /* Two handles on two threads and one alone: the same bits. */
-static void threads_and_determinism(void **state) {
+CASE(threads_and_determinism) {
   jam_system *sys[3];
   pthread_t thread[2];
   const double *x[3];
   size_t len;
   int k;
   void *ok;
-  (void)state;
   for (k = 0; k < 3; ++k) sys[k] = random_start(150, 3, 0.3, NULL, 0, 8);
   for (k = 0; k < 2; ++k) pthread_create(&thread[k], NULL, crunch_thread, sys[k]);
   for (k = 0; k < 2; ++k) {
@@ -363,19 +347,17 @@ static void threads_and_determinism(void **state) {
 }
 
 /* Tolerances are in diameters: the same packing in a box a thousand times larger gives the same numbers. */
-static void box_does_not_matter(void **state) {
+CASE(box_does_not_matter) {
   jam_system *small = random_start(100, 3, 0.3, NULL, 0, 4), *large;
-  jam_create_options o;
   jam_crunch_report a, b;
   const double *x, *s;
   double y[300], t[100];
   size_t len, k;
-  (void)state;
   jam_view(small, JAM_VIEW_POSITIONS, &x, &len);
   for (k = 0; k < 300; ++k) y[k] = x[k] * 1024.0;
   jam_view(small, JAM_VIEW_DIAMETERS, &s, &len);
   for (k = 0; k < 100; ++k) t[k] = s[k] * 1024.0;
-  jam_create_options_init(&o, sizeof o);
+  DEFAULTS(create, o);
   o.box = 1024.0;
   assert_int_equal(create_from(&o, y, 300, t, 100, &large), JAM_OK);
   a = crunch(small, NULL, JAM_OK);
@@ -384,18 +366,4 @@ static void box_does_not_matter(void **state) {
   assert_true(fabs(a.packing_fraction - b.packing_fraction) < 1e-12);
   jam_destroy(small);
   jam_destroy(large);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(shared_file),
-                                     cmocka_unit_test(random_starts),
-                                     cmocka_unit_test(crystals_are_certified_hyperstatic),
-                                     cmocka_unit_test(degenerate_forces),
-                                     cmocka_unit_test(small_boxes_with_several_images),
-                                     cmocka_unit_test(cancel_and_resume),
-                                     cmocka_unit_test(a_cancel_stops_the_next_verb),
-                                     cmocka_unit_test(limits_and_options),
-                                     cmocka_unit_test(threads_and_determinism),
-                                     cmocka_unit_test(box_does_not_matter)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

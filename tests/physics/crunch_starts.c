@@ -14,9 +14,8 @@
 static double smallest_gap(const jam_system *sys, int reach) {
   const double *x, *s;
   size_t len, n, i, j;
-  jam_info info;
   double least = INFINITY;
-  info.struct_size = sizeof info;
+  SIZED(jam_info, info);
   jam_get_info(sys, &info);
   jam_view(sys, JAM_VIEW_POSITIONS, &x, &len), jam_view(sys, JAM_VIEW_DIAMETERS, &s, &n);
   for (i = 0; i < n; ++i)
@@ -46,11 +45,10 @@ static void certify(const jam_system *sys, const jam_crunch_report *r, int reach
   size_t len, m = 0, k;
   int32_t *pair, *z;
   double *v, *f, *total, mean = 0.0;
-  jam_info info;
   int c, d, stable = 0;
   assert_true(smallest_gap(sys, reach) > -1e-12);
   if (!r->jammed) return;
-  info.struct_size = sizeof info;
+  SIZED(jam_info, info);
   jam_get_info(sys, &info), d = info.dim;
   jam_view(sys, JAM_VIEW_POSITIONS, &x, &len), jam_view(sys, JAM_VIEW_DIAMETERS, &s, &len);
   jam_contacts(sys, NULL, 0, &m);
@@ -83,9 +81,8 @@ static void certify(const jam_system *sys, const jam_crunch_report *r, int reach
 }
 
 static jam_system *random_start(int n, int dim, double phi, const double *sizes, int64_t seed) {
-  jam_create_options o;
   jam_system *sys = NULL;
-  jam_create_options_init(&o, sizeof o);
+  DEFAULTS(create, o);
   o.n = n, o.dim = dim, o.packing_fraction = phi, o.seed = seed;
   if (create_from(&o, NULL, 0, sizes, sizes ? n : 0, &sys) != JAM_OK) fail_msg("%s", jam_last_error());
   return sys;
@@ -108,7 +105,7 @@ static jam_crunch_report crunched(jam_system *sys, const jam_crunch_options *o, 
 }
 
 /* From a hundredth of the jammed volume to nearly all of it, d = 2..5; denser than random placement goes by growth. */
-static void densities(void **state) {
+CASE(densities) {
   const struct {
     int dim, n;
     double phi[5];
@@ -118,15 +115,13 @@ static void densities(void **state) {
                 {5, 50, {0.01, 0.05, 0.1, 0.2, 0.25}}};
   double sizes[64];
   int k, q;
-  (void)state;
   for (k = 0; k < 64; ++k) sizes[k] = k % 2 ? 1.0 : 1.4; /* in d = 2 equal disks would order */
   for (k = 0; k < 4; ++k)
     for (q = 0; q < 5; ++q) {
       const double phi = starts[k].phi[q], random_phi = phi > 0.5 / (1 << (starts[k].dim - 2)) ? starts[k].phi[1] : phi;
       jam_system *sys = random_start(starts[k].n, starts[k].dim, random_phi, starts[k].dim == 2 ? sizes : NULL, 3 + q);
       if (random_phi < phi) {
-        jam_compress_options c;
-        jam_compress_options_init(&c, sizeof c);
+        DEFAULTS(compress, c);
         c.growth_rate = 0.1, c.packing_fraction = phi, c.pressure = 1e12;
         assert_int_equal(jam_compress(sys, &c, NULL), JAM_OK);
       }
@@ -135,17 +130,14 @@ static void densities(void **state) {
     }
 }
 
-static void pressures(void **state) {
+CASE(pressures) {
   const double p[] = {1e1, 1e3, 1e6, 1e9, 1e12};
   int k;
-  (void)state;
   for (k = 0; k < 5; ++k) {
     jam_system *sys = random_start(60, 3, 0.3, NULL, 2);
-    jam_compress_options c;
     jam_crunch_report r;
-    jam_info info;
-    info.struct_size = sizeof info;
-    jam_compress_options_init(&c, sizeof c);
+    SIZED(jam_info, info);
+    DEFAULTS(compress, c);
     c.growth_rate = p[k] > 1e5 ? 1e-3 : 1e-2, c.pressure = p[k];
     assert_true(jam_compress(sys, &c, NULL) >= 0);
     jam_get_info(sys, &info);
@@ -161,16 +153,14 @@ static void pressures(void **state) {
 
 /* A fast-grown state has gaps of 1e-7 although spheres must still move by 1e-3. The gaps look jammed, but LPs would
  * gain little per step, so the barrier path takes over. From a slowly grown state LPs finish alone. */
-static void fast_grown_states_take_the_path(void **state) {
+CASE(fast_grown_states_take_the_path) {
   const double growth[] = {3e-3, 1e-3};
   int k, seed;
-  (void)state;
   for (k = 0; k < 2; ++k)
     for (seed = 5; seed <= 7; ++seed) { /* in half of the seeds the slowly grown state is too far for LPs alone */
       jam_system *sys = random_start(256, 3, 0.2, NULL, seed);
-      jam_compress_options c;
       jam_crunch_report r;
-      jam_compress_options_init(&c, sizeof c);
+      DEFAULTS(compress, c);
       c.growth_rate = 1e-2, c.pressure = 500.0;
       assert_true(jam_compress(sys, &c, NULL) >= 0);
       c.growth_rate = growth[k], c.pressure = 1e9;
@@ -183,11 +173,10 @@ static void fast_grown_states_take_the_path(void **state) {
 }
 
 /* Log-normal sizes from equally likely quantiles (deviation over mean 0.2, 0.5), and mixtures half and half. */
-static void mixtures(void **state) {
+CASE(mixtures) {
   const double kinds[] = {-0.2, -0.5, 1.4, 4.0, 10.0};
   double sizes[80];
   int kind, dim, k;
-  (void)state;
   for (kind = 0; kind < 5; ++kind)
     for (dim = 2; dim <= 3; ++dim) {
       jam_system *sys;
@@ -211,9 +200,8 @@ static void mixtures(void **state) {
 }
 
 /* d + 1 spheres and a few more: boxes of two to three diameters, several images of a pair. Checked over all images. */
-static void small_boxes(void **state) {
+CASE(small_boxes) {
   int dim, n;
-  (void)state;
   for (dim = 2; dim <= 4; ++dim)
     for (n = dim + 1; n <= 3 * dim + 4; n += dim + 1) {
       jam_system *sys = random_start(n, dim, dim == 2 ? 0.3 : dim == 3 ? 0.15 : 0.06, NULL, n);
@@ -228,7 +216,6 @@ static void small_boxes(void **state) {
 static jam_system *lattice(int dim, const int *cells, const double *basis, int basis_len, double box_over_cell,
                            double sigma, int vacancy) {
   double x[3 * 300];
-  jam_create_options o;
   jam_system *sys = NULL;
   int total = basis_len, k, c, n = 0;
   for (c = 0; c < dim; ++c) total *= cells[c];
@@ -239,7 +226,7 @@ static jam_system *lattice(int dim, const int *cells, const double *basis, int b
       x[n * dim + c] = (cell % cells[c] + basis[k % basis_len * dim + c]) * (c == 0 ? 1.0 : box_over_cell) / cells[0];
     ++n;
   }
-  jam_create_options_init(&o, sizeof o);
+  DEFAULTS(create, o);
   o.dim = dim;
   if (create_from(&o, x, (size_t)n * dim, &sigma, 1, &sys) != JAM_OK) fail_msg("%s", jam_last_error());
   return sys;
@@ -247,11 +234,10 @@ static jam_system *lattice(int dim, const int *cells, const double *basis, int b
 
 /* Degenerate LPs with and without a vacancy: a certified state that is no less dense than the lattice, and its excess.
  */
-static void lattices(void **state) {
+CASE(lattices) {
   const double square[2] = {0, 0}, bcc[6] = {0, 0, 0, .5, .5, .5}, fcc[12] = {0, 0, 0, 0, .5, .5, .5, 0, .5, .5, .5, 0};
   const int six[3] = {6, 6, 6}, three[3] = {3, 3, 3};
   int vacancy;
-  (void)state;
   for (vacancy = 0; vacancy < 2; ++vacancy) {
     jam_system *sys = lattice(2, six, square, 1, 1.0, 0.98 / 6.0, vacancy);
     jam_crunch_report r = crunched(sys, NULL, "square", vacancy, 0);
@@ -270,16 +256,14 @@ static void lattices(void **state) {
 
 /* Equal disks order into pieces of the triangular lattice: hyperstatic, and the report says by how much. A nearly
  * triangular lattice squeezed into the square box does so at once. */
-static void ordering_disks(void **state) {
+CASE(ordering_disks) {
   jam_system *sys = random_start(90, 2, 0.5, NULL, 1);
-  jam_compress_options c;
   jam_crunch_report r;
   double x[2 * 90];
   const double sigma = 0.98 / 9.0;
   jam_create_options o;
   int k, vacancy;
-  (void)state;
-  jam_compress_options_init(&c, sizeof c);
+  DEFAULTS(compress, c);
   c.growth_rate = 1e-3, c.pressure = 1e4;
   assert_int_equal(jam_compress(sys, &c, NULL), JAM_OK);
   r = crunched(sys, NULL, "equal disks", 90, 1);
@@ -298,16 +282,14 @@ static void ordering_disks(void **state) {
 }
 
 /* A jammed packing again: one LP, nothing moves, the same contacts and forces, whatever the method. */
-static void jammed_input(void **state) {
+CASE(jammed_input) {
   int method;
-  (void)state;
   for (method = 0; method < 2; ++method) {
     jam_system *sys = random_start(80, 3, 0.3, NULL, 6);
-    jam_crunch_options o;
     jam_crunch_report first, again;
     double f[400], g[400];
     size_t m, k;
-    jam_crunch_options_init(&o, sizeof o);
+    DEFAULTS(crunch, o);
     o.method = method;
     first = crunched(sys, &o, "method", method, 1);
     assert_int_equal(first.excess_contacts, 0);
@@ -322,16 +304,4 @@ static void jammed_input(void **state) {
       assert_true(fabs(f[k] - g[k]) < 1e-6); /* the condition of the contact matrix times rounding */
     jam_destroy(sys);
   }
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(densities),
-                                     cmocka_unit_test(pressures),
-                                     cmocka_unit_test(fast_grown_states_take_the_path),
-                                     cmocka_unit_test(mixtures),
-                                     cmocka_unit_test(small_boxes),
-                                     cmocka_unit_test(lattices),
-                                     cmocka_unit_test(ordering_disks),
-                                     cmocka_unit_test(jammed_input)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -31,15 +31,13 @@ using System = std::unique_ptr<jam_system, Free>;
 
 // Grown in two stages, as jam-pack does it.
 System grown(int64_t seed) {
-  jam_create_options o;
-  jam_create_options_init(&o, sizeof o);
+  DEFAULTS(create, o);
   o.n = disks, o.dim = dim, o.seed = seed;
   jam_system *sys = nullptr;
   assert_int_equal(jam_create(&o, nullptr, &sys), JAM_OK);
   const double rate[] = {1e-2, 3e-3}, pressure[] = {500.0, 1e7};
   for (int k = 0; k < 2; ++k) {
-    jam_compress_options md;
-    jam_compress_options_init(&md, sizeof md);
+    DEFAULTS(compress, md);
     md.growth_rate = rate[k], md.pressure = pressure[k];
     assert_int_equal(jam_compress(sys, &md, nullptr), JAM_OK);
   }
@@ -156,12 +154,12 @@ void verdict_holds(int64_t seed) {
 }
 
 // Seeds 7, 75 and 123 come near saddles without a verdict; the crunch goes on to a packing that is held.
-void six_packings(void **) {
+CASE(six_packings) {
   for (const int64_t seed : {1, 2, 6, 7, 75, 123}) verdict_holds(seed);
 }
 
 // The check itself: without one disk and those that touch it, the rim of the hole can move.
-void the_check_sees_motion(void **) {
+CASE(the_check_sees_motion) {
   const System sys = grown(2);
   assert_int_equal(jam_crunch(sys.get(), nullptr, nullptr), JAM_OK);
   const double *x = nullptr, *s = nullptr;
@@ -181,8 +179,3 @@ void the_check_sees_motion(void **) {
 }
 
 }  // namespace
-
-int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(six_packings), cmocka_unit_test(the_check_sees_motion)};
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}

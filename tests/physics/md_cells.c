@@ -15,23 +15,20 @@ static const double cube[9] = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
 static const double far_monoclinic[9] = {1.0, 1.3, 0.0, 0.0, 1.3, 0.0, 5.4, 1.3, 0.8};
 
 static jam_system *fluid(const double *cell, int64_t n, int32_t dim, double fraction) {
-  jam_create_options o;
-  jam_compress_options c;
   jam_system *sys = NULL;
-  jam_create_options_init(&o, sizeof o);
+  DEFAULTS(create, o);
   o.n = n, o.dim = dim, o.packing_fraction = 0.5 * fraction;
   if (create_in_cell(&o, cell, (size_t)(dim * dim), NULL, 0, NULL, 0, &sys) < 0) print_error("%s\n", jam_last_error());
   assert_non_null(sys);
-  jam_compress_options_init(&c, sizeof c);
+  DEFAULTS(compress, c);
   c.growth_rate = 0.03, c.pressure = 1e12, c.packing_fraction = fraction;
   assert_int_equal(jam_compress(sys, &c, NULL), JAM_OK);
   return sys;
 }
 
 static jam_md_report run(jam_system *sys, double collisions_per_particle) {
-  jam_run_options r;
   jam_md_report report = {.struct_size = sizeof report};
-  jam_run_options_init(&r, sizeof r);
+  DEFAULTS(run, r);
   r.collisions_per_particle = collisions_per_particle;
   assert_int_equal(jam_run(sys, &r, &report), JAM_OK);
   return report;
@@ -47,10 +44,9 @@ static void moments(const jam_system *sys, double *energy, double *momentum) {
 }
 
 /* Carnahan and Starling, J. Chem. Phys. 51, 635 (1969). The shape of a large cell does not matter. */
-static void equation_of_state(void **state) {
+CASE(equation_of_state) {
   const double *const cells[] = {cube, monoclinic, far_monoclinic, rhombic};
   const double fraction = 0.45, exact = (1 + fraction + fraction * fraction - pow(fraction, 3)) / pow(1 - fraction, 3);
-  (void)state;
   for (int k = 0; k < 4; ++k) {
     jam_system *sys = fluid(cells[k], 1000, 3, fraction);
     double energy[2], momentum[3];
@@ -70,10 +66,9 @@ static void equation_of_state(void **state) {
 }
 
 /* Two disks: p = 1 + (v / (1 - v)) / 2 with v = pi sigma^2 / V = 4 phi / 2, in every cell that v fits into. */
-static void two_disks_have_the_exact_pressure(void **state) {
+CASE(two_disks_have_the_exact_pressure) {
   const double cell[4] = {1.0, 0.0, 0.45, 0.8}, fraction = 0.1, v = 2 * fraction, exact = 1 + 0.5 * v / (1 - v);
   jam_system *sys = fluid(cell, 2, 2, fraction);
-  (void)state;
   const jam_md_report r = run(sys, 200000);
   print_message("two disks: p %.4f(%.4f), exact %.4f\n", r.pressure, r.pressure_error, exact);
   assert_true(r.pressure_error < 0.01);
@@ -84,18 +79,16 @@ static void two_disks_have_the_exact_pressure(void **state) {
 /* Lees-Edwards boundaries by steps. A simple shear g shortens no vector by more than the factor
  * sqrt(1 + g^2 / 4) - g / 2: diameters scaled by it cannot overlap. They grow back while the spheres move. After a
  * strain of 1 the lattice is what it was. */
-static void shear_by_steps(void **state) {
+CASE(shear_by_steps) {
   const double fraction = 0.4, exact = (1 + fraction + fraction * fraction - pow(fraction, 3)) / pow(1 - fraction, 3),
                step = 0.05, least = sqrt(1 + 0.25 * step * step) - 0.5 * step;
   const double shear[9] = {0.0, step, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
   double cell[9], energy[2], momentum[3], sum = 0.0;
   jam_system *sys = fluid(cube, 400, 3, fraction);
-  (void)state;
   assert_int_equal(jam_strain(sys, shear, 9), JAM_E_OVERLAP); /* as it stands */
   for (int k = 0; k < 20; ++k) {
-    jam_compress_options c;
     jam_info info = {.struct_size = sizeof info};
-    jam_compress_options_init(&c, sizeof c);
+    DEFAULTS(compress, c);
     c.growth_rate = 0.1, c.pressure = 1e12, c.packing_fraction = fraction;
     assert_int_equal(jam_scale_diameters(sys, least), JAM_OK);
     moments(sys, energy, momentum);
@@ -115,12 +108,11 @@ static void shear_by_steps(void **state) {
 }
 
 /* Grown in a tilted cell to p = 1e6, then crunched: jammed with as many contacts as statics needs. */
-static void grown_and_crunched(void **state) {
+CASE(grown_and_crunched) {
   jam_system *sys = fluid(monoclinic, 200, 3, 0.4);
   jam_crunch_report r = {.struct_size = sizeof r};
   jam_md_report m = {.struct_size = sizeof m};
   jam_info before = {.struct_size = sizeof before};
-  (void)state;
   assert_int_equal(jam_compress(sys, NULL, &m), JAM_OK);
   assert_true(m.pressure >= 1e6 && m.max_overlap < 1e-13);
   assert_int_equal(jam_get_info(sys, &before), JAM_OK);
@@ -134,14 +126,4 @@ static void grown_and_crunched(void **state) {
   /* p = d / (1 - phi / phi_J) at rest: 3e-7 is missing, and a few times that in a packing that was growing. */
   assert_true(fabs(r.packing_fraction / before.packing_fraction - 1) < 1e-5);
   jam_destroy(sys);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(equation_of_state),
-      cmocka_unit_test(two_disks_have_the_exact_pressure),
-      cmocka_unit_test(shear_by_steps),
-      cmocka_unit_test(grown_and_crunched),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

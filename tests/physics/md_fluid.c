@@ -27,11 +27,10 @@ static jam_system *fluid(int64_t n, int32_t dim, double fraction) {
 static double carnahan_starling(double f) { return (1 + f + f * f - f * f * f) / pow(1 - f, 3); }
 
 /* At a density between freezing and the two of liquid_of_every_dimension. */
-static void equation_of_state(void **state) {
+CASE(equation_of_state) {
   jam_system *sys = fluid(1000, 3, 0.49);
   jam_md_report report;
   double deviation;
-  (void)state;
   run(sys, 100);
   report = run(sys, 1000);
   deviation = report.pressure / carnahan_starling(0.49) - 1.0;
@@ -46,9 +45,8 @@ static void equation_of_state(void **state) {
 /* Two spheres, excluded volume v of the box: p = 1 + (v / (1 - v)) / 2 exactly (d = 3: v = 4 phi; d = 2: v = 2 phi).
  * The momentum is zero, so kT has d (N - 1) degrees of freedom; d N would give 1.667 instead of 1.333. A drift of both
  * spheres changes nothing. */
-static void two_spheres_have_the_exact_pressure(void **state) {
+CASE(two_spheres_have_the_exact_pressure) {
   int32_t d, drift, c;
-  (void)state;
   for (d = 2; d <= 3; ++d)
     for (drift = 0; drift < 2; ++drift) {
       const double fraction = 0.1, v = ldexp(fraction, d - 1), exact = 1 + 0.5 * v / (1 - v);
@@ -67,12 +65,11 @@ static void two_spheres_have_the_exact_pressure(void **state) {
 }
 
 /* A compression ends with <v^2> = d, so that times and growth rates of what follows are in units of kT/m = 1. */
-static void compression_ends_at_unit_temperature(void **state) {
+CASE(compression_ends_at_unit_temperature) {
   jam_system *sys = fluid(300, 3, 0.5);
   const double *v;
   size_t length, k;
   double sum = 0;
-  (void)state;
   assert_int_equal(jam_view(sys, JAM_VIEW_VELOCITIES, &v, &length), JAM_OK);
   for (k = 0; k < length; ++k) sum += v[k] * v[k];
   assert_true(fabs(sum / (double)length - 1) < 1e-12);
@@ -83,7 +80,7 @@ static void compression_ends_at_unit_temperature(void **state) {
  * to 0.85 .. 0.9 of freezing (d = 2: 0.70, 4: 0.288, 5: 0.174, 6: 0.105; van Meel, Charbonneau, Fortini and
  * Charbonneau, Phys. Rev. E 80, 061110 (2009)). N spheres of zero momentum have B_2 (N - 1) / N, hence 1 / N beside the
  * error. */
-static void liquid_of_every_dimension(void **state) {
+CASE(liquid_of_every_dimension) {
   static const struct {
     int32_t dim;
     int64_t n;
@@ -92,7 +89,6 @@ static void liquid_of_every_dimension(void **state) {
             {3, 1000, 0.44, 8.84062619}, {4, 1000, 0.15, 3.29037095}, {4, 1000, 0.25, 7.20743788},
             {5, 1500, 0.08, 3.15737641}, {5, 1500, 0.15, 7.40523206}, {6, 2000, 0.05, 3.65128801},
             {6, 2000, 0.09, 7.94019189}};
-  (void)state;
   for (size_t k = 0; k < sizeof at / sizeof *at; ++k) {
     jam_system *sys = fluid(at[k].n, at[k].dim, at[k].fraction);
     jam_md_report report;
@@ -107,13 +103,12 @@ static void liquid_of_every_dimension(void **state) {
   }
 }
 
-static void energy_and_momentum_are_conserved(void **state) {
+CASE(energy_and_momentum_are_conserved) {
   jam_system *sys = fluid(500, 3, 0.45);
   const double *v;
   size_t len, k;
   double before[3] = {0, 0, 0}, after[3] = {0, 0, 0};
   jam_md_report report;
-  (void)state;
   jam_view(sys, JAM_VIEW_VELOCITIES, &v, &len);
   for (k = 0; k < len; ++k) before[k % 3] += v[k];
   report = run(sys, 500);
@@ -126,12 +121,11 @@ static void energy_and_momentum_are_conserved(void **state) {
 }
 
 /* With all velocities reversed the spheres return to the start, up to rounding that grows with time. */
-static void reversed_velocities_lead_back(void **state) {
+CASE(reversed_velocities_lead_back) {
   jam_system *sys = fluid(200, 3, 0.3);
   const double *x, *v;
   double start[600], back[600];
   size_t len, k;
-  (void)state;
   jam_view(sys, JAM_VIEW_POSITIONS, &x, &len);
   memcpy(start, x, sizeof start);
   run(sys, 6);
@@ -149,7 +143,7 @@ static void reversed_velocities_lead_back(void **state) {
   jam_destroy(sys);
 }
 
-static void free_volume_pressure(void **state) {
+CASE(free_volume_pressure) {
   /* p = d / (1 - phi/phi_J) near jamming: phi_J from two pressures must agree. */
   jam_create_options o;
   jam_compress_options c;
@@ -157,7 +151,6 @@ static void free_volume_pressure(void **state) {
   jam_md_report report;
   double jammed[3];
   int k;
-  (void)state;
   report.struct_size = sizeof report;
   jam_create_options_init(&o, sizeof o);
   o.n = 256;
@@ -176,17 +169,4 @@ static void free_volume_pressure(void **state) {
   assert_true(fabs(jammed[1] / jammed[0] - 1.0) < 1e-7);
   assert_true(fabs(jammed[2] / jammed[1] - 1.0) < 1e-9);
   jam_destroy(sys);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(equation_of_state),
-      cmocka_unit_test(two_spheres_have_the_exact_pressure),
-      cmocka_unit_test(compression_ends_at_unit_temperature),
-      cmocka_unit_test(liquid_of_every_dimension),
-      cmocka_unit_test(energy_and_momentum_are_conserved),
-      cmocka_unit_test(reversed_velocities_lead_back),
-      cmocka_unit_test(free_volume_pressure),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

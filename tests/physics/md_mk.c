@@ -6,9 +6,8 @@
 #include "test.h"
 
 static jam_system *planted(int64_t n, int32_t dim, double fraction, double zeta, int64_t seed) {
-  jam_create_options o;
   jam_system *sys = NULL;
-  jam_create_options_init(&o, sizeof o);
+  DEFAULTS(create, o);
   o.n = n;
   o.dim = dim;
   o.seed = seed;
@@ -24,14 +23,13 @@ static jam_system *planted(int64_t n, int32_t dim, double fraction, double zeta,
  * dynamical transition (1.776 in d = 3). With N spheres each shift is uniform over what a pair leaves free, the box
  * less 2^d phi / N of it, so that exactly p = 1 + 2^(d-1) phi / (1 - 2^d phi / N). A shift strength of a whole number
  * of boxes is as good as infinite. */
-static void equation_of_state(void **state) {
+CASE(equation_of_state) {
   const struct {
     int32_t dim;
     double fraction, zeta;
   } cases[] = {{3, 0.5, INFINITY}, {3, 1.5, INFINITY}, {3, 2.2, INFINITY},
                {2, 1.0, INFINITY}, {4, 0.5, INFINITY}, {3, 1.0, 3.0}};
   size_t k;
-  (void)state;
   for (k = 0; k < sizeof cases / sizeof cases[0]; ++k) {
     /* One quenched sample fluctuates: the mean over some. */
     const double excluded = pow(2.0, cases[k].dim) * cases[k].fraction;
@@ -41,10 +39,8 @@ static void equation_of_state(void **state) {
     int64_t seed;
     for (seed = 1; seed <= samples; ++seed) {
       jam_system *sys = planted(256, cases[k].dim, cases[k].fraction, cases[k].zeta, seed);
-      jam_run_options r;
-      jam_md_report report;
-      report.struct_size = sizeof report;
-      jam_run_options_init(&r, sizeof r);
+      SIZED(jam_md_report, report);
+      DEFAULTS(run, r);
       r.collisions_per_particle = 100.0;
       assert_int_equal(jam_run(sys, &r, &report), JAM_OK);
       assert_true(report.max_overlap < 1e-13 && report.energy_drift < 1e-12);
@@ -59,18 +55,14 @@ static void equation_of_state(void **state) {
   }
 }
 
-static void planted_states_jam_isostatically(void **state) {
+CASE(planted_states_jam_isostatically) {
   jam_system *sys = planted(200, 3, 1.5, INFINITY, 1);
-  jam_compress_options c;
-  jam_md_report report;
-  jam_crunch_report q;
-  (void)state;
-  report.struct_size = sizeof report;
-  jam_compress_options_init(&c, sizeof c);
+  SIZED(jam_md_report, report);
+  DEFAULTS(compress, c);
   c.pressure = 1e6;
   assert_int_equal(jam_compress(sys, &c, &report), JAM_OK);
   assert_true(report.max_overlap < 1e-13);
-  q.struct_size = sizeof q;
+  SIZED(jam_crunch_report, q);
   assert_int_equal(jam_crunch(sys, NULL, &q), JAM_OK);
   assert_int_equal(q.jammed, 1);
   assert_true(q.packing_fraction > report.packing_fraction && q.packing_fraction < report.packing_fraction * 1.001);
@@ -80,14 +72,12 @@ static void planted_states_jam_isostatically(void **state) {
 }
 
 /* zeta = 0 is the Euclidean model, bit for bit as far as the start goes. */
-static void no_shift_is_euclidean(void **state) {
+CASE(no_shift_is_euclidean) {
   jam_system *a = planted(60, 3, 0.2, 0.0, 4), *b = NULL;
-  jam_create_options o;
   const double *x, *y;
   jam_md_report ra, rb;
   size_t len;
-  (void)state;
-  jam_create_options_init(&o, sizeof o);
+  DEFAULTS(create, o);
   o.n = 60;
   o.seed = 4;
   assert_int_equal(jam_create(&o, NULL, &b), JAM_OK);
@@ -102,21 +92,12 @@ static void no_shift_is_euclidean(void **state) {
   jam_destroy(b);
 }
 
-static void too_dense_planting_is_refused(void **state) {
-  jam_create_options o;
+CASE(too_dense_planting_is_refused) {
   jam_system *sys = NULL;
-  (void)state;
-  jam_create_options_init(&o, sizeof o);
+  DEFAULTS(create, o);
   o.n = 3;
   o.packing_fraction = 2.5; /* three spheres wider than the box */
   o.model = JAM_MODEL_MK;
   assert_int_equal(jam_create(&o, NULL, &sys), JAM_E_UNPLACEABLE);
   assert_null(sys);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(equation_of_state), cmocka_unit_test(planted_states_jam_isostatically),
-      cmocka_unit_test(no_shift_is_euclidean), cmocka_unit_test(too_dense_planting_is_refused)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

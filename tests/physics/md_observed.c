@@ -49,11 +49,10 @@ static void draw_velocities(jam_system *sys) {
 }
 
 /* Pairs in contact are flat up to h ~ 1/p: g(sigma) = (p - 1) / (4 phi) for equal spheres. Beyond it falls. */
-static void gap_plateau(void **state) {
+CASE(gap_plateau) {
   const double pressures[] = {1e4, 1e6, 1e8};
   jam_system *sys = start(256, 0.2, 1.0);
   int k;
-  (void)state;
   compress(sys, 1e-2, 500);
   for (k = 0; k < 3; ++k) {
     jam_observe_options o;
@@ -89,14 +88,13 @@ static void gap_plateau(void **state) {
 }
 
 /* The momentum that pairs exchange is the force network that the linear program finds. */
-static void forces_by_collisions(void **state) {
+CASE(forces_by_collisions) {
   jam_system *sys = start(108, 0.2, 1.4), *jammed = NULL;
   jam_observe_options o;
   int32_t *pair, *contact;
   int64_t *count;
   double *momentum, *force, time, sum = 0, cross = 0, square = 0, deviation = 0, covered = 0, all = 0;
   size_t pairs, contacts, k, m;
-  (void)state;
   compress(sys, 1e-2, 500);
   compress(sys, 1e-3, 1e8);
   assert_int_equal(jam_copy(sys, &jammed), JAM_OK);
@@ -142,13 +140,12 @@ static void forces_by_collisions(void **state) {
 /* The two-stage protocol shows no peak of g(r) at sqrt 2. A crystal that has run at 0.58, just above melting, and was
  * then compressed does; at 0.58 itself its peaks are as wide as their distance, so the score is for compressed states.
  */
-static void crystal_score_tells_crystals_from_glasses(void **state) {
+CASE(crystal_score_tells_crystals_from_glasses) {
   jam_system *glass = start(500, 0.2, 1.0), *crystal = NULL;
   jam_create_options o;
   double x[3 * 500], diameter, shaken;
   int a, b, c, k, m = 0;
   static const double corner[4][3] = {{0, 0, 0}, {0, .5, .5}, {.5, 0, .5}, {.5, .5, 0}};
-  (void)state;
   compress(glass, 1e-2, 500);
   compress(glass, 3e-3, 1e4);
   for (a = 0; a < 5; ++a)
@@ -175,14 +172,13 @@ static void crystal_score_tells_crystals_from_glasses(void **state) {
 
 /* A fluid held at 0.56 crystallises by itself: its pressure falls from 21 to that of the crystal, below 15, and after
  * compression g(r) has the peak at sqrt 2. The time it takes is random, so the limit is generous. */
-static void fluid_crystallises(void **state) {
+CASE(fluid_crystallises) {
   jam_system *sys = start(500, 0.2, 1.0);
   jam_compress_options c;
   double p = 99, pair[120][2], at_sqrt2 = 0, before = 0;
   jam_observe_options o;
   size_t needed;
   int blocks = 0, k;
-  (void)state;
   jam_compress_options_init(&c, sizeof c);
   c.pressure = INFINITY;
   c.packing_fraction = 0.56;
@@ -204,11 +200,4 @@ static void fluid_crystallises(void **state) {
                 blocks, p, crystal_score(sys), at_sqrt2, before);
   assert_true(crystal_score(sys) > 1.5 && at_sqrt2 > 1.3 * before); /* six seeds: scores 2.8 to 4.3; a glass 0.9 */
   jam_destroy(sys);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(gap_plateau), cmocka_unit_test(forces_by_collisions),
-                                     cmocka_unit_test(crystal_score_tells_crystals_from_glasses),
-                                     cmocka_unit_test(fluid_crystallises)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -19,10 +19,9 @@ static jam_system *start(int64_t n, double fraction, double ratio, int32_t masse
   return sys;
 }
 
-static void rates(void **state) {
+CASE(rates) {
   const int64_t sizes[] = {100, 800};
   int k;
-  (void)state;
   for (k = 0; k < 2; ++k) {
     jam_system *a = start(sizes[k], 0.2, 1.4, 0, 3.0), *b = start(sizes[k], 0.2, 1.4, 0, 3.0);
     const double sigma = info_of(a).diameter_mean / 3.0;
@@ -52,14 +51,13 @@ static void rates(void **state) {
 /* The rate falls as a power of p, from 1e-2 at 1e3 to 1e-3 at 1e7: looked at between the ends, wherever the stage
  * stops. How many collisions that takes is no measure: late rearrangements, and pairs that hold much of the energy,
  * change it by factors. */
-static void quasi_static(void **state) {
+CASE(quasi_static) {
   jam_system *sys = start(200, 0.2, 1.4, 0, 1.0);
   jam_compress_options c;
   jam_md_report report;
   jam_status status;
   double worst = 0;
   int stops = 0;
-  (void)state;
   report.struct_size = sizeof report;
   jam_compress_options_init(&c, sizeof c);
   c.growth_rate = 1e-2, c.pressure = 1e3;
@@ -92,12 +90,11 @@ static void quasi_static(void **state) {
   jam_destroy(sys);
 }
 
-static void time_limits(void **state) {
+CASE(time_limits) {
   jam_system *sys = start(200, 0.3, 1.0, 0, 1.0);
   jam_run_options r;
   jam_compress_options c;
   jam_md_report report;
-  (void)state;
   report.struct_size = sizeof report;
   jam_run_options_init(&r, sizeof r);
   r.collisions_per_particle = INFINITY;
@@ -118,10 +115,9 @@ static void time_limits(void **state) {
 }
 
 /* Kinetic energy is shared alike, momentum and energy are kept, and the pressure does not depend on masses. */
-static void masses_by_volume(void **state) {
+CASE(masses_by_volume) {
   double pressure[2], error[2];
   int32_t masses;
-  (void)state;
   for (masses = 0; masses < 2; ++masses) {
     jam_system *sys = start(400, 0.35, 2.0, masses, 1.0);
     jam_run_options r;
@@ -160,10 +156,4 @@ static void masses_by_volume(void **state) {
     jam_destroy(sys);
   }
   assert_true(fabs(pressure[1] / pressure[0] - 1.0) < 0.005 + 3.0 * (error[0] + error[1]) / pressure[0]);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(rates), cmocka_unit_test(quasi_static),
-                                     cmocka_unit_test(time_limits), cmocka_unit_test(masses_by_volume)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

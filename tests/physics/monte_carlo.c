@@ -9,8 +9,7 @@
 #include "test.h"
 
 static jam_monte_carlo_options options(double alpha, double temperature, int64_t sweeps) {
-  jam_monte_carlo_options o;
-  assert_int_equal(jam_monte_carlo_options_init(&o, sizeof o), JAM_OK);
+  DEFAULTS(monte_carlo, o);
   o.alpha = alpha;
   o.temperature = temperature;
   o.sweeps = sweeps;
@@ -18,8 +17,7 @@ static jam_monte_carlo_options options(double alpha, double temperature, int64_t
 }
 
 static jam_monte_carlo_report run(jam_system *sys, const jam_monte_carlo_options *o) {
-  jam_monte_carlo_report r;
-  r.struct_size = sizeof r;
+  SIZED(jam_monte_carlo_report, r);
   assert_int_equal(jam_monte_carlo(sys, o, &r), JAM_OK);
   return r;
 }
@@ -27,9 +25,8 @@ static jam_monte_carlo_report run(jam_system *sys, const jam_monte_carlo_options
 static jam_system *spheres(int dim, int n, const double *diameter) {
   const double disks[6] = {0.0, 0.0, 0.5, 0.25, 0.0, 0.5};
   const double balls[9] = {0.0, 0.0, 0.0, 0.5, 0.25, 0.0, 0.0, 0.5, 0.0};
-  jam_create_options o;
   jam_system *sys = NULL;
-  jam_create_options_init(&o, sizeof o);
+  DEFAULTS(create, o);
   o.dim = dim;
   o.n = n;
   assert_int_equal(create_from(&o, dim == 2 ? disks : balls, (size_t)(dim * n), diameter, (size_t)n, &sys), JAM_OK);
@@ -62,14 +59,13 @@ static void two(double sigma, double alpha, int relative, double temperature, do
   *pressure = 1.0 + w / z / (3.0 * 2.0 * temperature);
 }
 
-static void two_spheres_have_the_boltzmann_averages(void **state) {
+CASE(two_spheres_have_the_boltzmann_averages) {
   const double sigma[2] = {0.45, 0.45};
   const struct {
     double alpha, temperature;
     int relative;
   } cases[] = {{1.5, 0.05, 0}, {2.0, 0.02, 0}, {2.5, 0.2, 1}, {3.0, 0.1, 1}};
   size_t k;
-  (void)state;
   for (k = 0; k < sizeof cases / sizeof *cases; ++k) {
     jam_system *sys = spheres(3, 2, sigma);
     jam_monte_carlo_options o = options(cases[k].alpha, cases[k].temperature, 200000);
@@ -85,13 +81,12 @@ static void two_spheres_have_the_boltzmann_averages(void **state) {
 }
 
 /* Three disks of three sizes; swaps leave the average as it is only if they are accepted by the right rule. */
-static void three_disks_and_swaps_have_the_boltzmann_averages(void **state) {
+CASE(three_disks_and_swaps_have_the_boltzmann_averages) {
   const double sigma[3] = {0.28, 0.40, 0.48};
   const double temperature = 0.05, alpha = 2.0;
   const int m = 36;
   double z = 0.0, u = 0.0;
   int a, b, c, d, with_swaps;
-  (void)state;
   for (a = 0; a < m; ++a)
     for (b = 0; b < m; ++b) {
       const double x1 = (a + 0.5) / m - 0.5, y1 = (b + 0.5) / m - 0.5;
@@ -128,28 +123,23 @@ static void three_disks_and_swaps_have_the_boltzmann_averages(void **state) {
   }
 }
 
-static void hard_fluids_have_the_pressure_of_molecular_dynamics(void **state) {
+CASE(hard_fluids_have_the_pressure_of_molecular_dynamics) {
   const double fractions[2] = {0.30, 0.47};
   size_t k;
-  (void)state;
   for (k = 0; k < 2; ++k) {
     const int n = 256;
-    jam_create_options c;
-    jam_compress_options grow;
-    jam_run_options nve;
-    jam_md_report md;
     jam_monte_carlo_options o = options(0.0, 1.0, 12000);
     jam_monte_carlo_report r;
     jam_system *sys = NULL;
     double exact;
-    md.struct_size = sizeof md;
-    jam_create_options_init(&c, sizeof c);
+    SIZED(jam_md_report, md);
+    DEFAULTS(create, c);
     c.n = n;
     assert_int_equal(jam_create(&c, NULL, &sys), JAM_OK);
-    jam_compress_options_init(&grow, sizeof grow);
+    DEFAULTS(compress, grow);
     grow.packing_fraction = fractions[k];
     assert_int_equal(jam_compress(sys, &grow, NULL), JAM_OK);
-    jam_run_options_init(&nve, sizeof nve);
+    DEFAULTS(run, nve);
     nve.collisions_per_particle = 300;
     assert_int_equal(jam_run(sys, &nve, NULL), JAM_OK);
     nve.collisions_per_particle = 1500;
@@ -169,14 +159,13 @@ static int32_t stop(const jam_progress *p, void *user) {
   return p->steps >= 10;
 }
 
-static void a_resumed_run_has_the_same_bits(void **state) {
+CASE(a_resumed_run_has_the_same_bits) {
   const double sigma[3] = {0.28, 0.40, 0.48};
   jam_monte_carlo_options o = options(2.0, 0.001, 3000);
   jam_system *a = spheres(3, 3, sigma), *b = spheres(3, 3, sigma);
   jam_monte_carlo_report r, whole;
   const double *x = NULL, *y = NULL;
   size_t len = 0;
-  (void)state;
   o.swap_share = 0.2;
   r.struct_size = sizeof r;
   whole = run(a, &o);
@@ -201,21 +190,19 @@ static void a_resumed_run_has_the_same_bits(void **state) {
 
 /* Long steps: spheres are looked up in cells. A sphere that is missing there would be overlapped, which jam_create
  * refuses. */
-static void dilute_spheres_stay_apart_and_resume(void **state) {
+CASE(dilute_spheres_stay_apart_and_resume) {
   enum { N = 200, DIMS = 3 };
   static const double fractions[DIMS] = {0.4, 0.15, 0.05};
   int k;
-  (void)state;
   for (k = 0; k < DIMS; ++k) {
     double diameters[N];
-    jam_create_options c;
     jam_monte_carlo_options o = options(0.0, 1.0, 300);
     jam_monte_carlo_report r;
     jam_system *a = NULL, *b = NULL, *again = NULL;
     const double *x = NULL, *y = NULL, *sigma = NULL;
     size_t len = 0, sizes = 0, i;
     for (i = 0; i < N; ++i) diameters[i] = i % 2 ? 1.3 : 1.0;
-    jam_create_options_init(&c, sizeof c);
+    DEFAULTS(create, c);
     c.dim = k + 2;
     c.n = N;
     c.packing_fraction = fractions[k];
@@ -241,15 +228,13 @@ static void dilute_spheres_stay_apart_and_resume(void **state) {
   }
 }
 
-static void runs_from_one_state_have_streams_of_their_own(void **state) {
+CASE(runs_from_one_state_have_streams_of_their_own) {
   const double sigma[3] = {0.28, 0.40, 0.48}, instants[2] = {5.0, 50.0};
   jam_system *sys = spheres(3, 3, sigma);
-  jam_isoconf_options i;
   jam_monte_carlo_options o = options(2.0, 0.001, 1000); /* sweeps as by default: instants count */
   double displacement[2][2 * 9], alone[18];
   size_t k;
-  (void)state;
-  jam_isoconf_options_init(&i, sizeof i);
+  DEFAULTS(isoconf, i);
   i.runs = 2;
   i.block = 1;
   o.step = 0.05;
@@ -265,11 +250,10 @@ static void runs_from_one_state_have_streams_of_their_own(void **state) {
   jam_destroy(sys);
 }
 
-static void bad_input_is_named(void **state) {
+CASE(bad_input_is_named) {
   const double sigma[2] = {0.3, 0.3};
   jam_system *sys = spheres(3, 2, sigma);
   jam_monte_carlo_options o;
-  (void)state;
 #define REFUSED(member, value, code) \
   o = options(2.0, 0.01, 10);        \
   o.member = value;                  \
@@ -292,12 +276,10 @@ static void bad_input_is_named(void **state) {
 }
 
 /* Soft spheres leave overlaps. Calls for hard spheres say so, those for soft ones go on. */
-static void soft_spheres_leave_overlaps(void **state) {
-  jam_create_options c;
+CASE(soft_spheres_leave_overlaps) {
   jam_monte_carlo_options o = options(2.0, 0.1, 50);
   jam_system *sys = NULL;
-  (void)state;
-  jam_create_options_init(&c, sizeof c);
+  DEFAULTS(create, c);
   c.n = 60, c.packing_fraction = 0.3;
   assert_int_equal(jam_create(&c, NULL, &sys), JAM_OK);
   assert_int_equal(jam_monte_carlo(sys, &o, NULL), JAM_OK);
@@ -307,16 +289,13 @@ static void soft_spheres_leave_overlaps(void **state) {
   jam_destroy(sys);
 }
 
-static void hard_spheres_in_contact_cannot_move(void **state) {
-  jam_create_options c;
-  jam_compress_options grow;
+CASE(hard_spheres_in_contact_cannot_move) {
   jam_monte_carlo_options o = options(0.0, 1.0, 10);
   jam_system *sys = NULL;
-  (void)state;
-  jam_create_options_init(&c, sizeof c);
+  DEFAULTS(create, c);
   c.n = 100;
   assert_int_equal(jam_create(&c, NULL, &sys), JAM_OK);
-  jam_compress_options_init(&grow, sizeof grow);
+  DEFAULTS(compress, grow);
   grow.pressure = 1e6;
   assert_int_equal(jam_compress(sys, &grow, NULL), JAM_OK);
   assert_int_equal(jam_crunch(sys, NULL, NULL), JAM_OK);
@@ -324,19 +303,4 @@ static void hard_spheres_in_contact_cannot_move(void **state) {
   assert_int_equal(jam_monte_carlo(sys, &o, NULL), JAM_E_ARGUMENT);
   assert_non_null(strstr(jam_last_error(), "contact"));
   jam_destroy(sys);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(two_spheres_have_the_boltzmann_averages),
-      cmocka_unit_test(three_disks_and_swaps_have_the_boltzmann_averages),
-      cmocka_unit_test(hard_fluids_have_the_pressure_of_molecular_dynamics),
-      cmocka_unit_test(a_resumed_run_has_the_same_bits),
-      cmocka_unit_test(dilute_spheres_stay_apart_and_resume),
-      cmocka_unit_test(runs_from_one_state_have_streams_of_their_own),
-      cmocka_unit_test(bad_input_is_named),
-      cmocka_unit_test(soft_spheres_leave_overlaps),
-      cmocka_unit_test(hard_spheres_in_contact_cannot_move),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

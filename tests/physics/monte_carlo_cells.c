@@ -12,8 +12,7 @@ static const double oblique[4] = {1.0, 0.0, 0.45, 0.8}, square[4] = {1.0, 0.0, 0
 static const double monoclinic[9] = {1.0, 0.0, 0.0, 0.0, 1.3, 0.0, 0.4, 0.0, 0.8};
 
 static jam_monte_carlo_options options(double alpha, double temperature, int64_t sweeps) {
-  jam_monte_carlo_options o;
-  assert_int_equal(jam_monte_carlo_options_init(&o, sizeof o), JAM_OK);
+  DEFAULTS(monte_carlo, o);
   o.alpha = alpha, o.temperature = temperature, o.sweeps = sweeps;
   return o;
 }
@@ -28,9 +27,8 @@ static jam_monte_carlo_report run(jam_system *sys, const jam_monte_carlo_options
 /* The second one stands as far as it can from all images of the first. */
 static jam_system *two_disks(const double *cell, double sigma, int32_t overlap) {
   const double x[4] = {0.0, 0.0, 0.5, 0.5 * (cell[2] * (cell[2] - 1.0) / cell[3] + cell[3])};
-  jam_create_options o;
   jam_system *sys = NULL;
-  jam_create_options_init(&o, sizeof o);
+  DEFAULTS(create, o);
   o.dim = 2, o.n = 2, o.overlap = overlap;
   if (create_in_cell(&o, cell, 4, x, 4, &sigma, 1, &sys) < 0) print_error("%s\n", jam_last_error());
   assert_non_null(sys);
@@ -38,9 +36,8 @@ static jam_system *two_disks(const double *cell, double sigma, int32_t overlap) 
 }
 
 /* Two soft disks whose separation has several images in range: integral over the cell by the midpoint rule. */
-static void two_soft_disks(void **state) {
+CASE(two_soft_disks) {
   const double sigmas[] = {0.42, 0.55, 0.7}, temperature = 0.03;
-  (void)state;
   for (int c = 0; c < 2; ++c)
     for (int k = 0; k < 3; ++k) {
       const double *cell = c ? oblique : square, sigma = sigmas[k];
@@ -73,11 +70,10 @@ static void two_soft_disks(void **state) {
 
 /* Two hard disks: p = 1 + sigma L / (d N A). A is the area that the separation may take, L the length of its border at
  * distance sigma from the lattice points. */
-static void two_hard_disks(void **state) {
+CASE(two_hard_disks) {
   const double sigma = 0.52;
   const int m = 1000, angles = 20000;
   double area = 0.0, border = 0.0;
-  (void)state;
   for (int a = 0; a < m + angles / m; ++a)
     for (int b = 0; b < m; ++b) {
       /* points of the cell, then points of the circle */
@@ -109,27 +105,24 @@ static void two_hard_disks(void **state) {
 
 static jam_system *fluid(const double *cell, int64_t n, double fraction) {
   double diameters[512];
-  jam_create_options o;
-  jam_compress_options c;
   jam_system *sys = NULL;
   for (int64_t k = 0; k < n; ++k) diameters[k] = k % 2 ? 1.3 : 1.0;
-  jam_create_options_init(&o, sizeof o);
+  DEFAULTS(create, o);
   o.n = n, o.packing_fraction = 0.5 * fraction;
   assert_int_equal(create_in_cell(&o, cell, 9, NULL, 0, diameters, (size_t)n, &sys), JAM_OK);
-  jam_compress_options_init(&c, sizeof c);
+  DEFAULTS(compress, c);
   c.growth_rate = 0.1, c.pressure = 1e12, c.packing_fraction = fraction;
   assert_int_equal(jam_compress(sys, &c, NULL), JAM_OK);
   return sys;
 }
 
 /* A cube but for a tilt of 1e-13: other code, the same moves. Errors of the steps add up and are not amplified. */
-static void a_cube_in_disguise(void **state) {
+CASE(a_cube_in_disguise) {
   const struct {
     double alpha, temperature, swap_share, fraction, step;
   } cases[] = {
       {0.0, 1.0, 0.0, 0.45, 0.0}, {0.0, 1.0, 0.2, 0.4, 0.05}, {0.0, 1.0, 0.0, 0.1, 0.5}, {2.0, 1e-4, 0.1, 0.5, 0.0}};
   const double cube[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1}, tilted[9] = {1, 0, 0, 1e-13, 1, 0, 0, 0, 1};
-  (void)state;
   for (size_t k = 0; k < sizeof cases / sizeof *cases; ++k) {
     jam_system *a = fluid(cube, 200, cases[k].fraction), *b = NULL;
     jam_monte_carlo_options o = options(cases[k].alpha, cases[k].temperature, 300);
@@ -149,17 +142,14 @@ static void a_cube_in_disguise(void **state) {
 }
 
 /* Hard spheres in a tilted cell: the pressure of molecular dynamics there, and no overlap. */
-static void hard_fluid(void **state) {
+CASE(hard_fluid) {
   jam_system *sys = fluid(monoclinic, 256, 0.45), *again = NULL;
   jam_monte_carlo_options o = options(0.0, 1.0, 4000);
-  jam_run_options ro;
   jam_md_report md = {.struct_size = sizeof md};
   const double *x = NULL, *sigma = NULL;
   double cell[9];
   size_t len = 0, sizes = 0;
-  jam_create_options c;
-  (void)state;
-  jam_run_options_init(&ro, sizeof ro);
+  DEFAULTS(run, ro);
   ro.collisions_per_particle = 1000;
   assert_int_equal(jam_run(sys, &ro, &md), JAM_OK);
   o.swap_share = 0.1;
@@ -168,7 +158,7 @@ static void hard_fluid(void **state) {
                 md.pressure, md.pressure_error);
   assert_true(fabs(r.pressure - md.pressure) < 4.0 * hypot(r.pressure_error, md.pressure_error) + 0.01 * md.pressure);
   assert_true(r.pressure_error < 0.02 * r.pressure && r.swap_acceptance > 0.0);
-  jam_create_options_init(&c, sizeof c);
+  DEFAULTS(create, c);
   c.n = 256;
   assert_int_equal(jam_view(sys, JAM_VIEW_POSITIONS, &x, &len), JAM_OK);
   assert_int_equal(jam_view(sys, JAM_VIEW_DIAMETERS, &sigma, &sizes), JAM_OK);
@@ -182,9 +172,8 @@ static int32_t stop(const jam_progress *p, void *user) {
   return p->steps > 0;
 }
 
-static void a_resumed_run_has_the_same_bits(void **state) {
+CASE(a_resumed_run_has_the_same_bits) {
   const char *const path = "monte_carlo_cells.check";
-  (void)state;
   for (int k = 0; k < 3; ++k) {
     /* lists, few spheres with several images, cells */
     jam_system *a = fluid(monoclinic, k == 1 ? 4 : 200, k == 2 ? 0.05 : 0.3), *b = NULL;
@@ -207,15 +196,4 @@ static void a_resumed_run_has_the_same_bits(void **state) {
     jam_destroy(a), jam_destroy(b);
   }
   remove(path);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(two_soft_disks),
-      cmocka_unit_test(two_hard_disks),
-      cmocka_unit_test(a_cube_in_disguise),
-      cmocka_unit_test(hard_fluid),
-      cmocka_unit_test(a_resumed_run_has_the_same_bits),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

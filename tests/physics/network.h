@@ -22,11 +22,10 @@ struct network {
 
 static inline jam_system *crunched_model(int model, int dim, int64_t n, double phi, int bidisperse,
                                          jam_crunch_report *report) {
-  jam_create_options o;
   jam_system *s = NULL;
   double *d = malloc((size_t)n * sizeof *d);
   int64_t k;
-  assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
+  DEFAULTS(create, o);
   o.model = model;
   o.dim = dim;
   o.n = n;

@@ -254,9 +254,8 @@ static void spectrum_identities(const struct network *w) {
   free(l), free(v), free(y);
 }
 
-static void all_analyses_agree_on_small_packings(void **state) {
+CASE(all_analyses_agree_on_small_packings) {
   int dim;
-  (void)state;
   for (dim = 2; dim <= 4; ++dim) {
     jam_crunch_report report;
     struct network w = open_network(crunched(dim, dim == 4 ? 150 : 80,
@@ -274,10 +273,9 @@ static void all_analyses_agree_on_small_packings(void **state) {
 }
 
 /* The same with quenched random shifts of every pair: networks without geometry in space. */
-static void all_analyses_agree_on_mari_kurchan_networks(void **state) {
+CASE(all_analyses_agree_on_mari_kurchan_networks) {
   jam_crunch_report report;
   struct network w = open_network(crunched_model(JAM_MODEL_MK, 3, 100, 0.5, 0, &report));
-  (void)state;
   assert_int_equal(report.excess_contacts, 0);
   forces_from_positions(&w);
   floppy_keeps_contacts(&w, 0); /* shifted pairs: no images to go through */
@@ -285,11 +283,10 @@ static void all_analyses_agree_on_mari_kurchan_networks(void **state) {
   close_network(&w);
 }
 
-static void all_analyses_agree_on_a_foreign_packing(void **state) {
+CASE(all_analyses_agree_on_a_foreign_packing) {
   jam_system *s = NULL;
   jam_crunch_report report = {.struct_size = sizeof(jam_crunch_report)};
   struct network w;
-  (void)state;
   if (jam_read(JAM_TEST_SHARED "/ls-n1024-d3.dat", NULL, NULL, NULL, &s) != JAM_OK) {
     printf("shared packing not found: skipped\n");
     skip();
@@ -299,11 +296,4 @@ static void all_analyses_agree_on_a_foreign_packing(void **state) {
   assert_int_equal(w.contacts, 3010);
   forces_from_positions(&w);
   close_network(&w);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(all_analyses_agree_on_small_packings),
-                                     cmocka_unit_test(all_analyses_agree_on_mari_kurchan_networks),
-                                     cmocka_unit_test(all_analyses_agree_on_a_foreign_packing)};
-  return cmocka_run_group_tests_name("network_1ss", tests, NULL, NULL);
 }

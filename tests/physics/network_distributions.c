@@ -13,7 +13,7 @@ enum { ROOM = 200000 };
 static double x[ROOM], y[ROOM];
 static int32_t a[ROOM], b[ROOM];
 
-static int setup(void **state) {
+static int setup(void **its_state) {
   jam_system *s = NULL;
   if (jam_read(JAM_TEST_SHARED "/ls-n1024-d3.dat", NULL, NULL, NULL, &s) !=
       JAM_OK) { /* no such file beside the tree: make one, of half the size */
@@ -22,11 +22,11 @@ static int setup(void **state) {
     o.n = 512;
     if (jam_create(&o, NULL, &s) != JAM_OK || jam_compress(s, NULL, NULL) != JAM_OK) return -1;
   }
-  *state = s;
+  *its_state = s;
   return jam_crunch(s, NULL, NULL) == JAM_OK ? 0 : -1;
 }
-static int teardown(void **state) {
-  jam_destroy(*state);
+static int teardown(void **its_state) {
+  jam_destroy(*its_state);
   return 0;
 }
 /* Maximum likelihood of a in a density ~ x^a on (0, high]: 1 / <ln(high / x)> - 1. */
@@ -40,8 +40,8 @@ static double exponent(const double *v, size_t n, double high, double *error) {
   return (double)m / sum - 1.0;
 }
 
-static void forces(void **state) {
-  jam_system *s = *state;
+CASE(forces) {
+  jam_system *s = *its_state;
   size_t n, k;
   int kind;
   assert_int_equal(jam_forces(s, x, ROOM, &n), JAM_OK);
@@ -60,8 +60,8 @@ static void forces(void **state) {
   }
 }
 
-static void gaps(void **state) {
-  jam_system *s = *state;
+CASE(gaps) {
+  jam_system *s = *its_state;
   size_t n;
   double error, gamma;
   assert_int_equal(jam_gaps(s, 1.0, 1, x, ROOM, NULL, 0, &n), JAM_OK);
@@ -71,12 +71,11 @@ static void gaps(void **state) {
   assert_true(fabs(gamma - 0.41269) < 4.0 * error);
 }
 
-static void frequencies(void **state) {
-  jam_system *s = *state;
-  jam_modes_options o;
+CASE(frequencies) {
+  jam_system *s = *its_state;
   double error, slope;
   size_t n, k;
-  assert_int_equal(jam_modes_options_init(&o, sizeof o), JAM_OK);
+  DEFAULTS(modes, o);
   o.count = 200;
   assert_int_equal(eigenvalues(s, &o, x, NULL, ROOM, &n), JAM_OK);
   for (k = 0; k < n; ++k) x[k] = sqrt(x[k]);
@@ -85,8 +84,8 @@ static void frequencies(void **state) {
   assert_true(fabs(slope) < 4.0 * error);
 }
 
-static void contact_vectors(void **state) {
-  jam_system *s = *state;
+CASE(contact_vectors) {
+  jam_system *s = *its_state;
   size_t n, k;
   int bins[40] = {0}, top = 0;
   double nearest = 1.0;
@@ -113,14 +112,10 @@ static void contact_vectors(void **state) {
   for (k = 0; k < 3 * n; ++k) assert_true(fabs(x[k]) < 1e-10);
 }
 
-static void glass_not_crystal(void **state) {
-  jam_system *s = *state;
+CASE(glass_not_crystal) {
+  jam_system *s = *its_state;
   const double score = crystal_score(s);
   assert_true(score > 0.0 && score < 1.2);
 }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(forces), cmocka_unit_test(gaps), cmocka_unit_test(frequencies),
-                                     cmocka_unit_test(contact_vectors), cmocka_unit_test(glass_not_crystal)};
-  return cmocka_run_group_tests_name("network_distributions", tests, setup, teardown);
-}
+FIXTURE(setup, teardown)

@@ -28,8 +28,7 @@ static void unclear_jump_of(double part) {
   jam_destroy(s);
 }
 
-static void an_unclear_gap_jump_is_ambiguous(void **state) {
-  (void)state;
+CASE(an_unclear_gap_jump_is_ambiguous) {
   unclear_jump_of(0.1);  /* the next jump is nearly as large */
   unclear_jump_of(0.02); /* one jump stands out, but by less than two decades */
 }
@@ -80,7 +79,7 @@ static void fill_hole(double place[3][2], const double *radius, double gap, doub
 
 /* A rattler that nearly touches its neighbours gives a second candidate network, with one contact more than isostatic.
  * The null space shows that the first one is the network, although the second jump is nearly as wide. */
-static void the_null_space_decides_between_two_jumps(void **state) {
+CASE(the_null_space_decides_between_two_jumps) {
   jam_crunch_report report;
   struct network w = open_network(crunched(2, 80, 0.3, 1, &report));
   jam_geometry_report g = {.struct_size = sizeof(jam_geometry_report)};
@@ -91,7 +90,6 @@ static void the_null_space_decides_between_two_jumps(void **state) {
   int32_t who[3] = {0, 0, 0};
   size_t m;
   int k;
-  (void)state;
   assert_int_equal(report.excess_contacts, 0);
   assert_true(touching_three(&w, place, who));
   for (k = 0; k < 3; ++k) radius[k] = 0.5 * w.diameter[who[k]];
@@ -122,14 +120,13 @@ static void the_null_space_decides_between_two_jumps(void **state) {
   close_network(&w);
 }
 
-static void comparison_counts_contacts_and_displacements(void **state) {
+CASE(comparison_counts_contacts_and_displacements) {
   jam_crunch_report report;
   jam_system *a = crunched(3, 60, 0.3, 0, &report), *b = NULL;
   jam_comparison_report c = {.struct_size = sizeof(jam_comparison_report)};
   const double *x;
   double *y, *u;
   size_t m, k;
-  (void)state;
   assert_int_equal(jam_copy(a, &b), JAM_OK);
   assert_int_equal(jam_view(a, JAM_VIEW_POSITIONS, &x, &m), JAM_OK);
   y = malloc(m * sizeof *y), u = malloc(m * sizeof *u);
@@ -143,11 +140,4 @@ static void comparison_counts_contacts_and_displacements(void **state) {
   assert_true(c.displacement_max < 1e-13 && c.packing_fraction_change == 0.0);
   free(y), free(u);
   jam_destroy(a), jam_destroy(b);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(an_unclear_gap_jump_is_ambiguous),
-                                     cmocka_unit_test(the_null_space_decides_between_two_jumps),
-                                     cmocka_unit_test(comparison_counts_contacts_and_displacements)};
-  return cmocka_run_group_tests_name("network_jumps", tests, NULL, NULL);
 }

@@ -20,9 +20,8 @@ static double worst_gap(const jam_system *sys, double delta, double tolerance, i
   const double *x, *s;
   size_t len, i, j;
   double worst = 1e300;
-  jam_info info;
   int c;
-  info.struct_size = sizeof info;
+  SIZED(jam_info, info);
   assert_int_equal(jam_get_info(sys, &info), JAM_OK);
   assert_true(info.non_additivity == delta);
   jam_view(sys, JAM_VIEW_POSITIONS, &x, &len);
@@ -44,28 +43,25 @@ static double worst_gap(const jam_system *sys, double delta, double tolerance, i
 }
 
 static jam_system *mixture(int dim, double delta, int64_t seed) {
-  jam_create_options o;
   jam_system *sys = NULL;
   double diameter[N];
   int i;
   for (i = 0; i < N; ++i) diameter[i] = i < N / 2 ? 1.0 : 1.4;
-  jam_create_options_init(&o, sizeof o);
+  DEFAULTS(create, o);
   o.dim = dim, o.n = N, o.seed = seed, o.box = 2.0, o.packing_fraction = 0.25, o.non_additivity = delta;
   assert_int_equal(create_from(&o, NULL, 0, diameter, N, &sys), JAM_OK);
   return sys;
 }
 
-static void jams_and_certifies(void **state) {
+CASE(jams_and_certifies) {
   const double deltas[] = {-0.1, 0.1};
   int dim, k, unlike;
-  (void)state;
   for (dim = 2; dim <= 3; ++dim)
     for (k = 0; k < 2; ++k) {
       jam_system *sys = mixture(dim, deltas[k], 3 + k);
-      jam_crunch_report r;
       double start = worst_gap(sys, deltas[k], 0.0, &unlike), end;
       assert_true(start >= 0.0);
-      r.struct_size = sizeof r;
+      SIZED(jam_crunch_report, r);
       assert_int_equal(jam_crunch(sys, NULL, &r), JAM_OK);
       end = worst_gap(sys, deltas[k], 1e-9, &unlike);
       print_message("d %d Delta %g: phi %.6f, %d contacts (%d unlike), excess %d, residual %g, worst gap %g\n", dim,
@@ -81,14 +77,12 @@ static void jams_and_certifies(void **state) {
 }
 
 /* The same positions jam at another density when Delta changes: it is not lost on the way. */
-static void delta_changes_the_packing(void **state) {
+CASE(delta_changes_the_packing) {
   double phi[3];
   int k;
-  (void)state;
   for (k = 0; k < 3; ++k) {
     jam_system *sys = mixture(2, 0.1 * (k - 1), 5);
-    jam_crunch_report r;
-    r.struct_size = sizeof r;
+    SIZED(jam_crunch_report, r);
     assert_true(jam_crunch(sys, NULL, &r) >= 0);
     phi[k] = r.packing_fraction;
     jam_destroy(sys);
@@ -97,13 +91,11 @@ static void delta_changes_the_packing(void **state) {
 }
 
 /* Files, checkpoints and copies keep Delta; plain text refuses it. */
-static void is_kept(void **state) {
+CASE(is_kept) {
   char folder[] = "/tmp/jam-delta-XXXXXX", xyz[64], plain[64], saved[64];
   jam_system *sys = mixture(2, -0.1, 7), *copy, *read, *restored;
-  jam_create_options o;
   int unlike;
   double gap = worst_gap(sys, -0.1, 0.0, &unlike);
-  (void)state;
   assert_non_null(mkdtemp(folder));
   sprintf(xyz, "%s/a.xyz", folder), sprintf(plain, "%s/a.dat", folder), sprintf(saved, "%s/a.jam", folder);
   assert_int_equal(jam_write(sys, plain, JAM_FORMAT_AUTO), JAM_E_UNSUPPORTED);
@@ -112,7 +104,7 @@ static void is_kept(void **state) {
   assert_int_equal(jam_write(sys, xyz, JAM_FORMAT_AUTO), JAM_OK);
   assert_int_equal(jam_write_checkpoint(sys, saved), JAM_OK);
   assert_int_equal(jam_copy(sys, &copy), JAM_OK);
-  jam_create_options_init(&o, sizeof o);
+  DEFAULTS(create, o);
   o.non_additivity = 0.5; /* contradicts the file */
   assert_int_equal(jam_read(xyz, &o, NULL, NULL, &read), JAM_E_ARGUMENT);
   o.non_additivity = 0.0;
@@ -125,14 +117,12 @@ static void is_kept(void **state) {
   unlink(xyz), unlink(saved), rmdir(folder);
 }
 
-static void bad_values_are_refused(void **state) {
+CASE(bad_values_are_refused) {
   const double bad[] = {-1.0, -3.0, 1.5, NAN, INFINITY};
   const double x[4] = {0.2, 0.5, 0.62, 0.5}, s[2] = {0.4, 0.3};
-  jam_create_options o;
   jam_system *sys = NULL;
   size_t k;
-  (void)state;
-  jam_create_options_init(&o, sizeof o);
+  DEFAULTS(create, o);
   o.dim = 2;
   for (k = 0; k < sizeof bad / sizeof *bad; ++k) {
     o.non_additivity = bad[k];
@@ -149,10 +139,4 @@ static void bad_values_are_refused(void **state) {
   assert_int_equal(create_from(&o, x, 4, s, 2, &sys), JAM_OK);
   assert_true(fabs(worst_gap(sys, 0.25, 0.0, (int[1]){0})) < 1e-14);
   jam_destroy(sys);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(jams_and_certifies), cmocka_unit_test(delta_changes_the_packing),
-                                     cmocka_unit_test(is_kept), cmocka_unit_test(bad_values_are_refused)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

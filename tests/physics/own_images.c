@@ -62,9 +62,8 @@ static void check_contacts(jam_system *sys, int dim, int contacts) {
     }
 }
 
-static void one_sphere_ends_at_a_lattice(void **state) {
+CASE(one_sphere_ends_at_a_lattice) {
   int found[kinds] = {0};
-  (void)state;
   for (int32_t d = 2; d <= 4; ++d)
     for (uint64_t seed = 1; seed <= 6; ++seed) {
       jam_system *sys = alone(d, seed);
@@ -90,14 +89,13 @@ static void one_sphere_ends_at_a_lattice(void **state) {
 }
 
 /* Modes, stresses and moduli of one sphere: only strains cost energy. */
-static void analysis_of_one_sphere(void **state) {
+CASE(analysis_of_one_sphere) {
   jam_system *sys = alone(3, 1);
   jam_modes_options o;
   jam_moduli_report moduli = {.struct_size = sizeof moduli};
   double l[3], cell[9], table[36], s, force[6], residual;
   const double *sigma;
   size_t m;
-  (void)state;
   crunch_with_strain(sys, JAM_STRAIN_FREE, JAM_OK);
   assert_int_equal(jam_modes_options_init(&o, sizeof o), JAM_OK);
   o.which = JAM_MODES_ALL;
@@ -121,11 +119,10 @@ static void analysis_of_one_sphere(void **state) {
 }
 
 /* A strain of the edges alone leaves a brick: not strictly jammed, and the flex is a strain. A cube is at rest then. */
-static void one_sphere_in_a_brick(void **state) {
+CASE(one_sphere_in_a_brick) {
   const double cell[9] = {1.0, 0.0, 0.0, 0.0, 1.2, 0.0, 0.0, 0.0, 0.9}, x[3] = {0.5, 0.5, 0.5};
   jam_system *sys = in_cell(3, 1, cell, x, 0.5);
   double move[3], strain[9], size = 0.0;
-  (void)state;
   const jam_crunch_report r = crunch_with_strain(sys, JAM_STRAIN_EDGES, JAM_OK);
   assert_true(fabs(r.packing_fraction - M_PI / 6.0) < 1e-12);
   assert_true(r.jammed == 1 && r.contacts == 3 && r.strictly_jammed == JAM_VERDICT_NO);
@@ -138,12 +135,11 @@ static void one_sphere_in_a_brick(void **state) {
 
 /* Two disks in a narrow brick touch their own images first. In the fixed cell these are no contacts; in a free one the
  * two end at the hexagonal lattice, which counts all six neighbours of each. */
-static void two_disks_in_a_narrow_cell(void **state) {
+CASE(two_disks_in_a_narrow_cell) {
   const double cell[4] = {1.0, 0.0, 0.0, 4.0}, x[4] = {0.1, 0.3, 0.45, 2.2};
   jam_system *fixed = in_cell(2, 2, cell, x, 0.5), *sys = NULL;
   int32_t pair[12], own = 0;
   size_t m;
-  (void)state;
   assert_int_equal(jam_copy(fixed, &sys), JAM_OK);
   jam_crunch_report r = crunch_with_strain(fixed, JAM_STRAIN_NONE, JAM_NOT_JAMMED);
   assert_true(r.contacts == 0 && r.rattlers == 2 && r.jammed == 0);
@@ -160,10 +156,9 @@ static void two_disks_in_a_narrow_cell(void **state) {
 
 /* Two spheres of d = 5 that reach a cubic lattice of own images in the fixed cube: narrow programs strain it alone, and
  * their bound must not shrink with the displacements, which are 0. */
-static void strains_alone_are_steps(void **state) {
+CASE(strains_alone_are_steps) {
   jam_create_options o;
   jam_system *sys = NULL;
-  (void)state;
   assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
   o.dim = 5, o.n = 2, o.seed = 49, o.packing_fraction = 0.02;
   assert_int_equal(jam_create(&o, NULL, &sys), JAM_OK);
@@ -171,19 +166,9 @@ static void strains_alone_are_steps(void **state) {
   jam_destroy(sys);
 }
 
-static void one_sphere_in_a_fixed_cell_is_refused(void **state) {
+CASE(one_sphere_in_a_fixed_cell_is_refused) {
   jam_system *sys = alone(3, 1);
-  (void)state;
   crunch_with_strain(sys, JAM_STRAIN_NONE, JAM_E_TOO_FEW);
   assert_true(strstr(jam_last_error(), "free cell") != NULL);
   jam_destroy(sys);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(one_sphere_ends_at_a_lattice), cmocka_unit_test(analysis_of_one_sphere),
-      cmocka_unit_test(one_sphere_in_a_brick),        cmocka_unit_test(two_disks_in_a_narrow_cell),
-      cmocka_unit_test(strains_alone_are_steps),      cmocka_unit_test(one_sphere_in_a_fixed_cell_is_refused),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

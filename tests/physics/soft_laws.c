@@ -15,8 +15,7 @@ static double *column(const jam_system *sys, size_t which, size_t *n) {
 }
 
 /* Below the last change of contacts U ~ (ln R - ln R_J)^alpha exactly, and the pressure goes with alpha - 1. */
-static void energy_and_pressure(void **state) {
-  (void)state;
+CASE(energy_and_pressure) {
   const double alphas[] = {2.0, 2.5};
   for (int a = 0; a < 2; ++a) {
     jam_system *sys = soft_start(64, 0.72, 2);
@@ -42,8 +41,7 @@ static void energy_and_pressure(void **state) {
 }
 
 /* The network from above is crunch's from below; so is phi_J, and far down the forces. */
-static void both_ways_to_jamming(void **state) {
-  (void)state;
+CASE(both_ways_to_jamming) {
   for (int64_t seed = 1; seed <= 3; ++seed) {
     jam_system *sys = soft_start(64, 0.70, seed);
     jam_decompress_options o;
@@ -60,8 +58,7 @@ static void both_ways_to_jamming(void **state) {
 
 /* A ladder of calls: each starts at a minimum, which takes hardly any evaluations and so sets no scale for later steps.
  */
-static void call_after_call(void **state) {
-  (void)state;
+CASE(call_after_call) {
   const double alphas[] = {2.0, 2.5, 1.5};
   for (int a = 0; a < 3; ++a) {
     jam_system *sys = soft_start(64, 0.72, 1);
@@ -76,10 +73,4 @@ static void call_after_call(void **state) {
     }
     jam_destroy(sys);
   }
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(energy_and_pressure), cmocka_unit_test(both_ways_to_jamming),
-                                     cmocka_unit_test(call_after_call)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

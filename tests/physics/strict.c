@@ -52,8 +52,7 @@ static double shear_stress(jam_system *sys, int dim) {
 }
 
 /* Torquato and Jiao, Phys. Rev. E 82, 061302 (2010); counts: Donev et al., J. Comput. Phys. 197, 139 (2004). */
-static void disordered(void **state) {
-  (void)state;
+CASE(disordered) {
   const struct {
     int32_t dim;
     int64_t n, seeds;
@@ -85,8 +84,7 @@ static void disordered(void **state) {
 
 /* The densest packings of two and four spheres a cell are face-centred cubic. Two in a cube stop at the body-centred
  * one, which is jammed at fixed cell and a saddle of the free one. */
-static void small_crystals(void **state) {
-  (void)state;
+CASE(small_crystals) {
   const double fcc = M_PI / sqrt(18.0), bcc = M_PI * sqrt(3.0) / 8.0;
   for (int64_t n = 2; n <= 4; n += 2)
     for (int64_t seed = 1; seed <= 3; ++seed) {
@@ -102,8 +100,7 @@ static void small_crystals(void **state) {
 }
 
 /* Edges alone keep the cell a brick: its diagonal stress is even, the rest is not; the strict test still says no. */
-static void parts_of_the_strain(void **state) {
-  (void)state;
+CASE(parts_of_the_strain) {
   double cell[4];
   jam_system *sys = start(2, 64, 1, 1, 0.5), *tilted = NULL;
   assert_int_equal(jam_copy(sys, &tilted), JAM_OK);
@@ -121,13 +118,4 @@ static void parts_of_the_strain(void **state) {
   crunch_with_strain(sys, -1, JAM_E_ARGUMENT);
   jam_destroy(sys);
   jam_destroy(tilted);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(disordered),
-      cmocka_unit_test(small_crystals),
-      cmocka_unit_test(parts_of_the_strain),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

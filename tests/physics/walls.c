@@ -15,12 +15,11 @@ static void run(jam_system *sys, double collisions, jam_md_report *report) {
 
 /* Alone, each component of the velocity is kept but for its sign: wall x takes 2 v_x every 2 (L - sigma) / v_x, so that
  * beta P V = d v_x^2 / v^2 L / (L - sigma). */
-static void one_sphere_has_its_exact_pressure(void **state) {
+CASE(one_sphere_has_its_exact_pressure) {
   const walled box = {"box", 3, JAM_CONTAINER_BRICK, 7, {1.0, 2.0, 1.5}};
   const double v[] = {0.7, -1.9, 1.1}, x[] = {0.4, 1.1, 0.8}, sigma = 0.3;
   jam_md_report report;
   jam_system *sys = NULL;
-  (void)state;
   assert_int_equal(create_walled(&box, 1, 0.01, 1, NULL, &sys), JAM_OK);
   const double *diameter, v2 = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
   size_t len;
@@ -44,8 +43,7 @@ static void one_sphere_has_its_exact_pressure(void **state) {
 
 /* Between two walls its motion along them is a drift, as that of all spheres together is. So z has all of the heat, and
  * beta P V / N = L / (L - sigma), whatever velocities the seed has drawn. */
-static void one_sphere_between_two_walls(void **state) {
-  (void)state;
+CASE(one_sphere_between_two_walls) {
   for (int seed = 1; seed <= 5; ++seed) {
     jam_system *sys = NULL;
     jam_md_report report;
@@ -61,8 +59,7 @@ static void one_sphere_between_two_walls(void **state) {
   }
 }
 
-static void energy_is_kept_and_walls_agree_with_the_virial(void **state) {
-  (void)state;
+CASE(energy_is_kept_and_walls_agree_with_the_virial) {
   for (int k = 0; k < WALLED; ++k) {
     const walled *s = &walled_scenes[k];
     jam_system *sys = NULL;
@@ -93,7 +90,7 @@ static double carnahan_starling(double phi) { return (1.0 + phi + phi * phi - ph
 
 /* In a wide slit the density at contact is beta P of the wall (contact theorem), and P is that of the bulk in the
  * middle. Density at contact: counts in layers, extrapolated by a line. */
-static void contact_theorem_and_bulk_pressure(void **state) {
+CASE(contact_theorem_and_bulk_pressure) {
   const walled slit = {"wide slit", 3, JAM_CONTAINER_BRICK, 4, {1.0, 1.0, 2.4}};
   enum { N = 400, SAMPLES = 1500 };
   jam_system *sys = NULL;
@@ -101,7 +98,6 @@ static void contact_theorem_and_bulk_pressure(void **state) {
   const double *x, *sigma;
   size_t len;
   double wall = 0.0, middle = 0.0, near[2] = {0.0, 0.0};
-  (void)state;
   assert_int_equal(create_walled(&slit, N, 0.25, 3, NULL, &sys), JAM_OK);
   jam_view(sys, JAM_VIEW_POSITIONS, &x, &len);
   jam_view(sys, JAM_VIEW_DIAMETERS, &sigma, &len);
@@ -129,8 +125,7 @@ static void contact_theorem_and_bulk_pressure(void **state) {
   jam_destroy(sys);
 }
 
-static void growth_ends_without_overlap(void **state) {
-  (void)state;
+CASE(growth_ends_without_overlap) {
   for (int k = 0; k < WALLED; ++k)
     for (int fine = 0; fine < 2; ++fine) {
       const walled *s = &walled_scenes[k];
@@ -158,9 +153,8 @@ static void growth_ends_without_overlap(void **state) {
 }
 
 /* Monte Carlo has its own geometry: its pressure is that of molecular dynamics. */
-static void monte_carlo_agrees(void **state) {
+CASE(monte_carlo_agrees) {
   const int scenes[] = {SLIT, CAN, CIRCLE};
-  (void)state;
   for (int k = 0; k < 3; ++k) {
     const walled *s = &walled_scenes[scenes[k]];
     jam_system *sys = NULL;
@@ -181,10 +175,9 @@ static void monte_carlo_agrees(void **state) {
   }
 }
 
-static void flat_walls_hold_in_four_and_five_dimensions(void **state) {
+CASE(flat_walls_hold_in_four_and_five_dimensions) {
   const walled s[] = {{"slit of d = 4", 4, JAM_CONTAINER_BRICK, 8, {1, 1, 1, 1}},
                       {"box of d = 5", 5, JAM_CONTAINER_BRICK, 31, {1, 1, 1, 1, 1}}};
-  (void)state;
   for (int k = 0; k < 2; ++k) {
     jam_system *sys = NULL;
     jam_md_report report;
@@ -196,17 +189,4 @@ static void flat_walls_hold_in_four_and_five_dimensions(void **state) {
     }
     jam_destroy(sys);
   }
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(one_sphere_has_its_exact_pressure),
-      cmocka_unit_test(one_sphere_between_two_walls),
-      cmocka_unit_test(energy_is_kept_and_walls_agree_with_the_virial),
-      cmocka_unit_test(contact_theorem_and_bulk_pressure),
-      cmocka_unit_test(growth_ends_without_overlap),
-      cmocka_unit_test(monte_carlo_agrees),
-      cmocka_unit_test(flat_walls_hold_in_four_and_five_dimensions),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

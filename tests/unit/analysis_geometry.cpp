@@ -33,7 +33,7 @@ Look look(const Packing &p, double tolerance = 0.0) {
   return out;
 }
 
-void fcc(void **) {
+CASE(fcc) {
   const Packing p = fcc_cube(3);
   const Look r = look(p);
   assert_int_equal(r.status, JAM_AMBIGUOUS);  // hyperstatic: more than one state of self-stress
@@ -64,7 +64,7 @@ void fcc(void **) {
   assert_int_equal(s.basis.size(), static_cast<size_t>(s.dimension) * m);
 }
 
-void square_lattice(void **) {
+CASE(square_lattice) {
   Packing p;
   p.set_cube(2, 5.0);
   for (int i = 0; i < 25; ++i) p.position.insert(p.position.end(), {i % 5 + 0.0, i / 5 + 0.0});
@@ -76,14 +76,14 @@ void square_lattice(void **) {
   for (double f : r.network.force) assert_true(std::fabs(f - 1.0) < 1e-12);
 }
 
-void one_cell_with_many_images(void **) {
+CASE(one_cell_with_many_images) {
   const Look r = look(fcc_cube(1));  // four spheres, each pair touching through four images
   assert_int_equal(r.report.contacts, 24);
   assert_int_equal(r.status, JAM_AMBIGUOUS);
   for (double f : r.network.force) assert_true(std::fabs(f - 1.0) < 1e-12);
 }
 
-void own_image(void **) {
+CASE(own_image) {
   Packing p;
   p.set_cube(3, 1.0);
   p.position = {0.1, 0.2, 0.3};
@@ -94,7 +94,7 @@ void own_image(void **) {
   assert_int_equal(r.report.contacts, 0);
 }
 
-void fluid_is_not_jammed(void **) {
+CASE(fluid_is_not_jammed) {
   jam_create_options o = default_create_options();
   o.n = 200;
   const Look r = look(make_packing(o, nullptr, 0, nullptr, 0));
@@ -103,7 +103,7 @@ void fluid_is_not_jammed(void **) {
   for (int32_t z : r.network.coordination) assert_int_equal(z, 0);
 }
 
-void sheets_and_rows_flex(void **) {
+CASE(sheets_and_rows_flex) {
   // A square layer in d = 3 and a row in d = 2 carry force across the box, but nothing holds them sideways.
   Packing p;
   p.set_cube(3, 5.0);
@@ -125,7 +125,7 @@ void sheets_and_rows_flex(void **) {
   assert_int_equal(row.verdict.result.undercoordinated, 5);
 }
 
-void separate_clusters_have_separate_stresses(void **) {
+CASE(separate_clusters_have_separate_stresses) {
   // Two strips of three triangular rows: only the horizontal lines can carry repulsive forces.
   Packing p;
   p.set_cube(2, 6.0);
@@ -147,7 +147,7 @@ void separate_clusters_have_separate_stresses(void **) {
   }
 }
 
-void without_a_clear_jump_the_answer_is_ambiguous(void **) {
+CASE(without_a_clear_jump_the_answer_is_ambiguous) {
   // A crystal whose spheres are shaken by 1e-3: its gaps have no decade without a pair.
   Packing p = fcc_cube(3);
   Rng rng(1, Stream::analysis_start);
@@ -163,7 +163,7 @@ void without_a_clear_jump_the_answer_is_ambiguous(void **) {
   }
 }
 
-void networks_without_repulsive_balance_are_not_jammed(void **) {
+CASE(networks_without_repulsive_balance_are_not_jammed) {
   // Four disks with six bars, sides and diagonals: the self-stress of one such square pulls where it does not push. Two
   // of them have two states, and no combination repels everywhere.
   Case c;
@@ -184,7 +184,7 @@ void networks_without_repulsive_balance_are_not_jammed(void **) {
   assert_true(test_rigidity(g, Jamming::collective).stressed == Verdict::no);
 }
 
-void cancelling_anywhere_leaves_no_network(void **) {
+CASE(cancelling_anywhere_leaves_no_network) {
   // A cancel that comes late: each of the long parts asks by itself.
   const Case c = lattice(triangular_basis(), triangular_bonds(), 4);
   const RigidityMatrix g = make_rigidity_matrix(c.packing, c.network);
@@ -209,7 +209,7 @@ void cancelling_anywhere_leaves_no_network(void **) {
   assert_int_equal(stopped, 4);
 }
 
-void spheres_held_from_one_side_carry_no_force(void **) {
+CASE(spheres_held_from_one_side_carry_no_force) {
   // A sphere held by three contacts on one side only: S^T f = 0 has solutions on the rest alone.
   Case c = lattice(triangular_basis(), triangular_bonds(), 4);
   c.packing.diameter.push_back(1.0);
@@ -222,18 +222,3 @@ void spheres_held_from_one_side_carry_no_force(void **) {
 }
 
 }  // namespace
-
-int main() {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(fcc),
-                                     cmocka_unit_test(square_lattice),
-                                     cmocka_unit_test(one_cell_with_many_images),
-                                     cmocka_unit_test(own_image),
-                                     cmocka_unit_test(fluid_is_not_jammed),
-                                     cmocka_unit_test(sheets_and_rows_flex),
-                                     cmocka_unit_test(separate_clusters_have_separate_stresses),
-                                     cmocka_unit_test(without_a_clear_jump_the_answer_is_ambiguous),
-                                     cmocka_unit_test(networks_without_repulsive_balance_are_not_jammed),
-                                     cmocka_unit_test(cancelling_anywhere_leaves_no_network),
-                                     cmocka_unit_test(spheres_held_from_one_side_carry_no_force)};
-  return cmocka_run_group_tests_name("analysis_geometry", tests, nullptr, nullptr);
-}

@@ -62,7 +62,7 @@ double mode_error(const Solved &s) {
   return w;
 }
 
-void triangular_lattice_has_the_bloch_spectrum(void **) {
+CASE(triangular_lattice_has_the_bloch_spectrum) {
   const Solved s = solve(lattice(triangular_basis(), triangular_bonds(), 8), JAM_MODES_ALL, 1);
   assert_int_equal(s.status, JAM_OK);
   assert_true(worst(s.modes.lambda, bloch_spectrum(triangular_basis(), triangular_bonds(), 8)) < 1e-10);
@@ -72,14 +72,14 @@ void triangular_lattice_has_the_bloch_spectrum(void **) {
   assert_true(std::fabs(trace - 2.0 * 192) < 1e-9);  // every contact adds |n|^2 to each of its two spheres
 }
 
-void more_than_one_panel(void **) {
+CASE(more_than_one_panel) {
   // 648 rows: several panels of the reduction, two of the back transformation.
   const Solved s = solve(lattice(triangular_basis(), triangular_bonds(), 18), JAM_MODES_ALL, 1);
   assert_true(worst(s.modes.lambda, bloch_spectrum(triangular_basis(), triangular_bonds(), 18)) < 1e-10);
   assert_true(mode_error(s) < 1e-10);
 }
 
-void fcc_has_the_bloch_spectrum(void **) {
+CASE(fcc_has_the_bloch_spectrum) {
   const Solved s = solve(lattice(fcc_basis(), fcc_bonds(), 4), JAM_MODES_ALL, 1);
   assert_true(worst(s.modes.lambda, bloch_spectrum(fcc_basis(), fcc_bonds(), 4)) < 1e-10);
   int zeros = 0;
@@ -87,12 +87,12 @@ void fcc_has_the_bloch_spectrum(void **) {
   assert_int_equal(zeros, 3);
 }
 
-void prestressed_fcc_has_the_bloch_spectrum(void **) {
+CASE(prestressed_fcc_has_the_bloch_spectrum) {
   const Solved s = solve(lattice(fcc_basis(), fcc_bonds(), 4), JAM_MODES_ALL, 1, 0.0, 0.03);
   assert_true(worst(s.modes.lambda, bloch_spectrum(fcc_basis(), fcc_bonds(), 4, 0.03)) < 1e-10);
 }
 
-void unstable_modes_come_first(void **) {
+CASE(unstable_modes_come_first) {
   // Enough pre-stress makes the crystal buckle: negative eigenvalues, found by a shift that is large enough.
   const double t = 0.3;
   const Solved s = solve(lattice(fcc_basis(), fcc_bonds(), 6), JAM_MODES_LOWEST, 12, 0.0, t);
@@ -103,7 +103,7 @@ void unstable_modes_come_first(void **) {
   assert_true(worst(s.modes.lambda, {all.begin(), all.begin() + 12}) < 1e-9);
 }
 
-void hard_sphere_weights(void **) {
+CASE(hard_sphere_weights) {
   // k = f^2: with all forces twice as large in one direction of bonds the Bloch matrix has that bond four times.
   Case c = lattice(triangular_basis(), triangular_bonds(), 6);
   for (size_t k = 0; k < c.network.size(); ++k) c.network.force[k] = k % 3 == 0 ? 2.0 : 1.0;  // bonds are laid in turn
@@ -120,7 +120,7 @@ void hard_sphere_weights(void **) {
   assert_true(worst(modes.lambda, bloch_spectrum(triangular_basis(), bonds, 6)) < 1e-10);
 }
 
-void square_has_floppy_lines(void **) {
+CASE(square_has_floppy_lines) {
   // The square lattice shears row by row: every row and every column slides at no cost, 2 L zero modes.
   const Solved s = solve(lattice(square_basis(), square_bonds(), 7), JAM_MODES_ALL, 1);
   int zeros = 0;
@@ -155,8 +155,9 @@ void few_of(const Vectors &basis, const std::vector<std::vector<int>> &bonds, in
   std::sort(found.begin(), found.end());
   assert_true(worst(found, all) < 1e-10);
 }
-void few_modes_of_the_triangular_lattice(void **) { few_of(triangular_basis(), triangular_bonds(), 16, 20); }
-void few_modes_of_fcc(void **) { few_of(fcc_basis(), fcc_bonds(), 6, 15); }
+
+CASE(few_modes_of_the_triangular_lattice) { few_of(triangular_basis(), triangular_bonds(), 16, 20); }
+CASE(few_modes_of_fcc) { few_of(fcc_basis(), fcc_bonds(), 6, 15); }
 
 // Energy whose Hessian is meant: every contact has its own rest length, so that its overlap is e f^(1/(alpha-1)).
 double energy(const Case &c, const std::vector<double> &x, const std::vector<double> &rest, double alpha, double e) {
@@ -171,7 +172,7 @@ double energy(const Case &c, const std::vector<double> &x, const std::vector<dou
   return sum;
 }
 
-void finite_differences(void **) {
+CASE(finite_differences) {
   Case c = lattice(fcc_basis(), fcc_bonds(), 2);
   Rng rng(7, Stream::analysis_start);
   for (double &x : c.packing.position) x += 0.05 * rng.normal();
@@ -202,7 +203,7 @@ void finite_differences(void **) {
   }
 }
 
-void curvature_is_quadratic_form(void **) {
+CASE(curvature_is_quadratic_form) {
   Case c = lattice(triangular_basis(), triangular_bonds(), 6);
   Rng rng(3, Stream::analysis_start);
   for (double &x : c.packing.position) x += 0.05 * rng.normal();
@@ -218,7 +219,7 @@ void curvature_is_quadratic_form(void **) {
   assert_true(std::fabs(dot - curvature(g, w, u.data())) < 1e-12 * std::fabs(dot) * 10);
 }
 
-void spectra_of_both_products(void **) {
+CASE(spectra_of_both_products) {
   // S S^T and S^T S have the same eigenvalues but for zeros.
   Case c = lattice(triangular_basis(), triangular_bonds(), 4);
   Rng rng(5, Stream::analysis_start);
@@ -251,7 +252,7 @@ void spectra_of_both_products(void **) {
   }
 }
 
-void two_images_and_self_contact(void **) {
+CASE(two_images_and_self_contact) {
   // Two spheres in a box of side 2 on a line of contacts through both images, and one touching its own image.
   Case c;
   c.packing.set_cube(2, 2.0);
@@ -265,7 +266,7 @@ void two_images_and_self_contact(void **) {
               1e-14);  // both springs act on the relative coordinate: 2 k / (m/2)
 }
 
-void bad_options_are_refused(void **) {
+CASE(bad_options_are_refused) {
   const Case c = lattice(triangular_basis(), triangular_bonds(), 4);
   jam_modes_options o = default_modes_options();
   o.which = JAM_MODES_ALL;
@@ -281,7 +282,7 @@ void bad_options_are_refused(void **) {
 }
 
 int32_t stop_at_once(const jam_progress *, void *) { return 1; }
-void modes_can_be_cancelled(void **) {
+CASE(modes_can_be_cancelled) {
   const Case c = lattice(triangular_basis(), triangular_bonds(), 16);
   const RigidityMatrix g = make_rigidity_matrix(c.packing, c.network);
   for (int32_t which : {JAM_MODES_LOWEST, JAM_MODES_ALL}) {
@@ -298,22 +299,3 @@ void modes_can_be_cancelled(void **) {
 }
 
 }  // namespace
-
-int main() {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(triangular_lattice_has_the_bloch_spectrum),
-                                     cmocka_unit_test(more_than_one_panel),
-                                     cmocka_unit_test(fcc_has_the_bloch_spectrum),
-                                     cmocka_unit_test(prestressed_fcc_has_the_bloch_spectrum),
-                                     cmocka_unit_test(square_has_floppy_lines),
-                                     cmocka_unit_test(unstable_modes_come_first),
-                                     cmocka_unit_test(hard_sphere_weights),
-                                     cmocka_unit_test(few_modes_of_the_triangular_lattice),
-                                     cmocka_unit_test(few_modes_of_fcc),
-                                     cmocka_unit_test(finite_differences),
-                                     cmocka_unit_test(curvature_is_quadratic_form),
-                                     cmocka_unit_test(spectra_of_both_products),
-                                     cmocka_unit_test(two_images_and_self_contact),
-                                     cmocka_unit_test(bad_options_are_refused),
-                                     cmocka_unit_test(modes_can_be_cancelled)};
-  return cmocka_run_group_tests_name("analysis_modes", tests, nullptr, nullptr);
-}

@@ -14,7 +14,7 @@ using namespace jamtest;
 
 namespace {
 
-void density_of_fcc(void **) {
+CASE(density_of_fcc) {
   const Case c = lattice(fcc_basis(), fcc_bonds(), 10);
   const RigidityMatrix g = make_rigidity_matrix(c.packing, c.network);
   jam_dos_options o = default_dos_options();
@@ -46,7 +46,7 @@ void density_of_fcc(void **) {
   assert_true(worst < 0.06);
 }
 
-void density_with_prestress(void **) {
+CASE(density_with_prestress) {
   // A crystal that its pre-stress makes unstable: negative eigenvalues at negative omega, by Bloch's cumulative
   // spectrum.
   const double t = 0.3;
@@ -77,7 +77,7 @@ void density_with_prestress(void **) {
 
 // Bins that the caller gives lie where it says, whatever the spectrum is: the same values, 0 outside, and a share of
 // the modes below each edge.
-void density_on_given_bins(void **) {
+CASE(density_on_given_bins) {
   const Case c = lattice(fcc_basis(), fcc_bonds(), 6);
   const RigidityMatrix g = make_rigidity_matrix(c.packing, c.network);
   const ContactWeights w = contact_weights(g, 1.0, default_hessian_options());
@@ -133,7 +133,7 @@ double strained(const Case &c, const std::vector<double> &f, double volume) {
   return second / (step * step) / volume;
 }
 
-void prestressed_moduli(void **) {
+CASE(prestressed_moduli) {
   // Every site of a Bravais lattice is a centre of symmetry: no non-affine part, so differences of the energy give all.
   jam_hessian_options h = default_hessian_options();
   h.prestress = 0.05;
@@ -182,7 +182,7 @@ void prestressed_moduli(void **) {
   assert_int_equal(code, JAM_E_STATE);  // unstable
 }
 
-void relaxed_moduli(void **) {
+CASE(relaxed_moduli) {
   // The non-affine part against the sum over all modes: E'' = du.B.du - sum (v.F)^2 / lambda, with and without
   // pre-stress.
   Case c = lattice(fcc_basis(), fcc_bonds(), 3);
@@ -233,7 +233,7 @@ void relaxed_moduli(void **) {
   }
 }
 
-void moduli_of_triangular(void **) {
+CASE(moduli_of_triangular) {
   // Springs k = 1 on a triangular lattice of spacing 1: Lame constants sqrt(3)/4 each, so G = sqrt(3)/4, K = sqrt(3)/2,
   // no non-affine part (every site is a centre of symmetry). The area is not box^2 here: cells^2 sqrt(3)/2.
   const int cells = 8;
@@ -246,7 +246,7 @@ void moduli_of_triangular(void **) {
   assert_true(std::fabs(m.shear_affine - m.shear) < 1e-12 && std::fabs(m.bulk_affine - m.bulk) < 1e-12);
 }
 
-void moduli_of_fcc(void **) {
+CASE(moduli_of_fcc) {
   // Nearest-neighbour springs on FCC, spacing 1: c11 = 2 c12 = 2 c44 = sqrt(2); K = (c11 + 2 c12) / 3.
   const int cells = 4;
   Case c = lattice(fcc_basis(), fcc_bonds(), cells);
@@ -267,11 +267,3 @@ void moduli_of_fcc(void **) {
 }
 
 }  // namespace
-
-int main() {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(density_of_fcc),        cmocka_unit_test(density_with_prestress),
-                                     cmocka_unit_test(density_on_given_bins), cmocka_unit_test(prestressed_moduli),
-                                     cmocka_unit_test(relaxed_moduli),        cmocka_unit_test(moduli_of_triangular),
-                                     cmocka_unit_test(moduli_of_fcc)};
-  return cmocka_run_group_tests_name("analysis_spectrum", tests, nullptr, nullptr);
-}

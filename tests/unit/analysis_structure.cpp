@@ -25,7 +25,7 @@ Packing fluid(int d, int n, double phi) {
   return make_packing(o, nullptr, 0, nullptr, 0);
 }
 
-void fcc_structure(void **) {
+CASE(fcc_structure) {
   const Packing p = fcc_cube(4);
   const ContactNetwork net = contacts_from_geometry(p, default_geometry_options()).network;
   const SphereStructure s = sphere_structure(p, net, false);
@@ -39,7 +39,7 @@ void fcc_structure(void **) {
   assert_int_equal(peak, 256 * 24);
 }
 
-void triangular_bond_order(void **) {
+CASE(triangular_bond_order) {
   Packing p;  // a hexagon around one disk
   p.set_cube(2, 10.0);
   p.diameter.assign(7, 1.0);
@@ -50,7 +50,7 @@ void triangular_bond_order(void **) {
   assert_true(bond_order(p, 4, 1.2)[0] < 1e-7);
 }
 
-void local_fraction_of_fcc(void **) {
+CASE(local_fraction_of_fcc) {
 #ifdef JAM_HAVE_VORO
   double sum = 0.0;
   for (double phi : local_fractions(fcc_cube(3))) assert_true(std::fabs(phi - M_PI / std::sqrt(18.0)) < 1e-9);
@@ -63,7 +63,7 @@ void local_fraction_of_fcc(void **) {
 #endif
 }
 
-void contact_sums_match_their_pairs(void **) {
+CASE(contact_sums_match_their_pairs) {
   // S_i = (|C_i|^2 - z_i) / 2 and, with forces, the same with sum f^2: against the pairs one by one.
   Case c = lattice(triangular_basis(), triangular_bonds(), 5);
   Rng rng(4, Stream::analysis_start);
@@ -87,7 +87,7 @@ void contact_sums_match_their_pairs(void **) {
   }
 }
 
-void gaps_by_brute_force(void **) {
+CASE(gaps_by_brute_force) {
   const Packing p = fluid(3, 150, 0.25);
   const Gaps g = find_gaps(p, nullptr, 1.0, false);
   const PairList all = find_pairs_brute(p, 0.0, 2.0);
@@ -105,7 +105,7 @@ void gaps_by_brute_force(void **) {
   for (double v : y.gap) assert_true(std::fabs(v - (std::sqrt(2.0) - 1.0)) < 1e-12);
 }
 
-void classes(void **) {
+CASE(classes) {
   Case c;  // a buckler (three contacts in d = 2) in the middle of a ring that is held elsewhere
   c.packing.set_cube(2, 1.0);
   c.packing.diameter.assign(4, 1.0);
@@ -122,7 +122,7 @@ void classes(void **) {
   assert_int_equal(f[3], 0);
 }
 
-void values_by_class(void **) {
+CASE(values_by_class) {
   // The same small network: spheres 0, 2 and 3 are bucklers or less, so every number can be counted by hand.
   Case c;
   c.packing.set_cube(2, 1.0);
@@ -151,7 +151,7 @@ void values_by_class(void **) {
   assert_true(std::fabs(get(JAM_LOCAL_VECTOR_SUM, JAM_POPULATION_EXTENDED)[0]) < 1e-12);
 }
 
-void partial_correlations_add_up(void **) {
+CASE(partial_correlations_add_up) {
   const Packing p = fluid(3, 500, 0.2);
   std::vector<int32_t> kind(500);
   for (int i = 0; i < 500; ++i) kind[i] = i < 200;
@@ -167,7 +167,7 @@ void partial_correlations_add_up(void **) {
 }
 
 // Contacts of equal spheres lie at r = 1 but for rounding, which must not divide them where 1 is an edge of bins.
-void contacts_lie_in_one_bin(void **) {
+CASE(contacts_lie_in_one_bin) {
   Packing p;
   p.set_cube(2, 10.0);
   p.diameter.assign(6, 1.0);
@@ -183,7 +183,7 @@ void contacts_lie_in_one_bin(void **) {
 
 // Where the centre of another sphere can be at a distance from one between flat walls: by directions on a spiral, which
 // divide a sphere evenly; and all of the room where no wall is farther.
-void room_between_flat_walls(void **) {
+CASE(room_between_flat_walls) {
   for (const int32_t walls : {1, 4, 3, 7}) {
     jam_create_options o = default_create_options();
     o.n = 12, o.packing_fraction = 0.1, o.walls = walls;
@@ -229,7 +229,7 @@ void room_between_flat_walls(void **) {
   }
 }
 
-void structure_factor_direct(void **) {
+CASE(structure_factor_direct) {
   const Packing p = fluid(2, 60, 0.2);
   const double unit = diameter_mean(p), step = 2.0 * M_PI * unit;
   const StructureFactor f = structure_factor(p, 3.2 * step);
@@ -256,14 +256,3 @@ void structure_factor_direct(void **) {
 }
 
 }  // namespace
-
-int main() {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(fcc_structure),           cmocka_unit_test(triangular_bond_order),
-      cmocka_unit_test(local_fraction_of_fcc),   cmocka_unit_test(contact_sums_match_their_pairs),
-      cmocka_unit_test(gaps_by_brute_force),     cmocka_unit_test(classes),
-      cmocka_unit_test(values_by_class),         cmocka_unit_test(partial_correlations_add_up),
-      cmocka_unit_test(room_between_flat_walls), cmocka_unit_test(structure_factor_direct),
-      cmocka_unit_test(contacts_lie_in_one_bin)};
-  return cmocka_run_group_tests_name("analysis_structure", tests, nullptr, nullptr);
-}

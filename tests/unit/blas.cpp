@@ -145,8 +145,7 @@ constexpr InstructionSet sets[] = {InstructionSet::portable, InstructionSet::avx
 constexpr InstructionSet with_build[] = {InstructionSet::best, InstructionSet::portable, InstructionSet::avx2,
                                          InstructionSet::avx512};
 
-void products_equal_their_sums(void **state) {
-  (void)state;
+CASE(products_equal_their_sums) {
   for (const InstructionSet set : with_build) {
     if (!has_instruction_set(set)) continue;
     for (const int m : some)
@@ -158,8 +157,7 @@ void products_equal_their_sums(void **state) {
   }
 }
 
-void solutions_solve_their_equations(void **state) {
-  (void)state;
+CASE(solutions_solve_their_equations) {
   for (const InstructionSet set : with_build) {
     if (!has_instruction_set(set)) continue;
     for (const int m : some)
@@ -198,8 +196,7 @@ void assert_same_bits(int m, int n, int k) {
   }
 }
 
-void instruction_sets_give_the_same_bits(void **state) {
-  (void)state;
+CASE(instruction_sets_give_the_same_bits) {
   for (const int m : some)
     for (const int n : some) assert_same_bits<double>(m, n, m + n), assert_same_bits<float>(m, n, m + n);
   assert_same_bits<double>(203, 531, 301);
@@ -207,12 +204,3 @@ void instruction_sets_give_the_same_bits(void **state) {
 }
 
 }  // namespace
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(products_equal_their_sums),
-      cmocka_unit_test(solutions_solve_their_equations),
-      cmocka_unit_test(instruction_sets_give_the_same_bits),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}

@@ -111,7 +111,7 @@ int analyse_and_factorise(BlockCholesky &f, const Problem &p, int threads, std::
   return f.factorise(p.diag.data(), p.off.data());
 }
 
-void random_graphs(void **) {
+CASE(random_graphs) {
   for (int dim = 1; dim <= 8; ++dim)
     for (int32_t n : {1, 2, 3, 7, 40, 150, 400})
       for (double degree : {0.0, 1.0, 6.0, 14.0})
@@ -131,7 +131,7 @@ void random_graphs(void **) {
 }
 
 // Floats solve to their own digits and leave nothing behind: doubles after them have the bits of doubles alone.
-void single_precision(void **) {
+CASE(single_precision) {
   for (int dim = 1; dim <= 8; ++dim)
     for (const int threads : {1, 2}) {
       const Problem p = make_problem(dim, dim > 5 ? 40 : 300, 9.0, true, dim);
@@ -152,7 +152,7 @@ void single_precision(void **) {
 
 // A pivot that doubles find and floats lose is raised to 4e-6 of its entry, and counted. With that
 // pivot x[1] is -1 / 4e-6 and x[0] is 1 / 4e-6, up to the roundings of floats.
-void single_precision_loses_pivots(void **) {
+CASE(single_precision_loses_pivots) {
   const std::vector<double> diag = {1.0, 1.0}, off = {1.0 - 1e-9};
   const int32_t i = 0, j = 1;
   BlockCholesky f;
@@ -164,7 +164,7 @@ void single_precision_loses_pivots(void **) {
   assert_true(std::fabs(x[1] * 4e-6 + 1.0) < 1e-5 && std::fabs(x[0] * 4e-6 - 1.0) < 1e-4);
 }
 
-void released_and_used_again(void **) {
+CASE(released_and_used_again) {
   for (const int threads : {1, 2}) {
     const Problem p = make_problem(3, 300, 9.0, true, 1);
     BlockCholesky f;
@@ -181,7 +181,7 @@ void released_and_used_again(void **) {
   }
 }
 
-void dimension_refused(void **) {
+CASE(dimension_refused) {
   const Problem p = make_problem(2, 7, 3.0, false, 1);
   for (const int dim : {0, 9}) {
     BlockCholesky f;
@@ -194,7 +194,7 @@ void dimension_refused(void **) {
   }
 }
 
-void threads_agree(void **) {
+CASE(threads_agree) {
   const Problem p = make_problem(3, 700, 13.0, true, 3);
   BlockCholesky one, two;
   assert_int_equal(analyse_and_factorise(one, p, 1), 0);
@@ -216,7 +216,7 @@ void threads_agree(void **) {
 
 // Where the system has no second thread to give, the parts run one after the other, to the same bits. In a process of
 // its own, which may not have the memory for another stack.
-void no_second_thread(void **) {
+CASE(no_second_thread) {
 #ifdef JAM_SANITIZED
   print_message("not with a sanitizer, which needs that memory itself\n");
   skip();
@@ -262,7 +262,7 @@ void no_second_thread(void **) {
 
 // Large enough that single panels and triangular solves are split: 4e6 numbers in the factor, fronts of 800 rows and
 // more.
-void threads_share_fronts(void **) {
+CASE(threads_share_fronts) {
   const Problem p = make_problem(3, 2500, 25.0, true, 4);
   BlockCholesky one, two;
   assert_int_equal(analyse_and_factorise(one, p, 1), 0);
@@ -292,7 +292,7 @@ void threads_share_fronts(void **) {
 }
 
 // A panel tall enough that threads split every kernel, against Eigen.
-void panels(void **) {
+CASE(panels) {
   const int rows = 5000, columns = 300, below = rows - columns;
   Eigen::MatrixXd a = Eigen::MatrixXd::Random(rows, columns);
   a.topRows(columns) = (a.topRows(columns) + a.topRows(columns).transpose()).eval();
@@ -319,7 +319,7 @@ void panels(void **) {
   }
 }
 
-void singular(void **) {
+CASE(singular) {
   for (int dim = 2; dim <= 5; ++dim) {
     Problem p = make_problem(dim, 60, 16.0, true, 11);
     make_springs(p, 2);
@@ -341,7 +341,7 @@ void singular(void **) {
   }
 }
 
-void indefinite_and_not_finite(void **) {
+CASE(indefinite_and_not_finite) {
   Problem p = make_problem(3, 300, 12.0, true, 8);
   BlockCholesky f;
   assert_int_equal(analyse_and_factorise(f, p, 1), 0);
@@ -367,7 +367,7 @@ void indefinite_and_not_finite(void **) {
   assert_true(solve_error(good, f, 1) < 1e-14);
 }
 
-void order_kept(void **) {
+CASE(order_kept) {
   Problem p = make_problem(3, 300, 12.0, true, 21);
   BlockCholesky f;
   assert_int_equal(analyse_and_factorise(f, p, 1), 0);
@@ -387,7 +387,7 @@ void order_kept(void **) {
 
 // A crunch analyses graphs of the same size again and again: all of them together take hardly more room than one, and
 // that is what was promised beforehand.
-void scratch_memory_is_reused(void **) {
+CASE(scratch_memory_is_reused) {
   for (const int threads : {1, 2, 5, 64}) {
     BlockCholesky f;
     size_t largest = 0, promised = 0;
@@ -407,7 +407,7 @@ void scratch_memory_is_reused(void **) {
 }
 
 // Fronts come before their parents, share all columns, and pass on fewer rows than their parent has.
-void fronts_make_up_the_factor(void **) {
+CASE(fronts_make_up_the_factor) {
   const Problem p = make_problem(3, 500, 12.0, true, 1);
   BlockCholesky f;
   f.analyse(3, p.n, p.ei.data(), p.ej.data(), p.ei.size());
@@ -427,21 +427,3 @@ void fronts_make_up_the_factor(void **) {
 }
 
 }  // namespace
-
-int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(fronts_make_up_the_factor),
-                              cmocka_unit_test(no_second_thread),
-                              cmocka_unit_test(random_graphs),
-                              cmocka_unit_test(single_precision),
-                              cmocka_unit_test(single_precision_loses_pivots),
-                              cmocka_unit_test(released_and_used_again),
-                              cmocka_unit_test(dimension_refused),
-                              cmocka_unit_test(threads_agree),
-                              cmocka_unit_test(threads_share_fronts),
-                              cmocka_unit_test(panels),
-                              cmocka_unit_test(singular),
-                              cmocka_unit_test(indefinite_and_not_finite),
-                              cmocka_unit_test(order_kept),
-                              cmocka_unit_test(scratch_memory_is_reused)};
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}

@@ -21,7 +21,7 @@ using namespace jam::inside;
 namespace {
 
 // A machine with either order, played by an array that lies as it would there, writes the same file.
-void bytes_of_a_file_do_not_depend_on_the_machine(void **) {
+CASE(bytes_of_a_file_do_not_depend_on_the_machine) {
   const unsigned char there[] = {0x3f, 0xf8, 0, 0, 0, 0, 0, 1, 0xc0, 0, 0, 0, 0, 0, 0, 2};  // highest first
   const unsigned char here[] = {1, 0, 0, 0, 0, 0, 0xf8, 0x3f, 2, 0, 0, 0, 0, 0, 0, 0xc0};
   for (size_t k = 0; k < 16; ++k) {
@@ -34,7 +34,7 @@ void bytes_of_a_file_do_not_depend_on_the_machine(void **) {
   assert_int_equal(with_bytes_reversed(number), 0x04030201);
 }
 
-void upper_halves_are_those_of_the_numbers(void **) {
+CASE(upper_halves_are_those_of_the_numbers) {
   uint64_t a[4], b[4];
   uint32_t out[8];
   for (uint64_t k = 0; k < 4; ++k) a[k] = (k + 1) << 32 | 77, b[k] = (k + 5) << 32 | 77;
@@ -43,7 +43,7 @@ void upper_halves_are_those_of_the_numbers(void **) {
 }
 
 // The number that comes first behind those of 8 bytes: the dimension, as the other machine writes it.
-void a_checkpoint_of_the_other_order_is_refused_by_name(void **) {
+CASE(a_checkpoint_of_the_other_order_is_refused_by_name) {
   const char *name = "byte_order.jamstate";
   jam_create_options o = default_create_options();
   o.n = 10;
@@ -73,12 +73,3 @@ void a_checkpoint_of_the_other_order_is_refused_by_name(void **) {
 }
 
 }  // namespace
-
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(bytes_of_a_file_do_not_depend_on_the_machine),
-      cmocka_unit_test(upper_halves_are_those_of_the_numbers),
-      cmocka_unit_test(a_checkpoint_of_the_other_order_is_refused_by_name),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}

@@ -6,7 +6,7 @@ using namespace jam::inside;
 
 namespace {
 
-void three_digits_and_the_unit_that_fits(void **) {
+CASE(three_digits_and_the_unit_that_fits) {
   const struct {
     double bytes;
     const char *text;
@@ -17,8 +17,3 @@ void three_digits_and_the_unit_that_fits(void **) {
 }
 
 }  // namespace
-
-int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(three_digits_and_the_unit_that_fits)};
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}

@@ -72,7 +72,7 @@ void assert_close(const std::vector<double> &a, const std::vector<double> &b) {
   for (size_t k = 0; k < a.size(); ++k) assert_true(std::fabs(a[k] - b[k]) < 1e-12);
 }
 
-void images_of_a_vector(void **) {
+CASE(images_of_a_vector) {
   Rng rng(3, Stream::rsa_positions);
   for (int dim = 2; dim <= 4; ++dim)
     for (uint64_t seed = 1; seed <= 5; ++seed) {
@@ -91,7 +91,7 @@ void images_of_a_vector(void **) {
     }
 }
 
-void wrapping(void **) {
+CASE(wrapping) {
   Rng rng(5, Stream::rsa_positions);
   for (int dim = 2; dim <= JAM_MAX_DIM; ++dim) {
     const Cell cell = tilted(dim, 7);
@@ -111,7 +111,7 @@ void wrapping(void **) {
   }
 }
 
-void sizes(void **) {
+CASE(sizes) {
   const double rows[9] = {1, 0, 0, 0.5, std::sqrt(0.75), 0, 0.5, std::sqrt(1.0 / 12.0), std::sqrt(2.0 / 3.0)};
   const Cell fcc = Cell::from_triangle(3, rows);
   assert_false(fcc.cube());
@@ -126,7 +126,7 @@ void sizes(void **) {
 }
 
 // The same lattice by other vectors, one of them with tilt 5: the same pairs at the same distances.
-void pairs_do_not_depend_on_the_basis(void **) {
+CASE(pairs_do_not_depend_on_the_basis) {
   for (const int dim : {2, 3}) {
     Packing p;
     p.dim = dim, p.cell = tilted(dim, 11);
@@ -175,7 +175,7 @@ void pairs_do_not_depend_on_the_basis(void **) {
 }
 
 // Random sequential addition leaves no overlap, also through a corner of a flat cell.
-void random_start_in_a_tilted_cell(void **) {
+CASE(random_start_in_a_tilted_cell) {
   for (const int n : {1, 4, 40, 300}) {
     Packing p;
     const double rows[4] = {1.0, 0.0, 0.45, 0.5};
@@ -193,7 +193,7 @@ void random_start_in_a_tilted_cell(void **) {
 
 // Rows mixed by whole multiples of each other are another basis of the same lattice, in every dimension. Reduction
 // gives the rows T times those given, turned by Q; the volume and the shortest vector are those of the lattice.
-void reduction_of_long_vectors(void **) {
+CASE(reduction_of_long_vectors) {
   for (int d = 2; d <= JAM_MAX_DIM; ++d)
     for (uint64_t seed = 1; seed <= 4; ++seed) {
       const Cell cell = tilted(d, seed);
@@ -230,7 +230,7 @@ void reduction_of_long_vectors(void **) {
 }
 
 // Faces just above the limit are taken, just below it they are refused.
-void flat_cells(void **) {
+CASE(flat_cells) {
   for (int d = 2; d <= JAM_MAX_DIM; ++d)
     for (const double part : {1.001, 0.999}) {
       const double height = part * limits::cell_height_min;  // over V^(1/d): the other edges have the rest
@@ -246,7 +246,7 @@ void flat_cells(void **) {
 }
 
 // Proofs square the entries of a cell: what strains leave of a zero becomes zero, all else stays to the last bit.
-void strains_leave_no_tiny_entry(void **) {
+CASE(strains_leave_no_tiny_entry) {
   const std::vector<double> rows{3.0, 0.0, 0.0, -4.8e-74, 2.0, 0.0, 1e-41, -0.5, 4.0};
   const Cell cell = strained_cell(3, rows);
   for (int c = 0; c < 3; ++c)
@@ -255,17 +255,3 @@ void strains_leave_no_tiny_entry(void **) {
 }
 
 }  // namespace
-
-int main() {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(images_of_a_vector),
-      cmocka_unit_test(wrapping),
-      cmocka_unit_test(sizes),
-      cmocka_unit_test(pairs_do_not_depend_on_the_basis),
-      cmocka_unit_test(random_start_in_a_tilted_cell),
-      cmocka_unit_test(reduction_of_long_vectors),
-      cmocka_unit_test(flat_cells),
-      cmocka_unit_test(strains_leave_no_tiny_entry),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}

@@ -47,7 +47,7 @@ std::vector<double> right_hand_side(int which) {
   return b;
 }
 
-void as_near_as_asked(void **) {
+CASE(as_near_as_asked) {
   Scene s({1e-3, 0.02, 0.3, 5.0});
   const auto b = right_hand_side(0);
   std::vector<double> x;
@@ -61,7 +61,7 @@ void as_near_as_asked(void **) {
 
 // Four entries that the preconditioner misses, and the rest: five products serve, three do not. A second right-hand
 // side then starts in their space, so that three do.
-void directions_are_kept(void **) {
+CASE(directions_are_kept) {
   Scene s({1e-3, 0.02, 0.3, 5.0});
   std::vector<double> x;
   const auto a = right_hand_side(0), b = right_hand_side(1);
@@ -75,7 +75,7 @@ void directions_are_kept(void **) {
 }
 
 // Directions found to three digits serve a solve to eight: new ones stay conjugate to them. Else it takes six products.
-void further_digits(void **) {
+CASE(further_digits) {
   Scene s({1e-2, 1e-4, 1e-6, 1e-8});
   std::vector<double> x;
   assert_true(s.solve(right_hand_side(0), 1e-3, 8, x));
@@ -84,7 +84,7 @@ void further_digits(void **) {
 }
 
 // Directions of one matrix are wrong for another.
-void another_matrix(void **) {
+CASE(another_matrix) {
   Scene s({1e-3, 0.02, 0.3, 5.0});
   std::vector<double> x;
   const auto b = right_hand_side(0);
@@ -95,7 +95,7 @@ void another_matrix(void **) {
   assert_true(s.error(b, x) < 1e-9);
 }
 
-void where_it_ends(void **) {
+CASE(where_it_ends) {
   Scene s({1e-3, 0.02, 0.3, 5.0});
   std::vector<double> x;
   assert_true(s.solve(std::vector<double>(unknowns, 0.0), 1e-6, 0, x));
@@ -107,10 +107,3 @@ void where_it_ends(void **) {
 }
 
 }  // namespace
-
-int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(as_near_as_asked), cmocka_unit_test(directions_are_kept),
-                              cmocka_unit_test(further_digits), cmocka_unit_test(another_matrix),
-                              cmocka_unit_test(where_it_ends)};
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}

@@ -79,7 +79,7 @@ double brute(const Scene &w, double alpha) {
 
 // The bent rows are exact, so the merit is; the best step is the best of a fine scan, and its slope is minus the
 // decrement.
-void merit_is_true(void **) {
+CASE(merit_is_true) {
   const double lengths[] = {1e-4, 1e-3, 0.05};
   for (const int dim : {2, 3, 5})
     for (int k = 0; k < 6; ++k) {
@@ -111,7 +111,7 @@ void merit_is_true(void **) {
 
 // Two spheres that would run through each other: the step ends before they touch, however far the minimum of the line
 // lies.
-void walls_stop(void **) {
+CASE(walls_stop) {
   Scene w;
   w.p.set_cube(2, 1.0), w.p.position = {0.4, 0.5, 0.55, 0.5}, w.p.diameter = {0.1, 0.1}, w.p.velocity.assign(4, 0.0);
   w.b.unit = 0.1, w.b.mu = 1e-9;
@@ -156,7 +156,7 @@ PathRun follow(Packing &p, BarrierPathControl control) {
 
 // A square lattice, off its sites by a millionth, is a saddle of the density: the path must leave it for something
 // denser without an overlap. One that may not take any step more says that it did not arrive.
-void saddle_is_left(void **) {
+CASE(saddle_is_left) {
   Packing p;
   const int m = 8;
   p.set_cube(2, 1.0);
@@ -194,7 +194,7 @@ Packing near_start(int n, int dim, int seed) {
 }
 
 // Some paths meet saddles on their way and leave them by a warmer barrier, where the duality gap is larger.
-void arrives(void **) {
+CASE(arrives) {
   int saddles = 0;
   for (const int dim : {2, 3})
     for (int seed = 1; seed <= 6; ++seed) {
@@ -213,7 +213,7 @@ void arrives(void **) {
 
 // The same in a free cell, whose volume stays: an LP with strains has nothing to gain. The path of the fixed cell ends
 // less dense.
-void arrives_in_free_cell(void **) {
+CASE(arrives_in_free_cell) {
   for (const int dim : {2, 3}) {
     Packing p = near_start(64, dim, 1), fixed = p;
     assert_true(follow(fixed, patient()).end.reached);
@@ -234,7 +234,7 @@ void arrives_in_free_cell(void **) {
 }
 
 // Equal disks order: every verdict is settled or named, and no state overlaps.
-void ordering_disks(void **) {
+CASE(ordering_disks) {
   int jammed = 0;
   for (int seed = 1; seed <= 60; ++seed) {
     Monitor monitor;
@@ -250,7 +250,7 @@ void ordering_disks(void **) {
 
 // Floats serve down to small gaps: the path arrives, and nothing is left to gain. Where they fail at once, doubles take
 // over and the path has the bits of doubles alone.
-void floats_serve(void **) {
+CASE(floats_serve) {
   for (const int dim : {2, 3}) {
     const Packing begin = near_start(100, dim, 1);
     BarrierPathControl control = patient();
@@ -270,11 +270,3 @@ void floats_serve(void **) {
 }
 
 }  // namespace
-
-int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(merit_is_true),        cmocka_unit_test(walls_stop),
-                              cmocka_unit_test(saddle_is_left),       cmocka_unit_test(arrives),
-                              cmocka_unit_test(arrives_in_free_cell), cmocka_unit_test(ordering_disks),
-                              cmocka_unit_test(floats_serve)};
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}

@@ -19,7 +19,7 @@ void same_bits(const CrunchResult &a, const CrunchResult &b) {
 }
 
 // Crunches on several threads have the same bits, however many they are: the work is cut in the same way each time.
-void threads_repeat(void **) {
+CASE(threads_repeat) {
   for (const int32_t method : {JAM_CRUNCH_SEQUENTIAL_LP, JAM_CRUNCH_BARRIER_PATH}) {
     const Packing p = start(method == JAM_CRUNCH_SEQUENTIAL_LP ? 1500 : 400, 3, 0.35, 4);
     jam_crunch_options o = default_crunch_options();
@@ -35,7 +35,7 @@ void threads_repeat(void **) {
 
 // Every answer of the interior point is spoiled, each time in another way: Clp must finish the job alone, on the same
 // jamming point that it finds as the chosen solver.
-void clp_takes_over(void **) {
+CASE(clp_takes_over) {
   const Packing p = start(40, 3, 0.3, 3);
   jam_crunch_options o = default_crunch_options();
   o.method = JAM_CRUNCH_SEQUENTIAL_LP;
@@ -65,7 +65,7 @@ void clp_takes_over(void **) {
 
 // Clp alone leads every start to a jammed packing: an answer that misses its tolerance by a little is no reason to give
 // up.
-void clp_alone(void **) {
+CASE(clp_alone) {
   jam_crunch_options o = default_crunch_options();
   o.method = JAM_CRUNCH_SEQUENTIAL_LP, o.lp_solver = JAM_LP_CLP;
   for (int seed = 1; seed <= 12; ++seed) {
@@ -76,7 +76,7 @@ void clp_alone(void **) {
 }
 
 // Both solvers fail after a few LPs: a status with the state after those, which holds no overlap, and no contacts.
-void nobody_solves(void **) {
+CASE(nobody_solves) {
   const Packing p = start(40, 3, 0.3, 3);
   jam_crunch_options o = default_crunch_options();
   o.method = JAM_CRUNCH_SEQUENTIAL_LP;
@@ -97,7 +97,7 @@ void nobody_solves(void **) {
 
 // Loose tolerances of the LPs are no reason to change the solver, nor to go round until max_lps. What a crunch cannot
 // use is said.
-void loose_tolerances_keep_the_solver(void **) {
+CASE(loose_tolerances_keep_the_solver) {
   const Packing p = start(60, 3, 0.3, 6);
   for (const int32_t method : {JAM_CRUNCH_BARRIER_PATH, JAM_CRUNCH_SEQUENTIAL_LP})
     for (const double tolerance : {1e-12, 1e-9, 1e-7, 1e-2}) {
@@ -115,7 +115,7 @@ void loose_tolerances_keep_the_solver(void **) {
 }
 
 // A refusal of the polish is followed by narrow LPs, whose network is as good as any. The log says so.
-void refused_polish_takes_narrow_lps(void **) {
+CASE(refused_polish_takes_narrow_lps) {
   const Packing p = start(60, 3, 0.3, 6);
   const jam_crunch_options o = default_crunch_options();
   const CrunchResult plain = run(p, o);
@@ -140,7 +140,7 @@ void refused_polish_takes_narrow_lps(void **) {
 
 // Refused at a loose tolerance, wide LPs go on; the call is stopped in the next one. Positions have changed since the
 // contacts were named, so there are none.
-void a_stop_behind_a_refused_polish_leaves_no_contacts(void **) {
+CASE(a_stop_behind_a_refused_polish_leaves_no_contacts) {
   jam_crunch_options o = default_crunch_options();
   o.method = JAM_CRUNCH_SEQUENTIAL_LP, o.gain_tolerance = 1e-2;
   bool refused = false;
@@ -162,7 +162,7 @@ void a_stop_behind_a_refused_polish_leaves_no_contacts(void **) {
 }
 
 // A network that is refused every time: the LP's contacts stay, and the test of them gives verdict and forces.
-void refused_polish_ends(void **) {
+CASE(refused_polish_ends) {
   const Packing p = start(60, 3, 0.3, 6);
   CrunchHooks hooks;
   hooks.before_polish = [&](const Packing &, ContactNetwork &net) {
@@ -178,7 +178,7 @@ void refused_polish_ends(void **) {
 }
 
 // Narrow LPs without any answer: the contacts that are there are tested, and no other solver begins from half an LP.
-void unanswered_narrow_lps_end(void **) {
+CASE(unanswered_narrow_lps_end) {
   const Packing p = start(60, 3, 0.3, 6);
   CrunchHooks hooks;
   bool narrow = false;
@@ -208,7 +208,7 @@ jam_crunch_report goes_on(const Packing &p, const jam_crunch_options &o, const C
 
 // Forces that do not balance at a duality gap: the path goes on. Here the LP at the gap has no
 // answer once, and the crunch ends at a smaller gap; then no residual is small enough, and it ends jammed.
-void forces_that_do_not_balance_at_a_gap(void **) {
+CASE(forces_that_do_not_balance_at_a_gap) {
   const Packing p = start(60, 3, 0.3, 6);
   jam_crunch_options o = default_crunch_options();
   o.duality_gap = 1e-6;
@@ -227,7 +227,7 @@ void forces_that_do_not_balance_at_a_gap(void **) {
 }
 
 // A path that ends at a hundred times the gap asked for: the balanced forces tell that, and the path goes on.
-void gaps_larger_than_asked_for(void **) {
+CASE(gaps_larger_than_asked_for) {
   const Packing p = start(60, 3, 0.3, 6);
   jam_crunch_options o = default_crunch_options();
   o.duality_gap = 1e-6;
@@ -240,7 +240,7 @@ void gaps_larger_than_asked_for(void **) {
 
 // Cancelled, or out of time, while the LP at the gap names contacts: that is no failure of the forces, and no contacts
 // are left.
-void interrupted_at_a_gap(void **) {
+CASE(interrupted_at_a_gap) {
   const Packing p = start(60, 3, 0.3, 6);
   jam_crunch_options o = default_crunch_options();
   o.duality_gap = 1e-6;
@@ -269,19 +269,3 @@ void interrupted_at_a_gap(void **) {
 }
 
 }  // namespace
-
-int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(threads_repeat),
-                              cmocka_unit_test(clp_takes_over),
-                              cmocka_unit_test(clp_alone),
-                              cmocka_unit_test(loose_tolerances_keep_the_solver),
-                              cmocka_unit_test(nobody_solves),
-                              cmocka_unit_test(refused_polish_takes_narrow_lps),
-                              cmocka_unit_test(a_stop_behind_a_refused_polish_leaves_no_contacts),
-                              cmocka_unit_test(refused_polish_ends),
-                              cmocka_unit_test(unanswered_narrow_lps_end),
-                              cmocka_unit_test(forces_that_do_not_balance_at_a_gap),
-                              cmocka_unit_test(gaps_larger_than_asked_for),
-                              cmocka_unit_test(interrupted_at_a_gap)};
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}

@@ -60,7 +60,7 @@ void same_vertex(const CrunchResult &r, const Packing &p, const ContactNetwork &
 
 // A neighbour of the vertex: one contact is exchanged for a pair that is nearly one. All close, but forces pull. The
 // crunch finds back: the same contacts, the same diameters to rounding, nothing pulls.
-void wrong_contact(void **) {
+CASE(wrong_contact) {
   int back = 0;
   for (int seed = 1; seed <= 6; ++seed) {
     Packing p;
@@ -79,7 +79,7 @@ void wrong_contact(void **) {
 
 // A contact too weak for an LP to list: the others close but cannot balance. It is found among the pairs that nearly
 // touch, whether or not another is there to choose from.
-void missing_contact(void **) {
+CASE(missing_contact) {
   int back[2] = {0, 0};
   for (int seed = 1; seed <= 6; ++seed)
     for (const bool other : {false, true}) {
@@ -104,7 +104,7 @@ void missing_contact(void **) {
 }
 
 // Contacts that hold no sphere are no network: polish says that they are too few and changes nothing.
-void no_network(void **) {
+CASE(no_network) {
   const CrunchResult r = run(start(40, 3, 0.3, 1), default_crunch_options());
   assert_true(r.report.jammed);
   std::vector<char> on(r.contacts.size(), 0);
@@ -118,7 +118,7 @@ void no_network(void **) {
 }
 
 // Cancelled or out of time before the narrow LPs: it says so, and the packing is valid.
-void interrupted_at_the_vertex(void **) {
+CASE(interrupted_at_the_vertex) {
   Packing p;
   ContactNetwork net;
   PairList pair;
@@ -145,7 +145,7 @@ void interrupted_at_the_vertex(void **) {
 }
 
 // An answer of Clp is the same from its own basis.
-void same_from_its_basis(void **) {
+CASE(same_from_its_basis) {
   const Packing near = near_jamming(start(40, 3, 0.3, 2));
   const PairList list = find_pairs(near, 0.05 * near.diameter[0], 1.0);
   PackingLp big = make_lp(near, list, near.diameter[0]);
@@ -156,10 +156,3 @@ void same_from_its_basis(void **) {
 }
 
 }  // namespace
-
-int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(wrong_contact), cmocka_unit_test(missing_contact),
-                              cmocka_unit_test(no_network), cmocka_unit_test(interrupted_at_the_vertex),
-                              cmocka_unit_test(same_from_its_basis)};
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}

@@ -12,7 +12,7 @@ namespace {
 
 // A small sphere lies in the hole between 2^d large ones, none within reach. All of them are listed, or off the middle
 // those that cover it in every direction. The large spheres are covered and get no other pairs.
-void holes_are_covered(void **) {
+CASE(holes_are_covered) {
   for (int dim = 2; dim <= 4; ++dim)
     for (const double off : {0.0, 0.05}) {
       Packing p;
@@ -40,7 +40,7 @@ void holes_are_covered(void **) {
 }
 
 // Spheres with nothing around them keep an empty list. A reach of zero grows too; one beyond the farthest stays.
-void nothing_within_reach(void **) {
+CASE(nothing_within_reach) {
   Packing p;
   p.set_cube(3, 40.0), p.position = {1.0, 1.0, 1.0, 20.0, 20.0, 20.0}, p.diameter = {1.0, 1.0},
                        p.velocity.assign(6, 0.0);
@@ -50,7 +50,7 @@ void nothing_within_reach(void **) {
 }
 
 // In random packings no pair is lost. Added pairs belong to uncovered spheres; where all are covered none is added.
-void only_uncovered_spheres_get_more(void **) {
+CASE(only_uncovered_spheres_get_more) {
   for (const double ratio : {1.0, 4.0}) {
     jam_create_options o = default_create_options();
     o.n = 200, o.packing_fraction = 0.3, o.seed = 3;
@@ -79,7 +79,7 @@ void only_uncovered_spheres_get_more(void **) {
 
 // Disks of sizes 1 : 10 and spheres of 1 : 4. With the plain reach the path ends at a gap of 2e-4 after 600
 // factorisations: rows change as small spheres cross their holes.
-void mixtures_arrive(void **) {
+CASE(mixtures_arrive) {
   for (const int dim : {2, 3})
     for (int seed = 1; seed <= 4; ++seed) {
       jam_create_options o = default_create_options();
@@ -96,9 +96,3 @@ void mixtures_arrive(void **) {
 }
 
 }  // namespace
-
-int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(holes_are_covered), cmocka_unit_test(nothing_within_reach),
-                              cmocka_unit_test(only_uncovered_spheres_get_more), cmocka_unit_test(mixtures_arrive)};
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}

@@ -29,7 +29,7 @@ PolishEnd try_polish(const Packing &p, const ContactNetwork &net) {
 
 // One contact replaced by a pair of stable spheres that do not touch: closing it opens or crosses the one left out, or
 // pulls somewhere. What passes must be a packing without overlap and with positive forces all the same.
-void polish_refuses(void **) {
+CASE(polish_refuses) {
   jam_crunch_options o = default_crunch_options();
   o.polish = 0;
   const CrunchResult r = run(start(60, 3, 0.3, 6), o);
@@ -68,7 +68,7 @@ void polish_refuses(void **) {
 
 // A pair so near to contact that an LP counts it: all cannot close together. When it is open with the others closed it
 // is left out, when it would overlap then another contact is: either way no gap is left above rounding.
-void too_many_to_close(void **) {
+CASE(too_many_to_close) {
   int scenes = 0, others = 0, left = 0, alone = 0;  // alone: without an LP
   jam_crunch_options o = default_crunch_options();
   o.method = JAM_CRUNCH_SEQUENTIAL_LP;    // the path's scenes change with it
@@ -126,7 +126,7 @@ void too_many_to_close(void **) {
 
 // Positions round by the size of the box: in one of 150 diameters closed contacts overlap by more than in one of ten,
 // and are closed all the same.
-void rounding_grows_with_the_box(void **) {
+CASE(rounding_grows_with_the_box) {
   constexpr int across = 150;
   Packing p;
   p.set_cube(2, 1.0);
@@ -151,7 +151,7 @@ void rounding_grows_with_the_box(void **) {
 
 // Contacts that close and forces that balance end a crunch: steps need not fall below a tolerance that rounding
 // forbids. The bare LP must meet its step tolerance.
-void closed_contacts_end_it(void **) {
+CASE(closed_contacts_end_it) {
   const Packing p = start(60, 3, 0.3, 6);
   jam_crunch_options o = default_crunch_options();
   const CrunchResult plain = run(p, o);
@@ -165,9 +165,3 @@ void closed_contacts_end_it(void **) {
 }
 
 }  // namespace
-
-int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(polish_refuses), cmocka_unit_test(too_many_to_close),
-                              cmocka_unit_test(rounding_grows_with_the_box), cmocka_unit_test(closed_contacts_end_it)};
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}

@@ -64,7 +64,7 @@ void valid_in_scene(int dim, double delta, int32_t container, int32_t walls) {
   assert_memory_equal(a.s.out.packing.position.data(), before.position.data(), before.position.size() * sizeof(double));
 }
 
-void every_scene(void **) {
+CASE(every_scene) {
   for (const int dim : {2, 3, 4}) valid_in_scene(dim, 0.0, JAM_CONTAINER_BRICK, 0);
   for (const double delta : {-0.8, -0.2, 0.5}) valid_in_scene(3, delta, JAM_CONTAINER_BRICK, 0);
   valid_in_scene(3, 0.0, JAM_CONTAINER_BRICK, 4);
@@ -72,7 +72,7 @@ void every_scene(void **) {
 }
 
 // A packing that is decided is never decompressed: all bits are those of a crunch that cannot.
-void decided_ones_keep_their_bits(void **) {
+CASE(decided_ones_keep_their_bits) {
   CrunchHooks never;
   never.tuning.decompression.fill(0.0);
   for (const int dim : {2, 3}) {
@@ -86,8 +86,3 @@ void decided_ones_keep_their_bits(void **) {
 }
 
 }  // namespace
-
-int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(every_scene), cmocka_unit_test(decided_ones_keep_their_bits)};
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}

@@ -24,7 +24,7 @@ double first_factor(BarrierSchedule &s, int steps, const Course &course) {
 }
 
 // Short steps that leave the decrement high are a saddle: mu rises soon. Whole steps that never end are one too.
-void mu_rises_at_saddles(void **) {
+CASE(mu_rises_at_saddles) {
   BarrierSchedule blocked(tuning), endless(tuning);
   assert_true(first_factor(blocked, 20, [](int) { return step(50.0 * rows, 0.1); }) == tuning.increase);
   assert_int_equal(blocked.increases(), 1);
@@ -34,7 +34,7 @@ void mu_rises_at_saddles(void **) {
 }
 
 // Above the first mu all spheres would shrink without end: where mu would rise above it, it falls instead.
-void first_mu_is_the_largest(void **) {
+CASE(first_mu_is_the_largest) {
   BarrierSchedule below(tuning), first(tuning);
   assert_true(first_factor(below, 20, [](int) { return step(50.0 * rows, 0.1, 1.01 * tuning.increase); }) ==
               tuning.increase);
@@ -45,14 +45,14 @@ void first_mu_is_the_largest(void **) {
 }
 
 // While the decrement falls, short steps are the way to the maximum and no saddle.
-void mu_stays_while_the_decrement_falls(void **) {
+CASE(mu_stays_while_the_decrement_falls) {
   BarrierSchedule s(tuning);
   assert_true(first_factor(s, 30, [](int k) { return step(1e6 * rows * std::pow(0.85, k), 0.1); }) == 1.0);
   assert_int_equal(s.increases(), 0);
 }
 
 // At the maximum the count of steps begins anew.
-void maximum_starts_a_new_count(void **) {
+CASE(maximum_starts_a_new_count) {
   BarrierSchedule s(tuning);
   assert_false(s.centred(2.0 * tuning.centred * rows, rows));
   for (int mu = 0; mu < 20; ++mu) {
@@ -63,10 +63,3 @@ void maximum_starts_a_new_count(void **) {
 }
 
 }  // namespace
-
-int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(mu_rises_at_saddles), cmocka_unit_test(first_mu_is_the_largest),
-                              cmocka_unit_test(mu_stays_while_the_decrement_falls),
-                              cmocka_unit_test(maximum_starts_a_new_count)};
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}

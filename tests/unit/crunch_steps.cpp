@@ -22,7 +22,7 @@ Packing start(int n, int dim, double phi, double ratio) {
 
 // Two spheres without a common row run into each other: followed in part only, and by a half at least where that is
 // safe.
-void unlisted_pair(void **) {
+CASE(unlisted_pair) {
   for (const double gap : {0.011, 0.02, 0.1, 0.15}) {
     Packing p;
     p.set_cube(2, 1.0);
@@ -44,7 +44,7 @@ void unlisted_pair(void **) {
 }
 
 // The image of a sphere that goes around the box is a pair like any other.
-void pair_through_the_wall(void **) {
+CASE(pair_through_the_wall) {
   Packing p;
   p.set_cube(2, 1.0);
   p.position = {0.08, 0.5, 0.93, 0.5};
@@ -68,7 +68,7 @@ const Case dilute[] = {{60, 2, 0.05, 1.0},  {60, 3, 0.02, 1.0}, {60, 3, 0.2, 1.0
 
 // The path bounds what all spheres travel between two lists; here every pair and image is looked at after each Newton
 // step. From a dilute start, where jam_crunch lets LPs go first, it need not get far, but it must stay safe.
-void path_from_low_density(void **) {
+CASE(path_from_low_density) {
   for (const Case &c : dilute) {
     Packing p = start(c.n, c.dim, c.phi, c.ratio);
     BarrierPathControl control;
@@ -91,7 +91,7 @@ void path_from_low_density(void **) {
 }
 
 // Sequential LPs, stopped after each of its first LPs, which take the longest steps.
-void sequential_lp_from_low_density(void **) {
+CASE(sequential_lp_from_low_density) {
   for (const Case &c : dilute) {
     const Packing p = start(c.n, c.dim, c.phi, c.ratio);
     jam_crunch_options o = default_crunch_options();
@@ -112,7 +112,7 @@ void sequential_lp_from_low_density(void **) {
 }
 
 // A bound far too wide for its neighbour radius: the user's options must not break the promise either.
-void careless_options(void **) {
+CASE(careless_options) {
   const Packing p = start(60, 3, 0.1, 1.0);
   jam_crunch_options o = default_crunch_options();
   o.method = JAM_CRUNCH_SEQUENTIAL_LP;
@@ -130,10 +130,3 @@ void careless_options(void **) {
 }
 
 }  // namespace
-
-int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(unlisted_pair), cmocka_unit_test(pair_through_the_wall),
-                              cmocka_unit_test(path_from_low_density), cmocka_unit_test(sequential_lp_from_low_density),
-                              cmocka_unit_test(careless_options)};
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}

@@ -47,9 +47,9 @@ void compare_all() {
   }
 }
 
-void c_gives_the_answers_of_std(void **) { compare_all(); }
+CASE(c_gives_the_answers_of_std) { compare_all(); }
 
-void so_it_does_with_a_decimal_comma(void **) {
+CASE(so_it_does_with_a_decimal_comma) {
   char folder[] = "/tmp/jam-comma-XXXXXX";
   assert_non_null(mkdtemp(folder));
   const bool found = set_comma_locale(folder) != nullptr;
@@ -64,9 +64,3 @@ void so_it_does_with_a_decimal_comma(void **) {
 }
 
 }  // namespace
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(c_gives_the_answers_of_std),
-                                     cmocka_unit_test(so_it_does_with_a_decimal_comma)};
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}

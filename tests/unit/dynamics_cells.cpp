@@ -29,7 +29,7 @@ Monitor &begun() {
   return monitor;
 }
 
-void lattice_vectors(void **) {
+CASE(lattice_vectors) {
   for (const auto *rows : {&oblique, &slender}) {
     const Cell cell = Cell::from_triangle(2, rows->data());
     const Units<Offsets::listed> units(cell);
@@ -68,7 +68,7 @@ void lattice_vectors(void **) {
 }
 
 // Two disks fly apart along a cell vector and meet each other's images.
-void two_disks_meet_through_the_face(void **) {
+CASE(two_disks_meet_through_the_face) {
   Packing p = random_packing(2, 2, 0.05, 1.0, 1, 0.0, JAM_MODEL_EUCLID, oblique.data());
   const double *a = p.cell.row(1), length = std::hypot(a[0], a[1]), sigma = p.diameter[0], start = 0.4;
   for (int c = 0; c < 2; ++c) {
@@ -87,7 +87,7 @@ void two_disks_meet_through_the_face(void **) {
   assert_true(std::fabs(engine->elapsed() - (2.0 - start - 3.0 * sigma / length)) < 1e-13);
 }
 
-void agrees_with_naive_engine(void **) {
+CASE(agrees_with_naive_engine) {
   const struct {
     const std::vector<double> &rows;
     int dim, n, reach;
@@ -117,7 +117,7 @@ void agrees_with_naive_engine(void **) {
 }
 
 // A cell that is a cube but for a tilt of 1e-13: other code, the same collisions, as long as rounding is not amplified.
-void a_cube_in_disguise(void **) {
+CASE(a_cube_in_disguise) {
   for (const int n : {12, 400, 3000}) {
     Packing p = random_packing(3, n, 0.3, 1.3, 5), q = p;
     const double rows[9] = {1, 0, 0, 1e-13, 1, 0, 0, 0, 1};
@@ -139,7 +139,7 @@ void a_cube_in_disguise(void **) {
 }
 
 // All images of all pairs are looked at when it is over.
-void never_overlaps(void **) {
+CASE(never_overlaps) {
   const struct {
     const std::vector<double> &rows;
     int dim, n;
@@ -172,7 +172,7 @@ void never_overlaps(void **) {
 }
 
 // The kernels get offsets as in small cubes.
-void instruction_sets_give_the_same_bits(void **) {
+CASE(instruction_sets_give_the_same_bits) {
   const Packing start = random_packing(3, 500, 0.3, 1.4, 3, 0.0, JAM_MODEL_EUCLID, monoclinic.data());
   Packing first;
   for (InstructionSet set : {InstructionSet::portable, InstructionSet::avx2, InstructionSet::avx512}) {
@@ -189,7 +189,7 @@ void instruction_sets_give_the_same_bits(void **) {
   }
 }
 
-void archives_hold_nothing_else(void **) {
+CASE(archives_hold_nothing_else) {
   // The body of a disk is a line of the cache, whose last bytes have no meaning.
   const size_t n = 50;
   {
@@ -211,16 +211,3 @@ void archives_hold_nothing_else(void **) {
 }
 
 }  // namespace
-
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(lattice_vectors),
-      cmocka_unit_test(two_disks_meet_through_the_face),
-      cmocka_unit_test(agrees_with_naive_engine),
-      cmocka_unit_test(a_cube_in_disguise),
-      cmocka_unit_test(never_overlaps),
-      cmocka_unit_test(instruction_sets_give_the_same_bits),
-      cmocka_unit_test(archives_hold_nothing_else),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}

@@ -30,7 +30,7 @@ struct Case {
   double non_additivity = 0.0;
 };
 
-void agrees_with_naive_engine(void **) {
+CASE(agrees_with_naive_engine) {
   // Small boxes (several images of one pair) among them.
   // From 40 spheres in three dimensions on cells alone hold, whether they are the choice at that density or not.
   const Case cases[] = {
@@ -68,7 +68,7 @@ void agrees_with_naive_engine(void **) {
 
 // Dilute systems are on cells, dense ones on lists, and a compression goes over from one to the other. Both give one
 // pressure.
-void engine_follows_the_density(void **) {
+CASE(engine_follows_the_density) {
   Monitor monitor;
   monitor.begin();
   for (double fraction : {0.05, 0.1}) {
@@ -106,7 +106,7 @@ void engine_follows_the_density(void **) {
 }
 
 // No pair of any image may overlap, lists or not.
-void never_overlaps(void **) {
+CASE(never_overlaps) {
   struct {
     int dim, n;
     double fraction, ratio, growth, pressure, non_additivity = 0.0;
@@ -134,7 +134,7 @@ void never_overlaps(void **) {
 
 // report.max_overlap looks at listed pairs at every event, so it sees what has healed by the end. Fast growth: many
 // events in the bucket at hand, whose order must hold (else overlaps of 1e-9 to 1e-3).
-void fast_growth_keeps_the_order_of_events(void **) {
+CASE(fast_growth_keeps_the_order_of_events) {
   for (double growth : {1.0, 3.0, 30.0})
     for (int64_t seed = 1; seed < 4; ++seed) {
       Packing p = random_packing(3, 64, 0.2, 1.0, seed);
@@ -150,7 +150,7 @@ void fast_growth_keeps_the_order_of_events(void **) {
 }
 
 // 0 and 1 overlap and part; 2 hits 1 from behind, which is the only event. No list is made in between.
-void an_overlap_between_lists_is_seen(void **) {
+CASE(an_overlap_between_lists_is_seen) {
   Packing p = random_packing(2, 3, 0.02, 1.0, 1);
   const double sigma = p.diameter[0], x[] = {0.5, 0.5 + sigma * (1.0 - 1e-5), 0.5 + sigma * (2.0 + 1e-3)},
                v[] = {-1e-3, 0.0, -1.0};
@@ -168,7 +168,7 @@ void an_overlap_between_lists_is_seen(void **) {
 }
 
 // A few spheres fly far between collisions: no path may lead from the image that a list knows to another one.
-void few_spheres_meet_the_right_image(void **) {
+CASE(few_spheres_meet_the_right_image) {
   for (int dim : {2, 3})
     for (int n : {3, 8, 24, 64})
       for (double fraction : {0.03, 0.05, 0.1, 0.15, 0.2, 0.3}) {
@@ -183,7 +183,7 @@ void few_spheres_meet_the_right_image(void **) {
       }
 }
 
-void stops_inside_a_dense_fluid_without_overlap(void **) {
+CASE(stops_inside_a_dense_fluid_without_overlap) {
   Packing p = random_packing(3, 400, 0.3, 10.0, 3);
   Monitor monitor;
   monitor.begin();
@@ -196,7 +196,7 @@ void stops_inside_a_dense_fluid_without_overlap(void **) {
 
 // Pressure is measured from what a window adds, however much has gone before: growth ends for want of digits, and says
 // so.
-void ends_where_the_digits_end(void **) {
+CASE(ends_where_the_digits_end) {
   Packing p = random_packing(3, 64, 0.2, 1.0, 1);
   Monitor monitor;
   monitor.begin();
@@ -206,7 +206,7 @@ void ends_where_the_digits_end(void **) {
   assert_true(report.pressure > 5e15 && report.max_overlap < 1e-14);
 }
 
-void same_bits_twice(void **) {
+CASE(same_bits_twice) {
   for (int k = 0; k < 2; ++k) {
     Packing p = random_packing(3, 100, 0.3, 1.4, 11), q = p;
     Monitor monitor;
@@ -222,7 +222,7 @@ void same_bits_twice(void **) {
 
 // Every instruction set of this processor, in fluids, under fast growth (pairs that growth drives together), near
 // contact, with images and shifts, and in cells of many more spheres than a block holds.
-void instruction_sets_give_the_same_bits(void **) {
+CASE(instruction_sets_give_the_same_bits) {
   struct {
     int dim, n;
     double fraction, ratio, growth, non_additivity;
@@ -262,7 +262,7 @@ void instruction_sets_give_the_same_bits(void **) {
 
 // The kernel alone against long doubles: pairs in contact to the last bit, apart by one unit, overlapping, receding,
 // outrun by growth, and two entries with the same time, of which the first counts.
-void kernel_at_contact(void **) {
+CASE(kernel_at_contact) {
   constexpr int count = 12;
   const double s = 0x1p62;  // contact distance: a quarter of the box
   for (InstructionSet set : {InstructionSet::portable, InstructionSet::avx2, InstructionSet::avx512}) {
@@ -313,7 +313,7 @@ void kernel_at_contact(void **) {
   }
 }
 
-void calendar_gives_events_in_order(void **) {
+CASE(calendar_gives_events_in_order) {
   const int n = 200;
   Calendar calendar(n);
   Rng rng(1, Stream::velocities, 77);
@@ -342,7 +342,7 @@ void calendar_gives_events_in_order(void **) {
 }
 
 // As at a collision: the earliest event and any other get new times together.
-void calendar_keeps_order_when_two_change(void **) {
+CASE(calendar_keeps_order_when_two_change) {
   const int n = 300;
   for (double width : {1e-3, 1e-2, 0.0}) {
     Calendar calendar(n);
@@ -371,22 +371,3 @@ void calendar_keeps_order_when_two_change(void **) {
 }
 
 }  // namespace
-
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(calendar_gives_events_in_order),
-      cmocka_unit_test(agrees_with_naive_engine),
-      cmocka_unit_test(engine_follows_the_density),
-      cmocka_unit_test(instruction_sets_give_the_same_bits),
-      cmocka_unit_test(kernel_at_contact),
-      cmocka_unit_test(never_overlaps),
-      cmocka_unit_test(stops_inside_a_dense_fluid_without_overlap),
-      cmocka_unit_test(same_bits_twice),
-      cmocka_unit_test(calendar_keeps_order_when_two_change),
-      cmocka_unit_test(fast_growth_keeps_the_order_of_events),
-      cmocka_unit_test(few_spheres_meet_the_right_image),
-      cmocka_unit_test(an_overlap_between_lists_is_seen),
-      cmocka_unit_test(ends_where_the_digits_end),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}

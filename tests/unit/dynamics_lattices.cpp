@@ -114,7 +114,7 @@ int side_for(const Crystal &l, double most) {
 }
 
 // Every lattice, density, size, both kinds of lists, with growth and without, exact and with noise.
-void never_stalls_while_an_event_exists(void **) {
+CASE(never_stalls_while_an_event_exists) {
   int stalled = 0, runs = 0;
   for (const Crystal &l : crystals())
     for (double most : {8.0, 70.0, 150.0})
@@ -151,7 +151,7 @@ void never_stalls_while_an_event_exists(void **) {
 }
 
 // The state after so many collisions is that of the naive engine; they come after the first rebase of the calendar.
-void agrees_with_naive_engine(void **) {
+CASE(agrees_with_naive_engine) {
   for (const Crystal &l : crystals()) {
     if (l.dim > 4) continue;
     for (double part : {0.3, 0.7})
@@ -187,7 +187,7 @@ void agrees_with_naive_engine(void **) {
 }
 
 // Two small spheres meet once in 1e5 boxes, which are 1e6 events; two that move as one never meet.
-void a_rare_collision_is_waited_for(void **) {
+CASE(a_rare_collision_is_waited_for) {
   Packing p = random_packing(3, 2, 0.001, 1.0, 4);
   p.diameter.assign(2, 2e-3);
   Monitor monitor;
@@ -202,7 +202,7 @@ void a_rare_collision_is_waited_for(void **) {
 }
 
 // A state of no motion has no event: that alone is stalled.
-void rest_is_stalled(void **) {
+CASE(rest_is_stalled) {
   for (const Crystal &l : crystals()) {
     Packing p = crystal(l, 2, 0.5, 0.0);
     std::fill(p.velocity.begin(), p.velocity.end(), 0.0);
@@ -215,10 +215,3 @@ void rest_is_stalled(void **) {
 }
 
 }  // namespace
-
-int main() {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(never_stalls_while_an_event_exists), cmocka_unit_test(agrees_with_naive_engine),
-      cmocka_unit_test(a_rare_collision_is_waited_for), cmocka_unit_test(rest_is_stalled)};
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}

@@ -47,7 +47,7 @@ Packing packing_of(const Scene &s, int64_t seed) {
   return p;
 }
 
-void agrees_with_naive_engine(void **) {
+CASE(agrees_with_naive_engine) {
   for (const Scene &s : scenes(60, 50))
     for (const double rate : {0.0, 0.05}) {
       const Packing start = packing_of(s, 3);
@@ -68,7 +68,7 @@ void agrees_with_naive_engine(void **) {
 }
 
 // A neighbour that a search missed would overlap: all pairs are searched by the pair list, which has cells of its own.
-void grows_without_overlap(void **) {
+CASE(grows_without_overlap) {
   for (const Scene &s : scenes(500, 500)) {
     Packing p = packing_of(s, 5);
     EngineOptions o;
@@ -87,7 +87,7 @@ void grows_without_overlap(void **) {
   }
 }
 
-void archive_continues_with_the_same_bits(void **) {
+CASE(archive_continues_with_the_same_bits) {
   for (const Scene &s : scenes(800, 600)) {
     Packing p = packing_of(s, 7), q = p;
     EngineOptions o;
@@ -111,12 +111,3 @@ void archive_continues_with_the_same_bits(void **) {
 }
 
 }  // namespace
-
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(agrees_with_naive_engine),
-      cmocka_unit_test(grows_without_overlap),
-      cmocka_unit_test(archive_continues_with_the_same_bits),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}

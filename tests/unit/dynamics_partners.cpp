@@ -92,7 +92,7 @@ void check_search(int n, double zeta, const std::vector<double> &rows) {
 }
 
 // Whole vectors and rests, one sphere alone; shifts of every kind; cells that are no cubes.
-void every_partner_is_found(void **) {
+CASE(every_partner_is_found) {
   const std::vector<double> cube, oblique = {1.0, 0.0, 0.45, 0.8}, brick = {1, 0, 0, 0, 1, 0, 0, 0, 6},
                                   monoclinic = {1.0, 0.0, 0.0, 0.0, 1.2, 0.0, 0.35, 0.0, 0.9};
   for (double zeta : {no_shift, weak, strong, strongest, uniform}) {
@@ -147,7 +147,7 @@ void check_edge(double zeta, const std::vector<double> &rows, bool small) {
   }
 }
 
-void partners_at_the_edge_are_found(void **) {
+CASE(partners_at_the_edge_are_found) {
   for (double zeta : {no_shift, weak, strong, strongest, uniform})
     for (const bool small : {false, true}) {
       check_edge<2>(zeta, {}, small);
@@ -159,7 +159,7 @@ void partners_at_the_edge_are_found(void **) {
 }
 
 // All images of all pairs are looked at when it is over; planting has drawn shifts again.
-void never_overlaps(void **) {
+CASE(never_overlaps) {
   const double monoclinic[9] = {1.0, 0.0, 0.0, 0.0, 1.2, 0.0, 0.35, 0.0, 0.9};
   const struct {
     int dim, n;
@@ -191,12 +191,3 @@ void never_overlaps(void **) {
 }
 
 }  // namespace
-
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(every_partner_is_found),
-      cmocka_unit_test(partners_at_the_edge_are_found),
-      cmocka_unit_test(never_overlaps),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}

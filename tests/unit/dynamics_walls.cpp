@@ -156,7 +156,7 @@ int naive_walls(const Scene &s, Packing &p, int collisions, long double rate) {
 }
 
 // A perturbation grows about tenfold each collision of a sphere, so 60 collisions of 8 spheres leave 1e-15 below 1e-6.
-void brute_force_makes_the_same_collisions(void **) {
+CASE(brute_force_makes_the_same_collisions) {
   const struct {
     int n;
     double fraction;
@@ -184,7 +184,7 @@ void brute_force_makes_the_same_collisions(void **) {
 }
 
 // Random walks of the integer form against the distance in doubles: gap, slope and time at contact agree.
-void contact_comes_when_the_distance_is_the_radius(void **) {
+CASE(contact_comes_when_the_distance_is_the_radius) {
   for (const Scene &s : scenes) {
     Packing p = start(s, 6, 0.1, 2.0, 3);
     Rng rng(5, Stream::velocities);
@@ -228,7 +228,7 @@ void contact_comes_when_the_distance_is_the_radius(void **) {
 }
 
 // Volume by counting random points.
-void volumes_hold_that_share_of_random_points(void **) {
+CASE(volumes_hold_that_share_of_random_points) {
   for (const Scene &s : scenes) {
     const Packing p = start(s, 2, 0.01, 1.0, 1);
     Rng rng(9, Stream::velocities);
@@ -246,12 +246,3 @@ void volumes_hold_that_share_of_random_points(void **) {
 }
 
 }  // namespace
-
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(brute_force_makes_the_same_collisions),
-      cmocka_unit_test(contact_comes_when_the_distance_is_the_radius),
-      cmocka_unit_test(volumes_hold_that_share_of_random_points),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}

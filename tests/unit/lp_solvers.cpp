@@ -33,7 +33,7 @@ void agree(const PackingLp &lp) {
   if (!(std::fabs(a.g - b.g) < 1e-9)) fail_msg("interior point %.15g, Clp %.15g", a.g, b.g);
 }
 
-void random_instances(void **) {
+CASE(random_instances) {
   for (int dim = 2; dim <= 4; ++dim)
     for (int seed = 1; seed <= 3; ++seed) {
       const Packing p = start(60, dim, dim == 2 ? 0.4 : 0.2 / (dim - 2), seed);
@@ -50,7 +50,7 @@ void random_instances(void **) {
 // Factors in floats lead to the same optimum, with a duality gap as small as doubles leave. That is up to 6e-9 for
 // these LPs, since rounding of the normal equations leaves forces out of balance. Each gain lies within its own gap of
 // the optimum. Where floats fail at once, doubles take over and give the bits of doubles.
-void floats_serve(void **) {
+CASE(floats_serve) {
   for (int dim = 2; dim <= 4; ++dim) {
     double worst_floats = 0.0, worst_doubles = 0.0;
     for (int seed = 1; seed <= 6; ++seed) {
@@ -84,7 +84,7 @@ void floats_serve(void **) {
 }
 
 // Reports that repeat themselves in a long LP say how many factorisations it took so far.
-void long_lps_tell(void **) {
+CASE(long_lps_tell) {
   const Packing p = start(60, 3, 0.3, 4);
   const double unit = diameter_mean(p);
   const PairList pairs = find_pairs(p, 0.5 * unit, 1.0);
@@ -104,7 +104,7 @@ void long_lps_tell(void **) {
 }
 
 // Long steps bring rows that stood outside the normal equations to bind: they must be seen.
-void screened_rows_bind(void **) {
+CASE(screened_rows_bind) {
   for (int seed = 1; seed <= 3; ++seed) {
     const Packing p = start(100, 3, 0.2, seed);
     const double unit = diameter_mean(p);
@@ -124,7 +124,7 @@ void screened_rows_bind(void **) {
 
 // A sequence of LPs, each solved from the multipliers of the one before and from nothing; and from multipliers that
 // mislead.
-void warm_starts(void **) {
+CASE(warm_starts) {
   Packing p = start(80, 3, 0.3, 2);
   const double unit = diameter_mean(p);
   Multipliers known;
@@ -175,7 +175,7 @@ void warm_starts(void **) {
 }
 
 // An LP that ends early is strictly inside its rows, and its duality gap is the part of the gain that was asked for.
-void ends_early_inside_its_rows(void **) {
+CASE(ends_early_inside_its_rows) {
   const Packing p = start(60, 3, 0.3, 4);
   const double unit = diameter_mean(p);
   const PairList pairs = find_pairs(p, 0.5 * unit, 1.0);
@@ -191,7 +191,7 @@ void ends_early_inside_its_rows(void **) {
 }
 
 // A square lattice in contact: many optimal multipliers, the optimum still one number; and one pair alone.
-void degenerate_instances(void **) {
+CASE(degenerate_instances) {
   Packing p;
   p.set_cube(2, 1.0);
   for (int k = 0; k < 36; ++k) p.position.push_back((k % 6) / 6.0), p.position.push_back((k / 6) / 6.0);
@@ -213,7 +213,7 @@ void degenerate_instances(void **) {
 
 // FCC in contact, with and without a vacancy: 18 rows a particle more than its motions need, every answer but g
 // degenerate.
-void fcc_instances(void **) {
+CASE(fcc_instances) {
   const double basis[12] = {0, 0, 0, 0, .5, .5, .5, 0, .5, .5, .5, 0};
   for (int vacancy = 0; vacancy < 2; ++vacancy)
     for (const double shrink : {1.0, 0.999}) {
@@ -237,7 +237,7 @@ void fcc_instances(void **) {
 }
 
 // Bounds down to nothing: g comes down to the smallest gap of the start, exactly at last, for there is no other point.
-void vanishing_bound(void **) {
+CASE(vanishing_bound) {
   const Packing p = start(60, 3, 0.2, 5);
   const double unit = diameter_mean(p);
   const PairList pairs = find_pairs(p, 0.8 * unit, 1.0);
@@ -253,7 +253,7 @@ void vanishing_bound(void **) {
 }
 
 // A start that overlaps by 1e-9, as text files give it: g begins below zero and leaves it, and both solvers say so.
-void overlap_by_rounding(void **) {
+CASE(overlap_by_rounding) {
   Packing p = start(60, 3, 0.2, 9);
   const ClosestPair closest = closest_pair(p);
   for (double &s : p.diameter) s *= (1.0 + closest.gap) * (1.0 + 1e-9);
@@ -270,7 +270,7 @@ void overlap_by_rounding(void **) {
 }
 
 // Rows that cannot hold at the start (an overlap): g must come out negative, not fail.
-void overlapping_instance(void **) {
+CASE(overlapping_instance) {
   Packing p = start(40, 3, 0.2, 7);
   for (double &s : p.diameter) s *= 1.1;
   const double unit = diameter_mean(p);
@@ -282,7 +282,7 @@ void overlapping_instance(void **) {
 }
 
 // check_lp must see a wrong answer.
-void check_sees_errors(void **) {
+CASE(check_sees_errors) {
   const Packing p = start(40, 3, 0.2, 7);
   const double unit = diameter_mean(p);
   const PairList pairs = find_pairs(p, 0.8 * unit, 1.0);
@@ -302,7 +302,7 @@ void check_sees_errors(void **) {
 
 // A wide bound around a state whose contacts are all but closed: many rows that started as screened cut the first
 // steps. They join together instead of a few at a time, and the LP is solved.
-void far_rows_cut_steps(void **) {
+CASE(far_rows_cut_steps) {
   Packing p = start(1024, 3, 0.3, 3);
   jam_crunch_options o = default_crunch_options();
   o.method = JAM_CRUNCH_SEQUENTIAL_LP, o.max_lps = 7;
@@ -320,20 +320,3 @@ void far_rows_cut_steps(void **) {
 }
 
 }  // namespace
-
-int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(random_instances),
-                              cmocka_unit_test(floats_serve),
-                              cmocka_unit_test(long_lps_tell),
-                              cmocka_unit_test(screened_rows_bind),
-                              cmocka_unit_test(far_rows_cut_steps),
-                              cmocka_unit_test(warm_starts),
-                              cmocka_unit_test(ends_early_inside_its_rows),
-                              cmocka_unit_test(degenerate_instances),
-                              cmocka_unit_test(fcc_instances),
-                              cmocka_unit_test(vanishing_bound),
-                              cmocka_unit_test(overlap_by_rounding),
-                              cmocka_unit_test(overlapping_instance),
-                              cmocka_unit_test(check_sees_errors)};
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}

@@ -28,7 +28,7 @@ LpSolution interior(const PackingLp &lp, double tolerance = 1e-15) {
   return InteriorPoint(system).solve(lp, control);
 }
 
-void agrees_with_clp(void **) {
+CASE(agrees_with_clp) {
   for (int dim = 2; dim <= 4; ++dim)
     for (const bool tilts : {false, true}) {
       const Packing p = start(50, dim, dim == 2 ? 0.4 : 0.2 / (dim - 2), dim);
@@ -51,7 +51,7 @@ void agrees_with_clp(void **) {
 }
 
 // Steps keep the volume, make no overlap, and gaps of listed pairs are at least what the LP says.
-void steps_are_safe(void **) {
+CASE(steps_are_safe) {
   for (int dim = 2; dim <= 3; ++dim) {
     Packing p = start(40, dim, 0.3, 7);
     const double unit = diameter_mean(p), reach = 0.3 * unit;
@@ -78,7 +78,7 @@ void steps_are_safe(void **) {
 
 // Torquato and Jiao, Phys. Rev. E 82, 061302 (2010): LPs with a free cell end in strictly jammed packings, with
 // d (N' - 1) + d (d + 1) / 2 contacts when they are disordered.
-void ends_with_the_strict_count(void **) {
+CASE(ends_with_the_strict_count) {
   for (int dim = 2; dim <= 3; ++dim)
     for (int64_t seed = 1; seed <= 3; ++seed) {
       Packing p = start(dim == 2 ? 48 : 40, dim, 0.3, seed);
@@ -104,9 +104,3 @@ void ends_with_the_strict_count(void **) {
 }
 
 }  // namespace
-
-int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(agrees_with_clp), cmocka_unit_test(steps_are_safe),
-                              cmocka_unit_test(ends_with_the_strict_count)};
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}

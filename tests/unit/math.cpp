@@ -51,7 +51,7 @@ void is_right(const char *name, F f, Exact exact, Draw draw, double bound = 1.0)
   if (!(worst < bound)) fail_msg("%s(%a): off by %g units in the last place", name, where, worst);
 }
 
-void logarithms_and_exponentials_are_right_to_the_last_place(void **) {
+CASE(logarithms_and_exponentials_are_right_to_the_last_place) {
   using Long = long double;
   Numbers number;
   const auto ln = [](Long x) { return std::log(x); };
@@ -68,7 +68,7 @@ void logarithms_and_exponentials_are_right_to_the_last_place(void **) {
   is_right("expm1 near 0", math::expm1, e1, [&] { return number(-1000, 1); });
 }
 
-void powers_are_right_to_the_last_place(void **) {
+CASE(powers_are_right_to_the_last_place) {
   if (LDBL_MANT_DIG < 64) skip();
   Numbers number;
   for (int k = 0; k < many; ++k) {
@@ -86,7 +86,7 @@ void powers_are_right_to_the_last_place(void **) {
   }
 }
 
-void angles_are_right_to_the_last_place(void **) {
+CASE(angles_are_right_to_the_last_place) {
 #ifdef __MINGW32__
   skip();  // its long doubles are instructions of the x87, whose pi has 66 bits
 #endif
@@ -113,7 +113,7 @@ void angles_are_right_to_the_last_place(void **) {
 
 bool alike(double a, double b) { return std::isnan(a) ? std::isnan(b) : a == b && std::signbit(a) == std::signbit(b); }
 
-void ends_of_the_range_are_those_of_c(void **) {
+CASE(ends_of_the_range_are_those_of_c) {
   const double ends[] = {0.0, -0.0, 1.0, -1.0, infinity, -infinity, std::nan(""), 1e300, -1e300};
   for (const double x : ends) {
     assert_true(alike(math::exp(x), x == 1.0 || x == -1.0 ? math::exp(x) : std::exp(x)));
@@ -134,7 +134,7 @@ void ends_of_the_range_are_those_of_c(void **) {
 }
 
 // The bits themselves: what one machine wrote down, every other finds. They are not to change: packings hang on them.
-void bits_are_those_of_every_other_machine(void **) {
+CASE(bits_are_those_of_every_other_machine) {
   uint64_t hash = 0;
   const auto add = [&hash](double x) {
     uint64_t bits;
@@ -160,14 +160,3 @@ void bits_are_those_of_every_other_machine(void **) {
 }
 
 }  // namespace
-
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(logarithms_and_exponentials_are_right_to_the_last_place),
-      cmocka_unit_test(powers_are_right_to_the_last_place),
-      cmocka_unit_test(angles_are_right_to_the_last_place),
-      cmocka_unit_test(ends_of_the_range_are_those_of_c),
-      cmocka_unit_test(bits_are_those_of_every_other_machine),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}

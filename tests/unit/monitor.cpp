@@ -37,13 +37,13 @@ void tells(int wanted, Step &&step) {
     fail_msg("%d calls in %.2f s, with %.2f s of work", calls, monitor.seconds(), worked);
 }
 
-void silence_is_short(void **) {
+CASE(silence_is_short) {
   tells(10, [](Monitor &monitor) { monitor.look(); });
   tells(10, [](Monitor &) { CallScope::look(); });
 }
 
 // Work without polling: it ends before the call, and nothing is reported without a callback.
-void work_on_another_thread_tells(void **) {
+CASE(work_on_another_thread_tells) {
   const auto nap = [] { std::this_thread::sleep_for(std::chrono::milliseconds(1200)); };
   tells(4, [&](Monitor &) { report_while(nap); });
   std::thread::id worker;
@@ -52,7 +52,7 @@ void work_on_another_thread_tells(void **) {
 }
 
 // One product of a large front takes most of a second. Its bits do not depend on who listens.
-void a_large_product_tells(void **) {
+CASE(a_large_product_tells) {
   const int n = 3000;
   std::vector<double> b(static_cast<size_t>(n) * n), alone(b.size()), watched(b.size());
   for (size_t k = 0; k < b.size(); ++k) b[k] = std::sin(static_cast<double>(k));
@@ -64,7 +64,7 @@ void a_large_product_tells(void **) {
 }
 
 // The symbolic analysis of 100000 spheres takes a second without any product.
-void symbolic_analysis_tells(void **) {
+CASE(symbolic_analysis_tells) {
   const int side = 16, n = side * side * side;
   std::vector<int32_t> ei, ej;
   for (int k = 0; k < n; ++k)
@@ -78,7 +78,7 @@ void symbolic_analysis_tells(void **) {
 
 // Both parts of a factorisation are left where the call is cancelled, also with a second thread at work, and in a scope
 // that cannot be left they go on. Afterwards the same object factorises as a new one does.
-void factorisations_are_left(void **) {
+CASE(factorisations_are_left) {
   const int side = 12, n = side * side * side;
   std::vector<int32_t> ei, ej;
   for (int k = 0; k < n; ++k)
@@ -118,7 +118,7 @@ void factorisations_are_left(void **) {
 
 // A short call beside a handle hears the cancels that come while it runs, and answers them; those from before it leaves
 // to the next verb.
-void short_calls_beside_a_handle(void **) {
+CASE(short_calls_beside_a_handle) {
   Monitor handle, call;
   handle.begin();
   handle.cancel();
@@ -133,7 +133,7 @@ void short_calls_beside_a_handle(void **) {
 }
 
 // The numbers of a factor count against the memory of the call, before they are allocated.
-void factors_keep_to_the_memory(void **) {
+CASE(factors_keep_to_the_memory) {
   const int n = 3000;
   std::vector<int32_t> ei, ej;
   for (int k = 1; k < n; ++k) ei.push_back(0), ej.push_back(k);
@@ -154,7 +154,7 @@ void factors_keep_to_the_memory(void **) {
 }
 
 // The fraction never falls, also where its source does; a steady call's time is extrapolated; a jump widens the spread.
-void time_left_follows_the_fraction(void **) {
+CASE(time_left_follows_the_fraction) {
   TimeLeft left;
   left.begin();
   jam_progress p = progress_of(JAM_PHASE_CRUNCH);
@@ -186,7 +186,7 @@ void time_left_follows_the_fraction(void **) {
   assert_true(p.fraction == 1.0);
 }
 
-void logarithms_of_a_way(void **) {
+CASE(logarithms_of_a_way) {
   assert_true(std::fabs(log_share(10.0, 100.0, 1000.0) - 0.5) < 1e-15);
   assert_true(std::fabs(log_share(1e-2, 1e-5, 1e-8) - 0.5) < 1e-15);
   assert_true(log_share(1.0, 5.0, HUGE_VAL) == 0.0 && log_share(3.0, 3.0, 3.0) == 1.0);
@@ -195,17 +195,3 @@ void logarithms_of_a_way(void **) {
 }
 
 }  // namespace
-
-int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(silence_is_short),
-                              cmocka_unit_test(symbolic_analysis_tells),
-                              cmocka_unit_test(work_on_another_thread_tells),
-                              cmocka_unit_test(a_large_product_tells),
-                              cmocka_unit_test(factorisations_are_left),
-                              cmocka_unit_test(short_calls_beside_a_handle),
-                              cmocka_unit_test(factors_keep_to_the_memory),
-
-                              cmocka_unit_test(time_left_follows_the_fraction),
-                              cmocka_unit_test(logarithms_of_a_way)};
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}

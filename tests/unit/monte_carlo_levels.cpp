@@ -55,7 +55,7 @@ void brute(const Packing &p, double slope, F &&f) {
     if (!pairs.own_image(k)) f(std::sqrt(pair_vector(p, pairs, k, r)), contact_distance(p, pairs.i[k], pairs.j[k]));
 }
 
-void energy_is_the_sum_over_all_pairs(void **) {
+CASE(energy_is_the_sum_over_all_pairs) {
   for (const Scene &s : scenes)
     for (const double step : {0.02, 0.4}) {
       const jam_monte_carlo_options o = options(2.0, step);
@@ -72,7 +72,7 @@ void energy_is_the_sum_over_all_pairs(void **) {
     }
 }
 
-void hard_spheres_never_overlap(void **) {
+CASE(hard_spheres_never_overlap) {
   for (const Scene &s : scenes)
     for (const double step : {0.02, 0.4}) {
       Packing p = start(s, JAM_OVERLAP_REFUSE);
@@ -85,7 +85,7 @@ void hard_spheres_never_overlap(void **) {
     }
 }
 
-void gaps_are_those_of_all_pairs(void **) {
+CASE(gaps_are_those_of_all_pairs) {
   for (int run = 0; run < 2 * static_cast<int>(std::size(scenes)); ++run) {
     const Scene &s = scenes[run / 2];
     Packing p = start(s, JAM_OVERLAP_REFUSE);
@@ -109,12 +109,3 @@ void gaps_are_those_of_all_pairs(void **) {
 }
 
 }  // namespace
-
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(energy_is_the_sum_over_all_pairs),
-      cmocka_unit_test(hard_spheres_never_overlap),
-      cmocka_unit_test(gaps_are_those_of_all_pairs),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}

@@ -25,14 +25,12 @@ struct Sys {
 };
 
 void make(Sys &s, int dim, int64_t n, int64_t seed) {
-  jam_create_options o;
-  jam_create_options_init(&o, sizeof o);
+  DEFAULTS(create, o);
   o.dim = dim, o.n = n, o.seed = seed;
   std::vector<double> sigma(static_cast<size_t>(n), 1.0);
   for (size_t k = 0; k < sigma.size() / 2 && dim == 2; ++k) sigma[k] = 1.4;
   assert_int_equal(create_from(&o, nullptr, 0, sigma.data(), sigma.size(), &s.sys), JAM_OK);
-  jam_compress_options c;
-  jam_compress_options_init(&c, sizeof c);
+  DEFAULTS(compress, c);
   c.growth_rate = 1e-2, c.pressure = 500.0;
   assert_int_equal(jam_compress(s.sys, &c, nullptr), JAM_OK);
   assert_int_equal(jam_crunch(s.sys, nullptr, nullptr), JAM_OK);
@@ -86,7 +84,7 @@ std::vector<size_t> voids(const Packing &p, const ContactNetwork &net, const Pai
   return out;
 }
 
-void deviations(void **) {
+CASE(deviations) {
   for (const int dim : {2, 3})
     for (const int64_t seed : {1, 2}) {
       Sys s;
@@ -145,7 +143,7 @@ RigidityMatrix with_weak_and_without(double tilt) {
   return g;
 }
 
-void weak_forces_beside_none(void **) {
+CASE(weak_forces_beside_none) {
   for (const double tilt : {1e-4, 1e-6, 1e-8, 1e-9, 3e-10}) {
     const RigidityResult r = test_rigidity(with_weak_and_without(tilt), Jamming::collective);
     assert_true(r.rigid == Verdict::yes);
@@ -164,7 +162,7 @@ void add_wall(RigidityMatrix &g, int32_t i, double x, double y, double bending) 
 // Rows alone: wall, disk 0, disk 1, wall in a line along x, with one state of self-stress. Across it the forces times
 // second derivatives give q = (y0 - y1)^2 - 20 y0^2 - y1^2 / 2: disk 1 may leave the line, as q(0, y1) > 0. Two
 // contacts without force ask for y0 >= y1 >= 0, where q <= -19 y0^2: then there is no motion.
-void contacts_without_force_at_a_round_wall(void **) {
+CASE(contacts_without_force_at_a_round_wall) {
   for (const bool blocked : {false, true}) {
     RigidityMatrix g;
     g.dim = 2, g.nodes = 2, g.curved = 3u, g.wall = {{3u, 1.0}}, g.open_axes = 0;
@@ -185,9 +183,3 @@ void contacts_without_force_at_a_round_wall(void **) {
 }
 
 }  // namespace
-
-int main() {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(deviations), cmocka_unit_test(weak_forces_beside_none),
-                                     cmocka_unit_test(contacts_without_force_at_a_round_wall)};
-  return cmocka_run_group_tests_name("network_near_balance", tests, nullptr, nullptr);
-}

@@ -108,21 +108,24 @@ void expect(const Case &c, bool collective, int64_t flexes, bool strict, int64_t
   if (strict_flexes >= 0) assert_int_equal(b.flexes, strict_flexes);
 }
 
-void squares_and_cubes(void **) {
+CASE(squares_and_cubes) {
   expect(square(6), false, 10, false, 11);
   expect(cubic(4), false, 45, false, 48);
 }
-void close_packed(void **) {
+
+CASE(close_packed) {
   expect(fcc(3), true, 0, true, 0);
   expect(triangular(8), true, 0, true, 0);
 }
-void vacancies(void **) {
+
+CASE(vacancies) {
   expect(without(fcc(4), [](int i) { return i == 7; }), true, 0, true, 0);
   expect(without(triangular(8), [](int i) { return i == 9; }), true, 0, true, 0);
   expect(without(triangular(8), [](int i) { return i == 9 || i == 10; }), false, 2, false, -1);
   expect(without(triangular(8), [](int i) { return i >= 9 && i < 12; }), false, 6, false, -1);
 }
-void open_lattices(void **) {
+
+CASE(open_lattices) {
   // Honeycomb and kagome: a triangular lattice without a third and a quarter of its spheres.
   expect(without(triangular(6), [](int i) { return (i % 6 + 12 - i / 6) % 3 == 0; }), false, -1, false, -1);
   expect(without(triangular(6), [](int i) { return i % 2 == 0 && i / 6 % 2 == 0; }), false, -1, false, -1);
@@ -137,14 +140,12 @@ struct Sys {
 
 // Grown to a pressure; crunched when asked for.
 void make(Sys &s, int dim, int64_t n, int64_t seed, double ratio, bool crunched) {
-  jam_create_options o;
-  jam_create_options_init(&o, sizeof o);
+  DEFAULTS(create, o);
   o.dim = dim, o.n = n, o.seed = seed;
   std::vector<double> sigma(static_cast<size_t>(n), 1.0);
   for (size_t k = 0; k < sigma.size() / 2; ++k) sigma[k] = ratio;
   assert_int_equal(create_from(&o, nullptr, 0, sigma.data(), sigma.size(), &s.sys), JAM_OK);
-  jam_compress_options c;
-  jam_compress_options_init(&c, sizeof c);
+  DEFAULTS(compress, c);
   c.growth_rate = 1e-2, c.pressure = 500.0;
   assert_int_equal(jam_compress(s.sys, &c, nullptr), JAM_OK);
   if (crunched) assert_int_equal(jam_crunch(s.sys, nullptr, nullptr), JAM_OK);
@@ -159,7 +160,7 @@ RigidityMatrix list_of(const Packing &p) {
   return make_rigidity_matrix(p, test_packing(p, nullptr, Jamming::collective).contacts);
 }
 
-void amorphous(void **) {
+CASE(amorphous) {
   for (const int dim : {2, 3}) {
     Sys s;
     make(s, dim, 64, dim, dim == 2 ? 1.4 : 1.0, true);
@@ -195,7 +196,7 @@ void amorphous(void **) {
   }
 }
 
-void fluids_are_not_jammed(void **) {
+CASE(fluids_are_not_jammed) {
   for (int64_t seed = 1; seed <= 5; ++seed) {
     Sys s;
     make(s, 3, 64, seed, 1.0, false);
@@ -205,7 +206,7 @@ void fluids_are_not_jammed(void **) {
   }
 }
 
-void rattlers_by_force_alone(void **) {
+CASE(rattlers_by_force_alone) {
   // A triangular lattice with a hole of seven sites. Three spheres that touch each other rattle in it: they have two
   // contacts each, and no force.
   Case c = without(triangular(8), [](int i) {
@@ -253,7 +254,7 @@ void rattlers_by_force_alone(void **) {
 
 // One sphere of an fcc lattice is smaller: its twelve gaps are 1e-8, too wide for contacts and too narrow to be open
 // for certain. The lattice is jammed with them and without them, and the contacts that carry force are closed.
-void a_loose_sphere_in_doubt(void **) {
+CASE(a_loose_sphere_in_doubt) {
   Packing p = fcc_cube(4);
   p.diameter[9] *= 1.0 - 2e-8;
   const PackingVerdict v = test_packing(p, nullptr, Jamming::collective);
@@ -265,15 +266,3 @@ void a_loose_sphere_in_doubt(void **) {
 }
 
 }  // namespace
-
-int main() {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(squares_and_cubes),
-                                     cmocka_unit_test(close_packed),
-                                     cmocka_unit_test(vacancies),
-                                     cmocka_unit_test(open_lattices),
-                                     cmocka_unit_test(amorphous),
-                                     cmocka_unit_test(fluids_are_not_jammed),
-                                     cmocka_unit_test(rattlers_by_force_alone),
-                                     cmocka_unit_test(a_loose_sphere_in_doubt)};
-  return cmocka_run_group_tests_name("network_rigidity", tests, nullptr, nullptr);
-}

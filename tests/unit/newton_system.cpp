@@ -63,14 +63,14 @@ void solves(int dim, int32_t n) {
   assert_true(worst < 1e-9 * scale && std::fabs(last - scene.h) < 1e-9 * scale);
 }
 
-void residuals_vanish(void **) {
+CASE(residuals_vanish) {
   for (const int dim : {2, 3, 5}) solves(dim, 200);
   solves(3, 4);
 }
 
 // With a factor of floats conjugate gradients come as near as asked, in the norm of the matrix; without a product they
 // fail.
-void floats_come_near(void **) {
+CASE(floats_come_near) {
   const int32_t n = 200;
   for (const int dim : {2, 3, 5}) {
     const Scene scene(dim, n, 1e-3);
@@ -101,7 +101,7 @@ void floats_come_near(void **) {
 
 // Two discs held apart by rows on both sides, and hardly to their places: floats lose the pivot of their common motion.
 // The factor serves all the same. Numbers that are not finite are refused.
-void lost_pivots_and_refusals(void **) {
+CASE(lost_pivots_and_refusals) {
   Packing p;
   p.set_cube(2, 1.0), p.position = {0.2, 0.5, 0.7, 0.5}, p.diameter = {0.1, 0.1}, p.velocity.assign(4, 0.0);
   const PairList pairs = find_pairs(p, 0.45, 1.0);
@@ -126,9 +126,3 @@ void lost_pivots_and_refusals(void **) {
 }
 
 }  // namespace
-
-int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(residuals_vanish), cmocka_unit_test(floats_come_near),
-                              cmocka_unit_test(lost_pivots_and_refusals)};
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}

@@ -12,7 +12,7 @@ namespace {
 // The reference is the long double error function of the C library.
 long double share_below(long double x) { return 0.5L * std::erfc(-x / std::sqrt(2.0L)); }
 
-void shares_are_those_of_the_error_function(void **) {
+CASE(shares_are_those_of_the_error_function) {
   if (LDBL_MANT_DIG < 64) skip();
   double worst = 0.0;
   for (int k = -3700; k <= 900; ++k) {
@@ -26,7 +26,7 @@ void shares_are_those_of_the_error_function(void **) {
 }
 
 // One step of Newton's method from the quantile is its error.
-void quantiles_invert_shares(void **) {
+CASE(quantiles_invert_shares) {
   if (LDBL_MANT_DIG < 64) skip();
   double worst = 0.0;
   for (int k = 1; k < 4000; ++k) {
@@ -45,9 +45,3 @@ void quantiles_invert_shares(void **) {
 }
 
 }  // namespace
-
-int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(shares_are_those_of_the_error_function),
-                              cmocka_unit_test(quantiles_invert_shares)};
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}

@@ -61,7 +61,7 @@ double fill(const Graph &g, const std::vector<int32_t> &order) {
   return sum;
 }
 
-void orders_are_permutations(void **) {
+CASE(orders_are_permutations) {
   for (const int32_t n : {1, 2, 3, 50, 101, 3000})
     for (const double degree : {0.0, 0.5, 3.0, 12.0, 60.0}) {
       const Graph g = random_graph(n, degree, n);
@@ -77,7 +77,7 @@ void orders_are_permutations(void **) {
 
 // A. George, SIAM J. Numer. Anal. 10, 345 (1973): nested dissection of a square grid of n points by its lines leaves at
 // most 31/4 n log2 n entries. Minimum degree on the leaves stays far below it.
-void fill_of_a_grid(void **) {
+CASE(fill_of_a_grid) {
   for (const int32_t side : {16, 33, 70}) {
     const double n = side * side, entries = fill(square_grid(side), nested_dissection(square_grid(side)));
     assert_true(entries < 0.5 * 7.75 * n * std::log2(n));
@@ -85,7 +85,7 @@ void fill_of_a_grid(void **) {
   }
 }
 
-void separators_separate(void **) {
+CASE(separators_separate) {
   for (const int32_t n : {60, 700, 4000}) {
     WeightedGraph g;
     static_cast<Graph &>(g) = random_graph(n, 5.0, 3);
@@ -113,7 +113,7 @@ void separators_separate(void **) {
 
 // A star with its centre in the halo: leaves have degree one and come in any order; with the centre inside, it is last
 // but one at the earliest.
-void minimum_degree_of_small_graphs(void **) {
+CASE(minimum_degree_of_small_graphs) {
   std::vector<int32_t> i(9, 0), j{1, 2, 3, 4, 5, 6, 7, 8, 9};
   const std::vector<int32_t> order = minimum_degree(make_graph(10, i.data(), j.data(), 9), 10);
   assert_true(order[9] == 0 || order[8] == 0);
@@ -125,7 +125,7 @@ void minimum_degree_of_small_graphs(void **) {
 std::atomic<int> caught{0};
 void count(int) { ++caught; }
 
-void host_changes_nothing(void **) {
+CASE(host_changes_nothing) {
   const Graph g = random_graph(2000, 6.0, 9);
   const std::vector<int32_t> alone = nested_dissection(g);
   struct sigaction before = {}, mine = {}, after = {};
@@ -152,10 +152,3 @@ void host_changes_nothing(void **) {
 }
 
 }  // namespace
-
-int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(orders_are_permutations), cmocka_unit_test(fill_of_a_grid),
-                              cmocka_unit_test(separators_separate), cmocka_unit_test(minimum_degree_of_small_graphs),
-                              cmocka_unit_test(host_changes_nothing)};
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}

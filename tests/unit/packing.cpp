@@ -10,7 +10,7 @@ namespace {
 
 // Of n equal spheres the mean diameter is the diameter, and the packing fraction is n times that of one. Diameters
 // without a short binary form, in numbers where sums in double lose three digits.
-void sums_over_many_spheres_keep_their_digits(void **) {
+CASE(sums_over_many_spheres_keep_their_digits) {
   for (const int dim : {2, 3, 5})
     for (const size_t n : {1000u, 65536u, 300007u})
       for (const double sigma : {0.01 / 3.0, 0.0265854627236561}) {
@@ -25,8 +25,3 @@ void sums_over_many_spheres_keep_their_digits(void **) {
 }
 
 }  // namespace
-
-int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(sums_over_many_spheres_keep_their_digits)};
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}

@@ -12,7 +12,7 @@ using namespace jam::inside;
 
 namespace {
 
-void cells_equal_brute_force(void **) {
+CASE(cells_equal_brute_force) {
   for (int dim = 2; dim <= 5; ++dim) {
     jam_create_options o = default_create_options();
     o.n = dim < 4 ? 700 : 1500, o.dim = dim, o.packing_fraction = dim < 4 ? 0.2 : 0.02, o.box = 2.0;
@@ -42,7 +42,7 @@ void cells_equal_brute_force(void **) {
 }
 
 // Diameters and reaches over a factor of 1 to 50, in cubes and a tilted cell; the largest may fill half the box.
-void levels_equal_brute_force(void **) {
+CASE(levels_equal_brute_force) {
   const double tilted[] = {1.0, 0.0, 0.0, 0.4, 1.1, 0.0, -0.3, 0.2, 1.4};
   for (const int dim : {2, 3})
     for (const double ratio : {1.9, 4.0, 50.0})
@@ -71,7 +71,7 @@ void levels_equal_brute_force(void **) {
 }
 
 // One sphere a box of side 1: reach 1.01 sees one of each +- pair of nearest images, reach 1.5 the diagonals too.
-void own_images(void **) {
+CASE(own_images) {
   Packing p;
   p.set_cube(3, 1.0);
   p.position = {0.3, 0.4, 0.5};
@@ -86,7 +86,7 @@ void own_images(void **) {
   for (size_t k = 0; k < 8; ++k) assert_true(std::fabs(pair_vector(p, pairs, k, r) - 0.75) < 1e-15);
 }
 
-void wrapping_keeps_vectors(void **) {
+CASE(wrapping_keeps_vectors) {
   jam_create_options o = default_create_options();
   o.n = 200, o.packing_fraction = 0.3;
   Packing p = make_packing(o, nullptr, 0, nullptr, 0);
@@ -105,7 +105,7 @@ void wrapping_keeps_vectors(void **) {
 }
 
 // Values stay with their pairs, image by image; new pairs get 0.
-void values_carried_over(void **) {
+CASE(values_carried_over) {
   PairList from, to;
   from.i = {0, 0, 1, 2}, from.j = {1, 1, 2, 5};
   to.i = {0, 0, 0, 0, 2, 3}, to.j = {1, 1, 1, 2, 5, 4};
@@ -114,7 +114,7 @@ void values_carried_over(void **) {
   assert_true(carry_over(PairList(), {}, to) == std::vector<double>(6, 0.0));
 }
 
-void closest_pair_by_brute_force(void **) {
+CASE(closest_pair_by_brute_force) {
   Packing p;
   p.set_cube(2, 1.0);
   p.position = {0.1, 0.1, 0.95, 0.1, 0.5, 0.6};
@@ -125,7 +125,7 @@ void closest_pair_by_brute_force(void **) {
 
 // From so many spheres on they are searched along a curve. The list is that of the numbers all the same, and those
 // that are only visited are the same pairs.
-void many_spheres_by_distance_to_all(void **) {
+CASE(many_spheres_by_distance_to_all) {
   for (const bool levels : {false, true}) {
     jam_create_options o = default_create_options();
     o.n = static_cast<int32_t>(PairListTuning::along_curve_from), o.dim = 2, o.packing_fraction = 0.2;
@@ -173,14 +173,3 @@ void many_spheres_by_distance_to_all(void **) {
 }
 
 }  // namespace
-
-int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(cells_equal_brute_force),
-                              cmocka_unit_test(levels_equal_brute_force),
-                              cmocka_unit_test(own_images),
-                              cmocka_unit_test(wrapping_keeps_vectors),
-                              cmocka_unit_test(values_carried_over),
-                              cmocka_unit_test(closest_pair_by_brute_force),
-                              cmocka_unit_test(many_spheres_by_distance_to_all)};
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}

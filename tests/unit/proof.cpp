@@ -60,7 +60,7 @@ Eigen::MatrixXd dense_rows(const ProofScene &s, const ProofEquations &e) {
   return r.rightCols(s.unknowns() - s.dim);
 }
 
-void sums_are_exact(void **) {
+CASE(sums_are_exact) {
   // Integers of 20 bits times powers of two: an exact oracle is 128-bit integers.
   std::mt19937_64 random(1);
   for (int trial = 0; trial < 2000; ++trial) {
@@ -84,7 +84,7 @@ void sums_are_exact(void **) {
 
 // One bit in 25 from 2^-1000 to 2^1000: 81 parts that no double joins but where two are so near. Taken out again from
 // the middle, nothing may be left.
-void sums_of_any_range_are_exact(void **) {
+CASE(sums_of_any_range_are_exact) {
   std::mt19937_64 random(5);
   for (int trial = 0; trial < 200; ++trial) {
     Expansion sum;
@@ -99,7 +99,7 @@ void sums_of_any_range_are_exact(void **) {
   }
 }
 
-void the_size_of_a_factor_is_that_of_a_dense_one(void **) {
+CASE(the_size_of_a_factor_is_that_of_a_dense_one) {
   std::mt19937_64 random(2);
   for (const int dim : {2, 3, 5}) {
     BlockMatrix m;
@@ -133,7 +133,7 @@ void the_size_of_a_factor_is_that_of_a_dense_one(void **) {
   }
 }
 
-void the_singular_bound_is_below_the_singular_value(void **) {
+CASE(the_singular_bound_is_below_the_singular_value) {
   for (const auto &gone : {std::vector<int>{}, std::vector<int>{9}, std::vector<int>{9, 20}}) {
     const Lattice l = triangular(6, 6, gone);
     const ProofScene s = make_proof_scene(l.packing, l.network, {});
@@ -163,7 +163,7 @@ Lattice square(int side) {
   return out;
 }
 
-void equations_of_a_square_lattice_are_exact(void **) {
+CASE(equations_of_a_square_lattice_are_exact) {
   const Lattice l = square(4);
   ProofScene s = make_proof_scene(l.packing, l.network, {});
   ProofEquations e = evaluate(s);
@@ -174,7 +174,7 @@ void equations_of_a_square_lattice_are_exact(void **) {
   assert_false(proof.exact || proof.trapped);
 }
 
-void crystals_are_trapped_and_not_called_isostatic(void **) {
+CASE(crystals_are_trapped_and_not_called_isostatic) {
   for (const auto &gone : {std::vector<int>{}, std::vector<int>{9}}) {
     const Lattice l = triangular(6, 6, gone);
     ProofScene s = make_proof_scene(l.packing, l.network, {});
@@ -188,7 +188,7 @@ void crystals_are_trapped_and_not_called_isostatic(void **) {
   }
 }
 
-void a_force_with_the_wrong_sign_proves_nothing(void **) {
+CASE(a_force_with_the_wrong_sign_proves_nothing) {
   const Lattice l = triangular(6, 6);
   ProofScene s = make_proof_scene(l.packing, l.network, {});
   ProofEquations e;
@@ -200,7 +200,7 @@ void a_force_with_the_wrong_sign_proves_nothing(void **) {
 }
 
 // An unbalanced force is positive but no state of self-stress.
-void forces_that_do_not_balance_prove_nothing(void **) {
+CASE(forces_that_do_not_balance_prove_nothing) {
   const Lattice l = triangular(6, 6);
   ProofScene s = make_proof_scene(l.packing, l.network, {});
   ProofEquations e;
@@ -209,7 +209,7 @@ void forces_that_do_not_balance_prove_nothing(void **) {
   assert_false(prove(s, e).trapped);
 }
 
-void an_overlap_proves_nothing(void **) {
+CASE(an_overlap_proves_nothing) {
   Lattice l = triangular(6, 6);
   // A disk without contacts in the list, put into a hole that is too small for it.
   Packing &p = l.packing;
@@ -230,7 +230,7 @@ void check_closed(const ProofScene &s) {
 }
 
 // One disk is too small by 1e-14, so that its six contacts cannot close with all others: too little for doubles to say.
-void contacts_that_stay_open_leave_the_list(void **) {
+CASE(contacts_that_stay_open_leave_the_list) {
   for (const int k : {0, 14}) {
     Lattice l = triangular(6, 6);
     l.packing.diameter[k] -= 1e-14;
@@ -243,7 +243,7 @@ void contacts_that_stay_open_leave_the_list(void **) {
 
 // Linear programs and exchanges of contacts find the same Gamma, whether a disk is too small by 1e-14 or too large by
 // 1e-12, and a rattler that overlaps comes free.
-void linear_programs_close_the_same_contacts(void **) {
+CASE(linear_programs_close_the_same_contacts) {
   Lattice large = triangular(40, 40);  // 4800 pairs
   ProofScene refused = make_proof_scene(large.packing, large.network, {});
   assert_true(close_by_lps(refused) == (clp_is_built() ? LpsEnd::too_many_rows : LpsEnd::without_clp));
@@ -277,7 +277,7 @@ void linear_programs_close_the_same_contacts(void **) {
 }
 
 // A list without three contacts of a disk that is too large: it overlaps there.
-void pairs_that_overlap_enter_the_list(void **) {
+CASE(pairs_that_overlap_enter_the_list) {
   Lattice l = triangular(6, 6);
   l.packing.diameter[14] += 1e-14;
   std::vector<char> on(l.network.size(), 1);
@@ -308,14 +308,15 @@ void check_that_it_moves_out(double diameter, double x) {
   assert_true(finish_exchange(s, close_together(s)) != Settled::unchanged);
   assert_true(overlap() == 0.0);
 }
-void rattlers_move_out_of_overlaps(void **) {
+
+CASE(rattlers_move_out_of_overlaps) {
   check_that_it_moves_out(0.5, 2.25 + 1e-14);
   check_that_it_moves_out(1.0 - 2e-15, 2.0 + 1e-10);
 }
 
 // A disk between three others has one place where it overlaps nothing, and none where all pairs are open. Two of them
 // are nearly on opposite sides: they hold it far less along the line between them than across.
-void a_rattler_without_room_touches(void **) {
+CASE(a_rattler_without_room_touches) {
   Packing p;
   p.dim = 2, p.cell = Cell{2, 8192.0};
   p.position = {4096, 4096, 4096 + 1601, 4096, 4096 - 1599, 4096 + 80, 4096 - 80, 4096 - 1599};
@@ -338,7 +339,7 @@ void a_rattler_without_room_touches(void **) {
 
 // Two disks with one centre: no direction leads them apart, and nothing is proved. In the hole of disk 14 they are
 // rattlers; one more disk on disk 15 has contacts like it, or is a rattler there.
-void nothing_is_proved_with_two_at_one_centre(void **) {
+CASE(nothing_is_proved_with_two_at_one_centre) {
   for (int kind = 0; kind < 3; ++kind) {
     Lattice l = triangular(6, 6, kind == 0 ? std::vector<int>{14} : std::vector<int>{});
     Packing &p = l.packing;
@@ -365,22 +366,3 @@ void nothing_is_proved_with_two_at_one_centre(void **) {
 }
 
 }  // namespace
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(sums_are_exact),
-                                     cmocka_unit_test(sums_of_any_range_are_exact),
-                                     cmocka_unit_test(the_size_of_a_factor_is_that_of_a_dense_one),
-                                     cmocka_unit_test(the_singular_bound_is_below_the_singular_value),
-                                     cmocka_unit_test(equations_of_a_square_lattice_are_exact),
-                                     cmocka_unit_test(crystals_are_trapped_and_not_called_isostatic),
-                                     cmocka_unit_test(a_force_with_the_wrong_sign_proves_nothing),
-                                     cmocka_unit_test(forces_that_do_not_balance_prove_nothing),
-                                     cmocka_unit_test(an_overlap_proves_nothing),
-                                     cmocka_unit_test(contacts_that_stay_open_leave_the_list),
-                                     cmocka_unit_test(linear_programs_close_the_same_contacts),
-                                     cmocka_unit_test(pairs_that_overlap_enter_the_list),
-                                     cmocka_unit_test(rattlers_move_out_of_overlaps),
-                                     cmocka_unit_test(a_rattler_without_room_touches),
-                                     cmocka_unit_test(nothing_is_proved_with_two_at_one_centre)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
-}

@@ -13,7 +13,7 @@ using namespace jam::inside;
 
 namespace {
 
-void lanes_are_those_of_single_numbers(void **) {
+CASE(lanes_are_those_of_single_numbers) {
   for (uint64_t round = 0; round < 10000; ++round) {
     uint64_t a[4], b[4];
     for (uint64_t k = 0; k < 4; ++k) a[k] = mix64(8 * round + k), b[k] = mix64(8 * round + k + 4);
@@ -39,8 +39,3 @@ void lanes_are_those_of_single_numbers(void **) {
 }
 
 }  // namespace
-
-int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(lanes_are_those_of_single_numbers)};
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}

@@ -27,7 +27,7 @@ SoftResult relaxed(const Packing &p, const jam_relax_options &o) {
 }
 
 // At some finite strain, by central differences of 1e-5, whose error is some 1e-9 of the stiffness.
-void forces_are_slopes(void **) {
+CASE(forces_are_slopes) {
   const PairEnergy energy(2.5, JAM_SOFT_RELATIVE);
   for (int dim = 2; dim <= 4; ++dim)
     for (const int32_t strain : {3, 4, 5, 7}) {
@@ -80,7 +80,7 @@ double stress(const Packing &p, int a, int b) {
 
 // From a minimum that is shaken and sheared a little every method leads back to it. Its stress is P, or at fixed volume
 // isotropic.
-void one_minimum(void **) {
+CASE(one_minimum) {
   for (int dim = 2; dim <= 3; ++dim)
     for (const int32_t strain : {JAM_STRAIN_FREE, JAM_STRAIN_ALL, JAM_STRAIN_VOLUME}) {
       const double pressure = strain >= JAM_STRAIN_VOLUME ? 0.02 : 0.0;
@@ -115,7 +115,7 @@ void one_minimum(void **) {
 
 // One sphere a cell from a distorted face-centred cubic one, two disks from a distorted rectangle: the close-packed
 // lattices, with P = -dU / dV = z h / (2 sigma dV / dr).
-void lattices_are_exact(void **) {
+CASE(lattices_are_exact) {
   for (int32_t m = JAM_MINIMISER_NEWTON; m <= JAM_MINIMISER_LBFGS; ++m) {
     Packing one;
     const double fcc[] = {1.0, 0.0, 0.0, 0.51, 0.85, 0.0, 0.48, 0.30, 0.83};
@@ -142,7 +142,7 @@ void lattices_are_exact(void **) {
 }
 
 // Parts of the strain: what may not change does not, and components choose among them.
-void parts_of_the_strain(void **) {
+CASE(parts_of_the_strain) {
   const Packing start = random_packing(3, 40, 0.75, 3);
   jam_relax_options o = options(JAM_MINIMISER_NEWTON, JAM_STRAIN_VOLUME, 0.05);
   assert_true(relaxed(start, o).packing.cell.cube());
@@ -167,7 +167,7 @@ void refused(const jam_relax_options &o) {
 }
 
 // Unjammed starts are told; a pressure compresses them. Options that do not fit are refused.
-void statuses(void **) {
+CASE(statuses) {
   for (int32_t m = JAM_MINIMISER_NEWTON; m <= JAM_MINIMISER_LBFGS; ++m) {
     const Packing start = random_packing(3, 60, 0.4, 5);
     const SoftResult end = relaxed(start, options(m, JAM_STRAIN_FREE, 0.0));
@@ -190,7 +190,7 @@ void statuses(void **) {
 }
 
 // Cut short anywhere, before and after the cell is free, the state is valid and a second call ends as one would.
-void cut_short(void **) {
+CASE(cut_short) {
   const Packing start = random_packing(2, 60, 0.95, 7);
   for (int32_t m = JAM_MINIMISER_NEWTON; m <= JAM_MINIMISER_LBFGS; ++m) {
     jam_relax_options o = options(m, JAM_STRAIN_ALL, 0.02);
@@ -230,10 +230,3 @@ void cut_short(void **) {
 }
 
 }  // namespace
-
-int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(forces_are_slopes),  cmocka_unit_test(one_minimum),
-                              cmocka_unit_test(lattices_are_exact), cmocka_unit_test(parts_of_the_strain),
-                              cmocka_unit_test(statuses),           cmocka_unit_test(cut_short)};
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}

@@ -13,7 +13,7 @@ using namespace jam::inside;
 namespace {
 
 // Two spheres at a known overlap, every scale and exponent by hand; nothing at h = 0 and above.
-void pair_values(void **) {
+CASE(pair_values) {
   Packing p;
   p.set_cube(3, 1.0);
   p.position = {0.25, 0.5, 0.5, 0.5, 0.5, 0.5};
@@ -46,7 +46,7 @@ void pair_values(void **) {
 }
 
 // Minus the central difference of the energy, spheres of two sizes, small boxes with several images, shifted distances.
-void forces_are_gradients(void **) {
+CASE(forces_are_gradients) {
   for (int dim = 2; dim <= 4; ++dim)
     for (const double alpha : {1.5, 2.0, 2.5, 3.0})
       for (int model = JAM_MODEL_EUCLID; model <= JAM_MODEL_MK; ++model) {
@@ -90,7 +90,7 @@ Quad overlap_by_quad(const Packing &p, const PairList &pairs, size_t k, const st
 }
 
 // Overlaps keep 15 digits however small they are: diameters are set so that pairs overlap by 1e-6 ... 1e-14 of one.
-void overlaps_against_quad(void **) {
+CASE(overlaps_against_quad) {
   const Packing p = random_packing(3, 60, 0.9, 3, true);
   for (const double size : {1e-6, 1e-10, 1e-14}) {
     SoftState state(p, PairEnergy(2.0, JAM_SOFT_RELATIVE), JAM_SOFT_REFERENCE);
@@ -119,7 +119,7 @@ void overlaps_against_quad(void **) {
 }
 
 // Sums and products of two doubles in twice the digits, against quad precision.
-void double_double(void **) {
+CASE(double_double) {
   Rng rng(1, Stream::velocities);
   for (int k = 0; k < 1000; ++k) {
     const double a = rng.normal(), b = 1e-8 * rng.normal(), c = rng.normal();
@@ -139,9 +139,3 @@ void double_double(void **) {
 }
 
 }  // namespace
-
-int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(pair_values), cmocka_unit_test(forces_are_gradients),
-                              cmocka_unit_test(overlaps_against_quad), cmocka_unit_test(double_double)};
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}

@@ -21,7 +21,7 @@ SoftResult relaxed(const Packing &p, int32_t minimiser, double alpha = 2.0, doub
 }
 
 // From a minimum that is shaken a little every method leads back to it.
-void one_minimum(void **) {
+CASE(one_minimum) {
   for (int dim = 2; dim <= 3; ++dim)
     for (const double alpha : {2.0, 2.5}) {
       const SoftResult start = relaxed(random_packing(dim, 80, dim == 2 ? 0.95 : 0.75, 2), JAM_MINIMISER_NEWTON, alpha);
@@ -41,7 +41,7 @@ void one_minimum(void **) {
 }
 
 // Below alpha = 2 a contact that opens is ever stiffer.
-void contacts_that_stiffen(void **) {
+CASE(contacts_that_stiffen) {
   for (int dim = 2; dim <= 3; ++dim) {
     const Packing start = random_packing(dim, 200, dim == 2 ? 0.92 : 0.7, 1);
     const SoftResult end = relaxed(start, JAM_MINIMISER_NEWTON, 1.5);
@@ -52,7 +52,7 @@ void contacts_that_stiffen(void **) {
 
 // Near alpha = 1 the force of a contact jumps as it closes. Every method converges to what it reports, or says that it
 // did not; a decompression keeps no minimum that does not balance.
-void alpha_near_one(void **) {
+CASE(alpha_near_one) {
   for (int dim = 2; dim <= 3; ++dim)
     for (const double alpha : {1.05, 1.1, 1.2}) {
       const Packing start = random_packing(dim, 40, dim == 2 ? 0.95 : 0.75, 1);
@@ -80,7 +80,7 @@ void alpha_near_one(void **) {
 }
 
 // What counts is the residual of the state that is handed out, after its positions are rounded anew.
-void converged_is_what_is_reported(void **) {
+CASE(converged_is_what_is_reported) {
   for (int64_t seed = 1; seed <= 4; ++seed)
     for (const double tolerance : {1e-15, 2e-15, 3e-15, 5e-15, 1e-14}) {
       Monitor monitor;
@@ -94,7 +94,7 @@ void converged_is_what_is_reported(void **) {
 }
 
 // Forces balance to 1e-12 where overlaps are 1e-9 of a diameter; in plain doubles they cannot.
-void balance_at_tiny_overlaps(void **) {
+CASE(balance_at_tiny_overlaps) {
   Monitor monitor;
   monitor.begin();
   jam_decompress_options o = default_decompress_options();
@@ -112,7 +112,7 @@ void balance_at_tiny_overlaps(void **) {
 
 // Stiffnesses and pre-stress of the network are those of the energy: the Hessian times a displacement is the change of
 // the forces.
-void network_has_the_hessian(void **) {
+CASE(network_has_the_hessian) {
   const SoftResult at = relaxed(random_packing(3, 60, 0.8, 1), JAM_MINIMISER_NEWTON, 2.5);
   assert_int_equal(at.report.rattlers, 0);
   const double step = 1e-7;
@@ -142,7 +142,7 @@ void network_has_the_hessian(void **) {
 }
 
 // No overlaps left: energy 0, said so. One sphere, and spheres of which none is held.
-void unjammed(void **) {
+CASE(unjammed) {
   for (int32_t m = JAM_MINIMISER_NEWTON; m <= JAM_MINIMISER_LBFGS; ++m) {
     const SoftResult end = relaxed(random_packing(3, 60, 0.4, 5), m);
     assert_int_equal(end.status, JAM_NOT_JAMMED);
@@ -159,7 +159,7 @@ void unjammed(void **) {
 }
 
 // A rattler against its cage goes to where its nearest neighbours are farther.
-void rattlers_are_centred(void **) {
+CASE(rattlers_are_centred) {
   Packing p;  // a small sphere inside a cube of eight large ones that overlap along the edges
   p.set_cube(3, 1.0);
   for (int k = 0; k < 8; ++k)
@@ -183,7 +183,7 @@ void rattlers_are_centred(void **) {
 }
 
 // A step of the tolerance below what rounding leaves is told, not awaited.
-void limits_are_told(void **) {
+CASE(limits_are_told) {
   Monitor monitor;
   monitor.begin();
   jam_relax_options o = default_relax_options();
@@ -199,7 +199,7 @@ void limits_are_told(void **) {
 }
 
 // A decompression that goes on from its first minimum: a step that failed at the first limit may take more.
-void failed_steps_set_the_scale(void **) {
+CASE(failed_steps_set_the_scale) {
   Monitor monitor;
   monitor.begin();
   const std::function<SoftComparison(const SoftResult &)> nobody;
@@ -214,17 +214,3 @@ void failed_steps_set_the_scale(void **) {
 }
 
 }  // namespace
-
-int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(one_minimum),
-                              cmocka_unit_test(contacts_that_stiffen),
-                              cmocka_unit_test(alpha_near_one),
-                              cmocka_unit_test(converged_is_what_is_reported),
-                              cmocka_unit_test(balance_at_tiny_overlaps),
-                              cmocka_unit_test(network_has_the_hessian),
-                              cmocka_unit_test(unjammed),
-                              cmocka_unit_test(rattlers_are_centred),
-                              cmocka_unit_test(limits_are_told),
-                              cmocka_unit_test(failed_steps_set_the_scale)};
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}

@@ -39,7 +39,7 @@ void assert_same(const StructureFactor &a, const StructureFactor &b) {
 }
 
 // Every vector q = 2 pi (m_1 b_1 + ...) with b_k . a_c = (k == c), b from cross products.
-void plain_sum(void **) {
+CASE(plain_sum) {
   const Packing p = points(3, 20, tilted);
   const double q_max = 2.5 * 2.0 * M_PI * 0.1;
   const double *a[3] = {p.cell.row(0), p.cell.row(1), p.cell.row(2)};
@@ -74,7 +74,7 @@ void plain_sum(void **) {
   assert_int_equal(structure_factor(p, q_max, true).q.size(), f.q.size());
 }
 
-void the_basis_does_not_matter(void **) {
+CASE(the_basis_does_not_matter) {
   for (const int dim : {2, 3}) {
     std::vector<double> rows;
     for (int r = 0; r < dim; ++r)
@@ -96,7 +96,7 @@ void the_basis_does_not_matter(void **) {
 }
 
 // The face-centred cubic crystal in its primitive cell and in the cubic one: the same Bragg peaks, S = N.
-void bragg_peaks(void **) {
+CASE(bragg_peaks) {
   const double h = std::sqrt(0.75);
   Packing one = points(3, 1, {1, 0, 0, 0.5, h, 0, 0.5, h / 3.0, std::sqrt(2.0 / 3.0)}), four;
   four.set_cube(3, std::sqrt(2.0));
@@ -116,7 +116,7 @@ void bragg_peaks(void **) {
 }
 
 // In the cube the sums have one order: by the first component, then the second; recurrences as in a product of phases.
-void bits_in_the_cube(void **) {
+CASE(bits_in_the_cube) {
   const double side = 1.7;
   const Packing p = points(2, 30, {side, 0.0, 0.0, side});
   const double step = 2.0 * M_PI / side;
@@ -145,7 +145,7 @@ void bits_in_the_cube(void **) {
 }
 
 // The sums on a grid against plain ones, for one axis to three; points lie on both sides of the cell's ends.
-void grid_sums_are_plain_sums(void **) {
+CASE(grid_sums_are_plain_sums) {
   for (const FourierSums::Bounds &most : {FourierSums::Bounds{9, 4, 6}, {30, 11, 0}, {17, 0, 0}, {1, 1, 1}}) {
     const size_t axes = most[1] == 0 ? 1 : most[2] == 0 ? 2 : 3, points = 50;
     Rng rng(3, Stream::analysis_start);
@@ -168,7 +168,7 @@ void grid_sums_are_plain_sums(void **) {
 }
 
 // Enough products that a grid is used: shells of the first lengths against plain sums, and one axis between walls.
-void many_spheres_by_a_grid(void **) {
+CASE(many_spheres_by_a_grid) {
   for (const int32_t walls : {0, 2}) {
     jam_create_options o = default_create_options();
     o.n = walls ? 30000 : 4000, o.dim = 2, o.packing_fraction = 0.2, o.walls = walls;
@@ -196,13 +196,3 @@ void many_spheres_by_a_grid(void **) {
 }
 
 }  // namespace
-
-int main() {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(grid_sums_are_plain_sums),
-                                     cmocka_unit_test(many_spheres_by_a_grid),
-                                     cmocka_unit_test(plain_sum),
-                                     cmocka_unit_test(the_basis_does_not_matter),
-                                     cmocka_unit_test(bragg_peaks),
-                                     cmocka_unit_test(bits_in_the_cube)};
-  return cmocka_run_group_tests_name("structure_factor", tests, nullptr, nullptr);
-}

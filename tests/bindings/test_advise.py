@@ -34,7 +34,3 @@ class Advise(unittest.TestCase):
         for wrong in ((1, 3, 5), (100, 7, 5), (100, 3, 0), (100, 3, 16), (100, 3, float("nan"))):
             with self.assertRaises(ValueError):
                 jam.advise(*wrong)
-
-
-if __name__ == "__main__":
-    unittest.main()

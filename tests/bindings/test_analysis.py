@@ -192,7 +192,3 @@ class Network(unittest.TestCase):
             self.s.gaps(-1.0, True)
         with self.assertRaises(jam.errors.StateError):
             jam.System.random(n=10).gaps(1.0, True)
-
-
-if __name__ == "__main__":
-    unittest.main()

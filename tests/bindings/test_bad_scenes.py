@@ -98,7 +98,3 @@ class BadScenes(unittest.TestCase):
             with self.assertRaisesRegex(jam.errors.UnsupportedError, "walls .*free cell"):
                 soft.relax(strain="all", pressure=1e-3)
             self.refused_by_the_program(arguments.split() + ["--strain", "free"], "walls do not strain|--strain")
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -130,7 +130,3 @@ class Protocol(unittest.TestCase):
         for wrong in ([(1e-2,)], [3.0], ["fast"]):
             with self.assertRaisesRegex(ProtocolError, r"stages\[0\].*pair"):
                 complete(dict(n=8, dim=2, stages=wrong))
-
-
-if __name__ == "__main__":
-    unittest.main()

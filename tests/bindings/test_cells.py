@@ -181,7 +181,3 @@ class Cells(unittest.TestCase):
         long = jam.System.random(n=4, dim=2, seed=1, cell=[[1, 0], [100.25, 1]], packing_fraction=0.05)
         self.assertIn("replaced by shorter ones of the same lattice: the product of their lengths was over", long.notes)
         np.testing.assert_allclose(long.cell, [[1, 0], [0.25, 1]], atol=1e-13)
-
-
-if __name__ == "__main__":
-    unittest.main()

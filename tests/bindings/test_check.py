@@ -300,7 +300,3 @@ class OwnImages(unittest.TestCase):
         s.scale_diameters(1.0 - 1e-8)
         self.assertNotEqual(s.check(crunch=False).jammed, Verdict.YES)
         self.assertTrue(np.isfinite(s.rigidity("collective").rigidity_margin))
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -444,7 +444,3 @@ class CommandLine(unittest.TestCase):
             said = json.loads(out)
             self.assertEqual((code, said["status"]), (status, status))
             self.assertTrue(said["text"])
-
-
-if __name__ == "__main__":
-    unittest.main()

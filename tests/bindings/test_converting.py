@@ -86,7 +86,3 @@ class Converting(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "give diameters="):
             jam.System.from_ase(atoms)
         self.assertEqual(jam.System.from_ase(atoms, radii=0.005).diameters[0], 0.01)
-
-
-if __name__ == "__main__":
-    unittest.main()

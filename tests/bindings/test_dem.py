@@ -73,7 +73,3 @@ class Units(unittest.TestCase):
             expected = (stiffness * np.maximum(0, grain - r) * r).sum() / (dim * unit**dim)
             self.assertGreater(expected, 0)
             self.assertAlmostEqual(report.pressure * stiffness / unit ** (dim - 2) / expected, 1, 12)
-
-
-if __name__ == "__main__":
-    unittest.main()

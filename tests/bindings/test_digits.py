@@ -87,7 +87,3 @@ class Digits(unittest.TestCase):
             jam.digits.refine(jammed(24, 2, walls="x"), 50)
         with self.assertRaisesRegex(ValueError, "digits is 10"):
             jam.digits.refine(jammed(24, 2), 10)
-
-
-if __name__ == "__main__":
-    unittest.main()

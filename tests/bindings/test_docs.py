@@ -185,7 +185,3 @@ class AnotherPython(unittest.TestCase):
         self.assertEqual(done.returncode, 1)
         for word in ("ImportError", "_raw.cpython-32-none.so", "-DJAM_PYTHON=" + sys.executable):
             self.assertIn(word, done.stderr)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -304,7 +304,3 @@ class Campaigns(unittest.TestCase):
             with self.assertRaisesRegex(StoreError, "the disk is full"):
                 e.run([1], progress=False)
         self.assertEqual(list(e.files.parts.iterdir()), [])
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -107,7 +107,3 @@ class Tables(unittest.TestCase):
         for name, enum in (("stop_reason", jam.StopReason), ("strictly_jammed", jam.Verdict), ("status", jam.StatusCode)):
             self.assertEqual(list(words[name]), [enum(k).name.lower() for k in numbers[name]], name)
         self.assertEqual(list(words["stop_reason"]), ["converged", "converged"])
-
-
-if __name__ == "__main__":
-    unittest.main()

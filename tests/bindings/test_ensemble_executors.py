@@ -181,7 +181,3 @@ class LongCalls(unittest.TestCase):
                     time.sleep(0.2)
                 self.assertIn("Remove worker", Path(folder, "dask.txt").read_text())
                 held.cancel()
-
-
-if __name__ == "__main__":
-    unittest.main()

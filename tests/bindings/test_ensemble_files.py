@@ -175,7 +175,3 @@ class Files(unittest.TestCase):
         np.testing.assert_array_equal(back.positions, s.positions)
         with self.assertRaises(RuntimeError):
             back.report
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -268,7 +268,3 @@ class Shards(Case):
         self.shards[1].write_bytes(b"")
         with self.assertRaisesRegex(jam.ensemble.StoreError, self.shards[0].name):
             Ensemble(self.top / "shards")
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -101,7 +101,3 @@ class Command(unittest.TestCase):
             self.assertEqual(self.run_jam("run", e, "--seeds", "x").returncode, 2)
             self.assertEqual(self.run_jam("run", e, "--n", "-3", "--seeds", "1").returncode, 3)
             self.assertEqual(self.run_jam("run", "/sys/jam-packings", "--n", "20", "--seeds", "1").returncode, 4)
-
-
-if __name__ == "__main__":
-    unittest.main()

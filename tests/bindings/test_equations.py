@@ -97,7 +97,3 @@ class Equations(unittest.TestCase):
             self.assertAlmostEqual(g.dimension_error * a**2 / math.sqrt(cov[0, 0]), 1, 6)
             slopes = np.array([-1 / c, a / c**2])
             self.assertAlmostEqual(g.jammed_error / math.sqrt(slopes @ cov @ slopes), 1, 5)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -179,7 +179,3 @@ class Facade(unittest.TestCase):
             self.assertIn("Success", (said := check(USER)).stdout, said)
             self.assertIn('"int"', check(USER + "wrong: int = report.stop_reason.name\n").stdout)
             self.assertIn("has no attribute", check(USER + "packing.crush()\n").stdout)
-
-
-if __name__ == "__main__":
-    unittest.main()

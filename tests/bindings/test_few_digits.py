@@ -200,7 +200,3 @@ class FewDigits(unittest.TestCase):
         )
         self.assertEqual((other.returncode, other.stdout), (done.returncode, done.stdout), done.stderr)
         return done.returncode, done.stdout
-
-
-if __name__ == "__main__":
-    unittest.main()

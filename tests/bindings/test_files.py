@@ -284,7 +284,3 @@ class TiltedDump(unittest.TestCase):
         np.testing.assert_allclose(rows[:, 0], corners.min(axis=0), atol=1e-15)
         np.testing.assert_allclose(rows[:, 1], corners.max(axis=0), atol=1e-15)
         np.testing.assert_array_equal(rows[:, 2], [b[0], c[0], c[1]])
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -177,7 +177,3 @@ class Given(unittest.TestCase):
             self.assertEqual(jam.System.read(path, box=2.0).box, 2.0)
             self.refused(["box"], jam.System.read, path, box=3.0)
             self.refused(["gives its cell"], jam.System.read, path, box=[1, 2])
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -70,7 +70,3 @@ class Interrupts(unittest.TestCase):
         threading.Timer(0.2, s.cancel).start()
         with self.assertRaises(jam.errors.StoppedError):
             s.scale_diameters(1.0 + 1e-9)
-
-
-if __name__ == "__main__":
-    unittest.main()

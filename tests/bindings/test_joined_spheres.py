@@ -358,7 +358,3 @@ class ByDistance(Folder):
         hard.compress(packing_fraction=0.55)
         hard.write(open_bed)
         run("export", open_bed, "--stl", stl, "--stl-bridge", "0.1", "--stl-bridge-gap", "0.01")
-
-
-if __name__ == "__main__":
-    unittest.main()

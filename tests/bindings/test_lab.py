@@ -243,7 +243,3 @@ class InChromium(InBrowser, unittest.TestCase):
 class InFirefox(InBrowser, unittest.TestCase):
     kind = firefox
     recipes = [*SEEDS[:1], *RECIPES[1:3]]
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -68,7 +68,3 @@ class Leaks(unittest.TestCase):
                 pass
 
         self.assertLess(grown(cycle), 4000)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -62,7 +62,3 @@ class Names(unittest.TestCase):
             found = getattr(jam.errors, name)
             self.assertEqual(f"{found.__module__}.{found.__name__}", f"jam.errors.{name}")
             self.assertIs(type(pickle.loads(pickle.dumps(found("text")))), found)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -60,7 +60,3 @@ class NonAdditive(unittest.TestCase):
         s = self.make(2, 0.1)
         for other in (copy.deepcopy(s), pickle.loads(pickle.dumps(s))):
             self.assertEqual(other.info.non_additivity, 0.1)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -218,7 +218,3 @@ class Flexes(unittest.TestCase):
                 for t in (1e-8, 1e-6, 1e-4, 1e-2, 1.0):
                     self.assertGreater((gap + y * t + 0.5 * square * t**2).min(initial=0.0), -3e-14, (seed, noise, t))
         self.assertGreater(found, 16)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -141,7 +141,3 @@ class Options(unittest.TestCase):
             said = self.pack(*arguments)
             self.assertEqual(said.returncode, 2)
             self.assertIn(text, said.stderr)
-
-
-if __name__ == "__main__":
-    unittest.main()

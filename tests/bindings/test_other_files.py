@@ -389,7 +389,3 @@ class NoReader(Folder):
         for name in ("diameters", "radii"):
             self.refused([name, "from_arrays"], jam.System.read, path, kind=TypeError, **{name: 0.1})
         self.refused(["packing_fraction"], jam.System.read, path, packing_fraction=0.3)
-
-
-if __name__ == "__main__":
-    unittest.main()

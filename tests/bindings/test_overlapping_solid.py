@@ -275,7 +275,3 @@ class Program(unittest.TestCase):
             text = subprocess.run([PACK, "info", path], capture_output=True, text=True, check=True, timeout=120).stdout
         self.assertAlmostEqual(json.loads(done.stdout)["porosity"], 1 - solid(s), 12)
         self.assertIn("packing fraction 2.000000000000 (overlaps counted twice), porosity 0.1", text)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -162,7 +162,3 @@ class OwnImages(unittest.TestCase):
         s.contacts_from_geometry()  # of a fixed cell
         with self.assertRaisesRegex(jam.errors.UnsupportedError, "own image"):
             s.bloch_modes((0.5, 0.5))
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -155,7 +155,3 @@ class Pictures(unittest.TestCase):
         self.assertEqual(
             subprocess.run([sys.executable, "-c", code], env={**__import__("os").environ, "DISPLAY": ""}).returncode, 0
         )
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -475,7 +475,3 @@ class Program(unittest.TestCase):
             np.testing.assert_array_equal(rows["solid"][5:10], s.solid_profile(1, 5).solid)
             np.testing.assert_array_equal(np.genfromtxt(pores, delimiter=",", names=True)["radius"], s.pore_sizes(50, 1).radius)
             np.testing.assert_array_equal(np.genfromtxt(z, delimiter=",", names=True)["z"], s.near_coordination(1e-6))
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -116,7 +116,3 @@ class Showing(unittest.TestCase):
     def test_wrong_kind(self):
         with self.assertRaises(TypeError):
             work().crunch(progress=3)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -460,7 +460,3 @@ class Proofs(unittest.TestCase):
         system.contacts_from_geometry()
         proof = system.prove()
         self.assertEqual((proof.theorem, proof.cause), (jam.Theorem.TRAPPED, jam.ProofCause.EXCESS))
-
-
-if __name__ == "__main__":
-    unittest.main()

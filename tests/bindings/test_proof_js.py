@@ -147,7 +147,3 @@ class TwoCheckers(unittest.TestCase):
             changed.append(self.folder / f"mutant{k}")
             changed[-1].write_text(mutant(texts[k % len(texts)], r), encoding="utf-8")
         self.compare(changed)
-
-
-if __name__ == "__main__":
-    unittest.main()

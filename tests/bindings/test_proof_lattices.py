@@ -52,7 +52,3 @@ class Lattices(unittest.TestCase):
             system.contacts_from_geometry()
             self.assertEqual(len(system.contacts), contacts, name)
             self.assertEqual(system.prove().theorem, jam.Theorem.TRAPPED if jammed else jam.Theorem.NONE, name)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -292,7 +292,3 @@ class Bounds(unittest.TestCase):
             with self.subTest(bound=name):
                 self.assertNotIsInstance(verdict_of(checker(), false), dict)
                 self.assertIsInstance(verdict_of(checker((old, new)), false), dict)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -2,7 +2,6 @@
 import base64
 import contextlib
 import random
-import sys
 import tempfile
 import unittest
 import zlib
@@ -12,8 +11,6 @@ from pathlib import Path
 import numpy as np
 
 import jam
-
-sys.path.insert(0, str(Path(__file__).parent))
 from test_proof import ROOT, File, drop, file_of, jamproof, rattler_into_neighbour, scene_of, value, word
 from test_proof_bounds import checker, crystal, square_lattice
 
@@ -330,7 +327,3 @@ class Trapped(unittest.TestCase):
                 self.assertFalse(claims(trapped(false)), trapped(false))
                 program = checker((old, new))
                 self.assertTrue(claims(trapped(false, program)), trapped(false, program))
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -2,7 +2,6 @@
 import csv
 import hashlib
 import math
-import sys
 import unittest
 from fractions import Fraction
 from pathlib import Path
@@ -10,8 +9,6 @@ from pathlib import Path
 import numpy as np
 
 import jam
-
-sys.path.insert(0, str(Path(__file__).parent))
 from compiled import compiled
 from test_proof import ROOT, jamproof
 
@@ -89,7 +86,3 @@ class ReferenceSet(unittest.TestCase):
                 centres = np.array([[float(Fraction(x, scene.one)) for x in sphere] for sphere in scene.x])
                 off = (packing.positions - centres + 0.5) % 1 - 0.5
                 self.assertLess(np.abs(off).max(), 1e-12, row["name"])
-
-
-if __name__ == "__main__":
-    unittest.main()

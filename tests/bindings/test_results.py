@@ -279,7 +279,3 @@ class Package(unittest.TestCase):
         for made in (np.asarray(g), g + 1.0, g == 0.0, np.sqrt(g)):  # as programs for 1.0 take it
             self.assertIs(type(made), np.ndarray)
         self.assertNotIsInstance(g.max(), np.ndarray)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -137,7 +137,3 @@ class Roundtrip(unittest.TestCase):
             for bad in ({"density": 0.0}, {"density": np.inf}, {"scale": 0.0}, {"scale": np.nan}, {"scale": -1.0}):
                 with self.assertRaises(jam.errors.ArgumentError):
                     s.write(folder + "/q.data", **bad)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -122,7 +122,3 @@ class CollapseOfSizes(unittest.TestCase):
         found, misfit = scaling.fit_crossover(x, c, 0.01 * c, -GAMMA)
         np.testing.assert_allclose(found, [0.179008, 0.223543, -1.25569], rtol=1e-5)
         self.assertLess(misfit, 1e-6)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -476,7 +476,3 @@ class Pages(unittest.TestCase):
                             exec(lines, names)
             finally:
                 os.chdir(here)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -194,7 +194,3 @@ class Densities(unittest.TestCase):
         ):
             with self.subTest(text), self.assertRaisesRegex(error, text):
                 call()
-
-
-if __name__ == "__main__":
-    unittest.main()

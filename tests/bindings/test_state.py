@@ -268,7 +268,3 @@ class Importing(unittest.TestCase):
         for name in dir(jam.System):
             if not name.startswith("_"):
                 self.assertTrue(getattr(jam.System, name).__doc__, name)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -376,7 +376,3 @@ class Parts(unittest.TestCase):
             file.write("new")
         self.assertEqual((target.read_text(), target.stat().st_mode & 0o777), ("new", 0o640))
         self.assertEqual(list(self.folder.iterdir()), [target])
-
-
-if __name__ == "__main__":
-    unittest.main()

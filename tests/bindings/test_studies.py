@@ -148,7 +148,3 @@ class Studies(unittest.TestCase):
         _, again, said = run("complexity", self.out.name, *options)
         self.assertEqual(again, rows)  # times too: nothing was made again
         self.assertNotIn("complexity: n", said)
-
-
-if __name__ == "__main__":
-    unittest.main()

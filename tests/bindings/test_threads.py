@@ -312,7 +312,3 @@ class Stress(unittest.TestCase):
             done += 1
         over.set()
         thread.join()
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -291,7 +291,3 @@ class Modes(unittest.TestCase):
         s.call("set_memory_limit", 1e4)
         with self.assertRaisesRegex(MemoryError, "modes at a wave vector"):
             s.bloch_modes((0.5, 0))
-
-
-if __name__ == "__main__":
-    unittest.main()

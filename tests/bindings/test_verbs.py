@@ -338,7 +338,3 @@ class Threads(unittest.TestCase):
         s = jam.System.from_arrays(x, 1.01, cell=[[4, 0], [0, 4 * np.sqrt(0.75)]], overlap="allow")
         self.assertEqual(s.decompress(crunch=0).status, jam.StatusCode.PRECISION)
         self.assertRegex(jam.raw.jam_last_error(), "17 contacts more than one state of self-stress needs")
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -163,7 +163,3 @@ class Scenes(unittest.TestCase):
                 jam.System.read(name, walls="w")
             arguments = ["info", str(name), "--walls", "z"]
             self.assertIn("flat walls at both ends of z", subprocess.run([PACK, *arguments], capture_output=True, text=True).stdout)
-
-
-if __name__ == "__main__":
-    unittest.main()

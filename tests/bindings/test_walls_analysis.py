@@ -293,7 +293,3 @@ class CommandLine(unittest.TestCase):
                 self.assertNotEqual(made.returncode, 0)
                 self.assertIn("walls", made.stderr)
                 self.assertFalse(Path(folder, "r.json").exists())
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -390,7 +390,3 @@ class CurvatureMargin(unittest.TestCase):
             self.assertAlmostEqual(found.rigidity_margin, 1.0, 12)  # of the two motions along the line: 1 and 3
         square = jam.System.from_arrays([[0, 0], [0.5, 0.5]], 0.5**0.5, box=1.0, dim=2)
         self.assertEqual(square.rigidity().curvature_margin, 0.0)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -220,7 +220,3 @@ class Ensembles(unittest.TestCase):
         ):
             with self.assertRaisesRegex(jam.ensemble.ProtocolError, text):
                 jam.ensemble.complete(start)
-
-
-if __name__ == "__main__":
-    unittest.main()

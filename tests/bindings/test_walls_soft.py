@@ -203,7 +203,3 @@ class Jamming(unittest.TestCase):
     def test_free_cells_are_refused(self):
         with self.assertRaisesRegex(jam.errors.UnsupportedError, "cannot be relaxed in a free cell"):
             soft("slit", 10, 1, 0.7).relax(strain="edges")
-
-
-if __name__ == "__main__":
-    unittest.main()

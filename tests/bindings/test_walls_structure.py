@@ -177,7 +177,3 @@ class PoreSizes(unittest.TestCase):
     def test_the_widest_pore_of_a_box_touches_walls_alone(self):
         s = jam.System.from_arrays([[0.1, 0.1, 0.9]], 0.1, cell=[1, 1.1, 1.2], walls="xyz")
         self.assertAlmostEqual(s.pore_sizes(200, 1).radius.max(), 0.5, 12)
-
-
-if __name__ == "__main__":
-    unittest.main()

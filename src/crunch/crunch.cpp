@@ -10,15 +10,10 @@
 #include "core/call_scope.hpp"
 #include "core/error.hpp"
 #include "core/pairs.hpp"
-#include "crunch/approach/approach.hpp"
-#include "crunch/approach/free_cell.hpp"
 #include "crunch/approach/lp_step.hpp"
 #include "crunch/control.hpp"
 #include "crunch/estimate.hpp"
-#include "crunch/identify/end.hpp"
-#include "crunch/identify/identify.hpp"
-#include "crunch/identify/narrow_lps.hpp"
-#include "crunch/path/phase.hpp"
+#include "crunch/phases.hpp"
 #include "crunch/report.hpp"
 
 namespace jam::inside {

@@ -66,8 +66,13 @@ static void explain(CrunchState &s) {
   s.monitor.log(JAM_LOG_WARNING, "%s", s.out.text.c_str());
 }
 
-// A crunch that was stopped before an LP ended has no contacts, so rattlers are unknown.
-static void mark_unknown_rattlers(const CrunchState &s, jam_crunch_report &r) {
+// The work that was done. A crunch that was stopped before an LP ended has no contacts, so rattlers are unknown.
+static void report_work(CrunchState &s) {
+  jam_crunch_report &r = s.out.report;
+  r.method = s.history.stage.path_taken ? JAM_CRUNCH_BARRIER_PATH : JAM_CRUNCH_SEQUENTIAL_LP;
+  r.decompressions = s.history.stage.decompressions;
+  r.factorisations = s.system.factorisations;
+  r.seconds = s.monitor.seconds();
   const bool unknown =
       r.stop_reason == JAM_STOP_CANCELLED || r.stop_reason == JAM_STOP_WALL_TIME || r.stop_reason == JAM_STOP_SOLVER;
   if (!unknown || s.out.contacts.size() > 0) return;
@@ -77,7 +82,6 @@ static void mark_unknown_rattlers(const CrunchState &s, jam_crunch_report &r) {
 
 void report_end(CrunchState &s) {
   jam_crunch_report &r = s.out.report;
-  r.method = s.history.stage.path_taken ? JAM_CRUNCH_BARRIER_PATH : JAM_CRUNCH_SEQUENTIAL_LP;
   certify(s.out.packing, s.out.contacts, r, s.next.strain.count() > 0);
   r.strictly_jammed = s.found.strictly_jammed;
   const bool balanced = r.force_residual < (s.o.polish ? s.tuning.jammed_balance : InteriorPointTuning::balance);
@@ -86,10 +90,7 @@ void report_end(CrunchState &s) {
     report_verdict(s.found.verdict, r);
     stop(s, JAM_STOP_SOLVER, JAM_NOT_CONVERGED);
   }
-  mark_unknown_rattlers(s, r);
-  r.decompressions = s.history.stage.decompressions;
-  r.factorisations = s.system.factorisations;
-  r.seconds = s.monitor.seconds();
+  report_work(s);
   r.seconds_factor = s.system.seconds_factor;
   r.seconds_assemble = s.system.seconds_assemble;
   r.seconds_solve = s.system.seconds_solve;
@@ -106,11 +107,7 @@ void report_failure(CrunchState &s) {
   } catch (const std::exception &) {  // out of memory, or over its limit
     s.out.report.packing_fraction = packing_fraction(s.out.packing);
   }
-  mark_unknown_rattlers(s, s.out.report);
-  s.out.report.method = s.history.stage.path_taken ? JAM_CRUNCH_BARRIER_PATH : JAM_CRUNCH_SEQUENTIAL_LP;
-  s.out.report.decompressions = s.history.stage.decompressions;
-  s.out.report.factorisations = s.system.factorisations;
-  s.out.report.seconds = s.monitor.seconds();
+  report_work(s);
 }
 
 }  // namespace jam::inside

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include "crunch/phases.hpp"
 #include "test.h"
 
 #include "core/pair_rule.hpp"
-#include "crunch/identify/recompress.hpp"
 #include "crunch_scenes.hpp"
 
 using namespace jam::inside;

@@ -1,5 +1,3 @@
-#include "crunch/approach/approach.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -7,6 +5,7 @@
 #include "core/error.hpp"
 #include "crunch/approach/lp_step.hpp"
 #include "crunch/control.hpp"
+#include "crunch/phases.hpp"
 #include "lp/interior_point.hpp"
 
 namespace jam::inside {
@@ -113,6 +112,21 @@ Phase approach(CrunchState &s) {
   if (report_step(s, JAM_PHASE_CRUNCH, step.gain, step.longest))
     return stop(s, JAM_STOP_CANCELLED, JAM_CANCELLED), Phase::identify;
   return next_phase(s, step.gain, step.longest, step.part);
+}
+
+bool frees_cell(const CrunchState &s) {
+  return s.o.strain != JAM_STRAIN_NONE && s.next.strain.count() == 0 && s.out.report.stop_reason == JAM_STOP_NONE;
+}
+
+Phase free_cell(CrunchState &s) {
+  const bool edges = (s.o.strain & JAM_STRAIN_EDGES) != 0, tilts = (s.o.strain & JAM_STRAIN_TILTS) != 0;
+  s.next.strain = strain_basis(s.out.packing.dim, edges, tilts);
+  s.monitor.log(JAM_LOG_INFO, "fixed cell: phi %.12f; %d strains join", packing_fraction(s.out.packing),
+                s.next.strain.count());
+  restart_lps(s, s.tuning.first_bound);
+  s.history.stage.path_taken = false;
+  s.history.stage.cell_free = true;
+  return Phase::approach;
 }
 
 }  // namespace jam::inside

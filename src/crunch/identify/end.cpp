@@ -1,5 +1,3 @@
-#include "crunch/identify/end.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,7 +8,7 @@
 #include "core/pair_rule.hpp"
 #include "crunch/control.hpp"
 #include "crunch/identify/polish.hpp"
-#include "crunch/identify/recompress.hpp"
+#include "crunch/phases.hpp"
 #include "verdict/text.hpp"
 
 namespace jam::inside {

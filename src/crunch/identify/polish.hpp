@@ -13,7 +13,7 @@ enum class PolishEnd { done, no_contacts, interrupted, open_contact, too_few, ne
 
 // Changes p and contacts only when it returns done: all contacts closed to rounding, no overlap, and for a single
 // self-stress all forces positive. A contact too many that does not close with the others is dropped. Where contacts
-// still do not close, balance or push, narrow LPs find the vertex (narrow_lps.cpp).
+// still do not close, balance or push, narrow LPs find the vertex (identify.cpp).
 // The graph of `system` is replaced.
 PolishEnd polish(Packing &p, ContactNetwork &contacts, NewtonSystem &system, int threads, const Tuning &tuning,
                  Monitor *monitor = nullptr);

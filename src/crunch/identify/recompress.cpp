@@ -1,5 +1,3 @@
-#include "crunch/identify/recompress.hpp"
-
 #include <algorithm>
 #include <cmath>
 
@@ -9,6 +7,7 @@
 #include "core/rng.hpp"
 #include "crunch/approach/lp_step.hpp"
 #include "crunch/control.hpp"
+#include "crunch/phases.hpp"
 
 namespace jam::inside {
 namespace {

@@ -1,9 +1,8 @@
-#include "crunch/path/finite_gap.hpp"
-
 #include <utility>
 
 #include "core/pair_rule.hpp"
 #include "crunch/control.hpp"
+#include "crunch/phases.hpp"
 #include "lp/interior_point.hpp"
 #include "network/force_balance.hpp"
 #include "network/rigidity_matrix.hpp"

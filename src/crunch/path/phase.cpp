@@ -1,14 +1,11 @@
-#include "crunch/path/phase.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "crunch/approach/free_cell.hpp"
 #include "crunch/approach/lp_step.hpp"
 #include "crunch/control.hpp"
 #include "crunch/path/barrier_path.hpp"
-#include "crunch/path/finite_gap.hpp"
+#include "crunch/phases.hpp"
 
 namespace jam::inside {
 namespace {

@@ -88,8 +88,8 @@ static void memory(int64_t n, double phi, double pressure, int factorisations, i
 
 CASE(memory_estimate_is_good_to_a_half) {
   memory(4096, 0.3, 0.0, 2, 1, 0.5);        /* two factors in floats */
-  memory(2000, 0.3, 500.0, 100000, 1, 1.0); /* to the verdict, which has a factor of its own */
-  memory(2000, 0.3, 500.0, 100000, 2, 1.0);
+  memory(1200, 0.3, 500.0, 100000, 1, 1.0); /* to the verdict, which has a factor of its own */
+  memory(1200, 0.3, 500.0, 100000, 2, 1.0);
 }
 
 /* Twice the spheres: pairs double, flops more than double; more threads need no less memory. */

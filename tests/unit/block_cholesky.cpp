@@ -269,25 +269,24 @@ CASE(threads_share_fronts) {
   assert_int_equal(analyse_and_factorise(two, p, 2), 0);
   assert_true(one.factor_nonzeros() > 4000000);
   const size_t unknowns = static_cast<size_t>(p.n) * 3;
-  std::vector<double> b(3 * unknowns);
+  std::vector<double> b(4 * unknowns);
   for (size_t k = 0; k < b.size(); ++k) b[k] = std::sin(static_cast<double>(k));
-  for (const int count : {1, 3}) {
-    std::vector<double> x(b.begin(), b.begin() + count * unknowns), y = x, again = x;
-    one.solve_many(x.data(), count);
-    two.solve_many(y.data(), count);
-    double largest = 0.0;
-    for (const double v : x) largest = std::max(largest, std::fabs(v));
-    for (size_t k = 0; k < x.size(); ++k) assert_true(std::fabs(x[k] - y[k]) < 1e-12 * largest);
-    assert_int_equal(two.factorise(p.diag.data(), p.off.data()), 0);
-    two.solve_many(again.data(), count);
-    assert_true(y == again);  // parts are split the same way each time: bit for bit
-    for (const int threads : {3, 4, 8, 64}) {
-      BlockCholesky more;
-      assert_int_equal(analyse_and_factorise(more, p, threads), 0);
-      again.assign(b.begin(), b.begin() + count * unknowns);
-      more.solve_many(again.data(), count);
-      assert_true(y == again);
-    }
+  const auto solved = [&](BlockCholesky &f) {  // alone, and three at once
+    std::vector<double> x = b;
+    f.solve_many(x.data(), 1);
+    f.solve_many(x.data() + unknowns, 3);
+    return x;
+  };
+  const std::vector<double> x = solved(one), y = solved(two);
+  double largest = 0.0;
+  for (const double v : x) largest = std::max(largest, std::fabs(v));
+  for (size_t k = 0; k < x.size(); ++k) assert_true(std::fabs(x[k] - y[k]) < 1e-12 * largest);
+  assert_int_equal(two.factorise(p.diag.data(), p.off.data()), 0);
+  assert_true(solved(two) == y);  // parts are split the same way each time: bit for bit
+  for (const int threads : {3, 4, 8, 64}) {
+    BlockCholesky more;
+    assert_int_equal(analyse_and_factorise(more, p, threads), 0);
+    assert_true(solved(more) == y);
   }
 }
 
@@ -388,10 +387,10 @@ CASE(order_kept) {
 // A crunch analyses graphs of the same size again and again: all of them together take hardly more room than one, and
 // that is what was promised beforehand.
 CASE(scratch_memory_is_reused) {
-  for (const int threads : {1, 2, 5, 64}) {
+  for (const int threads : {1, 2, 64}) {
     BlockCholesky f;
     size_t largest = 0, promised = 0;
-    for (int seed = 1; seed <= 12; ++seed) {
+    for (int seed = 1; seed <= 6; ++seed) {
       const Problem p = make_problem(3, 1500, 12.0, true, seed);
       BlockCholesky alone;
       alone.analyse(3, p.n, p.ei.data(), p.ej.data(), p.ei.size(), threads);

@@ -25,7 +25,8 @@ def joined(folder, names):
 
 
 def script(text):
-    """Inside a script element, which nothing in it may end."""
+    """Inside a script element, which nothing in it may end. Comments and empty lines stay in the sources."""
+    text = re.sub(r"^[ \t]*(?:/\*(?:(?!\*/)[\s\S])*\*/|//.*)?[ \t]*\n", "", text, flags=re.M)
     if re.search("</script|<!--", text, re.I):
         sys.exit("a part has </script> or <!--")
     return text

@@ -2,6 +2,7 @@
 // histograms.
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include "analysis/structure.hpp"
 #include "core/checks.hpp"
 #include "core/error.hpp"
@@ -10,19 +11,38 @@
 namespace jam::inside {
 namespace {
 
+void check_local(const ContactNetwork &net, int32_t quantity, int32_t which) {
+  check_enum(quantity, JAM_LOCAL_FORCE, JAM_LOCAL_COORDINATION, "quantity", "jam_local_quantity");
+  check_enum(which, JAM_POPULATION_ALL, JAM_POPULATION_MEDIAN, "population", "jam_population");
+  if (quantity == JAM_LOCAL_FORCE && net.force.size() != net.size()) fail(JAM_E_STATE, "the network has no forces");
+  if (quantity != JAM_LOCAL_FORCE && (which == JAM_POPULATION_SMALLEST || which == JAM_POPULATION_MEDIAN))
+    fail(JAM_E_ARGUMENT, "population is %d: smallest and median are populations of forces only", which);
+}
+
+std::vector<size_t> contacts_in(const Packing &p, const ContactNetwork &net, int32_t which) {
+  std::vector<size_t> in(net.size());
+  std::iota(in.begin(), in.end(), size_t{0});
+  if (which == JAM_POPULATION_ALL) return in;
+  const int32_t flag = which == JAM_POPULATION_SMALLEST ? JAM_CONTACT_SMALLEST
+                       : which == JAM_POPULATION_MEDIAN ? JAM_CONTACT_MEDIAN
+                                                        : JAM_CONTACT_LOCALISED;
+  const std::vector<int32_t> flags = classify_contacts(p, net);
+  const auto out = [&](size_t k) { return ((flags[k] & flag) != 0) == (which == JAM_POPULATION_EXTENDED); };
+  in.erase(std::remove_if(in.begin(), in.end(), out), in.end());
+  return in;
+}
+
+bool sphere_in(const Packing &p, const ContactNetwork &net, int32_t which, size_t i) {
+  const int32_t z = net.coordination[i];
+  return z > 0 && (which == JAM_POPULATION_ALL || (z == p.dim + 1) == (which == JAM_POPULATION_LOCALISED));
+}
+
+bool is_dot(int32_t quantity) { return quantity == JAM_LOCAL_VECTOR_DOT || quantity == JAM_LOCAL_FORCE_DOT; }
+
 // Forces of a class over their mean.
 std::vector<double> class_forces(const Packing &p, const ContactNetwork &net, int32_t which) {
-  if (net.force.size() != net.size()) fail(JAM_E_STATE, "the network has no forces");
-  const std::vector<int32_t> flags = classify_contacts(p, net);
   std::vector<double> out;
-  for (size_t k = 0; k < net.size(); ++k) {
-    const bool in = which == JAM_POPULATION_ALL ||
-                    (which == JAM_POPULATION_LOCALISED && (flags[k] & JAM_CONTACT_LOCALISED)) ||
-                    (which == JAM_POPULATION_EXTENDED && !(flags[k] & JAM_CONTACT_LOCALISED)) ||
-                    (which == JAM_POPULATION_SMALLEST && (flags[k] & JAM_CONTACT_SMALLEST)) ||
-                    (which == JAM_POPULATION_MEDIAN && (flags[k] & JAM_CONTACT_MEDIAN));
-    if (in) out.push_back(net.force[k]);
-  }
+  for (const size_t k : contacts_in(p, net, which)) out.push_back(net.force[k]);
   double mean = 0.0;
   for (double f : out) mean += f / static_cast<double>(out.size());
   if (mean > 0.0)
@@ -65,18 +85,22 @@ std::vector<double> fabric_tensor(const ContactNetwork &network, int dim) {
   return out;
 }
 
+size_t count_local_values(const Packing &p, const ContactNetwork &net, int32_t quantity, int32_t which) {
+  check_local(net, quantity, which);
+  if (quantity == JAM_LOCAL_FORCE) return contacts_in(p, net, which).size();
+  std::vector<size_t> of(p.n(), 1);
+  if (is_dot(quantity)) of = count_contact_dots(p, net, quantity == JAM_LOCAL_FORCE_DOT);
+  size_t count = 0;
+  for (size_t i = 0; i < of.size(); ++i) count += sphere_in(p, net, which, i) ? of[i] : 0;
+  return count;
+}
+
 std::vector<double> local_values(const Packing &p, const ContactNetwork &net, int32_t quantity, int32_t which) {
-  check_enum(quantity, JAM_LOCAL_FORCE, JAM_LOCAL_COORDINATION, "quantity", "jam_local_quantity");
-  check_enum(which, JAM_POPULATION_ALL, JAM_POPULATION_MEDIAN, "population", "jam_population");
+  check_local(net, quantity, which);
   if (quantity == JAM_LOCAL_FORCE) return class_forces(p, net, which);
-  if (which == JAM_POPULATION_SMALLEST || which == JAM_POPULATION_MEDIAN)
-    fail(JAM_E_ARGUMENT, "population is %d: smallest and median are populations of forces only", which);
-  auto in = [&](size_t i) {
-    const int32_t z = net.coordination[i];
-    return z > 0 && (which == JAM_POPULATION_ALL || (z == p.dim + 1) == (which == JAM_POPULATION_LOCALISED));
-  };
+  const auto in = [&](size_t i) { return sphere_in(p, net, which, i); };
   std::vector<double> out;
-  if (quantity == JAM_LOCAL_VECTOR_DOT || quantity == JAM_LOCAL_FORCE_DOT) {
+  if (is_dot(quantity)) {
     const ContactDots dots = contact_dots(p, net, quantity == JAM_LOCAL_FORCE_DOT);
     for (size_t k = 0; k < dots.dot.size(); ++k)
       if (in(static_cast<size_t>(dots.sphere[k]))) out.push_back(dots.dot[k]);

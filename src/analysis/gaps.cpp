@@ -162,6 +162,14 @@ SphereStructure sphere_structure(const Packing &p, const ContactNetwork &net, bo
   return out;
 }
 
+std::vector<size_t> count_contact_dots(const Packing &p, const ContactNetwork &net, bool weighted) {
+  need_forces(net, weighted);
+  std::vector<size_t> sides(p.n(), 0);
+  for (size_t k = 0; k < net.size(); ++k) for_spheres(net.pairs.i[k], net.pairs.j[k], [&](int32_t i) { ++sides[i]; });
+  for (size_t &z : sides) z = z * (z > 0 ? z - 1 : 0) / 2;
+  return sides;
+}
+
 ContactDots contact_dots(const Packing &p, const ContactNetwork &net, bool weighted) {
   need_forces(net, weighted);
   ContactDots out;

@@ -35,12 +35,15 @@ struct ContactDots {
   std::vector<double> dot;
   std::vector<int32_t> sphere;
 };
+// Of every sphere, without computing them.
+std::vector<size_t> count_contact_dots(const Packing &p, const ContactNetwork &network, bool weighted);
 ContactDots contact_dots(const Packing &p, const ContactNetwork &network, bool weighted);
 
 // Mean of n_a n_b over the contacts, (d, d); NaN without contacts.
 std::vector<double> fabric_tensor(const ContactNetwork &network, int dim);
 
 // Values of a jam_local_quantity that belong to a jam_population; JAM_E_ARGUMENT for an unknown combination.
+size_t count_local_values(const Packing &p, const ContactNetwork &network, int32_t quantity, int32_t which);
 std::vector<double> local_values(const Packing &p, const ContactNetwork &network, int32_t quantity, int32_t which);
 
 // g_ab(r) in `bins` bins up to r_max mean diameters. kind: one label a sphere or empty; a, b < 0: any.

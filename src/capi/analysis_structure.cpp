@@ -1,5 +1,6 @@
 // Header section "analysis": gaps, classes, structure, correlations.
 #include <algorithm>
+#include <numeric>
 #include "analysis/structure.hpp"
 #include "capi/analysis.hpp"
 #include "capi/table.hpp"
@@ -81,13 +82,16 @@ jam_status jam_contact_dots(const jam_system *sys, int32_t weighted, double *dot
   return guard_const(sys, [&]() -> jam_status {
     check_flag(weighted, "weighted");
     weighted ? need_network(sys) : need_contacts(sys);
-    const ContactDots t = contact_dots(sys->packing, sys->contacts, weighted != 0);
+    const std::vector<size_t> of = count_contact_dots(sys->packing, sys->contacts, weighted != 0);
+    const size_t count = std::accumulate(of.begin(), of.end(), size_t{0});
     if (!needed && !dot && !sphere) fail(JAM_E_NULL, "needed is NULL and there is no output array");
-    if (needed) *needed = t.dot.size();
-    check_output(dot, dot_len, t.dot.size(), "dot");
-    check_output(sphere, sphere_len, t.sphere.size(), "sphere");
-    put_output(t.dot, dot, t.dot.size());
-    put_output(t.sphere, sphere, t.sphere.size());
+    if (needed) *needed = count;
+    check_output(dot, dot_len, count, "dot");
+    check_output(sphere, sphere_len, count, "sphere");
+    if (!dot && !sphere) return JAM_OK;
+    const ContactDots t = contact_dots(sys->packing, sys->contacts, weighted != 0);
+    put_output(t.dot, dot, count);
+    put_output(t.sphere, sphere, count);
     return JAM_OK;
   });
 }
@@ -114,6 +118,8 @@ jam_status jam_local_values(const jam_system *sys, int32_t quantity, int32_t pop
                             size_t *needed) {
   return guard_const(sys, [&]() -> jam_status {
     need_network(sys);
+    const size_t count = count_local_values(sys->packing, sys->contacts, quantity, population);
+    if (!array_wanted(count, out, out_len, needed)) return JAM_OK;
     const std::vector<double> v = local_values(sys->packing, sys->contacts, quantity, population);
     return give_array(v.data(), v.size(), out, out_len, needed);
   });

@@ -46,17 +46,23 @@ double BlockMatrix::norm_bound() const {
   return row.empty() ? 0.0 : *std::max_element(row.begin(), row.end());
 }
 
+size_t csr_entries(const BlockMatrix &m) {
+  const size_t blocks = static_cast<size_t>(m.nodes) + 2 * m.ei.size(), entries = blocks * m.dim * m.dim;
+  if (entries > 0x7fffffff)
+    fail(JAM_E_ARGUMENT, "the matrix has %zu entries, more than int32 indices can count", entries);
+  return entries;
+}
+
 CsrMatrix to_csr(const BlockMatrix &m) {
   const int d = m.dim, dd = d * d;
-  const size_t n = m.nodes, blocks = n + 2 * m.ei.size();
-  if (blocks * dd > 0x7fffffff)
-    fail(JAM_E_ARGUMENT, "the matrix has %zu entries, more than int32 indices can count", blocks * dd);
+  const size_t n = m.nodes, entries = csr_entries(m);
   // Block rows: edges are sorted by (ei, ej), so lower neighbours come ascending first, then the diagonal.
   std::vector<std::vector<std::pair<int32_t, int64_t>>> row(n);
   for (size_t e = 0; e < m.ei.size(); ++e) row[m.ej[e]].push_back({m.ei[e], -static_cast<int64_t>(e) - 1});
   for (size_t i = 0; i < n; ++i) row[i].push_back({static_cast<int32_t>(i), INT64_MAX});
   for (size_t e = 0; e < m.ei.size(); ++e) row[m.ei[e]].push_back({m.ej[e], static_cast<int64_t>(e)});
   CsrMatrix csr;
+  csr.column.reserve(entries), csr.value.reserve(entries);
   csr.start.push_back(0);
   for (size_t i = 0; i < n; ++i)
     for (int r = 0; r < d; ++r) {

@@ -27,6 +27,7 @@ struct CsrMatrix {
 };
 // Entries that are exactly zero inside a block are kept, so that the pattern does not depend on the values.
 CsrMatrix to_csr(const BlockMatrix &m);
+size_t csr_entries(const BlockMatrix &m);  // JAM_E_ARGUMENT above the largest int32
 
 // Takes the mean of x (nodes, dim) along these axes (bits) away: the exact projection on no net translation.
 void remove_translation(int dim, int32_t nodes, double *x, uint32_t axes = ~0u);

@@ -76,6 +76,9 @@ CASE(contact_sums_match_their_pairs) {
   for (bool weighted : {false, true}) {
     const SphereStructure s = sphere_structure(moved.packing, moved.network, weighted);
     const ContactDots dots = contact_dots(moved.packing, moved.network, weighted);
+    const std::vector<size_t> of = count_contact_dots(moved.packing, moved.network, weighted);
+    for (size_t i = 0; i < of.size(); ++i)
+      assert_int_equal(std::count(dots.sphere.begin(), dots.sphere.end(), static_cast<int32_t>(i)), of[i]);
     std::vector<double> sum(moved.packing.n(), 0.0);
     for (size_t k = 0; k < dots.dot.size(); ++k) sum[dots.sphere[k]] += dots.dot[k];
     for (size_t i = 0; i < sum.size(); ++i) assert_true(std::fabs(sum[i] - s.s[i]) < 1e-12);
@@ -132,7 +135,11 @@ CASE(values_by_class) {
   add_contact(c, 0, 2, {0, 0}, 1.0);
   add_contact(c, 0, 3, {0, 0}, 2.0);
   add_contact(c, 1, 4, {0, 0}, 6.0);
-  const auto get = [&](int32_t quantity, int32_t which) { return local_values(c.packing, c.network, quantity, which); };
+  const auto get = [&](int32_t quantity, int32_t which) {
+    const std::vector<double> values = local_values(c.packing, c.network, quantity, which);
+    assert_int_equal(count_local_values(c.packing, c.network, quantity, which), values.size());
+    return values;
+  };
   const std::vector<double> local = get(JAM_LOCAL_FORCE, JAM_POPULATION_LOCALISED),
                             extended = get(JAM_LOCAL_FORCE, JAM_POPULATION_EXTENDED);
   assert_int_equal(local.size(), 3);

@@ -35,7 +35,7 @@ assert s.crunch().jammed"
 test -f "$(echo "$work/p/$python_dir"/jam/__pycache__/system.*.pyc)"
 test -f "$work/p/share/jam/julia/Jam/src/raw.jl"
 # the checker finds its other files
-/usr/bin/python3 -I "$work/p/share/jam/jamproof.py" "$source/examples/studies/reference_set/d3-n64-equal-02.jamproof" |
+/usr/bin/python3 -I "$work/p/share/jam/jamproof.py" "$source/examples/studies/reference_set/d2-n64-equal-07.jamproof" |
   grep -q '^trapped: '
 mkdir cmake_consumer && cd cmake_consumer
 cat >CMakeLists.txt <<EOF

@@ -54,9 +54,7 @@ class ReferenceSet(unittest.TestCase):
         self.assertEqual({key[0] for key in kinds}, {"2", "3", "4", "5"})
         self.assertEqual(len(kinds), 8)
         for key, found in kinds.items():
-            # Equal spheres are often symmetric and then only trapped, equal disks always.
-            theorems = {("2", "equal"): {"trapped"}, ("3", "equal"): {"exact", "trapped"}}.get((key[0], key[2]), {"exact"})
-            self.assertEqual({theorem for _, theorem in found}, theorems, key)
+            self.assertEqual({theorem for _, theorem in found}, {"trapped" if key[::2] == ("2", "equal") else "exact"}, key)
 
     def test_files_are_proved_and_have_the_density_of_the_index(self):
         first = {(row["d"], row["spheres"]): row for row in reversed(self.rows)}

@@ -1,7 +1,6 @@
 // jam.hpp: ownership, views, exceptions through C frames. Links the shared library only.
 #include <cmath>
 #include <csetjmp>
-#include <cstdarg>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>

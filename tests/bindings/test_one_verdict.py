@@ -168,6 +168,7 @@ class OneVerdict(unittest.TestCase):
         for gap, open_by, wanted in ((1e-6, 0, "no"), (1e-7, 0, "no"), (1e-9, 0, "undecided"), (1e-3, 3e-11, "no"), (1e-7, 3e-11, "undecided")):
             with self.subTest(gap=gap, open_by=open_by):
                 self.assertEqual([str(v) for v in self.same(holes(3, gap, open_by))], [wanted] * 2)
+                self.assertEqual(str(holes(3, gap, open_by).check().jammed), wanted)
                 one = holes(1, gap, open_by)  # its rows slide in copies alone
                 self.assertEqual(one.bloch_rigidity((3, 3)).flexes.sum(), 4)
                 self.assertEqual(one.status.name, "AMBIGUOUS" if wanted == "undecided" else "NOT_JAMMED")

@@ -5,83 +5,15 @@
 
 /* Numbers that were not given are INFINITY, integers NOT_GIVEN. */
 typedef struct options {
-  int64_t n;
-  int64_t dim;
-  double phi0;
-  double diameters_ratio;
-  double least_distance;
-  double non_additivity;
-  int64_t model;
-  double zeta;
-  double plant;
-  int64_t seed;
-  const char *input;
-  int64_t frame;
-  double box;
-  const char *origin;
-  const char *columns;
-  int64_t walls;
-  int64_t container;
-  int shrink;
-  double shrink_min;
-  double nve;
-  double pressure;
-  double packing_fraction;
-  double porosity;
-  int no_md;
-  const char *checkpoint;
-  double checkpoint_every;
-  const char *resume;
-  int64_t method;
-  int64_t strain;
-  int64_t lp;
-  double duality_gap;
-  int64_t threads;
-  int no_crunch;
-  const char *to;
-  double step;
-  double resolution;
-  int64_t until;
-  double alpha;
-  const char *rows;
-  const char *output;
-  double scale;
-  double density;
-  const char *page;
-  int64_t page_steps;
-  const char *contacts;
-  const char *spectrum;
-  int64_t modes;
-  const char *gaps;
-  const char *structure;
-  int prove;
-  const char *proof;
-  const char *strict_proof;
-  int strict;
-  const char *report;
-  const char *log;
-  const char *vtk;
-  const char *plot;
-  int json;
-  int quiet;
-  const char *stl;
-  double stl_edge;
-  double stl_shrink;
-  double stl_bridge;
-  double stl_bridge_gap;
-  const char *stl_walls;
-  const char *voxels;
-  double voxel_size;
-  int64_t voxel_lines;
-  const char *profile;
-  int64_t profile_bins;
-  const char *pores;
-  int64_t pore_points;
-  int64_t pore_seed;
-  const char *near_coordination;
-  double contact_gap;
-  double near_gap;
-  double wall_time;
+  int64_t n, dim, model, seed, frame, walls, container, method, strain, lp, threads, until, page_steps, modes,
+    voxel_lines, profile_bins, pore_points, pore_seed;
+  double phi0, diameters_ratio, least_distance, non_additivity, zeta, plant, box, shrink_min, nve, pressure,
+    packing_fraction, porosity, checkpoint_every, duality_gap, step, resolution, alpha, scale, density, stl_edge,
+    stl_shrink, stl_bridge, stl_bridge_gap, voxel_size, contact_gap, near_gap, wall_time;
+  const char *input, *origin, *columns, *checkpoint, *resume, *to, *rows, *output, *page, *contacts, *spectrum,
+    *gaps, *structure, *proof, *strict_proof, *report, *log, *vtk, *plot, *stl, *stl_walls, *voxels, *profile,
+    *pores, *near_coordination;
+  int shrink, no_md, no_crunch, prove, strict, json, quiet;
   given given; /* what has a form of its own */
   unsigned char named[81]; /* of each row of the table, whether it is on the command line */
 } options;
@@ -232,51 +164,14 @@ static const option_row table[] = {
 };
 
 static const options defaults = {
-    .n = NOT_GIVEN,
-    .dim = 3,
-    .phi0 = INFINITY,
-    .diameters_ratio = 1.0,
-    .least_distance = 0.0,
-    .non_additivity = 0.0,
-    .model = 0,
-    .zeta = INFINITY,
-    .plant = INFINITY,
-    .seed = 1,
-    .frame = -1,
-    .box = 1.0,
-    .walls = 0,
-    .container = 0,
-    .shrink_min = 0.001,
-    .nve = 0.0,
-    .pressure = 1000000.0,
-    .packing_fraction = INFINITY,
-    .porosity = INFINITY,
-    .checkpoint_every = 60.0,
-    .method = 0,
-    .strain = 0,
-    .lp = 0,
-    .duality_gap = 0.0,
-    .threads = 1,
-    .step = 0.001,
-    .resolution = 1e-06,
-    .until = 0,
-    .alpha = INFINITY,
-    .scale = 1.0,
-    .density = 1.0,
-    .page_steps = 0,
-    .modes = NOT_GIVEN,
-    .stl_edge = 0.2,
-    .stl_shrink = INFINITY,
-    .stl_bridge = INFINITY,
-    .stl_bridge_gap = INFINITY,
-    .voxel_size = INFINITY,
-    .voxel_lines = 0,
-    .profile_bins = 100,
-    .pore_points = 10000,
-    .pore_seed = 1,
-    .contact_gap = INFINITY,
-    .near_gap = 0.01,
-    .wall_time = INFINITY,
+    .n = NOT_GIVEN, .dim = 3, .phi0 = INFINITY, .diameters_ratio = 1.0, .least_distance = 0.0, .non_additivity =
+    0.0, .model = 0, .zeta = INFINITY, .plant = INFINITY, .seed = 1, .frame = -1, .box = 1.0, .walls = 0, .container
+    = 0, .shrink_min = 0.001, .nve = 0.0, .pressure = 1000000.0, .packing_fraction = INFINITY, .porosity = INFINITY,
+    .checkpoint_every = 60.0, .method = 0, .strain = 0, .lp = 0, .duality_gap = 0.0, .threads = 1, .step = 0.001,
+    .resolution = 1e-06, .until = 0, .alpha = INFINITY, .scale = 1.0, .density = 1.0, .page_steps = 0, .modes =
+    NOT_GIVEN, .stl_edge = 0.2, .stl_shrink = INFINITY, .stl_bridge = INFINITY, .stl_bridge_gap = INFINITY,
+    .voxel_size = INFINITY, .voxel_lines = 0, .profile_bins = 100, .pore_points = 10000, .pore_seed = 1,
+    .contact_gap = INFINITY, .near_gap = 0.01, .wall_time = INFINITY
 };
 
 /* Stages of growth where --growth is not given; the last one goes to --pressure. */

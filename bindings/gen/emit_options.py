@@ -72,11 +72,12 @@ def _c_default(o):
 
 def emit_c(_api):
     rows = [o for _, section in options(host=True) for o in section if o.kind != "help"]
-    fields = "\n".join(
-        f"  {C_TYPES.get(o.kind, 'double')}{'' if 'char' in C_TYPES.get(o.kind, '') else ' '}{o.field};"
-        for o in rows
-        if o.kind not in OWN_FORM
-    )
+    members = {}  # of each type
+    for o in rows:
+        if o.kind not in OWN_FORM:
+            kind = C_TYPES.get(o.kind, "double")
+            members.setdefault(kind.rstrip(" *"), []).append("*" * kind.endswith("*") + o.field)
+    fields = "\n".join(textwrap.fill(f"{kind} {', '.join(names)};", 116, initial_indent="  ", subsequent_indent="    ") for kind, names in members.items())
     table, defaults = [], []
     for o in rows:
         place = "0" if o.kind in OWN_FORM else f"offsetof(options, {o.field})"
@@ -89,7 +90,7 @@ def emit_c(_api):
         members = "".join(f", .{member} = {value}" for member, value in more.items() if value)
         table.append(f"{begin}{members}}}," if len(begin + members) < 118 else f"{begin},\n    {members[1:]}}},")
         if _c_default(o):
-            defaults.append(f"    .{o.field} = {_c_default(o)},")
+            defaults.append(f".{o.field} = {_c_default(o)}")
     said = "\n".join(
         f"    {{{verbs}, " + '"' + line.replace("\\", "\\\\").replace('"', '\\"').replace("\t", "\\t") + '"},' for verbs, line in help_text()
     )
@@ -141,7 +142,7 @@ static const option_row table[] = {{
 }};
 
 static const options defaults = {{
-{chr(10).join(defaults)}
+{textwrap.fill(", ".join(defaults), 116, initial_indent="    ", subsequent_indent="    ")}
 }};
 
 /* Stages of growth where --growth is not given; the last one goes to --pressure. */

@@ -1,5 +1,4 @@
 /* A status that is not JAM_OK comes with a sentence: in jam_last_error, and in the log. */
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 

@@ -2,7 +2,6 @@
  * have their locale. */
 #include <ctype.h>
 #include <jam/jam.h>
-#include <string.h>
 #include "comma.h"
 #include "start.h"
 #include "test.h"

@@ -1,8 +1,6 @@
 /* The fabric tensor against angles of a lattice, and against a sum over the positions of a packing. */
 #include <jam/jam.h>
 #include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "start.h"
 #include "test.h"

@@ -3,7 +3,6 @@
 #include <jam/jam.h>
 #include <cfenv>
 
-#include <cmath>
 #include <cstring>
 #include <functional>
 #include <limits>

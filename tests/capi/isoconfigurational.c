@@ -1,6 +1,5 @@
 /* Runs from one configuration: the same bits however they are split, stopped or resumed; clear errors; nothing lost. */
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>

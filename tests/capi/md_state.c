@@ -1,8 +1,6 @@
 /* Checkpoints, equations of state, the fit of the glass branch. */
 #include <jam/jam.h>
-#include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 #include "steps.h"
 

@@ -1,7 +1,6 @@
 /* Shifts of the Mari-Kurchan model: distances that a user computes with them. */
 #include <jam/jam.h>
 #include <math.h>
-#include <stdlib.h>
 
 #include "test.h"
 

@@ -2,7 +2,6 @@
  * and modes at a wave vector before memory is taken. */
 #include <jam/jam.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "test.h"

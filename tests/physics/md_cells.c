@@ -2,7 +2,6 @@
  * steps, and the way to a jammed packing. */
 #include <jam/jam.h>
 #include <math.h>
-#include <string.h>
 
 #include "start.h"
 #include "test.h"

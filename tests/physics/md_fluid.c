@@ -1,7 +1,6 @@
 /* Fluids of hard spheres against closed forms, conservation laws, and the approach to jamming. */
 #include <jam/jam.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "steps.h"

@@ -1,7 +1,6 @@
 /* The Mari-Kurchan model: exact equation of state, planting, and compression to jamming. */
 #include <jam/jam.h>
 #include <math.h>
-#include <string.h>
 
 #include "test.h"
 

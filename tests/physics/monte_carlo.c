@@ -1,7 +1,5 @@
 /* Metropolis Monte Carlo against exact averages: two and three spheres by quadrature, fluids by molecular dynamics. */
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "jam/jam.h"

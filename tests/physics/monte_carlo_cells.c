@@ -3,7 +3,6 @@
 #include <jam/jam.h>
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 #include "start.h"
 #include "test.h"

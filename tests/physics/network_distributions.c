@@ -2,7 +2,6 @@
  * Values: Charbonneau et al., Nat. Commun. 5, 3725 (2014); Lerner, During and Wyart, Soft Matter 9, 8252 (2013). */
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 
 #include <jam/jam.h>
 #include "columns.h"

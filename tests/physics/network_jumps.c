@@ -1,6 +1,5 @@
 /* Networks from geometry alone: which jump of the gaps ends the contacts, and how two networks compare. */
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 
 #include <jam/jam.h>

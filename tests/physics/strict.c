@@ -2,7 +2,6 @@
 #include <jam/jam.h>
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 #include "start.h"
 #include "verdicts.h"
 

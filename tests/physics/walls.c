@@ -2,8 +2,6 @@
 #include "walls.h"
 #include <jam/jam.h>
 #include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 static void run(jam_system *sys, double collisions, jam_md_report *report) {
   jam_run_options o;

@@ -1,6 +1,5 @@
 // Hessians and modes against lattices whose spectra are known in closed form (Bloch), finite differences, and
 // identities.
-#include <functional>
 #include "analysis/modes.hpp"
 #include "analysis_networks.hpp"
 #include "core/error.hpp"

@@ -4,7 +4,6 @@
 #include "linalg/blas.hpp"
 
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <vector>
 

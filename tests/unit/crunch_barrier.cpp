@@ -2,7 +2,6 @@
 // best step against a scan; paths from saddles, and crunches of equal disks.
 #include <cmath>
 #include <random>
-#include <string>
 #include "test.h"
 
 #include "core/create.hpp"

@@ -1,5 +1,4 @@
 // The pairs that the barrier path lists: longer reaches for uncovered spheres, and paths of mixtures that need them.
-#include <cmath>
 #include "test.h"
 
 #include "crunch/path/barrier_path.hpp"

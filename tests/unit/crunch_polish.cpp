@@ -1,7 +1,6 @@
 // The last digits of a crunch: networks that close, and those with a contact too many or too few.
 #include <algorithm>
 #include <cmath>
-#include <string>
 #include "test.h"
 
 #include "near_contact.hpp"

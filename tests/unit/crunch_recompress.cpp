@@ -2,7 +2,6 @@
 // counted, repeatable.
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include "crunch/phases.hpp"
 #include "test.h"
 

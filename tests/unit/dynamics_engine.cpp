@@ -1,6 +1,5 @@
 // The engine against a naive one (all pairs, all images, long double), and its invariants on awkward systems.
 #include <cmath>
-#include <cstring>
 #include <vector>
 
 #include "core/create.hpp"

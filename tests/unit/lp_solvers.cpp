@@ -1,7 +1,6 @@
 // The packing LP: our interior point against Clp, both against the LP's own residuals.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include "test.h"
 
 #include "core/create.hpp"

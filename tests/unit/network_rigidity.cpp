@@ -2,7 +2,6 @@
 // rank confirm each verdict.
 #include <cmath>
 #include <functional>
-#include <set>
 
 #include "analysis_networks.hpp"
 #include "capi/system.hpp"

@@ -2,7 +2,7 @@
 """Each recipe of pkgconfig/recipes is read and executed as its package manager would, with stand-ins for the manager's
 own functions, from an archive of the source into an empty prefix; what is installed there is then used.
 
-usage: recipes.py FOLDER [RECIPE...]     by default conda spack guix debian vcpkg yggdrasil; d = 2 and 3
+usage: recipes.py FOLDER [RECIPE...]     by default conda spack guix vcpkg yggdrasil; d = 2 and 3
 Fails where a recipe asks CMake for an option that it does not use, or installs something that does not work. Guix needs
 guile, conda python3-yaml; a recipe whose tool is missing is skipped, and the script says so.
 """
@@ -165,19 +165,6 @@ def guix(trial):
     trial.use(next(trial.prefix.glob("lib/python*/site-packages")))
 
 
-def debian(trial):
-    """pkgconfig/debian from the changelog to packages, with every symbol in the list of symbols."""
-    missing = [tool for tool in ("dpkg-buildpackage", "dh", "dh_python3", "lintian") if not shutil.which(tool)]
-    if missing:
-        return f"skipped: {', '.join(missing)} is not installed"
-    shutil.copytree(ROOT / "pkgconfig/debian", trial.source / "debian")
-    trial.run("dpkg-buildpackage -b -us -uc -d; lintian --allow-root --fail-on error,warning ../*.changes", DEB_BUILD_OPTIONS="nocheck",
-              DPKG_GENSYMBOLS_CHECK_LEVEL="4")  # fmt: skip
-    trial.run(f"for package in ../*.deb; do dpkg-deb -x $package {trial.prefix}; done")
-    trial.prefix /= "usr"
-    trial.use(trial.prefix / "lib/python3/dist-packages")
-
-
 def vcpkg(trial):
     """recipes.cmake has vcpkg's functions, with its moves of files; the rules about folders are those of its checks."""
     trial.run(["cmake", f"-DSOURCE={trial.source}", f"-DPREFIX={trial.prefix}", f"-DPORT_FOLDER={RECIPES / 'vcpkg'}", "-P",
@@ -213,6 +200,6 @@ if __name__ == "__main__":
     folder = Path(sys.argv[1]).resolve()
     folder.mkdir(parents=True, exist_ok=True)
     subprocess.run(["sh", ROOT / "pkgconfig/archive.sh", "HEAD", folder], check=True)
-    known = {one.__name__: one for one in (conda, spack, guix, debian, vcpkg, yggdrasil)}
+    known = {one.__name__: one for one in (conda, spack, guix, vcpkg, yggdrasil)}
     for name in sys.argv[2:] or known:
         print(f"{name}: {known[name](Trial(folder, name)) or 'built, installed and used'}", flush=True)

@@ -1,6 +1,7 @@
 // The surface of the solid in the brick, as triangles: closed, each edge twice, once each way.
 #pragma once
 #include <array>
+#include <deque>
 #include <vector>
 
 #include "core/packing.hpp"
@@ -10,7 +11,7 @@
 namespace jam::inside {
 
 struct SolidMesh {
-  std::vector<std::array<float, 9>> triangle;  // three corners
+  std::deque<std::array<float, 9>> triangle;  // three corners; there may be 1e8 of them, which a vector would copy
   int64_t bridges = 0;
   double volume = 0.0;  // that the triangles enclose
   double solid = 0.0;   // of the spheres and cylinders that they represent

@@ -13,7 +13,7 @@ namespace {
 
 // Levenberg and Marquardt: a shift of the Hessian that grows where contacts change and steps gain less energy than the
 // quadratic model says. `stalled` when the steps do not lead to the tolerance.
-DescentEnd newton(Relaxation &r, double tolerance, SoftHessian &hessian, double shift) {
+DescentEnd newton(Relaxation &r, double tolerance, SoftHessian &hessian, double shift, bool &convex) {
   SoftState &state = r.state;
   const double move_limit = NewtonTuning::longest_move * state.diameter_mean();
   bool fresh = false;
@@ -34,6 +34,7 @@ DescentEnd newton(Relaxation &r, double tolerance, SoftHessian &hessian, double 
     if (!(fresh && now < NewtonTuning::good_factor * last && hessian.has_contacts(state, contacts))) {
       if (!hessian.factorise(state, contacts, on, shift, r.effort.factorisations)) return DescentEnd::stalled;
       fresh = true;
+      convex = hessian.shift() == 0.0;
     }
     last = now;
     const std::vector<double> force = r.force;
@@ -68,7 +69,7 @@ DescentEnd newton(Relaxation &r, double tolerance, SoftHessian &hessian, double 
 
 }  // namespace
 
-DescentEnd hybrid(Relaxation &r, double tolerance, bool near_minimum) {
+DescentEnd hybrid(Relaxation &r, double tolerance, bool near_minimum, bool &convex) {
   SoftHessian hessian;
   // Below alpha = 2 the stiffness of a contact grows without bound as it opens. The time step of FIRE follows the mean
   // one, so such contacts chatter: at alpha = 3/2 it stays at a residual of 1e-4, while L-BFGS continues.
@@ -77,6 +78,7 @@ DescentEnd hybrid(Relaxation &r, double tolerance, bool near_minimum) {
   for (bool descend = !near_minimum;; descend = true) {
     DescentEnd end;
     if (descend) {
+      convex = false;
       end = stiffens_at_contact ? lbfgs(r, std::max(target, tolerance)) : fire(r, std::max(target, tolerance));
       if (end != DescentEnd::balanced) return end;
     }
@@ -84,12 +86,17 @@ DescentEnd hybrid(Relaxation &r, double tolerance, bool near_minimum) {
       centre_rattlers(r.state);
       r.evaluate();
     }
-    end = newton(r, tolerance, hessian, 0.0);
+    end = newton(r, tolerance, hessian, 0.0, convex);
     if (end != DescentEnd::stalled) return end;
     if (!descend) continue;
     if (target <= tolerance) return r.stable_residual() < tolerance ? DescentEnd::balanced : DescentEnd::stalled;
     target = NewtonTuning::next_target * std::min(target, r.stable_residual());
   }
+}
+
+DescentEnd hybrid(Relaxation &r, double tolerance, bool near_minimum) {
+  bool convex = false;
+  return hybrid(r, tolerance, near_minimum, convex);
 }
 
 }  // namespace jam::inside

@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "core/rng.hpp"
 #include "soft/decompression.hpp"
+#include "soft/soft_hessian.hpp"
 #include "soft/tuning.hpp"
 
 namespace jam::inside {
@@ -66,39 +67,64 @@ DescentEnd minimise(Relaxation &r, int32_t minimiser, double tolerance, bool nea
   }
 }
 
-// Forces balance on spheres that overlap, and no contact is stable.
-static bool is_saddle(const SoftResult &found) {
-  return found.report.contacts == 0 && found.report.max_overlap > overlap_resolution(found.packing);
+// Whether forces balance and the energy falls in some direction: where spheres that overlap have too few contacts to be
+// held, as those of a straight line, and where the Hessian is not positive. Its zero modes may be any. convex: it is.
+static bool is_saddle(const Relaxation &r, const SoftResult &found, bool convex) {
+  if (found.report.contacts == 0) return found.report.max_overlap > overlap_resolution(found.packing);
+  const SoftContacts contacts = r.state.contacts();
+  const std::vector<char> on = stable_contacts(r.state, contacts);
+  const double loose = RelaxTuning::loose_force * r.sums.mean_force();
+  double push = 0.0, stiffness = 0.0;
+  for (size_t q = 0; q < contacts.size(); ++q) {
+    const size_t k = contacts.pair[q];
+    const bool own_image = r.state.pairs().i[k] == r.state.pairs().j[k];
+    if (!on[q] && !own_image && contacts.force[q] > loose && r.state.base().container.curved() == 0) return true;
+    push += contacts.force[q] / contacts.distance[q];
+    stiffness += r.state.energy().stiffness(contacts.overlap[q], contacts.force[q]);
+  }
+  if (convex) return false;
+  const double shift = RelaxTuning::saddle_curvature * push / stiffness;
+  SoftHessian hessian;
+  return !hessian.factorise(r.state, contacts, on, shift, r.effort.factorisations) || hessian.shift() > shift;
 }
 
 static void displace_at_random(Relaxation &r, size_t attempt) {
   Rng rng(r.state.base().seed, Stream::soft_saddle, static_cast<uint64_t>(attempt) << 40);
   const double move = RelaxTuning::saddle_moves[attempt] * r.state.diameter_mean();
   if (r.effort.monitor)
-    r.effort.monitor->log(JAM_LOG_INFO, "a saddle: lines of spheres balance and would buckle; all move by up to %.1e",
+    r.effort.monitor->log(JAM_LOG_INFO, "a saddle: forces balance, and spheres would buckle; all move by up to %.1e",
                           move);
   for (double &x : r.state.displacement()) x += (2.0 * rng.uniform() - 1.0) * move;
 }
 
 DescentEnd minimise_and_measure(Relaxation &r, int32_t minimiser, double tolerance, bool near_minimum,
                                 SoftResult &out) {
-  DescentEnd end = minimise(r, minimiser, tolerance, near_minimum);
+  bool convex = false;
+  const auto descend = [&](bool near) {
+    if (minimiser != JAM_MINIMISER_NEWTON) return minimise(r, minimiser, tolerance, near);
+    const CancellableScope scope;
+    try {
+      return hybrid(r, tolerance, near, convex);
+    } catch (const Cancelled &) {
+      return DescentEnd::interrupted;
+    }
+  };
+  DescentEnd end = descend(near_minimum);
   size_t saddles = 0;
   for (int attempt = 0;; ++attempt) {
     out = measure(r.state, minimiser);
     if (end != DescentEnd::balanced) return end;
-    if (is_saddle(out)) {
+    bool near = true;
+    if (std::max(out.report.force_residual, out.report.stress_residual) < tolerance) {
+      if (!is_saddle(r, out, convex)) return end;
       if (saddles == std::size(RelaxTuning::saddle_moves)) return DescentEnd::stalled;
       displace_at_random(r, saddles++);
-      r.evaluate();
-      end = minimise(r, minimiser, tolerance, false);
-      continue;
+      attempt = 0, near = false;
     }
-    if (std::max(out.report.force_residual, out.report.stress_residual) < tolerance) return end;
     const bool loads = !r.state.cell().beyond.empty();
     if (attempt == RelaxTuning::most_roundings + (loads ? RelaxTuning::most_loadings : 0)) return DescentEnd::stalled;
     r.evaluate();
-    end = minimise(r, minimiser, tolerance, true);
+    end = descend(near);
   }
 }
 

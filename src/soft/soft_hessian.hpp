@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "linalg/block_cholesky.hpp"
-#include "soft/soft_state.hpp"
+#include "soft/relaxation.hpp"
 
 namespace jam::inside {
 
@@ -36,5 +36,8 @@ class SoftHessian {
   std::vector<int32_t> analysed_i_, analysed_j_;
   double unit_ = 1.0, shift_ = 0.0;
 };
+
+// As hybrid() of relaxation.hpp. convex: that the last factor of the Hessian was positive as it is; kept without one.
+DescentEnd hybrid(Relaxation &r, double tolerance, bool near_minimum, bool &convex);
 
 }  // namespace jam::inside

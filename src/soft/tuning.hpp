@@ -82,8 +82,10 @@ struct RelaxTuning {
   // farther under them flows.
   static constexpr int most_loadings = 40;
   static constexpr double most_strain = 1.0;
-  // Straight lines of compressed spheres hold no sphere, and buckle: a saddle. Displacements of these parts of the mean
-  // diameter leave it, one after the other.
+  // Straight lines of compressed spheres buckle, lattices with few contacts too: forces balance at a saddle. There a
+  // contact of spheres that are not held has more than this part of the mean force, or the Hessian a curvature below
+  // this part of -force / distance. Displacements of the last parts of the mean diameter leave it, one after the other.
+  static constexpr double loose_force = 1e-3, saddle_curvature = 1e-3;
   static constexpr double saddle_moves[] = {1e-6, 1e-4, 1e-2};
 };
 

@@ -49,6 +49,39 @@ def pair_sums(s):
     return energy, stress / np.linalg.det(cell)
 
 
+def lowest_curvature(s):
+    """Smallest eigenvalue of the Hessian of harmonic spheres, of all pairs that overlap, by nearest images; times sigma^2."""
+    x, sigma, cell, d = s.positions, s.diameters, s.cell, s.dim
+    h = np.zeros((s.n, d, s.n, d))
+    for i in range(s.n):
+        r = x[i] - x[:i]
+        r -= np.round(r @ np.linalg.inv(cell)) @ cell
+        length, contact = np.sqrt((r * r).sum(axis=1)), (sigma[i] + sigma[:i]) / 2
+        for j in np.flatnonzero(length < contact):
+            n = np.outer(r[j], r[j]) / length[j] ** 2
+            block = n / contact[j] ** 2 - (1 / length[j] - 1 / contact[j]) / contact[j] * (np.eye(d) - n)
+            h[i, :, i] += block
+            h[j, :, j] += block
+            h[i, :, j] -= block
+            h[j, :, i] -= block
+    return np.linalg.eigvalsh(h.reshape(s.n * d, -1))[0] * sigma.mean() ** 2
+
+
+def sliding_sums(s, strain):
+    """pair_sums in a brick whose images above and below slide by strain times their distance (Lees and Edwards)."""
+    x, sigma, (rows, columns) = s.positions, s.diameters, np.triu_indices(s.n, 1)
+    side = np.linalg.det(s.cell) ** (1 / s.dim)
+    r = x[rows] - x[columns]
+    above = np.round(r[:, 1:2] / side)
+    r[:, 1:2] -= above * side
+    r[:, 0:1] -= above * (strain * side % side)
+    r[:, 0] -= np.round(r[:, 0] / side) * side
+    r[:, 2:] -= np.round(r[:, 2:] / side) * side
+    length, contact = np.sqrt((r * r).sum(axis=1)), (sigma[rows] + sigma[columns]) / 2
+    h = np.maximum(0, 1 - length / contact)
+    return (h * h).sum() / 2, np.einsum("k,ka,kb->ab", h / contact / length, r, r) / side**s.dim
+
+
 class Stress(unittest.TestCase):
     def test_soft_packing_by_pairs(self):
         for s in (soft(40), soft(32, 3, 0.72, 2)):
@@ -405,6 +438,49 @@ class Shear(unittest.TestCase):
         line = np.column_stack([np.arange(4) / 4 + 0.1, np.full(4, 0.5)])
         row = jam.System.from_arrays(line, np.full(4, 0.26), cell=[1.0, 1.0], overlap="allow")
         self.assertEqual(row.relax().energy, 0.0)  # it has room to buckle, and no overlap is left
+
+    def test_no_minimum_is_a_saddle(self):
+        """Lattices with few contacts, and layers, balance by their symmetry; the energy falls to every other side."""
+        layer = np.array([(k % 4 + j % 2 / 2, j * 0.75**0.5, 2) for j in range(4) for k in range(4)])
+        starts = [(np.indices((m,) * d).reshape(d, -1).T + 0.5, [m] * d) for d, m in ((2, 6), (3, 4), (4, 3))]
+        starts.append((layer, [4, 4 * 0.75**0.5, 4]))
+        for minimiser in ("newton", "fire"):
+            for x, cell in starts:
+                for sigma in (1.01, 1.25):
+                    with self.subTest(minimiser=minimiser, cell=cell, sigma=sigma):
+                        s = jam.System.from_arrays(x, sigma, cell=cell, overlap="allow")
+                        self.assertLess(lowest_curvature(s), -1e-3)
+                        report = s.relax(minimiser=minimiser)
+                        self.assertIn(report.status.name, ("OK", "NOT_JAMMED"))
+                        self.assertEqual(report.status.name == "OK", report.contacts > 0)
+                        self.assertGreater(lowest_curvature(s), -1e-9)
+        s = jam.System.from_arrays(*starts[1][:1], 1.3, cell=starts[1][1], overlap="allow")
+        s.decompress(pressure=1e-2, isostatic=False, crunch=False)
+        self.assertGreater(lowest_curvature(s), -1e-9)
+        self.assertGreater(s.contacts.pairs.size, 0)
+
+    def test_tilted_cells_agree_with_sliding_images(self):
+        """Every step of a shear through more than one period, by energies and stresses of sliding images."""
+        for s, step in ((soft(32), 0.11), (soft(40, dim=3, phi=0.72, seed=2), 0.23)):
+            strain = 0.0
+            while strain < 1.3:
+                s.shear(step, step=step, resolution=step)
+                strain += step
+                energy, stress = sliding_sums(s, strain)
+                self.assertAlmostEqual(s.shear_rows["energy"][-1] * s.n, energy, delta=1e-10 * energy)
+                np.testing.assert_allclose(s.stress(), stress, rtol=0, atol=1e-10 * np.trace(stress))
+                self.assertAlmostEqual(s.shear_rows["stress"][-1], -stress[0, 1], delta=1e-10 * np.trace(stress))
+
+    def test_a_tilt_by_a_whole_period_is_none(self):
+        s = soft(32)
+        t = jam.System.from_arrays(s.positions, s.diameters, cell=[[s.box, 0], [s.box, s.box]], overlap="allow")
+        for packing in (s, t):
+            packing.relax()
+            packing.shear(0.01, step=1e-3)
+        np.testing.assert_allclose(t.shear_rows["stress"], s.shear_rows["stress"], rtol=0, atol=1e-10 * s.stress().trace())
+        apart = t.positions - s.positions
+        apart -= np.round(apart @ np.linalg.inv(s.cell)) @ s.cell
+        self.assertLess(abs(apart - apart.mean(axis=0)).max(), 1e-10)
 
 
 class Yield(unittest.TestCase):

@@ -148,7 +148,7 @@ jam_status jam_mk_shifts(const jam_system *sys, const int32_t *pair, size_t pair
     const Packing &p = sys->packing;
     if (p.model != JAM_MODEL_MK) fail(JAM_E_UNSUPPORTED, "only spheres of the Mari-Kurchan model have shifts");
     if (pair_len) need(pair, "pair");
-    if (pair_len % 2) fail(JAM_E_ARGUMENT, "pair_len is %zu, pairs have two spheres each", pair_len);
+    if (pair_len % 2) fail(JAM_E_ARGUMENT, "pair has %zu numbers, pairs have two spheres each", pair_len);
     const MkShifts quenched(p);
     const auto n = static_cast<int32_t>(p.n());
     std::vector<double> found(pair_len / 2 * p.dim, 0.0);

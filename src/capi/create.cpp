@@ -85,7 +85,7 @@ jam_status jam_create(const jam_create_options *o, const jam_start *start, jam_s
       if (full.box != default_create_options().box)
         fail(JAM_E_ARGUMENT, "box is %g beside cell vectors, which give the box: leave box at 1", full.box);
     } else if (from.cell_len != 0) {
-      fail(JAM_E_NULL, "cell is NULL, and cell_len is %zu", from.cell_len);
+      fail(JAM_E_NULL, "cell is NULL, but has %zu numbers by its length", from.cell_len);
     }
     return make_system(full, from.progress, from.user, out, [&](jam_system &sys) {
       sys.packing = make_packing(full, from.positions, from.positions_len, from.diameters, from.diameters_len,

@@ -265,7 +265,7 @@ std::unique_ptr<SizeDistribution> size_distribution(const Options &o, const doub
   if (!(o.low < o.high)) fail(JAM_E_ARGUMENT, "low is %g and high is %g: low must be below high", o.low, o.high);
   if (law.takes_curve != (curve_len > 0))
     fail(JAM_E_ARGUMENT, law.takes_curve ? "the law %s needs a curve" : "the law %s has no curve", law.name);
-  if (curve_len % 2) fail(JAM_E_ARGUMENT, "curve_len is %zu: a curve has rows of two numbers", curve_len);
+  if (curve_len % 2) fail(JAM_E_ARGUMENT, "curve has %zu numbers: a curve has rows of two", curve_len);
   const size_t rows = curve_len / 2;
   for (size_t k = 0; k < rows; ++k) {
     if (!std::isfinite(curve[2 * k]) || !std::isfinite(curve[2 * k + 1]))

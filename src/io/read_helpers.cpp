@@ -122,7 +122,15 @@ std::vector<std::string> column_names(std::string_view line, char comma) {
   if (line.find(comma) == std::string_view::npos) {
     std::vector<std::string_view> words;
     split(line, words);
-    names.assign(words.begin(), words.end());
+    bool open = false;  // a unit in brackets belongs to the name before it, with blanks within too
+    for (const std::string_view word : words) {
+      const bool unit = open || (!names.empty() && (word[0] == '(' || word[0] == '['));
+      if (unit)
+        names.back().append(" ").append(word);
+      else
+        names.emplace_back(word);
+      open = unit && word.find_first_of("])") == std::string_view::npos;
+    }
     return names;
   }
   for (size_t k = 0; k <= line.size();) {

@@ -122,10 +122,6 @@ void take_rows(std::vector<double> rows, FileContent &content);  // the same, er
 // third coordinates go, and the file's dimension is 2. positions: (n, 3).
 void take_plane(const std::vector<double> &positions, double low, double high, FileContent &content);
 
-// The frame that was requested. read_one(content, k) reads frame k, false where the file ends before it.
-template <class ReadOne>
-FileContent choose_frame(LineReader &in, int64_t frame, ReadOne &&read_one);
-
 FileContent read_plain(LineReader &in, const ReadOptions &options);
 FileContent read_table(LineReader &in, const ReadOptions &options);
 FileContent read_xyz(LineReader &in, const ReadOptions &options);
@@ -133,19 +129,22 @@ FileContent read_lammps(LineReader &in, const ReadOptions &options);
 FileContent read_dump(LineReader &in, const ReadOptions &options);
 FileContent read_mercury(LineReader &in, const ReadOptions &options);
 
+// The frame that was requested. read_one(content, k) reads frame k, false where the file ends before it.
 template <class ReadOne>
 FileContent choose_frame(LineReader &in, int64_t frame, ReadOne &&read_one) {
   std::vector<FileContent> kept;  // the last frames, as many as a negative number reaches back
   int64_t count = 0;
+  std::string hint;  // which frame could be read instead
   const size_t most = frame < 0 ? static_cast<size_t>(-(frame + 1)) + 1 : 1;
   for (;; ++count) {
     FileContent content;
     try {
       if (!read_one(content, count)) break;
     } catch (const Error &e) {
-      if (count == 0) throw;
-      jam::inside::fail(e.code(), "%s; frame=%lld is the last whole one", e.what(), static_cast<long long>(count - 1));
+      if (hint.empty()) throw;
+      jam::inside::fail(e.code(), "%s%s", e.what(), hint.c_str());
     }
+    if (!content.diameter.empty()) hint = "; frame=" + std::to_string(count) + " can be read";
     if (kept.size() == most) kept.erase(kept.begin());
     kept.push_back(std::move(content));
     if (count == frame) {
@@ -159,9 +158,8 @@ FileContent choose_frame(LineReader &in, int64_t frame, ReadOne &&read_one) {
                       static_cast<long long>(count - 1));
   FileContent &chosen = kept.front();
   if (chosen.diameter.empty())
-    jam::inside::fail(JAM_E_ARGUMENT,
-                      "%s: in frame %lld n is 0, it must be 1 or more: name another one by the option frame",
-                      in.path().c_str(), static_cast<long long>(frame < 0 ? count + frame : frame));
+    jam::inside::fail(JAM_E_FORMAT, "%s: frame %lld has no sphere%s", in.path().c_str(),
+                      static_cast<long long>(frame < 0 ? count + frame : frame), hint.c_str());
   if (count > 1 && frame == -1)
     chosen.notes.say("the last of %lld frames was read; frame=0 to %lld read others", static_cast<long long>(count),
                      static_cast<long long>(count - 1));

@@ -50,7 +50,7 @@ CASE(bad_plain_files_are_refused) {
 
 #define LATTICE "Lattice=\"1 0 0 0 1 0 0 0 1\" "
 CASE(bad_xyz_files_are_refused) {
-  expect_refused("0\n" LATTICE "\n", JAM_E_ARGUMENT, "n is 0");
+  expect_refused("0\n" LATTICE "\n", JAM_E_FORMAT, "frame 0 has no sphere");
   expect_refused("1\n" LATTICE "\nA 0 0 0\n", JAM_E_FORMAT, "line 2: no Properties");
   expect_refused("1\nProperties=pos:R:3:radius:R:1\n0 0 0 0.1\n", JAM_E_FORMAT, "line 2: no Lattice");
   expect_refused("1\n" LATTICE "Properties=pos:R:3\n0 0 0\n", JAM_E_FORMAT, "no radius");

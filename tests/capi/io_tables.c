@@ -50,6 +50,7 @@ CASE(headings) {
       "Center X, Center Y, Center Z, Diameter\r\n.5, .5, .5, .4\r\n1.5, 1.5, 1.5, .5\r\n",
       "\xef\xbb\xbfname,x_coord,y_coord,z_coord,vx,r\n\"grain, a\",.5,.5,.5,9,.2\n\"b c\",1.5,1.5,1.5,9,.25\n",
       "# pos_x pos_y pos_z radius\n.5 .5 .5 .2\n1.5 1.5 1.5 .25\n",
+      "x (mm) y [ mm ] z (mm) radius (mm)\n.5 .5 .5 .2\n1.5 1.5 1.5 .25\n",
       "#format x_y_z_r_matId\n.5 .5 .5 .2 1\n1.5 1.5 1.5 .25 1\n",
       /* ParaView of MFIX; particles of Rocky and of EDEM */
       "\"Diameter\",\"Particle_ID\",\"Points:0\",\"Points:1\",\"Points:2\"\n.4,1,.5,.5,.5\n.5,2,1.5,1.5,1.5\n",
@@ -70,6 +71,8 @@ CASE(headings) {
   /* lengths have one unit; columns that are not read may have any */
   expect_refused("X [m],Y [m],Z [m],D [mm]\n.1,.1,.1,.1\n", JAM_E_FORMAT, "'X [m]' and 'D [mm]' have two units");
   expect_refused("x,y (cm),z (m),r\n.1,.1,.1,.1\n", JAM_E_FORMAT, "'y (cm)' and 'z (m)' have two units");
+  expect_refused("x (mm) y (mm) z (mm) radius (um)\n.1 .1 .1 .1\n", JAM_E_FORMAT,
+                 "'x (mm)' and 'radius (um)' have two");
   expect_refused("# x[m] y[m] z[mm] r[m]\n.1 .1 .1 .1\n", JAM_E_FORMAT, "two units");
   expect(read_as("x [mm],y (mm),z,mass [g],r (radius) [mm]\n.5,.5,.5,9,.2\n1.5,1.5,1.5,9,.25\n", "", 3.0), 3, 2, two,
          sizes);
@@ -183,12 +186,28 @@ CASE(frames_without_spheres) {
     assert_int_equal(jam_read(in_scratch("in.any"), &o, NULL, NULL, &sys), JAM_OK);
     expect(sys, 3, 2, two, sizes);
     o.frame = 0;
-    assert_int_equal(jam_read(in_scratch("in.any"), &o, NULL, NULL, &sys), JAM_E_ARGUMENT);
-    assert_non_null(strstr(jam_last_error(), "in frame 0 n is 0"));
+    assert_int_equal(jam_read(in_scratch("in.any"), &o, NULL, NULL, &sys), JAM_E_FORMAT);
+    assert_non_null(strstr(jam_last_error(), "frame 0 has no sphere"));
     o.frame = 2;
     assert_int_equal(jam_read(in_scratch("in.any"), &o, NULL, NULL, &sys), JAM_E_ARGUMENT);
     assert_non_null(strstr(jam_last_error(), "the file has 2"));
   }
+}
+
+/* What an error says of another frame is true: it can be read. */
+CASE(frames_that_can_be_read_are_named) {
+  static const char frame[] = "1\nLattice=\"3 0 0 0 3 0 0 0 3\" Properties=pos:R:3:radius:R:1\n.5 .5 .5 .2\n";
+  static const char empty[] = "0\nLattice=\"3 0 0 0 3 0 0 0 3\" Properties=pos:R:3:radius:R:1\n";
+  static const char wrong[] = "1\nLattice=\"3 0 0 0 3 0 0 0 3\" Properties=pos:R:3\n.5 .5 .5\n";
+  char text[1024];
+  snprintf(text, sizeof text, "%s%s", frame, empty);
+  expect_refused(text, JAM_E_FORMAT, "frame 1 has no sphere; frame=0 can be read");
+  snprintf(text, sizeof text, "%s%s%s", frame, empty, wrong);
+  expect_refused(text, JAM_E_FORMAT, "no radius");
+  assert_non_null(strstr(jam_last_error(), "; frame=0 can be read"));
+  snprintf(text, sizeof text, "%s%s", empty, wrong);
+  expect_refused(text, JAM_E_FORMAT, "no radius");
+  assert_null(strstr(jam_last_error(), "can be read"));
 }
 
 CASE(data_of_mercury_dpm) {

@@ -52,7 +52,7 @@ def of_atoms(
     """What System.from_arrays takes for an ase.Atoms. where: what an error calls it; notes get what was not read. named:
     walls and container that the caller names, for atoms that do not."""
     if len(atoms) == 0:
-        raise bad(where, "the frame has no sphere")
+        raise bad(where, "the atoms have no sphere")
     walls = _walls_in(where, atoms, dim, {key: value for key, value in named.items() if value is not None})
     if not walls and not all(atoms.pbc[:dim]):
         hint = "; dim=2 reads a packing of disks" if dim == 3 and all(atoms.pbc[:2]) else ""

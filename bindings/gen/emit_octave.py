@@ -59,7 +59,7 @@ class Call:
         if a.name in self.f.enums:
             made = f'{value}.is_defined() ? number_of(words_{self.f.enums[a.name]}, {value}, "{a.name}") : 0'
         elif a.name in self.f.bools:
-            made = f"{value}.is_defined() && truth({value})"
+            made = f'{value}.is_defined() && flag({value}, "{a.name}")'
         elif a.type.scalar == "double":
             made = f'{value}.is_defined() ? {value}.xdouble_value("{a.name} must be a number") : 0'
         else:

@@ -149,12 +149,9 @@ export class Core {
 
   /** A whole number of C, checked: JavaScript would cut what does not fit. */
   integer(value, name, bits) {
-    let exact;
-    try {
-      exact = BigInt(value);
-    } catch {
-      throw new JamError('argument', `${name} must be a whole number, not ${value}`);
-    }
+    if (!Number.isInteger(value) && typeof value !== 'bigint')
+      throw new JamError('argument', `${name} must be a whole number, not ${JSON.stringify(value)}`);
+    const exact = BigInt(value);
     if (BigInt.asIntN(bits, exact) !== exact) throw new JamError('argument', `${name} = ${value} is beyond ${bits} bits`);
     return bits === 64 ? exact : Number(exact);
   }

@@ -51,7 +51,11 @@ inline int32_t number_of(const Word *words, const octave_value &value, const std
   refuse(name + " is '" + text + "'; it may be " + known);
 }
 
-inline bool truth(const octave_value &value) { return value.is_true(); }
+inline bool flag(const octave_value &value, const std::string &name) {
+  const bool is = value.is_bool_scalar() || (value.is_real_scalar() && (value.double_value() == 0 || value.double_value() == 1));
+  if (!is) refuse(name + " must be true or false");
+  return value.is_true();
+}
 
 inline octave_value read(const void *data, const Member &m) {
   const char *at = static_cast<const char *>(data) + m.at;
@@ -70,7 +74,7 @@ inline void write(void *data, const Member &m, const octave_value &value) {
   char *at = static_cast<char *>(data) + m.at;
   switch (m.kind) {
     case 'd': *reinterpret_cast<double *>(at) = value.xdouble_value("%s must be a number", m.name); break;
-    case 'b': *reinterpret_cast<int32_t *>(at) = truth(value); break;
+    case 'b': *reinterpret_cast<int32_t *>(at) = flag(value, m.name); break;
     case 'w': *reinterpret_cast<int32_t *>(at) = number_of(m.words, value, m.name); break;
     case 'i': *reinterpret_cast<int32_t *>(at) = whole<int32_t>(value, m.name); break;
     case 'u': *reinterpret_cast<uint32_t *>(at) = whole<uint32_t>(value, m.name); break;
@@ -151,7 +155,7 @@ class Given {
       octave_quit();  // Ctrl-C
       if (!given.progress_.is_defined()) return 0;
       const octave_value_list out = octave::feval(given.progress_, octave_value_list(map_of(p, progress_members)), 1);
-      return out.length() > 0 && out(0).is_defined() && truth(out(0));
+      return out.length() > 0 && out(0).is_defined() && out(0).is_true();
     } catch (...) {
       given.caught_ = std::current_exception();
       return 1;
@@ -236,8 +240,7 @@ struct In {
     c.resize(static_cast<size_t>(x.numel()));
     for (octave_idx_type k = 0; k < x.numel(); ++k) {
       const double v = x(shaped ? turned(k, x.dims(), rank) : k);
-      if (std::is_integral<T>::value && v != std::floor(v)) refuse(std::string(name) + " must hold whole numbers");
-      c[static_cast<size_t>(k)] = static_cast<T>(v) - static_cast<T>(index);
+      c[static_cast<size_t>(k)] = (std::is_integral<T>::value ? whole<T>(v, name) : static_cast<T>(v)) - static_cast<T>(index);
     }
   }
   const T *data() const { return c.empty() ? nullptr : c.data(); }

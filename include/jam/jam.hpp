@@ -27,6 +27,10 @@
 namespace jam {
 
 // A status below zero with the text of the library.
+#ifdef __clang__
+#pragma clang diagnostic push
+#pragma clang diagnostic ignored "-Wweak-vtables"  // a header alone has no unit for the table of this class
+#endif
 class Error : public std::runtime_error {
  public:
   explicit Error(jam_status status) : std::runtime_error(text(status)), status_(status) {}
@@ -39,6 +43,9 @@ class Error : public std::runtime_error {
   }
   jam_status status_;
 };
+#ifdef __clang__
+#pragma clang diagnostic pop
+#endif
 
 // Throws for a status below zero, else returns it.
 inline jam_status check(jam_status status) {

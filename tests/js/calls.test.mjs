@@ -128,6 +128,12 @@ test('what is no file is refused by what it must be', async () => {
   await assert.rejects(jam.read(packing.checkpoint(), { name: 'a.jam' }), { status: 'format', message: /readCheckpoint reads it/ });
 });
 
+test('whole numbers are numbers: a text or a truth is none, nor has it a fraction', () => {
+  for (const seed of ['', '5', true, 2.5, null]) fails(() => jam.random({ n: 8, seed }), 'argument', 'seed must be a whole number');
+  fails(() => jam.random({ n: 8, overlap: 0.7 }), 'argument', 'overlap is 0.7');
+  assert.equal(jam.random({ n: 8, seed: 3n }).n, 8);
+});
+
 test('lists of options have those that the call takes', () => {
   fails(() => jam.random({ n: 8, ratio: 1.4 }), 'argument', 'ratio', 'diameters', 'cell', 'seed');
   assert.throws(() => jam.random({ n: 8, ratio: 1.4 }), (error) => !error.message.includes('positions'));

@@ -17,7 +17,7 @@ for cc in gcc clang; do
   for std in c++11 c++17 c++20; do
     $cc -x c++ -std=$std $strict -I"$include" "$scratch/a.cpp"
   done
-  [ $cc = gcc ] || comma=-Wcomma
-  $cc -x c++ -std=c++17 $strict ${comma:-} -I"$include" -include jam/jam.hpp "$scratch/a.cpp"
+  [ $cc = gcc ] || more="-Wcomma -Wweak-vtables"
+  $cc -x c++ -std=c++17 $strict ${more:-} -I"$include" -include jam/jam.hpp "$scratch/a.cpp"
   echo "$cc: ok"
 done

@@ -21,7 +21,7 @@ julia> r.jammed, r.stop_reason, r.max_overlap < 1e-12
 """
 function crunch!(s::System; progress = nothing, on_step = nothing, given...)
     given = on_step === nothing ? given : (; given..., steps = true)
-    o, made = options(jam_crunch_options, given), jam_crunch_report()
+    o, made = options(s, jam_crunch_options, given), jam_crunch_report()
     on_step === nothing && return verb(h -> jam_crunch(h, o, made), s, made, progress)
     watch, done = watcher(progress)
     function each(p)
@@ -75,7 +75,7 @@ Tests the packing as it is and moves nothing. Returns a Report that prints as it
 `:ok` when jammed, `:not_jammed`, or `:ambiguous` when undecided.
 """
 function judge(s::System; progress = nothing, given...)
-    o, made = options(jam_check_options, given), jam_check_report()
+    o, made = options(s, jam_check_options, given), jam_check_report()
     r = verb(h -> jam_check_packing(h, o, made), s, made, progress)
     r.status in (:cancelled, :limit) && throw(JamError(r.status, r.status_text))
     return Report(made, r.status, r.status_text, in_julia(unsafe_string(jam_check_text(made))))

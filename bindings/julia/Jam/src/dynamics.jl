@@ -15,7 +15,7 @@ Event-driven NVE dynamics; returns a Report. `report.status` says whether it sto
 a Report and stops the call by returning `true`.
 """
 function run!(s::System; progress = nothing, given...)
-    o, made = options(jam_run_options, given), jam_md_report()
+    o, made = options(s, jam_run_options, given), jam_md_report()
     return verb(h -> jam_run(h, o, made), s, made, progress)
 end
 
@@ -37,7 +37,7 @@ julia> compress!(s; stages = [(3e-2, 100), (1e-2, 1000)]).stop_reason
 """
 function compress!(s::System; progress = nothing, porosity = nothing, stages = nothing, given...)
     if stages !== nothing
-        refuse(given, (:growth_rate, :pressure), "stages give it")
+        failing(() -> refuse(given, (:growth_rate, :pressure), "stages give it"), s)
         local made
         for (rate, pressure) in stages
             made = compress!(s; progress = progress, growth_rate = rate, pressure = pressure, porosity = porosity, given...)
@@ -46,7 +46,7 @@ function compress!(s::System; progress = nothing, porosity = nothing, stages = n
         return made
     end
     given = with_density((; given...), porosity)
-    o, made = isempty(given) ? nothing : options(jam_compress_options, given), jam_md_report()
+    o, made = isempty(given) ? nothing : options(s, jam_compress_options, given), jam_md_report()
     return verb(h -> jam_compress(h, o, made), s, made, progress)
 end
 

@@ -12,8 +12,8 @@ Returns `Results`, means over the runs: `displacement` (d, n, instants), `propen
 an instant of `time`, `msd`, `scattering`, `overlap`, ... `report` is the Report.
 """
 function isoconf(s::System, instants; kept = nothing, monte_carlo = nothing, progress = nothing, given...)
-    o = options(jam_isoconf_options, given)
-    m = monte_carlo === nothing ? nothing : options(jam_monte_carlo_options, (; monte_carlo...))
+    o = options(s, jam_isoconf_options, given)
+    m = monte_carlo === nothing ? nothing : options(s, jam_monte_carlo_options, (; monte_carlo...))
     made, t = jam_isoconf_report(), vec(dense(instants))
     k = kept === nothing ? nothing : Int32.(collect(kept)) .- Int32(1)
     r = verb(h -> jam_isoconf(h, o, m, t, length(t), k, length(something(k, ())), made), s, made, progress)

@@ -17,7 +17,7 @@ julia> r = decompress!(s); r.same_network == 1, report(s).jammed
 ```
 """
 function relax!(s::System; progress = nothing, given...)
-    o, made = options(jam_relax_options, given), jam_relax_report()
+    o, made = options(s, jam_relax_options, given), jam_relax_report()
     return verb(h -> jam_relax(h, o, made), s, made, progress)
 end
 
@@ -27,7 +27,7 @@ end
 From overlapping spheres down to jamming, step by step; ends as the jammed packing that a crunch confirms. Returns a Report.
 """
 function decompress!(s::System; progress = nothing, given...)
-    o, made = options(jam_decompress_options, given), jam_decompress_report()
+    o, made = options(s, jam_decompress_options, given), jam_decompress_report()
     return verb(h -> jam_decompress(h, o, made), s, made, progress)
 end
 
@@ -49,7 +49,7 @@ true
 ```
 """
 function shear!(s::System, to, mode = nothing; stress = nothing, progress = nothing, given...)
-    o, made = options(jam_shear_options, given), jam_shear_report()
+    o, made = options(s, jam_shear_options, given), jam_shear_report()
     turns = to isa Number ? [Float64(to)] : collect(Float64, to)
     if mode === nothing && stress !== nothing
         mode = zeros(Int(info(s).dim), Int(info(s).dim))

@@ -126,6 +126,9 @@ function failing(f, s)
     end
 end
 
+"Options of a call on s, whose status a wrong one becomes."
+options(s::System, T, given) = failing(() -> options(T, given), s)
+
 "Deep copy with results. It has the same seed: set velocities to make its dynamics differ."
 function Base.copy(s::System)
     out = Ref{Ptr{Cvoid}}(C_NULL)

@@ -26,6 +26,11 @@ t.status, t.why = :ok, ""
 @test t.status === :state && occursin("contacts", t.why)
 @test_throws ArgumentError modes(t, 3; colour = 1)
 @test t.status === :argument && occursin("colour", t.why)
+for wrong in (() -> crunch!(t; colour = 2), () -> run!(t; time = "long"), () -> compress!(t; stages = [], pressure = 1), () -> judge(t; prove = 0.5))
+    t.status, t.why = :ok, ""
+    @test_throws ArgumentError wrong()
+    @test t.status === :argument && !isempty(t.why)
+end
 @test occursin("progress must be", failure(() -> crunch!(t; progress = 3)))
 cancel(t)
 @test crunch!(t).status === :cancelled

@@ -13,9 +13,29 @@ static jam_status write_proofs(jam_system *sys, const options *o) {
   return status;
 }
 
-static int write_json(const options *o, int code, const jam_check_report *r, const char *notes) {
+/* The stress tensor of a jammed packing, over its pressure; the number of its components, 0 where there is none. */
+static size_t stress_of(jam_system *sys, const jam_check_report *r, double *stress, size_t most) {
+  size_t numbers = 0;
+  if (r->jammed != JAM_VERDICT_YES || jam_contacts_from_geometry(sys, NULL, NULL) < 0) return 0;
+  return jam_stress(sys, stress, most, &numbers) == JAM_OK ? numbers : 0;
+}
+
+static void print_stress(const double *stress, int dim) {
+  double beyond = 0;
+  int c;
+  fputs("Stress over pressure:", stdout);
+  for (c = 0; c < dim * dim; ++c)
+    if (c % (dim + 1) == 0)
+      printf(" %.4f", stress[c]);
+    else
+      beyond = fmax(beyond, fabs(stress[c]));
+  printf(" on the diagonal, at most %.1e off it.\n", beyond);
+}
+
+static int write_json(jam_system *sys, const options *o, int code, const jam_check_report *r) {
   static const char *const reasons[] = {"proof",   "apart", "no_force", "flex", "digits",
                                         "overlap", "gaps",  "margin",   "slide"};
+  double stress[JAM_MAX_DIM * JAM_MAX_DIM];
   output out;
   FILE *f;
   if (open_output(&out, "-")) return -1;
@@ -49,7 +69,8 @@ static int write_json(const options *o, int code, const jam_check_report *r, con
   put_verdict(f, "crunch_jammed", r->crunch_jammed);
   put_number(f, "crunch_packing_fraction", r->crunch_packing_fraction);
   put_number(f, "proof_radius", o->prove || o->proof || o->strict_proof ? r->proof_radius : NAN);
-  put_notes(f, notes, "");
+  put_notes(f, jam_notes(sys), "");
+  put_stress(f, stress, stress_of(sys, r, stress, sizeof stress / sizeof *stress));
   fprintf(f, "  \"version\": \"%s\"\n}\n", jam_version());
   return close_output(&out);
 }
@@ -59,13 +80,15 @@ static int say(jam_system *sys, const options *o, jam_status status, const jam_c
   const int32_t verdict = o->strict ? report->strictly_jammed : report->jammed;
   int code = verdict == JAM_VERDICT_YES ? CHECK_YES : verdict == JAM_VERDICT_NO ? CHECK_NO : CHECK_UNDECIDED;
   const char *const proof = o->proof ? o->proof : o->strict_proof;
+  double stress[JAM_MAX_DIM * JAM_MAX_DIM];
   if (proof && status != JAM_OK)
     complain("%s is not written: the packing is not jammed", proof);
   else if (proof && has_failed(write_proofs(sys, o)))
     code = failure_code();
-  if (o->json) return write_json(o, code, report, jam_notes(sys)) ? EXIT_OUTPUT : code;
+  if (o->json) return write_json(sys, o, code, report) ? EXIT_OUTPUT : code;
   complain_notes(sys); /* what reading assumed, such as periodic axes */
   if (!o->quiet) puts(jam_check_text(report));
+  if (!o->quiet && stress_of(sys, report, stress, sizeof stress / sizeof *stress)) print_stress(stress, report->dim);
   return fflush(stdout) ? EXIT_OUTPUT : code;
 }
 

@@ -106,6 +106,18 @@ int take_sizes(const char *value, options *o);
 int take_cell(const char *value, options *o);
 int take_copies(const char *value, options *o);
 int take_numbers(const char *value, double *out, int most);
+
+/* shear_path.c: 0, or -1 after a message on stderr. The path begins as zeros. */
+enum { MOST_TURNS = 64 };
+typedef struct shear_path {
+  double turns[MOST_TURNS];
+  int turn_count;
+  double mode[2 * JAM_MAX_DIM * JAM_MAX_DIM]; /* then the stress, where some of it is held */
+  size_t mode_count;
+  char text[600]; /* all of it, as it was given */
+} shear_path;
+int take_path(const options *o, const jam_system *sys, jam_shear_options *options, shear_path *path);
+
 /* Both with the shells of --least-distance. */
 double mean_given(const options *o, const jam_system *sys);     /* of diameters; NAN where no unit was given */
 int make_diameters(const options *o, double **out, int64_t *n); /* *out NULL: all equal; the caller frees it */

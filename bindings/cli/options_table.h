@@ -10,12 +10,12 @@ typedef struct options {
   double phi0, diameters_ratio, least_distance, non_additivity, zeta, plant, box, shrink_min, nve, pressure,
     packing_fraction, porosity, checkpoint_every, duality_gap, step, resolution, alpha, scale, density, stl_edge,
     stl_shrink, stl_bridge, stl_bridge_gap, voxel_size, contact_gap, near_gap, wall_time;
-  const char *input, *origin, *columns, *checkpoint, *resume, *to, *rows, *output, *page, *contacts, *spectrum,
-    *gaps, *structure, *proof, *strict_proof, *report, *log, *vtk, *plot, *stl, *stl_walls, *voxels, *profile,
-    *pores, *near_coordination;
+  const char *input, *origin, *columns, *checkpoint, *resume, *to, *mode, *stress, *rows, *output, *page, *contacts,
+    *spectrum, *gaps, *structure, *proof, *strict_proof, *report, *log, *vtk, *plot, *stl, *stl_walls, *voxels,
+    *profile, *pores, *near_coordination;
   int shrink, no_md, no_crunch, prove, strict, json, quiet;
   given given; /* what has a form of its own */
-  unsigned char named[81]; /* of each row of the table, whether it is on the command line */
+  unsigned char named[83]; /* of each row of the table, whether it is on the command line */
 } options;
 
 /* First words of a command line. */
@@ -109,6 +109,8 @@ static const option_row table[] = {
      .without = "--no-crunch --packing-fraction --porosity", .low = 1, .high = 64},
     {"--no-crunch", TAKE_SWITCH, offsetof(options, no_crunch), .verbs = 1},
     {"--to", TAKE_TEXT, offsetof(options, to), .verbs = 8},
+    {"--mode", TAKE_TEXT, offsetof(options, mode), .verbs = 8},
+    {"--stress", TAKE_TEXT, offsetof(options, stress), .verbs = 8, .needs = "--alpha"},
     {"--step", TAKE_POSITIVE, offsetof(options, step), .verbs = 8},
     {"--resolution", TAKE_POSITIVE, offsetof(options, resolution), .verbs = 8},
     {"--until", TAKE_CHOICE, offsetof(options, until), .verbs = 8, .words = "strain event jammed unjammed"},
@@ -314,6 +316,10 @@ static const help_line help[] = {
     {520, "Shear"},
     {520, "  --to G,..              the last strain of a simple shear, x moves with y; of several the"},
     {520, "                         shear turns at the first ones: 0.1,-0.1,0"},
+    {520, "  --mode M,..            the strain of amplitude 1 in place of simple shear: an"},
+    {520, "                         upper-triangular matrix, row by row: 0.5,0,0,-0.5"},
+    {520, "  --stress XX=S,..       of soft spheres: components of the stress that stay at these"},
+    {520, "                         values, positive in compression, while the cell follows: yy=0.01"},
     {520, "  --step G               strain between two minima (1e-3)"},
     {520, "  --resolution G         uncertainty of the strain of a plastic event (1e-6)"},
     {520, "  --until strain|event|jammed|unjammed"},

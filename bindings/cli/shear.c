@@ -7,7 +7,7 @@
 #include "jam-pack.h"
 #include "system.h"
 
-enum { SLICE = 8, MOST_TURNS = 64 };
+enum { SLICE = 8 };
 
 /* How far a shear has come, at the begin of a slice; a note of the checkpoint holds the same. */
 typedef struct place {
@@ -20,8 +20,7 @@ typedef struct place {
 typedef struct shear_job {
   const options *o;
   jam_system *sys, *begun; /* begun: at `at`, where a checkpoint is asked for */
-  double turns[MOST_TURNS];
-  int turn_count;
+  shear_path path;
   jam_shear_options options;
   jam_shear_report last; /* of the last slice */
   place at, reached;
@@ -38,13 +37,14 @@ static const char note[] =
     "shear --to %s --step %.17g: leg %d step %.17g rows %lld events %lld first %.17g peak %.17g at %.17g";
 
 static double begin_of(const shear_job *job, const place *p) {
-  const double from = p->leg ? job->turns[p->leg - 1] : 0, way = job->turns[p->leg] - from;
+  const double from = p->leg ? job->path.turns[p->leg - 1] : 0, way = job->path.turns[p->leg] - from;
   return from + copysign(p->steps * job->o->step, way);
 }
 
 /* The strain of the next slice: whole steps, or what is left of the leg. */
 static double slice_of(const shear_job *job, const place *p, place *after) {
-  const double from = p->leg ? job->turns[p->leg - 1] : 0, way = job->turns[p->leg] - from, step = job->o->step;
+  const double from = p->leg ? job->path.turns[p->leg - 1] : 0, way = job->path.turns[p->leg] - from,
+               step = job->o->step;
   *after = *p;
   if (fabs(way) / step * (1 + 1e-15) >= p->steps + SLICE + 1) {
     after->steps += SLICE;
@@ -71,11 +71,11 @@ static int put_rows(const shear_job *job) {
 static int keep_state(shear_job *job, const jam_system *from) {
   const place *p = &job->at;
   jam_system *copy = NULL;
-  char line[600];
+  char line[1000];
   int bad;
   job->kept = seconds_now();
   if (!job->o->checkpoint || !from) return 0;
-  snprintf(line, sizeof line, note, job->o->to, job->o->step, p->leg, p->steps, p->rows, p->events, p->first_event,
+  snprintf(line, sizeof line, note, job->path.text, job->o->step, p->leg, p->steps, p->rows, p->events, p->first_event,
            p->peak_stress, p->peak_strain);
   bad = put_rows(job) || jam_copy(from, &copy) < 0 || jam_add_note(copy, line) < 0 ||
         jam_write_checkpoint(copy, job->o->checkpoint) < 0;
@@ -94,7 +94,7 @@ static int read_place(shear_job *job) {
       sscanf(found, "shear --to %599s --step %lf: leg %d step %lf rows %lld events %lld first %lf peak %lf at %lf", to,
              &step, &job->at.leg, &job->at.steps, &job->at.rows, &job->at.events, &job->at.first_event,
              &job->at.peak_stress, &job->at.peak_strain) == 9) {
-    if (!strcmp(to, job->o->to) && step == job->o->step) return 0;
+    if (!strcmp(to, job->path.text) && step == job->o->step) return 0;
     complain("%s continues --to %s --step %.17g: give the same", job->o->resume, to, step);
   } else {
     complain("%s is no checkpoint of a shear", job->o->resume);
@@ -151,7 +151,7 @@ static jam_status work(shear_job *job, terminal *t) {
   char stage[80];
   jam_status status = JAM_OK;
   t->stage = stage;
-  while (job->at.leg < job->turn_count && status == JAM_OK) {
+  while (job->at.leg < job->path.turn_count && status == JAM_OK) {
     place after;
     const double turn = slice_of(job, &job->at, &after);
     snprintf(stage, sizeof stage, "strain %.6g", begin_of(job, &job->at));
@@ -162,7 +162,8 @@ static jam_status work(shear_job *job, terminal *t) {
     }
     job->options.wall_time = job->deadline - seconds_now() > 1e-3 ? job->deadline - seconds_now() : 1e-3;
     job->reached = job->at;
-    status = turn == 0 ? JAM_OK : jam_shear(job->sys, &job->options, &turn, 1, NULL, 0, &job->last);
+    status = turn == 0 ? JAM_OK
+                       : jam_shear(job->sys, &job->options, &turn, 1, job->path.mode, job->path.mode_count, &job->last);
     if (status < 0) return status;
     if (turn != 0 && take_rows(job)) return JAM_E_MEMORY;
     if (status != JAM_OK || (turn != 0 && job->last.stop_reason != JAM_STOP_STRAIN)) break;
@@ -237,22 +238,12 @@ static int finish(shear_job *job, int code) {
 /* The packing, and where a job that is continued has come to. */
 static int begin(shear_job *job) {
   const options *o = job->o;
-  int k, code = isfinite(o->alpha) && !o->resume ? read_as_it_is(o, &job->sys) : start(o, stop_if_asked, &job->sys);
+  const int code = isfinite(o->alpha) && !o->resume ? read_as_it_is(o, &job->sys) : start(o, stop_if_asked, &job->sys);
   if (code || !job->sys) return code ? code : EXIT_FAILED;
   job->at.first_event = job->at.peak_stress = job->at.peak_strain = NAN;
-  job->turn_count = take_numbers(o->to, job->turns, MOST_TURNS);
-  if (!job->turn_count) {
-    complain("--to is '%s', it must be strains, parted by commas, at most %d", o->to, MOST_TURNS);
-    return EXIT_USAGE;
-  }
-  for (k = 0; k < job->turn_count; ++k)
-    if (job->turns[k] == (k ? job->turns[k - 1] : 0)) {
-      complain("--to is '%s': the strain %g is that before it", o->to, job->turns[k]);
-      return EXIT_USAGE;
-    }
-  if (check_formats(o, job->sys)) return EXIT_USAGE;
-  if (o->resume && (read_place(job) || (o->rows && read_rows(job)))) return EXIT_USAGE;
   jam_shear_options_init(&job->options, sizeof job->options);
+  if (take_path(o, job->sys, &job->options, &job->path) || check_formats(o, job->sys)) return EXIT_USAGE;
+  if (o->resume && (read_place(job) || (o->rows && read_rows(job)))) return EXIT_USAGE;
   job->options.step = o->step;
   job->options.resolution = o->resolution;
   job->options.until = (int32_t)o->until;

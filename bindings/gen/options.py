@@ -20,7 +20,7 @@ PORES = (
     "near-coordination near-gap contact-gap"
 )
 
-SHEARING = "to step resolution until alpha rows"
+SHEARING = "to mode stress step resolution until alpha rows"
 
 # Words that files may stand for, what the verb does, and the options that it takes.
 VERBS = (
@@ -126,6 +126,8 @@ TABLE = {
     ),
     "Shear": (
         Option("to", "text", "G,..", "the last strain of a simple shear, x moves with y; of several the shear turns at the first ones: 0.1,-0.1,0"),
+        Option("mode", "text", "M,..", "the strain of amplitude 1 in place of simple shear: an upper-triangular matrix, row by row: 0.5,0,0,-0.5"),
+        Option("stress", "text", "XX=S,..", "of soft spheres: components of the stress that stay at these values, positive in compression, while the cell follows: yy=0.01", needs=("alpha",)),
         Option("step", "positive", "G", "strain between two minima (1e-3)", 1e-3),
         Option("resolution", "positive", "G", "uncertainty of the strain of a plastic event (1e-6)", 1e-6),
         Option("until", "choice", "",

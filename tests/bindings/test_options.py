@@ -42,7 +42,7 @@ class Options(unittest.TestCase):
         return subprocess.run(["bash", "-c", script], capture_output=True, text=True, check=True).stdout.split()
 
     def test_bash_completes(self):
-        self.assertEqual(self.complete("--str"), ["--strain", "--structure", "--strict-proof", "--strict"])
+        self.assertEqual(self.complete("--str"), ["--strain", "--stress", "--structure", "--strict-proof", "--strict"])
         self.assertEqual(self.complete("--method", "s"), ["sequential-lp"])
         self.assertEqual(self.complete("--strain", "t"), ["tilts"])
         self.assertEqual(self.complete("--input", str(ROOT / "CHANGE")), [str(ROOT / "CHANGELOG.md")])

@@ -79,6 +79,50 @@ class Verbs(unittest.TestCase):
             self.assertIn(run("shear", start, *wrong).returncode, (2, 3))
         self.assertEqual(run("shear", "--resume", start, "--to", 0.1).returncode, 3)
 
+    def test_shear_along_a_mode_at_a_stress(self):
+        """The cell follows until the stress is as asked; a shear that is continued needs the same mode and stress."""
+        start, state = self.dir / "start.txt", self.dir / "state.jam"
+        made = self.dir / "made.xyz"
+        run("--n", 40, "--dim", 2, "--diameters-ratio", 1.4, "--seed", 2, "--quiet", "--output", made)
+        spheres = [line.split()[1:] for line in made.read_text().splitlines()[2:]]
+        start.write_text("".join(f"{x} {y} {float(radius) * 1.03:.17g}\n" for x, y, _, radius, *_ in spheres))
+        soft = ("shear", start, "--columns", "x,y,radius", "--cell", "1,1", "--alpha", 2)
+        pure = json.loads(run(*soft, "--to", 2e-3, "--mode", "0.5,0,0,-0.5", "--json").stdout)
+        xx, _, _, yy = pure["stress_tensor"]
+        self.assertAlmostEqual(pure["stress"], (yy - xx) / 2, delta=1e-10 * pure["pressure"])
+        self.assertAlmostEqual(pure["packing_fraction"], json.loads(run("info", *soft[1:6], "--json").stdout)["packing_fraction"], 12)
+        free = ("--to", 2e-3, "--step", 2e-4, "--stress", f"xx={xx:.17g},yy={yy:.17g}")
+        told = json.loads(run(*soft, *free, "--json", "--output", self.dir / "whole.xyz").stdout)
+        for k, wanted in ((0, xx), (3, yy)):
+            self.assertAlmostEqual(told["stress_tensor"][k], wanted, delta=1e-9 * pure["pressure"])
+        self.assertEqual(run(*soft, *free, "--until", "event", "--checkpoint", state, "--checkpoint-every", 1e-9).returncode, 0)
+        resume = ("shear", "--resume", state, "--alpha", 2, "--output", self.dir / "more.xyz")
+        more = json.loads(run(*resume, *free, "--json").stdout)
+        self.assertEqual((more["stress_tensor"], more["rows"]), (told["stress_tensor"], told["rows"]))
+        self.assertIn("give the same", run(*resume, *free[:4]).stderr)
+        for wrong, why in ((("--mode", "1,0"), "4 numbers"), (("--mode", "0,0,1,0"), "upper-triangular"),
+                           (("--stress", "xy=0"), "drives xy"), (("--stress", "yx=0"), "must be components"),
+                           (("--stress", "yy=1,yy=1"), "must be components"), (("--stress", "zz=1"), "must be components"),
+                           (("--stress", "yy=1,"), "must be components"), (("--stress", "yy=-1"), "no tension")):
+            done = run(*soft, "--to", 1e-3, *wrong)
+            self.assertIn(done.returncode, (2, 3), wrong)
+            self.assertIn(why, done.stderr)
+        self.assertEqual(run("shear", made, "--to", 1e-3, "--stress", "yy=1").returncode, 2)  # hard spheres
+
+    def test_check_tells_the_stress(self):
+        made = self.dir / "made.xyz"
+        self.assertEqual(run("--n", 40, "--dim", 2, "--diameters-ratio", 1.4, "--seed", 2, "--quiet", "--output", made).returncode, 0)
+        told = json.loads(run("check", made, "--json").stdout)
+        self.assertAlmostEqual(told["stress_tensor"][0] + told["stress_tensor"][3], 2, 9)  # in units of the pressure
+        text = re.search(r"Stress over pressure: (\S+) (\S+) on the diagonal, at most (\S+) off it", run("check", made).stdout)
+        for k, c in ((1, 0), (2, 3)):
+            self.assertAlmostEqual(float(text[k]), told["stress_tensor"][c], 3)
+        self.assertAlmostEqual(float(text[3]), abs(told["stress_tensor"][1]), delta=0.06 * abs(told["stress_tensor"][1]))
+        loose = self.dir / "loose.xyz"
+        run("compress", "--n", 40, "--dim", 2, "--packing-fraction", 0.5, "--quiet", "--output", loose)
+        self.assertIsNone(json.loads(run("check", loose, "--json").stdout)["stress_tensor"])
+        self.assertNotIn("Stress over", run("check", loose).stdout)
+
     def test_walls_of_a_file(self):
         """A sphere 0.0875 from a wall and 0.1 wide is the nearest of two; a file that says nothing is called periodic."""
         bed = self.dir / "bed.data"

@@ -14,10 +14,26 @@ static int cannot(const char *path) {
   return -1;
 }
 
+/* The number of an open descriptor that a name stands for, else -1. A rename would miss what the shell has opened: a
+ * pipe, or a file that it appends to. */
+static int descriptor_of(const char *path) {
+  static const char *const folders[] = {"/dev/fd/", "/proc/self/fd/"};
+  size_t k;
+  if (!strcmp(path, "-") || !strcmp(path, "/dev/stdout")) return STDOUT_FILENO;
+  if (!strcmp(path, "/dev/stderr")) return STDERR_FILENO;
+  for (k = 0; k < sizeof folders / sizeof *folders; ++k) {
+    const size_t length = strlen(folders[k]), digits = strlen(path) > length ? strlen(path + length) : 0;
+    if (!strncmp(path, folders[k], length) && digits > 0 && digits < 9 && strspn(path + length, "0123456789") == digits)
+      return atoi(path + length);
+  }
+  return -1;
+}
+
 int check_writable(const char *path, void *unused) {
-  const file_kind kind = path && strcmp(path, "-") ? kind_of(path) : KIND_NONE;
+  file_kind kind;
   (void)unused;
-  if (!path || !strcmp(path, "-")) return 0;
+  if (!path || descriptor_of(path) >= 0) return 0; /* open already: its folder, as /dev, takes no file of most users */
+  kind = kind_of(path);
   if (kind == KIND_FOLDER) errno = EISDIR;
   if (kind == KIND_FOLDER || (kind != KIND_NONE && may_write(path))) return cannot(path);
   if (kind == KIND_OTHER) return 0;
@@ -39,21 +55,6 @@ int put_bytes(int fd, const char *text, size_t size) {
     text += done, size -= (size_t)done;
   }
   return 0;
-}
-
-/* The number of an open descriptor that a name stands for, else -1. A rename would miss what the shell has opened: a
- * pipe, or a file that it appends to. */
-static int descriptor_of(const char *path) {
-  static const char *const folders[] = {"/dev/fd/", "/proc/self/fd/"};
-  size_t k;
-  if (!strcmp(path, "-") || !strcmp(path, "/dev/stdout")) return STDOUT_FILENO;
-  if (!strcmp(path, "/dev/stderr")) return STDERR_FILENO;
-  for (k = 0; k < sizeof folders / sizeof *folders; ++k) {
-    const size_t length = strlen(folders[k]), digits = strlen(path) > length ? strlen(path + length) : 0;
-    if (!strncmp(path, folders[k], length) && digits > 0 && digits < 9 && strspn(path + length, "0123456789") == digits)
-      return atoi(path + length);
-  }
-  return -1;
 }
 
 int close_output(output *out) {

@@ -30,6 +30,13 @@ assert(r.status, "ok");
 assert(r.jammed && islogical(r.jammed));
 assert(r.stop_reason, "converged");
 
+% numbers are numbers, flags are true or false: no text and no fraction is one
+fails("jam:argument", "polish must be true or false", @() p.crunch("polish", "no"));
+fails("jam:argument", "polish must be true or false", @() p.crunch("polish", 0.5));
+fails("jam:argument", "whole number", @() p.crunch("max_lps", 2.5));
+fails("jam:argument", "whole number", @() jam.random(16, "overlap", 0.7));
+assert(p.crunch("polish", 1).jammed);
+
 % contacts: indices from 1, rows in the order of forces, which balance
 pairs = p.contacts();
 force = p.forces();

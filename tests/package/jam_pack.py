@@ -534,27 +534,6 @@ class JamPack(unittest.TestCase):
         for part in self.dir.glob("*.part-*"):  # of a kill amid a write, which left the checkpoint as it was
             part.unlink()
 
-    def test_reports_are_written_as_other_files_are(self):
-        """Into what the shell has opened, also to append; under any name; as JSON whatever the command line holds."""
-        file, name = self.dir / "all.txt", "r" * 250 + ".json"
-        for target in ("/dev/stdout", "/dev/fd/1", "-"):
-            file.write_text("first\n")
-            command = f'"$0" --n 64 --quiet --report {target} >>{file}; echo last >>{file}'
-            done = subprocess.run(["sh", "-c", command, program], capture_output=True, text=True, timeout=60, check=True)
-            self.assertEqual((done.stdout, done.stderr), ("", ""))
-            lines = file.read_text().splitlines()
-            self.assertEqual((lines[0], lines[-1]), ("first", "last"))
-            self.assertEqual(json.loads("\n".join(lines[1:-1]))["n"], 64)
-        (self.dir / name).write_text("old")
-        (self.dir / name).chmod(0o640)
-        self.assertEqual(run("--n", 64, "--quiet", "--report", self.dir / name).returncode, 0)
-        self.assertEqual(json.loads((self.dir / name).read_text())["n"], 64)
-        self.assertEqual((self.dir / name).stat().st_mode & 0o777, 0o640)
-        odd = os.fsencode(self.dir) + b"/\xff\xc3\xa9.xyz"
-        done = subprocess.run([program, "--n", "64", "--output", odd, "--report", "-"], capture_output=True, check=True)
-        self.assertIn("\\xff\u00e9.xyz", " ".join(json.loads(done.stdout.decode("utf-8"))["options"]))
-        self.assertEqual([p.name for p in self.dir.iterdir() if p.name.startswith(".jam")], [])
-
     def test_ctrl_c_keeps_the_state(self):
         out = self.dir / "p.xyz"
         with subprocess.Popen(

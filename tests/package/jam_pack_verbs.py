@@ -16,6 +16,16 @@ def run(*args):
     return subprocess.run([program, *map(str, args)], capture_output=True, text=True, timeout=120, check=False)
 
 
+def users():
+    """Arguments of subprocess.run: none, and where root runs the tests those of a user who can write into no system folder."""
+    other = {"user": "nobody", "extra_groups": []}
+    try:
+        reached = os.getuid() == 0 and subprocess.run([program, "--version"], capture_output=True, **other).returncode == 0
+    except (OSError, KeyError, ValueError):
+        reached = False
+    return [{}, other] if reached else [{}]
+
+
 class Verbs(unittest.TestCase):
     def setUp(self):
         self.folder = tempfile.TemporaryDirectory()
@@ -122,6 +132,28 @@ class Verbs(unittest.TestCase):
         run("compress", "--n", 40, "--dim", 2, "--packing-fraction", 0.5, "--quiet", "--output", loose)
         self.assertIsNone(json.loads(run("check", loose, "--json").stdout)["stress_tensor"])
         self.assertNotIn("Stress over", run("check", loose).stdout)
+
+    def test_reports_are_written_as_other_files_are(self):
+        """Into what the shell has opened, also to append; under any name; as JSON whatever the command line holds."""
+        file, name = self.dir / "all.txt", "r" * 250 + ".json"
+        for target, user in ((t, u) for t in ("/dev/stdout", "/dev/fd/1", "-") for u in users()):
+            file.write_text("first\n")
+            self.dir.chmod(0o755), file.chmod(0o666)
+            command = f'"$0" --n 64 --quiet --report {target} >>{file}; echo last >>{file}'
+            done = subprocess.run(["sh", "-c", command, program], capture_output=True, text=True, timeout=60, check=True, **user)
+            self.assertEqual((done.stdout, done.stderr), ("", ""))
+            lines = file.read_text().splitlines()
+            self.assertEqual((lines[0], lines[-1]), ("first", "last"))
+            self.assertEqual(json.loads("\n".join(lines[1:-1]))["n"], 64)
+        (self.dir / name).write_text("old")
+        (self.dir / name).chmod(0o640)
+        self.assertEqual(run("--n", 64, "--quiet", "--report", self.dir / name).returncode, 0)
+        self.assertEqual(json.loads((self.dir / name).read_text())["n"], 64)
+        self.assertEqual((self.dir / name).stat().st_mode & 0o777, 0o640)
+        odd = os.fsencode(self.dir) + b"/\xff\xc3\xa9.xyz"
+        done = subprocess.run([program, "--n", "64", "--output", odd, "--report", "-"], capture_output=True, check=True)
+        self.assertIn("\\xff\u00e9.xyz", " ".join(json.loads(done.stdout.decode("utf-8"))["options"]))
+        self.assertEqual([p.name for p in self.dir.iterdir() if p.name.startswith(".jam")], [])
 
     def test_walls_of_a_file(self):
         """A sphere 0.0875 from a wall and 0.1 wide is the nearest of two; a file that says nothing is called periodic."""

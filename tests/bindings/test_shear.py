@@ -384,6 +384,25 @@ class Shear(unittest.TestCase):
         self.assertEqual(report.stop_reason, jam.StopReason.WALL_TIME)
         self.assertTrue(hard.report.jammed)
 
+    def test_what_cannot_be_asked_for_is_told(self):
+        """Steps longer than the way to an event, hard packings that are not jammed, ends that are not reached."""
+        ends = []
+        for step in (1e-3, 0.05):
+            s = soft(16)
+            ends.append((s.shear(0.05, step=step).first_event, s.shear_rows["stress"][-1]))
+        self.assertAlmostEqual(ends[0][0], ends[1][0], delta=2e-6)  # each is known to the resolution
+        self.assertAlmostEqual(ends[0][1], ends[1][1], delta=1e-9)
+        gas = jam.System.random(n=16, dim=2, diameters=[1.0, 1.4] * 8, seed=1)
+        start = gas.packing_fraction
+        self.assertEqual(gas.shear(2e-3, step=1e-3).strain, 2e-3)
+        self.assertGreater(gas.shear_rows["phi"][0], start)  # a crunch jams it before the first step
+        self.assertTrue(gas.report.jammed)
+        for phi, until, rigid in ((0.4, "jammed", False), (0.9, "unjammed", True)):
+            s = soft(16, phi=phi)
+            report = s.shear(0.02, step=0.01, until=until)
+            self.assertEqual((report.stop_reason, report.strain, bool(report.rigid)), (jam.StopReason.STRAIN, 0.02, rigid))
+            self.assertEqual(report.packing_fraction, s.packing_fraction)
+
     def test_every_stop_reason_has_its_word(self):
         for reason in jam.StopReason:
             self.assertEqual(jam.raw.jam_stop_string(int(reason)), reason.name.lower())

@@ -100,6 +100,7 @@ OPTIONS(compress, (o->growth_rate = 0.1, o->pressure = 30.0), BOUND(wall_time, S
 OPTIONS(observe, (o->collisions = 1, o->gap_bins = o->r_bins = 8, o->sample_every = 1.0), (void)o)
 OPTIONS(isoconf, (o->runs = 3, o->block = 2), (BOUND(wall_time, SECONDS), BOUND(memory_limit, 1e8)))
 OPTIONS(crunch, (void)o, BOUND(wall_time, SECONDS))
+OPTIONS(radii, o->max_steps = 50, (BOUND(max_steps, 200), BOUND(wall_time, SECONDS)))
 OPTIONS(relax, o->force_tolerance = 1e-6, BOUND(wall_time, SECONDS))
 OPTIONS(shear, (o->force_tolerance = 1e-8, o->max_steps = 2), (BOUND(max_steps, 20), BOUND(wall_time, SECONDS)))
 OPTIONS(decompress, (o->energy_factor = 1e-3, o->force_tolerance = 1e-8), BOUND(wall_time, SECONDS))

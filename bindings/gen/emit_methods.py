@@ -36,7 +36,7 @@ from .shown import by_shapes as _by_shapes
 '''
 SHOWN = "\n\n    def __repr__(self) -> str:\n        return _by_shapes(self)"
 SKIP = {"jam_destroy", "jam_copy", "jam_set_progress", "jam_set_log", "jam_set_positions", "jam_set_velocities", "jam_get_info",
-        "jam_get_crunch_report", "jam_view", "jam_run", "jam_compress", "jam_crunch", "jam_relax", "jam_shear", "jam_decompress",
+        "jam_get_crunch_report", "jam_view", "jam_run", "jam_compress", "jam_crunch", "jam_maximise_radii", "jam_relax", "jam_shear", "jam_decompress",
         "jam_scale_diameters", "jam_get_cell", "jam_set_cell", "jam_strain", "jam_cancel", "jam_write", "jam_write_page", "jam_write_contacts", "jam_write_scaled", "jam_contacts", "jam_forces", "jam_coordination", "jam_hessian",
         "jam_modes", "jam_bloch_modes", "jam_bloch_rigidity", "jam_tile", "jam_notes", "jam_check_packing", "jam_pair_correlation", "jam_isoconf",
         "jam_prove", "jam_write_proof", "jam_floppy_modes", "jam_diameters", "jam_parse_diameters", "jam_get_size_report"}  # written by hand

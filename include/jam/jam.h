@@ -163,13 +163,13 @@ typedef enum jam_stop_reason {
   JAM_STOP_CANCELLED = 5,        /* jam_cancel or a callback */
   JAM_STOP_STALLED = 6,          /* no progress: MD time or LP gain stopped moving */
   JAM_STOP_PRECISION = 7,        /* gaps are at the resolution of the coordinates */
-  JAM_STOP_CONVERGED = 8,        /* crunch: both tolerances met, certificate computed */
+  JAM_STOP_CONVERGED = 8,        /* crunch: both tolerances met, certificate computed; radii: a maximum */
   JAM_STOP_LP_LIMIT = 9,         /* crunch: max_lps came first */
   JAM_STOP_SOLVER = 10,          /* crunch: no LP answer passed the checks */
   JAM_STOP_UNJAMMED = 11,        /* crunch: converged without a rigid network */
   JAM_STOP_TIME = 12,            /* MD: its simulated time is over */
   JAM_STOP_EVALUATIONS = 13,     /* soft spheres: max_evaluations came first */
-  JAM_STOP_STEPS = 14,           /* soft spheres: max_steps came first */
+  JAM_STOP_STEPS = 14,           /* shear, radii: max_steps came first */
   JAM_STOP_SADDLE = 15,          /* crunch: forces balance, but a flex remains after every decompression */
   JAM_STOP_DUALITY_GAP = 16,     /* crunch: it reached the duality gap of its options */
   JAM_STOP_STRAIN = 17,          /* shear: the last strain */
@@ -986,6 +986,45 @@ JAM_API jam_status jam_crunch_history(const jam_system *sys, int32_t columns, do
 JAM_API jam_status jam_crunch_step(const jam_system *sys, double *displacement, size_t displacement_len, int32_t *pair,
                                    size_t pair_len, double *vector, size_t vector_len, double *dual, size_t dual_len,
                                    size_t *rows);
+
+/* ------------------------------------------------------------------ radii as unknowns */
+/* jam_maximise_radii: the largest weighted sum of radii in a fixed cell, where jam_crunch keeps their ratios. */
+
+/* Options of jam_maximise_radii. Lengths are in the unit of the box. */
+typedef struct jam_radii_options {
+  uint32_t struct_size;
+  int32_t threads;               /* 1 .. 64, default 1; 2 to 64 give the same bits, 1 may give others */
+  double radius_min, radius_max; /* bounds of each radius, 0 <= radius_min < radius_max, default 0; infinity */
+  double room;       /* share of each radius that is taken off first, in (0, 1), default 0.1; small: ends near */
+  int64_t max_steps; /* of Newton's method, >= 1, default 100000 */
+  double wall_time;  /* limit of the call */
+} jam_radii_options;
+/* What jam_maximise_radii found. Where maximum is 0, counts from contacts to excess are -1 and the numbers of contacts
+ * NaN. */
+typedef struct jam_radii_report {
+  uint32_t struct_size;
+  int32_t stop_reason;             /* @enum jam_stop_reason, CONVERGED at a maximum */
+  int32_t maximum;                 /* @bool contacts closed, forces >= 0 that balance, and no saddle */
+  int32_t saddles;                 /* left on the way */
+  double value;                    /* sum of w_i R_i */
+  int64_t contacts, rattlers;      /* pairs and walls with force; spheres without: none at a maximum */
+  int64_t at_bounds;               /* radii held by radius_min or radius_max */
+  int64_t excess;                  /* contacts + at_bounds - ((d + 1) n - symmetries); 0 at a simple maximum */
+  double balance_residual;         /* largest rest of the balance and of the sums of forces, over the mean weight */
+  double max_contact_gap, min_gap; /* largest |distance - sum of radii| of a contact; least of another pair */
+  double min_force;                /* least force; forces on sphere i add up to w_i, less what a bound takes */
+  double radius_smallest, radius_largest, polydispersity; /* standard deviation of the radii over their mean */
+  double packing_fraction;
+  int64_t steps, factorisations; /* of Newton's method; Cholesky factorisations */
+  double seconds;                /* wall time */
+} jam_radii_report;
+JAM_API jam_status jam_radii_options_init(jam_radii_options *o, size_t size);
+/* Moves spheres and changes radii to a local maximum of sum w_i R_i, w_i = 1 where weights is NULL, in periodic cells
+ * and between flat walls. Positions are the start, radii too: a stopped call leaves a valid packing. No pair overlaps,
+ * in exact numbers. At a maximum the handle keeps the network, with forces of mean 1, and the verdict of jam_rigidity.
+ * Status: JAM_LIMIT, JAM_NOT_CONVERGED with the last valid state. @shape weights (n) @errors OVERLAP, UNSUPPORTED */
+JAM_API jam_status jam_maximise_radii(jam_system *sys, const jam_radii_options *o, const double *weights,
+                                      size_t weights_len, jam_radii_report *report);
 
 /* ------------------------------------------------------------------ soft spheres */
 /* Spheres that overlap repel by an energy U = sum of v over overlapping pairs, v = c ((sigma_ij - r) / l)^alpha.

@@ -4,8 +4,10 @@
 #include <limits>
 #include "capi/guard.hpp"
 #include "core/call_scope.hpp"
+#include "network/certificate.hpp"
 #include "network/hessian.hpp"
 #include "network/rigidity_matrix.hpp"
+#include "verdict/text.hpp"
 
 namespace jam::inside {
 
@@ -53,6 +55,17 @@ jam_status guard_cancellable(jam_system *sys, Report unknown, Report *report, F 
       throw;
     }
   });
+}
+// The report of a network that no crunch has made.
+inline jam_crunch_report network_certificate(const Packing &p, const ContactNetwork &net, const PackingVerdict &verdict,
+                                             const Monitor &monitor) {
+  jam_crunch_report r{};
+  certify(p, net, r);
+  report_verdict(verdict, r);
+  r.stop_reason = JAM_STOP_NONE;
+  r.gain = r.max_step = r.gamma_residual = r.duality_gap = std::numeric_limits<double>::quiet_NaN();
+  r.seconds = monitor.seconds();
+  return r;
 }
 inline bool empty_network(const jam_system *sys) { return sys->contacts.size() == 0; }
 

@@ -1,10 +1,8 @@
 // Header section "analysis": the network from geometry, states of self-stress.
 #include "capi/analysis.hpp"
 #include "crunch/crunch.hpp"
-#include "network/certificate.hpp"
 #include "network/contacts_by_distance.hpp"
 #include "network/contacts_from_geometry.hpp"
-#include "verdict/text.hpp"
 
 using namespace jam::inside;
 
@@ -65,17 +63,11 @@ jam_status jam_contacts_from_geometry(jam_system *sys, const jam_geometry_option
     GeometryResult result = contacts_from_geometry(p, full);
     const TestedPacking tested = without_overlaps(p);
     const PackingVerdict verdict = verdict_of(tested, &result.network, Jamming::collective);
-    const double nan = std::numeric_limits<double>::quiet_NaN();
-    jam_crunch_report r{};
-    certify(p, result.network, r);
-    report_verdict(verdict, r);
-    r.stop_reason = JAM_STOP_NONE;
-    r.gain = r.max_step = r.gamma_residual = r.duality_gap = nan;
-    r.seconds = sys->monitor.seconds();
+    jam_crunch_report r = network_certificate(p, result.network, verdict, sys->monitor);
     r.status = status_of(result, verdict.jammed, gap_resolution(p), p);
     const Answer answer = answer_of(result, r.status, verdict, tested, full);
     sys->contacts = std::move(result.network);
-    sys->contact_gap = nan;
+    sys->contact_gap = std::numeric_limits<double>::quiet_NaN();
     sys->report = r;
     sys->has_report = true;
     give_struct(result.report, report);

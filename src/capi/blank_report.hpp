@@ -37,6 +37,13 @@ inline void set_blank(const SystemState &s, jam_decompress_report &r) {
   r.packing_fraction = s.packing_fraction;
   r.contacts = r.common_contacts = r.rattlers = -1;
 }
+inline void set_blank(const SystemState &s, jam_radii_report &r) {
+  r = {};
+  r.value = r.balance_residual = r.max_contact_gap = r.min_gap = r.min_force = r.radius_smallest = r.radius_largest =
+      r.polydispersity = NAN;
+  r.packing_fraction = s.packing_fraction;
+  r.contacts = r.rattlers = r.at_bounds = r.excess = -1;
+}
 inline void set_blank(const SystemState &s, jam_shear_report &r) {
   r = {};
   r.strain = r.stress = r.pressure = r.energy = r.first_event = r.peak_stress = r.peak_strain = NAN;

@@ -21,6 +21,7 @@ enum class Stream : uint64_t {
   pore_points = 25,  // of jam_pore_sizes
   recompression = 26,
   soft_saddle = 27,
+  radii_saddle = 28,
 };
 
 // Finaliser of splitmix64 (Steele, Lea and Flood, OOPSLA 2014): a bijective mix of 64 bits.

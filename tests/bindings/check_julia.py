@@ -88,7 +88,7 @@ def main():
         a, b, *rest = line.split()
         if b == "sizeof":
             sizes[a] = int(rest[0])
-        elif b == "value":
+        elif b == "value" and len(rest) == 1:  # of an enum; a member has two numbers
             values[a] = int(rest[0])
         else:
             offsets.setdefault(a, []).append((b, int(rest[0]), int(rest[1])))

@@ -9,7 +9,7 @@ import jam
 
 NAMES = {
     "jam": "Advice Contacts JamError Modes Observed Step StatusCode System advise eos errors glass_fit load raw size_report sizes __version__ "
-    "cli digits ensemble files near_jamming plot scaling statistics store",
+    "cli digits ensemble files near_jamming plot radii scaling statistics store",
     "jam.advice": "Advice advise",
     "jam.cli": "main",
     "jam.digits": "Refined refine",
@@ -24,6 +24,7 @@ NAMES = {
     "collapse_exponent correlation_errors correlations decay_curve is_caged median_over_mean mode_weights overlap prediction "
     "predictors propensity reliability run self_scattering take_runs",
     "jam.plot": "COLOURS VIEW cdf convergence density_of_states displacements mode network packing summary trace",
+    "jam.radii": "Best Proved Search best_of prove",
     "jam.scaling": "Cdf Collapse Estimate Exponent bootstrap cdf_grid cdf_pooled cdf_ranked collapse crossover "
     "draw_left_power fit_crossover fit_power local_exponent quality tail_exponent tail_scaling TailExponent",
     "jam.statistics": "Estimate YieldPoint bootstrap collapse collapse_estimate deciles roc_area spearman spearman_components "

@@ -1,4 +1,4 @@
-"""Every block of the guide's tutorials runs, and of its pages on theory, citing, sizes, vibrations, walls, units and the pore space, and the programs of the
+"""Every block of the guide's tutorials runs, and of its pages on theory, citing, sizes, radii, vibrations, walls, units and the pore space, and the programs of the
 page on Fortran. Each picture that a page shows of itself is drawn by its blocks.
 
 usage: test_tutorials.py ROOT BUILD            `--store` keeps the pictures in examples/pictures. Look at them.
@@ -20,7 +20,7 @@ GUIDE, PICTURES = ROOT / "bindings" / "docs", ROOT / "examples" / "pictures"
 FILES = {"c": "program.c", "fortran": "program.f90"}
 KINDS = {"glass", "calippso", "c", "fortran", "granular", "referee", "packager"}
 # Pages that show pictures of their own, and how many.
-PAGES = {**{f"tutorial_{kind}": 1 for kind in KINDS}, "theory": 4, "cite": 1, "sizes": 1, "vibrations": 1, "walls": 0, "pore_space": 0, "dem_cfd": 1, "units": 1}
+PAGES = {**{f"tutorial_{kind}": 1 for kind in KINDS}, "theory": 4, "cite": 1, "sizes": 1, "vibrations": 1, "walls": 0, "pore_space": 0, "dem_cfd": 1, "units": 1, "radii": 1}
 LEAST_INK = 0.02  # of the pixels of a picture that is not empty
 # As of an installed library: what pkg-config would say of the build tree.
 PKG_CONFIG = f"""#!/bin/sh

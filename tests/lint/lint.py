@@ -21,12 +21,13 @@ LAYERS = {
     "crunch": ["verdict", "lp", "network", "linalg", "core"],
     "soft": ["lp", "network", "linalg", "core"],
     "dynamics": ["soft", "network", "linalg", "core"],
+    "radii": ["network", "linalg", "core"],
     "analysis": ["verdict", "lp", "network", "linalg", "core"],
     "verdict": ["proof", "network", "linalg", "core"],
     "proof": ["lp", "network", "linalg", "core"],
     "pore": ["network", "core"],
     "io": ["dynamics", "network", "proof", "pore", "core"],
-    "capi": ["core", "linalg", "lp", "network", "crunch", "soft", "dynamics", "analysis", "pore", "verdict", "proof", "io"],
+    "capi": ["core", "linalg", "lp", "network", "crunch", "radii", "soft", "dynamics", "analysis", "pore", "verdict", "proof", "io"],
 }
 # Folders of a layer: each may include the layer's own headers, itself and those listed here.
 FOLDERS = {
@@ -55,6 +56,7 @@ TUNED = {
     "verdict": [],
     "soft": [],
     "lp": [],
+    "radii": [],
     "linalg": ["newton_system.hpp"],
     "analysis": [],
     "pore": ["sphere_hull.cpp"],
@@ -210,8 +212,8 @@ def file_sizes():
         elif count > 300:
             print(f"note: {path.relative_to(root)} has {count} lines, 300 is the aim")
     header = len((root / "include/jam/jam.h").read_text().splitlines())
-    if header > 1820:  # 128 calls, of which each has its comment
-        problem(root / "include/jam/jam.h", header, "more than 1820 lines")
+    if header > 1865:  # 130 calls, of which each has its comment
+        problem(root / "include/jam/jam.h", header, "more than 1865 lines")
     for path in files(
         "examples/c/*.c", "examples/cpp/*.cpp", "examples/python/*.py", "examples/fortran/*.f90", "examples/julia/*.jl"
     ):

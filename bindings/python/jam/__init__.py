@@ -36,10 +36,11 @@ if raw.jam_abi_version() != JAM_ABI:
 
 if typing.TYPE_CHECKING:  # what __getattr__ imports when it is used
     from . import cli as cli, digits as digits, ensemble as ensemble, files as files, near_jamming as near_jamming, plot as plot
+    from . import radii as radii
     from . import scaling as scaling, statistics as statistics, store as store
     from .store import load as load
 
-_LAZY = ("plot", "files", "cli", "digits", "ensemble", "near_jamming", "scaling", "statistics", "store")
+_LAZY = ("plot", "files", "cli", "digits", "ensemble", "near_jamming", "radii", "scaling", "statistics", "store")
 
 
 def __getattr__(name: str) -> Any:

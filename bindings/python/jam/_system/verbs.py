@@ -11,7 +11,7 @@ from .. import raw
 from .._api.arrays import Array, as_array, as_rows, as_vector
 from .._api.calls import freeze, new_report
 from .._api.documented import takes
-from .._api.generated import CrunchReport, DecompressReport, MdReport, MonteCarloReport, RelaxReport, ShearReport, StatusCode, StopReason
+from .._api.generated import CrunchReport, DecompressReport, MdReport, MonteCarloReport, RadiiReport, RelaxReport, ShearReport, StatusCode, StopReason
 from .._api.options import as_enum, option_struct, spelled_out
 from .._api.size_laws import density_of
 from ..errors import JamError
@@ -256,6 +256,34 @@ class Verbs(Observing):
         near_jamming.Runs
         """
         return make_runs(self, instants, None if monte_carlo is None else dict(monte_carlo), keep, progress, options)
+
+    @takes("jam_radii_options")
+    def maximise_radii(self, weights: Any = None, *, progress: Any = None, **options: Any) -> RadiiReport:
+        """Moves the spheres and changes their radii to a local maximum of the weighted sum of radii.
+
+        Parameters
+        ----------
+        weights : array_like (n,), optional
+            Of the radii in the sum, > 0. Default: all 1.
+
+        Returns
+        -------
+        RadiiReport
+            Where report.maximum is 1, contacts, forces and gaps are those of the maximum.
+
+        Examples
+        --------
+        >>> import jam
+        >>> two = jam.System.random(n=2, dim=2, walls="xy", seed=1)
+        >>> report = two.maximise_radii()
+        >>> report.maximum, abs(report.value - (2 - 2 ** 0.5)) < 1e-14
+        (True, True)
+        """
+        given = None if weights is None else as_vector(weights, name="weights")
+        found: RadiiReport = self._verb(
+            "jam_maximise_radii", "jam_radii_options", "jam_radii_report", progress, options or None, given
+        )
+        return found
 
     @takes("jam_relax_options")
     def relax(self, *, progress: Any = None, **options: Any) -> RelaxReport:

@@ -235,6 +235,15 @@ JAM_API jam_status jam_crunch_history(const jam_system *sys, int32_t columns, do
   *needed);
 JAM_API jam_status jam_crunch_step(const jam_system *sys, double *displacement, size_t displacement_len, int32_t
   *pair, size_t pair_len, double *vector, size_t vector_len, double *dual, size_t dual_len, size_t *rows);
+typedef struct jam_radii_options { uint32_t struct_size; int32_t threads; double radius_min, radius_max; double room;
+  int64_t max_steps; double wall_time; } jam_radii_options;
+typedef struct jam_radii_report { uint32_t struct_size; int32_t stop_reason; int32_t maximum; int32_t saddles; double
+  value; int64_t contacts, rattlers; int64_t at_bounds; int64_t excess; double balance_residual; double
+  max_contact_gap, min_gap; double min_force; double radius_smallest, radius_largest, polydispersity; double
+  packing_fraction; int64_t steps, factorisations; double seconds; } jam_radii_report;
+JAM_API jam_status jam_radii_options_init(jam_radii_options *o, size_t size);
+JAM_API jam_status jam_maximise_radii(jam_system *sys, const jam_radii_options *o, const double *weights, size_t
+  weights_len, jam_radii_report *report);
 typedef enum jam_soft_scale { JAM_SOFT_RELATIVE = 0, JAM_SOFT_ABSOLUTE = 1, JAM_SOFT_BARE = 2 } jam_soft_scale;
 typedef enum jam_minimiser { JAM_MINIMISER_NEWTON = 0, JAM_MINIMISER_FIRE = 1, JAM_MINIMISER_LBFGS = 2 }
   jam_minimiser;

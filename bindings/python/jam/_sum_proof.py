@@ -1,0 +1,163 @@
+"""Decimals of a largest sum of radii with a proved radius: theorem A of the guide's page on proofs with radii as unknowns.
+
+Unknown are all centres and radii between flat walls. Of a pair F = |r_ij|^2 - (R_i + R_j)^2 is 0, of a wall F = distance -
+R_i, so that a simple maximum has as many equations as unknowns. F is quadratic: F(u + v) = F(u) + J v + Q(v), and |Q| <=
+4 d |v|^2 in maximum norms. With A, delta, eta and beta as in digits.py exactly one zero of F lies within the radius. There
+the forces f J = -w are unique; where they are all positive and every other gap is open, it is a strict local maximum of
+sum w_i R_i.
+"""
+from __future__ import annotations
+
+import math
+from decimal import Decimal, localcontext
+from fractions import Fraction
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ._api.arrays import Array
+from .digits import GUARD, SLACK, STEPS, _bounds, _decimal, _doubles, _integers
+from .errors import StateError
+from .system import System
+
+
+class Proved(NamedTuple):
+    """A strict local maximum. Nothing in it is farther from the exact one than the radius beside it."""
+
+    value: Decimal  #: the sum of w_i R_i
+    value_radius: Decimal
+    positions: Array  #: (n, d) of Decimal
+    radii: Array  #: (n,) of Decimal
+    radius: Decimal  #: of each of these numbers
+    least_force: float  #: proved lower bound of the forces on the equations, > 0
+    steps: int  #: of Newton's method
+
+
+def _number(value: Any, bits: int) -> float:
+    return math.ldexp(int(value) >> (bits - 80), -80)
+
+
+class _Rows:
+    """F and its derivative, with numbers of `bits` bits behind the point."""
+
+    def __init__(self, system: System, bits: int):
+        info, walls = system.info, system.walls()
+        self.d, self.n, self.bits = info.dim, info.n, bits
+        if info.container or info.walls != (1 << self.d) - 1 or info.model:
+            raise StateError("prove: only packings between flat walls along all axes have a proof of their sum")
+        self.unit = 2.0 ** round(math.log2(info.box))  # an exact factor
+        self.edge = _integers(np.diag(system.cell) / self.unit, bits)
+        self.walls = [(int(axis), bool(side)) for axis, side in zip(walls.axis, walls.side)]
+        self.pairs = np.asarray(system.contacts.pairs)
+        self.size = self.n * (self.d + 1)
+        if len(self.pairs) != self.size:
+            raise StateError(f"prove: {len(self.pairs)} contacts and {self.size} unknowns: only simple maxima are proved, "
+                             "which have as many, and no radius at a bound")
+        self.u = np.concatenate([_integers(system.positions / self.unit, bits), _integers(system.diameters / (2 * self.unit), bits)[:, None]], 1)
+
+    def gap(self, i: int, j: int) -> int:
+        """F of a pair or wall."""
+        d, a = self.d, self.u[i]
+        if j < 0:
+            axis, far = self.walls[-1 - j]
+            return int(self.edge[axis] - a[axis] if far else a[axis]) - int(a[d])
+        b = self.u[j]
+        r = a[:d] - b[:d]
+        return int((r * r).sum() - (a[d] + b[d]) ** 2) >> self.bits
+
+    def residuals(self) -> Array:
+        return np.array([self.gap(i, j) for i, j in self.pairs], dtype=object)
+
+    def derivative(self) -> Array:
+        d, found = self.d, np.zeros((len(self.pairs), self.size))
+        for k, (i, j) in enumerate(self.pairs):
+            at = int(i) * (d + 1)
+            if j < 0:
+                axis, far = self.walls[-1 - int(j)]
+                found[k, at + axis], found[k, at + d] = (-1.0 if far else 1.0), -1.0
+                continue
+            to = int(j) * (d + 1)
+            for c in range(d):
+                found[k, at + c] = 2 * _number(self.u[i][c] - self.u[j][c], self.bits)
+                found[k, to + c] = -found[k, at + c]
+            found[k, at + d] = found[k, to + d] = -2 * _number(self.u[i][d] + self.u[j][d], self.bits)
+        return found
+
+    def move(self, step: Array, power: int) -> None:
+        """u less step times 2^power."""
+        shift = self.bits + power - 60
+        whole = [int(v) for v in np.round(step * 2.0**60)]
+        whole = [v << shift if shift >= 0 else v >> -shift for v in whole]
+        self.u -= np.array(whole, dtype=object).reshape(self.n, self.d + 1)
+
+    def closest(self, r: int) -> str | None:
+        """What may overlap, or be no sphere, where each number is within r; None: nothing."""
+        touching = {(int(i), int(j)) for i, j in self.pairs}
+        d = self.d
+        for i in range(self.n):
+            if int(self.u[i][d]) <= r:
+                return f"the radius of sphere {i} may be 0"
+            for w in range(len(self.walls)):
+                if (i, -1 - w) not in touching and self.gap(i, -1 - w) <= 2 * r:
+                    return f"sphere {i} may touch wall {w}"
+            for j in range(i):
+                if (i, j) in touching or (j, i) in touching:
+                    continue
+                apart = self.u[i][:d] - self.u[j][:d]
+                sides = int(self.u[i][d] + self.u[j][d]) + 2 * r + 2 * d * r  # |r_ij| changes by 2 sqrt(d) r at most
+                if int((apart * apart).sum()) <= sides * sides:
+                    return f"spheres {j} and {i} may touch"
+        return None
+
+
+def _exact(value: Fraction) -> Decimal:
+    return Decimal(value.numerator) / Decimal(value.denominator)
+
+
+def prove_sum(system: System, digits: int, weights: Any) -> Proved:
+    """See jam.radii.prove."""
+    if digits < 20:
+        raise ValueError(f"digits is {digits}; doubles have nearly 16, so 20 and more are computed here")
+    bits = int(digits * math.log2(10)) + GUARD
+    rows, n, d = _Rows(system, bits), system.n, system.dim
+    w = [Fraction(1)] * n if weights is None else [Fraction(float(v)) for v in weights]
+    try:
+        inverse = np.linalg.inv(rows.derivative())
+    except np.linalg.LinAlgError:
+        raise StateError("prove: the contacts depend on each other") from None
+    for step in range(STEPS + bits // 8):
+        wrong, power = _doubles(rows.residuals(), bits)
+        if power <= SLACK - bits:
+            break
+        rows.move(inverse @ wrong, power)
+    else:
+        raise StateError("prove: Newton's steps gain no digits; contacts nearly depend on each other")
+    delta, alpha = _bounds(rows.derivative(), inverse)
+    last = max(abs(int(v)) for v in rows.residuals()) + 1  # rounded down
+    eta, beta = Fraction(alpha) * Fraction(last, 1 << bits), 4 * d * Fraction(alpha)
+    r = 2 * eta
+    share = Fraction(delta) + 2 * beta * r
+    if not (Fraction(delta) * r + beta * r * r <= eta and share < 1):
+        raise StateError(f"prove: nothing is proved, since |1 - A J| is only known to be at most {delta:.2g}")
+    full = np.zeros(rows.size)
+    full[d :: d + 1] = [float(v) for v in w]
+    forces, total = -(full @ inverse), float(sum(w))
+    # f = -w (1 - E)^-1 A with |E| <= share, and the rounding of a product of so many doubles
+    near = total * float(abs(inverse).max()) * (float(share / (1 - share)) + 2.0**-50 * rows.size) * (1 + 2.0**-40)
+    least = float(forces.min()) - near
+    if not least > 0.0:
+        raise StateError(f"prove: the least force is {forces.min():.2g}, known to {near:.2g}: it may pull")
+    why = rows.closest(math.ceil(r * (1 << bits)))
+    if why:
+        raise StateError(f"prove: {why}")
+    unit = Fraction(rows.unit)
+    value = sum((w[i] * int(rows.u[i][d]) for i in range(n)), Fraction(0)) * unit
+    value_radius = sum(w) * r * unit
+    with localcontext() as context:
+        context.prec = digits + 20
+        numbers = np.array([[_decimal(int(v), bits) * Decimal(rows.unit) for v in row] for row in rows.u], dtype=object)
+        rounding = Fraction(1, 10 ** (digits + 10)) * (1 + abs(value) / (1 << bits))  # of the decimals
+        return Proved(
+            _exact(value / (1 << bits)), _exact(value_radius + rounding), numbers[:, :d], numbers[:, d],
+            _exact(r * unit + rounding), least, step,
+        )

@@ -1,0 +1,206 @@
+// See maximise.hpp.
+#include "radii/maximise.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/checks.hpp"
+#include "core/create.hpp"
+#include "core/double_double.hpp"
+#include "core/sentence.hpp"
+#include "radii/path.hpp"
+#include "radii/tuning.hpp"
+#include "radii/vertex.hpp"
+
+namespace jam::inside {
+namespace {
+
+using Tuning = RadiiTuning;
+
+// Radii between their bounds; contacts open, unless radii at the lower bound hold them.
+void shrink(Packing &p, const RadiiBounds &bounds, double unit, double room) {
+  const double narrow = std::min(Tuning::least_room * unit, 0.25 * (bounds.most - bounds.least));
+  for (double &s : p.diameter) {
+    const double radius = std::min(0.5 * s, bounds.most);
+    s = 2.0 * (bounds.least + std::max((1.0 - room) * (radius - bounds.least), narrow));
+  }
+}
+
+void make_room(Packing &p, const RadiiBounds &bounds, double unit, double room) {
+  shrink(p, bounds, unit, room);
+  const ClosestPair pair = closest_contact(p);
+  if (!(pair.gap > 0.0))
+    fail(JAM_E_ARGUMENT,
+         "radius_min is %g, which spheres %d and %d have no room for where they start: start with such radii",
+         bounds.least, pair.i, pair.j);
+}
+
+double weighted_sum(const Packing &p, const double *weights) {
+  DoubleDouble sum(0.0);
+  for (size_t i = 0; i < p.n(); ++i) sum = sum + two_product(weights ? weights[i] : 1.0, 0.5 * p.diameter[i]);
+  return static_cast<double>(sum);
+}
+
+std::vector<double> of_mean_one(size_t n, const double *weights, double &mean) {
+  std::vector<double> out(n, 1.0);
+  mean = 1.0;
+  if (!weights) return out;
+  mean = 0.0;
+  for (size_t i = 0; i < n; ++i) mean += weights[i] / static_cast<double>(n);
+  for (size_t i = 0; i < n; ++i) out[i] = weights[i] / mean;
+  return out;
+}
+
+ContactNetwork network_of(const Packing &p, const RadiiVertex &vertex) {
+  ContactNetwork net;
+  net.coordination.assign(p.n(), 0);
+  double sum = 0.0;
+  for (size_t k = 0; k < vertex.contacts.pairs.size(); ++k) {
+    if (!(vertex.force[k] > 0.0)) continue;
+    add_contact(p, vertex.contacts.pairs, k, net);
+    net.force.push_back(vertex.force[k]);
+    sum += vertex.force[k];
+    for_spheres(vertex.contacts.pairs.i[k], vertex.contacts.pairs.j[k], [&](int32_t q) { ++net.coordination[q]; });
+  }
+  for (double &f : net.force) f *= static_cast<double>(net.size()) / sum;
+  measure_contacts(p, net);
+  set_force_scale(p, net);
+  return net;
+}
+
+void report_sizes(const Packing &p, const double *weights, jam_radii_report &r) {
+  r.value = weighted_sum(p, weights);
+  r.packing_fraction = packing_fraction(p);
+  const auto [low, high] = std::minmax_element(p.diameter.begin(), p.diameter.end());
+  r.radius_smallest = 0.5 * *low, r.radius_largest = 0.5 * *high;
+  const double mean = diameter_mean(p);
+  double square = 0.0;
+  for (const double s : p.diameter) square += (s / mean - 1.0) * (s / mean - 1.0);
+  r.polydispersity = std::sqrt(square / static_cast<double>(p.n()));
+}
+
+void report_maximum(const Packing &p, const RadiiVertex &vertex, const ContactNetwork &net, double mean_weight,
+                    jam_radii_report &r) {
+  r.maximum = 1;
+  r.contacts = static_cast<int64_t>(net.size());
+  r.at_bounds = static_cast<int64_t>(vertex.force.size() - vertex.contacts.pairs.size());
+  r.excess = static_cast<int64_t>(vertex.force.size()) - static_cast<int64_t>(vertex.contacts.unknowns()) +
+             symmetries(p.container, p.dim);
+  r.rattlers = static_cast<int64_t>(p.n()) - stable_spheres(net.coordination);
+  r.balance_residual = vertex.balance;
+  r.max_contact_gap = vertex.gap, r.min_gap = vertex.open;
+  r.min_force = mean_weight * *std::min_element(vertex.force.begin(), vertex.force.end());
+}
+
+// Sideways along the motion of a saddle, as far as there is room.
+void push_off(Packing &p, const std::vector<double> &motion, const RadiiBounds &bounds, double unit) {
+  double length = Tuning::push * unit;
+  shrink(p, bounds, unit, Tuning::room);
+  std::vector<double> sideways = motion;
+  const size_t b = static_cast<size_t>(p.dim) + 1;
+  for (size_t i = 0; i < p.n(); ++i) sideways[i * b + b - 1] = 0.0;
+  const Packing from = p;
+  do {
+    move_radii(from, sideways, length, p);
+    length *= 0.5;
+  } while (!(closest_contact(p).gap > 0.0) && length > 0.0);
+}
+
+}  // namespace
+
+jam_radii_options default_radii_options() {
+  jam_radii_options o{};
+  o.struct_size = sizeof o;
+  o.threads = 1;
+  o.room = Tuning::room;
+  o.radius_max = o.wall_time = std::numeric_limits<double>::infinity();
+  o.max_steps = 100000;
+  return o;
+}
+
+void check_radii(const Packing &p, const jam_radii_options &o, const double *weights, size_t weights_len) {
+  check_threads(o.threads);
+  check_at_least(o.max_steps, 1, "max_steps");
+  check_positive(o.wall_time, "wall_time");
+  if (!(o.room > 0.0 && o.room < 1.0)) fail(JAM_E_ARGUMENT, "room is %g, it must be above 0 and below 1", o.room);
+  check_not_negative(o.radius_min, "radius_min");
+  if (!(o.radius_max > o.radius_min))
+    fail(JAM_E_ARGUMENT, "radius_max is %g and radius_min %g: radii have no room between them", o.radius_max,
+         o.radius_min);
+  if (weights_len && weights_len != p.n())
+    fail(JAM_E_ARGUMENT, "weights_len is %zu, it must be 0 or n = %zu", weights_len, p.n());
+  for (size_t i = 0; i < weights_len; ++i)
+    if (!(weights[i] > 0.0) || std::isinf(weights[i]))
+      fail(JAM_E_ARGUMENT, "weights[%zu] is %g, it must be positive and finite: without a weight a radius has no value",
+           i, weights[i]);
+  if (p.model == JAM_MODEL_MK || p.non_additivity != 0.0)
+    fail(JAM_E_UNSUPPORTED,
+         "radii are unknowns of additive Euclidean spheres alone: no Mari-Kurchan shifts, no "
+         "non_additivity");
+  if (p.container.curved())
+    fail(JAM_E_UNSUPPORTED,
+         "radii are unknowns in periodic cells and between flat walls, not yet in a cylinder or ball");
+  if (p.dim >= JAM_MAX_DIM)
+    fail(JAM_E_UNSUPPORTED, "radii are unknowns in d = 2 to %d, this packing has d = %d", JAM_MAX_DIM - 1, p.dim);
+  refuse_overlaps(p, overlap_tolerance);
+}
+
+RadiiResult maximise_radii(const Packing &start, const jam_radii_options &o, const double *weights, Monitor &monitor) {
+  RadiiResult out;
+  out.packing = start;
+  Packing &p = out.packing;
+  p.given = {};
+  double mean_weight = 1.0;
+  const std::vector<double> weight = of_mean_one(p.n(), weights, mean_weight);
+  const RadiiBounds bounds{o.radius_min, o.radius_max};
+  monitor.wall_time = o.wall_time;
+  make_room(p, bounds, radii_unit(p), o.room);
+  RadiiPath path(p, weight, bounds, o.threads);
+  const double unit = path.unit();
+  RadiiMatrix matrix;
+  jam_radii_report &r = out.report;
+  r.struct_size = sizeof r;
+  r.contacts = r.rattlers = r.at_bounds = r.excess = -1;
+  r.balance_residual = r.max_contact_gap = r.min_gap = r.min_force = std::nan("");
+  r.stop_reason = JAM_STOP_STALLED, out.status = JAM_NOT_CONVERGED;
+  int pushes = 0;
+  for (double mu = std::max(path.first_mu(), Tuning::least_mu * unit); mu > Tuning::mu_end * unit;
+       mu *= Tuning::mu_factor) {
+    if (!path.centre(mu, o.max_steps, monitor)) {
+      const bool stopped = monitor.interrupted();
+      r.stop_reason = stopped ? monitor.why_interrupted() : JAM_STOP_STEPS;
+      out.status = monitor.cancelled() ? JAM_CANCELLED : JAM_LIMIT;
+      break;
+    }
+    if (mu > Tuning::polish_from * unit) continue;
+    RadiiVertex vertex = close_vertex(p, path.rows(), path.forces(), weight, bounds, unit, matrix);
+    if (!vertex.closed) continue;
+    if (!vertex.escape.empty() && pushes < Tuning::pushes) {
+      ++pushes;
+      p = vertex.packing;
+      push_off(p, vertex.escape, bounds, unit);
+      path.renew();
+      mu = Tuning::mu_after_push * unit / Tuning::mu_factor;
+      continue;
+    }
+    if (!vertex.escape.empty()) break;
+    p = vertex.packing;
+    out.contacts = network_of(p, vertex);
+    report_maximum(p, vertex, out.contacts, mean_weight, r);
+    r.stop_reason = JAM_STOP_CONVERGED, out.status = JAM_OK;
+    break;
+  }
+  wrap_positions(p);
+  r.saddles = pushes;
+  r.steps = path.steps, r.factorisations = path.matrix.factorisations + matrix.factorisations;
+  report_sizes(p, weights, r);
+  r.seconds = monitor.seconds();
+  if (out.status == JAM_NOT_CONVERGED)
+    out.text = sentence(
+        "the contacts of the largest sum were not found after %lld Newton steps; the packing is the "
+        "last one of the path",
+        static_cast<long long>(r.steps));
+  return out;
+}
+
+}  // namespace jam::inside

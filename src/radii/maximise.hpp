@@ -1,0 +1,30 @@
+// jam_maximise_radii: positions and radii of the largest weighted sum of radii in a fixed cell.
+//
+//   checks -> radii shrink to open all contacts -> path.hpp at falling mu -> vertex.hpp -> maximum
+//                                                      ^                        |  forces do not balance: smaller mu
+//                                                      +------------------------+  a saddle: pushed off it, larger mu
+#pragma once
+#include <string>
+#include <vector>
+
+#include "core/monitor.hpp"
+#include "core/packing.hpp"
+#include "jam/jam.h"
+#include "network/contact_network.hpp"
+
+namespace jam::inside {
+
+jam_radii_options default_radii_options();
+// Throws JAM_E_... before any work.
+void check_radii(const Packing &p, const jam_radii_options &o, const double *weights, size_t weights_len);
+
+struct RadiiResult {
+  Packing packing;          // valid whatever the status
+  ContactNetwork contacts;  // of a maximum: pairs that carry force, mean 1
+  jam_radii_report report{};
+  jam_status status = JAM_OK;
+  std::string text;
+};
+RadiiResult maximise_radii(const Packing &start, const jam_radii_options &o, const double *weights, Monitor &monitor);
+
+}  // namespace jam::inside

@@ -1,0 +1,129 @@
+// See path.hpp.
+#include "radii/path.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/math.hpp"
+#include "radii/tuning.hpp"
+
+namespace jam::inside {
+
+using Tuning = RadiiTuning;
+
+double radii_unit(const Packing &p) {
+  return math::pow(scene_volume(p) / static_cast<double>(p.n()), 1.0 / static_cast<double>(p.dim));
+}
+
+void move_radii(const Packing &from, const std::vector<double> &x, double part, Packing &to) {
+  const size_t d = static_cast<size_t>(from.dim);
+  for (size_t i = 0; i < from.n(); ++i) {
+    for (size_t c = 0; c < d; ++c) to.position[i * d + c] = from.position[i * d + c] + part * x[i * (d + 1) + c];
+    to.diameter[i] = from.diameter[i] + 2.0 * part * x[i * (d + 1) + d];
+  }
+}
+
+RadiiPath::RadiiPath(Packing &p, const std::vector<double> &weight, const RadiiBounds &bounds, int threads)
+    : p_(p), weight_(weight), bounds_(bounds), threads_(threads), unit_(radii_unit(p)), trial_(p) {
+  renew();
+}
+
+void RadiiPath::renew() {
+  wrap_positions(p_);
+  rows_ = RadiiRows(p_, bounds_, Tuning::reach * unit_);
+  moved_ = 0.0;
+}
+
+double RadiiPath::first_mu() const {
+  double weights = 0.0, sum = 0.0;
+  for (const double w : weight_) weights += w;
+  for (size_t k = 0; k < rows_.pairs.size(); ++k)
+    rows_.parts(k, [&](int32_t, double, double radial) { sum -= radial / rows_.gap[k]; });
+  return sum > 0.0 ? weights / sum : unit_;
+}
+
+// Newton's direction, its slope and the decrement.
+void RadiiPath::direction(double mu) {
+  const size_t m = rows_.size(), b = rows_.block();
+  weights_.resize(m), force_.resize(m);
+  for (size_t k = 0; k < m; ++k) force_[k] = mu / rows_.gap[k], weights_[k] = force_[k] / rows_.gap[k];
+  rows_.transpose_times(force_, gradient_);
+  for (size_t i = 0; i < weight_.size(); ++i) gradient_[i * b + b - 1] += weight_[i];
+  matrix.factorise(rows_, weights_, Tuning::ridge, threads_);
+  step_ = gradient_;
+  matrix.solve(step_);
+  slope_ = largest_ = 0.0;
+  for (size_t q = 0; q < step_.size(); ++q) slope_ += gradient_[q] * step_[q];
+  for (size_t i = 0; i < weight_.size(); ++i) {
+    double s2 = 0.0;
+    for (size_t c = 0; c + 1 < b; ++c) s2 += step_[i * b + c] * step_[i * b + c];
+    largest_ = std::max(largest_, std::sqrt(s2) + std::fabs(step_[i * b + b - 1]));
+  }
+  decrement_ = slope_ / mu;
+  rows_.times(step_, change_);
+}
+
+double RadiiPath::longest_feasible() const {
+  double nearest = 1.0 / Tuning::to_boundary;
+  for (size_t k = 0; k < change_.size(); ++k)
+    if (change_[k] < 0.0) nearest = std::min(nearest, -rows_.gap[k] / change_[k]);
+  // Unlisted pairs stay apart: their gaps shrink by twice the step at most.
+  const double listed = 0.5 * (Tuning::reach * unit_ - moved_) / std::max(largest_, 1e-300);
+  return std::min(Tuning::to_boundary * nearest, Tuning::to_boundary * listed);
+}
+
+// Of the function along the step; -infinity behind a row.
+double RadiiPath::ascent(double part, double mu) {
+  move_radii(p_, step_, part, trial_);
+  rows_.measure_gaps(trial_, trial_gap_);
+  double sum = 0.0;
+  const size_t b = rows_.block();
+  for (size_t k = 0; k < trial_gap_.size(); ++k) {
+    if (!(trial_gap_[k] > 0.0)) return -std::numeric_limits<double>::infinity();
+    sum += math::log(trial_gap_[k] / rows_.gap[k]);
+  }
+  double gain = 0.0;
+  for (size_t i = 0; i < weight_.size(); ++i) gain += weight_[i] * step_[i * b + b - 1];
+  return part * gain + mu * sum;
+}
+
+void RadiiPath::move(double part) {
+  move_radii(p_, step_, part, trial_);
+  p_.position.swap(trial_.position), p_.diameter.swap(trial_.diameter);
+  moved_ += 2.0 * part * largest_;
+  if (moved_ > 0.5 * Tuning::reach * unit_)
+    renew();
+  else
+    rows_.measure(p_);
+}
+
+bool RadiiPath::centre(double mu, int64_t max_steps, Monitor &monitor) {
+  for (int k = 0; k < Tuning::steps_at_one_mu; ++k) {
+    if (monitor.interrupted() || steps >= max_steps) return false;
+    jam_progress shown = progress_of(JAM_PHASE_CRUNCH);
+    shown.packing_fraction = packing_fraction(p_), shown.gain = mu / unit_;
+    shown.steps = steps, shown.factorisations = matrix.factorisations;
+    if (monitor.report(shown)) return false;
+    direction(mu);
+    ++steps;
+    double part = longest_feasible();
+    while (part > Tuning::shortest && !(ascent(part, mu) >= Tuning::least_ascent * part * slope_)) part *= 0.5;
+    if (!(part > Tuning::shortest)) break;  // rounding: the maximum is reached
+    if (decrement_ < Tuning::decrement) {
+      for (size_t q = 0; q < force_.size(); ++q) force_[q] *= 1.0 - change_[q] / rows_.gap[q];
+      return true;
+    }
+    if (part >= Tuning::to_boundary)
+      for (int q = 0; q < Tuning::longer; ++q) {
+        const double longer = 2.0 * part;
+        if (moved_ + 2.0 * longer * largest_ >= Tuning::reach * unit_ || !(ascent(longer, mu) > ascent(part, mu)))
+          break;
+        part = longer;
+      }
+    move(part);
+  }
+  for (size_t q = 0; q < force_.size(); ++q) force_[q] = mu / rows_.gap[q];
+  return true;
+}
+
+}  // namespace jam::inside

@@ -1,0 +1,50 @@
+// The barrier path of the radii: maximises sum w_i R_i + mu sum_k log c_k on true gaps by Newton's method, for a mu
+// that falls. Each row counts as linear, so that the matrix is that of a linear program and the step an ascent; gaps
+// curve upwards, so that true ones are wider.
+#pragma once
+#include "core/monitor.hpp"
+#include "radii/rows.hpp"
+
+namespace jam::inside {
+
+class RadiiPath {
+ public:
+  // p: without overlaps, radii between the bounds. weight: mean 1.
+  RadiiPath(Packing &p, const std::vector<double> &weight, const RadiiBounds &bounds, int threads);
+  // Where the forces of the rows add up to the weights.
+  double first_mu() const;
+  // Newton steps to the maximum of this mu. False when the monitor or max_steps ended them.
+  bool centre(double mu, int64_t max_steps, Monitor &monitor);
+  // The forces mu / c of the rows, after one more step to first order: they balance.
+  const std::vector<double> &forces() const { return force_; }
+  const RadiiRows &rows() const { return rows_; }
+  double unit() const { return unit_; }
+  // After a change of the packing from outside.
+  void renew();
+
+  int64_t steps = 0;
+  RadiiMatrix matrix;
+
+ private:
+  void direction(double mu);
+  double longest_feasible() const;
+  double ascent(double part, double mu);
+  void move(double part);
+  Packing &p_;
+  const std::vector<double> &weight_;
+  const RadiiBounds bounds_;
+  const int threads_;
+  const double unit_;
+  RadiiRows rows_;
+  Packing trial_;
+  double moved_ = 0.0;  // bound on the change of an unlisted gap since the list was made
+  double decrement_ = 0.0, slope_ = 0.0, largest_ = 0.0;
+  std::vector<double> weights_, gradient_, step_, change_, force_, trial_gap_;
+};
+
+// (V / n)^(1/d).
+double radii_unit(const Packing &p);
+// p + part * x, x (n, d + 1).
+void move_radii(const Packing &from, const std::vector<double> &x, double part, Packing &to);
+
+}  // namespace jam::inside

@@ -1,0 +1,140 @@
+// See rows.hpp.
+#include "radii/rows.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+
+namespace jam::inside {
+
+RadiiRows::RadiiRows(const Packing &p, const RadiiBounds &bounds, double reach)
+    : pairs(find_pairs(p, reach, 1.0)), dim_(p.dim), n_(static_cast<int32_t>(p.n())), bounds_(bounds) {
+  for (int32_t i = 0; i < n_; ++i) {
+    sphere_.push_back(i), sign_.push_back(1.0);
+    if (std::isfinite(bounds.most)) sphere_.push_back(i), sign_.push_back(-1.0);
+  }
+  measure(p);
+}
+
+RadiiRows RadiiRows::only(const std::vector<char> &on) const {
+  RadiiRows out;
+  out.dim_ = dim_, out.n_ = n_, out.bounds_ = bounds_;
+  for (size_t k = 0; k < size(); ++k) {
+    if (!on[k]) continue;
+    if (is_bound(k))
+      out.sphere_.push_back(sphere_[k - pairs.size()]), out.sign_.push_back(sign_[k - pairs.size()]);
+    else
+      out.pairs.append(pairs, k);
+  }
+  return out;
+}
+
+void RadiiRows::measure_gaps(const Packing &p, std::vector<double> &out) const {
+  double r[JAM_MAX_DIM];
+  out.resize(pairs.size() + sphere_.size());
+  for (size_t k = 0; k < pairs.size(); ++k) {
+    const double radius = 0.5 * p.diameter[pairs.i[k]];
+    out[k] = pairs.wall(k)
+                 ? p.container[wall_partner(pairs.j[k])].distance(&p.position[static_cast<size_t>(pairs.i[k]) * dim_]) -
+                       radius
+                 : std::sqrt(pair_vector(p, pairs, k, r)) - (radius + 0.5 * p.diameter[pairs.j[k]]);
+  }
+  for (size_t b = 0; b < sphere_.size(); ++b) {
+    const double radius = 0.5 * p.diameter[sphere_[b]];
+    out[pairs.size() + b] = sign_[b] > 0.0 ? radius - bounds_.least : bounds_.most - radius;
+  }
+}
+
+void RadiiRows::measure(const Packing &p) {
+  const size_t d = static_cast<size_t>(dim_);
+  measure_gaps(p, gap);
+  normal.resize(pairs.size() * d), length.resize(pairs.size());
+  for (size_t k = 0; k < pairs.size(); ++k) {
+    double *n = &normal[k * d];
+    length[k] = std::sqrt(pair_vector(p, pairs, k, n));
+    if (pairs.wall(k)) {
+      p.container[wall_partner(pairs.j[k])].normal(&p.position[static_cast<size_t>(pairs.i[k]) * d], n);
+      continue;
+    }
+    for (size_t c = 0; c < d; ++c) n[c] /= length[k];
+  }
+}
+
+void RadiiRows::times(const std::vector<double> &x, std::vector<double> &out) const {
+  const size_t d = static_cast<size_t>(dim_);
+  out.assign(pairs.size() + sphere_.size(), 0.0);
+  for (size_t k = 0; k < out.size(); ++k)
+    parts(k, [&](int32_t i, double sign, double radial) {
+      const double *xi = &x[static_cast<size_t>(i) * (d + 1)];
+      double along = 0.0;
+      if (sign != 0.0)
+        for (size_t c = 0; c < d; ++c) along += normal[k * d + c] * xi[c];
+      out[k] += sign * along + radial * xi[d];
+    });
+}
+
+void RadiiRows::transpose_times(const std::vector<double> &y, std::vector<double> &out) const {
+  const size_t d = static_cast<size_t>(dim_);
+  out.assign(unknowns(), 0.0);
+  for (size_t k = 0; k < pairs.size() + sphere_.size(); ++k)
+    parts(k, [&](int32_t i, double sign, double radial) {
+      double *xi = &out[static_cast<size_t>(i) * (d + 1)];
+      if (sign != 0.0)
+        for (size_t c = 0; c < d; ++c) xi[c] += y[k] * sign * normal[k * d + c];
+      xi[d] += y[k] * radial;
+    });
+}
+
+void RadiiMatrix::set_graph(const RadiiRows &rows, int threads) {
+  std::vector<int32_t> ei, ej;
+  edge_.assign(rows.pairs.size(), -1);
+  for (size_t k = 0; k < rows.pairs.size(); ++k) {
+    const int32_t i = rows.pairs.i[k], j = rows.pairs.j[k];
+    if (rows.pairs.wall(k) || rows.pairs.own_image(k)) continue;
+    if (ei.empty() || ei.back() != i || ej.back() != j) ei.push_back(i), ej.push_back(j);  // images share a block
+    edge_[k] = static_cast<int32_t>(ei.size()) - 1;
+  }
+  const size_t b = rows.block(), n = rows.unknowns() / b;
+  if (ei == ei_ && ej == ej_ && diag_.size() == n * b * b) return;
+  ei_ = std::move(ei), ej_ = std::move(ej);
+  diag_.resize(n * b * b), off_.resize(ei_.size() * b * b);
+  cholesky_.analyse(static_cast<int>(b), static_cast<int32_t>(n), ei_.data(), ej_.data(), ei_.size(), threads);
+}
+
+void RadiiMatrix::factorise(const RadiiRows &rows, const std::vector<double> &weight, double ridge, int threads) {
+  set_graph(rows, threads);
+  const size_t b = rows.block(), d = b - 1, bb = b * b;
+  std::fill(diag_.begin(), diag_.end(), 0.0);
+  std::fill(off_.begin(), off_.end(), 0.0);
+  for (size_t k = 0; k < weight.size(); ++k) {
+    double row[2][JAM_MAX_DIM + 1];
+    int32_t sphere[2];
+    int count = 0;
+    rows.parts(k, [&](int32_t i, double sign, double radial) {
+      for (size_t c = 0; c < d; ++c) row[count][c] = sign == 0.0 ? 0.0 : sign * rows.normal[k * d + c];
+      row[count][d] = radial;
+      sphere[count++] = i;
+    });
+    for (int q = 0; q < count; ++q)
+      for (size_t u = 0; u < b; ++u)
+        for (size_t v = 0; v < b; ++v)
+          diag_[static_cast<size_t>(sphere[q]) * bb + u * b + v] += weight[k] * row[q][u] * row[q][v];
+    if (count < 2) continue;
+    double *block = &off_[static_cast<size_t>(edge_[k]) * bb];
+    for (size_t u = 0; u < b; ++u)
+      for (size_t v = 0; v < b; ++v) block[u * b + v] += weight[k] * row[0][u] * row[1][v];
+  }
+  double mean = 0.0;
+  const size_t n = diag_.size() / bb;
+  for (size_t i = 0; i < n; ++i)
+    for (size_t u = 0; u < b; ++u) mean += diag_[i * bb + u * b + u];
+  mean /= static_cast<double>(n * b);
+  for (size_t i = 0; i < n; ++i)
+    for (size_t u = 0; u < b; ++u) diag_[i * bb + u * b + u] += ridge * mean;
+  ++factorisations;
+  if (cholesky_.factorise(diag_.data(), off_.data()) < 0)
+    fail(JAM_E_SOLVER, "the matrix of a step of the radii is not finite");
+}
+
+}  // namespace jam::inside

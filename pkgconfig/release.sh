@@ -132,10 +132,16 @@ if begin windows 'libjam-*-windows-x86_64.zip'; then
     run cmake --install "$work/windows" --prefix "$work/$name" --strip
     cp -r examples/c examples/cpp "$work/$name/share"
     cp examples/lab.html "$work/$name"
+    # where the zip is unpacked, not where it was made
+    sed -i "s|$work/$name|\${pcfiledir}/../..|" "$work/$name/lib/pkgconfig/jam.pc"
     run $python pkgconfig/spdx.py zip "$work/$name" "$out/$name.zip"
-    (cd "$work/$name/bin" && run env WINEPREFIX="$work/wine" WINEDEBUG=-all wine jam-pack.exe --n 100 --dim 2 \
-      --diameters-ratio 1.4 --quiet --report report.json && grep -q '"jammed": true' report.json)
-    row "$name.zip" "jam-pack.exe with its DLL made a packing under wine; not run on Windows"
+    # shellcheck disable=SC2046
+    run $triplet-gcc-posix "$work/$name/share/c/first.c" -o "$work/$name/bin/first.exe" \
+      $(PKG_CONFIG_LIBDIR="$work/$name/lib/pkgconfig" pkg-config --cflags --libs jam)
+    export WINEPREFIX="$work/wine" WINEDEBUG=-all
+    (cd "$work/$name/bin" && run wine first.exe && run wine jam-pack.exe --n 100 --dim 2 --diameters-ratio 1.4 \
+      --quiet --report report.json && grep -q '"jammed": true' report.json)
+    row "$name.zip" "an example in C was linked; it and jam-pack.exe ran under wine with the DLL; not run on Windows"
   else
     skip "the zip for Windows" "mingw-w64 and wine cannot be had"
   fi

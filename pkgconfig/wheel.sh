@@ -1,7 +1,7 @@
 #!/bin/sh
 # wheel.sh FOLDER [PYTHON...]: a wheel for each Python (/usr/bin/python3 by default), made on Debian by its compiler.
-# Each has one build folder, ./build-wheel-PYTHON, so that the next wheel is made faster. CC and CXX name other
-# compilers for new folders: those of old_compiler.sh make wheels for older systems.
+# Each has one build folder, ./build-wheel-PYTHON, so that the next wheel is made faster. The wheel is for systems as
+# new as this one; release.sh makes one for older systems.
 set -eu
 cd "$(dirname "$0")/.."
 . tests/debian.sh
@@ -11,11 +11,6 @@ folder=$1
 shift
 for python in "${@:-/usr/bin/python3}"; do
   version=$("$python" -c 'import sys; print("%d%d" % sys.version_info[:2])')
-  # for compilers of old_compiler.sh; Debian has a second folder for each processor
-  JAM_PYTHON_HEADERS=$("$python" -c 'import glob, os, sysconfig
-folder = sysconfig.get_path("include")
-print(folder, *glob.glob("/usr/include/*/" + os.path.basename(folder)))')
-  export JAM_PYTHON_HEADERS
   echo "wheel for $python: takes minutes, messages are in $folder/log" >&2
   PYTHONPATH=bindings/python "$python" -B -c \
     'import build_wheel, sys; print(build_wheel.build_wheel(sys.argv[1], {"build-dir": sys.argv[2]}))' \

@@ -15,11 +15,9 @@
 namespace jam::inside {
 namespace {
 
-using Tuning = RadiiTuning;
-
 // Radii between their bounds; contacts open, unless radii at the lower bound hold them.
 void shrink(Packing &p, const RadiiBounds &bounds, double unit, double room) {
-  const double narrow = std::min(Tuning::least_room * unit, 0.25 * (bounds.most - bounds.least));
+  const double narrow = std::min(RadiiTuning::least_room * unit, 0.25 * (bounds.most - bounds.least));
   for (double &s : p.diameter) {
     const double radius = std::min(0.5 * s, bounds.most);
     s = 2.0 * (bounds.least + std::max((1.0 - room) * (radius - bounds.least), narrow));
@@ -94,8 +92,8 @@ void report_maximum(const Packing &p, const RadiiVertex &vertex, const ContactNe
 
 // Sideways along the motion of a saddle, as far as there is room.
 void push_off(Packing &p, const std::vector<double> &motion, const RadiiBounds &bounds, double unit) {
-  double length = Tuning::push * unit;
-  shrink(p, bounds, unit, Tuning::room);
+  double length = RadiiTuning::push * unit;
+  shrink(p, bounds, unit, RadiiTuning::room);
   std::vector<double> sideways = motion;
   const size_t b = static_cast<size_t>(p.dim) + 1;
   for (size_t i = 0; i < p.n(); ++i) sideways[i * b + b - 1] = 0.0;
@@ -112,7 +110,7 @@ jam_radii_options default_radii_options() {
   jam_radii_options o{};
   o.struct_size = sizeof o;
   o.threads = 1;
-  o.room = Tuning::room;
+  o.room = RadiiTuning::room;
   o.radius_max = o.wall_time = std::numeric_limits<double>::infinity();
   o.max_steps = 100000;
   return o;
@@ -164,23 +162,23 @@ RadiiResult maximise_radii(const Packing &start, const jam_radii_options &o, con
   r.balance_residual = r.max_contact_gap = r.min_gap = r.min_force = std::nan("");
   r.stop_reason = JAM_STOP_STALLED, out.status = JAM_NOT_CONVERGED;
   int pushes = 0;
-  for (double mu = std::max(path.first_mu(), Tuning::least_mu * unit); mu > Tuning::mu_end * unit;
-       mu *= Tuning::mu_factor) {
+  for (double mu = std::max(path.first_mu(), RadiiTuning::least_mu * unit); mu > RadiiTuning::mu_end * unit;
+       mu *= RadiiTuning::mu_factor) {
     if (!path.centre(mu, o.max_steps, monitor)) {
       const bool stopped = monitor.interrupted();
       r.stop_reason = stopped ? monitor.why_interrupted() : JAM_STOP_STEPS;
       out.status = monitor.cancelled() ? JAM_CANCELLED : JAM_LIMIT;
       break;
     }
-    if (mu > Tuning::polish_from * unit) continue;
+    if (mu > RadiiTuning::polish_from * unit) continue;
     RadiiVertex vertex = close_vertex(p, path.rows(), path.forces(), weight, bounds, unit, matrix);
     if (!vertex.closed) continue;
-    if (!vertex.escape.empty() && pushes < Tuning::pushes) {
+    if (!vertex.escape.empty() && pushes < RadiiTuning::pushes) {
       ++pushes;
       p = vertex.packing;
       push_off(p, vertex.escape, bounds, unit);
       path.renew();
-      mu = Tuning::mu_after_push * unit / Tuning::mu_factor;
+      mu = RadiiTuning::mu_after_push * unit / RadiiTuning::mu_factor;
       continue;
     }
     if (!vertex.escape.empty()) break;

@@ -9,8 +9,6 @@
 
 namespace jam::inside {
 
-using Tuning = RadiiTuning;
-
 double radii_unit(const Packing &p) {
   return math::pow(scene_volume(p) / static_cast<double>(p.n()), 1.0 / static_cast<double>(p.dim));
 }
@@ -30,7 +28,7 @@ RadiiPath::RadiiPath(Packing &p, const std::vector<double> &weight, const RadiiB
 
 void RadiiPath::renew() {
   wrap_positions(p_);
-  rows_ = RadiiRows(p_, bounds_, Tuning::reach * unit_);
+  rows_ = RadiiRows(p_, bounds_, RadiiTuning::reach * unit_);
   moved_ = 0.0;
 }
 
@@ -49,7 +47,7 @@ void RadiiPath::direction(double mu) {
   for (size_t k = 0; k < m; ++k) force_[k] = mu / rows_.gap[k], weights_[k] = force_[k] / rows_.gap[k];
   rows_.transpose_times(force_, gradient_);
   for (size_t i = 0; i < weight_.size(); ++i) gradient_[i * b + b - 1] += weight_[i];
-  matrix.factorise(rows_, weights_, Tuning::ridge, threads_);
+  matrix.factorise(rows_, weights_, RadiiTuning::ridge, threads_);
   step_ = gradient_;
   matrix.solve(step_);
   slope_ = largest_ = 0.0;
@@ -64,12 +62,12 @@ void RadiiPath::direction(double mu) {
 }
 
 double RadiiPath::longest_feasible() const {
-  double nearest = 1.0 / Tuning::to_boundary;
+  double nearest = 1.0 / RadiiTuning::to_boundary;
   for (size_t k = 0; k < change_.size(); ++k)
     if (change_[k] < 0.0) nearest = std::min(nearest, -rows_.gap[k] / change_[k]);
   // Unlisted pairs stay apart: their gaps shrink by twice the step at most.
-  const double listed = 0.5 * (Tuning::reach * unit_ - moved_) / std::max(largest_, 1e-300);
-  return std::min(Tuning::to_boundary * nearest, Tuning::to_boundary * listed);
+  const double listed = 0.5 * (RadiiTuning::reach * unit_ - moved_) / std::max(largest_, 1e-300);
+  return std::min(RadiiTuning::to_boundary * nearest, RadiiTuning::to_boundary * listed);
 }
 
 // Of the function along the step; -infinity behind a row.
@@ -91,14 +89,14 @@ void RadiiPath::move(double part) {
   move_radii(p_, step_, part, trial_);
   p_.position.swap(trial_.position), p_.diameter.swap(trial_.diameter);
   moved_ += 2.0 * part * largest_;
-  if (moved_ > 0.5 * Tuning::reach * unit_)
+  if (moved_ > 0.5 * RadiiTuning::reach * unit_)
     renew();
   else
     rows_.measure(p_);
 }
 
 bool RadiiPath::centre(double mu, int64_t max_steps, Monitor &monitor) {
-  for (int k = 0; k < Tuning::steps_at_one_mu; ++k) {
+  for (int k = 0; k < RadiiTuning::steps_at_one_mu; ++k) {
     if (monitor.interrupted() || steps >= max_steps) return false;
     jam_progress shown = progress_of(JAM_PHASE_CRUNCH);
     shown.packing_fraction = packing_fraction(p_), shown.gain = mu / unit_;
@@ -107,16 +105,17 @@ bool RadiiPath::centre(double mu, int64_t max_steps, Monitor &monitor) {
     direction(mu);
     ++steps;
     double part = longest_feasible();
-    while (part > Tuning::shortest && !(ascent(part, mu) >= Tuning::least_ascent * part * slope_)) part *= 0.5;
-    if (!(part > Tuning::shortest)) break;  // rounding: the maximum is reached
-    if (decrement_ < Tuning::decrement) {
+    while (part > RadiiTuning::shortest && !(ascent(part, mu) >= RadiiTuning::least_ascent * part * slope_))
+      part *= 0.5;
+    if (!(part > RadiiTuning::shortest)) break;  // rounding: the maximum is reached
+    if (decrement_ < RadiiTuning::decrement) {
       for (size_t q = 0; q < force_.size(); ++q) force_[q] *= 1.0 - change_[q] / rows_.gap[q];
       return true;
     }
-    if (part >= Tuning::to_boundary)
-      for (int q = 0; q < Tuning::longer; ++q) {
+    if (part >= RadiiTuning::to_boundary)
+      for (int q = 0; q < RadiiTuning::longer; ++q) {
         const double longer = 2.0 * part;
-        if (moved_ + 2.0 * longer * largest_ >= Tuning::reach * unit_ || !(ascent(longer, mu) > ascent(part, mu)))
+        if (moved_ + 2.0 * longer * largest_ >= RadiiTuning::reach * unit_ || !(ascent(longer, mu) > ascent(part, mu)))
           break;
         part = longer;
       }

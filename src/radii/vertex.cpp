@@ -12,15 +12,13 @@
 namespace jam::inside {
 namespace {
 
-using Tuning = RadiiTuning;
-
 double longest_edge(const Packing &p) {
   double edge = 0.0;
   for (int c = 0; c < p.dim; ++c) edge = std::max(edge, p.cell.edge(c));
   return edge;
 }
 
-double largest(const std::vector<double> &x) {
+double largest_of(const std::vector<double> &x) {
   double most = 0.0;
   for (const double v : x) most = std::max(most, std::fabs(v));
   return most;
@@ -32,23 +30,23 @@ bool close_contacts(Packing &p, RadiiRows &contacts, RadiiMatrix &matrix, double
   std::vector<double> step;
   double path = 0.0, before = std::numeric_limits<double>::infinity();
   Packing moved = p;
-  for (int k = 0; k < Tuning::polish_steps; ++k) {
+  for (int k = 0; k < RadiiTuning::polish_steps; ++k) {
     contacts.measure(p);
-    const double wrong = largest(contacts.gap);
-    const bool small = wrong <= Tuning::closed * longest_edge(p);
+    const double wrong = largest_of(contacts.gap);
+    const bool small = wrong <= RadiiTuning::closed * longest_edge(p);
     if (small && !(wrong < 0.5 * before)) return true;
     if (k > 3 && !small && !(wrong < before)) return false;
     before = wrong;
     contacts.transpose_times(contacts.gap, step);
-    matrix.factorise(contacts, ones, Tuning::polish_ridge, 1);
+    matrix.factorise(contacts, ones, RadiiTuning::polish_ridge, 1);
     matrix.solve(step);
-    path += largest(step);
-    if (!(path < Tuning::longest_polish * unit)) return false;
+    path += largest_of(step);
+    if (!(path < RadiiTuning::longest_polish * unit)) return false;
     move_radii(p, step, -1.0, moved);
     p.position.swap(moved.position), p.diameter.swap(moved.diameter);
   }
   contacts.measure(p);
-  return largest(contacts.gap) <= Tuning::closed * longest_edge(p);
+  return largest_of(contacts.gap) <= RadiiTuning::closed * longest_edge(p);
 }
 
 // sum_k f_k a_k + w: zero on all unknowns at a maximum.
@@ -65,13 +63,13 @@ std::vector<double> imbalance(const RadiiRows &contacts, const std::vector<doubl
 double balance(const RadiiRows &contacts, const std::vector<double> &weight, const RadiiMatrix &matrix,
                std::vector<double> &force) {
   std::vector<double> correction, best = force;
-  double least = largest(imbalance(contacts, force, weight));
-  for (int k = 0; k < Tuning::balance_steps; ++k) {
+  double least = largest_of(imbalance(contacts, force, weight));
+  for (int k = 0; k < RadiiTuning::balance_steps; ++k) {
     std::vector<double> wrong = imbalance(contacts, force, weight);
     matrix.solve(wrong);
     contacts.times(wrong, correction);
     for (size_t q = 0; q < force.size(); ++q) force[q] -= correction[q];
-    const double now = largest(imbalance(contacts, force, weight));
+    const double now = largest_of(imbalance(contacts, force, weight));
     if (!(now < least)) break;
     least = now, best = force;
   }
@@ -114,15 +112,15 @@ std::vector<double> free_motion(const Packing &p, const RadiiRows &contacts, con
   Rng rng(p.seed, Stream::radii_saddle);
   std::vector<double> x(contacts.unknowns()), opened, back;
   for (double &v : x) v = rng.normal();
-  const double before = largest(x);
-  for (int k = 0; k < Tuning::projections; ++k) {
+  const double before = largest_of(x);
+  for (int k = 0; k < RadiiTuning::projections; ++k) {
     contacts.times(x, opened);
     contacts.transpose_times(opened, back);
     matrix.solve(back);
     for (size_t q = 0; q < x.size(); ++q) x[q] -= back[q];
   }
-  const double rest = largest(x);
-  if (!(rest > Tuning::no_motion * before)) return {};
+  const double rest = largest_of(x);
+  if (!(rest > RadiiTuning::no_motion * before)) return {};
   for (double &v : x) v /= rest;
   return x;
 }
@@ -160,26 +158,26 @@ RadiiVertex close_vertex(const Packing &p, const RadiiRows &rows, const std::vec
   take_rounding_out(out.packing, out.contacts.pairs);
   wrap_positions(out.packing, out.contacts.pairs);
   out.contacts.measure(out.packing);
-  matrix.factorise(out.contacts, std::vector<double>(out.force.size(), 1.0), Tuning::polish_ridge, 1);
+  matrix.factorise(out.contacts, std::vector<double>(out.force.size(), 1.0), RadiiTuning::polish_ridge, 1);
   out.balance = balance(out.contacts, weight, matrix, out.force);
-  if (!(out.balance <= Tuning::balanced)) return out;
+  if (!(out.balance <= RadiiTuning::balanced)) return out;
   for (double &f : out.force) {
-    if (!(f >= Tuning::no_force)) return out;
+    if (!(f >= RadiiTuning::no_force)) return out;
     f = std::max(f, 0.0);
   }
-  const RadiiRows near(out.packing, bounds, Tuning::reach * unit);
+  const RadiiRows near(out.packing, bounds, RadiiTuning::reach * unit);
   take_rounding_out(out.packing, near.pairs);
   out.contacts.measure(out.packing);
-  out.gap = largest(out.contacts.gap);
+  out.gap = largest_of(out.contacts.gap);
   std::vector<double> gaps;
   near.measure_gaps(out.packing, gaps);
   std::sort(gaps.begin(), gaps.end());
-  if (gaps.front() < -Tuning::closed * longest_edge(p)) return out;
+  if (gaps.front() < -RadiiTuning::closed * longest_edge(p)) return out;
   const size_t closed = out.force.size();
   out.open = closed < gaps.size() ? gaps[closed] : std::numeric_limits<double>::infinity();
   out.closed = true;
   const std::vector<double> motion = free_motion(out.packing, out.contacts, matrix);
-  if (!motion.empty() && opening(out.contacts, out.force, motion) * unit > Tuning::turning) out.escape = motion;
+  if (!motion.empty() && opening(out.contacts, out.force, motion) * unit > RadiiTuning::turning) out.escape = motion;
   return out;
 }
 

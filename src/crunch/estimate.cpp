@@ -159,7 +159,8 @@ struct Spread {
 Spread spread_of(const Packing &p) {
   const bool alike = ratio_of_diameters(p) < T::alike;
   const PairList closed = find_pairs(p, 0.0, 1.0 + T::crystal_gap);
-  if (2 * closed.size() > static_cast<size_t>(p.dim) * p.n()) return {T::low_crystal, T::high_crystal};
+  const double unknowns = p.dim * static_cast<double>(p.n());
+  if (static_cast<double>(closed.size()) > T::crystal_pairs * unknowns) return {T::low_crystal, T::high_crystal};
   if (alike && p.dim == 2) return {T::low_disks, T::high_disks};
   return {T::low, T::high};
 }

@@ -151,6 +151,17 @@ CASE(equal_disks_and_crystals_have_a_wide_range) {
   }
 }
 
+/* As many contacts as unknowns make no crystal. */
+CASE(grown_spheres_have_a_narrow_range) {
+  jam_system *sys = start(100, 0.3);
+  DEFAULTS(compress, c);
+  c.growth_rate = 1e-2, c.pressure = 1e5;
+  assert_int_equal(jam_compress(sys, &c, NULL), JAM_OK);
+  const jam_estimate_report e = estimated(sys, NULL);
+  assert_true(e.seconds_high < 10 * e.seconds && e.seconds_low > 0.1 * e.seconds);
+  jam_destroy(sys);
+}
+
 /* The path couples pairs near contact; an LP couples those too that its step bound lets close. */
 CASE(the_path_factorises_fewer_pairs_than_the_lps) {
   jam_system *sys = start(300, 0.3);

@@ -1,6 +1,6 @@
 #!/bin/sh
 # release.sh VERSION FOLDER [PART...]: all files of a release, made from a clean clone of the tag vVERSION, or of HEAD
-# where there is none, and tried; CONTENTS.md says how. The same commit gives the same bytes. Parts: source, sdist,
+# where there is none, and tried; CONTENTS.md says how. The same commit and TMPDIR give the same bytes. Parts: source, sdist,
 # wheels, debian, windows, npm. What this machine cannot make is left out, and both the script and CONTENTS.md say so.
 # JAM_RELEASE_OPTIONS: more options of CMake for a trial of wheels, debian and windows.
 set -eu
@@ -11,7 +11,8 @@ shift 2
 parts=${*:-source sdist wheels debian windows npm}
 commit=$(git -C "$root" rev-parse -q --verify "v$version^{commit}" || git -C "$root" rev-parse HEAD)
 SOURCE_DATE_EPOCH=$(git -C "$root" show -s --format=%ct "$commit")
-work=$(mktemp -d)
+work=${TMPDIR:-/tmp}/libjam-$version  # one name for all runs: gfortran writes the path of a source into its object
+mkdir "$work"
 trap 'rm -rf "$work"' EXIT
 export SOURCE_DATE_EPOCH TZ=UTC TMPDIR="$work" CCACHE_BASEDIR="$work" CCACHE_NOHASHDIR=1 JAM_LIBRARIES=zlib
 umask 022

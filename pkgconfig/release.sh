@@ -1,7 +1,8 @@
 #!/bin/sh
 # release.sh VERSION FOLDER [PART...]: all files of a release, made from a clean clone of the tag vVERSION, or of HEAD
-# where there is none, and tried; CONTENTS.md says how. The same commit and TMPDIR give the same bytes. Parts: source, sdist,
-# wheels, debian, windows, npm. What this machine cannot make is left out, and both the script and CONTENTS.md say so.
+# where there is none, and tried; CONTENTS.md says how. The same commit and TMPDIR give the same bytes. Parts: source,
+# sdist, wheels, debian, windows, npm. What this machine cannot make is left out, and both the script and CONTENTS.md
+# say so.
 # JAM_RELEASE_OPTIONS: more options of CMake for a trial of wheels, debian and windows.
 set -eu
 version=$1 root=$(cd "$(dirname "$0")/.." && pwd)

@@ -17,6 +17,7 @@ study() {
 }
 study mk_glass.py --large                            # 2.6: 0.05 h
 study fit_error.py --large                           # 2.11, 2.12: 0.15 h
+study density_by_size.py --large                     # 2.8: 0.1 h
 study lp_noise.py --large                            # 2.9, 2.14: a minute
 study motion_mc.py --large                           # 3.11 to 3.15, 3.17: 0.3 h
 study network_products.py --large                    # 3.3: 0.3 h

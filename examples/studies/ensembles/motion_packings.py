@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""Which of sum f and S predicts the mobility of soft spheres, and how much that depends on the packing: figure 3.14.
+"""Which of sum f and S predicts the mobility of spheres, and how much that depends on the packing: figures 3.10 and 3.14.
 
 usage: motion_packings.py [--large] [--folder DIR] [--out DIR] [--only-read]
 
-As motion_mc.py, alpha = 2 at the middle temperature, last sweep, from packings of other seeds. Small: 8 packings with 100 runs of 250
-sweeps, about 15 minutes. Large: 20 with 1000. Runs are kept.
+Packings of other seeds, in dynamics as motion_md.py at tau = 2, 5 and 10, and in Monte Carlo as motion_mc.py, alpha = 2 at the middle temperature,
+last sweep. Small: 8 packings, 500 runs of dynamics and 100 of Monte Carlo of each, about 15 minutes. Large: 20, 500 and 1000. Runs are
+kept.
 """
 import sys
 
@@ -18,30 +19,45 @@ sys.path.insert(0, str(HERE.parent))
 import near_jamming_common as near  # noqa: E402
 
 ALPHA, MIDDLE = 2.0, 1
+RATIOS, TAUS, MD_RUNS = (0.999, 0.99), (2, 5, 10), 500
+
+
+def predicted(structure, square):
+    """K[x_i, <|dr_i|^2>] of each predictor."""
+    return [jam.statistics.spearman(getattr(structure, name), square) for name in near.SCALARS]
 
 
 def correlations(o, seed, count):
-    """K[x_i, <|dr_i|^2>] of the predictors of one packing."""
+    """Those of one packing: in dynamics at each density and tau, then in Monte Carlo."""
     packing = near.kept_packing(o.folder, seed)
     structure = nj.predictors(packing)
-    t = near.TEMPERATURES[ALPHA][MIDDLE]
-    runs = near.mc_runs(packing, o.folder, f"{seed}q", ALPHA, t, count)
-    square = runs.mean("distance2")[-1]
-    return [jam.statistics.spearman(getattr(structure, name), square) for name in near.SCALARS]
+    found = []
+    for ratio in RATIOS:
+        runs = near.md_runs(packing, o.folder, f"{seed}q_{MD_RUNS}", ratio, MD_RUNS)
+        found += [predicted(structure, runs.mean("distance2")[near.INSTANTS.index(tau)]) for tau in TAUS]
+    runs = near.mc_runs(packing, o.folder, f"{seed}q_{count}", ALPHA, near.TEMPERATURES[ALPHA][MIDDLE], count)
+    return [*found, predicted(structure, runs.mean("distance2")[-1])]
 
 
 def main():
     o = arguments(__doc__.splitlines()[0]).parse_args()
     packings, count = (20, 1000) if o.large else (8, 100)
     r = Results(o, "motion_packings")
-    k = np.array([correlations(o, seed, count) for seed in range(1, packings + 1)])
-    r.made(f"N = 1024 by sequential LPs, seeds 1 to {packings}, alpha = 2, {near.LAST_SWEEP} sweeps", packings * count)
-    for column, text in enumerate(near.SCALARS.values()):
-        r.add("3.14", f"K[{text}, <|dr|^2>], alpha = 2, mean of {packings} packings", "largest |K| for S", *mean_error(k[:, column]))
-        r.add("3.14", f"the same, standard deviation between packings, {text}", "one packing", k[:, column].std(ddof=1))
+    k = np.array([correlations(o, seed, count) for seed in range(1, packings + 1)])  # (packing, kind of run, predictor)
+    made = f"N = 1024 by sequential LPs, seeds 1 to {packings}"
+    r.made(f"{made}, dynamics", packings * MD_RUNS * len(RATIOS))
+    r.made(f"{made}, alpha = 2, {near.LAST_SWEEP} sweeps", packings * count)
+    where = [("3.10", f"phi/phi_J = {ratio}, tau = {tau}") for ratio in RATIOS for tau in TAUS] + [("3.14", "alpha = 2")]
     names = list(near.SCALARS)
-    better = np.abs(k[:, names.index("s")]) > np.abs(k[:, names.index("force_sum")])
-    r.add("3.14", "share of packings in which |K| of S is above that of sum f", "one packing: yes", better.mean())
+    for row, (figure, state) in enumerate(where):
+        for column, text in enumerate(near.SCALARS.values()):
+            mean = mean_error(k[:, row, column])
+            r.add(figure, f"K[{text}, <|dr|^2>], {state}, mean of {packings} packings", "largest |K| for S", *mean)
+            spread = k[:, row, column].std(ddof=1)
+            r.add(figure, f"the same, standard deviation between packings, {text}, {state}", "one packing", spread)
+        more = np.abs(k[:, row, names.index("s")]) - np.abs(k[:, row, names.index("force_sum")])
+        r.add(figure, f"|K| of S less that of sum f, {state}, mean of {packings} packings", "> 0", *mean_error(more))
+        r.add(figure, f"share of packings in which |K| of S is above that of sum f, {state}", "one packing: yes", np.mean(more > 0))
     r.write()
 
 

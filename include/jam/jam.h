@@ -999,8 +999,7 @@ typedef struct jam_radii_options {
   int64_t max_steps; /* of Newton's method, >= 1, default 100000 */
   double wall_time;  /* limit of the call */
 } jam_radii_options;
-/* What jam_maximise_radii found. Where maximum is 0, counts from contacts to excess are -1 and the numbers of contacts
- * NaN. */
+/* What jam_maximise_radii found. Where maximum is 0, contacts to excess are -1, balance_residual to min_force NaN. */
 typedef struct jam_radii_report {
   uint32_t struct_size;
   int32_t stop_reason;             /* @enum jam_stop_reason, CONVERGED at a maximum */
@@ -1038,7 +1037,8 @@ typedef enum jam_soft_scale {
   JAM_SOFT_BARE = 2      /* c = 1, l = 1 */
 } jam_soft_scale;
 /* How the energy is minimised. From one start the methods reach different minima: each is a protocol. NEWTON: FIRE
- * (alpha < 2: L-BFGS) until the contacts stop changing, then Newton's method with pre-stress. */
+ * (alpha < 2: L-BFGS) until the contacts stop changing, then Newton's method with pre-stress. Saddles are left; the
+ * others do not test packings of more than some 5000 spheres (d = 3) for them, and the log says so. */
 typedef enum jam_minimiser {
   JAM_MINIMISER_NEWTON = 0, /* Newton's method; rattlers are put in the middle of their cages */
   JAM_MINIMISER_FIRE = 1,   /* FIRE 2.0 alone (Guenole et al., Comput. Mater. Sci. 175, 109584 (2020)) */

@@ -69,7 +69,8 @@ DescentEnd minimise(Relaxation &r, int32_t minimiser, double tolerance, bool nea
 
 // Whether forces balance and the energy falls in some direction: where spheres that overlap have too few contacts to be
 // held, as those of a straight line, and where the Hessian is not positive. Its zero modes may be any. convex: it is.
-static bool is_saddle(const Relaxation &r, const SoftResult &found, bool convex) {
+// Without Newton's method a large Hessian is not factorised for this question alone.
+static bool is_saddle(const Relaxation &r, const SoftResult &found, bool newton, bool convex) {
   if (found.report.contacts == 0) return found.report.max_overlap > overlap_resolution(found.packing);
   const SoftContacts contacts = r.state.contacts();
   const std::vector<char> on = stable_contacts(r.state, contacts);
@@ -85,6 +86,13 @@ static bool is_saddle(const Relaxation &r, const SoftResult &found, bool convex)
   if (convex) return false;
   const double shift = RelaxTuning::saddle_curvature * push / stiffness;
   SoftHessian hessian;
+  if (!newton && hessian.factor_numbers(r.state, contacts, on) > RelaxTuning::most_factor) {
+    if (r.effort.monitor)
+      r.effort.monitor->log(
+          JAM_LOG_INFO,
+          "not tested whether this is a saddle: without Newton's method the test would take most of the memory");
+    return false;
+  }
   return !hessian.factorise(r.state, contacts, on, shift, r.effort.factorisations) || hessian.shift() > shift;
 }
 
@@ -116,7 +124,7 @@ DescentEnd minimise_and_measure(Relaxation &r, int32_t minimiser, double toleran
     if (end != DescentEnd::balanced) return end;
     bool near = true;
     if (std::max(out.report.force_residual, out.report.stress_residual) < tolerance) {
-      if (!is_saddle(r, out, convex)) return end;
+      if (!is_saddle(r, out, minimiser == JAM_MINIMISER_NEWTON, convex)) return end;
       if (saddles == std::size(RelaxTuning::saddle_moves)) return DescentEnd::stalled;
       displace_at_random(r, saddles++);
       attempt = 0, near = false;

@@ -179,6 +179,12 @@ bool SoftHessian::has_contacts(const SoftState &state, const SoftContacts &conta
   return at == ei_.size();
 }
 
+size_t SoftHessian::factor_numbers(const SoftState &state, const SoftContacts &contacts, const std::vector<char> &on) {
+  assemble(state, contacts, on);
+  return BlockCholesky::measure(state.dim(), static_cast<int32_t>(state.n()), ei_.data(), ej_.data(), ei_.size(), 1)
+      .factor;
+}
+
 bool SoftHessian::factorise(const SoftState &state, const SoftContacts &contacts, const std::vector<char> &on,
                             double shift, int64_t &factorisations) {
   assemble(state, contacts, on);

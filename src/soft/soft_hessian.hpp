@@ -14,6 +14,8 @@ class SoftHessian {
   // spring to theirs. False when no shift is enough.
   bool factorise(const SoftState &state, const SoftContacts &contacts, const std::vector<char> &on, double shift,
                  int64_t &factorisations);
+  // Numbers that its factor would have, without computing it.
+  size_t factor_numbers(const SoftState &state, const SoftContacts &contacts, const std::vector<char> &on);
   // x: displacements, and behind them the strains of a free cell.
   void solve(std::vector<double> &x) const;
   // Whether these are the contacts of the last factorisation.

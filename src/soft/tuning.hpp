@@ -86,6 +86,9 @@ struct RelaxTuning {
   // contact of spheres that are not held has more than this part of the mean force, or the Hessian a curvature below
   // this part of -force / distance. Displacements of the last parts of the mean diameter leave it, one after the other.
   static constexpr double loose_force = 1e-3, saddle_curvature = 1e-3;
+  // Without Newton's method a factor of more numbers is not computed for the test: FIRE is chosen for its little
+  // memory.
+  static constexpr size_t most_factor = 10000000;
   static constexpr double saddle_moves[] = {1e-6, 1e-4, 1e-2};
 };
 

@@ -478,6 +478,13 @@ class Shear(unittest.TestCase):
         self.assertGreater(lowest_curvature(s), -1e-9)
         self.assertGreater(s.contacts.pairs.size, 0)
 
+    def test_fire_alone_does_not_fill_the_memory_for_this(self):
+        x = np.indices((30,) * 3).reshape(3, -1).T + 0.5
+        s, said = jam.System.from_arrays(x, 1.01, cell=[30] * 3, overlap="allow"), []
+        s.log(lambda level, text: said.append(text), "info")
+        self.assertEqual(s.relax(minimiser="fire").factorisations, 0)
+        self.assertIn("not tested whether this is a saddle", " ".join(said))
+
     def test_tilted_cells_agree_with_sliding_images(self):
         """Every step of a shear through more than one period, by energies and stresses of sliding images."""
         for s, step in ((soft(32), 0.11), (soft(40, dim=3, phi=0.72, seed=2), 0.23)):

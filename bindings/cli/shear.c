@@ -34,7 +34,10 @@ static const char heading[] =
     "strain,stress,pressure,energy,packing_fraction,contacts,made,broken,nonaffine,event,rattlers,evaluations,"
     "factorisations\n";
 static const char note[] =
-    "shear --to %s --step %.17g: leg %d step %.17g rows %lld events %lld first %.17g peak %.17g at %.17g";
+    "shear --to %s --step %.17g --alpha %.17g: leg %d step %.17g rows %lld events %lld first %.17g peak %.17g at %.17g";
+
+/* 0: hard spheres. */
+static double alpha_of(const shear_job *job) { return isfinite(job->o->alpha) ? job->o->alpha : 0; }
 
 static double begin_of(const shear_job *job, const place *p) {
   const double from = p->leg ? job->path.turns[p->leg - 1] : 0, way = job->path.turns[p->leg] - from;
@@ -75,8 +78,8 @@ static int keep_state(shear_job *job, const jam_system *from) {
   int bad;
   job->kept = seconds_now();
   if (!job->o->checkpoint || !from) return 0;
-  snprintf(line, sizeof line, note, job->path.text, job->o->step, p->leg, p->steps, p->rows, p->events, p->first_event,
-           p->peak_stress, p->peak_strain);
+  snprintf(line, sizeof line, note, job->path.text, job->o->step, alpha_of(job), p->leg, p->steps, p->rows, p->events,
+           p->first_event, p->peak_stress, p->peak_strain);
   bad = put_rows(job) || jam_copy(from, &copy) < 0 || jam_add_note(copy, line) < 0 ||
         jam_write_checkpoint(copy, job->o->checkpoint) < 0;
   if (bad) complain("%s: %s", job->o->checkpoint, jam_last_error());
@@ -88,14 +91,18 @@ static int keep_state(shear_job *job, const jam_system *from) {
 static int read_place(shear_job *job) {
   const char *at = jam_notes(job->sys), *found = NULL;
   char to[600];
-  double step = 0;
+  double step = 0, alpha = 0;
   while ((at = strstr(at, "shear --to "))) found = at++;
   if (found &&
-      sscanf(found, "shear --to %599s --step %lf: leg %d step %lf rows %lld events %lld first %lf peak %lf at %lf", to,
-             &step, &job->at.leg, &job->at.steps, &job->at.rows, &job->at.events, &job->at.first_event,
-             &job->at.peak_stress, &job->at.peak_strain) == 9) {
-    if (!strcmp(to, job->path.text) && step == job->o->step) return 0;
-    complain("%s continues --to %s --step %.17g: give the same", job->o->resume, to, step);
+      sscanf(found,
+             "shear --to %599s --step %lf --alpha %lf: leg %d step %lf rows %lld events %lld first %lf peak %lf at %lf",
+             to, &step, &alpha, &job->at.leg, &job->at.steps, &job->at.rows, &job->at.events, &job->at.first_event,
+             &job->at.peak_stress, &job->at.peak_strain) == 10) {
+    if (!strcmp(to, job->path.text) && step == job->o->step && alpha == alpha_of(job)) return 0;
+    if (alpha > 0)
+      complain("%s continues --to %s --step %.17g --alpha %g: give the same", job->o->resume, to, step, alpha);
+    else
+      complain("%s continues --to %s --step %.17g of hard spheres: give the same", job->o->resume, to, step);
   } else {
     complain("%s is no checkpoint of a shear", job->o->resume);
   }

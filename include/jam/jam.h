@@ -1006,10 +1006,10 @@ typedef struct jam_radii_report {
   int32_t maximum;                 /* @bool contacts closed, forces >= 0 that balance, and no saddle */
   int32_t saddles;                 /* left on the way */
   double value;                    /* sum of w_i R_i */
-  int64_t contacts, rattlers;      /* pairs and walls with force; spheres without: none at a maximum */
+  int64_t contacts, rattlers;      /* pairs and walls with force; spheres without, all held by radius_max */
   int64_t at_bounds;               /* radii held by radius_min or radius_max */
   int64_t excess;                  /* contacts + at_bounds - ((d + 1) n - symmetries); 0 at a simple maximum */
-  double balance_residual;         /* largest rest of the balance and of the sums of forces, over the mean weight */
+  double balance_residual;         /* largest rest of the balance and of the sums of forces, over the sphere's weight */
   double max_contact_gap, min_gap; /* largest |distance - sum of radii| of a contact; least of another pair */
   double min_force;                /* least force; forces on sphere i add up to w_i, less what a bound takes */
   double radius_smallest, radius_largest, polydispersity; /* standard deviation of the radii over their mean */

@@ -49,12 +49,15 @@ std::vector<double> of_mean_one(size_t n, const double *weights, double &mean) {
   return out;
 }
 
+// Forces below are rounding: where bounds hold all radii, no contact needs to carry any.
+bool carries(const RadiiVertex &vertex, size_t k) { return vertex.force[k] > -RadiiTuning::no_force; }
+
 ContactNetwork network_of(const Packing &p, const RadiiVertex &vertex) {
   ContactNetwork net;
   net.coordination.assign(p.n(), 0);
   double sum = 0.0;
   for (size_t k = 0; k < vertex.contacts.pairs.size(); ++k) {
-    if (!(vertex.force[k] > 0.0)) continue;
+    if (!carries(vertex, k)) continue;
     add_contact(p, vertex.contacts.pairs, k, net);
     net.force.push_back(vertex.force[k]);
     sum += vertex.force[k];
@@ -81,13 +84,19 @@ void report_maximum(const Packing &p, const RadiiVertex &vertex, const ContactNe
                     jam_radii_report &r) {
   r.maximum = 1;
   r.contacts = static_cast<int64_t>(net.size());
-  r.at_bounds = static_cast<int64_t>(vertex.force.size() - vertex.contacts.pairs.size());
-  r.excess = static_cast<int64_t>(vertex.force.size()) - static_cast<int64_t>(vertex.contacts.unknowns()) +
-             symmetries(p.container, p.dim);
+  r.at_bounds = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (size_t k = 0; k < vertex.force.size(); ++k) {
+    if (!carries(vertex, k)) continue;
+    least = std::min(least, vertex.force[k]);
+    if (k >= vertex.contacts.pairs.size()) ++r.at_bounds;
+  }
+  r.excess =
+      r.contacts + r.at_bounds - static_cast<int64_t>(vertex.contacts.unknowns()) + symmetries(p.container, p.dim);
   r.rattlers = static_cast<int64_t>(p.n()) - stable_spheres(net.coordination);
   r.balance_residual = vertex.balance;
   r.max_contact_gap = vertex.gap, r.min_gap = vertex.open;
-  r.min_force = mean_weight * *std::min_element(vertex.force.begin(), vertex.force.end());
+  r.min_force = mean_weight * least;
 }
 
 // Sideways along the motion of a saddle, as far as there is room.

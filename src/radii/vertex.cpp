@@ -59,17 +59,25 @@ std::vector<double> imbalance(const RadiiRows &contacts, const std::vector<doubl
   return out;
 }
 
+// The largest of them over the weight of its sphere, which is all that the sphere carries.
+double residual(const std::vector<double> &wrong, const std::vector<double> &weight) {
+  const size_t b = wrong.size() / weight.size();
+  double most = 0.0;
+  for (size_t q = 0; q < wrong.size(); ++q) most = std::max(most, std::fabs(wrong[q]) / weight[q / b]);
+  return most;
+}
+
 // The balanced forces nearest to those given.
 double balance(const RadiiRows &contacts, const std::vector<double> &weight, const RadiiMatrix &matrix,
                std::vector<double> &force) {
   std::vector<double> correction, best = force;
-  double least = largest_of(imbalance(contacts, force, weight));
+  double least = residual(imbalance(contacts, force, weight), weight);
   for (int k = 0; k < RadiiTuning::balance_steps; ++k) {
     std::vector<double> wrong = imbalance(contacts, force, weight);
     matrix.solve(wrong);
     contacts.times(wrong, correction);
     for (size_t q = 0; q < force.size(); ++q) force[q] -= correction[q];
-    const double now = largest_of(imbalance(contacts, force, weight));
+    const double now = residual(imbalance(contacts, force, weight), weight);
     if (!(now < least)) break;
     least = now, best = force;
   }
@@ -95,13 +103,19 @@ bool overlaps(const Packing &p, const PairList &pairs, size_t k) {
   return (r2 - sum * sum).high < 0.0;
 }
 
-// Takes units of the last digit from diameters until no pair overlaps.
-void take_rounding_out(Packing &p, const PairList &pairs) {
+// Takes units of the last digit from diameters until no pair overlaps: one, then twice as many each time. least: radii
+// at this bound stay there if the partner can shrink.
+void take_rounding_out(Packing &p, const PairList &pairs, double least) {
   for (bool again = true; again;) {
     again = false;
     for (size_t k = 0; k < pairs.size(); ++k)
-      while (overlaps(p, pairs, k)) {
-        for_spheres(pairs.i[k], pairs.j[k], [&](int32_t q) { p.diameter[q] = std::nextafter(p.diameter[q], 0.0); });
+      for (double units = 1.0; overlaps(p, pairs, k); units *= 2.0) {
+        bool free = false;
+        for_spheres(pairs.i[k], pairs.j[k], [&](int32_t q) { free = free || p.diameter[q] > 2.0 * least; });
+        for_spheres(pairs.i[k], pairs.j[k], [&](int32_t q) {
+          const double d = p.diameter[q], smaller = d - units * (d - std::nextafter(d, 0.0));
+          if (!free || d > 2.0 * least) p.diameter[q] = std::max(smaller, free ? 2.0 * least : 0.0);
+        });
         again = true;
       }
   }
@@ -155,7 +169,7 @@ RadiiVertex close_vertex(const Packing &p, const RadiiRows &rows, const std::vec
   out.packing = p;
   out.contacts = rows.only(carries);
   if (out.force.empty() || !close_contacts(out.packing, out.contacts, matrix, unit)) return out;
-  take_rounding_out(out.packing, out.contacts.pairs);
+  take_rounding_out(out.packing, out.contacts.pairs, bounds.least);
   wrap_positions(out.packing, out.contacts.pairs);
   out.contacts.measure(out.packing);
   matrix.factorise(out.contacts, std::vector<double>(out.force.size(), 1.0), RadiiTuning::polish_ridge, 1);
@@ -166,14 +180,16 @@ RadiiVertex close_vertex(const Packing &p, const RadiiRows &rows, const std::vec
     f = std::max(f, 0.0);
   }
   const RadiiRows near(out.packing, bounds, RadiiTuning::reach * unit);
-  take_rounding_out(out.packing, near.pairs);
-  out.contacts.measure(out.packing);
-  out.gap = largest_of(out.contacts.gap);
   std::vector<double> gaps;
   near.measure_gaps(out.packing, gaps);
+  if (*std::min_element(gaps.begin(), gaps.end()) < -RadiiTuning::closed * longest_edge(p)) return out;
+  take_rounding_out(out.packing, near.pairs, bounds.least);
+  out.contacts.measure(out.packing);
+  out.gap = largest_of(out.contacts.gap);
+  near.measure_gaps(out.packing, gaps);
+  gaps.resize(near.pairs.size());
   std::sort(gaps.begin(), gaps.end());
-  if (gaps.front() < -RadiiTuning::closed * longest_edge(p)) return out;
-  const size_t closed = out.force.size();
+  const size_t closed = out.contacts.pairs.size();
   out.open = closed < gaps.size() ? gaps[closed] : std::numeric_limits<double>::infinity();
   out.closed = true;
   const std::vector<double> motion = free_motion(out.packing, out.contacts, matrix);

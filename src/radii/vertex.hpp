@@ -10,7 +10,7 @@ struct RadiiVertex {
   Packing packing;               // no pair overlaps, in two doubles
   RadiiRows contacts;            // rows that carry force
   std::vector<double> force;     // in units of the mean weight
-  double balance = 0.0;          // largest residual of balance and of the sums of forces, over the mean weight
+  double balance = 0.0;          // largest residual of balance and of the sums of forces, over the weight of its sphere
   double gap = 0.0, open = 0.0;  // largest |c| of contacts; least of the other pairs
   // A motion, (n, d + 1), that keeps contacts closed to first order and opens them to second: a saddle. Empty: none.
   std::vector<double> escape;

@@ -177,6 +177,37 @@ class Maximum(unittest.TestCase):
         self.assertGreaterEqual(least_exact_gap(start), 0)
         self.assertEqual(int(np.sum(abs(start.diameters / 2 - high) < 1e-14) + np.sum(abs(start.diameters / 2 - low) < 1e-14)), report.at_bounds)
 
+    def test_bounds_that_hold_many_radii(self):
+        for seed in (35, 378):  # the polish left overlaps of other pairs
+            rng = np.random.default_rng(seed)
+            weights, most = 10.0 ** rng.uniform(-1, 1, 12), 12**-0.5 * rng.uniform(0.3, 0.6)
+            s = jam.System.random(n=12, dim=2, seed=seed)
+            self.assertTrue(s.maximise_radii(weights, radius_max=most).maximum)
+            self.assertLessEqual(s.diameters.max() / 2, most * (1 + 1e-15))
+            self.assertGreaterEqual(least_exact_gap(s), 0)
+        s = box(30, seed=46)
+        s.maximise_radii(radius_max=0.088)
+        report = s.maximise_radii(radius_max=0.088, room=1e-5)
+        self.assertTrue(report.maximum)
+        self.assertEqual((report.contacts, report.at_bounds, report.rattlers), (0, 30, 30))
+
+    def test_a_sphere_with_room_is_no_maximum(self):
+        """A weight may be so small that its sphere has not grown; then no maximum is claimed."""
+        for small in (1e-9, 3e-11, 1e-20):
+            s, weights = box(8), np.ones(8)
+            weights[3] = small
+            report = s.maximise_radii(weights)
+            if report.maximum:
+                self.assertEqual(report.rattlers, 0)
+
+    def test_the_least_other_gap_is_that_of_a_pair(self):
+        s = box(6)
+        report = s.maximise_radii()
+        x, radius = s.positions, s.diameters / 2
+        gaps = [np.linalg.norm(x[i] - x[j]) - radius[i] - radius[j] for i in range(6) for j in range(i)]
+        gaps += [g for i in range(6) for c in range(2) for g in (x[i, c] - radius[i], 1 - x[i, c] - radius[i])]
+        self.assertAlmostEqual(report.min_gap, sorted(gaps)[report.contacts], delta=1e-14)
+
     def test_little_room_ends_near_the_start(self):
         s = box(15, seed=4)
         value = s.maximise_radii().value

@@ -82,6 +82,8 @@ class Verbs(unittest.TestCase):
             other = run("shear", "--resume", state, "--to", 0.5, *alpha)
             self.assertEqual(other.returncode, 2)
             self.assertIn("give the same", other.stderr)
+            other = run("shear", "--resume", state, *path, *(("--alpha", 3) if alpha else ("--alpha", 2)))
+            self.assertIn("give the same", other.stderr)
             rows.write_text("strain\n")
             self.assertIn("has not the", run("shear", "--resume", state, *path, *alpha, "--rows", rows).stderr)
             state.unlink()

@@ -97,7 +97,8 @@ def _start(number: int, seed: int, n: int, dim: int, weights: Any, options: dict
     """One start with its moves."""
     rng = np.random.default_rng([seed, number])
     packing = System.random(n=n, dim=dim, seed=int(rng.integers(1 << 40)), **scene)
-    value, maxima, failed = packing.maximise_radii(weights, **options).value, 1, 0
+    report, failed = packing.maximise_radii(weights, **options), 0
+    value, maxima = (report.value, 1) if report.maximum else (0.0, 0)
     given = {"cell" if "cell" in scene else "box": scene.get("cell", scene.get("box", 1.0))}
     given.update({k: v for k, v in scene.items() if k not in ("cell", "box")})
     closed = np.array([c in _axes(scene, dim) for c in range(dim)])
@@ -108,7 +109,7 @@ def _start(number: int, seed: int, n: int, dim: int, weights: Any, options: dict
             report = other.maximise_radii(weights, room=NEAR, **options)
         except JamError:  # no room after this move
             continue
-        maxima += 1
+        maxima += report.maximum
         if report.maximum and report.value > value * (1 + SAME):
             packing, value, failed = other, report.value, 0
     return Best(value, number, packing.positions.copy(), packing.diameters / 2), maxima
@@ -142,7 +143,7 @@ class _State:
         self.done.add(found.start)
         self.maxima += maxima
         # of equal sums the earliest start stays, whatever worker ended first
-        ranked = sorted([*self.best, found], key=lambda b: (-b.value, b.start))
+        ranked = sorted([*self.best, *([found] if maxima else [])], key=lambda b: (-b.value, b.start))
         self.best = []
         for b in ranked:
             twin = next((k for k, c in enumerate(self.best) if abs(c.value / b.value - 1) < SAME), None)
@@ -212,6 +213,9 @@ def best_of(
     """
     if starts is None and seconds is None and until is None:
         raise ValueError("best_of: give starts, seconds or until, or the search has no end")
+    n, dim, seed, keep = int(n), int(dim), int(seed), int(keep)
+    if keep < 1:
+        raise ValueError(f"keep is {keep}, it must be 1 or more")
     given = None if weights is None else [float(w) for w in weights]
     options = {"radius_min": radius_min, **({} if radius_max is None else {"radius_max": radius_max})}
     asked = dict(n=n, dim=dim, seed=seed, weights=given, scene={k: np.asarray(v).tolist() for k, v in scene.items()}, **options)

@@ -259,6 +259,22 @@ def decompressions(runs):
     return ["relative decreases of diameters", "packings", "jammed", "of lower density than with none", "median (s)", "mean (s)", "longest (s)"], rows
 
 
+def products(raw):
+    """products.py OUT.json PICTURE.png FOLDER 2 512,1024,2048 OpenBLAS=... builtin=... reference=..."""
+    first = raw[0]["build"]
+    cost = {(r["n"], r["seed"], r["build"]): r["seconds"] / r["factorisations"] for r in raw}
+    rows = []
+    for n in dict.fromkeys(r["n"] for r in raw):
+        for build in dict.fromkeys(r["build"] for r in raw):
+            some = [r for r in raw if (r["n"], r["build"]) == (n, build)]
+            ratio = [cost[n, r["seed"], build] / cost[n, r["seed"], first] for r in some]
+            rows.append(
+                [n, build, whole([r["factorisations"] for r in some]), spread([r["seconds"] for r in some]), spread(ratio)]
+                + [max(r["residual"] for r in some), f"{sum(r['jammed'] for r in some)} of {len(some)}"]
+            )
+    return ["N", "products", "factorisations", "crunch (s)", "a factorisation, over " + first, "largest force residual", "jammed"], rows
+
+
 def wasm(raw):
     """JAM_BITS_SET=portable wasm.py BUILD-WASM BUILD --sizes 256,1024 --rounds 2"""
     rows = [["bytes of jam.wasm; gzipped", raw["bytes"], raw["gzipped"], raw["bytes"] / raw["gzipped"]]]

@@ -995,21 +995,21 @@ typedef struct jam_radii_options {
   uint32_t struct_size;
   int32_t threads;               /* 1 .. 64, default 1; 2 to 64 give the same bits, 1 may give others */
   double radius_min, radius_max; /* bounds of each radius, 0 <= radius_min < radius_max, default 0; infinity */
-  double room;       /* share of each radius that is taken off first, in (0, 1), default 0.1; small: ends near */
+  double room; /* share of each radius that is taken off first, in (0, 1), default 0.1; small: stays near the start */
   int64_t max_steps; /* of Newton's method, >= 1, default 100000 */
   double wall_time;  /* limit of the call */
 } jam_radii_options;
 /* What jam_maximise_radii found. Where maximum is 0, contacts to excess are -1, balance_residual to min_force NaN. */
 typedef struct jam_radii_report {
   uint32_t struct_size;
-  int32_t stop_reason;             /* @enum jam_stop_reason, CONVERGED at a maximum */
-  int32_t maximum;                 /* @bool contacts closed, forces >= 0 that balance, and no saddle */
-  int32_t saddles;                 /* left on the way */
-  double value;                    /* sum of w_i R_i */
-  int64_t contacts, rattlers;      /* pairs and walls with force; spheres without, all held by radius_max */
-  int64_t at_bounds;               /* radii held by radius_min or radius_max */
-  int64_t excess;                  /* contacts + at_bounds - ((d + 1) n - symmetries); 0 at a simple maximum */
-  double balance_residual;         /* largest rest of the balance and of the sums of forces, over the sphere's weight */
+  int32_t stop_reason;        /* @enum jam_stop_reason, CONVERGED at a maximum */
+  int32_t maximum;            /* @bool contacts closed, forces >= 0 that balance, and no saddle */
+  int32_t saddles;            /* that it moved away from */
+  double value;               /* sum of w_i R_i */
+  int64_t contacts, rattlers; /* pairs and walls with force; spheres without, all held by radius_max */
+  int64_t at_bounds;          /* radii held by radius_min or radius_max */
+  int64_t excess;             /* contacts + at_bounds - ((d + 1) n - symmetries); 0 at a simple maximum */
+  double balance_residual;    /* largest residual of the balance and of the sums of forces, over the sphere's weight */
   double max_contact_gap, min_gap; /* largest |distance - sum of radii| of a contact; least of another pair */
   double min_force;                /* least force; forces on sphere i add up to w_i, less what a bound takes */
   double radius_smallest, radius_largest, polydispersity; /* standard deviation of the radii over their mean */
@@ -1037,8 +1037,8 @@ typedef enum jam_soft_scale {
   JAM_SOFT_BARE = 2      /* c = 1, l = 1 */
 } jam_soft_scale;
 /* How the energy is minimised. From one start the methods reach different minima: each is a protocol. NEWTON: FIRE
- * (alpha < 2: L-BFGS) until the contacts stop changing, then Newton's method with pre-stress. Saddles are left; the
- * others do not test packings of more than some 5000 spheres (d = 3) for them, and the log says so. */
+ * (alpha < 2: L-BFGS) until the contacts stop changing, then Newton's method with pre-stress. Methods move away
+ * from saddles; all except NEWTON test for them only up to some 5000 spheres (d = 3), and the log says so. */
 typedef enum jam_minimiser {
   JAM_MINIMISER_NEWTON = 0, /* Newton's method; rattlers are put in the middle of their cages */
   JAM_MINIMISER_FIRE = 1,   /* FIRE 2.0 alone (Guenole et al., Comput. Mater. Sci. 175, 109584 (2020)) */

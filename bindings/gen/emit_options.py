@@ -1,16 +1,15 @@
-"""What is made from the table of options: the parser and help of jam-pack, completion of bash and zsh, the page of the guide."""
-import re
+"""What is made from the table of options: the parser and help of jam-pack and completion of bash and zsh."""
 import textwrap
 
 from option import STAGES, START, usage
-from options import ABOUT, EXAMPLE, EXITS, NOTES, VERBS, options, verbs_of
+from options import ABOUT, EXAMPLE, NOTES, VERBS, options, verbs_of
 
 MADE = "made by bindings/gen/generate.py from bindings/gen/options.py; do not edit"
 OWN_FORM = ("stage", "sizes", "cell", "copies")  # kinds whose values have a form of their own
 COLUMN = 25  # where the help begins what it says of an option
 
 
-def _wrapped(text, width=120):
+def wrapped(text, width=120):
     """Lines of the text. An option such as --no-crunch stays whole."""
     return textwrap.wrap(text, width, break_on_hyphens=False)
 
@@ -22,7 +21,7 @@ def _mask(names):
 
 def _column(head, said, width):
     """Lines of an item of the help: its head, and what is said of it in a column of its own."""
-    said = _wrapped(said, 92 - width)
+    said = wrapped(said, 92 - width)
     first = ["  " + head] if len(head) + 2 >= width - 1 else [("  " + head).ljust(width) + said.pop(0)]
     return first + [" " * width + line for line in said]
 
@@ -33,10 +32,10 @@ def help_text():
     whole = 1 << len(VERBS)
     every = whole | _mask([v.name for v in VERBS])
     lines = [(whole, "Usage: jam-pack [VERB] [FILE] [options]")]
-    lines += [(whole, line) for line in [*_wrapped(ABOUT, 80), "", "Example: jam-pack " + EXAMPLE, "", "Verbs"]]
+    lines += [(whole, line) for line in [*wrapped(ABOUT, 80), "", "Example: jam-pack " + EXAMPLE, "", "Verbs"]]
     for v in VERBS:
         lines += [(whole, line) for line in _column(v.usage, v.help, COLUMN)]
-        lines += [(_mask([v.name]), line) for line in (f"Usage: jam-pack {v.usage} [options]", *_wrapped(f"{v.name}: {v.help}.", 80), "")]
+        lines += [(_mask([v.name]), line) for line in (f"Usage: jam-pack {v.usage} [options]", *wrapped(f"{v.name}: {v.help}.", 80), "")]
     lines.append((whole, f"jam-pack VERB --help shows the options of one verb."))
     lines.append((whole, ""))
     for section, rows in options(host=True):
@@ -46,7 +45,7 @@ def help_text():
             verbs = every if o.kind == "help" else whole | _mask(verbs_of(o))
             lines += [(verbs, "\t" * o.host + line) for line in _column(usage(o), o.help, COLUMN)]
     for note in NOTES:
-        lines += [(whole, line) for line in ["", *_wrapped(note, 92)]]
+        lines += [(whole, line) for line in ["", *wrapped(note, 92)]]
     return lines
 
 
@@ -94,7 +93,7 @@ def emit_c(_api):
     said = "\n".join(
         f"    {{{verbs}, " + '"' + line.replace("\\", "\\\\").replace('"', '\\"').replace("\t", "\\t") + '"},' for verbs, line in help_text()
     )
-    names = "\n  ".join(_wrapped(", ".join([f"VERB_{v.name.upper()}" for v in VERBS] + ["VERB_NONE"]), 116))
+    names = "\n  ".join(wrapped(", ".join([f"VERB_{v.name.upper()}" for v in VERBS] + ["VERB_NONE"]), 116))
     verbs = "\n".join(
         f'    {{"{v.name}", ' + ", ".join(f'"--{v.files[k]}"' if k < len(v.files) else "NULL" for k in range(2)) + "}," for v in VERBS
     )
@@ -227,77 +226,3 @@ def emit_zsh(_api):
     verbs = " ".join(f"{v.name}\\:'{v.help.replace(':', ',').split(';')[0]}'" for v in VERBS)
     lines += [f'  "1:verb:(({verbs}))"', "  '*:file:_files'"]
     return f"#compdef jam-pack\n# Completion of jam-pack for zsh: {MADE}.\n_arguments \\\n" + " \\\n".join(lines) + "\n"
-
-
-def _marked(text):
-    """Options as code, since Markdown makes one dash of two."""
-    return re.sub(r"(?<![`\w-])--[a-z][\w-]*", r"`\g<0>`", text).replace("|", "\\|")
-
-
-def emit_page(_api):
-    out = [
-        f"<!-- {MADE} -->",
-        "# The command line",
-        "",
-        *_wrapped(ABOUT, 120),
-        "",
-        "```sh",
-        "jam-pack " + EXAMPLE,
-        "python3 -m jam " + EXAMPLE,
-        "```",
-        "",
-        "Both commands run the same code. Options of Python alone are marked; it also reads and writes `.gsd` files.",
-        "",
-        "## Verbs",
-        "",
-        "| first word | what it does |",
-        "|---|---|",
-        *(f"| `{v.usage}` | {_marked(v.help)} |" for v in VERBS),
-        "",
-        "`jam-pack VERB --help` shows the options of one verb. Options that the verb does not take are refused, and so are options",
-        "that are given twice, except `--growth`.",
-        "",
-        "```sh",
-        "jam-pack compress --n 512 --pressure 1e4 --output dense.xyz",
-        "jam-pack crunch dense.xyz jammed.xyz --json",
-        "jam-pack check jammed.xyz",
-        "jam-pack export jammed.xyz jammed.data --contacts contacts.csv",
-        "jam-pack page jammed.xyz jammed.html",
-        "```",
-        "",
-    ]
-    for section, rows in options(host=True):
-        out += [f"## {section}", ""]
-        if all(verbs_of(o) == ["export"] for o in rows):
-            out += ["Only `jam-pack export` takes these options.", ""]
-        for o in rows:
-            said = f"- `{usage(o)}`{' (Python)' if o.host else ''}: {_marked(o.help)}"
-            out += textwrap.wrap(said, 120, subsequent_indent="  ", break_on_hyphens=False)
-        out.append("")
-    out += ["## How it ends", ""]
-    for note in NOTES:
-        if "status" not in note:
-            out += [*_wrapped(_marked(note), 120), ""]
-    out += [
-        "With `--input` or FILE the verdict of a crunch is that of its end state. `check` tests the packing of a file as it is.",
-        "",
-        "| exit status | pack, compress, crunch | check | info, export, page |",
-        "|---|---|---|---|",
-        *("| " + " | ".join(row) + " |" for row in EXITS),
-        "",
-        *_wrapped(
-            "`ensemble` runs `python3 -m jam ensemble`. 0: all packings are there. 1: some failed or are missing. 2: wrong "
-            "command line. 3: protocol or folder refused, or Python has no module `jam`. 4: the folder cannot be written."
-        ),
-        "",
-        *_wrapped(
-            "With `--json` standard output is one JSON object and nothing else, also after a failure; messages go to standard "
-            "error. The objects of these verbs have `file`, `status` (the exit status), `text` (the messages; of `check` the "
-            "verdict), `n`, `dim` and `packing_fraction` of the packing reached (`null` if the failure came before any packing) "
-            "and `version`. The results of the verb follow them. `ensemble status --json` has `status` and `text` too. `notes` "
-            "gives the reason if the table of contacts is empty, is not the only one possible, or is not that of a jammed packing."
-        ),
-        "",
-    ]
-    out += ["Completion for bash and zsh is installed with the program, and `man jam-pack` shows these lines.", ""]
-    return "\n".join(out)

@@ -10,6 +10,7 @@ import sys
 from pathlib import Path
 
 import emit_c
+import emit_command_page
 import emit_fortran
 import emit_fortran_packing
 import emit_js
@@ -29,7 +30,7 @@ COMMITTED = {
     "bindings/cli/options_table.h": emit_options.emit_c,
     "bindings/cli/completion/jam-pack.bash": emit_options.emit_bash,
     "bindings/cli/completion/_jam-pack": emit_options.emit_zsh,
-    "bindings/docs/command_line.md": emit_options.emit_page,
+    "bindings/docs/command_line.md": emit_command_page.emit,
 }
 BUILT = {
     "julia/raw.jl": emit_julia.emit,

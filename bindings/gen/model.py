@@ -3,7 +3,6 @@
 Everything that is generated starts from here, so this file holds the one table of types and the one place where the
 header's argument conventions (name + name_len, needed, view, options, callbacks) are recognised.
 """
-import re
 import subprocess
 import tempfile
 import xml.etree.ElementTree as ElementTree
@@ -188,34 +187,6 @@ def classify(args, callbacks, structs, pointing):
     return args
 
 
-def _clean(comment):
-    lines = [re.sub(r"^\s*\*? ?", "", line).rstrip() for line in comment.strip().splitlines()]
-    return "\n".join(lines).strip()
-
-
-def _comments(text):
-    """Doc comments by name: functions and types from the comment above, members and items from the one behind."""
-    docs = {}
-    comment = r"/\*((?:(?!\*/).)*)\*/\s*"
-    for m in re.finditer(
-        comment + r"(?:JAM_API\s[^;(]*?\b(jam_\w+)\s*\(|typedef (?:struct|enum) (jam_\w+)|"
-        r"typedef [^;(]*\(\*(jam_\w+)\)|typedef \w+ (jam_\w+);)",
-        text,
-        re.S,
-    ):
-        docs[next(g for g in m.groups()[1:] if g)] = _clean(m.group(1))
-    for m in re.finditer(r"typedef (struct|enum) (jam_\w+) \{(.*?)\n\}", text, re.S):
-        pattern = r"\b(\w+(?:, \w+)*);" if m.group(1) == "struct" else r"\b(JAM_\w+)\s*=\s*-?\d+,?"
-        for item in re.finditer(pattern + r"[ \t]*/\*((?:(?!\*/).)*)\*/", m.group(3), re.S):
-            names, said = item.group(1).split(", "), " ".join(_clean(item.group(2)).split())
-            parts = said.split("; ")
-            if len(names) > 1 and len(parts) not in (1, len(names)):
-                raise HeaderError(f"{m.group(2)}: {item.group(1)} share a comment of {len(parts)} parts: {said}")
-            docs.update(zip(((m.group(2), n) for n in names), parts * len(names) if len(parts) == 1 else parts)
-                        if len(names) > 1 else {(m.group(2), names[0]): said}.items())
-    return docs
-
-
 def read_header(header, swig="swig"):
     with tempfile.TemporaryDirectory() as folder:
         out = Path(folder) / "jam.xml"
@@ -225,7 +196,7 @@ def read_header(header, swig="swig"):
         if done.returncode or not out.exists():
             raise HeaderError(f"swig -xml failed: {done.stderr}")
         root = ElementTree.parse(out).getroot()
-    docs = _comments(Path(header).read_text())
+    docs = annotations.comments(Path(header).read_text())
     api = Api()
     for node in root.iter():
         if node.tag not in ("cdecl", "class", "enum", "constant"):

@@ -13,8 +13,8 @@ need_packages build-essential cmake ninja-build pkg-config libeigen3-dev coinor-
   zlib1g-dev python3-numpy python3-matplotlib
 
 echo "== build"
-cmake -S "$root" -B "$root/build-quick" -G Ninja -DCMAKE_BUILD_TYPE=Release -DJAM_BUILD_TESTS=OFF \
-  -DJAM_WERROR="${JAM_WERROR:-OFF}" >/dev/null
+cmake -S "$root" -B "$root/build-quick" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_UNITY_BUILD=ON \
+  -DJAM_BUILD_TESTS=OFF -DJAM_WERROR="${JAM_WERROR:-OFF}" >/dev/null
 cmake --build "$root/build-quick"
 
 echo "== pack 1024 spheres"

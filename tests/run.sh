@@ -89,8 +89,9 @@ fi
 if wants alone; then
 part "alone"
 # In the folder of bindings/pip, whose objects these are.
-cmake -S . -B build-wheel -DCMAKE_BUILD_TYPE=Release -DJAM_LAPACK=OFF -DJAM_CLP=OFF -DJAM_USE_VORO=OFF \
-  -DJAM_WERROR=ON -DJAM_BUILD_TESTS=ON -DJAM_BUILD_PYTHON=OFF -DJAM_BUILD_EXAMPLES=OFF -DJAM_BUILD_CLI=OFF >/dev/null
+cmake -S . -B build-wheel -DCMAKE_BUILD_TYPE=Release -DCMAKE_UNITY_BUILD=ON -DJAM_LAPACK=OFF \
+  -DJAM_CLP=OFF -DJAM_USE_VORO=OFF -DJAM_WERROR=ON -DJAM_BUILD_TESTS=ON \
+  -DJAM_BUILD_PYTHON=OFF -DJAM_BUILD_EXAMPLES=OFF -DJAM_BUILD_CLI=OFF >/dev/null
 alone='unit_analysis_modes unit_analysis_spectrum unit_analysis_structure unit_crunch_recompress unit_crunch_steps'
 # shellcheck disable=SC2086
 cmake --build build-wheel -j "$jobs" --target $alone

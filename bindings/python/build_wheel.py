@@ -2,7 +2,8 @@
 
 The wheel has dense products of libjam's own and no Clp, so that it needs no library beside those that every system has.
 `--config-settings build-dir=FOLDER` keeps the build, so that the next wheel is made faster;
-`--config-settings cmake=-DJAM_LAPACK=ON` adds an option of CMake, and may be repeated.
+`--config-settings "cmake=-DJAM_LAPACK=ON -GNinja"` adds options of CMake, in one setting: pip before 23.1 takes the last of
+several.
 """
 from __future__ import annotations
 
@@ -12,6 +13,7 @@ import hashlib
 import io
 import os
 import re
+import shlex
 import subprocess
 import sys
 import sysconfig
@@ -60,9 +62,10 @@ def _metadata(licences: bool = True, objects: dict[str, bytes] | None = None) ->
 def _installed(folder: str, config: dict) -> Path:
     """Builds the tree and installs its Python part below the folder, the library beside the module."""
     build, prefix = Path(config.get("build-dir") or Path(folder, "build")), Path(folder, "prefix")
-    given = config.get("cmake") or []
+    given = config.get("cmake") or []  # later versions of pip make a list of repeated settings
     options = [
         "-DCMAKE_BUILD_TYPE=Release",
+        "-DCMAKE_UNITY_BUILD=ON",
         "-DJAM_LAPACK=OFF",
         "-DJAM_CLP=OFF",
         "-DJAM_USE_VORO=OFF",
@@ -74,7 +77,7 @@ def _installed(folder: str, config: dict) -> Path:
         f"-DCMAKE_INSTALL_PREFIX={prefix}",
         "-DCMAKE_INSTALL_LIBDIR=jam",
         "-DJAM_PYTHON_DIR=.",
-        *([given] if isinstance(given, str) else given),
+        *(shlex.split(given) if isinstance(given, str) else given),
     ]
     jobs = str(os.cpu_count() or 1)
     subprocess.run(["cmake", "-S", str(ROOT), "-B", str(build), *options], check=True)

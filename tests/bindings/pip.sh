@@ -9,7 +9,8 @@ trap 'rm -rf "$work"' EXIT
 /usr/bin/python3 -m venv "$work/venv"
 mkdir -p "$2"
 "$work/venv/bin/pip" wheel -q --no-index --no-deps --config-settings "build-dir=$2" \
-  --config-settings "cmake=-DJAM_WERROR=$3" -w "$work" "$1/bindings/python"
+  --config-settings "cmake=-DJAM_WERROR=$3 -DCMAKE_EXPORT_COMPILE_COMMANDS=ON" -w "$work" "$1/bindings/python"
+[ -s "$2/compile_commands.json" ] || { echo "the second of two options of CMake has no effect"; exit 1; }
 sh "$1/tests/bindings/wheel.sh" "$work"/jamming-*.whl
 # The tag of a wheel follows the newest version of GCC's library and of GLIBC that it asks for.
 (cd "$1" && PYTHONPATH=bindings/python /usr/bin/python3 -B -c '

@@ -2,8 +2,8 @@
 
 The wheel has dense products of libjam's own and no Clp, so that it needs no library beside those that every system has.
 `--config-settings build-dir=FOLDER` keeps the build, so that the next wheel is made faster;
-`--config-settings "cmake=-DJAM_LAPACK=ON -GNinja"` adds options of CMake, in one setting: pip before 23.1 takes the last of
-several.
+`--config-settings "cmake=-DJAM_LAPACK=ON -GNinja"` adds options of CMake, in one text: pip before 23.1
+takes the last of several settings.
 """
 from __future__ import annotations
 

@@ -22,7 +22,8 @@ configure() {
   # Other platforms are compiled with -O1 and joined sources, each of which halves the time; neither changes a bit.
   cmake -S . -B "$folder" -G Ninja -DCMAKE_BUILD_TYPE=None -DCMAKE_C_FLAGS=-O1 -DCMAKE_CXX_FLAGS=-O1 \
     -DJAM_WERROR=ON -DJAM_LAPACK=OFF -DJAM_CLP=OFF \
-    -DJAM_USE_VORO=OFF -DJAM_DIMENSIONS="2;3" -DJAM_BUILD_EXAMPLES=OFF -DCMAKE_UNITY_BUILD=ON "$@" >"$folder/configure.log" 2>&1 ||
+    -DJAM_USE_VORO=OFF -DJAM_DIMENSIONS="2;3" -DJAM_BUILD_EXAMPLES=OFF -DCMAKE_UNITY_BUILD=ON "$@" \
+    >"$folder/configure.log" 2>&1 ||
     { tail -20 "$folder/configure.log"; return 1; }
 }
 

@@ -3,10 +3,11 @@
 
 Proved is: exactly one packing within the printed radius touches exactly in the contacts that the file lists. All its
 forces are positive, all other pairs are open, and its stable spheres are collectively jammed; of a file with the word
-strict strictly: every motion and strain without overlap enlarges the volume. Integers and fractions decide. Forces
-and inverse are hints: bad ones lose the proof, they cannot make one. A file without inverse gets one by floats, from
-numpy or else computed here; OUT is then the file with it. A second line says what packing that is: spheres, contacts,
-rattlers, and the packing fraction to the digits that are proved.
+strict strictly: every motion and strain without overlap enlarges the volume; of a file with the word sum, that the
+weighted sum of radii has a strict local maximum there. Integers and fractions decide. Forces and inverse are hints:
+bad ones lose the proof, they cannot make one. A file without inverse gets one by floats, from numpy or else computed
+here; OUT is then the file with it. A second line says what packing that is: spheres, contacts, rattlers, and the
+packing fraction to the digits that are proved.
 
 Exit status: 0 proved, 1 not proved, 2 a file cannot be read or written, or PACKING.xyz is another packing, 3 trapped
 but not proved, 4 could not try: a file that this one needs is not beside it. Such files are jamproof_implied.py where
@@ -14,14 +15,18 @@ some contacts follow from others, jamproof_trapped.py for crystals and all else 
 jamproof_xyz.py for --xyz. The page "The theorems behind proofs" of the guide has the proofs.
 
 Theorem A. Unknown are the centres x of the stable spheres but the first, and G; if strict, in place of G the cell
-vectors H, a lower triangle. F_c = |r_c|^2 - G sigma_c^2, r_c = x_i - x_j + n H, is to be 0 for each contact c = (i, j,
-n). J = F', and R is J without the column of G. D = 4 d, or d max_c (2 + |n|_1)^2 if strict. For any matrix A let, in
-the maximum norm, delta >= |1 - A J|, eta >= |A F|, alpha >= |A|, and beta = D alpha.
+vectors H, a lower triangle; of a sum, all diameters. F_c = |r_c|^2 - G sigma_c^2, r_c = x_i - x_j + n H, is to be 0
+for each contact c = (i, j, n). J = F', and R is J without the column of G. D = 4 d, or d max_c (2 + |n|_1)^2 if
+strict; 4 d + 1 of a sum. For any matrix A let, in the maximum norm, delta >= |1 - A J|, eta >= |A F|, alpha >= |A|,
+and beta = D alpha.
 (1) If eta + delta r + beta r^2 <= r and delta + 2 beta r < 1, then F has exactly one zero within r.
 (2) Forces f are within (|R^T f - b|_1 + 2 D r |f|_1 + b') max |A_kc| / (1 - delta - 2 beta r) of those at the zero. Not
     strict, both have sum f sigma^2 = 1, and b = b' = 0. Strict, b is the gradient of log V, 1 / h on the diagonal of H,
-    and b' = sum r / (h (h - r)) bounds its change.
-(3) A pair x with m stable spheres stays open if |x|^2 - 2 m r |x|_1 > (G + r_G) sigma^2; if strict, m + |n|_1 for m.
+    and b' = sum r / (h (h - r)) bounds its change. Of a sum, b = -w_i / 2 for each diameter, and b' = 0.
+(3) A pair x with m stable spheres stays open if |x|^2 - 2 m r |x|_1 > (G + r_G) sigma^2; if strict, m + |n|_1 for m;
+    of a sum with (sigma + r)^2 on the right.
+A flat wall is a contact with the mirror image: r_c is twice the way from the wall to x_i, sigma_c the diameter, m = 2
+for a stable sphere. Along an axis with walls the first sphere is unknown too.
 """
 import base64
 import decimal
@@ -42,7 +47,7 @@ MOST_IMAGES, WAIT, FARTHEST = 10**6, 10, 10**4  # of a pair; seconds between lin
 SEEN, TWO = Fraction(9, 8), Fraction(2)  # gaps are those of pairs closer than SEEN times their sigma
 ONE = ("dim", "unit", "non_additivity", "gamma")  # lines of one number
 HEADER = (*ONE, "cell")
-WORDS = {*HEADER, "sphere", "contact", "tile", "implied", "inverse", "strict"}
+WORDS = {*HEADER, "walls", "sphere", "contact", "wall", "tile", "implied", "inverse", "strict", "sum"}
 AT_LEAST = ("outer", "least_gap", "least_force")  # bounds from below; all others are bounds from above
 
 
@@ -122,22 +127,33 @@ class Scene:
         self.dim = d = integer(dim)
         refuse(d < 1, "dim is not 1 or more")
         (cell,), spheres = take("cell", d * (d + 1) // 2), take("sphere", d + 2)
-        contacts = take("contact", d + 3, d + 4)
+        take("contact", d + 3, d + 4), take("wall", 4, 5)
+        contacts = [line for line in lines if line[0] in ("contact", "wall")]
+        closed = take("walls", *range(1, d + 1))
+        self.closed = [integer(c) for row in closed for c in row]  # axes with walls
         self.unit, self.gamma, cross = number(unit), number(gamma), 1 + number(cross)
         refuse(any(s[0] not in ("0", "1") for s in spheres), "a sphere is neither 1, stable, nor 0, a rattler")
         self.stable, self.ratio = [s[0] == "1" for s in spheres], [number(s[1]) for s in spheres]
-        self.contacts = [(integer(i), integer(j), tuple(map(integer, n[:d]))) for i, j, *n in contacts]
-        forces = [list(map(number, rest[d + 2 :])) for rest in contacts]
+        self.contacts = [self.ends(name, list(map(integer, rest[: d + 2 if name == "contact" else 3])))
+                         for name, *rest in contacts]  # fmt: skip
+        forces = [list(map(number, rest[d + 2 if name == "contact" else 3 :])) for name, *rest in contacts]
         self.force, self.row = [f[0] for f in forces], [f[-1] for f in forces]  # row: without implied contacts
         self.tiles = [(name, list(map(integer, ring))) for name, *ring in lines if name in ("tile", "implied")]
         self.within, self.hint, packed = None, None, take("inverse", 2)
-        self.strict = bool(strict := take("strict", 0))
+        self.strict, weights = bool(strict := take("strict", 0)), take("sum", len(spheres))
+        self.weights = [number(w) for row in weights for w in row]
+        self.fixed = self.strict or bool(self.weights)  # G is no unknown
         refuse(max(len(strict), len(packed)) > 1, "a line 'strict' or 'inverse' is there twice")
+        refuse(max(len(closed), len(weights)) > 1, "a line 'walls' or 'sum' is there twice")
         for name in (line[0] for line in lines[1:]):
             refuse(name not in WORDS, f"unknown word {name}")
-        lengths, self.one = whole([number(x) for s in [cell] + [s[2:] for s in spheres] for x in s])
+        lengths = [number(x) for s in [cell] + [s[2:] for s in spheres] for x in s]
+        halves = [v / 2 for v in self.ratio] if self.weights else []
+        lengths, self.one = whole(lengths + halves)
+        lengths = lengths[: len(lengths) - len(halves)]
         self.cell = [lengths[r * (r + 1) // 2 : (r + 1) * (r + 2) // 2] + [0] * (d - r - 1) for r in range(d)]
         self.x = [lengths[at : at + d] for at in range(len(cell), len(lengths), d)]
+        at_walls = {c for c, (_, j, _) in enumerate(self.contacts) if j < 0}
         ends, named = {i for c in self.contacts for i in c[:2]}, {c for _, ring in self.tiles for c in ring}
         again = {(j, i, tuple(-v for v in n)) for i, j, n in self.contacts} | set(self.contacts)
         positive = [self.unit, self.gamma, *self.ratio, *(self.cell[q][q] for q in range(d))]
@@ -145,15 +161,37 @@ class Scene:
         refuse(not any(self.stable), "no sphere is stable")
         refuse(not contacts, "the file lists no contact")
         refuse(len(again) != 2 * len(contacts), "a contact is there twice, or of a sphere with itself")
-        refuse(not ends <= {*range(len(spheres))}, "a contact names a sphere that is not there")
-        refuse(not named <= {*range(len(contacts))}, "a tile or an implied contact names a contact that is not there")
+        turned = any(row[c] for q, row in enumerate(self.cell) for c in range(q) if {q, c} & {*self.closed})
+        refuse(turned or self.strict and self.closed, "an axis with walls leans, or the file is strict")
+        refuse(not {*self.closed} <= {*range(d)} or len({*self.closed}) < len(self.closed), "'walls' names no axes")
+        beyond = any(n[c] for *_, n in self.contacts for c in self.closed)
+        refuse(beyond, "a contact reaches through a wall")
+        self.walls = [-1 - 2 * c - side for c in self.closed for side in (0, 1)]  # as partners of contacts
+        refuse(not ends <= {*range(len(spheres)), *self.walls}, "a contact names a sphere that is not there")
+        named -= {*range(len(contacts))} - at_walls
+        refuse(named, "a tile or an implied contact names a contact that is not there")
         refuse(min(positive) <= 0, "a diameter, a cell edge, unit or gamma is not positive")
+        other = self.strict or self.tiles or not all(self.stable) or (self.gamma, cross) != (1, 1)
+        other = other or min(self.weights, default=1) <= 0
+        refuse(self.weights and other, "a sum has positive weights, gamma 1, stable spheres, no tiles and no strict")
         (self.size, self.per), self.cross = whole(self.ratio), cross**2
-        self.first = {i: d * k for k, i in enumerate([i for i, yes in enumerate(self.stable) if yes][1:])}
-        at = [d * len(self.first) + q * (q + 1) // 2 for q in range(d + 1)]  # the first unknown of each cell vector
+        first, spheres = self.stable.index(True), [i for i, yes in enumerate(self.stable) if yes]
+        free = [(i, k) for i in spheres for k in range(d) if i != first or k in self.closed]
+        self.place = {end: at for at, end in enumerate(free)}  # of component k of sphere i
+        at = [len(free) + q * (q + 1) // 2 for q in range(d + 1)]  # the first unknown of each cell vector
         self.vectors, self.unknowns = (at[:-1], at[-1]) if self.strict else ([], at[0])  # their number without G
+        self.sizes, self.unknowns = at[0], self.unknowns + len(self.weights)  # the first diameter
         self.inverse = self.unpacked(*packed[-1]) if packed else None
-        self.gradient = {k + q: Fraction(self.one, self.cell[q][q]) for q, k in enumerate(self.vectors)}  # b
+        self.edges = [Fraction(self.cell[q][q], self.one) for q, _ in enumerate(self.vectors)]
+        self.gradient = {k + q: 1 / self.edges[q] for q, k in enumerate(self.vectors)}  # b
+        self.gradient.update({self.sizes + i: -w / 2 for i, w in enumerate(self.weights)})
+
+    def ends(self, name, numbers):
+        """(i, j, n) of a contact; with a wall j is -1 - 2 axis - side."""
+        if name == "contact":
+            return numbers[0], numbers[1], tuple(numbers[2:])
+        refuse(numbers[2] not in (0, 1) or numbers[1] < 0, "a wall is on side 0 or 1 of an axis")
+        return numbers[0], -1 - 2 * numbers[1] - numbers[2], (0,) * self.dim
 
     def unpacked(self, e, data):
         """The inverse of the file: no more than a column of unknowns for each contact is unpacked."""
@@ -163,12 +201,19 @@ class Scene:
         return integer(e), array("i", flat)
 
     def vector(self, i, j, n):
-        """r = x_i - x_j + n H."""
+        """r = x_i - x_j + n H, or twice the way from a wall."""
+        if j < 0:
+            axis, side = divmod(-1 - j, 2)
+            return [2 * (x - side * self.cell[c][c]) * (c == axis) for c, x in enumerate(self.x[i])]
         a, b, cell = self.x[i], self.x[j], self.cell
         return [a[c] - b[c] + sum(n[q] * cell[q][c] for q in range(c, self.dim)) for c in range(self.dim)]
 
+    def sigma(self, i, j):
+        return (self.ratio[i] + self.ratio[i if j < 0 else j]) / 2
+
     def sigma2(self, i, j):
-        """sigma^2, with sigma the mean of two diameters, times 1 + Delta where they differ."""
+        """sigma^2, with sigma the mean of two diameters, times 1 + Delta where they differ. A wall has the sphere's."""
+        j = i if j < 0 else j
         square = Fraction((self.size[i] + self.size[j]) ** 2, (2 * self.per) ** 2)
         return square if self.size[i] == self.size[j] else square * self.cross
 
@@ -176,15 +221,20 @@ class Scene:
         """Of the contacts kept: F, sigma^2 and the columns of R as [(row, integer over one)]."""
         f, sigma2, columns = [], [], [[] for _ in range(self.unknowns)]
         for c, (i, j, n) in enumerate(self.contacts[k] for k in kept):
-            refuse(i == j or not self.stable[i] or not self.stable[j], f"images: contact {c} is not of two stable ones")
+            loose = not self.stable[i] or j >= 0 and not self.stable[j]
+            refuse(i == j or loose, f"images: contact {c} is not of two stable ones")
             r = self.vector(i, j, n)
             sigma2.append(self.sigma2(i, j))
             f.append(Fraction(sum(map(mul, r, r)), self.one**2) - self.gamma * sigma2[c])
-            ends = [(self.first[k], 2 * sign, self.dim) for k, sign in ((i, 1), (j, -1)) if k in self.first]
-            ends += [(at, 2 * n[q], q + 1) for q, at in enumerate(self.vectors)]
-            for at, times, many in ends:
-                for k in range(many):
-                    columns[at + k].append((c, times * r[k]))
+            for end, times in ((i, 2), (j, -2)) if j >= 0 else ((i, 4),):
+                for k in range(self.dim):
+                    if (end, k) in self.place:
+                        columns[self.place[end, k]].append((c, times * r[k]))
+            for q, at in enumerate(self.vectors):
+                for k in range(q + 1):
+                    columns[at + k].append((c, 2 * n[q] * r[k]))
+            for end in ((i, j) if j >= 0 else (i, i)) if self.weights else ():
+                columns[self.sizes + end].append((c, -int(self.sigma(i, j) * self.one)))
         return f, sigma2, columns
 
     def rounded(self, columns):
@@ -200,7 +250,7 @@ class Scene:
     def state(self, sigma2, columns, forces):
         """The forces, unless strict scaled to sum f sigma^2 = 1, and what they miss of it and of balance."""
         off = 0
-        if not self.strict:
+        if not self.fixed:
             weight = sum(map(mul, sigma2, forces))
             forces = [Fraction(int(m * 2**90 / weight), 2**90) for m in forces]
             off = abs(1 - sum(map(mul, sigma2, forces)))
@@ -210,6 +260,7 @@ class Scene:
         """Spheres are open where a component of r is larger, and farther apart than SEEN. There is room for 4 radii,
         and strict for one more of each cell vector between them."""
         cell, way, most = self.cell, math.ceil(radius * self.one), [0] * self.dim
+        refuse(self.weights and 16 * radius > min(self.ratio), "singular: a diameter may be 0")
         largest = max(self.ratio) ** 2 * max(1, self.cross)
         reach = math.isqrt(math.ceil(gamma * largest * (SEEN * self.one) ** 2)) + 1 + 4 * way
         for c in reversed(range(len(self.vectors))):  # most: |n| of spheres this near, in any cell within the radius
@@ -222,23 +273,30 @@ class Scene:
     def least_opening(self, radius, gamma, part=1):
         """Refuses if (3) fails for this part of gamma; the least left side over gamma sigma^2 below SEEN^2, or None."""
         reach, least, rows = self.reach(radius, gamma), None, list(enumerate(self.cell))
-        many = math.prod(2 * reach // row[c] + 1 for c, row in rows)
+        many = math.prod(2 * reach // row[c] + 1 for c, row in rows if c not in self.closed)
         refuse(many > MOST_IMAGES, f"gap: the cell is so thin that a sphere meets more than {MOST_IMAGES} images")
         closed = {(j, i, tuple(-v for v in n)) for i, j, n in self.contacts} | set(self.contacts)
         closed |= {(i, i, (0,) * self.dim) for i in range(len(self.x))}
         for i in watched(range(len(self.x)), "pairs of spheres", 2):
-            for j in range(i + 1):
-                near = [((), [a - b for a, b in zip(self.x[i], self.x[j])])]  # n and r with components within reach
-                for c, row in reversed(rows):
+            for j in [*self.walls, *range(i + 1)]:
+                if j < 0:
+                    near = [((0,) * self.dim, self.vector(i, j, ()))]
+                    inside = sum(near[0][1]) * (1 if j % 2 else -1) > 4 * radius * self.one
+                    refuse(not inside, f"gap: the centre of sphere {i} may be outside the walls")
+                else:
+                    near = [((), [a - b for a, b in zip(self.x[i], self.x[j])])]  # n and r, components within reach
+                for c, row in reversed(rows) if j >= 0 else ():
                     some = [range(-((reach + r[c]) // row[c]), (reach - r[c]) // row[c] + 1) for _, r in near]
+                    some = [range(abs(r[c]) <= reach) for _, r in near] if c in self.closed else some
                     near = [((m, *n), [a + m * b for a, b in zip(r, row)]) for k, (n, r) in zip(some, near) for m in k]
                 for n, r in near:
                     if (i, j, n) in closed:
                         continue
-                    moving = (self.stable[i] + self.stable[j]) * (i != j) + self.strict * sum(map(abs, n))
+                    both = self.stable[i] + self.stable[i if j < 0 else j]
+                    moving = both * (i != j) + self.strict * sum(map(abs, n))
                     have = Fraction(sum(map(mul, r, r)), self.one**2)
                     have -= 2 * Fraction(sum(map(abs, r)), self.one) * radius * moving
-                    have /= gamma * self.sigma2(i, j)
+                    have /= (self.sigma(i, j) + radius) ** 2 if self.weights else gamma * self.sigma2(i, j)
                     refuse(have <= part, f"gap: spheres {i} and {j} are not open (image {n})")
                     least = min(least or have, have) if have < SEEN**2 else least
         return least
@@ -321,8 +379,8 @@ def bounds(s, f, columns, e, inverse, weights):
             total[l] -= 1 << (BITS - e)
         if l < len(columns):
             delta = [a + weights[l] * abs(v) for a, v in zip(delta, total)]
-    # J was rounded: half a unit in each entry of a row. Of the cell it has d (d + 1) / 2, or else one of G.
-    width = (2 * s.dim + (s.dim * (s.dim + 1) // 2 if s.strict else 1)) * max(weights)
+    # J was rounded: half a unit in each entry of a row. Of the cell it has d (d + 1) / 2, of a sum two, or one of G.
+    width = (2 * s.dim + (s.dim * (s.dim + 1) // 2 if s.strict else 2 if s.weights else 1)) * max(weights)
     delta = [(2 * v + width * a) * TWO ** (e - BITS - 1) for v, a in zip(delta, alpha)]
     return delta, [(abs(v) + a) * TWO ** (e + low) for v, a in zip(total, alpha)], [a * TWO**e for a in alpha]
 
@@ -334,17 +392,17 @@ def check(s):
     f, sigma2, columns = s.equations(kept)
     if len(kept) == len(every) and not any(f):
         return beside("jamproof_trapped", "closed", s, columns)
-    count = s.unknowns + (not s.strict)
+    count = s.unknowns + (not s.fixed)
     refuse(len(kept) != count, f"excess: {len(kept)} contacts, {count} unknowns" + ", too few" * (len(kept) < count))
-    j = s.rounded(columns) + ([] if s.strict else [[(c, round(-v * 2**BITS)) for c, v in enumerate(sigma2)]])
+    j = s.rounded(columns) + ([] if s.fixed else [[(c, round(-v * 2**BITS)) for c, v in enumerate(sigma2)]])
     e, inverse = inverse_of(s, j, count)
     delta, eta, alpha = bounds(s, f, j, e, inverse, [1] * count)
-    row, delta_g = ([0], 0) if s.strict else s.state(sigma2, columns, [s.row[c] for c in kept])
+    row, delta_g = ([0], 0) if s.fixed else s.state(sigma2, columns, [s.row[c] for c in kept])
     eta_g, alpha_g = abs(sum(map(mul, f, row))), sum(map(abs, row))  # the row of G is minus a state of self-stress
     largest = max([max(max(map(abs, column)) for column in inverse) * TWO**e, *map(abs, row)])
     delta, eta, alpha = max(delta + [delta_g]), max(eta + [eta_g]), max(alpha + [alpha_g])
     ways = 2 + s.strict * max(sum(map(abs, n)) for *_, n in s.contacts)  # a contact vector moves by ways r at most
-    wide = s.dim * ways**2  # D
+    wide = s.dim * ways**2 + bool(s.weights)  # D
     beta, room = wide * alpha, (1 - delta) ** 2
     wrong = delta >= 1 or 4 * beta * eta >= room
     refuse(wrong, f"singular: delta {float(delta):.3g}, 4 beta eta {float(4 * beta * eta):.3g}")
@@ -357,13 +415,14 @@ def check(s):
     # Forces on implied contacts are free: those of the file. The others balance them, with this A.
     _, sigma2, columns = s.equations(every) if s.tiles else (f, sigma2, columns)
     forces, off = s.state(sigma2, columns, s.force)
-    edges, size, least = [1 / b for b in s.gradient.values()], sum(map(abs, forces)), min(forces)
-    refuse(any(h <= r for h in edges), "singular: the cell is not larger than the radius")
-    off += sum(r / (h * (h - r)) for h in edges)
+    size, least = sum(map(abs, forces)), min(forces)
+    refuse(any(h <= r for h in s.edges), "singular: the cell is not larger than the radius")
+    off += sum(r / (h * (h - r)) for h in s.edges)
     error, mean = (off + 2 * wide * size * r) / (1 - delta - 2 * beta * r) * largest, size / len(forces)  # (2)
     refuse(least <= error, f"force: the least is {float(least / mean):.3g}, its error {float(error / mean):.3g}")
-    s.within = [v * r for v in s.gradient.values()] if s.strict else r_g / s.gamma
-    found = {"radius": r * s.unit, **({} if s.strict else {"gamma_error": r_g / s.gamma})}
+    s.within = [r / h for h in s.edges] if s.strict else sum(s.weights) / 2 * r if s.weights else r_g / s.gamma
+    found = {"radius": r * s.unit, **({} if s.fixed else {"gamma_error": r_g / s.gamma})}
+    found.update({"sum_error": s.within * s.unit} if s.weights else {})
     found["least_gap"] = gap(s.least_opening(r, s.gamma + r_g))
     return {**found, "delta": delta, "least_force": least / mean, "force_error": error / mean}
 
@@ -392,8 +451,11 @@ def pi_between():
 
 
 def fraction(s):
-    """The packing fraction, rattlers included, from below and above: pi^(d/2) / (2^d Gamma(d/2 + 1)) sum sigma^d / V.
+    """The sum of radii, or the packing fraction, rattlers included, from below and above. The latter is pi^(d/2) / (2^d
+    Gamma(d/2 + 1)) sum sigma^d / V.
     sigma^2 of a sphere is G ratio^2, G known to `within`; strict V is known to that part of each edge."""
+    if s.weights:
+        return [s.unit * (sum(map(mul, s.weights, s.ratio)) / 2 + sign * s.within) for sign in (-1, 1)]
     d, root = s.dim, lambda v, up: Fraction(math.isqrt(math.floor(v * 4**400)) + up, 2**400)
     volume = Fraction(math.prod(s.cell[q][q] for q in range(d)), s.one**d)
     balls = sum(v**d for v in s.ratio) * Fraction(1, 2**d)
@@ -413,7 +475,8 @@ def summary(s):
     low, high = (str(math.floor(v * 10**100)).zfill(101) for v in fraction(s)) if s.within is not None else ("", "")
     same = next((k for k, (a, b) in enumerate(zip(low, high)) if a != b), len(low))
     point = len(low) - 100
-    digits = f", phi = {low[:point]}.{low[point:same]}..." if same > point > 0 else ""
+    what = "sum of radii" if s.weights else "phi"
+    digits = f", {what} = {low[:point]}.{low[point:same]}..." if same > point > 0 else ""
     loose = s.stable.count(False)
     return f"d = {s.dim}, N = {len(s.x)}, {len(s.contacts)} contacts, {loose} rattler{'s' * (loose != 1)}{digits}"
 
@@ -427,7 +490,7 @@ def conclusion(s):
         return 4, f"could not try: {why}"
     except (Refused, OverflowError, ZeroDivisionError) as why:
         text = f"not proved: {why}"
-    if not text.startswith("not proved: excess"):
+    if not text.startswith("not proved: excess") or s.weights:
         return 1, text
     try:
         return 3, f"trapped{strictly}: {shown(beside('jamproof_trapped', 'trapped', s))}; {text}"

@@ -11,9 +11,9 @@ a motion without overlap that does not enlarge V. With a unit u_i <= 1 of each s
 
     rho (1 - delta - M g) <= M sum f e + |A e| + (M (sum_c f_c w_c + sum 1 / h^2) + max_k sum_c |A_kc| w_c / u_k) rho^2
 
-with w_c = d (u_i + u_j + |n|_1 if strict)^2; rows of A e and 1 - A R over u_k, columns of 1 - A R times u_l; 1 / h^2
-if strict, of the cell's edges h. So rho <= `inner` or rho >= R = `outer` / min u_i, both between the roots; if strict
-`outer` is at most h / 2.
+with w_c = d (u_i + u_j + |n|_1 if strict)^2, at a wall u_j = u_i; rows of A e and 1 - A R over u_k, columns of 1 - A R
+times u_l; 1 / h^2 if strict, of the cell's edges h. So rho <= `inner` or rho >= R = `outer` / min u_i, both between the
+roots; if strict `outer` is at most h / 2.
 """
 import math
 from fractions import Fraction
@@ -86,15 +86,15 @@ def trapped(s):
     forces = [Fraction(m, per) for m in stress]
     rest, opened = sum(map(abs, s.unbalanced(columns, forces))), sum(map(mul, f, forces))
     # Strict: log V falls by no more than the sum of (way / edge)^2 below its gradient, for ways up to half an edge.
-    edges = [1 / b for b in s.gradient.values()]
+    edges = s.edges
     for grown in [[1] * s.unknowns] + ([] if s.strict else [loosely_held(s, inverse, stress)]):
         top = max(grown)
         delta, eta, _ = bounds(s, f, j, e, inverse, [top // g for g in grown])
         delta, eta = (max(v * g for v, g in zip(values, grown)) for values in (delta, eta))
-        unit = {i: Fraction(1, grown[at]) for i, at in s.first.items()}
+        unit = {i: Fraction(1, grown[at]) for (i, _), at in s.place.items()}
         square, alpha, largest = sum(1 / h**2 for h in edges), [0] * s.unknowns, 0
         for (i, k, n), column, m in zip(s.contacts, inverse, stress):
-            ways = unit.get(i, Fraction(1, top)) + unit.get(k, Fraction(1, top)) + s.strict * sum(map(abs, n))
+            ways = sum(unit.get(p, Fraction(1, top)) for p in (i, i if k < 0 else k)) + s.strict * sum(map(abs, n))
             wide = s.dim * ways**2  # |w|^2 of a motion of length 1
             square, column = square + wide * Fraction(m, per), [abs(v) * g for v, g in zip(column, grown)]
             largest, scale = max(largest, Fraction(max(column) * per, m)), int(wide * top**2)
@@ -131,5 +131,7 @@ def loosely_held(s, inverse, stress):
     for column, m in zip(inverse, stress):
         part = 1.0 / m
         way = [max(a, abs(v) * part) for a, v in zip(way, column)]
-    way = [max(1e-300, *way[k : k + s.dim]) for k in range(0, len(way), s.dim)]
-    return [1 << int(min(FINEST, math.log2(max(way) / a))) for a in way for _ in range(s.dim)]
+    longest = {}
+    for (i, _), at in s.place.items():
+        longest[i] = max(1e-300, way[at], longest.get(i, 0.0))
+    return [1 << int(min(FINEST, math.log2(max(longest.values()) / longest[i]))) for i, _ in s.place]

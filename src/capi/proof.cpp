@@ -16,7 +16,7 @@ namespace {
 constexpr char dependent[] = "the rows of the contacts are dependent, so positions are not refined";
 
 ProofScene take_scene(const jam_system *sys, const double *ratio, size_t ratio_len) {
-  refuse_walls(sys->packing, "proved jammed despite rounding");
+  refuse_unproved_walls(sys->packing);
   need_network(sys);
   const Packing &p = sys->packing;
   if (p.model != JAM_MODEL_EUCLID) fail(JAM_E_UNSUPPORTED, "proofs are for spheres without Mari-Kurchan shifts");
@@ -41,6 +41,7 @@ ProofScene take_scene(const jam_system *sys, int32_t kind, const double *ratio, 
   const bool strict = kind == JAM_RIGIDITY_STRICT;
   if (strict && (ratio || ratio_len != 0))
     fail(JAM_E_ARGUMENT, "ratio must be NULL: a strict proof takes the diameters as they are");
+  if (strict) refuse_walls(sys->packing, "proved strictly jammed");
   ProofScene scene = take_scene(sys, ratio, ratio_len);
   if (strict) scene.strict = true, scene.implied.clear();
   return scene;
@@ -100,6 +101,11 @@ Answer write_scene(ProofScene scene, const char *path) {
 }
 
 }  // namespace
+
+void jam::inside::refuse_unproved_walls(const Packing &p) {
+  if (p.container.curved())
+    fail(JAM_E_UNSUPPORTED, "a scene with a round wall cannot be proved jammed despite rounding yet");
+}
 
 jam_proof_report jam::inside::prove_network(const Packing &p, const ContactNetwork &network) {
   ProofScene scene = make_proof_scene(p, network, {});

@@ -44,6 +44,10 @@ void write_proof(const ProofScene &s, const char *path) {
   put(out += "\nnon_additivity ", s.non_additivity);
   put(out += "\ngamma ", s.gamma, s.gamma_low);
   out += '\n';
+  if (s.container) out += "walls";
+  for (int c = 0; c < s.dim; ++c)
+    if (!s.cell.repeats(c)) out += ' ' + std::to_string(c);
+  if (s.container) out += '\n';
   for (size_t i = 0; i < s.ratio.size(); ++i) {
     out += s.node[i] >= 0 ? "sphere 1 " : "sphere 0 ";
     put(out, s.ratio[i]);
@@ -55,8 +59,14 @@ void write_proof(const ProofScene &s, const char *path) {
   for (const ImpliedContact &c : s.implied) implied[c.contact] = true;
   size_t row = 0;  // of the contacts that are not implied
   for (size_t k = 0; k < s.contacts(); ++k) {
-    out += "contact " + std::to_string(s.sphere[s.a[k]]) + ' ' + std::to_string(s.sphere[s.b[k]]);
-    for (size_t c = 0; c < d; ++c) out += ' ' + std::to_string(s.image[k * d + c]);
+    const std::string from = std::to_string(s.sphere[s.a[k]]) + ' ';
+    if (s.wall(k)) {
+      const Surface &plane = s.container[wall_partner(s.b[k])];
+      out += "wall " + from + std::to_string(plane.axis()) + ' ' + std::to_string(plane.side());
+    } else {
+      out += "contact " + from + std::to_string(s.partner(k));
+      for (size_t c = 0; c < d; ++c) out += ' ' + std::to_string(s.image[k * d + c]);
+    }
     put(out += ' ', s.force[k]);
     if (!s.row.empty()) put(out += ' ', implied[k] ? 0.0 : s.row[row++]);
     out += '\n';

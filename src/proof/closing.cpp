@@ -85,10 +85,12 @@ std::vector<char> closing_together(const ProofScene &s, const ProofEquations &e,
   return on;
 }
 
-bool is_stable(const ProofScene &s, const NearPair &pair) { return s.node[pair.i] >= 0 && s.node[pair.j] >= 0; }
+bool is_stable(const ProofScene &s, const NearPair &pair) {
+  return s.node[pair.i] >= 0 && (pair.j < 0 || s.node[pair.j] >= 0);
+}
 
 void add_contact(ProofScene &s, const NearPair &pair) {
-  s.a.push_back(s.node[pair.i]), s.b.push_back(s.node[pair.j]), s.force.push_back(0.0);
+  s.a.push_back(s.node[pair.i]), s.b.push_back(pair.j < 0 ? pair.j : s.node[pair.j]), s.force.push_back(0.0);
   s.image.insert(s.image.end(), pair.image.begin(), pair.image.end());
 }
 
@@ -97,11 +99,14 @@ RigidityMatrix rows_of(const ProofScene &s) {
   RigidityMatrix g;
   g.dim = s.dim, g.nodes = static_cast<int32_t>(s.nodes()), g.sphere = s.sphere, g.node = s.node;
   g.a = s.a, g.b = s.b;
+  if (s.container) g.open_axes = ~s.container.closed();
+  for (const Surface &plane : s.container) g.wall.push_back(plane.turning());
   for (size_t c = 0; c < s.contacts(); ++c) {
     double square = 0.0;
     for (int k = 0; k < s.dim; ++k) square += e.row[c * s.dim + k] * e.row[c * s.dim + k];
     for (int k = 0; k < s.dim; ++k) g.normal.push_back(e.row[c * s.dim + k] / std::sqrt(square));
-    g.distance.push_back(0.5 * std::sqrt(square)), g.sigma.push_back(std::sqrt(s.gamma * e.sigma2[c]));
+    const double part = s.wall(c) ? 0.5 : 1.0;  // of the mirror image's distance
+    g.distance.push_back(0.5 * part * std::sqrt(square)), g.sigma.push_back(part * std::sqrt(s.gamma * e.sigma2[c]));
   }
   return g;
 }
@@ -122,7 +127,10 @@ bool take_middle_forces(ProofScene &scene) {
     const RigidityMatrix g = rows_of(s);
     const RigidityResult r = test_rigidity(g, Jamming::collective);
     if (r.rigid != Verdict::yes) continue;
-    for (size_t c = 0; c < s.contacts(); ++c) s.force[c] = r.force[c] / g.sigma[c], on.push_back(r.force[c] > 0.0);
+    for (size_t c = 0; c < s.contacts(); ++c) {
+      s.force[c] = r.force[c] / (s.wall(c) ? 4.0 : 1.0) / g.sigma[c];
+      on.push_back(r.force[c] > 0.0);
+    }
     keep_contacts(s, on);
     scene = std::move(s);
     return true;
@@ -195,7 +203,7 @@ void mix_in_forces_of_closed(ProofScene &settled, const ProofScene &closed) {
   const size_t d = static_cast<size_t>(closed.dim);
   const auto key = [d](const ProofScene &s, size_t c) {
     const auto at = s.image.begin() + static_cast<std::ptrdiff_t>(c * d);
-    std::vector<int32_t> out{s.sphere[s.a[c]], s.sphere[s.b[c]]};
+    std::vector<int32_t> out{s.sphere[s.a[c]], s.partner(c)};
     out.insert(out.end(), at, at + static_cast<std::ptrdiff_t>(d));
     return out;
   };

@@ -60,7 +60,7 @@ void name_saddle(const ProofScene &s, const ProofEquations &e, Proof &proof) {
 
 // The cause where nothing is proved and spheres touch their own images, whether a network lists them or not.
 void name_images(const ProofScene &s, Proof &proof) {
-  const double widest = *std::max_element(s.ratio.begin(), s.ratio.end()), apart = s.cell.shortest();
+  const double widest = *std::max_element(s.ratio.begin(), s.ratio.end()), apart = s.shortest_period();
   if (!shown(proof) && s.gamma * widest * widest > (1.0 - contact_gap_limit) * apart * apart)
     proof.cause = ProofCause::images, proof.cause_value = 1.0, proof.cause_bound = 0.0;
 }

@@ -45,12 +45,14 @@ Cage cage_of(const ProofScene &s, int32_t i, const std::vector<NearPair> &pairs)
     Cell::Vector r{};
     double square = 0.0;
     for (size_t c = 0; c < d; ++c) {
-      r[c] = s.high[pair.i * d + c] - s.high[pair.j * d + c];
+      if (pair.j < 0) r[c] = apart(s, pair, c).value();
+      if (pair.j >= 0) r[c] = s.high[pair.i * d + c] - s.high[pair.j * d + c];
       for (size_t q = c; q < d; ++q) r[c] += pair.image[q] * s.cell.row(static_cast<int>(q))[c];
       square += r[c] * r[c];
     }
     for (size_t c = 0; c < d; ++c) out.normal.push_back((pair.i == i ? r[c] : -r[c]) / std::sqrt(square));
-    out.gap.push_back(opening_of(s, pair) * 0.5 * std::sqrt(square) / s.gamma);
+    // A mirror image moves away as fast as the sphere.
+    out.gap.push_back(opening_of(s, pair) * (pair.j < 0 ? 0.25 : 0.5) * std::sqrt(square) / s.gamma);
   }
   return out;
 }
@@ -117,8 +119,9 @@ bool free_rattlers(ProofScene &s) {
   const std::vector<NearPair> pairs = near_pairs(s);
   bool moved = false;
   for (const NearPair &pair : pairs)
-    for (const int32_t i : {pair.i, pair.j})
+    for_spheres(pair.i, pair.j, [&](int32_t i) {
       if (s.node[i] < 0 && opening_of(s, pair) < 0.0) moved = free_rattler(s, i, pairs) || moved;
+    });
   return moved;
 }
 

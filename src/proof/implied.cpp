@@ -29,7 +29,7 @@ class Lengths {
   explicit Lengths(const ProofScene &s) {
     std::map<std::tuple<double, double, bool>, int> seen;
     for (size_t c = 0; c < s.contacts(); ++c) {
-      const double p = s.ratio[s.sphere[s.a[c]]], q = s.ratio[s.sphere[s.b[c]]];
+      const double p = s.ratio[s.sphere[s.a[c]]], q = s.wall(c) ? p : s.ratio[s.partner(c)];
       const DoubleDouble sum = two_sum(p, q);  // two equal sums have equal parts
       const auto key = std::make_tuple(sum.high, sum.low, s.non_additivity != 0.0 && p != q);
       of.push_back(seen.emplace(key, static_cast<int>(seen.size())).first->second);
@@ -68,6 +68,7 @@ class Tiles {
  public:
   Tiles(const ProofScene &s, const Lengths &lengths) : lengths_(lengths), around_(s.nodes()), of(s.contacts()) {
     for (size_t c = 0; c < s.contacts(); ++c) {
+      if (s.wall(c)) continue;
       Side out{static_cast<int32_t>(c), s.b[c], s.a[c], {s.image[2 * c], s.image[2 * c + 1]}, {}};
       for (int k = 0; k < 2; ++k) out.r[k] = s.component(c, k).value();
       const Side back{out.contact, out.to, out.from, {-out.image[0], -out.image[1]}, {-out.r[0], -out.r[1]}};
@@ -270,7 +271,7 @@ class Search {
 }  // namespace
 
 std::vector<ImpliedContact> find_implied(const ProofScene &s) {
-  const size_t needed = s.nodes() > 0 ? s.unknowns() - s.dim + 1 : 0;
+  const size_t needed = s.nodes() > 0 ? static_cast<size_t>(s.needed()) : 0;
   if (s.dim != 2 || s.strict || s.own_images || s.contacts() <= needed) return {};
   return Search(s).run(s.contacts() - needed);
 }

@@ -49,8 +49,9 @@ NewtonStep newton_step(const ProofScene &s, const ProofEquations &e, const Norma
 
 void take_step(ProofScene &s, const NewtonStep &step) {
   const size_t d = static_cast<size_t>(s.dim);
-  for (size_t i = 1; i < s.nodes(); ++i)
+  for (size_t i = 0; i < s.nodes(); ++i)
     for (size_t k = 0; k < d; ++k) {
+      if (!s.moves(i, static_cast<int>(k))) continue;
       const size_t at = static_cast<size_t>(s.sphere[i]) * d + k;
       add_to(s.high[at], s.low[at], step.v[i * d + k]);
     }
@@ -59,7 +60,7 @@ void take_step(ProofScene &s, const NewtonStep &step) {
   std::vector<double> rows = s.cell.rows();
   for (size_t q = 0; q < d; ++q)
     for (size_t k = 0; k <= q; ++k) add_to(rows[q * d + k], s.cell_low[q * d + k], step.v[(s.nodes() + q) * d + k]);
-  s.cell = Cell::from_triangle(s.dim, rows.data());
+  s.cell = Cell::from_triangle(s.dim, rows.data());  // of a cell without walls
 }
 
 bool approach_closure(ProofScene &s, ProofEquations &e) {

@@ -27,7 +27,7 @@ NormalMatrix::NormalMatrix(const ProofScene &s, const ProofEquations &e) : scene
     s.each_end(c, [&](size_t p, double wp) {
       s.each_end(c, [&](size_t q, double wq) {
         if (p == q) add(&m_.diag[p * dd], p, p, r, wp * wp);
-        if (p == 0 || p >= q) return;
+        if (s.pinned(p) || p >= q) return;
         std::vector<double> &block = off[{p, q}];
         block.resize(dd, 0.0);
         add(block.data(), p, q, r, wp * wq);
@@ -35,7 +35,7 @@ NormalMatrix::NormalMatrix(const ProofScene &s, const ProofEquations &e) : scene
     });
   }
   double trace = 0.0;
-  for (size_t i = d; i < s.unknowns(); ++i) trace += m_.diag[i * d + i % d];
+  for (size_t i = 0; i < s.unknowns(); ++i) trace += m_.diag[i * d + i % d];
   for (size_t i = 0; i < s.unknowns(); ++i)
     if (!s.moves(i / d, static_cast<int>(i % d))) m_.diag[i * d + i % d] = trace / static_cast<double>(s.unknowns());
   for (auto &[pair, block] : off) {
@@ -84,7 +84,7 @@ void NormalMatrix::project_on_balance(std::vector<double> &f) const {
 double NormalMatrix::smallest_eigenvalue() const {
   std::vector<double> v(scene_.unknowns(), 0.0), y(scene_.contacts());
   Rng random(7, Stream::analysis_start);
-  for (size_t k = scene_.dim; k < v.size(); ++k) v[k] = random.uniform() - 0.5;
+  for (size_t k = scene_.pinned(0) ? scene_.dim : 0; k < v.size(); ++k) v[k] = random.uniform() - 0.5;
   double value = 0.0;
   for (int pass = 0; pass < proof_tuning::inverse_iterations; ++pass) {
     CallScope::look();

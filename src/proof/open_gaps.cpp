@@ -18,10 +18,10 @@ using Image = std::vector<int32_t>;
 std::map<std::pair<int32_t, int32_t>, std::set<Image>> contact_images(const ProofScene &s) {
   std::map<std::pair<int32_t, int32_t>, std::set<Image>> out;
   for (size_t c = 0; c < s.contacts(); ++c) {
-    int32_t i = s.sphere[s.a[c]], j = s.sphere[s.b[c]];
+    int32_t i = s.sphere[s.a[c]], j = s.partner(c);
     Image n(s.image.begin() + static_cast<std::ptrdiff_t>(c * s.dim),
             s.image.begin() + static_cast<std::ptrdiff_t>((c + 1) * s.dim));
-    if (i > j) {
+    if (j >= 0 && i > j) {
       std::swap(i, j);
       for (int32_t &x : n) x = -x;
     }
@@ -34,23 +34,18 @@ std::map<std::pair<int32_t, int32_t>, std::set<Image>> contact_images(const Proo
 // 1e-3 far.
 Packing rounded(const ProofScene &s) {
   Packing p;
-  p.dim = s.dim, p.cell = s.cell, p.non_additivity = s.non_additivity;
+  p.dim = s.dim, p.cell = s.cell, p.container = s.container, p.non_additivity = s.non_additivity;
   p.position = s.high;
   for (const double ratio : s.ratio) p.diameter.push_back(std::sqrt(s.gamma) * ratio);
   return p;
 }
 
-// x_i - x_j + n A in component c.
-Expansion component(const ProofScene &s, int32_t i, int32_t j, const Image &n, size_t c) {
-  const size_t d = static_cast<size_t>(s.dim), a = i * d + c, b = j * d + c;
-  Expansion r(s.high[a]);
-  r.add(s.low[a]), r.add(-s.high[b]), r.add(-s.low[b]);
-  for (size_t q = c; q < d; ++q)
-    if (n[q] != 0) {
-      r.add_product(n[q], s.cell.row(static_cast<int>(q))[c]);
-      r.add_product(n[q], s.cell_low[q * d + c]);
-    }
-  return r;
+// Whether all centres are inside, at a distance that no radius of a proof reaches.
+bool inside_walls(const Packing &p) {
+  for (size_t i = 0; i < p.n(); ++i)
+    if (p.container && !p.container.holds(&p.position[i * static_cast<size_t>(p.dim)], 0.25 * p.diameter[i]))
+      return false;
+  return true;
 }
 
 // f(i, j, n) of all pairs that are no contacts, as far as `near`. False where an offset is no cell vector.
@@ -71,14 +66,14 @@ bool each_near_pair(const ProofScene &s, const Packing &p, F &&f) {
 }  // namespace
 
 Expansion apart(const ProofScene &s, const NearPair &pair, size_t c) {
-  return component(s, pair.i, pair.j, pair.image, c);
+  return s.component(pair.i, pair.j, pair.image.data(), static_cast<int>(c));
 }
 
 double opening_of(const ProofScene &s, const NearPair &pair) {
   Expansion sum, gamma(s.gamma);
   gamma.add(s.gamma_low);
   for (size_t c = 0; c < static_cast<size_t>(s.dim); ++c) {
-    const Expansion r = component(s, pair.i, pair.j, pair.image, c);
+    const Expansion r = apart(s, pair, c);
     sum.add_product(r, r);
   }
   const Expansion sigma2 = s.sigma_squared(pair.i, pair.j);
@@ -108,11 +103,11 @@ OpenGaps open_gaps(const ProofScene &s, double radius, double gamma) {
     Expansion sum;
     double one = 0.0;
     for (size_t c = 0; c < d; ++c) {
-      const Expansion r = component(s, i, j, n, c);
+      const Expansion r = s.component(i, j, n.data(), static_cast<int>(c));
       sum.add_product(r, r);
       one = add_up(one, up(std::fabs(r.value())));
     }
-    const double moving = (s.node[i] >= 0) + (s.node[j] >= 0);
+    const double moving = (s.node[i] >= 0) + (s.node[j < 0 ? i : j] >= 0);
     double ends = moving;
     for (size_t q = 0; s.strict && q < d; ++q) ends += std::abs(n[q]);
     const Expansion sigma2 = s.sigma_squared(i, j);
@@ -126,10 +121,10 @@ OpenGaps open_gaps(const ProofScene &s, double radius, double gamma) {
     out.open = false;
     out.of_rattler = moving < 2.0;
   });
-  if (!listed) return {};
+  if (!listed || !inside_walls(p)) return {};
   const double widest = *std::max_element(s.ratio.begin(), s.ratio.end());
   if (!(mul_up(gamma, mul_up(widest, widest)) <
-        s.cell.shortest() * s.cell.shortest() * (1.0 - (s.strict ? 1e-3 : 1e-12))))
+        s.shortest_period() * s.shortest_period() * (1.0 - (s.strict ? 1e-3 : 1e-12))))
     out.open = out.all_seen = false;
   return out;
 }

@@ -16,7 +16,7 @@ struct OpenGaps {
 OpenGaps open_gaps(const ProofScene &scene, double radius, double gamma);
 
 struct NearPair {
-  int32_t i, j;                // spheres, i <= j
+  int32_t i, j;                // spheres, i <= j; j < 0: a wall
   std::vector<int32_t> image;  // n of x_i - x_j + n A
   double opening;              // |r|^2 / sigma^2 - Gamma at the scene's exact numbers, rounded once
 };

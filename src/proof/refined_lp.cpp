@@ -17,7 +17,7 @@ std::vector<NearPair> all_pairs(const ProofScene &s) {
   std::vector<NearPair> out;
   for (size_t c = 0; c < s.contacts(); ++c) {
     const auto at = s.image.begin() + static_cast<std::ptrdiff_t>(c * s.dim);
-    out.push_back({s.sphere[s.a[c]], s.sphere[s.b[c]], std::vector<int32_t>(at, at + s.dim), 0.0});
+    out.push_back({s.sphere[s.a[c]], s.partner(c), std::vector<int32_t>(at, at + s.dim), 0.0});
   }
   for (NearPair &pair : near_pairs(s)) out.push_back(std::move(pair));
   return out;
@@ -48,7 +48,8 @@ void make_step(const ProofScene &s, const std::vector<NearPair> &pairs, double s
     const double sigma2 = s.sigma_squared(pair.i, pair.j).value(), c = pair.opening / (s.gamma * step);
     if (c > proof_tuning::beyond_step * std::max(1.0, 1.0 / std::sqrt(sigma2))) continue;
     out.pair.push_back(k), out.list.i.push_back(pair.i), out.list.j.push_back(pair.j), out.lp.c.push_back(c);
-    for (size_t q = 0; q < d; ++q) out.lp.a.push_back(2.0 * apart(s, pair, q).value() / (unit * sigma2));
+    for (size_t q = 0; q < d; ++q)
+      out.lp.a.push_back((pair.j < 0 ? 4.0 : 2.0) * apart(s, pair, q).value() / (unit * sigma2));
   }
   out.lp.dim = s.dim, out.lp.n = static_cast<int32_t>(s.ratio.size()), out.lp.pairs = &out.list, out.lp.bound = 1.0;
 }
@@ -59,14 +60,15 @@ void take_closed(ProofScene &s, const std::vector<NearPair> &pairs, const std::v
   s.implied.clear(), s.row.clear();
   std::vector<char> touches(s.ratio.size(), 0);
   for (const NearPair &pair : pairs)
-    if (pair.opening <= proof_tuning::closed) touches[pair.i] = touches[pair.j] = 1;
+    if (pair.opening <= proof_tuning::closed) for_spheres(pair.i, pair.j, [&](int32_t i) { touches[i] = 1; });
   for (size_t i = 0; i < touches.size(); ++i) {
     s.node[i] = touches[i] ? static_cast<int32_t>(s.sphere.size()) : -1;
     if (touches[i]) s.sphere.push_back(static_cast<int32_t>(i));
   }
   for (size_t k = 0; k < pairs.size(); ++k) {
     if (pairs[k].opening > proof_tuning::closed) continue;
-    s.a.push_back(s.node[pairs[k].i]), s.b.push_back(s.node[pairs[k].j]), s.force.push_back(force[k]);
+    const int32_t j = pairs[k].j;
+    s.a.push_back(s.node[pairs[k].i]), s.b.push_back(j < 0 ? j : s.node[j]), s.force.push_back(force[k]);
     s.image.insert(s.image.end(), pairs[k].image.begin(), pairs[k].image.end());
   }
 }

@@ -8,19 +8,41 @@
 
 namespace jam::inside {
 
-Expansion ProofScene::component(size_t c, int k) const {
-  const size_t i = static_cast<size_t>(sphere[a[c]]) * dim + k, j = static_cast<size_t>(sphere[b[c]]) * dim + k;
-  Expansion r(high[i]);
-  r.add(low[i]), r.add(-high[j]), r.add(-low[j]);
+Expansion ProofScene::component(int32_t i, int32_t j, const int32_t *n, int k) const {
+  const size_t at = static_cast<size_t>(i) * dim + k;
+  Expansion r(high[at]);
+  r.add(low[at]);
+  if (j < 0) {
+    const Surface &plane = container[wall_partner(j)];
+    if (plane.axis() != k) return Expansion();
+    if (plane.side()) r.add(-cell.edge(k));
+    r.add(Expansion(r));
+    return r;
+  }
+  const size_t to = static_cast<size_t>(j) * dim + k;
+  r.add(-high[to]), r.add(-low[to]);
   for (int q = k; q < dim; ++q)
-    if (image[c * dim + q] != 0) {
-      r.add_product(image[c * dim + q], cell.row(q)[k]);
-      r.add_product(image[c * dim + q], cell_low[q * dim + k]);
+    if (n[q] != 0) {
+      r.add_product(n[q], cell.row(q)[k]);
+      r.add_product(n[q], cell_low[q * dim + k]);
     }
   return r;
 }
 
+double ProofScene::shortest_period() const {
+  std::vector<double> rows;
+  int open = 0;
+  for (int q = 0; q < dim; ++q) {
+    if (!cell.repeats(q)) continue;
+    ++open;
+    for (int k = 0; k < dim; ++k)
+      if (cell.repeats(k)) rows.push_back(cell.row(q)[k]);
+  }
+  return open > 0 ? Cell::from_triangle(open, rows.data()).shortest() : HUGE_VAL;
+}
+
 Expansion ProofScene::sigma_squared(int32_t i, int32_t j) const {
+  if (j < 0) j = i;
   Expansion sum(0.5 * ratio[i]), square;
   sum.add(0.5 * ratio[j]);
   if (non_additivity != 0.0 && ratio[i] != ratio[j]) {
@@ -52,13 +74,16 @@ void keep_contacts(ProofScene &s, const std::vector<char> &on) {
   take_out_contacts(s, on);
   const std::vector<int32_t> before = s.sphere;
   std::vector<char> stable(s.nodes(), 0);
-  for (size_t c = 0; c < s.contacts(); ++c) stable[s.a[c]] = stable[s.b[c]] = 1;
+  for (size_t c = 0; c < s.contacts(); ++c) for_spheres(s.a[c], s.b[c], [&](int32_t k) { stable[k] = 1; });
   s.sphere.clear();
   for (size_t k = 0; k < before.size(); ++k) {
     s.node[before[k]] = stable[k] ? static_cast<int32_t>(s.sphere.size()) : -1;
     if (stable[k]) s.sphere.push_back(before[k]);
   }
-  for (size_t c = 0; c < s.contacts(); ++c) s.a[c] = s.node[before[s.a[c]]], s.b[c] = s.node[before[s.b[c]]];
+  for (size_t c = 0; c < s.contacts(); ++c) {
+    s.a[c] = s.node[before[s.a[c]]];
+    if (!s.wall(c)) s.b[c] = s.node[before[s.b[c]]];
+  }
 }
 
 ProofScene without_implied(const ProofScene &s) {
@@ -96,7 +121,8 @@ void take_contacts(const Packing &p, const ContactNetwork &network, ProofScene &
     }
   s.image.resize(network.size() * d);
   for (size_t c = 0; c < network.size(); ++c) {
-    s.a.push_back(s.node[network.pairs.i[c]]), s.b.push_back(s.node[network.pairs.j[c]]);
+    const int32_t j = network.pairs.j[c];
+    s.a.push_back(s.node[network.pairs.i[c]]), s.b.push_back(j < 0 ? j : s.node[j]);
     s.own_images = s.own_images || network.pairs.own_image(c);
     if (!lattice_image(p.cell, &network.pairs.offset[c * d], &s.image[c * d]))
       fail(JAM_E_ARGUMENT, "contact %zu is shifted by no cell vector: proofs are for spheres without such shifts", c);
@@ -117,6 +143,8 @@ ProofScene scene_of_contacts(const Packing &p, const ContactNetwork &network, co
            least_cell_entry);
   }
   s.cell = Cell::from_triangle(p.dim, rows.data());
+  s.cell.close(p.cell.closed());
+  if (p.container) s.container = Container(p.container.kind(), p.container.flat(), s.cell);
   s.cell_low.assign(rows.size(), 0.0);
   s.non_additivity = p.non_additivity;
   s.high = p.position;
@@ -134,9 +162,8 @@ ProofScene scene_of_contacts(const Packing &p, const ContactNetwork &network, co
   // f_c in units of |r_c|: forces times directions balance, and directions are r_c / |r_c|.
   double sum = 0.0;
   for (size_t c = 0; c < s.contacts(); ++c) {
-    const double sigma2 = s.sigma_squared(c).value();
-    s.force.push_back(network.force[c] / std::sqrt(sigma2));
-    sum += s.force.back() * sigma2;
+    s.force.push_back(network.force[c] / s.lever(c));
+    sum += s.force.back() * s.sigma_squared(c).value();
   }
   for (double &f : s.force) f /= sum;
   return s;

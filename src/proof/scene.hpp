@@ -6,9 +6,14 @@
 // sigma_c: contact distance from the ratios s_i of diameters. A packing with the diameters sqrt(Gamma) s_i touches
 // exactly in the contacts where all F_c are 0. One stable sphere is pinned, which removes translations.
 //
+// A flat wall is a contact with the mirror image of the sphere: r_c is twice the way from the wall to the centre, and
+// sigma_c the diameter. Its partner is -1 - w, as in core/container.hpp. Along axes with walls no sphere is pinned.
+//
 // Strict: Gamma is fixed, and the lower triangle of A is unknown. A cell vector is then a node like a sphere: F_c
-// depends on sum_p w_p y_p over its ends p, w = 1, -1 for its spheres and n_q for cell vector q.
+// depends on sum_p w_p y_p over its ends p, w = 1, -1 for its spheres and n_q for cell vector q, and
+// at a wall 2 for its sphere.
 #pragma once
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -28,8 +33,9 @@ struct ImpliedContact {
 
 struct ProofScene {
   int dim = 3;
-  double unit = 1.0;             // a power of two: lengths here are lengths of the packing over it, about the box
-  Cell cell{3, 1.0};             // in this unit, as all below
+  double unit = 1.0;  // a power of two: lengths here are lengths of the packing over it, about the box
+  Cell cell{3, 1.0};  // in this unit, as all below
+  Container container;
   std::vector<double> cell_low;  // (dim, dim), added to the cell vectors
   bool strict = false;
   double non_additivity = 0.0;
@@ -37,7 +43,7 @@ struct ProofScene {
   std::vector<double> high, low;  // (n, dim), all spheres
   double gamma = 1.0, gamma_low = 0.0;
   std::vector<int32_t> sphere, node;    // node -> sphere; sphere -> node, -1 for rattlers
-  std::vector<int32_t> a, b;            // contact -> nodes
+  std::vector<int32_t> a, b;            // contact -> nodes; b < 0: a wall
   std::vector<int32_t> image;           // (contacts, dim): n_c
   std::vector<double> force;            // f_c > 0 with sum f_c sigma_c^2 = 1; as given by the network until refined
   std::vector<ImpliedContact> implied;  // d = 2: implied.hpp. Each follows from those before it and the others
@@ -48,23 +54,35 @@ struct ProofScene {
   size_t nodes() const { return sphere.size(); }
   size_t ends() const { return nodes() + (strict ? dim : 0); }  // spheres, then cell vectors
   size_t unknowns() const { return dim * ends(); }              // with those that are pinned, without Gamma
-  // Node 0 is pinned, and so are entries of cell vectors above the diagonal.
+  bool wall(size_t c) const { return b[c] < 0; }
+  // Node 0 is pinned along axes without walls, and so are entries of cell vectors above the diagonal.
   bool moves(size_t node, int k) const {
-    return node != 0 && (node < nodes() || k <= static_cast<int>(node - nodes()));
+    if (node == 0) return !cell.repeats(k);
+    return node < nodes() || k <= static_cast<int>(node - nodes());
   }
+  bool pinned(size_t node) const { return node == 0 && cell.closed() == 0; }
   // As many contacts as unknowns.
-  int64_t needed() const { return dim * (static_cast<int64_t>(nodes()) - 1) + (strict ? dim * (dim + 1) / 2 : 1); }
+  int64_t needed() const {
+    return dim * static_cast<int64_t>(nodes()) - symmetries(container, dim) + (strict ? dim * (dim + 1) / 2 : 1);
+  }
   template <class F>
   void each_end(size_t c, F &&f) const {  // f(node, weight)
+    if (wall(c)) return f(static_cast<size_t>(a[c]), 2.0);
     f(static_cast<size_t>(a[c]), 1.0), f(static_cast<size_t>(b[c]), -1.0);
     for (int q = 0; strict && q < dim; ++q)
       if (image[c * dim + q] != 0) f(nodes() + q, static_cast<double>(image[c * dim + q]));
   }
 
-  // Component k of r_c, exactly.
-  Expansion component(size_t c, int k) const;
-  Expansion sigma_squared(int32_t i, int32_t j) const;  // of spheres
-  Expansion sigma_squared(size_t c) const { return sigma_squared(sphere[a[c]], sphere[b[c]]); }
+  int32_t partner(size_t c) const { return wall(c) ? b[c] : sphere[b[c]]; }  // a sphere or a wall
+  // Component k of r_c, exactly; of spheres i and j, or wall j, with the image n.
+  Expansion component(int32_t i, int32_t j, const int32_t *n, int k) const;
+  Expansion component(size_t c, int k) const { return component(sphere[a[c]], partner(c), &image[c * dim], k); }
+  Expansion sigma_squared(int32_t i, int32_t j) const;
+  Expansion sigma_squared(size_t c) const { return sigma_squared(sphere[a[c]], partner(c)); }
+  // Along its unit normal a contact pushes with 2 lever f sqrt(Gamma).
+  double lever(size_t c) const { return std::sqrt(sigma_squared(c).value()) * (wall(c) ? 2.0 : 1.0); }
+  // Length of the shortest vector by which the packing repeats; infinite between walls on all axes.
+  double shortest_period() const;
 };
 
 // Only the contacts that are `on`, one flag each; spheres without a contact become rattlers.

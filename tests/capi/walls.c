@@ -252,9 +252,10 @@ CASE(calls_that_know_no_walls_refuse) {
   check.prove = 1;
   jam_moduli_report moduli = {.struct_size = sizeof moduli};
   const jam_status statuses[] = {jam_crunch(sys, &crunch[0], NULL),
-                                 jam_crunch(sys, &crunch[1], NULL),
-                                 jam_check_packing(sys, &check, NULL),
-                                 jam_prove(sys, JAM_RIGIDITY_COLLECTIVE, NULL, 0, NULL),
+                                 jam_crunch(tube, &crunch[1], NULL),
+                                 jam_check_packing(ball, &check, NULL),
+                                 jam_prove(ball, JAM_RIGIDITY_COLLECTIVE, NULL, 0, NULL),
+                                 jam_prove(sys, JAM_RIGIDITY_STRICT, NULL, 0, NULL),
                                  jam_moduli(tube, NULL, &moduli),
                                  jam_elastic_tensor(ball, NULL, real, 81, NULL, 0, &needed),
                                  jam_structure_factor(ball, 10.0, JAM_STRUCTURE_COLUMNS, real, 4096, &needed),

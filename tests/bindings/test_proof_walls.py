@@ -1,0 +1,214 @@
+"""Proofs between flat walls: of what libjam jams there, of algebraic packings, and none of files that were changed."""
+import math
+import random
+import unittest
+from fractions import Fraction
+
+import numpy as np
+from test_proof import File, file_of, value, verdict, word
+
+import jam
+
+SCENES = {
+    "box": {"dim": 2, "walls": "xy", "packing_fraction": 0.3},
+    "strip": {"dim": 2, "walls": "y", "packing_fraction": 0.3},
+    "slit": {"dim": 3, "walls": "z", "packing_fraction": 0.2},
+    "brick": {"dim": 3, "walls": "xyz", "packing_fraction": 0.2},
+    "tilted": {"dim": 3, "walls": "z", "cell": [[1.0, 0.0, 0.0], [0.2, 1.0, 0.0], [0.0, 0.0, 1.3]], "packing_fraction": 0.2},
+}
+
+
+def packing(name, seed, n=24):
+    ratio = np.where(np.arange(n) % 2, 1.4, 1.0)
+    system = jam.System.random(n=n, seed=seed, diameters=ratio, **SCENES[name])
+    system.compress(growth_rate=1e-2, pressure=1e4)
+    system.crunch()
+    return system, ratio
+
+
+def isostatic(name, seeds):
+    """Packings with as many contacts as unknowns."""
+    made = [packing(name, seed) for seed in seeds]
+    return [(system, ratio) for system, ratio in made if system.report.jammed and system.report.excess_contacts == 0]
+
+
+class Walled(File):
+    def __init__(self, text):
+        super().__init__(text)
+        self.at_walls = [line for line in self.lines if line[0] == "wall"]
+
+    def header(self, name):
+        return next(line for line in self.lines if line[0] == name)
+
+
+def another_wall(f, r):
+    line = r.choice(f.at_walls)
+    others = [str(c) for c in range(len(f.spheres[0]) - 3) if str(c) != line[2]]
+    line[2] = r.choice(others)
+
+
+def other_side(f, r):
+    line = r.choice(f.at_walls)
+    line[3] = str(1 - int(line[3]))
+
+
+def other_sphere(f, r):
+    line = r.choice(f.at_walls)
+    line[1] = r.choice([str(k) for k, s in enumerate(f.spheres) if s[1] == "1" and [str(k), *line[2:4]] not in [c[1:4] for c in f.at_walls]])
+
+
+def drop_wall(f, r):
+    f.lines.remove(r.choice(f.at_walls))
+
+
+def twice(f, r):
+    f.lines.append(list(r.choice(f.at_walls)))
+
+
+def negate(f, r):
+    f.scale(r.choice(f.at_walls), -1, -1)
+
+
+def no_force(f, r):
+    r.choice(f.at_walls)[-1] = "0p0"
+
+
+def half_force(f, r):
+    """A hint: what balances is computed, and lies farther away than the bound of these forces."""
+    for line in f.at_walls:
+        f.scale(line, -1, Fraction(1, 2))
+
+
+def no_walls(f, r):
+    f.lines.remove(f.header("walls"))
+
+
+def walls_elsewhere(f, r):
+    line = f.header("walls")
+    line[1:] = [str(len(f.spheres[0]) - 3)]
+
+
+def walls_twice(f, r):
+    f.lines.append(list(f.header("walls")))
+
+
+def leaning(f, r):
+    """The cell vector of the last axis, which has walls, leans."""
+    cell = f.header("cell")
+    cell[-2] = word(Fraction(1, 10**6))
+
+
+def closer_walls(f, r):
+    f.scale(f.header("cell"), -1, Fraction(999, 1000))
+
+
+def through_a_wall(f, r):
+    line = r.choice(f.contacts)
+    line[2 + len(f.spheres[0]) - 3] = "1"
+
+
+def outside(f, r):
+    """A sphere reflected at the wall that it touches: F is the same."""
+    line = r.choice(f.at_walls)
+    sphere, axis = f.spheres[int(line[1])], int(line[2])
+    d = len(f.spheres[0]) - 3
+    edge = value(f.header("cell")[1 + (axis + 1) * (axis + 2) // 2 - 1])
+    x = sum(value(part) for part in sphere[3 + axis].split(","))
+    sphere[3 + axis] = word((2 * edge if line[3] == "1" else 0) - x)
+    assert axis < d
+
+
+def rattler_outside(f, r):
+    sphere = r.choice(f.spheres)
+    far = [word(-2 * value(f.header("cell")[1])), *sphere[4:]]
+    f.lines.append(["sphere", "0", sphere[2], *far])
+
+
+def moved(by):
+    def change(f, r):
+        sphere = f.spheres[int(r.choice(f.at_walls)[1])]
+        f.shift(sphere, 3 + r.randrange(len(sphere) - 3), by)
+
+    return change
+
+
+REFUSED = {
+    "another wall": another_wall, "the other side": other_side, "another sphere": other_sphere, "wall missing": drop_wall,
+    "wall twice": twice, "pull": negate, "no force": no_force, "half the force": half_force, "no line walls": no_walls,
+    "line walls of another axis": walls_elsewhere, "line walls twice": walls_twice, "leaning": leaning,
+    "walls closer": closer_walls, "contact through a wall": through_a_wall, "outside": outside, "rattler outside": rattler_outside,
+    "centre off by 1e-3": moved(Fraction(1, 1000)),
+}  # fmt: skip
+
+
+class Walls(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.made = {name: isostatic(name, range(1, 7)) for name in SCENES}
+
+    def test_isostatic_packings_are_proved_by_both(self):
+        for name, made in self.made.items():
+            self.assertGreaterEqual(len(made), 2, name)
+            for system, ratio in made:
+                with self.subTest(scene=name, seed=system.info.seed):
+                    proof, found = system.prove(ratio), verdict(file_of(system, ratio))
+                    self.assertEqual(proof.theorem, jam.Theorem.EXACT, proof)
+                    self.assertIsInstance(found, dict, found)
+                    self.assertLess(max(proof.radius, found["radius"]), 1e-28)
+                    self.assertAlmostEqual(proof.least_force / found["least_force"], 1.0, delta=1e-6)
+                    self.assertAlmostEqual(min(proof.least_gap, 1e-3), min(found["least_gap"], 1e-3), delta=1e-9)
+                    self.assertAlmostEqual(proof.packing_fraction, system.packing_fraction, delta=1e-13)
+
+    def test_reports_of_other_calls_have_the_proof(self):
+        system, _ = self.made["box"][0]
+        self.assertEqual(system.check(prove=True).theorem, jam.Theorem.EXACT)
+        self.assertEqual(system.copy().crunch(prove=True).theorem, jam.Theorem.EXACT)
+
+    def test_changed_files_are_not_proved(self):
+        generator = random.Random(4)
+        for name in ("box", "brick"):
+            for system, ratio in self.made[name]:
+                text = file_of(system, ratio)
+                for kind, change in REFUSED.items():
+                    with self.subTest(scene=name, kind=kind):
+                        f = Walled(text)
+                        change(f, generator)
+                        self.assertNotIsInstance(found := verdict(f.text()), dict, found)
+
+    def test_small_changes_stay_within_the_radius(self):
+        generator = random.Random(5)
+        for system, ratio in self.made["box"]:
+            for power in (30, 20, 12, 9):
+                f = Walled(file_of(system, ratio))
+                moved(Fraction(1, 10**power))(f, generator)
+                found = verdict(f.text())
+                self.assertIsInstance(found, dict, found)
+                self.assertGreaterEqual(found["radius"], 0.5 * 10.0**-power)
+
+    def test_two_spheres_on_the_diagonal(self):
+        """Of a square and a cube of edge 1: the diameter is sqrt(d) / (1 + sqrt(d)), by square roots of whole numbers."""
+        for d in (2, 3):
+            near = math.sqrt(d) / (1 + math.sqrt(d))
+            x = np.array([[near / 2] * d, [1 - near / 2] * d])
+            system = jam.System.from_arrays(x, near * (1 - 1e-3), walls="xyz"[:d], dim=d)
+            system.crunch()
+            self.assertEqual(system.report.contacts, 2 * d + 1)
+            text = file_of(system, np.ones(2))
+            found, root = verdict(text), math.isqrt(d * 10**120)  # of d, times 10^60
+            self.assertIsInstance(found, dict, found)
+            gamma = Fraction(root, 10**60 + root) ** 2
+            known = sum(map(value, File(text).gamma[1].split(",")))
+            self.assertLess(abs(known / gamma - 1), Fraction(found["gamma_error"]) + Fraction(1, 10**55))
+            self.assertLess(found["gamma_error"], 1e-28)
+
+    def test_two_disks_in_a_row_close_exactly(self):
+        system = jam.System.from_arrays([[0.5, 0.5], [1.5, 0.5]], 0.99, cell=[2.0, 1.0], walls="xy", dim=2)
+        system.crunch()
+        text = file_of(system, np.ones(2))
+        self.assertEqual(system.prove(np.ones(2)).theorem, jam.Theorem.EXACT)
+        self.assertEqual(verdict(text)["radius"], 0, text)
+
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,22 +1,24 @@
 """Decimals of a largest sum of radii with a proved radius: theorem A of the guide's page on proofs with radii as unknowns.
 
-Unknown are all centres and radii between flat walls. Of a pair F = |r_ij|^2 - (R_i + R_j)^2 is 0, of a wall F = distance -
-R_i, so that a simple maximum has as many equations as unknowns. F is quadratic: F(u + v) = F(u) + J v + Q(v), and |Q| <=
+Unknown are all centres and radii between flat walls. Of a pair F = |r_ij|^2 - (R_i + R_j)^2 is 0, of a wall F = 4 distance^2 -
+4 R_i^2, so that a simple maximum has as many equations as unknowns. F is quadratic: F(u + v) = F(u) + J v + Q(v), and |Q| <=
 4 d |v|^2 in maximum norms. With A, delta, eta and beta as in digits.py exactly one zero of F lies within the radius. There
 the forces f J = -w are unique; where they are all positive and every other gap is open, it is a strict local maximum of
-sum w_i R_i.
+sum w_i R_i. These are the equations of a proof file, whose unknowns are diameters.
 """
 from __future__ import annotations
 
 import math
 from decimal import Decimal, localcontext
 from fractions import Fraction
+from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from ._api.arrays import Array
 from .digits import GUARD, SLACK, STEPS, _bounds, _decimal, _doubles, _integers
+from ._formats.replacing import replacing
 from .errors import StateError
 from .system import System
 
@@ -55,12 +57,15 @@ class _Rows:
                              "which have as many, and no radius at a bound")
         self.u = np.concatenate([_integers(system.positions / self.unit, bits), _integers(system.diameters / (2 * self.unit), bits)[:, None]], 1)
 
+    def distance(self, i: int, wall: int) -> int:
+        axis, far = self.walls[-1 - wall]
+        return int(self.edge[axis] - self.u[i][axis] if far else self.u[i][axis])
+
     def gap(self, i: int, j: int) -> int:
         """F of a pair or wall."""
         d, a = self.d, self.u[i]
         if j < 0:
-            axis, far = self.walls[-1 - j]
-            return int(self.edge[axis] - a[axis] if far else a[axis]) - int(a[d])
+            return 4 * (self.distance(i, j) ** 2 - int(a[d]) ** 2) >> self.bits
         b = self.u[j]
         r = a[:d] - b[:d]
         return int((r * r).sum() - (a[d] + b[d]) ** 2) >> self.bits
@@ -74,7 +79,8 @@ class _Rows:
             at = int(i) * (d + 1)
             if j < 0:
                 axis, far = self.walls[-1 - int(j)]
-                found[k, at + axis], found[k, at + d] = (-1.0 if far else 1.0), -1.0
+                found[k, at + axis] = 8 * _number(self.distance(i, j), self.bits) * (-1.0 if far else 1.0)
+                found[k, at + d] = -8 * _number(self.u[i][d], self.bits)
                 continue
             to = int(j) * (d + 1)
             for c in range(d):
@@ -97,8 +103,10 @@ class _Rows:
         for i in range(self.n):
             if int(self.u[i][d]) <= r:
                 return f"the radius of sphere {i} may be 0"
+            if any(self.distance(i, -1 - w) <= r for w in range(len(self.walls))):
+                return f"the centre of sphere {i} may be outside the walls"
             for w in range(len(self.walls)):
-                if (i, -1 - w) not in touching and self.gap(i, -1 - w) <= 2 * r:
+                if (i, -1 - w) not in touching and self.distance(i, -1 - w) - int(self.u[i][d]) <= 2 * r:
                     return f"sphere {i} may touch wall {w}"
             for j in range(i):
                 if (i, j) in touching or (j, i) in touching:
@@ -110,11 +118,29 @@ class _Rows:
         return None
 
 
+    def file(self, weights: list[Fraction], forces: Array) -> str:
+        """A proof file: bindings/docs/proof.md, "The file"."""
+        d, numbers = self.d, lambda values, less: " ".join(f"{int(v)}p{less - self.bits}" for v in values)
+        cell = " ".join(numbers([self.edge[q]], 0) if q == c else "0p0" for q in range(d) for c in range(q + 1))
+        lines = ["jamproof 1", "sum " + " ".join(map(_binary, weights)), f"dim {d}", "unit " + _binary(Fraction(self.unit)), "cell " + cell]
+        lines += ["non_additivity 0p0", "gamma 1p0", "walls " + " ".join(map(str, range(d)))]
+        lines += [f"sphere 1 {numbers(row[d:], 1)} {numbers(row[:d], 0)}" for row in self.u]
+        for (i, j), force in zip(self.pairs, forces):
+            axis, far = self.walls[-1 - j] if j < 0 else (0, False)
+            lines.append((f"wall {i} {axis} {far:d} " if j < 0 else f"contact {i} {j} {'0 ' * d}") + _binary(Fraction(float(force))))
+        return "\n".join(lines) + "\n"
+
+
+def _binary(value: Fraction) -> str:
+    """A double as m p e."""
+    return f"{value.numerator}p{1 - value.denominator.bit_length()}"
+
+
 def _exact(value: Fraction) -> Decimal:
     return Decimal(value.numerator) / Decimal(value.denominator)
 
 
-def prove_sum(system: System, digits: int, weights: Any) -> Proved:
+def prove_sum(system: System, digits: int, weights: Any, path: Any) -> Proved:
     """See jam.radii.prove."""
     if digits < 20:
         raise ValueError(f"digits is {digits}; doubles have nearly 16, so 20 and more are computed here")
@@ -150,6 +176,9 @@ def prove_sum(system: System, digits: int, weights: Any) -> Proved:
     why = rows.closest(math.ceil(r * (1 << bits)))
     if why:
         raise StateError(f"prove: {why}")
+    if path is not None:
+        with replacing(Path(path)) as file:
+            file.write(rows.file(w, forces).encode("ascii"))
     unit = Fraction(rows.unit)
     value = sum((w[i] * int(rows.u[i][d]) for i in range(n)), Fraction(0)) * unit
     value_radius = sum(w) * r * unit

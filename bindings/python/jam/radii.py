@@ -240,7 +240,7 @@ def best_of(
     return Search(state.best, len(state.done), state.maxima, state.before + time.monotonic() - begun)
 
 
-def prove(system: System, digits: int = 30, *, weights: Any = None) -> Proved:
+def prove(system: System, digits: int = 30, *, weights: Any = None, path: Any = None) -> Proved:
     """Proves that a strict local maximum of the sum of radii lies at a packing, and gives it to so many digits.
 
     Parameters
@@ -251,6 +251,8 @@ def prove(system: System, digits: int = 30, *, weights: Any = None) -> Proved:
         From 20 on.
     weights : array_like (n,), optional
         Those of the sum. Default: all 1.
+    path : path-like, optional
+        Writes the proof file that jamproof.py checks.
 
     Raises
     ------
@@ -266,4 +268,4 @@ def prove(system: System, digits: int = 30, *, weights: Any = None) -> Proved:
     >>> abs(float(found.value) - report.value) < 1e-15, found.value_radius < 1e-30
     (True, True)
     """
-    return prove_sum(system, digits, weights)
+    return prove_sum(system, digits, weights, path)

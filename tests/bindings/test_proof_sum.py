@@ -1,0 +1,164 @@
+"""Proof files of largest sums of radii: those of jam.radii.prove are proved by the checker, changed ones are not."""
+import pathlib
+import random
+import tempfile
+import unittest
+from decimal import Decimal
+from fractions import Fraction
+
+import numpy as np
+from test_proof import ROOT, File, jamproof, value, verdict, word
+from test_proof_walls import (
+    Walled, another_wall, drop_wall, half_force, moved, negate, no_force, no_walls, other_side, other_sphere, outside,
+    twice, walls_elsewhere,
+)  # fmt: skip
+
+import jam
+import jam.radii
+
+AUDIT = ROOT / "tests/bindings/sum26.jamproof"
+LETTERS = "xyz"
+
+
+def file_of(system, digits=30, weights=None):
+    with tempfile.TemporaryDirectory() as folder:
+        path = pathlib.Path(folder) / "a.jamproof"
+        proved = jam.radii.prove(system, digits, weights=weights, path=path)
+        return proved, path.read_text(encoding="ascii")
+
+
+def maximum(n, dim, seed, weights=None):
+    system = jam.System.random(n=n, dim=dim, walls=LETTERS[:dim], seed=seed)
+    system.maximise_radii(weights)
+    return system
+
+
+def sum_of(text):
+    """Bounds of the sum, in fractions."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = pathlib.Path(folder) / "a.jamproof"
+        path.write_text(text, encoding="ascii")
+        scene = jamproof.Scene(path)
+    jamproof.check(scene)
+    return jamproof.fraction(scene)
+
+
+def other_weight(f, r):
+    """Not the sum that these forces balance."""
+    f.header("sum")[1 + r.randrange(len(f.spheres))] = "3p0"
+
+
+def no_weight(f, r):
+    f.header("sum")[1] = "0p0"
+
+
+def less_weights(f, r):
+    f.header("sum").pop()
+
+
+def sum_twice(f, r):
+    f.lines.append(list(f.header("sum")))
+
+
+def no_sum(f, r):
+    f.lines.remove(f.header("sum"))
+
+
+def drop(f, r):
+    f.lines.remove(r.choice(f.contacts))
+
+
+def rattler(f, r):
+    r.choice(f.spheres)[1] = "0"
+
+
+def other_gamma(f, r):
+    f.gamma[1] = word(1 + Fraction(1, 10**9))
+
+
+def strict(f, r):
+    f.lines.insert(1, ["strict"])
+
+
+def resized(by):
+    return lambda f, r: f.scale(r.choice(f.spheres), 2, 1 + by)
+
+
+REFUSED = {
+    "another wall": another_wall, "the other side": other_side, "another sphere": other_sphere, "wall missing": drop_wall,
+    "wall twice": twice, "pull": negate, "no force": no_force, "half the force": half_force, "no line walls": no_walls,
+    "line walls of another axis": walls_elsewhere, "outside": outside,
+    "centre off by 1e-1": moved(Fraction(1, 10)), "another weight": other_weight, "no weight": no_weight,
+    "a weight missing": less_weights, "line sum twice": sum_twice, "no line sum": no_sum, "contact missing": drop,
+    "a rattler": rattler, "another gamma": other_gamma, "strict": strict, "diameter larger by 1e-2": resized(Fraction(1, 100)),
+    "diameter larger by 1e-1": resized(Fraction(1, 10)),
+}  # fmt: skip
+
+
+class Sums(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.made = [file_of(maximum(*scene)) for scene in ((3, 2, 1), (8, 2, 1), (13, 2, 2))]
+
+    def test_both_prove_the_same_sum(self):
+        for proved, text in self.made:
+            found, (low, high) = verdict(text), sum_of(text)
+            self.assertIsInstance(found, dict, found)
+            self.assertLess(found["sum_error"], 1e-40)
+            own, radius = Fraction(proved.value), Fraction(proved.value_radius)
+            self.assertLess(low, own + radius)
+            self.assertLess(own - radius, high)
+
+    def test_weights_and_balls(self):
+        weights = np.array([1.0, 2.0, 1.5])
+        proved, text = file_of(maximum(3, 2, 1, weights), weights=weights)
+        self.assertIsInstance(verdict(text), dict)
+        low, high = sum_of(text)
+        self.assertLess(abs((low + high) / 2 - Fraction(proved.value)), Fraction(1, 10**29))
+        made = [maximum(n, 3, seed) for n in (3, 7, 8) for seed in (1, 2, 3)]
+        texts = [file_of(s)[1] for s in made if len(s.contacts.pairs) == 4 * s.n]
+        self.assertGreater(len(texts), 2)
+        for text in texts:
+            self.assertIsInstance(verdict(text), dict)
+
+    def test_the_audited_sum_of_26_disks(self):
+        """The value that another proof in rational numbers gives, from the file and by a maximum from its centres."""
+        known = Decimal("2.635983084917607783186569485443")
+        text = AUDIT.read_text(encoding="ascii")
+        low, high = sum_of(text)
+        half = Fraction(1, 2 * 10**30)
+        self.assertLess(Fraction(known) - half, low)
+        self.assertLess(high, Fraction(known) + half)
+        rows = [[float(value(x)) for x in line[2:]] for line in File(text).spheres]
+        x, radii = np.array(rows)[:, 1:], np.array(rows)[:, 0] / 2
+        system = jam.System.from_arrays(x, radii=radii, overlap="shrink", walls="xy", box=1.0)
+        system.maximise_radii(room=1e-9)
+        proved, again = file_of(system)
+        self.assertLess(abs(proved.value - known), Decimal("5e-31"))
+        self.assertIsInstance(verdict(again), dict)
+
+    def test_changed_files_are_not_proved(self):
+        generator = random.Random(6)
+        for _, text in self.made:
+            for kind, change in REFUSED.items():
+                with self.subTest(kind=kind):
+                    f = Walled(text)
+                    change(f, generator)
+                    self.assertNotIsInstance(found := verdict(f.text()), dict, found)
+
+    def test_small_changes_stay_within_the_radius(self):
+        """A centre is farther from the exact one by the change, a diameter by that part of itself."""
+        generator = random.Random(7)
+        for _, text in self.made:
+            least = min(float(value(line[2])) for line in File(text).spheres)
+            for change, part in ((moved, 1.0), (resized, least)):
+                for power in (25, 15, 10, 3):
+                    f = Walled(text)
+                    change(Fraction(1, 10**power))(f, generator)
+                    if isinstance(found := verdict(f.text()), dict):
+                        self.assertGreaterEqual(found["radius"], 0.999 * part * 10.0**-power)
+                    self.assertTrue(power == 3 or isinstance(found, dict), found)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1011,7 +1011,7 @@ typedef struct jam_radii_report {
   int64_t excess;             /* contacts + at_bounds - ((d + 1) n - symmetries); 0 at a simple maximum */
   double balance_residual;    /* largest residual of the balance and of the sums of forces, over the sphere's weight */
   double max_contact_gap, min_gap; /* largest |distance - sum of radii| of a contact; least of another pair */
-  double min_force;                /* least force; forces on sphere i add up to w_i, less what a bound takes */
+  double min_force;                /* least force; forces on sphere i add up to w_i minus that of a bound */
   double radius_smallest, radius_largest, polydispersity; /* standard deviation of the radii over their mean */
   double packing_fraction;
   int64_t steps, factorisations; /* of Newton's method; Cholesky factorisations */
@@ -1408,7 +1408,7 @@ typedef struct jam_rigidity_report {
   int32_t kind;                /* @enum jam_rigidity_kind that was tested */
   int32_t jammed;              /* @enum jam_verdict */
   int32_t stationary;          /* @enum jam_verdict: K+ is not empty: to first order no motion lets diameters grow */
-  int64_t stable, contacts;    /* N'; |K+| */
+  int64_t stable, contacts;    /* N'; those of K+ */
   int64_t contacts_needed;     /* collective d (N' - 1) + 1, strict d (N' - 1) + d (d + 1) / 2; -1: K+ empty */
   int64_t self_stresses;       /* independent states of balanced forces on K+, of any sign; -1: unknown */
   int64_t flexes;              /* motions beyond symmetries that keep K+ closed; 0 without K+; 512 or more: at least */
@@ -1504,7 +1504,7 @@ typedef struct jam_check_report {
   double proof_radius;          /* unit of the box: radius of EXACT, inner of TRAPPED (jam_proof_report), or infinite */
   double proof_value, proof_bound; /* the two numbers of the cause */
   double curvature_margin;         /* as in jam_rigidity_report */
-  int64_t strict_excess_contacts;  /* with own images, less d (N' - 1) + d (d + 1) / 2; walls: fewer strains */
+  int64_t strict_excess_contacts;  /* with own images, minus d (N' - 1) + d (d + 1) / 2; walls: fewer strains */
 } jam_check_report;
 JAM_API jam_status jam_check_options_init(jam_check_options *o, size_t size);
 /* Runs both tests of jam_rigidity on positions, diameters and cell, whatever the network; nothing on the handle

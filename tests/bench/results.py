@@ -133,7 +133,7 @@ def ensemble(*raws):
             + ["" if name == "default" else f"{m['phi_J'][2]:.1e} ± {m['phi_J'][3]:.1e}"]
         )
     columns = ["stages", "packings", "million collisions", "factorisations", "growth (s)", "crunch (s)", "store (s)", "analyse and check (s)"]
-    return columns + ["a packing (s)", "phi_J", "phi_J less that of the default"], rows
+    return columns + ["a packing (s)", "phi_J", "phi_J minus that of the default"], rows
 
 
 def ensemble_statistics(*raws):
@@ -147,7 +147,7 @@ def ensemble_statistics(*raws):
     for key in found["quantities"]:
         difference = [f"{means[o][key][2]:.2g} ± {means[o][key][3]:.1g}" for o in others]
         rows.append([key, with_error(*means["default"][key][:2]), *difference])
-    return ["mean of", "default", *(f"{o} less the default" for o in others)], rows
+    return ["mean of", "default", *(f"{o} minus the default" for o in others)], rows
 
 
 def wall_rows(raws):

@@ -56,7 +56,7 @@ def rows(r, axis, k, n, kappa, made):
     off = phi_j - [m["phi_j"] for m in made]
     r.add("2.11", f"d of the fit over 3, {where}", "1 to 1.07", *mean_error(d))
     r.add("2.11", f"least R^2, {where}", ">= 0.999", r2.min())
-    r.add("2.11", f"phi_J of the fit less that of the crunch, {where}", "0", *mean_error(off))
+    r.add("2.11", f"phi_J of the fit minus that of the crunch, {where}", "0", *mean_error(off))
     r.add("2.11", f"median of |phi_J of the fit - phi_J of the crunch|, {where}", "in the picture", np.median(np.abs(off)))
     r.add("2.11", f"error of the fit, median, {where}", "none", np.median(error))
     r.add("2.11", f"error of the fit without the covariance, median, {where}", "none", np.median(naive))

@@ -45,7 +45,7 @@ def glasses(o, r, n, seeds):
             axis.semilogy(x, (1 - x / fit.jammed_fraction) / fit.dimension, ":", color=f"C{k}", label="fit, d free" if first else None)
         r.made(f"Mari-Kurchan, N = {n}, {text}, G = 3e-3 to p = 1e6", len(made))
         r.add("2.6", f"d of the fit of the glass branch, {text}", "free", *mean_error([f.dimension for f in fits]))
-        r.add("2.6", f"phi_J of the fit less that of the crunch, {text}", "0", *mean_error([f.jammed_fraction - m["phi_j"] for f, m in zip(fits, made)]))
+        r.add("2.6", f"phi_J of the fit minus that of the crunch, {text}", "0", *mean_error([f.jammed_fraction - m["phi_j"] for f, m in zip(fits, made)]))
         r.add("2.6", f"phi_J, {text}", ">= 3.1 planted", *mean_error([m["phi_j"] for m in made]))
     axis.axvline(1.776, color="0.7", lw=1)
     axis.set(xlabel="phi; vertical line: phi_d = 1.776", ylabel="1 / p", ylim=(1e-5, 1))

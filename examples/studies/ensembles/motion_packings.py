@@ -56,7 +56,7 @@ def main():
             spread = k[:, row, column].std(ddof=1)
             r.add(figure, f"the same, standard deviation between packings, {text}, {state}", "one packing", spread)
         more = np.abs(k[:, row, names.index("s")]) - np.abs(k[:, row, names.index("force_sum")])
-        r.add(figure, f"|K| of S less that of sum f, {state}, mean of {packings} packings", "> 0", *mean_error(more))
+        r.add(figure, f"|K| of S minus that of sum f, {state}, mean of {packings} packings", "> 0", *mean_error(more))
         r.add(figure, f"share of packings in which |K| of S is above that of sum f, {state}", "one packing: yes", np.mean(more > 0))
     r.write()
 

@@ -17,6 +17,7 @@ Cell Cell::from_triangle(int dim, const double *rows) {
     for (int k = 0; k <= c; ++k) {
       cell.rows_[c][k] = rows[c * dim + k];
       cell.cube_ = cell.cube_ && cell.rows_[c][k] == (k == c ? rows[0] : 0.0);
+      cell.right_ = cell.right_ && (k == c || cell.rows_[c][k] == 0.0);
     }
     cell.volume_ *= cell.rows_[c][c];
   }
@@ -76,8 +77,8 @@ void Cell::wrap(double *x, double *shift) const {
     const double inside = jam::inside::wrap(x[c], edge(c));
     if (inside == x[c]) continue;
     const double m = std::nearbyint((x[c] - inside) / edge(c));
-    for (int k = 0; !cube_ && k < c; ++k) x[k] -= m * rows_[c][k];
-    for (int k = cube_ ? c : 0; shift && k <= c; ++k) shift[k] += m * rows_[c][k];
+    for (int k = 0; !right_ && k < c; ++k) x[k] -= m * rows_[c][k];
+    for (int k = right_ ? c : 0; shift && k <= c; ++k) shift[k] += m * rows_[c][k];
     x[c] = inside;
   }
 }

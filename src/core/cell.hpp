@@ -60,7 +60,7 @@ class Cell {
   void fraction(const double *x, double *s) const {
     for (int c = dim_ - 1; c >= 0; --c) {
       double rest = x[c];
-      for (int k = c + 1; !cube_ && k < dim_; ++k) rest -= s[k] * rows_[k][c];
+      for (int k = c + 1; !right_ && k < dim_; ++k) rest -= s[k] * rows_[k][c];
       s[c] = rest / rows_[c][c];
     }
   }
@@ -68,7 +68,7 @@ class Cell {
   void combine(const double *s, double *x) const {
     for (int c = 0; c < dim_; ++c) {
       double sum = s[c] * rows_[c][c];
-      for (int k = c + 1; !cube_ && k < dim_; ++k) sum += s[k] * rows_[k][c];
+      for (int k = c + 1; !right_ && k < dim_; ++k) sum += s[k] * rows_[k][c];
       x[c] = sum;
     }
   }
@@ -79,22 +79,26 @@ class Cell {
   // is shorter than half the shortest edge; for longer vectors images() finds it.
   void nearest(double *x) const {
     for (int c = dim_ - 1; c >= 0; --c) {
-      if (closed_ && !repeats(c)) continue;
+      if (!(std::fabs(x[c]) > 0.5 * rows_[c][c]) || !repeats(c)) continue;
       const double m = std::nearbyint(x[c] / rows_[c][c]);
-      for (int k = cube_ ? c : 0; k <= c; ++k) x[k] -= m * rows_[c][k];
+      for (int k = right_ ? c : 0; k <= c; ++k) x[k] -= m * rows_[c][k];
     }
   }
   // The lattice vector that takes the difference of two points of the brick to the image that nearest() chooses.
   void nearest_shift(const double *dx, double *shift) const {
-    if (cube_ && !closed_) {
-      for (int c = 0; c < dim_; ++c) shift[c] = dx[c] > 0.5 * side_ ? -side_ : dx[c] < -0.5 * side_ ? side_ : 0.0;
+    if (right_ && !closed_) {
+      for (int c = 0; c < dim_; ++c) {
+        const double edge = rows_[c][c];
+        shift[c] = dx[c] > 0.5 * edge ? -edge : dx[c] < -0.5 * edge ? edge : 0.0;
+      }
       return;
     }
     std::fill(shift, shift + dim_, 0.0);
     for (int c = dim_ - 1; c >= 0; --c) {
-      if (!repeats(c)) continue;
-      const double m = -std::nearbyint((dx[c] + shift[c]) / rows_[c][c]);
-      for (int k = 0; k <= c; ++k) shift[k] += m * rows_[c][k];
+      const double x = dx[c] + shift[c];
+      if (!(std::fabs(x) > 0.5 * rows_[c][c]) || !repeats(c)) continue;
+      const double m = -std::nearbyint(x / rows_[c][c]);
+      for (int k = right_ ? c : 0; k <= c; ++k) shift[k] += m * rows_[c][k];
     }
   }
   // Calls f(shift) for every lattice vector with |dx + shift| < cutoff.
@@ -114,14 +118,14 @@ class Cell {
     if (closed_ && !repeats(c)) centre = reach = 0.0;
     for (double m = centre - reach; m <= centre + reach; ++m) {
       Vector shift = above;
-      for (int k = cube_ ? c : 0; k <= c; ++k) shift[k] += m * rows_[c][k];
+      for (int k = right_ ? c : 0; k <= c; ++k) shift[k] += m * rows_[c][k];
       const double y = dx[c] + shift[c], rest = r2 - y * y;
       if (rest > 0.0) descend(c - 1, dx, rest, shift, f);
     }
   }
 
   int dim_;
-  bool cube_ = true;
+  bool cube_ = true, right_ = true;  // right_: all angles are
   uint32_t closed_ = 0;
   double side_, volume_;
   std::array<Vector, JAM_MAX_DIM> rows_{};

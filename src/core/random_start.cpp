@@ -5,9 +5,10 @@
 #include <numeric>
 
 #include "core/call_scope.hpp"
-#include "core/cell_reduction.hpp"
 #include "core/create.hpp"
 #include "core/error.hpp"
+#include "core/free_room.hpp"
+#include "core/growing_cells.hpp"
 #include "core/limits.hpp"
 #include "core/math.hpp"
 #include "core/pair_rule.hpp"
@@ -18,73 +19,6 @@
 
 namespace jam::inside {
 namespace {
-
-// Cells at least as wide as the largest diameter, as linked lists, since spheres are added one by one.
-class GrowingCells {
- public:
-  GrowingCells(const Packing &p, double cutoff) : p_(p), basis_(upright(p.cell)) {
-    const double fit = basis_.height_min() / cutoff,
-                 enough = std::ceil(math::pow(static_cast<double>(p.n()), 1.0 / p.dim));
-    side_ = std::max<int64_t>(1, static_cast<int64_t>(std::min(fit * (1.0 - 1e-12), enough)));
-    if (side_ < 3) side_ = 1;
-    int64_t cells = 1;
-    for (int c = 0; c < p.dim; ++c) cells *= side_;
-    head_.assign(static_cast<size_t>(cells), -1);
-    next_.assign(p.n(), -1);
-  }
-  void add(int32_t i) {
-    const int64_t cell = cell_of(&p_.position[static_cast<size_t>(i) * p_.dim]);
-    next_[i] = head_[cell];
-    head_[cell] = i;
-  }
-  // True when sphere i at x would overlap a sphere that is already placed.
-  bool blocked(const double *x, int32_t i) const {
-    if (side_ == 1) return in_cell(0, x, i);
-    Cell::Vector s{};
-    basis_.fraction(x, s.data());
-    return visit(p_.dim - 1, 0, s.data(), x, i);
-  }
-
- private:
-  int64_t index(double s) const {
-    return std::min(static_cast<int64_t>(wrap(s, 1.0) * static_cast<double>(side_)), side_ - 1);
-  }
-  int64_t cell_of(const double *x) const {
-    Cell::Vector s{};
-    basis_.fraction(x, s.data());
-    int64_t cell = 0;
-    for (int c = p_.dim - 1; c >= 0; --c) cell = cell * side_ + index(s[c]);
-    return cell;
-  }
-  bool visit(int c, int64_t cell, const double *s, const double *x, int32_t i) const {
-    if (c < 0) return in_cell(cell, x, i);
-    for (int64_t step = -1; step <= 1; ++step)
-      if (visit(c - 1, cell * side_ + (index(s[c]) + step + side_) % side_, s, x, i)) return true;
-    return false;
-  }
-  bool in_cell(int64_t cell, const double *x, int32_t i) const {
-    for (int32_t j = head_[cell]; j >= 0; j = next_[j]) {
-      const double touch = contact_distance(p_, i, j);
-      Cell::Vector dx{};
-      for (int c = 0; c < p_.dim; ++c) dx[c] = x[c] - p_.position[static_cast<size_t>(j) * p_.dim + c];
-      bool near = false;
-      if (side_ > 1) {  // then the nearest image alone is within reach
-        p_.cell.nearest(dx.data());
-        double r2 = 0.0;
-        for (int c = 0; c < p_.dim; ++c) r2 += dx[c] * dx[c];
-        near = r2 < touch * touch;
-      } else {
-        p_.cell.images(dx.data(), touch, [&](const double *) { near = true; });
-      }
-      if (near) return true;
-    }
-    return false;
-  }
-  const Packing &p_;
-  const Cell basis_;
-  int64_t side_;
-  std::vector<int32_t> head_, next_;
-};
 
 // The brick of the cell repeats as the cell does, so a uniform point of it will do. Of a container: where a sphere of
 // this radius fits between flat walls.
@@ -135,24 +69,30 @@ void place_at_random(Packing &p) {
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), [&](int32_t a, int32_t b) { return p.diameter[a] > p.diameter[b]; });
   GrowingCells cells(p, contact_distance_max(p));
+  FreeRoom room(p, cells);
   Rng rng(p.seed, Stream::rsa_positions);
   double placed = 0.0;
   const double share = p.container ? p.cell.volume() / scene_volume(p) : 1.0;
-  const int64_t most_total = PlaceTuning::tries_per_sphere * static_cast<int64_t>(n) + PlaceTuning::most_tries;
   int64_t total = 0, spheres = 0;
-  for (int32_t i : order) {
+  for (size_t at = 0; at < n; ++at) {
+    const int32_t i = order[at];
     double *x = &p.position[static_cast<size_t>(i) * d];
-    int64_t tries = 0;
+    if (room.known() && !room.serves(i)) room.forget();
+    int64_t tries = 0, refinements = 0;
     do {
-      if (++tries > PlaceTuning::most_tries || ++total > most_total)
+      if (++tries % PlaceTuning::tries_of_one_list == 0 &&
+          (!room.refine(order, at) || ++refinements == PlaceTuning::most_refinements))
         fail(JAM_E_UNPLACEABLE,
-             "random sequential addition reached packing fraction %.6f of the requested %.6f: start at a lower "
+             "random sequential addition reached packing fraction %.6f of the requested %.6f%s: start at a lower "
              "packing_fraction, and grow the spheres",
-             placed, packing_fraction(p));
+             placed, packing_fraction(p), room.known() ? "" : ", and no room is left");
       // A try takes long where one large sphere leaves few cells, and each of them holds many small ones.
-      if (total % PlaceTuning::tries_between_looks == 0) CallScope::look();
+      if (++total % PlaceTuning::tries_between_looks == 0) CallScope::look();
       if (total % PlaceTuning::tries_between_reports == 0) report_placed(placed, spheres, n);
-      random_point(p, rng, 0.5 * p.diameter[i], x);
+      if (room.known())
+        room.random_point(rng, x);
+      else
+        random_point(p, rng, 0.5 * p.diameter[i], x);
     } while (!p.container.holds(x, 0.5 * p.diameter[i]) || cells.blocked(x, i));
     cells.add(i);
     ++spheres;

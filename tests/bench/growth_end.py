@@ -60,17 +60,18 @@ def summary(case: str, n: int, rows: list[dict]) -> list:
     return out
 
 
-folder, table = Path(sys.argv[1]), []
-for task in sys.argv[2:]:
-    case, n, packings = task.split(":")
-    path = folder / f"{case}_{n}.json"
-    path.touch()
-    with path.open("a", buffering=1) as out:
-        for seed in range(len(path.read_text().splitlines()) + 1, int(packings) + 1):
-            out.write(json.dumps(row_of(case, int(n), seed)) + "\n")
-for path in sorted(folder.glob("*_*.json"), key=lambda p: (p.stem.split("_")[0], int(p.stem.split("_")[1]))):
-    case, n = path.stem.split("_")
-    if len(rows := [json.loads(line) for line in path.read_text().splitlines()]) > 1:
-        table.append(summary(case, int(n), rows))
-columns = ["packings", "N", "pairs", "s to 1e7", "time to 1e5", "phi_J from 1e5", "other network (1e5)", "time to 1e6", "phi_J from 1e6", "other network (1e6)"]
-figures.save(HERE / "results/growth_end.json", "growth_end.py FOLDER " + " ".join(sys.argv[2:]), columns, table)
+if __name__ == "__main__":
+    folder, table = Path(sys.argv[1]), []
+    for task in sys.argv[2:]:
+        case, n, packings = task.split(":")
+        path = folder / f"{case}_{n}.json"
+        path.touch()
+        with path.open("a", buffering=1) as out:
+            for seed in range(len(path.read_text().splitlines()) + 1, int(packings) + 1):
+                out.write(json.dumps(row_of(case, int(n), seed)) + "\n")
+    for path in sorted(folder.glob("*_*.json"), key=lambda p: (p.stem.split("_")[0], int(p.stem.split("_")[1]))):
+        case, n = path.stem.split("_")
+        if len(rows := [json.loads(line) for line in path.read_text().splitlines()]) > 1:
+            table.append(summary(case, int(n), rows))
+    columns = ["packings", "N", "pairs", "s to 1e7", "time to 1e5", "phi_J from 1e5", "other network (1e5)", "time to 1e6", "phi_J from 1e6", "other network (1e6)"]
+    figures.save(HERE / "results/growth_end.json", "growth_end.py FOLDER " + " ".join(sys.argv[2:]), columns, table)

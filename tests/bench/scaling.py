@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Processor seconds of every analysis call against N, a panel for each section of jam.h, with the exponents of call and task.
+"""Processor seconds of every call against N, a panel for each section of jam.h, with the exponents of call and task.
 
 usage: scaling.py OUT.json [PICTURE.png]
 
@@ -27,6 +27,7 @@ LIMIT, LONG, CLOCK, EXCESS = 3.0, 1.0, 2e-4, 0.3
 LOCAL, SPARSE, DENSE = 1, 2, 3  # sums over neighbours; a sparse factor in d = 3, of N^2 operations; a dense matrix
 EACH = 7 / 3  # a solve of N^(4/3) operations for each of N contacts
 AXIS = np.array([0.5, 0.0, 0.0])
+GROWN = {}  # N: a packing before its crunch
 
 
 def in_folder(write):
@@ -49,6 +50,13 @@ def reload(s, name):
 
 # section: {call: (sizes, exponent of the task, function)}
 SECTIONS = {
+    "dynamics, Monte Carlo, crunch": {
+        "run, 10 collisions": (FLUID, LOCAL, lambda s: s.copy().run(10)),
+        "monte_carlo, 10 sweeps": (FLUID, LOCAL, lambda s: s.copy().monte_carlo(sweeps=10, step=0.1)),
+        "compress": (JAMMED, LOCAL, lambda s: grown(s.n)),
+        "crunch": (JAMMED, SPARSE, lambda s: grown(s.n, kept=GROWN).copy().crunch()),
+        "estimate_crunch": (JAMMED, SPARSE, lambda s: s.estimate_crunch()),
+    },
     "the cell": {
         "tile": (FLUID, LOCAL, lambda s: s.tile((2, 1, 1))),
         "strain": (FLUID, LOCAL, lambda s: s.copy().strain(1e-3 * np.eye(3))),
@@ -61,6 +69,7 @@ SECTIONS = {
     "soft spheres": {
         "relax": (FEW, SPARSE, lambda s: soft(s).relax()),
         "decompress": (FEW, SPARSE, lambda s: soft(s).decompress(crunch=0)),
+        "shear, 10 steps": (FEW, SPARSE, lambda s: soft(s).shear(1e-3, step=1e-4)),
     },
     "Hessian, modes": {
         "hessian": (JAMMED, LOCAL, lambda s: s.hessian()),
@@ -113,9 +122,6 @@ SECTIONS = {
         "elastic_tensor": (JAMMED, SPARSE, lambda s: s.elastic_tensor()),
         "compare": (JAMMED, LOCAL, lambda s: s.compare(s)),
     },
-    "the crunch before it runs": {
-        "estimate_crunch": (JAMMED, SPARSE, lambda s: s.estimate_crunch()),
-    },
 }
 
 
@@ -123,11 +129,19 @@ def soft(s):
     return jam.System.random(s.n, 3, 1, packing_fraction=0.70, overlap="allow")
 
 
+def grown(n, kept=None):
+    if kept and n in kept:
+        return kept[n]
+    s = jam.System.random(n, 3, 1, packing_fraction=0.2)
+    s.compress()
+    return s
+
+
 def start(n, jammed, kept={}):
     if (n, jammed) not in kept:
-        s = jam.System.random(n, 3, 1, packing_fraction=0.2 if jammed else 0.3)
+        s = jam.System.random(n, 3, 1, packing_fraction=0.3) if not jammed else grown(n)
         if jammed:
-            s.compress([(1e-2, 500.0), (1e-3, 1e5)])
+            GROWN[n] = s.copy()
             s.crunch()
         kept[n, jammed] = s
     return kept[n, jammed]

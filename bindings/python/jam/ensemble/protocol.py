@@ -7,7 +7,7 @@ Data flow: a dict -> complete() checks it and spells out every default -> make(p
               On a lattice the diameters shrink by one factor until no pair overlaps.
     stages    calls that move the spheres, one after the other: {"verb": "compress", "growth_rate": 1e-2, ...}
     crunch    options of the crunch; None: no crunch
-    analysis  calls whose results are stored: {"gaps": {"h_max": 1.0, "stable_only": 1}}
+    analysis  calls whose results are stored: {"gaps": {"h_max": 0.1, "stable_only": 1}}
 """
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ LATTICES = ("fcc",)
 LAWS = {"bidisperse": {"ratio": 1.4, "share": 0.5}, "lognormal": {"deviation": 0.1}}
 #: Growth that avoids crystals: fast through the fluid, slower in the glass, as of System.compress().
 STAGES = tuple({"growth_rate": growth, "pressure": pressure} for growth, pressure in GROWTH_STAGES)
-ANALYSIS: dict[str, dict[str, Any]] = {"gaps": {"h_max": 1.0, "stable_only": 1}, "crystal_score": {}}
+ANALYSIS: dict[str, dict[str, Any]] = {"gaps": {"h_max": 0.1, "stable_only": 1}, "crystal_score": {}}
 _FEW = 1e-12  # packing fraction of a sphere that fits into any scene
 _NO_TIME = 1e-9  # seconds
 _OF_TWO_SPHERES = (errors.TooFewError, errors.StateError)  # what calls without time say of two spheres, not of the protocol

@@ -115,7 +115,8 @@ static int take_value(const option_row *row, const char *value, options *o) {
       return *(double *)place < 1 ? 0 : bad_value(row->name, value, "above 0 and below 1");
     default:
       *(const char **)place = value;
-      return *value ? 0 : bad_value(row->name, value, "the name of a file");
+      if (*value) return 0;
+      return bad_value(row->name, value, row->kind == TAKE_TEXT ? "a text that is not empty" : "the name of a file");
   }
 }
 

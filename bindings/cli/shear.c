@@ -103,6 +103,8 @@ static int read_place(shear_job *job) {
       complain("%s continues --to %s --step %.17g --alpha %g: give the same", job->o->resume, to, step, alpha);
     else
       complain("%s continues --to %s --step %.17g of hard spheres: give the same", job->o->resume, to, step);
+  } else if (found) {
+    complain("%s: another version of jam-pack began this shear, and left other words", job->o->resume);
   } else {
     complain("%s is no checkpoint of a shear", job->o->resume);
   }
@@ -133,6 +135,7 @@ static int take_rows(shear_job *job) {
   const double begin = begin_of(job, &job->at);
   size_t numbers = 0, rows, k;
   place *const p = &job->reached;
+  if (job->last.steps == 0) return 0; /* no minimum */
   if (jam_shear_history(job->sys, JAM_SHEAR_COLUMNS, NULL, 0, &numbers) < 0) return 0;
   rows = numbers / JAM_SHEAR_COLUMNS;
   if (job->row_count + rows > job->row_room) {
@@ -203,10 +206,10 @@ static int write_json(const shear_job *job, double strain, int code, const char 
   put_number(f, "stress", r->stress);
   put_number(f, "pressure", r->pressure);
   put_stress(f, stress, jam_stress(job->sys, stress, sizeof stress / sizeof *stress, &numbers) == JAM_OK ? numbers : 0);
-  put_number(f, "energy", r->energy);
+  put_number(f, "energy", r->steps ? r->energy : NAN);
   fprintf(f, "  \"rigid\": %s,\n", r->rigid ? "true" : "false");
-  put_count(f, "contacts", r->contacts, 1);
-  put_count(f, "rattlers", r->rattlers, 1);
+  put_count(f, "contacts", r->contacts, r->steps > 0);
+  put_count(f, "rattlers", r->rattlers, r->steps > 0);
   put_count(f, "events", p->events, 1);
   put_number(f, "first_event", p->first_event);
   put_number(f, "peak_stress", p->peak_stress);
@@ -220,6 +223,10 @@ static int write_json(const shear_job *job, double strain, int code, const char 
 
 static void print_end(const shear_job *job, double strain) {
   const jam_shear_report *r = &job->last;
+  if (!r->steps) {
+    printf("ended at the strain %.9g (%s), before a minimum\n", strain, jam_stop_string(r->stop_reason));
+    return;
+  }
   printf("sheared to the strain %.9g (%s): stress %.6g, pressure %.6g, packing fraction %.9f\n", strain,
          jam_stop_string(r->stop_reason), r->stress, r->pressure, r->packing_fraction);
   printf("  events    %lld", job->reached.events);

@@ -159,6 +159,7 @@ XyzColumns read_keys(const LineReader &in, CommentKeys &keys, const ReadOptions 
   if (axes == 0) content.enclosure = options.enclosure;
   content.knows_walls = true;  // without pbc and container= a cell is periodic, by the format
   if (keys.find("pbc", value)) check_periodic(in, value, content);
+  keys.find("stress", value);  // libjam writes it, and the forces of a packing give it
   if (keys.find("non_additivity", value)) {
     content.non_additivity = parse_number(in, value);
     content.has_non_additivity = true;

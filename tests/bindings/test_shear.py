@@ -7,6 +7,8 @@ import io
 import os
 import pickle
 import re
+import subprocess
+import sys
 import tempfile
 import unittest
 from pathlib import Path
@@ -403,6 +405,16 @@ class Shear(unittest.TestCase):
             self.assertEqual((report.stop_reason, report.strain, bool(report.rigid)), (jam.StopReason.STRAIN, 0.02, rigid))
             self.assertEqual(report.packing_fraction, s.packing_fraction)
 
+    def test_a_checkpoint_of_other_words_is_a_shear(self):
+        """jam-pack says what it cannot continue: a shear whose note it does not understand, or none."""
+        s = jam.System.random(n=16, dim=2, seed=1)
+        with tempfile.TemporaryDirectory() as folder:
+            for why in ("is no checkpoint of a shear", "another version"):
+                s.write_checkpoint(file := os.path.join(folder, "state"))
+                done = subprocess.run([sys.executable, "-m", "jam", "shear", "--resume", file, "--to", "0.1"], capture_output=True, text=True)
+                self.assertEqual((done.returncode, why in done.stderr), (2, True), done.stderr)
+                s.add_note("shear --to 0.1 at the row 8")
+
     def test_every_stop_reason_has_its_word(self):
         for reason in jam.StopReason:
             self.assertEqual(jam.raw.jam_stop_string(int(reason)), reason.name.lower())
@@ -554,8 +566,9 @@ class Yield(unittest.TestCase):
     def test_refusals(self):
         rows = self.curve(np.random.default_rng(2))
         cycle = {"strain": np.r_[rows["strain"], 0.9], "stress": np.r_[rows["stress"], 1.0]}
-        for bad, beyond, why in ((rows, 0.95, "51 rows lie"), (rows, -0.1, "beyond is"), (rows, 2.0, "beyond is"),
-                                 (cycle, 0.2, "turns"), (dict(rows, stress=rows["stress"] * np.nan), 0.2, "not finite")):
+        for bad, beyond, why in ((rows, 0.95, "51 rows lie"), (rows, -0.1, "goes from 0 to 1"),
+                                 ({name: -x for name, x in rows.items()}, 0.2, "goes from -?0 to -1"), (rows, 2.0, "goes from 0 to 1"),
+                                 ({name: x[:0] for name, x in rows.items()}, 0.2, "no rows"), (cycle, 0.2, "turns"), (dict(rows, stress=rows["stress"] * np.nan), 0.2, "not finite")):
             with self.assertRaisesRegex(ValueError, why):
                 yield_point(bad, beyond)
 

@@ -90,6 +90,19 @@ class Verbs(unittest.TestCase):
         for wrong in (("--to", "0"), ("--to", "a"), (), ("--to", 0.1, "--alpha", 2, "--shrink"), ("--to", 0.1, "--alpha", 0.5)):
             self.assertIn(run("shear", start, *wrong).returncode, (2, 3))
         self.assertEqual(run("shear", "--resume", start, "--to", 0.1).returncode, 3)
+        self.assertIn("a text that is not empty", run("shear", start, "--to", 0.1, "--mode", "").stderr)
+
+    def test_shear_that_ends_before_a_minimum(self):
+        """No time is left: the text says so, and no number of a minimum that was not reached is printed."""
+        start = self.dir / "start.xyz"
+        run("--n", 40, "--dim", 2, "--diameters-ratio", 1.4, "--seed", 2, "--quiet", "--output", start)
+        early = ("shear", start, "--to", 0.01, "--wall-time", 1e-9)
+        told = run(*early)
+        self.assertEqual((told.returncode, told.stdout), (1, "ended at the strain 0 (wall_time), before a minimum\n"))
+        self.assertIn("wall", told.stderr)
+        told = json.loads(run(*early, "--json").stdout)
+        self.assertEqual([told[name] for name in ("energy", "contacts", "rattlers", "rows")], [None, None, None, 0])
+        self.assertNotIn("history", told["text"])
 
     def test_shear_along_a_mode_at_a_stress(self):
         """The cell follows until the stress is as asked; a shear that is continued needs the same mode and stress."""
@@ -125,6 +138,7 @@ class Verbs(unittest.TestCase):
         made = self.dir / "made.xyz"
         self.assertEqual(run("--n", 40, "--dim", 2, "--diameters-ratio", 1.4, "--seed", 2, "--quiet", "--output", made).returncode, 0)
         told = json.loads(run("check", made, "--json").stdout)
+        self.assertEqual(told["notes"], [])  # it wrote the stress itself
         self.assertAlmostEqual(told["stress_tensor"][0] + told["stress_tensor"][3], 2, 9)  # in units of the pressure
         text = re.search(r"Stress over pressure: (\S+) (\S+) on the diagonal, at most (\S+) off it", run("check", made).stdout)
         for k, c in ((1, 0), (2, 3)):

@@ -149,6 +149,8 @@ def yield_point(rows: Any, beyond: float) -> YieldPoint:
         Or anything whose fields strain and stress are arrays.
     """
     strain, stress = np.asarray(rows["strain"], float), np.asarray(rows["stress"], float)
+    if not strain.size:
+        raise ValueError("there are no rows: call shear first")
     way = 1.0 if strain[-1] >= strain[0] else -1.0
     x, y = way * strain, way * stress
     if (np.diff(x) < 0.0).any():
@@ -156,7 +158,9 @@ def yield_point(rows: Any, beyond: float) -> YieldPoint:
     if not np.isfinite(y).all():
         raise ValueError("some stresses are not finite, as those of a minimum without contacts")
     begin, end = way * beyond, x[-1]
-    if not x[0] <= begin < end or (x >= begin).sum() < 64:
+    if not x[0] <= begin < end:
+        raise ValueError(f"beyond is {beyond}: the strain goes from {strain[0]:g} to {strain[-1]:g}")
+    if (x >= begin).sum() < 64:
         raise ValueError(f"beyond is {beyond}: {int((x >= begin).sum())} rows lie beyond it, and at least 64 must")
     integral = np.concatenate([[0.0], np.cumsum(np.diff(x) * (y[1:] + y[:-1]) / 2)])
     error = 0.0

@@ -8,6 +8,7 @@ import sys
 from pathlib import Path
 
 import api_layers
+import call_examples
 import filter as header_filter
 
 SHOWN = ("README.md", "CHANGELOG.md", "LICENSE", "bindings", "examples", "include", "src", "tests")
@@ -104,8 +105,8 @@ def shown(comment):
     return re.sub(r"([*<|])", r"\\\1", words)
 
 
-def api_pages(header):
-    """(name, text) of a page for each section of the header; its short rules become headings on it."""
+def api_pages(header, examples):
+    """(name, text) of a page for each section of the header; its short rules become headings on it. Calls with an example."""
     rules = list(header_filter.RULE.finditer(header))
     ends = [r.start() for r in rules[1:]] + [len(header)]
     pages = []
@@ -120,6 +121,8 @@ def api_pages(header):
         for _, kind, name in declarations(header[rule.end() : end]):
             members = ":members:\n" if kind == "struct" else ""
             pages[-1][1] += f"\n```{{doxygen{kind}}} {name}\n{members}```\n"
+            if name in examples:
+                pages[-1][1] += "\n".join(("\n```c", *examples[name], "```\n"))
     return pages
 
 
@@ -133,13 +136,13 @@ def main():
             (source / name).symlink_to(root / name)
     # The start page stands at the top, so that the site opens with it; its links begin with / and hold in both places.
     (source / "index.md").write_text((root / "bindings/docs/index.md").read_text())
-    pages = api_pages((root / "include/jam/jam.h").read_text())
+    pages = api_pages((root / "include/jam/jam.h").read_text(), call_examples.examples(root))
     for name, text in pages:
         (source / "api" / f"{name}.md").write_text(text)
     listed = "\n".join(name for name, _ in pages)
     (source / "api" / "c.md").write_text(
         "# C\n\nEverything that `jam/jam.h` declares, in the order of work. The conventions stand at the top of the header"
-        " and on the page on [languages](/bindings/docs/languages.md).\n\n"
+        " and on the page on [languages](/bindings/docs/languages.md). Below each call stands an example; a test makes the same calls.\n\n"
         f"```{{toctree}}\n:maxdepth: 2\n\n{listed}\n```\n"
     )
     (source / "api" / "cpp.md").write_text(

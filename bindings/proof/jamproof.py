@@ -11,8 +11,9 @@ packing fraction to the digits that are proved.
 
 Exit status: 0 proved, 1 not proved, 2 a file cannot be read or written, or PACKING.xyz is another packing, 3 trapped
 but not proved, 4 could not try: a file that this one needs is not beside it. Such files are jamproof_implied.py where
-some contacts follow from others, jamproof_trapped.py for crystals and all else with more contacts than unknowns, and
-jamproof_xyz.py for --xyz. The page "The theorems behind proofs" of the guide has the proofs.
+some contacts follow from others, jamproof_symmetric.py where a symmetry closes them, jamproof_trapped.py for crystals
+and all else with more contacts than unknowns, and jamproof_xyz.py for --xyz. The page "The theorems behind proofs" of
+the guide has the proofs.
 
 Theorem A. Unknown are the centres x of the stable spheres but the first, and G; if strict, in place of G the cell
 vectors H, a lower triangle; of a sum, all diameters. F_c = |r_c|^2 - G sigma_c^2, r_c = x_i - x_j + n H, is to be 0
@@ -47,7 +48,7 @@ MOST_IMAGES, WAIT, FARTHEST = 10**6, 10, 10**4  # of a pair; seconds between lin
 SEEN, TWO = Fraction(9, 8), Fraction(2)  # gaps are those of pairs closer than SEEN times their sigma
 ONE = ("dim", "unit", "non_additivity", "gamma")  # lines of one number
 HEADER = (*ONE, "cell")
-WORDS = {*HEADER, "walls", "sphere", "contact", "wall", "tile", "implied", "inverse", "strict", "sum"}
+WORDS = {*HEADER, "walls", "sphere", "contact", "wall", "tile", "implied", "inverse", "strict", "sum", "symmetry"}
 AT_LEAST = ("outer", "least_gap", "least_force")  # bounds from below; all others are bounds from above
 
 
@@ -173,6 +174,8 @@ class Scene:
         refuse(min(positive) <= 0, "a diameter, a cell edge, unit or gamma is not positive")
         other = self.strict or self.tiles or not all(self.stable) or (self.gamma, cross) != (1, 1)
         other = other or min(self.weights, default=1) <= 0
+        self.symmetries = [words for name, *words in lines if name == "symmetry"]
+        refuse(self.symmetries and not self.weights, "a symmetry is not of a sum")
         refuse(self.weights and other, "a sum has positive weights, gamma 1, stable spheres, no tiles and no strict")
         (self.size, self.per), self.cross = whole(self.ratio), cross**2
         first, spheres = self.stable.index(True), [i for i, yes in enumerate(self.stable) if yes]
@@ -385,9 +388,22 @@ def bounds(s, f, columns, e, inverse, weights):
     return delta, [(abs(v) + a) * TWO ** (e + low) for v, a in zip(total, alpha)], [a * TWO**e for a in alpha]
 
 
+def radius_of(delta, eta, beta):
+    """r with (1)."""
+    room = (1 - delta) ** 2
+    wrong = delta >= 1 or 4 * beta * eta >= room
+    refuse(wrong, f"singular: delta {float(delta):.3g}, 4 beta eta {float(4 * beta * eta):.3g}")
+    r = eta / (1 - delta) * (1 + 4 * beta * eta / room)
+    wrong = eta + delta * r + beta * r * r > r or delta + 2 * beta * r >= 1  # (1)
+    refuse(wrong, f"singular: radius {float(r):.3g}, beta {float(beta):.3g}")
+    return r
+
+
 def check(s):
     """Theorem A: what is proved."""
     every = range(len(s.contacts))
+    if s.symmetries:
+        return beside("jamproof_symmetric", "check", s)
     kept = beside("jamproof_implied", "kept_contacts", s) if s.tiles else every
     f, sigma2, columns = s.equations(kept)
     if len(kept) == len(every) and not any(f):
@@ -403,12 +419,8 @@ def check(s):
     delta, eta, alpha = max(delta + [delta_g]), max(eta + [eta_g]), max(alpha + [alpha_g])
     ways = 2 + s.strict * max(sum(map(abs, n)) for *_, n in s.contacts)  # a contact vector moves by ways r at most
     wide = s.dim * ways**2 + bool(s.weights)  # D
-    beta, room = wide * alpha, (1 - delta) ** 2
-    wrong = delta >= 1 or 4 * beta * eta >= room
-    refuse(wrong, f"singular: delta {float(delta):.3g}, 4 beta eta {float(4 * beta * eta):.3g}")
-    r = eta / (1 - delta) * (1 + 4 * beta * eta / room)
-    wrong = eta + delta * r + beta * r * r > r or delta + 2 * beta * r >= 1  # (1)
-    refuse(wrong, f"singular: radius {float(r):.3g}, beta {float(beta):.3g}")
+    beta = wide * alpha
+    r = radius_of(delta, eta, beta)
     wrong = s.tiles and (ways * r) ** 2 * 10**12 > s.gamma * min(s.ratio) ** 2
     refuse(wrong, f"excess: radius {float(r):.3g} is too large for the angles of tiles")
     r_g = eta_g + delta_g * r + wide * alpha_g * r * r

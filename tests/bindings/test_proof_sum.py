@@ -1,4 +1,5 @@
 """Proof files of largest sums of radii: those of jam.radii.prove are proved by the checker, changed ones are not."""
+import math
 import pathlib
 import random
 import tempfile
@@ -158,6 +159,121 @@ class Sums(unittest.TestCase):
                     if isinstance(found := verdict(f.text()), dict):
                         self.assertGreaterEqual(found["radius"], 0.999 * part * 10.0**-power)
                     self.assertTrue(power == 3 or isinstance(found, dict), found)
+
+
+def pull(f, r):
+    for line in f.contacts + f.at_walls:
+        f.scale(line, -1, -1)
+
+
+def no_symmetry(f, r):
+    f.lines.remove(f.header("symmetry"))
+
+
+def other_mirror(f, r):
+    line = f.header("symmetry")
+    k = 1 + r.randrange(2)
+    line[k] = str(-int(line[k]))
+
+
+def same_axis(f, r):
+    line = f.header("symmetry")
+    line[2] = line[1]
+
+
+def other_spheres(f, r):
+    line = f.header("symmetry")
+    a, b = r.sample(range(3, len(line)), 2)
+    line[a], line[b] = line[b], line[a]
+
+
+def one_sphere_twice(f, r):
+    line = f.header("symmetry")
+    line[3] = line[4]
+
+
+def not_quite(at):
+    """A sphere that goes to another one, off by less than a radius covers: the symmetry is not exact."""
+
+    def change(f, r):
+        to = f.header("symmetry")[len(f.spheres[0]) - 2 :]
+        f.shift(f.spheres[r.choice([i for i, p in enumerate(to) if int(p) != i])], at, Fraction(1, 10**40))
+
+    return change
+
+
+def weight_without_symmetry(f, r):
+    line, to = f.header("sum"), f.header("symmetry")[len(f.spheres[0]) - 2 :]
+    line[1 + next(i for i, p in enumerate(to) if int(p) != i)] = "3p-1"
+
+
+SYMMETRIC = {
+    "no symmetry": no_symmetry, "another mirror": other_mirror, "one axis twice": same_axis, "other spheres": other_spheres,
+    "one sphere twice": one_sphere_twice, "centre off by 1e-40": not_quite(3), "diameter off by 1e-40": not_quite(2),
+    "a weight without the symmetry": weight_without_symmetry, "pull": pull, "contact missing": drop, "wall missing": drop_wall,
+    "the other side": other_side, "another wall": another_wall, "all the same": lambda f, r: f.lines.append(["symmetry", "1", "2"]),
+}  # fmt: skip
+
+
+class Symmetric(unittest.TestCase):
+    """Maxima with more contacts than unknowns."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.made = []
+        for n, dim in ((4, 2), (5, 2), (6, 2), (7, 2), (9, 2), (12, 2), (4, 3), (5, 3)):
+            for seed in range(1, 20):
+                system = maximum(n, dim, seed)
+                if len(system.contacts.pairs) > n * (dim + 1):
+                    try:
+                        cls.made.append((n, *file_of(system)))
+                    except jam.errors.StateError as why:
+                        assert "symmetry" in str(why), why
+                        continue
+                    break
+
+    def test_both_prove_them(self):
+        self.assertGreater(len(self.made), 6)
+        for n, proved, text in self.made:
+            found, (low, high) = verdict(text), sum_of(text)
+            self.assertIsInstance(found, dict, found)
+            own, radius = Fraction(proved.value), Fraction(proved.value_radius)
+            self.assertLess(low, own + radius)
+            self.assertLess(own - radius, high)
+            self.assertLess(found["sum_error"], 1e-40)
+            self.assertGreater(found["least_force"], 0)
+
+    def test_a_symmetric_saddle_is_refused(self):
+        """Two equal disks on the diagonal: closed by the half turn, forces balance, but the sum stays along a family."""
+        root = Fraction(math.isqrt(2 * 10**120), 10**60)
+        size = 2 - root
+        pair = 1 / (2 * size * (1 + root))
+        at_wall, corner = pair / (2 * root), word(size / 2, -180)
+        lines = ["jamproof 1", "sum 1p0 1p0", "dim 2", "unit 1p0", "cell 1p0 0p0 1p0", "non_additivity 0p0", "gamma 1p0", "walls 0 1"]
+        far = word(1 - value(corner), -180)
+        lines += ["symmetry -1 -2 1 0", *(f"sphere 1 {word(size, -180)} {x} {x}" for x in (corner, far)), f"contact 0 1 0 0 {word(pair)}"]
+        lines += [f"wall {i} {axis} {i} {word(at_wall)}" for i in (0, 1) for axis in (0, 1)]
+        self.assertEqual(verdict("\n".join(lines) + "\n"), "singular")
+
+    def test_four_balls(self):
+        """In every second corner of a cube: each touches three faces and the others, so that R (2 + sqrt(2)) = 1 of equal ones."""
+        x = np.array([[0.0, 0.0, 0.0], [1.0, 1.0, 0.0], [1.0, 0.0, 1.0], [0.0, 1.0, 1.0]])
+        near = 1 / (2 + 2**0.5)
+        system = jam.System.from_arrays(near + (1 - 2 * near) * x, radii=np.full(4, 0.99 * near), walls="xyz", dim=3)
+        system.maximise_radii()
+        low, high = sum_of(file_of(system)[1])
+        root = Fraction(math.isqrt(2 * 10**120), 10**60)
+        self.assertLess(abs((low + high) / 2 - (4 - 2 * root)), Fraction(1, 10**45))
+
+    def test_changed_files_are_not_proved(self):
+        generator = random.Random(8)
+        for n, _, text in self.made:
+            for kind, change in SYMMETRIC.items():
+                with self.subTest(kind=kind, n=n):
+                    f = Walled(text)
+                    change(f, generator)
+                    if f.text() != text:
+                        self.assertNotIsInstance(found := verdict(f.text()), dict, found)
 
 
 if __name__ == "__main__":

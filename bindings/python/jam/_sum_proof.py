@@ -5,6 +5,8 @@ Unknown are all centres and radii between flat walls. Of a pair F = |r_ij|^2 - (
 4 d |v|^2 in maximum norms. With A, delta, eta and beta as in digits.py exactly one zero of F lies within the radius. There
 the forces f J = -w are unique; where they are all positive and every other gap is open, it is a strict local maximum of
 sum w_i R_i. These are the equations of a proof file, whose unknowns are diameters.
+
+With more contacts than unknowns the same is done with the orbits of a symmetry (_symmetry.py), if these are as many.
 """
 from __future__ import annotations
 
@@ -19,6 +21,7 @@ import numpy as np
 from ._api.arrays import Array
 from .digits import GUARD, SLACK, STEPS, _bounds, _decimal, _doubles, _integers
 from ._formats.replacing import replacing
+from ._symmetry import Fold, square_fold
 from .errors import StateError
 from .system import System
 
@@ -42,7 +45,7 @@ def _number(value: Any, bits: int) -> float:
 class _Rows:
     """F and its derivative, with numbers of `bits` bits behind the point."""
 
-    def __init__(self, system: System, bits: int):
+    def __init__(self, system: System, bits: int, weights: list[Fraction]):
         info, walls = system.info, system.walls()
         self.d, self.n, self.bits = info.dim, info.n, bits
         if info.container or info.walls != (1 << self.d) - 1 or info.model:
@@ -52,9 +55,12 @@ class _Rows:
         self.walls = [(int(axis), bool(side)) for axis, side in zip(walls.axis, walls.side)]
         self.pairs = np.asarray(system.contacts.pairs)
         self.size = self.n * (self.d + 1)
-        if len(self.pairs) != self.size:
+        ends = [(int(i), int(j)) for i, j in self.pairs]
+        fold = square_fold(system.positions, system.diameters / 2, weights, np.diag(system.cell), ends, self.walls)
+        if fold is None:
             raise StateError(f"prove: {len(self.pairs)} contacts and {self.size} unknowns: only simple maxima are proved, "
-                             "which have as many, and no radius at a bound")
+                             "which have as many, or as many orbits under a symmetry, and no radius at a bound")
+        self.fold: Fold = fold
         self.u = np.concatenate([_integers(system.positions / self.unit, bits), _integers(system.diameters / (2 * self.unit), bits)[:, None]], 1)
 
     def distance(self, i: int, wall: int) -> int:
@@ -71,7 +77,17 @@ class _Rows:
         return int((r * r).sum() - (a[d] + b[d]) ** 2) >> self.bits
 
     def residuals(self) -> Array:
-        return np.array([self.gap(i, j) for i, j in self.pairs], dtype=object)
+        return np.array([self.gap(i, j) for i, j in self.pairs[self.fold.rows]], dtype=object)
+
+    def keep_symmetry(self) -> None:
+        """Centres and radii become those of the first of their orbit."""
+        d, flat = self.d, self.u.ravel()
+        for at, (first, sign) in enumerate(zip(self.fold.first, self.fold.sign)):
+            if sign == 0:
+                flat[at] = self.edge[at % (d + 1)] // 2
+            elif first != at:
+                flat[at] = flat[first] if sign > 0 else self.edge[at % (d + 1)] - flat[first]
+        self.u = flat.reshape(self.n, d + 1)
 
     def derivative(self) -> Array:
         d, found = self.d, np.zeros((len(self.pairs), self.size))
@@ -94,7 +110,10 @@ class _Rows:
         shift = self.bits + power - 60
         whole = [int(v) for v in np.round(step * 2.0**60)]
         whole = [v << shift if shift >= 0 else v >> -shift for v in whole]
-        self.u -= np.array(whole, dtype=object).reshape(self.n, self.d + 1)
+        flat = self.u.ravel()
+        flat[self.fold.unknowns] -= np.array(whole, dtype=object)
+        self.u = flat.reshape(self.n, self.d + 1)
+        self.keep_symmetry()
 
     def closest(self, r: int) -> str | None:
         """What may overlap, or be no sphere, where each number is within r; None: nothing."""
@@ -124,6 +143,7 @@ class _Rows:
         cell = " ".join(numbers([self.edge[q]], 0) if q == c else "0p0" for q in range(d) for c in range(q + 1))
         lines = ["jamproof 1", "sum " + " ".join(map(_binary, weights)), f"dim {d}", "unit " + _binary(Fraction(self.unit)), "cell " + cell]
         lines += ["non_additivity 0p0", "gamma 1p0", "walls " + " ".join(map(str, range(d)))]
+        lines += ["symmetry " + g.words() for g in self.fold.generators]
         lines += [f"sphere 1 {numbers(row[d:], 1)} {numbers(row[:d], 0)}" for row in self.u]
         for (i, j), force in zip(self.pairs, forces):
             axis, far = self.walls[-1 - j] if j < 0 else (0, False)
@@ -145,10 +165,13 @@ def prove_sum(system: System, digits: int, weights: Any, path: Any) -> Proved:
     if digits < 20:
         raise ValueError(f"digits is {digits}; doubles have nearly 16, so 20 and more are computed here")
     bits = int(digits * math.log2(10)) + GUARD
-    rows, n, d = _Rows(system, bits), system.n, system.dim
+    n, d = system.n, system.dim
     w = [Fraction(1)] * n if weights is None else [Fraction(float(v)) for v in weights]
+    rows = _Rows(system, bits, w)
+    rows.keep_symmetry()
+    whole, kept, fold = rows.fold.matrix(), rows.fold.rows, rows.fold
     try:
-        inverse = np.linalg.inv(rows.derivative())
+        inverse = np.linalg.inv(rows.derivative()[kept] @ whole)
     except np.linalg.LinAlgError:
         raise StateError("prove: the contacts depend on each other") from None
     for step in range(STEPS + bits // 8):
@@ -158,19 +181,27 @@ def prove_sum(system: System, digits: int, weights: Any, path: Any) -> Proved:
         rows.move(inverse @ wrong, power)
     else:
         raise StateError("prove: Newton's steps gain no digits; contacts nearly depend on each other")
-    delta, alpha = _bounds(rows.derivative(), inverse)
+    derivative = rows.derivative()
+    delta, alpha = _bounds(derivative[kept] @ whole, inverse)
     last = max(abs(int(v)) for v in rows.residuals()) + 1  # rounded down
     eta, beta = Fraction(alpha) * Fraction(last, 1 << bits), 4 * d * Fraction(alpha)
     r = 2 * eta
     share = Fraction(delta) + 2 * beta * r
     if not (Fraction(delta) * r + beta * r * r <= eta and share < 1):
         raise StateError(f"prove: nothing is proved, since |1 - A J| is only known to be at most {delta:.2g}")
+    if len(kept) < len(derivative):  # that the equations have full rank
+        left = np.linalg.pinv(derivative)
+        rest, large = _bounds(derivative, left)
+        if not Fraction(rest) + 8 * d * Fraction(large) * r < 1:
+            raise StateError("prove: the contacts leave a motion")
     full = np.zeros(rows.size)
     full[d :: d + 1] = [float(v) for v in w]
-    forces, total = -(full @ inverse), float(sum(w))
+    orbits, total = -(full @ whole @ inverse), float(sum(w))
+    many = np.bincount(fold.row, minlength=len(fold.row))[kept]
+    forces = (orbits / many)[np.searchsorted(kept, fold.row)]
     # f = -w (1 - E)^-1 A with |E| <= share, and the rounding of a product of so many doubles
     near = total * float(abs(inverse).max()) * (float(share / (1 - share)) + 2.0**-50 * rows.size) * (1 + 2.0**-40)
-    least = float(forces.min()) - near
+    least = float(((orbits - near) / many).min())
     if not least > 0.0:
         raise StateError(f"prove: the least force is {forces.min():.2g}, known to {near:.2g}: it may pull")
     why = rows.closest(math.ceil(r * (1 << bits)))

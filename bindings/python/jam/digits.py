@@ -143,9 +143,9 @@ class _Equations:
 
 def _bounds(derivative: Array, inverse: Array) -> tuple[float, float]:
     """delta and alpha: bounds of |1 - A J| and |A| that contain all rounding, of J's entries too."""
-    m = len(inverse)
+    m = inverse.shape[1]
     alpha = float(abs(inverse).sum(1).max()) * (1 + 2 * m * ULP)
-    left = np.eye(m) - inverse @ derivative
+    left = np.eye(len(inverse)) - inverse @ derivative
     rounding = 2 * (m + 4) * ULP * alpha * float(abs(derivative).sum(1).max())
     return float(abs(left).sum(1).max()) * (1 + 2 * m * ULP) + rounding, alpha
 

@@ -194,7 +194,9 @@ Says undecide_if_nearly_closed_pairs_hold(JammingCase &c) {
   if (c.kind == Jamming::strict) {
     const ContactNetwork closed = subset(c.v.contacts, c.pairs.listed, c.p.dim);
     const ContactNetwork *listed = closed.size() ? &closed : nullptr;
-    if (test_packing(c.p, c.resolution, listed, Jamming::collective).jammed == Verdict::yes) return {};
+    const Verdict held =
+        c.other ? c.other->jammed : test_packing(c.p, c.resolution, listed, Jamming::collective).jammed;
+    if (held == Verdict::yes) return {};
   }
   const auto hold = [&](const ContactNetwork &open, bool clear) {
     if (open.size() == 0) return false;

@@ -44,12 +44,13 @@ ContactNetwork closed_of(const Packing &p, const ContactNetwork *known) {
   return subset(*known, on, p.dim);
 }
 
-// By the rules of one kind: motions of its spheres, and in the strict test of its cell.
-PackingVerdict test_alone(const Packing &p, const GapResolution &resolution, const ContactNetwork *known,
-                          Jamming kind) {
+// By the rules of one kind: motions of its spheres, and in the strict test of its cell. other: the verdict of the other
+// kind, where it is known.
+PackingVerdict test_alone(const Packing &p, const GapResolution &resolution, const ContactNetwork *known, Jamming kind,
+                          const PackingVerdict *other = nullptr) {
   const ContactNetwork closed = closed_of(p, known);
   JammingCase c = open_case(p, resolution, closed.size() ? &closed : nullptr, kind);
-  c.known = known;
+  c.known = known, c.other = other;
   try_rules(c, Rule::rows, Rule::all_around);
   set_forces(c);
   try_rules(c, Rule::weak_forces, Rule::nearly_closed);
@@ -88,7 +89,9 @@ PackingVerdict verdict_of(const TestedPacking &tested, const ContactNetwork *kno
 
 const PackingVerdict &JammingTest::alone(Jamming kind) {
   std::optional<PackingVerdict> &v = alone_[static_cast<int>(kind)];
-  if (!v) v = test_alone(p_, resolution_, known_, kind);
+  if (v) return *v;
+  const std::optional<PackingVerdict> &held = alone_[static_cast<int>(Jamming::collective)];
+  v = test_alone(p_, resolution_, known_, kind, held ? &*held : nullptr);
   return *v;
 }
 

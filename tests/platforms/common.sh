@@ -65,8 +65,11 @@ build_platform() {
 # Both write what they know into FOLDER/result.json.
 write_result() {
   minutes=$((($(date +%s) - began + 59) / 60))
-  printf '{"platform": "%s", "passed": %d, "tests": %d, "md": "%s", "crunch": "%s", "files": "%s", "minutes": %d}\n' \
-    "$platform" "$passed" "$all" "$md" "$crunch" "$files" "$minutes" >"$1/result.json"
+  {
+    printf '{"platform": "%s", "passed": %d, "tests": %d, ' "$platform" "$passed" "$all"
+    printf '"md": "%s", "crunch": "%s", "files": "%s", ' "$md" "$crunch" "$files"
+    printf '"minutes": %d, "commit": "%s"}\n' "$minutes" "$(git rev-parse --short HEAD)"
+  } >"$1/result.json"
 }
 
 # test_platform FOLDER: builds the library and compares bits and files, then builds and runs the tests. Fails where

@@ -130,7 +130,7 @@ CASE(thin_cells) {
       continue;
     }
     assert_int_equal(made, JAM_OK);
-    c.strain = JAM_STRAIN_FREE, c.wall_time = 10.0;
+    c.strain = JAM_STRAIN_FREE, c.wall_time = 2.0; /* some would take long to end */
     const jam_status status = jam_crunch(sys, &c, NULL);
     if (status < 0) fail_msg("d %d height %g: %d %s", d, h, status, jam_last_error());
     assert_valid(sys, o.packing_fraction);

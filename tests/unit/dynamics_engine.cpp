@@ -247,7 +247,7 @@ CASE(instruction_sets_give_the_same_bits) {
       Monitor monitor;
       monitor.begin();
       auto engine = make_engine(p, o);
-      Halt halt = engine->advance(60 * c.n, monitor);
+      Halt halt = engine->advance(30 * c.n, monitor);
       assert_true(halt == Halt::window || halt == Halt::needs_images);
       engine->write_state(p);
       assert_true(engine->max_overlap < 1e-13);

@@ -77,7 +77,7 @@ CASE(grows_without_overlap) {
     monitor.begin();
     const auto engine = make_engine(p, o);
     for (int block = 0; block < 3; ++block) {
-      const Halt halt = engine->advance(12 * s.n, monitor);
+      const Halt halt = engine->advance(6 * s.n, monitor);
       assert_int_equal(halt, Halt::window);
       engine->write_state(p);
       const double gap = closest_pair(p).gap;
@@ -95,7 +95,7 @@ CASE(archive_continues_with_the_same_bits) {
     Monitor monitor;
     monitor.begin();
     const auto engine = make_engine(p, o);
-    assert_int_equal(engine->advance(10 * s.n, monitor), Halt::window);
+    assert_int_equal(engine->advance(5 * s.n, monitor), Halt::window);
     Archive out;
     int64_t images = engine->with_images();
     out(images);
@@ -103,7 +103,7 @@ CASE(archive_continues_with_the_same_bits) {
     Archive in(out.bytes());
     const auto again = make_engine(q, in);
     in.end();
-    for (const auto &e : {engine.get(), again.get()}) assert_int_equal(e->advance(10 * s.n, monitor), Halt::window);
+    for (const auto &e : {engine.get(), again.get()}) assert_int_equal(e->advance(5 * s.n, monitor), Halt::window);
     engine->write_state(p);
     again->write_state(q);
     assert_memory_equal(p.position.data(), q.position.data(), p.position.size() * sizeof(double));

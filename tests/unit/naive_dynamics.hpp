@@ -53,32 +53,34 @@ inline void naive(Packing &p, int collisions, long double rate, int reach = 1) {
   long double now = 0.0L;
   int images = 1;
   for (int c = 0; c < d; ++c) images *= width;
-  const auto image = [&](int m, long double *r) {
-    for (int c = 0; c < d; ++c, m /= width)
-      for (int k = 0; k <= c; ++k) r[k] += (m % width - reach) * static_cast<long double>(cell.row(c)[k]);
-  };
+  std::vector<long double> shift(static_cast<size_t>(images * d), 0.0L);
+  for (int k = 0; k < images; ++k)
+    for (int c = 0, m = k; c < d; ++c, m /= width)
+      for (int q = 0; q <= c; ++q) shift[k * d + q] += (m % width - reach) * static_cast<long double>(cell.row(c)[q]);
   for (int done = 0; done < collisions; ++done) {
     long double best = 1e30L, at[8] = {};
     int bi = -1, bj = -1;
     for (int i = 0; i < n; ++i)
-      for (int j = i + 1; j < n; ++j)
+      for (int j = i + 1; j < n; ++j) {
+        long double first[8], w[8], vv = 0;
+        for (int c = 0; c < d; ++c) {
+          first[c] = x[i * d + c] - x[j * d + c], w[c] = v[i * d + c] - v[j * d + c];
+          vv += w[c] * w[c];
+        }
+        to_brick(cell, first);
+        const long double s0 = contact_distance<long double>(p, i, j), s = s0 * (1 + rate * now), g = s0 * rate,
+                          a = vv - g * g;
         for (int m = 0; m < images; ++m) {
-          long double r[8], rv = 0, vv = 0, rr = 0;
-          for (int c = 0; c < d; ++c) r[c] = x[i * d + c] - x[j * d + c];
-          to_brick(cell, r);
-          image(m, r);
-          for (int c = 0; c < d; ++c) {
-            const long double w = v[i * d + c] - v[j * d + c];
-            rv += r[c] * w, vv += w * w, rr += r[c] * r[c];
-          }
-          const long double s0 = contact_distance<long double>(p, i, j), s = s0 * (1 + rate * now), g = s0 * rate;
-          const long double a = vv - g * g, b = rv - s * g, gap = rr - s * s, disc = b * b - a * gap;
+          long double r[8], rv = 0, rr = 0;
+          for (int c = 0; c < d; ++c) r[c] = first[c] + shift[m * d + c], rv += r[c] * w[c], rr += r[c] * r[c];
+          const long double b = rv - s * g, gap = rr - s * s, disc = b * b - a * gap;
           if (b >= 0 || disc < 0) continue;
           const long double t = gap <= 0 ? 0 : gap / (std::sqrt(disc) - b);
           if (!(t < best)) continue;
           best = t, bi = i, bj = j;
-          for (int c = 0; c < d; ++c) at[c] = r[c] + (v[i * d + c] - v[j * d + c]) * t;
+          for (int c = 0; c < d; ++c) at[c] = r[c] + w[c] * t;
         }
+      }
     assert_true(bi >= 0);
     for (size_t k = 0; k < x.size(); ++k) x[k] += v[k] * best;
     now += best;

@@ -65,6 +65,10 @@ def main():
             sys.exit("a call that no language lists was taken")
         except annotations.HeaderError as error:
             assert "jam_new_text" in str(error), error
+    page = (ROOT / "bindings/docs/add_language.md").read_text()
+    unnamed = {a.role for f in full.functions for a in f.args} - set(re.findall(r"`(\w+)`", page))
+    if unnamed:
+        sys.exit(f"add_language.md does not name the roles {sorted(unnamed)}")
     assert len(generate.BUILT) >= 6, generate.BUILT
     changed = [n for n in generate.BUILT if code(n, generate.BUILT[n](full)) != code(n, generate.BUILT[n](without))]
     if changed:

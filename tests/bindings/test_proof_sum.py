@@ -276,5 +276,30 @@ class Symmetric(unittest.TestCase):
                         self.assertNotIsInstance(found := verdict(f.text()), dict, found)
 
 
+def other_image(f, r):
+    line = r.choice(f.contacts)
+    line[3] = str(int(line[3]) + r.choice((-1, 1)))
+
+
+PERIODIC = {"pull": pull, "contact missing": drop, "another image": other_image, "another weight": other_weight,
+            "a rattler": rattler, "diameter larger by 1e-1": resized(Fraction(1, 10))}  # fmt: skip
+
+
+class Periodic(unittest.TestCase):
+    def test_cells_without_walls_and_with_some(self):
+        generator = random.Random(9)
+        for scene in ({"n": 8, "seed": 1}, {"n": 12, "seed": 2, "walls": "y"}, {"n": 9, "seed": 3, "cell": [[1, 0], [0.3, 0.9]]}):
+            system = jam.System.random(dim=2, **scene)
+            system.maximise_radii()
+            proved, text = file_of(system)
+            low, high = sum_of(text)
+            self.assertLess(abs((low + high) / 2 - Fraction(proved.value)), Fraction(proved.value_radius))
+            for kind, change in PERIODIC.items():
+                with self.subTest(kind=kind, scene=scene):
+                    f = Walled(text)
+                    change(f, generator)
+                    self.assertNotIsInstance(found := verdict(f.text()), dict, found)
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -325,8 +325,9 @@ class Proof(unittest.TestCase):
             s.maximise_radii()
             jam.radii.prove(s)
         with self.assertRaisesRegex(wrong, "flat walls"):
-            s = jam.System.random(n=8, dim=2, seed=1)
-            s.maximise_radii()
+            s = jam.System.random(n=12, dim=2, seed=1, container="ball", packing_fraction=0.3)
+            s.compress()
+            s.crunch()
             jam.radii.prove(s)
         with self.assertRaisesRegex(wrong, "no contact network"):
             jam.radii.prove(box(3))

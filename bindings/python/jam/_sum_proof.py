@@ -1,6 +1,6 @@
 """Decimals of a largest sum of radii with a proved radius: theorem A of the guide's page on proofs with radii as unknowns.
 
-Unknown are all centres and radii between flat walls. Of a pair F = |r_ij|^2 - (R_i + R_j)^2 is 0, of a wall F = 4 distance^2 -
+Unknown are all centres and radii, but those of the first centre along axes without walls. Of a pair F = |r_ij|^2 - (R_i + R_j)^2 is 0, of a wall F = 4 distance^2 -
 4 R_i^2, so that a simple maximum has as many equations as unknowns. F is quadratic: F(u + v) = F(u) + J v + Q(v), and |Q| <=
 4 d |v|^2 in maximum norms. With A, delta, eta and beta as in digits.py exactly one zero of F lies within the radius. There
 the forces f J = -w are unique; where they are all positive and every other gap is open, it is a strict local maximum of
@@ -46,46 +46,73 @@ class _Rows:
     """F and its derivative, with numbers of `bits` bits behind the point."""
 
     def __init__(self, system: System, bits: int, weights: list[Fraction]):
-        info, walls = system.info, system.walls()
+        info = system.info
         self.d, self.n, self.bits = info.dim, info.n, bits
-        if info.container or info.walls != (1 << self.d) - 1 or info.model:
-            raise StateError("prove: only packings between flat walls along all axes have a proof of their sum")
+        if info.container or info.model or info.non_additivity:
+            raise StateError("prove: only additive spheres in periodic cells and between flat walls have a proof of their sum")
         self.unit = 2.0 ** round(math.log2(info.box))  # an exact factor
-        self.edge = _integers(np.diag(system.cell) / self.unit, bits)
-        self.walls = [(int(axis), bool(side)) for axis, side in zip(walls.axis, walls.side)]
+        self.cell = _integers(system.cell / self.unit, bits)
+        self.edge = np.diag(self.cell)
+        self.open = [c for c in range(self.d) if not info.walls >> c & 1]
+        walls = system.walls() if info.walls else None
+        self.walls = [(int(axis), bool(side)) for axis, side in zip(walls.axis, walls.side)] if walls is not None else []
         self.pairs = np.asarray(system.contacts.pairs)
+        self.images = self._images(system)
         self.size = self.n * (self.d + 1)
-        ends = [(int(i), int(j)) for i, j in self.pairs]
-        fold = square_fold(system.positions, system.diameters / 2, weights, np.diag(system.cell), ends, self.walls)
-        if fold is None:
-            raise StateError(f"prove: {len(self.pairs)} contacts and {self.size} unknowns: only simple maxima are proved, "
+        if any(i == j for i, j in self.pairs):
+            raise StateError("prove: a sphere touches its own image")
+        fold = self._folded(system, weights)
+        if len(fold.rows) != len(fold.unknowns):
+            raise StateError(f"prove: {len(self.pairs)} contacts and {self.size - len(self.open)} unknowns: only simple maxima are proved, "
                              "which have as many, or as many orbits under a symmetry, and no radius at a bound")
-        self.fold: Fold = fold
+        self.fold = fold
         self.u = np.concatenate([_integers(system.positions / self.unit, bits), _integers(system.diameters / (2 * self.unit), bits)[:, None]], 1)
+
+    def _images(self, system: System) -> list[tuple[int, ...]]:
+        """n of each contact, r = x_i - x_j + n H."""
+        i, j = self.pairs.T
+        x, radii, inverse = system.positions, system.diameters / 2, np.linalg.inv(system.cell)
+        pair, j = j >= 0, np.where(j < 0, i, j)
+        length = (radii[i] + radii[j])[:, None]
+        both = [(sign * length * system.contacts.vectors - (x[i] - x[j])) @ inverse for sign in (1, -1)]
+        best = min(both, key=lambda n: float(abs(n - np.round(n))[pair].max(initial=0.0)))
+        return [tuple(int(v) * bool(yes) for v in row) for row, yes in zip(np.round(best), pair)]
+
+    def _folded(self, system: System, weights: list[Fraction]) -> Fold:
+        """Of no symmetry where an axis has no walls."""
+        plain = Fold([], np.arange(self.size), np.ones(self.size, int), np.arange(len(self.pairs)))
+        plain.sign[self.open] = 0
+        ends = [(int(i), int(j)) for i, j in self.pairs]
+        found = None if self.open else square_fold(
+            system.positions, system.diameters / 2, weights, np.diag(system.cell), ends, self.walls)  # fmt: skip
+        return found or plain
+
+    def separation(self, i: int, j: int, n: Any) -> Array:
+        found: Array = self.u[i][: self.d] - self.u[j][: self.d] + np.array(n, dtype=object) @ self.cell
+        return found
 
     def distance(self, i: int, wall: int) -> int:
         axis, far = self.walls[-1 - wall]
         return int(self.edge[axis] - self.u[i][axis] if far else self.u[i][axis])
 
-    def gap(self, i: int, j: int) -> int:
-        """F of a pair or wall."""
-        d, a = self.d, self.u[i]
+    def gap(self, k: int) -> int:
+        """F of a contact."""
+        d, (i, j) = self.d, self.pairs[k]
         if j < 0:
-            return 4 * (self.distance(i, j) ** 2 - int(a[d]) ** 2) >> self.bits
-        b = self.u[j]
-        r = a[:d] - b[:d]
-        return int((r * r).sum() - (a[d] + b[d]) ** 2) >> self.bits
+            return 4 * (self.distance(i, j) ** 2 - int(self.u[i][d]) ** 2) >> self.bits
+        r = self.separation(i, j, self.images[k])
+        return int((r * r).sum() - (self.u[i][d] + self.u[j][d]) ** 2) >> self.bits
 
     def residuals(self) -> Array:
-        return np.array([self.gap(i, j) for i, j in self.pairs[self.fold.rows]], dtype=object)
+        return np.array([self.gap(int(k)) for k in self.fold.rows], dtype=object)
 
     def keep_symmetry(self) -> None:
         """Centres and radii become those of the first of their orbit."""
         d, flat = self.d, self.u.ravel()
         for at, (first, sign) in enumerate(zip(self.fold.first, self.fold.sign)):
-            if sign == 0:
+            if sign == 0 and self.fold.generators:
                 flat[at] = self.edge[at % (d + 1)] // 2
-            elif first != at:
+            elif sign and first != at:
                 flat[at] = flat[first] if sign > 0 else self.edge[at % (d + 1)] - flat[first]
         self.u = flat.reshape(self.n, d + 1)
 
@@ -98,9 +125,9 @@ class _Rows:
                 found[k, at + axis] = 8 * _number(self.distance(i, j), self.bits) * (-1.0 if far else 1.0)
                 found[k, at + d] = -8 * _number(self.u[i][d], self.bits)
                 continue
-            to = int(j) * (d + 1)
+            to, r = int(j) * (d + 1), self.separation(i, j, self.images[k])
             for c in range(d):
-                found[k, at + c] = 2 * _number(self.u[i][c] - self.u[j][c], self.bits)
+                found[k, at + c] = 2 * _number(r[c], self.bits)
                 found[k, to + c] = -found[k, at + c]
             found[k, at + d] = found[k, to + d] = -2 * _number(self.u[i][d] + self.u[j][d], self.bits)
         return found
@@ -117,37 +144,52 @@ class _Rows:
 
     def closest(self, r: int) -> str | None:
         """What may overlap, or be no sphere, where each number is within r; None: nothing."""
-        touching = {(int(i), int(j)) for i, j in self.pairs}
-        d = self.d
+        touching = {(int(i), int(j), n) for (i, j), n in zip(self.pairs, self.images)}
+        touching |= {(j, i, tuple(-v for v in n)) for i, j, n in touching}
+        d, none = self.d, (0,) * self.d
         for i in range(self.n):
             if int(self.u[i][d]) <= r:
                 return f"the radius of sphere {i} may be 0"
             if any(self.distance(i, -1 - w) <= r for w in range(len(self.walls))):
                 return f"the centre of sphere {i} may be outside the walls"
             for w in range(len(self.walls)):
-                if (i, -1 - w) not in touching and self.distance(i, -1 - w) - int(self.u[i][d]) <= 2 * r:
+                if (i, -1 - w, none) not in touching and self.distance(i, -1 - w) - int(self.u[i][d]) <= 2 * r:
                     return f"sphere {i} may touch wall {w}"
-            for j in range(i):
-                if (i, j) in touching or (j, i) in touching:
-                    continue
-                apart = self.u[i][:d] - self.u[j][:d]
+            for j in range(i + 1):
                 sides = int(self.u[i][d] + self.u[j][d]) + 2 * r + 2 * d * r  # |r_ij| changes by 2 sqrt(d) r at most
-                if int((apart * apart).sum()) <= sides * sides:
-                    return f"spheres {j} and {i} may touch"
+                for n in self.near(i, j, sides):
+                    apart = self.separation(i, j, n)
+                    if (i, j, n) not in touching and (i, n) != (j, none) and int((apart * apart).sum()) <= sides * sides:
+                        return f"spheres {j} and {i} may touch"
         return None
+
+    def near(self, i: int, j: int, reach: int) -> list[tuple[int, ...]]:
+        """All images in which no component of the separation is larger: cell vectors are a lower triangle."""
+        found: list[tuple[tuple[int, ...], Array]] = [((), self.separation(i, j, (0,) * self.d))]
+        for c in reversed(range(self.d)):
+            h = int(self.edge[c])
+            some = [range(-((reach + int(r[c])) // h), (reach - int(r[c])) // h + 1) if c in self.open else range(1) for _, r in found]
+            found = [((m, *n), r + m * self.cell[c]) for ms, (n, r) in zip(some, found) for m in ms]
+        return [n for n, _ in found]
 
 
     def file(self, weights: list[Fraction], forces: Array) -> str:
         """A proof file: bindings/docs/proof.md, "The file"."""
-        d, numbers = self.d, lambda values, less: " ".join(f"{int(v)}p{less - self.bits}" for v in values)
-        cell = " ".join(numbers([self.edge[q]], 0) if q == c else "0p0" for q in range(d) for c in range(q + 1))
+
+        def numbers(values: Array, less: int) -> str:
+            return " ".join(f"{int(v)}p{less - self.bits}" for v in values)
+
+        d = self.d
+        cell = " ".join(numbers(self.cell[q][: q + 1], 0) for q in range(d))
         lines = ["jamproof 1", "sum " + " ".join(map(_binary, weights)), f"dim {d}", "unit " + _binary(Fraction(self.unit)), "cell " + cell]
-        lines += ["non_additivity 0p0", "gamma 1p0", "walls " + " ".join(map(str, range(d)))]
+        lines += ["non_additivity 0p0", "gamma 1p0"]
+        lines += ["walls " + " ".join(str(c) for c in range(d) if c not in self.open)] * (len(self.open) < d)
         lines += ["symmetry " + g.words() for g in self.fold.generators]
         lines += [f"sphere 1 {numbers(row[d:], 1)} {numbers(row[:d], 0)}" for row in self.u]
-        for (i, j), force in zip(self.pairs, forces):
+        for (i, j), n, force in zip(self.pairs, self.images, forces):
             axis, far = self.walls[-1 - j] if j < 0 else (0, False)
-            lines.append((f"wall {i} {axis} {far:d} " if j < 0 else f"contact {i} {j} {'0 ' * d}") + _binary(Fraction(float(force))))
+            ends = f"wall {i} {axis} {far:d}" if j < 0 else f"contact {i} {j} " + " ".join(map(str, n))
+            lines.append(f"{ends} {_binary(Fraction(float(force)))}")
         return "\n".join(lines) + "\n"
 
 

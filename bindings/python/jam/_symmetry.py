@@ -111,7 +111,8 @@ def square_fold(
     """Orbits as many of contacts as of unknowns, of no symmetry if that does."""
     n, d = x.shape
     all_of_them = list(symmetries(x, radii, weights, edge)) if len(contacts) > n * (d + 1) else []
-    for some in [[], *([g] for g in all_of_them), all_of_them]:
+    tried: list[list[Symmetry]] = [[], *([g] for g in all_of_them), all_of_them]
+    for some in tried + [list(two) for two in itertools.combinations(all_of_them, 2)]:
         fold = _fold(some, contacts, walls, n, d)
         if fold is not None and len(fold.rows) == len(fold.unknowns):
             return fold

@@ -246,7 +246,8 @@ def prove(system: System, digits: int = 30, *, weights: Any = None, path: Any = 
     Parameters
     ----------
     system : System
-        At a maximum of `maximise_radii`, between flat walls along all axes, with as many contacts as unknowns.
+        At a maximum of `maximise_radii`, in a periodic cell or between flat walls, with as many contacts as unknowns. Between walls
+        along all axes orbits of a symmetry may be as many instead.
     digits : int
         From 20 on.
     weights : array_like (n,), optional

@@ -1,6 +1,6 @@
 """Digits of a jammed packing against time, from the doubles of a crunch to a thousand, and where each step fails.
 
-usage: digits.py [--sizes 64,256,1024] [--edges 20]     writes results/digits.json and results/digits_edge.json
+usage: digits.py [--sizes 64,256,1024] [--edges 6]     writes results/digits.json and results/digits_edge.json
        digits.py --picture FILE                          draws both
 
 Times are of the processor. An edge is a packing of disks whose diameters differ from 1 by a part `disorder`: the less they do,
@@ -122,12 +122,12 @@ def draw(picture):
 
 parser = argparse.ArgumentParser(description=__doc__)
 parser.add_argument("--sizes", default="64,256,1024")
-parser.add_argument("--edges", type=int, default=20)
+parser.add_argument("--edges", type=int, default=6)
 parser.add_argument("--picture")
 arguments = parser.parse_args()
 if arguments.picture:
     draw(arguments.picture)
 else:
     figures.save(HERE / "results/digits.json", "digits.py", TIMES, times(list(map(int, arguments.sizes.split(",")))))
-    rows = [edge(10.0**-k, arguments.edges) for k in (1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 12)]
+    rows = [edge(10.0**-k, arguments.edges) for k in range(1, 11)]
     figures.save(HERE / "results/digits_edge.json", "digits.py", EDGE, rows)

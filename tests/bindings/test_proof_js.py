@@ -9,10 +9,11 @@ import subprocess
 import tempfile
 import unittest
 
-from test_proof import ROOT, jamproof
+from test_proof import ROOT, file_of, jamproof
 from test_proof_bounds import fcc, square_lattice
 from test_proof_checker import flower
 from test_proof_strict import angles_of_tiles_in_a_free_cell, packed, strict_file
+from test_proof_walls import isostatic
 
 import jam
 
@@ -102,7 +103,8 @@ def made():
     """Kinds that the set has not: strict, with implied contacts, and crystals that close exactly."""
     systems = (packed(32, 2, seed) for seed in range(1, 60))
     exact = next(s for s in systems if s.report.jammed and s.prove(strict=True).theorem == jam.Theorem.EXACT)
-    return [strict_file(exact), flower(), "\n".join(fcc()) + "\n", square_lattice(), angles_of_tiles_in_a_free_cell()]
+    between = [file_of(*isostatic(name, (1, 2, 3))[0]) for name in ("box", "slit")]
+    return [strict_file(exact), flower(), "\n".join(fcc()) + "\n", square_lattice(), angles_of_tiles_in_a_free_cell(), *between]
 
 
 @unittest.skipUnless(NODE, "node is not installed")

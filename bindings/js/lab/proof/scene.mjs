@@ -5,7 +5,7 @@ export const BITS = 24; // digits of J
 const MOST_IMAGES = 1000000n, FARTHEST = 10000n; // of a pair; exponents of two
 export const SEEN = Exact.ratio(9n, 8n); // gaps are those of pairs closer than SEEN times their sigma
 const ONE_NUMBER = ["dim", "unit", "non_additivity", "gamma"], HEADER = [...ONE_NUMBER, "cell"];
-const WORDS = new Set([...HEADER, "sphere", "contact", "tile", "implied", "inverse", "strict"]);
+const WORDS = new Set([...HEADER, "walls", "sphere", "contact", "wall", "tile", "implied", "inverse", "strict"]);
 
 const quoted = (word) => (word.includes("'") && !word.includes('"') ? `"${word}"` : `'${word.replace(/['\\]/g, "\\$&")}'`);
 /** As libjam writes one: digits alone, no plus sign, no leading zero. */
@@ -21,6 +21,7 @@ function number(word) {
   return total(parts.map(([m, e]) => new Exact(m, -Number(e))));
 }
 export const keyOf = (i, j, n) => `${i},${j},${n}`;
+const spheresOf = ({ i, j }) => (j < 0 ? [i] : [i, j]);
 const reversed = (n) => n.map((v) => -v);
 
 /** Text of the bytes, or what is wrong with them. */
@@ -77,20 +78,25 @@ export class Scene {
     const d = (this.dim = Number(integer(dim)));
     refuse(d < 1, "dim is not 1 or more");
     const [cell] = take("cell", (d * (d + 1)) / 2), spheres = take("sphere", d + 2);
-    const contacts = take("contact", d + 3, d + 4);
+    take("contact", d + 3, d + 4);
+    take("wall", 4, 5);
+    const contacts = lines.filter(([word]) => word === "contact" || word === "wall");
+    const walled = take("walls", ...Array.from({ length: d }, (_, c) => c + 1));
+    this.walled = walled.flat().map(integer).map(Number); // axes with walls
     [this.unit, this.gamma, this.add] = [number(unit), number(gamma), ONE.plus(number(cross))];
     refuse(spheres.some((s) => s[0] !== "0" && s[0] !== "1"), "a sphere is neither 1, stable, nor 0, a rattler");
     this.stable = spheres.map((s) => s[0] === "1");
     this.ratio = spheres.map((s) => number(s[1]));
-    this.contacts = contacts.map((row) => row.slice(0, d + 2).map(integer).map(Number))
-      .map(([i, j, ...n]) => ({ i, j, n }));
-    const forces = contacts.map((row) => row.slice(d + 2).map(number));
+    const head = (word) => (word === "wall" ? 3 : d + 2);
+    this.contacts = contacts.map(([word, ...row]) => this.ends(word, row.slice(0, head(word)).map(integer).map(Number)));
+    const forces = contacts.map(([word, ...row]) => row.slice(head(word)).map(number));
     [this.force, this.row] = [forces.map((f) => f[0]), forces.map((f) => f[f.length - 1])]; // row: without implied ones
     this.tiles = lines.filter(([name]) => name === "tile" || name === "implied")
       .map(([word, ...ring]) => ({ word, ring: ring.map((c) => Number(integer(c))) }));
     const packed = take("inverse", 2), strict = take("strict", 0);
     [this.packed, this.strict] = [packed.pop(), strict.length > 0];
     refuse(strict.length > 1 || packed.length, "a line 'strict' or 'inverse' is there twice");
+    refuse(walled.length > 1, "a line 'walls' or 'sum' is there twice");
     this.inverse = this.within = null;
     for (const [name] of lines) refuse(!WORDS.has(name), `unknown word ${name}`);
     const [lengths, one] = whole([cell, ...spheres.map((s) => s.slice(2))].flat().map(number));
@@ -98,6 +104,20 @@ export class Scene {
     this.cell = Array.from({ length: d }, (_, r) =>
       Array.from({ length: d }, (_, c) => (c <= r ? lengths[(r * (r + 1)) / 2 + c] : 0n)));
     this.x = spheres.map((_, k) => lengths.slice(cell.length + d * k, cell.length + d * (k + 1)));
+  }
+  /** A contact; of a wall j is -1 - 2 axis - side, and r twice the way from it. */
+  ends(word, [i, j, ...n]) {
+    if (word === "contact") return { i, j, n };
+    refuse((n[0] !== 0 && n[0] !== 1) || j < 0, "a wall is on side 0 or 1 of an axis");
+    return { i, j: -1 - 2 * j - n[0], n: Array(this.dim).fill(0) };
+  }
+  testWalls() {
+    const { walled, dim: d, cell } = this;
+    const leans = cell.some((row, q) => row.some((v, c) => c < q && v && (walled.includes(q) || walled.includes(c))));
+    refuse(leans || (this.strict && walled.length), "an axis with walls leans, or the file is strict");
+    refuse(walled.some((c) => c < 0 || c >= d) || new Set(walled).size < walled.length, "'walls' names no axes");
+    refuse(this.contacts.some(({ n }) => walled.some((c) => n[c])), "a contact reaches through a wall");
+    this.walls = walled.flatMap((c) => [-1 - 2 * c, -2 - 2 * c]);
   }
   test() {
     const { contacts, dim: d, x } = this, again = new Set();
@@ -108,31 +128,41 @@ export class Scene {
     refuse(!this.stable.includes(true), "no sphere is stable");
     refuse(!contacts.length, "the file lists no contact");
     refuse(again.size !== 2 * contacts.length, "a contact is there twice, or of a sphere with itself");
-    refuse(contacts.some(({ i, j }) => outside(i, x.length) || outside(j, x.length)),
+    this.testWalls();
+    refuse(contacts.some(({ i, j }) => outside(i, x.length) || (outside(j, x.length) && !this.walls.includes(j))),
       "a contact names a sphere that is not there");
-    refuse(this.tiles.some(({ ring }) => ring.some((c) => outside(c, contacts.length))),
+    refuse(this.tiles.some(({ ring }) => ring.some((c) => outside(c, contacts.length) || contacts[c].j < 0)),
       "a tile or an implied contact names a contact that is not there");
     refuse(positive.some((v) => v.n <= 0n), "a diameter, a cell edge, unit or gamma is not positive");
     this.closed = again;
     x.forEach((_, i) => again.add(keyOf(i, i, Array(d).fill(0))));
   }
-  /** Where the unknowns stand, without G: `first` of each sphere, `vectors` of the cell. */
+  /** Where the unknowns stand, without G: `place` of components of spheres, `vectors` of the cell. */
   count() {
     const d = this.dim;
     [this.size, this.per] = whole(this.ratio);
     this.cross = this.add.times(this.add);
-    const moving = this.stable.map((yes, i) => (yes ? i : -1)).filter((i) => i >= 0).slice(1);
-    this.first = new Map(moving.map((i, k) => [i, d * k]));
-    this.vectors = this.strict ? this.cell.map((_, q) => d * moving.length + (q * (q + 1)) / 2) : [];
-    this.unknowns = d * moving.length + (this.strict ? (d * (d + 1)) / 2 : 0);
+    const first = this.stable.indexOf(true), axes = this.cell.map((_, k) => k);
+    const free = this.stable.flatMap((yes, i) =>
+      yes ? axes.filter((k) => i !== first || this.walled.includes(k)).map((k) => ({ i, k })) : []);
+    this.place = axes.map(() => new Map()); // of each component: sphere -> unknown
+    free.forEach(({ i, k }, at) => this.place[k].set(i, at));
+    this.sphereOf = free.map(({ i }) => i);
+    this.vectors = this.strict ? this.cell.map((_, q) => free.length + (q * (q + 1)) / 2) : [];
+    this.unknowns = free.length + (this.strict ? (d * (d + 1)) / 2 : 0);
     this.gradient = new Map(this.vectors.map((k, q) => [k + q, Exact.ratio(this.one, this.cell[q][q])])); // b
   }
   /** r = x_i - x_j + n H. */
   vector({ i, j, n }) {
+    if (j < 0) {
+      const axis = (-1 - j) >> 1, far = (-1 - j) & 1 ? this.cell[axis][axis] : 0n;
+      return this.x[i].map((a, c) => (c === axis ? 2n * (a - far) : 0n));
+    }
     return this.x[i].map((a, c) => n.reduce((sum, m, q) => sum + BigInt(m) * this.cell[q][c], a - this.x[j][c]));
   }
   /** sigma^2, with sigma the mean of two diameters, times 1 + Delta where they differ. */
-  sigma2(i, j) {
+  sigma2(i, other) {
+    const j = other < 0 ? i : other;
     const square = Exact.ratio((this.size[i] + this.size[j]) ** 2n, (2n * this.per) ** 2n);
     return this.size[i] === this.size[j] ? square : square.times(this.cross);
   }
@@ -144,15 +174,17 @@ export class Scene {
     const f = [], sigma2 = [], columns = Array.from({ length: this.unknowns }, () => []);
     kept.map((k) => this.contacts[k]).forEach((contact, c) => {
       const { i, j, n } = contact;
-      refuse(i === j || !this.stable[i] || !this.stable[j], `images: contact ${c} is not of two stable ones`);
-      const r = this.vector(contact), ends = [];
+      const loose = spheresOf(contact).some((k) => !this.stable[k]), r = this.vector(contact);
+      refuse(i === j || loose, `images: contact ${c} is not of two stable ones`);
       sigma2.push(this.sigma2(i, j));
       f.push(this.square(r).minus(this.gamma.times(sigma2[c])));
-      for (const [k, times] of [[i, 2], [j, -2]])
-        if (this.first.has(k)) ends.push([this.first.get(k), times, this.dim]);
-      this.vectors.forEach((at, q) => ends.push([at, 2 * n[q], q + 1]));
-      for (const [at, times, many] of ends)
-        for (let k = 0; k < many; ++k) columns[at + k].push([c, BigInt(times) * r[k]]);
+      for (const [end, times] of j < 0 ? [[i, 4n]] : [[i, 2n], [j, -2n]])
+        this.place.forEach((places, k) => {
+          if (places.has(end)) columns[places.get(end)].push([c, times * r[k]]);
+        });
+      this.vectors.forEach((at, q) => {
+        for (let k = 0; k <= q; ++k) columns[at + k].push([c, BigInt(2 * n[q]) * r[k]]);
+      });
     });
     return { f, sigma2, columns };
   }
@@ -188,14 +220,16 @@ export class Scene {
   leastOpening(radius, gamma, part = ONE) {
     const reach = this.reach(radius, gamma), seen = SEEN.times(SEEN), { x, stable, cell } = this;
     let found = null;
-    const many = cell.reduce((times, row, c) => times * (floorOver(2n * reach, row[c]) + 1n), 1n);
+    const images = (times, row, c) => (this.walled.includes(c) ? times : times * (floorOver(2n * reach, row[c]) + 1n));
+    const many = cell.reduce(images, 1n);
     refuse(many > MOST_IMAGES, `gap: the cell is so thin that a sphere meets more than ${MOST_IMAGES} images`);
     for (let i = 0; i < x.length; ++i)
-      for (let j = 0; j <= i; ++j)
+      for (const j of [...this.walls, ...x.keys()].filter((k) => k <= i))
         for (const { n, r } of this.near(i, j, reach)) {
+          if (j < 0) this.testInside(i, j, r, radius);
           if (this.closed.has(keyOf(i, j, n))) continue;
           const images = this.strict ? n.reduce((sum, m) => sum + Math.abs(m), 0) : 0;
-          const moving = (i !== j ? stable[i] + stable[j] : 0) + images;
+          const moving = (i !== j ? stable[i] + stable[j < 0 ? i : j] : 0) + images;
           const way = Exact.ratio(r.reduce((sum, v) => sum + (v < 0n ? -v : v), 0n), this.one).times(radius);
           const have = this.square(r).minus(way.times(new Exact(BigInt(2 * moving)))).over(gamma.times(this.sigma2(i, j)));
           const image = n.length > 1 ? n.join(", ") : `${n[0]},`;
@@ -204,14 +238,21 @@ export class Scene {
         }
     return found;
   }
+  testInside(i, j, r, radius) {
+    const way = r.reduce((a, b) => a + b) * (j % 2 ? 1n : -1n), reach = radius.times(new Exact(4n * this.one));
+    refuse(!reach.below(new Exact(way)), `gap: the centre of sphere ${i} may be outside the walls`);
+  }
   /** Images n of sphere i, and their vectors r from sphere j with components within reach. */
   near(i, j, reach) {
+    const none = Array(this.dim).fill(0);
+    if (j < 0) return [{ n: none, r: this.vector({ i, j, n: none }) }];
     let list = [{ n: [], r: this.x[i].map((v, c) => v - this.x[j][c]) }];
     for (let c = this.dim - 1; c >= 0; --c) {
       const row = this.cell[c], next = [];
       for (const { n, r } of list) {
-        const end = floorOver(reach - r[c], row[c]);
-        for (let m = -floorOver(reach + r[c], row[c]); m <= end; ++m)
+        const walled = this.walled.includes(c), inside = r[c] <= reach && -r[c] <= reach ? 0n : -1n;
+        const end = walled ? inside : floorOver(reach - r[c], row[c]);
+        for (let m = walled ? 0n : -floorOver(reach + r[c], row[c]); m <= end; ++m)
           next.push({ n: [Number(m), ...n], r: m ? r.map((v, k) => v + m * row[k]) : r });
       }
       list = next;

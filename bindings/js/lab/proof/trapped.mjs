@@ -80,10 +80,10 @@ function looselyHeld(s, { columns }, stress) {
     const part = 1 / Number(stress[c]);
     column.forEach((v, k) => (way[k] = Math.max(way[k], Math.abs(v) * part)));
   });
-  const ways = [];
-  for (let k = 0; k < way.length; k += s.dim) ways.push(Math.max(1e-300, ...way.subarray(k, k + s.dim)));
-  const top = Math.max(...ways);
-  return ways.flatMap((a) => Array(s.dim).fill(1 << Math.trunc(Math.min(FINEST, Math.log2(top / a)))));
+  const ways = new Map();
+  s.sphereOf.forEach((i, k) => ways.set(i, Math.max(1e-300, way[k], ways.get(i) || 0)));
+  const top = Math.max(...ways.values());
+  return s.sphereOf.map((i) => 1 << Math.trunc(Math.min(FINEST, Math.log2(top / ways.get(i)))));
 }
 
 /** Of any network with positive forces: inner and outer, and the least gap. */
@@ -133,13 +133,14 @@ export function trapped(s) {
 
 /** Of the units `grown`: M, the second-order term of forces, and that of A. */
 function curvature(s, { e, columns }, stress, per, grown, top, edges) {
-  const unit = (i) => (s.first.has(i) ? top / grown[s.first.get(i)] : 1); // over top
+  const units = new Map(s.sphereOf.map((i, at) => [i, top / grown[at]]));
+  const unit = (i) => units.get(i) || 1; // over top
   const alpha = grown.map(() => 0n);
   let square = total(edges.map((h) => ONE.over(h.times(h)))), largest = ZERO;
   let sum = 0n;
   s.contacts.forEach(({ i, j, n }, c) => {
     const images = s.strict ? n.reduce((all, m) => all + Math.abs(m), 0) : 0;
-    const ways = unit(i) + unit(j) + images * top, wide = BigInt(s.dim * ways ** 2); // over top^2: |w|^2 of length 1
+    const ways = unit(i) + unit(j < 0 ? i : j) + images * top, wide = BigInt(s.dim * ways ** 2); // over top^2: |w|^2 of length 1
     sum += wide * stress[c];
     let longest = 0;
     columns[c].forEach((v, k) => {

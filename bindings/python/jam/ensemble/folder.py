@@ -57,7 +57,7 @@ class Content(NamedTuple):
     places: list[Place]  # of each row
     damaged: dict[Path, str]  # files that cannot be read, and what is wrong with each
     doubles: dict[Path, str]  # files whose packings do not count, as others hold them
-    odd: dict[Path, str]  # files that count, though they have the name of another packing; an index that nothing reads
+    odd: dict[Path, str]  # files that count, though they have the name of another packing
 
 
 class Folder:
@@ -221,9 +221,6 @@ class Folder:
             for k in kept
             if not homes[k] and places[k].inner is None
         }
-        old = self.path / "index.sqlite"
-        if old.exists():
-            odd[old] = f"{old} is the index of an earlier version, which nothing reads: delete it"
         return Content(rows[kept], [places[k] for k in kept], damaged, doubles, odd)
 
     # ---- failures

@@ -103,11 +103,11 @@ static void check_estimate(const Packing &start, const jam_crunch_options &o, Mo
     CallScope::need_memory(e.bytes, "the linear programs of this packing, as jam_estimate_crunch gives it,");
 }
 
-static jam_crunch_options with_usable_tolerance(jam_crunch_options o, const Tuning &tuning, const Monitor &monitor) {
-  if (o.lp_tolerance <= tuning.loosest_lp) return o;
+static jam_crunch_options with_usable_tolerance(jam_crunch_options o, const Monitor &monitor) {
+  if (o.lp_tolerance <= Tuning::lp_rounding) return o;
   monitor.log(JAM_LOG_WARNING, "lp_tolerance is %g: LPs are solved to %g, the loosest that a crunch can use",
-              o.lp_tolerance, tuning.loosest_lp);
-  o.lp_tolerance = tuning.loosest_lp;
+              o.lp_tolerance, Tuning::lp_rounding);
+  o.lp_tolerance = Tuning::lp_rounding;
   return o;
 }
 
@@ -118,7 +118,7 @@ CrunchResult crunch(const Packing &start, const jam_crunch_options &o, Monitor &
   History own_history;
   const CrunchHooks no_hooks;
   const CrunchHooks &used = hooks ? *hooks : no_hooks;
-  CrunchState s(start, with_usable_tolerance(o, used.tuning, monitor), monitor, history ? *history : own_history, used);
+  CrunchState s(start, with_usable_tolerance(o, monitor), monitor, history ? *history : own_history, used);
   Touching touching;
   try {
     const CancellableScope scope(CallScope::memory_limit(), &monitor);

@@ -7,6 +7,7 @@
 #include "core/packing.hpp"
 #include "lp/mixed_factor.hpp"
 #include "lp/tuning.hpp"
+#include "network/tuning.hpp"
 
 namespace jam::inside {
 
@@ -26,11 +27,9 @@ struct Tuning {
   double reach_per_bound = 2.2;  // listed gaps over the bound: two spheres meet from either side
   double early_gap = 0.02;       // an LP ends at this share of its gain, or at its optimum
   double warm_step = 1e-5;       // after a shorter step the next LP starts from the last multipliers
-  // An answer may violate rows and shrink spheres by lp_rounding, and miss |sum y - 1| by lp_unit_sum.
+  // An answer may violate rows and shrink spheres by lp_rounding, and miss |sum y - 1| by lp_unit_sum. With a larger
+  // duality gap it may be worse than spheres that stay by more than this: lp_rounding is the loosest lp_tolerance too.
   static constexpr double lp_rounding = 1e-9, lp_unit_sum = 1e-6;
-  // Loosest lp_tolerance: an answer with a larger gap may be worse than spheres that stay, by more than `acceptable`
-  // allows, and Clp would be asked.
-  double loosest_lp = 1e-9;
   static constexpr double least_part = 1e-6;  // of the step of an answer; if less is safe, the input was bad
 
   // ---- from LPs to the barrier path and back
@@ -76,8 +75,7 @@ struct Tuning {
   double closed_gap = 3e-14;                    // rounding of closed contacts in a box of ten diameters
   double narrow_bound = 1e-3, narrower = 0.01;  // of the first narrow LP; where an LP gains nothing, of the next
   int max_narrow_lps = 20;
-  int max_excess = 8;            // contacts too many that are dropped where they do not close; a crystal has more
-  double jammed_balance = 1e-6;  // net forces of a jammed packing after polish, over the mean
+  int max_excess = 8;  // contacts too many that are dropped where they do not close; a crystal has more
   // A start that cannot grow but has flexes: phi rises by less than this where a crunch has not left its density. Of so
   // many spheres all decompressions are tried before it ends there (64 disks with vacancies need up to three; of 400
   // and 900 none helps, in 3 and 13 s), of more the first.
@@ -96,7 +94,7 @@ struct Tuning {
   double ambiguity_ratio = 100.0, lp_gap_fraction = 1e-3;
   double doubles_from = 1e-11;  // gap in that LP from which factors are doubles: floats no longer balance there
   double lp_to_path_gap = 0.6;  // duality gap of that LP's forces over the gap of the path: 0.50 to 0.59
-  double balanced = 1e-10;      // largest net force on a sphere there, over the mean force
+  double balanced = RigidityTuning::most_residual;  // largest net force on a sphere there, over the mean force
 
   // Rounding of closed contacts grows with the box over the diameter.
   double closed_limit(const Packing &p) const {

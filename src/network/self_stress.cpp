@@ -77,7 +77,7 @@ int NullSpace::project(std::vector<double> &f, int refinements) const {
 int64_t NullSpace::zero_modes() const {
   if (zeros_ >= 0) return zeros_;
   const size_t n = g_.unknowns();
-  const double floor = ZeroModeTuning::curvature * std::max(solver_.hessian().norm_bound(), ZeroModeTuning::least_norm);
+  const double floor = ZeroModeTuning::curvature * solver_.hessian().norm_bound();
   const ContactWeights w = unit_weights(g_);
   std::vector<std::vector<double>> kernel;
   Rng rng(2, Stream::analysis_start);

@@ -57,7 +57,7 @@ void add_parts(const RigidityMatrix &g, const std::vector<int32_t> &part, const 
         }
       }
       const double after = std::sqrt(std::inner_product(v.begin(), v.end(), v.begin(), 0.0));
-      if (!(after > RigidityTuning::no_slide * before)) continue;
+      if (!(after > RigidityTuning::least_relative * before)) continue;
       for (double &x : v) x /= after;
       found.push_back(std::move(v));
     }

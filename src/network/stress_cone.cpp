@@ -29,7 +29,7 @@ StressCone of_one_state(const ConstraintRows &rows, const NormalSolver &solver, 
   if (states == 1) {
     f.assign(m, 1.0);
     project_on_balance(rows, solver, f);
-    if (mean_size(f) < 1e-6) {  // nearly orthogonal to (1, 1, ...): forces of both signs
+    if (mean_size(f) < Tuning::least_projection) {  // nearly orthogonal to (1, 1, ...): forces of both signs
       Rng rng(3, Stream::analysis_start);
       for (double &v : f) v = rng.normal();
       project_on_balance(rows, solver, f);
@@ -42,8 +42,8 @@ StressCone of_one_state(const ConstraintRows &rows, const NormalSolver &solver, 
   double push = 0.0, pull = 0.0;
   for (double &v : f) {
     const double size = std::fabs(v);
-    if (size > Tuning::zero_force && size < Tuning::sure_force) return out;
-    if (size <= Tuning::zero_force) v = 0.0;
+    if (size > Tuning::zero && size < Tuning::sure) return out;
+    if (size <= Tuning::zero) v = 0.0;
     (v > 0.0 ? push : pull) += std::fabs(v);
   }
   out.decided = true;
@@ -100,7 +100,7 @@ std::vector<std::vector<char>> guess_support(const CentralPath &path) {
 bool drop_pulled(const std::vector<double> &force, std::vector<char> &guess) {
   size_t pulled = 0;
   for (size_t k = 0; k < guess.size(); ++k)
-    if (guess[k] && !(force[k] > Tuning::zero_force)) guess[k] = 0, ++pulled;
+    if (guess[k] && !(force[k] > Tuning::zero)) guess[k] = 0, ++pulled;
   return pulled > 0 && pulled <= Tuning::most_pulled;
 }
 
@@ -138,7 +138,7 @@ Support certify_support(const ConstraintRows &rows, const NormalSolver &solver, 
       if (out.carrying[k]) out.force[k] = f[at++] / mean;
     // A guess that carries nothing loses its forces in the projection.
     if (!(mean > Tuning::least_projection)) return Support::no;
-    if (!(*std::min_element(f.begin(), f.end()) > Tuning::zero_force * mean)) return Support::no;
+    if (!(*std::min_element(f.begin(), f.end()) > Tuning::zero * mean)) return Support::no;
   }
   if (count == m) return Support::whole;
   // Opens what does not carry; what carries is closed again by the nearest correction.
@@ -164,7 +164,7 @@ Support certify_support(const ConstraintRows &rows, const NormalSolver &solver, 
     else
       least = std::min(least, y[k]);
   out.motion = std::move(x);
-  const bool opens = least > Tuning::sure_opening * size && closed < Tuning::zero_opening * size;
+  const bool opens = least > Tuning::sure * size && closed < Tuning::zero * size;
   return opens ? Support::whole : count > 0 ? Support::positive : Support::no;
 }
 
@@ -225,7 +225,7 @@ std::vector<double> centre(const ConstraintRows &rows, const NormalSolver &unit,
   project_on_balance(rows, unit, f);
   mean = mean_size(f);
   for (double &v : f) v /= mean;
-  if (*std::min_element(f.begin(), f.end()) <= Tuning::zero_force) f.clear();
+  if (*std::min_element(f.begin(), f.end()) <= Tuning::zero) f.clear();
   return f;
 }
 
@@ -239,7 +239,7 @@ StressCone find_stress_cone(const ConstraintRows &rows, const NormalSolver &solv
   std::vector<double> equal(m, 1.0);
   project_on_balance(rows, solver, equal);
   const double mean = mean_size(equal);
-  if (mean > Tuning::least_projection && *std::min_element(equal.begin(), equal.end()) > Tuning::sure_force * mean) {
+  if (mean > Tuning::least_projection && *std::min_element(equal.begin(), equal.end()) > Tuning::sure * mean) {
     out.decided = true, out.carrying.assign(m, 1), out.force = equal;
     for (double &v : out.force) v /= mean;
     const std::vector<double> f = centre(rows, solver, std::vector<double>(m, 1.0), true, out.factorisations);

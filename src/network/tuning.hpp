@@ -46,7 +46,7 @@ struct ResolutionTuning {
 
 // ---- zero modes: a new one has kept a good part of a random vector, and has no curvature (over the norm)
 struct ZeroModeTuning {
-  static constexpr double kept = 1e-4, independent = 1e-6, curvature = 1e-10, least_norm = 1e-300;
+  static constexpr double kept = 1e-4, independent = 1e-6, curvature = 1e-10;
 };
 
 // ---- the softest modes by block iteration
@@ -60,7 +60,7 @@ struct SoftestModesTuning {
 struct StressConeTuning {
   // In units of the mean |force|: below the first a force is zero, above the second it is not; between them the digits
   // do not decide. The same for the opening of a contact, where the largest displacement is 1.
-  static constexpr double zero_force = 1e-11, sure_force = 1e-9, zero_opening = 1e-11, sure_opening = 1e-9;
+  static constexpr double zero = 1e-11, sure = 1e-9;
   // A motion that opens all contacts by more than this rules out every balance of forces, also near these positions.
   static constexpr double clear_opening = 1e-8;
   // Forces of mean 1 that keep less than this in the projection on the balance were no state of self-stress.
@@ -86,7 +86,7 @@ struct RigidityTuning {
   // Contacts of spheres that move less across than along open less. Where that closes a contact by more than this part
   // of rounding, the flex is changed so that contacts which it opens by less than rounding stay closed.
   static constexpr double least_across = 1e-6;
-  // Of a motion of length 1, the least part that is no symmetry.
+  // Of a motion of length 1, the least part that is no symmetry, nor the motion of other parts.
   static constexpr double least_relative = 1e-6;
   // The curvature of a round wall holds a flex, or does not, by more than this part of the mean force times curvature:
   // a flex itself closes contacts by up to 1e-6.
@@ -95,8 +95,6 @@ struct RigidityTuning {
   static constexpr double still = 1e-14;
   // A rotation of the spheres about a line through all of them leaves less than this of a length, by rounding.
   static constexpr double no_rotation = 1e-9;
-  // What is left of the motion of a part, of its length, where it is the motion of the whole or of other parts.
-  static constexpr double no_slide = 1e-6;
   // Forces that balance worse than this, over the mean force, prove nothing; worse than the second they do not even
   // name the contacts.
   static constexpr double most_residual = 1e-10, useless_residual = 1e-6;

@@ -988,7 +988,8 @@ JAM_API jam_status jam_crunch_step(const jam_system *sys, double *displacement, 
                                    size_t *rows);
 
 /* ------------------------------------------------------------------ radii as unknowns */
-/* jam_maximise_radii: the largest weighted sum of radii in a fixed cell, where jam_crunch keeps their ratios. */
+/* jam_maximise_radii: the largest weighted sum of radii in a fixed cell, or the largest factor of moments of the radii;
+ * jam_crunch keeps their ratios. */
 
 /* Options of jam_maximise_radii. Lengths are in the unit of the box. */
 typedef struct jam_radii_options {
@@ -998,6 +999,8 @@ typedef struct jam_radii_options {
   double room; /* share of each radius that is taken off first, in (0, 1), default 0.1; small: stays near the start */
   int64_t max_steps; /* of Newton's method, >= 1, default 100000 */
   double wall_time;  /* limit of the call */
+  int64_t moments;   /* 0, the default: the sum; 1 .. 4: so many power sums keep their ratios, of these exponents: */
+  double exponent_1, exponent_2, exponent_3, exponent_4; /* |exponent| in [1e-3, 8], default 1; 2; 3; 4 */
 } jam_radii_options;
 /* What jam_maximise_radii found. Where maximum is 0, contacts to excess are -1, balance_residual to min_force NaN. */
 typedef struct jam_radii_report {
@@ -1005,23 +1008,27 @@ typedef struct jam_radii_report {
   int32_t stop_reason;        /* @enum jam_stop_reason, CONVERGED at a maximum */
   int32_t maximum;            /* @bool contacts closed, forces >= 0 that balance, and no saddle */
   int32_t saddles;            /* that it moved away from */
-  double value;               /* sum of w_i R_i */
-  int64_t contacts, rattlers; /* pairs and walls with force; spheres without, all held by radius_max */
+  double value;               /* sum of w_i R_i; moments: lambda, 1 at the start */
+  int64_t contacts, rattlers; /* pairs and walls with force; spheres without, all held by a bound or the moments */
   int64_t at_bounds;          /* radii held by radius_min or radius_max */
-  int64_t excess;             /* contacts + at_bounds - ((d + 1) n - symmetries); 0 at a simple maximum */
-  double balance_residual;    /* largest residual of the balance and of the sums of forces, over the sphere's weight */
+  int64_t excess;          /* contacts + at_bounds + (moments - 1) - ((d + 1) n - symmetries), moments >= 1; mostly 0 */
+  double balance_residual; /* largest residual of the balance and of the sums of forces, over the sphere's weight */
   double max_contact_gap, min_gap; /* largest |distance - sum of radii| of a contact; least of another pair */
-  double min_force;                /* least force; forces on sphere i add up to w_i minus that of a bound */
+  double min_force; /* least force, in units of value; forces on sphere i add up to w_i minus that of a bound */
   double radius_smallest, radius_largest, polydispersity; /* standard deviation of the radii over their mean */
   double packing_fraction;
-  int64_t steps, factorisations; /* of Newton's method; Cholesky factorisations */
-  double seconds;                /* wall time */
+  int64_t steps, factorisations;                                 /* of Newton's method; Cholesky factorisations */
+  double seconds;                                                /* wall time */
+  double multiplier_1, multiplier_2, multiplier_3, multiplier_4; /* lambda_q of the moments, else NaN */
+  double moment_residual; /* largest |M_q / (lambda^q M_q of the start) - 1|; 0 for a sum */
 } jam_radii_report;
 JAM_API jam_status jam_radii_options_init(jam_radii_options *o, size_t size);
 /* Moves spheres and changes radii to a local maximum of sum w_i R_i, w_i = 1 where weights is NULL, in periodic cells
- * and between flat walls. Positions are the start, radii too: a stopped call leaves a valid packing. No pair overlaps,
- * in exact numbers. At a maximum the handle keeps the network, with forces of mean 1, and the verdict of jam_rigidity.
- * Status: JAM_LIMIT, JAM_NOT_CONVERGED with the last valid state. @shape weights (n) @errors OVERLAP, UNSUPPORTED */
+ * and between flat walls. With moments: to one of lambda, where sum R_i^q = lambda^q M_q for each exponent q, M_q at
+ * the start; forces on sphere i then add up to sum_q lambda_q q R_i^(q - 1), and radius_min is at least 1e-3 of the
+ * smallest radius. The start is positions and radii: a stopped call leaves a valid packing. No pair overlaps, in exact
+ * numbers. At a maximum the handle keeps the network, with forces of mean 1, and the verdict of jam_rigidity. Status:
+ * JAM_LIMIT, JAM_NOT_CONVERGED with the last valid state. @shape weights (n) @errors OVERLAP, UNSUPPORTED */
 JAM_API jam_status jam_maximise_radii(jam_system *sys, const jam_radii_options *o, const double *weights,
                                       size_t weights_len, jam_radii_report *report);
 

@@ -8,6 +8,7 @@
 #include "core/create.hpp"
 #include "core/double_double.hpp"
 #include "core/sentence.hpp"
+#include "radii/goal.hpp"
 #include "radii/path.hpp"
 #include "radii/tuning.hpp"
 #include "radii/vertex.hpp"
@@ -15,8 +16,12 @@
 namespace jam::inside {
 namespace {
 
-// Radii between their bounds; contacts open, unless radii at the lower bound hold them.
-void shrink(Packing &p, const RadiiBounds &bounds, double unit, double room) {
+// Radii between their bounds; contacts open, unless radii at the lower bound hold them. Moments keep their ratios.
+void shrink(Packing &p, const RadiiGoal &goal, const RadiiBounds &bounds, double unit, double room) {
+  if (goal.moments()) {
+    for (double &s : p.diameter) s *= 1.0 - room;
+    return;
+  }
   const double narrow = std::min(RadiiTuning::least_room * unit, 0.25 * (bounds.most - bounds.least));
   for (double &s : p.diameter) {
     const double radius = std::min(0.5 * s, bounds.most);
@@ -24,8 +29,8 @@ void shrink(Packing &p, const RadiiBounds &bounds, double unit, double room) {
   }
 }
 
-void make_room(Packing &p, const RadiiBounds &bounds, double unit, double room) {
-  shrink(p, bounds, unit, room);
+void make_room(Packing &p, const RadiiGoal &goal, const RadiiBounds &bounds, double unit, double room) {
+  shrink(p, goal, bounds, unit, room);
   const ClosestPair pair = closest_contact(p);
   if (!(pair.gap > 0.0))
     fail(JAM_E_ARGUMENT,
@@ -69,8 +74,9 @@ ContactNetwork network_of(const Packing &p, const RadiiVertex &vertex) {
   return net;
 }
 
-void report_sizes(const Packing &p, const double *weights, jam_radii_report &r) {
-  r.value = weighted_sum(p, weights);
+void report_sizes(const Packing &p, const RadiiGoal &goal, const double *weights, jam_radii_report &r) {
+  r.value = goal.moments() ? goal.lambda(p) : weighted_sum(p, weights);
+  r.moment_residual = goal.residual(p);
   r.packing_fraction = packing_fraction(p);
   const auto [low, high] = std::minmax_element(p.diameter.begin(), p.diameter.end());
   r.radius_smallest = 0.5 * *low, r.radius_largest = 0.5 * *high;
@@ -80,8 +86,9 @@ void report_sizes(const Packing &p, const double *weights, jam_radii_report &r) 
   r.polydispersity = std::sqrt(square / static_cast<double>(p.n()));
 }
 
-void report_maximum(const Packing &p, const RadiiVertex &vertex, const ContactNetwork &net, double mean_weight,
-                    jam_radii_report &r) {
+// force_unit: of the forces of the vertex, in units of the value.
+void report_maximum(const Packing &p, const RadiiVertex &vertex, const ContactNetwork &net, const RadiiGoal &goal,
+                    double force_unit, jam_radii_report &r) {
   r.maximum = 1;
   r.contacts = static_cast<int64_t>(net.size());
   r.at_bounds = 0;
@@ -91,18 +98,23 @@ void report_maximum(const Packing &p, const RadiiVertex &vertex, const ContactNe
     least = std::min(least, vertex.force[k]);
     if (k >= vertex.contacts.pairs.size()) ++r.at_bounds;
   }
-  r.excess =
-      r.contacts + r.at_bounds - static_cast<int64_t>(vertex.contacts.unknowns()) + symmetries(p.container, p.dim);
+  r.excess = r.contacts + r.at_bounds + static_cast<int64_t>(goal.equations()) -
+             static_cast<int64_t>(vertex.contacts.unknowns()) + symmetries(p.container, p.dim);
   r.rattlers = static_cast<int64_t>(p.n()) - stable_spheres(net.coordination);
   r.balance_residual = vertex.balance;
   r.max_contact_gap = vertex.gap, r.min_gap = vertex.open;
-  r.min_force = mean_weight * least;
+  r.min_force = force_unit * least;
+  if (!goal.moments()) return;
+  const std::vector<double> multipliers = goal.multipliers(p, vertex.multiplier);
+  double *const to[] = {&r.multiplier_1, &r.multiplier_2, &r.multiplier_3, &r.multiplier_4};
+  for (size_t q = 0; q < multipliers.size(); ++q) *to[q] = multipliers[q];
 }
 
 // Sideways along the motion of a saddle, as far as there is room.
-void push_off(Packing &p, const std::vector<double> &motion, const RadiiBounds &bounds, double unit) {
+void push_off(Packing &p, const RadiiGoal &goal, const std::vector<double> &motion, const RadiiBounds &bounds,
+              double unit) {
   double length = RadiiTuning::push * unit;
-  shrink(p, bounds, unit, RadiiTuning::room);
+  shrink(p, goal, bounds, unit, RadiiTuning::room);
   std::vector<double> sideways = motion;
   const size_t b = static_cast<size_t>(p.dim) + 1;
   for (size_t i = 0; i < p.n(); ++i) sideways[i * b + b - 1] = 0.0;
@@ -111,6 +123,51 @@ void push_off(Packing &p, const std::vector<double> &motion, const RadiiBounds &
     move_radii(from, sideways, length, p);
     length *= 0.5;
   } while (!(closest_contact(p).gap > 0.0) && length > 0.0);
+}
+
+std::vector<double> exponents_of(const jam_radii_options &o) {
+  const double all[] = {o.exponent_1, o.exponent_2, o.exponent_3, o.exponent_4};
+  return {all, all + o.moments};
+}
+
+// A sum lets every radius grow, moments may let one vanish: they have a lower bound of their own.
+RadiiBounds bounds_of(const Packing &p, const jam_radii_options &o) {
+  if (o.moments == 0) return {o.radius_min, o.radius_max};
+  const auto [low, high] = std::minmax_element(p.diameter.begin(), p.diameter.end());
+  const double least = 0.5 * std::max(RadiiTuning::least_radius * *low, RadiiTuning::least_ratio * *high);
+  return {std::max(o.radius_min, least), o.radius_max};
+}
+
+void check_moments(const Packing &p, const jam_radii_options &o, size_t weights_len) {
+  if (o.moments < 0 || o.moments > 4)
+    fail(JAM_E_ARGUMENT, "moments is %lld, it must be 0 .. 4", static_cast<long long>(o.moments));
+  if (o.moments == 0) return;
+  if (weights_len)
+    fail(JAM_E_ARGUMENT, "weights and moments: a sum has weights, moments have none; leave one of them out");
+  const std::vector<double> q = exponents_of(o);
+  for (size_t k = 0; k < q.size(); ++k) {
+    if (!(std::fabs(q[k]) >= RadiiTuning::least_exponent && std::fabs(q[k]) <= RadiiTuning::most_exponent))
+      fail(JAM_E_ARGUMENT,
+           "exponent_%zu is %g, its size must be %g to %g: the moment of exponent 0 is the number of spheres", k + 1,
+           q[k], RadiiTuning::least_exponent, RadiiTuning::most_exponent);
+    for (size_t j = 0; j < k; ++j)
+      if (std::fabs(q[j] - q[k]) < RadiiTuning::least_exponent)
+        fail(JAM_E_ARGUMENT, "exponent_%zu is %g and exponent_%zu %g: one moment twice", j + 1, q[j], k + 1, q[k]);
+  }
+  const auto [low, high] = std::minmax_element(p.diameter.begin(), p.diameter.end());
+  const RadiiBounds bounds = bounds_of(p, o);
+  if (!(0.5 * *low * (1.0 - o.room) > bounds.least && 0.5 * *high < bounds.most))
+    fail(
+        JAM_E_ARGUMENT,
+        "radii from %g, less the room of %g, to %g are not between radius_min %g and radius_max %g: moments start from "
+        "radii that are",
+        0.5 * *low, o.room, 0.5 * *high, bounds.least, bounds.most);
+  const RadiiGoal named(p, q);  // refuses radii that moments fix
+}
+
+RadiiGoal goal_of(const Packing &p, const jam_radii_options &o, const double *weights, double &mean_weight) {
+  if (o.moments > 0) return RadiiGoal(p, exponents_of(o));
+  return RadiiGoal(of_mean_one(p.n(), weights, mean_weight));
 }
 
 }  // namespace
@@ -122,6 +179,7 @@ jam_radii_options default_radii_options() {
   o.room = RadiiTuning::room;
   o.radius_max = o.wall_time = std::numeric_limits<double>::infinity();
   o.max_steps = 100000;
+  o.exponent_1 = 1.0, o.exponent_2 = 2.0, o.exponent_3 = 3.0, o.exponent_4 = 4.0;
   return o;
 }
 
@@ -137,9 +195,10 @@ void check_radii(const Packing &p, const jam_radii_options &o, const double *wei
   if (weights_len && weights_len != p.n())
     fail(JAM_E_ARGUMENT, "weights_len is %zu, it must be 0 or n = %zu", weights_len, p.n());
   for (size_t i = 0; i < weights_len; ++i)
-    if (!(weights[i] > 0.0) || std::isinf(weights[i]))
-      fail(JAM_E_ARGUMENT, "weights[%zu] is %g, it must be positive and finite: without a weight a radius has no value",
-           i, weights[i]);
+    if (!(weights[i] > 0.0 && weights[i] <= RadiiTuning::most_weight))
+      fail(JAM_E_ARGUMENT,
+           "weights[%zu] is %g, it must be positive and at most %g: without a weight a radius has no value", i,
+           weights[i], RadiiTuning::most_weight);
   if (p.model == JAM_MODEL_MK || p.non_additivity != 0.0)
     fail(JAM_E_UNSUPPORTED,
          "radii are unknowns of additive Euclidean spheres alone: no Mari-Kurchan shifts, no "
@@ -149,6 +208,7 @@ void check_radii(const Packing &p, const jam_radii_options &o, const double *wei
          "radii are unknowns in periodic cells and between flat walls, not yet in a cylinder or ball");
   if (p.dim >= JAM_MAX_DIM)
     fail(JAM_E_UNSUPPORTED, "radii are unknowns in d = 2 to %d, this packing has d = %d", JAM_MAX_DIM - 1, p.dim);
+  check_moments(p, o, weights_len);
   refuse_overlaps(p, overlap_tolerance);
 }
 
@@ -158,17 +218,18 @@ RadiiResult maximise_radii(const Packing &start, const jam_radii_options &o, con
   Packing &p = out.packing;
   p.given = {};
   double mean_weight = 1.0;
-  const std::vector<double> weight = of_mean_one(p.n(), weights, mean_weight);
-  const RadiiBounds bounds{o.radius_min, o.radius_max};
+  RadiiGoal goal = goal_of(p, o, weights, mean_weight);
+  const RadiiBounds bounds = bounds_of(p, o);
   monitor.wall_time = o.wall_time;
-  make_room(p, bounds, radii_unit(p), o.room);
-  RadiiPath path(p, weight, bounds, o.threads);
+  make_room(p, goal, bounds, radii_unit(p), o.room);
+  RadiiPath path(p, goal, bounds, o.threads);
   const double unit = path.unit();
   RadiiMatrix matrix;
   jam_radii_report &r = out.report;
   r.struct_size = sizeof r;
   r.contacts = r.rattlers = r.at_bounds = r.excess = -1;
   r.balance_residual = r.max_contact_gap = r.min_gap = r.min_force = std::nan("");
+  r.multiplier_1 = r.multiplier_2 = r.multiplier_3 = r.multiplier_4 = std::nan("");
   r.stop_reason = JAM_STOP_STALLED, out.status = JAM_NOT_CONVERGED;
   int pushes = 0;
   for (double mu = std::max(path.first_mu(), RadiiTuning::least_mu * unit); mu > RadiiTuning::mu_end * unit;
@@ -180,12 +241,12 @@ RadiiResult maximise_radii(const Packing &start, const jam_radii_options &o, con
       break;
     }
     if (mu > RadiiTuning::polish_from * unit) continue;
-    RadiiVertex vertex = close_vertex(p, path.rows(), path.forces(), weight, bounds, unit, matrix);
+    RadiiVertex vertex = close_vertex(p, path.rows(), path.forces(), goal, bounds, unit, matrix);
     if (!vertex.closed) continue;
     if (!vertex.escape.empty() && pushes < RadiiTuning::pushes) {
       ++pushes;
       p = vertex.packing;
-      push_off(p, vertex.escape, bounds, unit);
+      push_off(p, goal, vertex.escape, bounds, unit);
       path.renew();
       mu = RadiiTuning::mu_after_push * unit / RadiiTuning::mu_factor;
       continue;
@@ -193,18 +254,19 @@ RadiiResult maximise_radii(const Packing &start, const jam_radii_options &o, con
     if (!vertex.escape.empty()) break;
     p = vertex.packing;
     out.contacts = network_of(p, vertex);
-    report_maximum(p, vertex, out.contacts, mean_weight, r);
+    const double force_unit = goal.moments() ? goal.lambda(p) / goal.scale() : mean_weight;
+    report_maximum(p, vertex, out.contacts, goal, force_unit, r);
     r.stop_reason = JAM_STOP_CONVERGED, out.status = JAM_OK;
     break;
   }
   wrap_positions(p);
   r.saddles = pushes;
   r.steps = path.steps, r.factorisations = path.matrix.factorisations + matrix.factorisations;
-  report_sizes(p, weights, r);
+  report_sizes(p, goal, weights, r);
   r.seconds = monitor.seconds();
   if (out.status == JAM_NOT_CONVERGED)
     out.text = sentence(
-        "the contacts of the largest sum were not found after %lld Newton steps; the packing is the "
+        "the contacts of the maximum were not found after %lld Newton steps; the packing is the "
         "last one of the path",
         static_cast<long long>(r.steps));
   return out;

@@ -1,4 +1,5 @@
-// jam_maximise_radii: positions and radii of the largest weighted sum of radii in a fixed cell.
+// jam_maximise_radii: positions and radii of the largest weighted sum of radii in a fixed cell, or of the largest
+// common factor of moments of the radii.
 //
 //   checks -> radii shrink to open all contacts -> path.hpp at falling mu -> vertex.hpp -> maximum
 //                                                      ^                        |  forces do not balance: smaller mu

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/math.hpp"
 #include "radii/tuning.hpp"
@@ -21,8 +22,8 @@ void move_radii(const Packing &from, const std::vector<double> &x, double part, 
   }
 }
 
-RadiiPath::RadiiPath(Packing &p, const std::vector<double> &weight, const RadiiBounds &bounds, int threads)
-    : p_(p), weight_(weight), bounds_(bounds), threads_(threads), unit_(radii_unit(p)), trial_(p) {
+RadiiPath::RadiiPath(Packing &p, RadiiGoal &goal, const RadiiBounds &bounds, int threads)
+    : p_(p), goal_(goal), bounds_(bounds), threads_(threads), unit_(radii_unit(p)), trial_(p) {
   renew();
 }
 
@@ -34,29 +35,39 @@ void RadiiPath::renew() {
 
 double RadiiPath::first_mu() const {
   double weights = 0.0, sum = 0.0;
-  for (const double w : weight_) weights += w;
+  for (const double w : goal_.weight()) weights += w;
   for (size_t k = 0; k < rows_.pairs.size(); ++k)
     rows_.parts(k, [&](int32_t, double, double radial) { sum -= radial / rows_.gap[k]; });
   return sum > 0.0 ? weights / sum : unit_;
 }
 
+// By how much x closes a gap at most: |s| + |t| of a sphere.
+double RadiiPath::longest_of(const std::vector<double> &x) const {
+  const size_t b = rows_.block();
+  double most = 0.0;
+  for (size_t i = 0; i < p_.n(); ++i) {
+    double s2 = 0.0;
+    for (size_t c = 0; c + 1 < b; ++c) s2 += x[i * b + c] * x[i * b + c];
+    most = std::max(most, std::sqrt(s2) + std::fabs(x[i * b + b - 1]));
+  }
+  return most;
+}
+
 // Newton's direction, its slope and the decrement.
 void RadiiPath::direction(double mu) {
   const size_t m = rows_.size(), b = rows_.block();
+  goal_.linearise(p_);
   weights_.resize(m), force_.resize(m);
   for (size_t k = 0; k < m; ++k) force_[k] = mu / rows_.gap[k], weights_[k] = force_[k] / rows_.gap[k];
   rows_.transpose_times(force_, gradient_);
-  for (size_t i = 0; i < weight_.size(); ++i) gradient_[i * b + b - 1] += weight_[i];
-  matrix.factorise(rows_, weights_, RadiiTuning::ridge, threads_);
+  for (size_t i = 0; i < p_.n(); ++i) gradient_[i * b + b - 1] += goal_.weight()[i];
+  multiplier_.resize(goal_.equations());
+  matrix.factorise(rows_, weights_, goal_.columns(), RadiiTuning::ridge, threads_, goal_.stiffness(p_, multiplier_));
   step_ = gradient_;
-  matrix.solve(step_);
-  slope_ = largest_ = 0.0;
+  multiplier_ = matrix.solve(step_);
+  slope_ = 0.0;
   for (size_t q = 0; q < step_.size(); ++q) slope_ += gradient_[q] * step_[q];
-  for (size_t i = 0; i < weight_.size(); ++i) {
-    double s2 = 0.0;
-    for (size_t c = 0; c + 1 < b; ++c) s2 += step_[i * b + c] * step_[i * b + c];
-    largest_ = std::max(largest_, std::sqrt(s2) + std::fabs(step_[i * b + b - 1]));
-  }
+  largest_ = longest_of(step_);
   decrement_ = slope_ / mu;
   rows_.times(step_, change_);
 }
@@ -70,29 +81,45 @@ double RadiiPath::longest_feasible() const {
   return std::min(RadiiTuning::to_boundary * nearest, RadiiTuning::to_boundary * listed);
 }
 
+// The trial. Where moments curve it is corrected by the motions that the rows stop least. False where no radii near it
+// keep the equations, or spheres would move farther than the rows are listed.
+bool RadiiPath::place(double part) {
+  move_radii(p_, step_, part, trial_);
+  corrected_ = 0.0;
+  double before = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < RadiiTuning::corrections && goal_.equations() > 0; ++k) {
+    if (!(*std::min_element(trial_.diameter.begin(), trial_.diameter.end()) > 0.0)) return false;
+    const double now = goal_.residual(trial_);
+    if (now <= RadiiTuning::kept) break;
+    if (!(now < before)) return false;
+    before = now;
+    std::vector<double> length = goal_.wrong(trial_), x(step_.size());
+    for (double &v : length) v = -v;
+    matrix.solve(x, length);
+    move_radii(Packing(trial_), x, 1.0, trial_);
+    corrected_ += longest_of(x);
+  }
+  return moved_ + 2.0 * (part * largest_ + corrected_) < RadiiTuning::reach * unit_;
+}
+
 // Of the function along the step; -infinity behind a row.
 double RadiiPath::ascent(double part, double mu) {
-  move_radii(p_, step_, part, trial_);
+  if (!place(part)) return -std::numeric_limits<double>::infinity();
   rows_.measure_gaps(trial_, trial_gap_);
   double sum = 0.0;
-  const size_t b = rows_.block();
   for (size_t k = 0; k < trial_gap_.size(); ++k) {
     if (!(trial_gap_[k] > 0.0)) return -std::numeric_limits<double>::infinity();
     sum += math::log(trial_gap_[k] / rows_.gap[k]);
   }
-  double gain = 0.0;
-  for (size_t i = 0; i < weight_.size(); ++i) gain += weight_[i] * step_[i * b + b - 1];
-  return part * gain + mu * sum;
+  return goal_.gain(step_, part, trial_) + mu * sum;
 }
 
 void RadiiPath::move(double part) {
-  move_radii(p_, step_, part, trial_);
+  place(part);
   p_.position.swap(trial_.position), p_.diameter.swap(trial_.diameter);
-  moved_ += 2.0 * part * largest_;
-  if (moved_ > 0.5 * RadiiTuning::reach * unit_)
-    renew();
-  else
-    rows_.measure(p_);
+  moved_ += 2.0 * (part * largest_ + corrected_);
+  if (moved_ > 0.5 * RadiiTuning::reach * unit_) return renew();
+  rows_.measure(p_);
 }
 
 bool RadiiPath::centre(double mu, int64_t max_steps, Monitor &monitor) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "radii/tuning.hpp"
 
 namespace jam::inside {
 
@@ -102,7 +103,9 @@ void RadiiMatrix::set_graph(const RadiiRows &rows, int threads) {
   cholesky_.analyse(static_cast<int>(b), static_cast<int32_t>(n), ei_.data(), ej_.data(), ei_.size(), threads);
 }
 
-void RadiiMatrix::factorise(const RadiiRows &rows, const std::vector<double> &weight, double ridge, int threads) {
+void RadiiMatrix::factorise(const RadiiRows &rows, const std::vector<double> &weight,
+                            const std::vector<double> &columns, double ridge, int threads,
+                            const std::vector<double> &stiffness) {
   set_graph(rows, threads);
   const size_t b = rows.block(), d = b - 1, bb = b * b;
   std::fill(diag_.begin(), diag_.end(), 0.0);
@@ -125,16 +128,55 @@ void RadiiMatrix::factorise(const RadiiRows &rows, const std::vector<double> &we
     for (size_t u = 0; u < b; ++u)
       for (size_t v = 0; v < b; ++v) block[u * b + v] += weight[k] * row[0][u] * row[1][v];
   }
-  double mean = 0.0;
   const size_t n = diag_.size() / bb;
+  for (size_t i = 0; i < stiffness.size(); ++i) diag_[i * bb + bb - 1] += stiffness[i];
+  double mean = 0.0;
   for (size_t i = 0; i < n; ++i)
     for (size_t u = 0; u < b; ++u) mean += diag_[i * bb + u * b + u];
   mean /= static_cast<double>(n * b);
+  if (!columns.empty()) ridge = std::max(ridge, RadiiTuning::bordered_ridge);
   for (size_t i = 0; i < n; ++i)
     for (size_t u = 0; u < b; ++u) diag_[i * bb + u * b + u] += ridge * mean;
   ++factorisations;
   if (cholesky_.factorise(diag_.data(), off_.data()) < 0)
     fail(JAM_E_SOLVER, "the matrix of a step of the radii is not finite");
+  border(columns, b);
+}
+
+std::vector<double> RadiiMatrix::along_columns(const std::vector<double> &x) const {
+  std::vector<double> out(equations_);
+  const size_t n = x.size() / block_;
+  for (size_t q = 0; q < equations_; ++q)
+    for (size_t i = 0; i < n; ++i) out[q] += (*columns_)[q * n + i] * x[i * block_ + block_ - 1];
+  return out;
+}
+
+void RadiiMatrix::border(const std::vector<double> &columns, size_t block) {
+  const size_t n = diag_.size() / (block * block);
+  columns_ = &columns, block_ = block, equations_ = columns.size() / n;
+  if (equations_ == 0) return;
+  solved_.assign(equations_ * n * block, 0.0);
+  std::vector<double> schur(equations_ * equations_);
+  for (size_t q = 0; q < equations_; ++q) {
+    std::vector<double> x(n * block);
+    for (size_t i = 0; i < n; ++i) x[i * block + block - 1] = columns[q * n + i];
+    cholesky_.solve(x.data());
+    std::copy(x.begin(), x.end(), solved_.begin() + static_cast<std::ptrdiff_t>(q * n * block));
+    const std::vector<double> along = along_columns(x);
+    for (size_t k = 0; k < equations_; ++k)
+      schur[k * equations_ + q] += 0.5 * along[k], schur[q * equations_ + k] += 0.5 * along[k];
+  }
+  schur_.factorise(equations_, schur);
+}
+
+std::vector<double> RadiiMatrix::solve(std::vector<double> &x, const std::vector<double> &given) const {
+  cholesky_.solve(x.data());
+  std::vector<double> out = along_columns(x);
+  for (size_t q = 0; q < given.size(); ++q) out[q] -= given[q];
+  if (equations_ > 0) schur_.solve(out);
+  for (size_t q = 0; q < equations_; ++q)
+    for (size_t c = 0; c < x.size(); ++c) x[c] -= out[q] * solved_[q * x.size() + c];
+  return out;
 }
 
 }  // namespace jam::inside

@@ -15,6 +15,7 @@
 #include "core/packing.hpp"
 #include "core/pairs.hpp"
 #include "linalg/block_cholesky.hpp"
+#include "linalg/small_cholesky.hpp"
 
 namespace jam::inside {
 
@@ -66,19 +67,28 @@ class RadiiRows {
   std::vector<double> sign_;     // 1: the lower one
 };
 
-// sum_k D_k a_k a_k^T + ridge, factorised.
+// sum_k D_k a_k a_k^T + ridge, factorised, and bordered by the equations of a goal.
 class RadiiMatrix {
  public:
-  // ridge: over the mean of the diagonal.
-  void factorise(const RadiiRows &rows, const std::vector<double> &weight, double ridge, int threads);
-  void solve(std::vector<double> &x) const { cholesky_.solve(x.data()); }
+  // ridge: over the mean of the diagonal; larger with equations, whose columns alone act on what no row stops.
+  // columns: (equations, n), gradients on the radii; kept by pointer. stiffness: of each radius, added to the diagonal.
+  void factorise(const RadiiRows &rows, const std::vector<double> &weight, const std::vector<double> &columns,
+                 double ridge, int threads, const std::vector<double> &stiffness = {});
+  // K x + columns^T y = rhs and columns x = given, which is 0 where it is empty. Returns y.
+  std::vector<double> solve(std::vector<double> &x, const std::vector<double> &given = {}) const;
+  std::vector<double> along_columns(const std::vector<double> &x) const;
   int64_t factorisations = 0;
 
  private:
   void set_graph(const RadiiRows &rows, int threads);
+  void border(const std::vector<double> &columns, size_t block);
   BlockCholesky cholesky_;
   std::vector<int32_t> ei_, ej_, edge_;  // edge_: of each pair; -1 without
   std::vector<double> diag_, off_;
+  const std::vector<double> *columns_ = nullptr;
+  size_t block_ = 0, equations_ = 0;
+  std::vector<double> solved_;  // K^-1 columns^T
+  SmallCholesky schur_;         // of columns K^-1 columns^T
 };
 
 }  // namespace jam::inside

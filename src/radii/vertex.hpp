@@ -1,24 +1,25 @@
 // The end of the path: contacts closed to rounding, forces that balance and add up to the weights, and the tests that
 // make the point a maximum.
 #pragma once
+#include "radii/goal.hpp"
 #include "radii/rows.hpp"
 
 namespace jam::inside {
 
 struct RadiiVertex {
-  bool closed = false;           // contacts closed, forces balance and are positive, no other gap is negative
-  Packing packing;               // no pair overlaps, in two doubles
-  RadiiRows contacts;            // rows that carry force
-  std::vector<double> force;     // in units of the mean weight
+  bool closed = false;             // contacts closed, forces balance and are positive, no other gap is negative
+  Packing packing;                 // no pair overlaps, in two doubles
+  RadiiRows contacts;              // rows that carry force
+  std::vector<double> force;       // in units of the mean weight
+  std::vector<double> multiplier;  // of the goal's columns
   double balance = 0.0;          // largest residual of balance and of the sums of forces, over the weight of its sphere
   double gap = 0.0, open = 0.0;  // largest |c| of contacts; least of the other pairs
   // A motion, (n, d + 1), that keeps contacts closed to first order and opens them to second: a saddle. Empty: none.
   std::vector<double> escape;
 };
 
-// rows: near the vertex, with forces of the path. unit: radii_unit.
-RadiiVertex close_vertex(const Packing &p, const RadiiRows &rows, const std::vector<double> &forces,
-                         const std::vector<double> &weight, const RadiiBounds &bounds, double unit,
-                         RadiiMatrix &matrix);
+// rows: near the vertex, with forces of the path. unit: radii_unit. The goal is left linear where contacts close.
+RadiiVertex close_vertex(const Packing &p, const RadiiRows &rows, const std::vector<double> &forces, RadiiGoal &goal,
+                         const RadiiBounds &bounds, double unit, RadiiMatrix &matrix);
 
 }  // namespace jam::inside

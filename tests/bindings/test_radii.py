@@ -241,6 +241,7 @@ class Refused(unittest.TestCase):
         self.refused(s, wrong, "wall_time is 0", wall_time=0.0)
         self.refused(s, wrong, r"weights\[2\] is 0", [1, 1, 0, 1, 1])
         self.refused(s, wrong, r"weights\[4\] is -1", [1, 1, 1, 1, -1])
+        self.refused(s, wrong, r"weights\[1\] is 1e\+308, it must be positive and at most 1e\+100", [1, 1e308, 1, 1, 1])
         self.refused(s, wrong, "weights_len is 3", [1, 1, 1])
         self.refused(s, jam.errors.NonfiniteError, r"weights\[0\]", [np.nan, 1, 1, 1, 1])
         far = jam.errors.UnsupportedError

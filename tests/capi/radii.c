@@ -1,6 +1,7 @@
 /* jam_maximise_radii from C: one disk and two, weights, and what a stop leaves. */
 #include <jam/jam.h>
 #include <math.h>
+#include <string.h>
 #include "test.h"
 
 static jam_system *square(int64_t n, int64_t seed) {
@@ -38,6 +39,42 @@ CASE(weights_decide) {
   /* the large disk fills the square, the other its corner: (1/2 - r) sqrt(2) = 1/2 + r */
   const double corner = 0.5 * (sqrt(2.0) - 1.0) / (sqrt(2.0) + 1.0);
   assert_true(fabs(r.value - (1.5 + corner)) < 1e-14);
+  jam_destroy(sys);
+}
+
+/* Two moments fix the ratio of two disks, whose radii add up to 2 - sqrt(2) in a square. */
+CASE(moments_grow_by_one_factor) {
+  const double ratio[2] = {1.0, 1.5};
+  jam_system *sys = NULL;
+  const double *sigma = NULL;
+  double before[2], square;
+  size_t len = 0;
+  DEFAULTS(create, c);
+  jam_start given;
+  memset(&given, 0, sizeof given);
+  given.struct_size = sizeof given, given.diameters = ratio, given.diameters_len = 2;
+  c.n = 2, c.dim = 2, c.seed = 1, c.walls = 3;
+  assert_int_equal(jam_create(&c, &given, &sys), JAM_OK);
+  assert_int_equal(jam_view(sys, JAM_VIEW_DIAMETERS, &sigma, &len), JAM_OK);
+  before[0] = sigma[0], before[1] = sigma[1];
+  DEFAULTS(radii, o);
+  SIZED(jam_radii_report, r);
+  assert_true(o.moments == 0 && o.exponent_1 == 1.0 && o.exponent_4 == 4.0);
+  o.moments = 2;
+  assert_int_equal(jam_maximise_radii(sys, &o, NULL, 0, &r), JAM_OK);
+  assert_int_equal(jam_view(sys, JAM_VIEW_DIAMETERS, &sigma, &len), JAM_OK);
+  assert_true(r.maximum && fabs(0.5 * (sigma[0] + sigma[1]) - (2.0 - sqrt(2.0))) < 1e-14);
+  assert_true(fabs(sigma[0] / before[0] / r.value - 1.0) < 1e-14 && fabs(sigma[1] / before[1] / r.value - 1.0) < 1e-14);
+  assert_true(r.moment_residual < 1e-14 && !isnan(r.multiplier_2) && isnan(r.multiplier_3));
+  /* forces on sphere i: lambda_1 + 2 lambda_2 R_i, and sum_q q lambda_q M_q = lambda */
+  square = 0.25 * (sigma[0] * sigma[0] + sigma[1] * sigma[1]);
+  assert_true(fabs(0.5 * r.multiplier_1 * (sigma[0] + sigma[1]) + 2.0 * r.multiplier_2 * square - r.value) < 1e-12);
+  o.exponent_2 = 1.0;
+  assert_int_equal(jam_maximise_radii(sys, &o, NULL, 0, &r), JAM_E_ARGUMENT);
+  o.moments = 5;
+  assert_int_equal(jam_maximise_radii(sys, &o, NULL, 0, &r), JAM_E_ARGUMENT);
+  o.moments = -1;
+  assert_int_equal(jam_maximise_radii(sys, &o, NULL, 0, &r), JAM_E_ARGUMENT);
   jam_destroy(sys);
 }
 

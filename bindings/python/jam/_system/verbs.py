@@ -258,13 +258,16 @@ class Verbs(Observing):
         return make_runs(self, instants, None if monte_carlo is None else dict(monte_carlo), keep, progress, options)
 
     @takes("jam_radii_options")
-    def maximise_radii(self, weights: Any = None, *, progress: Any = None, **options: Any) -> RadiiReport:
-        """Moves the spheres and changes their radii to a local maximum of the weighted sum of radii.
+    def maximise_radii(self, weights: Any = None, *, moments: Any = None, progress: Any = None, **options: Any) -> RadiiReport:
+        """Moves the spheres and changes their radii to a local maximum of the weighted sum of radii, or of a factor of moments.
 
         Parameters
         ----------
         weights : array_like (n,), optional
             Of the radii in the sum, > 0. Default: all 1.
+        moments : sequence of float, optional
+            One to four exponents q. The largest report.value = lambda is sought with sum R_i^q = lambda^q times that of the
+            start for each of them. Without it: the sum of radii.
 
         Returns
         -------
@@ -280,6 +283,11 @@ class Verbs(Observing):
         (True, True)
         """
         given = None if weights is None else as_vector(weights, name="weights")
+        if moments is not None:
+            exponents = as_vector(moments, name="moments")
+            if not 1 <= len(exponents) <= 4:
+                raise ValueError(f"moments has {len(exponents)} exponents, one to four are possible")
+            options.update({f"exponent_{k}": float(q) for k, q in enumerate(exponents, 1)}, moments=len(exponents))
         found: RadiiReport = self._verb(
             "jam_maximise_radii", "jam_radii_options", "jam_radii_report", progress, options or None, given
         )

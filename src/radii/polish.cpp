@@ -1,0 +1,206 @@
+// See polish.hpp.
+#include "radii/polish.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "core/rng.hpp"
+#include "linalg/small_cholesky.hpp"
+#include "radii/path.hpp"
+#include "radii/tuning.hpp"
+
+namespace jam::inside {
+namespace {
+
+// sum_k f_k a_k + w: zero on all unknowns at a maximum. weight: what forces add up to.
+std::vector<double> imbalance(const RadiiRows &contacts, const std::vector<double> &force,
+                              const std::vector<double> &weight) {
+  std::vector<double> out;
+  contacts.transpose_times(force, out);
+  const size_t b = contacts.block();
+  for (size_t i = 0; i < weight.size(); ++i) out[i * b + b - 1] += weight[i];
+  return out;
+}
+
+// The largest of them over the weight of its sphere, which is all that the sphere carries.
+double residual(const std::vector<double> &wrong, const std::vector<double> &weight) {
+  const size_t b = wrong.size() / weight.size();
+  double most = 0.0;
+  for (size_t q = 0; q < wrong.size(); ++q) most = std::max(most, std::fabs(wrong[q]) / weight[q / b]);
+  return most;
+}
+
+// The balanced forces nearest to those given, and the multipliers of the goal's equations.
+double balance(const RadiiRows &contacts, const RadiiGoal &goal, const RadiiMatrix &matrix, std::vector<double> &force,
+               std::vector<double> &multiplier) {
+  multiplier.assign(goal.equations(), 0.0);
+  std::vector<double> correction, best = force, best_multiplier = multiplier, weight = goal.carried(multiplier);
+  double least = residual(imbalance(contacts, force, weight), weight);
+  for (int k = 0; k < RadiiTuning::balance_steps; ++k) {
+    std::vector<double> wrong = imbalance(contacts, force, weight);
+    const std::vector<double> more = matrix.solve(wrong);
+    contacts.times(wrong, correction);
+    for (size_t q = 0; q < force.size(); ++q) force[q] -= correction[q];
+    for (size_t q = 0; q < more.size(); ++q) multiplier[q] += more[q];
+    weight = goal.carried(multiplier);
+    const double now = residual(imbalance(contacts, force, weight), weight);
+    if (!(now < least)) break;
+    least = now, best = force, best_multiplier = multiplier;
+  }
+  force = best, multiplier = best_multiplier;
+  return least;
+}
+
+// Takes from x, (n, d + 1), the translations that keep all contacts, the displacements of spheres without contacts,
+// and what it has along the motions before it. False where nothing is left.
+bool independent(const RadiiRows &contacts, const std::vector<char> &touched,
+                 const std::vector<std::vector<double>> &before, std::vector<double> &x) {
+  const size_t b = contacts.block(), n = touched.size();
+  std::vector<double> moved(x.size()), opened;
+  for (size_t c = 0; c + 1 < b; ++c) {
+    std::fill(moved.begin(), moved.end(), 0.0);
+    double mean = 0.0, count = 0.0;
+    for (size_t i = 0; i < n; ++i)
+      if (touched[i]) moved[i * b + c] = 1.0, mean += x[i * b + c], count += 1.0;
+    contacts.times(moved, opened);
+    const bool keeps = largest_of(opened) == 0.0 && count > 0.0;
+    for (size_t i = 0; i < n; ++i) x[i * b + c] = touched[i] ? x[i * b + c] - (keeps ? mean / count : 0.0) : 0.0;
+  }
+  const auto along = [&](const std::vector<double> &y) {
+    double sum = 0.0;
+    for (size_t q = 0; q < x.size(); ++q) sum += x[q] * y[q];
+    return sum;
+  };
+  for (const std::vector<double> &y : before) {
+    const double part = along(y);
+    for (size_t q = 0; q < x.size(); ++q) x[q] -= part * y[q];
+  }
+  const double size = std::sqrt(along(x));
+  if (!(size > RadiiTuning::no_motion * std::sqrt(static_cast<double>(x.size())))) return false;
+  for (double &v : x) v /= size;
+  return true;
+}
+
+// Motions that keep contacts closed and equations, orthonormal.
+std::vector<std::vector<double>> motions_along(const RadiiVertex &at, const RadiiMatrix &matrix) {
+  std::vector<std::vector<double>> out;
+  std::vector<char> touched(at.packing.n());
+  for (size_t k = 0; k < at.contacts.pairs.size(); ++k)
+    for_spheres(at.contacts.pairs.i[k], at.contacts.pairs.j[k], [&](int32_t q) { touched[q] = 1; });
+  Rng rng(at.packing.seed, Stream::radii_saddle);
+  while (out.size() <= RadiiTuning::most_motions) {
+    std::vector<double> x(at.contacts.unknowns());
+    for (double &v : x) v = rng.normal();
+    keep_closed(at.contacts, matrix, x);
+    if (!independent(at.contacts, touched, out, x)) break;
+    out.push_back(x);
+  }
+  return out;
+}
+
+}  // namespace
+
+double longest_edge(const Packing &p) {
+  double edge = 0.0;
+  for (int c = 0; c < p.dim; ++c) edge = std::max(edge, p.cell.edge(c));
+  return edge;
+}
+
+double largest_of(const std::vector<double> &x) {
+  double most = 0.0;
+  for (const double v : x) most = std::max(most, std::fabs(v));
+  return most;
+}
+
+bool close_contacts(Packing &p, RadiiRows &contacts, RadiiGoal &goal, RadiiMatrix &matrix, double unit) {
+  const std::vector<double> ones(contacts.pairs.size() + contacts.bounds(), 1.0);
+  std::vector<double> step;
+  double path = 0.0, before = std::numeric_limits<double>::infinity();
+  Packing moved = p;
+  for (int k = 0; k < RadiiTuning::polish_steps; ++k) {
+    contacts.measure(p);
+    goal.linearise(p);
+    const double wrong = std::max(largest_of(contacts.gap), goal.residual(p) * unit);
+    const bool small = wrong <= RadiiTuning::closed * longest_edge(p);
+    if (small && !(wrong < 0.5 * before)) return true;
+    if (k > 3 && !small && !(wrong < before)) return false;
+    before = wrong;
+    contacts.transpose_times(contacts.gap, step);
+    matrix.factorise(contacts, ones, goal.columns(), RadiiTuning::polish_ridge, 1);
+    matrix.solve(step, goal.wrong(p));
+    path += largest_of(step);
+    if (!(path < RadiiTuning::longest_polish * unit)) return false;
+    move_radii(p, step, -1.0, moved);
+    p.position.swap(moved.position), p.diameter.swap(moved.diameter);
+  }
+  contacts.measure(p);
+  goal.linearise(p);
+  return std::max(largest_of(contacts.gap), goal.residual(p) * unit) <= RadiiTuning::closed * longest_edge(p);
+}
+
+void balance_contacts(RadiiVertex &at, RadiiGoal &goal, RadiiMatrix &matrix) {
+  at.contacts.measure(at.packing);
+  goal.linearise(at.packing);
+  matrix.factorise(at.contacts, std::vector<double>(at.force.size(), 1.0), goal.columns(), RadiiTuning::polish_ridge,
+                   1);
+  at.balance = balance(at.contacts, goal, matrix, at.force, at.multiplier);
+}
+
+void keep_closed(const RadiiRows &contacts, const RadiiMatrix &matrix, std::vector<double> &x) {
+  std::vector<double> opened, back;
+  for (int k = 0; k < RadiiTuning::projections; ++k) {
+    contacts.times(x, opened);
+    contacts.transpose_times(opened, back);
+    matrix.solve(back, matrix.along_columns(x));
+    for (size_t q = 0; q < x.size(); ++q) x[q] -= back[q];
+  }
+}
+
+double second_derivative(const RadiiVertex &at, const RadiiGoal &goal, const std::vector<double> &x) {
+  const RadiiRows &contacts = at.contacts;
+  const std::vector<double> &force = at.force;
+  const size_t b = contacts.block(), d = b - 1;
+  double sum = goal.curvature(at.packing, at.multiplier, x);
+  for (size_t k = 0; k < contacts.pairs.size(); ++k) {
+    if (contacts.pairs.wall(k) || contacts.pairs.own_image(k)) continue;
+    const double *xi = &x[static_cast<size_t>(contacts.pairs.i[k]) * b], *n = &contacts.normal[k * d],
+                 *xj = &x[static_cast<size_t>(contacts.pairs.j[k]) * b];
+    double s2 = 0.0, along = 0.0;
+    for (size_t c = 0; c < d; ++c) s2 += (xi[c] - xj[c]) * (xi[c] - xj[c]), along += n[c] * (xi[c] - xj[c]);
+    sum += force[k] * (s2 - along * along) / contacts.length[k];
+  }
+  return sum;
+}
+
+bool settle_moments(RadiiVertex &at, RadiiGoal &goal, double unit, RadiiMatrix &matrix) {
+  for (int step = 0; step < RadiiTuning::settle_steps && !(at.balance <= RadiiTuning::balanced); ++step) {
+    const std::vector<std::vector<double>> motion = motions_along(at, matrix);
+    const size_t m = motion.size();
+    if (m == 0 || m > RadiiTuning::most_motions) return false;
+    const std::vector<double> left = imbalance(at.contacts, at.force, goal.carried(at.multiplier));
+    std::vector<double> stiffness(m * m), part(m), x(left.size());
+    for (size_t a = 0; a < m; ++a) {
+      part[a] = std::inner_product(left.begin(), left.end(), motion[a].begin(), 0.0);
+      stiffness[a * m + a] = -second_derivative(at, goal, motion[a]);
+      for (size_t b = 0; b < a; ++b) {
+        std::vector<double> both = motion[a];
+        for (size_t q = 0; q < both.size(); ++q) both[q] += motion[b][q];
+        stiffness[a * m + b] = -0.5 * (second_derivative(at, goal, both) + stiffness[a * m + a] + stiffness[b * m + b]);
+      }
+    }
+    SmallCholesky factor;
+    if (!factor.factorise(m, stiffness)) return false;  // no maximum along them
+    factor.solve(part);
+    for (size_t a = 0; a < m; ++a)
+      for (size_t q = 0; q < x.size(); ++q) x[q] += part[a] * motion[a][q];
+    if (!(largest_of(x) < RadiiTuning::longest_polish * unit)) return false;
+    const Packing from = at.packing;
+    move_radii(from, x, 1.0, at.packing);
+    if (!close_contacts(at.packing, at.contacts, goal, matrix, unit)) return false;
+    balance_contacts(at, goal, matrix);
+  }
+  return at.balance <= RadiiTuning::balanced;
+}
+
+}  // namespace jam::inside

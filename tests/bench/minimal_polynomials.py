@@ -7,6 +7,7 @@ A relation of powers with whole numbers is found by PSLQ (mpmath) from D digits,
 """
 import sys
 import time
+from decimal import Decimal
 from pathlib import Path
 
 import mpmath
@@ -74,6 +75,6 @@ for dim, n in [(2, n) for n in range(3, 9)] + [(3, n) for n in range(3, 9)]:
         if found or time.monotonic() - begun > seconds:
             break
     shown = text_of(found) if found else f"none of degree {degree} or less with coefficients below 10^12"
-    rows.append([dim, n, value[:32], degree if found else "", shown, digits, rest or ""])
+    rows.append([dim, n, f"{Decimal(value):.30f}", degree if found else "", shown, digits, rest or ""])
     print(*rows[-1], flush=True)
 figures.save(HERE / "results/minimal_polynomials.json", "minimal_polynomials.py", COLUMNS, rows)

@@ -153,6 +153,7 @@ class Maximum(unittest.TestCase):
         weights = np.linspace(0.5, 2.0, 12)
         s = box(12, seed=5)
         report = s.maximise_radii(weights)
+        self.assertEqual(s.calls[-1]["options"]["weights"], weights.tolist())
         self.assertTrue(report.maximum)
         self.assertLess(abs(report.value - weights @ s.diameters / 2), 1e-14)
         sums = np.zeros(12)
@@ -280,6 +281,10 @@ class Search(unittest.TestCase):
             parts = jam.radii.best_of(6, walls="xy", starts=6, workers=1, folder=Path(folder, "six"))
             with self.assertRaisesRegex(ValueError, "another search"):
                 jam.radii.best_of(7, walls="xy", starts=2, workers=1, folder=Path(folder, "six"))
+            for text in ("", "{", "[1]", '{"asked": 1}', '{"asked": 1, "best": [1], "done": [], "maxima": 0, "seconds": 0}'):
+                Path(folder, "six", "search.json").write_text(text)
+                with self.assertRaisesRegex(ValueError, r"search\.json is damaged .*remove it"):
+                    jam.radii.best_of(6, walls="xy", starts=6, workers=1, folder=Path(folder, "six"))
         self.assertEqual((whole.starts, whole.maxima), (parts.starts, parts.maxima))
         self.assertEqual([b.value for b in whole.best], [b.value for b in parts.best])
         np.testing.assert_array_equal(whole.best[0].positions, parts.best[0].positions)

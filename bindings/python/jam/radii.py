@@ -131,11 +131,15 @@ class _State:
         self.done: set[int] = set()
         self.maxima, self.before = 0, 0.0
         if self.file and self.file.exists():
-            kept = json.loads(self.file.read_text())
-            if kept["asked"] != json.loads(json.dumps(asked)):
+            try:
+                kept = json.loads(self.file.read_text())
+                other = kept["asked"] != json.loads(json.dumps(asked))
+                self.best = [Best(v, k, np.array(x), np.array(r)) for v, k, x, r in kept["best"]]
+                self.done, self.maxima, self.before = set(kept["done"]), int(kept["maxima"]), float(kept["seconds"])
+            except (ValueError, KeyError, TypeError, UnicodeDecodeError) as error:
+                raise ValueError(f"{self.file} is damaged ({error!r}): remove it to begin the search again, or take another folder") from error
+            if other:
                 raise ValueError(f"{self.file} is of another search: {kept['asked']}; take another folder")
-            self.best = [Best(v, k, np.array(x), np.array(r)) for v, k, x, r in kept["best"]]
-            self.done, self.maxima, self.before = set(kept["done"]), kept["maxima"], kept["seconds"]
         elif folder:
             folder.mkdir(parents=True, exist_ok=True)
 

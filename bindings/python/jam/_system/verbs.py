@@ -32,17 +32,19 @@ def _stage(given: Any) -> dict[str, float]:
 class Verbs(Observing):
     """Long calls on a system."""
 
-    def _verb(self, name: str, struct: str, report: str, progress: Any, options: Mapping[str, Any] | None, *arrays: Any) -> Any:
+    def _verb(self, name: str, struct: str, report: str, progress: Any, options: Mapping[str, Any] | None, **arrays: Any) -> Any:
         handle = self.handle
         with self._failing():
             chosen = None if options is None else option_struct(struct, dict(options))
         made = new_report(report)
-        call = {"verb": name.removeprefix("jam_"), "options": {} if chosen is None else spelled_out(chosen, struct)}
+        said = {} if chosen is None else dict(spelled_out(chosen, struct))
+        said.update({k: a.tolist() for k, a in arrays.items() if a is not None})
+        call = {"verb": name.removeprefix("jam_"), "options": said}
         call.update(status="running", stop_reason="none")  # what a callable saves meanwhile says so
         self.calls.append(call)
         try:
             with self._reporting(progress):
-                status = getattr(raw, name)(handle, chosen, *arrays, made)
+                status = getattr(raw, name)(handle, chosen, *arrays.values(), made)
                 frozen = freeze(made, report)
                 self._note(status, frozen)
         except JamError:  # nothing has moved
@@ -289,7 +291,7 @@ class Verbs(Observing):
                 raise ValueError(f"moments has {len(exponents)} exponents, one to four are possible")
             options.update({f"exponent_{k}": float(q) for k, q in enumerate(exponents, 1)}, moments=len(exponents))
         found: RadiiReport = self._verb(
-            "jam_maximise_radii", "jam_radii_options", "jam_radii_report", progress, options or None, given
+            "jam_maximise_radii", "jam_radii_options", "jam_radii_report", progress, options or None, weights=given
         )
         return found
 
@@ -355,7 +357,7 @@ class Verbs(Observing):
                 raise ValueError(f"{name} has the shape {x.shape}, it must be ({self.dim}, {self.dim})")
         given = np.concatenate(parts) if parts else None
         found: ShearReport = self._verb(
-            "jam_shear", "jam_shear_options", "jam_shear_report", progress, options or None, turns, given
+            "jam_shear", "jam_shear_options", "jam_shear_report", progress, options or None, turns=turns, mode=given
         )
         return found
 

@@ -42,7 +42,8 @@ typedef struct outcome {
   jam_info info;
   jam_crunch_report crunch;
   jam_proof_report strict; /* of the strict jam_prove, where --strict-proof goes with --prove */
-  int has_md, has_crunch, has_strict;
+  jam_radii_report radii;  /* with --radii, then crunch has the verdict on the maximum alone */
+  int has_md, has_crunch, has_strict, has_radii;
   int32_t md_stop;
   int64_t collisions;
   double pressure;                /* that dynamics reached; the crunch ends at infinite pressure */
@@ -106,6 +107,11 @@ int take_sizes(const char *value, options *o);
 int take_cell(const char *value, options *o);
 int take_copies(const char *value, options *o);
 int take_numbers(const char *value, double *out, int most);
+
+/* radii.c: --radii. */
+int take_radii(const options *o, jam_radii_options *radii);
+jam_status run_radii(jam_system *sys, const options *o, double wall_time, outcome *result);
+void print_radii(const options *o, const jam_radii_report *r);
 
 /* shear_path.c: 0, or -1 after a message on stderr. The path begins as zeros. */
 enum { MOST_TURNS = 64 };

@@ -10,12 +10,12 @@ typedef struct options {
   double phi0, diameters_ratio, least_distance, non_additivity, zeta, plant, box, shrink_min, nve, pressure,
     packing_fraction, porosity, checkpoint_every, duality_gap, step, resolution, alpha, scale, density, stl_edge,
     stl_shrink, stl_bridge, stl_bridge_gap, voxel_size, contact_gap, near_gap, wall_time;
-  const char *input, *origin, *columns, *checkpoint, *resume, *to, *mode, *stress, *rows, *output, *page, *contacts,
-    *spectrum, *gaps, *structure, *proof, *strict_proof, *report, *log, *vtk, *plot, *stl, *stl_walls, *voxels,
-    *profile, *pores, *near_coordination;
+  const char *input, *origin, *columns, *checkpoint, *resume, *radii, *to, *mode, *stress, *rows, *output, *page,
+    *contacts, *spectrum, *gaps, *structure, *proof, *strict_proof, *report, *log, *vtk, *plot, *stl, *stl_walls,
+    *voxels, *profile, *pores, *near_coordination;
   int shrink, no_md, no_crunch, prove, strict, json, quiet;
   given given; /* what has a form of its own */
-  unsigned char named[83]; /* of each row of the table, whether it is on the command line */
+  unsigned char named[84]; /* of each row of the table, whether it is on the command line */
 } options;
 
 /* First words of a command line. */
@@ -107,6 +107,9 @@ static const option_row table[] = {
      .without = "--no-crunch --packing-fraction --porosity"},
     {"--threads", TAKE_INTEGER, offsetof(options, threads), .verbs = 5,
      .without = "--no-crunch --packing-fraction --porosity", .low = 1, .high = 64},
+    {"--radii", TAKE_TEXT, offsetof(options, radii), .verbs = 5,
+     .without = "--no-crunch --packing-fraction --porosity --method --strain --lp --duality-gap --page-steps --prove "
+     "--proof --strict-proof --container --model --non-additivity"},
     {"--no-crunch", TAKE_SWITCH, offsetof(options, no_crunch), .verbs = 1},
     {"--to", TAKE_TEXT, offsetof(options, to), .verbs = 8},
     {"--mode", TAKE_TEXT, offsetof(options, mode), .verbs = 8},
@@ -312,6 +315,9 @@ static const help_line help[] = {
     {517, "                         point (0: the jamming point)"},
     {517, "  --threads T            1 .. 64 (1); 2 to 64 give the same bits, 1 may give others; more"},
     {517, "                         than 4 gain little"},
+    {517, "  --radii KIND           change the radii too, in place of the crunch: sum, to the largest"},
+    {517, "                         sum of radii; moments:Q,.. to the largest factor of the radii while"},
+    {517, "                         their power sums of up to four exponents keep their ratios"},
     {513, "  --no-crunch            stop after molecular dynamics"},
     {520, "Shear"},
     {520, "  --to G,..              the last strain of a simple shear, x moves with y; of several the"},

@@ -164,8 +164,8 @@ static jam_status work(jam_system *sys, const options *o, terminal *t, outcome *
   }
   if (o->no_crunch || ends_job(status)) return status;
   if (result->has_md && !is_host_format(o, o->output)) keep(sys, o->output);
-  strcpy(name, "crunch");
-  return run_crunch(sys, o, LEFT, result);
+  strcpy(name, o->radii ? "radii" : "crunch");
+  return (o->radii ? run_radii : run_crunch)(sys, o, LEFT, result);
 #undef LEFT
 }
 
@@ -241,7 +241,9 @@ int run_job(const options *given) {
   jam_system *sys = NULL;
   jam_status status = JAM_OK;
   int bad, code;
+  jam_radii_options radii;
   memset(&result, 0, sizeof result);
+  if (o->radii && take_radii(o, &radii)) return EXIT_USAGE;
   code = start(o, stop_if_asked, &sys);
   if (!code && (o->input || o->resume || o->dim > 3 || o->given.cell_count || o->n == 1 || o->walls || o->container) &&
       check_formats(o, sys))

@@ -24,7 +24,9 @@ static void print_warning(const char *line, int warns, void *with) {
 void print_warnings(const char *notes) { each_note(notes, print_warning, NULL); }
 
 void print_stop(const jam_system *sys, const options *o, jam_status status, const outcome *result) {
-  const int32_t stop = result->has_crunch ? result->crunch.stop_reason : result->md_stop;
+  const int32_t stop = result->has_radii    ? result->radii.stop_reason
+                       : result->has_crunch ? result->crunch.stop_reason
+                                            : result->md_stop;
   const int is_kept = o->checkpoint && (status == JAM_LIMIT || status == JAM_CANCELLED);
   char why[1024];
   jam_info info;
@@ -34,7 +36,10 @@ void print_stop(const jam_system *sys, const options *o, jam_status status, cons
     strcpy(why, "interrupted; writing the state reached");
   else if (status == JAM_LIMIT && stop == JAM_STOP_WALL_TIME)
     snprintf(why, sizeof why, "stopped early: --wall-time came before the end of %s, at packing fraction %.6g",
-             result->has_crunch ? "the crunch" : "dynamics", info.packing_fraction);
+             result->has_radii    ? "the search of radii"
+             : result->has_crunch ? "the crunch"
+                                  : "dynamics",
+             info.packing_fraction);
   else
     snprintf(why, sizeof why, "stopped early: %s", jam_last_error());
   if (is_kept)
@@ -64,11 +69,13 @@ static void put_protocol(FILE *f, const options *o, const outcome *result) {
       fprintf(f, "%s{\"stage\": \"growth\", \"growth_rate\": %.17g, \"pressure\": %.17g, \"stop_reason\": \"%s\"}",
               next(&first), o->given.stages[k].growth, o->given.stages[k].pressure,
               jam_stop_string(result->stage_stop[k]));
-  if (result->has_crunch)
+  if (result->has_radii)
+    fprintf(f, "%s{\"stage\": \"radii\", \"kind\": \"%s\"}", next(&first), o->radii);
+  else if (result->has_crunch)
     fprintf(f, "%s{\"stage\": \"crunch\", \"method\": \"%s\", \"strain\": \"%s\"}", next(&first), methods[o->method],
             strains[o->strain]);
   fputs("],\n", f);
-  if (result->has_crunch)
+  if (result->has_crunch && !result->has_radii)
     fprintf(f, "  \"method\": \"%s\",\n  \"lp_solver\": \"%s\",\n", methods[result->crunch.method],
             solvers[result->crunch.lp_solver]);
   else
@@ -111,7 +118,8 @@ static int has_seed(const options *o, const outcome *result) {
 int write_report(const options *o, const outcome *result, const char *path) {
   const jam_info *info = &result->info;
   const jam_crunch_report *r = &result->crunch;
-  const int crunched = result->has_crunch;
+  const jam_radii_report *radii = &result->radii;
+  const int crunched = result->has_crunch, moved = crunched && !result->has_radii, grown = result->has_radii;
   const int known = crunched && r->rattlers >= 0;    /* else it was stopped before its contacts were known */
   const int certified = crunched && r->contacts > 0; /* without contacts zeros would look like perfect balance */
   const double rate = result->seconds_md > 0 ? (double)result->collisions / result->seconds_md : NAN;
@@ -133,9 +141,13 @@ int write_report(const options *o, const outcome *result, const char *path) {
   put_number(f, "pressure", result->has_md ? result->pressure : NAN);
   put_count(f, "collisions", result->collisions, 1);
   put_number(f, "collisions_per_second", rate);
-  put_count(f, "lp_solves", r->lp_solves, crunched);
-  put_count(f, "factorisations", r->factorisations, crunched);
-  put_count(f, "decompressions", r->decompressions, crunched);
+  put_count(f, "lp_solves", r->lp_solves, moved);
+  put_count(f, "factorisations", grown ? radii->factorisations : r->factorisations, moved || grown);
+  put_count(f, "decompressions", r->decompressions, moved);
+  put_number(f, "radii_value", grown ? radii->value : NAN);
+  put_count(f, "radii_excess", radii->excess, grown && radii->maximum);
+  put_number(f, "moment_residual", grown ? radii->moment_residual : NAN);
+  put_number(f, "polydispersity", grown ? radii->polydispersity : NAN);
   put_count(f, "contacts", r->contacts, known);
   put_count(f, "rattlers", r->rattlers, known);
   put_count(f, "bucklers", r->bucklers, known);
@@ -148,14 +160,14 @@ int write_report(const options *o, const outcome *result, const char *path) {
   put_number(f, "min_force", certified ? r->min_force : NAN);
   put_number(f, "min_gap", certified ? r->min_gap : NAN);
   put_number(f, "duality_gap", certified ? r->duality_gap : NAN);
-  put_number(f, "gain", crunched ? r->gain : NAN);
-  put_number(f, "packing_fraction_start", crunched ? r->packing_fraction_start : NAN);
-  put_number(f, "displacement_max", crunched ? r->displacement_max : NAN);
-  put_number(f, "displacement_rms", crunched ? r->displacement_rms : NAN);
-  put_number(f, "displacement_max_stable", crunched ? r->displacement_max_stable : NAN);
-  put_number(f, "displacement_rms_stable", crunched ? r->displacement_rms_stable : NAN);
-  put_count(f, "contacts_start", r->contacts_start, crunched && r->contacts_start >= 0);
-  put_count(f, "contacts_kept", r->contacts_kept, crunched && r->contacts_kept >= 0);
+  put_number(f, "gain", moved ? r->gain : NAN);
+  put_number(f, "packing_fraction_start", moved ? r->packing_fraction_start : NAN);
+  put_number(f, "displacement_max", moved ? r->displacement_max : NAN);
+  put_number(f, "displacement_rms", moved ? r->displacement_rms : NAN);
+  put_number(f, "displacement_max_stable", moved ? r->displacement_max_stable : NAN);
+  put_number(f, "displacement_rms_stable", moved ? r->displacement_rms_stable : NAN);
+  put_count(f, "contacts_start", r->contacts_start, moved && r->contacts_start >= 0);
+  put_count(f, "contacts_kept", r->contacts_kept, moved && r->contacts_kept >= 0);
   put_verdict(f, "jammed", crunched ? (r->jammed ? JAM_VERDICT_YES : JAM_VERDICT_NO) : JAM_VERDICT_UNTESTED);
   put_verdict(f, "strictly_jammed", crunched ? r->strictly_jammed : JAM_VERDICT_UNTESTED);
   fputs("  \"proof\": ", f);
@@ -165,10 +177,13 @@ int write_report(const options *o, const outcome *result, const char *path) {
     fputs("null", f);
   fputs(",\n", f);
   put_number(f, "proof_radius", crunched ? r->proof_radius : NAN);
-  fprintf(f, "  \"stop_reason\": \"%s\",\n", jam_stop_string(crunched ? r->stop_reason : result->md_stop));
+  fprintf(f, "  \"stop_reason\": \"%s\",\n",
+          jam_stop_string(grown      ? radii->stop_reason
+                          : crunched ? r->stop_reason
+                                     : result->md_stop));
   fprintf(f, "  \"md_stop_reason\": \"%s\",\n", jam_stop_string(result->md_stop));
   put_number(f, "seconds_md", result->seconds_md);
-  put_number(f, "seconds_crunch", crunched ? r->seconds : 0.0);
+  put_number(f, "seconds_crunch", grown ? radii->seconds : crunched ? r->seconds : 0.0);
   fprintf(f, "  \"version\": \"%s\",\n  \"commit\": \"%s\",\n", jam_version(), jam_commit());
   fprintf(f, "  \"blas_kernel\": \"%s\"\n}\n", jam_blas_kernel());
   return close_output(&out);
@@ -212,7 +227,8 @@ void print_summary(const options *o, const outcome *result) {
   if (result->has_md)
     printf("  dynamics  p = %.4g after %.3g collisions in %.2f s (%s)\n", result->pressure, (double)result->collisions,
            result->seconds_md, jam_stop_string(result->md_stop));
-  if (!result->has_crunch) return;
+  if (result->has_radii) print_radii(o, &result->radii);
+  if (!result->has_crunch || result->has_radii) return;
   printf("  crunch    %s (%s): %lld LPs, %lld factorisations, %.2f s\n", verdict(r), jam_stop_string(r->stop_reason),
          (long long)r->lp_solves, (long long)r->factorisations, r->seconds);
   if (r->decompressions > 0)

@@ -81,7 +81,7 @@ def emit_c(_api):
     for o in rows:
         place = "0" if o.kind in OWN_FORM else f"offsetof(options, {o.field})"
         low, high = ("low", "high") if o.kind == "integer" else ("least", "most")
-        text = lambda names: names and '"' + " ".join(names) + '"'
+        text = lambda names: "\n     ".join(f'"{line}"' for line in textwrap.wrap(" ".join(names), 100, break_on_hyphens=False, drop_whitespace=False))
         flags = " | ".join([f for f, on in (("AFTER_CRUNCH", o.after_crunch), ("TAKES_STDOUT", o.stdout), ("NEEDS_HOST", o.host), ("TAKES_GZIP", o.gzip)) if on])
         without, needs = ([f"--{name}" for name in names] for names in (o.without, o.needs))
         more = {"words": text(o.words), "flags": flags, "without": text(without), "needs": text(needs), low: o.low, high: o.high}

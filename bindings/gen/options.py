@@ -27,7 +27,7 @@ VERBS = (
     Verb("pack", (), "start, molecular dynamics with growth, crunch: all of the work; the same without a verb", None),
     Verb("compress", ("input",), "start and molecular dynamics alone", f"{READING} {STARTING} {GROWING}"),
     Verb("crunch", ("input", "output"), "the packing of a file to its jamming point",
-           f"{READING} {STARTING} {TABLES} method strain lp duality-gap threads page-steps prove proof strict-proof"),
+           f"{READING} {STARTING} {TABLES} method strain lp duality-gap threads radii page-steps prove proof strict-proof"),
     Verb("shear", ("input", "output"), "the packing of a file along a quasi-static shear",
            f"{READING} shrink shrink-min output report log page contacts checkpoint checkpoint-every resume {SHEARING}"),
     Verb("check", ("input",), "is the packing of a file jammed as it is? Nothing moves", f"{READING} prove proof strict-proof strict"),
@@ -122,6 +122,11 @@ TABLE = {
                "for the jamming point (0: the jamming point)", 0.0, without=NO_CRUNCH),
         Option("threads", "integer", "T", "1 .. 64 (1); 2 to 64 give the same bits, 1 may give others; more than 4 gain little", 1, 1, 64,
                without=NO_CRUNCH),
+        Option("radii", "text", "KIND",
+               "change the radii too, in place of the crunch: sum, to the largest sum of radii; moments:Q,.. to the largest factor of "
+               "the radii while their power sums of up to four exponents keep their ratios",
+               without=(*NO_CRUNCH, "method", "strain", "lp", "duality-gap", "page-steps", "prove", "proof", "strict-proof",
+                        "container", "model", "non-additivity")),
         Option("no-crunch", "switch", "", "stop after molecular dynamics"),
     ),
     "Shear": (

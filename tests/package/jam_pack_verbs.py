@@ -50,6 +50,29 @@ class Verbs(unittest.TestCase):
         open_cell = json.loads(run("pack", "--n", "20", "--quiet", "--report", "-", "--output", self.dir / "a.xyz").stdout)
         self.assertEqual((open_cell["walls"], open_cell["diameter_mean_given"]), ([], None))
 
+    def test_radii_move_to_a_maximum(self):
+        """The sum, and moments, from the written radii; what is no kind is refused before any work."""
+        given = ("pack", "--n", "30", "--dim", "2", "--walls", "xy", "--sizes", "uniform:low=0.6,high=1.4", "--quiet")
+        for kind in ("sum", "moments:1,2,3"):
+            radii = []
+            for more in (("--no-md", "--no-crunch"), ("--no-md", "--radii", kind)):
+                run(*given, *more, "--output", self.dir / "disks.xyz", "--report", self.dir / "disks.json")
+                radii.append([float(line.split()[4]) for line in (self.dir / "disks.xyz").read_text().splitlines()[2:]])
+            report = json.loads((self.dir / "disks.json").read_text())
+            self.assertEqual(report["protocol"], [{"stage": "radii", "kind": kind}])
+            self.assertTrue(report["jammed"])
+            self.assertIsNone(report["method"])
+            if kind == "sum":
+                self.assertAlmostEqual(report["radii_value"], sum(radii[1]), 12)
+                continue
+            for q in (1, 2, 3):
+                ratio = sum(r**q for r in radii[1]) / sum(r**q for r in radii[0])
+                self.assertAlmostEqual(ratio / report["radii_value"] ** q, 1, 12)
+        for wrong in ("bla", "moments:", "moments:1,2,3,4,5"):
+            done = run(*given, "--radii", wrong)
+            self.assertEqual((done.returncode, f"--radii is '{wrong}'" in done.stderr), (2, True))
+        self.refuse("--radii has no effect beside --prove", "pack", "--radii", "sum", "--prove")
+
     def test_shear_goes_on_to_the_same_bits(self):
         """A run that ends at its first event, and goes on from the state before it, against one that does not end."""
         start, state, rows = self.dir / "start.xyz", self.dir / "state.jam", self.dir / "rows.csv"

@@ -165,10 +165,10 @@ class Scene:
         turned = any(row[c] for q, row in enumerate(self.cell) for c in range(q) if {q, c} & {*self.closed})
         refuse(turned or self.strict and self.closed, "an axis with walls leans, or the file is strict")
         refuse(not {*self.closed} <= {*range(d)} or len({*self.closed}) < len(self.closed), "'walls' names no axes")
-        beyond = any(n[c] for *_, n in self.contacts for c in self.closed)
-        refuse(beyond, "a contact reaches through a wall")
+        refuse(any(n[c] for *_, n in self.contacts for c in self.closed), "a contact reaches through a wall")
         self.walls = [-1 - 2 * c - side for c in self.closed for side in (0, 1)]  # as partners of contacts
-        refuse(not ends <= {*range(len(spheres)), *self.walls}, "a contact names a sphere that is not there")
+        no_sphere = min(i for i, *_ in self.contacts) < 0 or not ends <= {*range(len(spheres)), *self.walls}
+        refuse(no_sphere, "a contact names a sphere that is not there")
         named -= {*range(len(contacts))} - at_walls
         refuse(named, "a tile or an implied contact names a contact that is not there")
         refuse(min(positive) <= 0, "a diameter, a cell edge, unit or gamma is not positive")

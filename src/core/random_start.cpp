@@ -73,19 +73,26 @@ void place_at_random(Packing &p) {
   Rng rng(p.seed, Stream::rsa_positions);
   double placed = 0.0;
   const double share = p.container ? p.cell.volume() / scene_volume(p) : 1.0;
+  const int64_t most_total = PlaceTuning::tries_per_sphere * static_cast<int64_t>(n) + PlaceTuning::most_tries;
   int64_t total = 0, spheres = 0;
   for (size_t at = 0; at < n; ++at) {
     const int32_t i = order[at];
     double *x = &p.position[static_cast<size_t>(i) * d];
     if (room.known() && !room.serves(i)) room.forget();
     int64_t tries = 0, refinements = 0;
+    // Whether no place is found: in few dimensions lists say so, in more they would have too many voxels.
+    const auto ends = [&] {
+      if (d > PlaceTuning::listed_dim) return tries > PlaceTuning::most_tries || total >= most_total;
+      return tries % PlaceTuning::tries_of_one_list == 0 &&
+             (!room.refine(order, at) || ++refinements == PlaceTuning::most_refinements);
+    };
     do {
-      if (++tries % PlaceTuning::tries_of_one_list == 0 &&
-          (!room.refine(order, at) || ++refinements == PlaceTuning::most_refinements))
+      ++tries;
+      if (ends())
         fail(JAM_E_UNPLACEABLE,
              "random sequential addition reached packing fraction %.6f of the requested %.6f%s: start at a lower "
              "packing_fraction, and grow the spheres",
-             placed, packing_fraction(p), room.known() ? "" : ", and no room is left");
+             placed, packing_fraction(p), d > PlaceTuning::listed_dim || room.known() ? "" : ", and no room is left");
       // A try takes long where one large sphere leaves few cells, and each of them holds many small ones.
       if (++total % PlaceTuning::tries_between_looks == 0) CallScope::look();
       if (total % PlaceTuning::tries_between_reports == 0) report_placed(placed, spheres, n);

@@ -14,6 +14,8 @@ struct PlaceTuning {
   static constexpr int64_t tries_between_looks = 16, tries_between_reports = 4096;
   // After so many tries for one sphere its free room is listed, and after as many again the list is refined. Well below
   // saturation about one point in 100 is free.
+  static constexpr int listed_dim = 3;  // in more dimensions trials alone, up to these numbers
+  static constexpr int64_t most_tries = 200000, tries_per_sphere = 20000;
   static constexpr int64_t tries_of_one_list = 1000, most_refinements = 60;
   static constexpr double voxel = 0.5;                                    // of the first list, over the diameter
   static constexpr double voxels_per_sphere = 32.0, fewest_voxels = 1e6;  // that a list may have

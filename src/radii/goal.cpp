@@ -42,9 +42,14 @@ DoubleDouble RadiiGoal::moment(const Packing &p, double exponent) const {
   return sum;
 }
 
+// Of a ratio far from 1 the difference to 1 has lost the digits.
+static double log_of(const DoubleDouble &ratio) {
+  const double more = static_cast<double>(ratio - DoubleDouble(1.0));
+  return std::fabs(more) < 0.5 ? math::log1p(more) : math::log(static_cast<double>(ratio));
+}
+
 double RadiiGoal::growth(const Packing &p, size_t q) const {
-  const DoubleDouble ratio = moment(p, exponent_[q]) / start_[q];
-  return math::log1p(static_cast<double>(ratio - DoubleDouble(1.0))) / exponent_[q];
+  return log_of(moment(p, exponent_[q]) / start_[q]) / exponent_[q];
 }
 
 // Gradients b_q = R^(q - 1) / P_q; b_q - b_first made orthonormal by Gram and Schmidt, twice.
@@ -114,8 +119,7 @@ double RadiiGoal::gain(const std::vector<double> &step, double part, const Packi
     for (size_t i = 0; i < n; ++i) gain += weight_[i] * step[i * b + b - 1];
     return part * gain;
   }
-  const DoubleDouble ratio = moment(to, exponent_[0]) / here_;
-  return scale_ * math::log1p(static_cast<double>(ratio - DoubleDouble(1.0))) / exponent_[0];
+  return scale_ * log_of(moment(to, exponent_[0]) / here_) / exponent_[0];
 }
 
 // Of the moments themselves; they add up to L.

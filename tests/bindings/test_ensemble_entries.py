@@ -77,7 +77,7 @@ class Entries(unittest.TestCase):
         self.assertTrue(ax.collections)
 
     def test_stored_gaps_have_their_pairs_by_name(self):
-        whole = self.system.gaps(1.0, True)
+        whole = self.system.gaps(0.1, True)
         np.testing.assert_array_equal(self.entry.gaps, whole.gap)
         np.testing.assert_array_equal(self.entry.gap_pairs, whole.pair)
         for gaps, pairs in self.ensemble.each("gaps", "gap_pairs"):

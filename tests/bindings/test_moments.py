@@ -1,5 +1,6 @@
 """Radii that move while moments keep their ratios: known factors, exact moments, forces as certificate, another solver, bad input."""
 import unittest
+from fractions import Fraction
 
 import numpy as np
 from scipy.optimize import linprog, minimize
@@ -100,6 +101,14 @@ class Maximum(unittest.TestCase):
             self.assertGreaterEqual(least_exact_gap(s), 0)
             self.assertLess(report.max_contact_gap, 1e-14)
             self.assertTrue(s.report.jammed)
+
+    def test_moments_are_exact_where_they_change_by_much(self):
+        """Sums of negative powers fall to 1e-7 of those at the start; the fractions are exact."""
+        s = jam.System.random(n=2, dim=2, walls="xy", seed=1, diameters=[1, 3.0], packing_fraction=0.01)
+        before = s.diameters / 2
+        report = s.maximise_radii(moments=(-6,))
+        moment = [sum(Fraction(r) ** -6 for r in radii) for radii in (before, s.diameters / 2)]
+        self.assertAlmostEqual(float(moment[1] / moment[0] * Fraction(report.value) ** 6 - 1), 0, 13)
 
     def test_as_many_contacts_as_unknowns(self):
         """d (n - 1) + 1 + n - m in a periodic cell; a sphere without contacts leaves out its d displacements."""

@@ -3,6 +3,7 @@ import math
 import random
 import unittest
 from fractions import Fraction
+from pathlib import Path
 
 import numpy as np
 from test_proof import File, file_of, value, verdict, word
@@ -174,6 +175,10 @@ class Walls(unittest.TestCase):
                         f = Walled(text)
                         change(f, generator)
                         self.assertNotIsInstance(found := verdict(f.text()), dict, found)
+
+    def test_a_wall_is_no_first_sphere(self):
+        """Five loose disks that one more line, 'contact -1 1 0 0', would hold: -1 is a wall, and no sphere that stays."""
+        self.assertEqual(verdict(Path(__file__).with_name("loose.jamproof").read_text()), "unreadable")
 
     def test_small_changes_stay_within_the_radius(self):
         generator = random.Random(5)

@@ -201,7 +201,7 @@ class Ensembles(unittest.TestCase):
         self.assertEqual(name(), name(container="brick", walls=None))
         self.assertEqual(name(cell=[2, 2, 2]), name(box=2))
         self.assertNotEqual(name(walls="z"), name(walls="y"))
-        self.assertEqual(name(n=128), "22ba75e72f65")
+        self.assertEqual(name(n=128), "2c3245921be5")
 
     def test_wrong_scenes_are_named_before_the_work(self):
         for start, text in (

@@ -226,7 +226,7 @@ def prove_sum(system: System, digits: int, weights: Any, path: Any) -> Proved:
     derivative = rows.derivative()
     delta, alpha = _bounds(derivative[kept] @ whole, inverse)
     last = max(abs(int(v)) for v in rows.residuals()) + 1  # rounded down
-    eta, beta = Fraction(alpha) * Fraction(last, 1 << bits), 4 * d * Fraction(alpha)
+    eta, beta = Fraction(alpha) * Fraction(last, 1 << bits), 4 * (d + 1) * Fraction(alpha)
     r = 2 * eta
     share = Fraction(delta) + 2 * beta * r
     if not (Fraction(delta) * r + beta * r * r <= eta and share < 1):
@@ -234,7 +234,7 @@ def prove_sum(system: System, digits: int, weights: Any, path: Any) -> Proved:
     if len(kept) < len(derivative):  # that the equations have full rank
         left = np.linalg.pinv(derivative)
         rest, large = _bounds(derivative, left)
-        if not Fraction(rest) + 8 * d * Fraction(large) * r < 1:
+        if not Fraction(rest) + 8 * (d + 1) * Fraction(large) * r < 1:
             raise StateError("prove: the contacts leave a motion")
     full = np.zeros(rows.size)
     full[d :: d + 1] = [float(v) for v in w]

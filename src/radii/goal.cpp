@@ -42,10 +42,10 @@ DoubleDouble RadiiGoal::moment(const Packing &p, double exponent) const {
   return sum;
 }
 
-// Of a ratio far from 1 the difference to 1 has lost the digits.
+// Of a ratio near 0 the difference to 1 has lost the digits.
 static double log_of(const DoubleDouble &ratio) {
   const double more = static_cast<double>(ratio - DoubleDouble(1.0));
-  return std::fabs(more) < 0.5 ? math::log1p(more) : math::log(static_cast<double>(ratio));
+  return more > -0.5 ? math::log1p(more) : math::log(static_cast<double>(ratio));
 }
 
 double RadiiGoal::growth(const Packing &p, size_t q) const {

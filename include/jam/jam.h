@@ -1026,8 +1026,8 @@ JAM_API jam_status jam_radii_options_init(jam_radii_options *o, size_t size);
 /* Moves spheres and changes radii to a local maximum of sum w_i R_i, w_i = 1 where weights is NULL, in periodic cells
  * and between flat walls. With moments: to one of lambda, where sum R_i^q = lambda^q M_q for each exponent q, M_q at
  * the start; forces on sphere i then add up to sum_q lambda_q q R_i^(q - 1), and radius_min is at least 1e-3 of the
- * smallest radius. The start is positions and radii: a stopped call leaves a valid packing. No pair overlaps, in exact
- * numbers. At a maximum the handle keeps the network, with forces of mean 1, and the verdict of jam_rigidity. Status:
+ * smallest radius. The start is positions and radii: a stopped call leaves a valid packing. No pair overlaps, in two
+ * doubles. At a maximum the handle keeps the network, with forces of mean 1, and the verdict of jam_rigidity. Status:
  * JAM_LIMIT, JAM_NOT_CONVERGED with the last valid state. @shape weights (n) @errors OVERLAP, UNSUPPORTED */
 JAM_API jam_status jam_maximise_radii(jam_system *sys, const jam_radii_options *o, const double *weights,
                                       size_t weights_len, jam_radii_report *report);

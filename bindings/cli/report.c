@@ -27,7 +27,7 @@ void print_stop(const jam_system *sys, const options *o, jam_status status, cons
   const int32_t stop = result->has_radii    ? result->radii.stop_reason
                        : result->has_crunch ? result->crunch.stop_reason
                                             : result->md_stop;
-  const int is_kept = o->checkpoint && (status == JAM_LIMIT || status == JAM_CANCELLED);
+  const int is_kept = o->checkpoint && !result->has_radii && (status == JAM_LIMIT || status == JAM_CANCELLED);
   char why[1024];
   jam_info info;
   info.struct_size = sizeof info;

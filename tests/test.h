@@ -5,6 +5,7 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <string.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -34,11 +35,13 @@ void add_arguments(int (*take)(int argc, char **argv));
 #define ARGUMENTS(take) \
   AT_START(add_its_arguments) { add_arguments(take); }
 
-/* DEFAULTS(crunch, o): options with their defaults. SIZED(jam_info, info): a struct that the library may fill. */
+/* DEFAULTS(crunch, o): options with their defaults. SIZED(jam_info, info): a struct of zeros that the library may fill.
+ */
 #define DEFAULTS(kind, name) \
   jam_##kind##_options name; \
   assert_int_equal(jam_##kind##_options_init(&name, sizeof name), JAM_OK)
-#define SIZED(type, name) \
-  type name;              \
+#define SIZED(type, name)        \
+  type name;                     \
+  memset(&name, 0, sizeof name); \
   name.struct_size = sizeof name
 #endif

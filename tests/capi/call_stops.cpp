@@ -20,8 +20,7 @@ namespace {
 constexpr int64_t n = 20000;
 
 jam_create_options quenched() {
-  jam_create_options o;
-  jam_create_options_init(&o, sizeof o);
+  DEFAULTS(create, o);
   o.n = n, o.packing_fraction = 1e-6, o.model = JAM_MODEL_MK, o.mk_zeta = 0.0;  // a random start is quick
   return o;
 }
@@ -100,8 +99,7 @@ CASE(makers_are_stopped) {
     return jam_create(&options, &start, &made);
   };
   const auto read = [&](jam_create_options options, jam_progress_fn callback) {
-    jam_create_options plain;
-    jam_create_options_init(&plain, sizeof plain);
+    DEFAULTS(create, plain);
     options.packing_fraction = plain.packing_fraction;  // the file's own
     return jam_read(file.c_str(), &options, callback, nullptr, &made);
   };
@@ -119,8 +117,7 @@ CASE(makers_are_stopped) {
 // Const calls that compare many pairs. One that a callback makes does not call it again. A cancel that came before
 // waits for the next verb.
 CASE(const_calls_are_stopped) {
-  jam_create_options o;
-  jam_create_options_init(&o, sizeof o);
+  DEFAULTS(create, o);
   o.n = n;
   jam_system *sys = make(o);
   std::vector<double> out(n);
@@ -128,11 +125,9 @@ CASE(const_calls_are_stopped) {
   int calls = 0;
   jam_estimate_report e;
   e.struct_size = sizeof e;
-  jam_crunch_options wide;
-  jam_crunch_options_init(&wide, sizeof wide);
+  DEFAULTS(crunch, wide);
   wide.neighbour_radius = 4.0;
-  jam_correlation_options far;
-  jam_correlation_options_init(&far, sizeof far);
+  DEFAULTS(correlation, far);
   far.r_max = 8.0, far.bins = 10;
   const std::function<jam_status()> const_calls[] = {
       [&] { return jam_bond_order(sys, 64, 3.0, out.data(), out.size(), &rows); },
@@ -155,8 +150,7 @@ CASE(const_calls_are_stopped) {
   }
   assert_int_equal(jam_cancel(sys), JAM_OK);
   assert_int_equal(jam_gaps(sys, 0.1, 0, nullptr, 0, nullptr, 0, &rows), JAM_OK);
-  jam_run_options run;
-  jam_run_options_init(&run, sizeof run);
+  DEFAULTS(run, run);
   run.collisions_per_particle = 0.1;
   assert_int_equal(jam_run(sys, &run, nullptr), JAM_CANCELLED);
   assert_int_equal(jam_run(sys, &run, nullptr), JAM_OK);
@@ -177,8 +171,7 @@ int32_t look_inside(const jam_progress *, void *user) {
 }
 
 CASE(callbacks_do_not_nest) {
-  jam_create_options o;
-  jam_create_options_init(&o, sizeof o);
+  DEFAULTS(create, o);
   o.n = n;
   Nested nested;
   nested.sys = make(o);

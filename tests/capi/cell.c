@@ -73,9 +73,7 @@ static jam_system *hexagonal(int side, int holes, double tilt) {
 }
 
 static jam_rigidity_report rigidity(jam_system *sys, int32_t kind) {
-  jam_rigidity_report r;
-  memset(&r, 0, sizeof r);
-  r.struct_size = sizeof r;
+  SIZED(jam_rigidity_report, r);
   assert_true(jam_rigidity(sys, kind, &r) >= 0);
   return r;
 }
@@ -267,7 +265,7 @@ CASE(refused) {
 CASE(shifts_are_kept) {
   const double small[4] = {0.0, 0.3, 0.0, 0.0}, large[4] = {0.0, 17.0, 0.0, 0.0};
   double cell[4];
-  jam_crunch_report r;
+  SIZED(jam_crunch_report, r);
   jam_system *sys = NULL;
   DEFAULTS(create, o);
   o.dim = 2, o.n = 32, o.seed = 1, o.model = JAM_MODEL_MK, o.packing_fraction = 1e-3;
@@ -281,7 +279,6 @@ CASE(shifts_are_kept) {
   jam_destroy(sys);
 
   DEFAULTS(crunch, c);
-  memset(&r, 0, sizeof r), r.struct_size = sizeof r;
   c.strain = JAM_STRAIN_FREE;
   o.dim = 3, o.n = 48, o.packing_fraction = 1.5;
   assert_int_equal(jam_create(&o, NULL, &sys), JAM_OK);

@@ -8,9 +8,8 @@
 enum { most_spheres = 256, most = JAM_MAX_DIM * most_spheres };
 
 static jam_check_report check(jam_system *sys, int32_t crunch, jam_status expected) {
-  jam_check_options o;
   jam_check_report r = {.struct_size = sizeof r};
-  assert_int_equal(jam_check_options_init(&o, sizeof o), JAM_OK);
+  DEFAULTS(check, o);
   o.crunch = crunch;
   assert_int_equal(jam_check_packing(sys, &o, &r), expected);
   assert_int_equal(r.struct_size, sizeof r);
@@ -21,12 +20,11 @@ static jam_check_report check(jam_system *sys, int32_t crunch, jam_status expect
 
 /* side^d spheres that touch along the axes. */
 static jam_system *cubic(int32_t dim, int side, int32_t overlap, double sigma) {
-  jam_create_options o;
   jam_system *sys = NULL;
   double x[most];
   int64_t n = 1;
   for (int c = 0; c < dim; ++c) n *= side;
-  assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
+  DEFAULTS(create, o);
   o.dim = dim, o.n = n, o.box = side, o.overlap = overlap;
   for (int64_t k = 0; k < n; ++k) {
     int64_t rest = k;
@@ -55,13 +53,12 @@ CASE(cubic_lattices) {
 
 /* Contacts, report and positions are those of the crunch, before and after. */
 CASE(leaves_the_handle_alone) {
-  jam_create_options o;
   jam_system *sys = NULL;
   jam_crunch_report before = {.struct_size = sizeof before}, after = {.struct_size = sizeof after};
   const double *x;
   double kept[3 * 64];
   size_t len = 0, m = 0, rows = 0;
-  assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
+  DEFAULTS(create, o);
   o.n = 64;
   assert_int_equal(jam_create(&o, NULL, &sys), JAM_OK);
   check(sys, 1, JAM_NOT_JAMMED);
@@ -95,14 +92,12 @@ CASE(overlaps) {
 
 /* A crunch of the copy that does not end in time leaves the verdict that was there. */
 CASE(crunch_out_of_time) {
-  jam_create_options start;
-  jam_check_options o;
   jam_check_report r = {.struct_size = sizeof r}, whole = r;
   jam_system *sys = NULL, *rounded = NULL;
   const double *x, *sigma;
   double few[3 * 64];
   size_t len = 0;
-  assert_int_equal(jam_create_options_init(&start, sizeof start), JAM_OK);
+  DEFAULTS(create, start);
   start.n = 64, start.seed = 1;
   assert_int_equal(jam_create(&start, NULL, &sys), JAM_OK);
   assert_int_equal(jam_compress(sys, NULL, NULL), JAM_OK);
@@ -112,7 +107,7 @@ CASE(crunch_out_of_time) {
   for (size_t k = 0; k < len; ++k) few[k] = floor(x[k] * 1e6 + 0.5) * 1e-6;
   start.overlap = JAM_OVERLAP_ALLOW;
   assert_int_equal(create_from(&start, few, len, sigma, 1, &rounded), JAM_OK);
-  assert_int_equal(jam_check_options_init(&o, sizeof o), JAM_OK);
+  DEFAULTS(check, o);
   o.crunch = 0;
   assert_int_equal(jam_check_packing(rounded, &o, &whole), JAM_AMBIGUOUS);
   o.crunch = 1, o.wall_time = 1e-6;

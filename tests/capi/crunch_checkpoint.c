@@ -5,6 +5,7 @@
 
 #include "columns.h"
 #include "steps.h"
+#include "verdicts.h"
 
 #include "jam/jam.h"
 
@@ -30,9 +31,8 @@ static int32_t keep(const jam_progress *p, void *user) {
 }
 
 static jam_system *start(double cell) {
-  jam_create_options o;
   jam_system *sys = NULL;
-  jam_create_options_init(&o, sizeof o);
+  DEFAULTS(create, o);
   o.n = 100, o.packing_fraction = 0.3, o.seed = 5;
   assert_int_equal(jam_create(&o, NULL, &sys), JAM_OK);
   if (cell != 0.0) {
@@ -43,15 +43,10 @@ static jam_system *start(double cell) {
   return sys;
 }
 
-static jam_crunch_report crunch(jam_system *sys, int32_t steps, jam_status expected) {
-  jam_crunch_options o;
-  jam_crunch_report r;
-  memset(&r, 0, sizeof r);
-  r.struct_size = sizeof r;
-  jam_crunch_options_init(&o, sizeof o);
+static jam_crunch_report in_steps(jam_system *sys, int32_t steps, jam_status expected) {
+  DEFAULTS(crunch, o);
   o.steps = steps;
-  assert_int_equal(jam_crunch(sys, &o, &r), expected);
-  return r;
+  return crunch(sys, &o, expected);
 }
 
 /* Of the checkpoint that the first step behind this part of the call wrote: what it holds, and where a crunch from it
@@ -63,7 +58,7 @@ static double go_on_from(double part, double cell, double *phi) {
   jam_crunch_report whole, rest;
   jam_info info;
   assert_int_equal(jam_set_progress(sys, keep, &k), JAM_OK);
-  whole = crunch(sys, 1, JAM_OK);
+  whole = in_steps(sys, 1, JAM_OK);
   assert_true(k.kept > 0 && k.failed == 0);
   if (jam_read_checkpoint(path, NULL, NULL, &again) < 0)
     fail_msg("checkpoint at %g: %s", part, jam_last_error()); /* no overlap */
@@ -71,7 +66,7 @@ static double go_on_from(double part, double cell, double *phi) {
   assert_int_equal(info.paused, JAM_PHASE_CRUNCH);
   assert_true(info.packing_fraction >= before && info.packing_fraction < whole.packing_fraction * (1.0 + 1e-12));
   assert_true(info.packing_fraction > k.phi * (1.0 - 1e-12)); /* the step that was told, not the one before */
-  rest = crunch(again, 0, JAM_OK);
+  rest = in_steps(again, 0, JAM_OK);
   assert_true(rest.jammed && rest.packing_fraction > info.packing_fraction * (1.0 - 1e-12));
   assert_int_equal(info_of(again).paused, 0);
   jam_destroy(again);
@@ -99,7 +94,7 @@ static int32_t stop(const jam_progress *p, void *user) {
 CASE(a_stopped_crunch_is_known) {
   jam_system *sys = start(0.0), *copy = NULL, *again = NULL;
   assert_int_equal(jam_set_progress(sys, stop, NULL), JAM_OK);
-  crunch(sys, 1, JAM_CANCELLED);
+  in_steps(sys, 1, JAM_CANCELLED);
   assert_int_equal(info_of(sys).paused, JAM_PHASE_CRUNCH);
   assert_int_equal(jam_copy(sys, &copy), JAM_OK);
   assert_int_equal(jam_write_checkpoint(sys, path), JAM_OK);
@@ -138,21 +133,20 @@ static int32_t stop_on_path(const jam_progress *p, void *user) {
  * mu stands. An LP would close it, a new path would begin at the first mu. By LPs alone it begins with one. */
 CASE(a_path_goes_on) {
   jam_system *sys = start(0.0), *again = NULL, *by_lps = NULL;
-  jam_crunch_options o;
   lps last = {0, 0};
   double gap;
   assert_int_equal(jam_set_progress(sys, stop_on_path, &last), JAM_OK);
-  crunch(sys, 1, JAM_CANCELLED);
+  in_steps(sys, 1, JAM_CANCELLED);
   assert_true(history(sys, JAM_HISTORY_PHASE, 1) == JAM_STEP_PATH);
   gap = history(sys, JAM_HISTORY_DUALITY_GAP, 1);
   assert_int_equal(jam_write_checkpoint(sys, path), JAM_OK);
   assert_int_equal(jam_read_checkpoint(path, NULL, NULL, &again), JAM_OK);
   assert_int_equal(jam_read_checkpoint(path, NULL, NULL, &by_lps), JAM_OK);
   remove(path);
-  assert_true(crunch(again, 0, JAM_OK).jammed);
+  assert_true(in_steps(again, 0, JAM_OK).jammed);
   assert_true(history(again, JAM_HISTORY_PHASE, 0) == JAM_STEP_PATH);
   assert_true(fabs(history(again, JAM_HISTORY_DUALITY_GAP, 0) / gap - 1.0) < 0.5); /* forces are those of the centre */
-  jam_crunch_options_init(&o, sizeof o);
+  DEFAULTS(crunch, o);
   o.method = JAM_CRUNCH_SEQUENTIAL_LP;
   assert_int_equal(jam_crunch(by_lps, &o, NULL), JAM_OK);
   assert_true(history(by_lps, JAM_HISTORY_PHASE, 0) == JAM_STEP_LP);

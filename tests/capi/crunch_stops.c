@@ -8,7 +8,7 @@
 #include <time.h>
 
 #include "start.h"
-#include "test.h"
+#include "verdicts.h"
 
 static jam_system *start_with(int dim, int n, uint64_t seed) {
   jam_system *sys = NULL;
@@ -58,17 +58,6 @@ static void count_line(int32_t level, const char *line, void *user) {
   (void)level;
   if (!found->armed && strncmp(line, found->word, strlen(found->word)) == 0) ++found->count;
   if (found->armed && strncmp(line, found->armed, strlen(found->armed)) == 0) found->armed = NULL;
-}
-
-static jam_crunch_report crunch(jam_system *sys, const jam_crunch_options *o, jam_status expected) {
-  jam_crunch_report r;
-  jam_status status;
-  memset(&r, 0, sizeof r);
-  r.struct_size = sizeof r;
-  status = jam_crunch(sys, o, &r);
-  if (status != expected)
-    fail_msg("status %d (%s, %s)", status, jam_stop_string(r.stop_reason), status < 0 ? jam_last_error() : "");
-  return r;
 }
 
 /* How many lines of this word, behind one that begins with `armed`, a crunch of the start logs on this machine. */
@@ -234,11 +223,10 @@ CASE(stops_in_a_free_cell) {
 
 /* Without polish the LP's answer stays: contacts may be too wide for a verdict, but nothing overlaps. */
 CASE(free_cell_without_polish) {
-  jam_crunch_report r;
+  SIZED(jam_crunch_report, r);
   jam_system *sys = start(64);
   DEFAULTS(crunch, o);
   o.strain = JAM_STRAIN_FREE, o.polish = 0;
-  memset(&r, 0, sizeof r), r.struct_size = sizeof r;
   assert_true(jam_crunch(sys, &o, &r) >= 0);
   assert_true(r.max_overlap < 1e-12 && fabs(volume(sys) - 1.0) < 1e-12 && r.force_residual < 1e-6);
   assert_true(r.max_contact_gap < 1e-6 && r.contacts >= 3 * (r.stable - 1) + 6);
@@ -254,11 +242,10 @@ CASE(a_limit_leaves_no_older_verdict) {
   for (int seed = 0; seed < 6; ++seed) {
     for (int lps = 2; lps <= 20; lps += 3) {
       for (int method = JAM_CRUNCH_BARRIER_PATH; method <= JAM_CRUNCH_SEQUENTIAL_LP; ++method) {
-        jam_crunch_report r;
+        SIZED(jam_crunch_report, r);
         jam_system *sys = start_with(2, 2, (uint64_t)seed);
         DEFAULTS(crunch, o);
         o.strain = JAM_STRAIN_FREE, o.max_lps = lps, o.method = method;
-        memset(&r, 0, sizeof r), r.struct_size = sizeof r;
         assert_true(jam_crunch(sys, &o, &r) >= 0);
         jam_destroy(sys);
         if (r.stop_reason != JAM_STOP_LP_LIMIT || r.gain < o.gain_tolerance) continue;

@@ -12,14 +12,13 @@ CASE(defaults_jam_in_every_dimension) {
   static const int64_t n[] = {0, 0, 40, 60, 60, 40, 40, 40, 60};
   static const double densest[] = {0, 0, 0.9069, 0.7405, 0.6169, 0.4653, 0.3730, 0.2953, 0.2537};
   for (int32_t dim = 2; dim <= JAM_MAX_DIM; ++dim) {
-    jam_create_options o;
     jam_system *sys = NULL;
     jam_info info;
     jam_md_report grown;
     jam_crunch_report r;
     memset(&info, 0, sizeof info), memset(&grown, 0, sizeof grown), memset(&r, 0, sizeof r);
     info.struct_size = sizeof info, grown.struct_size = sizeof grown, r.struct_size = sizeof r;
-    assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
+    DEFAULTS(create, o);
     o.dim = dim, o.n = n[dim];
     if (jam_create(&o, NULL, &sys) != JAM_OK) fail_msg("d = %d: %s", dim, jam_last_error());
     assert_int_equal(jam_get_info(sys, &info), JAM_OK);

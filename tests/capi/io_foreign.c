@@ -13,8 +13,7 @@ static jam_system *read_with(const char *text, size_t length, const jam_create_o
 static jam_system *read_text(const char *text) { return read_with(text, strlen(text), NULL); }
 
 static jam_create_options defaults(void) {
-  jam_create_options o;
-  jam_create_options_init(&o, sizeof o);
+  DEFAULTS(create, o);
   return o;
 }
 

@@ -4,9 +4,8 @@
 #include "start.h"
 
 static jam_system *in_cell(int32_t dim, const double *cell) {
-  jam_create_options o;
   jam_system *sys = NULL;
-  jam_create_options_init(&o, sizeof o);
+  DEFAULTS(create, o);
   o.dim = dim;
   o.n = 40;
   o.packing_fraction = 0.1;
@@ -130,9 +129,8 @@ static int states_on_the_page(const jam_system *sys) {
 
 CASE(page_shows_the_steps_that_the_crunch_kept) {
   jam_system *sys = some_packing(2, 60, 1.4, 1.0), *plain = NULL, *copy = NULL;
-  jam_crunch_options o;
   int states;
-  jam_crunch_options_init(&o, sizeof o);
+  DEFAULTS(crunch, o);
   assert_int_equal(jam_copy(sys, &plain), JAM_OK);
   for (o.keep_steps = -1; o.keep_steps <= 1001; o.keep_steps += 1002)
     assert_int_equal(jam_crunch(sys, &o, NULL), JAM_E_ARGUMENT);

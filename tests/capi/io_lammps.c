@@ -203,8 +203,7 @@ CASE(dumps_that_cannot_be_read) {
 #define ONE NAMES "1 0.1 0.5 0.5 0.5\n"
 static jam_status read_walled(const char *text, int32_t container, int32_t walls, jam_system **sys) {
   const char *path = in_scratch("walled");
-  jam_create_options o;
-  jam_create_options_init(&o, sizeof o);
+  DEFAULTS(create, o);
   o.container = container, o.walls = walls;
   put_bytes(path, text, strlen(text));
   return jam_read(path, &o, NULL, NULL, sys);

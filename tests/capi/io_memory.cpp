@@ -40,8 +40,7 @@ CASE(every_allocation) {
   out = nullptr;
   assert_true(fail_each([&] { return jam_copy(sys, &out); }) > 3);
   jam_destroy(out);
-  jam_create_options o;
-  jam_create_options_init(&o, sizeof o);
+  DEFAULTS(create, o);
   o.n = 40;
   out = nullptr;
   assert_true(fail_each([&] { return jam_create(&o, nullptr, &out); }) > 3);

@@ -37,10 +37,9 @@ static const char *const endings[] = {"dat", "xyz", "extxyz", "data", "vtp", "cs
 enum { ENDINGS = sizeof endings / sizeof endings[0] };
 
 static void write_all(const jam_system *sys, const char *name) {
-  jam_voxel_options o;
   char path[256];
   size_t k;
-  jam_voxel_options_init(&o, sizeof o);
+  DEFAULTS(voxel, o);
   o.nx = o.ny = o.nz = 8;
   for (k = 0; k < ENDINGS; ++k) {
     jam_status status;
@@ -95,11 +94,10 @@ CASE(locale_with_comma_changes_nothing) {
 
 CASE(layout_of_plain) {
   const double x[] = {0.25, 0.5, 0.75, 0.125}, s[] = {0.25, 0.125}, one = 0.25;
-  jam_create_options o;
   jam_system *sys;
   char *text;
   size_t size;
-  jam_create_options_init(&o, sizeof o);
+  DEFAULTS(create, o);
   o.dim = 2;
   assert_int_equal(create_from(&o, x, 4, &one, 1, &sys), JAM_OK);
   assert_int_equal(jam_write(sys, in_scratch("one.dat"), JAM_FORMAT_AUTO), JAM_OK);

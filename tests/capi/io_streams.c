@@ -61,13 +61,12 @@ static int32_t stop_at_once(const jam_progress *p, void *user) {
 
 /* Nobody writes: the limit of time and the callback end the call. */
 CASE(silent_pipes_are_left) {
-  jam_create_options o;
   jam_system *sys = NULL;
   char fifo[256];
   int writer;
   strcpy(fifo, in_scratch("silent"));
   assert_int_equal(mkfifo(fifo, 0600), 0);
-  assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
+  DEFAULTS(create, o);
   o.wall_time = 0.1;
   assert_int_equal(jam_read(fifo, &o, NULL, NULL, &sys), JAM_LIMIT);
   assert_int_equal(jam_read_checkpoint(fifo, stop_at_once, NULL, &sys), JAM_CANCELLED);

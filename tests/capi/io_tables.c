@@ -3,9 +3,8 @@
 #include "io_helpers.h"
 
 static jam_system *read_as(const char *text, const char *layout, double box) {
-  jam_create_options o;
   jam_system *sys = NULL;
-  jam_create_options_init(&o, sizeof o);
+  DEFAULTS(create, o);
   o.box = box;
   put_bytes(in_scratch("in.any"), text, strlen(text));
   if (jam_read_as(in_scratch("in.any"), layout, &o, NULL, NULL, &sys) != JAM_OK)
@@ -178,10 +177,9 @@ CASE(frames_without_spheres) {
   const char *const texts[] = {dump, xyz};
   size_t k;
   for (k = 0; k < 2; ++k) {
-    jam_create_options o;
     jam_system *sys = NULL;
     expect(read_as(texts[k], "", 1.0), 3, 2, two, sizes);
-    jam_create_options_init(&o, sizeof o);
+    DEFAULTS(create, o);
     o.frame = 1;
     assert_int_equal(jam_read(in_scratch("in.any"), &o, NULL, NULL, &sys), JAM_OK);
     expect(sys, 3, 2, two, sizes);

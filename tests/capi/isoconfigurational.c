@@ -218,7 +218,6 @@ CASE(bad_input_is_named) {
   static const int32_t twice[2] = {1, 1}, beyond[1] = {3};
   jam_system *sys = packing();
   jam_isoconf_options o = options();
-  jam_monte_carlo_options m;
   double x;
   SIZED(jam_isoconf_report, r);
   assert_int_equal(jam_get_isoconf_report(sys, &r), JAM_E_STATE);
@@ -263,7 +262,7 @@ CASE(bad_input_is_named) {
   REFUSED(density_ratio, 1.0 - 1e-12, JAM_E_ARGUMENT);
   o = options();
   assert_int_equal(jam_isoconf(sys, &o, NULL, falling, 2, NULL, 0, NULL), JAM_E_ARGUMENT);
-  assert_int_equal(jam_monte_carlo_options_init(&m, sizeof m), JAM_OK);
+  DEFAULTS(monte_carlo, m);
   m.alpha = 2.0;
   m.temperature = 0.0;
   assert_int_equal(jam_isoconf(sys, &o, &m, instants, M, NULL, 0, NULL), JAM_E_ARGUMENT);

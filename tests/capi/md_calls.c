@@ -17,9 +17,7 @@ static jam_system *make(int64_t n, int32_t dim, double fraction) {
 }
 
 static jam_md_report empty_report(void) {
-  jam_md_report r;
-  memset(&r, 0, sizeof r);
-  r.struct_size = sizeof r;
+  SIZED(jam_md_report, r);
   return r;
 }
 

@@ -9,14 +9,12 @@
 enum { N = 500 };
 
 static jam_system *fluid_of(int64_t n, double fraction) {
-  jam_create_options o;
-  jam_compress_options c;
   jam_system *sys = NULL;
-  jam_create_options_init(&o, sizeof o);
+  DEFAULTS(create, o);
   o.n = n;
   o.box = 2.0;
   assert_int_equal(jam_create(&o, NULL, &sys), JAM_OK);
-  jam_compress_options_init(&c, sizeof c);
+  DEFAULTS(compress, c);
   c.growth_rate = 0.05;
   c.pressure = 1e12;
   c.packing_fraction = fraction;
@@ -34,7 +32,6 @@ static void copy_positions(const jam_system *sys, double *out) {
 
 CASE(series_pairs_and_displacements_agree) {
   jam_system *sys = fluid(0.25), *bare = NULL;
-  jam_observe_options o;
   jam_md_report report, second;
   static double start[3 * N], end[3 * N], way[3 * N], time[100], count[100], pressure[100], error[100], msd[100],
       table[480];
@@ -46,7 +43,7 @@ CASE(series_pairs_and_displacements_agree) {
   double *momentum;
   size_t needed, k, len;
   assert_int_equal(jam_copy(sys, &bare), JAM_OK);
-  assert_int_equal(jam_observe_options_init(&o, sizeof o), JAM_OK);
+  DEFAULTS(observe, o);
   o.collisions = 1;
   copy_positions(sys, start);
   assert_int_equal(jam_observe(sys, &o), JAM_OK);
@@ -113,10 +110,9 @@ CASE(series_pairs_and_displacements_agree) {
 
 CASE(histograms_of_gaps_and_distances) {
   jam_system *sys = fluid(0.3);
-  jam_observe_options o;
   double gap[21][4], pair[50][2], contact;
   size_t needed, k;
-  jam_observe_options_init(&o, sizeof o);
+  DEFAULTS(observe, o);
   o.gap_bins = 21;
   o.gap_min = 0.01;
   o.gap_max = 0.3;
@@ -155,10 +151,9 @@ CASE(histograms_of_gaps_and_distances) {
 CASE(histograms_are_not_taken_at_collisions) {
   const double n = 20.0, fraction = 0.3;
   jam_system *sys = fluid_of(20, fraction);
-  jam_observe_options o;
   double gap[3][4], contact;
   size_t needed;
-  jam_observe_options_init(&o, sizeof o);
+  DEFAULTS(observe, o);
   o.gap_bins = 3;
   o.gap_min = 0.02;
   o.gap_max = 0.3;
@@ -185,12 +180,11 @@ static int32_t look(const jam_progress *p, void *user) {
   const double *x;
   size_t len, needed;
   double g[20];
-  jam_correlation_options o;
   if (!p->snapshot) return 0;
   assert_int_equal(p->snapshot, s->count + 1);
   s->at[s->count++] = p->collisions;
   jam_view(s->sys, JAM_VIEW_POSITIONS, &x, &len);
-  jam_correlation_options_init(&o, sizeof o);
+  DEFAULTS(correlation, o);
   o.r_max = 2.0, o.bins = 20;
   assert_int_equal(jam_pair_correlation(s->sys, &o, NULL, 0, g, 20, &needed), JAM_OK);
   assert_true(g[3] == 0.0 && g[11] > 1.0); /* no overlap in the state shown */
@@ -201,12 +195,11 @@ static int32_t look(const jam_progress *p, void *user) {
 
 CASE(snapshots_show_the_present_state) {
   jam_system *sys = fluid(0.45), *bare = NULL;
-  jam_observe_options o;
   struct seen s;
   double a[3 * N], b[3 * N];
   int64_t k;
   jam_copy(sys, &bare);
-  jam_observe_options_init(&o, sizeof o);
+  DEFAULTS(observe, o);
   o.sample_every = INFINITY;
   o.snapshot_every = 1.0;
   o.snapshot_factor = 2.0;
@@ -225,8 +218,7 @@ CASE(snapshots_show_the_present_state) {
   s.count = 0;
   assert_int_equal(jam_observe(sys, &o), JAM_OK);
   {
-    jam_run_options r;
-    jam_run_options_init(&r, sizeof r);
+    DEFAULTS(run, r);
     assert_int_equal(jam_run(sys, &r, NULL), JAM_CANCELLED); /* by the 20th */
     assert_int_equal(s.count, 20);
     copy_positions(sys, a);
@@ -244,14 +236,13 @@ CASE(snapshots_show_the_present_state) {
 }
 
 CASE(bad_calls_are_refused) {
-  jam_create_options c;
   jam_observe_options o;
   jam_system *sys = NULL;
   int64_t collisions[8];
   double x[8];
   size_t needed = 77;
   int k;
-  jam_create_options_init(&c, sizeof c);
+  DEFAULTS(create, c);
   c.n = 8;
   assert_int_equal(jam_create(&c, NULL, &sys), JAM_OK);
   assert_int_equal(jam_observed_series(sys, JAM_SERIES_COLUMNS, NULL, 0, &needed), JAM_E_STATE);

@@ -11,9 +11,8 @@ static const char *path = "md_resume_checkpoint.bin";
 
 /* cell: its vectors (dim, dim), or NULL for the cube. */
 static jam_system *make_in(const double *cell, int32_t model, int32_t dim, int64_t n, double fraction) {
-  jam_create_options o;
   jam_system *sys = NULL;
-  jam_create_options_init(&o, sizeof o);
+  DEFAULTS(create, o);
   o.n = n;
   o.dim = dim;
   o.model = model;
@@ -75,8 +74,7 @@ static const struct {
 enum { CASES = sizeof cases / sizeof cases[0] };
 
 static jam_compress_options options_of(int k) {
-  jam_compress_options c;
-  jam_compress_options_init(&c, sizeof c);
+  DEFAULTS(compress, c);
   c.growth_rate = cases[k].growth;
   c.growth_rate_end = cases[k].end;
   c.pressure = cases[k].pressure;
@@ -129,11 +127,10 @@ CASE(growth_goes_on_to_the_same_bits) {
 /* The callback comes every 0.05 s: wherever the run is then. The number of stops; 0 where the run was over before. */
 static int stops_of(double collisions_per_particle) {
   jam_system *whole = make(JAM_MODEL_EUCLID, 3, 500, 0.3), *sys = make(JAM_MODEL_EUCLID, 3, 500, 0.3), *copy = NULL;
-  jam_run_options r;
   jam_status status;
   int64_t left;
   int stops = 0;
-  jam_run_options_init(&r, sizeof r);
+  DEFAULTS(run, r);
   r.collisions_per_particle = collisions_per_particle;
   assert_int_equal(jam_run(whole, &r, NULL), JAM_OK);
   for (;;) {
@@ -180,8 +177,7 @@ static int32_t write_once(const jam_progress *p, void *user) {
 CASE(checkpoint_from_the_callback) {
   jam_system *sys = make(JAM_MODEL_EUCLID, 3, 500, 0.3), *again = NULL;
   struct writer w = {sys, 0};
-  jam_run_options r;
-  jam_run_options_init(&r, sizeof r);
+  DEFAULTS(run, r);
   r.collisions_per_particle = 1500.0;
   jam_set_progress(sys, write_once, &w);
   assert_int_equal(jam_run(sys, &r, NULL), JAM_OK);
@@ -208,10 +204,9 @@ static int32_t write_in_growth(const jam_progress *p, void *user) {
 CASE(checkpoint_from_the_callback_in_growth) {
   jam_system *sys = make(JAM_MODEL_EUCLID, 3, 500, 0.3), *again = NULL;
   struct writer w = {sys, 0};
-  jam_compress_options c;
   jam_md_report one, two;
   one.struct_size = two.struct_size = sizeof one;
-  jam_compress_options_init(&c, sizeof c);
+  DEFAULTS(compress, c);
   c.growth_rate = 1e-2;
   c.pressure = 1e4;
   jam_set_progress(sys, write_in_growth, &w);
@@ -237,13 +232,11 @@ static int32_t paused(const jam_system *sys) {
 
 CASE(finished_stages_cannot_be_resumed) {
   jam_system *sys = make(JAM_MODEL_EUCLID, 3, 100, 0.3);
-  jam_run_options r;
-  jam_compress_options c;
   const double *v;
   size_t len;
   double other[300];
-  jam_run_options_init(&r, sizeof r);
-  jam_compress_options_init(&c, sizeof c);
+  DEFAULTS(run, r);
+  DEFAULTS(compress, c);
   r.resume = c.resume = 1;
   assert_int_equal(jam_run(sys, &r, NULL), JAM_E_STATE);
   assert_int_equal(jam_compress(sys, &c, NULL), JAM_E_STATE);
@@ -313,11 +306,10 @@ static uint64_t mix64(uint64_t x) {
 static void refuse_damaged(int32_t model) {
   jam_system *sys = make(model, 3, 60, 0.3), *out = NULL;
   static unsigned char data[200000];
-  jam_compress_options c;
   size_t size, k, at;
   int refused = 0;
   FILE *f;
-  jam_compress_options_init(&c, sizeof c);
+  DEFAULTS(compress, c);
   c.collisions_per_particle = 20;
   assert_int_equal(jam_compress(sys, &c, NULL), JAM_LIMIT);
   assert_int_equal(jam_write_checkpoint(sys, path), JAM_OK);

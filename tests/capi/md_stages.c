@@ -18,9 +18,7 @@ static jam_system *start_with(int64_t n) {
 static jam_system *start(void) { return start_with(60); }
 
 static jam_md_report grow(jam_system *sys, const jam_compress_options *o, jam_status expected) {
-  jam_md_report r;
-  memset(&r, 0, sizeof r);
-  r.struct_size = sizeof r;
+  SIZED(jam_md_report, r);
   assert_int_equal(jam_compress(sys, o, &r), expected);
   return r;
 }

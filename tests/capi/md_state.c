@@ -7,9 +7,8 @@
 static const char *path = "md_state_checkpoint.bin";
 
 static jam_system *make(int32_t model) {
-  jam_create_options o;
   jam_system *sys = NULL;
-  jam_create_options_init(&o, sizeof o);
+  DEFAULTS(create, o);
   o.n = 120;
   o.model = model;
   o.packing_fraction = model == JAM_MODEL_MK ? 1.5 : 0.3;
@@ -21,8 +20,7 @@ CASE(resumes_to_the_same_bits) {
   int32_t model;
   for (model = JAM_MODEL_EUCLID; model <= JAM_MODEL_MK; ++model) {
     jam_system *a = make(model), *b = NULL;
-    jam_compress_options c;
-    jam_compress_options_init(&c, sizeof c);
+    DEFAULTS(compress, c);
     assert_int_equal(jam_run(a, NULL, NULL), JAM_OK);
     assert_int_equal(jam_write_checkpoint(a, path), JAM_OK);
     assert_int_equal(jam_read_checkpoint(path, NULL, NULL, &b), JAM_OK);

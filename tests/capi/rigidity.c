@@ -7,25 +7,22 @@
 #include "verdicts.h"
 
 static jam_system *grown(int dim, int64_t n, int64_t seed, double pressure) {
-  jam_create_options o;
-  jam_compress_options c;
   jam_system *sys = NULL;
-  assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
+  DEFAULTS(create, o);
   o.dim = dim, o.n = n, o.seed = seed;
   assert_int_equal(jam_create(&o, NULL, &sys), JAM_OK);
-  assert_int_equal(jam_compress_options_init(&c, sizeof c), JAM_OK);
+  DEFAULTS(compress, c);
   c.pressure = pressure;
   assert_int_equal(jam_compress(sys, &c, NULL), JAM_OK);
   return sys;
 }
 
 static jam_system *square(int side) {
-  jam_create_options o;
   jam_system *sys = NULL;
   double x[2 * 36];
   const double sigma = 1.0;
   assert_true(side <= 6);
-  assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
+  DEFAULTS(create, o);
   o.dim = 2, o.n = side * side, o.box = side;
   for (int k = 0; k < side * side; ++k) x[2 * k] = k % side, x[2 * k + 1] = k / side;
   assert_int_equal(create_from(&o, x, 2 * (size_t)(side * side), &sigma, 1, &sys), JAM_OK);
@@ -140,12 +137,11 @@ CASE(flexes_beyond_the_limit) {
     const int32_t m = columns[c];
     const double cell[4] = {3.0 * m, 0.0, 0.0, 2.0}, diameter = 1.0;
     double *x = malloc(4 * (size_t)m * sizeof *x);
-    jam_create_options o;
     jam_start start = {.struct_size = sizeof start};
     jam_system *sys = NULL;
     assert_non_null(x);
     for (int32_t k = 0; k < 2 * m; ++k) x[2 * k] = 3.0 * (k / 2) + 0.1, x[2 * k + 1] = 0.35 + k % 2;
-    assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
+    DEFAULTS(create, o);
     o.dim = 2, o.n = 2 * m;
     start.positions = x, start.positions_len = 4 * (size_t)m, start.diameters = &diameter, start.diameters_len = 1;
     start.cell = cell, start.cell_len = 4;
@@ -169,13 +165,12 @@ CASE(slides_beyond_the_limit) {
   double x[3 * 576];
   const double cell[9] = {36.0, 0.0, 0.0, 0.0, 36.0, 0.0, 0.0, 0.0, 1.0}, diameter = 1.0;
   for (int closed = 0; closed < 2; ++closed) {
-    jam_create_options o;
     jam_start start = {.struct_size = sizeof start};
     jam_check_report c = {.struct_size = sizeof c};
     jam_system *sys = NULL;
     for (int k = 0; k < side * side; ++k)
       x[3 * k] = 1.5 * (k % side) + 0.6, x[3 * k + 1] = 1.5 * (k / side) + 0.6, x[3 * k + 2] = 0.5;
-    assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
+    DEFAULTS(create, o);
     o.n = side * side, o.walls = closed ? 6u : 4u;
     start.positions = x, start.positions_len = 3 * 576, start.diameters = &diameter, start.diameters_len = 1;
     start.cell = cell, start.cell_len = 9;

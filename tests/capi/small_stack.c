@@ -33,10 +33,8 @@ static void analyse(jam_system *sys, int dim) {
   static double out[100000];
   static int32_t whole[100000];
   size_t needed;
-  jam_moduli_report moduli;
+  SIZED(jam_moduli_report, moduli);
   jam_dos_options dos;
-  memset(&moduli, 0, sizeof moduli);
-  moduli.struct_size = sizeof moduli;
   check(jam_rigidity(sys, JAM_RIGIDITY_STRICT, NULL), "jam_rigidity", dim);
   check(jam_modes(sys, NULL, NULL, JAM_MODE_COLUMNS, out, 100000, NULL, 0, &needed), "jam_modes", dim);
   check(jam_moduli(sys, NULL, &moduli), "jam_moduli", dim);

@@ -27,8 +27,7 @@ CASE(hard_verbs_refuse_overlaps) {
   assert_int_equal(sscanf(strstr(jam_last_error(), "(sys, ") + 6, "%lf", &factor), 1);
   assert_int_equal(jam_copy(sys, &copy), JAM_OK);
   assert_int_equal(jam_scale_diameters(copy, factor), JAM_OK);
-  jam_run_options run;
-  assert_int_equal(jam_run_options_init(&run, sizeof run), JAM_OK);
+  DEFAULTS(run, run);
   run.collisions_per_particle = 1.0;
   assert_int_equal(jam_run(copy, &run, NULL), JAM_OK);
   jam_destroy(copy);
@@ -43,8 +42,7 @@ CASE(hard_verbs_refuse_overlaps) {
   assert_int_equal(jam_scale_diameters(sys, 1e3), JAM_E_OVERLAP); /* wider than the box */
   jam_system *hard = NULL;
   assert_int_equal(jam_create(NULL, NULL, &hard), JAM_E_ARGUMENT);
-  jam_create_options o;
-  assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
+  DEFAULTS(create, o);
   o.n = 60;
   assert_int_equal(jam_create(&o, NULL, &hard), JAM_OK);
   assert_int_equal(jam_relax(hard, NULL, NULL), JAM_E_STATE);
@@ -58,12 +56,11 @@ CASE(hard_verbs_refuse_overlaps) {
 CASE(files_and_checkpoints) {
   char name[] = "soft_calls_XXXXXX", check[64];
   jam_system *sys = soft_start(60, 0.7, 2), *back = NULL;
-  jam_create_options o;
   snprintf(name, sizeof name, "soft_%06d.dat", 17);
   snprintf(check, sizeof check, "soft_calls.check");
   assert_int_equal(jam_write(sys, name, JAM_FORMAT_PLAIN), JAM_OK);
   assert_int_equal(jam_read(name, NULL, NULL, NULL, &back), JAM_E_OVERLAP);
-  assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
+  DEFAULTS(create, o);
   o.overlap = JAM_OVERLAP_ALLOW;
   assert_int_equal(jam_read(name, &o, NULL, NULL, &back), JAM_OK);
   assert_int_equal(jam_relax(back, NULL, NULL), JAM_OK);
@@ -128,11 +125,9 @@ CASE(options_are_checked) {
 CASE(response) {
   jam_system *sys = soft_start(80, 0.75, 3);
   jam_relax_report r = {.struct_size = sizeof r};
-  jam_relax_options o;
-  jam_hessian_options h;
   jam_moduli_report m = {.struct_size = sizeof m}, bare = {.struct_size = sizeof bare};
-  assert_int_equal(jam_hessian_options_init(&h, sizeof h), JAM_OK);
-  assert_int_equal(jam_relax_options_init(&o, sizeof o), JAM_OK);
+  DEFAULTS(hessian, h);
+  DEFAULTS(relax, o);
   h.stiffness = JAM_STIFFNESS_SOFT, h.prestress = 1.0;
   assert_int_equal(jam_moduli(sys, &h, &m), JAM_E_STATE);
   assert_int_equal(jam_relax(sys, &o, &r), JAM_OK);
@@ -176,11 +171,10 @@ CASE(elastic_tensor) {
       {-0.2, 0.4, 0.7, 0.9, -0.5, 0.3, -0.6, 0.8, 0.1}};
   jam_system *sys = soft_start(80, 0.75, 3);
   jam_relax_report r = {.struct_size = sizeof r};
-  jam_hessian_options h;
   jam_moduli_report m = {.struct_size = sizeof m};
   double affine[81], relaxed[81], bare[81], shear = 0.0;
   size_t needed;
-  assert_int_equal(jam_hessian_options_init(&h, sizeof h), JAM_OK);
+  DEFAULTS(hessian, h);
   h.stiffness = JAM_STIFFNESS_SOFT, h.prestress = 1.0;
   assert_int_equal(jam_elastic_tensor(sys, &h, NULL, 0, NULL, 0, &needed), JAM_E_STATE);
   assert_int_equal(jam_relax(sys, NULL, &r), JAM_OK);
@@ -266,13 +260,11 @@ CASE(unjammed_start) {
 /* Hard spheres have no state that overlaps, and a Monte Carlo run of them would reject every step. */
 CASE(hard_monte_carlo_refuses_overlaps) {
   const double x[] = {0.4, 0.5, 0.6, 0.5}, sigma = 0.3;
-  jam_create_options create;
-  jam_monte_carlo_options o;
   jam_system *sys = NULL;
-  jam_create_options_init(&create, sizeof create);
+  DEFAULTS(create, create);
   create.dim = 2, create.overlap = JAM_OVERLAP_ALLOW;
   assert_int_equal(create_from(&create, x, 4, &sigma, 1, &sys), JAM_OK);
-  jam_monte_carlo_options_init(&o, sizeof o);
+  DEFAULTS(monte_carlo, o);
   o.step = 0.1, o.sweeps = 5;
   assert_int_equal(jam_monte_carlo(sys, &o, NULL), JAM_E_OVERLAP);
   o.alpha = 2.0;

@@ -66,9 +66,8 @@ CASE(random_start_lies_inside) {
 static jam_status from_arrays(const walled *s, const double *x, int64_t n, double sigma, int32_t policy,
                               jam_system **sys) {
   double cell[9] = {0.0};
-  jam_create_options o;
   jam_start start = {.struct_size = sizeof start};
-  jam_create_options_init(&o, sizeof o);
+  DEFAULTS(create, o);
   o.dim = s->dim, o.n = n, o.overlap = policy;
   for (int c = 0; c < s->dim; ++c) cell[c * s->dim + c] = s->edge[c];
   start.cell = cell, start.cell_len = (size_t)(s->dim * s->dim);
@@ -107,10 +106,9 @@ CASE(spheres_do_not_meet_across_a_wall) {
 
 static jam_status start_with(int32_t dim, const double *cell, int32_t container, int32_t walls, int32_t model,
                              double delta) {
-  jam_create_options o;
   jam_start start = {.struct_size = sizeof start};
   jam_system *sys = NULL;
-  jam_create_options_init(&o, sizeof o);
+  DEFAULTS(create, o);
   o.dim = dim, o.n = 10, o.packing_fraction = 0.1, o.model = model, o.non_additivity = delta;
   if (cell) start.cell = cell, start.cell_len = (size_t)(dim * dim);
   o.container = container, o.walls = walls;
@@ -247,8 +245,7 @@ CASE(calls_that_know_no_walls_refuse) {
   jam_crunch_options crunch[2];
   for (int k = 0; k < 2; ++k) jam_crunch_options_init(&crunch[k], sizeof crunch[k]);
   crunch[0].strain = JAM_STRAIN_FREE, crunch[1].prove = 1;
-  jam_check_options check;
-  jam_check_options_init(&check, sizeof check);
+  DEFAULTS(check, check);
   check.prove = 1;
   jam_moduli_report moduli = {.struct_size = sizeof moduli};
   const jam_status statuses[] = {jam_crunch(sys, &crunch[0], NULL),
@@ -272,9 +269,8 @@ CASE(calls_that_know_no_walls_refuse) {
 CASE(dilute_monte_carlo_ends) {
   for (int k = 0; k < WALLED; ++k) {
     jam_system *sys = NULL;
-    jam_monte_carlo_options o;
     jam_monte_carlo_report report = {.struct_size = sizeof report};
-    jam_monte_carlo_options_init(&o, sizeof o);
+    DEFAULTS(monte_carlo, o);
     o.sweeps = 200;
     assert_int_equal(create_walled(&walled_scenes[k], 20, 0.01, 3, NULL, &sys), JAM_OK);
     assert_int_equal(jam_monte_carlo(sys, &o, &report), JAM_OK);
@@ -313,11 +309,10 @@ CASE(narrow_scenes_start_lower) {
     for (size_t q = 0; q < sizeof counts / sizeof *counts; ++q)
       for (int64_t seed = 1; seed <= 2; ++seed) {
         double cell[9] = {0.0};
-        jam_create_options o;
         jam_system *sys = NULL;
         jam_info info = {.struct_size = sizeof info};
         const int d = scenes[k].dim;
-        jam_create_options_init(&o, sizeof o);
+        DEFAULTS(create, o);
         o.dim = d, o.n = counts[q], o.seed = seed, o.container = scenes[k].container, o.walls = scenes[k].walls;
         for (int c = 0; c < d; ++c) cell[c * (d + 1)] = scenes[k].edge[c];
         if (create_in_cell(&o, cell, (size_t)(d * d), NULL, 0, NULL, 0, &sys) != JAM_OK)

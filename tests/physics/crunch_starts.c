@@ -1,14 +1,13 @@
 /* jam_crunch from every kind of start and any sizes, each result certified here from positions, sizes, pairs and forces
  * alone: densities and pressures, mixtures, few spheres in small boxes, lattices with a vacancy, disks that order,
- * jammed input. */
+ * jammed input, a packing of another program. */
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "start.h"
 #include "test.h"
-
-#include "jam/jam.h"
 
 /* Smallest gap over all pairs and images out to `reach` boxes, own images too. */
 static double smallest_gap(const jam_system *sys, int reach) {
@@ -90,10 +89,8 @@ static jam_system *random_start(int n, int dim, double phi, const double *sizes,
 
 static jam_crunch_report crunched(jam_system *sys, const jam_crunch_options *o, const char *what, double value,
                                   int must_jam) {
-  jam_crunch_report r;
+  SIZED(jam_crunch_report, r);
   jam_status status;
-  memset(&r, 0, sizeof r);
-  r.struct_size = sizeof r;
   status = jam_crunch(sys, o, &r);
   print_message("%s %g: status %d, phi %.6f, contacts %d, excess %d, rattlers %d, LPs %d, factorisations %d\n", what,
                 value, status, r.packing_fraction, (int)r.contacts, (int)r.excess_contacts, (int)r.rattlers,
@@ -199,11 +196,11 @@ CASE(mixtures) {
     }
 }
 
-/* d + 1 spheres and a few more: boxes of two to three diameters, several images of a pair. Checked over all images. */
+/* Two spheres and a few more: boxes of one to three diameters, several images of a pair. Checked over all images. */
 CASE(small_boxes) {
   int dim, n;
   for (dim = 2; dim <= 4; ++dim)
-    for (n = dim + 1; n <= 3 * dim + 4; n += dim + 1) {
+    for (n = dim < 4 ? 2 : dim + 1; n <= 3 * dim + 4; n += n <= dim ? 1 : dim + 1) {
       jam_system *sys = random_start(n, dim, dim == 2 ? 0.3 : dim == 3 ? 0.15 : 0.06, NULL, n);
       jam_crunch_report r = crunched(sys, NULL, "spheres", n, 0);
       assert_true(smallest_gap(sys, 2) > -1e-12);
@@ -212,18 +209,17 @@ CASE(small_boxes) {
     }
 }
 
-/* cells copies of a basis, spheres a little below contact, one missing if asked. */
-static jam_system *lattice(int dim, const int *cells, const double *basis, int basis_len, double box_over_cell,
-                           double sigma, int vacancy) {
+/* cells^dim copies of a basis, spheres a little below contact, one missing if asked. */
+static jam_system *lattice(int dim, int cells, const double *basis, int basis_len, double contact, int vacancy) {
+  const double sigma = 0.98 * contact / cells;
+  const int total = basis_len * (dim == 2 ? cells * cells : cells * cells * cells);
   double x[3 * 300];
   jam_system *sys = NULL;
-  int total = basis_len, k, c, n = 0;
-  for (c = 0; c < dim; ++c) total *= cells[c];
+  int k, c, n = 0;
   for (k = 0; k < total; ++k) {
     int cell = k / basis_len;
     if (vacancy && k == total / 2) continue;
-    for (c = 0; c < dim; ++c, cell /= cells[c - 1])
-      x[n * dim + c] = (cell % cells[c] + basis[k % basis_len * dim + c]) * (c == 0 ? 1.0 : box_over_cell) / cells[0];
+    for (c = 0; c < dim; ++c, cell /= cells) x[n * dim + c] = (cell % cells + basis[k % basis_len * dim + c]) / cells;
     ++n;
   }
   DEFAULTS(create, o);
@@ -232,24 +228,50 @@ static jam_system *lattice(int dim, const int *cells, const double *basis, int b
   return sys;
 }
 
+static const double fcc[12] = {0, 0, 0, 0, .5, .5, .5, 0, .5, .5, .5, 0};
+
 /* Degenerate LPs with and without a vacancy: a certified state that is no less dense than the lattice, and its excess.
  */
 CASE(lattices) {
-  const double square[2] = {0, 0}, bcc[6] = {0, 0, 0, .5, .5, .5}, fcc[12] = {0, 0, 0, 0, .5, .5, .5, 0, .5, .5, .5, 0};
-  const int six[3] = {6, 6, 6}, three[3] = {3, 3, 3};
+  const double square[2] = {0, 0}, bcc[6] = {0, 0, 0, .5, .5, .5};
   int vacancy;
   for (vacancy = 0; vacancy < 2; ++vacancy) {
-    jam_system *sys = lattice(2, six, square, 1, 1.0, 0.98 / 6.0, vacancy);
+    jam_system *sys = lattice(2, 6, square, 1, 1.0, vacancy);
     jam_crunch_report r = crunched(sys, NULL, "square", vacancy, 0);
     assert_true(r.packing_fraction > 0.785398163397 * (36 - vacancy) / 36.0 - 1e-9);
     jam_destroy(sys);
-    sys = lattice(3, three, bcc, 2, 1.0, 0.98 * sqrt(0.75) / 3.0, vacancy);
+    sys = lattice(3, 3, bcc, 2, sqrt(0.75), vacancy);
     r = crunched(sys, NULL, "BCC", vacancy, 0);
     assert_true(r.packing_fraction > 0.680174761 * (54 - vacancy) / 54.0 - 1e-9);
     jam_destroy(sys);
-    sys = lattice(3, three, fcc, 4, 1.0, 0.98 * sqrt(0.5) / 3.0, vacancy);
+    sys = lattice(3, 3, fcc, 4, sqrt(0.5), vacancy);
     r = crunched(sys, NULL, "FCC", vacancy, 1);
     assert_true(r.excess_contacts > 0 && r.packing_fraction > 0.7404804896 * (108 - vacancy) / 108.0 - 1e-9);
+    if (!vacancy) assert_true(fabs(r.packing_fraction - 0.74048048969306) < 1e-12 && r.contacts == 6 * 108);
+    jam_destroy(sys);
+  }
+}
+
+/* Forces of a hyperstatic packing are not unique: a vertex of the simplex leaves contacts without any, the analytic
+ * centre none. Either way all that touch are contacts, and the forces are those of least norm: equal ones in FCC, where
+ * all sum to zero. */
+CASE(degenerate_forces) {
+  int solver;
+  for (solver = JAM_LP_IPM; solver <= JAM_LP_CLP; ++solver) {
+    jam_system *sys = lattice(3, 3, fcc, 4, sqrt(0.5), 0);
+    jam_crunch_report r;
+    double f[648];
+    int k;
+    DEFAULTS(crunch, o);
+    o.lp_solver = solver;
+    r = crunched(sys, &o, "FCC, solver", solver, 1);
+    assert_true(r.contacts == 648 && r.rattlers == 0);
+    assert_int_equal(jam_forces(sys, f, 648, NULL), JAM_OK);
+    for (k = 0; k < 648; ++k) assert_true(fabs(f[k] - 1.0) < 1e-10); /* the lattice itself holds to about 1e-12 */
+    jam_destroy(sys);
+    sys = random_start(64, 3, 0.2, NULL, 1); /* grown slowly enough to order: more contacts than one state needs */
+    assert_true(jam_compress(sys, NULL, NULL) >= 0);
+    crunched(sys, &o, "slow growth, solver", solver, 1);
     jam_destroy(sys);
   }
 }
@@ -302,6 +324,30 @@ CASE(jammed_input) {
     assert_int_equal(jam_forces(sys, g, 400, &m), JAM_OK);
     for (k = 0; k < m; ++k)
       assert_true(fabs(f[k] - g[k]) < 1e-6); /* the condition of the contact matrix times rounding */
+    jam_destroy(sys);
+  }
+}
+
+/* The real input: two independent programs give phi 0.643971236633, 3010 contacts, 20 rattlers, exactly 1SS. */
+CASE(shared_file) {
+  const char *path = JAM_TEST_SHARED "/ls-n1024-d3.dat";
+  FILE *file = fopen(path, "r");
+  jam_system *sys;
+  jam_crunch_report r;
+  int method;
+  if (!file) {
+    print_message("skipped: %s is not there\n", path);
+    skip();
+  }
+  fclose(file);
+  for (method = 0; method < 2; ++method) {
+    assert_int_equal(jam_read(path, NULL, NULL, NULL, &sys), JAM_OK);
+    DEFAULTS(crunch, o);
+    o.method = method;
+    r = crunched(sys, &o, "file, method", method, 1);
+    assert_true(r.excess_contacts == 0 && r.contacts == 3010 && r.rattlers == 20);
+    assert_true(fabs(r.packing_fraction - 0.643971236633) < 1e-11);
+    assert_true(r.force_residual < 1e-13 && r.max_overlap < 1e-14);
     jam_destroy(sys);
   }
 }

@@ -6,15 +6,13 @@
 #include "steps.h"
 
 static jam_system *fluid(int64_t n, int32_t dim, double fraction) {
-  jam_create_options o;
-  jam_compress_options c;
   jam_system *sys = NULL;
-  jam_create_options_init(&o, sizeof o);
+  DEFAULTS(create, o);
   o.n = n;
   o.dim = dim;
   o.packing_fraction = 0.5 * fraction;
   assert_int_equal(jam_create(&o, NULL, &sys), JAM_OK);
-  jam_compress_options_init(&c, sizeof c);
+  DEFAULTS(compress, c);
   c.growth_rate = 0.03;
   c.pressure = 1e12;
   c.packing_fraction = fraction;
@@ -144,20 +142,18 @@ CASE(reversed_velocities_lead_back) {
 
 CASE(free_volume_pressure) {
   /* p = d / (1 - phi/phi_J) near jamming: phi_J from two pressures must agree. */
-  jam_create_options o;
-  jam_compress_options c;
   jam_system *sys = NULL;
   jam_md_report report;
   double jammed[3];
   int k;
   report.struct_size = sizeof report;
-  jam_create_options_init(&o, sizeof o);
+  DEFAULTS(create, o);
   o.n = 256;
   assert_int_equal(jam_create(&o, NULL, &sys), JAM_OK);
   assert_int_equal(jam_compress(sys, NULL, &report), JAM_OK);
   assert_true(report.packing_fraction > 0.62 && report.packing_fraction < 0.75);
   assert_true(report.max_overlap < 1e-13);
-  jam_compress_options_init(&c, sizeof c);
+  DEFAULTS(compress, c);
   c.growth_rate = 3e-3;
   for (k = 0; k < 3; ++k) {
     c.pressure = pow(10.0, 8 + 2 * k);

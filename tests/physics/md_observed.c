@@ -7,11 +7,10 @@
 #include "steps.h"
 
 static jam_system *start(int64_t n, double fraction, double ratio) {
-  jam_create_options o;
   jam_system *sys = NULL;
   double diameters[1000];
   int64_t k;
-  jam_create_options_init(&o, sizeof o);
+  DEFAULTS(create, o);
   o.n = n;
   o.packing_fraction = fraction;
   for (k = 0; k < n; ++k) diameters[k] = k % 2 ? ratio : 1.0;
@@ -20,8 +19,7 @@ static jam_system *start(int64_t n, double fraction, double ratio) {
 }
 
 static void compress(jam_system *sys, double growth, double pressure) {
-  jam_compress_options c;
-  jam_compress_options_init(&c, sizeof c);
+  DEFAULTS(compress, c);
   c.growth_rate = growth;
   c.pressure = pressure;
   assert_int_equal(jam_compress(sys, &c, NULL), JAM_OK);
@@ -55,7 +53,6 @@ CASE(gap_plateau) {
   int k;
   compress(sys, 1e-2, 500);
   for (k = 0; k < 3; ++k) {
-    jam_observe_options o;
     jam_md_report report;
     jam_info info;
     double bin[12][4], density[12], height;
@@ -63,7 +60,7 @@ CASE(gap_plateau) {
     compress(sys, 3e-3, pressures[k]);
     draw_velocities(sys);
     run(sys, 200);
-    jam_observe_options_init(&o, sizeof o);
+    DEFAULTS(observe, o);
     o.gap_bins = 12;
     o.gap_min = 0.1 / pressures[k];
     o.gap_max = 1e3 / pressures[k];
@@ -90,7 +87,6 @@ CASE(gap_plateau) {
 /* The momentum that pairs exchange is the force network that the linear program finds. */
 CASE(forces_by_collisions) {
   jam_system *sys = start(108, 0.2, 1.4), *jammed = NULL;
-  jam_observe_options o;
   int32_t *pair, *contact;
   int64_t *count;
   double *momentum, *force, time, sum = 0, cross = 0, square = 0, deviation = 0, covered = 0, all = 0;
@@ -99,7 +95,7 @@ CASE(forces_by_collisions) {
   compress(sys, 1e-3, 1e8);
   assert_int_equal(jam_copy(sys, &jammed), JAM_OK);
   assert_int_equal(jam_crunch(jammed, NULL, NULL), JAM_OK);
-  jam_observe_options_init(&o, sizeof o);
+  DEFAULTS(observe, o);
   o.collisions = 1;
   o.sample_every = INFINITY;
   run(sys, 500);
@@ -142,7 +138,6 @@ CASE(forces_by_collisions) {
  */
 CASE(crystal_score_tells_crystals_from_glasses) {
   jam_system *glass = start(500, 0.2, 1.0), *crystal = NULL;
-  jam_create_options o;
   double x[3 * 500], diameter, shaken;
   int a, b, c, k, m = 0;
   static const double corner[4][3] = {{0, 0, 0}, {0, .5, .5}, {.5, 0, .5}, {.5, .5, 0}};
@@ -156,7 +151,7 @@ CASE(crystal_score_tells_crystals_from_glasses) {
           x[m++] = (b + corner[k][1]) / 5;
           x[m++] = (c + corner[k][2]) / 5;
         }
-  jam_create_options_init(&o, sizeof o);
+  DEFAULTS(create, o);
   diameter = cbrt(0.58 * 6.0 / (3.14159265358979 * 500)); /* above melting, 0.545 */
   assert_int_equal(create_from(&o, x, 1500, &diameter, 1, &crystal), JAM_OK);
   run(crystal, 300);
@@ -174,12 +169,10 @@ CASE(crystal_score_tells_crystals_from_glasses) {
  * compression g(r) has the peak at sqrt 2. The time it takes is random, so the limit is generous. */
 CASE(fluid_crystallises) {
   jam_system *sys = start(500, 0.2, 1.0);
-  jam_compress_options c;
   double p = 99, pair[120][2], at_sqrt2 = 0, before = 0;
-  jam_observe_options o;
   size_t needed;
   int blocks = 0, k;
-  jam_compress_options_init(&c, sizeof c);
+  DEFAULTS(compress, c);
   c.pressure = INFINITY;
   c.packing_fraction = 0.56;
   assert_int_equal(jam_compress(sys, &c, NULL), JAM_OK);
@@ -187,7 +180,7 @@ CASE(fluid_crystallises) {
   assert_true(p < 15);
   run(sys, 8000); /* the crystal grows through the box */
   compress(sys, 1e-2, 1e4);
-  jam_observe_options_init(&o, sizeof o);
+  DEFAULTS(observe, o);
   o.r_bins = 120, o.r_max = 2.2, o.sample_every = 5;
   assert_int_equal(jam_observe(sys, &o), JAM_OK);
   run(sys, 50);

@@ -5,11 +5,10 @@
 #include "steps.h"
 
 static jam_system *start(int64_t n, double fraction, double ratio, int32_t masses, double box) {
-  jam_create_options o;
   jam_system *sys = NULL;
   double diameters[1000];
   int64_t k;
-  jam_create_options_init(&o, sizeof o);
+  DEFAULTS(create, o);
   o.n = n;
   o.packing_fraction = fraction;
   o.masses = masses;
@@ -25,11 +24,10 @@ CASE(rates) {
   for (k = 0; k < 2; ++k) {
     jam_system *a = start(sizes[k], 0.2, 1.4, 0, 3.0), *b = start(sizes[k], 0.2, 1.4, 0, 3.0);
     const double sigma = info_of(a).diameter_mean / 3.0;
-    jam_compress_options c;
     jam_md_report report;
     double rate;
     report.struct_size = sizeof report;
-    jam_compress_options_init(&c, sizeof c);
+    DEFAULTS(compress, c);
     c.growth_rate = 0.02;
     c.packing_fraction = 0.5;
     c.pressure = INFINITY;
@@ -53,13 +51,12 @@ CASE(rates) {
  * change it by factors. */
 CASE(quasi_static) {
   jam_system *sys = start(200, 0.2, 1.4, 0, 1.0);
-  jam_compress_options c;
   jam_md_report report;
   jam_status status;
   double worst = 0;
   int stops = 0;
   report.struct_size = sizeof report;
-  jam_compress_options_init(&c, sizeof c);
+  DEFAULTS(compress, c);
   c.growth_rate = 1e-2, c.pressure = 1e3;
   assert_int_equal(jam_compress(sys, &c, &report), JAM_OK);
   c.pressure = 1e7;
@@ -92,18 +89,16 @@ CASE(quasi_static) {
 
 CASE(time_limits) {
   jam_system *sys = start(200, 0.3, 1.0, 0, 1.0);
-  jam_run_options r;
-  jam_compress_options c;
   jam_md_report report;
   report.struct_size = sizeof report;
-  jam_run_options_init(&r, sizeof r);
+  DEFAULTS(run, r);
   r.collisions_per_particle = INFINITY;
   r.time = 0.5;
   assert_int_equal(jam_run(sys, &r, &report), JAM_OK);
   assert_int_equal(report.stop_reason, JAM_STOP_TIME);
   assert_true(report.time <= 0.5 && report.time > 0.499);
   assert_string_equal(jam_stop_string(JAM_STOP_TIME), "time");
-  jam_compress_options_init(&c, sizeof c);
+  DEFAULTS(compress, c);
   c.time = 0.25;
   assert_int_equal(jam_compress(sys, &c, &report), JAM_LIMIT);
   assert_int_equal(report.stop_reason, JAM_STOP_TIME);
@@ -120,14 +115,13 @@ CASE(masses_by_volume) {
   int32_t masses;
   for (masses = 0; masses < 2; ++masses) {
     jam_system *sys = start(400, 0.35, 2.0, masses, 1.0);
-    jam_run_options r;
     jam_md_report report;
     const double *v, *d;
     double large = 0, small = 0, momentum[3] = {0, 0, 0}, cubes = 0;
     size_t len, n, k;
     int sample;
     report.struct_size = sizeof report;
-    jam_run_options_init(&r, sizeof r);
+    DEFAULTS(run, r);
     r.collisions_per_particle = 500;
     assert_int_equal(jam_run(sys, &r, NULL), JAM_OK);
     r.collisions_per_particle = 3000;

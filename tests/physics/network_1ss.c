@@ -191,12 +191,11 @@ static double curvature(const struct network *w, const double *u) {
 
 static void spectrum_identities(const struct network *w) {
   const size_t rows = (size_t)(w->stable * w->d);
-  jam_modes_options o;
   double *l = malloc(rows * sizeof *l), *v = malloc(rows * rows * sizeof *v), *y = malloc(rows * sizeof *y),
          trace = 0.0;
   double low[8];
   size_t m, k;
-  assert_int_equal(jam_modes_options_init(&o, sizeof o), JAM_OK);
+  DEFAULTS(modes, o);
   o.which = JAM_MODES_ALL;
   assert_int_equal(eigenvalues(w->sys, &o, l, y, rows, &m), JAM_OK);
   assert_int_equal(jam_modes(w->sys, NULL, &o, JAM_MODE_COLUMNS, NULL, 0, v, rows * rows, &m), JAM_OK);
@@ -226,10 +225,9 @@ static void spectrum_identities(const struct network *w) {
   assert_int_equal(eigenvalues(w->sys, &o, low, NULL, 8, &m), JAM_OK);
   for (k = 0; k < 8; ++k) assert_true(fabs(low[k] - l[k + (size_t)w->d]) < 1e-11);
   { /* the density of states integrates to one, and its second moment is the trace */
-    jam_dos_options q;
     enum { POINTS = 400, COLUMNS = JAM_DOS_CUMULATIVE_ERROR + 1 };
     double *table = malloc(POINTS * COLUMNS * sizeof *table), zero = 0.0, two = 0.0, error = 0.0, step;
-    assert_int_equal(jam_dos_options_init(&q, sizeof q), JAM_OK);
+    DEFAULTS(dos, q);
     q.points = POINTS;
     q.vectors = 32;
     q.moments = 256;

@@ -82,7 +82,6 @@ CASE(the_null_space_decides_between_two_jumps) {
   jam_crunch_report report;
   struct network w = open_network(crunched(2, 80, 0.3, 1, &report));
   jam_geometry_report g = {.struct_size = sizeof(jam_geometry_report)};
-  jam_create_options o;
   jam_system *s = NULL;
   double place[3][2], radius[3], p[2], r, x[162], d[81], gap, digits, smallest = INFINITY;
   const double *old;
@@ -108,7 +107,7 @@ CASE(the_null_space_decides_between_two_jumps) {
   for (k = 0; k < 80; ++k) d[k] = w.diameter[k];
   for (k = 0; k < 2; ++k) x[160 + k] = old[2 * who[0] + k] + p[k];
   d[80] = 2.0 * r;
-  assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
+  DEFAULTS(create, o);
   o.dim = 2, o.n = 81;
   assert_int_equal(create_from(&o, x, 162, d, 81, &s), JAM_OK);
   assert_int_equal(jam_contacts_from_geometry(s, NULL, &g), JAM_OK);

@@ -7,10 +7,9 @@
 #include "verdicts.h"
 
 static jam_system *in_cell(int32_t dim, int64_t n, const double *cell, const double *x, double sigma) {
-  jam_create_options o;
   jam_system *sys = NULL;
   const size_t d = (size_t)dim;
-  assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
+  DEFAULTS(create, o);
   o.dim = dim, o.n = n;
   assert_int_equal(create_in_cell(&o, cell, d * d, x, d * (size_t)n, &sigma, 1, &sys), JAM_OK);
   return sys;
@@ -91,13 +90,12 @@ CASE(one_sphere_ends_at_a_lattice) {
 /* Modes, stresses and moduli of one sphere: only strains cost energy. */
 CASE(analysis_of_one_sphere) {
   jam_system *sys = alone(3, 1);
-  jam_modes_options o;
   jam_moduli_report moduli = {.struct_size = sizeof moduli};
   double l[3], cell[9], table[36], s, force[6], residual;
   const double *sigma;
   size_t m;
   crunch_with_strain(sys, JAM_STRAIN_FREE, JAM_OK);
-  assert_int_equal(jam_modes_options_init(&o, sizeof o), JAM_OK);
+  DEFAULTS(modes, o);
   o.which = JAM_MODES_ALL;
   assert_int_equal(eigenvalues(sys, &o, l, NULL, 3, &m), JAM_OK);
   assert_int_equal(m, 3);
@@ -157,9 +155,8 @@ CASE(two_disks_in_a_narrow_cell) {
 /* Two spheres of d = 5 that reach a cubic lattice of own images in the fixed cube: narrow programs strain it alone, and
  * their bound must not shrink with the displacements, which are 0. */
 CASE(strains_alone_are_steps) {
-  jam_create_options o;
   jam_system *sys = NULL;
-  assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
+  DEFAULTS(create, o);
   o.dim = 5, o.n = 2, o.seed = 49, o.packing_fraction = 0.02;
   assert_int_equal(jam_create(&o, NULL, &sys), JAM_OK);
   assert_int_equal(crunch_with_strain(sys, JAM_STRAIN_FREE, JAM_OK).strictly_jammed, JAM_VERDICT_YES);

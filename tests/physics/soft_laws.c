@@ -19,9 +19,8 @@ CASE(energy_and_pressure) {
   const double alphas[] = {2.0, 2.5};
   for (int a = 0; a < 2; ++a) {
     jam_system *sys = soft_start(64, 0.72, 2);
-    jam_decompress_options o;
     jam_decompress_report r = {.struct_size = sizeof r};
-    assert_int_equal(jam_decompress_options_init(&o, sizeof o), JAM_OK);
+    DEFAULTS(decompress, o);
     o.alpha = alphas[a], o.isostatic = 0, o.crunch = 0, o.distance = 1e-10;
     assert_int_equal(jam_decompress(sys, &o, &r), JAM_OK);
     assert_true(r.force_residual < 1e-12 && r.excess_contacts == 0 && r.isostatic == 1);
@@ -44,9 +43,8 @@ CASE(energy_and_pressure) {
 CASE(both_ways_to_jamming) {
   for (int64_t seed = 1; seed <= 3; ++seed) {
     jam_system *sys = soft_start(64, 0.70, seed);
-    jam_decompress_options o;
     jam_decompress_report r = {.struct_size = sizeof r};
-    assert_int_equal(jam_decompress_options_init(&o, sizeof o), JAM_OK);
+    DEFAULTS(decompress, o);
     o.isostatic = 0, o.distance = 1e-11;
     assert_int_equal(jam_decompress(sys, &o, &r), JAM_OK);
     assert_true(r.same_network == 1 && r.common_contacts == r.contacts);
@@ -62,9 +60,8 @@ CASE(call_after_call) {
   const double alphas[] = {2.0, 2.5, 1.5};
   for (int a = 0; a < 3; ++a) {
     jam_system *sys = soft_start(64, 0.72, 1);
-    jam_decompress_options o;
     jam_decompress_report r = {.struct_size = sizeof r};
-    assert_int_equal(jam_decompress_options_init(&o, sizeof o), JAM_OK);
+    DEFAULTS(decompress, o);
     o.alpha = alphas[a], o.isostatic = 0, o.crunch = 0, o.energy_factor = 0.1;
     if (o.alpha < 2.0) o.minimiser = JAM_MINIMISER_LBFGS; /* contacts stiffen as they open */
     for (o.distance = 1e-2; o.distance > 1e-5; o.distance *= 0.5) {

@@ -6,10 +6,9 @@
 #include "verdicts.h"
 
 static jam_system *start(int32_t dim, int64_t n, int64_t seed, int mixed, double phi) {
-  jam_create_options o;
   jam_system *sys = NULL;
   double sizes[512];
-  assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
+  DEFAULTS(create, o);
   o.dim = dim, o.n = n, o.seed = seed, o.packing_fraction = phi;
   /* Diameters that all differ: a cluster of seven equal disks has one contact more than it needs. */
   for (int64_t k = 0; k < n; ++k) sizes[k] = mixed ? 1.0 + 0.4 * (double)k / (double)n : 1.0;

@@ -4,8 +4,7 @@
 #include <math.h>
 
 static void run(jam_system *sys, double collisions, jam_md_report *report) {
-  jam_run_options o;
-  jam_run_options_init(&o, sizeof o);
+  DEFAULTS(run, o);
   o.collisions_per_particle = collisions;
   report->struct_size = sizeof *report;
   assert_int_equal(jam_run(sys, &o, report), JAM_OK);
@@ -129,11 +128,10 @@ CASE(growth_ends_without_overlap) {
       const walled *s = &walled_scenes[k];
       double sizes[80];
       jam_system *sys = NULL;
-      jam_compress_options o;
       jam_md_report report = {.struct_size = sizeof report};
       for (int i = 0; i < 80; ++i) sizes[i] = i % 2 ? 1.0 : 1.4;
       assert_int_equal(create_walled(s, 80, 0.15, 2 + fine, sizes, &sys), JAM_OK);
-      jam_compress_options_init(&o, sizeof o);
+      DEFAULTS(compress, o);
       o.pressure = fine ? 1e10 : 1e6;
       const jam_status status = jam_compress(sys, &o, &report);
       if (status != JAM_OK) print_message("%s: %s\n", s->name, jam_last_error());
@@ -157,9 +155,8 @@ CASE(monte_carlo_agrees) {
     const walled *s = &walled_scenes[scenes[k]];
     jam_system *sys = NULL;
     jam_md_report md;
-    jam_monte_carlo_options o;
     jam_monte_carlo_report mc = {.struct_size = sizeof mc};
-    jam_monte_carlo_options_init(&o, sizeof o);
+    DEFAULTS(monte_carlo, o);
     assert_int_equal(create_walled(s, 100, s->dim == 2 ? 0.35 : 0.2, 5, NULL, &sys), JAM_OK);
     run(sys, 100.0, &md);
     run(sys, 4000.0, &md);

@@ -2,11 +2,9 @@
 #ifndef JAM_TESTS_STEPS_H
 #define JAM_TESTS_STEPS_H
 
-#include <jam/jam.h>
 #include <stdlib.h>
 
-#include "start.h"
-#include "test.h"
+#include "systems.h"
 
 static inline void same(const jam_system *a, const jam_system *b) {
   int32_t k;
@@ -38,12 +36,6 @@ static inline jam_md_report run(jam_system *sys, double collisions) {
   SIZED(jam_md_report, report);
   assert_int_equal(jam_run(sys, &r, &report), JAM_OK);
   return report;
-}
-
-static inline jam_info info_of(const jam_system *sys) {
-  SIZED(jam_info, info);
-  assert_int_equal(jam_get_info(sys, &info), JAM_OK);
-  return info;
 }
 
 #endif /* JAM_TESTS_STEPS_H */

@@ -2,28 +2,22 @@
 #include <math.h>
 #include <string.h>
 
-#include <jam/jam.h>
-#include "start.h"
-#include "test.h"
+#include "systems.h"
 
 static jam_system *fluid(void) {
-  jam_system *s = NULL;
   DEFAULTS(create, o);
   o.n = 50;
-  assert_int_equal(jam_create(&o, NULL, &s), JAM_OK);
-  return s;
+  return created(&o);
 }
 
 /* A square lattice of touching disks: hyperstatic, with floppy rows and columns. */
 static jam_system *square(void) {
-  jam_system *s = NULL;
   double x[32], one = 0.25;
   int i;
   for (i = 0; i < 16; ++i) x[2 * i] = 0.25 * (i % 4), x[2 * i + 1] = 0.25 * (i / 4);
   DEFAULTS(create, o);
   o.dim = 2;
-  assert_int_equal(create_from(&o, x, 32, &one, 1, &s), JAM_OK);
-  return s;
+  return created_from(&o, x, 32, &one, 1);
 }
 
 static const int64_t contact = 0;

@@ -4,17 +4,13 @@
 #include <math.h>
 #include <string.h>
 
-#include <jam/jam.h>
 #include "columns.h"
-#include "start.h"
-#include "test.h"
+#include "systems.h"
 
 static jam_system *spheres_with(int32_t policy, int dim, int n, double box, double diameter, const double *x) {
-  jam_system *s = NULL;
   DEFAULTS(create, o);
   o.dim = dim, o.n = n, o.box = box, o.overlap = policy;
-  assert_int_equal(create_from(&o, x, (size_t)(n * dim), &diameter, 1, &s), JAM_OK);
-  return s;
+  return created_from(&o, x, (size_t)(n * dim), &diameter, 1);
 }
 static jam_system *spheres(int dim, int n, double box, double diameter, const double *x) {
   return spheres_with(JAM_OVERLAP_REFUSE, dim, n, box, diameter, x);
@@ -121,12 +117,11 @@ CASE(several_images_are_several_contacts) {
 CASE(three_disks_have_one_self_stress) {
   jam_crunch_report r = {.struct_size = sizeof(jam_crunch_report)};
   jam_geometry_report g;
-  jam_system *s = NULL;
   double f[8], q[8], b[30];
   size_t m, k;
   DEFAULTS(create, o);
   o.dim = 2, o.n = 3, o.packing_fraction = 0.4;
-  assert_int_equal(jam_create(&o, NULL, &s), JAM_OK);
+  jam_system *s = created(&o);
   assert_int_equal(jam_crunch(s, NULL, &r), JAM_OK);
   assert_true(r.contacts == 5 && r.excess_contacts == 0);
   assert_int_equal(jam_forces(s, f, 8, &m), JAM_OK);

@@ -2,10 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "start.h"
-#include "test.h"
-
-#include "jam/jam.h"
+#include "systems.h"
 
 static char logged[600];
 
@@ -23,10 +20,9 @@ static void said(jam_status status, jam_status expected, const char *words) {
 }
 
 static jam_system *start(int64_t n, double fraction, int32_t overlap) {
-  jam_system *sys = NULL;
   DEFAULTS(create, o);
   o.dim = 2, o.n = n, o.packing_fraction = fraction, o.overlap = overlap, o.seed = 3;
-  assert_int_equal(jam_create(&o, NULL, &sys), JAM_OK);
+  jam_system *sys = created(&o);
   assert_int_equal(jam_set_log(sys, keep_line, JAM_LOG_WARNING, NULL), JAM_OK);
   return sys;
 }
@@ -35,12 +31,11 @@ static jam_system *start(int64_t n, double fraction, int32_t overlap) {
 static jam_system *square(void) {
   double x[72];
   const double sigma = 1.0 / 6.0;
-  jam_system *sys = NULL;
   int k;
   for (k = 0; k < 36; ++k) x[2 * k] = (k % 6) / 6.0, x[2 * k + 1] = (k / 6) / 6.0;
   DEFAULTS(create, o);
   o.dim = 2, o.n = 36;
-  assert_int_equal(create_from(&o, x, 72, &sigma, 1, &sys), JAM_OK);
+  jam_system *sys = created_from(&o, x, 72, &sigma, 1);
   assert_int_equal(jam_set_log(sys, keep_line, JAM_LOG_WARNING, NULL), JAM_OK);
   return sys;
 }

@@ -1,11 +1,9 @@
 /* Cells of any shape: lower triangle, the same lattice by other vectors, strain, files, verdicts, what is refused. */
-#include <jam/jam.h>
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <string.h>
-#include "start.h"
-#include "test.h"
+#include "systems.h"
 
 static jam_create_options options(int32_t dim, int64_t n) {
   DEFAULTS(create, o);
@@ -25,10 +23,9 @@ CASE(lower_triangle) {
   int64_t transform[9];
   size_t needed = 0, rows = 0;
   jam_create_options o = options(3, 1);
-  jam_system *sys = NULL;
   const double x[3] = {0.7, -0.4, 0.9}, sigma = 0.1;
   const double *at = NULL;
-  assert_int_equal(create_from(&o, x, 3, &sigma, 1, &sys), JAM_OK);
+  jam_system *sys = created_from(&o, x, 3, &sigma, 1);
   assert_int_equal(jam_set_cell(sys, cell, 9, transform, 9, rotation, 9, &rows), JAM_OK);
   assert_int_equal(rows, 3);
   assert_int_equal(jam_get_cell(sys, NULL, 0, &needed), JAM_OK);
@@ -85,8 +82,7 @@ CASE(triangular_lattices) {
   for (size_t k = 0; k < sizeof cases / sizeof *cases; ++k)
     for (int tilt = 0; tilt <= 5; tilt += 5) {
       jam_system *sys = hexagonal(8, cases[k].holes, tilt);
-      jam_info info = {.struct_size = sizeof info};
-      assert_int_equal(jam_get_info(sys, &info), JAM_OK);
+      const jam_info info = info_of(sys);
       assert_true(fabs(info.packing_fraction - (64 - cases[k].holes) / 64.0 * M_PI / sqrt(12.0)) < 1e-14);
       assert_true(jam_contacts_from_geometry(sys, NULL, NULL) >= 0);
       for (int32_t kind = JAM_RIGIDITY_COLLECTIVE; kind <= JAM_RIGIDITY_STRICT; ++kind) {
@@ -115,8 +111,7 @@ CASE(crunch_does_not_depend_on_the_basis) {
     wide[(dim - 1) * dim] += 5.0 * cell[0];
     for (int k = 0; k < 2; ++k) {
       jam_crunch_report r = {.struct_size = sizeof r};
-      jam_system *copy = NULL;
-      assert_int_equal(jam_copy(sys, &copy), JAM_OK);
+      jam_system *copy = copy_of(sys);
       if (k) assert_int_equal(jam_set_cell(copy, wide, (size_t)(dim * dim), NULL, 0, NULL, 0, NULL), JAM_OK);
       assert_int_equal(jam_crunch(copy, NULL, &r), JAM_OK);
       assert_int_equal(r.jammed, 1);
@@ -134,17 +129,15 @@ CASE(crunch_does_not_depend_on_the_basis) {
 /* A shear and its reverse give the energy back, through a cell whose tilt exceeds half an edge. */
 CASE(shear_and_back) {
   jam_create_options o = options(2, 40);
-  jam_system *sys = NULL;
   const double shear[3][4] = {{0.0, 0.8, 0.0, 0.0}, {0.0, -0.8, 0.0, 0.0}, {0.0}};
   double energy[3], cell[4];
   o.overlap = JAM_OVERLAP_ALLOW, o.packing_fraction = 0.9;
-  assert_int_equal(jam_create(&o, NULL, &sys), JAM_OK);
+  jam_system *sys = created(&o);
   for (int k = 0; k < 3; ++k) {
     jam_relax_report r = {.struct_size = sizeof r};
-    jam_system *copy = NULL;
     DEFAULTS(relax, ro);
     ro.max_evaluations = 1;
-    assert_int_equal(jam_copy(sys, &copy), JAM_OK);
+    jam_system *copy = copy_of(sys);
     assert_true(jam_relax(copy, &ro, &r) >= 0);
     energy[k] = r.energy;
     jam_destroy(copy);
@@ -160,17 +153,14 @@ CASE(shear_and_back) {
 /* r -> (1 + strain) r by numbers: a point and the cell vectors. */
 CASE(strain_is_affine) {
   jam_create_options o = options(2, 1);
-  jam_system *sys = NULL;
   const double x[2] = {0.2, 0.4}, sigma = 0.1, strain[4] = {0.5, 0.25, 0.0, 0.25};
-  const double *at = NULL;
   double cell[4];
-  size_t len;
-  assert_int_equal(create_from(&o, x, 2, &sigma, 1, &sys), JAM_OK);
+  jam_system *sys = created_from(&o, x, 2, &sigma, 1);
   assert_int_equal(jam_strain(sys, strain, 4), JAM_OK);
   assert_int_equal(jam_get_cell(sys, cell, 4, NULL), JAM_OK);
   assert_true(fabs(cell[0] - 1.5) < 1e-15 && cell[1] == 0.0);
   assert_true(fabs(cell[2] - 0.25) < 1e-15 && fabs(cell[3] - 1.25) < 1e-15);
-  assert_int_equal(jam_view(sys, JAM_VIEW_POSITIONS, &at, &len), JAM_OK);
+  const double *at = view_of(sys, JAM_VIEW_POSITIONS);
   assert_true(fabs(at[0] - 0.4) < 1e-15 && fabs(at[1] - 0.5) < 1e-15);
   jam_destroy(sys);
 }
@@ -266,10 +256,9 @@ CASE(shifts_are_kept) {
   const double small[4] = {0.0, 0.3, 0.0, 0.0}, large[4] = {0.0, 17.0, 0.0, 0.0};
   double cell[4];
   SIZED(jam_crunch_report, r);
-  jam_system *sys = NULL;
   DEFAULTS(create, o);
   o.dim = 2, o.n = 32, o.seed = 1, o.model = JAM_MODEL_MK, o.packing_fraction = 1e-3;
-  assert_int_equal(jam_create(&o, NULL, &sys), JAM_OK);
+  jam_system *sys = created(&o);
   assert_int_equal(jam_strain(sys, large, 4), JAM_E_UNSUPPORTED);
   assert_int_equal(jam_get_cell(sys, cell, 4, NULL), JAM_OK);
   assert_true(cell[2] == 0.0);

@@ -1,11 +1,9 @@
 /* A cell stays as it was given: aspect ratios on each axis, tilts, walls; what is done in it does not depend on the
  * names of the axes; only extreme vectors give way to shorter ones, and a note says so. */
-#include <jam/jam.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include "start.h"
-#include "test.h"
+#include "systems.h"
 
 enum { N = 24 };
 
@@ -34,8 +32,7 @@ static void expect_same_bits(jam_system *a, jam_system *b) {
   const double *x, *y;
   size_t len;
   double cell[9];
-  jam_info info = {.struct_size = sizeof info};
-  jam_get_info(a, &info);
+  const jam_info info = info_of(a);
   assert_int_equal(jam_get_cell(a, cell, (size_t)(info.dim * info.dim), NULL), JAM_OK);
   expect_cell(b, cell, info.dim);
   jam_view(a, JAM_VIEW_POSITIONS, &x, &len), jam_view(b, JAM_VIEW_POSITIONS, &y, &len);
@@ -205,10 +202,9 @@ CASE(shear_without_end) {
   const double shear[4] = {0.0, 0.7, 0.0, 0.0}, lower[4] = {0.0, 0.0, 0.1, 0.0};
   double cell[4];
   jam_create_options o = options(2, 0.02);
-  jam_system *sys = NULL;
   int replaced = 0;
   o.overlap = JAM_OVERLAP_ALLOW;
-  assert_int_equal(jam_create(&o, NULL, &sys), JAM_OK);
+  jam_system *sys = created(&o);
   for (int k = 1; k <= 60; ++k) {
     assert_int_equal(jam_strain(sys, shear, 4), JAM_OK);
     assert_int_equal(jam_get_cell(sys, cell, 4, NULL), JAM_OK);

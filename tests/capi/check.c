@@ -1,8 +1,7 @@
 /* jam_check_packing: the verdict on a packing as it is, and that the handle stays as it was. */
-#include <jam/jam.h>
 #include <math.h>
 #include <string.h>
-#include "start.h"
+#include "systems.h"
 #include "verdicts.h"
 
 enum { most_spheres = 256, most = JAM_MAX_DIM * most_spheres };
@@ -20,7 +19,6 @@ static jam_check_report check(jam_system *sys, int32_t crunch, jam_status expect
 
 /* side^d spheres that touch along the axes. */
 static jam_system *cubic(int32_t dim, int side, int32_t overlap, double sigma) {
-  jam_system *sys = NULL;
   double x[most];
   int64_t n = 1;
   for (int c = 0; c < dim; ++c) n *= side;
@@ -30,8 +28,7 @@ static jam_system *cubic(int32_t dim, int side, int32_t overlap, double sigma) {
     int64_t rest = k;
     for (int c = 0; c < dim; ++c, rest /= side) x[k * dim + c] = (double)(rest % side);
   }
-  assert_int_equal(create_from(&o, x, (size_t)(n * dim), &sigma, 1, &sys), JAM_OK);
-  return sys;
+  return created_from(&o, x, (size_t)(n * dim), &sigma, 1);
 }
 
 /* Saddles in all dimensions, and the same spheres apart. */
@@ -53,14 +50,13 @@ CASE(cubic_lattices) {
 
 /* Contacts, report and positions are those of the crunch, before and after. */
 CASE(leaves_the_handle_alone) {
-  jam_system *sys = NULL;
   jam_crunch_report before = {.struct_size = sizeof before}, after = {.struct_size = sizeof after};
   const double *x;
   double kept[3 * 64];
   size_t len = 0, m = 0, rows = 0;
   DEFAULTS(create, o);
   o.n = 64;
-  assert_int_equal(jam_create(&o, NULL, &sys), JAM_OK);
+  jam_system *sys = created(&o);
   check(sys, 1, JAM_NOT_JAMMED);
   assert_int_equal(jam_contacts(sys, NULL, 0, &m), JAM_E_STATE);
   assert_int_equal(jam_crunch(sys, NULL, &before), JAM_OK);

@@ -2,10 +2,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "start.h"
-#include "test.h"
-
-#include "jam/jam.h"
+#include "systems.h"
 
 static jam_create_options defaults(int32_t dim, int64_t n) {
   DEFAULTS(create, o);
@@ -14,9 +11,7 @@ static jam_create_options defaults(int32_t dim, int64_t n) {
 }
 
 static jam_system *made(const jam_create_options *o, const double *positions, size_t len, const double *sigma) {
-  jam_system *sys = NULL;
-  if (create_from(o, positions, len, sigma, sigma ? (size_t)o->n : 0, &sys) != JAM_OK) fail_msg("%s", jam_last_error());
-  return sys;
+  return created_from(o, positions, len, sigma, sigma ? (size_t)o->n : 0);
 }
 
 static jam_status compare(const jam_system *a, const jam_system *b, jam_comparison_report *c) {

@@ -3,10 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "start.h"
-#include "test.h"
-
-#include "jam/jam.h"
+#include "systems.h"
 
 static jam_create_options options(void) {
   DEFAULTS(create, o);
@@ -75,12 +72,10 @@ CASE(bad_options_are_refused) {
 /* Members that an older, shorter struct lacks keep their defaults. */
 CASE(shorter_structs_keep_defaults) {
   jam_create_options o = options();
-  jam_system *sys = NULL;
   o.n = 50, o.seed = 9, o.box = -1.0; /* box lies beyond the size told: it must not be read */
   o.struct_size = offsetof(jam_create_options, box);
-  assert_int_equal(jam_create(&o, NULL, &sys), JAM_OK);
-  SIZED(jam_info, info);
-  assert_int_equal(jam_get_info(sys, &info), JAM_OK);
+  jam_system *sys = created(&o);
+  const jam_info info = info_of(sys);
   assert_true(info.box == 1.0 && info.seed == 9 && info.n == 50 && info.monodisperse == 1);
   assert_true(fabs(info.packing_fraction - 0.2) < 1e-14);
   jam_destroy(sys);
@@ -108,11 +103,10 @@ CASE(random_starts_reach_saturation) {
   for (k = 0; k < 2000; ++k) mixture[k] = k < 200 ? 1.4 : 1.0 + 1e-4 * k;
   for (dim = 2; dim <= 3; ++dim) {
     jam_create_options o = options();
-    jam_system *sys = NULL;
     double reached;
     const char *text;
     o.dim = dim, o.n = 2000, o.packing_fraction = below[dim - 2];
-    assert_int_equal(jam_create(&o, NULL, &sys), JAM_OK);
+    jam_system *sys = created(&o);
     jam_destroy(sys);
     assert_int_equal(create_from(&o, NULL, 0, mixture, 2000, &sys), JAM_OK);
     jam_destroy(sys);
@@ -151,10 +145,9 @@ CASE(overlap_is_named_or_shrunk) {
   const double x[6] = {0.02, 0.5, 0.5, 0.94, 0.5, 0.5}, s = 0.1; /* 0.08 apart through the wall */
   const double *view;
   size_t len;
-  jam_system *sys = NULL;
   refused(&o, x, 6, &s, 1, JAM_E_OVERLAP, "spheres 0 and 1 overlap by 0.2");
   o.overlap = JAM_OVERLAP_SHRINK;
-  assert_int_equal(create_from(&o, x, 6, &s, 1, &sys), JAM_OK);
+  jam_system *sys = created_from(&o, x, 6, &s, 1);
   assert_int_equal(jam_view(sys, JAM_VIEW_DIAMETERS, &view, &len), JAM_OK);
   assert_int_equal(len, 2);
   assert_true(fabs(view[0] - 0.08) < 1e-15 && view[1] == view[0]);
@@ -164,16 +157,13 @@ CASE(overlap_is_named_or_shrunk) {
 CASE(spheres_wider_than_the_box_are_refused_or_shrunk) {
   jam_create_options o = options();
   const double x[3] = {0.5, 0.5, 0.5}, s = 1e9;
-  const double *view;
-  size_t len;
-  jam_system *sys = NULL;
   refused(&o, x, 3, &s, 1, JAM_E_OVERLAP, "sphere 0 of diameter 1e+09 overlaps its own image");
   o.overlap = JAM_OVERLAP_SHRINK;
   refused(&o, x, 3, &s, 1, JAM_E_OVERLAP,
           "they did not fit the cell: to shrink means to multiply all diameters by 1e-09");
   o.shrink_min = 0.0;
-  assert_int_equal(create_from(&o, x, 3, &s, 1, &sys), JAM_OK);
-  jam_view(sys, JAM_VIEW_DIAMETERS, &view, &len);
+  jam_system *sys = created_from(&o, x, 3, &s, 1);
+  const double *view = view_of(sys, JAM_VIEW_DIAMETERS);
   assert_true(view[0] == 1.0);
   jam_destroy(sys);
 }
@@ -181,11 +171,9 @@ CASE(spheres_wider_than_the_box_are_refused_or_shrunk) {
 CASE(positions_outside_are_wrapped) {
   const double x[6] = {-0.25, 1.5, -1e-20, 3.0, 2.25, 0.5}, s = 0.1;
   const double expected[6] = {0.75, 0.5, 0.0, 0.0, 0.25, 0.5};
-  const double *view;
-  size_t len, k;
-  jam_system *sys = NULL;
-  assert_int_equal(create_from(NULL, x, 6, &s, 1, &sys), JAM_OK);
-  assert_int_equal(jam_view(sys, JAM_VIEW_POSITIONS, &view, &len), JAM_OK);
+  size_t k;
+  jam_system *sys = created_from(NULL, x, 6, &s, 1);
+  const double *view = view_of(sys, JAM_VIEW_POSITIONS);
   for (k = 0; k < 6; ++k) assert_true(view[k] == expected[k]);
   jam_destroy(sys);
 }
@@ -210,17 +198,17 @@ CASE(same_seed_same_bits) {
 CASE(setters_and_copies) {
   jam_create_options o = options();
   jam_system *sys, *copy;
-  const double *x, *s, *again;
+  const double *x, *again;
   double moved[12];
-  size_t len, k;
+  size_t k;
   o.n = 4, o.packing_fraction = 0.05;
   assert_int_equal(jam_create(&o, NULL, &sys), JAM_OK);
-  jam_view(sys, JAM_VIEW_POSITIONS, &x, &len), jam_view(sys, JAM_VIEW_DIAMETERS, &s, &len);
+  x = view_of(sys, JAM_VIEW_POSITIONS);
   assert_int_equal(jam_copy(sys, &copy), JAM_OK);
   for (k = 0; k < 12; ++k) moved[k] = (double)(k / 3) * 0.25 + 1.0;
   assert_int_equal(jam_set_positions(sys, moved, 11), JAM_E_ARGUMENT);
   assert_int_equal(jam_set_positions(sys, moved, 12), JAM_OK);
-  jam_view(sys, JAM_VIEW_POSITIONS, &again, &len);
+  again = view_of(sys, JAM_VIEW_POSITIONS);
   assert_ptr_equal(again, x);
   assert_true(x[3] == 0.25);
   moved[3] = moved[0], moved[4] = moved[1], moved[5] = moved[2];
@@ -229,7 +217,7 @@ CASE(setters_and_copies) {
   assert_int_equal(jam_scale_diameters(sys, 100.0), JAM_E_OVERLAP);
   assert_int_equal(jam_scale_diameters(sys, NAN), JAM_E_ARGUMENT);
   assert_int_equal(jam_scale_diameters(sys, 0.5), JAM_OK);
-  jam_view(copy, JAM_VIEW_POSITIONS, &again, &len);
+  again = view_of(copy, JAM_VIEW_POSITIONS);
   assert_true(again[0] != x[0]);
   jam_destroy(sys);
   jam_destroy(copy);
@@ -251,13 +239,12 @@ CASE(random_starts_have_no_overlaps) {
     jam_create_options o = options();
     const double *x, *s;
     double diameters[60];
-    size_t len, i, j;
+    size_t i, j;
     int c;
-    jam_system *sys;
     for (i = 0; i < 60; ++i) diameters[i] = 1.0 + (double)(i % 7);
     o.n = 60, o.dim = d, o.packing_fraction = pow(2.0, 2 - d) * 0.3, o.box = 3.0;
-    assert_int_equal(create_from(&o, NULL, 0, diameters, 60, &sys), JAM_OK);
-    jam_view(sys, JAM_VIEW_POSITIONS, &x, &len), jam_view(sys, JAM_VIEW_DIAMETERS, &s, &len);
+    jam_system *sys = created_from(&o, NULL, 0, diameters, 60);
+    x = view_of(sys, JAM_VIEW_POSITIONS), s = view_of(sys, JAM_VIEW_DIAMETERS);
     for (i = 0; i < 60; ++i)
       for (j = 0; j < i; ++j) {
         double r2 = 0.0;

@@ -7,8 +7,6 @@
 #include "steps.h"
 #include "verdicts.h"
 
-#include "jam/jam.h"
-
 static const char *path = "crunch_checkpoint.bin";
 
 typedef struct keeper {
@@ -31,10 +29,9 @@ static int32_t keep(const jam_progress *p, void *user) {
 }
 
 static jam_system *start(double cell) {
-  jam_system *sys = NULL;
   DEFAULTS(create, o);
   o.n = 100, o.packing_fraction = 0.3, o.seed = 5;
-  assert_int_equal(jam_create(&o, NULL, &sys), JAM_OK);
+  jam_system *sys = created(&o);
   if (cell != 0.0) {
     const double strain[9] = {0, cell, 0, 0, 0, 0, 0, 0, 0};
     assert_int_equal(jam_scale_diameters(sys, 0.9), JAM_OK);

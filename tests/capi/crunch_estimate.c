@@ -5,17 +5,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "start.h"
-#include "test.h"
-
-#include "jam/jam.h"
+#include "systems.h"
 
 static jam_system *start(int64_t n, double phi) {
-  jam_system *sys = NULL;
   DEFAULTS(create, o);
   o.n = n, o.packing_fraction = phi;
-  assert_int_equal(jam_create(&o, NULL, &sys), JAM_OK);
-  return sys;
+  return created(&o);
 }
 
 static jam_estimate_report estimated(const jam_system *sys, const jam_crunch_options *o) {
@@ -114,11 +109,10 @@ CASE(estimates_scale_with_the_number_of_spheres) {
 CASE(wide_mixtures_take_more_steps) {
   double sizes[256], before = 0.0;
   for (int ratio = 1; ratio <= 100; ratio *= 10) {
-    jam_system *sys = NULL;
     DEFAULTS(create, o);
     o.n = 256;
     for (int i = 0; i < 256; ++i) sizes[i] = i < 128 ? 1.0 : ratio;
-    assert_int_equal(create_from(&o, NULL, 0, sizes, 256, &sys), JAM_OK);
+    jam_system *sys = created_from(&o, NULL, 0, sizes, 256);
     const jam_estimate_report e = estimated(sys, NULL);
     assert_true(e.factorisations > 1.3 * before && e.seconds == e.factorisations * e.step_seconds);
     before = e.factorisations;

@@ -3,15 +3,12 @@
 #include <math.h>
 #include <string.h>
 
-#include "start.h"
+#include "systems.h"
 #include "verdicts.h"
-
-#include "jam/jam.h"
 
 enum { n = 256, most = 3000 };
 
 static jam_system *grown(int dim, int64_t seed) {
-  jam_system *sys = NULL;
   double sizes[n]; /* two of disks, as equal ones come near to a crystal, which LPs end at once */
   int k;
   for (k = 0; k < n; ++k) sizes[k] = dim == 2 && k % 2 ? 1.4 : 1.0;
@@ -19,7 +16,7 @@ static jam_system *grown(int dim, int64_t seed) {
   DEFAULTS(compress, md);
   o.n = n, o.dim = dim, o.seed = seed;
   md.growth_rate = 1e-2, md.pressure = 1e4;
-  assert_int_equal(create_from(&o, NULL, 0, sizes, n, &sys), JAM_OK);
+  jam_system *sys = created_from(&o, NULL, 0, sizes, n);
   assert_int_equal(jam_compress(sys, &md, NULL), JAM_OK);
   return sys;
 }

@@ -5,22 +5,17 @@
 #include <string.h>
 
 #include "columns.h"
-#include "start.h"
-#include "test.h"
-
-#include "jam/jam.h"
+#include "systems.h"
 
 enum { N = 80, MAX_STEPS = 2000 };
 
 static jam_system *start(int dim, int64_t seed) {
-  jam_system *sys = NULL;
   double diameters[N];
   int k;
   for (k = 0; k < N; ++k) diameters[k] = k % 2 ? 1.4 : 1.0;
   DEFAULTS(create, o);
   o.n = N, o.dim = dim, o.seed = seed, o.packing_fraction = dim == 2 ? 0.4 : 0.25;
-  assert_int_equal(create_from(&o, NULL, 0, diameters, N, &sys), JAM_OK);
-  return sys;
+  return created_from(&o, NULL, 0, diameters, N);
 }
 
 enum { COLUMNS = JAM_HISTORY_TOTAL_MSD_STABLE + 1 };

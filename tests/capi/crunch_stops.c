@@ -7,16 +7,14 @@
 #include <string.h>
 #include <time.h>
 
-#include "start.h"
+#include "systems.h"
 #include "verdicts.h"
 
 static jam_system *start_with(int dim, int n, uint64_t seed) {
-  jam_system *sys = NULL;
   DEFAULTS(create, o);
   o.dim = dim, o.n = n, o.seed = seed;
   if (n > 2) o.packing_fraction = 0.3;
-  assert_int_equal(jam_create(&o, NULL, &sys), JAM_OK);
-  return sys;
+  return created(&o);
 }
 static jam_system *start(int n) { return start_with(3, n, 5); }
 
@@ -265,11 +263,10 @@ CASE(a_limit_leaves_no_older_verdict) {
 CASE(a_stop_leaves_no_older_contacts) {
   const double sites[4] = {0.1, 0.2, 0.6, 0.7}, diameters[2] = {0.6, 0.6};
   jam_crunch_report r;
-  jam_system *sys = NULL;
   ambush a;
   DEFAULTS(create, c);
   c.dim = 2, c.n = 2;
-  assert_int_equal(create_from(&c, sites, 4, diameters, 2, &sys), JAM_OK);
+  jam_system *sys = created_from(&c, sites, 4, diameters, 2);
   DEFAULTS(crunch, o);
   o.strain = JAM_STRAIN_FREE;
   memset(&a, 0, sizeof a);

@@ -1,24 +1,19 @@
 /* Crunches of starts at the rim: few spheres of very unequal sizes, farther apart than the first linear program lets
  * them move; and cells as thin as the limits allow, that are free to become thick. Each ends with a status and a valid
  * state: a finite cell of the same volume and no overlap. */
-#include "start.h"
-#include "test.h"
+#include "systems.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "jam/jam.h"
-
 static void assert_valid(const jam_system *sys, double before) {
-  jam_info info = {.struct_size = sizeof info};
   double cell[64];
   size_t rows;
-  assert_int_equal(jam_get_info(sys, &info), JAM_OK);
+  const jam_info info = info_of(sys);
   assert_true(info.packing_fraction >= before * (1.0 - 1e-12) && info.packing_fraction < 1.0);
   assert_int_equal(jam_get_cell(sys, cell, 64, &rows), JAM_OK);
   for (size_t k = 0; k < rows; ++k) assert_true(isfinite(cell[k]));
-  jam_system *copy = NULL;
-  assert_int_equal(jam_copy(sys, &copy), JAM_OK);
+  jam_system *copy = copy_of(sys);
   assert_int_equal(jam_scale_diameters(copy, 1.0 + 1e-13), JAM_OK); /* looks for overlaps */
   jam_destroy(copy);
 }
@@ -32,13 +27,12 @@ CASE(very_unequal_spheres) {
   for (size_t k = 0; k < sizeof cases / sizeof *cases; ++k)
     for (int64_t seed = 1; seed <= 5; ++seed)
       for (int few = 0; few < 2; ++few) {
-        jam_system *sys = NULL;
         double diameters[6] = {cases[k].ratio, 1, 1, 1, 1, 1};
         const size_t n = few ? 2 : 6;
         DEFAULTS(create, o);
         DEFAULTS(crunch, c);
         o.n = (int64_t)n, o.dim = cases[k].dim, o.seed = seed, o.packing_fraction = 0.02;
-        assert_int_equal(create_from(&o, NULL, 0, diameters, n, &sys), JAM_OK);
+        jam_system *sys = created_from(&o, NULL, 0, diameters, n);
         c.wall_time = 20.0;
         const jam_status status = jam_crunch(sys, &c, NULL);
         if (status < 0) fail_msg("d %d ratio %g seed %d: %s", o.dim, cases[k].ratio, (int)seed, jam_last_error());
@@ -49,11 +43,10 @@ CASE(very_unequal_spheres) {
 
 /* A small bound of the steps, by option, makes the lists as short. */
 CASE(short_steps) {
-  jam_system *sys = NULL;
   DEFAULTS(create, o);
   DEFAULTS(crunch, c);
   o.n = 6, o.packing_fraction = 0.05;
-  assert_int_equal(jam_create(&o, NULL, &sys), JAM_OK);
+  jam_system *sys = created(&o);
   c.step_bound = 1e-3, c.max_lps = 30;
   const jam_status status = jam_crunch(sys, &c, NULL);
   if (status < 0) fail_msg("%s", jam_last_error());
@@ -72,15 +65,15 @@ CASE(radius_and_largest_diameter) {
   const double mean = 23.0 / 16.0, radius = 8.0 / mean + 0.8;
   jam_system *sys = NULL;
   const double *x, *sigma;
-  size_t length, rows;
+  size_t rows;
   int pairs = 0;
   DEFAULTS(create, o);
   DEFAULTS(crunch, c);
   o.n = 16, o.dim = 2, o.packing_fraction = 0.3;
   const jam_start start = {.struct_size = sizeof start, .diameters = diameters, .diameters_len = 16};
   assert_int_equal(jam_create(&o, &start, &sys), JAM_OK);
-  assert_int_equal(jam_view(sys, JAM_VIEW_POSITIONS, &x, &length), JAM_OK);
-  assert_int_equal(jam_view(sys, JAM_VIEW_DIAMETERS, &sigma, &length), JAM_OK);
+  x = view_of(sys, JAM_VIEW_POSITIONS);
+  sigma = view_of(sys, JAM_VIEW_DIAMETERS);
   const double unit = sigma[1] * mean, reach = radius * unit - sigma[0];
   for (int i = 0; i < 16; ++i)
     for (int j = 0; j < i; ++j)

@@ -1,10 +1,8 @@
 /* Texts have a decimal point where the host's locale has a comma; the host's callbacks, and the host after each call,
  * have their locale. */
 #include <ctype.h>
-#include <jam/jam.h>
 #include "comma.h"
-#include "start.h"
-#include "test.h"
+#include "systems.h"
 
 static void no_comma_in_number(const char *text) {
   const char *c;
@@ -69,11 +67,10 @@ CASE(errors) {
 
 CASE(texts_and_callbacks) {
   jam_check_report r = {.struct_size = sizeof r};
-  jam_system *sys = NULL;
   comma();
   DEFAULTS(create, o);
   o.dim = 2, o.n = 30, o.packing_fraction = 0.4, o.seed = 3;
-  assert_int_equal(jam_create(&o, NULL, &sys), JAM_OK);
+  jam_system *sys = created(&o);
   assert_int_equal(jam_set_log(sys, on_line, 3, NULL), JAM_OK);
   assert_int_equal(jam_set_progress(sys, on_progress, NULL), JAM_OK);
   DEFAULTS(compress, c);

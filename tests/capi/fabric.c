@@ -1,9 +1,7 @@
 /* The fabric tensor against angles of a lattice, and against a sum over the positions of a packing. */
-#include <jam/jam.h>
 #include <math.h>
 
-#include "start.h"
-#include "test.h"
+#include "systems.h"
 
 /* Rows of touching disks, each shifted by cos(angle): contacts along (1, 0) and (cos, sin), equally many. */
 CASE(sheared_lattice_has_the_tensor_of_its_two_directions) {
@@ -32,16 +30,14 @@ CASE(sheared_lattice_has_the_tensor_of_its_two_directions) {
  * 3: a mean over the contacts stays within five of its standard deviations. */
 CASE(large_packing_is_isotropic) {
   enum { N = 500, D = 3 };
-  jam_system *sys = NULL;
-  const double *x;
-  size_t len, needed, contacts;
+  size_t needed, contacts;
   static int32_t pair[2 * 4 * N];
   double fabric[D * D], sum[D * D] = {0.0}, trace = 0.0;
   DEFAULTS(create, o);
   o.n = N, o.seed = 7;
-  assert_int_equal(jam_create(&o, NULL, &sys), JAM_OK);
+  jam_system *sys = created(&o);
   if (jam_crunch(sys, NULL, NULL) != JAM_OK) fail_msg("%s", jam_last_error());
-  assert_int_equal(jam_view(sys, JAM_VIEW_POSITIONS, &x, &len), JAM_OK);
+  const double *x = view_of(sys, JAM_VIEW_POSITIONS);
   assert_int_equal(jam_contacts(sys, pair, 2 * 4 * N, &needed), JAM_OK);
   contacts = needed / 2;
   for (size_t k = 0; k < contacts; ++k) {
@@ -70,10 +66,9 @@ CASE(large_packing_is_isotropic) {
 CASE(no_contacts_have_no_tensor) {
   const double x[4] = {0.0, 0.0, 0.5, 0.4}, sigma = 0.1;
   double fabric[4] = {0.0};
-  jam_system *sys = NULL;
   DEFAULTS(create, o);
   o.dim = 2;
-  assert_int_equal(create_from(&o, x, 4, &sigma, 1, &sys), JAM_OK);
+  jam_system *sys = created_from(&o, x, 4, &sigma, 1);
   assert_int_equal(jam_contacts_from_geometry(sys, NULL, NULL), JAM_NOT_JAMMED);
   assert_int_equal(jam_fabric_tensor(sys, fabric, 4, NULL), JAM_NOT_JAMMED);
   assert_true(isnan(fabric[0]) && isnan(fabric[3]));

@@ -1,5 +1,6 @@
 /* What coordinates of a file mean: origin, cell, planes and frames. What was changed stands in jam_notes. */
 #include "io_helpers.h"
+#include "systems.h"
 
 static jam_system *read_text(const char *text) {
   jam_system *sys = NULL;
@@ -45,13 +46,13 @@ CASE(corners_elsewhere) {
   static const char corner[] = "the corner of the cell is at -1 0 0.5 in the file: positions are measured from there";
   jam_system *sys;
   const double *x;
-  size_t len, k;
+  size_t k;
   for (k = 0; k < 2; ++k) {
     sys = read_text(k ? "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS pp pp pp\n-1 1\n0 2\n0.5 2.5\n"
                         "ITEM: ATOMS id x y z radius\n1 0 1 1 0.1\n"
                       : "t\n\n1 atoms\n1 atom types\n-1 1 xlo xhi\n0 2 ylo yhi\n0.5 2.5 zlo zhi\n\nAtoms # sphere\n\n"
                         "1 1 0.2 1 0 1 1\n");
-    jam_view(sys, JAM_VIEW_POSITIONS, &x, &len);
+    x = view_of(sys, JAM_VIEW_POSITIONS);
     assert_true(x[0] == 1.0 && x[1] == 1.0 && x[2] == 0.5);
     assert_non_null(strstr(jam_notes(sys), corner));
     jam_destroy(sys);

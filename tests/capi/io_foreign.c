@@ -2,7 +2,7 @@
  * and what was changed on the way stands in jam_notes and in the log. */
 #include <math.h>
 #include "io_helpers.h"
-#include "start.h"
+#include "systems.h"
 
 static jam_system *read_with(const char *text, size_t length, const jam_create_options *o) {
   jam_system *sys = NULL;
@@ -61,7 +61,6 @@ CASE(odd_plain_text) {
 CASE(a_box_that_is_not_named) {
   jam_create_options o = defaults();
   const char *text = "3\n3\n0.2\n0.1 0.2 0.3\n0.6 0.7 1.8\n0.35 0.9 0.15\n";
-  jam_info info;
   jam_system *sys;
   expect_refused(text, JAM_E_FORMAT,
                  "line 5: the coordinate 1.8 lies outside the box [0, 1], and the file names no box");
@@ -69,8 +68,7 @@ CASE(a_box_that_is_not_named) {
   o.box = 2.0;
   sys = read_with(text, strlen(text), &o);
   assert_string_equal(jam_notes(sys), "");
-  info.struct_size = sizeof info;
-  jam_get_info(sys, &info);
+  const jam_info info = info_of(sys);
   assert_true(info.box == 2.0);
   jam_destroy(sys);
   jam_destroy(read_text("2\n2\n0.1\n0.1 1.000000\n-0.0000004 0.5\n")); /* rounding of six digits */

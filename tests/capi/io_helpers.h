@@ -11,9 +11,7 @@
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
-#include "jam/jam.h"
-#include "start.h"
-#include "test.h"
+#include "systems.h"
 
 static char scratch[64];
 
@@ -94,7 +92,6 @@ static inline void expect_refused(const char *text, jam_status status, const cha
 
 /* n spheres at random, diameters 50:50 with the given ratio. */
 static inline jam_system *some_packing(int32_t dim, int64_t n, double ratio, double box) {
-  jam_system *sys = NULL;
   double *diameters = (double *)malloc((size_t)n * sizeof *diameters);
   int64_t i;
   for (i = 0; i < n; ++i) diameters[i] = i % 2 ? ratio : 1.0;
@@ -104,7 +101,7 @@ static inline jam_system *some_packing(int32_t dim, int64_t n, double ratio, dou
   o.box = box;
   o.seed = 7;
   o.packing_fraction = 0.02; /* d = 8 saturates below 0.1 */
-  assert_int_equal(create_from(&o, NULL, 0, diameters, (size_t)n, &sys), JAM_OK);
+  jam_system *sys = created_from(&o, NULL, 0, diameters, (size_t)n);
   free(diameters);
   return sys;
 }

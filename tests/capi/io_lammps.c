@@ -1,6 +1,7 @@
 /* LAMMPS data and dumps: each line is understood as LAMMPS understands it, or refused with its number. */
 #include <math.h>
 #include "io_helpers.h"
+#include "systems.h"
 
 static jam_system *read_text(const char *text) {
   jam_system *sys = NULL;
@@ -14,9 +15,7 @@ static jam_system *read_text(const char *text) {
 static void same_spheres(jam_system *sys, int32_t dim, size_t n, const double *x, const double *sizes, double box) {
   const double *y, *s;
   size_t len, k;
-  jam_info info;
-  info.struct_size = sizeof info;
-  jam_get_info(sys, &info);
+  const jam_info info = info_of(sys);
   assert_int_equal(info.dim, dim);
   assert_int_equal(info.n, n);
   assert_true(fabs(info.box / box - 1) < 1e-14);
@@ -211,10 +210,8 @@ static jam_status read_walled(const char *text, int32_t container, int32_t walls
 
 static int32_t closed_by(const char *text, int32_t container, int32_t walls, int *noted) {
   jam_system *sys = NULL;
-  jam_info info;
   assert_int_equal(read_walled(text, container, walls, &sys), JAM_OK);
-  info.struct_size = sizeof info;
-  jam_get_info(sys, &info);
+  const jam_info info = info_of(sys);
   assert_int_equal(info.container, container);
   *noted = strstr(jam_notes(sys), "does not say which directions are periodic") != NULL;
   jam_destroy(sys);

@@ -2,7 +2,7 @@
 #include <locale.h>
 #include "comma.h"
 #include "io_helpers.h"
-#include "start.h"
+#include "systems.h"
 
 static void round_trip(int32_t dim, double ratio, double box, const char *name, int32_t format) {
   jam_system *sys = some_packing(dim, 60, ratio, box), *back = NULL;
@@ -94,12 +94,11 @@ CASE(locale_with_comma_changes_nothing) {
 
 CASE(layout_of_plain) {
   const double x[] = {0.25, 0.5, 0.75, 0.125}, s[] = {0.25, 0.125}, one = 0.25;
-  jam_system *sys;
   char *text;
   size_t size;
   DEFAULTS(create, o);
   o.dim = 2;
-  assert_int_equal(create_from(&o, x, 4, &one, 1, &sys), JAM_OK);
+  jam_system *sys = created_from(&o, x, 4, &one, 1);
   assert_int_equal(jam_write(sys, in_scratch("one.dat"), JAM_FORMAT_AUTO), JAM_OK);
   jam_destroy(sys);
   text = get_bytes(in_scratch("one.dat"), &size);

@@ -1,6 +1,7 @@
 /* Tables as other programs write them, what the caller says of a file that does not say it (jam_read_as), cells of the
  * code of Torquato and Jiao, frames without spheres, and what jam_formats lists. */
 #include "io_helpers.h"
+#include "systems.h"
 
 static jam_system *read_as(const char *text, const char *layout, double box) {
   jam_system *sys = NULL;
@@ -26,9 +27,7 @@ static void expect_refused_as(const char *text, const char *layout, jam_status s
 static void expect(jam_system *sys, int32_t dim, int64_t n, const double *x, const double *diameters) {
   const double *view;
   size_t len;
-  jam_info info;
-  info.struct_size = sizeof info;
-  jam_get_info(sys, &info);
+  const jam_info info = info_of(sys);
   assert_int_equal(info.dim, dim);
   assert_int_equal(info.n, n);
   jam_view(sys, JAM_VIEW_POSITIONS, &view, &len);

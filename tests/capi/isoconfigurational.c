@@ -4,19 +4,16 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "jam/jam.h"
-#include "start.h"
-#include "test.h"
+#include "systems.h"
 
 enum { N = 60, D = 3, M = 3, RUNS = 12, BLOCK = 4 };
 static const double instants[M] = {1.0, 3.0, 9.0};
 
 static jam_system *packing(void) {
-  jam_system *sys = NULL;
   DEFAULTS(create, o);
   o.n = N;
   o.dim = D;
-  assert_int_equal(jam_create(&o, NULL, &sys), JAM_OK);
+  jam_system *sys = created(&o);
   DEFAULTS(compress, c);
   c.packing_fraction = 0.5;
   assert_int_equal(jam_compress(sys, &c, NULL), JAM_OK);
@@ -320,10 +317,9 @@ CASE(one_sphere_cannot_run) {
   const double x[3] = {0.1, 0.2, 0.3}, sigma = 0.3;
   jam_isoconf_options i = options();
   jam_isoconf_report r;
-  jam_system *sys = NULL;
   DEFAULTS(create, o);
   o.n = 1;
-  assert_int_equal(create_from(&o, x, 3, &sigma, 1, &sys), JAM_OK);
+  jam_system *sys = created_from(&o, x, 3, &sigma, 1);
   assert_int_equal(run(sys, &i, &r), JAM_NOT_CONVERGED);
   assert_int_equal(r.stop_reason, JAM_STOP_STALLED);
   assert_int_equal(r.runs, 0);

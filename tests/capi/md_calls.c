@@ -1,19 +1,15 @@
 /* jam_run and jam_compress: arguments, statuses, edge cases, cancelling. */
-#include <jam/jam.h>
 #include <math.h>
 #include <string.h>
 
-#include "start.h"
-#include "test.h"
+#include "systems.h"
 
 static jam_system *make(int64_t n, int32_t dim, double fraction) {
-  jam_system *sys = NULL;
   DEFAULTS(create, o);
   o.n = n;
   o.dim = dim;
   o.packing_fraction = fraction;
-  assert_int_equal(jam_create(&o, NULL, &sys), JAM_OK);
-  return sys;
+  return created(&o);
 }
 
 static jam_md_report empty_report(void) {
@@ -22,8 +18,7 @@ static jam_md_report empty_report(void) {
 }
 
 static double fraction_of(const jam_system *sys) {
-  SIZED(jam_info, info);
-  assert_int_equal(jam_get_info(sys, &info), JAM_OK);
+  const jam_info info = info_of(sys);
   return info.packing_fraction;
 }
 
@@ -139,7 +134,6 @@ CASE(exact_collisions) {
 /* A simple cubic lattice. */
 static jam_system *lattice(double diameter) {
   double x[27 * 3];
-  jam_system *sys = NULL;
   int k;
   for (k = 0; k < 27; ++k) {
     x[3 * k] = (k % 3) / 3.0;
@@ -148,14 +142,12 @@ static jam_system *lattice(double diameter) {
   }
   DEFAULTS(create, o);
   o.n = 27;
-  assert_int_equal(create_from(&o, x, 81, &diameter, 1, &sys), JAM_OK);
-  return sys;
+  return created_from(&o, x, 81, &diameter, 1);
 }
 
 CASE(starts_at_contact) {
   /* A row of three that touch at the start, and one sphere apart. */
   const double row[] = {0.25, 0.5, 0.5, 0.5, 0.5, 0.5, 0.75, 0.5, 0.5, 0.5, 0.125, 0.125}, diameter = 0.25;
-  jam_system *sys = NULL;
   jam_md_report report = empty_report();
   jam_status status;
   DEFAULTS(run, r);
@@ -165,7 +157,7 @@ CASE(starts_at_contact) {
   c.wall_time = 10.0;
   DEFAULTS(create, o);
   o.n = 4;
-  assert_int_equal(create_from(&o, row, 12, &diameter, 1, &sys), JAM_OK);
+  jam_system *sys = created_from(&o, row, 12, &diameter, 1);
   assert_int_equal(jam_run(sys, &r, &report), JAM_OK);
   assert_true(report.max_overlap < 1e-14 && report.energy_drift < 1e-12);
   jam_destroy(sys);
@@ -283,12 +275,11 @@ CASE(box_only_scales) {
   jam_system *a = make(60, 3, 0.3), *b = NULL;
   const double *x, *d, *y, *e;
   double scaled[180], diameter;
-  size_t len;
   jam_md_report ra = empty_report(), rb = empty_report();
   int k;
-  jam_view(a, JAM_VIEW_POSITIONS, &x, &len);
+  x = view_of(a, JAM_VIEW_POSITIONS);
   for (k = 0; k < 180; ++k) scaled[k] = 8.0 * x[k];
-  jam_view(a, JAM_VIEW_DIAMETERS, &d, &len);
+  d = view_of(a, JAM_VIEW_DIAMETERS);
   diameter = 8.0 * d[0];
   DEFAULTS(create, o);
   o.n = 60;
@@ -297,9 +288,9 @@ CASE(box_only_scales) {
   assert_int_equal(jam_compress(a, NULL, &ra), JAM_OK);
   assert_int_equal(jam_compress(b, NULL, &rb), JAM_OK);
   assert_true(ra.pressure == rb.pressure && ra.collisions == rb.collisions && ra.time == rb.time);
-  jam_view(b, JAM_VIEW_POSITIONS, &y, &len);
+  y = view_of(b, JAM_VIEW_POSITIONS);
   for (k = 0; k < 180; ++k) assert_true(y[k] == 8.0 * x[k]);
-  jam_view(b, JAM_VIEW_DIAMETERS, &e, &len);
+  e = view_of(b, JAM_VIEW_DIAMETERS);
   assert_true(e[0] == 8.0 * d[0]);
   jam_destroy(a);
   jam_destroy(b);

@@ -2,9 +2,7 @@
  * cell. Work is never lost at the end of a call. */
 #include <math.h>
 #include <string.h>
-#include "jam/jam.h"
-#include "start.h"
-#include "test.h"
+#include "systems.h"
 
 static double volume_of_sphere(int d, double sigma) {
   return pow(M_PI, 0.5 * d) / tgamma(0.5 * d + 1.0) * pow(0.5 * sigma, d);
@@ -17,11 +15,10 @@ CASE(the_largest_ratio_stays_supported) {
   int k;
   for (k = 0; k < 20; ++k) sizes[k] = k < 4 ? 1e4 : 1.0;
   for (seed = 1; seed <= 20; ++seed) {
-    jam_system *sys = NULL;
     DEFAULTS(create, o);
     DEFAULTS(compress, c);
     o.dim = 2, o.n = 20, o.seed = seed, o.packing_fraction = 0.1;
-    assert_int_equal(create_from(&o, NULL, 0, sizes, 20, &sys), JAM_OK);
+    jam_system *sys = created_from(&o, NULL, 0, sizes, 20);
     c.growth_rate = 1.0, c.packing_fraction = 0.11, c.collisions_per_particle = 20.0;
     assert_true(jam_compress(sys, &c, NULL) >= 0);
     for (k = 0; k < 20; ++k) assert_int_equal(jam_scale_diameters(sys, 0.99), JAM_OK);
@@ -40,14 +37,13 @@ CASE(light_spheres_may_be_fast) {
     double sizes[20], kinetic = 0.0, mean = 0.0;
     const double *v = NULL;
     size_t len = 0, k;
-    jam_system *sys = NULL;
     const size_t d = (size_t)cases[q].dim;
     DEFAULTS(create, o);
     DEFAULTS(run, r);
     SIZED(jam_md_report, report);
     for (k = 0; k < 20; ++k) sizes[k] = k < 4 ? cases[q].ratio : 1.0;
     o.dim = cases[q].dim, o.n = 20, o.packing_fraction = cases[q].fraction, o.masses = JAM_MASSES_VOLUME;
-    assert_int_equal(create_from(&o, NULL, 0, sizes, 20, &sys), JAM_OK);
+    jam_system *sys = created_from(&o, NULL, 0, sizes, 20);
     r.collisions_per_particle = 1.0;
     if (jam_run(sys, &r, &report) != JAM_OK) fail_msg("d = %zu: %s", d, jam_last_error());
     assert_true(report.energy_drift < 1e-9);
@@ -114,11 +110,10 @@ CASE(a_sphere_fills_the_cell) {
   int n;
   for (n = 2; n < 5; ++n) {
     double x[12] = {0, 0, 0, 0.5, 0.5, 0.5, 0.54, 0.54, 0.54, 0.46, 0.5, 0.54}, sizes[4] = {1.0, 0.01, 0.01, 0.01};
-    jam_system *sys = NULL;
     DEFAULTS(create, o);
     DEFAULTS(crunch, c);
     SIZED(jam_crunch_report, r);
-    assert_int_equal(create_from(&o, x, 3 * (size_t)n, sizes, (size_t)n, &sys), JAM_OK);
+    jam_system *sys = created_from(&o, x, 3 * (size_t)n, sizes, (size_t)n);
     assert_int_equal(jam_compress(sys, NULL, NULL), JAM_NOT_CONVERGED);
     assert_non_null(strstr(jam_last_error(), "sphere 0 touches its own image, nothing can grow here"));
     assert_int_equal(jam_crunch(sys, &c, &r), JAM_NOT_JAMMED);
@@ -152,12 +147,10 @@ CASE(default_starts_in_every_dimension) {
   int d;
   for (d = 2; d <= 8; ++d) {
     const double expected = 0.2 * pow(0.5, d > 3 ? d - 3 : 0);
-    jam_system *sys = NULL;
-    SIZED(jam_info, i);
     DEFAULTS(create, o);
     o.dim = d, o.n = 300;
-    assert_int_equal(jam_create(&o, NULL, &sys), JAM_OK);
-    assert_int_equal(jam_get_info(sys, &i), JAM_OK);
+    jam_system *sys = created(&o);
+    const jam_info i = info_of(sys);
     assert_true(fabs(i.packing_fraction / expected - 1.0) < 1e-12);
     jam_destroy(sys);
   }

@@ -1,5 +1,4 @@
 /* What jam_observe records: consistent with itself, with the run, and without a trace in the dynamics. */
-#include <jam/jam.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,11 +8,10 @@
 enum { N = 500 };
 
 static jam_system *fluid_of(int64_t n, double fraction) {
-  jam_system *sys = NULL;
   DEFAULTS(create, o);
   o.n = n;
   o.box = 2.0;
-  assert_int_equal(jam_create(&o, NULL, &sys), JAM_OK);
+  jam_system *sys = created(&o);
   DEFAULTS(compress, c);
   c.growth_rate = 0.05;
   c.pressure = 1e12;
@@ -177,13 +175,12 @@ struct seen {
 
 static int32_t look(const jam_progress *p, void *user) {
   struct seen *s = user;
-  const double *x;
-  size_t len, needed;
+  size_t needed;
   double g[20];
   if (!p->snapshot) return 0;
   assert_int_equal(p->snapshot, s->count + 1);
   s->at[s->count++] = p->collisions;
-  jam_view(s->sys, JAM_VIEW_POSITIONS, &x, &len);
+  const double *x = view_of(s->sys, JAM_VIEW_POSITIONS);
   DEFAULTS(correlation, o);
   o.r_max = 2.0, o.bins = 20;
   assert_int_equal(jam_pair_correlation(s->sys, &o, NULL, 0, g, 20, &needed), JAM_OK);
@@ -237,14 +234,13 @@ CASE(snapshots_show_the_present_state) {
 
 CASE(bad_calls_are_refused) {
   jam_observe_options o;
-  jam_system *sys = NULL;
   int64_t collisions[8];
   double x[8];
   size_t needed = 77;
   int k;
   DEFAULTS(create, c);
   c.n = 8;
-  assert_int_equal(jam_create(&c, NULL, &sys), JAM_OK);
+  jam_system *sys = created(&c);
   assert_int_equal(jam_observed_series(sys, JAM_SERIES_COLUMNS, NULL, 0, &needed), JAM_E_STATE);
   assert_int_equal(jam_observed_gaps(sys, JAM_GAP_COLUMNS, NULL, 0, &needed), JAM_E_STATE);
   assert_int_equal(needed, 77);

@@ -1,6 +1,5 @@
 /* Stages that stop early, by any reason, and go on, in the same process or from a file: the same bits as one that ran
  * through. */
-#include <jam/jam.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -37,13 +36,11 @@ static jam_system *make(int32_t model, int32_t dim, int64_t n, double fraction) 
 
 static void from_file(jam_system **sys) {
   jam_system *again = NULL;
-  jam_info info;
   assert_int_equal(jam_write_checkpoint(*sys, path), JAM_OK);
   jam_destroy(*sys);
   if (jam_read_checkpoint(path, NULL, NULL, &again) < 0) print_error("%s\n", jam_last_error());
   assert_non_null(again);
-  info.struct_size = sizeof info;
-  assert_int_equal(jam_get_info(again, &info), JAM_OK);
+  const jam_info info = info_of(again);
   assert_true(info.paused != 0);
   *sys = again;
 }
@@ -224,9 +221,7 @@ CASE(checkpoint_from_the_callback_in_growth) {
 }
 
 static int32_t paused(const jam_system *sys) {
-  jam_info info;
-  info.struct_size = sizeof info;
-  assert_int_equal(jam_get_info(sys, &info), JAM_OK);
+  const jam_info info = info_of(sys);
   return info.paused;
 }
 

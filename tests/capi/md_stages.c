@@ -3,16 +3,12 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "test.h"
-
-#include "jam/jam.h"
+#include "systems.h"
 
 static jam_system *start_with(int64_t n) {
-  jam_system *sys = NULL;
   DEFAULTS(create, o);
   o.n = n, o.seed = 2;
-  assert_int_equal(jam_create(&o, NULL, &sys), JAM_OK);
-  return sys;
+  return created(&o);
 }
 
 static jam_system *start(void) { return start_with(60); }
@@ -139,8 +135,7 @@ CASE(wall_time_cuts_the_protocol) {
   grow(whole, NULL, JAM_OK);
   o.wall_time = 0.01;
   while ((status = jam_compress(cut, &o, NULL)) == JAM_LIMIT) {
-    SIZED(jam_info, info);
-    assert_int_equal(jam_get_info(cut, &info), JAM_OK);
+    const jam_info info = info_of(cut);
     o.resume = info.paused != 0;
   }
   assert_int_equal(status, JAM_OK);

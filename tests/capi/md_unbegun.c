@@ -2,17 +2,14 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include "jam/jam.h"
-#include "test.h"
+#include "systems.h"
 
 static const char *path = "md_unbegun_checkpoint.bin";
 
 static jam_system *dense(int32_t dim, int64_t n) {
-  jam_system *sys = NULL;
   DEFAULTS(create, o);
   o.dim = dim, o.n = n, o.seed = 5;
-  assert_int_equal(jam_create(&o, NULL, &sys), JAM_OK);
-  return sys;
+  return created(&o);
 }
 
 /* How a stopped call is continued: on the handle, on a copy, from a checkpoint. */
@@ -45,8 +42,7 @@ static void assert_same(jam_system *a, jam_system *b) {
 }
 
 static int32_t paused(const jam_system *sys) {
-  SIZED(jam_info, i);
-  assert_int_equal(jam_get_info(sys, &i), JAM_OK);
+  const jam_info i = info_of(sys);
   return i.paused;
 }
 

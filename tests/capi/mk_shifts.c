@@ -1,18 +1,15 @@
 /* Shifts of the Mari-Kurchan model: distances that a user computes with them. */
-#include <jam/jam.h>
 #include <math.h>
 
-#include "test.h"
+#include "systems.h"
 
 enum { N = 100, MOST = 20 * N };
 
 static jam_system *fluid(int32_t dim, int32_t model, double zeta) {
-  jam_system *sys = NULL;
   DEFAULTS(create, o);
   o.n = N, o.dim = dim, o.seed = 3, o.model = model, o.mk_zeta = zeta, o.packing_fraction = 0.6;
   if (model != JAM_MODEL_MK) o.packing_fraction = 0.2;
-  if (jam_create(&o, NULL, &sys) != JAM_OK) fail_msg("%s", jam_last_error());
-  return sys;
+  return created(&o);
 }
 
 /* The gaps h of jam_gaps are r / sigma - 1 by these shifts and the nearest image, which is the only one so near. */
@@ -23,11 +20,10 @@ CASE(distances_are_those_of_the_gaps) {
     for (int strength = 0; strength < 2; ++strength) {
       jam_system *sys = fluid(dim, JAM_MODEL_MK, strength ? INFINITY : 0.7);
       const double *x, *sigma;
-      size_t len, gaps, needed;
-      jam_info info = {.struct_size = sizeof info};
-      assert_int_equal(jam_get_info(sys, &info), JAM_OK);
-      assert_int_equal(jam_view(sys, JAM_VIEW_POSITIONS, &x, &len), JAM_OK);
-      assert_int_equal(jam_view(sys, JAM_VIEW_DIAMETERS, &sigma, &len), JAM_OK);
+      size_t gaps, needed;
+      const jam_info info = info_of(sys);
+      x = view_of(sys, JAM_VIEW_POSITIONS);
+      sigma = view_of(sys, JAM_VIEW_DIAMETERS);
       assert_int_equal(jam_gaps(sys, 0.3, 0, gap, MOST, pair, 2 * MOST, &gaps), JAM_OK);
       assert_true(gaps > 50);
       assert_int_equal(jam_mk_shifts(sys, pair, 2 * gaps, shift, 3 * MOST, &needed), JAM_OK);

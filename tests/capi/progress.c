@@ -1,8 +1,7 @@
 /* The progress of long calls: a fraction that never falls, and the time left where it is known. */
 #include <math.h>
 #include <string.h>
-#include "jam/jam.h"
-#include "test.h"
+#include "systems.h"
 
 typedef struct seen {
   int reports, known, times;
@@ -28,10 +27,9 @@ static int32_t look(const jam_progress *p, void *user) {
 }
 
 static jam_system *random_start(int32_t dim, int64_t n, seen *s) {
-  jam_system *sys = NULL;
   DEFAULTS(create, o);
   o.dim = dim, o.n = n, o.seed = 2;
-  assert_int_equal(jam_create(&o, NULL, &sys), JAM_OK);
+  jam_system *sys = created(&o);
   memset(s, 0, sizeof *s);
   assert_int_equal(jam_set_progress(sys, look, s), JAM_OK);
   return sys;

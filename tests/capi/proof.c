@@ -1,23 +1,20 @@
 /* Calls of proofs: arguments, statuses, texts, and what a proof of two sizes of disks says. */
 #include <fenv.h>
-#include <jam/jam.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "start.h"
-#include "test.h"
+#include "systems.h"
 
 enum { n = 64 };
 static double sizes[n];
 
 static jam_system *jammed(void) {
-  jam_system *sys = NULL;
   int i;
   DEFAULTS(create, o);
   o.n = n, o.dim = 2, o.seed = 1, o.packing_fraction = 0.3;
   for (i = 0; i < n; ++i) sizes[i] = i % 2 ? 1.4 : 1.0;
-  assert_int_equal(create_from(&o, NULL, 0, sizes, n, &sys), JAM_OK);
+  jam_system *sys = created_from(&o, NULL, 0, sizes, n);
   assert_int_equal(jam_compress(sys, NULL, NULL), JAM_OK);
   assert_int_equal(jam_crunch(sys, NULL, NULL), JAM_OK);
   return sys;
@@ -25,13 +22,12 @@ static jam_system *jammed(void) {
 
 CASE(bad_arguments_are_refused) {
   static const char file[] = "no_stable.jamproof";
-  jam_system *sys = NULL;
   jam_proof_report r = {.struct_size = sizeof r}, wrong = {.struct_size = 3};
   double low[2 * n], ratio[n];
   size_t needed = 0;
   DEFAULTS(create, o);
   o.n = 20;
-  assert_int_equal(jam_create(&o, NULL, &sys), JAM_OK);
+  jam_system *sys = created(&o);
   assert_int_equal(jam_prove(sys, JAM_RIGIDITY_COLLECTIVE, NULL, 0, &r), JAM_E_STATE);
   assert_int_equal(jam_refined_positions(sys, NULL, 0, NULL, 0, NULL, 0, &needed), JAM_OK);
   assert_int_equal(needed, 60);
@@ -69,9 +65,8 @@ CASE(a_packing_of_two_sizes_is_proved) {
   jam_proof_report r = {.struct_size = sizeof r}, plain = {.struct_size = sizeof plain};
   const double *x, *before;
   double high[2 * n], low[2 * n], kept[2 * n];
-  size_t len;
   int i;
-  jam_view(sys, JAM_VIEW_POSITIONS, &before, &len);
+  before = view_of(sys, JAM_VIEW_POSITIONS);
   memcpy(kept, before, sizeof kept);
   assert_int_equal(jam_prove(sys, JAM_RIGIDITY_COLLECTIVE, sizes, n, &r), JAM_OK);
   assert_int_equal(jam_prove(sys, JAM_RIGIDITY_COLLECTIVE, NULL, 0, &plain), JAM_OK);
@@ -84,7 +79,7 @@ CASE(a_packing_of_two_sizes_is_proved) {
   assert_true(r.inner == r.radius && r.outer > 1e-10); /* about the exact packing itself nothing moves */
   assert_true(fabs(r.packing_fraction - plain.packing_fraction) < 1e-12);
   assert_int_equal(jam_refined_positions(sys, sizes, n, high, 2 * n, low, 2 * n, NULL), JAM_OK);
-  jam_view(sys, JAM_VIEW_POSITIONS, &x, &len);
+  x = view_of(sys, JAM_VIEW_POSITIONS);
   assert_memory_equal(x, kept, sizeof kept); /* const: nothing moved */
   for (i = 0; i < 2 * n; ++i) {
     assert_true(fabs(high[i] - x[i]) < 1e-12);
@@ -165,10 +160,9 @@ CASE(the_text_of_a_proof_is_short) {
 /* Mari-Kurchan shifts are no cell vectors. */
 CASE(shifted_pairs_are_refused_by_name) {
   jam_crunch_report r = {.struct_size = sizeof r};
-  jam_system *sys = NULL;
   DEFAULTS(create, o);
   o.n = 40, o.model = JAM_MODEL_MK, o.packing_fraction = 0.2;
-  assert_int_equal(jam_create(&o, NULL, &sys), JAM_OK);
+  jam_system *sys = created(&o);
   assert_true(jam_crunch(sys, NULL, &r) >= 0);
   assert_int_equal(jam_prove(sys, JAM_RIGIDITY_COLLECTIVE, NULL, 0, NULL), JAM_E_UNSUPPORTED);
   assert_int_equal(jam_prove(sys, JAM_RIGIDITY_STRICT, NULL, 0, NULL), JAM_E_UNSUPPORTED);

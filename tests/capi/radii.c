@@ -1,15 +1,12 @@
 /* jam_maximise_radii from C: one disk and two, weights, and what a stop leaves. */
-#include <jam/jam.h>
 #include <math.h>
 #include <string.h>
-#include "test.h"
+#include "systems.h"
 
 static jam_system *square(int64_t n, int64_t seed) {
-  jam_system *sys = NULL;
   DEFAULTS(create, o);
   o.n = n, o.dim = 2, o.seed = seed, o.walls = 3;
-  assert_int_equal(jam_create(&o, NULL, &sys), JAM_OK);
-  return sys;
+  return created(&o);
 }
 
 CASE(known_sums) {

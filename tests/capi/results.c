@@ -5,19 +5,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "start.h"
-#include "test.h"
-
-#include "jam/jam.h"
+#include "systems.h"
 
 static const char *path = "results.bin";
 
 static jam_system *start(int32_t dim, int64_t n, double fraction, int32_t overlap) {
-  jam_system *sys = NULL;
   DEFAULTS(create, o);
   o.dim = dim, o.n = n, o.packing_fraction = fraction, o.overlap = overlap, o.seed = 3;
-  assert_int_equal(jam_create(&o, NULL, &sys), JAM_OK);
-  return sys;
+  return created(&o);
 }
 
 static jam_status crunch(jam_system *sys, int32_t strain, int64_t max_lps, double gap, int32_t keep) {
@@ -197,8 +192,7 @@ CASE(every_move_clears_all) {
   assert_int_equal(jam_set_velocities(jammed, v, len), JAM_OK); /* any will do */
   assert_int_equal(knows(jammed), 3);                           /* velocities move nothing */
   for (move = 0; move < 6; ++move) {
-    jam_system *sys = NULL;
-    assert_int_equal(jam_copy(jammed, &sys), JAM_OK);
+    jam_system *sys = copy_of(jammed);
     each_move(move, sys);
     assert_int_equal(knows(sys), 0);
     jam_destroy(sys);
@@ -207,8 +201,7 @@ CASE(every_move_clears_all) {
 }
 
 static double pressure_of(const jam_system *sys) {
-  jam_info info = {.struct_size = sizeof info};
-  assert_int_equal(jam_get_info(sys, &info), JAM_OK);
+  const jam_info info = info_of(sys);
   return info.pressure;
 }
 
@@ -229,8 +222,7 @@ CASE(pressures_are_of_this_packing) {
   DEFAULTS(monte_carlo, mc);
   mc.sweeps = 2;
   for (move = 0; move < 4; ++move) {
-    jam_system *sys = NULL;
-    assert_int_equal(jam_copy(grown, &sys), JAM_OK);
+    jam_system *sys = copy_of(grown);
     assert_true(pressure_of(sys) == pressure_of(grown));
     assert_int_equal(jam_view(sys, JAM_VIEW_POSITIONS, &v, &len), JAM_OK);
     if (move == 0) assert_true(crunch(sys, JAM_STRAIN_NONE, 0, 0.0, 0) >= 0);

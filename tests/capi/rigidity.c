@@ -1,16 +1,14 @@
 /* jam_rigidity and jam_flex: packings that are jammed, fluids and lattices that are not, and what flexes look like. */
-#include <jam/jam.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include "start.h"
+#include "systems.h"
 #include "verdicts.h"
 
 static jam_system *grown(int dim, int64_t n, int64_t seed, double pressure) {
-  jam_system *sys = NULL;
   DEFAULTS(create, o);
   o.dim = dim, o.n = n, o.seed = seed;
-  assert_int_equal(jam_create(&o, NULL, &sys), JAM_OK);
+  jam_system *sys = created(&o);
   DEFAULTS(compress, c);
   c.pressure = pressure;
   assert_int_equal(jam_compress(sys, &c, NULL), JAM_OK);
@@ -18,15 +16,13 @@ static jam_system *grown(int dim, int64_t n, int64_t seed, double pressure) {
 }
 
 static jam_system *square(int side) {
-  jam_system *sys = NULL;
   double x[2 * 36];
   const double sigma = 1.0;
   assert_true(side <= 6);
   DEFAULTS(create, o);
   o.dim = 2, o.n = side * side, o.box = side;
   for (int k = 0; k < side * side; ++k) x[2 * k] = k % side, x[2 * k + 1] = k / side;
-  assert_int_equal(create_from(&o, x, 2 * (size_t)(side * side), &sigma, 1, &sys), JAM_OK);
-  return sys;
+  return created_from(&o, x, 2 * (size_t)(side * side), &sigma, 1);
 }
 
 /* Fluids near jamming: no pair touches, and the network from geometry is not taken for a jammed one. */

@@ -3,8 +3,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include "jam/jam.h"
-#include "test.h"
+#include "systems.h"
 
 static jam_diameters_options options(int32_t law) {
   DEFAULTS(diameters, o);
@@ -273,12 +272,11 @@ CASE(curves_are_read_from_files) {
 }
 
 CASE(fluids_do_not_begin_to_grow_beyond_their_reach) {
-  jam_system *sys;
   DEFAULTS(create, c);
   DEFAULTS(compress, o);
   c.n = 1000;
   SIZED(jam_md_report, r);
-  assert_int_equal(jam_create(&c, NULL, &sys), JAM_OK);
+  jam_system *sys = created(&c);
   o.packing_fraction = 0.70;
   assert_int_equal(jam_compress(sys, &o, &r), JAM_E_UNPLACEABLE);
   assert_non_null(strstr(jam_last_error(), "Farr and Groot"));

@@ -7,8 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "jam/jam.h"
-
 static void expect_overlap(jam_status status) {
   assert_int_equal(status, JAM_E_OVERLAP);
   assert_non_null(strstr(jam_last_error(), "overlap by"));
@@ -152,10 +150,9 @@ CASE(response) {
 /* Energy after a strain x times e, relaxed. */
 static double strained_energy(const jam_system *sys, const double *e, double x) {
   double strain[9];
-  jam_system *copy = NULL;
   jam_relax_report r = {.struct_size = sizeof r};
   for (int k = 0; k < 9; ++k) strain[k] = x * e[k];
-  assert_int_equal(jam_copy(sys, &copy), JAM_OK);
+  jam_system *copy = copy_of(sys);
   assert_int_equal(jam_strain(copy, strain, 9), JAM_OK);
   assert_int_equal(jam_relax(copy, NULL, &r), JAM_OK);
   jam_destroy(copy);
@@ -260,10 +257,9 @@ CASE(unjammed_start) {
 /* Hard spheres have no state that overlaps, and a Monte Carlo run of them would reject every step. */
 CASE(hard_monte_carlo_refuses_overlaps) {
   const double x[] = {0.4, 0.5, 0.6, 0.5}, sigma = 0.3;
-  jam_system *sys = NULL;
   DEFAULTS(create, create);
   create.dim = 2, create.overlap = JAM_OVERLAP_ALLOW;
-  assert_int_equal(create_from(&create, x, 4, &sigma, 1, &sys), JAM_OK);
+  jam_system *sys = created_from(&create, x, 4, &sigma, 1);
   DEFAULTS(monte_carlo, o);
   o.step = 0.1, o.sweeps = 5;
   assert_int_equal(jam_monte_carlo(sys, &o, NULL), JAM_E_OVERLAP);

@@ -1,12 +1,9 @@
 /* Spheres that share a centre: the energy has a cusp there, so it is no minimum. They part, along a direction that the
  * seed draws, and end where the same start moved by a hair ends: at an energy as low. */
-#include "start.h"
-#include "test.h"
+#include "systems.h"
 
 #include <math.h>
 #include <string.h>
-
-#include "jam/jam.h"
 
 /* n points of a generator of its own in [0, 1)^dim. */
 static void scatter(double *x, int count, unsigned seed) {
@@ -17,11 +14,9 @@ static void scatter(double *x, int count, unsigned seed) {
 }
 
 static jam_system *soft(const double *x, int n, int dim, double diameter, int64_t seed) {
-  jam_system *sys = NULL;
   DEFAULTS(create, o);
   o.dim = dim, o.overlap = JAM_OVERLAP_ALLOW, o.seed = seed;
-  assert_int_equal(create_from(&o, x, (size_t)(n * dim), &diameter, 1, &sys), JAM_OK);
-  return sys;
+  return created_from(&o, x, (size_t)(n * dim), &diameter, 1);
 }
 
 static jam_relax_report relaxed(jam_system *sys, int32_t minimiser, double tolerance) {
@@ -36,10 +31,8 @@ static jam_relax_report relaxed(jam_system *sys, int32_t minimiser, double toler
 
 /* Smallest distance of two spheres over all nearest images, in a unit cube. */
 static double closest(const jam_system *sys, int n, int dim) {
-  const double *x;
-  size_t len;
   double least = 1.0;
-  jam_view(sys, JAM_VIEW_POSITIONS, &x, &len);
+  const double *x = view_of(sys, JAM_VIEW_POSITIONS);
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < i; ++j) {
       double r2 = 0.0;
@@ -104,10 +97,9 @@ CASE(coincident_pairs_are_counted) {
   assert_int_equal(jam_relax(sys, &o, &r), JAM_LIMIT);
   assert_int_equal(r.converged, 0);
   assert_true(fabs(r.max_overlap - 1.0) < 1e-9);
-  const double *p;
-  size_t len, rows = 0;
+  size_t rows = 0;
   int64_t pairs = 0;
-  jam_view(sys, JAM_VIEW_POSITIONS, &p, &len);
+  const double *p = view_of(sys, JAM_VIEW_POSITIONS);
   for (int i = 0; i < 64; ++i) /* sigma is half the box: each pair overlaps through one image at most */
     for (int j = 0; j < i; ++j) {
       double r2 = 0.0;
@@ -129,10 +121,8 @@ CASE(seeds_choose_the_direction) {
   for (int64_t seed = 1; seed <= 3; ++seed)
     for (int again = 0; again < 2; ++again) {
       jam_system *sys = soft(x, 2, 3, 0.2, seed);
-      const double *p;
-      size_t len;
       relaxed(sys, JAM_MINIMISER_NEWTON, 1e-12);
-      jam_view(sys, JAM_VIEW_POSITIONS, &p, &len);
+      const double *p = view_of(sys, JAM_VIEW_POSITIONS);
       if (again) assert_memory_equal(first, p, sizeof first);
       if (!again && seed > 1) assert_memory_not_equal(first, p, sizeof first);
       memcpy(first, p, sizeof first);

@@ -4,7 +4,7 @@
 #include <pthread.h>
 
 #include "calls.h"
-#include "test.h"
+#include "systems.h"
 
 enum { THREADS = 3, ROUNDS = 2, SETTINGS = 400 };
 
@@ -83,7 +83,6 @@ CASE(every_call_from_several_threads) {
   static const int first[THREADS] = {0, 1, 2};
   pthread_t threads[THREADS], setter;
   int k;
-  SIZED(jam_info, info);
   shared = system_for(NETWORK);
   assert_non_null(shared);
   assert_int_equal(pthread_create(&setter, NULL, set_logs, NULL), 0);
@@ -92,7 +91,7 @@ CASE(every_call_from_several_threads) {
   assert_int_equal(pthread_join(setter, NULL), 0);
   if (wrong[0]) fail_msg("%s", wrong);
   for (k = 0; k < SETTINGS; ++k) assert_int_equal(told[k].late, 0);
-  assert_int_equal(jam_get_info(shared, &info), JAM_OK); /* nobody is left inside */
+  info_of(shared); /* nobody is left inside */
   assert_int_equal(jam_set_log(shared, NULL, 0, NULL), JAM_OK);
   jam_destroy(shared);
 }

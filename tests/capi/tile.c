@@ -1,20 +1,18 @@
 /* jam_tile: one copy has the bits of the packing; what cannot be tiled is refused by name, before any work,
  * and modes at a wave vector before memory is taken. */
-#include <jam/jam.h>
 #include <math.h>
 #include <string.h>
 
-#include "test.h"
+#include "systems.h"
 #include "walls.h"
 
 enum { N = 20, MOST = 8192 };
 static double left[MOST], right[MOST];
 
 static jam_system *crunched(int dim, int64_t seed) {
-  jam_system *sys = NULL;
   DEFAULTS(create, o);
   o.dim = dim, o.n = N, o.seed = seed;
-  assert_int_equal(jam_create(&o, NULL, &sys), JAM_OK);
+  jam_system *sys = created(&o);
   assert_true(jam_crunch(sys, NULL, NULL) >= 0);
   return sys;
 }

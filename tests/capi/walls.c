@@ -1,13 +1,12 @@
 /* Walls and containers: what is made, what is refused, and that files and checkpoints keep them. */
 #define _XOPEN_SOURCE 700 /* mkstemp */
 #include "walls.h"
-#include <jam/jam.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
-#include "start.h"
+#include "systems.h"
 
 static double distance(const walled *s, int w, const double *x) {
   const int round = s->container == JAM_CONTAINER_BALL ? s->dim : s->container == JAM_CONTAINER_CYLINDER ? 2 : 0;
@@ -32,12 +31,11 @@ CASE(random_start_lies_inside) {
   for (int k = 0; k < WALLED; ++k) {
     const walled *s = &walled_scenes[k];
     jam_system *sys = NULL;
-    jam_info info = {.struct_size = sizeof info};
     const double *x, *sigma;
     double sum = 0.0, areas = 0.0;
     size_t len;
     assert_int_equal(create_walled(s, 60, 0.15, 7, NULL, &sys), JAM_OK);
-    assert_int_equal(jam_get_info(sys, &info), JAM_OK);
+    const jam_info info = info_of(sys);
     assert_int_equal(info.container, s->container);
     assert_int_equal(info.walls, s->walls);
     assert_true(fabs(info.volume / volume(s) - 1.0) < 1e-14);
@@ -80,7 +78,6 @@ CASE(overlaps_with_walls_are_named_or_shrunk) {
   const double x[] = {0.5, 0.95, 0.5, 0.3}, outside[] = {0.5, 1.2, 0.5, 0.3};
   jam_system *sys = NULL;
   const double *sigma;
-  size_t len;
   for (int k = LINES; k <= CIRCLE; ++k) {
     assert_int_equal(from_arrays(&walled_scenes[k], x, 2, 0.2, JAM_OVERLAP_REFUSE, &sys), JAM_E_OVERLAP);
     assert_non_null(strstr(jam_last_error(), k == LINES ? "sphere 0 overlaps the wall y = 1 by 0.5"
@@ -90,7 +87,7 @@ CASE(overlaps_with_walls_are_named_or_shrunk) {
     assert_non_null(
         strstr(jam_last_error(), "positions count from the corner of the cell; if yours count from its centre, add"));
     assert_int_equal(from_arrays(&walled_scenes[k], x, 2, 0.2, JAM_OVERLAP_SHRINK, &sys), JAM_OK);
-    jam_view(sys, JAM_VIEW_DIAMETERS, &sigma, &len);
+    sigma = view_of(sys, JAM_VIEW_DIAMETERS);
     assert_true(fabs(sigma[0] - 0.1) < 1e-14);
     jam_destroy(sys);
   }
@@ -310,14 +307,13 @@ CASE(narrow_scenes_start_lower) {
       for (int64_t seed = 1; seed <= 2; ++seed) {
         double cell[9] = {0.0};
         jam_system *sys = NULL;
-        jam_info info = {.struct_size = sizeof info};
         const int d = scenes[k].dim;
         DEFAULTS(create, o);
         o.dim = d, o.n = counts[q], o.seed = seed, o.container = scenes[k].container, o.walls = scenes[k].walls;
         for (int c = 0; c < d; ++c) cell[c * (d + 1)] = scenes[k].edge[c];
         if (create_in_cell(&o, cell, (size_t)(d * d), NULL, 0, NULL, 0, &sys) != JAM_OK)
           fail_msg("scene %zu, %lld spheres: %s", k, (long long)counts[q], jam_last_error());
-        assert_int_equal(jam_get_info(sys, &info), JAM_OK);
+        const jam_info info = info_of(sys);
         if (info.packing_fraction > 0.2 * (1 - 1e-12)) {
           assert_string_equal(jam_notes(sys), "");
         } else {

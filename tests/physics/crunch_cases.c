@@ -3,15 +3,13 @@
 #include <pthread.h>
 #include <string.h>
 
-#include "start.h"
+#include "systems.h"
 #include "verdicts.h"
 
 static jam_system *random_start(int64_t n, int64_t seed) {
-  jam_system *sys;
   DEFAULTS(create, o);
   o.n = n, o.packing_fraction = 0.3, o.seed = seed;
-  assert_int_equal(jam_create(&o, NULL, &sys), JAM_OK);
-  return sys;
+  return created(&o);
 }
 
 /* A cancel with no call running stops the next verb, and only that one. */
@@ -70,10 +68,10 @@ CASE(box_does_not_matter) {
   jam_crunch_report a, b;
   const double *x, *s;
   double y[300], t[100];
-  size_t len, k;
-  jam_view(small, JAM_VIEW_POSITIONS, &x, &len);
+  size_t k;
+  x = view_of(small, JAM_VIEW_POSITIONS);
   for (k = 0; k < 300; ++k) y[k] = x[k] * 1024.0;
-  jam_view(small, JAM_VIEW_DIAMETERS, &s, &len);
+  s = view_of(small, JAM_VIEW_DIAMETERS);
   for (k = 0; k < 100; ++k) t[k] = s[k] * 1024.0;
   DEFAULTS(create, o);
   o.box = 1024.0;

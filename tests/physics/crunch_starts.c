@@ -6,17 +6,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "start.h"
-#include "test.h"
+#include "systems.h"
 
 /* Smallest gap over all pairs and images out to `reach` boxes, own images too. */
 static double smallest_gap(const jam_system *sys, int reach) {
   const double *x, *s;
-  size_t len, n, i, j;
+  size_t n, i, j;
   double least = INFINITY;
-  SIZED(jam_info, info);
-  jam_get_info(sys, &info);
-  jam_view(sys, JAM_VIEW_POSITIONS, &x, &len), jam_view(sys, JAM_VIEW_DIAMETERS, &s, &n);
+  const jam_info info = info_of(sys);
+  x = view_of(sys, JAM_VIEW_POSITIONS), jam_view(sys, JAM_VIEW_DIAMETERS, &s, &n);
   for (i = 0; i < n; ++i)
     for (j = 0; j <= i; ++j) {
       int code, count = 1, k;
@@ -41,7 +39,7 @@ static double smallest_gap(const jam_system *sys, int reach) {
  * forces, at least one state of self-stress, every stable sphere with d + 1 contacts or more. */
 static void certify(const jam_system *sys, const jam_crunch_report *r, int reach) {
   const double *x, *s;
-  size_t len, m = 0, k;
+  size_t m = 0, k;
   int32_t *pair, *z;
   double *v, *f, *total, mean = 0.0;
   int c, d, stable = 0;
@@ -49,7 +47,7 @@ static void certify(const jam_system *sys, const jam_crunch_report *r, int reach
   if (!r->jammed) return;
   SIZED(jam_info, info);
   jam_get_info(sys, &info), d = info.dim;
-  jam_view(sys, JAM_VIEW_POSITIONS, &x, &len), jam_view(sys, JAM_VIEW_DIAMETERS, &s, &len);
+  x = view_of(sys, JAM_VIEW_POSITIONS), s = view_of(sys, JAM_VIEW_DIAMETERS);
   jam_contacts(sys, NULL, 0, &m);
   pair = malloc(m * sizeof *pair), z = calloc(info.n, sizeof *z), m /= 2;
   v = malloc(m * d * sizeof *v), f = malloc(m * sizeof *f), total = calloc(info.n * d, sizeof *total);
@@ -80,11 +78,9 @@ static void certify(const jam_system *sys, const jam_crunch_report *r, int reach
 }
 
 static jam_system *random_start(int n, int dim, double phi, const double *sizes, int64_t seed) {
-  jam_system *sys = NULL;
   DEFAULTS(create, o);
   o.n = n, o.dim = dim, o.packing_fraction = phi, o.seed = seed;
-  if (create_from(&o, NULL, 0, sizes, sizes ? n : 0, &sys) != JAM_OK) fail_msg("%s", jam_last_error());
-  return sys;
+  return created_from(&o, NULL, 0, sizes, sizes ? n : 0);
 }
 
 static jam_crunch_report crunched(jam_system *sys, const jam_crunch_options *o, const char *what, double value,
@@ -133,11 +129,10 @@ CASE(pressures) {
   for (k = 0; k < 5; ++k) {
     jam_system *sys = random_start(60, 3, 0.3, NULL, 2);
     jam_crunch_report r;
-    SIZED(jam_info, info);
     DEFAULTS(compress, c);
     c.growth_rate = p[k] > 1e5 ? 1e-3 : 1e-2, c.pressure = p[k];
     assert_true(jam_compress(sys, &c, NULL) >= 0);
-    jam_get_info(sys, &info);
+    const jam_info info = info_of(sys);
     r = crunched(sys, NULL, "pressure", p[k], 1);
     /* free volume: phi_J - phi = phi d / p, as long as growth leaves the glass time to follow its pressure */
     if (p[k] < 1e7) {
@@ -214,7 +209,6 @@ static jam_system *lattice(int dim, int cells, const double *basis, int basis_le
   const double sigma = 0.98 * contact / cells;
   const int total = basis_len * (dim == 2 ? cells * cells : cells * cells * cells);
   double x[3 * 300];
-  jam_system *sys = NULL;
   int k, c, n = 0;
   for (k = 0; k < total; ++k) {
     int cell = k / basis_len;
@@ -224,8 +218,7 @@ static jam_system *lattice(int dim, int cells, const double *basis, int basis_le
   }
   DEFAULTS(create, o);
   o.dim = dim;
-  if (create_from(&o, x, (size_t)n * dim, &sigma, 1, &sys) != JAM_OK) fail_msg("%s", jam_last_error());
-  return sys;
+  return created_from(&o, x, (size_t)n * dim, &sigma, 1);
 }
 
 static const double fcc[12] = {0, 0, 0, 0, .5, .5, .5, 0, .5, .5, .5, 0};

@@ -1,10 +1,8 @@
 /* Molecular dynamics in cells that are no cubes: the fluid's pressure, conservation laws, two spheres exactly, shear by
  * steps, and the way to a jammed packing. */
-#include <jam/jam.h>
 #include <math.h>
 
-#include "start.h"
-#include "test.h"
+#include "systems.h"
 
 /* Primitive vectors of the face-centred cubic lattice: the cell of nearest points is a rhombic dodecahedron. */
 static const double rhombic[9] = {0.0, 1.0, 1.0, 1.0, 0.0, 1.0, 1.0, 1.0, 0.0};
@@ -86,7 +84,6 @@ CASE(shear_by_steps) {
   jam_system *sys = fluid(cube, 400, 3, fraction);
   assert_int_equal(jam_strain(sys, shear, 9), JAM_E_OVERLAP); /* as it stands */
   for (int k = 0; k < 20; ++k) {
-    jam_info info = {.struct_size = sizeof info};
     DEFAULTS(compress, c);
     c.growth_rate = 0.1, c.pressure = 1e12, c.packing_fraction = fraction;
     assert_int_equal(jam_scale_diameters(sys, least), JAM_OK);
@@ -96,7 +93,7 @@ CASE(shear_by_steps) {
     assert_true(fabs(energy[1] / energy[0] - 1) < 1e-13); /* velocities are peculiar: they stay */
     assert_int_equal(jam_compress(sys, &c, NULL), JAM_OK);
     sum += run(sys, 100).pressure / 20;
-    assert_int_equal(jam_get_info(sys, &info), JAM_OK);
+    const jam_info info = info_of(sys);
     assert_true(fabs(info.packing_fraction / fraction - 1) < 1e-12);
     assert_int_equal(jam_get_cell(sys, cell, 9, NULL), JAM_OK);
     for (int c = 0; c < 9; ++c) assert_true(fabs(cell[c] - cube[c] - (c == 3 ? step * (k + 1) : 0.0)) < 1e-13);
@@ -111,10 +108,9 @@ CASE(grown_and_crunched) {
   jam_system *sys = fluid(monoclinic, 200, 3, 0.4);
   jam_crunch_report r = {.struct_size = sizeof r};
   jam_md_report m = {.struct_size = sizeof m};
-  jam_info before = {.struct_size = sizeof before};
   assert_int_equal(jam_compress(sys, NULL, &m), JAM_OK);
   assert_true(m.pressure >= 1e6 && m.max_overlap < 1e-13);
-  assert_int_equal(jam_get_info(sys, &before), JAM_OK);
+  const jam_info before = info_of(sys);
   assert_int_equal(jam_crunch(sys, NULL, &r), JAM_OK);
   print_message("grown to p %.3g, phi %.9f; crunched phi %.9f, %lld contacts, excess %lld, residual %.1e\n", m.pressure,
                 before.packing_fraction, r.packing_fraction, (long long)r.contacts, (long long)r.excess_contacts,

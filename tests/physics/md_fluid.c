@@ -1,17 +1,15 @@
 /* Fluids of hard spheres against closed forms, conservation laws, and the approach to jamming. */
-#include <jam/jam.h>
 #include <math.h>
 #include <string.h>
 
 #include "steps.h"
 
 static jam_system *fluid(int64_t n, int32_t dim, double fraction) {
-  jam_system *sys = NULL;
   DEFAULTS(create, o);
   o.n = n;
   o.dim = dim;
   o.packing_fraction = 0.5 * fraction;
-  assert_int_equal(jam_create(&o, NULL, &sys), JAM_OK);
+  jam_system *sys = created(&o);
   DEFAULTS(compress, c);
   c.growth_rate = 0.03;
   c.pressure = 1e12;
@@ -142,14 +140,13 @@ CASE(reversed_velocities_lead_back) {
 
 CASE(free_volume_pressure) {
   /* p = d / (1 - phi/phi_J) near jamming: phi_J from two pressures must agree. */
-  jam_system *sys = NULL;
   jam_md_report report;
   double jammed[3];
   int k;
   report.struct_size = sizeof report;
   DEFAULTS(create, o);
   o.n = 256;
-  assert_int_equal(jam_create(&o, NULL, &sys), JAM_OK);
+  jam_system *sys = created(&o);
   assert_int_equal(jam_compress(sys, NULL, &report), JAM_OK);
   assert_true(report.packing_fraction > 0.62 && report.packing_fraction < 0.75);
   assert_true(report.max_overlap < 1e-13);

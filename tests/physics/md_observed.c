@@ -1,5 +1,4 @@
 /* Gaps near contact, forces by collisions, and the detector of crystals. */
-#include <jam/jam.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -7,15 +6,13 @@
 #include "steps.h"
 
 static jam_system *start(int64_t n, double fraction, double ratio) {
-  jam_system *sys = NULL;
   double diameters[1000];
   int64_t k;
   DEFAULTS(create, o);
   o.n = n;
   o.packing_fraction = fraction;
   for (k = 0; k < n; ++k) diameters[k] = k % 2 ? ratio : 1.0;
-  assert_int_equal(create_from(&o, NULL, 0, diameters, (size_t)n, &sys), JAM_OK);
-  return sys;
+  return created_from(&o, NULL, 0, diameters, (size_t)n);
 }
 
 static void compress(jam_system *sys, double growth, double pressure) {
@@ -54,7 +51,6 @@ CASE(gap_plateau) {
   compress(sys, 1e-2, 500);
   for (k = 0; k < 3; ++k) {
     jam_md_report report;
-    jam_info info;
     double bin[12][4], density[12], height;
     size_t needed;
     compress(sys, 3e-3, pressures[k]);
@@ -67,8 +63,7 @@ CASE(gap_plateau) {
     o.sample_every = 4;
     assert_int_equal(jam_observe(sys, &o), JAM_OK);
     report = run(sys, 800);
-    info.struct_size = sizeof info;
-    jam_get_info(sys, &info);
+    const jam_info info = info_of(sys);
     height = (report.pressure - 1.0) / (4.0 * info.packing_fraction);
     assert_int_equal(jam_observed_gaps(sys, JAM_GAP_COLUMNS, bin[0], 12 * 4, &needed), JAM_OK);
     for (int b = 0; b < 12; ++b) density[b] = bin[b][JAM_GAP_DENSITY];

@@ -1,11 +1,9 @@
 /* Growth laws, the quasi-static mode, limits of time, and masses by volume. */
-#include <jam/jam.h>
 #include <math.h>
 
 #include "steps.h"
 
 static jam_system *start(int64_t n, double fraction, double ratio, int32_t masses, double box) {
-  jam_system *sys = NULL;
   double diameters[1000];
   int64_t k;
   DEFAULTS(create, o);
@@ -14,8 +12,7 @@ static jam_system *start(int64_t n, double fraction, double ratio, int32_t masse
   o.masses = masses;
   o.box = box;
   for (k = 0; k < n; ++k) diameters[k] = k % 2 ? ratio : 1.0;
-  assert_int_equal(create_from(&o, NULL, 0, diameters, (size_t)n, &sys), JAM_OK);
-  return sys;
+  return created_from(&o, NULL, 0, diameters, (size_t)n);
 }
 
 CASE(rates) {

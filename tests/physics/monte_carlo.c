@@ -2,9 +2,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "jam/jam.h"
-#include "start.h"
-#include "test.h"
+#include "systems.h"
 
 static jam_monte_carlo_options options(double alpha, double temperature, int64_t sweeps) {
   DEFAULTS(monte_carlo, o);
@@ -23,12 +21,10 @@ static jam_monte_carlo_report run(jam_system *sys, const jam_monte_carlo_options
 static jam_system *spheres(int dim, int n, const double *diameter) {
   const double disks[6] = {0.0, 0.0, 0.5, 0.25, 0.0, 0.5};
   const double balls[9] = {0.0, 0.0, 0.0, 0.5, 0.25, 0.0, 0.0, 0.5, 0.0};
-  jam_system *sys = NULL;
   DEFAULTS(create, o);
   o.dim = dim;
   o.n = n;
-  assert_int_equal(create_from(&o, dim == 2 ? disks : balls, (size_t)(dim * n), diameter, (size_t)n, &sys), JAM_OK);
-  return sys;
+  return created_from(&o, dim == 2 ? disks : balls, (size_t)(dim * n), diameter, (size_t)n);
 }
 
 static double energy(double r2, double sigma, double alpha, int relative) {
@@ -128,12 +124,11 @@ CASE(hard_fluids_have_the_pressure_of_molecular_dynamics) {
     const int n = 256;
     jam_monte_carlo_options o = options(0.0, 1.0, 12000);
     jam_monte_carlo_report r;
-    jam_system *sys = NULL;
     double exact;
     SIZED(jam_md_report, md);
     DEFAULTS(create, c);
     c.n = n;
-    assert_int_equal(jam_create(&c, NULL, &sys), JAM_OK);
+    jam_system *sys = created(&c);
     DEFAULTS(compress, grow);
     grow.packing_fraction = fractions[k];
     assert_int_equal(jam_compress(sys, &grow, NULL), JAM_OK);
@@ -276,10 +271,9 @@ CASE(bad_input_is_named) {
 /* Soft spheres leave overlaps. Calls for hard spheres say so, those for soft ones go on. */
 CASE(soft_spheres_leave_overlaps) {
   jam_monte_carlo_options o = options(2.0, 0.1, 50);
-  jam_system *sys = NULL;
   DEFAULTS(create, c);
   c.n = 60, c.packing_fraction = 0.3;
-  assert_int_equal(jam_create(&c, NULL, &sys), JAM_OK);
+  jam_system *sys = created(&c);
   assert_int_equal(jam_monte_carlo(sys, &o, NULL), JAM_OK);
   assert_int_equal(jam_crunch(sys, NULL, NULL), JAM_E_OVERLAP);
   assert_non_null(strstr(jam_last_error(), "jam_decompress"));
@@ -289,10 +283,9 @@ CASE(soft_spheres_leave_overlaps) {
 
 CASE(hard_spheres_in_contact_cannot_move) {
   jam_monte_carlo_options o = options(0.0, 1.0, 10);
-  jam_system *sys = NULL;
   DEFAULTS(create, c);
   c.n = 100;
-  assert_int_equal(jam_create(&c, NULL, &sys), JAM_OK);
+  jam_system *sys = created(&c);
   DEFAULTS(compress, grow);
   grow.pressure = 1e6;
   assert_int_equal(jam_compress(sys, &grow, NULL), JAM_OK);

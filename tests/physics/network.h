@@ -2,11 +2,9 @@
 #ifndef JAM_TESTS_NETWORK_H
 #define JAM_TESTS_NETWORK_H
 
-#include <jam/jam.h>
 #include <stdlib.h>
 
-#include "start.h"
-#include "test.h"
+#include "systems.h"
 
 enum { ROOM = 40000 };
 
@@ -22,7 +20,6 @@ struct network {
 
 static inline jam_system *crunched_model(int model, int dim, int64_t n, double phi, int bidisperse,
                                          jam_crunch_report *report) {
-  jam_system *s = NULL;
   double *d = malloc((size_t)n * sizeof *d);
   int64_t k;
   DEFAULTS(create, o);
@@ -31,7 +28,7 @@ static inline jam_system *crunched_model(int model, int dim, int64_t n, double p
   o.n = n;
   o.packing_fraction = phi;
   for (k = 0; k < n; ++k) d[k] = bidisperse && k % 2 ? 1.4 : 1.0;
-  assert_int_equal(create_from(&o, NULL, 0, d, (size_t)n, &s), JAM_OK);
+  jam_system *s = created_from(&o, NULL, 0, d, (size_t)n);
   free(d);
   report->struct_size = sizeof *report;
   assert_int_equal(jam_crunch(s, NULL, report), JAM_OK);

@@ -4,9 +4,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include <jam/jam.h>
 #include "columns.h"
 #include "physics/network.h"
+#include "systems.h"
 
 enum { MODES = 400, COLUMNS = JAM_FLOPPY_S_RETURN + 1 };
 
@@ -48,13 +48,11 @@ static void forces_from_positions(const struct network *w) {
 
 /* Opening at which, to first order, a pair that is no contact closes: every image of every pair of stable spheres. */
 static double next_contact(const struct network *w, const double *u, double gamma) {
-  const double *x;
   double best = INFINITY;
-  size_t len;
   int64_t i, j;
   int c, image, images = 1;
   for (c = 0; c < w->d; ++c) images *= 3;
-  assert_int_equal(jam_view(w->sys, JAM_VIEW_POSITIONS, &x, &len), JAM_OK);
+  const double *x = view_of(w->sys, JAM_VIEW_POSITIONS);
   for (i = 0; i < w->stable; ++i)
     for (j = 0; j < i; ++j)
       for (image = 0; image < images; ++image) {

@@ -84,9 +84,7 @@ CASE(the_null_space_decides_between_two_jumps) {
   jam_geometry_report g = {.struct_size = sizeof(jam_geometry_report)};
   jam_system *s = NULL;
   double place[3][2], radius[3], p[2], r, x[162], d[81], gap, digits, smallest = INFINITY;
-  const double *old;
   int32_t who[3] = {0, 0, 0};
-  size_t m;
   int k;
   assert_int_equal(report.excess_contacts, 0);
   assert_true(touching_three(&w, place, who));
@@ -102,7 +100,7 @@ CASE(the_null_space_decides_between_two_jumps) {
   gap = sqrt(sqrt(digits * g.gap_above) * cbrt(digits * g.gap_above * g.gap_above));
   fill_hole(place, radius, gap, p, &r);
   assert_true(r > 0.0 && r < radius[0]);
-  assert_int_equal(jam_view(w.sys, JAM_VIEW_POSITIONS, &old, &m), JAM_OK);
+  const double *old = view_of(w.sys, JAM_VIEW_POSITIONS);
   for (k = 0; k < 160; ++k) x[k] = old[k];
   for (k = 0; k < 80; ++k) d[k] = w.diameter[k];
   for (k = 0; k < 2; ++k) x[160 + k] = old[2 * who[0] + k] + p[k];

@@ -6,10 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "start.h"
-#include "test.h"
-
-#include "jam/jam.h"
+#include "systems.h"
 
 enum { N = 80 };
 
@@ -21,8 +18,7 @@ static double worst_gap(const jam_system *sys, double delta, double tolerance, i
   size_t len, i, j;
   double worst = 1e300;
   int c;
-  SIZED(jam_info, info);
-  assert_int_equal(jam_get_info(sys, &info), JAM_OK);
+  const jam_info info = info_of(sys);
   assert_true(info.non_additivity == delta);
   jam_view(sys, JAM_VIEW_POSITIONS, &x, &len);
   jam_view(sys, JAM_VIEW_DIAMETERS, &s, &len);
@@ -43,14 +39,12 @@ static double worst_gap(const jam_system *sys, double delta, double tolerance, i
 }
 
 static jam_system *mixture(int dim, double delta, int64_t seed) {
-  jam_system *sys = NULL;
   double diameter[N];
   int i;
   for (i = 0; i < N; ++i) diameter[i] = i < N / 2 ? 1.0 : 1.4;
   DEFAULTS(create, o);
   o.dim = dim, o.n = N, o.seed = seed, o.box = 2.0, o.packing_fraction = 0.25, o.non_additivity = delta;
-  assert_int_equal(create_from(&o, NULL, 0, diameter, N, &sys), JAM_OK);
-  return sys;
+  return created_from(&o, NULL, 0, diameter, N);
 }
 
 CASE(jams_and_certifies) {

@@ -1,9 +1,8 @@
 /* Spheres that touch their own images: one sphere in a free cell ends at a lattice, and the strict test says so. */
-#include <jam/jam.h>
 #include <math.h>
 #include <string.h>
 #include "columns.h"
-#include "start.h"
+#include "systems.h"
 #include "verdicts.h"
 
 static jam_system *in_cell(int32_t dim, int64_t n, const double *cell, const double *x, double sigma) {
@@ -155,10 +154,9 @@ CASE(two_disks_in_a_narrow_cell) {
 /* Two spheres of d = 5 that reach a cubic lattice of own images in the fixed cube: narrow programs strain it alone, and
  * their bound must not shrink with the displacements, which are 0. */
 CASE(strains_alone_are_steps) {
-  jam_system *sys = NULL;
   DEFAULTS(create, o);
   o.dim = 5, o.n = 2, o.seed = 49, o.packing_fraction = 0.02;
-  assert_int_equal(jam_create(&o, NULL, &sys), JAM_OK);
+  jam_system *sys = created(&o);
   assert_int_equal(crunch_with_strain(sys, JAM_STRAIN_FREE, JAM_OK).strictly_jammed, JAM_VERDICT_YES);
   jam_destroy(sys);
 }

@@ -5,8 +5,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "jam/jam.h"
-
 static double *column(const jam_system *sys, size_t which, size_t *n) {
   assert_int_equal(column_of(jam_decompress_history, sys, JAM_SOFT_SECONDS + 1, which, NULL, 0, n), JAM_OK);
   double *x = malloc(*n * sizeof *x);

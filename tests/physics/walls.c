@@ -1,7 +1,7 @@
 /* Hard spheres between walls in equilibrium and on the way to jamming, against exact results. */
 #include "walls.h"
-#include <jam/jam.h>
 #include <math.h>
+#include "systems.h"
 
 static void run(jam_system *sys, double collisions, jam_md_report *report) {
   DEFAULTS(run, o);
@@ -19,10 +19,9 @@ CASE(one_sphere_has_its_exact_pressure) {
   jam_system *sys = NULL;
   assert_int_equal(create_walled(&box, 1, 0.01, 1, NULL, &sys), JAM_OK);
   const double *diameter, v2 = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
-  size_t len;
   double sum = 0.0;
   assert_int_equal(jam_set_positions(sys, x, 3), JAM_OK);
-  jam_view(sys, JAM_VIEW_DIAMETERS, &diameter, &len);
+  diameter = view_of(sys, JAM_VIEW_DIAMETERS);
   assert_int_equal(jam_scale_diameters(sys, sigma / diameter[0]), JAM_OK);
   assert_int_equal(jam_set_velocities(sys, v, 3), JAM_OK);
   run(sys, 4e5, &report);
@@ -44,10 +43,8 @@ CASE(one_sphere_between_two_walls) {
   for (int seed = 1; seed <= 5; ++seed) {
     jam_system *sys = NULL;
     jam_md_report report;
-    const double *diameter;
-    size_t len;
     assert_int_equal(create_walled(&walled_scenes[SLIT], 1, 0.01, seed, NULL, &sys), JAM_OK);
-    jam_view(sys, JAM_VIEW_DIAMETERS, &diameter, &len);
+    const double *diameter = view_of(sys, JAM_VIEW_DIAMETERS);
     const double exact = 1.0 / (1.0 - diameter[0]);
     run(sys, 1e5, &report);
     for (int w = 0; w < 2; ++w) assert_true(fabs(of_wall(sys, w, JAM_WALL_PRESSURE) / exact - 1.0) < 1e-3);
@@ -93,11 +90,10 @@ CASE(contact_theorem_and_bulk_pressure) {
   jam_system *sys = NULL;
   jam_md_report report;
   const double *x, *sigma;
-  size_t len;
   double wall = 0.0, middle = 0.0, near[2] = {0.0, 0.0};
   assert_int_equal(create_walled(&slit, N, 0.25, 3, NULL, &sys), JAM_OK);
-  jam_view(sys, JAM_VIEW_POSITIONS, &x, &len);
-  jam_view(sys, JAM_VIEW_DIAMETERS, &sigma, &len);
+  x = view_of(sys, JAM_VIEW_POSITIONS);
+  sigma = view_of(sys, JAM_VIEW_DIAMETERS);
   const double s = sigma[0], width = 0.04 * s, centre = 1.2, half = 2.5 * s;
   run(sys, 100.0, &report);
   for (int k = 0; k < SAMPLES; ++k) {

@@ -28,6 +28,10 @@ and beta = D alpha.
     of a sum with (sigma + r)^2 on the right.
 A flat wall is a contact with the mirror image: r_c is twice the way from the wall to x_i, sigma_c the diameter, m = 2
 for a stable sphere. Along an axis with walls the first sphere is unknown too.
+A round wall of a container of width W has F_c = (W - g s_i)^2 - |r_c|^2, r_c = 2 x_i - W along its axes, s_i the ratio.
+Of such a file g is unknown in place of G = g^2, and D = 4 d + max s^2. For each rotation that the wall allows one
+component of a sphere is pinned: where J is regular, no rotation leaves all of them at rest. The wall stays open if
+|r|^2 + 2 m r |r|_1 + d (m r)^2 < (W - (g + r_g) s)^2, m = 2 for a stable sphere.
 """
 import base64
 import decimal
@@ -46,9 +50,9 @@ HERE = sys.modules[__name__]
 BITS, CHUNK, BIAS = 24, 16, 1 << 62  # digits of J; columns of A summed at once; makes 64-bit digits positive
 MOST_IMAGES, WAIT, FARTHEST = 10**6, 10, 10**4  # of a pair; seconds between lines of long loops; exponents of two
 SEEN, TWO = Fraction(9, 8), Fraction(2)  # gaps are those of pairs closer than SEEN times their sigma
-ONE = ("dim", "unit", "non_additivity", "gamma")  # lines of one number
-HEADER = (*ONE, "cell")
-WORDS = {*HEADER, "walls", "sphere", "contact", "wall", "tile", "implied", "inverse", "strict", "sum", "symmetry"}
+ONE, SIZE = ("dim", "unit", "non_additivity"), ("gamma", "growth")  # lines of one number; there is one of SIZE
+HEADER = (*ONE, *SIZE, "cell")
+WORDS = {*ONE, *"cell walls round pin sphere contact wall tile implied inverse strict sum symmetry".split()}
 AT_LEAST = ("outer", "least_gap", "least_force")  # bounds from below; all others are bounds from above
 
 
@@ -120,19 +124,23 @@ class Scene:
             rows = [rest for other, *rest in lines[1:] if other == name]
             what = f"{'the' if name in HEADER else 'a'} line '{name}'"
             refuse(name in HEADER and len(rows) != 1, f"{what} is there {len(rows)} times, not once")
-            what += " has not as many numbers as " + ("it must, one" if name in ONE else "dim asks for")
+            what += " has not as many numbers as " + ("it must, one" if name in HEADER[:-1] else "dim asks for")
             refuse(any(len(rest) not in counts for rest in rows), what)
             return rows
 
-        ((dim,),), ((unit,),), ((cross,),), ((gamma,),) = (take(name, 1) for name in ONE)
+        self.round = sum(integer(m) for (m,) in take("round", 1))  # axes of the round wall
+        size = SIZE[self.round > 0]
+        ((dim,),), ((unit,),), ((cross,),), ((grown,),) = (take(name, 1) for name in (*ONE, size))
         self.dim = d = integer(dim)
         refuse(d < 1, "dim is not 1 or more")
         (cell,), spheres = take("cell", d * (d + 1) // 2), take("sphere", d + 2)
         take("contact", d + 3, d + 4), take("wall", 4, 5)
         contacts = [line for line in lines if line[0] in ("contact", "wall")]
-        closed = take("walls", *range(1, d + 1))
-        self.closed = [integer(c) for row in closed for c in row]  # axes with walls
-        self.unit, self.gamma, cross = number(unit), number(gamma), 1 + number(cross)
+        closed, self.pins = take("walls", *range(1, d + 1)), [(integer(i), integer(k)) for i, k in take("pin", 2)]
+        flat = [integer(c) for row in closed for c in row]
+        self.closed = [*range(self.round), *flat]  # axes with walls
+        self.unit, self.growth, cross = number(unit), number(grown), 1 + number(cross)
+        self.gamma = self.growth**2 if self.round else self.growth
         refuse(any(s[0] not in ("0", "1") for s in spheres), "a sphere is neither 1, stable, nor 0, a rattler")
         self.stable, self.ratio = [s[0] == "1" for s in spheres], [number(s[1]) for s in spheres]
         self.contacts = [self.ends(name, list(map(integer, rest[: d + 2 if name == "contact" else 3])))
@@ -147,7 +155,7 @@ class Scene:
         refuse(max(len(strict), len(packed)) > 1, "a line 'strict' or 'inverse' is there twice")
         refuse(max(len(closed), len(weights)) > 1, "a line 'walls' or 'sum' is there twice")
         for name in (line[0] for line in lines[1:]):
-            refuse(name not in WORDS, f"unknown word {name}")
+            refuse(name not in WORDS and name != size, f"unknown word {name}")
         lengths = [number(x) for s in [cell] + [s[2:] for s in spheres] for x in s]
         halves = [v / 2 for v in self.ratio] if self.weights else []
         lengths, self.one = whole(lengths + halves)
@@ -157,7 +165,7 @@ class Scene:
         at_walls = {c for c, (_, j, _) in enumerate(self.contacts) if j < 0}
         ends, named = {i for c in self.contacts for i in c[:2]}, {c for _, ring in self.tiles for c in ring}
         again = {(j, i, tuple(-v for v in n)) for i, j, n in self.contacts} | set(self.contacts)
-        positive = [self.unit, self.gamma, *self.ratio, *(self.cell[q][q] for q in range(d))]
+        positive = [self.unit, self.growth, *self.ratio, *(self.cell[q][q] for q in range(d))]
         refuse(not 0 < cross <= 2, "non_additivity must be above -1 and at most 1")
         refuse(not any(self.stable), "no sphere is stable")
         refuse(not contacts, "the file lists no contact")
@@ -166,20 +174,27 @@ class Scene:
         refuse(turned or self.strict and self.closed, "an axis with walls leans, or the file is strict")
         refuse(not {*self.closed} <= {*range(d)} or len({*self.closed}) < len(self.closed), "'walls' names no axes")
         refuse(any(n[c] for *_, n in self.contacts for c in self.closed), "a contact reaches through a wall")
-        self.walls = [-1 - 2 * c - side for c in self.closed for side in (0, 1)]  # as partners of contacts
+        widths = {self.cell[c][c] for c in range(min(d, self.round))}
+        wrong = self.round and (len(widths) > 1 or not 2 <= self.round <= d or len(take("round", 1)) > 1)
+        refuse(wrong, "a round wall is not one, about the first axes of a cell with equal edges")
+        self.width, self.rim = self.cell[0][0], -2 - 2 * d  # of the round wall, and its partner of contacts
+        self.walls = [-1 - 2 * c - side for c in flat for side in (0, 1)] + [self.rim] * (self.round > 0)
         no_sphere = min(i for i, *_ in self.contacts) < 0 or not ends <= {*range(len(spheres)), *self.walls}
         refuse(no_sphere, "a contact names a sphere that is not there")
         named -= {*range(len(contacts))} - at_walls
         refuse(named, "a tile or an implied contact names a contact that is not there")
         refuse(min(positive) <= 0, "a diameter, a cell edge, unit or gamma is not positive")
         other = self.strict or self.tiles or not all(self.stable) or (self.gamma, cross) != (1, 1)
-        other = other or min(self.weights, default=1) <= 0
+        other = other or min(self.weights, default=1) <= 0 or self.round
         self.symmetries = [words for name, *words in lines if name == "symmetry"]
         refuse(self.symmetries and not self.weights, "a symmetry is not of a sum")
-        refuse(self.weights and other, "a sum has positive weights, gamma 1, stable spheres, no tiles and no strict")
+        refuse(self.weights and other, "a sum has positive weights, gamma 1, stable spheres, no tiles, strict, round")
         (self.size, self.per), self.cross = whole(self.ratio), cross**2
         first, spheres = self.stable.index(True), [i for i, yes in enumerate(self.stable) if yes]
-        free = [(i, k) for i in spheres for k in range(d) if i != first or k in self.closed]
+        moving = [(i, k) for i in spheres for k in range(d) if i != first or k in self.closed]
+        free = [at for at in moving if at not in self.pins]
+        wrong = not len(moving) - len(free) == len(self.pins) == self.round * (self.round - 1) // 2
+        refuse(wrong, "there is not one pin for each rotation, of stable spheres")
         self.place = {end: at for at, end in enumerate(free)}  # of component k of sphere i
         at = [len(free) + q * (q + 1) // 2 for q in range(d + 1)]  # the first unknown of each cell vector
         self.vectors, self.unknowns = (at[:-1], at[-1]) if self.strict else ([], at[0])  # their number without G
@@ -204,7 +219,9 @@ class Scene:
         return integer(e), array("i", flat)
 
     def vector(self, i, j, n):
-        """r = x_i - x_j + n H, or twice the way from a wall."""
+        """r = x_i - x_j + n H, or twice the way from a wall, from the middle of a round one."""
+        if j == self.rim:
+            return [(2 * x - self.width) * (c < self.round) for c, x in enumerate(self.x[i])]
         if j < 0:
             axis, side = divmod(-1 - j, 2)
             return [2 * (x - side * self.cell[c][c]) * (c == axis) for c, x in enumerate(self.x[i])]
@@ -221,15 +238,18 @@ class Scene:
         return square if self.size[i] == self.size[j] else square * self.cross
 
     def equations(self, kept):
-        """Of the contacts kept: F, sigma^2 and the columns of R as [(row, integer over one)]."""
+        """Of the contacts kept: F, -dF / dG or dg, and the columns of R as [(row, integer over one)]."""
         f, sigma2, columns = [], [], [[] for _ in range(self.unknowns)]
         for c, (i, j, n) in enumerate(self.contacts[k] for k in kept):
             loose = not self.stable[i] or j >= 0 and not self.stable[j]
             refuse(i == j or loose, f"images: contact {c} is not of two stable ones")
-            r = self.vector(i, j, n)
-            sigma2.append(self.sigma2(i, j))
-            f.append(Fraction(sum(map(mul, r, r)), self.one**2) - self.gamma * sigma2[c])
-            for end, times in ((i, 2), (j, -2)) if j >= 0 else ((i, 4),):
+            r, square = self.vector(i, j, n), self.sigma2(i, j)
+            f.append(Fraction(sum(map(mul, r, r)), self.one**2) - self.gamma * square)
+            sigma2.append(2 * self.growth * square if self.round else square)
+            if j == self.rim:
+                room = Fraction(self.width, self.one) - self.growth * self.ratio[i]
+                f[c], sigma2[c] = room**2 - f[c] - self.gamma * square, 2 * self.ratio[i] * room
+            for end, times in ((i, 2), (j, -2)) if j >= 0 else ((i, -4 if j == self.rim else 4),):
                 for k in range(self.dim):
                     if (end, k) in self.place:
                         columns[self.place[end, k]].append((c, times * r[k]))
@@ -285,6 +305,7 @@ class Scene:
                 if j < 0:
                     near = [((0,) * self.dim, self.vector(i, j, ()))]
                     inside = sum(near[0][1]) * (1 if j % 2 else -1) > 4 * radius * self.one
+                    inside = gamma * (self.ratio[i] * self.one) ** 2 < self.width**2 if j == self.rim else inside
                     refuse(not inside, f"gap: the centre of sphere {i} may be outside the walls")
                 else:
                     near = [((), [a - b for a, b in zip(self.x[i], self.x[j])])]  # n and r, components within reach
@@ -297,8 +318,11 @@ class Scene:
                         continue
                     both = self.stable[i] + self.stable[i if j < 0 else j]
                     moving = both * (i != j) + self.strict * sum(map(abs, n))
-                    have = Fraction(sum(map(mul, r, r)), self.one**2)
-                    have -= 2 * Fraction(sum(map(abs, r)), self.one) * radius * moving
+                    have, way = Fraction(sum(map(mul, r, r)), self.one**2), radius * moving
+                    change = 2 * Fraction(sum(map(abs, r)), self.one) * way
+                    if j == self.rim:
+                        room = Fraction(self.width, self.one) - root(have + change + self.dim * way**2, 1)
+                    have = room * abs(room) if j == self.rim else have - change
                     have /= (self.sigma(i, j) + radius) ** 2 if self.weights else gamma * self.sigma2(i, j)
                     refuse(have <= part, f"gap: spheres {i} and {j} are not open (image {n})")
                     least = min(least or have, have) if have < SEEN**2 else least
@@ -418,12 +442,13 @@ def check(s):
     largest = max([max(max(map(abs, column)) for column in inverse) * TWO**e, *map(abs, row)])
     delta, eta, alpha = max(delta + [delta_g]), max(eta + [eta_g]), max(alpha + [alpha_g])
     ways = 2 + s.strict * max(sum(map(abs, n)) for *_, n in s.contacts)  # a contact vector moves by ways r at most
-    wide = s.dim * ways**2 + bool(s.weights)  # D
+    wide = s.dim * ways**2 + bool(s.weights) + (max(s.ratio) ** 2 if s.round else 0)  # D
     beta = wide * alpha
     r = radius_of(delta, eta, beta)
     wrong = s.tiles and (ways * r) ** 2 * 10**12 > s.gamma * min(s.ratio) ** 2
     refuse(wrong, f"excess: radius {float(r):.3g} is too large for the angles of tiles")
     r_g = eta_g + delta_g * r + wide * alpha_g * r * r
+    r_g *= 2 * s.growth + r_g if s.round else 1  # now of G
     # Forces on implied contacts are free: those of the file. The others balance them, with this A.
     _, sigma2, columns = s.equations(every) if s.tiles else (f, sigma2, columns)
     forces, off = s.state(sigma2, columns, s.force)
@@ -439,9 +464,13 @@ def check(s):
     return {**found, "delta": delta, "least_force": least / mean, "force_error": error / mean}
 
 
+def root(square, up=0):
+    return Fraction(math.isqrt(math.floor(square * 4**400)) + up, 2**400)
+
+
 def gap(square):
     """The root less one, from below; a thousandth if no pair was seen."""
-    return Fraction(math.isqrt(math.floor(square * 4**200)), 2**200) - 1 if square else Fraction(1, 1000)
+    return root(square) - 1 if square else Fraction(1, 1000)
 
 
 def shown(found):
@@ -462,23 +491,29 @@ def pi_between():
     return Fraction(total - 10**10, one), Fraction(total + 10**10, one)
 
 
+def ball(d):
+    """The volume of a ball of diameter 1 over pi^(d//2)."""
+    half = Fraction(2 ** ((d + 1) // 2), math.prod(range(d, 0, -2))) if d % 2 else Fraction(1, math.factorial(d // 2))
+    return half / 2**d
+
+
 def fraction(s):
     """The sum of radii, or the packing fraction, rattlers included, from below and above. The latter is pi^(d/2) / (2^d
     Gamma(d/2 + 1)) sum sigma^d / V.
     sigma^2 of a sphere is G ratio^2, G known to `within`; strict V is known to that part of each edge."""
     if s.weights:
         return [s.unit * (sum(map(mul, s.weights, s.ratio)) / 2 + sign * s.within) for sign in (-1, 1)]
-    d, root = s.dim, lambda v, up: Fraction(math.isqrt(math.floor(v * 4**400)) + up, 2**400)
-    volume = Fraction(math.prod(s.cell[q][q] for q in range(d)), s.one**d)
-    balls = sum(v**d for v in s.ratio) * Fraction(1, 2**d)
-    balls *= Fraction(2 ** ((d + 1) // 2), math.prod(range(d, 0, -2))) if d % 2 else Fraction(1, math.factorial(d // 2))
+    d = s.dim
+    volume = Fraction(math.prod(s.cell[q][q] for q in range(d)), s.one**d) * ball(s.round)
+    balls = sum(v**d for v in s.ratio) * ball(d)
     ends = []
     for up, pi in enumerate(pi_between()):
         change = Fraction(1)
         for v in s.within if s.strict else []:
             change *= 1 / (1 - v) if up else 1 / (1 + v)
         gamma = s.gamma if s.strict else s.gamma * (1 + (2 * up - 1) * s.within)
-        ends.append(balls * pi ** (d // 2) * gamma ** (d // 2) * (root(gamma, up) if d % 2 else 1) * change / volume)
+        spheres = balls * gamma ** (d // 2) * (root(gamma, up) if d % 2 else 1)
+        ends.append(spheres * pi ** (d // 2 - s.round // 2) * change / volume)
     return ends
 
 

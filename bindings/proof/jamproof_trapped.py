@@ -19,7 +19,7 @@ import math
 from fractions import Fraction
 from operator import mul
 
-from jamproof import TWO, Refused, bounds, gap, inverse_of, refuse, whole
+from jamproof import TWO, Refused, bounds, gap, inverse_of, refuse, root, whole
 
 PRIME = (1 << 61) - 1
 GAMMA, FORCE = 400, 120  # binary digits of gamma; more of forces
@@ -72,12 +72,15 @@ def trapped(s):
     size = []
     for i, j, n in s.contacts:
         r = s.vector(i, j, n)
-        size.append(Fraction(sum(map(mul, r, r)), s.one**2) / s.sigma2(i, j))
+        square, room = Fraction(sum(map(mul, r, r)), s.one**2), Fraction(s.width, s.one)
+        size.append((max(0, room - root(square, 1)) ** 2 if j == s.rim else square) / s.sigma2(i, j))
     least = s.least_opening(0, min(size), Fraction(1, 2))  # pairs without force may be closed too
     own = min(size) * min(1, least or 1)
     refuse(abs(gamma - own) > OFF * gamma, f"gamma: without overlap it is {float(own):.6g}, not that of the file")
     # The smaller of both, as spheres of a smaller gamma have more room. What is shown of it is true of a larger one.
-    s.gamma = Fraction(math.floor(min(own, gamma) * 2**GAMMA), 2**GAMMA)  # no pair overlaps: F >= 0
+    s.gamma = s.growth = Fraction(math.floor(min(own, gamma) * 2**GAMMA), 2**GAMMA)  # no pair overlaps: F >= 0
+    if s.round:
+        s.growth, s.gamma = root(s.gamma), root(s.gamma) ** 2
     f, sigma2, columns = s.equations(every)
     j = s.rounded(columns)
     e, inverse = inverse_of(s, j, len(every))
@@ -108,7 +111,9 @@ def trapped(s):
         raise Refused(f"singular: left {float(left):.3g}, 4 a0 a2 {float(4 * constant * second):.3g}")
     inner, weight = 2 * constant / left, sum(map(mul, sigma2, forces))
     above = opened + rest * inner + square * inner**2  # over weight: above s.gamma of the densest packing within inner
-    error = (gamma - s.gamma + (0 if s.strict else above / weight)) / gamma
+    # With a round wall g grows: at the wall -dF / dg falls to no less than half while W - g s stays positive.
+    climb = above / weight if not s.round else 2 * above / weight * (2 * s.growth + 2 * above / weight)
+    error = (gamma - s.gamma + (0 if s.strict else climb)) / gamma
     outer = min([left / (2 * second * top)] + [h / 2 for h in edges])
     s.within = [2 * above + s.dim * error] if s.strict else 2 * error  # s.gamma is the file's less at most error
     refuse(s.strict and inner >= outer, f"singular: inner {float(inner):.3g} is not below outer {float(outer):.3g}")

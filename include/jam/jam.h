@@ -1570,7 +1570,7 @@ typedef struct jam_proof_report {
  * entries of the cell vectors, and packing_fraction is that of the exact cell. ratio: exact ratios of the diameters, in
  * any unit, only with JAM_RIGIDITY_COLLECTIVE; NULL: the diameters as they are. Status: JAM_OK proved exact or trapped,
  * JAM_AMBIGUOUS not proved (jam_last_error names the cause). @shape ratio (n) @enum kind jam_rigidity_kind
- * @errors STATE (no network), UNSUPPORTED (Mari-Kurchan model, round walls, strict between walls) */
+ * @errors STATE (no network), UNSUPPORTED (Mari-Kurchan model, strict between walls) */
 JAM_API jam_status jam_prove(const jam_system *sys, int32_t kind, const double *ratio, size_t ratio_len,
                              jam_proof_report *report);
 /* What was proved, in a few words: "proved, radius 4e-31", "trapped within 3e-28, excess 130, 129", "not proved, force

@@ -16,7 +16,6 @@ namespace {
 constexpr char dependent[] = "the rows of the contacts are dependent, so positions are not refined";
 
 ProofScene take_scene(const jam_system *sys, const double *ratio, size_t ratio_len) {
-  refuse_unproved_walls(sys->packing);
   need_network(sys);
   const Packing &p = sys->packing;
   if (p.model != JAM_MODEL_EUCLID) fail(JAM_E_UNSUPPORTED, "proofs are for spheres without Mari-Kurchan shifts");
@@ -55,7 +54,7 @@ jam_proof_report report_of(const ProofScene &s, const Proof &proof) {
   r.cause_value = proof.cause_value, r.cause_bound = proof.cause_bound;
   r.stable = static_cast<int64_t>(s.nodes()), r.contacts = static_cast<int64_t>(s.contacts());
   r.radius = proof.exact ? proof.radius * s.unit : std::nan("");
-  double fraction_up = 0.5 * s.dim * proof.gamma_radius / s.gamma;
+  double fraction_up = 0.5 * s.dim * proof.gamma_radius / s.gamma();
   if (s.strict)  // of the volume, by its edges
     for (int c = 0; c < s.dim; ++c) fraction_up += proof.radius / s.cell.row(c)[c];
   r.fraction_error = proof.exact ? fraction_up * (1.0 + 1e-6) : std::nan("");
@@ -70,9 +69,15 @@ jam_proof_report report_of(const ProofScene &s, const Proof &proof) {
     for (int c = 0; c < s.dim; ++c) power = power * DoubleDouble(ratio);
     volume = volume + power;
   }
-  r.gamma = s.gamma, r.gamma_low = s.gamma_low;
-  r.packing_fraction = unit_sphere_volume(s.dim) * volume.high / s.cell.volume();
-  for (int c = 0; c < s.dim; ++c) r.packing_fraction *= std::sqrt(s.gamma);
+  r.gamma = s.growth, r.gamma_low = s.growth_low;
+  if (s.rooted()) {
+    Expansion gamma = s.exact_gamma();
+    r.gamma = gamma.value();
+    gamma.add(-r.gamma);
+    r.gamma_low = gamma.value();
+  }
+  r.packing_fraction = unit_sphere_volume(s.dim) * volume.high / (s.rooted() ? s.container.volume() : s.cell.volume());
+  for (int c = 0; c < s.dim; ++c) r.packing_fraction *= std::sqrt(s.gamma());
   return r;
 }
 
@@ -101,11 +106,6 @@ Answer write_scene(ProofScene scene, const char *path) {
 }
 
 }  // namespace
-
-void jam::inside::refuse_unproved_walls(const Packing &p) {
-  if (p.container.curved())
-    fail(JAM_E_UNSUPPORTED, "a scene with a round wall cannot be proved jammed despite rounding yet");
-}
 
 jam_proof_report jam::inside::prove_network(const Packing &p, const ContactNetwork &network) {
   ProofScene scene = make_proof_scene(p, network, {});

@@ -10,7 +10,6 @@
 
 namespace jam::inside {
 
-void refuse_unproved_walls(const Packing &p);
 jam_proof_report prove_network(const Packing &p, const ContactNetwork &network);
 
 // jam_proof_text.

@@ -42,12 +42,15 @@ void write_proof(const ProofScene &s, const char *path) {
   for (size_t r = 0; r < d; ++r)
     for (size_t c = 0; c <= r; ++c) put(out += ' ', s.cell.row(static_cast<int>(r))[c], s.cell_low[r * d + c]);
   put(out += "\nnon_additivity ", s.non_additivity);
-  put(out += "\ngamma ", s.gamma, s.gamma_low);
+  put(out += s.rooted() ? "\ngrowth " : "\ngamma ", s.growth, s.growth_low);
   out += '\n';
-  if (s.container) out += "walls";
+  if (s.container.flat()) out += "walls";
   for (int c = 0; c < s.dim; ++c)
-    if (!s.cell.repeats(c)) out += ' ' + std::to_string(c);
-  if (s.container) out += '\n';
+    if (s.container.flat() >> c & 1) out += ' ' + std::to_string(c);
+  if (s.container.flat()) out += '\n';
+  if (s.rooted()) out += "round " + std::to_string(s.container.round_axes()) + '\n';
+  for (size_t k = 0; k < s.pin.size(); ++k)
+    if (s.pin[k]) out += "pin " + std::to_string(k / d) + ' ' + std::to_string(k % d) + '\n';
   for (size_t i = 0; i < s.ratio.size(); ++i) {
     out += s.node[i] >= 0 ? "sphere 1 " : "sphere 0 ";
     put(out, s.ratio[i]);

@@ -37,20 +37,6 @@ void orthonormalise(std::vector<std::vector<double>> &vectors) {
   vectors = std::move(kept);
 }
 
-void take_symmetries(const Packing &p, RigidityMatrix &g) {
-  const size_t d = static_cast<size_t>(p.dim);
-  g.open_axes = ~p.container.closed();
-  g.curved = p.container.curved();
-  for (const Surface &wall : p.container) g.wall.push_back(wall.turning());
-  for (int q = 0; q < p.container.rotations(); ++q) {
-    std::vector<double> v(g.unknowns());
-    for (size_t i = 0; i < g.sphere.size(); ++i)
-      p.container.rotation(q, &p.position[static_cast<size_t>(g.sphere[i]) * d], &v[i * d]);
-    g.rotations.push_back(std::move(v));
-  }
-  orthonormalise(g.rotations);
-}
-
 [[noreturn]] void refuse_without_direction(const Packing &p, int32_t i, int32_t j) {
   if (j >= 0) fail(JAM_E_OVERLAP, "spheres %d and %d have the same centre: their contact has no direction", i, j);
   fail(JAM_E_OVERLAP, "the centre of sphere %d is on %s: the contact has no direction", i,
@@ -58,6 +44,20 @@ void take_symmetries(const Packing &p, RigidityMatrix &g) {
 }
 
 }  // namespace
+
+void take_symmetries(const Container &container, const double *position, RigidityMatrix &g) {
+  const size_t d = static_cast<size_t>(g.dim);
+  g.open_axes = ~container.closed();
+  g.curved = container.curved();
+  for (const Surface &wall : container) g.wall.push_back(wall.turning());
+  for (int q = 0; q < container.rotations(); ++q) {
+    std::vector<double> v(g.unknowns());
+    for (size_t i = 0; i < g.sphere.size(); ++i)
+      container.rotation(q, position + static_cast<size_t>(g.sphere[i]) * d, &v[i * d]);
+    g.rotations.push_back(std::move(v));
+  }
+  orthonormalise(g.rotations);
+}
 
 RigidityMatrix make_rigidity_matrix(const Packing &p, const ContactNetwork &network) {
   RigidityMatrix g;
@@ -87,7 +87,7 @@ RigidityMatrix make_rigidity_matrix(const Packing &p, const ContactNetwork &netw
         j < 0 ? -p.container[wall_partner(j)].curvature(&p.position[static_cast<size_t>(i) * static_cast<size_t>(d)])
               : 1.0 / g.distance.back());
   }
-  if (p.container) take_symmetries(p, g);
+  if (p.container) take_symmetries(p.container, p.position.data(), g);
   g.force = network.force;
   g.stiffness = network.stiffness;
   g.prestress = network.prestress;

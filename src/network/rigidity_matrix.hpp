@@ -45,6 +45,8 @@ struct RigidityMatrix {
 };
 
 RigidityMatrix make_rigidity_matrix(const Packing &p, const ContactNetwork &network);
+// Of its nodes, with the centres (n, dim) of all spheres.
+void take_symmetries(const Container &container, const double *position, RigidityMatrix &g);
 // The selected rows and their nodes. `sphere` and `node` of the result number nodes of g, not spheres.
 RigidityMatrix subset(const RigidityMatrix &g, const std::vector<char> &on);
 

@@ -99,14 +99,16 @@ RigidityMatrix rows_of(const ProofScene &s) {
   RigidityMatrix g;
   g.dim = s.dim, g.nodes = static_cast<int32_t>(s.nodes()), g.sphere = s.sphere, g.node = s.node;
   g.a = s.a, g.b = s.b;
-  if (s.container) g.open_axes = ~s.container.closed();
-  for (const Surface &plane : s.container) g.wall.push_back(plane.turning());
+  if (s.container) take_symmetries(s.container, s.high.data(), g);
+  g.curved = 0;  // rows alone count
   for (size_t c = 0; c < s.contacts(); ++c) {
     double square = 0.0;
     for (int k = 0; k < s.dim; ++k) square += e.row[c * s.dim + k] * e.row[c * s.dim + k];
     for (int k = 0; k < s.dim; ++k) g.normal.push_back(e.row[c * s.dim + k] / std::sqrt(square));
     const double part = s.wall(c) ? 0.5 : 1.0;  // of the mirror image's distance
-    g.distance.push_back(0.5 * part * std::sqrt(square)), g.sigma.push_back(part * std::sqrt(s.gamma * e.sigma2[c]));
+    const double length = 0.5 * std::sqrt(square), sigma2 = s.sigma_squared(c).value();
+    g.distance.push_back(part * (s.round(s.b[c]) ? s.cell.edge(0) - length : length));
+    g.sigma.push_back(part * std::sqrt(s.gamma() * sigma2));
   }
   return g;
 }
@@ -121,14 +123,15 @@ void add_closed_pairs(ProofScene &s, double opening) {
 // orders of any motion are taken too. False where that does not hold the spheres either.
 bool take_middle_forces(ProofScene &scene) {
   std::vector<char> on;
-  for (const double opening : {proof_tuning::closed, proof_tuning::nearly_closed * scene.gamma}) {
+  for (const double opening : {proof_tuning::closed, proof_tuning::nearly_closed * scene.gamma()}) {
     ProofScene s = scene;
     add_closed_pairs(s, opening);
     const RigidityMatrix g = rows_of(s);
     const RigidityResult r = test_rigidity(g, Jamming::collective);
     if (r.rigid != Verdict::yes) continue;
     for (size_t c = 0; c < s.contacts(); ++c) {
-      s.force[c] = r.force[c] / (s.wall(c) ? 4.0 : 1.0) / g.sigma[c];
+      const bool round = s.round(s.b[c]);
+      s.force[c] = r.force[c] / (round ? s.lever(c) * std::sqrt(s.gamma()) : (s.wall(c) ? 4.0 : 1.0) * g.sigma[c]);
       on.push_back(r.force[c] > 0.0);
     }
     keep_contacts(s, on);
@@ -193,7 +196,7 @@ namespace {
 
 double scale_of(const ProofScene &s) {
   double sum = 0.0;
-  for (size_t c = 0; c < s.contacts(); ++c) sum += s.force[c] * s.sigma_squared(c).value();
+  for (size_t c = 0; c < s.contacts(); ++c) sum += s.force[c] * s.weight(c);
   return sum;
 }
 

@@ -18,7 +18,7 @@ Expansion squared_distance(const ProofScene &s, size_t c) {
 }  // namespace
 
 bool close_exactly(ProofScene &s) {
-  if (s.contacts() == 0) return false;
+  if (s.contacts() == 0 || s.rooted()) return false;
   // Gamma = |r|^2 / sigma^2 of the first contact, where that is a sum of two doubles.
   const Expansion square = squared_distance(s, 0), sigma2 = s.sigma_squared(size_t{0});
   int exponent = 0;
@@ -34,7 +34,7 @@ bool close_exactly(ProofScene &s) {
     f.add_product(gamma, s.sigma_squared(c), -1.0);
     if (f.count() != 0) return false;
   }
-  s.gamma = high, s.gamma_low = low;
+  s.growth = high, s.growth_low = low;
   return true;
 }
 

@@ -53,7 +53,7 @@ void name_saddle(const ProofScene &s, const ProofEquations &e, Proof &proof) {
   if (proof.cause != ProofCause::excess || !(proof.least_force < proof_tuning::weak)) return;
   double widest = 0.0;
   for (size_t c = 0; c < s.contacts(); ++c)
-    widest = std::max(widest, 0.5 * std::fabs(e.f[c]) / (e.sigma2[c] * s.gamma));
+    widest = std::max(widest, 0.5 * std::fabs(e.f[c]) / (e.sigma2[c] * s.gamma()));
   if (!(widest > proof_tuning::nearly_closed)) return;
   proof.cause = ProofCause::saddle, proof.cause_value = proof.least_force, proof.cause_bound = widest;
 }
@@ -61,7 +61,7 @@ void name_saddle(const ProofScene &s, const ProofEquations &e, Proof &proof) {
 // The cause where nothing is proved and spheres touch their own images, whether a network lists them or not.
 void name_images(const ProofScene &s, Proof &proof) {
   const double widest = *std::max_element(s.ratio.begin(), s.ratio.end()), apart = s.shortest_period();
-  if (!shown(proof) && s.gamma * widest * widest > (1.0 - contact_gap_limit) * apart * apart)
+  if (!shown(proof) && s.gamma() * widest * widest > (1.0 - contact_gap_limit) * apart * apart)
     proof.cause = ProofCause::images, proof.cause_value = 1.0, proof.cause_bound = 0.0;
 }
 

@@ -45,14 +45,17 @@ Cage cage_of(const ProofScene &s, int32_t i, const std::vector<NearPair> &pairs)
     Cell::Vector r{};
     double square = 0.0;
     for (size_t c = 0; c < d; ++c) {
-      if (pair.j < 0) r[c] = apart(s, pair, c).value();
+      if (pair.j < 0) r[c] = (s.round(pair.j) ? -1.0 : 1.0) * apart(s, pair, c).value();
       if (pair.j >= 0) r[c] = s.high[pair.i * d + c] - s.high[pair.j * d + c];
       for (size_t q = c; q < d; ++q) r[c] += pair.image[q] * s.cell.row(static_cast<int>(q))[c];
       square += r[c] * r[c];
     }
     for (size_t c = 0; c < d; ++c) out.normal.push_back((pair.i == i ? r[c] : -r[c]) / std::sqrt(square));
     // A mirror image moves away as fast as the sphere.
-    out.gap.push_back(opening_of(s, pair) * (pair.j < 0 ? 0.25 : 0.5) * std::sqrt(square) / s.gamma);
+    if (s.round(pair.j))
+      out.gap.push_back(0.25 * opening_of(s, pair) * s.weight(pair.i, pair.j) / std::sqrt(square));
+    else
+      out.gap.push_back(opening_of(s, pair) * (pair.j < 0 ? 0.25 : 0.5) * std::sqrt(square) / s.gamma());
   }
   return out;
 }
@@ -105,7 +108,7 @@ bool free_rattler(ProofScene &s, int32_t i, const std::vector<NearPair> &pairs) 
   double overlap = cage.overlap();
   ProofScene moved = s;
   for (int pass = 0; pass < 3; ++pass) {
-    if (move_into_cage(moved, i, pairs, proof_tuning::freed * s.ratio[i] * std::sqrt(s.gamma)))
+    if (move_into_cage(moved, i, pairs, proof_tuning::freed * s.ratio[i] * std::sqrt(s.gamma())))
       return s = std::move(moved), true;
     move_between(moved, i, pairs);
     const double left = cage_of(moved, i, pairs).overlap();

@@ -21,7 +21,7 @@ void refine_forces(ProofScene &s, const ProofEquations &e, const NormalMatrix &n
   double sum = 0.0;
   if (s.strict) {  // r . R^T f = 2 sum f |r|^2 = d for homogeneous strains
     for (size_t c = 0; c < s.contacts(); ++c) sum += s.force[c] * e.sigma2[c];
-    for (double &f : s.force) f *= 0.5 * s.dim / (sum * s.gamma);
+    for (double &f : s.force) f *= 0.5 * s.dim / (sum * s.gamma());
     normal.project_on_balance(s.force);
     return;
   }
@@ -55,7 +55,7 @@ void take_step(ProofScene &s, const NewtonStep &step) {
       const size_t at = static_cast<size_t>(s.sphere[i]) * d + k;
       add_to(s.high[at], s.low[at], step.v[i * d + k]);
     }
-  add_to(s.gamma, s.gamma_low, step.gamma);
+  s.grow(step.gamma);
   if (!s.strict) return;
   std::vector<double> rows = s.cell.rows();
   for (size_t q = 0; q < d; ++q)
@@ -90,7 +90,8 @@ bool refine(ProofScene &s, ProofEquations &e) {
     NormalMatrix normal(kept, there);
     if (!normal.factorise()) return false;
     refine_forces(kept, there, normal);
-    s.high = kept.high, s.low = kept.low, s.gamma = kept.gamma, s.gamma_low = kept.gamma_low, s.row = kept.force;
+    s.high = kept.high, s.low = kept.low, s.row = kept.force;
+    s.growth = kept.growth, s.growth_low = kept.growth_low;
   }
   e = evaluate(s);
   if (!closed && s.implied.empty() && !approach_closure(s, e)) return false;

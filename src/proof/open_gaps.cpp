@@ -36,7 +36,7 @@ Packing rounded(const ProofScene &s) {
   Packing p;
   p.dim = s.dim, p.cell = s.cell, p.container = s.container, p.non_additivity = s.non_additivity;
   p.position = s.high;
-  for (const double ratio : s.ratio) p.diameter.push_back(std::sqrt(s.gamma) * ratio);
+  for (const double ratio : s.ratio) p.diameter.push_back(std::sqrt(s.gamma()) * ratio);
   return p;
 }
 
@@ -70,15 +70,7 @@ Expansion apart(const ProofScene &s, const NearPair &pair, size_t c) {
 }
 
 double opening_of(const ProofScene &s, const NearPair &pair) {
-  Expansion sum, gamma(s.gamma);
-  gamma.add(s.gamma_low);
-  for (size_t c = 0; c < static_cast<size_t>(s.dim); ++c) {
-    const Expansion r = apart(s, pair, c);
-    sum.add_product(r, r);
-  }
-  const Expansion sigma2 = s.sigma_squared(pair.i, pair.j);
-  sum.add_product(gamma, sigma2, -1.0);
-  return sum.value() / sigma2.value();
+  return s.gap(pair.i, pair.j, pair.image.data()).value() / s.weight(pair.i, pair.j);
 }
 
 std::vector<NearPair> near_pairs(const ProofScene &s) {
@@ -89,17 +81,42 @@ std::vector<NearPair> near_pairs(const ProofScene &s) {
   return out;
 }
 
-OpenGaps open_gaps(const ProofScene &s, double radius, double gamma) {
+namespace {
+
+// At a round wall; lengths of r move by `way` at most. Relative to the sphere's radius.
+double gap_to_round_wall(const ProofScene &s, int32_t i, const Image &n, double way, double growth) {
+  double one = 0.0, square = 0.0;
+  for (int c = 0; c < s.dim; ++c) {
+    const double r = up(std::fabs(s.component(i, wall_partner(s.container.count() - 1), n.data(), c).value()));
+    one = add_up(one, r), square = add_up(square, mul_up(r, r));
+  }
+  square = add_up(square, add_up(mul_up(2.0 * way, one), mul_up(way, way)));
+  const double wide = mul_up(growth, s.ratio[i]);
+  return down(sub_down(sub_down(s.cell.edge(0), sqrt_up(square)), wide) / wide);
+}
+
+}  // namespace
+
+OpenGaps open_gaps(const ProofScene &s, double radius, double growth) {
+  const double gamma = s.rooted() ? mul_up(growth, growth) : growth;
   OpenGaps out;
   out.least = proof_tuning::near;
   const Packing p = rounded(s);
   const size_t d = static_cast<size_t>(s.dim);
-  Expansion exact(s.gamma);
-  exact.add(s.gamma_low);
+  const Expansion exact = s.exact_gamma();
   // A pair that the search leaves out has a gap of `near` less rounding; that is open where the radius is far smaller.
   out.open = out.all_seen =
       radius < 1e-3 * proof_tuning::near * *std::min_element(p.diameter.begin(), p.diameter.end());
   const bool listed = each_near_pair(s, p, [&](int32_t i, int32_t j, const Image &n) {
+    if (s.rooted())
+      out.overlap = std::max(out.overlap, -s.gap(i, j, n.data()).value() / (s.weight(i, j) * s.gamma_per_growth()) *
+                                              (1.0 + 32.0 * half_ulp));
+    if (s.round(j)) {
+      const double gap = gap_to_round_wall(s, i, n, s.node[i] >= 0 ? mul_up(2.0, radius) : 0.0, growth);
+      out.least = std::min(out.least, gap);
+      if (!(gap > 0.0)) out.open = false, out.of_rattler = s.node[i] < 0;
+      return;
+    }
     Expansion sum;
     double one = 0.0;
     for (size_t c = 0; c < d; ++c) {
@@ -115,7 +132,8 @@ OpenGaps open_gaps(const ProofScene &s, double radius, double gamma) {
     const double have = sub_down(down(sum.value()), mul_up(2.0 * ends, mul_up(one, radius)));
     Expansion below = sum;
     below.add_product(exact, sigma2, -1.0);
-    out.overlap = std::max(out.overlap, div_up(-below.value(), sigma2.value()) * (1.0 + 8.0 * half_ulp));
+    if (!s.rooted())
+      out.overlap = std::max(out.overlap, div_up(-below.value(), sigma2.value()) * (1.0 + 8.0 * half_ulp));
     out.least = std::min(out.least, std::sqrt(std::max(0.0, have) / need) - 1.0);
     if (have > need) return;
     out.open = false;
@@ -126,6 +144,7 @@ OpenGaps open_gaps(const ProofScene &s, double radius, double gamma) {
   if (!(mul_up(gamma, mul_up(widest, widest)) <
         s.shortest_period() * s.shortest_period() * (1.0 - (s.strict ? 1e-3 : 1e-12))))
     out.open = out.all_seen = false;
+  if (s.rooted() && !(mul_up(growth, widest) < s.cell.edge(0))) out.open = out.all_seen = false;
   return out;
 }
 

@@ -9,11 +9,13 @@ struct OpenGaps {
   bool of_rattler = false;  // the pair that is not open has a rattler
   double least = 0.0;       // least relative gap of a pair that is no contact, as far as proof_tuning::near
   bool all_seen = false;    // no pair was left out, and no sphere reaches its own image
-  double overlap = 0.0;     // largest Gamma - |r|^2 / sigma^2 of these pairs, at the scene's exact numbers; or 0
+  double overlap = 0.0;     // by how much growth has to fall, to first order, until none of these pairs overlaps; or 0
 };
 // Every image: |r|^2 - 2 |r|_1 radius m > gamma sigma^2, m the number of stable spheres of the pair, strict with the
-// number of cell vectors between them; and no sphere reaches its own image.
-OpenGaps open_gaps(const ProofScene &scene, double radius, double gamma);
+// number of cell vectors between them; and no sphere reaches its own image. At a round wall
+// |r|^2 + 2 |r|_1 radius m + (radius m)^2 < (W - g s)^2, and W > g s of all spheres. growth: at or above that of the
+// exact packing.
+OpenGaps open_gaps(const ProofScene &scene, double radius, double growth);
 
 struct NearPair {
   int32_t i, j;                // spheres, i <= j; j < 0: a wall

@@ -28,9 +28,9 @@ std::vector<NearPair> all_pairs(const ProofScene &s) {
 double fit_gamma(ProofScene &s, std::vector<NearPair> &pairs) {
   double least = HUGE_VAL;
   for (const NearPair &pair : pairs) least = std::min(least, opening_of(s, pair));
-  add_to(s.gamma, s.gamma_low, least);
+  s.grow(least);
   for (NearPair &pair : pairs) pair.opening = opening_of(s, pair);
-  return least / s.gamma;
+  return least / s.gamma();
 }
 
 // The LP of one step, and which of the pairs has each row.
@@ -42,14 +42,17 @@ struct Step {
 // Lengths in steps of `step` diameters of ratio 1; a pair that is farther open than both spheres can move has no row.
 void make_step(const ProofScene &s, const std::vector<NearPair> &pairs, double step, Step &out) {
   const size_t d = static_cast<size_t>(s.dim);
-  const double unit = std::sqrt(s.gamma);
+  const double unit = std::sqrt(s.gamma());
   for (size_t k = 0; k < pairs.size(); ++k) {
     const NearPair &pair = pairs[k];
-    const double sigma2 = s.sigma_squared(pair.i, pair.j).value(), c = pair.opening / (s.gamma * step);
+    const double sigma2 = s.weight(pair.i, pair.j), c = pair.opening / (s.gamma() * step);
     if (c > proof_tuning::beyond_step * std::max(1.0, 1.0 / std::sqrt(sigma2))) continue;
     out.pair.push_back(k), out.list.i.push_back(pair.i), out.list.j.push_back(pair.j), out.lp.c.push_back(c);
     for (size_t q = 0; q < d; ++q)
-      out.lp.a.push_back((pair.j < 0 ? 4.0 : 2.0) * apart(s, pair, q).value() / (unit * sigma2));
+      out.lp.a.push_back((s.round(pair.j) ? -4.0
+                          : pair.j < 0    ? 4.0
+                                          : 2.0) *
+                         apart(s, pair, q).value() / (unit * sigma2));
   }
   out.lp.dim = s.dim, out.lp.n = static_cast<int32_t>(s.ratio.size()), out.lp.pairs = &out.list, out.lp.bound = 1.0;
 }
@@ -71,6 +74,7 @@ void take_closed(ProofScene &s, const std::vector<NearPair> &pairs, const std::v
     s.a.push_back(s.node[pairs[k].i]), s.b.push_back(j < 0 ? j : s.node[j]), s.force.push_back(force[k]);
     s.image.insert(s.image.end(), pairs[k].image.begin(), pairs[k].image.end());
   }
+  pin_rotations(s);
 }
 
 }  // namespace
@@ -82,7 +86,7 @@ LpsEnd close_by_lps(ProofScene &scene) {
   std::vector<NearPair> pairs = all_pairs(s);
   std::vector<double> force(pairs.size());
   fit_gamma(s, pairs);
-  if (!(s.gamma > 0.0)) return LpsEnd::no_end;
+  if (!(s.gamma() > 0.0)) return LpsEnd::no_end;
   LpSolution before;
   double length = proof_tuning::first_step;
   for (int k = 0; k < proof_tuning::most_steps; ++k) {
@@ -93,7 +97,7 @@ LpsEnd close_by_lps(ProofScene &scene) {
     const bool same_rows = before.basis_rows.size() == step.pair.size();
     LpSolution found = solve_lp_clp(step.lp, clp_tolerance, nullptr, same_rows ? &before : nullptr);
     if (!found.solved) return LpsEnd::no_end;
-    for (size_t x = 0; x < s.high.size(); ++x) add_to(s.high[x], s.low[x], found.s[x] * length * std::sqrt(s.gamma));
+    for (size_t x = 0; x < s.high.size(); ++x) add_to(s.high[x], s.low[x], found.s[x] * length * std::sqrt(s.gamma()));
     std::fill(force.begin(), force.end(), 0.0);
     for (size_t row = 0; row < step.pair.size(); ++row) force[step.pair[row]] = found.y[row];
     const double gain = fit_gamma(s, pairs);

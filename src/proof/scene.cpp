@@ -5,6 +5,7 @@
 
 #include "core/motion.hpp"
 #include "proof/implied.hpp"
+#include "proof/outward.hpp"
 
 namespace jam::inside {
 
@@ -13,10 +14,11 @@ Expansion ProofScene::component(int32_t i, int32_t j, const int32_t *n, int k) c
   Expansion r(high[at]);
   r.add(low[at]);
   if (j < 0) {
-    const Surface &plane = container[wall_partner(j)];
-    if (plane.axis() != k) return Expansion();
-    if (plane.side()) r.add(-cell.edge(k));
+    const Surface &wall = container[wall_partner(j)];
+    if (wall.curved() ? !wall.turning().along(k) : wall.axis() != k) return Expansion();
+    if (!wall.curved() && wall.side()) r.add(-cell.edge(k));
     r.add(Expansion(r));
+    if (wall.curved()) r.add(-cell.edge(0));
     return r;
   }
   const size_t to = static_cast<size_t>(j) * dim + k;
@@ -27,6 +29,51 @@ Expansion ProofScene::component(int32_t i, int32_t j, const int32_t *n, int k) c
       r.add_product(n[q], cell_low[q * dim + k]);
     }
   return r;
+}
+
+Expansion ProofScene::exact_growth() const {
+  Expansion out(growth);
+  out.add(growth_low);
+  return out;
+}
+
+Expansion ProofScene::exact_gamma() const {
+  const Expansion once = exact_growth();
+  if (!rooted()) return once;
+  Expansion square;
+  square.add_product(once, once);
+  return square;
+}
+
+void ProofScene::grow(double by_gamma) { add_to(growth, growth_low, by_gamma / gamma_per_growth()); }
+
+Expansion ProofScene::room(int32_t i) const {
+  Expansion out(cell.edge(0));
+  out.add_product(exact_growth(), Expansion(ratio[i]), -1.0);
+  return out;
+}
+
+Expansion ProofScene::gap(int32_t i, int32_t j, const int32_t *n) const {
+  const bool inside = round(j);
+  Expansion sum;
+  for (int k = 0; k < dim; ++k) {
+    const Expansion r = component(i, j, n, k);
+    sum.add_product(r, r, inside ? -1.0 : 1.0);
+  }
+  if (inside)
+    sum.add_product(room(i), room(i));
+  else
+    sum.add_product(exact_gamma(), sigma_squared(i, j), -1.0);
+  return sum;
+}
+
+double ProofScene::weight(int32_t i, int32_t j) const {
+  return round(j) ? ratio[i] * room(i).value() / growth : sigma_squared(i, j).value();
+}
+
+double ProofScene::lever(size_t c) const {
+  if (round(b[c])) return 2.0 * room(sphere[a[c]]).value() / growth;
+  return std::sqrt(sigma_squared(c).value()) * (wall(c) ? 2.0 : 1.0);
 }
 
 double ProofScene::shortest_period() const {
@@ -70,6 +117,33 @@ void take_out_contacts(ProofScene &s, const std::vector<char> &on) {
 
 }  // namespace
 
+// Gauss' elimination of the velocities of rotations, with the largest pivots.
+void pin_rotations(ProofScene &s) {
+  const size_t d = static_cast<size_t>(s.dim);
+  s.pin.clear();
+  if (s.container.rotations() == 0) return;
+  s.pin.assign(s.ratio.size() * d, 0);
+  std::vector<std::vector<double>> turn;
+  for (int q = 0; q < s.container.rotations(); ++q) {
+    turn.emplace_back(s.nodes() * d);
+    for (size_t i = 0; i < s.nodes(); ++i) s.container.rotation(q, &s.high[s.sphere[i] * d], &turn.back()[i * d]);
+  }
+  const auto size = [](double a, double b) { return std::fabs(a) < std::fabs(b); };
+  while (!turn.empty()) {
+    size_t most = 0, at = 0;
+    for (size_t q = 0; q < turn.size(); ++q) {
+      const size_t k = std::max_element(turn[q].begin(), turn[q].end(), size) - turn[q].begin();
+      if (q == 0 || size(turn[most][at], turn[q][k])) most = q, at = k;
+    }
+    const std::vector<double> pivot = turn[most];
+    turn.erase(turn.begin() + static_cast<std::ptrdiff_t>(most));
+    if (pivot[at] == 0.0) return;  // all spheres are on the axis
+    s.pin[s.sphere[at / d] * d + at % d] = 1;
+    for (std::vector<double> &v : turn)
+      for (size_t k = v.size(); k-- > 0;) v[k] -= k == at ? v[k] : v[at] / pivot[at] * pivot[k];
+  }
+}
+
 void keep_contacts(ProofScene &s, const std::vector<char> &on) {
   take_out_contacts(s, on);
   const std::vector<int32_t> before = s.sphere;
@@ -84,6 +158,7 @@ void keep_contacts(ProofScene &s, const std::vector<char> &on) {
     s.a[c] = s.node[before[s.a[c]]];
     if (!s.wall(c)) s.b[c] = s.node[before[s.b[c]]];
   }
+  pin_rotations(s);
 }
 
 ProofScene without_implied(const ProofScene &s) {
@@ -158,12 +233,13 @@ ProofScene scene_of_contacts(const Packing &p, const ContactNetwork &network, co
     s.ratio.push_back(!ratio.empty() ? ratio[i] : equal ? 1.0 : p.diameter[i] / s.unit);
     given += s.ratio.back(), now += p.diameter[i] / s.unit;
   }
-  s.gamma = (now / given) * (now / given);
+  s.growth = s.rooted() ? now / given : (now / given) * (now / given);
+  pin_rotations(s);
   // f_c in units of |r_c|: forces times directions balance, and directions are r_c / |r_c|.
   double sum = 0.0;
   for (size_t c = 0; c < s.contacts(); ++c) {
     s.force.push_back(network.force[c] / s.lever(c));
-    sum += s.force.back() * s.sigma_squared(c).value();
+    sum += s.force.back() * s.weight(c);
   }
   for (double &f : s.force) f /= sum;
   return s;
@@ -179,18 +255,10 @@ ProofEquations evaluate(const ProofScene &s) {
   ProofEquations e;
   const size_t d = static_cast<size_t>(s.dim);
   e.row.resize(s.contacts() * d);
-  Expansion gamma(s.gamma);
-  gamma.add(s.gamma_low);
   for (size_t c = 0; c < s.contacts(); ++c) {
-    Expansion sum;
-    for (size_t k = 0; k < d; ++k) {
-      const Expansion r = s.component(c, static_cast<int>(k));
-      sum.add_product(r, r);
-      e.row[c * d + k] = 2.0 * r.value();
-    }
-    const Expansion sigma2 = s.sigma_squared(c);
-    sum.add_product(gamma, sigma2, -1.0);
-    e.f.push_back(sum.value()), e.sigma2.push_back(sigma2.value());
+    for (size_t k = 0; k < d; ++k)
+      e.row[c * d + k] = (s.round(s.b[c]) ? -2.0 : 2.0) * s.component(c, static_cast<int>(k)).value();
+    e.f.push_back(s.gap(s.sphere[s.a[c]], s.partner(c), &s.image[c * d]).value()), e.sigma2.push_back(s.weight(c));
   }
   return e;
 }
@@ -238,6 +306,12 @@ double largest_load(const ProofScene &s) {
   std::vector<double> load(s.ends(), 0.0);
   for (size_t c = 0; c < s.contacts(); ++c) s.each_end(c, [&](size_t node, double) { load[node] += weight_of(s, c); });
   return *std::max_element(load.begin(), load.end());
+}
+
+double growth_load(const ProofScene &s) {
+  std::vector<double> q;
+  for (size_t c = 0; s.rooted() && c < s.contacts(); ++c) q.push_back(up(up(s.sigma_squared(c).value())));
+  return norm_up(q);
 }
 
 std::vector<double> balance_target(const ProofScene &s) {

@@ -9,6 +9,13 @@
 // A flat wall is a contact with the mirror image of the sphere: r_c is twice the way from the wall to the centre, and
 // sigma_c the diameter. Its partner is -1 - w, as in core/container.hpp. Along axes with walls no sphere is pinned.
 //
+// At a round wall about the middle of its axes, of the width W of the container,
+//
+//   F_c(x, g) = (W - g s_a)^2 - |2 x_a - W|^2,   g = sqrt(Gamma), r_c = 2 x_a - W along the axes of the wall,
+//
+// so that of scenes with such a wall g is the unknown: then all F_c are of second degree. For each rotation that the
+// wall allows one more component of a sphere is pinned.
+//
 // Strict: Gamma is fixed, and the lower triangle of A is unknown. A cell vector is then a node like a sphere: F_c
 // depends on sum_p w_p y_p over its ends p, w = 1, -1 for its spheres and n_q for cell vector q, and
 // at a wall 2 for its sphere.
@@ -39,24 +46,34 @@ struct ProofScene {
   std::vector<double> cell_low;  // (dim, dim), added to the cell vectors
   bool strict = false;
   double non_additivity = 0.0;
-  std::vector<double> ratio;      // s_i of all spheres
-  std::vector<double> high, low;  // (n, dim), all spheres
-  double gamma = 1.0, gamma_low = 0.0;
-  std::vector<int32_t> sphere, node;    // node -> sphere; sphere -> node, -1 for rattlers
-  std::vector<int32_t> a, b;            // contact -> nodes; b < 0: a wall
-  std::vector<int32_t> image;           // (contacts, dim): n_c
-  std::vector<double> force;            // f_c > 0 with sum f_c sigma_c^2 = 1; as given by the network until refined
-  std::vector<ImpliedContact> implied;  // d = 2: implied.hpp. Each follows from those before it and the others
+  std::vector<double> ratio;              // s_i of all spheres
+  std::vector<double> high, low;          // (n, dim), all spheres
+  double growth = 1.0, growth_low = 0.0;  // the unknown beside the centres: Gamma, with a round wall its root g
+  std::vector<int32_t> sphere, node;      // node -> sphere; sphere -> node, -1 for rattlers
+  std::vector<int32_t> a, b;              // contact -> nodes; b < 0: a wall
+  std::vector<int32_t> image;             // (contacts, dim): n_c
+  std::vector<double> force;              // f_c > 0 with sum f_c sigma_c^2 = 1; as given by the network until refined
+  std::vector<ImpliedContact> implied;    // d = 2: implied.hpp. Each follows from those before it and the others
   std::vector<double> row;  // with implied contacts: the state of self-stress of the others alone, once refined
   bool own_images = false;  // a contact of a sphere with its own image
+  std::vector<char> pin;    // with a round wall, (n, dim): components that are pinned to exclude rotations
+
+  bool rooted() const { return container.curved() != 0; }  // growth is g
+  double gamma() const { return rooted() ? growth * growth : growth; }
+  double gamma_per_growth() const { return rooted() ? 2.0 * growth : 1.0; }
+  Expansion exact_growth() const;
+  Expansion exact_gamma() const;
+  void grow(double by_gamma);  // in two doubles, to first order
 
   size_t contacts() const { return a.size(); }
   size_t nodes() const { return sphere.size(); }
   size_t ends() const { return nodes() + (strict ? dim : 0); }  // spheres, then cell vectors
   size_t unknowns() const { return dim * ends(); }              // with those that are pinned, without Gamma
   bool wall(size_t c) const { return b[c] < 0; }
+  bool round(int32_t j) const { return j < 0 && container[wall_partner(j)].curved(); }
   // Node 0 is pinned along axes without walls, and so are entries of cell vectors above the diagonal.
   bool moves(size_t node, int k) const {
+    if (!pin.empty() && pin[static_cast<size_t>(sphere[node]) * dim + k]) return false;
     if (node == 0) return !cell.repeats(k);
     return node < nodes() || k <= static_cast<int>(node - nodes());
   }
@@ -79,11 +96,19 @@ struct ProofScene {
   Expansion component(size_t c, int k) const { return component(sphere[a[c]], partner(c), &image[c * dim], k); }
   Expansion sigma_squared(int32_t i, int32_t j) const;
   Expansion sigma_squared(size_t c) const { return sigma_squared(sphere[a[c]], partner(c)); }
+  Expansion room(int32_t i) const;                              // W - g s_i
+  Expansion gap(int32_t i, int32_t j, const int32_t *n) const;  // F
+  // - dF / dGamma: sigma^2, at a round wall s_i (W - g s_i) / g.
+  double weight(int32_t i, int32_t j) const;
+  double weight(size_t c) const { return weight(sphere[a[c]], partner(c)); }
   // Along its unit normal a contact pushes with 2 lever f sqrt(Gamma).
-  double lever(size_t c) const { return std::sqrt(sigma_squared(c).value()) * (wall(c) ? 2.0 : 1.0); }
+  double lever(size_t c) const;
   // Length of the shortest vector by which the packing repeats; infinite between walls on all axes.
   double shortest_period() const;
 };
+
+// Which components are pinned to exclude rotations: those that these move the most. To be called for other nodes again.
+void pin_rotations(ProofScene &scene);
 
 // Only the contacts that are `on`, one flag each; spheres without a contact become rattlers.
 void keep_contacts(ProofScene &scene, const std::vector<char> &on);
@@ -103,8 +128,8 @@ bool lattice_image(const Cell &cell, const double *offset, int32_t *n);
 // All equations at the scene's numbers, rounded once, and the rows of their derivatives.
 struct ProofEquations {
   std::vector<double> f;       // F_c, to a relative error of 2 half_ulp
-  std::vector<double> row;     // (contacts, dim): 2 r_c, the derivative by x_a; by x_b it is the negative
-  std::vector<double> sigma2;  // sigma_c^2
+  std::vector<double> row;     // (contacts, dim): 2 r_c, at a round wall -2 r_c: each_end() has the weights of its ends
+  std::vector<double> sigma2;  // weight()
 };
 ProofEquations evaluate(const ProofScene &scene);
 
@@ -117,6 +142,8 @@ void multiply_columns(const ProofScene &scene, const ProofEquations &e, const do
 // these, sum_c |sum_p w_p v_p|^2 <= largest_load |v|^2.
 double largest_weight(const ProofScene &scene);
 double largest_load(const ProofScene &scene);
+// At or above |q|, with F_c(g + h) - F_c(g) - h F_c'(g) = +-q_c h^2; 0 where Gamma is the unknown.
+double growth_load(const ProofScene &scene);
 // What R^T f has to be: 0, but strict the gradient of log V by the cell vectors.
 std::vector<double> balance_target(const ProofScene &scene);
 

@@ -37,7 +37,7 @@ double balance_error(const ProofScene &s, const ProofEquations &e) {
 ForceBounds bound_forces(const ProofScene &s, const ProofEquations &e) {
   return {norm_up(s.force), *std::min_element(s.force.begin(), s.force.end()),
           *std::max_element(s.force.begin(), s.force.end()), balance_error(s, e),
-          mul_up(norm_up(e.sigma2), add_up(1.0, gamma_of(4.0)))};
+          mul_up(norm_up(e.sigma2), add_up(1.0, gamma_of(s.rooted() ? 12.0 : 4.0)))};
 }
 
 // Least edge of the cell along its axes: what volumes and their gradient divide by.
@@ -68,26 +68,29 @@ double force_error(const ProofScene &s, const ProofEquations &e, const ForceBoun
 
 // |J^-1 F| <= |step| + B |F - J step|: a step that solves the equations to ten digits leaves that part of B.
 double distance_bound(const ProofScene &s, const ProofEquations &e, const NewtonStep &step, double inverse,
-                      double &gamma) {
+                      double &growth) {
   std::vector<double> left(s.contacts()), size(s.contacts());
   multiply_rows(s, e, step.v.data(), left.data());
-  const double error = gamma_of(s.dim * (s.dim + 5.0) + 12.0);
+  const double error = gamma_of(s.dim * (s.dim + 5.0) + (s.rooted() ? 24.0 : 12.0));
+  const double per = s.gamma_per_growth(), grown = step.gamma / per;
   std::vector<double> all(step.v);
-  all.push_back(step.gamma);
+  all.push_back(grown);
   const double largest_step = norm_up(all);
   for (size_t c = 0; c < s.contacts(); ++c) {
-    double row = e.sigma2[c];
+    const double column = e.sigma2[c] * per;
+    double row = column;
     s.each_end(c, [&](size_t, double weight) {
       for (int k = 0; k < s.dim; ++k) row += std::fabs(weight * e.row[c * s.dim + k]);
     });
-    left[c] =
-        std::fabs(e.f[c] + (left[c] - e.sigma2[c] * step.gamma)) + error * (std::fabs(e.f[c]) + row * largest_step);
+    left[c] = std::fabs(e.f[c] + (left[c] - column * grown)) + error * (std::fabs(e.f[c]) + row * largest_step);
     size[c] = mul_up(left[c], 1.0 + 4.0 * half_ulp);
   }
   const double rest = mul_up(inverse, norm_up(size));
-  gamma = add_up(std::fabs(step.gamma), rest);
+  growth = add_up(std::fabs(grown), rest);
   return add_up(largest_step, rest);
 }
+
+double growth_above(const ProofScene &s) { return add_up(s.growth, std::fabs(s.growth_low)); }
 
 // All F_c are 0. The part of f with R^T f = 0 exactly is within g / s_min of f, and R has full rank: jammed, whatever
 // the number of contacts.
@@ -95,31 +98,33 @@ void prove_closed(const ProofScene &s, const ForceBounds &f, Proof &out) {
   double mean = 0.0;
   for (const double x : s.force) mean += x / static_cast<double>(s.contacts());
   const double error = div_up(f.residual, out.bound.singular);
-  const OpenGaps gaps = open_gaps(s, 0.0, add_up(s.gamma, std::fabs(s.gamma_low)));
+  const OpenGaps gaps = open_gaps(s, 0.0, growth_above(s));
   out.least_force = f.smallest / mean, out.force_radius = div_up(error, mean), out.least_gap = gaps.least;
   out.exact = out.closed = gaps.open && f.smallest > error;
 }
 
 // The equations that are as many as the unknowns: of all contacts that are not implied. |Q(v)| <= load |v|^2, and
-// inverse >= |J^-1|.
+// inverse >= |J^-1|. With a round wall Q has q_c h^2 in addition, h the change of g.
 struct Square {
   double singular;  // of R
   double load, inverse;
-  double eta, gamma_eta;  // bounds of the step to the zero, and of its part in Gamma
+  double eta, growth_eta;  // bounds of the step to the zero, and of its part in Gamma or g
 };
 Square bound_square(const ProofScene &s, const ProofEquations &e, NormalMatrix &normal, double singular) {
-  Square out{singular, largest_load(s), 0.0, 0.0, 0.0};
+  Square out{singular, std::max(largest_load(s), growth_load(s)), 0.0, 0.0, 0.0};
   if (s.strict) {  // J is R itself
     out.inverse = div_up(1.0, singular);
-    out.eta = distance_bound(s, e, newton_step(s, e, normal), out.inverse, out.gamma_eta);
-    out.gamma_eta = 0.0;
+    out.eta = distance_bound(s, e, newton_step(s, e, normal), out.inverse, out.growth_eta);
+    out.growth_eta = 0.0;
     return out;
   }
   const ForceBounds f = bound_forces(s, e);
   const double total = add_up(f.length, force_error(s, e, f, singular));
   const double slope = div_up(add_up(1.0, mul_up(f.weight, total)), singular);
-  out.inverse = sqrt_up(add_up(mul_up(total, total), mul_up(slope, slope)));
-  out.eta = distance_bound(s, e, newton_step(s, e, normal), out.inverse, out.gamma_eta);
+  // f0 with the scale sum f0_c dF_c / dg = -1 is 2 g times smaller.
+  const double own = s.rooted() ? div_up(total, s.gamma_per_growth() * (1.0 - 8.0 * half_ulp)) : total;
+  out.inverse = sqrt_up(add_up(mul_up(own, own), mul_up(slope, slope)));
+  out.eta = distance_bound(s, e, newton_step(s, e, normal), out.inverse, out.growth_eta);
   return out;
 }
 Square bound_square(const ProofScene &s, const ProofEquations &e, NormalMatrix &normal, NormalMatrix::Bound &bound) {
@@ -133,7 +138,11 @@ Square bound_square(const ProofScene &s, const ProofEquations &e, NormalMatrix &
   return bound_square(kept, there, own, bound.singular);
 }
 
-double turn_bound(const ProofScene &s) { return mul_up(2.0, sqrt_up(mul_up(largest_weight(s), largest_load(s)))); }
+// |J(v) - J| <= turn_bound |v|. With a round wall the column of g turns by 2 q_c h.
+double turn_bound(const ProofScene &s) {
+  const double turn = mul_up(2.0, sqrt_up(mul_up(largest_weight(s), largest_load(s))));
+  return std::max(turn, mul_up(2.0, growth_load(s)));
+}
 
 // Of rho <= ... + a2 rho^2: what second orders of the contacts add, and strict those of log V <= 0, which lets b.v be
 // rho^2 / h^2 while rho <= h / 2.
@@ -180,18 +189,19 @@ void prove_existence(const ProofScene &s, const ProofEquations &e, const ForceBo
   const double r = add_up(eta, mul_up(4.0, mul_up(beta, mul_up(eta, eta))));
   const double contraction = mul_up(2.0, mul_up(beta, r));
   if (!(contraction < 0.5)) return fails(ProofCause::singular, square.singular, contraction);
-  const double least = std::sqrt(s.gamma) * *std::min_element(s.ratio.begin(), s.ratio.end());
+  const double least = std::sqrt(s.gamma()) * *std::min_element(s.ratio.begin(), s.ratio.end());
   if (!s.implied.empty() && !(r < 1e-3 * proof_tuning::clear_turn * least))  // tiles must stay convex
     return fails(ProofCause::singular, square.singular, contraction);
   out.radius = r;
-  out.gamma_radius = add_up(square.gamma_eta, mul_up(beta, mul_up(r, r)));
+  const double grown = add_up(square.growth_eta, mul_up(beta, mul_up(r, r))), growth = add_up(growth_above(s), grown);
+  out.gamma_radius = s.rooted() ? mul_up(mul_up(2.0, growth), grown) : grown;
   const double error = moved_forces(s, f, square, r, contraction);
   double mean = 0.0;
   for (const double x : s.force) mean += x / static_cast<double>(s.contacts());
   out.least_force = f.smallest / mean;
   out.force_radius = div_up(error, mean);
   if (!(sub_down(f.smallest, error) > 0.0)) return fails(ProofCause::force, out.least_force, out.force_radius);
-  const OpenGaps gaps = open_gaps(s, r, add_up(add_up(s.gamma, std::fabs(s.gamma_low)), out.gamma_radius));
+  const OpenGaps gaps = open_gaps(s, r, growth);
   out.least_gap = gaps.least;
   if (!gaps.open) return fails(gaps.of_rattler ? ProofCause::rattler : ProofCause::gap, gaps.least, r);
   out.exact = true;
@@ -201,16 +211,21 @@ void prove_existence(const ProofScene &s, const ProofEquations &e, const ForceBo
 // Trapping, for any positive state f: rho (1 - g / (f_min s_min)) <= a0 + a2 rho^2 for every motion rho without
 // overlap.
 void prove_trapping(const ProofScene &s, const ProofEquations &e, const ForceBounds &f, Proof &out) {
-  // Gamma less this is that of a packing: no pair overlaps. Pairs that carry no force may be closed too.
-  const OpenGaps gaps = open_gaps(s, 0.0, add_up(s.gamma, std::fabs(s.gamma_low)));
+  // Growth less this is that of a packing: no pair overlaps. Pairs that carry no force may be closed too.
+  const OpenGaps gaps = open_gaps(s, 0.0, growth_above(s));
   out.least_gap = gaps.least;
   double drop = gaps.overlap;
-  for (size_t c = 0; c < s.contacts(); ++c)
-    drop = std::max(drop, div_up(-e.f[c], e.sigma2[c]) * (1.0 + 8.0 * half_ulp));
+  const double per = s.gamma_per_growth(), rounding = 1.0 + (s.rooted() ? 32.0 : 8.0) * half_ulp;
+  for (size_t c = 0; c < s.contacts(); ++c) drop = std::max(drop, div_up(-e.f[c], e.sigma2[c] * per) * rounding);
+  if (s.rooted()) {  // of a pair Gamma falls by 2 g drop - drop^2
+    if (!(drop < 0.4 * s.growth)) return;
+    drop = mul_up(drop, add_up(1.0, div_up(drop, s.growth * (1.0 - 8.0 * half_ulp))));
+  }
   std::vector<double> open, weighted;
   for (size_t c = 0; c < s.contacts(); ++c) {
-    const double x = std::max(
-        0.0, add_up(e.f[c] + 4.0 * half_ulp * std::fabs(e.f[c]), mul_up(drop, e.sigma2[c] * (1.0 + 8.0 * half_ulp))));
+    double column = e.sigma2[c] * per * rounding;  // a round wall's F grows by (drop s)^2 in addition
+    if (s.round(s.b[c])) column = add_up(column, mul_up(drop, up(up(s.sigma_squared(c).value()))));
+    const double x = std::max(0.0, add_up(e.f[c] + 4.0 * half_ulp * std::fabs(e.f[c]), mul_up(drop, column)));
     open.push_back(x), weighted.push_back(mul_up(x, s.force[c]));
   }
   const double singular = out.bound.singular, edge = least_edge(s);

@@ -17,7 +17,7 @@ struct Proof {
   bool closed = false;                  // exact since all F_c are 0 as they stand: a crystal
   ProofCause cause = ProofCause::none;  // why it is not exact
   double cause_value = 0.0, cause_bound = 0.0;
-  double radius = 0.0, gamma_radius = 0.0;       // of existence, in space and in Gamma
+  double radius = 0.0, gamma_radius = 0.0;       // of existence, in all unknowns and in Gamma
   double least_force = 0.0, force_radius = 0.0;  // over the mean force
   double least_gap = 0.0;                        // relative, of all pairs that are no contacts
   NormalMatrix::Bound bound;

@@ -109,7 +109,7 @@ Says raise_if_trapped(JammingCase &c) {
   r.flex.clear();
   // R has rows 2 r_c.
   double length2 = 0.0;
-  for (const double sigma2 : equations.sigma2) length2 += 4.0 * scene.gamma * sigma2;
+  for (const double sigma2 : equations.sigma2) length2 += 4.0 * scene.gamma() * sigma2;
   r.margin = proof.bound.eigenvalue * static_cast<double>(scene.contacts()) / length2;
   c.v.answer_if_all_closed = Verdict::yes;
   return Verdict::yes;

@@ -67,7 +67,7 @@ class File:
         self.lines = [line.split() for line in text.splitlines()]
         self.spheres = [line for line in self.lines if line[0] == "sphere"]
         self.contacts = [line for line in self.lines if line[0] == "contact"]
-        self.gamma = next(line for line in self.lines if line[0] == "gamma")
+        self.gamma = next(line for line in self.lines if line[0] in ("gamma", "growth"))
 
     def text(self):
         return "\n".join(" ".join(line) for line in self.lines) + "\n"

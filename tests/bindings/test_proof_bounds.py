@@ -153,12 +153,19 @@ def fcc_without_the_upper_neighbours_of_a_sphere():
     return "\n".join(fcc(lambda x: x[2] != 0.25 or not (x[:2] in ((0.25, 0), (0.75, 0), (0, 0.25), (0, 0.75))))) + "\n"
 
 
+def one_disk_at_a_round_wall():
+    """All of its coordinates are pinned, where there is one rotation."""
+    header = ["jamproof 1", "dim 2", "unit 1p0", "cell 1p0 0p0 1p0", "non_additivity 0p0", "growth 1p-2", "round 2"]
+    return "\n".join([*header, "pin 0 0", "pin 0 1", "sphere 1 1p0 7p-3 1p-1", "wall 0 2 1 1p0"]) + "\n"
+
+
 # Bound, what stands in the checker, what it is exchanged for, a false file, and the radius that would be true.
 TABLE = (
     ("pairs stay apart", "refuse(have <= part,", "refuse(False,", overlap, None),
     ("pairs in other images", "some = [range(-((reach + r[c]) // row[c]), (reach - r[c]) // row[c] + 1) for _, r in near]",
      "some = [range(1) for _ in near]", overlap_across_the_boundary, None),
-    ("radius in a gap", "* radius * moving", "* 0 * moving", gap_below_the_radius, None),
+    ("radius in a gap", "radius * moving", "0 * moving", gap_below_the_radius, None),
+    ("one pin for each rotation", 'refuse(wrong, "there is not one pin', 'refuse(False, "there is not one pin', one_disk_at_a_round_wall, None),
     ("eta", "[(abs(v) + a) * TWO ** (e + low) for v, a in zip(total, alpha)]", "[Fraction(0)] * n", far_centre, FAR),
     ("delta", "delta = [(2 * v + width * a) * TWO ** (e - BITS - 1) for v, a in zip(delta, alpha)]", "delta = [Fraction(0)] * n",
      far_centre_and_no_inverse, FAR),

@@ -262,7 +262,7 @@ CASE(linear_programs_close_the_same_contacts) {
     }
     assert_true(std::fabs(sum - 1.0) < 1e-6);
     for (const NearPair &pair : near_pairs(by_lps)) assert_true(pair.opening > 0.0);
-    const double apart = (by_lps.gamma - by_exchange.gamma) + (by_lps.gamma_low - by_exchange.gamma_low);
+    const double apart = (by_lps.growth - by_exchange.growth) + (by_lps.growth_low - by_exchange.growth_low);
     // Centres that the first order leaves free may differ by the change, and Gamma by its square.
     assert_true(std::fabs(apart) < change * change + 1e-26);
   }
@@ -270,10 +270,10 @@ CASE(linear_programs_close_the_same_contacts) {
   l.packing.position.push_back(2.25 + 1e-14), l.packing.position.push_back(2.0 * std::sqrt(0.75));
   l.packing.diameter.push_back(0.5), l.network.coordination.push_back(0);
   ProofScene s = make_proof_scene(l.packing, l.network, {});
-  const double before = s.gamma;
+  const double before = s.gamma();
   assert_true(close_by_lps(s) == LpsEnd::closed);
   for (const NearPair &pair : near_pairs(s)) assert_true(pair.opening > 0.0);
-  assert_true(std::fabs(s.gamma - before) < 1e-14);
+  assert_true(std::fabs(s.gamma() - before) < 1e-14);
 }
 
 // A list without three contacts of a disk that is too large: it overlaps there.
@@ -328,7 +328,7 @@ CASE(a_rattler_without_room_touches) {
     ProofScene s = make_proof_scene(p, none, {});
     const auto overlap = [&] {
       double most = 0.0;
-      for (const NearPair &pair : near_pairs(s)) most = std::max(most, -pair.opening / s.gamma);
+      for (const NearPair &pair : near_pairs(s)) most = std::max(most, -pair.opening / s.gamma());
       return most;
     };
     assert_true(overlap() > 1e-14);

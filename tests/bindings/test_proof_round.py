@@ -1,0 +1,318 @@
+"""Proofs at round walls: circles, balls and tubes, algebraic packings, Newton's method in decimals, and changed files."""
+import decimal
+import math
+import random
+import re
+import unittest
+from decimal import Decimal
+from fractions import Fraction
+
+import numpy as np
+from test_proof import file_of, jamproof, scene_of, value, verdict, word
+from test_proof_walls import REFUSED, Walled, moved
+
+import jam
+
+SCENES = {
+    "circle": {"dim": 2, "container": "ball", "packing_fraction": 0.3},
+    "ball": {"dim": 3, "container": "ball", "packing_fraction": 0.2},
+    "tube": {"dim": 3, "container": "cylinder", "packing_fraction": 0.2},
+    "can": {"dim": 3, "container": "cylinder", "walls": "z", "packing_fraction": 0.2},
+}
+PINS = {"circle": 1, "ball": 3, "tube": 1, "can": 1}
+
+
+def packing(name, seed, n=24):
+    ratio = np.where(np.arange(n) % 2, 1.4, 1.0)
+    system = jam.System.random(n=n, seed=seed, diameters=ratio, **SCENES[name])
+    system.compress(growth_rate=1e-2, pressure=1e4)
+    system.crunch()
+    return system, ratio
+
+
+def isostatic(name, seeds, n=24):
+    made = [packing(name, seed, n) for seed in seeds]
+    return [(system, ratio) for system, ratio in made if system.report.jammed and system.report.excess_contacts == 0]
+
+
+def root(x):
+    """Of a fraction, to 60 digits."""
+    return Fraction(math.isqrt(math.floor(x * 10**120)), 10**60)
+
+
+def newton(scene):
+    """The centres (n, d) and g where all contacts close, in decimals: distances by square roots, not F of the file."""
+    with decimal.localcontext() as context:
+        context.prec = 80
+        exact = lambda v: Decimal(v.numerator) / Decimal(v.denominator)
+        one, d = Decimal(scene.one), scene.dim
+        x, g = [[Decimal(c) / one for c in row] for row in scene.x], exact(scene.growth)
+        cell, ratio = [[Decimal(c) / one for c in row] for row in scene.cell], list(map(exact, scene.ratio))
+        middle = cell[0][0] / 2
+        for _ in range(12):
+            gaps, rows = [], []
+            for i, j, n in scene.contacts:
+                row = np.zeros(scene.unknowns + 1)
+                if j == scene.rim:
+                    way, sign = [(x[i][c] - middle) if c < scene.round else Decimal(0) for c in range(d)], -1
+                elif j < 0:
+                    axis, far = divmod(-1 - j, 2)
+                    way, sign = [Decimal(0)] * d, 1
+                    way[axis] = x[i][axis] - far * cell[axis][axis]
+                else:
+                    way = [a - b + sum(n[q] * cell[q][c] for q in range(d)) for c, (a, b) in enumerate(zip(x[i], x[j]))]
+                    sign = 1
+                length = sum(v * v for v in way).sqrt()
+                need = (ratio[i] + ratio[j]) / 2 if j >= 0 else ratio[i] / 2
+                gaps.append((middle - length if j == scene.rim else length) - g * need)
+                for end, part in ((i, sign), (j, -sign)):
+                    for c in range(d):
+                        if (end, c) in scene.place:
+                            row[scene.place[end, c]] += part * float(way[c] / length)
+                row[-1] = -float(need)
+                rows.append(row)
+            size = max(map(abs, gaps))
+            if size < Decimal(10) ** -60:
+                break
+            step = np.linalg.solve(np.array(rows), [float(v / size) for v in gaps])
+            for (i, c), at in scene.place.items():
+                x[i][c] -= Decimal(float(step[at])) * size
+            g -= Decimal(float(step[-1])) * size
+        return x, g, size
+
+
+def away(scene):
+    """How far the written numbers are from those: the largest difference, of centres and g."""
+    x, g, left = newton(scene)
+    with decimal.localcontext() as context:
+        context.prec = 80
+        far = [abs(a - Decimal(b) / scene.one) for row, own in zip(x, scene.x) for a, b in zip(row, own)]
+        far.append(abs(g - Decimal(scene.growth.numerator) / scene.growth.denominator))
+        return max(far), left
+
+
+def drop(name):
+    def change(f, r):
+        f.lines.remove(r.choice([line for line in f.lines if line[0] == name]))
+
+    return change
+
+
+def doubled(name):
+    return lambda f, r: f.lines.append(list(f.header(name)))
+
+
+def another_pin(f, r):
+    """A pin in place of a contact: as many equations as unknowns again."""
+    f.lines.remove(r.choice(f.contacts))
+    pin = next(k for k, s in enumerate(f.spheres) if s[1] == "1" and ["pin", str(k), "0"] not in f.lines and k)
+    f.lines.append(["pin", str(pin), "0"])
+
+
+def pinned_rattler(f, r):
+    f.lines.append(["sphere", "0", *f.spheres[0][2:]])
+    f.header("pin")[1] = str(len(f.spheres))
+
+
+def width(edges):
+    def change(f, r):
+        cell, d = f.header("cell"), len(f.spheres[0]) - 3
+        for q in range(min(edges, d)):
+            f.scale(cell, (q + 1) * (q + 2) // 2, Fraction(999, 1000))
+
+    return change
+
+
+def other_axes(f, r):
+    line = f.header("round")
+    line[1] = str(5 - int(line[1]))
+
+
+def word_of_g(f, r):
+    f.gamma[0] = "gamma"
+
+
+def other_sphere(f, r):
+    """A gap at the wall closed, in place of a contact there."""
+    line = r.choice(f.at_walls)
+    line[1] = r.choice([str(k) for k in range(len(f.spheres)) if [str(k), *line[2:4]] not in [c[1:4] for c in f.at_walls]])
+
+
+def inner_side(f, r):
+    r.choice([line for line in f.at_walls if line[2] == str(len(f.spheres[0]) - 3)])[3] = "0"
+
+
+def rattler_at_the_rim(f, r):
+    """Half of it is outside the round wall, far from all others of a file without other spheres there."""
+    edge, d = value(f.header("cell")[1]), len(f.spheres[0]) - 3
+    f.lines.append(["sphere", "0", word(Fraction(1, 2**20)), word(edge), *[word(edge / 2)] * (d - 1)])
+
+
+def wide_rattler(f, r):
+    edge, d = value(f.header("cell")[1]), len(f.spheres[0]) - 3
+    f.lines.append(["sphere", "0", word(2 * edge / value(f.gamma[1].split(",")[0])), *[word(edge / 2)] * d])
+
+
+def larger_g(f, r):
+    f.gamma[1] = word(sum(map(value, f.gamma[1].split(","))) * Fraction(1001, 1000))
+
+
+ROUND = {
+    "pin missing": drop("pin"), "pin twice": doubled("pin"), "pin in place of a contact": another_pin, "pin of a rattler": pinned_rattler,
+    "narrower": width(3), "not round": width(1), "round about other axes": other_axes, "no line round": drop("round"),
+    "line round twice": doubled("round"), "gamma for growth": word_of_g, "side 0": inner_side, "rattler at the rim": rattler_at_the_rim,
+    "rattler wider than the wall": wide_rattler, "contact missing": drop("contact"), "larger g": larger_g, "other sphere": other_sphere, "no growth": drop("growth"),
+}  # fmt: skip
+FLAT = ("another sphere", "another wall", "the other side", "no line walls", "line walls of another axis", "line walls twice", "leaning", "walls closer", "outside",
+        "rattler outside", "contact through a wall")  # fmt: skip
+
+
+class Round(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.made = {name: isostatic(name, range(1, 6)) for name in SCENES}
+
+    def test_isostatic_packings_are_proved_by_both(self):
+        for name, made in self.made.items():
+            self.assertGreaterEqual(len(made), 2, name)
+            for system, ratio in made:
+                with self.subTest(scene=name, seed=system.info.seed):
+                    text = file_of(system, ratio)
+                    scene = scene_of(Walled(text))
+                    proof, found = system.prove(ratio), jamproof.check(scene)
+                    self.assertEqual(proof.theorem, jam.Theorem.EXACT, proof)
+                    low, high = jamproof.fraction(scene)
+                    self.assertLess(high / low - 1, Fraction(1, 10**25))
+                    self.assertAlmostEqual(float(low), system.packing_fraction, delta=1e-13)
+                    self.assertLess(max(proof.radius, found["radius"]), 1e-27)
+                    self.assertAlmostEqual(proof.least_force / found["least_force"], 1.0, delta=1e-6)
+                    self.assertAlmostEqual(min(proof.least_gap, 1e-3), min(found["least_gap"], 1e-3), delta=1e-9)
+                    self.assertAlmostEqual(proof.packing_fraction, system.packing_fraction, delta=1e-13)
+                    self.assertEqual(sum(line[0] == "pin" for line in Walled(text).lines), PINS[name])
+
+    def test_decimals_lie_within_the_radius(self):
+        """Of the file, and of files whose spheres are moved: there the radius has no more than two digits to spare."""
+        generator = random.Random(3)
+        for name, made in self.made.items():
+            for power in (None, 20, 9):
+                with self.subTest(scene=name, power=power):
+                    system, ratio = made[0]
+                    f = Walled(file_of(system, ratio))
+                    if power:
+                        moved(Fraction(1, 10**power))(f, generator)
+                    scene = scene_of(f)
+                    found, (far, left) = verdict(f.text()), away(scene)
+                    self.assertIsInstance(found, dict, found)
+                    self.assertLess(left, Decimal(10) ** -60)
+                    radius = found["radius"] / scene.unit
+                    self.assertLess(Fraction(far), radius)
+                    if power:
+                        self.assertLess(radius, 10**5 * Fraction(far))
+
+    def test_more_spheres(self):
+        for name, n in (("circle", 60), ("ball", 40), ("tube", 40), ("can", 60)):
+            made = isostatic(name, range(11, 15), n)
+            self.assertTrue(made, name)
+            for system, ratio in made:
+                self.assertEqual(system.prove(ratio).theorem, jam.Theorem.EXACT, (name, system.info.seed))
+            scene = scene_of(Walled(file_of(*made[0])))
+            self.assertLess(Fraction(away(scene)[0]), Fraction(verdict(scene.text)["radius"]) / scene.unit)
+
+    def test_sums_and_symmetries_have_no_round_wall(self):
+        for line in (["sum", *["1p0"] * 24], ["symmetry", "2", "1", *map(str, range(24))]):
+            f = Walled(file_of(*self.made["circle"][0]))
+            f.lines.append(line)
+            self.assertEqual(verdict(f.text()), "unreadable")
+
+    def test_reports_of_other_calls_have_the_proof(self):
+        system, _ = self.made["ball"][0]
+        self.assertEqual(system.check(prove=True).theorem, jam.Theorem.EXACT)
+        self.assertEqual(system.copy().crunch(prove=True).theorem, jam.Theorem.EXACT)
+
+    def test_changed_files_are_not_proved(self):
+        generator = random.Random(4)
+        kinds = {**{name: change for name, change in REFUSED.items() if name not in FLAT}, **ROUND}
+        for name, made in self.made.items():
+            for system, ratio in made[:2]:
+                text = file_of(system, ratio)
+                for kind, change in kinds.items():
+                    with self.subTest(scene=name, kind=kind):
+                        f = Walled(text)
+                        change(f, generator)
+                        self.assertNotIsInstance(found := verdict(f.text()), dict, found)
+
+    def test_a_pin_that_no_rotation_moves_proves_nothing(self):
+        """Along the axis of a tube: the rotation about it leaves every height as it is."""
+        for system, ratio in self.made["tube"]:
+            f = Walled(file_of(system, ratio))
+            f.header("pin")[2] = "2"
+            first = next(str(k) for k, s in enumerate(f.spheres) if s[1] == "1")
+            f.header("pin")[1] = next(str(k) for k, s in enumerate(f.spheres) if s[1] == "1" and str(k) != first)
+            self.assertEqual(verdict(f.text()), "singular")
+
+    def ring(self, n, loose=0):
+        """Disks in a circle of width 1, at the wall in a ring."""
+        angle = 2 * math.pi * np.arange(n) / n + 0.3
+        near = math.sin(math.pi / n) / (1 + math.sin(math.pi / n))
+        x = 0.5 + (0.5 - near / 2) * np.stack([np.cos(angle), np.sin(angle)], 1)
+        x = np.concatenate([x, np.full((loose, 2), 0.5)])
+        system = jam.System.from_arrays(x, near * (1 - 1e-3), cell=[1.0, 1.0], container="ball", dim=2)
+        system.crunch()
+        return system
+
+    def enclosed(self, system, known):
+        """Whether the proved g encloses the exact one: the diameter over the width of the wall."""
+        text = file_of(system, np.ones(system.n))
+        found, scene = verdict(text), scene_of(Walled(text))
+        self.assertIsInstance(found, dict, found)
+        ratio = scene.growth * scene.one / scene.width
+        self.assertLess(abs(ratio / known - 1), Fraction(found["gamma_error"]) + Fraction(1, 10**55))
+        self.assertLess(found["gamma_error"], 1e-28)
+        self.assertEqual(system.prove(np.ones(system.n)).theorem, jam.Theorem.EXACT)
+
+    def test_rings_of_disks(self):
+        """sin(pi / n) is that of square roots."""
+        sines = {3: root(Fraction(3, 4)), 4: root(Fraction(1, 2)), 5: root((5 - root(Fraction(5))) / 8), 6: Fraction(1, 2)}
+        for n, sine in sines.items():
+            with self.subTest(n=n):
+                system = self.ring(n)
+                self.assertEqual(system.report.contacts, 2 * n)
+                self.enclosed(system, sine / (1 + sine))
+
+    def test_eight_disks_have_a_loose_one(self):
+        system = self.ring(7, loose=1)
+        self.assertEqual((system.report.contacts, system.report.rattlers), (14, 1))
+        self.assertEqual(system.prove(np.ones(8)).theorem, jam.Theorem.EXACT)
+
+    def test_seven_disks_are_trapped(self):
+        """The sixth of the circle leaves room for just one more in the middle: 18 contacts, where 14 would do."""
+        system = self.ring(6, loose=1)
+        proof = system.prove(np.ones(7))
+        self.assertEqual((proof.contacts, proof.theorem, proof.cause), (18, jam.Theorem.TRAPPED, jam.ProofCause.EXCESS))
+        self.assertAlmostEqual(proof.gamma, 1 / 9, delta=1e-15)
+        scene = scene_of(Walled(file_of(system, np.ones(7))))
+        status, text = jamproof.conclusion(scene)
+        self.assertEqual((status, text.split(":")[0]), (3, "trapped"), text)
+        inner, error = (float(re.search(f"{name} ([0-9.e+-]+)", text)[1]) for name in ("inner", "gamma_error"))
+        self.assertLess(max(proof.inner, inner, error), 1e-20)
+        known = (Fraction(scene.width, scene.one) / 3) ** 2
+        self.assertLess(abs(scene.gamma / known - 1), Fraction(error) + Fraction(1, 10**20))
+
+    def test_two_disks_are_kept_by_the_curvature_alone(self):
+        system = jam.System.from_arrays([[0.26, 0.5], [0.74, 0.5]], 0.47, cell=[1.0, 1.0], container="ball", dim=2)
+        system.crunch()
+        proof = system.prove(np.ones(2))
+        self.assertEqual((proof.theorem, proof.cause), (jam.Theorem.NONE, jam.ProofCause.EXCESS))
+        self.assertEqual((proof.cause_value, proof.cause_bound), (3, 4))
+        self.assertIn(verdict(file_of(system, np.ones(2))), ("excess", "singular"))  # the latter where all F are 0
+
+    def test_four_balls(self):
+        x = 0.5 + 0.27 * np.array([[1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]]) / math.sqrt(3)
+        system = jam.System.from_arrays(x, 0.4, cell=[1.0] * 3, container="ball", dim=3)
+        system.crunch()
+        self.assertEqual(system.report.contacts, 10)
+        self.enclosed(system, 1 / (1 + root(Fraction(3, 2))))
+
+
+if __name__ == "__main__":
+    unittest.main()

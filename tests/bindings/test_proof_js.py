@@ -9,6 +9,8 @@ import subprocess
 import tempfile
 import unittest
 
+import numpy as np
+import test_proof_round
 from compiled import compiled
 from test_proof import ROOT, file_of, jamproof, packing
 from test_proof_bounds import fcc, square_lattice
@@ -105,6 +107,8 @@ def made():
     systems = (packed(32, 2, seed) for seed in range(1, 60))
     exact = next(s for s in systems if s.report.jammed and s.prove(strict=True).theorem == jam.Theorem.EXACT)
     between = [file_of(*isostatic(name, (1, 2, 3))[0]) for name in ("box", "slit")]
+    between += [file_of(*test_proof_round.isostatic(name, (1, 2, 3))[0]) for name in ("circle", "ball", "can")]
+    between.append(file_of(test_proof_round.ring(6, loose=1), np.ones(7)))  # trapped
     return [strict_file(exact), flower(), "\n".join(fcc()) + "\n", square_lattice(), angles_of_tiles_in_a_free_cell(), *between]
 
 
@@ -126,6 +130,12 @@ class TwoCheckers(unittest.TestCase):
                 else:
                     self.assertEqual(plain(found), plain(wanted))
         return [out for out in outs if out.exists()]
+
+    def test_sums_of_radii_are_refused_by_name(self):
+        path = self.folder / "sum.jamproof"
+        path.write_bytes(pathlib.Path(__file__).with_name("sum26.jamproof").read_bytes())
+        ((status, text, _),) = answers([path])
+        self.assertEqual((status, text), (2, "cannot be read: files with 'sum', of a largest sum of radii, need jamproof.py"))
 
     def test_the_reference_set(self):
         """With inverses of their own but for digits, with one inverse to every digit."""

@@ -35,6 +35,17 @@ def isostatic(name, seeds, n=24):
     return [(system, ratio) for system, ratio in made if system.report.jammed and system.report.excess_contacts == 0]
 
 
+def ring(n, loose=0):
+    """Disks in a circle of width 1, at the wall in a ring; others in the middle."""
+    angle = 2 * math.pi * np.arange(n) / n + 0.3
+    near = math.sin(math.pi / n) / (1 + math.sin(math.pi / n))
+    x = 0.5 + (0.5 - near / 2) * np.stack([np.cos(angle), np.sin(angle)], 1)
+    x = np.concatenate([x, np.full((loose, 2), 0.5)])
+    system = jam.System.from_arrays(x, near * (1 - 1e-3), cell=[1.0, 1.0], container="ball", dim=2)
+    system.crunch()
+    return system
+
+
 def root(x):
     """Of a fraction, to 60 digits."""
     return Fraction(math.isqrt(math.floor(x * 10**120)), 10**60)
@@ -250,16 +261,6 @@ class Round(unittest.TestCase):
             f.header("pin")[1] = next(str(k) for k, s in enumerate(f.spheres) if s[1] == "1" and str(k) != first)
             self.assertEqual(verdict(f.text()), "singular")
 
-    def ring(self, n, loose=0):
-        """Disks in a circle of width 1, at the wall in a ring."""
-        angle = 2 * math.pi * np.arange(n) / n + 0.3
-        near = math.sin(math.pi / n) / (1 + math.sin(math.pi / n))
-        x = 0.5 + (0.5 - near / 2) * np.stack([np.cos(angle), np.sin(angle)], 1)
-        x = np.concatenate([x, np.full((loose, 2), 0.5)])
-        system = jam.System.from_arrays(x, near * (1 - 1e-3), cell=[1.0, 1.0], container="ball", dim=2)
-        system.crunch()
-        return system
-
     def enclosed(self, system, known):
         """Whether the proved g encloses the exact one: the diameter over the width of the wall."""
         text = file_of(system, np.ones(system.n))
@@ -275,18 +276,18 @@ class Round(unittest.TestCase):
         sines = {3: root(Fraction(3, 4)), 4: root(Fraction(1, 2)), 5: root((5 - root(Fraction(5))) / 8), 6: Fraction(1, 2)}
         for n, sine in sines.items():
             with self.subTest(n=n):
-                system = self.ring(n)
+                system = ring(n)
                 self.assertEqual(system.report.contacts, 2 * n)
                 self.enclosed(system, sine / (1 + sine))
 
     def test_eight_disks_have_a_loose_one(self):
-        system = self.ring(7, loose=1)
+        system = ring(7, loose=1)
         self.assertEqual((system.report.contacts, system.report.rattlers), (14, 1))
         self.assertEqual(system.prove(np.ones(8)).theorem, jam.Theorem.EXACT)
 
     def test_seven_disks_are_trapped(self):
         """The sixth of the circle leaves room for just one more in the middle: 18 contacts, where 14 would do."""
-        system = self.ring(6, loose=1)
+        system = ring(6, loose=1)
         proof = system.prove(np.ones(7))
         self.assertEqual((proof.contacts, proof.theorem, proof.cause), (18, jam.Theorem.TRAPPED, jam.ProofCause.EXCESS))
         self.assertAlmostEqual(proof.gamma, 1 / 9, delta=1e-15)

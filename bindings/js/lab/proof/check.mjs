@@ -1,7 +1,7 @@
 // Checks a proof file of a jammed packing, apart from libjam: the rules, words and answers of jamproof.py. Here are
 // Theorem A of its head, and the packing fraction that follows. Whole numbers and fractions decide; the
 // inverse is a hint: a bad one loses the proof, it cannot make one.
-import { Exact, ONE, TWO, ZERO, Refused, digits, least, most, power, products, refuse, root, total, whole } from './exact.mjs';
+import { Exact, ONE, TWO, ZERO, Refused, digits, least, most, power, products, refuse, rooted, total, whole } from './exact.mjs';
 import { BITS, Scene } from './scene.mjs';
 import { bounds, gap, inverseOf, largestEntry } from './inverse.mjs';
 import { keptContacts } from './implied.mjs';
@@ -36,7 +36,8 @@ function check(s) {
   const largest = most([largestEntry(inverse), ...row.map((v) => v.abs())]);
   const [delta, eta, alpha] = [[...found.delta, deltaG], [...found.eta, etaG], [...found.alpha, alphaG]].map(most);
   const images = s.strict ? Math.max(...s.contacts.map(({ n }) => n.reduce((sum, m) => sum + Math.abs(m), 0))) : 0;
-  const ways = 2 + images, wide = new Exact(BigInt(s.dim * ways ** 2)); // a contact vector moves by ways r at most
+  const ways = 2 + images, largestRatio = most(s.ratio); // a contact vector moves by ways r at most
+  const wide = new Exact(BigInt(s.dim * ways ** 2)).plus(s.round ? largestRatio.times(largestRatio) : ZERO); // D
   const beta = wide.times(alpha), left = ONE.minus(delta), room = left.times(left);
   const curved = new Exact(4n).times(beta).times(eta);
   refuse(!delta.below(ONE) || !curved.below(room), () => `singular: delta ${digits(delta.number())}, ` +
@@ -52,7 +53,8 @@ function check(s) {
     // Forces on implied contacts are free: those of the file. The others balance them, with this A.
     ({ sigma2, columns } = s.equations(every));
   }
-  const rG = etaG.plus(deltaG.times(r)).plus(wide.times(alphaG).times(r).times(r));
+  let rG = etaG.plus(deltaG.times(r)).plus(wide.times(alphaG).times(r).times(r));
+  if (s.round) rG = rG.times(TWO.times(s.growth).plus(rG)); // now of G
   const [forces, missed] = stateOf(s, sigma2, columns, s.force);
   const edges = [...s.gradient.values()].map((b) => ONE.over(b)), size = total(forces.map((v) => v.abs()));
   const smallest = least(forces);
@@ -87,18 +89,19 @@ const raised = (x, k) => Array(k).fill(x).reduce((a, b) => a.times(b), ONE);
  * sigma^2 of a sphere is G ratio^2, G known to `within`; strict V is known to that part of each edge. */
 function fraction(s) {
   const d = s.dim, half = Math.floor(d / 2);
-  const rooted = (v, up) => new Exact(root(v.scaled(800).floor()) + BigInt(up), 400);
   const product = (list) => list.reduce((a, b) => a * BigInt(b), 1n);
   const volume = raised(ONE, 0).times(Exact.ratio(product(s.cell.map((row, q) => row[q])), s.one ** BigInt(d)));
-  const odd = Array.from({ length: half + 1 }, (_, k) => d - 2 * k), to = Array.from({ length: half }, (_, k) => k + 1);
-  const ball = d % 2 ? Exact.ratio(power((d + 1) / 2), product(odd)) : Exact.ratio(1n, product(to));
+  const ball = (m) => { // of diameter 1, over pi^floor(m / 2)
+    const list = Array.from({ length: m % 2 ? (m + 1) / 2 : m / 2 }, (_, k) => (m % 2 ? m - 2 * k : k + 1));
+    return Exact.ratio(m % 2 ? power((m + 1) / 2) : 1n, product(list)).scaled(-m);
+  };
   const [sizes, per] = whole(s.ratio), sum = sizes.reduce((a, v) => a + v ** BigInt(d), 0n);
-  const balls = Exact.ratio(sum, per ** BigInt(d)).scaled(-d).times(ball);
+  const balls = Exact.ratio(sum, per ** BigInt(d)).times(ball(d)).over(ball(s.round));
   return piBetween().map((pi, up) => {
     const wide = s.strict ? s.within : [];
     const change = wide.reduce((c, v) => c.times(ONE.over(up ? ONE.minus(v) : ONE.plus(v))), ONE);
     const gamma = s.strict ? s.gamma : s.gamma.times(up ? ONE.plus(s.within) : ONE.minus(s.within));
-    return balls.times(raised(pi, half)).times(raised(gamma, half)).times(d % 2 ? rooted(gamma, up) : ONE)
+    return balls.times(raised(pi, half - Math.floor(s.round / 2))).times(raised(gamma, half)).times(d % 2 ? rooted(gamma, up) : ONE)
       .times(change).over(volume);
   });
 }

@@ -110,6 +110,8 @@ export class Exact {
     return n < 0n ? -x : x;
   }
 }
+/** The root in 400 digits from below, or with up = 1 from above. */
+export const rooted = (v, up = 0) => new Exact(root(v.scaled(800).floor()) + BigInt(up), 400);
 export const ZERO = new Exact(0n), ONE = new Exact(1n), TWO = new Exact(2n);
 export const least = (list) => list.reduce((a, b) => (b.below(a) ? b : a));
 export const most = (list) => list.reduce((a, b) => (a.below(b) ? b : a));

@@ -1,5 +1,5 @@
 // The inverse A of the equations, a hint, and bounds of 1 - A J and A F by whole numbers.
-import { Exact, ONE, absolute, bitLength, power, refuse, root } from './exact.mjs';
+import { Exact, ONE, absolute, bitLength, power, refuse, rooted } from './exact.mjs';
 import { BITS } from './scene.mjs';
 
 const CHUNK = 128, HALF = 2 ** 14; // terms and digits whose sums a double holds: 2^31 HALF CHUNK = 2^52
@@ -114,5 +114,5 @@ export function bounds(s, f, columns, { e, columns: inverse }, weights) {
 /** The root less one, from below; a thousandth if no pair was seen. */
 export function gap(square) {
   if (!square || square.n === 0n) return Exact.ratio(1n, 1000n);
-  return new Exact(root(square.scaled(400).floor()), 200).minus(ONE);
+  return rooted(square).minus(ONE);
 }

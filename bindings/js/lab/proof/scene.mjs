@@ -1,11 +1,12 @@
 // A proof file: its exact numbers, and the equations of its contacts. The rules are those of the head of jamproof.py.
-import { Exact, ONE, floorOver, refuse, root, whole, total, most } from './exact.mjs';
+import { Exact, ONE, TWO, floorOver, refuse, root, rooted, whole, total, most } from './exact.mjs';
 
 export const BITS = 24; // digits of J
 const MOST_IMAGES = 1000000n, FARTHEST = 10000n; // of a pair; exponents of two
 export const SEEN = Exact.ratio(9n, 8n); // gaps are those of pairs closer than SEEN times their sigma
-const ONE_NUMBER = ["dim", "unit", "non_additivity", "gamma"], HEADER = [...ONE_NUMBER, "cell"];
-const WORDS = new Set([...HEADER, "walls", "sphere", "contact", "wall", "tile", "implied", "inverse", "strict"]);
+const ONE_NUMBER = ["dim", "unit", "non_additivity"], SIZE = ["gamma", "growth"]; // a file has one of SIZE
+const HEADER = [...ONE_NUMBER, ...SIZE, "cell"];
+const WORDS = new Set([...ONE_NUMBER, ..."cell walls round pin sphere contact wall tile implied inverse strict".split(" ")]);
 
 const quoted = (word) => (word.includes("'") && !word.includes('"') ? `"${word}"` : `'${word.replace(/['\\]/g, "\\$&")}'`);
 /** As libjam writes one: digits alone, no plus sign, no leading zero. */
@@ -71,10 +72,15 @@ export class Scene {
       const what = `${HEADER.includes(name) ? "the" : "a"} line '${name}'`;
       refuse(HEADER.includes(name) && rows.length !== 1, `${what} is there ${rows.length} times, not once`);
       refuse(rows.some((rest) => !counts.includes(rest.length)),
-        `${what} has not as many numbers as ${ONE_NUMBER.includes(name) ? "it must, one" : "dim asks for"}`);
+        `${what} has not as many numbers as ${HEADER.slice(0, -1).includes(name) ? "it must, one" : "dim asks for"}`);
       return rows;
     };
-    const [dim, unit, cross, gamma] = ONE_NUMBER.map((name) => take(name, 1)[0][0]);
+    for (const name of ["sum", "symmetry"])
+      refuse(lines.some((line) => line[0] === name), `files with '${name}', of a largest sum of radii, need jamproof.py`);
+    const curved = take("round", 1);
+    this.round = curved.reduce((sum, [m]) => sum + Number(integer(m)), 0); // axes of the round wall
+    const name = SIZE[Number(this.round > 0)];
+    const [dim, unit, cross, size] = [...ONE_NUMBER, name].map((word) => take(word, 1)[0][0]);
     const d = (this.dim = Number(integer(dim)));
     refuse(d < 1, "dim is not 1 or more");
     const [cell] = take("cell", (d * (d + 1)) / 2), spheres = take("sphere", d + 2);
@@ -82,8 +88,11 @@ export class Scene {
     take("wall", 4, 5);
     const contacts = lines.filter(([word]) => word === "contact" || word === "wall");
     const walled = take("walls", ...Array.from({ length: d }, (_, c) => c + 1));
-    this.walled = walled.flat().map(integer).map(Number); // axes with walls
-    [this.unit, this.gamma, this.add] = [number(unit), number(gamma), ONE.plus(number(cross))];
+    this.pins = take("pin", 2).map((rest) => rest.map(integer).map(Number));
+    this.flat = walled.flat().map(integer).map(Number);
+    this.walled = [...Array(Math.max(0, this.round)).keys(), ...this.flat]; // axes with walls
+    [this.unit, this.growth, this.add] = [number(unit), number(size), ONE.plus(number(cross))];
+    this.gamma = this.round ? this.growth.times(this.growth) : this.growth;
     refuse(spheres.some((s) => s[0] !== "0" && s[0] !== "1"), "a sphere is neither 1, stable, nor 0, a rattler");
     this.stable = spheres.map((s) => s[0] === "1");
     this.ratio = spheres.map((s) => number(s[1]));
@@ -98,7 +107,8 @@ export class Scene {
     refuse(strict.length > 1 || packed.length, "a line 'strict' or 'inverse' is there twice");
     refuse(walled.length > 1, "a line 'walls' or 'sum' is there twice");
     this.inverse = this.within = null;
-    for (const [name] of lines) refuse(!WORDS.has(name), `unknown word ${name}`);
+    for (const [word] of lines) refuse(!WORDS.has(word) && word !== name, `unknown word ${word}`);
+    this.rounds = curved.length;
     const [lengths, one] = whole([cell, ...spheres.map((s) => s.slice(2))].flat().map(number));
     this.one = one;
     this.cell = Array.from({ length: d }, (_, r) =>
@@ -117,13 +127,17 @@ export class Scene {
     refuse(leans || (this.strict && walled.length), "an axis with walls leans, or the file is strict");
     refuse(walled.some((c) => c < 0 || c >= d) || new Set(walled).size < walled.length, "'walls' names no axes");
     refuse(this.contacts.some(({ n }) => walled.some((c) => n[c])), "a contact reaches through a wall");
-    this.walls = walled.flatMap((c) => [-1 - 2 * c, -2 - 2 * c]);
+    const widths = new Set(cell.slice(0, Math.max(0, this.round)).map((row, c) => row[c]));
+    refuse(this.round && (widths.size > 1 || this.round < 2 || this.round > d || this.rounds > 1),
+      "a round wall is not one, about the first axes of a cell with equal edges");
+    [this.width, this.rim] = [cell[0][0], -2 - 2 * d]; // of the round wall, and its partner of contacts
+    this.walls = [...this.flat.flatMap((c) => [-1 - 2 * c, -2 - 2 * c]), ...(this.round ? [this.rim] : [])];
   }
   test() {
     const { contacts, dim: d, x } = this, again = new Set();
     for (const { i, j, n } of contacts) again.add(keyOf(i, j, n)).add(keyOf(j, i, reversed(n)));
     const outside = (c, count) => c < 0 || c >= count;
-    const positive = [this.unit, this.gamma, ...this.ratio, ...this.cell.map((row, q) => new Exact(row[q]))];
+    const positive = [this.unit, this.growth, ...this.ratio, ...this.cell.map((row, q) => new Exact(row[q]))];
     refuse(this.add.n <= 0n || new Exact(2n).below(this.add), "non_additivity must be above -1 and at most 1");
     refuse(!this.stable.includes(true), "no sphere is stable");
     refuse(!contacts.length, "the file lists no contact");
@@ -143,8 +157,11 @@ export class Scene {
     [this.size, this.per] = whole(this.ratio);
     this.cross = this.add.times(this.add);
     const first = this.stable.indexOf(true), axes = this.cell.map((_, k) => k);
-    const free = this.stable.flatMap((yes, i) =>
+    const moving = this.stable.flatMap((yes, i) =>
       yes ? axes.filter((k) => i !== first || this.walled.includes(k)).map((k) => ({ i, k })) : []);
+    const free = moving.filter(({ i, k }) => !this.pins.some(([end, c]) => end === i && c === k));
+    refuse(moving.length - free.length !== this.pins.length || 2 * this.pins.length !== this.round * (this.round - 1),
+      "there is not one pin for each rotation, of stable spheres");
     this.place = axes.map(() => new Map()); // of each component: sphere -> unknown
     free.forEach(({ i, k }, at) => this.place[k].set(i, at));
     this.sphereOf = free.map(({ i }) => i);
@@ -154,6 +171,7 @@ export class Scene {
   }
   /** r = x_i - x_j + n H. */
   vector({ i, j, n }) {
+    if (j === this.rim) return this.x[i].map((a, c) => (c < this.round ? 2n * a - this.width : 0n));
     if (j < 0) {
       const axis = (-1 - j) >> 1, far = (-1 - j) & 1 ? this.cell[axis][axis] : 0n;
       return this.x[i].map((a, c) => (c === axis ? 2n * (a - far) : 0n));
@@ -169,16 +187,22 @@ export class Scene {
   square(r) {
     return Exact.ratio(r.reduce((sum, v) => sum + v * v, 0n), this.one * this.one);
   }
-  /** Of the contacts kept: F, sigma^2 and the columns of R as [row, whole number over one]. */
+  /** Of the contacts kept: F, -dF / dG or dg, and the columns of R as [row, whole number over one]. */
   equations(kept) {
     const f = [], sigma2 = [], columns = Array.from({ length: this.unknowns }, () => []);
     kept.map((k) => this.contacts[k]).forEach((contact, c) => {
       const { i, j, n } = contact;
       const loose = spheresOf(contact).some((k) => !this.stable[k]), r = this.vector(contact);
       refuse(i === j || loose, `images: contact ${c} is not of two stable ones`);
-      sigma2.push(this.sigma2(i, j));
-      f.push(this.square(r).minus(this.gamma.times(sigma2[c])));
-      for (const [end, times] of j < 0 ? [[i, 4n]] : [[i, 2n], [j, -2n]])
+      const square = this.sigma2(i, j), room = Exact.ratio(this.width, this.one).minus(this.growth.times(this.ratio[i]));
+      if (j === this.rim) {
+        f.push(room.times(room).minus(this.square(r)));
+        sigma2.push(TWO.times(this.ratio[i]).times(room));
+      } else {
+        f.push(this.square(r).minus(this.gamma.times(square)));
+        sigma2.push(this.round ? TWO.times(this.growth).times(square) : square);
+      }
+      for (const [end, times] of j < 0 ? [[i, j === this.rim ? -4n : 4n]] : [[i, 2n], [j, -2n]])
         this.place.forEach((places, k) => {
           if (places.has(end)) columns[places.get(end)].push([c, times * r[k]]);
         });
@@ -226,19 +250,30 @@ export class Scene {
     for (let i = 0; i < x.length; ++i)
       for (const j of [...this.walls, ...x.keys()].filter((k) => k <= i))
         for (const { n, r } of this.near(i, j, reach)) {
-          if (j < 0) this.testInside(i, j, r, radius);
+          if (j < 0) this.testInside(i, j, r, radius, gamma);
           if (this.closed.has(keyOf(i, j, n))) continue;
           const images = this.strict ? n.reduce((sum, m) => sum + Math.abs(m), 0) : 0;
           const moving = (i !== j ? stable[i] + stable[j < 0 ? i : j] : 0) + images;
-          const way = Exact.ratio(r.reduce((sum, v) => sum + (v < 0n ? -v : v), 0n), this.one).times(radius);
-          const have = this.square(r).minus(way.times(new Exact(BigInt(2 * moving)))).over(gamma.times(this.sigma2(i, j)));
+          const have = this.left(j, r, radius.times(new Exact(BigInt(moving)))).over(gamma.times(this.sigma2(i, j)));
           const image = n.length > 1 ? n.join(", ") : `${n[0]},`;
           refuse(!part.below(have), () => `gap: spheres ${i} and ${j} are not open (image (${image}))`);
           if (have.below(seen)) found = found && found.n ? (have.below(found) ? have : found) : have;
         }
     return found;
   }
-  testInside(i, j, r, radius) {
+  /** What is left of |r|^2, or of (W - |r|)^2 at a round wall, after this way. */
+  left(j, r, way) {
+    const one = Exact.ratio(r.reduce((sum, v) => sum + (v < 0n ? -v : v), 0n), this.one), change = TWO.times(one).times(way);
+    if (j !== this.rim) return this.square(r).minus(change);
+    const farthest = this.square(r).plus(change).plus(way.times(way).times(new Exact(BigInt(this.dim))));
+    const room = Exact.ratio(this.width, this.one).minus(rooted(farthest, 1));
+    return room.times(room.abs());
+  }
+  testInside(i, j, r, radius, gamma) {
+    const size = new Exact(this.width).over(this.ratio[i].times(new Exact(this.one)));
+    const fits = j === this.rim && gamma.below(size.times(size));
+    if (fits) return;
+    refuse(j === this.rim, () => `gap: the centre of sphere ${i} may be outside the walls`);
     const way = r.reduce((a, b) => a + b) * (j % 2 ? 1n : -1n), reach = radius.times(new Exact(4n * this.one));
     refuse(!reach.below(new Exact(way)), `gap: the centre of sphere ${i} may be outside the walls`);
   }

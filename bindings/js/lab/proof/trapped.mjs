@@ -1,7 +1,7 @@
 // More contacts than unknowns: crystals that close exactly as written, and packings whose spheres are trapped. The
 // theorems are in the head of jamproof_trapped.py; names are those there.
-import { Exact, ONE, TWO, ZERO, Refused, digits, least, most, products, refuse, total,
-  whole } from './exact.mjs';
+import { Exact, ONE, TWO, ZERO, Refused, digits, least, most, products, refuse, rooted,
+  total, whole } from './exact.mjs';
 import { bounds, gap, inverseOf, largestEntry } from './inverse.mjs';
 
 const PRIME = (1n << 61n) - 1n;
@@ -89,13 +89,14 @@ function looselyHeld(s, { columns }, stress) {
 /** Of any network with positive forces: inner and outer, and the least gap. */
 export function trapped(s) {
   const every = s.contacts.map((_, c) => c), file = s.gamma, number = (v) => new Exact(BigInt(v));
-  const smallest = least(s.contacts.map((c) => s.square(s.vector(c)).over(s.sigma2(c.i, c.j))));
+  const smallest = least(s.contacts.map((c) => most([ZERO, s.left(c.j, s.vector(c), ZERO)]).over(s.sigma2(c.i, c.j))));
   const opening = s.leastOpening(ZERO, smallest, new Exact(1n, 1)); // pairs without force may be closed too
   const own = smallest.times(least([ONE, opening && opening.n ? opening : ONE]));
   refuse(OFF.times(file).below(file.minus(own).abs()),
     () => `gamma: without overlap it is ${digits(own.number(), 0, 6)}, not that of the file`);
   // The smaller of both, as spheres of a smaller gamma have more room. What is shown of it is true of a larger one.
   s.gamma = new Exact(least([own, file]).scaled(GAMMA).floor(), GAMMA); // no pair overlaps: F >= 0
+  if (s.round) [s.growth, s.gamma] = [rooted(s.gamma), rooted(s.gamma).times(rooted(s.gamma))];
   const { f, sigma2, columns } = s.equations(every), j = s.rounded(columns), inverse = inverseOf(s, j, every.length);
   const [stress, per] = balanced(s, columns, inverse), forces = stress.map((m) => Exact.ratio(m, per));
   refuse(stress.some((m) => m <= 0n), "force: not all are positive");
@@ -121,7 +122,9 @@ export function trapped(s) {
   const inner = TWO.times(found.constant).over(left), weight = products(sigma2, forces);
   // above: over weight above s.gamma of the densest packing within inner
   const above = opened.plus(rest.times(inner)).plus(found.square.times(inner).times(inner));
-  const error = file.minus(s.gamma).plus(s.strict ? ZERO : above.over(weight)).over(file);
+  // With a round wall g grows: at the wall -dF / dg falls to no less than half while W - g s stays positive.
+  const grown = TWO.times(above).over(weight), climb = grown.times(TWO.times(s.growth).plus(grown));
+  const error = file.minus(s.gamma).plus(s.strict ? ZERO : s.round ? climb : above.over(weight)).over(file);
   const outer = least([left.over(TWO.times(found.second).times(found.top)), ...edges.map((h) => h.over(TWO))]);
   s.within = s.strict ? [TWO.times(above).plus(number(s.dim).times(error))] : TWO.times(error); // s.gamma: the file's less error
   refuse(s.strict && !inner.below(outer), () =>

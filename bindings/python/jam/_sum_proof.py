@@ -19,7 +19,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ._api.arrays import Array
-from .digits import GUARD, SLACK, STEPS, _bounds, _decimal, _doubles, _integers
+from .digits import GUARD, SLACK, STEPS, _bounds, _decimal, _doubles, _images, _integers
 from ._formats.replacing import replacing
 from ._symmetry import Fold, square_fold
 from .errors import StateError
@@ -57,7 +57,7 @@ class _Rows:
         walls = system.walls() if info.walls else None
         self.walls = [(int(axis), bool(side)) for axis, side in zip(walls.axis, walls.side)] if walls is not None else []
         self.pairs = np.asarray(system.contacts.pairs)
-        self.images = self._images(system)
+        self.images = [tuple(map(int, n)) for n in _images(system)]
         self.size = self.n * (self.d + 1)
         if any(i == j for i, j in self.pairs):
             raise StateError("prove: a sphere touches its own image")
@@ -67,16 +67,6 @@ class _Rows:
                              "which have as many, or as many orbits under a symmetry, and no radius at a bound")
         self.fold = fold
         self.u = np.concatenate([_integers(system.positions / self.unit, bits), _integers(system.diameters / (2 * self.unit), bits)[:, None]], 1)
-
-    def _images(self, system: System) -> list[tuple[int, ...]]:
-        """n of each contact, r = x_i - x_j + n H."""
-        i, j = self.pairs.T
-        x, radii, inverse = system.positions, system.diameters / 2, np.linalg.inv(system.cell)
-        pair, j = j >= 0, np.where(j < 0, i, j)
-        length = (radii[i] + radii[j])[:, None]
-        both = [(sign * length * system.contacts.vectors - (x[i] - x[j])) @ inverse for sign in (1, -1)]
-        best = min(both, key=lambda n: float(abs(n - np.round(n))[pair].max(initial=0.0)))
-        return [tuple(int(v) * bool(yes) for v in row) for row, yes in zip(np.round(best), pair)]
 
     def _folded(self, system: System, weights: list[Fraction]) -> Fold:
         """Of no symmetry where an axis has no walls."""

@@ -67,21 +67,26 @@ def _pi(bits: int) -> int:
     return (4 * (4 * atan_inverse(5) - atan_inverse(239))) >> 32
 
 
+def _images(system: System) -> Array:
+    """n of each contact, r = x_i - x_j + n H, 0 at walls: whole numbers for one sign of the contact vectors."""
+    (i, j), x, sigma, inverse = system.contacts.pairs.T, system.positions, system.diameters, np.linalg.inv(system.cell)
+    pair, j = (j >= 0)[:, None], np.where(j < 0, i, j)
+    distance = 0.5 * (sigma[i] + sigma[j]) * np.where(sigma[i] == sigma[j], 1.0, 1.0 + system.info.non_additivity)
+    ways = [sign * distance[:, None] * system.contacts.vectors - (x[i] - x[j]) for sign in (1, -1)]
+    parts = [pair * (way @ inverse) for way in ways]
+    return np.round(min(parts, key=lambda n: float(abs(n - np.round(n)).max(initial=0.0)))).astype(int)
+
+
 class _Equations:
     """F, its derivative, and what both need, with numbers of `bits` bits behind the point."""
 
     def __init__(self, system: System, bits: int):
-        info, contacts = system.info, system.contacts
+        info = system.info
         self.unit = 2.0 ** round(math.log2(info.box))  # an exact factor
         cell, x, sigma = system.cell / self.unit, system.positions / self.unit, system.diameters / self.unit
         if info.container or info.walls or info.model:
             raise StateError("digits: only periodic packings of the Euclidean model have a proof of their digits")
-        self.d, self.bits, self.pairs, self.cell, self.sigma = info.dim, bits, contacts.pairs, cell, sigma
-        i, j = self.pairs.T
-        distance = 0.5 * (sigma[i] + sigma[j]) * np.where(sigma[i] == sigma[j], 1.0, 1.0 + info.non_additivity)
-        inverse = np.linalg.inv(cell)
-        images = [(sign * distance[:, None] * contacts.vectors - (x[i] - x[j])) @ inverse for sign in (1, -1)]
-        image = min(images, key=lambda n: float(abs(n - np.round(n)).max()))
+        self.d, self.bits, self.pairs, self.cell, self.sigma = info.dim, bits, system.contacts.pairs, cell, sigma
         self.stable = np.unique(self.pairs)
         self.index = np.full(info.n, -1)
         self.index[self.stable[1:]] = np.arange(len(self.stable) - 1)  # the first one stands still
@@ -90,8 +95,7 @@ class _Equations:
             raise StateError(
                 f"digits: {len(self.pairs)} contacts and {self.unknowns} unknowns: only isostatic packings are refined"
             )
-        whole = np.array([[int(v) for v in row] for row in np.round(image)], dtype=object)
-        self.shift = whole @ _integers(cell, bits)
+        self.shift = _images(system).astype(object) @ _integers(cell, bits)
         half = _integers(sigma, bits)
         delta = Fraction(info.non_additivity)
         # sigma of each contact, exactly, and its square

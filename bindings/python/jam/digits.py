@@ -74,7 +74,8 @@ def _images(system: System) -> Array:
     distance = 0.5 * (sigma[i] + sigma[j]) * np.where(sigma[i] == sigma[j], 1.0, 1.0 + system.info.non_additivity)
     ways = [sign * distance[:, None] * system.contacts.vectors - (x[i] - x[j]) for sign in (1, -1)]
     parts = [pair * (way @ inverse) for way in ways]
-    return np.round(min(parts, key=lambda n: float(abs(n - np.round(n)).max(initial=0.0)))).astype(int)
+    found: Array = np.round(min(parts, key=lambda n: float(abs(n - np.round(n)).max(initial=0.0)))).astype(int)
+    return found
 
 
 class _Equations:

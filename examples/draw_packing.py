@@ -10,13 +10,10 @@ Make the files with: jam-pack --output PACKING.xyz --contacts CONTACTS.csv
 import re
 import sys
 
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402
-import numpy as np  # noqa: E402
-from matplotlib.collections import EllipseCollection, LineCollection  # noqa: E402
-from PIL import Image  # noqa: E402  matplotlib needs it too
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.collections import EllipseCollection, LineCollection
+from PIL import Image  # matplotlib needs it too
 
 STABLE, BUCKLER, RATTLER = (0.27, 0.48, 0.72), (0.95, 0.55, 0.15), (0.72, 0.72, 0.72)
 

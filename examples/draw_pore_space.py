@@ -6,9 +6,6 @@ import tempfile
 from pathlib import Path
 
 import jam
-import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection

@@ -7,11 +7,8 @@ import sys
 
 import jam
 import jam.plot
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402
-import numpy as np  # noqa: E402
+import matplotlib.pyplot as plt
+import numpy as np
 
 two_sizes = np.where(np.arange(150) % 2, 1.0, 1.4)
 scenes = {

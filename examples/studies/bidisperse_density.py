@@ -14,9 +14,6 @@ import json
 from pathlib import Path
 
 import jam
-import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 

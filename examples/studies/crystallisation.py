@@ -10,13 +10,10 @@ peak at sqrt 2 diameters, a glass has none there but a split one at sqrt 3 and 2
 import sys
 import time
 
-import matplotlib
+import matplotlib.pyplot as plt
+import numpy as np
 
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402
-import numpy as np  # noqa: E402
-
-import jam  # noqa: E402
+import jam
 
 
 def grown(n, seed, rate):

@@ -17,13 +17,10 @@ import os
 import sys
 import time
 
-import matplotlib
+import matplotlib.pyplot as plt
+import numpy as np
 
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402
-import numpy as np  # noqa: E402
-
-import jam  # noqa: E402
+import jam
 
 PUBLISHED = {  # kappa: (phi_J of the fit, from 1e3, from 1e5, standard error)
     3e-4: (0.64223, 0.64212, 0.64223, 0.00019),

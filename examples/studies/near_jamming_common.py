@@ -2,14 +2,11 @@
 import argparse
 import os
 
-import matplotlib
+import matplotlib.pyplot as plt  # noqa: F401  for those that import this
+import numpy as np
 
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402,F401  here, so that the line above comes first
-import numpy as np  # noqa: E402
-
-import jam  # noqa: E402
-from jam import near_jamming as nj  # noqa: E402
+import jam
+from jam import near_jamming as nj
 
 # ---- options
 

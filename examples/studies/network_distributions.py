@@ -11,17 +11,14 @@ forces), gamma = 0.41269 (gaps): Charbonneau et al., Nat. Commun. 5, 3725 (2014)
 """
 import sys
 
-import matplotlib
+import matplotlib.pyplot as plt
+import numpy as np
 
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402
-import numpy as np  # noqa: E402
+import jam
+import tail_exponents as tail
 
-import jam  # noqa: E402
-import tail_exponents as tail  # noqa: E402
-
-from jam._tails import KINDS  # noqa: E402
-from jam.scaling import tail_exponent  # noqa: E402
+from jam._tails import KINDS
+from jam.scaling import tail_exponent
 
 LOCALISED, SMALLEST = 1, 2  # flags of jam_contact_classes
 EXPECTED = {

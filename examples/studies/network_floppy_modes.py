@@ -9,13 +9,10 @@ over: SEED, or the first one after it, that has a single one is drawn. Needs the
 import sys
 from pathlib import Path
 
-import matplotlib
+import matplotlib.pyplot as plt
+import numpy as np
 
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402
-import numpy as np  # noqa: E402
-
-import jam  # noqa: E402
+import jam
 
 sys.path.append(str(Path(__file__).resolve().parents[2] / "bindings/docs"))
 import figures  # noqa: E402

@@ -10,13 +10,10 @@ Half of the disks are 1.4 times as large. Two minutes of one processor. Needs `j
 """
 import sys
 
-import matplotlib
+import matplotlib.pyplot as plt
+import numpy as np
 
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402
-import numpy as np  # noqa: E402
-
-import jam  # noqa: E402
+import jam
 
 PRESSURES = (1e-2, 3e-3, 1e-3, 3e-4)  # p N^2 > 70: smaller systems have a plateau below
 SIZES = {32: 24, 64: 12, 128: 6, 256: 3}  # packings of each

@@ -10,13 +10,10 @@ Default: 32 spheres, under a minute. --large: three sizes. Needs `jam`, numpy, m
 """
 import argparse
 
-import matplotlib
+import matplotlib.pyplot as plt
+import numpy as np
 
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402
-import numpy as np  # noqa: E402
-
-import jam  # noqa: E402
+import jam
 
 START = {2: 0.90, 3: 0.70}  # packing fractions of the random points
 

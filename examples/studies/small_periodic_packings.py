@@ -11,9 +11,6 @@ Torquato and Jiao, Phys. Rev. E 82, 061302 (2010); lattice densities: Conway and
 import math
 import sys
 
-import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 

@@ -18,14 +18,11 @@ import os
 import sys
 from pathlib import Path
 
-import matplotlib
+import matplotlib.pyplot as plt
+import numpy as np
+from scipy.optimize import least_squares
 
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402
-import numpy as np  # noqa: E402
-from scipy.optimize import least_squares  # noqa: E402
-
-import jam  # noqa: E402
+import jam
 
 ALPHAS = (2.0, 2.5, 1.5)
 LAWS = {  # quantity: exponent less alpha, or the exponent where it does not depend on alpha

@@ -17,15 +17,12 @@ import argparse
 import sys
 from pathlib import Path
 
-import matplotlib
+import matplotlib.pyplot as plt
+import numpy as np
+from scipy.signal import argrelextrema
+from scipy.special import j0
 
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402
-import numpy as np  # noqa: E402
-from scipy.signal import argrelextrema  # noqa: E402
-from scipy.special import j0  # noqa: E402
-
-import jam  # noqa: E402
+import jam
 
 sys.path.append(str(Path(__file__).resolve().parents[2] / "bindings/docs"))
 import figures  # noqa: E402

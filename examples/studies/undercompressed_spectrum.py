@@ -11,13 +11,10 @@ beyond the translations. Needs the Python package `jam`, numpy, matplotlib.
 """
 import sys
 
-import matplotlib
+import matplotlib.pyplot as plt
+import numpy as np
 
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402
-import numpy as np  # noqa: E402
-
-import jam  # noqa: E402
+import jam
 
 
 def stable_part(pairs, n, dim):

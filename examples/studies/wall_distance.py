@@ -14,13 +14,10 @@ import argparse
 import sys
 from pathlib import Path
 
-import matplotlib
+import matplotlib.pyplot as plt
+import numpy as np
 
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402
-import numpy as np  # noqa: E402
-
-import jam  # noqa: E402
+import jam
 
 sys.path.append(str(Path(__file__).resolve().parents[2] / "bindings/docs"))
 import figures  # noqa: E402

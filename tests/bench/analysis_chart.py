@@ -3,10 +3,7 @@
 import json
 import sys
 
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402
+import matplotlib.pyplot as plt
 
 with open(sys.argv[1], encoding="ascii") as file:
     data = json.load(file)

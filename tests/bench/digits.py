@@ -97,9 +97,6 @@ def delta(disks):
 
 
 def draw(picture):
-    import matplotlib
-
-    matplotlib.use("Agg")
     import matplotlib.pyplot as plt
 
     figure, (left, right) = plt.subplots(1, 2, figsize=(11, 4.2))

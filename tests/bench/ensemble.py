@@ -124,9 +124,6 @@ def together(raws):
 
 
 def draw(raw, picture):
-    import matplotlib
-
-    matplotlib.use("Agg")
     import matplotlib.pyplot as plt
 
     names = list(raw["means"])

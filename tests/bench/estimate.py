@@ -53,9 +53,6 @@ def measure(dim, n, stages, threads, options, seed):
 
 
 def draw(rows, picture):
-    import matplotlib
-
-    matplotlib.use("Agg")
     import matplotlib.pyplot as plt
 
     figure, axes = plt.subplots(1, 2, figsize=(9, 4.2))

@@ -69,9 +69,6 @@ def measured(n, seed, folder):
 
 
 def draw(data, picture):
-    import matplotlib
-
-    matplotlib.use("Agg")
     import matplotlib.pyplot as plt
 
     figure, axes = plt.subplots(1, 3, figsize=(13, 4.4))

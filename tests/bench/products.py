@@ -52,9 +52,6 @@ def measure(programs, folder, runs, n, seed):
 
 
 def draw(rows, picture):
-    import matplotlib
-
-    matplotlib.use("Agg")
     import matplotlib.pyplot as plt
 
     figure, axes = plt.subplots(1, 2, figsize=(10, 4), layout="constrained")

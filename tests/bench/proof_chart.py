@@ -12,11 +12,8 @@ import json
 import sys
 from pathlib import Path
 
-import matplotlib
+import matplotlib.pyplot as plt
 import numpy as np
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402
 
 sys.path.append(str(Path(__file__).resolve().parents[2] / "bindings/docs"))
 import figures  # noqa: E402

@@ -177,9 +177,6 @@ def measured():
 
 
 def draw(found, picture):
-    import matplotlib
-
-    matplotlib.use("Agg")
     import matplotlib.pyplot as plt
     from matplotlib.ticker import NullFormatter
 

@@ -67,9 +67,6 @@ def fit(sizes, values):
 
 
 def draw(rows, picture):
-    import matplotlib
-
-    matplotlib.use("Agg")
     import matplotlib.pyplot as plt
 
     figure, axes = plt.subplots(1, 3, figsize=(12, 4))

@@ -72,9 +72,6 @@ def floors(n, seed):
 
 
 def draw(data, picture):
-    import matplotlib
-
-    matplotlib.use("Agg")
     import matplotlib.pyplot as plt
 
     figure, axes = plt.subplots(1, 4, figsize=(15, 4))

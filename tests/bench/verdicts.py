@@ -186,9 +186,6 @@ def numbers(checkout):
 
 def draw(rows, picture):
     """The share that is left open against the noise, and against the time of a verdict."""
-    import matplotlib
-
-    matplotlib.use("Agg")
     import matplotlib.pyplot as plt
 
     fig, (left, right) = plt.subplots(1, 2, figsize=(9, 3.8), constrained_layout=True)

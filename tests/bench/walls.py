@@ -79,9 +79,6 @@ def edge(given):
 
 
 def draw(found, path):
-    import matplotlib
-
-    matplotlib.use("Agg")
     import matplotlib.pyplot as plt
 
     fig, axes = plt.subplots(1, 3, figsize=(12, 3.8), constrained_layout=True)

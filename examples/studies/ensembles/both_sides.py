@@ -7,9 +7,6 @@ Below: growth and crunch as in finite_size.py. Above: harmonic soft spheres from
 state of self-stress, then compared with a crunch from just below contact. Forces, gaps below 1 and coordination of each packing
 are kept. Small: N = 128 and 256, 3000 particles each. Large: N = 256 to 4096, 2e5.
 """
-import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from common import GAMMA, THETA_E, THETA_L, Results, arguments, kept, mean_error

@@ -9,9 +9,6 @@ instants, over spheres that are no rattlers, in unit of the mean diameter square
 misses the slow modes, whose period in collisions grows with p: it gives a steeper law.
 Small: N = 256, two packings, windows to 3000. Large: N = 1024, six packings, windows to 1e5. Each run is kept when done.
 """
-import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from common import Results, arguments, kept, mean_error

@@ -12,9 +12,6 @@ clones of 16 glasses. Large: N = 512 to 2048, 10 of 50.
 """
 from itertools import combinations
 
-import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from common import Results, arguments, kept, mean_error

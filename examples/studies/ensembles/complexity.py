@@ -10,9 +10,6 @@ thread. Small: N = 64 to 512, kappa = 1e-3, 3 seeds. Large: N = 256 to 16384, ka
 """
 import time
 
-import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from common import G_OF_KAPPA, Results, arguments, kept

@@ -8,9 +8,6 @@ diameters, about the size of its cage; Q is the mean of w over spheres; chi_4 = 
 and over runs: chi_4 is its sum over all pairs. Coarse graining: S averaged over the stable spheres within R, against the mobility.
 Small: N = 256, 100 runs. Large: N = 1024, 1000 runs, 5 packings.
 """
-import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from common import Results, arguments, kept, mean_error

@@ -6,9 +6,6 @@ usage: density_by_size.py [--large] [--folder DIR] [--only-read] [--out DIR]
 Growth at kappa = 5e-3 to p = 500, then at kappa = 3e-4 (radius rate, G = 2 sqrt(3) kappa) to p = 1e7, crunch. Small: 40 to 10 packings of
 N = 64 to 256. Large: 80 to 8 of N = 256 to 2048, five minutes.
 """
-import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from common import G_OF_KAPPA, Results, arguments, kept, mean_error

@@ -9,9 +9,6 @@ All forces together: 0.19 (d = 2). Small: N = 64, 128 and 256 with 6400 disks a 
 """
 import sys
 
-import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from common import GAMMA, HERE, THETA_E, THETA_L, Results, arguments, ensemble, mean_error

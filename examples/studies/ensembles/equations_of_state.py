@@ -8,9 +8,6 @@ two-stage protocol with phi_J from its crunch. Mari-Kurchan spheres: the exact l
 growth from 0.3 (not planted beyond) and from 2.5. Rates G are of the diameter; kappa = G / (2 sqrt 3) is that of the thesis.
 Small: N = 256, two seeds. Large: N = 1024, five seeds, slower rates. Each run is kept when done.
 """
-import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from common import Results, arguments, kept, mean_error

@@ -6,9 +6,6 @@ usage: estimators.py [--large] [--sizes N ...] [--particles K ...] [--folder DIR
 Packings are those of both_sides.py from below, and Mari-Kurchan packings planted at 2.5. The cumulative distribution by three
 estimators: values pooled, ranked in each packing, evaluated at fixed points. Small: N = 128 and 256, 3000 particles each.
 """
-import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from both_sides import SIDES, U, samples

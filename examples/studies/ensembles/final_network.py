@@ -8,9 +8,6 @@ exchanged above p_th = max 1 / (f_k s_plus_k), s_plus in diameters. If the least
 N^(-1/(1-gamma)), and the two are independent, p_th ~ N^(1/(1+theta_e) + 1/(1-gamma)) = N^2.405. Growth as in finite_size.py, to p = 1e5. Packings with order or more than one state of
 self-stress are left out; each network of spheres is proved. Small: N = 64, 128. Large: to 1024.
 """
-import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from common import GAMMA, THETA_E, Results, arguments, kept, mean_error

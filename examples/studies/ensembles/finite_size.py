@@ -9,9 +9,6 @@ extended ones do not. Packings of spheres with a crystal score of 1.5 and more a
 """
 import sys
 
-import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from common import GAMMA, HERE, THETA_E, THETA_L, Results, arguments, ensemble, mean_error

@@ -5,9 +5,6 @@ usage: finite_size_panels.py [--model euclid|mk] [--large] [--folder DIR] [--onl
 
 Packings are those of finite_size.py with the same options. c is the cumulative distribution.
 """
-import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from common import GAMMA, THETA_E, THETA_L, Results, arguments, ensemble, mean_error

@@ -7,9 +7,6 @@ Growth at kappa = 5e-3 to p = 500, then at kappa (radius rate, G = 2 sqrt(3) kap
 copies at 1e3, 1e5 and 1e7 and of the last state give phi_J. Least squares 1/p = a - b phi from p = 1e5 on give phi_J = a/b and d = 1/a. The error of a/b without the covariance of a
 and b is phi_J sqrt((da/a)^2 + (db/b)^2). Small: N = 128, kappa = 1e-3, 3 seeds. Large: N = 1024, kappa = 3e-4 and 1e-4, 20 and 10 seeds.
 """
-import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from common import G_OF_KAPPA, Results, arguments, kept, mean_error

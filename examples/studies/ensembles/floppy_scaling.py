@@ -10,9 +10,6 @@ Expected: b of extended modes ~ N^(-1/2), f_min ~ N^(-1/(1+theta)), s_plus ~ N^(
 """
 import sys
 
-import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from common import GAMMA, HERE, THETA_E, Results, arguments, ensemble, mean_error

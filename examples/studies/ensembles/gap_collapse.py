@@ -7,9 +7,6 @@ usage: gap_collapse.py [--large] [--kappa K] [--folder DIR] [--only-read]
 Three suspects: the error of the collapse is too small; the smallest N has another density of gaps altogether; the range holds gaps so
 wide that they follow no power law. Synthetic packings follow the law exactly, with as many gaps and packings as the real ones.
 """
-import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from common import G_OF_KAPPA, GAMMA, Results, arguments, ensemble, mean_error

@@ -8,9 +8,6 @@ Small: (256, 1e-3), and N = 256, 512, 1024 at 3e-4, 3 seeds. Slow: also N = 1024
 """
 import time
 
-import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from common import G_OF_KAPPA, Results, arguments, kept, mean_error

@@ -15,9 +15,6 @@ diameter squared. Small: N = 128, two packings. Large: N = 1024, ten. Each run i
 """
 from itertools import combinations
 
-import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from common import Results, arguments, kept, mean_error

@@ -10,9 +10,6 @@ with two and three terms alone it is 2 % too low. Beside it: c(q) of Percus and 
 (1963)) and 1 / (d (phi p) / d phi) of the equations of state of Carnahan and Starling (d = 3) and Henderson (d = 2). Small:
 N = 500, 60 snapshots of each of three runs. Large: N = 4000, 100 of ten.
 """
-import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from common import Results, arguments, kept

@@ -9,9 +9,6 @@ near-crystals theta_l is about 0, which breaks gamma >= (1 - theta_l) / 2. Local
 force of each sphere as localised and its median force as extended. Spheres and Mari-Kurchan packings are those of final_network.py;
 near-crystals are FCC lattices of 108 spheres whose diameters spread by 1 %, grown as in near_crystals.py. Small: N = 128. Large: 256, 512.
 """
-import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from common import THETA_E, THETA_L, Results, arguments, kept, mean_error

@@ -10,9 +10,6 @@ is 1e-9). The contacts change when another pair closes. Beside it: contacts open
 reduced pressure p leaves them. Where the two displacements are equal, a plateau of the displacement in the LPs begins.
 Small: N = 256, 3 packings, 12 draws each. Large: N = 1024, 5 packings, 24 draws.
 """
-import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from common import Results, arguments, kept

@@ -10,9 +10,6 @@ The reference of each method is its packing from the last pressure. Contact k op
 contacts should be final above p = max 1 / (f_k s_plus_k). Packings with order or several states of self-stress are left out. Small:
 N = 100, 4 seeds. Large: N = 256, 20.
 """
-import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from common import G_OF_KAPPA, Results, arguments, kept, mean_error

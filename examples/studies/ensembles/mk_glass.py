@@ -5,9 +5,6 @@ usage: mk_glass.py [--large] [--folder DIR] [--only-read] [--out DIR]
 
 Spheres grow from 0.3 and from the planted liquid at 2.5 to p = 1e6. Small: N = 200, 3 of each. Large: N = 1024, 5.
 """
-import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from common import Results, arguments, kept, mean_error

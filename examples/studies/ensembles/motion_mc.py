@@ -8,9 +8,6 @@ published is T = 1e-4 for alpha = 2). Small: 40 runs of 250 sweeps for each of n
 """
 import sys
 
-import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from common import HERE, Results, arguments

@@ -10,9 +10,6 @@ Runs are kept in the folder, as those of ../near_jamming_md.py.
 """
 import sys
 
-import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from common import HERE, Results, arguments

@@ -9,9 +9,6 @@ gives no parameters. Known (G. Tsekenis, arXiv 2006.07373): phi_J falls linearly
 universal, those of gaps and localised forces are not. Packings that end without a verdict are counted. Small: 108 spheres, 120
 disks, 6 packings a spread. Large: 256 spheres, 480 disks, 60.
 """
-import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from common import THETA_E, Results, arguments, ensemble, kept, mean_error

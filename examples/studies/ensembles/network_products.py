@@ -6,9 +6,6 @@ usage: network_products.py [--large] [--n N] [--count K] [--folder DIR] [--only-
 Packings as published: sequential LPs from random spheres at 0.2. Forces have mean 1 in each packing, rattlers are omitted.
 Small: 10 packings of N = 128. Large: 20 of N = 1024.
 """
-import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from common import Results, arguments, kept, mean_error

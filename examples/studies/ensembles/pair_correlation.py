@@ -7,9 +7,6 @@ Packings are those of finite_size.py and path_to_jamming.py with the same option
 spheres in a row); a crystal would show at sqrt 2 and sqrt 7. The number for each: height of g there
 over the mean of g 0.15 to the left and to the right.
 """
-import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from common import Results, arguments, ensemble

@@ -10,9 +10,6 @@ Large: N = 1024, kappa = 3e-4 to 1e-5, p_target to 1e11, 20 seeds. Each (kappa, 
 """
 import time
 
-import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from common import G_OF_KAPPA, Results, arguments, kept, mean_error

@@ -8,9 +8,6 @@ reduced to a share of phi_J. Dynamics runs to LONGEST collisions of a sphere; at
 contacts and the density of the start? The MSD is that of spheres that are stable at the start. Small: N = 256, 6 packings of each
 kind. Large: N = 1024, 20.
 """
-import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from common import Results, arguments, kept, mean_error

@@ -6,9 +6,6 @@ usage: sketches.py [--out DIR]          seconds
 2.1 exact and linear constraints on one of five disks; 2.2 the five disks before and after one LP; 2.4 two growing disks that
 collide; 2.12 snapshots of dynamics at three pressures and the jammed states that crunches find from them.
 """
-import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from common import Results, arguments

@@ -8,9 +8,6 @@ without and with pre-stress; omega is in units of the root of the stiffness over
 omega is a part LEVELS of that of the same packing nearest to jamming, whose D(omega) is a plateau down to its lowest modes.
 The error of its power contains the packings, the level, the range of x and a correction. Small: N = 256, 6 packings. Large: N = 1024, 20.
 """
-import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from common import Results, arguments, kept, mean_error

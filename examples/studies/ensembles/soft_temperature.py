@@ -11,9 +11,6 @@ contain packings, temperatures and the range of x. Small: N = 128, 4 packings, 3
 """
 from math import gamma
 
-import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from common import Results, arguments, kept, mean_error

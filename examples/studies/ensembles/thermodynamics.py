@@ -7,9 +7,6 @@ Crystal: p of FCC spheres by dynamics against K. R. Hall's equation (J. Chem. Ph
 (Carnahan and Starling) and crystal (Hall) that have one pressure and one chemical potential. Jamming: s = -integral of p dphi / phi
 along slow growth, so s = d ln(1 - phi / phi_J) + a constant where p = d / (1 - phi / phi_J). Small: 108 and 256 spheres. Large: 864, 1024.
 """
-import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from common import Results, arguments, kept, mean_error

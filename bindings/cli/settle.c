@@ -207,13 +207,8 @@ static int settle_stages(options *o) {
 static int settle_walls(const options *o) {
   const char *const name = o->container ? "--container" : "--walls";
   if (!o->walls && !o->container) return 0;
-  if (o->prove || o->proof || o->strict_proof)
-    complain("%s contradicts %s: theorems are for scenes without walls", name,
-             o->prove   ? "--prove"
-             : o->proof ? "--proof"
-                        : "--strict-proof");
-  else if (o->strain != JAM_STRAIN_NONE)
-    complain("%s contradicts --strain: walls do not strain", name);
+  if (o->strict_proof || o->strain != JAM_STRAIN_NONE)
+    complain("%s contradicts %s: walls do not strain", name, o->strict_proof ? "--strict-proof" : "--strain");
   else
     return 0;
   return -1;

@@ -50,6 +50,15 @@ class Verbs(unittest.TestCase):
         open_cell = json.loads(run("pack", "--n", "20", "--quiet", "--report", "-", "--output", self.dir / "a.xyz").stdout)
         self.assertEqual((open_cell["walls"], open_cell["diameter_mean_given"]), ([], None))
 
+    def test_packings_between_walls_are_proved(self):
+        for scene, word in (("--walls z", "walls 2"), ("--container cylinder", "round 2"), ("--container cylinder --walls z", "round 2")):
+            given = ("pack", "--n", "30", "--seed", "4", "--quiet", *scene.split(), "--output", self.dir / "a.xyz")
+            told = run(*given, "--prove", "--proof", self.dir / "a.jamproof", "--report", "-")
+            self.assertRegex(json.loads(told.stdout)["proof"], "^(proved, radius|trapped within) ", told.stderr)
+            self.assertIn(word, (self.dir / "a.jamproof").read_text().splitlines())
+            refused = run(*given, "--strict-proof", self.dir / "b.jamproof")
+            self.assertIn("contradicts --strict-proof: walls do not strain", refused.stderr)
+
     def test_radii_move_to_a_maximum(self):
         """The sum, and moments, from the written radii; what is no kind is refused before any work."""
         given = ("pack", "--n", "30", "--dim", "2", "--walls", "xy", "--sizes", "uniform:low=0.6,high=1.4", "--quiet")

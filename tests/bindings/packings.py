@@ -1,5 +1,8 @@
 """Packings and lattices that several tests make, and how they compare two."""
 import itertools
+import tempfile
+import unittest
+from pathlib import Path
 
 import numpy as np
 
@@ -7,6 +10,15 @@ import jam
 
 #: A protocol of an ensemble whose packings take a tenth of a second
 SMALL = dict(n=24, dim=2, diameters={"law": "bidisperse"}, stages=[{"growth_rate": 0.1, "pressure": 100.0}])
+
+
+class InFolder(unittest.TestCase):
+    """Cases that write files: each has a folder of its own."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
 
 
 def fluid(n=64, dim=3, seed=1, fraction=0.55):

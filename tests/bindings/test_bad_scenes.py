@@ -4,11 +4,9 @@ Both pass the scene to the C library, whose statuses tests/capi/walls.c and test
 """
 import os
 import subprocess
-import tempfile
-import unittest
-from pathlib import Path
 
 import jam
+from packings import InFolder
 
 PACK = os.environ["JAM_PACK"]
 TILTED = [[1, 0, 0], [0.3, 1, 0], [0, 0, 1]]
@@ -44,12 +42,7 @@ LAWS = (
 )
 
 
-class BadScenes(unittest.TestCase):
-    def setUp(self):
-        work = tempfile.TemporaryDirectory()
-        self.addCleanup(work.cleanup)
-        self.folder = Path(work.name)
-
+class BadScenes(InFolder):
     def refused_by_the_program(self, arguments, words):
         out = self.folder / "out.xyz"
         done = subprocess.run(

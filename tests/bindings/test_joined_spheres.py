@@ -4,11 +4,11 @@ import json
 import math
 import os
 import subprocess
-import tempfile
 import unittest
 from pathlib import Path
 
 import jam
+from packings import InFolder
 import numpy as np
 from test_pore_space import open_edges, triangles, volume
 
@@ -36,12 +36,7 @@ def inside_polyhedron(corners, points):
     return total / (4 * math.pi)
 
 
-class Folder(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = Path(folder.name)
-
+class Folder(InFolder):
     def mesh(self, s, **options):
         path = self.folder / "m.stl"
         report = s.write_stl(str(path), **options)

@@ -5,16 +5,15 @@ import decimal
 import itertools
 import math
 import os
-import pathlib
 import re
 import shutil
 import subprocess
 import sys
-import tempfile
 import unittest
 import zlib
 from fractions import Fraction
 
+from packings import InFolder
 from test_proof import CHECKER, ROOT, File, file_of, jamproof, packing, scene_of, value, word
 from test_proof_bounds import fcc
 
@@ -71,15 +70,10 @@ def flower():
     raise AssertionError("no seed gives a packing with an implied contact")
 
 
-class Program(unittest.TestCase):
+class Program(InFolder):
     @classmethod
     def setUpClass(cls):
         cls.text = isostatic()
-
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
 
     def write(self, text):
         path = self.folder / "a.jamproof"
@@ -305,7 +299,3 @@ class Gaps(unittest.TestCase):
         root = Fraction(math.isqrt(2 * 3 * 10**80), 3 * 10**40)
         for above in (Fraction(17, 10**17), Fraction(3, 10**16), Fraction(1, 10**20)):
             self.check(scene_of(body_centred(root * (1 + Fraction(4, 3) * above))), 0.98)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -6,7 +6,6 @@ import random
 import re
 import shutil
 import subprocess
-import tempfile
 import unittest
 
 import numpy as np
@@ -19,6 +18,7 @@ from test_proof_strict import angles_of_tiles_in_a_free_cell, packed, strict_fil
 from test_proof_walls import isostatic
 
 import jam
+from packings import InFolder
 
 NODE = shutil.which("node")
 PROGRAM, LIBRARY = pathlib.Path(__file__).with_name("check_proofs.mjs"), ROOT / "bindings/js/lab/proof/check.mjs"
@@ -113,12 +113,7 @@ def made():
 
 
 @unittest.skipUnless(NODE, "node is not installed")
-class TwoCheckers(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-
+class TwoCheckers(InFolder):
     def compare(self, paths, plain=lambda answer: answer):
         outs = [self.folder / f"{k}.jamproof" for k, _ in enumerate(paths)]
         for path, out, found in zip(paths, outs, answers(paths)):

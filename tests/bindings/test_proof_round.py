@@ -313,7 +313,3 @@ class Round(unittest.TestCase):
         system.crunch()
         self.assertEqual(system.report.contacts, 10)
         self.enclosed(system, 1 / (1 + root(Fraction(3, 2))))
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -299,7 +299,3 @@ class Periodic(unittest.TestCase):
                     f = Walled(text)
                     change(f, generator)
                     self.assertNotIsInstance(found := verdict(f.text()), dict, found)
-
-
-if __name__ == "__main__":
-    unittest.main()

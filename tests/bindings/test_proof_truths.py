@@ -235,7 +235,3 @@ class Files(unittest.TestCase):
             again = jam.load(path)
             self.assertTrue(np.array_equal(again.positions, system.positions))
             self.assertEqual(again.prove().radius, system.prove().radius)
-
-
-if __name__ == "__main__":
-    unittest.main()

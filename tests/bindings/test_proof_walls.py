@@ -213,7 +213,3 @@ class Walls(unittest.TestCase):
         self.assertEqual(system.prove(np.ones(2)).theorem, jam.Theorem.EXACT)
         self.assertEqual(verdict(text)["radius"], 0, text)
 
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -17,6 +17,7 @@ import h5py
 import numpy as np
 
 import jam
+from packings import InFolder
 from jam._formats import replacing, seal
 from jam.store import StoreError
 
@@ -306,12 +307,7 @@ class PlainHdf5(Case):
             np.testing.assert_allclose(along, np.linalg.norm(apart, axis=1))  # the sign is what the text says
 
 
-class Parts(unittest.TestCase):
-    def setUp(self):
-        self.temporary = tempfile.TemporaryDirectory()
-        self.folder = Path(self.temporary.name)
-        self.addCleanup(self.temporary.cleanup)
-
+class Parts(InFolder):
     def test_threads_write_one_name(self):
         path, disks, errors = self.folder / "a.h5", jam.System.random(n=16, dim=2, seed=1), []
 

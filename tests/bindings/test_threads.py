@@ -3,16 +3,15 @@ import gc
 import inspect
 import itertools
 import sys
-import tempfile
 import threading
 import time
 import unittest
 import weakref
-from pathlib import Path
 
 import numpy as np
 
 import jam
+from packings import InFolder
 
 DISKS = [1.0] * 15 + [1.4] * 15
 
@@ -105,12 +104,7 @@ class Callables(unittest.TestCase):
             del held
 
 
-class Files(unittest.TestCase):
-    def setUp(self):
-        holder = tempfile.TemporaryDirectory()
-        self.addCleanup(holder.cleanup)
-        self.folder = Path(holder.name)
-
+class Files(InFolder):
     def test_what_a_progress_callable_saves_is_the_last_step(self):
         for verb, options in (
             ("compress", {}),
@@ -157,16 +151,14 @@ class Files(unittest.TestCase):
         self.assertEqual([c["status"] for c in disks.calls], ["ok", "cancelled"])
 
 
-class Stress(unittest.TestCase):
+class Stress(InFolder):
     """Every public name of a System, asked by some threads while another moves the spheres. What they get is an answer
     of one moment or an error that says why not."""
 
     ALLOWED = (jam.JamError, NotImplementedError, ImportError, ValueError)
 
     def setUp(self):
-        holder = tempfile.TemporaryDirectory()
-        self.addCleanup(holder.cleanup)
-        self.folder = Path(holder.name)
+        super().setUp()
         before = sys.getswitchinterval()
         self.addCleanup(sys.setswitchinterval, before)
         sys.setswitchinterval(1e-5)

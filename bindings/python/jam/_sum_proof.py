@@ -78,8 +78,7 @@ class _Rows:
         return found or plain
 
     def separation(self, i: int, j: int, n: Any) -> Array:
-        found: Array = self.u[i][: self.d] - self.u[j][: self.d] + np.array(n, dtype=object) @ self.cell
-        return found
+        return self.u[i][: self.d] - self.u[j][: self.d] + np.array(n, dtype=object) @ self.cell
 
     def distance(self, i: int, wall: int) -> int:
         axis, far = self.walls[-1 - wall]

@@ -72,8 +72,7 @@ def main(arguments: list[str] | None = None) -> int:
         return True
 
     sys.stdout.flush()  # C writes to the same place by a buffer of its own
-    code: int = raw.pack([os.fsencode(word) for word in words], _read, check, finish, progress)
-    return code
+    return raw.pack([os.fsencode(word) for word in words], _read, check, finish, progress)
 
 
 def _check_picture(path: str) -> None:

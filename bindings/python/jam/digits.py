@@ -74,8 +74,7 @@ def _images(system: System) -> Array:
     distance = 0.5 * (sigma[i] + sigma[j]) * np.where(sigma[i] == sigma[j], 1.0, 1.0 + system.info.non_additivity)
     ways = [sign * distance[:, None] * system.contacts.vectors - (x[i] - x[j]) for sign in (1, -1)]
     parts = [pair * (way @ inverse) for way in ways]
-    found: Array = np.round(min(parts, key=lambda n: float(abs(n - np.round(n)).max(initial=0.0)))).astype(int)
-    return found
+    return np.round(min(parts, key=lambda n: float(abs(n - np.round(n)).max(initial=0.0)))).astype(int)
 
 
 class _Equations:
@@ -107,13 +106,11 @@ class _Equations:
 
     def separations(self) -> Array:
         i, j = self.pairs.T
-        found: Array = self.x[i] - self.x[j] + self.shift
-        return found
+        return self.x[i] - self.x[j] + self.shift
 
     def residuals(self) -> Array:
         r = self.separations()
-        found: Array = ((r * r).sum(1) - self.gamma * self.square) >> self.bits
-        return found
+        return ((r * r).sum(1) - self.gamma * self.square) >> self.bits
 
     def derivative(self) -> Array:
         """J in doubles, each entry rounded once."""

@@ -179,8 +179,7 @@ def _fill(weights: Array, blocks: int) -> Array:
 
 def is_caged(runs: Runs, system: Any, limit: float = 0.1) -> Array:
     """Whether the root of the MSD is below `limit` mean diameters (m,): beyond it the packing's network says nothing any more."""
-    found: Array = np.sqrt(runs.msd) < limit * system.diameters.mean()
-    return found
+    return np.sqrt(runs.msd) < limit * system.diameters.mean()
 
 
 # ---- modes
@@ -214,14 +213,12 @@ def mode_weights(system: Any, runs: Runs, modes: Any, instants: Sequence[int] | 
 
 def self_scattering(displacements: Any, q: float) -> Array:
     """F_s(q): mean of cos(q dr_c) over spheres and axes, of sets (..., n, d)."""
-    found: Array = np.cos(q * np.asarray(displacements)).mean((-2, -1))
-    return found
+    return np.cos(q * np.asarray(displacements)).mean((-2, -1))
 
 
 def overlap(displacements: Any, length: float) -> Array:
     """Q: share of spheres that moved less than `length`, of sets (..., n, d)."""
-    found: Array = ((np.asarray(displacements) ** 2).sum(-1) < length**2).mean(-1)
-    return found
+    return ((np.asarray(displacements) ** 2).sum(-1) < length**2).mean(-1)
 
 
 def propensity(runs: Runs) -> Array:
@@ -232,11 +229,9 @@ def propensity(runs: Runs) -> Array:
 def clone_overlap(a: Any, b: Any) -> Array:
     """Overlap of the displacements of two clones (..., n, d): sum a.b over the root of sum a.a sum b.b."""
     a, b = np.asarray(a), np.asarray(b)
-    found: Array = (a * b).sum((-2, -1)) / np.sqrt((a * a).sum((-2, -1)) * (b * b).sum((-2, -1)))
-    return found
+    return (a * b).sum((-2, -1)) / np.sqrt((a * a).sum((-2, -1)) * (b * b).sum((-2, -1)))
 
 
 def clone_distance(a: Any, b: Any) -> Array:
     """Mean square distance between clones, (1/N) sum |r_i^A - r_i^B|^2, of their displacements (..., n, d)."""
-    found: Array = ((np.asarray(a) - np.asarray(b)) ** 2).sum(-1).mean(-1)
-    return found
+    return ((np.asarray(a) - np.asarray(b)) ** 2).sum(-1).mean(-1)

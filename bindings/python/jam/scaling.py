@@ -137,8 +137,7 @@ def _solve(mean: Array, span: float) -> Array:
         expected = span * (-1.0 / np.expm1(-t) - 1.0 / t)
         high = np.where(expected > mean, b, high)
         low = np.where(expected > mean, low, b)
-    found: Array = 0.5 * (low + high)
-    return found
+    return 0.5 * (low + high)
 
 
 def fit_power(
@@ -273,8 +272,7 @@ def collapse(
 def crossover(x: Array, a: float, b: float, q: float, exponent: float) -> Array:
     """F(x) = [(a x)^q + (b x^(1+exponent))^q]^(1/q): linear for small x, a power law for large (thesis, section 4.4)."""
     x = np.asarray(x, float)
-    found: Array = np.exp(np.logaddexp(q * np.log(a * x), q * (np.log(b) + (1.0 + exponent) * np.log(x))) / q)
-    return found
+    return np.exp(np.logaddexp(q * np.log(a * x), q * (np.log(b) + (1.0 + exponent) * np.log(x))) / q)
 
 
 def fit_crossover(
@@ -293,8 +291,7 @@ def fit_crossover(
     lc, weight = np.log(c[use]), c[use] / error[use]
 
     def residual(p: Array) -> Array:
-        found: Array = weight * (np.log(crossover(x[use], np.exp(p[0]), np.exp(p[1]), p[2], exponent)) - lc)
-        return found
+        return weight * (np.log(crossover(x[use], np.exp(p[0]), np.exp(p[1]), p[2], exponent)) - lc)
 
     found = least_squares(
         residual, [np.log(start[0]), np.log(start[1]), start[2]], bounds=([-8, -8, -10], [8, 8, -0.1])

@@ -301,8 +301,7 @@ class System(Verbs, Writing, PoreSpace, Copies, Converting):
         return f"System(n={i.n}, dim={i.dim}, packing_fraction={i.packing_fraction:.8g}, box={i.box:g}, seed={i.seed})"
 
     def __len__(self) -> int:
-        found: int = self.n
-        return found
+        return self.n
 
 
 def restore(state: bytes, calls: list[Any], trace: list[Any]) -> System:

@@ -12,8 +12,7 @@ DTYPES = {"double": np.float64, "int32_t": np.int32, "int64_t": np.int64, "uint6
 
 def unknown_array(shape: Any, dtype: Any = np.float64) -> Array:
     """An array for a call to fill: nan, or -1, where it writes nothing."""
-    found: Array = np.full(shape, np.nan if np.dtype(dtype).kind == "f" else -1, dtype)
-    return found
+    return np.full(shape, np.nan if np.dtype(dtype).kind == "f" else -1, dtype)
 
 
 def as_rows(columns: Any) -> Array:

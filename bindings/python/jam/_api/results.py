@@ -90,8 +90,7 @@ class Modes:
     @property
     def frequencies(self) -> Array:
         """(m,): omega, with round-off below zero taken as zero."""
-        found: Array = np.sqrt(np.maximum(self.values, 0.0))
-        return found
+        return np.sqrt(np.maximum(self.values, 0.0))
 
     def __len__(self) -> int:
         return len(self.values)

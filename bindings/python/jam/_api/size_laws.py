@@ -166,5 +166,4 @@ def size_report(diameters: Any, dim: int = 3) -> SizeReport:
     """
     made = new_report("jam_size_report")
     raw.jam_get_size_report(dim, as_vector(diameters, name="diameters"), made)
-    found: SizeReport = freeze(made, "jam_size_report")
-    return found
+    return freeze(made, "jam_size_report")

@@ -60,8 +60,7 @@ class _File:
         data = self.read(at, size)
         if digest(data) != expected:
             raise damaged(self.path, "the index differs from its checksum")
-        found: dict[str, Any] = json.loads(bytes(data), parse_int=_small)
-        return found
+        return json.loads(bytes(data), parse_int=_small)
 
     def array(self, name: str, at: int, shape: Sequence[int], kind: Any, expected: str) -> Array:
         if not all(isinstance(k, int) and 0 <= k <= self.length for k in shape):
@@ -69,8 +68,7 @@ class _File:
         data = self.read(at, size_of(shape, type_of(kind)))
         if digest(data) != expected:
             raise damaged(self.path, f"{name} differs from its checksum")
-        found: Array = np.frombuffer(data, type_of(kind)).reshape(shape)
-        return found
+        return np.frombuffer(data, type_of(kind)).reshape(shape)
 
     def packing(self, index: Mapping[str, Any]) -> Packing:
         data: Mapping[str, Any] = index["data"]

@@ -41,8 +41,7 @@ class Analysis(Base):
         ------
         ArgumentError, NonfiniteError, StateError, UnsupportedError
         """
-        found: ProofReport = self.call("prove", _kind(strict), ratio)
-        return found
+        return self.call("prove", _kind(strict), ratio)
 
     def write_proof(self, path: str, ratio: Any = None, *, strict: bool = False) -> None:
         """Writes the exact numbers of the proof, which jamproof.py checks with integers alone. Arguments are those of prove().
@@ -90,8 +89,7 @@ class Analysis(Base):
         ArgumentError, StateError, SolverError, MemoryError, BusyError
         """
         _, vector = self._floppy(as_array([contact], "int64_t", "contact"), 1, True, progress)
-        found: Array = vector[0]
-        return found
+        return vector[0]
 
     def _floppy(self, contact: Any, m: int, moved: bool, progress: Any) -> tuple[Array, Array]:
         """Rows of the table, and the vectors where they are wanted."""

@@ -37,8 +37,7 @@ class _Dispatch:
 
     def __call__(self, progress: Any) -> bool:
         target = self._targets.get(threading.get_ident())
-        found: bool = target(progress) if target else False
-        return found
+        return target(progress) if target else False
 
     @contextmanager
     def to(self, target: Callable[..., Any]) -> Any:

@@ -23,8 +23,7 @@ class Network(Analysis):
         """Result and certificate of the last crunch, a CrunchReport."""
         made = new_report("jam_crunch_report")
         raw.jam_get_crunch_report(self.handle, made)
-        found: CrunchReport = freeze(made, "jam_crunch_report")
-        return found
+        return freeze(made, "jam_crunch_report")
 
     @property
     def history(self) -> Array:
@@ -51,26 +50,22 @@ class Network(Analysis):
     @property
     def forces(self) -> Array:
         """Contact forces, shape (contacts,), mean 1. Times report.force_scale they are lambda r of the LP."""
-        found: Array = self._ask("forces")
-        return found
+        return self._ask("forces")
 
     @property
     def coordination(self) -> Array:
         """Number of contacts of each sphere, shape (n,); 0 for rattlers."""
-        found: Array = self._ask("coordination")
-        return found
+        return self._ask("coordination")
 
     @property
     def rattlers(self) -> Array:
         """Which spheres are rattlers: bool, shape (n,)."""
-        found: Array = self.coordination == 0
-        return found
+        return self.coordination == 0
 
     @property
     def bucklers(self) -> Array:
         """Which spheres are bucklers, with exactly d + 1 contacts: bool, shape (n,)."""
-        found: Array = self.coordination == self.dim + 1
-        return found
+        return self.coordination == self.dim + 1
 
     def hessian(self, stiffness: int | str = "harmonic", **options: Any) -> Any:
         """Hessian of the contact network. The unit is the stiffness at the mean force.
@@ -178,8 +173,7 @@ class Network(Analysis):
         >>> disks.gaps(0.1).gap.min() > 1e-8
         True
         """
-        answer: GapsResult = self.call("gaps", h_max, stable_only)
-        return answer
+        return self.call("gaps", h_max, stable_only)
 
     def pair_correlation(
         self, r_max: float = 4.0, bins: int = 200, *, kind: Any = None, a: int = -1, b: int = -1
@@ -255,8 +249,7 @@ class Network(Analysis):
         RigidityReport
             report.jammed is a Verdict.
         """
-        found: RigidityReport = self.call("rigidity", kind, progress=progress)
-        return found
+        return self.call("rigidity", kind, progress=progress)
 
     def check(
         self, *, crunch: bool = True, prove: bool = False, wall_time: float | None = None, progress: Any = None
@@ -310,8 +303,7 @@ class Network(Analysis):
         high, low : arrays, shape (n, d)
             In the unit of the box.
         """
-        found: RefinedPositionsResult = self.call("refined_positions", ratio)
-        return found
+        return self.call("refined_positions", ratio)
 
     def flex(self, kind: int | str = "collective", *, progress: Any = None) -> FlexResult:
         """A motion that keeps or opens all contacts, for a packing that is not jammed.

@@ -50,32 +50,27 @@ class Observed:
     @property
     def stress(self) -> Array:
         """Stress tensor (d, d) since observe(): P_ab V / (N kT), positive in compression, trace d times the reduced pressure."""
-        found: Array = self._system._ask("observed_stress")
-        return found
+        return self._system._ask("observed_stress")
 
     @property
     def spheres(self) -> ObservedSpheresResult:
         """collisions (n,) and unwrapped displacement (n, d). Collisions are counted with collisions=1 only."""
-        found: ObservedSpheresResult = self._system._ask("observed_spheres")
-        return found
+        return self._system._ask("observed_spheres")
 
     @property
     def pairs(self) -> ObservedPairsResult:
         """pair (m, 2), collisions (m,), momentum (m,), and time: momentum over time is the mean force."""
-        found: ObservedPairsResult = self._system._ask("observed_pairs")
-        return found
+        return self._system._ask("observed_pairs")
 
     @property
     def gaps(self) -> ObservedGapsResult:
         """low, high, density, error of each bin, (bins,)."""
-        found: ObservedGapsResult = self._system._ask("observed_gaps")
-        return found
+        return self._system._ask("observed_gaps")
 
     @property
     def correlation(self) -> ObservedCorrelationResult:
         """r (bins,), g (bins,)."""
-        found: ObservedCorrelationResult = self._system._ask("observed_correlation")
-        return found
+        return self._system._ask("observed_correlation")
 
 
 class Observing(Base):

@@ -40,8 +40,7 @@ class PoreSpace(Base):
         report, values = self.call("voxels", **given)
         image = values.reshape(report.nz, report.ny, report.nx).T[..., slice(None) if self.dim == 3 else 0]
         if lines:
-            shares: Array = image.astype(np.float32)
-            return shares
+            return image.astype(np.float32)
         solid: Array = (image != 0).view(np.uint8)
         solid += image < 0
         return solid

@@ -72,8 +72,7 @@ class Runs:
             out = np.zeros_like(values[0])
             for one in values:  # in order, as the library adds them
                 out = out + one
-            found: Array = out
-            return found
+            return out
         return np.tensordot(np.asarray(weights, float), values, 1)
 
     def mean(self, name: str, weights: Any = None) -> Array:
@@ -82,8 +81,7 @@ class Runs:
 
     def variance(self, weights: Any = None) -> Array:
         """Var[dr_c] over runs (m, n, d)."""
-        found: Array = self.mean("square", weights) - self.mean("displacement", weights) ** 2
-        return found
+        return self.mean("square", weights) - self.mean("displacement", weights) ** 2
 
     @property
     def msd(self) -> Array:
@@ -98,8 +96,7 @@ class Runs:
     def deviation(self, name: str) -> Array:
         """Standard deviation over runs of time, msd, scattering, overlap or energy at each instant (m,)."""
         square = {"time": "time2"}.get(name, name + "2")
-        found: Array = np.sqrt(np.maximum(0.0, self.mean(square) - self.mean(name) ** 2))
-        return found
+        return np.sqrt(np.maximum(0.0, self.mean(square) - self.mean(name) ** 2))
 
     def chi4(self, name: str = "overlap") -> Array:
         """chi_4(t) = N (<Q^2> - <Q>^2) of 'overlap' or 'scattering' (m,), over runs from this one configuration."""

@@ -20,8 +20,7 @@ class State(Base):
         """Number, dimension, box, packing fraction, pressure and model, as an Info."""
         made = new_report("jam_info")
         raw.jam_get_info(self.handle, made)
-        found: Info = freeze(made, "jam_info")
-        return found
+        return freeze(made, "jam_info")
 
     @property
     def n(self) -> int:
@@ -47,8 +46,7 @@ class State(Base):
     def notes(self) -> str:
         """What was changed or assumed when the system was made, a sentence a line: shrunk diameters, wrapped or sorted spheres,
         columns and frames not read. '' when nothing."""
-        found: str = raw.jam_notes(self.handle)
-        return found
+        return raw.jam_notes(self.handle)
 
     @property
     def packing_fraction(self) -> float:
@@ -112,8 +110,7 @@ class State(Base):
     @property
     def radii(self) -> Array:
         """Half the diameters, shape (n,)."""
-        found: Array = 0.5 * self.diameters
-        return found
+        return 0.5 * self.diameters
 
     @property
     def cell(self) -> Array:

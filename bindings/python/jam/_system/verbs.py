@@ -2,8 +2,9 @@
 from __future__ import annotations
 
 import os
+import re
 import time
-from typing import Any, Callable, Iterable, Mapping, Sequence
+from typing import Any, Callable, Iterable, Mapping, Sequence, TypeVar
 
 import numpy as np
 
@@ -19,6 +20,8 @@ from .observe import Observing, Step
 from .progress import end, reporter
 from .runs import Runs, make_runs
 
+Report = TypeVar("Report")
+
 
 def _stage(given: Any) -> dict[str, float]:
     """Options of one stage of growth."""
@@ -32,20 +35,21 @@ def _stage(given: Any) -> dict[str, float]:
 class Verbs(Observing):
     """Long calls on a system."""
 
-    def _verb(self, name: str, struct: str, report: str, progress: Any, options: Mapping[str, Any] | None, **arrays: Any) -> Any:
-        handle = self.handle
+    def _verb(self, verb: str, kind: type[Report], progress: Any, options: Mapping[str, Any] | None, **arrays: Any) -> Report:
+        handle, struct = self.handle, f"jam_{verb.removeprefix('maximise_')}_options"
+        report = "jam_" + re.sub("(?<=[a-z])(?=[A-Z])", "_", kind.__name__).lower()
         with self._failing():
             chosen = None if options is None else option_struct(struct, dict(options))
         made = new_report(report)
         said = {} if chosen is None else dict(spelled_out(chosen, struct))
         said.update({k: a.tolist() for k, a in arrays.items() if a is not None})
-        call = {"verb": name.removeprefix("jam_"), "options": said}
+        call = {"verb": verb, "options": said}
         call.update(status="running", stop_reason="none")  # what a callable saves meanwhile says so
         self.calls.append(call)
         try:
             with self._reporting(progress):
-                status = getattr(raw, name)(handle, chosen, *arrays.values(), made)
-                frozen = freeze(made, report)
+                status = getattr(raw, "jam_" + verb)(handle, chosen, *arrays.values(), made)
+                frozen: Report = freeze(made, report)
                 self._note(status, frozen)
         except JamError:  # nothing has moved
             self.calls[:] = [c for c in self.calls if c is not call]
@@ -79,14 +83,7 @@ class Verbs(Observing):
         >>> report.collisions >= 20 * 64 / 2, report.max_overlap < 1e-9
         (True, True)
         """
-        found: MdReport = self._verb(
-            "jam_run",
-            "jam_run_options",
-            "jam_md_report",
-            progress,
-            dict(options, collisions_per_particle=collisions_per_particle),
-        )
-        return found
+        return self._verb("run", MdReport, progress, dict(options, collisions_per_particle=collisions_per_particle))
 
     @takes("jam_compress_options")
     def compress(
@@ -130,17 +127,14 @@ class Verbs(Observing):
         if porosity is not None:
             options["packing_fraction"] = density_of(options.get("packing_fraction"), porosity)
         if stages is None:
-            report = self._verb("jam_compress", "jam_compress_options", "jam_md_report", progress, options or None)
+            report = self._verb("compress", MdReport, progress, options or None)
         made = [_stage(s) for s in stages or ()]
         idle = [k for k, v in options.items() if v is not None and made and all(k in given for given in made)]
         if idle:
             raise ValueError(f"{', '.join(idle)} would have no effect: every stage gives its own")
         for given in made:
-            last: MdReport = self._verb(
-                "jam_compress", "jam_compress_options", "jam_md_report", progress, {**options, **given}
-            )
-            report = last
-            if last.status > 0 and last.stop_reason != StopReason.PRESSURE:  # of a density that a later stage may reach
+            report = self._verb("compress", MdReport, progress, {**options, **given})
+            if report.status > 0 and report.stop_reason != StopReason.PRESSURE:  # of a density that a later stage may reach
                 break
         if report is None:
             raise ValueError("stages is empty")
@@ -159,10 +153,7 @@ class Verbs(Observing):
         -------
         MonteCarloReport
         """
-        found: MonteCarloReport = self._verb(
-            "jam_monte_carlo", "jam_monte_carlo_options", "jam_monte_carlo_report", progress, options
-        )
-        return found
+        return self._verb("monte_carlo", MonteCarloReport, progress, options)
 
     @takes("jam_crunch_options")
     def crunch(
@@ -207,9 +198,7 @@ class Verbs(Observing):
         if checkpoint is not None:
             told = self._keeper(os.fsdecode(checkpoint), checkpoint_every, told)
         try:
-            report: CrunchReport = self._verb(
-                "jam_crunch", "jam_crunch_options", "jam_crunch_report", told, options or None
-            )
+            report = self._verb("crunch", CrunchReport, told, options or None)
         finally:
             end(user)
         early = report.status in (StatusCode.CANCELLED, StatusCode.LIMIT)
@@ -290,10 +279,7 @@ class Verbs(Observing):
             if not 1 <= len(exponents) <= 4:
                 raise ValueError(f"moments has {len(exponents)} exponents, one to four are possible")
             options.update({f"exponent_{k}": float(q) for k, q in enumerate(exponents, 1)}, moments=len(exponents))
-        found: RadiiReport = self._verb(
-            "jam_maximise_radii", "jam_radii_options", "jam_radii_report", progress, options or None, weights=given
-        )
-        return found
+        return self._verb("maximise_radii", RadiiReport, progress, options or None, weights=given)
 
     @takes("jam_relax_options")
     def relax(self, *, progress: Any = None, **options: Any) -> RelaxReport:
@@ -303,8 +289,7 @@ class Verbs(Observing):
         prestress=1), moduli(...). A report whose status is > 0 did not converge, or says why the minimum is none of a
         jammed packing.
         """
-        found: RelaxReport = self._verb("jam_relax", "jam_relax_options", "jam_relax_report", progress, options or None)
-        return found
+        return self._verb("relax", RelaxReport, progress, options or None)
 
     @takes("jam_decompress_options")
     def decompress(self, *, progress: Any = None, **options: Any) -> DecompressReport:
@@ -312,10 +297,7 @@ class Verbs(Observing):
 
         The system ends as the jammed packing; with crunch=0 as the soft packing. soft_history has every minimum.
         """
-        found: DecompressReport = self._verb(
-            "jam_decompress", "jam_decompress_options", "jam_decompress_report", progress, options or None
-        )
-        return found
+        return self._verb("decompress", DecompressReport, progress, options or None)
 
     @property
     def soft_history(self) -> Array:
@@ -356,10 +338,7 @@ class Verbs(Observing):
             if x.shape != (self.dim, self.dim):
                 raise ValueError(f"{name} has the shape {x.shape}, it must be ({self.dim}, {self.dim})")
         given = np.concatenate(parts) if parts else None
-        found: ShearReport = self._verb(
-            "jam_shear", "jam_shear_options", "jam_shear_report", progress, options or None, turns=turns, mode=given
-        )
-        return found
+        return self._verb("shear", ShearReport, progress, options or None, turns=turns, mode=given)
 
     @property
     def shear_rows(self) -> Array:

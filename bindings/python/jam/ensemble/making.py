@@ -35,8 +35,7 @@ def _fcc(n: int, box: float) -> Array:
     m = round((n / 4) ** (1 / 3))
     corners = np.stack(np.meshgrid(*[np.arange(m)] * 3, indexing="ij"), axis=-1).reshape(-1, 1, 3)
     basis = np.array([[0, 0, 0], [0, 1, 1], [1, 0, 1], [1, 1, 0]]) / 2.0
-    found: Array = ((corners + basis + 0.25) * (box / m)).reshape(-1, 3)
-    return found
+    return ((corners + basis + 0.25) * (box / m)).reshape(-1, 3)
 
 
 def begin(protocol: Mapping[str, Any], seed: int) -> System:

@@ -254,8 +254,7 @@ def complete(protocol: Mapping[str, Any] | None = None) -> dict[str, Any]:
     _check_calls(made)
     _check_room(begun)
     try:
-        found: dict[str, Any] = json.loads(to_json(made))
-        return found
+        return json.loads(to_json(made))
     except (TypeError, ValueError) as error:
         raise ProtocolError(f"the protocol cannot be written as JSON: {error}") from None
 

@@ -147,8 +147,7 @@ def _frame(ax: Any, edges: Array) -> None:
 def _drawable(system: System) -> int:
     if system.dim not in (2, 3):
         raise ValueError(f"only d = 2 and d = 3 can be drawn, this system has d = {system.dim}")
-    found: int = system.dim
-    return found
+    return system.dim
 
 
 def _legend(ax: Any, system: System) -> None:

@@ -4,7 +4,7 @@ import unittest
 
 import jam
 import numpy as np
-from test_walls_jammed import SCENES, start
+from test_walls_jammed import SCENES, start, wall_distances
 from test_walls_structure import SCENES as OPEN
 from test_walls_structure import ROUND, depth
 
@@ -156,8 +156,8 @@ class FloppyModes(unittest.TestCase):
                     y = s.positions + t * u
                     length = sigma[:, None] * c.vectors + t * (u[i] - u[np.maximum(j, 0)])
                     between = np.linalg.norm(length, axis=1)
-                    beside = self.distances(name, s, y[i], j)
-                    twice += weight * (s.forces * np.where(wall, beside, between)).sum()
+                    beside = wall_distances(name, y[i[wall]], np.diag(s.cell))[0][np.arange(wall.sum()), -1 - j[wall]]
+                    twice += weight * ((s.forces[~wall] * between[~wall]).sum() + (s.forces[wall] * beside).sum())
                 bend = twice / h**2
                 if abs(bend) > 1e-3 * s.forces.sum() / s.diameters.mean() * (u**2).sum():
                     if bend > 0:
@@ -165,20 +165,6 @@ class FloppyModes(unittest.TestCase):
                     else:
                         self.assertTrue(np.isinf(table.s_star[k]), name)
         self.assertGreaterEqual(tried, 5)
-
-    @staticmethod
-    def distances(name, s, x, j):
-        rows = s.walls()
-        edge, out = np.diag(s.cell), np.zeros(len(x))
-        for k in np.flatnonzero(j < 0):
-            w = -1 - j[k]
-            axis = int(rows.axis[w])
-            if axis < s.dim:
-                out[k] = edge[axis] - x[k, axis] if rows.side[w] else x[k, axis]
-            else:
-                m = s.dim if s.info.container == 2 else 2
-                out[k] = edge[0] / 2 - np.linalg.norm(x[k, :m] - edge[0] / 2)
-        return out
 
 
 class Ensembles(unittest.TestCase):

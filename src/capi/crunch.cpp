@@ -42,6 +42,7 @@ jam_status jam_crunch(jam_system *sys, const jam_crunch_options *o, jam_crunch_r
     jam_crunch_options full = default_crunch_options();
     take_options(o, full);
     if (full.strain != JAM_STRAIN_NONE) refuse_walls(sys->packing, "crunched in a free cell");
+    if (full.prove) sys->packing.container.round_axes();  // refuses shapes for which no theorem is written
     History history;
     struct Show {  // callbacks see the steps while crunch runs
       const History *&shown;

@@ -258,7 +258,8 @@ typedef enum jam_masses {
 typedef enum jam_container {
   JAM_CONTAINER_BRICK = 0,    /* the cell: flat walls on the axes of `walls`, the other axes periodic */
   JAM_CONTAINER_CYLINDER = 1, /* d = 3, axis z, periodic or between flat walls; diameter: the edges x and y */
-  JAM_CONTAINER_BALL = 2      /* d = 2 a circle, d = 3 a ball; diameter: the edge of the cube */
+  JAM_CONTAINER_BALL = 2,     /* d = 2 a circle, d = 3 a ball; diameter: the edge of the cube */
+  JAM_CONTAINER_CONE = 3 /* d = 3, axis z between flat walls; diameter: at z = 0 the edges x and y, half at the end */
 } jam_container;
 /* Options of jam_create and jam_read. If a file gives the value of an option, the option must have its default or that
  * value. A random Mari-Kurchan start is planted in equilibrium. */

@@ -27,13 +27,14 @@ void check_axis(const Cell &cell, int c) {
 struct Shape {
   const char *word;
   int least_dim, most_dim, round_axes;
-  uint32_t flat;  // axes that may have flat walls
+  uint32_t flat, ends;  // axes that may have flat walls, and that must
   const char *dims, *flat_walls;
 };
 constexpr Shape shapes[] = {
-    {"brick", 1, JAM_MAX_DIM, 0, ~0u, "", ""},
-    {"cylinder", 3, 3, 2, 4u, "3", "may have flat walls on axis z alone (4)"},
-    {"ball", 2, 3, 3, 0u, "2 or 3", "has no flat walls"},
+    {"brick", 1, JAM_MAX_DIM, 0, ~0u, 0u, "", ""},
+    {"cylinder", 3, 3, 2, 4u, 0u, "3", "may have flat walls on axis z alone (4)"},
+    {"ball", 2, 3, 3, 0u, 0u, "2 or 3", "has no flat walls"},
+    {"cone", 3, 3, 2, 4u, 4u, "3", "has flat walls on axis z, and on no other (4)"},
 };
 constexpr int32_t shape_count = sizeof shapes / sizeof *shapes;
 
@@ -45,7 +46,8 @@ const Shape &shape_of(int32_t kind, int32_t walls, int dim) {
   const Shape &shape = shapes[kind];
   if (dim < shape.least_dim || dim > shape.most_dim)
     fail(JAM_E_DIMENSION, "a %s needs dim %s, dim is %d", shape.word, shape.dims, dim);
-  if (static_cast<uint32_t>(walls) & ~shape.flat)
+  const auto given = static_cast<uint32_t>(walls);
+  if (given & ~shape.flat || shape.ends & ~given)
     fail(JAM_E_ARGUMENT, "walls is %d: a %s %s", walls, shape.word, shape.flat_walls);
   return shape;
 }
@@ -71,7 +73,14 @@ Container::Container(int32_t kind, int32_t walls, const Cell &cell) : kind_(kind
     for (int side = 0; side < 2 && (walls >> c & 1); ++side)
       walls_.push_back(Surface::plane(dim_, c, side, edge_[c], volume_ / edge_[c]));
   const double radius = 0.5 * edge_[0];
-  if (round_axes_ > 0)  // area: d V / d R_c
+  if (kind == JAM_CONTAINER_CONE) {  // the widest sphere touches the flat wall at 0 and the cone, or both flat walls
+    const double upper = 0.5 * radius, length = edge_[2], slant = std::sqrt(length * length + upper * upper);
+    volume_ = math::pi * length * (radius * radius + radius * upper + upper * upper) / 3.0;
+    widest_ = std::min(length, 2.0 * radius * length / (slant + upper));
+    walls_ = {Surface::plane(3, 2, 0, length, math::pi * radius * radius),
+              Surface::plane(3, 2, 1, length, math::pi * upper * upper),
+              Surface::cone(radius, length, math::pi * (radius + upper) * slant)};
+  } else if (round_axes_ > 0)  // area: d V / d R_c
     walls_.push_back(Surface::round(dim_, round_axes_, radius, volume_ * round_axes_ / radius));
 }
 
@@ -102,13 +111,17 @@ bool Enclosure::needs_space() const {
   return (walls & 4) != 0 || (container > 0 && container < shape_count && shapes[container].least_dim > 2);
 }
 
-int Container::round_axes() const { return round_axes_; }
+int Container::round_axes() const {
+  if (kind_ > JAM_CONTAINER_BALL) fail(JAM_E_UNSUPPORTED, "this call has no formula for a %s yet", word());
+  return round_axes_;
+}
 
 std::vector<Container::Ring> Container::rings() const {
   const double half = 0.5 * edge_[0];
   if (round_axes_ == 0) return {};
   if (dim_ == 2) return {{{0, 1}, {half, half, 0.0}, half}};
-  if (round_axes_ == 2) return {{{0, 1}, {half, half, 0.0}, half}, {{0, 1}, {half, half, edge_[2]}, half}};
+  const double upper = kind_ == JAM_CONTAINER_CONE ? 0.5 * half : half;
+  if (round_axes_ == 2) return {{{0, 1}, {half, half, 0.0}, half}, {{0, 1}, {half, half, edge_[2]}, upper}};
   const std::array<double, 3> middle{half, half, half};
   return {{{0, 1}, middle, half}, {{0, 2}, middle, half}, {{1, 2}, middle, half}};
 }

@@ -19,8 +19,9 @@ SCENES = {
     "tube": {"container": "cylinder", "cell": [1, 1, 1.5]},
     "can": {"container": "cylinder", "walls": "z"},
     "ball": {"container": "ball"},
+    "cone": {"container": "cone", "walls": "z"},
 }
-SYMMETRIES = {"lines": 1, "box": 0, "circle": 1, "slit": 2, "brick": 0, "tube": 2, "can": 1, "ball": 3}
+SYMMETRIES = {"lines": 1, "box": 0, "circle": 1, "slit": 2, "brick": 0, "tube": 2, "can": 1, "ball": 3, "cone": 1}
 
 
 def start(name, n, seed, phi=0.15, **more):
@@ -40,17 +41,19 @@ def wall_distances(name, x, edges):
             normal.append(np.tile((1 - 2 * side) * np.eye(d)[c], (len(x), 1)))
     if kind:
         flat = x - edges / 2
-        flat[:, (2 if kind == "cylinder" else d) :] = 0
+        flat[:, (d if kind == "ball" else 2) :] = 0
         r = np.linalg.norm(flat, axis=1)
-        distance.append(edges[0] / 2 - r)
-        normal.append(-flat / np.maximum(r, 1e-300)[:, None])
+        # Of a cone half as wide at the end of z, whose generators and axis enclose the angle a.
+        a = np.arctan(edges[0] / 4 / edges[-1]) if kind == "cone" else 0.0
+        distance.append(np.cos(a) * (edges[0] / 2 - r) - np.sin(a) * x[:, -1])
+        normal.append(-np.cos(a) * flat / np.maximum(r, 1e-300)[:, None] - np.sin(a) * np.eye(d)[-1])
     return np.array(distance).T, np.array(normal).transpose(1, 0, 2)
 
 
 def open_cell(name, edges):
     """Lattice vectors of the axes that repeat; far apart along walls."""
     kind, letters, d = SCENES[name].get("container"), SCENES[name].get("walls", ""), len(edges)
-    closed = [("xyz"[c] in letters) or kind == "ball" or (kind == "cylinder" and c < 2) for c in range(d)]
+    closed = [("xyz"[c] in letters) or kind == "ball" or (kind in ("cylinder", "cone") and c < 2) for c in range(d)]
     return np.diag(np.where(closed, 1e3, edges))
 
 
@@ -232,7 +235,7 @@ class Verdicts(unittest.TestCase):
             np.testing.assert_array_equal(s.near_coordination(1e-9)[stable], spheres[stable])
             # The virial of a closed container: sum of f r over pairs = sum over walls of f times the distance of the touched
             # point from the centre, less the radius, along the normal.
-            if name in ("box", "circle", "brick", "can", "ball"):
+            if name in ("box", "circle", "brick", "can", "ball", "cone"):
                 centre = s.positions - np.diag(s.cell) / 2
                 outward = -(push[wall] * centre[c.pairs[wall, 0]]).sum()
                 i, j = c.pairs[~wall].T
@@ -331,7 +334,7 @@ class Curvature(unittest.TestCase):
             self.assertEqual((held < -1e-3).sum(), r.flexes)
 
     def test_hessian_has_the_curvature_of_the_wall(self):
-        for name in ("circle", "tube", "ball"):
+        for name in ("circle", "tube", "ball", "cone"):
             s = start(name, 20, 2, unequal=True)
             s.crunch()
             spheres, (c, f) = s.hessian_map(), (s.contacts, s.forces)
@@ -363,7 +366,7 @@ class Curvature(unittest.TestCase):
 
 class Steps(unittest.TestCase):
     def test_no_step_leaves_a_round_wall(self):
-        for name in ("circle", "tube", "ball"):
+        for name in ("circle", "tube", "ball", "cone"):
             for method in ("sequential_lp", "barrier_path"):
                 s = start(name, 12, 4)
                 x, phi, moves = s.positions.copy(), s.packing_fraction, []

@@ -29,6 +29,7 @@ const Scene scenes[] = {
     {"in a tube", 3, JAM_CONTAINER_CYLINDER, 0, {1.0, 1.0, 1.7}},
     {"in a can", 3, JAM_CONTAINER_CYLINDER, 4, {1.0, 1.0, 1.0}},
     {"in a ball", 3, JAM_CONTAINER_BALL, 0, {1.0, 1.0, 1.0}},
+    {"in a cone", 3, JAM_CONTAINER_CONE, 4, {1.0, 1.0, 1.2}},
 };
 
 Packing start(const Scene &s, int n, double fraction, double ratio, int64_t seed) {
@@ -48,6 +49,16 @@ Packing start(const Scene &s, int n, double fraction, double ratio, int64_t seed
   return p;
 }
 
+// Of the generators of a cone whose upper end is half as wide: their angle with the axis.
+struct Slope {
+  long double tan, cos;
+};
+Slope slope_of(const Scene &s) {
+  if (s.container != JAM_CONTAINER_CONE) return {0.0L, 1.0L};
+  const long double tan = 0.25L * s.edge[0] / s.edge[2];
+  return {tan, 1.0L / std::sqrt(1.0L + tan * tan)};
+}
+
 // Time until the sphere meets wall w, the smallest positive root by the formula of a quadratic; 1e30: never.
 long double to_wall(const Scene &s, int axis, int side, const long double *x, const long double *v, long double radius,
                     long double speed) {
@@ -56,16 +67,18 @@ long double to_wall(const Scene &s, int axis, int side, const long double *x, co
     const long double closing = speed + (side ? v[axis] : -v[axis]);
     return closing > 0 ? std::fmax(0.0L, gap) / closing : 1e30L;
   }
-  const int round = s.container == JAM_CONTAINER_CYLINDER ? 2 : s.dim;
-  const long double half = 0.5L * s.edge[0], room = half - radius;
+  const int round = s.container == JAM_CONTAINER_BALL ? s.dim : 2;
+  const Slope cone = slope_of(s);
+  const long double half = 0.5L * s.edge[0], room = half - cone.tan * x[s.dim - 1] - radius / cone.cos;
+  const long double narrows = cone.tan * v[s.dim - 1] + speed / cone.cos;
   long double rr = 0, rv = 0, vv = 0;
   for (int c = 0; c < round; ++c) {
     rr += (x[c] - half) * (x[c] - half);
     rv += (x[c] - half) * v[c];
     vv += v[c] * v[c];
   }
-  // |r + v t|^2 = (room - speed t)^2
-  const long double a = vv - speed * speed, b = rv + room * speed, c = rr - room * room;
+  // |r + v t|^2 = (room - narrows t)^2
+  const long double a = vv - narrows * narrows, b = rv + room * narrows, c = rr - room * room;
   const long double disc = std::fmax(0.0L, b * b - a * c), end = (-b + std::sqrt(disc)) / a;
   if (c >= -1e-17L && b > 0) return 0;
   return end > 0 ? end : 1e30L;
@@ -78,8 +91,8 @@ int naive_walls(const Scene &s, Packing &p, int collisions, long double rate) {
   for (long double &u : v) u *= side;
   bool open[3];
   for (int c = 0; c < d; ++c)
-    open[c] =
-        !(s.walls >> c & 1) && s.container != JAM_CONTAINER_BALL && !(s.container == JAM_CONTAINER_CYLINDER && c < 2);
+    open[c] = !(s.walls >> c & 1) &&
+              (s.container == JAM_CONTAINER_BRICK || (s.container == JAM_CONTAINER_CYLINDER && c == 2));
   long double now = 0;
   int at_walls = 0;
   for (int done = 0; done < collisions; ++done) {
@@ -130,9 +143,11 @@ int naive_walls(const Scene &s, Packing &p, int collisions, long double rate) {
       if (axis < d) {
         normal[axis] = end ? -1 : 1;
       } else {
-        const int round = s.container == JAM_CONTAINER_CYLINDER ? 2 : d;
+        const int round = s.container == JAM_CONTAINER_BALL ? d : 2;
+        const Slope cone = slope_of(s);
         for (int c = 0; c < round; ++c) normal[c] = 0.5L * s.edge[0] - x[bi * d + c], rr += normal[c] * normal[c];
-        for (int c = 0; c < round; ++c) normal[c] /= std::sqrt(rr);
+        for (int c = 0; c < round; ++c) normal[c] *= cone.cos / std::sqrt(rr);
+        if (round < d) normal[2] = -cone.tan * cone.cos;
       }
       for (int c = 0; c < d; ++c) vn += normal[c] * v[bi * d + c];
       for (int c = 0; c < d; ++c) v[bi * d + c] += 2 * (0.5L * p.diameter[bi] * rate - vn) * normal[c];

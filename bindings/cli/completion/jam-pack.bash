@@ -5,7 +5,7 @@ _jam_pack() {
   case $before in
     --model) COMPREPLY=($(compgen -W 'euclid mk' -- "$word")); return ;;
     --walls) COMPREPLY=($(compgen -W 'none x y xy z xz yz xyz' -- "$word")); return ;;
-    --container) COMPREPLY=($(compgen -W 'brick cylinder ball' -- "$word")); return ;;
+    --container) COMPREPLY=($(compgen -W 'brick cylinder ball cone' -- "$word")); return ;;
     --method) COMPREPLY=($(compgen -W 'barrier sequential-lp' -- "$word")); return ;;
     --strain) COMPREPLY=($(compgen -W 'none edges tilts free' -- "$word")); return ;;
     --lp) COMPREPLY=($(compgen -W 'ipm clp' -- "$word")); return ;;

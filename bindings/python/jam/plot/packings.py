@@ -112,7 +112,7 @@ def _brick(ax: Any, edges: Array, view: tuple[float, float], front: bool) -> Non
 
 
 # Of a container about z the width at its end, over that at its beginning.
-_TAPER = {Container.CYLINDER: 1.0}
+_TAPER = {Container.CYLINDER: 1.0, Container.CONE: 0.5}
 
 
 def _round(ax: Any, edges: Array, view: tuple[float, float], kind: Container) -> None:

@@ -49,8 +49,8 @@ typedef enum jam_overlap_policy { JAM_OVERLAP_REFUSE = 0, JAM_OVERLAP_SHRINK = 1
   jam_overlap_policy;
 typedef enum jam_model { JAM_MODEL_EUCLID = 0, JAM_MODEL_MK = 1 } jam_model;
 typedef enum jam_masses { JAM_MASSES_EQUAL = 0, JAM_MASSES_VOLUME = 1 } jam_masses;
-typedef enum jam_container { JAM_CONTAINER_BRICK = 0, JAM_CONTAINER_CYLINDER = 1, JAM_CONTAINER_BALL = 2 }
-  jam_container;
+typedef enum jam_container { JAM_CONTAINER_BRICK = 0, JAM_CONTAINER_CYLINDER = 1, JAM_CONTAINER_BALL = 2,
+  JAM_CONTAINER_CONE = 3 } jam_container;
 typedef struct jam_create_options { uint32_t struct_size; int32_t dim; int64_t n, seed; double box; double
   packing_fraction; int32_t overlap, model; double mk_zeta; int32_t masses, container; int32_t walls, reserved; double
   non_additivity; double wall_time; double memory_limit; int64_t frame; double shrink_min; } jam_create_options;

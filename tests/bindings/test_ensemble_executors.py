@@ -10,7 +10,6 @@ import tempfile
 import threading
 import time
 import unittest
-import unittest.mock
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from multiprocessing import get_context
 from pathlib import Path
@@ -78,19 +77,6 @@ class Executors(unittest.TestCase):
         with ThreadPoolExecutor(2) as pool:
             self.ensemble.run(SEEDS, pool, progress=False)
         self.check()
-
-    def test_bits_do_not_depend_on_kernel_and_threads_of_blas(self):
-        """Clp would call LAPACK, whose bits depend on both: libjam turns that part of it off."""
-        crunch = {"lp_solver": "clp", "method": "sequential_lp", "max_lps": 1, "polish": 0}
-        protocol = dict(n=150, dim=4, packing_fraction=0.1, stages=[], crunch=crunch, analysis={})
-        made = []
-        for name, threads, kernel in (("one", "1", "Prescott"), ("two", "2", "Sandybridge")):
-            ensemble = Ensemble(Path(self.folder.name, name), protocol)
-            with unittest.mock.patch.dict(os.environ, OPENBLAS_NUM_THREADS=threads, OPENBLAS_CORETYPE=kernel):
-                with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as pool:
-                    self.assertEqual(ensemble.run([3], pool, progress=False).done, 1)
-            made.append(next(iter(ensemble)).positions)
-        np.testing.assert_array_equal(*made)
 
     def test_a_broken_pool_says_so_and_the_next_goes_on(self):
         with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as pool:

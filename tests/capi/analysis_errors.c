@@ -1,6 +1,5 @@
 /* What analysis calls say to wrong arguments, missing networks, packings that are not jammed, and short buffers. */
 #include <math.h>
-#include <string.h>
 
 #include "systems.h"
 

@@ -2,7 +2,6 @@
  * why in the report; what follows still works or is refused by name. Fluids, crystals and unclear gaps:
  * analysis_errors, network_1ss. */
 #include <math.h>
-#include <string.h>
 
 #include "columns.h"
 #include "systems.h"

@@ -1,6 +1,5 @@
 /* A status that is not JAM_OK comes with a sentence: in jam_last_error, and in the log. */
 #include <stdio.h>
-#include <string.h>
 
 #include "systems.h"
 

@@ -1,8 +1,6 @@
 /* Cells of any shape: lower triangle, the same lattice by other vectors, strain, files, verdicts, what is refused. */
 #include <math.h>
-#include <stdint.h>
 #include <stdio.h>
-#include <string.h>
 #include "systems.h"
 
 static jam_create_options options(int32_t dim, int64_t n) {

@@ -2,7 +2,6 @@
  * names of the axes; only extreme vectors give way to shorter ones, and a note says so. */
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 #include "systems.h"
 
 enum { N = 24 };

@@ -1,6 +1,5 @@
 /* jam_check_packing: the verdict on a packing as it is, and that the handle stays as it was. */
 #include <math.h>
-#include <string.h>
 #include "systems.h"
 #include "verdicts.h"
 

@@ -1,6 +1,5 @@
 /* Two packings are compared where that has a meaning: what differs is refused or said. */
 #include <math.h>
-#include <string.h>
 
 #include "systems.h"
 

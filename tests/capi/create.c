@@ -1,7 +1,6 @@
 /* jam_create and its neighbours: every refusal named in the header, views, setters, copies, seeds. */
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "systems.h"
 

@@ -1,7 +1,6 @@
 /* Checkpoints that the callback of a crunch writes: each is a valid packing, and a crunch goes on from each. */
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 #include "columns.h"
 #include "steps.h"

@@ -1,6 +1,5 @@
 /* jam_estimate_crunch: memory against what a child process really takes, the log line, errors. */
 #include <stdio.h>
-#include <string.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>

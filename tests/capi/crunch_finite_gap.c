@@ -1,7 +1,6 @@
 /* Crunches that end at a finite duality gap: it tells the density of the jamming point, forces balance, contacts that
  * are not counted as undecided are right, and another call goes on to the jamming point. */
 #include <math.h>
-#include <string.h>
 
 #include "systems.h"
 #include "verdicts.h"

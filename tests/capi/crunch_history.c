@@ -2,7 +2,6 @@
  * a step: displacements add up to the whole move, the linear network of every LP is in balance. */
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "columns.h"
 #include "systems.h"

@@ -97,22 +97,4 @@ CASE(every_allocation) {
     }
 }
 
-CASE(getters) {
-  jam_system *sys = start();
-  assert_int_equal(jam_crunch(sys, nullptr, nullptr), JAM_OK);
-  once = false;
-  for (long k = 0; k < 40; ++k) {
-    const long clean = alive;
-    static int32_t pairs[4000];
-    SIZED(jam_estimate_report, e);
-    until_failure = k;
-    const jam_status a = k ? JAM_OK : jam_contacts(sys, pairs, 4000, nullptr);
-    const jam_status b = jam_estimate_crunch(sys, nullptr, &e);
-    until_failure = -1;
-    assert_true((a == JAM_OK) == (k > 0) && (b == JAM_E_MEMORY || b == JAM_OK));
-    assert_int_equal(alive, clean);
-  }
-  jam_destroy(sys);
-}
-
 }  // namespace

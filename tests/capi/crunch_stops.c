@@ -4,7 +4,6 @@
  * it. Time limits end in a phase because the callback sleeps there; one that ends before it is tried four times as
  * long. */
 #include <math.h>
-#include <string.h>
 #include <time.h>
 
 #include "systems.h"

@@ -4,7 +4,6 @@
 #include "systems.h"
 
 #include <math.h>
-#include <string.h>
 
 static void assert_valid(const jam_system *sys, double before) {
   double cell[64];

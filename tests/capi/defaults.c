@@ -1,7 +1,6 @@
 /* Default options make a jammed packing in every dimension. */
 #include <jam/jam.h>
 #include <math.h>
-#include <string.h>
 
 #include "test.h"
 

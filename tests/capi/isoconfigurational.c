@@ -1,7 +1,6 @@
 /* Runs from one configuration: the same bits however they are split, stopped or resumed; clear errors; nothing lost. */
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 #include "systems.h"

@@ -1,6 +1,5 @@
 /* jam_run and jam_compress: arguments, statuses, edge cases, cancelling. */
 #include <math.h>
-#include <string.h>
 
 #include "systems.h"
 

@@ -1,7 +1,6 @@
 /* Growth and dynamics at the edges of what is supported: size ratio, masses, cells like rods, a sphere as wide as its
  * cell. Work is never lost at the end of a call. */
 #include <math.h>
-#include <string.h>
 #include "systems.h"
 
 static double volume_of_sphere(int d, double sigma) {

@@ -1,7 +1,6 @@
 /* What jam_observe records: consistent with itself, with the run, and without a trace in the dynamics. */
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "steps.h"
 

@@ -2,7 +2,6 @@
  * through. */
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 #include "steps.h"
 

@@ -1,7 +1,6 @@
 /* The protocol of jam_compress: limits and targets keep it, a growth rate makes one stage, resumed calls end it. */
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 #include "systems.h"
 

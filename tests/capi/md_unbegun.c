@@ -1,7 +1,6 @@
 /* A call that is stopped before its dynamics have begun can be resumed, to the bits of a call that was not stopped. */
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 #include "systems.h"
 
 static const char *path = "md_unbegun_checkpoint.bin";

@@ -1,6 +1,5 @@
 /* The progress of long calls: a fraction that never falls, and the time left where it is known. */
 #include <math.h>
-#include <string.h>
 #include "systems.h"
 
 typedef struct seen {

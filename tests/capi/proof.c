@@ -2,7 +2,6 @@
 #include <fenv.h>
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 #include "systems.h"
 

@@ -1,6 +1,5 @@
 /* jam_maximise_radii from C: one disk and two, weights, and what a stop leaves. */
 #include <math.h>
-#include <string.h>
 #include "systems.h"
 
 static jam_system *square(int64_t n, int64_t seed) {

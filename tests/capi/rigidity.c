@@ -1,7 +1,6 @@
 /* jam_rigidity and jam_flex: packings that are jammed, fluids and lattices that are not, and what flexes look like. */
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 #include "systems.h"
 #include "verdicts.h"
 

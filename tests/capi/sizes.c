@@ -2,7 +2,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 #include "systems.h"
 
 static jam_diameters_options options(int32_t law) {

@@ -5,7 +5,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 static void expect_overlap(jam_status status) {
   assert_int_equal(status, JAM_E_OVERLAP);

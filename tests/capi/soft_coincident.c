@@ -3,7 +3,6 @@
 #include "systems.h"
 
 #include <math.h>
-#include <string.h>
 
 /* n points of a generator of its own in [0, 1)^dim. */
 static void scatter(double *x, int count, unsigned seed) {

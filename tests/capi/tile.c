@@ -1,7 +1,6 @@
 /* jam_tile: one copy has the bits of the packing; what cannot be tiled is refused by name, before any work,
  * and modes at a wave vector before memory is taken. */
 #include <math.h>
-#include <string.h>
 
 #include "systems.h"
 #include "walls.h"

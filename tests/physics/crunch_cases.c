@@ -1,7 +1,6 @@
 /* What a crunch does not depend on: another thread, the unit of length; and which calls it refuses. */
 #include <math.h>
 #include <pthread.h>
-#include <string.h>
 
 #include "systems.h"
 #include "verdicts.h"

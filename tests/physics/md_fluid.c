@@ -1,6 +1,5 @@
 /* Fluids of hard spheres against closed forms, conservation laws, and the approach to jamming. */
 #include <math.h>
-#include <string.h>
 
 #include "steps.h"
 

@@ -1,6 +1,5 @@
 /* Metropolis Monte Carlo against exact averages: two and three spheres by quadrature, fluids by molecular dynamics. */
 #include <math.h>
-#include <string.h>
 
 #include "systems.h"
 

@@ -1,6 +1,5 @@
 /* Spheres that touch their own images: one sphere in a free cell ends at a lattice, and the strict test says so. */
 #include <math.h>
-#include <string.h>
 #include "columns.h"
 #include "systems.h"
 #include "verdicts.h"

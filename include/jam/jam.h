@@ -1012,8 +1012,8 @@ typedef struct jam_radii_report {
   double value;               /* sum of w_i R_i; moments: lambda, 1 at the start */
   int64_t contacts, rattlers; /* pairs and walls with force; spheres without, all held by a bound or the moments */
   int64_t at_bounds;          /* radii held by radius_min or radius_max */
-  int64_t excess;             /* contacts + at_bounds + max(moments, 1) - 1 - ((d + 1) n - symmetries); mostly 0 */
-  double balance_residual;    /* largest residual of the balance and of the sums of forces, over the sphere's weight */
+  int64_t excess; /* contacts + at_bounds + max(moments, 1) - 1 - ((d + 1) n - symmetries); mostly 0, -d in a ball */
+  double balance_residual; /* largest residual of the balance and of the sums of forces, over the sphere's weight */
   double max_contact_gap, min_gap; /* largest |distance - sum of radii| of a contact; least of another pair */
   double min_force; /* least force, in units of value; forces on sphere i add up to w_i minus that of its bound */
   double radius_smallest, radius_largest, polydispersity; /* standard deviation of the radii over their mean */
@@ -1024,12 +1024,13 @@ typedef struct jam_radii_report {
   double moment_residual; /* largest |M_q / (lambda^q M_q of the start) - 1|; 0 for a sum */
 } jam_radii_report;
 JAM_API jam_status jam_radii_options_init(jam_radii_options *o, size_t size);
-/* Moves spheres and changes radii to a local maximum of sum w_i R_i, w_i = 1 where weights is NULL, in periodic cells
- * and between flat walls. With moments: to a maximum of lambda, where sum R_i^q = lambda^q M_q for each exponent q, M_q
+/* Moves spheres and changes radii to a local maximum of sum w_i R_i, w_i = 1 where weights is NULL, in a fixed cell or
+ * container. With moments: to a maximum of lambda, where sum R_i^q = lambda^q M_q for each exponent q, M_q
  * at the start; forces on sphere i then add up to sum_q lambda_q q R_i^(q - 1), and radius_min is at least 1e-3 of the
  * smallest radius. The start is positions and radii: a stopped call leaves a valid packing. No pair overlaps, in two
  * doubles. At a maximum the handle keeps the network, with forces of mean 1, and the verdict of jam_rigidity. Status:
- * JAM_LIMIT, JAM_NOT_CONVERGED with the last valid state. @shape weights (n) @errors OVERLAP, UNSUPPORTED */
+ * JAM_LIMIT, JAM_NOT_CONVERGED with the last valid state: where a sphere becomes as wide as a round wall, or contacts
+ * are not found. @shape weights (n) @errors OVERLAP, UNSUPPORTED */
 JAM_API jam_status jam_maximise_radii(jam_system *sys, const jam_radii_options *o, const double *weights,
                                       size_t weights_len, jam_radii_report *report);
 

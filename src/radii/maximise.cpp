@@ -203,9 +203,6 @@ void check_radii(const Packing &p, const jam_radii_options &o, const double *wei
     fail(JAM_E_UNSUPPORTED,
          "radii are unknowns of additive Euclidean spheres alone: no Mari-Kurchan shifts, no "
          "non_additivity");
-  if (p.container.curved())
-    fail(JAM_E_UNSUPPORTED,
-         "radii are unknowns in periodic cells and between flat walls, not yet in a cylinder or ball");
   if (p.dim >= JAM_MAX_DIM)
     fail(JAM_E_UNSUPPORTED, "radii are unknowns in d = 2 to %d, this packing has d = %d", JAM_MAX_DIM - 1, p.dim);
   check_moments(p, o, weights_len);
@@ -231,7 +228,8 @@ RadiiResult maximise_radii(const Packing &start, const jam_radii_options &o, con
   r.balance_residual = r.max_contact_gap = r.min_gap = r.min_force = std::nan("");
   r.multiplier_1 = r.multiplier_2 = r.multiplier_3 = r.multiplier_4 = std::nan("");
   r.stop_reason = JAM_STOP_STALLED, out.status = JAM_NOT_CONVERGED;
-  int pushes = 0;
+  int pushes = 0, climbs = 0;
+  int32_t wide = -1;
   for (double mu = std::max(path.first_mu(), RadiiTuning::least_mu * unit); mu > RadiiTuning::mu_end * unit;
        mu *= RadiiTuning::mu_factor) {
     if (!path.centre(mu, o.max_steps, monitor)) {
@@ -242,6 +240,14 @@ RadiiResult maximise_radii(const Packing &start, const jam_radii_options &o, con
     }
     if (mu > RadiiTuning::polish_from * unit) continue;
     RadiiVertex vertex = close_vertex(p, path.rows(), path.forces(), goal, bounds, unit, matrix);
+    wide = vertex.wide;
+    if (!vertex.uphill.empty() && climbs < RadiiTuning::pushes) {
+      ++climbs;
+      push_off(p, goal, vertex.uphill, bounds, unit);
+      path.renew();
+      mu = RadiiTuning::mu_after_push * unit / RadiiTuning::mu_factor;
+      continue;
+    }
     if (!vertex.closed) continue;
     if (!vertex.escape.empty() && pushes < RadiiTuning::pushes) {
       ++pushes;
@@ -260,6 +266,7 @@ RadiiResult maximise_radii(const Packing &start, const jam_radii_options &o, con
     break;
   }
   wrap_positions(p);
+  if (!r.maximum) take_rounding_out(p, find_pairs(p, RadiiTuning::least_room * unit, 1.0), bounds.least);
   r.saddles = pushes;
   r.steps = path.steps, r.factorisations = path.matrix.factorisations + matrix.factorisations;
   report_sizes(p, goal, weights, r);
@@ -269,6 +276,11 @@ RadiiResult maximise_radii(const Packing &start, const jam_radii_options &o, con
         "the contacts of the maximum were not found after %lld Newton steps; the packing is the "
         "last one of the path",
         static_cast<long long>(r.steps));
+  if (out.status == JAM_NOT_CONVERGED && wide >= 0)
+    out.text = sentence(
+        "sphere %d became as wide as the round wall, where its contact has no direction: the largest sum is approached "
+        "to rounding, without a list of contacts; the packing is the last one of the path",
+        wide);
   return out;
 }
 

@@ -62,7 +62,14 @@ void RadiiPath::direction(double mu) {
   rows_.transpose_times(force_, gradient_);
   for (size_t i = 0; i < p_.n(); ++i) gradient_[i * b + b - 1] += goal_.weight()[i];
   multiplier_.resize(goal_.equations());
-  matrix.factorise(rows_, weights_, goal_.columns(), RadiiTuning::ridge, threads_, goal_.stiffness(p_, multiplier_));
+  std::vector<double> bending(rows_.linear() < m ? p_.n() * (b - 1) * (b - 1) : 0);
+  for (size_t k = rows_.linear(); k < m; ++k)
+    rows_.bending(p_, rows_.facing(k), [&](int u, int v, double share) {
+      const size_t i = static_cast<size_t>(rows_.pairs.i[rows_.facing(k)]);
+      bending[(i * (b - 1) + u) * (b - 1) + v] += 2.0 / mu * force_[k] * force_[rows_.facing(k)] * share;
+    });
+  matrix.factorise(rows_, weights_, goal_.columns(), RadiiTuning::ridge, threads_, goal_.stiffness(p_, multiplier_),
+                   bending);
   step_ = gradient_;
   multiplier_ = matrix.solve(step_);
   slope_ = 0.0;

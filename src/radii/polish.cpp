@@ -7,6 +7,7 @@
 
 #include "core/rng.hpp"
 #include "linalg/small_cholesky.hpp"
+#include "linalg/symmetric_eigen.hpp"
 #include "radii/path.hpp"
 #include "radii/tuning.hpp"
 
@@ -82,6 +83,31 @@ bool independent(const RadiiRows &contacts, const std::vector<char> &touched,
   return true;
 }
 
+// Of motions along directions that a round wall bends: one wall contact may replace so many of pairs.
+size_t most_motions(const RadiiVertex &at) {
+  size_t most = RadiiTuning::most_motions;
+  for (size_t k = 0; k < at.contacts.pairs.size(); ++k)
+    if (at.contacts.pairs.wall(k))
+      most += static_cast<size_t>(at.packing.container[wall_partner(at.contacts.pairs.j[k])].curved_directions());
+  return most;
+}
+
+// Rotations that the container allows, orthonormal.
+std::vector<std::vector<double>> rotations_of(const RadiiVertex &at, const std::vector<char> &touched) {
+  const Packing &p = at.packing;
+  std::vector<std::vector<double>> out;
+  const size_t d = static_cast<size_t>(p.dim), b = d + 1;
+  for (int q = 0; q < p.container.rotations(); ++q) {
+    std::vector<double> x(at.contacts.unknowns());
+    for (size_t i = 0; i < p.n(); ++i) {
+      p.container.rotation(q, &p.position[i * d], &x[i * b]);
+      for (size_t c = 0; c < d; ++c) x[i * b + c] *= std::sqrt(static_cast<double>(b)) / p.cell.edge(0);
+    }
+    if (independent(at.contacts, touched, out, x)) out.push_back(x);
+  }
+  return out;
+}
+
 // Motions that keep contacts closed and equations, orthonormal.
 std::vector<std::vector<double>> motions_along(const RadiiVertex &at, const RadiiMatrix &matrix) {
   std::vector<std::vector<double>> out;
@@ -89,14 +115,63 @@ std::vector<std::vector<double>> motions_along(const RadiiVertex &at, const Radi
   for (size_t k = 0; k < at.contacts.pairs.size(); ++k)
     for_spheres(at.contacts.pairs.i[k], at.contacts.pairs.j[k], [&](int32_t q) { touched[q] = 1; });
   Rng rng(at.packing.seed, Stream::radii_saddle);
-  while (out.size() <= RadiiTuning::most_motions) {
+  out = rotations_of(at, touched);
+  const size_t rigid = out.size(), most = rigid + most_motions(at);
+  while (out.size() <= most) {
     std::vector<double> x(at.contacts.unknowns());
     for (double &v : x) v = rng.normal();
     keep_closed(at.contacts, matrix, x);
     if (!independent(at.contacts, touched, out, x)) break;
     out.push_back(x);
   }
+  out.erase(out.begin(), out.begin() + static_cast<std::ptrdiff_t>(rigid));
   return out;
+}
+
+// Minus the second derivatives along motions and their sums, (motions, motions).
+std::vector<double> stiffness_along(const RadiiVertex &at, const RadiiGoal &goal,
+                                    const std::vector<std::vector<double>> &motion) {
+  const size_t m = motion.size();
+  std::vector<double> stiffness(m * m);
+  for (size_t a = 0; a < m; ++a) {
+    stiffness[a * m + a] = -second_derivative(at, goal, motion[a]);
+    for (size_t b = 0; b < a; ++b) {
+      std::vector<double> both = motion[a];
+      for (size_t q = 0; q < both.size(); ++q) both[q] += motion[b][q];
+      stiffness[a * m + b] = -0.5 * (second_derivative(at, goal, both) + stiffness[a * m + a] + stiffness[b * m + b]);
+    }
+  }
+  return stiffness;
+}
+
+// The eigenvector of its lowest eigenvalue.
+std::vector<double> softest(const std::vector<double> &stiffness, size_t m) {
+  const auto size = static_cast<Eigen::Index>(m);
+  Eigen::MatrixXd form(size, size);
+  for (Eigen::Index a = 0; a < size; ++a)
+    for (Eigen::Index b = 0; b <= a; ++b) form(a, b) = form(b, a) = stiffness[static_cast<size_t>(a * size + b)];
+  const SymmetricEigen eigen = symmetric_eigen(form);
+  return {eigen.vectors.data(), eigen.vectors.data() + m};
+}
+
+// sum of part times motion, with a largest component of 1.
+std::vector<double> combine(const std::vector<std::vector<double>> &motion, const std::vector<double> &part) {
+  std::vector<double> x(motion[0].size());
+  for (size_t a = 0; a < part.size(); ++a)
+    for (size_t q = 0; q < x.size(); ++q) x[q] += part[a] * motion[a][q];
+  const double most = largest_of(x);
+  for (double &v : x) v /= most;
+  return x;
+}
+
+// Where no maximum is near: the softest motion and the force that is left, as unit vectors, both along the ascent.
+std::vector<double> uphill(const std::vector<std::vector<double>> &motion, const std::vector<double> &stiffness,
+                           const std::vector<double> &left) {
+  std::vector<double> part = softest(stiffness, motion.size());
+  const double along = std::inner_product(part.begin(), part.end(), left.begin(), 0.0);
+  const double size = std::sqrt(std::inner_product(left.begin(), left.end(), left.begin(), 0.0));
+  for (size_t a = 0; a < part.size(); ++a) part[a] = (along < 0.0 ? -part[a] : part[a]) + left[a] / size;
+  return combine(motion, part);
 }
 
 }  // namespace
@@ -163,9 +238,16 @@ double second_derivative(const RadiiVertex &at, const RadiiGoal &goal, const std
   const size_t b = contacts.block(), d = b - 1;
   double sum = goal.curvature(at.packing, at.multiplier, x);
   for (size_t k = 0; k < contacts.pairs.size(); ++k) {
-    if (contacts.pairs.wall(k) || contacts.pairs.own_image(k)) continue;
-    const double *xi = &x[static_cast<size_t>(contacts.pairs.i[k]) * b], *n = &contacts.normal[k * d],
-                 *xj = &x[static_cast<size_t>(contacts.pairs.j[k]) * b];
+    if (contacts.pairs.own_image(k)) continue;
+    const double *xi = &x[static_cast<size_t>(contacts.pairs.i[k]) * b], *n = &contacts.normal[k * d];
+    if (contacts.pairs.wall(k)) {
+      const Surface &wall = at.packing.container[wall_partner(contacts.pairs.j[k])];
+      if (!wall.curved()) continue;
+      const double bend = force[k] * wall.curvature(&at.packing.position[static_cast<size_t>(contacts.pairs.i[k]) * d]);
+      contacts.bending(at.packing, k, [&](int u, int v, double share) { sum -= bend * share * xi[u] * xi[v]; });
+      continue;
+    }
+    const double *xj = &x[static_cast<size_t>(contacts.pairs.j[k]) * b];
     double s2 = 0.0, along = 0.0;
     for (size_t c = 0; c < d; ++c) s2 += (xi[c] - xj[c]) * (xi[c] - xj[c]), along += n[c] * (xi[c] - xj[c]);
     sum += force[k] * (s2 - along * along) / contacts.length[k];
@@ -173,24 +255,20 @@ double second_derivative(const RadiiVertex &at, const RadiiGoal &goal, const std
   return sum;
 }
 
-bool settle_moments(RadiiVertex &at, RadiiGoal &goal, double unit, RadiiMatrix &matrix) {
+bool settle_curved(RadiiVertex &at, RadiiGoal &goal, double unit, RadiiMatrix &matrix) {
   for (int step = 0; step < RadiiTuning::settle_steps && !(at.balance <= RadiiTuning::balanced); ++step) {
     const std::vector<std::vector<double>> motion = motions_along(at, matrix);
     const size_t m = motion.size();
-    if (m == 0 || m > RadiiTuning::most_motions) return false;
+    if (m == 0 || m > most_motions(at)) return false;
     const std::vector<double> left = imbalance(at.contacts, at.force, goal.carried(at.multiplier));
-    std::vector<double> stiffness(m * m), part(m), x(left.size());
-    for (size_t a = 0; a < m; ++a) {
-      part[a] = std::inner_product(left.begin(), left.end(), motion[a].begin(), 0.0);
-      stiffness[a * m + a] = -second_derivative(at, goal, motion[a]);
-      for (size_t b = 0; b < a; ++b) {
-        std::vector<double> both = motion[a];
-        for (size_t q = 0; q < both.size(); ++q) both[q] += motion[b][q];
-        stiffness[a * m + b] = -0.5 * (second_derivative(at, goal, both) + stiffness[a * m + a] + stiffness[b * m + b]);
-      }
-    }
+    std::vector<double> part(m), x(left.size());
+    for (size_t a = 0; a < m; ++a) part[a] = std::inner_product(left.begin(), left.end(), motion[a].begin(), 0.0);
+    const std::vector<double> stiffness = stiffness_along(at, goal, motion);
     SmallCholesky factor;
-    if (!factor.factorise(m, stiffness)) return false;  // no maximum along them
+    if (!factor.factorise(m, stiffness)) {  // no maximum along them
+      if (at.packing.container.curved()) at.uphill = uphill(motion, stiffness, part);
+      return false;
+    }
     factor.solve(part);
     for (size_t a = 0; a < m; ++a)
       for (size_t q = 0; q < x.size(); ++q) x[q] += part[a] * motion[a][q];
@@ -201,6 +279,12 @@ bool settle_moments(RadiiVertex &at, RadiiGoal &goal, double unit, RadiiMatrix &
     balance_contacts(at, goal, matrix);
   }
   return at.balance <= RadiiTuning::balanced;
+}
+
+std::vector<double> least_held(const RadiiVertex &at, const RadiiGoal &goal, const RadiiMatrix &matrix) {
+  const std::vector<std::vector<double>> motion = motions_along(at, matrix);
+  if (motion.empty()) return {};
+  return combine(motion, softest(stiffness_along(at, goal, motion), motion.size()));
 }
 
 }  // namespace jam::inside

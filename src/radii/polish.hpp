@@ -11,11 +11,15 @@ bool close_contacts(Packing &p, RadiiRows &contacts, RadiiGoal &goal, RadiiMatri
 void balance_contacts(RadiiVertex &at, RadiiGoal &goal, RadiiMatrix &matrix);
 // The part of x, (n, d + 1), that keeps the contacts closed and the equations. matrix: of balance_contacts.
 void keep_closed(const RadiiRows &contacts, const RadiiMatrix &matrix, std::vector<double> &x);
-// Along x of sum f c and of the goal: pairs alone turn, moments curve.
+// Along x of sum f c and of the goal: pairs and round walls turn, moments curve.
 double second_derivative(const RadiiVertex &at, const RadiiGoal &goal, const std::vector<double> &x);
-// Where moments curve, a maximum may have fewer contacts than a vertex. Newton's method along the motions that keep the
-// contacts closed, on the force that is left along them. False where that is no maximum.
-bool settle_moments(RadiiVertex &at, RadiiGoal &goal, double unit, RadiiMatrix &matrix);
+// Where moments or walls curve, a maximum may have fewer contacts than a vertex. Newton's method along the motions that
+// keep the contacts closed, on the force that is left along them. False where that is no maximum.
+bool settle_curved(RadiiVertex &at, RadiiGoal &goal, double unit, RadiiMatrix &matrix);
+
+// Of the motions that keep contacts closed, but for rigid ones, that along which the second derivative is largest;
+// empty without one.
+std::vector<double> least_held(const RadiiVertex &at, const RadiiGoal &goal, const RadiiMatrix &matrix);
 
 double largest_of(const std::vector<double> &x);
 double longest_edge(const Packing &p);

@@ -15,13 +15,15 @@ RadiiRows::RadiiRows(const Packing &p, const RadiiBounds &bounds, double reach)
     sphere_.push_back(i), sign_.push_back(1.0);
     if (std::isfinite(bounds.most)) sphere_.push_back(i), sign_.push_back(-1.0);
   }
+  for (size_t k = 0; k < pairs.size(); ++k)
+    if (pairs.wall(k) && p.container[wall_partner(pairs.j[k])].curved()) round_.push_back(k);
   measure(p);
 }
 
 RadiiRows RadiiRows::only(const std::vector<char> &on) const {
   RadiiRows out;
   out.dim_ = dim_, out.n_ = n_, out.bounds_ = bounds_;
-  for (size_t k = 0; k < size(); ++k) {
+  for (size_t k = 0; k < linear(); ++k) {
     if (!on[k]) continue;
     if (is_bound(k))
       out.sphere_.push_back(sphere_[k - pairs.size()]), out.sign_.push_back(sign_[k - pairs.size()]);
@@ -33,7 +35,7 @@ RadiiRows RadiiRows::only(const std::vector<char> &on) const {
 
 void RadiiRows::measure_gaps(const Packing &p, std::vector<double> &out) const {
   double r[JAM_MAX_DIM];
-  out.resize(pairs.size() + sphere_.size());
+  out.resize(linear() + round_.size());
   for (size_t k = 0; k < pairs.size(); ++k) {
     const double radius = 0.5 * p.diameter[pairs.i[k]];
     out[k] = pairs.wall(k)
@@ -44,6 +46,11 @@ void RadiiRows::measure_gaps(const Packing &p, std::vector<double> &out) const {
   for (size_t b = 0; b < sphere_.size(); ++b) {
     const double radius = 0.5 * p.diameter[sphere_[b]];
     out[pairs.size() + b] = sign_[b] > 0.0 ? radius - bounds_.least : bounds_.most - radius;
+  }
+  for (size_t q = 0; q < round_.size(); ++q) {
+    const size_t k = round_[q];
+    const double *x = &p.position[static_cast<size_t>(pairs.i[k]) * dim_];
+    out[linear() + q] = out[k] + 2.0 / p.container[wall_partner(pairs.j[k])].curvature(x);
   }
 }
 
@@ -64,13 +71,13 @@ void RadiiRows::measure(const Packing &p) {
 
 void RadiiRows::times(const std::vector<double> &x, std::vector<double> &out) const {
   const size_t d = static_cast<size_t>(dim_);
-  out.assign(pairs.size() + sphere_.size(), 0.0);
+  out.assign(linear() + round_.size(), 0.0);
   for (size_t k = 0; k < out.size(); ++k)
     parts(k, [&](int32_t i, double sign, double radial) {
       const double *xi = &x[static_cast<size_t>(i) * (d + 1)];
       double along = 0.0;
       if (sign != 0.0)
-        for (size_t c = 0; c < d; ++c) along += normal[k * d + c] * xi[c];
+        for (size_t c = 0; c < d; ++c) along += normal_of(k)[c] * xi[c];
       out[k] += sign * along + radial * xi[d];
     });
 }
@@ -78,11 +85,11 @@ void RadiiRows::times(const std::vector<double> &x, std::vector<double> &out) co
 void RadiiRows::transpose_times(const std::vector<double> &y, std::vector<double> &out) const {
   const size_t d = static_cast<size_t>(dim_);
   out.assign(unknowns(), 0.0);
-  for (size_t k = 0; k < pairs.size() + sphere_.size(); ++k)
+  for (size_t k = 0; k < linear() + round_.size(); ++k)
     parts(k, [&](int32_t i, double sign, double radial) {
       double *xi = &out[static_cast<size_t>(i) * (d + 1)];
       if (sign != 0.0)
-        for (size_t c = 0; c < d; ++c) xi[c] += y[k] * sign * normal[k * d + c];
+        for (size_t c = 0; c < d; ++c) xi[c] += y[k] * sign * normal_of(k)[c];
       xi[d] += y[k] * radial;
     });
 }
@@ -105,7 +112,7 @@ void RadiiMatrix::set_graph(const RadiiRows &rows, int threads) {
 
 void RadiiMatrix::factorise(const RadiiRows &rows, const std::vector<double> &weight,
                             const std::vector<double> &columns, double ridge, int threads,
-                            const std::vector<double> &stiffness) {
+                            const std::vector<double> &stiffness, const std::vector<double> &bending) {
   set_graph(rows, threads);
   const size_t b = rows.block(), d = b - 1, bb = b * b;
   std::fill(diag_.begin(), diag_.end(), 0.0);
@@ -115,7 +122,7 @@ void RadiiMatrix::factorise(const RadiiRows &rows, const std::vector<double> &we
     int32_t sphere[2];
     int count = 0;
     rows.parts(k, [&](int32_t i, double sign, double radial) {
-      for (size_t c = 0; c < d; ++c) row[count][c] = sign == 0.0 ? 0.0 : sign * rows.normal[k * d + c];
+      for (size_t c = 0; c < d; ++c) row[count][c] = sign == 0.0 ? 0.0 : sign * rows.normal_of(k)[c];
       row[count][d] = radial;
       sphere[count++] = i;
     });
@@ -130,6 +137,7 @@ void RadiiMatrix::factorise(const RadiiRows &rows, const std::vector<double> &we
   }
   const size_t n = diag_.size() / bb;
   for (size_t i = 0; i < stiffness.size(); ++i) diag_[i * bb + bb - 1] += stiffness[i];
+  for (size_t q = 0; q < bending.size(); ++q) diag_[q / (d * d) * bb + q / d % d * b + q % d] += bending[q];
   double mean = 0.0;
   for (size_t i = 0; i < n; ++i)
     for (size_t u = 0; u < b; ++u) mean += diag_[i * bb + u * b + u];

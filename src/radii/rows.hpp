@@ -7,6 +7,11 @@
 // Sphere i has d + 1 unknowns: its displacement s_i and the growth t_i of its radius. Row k is linear in them with
 // n = r_ij / |r_ij|: c + n . (s_i - s_j) - t_i - t_j. As |r + s| >= n . (r + s), no point that keeps the linear rows
 // has an overlap, however long the step.
+//
+// A round wall bends the other way: |r| <= A - R about its centre, so that steps are tested on true gaps. Its barrier
+// is that of the cone, log((A - R)^2 - |r|^2), smooth where r = 0: log c of the nearest point plus log c of the
+// opposite one, A + |r| - R, which is a row of the path too. In all, second derivatives of the barrier are
+//     -mu a a^T / c^2 of both rows, and -2 mu / (c c_opposite) (P - m m^T) of positions (P, m: core/surface.hpp).
 #pragma once
 #include <cstdint>
 #include <limits>
@@ -33,7 +38,10 @@ class RadiiRows {
   size_t unknowns() const { return static_cast<size_t>(n_) * block(); }
   size_t block() const { return static_cast<size_t>(dim_) + 1; }
   size_t bounds() const { return sphere_.size(); }
-  bool is_bound(size_t k) const { return k >= pairs.size(); }
+  bool is_bound(size_t k) const { return k >= pairs.size() && k < linear(); }
+  // Rows before those of opposite points; the pair of which row k >= linear() is opposite.
+  size_t linear() const { return pairs.size() + sphere_.size(); }
+  size_t facing(size_t k) const { return round_[k - linear()]; }
 
   // Gaps alone, and with the normals.
   void measure_gaps(const Packing &p, std::vector<double> &out) const;
@@ -45,7 +53,9 @@ class RadiiRows {
   // f(sphere, sign of the normal, coefficient of its t) for the spheres of row k.
   template <class F>
   void parts(size_t k, F &&f) const {
-    if (is_bound(k)) {
+    if (k >= linear()) {
+      f(pairs.i[facing(k)], -1.0, -1.0);
+    } else if (is_bound(k)) {
       f(sphere_[k - pairs.size()], 0.0, sign_[k - pairs.size()]);
     } else if (pairs.own_image(k)) {
       f(pairs.i[k], 0.0, -2.0);
@@ -58,6 +68,16 @@ class RadiiRows {
   PairList pairs;                      // rows 0 .. pairs.size() - 1; then the bounds
   std::vector<double> gap;             // c
   std::vector<double> normal, length;  // of pairs and walls: n (rows, dim) and |r|
+  const double *normal_of(size_t k) const { return &normal[(k < linear() ? k : facing(k)) * (block() - 1)]; }
+  // f(u, v, share) for each component of P - m m^T of round wall k.
+  template <class F>
+  void bending(const Packing &p, size_t k, F &&f) const {
+    const Turning turning = p.container[wall_partner(pairs.j[k])].turning();
+    for (int u = 0; u < dim_; ++u)
+      for (int v = 0; v < dim_; ++v)
+        if (turning.along(u) && turning.along(v))
+          f(u, v, (u == v ? 1.0 : 0.0) - turning.lean * turning.lean * normal_of(k)[u] * normal_of(k)[v]);
+  }
 
  private:
   int dim_ = 0;
@@ -65,15 +85,18 @@ class RadiiRows {
   RadiiBounds bounds_;
   std::vector<int32_t> sphere_;  // of the bounds
   std::vector<double> sign_;     // 1: the lower one
+  std::vector<size_t> round_;    // pairs that are round walls
 };
 
 // sum_k D_k a_k a_k^T + ridge, factorised, and bordered by the equations of a goal.
 class RadiiMatrix {
  public:
   // ridge: over the mean of the diagonal; larger with equations, whose columns alone act on what no row stops.
-  // columns: (equations, n), gradients on the radii; kept by pointer. stiffness: of each radius, added to the diagonal.
+  // columns: (equations, n), gradients on the radii; kept by pointer. stiffness: of each radius, added to the diagonal;
+  // bending: (n, dim, dim), of each position, or empty.
   void factorise(const RadiiRows &rows, const std::vector<double> &weight, const std::vector<double> &columns,
-                 double ridge, int threads, const std::vector<double> &stiffness = {});
+                 double ridge, int threads, const std::vector<double> &stiffness = {},
+                 const std::vector<double> &bending = {});
   // K x + columns^T y = rhs and columns x = given, which is 0 where it is empty. Returns y.
   std::vector<double> solve(std::vector<double> &x, const std::vector<double> &given = {}) const;
   std::vector<double> along_columns(const std::vector<double> &x) const;

@@ -31,22 +31,9 @@ bool overlaps(const Packing &p, const PairList &pairs, size_t k) {
   return (r2 - sum * sum).high < 0.0;
 }
 
-// Takes units of the last digit from diameters until no pair overlaps: one, then twice as many each time. least: radii
-// at this bound stay there if the partner can shrink.
-void take_rounding_out(Packing &p, const PairList &pairs, double least) {
-  for (bool again = true; again;) {
-    again = false;
-    for (size_t k = 0; k < pairs.size(); ++k)
-      for (double units = 1.0; overlaps(p, pairs, k); units *= 2.0) {
-        bool free = false;
-        for_spheres(pairs.i[k], pairs.j[k], [&](int32_t q) { free = free || p.diameter[q] > 2.0 * least; });
-        for_spheres(pairs.i[k], pairs.j[k], [&](int32_t q) {
-          const double d = p.diameter[q], smaller = d - units * (d - std::nextafter(d, 0.0));
-          if (!free || d > 2.0 * least) p.diameter[q] = std::max(smaller, free ? 2.0 * least : 0.0);
-        });
-        again = true;
-      }
-  }
+// What closed bounds leave: radii between them to the last digit.
+void keep_bounds(Packing &p, const RadiiBounds &bounds) {
+  for (double &s : p.diameter) s = std::min(std::max(s, 2.0 * bounds.least), 2.0 * bounds.most);
 }
 
 // That part of a random motion.
@@ -71,22 +58,41 @@ double opening(const RadiiVertex &at, const RadiiGoal &goal, const std::vector<d
 
 }  // namespace
 
+void take_rounding_out(Packing &p, const PairList &pairs, double least) {
+  for (bool again = true; again;) {
+    again = false;
+    for (size_t k = 0; k < pairs.size(); ++k)
+      for (double units = 1.0; overlaps(p, pairs, k); units *= 2.0) {
+        bool free = false;
+        for_spheres(pairs.i[k], pairs.j[k], [&](int32_t q) { free = free || p.diameter[q] > 2.0 * least; });
+        for_spheres(pairs.i[k], pairs.j[k], [&](int32_t q) {
+          const double d = p.diameter[q], smaller = d - units * (d - std::nextafter(d, 0.0));
+          if (!free || d > 2.0 * least) p.diameter[q] = std::max(smaller, free ? 2.0 * least : 0.0);
+        });
+        again = true;
+      }
+  }
+}
+
 RadiiVertex close_vertex(const Packing &p, const RadiiRows &rows, const std::vector<double> &forces, RadiiGoal &goal,
                          const RadiiBounds &bounds, double unit, RadiiMatrix &matrix) {
   RadiiVertex out;
   std::vector<char> carries(rows.size());
   for (size_t k = 0; k < rows.size(); ++k) {
     carries[k] = forces[k] * unit > rows.gap[k];
-    if (carries[k]) out.force.push_back(forces[k]);
+    if (carries[k] && k >= rows.linear()) out.wide = rows.pairs.i[rows.facing(k)];
+    if (carries[k] && k < rows.linear()) out.force.push_back(forces[k]);
   }
   out.packing = p;
   out.contacts = rows.only(carries);
-  if (out.force.empty() || !close_contacts(out.packing, out.contacts, goal, matrix, unit)) return out;
+  if (out.wide >= 0 || out.force.empty() || !close_contacts(out.packing, out.contacts, goal, matrix, unit)) return out;
+  keep_bounds(out.packing, bounds);
   take_rounding_out(out.packing, out.contacts.pairs, bounds.least);
   wrap_positions(out.packing, out.contacts.pairs);
   balance_contacts(out, goal, matrix);
   if (!(out.balance <= RadiiTuning::balanced)) {
-    if (!goal.moments() || !settle_moments(out, goal, unit, matrix)) return out;
+    if (!(goal.moments() || p.container.curved()) || !settle_curved(out, goal, unit, matrix)) return out;
+    keep_bounds(out.packing, bounds);
     take_rounding_out(out.packing, out.contacts.pairs, bounds.least);
   }
   for (double &f : out.force) {
@@ -106,7 +112,8 @@ RadiiVertex close_vertex(const Packing &p, const RadiiRows &rows, const std::vec
   const size_t closed = out.contacts.pairs.size();
   out.open = closed < gaps.size() ? gaps[closed] : std::numeric_limits<double>::infinity();
   out.closed = true;
-  const std::vector<double> motion = free_motion(out.packing, out.contacts, matrix);
+  const std::vector<double> motion =
+      p.container.curved() ? least_held(out, goal, matrix) : free_motion(out.packing, out.contacts, matrix);
   if (motion.empty()) return out;
   if (opening(out, goal, motion) * unit > RadiiTuning::turning) out.escape = motion;
   return out;

@@ -247,7 +247,6 @@ class Refused(unittest.TestCase):
         self.refused(s, jam.errors.NonfiniteError, r"weights\[0\]", [np.nan, 1, 1, 1, 1])
         far = jam.errors.UnsupportedError
         self.refused(jam.System.random(n=5, dim=2, model="mk"), far, "Mari-Kurchan")
-        self.refused(jam.System.random(n=5, dim=2, container="ball"), far, "cylinder or ball")
         mixture = jam.System.random(n=4, dim=2, diameters=[1, 1, 1.4, 1.4], non_additivity=0.1)
         self.refused(mixture, far, "non_additivity")
         soft = jam.System.random(n=20, dim=2, packing_fraction=0.9, overlap="allow")

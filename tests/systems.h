@@ -34,4 +34,13 @@ static inline const double *view_of(const jam_system *sys, int32_t kind) {
   return view;
 }
 
+static inline void same_view(const jam_system *a, const jam_system *b, int32_t kind) {
+  const double *x, *y;
+  size_t n, m;
+  assert_int_equal(jam_view(a, kind, &x, &n), JAM_OK);
+  assert_int_equal(jam_view(b, kind, &y, &m), JAM_OK);
+  assert_int_equal(n, m);
+  assert_memory_equal(x, y, n * sizeof *x);
+}
+
 #endif /* JAM_TESTS_SYSTEMS_H */

@@ -106,23 +106,11 @@ static inline jam_system *some_packing(int32_t dim, int64_t n, double ratio, dou
 }
 
 static inline void assert_same_bits(const jam_system *a, const jam_system *b) {
-  const double *x, *y;
-  size_t x_len, y_len;
-  jam_info ia, ib;
-  ia.struct_size = sizeof ia;
-  ib.struct_size = sizeof ib;
-  assert_int_equal(jam_get_info(a, &ia), JAM_OK);
-  assert_int_equal(jam_get_info(b, &ib), JAM_OK);
+  const jam_info ia = info_of(a), ib = info_of(b);
   assert_int_equal(ia.dim, ib.dim);
   assert_int_equal(ia.n, ib.n);
   assert_memory_equal(&ia.box, &ib.box, sizeof ia.box);
-  jam_view(a, JAM_VIEW_POSITIONS, &x, &x_len);
-  jam_view(b, JAM_VIEW_POSITIONS, &y, &y_len);
-  assert_int_equal(x_len, y_len);
-  assert_memory_equal(x, y, x_len * sizeof *x);
-  jam_view(a, JAM_VIEW_DIAMETERS, &x, &x_len);
-  jam_view(b, JAM_VIEW_DIAMETERS, &y, &y_len);
-  assert_int_equal(x_len, y_len);
-  assert_memory_equal(x, y, x_len * sizeof *x);
+  same_view(a, b, JAM_VIEW_POSITIONS);
+  same_view(a, b, JAM_VIEW_DIAMETERS);
 }
 #endif

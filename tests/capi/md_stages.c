@@ -23,14 +23,6 @@ static jam_compress_options defaults(void) {
   return o;
 }
 
-static void same_packing(const jam_system *a, const jam_system *b) {
-  const double *x, *y;
-  size_t m, k;
-  jam_view(a, JAM_VIEW_POSITIONS, &x, &m), jam_view(b, JAM_VIEW_POSITIONS, &y, &k);
-  assert_int_equal(m, k);
-  assert_memory_equal(x, y, m * sizeof *x);
-}
-
 /* Options that change no stage give the bits of no options. */
 CASE(limits_keep_the_protocol) {
   jam_system *plain = start(), *limited = start(), *law = start();
@@ -42,7 +34,7 @@ CASE(limits_keep_the_protocol) {
   r = grow(limited, &o, JAM_NOT_CONVERGED); /* of 0.9 */
   assert_int_equal(r.stop_reason, JAM_STOP_PRESSURE);
   assert_non_null(strstr(jam_last_error(), "before the packing fraction 0.9"));
-  same_packing(plain, limited);
+  same_view(plain, limited, JAM_VIEW_POSITIONS);
   o = defaults();
   o.growth_law = JAM_GROWTH_DENSITY;
   r = grow(law, &o, JAM_OK);
@@ -121,7 +113,7 @@ CASE(a_stopped_protocol_goes_on) {
   }
   remove("md_stages.bin");
   assert_true(calls > 0);
-  same_packing(whole, cut);
+  same_view(whole, cut, JAM_VIEW_POSITIONS);
   jam_destroy(cut);
   jam_destroy(whole);
 }
@@ -138,7 +130,7 @@ CASE(wall_time_cuts_the_protocol) {
     o.resume = info.paused != 0;
   }
   assert_int_equal(status, JAM_OK);
-  same_packing(whole, cut);
+  same_view(whole, cut, JAM_VIEW_POSITIONS);
   jam_destroy(cut);
   jam_destroy(whole);
 }

@@ -1,7 +1,7 @@
 /* A call that is stopped before its dynamics have begun can be resumed, to the bits of a call that was not stopped. */
 #include <math.h>
 #include <stdio.h>
-#include "systems.h"
+#include "steps.h"
 
 static const char *path = "md_unbegun_checkpoint.bin";
 
@@ -24,20 +24,6 @@ static jam_system *move(jam_system *sys, int way) {
   }
   jam_destroy(sys);
   return next;
-}
-
-static void assert_same(jam_system *a, jam_system *b) {
-  const double *x, *y;
-  size_t m, n;
-  assert_int_equal(jam_view(a, JAM_VIEW_POSITIONS, &x, &m), JAM_OK);
-  assert_int_equal(jam_view(b, JAM_VIEW_POSITIONS, &y, &n), JAM_OK);
-  assert_true(m == n && !memcmp(x, y, n * sizeof *x));
-  assert_int_equal(jam_view(a, JAM_VIEW_VELOCITIES, &x, &m), JAM_OK);
-  assert_int_equal(jam_view(b, JAM_VIEW_VELOCITIES, &y, &n), JAM_OK);
-  assert_true(m == n && !memcmp(x, y, n * sizeof *x));
-  assert_int_equal(jam_view(a, JAM_VIEW_DIAMETERS, &x, &m), JAM_OK);
-  assert_int_equal(jam_view(b, JAM_VIEW_DIAMETERS, &y, &n), JAM_OK);
-  assert_true(m == n && !memcmp(x, y, n * sizeof *x));
 }
 
 static int32_t paused(const jam_system *sys) {
@@ -90,7 +76,7 @@ CASE(a_call_that_has_not_begun_is_resumed) {
           assert_int_equal(paused(sys), verbs[v]);
         }
         assert_int_equal(md(sys, verbs[v], 1, INFINITY, NULL), JAM_OK);
-        assert_same(sys, whole);
+        same(sys, whole);
         jam_destroy(sys);
       }
     jam_destroy(whole);
@@ -114,7 +100,7 @@ CASE(a_tuning_is_resumed) {
   } while (!(r.step > 0.0) && ++calls < 1000);
   assert_true(calls > 100 && calls < 1000);
   assert_int_equal(md(sys, JAM_PHASE_MONTE_CARLO, 1, INFINITY, NULL), JAM_OK);
-  assert_same(sys, whole);
+  same(sys, whole);
   jam_destroy(whole), jam_destroy(sys);
 }
 

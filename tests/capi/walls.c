@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <unistd.h>
-#include "systems.h"
+#include "steps.h"
 
 static double distance(const walled *s, int w, const double *x) {
   const int round = s->container == JAM_CONTAINER_BALL ? s->dim : s->container == JAM_CONTAINER_CYLINDER ? 2 : 0;
@@ -138,14 +138,6 @@ CASE(bad_containers_are_named) {
   assert_int_equal(create_walled(&flat, 4, 0.5, 1, NULL, &sys), JAM_E_UNPLACEABLE);
 }
 
-static int same(const jam_system *a, const jam_system *b, jam_view_array array) {
-  const double *x, *y;
-  size_t n, m;
-  assert_int_equal(jam_view(a, (int32_t)array, &x, &n), JAM_OK);
-  assert_int_equal(jam_view(b, (int32_t)array, &y, &m), JAM_OK);
-  return n == m && memcmp(x, y, n * sizeof *x) == 0;
-}
-
 CASE(files_keep_the_container) {
   char path[] = "/tmp/jam-walls-XXXXXX";
   const int file = mkstemp(path), formats[] = {JAM_FORMAT_XYZ, JAM_FORMAT_LAMMPS};
@@ -160,7 +152,7 @@ CASE(files_keep_the_container) {
       assert_int_equal(jam_read(path, NULL, NULL, NULL, &back), JAM_OK);
       jam_get_info(sys, &a), jam_get_info(back, &b);
       assert_true(a.container == b.container && a.walls == b.walls && a.volume == b.volume);
-      assert_true(same(sys, back, JAM_VIEW_POSITIONS) && same(sys, back, JAM_VIEW_DIAMETERS));
+      same_view(sys, back, JAM_VIEW_POSITIONS), same_view(sys, back, JAM_VIEW_DIAMETERS);
       jam_destroy(back);
     }
     assert_int_equal(jam_write(sys, path, JAM_FORMAT_PLAIN), JAM_E_UNSUPPORTED);
@@ -220,8 +212,7 @@ CASE(checkpoints_go_on_to_the_same_bits) {
     jam_compress_options_init(&o, sizeof o);
     o.growth_rate = 1e-2, o.pressure = 50.0, o.resume = 1;
     assert_int_equal(jam_compress(back, &o, NULL), JAM_OK);
-    assert_true(same(whole, back, JAM_VIEW_POSITIONS) && same(whole, back, JAM_VIEW_VELOCITIES) &&
-                same(whole, back, JAM_VIEW_DIAMETERS));
+    same(whole, back);
     for (int w = 0; w < count_walls(whole); ++w)
       assert_true(of_wall(whole, w, JAM_WALL_PRESSURE) == of_wall(back, w, JAM_WALL_PRESSURE));
     jam_destroy(whole), jam_destroy(part), jam_destroy(back);

@@ -44,8 +44,6 @@ static void *crunch_thread(void *user) {
 CASE(threads_and_determinism) {
   jam_system *sys[3];
   pthread_t thread[2];
-  const double *x[3];
-  size_t len;
   int k;
   void *ok;
   for (k = 0; k < 3; ++k) sys[k] = random_start(150, 8);
@@ -55,9 +53,7 @@ CASE(threads_and_determinism) {
     assert_true(ok != NULL);
   }
   assert_non_null(crunch_thread(sys[2]));
-  for (k = 0; k < 3; ++k) jam_view(sys[k], JAM_VIEW_POSITIONS, &x[k], &len);
-  assert_memory_equal(x[0], x[2], len * sizeof(double));
-  assert_memory_equal(x[1], x[2], len * sizeof(double));
+  for (k = 0; k < 2; ++k) same_view(sys[k], sys[2], JAM_VIEW_POSITIONS);
   for (k = 0; k < 3; ++k) jam_destroy(sys[k]);
 }
 

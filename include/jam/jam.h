@@ -1024,13 +1024,12 @@ typedef struct jam_radii_report {
   double moment_residual; /* largest |M_q / (lambda^q M_q of the start) - 1|; 0 for a sum */
 } jam_radii_report;
 JAM_API jam_status jam_radii_options_init(jam_radii_options *o, size_t size);
-/* Moves spheres and changes radii to a local maximum of sum w_i R_i, w_i = 1 where weights is NULL, in a fixed cell or
- * container. With moments: to a maximum of lambda, where sum R_i^q = lambda^q M_q for each exponent q, M_q
- * at the start; forces on sphere i then add up to sum_q lambda_q q R_i^(q - 1), and radius_min is at least 1e-3 of the
- * smallest radius. The start is positions and radii: a stopped call leaves a valid packing. No pair overlaps, in two
- * doubles. At a maximum the handle keeps the network, with forces of mean 1, and the verdict of jam_rigidity. Status:
- * JAM_LIMIT, JAM_NOT_CONVERGED with the last valid state: where a sphere becomes as wide as a round wall, or contacts
- * are not found. @shape weights (n) @errors OVERLAP, UNSUPPORTED */
+/* Moves spheres and changes radii to a local maximum of sum w_i R_i, w_i = 1 if weights is NULL, in a fixed cell or
+ * container. With moments: to a maximum of lambda, where sum R_i^q = lambda^q M_q for each q, M_q at the start; forces
+ * on sphere i add up to sum_q lambda_q q R_i^(q - 1), and radius_min is at least 1e-3 of the smallest radius. A stopped
+ * call leaves a valid packing. No pair overlaps, in two doubles. At a maximum the handle keeps the network, with forces
+ * of mean 1, and the verdict of jam_rigidity. Status: JAM_LIMIT, JAM_NOT_CONVERGED with the last valid state: if a
+ * sphere gets as wide as its wall or contacts are not found. @shape weights (n) @errors OVERLAP, UNSUPPORTED */
 JAM_API jam_status jam_maximise_radii(jam_system *sys, const jam_radii_options *o, const double *weights,
                                       size_t weights_len, jam_radii_report *report);
 

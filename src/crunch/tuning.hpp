@@ -33,7 +33,6 @@ struct Tuning {
   static constexpr double least_part = 1e-6;  // of the step of an answer; if less is safe, the input was bad
 
   // ---- from LPs to the barrier path and back
-  double curvature_ratio = 10.0;  // a step l opens contacts by l^2; above so many gains LPs go in circles
   // The path opens contacts to this gap at least, since rounding blurs smaller ones, and to this share of the median
   // gap and of the square of the LP's longest step.
   double min_opening = 1e-10, opening = 0.1;
@@ -71,11 +70,9 @@ struct Tuning {
   // Newton steps of the polish: so many, while they at least halve gaps that are above rounding.
   static constexpr int polish_steps = 4;
   static constexpr double polish_progress = 0.5, polish_end = 1e-16;
-  double closing_gap = 1e-8;                    // a contact that stays wider when all are closed is none
   double closed_gap = 3e-14;                    // rounding of closed contacts in a box of ten diameters
   double narrow_bound = 1e-3, narrower = 0.01;  // of the first narrow LP; where an LP gains nothing, of the next
   int max_narrow_lps = 20;
-  int max_excess = 8;  // contacts too many that are dropped where they do not close; a crystal has more
   // A start that cannot grow but has flexes: phi rises by less than this where a crunch has not left its density. Of so
   // many spheres all decompressions are tried before it ends there (64 disks with vacancies need up to three; of 400
   // and 900 none helps, in 3 and 13 s), of more the first.

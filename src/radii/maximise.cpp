@@ -7,6 +7,7 @@
 #include "core/checks.hpp"
 #include "core/create.hpp"
 #include "core/double_double.hpp"
+#include "core/limits.hpp"
 #include "core/sentence.hpp"
 #include "radii/goal.hpp"
 #include "radii/path.hpp"
@@ -130,6 +131,12 @@ std::vector<double> exponents_of(const jam_radii_options &o) {
   return {all, all + o.moments};
 }
 
+// Packings have no wider sizes: the call ends before them.
+bool too_wide(const Packing &p) {
+  const auto [low, high] = std::minmax_element(p.diameter.begin(), p.diameter.end());
+  return !(*high <= limits::size_ratio_max * *low);
+}
+
 // A sum lets every radius grow, moments may let one vanish: they have a lower bound of their own.
 RadiiBounds bounds_of(const Packing &p, const jam_radii_options &o) {
   if (o.moments == 0) return {o.radius_min, o.radius_max};
@@ -152,7 +159,8 @@ void check_moments(const Packing &p, const jam_radii_options &o, size_t weights_
            q[k], RadiiTuning::least_exponent, RadiiTuning::most_exponent);
     for (size_t j = 0; j < k; ++j)
       if (std::fabs(q[j] - q[k]) < RadiiTuning::least_exponent)
-        fail(JAM_E_ARGUMENT, "exponent_%zu is %g and exponent_%zu %g: one moment twice", j + 1, q[j], k + 1, q[k]);
+        fail(JAM_E_ARGUMENT, "exponent_%zu is %g and exponent_%zu %g: nearer than %g they count as one moment twice",
+             j + 1, q[j], k + 1, q[k], RadiiTuning::least_exponent);
   }
   const auto [low, high] = std::minmax_element(p.diameter.begin(), p.diameter.end());
   const RadiiBounds bounds = bounds_of(p, o);
@@ -163,11 +171,6 @@ void check_moments(const Packing &p, const jam_radii_options &o, size_t weights_
         "radii that are",
         0.5 * *low, o.room, 0.5 * *high, bounds.least, bounds.most);
   const RadiiGoal named(p, q);  // refuses radii that moments fix
-}
-
-RadiiGoal goal_of(const Packing &p, const jam_radii_options &o, const double *weights, double &mean_weight) {
-  if (o.moments > 0) return RadiiGoal(p, exponents_of(o));
-  return RadiiGoal(of_mean_one(p.n(), weights, mean_weight));
 }
 
 }  // namespace
@@ -215,7 +218,7 @@ RadiiResult maximise_radii(const Packing &start, const jam_radii_options &o, con
   Packing &p = out.packing;
   p.given = {};
   double mean_weight = 1.0;
-  RadiiGoal goal = goal_of(p, o, weights, mean_weight);
+  RadiiGoal goal = o.moments > 0 ? RadiiGoal(p, exponents_of(o)) : RadiiGoal(of_mean_one(p.n(), weights, mean_weight));
   const RadiiBounds bounds = bounds_of(p, o);
   monitor.wall_time = o.wall_time;
   make_room(p, goal, bounds, radii_unit(p), o.room);
@@ -230,6 +233,7 @@ RadiiResult maximise_radii(const Packing &start, const jam_radii_options &o, con
   r.stop_reason = JAM_STOP_STALLED, out.status = JAM_NOT_CONVERGED;
   int pushes = 0, climbs = 0;
   int32_t wide = -1;
+  Packing last = p;
   for (double mu = std::max(path.first_mu(), RadiiTuning::least_mu * unit); mu > RadiiTuning::mu_end * unit;
        mu *= RadiiTuning::mu_factor) {
     if (!path.centre(mu, o.max_steps, monitor)) {
@@ -238,25 +242,30 @@ RadiiResult maximise_radii(const Packing &start, const jam_radii_options &o, con
       out.status = monitor.cancelled() ? JAM_CANCELLED : JAM_LIMIT;
       break;
     }
+    if (too_wide(p)) {
+      p = last;
+      out.text = sentence(
+          "the largest radius grew to %g times the smallest one; the packing is the last one before: "
+          "radius_min keeps radii nearer to each other",
+          limits::size_ratio_max);
+      break;
+    }
+    last = p;
     if (mu > RadiiTuning::polish_from * unit) continue;
     RadiiVertex vertex = close_vertex(p, path.rows(), path.forces(), goal, bounds, unit, matrix);
     wide = vertex.wide;
-    if (!vertex.uphill.empty() && climbs < RadiiTuning::pushes) {
-      ++climbs;
-      push_off(p, goal, vertex.uphill, bounds, unit);
+    if (vertex.closed && too_wide(vertex.packing)) continue;
+    const std::vector<double> &away = vertex.closed ? vertex.escape : vertex.uphill;
+    int &count = vertex.closed ? pushes : climbs;
+    if (!away.empty() && count < RadiiTuning::pushes) {
+      ++count;
+      if (vertex.closed) p = vertex.packing;
+      push_off(p, goal, away, bounds, unit);
       path.renew();
       mu = RadiiTuning::mu_after_push * unit / RadiiTuning::mu_factor;
       continue;
     }
     if (!vertex.closed) continue;
-    if (!vertex.escape.empty() && pushes < RadiiTuning::pushes) {
-      ++pushes;
-      p = vertex.packing;
-      push_off(p, goal, vertex.escape, bounds, unit);
-      path.renew();
-      mu = RadiiTuning::mu_after_push * unit / RadiiTuning::mu_factor;
-      continue;
-    }
     if (!vertex.escape.empty()) break;
     p = vertex.packing;
     out.contacts = network_of(p, vertex);
@@ -271,7 +280,7 @@ RadiiResult maximise_radii(const Packing &start, const jam_radii_options &o, con
   r.steps = path.steps, r.factorisations = path.matrix.factorisations + matrix.factorisations;
   report_sizes(p, goal, weights, r);
   r.seconds = monitor.seconds();
-  if (out.status == JAM_NOT_CONVERGED)
+  if (out.status == JAM_NOT_CONVERGED && out.text.empty())
     out.text = sentence(
         "the contacts of the maximum were not found after %lld Newton steps; the packing is the "
         "last one of the path",

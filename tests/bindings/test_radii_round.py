@@ -201,6 +201,18 @@ class Maximum(unittest.TestCase):
             self.assertFalse(report.maximum)
             self.assertGreater(least_exact_gap("circle", s), 0)
 
+    def test_sizes_that_spread_too_wide_are_named(self):
+        """Disks whose weights are almost 0 fill ever smaller holes."""
+        ends = set()
+        for seed in range(4):
+            for n in (12, 30):
+                s = jam.System.random(n=n, dim=2, container="ball", seed=seed)
+                report = s.maximise_radii(10.0 ** np.random.default_rng(seed).uniform(-14, 0, n))
+                self.assertLessEqual(s.diameters.max() / s.diameters.min(), 1e4)
+                self.assertGreaterEqual(least_exact_gap("circle", s), 0)
+                ends.add((report.maximum, s.calls[-1]["status"]))
+        self.assertLessEqual(ends, {(False, "not_converged"), (True, "ok")})
+
 
 if __name__ == "__main__":
     unittest.main()

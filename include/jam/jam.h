@@ -365,7 +365,7 @@ JAM_API jam_status jam_set_cell(jam_system *sys, const double *cell, size_t cell
                                 size_t transform_len, double *rotation, size_t rotation_len, size_t *rows);
 /* Deforms cell and positions by r -> (1 + strain) r; diameters stay, results of crunch are dropped. The cell vectors
  * deform too; jam_notes says whether they were replaced by shorter ones or rotated to a lower triangle. Velocities are
- * rotated, not strained. @shape strain (d, d) @errors OVERLAP, UNSUPPORTED (Mari-Kurchan shifts, other vectors) */
+ * rotated, not strained. @shape strain (d, d) @errors OVERLAP, UNSUPPORTED (Mari-Kurchan shifts; axes with walls) */
 JAM_API jam_status jam_strain(jam_system *sys, const double *strain, size_t strain_len);
 /* Copies of src side by side, count[c] along cell vector a_c. Copy (k_0, k_1, ...) stands at sum of k_c a_c; its sphere
  * i is number i + n (k_0 + count[0] (k_1 + count[1] ...)). The cell has the vectors count[c] a_c. Velocities, contacts,
@@ -822,7 +822,7 @@ typedef enum jam_crunch_method {
   JAM_CRUNCH_BARRIER_PATH = 0, /* fewest factorisations; usually denser packings */
   JAM_CRUNCH_SEQUENTIAL_LP = 1 /* only LPs, as published */
 } jam_crunch_method;
-/* Strains of the cell that jam_crunch or jam_relax may make; the volume is fixed except in kinds with VOLUME. */
+/* Strains of axes without walls that jam_crunch or jam_relax may make; the volume is fixed without VOLUME. */
 typedef enum jam_free_strain {
   JAM_STRAIN_NONE = 0,         /* a fixed cell */
   JAM_STRAIN_EDGES = 1,        /* the diagonal of the cell: lengths of a brick */

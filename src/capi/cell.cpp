@@ -99,7 +99,6 @@ jam_status jam_strain(jam_system *sys, const double *strain, size_t strain_len) 
   return guard_set(sys, [&]() -> jam_status {
     need(strain, "strain");
     Packing p = sys->packing;
-    refuse_walls(p, "strained");
     check_matrix_len("strain", strain_len, p.dim);
     check_array_in(strain, strain_len, "strain");
     const NormalCell normal = strain_affinely(p, strain);

@@ -41,7 +41,8 @@ jam_status jam_crunch(jam_system *sys, const jam_crunch_options *o, jam_crunch_r
     check_out_struct(report, "report");
     jam_crunch_options full = default_crunch_options();
     take_options(o, full);
-    if (full.strain != JAM_STRAIN_NONE) refuse_walls(sys->packing, "crunched in a free cell");
+    if (full.strain != JAM_STRAIN_NONE)
+      refuse_closed(sys->packing, 2, "a crunch that changes the cell at fixed volume");
     if (full.prove) sys->packing.container.round_axes();  // refuses shapes for which no theorem is written
     History history;
     struct Show {  // callbacks see the steps while crunch runs

@@ -57,7 +57,9 @@ jam_status jam_relax(jam_system *sys, const jam_relax_options *o, jam_relax_repo
     jam_relax_options full = default_relax_options();
     take_options(o, full);
     need_soft(sys);
-    if (full.strain != JAM_STRAIN_NONE) refuse_walls(sys->packing, "relaxed in a free cell");
+    if (full.strain != JAM_STRAIN_NONE)
+      refuse_closed(sys->packing, full.strain & JAM_STRAIN_VOLUME ? 1 : 2,
+                    full.strain & JAM_STRAIN_VOLUME ? "a free cell" : "a cell that changes at fixed volume");
     SoftResult result = relax(sys->packing, full, sys->monitor);
     const jam_relax_report made = result.report;
     const jam_status status = result.status;

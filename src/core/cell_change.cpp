@@ -11,6 +11,7 @@ namespace jam::inside {
 void enter_cell(Packing &p, const NormalCell &normal) {
   const size_t d = static_cast<size_t>(p.dim);
   p.cell = normal.cell;
+  if (p.container) enclose(p, {p.container.kind(), p.container.flat()});
   if (normal.rotated)
     for (auto *of : {&p.position, &p.velocity})
       for (size_t i = 0; i < of->size() / d; ++i) {
@@ -52,6 +53,7 @@ void note_cell(const NormalCell &normal, bool spheres, Notes &notes) {
 }
 
 bool shorten_cell(Packing &p, Notes &notes) {
+  if (p.container) return false;  // the vectors lie along its walls
   const NormalCell normal = normal_cell(p.dim, p.cell.rows().data(), 0.5 * defect_max(p.dim));
   if (normal.same_vectors() || !keeps_shifts(p, normal)) return false;
   enter_cell(p, normal);
@@ -66,8 +68,12 @@ void straighten_cell(Packing &p, Notes &notes) {
 }
 
 NormalCell strain_affinely(Packing &p, const double *strain) {
-  refuse_walls(p, "strained");
   const int d = p.dim;
+  for (int a = 0; a < d; ++a)
+    for (int b = 0; b < d; ++b)
+      if (((p.container.closed() >> a | p.container.closed() >> b) & 1) != 0 && strain[a * d + b] != 0.0)
+        fail(JAM_E_UNSUPPORTED, "strain[%d] is %g: axes that walls close keep their lengths and directions", a * d + b,
+             strain[a * d + b]);
   const auto deform = [&](const double *x, double *y) {
     for (int a = 0; a < d; ++a) {
       y[a] = x[a];

@@ -1,25 +1,30 @@
 #include "core/motion.hpp"
 
 #include <cmath>
+#include <utility>
 
+#include "core/container.hpp"
 #include "core/math.hpp"
 
 namespace jam::inside {
 
-Cell strained_cell(int dim, std::vector<double> rows) {
-  const double least = least_cell_entry * Cell::from_triangle(dim, rows.data()).side();
+void take_strained_cell(Packing &p, std::vector<double> rows) {
+  const double least = least_cell_entry * Cell::from_triangle(p.dim, rows.data()).side();
   for (double &x : rows)
     if (std::fabs(x) < least) x = 0.0;
-  return Cell::from_triangle(dim, rows.data());
+  p.cell = Cell::from_triangle(p.dim, rows.data());
+  if (p.container) enclose(p, {p.container.kind(), p.container.flat()});
 }
 
 void strain_at_fixed_volume(Packing &p, PairList &pairs, const std::vector<double> &strain) {
   const int d = p.dim;
+  const uint32_t closed = p.container.closed();
   double volume = 1.0;
   for (int c = 0; c < d; ++c) volume *= 1.0 + strain[c * (d + 1)];
-  const double back = math::pow(volume, -1.0 / d);
+  const double back = math::pow(volume, -1.0 / (p.container ? p.container.open_axes() : d));
   const auto deform = [&](double *x) {  // upper-triangular: component a needs those from a on
     for (int a = 0; a < d; ++a) {
+      if (closed >> a & 1) continue;
       double sum = x[a];
       for (int b = a; b < d; ++b) sum += strain[a * d + b] * x[b];
       x[a] = back * sum;
@@ -29,7 +34,7 @@ void strain_at_fixed_volume(Packing &p, PairList &pairs, const std::vector<doubl
   for (size_t k = 0; k < pairs.offset.size(); k += d) deform(&pairs.offset[k]);
   std::vector<double> rows = p.cell.rows();
   for (int c = 0; c < d; ++c) deform(&rows[c * d]);
-  p.cell = strained_cell(d, rows);
+  take_strained_cell(p, std::move(rows));
 }
 
 void move_packing(Packing &p, PairList &pairs, const double *s, double length, double growth,

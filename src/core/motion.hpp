@@ -10,10 +10,12 @@ namespace jam::inside {
 // The cell that a strain leaves, of lower-triangular rows. Entries below this, over V^(1/d), are rounding of zeros and
 // become 0: they move nothing, and their squares would leave the range of doubles in proofs.
 constexpr double least_cell_entry = 1e-60;
-Cell strained_cell(int dim, std::vector<double> rows);
+// Walls move along: their areas change.
+void take_strained_cell(Packing &p, std::vector<double> rows);
 
-// Deforms positions, cell and offsets by 1 + E, E upper-triangular (dim, dim), divided by det^(1/d): the volume stays.
-// det <= 1 for a traceless E, so this opens gaps.
+// Deforms positions, cell and offsets by 1 + E, E upper-triangular (dim, dim), divided by det^(1/m) along the m axes
+// that no wall closes: the volume stays. E has no component off these axes. det <= 1 for a traceless E, so this opens
+// gaps.
 void strain_at_fixed_volume(Packing &p, PairList &pairs, const std::vector<double> &strain);
 
 // Strains the cell (strain empty: it is fixed), moves the spheres by `length` s, s (n, dim), multiplies all diameters

@@ -5,7 +5,7 @@
 
 namespace jam::inside {
 
-StrainBasis strain_basis(int dim, bool edges, bool tilts) {
+StrainBasis strain_basis(int dim, bool edges, bool tilts, uint32_t axes) {
   StrainBasis basis;
   basis.dim = dim;
   const size_t block = static_cast<size_t>(dim) * dim;
@@ -13,12 +13,17 @@ StrainBasis strain_basis(int dim, bool edges, bool tilts) {
     basis.matrices.resize(basis.matrices.size() + block, 0.0);
     return basis.matrices.data() + basis.matrices.size() - block;
   };
-  for (int c = 0; edges && c + 1 < dim; ++c) {
+  const auto open = [&](int c) { return (axes >> c & 1) != 0; };
+  int last = dim - 1;
+  while (last > 0 && !open(last)) --last;
+  for (int c = 0; edges && c < last; ++c) {
+    if (!open(c)) continue;
     double *m = matrix();
-    m[c * (dim + 1)] = 1.0, m[block - 1] = -1.0;
+    m[c * (dim + 1)] = 1.0, m[last * (dim + 1)] = -1.0;
   }
   for (int c = 0; tilts && c < dim; ++c)
-    for (int k = c + 1; k < dim; ++k) matrix()[c * dim + k] = 1.0;
+    for (int k = c + 1; k < dim; ++k)
+      if (open(c) && open(k)) matrix()[c * dim + k] = 1.0;
   return basis;
 }
 

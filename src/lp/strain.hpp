@@ -1,5 +1,6 @@
 // Strains of a free cell that a linear program may choose: r -> (1 + E) r with E upper-triangular, so that the cell
-// stays lower-triangular, and traceless, because growth of all diameters already is a change of volume.
+// stays lower-triangular, and traceless, because growth of all diameters already is a change of volume. Axes that walls
+// close keep their length and their direction.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -13,8 +14,8 @@ struct StrainBasis {
   int count() const { return dim ? static_cast<int>(matrices.size()) / (dim * dim) : 0; }
 };
 
-// Which components of the cell may change: the edges a_cc, the tilts a_ck, or both.
-StrainBasis strain_basis(int dim, bool edges, bool tilts);
+// Which components of the cell may change along these axes (bits): the edges a_cc, the tilts a_ck, or both.
+StrainBasis strain_basis(int dim, bool edges, bool tilts, uint32_t axes = ~0u);
 // Largest part of a strain (dim, dim) that leaves half of each edge. In a thin cell that is far from jammed the bound
 // of an LP lets several amplitudes shorten one edge, by more than there is of it.
 double strain_part(int dim, const std::vector<double> &strain);

@@ -165,7 +165,8 @@ double overlap_resolution(const Packing &p) {
 
 // The minimum with the cell free, from the minimum of the fixed one.
 static DescentEnd relax_cell(Relaxation &r, const jam_relax_options &o, SoftResult &out) {
-  const FreeCell cell = free_cell_of(r.state.dim(), o.strain, o.components, o.pressure);
+  const FreeCell cell =
+      free_cell_of(r.state.dim(), o.strain, o.components, o.pressure, ~r.state.base().container.closed());
   const CancellableScope scope;
   try {
     r.weak_force = 0.0;
@@ -180,7 +181,8 @@ static DescentEnd relax_cell(Relaxation &r, const jam_relax_options &o, SoftResu
 
 SoftResult relax(const Packing &start, const jam_relax_options &o, Monitor &monitor) {
   check_relax_options(o);
-  if (o.strain != JAM_STRAIN_NONE && free_cell_of(start.dim, o.strain, o.components, o.pressure).count() == 0)
+  if (o.strain != JAM_STRAIN_NONE &&
+      free_cell_of(start.dim, o.strain, o.components, o.pressure, ~start.container.closed()).count() == 0)
     fail(JAM_E_ARGUMENT, "components is %lld: no strain is free", static_cast<long long>(o.components));
   monitor.wall_time = o.wall_time;
   SoftState state = first_state(start, PairEnergy(o.alpha, o.scale), o.precision);
@@ -192,7 +194,7 @@ SoftResult relax(const Packing &start, const jam_relax_options &o, Monitor &moni
   effort.pressure = std::nan("");
   Relaxation r(state, effort);
   // Forces that are weak beside the pressure to come need no balance yet.
-  r.weak_force = RelaxTuning::weak_part * o.pressure * start.cell.volume() /
+  r.weak_force = RelaxTuning::weak_part * o.pressure * scene_volume(start) /
                  (state.diameter_mean() * static_cast<double>(state.n()));
   const bool frees = o.strain != JAM_STRAIN_NONE;
   SoftResult out;

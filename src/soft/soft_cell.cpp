@@ -7,13 +7,26 @@
 
 namespace jam::inside {
 
-FreeCell free_cell_of(int dim, int32_t strain, int64_t components, double pressure) {
+int FreeCell::open_axes() const {
+  int count = 0;
+  for (int c = 0; c < dim; ++c) count += open(c) ? 1 : 0;
+  return count;
+}
+
+double FreeCell::open_part(const double *n) const {
+  double sum = 0.0;
+  for (int c = 0; c < dim; ++c) sum += open(c) ? n[c] * n[c] : 0.0;
+  return open_axes() == dim ? 1.0 : sum;
+}
+
+FreeCell free_cell_of(int dim, int32_t strain, int64_t components, double pressure, uint32_t axes) {
   FreeCell cell;
   cell.dim = dim;
+  cell.axes = axes;
   cell.volume = (strain & JAM_STRAIN_VOLUME) != 0;
   cell.pressure = pressure;
   const size_t block = static_cast<size_t>(dim) * dim;
-  const auto may = [&](int c, int k) { return (components >> (c * dim + k) & 1) != 0; };
+  const auto may = [&](int c, int k) { return cell.open(c) && cell.open(k) && (components >> (c * dim + k) & 1) != 0; };
   const auto matrix = [&]() {
     cell.matrices.resize(cell.matrices.size() + block, 0.0);
     return cell.matrices.data() + cell.matrices.size() - block;
@@ -29,9 +42,10 @@ FreeCell free_cell_of(int dim, int32_t strain, int64_t components, double pressu
       }
       last = c;
     }
-  } else if (cell.volume) {
+  } else if (cell.volume && cell.open_axes() > 0) {
     double *m = matrix();
-    for (int c = 0; c < dim; ++c) m[c * (dim + 1)] = 1.0 / dim;
+    for (int c = 0; c < dim; ++c)
+      if (cell.open(c)) m[c * (dim + 1)] = 1.0 / cell.open_axes();
   }
   for (int c = 0; (strain & JAM_STRAIN_TILTS) != 0 && c < dim; ++c)
     for (int k = c + 1; k < dim; ++k)
@@ -97,17 +111,19 @@ CellStrain strain_of(const FreeCell &cell, const double *amplitude) {
     for (size_t c = 0; c < block; ++c) s.e[c] += amplitude[k] * cell.matrices[k * block + c];
   for (int c = 0; c < d; ++c) s.log_volume += math::log1p(s.e[c * (d + 1)]);
   if (cell.volume) return s;
-  const double less = math::expm1(-s.log_volume / d), lambda = 1.0 + less;
+  const int m = cell.open_axes();
+  const double less = math::expm1(-s.log_volume / m), lambda = 1.0 + less;
   s.log_volume = 0.0;
   for (size_t k = 0; k < count; ++k) {
     double *slope = &s.slope[k * block], trace = 0.0;
     for (int c = 0; c < d; ++c) trace += slope[c * (d + 1)] / (1.0 + s.e[c * (d + 1)]);
     for (int a = 0; a < d; ++a)
-      for (int b = a; b < d; ++b)
-        slope[a * d + b] = lambda * (slope[a * d + b] - trace / d * ((a == b ? 1.0 : 0.0) + s.e[a * d + b]));
+      for (int b = a; b < d && cell.open(a); ++b)
+        slope[a * d + b] = lambda * (slope[a * d + b] - trace / m * ((a == b ? 1.0 : 0.0) + s.e[a * d + b]));
   }
   for (size_t c = 0; c < block; ++c) s.e[c] *= lambda;
-  for (int c = 0; c < d; ++c) s.e[c * (d + 1)] += less;
+  for (int c = 0; c < d; ++c)
+    if (cell.open(c)) s.e[c * (d + 1)] += less;
   return s;
 }
 

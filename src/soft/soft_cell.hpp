@@ -15,15 +15,20 @@ namespace jam::inside {
 // has a potential, which that of a given Cauchy stress has not. Where E = 0 both agree: there the stress is P + D.
 struct FreeCell {
   int dim = 0;
+  uint32_t axes = 0;  // that may strain (bits): those without walls
   bool volume = false;
   double pressure = 0.0;
   std::vector<double> beyond;    // D, (dim, dim), 0 for components that are not free; empty: none
   std::vector<double> matrices;  // (count, dim, dim): strain of amplitude 1
   int count() const { return dim ? static_cast<int>(matrices.size()) / (dim * dim) : 0; }
+  bool open(int c) const { return (axes >> c & 1) != 0; }
+  int open_axes() const;
+  double open_part(const double *n) const;  // of n^2 = 1, that along these axes; 1 where all are open
 };
 
-// strain: bits of jam_free_strain; components: bit c dim + k allows component (c, k), c <= k.
-FreeCell free_cell_of(int dim, int32_t strain, int64_t components, double pressure);
+// strain: bits of jam_free_strain; components: bit c dim + k allows component (c, k), c <= k, of two axes without
+// walls.
+FreeCell free_cell_of(int dim, int32_t strain, int64_t components, double pressure, uint32_t axes = ~0u);
 
 // The free components are to hold this stress (dim, dim): sets pressure and beyond. JAM_E_ARGUMENT where repulsion
 // cannot.

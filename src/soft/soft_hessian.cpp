@@ -72,12 +72,12 @@ void SoftHessian::assemble(const SoftState &state, const SoftContacts &contacts,
   border_.assign(state.spheres() * strains_, 0.0), corner_.assign(strains_ * strains_, 0.0);
   CellStrain strain;
   if (strains_ > 0) strain = state.strain();
-  double virial = 0.0;
+  double virial = 0.0;  // of the axes that may strain
   for (size_t q = 0; q < contacts.size(); ++q) {
     const int32_t i = state.pairs().i[contacts.pair[q]], j = state.pairs().j[contacts.pair[q]];
-    if (strains_ > 0) {
+    if (strains_ > 0 && j >= 0) {  // walls keep their places in a strain
       add_border(state, contacts, strain, q);
-      virial += contacts.force[q] * contacts.distance[q];
+      virial += contacts.force[q] * contacts.distance[q] * state.cell().open_part(&contacts.normal[q * d]);
     }
     if (i == j) continue;  // an image of itself moves with the sphere
     if (on[q]) for_spheres(i, j, [&](int32_t s) { stable[s] = 1; });
@@ -98,7 +98,7 @@ void SoftHessian::assemble(const SoftState &state, const SoftContacts &contacts,
   unit_ = count > 0 ? sum / static_cast<double>(count) : strains_ > 0 && corner_[0] > 0.0 ? corner_[0] : 1.0;
   if (strains_ > 0) {
     const FreeCell &cell = state.cell();
-    const double p_v = cell.volume ? cell.pressure * state.base().cell.volume() : virial / d;
+    const double p_v = cell.volume ? cell.pressure * scene_volume(state.base()) : virial / cell.open_axes();
     const std::vector<double> curvature = volume_curvature(cell);
     for (size_t k = 0; k < corner_.size(); ++k)
       corner_[k] += p_v * curvature[k] * state.amplitude_unit() * state.amplitude_unit();

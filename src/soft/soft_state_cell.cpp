@@ -29,7 +29,7 @@ CellStrain SoftState::strain() const {
 double SoftState::load_work(const CellStrain &strain) const {
   double sum = cell_.volume ? cell_.pressure * math::expm1(strain.log_volume) : 0.0;
   for (size_t c = 0; c < cell_.beyond.size(); ++c) sum += cell_.beyond[c] * (strain.e[c] - at_.low[c]);
-  return sum * base_.cell.volume();
+  return sum * scene_volume(base_);
 }
 
 // Forces on strains from the sum of f n r0, and the part of the pressure.
@@ -37,7 +37,7 @@ void SoftState::add_cell(SoftSums &sums, const CellStrain &strain, const std::ve
                          std::vector<double> &force) const {
   const int d = base_.dim;
   const size_t block = stress.size();
-  const double volume = base_.cell.volume(), p_v = cell_.volume ? cell_.pressure * volume : 0.0;
+  const double volume = scene_volume(base_), p_v = cell_.volume ? cell_.pressure * volume : 0.0;
   sums.work = at_.work + load_work(strain);
   for (size_t k = 0; k < strains(); ++k) {
     const double *slope = &strain.slope[k * block];
@@ -79,7 +79,7 @@ std::vector<double> SoftState::fold_strain() {
       for (int b = a; b < c; ++b) sum -= at_.low[a * d + b] * rows[c * d + b];
       at_.low[a * d + c] = sum / rows[c * d + c];
     }
-  base_.cell = strained_cell(d, rows);
+  take_strained_cell(base_, rows);
   std::fill(displacement_.begin() + spheres(), displacement_.end(), 0.0);
   return s.e;
 }
@@ -106,7 +106,7 @@ void SoftState::deform_base(Packing &p) const {
   std::vector<double> rows = p.cell.rows();
   for (int c = 0; c < d; ++c) deform(&rows[c * d]);
   for (size_t k = 0; k < p.position.size(); k += d) deform(&p.position[k]);
-  p.cell = strained_cell(d, rows);
+  take_strained_cell(p, std::move(rows));
 }
 
 }  // namespace jam::inside

@@ -27,8 +27,6 @@ class Arguments(unittest.TestCase):
             jam.System.random(n=10, container="torus")
         with self.assertRaisesRegex(ValueError, "does not fit between walls"):
             jam.System.random(n=4, packing_fraction=0.5, cell=[1, 1, 0.2], walls="z")
-        with self.assertRaisesRegex(jam.errors.UnsupportedError, "cannot be crunched in a free cell yet"):
-            jam.System.random(n=10, packing_fraction=0.1, walls="z").crunch(strain="free")
 
     def test_sizes_count_for_the_container(self):
         for container, dim, share in (("ball", 3, np.pi / 6), ("ball", 2, np.pi / 4), ("cylinder", 3, np.pi / 4), (None, 3, 1)):

@@ -199,7 +199,3 @@ class Jamming(unittest.TestCase):
                 # Forces change in proportion to the distance, and differ from the jammed ones by what is left of it.
                 far, near = (soft_forces.copy().decompress(isostatic=False, distance=x).force_difference for x in (1e-6, 1e-8))
                 self.assertLess(near, max(1e-6, 0.05 * far))
-
-    def test_free_cells_are_refused(self):
-        with self.assertRaisesRegex(jam.errors.UnsupportedError, "cannot be relaxed in a free cell"):
-            soft("slit", 10, 1, 0.7).relax(strain="edges")

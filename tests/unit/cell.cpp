@@ -248,10 +248,15 @@ CASE(flat_cells) {
 // Proofs square the entries of a cell: what strains leave of a zero becomes zero, all else stays to the last bit.
 CASE(strains_leave_no_tiny_entry) {
   const std::vector<double> rows{3.0, 0.0, 0.0, -4.8e-74, 2.0, 0.0, 1e-41, -0.5, 4.0};
-  const Cell cell = strained_cell(3, rows);
+  Packing p;
+  p.dim = 3;
+  take_strained_cell(p, rows);
+  const Cell cell = p.cell;
   for (int c = 0; c < 3; ++c)
     for (int k = 0; k < 3; ++k) assert_true(cell.row(c)[k] == (c == 1 && k == 0 ? 0.0 : rows[c * 3 + k]));
-  assert_true(strained_cell(2, {1.0, 0.0, 1e-61, 1.0}).cube());
+  p.dim = 2;
+  take_strained_cell(p, {1.0, 0.0, 1e-61, 1.0});
+  assert_true(p.cell.cube());
 }
 
 }  // namespace

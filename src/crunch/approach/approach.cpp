@@ -120,7 +120,7 @@ bool frees_cell(const CrunchState &s) {
 
 Phase free_cell(CrunchState &s) {
   const bool edges = (s.o.strain & JAM_STRAIN_EDGES) != 0, tilts = (s.o.strain & JAM_STRAIN_TILTS) != 0;
-  s.next.strain = strain_basis(s.out.packing.dim, edges, tilts);
+  s.next.strain = strain_basis(s.out.packing.dim, edges, tilts, ~s.out.packing.container.closed());
   s.monitor.log(JAM_LOG_INFO, "fixed cell: phi %.12f; %d strains join", packing_fraction(s.out.packing),
                 s.next.strain.count());
   restart_lps(s, s.tuning.first_bound);

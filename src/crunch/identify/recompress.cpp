@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/cell_change.hpp"
 #include "core/motion.hpp"
 #include "core/pair_rule.hpp"
 #include "core/rng.hpp"
@@ -13,14 +12,16 @@ namespace jam::inside {
 namespace {
 
 // A free cell changes its shape too: a lattice of one sphere has nothing else that could leave its saddle. Lengths
-// change by less than the share.
+// change by less than the share, and the volume stays.
 void strain_at_random(Packing &p, Rng &rng, double share) {
   const size_t d = static_cast<size_t>(p.dim);
   std::vector<double> strain(d * d);
+  const auto open = [&](size_t c) { return (p.container.closed() >> c & 1) == 0; };
   for (size_t a = 0; a < d; ++a)
-    for (size_t b = 0; b <= a; ++b)
-      strain[a * d + b] = strain[b * d + a] = (2.0 * rng.uniform() - 1.0) * share / static_cast<double>(d);
-  strain_affinely(p, strain.data());
+    for (size_t b = a; b < d; ++b)
+      if (open(a) && open(b)) strain[a * d + b] = (2.0 * rng.uniform() - 1.0) * share / static_cast<double>(d);
+  PairList none;
+  strain_at_fixed_volume(p, none, strain);
 }
 
 }  // namespace

@@ -70,9 +70,11 @@ struct Tuning {
   // Newton steps of the polish: so many, while they at least halve gaps that are above rounding.
   static constexpr int polish_steps = 4;
   static constexpr double polish_progress = 0.5, polish_end = 1e-16;
+  double closing_gap = 1e-8;                    // a contact that stays wider when all are closed is none
   double closed_gap = 3e-14;                    // rounding of closed contacts in a box of ten diameters
   double narrow_bound = 1e-3, narrower = 0.01;  // of the first narrow LP; where an LP gains nothing, of the next
   int max_narrow_lps = 20;
+  int max_excess = 8;  // contacts too many that are dropped where they do not close; a crystal has more
   // A start that cannot grow but has flexes: phi rises by less than this where a crunch has not left its density. Of so
   // many spheres all decompressions are tried before it ends there (64 disks with vacancies need up to three; of 400
   // and 900 none helps, in 3 and 13 s), of more the first.

@@ -135,6 +135,7 @@ const Mechanism mechanisms[] = {
     {"leaving saddles of the path", [](Tuning &t, jam_crunch_options &) { t.increase = 1.0; }},
     {"neighbours of uncovered spheres", [](Tuning &t, jam_crunch_options &) { t.farthest_reach = 0.0; }},
     {"end of the path near rounding", [](Tuning &t, jam_crunch_options &) { t.end_roundings = 33.0; }},  // 1e-12
+    {"dropped contacts", [](Tuning &t, jam_crunch_options &) { t.max_excess = 0; }},
     {"narrow LPs but the first", [](Tuning &t, jam_crunch_options &) { t.max_narrow_lps = 1; }},
     {"decompressions", [](Tuning &t, jam_crunch_options &) { t.decompression.fill(0.0); }},
     {"decompressions after 1", [](Tuning &t, jam_crunch_options &) { t.decompression[1] = 0.0; }},

@@ -68,7 +68,7 @@ CASE(polish_refuses) {
 // A pair so near to contact that an LP counts it: all cannot close together. When it is open with the others closed it
 // is left out, when it would overlap then another contact is: either way no gap is left above rounding.
 CASE(too_many_to_close) {
-  int scenes = 0, others = 0, left = 0;
+  int scenes = 0, others = 0, left = 0, alone = 0;  // alone: without an LP
   jam_crunch_options o = default_crunch_options();
   o.method = JAM_CRUNCH_SEQUENTIAL_LP;    // the path's scenes change with it
   for (int seed = 1; seed <= 24; ++seed)  // one pair of seed 11 is of the rare kind that is left
@@ -95,6 +95,7 @@ CASE(too_many_to_close) {
       at(net.vector, 3 * place, along), at(net.gap, place, std::vector<double>{relative_gap(r.packing, pair)}),
           at(net.force, place, std::vector<double>{1e-4});
       ++net.coordination[pair.i[0]], ++net.coordination[pair.j[0]];
+      alone += try_polish(r.packing, net) == PolishEnd::done;
       CrunchHooks hooks;
       int asked = 0;
       hooks.before_polish = [&](const Packing &, ContactNetwork &first) {
@@ -117,8 +118,9 @@ CASE(too_many_to_close) {
       assert_true(wanted > 0.0 ? std::fabs(gap - wanted) < 0.2 * wanted : std::fabs(gap) < 1e-14);
       ++scenes, others += wanted < 0.0;
     }
-  assert_true(scenes - others >= 15 && others + left >= 16);
-  assert_true(others >= 15 && left <= 2);  // narrow LPs decide which contact is left out
+  assert_true(scenes - others >= 15 && alone >= scenes && others + left >= 16);
+  // A narrow LP decides which other contact is left out. A build without Clp solves none, so those overlaps stay.
+  if (clp_is_built()) assert_true(others >= 15 && left >= 1 && left <= 2);
 }
 
 // Positions round by the size of the box: in one of 150 diameters closed contacts overlap by more than in one of ten,

@@ -147,9 +147,11 @@ bool polish_contacts(CrunchState &s) {
   if (report_step(s, JAM_PHASE_POLISH, s.out.report.gain, s.out.report.max_step, false))
     return stop(s, JAM_STOP_CANCELLED, JAM_CANCELLED), false;
   if (s.hooks.before_polish) s.hooks.before_polish(s.out.packing, s.out.contacts);
+  Tuning tuning = s.tuning;
+  if (s.next.strain.count() > 0) tuning.max_excess = 0;  // a strain may close what motions leave open
   PolishEnd end = PolishEnd::interrupted;
   try {
-    end = polish(s.out.packing, s.out.contacts, s.system, s.o.threads, s.tuning, &s.monitor);
+    end = polish(s.out.packing, s.out.contacts, s.system, s.o.threads, tuning, &s.monitor);
   } catch (const Cancelled &) {  // it works on copies: the contacts of the last LP stay
   }
   s.last.pairs.clear();  // polish left another graph in the system

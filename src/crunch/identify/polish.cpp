@@ -29,8 +29,17 @@ class Polish {
   Polish(NewtonSystem &system, int threads, const Tuning &tuning, double allowed_overlap, Monitor *monitor)
       : system_(system), threads_(threads), t_(tuning), allowed_(allowed_overlap), monitor_(monitor) {}
 
+  // A contact too many can be a gap that the LP could not distinguish from a force. Then the rest closes without it.
   PolishEnd close_and_balance(Packing &p, ContactNetwork &net) {
+    PolishEnd end = try_contacts(p, net);
+    while (drops_gap(p, net, end)) end = try_contacts(p, net);
+    return end;
+  }
+
+ private:
+  PolishEnd try_contacts(Packing &p, ContactNetwork &net) {
     if (!close_all(p, net)) return PolishEnd::interrupted;
+    if (!(largest(net.gap) < t_.closing_gap)) return PolishEnd::open_contact;
     const bool round = p.container.curved() != 0;
     if (net.size() == 0 || (!round && excess_contacts(net, p) < 0)) return PolishEnd::too_few;
     balance_forces(p, net);
@@ -46,10 +55,34 @@ class Polish {
       return PolishEnd::negative_force;
     }
     if (closest_contact(p).gap < allowed_) return PolishEnd::overlap;
-    return largest(net.gap) <= t_.closed_limit(p) ? PolishEnd::done : PolishEnd::open_contact;
+    return largest(net.gap) > t_.closed_limit(p) ? PolishEnd::open_contact : PolishEnd::done;
   }
 
- private:
+  // Contacts that do not close together leave gaps r that are orthogonal to all motions, and so balance. Forces f - t r
+  // balance too, for any t. The contact whose force vanishes first, at t > 0, has its gap open once the rest closes:
+  // this is the exchange of a dual simplex method. False where there is none to drop, and in crystals, where gaps of
+  // many contacts too many say little.
+  bool drops_gap(const Packing &p, ContactNetwork &net, PolishEnd end) const {
+    if (end != PolishEnd::open_contact && end != PolishEnd::overlap) return false;
+    const bool open =
+        largest(net.gap) > t_.closed_limit(p) || *std::min_element(net.gap.begin(), net.gap.end()) < allowed_;
+    const int64_t excess = excess_contacts(net, p);
+    if (!open || excess <= 0 || excess > t_.max_excess || !pushes_only(net)) return false;
+    size_t weakest = net.size();
+    double part = 0.0;
+    for (size_t k = 0; k < net.size(); ++k)
+      if (net.gap[k] > 0.0 && (weakest == net.size() || net.force[k] < part * net.gap[k]))
+        weakest = k, part = net.force[k] / net.gap[k];
+    if (weakest == net.size()) return false;
+    log("polish: contact of %d and %d does not close, with a force of %.1e and a gap of %.1e", net.pairs.i[weakest],
+        net.pairs.j[weakest], net.force[weakest], net.gap[weakest]);
+    for (size_t k = 0; k < net.size(); ++k) net.force[k] -= part * net.gap[k];
+    std::vector<char> on(net.size(), 1);
+    on[weakest] = 0;
+    net = subset(net, on, p.dim);
+    return true;
+  }
+
   template <class... T>
   void log(const char *format, T... values) const {
     if (monitor_) monitor_->log(JAM_LOG_DEBUG, format, values...);

@@ -33,6 +33,7 @@ struct Tuning {
   static constexpr double least_part = 1e-6;  // of the step of an answer; if less is safe, the input was bad
 
   // ---- from LPs to the barrier path and back
+  double curvature_ratio = 10.0;  // a step l opens contacts by l^2; above so many gains LPs go in circles
   // The path opens contacts to this gap at least, since rounding blurs smaller ones, and to this share of the median
   // gap and of the square of the LP's longest step.
   double min_opening = 1e-10, opening = 0.1;

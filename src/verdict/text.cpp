@@ -160,7 +160,7 @@ void add_proof(const Report &r, std::string &out) {
     add(out, sentence("With a cell that changes its shape there %s %s%lld flex%s.", r.strict_flexes == 1 ? "is" : "are",
                       least(r.strict_flexes), wide(r.strict_flexes), r.strict_flexes == 1 ? "" : "es"));
   if (r.strictly_jammed == JAM_VERDICT_NO)
-    add(out, "A crunch with a free cell (strain=free) makes a strictly jammed packing where at least two axes have no walls.");
+    add(out, "Where two axes have no walls, a crunch with a free cell (strain=free) makes a strictly jammed packing.");
   add(out, sentence("Contacts are closed to %.1e.", r.max_contact_gap));
   if (std::isfinite(r.min_gap))
     add(out, sentence("The smallest gap of no contact is %.2e, 10^%.1f times wider.", r.min_gap,

@@ -82,7 +82,7 @@ wheel() {
 import build_wheel, sys
 out, build, *options = sys.argv[1:]
 build_wheel.build_wheel(out, {"build-dir": build, "cmake": options})' "$out" "$work/wheel-$1" -GNinja \
-    -DCMAKE_STRIP=/bin/true -DSPECTRA_INCLUDE="$libraries/include" ${JAM_RELEASE_OPTIONS:-}
+    -DCMAKE_UNITY_BUILD=ON -DCMAKE_STRIP=/bin/true -DSPECTRA_INCLUDE="$libraries/include" ${JAM_RELEASE_OPTIONS:-}
 }
 if begin wheels 'jamming-*.whl'; then
   if sh pkgconfig/zig.sh "$work/zig" x86_64-linux-gnu.2.17 &&

@@ -203,12 +203,17 @@ static int settle_stages(options *o) {
   return -1;
 }
 
-/* What a scene with walls cannot do yet. */
+/* What a scene with walls cannot do. At fixed volume one axis alone cannot deform; that of a file the library counts.
+ */
 static int settle_walls(const options *o) {
   const char *const name = o->container ? "--container" : "--walls";
+  int64_t c, open = o->dim;
   if (!o->walls && !o->container) return 0;
-  if (o->strict_proof || o->strain != JAM_STRAIN_NONE)
-    complain("%s contradicts %s: walls do not strain", name, o->strict_proof ? "--strict-proof" : "--strain");
+  for (c = 0; c < o->dim; ++c) open -= o->walls >> c & 1;
+  if (o->strict_proof)
+    complain("%s contradicts --strict-proof: walls do not strain", name);
+  else if (o->strain != JAM_STRAIN_NONE && (o->container || open < 2))
+    complain("%s contradicts --strain: a cell deforms at fixed volume along two axes without walls at least", name);
   else
     return 0;
   return -1;

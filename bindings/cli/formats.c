@@ -152,8 +152,8 @@ int check_formats(const options *o, const jam_system *sys) {
       complain("a crunch of one sphere needs --strain: in a fixed cell nothing can move");
     return -1;
   }
-  if ((info.walls || info.container) && (o->strict_proof || o->strain != JAM_STRAIN_NONE)) {
-    complain("%s needs a packing without walls", o->strain != JAM_STRAIN_NONE ? "--strain" : "--strict-proof");
+  if ((info.walls || info.container) && o->strict_proof) {
+    complain("--strict-proof needs a packing without walls");
     return -1;
   }
   if (o->vtk && info.dim > 3) {

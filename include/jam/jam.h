@@ -363,9 +363,9 @@ JAM_API jam_status jam_get_cell(const jam_system *sys, double *out, size_t out_l
  * another system. @shape cell (d, d), transform (d, d), rotation (d, d) @errors OVERLAP */
 JAM_API jam_status jam_set_cell(jam_system *sys, const double *cell, size_t cell_len, int64_t *transform,
                                 size_t transform_len, double *rotation, size_t rotation_len, size_t *rows);
-/* Deforms cell and positions by r -> (1 + strain) r; diameters stay, results of crunch are dropped. The cell vectors
- * deform too; jam_notes says whether they were replaced by shorter ones or rotated to a lower triangle. Velocities are
- * rotated, not strained. @shape strain (d, d) @errors OVERLAP, UNSUPPORTED (Mari-Kurchan shifts; axes with walls) */
+/* Deforms cell and positions by r -> (1 + strain) r, without components of axes with walls; diameters stay, results of
+ * crunch are dropped. The cell vectors deform too; jam_notes says whether they were replaced by shorter ones or rotated
+ * to a lower triangle. Velocities are rotated, not strained. @shape strain (d, d) @errors OVERLAP, UNSUPPORTED */
 JAM_API jam_status jam_strain(jam_system *sys, const double *strain, size_t strain_len);
 /* Copies of src side by side, count[c] along cell vector a_c. Copy (k_0, k_1, ...) stands at sum of k_c a_c; its sphere
  * i is number i + n (k_0 + count[0] (k_1 + count[1] ...)). The cell has the vectors count[c] a_c. Velocities, contacts,
@@ -837,8 +837,8 @@ typedef enum jam_free_strain {
  * parameter of CALiPPSO.jl beside each.
  * - polish: 1 ends the LPs at a gain below gain_tolerance, even if rattlers still move. 0: the last LP's answer.
  * - full_lps: 0 stops an LP that gains more than 1e-7 at a duality gap of 0.02 times its gain.
- * - strain: after the optimum in the fixed cell, the cell deforms at fixed volume; FREE ends strictly jammed. A single
- *   sphere needs a strain, since its contacts are with its own images.
+ * - strain: after the optimum in the fixed cell, the cell deforms at fixed volume; FREE ends strictly jammed, or as
+ *   a saddle. A single sphere needs a strain, since its contacts are with its own images.
  * - keep_steps: if there are more states, or more than 2^24 coordinates, every second, fourth, ... state is kept.
  * - duality_gap: for packings too large to reach the jamming point. The barrier path ends at this duality gap, and an
  *   LP determines contacts and balanced forces. The report gives the duality gap e of these forces: to first order no
@@ -1070,7 +1070,8 @@ typedef struct jam_relax_options {
   int32_t strain;          /* @enum jam_free_strain, default NONE */
   int32_t reserved;
   double pressure; /* P > 0 with JAM_STRAIN_VOLUME: U + P V is minimised, also without contacts; else 0, the default */
-  int64_t components; /* bit c d + k: component (c, k) of the strain may change, c <= k, default -1: all */
+  int64_t
+      components; /* bit c d + k: edge (c, c) or tilt (c, k), c < k, may change, default -1: all; no part of VOLUME */
 } jam_relax_options;
 /* What jam_relax found. */
 typedef struct jam_relax_report {

@@ -91,7 +91,7 @@ jam_status jam_shear(jam_system *sys, const jam_shear_options *o, const double *
         soft ? soft_minimum(full, path, effort, sys->monitor) : jamming_point(*sys, effort, sys->monitor);
     ShearResult result = shear(sys->packing, full, path, minimum, effort, sys->monitor);
     const jam_shear_report made = result.report;
-    refuse_outside(result.last.at.packing);
+    refuse_outside(result.last.at.packing, pushed_out);
     Results found;
     found.report = soft ? soft_certificate(result.last.at, made.seconds) : result.last.crunch;
     found.contacts = std::move(result.last.at.contacts);

@@ -63,7 +63,7 @@ jam_status jam_relax(jam_system *sys, const jam_relax_options *o, jam_relax_repo
     SoftResult result = relax(sys->packing, full, sys->monitor);
     const jam_relax_report made = result.report;
     const jam_status status = result.status;
-    refuse_outside(result.packing);
+    refuse_outside(result.packing, pushed_out);
     refuse_wider_than_periods(result.packing, JAM_E_OVERLAP);
     straighten_cell(result.packing, sys->notes);
     sys->commit(result.packing, soft_results(result, made.seconds));
@@ -88,7 +88,7 @@ jam_status jam_decompress(jam_system *sys, const jam_decompress_options *o, jam_
     DecompressionResult result = decompress(sys->packing, full, sys->monitor, compare);
     const jam_decompress_report made = result.report;
     const jam_status status = result.status;
-    refuse_outside(result.soft.packing);
+    refuse_outside(result.soft.packing, pushed_out);
     Results found;
     if (made.same_network == 1) {
       found.contacts = std::move(hard.contacts);

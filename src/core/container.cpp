@@ -170,14 +170,12 @@ void refuse_too_wide(const Packing &p, jam_status code) {
          p.container.widest());
 }
 
-void refuse_outside(const Packing &p) {
+void refuse_outside(const Packing &p, const char *why) {
   for (int w = 0; w < p.container.count(); ++w) {
     const ClosestWall now = closest_to_wall(p, w);
     if (now.gap < -1.0)
-      fail(JAM_E_OVERLAP,
-           "the centre of sphere %d lies outside %s: positions count from the corner of the cell; if yours count from "
-           "its centre, add half of each edge",
-           now.sphere, p.container[w].name().c_str());
+      fail(JAM_E_OVERLAP, "the centre of sphere %d lies outside %s: %s", now.sphere, p.container[w].name().c_str(),
+           why);
   }
 }
 

@@ -107,7 +107,12 @@ std::string container_words();  // "brick, cylinder and ball"
 void enclose(Packing &p, const Enclosure &given);
 // Throws `code` where the widest sphere does not fit between walls, and JAM_E_OVERLAP where a centre lies outside.
 void refuse_too_wide(const Packing &p, jam_status code);
-void refuse_outside(const Packing &p);
+// why: what follows the name of the wall.
+constexpr char wrong_origin[] =
+    "positions count from the corner of the cell; if yours count from its centre, add half of each edge";
+constexpr char pushed_out[] =
+    "the overlaps pushed it out, and the packing is as before; a lower density or pressure does not";
+void refuse_outside(const Packing &p, const char *why);
 // Smallest h of a sphere and wall w, and of all walls; +inf without walls.
 struct ClosestWall {
   double gap;

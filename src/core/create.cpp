@@ -150,7 +150,7 @@ void refuse_overlaps(const Packing &p, double tolerance) {
 
 void apply_overlap_policy(Packing &p, int32_t policy) {
   check_diameters(p.diameter, p.cell);
-  if (p.container && !p.position.empty()) refuse_outside(p);
+  if (p.container && !p.position.empty()) refuse_outside(p, wrong_origin);
   if (p.container) refuse_too_wide(p, JAM_E_OVERLAP);
   if (policy == JAM_OVERLAP_ALLOW) {
     if (diameter_max(p) > p.cell.shortest() * (1.0 + overlap_tolerance))
@@ -163,7 +163,7 @@ void apply_overlap_policy(Packing &p, int32_t policy) {
 
 void shrink_to_contact(Packing &p, double least, Notes *notes) {
   check_diameters(p.diameter, p.cell);
-  if (p.container) refuse_outside(p);
+  if (p.container) refuse_outside(p, wrong_origin);
   const double before = packing_fraction(p), fit = fitting_factor(p);
   double factor = fit;
   for (double &s : p.diameter) s *= fit;

@@ -194,7 +194,7 @@ Packing read_checkpoint(const char *path, std::string &beside) {
   if (h.flags >> container_at) {
     enclose(p, enclosure_of(h));
     if (p.container.count() != static_cast<int>(walls_of(h))) fail(JAM_E_FORMAT, "%s has no such container", path);
-    refuse_outside(p);
+    refuse_outside(p, wrong_origin);
   }
   check_packing(p, JAM_E_FORMAT);
   bool good = (h.model == JAM_MODEL_EUCLID || h.model == JAM_MODEL_MK) &&

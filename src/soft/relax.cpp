@@ -167,8 +167,8 @@ double overlap_resolution(const Packing &p) {
 static DescentEnd relax_cell(Relaxation &r, const jam_relax_options &o, SoftResult &out) {
   const FreeCell cell =
       free_cell_of(r.state.dim(), o.strain, o.components, o.pressure, ~r.state.base().container.closed());
-  const CancellableScope scope;
   try {
+    const CancellableScope scope;  // ends before the state reached is measured: that must not be cancelled
     r.weak_force = 0.0;
     r.state.free_cell(cell);
     r.evaluate();

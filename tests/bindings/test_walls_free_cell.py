@@ -103,7 +103,18 @@ class FreeCell(unittest.TestCase):
                         # forces balance to 1e-12 of the mean force
                         self.assertAlmostEqual(stress[a, b], pressure if a == b else 0.0, delta=1e-10 * pressure)
 
+    def test_a_limit_of_time_keeps_what_was_reached(self):
+        s = jam.System.random(40, 2, 3, packing_fraction=0.9, overlap="allow")
+        start = np.array(s.positions)
+        report = s.relax(strain="all", pressure=1e-7, wall_time=0.5)
+        self.assertGreater(report.evaluations, 0)
+        self.assertTrue(np.isfinite(report.pressure))
+        self.assertGreater(np.abs(np.asarray(s.positions) - start).max(), 0.0)
+
     def test_what_walls_do_not_allow_is_said(self):
+        pressed = jam.System.random(40, 2, 3, packing_fraction=10.0, overlap="allow", walls="y")
+        with self.assertRaisesRegex(jam.errors.OverlapError, "outside the wall .*: the overlaps pushed it out"):
+            pressed.relax()
         channel = jam.System.random(40, 2, 1, walls="y", packing_fraction=0.3)
         with self.assertRaisesRegex(jam.errors.UnsupportedError, "at fixed volume needs at least 2 axes without walls, this scene has 1"):
             channel.crunch(strain="free")

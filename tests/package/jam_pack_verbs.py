@@ -59,6 +59,13 @@ class Verbs(unittest.TestCase):
             refused = run(*given, "--strict-proof", self.dir / "b.jamproof")
             self.assertIn("contradicts --strict-proof: walls do not strain", refused.stderr)
 
+    def test_axes_without_walls_deform(self):
+        given = ("pack", "--n", "12", "--seed", "3", "--quiet", "--strain", "free", "--report", "-", "--output", self.dir / "a.xyz")
+        report = json.loads(run(*given, "--walls", "z").stdout)
+        self.assertTrue(report["jammed"])
+        for scene in (("--walls", "yz"), ("--container", "ball")):
+            self.assertIn("two axes without walls at least", run(*given, *scene).stderr)
+
     def test_radii_move_to_a_maximum(self):
         """The sum, and moments, from the written radii; what is no kind is refused before any work."""
         given = ("pack", "--n", "30", "--dim", "2", "--walls", "xy", "--sizes", "uniform:low=0.6,high=1.4", "--quiet")

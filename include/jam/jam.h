@@ -1070,8 +1070,7 @@ typedef struct jam_relax_options {
   int32_t strain;          /* @enum jam_free_strain, default NONE */
   int32_t reserved;
   double pressure; /* P > 0 with JAM_STRAIN_VOLUME: U + P V is minimised, also without contacts; else 0, the default */
-  int64_t
-      components; /* bit c d + k: edge (c, c) or tilt (c, k), c < k, may change, default -1: all; no part of VOLUME */
+  int64_t components; /* bit c d + k: edge (c, c) or tilt (c, k), c < k, may change; default -1: all. Not VOLUME */
 } jam_relax_options;
 /* What jam_relax found. */
 typedef struct jam_relax_report {

@@ -10,7 +10,7 @@ namespace jam::inside {
 // The cell that a strain leaves, of lower-triangular rows. Entries below this, over V^(1/d), are rounding of zeros and
 // become 0: they move nothing, and their squares would leave the range of doubles in proofs.
 constexpr double least_cell_entry = 1e-60;
-// Walls move along: their areas change.
+// Walls keep their places; their areas follow the cell.
 void take_strained_cell(Packing &p, std::vector<double> rows);
 
 // Deforms positions, cell and offsets by 1 + E, E upper-triangular (dim, dim), divided by det^(1/m) along the m axes

@@ -69,7 +69,7 @@ jam_status jam_check_packing(jam_system *sys, const jam_check_options *o, jam_ch
     take_options(o, full);
     check_flag(full.crunch, "crunch");
     check_flag(full.prove, "prove");
-    if (full.prove) sys->packing.container.round_axes();  // refuses shapes for which no theorem is written
+    if (full.prove) sys->packing.container.know("a proof");
     if (!(full.wall_time > 0.0)) fail(JAM_E_ARGUMENT, "wall_time is %g, it must be > 0", full.wall_time);
     CheckResult result = check_as_it_is(sys->packing, sys->known_contacts());
     jam_check_report &r = result.report;

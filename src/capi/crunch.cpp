@@ -43,7 +43,7 @@ jam_status jam_crunch(jam_system *sys, const jam_crunch_options *o, jam_crunch_r
     take_options(o, full);
     if (full.strain != JAM_STRAIN_NONE)
       refuse_closed(sys->packing, 2, "a crunch that changes the cell at fixed volume");
-    if (full.prove) sys->packing.container.round_axes();  // refuses shapes for which no theorem is written
+    if (full.prove) sys->packing.container.know("a proof");
     History history;
     struct Show {  // callbacks see the steps while crunch runs
       const History *&shown;

@@ -16,7 +16,7 @@ namespace {
 constexpr char dependent[] = "the rows of the contacts are dependent, so positions are not refined";
 
 ProofScene take_scene(const jam_system *sys, const double *ratio, size_t ratio_len) {
-  sys->packing.container.round_axes();  // refuses shapes for which no theorem is written
+  sys->packing.container.know("a proof");
   need_network(sys);
   const Packing &p = sys->packing;
   if (p.model != JAM_MODEL_EUCLID) fail(JAM_E_UNSUPPORTED, "proofs are for spheres without Mari-Kurchan shifts");

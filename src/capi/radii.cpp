@@ -17,7 +17,7 @@ jam_status jam_maximise_radii(jam_system *sys, const jam_radii_options *o, const
   return guard_reporting(sys, report, [&]() -> Answer {
     jam_radii_options full = default_radii_options();
     take_options(o, full);
-    sys->packing.container.round_axes();  // refuses shapes whose walls the search does not know
+    sys->packing.container.know("jam_maximise_radii");
     check_array_in(weights, weights_len, "weights");
     check_radii(sys->packing, full, weights, weights_len);
     RadiiResult result = maximise_radii(sys->packing, full, weights_len ? weights : nullptr, sys->monitor);

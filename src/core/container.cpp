@@ -111,9 +111,8 @@ bool Enclosure::needs_space() const {
   return (walls & 4) != 0 || (container > 0 && container < shape_count && shapes[container].least_dim > 2);
 }
 
-int Container::round_axes() const {
-  if (kind_ > JAM_CONTAINER_BALL) fail(JAM_E_UNSUPPORTED, "this call has no formula for a %s yet", word());
-  return round_axes_;
+void Container::know(const char *call) const {
+  if (kind_ > JAM_CONTAINER_BALL) fail(JAM_E_UNSUPPORTED, "%s has no formulae for a %s yet", call, word());
 }
 
 std::vector<Container::Ring> Container::rings() const {
@@ -203,8 +202,8 @@ void refuse_walls(const Packing &p, const char *done) {
 
 void refuse_closed(const Packing &p, int needed, const char *call) {
   if (p.container && p.container.open_axes() < needed)
-    fail(JAM_E_UNSUPPORTED, "%s needs at least %d axes without walls, this scene has %d", call, needed,
-         p.container.open_axes());
+    fail(JAM_E_UNSUPPORTED, "%s needs %s without walls, this scene has %d", call,
+         needed == 1 ? "at least 1 axis" : "at least 2 axes", p.container.open_axes());
 }
 
 }  // namespace jam::inside

@@ -68,8 +68,10 @@ class Container {
   }
   // A uniform point of the brick where a sphere of this radius may fit between flat walls.
   void random_point(const Cell &cell, Rng &rng, double radius, double *x) const;
-  // For formulae of the room between planes, and within a cylinder or a circle (2) or a ball (3).
-  int round_axes() const;
+  // For formulae of the room between planes, and within a cylinder or a circle (2) or a ball (3): refuses others.
+  int round_axes() const { return know("this call"), round_axes_; }
+  // JAM_E_UNSUPPORTED for a call that has formulae for these shapes alone.
+  void know(const char *call) const;
   // What a page draws: circles of the curved wall, of this radius about a point, in the plane of two axes.
   struct Ring {
     std::array<int, 2> axes;
@@ -111,7 +113,7 @@ void refuse_too_wide(const Packing &p, jam_status code);
 constexpr char wrong_origin[] =
     "positions count from the corner of the cell; if yours count from its centre, add half of each edge";
 constexpr char pushed_out[] =
-    "the overlaps pushed it out, and the packing is as before; a lower density or pressure does not";
+    "the overlaps pushed it out, and the packing is as before; give a lower density or pressure";
 void refuse_outside(const Packing &p, const char *why);
 // Smallest h of a sphere and wall w, and of all walls; +inf without walls.
 struct ClosestWall {

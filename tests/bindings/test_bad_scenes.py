@@ -82,6 +82,14 @@ class BadScenes(InFolder):
         self.assertNotEqual(done.returncode, 0)
         self.assertIn("these sizes jam near", done.stderr)
 
+    def test_calls_without_formulae_for_a_cone_name_themselves(self):
+        s = jam.System.random(n=8, packing_fraction=0.1, container="cone", walls="z", seed=1)
+        for call in (s.prove, lambda: s.crunch(prove=True), lambda: s.check(prove=True)):
+            with self.assertRaisesRegex(jam.errors.UnsupportedError, "a proof has no formulae for a cone"):
+                call()
+        with self.assertRaisesRegex(jam.errors.UnsupportedError, "jam_maximise_radii has no formulae for a cone"):
+            s.maximise_radii()
+
     def test_free_cells_are_refused_by_name_where_walls_close_too_many_axes(self):
         for scene, arguments, open_axes in (({"walls": "yz"}, "--walls yz", 1), ({"container": "ball"}, "--container ball", 0)):
             s = jam.System.random(n=20, packing_fraction=0.1, **scene)
@@ -89,6 +97,6 @@ class BadScenes(InFolder):
                 with self.assertRaisesRegex(jam.errors.UnsupportedError, "walls"):
                     call()
             soft = jam.System.random(n=20, packing_fraction=0.5, overlap="allow", **scene)
-            with self.assertRaisesRegex(jam.errors.UnsupportedError, f"axes without walls, this scene has {open_axes}"):
+            with self.assertRaisesRegex(jam.errors.UnsupportedError, f"ax[ie]s without walls, this scene has {open_axes}"):
                 soft.relax(strain="free" if open_axes else "all", **({} if open_axes else {"pressure": 1e-3}))
             self.refused_by_the_program(arguments.split() + ["--strain", "free"], "--strain")

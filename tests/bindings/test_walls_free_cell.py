@@ -126,7 +126,7 @@ class FreeCell(unittest.TestCase):
         np.testing.assert_allclose(channel.cell, [[1.5, 0.0], [0.0, 1.0]], rtol=1e-15)
         self.assertAlmostEqual(channel.packing_fraction, 0.2, delta=1e-12)
         box = jam.System.random(10, 2, 1, walls="xy", packing_fraction=0.9, overlap="allow")
-        with self.assertRaisesRegex(jam.errors.UnsupportedError, "at least 1 axes without walls, this scene has 0"):
+        with self.assertRaisesRegex(jam.errors.UnsupportedError, "at least 1 axis without walls, this scene has 0"):
             box.relax(strain="all", pressure=0.1)
 
 

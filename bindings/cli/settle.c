@@ -243,7 +243,8 @@ static int settle_verb(options *o) {
       complain("%s needs a FILE, or --resume", name);
       return -1;
     case VERB_ENSEMBLE:
-      complain("ensemble is a verb of the program alone");
+    case VERB_SEARCH:
+      complain("%s is a verb of the program alone", name);
       return -1;
     case VERB_PAGE:
       if (!o->input || !o->page) complain("page needs a FILE and the OUTPUT.html");

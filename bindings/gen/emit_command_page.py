@@ -65,7 +65,8 @@ def emit(_api):
         "",
         *wrapped(
             "`ensemble` runs `python3 -m jam ensemble`. 0: all packings are there. 1: some failed or are missing. 2: wrong "
-            "command line. 3: protocol or folder refused, or Python has no module `jam`. 4: the folder cannot be written."
+            "command line. 3: protocol or folder refused, or Python has no module `jam`. 4: the folder cannot be written. `search` runs "
+            "`python3 -m jam search`, with the same statuses; 1: no maximum was found, or a proof failed."
         ),
         "",
         *wrapped(

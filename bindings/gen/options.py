@@ -35,6 +35,7 @@ VERBS = (
     Verb("export", ("input", "output"), "the packing of a file in other formats, its tables and its pore space", f"{READING} output scale density plot {TABLES} {PORES}"),
     Verb("page", ("input", "page"), "a page that shows the packing of a file in a browser", f"{READING} page plot contact-gap"),
     Verb("ensemble", (), "many packings in one folder: python3 -m jam ensemble --help", ""),
+    Verb("search", (), "the largest sum of radii from many starts: python3 -m jam search --help", ""),
 )
 ALONE = PORES.split() + SHEARING.split() + ["scale", "density", "strict"]  # options that no job of pack takes
 

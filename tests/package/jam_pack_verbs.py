@@ -346,15 +346,16 @@ class Verbs(unittest.TestCase):
         self.refuse("--report - contradicts --contacts", "crunch", start, "--contacts", "-", "--report", "-")
         self.assertEqual([p.name for p in self.dir.iterdir()], ["f.xyz"])
 
-    def test_ensemble_without_the_module(self):
+    def test_verbs_of_the_module_without_it(self):
         """A python3 without packages comes first on the path: status 3, as for every request that is refused."""
         python = self.dir / "python3"
         python.write_text(f'#!/bin/sh\nexec {sys.executable} -I -S "$@"\n')
         python.chmod(0o755)
         env = {**os.environ, "PATH": f"{self.dir}:{os.environ['PATH']}"}
-        done = subprocess.run([program, "ensemble", "--help"], capture_output=True, text=True, timeout=60, check=False, env=env)
-        self.assertEqual((done.returncode, done.stdout), (3, ""), done.stderr)
-        self.assertIn("ensemble needs python3 with the module jam", done.stderr)
+        for verb in ("ensemble", "search"):
+            done = subprocess.run([program, verb, "--help"], capture_output=True, text=True, timeout=60, check=False, env=env)
+            self.assertEqual((done.returncode, done.stdout), (3, ""), done.stderr)
+            self.assertIn(f"{verb} needs python3 with the module jam", done.stderr)
 
 
 if __name__ == "__main__":

@@ -22,8 +22,9 @@ _jam_pack() {
     export) takes='--non-additivity --input --frame --box --cell --origin --columns --tile --walls --container --output --scale --density --contacts --spectrum --modes --gaps --structure --vtk --json --quiet --stl --stl-edge --stl-shrink --stl-bridge --stl-bridge-gap --stl-walls --voxels --voxel-size --voxel-lines --profile --profile-bins --pores --pore-points --pore-seed --near-coordination --contact-gap --near-gap --wall-time --help --version' ;;
     page) takes='--non-additivity --input --frame --box --cell --origin --columns --tile --walls --container --page --json --quiet --contact-gap --wall-time --help --version' ;;
     ensemble) takes='--help --version' ;;
+    search) takes='--help --version' ;;
   esac
-  if [ "$COMP_CWORD" = 1 ]; then takes="pack compress crunch shear check info export page ensemble $takes"; fi
+  if [ "$COMP_CWORD" = 1 ]; then takes="pack compress crunch shear check info export page ensemble search $takes"; fi
   case $word in
     -*) COMPREPLY=($(compgen -W "$takes" -- "$word")) ;;
     *) COMPREPLY=($(compgen -W "$takes" -- "$word") $(compgen -f -- "$word")) ;;

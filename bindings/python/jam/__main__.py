@@ -1,12 +1,14 @@
-"""python3 -m jam --help; python3 -m jam ensemble --help"""
+"""python3 -m jam --help; python3 -m jam ensemble --help; python3 -m jam search --help"""
 import sys
 
 if __name__ == "__main__":  # workers of mpi4py.futures import this file under another name
-    if sys.argv[1:2] == ["ensemble"]:
+    verb, words = sys.argv[1:2], sys.argv[2:]
+    if verb == ["ensemble"]:
         from .ensemble.cli import main
-
-        sys.exit(main(sys.argv[2:]))
+    elif verb == ["search"]:
+        from ._search import main
     else:
         from .cli import main
 
-        sys.exit(main())
+        words = sys.argv[1:]
+    sys.exit(main(words))

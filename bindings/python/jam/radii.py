@@ -29,6 +29,7 @@ MOVES = 60  # without a gain that end a start
 NEAR = 1e-5  # room of maximise_radii after a move
 SMALLEST, LARGEST = -4.0, -1.0  # powers of ten of displacements, over the mean distance of spheres
 HOLES = 64  # random points of which the one with most room is taken
+ROUND_AXES = {"brick": 0, "cylinder": 2, "ball": 3}
 SAME = 1e-12  # of two sums, relative: one packing
 
 
@@ -65,8 +66,8 @@ def _separations(x: Array, point: Array, cell: Array, closed: Array) -> Array:
     return np.where(closed, part, part - np.round(part)) @ cell
 
 
-def _moved(packing: System, closed: Array, rng: np.random.Generator) -> tuple[Array, Array]:
-    """Positions and radii after one random move."""
+def _moved(packing: System, closed: Array, turning: int, rng: np.random.Generator) -> tuple[Array, Array]:
+    """Positions and radii after one random move. The wall turns about the centre of so many first axes."""
     x, radii, cell = packing.positions.copy(), packing.diameters / 2, packing.cell
     n, d = x.shape
     unit = (abs(np.linalg.det(cell)) / n) ** (1 / d)
@@ -89,8 +90,13 @@ def _moved(packing: System, closed: Array, rng: np.random.Generator) -> tuple[Ar
         a, b = rng.choice(n, 2, replace=False)
         radii[[a, b]] = radii[[b, a]]
         x += length * rng.normal(size=x.shape)
-    low, high = np.zeros(d), cell.sum(0)
-    return np.where(closed, np.clip(x, low + 1e-3 * unit, high - 1e-3 * unit), x), radii
+    low, high, room = np.zeros(d), cell.sum(0), 1e-3 * unit
+    x = np.where(closed, np.clip(x, low + room, high - room), x)
+    if turning:  # every centre lies inside the round wall
+        half = high[:turning] / 2
+        from_axis = np.linalg.norm(x[:, :turning] - half, axis=1, keepdims=True)
+        x[:, :turning] = half + (x[:, :turning] - half) * np.minimum(1.0, (half[0] - room) / np.maximum(from_axis, room))
+    return x, radii
 
 
 def _start(number: int, seed: int, n: int, dim: int, weights: Any, options: dict[str, Any], scene: dict[str, Any]) -> tuple[Best, int]:
@@ -101,11 +107,12 @@ def _start(number: int, seed: int, n: int, dim: int, weights: Any, options: dict
     value, maxima = (report.value, 1) if report.maximum else (0.0, 0)
     given = {"cell" if "cell" in scene else "box": scene.get("cell", scene.get("box", 1.0))}
     given.update({k: v for k, v in scene.items() if k not in ("cell", "box")})
-    closed = np.array([c in _axes(scene, dim) for c in range(dim)])
+    turning = min(dim, ROUND_AXES[scene.get("container") or "brick"])
+    closed = np.array([c < turning or c in _axes(scene, dim) for c in range(dim)])
     while failed < MOVES:
         failed += 1
         try:
-            other = _packing(*_moved(packing, closed, rng), given)
+            other = _packing(*_moved(packing, closed, turning, rng), given)
             report = other.maximise_radii(weights, room=NEAR, **options)
         except JamError:  # no room after this move
             continue
@@ -202,7 +209,7 @@ def best_of(
     weights, radius_min, radius_max
         As of `System.maximise_radii`.
     **scene
-        box or cell, and walls, as of `System.random`.
+        box or cell, walls and container, as of `System.random`.
 
     Returns
     -------

@@ -5,37 +5,15 @@ import argparse
 import json
 import os
 import re
-import sys
 from concurrent.futures import BrokenExecutor
 from contextlib import ExitStack
-from typing import Any, NoReturn
+from typing import Any
 
+from .._api.command import DONE, OUTPUT, PARTIAL, REFUSED, Parser, json_answer, refuse
 from ..errors import StoreError
 from .ensemble import Ensemble
 from .protocol import ProtocolError
 from .status import Status
-
-DONE, PARTIAL, USAGE, REFUSED, OUTPUT = range(5)  # exit status, as python3 -m jam
-
-
-class _Parser(argparse.ArgumentParser):
-    """Takes options by their whole names, and answers in JSON where that was asked for."""
-
-    words: list[str] = []  # of the command line
-
-    def __init__(self, **more: Any) -> None:
-        super().__init__(allow_abbrev=False, **more)
-
-    def error(self, message: str) -> NoReturn:
-        if "--json" in _Parser.words:
-            print(_json(USAGE, message))
-        super().error(message)
-
-
-def _json(code: int, text: str, **more: Any) -> str:
-    """As of the other verbs: exit status, what was said, and what there is."""
-    return json.dumps({"status": code, "text": text, **more})
-
 
 def _seeds(text: str) -> list[int]:
     """1-100, 7, or several with commas: 1-100,205."""
@@ -58,8 +36,8 @@ def _part(text: str) -> tuple[int, int]:
     return int(found[1]), int(found[2])
 
 
-def parser() -> argparse.ArgumentParser:
-    p = _Parser(
+def parser() -> Parser:
+    p = Parser(
         prog="python3 -m jam ensemble",
         description="Makes many packings of one protocol, one file each. What is there is not made again.",
         epilog="Example: python3 -m jam ensemble run packings --n 128 --seeds 1-100. Exit status: 0 all are there; "
@@ -135,21 +113,13 @@ def _run(o: argparse.Namespace) -> Status:
 
 
 def _refuse(o: argparse.Namespace, code: int, text: str) -> int:
-    print(f"jam: {text}", file=sys.stderr)
-    if o.verb == "status" and o.json:
-        print(_json(code, text))
-    return code
+    return refuse(code, text, o.verb == "status" and o.json)
 
 
 def main(arguments: list[str] | None = None) -> int:
     """Returns the exit status."""
     p = parser()
-    _Parser.words = words = sys.argv[1:] if arguments is None else arguments
-    names = [word.partition("=")[0] for word in words if word.startswith("--")]
-    for name in names:
-        if names.count(name) > 1:  # the second value would replace the first one in silence
-            p.error(f"{name} is given twice: leave one out")
-    o = p.parse_args(words)
+    o = p.parse(arguments)
     if o.verb == "run" and (o.executor == "dask") != (o.scheduler is not None):
         p.error("--executor dask and --scheduler ADDRESS belong together")
     try:
@@ -169,7 +139,7 @@ def main(arguments: list[str] | None = None) -> int:
     code = PARTIAL if status.failed or status.missing or status.damaged else DONE
     if o.verb == "status" and o.json:
         shown = ("asked", "done", "jammed", "failed", "missing", "damaged", "odd", "builds")
-        print(_json(code, "", **{k: getattr(status, k) for k in shown}))
+        print(json_answer(code, "", **{k: getattr(status, k) for k in shown}))
     elif o.verb == "status" or not o.quiet:
         print(status)
     return code

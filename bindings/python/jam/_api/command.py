@@ -1,0 +1,45 @@
+"""What the command lines of the module have in common: exit status, options by their whole names, answers in JSON."""
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from typing import Any, NoReturn
+
+DONE, PARTIAL, USAGE, REFUSED, OUTPUT = range(5)  # exit status, as python3 -m jam
+
+
+class Parser(argparse.ArgumentParser):
+    """Takes options by their whole names, each once, and answers in JSON where that was asked for."""
+
+    words: list[str] = []  # of the command line
+
+    def __init__(self, **more: Any) -> None:
+        super().__init__(allow_abbrev=False, **more)
+
+    def error(self, message: str) -> NoReturn:
+        if "--json" in Parser.words:
+            print(json_answer(USAGE, message))
+        super().error(message)
+
+    def parse(self, arguments: list[str] | None) -> argparse.Namespace:
+        """These words, by default those of the process."""
+        Parser.words = words = sys.argv[1:] if arguments is None else arguments
+        names = [word.partition("=")[0] for word in words if word.startswith("--")]
+        for name in names:
+            if names.count(name) > 1:  # the second value would replace the first one in silence
+                self.error(f"{name} is given twice: leave one out")
+        return self.parse_args(words)
+
+
+def json_answer(code: int, text: str, **more: Any) -> str:
+    """As of the other verbs: exit status, what was said, and what there is."""
+    return json.dumps({"status": code, "text": text, **more})
+
+
+def refuse(code: int, text: str, as_json: bool) -> int:
+    """Says why, and returns the exit status."""
+    print(f"jam: {text}", file=sys.stderr)
+    if as_json:
+        print(json_answer(code, text))
+    return code

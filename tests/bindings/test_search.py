@@ -1,0 +1,72 @@
+"""The search of the largest sum of radii from the command line, and within round walls."""
+import json
+import subprocess
+import sys
+import tempfile
+import unittest
+from fractions import Fraction
+from pathlib import Path
+
+import jam
+import jam.radii
+import numpy as np
+from jam import _search as search
+from test_command_line import OUTPUT, REFUSED, USAGE, in_process
+from test_proof import ROOT
+
+
+class Search(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.dir = Path(folder.name)
+
+    def run_words(self, words):
+        return in_process(search.main, words.split(), self.dir)
+
+    def test_best_packings_are_written_proved_and_continued(self):
+        words = "disks --n 5 --walls xy --starts {} --workers 1 --keep 2 --prove 30 --json"
+        code, out, err = self.run_words(words.format(2))
+        said = json.loads(out)
+        self.assertEqual((said["starts"], err), (2, ""))
+        best = said["best"][0]
+        self.assertEqual((code, said["status"]), (0 if all("proof" in row for row in said["best"]) else 1,) * 2)
+        # 16 v^2 - 24 v + 7 = 0, the polynomial of bindings/docs/radii.md
+        v = Fraction(best["value"])
+        self.assertLess(abs(16 * v * v - 24 * v + 7), Fraction(1, 10**27))
+        self.assertLess(best["value_radius"], 1e-28)
+        checker = ROOT / "bindings/proof/jamproof.py"
+        done = subprocess.run([sys.executable, checker, self.dir / best["proof"]], capture_output=True, text=True, check=True)
+        self.assertIn("proved", done.stdout)
+        packing = jam.System.read(self.dir / best["file"])
+        self.assertAlmostEqual(packing.diameters.sum() / 2, float(v), delta=1e-14)
+        code, out, err = self.run_words(words.format(3))
+        self.assertEqual(json.loads(out)["starts"], 3)
+
+    def test_wrong_lines_and_scenes_are_refused(self):
+        for words, status, text in (
+            ("d --n 5", USAGE, "the search has no end"),
+            ("d --n 5 --starts 1 --starts 2", USAGE, "is given twice"),
+            ("d --n 5 --starts 1 --prove 3", USAGE, "--prove 3: it must be 20 or more"),
+            ("d --n 5 --starts 1 --walls w", REFUSED, "walls"),
+            ("d --n 5 --starts 1 --radius-min 0.4 --walls xy", REFUSED, "radius_min"),
+            ("file --n 5 --starts 1 --walls xy", OUTPUT, "file"),
+        ):
+            (self.dir / "file").write_text("")
+            code, _, err = self.run_words(words)
+            self.assertEqual(code, status, err)
+            self.assertIn(text, err)
+            code, out, _ = self.run_words(words + " --json")
+            self.assertEqual((code, json.loads(out)["status"]), (status, status))
+
+    def test_moves_stay_within_round_walls(self):
+        """Seven equal disks in a circle of diameter 1 have the sum 7/6, and six of them can be smaller or larger."""
+        found = jam.radii.best_of(7, container="ball", starts=2, workers=1)
+        self.assertGreaterEqual(found.value, 7 / 6 - 1e-12)
+        self.assertGreater(found.maxima, 60)
+        best = found.best[0]
+        self.assertLessEqual((np.linalg.norm(best.positions - 0.5, axis=1) + best.radii).max(), 0.5 + 1e-15)
+
+
+if __name__ == "__main__":
+    unittest.main()

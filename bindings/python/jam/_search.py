@@ -46,7 +46,8 @@ def parser() -> Parser:
 
 def _write(o: argparse.Namespace, best: Best, rank: int, scene: dict[str, Any]) -> dict[str, Any]:
     """The row of one packing; its files are written."""
-    packing = System.from_arrays(best.positions, radii=best.radii, **{"box": 1.0, **scene})
+    where: dict[str, Any] = {"box": 1.0, **scene}
+    packing = System.from_arrays(best.positions, radii=best.radii, **where)
     bounds = {"radius_min": o.radius_min, **({} if o.radius_max is None else {"radius_max": o.radius_max})}
     packing.maximise_radii(room=CLOSER, **bounds)
     name = os.path.join(o.folder, f"best-{rank}")

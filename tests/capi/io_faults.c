@@ -28,7 +28,7 @@ ssize_t write(int fd, const void *data, size_t size) {
 }
 int fsync(int fd) { return fails(calls_fsync) ? -1 : (int)syscall(SYS_fsync, fd); }
 int rename(const char *from, const char *to) {
-  return fails(calls_rename) ? -1 : (int)syscall(SYS_renameat, AT_FDCWD, from, AT_FDCWD, to);
+  return fails(calls_rename) ? -1 : (int)syscall(SYS_renameat2, AT_FDCWD, from, AT_FDCWD, to, 0);
 }
 int open(const char *path, int flags, ...) {
   mode_t mode = 0;

@@ -19,12 +19,14 @@ int best_allowed() {
 }  // namespace
 
 bool has_instruction_set(InstructionSet set) {
+  const int most = best_allowed();
 #if defined(__x86_64__)
-  if (set == InstructionSet::avx2) return best_allowed() >= 1 && __builtin_cpu_supports("avx2");
+  if (set == InstructionSet::avx2) return most >= 1 && __builtin_cpu_supports("avx2");
   if (set == InstructionSet::avx512)
-    return best_allowed() >= 2 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
+    return most >= 2 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
            __builtin_cpu_supports("avx512dq");
 #endif
+  static_cast<void>(most);  // other processors have one set
   return set == InstructionSet::best || set == InstructionSet::portable;
 }
 

@@ -7,7 +7,7 @@
 namespace jam::inside {
 
 // ---- FIRE: parameters of Guenole et al., except the longest step. In units of 1 / sqrt(stiffness of a contact /
-// mass), 0.35 to 0.5 cost the same and 0.65 five times as much (N = 1024, phi = 0.70; tests/bench/soft_minimise.py).
+// mass), 0.35 to 0.5 cost the same and 0.65 five times as much (N = 1024, phi = 0.70; soft_minimise.py at f1287b58).
 struct FireTuning {
   static constexpr double first_step = 0.05, longest_step = 0.45, shortest_step = 1e-4;
   static constexpr double mixing_start = 0.25, mixing_factor = 0.99, step_up = 1.1, step_down = 0.5;

@@ -194,21 +194,6 @@ def advise(raw):
     return ["options of `crunch`", "processor time (s)", "error of phi_J", "force residual", "jammed"], rows
 
 
-def analysis(raw):
-    """analysis"""
-    forces = {f"{r['method']} {r.get('refinements', '')}".strip(): r for r in raw["forces"]}["null vector 2"]
-    modes = next(r for r in raw["spectrum"] if r["method"] == "lanczos" and r["count"] == 100)
-    rows = [
-        ["contacts, forces, gaps, classes and structure from positions", raw["n"], raw["contacts_forces_gaps_classes_structure"]["cpu"], forces["error"]],
-        ["all modes with vectors", raw["n"], raw["full_spectrum_with_vectors"]["cpu"], raw["spectrum"][0]["error"]],
-        ["lowest 100 modes", raw["n"], raw["lowest_100"]["cpu"], modes["error"]],
-        ["floppy modes of all contacts", raw["n"], raw["floppy_all"]["cpu"], raw["floppy_blocks"]["residual"]],
-        ["contacts and forces", raw["tiled_n"], raw["tiled_forces"]["cpu"], None],
-        ["lowest 100 modes", raw["tiled_n"], raw["tiled_lowest_100"]["cpu"], None],
-    ]
-    return ["task", "N", "processor time (s)", "error"], rows
-
-
 def ablation(*raws):
     """ablation, five seeds per set"""
     runs = [run for raw in raws for run in raw]

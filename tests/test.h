@@ -44,4 +44,10 @@ void add_arguments(int (*take)(int argc, char **argv));
   type name;                     \
   memset(&name, 0, sizeof name); \
   name.struct_size = sizeof name
+/* What a call returns, and a part of the text that it leaves. */
+#define SAYS(call, status, words)                                                                          \
+  do {                                                                                                     \
+    assert_int_equal(call, status);                                                                        \
+    if (!strstr(jam_last_error(), words)) fail_msg("'%s' does not contain '%s'", jam_last_error(), words); \
+  } while (0)
 #endif

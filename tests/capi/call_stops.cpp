@@ -10,10 +10,8 @@
 #include <thread>
 #include <vector>
 
-extern "C" {
 #include "io_helpers.h"
 #include "start.h"
-}
 
 namespace {
 

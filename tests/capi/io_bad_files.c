@@ -100,8 +100,8 @@ CASE(unknown_endings_refused) {
   size_t k;
   int before = count_files();
   for (k = 0; k < sizeof refused / sizeof *refused; ++k) {
-    assert_int_equal(jam_write(sys, in_scratch(refused[k]), JAM_FORMAT_AUTO), JAM_E_ARGUMENT);
-    assert_non_null(strstr(jam_last_error(), ".extxyz (extended XYZ), .data or .lmp"));
+    SAYS(jam_write(sys, in_scratch(refused[k]), JAM_FORMAT_AUTO), JAM_E_ARGUMENT,
+         ".extxyz (extended XYZ), .data or .lmp");
   }
   assert_int_equal(count_files(), before);
   assert_int_equal(jam_write(sys, in_scratch("q.gsd"), JAM_FORMAT_PLAIN), JAM_OK);
@@ -154,8 +154,7 @@ CASE(header_counts_allocate_nothing) {
   put_bytes(in_scratch("endless.dat"), line, 50u << 20);
   {
     jam_system *sys = NULL;
-    assert_int_equal(jam_read(in_scratch("endless.dat"), NULL, NULL, NULL, &sys), JAM_E_FORMAT);
-    assert_non_null(strstr(jam_last_error(), "line 1: longer than"));
+    SAYS(jam_read(in_scratch("endless.dat"), NULL, NULL, NULL, &sys), JAM_E_FORMAT, "line 1: longer than");
   }
   getrusage(RUSAGE_SELF, &after);
   assert_true(after.ru_maxrss - before.ru_maxrss < 20 * 1024); /* kilobytes */
@@ -167,12 +166,10 @@ CASE(missing_files_are_refused) {
   jam_create_options o;
   assert_int_equal(jam_read(NULL, NULL, NULL, NULL, &sys), JAM_E_NULL);
   assert_int_equal(jam_read(in_scratch("none.dat"), NULL, NULL, NULL, NULL), JAM_E_NULL);
-  assert_int_equal(jam_read(in_scratch("none.dat"), NULL, NULL, NULL, &sys), JAM_E_IO);
-  assert_non_null(strstr(jam_last_error(), "none.dat"));
+  SAYS(jam_read(in_scratch("none.dat"), NULL, NULL, NULL, &sys), JAM_E_IO, "none.dat");
   assert_non_null(strstr(jam_last_error(), strerror(ENOENT)));
   assert_int_equal(jam_read("", NULL, NULL, NULL, &sys), JAM_E_IO);
-  assert_int_equal(jam_read(scratch, NULL, NULL, NULL, &sys), JAM_E_IO);
-  assert_non_null(strstr(jam_last_error(), strerror(EISDIR)));
+  SAYS(jam_read(scratch, NULL, NULL, NULL, &sys), JAM_E_IO, strerror(EISDIR));
   memset(&o, 0, sizeof o);
   assert_int_equal(jam_read(in_scratch("none.dat"), &o, NULL, NULL, &sys), JAM_E_STRUCT_SIZE);
   jam_create_options_init(&o, sizeof o);
@@ -197,8 +194,7 @@ CASE(overlap_policy) {
   assert_true(info.diameter_mean > 0.3 - 1e-12 && info.diameter_mean < 0.3 + 1e-12);
   jam_destroy(sys);
   put_bytes(in_scratch("o.dat"), huge, strlen(huge)); /* far too large for the box: only on demand */
-  assert_int_equal(jam_read(in_scratch("o.dat"), &o, NULL, NULL, &sys), JAM_E_OVERLAP);
-  assert_non_null(strstr(jam_last_error(), "by 3e-07, less than shrink_min 0.001"));
+  SAYS(jam_read(in_scratch("o.dat"), &o, NULL, NULL, &sys), JAM_E_OVERLAP, "by 3e-07, less than shrink_min 0.001");
   o.shrink_min = 0.0;
   assert_int_equal(jam_read(in_scratch("o.dat"), &o, NULL, NULL, &sys), JAM_OK);
   jam_get_info(sys, &info);

@@ -2,14 +2,6 @@
 #include "io_helpers.h"
 #include "systems.h"
 
-static jam_system *read_text(const char *text) {
-  jam_system *sys = NULL;
-  put_bytes(in_scratch("in.any"), text, strlen(text));
-  if (jam_read(in_scratch("in.any"), NULL, NULL, NULL, &sys) != JAM_OK)
-    fail_msg("%s; input:\n%s", jam_last_error(), text);
-  return sys;
-}
-
 #define BOX "Lattice=\"1 0 0 0 1 0 0 0 1\" "
 #define P "Properties=pos:R:3:radius:R:1 "
 /* Keys that change what coordinates mean are honoured, the others named. */

@@ -84,8 +84,7 @@ static void each_failure(writer save, const char *name) {
           assert_file(path, after, after_size);
           assert_int_equal(save(old, path), JAM_OK);
         } else {
-          assert_int_equal(status, JAM_E_IO);
-          assert_non_null(strstr(jam_last_error(), strerror(EIO)));
+          SAYS(status, JAM_E_IO, strerror(EIO));
           assert_file(path, before, before_size);
         }
         if (!reached) break;

@@ -76,17 +76,34 @@ static inline char *get_bytes(const char *path, size_t *size) {
   return bytes;
 }
 
-/* Reading `text` must give `status`, with `part` in the message, and no handle. */
-static inline void expect_refused(const char *text, jam_status status, const char *part) {
-  const char *path = in_scratch("bad.dat");
+/* Reads a file with these bytes; layout, o: what the caller says of it, or NULL. */
+static inline jam_status read_bytes(const char *bytes, size_t size, const char *layout, const jam_create_options *o,
+                                    jam_system **sys) {
+  const char *path = in_scratch("in.any");
+  put_bytes(path, bytes, size);
+  return layout ? jam_read_as(path, layout, o, NULL, NULL, sys) : jam_read(path, o, NULL, NULL, sys);
+}
+
+static inline jam_system *read_as(const char *text, const char *layout, const jam_create_options *o) {
   jam_system *sys = NULL;
-  jam_status got;
-  put_bytes(path, text, strlen(text));
-  got = jam_read(path, NULL, NULL, NULL, &sys);
+  if (read_bytes(text, strlen(text), layout, o, &sys) != JAM_OK)
+    fail_msg("%s; layout '%s', input:\n%s", jam_last_error(), layout ? layout : "", text);
+  return sys;
+}
+static inline jam_system *read_text(const char *text) { return read_as(text, NULL, NULL); }
+
+/* Reading `text` must give `status`, with `part` in the message, and no handle. */
+static inline void expect_refused_as(const char *text, const char *layout, const jam_create_options *o,
+                                     jam_status status, const char *part) {
+  jam_system *sys = NULL;
+  const jam_status got = read_bytes(text, strlen(text), layout, o, &sys);
   if (got != status || !strstr(jam_last_error(), part))
     fail_msg("status %d, expected %d; text '%s', expected '%s' in it; input:\n%s", got, status, jam_last_error(), part,
              text);
   assert_null(sys);
+}
+static inline void expect_refused(const char *text, jam_status status, const char *part) {
+  expect_refused_as(text, NULL, NULL, status, part);
 }
 
 /* n spheres at random, diameters 50:50 with the given ratio. */

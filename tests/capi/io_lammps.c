@@ -3,14 +3,6 @@
 #include "io_helpers.h"
 #include "systems.h"
 
-static jam_system *read_text(const char *text) {
-  jam_system *sys = NULL;
-  put_bytes(in_scratch("in.any"), text, strlen(text));
-  if (jam_read(in_scratch("in.any"), NULL, NULL, NULL, &sys) != JAM_OK)
-    fail_msg("%s; input:\n%s", jam_last_error(), text);
-  return sys;
-}
-
 /* The same spheres, to a few roundings of the box. */
 static void same_spheres(jam_system *sys, int32_t dim, size_t n, const double *x, const double *sizes, double box) {
   const double *y, *s;
@@ -252,17 +244,15 @@ CASE(walls_are_named_by_the_file_or_the_caller) {
   assert_int_equal(closed_by(tube, JAM_CONTAINER_CYLINDER, 0, &noted), 0);
   assert_int_equal(closed_by(own, JAM_CONTAINER_BRICK, 4, &noted), 4);
   assert_false(noted);
-  assert_int_equal(read_walled(slit, JAM_CONTAINER_BRICK, 0, &sys), JAM_E_UNSUPPORTED);
-  assert_non_null(strstr(jam_last_error(), "line 5: the boundary is 'ff'"));
+  SAYS(read_walled(slit, JAM_CONTAINER_BRICK, 0, &sys), JAM_E_UNSUPPORTED, "line 5: the boundary is 'ff'");
   assert_non_null(strstr(jam_last_error(), "the options walls and container name the walls"));
-  assert_int_equal(read_walled(slit, JAM_CONTAINER_BRICK, 6, &sys), JAM_E_FORMAT);
-  assert_non_null(strstr(jam_last_error(), "the boundary of y is 'pp', periodic, but container and walls close it"));
-  assert_int_equal(read_walled(cell, JAM_CONTAINER_BRICK, 4, &sys), JAM_E_FORMAT);
-  assert_non_null(strstr(jam_last_error(), "the boundary of z is 'pp'"));
+  SAYS(read_walled(slit, JAM_CONTAINER_BRICK, 6, &sys), JAM_E_FORMAT,
+       "the boundary of y is 'pp', periodic, but container and walls close it");
+  SAYS(read_walled(cell, JAM_CONTAINER_BRICK, 4, &sys), JAM_E_FORMAT, "the boundary of z is 'pp'");
   assert_int_equal(read_walled(xyz, JAM_CONTAINER_BRICK, 0, &sys), JAM_E_UNSUPPORTED);
   assert_int_equal(read_walled(xyz, JAM_CONTAINER_CYLINDER, 4, &sys), JAM_E_FORMAT);
-  assert_int_equal(read_walled(own, JAM_CONTAINER_BRICK, 1, &sys), JAM_E_ARGUMENT);
-  assert_non_null(strstr(jam_last_error(), "close other axes than the file: leave them out"));
+  SAYS(read_walled(own, JAM_CONTAINER_BRICK, 1, &sys), JAM_E_ARGUMENT,
+       "close other axes than the file: leave them out");
   assert_null(sys);
 }
 #undef ONE

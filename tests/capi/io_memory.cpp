@@ -1,8 +1,6 @@
 // Out of memory at any allocation of create, copy, read and write: a status, no handle, no leak, no file left behind.
-extern "C" {
-#include "io_helpers.h"
-}
 #include "failing_new.hpp"
+#include "io_helpers.h"
 
 namespace {
 

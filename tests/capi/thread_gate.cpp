@@ -11,9 +11,7 @@
 #include <thread>
 #include <vector>
 
-extern "C" {
 #include "test.h"
-}
 
 namespace {
 

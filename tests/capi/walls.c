@@ -78,11 +78,10 @@ CASE(overlaps_with_walls_are_named_or_shrunk) {
   jam_system *sys = NULL;
   const double *sigma;
   for (int k = LINES; k <= CIRCLE; ++k) {
-    assert_int_equal(from_arrays(&walled_scenes[k], x, 2, 0.2, JAM_OVERLAP_REFUSE, &sys), JAM_E_OVERLAP);
-    assert_non_null(strstr(jam_last_error(), k == LINES ? "sphere 0 overlaps the wall y = 1 by 0.5"
-                                                        : "sphere 0 overlaps the round wall by 0.5"));
-    assert_int_equal(from_arrays(&walled_scenes[k], outside, 2, 0.2, JAM_OVERLAP_ALLOW, &sys), JAM_E_OVERLAP);
-    assert_non_null(strstr(jam_last_error(), "the centre of sphere 0 lies outside"));
+    SAYS(from_arrays(&walled_scenes[k], x, 2, 0.2, JAM_OVERLAP_REFUSE, &sys), JAM_E_OVERLAP,
+         k == LINES ? "sphere 0 overlaps the wall y = 1 by 0.5" : "sphere 0 overlaps the round wall by 0.5");
+    SAYS(from_arrays(&walled_scenes[k], outside, 2, 0.2, JAM_OVERLAP_ALLOW, &sys), JAM_E_OVERLAP,
+         "the centre of sphere 0 lies outside");
     assert_non_null(
         strstr(jam_last_error(), "positions count from the corner of the cell; if yours count from its centre, add"));
     assert_int_equal(from_arrays(&walled_scenes[k], x, 2, 0.2, JAM_OVERLAP_SHRINK, &sys), JAM_OK);
@@ -122,8 +121,7 @@ CASE(bad_containers_are_named) {
   assert_int_equal(start_with(3, NULL, JAM_CONTAINER_CYLINDER, 1, 0, 0.0), JAM_E_ARGUMENT);
   assert_int_equal(start_with(3, NULL, JAM_CONTAINER_BALL, 4, 0, 0.0), JAM_E_ARGUMENT);
   assert_int_equal(start_with(3, brick, JAM_CONTAINER_BALL, 0, 0, 0.0), JAM_E_ARGUMENT);
-  assert_int_equal(start_with(3, tilted, JAM_CONTAINER_BRICK, 1, 0, 0.0), JAM_E_ARGUMENT);
-  assert_non_null(strstr(jam_last_error(), "walls on axis x"));
+  SAYS(start_with(3, tilted, JAM_CONTAINER_BRICK, 1, 0, 0.0), JAM_E_ARGUMENT, "walls on axis x");
   assert_int_equal(start_with(3, tilted, JAM_CONTAINER_BRICK, 4, 0, 0.0), JAM_OK);
   assert_int_equal(start_with(3, brick, JAM_CONTAINER_BRICK, 2, 0, 0.0), JAM_OK);
   assert_int_equal(start_with(3, NULL, JAM_CONTAINER_BRICK, 1, JAM_MODEL_MK, 0.0), JAM_E_UNSUPPORTED);
@@ -133,8 +131,7 @@ CASE(bad_containers_are_named) {
   const walled flat = {"flat", 3, JAM_CONTAINER_BRICK, 4, {1.0, 1.0, 0.2}};
   const double x[] = {0.5, 0.5, 0.1};
   jam_system *sys = NULL;
-  assert_int_equal(from_arrays(&flat, x, 1, 0.21, JAM_OVERLAP_REFUSE, &sys), JAM_E_OVERLAP);
-  assert_non_null(strstr(jam_last_error(), "does not fit between walls 0.2 apart"));
+  SAYS(from_arrays(&flat, x, 1, 0.21, JAM_OVERLAP_REFUSE, &sys), JAM_E_OVERLAP, "does not fit between walls 0.2 apart");
   assert_int_equal(create_walled(&flat, 4, 0.5, 1, NULL, &sys), JAM_E_UNPLACEABLE);
 }
 
@@ -155,8 +152,7 @@ CASE(files_keep_the_container) {
       same_view(sys, back, JAM_VIEW_POSITIONS), same_view(sys, back, JAM_VIEW_DIAMETERS);
       jam_destroy(back);
     }
-    assert_int_equal(jam_write(sys, path, JAM_FORMAT_PLAIN), JAM_E_UNSUPPORTED);
-    assert_non_null(strstr(jam_last_error(), "cannot store walls"));
+    SAYS(jam_write(sys, path, JAM_FORMAT_PLAIN), JAM_E_UNSUPPORTED, "cannot store walls");
     assert_int_equal(jam_write(sys, path, JAM_FORMAT_VTP), JAM_OK);
     jam_destroy(sys);
   }

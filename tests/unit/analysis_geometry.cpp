@@ -6,11 +6,8 @@
 #include "core/create.hpp"
 #include "core/rng.hpp"
 #include "network/contacts_from_geometry.hpp"
-#include "verdict/verdict.hpp"
-// Last: cmocka defines a macro `fail`.
-extern "C" {
 #include "test.h"
-}
+#include "verdict/verdict.hpp"
 
 using namespace jam::inside;
 using namespace jamtest;

@@ -4,10 +4,7 @@
 #include "analysis_networks.hpp"
 #include "core/error.hpp"
 #include "core/rng.hpp"
-// Last: cmocka defines a macro `fail`.
-extern "C" {
 #include "test.h"
-}
 
 using namespace jam::inside;
 using namespace jamtest;

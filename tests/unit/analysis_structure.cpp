@@ -7,10 +7,7 @@
 #include "core/shells.hpp"
 #include "jam/jam.h"
 #include "network/contacts_from_geometry.hpp"
-// Last: cmocka defines a macro `fail`.
-extern "C" {
 #include "test.h"
-}
 
 using namespace jam::inside;
 using namespace jamtest;

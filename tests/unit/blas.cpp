@@ -9,10 +9,7 @@
 
 #include "core/rng.hpp"
 #include "linalg/blas/routines.hpp"
-// Last: cmocka defines a macro `fail`.
-extern "C" {
 #include "test.h"
-}
 
 using namespace jam::inside;
 

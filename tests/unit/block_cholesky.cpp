@@ -18,10 +18,7 @@
 #include "core/rng.hpp"
 #include "linalg/block_cholesky.hpp"
 #include "linalg/dense_front.hpp"
-// Last: cmocka defines a macro `fail`.
-extern "C" {
 #include "test.h"
-}
 
 using namespace jam::inside;
 

@@ -18,6 +18,22 @@ void same_bits(const CrunchResult &a, const CrunchResult &b) {
   assert_memory_equal(a.contacts.force.data(), b.contacts.force.data(), a.contacts.force.size() * sizeof(double));
 }
 
+// A crunch of 60 spheres and what it has to say.
+struct Told {
+  std::string log;
+  Monitor monitor;
+  CrunchResult of(const jam_crunch_options &o, const CrunchHooks *hooks, int level = JAM_LOG_WARNING) {
+    listen(monitor, log, level);
+    return crunch(start(60, 3, 0.3, 6), o, monitor, nullptr, hooks);
+  }
+  bool has(const std::string &words) const { return log.find(words) != std::string::npos; }
+};
+
+// With forces of the wrong sign a polish refuses its network.
+void pull(ContactNetwork &net) {
+  for (double &f : net.force) f = -f;
+}
+
 // Crunches on several threads have the same bits, however many they are: the work is cut in the same way each time.
 CASE(threads_repeat) {
   for (const int32_t method : {JAM_CRUNCH_SEQUENTIAL_LP, JAM_CRUNCH_BARRIER_PATH}) {
@@ -98,41 +114,35 @@ CASE(nobody_solves) {
 // Loose tolerances of the LPs are no reason to change the solver, nor to go round until max_lps. What a crunch cannot
 // use is said.
 CASE(loose_tolerances_keep_the_solver) {
-  const Packing p = start(60, 3, 0.3, 6);
   for (const int32_t method : {JAM_CRUNCH_BARRIER_PATH, JAM_CRUNCH_SEQUENTIAL_LP})
     for (const double tolerance : {1e-12, 1e-9, 1e-7, 1e-2}) {
       jam_crunch_options o = default_crunch_options();
       o.method = method, o.lp_tolerance = tolerance;
-      std::string log;
-      Monitor monitor;
-      listen(monitor, log);
-      const CrunchResult r = crunch(p, o, monitor, nullptr, nullptr);
+      Told told;
+      const CrunchResult r = told.of(o, nullptr);
       assert_int_equal(r.status, JAM_OK);
       assert_int_equal(r.report.lp_solver, JAM_LP_IPM);
       assert_true(r.report.jammed && r.report.force_residual < 1e-12);
-      assert_true((log.find("lp_tolerance is") != std::string::npos) == (tolerance > 1e-9));
+      assert_true(told.has("lp_tolerance is") == (tolerance > 1e-9));
     }
 }
 
 // A refusal of the polish is followed by narrow LPs, whose network is as good as any. The log says so.
 CASE(refused_polish_takes_narrow_lps) {
-  const Packing p = start(60, 3, 0.3, 6);
   const jam_crunch_options o = default_crunch_options();
-  const CrunchResult plain = run(p, o);
+  const CrunchResult plain = run(start(60, 3, 0.3, 6), o);
   int64_t before = 0, answers = 0;
   bool refused = false;
   CrunchHooks hooks;
   hooks.before_polish = [&](const Packing &, ContactNetwork &net) {
     if (refused) return;
     refused = true, before = answers;
-    for (double &f : net.force) f = -f;
+    pull(net);
   };
   hooks.answer = [&](LpSolution &, jam_lp_solver) { ++answers; };
-  std::string log;
-  Monitor monitor;
-  listen(monitor, log);
-  const CrunchResult r = crunch(p, o, monitor, nullptr, &hooks);
-  assert_true(log.find("polish refused: a force turns negative") != std::string::npos);
+  Told told;
+  const CrunchResult r = told.of(o, &hooks);
+  assert_true(told.has("polish refused: a force turns negative"));
   assert_true(refused && answers > before);
   assert_true(r.report.jammed && r.report.contacts == plain.report.contacts && r.report.force_residual < 1e-13);
   assert_true(std::fabs(r.report.packing_fraction - plain.report.packing_fraction) < 1e-12);
@@ -148,7 +158,7 @@ CASE(a_stop_behind_a_refused_polish_leaves_no_contacts) {
   CrunchHooks hooks;
   hooks.before_polish = [&](const Packing &, ContactNetwork &net) {
     refused = true;
-    for (double &f : net.force) f = -f;
+    pull(net);
   };
   hooks.answer = [&](LpSolution &, jam_lp_solver) {
     if (refused) monitor.cancel();
@@ -163,16 +173,11 @@ CASE(a_stop_behind_a_refused_polish_leaves_no_contacts) {
 
 // A network that is refused every time: the LP's contacts stay, and the test of them gives verdict and forces.
 CASE(refused_polish_ends) {
-  const Packing p = start(60, 3, 0.3, 6);
   CrunchHooks hooks;
-  hooks.before_polish = [&](const Packing &, ContactNetwork &net) {
-    for (double &f : net.force) f = -f;
-  };
-  std::string log;
-  Monitor monitor;
-  listen(monitor, log);
-  const CrunchResult r = crunch(p, default_crunch_options(), monitor, nullptr, &hooks);
-  assert_true(log.find("polish refused") != std::string::npos);
+  hooks.before_polish = [](const Packing &, ContactNetwork &net) { pull(net); };
+  Told told;
+  const CrunchResult r = told.of(default_crunch_options(), &hooks);
+  assert_true(told.has("polish refused"));
   assert_true(r.report.jammed && r.report.min_force > 0.0 && r.report.force_residual < 1e-9);
   assert_true(r.report.max_overlap < 1e-12 && r.report.max_contact_gap < 1e-10);
 }
@@ -185,7 +190,7 @@ CASE(unanswered_narrow_lps_end) {
   bool asked[2] = {false, false};  // the interior point, Clp
   hooks.before_polish = [&](const Packing &, ContactNetwork &net) {
     narrow = true;
-    for (double &f : net.force) f = -f;
+    pull(net);
   };
   hooks.answer = [&](LpSolution &x, jam_lp_solver solver) {
     if (narrow) x.solved = false, asked[solver == JAM_LP_CLP] = true;
@@ -196,12 +201,10 @@ CASE(unanswered_narrow_lps_end) {
 }
 
 // A crunch to a duality gap whose path goes on, and whose log says why.
-jam_crunch_report goes_on(const Packing &p, const jam_crunch_options &o, const CrunchHooks &hooks, const char *why) {
-  std::string log;
-  Monitor monitor;
-  listen(monitor, log, JAM_LOG_INFO);
-  const CrunchResult r = crunch(p, o, monitor, nullptr, &hooks);
-  assert_true(log.find("finite gap: " + std::string(why) + ", the path goes on") != std::string::npos);
+jam_crunch_report goes_on(const jam_crunch_options &o, const CrunchHooks &hooks, const char *why) {
+  Told told;
+  const CrunchResult r = told.of(o, &hooks, JAM_LOG_INFO);
+  assert_true(told.has("finite gap: " + std::string(why) + ", the path goes on"));
   assert_true(r.status == JAM_OK && r.report.max_overlap < 1e-12 && r.report.force_residual < 1e-13);
   return r.report;
 }
@@ -209,17 +212,16 @@ jam_crunch_report goes_on(const Packing &p, const jam_crunch_options &o, const C
 // Forces that do not balance at a duality gap: the path goes on. Here the LP at the gap has no
 // answer once, and the crunch ends at a smaller gap; then no residual is small enough, and it ends jammed.
 CASE(forces_that_do_not_balance_at_a_gap) {
-  const Packing p = start(60, 3, 0.3, 6);
   jam_crunch_options o = default_crunch_options();
   o.duality_gap = 1e-6;
-  const CrunchResult whole = run(p, o);
+  const CrunchResult whole = run(start(60, 3, 0.3, 6), o);
   assert_int_equal(whole.report.stop_reason, JAM_STOP_DUALITY_GAP);
   CrunchHooks spoiled, strict;
   int64_t asked = 0;
   spoiled.answer = [&](LpSolution &x, jam_lp_solver) { x.solved = ++asked != whole.report.lp_solves; };
   strict.tuning.balanced = 0.0;
   const char *why = "forces do not balance";
-  const jam_crunch_report smaller = goes_on(p, o, spoiled, why), jammed = goes_on(p, o, strict, why);
+  const jam_crunch_report smaller = goes_on(o, spoiled, why), jammed = goes_on(o, strict, why);
   assert_int_equal(smaller.stop_reason, JAM_STOP_DUALITY_GAP);
   assert_true(smaller.duality_gap < 0.5 * whole.report.duality_gap);
   assert_int_equal(jammed.stop_reason, JAM_STOP_CONVERGED);
@@ -228,12 +230,11 @@ CASE(forces_that_do_not_balance_at_a_gap) {
 
 // A path that ends at a hundred times the gap asked for: the balanced forces tell that, and the path goes on.
 CASE(gaps_larger_than_asked_for) {
-  const Packing p = start(60, 3, 0.3, 6);
   jam_crunch_options o = default_crunch_options();
   o.duality_gap = 1e-6;
   CrunchHooks hooks;
   hooks.tuning.lp_to_path_gap = 0.01;
-  const jam_crunch_report r = goes_on(p, o, hooks, "larger than asked for");
+  const jam_crunch_report r = goes_on(o, hooks, "larger than asked for");
   assert_int_equal(r.stop_reason, JAM_STOP_DUALITY_GAP);
   assert_true(r.duality_gap > 0.0 && r.duality_gap <= o.duality_gap);
 }
@@ -241,28 +242,25 @@ CASE(gaps_larger_than_asked_for) {
 // Cancelled, or out of time, while the LP at the gap names contacts: that is no failure of the forces, and no contacts
 // are left.
 CASE(interrupted_at_a_gap) {
-  const Packing p = start(60, 3, 0.3, 6);
   jam_crunch_options o = default_crunch_options();
   o.duality_gap = 1e-6;
-  const CrunchResult whole = run(p, o);
+  const CrunchResult whole = run(start(60, 3, 0.3, 6), o);
   for (const bool cancelled : {true, false}) {
-    std::string log;
-    Monitor monitor;
-    listen(monitor, log, JAM_LOG_INFO);
+    Told told;
     CrunchHooks hooks;
     int64_t asked = 0;
     hooks.answer = [&](LpSolution &, jam_lp_solver) {
       if (++asked != whole.report.lp_solves) return;
       if (cancelled)
-        monitor.cancel();
+        told.monitor.cancel();
       else
-        monitor.wall_time = 1e-9;
+        told.monitor.wall_time = 1e-9;
     };
-    const CrunchResult r = crunch(p, o, monitor, nullptr, &hooks);
+    const CrunchResult r = told.of(o, &hooks, JAM_LOG_INFO);
     assert_int_equal(r.status, cancelled ? JAM_CANCELLED : JAM_LIMIT);
     assert_int_equal(r.report.stop_reason, cancelled ? JAM_STOP_CANCELLED : JAM_STOP_WALL_TIME);
     assert_true(r.contacts.size() == 0 && r.report.rattlers == -1 && !r.report.stationary);
-    assert_true(log.find("do not balance") == std::string::npos);
+    assert_true(!told.has("do not balance"));
     assert_memory_equal(r.packing.position.data(), whole.packing.position.data(),
                         whole.packing.position.size() * sizeof(double));
   }

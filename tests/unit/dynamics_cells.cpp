@@ -23,12 +23,6 @@ const std::vector<double> oblique = {1.0, 0.0, 0.45, 0.8}, slender = {0.6, 0.0, 
                           five = {1,   0,   0,   0, 0, 0.5, 1,   0,    0,    0, 0.5, -0.3, 1,
                                   0.0, 0.0, 0.1, 0, 0, 0.8, 0.0, -0.5, 0.25, 0, 0.1, 1.3};
 
-Monitor &begun() {
-  static Monitor monitor;
-  monitor.begin();
-  return monitor;
-}
-
 CASE(lattice_vectors) {
   for (const auto *rows : {&oblique, &slender}) {
     const Cell cell = Cell::from_triangle(2, rows->data());

@@ -10,10 +10,7 @@
 #include "dynamics/event_driven/options.hpp"
 #include "naive_dynamics.hpp"
 
-extern "C" {
-
 #include "test.h"
-}
 
 using namespace jam::inside;
 using namespace jamtest;
@@ -48,10 +45,8 @@ CASE(agrees_with_naive_engine) {
       EngineOptions o;
       o.growth = c.growth;
       o.cells = cells;
-      Monitor monitor;
-      monitor.begin();
       auto engine = make_engine(p, o);
-      assert_int_equal(engine->advance(c.collisions, monitor), Halt::window);
+      assert_int_equal(engine->advance(c.collisions, begun()), Halt::window);
       engine->write_state(p);
       const double distance = furthest(p, q);
       if (engine->cells_alone() != (cells == 1 && c.n == 40))
@@ -68,8 +63,6 @@ CASE(agrees_with_naive_engine) {
 // Dilute systems are on cells, dense ones on lists, and a compression goes over from one to the other. Both give one
 // pressure.
 CASE(engine_follows_the_density) {
-  Monitor monitor;
-  monitor.begin();
   for (double fraction : {0.05, 0.1}) {
     double pressure[2], error = 0.0;
     for (int k = 0; k < 2; ++k) {
@@ -81,7 +74,7 @@ CASE(engine_follows_the_density) {
       for (int block = 0; block < 20; ++block) {
         const double virial = engine->sums.of_pressure.virial,
                      kinetic_integral = engine->sums.of_pressure.kinetic_integral;
-        assert_int_equal(engine->advance(10000, monitor), Halt::window);
+        assert_int_equal(engine->advance(10000, begun()), Halt::window);
         p.push_back((engine->sums.of_pressure.virial - virial) /
                     (engine->sums.of_pressure.kinetic_integral - kinetic_integral));
       }
@@ -100,7 +93,7 @@ CASE(engine_follows_the_density) {
   growing.growth = 0.1;
   auto engine = make_engine(random_packing(3, 500, 0.05, 1.0, 3), growing);
   assert_true(engine->cells_alone());
-  while (engine->packing_fraction() < 0.4) assert_int_equal(engine->advance(1000, monitor), Halt::window);
+  while (engine->packing_fraction() < 0.4) assert_int_equal(engine->advance(1000, begun()), Halt::window);
   assert_true(!engine->cells_alone() && engine->max_overlap < 1e-14);
 }
 
@@ -117,10 +110,8 @@ CASE(never_overlaps) {
                      {3, 300, 0.2, 1.4, 0.05, 1e4, 0.2}, {3, 300, 0.2, 1.4, 0.05, 1e4, -0.2}};
   for (const auto &c : cases) {
     Packing p = random_packing(c.dim, c.n, c.fraction, c.ratio, 7, c.non_additivity);
-    Monitor monitor;
-    monitor.begin();
     jam_md_report report{};
-    const jam_status status = run_stage(p, {c.growth, c.pressure, never, 1e4, 300.0}, monitor, report);
+    const jam_status status = run_stage(p, {c.growth, c.pressure, never, 1e4, 300.0}, begun(), report);
     const double gap = closest_pair(p).gap;
     if (status != JAM_OK || !(gap > -1e-14))
       print_error("d=%d n=%d ratio=%g: status %d, p %g, gap %g\n", c.dim, c.n, c.ratio, status, report.pressure, gap);
@@ -137,10 +128,8 @@ CASE(fast_growth_keeps_the_order_of_events) {
   for (double growth : {1.0, 3.0, 30.0})
     for (int64_t seed = 1; seed < 4; ++seed) {
       Packing p = random_packing(3, 64, 0.2, 1.0, seed);
-      Monitor monitor;
-      monitor.begin();
       jam_md_report report{};
-      const jam_status status = run_stage(p, {growth, 1e8, never, 1e3, 20.0}, monitor, report);
+      const jam_status status = run_stage(p, {growth, 1e8, never, 1e3, 20.0}, begun(), report);
       if (!(report.max_overlap < 1e-14))
         print_error("growth %g seed %d: overlap %g\n", growth, static_cast<int>(seed), report.max_overlap);
       assert_true(status == JAM_OK || report.stop_reason == JAM_STOP_COLLISIONS);
@@ -157,12 +146,10 @@ CASE(an_overlap_between_lists_is_seen) {
     p.position[2 * i] = x[i], p.velocity[2 * i] = v[i];
     p.position[2 * i + 1] = 0.5, p.velocity[2 * i + 1] = 0.0;
   }
-  Monitor monitor;
-  monitor.begin();
   auto engine = make_engine(p, EngineOptions{});
   assert_true(std::fabs(engine->max_overlap - 1e-5) < 1e-12);  // of the start
   engine->max_overlap = 0.0;
-  assert_int_equal(engine->advance(1, monitor), Halt::window);
+  assert_int_equal(engine->advance(1, begun()), Halt::window);
   assert_true(std::fabs(engine->max_overlap - (1e-5 - 1e-6)) < 2e-8);  // 0 has gone 1e-3 of the way of 2
 }
 
@@ -172,10 +159,8 @@ CASE(few_spheres_meet_the_right_image) {
     for (int n : {3, 8, 24, 64})
       for (double fraction : {0.03, 0.05, 0.1, 0.15, 0.2, 0.3}) {
         Packing p = random_packing(dim, n, fraction, 1.0, 2);
-        Monitor monitor;
-        monitor.begin();
         jam_md_report report{};
-        assert_int_equal(run_stage(p, nve(200.0), monitor, report), JAM_OK);
+        assert_int_equal(run_stage(p, nve(200.0), begun(), report), JAM_OK);
         if (!(report.max_overlap < 1e-14))
           print_error("d=%d n=%d fraction=%g: overlap %g\n", dim, n, fraction, report.max_overlap);
         assert_true(report.max_overlap < 1e-14);
@@ -184,11 +169,9 @@ CASE(few_spheres_meet_the_right_image) {
 
 CASE(stops_inside_a_dense_fluid_without_overlap) {
   Packing p = random_packing(3, 400, 0.3, 10.0, 3);
-  Monitor monitor;
-  monitor.begin();
   for (int k = 0; k < 20; ++k) {
     jam_md_report report{};
-    assert_int_equal(run_stage(p, nve(3.7), monitor, report), JAM_OK);
+    assert_int_equal(run_stage(p, nve(3.7), begun(), report), JAM_OK);
     assert_true(closest_pair(p).gap > -1e-14);
   }
 }
@@ -197,10 +180,8 @@ CASE(stops_inside_a_dense_fluid_without_overlap) {
 // so.
 CASE(ends_where_the_digits_end) {
   Packing p = random_packing(3, 64, 0.2, 1.0, 1);
-  Monitor monitor;
-  monitor.begin();
   jam_md_report report{};
-  assert_int_equal(run_stage(p, {0.1, 1e18, never, 1e5, 60.0}, monitor, report), JAM_PRECISION);
+  assert_int_equal(run_stage(p, {0.1, 1e18, never, 1e5, 60.0}, begun(), report), JAM_PRECISION);
   assert_int_equal(report.stop_reason, JAM_STOP_PRECISION);
   assert_true(report.pressure > 5e15 && report.max_overlap < 1e-14);
 }
@@ -208,12 +189,10 @@ CASE(ends_where_the_digits_end) {
 CASE(same_bits_twice) {
   for (int k = 0; k < 2; ++k) {
     Packing p = random_packing(3, 100, 0.3, 1.4, 11), q = p;
-    Monitor monitor;
-    monitor.begin();
     jam_md_report report{};
     const GrowthStage stage = k == 0 ? nve(50.0) : GrowthStage{0.01, 1e4, never, never, never};
-    run_stage(p, stage, monitor, report);
-    run_stage(q, stage, monitor, report);
+    run_stage(p, stage, begun(), report);
+    run_stage(q, stage, begun(), report);
     assert_memory_equal(p.position.data(), q.position.data(), p.position.size() * sizeof(double));
     assert_memory_equal(p.velocity.data(), q.velocity.data(), p.velocity.size() * sizeof(double));
   }
@@ -244,10 +223,8 @@ CASE(instruction_sets_give_the_same_bits) {
       o.growth = c.growth;
       o.cells = c.cells;
       o.instruction_set = set;
-      Monitor monitor;
-      monitor.begin();
       auto engine = make_engine(p, o);
-      Halt halt = engine->advance(30 * c.n, monitor);
+      Halt halt = engine->advance(30 * c.n, begun());
       assert_true(halt == Halt::window || halt == Halt::needs_images);
       engine->write_state(p);
       assert_true(engine->max_overlap < 1e-13);

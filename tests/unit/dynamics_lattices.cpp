@@ -127,15 +127,13 @@ CASE(never_stalls_while_an_event_exists) {
               EngineOptions o;
               o.growth = growth;
               o.cells = cells;
-              Monitor monitor;
-              monitor.begin();
               const auto engine = make_engine(p, o);
               Halt halt = Halt::time;  // the calendar is sorted again after 8 N + 64 events, then more often
               for (double end = 0.02; (halt == Halt::time || halt == Halt::window) &&
                                       engine->sums.events < 30 * static_cast<int64_t>(p.n()) + 500;
                    end += 0.02) {
                 engine->set_time_limit(end - engine->elapsed());
-                halt = engine->advance(3000, monitor);
+                halt = engine->advance(3000, begun());
               }
               // Two spheres may grow until they touch their own images.
               const bool good = halt == Halt::time || halt == Halt::window || halt == Halt::needs_images ||
@@ -169,10 +167,8 @@ CASE(agrees_with_naive_engine) {
             EngineOptions o;
             o.growth = growth;
             o.cells = cells;
-            Monitor monitor;
-            monitor.begin();
             const auto engine = make_engine(p, o);
-            const Halt halt = engine->advance(collisions, monitor);
+            const Halt halt = engine->advance(collisions, begun());
             engine->write_state(p);
             // Dilute spheres turn by large angles: rounding grows tenfold in a collision of each. A wrong one moves by
             // 0.1.
@@ -190,15 +186,13 @@ CASE(agrees_with_naive_engine) {
 CASE(a_rare_collision_is_waited_for) {
   Packing p = random_packing(3, 2, 0.001, 1.0, 4);
   p.diameter.assign(2, 2e-3);
-  Monitor monitor;
-  monitor.begin();
   EngineOptions o;
   auto engine = make_engine(p, o);
-  assert_int_equal(engine->advance(3, monitor), Halt::window);
+  assert_int_equal(engine->advance(3, begun()), Halt::window);
   print_message("3 collisions in %lld events\n", static_cast<long long>(engine->sums.events));
   for (int c = 0; c < 3; ++c) p.velocity[3 + c] = p.velocity[c];
   engine = make_engine(p, o);
-  assert_int_equal(engine->advance(3, monitor), Halt::stalled);
+  assert_int_equal(engine->advance(3, begun()), Halt::stalled);
 }
 
 // A state of no motion has no event: that alone is stalled.
@@ -206,11 +200,9 @@ CASE(rest_is_stalled) {
   for (const Crystal &l : crystals()) {
     Packing p = crystal(l, 2, 0.5, 0.0);
     std::fill(p.velocity.begin(), p.velocity.end(), 0.0);
-    Monitor monitor;
-    monitor.begin();
     EngineOptions o;
     const auto engine = make_engine(p, o);
-    assert_int_equal(engine->advance(10, monitor), Halt::stalled);
+    assert_int_equal(engine->advance(10, begun()), Halt::stalled);
   }
 }
 

@@ -41,9 +41,7 @@ Packing packing_of(const Scene &s, int64_t seed) {
     diameters[static_cast<size_t>(i)] = std::pow(s.ratio, share);
   }
   Packing p = make_packing(o, nullptr, 0, diameters.data(), diameters.size(), s.rows.empty() ? nullptr : s.rows.data());
-  Rng rng(seed, Stream::velocities, 1000000);
-  for (double &v : p.velocity) v = rng.normal();
-  p.has_velocity = true;
+  draw_velocities(p, seed);
   return p;
 }
 
@@ -56,10 +54,8 @@ CASE(agrees_with_naive_engine) {
       o.growth = rate * diameter_mean(p) / p.cell.side();
       const int collisions = 80;
       naive(q, collisions, rate);
-      Monitor monitor;
-      monitor.begin();
       const auto engine = make_engine(p, o);
-      assert_int_equal(engine->advance(collisions, monitor), Halt::window);
+      assert_int_equal(engine->advance(collisions, begun()), Halt::window);
       engine->write_state(p);
       const double distance = furthest(p, q);
       if (!(distance < 1e-7)) print_error("%s, rate %g: %g\n", s.name, rate, distance);
@@ -73,11 +69,9 @@ CASE(grows_without_overlap) {
     Packing p = packing_of(s, 5);
     EngineOptions o;
     o.growth = 0.02 * diameter_mean(p) / p.cell.side();
-    Monitor monitor;
-    monitor.begin();
     const auto engine = make_engine(p, o);
     for (int block = 0; block < 3; ++block) {
-      const Halt halt = engine->advance(6 * s.n, monitor);
+      const Halt halt = engine->advance(6 * s.n, begun());
       assert_int_equal(halt, Halt::window);
       engine->write_state(p);
       const double gap = closest_pair(p).gap;
@@ -92,10 +86,8 @@ CASE(archive_continues_with_the_same_bits) {
     Packing p = packing_of(s, 7), q = p;
     EngineOptions o;
     o.growth = 0.02 * diameter_mean(p) / p.cell.side();
-    Monitor monitor;
-    monitor.begin();
     const auto engine = make_engine(p, o);
-    assert_int_equal(engine->advance(5 * s.n, monitor), Halt::window);
+    assert_int_equal(engine->advance(5 * s.n, begun()), Halt::window);
     Archive out;
     int64_t images = engine->with_images();
     out(images);
@@ -103,7 +95,7 @@ CASE(archive_continues_with_the_same_bits) {
     Archive in(out.bytes());
     const auto again = make_engine(q, in);
     in.end();
-    for (const auto &e : {engine.get(), again.get()}) assert_int_equal(e->advance(5 * s.n, monitor), Halt::window);
+    for (const auto &e : {engine.get(), again.get()}) assert_int_equal(e->advance(5 * s.n, begun()), Halt::window);
     engine->write_state(p);
     again->write_state(q);
     assert_memory_equal(p.position.data(), q.position.data(), p.position.size() * sizeof(double));

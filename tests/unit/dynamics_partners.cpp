@@ -17,12 +17,6 @@ namespace {
 const double no_shift = 0.0, weak = 0.3, strong = 7.3, strongest = limits::mk_zeta_max,
              uniform = std::numeric_limits<double>::infinity();
 
-Monitor &begun() {
-  static Monitor monitor;
-  monitor.begin();
-  return monitor;
-}
-
 Packing quenched(int dim, int n, double zeta, const std::vector<double> &rows) {
   Packing p;
   if (rows.empty())

@@ -43,9 +43,7 @@ Packing start(const Scene &s, int n, double fraction, double ratio, int64_t seed
   for (int c = 0; c < s.dim; ++c) rows[c * s.dim + c] = s.edge[c];
   o.container = s.container, o.walls = s.walls;
   Packing p = make_packing(o, nullptr, 0, diameters.data(), diameters.size(), rows.data());
-  Rng rng(seed, Stream::velocities, 1000000);
-  for (double &v : p.velocity) v = rng.normal();
-  p.has_velocity = true;
+  draw_velocities(p, seed);
   return p;
 }
 
@@ -153,20 +151,9 @@ int naive_walls(const Scene &s, Packing &p, int collisions, long double rate) {
       for (int c = 0; c < d; ++c) v[bi * d + c] += 2 * (0.5L * p.diameter[bi] * rate - vn) * normal[c];
       continue;
     }
-    long double rr = 0, rv = 0;
-    for (int c = 0; c < d; ++c) rr += at[c] * at[c], rv += at[c] * (v[bi * d + c] - v[bj * d + c]);
-    const long double push = 0.5L * (p.diameter[bi] + p.diameter[bj]) * rate - rv / std::sqrt(rr);
-    for (int c = 0; c < d; ++c) {
-      v[bi * d + c] += push * at[c] / std::sqrt(rr);
-      v[bj * d + c] -= push * at[c] / std::sqrt(rr);
-    }
+    collide(p, bi, bj, at, rate, v);
   }
-  for (size_t k = 0; k < x.size(); ++k) {
-    p.position[k] = static_cast<double>(x[k]);
-    p.velocity[k] = static_cast<double>(v[k] / side);
-  }
-  wrap_positions(p);
-  for (double &diameter : p.diameter) diameter *= static_cast<double>(1 + rate * now);
+  write_back(p, x, v, side, 1 + rate * now);
   return at_walls;
 }
 
@@ -184,8 +171,7 @@ CASE(brute_force_makes_the_same_collisions) {
         EngineOptions o;
         o.growth = rate * diameter_mean(p) / p.cell.side();
         const std::unique_ptr<Engine> engine = make_engine(p, o);
-        const Monitor monitor;
-        const Halt halt = engine->advance(60, monitor);
+        const Halt halt = engine->advance(60, begun());
         assert_true(halt == Halt::window);
         engine->write_state(p);
         const int at_walls = naive_walls(s, brute, 60, rate);

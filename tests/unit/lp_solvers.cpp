@@ -17,6 +17,16 @@ Packing start(int n, int dim, double phi, int64_t seed) {
   return make_packing(o, nullptr, 0, nullptr, 0);
 }
 
+// The LP of the pairs with gaps up to `reach` mean diameters.
+struct Instance : PackingLp {
+  Instance(const Packing &p, double reach, double within) : list(find_pairs(p, reach * diameter_mean(p), 1.0)) {
+    PackingLp::operator=(make_lp(p, list, diameter_mean(p)));
+    bound = within;
+  }
+  Instance(const Instance &) = delete;
+  PairList list;
+};
+
 LpSolution interior(const PackingLp &lp) {
   NewtonSystem system;
   InteriorPoint ipm(system);
@@ -36,9 +46,7 @@ CASE(random_instances) {
   for (int dim = 2; dim <= 4; ++dim)
     for (int seed = 1; seed <= 3; ++seed) {
       const Packing p = start(60, dim, dim == 2 ? 0.4 : 0.2 / (dim - 2), seed);
-      const double unit = diameter_mean(p);
-      const PairList pairs = find_pairs(p, 0.8 * unit, 1.0);
-      PackingLp lp = make_lp(p, pairs, unit);
+      Instance lp(p, 0.8, 1.0);
       for (const double bound : {0.2, 0.02}) {
         lp.bound = bound;
         agree(lp);
@@ -54,10 +62,7 @@ CASE(floats_serve) {
     double worst_floats = 0.0, worst_doubles = 0.0;
     for (int seed = 1; seed <= 6; ++seed) {
       const Packing p = start(60, dim, dim == 2 ? 0.4 : 0.2 / (dim - 2), seed);
-      const double unit = diameter_mean(p);
-      const PairList pairs = find_pairs(p, 0.8 * unit, 1.0);
-      PackingLp lp = make_lp(p, pairs, unit);
-      lp.bound = 0.2;
+      Instance lp(p, 0.8, 0.2);
       const LpSolution doubles = interior(lp);
       const double gap_doubles = std::fabs(check_lp(lp, doubles).gap);
       worst_doubles = std::max(worst_doubles, gap_doubles);
@@ -85,10 +90,7 @@ CASE(floats_serve) {
 // Reports that repeat themselves in a long LP say how many factorisations it took so far.
 CASE(long_lps_tell) {
   const Packing p = start(60, 3, 0.3, 4);
-  const double unit = diameter_mean(p);
-  const PairList pairs = find_pairs(p, 0.5 * unit, 1.0);
-  PackingLp lp = make_lp(p, pairs, unit);
-  lp.bound = 0.2;
+  Instance lp(p, 0.5, 0.2);
   NewtonSystem system;
   Monitor monitor;
   int64_t told = -1;
@@ -106,10 +108,7 @@ CASE(long_lps_tell) {
 CASE(screened_rows_bind) {
   for (int seed = 1; seed <= 3; ++seed) {
     const Packing p = start(100, 3, 0.2, seed);
-    const double unit = diameter_mean(p);
-    const PairList pairs = find_pairs(p, 1.5 * unit, 1.0);
-    PackingLp lp = make_lp(p, pairs, unit);
-    lp.bound = 0.6;
+    Instance lp(p, 1.5, 0.6);
     WorkingSet split;
     split.choose(lp);
     const LpSolution x = interior(lp);
@@ -176,10 +175,7 @@ CASE(warm_starts) {
 // An LP that ends early is strictly inside its rows, and its duality gap is the part of the gain that was asked for.
 CASE(ends_early_inside_its_rows) {
   const Packing p = start(60, 3, 0.3, 4);
-  const double unit = diameter_mean(p);
-  const PairList pairs = find_pairs(p, 0.5 * unit, 1.0);
-  PackingLp lp = make_lp(p, pairs, unit);
-  lp.bound = 0.2;
+  Instance lp(p, 0.5, 0.2);
   NewtonSystem system;
   IpmControl control;
   control.early_fraction = 0.3;
@@ -223,9 +219,7 @@ CASE(fcc_instances) {
       }
       p.diameter.assign(108 - vacancy, shrink * std::sqrt(0.5) / 3.0);
       p.velocity.assign(p.position.size(), 0.0);
-      const double unit = diameter_mean(p);
-      const PairList pairs = find_pairs(p, 0.3 * unit, 1.0);
-      PackingLp lp = make_lp(p, pairs, unit);
+      Instance lp(p, 0.3, 1.0);
       for (const double bound : {0.05, 1e-3}) {
         lp.bound = bound;
         agree(lp);
@@ -238,9 +232,7 @@ CASE(fcc_instances) {
 // Bounds down to nothing: g comes down to the smallest gap of the start, exactly at last, for there is no other point.
 CASE(vanishing_bound) {
   const Packing p = start(60, 3, 0.2, 5);
-  const double unit = diameter_mean(p);
-  const PairList pairs = find_pairs(p, 0.8 * unit, 1.0);
-  PackingLp lp = make_lp(p, pairs, unit);
+  Instance lp(p, 0.8, 1.0);
   const double smallest = *std::min_element(lp.c.begin(), lp.c.end());
   for (const double bound : {1e-4, 1e-6, 1e-9}) {
     lp.bound = bound;
@@ -257,10 +249,7 @@ CASE(overlap_by_rounding) {
   const ClosestPair closest = closest_pair(p);
   for (double &s : p.diameter) s *= (1.0 + closest.gap) * (1.0 + 1e-9);
   assert_true(closest_pair(p).gap < -0.9e-9);
-  const double unit = diameter_mean(p);
-  const PairList pairs = find_pairs(p, 0.6 * unit, 1.0);
-  PackingLp lp = make_lp(p, pairs, unit);
-  lp.bound = 0.1;
+  Instance lp(p, 0.6, 0.1);
   agree(lp);
   assert_true(interior(lp).g > 1e-3);
   lp.bound = 1e-12;  // too tight to leave the overlap
@@ -272,10 +261,7 @@ CASE(overlap_by_rounding) {
 CASE(overlapping_instance) {
   Packing p = start(40, 3, 0.2, 7);
   for (double &s : p.diameter) s *= 1.1;
-  const double unit = diameter_mean(p);
-  const PairList pairs = find_pairs(p, 0.5 * unit, 1.0);
-  PackingLp lp = make_lp(p, pairs, unit);
-  lp.bound = 1e-3;
+  Instance lp(p, 0.5, 1e-3);
   agree(lp);
   assert_true(interior(lp).g < 0.0);
 }
@@ -283,10 +269,7 @@ CASE(overlapping_instance) {
 // check_lp must see a wrong answer.
 CASE(check_sees_errors) {
   const Packing p = start(40, 3, 0.2, 7);
-  const double unit = diameter_mean(p);
-  const PairList pairs = find_pairs(p, 0.8 * unit, 1.0);
-  PackingLp lp = make_lp(p, pairs, unit);
-  lp.bound = 0.1;
+  Instance lp(p, 0.8, 0.1);
   const LpSolution good = interior(lp);
   LpSolution bad = good;
   bad.g += 1e-6;
@@ -308,10 +291,7 @@ CASE(far_rows_cut_steps) {
   Monitor monitor;
   monitor.begin();
   p = crunch(p, o, monitor).packing;
-  const double unit = diameter_mean(p);
-  const PairList pairs = find_pairs(p, 0.66 * unit, 1.0);
-  PackingLp lp = make_lp(p, pairs, unit);
-  lp.bound = 0.3;
+  Instance lp(p, 0.66, 0.3);
   NewtonSystem system;
   const LpSolution x = InteriorPoint(system).solve(lp, IpmControl());
   const LpCheck check = check_lp(lp, x);

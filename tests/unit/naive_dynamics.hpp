@@ -4,16 +4,28 @@
 #include <vector>
 
 #include "core/create.hpp"
+#include "core/monitor.hpp"
 #include "core/pair_rule.hpp"
 #include "core/rng.hpp"
 
-extern "C" {
 #include "test.h"
-}
 
 namespace jamtest {
 
 using namespace jam::inside;
+
+// A monitor of a call that begins now.
+inline Monitor &begun() {
+  static Monitor monitor;
+  monitor.begin();
+  return monitor;
+}
+
+inline void draw_velocities(Packing &p, int64_t seed) {
+  Rng rng(seed, Stream::velocities, 1000000);
+  for (double &v : p.velocity) v = rng.normal();
+  p.has_velocity = true;
+}
 
 // rows: of a cell (dim, dim), or NULL for the unit cube.
 inline Packing random_packing(int dim, int n, double fraction, double ratio, int64_t seed, double non_additivity = 0.0,
@@ -28,9 +40,7 @@ inline Packing random_packing(int dim, int n, double fraction, double ratio, int
   std::vector<double> diameters(n, 1.0);
   for (int i = 0; i < n; ++i) diameters[i] = std::pow(ratio, n > 1 ? static_cast<double>(i) / (n - 1) : 0.0);
   Packing p = make_packing(o, nullptr, 0, diameters.data(), diameters.size(), rows);
-  Rng rng(seed, Stream::velocities, 1000000);
-  for (double &v : p.velocity) v = rng.normal();
-  p.has_velocity = true;
+  draw_velocities(p, seed);
   return p;
 }
 
@@ -40,6 +50,29 @@ inline void to_brick(const Cell &cell, long double *r) {
     const long double m = std::round(r[c] / cell.edge(c));
     for (int k = 0; k <= c; ++k) r[k] -= m * cell.row(c)[k];
   }
+}
+
+// Velocities after i and j met at the distance `at`, with diameters that grow by `rate` of themselves.
+inline void collide(const Packing &p, int i, int j, const long double *at, long double rate,
+                    std::vector<long double> &v) {
+  const int d = p.dim;
+  long double rr = 0, rv = 0;
+  for (int c = 0; c < d; ++c) rr += at[c] * at[c], rv += at[c] * (v[i * d + c] - v[j * d + c]);
+  const long double push = contact_distance<long double>(p, i, j) * rate - rv / std::sqrt(rr);
+  for (int c = 0; c < d; ++c) {
+    v[i * d + c] += push * at[c] / std::sqrt(rr);
+    v[j * d + c] -= push * at[c] / std::sqrt(rr);
+  }
+}
+
+inline void write_back(Packing &p, const std::vector<long double> &x, const std::vector<long double> &v,
+                       long double side, long double growth) {
+  for (size_t k = 0; k < x.size(); ++k) {
+    p.position[k] = static_cast<double>(x[k]);
+    p.velocity[k] = static_cast<double>(v[k] / side);
+  }
+  wrap_positions(p);
+  for (double &s : p.diameter) s *= static_cast<double>(growth);
 }
 
 // Makes `collisions` on p; diameters grow as sigma (1 + rate t). Images lie up to `reach` cell vectors off the brick.
@@ -84,20 +117,9 @@ inline void naive(Packing &p, int collisions, long double rate, int reach = 1) {
     assert_true(bi >= 0);
     for (size_t k = 0; k < x.size(); ++k) x[k] += v[k] * best;
     now += best;
-    long double rr = 0, rv = 0;
-    for (int c = 0; c < d; ++c) rr += at[c] * at[c], rv += at[c] * (v[bi * d + c] - v[bj * d + c]);
-    const long double push = contact_distance<long double>(p, bi, bj) * rate - rv / std::sqrt(rr);
-    for (int c = 0; c < d; ++c) {
-      v[bi * d + c] += push * at[c] / std::sqrt(rr);
-      v[bj * d + c] -= push * at[c] / std::sqrt(rr);
-    }
+    collide(p, bi, bj, at, rate, v);
   }
-  for (size_t k = 0; k < x.size(); ++k) {
-    p.position[k] = static_cast<double>(x[k]);
-    p.velocity[k] = static_cast<double>(v[k] / side);
-  }
-  wrap_positions(p);
-  for (double &s : p.diameter) s *= static_cast<double>(1 + rate * now);
+  write_back(p, x, v, side, 1 + rate * now);
 }
 
 inline double furthest(const Packing &a, const Packing &b) {

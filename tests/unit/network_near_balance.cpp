@@ -7,12 +7,9 @@
 #include "capi/system.hpp"
 #include "core/pair_rule.hpp"
 #include "rigidity_oracle.hpp"
-#include "verdict/verdict.hpp"
-// Last: cmocka defines a macro `fail`.
-extern "C" {
 #include "start.h"
 #include "test.h"
-}
+#include "verdict/verdict.hpp"
 
 using namespace jam::inside;
 using namespace jamtest;

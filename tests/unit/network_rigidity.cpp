@@ -8,13 +8,10 @@
 #include "core/create.hpp"
 #include "core/rng.hpp"
 #include "rigidity_oracle.hpp"
-#include "verdict/check.hpp"
-#include "verdict/verdict.hpp"
-// Last: cmocka defines a macro `fail`.
-extern "C" {
 #include "start.h"
 #include "test.h"
-}
+#include "verdict/check.hpp"
+#include "verdict/verdict.hpp"
 
 using namespace jam::inside;
 using namespace jamtest;

@@ -13,9 +13,7 @@
 #include "core/rng.hpp"
 #include "linalg/minimum_degree.hpp"
 #include "linalg/vertex_separator.hpp"
-extern "C" {
 #include "test.h"
-}
 
 using namespace jam::inside;
 

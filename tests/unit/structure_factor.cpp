@@ -9,10 +9,7 @@
 #include "core/create.hpp"
 #include "core/math.hpp"
 #include "core/rng.hpp"
-// Last: cmocka defines a macro `fail`.
-extern "C" {
 #include "test.h"
-}
 
 using namespace jam::inside;
 

@@ -80,18 +80,6 @@ def disks(*raws):
     return columns + ["median of factorisations", "median (s)", "longest (s)"], rows
 
 
-def proofs(raw):
-    """proof 64,256,1024 3 [strict]; proof 4096 1 [strict]; proof 16384 1"""
-    rows = []
-    for strict, dim, n in sorted({(r["strict"], r["dim"], r["n"]) for r in raw["runs"]}):
-        runs = [r for r in raw["runs"] if (r["strict"], r["n"], r["dim"], r["steps"]) == (strict, n, dim, 2)]
-        good = [r for r in runs if r["exact"]]
-        exact = [statistics.median(f(r) for r in good) if good else None for f in (lambda r: r["radius"], lambda r: r["force_error"] / r["least_force"])]
-        every = [statistics.median(f(r) for r in runs) for f in (lambda r: r["rounding"] / r["eigenvalue"], lambda r: r["seconds"], lambda r: r["seconds"] / r["crunch"])]
-        rows.append(["free" if strict else "fixed", dim, n, f"{len(good)} of {len(runs)}", f"{sum(r['trapped'] for r in runs)} of {len(runs)}", *exact, *every])
-    return ["cell", "d", "N", "proved exact", "trapped", "radius", "force error over least force", "rounding over eigenvalue", "time (s)", "over the time of the crunch"], rows
-
-
 def verdicts(raw):
     """verdicts.py"""
     rows = []
@@ -148,41 +136,6 @@ def ensemble_statistics(*raws):
         difference = [f"{means[o][key][2]:.2g} ± {means[o][key][3]:.1g}" for o in others]
         rows.append([key, with_error(*means["default"][key][:2]), *difference])
     return ["mean of", "default", *(f"{o} minus the default" for o in others)], rows
-
-
-def wall_rows(raws):
-    rows = []
-    for raw in raws:
-        for n, rate in raw["collisions"].items():
-            for scene, cost in rate.items():
-                if any(row[:2] == [int(n), scene] for row in rows):
-                    continue  # the first run with this scene
-                runs = [r for r in raw["crunches"] if (r["n"], r["scene"]) == (int(n), scene)]
-                done = [r for r in runs if r["jammed"]]
-                rows.append(
-                    [int(n), scene, cost, cost / rate["cube"], spread([r["crunch_seconds"] for r in runs]), whole([r["factorisations"] for r in runs])]
-                    + [f"{len(done)} of {len(runs)}", max(r["excess"] for r in done)]
-                    + [max(r["force_residual"] for r in done), max(r["max_contact_gap"] for r in done)]
-                )
-    rows.sort(key=lambda row: row[0])
-    columns = ["N", "scene", "microseconds a collision", "over the cube", "crunch (s)", "factorisations", "jammed", "most contacts above isostatic"]
-    return columns + ["largest force residual", "largest gap of a contact"], rows
-
-
-def walls(*raws):
-    """walls.py --sizes 256,512,1024,2048 --seeds 3; walls.py --sizes 4096 --scenes cube,slit --seeds 2"""
-    return wall_rows(raws)
-
-
-def walls_equal(*raws):
-    """walls.py --equal --sizes 2048 --scenes cube,slit,box,ball --seeds 2"""
-    columns, rows = wall_rows(raws)
-    return columns, [row for row in rows if row[0] == 2048]
-
-
-def walls_edge(*raws):
-    """walls.py"""
-    return ["scene", "answer"], raws[0]["edges"]
 
 
 def advise(raw):

@@ -23,29 +23,21 @@ jam_create_options quenched() {
   return o;
 }
 
-jam_system *make(const jam_create_options &o) {
-  jam_system *sys = nullptr;
-  assert_int_equal(jam_create(&o, nullptr, &sys), JAM_OK);
-  return sys;
-}
+jam_system *make(const jam_create_options &o) { return created(&o); }
 
 int32_t stop_at_once(const jam_progress *, void *user) {
   if (user) ++*static_cast<int *>(user);
   return 1;
 }
 
-std::vector<double> positions(const jam_system *sys) {
+std::vector<double> numbers(const jam_system *sys, int32_t kind) {
   const double *view = nullptr;
   size_t len = 0;
-  jam_view(sys, JAM_VIEW_POSITIONS, &view, &len);
+  jam_view(sys, kind, &view, &len);
   return {view, view + len};
 }
-std::vector<double> diameters(const jam_system *sys) {
-  const double *view = nullptr;
-  size_t len = 0;
-  jam_view(sys, JAM_VIEW_DIAMETERS, &view, &len);
-  return {view, view + len};
-}
+std::vector<double> positions(const jam_system *sys) { return numbers(sys, JAM_VIEW_POSITIONS); }
+std::vector<double> diameters(const jam_system *sys) { return numbers(sys, JAM_VIEW_DIAMETERS); }
 
 const double tilted[9] = {1, 0, 0, 0.25, 1, 0, 0, 0.25, 1};
 

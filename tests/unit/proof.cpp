@@ -28,6 +28,15 @@ struct Lattice {
   Packing packing;
   ContactNetwork network;
 };
+// All pairs that touch, with equal forces.
+void list_contacts(Lattice &l) {
+  l.network.pairs = find_pairs(l.packing, 0.0, 1.0 + 1e-9);
+  measure_contacts(l.packing, l.network);
+  l.network.coordination.assign(l.packing.n(), 0);
+  l.network.force.assign(l.network.size(), 1.0);
+  for (size_t k = 0; k < l.network.size(); ++k)
+    ++l.network.coordination[l.network.pairs.i[k]], ++l.network.coordination[l.network.pairs.j[k]];
+}
 Lattice triangular(int columns, int rows, const std::vector<int> &gone = {}) {
   Lattice out;
   Packing &p = out.packing;
@@ -41,14 +50,16 @@ Lattice triangular(int columns, int rows, const std::vector<int> &gone = {}) {
       p.position.push_back(c + 0.5 * (r % 2)), p.position.push_back(r * height);
       p.diameter.push_back(1.0);
     }
-  out.network.pairs = find_pairs(p, 0.0, 1.0 + 1e-9);
-  measure_contacts(p, out.network);
-  out.network.coordination.assign(p.n(), 0);
-  out.network.force.assign(out.network.size(), 1.0);
-  for (size_t k = 0; k < out.network.size(); ++k)
-    ++out.network.coordination[out.network.pairs.i[k]], ++out.network.coordination[out.network.pairs.j[k]];
+  list_contacts(out);
   return out;
 }
+
+// A scene whose contacts close in two doubles, and its equations.
+struct Refined {
+  explicit Refined(const Lattice &l) : s(make_proof_scene(l.packing, l.network, {})) { assert_true(refine(s, e)); }
+  ProofScene s;
+  ProofEquations e;
+};
 
 Eigen::MatrixXd dense_rows(const ProofScene &s, const ProofEquations &e) {
   Eigen::MatrixXd r = Eigen::MatrixXd::Zero(s.contacts(), s.unknowns());
@@ -156,10 +167,7 @@ Lattice square(int side) {
     p.position.push_back(k % side), p.position.push_back(k / side);
     p.diameter.push_back(1.0);
   }
-  out.network.pairs = find_pairs(p, 0.0, 1.0 + 1e-9);
-  measure_contacts(p, out.network);
-  out.network.coordination.assign(p.n(), 4);
-  out.network.force.assign(out.network.size(), 1.0);
+  list_contacts(out);
   return out;
 }
 
@@ -177,10 +185,8 @@ CASE(equations_of_a_square_lattice_are_exact) {
 CASE(crystals_are_trapped_and_not_called_isostatic) {
   for (const auto &gone : {std::vector<int>{}, std::vector<int>{9}}) {
     const Lattice l = triangular(6, 6, gone);
-    ProofScene s = make_proof_scene(l.packing, l.network, {});
-    ProofEquations e;
-    assert_true(refine(s, e));
-    const Proof proof = prove(s, e);
+    Refined r(l);
+    const Proof proof = prove(r.s, r.e);
     assert_true(proof.trapped && !proof.exact);
     assert_int_equal(static_cast<int>(proof.cause), static_cast<int>(ProofCause::excess));
     // sqrt(3) / 2 in the cell is rounded to 1e-16, so the contacts close to about that.
@@ -189,24 +195,18 @@ CASE(crystals_are_trapped_and_not_called_isostatic) {
 }
 
 CASE(a_force_with_the_wrong_sign_proves_nothing) {
-  const Lattice l = triangular(6, 6);
-  ProofScene s = make_proof_scene(l.packing, l.network, {});
-  ProofEquations e;
-  assert_true(refine(s, e));
-  s.force[5] = -s.force[5];
-  const Proof proof = prove(s, e);
+  Refined r(triangular(6, 6));
+  r.s.force[5] = -r.s.force[5];
+  const Proof proof = prove(r.s, r.e);
   assert_false(proof.exact || proof.trapped);
   assert_int_equal(static_cast<int>(proof.cause), static_cast<int>(ProofCause::force));
 }
 
 // An unbalanced force is positive but no state of self-stress.
 CASE(forces_that_do_not_balance_prove_nothing) {
-  const Lattice l = triangular(6, 6);
-  ProofScene s = make_proof_scene(l.packing, l.network, {});
-  ProofEquations e;
-  assert_true(refine(s, e));
-  s.force[5] *= 2.0;
-  assert_false(prove(s, e).trapped);
+  Refined r(triangular(6, 6));
+  r.s.force[5] *= 2.0;
+  assert_false(prove(r.s, r.e).trapped);
 }
 
 CASE(an_overlap_proves_nothing) {
@@ -216,10 +216,8 @@ CASE(an_overlap_proves_nothing) {
   p.position.push_back(0.5), p.position.push_back(0.28);
   p.diameter.push_back(0.4);
   l.network.coordination.push_back(0);
-  ProofScene s = make_proof_scene(p, l.network, {});
-  ProofEquations e;
-  assert_true(refine(s, e));
-  assert_false(prove(s, e).trapped);
+  Refined r(l);
+  assert_false(prove(r.s, r.e).trapped);
 }
 
 // No listed contact is open by more than rounding of two doubles, no force pulls, and no pair overlaps by more.

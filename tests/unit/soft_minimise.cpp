@@ -10,14 +10,24 @@ using namespace jam::inside;
 
 namespace {
 
-SoftResult relaxed(const Packing &p, int32_t minimiser, double alpha = 2.0, double tolerance = 1e-12,
-                   int32_t precision = JAM_SOFT_REFERENCE) {
+SoftResult relaxed(const Packing &p, const jam_relax_options &o) {
   Monitor monitor;
   monitor.begin();
+  return relax(p, o, monitor);
+}
+
+SoftResult relaxed(const Packing &p, int32_t minimiser, double alpha = 2.0, double tolerance = 1e-12,
+                   int32_t precision = JAM_SOFT_REFERENCE) {
   jam_relax_options o = default_relax_options();
   o.minimiser = minimiser, o.alpha = alpha, o.force_tolerance = tolerance, o.precision = precision;
   o.max_evaluations = 200000;
-  return relax(p, o, monitor);
+  return relaxed(p, o);
+}
+
+DecompressionResult decompressed(const Packing &p, const jam_decompress_options &o) {
+  Monitor monitor;
+  monitor.begin();
+  return decompress(p, o, monitor, nullptr);
 }
 
 // From a minimum that is shaken a little every method leads back to it.
@@ -57,11 +67,9 @@ CASE(alpha_near_one) {
     for (const double alpha : {1.05, 1.1, 1.2}) {
       const Packing start = random_packing(dim, 40, dim == 2 ? 0.95 : 0.75, 1);
       for (int32_t m = JAM_MINIMISER_NEWTON; m <= JAM_MINIMISER_LBFGS; ++m) {
-        Monitor monitor;
-        monitor.begin();
         jam_relax_options o = default_relax_options();
         o.minimiser = m, o.alpha = alpha, o.max_evaluations = 3000;
-        const SoftResult end = relax(start, o, monitor);
+        const SoftResult end = relaxed(start, o);
         const bool balanced = end.report.contacts > 0 && end.report.force_residual < o.force_tolerance;
         assert_int_equal(end.report.converged, end.status == JAM_OK || end.status == JAM_NOT_JAMMED);
         if (end.status == JAM_OK) assert_true(balanced);
@@ -69,11 +77,9 @@ CASE(alpha_near_one) {
         if (!end.report.converged) assert_true(end.status == JAM_LIMIT || end.status == JAM_NOT_CONVERGED);
         for (const double x : end.packing.position) assert_true(std::isfinite(x));
       }
-      Monitor monitor;
-      monitor.begin();
       jam_decompress_options o = default_decompress_options();
       o.alpha = alpha, o.crunch = 0, o.max_evaluations = 3000;
-      const DecompressionResult down = decompress(start, o, monitor, nullptr);
+      const DecompressionResult down = decompressed(start, o);
       for (const SoftRow &row : down.history) assert_true(row[JAM_SOFT_RESIDUAL] < o.force_tolerance);
       assert_true(down.status != JAM_OK || !down.history.empty());
     }
@@ -83,11 +89,9 @@ CASE(alpha_near_one) {
 CASE(converged_is_what_is_reported) {
   for (int64_t seed = 1; seed <= 4; ++seed)
     for (const double tolerance : {1e-15, 2e-15, 3e-15, 5e-15, 1e-14}) {
-      Monitor monitor;
-      monitor.begin();
       jam_relax_options o = default_relax_options();
       o.force_tolerance = tolerance, o.max_evaluations = 4000;
-      const SoftResult end = relax(random_packing(3, 40, 0.75, seed), o, monitor);
+      const SoftResult end = relaxed(random_packing(3, 40, 0.75, seed), o);
       assert_int_equal(end.report.converged, end.status == JAM_OK);
       if (end.report.converged) assert_true(end.report.force_residual < tolerance);
     }
@@ -95,11 +99,9 @@ CASE(converged_is_what_is_reported) {
 
 // Forces balance to 1e-12 where overlaps are 1e-9 of a diameter; in plain doubles they cannot.
 CASE(balance_at_tiny_overlaps) {
-  Monitor monitor;
-  monitor.begin();
   jam_decompress_options o = default_decompress_options();
   o.isostatic = o.crunch = 0, o.distance = 1e-9;
-  const DecompressionResult end = decompress(random_packing(3, 80, 0.75, 4), o, monitor, nullptr);
+  const DecompressionResult end = decompressed(random_packing(3, 80, 0.75, 4), o);
   assert_int_equal(end.status, JAM_OK);
   assert_true(end.soft.report.distance <= 1e-9 && end.soft.report.force_residual < 1e-12);
   assert_true(end.soft.report.excess_contacts >= 0 && end.soft.report.stable > 60);
@@ -200,15 +202,12 @@ CASE(limits_are_told) {
 
 // A decompression that goes on from its first minimum: a step that failed at the first limit may take more.
 CASE(failed_steps_set_the_scale) {
-  Monitor monitor;
-  monitor.begin();
-  const std::function<SoftComparison(const SoftResult &)> nobody;
   jam_decompress_options o = default_decompress_options();
   o.isostatic = o.crunch = 0, o.distance = 1e-2;
-  const DecompressionResult near = decompress(random_packing(3, 256, 0.70, 1), o, monitor, nobody);
+  const DecompressionResult near = decompressed(random_packing(3, 256, 0.70, 1), o);
   assert_int_equal(near.status, JAM_OK);
   o.distance = 1e-4, o.max_evaluations = 10000;
-  const DecompressionResult end = decompress(near.soft.packing, o, monitor, nobody);
+  const DecompressionResult end = decompressed(near.soft.packing, o);
   assert_int_equal(end.status, JAM_OK);
   assert_true(end.soft.report.distance <= 1e-4 && end.soft.report.force_residual < 1e-12);
 }

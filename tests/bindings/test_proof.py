@@ -29,26 +29,46 @@ def packing(n, dim, seed):
     return system, ratio
 
 
-def file_of(system, ratio):
+def file_of(system, ratio=None, **options):
     with tempfile.TemporaryDirectory() as folder:
         path = folder + "/a.jamproof"
-        system.write_proof(path, ratio)
+        system.write_proof(path, ratio, **options)
         return pathlib.Path(path).read_text(encoding="ascii")
 
 
-def verdict(text):
-    """What the checker proves of a text, or the first word of its refusal."""
+def scene_of(text, program=jamproof):
     with tempfile.TemporaryDirectory() as folder:
         path = pathlib.Path(folder) / "a.jamproof"
         path.write_text(text, encoding="ascii")
-        try:
-            scene = jamproof.Scene(path)
-        except (ValueError, LookupError, TypeError, OverflowError, MemoryError):
-            return "unreadable"
-        try:
-            return jamproof.check(scene)
-        except (jamproof.Refused, OverflowError, ZeroDivisionError) as why:
-            return str(why).split(":")[0]
+        return program.Scene(path)
+
+
+def verdict(text, program=jamproof):
+    """What the checker proves of a text, or the first word of its refusal."""
+    try:
+        scene = scene_of(text, program)
+    except (ValueError, LookupError, TypeError, OverflowError, MemoryError):
+        return "unreadable"
+    try:
+        return program.check(scene)
+    except (program.Refused, OverflowError, ZeroDivisionError) as why:
+        return str(why).split(":")[0]
+
+
+def agree(case, proof, found, radius=1e-28):
+    """Library and checker prove one packing. Each bounds a distance, in the 2-norm and the largest norm: neither may be below what the other knows."""
+    case.assertEqual(proof.theorem, jam.Theorem.EXACT, proof)
+    case.assertIsInstance(found, dict, found)
+    case.assertLess(max(proof.radius, found["radius"]), radius)
+    case.assertAlmostEqual(proof.least_force / found["least_force"], 1.0, delta=1e-6)
+    case.assertAlmostEqual(min(proof.least_gap, 1e-3), min(found["least_gap"], 1e-3), delta=1e-9)
+
+
+def fcc(m):
+    """Centres of m^3 cubes in a cell of side 1."""
+    base = np.array([[0, 0, 0], [0.5, 0.5, 0], [0.5, 0, 0.5], [0, 0.5, 0.5]])
+    grid = np.stack(np.meshgrid(*[np.arange(m)] * 3, indexing="ij"), -1).reshape(-1, 3)
+    return (grid[:, None] + base).reshape(-1, 3) / m
 
 
 def word(value, exponent=-140):
@@ -58,6 +78,19 @@ def word(value, exponent=-140):
 
 def value(text):
     return jamproof.number(text)
+
+
+def refined_squares(system, ratio):
+    """Of each contact, in fractions: the squared distance of refined centres over that of ratio."""
+    high, low = system.refined_positions(ratio)
+    x = [[Fraction(a) + Fraction(b) for a, b in zip(*rows)] for rows in zip(high.tolist(), low.tolist())]
+    side, squares = Fraction(float(system.box)), []
+    for i, j in system.contacts.pairs.tolist():
+        r = [a - b for a, b in zip(x[i], x[j])]
+        r = [v - side * round(v / side) for v in r]
+        sigma = (Fraction(float(ratio[i])) + Fraction(float(ratio[j]))) / 2
+        squares.append(sum(v * v for v in r) / sigma**2)
+    return squares
 
 
 class File:
@@ -103,7 +136,7 @@ def exchange_end(f, r):
 
 def nearest_open_pair(f, r):
     """A contact exchanged for the pair with the smallest gap that is none."""
-    scene = scene_of(f)
+    scene = scene_of(f.text())
     closed = {frozenset(map(int, line[1:3])) for line in f.contacts}
     best = None
     for i in range(len(scene.x)):
@@ -117,13 +150,6 @@ def nearest_open_pair(f, r):
     line = r.choice(f.contacts)
     line[1:3] = [str(best[1]), str(best[2])]
     line[3 : 3 + scene.dim] = [str(k) for k in best[3]]
-
-
-def scene_of(f):
-    with tempfile.TemporaryDirectory() as folder:
-        path = pathlib.Path(folder) / "a.jamproof"
-        path.write_text(f.text(), encoding="ascii")
-        return jamproof.Scene(path)
 
 
 def drop(f, r):
@@ -272,26 +298,12 @@ class Proofs(unittest.TestCase):
     def test_the_checker_agrees_with_the_library(self):
         self.assertGreaterEqual(len(self.files), 3)
         for text, (system, ratio) in self.files:
-            proof, found = system.prove(ratio), verdict(text)
-            self.assertEqual(proof.theorem, jam.Theorem.EXACT)
-            self.assertIsInstance(found, dict, found)
-            # Two bounds of one distance, in the 2-norm and the largest norm: neither may be below what the other knows.
-            self.assertLess(found["radius"], 1e-28)
-            self.assertLess(proof.radius, 1e-28)
-            self.assertAlmostEqual(proof.least_force / found["least_force"], 1.0, delta=1e-6)
-            self.assertAlmostEqual(min(proof.least_gap, 1e-3), min(found["least_gap"], 1e-3), delta=1e-9)
+            agree(self, system.prove(ratio), verdict(text))
 
     def test_refined_centres_close_all_contacts(self):
         """In fractions: every contact distance is the same multiple of sigma to 30 digits."""
         for _, (system, ratio) in self.files:
-            high, low = system.refined_positions(ratio)
-            x = [[Fraction(a) + Fraction(b) for a, b in zip(*rows)] for rows in zip(high.tolist(), low.tolist())]
-            side, squares = Fraction(float(system.box)), []
-            for i, j in system.contacts.pairs.tolist():
-                r = [a - b for a, b in zip(x[i], x[j])]
-                r = [v - side * round(v / side) for v in r]
-                sigma = (Fraction(float(ratio[i])) + Fraction(float(ratio[j]))) / 2
-                squares.append(sum(v * v for v in r) / sigma**2)
+            squares = refined_squares(system, ratio)
             self.assertLess(float(max(squares) / min(squares) - 1), 1e-29)
             doubles = [float(system.diameters[0] / ratio[0]) ** 2, float(squares[0])]
             self.assertAlmostEqual(doubles[0] / doubles[1], 1.0, delta=1e-13)
@@ -393,24 +405,24 @@ class Proofs(unittest.TestCase):
             "names a contact that is not there": [lambda f: f.lines.append(["implied", "9999", "0", "1"]), lambda f: f.lines.append(["tile", "0", "1", "-1"])],
             "the first line is not": [lambda f: f.lines.clear(), lambda f: f.lines.pop(0)],
         }
-        with tempfile.TemporaryDirectory() as folder:
-            path = folder + "/a.jamproof"
-            for words, kinds in changes.items():
-                for k, change in enumerate(kinds):
-                    with self.subTest(words=words, kind=k):
-                        f = File(text)
-                        change(f)
-                        pathlib.Path(path).write_text(f.text(), encoding="ascii")
-                        run = subprocess.run([sys.executable, "-I", "-B", str(CHECKER), path], capture_output=True, text=True, check=False)
-                        self.assertEqual((run.returncode, run.stderr), (2, ""), run.stdout)
-                        self.assertIn(words, run.stdout)
-                        self.assertEqual(run.stdout.count("\n"), 1)
-            for at in (header("non_additivity", "1p0"), header("unit", "1p-3")):  # the ends of what may be
-                f = File(text)
-                at(f)
+        def run(change):
+            f = File(text)
+            change(f)
+            with tempfile.TemporaryDirectory() as folder:
+                path = folder + "/a.jamproof"
                 pathlib.Path(path).write_text(f.text(), encoding="ascii")
-                run = subprocess.run([sys.executable, "-I", "-B", str(CHECKER), path], capture_output=True, text=True, check=False)
-                self.assertIn(run.returncode, (0, 1), run.stdout + run.stderr)
+                return subprocess.run([sys.executable, "-I", "-B", str(CHECKER), path], capture_output=True, text=True, check=False)
+
+        for words, kinds in changes.items():
+            for k, change in enumerate(kinds):
+                with self.subTest(words=words, kind=k):
+                    done = run(change)
+                    self.assertEqual((done.returncode, done.stderr), (2, ""), done.stdout)
+                    self.assertIn(words, done.stdout)
+                    self.assertEqual(done.stdout.count("\n"), 1)
+        for change in (header("non_additivity", "1p0"), header("unit", "1p-3")):  # the ends of what may be
+            done = run(change)
+            self.assertIn(done.returncode, (0, 1), done.stdout + done.stderr)
 
     def test_printed_bounds_are_rounded_outward(self):
         found = {"radius": 1.2341e-30, "inner": 1.0000001e-9, "gamma_error": 9.999e-32, "outer": 1.2399e-5, "least_gap": 0.0, "least_force": 9.999e-3}
@@ -430,15 +442,13 @@ class Proofs(unittest.TestCase):
 
     def test_crystals_are_trapped(self):
         """fcc of exact numbers: all contacts close, more than one state of self-stress."""
-        base = np.array([[0, 0, 0], [0.5, 0.5, 0], [0.5, 0, 0.5], [0, 0.5, 0.5]])
-        grid = np.stack(np.meshgrid(*[np.arange(2)] * 3, indexing="ij"), -1).reshape(-1, 3)
-        x = ((grid[:, None] + base).reshape(-1, 3)) / 2.0
+        x = fcc(2)
         system = jam.System.from_arrays(x, 0.5 * 0.5**0.5 * (1 - 1e-16))
         system.contacts_from_geometry()
         proof = system.prove()
         self.assertEqual(proof.theorem, jam.Theorem.EXACT)  # its numbers are binary fractions: all contacts close exactly
         self.assertGreater(proof.outer, 1e-4)
-        text = file_of(system, None)
+        text = file_of(system)
         self.assertEqual(verdict(text)["radius"], 0.0)
         f = File(text)
         f.lines = [line for line in f.lines if line[0] != "contact" or line[1] != "0"]
@@ -449,14 +459,12 @@ class Proofs(unittest.TestCase):
             system = jam.System.from_arrays(np.delete(x, gone, axis=0), 0.5 * 0.5**0.5 * (1 - 1e-16))
             system.contacts_from_geometry()
             self.assertEqual(system.prove().theorem, jam.Theorem.EXACT)
-            self.assertEqual(verdict(file_of(system, None))["radius"], 0.0)
-            f = File(file_of(system, None))
+            f = File(file_of(system))
+            self.assertEqual(verdict(f.text())["radius"], 0.0)
             f.lines = [[*line[:-1], word(2 * value(line[-1]))] if line[0] == "contact" and line[1] == "0" else line for line in f.lines]
             self.assertEqual(verdict(f.text()), "force")
         # A third of a side is no binary fraction: trapped, but not exactly closed.
-        triple = np.stack(np.meshgrid(*[np.arange(3)] * 3, indexing="ij"), -1).reshape(-1, 3)
-        x = ((triple[:, None] + base).reshape(-1, 3)) / 3.0
-        system = jam.System.from_arrays(x, 0.5**0.5 / 3.0 * (1 - 1e-15))
+        system = jam.System.from_arrays(fcc(3), 0.5**0.5 / 3.0 * (1 - 1e-15))
         system.contacts_from_geometry()
         proof = system.prove()
         self.assertEqual((proof.theorem, proof.cause), (jam.Theorem.TRAPPED, jam.ProofCause.EXCESS))

@@ -16,7 +16,7 @@ from pathlib import Path
 
 import numpy as np
 
-from test_proof import CHECKER, File, file_of, moved, new_large_sphere, packing, value, word
+from test_proof import CHECKER, File, file_of, moved, new_large_sphere, packing, scene_of, value, verdict, word
 
 FAR = Fraction(1, 10**6)
 NUMBERS = itertools.count()
@@ -37,16 +37,6 @@ def checker(edit=None):
     spec.loader.exec_module(found)
     found.folder = folder  # which lasts as long
     return found
-
-
-def verdict(program, text):
-    with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder) / "a.jamproof"
-        path.write_text(text, encoding="ascii")
-        try:
-            return program.check(program.Scene(path))
-        except program.Refused as why:
-            return str(why).split(":")[0]
 
 
 @functools.lru_cache
@@ -91,7 +81,7 @@ def gap_below_the_radius():
         reach = gamma * (value(stable[2]) + grain) / 2 * (1 + Fraction(1, 10**9))
         f.lines.append(["sphere", "0", word(grain), *[word(value(x) + Fraction(v) * reach) for x, v in zip(stable[3:], direction)]])
         f.spheres.append(f.lines[-1])
-        if isinstance(verdict(intact, f.text()), dict):
+        if isinstance(verdict(f.text(), intact), dict):
             moved(FAR)(f, generator)
             return f.text()
     raise AssertionError("no place for a grain")
@@ -105,10 +95,7 @@ def far_centre():
 
 def far_centre_and_no_inverse():
     text, intact = far_centre(), checker()
-    with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder) / "a"
-        path.write_text(text, encoding="ascii")
-        n = len(intact.Scene(path).contacts)
+    n = len(scene_of(text, intact).contacts)
     data = intact.base64.b64encode(intact.zlib.compress(bytes(4 * n * (n - 1)))).decode()
     return text + f"inverse -30 {data}\n"
 
@@ -185,8 +172,9 @@ class Bounds(unittest.TestCase):
         for name, old, new, make, radius in TABLE:
             with self.subTest(bound=name):
                 text = make()
-                self.assertFalse(is_false(verdict(checker(), text), radius))
-                self.assertTrue(is_false(verdict(checker((old, new)), text), radius), verdict(checker((old, new)), text))
+                self.assertFalse(is_false(verdict(text, checker()), radius))
+                broken = verdict(text, checker((old, new)))
+                self.assertTrue(is_false(broken, radius), broken)
 
 
 if __name__ == "__main__":
@@ -194,7 +182,7 @@ if __name__ == "__main__":
         print("| bound taken out | checker | without the bound |\n|---|---|---|")
         for bound, before, after, maker, _ in TABLE:
             false = maker()
-            shown = [verdict(checker(e), false) for e in (None, (before, after))]
+            shown = [verdict(false, checker(e)) for e in (None, (before, after))]
             print(f"| {bound} | " + " | ".join(f"proved, {float(x['radius']):.1g}" if isinstance(x, dict) else x for x in shown) + " |")
     else:
         unittest.main()

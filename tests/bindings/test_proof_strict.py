@@ -11,9 +11,9 @@ from fractions import Fraction
 import numpy as np
 
 import jam
-from test_proof import File, drop, drop_weakest, double, exchange_end, moved, negate, resized, rattler_into_neighbour, swap_images, swap_two, try_changes, value, verdict, wide_cell, word
+from test_proof import File, agree, fcc, file_of, drop, drop_weakest, double, exchange_end, moved, negate, resized, rattler_into_neighbour, swap_images, swap_two, try_changes, value, verdict, wide_cell, word
 from test_proof_bounds import FAR, checker, crystal, square_lattice
-from test_proof_bounds import verdict as verdict_of
+from test_proof_trapped import trapped
 
 
 def packed(n, dim, seed, strain="free", every=2):
@@ -22,19 +22,6 @@ def packed(n, dim, seed, strain="free", every=2):
     system.compress(growth_rate=1e-2, pressure=1e4)
     system.crunch(strain=strain)
     return system
-
-
-def strict_file(system):
-    with tempfile.TemporaryDirectory() as folder:
-        path = folder + "/a.jamproof"
-        system.write_proof(path, strict=True)
-        return pathlib.Path(path).read_text(encoding="ascii")
-
-
-def fcc():
-    base = np.array([[0, 0, 0], [0.5, 0.5, 0], [0.5, 0, 0.5], [0, 0.5, 0.5]])
-    grid = np.stack(np.meshgrid(*[np.arange(2)] * 3, indexing="ij"), -1).reshape(-1, 3)
-    return ((grid[:, None] + base).reshape(-1, 3)) / 2.0
 
 
 class Strict(unittest.TestCase):
@@ -86,7 +73,7 @@ class Strict(unittest.TestCase):
             needed = dim * (report.stable - 1) + dim * (dim + 1) // 2
             self.assertEqual((report.cause_value, report.cause_bound), (report.contacts, needed))
             self.assertLess(report.contacts, needed)
-            text = strict_file(system)
+            text = file_of(system, strict=True)
             self.assertIn("\nstrict\n", text)
             self.assertNotIsInstance(verdict(text), dict)
 
@@ -113,10 +100,10 @@ class Strict(unittest.TestCase):
                 self.assertLess(found["radius"], 1e-30)
 
     def test_a_crystal_is(self):
-        system = jam.System.from_arrays(fcc(), 0.5 * 0.5**0.5 * (1 - 1e-16))
+        system = jam.System.from_arrays(fcc(2), 0.5 * 0.5**0.5 * (1 - 1e-16))
         system.contacts_from_geometry()
         self.assertEqual(system.prove(strict=True).theorem, jam.Theorem.EXACT)
-        self.assertEqual(verdict(strict_file(system))["radius"], 0.0)
+        self.assertEqual(verdict(file_of(system, strict=True))["radius"], 0.0)
 
 
 def edge_off(by):
@@ -152,16 +139,12 @@ class Files(unittest.TestCase):
     def setUpClass(cls):
         cls.systems = [packed(n, dim, seed) for n, dim in ((16, 2), (24, 2), (14, 3)) for seed in range(1, 6)]
         cls.exact = [s for s in cls.systems if s.report.jammed and s.prove(strict=True).theorem == jam.Theorem.EXACT]
-        cls.texts = [strict_file(s) for s in cls.exact]
+        cls.texts = [file_of(s, strict=True) for s in cls.exact]
 
     def test_the_checker_agrees_with_the_library(self):
         self.assertGreaterEqual(len(self.exact), 6)
         for system, text in zip(self.exact, self.texts):
-            proof, found = system.prove(strict=True), verdict(text)
-            self.assertIsInstance(found, dict, found)
-            self.assertLess(max(found["radius"], proof.radius), 1e-28)
-            self.assertAlmostEqual(proof.least_force / found["least_force"], 1.0, delta=1e-6)
-            self.assertAlmostEqual(min(proof.least_gap, 1e-3), min(found["least_gap"], 1e-3), delta=1e-9)
+            agree(self, system.prove(strict=True), verdict(text))
 
     def test_contacts_close_and_press_alike_on_all_axes(self):
         """In fractions of the file: one Gamma to 30 digits in the cell of two doubles, and an isotropic stress."""
@@ -188,33 +171,23 @@ class Files(unittest.TestCase):
 
     def test_more_contacts_than_unknowns_are_trapped(self):
         """A crystal that rounding moves; without the word strict it is a packing of a fixed cell, trapped as well."""
-        places = np.stack(np.meshgrid(*[np.arange(3)] * 3, indexing="ij"), -1).reshape(-1, 3)
-        system = jam.System.from_arrays(((places[:, None] + 2 * fcc()[:4]).reshape(-1, 3)) / 3.0, 0.5**0.5 / 3.0 * (1 - 1e-15))
+        system = jam.System.from_arrays(fcc(3), 0.5**0.5 / 3.0 * (1 - 1e-15))
         system.contacts_from_geometry()
         self.assertEqual(system.prove(strict=True).theorem, jam.Theorem.TRAPPED)
-        program, text = checker(), strict_file(system)
-        with tempfile.TemporaryDirectory() as folder:
-            path = pathlib.Path(folder) / "a.jamproof"
-
-            def found(words):
-                path.write_text(words, encoding="ascii")
-                try:
-                    return program.beside("jamproof_trapped", "trapped", program.Scene(path))
-                except program.Refused as why:
-                    return str(why)
-
-            self.assertIsInstance(found(text), dict, found(text))
-            self.assertLess(found(text)["inner"], 1e-12)
-            f = File(text)
-            edge_off(Fraction(1, 10**8))(f, random.Random(1))
-            wider = found(f.text())
-            self.assertTrue(isinstance(wider, str) or wider["inner"] > 1e-10, wider)
+        text = file_of(system, strict=True)
+        found = trapped(text)
+        self.assertIsInstance(found, dict, found)
+        self.assertLess(found["inner"], 1e-12)
+        f = File(text)
+        edge_off(Fraction(1, 10**8))(f, random.Random(1))
+        wider = trapped(f.text())
+        self.assertTrue(isinstance(wider, str) or wider["inner"] > 1e-10, wider)
         self.assertEqual(verdict(square_lattice().replace("dim", "strict\ndim", 1)), "singular")  # rows shear
 
 
 def crystal_with_one_axis_pressed():
     """Forces of the contacts across one axis doubled: they balance on every sphere, and not on the cell."""
-    lines = crystal([tuple(row) for row in fcc().tolist()], Fraction(1, 8), 1)
+    lines = crystal([tuple(row) for row in fcc(2).tolist()], Fraction(1, 8), 1)
     rows = [[value(x) for x in line.split()[3:]] for line in lines if line.startswith("sphere")]
     for k, line in enumerate(lines):
         if line.startswith("contact"):
@@ -230,14 +203,14 @@ def grain_across_the_boundary(text):
     f = File(text)
     edge_off(FAR)(f, random.Random(1))
     unit = value(next(line for line in f.lines if line[0] == "unit")[1])
-    radius, grain = Fraction(verdict_of(intact, f.text())["radius"]) / unit, Fraction(1, 1000)
+    radius, grain = Fraction(verdict(f.text(), intact)["radius"]) / unit, Fraction(1, 1000)
     edge = value(next(line for line in f.lines if line[0] == "cell")[1])
     for stable in f.spheres:
         sigma = Fraction(float(value(f.gamma[1])) ** 0.5) * (value(stable[2]) + grain) / 2
         for gap, sign in ((10 * radius, 1), (Fraction(3, 2) * radius, 1)):
             x = value(stable[3]) + sigma + gap - edge
             there = f.text() + " ".join(["sphere", "0", word(grain), word(x), *stable[4:]]) + "\n"
-            if not isinstance(verdict_of(intact, there), dict):
+            if not isinstance(verdict(there, intact), dict):
                 break
         if gap < 10 * radius:
             return there
@@ -265,8 +238,8 @@ def angles_of_tiles_in_a_free_cell():
     three radii or more, those of a fixed cell by two: no more than a millionth may be."""
     for seed in range(10, 30):
         system = packed(32, 2, seed, every=8)
-        text = strict_file(system) + "".join(line + "\n" for line in flower(system))
-        if "\nimplied " in text and isinstance(verdict_of(checker(), text), dict):
+        text = file_of(system, strict=True) + "".join(line + "\n" for line in flower(system))
+        if "\nimplied " in text and isinstance(verdict(text, checker()), dict):
             break
 
     def off(by):
@@ -276,7 +249,7 @@ def angles_of_tiles_in_a_free_cell():
 
     trial, unit = Fraction(1, 10**10), value(next(line for line in off(0).lines if line[0] == "unit")[1])
     least = Fraction(float(value(off(0).gamma[1])) ** 0.5) * min(value(s[2]) for s in off(0).spheres)
-    radius = Fraction(verdict_of(checker(), off(trial).text())["radius"]) / unit
+    radius = Fraction(verdict(off(trial).text(), checker())["radius"]) / unit
     return off(trial * Fraction(42, 10**8) * least / radius).text()
 
 
@@ -285,10 +258,10 @@ class Bounds(unittest.TestCase):
         exact = next(s for s in (packed(16, 2, seed) for seed in range(1, 20)) if s.prove(strict=True).theorem == jam.Theorem.EXACT)
         table = (
             ("one pressure on all axes", "or len(pressure) > 1", "", crystal_with_one_axis_pressed()),
-            ("cell vectors in a gap", "* (i != j) + self.strict * sum(map(abs, n))", "* (i != j)", grain_across_the_boundary(strict_file(exact))),
+            ("cell vectors in a gap", "* (i != j) + self.strict * sum(map(abs, n))", "* (i != j)", grain_across_the_boundary(file_of(exact, strict=True))),
             ("cell vectors in the angles of tiles", "(ways * r)", "(2 * r)", angles_of_tiles_in_a_free_cell()),
         )
         for name, old, new, false in table:
             with self.subTest(bound=name):
-                self.assertNotIsInstance(verdict_of(checker(), false), dict)
-                self.assertIsInstance(verdict_of(checker((old, new)), false), dict)
+                self.assertNotIsInstance(verdict(false, checker()), dict)
+                self.assertIsInstance(verdict(false, checker((old, new))), dict)

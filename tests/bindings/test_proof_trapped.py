@@ -41,25 +41,16 @@ def imbalance(system):
 
 def trapped(text, program=jamproof):
     """What the checker finds of a text, or the first word of its refusal."""
-    with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder) / "a.jamproof"
-        path.write_text(text, encoding="ascii")
-        try:
-            return program.beside("jamproof_trapped", "trapped", program.Scene(path))
-        except program.Refused as why:
-            return str(why).split(":")[0]
+    return density(text, program)[1]
 
 
 def density(text, program=jamproof):
     """Gamma at which no pair of the file overlaps, and what the checker finds."""
-    with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder) / "a.jamproof"
-        path.write_text(text, encoding="ascii")
-        scene = program.Scene(path)
+    scene = scene_of(text, program)
     try:
         found = program.beside("jamproof_trapped", "trapped", scene)
     except program.Refused as why:
-        found = str(why)
+        found = str(why).split(":")[0]
     return scene.gamma, found
 
 
@@ -73,7 +64,7 @@ class Trapped(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.systems = [s for s in (disks(64, seed) for seed in range(1, 5)) if s.report.jammed and s.report.excess_contacts > 0]
-        cls.texts = [file_of(s, None) for s in cls.systems]
+        cls.texts = [file_of(s) for s in cls.systems]
 
     def test_the_checker_agrees_with_the_library(self):
         self.assertGreaterEqual(len(self.texts), 3)
@@ -158,7 +149,7 @@ class Trapped(unittest.TestCase):
                 self.assertEqual(jamproof.main(str(path)), status, gamma)
 
     def test_an_inverse_of_zeros_traps_nothing(self):
-        scene = scene_of(File(self.texts[0]))
+        scene = scene_of(self.texts[0])
         data = base64.b64encode(zlib.compress(bytes(4 * len(scene.contacts) * scene.unknowns))).decode()
         self.assertEqual(trapped(self.texts[0] + f"inverse -20 {data}\n"), "singular")
 
@@ -202,7 +193,7 @@ class Trapped(unittest.TestCase):
                 system = disks(300, seed)
                 self.assertTrue(system.report.jammed)
                 listed = sorted(tuple(sorted(pair)) for pair in system.contacts.pairs.tolist())
-                text = file_of(system, None)
+                text = file_of(system)
                 found = trapped(text)
                 self.assertIsInstance(found, dict, found)
                 self.assertLess(found["inner"], 1e-18)

@@ -11,7 +11,7 @@ import h5py
 import numpy as np
 
 import jam
-from test_proof import File, file_of, packing, verdict
+from test_proof import File, agree, file_of, packing, refined_squares, verdict
 
 KERNELS = ("Prescott", "Nehalem", "Sandybridge", "Haswell")
 PROVE = """
@@ -53,7 +53,7 @@ class KnownNumbers(unittest.TestCase):
         self.assertLess(high - low, Fraction(1, 10**28))
         self.assertGreater((2 - low) ** 2, 3)  # low < 2 - sqrt(3) < high
         self.assertLess((2 - high) ** 2, 3)
-        self.assertIsInstance(verdict(file_of(system, None)), dict)
+        self.assertIsInstance(verdict(file_of(system)), dict)
 
     def test_five_disks_on_a_torus(self):
         """The square lattice of the vectors (1, 2) / 5, (-2, 1) / 5: Gamma = 1 / 5, one contact more than unknowns.
@@ -66,7 +66,7 @@ class KnownNumbers(unittest.TestCase):
         self.assertEqual((proof.theorem, proof.cause), (jam.Theorem.TRAPPED, jam.ProofCause.EXCESS))
         self.assertLess(proof.inner, 1e-28)
         self.assertLess(abs(Fraction(proof.gamma) + Fraction(proof.gamma_low) - Fraction(1, 5)), Fraction(1, 10**31))
-        self.assertEqual(verdict(file_of(system, None)), "excess")
+        self.assertEqual(verdict(file_of(system)), "excess")
 
     def test_two_spheres_in_a_cell(self):
         """Body-centred: Gamma = 3 / 4; in d = 2 1 / 2. All numbers are binary fractions."""
@@ -125,12 +125,7 @@ class ImpliedContacts(unittest.TestCase):
     def test_flowers_and_patches_are_proved(self):
         self.assertGreaterEqual(len(self.found), 2)
         for system, ratio in self.found:
-            proof = system.prove(ratio)
-            self.assertEqual(proof.theorem, jam.Theorem.EXACT, proof)
-            found = verdict(file_of(system, ratio))
-            self.assertIsInstance(found, dict, found)
-            self.assertLess(max(found["radius"], proof.radius), 1e-28)
-            self.assertAlmostEqual(proof.least_force / found["least_force"], 1.0, delta=1e-6)
+            agree(self, system.prove(ratio), verdict(file_of(system, ratio)))
 
     def test_implied_contacts_close_to_thirty_digits(self):
         """They are no equations of Newton's steps, and yet they close: in fractions."""
@@ -138,15 +133,8 @@ class ImpliedContacts(unittest.TestCase):
             f = File(file_of(system, ratio))
             implied = {int(line[1]) for line in f.lines if line[0] == "implied"}
             self.assertEqual(len(implied), system.report.excess_contacts)
-            high, low = system.refined_positions(ratio)
-            x = [[Fraction(a) + Fraction(b) for a, b in zip(*rows)] for rows in zip(high.tolist(), low.tolist())]
-            squares = {}
-            for c, (i, j) in enumerate(system.contacts.pairs.tolist()):
-                r = [a - b for a, b in zip(x[i], x[j])]
-                r = [v - round(v) for v in r]
-                sigma = (Fraction(float(ratio[i])) + Fraction(float(ratio[j]))) / 2
-                squares[c] = sum(v * v for v in r) / sigma**2
-            kept = next(squares[c] for c in squares if c not in implied)
+            squares = refined_squares(system, ratio)
+            kept = next(square for c, square in enumerate(squares) if c not in implied)
             for c in implied:
                 self.assertLess(abs(squares[c] / kept - 1), Fraction(1, 10**28))
 

@@ -2,12 +2,11 @@
 makes, it reads: random small packings saved by every means."""
 import os
 import pickle
-import tempfile
-import unittest
 
 import jam
 import numpy as np
 from compiled import compiled
+from packings import InFolder
 
 RATIOS = (1.0, 1.19, 1.21, 4.0, 50.0)
 
@@ -24,13 +23,9 @@ def changed(s):
     return [line for line in s.notes.splitlines() if "rotated" in line or "replaced" in line]
 
 
-class Cells(unittest.TestCase):
-    def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.addCleanup(self.folder.cleanup)
-
+class Cells(InFolder):
     def path(self, name):
-        return os.path.join(self.folder.name, name)
+        return os.path.join(self.folder, name)
 
     def restored(self, s, policy=None):
         """The packing as each of its files gives it back, by name."""

@@ -21,6 +21,7 @@ from jam.ensemble import cli as ensemble
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "bindings/gen"))
 from options import TABLE, VERBS, verbs_of
+from packings import InFolder
 
 PACK = os.environ.get("JAM_PACK")
 USAGE, REFUSED, OUTPUT = 2, 3, 4
@@ -80,24 +81,22 @@ def in_process(main, words, folder):
     return code, *texts
 
 
-class CommandLine(unittest.TestCase):
+class CommandLine(InFolder):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.dir = Path(folder.name)
-        self.file = self.dir / "start.xyz"
+        super().setUp()
+        self.file = self.folder / "start.xyz"
         self.file.write_text('2\nLattice="1 0 0 0 1 0 0 0 1" Properties=pos:R:3:radius:R:1\n0.5 0.5 0.5 0.2\n0.5 0.5 0.95 0.2\n')
 
     def run_words(self, program, *words):
         words = list(map(str, words))
         if program == "jam":
-            return in_process(cli.main, words, self.dir)
-        done = subprocess.run([PACK, *words], capture_output=True, text=True, timeout=300, cwd=self.dir)
+            return in_process(cli.main, words, self.folder)
+        done = subprocess.run([PACK, *words], capture_output=True, text=True, timeout=300, cwd=self.folder)
         return done.returncode, done.stdout, done.stderr
 
     def refused(self, status, text, program, *words):
         """Status and text, the same in JSON; nothing else on standard output, and no file."""
-        before = sorted(self.dir.iterdir())
+        before = sorted(self.folder.iterdir())
         # of jam-pack, whose code Python runs too, in one of two ways: each run is a process
         for more in ((),) if program == "jam-pack" or "--json" in words else ((), ("--json",)):
             code, out, err = self.run_words(program, *words, *more)
@@ -105,7 +104,7 @@ class CommandLine(unittest.TestCase):
             self.assertEqual(code, status, where)
             self.assertIn(text, err, where)
             self.assertNotRegex(err, r"\bjam_[a-z]", where)
-            self.assertEqual(sorted(self.dir.iterdir()), before, where)
+            self.assertEqual(sorted(self.folder.iterdir()), before, where)
             if not more and "--json" not in words:
                 self.assertEqual(out, "", where)
                 continue
@@ -156,7 +155,7 @@ class CommandLine(unittest.TestCase):
             if o.kind not in ("input", "output"):
                 continue
             ending = next(iter(re.findall(r"FILE(\.[a-z]+)", o.metavar)), {"voxels": ".npy", "plot": ".png"}.get(o.name, ""))
-            path = self.dir / "none" / ("f" + ending)
+            path = self.folder / "none" / ("f" + ending)
             words = [verb.name, f"--{o.name}", path]
             if o.kind == "output" and o.name != "checkpoint":
                 words += ["--input", self.file]
@@ -202,22 +201,22 @@ class CommandLine(unittest.TestCase):
 
     def test_a_checkpoint_is_no_packing(self):
         s = jam.System.random(8, 3, 1)
-        s.write_checkpoint(str(self.dir / "c"))
+        s.write_checkpoint(str(self.folder / "c"))
         for program in self.programs():
             for verb in ("info", "check", "crunch"):
                 status = USAGE if verb == "check" else REFUSED
                 self.refused(status, "c is a checkpoint of libjam: --resume reads it", program, verb, "c")
         with self.assertRaisesRegex(jam.JamError, "System.from_checkpoint reads it"):
-            jam.System.read(str(self.dir / "c"))
+            jam.System.read(str(self.folder / "c"))
 
     def test_structure_between_walls(self):
         for program in self.programs():
             code, _, err = self.run_words(program, *"--n 20 --walls z --structure s.csv".split())
-            self.assertEqual((code, (self.dir / "s.csv").exists()), (0, True), err)
+            self.assertEqual((code, (self.folder / "s.csv").exists()), (0, True), err)
 
     def test_export_says_that_nothing_touches(self):
         s = jam.System.from_arrays([[0.25, 0.25, 0.25], [0.75, 0.75, 0.75]], 0.4, cell=[1.0, 1.0, 1.0])
-        s.write(str(self.dir / "loose.xyz"))
+        s.write(str(self.folder / "loose.xyz"))
         for program in self.programs():
             for verb, words in (("export", ("--contacts", "c.csv")), ("page", ("p.html",))):
                 code, out, err = self.run_words(program, verb, "loose.xyz", *words, "--json")
@@ -229,7 +228,7 @@ class CommandLine(unittest.TestCase):
                 self.assertNotRegex(out + err, r"\bjam_[a-z]")
 
     def test_what_reading_assumed_stands_beside_its_consequence(self):
-        (self.dir / "pts.csv").write_text("x,y,z,r\n0,0,0,0.5\n1,0,0,0.5\n0,1,0,0.5\n")
+        (self.folder / "pts.csv").write_text("x,y,z,r\n0,0,0,0.5\n1,0,0,0.5\n0,1,0,0.5\n")
         for program in self.programs():
             for verb in ("check", "crunch"):
                 code, _, err = self.run_words(program, verb, "pts.csv")
@@ -238,7 +237,7 @@ class CommandLine(unittest.TestCase):
 
     def test_info_names_the_walls(self):
         s = jam.System.random(8, 3, 1, container="cylinder", walls="z")
-        s.write(str(self.dir / "w.xyz"))
+        s.write(str(self.folder / "w.xyz"))
         for program in self.programs():
             self.assertIn("walls     a cylinder about z, flat walls at both ends of z\n", self.run_words(program, "info", "w.xyz")[1])
 
@@ -256,7 +255,7 @@ class CommandLine(unittest.TestCase):
     @unittest.skipUnless(PACK and hasattr(os, "mkfifo"), "no program, or no pipes with names")
     def test_a_pipe_that_loses_its_reader_is_an_error(self):
         """More than a pipe holds: 60000 bins. No signal ends the program."""
-        pipe = self.dir / "pipe"
+        pipe = self.folder / "pipe"
         os.mkfifo(pipe)
         words = [PACK, *f"export {self.file} --profile {pipe} --profile-bins 60000 --quiet".split()]
         with subprocess.Popen(words, stderr=subprocess.PIPE, text=True) as program:
@@ -267,7 +266,7 @@ class CommandLine(unittest.TestCase):
 
     def test_a_table_is_no_list_of_diameters(self):
         """Every number of it would be a diameter."""
-        sizes = self.dir / "sizes.txt"
+        sizes = self.folder / "sizes.txt"
         words = "pack --sizes sizes.txt --no-md --no-crunch --output o.xyz --quiet".split()
         for program in self.programs():
             for text, columns in (
@@ -287,7 +286,7 @@ class CommandLine(unittest.TestCase):
                 sizes.write_text(text, newline="")
                 code, _, err = self.run_words(program, *words)
                 self.assertEqual(code, 0, err)
-                d = jam.System.read(self.dir / "o.xyz").diameters
+                d = jam.System.read(self.folder / "o.xyz").diameters
                 self.assertAlmostEqual(d.max() / d.min(), ratio, 12)
             for text in ('"1.5"\n2\n', "-\n2\n"):  # no heading, and no number
                 sizes.write_text(text)
@@ -303,12 +302,12 @@ class CommandLine(unittest.TestCase):
             self.assertEqual((code, "joined by =" in err), (USAGE, True), err)
 
     def test_what_a_table_does_not_say(self):
-        (self.dir / "t.txt").write_text("-1 -1 -3 7 .5\n1 1 3 7 .5\n")
+        (self.folder / "t.txt").write_text("-1 -1 -3 7 .5\n1 1 3 7 .5\n")
         for program in self.programs():
             words = "export t.txt o.data --cell 4,4,8 --origin -2,-2,-4 --columns x,y,z,kind,radius"
             code, _, err = self.run_words(program, *words.split(), "--scale", "0.5", "--density", "2500")
             self.assertEqual(code, 0, err)
-            made = (self.dir / "o.data").read_text()
+            made = (self.folder / "o.data").read_text()
             self.assertIn("0 4 zlo zhi", made)
             self.assertIn("2 1 0.5 2500 1.5 1.5 3.5", made)
             code, _, err = self.run_words(program, *words.replace("o.data", "o.xyz").split(), "--density", "2500")
@@ -321,15 +320,15 @@ class CommandLine(unittest.TestCase):
     def test_files_that_are_not_written_are_not_listed(self):
         s = jam.System.random(200, 3, 1)
         s.crunch()
-        s.write(str(self.dir / "j.xyz"))
+        s.write(str(self.folder / "j.xyz"))
         for program in self.programs():
             code, _, err = self.run_words(program, *"export j.xyz --spectrum m.csv --modes 100000".split())
-            rows = len((self.dir / "m.csv").read_text().splitlines()) - 1
+            rows = len((self.folder / "m.csv").read_text().splitlines()) - 1
             self.assertEqual((code, f"m.csv has {rows} modes: there are no more" in err), (0, True), err)
-            (self.dir / "m.csv").unlink()
+            (self.folder / "m.csv").unlink()
             words = "export j.xyz --gaps g.csv --spectrum m.csv --modes 0 --wall-time 1e-3".split()
             code, out, err = self.run_words(program, *words, "--json")
-            self.assertEqual((code, json.loads(out)["written"], (self.dir / "m.csv").exists()), (1, ["g.csv"], False), err)
+            self.assertEqual((code, json.loads(out)["written"], (self.folder / "m.csv").exists()), (1, ["g.csv"], False), err)
             code, out, _ = self.run_words(program, *words)
             self.assertEqual((code, re.findall("written +(.*)", out)), (1, ["g.csv"]))
 
@@ -337,13 +336,13 @@ class CommandLine(unittest.TestCase):
         """Pore sizes are refused where spheres leave no void, after the profile and before nothing."""
         x = [[0.25 + 0.5 * (k >> c & 1) for c in range(3)] for k in range(8)]
         s = jam.System.from_arrays(x, 0.9, cell=[1.0, 1.0, 1.0], overlap="allow")
-        s.write(str(self.dir / "full.xyz"))
+        s.write(str(self.folder / "full.xyz"))
         words = "export full.xyz --profile z.csv --pores p.csv --output full.data".split()
         for program in self.programs():
             code, out, err = self.run_words(program, *words)
             self.assertEqual((code, "no void" in err), (REFUSED, True), err)
             self.assertEqual(sorted(re.findall("written +(.*)", out)), ["full.data", "z.csv"])
-            self.assertEqual([(self.dir / name).exists() for name in ("full.data", "z.csv", "p.csv")], [True, True, False])
+            self.assertEqual([(self.folder / name).exists() for name in ("full.data", "z.csv", "p.csv")], [True, True, False])
             code, out, err = self.run_words(program, *words, "--json")
             said = json.loads(out)
             self.assertEqual((code, said["status"], sorted(said["written"])), (REFUSED, REFUSED, ["full.data", "z.csv"]), err)
@@ -356,7 +355,7 @@ class CommandLine(unittest.TestCase):
             for words in ((), ("--packing-fraction", "0.199"), ("--phi0", "0.1")):
                 code, _, err = self.run_words(program, "compress", *ball, *words)
                 self.assertEqual(code, 0, err)
-                notes = json.loads((self.dir / "t.json").read_text())["notes"]
+                notes = json.loads((self.folder / "t.json").read_text())["notes"]
                 self.assertEqual(len(notes), int("--phi0" not in words), notes)
                 self.assertIn("random start", "".join(notes) or "random start")
             code, _, err = self.run_words(program, "compress", *ball, "--phi0", "0.2")
@@ -369,11 +368,11 @@ class CommandLine(unittest.TestCase):
                 words = f"compress --cell 9,8,7 --walls xyz --sizes {sizes} --packing-fraction 0.3 --output e.xyz --report e.json --quiet"
                 code, _, err = self.run_words(program, *words.split())
                 self.assertEqual(code, 0, err)
-                s = jam.System.read(str(self.dir / "e.xyz"))
+                s = jam.System.read(str(self.folder / "e.xyz"))
                 for sigma in s.diameters:
                     self.assertLess(min(abs(sigma / of - 1) for of in diameters), 1e-11)
                 self.assertLess(abs(s.packing_fraction - 0.3) * 504, 3.1416 / 6 * max(diameters) ** 3)
-                report = json.loads((self.dir / "e.json").read_text())
+                report = json.loads((self.folder / "e.json").read_text())
                 self.assertAlmostEqual(report["packing_fraction"], s.packing_fraction, 12)
                 self.assertIn(f"{s.n} whole spheres of --sizes have the packing fraction", report["notes"][0])
 
@@ -385,8 +384,8 @@ class CommandLine(unittest.TestCase):
                     program, *f"compress --cell 7,7,8 {words} --porosity 0.65 --least-distance 0.125 --output l.xyz --report l.json --quiet".split()
                 )
                 self.assertEqual(code, 0, err)
-                s = jam.System.read(str(self.dir / "l.xyz"))
-                report = json.loads((self.dir / "l.json").read_text())
+                s = jam.System.read(str(self.folder / "l.xyz"))
+                report = json.loads((self.folder / "l.json").read_text())
                 self.assertAlmostEqual(report["diameter_mean"], report["diameter_mean_given"], 11)
                 self.assertLess(abs(s.packing_fraction - 0.35) * s.info.volume, 3.1416 / 6 * s.diameters.max() ** 3)
                 self.assertIn("shells of 0.0625", report["notes"][0])
@@ -436,11 +435,11 @@ class CommandLine(unittest.TestCase):
             "run D --seeds 1 --workers 1 --workers 2",
             "export D E --shard 1 --shard 2",
         ):
-            code, _, err = in_process(ensemble.main, words.split(), self.dir)
+            code, _, err = in_process(ensemble.main, words.split(), self.folder)
             self.assertEqual((code, "is given twice: leave one out" in err), (USAGE, True), err)
-        self.assertEqual(in_process(ensemble.main, "run D --seed 1-2".split(), self.dir)[0], USAGE)
+        self.assertEqual(in_process(ensemble.main, "run D --seed 1-2".split(), self.folder)[0], USAGE)
         for status, words in ((REFUSED, "status D --json"), (USAGE, "status D --json --n x")):
-            code, out, _ = in_process(ensemble.main, words.split(), self.dir)
+            code, out, _ = in_process(ensemble.main, words.split(), self.folder)
             said = json.loads(out)
             self.assertEqual((code, said["status"]), (status, status))
             self.assertTrue(said["text"])

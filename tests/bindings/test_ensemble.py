@@ -5,7 +5,6 @@ import resource
 import signal
 import subprocess
 import sys
-import tempfile
 import threading
 import time
 import unittest
@@ -18,16 +17,13 @@ import numpy as np
 import jam
 from jam._formats import replacing
 from jam.ensemble import DamagedWarning, Ensemble, LocalPool, ProtocolError, StoreError, folder
-from packings import SMALL, same_bits
+from packings import SMALL, InFolder, same_bits
 
 
-class Campaigns(unittest.TestCase):
+class Campaigns(InFolder):
     def setUp(self):
-        self.holder = tempfile.TemporaryDirectory()
-        self.folder = Path(self.holder.name, "e")
-
-    def tearDown(self):
-        self.holder.cleanup()
+        super().setUp()
+        self.folder /= "e"
 
     def test_run_goes_on_where_it_was_and_gives_the_bits_of_one_system(self):
         e = Ensemble(self.folder, SMALL)
@@ -52,7 +48,7 @@ class Campaigns(unittest.TestCase):
         shear = {"verb": "shear", "to": 0.5, "step": 5e-3, "until": "jammed", "resolution": 1e-4, "max_evaluations": 30000}
         start = dict(n=64, dim=2, packing_fraction=0.83, overlap="allow", diameters={"law": "bidisperse"}, crunch=None)
         soft = Ensemble(self.folder, dict(start, stages=[{"verb": "relax"}, shear], analysis={"shear_history": {}, "stress": {}}))
-        hard = Ensemble(Path(self.holder.name, "hard"), dict(start, stages=[{"verb": "relax"}, shear, {"verb": "decompress"}], analysis={}))
+        hard = Ensemble(self.folder.with_name("hard"), dict(start, stages=[{"verb": "relax"}, shear, {"verb": "decompress"}], analysis={}))
         for e in (soft, hard):
             e.run([1], progress=False, workers=1)
             Ensemble(e.files.path).run([1, 2, 3], progress=False, workers=1)

@@ -9,7 +9,7 @@ import jam
 from jam.ensemble import Ensemble, ProtocolError
 from jam.ensemble.making import begin
 from jam.ensemble.protocol import complete
-from packings import SMALL
+from packings import SMALL, InFolder
 
 
 class Protocols(unittest.TestCase):
@@ -94,11 +94,10 @@ class Entries(unittest.TestCase):
             next(iter(loose)).forces
 
 
-class Tables(unittest.TestCase):
+class Tables(InFolder):
     def setUp(self):
-        holder = tempfile.TemporaryDirectory()
-        self.addCleanup(holder.cleanup)
-        self.folder = Path(holder.name, "e")
+        super().setUp()
+        self.folder /= "e"
 
     def test_enums_are_words_in_a_data_frame(self):
         e = Ensemble(self.folder, SMALL)

@@ -18,6 +18,7 @@ import numpy as np
 
 import jam
 from jam.ensemble import Ensemble
+from packings import InFolder
 
 SMALL = dict(n=32, dim=3, stages=[{"growth_rate": 0.1, "pressure": 100.0}])
 SEEDS = range(1, 6)
@@ -51,18 +52,15 @@ def hold_the_interpreter(seconds):
     return seconds
 
 
-class Executors(unittest.TestCase):
+class Executors(InFolder):
     @classmethod
     def setUpClass(cls):
         protocol = jam.ensemble.complete(SMALL)
         cls.expected = {s: jam.ensemble.make(protocol, s)[0] for s in SEEDS}
 
     def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.ensemble = Ensemble(Path(self.folder.name, "e"), SMALL)
-
-    def tearDown(self):
-        self.folder.cleanup()
+        super().setUp()
+        self.ensemble = Ensemble(self.folder / "e", SMALL)
 
     def check(self):
         self.assertEqual(self.ensemble.status(SEEDS).done, len(SEEDS))
@@ -88,7 +86,7 @@ class Executors(unittest.TestCase):
 
     def test_mpi_with_three_processes(self):
         self.assertIsNotNone(shutil.which("mpiexec"), "openmpi-bin is not installed")
-        protocol = Path(self.folder.name, "p.json")
+        protocol = self.folder / "p.json"
         protocol.write_text(json.dumps(SMALL))
         mpi = ["mpiexec", "--allow-run-as-root", "--oversubscribe", "-n", "3", sys.executable, "-m", "mpi4py.futures"]
         run = ["-m", "jam", "ensemble", "run", str(self.ensemble.files.path), "--protocol", str(protocol)]
@@ -101,7 +99,7 @@ class Executors(unittest.TestCase):
     def test_dask_with_two_workers(self):
         from distributed import Client
 
-        with dask_cluster(self.folder.name) as address, Client(address, set_as_default=False) as client:
+        with dask_cluster(self.folder) as address, Client(address, set_as_default=False) as client:
             client.wait_for_workers(2)
             status = self.ensemble.run(SEEDS, client.get_executor(), progress=False)
             self.assertEqual(status.done, len(SEEDS), self.ensemble.failures())

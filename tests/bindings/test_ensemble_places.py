@@ -3,7 +3,6 @@ file is named."""
 import json
 import os
 import shutil
-import tempfile
 import unittest
 import unittest.mock
 import warnings
@@ -15,17 +14,15 @@ import numpy as np
 import jam
 from jam.ensemble import DamagedWarning, Ensemble
 from jam.ensemble import folder as places
-from packings import SMALL, same_bits
+from packings import SMALL, InFolder, same_bits
 
 OTHER = dict(SMALL, n=18)
 
 
-class Case(unittest.TestCase):
+class Case(InFolder):
     def setUp(self):
-        holder = tempfile.TemporaryDirectory()
-        self.addCleanup(holder.cleanup)
-        self.top = Path(holder.name)
-        self.e = Ensemble(self.top / "e", SMALL)
+        super().setUp()
+        self.e = Ensemble(self.folder / "e", SMALL)
 
     def make(self, seeds, e=None, **more):
         """In this process, where tests can patch what is written."""
@@ -117,7 +114,7 @@ class Names(Case):
 
     def test_a_file_of_another_protocol_under_a_seeds_name(self):
         self.make([1])
-        other = Ensemble(self.top / "f", OTHER)
+        other = Ensemble(self.folder / "f", OTHER)
         self.make([5], other)
         shutil.copy(other.files.packing(other.name(5)), self.file(2))
         self.assertEqual(self.seeds(), [1])
@@ -126,7 +123,7 @@ class Names(Case):
         status = self.make([1, 2])
         self.assertEqual((status.made, status.done, status.missing), (1, 2, 0))
         self.assertEqual(self.seeds(), [1, 2])
-        table = jam.ensemble.table(self.top / "e")
+        table = jam.ensemble.table(self.folder / "e")
         self.assertEqual(sorted(zip(table["protocol"].tolist(), table["seed"].tolist())),
                          sorted([(self.e.id.encode(), 1), (self.e.id.encode(), 2), (other.id.encode(), 5)]))
 
@@ -225,14 +222,14 @@ class Shards(Case):
     def setUp(self):
         super().setUp()
         self.make([1, 2, 3])
-        self.shards = self.e.export(self.top / "shards", per_shard=2)
-        self.s = Ensemble(self.top / "shards")
+        self.shards = self.e.export(self.folder / "shards", per_shard=2)
+        self.s = Ensemble(self.folder / "shards")
 
     def test_an_ensemble_of_shards_is_that_of_the_files(self):
         self.assertEqual((self.s.id, self.s.protocol), (self.e.id, self.e.protocol))
         np.testing.assert_array_equal(self.s.table(), self.e.table())
-        np.testing.assert_array_equal(jam.ensemble.table(self.top / "shards"), self.e.table())
-        self.assertEqual(jam.ensemble.protocols(self.top / "shards"), {self.e.id: self.e.protocol})
+        np.testing.assert_array_equal(jam.ensemble.table(self.folder / "shards"), self.e.table())
+        self.assertEqual(jam.ensemble.protocols(self.folder / "shards"), {self.e.id: self.e.protocol})
         for name in ("forces", "gaps", "positions", "coordination"):
             for ours, theirs in zip(self.s.each(name), self.e.each(name), strict=True):
                 np.testing.assert_array_equal(ours, theirs)
@@ -243,17 +240,17 @@ class Shards(Case):
         self.assertEqual(str(self.s.status()), str(self.e.status()))
 
     def test_the_files_may_go_and_a_campaign_goes_on_in_the_shards(self):
-        shutil.rmtree(self.top / "e")
+        shutil.rmtree(self.folder / "e")
         status = self.make([1, 2, 3, 4], self.s)
         self.assertEqual((status.done, status.made), (4, 1))
         self.assertEqual(self.make([3, 4], self.s, search=False).made, 0)
-        self.s.export(self.top / "again")
-        again = Ensemble(self.top / "again")
+        self.s.export(self.folder / "again")
+        again = Ensemble(self.folder / "again")
         self.assertEqual(again.table()["seed"].tolist(), [1, 2, 3, 4])
 
     def test_a_shard_beside_its_files_is_named_and_counts_nothing(self):
         for shard in self.shards:
-            shutil.copy(shard, self.top / "e")
+            shutil.copy(shard, self.folder / "e")
         with self.warned("2 files are omitted: .*and 1 more, which other files hold too"):
             self.assertEqual(self.seeds(), [1, 2, 3])
 
@@ -261,10 +258,10 @@ class Shards(Case):
         data = bytearray(self.shards[0].read_bytes())
         data[100] ^= 1
         self.shards[0].write_bytes(data)
-        for s in (Ensemble(self.top / "shards"), Ensemble(self.top / "shards", SMALL)):
+        for s in (Ensemble(self.folder / "shards"), Ensemble(self.folder / "shards", SMALL)):
             with self.warned(self.shards[0].name):
                 self.assertEqual(s.table()["seed"].tolist(), [3])
             self.assertIn(self.shards[0].name, str(s.damaged()))
         self.shards[1].write_bytes(b"")
         with self.assertRaisesRegex(jam.ensemble.StoreError, self.shards[0].name):
-            Ensemble(self.top / "shards")
+            Ensemble(self.folder / "shards")

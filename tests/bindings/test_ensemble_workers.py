@@ -9,7 +9,7 @@ import unittest
 from pathlib import Path
 
 from jam.ensemble import Ensemble, LocalPool, WorkerDied
-from packings import SMALL
+from packings import SMALL, InFolder
 
 
 class Pool(unittest.TestCase):
@@ -35,13 +35,12 @@ class Pool(unittest.TestCase):
         self.assertIsInstance(running.exception(), WorkerDied)
 
 
-class Imports(unittest.TestCase):
+class Imports(InFolder):
     """A program runs in a folder that anybody may write to, with files there that have names of modules."""
 
     def setUp(self):
-        holder = tempfile.TemporaryDirectory()
-        self.addCleanup(holder.cleanup)
-        self.home, self.current = Path(holder.name, "home"), Path(holder.name, "current")
+        super().setUp()
+        self.home, self.current = self.folder / "home", self.folder / "current"
         self.home.mkdir(), self.current.mkdir()
         for name in ("queue", "json", "numpy", "h5py", "tqdm", "signal"):
             (self.current / f"{name}.py").write_text("open('RAN', 'w').close()")

@@ -95,24 +95,6 @@ class Options(unittest.TestCase):
         self.assertRegex(said.stderr, r"^4000 spheres in d = 3\ngrowth 1e-05  p [\d.]+  phi 0\.\d+ .* 1\d\.\d s  \d+ %, .* s left \(.*\)\n")
         self.assertNotIn("\r", said.stderr)
 
-    def test_options_without_effect(self):
-        """jam_pack.py tries all rules; here those of both programs."""
-        for arguments, text in (
-            (["--input", "a", "--n", "77"], "--n has no effect beside --input"),
-            (["--non-additivity", "0.1"], "--non-additivity has no effect without --sizes"),
-            (["--no-crunch", "--threads", "1"], "--threads has no effect beside --no-crunch"),
-            (["--input", "a", "--pressure", "1e5"], "--pressure has no effect: no stage of growth runs up to it"),
-            (["--growth", "1e-2:500", "--pressure", "1e5"], "--pressure has no effect"),
-            (["--model", "euclid", "--plant", "0.1"], "--model euclid contradicts --plant"),
-            (["--no-md", "--no-crunch", "--checkpoint", "a"], "--checkpoint has no effect"),
-            (["--output", ""], "must be the name of a file"),
-            (["--output", "./a", "--report", "a"], "--output and --report must be different files|--report and --output"),
-        ):
-            for program in ([PACK], [sys.executable, "-m", "jam"]):
-                said = subprocess.run([*program, *arguments], capture_output=True, text=True, timeout=120)
-                self.assertEqual(said.returncode, 2, (program, arguments))
-                self.assertRegex(said.stderr, text)
-
     def test_notes_of_a_file(self):
         with tempfile.TemporaryDirectory() as folder:
             file = Path(folder, "a.xyz")
@@ -127,17 +109,3 @@ class Options(unittest.TestCase):
                 self.assertEqual(json.loads(report)["notes"], notes)
                 first = [*program, "--input", file, "--frame", "0", "--no-crunch", "--report", "-"]
                 self.assertEqual(len(json.loads(subprocess.run(first, capture_output=True).stdout)["notes"]), 2)
-
-    def test_bad_values_are_named(self):
-        for arguments, text in (
-            (["--method", "fire"], "must be one of: barrier sequential-lp"),
-            (["--n", "0"], "must be an integer in 1..2147483647"),
-            (["--quiet=1"], "'--quiet' takes no value"),
-            (["--sead", "1"], "unknown option '--sead'; did you mean --seed?"),
-            (["--seed"], "'--seed' lacks its value"),
-            (["--output", "x.gsd2"], "no format is known by this ending"),
-            (["--contacts", "x.json"], "use .csv, .dump or .vtp"),
-        ):
-            said = self.pack(*arguments)
-            self.assertEqual(said.returncode, 2)
-            self.assertIn(text, said.stderr)

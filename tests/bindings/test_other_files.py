@@ -5,13 +5,13 @@ import os
 import pickle
 import subprocess
 import sys
-import tempfile
 import unittest
 import warnings
 
 import numpy as np
 
 import jam
+from packings import InFolder
 
 warnings.simplefilter("ignore")
 
@@ -20,12 +20,10 @@ def available(name):
     return importlib.util.find_spec(name) is not None
 
 
-class Folder(unittest.TestCase):
+class Folder(InFolder):
     def setUp(self):
-        held = tempfile.TemporaryDirectory()
-        self.addCleanup(held.cleanup)
-        self.path = os.path.join(held.name, "f.gsd")
-        self.folder = held.name
+        super().setUp()
+        self.path = str(self.folder / "f.gsd")
 
     def refused(self, words, call, *args, kind=ValueError, **named):
         with self.assertRaises(kind) as told:

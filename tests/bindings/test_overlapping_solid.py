@@ -9,6 +9,7 @@ import unittest
 
 import jam
 import numpy as np
+from packings import InFolder
 
 PACK = os.environ.get("JAM_PACK")
 
@@ -175,13 +176,8 @@ SCENES = (
 )
 
 
-class ManySpheres(unittest.TestCase):
+class ManySpheres(InFolder):
     """Spheres of two sizes at random places, deep in one another, that pass the walls too."""
-
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
 
     def scene(self, dim, options, n=25):
         rng = np.random.default_rng(dim)
@@ -225,10 +221,10 @@ class ManySpheres(unittest.TestCase):
                 p = shells
             whole.append((p.solid * volume).sum() / volume.sum())
             np.testing.assert_allclose(whole, whole[0], rtol=1e-9, err_msg=name)
-            report = s.write_voxels(self.folder + "/s.npy", size=0.02, lines=6)
+            report = s.write_voxels(f"{self.folder}/s.npy", size=0.02, lines=6)
             self.assertLess(abs(1 - report.porosity - whole[0]), 2e-4, name)
             # the rim of a round container is as wide as a voxel
-            report = s.write_voxels(self.folder + "/c.npy", size=0.01)
+            report = s.write_voxels(f"{self.folder}/c.npy", size=0.01)
             self.assertLess(abs(1 - report.porosity - whole[0]), 3e-3, name)
 
     def test_shares_of_voxels(self):

@@ -322,21 +322,8 @@ class Page(PageTest):
     @unittest.skipUnless(os.environ.get("JAM_PACK"), "jam-pack is not built")
     def test_jam_pack_writes_it(self):
         page = self.path / "pack.html"
-        command = [
-            os.environ["JAM_PACK"],
-            "--n",
-            "64",
-            "--dim",
-            "2",
-            "--diameters-ratio",
-            "1.4",
-            "--quiet",
-            "--page",
-            page,
-            "--page-steps",
-            "5",
-        ]
-        self.assertIn(subprocess.run(command).returncode, (0, 1))
+        words = f"--n 64 --dim 2 --diameters-ratio 1.4 --quiet --page {page} --page-steps 5".split()
+        self.assertIn(subprocess.run([os.environ["JAM_PACK"], *words]).returncode, (0, 1))
         self.page.open(page)
         self.assertEqual(self.page.run("scene.count"), 64)
         self.assertIn("Collectively jammed", self.page.run("document.querySelector('#certificate .verdict').innerText"))

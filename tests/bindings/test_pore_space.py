@@ -11,6 +11,7 @@ from pathlib import Path
 
 import jam
 import numpy as np
+from packings import InFolder
 
 PACK = os.environ.get("JAM_PACK")
 
@@ -50,13 +51,10 @@ def jammed(n=60, **options):
 TILTED = [[1, 0, 0], [0.3, 1.1, 0], [0.2, -0.4, 0.9]]
 
 
-class Mesh(unittest.TestCase):
+class Mesh(InFolder):
     def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.path = Path(self.folder.name, "p.stl")
-
-    def tearDown(self):
-        self.folder.cleanup()
+        super().setUp()
+        self.path = self.folder / "p.stl"
 
     def mesh(self, s, **options):
         report = s.write_stl(str(self.path), **options)

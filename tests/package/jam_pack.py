@@ -78,16 +78,11 @@ class JamPack(unittest.TestCase):
             (["--seeds", "3"], "unknown option '--seeds'; did you mean --seed?"),
             (["--n"], "'--n' lacks its value"),
             (["packing.dat"], "unexpected argument 'packing.dat'"),
-            (["--n", "many"], "--n is 'many'"),
-            (["--n", "0"], "--n is '0'"),
-            (["--n", "-4"], "--n is '-4'"),
-            (["--n", "4294967296"], "--n is '4294967296'"),
+            (["--n", "0"], "--n is '0', it must be an integer in 1..2147483647"),
             (["--n", "1e3"], "--n is '1e3'"),
             (["--n="], "--n is ''"),
             (["--dim", "1"], "integer in 2..8"),
             (["--dim", "9"], "integer in 2..8"),
-            (["--phi0", "nan"], "--phi0 is 'nan'"),
-            (["--phi0", "-0.2"], "--phi0"),
             (["--phi0", "0"], "--phi0"),
             (["--phi0", "0.2x"], "--phi0 is '0.2x'"),
             (["--growth", "0"], "--growth is '0'"),
@@ -97,10 +92,10 @@ class JamPack(unittest.TestCase):
             (["--growth", "1e-2:0.5"], "larger than 1"),
             (["--pressure", "1"], "larger than 1"),
             (["--lp", "highs"], "one of: ipm clp"),
-            (["--seed", "1.5"], "--seed"),
+            (["--method", "fire"], "must be one of: barrier sequential-lp"),
+            (["--quiet=1"], "'--quiet' takes no value"),
+            (["--contacts", "x.json"], "use .csv, .dump or .vtp"),
             (["--seed", "99999999999999999999"], "--seed"),
-            (["--threads", "0"], "--threads"),
-            (["--nve", "-1"], "--nve"),
             (["--wall-time", "0"], "--wall-time"),
             (["--diameters-ratio", "0"], "--diameters-ratio"),
             (["--no-md", "--growth", "1e-2"], "--no-md contradicts --growth"),
@@ -111,7 +106,6 @@ class JamPack(unittest.TestCase):
             (["--output", "q.xyz.zip"], "use .xyz, .extxyz, .data, .lmp, .vtp, .dat, .txt or none"),
             (["--input", "a", "--report", "a"], "overwrite the input"),
             (["--gaps", "a", "--structure", "a"], "--gaps and --structure must be different"),
-            (["--modes", "-1"], "--modes is '-1'"),
             (["--input", "a", "--spectrum", "a"], "--spectrum would overwrite"),
             (["--modes", "5"], "--modes has no effect without --spectrum"),
             (["--no-crunch", "--gaps", "a"], "--gaps needs the crunch"),
@@ -127,12 +121,13 @@ class JamPack(unittest.TestCase):
             (["--input", "a", "--plant", "0.3"], "--plant has no effect beside --input"),
             (["--input", "a", "--sizes", "list:1=0.5,1.4=0.5"], "--sizes has no effect beside --input"),
             (["--input", "a", "--diameters-ratio=1"], "--diameters-ratio has no effect beside --input"),
-            (["--input", "a", "--pressure", "1e5"], "--pressure has no effect"),
+            (["--input", "a", "--pressure", "1e5"], "--pressure has no effect: no stage of growth runs up to it"),
             (["--growth", "1e-2:500", "--pressure", "1e5"], "--pressure has no effect"),
             (["--no-md", "--pressure", "1e5"], "--pressure has no effect"),
             (["--sizes", "lognormal:deviation=0.3", "--diameters-ratio", "2"], "no effect beside --sizes"),
             (["--plant", "0.3", "--phi0", "0.3"], "--phi0 has no effect beside --plant"),
             (["--model", "euclid", "--zeta", "1"], "--model euclid contradicts --zeta"),
+            (["--model", "euclid", "--plant", "0.1"], "--model euclid contradicts --plant"),
             (["--non-additivity", "0.1"], "--non-additivity has no effect without --sizes"),
             (["--shrink"], "--shrink has no effect without --input"),
             (["--frame", "0"], "--frame has no effect without --input"),
@@ -283,26 +278,9 @@ class JamPack(unittest.TestCase):
     def test_tables_of_the_network(self):
         xyz, gaps, spheres, low, full = (self.dir / name for name in ("p.xyz", "g.csv", "s.csv", "low.csv", "all.csv"))
         contacts = self.dir / "c.csv"
-        report = self.report(
-            "--n",
-            100,
-            "--dim",
-            2,
-            "--diameters-ratio",
-            1.4,
-            "--output",
-            xyz,
-            "--contacts",
-            contacts,
-            "--gaps",
-            gaps,
-            "--structure",
-            spheres,
-            "--spectrum",
-            low,
-            "--modes",
-            7,
-        )
+        start = "--n 100 --dim 2 --diameters-ratio 1.4".split()
+        tables = ("--contacts", contacts, "--gaps", gaps, "--structure", spheres, "--spectrum", low, "--modes", 7)
+        report = self.report(*start, "--output", xyz, *tables)
         rows, rattlers, network = positions(xyz), report["rattlers"], self.table(contacts)
         sums = [[0.0, 0.0] for _ in rows]
         for line in network:
@@ -346,20 +324,7 @@ class JamPack(unittest.TestCase):
             self.assertTrue(all(0.3 < float(x) < 1.0 for x in filled))
 
     def test_two_dimensions_two_sizes(self):
-        report, _ = self.job(
-            "--n",
-            128,
-            "--dim",
-            2,
-            "--diameters-ratio",
-            1.4,
-            "--growth",
-            "1e-2:500",
-            "--growth",
-            "3e-3",
-            "--pressure",
-            "1e6",
-        )
+        report, _ = self.job(*"--n 128 --dim 2 --diameters-ratio 1.4 --growth 1e-2:500 --growth 3e-3 --pressure 1e6".split())
         self.assertTrue(0.81 < report["packing_fraction"] < 0.86, report["packing_fraction"])
 
     def test_simplex_gives_the_same_packing(self):
@@ -470,24 +435,12 @@ class JamPack(unittest.TestCase):
         job = ["--n", 1000, "--growth", "1e-2:500", "--growth", "3e-3:1e5", "--no-crunch"]
         self.report(*job, "--output", self.dir / "whole.dat")
         kept = self.dir / "state.bin"
-        first = self.report(
-            *job, "--checkpoint", kept, "--wall-time", 0.25, "--output", self.dir / "part.dat", status=1
-        )
+        job += ["--checkpoint", kept, "--output", self.dir / "part.dat"]
+        first = self.report(*job, "--wall-time", 0.25, status=1)
         self.assertEqual(first["stop_reason"], "wall_time")
         rounds = 0
         while True:
-            report = self.report(
-                *job,
-                "--resume",
-                kept,
-                "--checkpoint",
-                kept,
-                "--wall-time",
-                0.6,
-                "--output",
-                self.dir / "part.dat",
-                status=None,
-            )
+            report = self.report(*job, "--resume", kept, "--wall-time", 0.6, status=None)
             rounds += 1
             if report["stop_reason"] == "pressure" and report["pressure"] > 9e4 or rounds > 100:
                 break

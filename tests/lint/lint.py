@@ -233,7 +233,7 @@ def file_sizes():
         "examples",
         "pkgconfig",
     }
-    # what git ignores, such as the page of the quickstart, is no part of the tree
+    # what git ignores, such as the picture of the quickstart, is no part of the tree
     ignored = [line.strip("/") for line in (root / ".gitignore").read_text().split()]
     for path in root.iterdir():
         if any(fnmatch.fnmatch(path.name, pattern) for pattern in ignored):

@@ -68,8 +68,8 @@ PYTHON
     debian)
       begin debian
       command=$(row 'Debian 12')
-      inside "$command && test -s packing.html"
-      passed debian "$command wrote packing.html"
+      inside "$command && test -s packing.png && test -s packing.html"
+      passed debian "$command drew packing.png and wrote packing.html"
       ;;
     cmake)
       begin cmake

@@ -50,18 +50,6 @@ def crunch(raw):
     return columns, rows
 
 
-def size(raw):
-    """size_chart.py --sizes 256,512,1024,2048,4096 --seeds 3 --growth 3e-4 --pressure 1e7"""
-    rows = []
-    for n in sorted({run["n"] for run in raw}):
-        cells = [n]
-        for method in ("barrier_path", "sequential_lp"):
-            runs = [run for run in raw if run["n"] == n and run["method"] == method]
-            cells += [whole([run["factorisations"] for run in runs]), spread([run["seconds"] for run in runs])]
-        rows.append(cells)
-    return ["N", "barrier path: factorisations", "barrier path (s)", "sequential LPs: factorisations", "sequential LPs (s)"], rows
-
-
 def disks(*raws):
     """disks.py N SEEDS FIRST_SEED"""
     rows = []

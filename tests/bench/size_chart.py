@@ -2,7 +2,7 @@
 """Time, factorisations and LPs of a crunch against the number of spheres, with fitted exponents beside the published ones.
 
 usage: size_chart.py [--sizes 128,256,512,1024] [--seeds 3] [--growth 1e-3] [--pressure 1e5] [--out SIZE.json] [--picture SIZE.png]
-                     [--threads 1] [--methods barrier_path,sequential_lp] [--states DIR] [--only-draw]
+                     [--threads 1] [--methods barrier_path,sequential_lp] [--only-draw]
 
 States: random at phi 0.2, grown at G = 1e-2 to p = 500 and then at --growth to --pressure. Times are of the processor, with two
 threads of the clock (let nothing else run then); lines go through medians over seeds. A run that is in the JSON already is not
@@ -15,13 +15,18 @@ import time
 
 import numpy as np
 
-from grown import grown
+import jam
 
-PUBLISHED = {
-    "seconds": 2.75,
-    "lps": 0.59,
-    "factorisations": None,
-}  # Diaz Hernandez Rojas, thesis (2021): whole crunch and LPs
+# Diaz Hernandez Rojas, thesis (2021): whole crunch and LPs
+PUBLISHED = {"seconds": 2.75, "lps": 0.59, "factorisations": None}
+
+
+def grown(n, seed, stages):
+    """n spheres in d = 3 after stages of (growth rate, pressure), and the seconds that took."""
+    system = jam.System.random(n, 3, seed)
+    began = time.process_time()
+    system.compress(stages)
+    return system, time.process_time() - began
 
 
 def run(start, md, n, seed, method, args):
@@ -126,7 +131,6 @@ def main():
     parser.add_argument("--threads", type=int, default=1)
     parser.add_argument("--methods", default="barrier_path,sequential_lp")
     parser.add_argument("--out", default="size_chart.json")
-    parser.add_argument("--states", help="folder where grown states are kept and found again")
     parser.add_argument("--picture")
     parser.add_argument("--only-draw", action="store_true")
     args = parser.parse_args()
@@ -138,7 +142,7 @@ def main():
         same = dict(n=n, seed=seed, threads=args.threads, growth=args.growth, pressure=args.pressure)
         made = {r["method"] for r in rows if all(r[k] == v for k, v in same.items())}
         methods = [m for m in args.methods.split(",") if m not in made]
-        start = grown(n, seed, [(1e-2, 500.0), (args.growth, args.pressure)], args.states) if methods else None
+        start = grown(n, seed, [(1e-2, 500.0), (args.growth, args.pressure)]) if methods else None
         for method in methods:
             rows.append(run(*start, n, seed, method, args))
             print(json.dumps(rows[-1]), flush=True)

@@ -87,7 +87,7 @@ class BadScenes(InFolder):
         for call in (s.prove, lambda: s.crunch(prove=True), lambda: s.check(prove=True)):
             with self.assertRaisesRegex(jam.errors.UnsupportedError, "a proof has no formulae for a cone"):
                 call()
-        with self.assertRaisesRegex(jam.errors.UnsupportedError, "jam_maximise_radii has no formulae for a cone"):
+        with self.assertRaisesRegex(jam.errors.UnsupportedError, r"maximise_radii\(\) has no formulae for a cone"):
             s.maximise_radii()
 
     def test_free_cells_are_refused_by_name_where_walls_close_too_many_axes(self):

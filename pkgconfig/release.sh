@@ -163,6 +163,13 @@ if begin npm 'jamming-*.tgz'; then
 fi
 
 $python pkgconfig/spdx.py list "$commit" "$out"
+# Parts that earlier runs made of the same commit keep their rows.
+if grep -q "commit $commit" "$out/CONTENTS.md" 2>/dev/null; then
+  grep '^| .*[0-9] |' "$out/CONTENTS.md" | while IFS='|' read -r _ file rest; do
+    if named "$file" >/dev/null 2>&1 && ! grep -qF "|$file|" "$work/rows"; then echo "|$file|$rest"; fi
+  done >"$work/earlier"
+  cat "$work/earlier" >>"$work/rows"
+fi
 {
   printf '# libjam %s\n\n`sh pkgconfig/release.sh %s FOLDER`, commit %s.\n\n' "$version" "$version" "$commit"
   printf '| file | bytes | how it was tried |\n|---|---|---|\n'

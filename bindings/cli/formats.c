@@ -144,7 +144,7 @@ int check_formats(const options *o, const jam_system *sys) {
   format row;
   info.struct_size = sizeof info;
   jam_get_info(sys, &info);
-  if (info.n == 1 && o->given.verb <= VERB_CRUNCH && !o->no_crunch && o->strain == JAM_STRAIN_NONE) {
+  if (info.n == 1 && o->given.verb <= VERB_CRUNCH && !o->no_crunch && !o->radii && o->strain == JAM_STRAIN_NONE) {
     if (info.walls || info.container)
       complain(
           "one sphere between walls needs no crunch: leave it out by --no-crunch; its largest diameter is the width");

@@ -108,8 +108,8 @@ static const option_row table[] = {
     {"--threads", TAKE_INTEGER, offsetof(options, threads), .verbs = 5,
      .without = "--no-crunch --packing-fraction --porosity", .low = 1, .high = 64},
     {"--radii", TAKE_TEXT, offsetof(options, radii), .verbs = 5,
-     .without = "--no-crunch --packing-fraction --porosity --method --strain --lp --duality-gap --page-steps --prove "
-     "--proof --strict-proof --container --model --non-additivity"},
+     .without = "--no-crunch --packing-fraction --porosity --method --lp --duality-gap --page-steps --prove --proof "
+     "--strict-proof --container --model --non-additivity"},
     {"--no-crunch", TAKE_SWITCH, offsetof(options, no_crunch), .verbs = 1},
     {"--to", TAKE_TEXT, offsetof(options, to), .verbs = 8},
     {"--mode", TAKE_TEXT, offsetof(options, mode), .verbs = 8},
@@ -322,7 +322,8 @@ static const help_line help[] = {
     {1029, "                         than 4 gain little"},
     {1029, "  --radii KIND           change the radii too, in place of the crunch: sum, to the largest"},
     {1029, "                         sum of radii; moments:Q,.. to the largest factor of the radii while"},
-    {1029, "                         their power sums of up to four exponents keep their ratios"},
+    {1029, "                         their power sums of up to four exponents keep their ratios; with"},
+    {1029, "                         --strain the cell deforms too"},
     {1025, "  --no-crunch            stop after molecular dynamics"},
     {1032, "Shear"},
     {1032, "  --to G,..              the last strain of a simple shear, x moves with y; of several the"},

@@ -22,6 +22,7 @@ jam_status run_radii(jam_system *sys, const options *o, double wall_time, outcom
   take_radii(o, &radii);
   radii.threads = (int32_t)o->threads;
   radii.wall_time = wall_time;
+  radii.strain = (int32_t)o->strain;
   result->radii.struct_size = sizeof result->radii;
   status = jam_maximise_radii(sys, &radii, NULL, 0, &result->radii);
   result->has_radii = status >= 0;

@@ -70,7 +70,8 @@ static void put_protocol(FILE *f, const options *o, const outcome *result) {
               next(&first), o->given.stages[k].growth, o->given.stages[k].pressure,
               jam_stop_string(result->stage_stop[k]));
   if (result->has_radii)
-    fprintf(f, "%s{\"stage\": \"radii\", \"kind\": \"%s\"}", next(&first), o->radii);
+    fprintf(f, "%s{\"stage\": \"radii\", \"kind\": \"%s\", \"strain\": \"%s\"}", next(&first), o->radii,
+            strains[o->strain]);
   else if (result->has_crunch)
     fprintf(f, "%s{\"stage\": \"crunch\", \"method\": \"%s\", \"strain\": \"%s\"}", next(&first), methods[o->method],
             strains[o->strain]);

@@ -989,10 +989,7 @@ JAM_API jam_status jam_crunch_step(const jam_system *sys, double *displacement, 
                                    size_t *rows);
 
 /* ------------------------------------------------------------------ radii as unknowns */
-/* jam_maximise_radii: the largest weighted sum of radii in a fixed cell, or the largest factor of moments of the radii;
- * jam_crunch keeps their ratios. */
-
-/* Options of jam_maximise_radii. Lengths are in the unit of the box. */
+/* Options of jam_maximise_radii. Lengths are in the unit of the box. With a strain the cell deforms at fixed volume. */
 typedef struct jam_radii_options {
   uint32_t struct_size;
   int32_t threads;               /* 1 .. 64, default 1; 2 to 64 give the same bits, 1 may give others */
@@ -1002,6 +999,8 @@ typedef struct jam_radii_options {
   double wall_time;  /* limit of the call */
   int64_t moments;   /* 0, the default: the sum; 1 .. 4: so many power sums keep their ratios, of these exponents: */
   double exponent_1, exponent_2, exponent_3, exponent_4; /* |exponent| in [1e-3, 8], default 1; 2; 3; 4 */
+  int32_t strain;                                        /* @enum jam_free_strain, up to FREE, default NONE */
+  int32_t reserved;
 } jam_radii_options;
 /* What jam_maximise_radii found. Where maximum is 0, contacts to excess are -1, balance_residual to min_force NaN. */
 typedef struct jam_radii_report {
@@ -1012,8 +1011,8 @@ typedef struct jam_radii_report {
   double value;               /* sum of w_i R_i; moments: lambda, 1 at the start */
   int64_t contacts, rattlers; /* pairs and walls with force; spheres without, all held by a bound or the moments */
   int64_t at_bounds;          /* radii held by radius_min or radius_max */
-  int64_t excess; /* contacts + at_bounds + max(moments, 1) - 1 - ((d + 1) n - symmetries); mostly 0, -d in a ball */
-  double balance_residual; /* largest residual of the balance and of the sums of forces, over the sphere's weight */
+  int64_t excess; /* contacts + at_bounds + max(moments, 1) - 1 - ((d + 1) n - symmetries + strains), mostly 0 */
+  double balance_residual; /* largest of balance and sums of forces, over the sphere's weight; of strains, over all */
   double max_contact_gap, min_gap; /* largest |distance - sum of radii| of a contact; least of another pair */
   double min_force; /* least force, in units of value; forces on sphere i add up to w_i minus that of its bound */
   double radius_smallest, radius_largest, polydispersity; /* standard deviation of the radii over their mean */
@@ -1024,12 +1023,13 @@ typedef struct jam_radii_report {
   double moment_residual; /* largest |M_q / (lambda^q M_q of the start) - 1|; 0 for a sum */
 } jam_radii_report;
 JAM_API jam_status jam_radii_options_init(jam_radii_options *o, size_t size);
-/* Moves spheres and changes radii to a local maximum of sum w_i R_i, w_i = 1 if weights is NULL, in a fixed cell or
- * container. With moments: to a maximum of lambda, where sum R_i^q = lambda^q M_q for each q, M_q at the start; forces
- * on sphere i add up to sum_q lambda_q q R_i^(q - 1), and radius_min is at least 1e-3 of the smallest radius. A stopped
- * call leaves a valid packing. No pair overlaps, in two doubles. At a maximum the handle keeps the network, with forces
- * of mean 1, and the verdict of jam_rigidity. Status: JAM_LIMIT, JAM_NOT_CONVERGED with the last valid state: if a
- * sphere gets as wide as its wall or contacts are not found. @shape weights (n) @errors OVERLAP, UNSUPPORTED */
+/* Moves spheres and changes radii to a local maximum of sum w_i R_i, w_i = 1 if weights is NULL; jam_crunch keeps the
+ * ratios of radii. With moments: to a maximum of lambda, where sum R_i^q = lambda^q M_q for each q, M_q at the start;
+ * forces on sphere i add up to sum_q lambda_q q R_i^(q - 1), and radius_min is at least 1e-3 of the smallest radius. A
+ * stopped call leaves a valid packing. No pair overlaps, in two doubles. At a maximum the handle keeps the network,
+ * with forces of mean 1, and the verdict of jam_rigidity. Status: JAM_LIMIT, JAM_NOT_CONVERGED with the last valid
+ * state: if a sphere gets as wide as its wall or contacts are not found. @shape weights (n) @errors OVERLAP,
+ * UNSUPPORTED */
 JAM_API jam_status jam_maximise_radii(jam_system *sys, const jam_radii_options *o, const double *weights,
                                       size_t weights_len, jam_radii_report *report);
 

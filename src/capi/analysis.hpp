@@ -58,9 +58,9 @@ jam_status guard_cancellable(jam_system *sys, Report unknown, Report *report, F 
 }
 // The report of a network that no crunch has made.
 inline jam_crunch_report network_certificate(const Packing &p, const ContactNetwork &net, const PackingVerdict &verdict,
-                                             const Monitor &monitor) {
+                                             const Monitor &monitor, bool free_cell = false) {
   jam_crunch_report r{};
-  certify(p, net, r);
+  certify(p, net, r, free_cell);
   report_verdict(verdict, r);
   r.stop_reason = JAM_STOP_NONE;
   r.gain = r.max_step = r.gamma_residual = r.duality_gap = std::numeric_limits<double>::quiet_NaN();

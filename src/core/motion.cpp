@@ -16,10 +16,10 @@ void take_strained_cell(Packing &p, std::vector<double> rows) {
   if (p.container) enclose(p, {p.container.kind(), p.container.flat()});
 }
 
-void strain_at_fixed_volume(Packing &p, PairList &pairs, const std::vector<double> &strain) {
+void strain_at_fixed_volume(Packing &p, PairList &pairs, const std::vector<double> &strain, double kept) {
   const int d = p.dim;
   const uint32_t closed = p.container.closed();
-  double volume = 1.0;
+  double volume = kept > 0.0 ? p.cell.volume() / kept : 1.0;
   for (int c = 0; c < d; ++c) volume *= 1.0 + strain[c * (d + 1)];
   const double back = math::pow(volume, -1.0 / (p.container ? p.container.open_axes() : d));
   const auto deform = [&](double *x) {  // upper-triangular: component a needs those from a on

@@ -14,9 +14,9 @@ constexpr double least_cell_entry = 1e-60;
 void take_strained_cell(Packing &p, std::vector<double> rows);
 
 // Deforms positions, cell and offsets by 1 + E, E upper-triangular (dim, dim), divided by det^(1/m) along the m axes
-// that no wall closes: the volume stays. E has no component off these axes. det <= 1 for a traceless E, so this opens
-// gaps.
-void strain_at_fixed_volume(Packing &p, PairList &pairs, const std::vector<double> &strain);
+// that no wall closes: the volume stays, or becomes `kept` again where rounding changed it. E has no component off
+// these axes. det <= 1 for a traceless E, so this opens gaps.
+void strain_at_fixed_volume(Packing &p, PairList &pairs, const std::vector<double> &strain, double kept = 0.0);
 
 // Strains the cell (strain empty: it is fixed), moves the spheres by `length` s, s (n, dim), multiplies all diameters
 // by `growth` and wraps. The offsets of the pairs follow.

@@ -7,6 +7,7 @@
 #include "core/error.hpp"
 #include "core/limits.hpp"
 #include "lp/packing_lp.hpp"
+#include "lp/strain.hpp"
 
 namespace jam::inside {
 
@@ -45,11 +46,7 @@ void check_options(const Packing &p, const jam_crunch_options &o) {
   check_flag(o.prove, "prove");
   if (o.keep_steps < 0 || o.keep_steps > limits::keep_steps_max)
     fail(JAM_E_ARGUMENT, "keep_steps is %d, it must be 0 .. %d", o.keep_steps, limits::keep_steps_max);
-  if (o.strain > JAM_STRAIN_FREE && o.strain <= JAM_STRAIN_ALL)
-    fail(JAM_E_ARGUMENT,
-         "strain is %d, which frees the volume, as jam_relax alone can: a crunch takes none, edges, tilts or free",
-         o.strain);
-  check_enum(o.strain, JAM_STRAIN_NONE, JAM_STRAIN_FREE, "strain", "jam_free_strain");
+  check_strain(o.strain, "a crunch");
   if (o.duality_gap != 0.0) {
     check_range("duality_gap", o.duality_gap, limits::duality_gap_min, limits::duality_gap_max);
     if (o.method != JAM_CRUNCH_BARRIER_PATH || o.strain != JAM_STRAIN_NONE)

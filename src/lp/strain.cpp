@@ -3,7 +3,18 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/checks.hpp"
+#include "jam/jam.h"
+
 namespace jam::inside {
+
+void check_strain(int32_t strain, const char *call) {
+  if (strain > JAM_STRAIN_FREE && strain <= JAM_STRAIN_ALL)
+    fail(JAM_E_ARGUMENT,
+         "strain is %d, which frees the volume, as jam_relax alone can: %s takes none, edges, tilts or free", strain,
+         call);
+  check_enum(strain, JAM_STRAIN_NONE, JAM_STRAIN_FREE, "strain", "jam_free_strain");
+}
 
 StrainBasis strain_basis(int dim, bool edges, bool tilts, uint32_t axes) {
   StrainBasis basis;

@@ -16,6 +16,8 @@ struct StrainBasis {
 
 // Which components of the cell may change along these axes (bits): the edges a_cc, the tilts a_ck, or both.
 StrainBasis strain_basis(int dim, bool edges, bool tilts, uint32_t axes = ~0u);
+// An option of a call at fixed volume: JAM_STRAIN_NONE .. JAM_STRAIN_FREE.
+void check_strain(int32_t strain, const char *call);
 // Largest part of a strain (dim, dim) that leaves half of each edge. In a thin cell that is far from jammed the bound
 // of an LP lets several amplitudes shorten one edge, by more than there is of it.
 double strain_part(int dim, const std::vector<double> &strain);

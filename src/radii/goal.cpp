@@ -113,7 +113,7 @@ std::vector<double> RadiiGoal::wrong(const Packing &p) const {
 }
 
 double RadiiGoal::gain(const std::vector<double> &step, double part, const Packing &to) const {
-  const size_t n = weight_.size(), b = step.size() / n;
+  const size_t n = weight_.size(), b = static_cast<size_t>(to.dim) + 1;
   double gain = 0.0;
   if (!moments()) {
     for (size_t i = 0; i < n; ++i) gain += weight_[i] * step[i * b + b - 1];
@@ -138,7 +138,7 @@ double RadiiGoal::curvature(const Packing &p, const std::vector<double> &multipl
                             const std::vector<double> &x) const {
   if (!moments()) return 0.0;
   const std::vector<double> of = of_moments(multiplier);
-  const size_t n = p.n(), b = x.size() / n;
+  const size_t n = p.n(), b = static_cast<size_t>(p.dim) + 1;
   double out = 0.0;
   for (size_t q = 0; q < of.size(); ++q) {
     const double e = exponent_[q], total = static_cast<double>(moment(p, e));

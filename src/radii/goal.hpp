@@ -27,11 +27,12 @@ class RadiiGoal {
   std::vector<double> carried(const std::vector<double> &multiplier) const;
   // The equations in the basis of the columns: lengths.
   std::vector<double> wrong(const Packing &p) const;
-  // What the step (n, d + 1) gains in this part, from where the goal is linear to the radii of `to`.
+  // What the step, of the unknowns of RadiiRows, gains in this part, from where the goal is linear to the radii of
+  // `to`.
   double gain(const std::vector<double> &step, double part, const Packing &to) const;
   // Of each radius the second derivative of the same, negative; 0 where it is positive. Empty for sums.
   std::vector<double> stiffness(const Packing &p, const std::vector<double> &multiplier) const;
-  // Second derivative along x, (n, d + 1), of what is maximised less the multipliers times the equations.
+  // Second derivative along x, such a step, of what is maximised less the multipliers times the equations.
   double curvature(const Packing &p, const std::vector<double> &multiplier, const std::vector<double> &x) const;
 
   double lambda(const Packing &p) const;    // moments

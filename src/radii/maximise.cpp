@@ -4,12 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/checks.hpp"
 #include "core/create.hpp"
 #include "core/double_double.hpp"
+#include "core/error.hpp"
 #include "core/limits.hpp"
 #include "core/sentence.hpp"
 #include "radii/goal.hpp"
+#include "radii/options.hpp"
 #include "radii/path.hpp"
 #include "radii/tuning.hpp"
 #include "radii/vertex.hpp"
@@ -118,17 +119,12 @@ void push_off(Packing &p, const RadiiGoal &goal, const std::vector<double> &moti
   shrink(p, goal, bounds, unit, RadiiTuning::room);
   std::vector<double> sideways = motion;
   const size_t b = static_cast<size_t>(p.dim) + 1;
-  for (size_t i = 0; i < p.n(); ++i) sideways[i * b + b - 1] = 0.0;
+  for (size_t i = 0; i < p.n(); ++i) sideways[i * b + b - 1] = 0.0;  // a strain stays
   const Packing from = p;
   do {
-    move_radii(from, sideways, length, p);
+    move_radii(from, sideways, length, bounds, p);
     length *= 0.5;
   } while (!(closest_contact(p).gap > 0.0) && length > 0.0);
-}
-
-std::vector<double> exponents_of(const jam_radii_options &o) {
-  const double all[] = {o.exponent_1, o.exponent_2, o.exponent_3, o.exponent_4};
-  return {all, all + o.moments};
 }
 
 // Packings have no wider sizes: the call ends before them.
@@ -137,80 +133,7 @@ bool too_wide(const Packing &p) {
   return !(*high <= limits::size_ratio_max * *low);
 }
 
-// A sum lets every radius grow, moments may let one vanish: they have a lower bound of their own.
-RadiiBounds bounds_of(const Packing &p, const jam_radii_options &o) {
-  if (o.moments == 0) return {o.radius_min, o.radius_max};
-  const auto [low, high] = std::minmax_element(p.diameter.begin(), p.diameter.end());
-  const double least = 0.5 * std::max(RadiiTuning::least_radius * *low, RadiiTuning::least_ratio * *high);
-  return {std::max(o.radius_min, least), o.radius_max};
-}
-
-void check_moments(const Packing &p, const jam_radii_options &o, size_t weights_len) {
-  if (o.moments < 0 || o.moments > 4)
-    fail(JAM_E_ARGUMENT, "moments is %lld, it must be 0 .. 4", static_cast<long long>(o.moments));
-  if (o.moments == 0) return;
-  if (weights_len)
-    fail(JAM_E_ARGUMENT, "weights and moments: a sum has weights, moments have none; leave one of them out");
-  const std::vector<double> q = exponents_of(o);
-  for (size_t k = 0; k < q.size(); ++k) {
-    if (!(std::fabs(q[k]) >= RadiiTuning::least_exponent && std::fabs(q[k]) <= RadiiTuning::most_exponent))
-      fail(JAM_E_ARGUMENT,
-           "exponent_%zu is %g, its size must be %g to %g: the moment of exponent 0 is the number of spheres", k + 1,
-           q[k], RadiiTuning::least_exponent, RadiiTuning::most_exponent);
-    for (size_t j = 0; j < k; ++j)
-      if (std::fabs(q[j] - q[k]) < RadiiTuning::least_exponent)
-        fail(JAM_E_ARGUMENT, "exponent_%zu is %g and exponent_%zu %g: nearer than %g they count as one moment twice",
-             j + 1, q[j], k + 1, q[k], RadiiTuning::least_exponent);
-  }
-  const auto [low, high] = std::minmax_element(p.diameter.begin(), p.diameter.end());
-  const RadiiBounds bounds = bounds_of(p, o);
-  if (!(0.5 * *low * (1.0 - o.room) > bounds.least && 0.5 * *high < bounds.most))
-    fail(
-        JAM_E_ARGUMENT,
-        "radii from %g, less the room of %g, to %g are not between radius_min %g and radius_max %g: moments start from "
-        "radii that are",
-        0.5 * *low, o.room, 0.5 * *high, bounds.least, bounds.most);
-  const RadiiGoal named(p, q);  // refuses radii that moments fix
-}
-
 }  // namespace
-
-jam_radii_options default_radii_options() {
-  jam_radii_options o{};
-  o.struct_size = sizeof o;
-  o.threads = 1;
-  o.room = RadiiTuning::room;
-  o.radius_max = o.wall_time = std::numeric_limits<double>::infinity();
-  o.max_steps = 100000;
-  o.exponent_1 = 1.0, o.exponent_2 = 2.0, o.exponent_3 = 3.0, o.exponent_4 = 4.0;
-  return o;
-}
-
-void check_radii(const Packing &p, const jam_radii_options &o, const double *weights, size_t weights_len) {
-  check_threads(o.threads);
-  check_at_least(o.max_steps, 1, "max_steps");
-  check_positive(o.wall_time, "wall_time");
-  if (!(o.room > 0.0 && o.room < 1.0)) fail(JAM_E_ARGUMENT, "room is %g, it must be above 0 and below 1", o.room);
-  check_not_negative(o.radius_min, "radius_min");
-  if (!(o.radius_max > o.radius_min))
-    fail(JAM_E_ARGUMENT, "radius_max is %g and radius_min %g: radii have no room between them", o.radius_max,
-         o.radius_min);
-  if (weights_len && weights_len != p.n())
-    fail(JAM_E_ARGUMENT, "weights_len is %zu, it must be 0 or n = %zu", weights_len, p.n());
-  for (size_t i = 0; i < weights_len; ++i)
-    if (!(weights[i] > 0.0 && weights[i] <= RadiiTuning::most_weight))
-      fail(JAM_E_ARGUMENT,
-           "weights[%zu] is %g, it must be positive and at most %g: without a weight a radius has no value", i,
-           weights[i], RadiiTuning::most_weight);
-  if (p.model == JAM_MODEL_MK || p.non_additivity != 0.0)
-    fail(JAM_E_UNSUPPORTED,
-         "radii are unknowns of additive Euclidean spheres alone: no Mari-Kurchan shifts, no "
-         "non_additivity");
-  if (p.dim >= JAM_MAX_DIM)
-    fail(JAM_E_UNSUPPORTED, "radii are unknowns in d = 2 to %d, this packing has d = %d", JAM_MAX_DIM - 1, p.dim);
-  check_moments(p, o, weights_len);
-  refuse_overlaps(p, overlap_tolerance);
-}
 
 RadiiResult maximise_radii(const Packing &start, const jam_radii_options &o, const double *weights, Monitor &monitor) {
   RadiiResult out;
@@ -277,6 +200,7 @@ RadiiResult maximise_radii(const Packing &start, const jam_radii_options &o, con
   wrap_positions(p);
   if (!r.maximum) take_rounding_out(p, find_pairs(p, RadiiTuning::least_room * unit, 1.0), bounds.least);
   r.saddles = pushes;
+  out.notes = path.notes;
   r.steps = path.steps, r.factorisations = path.matrix.factorisations + matrix.factorisations;
   report_sizes(p, goal, weights, r);
   r.seconds = monitor.seconds();

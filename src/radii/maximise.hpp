@@ -1,5 +1,5 @@
-// jam_maximise_radii: positions and radii of the largest weighted sum of radii in a fixed cell, or of the largest
-// common factor of moments of the radii.
+// jam_maximise_radii: positions and radii of the largest weighted sum of radii, or of the largest common factor of
+// moments of the radii, in a fixed cell or one that deforms at fixed volume.
 //
 //   checks -> radii shrink to open all contacts -> path.hpp at falling mu -> vertex.hpp -> maximum
 //                                                      ^                        |  forces do not balance: smaller mu
@@ -9,15 +9,12 @@
 #include <vector>
 
 #include "core/monitor.hpp"
+#include "core/notes.hpp"
 #include "core/packing.hpp"
 #include "jam/jam.h"
 #include "network/contact_network.hpp"
 
 namespace jam::inside {
-
-jam_radii_options default_radii_options();
-// Throws JAM_E_... before any work.
-void check_radii(const Packing &p, const jam_radii_options &o, const double *weights, size_t weights_len);
 
 struct RadiiResult {
   Packing packing;          // valid whatever the status
@@ -25,6 +22,7 @@ struct RadiiResult {
   jam_radii_report report{};
   jam_status status = JAM_OK;
   std::string text;
+  Notes notes;
 };
 RadiiResult maximise_radii(const Packing &start, const jam_radii_options &o, const double *weights, Monitor &monitor);
 

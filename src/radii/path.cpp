@@ -5,7 +5,9 @@
 #include <cmath>
 #include <limits>
 
+#include "core/cell_change.hpp"
 #include "core/math.hpp"
+#include "core/motion.hpp"
 #include "radii/tuning.hpp"
 
 namespace jam::inside {
@@ -14,10 +16,23 @@ double radii_unit(const Packing &p) {
   return math::pow(scene_volume(p) / static_cast<double>(p.n()), 1.0 / static_cast<double>(p.dim));
 }
 
-void move_radii(const Packing &from, const std::vector<double> &x, double part, Packing &to) {
+std::vector<double> strain_of(const RadiiBounds &bounds, const std::vector<double> &x, double part) {
+  if (bounds.strains() == 0) return {};
+  return strain_matrix(bounds.strain, {x.end() - bounds.strain.count(), x.end()}, part);
+}
+
+void move_radii(const Packing &from, const std::vector<double> &x, double part, const RadiiBounds &bounds,
+                Packing &to) {
   const size_t d = static_cast<size_t>(from.dim);
+  const bool strained = bounds.strains() > 0;
+  if (strained) {
+    PairList none;
+    to.position = from.position, to.cell = from.cell, to.container = from.container;
+    strain_at_fixed_volume(to, none, strain_of(bounds, x, part), bounds.volume);
+  }
+  const std::vector<double> &begin = strained ? to.position : from.position;
   for (size_t i = 0; i < from.n(); ++i) {
-    for (size_t c = 0; c < d; ++c) to.position[i * d + c] = from.position[i * d + c] + part * x[i * (d + 1) + c];
+    for (size_t c = 0; c < d; ++c) to.position[i * d + c] = begin[i * d + c] + part * x[i * (d + 1) + c];
     to.diameter[i] = from.diameter[i] + 2.0 * part * x[i * (d + 1) + d];
   }
 }
@@ -28,6 +43,7 @@ RadiiPath::RadiiPath(Packing &p, RadiiGoal &goal, const RadiiBounds &bounds, int
 }
 
 void RadiiPath::renew() {
+  if (bounds_.strains() > 0) shorten_cell(p_, notes);
   wrap_positions(p_);
   rows_ = RadiiRows(p_, bounds_, RadiiTuning::reach * unit_);
   moved_ = 0.0;
@@ -41,7 +57,8 @@ double RadiiPath::first_mu() const {
   return sum > 0.0 ? weights / sum : unit_;
 }
 
-// By how much x closes a gap at most: |s| + |t| of a sphere.
+// Half of what x takes off the gap of an unlisted pair at most: |s| + |t| of a sphere, and for a strain its norm times
+// half the least distance of such a pair. Of pairs farther apart the same share of the distance leaves wider gaps.
 double RadiiPath::longest_of(const std::vector<double> &x) const {
   const size_t b = rows_.block();
   double most = 0.0;
@@ -50,7 +67,10 @@ double RadiiPath::longest_of(const std::vector<double> &x) const {
     for (size_t c = 0; c + 1 < b; ++c) s2 += x[i * b + c] * x[i * b + c];
     most = std::max(most, std::sqrt(s2) + std::fabs(x[i * b + b - 1]));
   }
-  return most;
+  if (bounds_.strains() == 0) return most;
+  double square = 0.0;
+  for (const double e : strain_of(bounds_, x, 1.0)) square += e * e;
+  return most + 0.5 * std::sqrt(square) * (RadiiTuning::reach * unit_ + diameter_max(p_));
 }
 
 // Newton's direction, its slope and the decrement.
@@ -91,7 +111,7 @@ double RadiiPath::longest_feasible() const {
 // The trial. Where moments curve it is corrected by the motions that the rows stop least. False where no radii near it
 // keep the equations, or spheres would move farther than the rows are listed.
 bool RadiiPath::place(double part) {
-  move_radii(p_, step_, part, trial_);
+  move_radii(p_, step_, part, bounds_, trial_);
   corrected_ = 0.0;
   double before = std::numeric_limits<double>::infinity();
   for (int k = 0; k < RadiiTuning::corrections && goal_.equations() > 0; ++k) {
@@ -103,7 +123,7 @@ bool RadiiPath::place(double part) {
     std::vector<double> length = goal_.wrong(trial_), x(step_.size());
     for (double &v : length) v = -v;
     matrix.solve(x, length);
-    move_radii(Packing(trial_), x, 1.0, trial_);
+    move_radii(Packing(trial_), x, 1.0, bounds_, trial_);
     corrected_ += longest_of(x);
   }
   return moved_ + 2.0 * (part * largest_ + corrected_) < RadiiTuning::reach * unit_;
@@ -124,6 +144,7 @@ double RadiiPath::ascent(double part, double mu) {
 void RadiiPath::move(double part) {
   place(part);
   p_.position.swap(trial_.position), p_.diameter.swap(trial_.diameter);
+  std::swap(p_.cell, trial_.cell), std::swap(p_.container, trial_.container);
   moved_ += 2.0 * (part * largest_ + corrected_);
   if (moved_ > 0.5 * RadiiTuning::reach * unit_) return renew();
   rows_.measure(p_);

@@ -4,6 +4,7 @@
 // are wider.
 #pragma once
 #include "core/monitor.hpp"
+#include "core/notes.hpp"
 #include "radii/goal.hpp"
 #include "radii/rows.hpp"
 
@@ -26,6 +27,7 @@ class RadiiPath {
 
   int64_t steps = 0;
   RadiiMatrix matrix;
+  Notes notes;  // on cell vectors that were replaced
 
  private:
   void direction(double mu);
@@ -50,7 +52,9 @@ class RadiiPath {
 
 // (V / n)^(1/d).
 double radii_unit(const Packing &p);
-// p + part * x, x (n, d + 1).
-void move_radii(const Packing &from, const std::vector<double> &x, double part, Packing &to);
+// p + part * x, x the unknowns of RadiiRows: strained, then displaced. In a fixed cell `to` keeps its own.
+void move_radii(const Packing &from, const std::vector<double> &x, double part, const RadiiBounds &bounds, Packing &to);
+// The strain of x, (dim, dim); empty in a fixed cell.
+std::vector<double> strain_of(const RadiiBounds &bounds, const std::vector<double> &x, double part);
 
 }  // namespace jam::inside

@@ -24,11 +24,13 @@ std::vector<double> imbalance(const RadiiRows &contacts, const std::vector<doubl
   return out;
 }
 
-// The largest of them over the weight of its sphere, which is all that the sphere carries.
-double residual(const std::vector<double> &wrong, const std::vector<double> &weight) {
-  const size_t b = wrong.size() / weight.size();
+// The largest of them over the weight of its sphere, which is all that the sphere carries; of strains over all weights.
+double residual(const RadiiRows &contacts, const std::vector<double> &wrong, const std::vector<double> &weight) {
+  const double all = std::accumulate(weight.begin(), weight.end(), 0.0);
   double most = 0.0;
-  for (size_t q = 0; q < wrong.size(); ++q) most = std::max(most, std::fabs(wrong[q]) / weight[q / b]);
+  for (size_t q = 0; q < wrong.size(); ++q)
+    most = std::max(most,
+                    std::fabs(wrong[q]) / (q / contacts.block() < weight.size() ? weight[q / contacts.block()] : all));
   return most;
 }
 
@@ -37,7 +39,7 @@ double balance(const RadiiRows &contacts, const RadiiGoal &goal, const RadiiMatr
                std::vector<double> &multiplier) {
   multiplier.assign(goal.equations(), 0.0);
   std::vector<double> correction, best = force, best_multiplier = multiplier, weight = goal.carried(multiplier);
-  double least = residual(imbalance(contacts, force, weight), weight);
+  double least = residual(contacts, imbalance(contacts, force, weight), weight);
   for (int k = 0; k < RadiiTuning::balance_steps; ++k) {
     std::vector<double> wrong = imbalance(contacts, force, weight);
     const std::vector<double> more = matrix.solve(wrong);
@@ -45,7 +47,7 @@ double balance(const RadiiRows &contacts, const RadiiGoal &goal, const RadiiMatr
     for (size_t q = 0; q < force.size(); ++q) force[q] -= correction[q];
     for (size_t q = 0; q < more.size(); ++q) multiplier[q] += more[q];
     weight = goal.carried(multiplier);
-    const double now = residual(imbalance(contacts, force, weight), weight);
+    const double now = residual(contacts, imbalance(contacts, force, weight), weight);
     if (!(now < least)) break;
     least = now, best = force, best_multiplier = multiplier;
   }
@@ -53,8 +55,8 @@ double balance(const RadiiRows &contacts, const RadiiGoal &goal, const RadiiMatr
   return least;
 }
 
-// Takes from x, (n, d + 1), the translations that keep all contacts, the displacements of spheres without contacts,
-// and what it has along the motions before it. False where nothing is left.
+// Takes from x, of the unknowns, the translations that keep all contacts, the displacements of spheres without
+// contacts, and what it has along the motions before it. False where nothing is left.
 bool independent(const RadiiRows &contacts, const std::vector<char> &touched,
                  const std::vector<std::vector<double>> &before, std::vector<double> &x) {
   const size_t b = contacts.block(), n = touched.size();
@@ -206,8 +208,8 @@ bool close_contacts(Packing &p, RadiiRows &contacts, RadiiGoal &goal, RadiiMatri
     matrix.solve(step, goal.wrong(p));
     path += largest_of(step);
     if (!(path < RadiiTuning::longest_polish * unit)) return false;
-    move_radii(p, step, -1.0, moved);
-    p.position.swap(moved.position), p.diameter.swap(moved.diameter);
+    move_radii(p, step, -1.0, contacts.allowed(), moved);
+    std::swap(p, moved);
   }
   contacts.measure(p);
   goal.linearise(p);
@@ -232,29 +234,6 @@ void keep_closed(const RadiiRows &contacts, const RadiiMatrix &matrix, std::vect
   }
 }
 
-double second_derivative(const RadiiVertex &at, const RadiiGoal &goal, const std::vector<double> &x) {
-  const RadiiRows &contacts = at.contacts;
-  const std::vector<double> &force = at.force;
-  const size_t b = contacts.block(), d = b - 1;
-  double sum = goal.curvature(at.packing, at.multiplier, x);
-  for (size_t k = 0; k < contacts.pairs.size(); ++k) {
-    if (contacts.pairs.own_image(k)) continue;
-    const double *xi = &x[static_cast<size_t>(contacts.pairs.i[k]) * b], *n = &contacts.normal[k * d];
-    if (contacts.pairs.wall(k)) {
-      const Surface &wall = at.packing.container[wall_partner(contacts.pairs.j[k])];
-      if (!wall.curved()) continue;
-      const double bend = force[k] * wall.curvature(&at.packing.position[static_cast<size_t>(contacts.pairs.i[k]) * d]);
-      contacts.bending(at.packing, k, [&](int u, int v, double share) { sum -= bend * share * xi[u] * xi[v]; });
-      continue;
-    }
-    const double *xj = &x[static_cast<size_t>(contacts.pairs.j[k]) * b];
-    double s2 = 0.0, along = 0.0;
-    for (size_t c = 0; c < d; ++c) s2 += (xi[c] - xj[c]) * (xi[c] - xj[c]), along += n[c] * (xi[c] - xj[c]);
-    sum += force[k] * (s2 - along * along) / contacts.length[k];
-  }
-  return sum;
-}
-
 bool settle_curved(RadiiVertex &at, RadiiGoal &goal, double unit, RadiiMatrix &matrix) {
   for (int step = 0; step < RadiiTuning::settle_steps && !(at.balance <= RadiiTuning::balanced); ++step) {
     const std::vector<std::vector<double>> motion = motions_along(at, matrix);
@@ -274,7 +253,7 @@ bool settle_curved(RadiiVertex &at, RadiiGoal &goal, double unit, RadiiMatrix &m
       for (size_t q = 0; q < x.size(); ++q) x[q] += part[a] * motion[a][q];
     if (!(largest_of(x) < RadiiTuning::longest_polish * unit)) return false;
     const Packing from = at.packing;
-    move_radii(from, x, 1.0, at.packing);
+    move_radii(from, x, 1.0, at.contacts.allowed(), at.packing);
     if (!close_contacts(at.packing, at.contacts, goal, matrix, unit)) return false;
     balance_contacts(at, goal, matrix);
   }

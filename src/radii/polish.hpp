@@ -9,10 +9,8 @@ namespace jam::inside {
 bool close_contacts(Packing &p, RadiiRows &contacts, RadiiGoal &goal, RadiiMatrix &matrix, double unit);
 // The balanced forces nearest to those of closed contacts, and the multipliers of the goal's equations.
 void balance_contacts(RadiiVertex &at, RadiiGoal &goal, RadiiMatrix &matrix);
-// The part of x, (n, d + 1), that keeps the contacts closed and the equations. matrix: of balance_contacts.
+// The part of x, of the unknowns, that keeps the contacts closed and the equations. matrix: of balance_contacts.
 void keep_closed(const RadiiRows &contacts, const RadiiMatrix &matrix, std::vector<double> &x);
-// Along x of sum f c and of the goal: pairs and round walls turn, moments curve.
-double second_derivative(const RadiiVertex &at, const RadiiGoal &goal, const std::vector<double> &x);
 // Where moments or walls curve, a maximum may have fewer contacts than a vertex. Newton's method along the motions that
 // keep the contacts closed, on the force that is left along them. False where that is no maximum.
 bool settle_curved(RadiiVertex &at, RadiiGoal &goal, double unit, RadiiMatrix &matrix);

@@ -5,12 +5,13 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "linalg/pair_products.hpp"
 #include "radii/tuning.hpp"
 
 namespace jam::inside {
 
 RadiiRows::RadiiRows(const Packing &p, const RadiiBounds &bounds, double reach)
-    : pairs(find_pairs(p, reach, 1.0)), dim_(p.dim), n_(static_cast<int32_t>(p.n())), bounds_(bounds) {
+    : pairs(find_pairs(p, reach, 1.0)), dim_(p.dim), n_(static_cast<int32_t>(p.n())), cell_(p.cell), bounds_(bounds) {
   for (int32_t i = 0; i < n_; ++i) {
     sphere_.push_back(i), sign_.push_back(1.0);
     if (std::isfinite(bounds.most)) sphere_.push_back(i), sign_.push_back(-1.0);
@@ -22,7 +23,7 @@ RadiiRows::RadiiRows(const Packing &p, const RadiiBounds &bounds, double reach)
 
 RadiiRows RadiiRows::only(const std::vector<char> &on) const {
   RadiiRows out;
-  out.dim_ = dim_, out.n_ = n_, out.bounds_ = bounds_;
+  out.dim_ = dim_, out.n_ = n_, out.cell_ = cell_, out.bounds_ = bounds_;
   for (size_t k = 0; k < linear(); ++k) {
     if (!on[k]) continue;
     if (is_bound(k))
@@ -33,7 +34,19 @@ RadiiRows RadiiRows::only(const std::vector<char> &on) const {
   return out;
 }
 
-void RadiiRows::measure_gaps(const Packing &p, std::vector<double> &out) const {
+void RadiiRows::enter(const Cell &cell) {
+  if (bounds_.strains() == 0) return;
+  double whole[JAM_MAX_DIM];
+  for (size_t k = 0; k < pairs.offset.size(); k += dim_) {
+    cell_.fraction(&pairs.offset[k], whole);
+    for (int c = 0; c < dim_; ++c) whole[c] = std::nearbyint(whole[c]);
+    cell.combine(whole, &pairs.offset[k]);
+  }
+  cell_ = cell;
+}
+
+void RadiiRows::measure_gaps(const Packing &p, std::vector<double> &out) {
+  enter(p.cell);
   double r[JAM_MAX_DIM];
   out.resize(linear() + round_.size());
   for (size_t k = 0; k < pairs.size(); ++k) {
@@ -67,6 +80,7 @@ void RadiiRows::measure(const Packing &p) {
     }
     for (size_t c = 0; c < d; ++c) n[c] /= length[k];
   }
+  if (bounds_.strains() > 0) strain = strain_rows(bounds_.strain, normal, length);
 }
 
 void RadiiRows::times(const std::vector<double> &x, std::vector<double> &out) const {
@@ -80,6 +94,7 @@ void RadiiRows::times(const std::vector<double> &x, std::vector<double> &out) co
         for (size_t c = 0; c < d; ++c) along += normal_of(k)[c] * xi[c];
       out[k] += sign * along + radial * xi[d];
     });
+  add_columns_times(strain.data(), bounds_.strains(), pairs.size(), x.data() + spheres() * block(), out.data());
 }
 
 void RadiiRows::transpose_times(const std::vector<double> &y, std::vector<double> &out) const {
@@ -92,6 +107,7 @@ void RadiiRows::transpose_times(const std::vector<double> &y, std::vector<double
         for (size_t c = 0; c < d; ++c) xi[c] += y[k] * sign * normal_of(k)[c];
       xi[d] += y[k] * radial;
     });
+  columns_transpose_times(strain.data(), bounds_.strains(), pairs.size(), y.data(), out.data() + spheres() * block());
 }
 
 void RadiiMatrix::set_graph(const RadiiRows &rows, int threads) {
@@ -103,7 +119,8 @@ void RadiiMatrix::set_graph(const RadiiRows &rows, int threads) {
     if (ei.empty() || ei.back() != i || ej.back() != j) ei.push_back(i), ej.push_back(j);  // images share a block
     edge_[k] = static_cast<int32_t>(ei.size()) - 1;
   }
-  const size_t b = rows.block(), n = rows.unknowns() / b;
+  const size_t b = rows.block(), n = rows.spheres();
+  block_ = b, spheres_ = n, strains_ = rows.allowed().strains();
   if (ei == ei_ && ej == ej_ && diag_.size() == n * b * b) return;
   ei_ = std::move(ei), ej_ = std::move(ej);
   diag_.resize(n * b * b), off_.resize(ei_.size() * b * b);
@@ -148,28 +165,69 @@ void RadiiMatrix::factorise(const RadiiRows &rows, const std::vector<double> &we
   ++factorisations;
   if (cholesky_.factorise(diag_.data(), off_.data()) < 0)
     fail(JAM_E_SOLVER, "the matrix of a step of the radii is not finite");
-  border(columns, b);
+  border_strains(rows, weight, ridge * mean, stiffness, bending);
+  border(columns);
+}
+
+// Of the strain e the motion z = (-K^-1 A^T D B e, e), whose rows are what the spheres cannot make up for. The sum over
+// rows has no differences of large numbers.
+void RadiiMatrix::border_strains(const RadiiRows &rows, const std::vector<double> &weight, double ridge,
+                                 const std::vector<double> &stiffness, const std::vector<double> &bending) {
+  moved_.assign(strains_, std::vector<double>(rows.unknowns()));
+  if (strains_ == 0) return;
+  const size_t b = block_, d = b - 1;
+  std::vector<std::vector<double>> opened(strains_);
+  for (size_t e = 0; e < strains_; ++e) {
+    std::vector<double> &z = moved_[e], along(weight.size());
+    for (size_t k = 0; k < rows.pairs.size(); ++k) along[k] = -weight[k] * rows.strain[k * strains_ + e];
+    rows.transpose_times(along, z);
+    cholesky_.solve(z.data());
+    for (size_t q = 0; q < strains_; ++q) z[spheres_ * b + q] = q == e ? 1.0 : 0.0;
+    rows.times(z, opened[e]);
+  }
+  std::vector<double> form(strains_ * strains_);
+  for (size_t e = 0; e < strains_; ++e)
+    for (size_t f = 0; f <= e; ++f) {
+      double sum = 0.0;
+      for (size_t k = 0; k < weight.size(); ++k) sum += weight[k] * opened[e][k] * opened[f][k];
+      for (size_t q = 0; q < moved_[e].size(); ++q) sum += ridge * moved_[e][q] * moved_[f][q];
+      for (size_t i = 0; i < stiffness.size(); ++i) sum += stiffness[i] * moved_[e][i * b + d] * moved_[f][i * b + d];
+      for (size_t q = 0; q < bending.size(); ++q)
+        sum += bending[q] * moved_[e][q / (d * d) * b + q / d % d] * moved_[f][q / (d * d) * b + q % d];
+      form[e * strains_ + f] = sum;
+    }
+  strained_.factorise(strains_, form);
+}
+
+void RadiiMatrix::solve_rows(std::vector<double> &x) const {
+  std::vector<double> part(strains_);
+  for (size_t e = 0; e < strains_; ++e)
+    for (size_t q = 0; q < x.size(); ++q) part[e] += moved_[e][q] * x[q];
+  if (strains_ > 0) strained_.solve(part);
+  cholesky_.solve(x.data());
+  std::fill(x.begin() + static_cast<std::ptrdiff_t>(spheres_ * block_), x.end(), 0.0);
+  for (size_t e = 0; e < strains_; ++e)
+    for (size_t q = 0; q < x.size(); ++q) x[q] += part[e] * moved_[e][q];
 }
 
 std::vector<double> RadiiMatrix::along_columns(const std::vector<double> &x) const {
   std::vector<double> out(equations_);
-  const size_t n = x.size() / block_;
   for (size_t q = 0; q < equations_; ++q)
-    for (size_t i = 0; i < n; ++i) out[q] += (*columns_)[q * n + i] * x[i * block_ + block_ - 1];
+    for (size_t i = 0; i < spheres_; ++i) out[q] += (*columns_)[q * spheres_ + i] * x[i * block_ + block_ - 1];
   return out;
 }
 
-void RadiiMatrix::border(const std::vector<double> &columns, size_t block) {
-  const size_t n = diag_.size() / (block * block);
-  columns_ = &columns, block_ = block, equations_ = columns.size() / n;
+void RadiiMatrix::border(const std::vector<double> &columns) {
+  const size_t n = spheres_, unknowns = n * block_ + strains_;
+  columns_ = &columns, equations_ = columns.size() / n;
   if (equations_ == 0) return;
-  solved_.assign(equations_ * n * block, 0.0);
+  solved_.assign(equations_ * unknowns, 0.0);
   std::vector<double> schur(equations_ * equations_);
   for (size_t q = 0; q < equations_; ++q) {
-    std::vector<double> x(n * block);
-    for (size_t i = 0; i < n; ++i) x[i * block + block - 1] = columns[q * n + i];
-    cholesky_.solve(x.data());
-    std::copy(x.begin(), x.end(), solved_.begin() + static_cast<std::ptrdiff_t>(q * n * block));
+    std::vector<double> x(unknowns);
+    for (size_t i = 0; i < n; ++i) x[i * block_ + block_ - 1] = columns[q * n + i];
+    solve_rows(x);
+    std::copy(x.begin(), x.end(), solved_.begin() + static_cast<std::ptrdiff_t>(q * unknowns));
     const std::vector<double> along = along_columns(x);
     for (size_t k = 0; k < equations_; ++k)
       schur[k * equations_ + q] += 0.5 * along[k], schur[q * equations_ + k] += 0.5 * along[k];
@@ -178,7 +236,7 @@ void RadiiMatrix::border(const std::vector<double> &columns, size_t block) {
 }
 
 std::vector<double> RadiiMatrix::solve(std::vector<double> &x, const std::vector<double> &given) const {
-  cholesky_.solve(x.data());
+  solve_rows(x);
   std::vector<double> out = along_columns(x);
   for (size_t q = 0; q < given.size(); ++q) out[q] -= given[q];
   if (equations_ > 0) schur_.solve(out);

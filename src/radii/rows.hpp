@@ -6,7 +6,8 @@
 //
 // Sphere i has d + 1 unknowns: its displacement s_i and the growth t_i of its radius. Row k is linear in them with
 // n = r_ij / |r_ij|: c + n . (s_i - s_j) - t_i - t_j. As |r + s| >= n . (r + s), no point that keeps the linear rows
-// has an overlap, however long the step.
+// has an overlap, however long the step. In a free cell strains e are unknowns too, and add n . E(e) r. Their volume is
+// kept by a common factor >= 1 (core/motion.hpp), which opens gaps further.
 //
 // A round wall bends the other way: |r| <= A - R about its centre, so that steps are tested on true gaps. Its barrier
 // is that of the cone, log((A - R)^2 - |r|^2), smooth where r = 0: log c of the nearest point plus log c of the
@@ -21,11 +22,16 @@
 #include "core/pairs.hpp"
 #include "linalg/block_cholesky.hpp"
 #include "linalg/small_cholesky.hpp"
+#include "lp/strain.hpp"
 
 namespace jam::inside {
 
+// What bounds the radii, and how the cell may deform.
 struct RadiiBounds {
   double least = 0.0, most = std::numeric_limits<double>::infinity();
+  StrainBasis strain{};  // of lengths: amplitudes times radii_unit
+  double volume = 0.0;   // of the cell, which strains keep
+  size_t strains() const { return static_cast<size_t>(strain.count()); }
 };
 
 class RadiiRows {
@@ -35,7 +41,10 @@ class RadiiRows {
   RadiiRows(const Packing &p, const RadiiBounds &bounds, double reach);
   RadiiRows only(const std::vector<char> &on) const;
   size_t size() const { return gap.size(); }
-  size_t unknowns() const { return static_cast<size_t>(n_) * block(); }
+  size_t spheres() const { return static_cast<size_t>(n_); }
+  // (n, d + 1), then the strains.
+  size_t unknowns() const { return spheres() * block() + bounds_.strains(); }
+  const RadiiBounds &allowed() const { return bounds_; }
   size_t block() const { return static_cast<size_t>(dim_) + 1; }
   size_t bounds() const { return sphere_.size(); }
   bool is_bound(size_t k) const { return k >= pairs.size() && k < linear(); }
@@ -43,10 +52,10 @@ class RadiiRows {
   size_t linear() const { return pairs.size() + sphere_.size(); }
   size_t facing(size_t k) const { return round_[k - linear()]; }
 
-  // Gaps alone, and with the normals.
-  void measure_gaps(const Packing &p, std::vector<double> &out) const;
+  // Gaps alone, and with the normals. Offsets of pairs follow the cell of p.
+  void measure_gaps(const Packing &p, std::vector<double> &out);
   void measure(const Packing &p);
-  // out_k = what x, (n, d + 1), adds to row k.
+  // out_k = what x, the unknowns, adds to row k.
   void times(const std::vector<double> &x, std::vector<double> &out) const;
   // out = sum_k y_k times row k.
   void transpose_times(const std::vector<double> &y, std::vector<double> &out) const;
@@ -68,6 +77,7 @@ class RadiiRows {
   PairList pairs;                      // rows 0 .. pairs.size() - 1; then the bounds
   std::vector<double> gap;             // c
   std::vector<double> normal, length;  // of pairs and walls: n (rows, dim) and |r|
+  std::vector<double> strain;          // of the same, (rows, strains): n . E r
   const double *normal_of(size_t k) const { return &normal[(k < linear() ? k : facing(k)) * (block() - 1)]; }
   // f(u, v, share) for each component of P - m m^T of round wall k.
   template <class F>
@@ -80,15 +90,17 @@ class RadiiRows {
   }
 
  private:
+  void enter(const Cell &cell);
   int dim_ = 0;
   int32_t n_ = 0;
+  Cell cell_;  // of the offsets
   RadiiBounds bounds_;
   std::vector<int32_t> sphere_;  // of the bounds
   std::vector<double> sign_;     // 1: the lower one
   std::vector<size_t> round_;    // pairs that are round walls
 };
 
-// sum_k D_k a_k a_k^T + ridge, factorised, and bordered by the equations of a goal.
+// sum_k D_k a_k a_k^T + ridge, factorised, and bordered by strains and by the equations of a goal.
 class RadiiMatrix {
  public:
   // ridge: over the mean of the diagonal; larger with equations, whose columns alone act on what no row stops.
@@ -104,14 +116,19 @@ class RadiiMatrix {
 
  private:
   void set_graph(const RadiiRows &rows, int threads);
-  void border(const std::vector<double> &columns, size_t block);
+  void border_strains(const RadiiRows &rows, const std::vector<double> &weight, double ridge,
+                      const std::vector<double> &stiffness, const std::vector<double> &bending);
+  void border(const std::vector<double> &columns);
+  void solve_rows(std::vector<double> &x) const;
   BlockCholesky cholesky_;
   std::vector<int32_t> ei_, ej_, edge_;  // edge_: of each pair; -1 without
   std::vector<double> diag_, off_;
   const std::vector<double> *columns_ = nullptr;
-  size_t block_ = 0, equations_ = 0;
-  std::vector<double> solved_;  // K^-1 columns^T
-  SmallCholesky schur_;         // of columns K^-1 columns^T
+  size_t block_ = 0, spheres_ = 0, strains_ = 0, equations_ = 0;
+  std::vector<std::vector<double>> moved_;  // of each strain: all unknowns, where the spheres follow it
+  SmallCholesky strained_;                  // of K along them
+  std::vector<double> solved_;              // K^-1 columns^T
+  SmallCholesky schur_;                     // of columns K^-1 columns^T
 };
 
 }  // namespace jam::inside

@@ -22,9 +22,11 @@ bool overlaps(const Packing &p, const PairList &pairs, size_t k) {
   }
   const size_t j = static_cast<size_t>(pairs.j[k]);
   DoubleDouble r2(0.0);
+  double whole[JAM_MAX_DIM];
+  p.cell.fraction(&pairs.offset[k * d], whole);
   for (size_t c = 0; c < d; ++c) {
-    const DoubleDouble r =
-        two_sum(p.position[i * d + c], -p.position[j * d + c]) + DoubleDouble(pairs.offset[k * d + c]);
+    DoubleDouble r = two_sum(p.position[i * d + c], -p.position[j * d + c]);
+    for (size_t a = c; a < d; ++a) r = r + two_product(std::nearbyint(whole[a]), p.cell.row(static_cast<int>(a))[c]);
     r2 = r2 + r * r;
   }
   const DoubleDouble sum = two_sum(0.5 * p.diameter[i], 0.5 * p.diameter[j]);
@@ -49,7 +51,15 @@ std::vector<double> free_motion(const Packing &p, const RadiiRows &contacts, con
   return x;
 }
 
-// The same over the sum of forces, in 1 / length.
+// Second derivative of the factor that keeps the volume (core/motion.hpp) along a strain.
+double widening_of(const Packing &p, const std::vector<double> &strain) {
+  if (strain.empty()) return 0.0;
+  double sum = 0.0;
+  for (size_t c = 0; c * c < strain.size(); ++c) sum += strain[c * (p.dim + 1)] * strain[c * (p.dim + 1)];
+  return sum / (p.container ? p.container.open_axes() : p.dim);
+}
+
+// The second derivative over the sum of forces, in 1 / length.
 double opening(const RadiiVertex &at, const RadiiGoal &goal, const std::vector<double> &x) {
   double forces = 0.0;
   for (size_t k = 0; k < at.contacts.pairs.size(); ++k) forces += at.force[k];
@@ -72,6 +82,37 @@ void take_rounding_out(Packing &p, const PairList &pairs, double least) {
         again = true;
       }
   }
+}
+
+double second_derivative(const RadiiVertex &at, const RadiiGoal &goal, const std::vector<double> &x) {
+  const RadiiRows &contacts = at.contacts;
+  const std::vector<double> &force = at.force;
+  const size_t b = contacts.block(), d = b - 1;
+  const std::vector<double> strain = strain_of(contacts.allowed(), x, 1.0);
+  const double widening = widening_of(at.packing, strain);
+  double sum = goal.curvature(at.packing, at.multiplier, x);
+  for (size_t k = 0; k < contacts.pairs.size(); ++k) {
+    if (contacts.pairs.own_image(k) && strain.empty()) continue;
+    const double *xi = &x[static_cast<size_t>(contacts.pairs.i[k]) * b], *n = &contacts.normal[k * d];
+    if (contacts.pairs.wall(k)) {
+      const Surface &wall = at.packing.container[wall_partner(contacts.pairs.j[k])];
+      if (!wall.curved()) continue;
+      const double bend = force[k] * wall.curvature(&at.packing.position[static_cast<size_t>(contacts.pairs.i[k]) * d]);
+      contacts.bending(at.packing, k, [&](int u, int v, double share) { sum -= bend * share * xi[u] * xi[v]; });
+      continue;
+    }
+    const double *xj = &x[static_cast<size_t>(contacts.pairs.j[k]) * b];
+    double s2 = 0.0, along = 0.0, open = 0.0;
+    for (size_t c = 0; c < d; ++c) {
+      double s = xi[c] - xj[c];
+      for (size_t a = c; a < d && !strain.empty(); ++a) s += strain[c * d + a] * n[a] * contacts.length[k];
+      s2 += s * s, along += n[c] * s;
+      if (!(at.packing.container.closed() >> c & 1u)) open += n[c] * n[c];
+    }
+    sum += force[k] * (s2 - along * along) / contacts.length[k];
+    sum += force[k] * widening * open * contacts.length[k];
+  }
+  return sum;
 }
 
 RadiiVertex close_vertex(const Packing &p, const RadiiRows &rows, const std::vector<double> &forces, RadiiGoal &goal,
@@ -99,7 +140,7 @@ RadiiVertex close_vertex(const Packing &p, const RadiiRows &rows, const std::vec
     if (!(f >= RadiiTuning::no_force)) return out;
     f = std::max(f, 0.0);
   }
-  const RadiiRows near(out.packing, bounds, RadiiTuning::reach * unit);
+  RadiiRows near(out.packing, bounds, RadiiTuning::reach * unit);
   std::vector<double> gaps;
   near.measure_gaps(out.packing, gaps);
   if (*std::min_element(gaps.begin(), gaps.end()) < -RadiiTuning::closed * longest_edge(p)) return out;

@@ -15,11 +15,15 @@ struct RadiiVertex {
   std::vector<double> multiplier;  // of the goal's columns
   double balance = 0.0;          // largest residual of balance and of the sums of forces, over the weight of its sphere
   double gap = 0.0, open = 0.0;  // largest |c| of contacts; least of the other pairs
-  // A motion, (n, d + 1), that keeps contacts closed to first order and opens them to second: a saddle. Empty: none.
+  // A motion, of the unknowns, that keeps contacts closed to first order and opens them to second: a saddle. Empty:
+  // none.
   std::vector<double> escape;
   // Of contacts that closed where forces do not balance and no maximum is near: a motion along which the goal grows.
   std::vector<double> uphill;
 };
+
+// Along x of sum f c and of the goal: pairs and round walls turn, moments curve, and a strain keeps its volume.
+double second_derivative(const RadiiVertex &at, const RadiiGoal &goal, const std::vector<double> &x);
 
 // Takes units of the last digit from diameters until no pair overlaps: one, then twice as many each time. least: radii
 // at this bound stay there if the partner can shrink.

@@ -126,6 +126,13 @@ class Known(unittest.TestCase):
 
 
 class Maximum(unittest.TestCase):
+    def test_images_along_several_vectors_are_exact(self):
+        """Sums of cell vectors are rounded in doubles: seed 6 had two spheres that overlapped by 1e-17."""
+        for seed in (3, 5, 6):
+            s = jam.System.random(n=7, dim=3, seed=seed, cell=[[1.0, 0.0, 0.0], [0.37, 0.81, 0.0], [-0.21, 0.333, 1.1]])
+            self.assertTrue(s.maximise_radii().maximum)
+            self.assertGreaterEqual(least_exact_gap(s), 0)
+
     def test_no_overlap_in_exact_numbers_and_no_rattlers(self):
         for s in scenes():
             report = s.maximise_radii()

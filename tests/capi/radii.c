@@ -74,6 +74,32 @@ CASE(moments_grow_by_one_factor) {
   jam_destroy(sys);
 }
 
+/* One disk in a cell that deforms: the triangular lattice of volume 1, strictly jammed by its own images. */
+CASE(a_cell_deforms_at_fixed_volume) {
+  double cell[4];
+  size_t len = 0;
+  DEFAULTS(create, c);
+  DEFAULTS(radii, o);
+  SIZED(jam_radii_report, r);
+  SIZED(jam_crunch_report, verdict);
+  c.n = 1, c.dim = 2, c.seed = 1;
+  jam_system *sys = created(&c);
+  assert_int_equal(o.strain, JAM_STRAIN_NONE);
+  o.strain = JAM_STRAIN_ALL;
+  assert_int_equal(jam_maximise_radii(sys, &o, NULL, 0, &r), JAM_E_ARGUMENT);
+  o.strain = JAM_STRAIN_FREE;
+  assert_int_equal(jam_maximise_radii(sys, &o, NULL, 0, &r), JAM_OK);
+  assert_true(r.maximum && fabs(r.value - pow(12.0, -0.25)) < 1e-15 && r.contacts == 3 && r.excess == 0);
+  assert_int_equal(jam_get_cell(sys, cell, 4, &len), JAM_OK);
+  assert_true(fabs(cell[0] * cell[3] - 1.0) < 1e-15 && fabs(fabs(cell[2]) - 0.5 * cell[0]) < 1e-14);
+  assert_int_equal(jam_get_crunch_report(sys, &verdict), JAM_OK);
+  assert_true(verdict.jammed == 1 && verdict.strictly_jammed == JAM_VERDICT_YES);
+  jam_destroy(sys);
+  sys = square(3, 1);
+  assert_int_equal(jam_maximise_radii(sys, &o, NULL, 0, &r), JAM_E_UNSUPPORTED);
+  jam_destroy(sys);
+}
+
 static int32_t stop(const jam_progress *p, void *user) {
   (void)p, (void)user;
   return 1;

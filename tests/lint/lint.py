@@ -21,7 +21,7 @@ LAYERS = {
     "crunch": ["verdict", "lp", "network", "linalg", "core"],
     "soft": ["lp", "network", "linalg", "core"],
     "dynamics": ["soft", "network", "linalg", "core"],
-    "radii": ["network", "linalg", "core"],
+    "radii": ["lp", "network", "linalg", "core"],
     "analysis": ["verdict", "lp", "network", "linalg", "core"],
     "verdict": ["proof", "network", "linalg", "core"],
     "proof": ["lp", "network", "linalg", "core"],

@@ -75,7 +75,7 @@ class Verbs(unittest.TestCase):
                 run(*given, *more, "--output", self.dir / "disks.xyz", "--report", self.dir / "disks.json")
                 radii.append([float(line.split()[4]) for line in (self.dir / "disks.xyz").read_text().splitlines()[2:]])
             report = json.loads((self.dir / "disks.json").read_text())
-            self.assertEqual(report["protocol"], [{"stage": "radii", "kind": kind}])
+            self.assertEqual(report["protocol"], [{"stage": "radii", "kind": kind, "strain": "none"}])
             self.assertTrue(report["jammed"])
             self.assertIsNone(report["method"])
             if kind == "sum":
@@ -84,6 +84,12 @@ class Verbs(unittest.TestCase):
             for q in (1, 2, 3):
                 ratio = sum(r**q for r in radii[1]) / sum(r**q for r in radii[0])
                 self.assertAlmostEqual(ratio / report["radii_value"] ** q, 1, 12)
+        one = ("pack", "--n", "1", "--dim", "2", "--no-md", "--quiet", "--radii", "sum", "--report", "-", "--output", self.dir / "one.xyz")
+        for strain, radius in (("none", 0.5), ("free", 12**-0.25)):
+            report = json.loads(run(*one, "--strain", strain).stdout)
+            self.assertEqual(report["protocol"], [{"stage": "radii", "kind": "sum", "strain": strain}])
+            self.assertAlmostEqual(report["radii_value"], radius, 14)
+            self.assertEqual(report["strictly_jammed"], True if strain == "free" else None)
         for wrong in ("bla", "moments:", "moments:1,2,3,4,5"):
             done = run(*given, "--radii", wrong)
             self.assertEqual((done.returncode, f"--radii is '{wrong}'" in done.stderr), (2, True))

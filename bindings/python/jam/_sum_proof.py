@@ -59,6 +59,9 @@ class _Rows:
         self.pairs = np.asarray(system.contacts.pairs)
         self.images = [tuple(map(int, n)) for n in _images(system)]
         self.size = self.n * (self.d + 1)
+        more = len(self.pairs) - self.size + len(self.open)
+        if more > 0 and system.report.strictly_jammed.name == "YES":  # maximise_radii(strain="free") alone says so
+            raise StateError(f"prove: a maximum of a free cell has {more} contacts more than a fixed cell has unknowns: only those of fixed cells have a proof")
         if any(i == j for i, j in self.pairs):
             raise StateError("prove: a sphere touches its own image")
         fold = self._folded(system, weights)

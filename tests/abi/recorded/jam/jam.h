@@ -236,8 +236,8 @@ JAM_API jam_status jam_crunch_history(const jam_system *sys, int32_t columns, do
 JAM_API jam_status jam_crunch_step(const jam_system *sys, double *displacement, size_t displacement_len, int32_t
   *pair, size_t pair_len, double *vector, size_t vector_len, double *dual, size_t dual_len, size_t *rows);
 typedef struct jam_radii_options { uint32_t struct_size; int32_t threads; double radius_min, radius_max; double room;
-  int64_t max_steps; double wall_time; int64_t moments; double exponent_1, exponent_2, exponent_3, exponent_4; }
-  jam_radii_options;
+  int64_t max_steps; double wall_time; int64_t moments; double exponent_1, exponent_2, exponent_3, exponent_4; int32_t
+  strain; int32_t reserved; } jam_radii_options;
 typedef struct jam_radii_report { uint32_t struct_size; int32_t stop_reason; int32_t maximum; int32_t saddles; double
   value; int64_t contacts, rattlers; int64_t at_bounds; int64_t excess; double balance_residual; double
   max_contact_gap, min_gap; double min_force; double radius_smallest, radius_largest, polydispersity; double

@@ -89,7 +89,7 @@ static int say(jam_system *sys, const options *o, jam_status status, const jam_c
   complain_notes(sys); /* what reading assumed, such as periodic axes */
   if (!o->quiet) puts(jam_check_text(report));
   if (!o->quiet && stress_of(sys, report, stress, sizeof stress / sizeof *stress)) print_stress(stress, report->dim);
-  return fflush(stdout) ? EXIT_OUTPUT : code;
+  return end_stdout(code);
 }
 
 int check_file(const options *o) {

@@ -5,7 +5,7 @@
 
 /* The contact network that tables and pages show. */
 typedef struct network {
-  int known;
+  int known, stopped;
   int64_t contacts;
   char doubt[1024]; /* why it is empty, or not the only one, or no jammed one; empty where none of these */
 } network;
@@ -19,7 +19,8 @@ static void find_network(const options *o, jam_system *sys, network *found, int 
   status = isfinite(o->contact_gap) ? jam_contacts_by_distance(sys, o->contact_gap)
                                     : jam_contacts_from_geometry(sys, NULL, NULL);
   cancel_on_signal(NULL);
-  found->known = status >= 0 && status != JAM_CANCELLED;
+  found->stopped = status == JAM_CANCELLED;
+  found->known = status >= 0 && !found->stopped;
   if (found->known) jam_contacts(sys, NULL, 0, &numbers);
   found->contacts = (int64_t)(numbers / 2);
   if (status == JAM_OK || (!wanted && found->known && found->contacts == 0)) return;
@@ -74,7 +75,7 @@ int export_file(const options *o) {
   const int tables = o->contacts || o->spectrum || o->gaps || o->structure;
   const int bridges = o->stl && isfinite(o->stl_bridge) && !isfinite(o->stl_bridge_gap);
   const int wanted = tables || o->vtk || o->page || bridges;
-  network found = {0, 0, ""};
+  network found = {0, 0, 0, ""};
   jam_system *sys = NULL;
   int code = read_as_it_is(o, &sys), cut_short = 0;
   if (!code && !sys) code = EXIT_FAILED;
@@ -86,7 +87,7 @@ int export_file(const options *o) {
   if (write_files(sys, o, found.known, seconds_now() + o->wall_time, &cut_short))
     code = failure_code();
   else
-    code = tables && !found.known ? EXIT_FAILED : cut_short ? EXIT_EARLY : EXIT_DONE;
+    code = found.stopped || cut_short ? EXIT_EARLY : tables && !found.known ? EXIT_FAILED : EXIT_DONE;
   if (o->json) {
     if (write_json(o, sys, code, &found) && !code) code = EXIT_OUTPUT;
   } else if (!o->quiet) {
@@ -95,5 +96,5 @@ int export_file(const options *o) {
       printf("  network   none: the mesh joins no spheres\n");
     if (*found.doubt) printf("  network   %lld contacts: %s\n", (long long)found.contacts, found.doubt);
   }
-  return leave(sys, fflush(stdout) ? EXIT_OUTPUT : code);
+  return leave(sys, end_stdout(code));
 }

@@ -165,8 +165,9 @@ int check_formats(const options *o, const jam_system *sys) {
       complain("--output %s: such files have d = 2 or d = 3, this packing has d = %d", o->output, (int)info.dim);
       return -1;
     }
-    if (info.walls || info.container) {
-      complain("--output %s: such files have no place for walls", o->output);
+    if (info.walls || info.container || info.non_additivity != 0) {
+      complain("--output %s: such files have no place for %s", o->output,
+               info.non_additivity != 0 ? "non_additivity" : "walls");
       return -1;
     }
   } else if (o->output && find_format("packings", o->output, &row) &&

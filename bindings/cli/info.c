@@ -169,5 +169,5 @@ int show_info(const options *o) {
   else if (!failed && !o->quiet)
     print_text(o, &c, jam_notes(sys));
   if (failed) return leave(sys, EXIT_FAILED);
-  return leave(sys, bad || fflush(stdout) ? EXIT_OUTPUT : EXIT_DONE);
+  return leave(sys, bad ? EXIT_OUTPUT : end_stdout(EXIT_DONE));
 }

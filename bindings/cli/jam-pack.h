@@ -183,6 +183,7 @@ typedef struct output {
 int check_writable(const char *path, void *unused); /* before hours of work */
 int open_output(output *out, const char *path);
 int close_output(output *out);
+int end_stdout(int code); /* what printf has collected; code, or after a message EXIT_OUTPUT */
 int put_bytes(int descriptor, const char *text, size_t size); /* all of them, also after signals */
 
 /* verbs.c: Ctrl-C and SIGTERM cancel the calls on a system, also where they came before; NULL: on none. */

@@ -271,11 +271,11 @@ int parse_options(int argc, char **argv, const jam_pack_host *host, options *o) 
   for (k = 1; k < argc; ++k) {
     if (!strcmp(argv[k], "--help") || !strcmp(argv[k], "-h")) {
       print_help(host, verb);
-      return 1 + (fflush(stdout) ? EXIT_OUTPUT : EXIT_DONE);
+      return 1 + end_stdout(EXIT_DONE);
     }
     if (!strcmp(argv[k], "--version")) {
       printf("%s %s, commit %s\n", program, jam_version(), jam_commit()[0] ? jam_commit() : "unknown");
-      return 1 + (fflush(stdout) ? EXIT_OUTPUT : EXIT_DONE);
+      return 1 + end_stdout(EXIT_DONE);
     }
   }
   for (k = verb == VERB_NONE ? 1 : 2; k < argc; k += taken) {

@@ -109,7 +109,7 @@ static const option_row table[] = {
      .without = "--no-crunch --packing-fraction --porosity", .low = 1, .high = 64},
     {"--radii", TAKE_TEXT, offsetof(options, radii), .verbs = 5,
      .without = "--no-crunch --packing-fraction --porosity --method --lp --duality-gap --page-steps --prove --proof "
-     "--strict-proof --container --model --non-additivity"},
+     "--strict-proof --model --non-additivity"},
     {"--no-crunch", TAKE_SWITCH, offsetof(options, no_crunch), .verbs = 1},
     {"--to", TAKE_TEXT, offsetof(options, to), .verbs = 8},
     {"--mode", TAKE_TEXT, offsetof(options, mode), .verbs = 8},

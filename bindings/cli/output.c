@@ -40,6 +40,14 @@ int check_writable(const char *path, void *unused) {
   return may_create(path) ? cannot(path) : 0;
 }
 
+int end_stdout(int code) {
+  const int now = fflush(stdout);
+  if (!now && !ferror(stdout)) return code;
+  complain("cannot write standard output%s%s", now ? ": " : "", now ? strerror(errno) : "");
+  clearerr(stdout);
+  return EXIT_OUTPUT;
+}
+
 int open_output(output *out, const char *path) {
   out->path = path;
   out->file = open_text(&out->text, &out->size);

@@ -246,7 +246,7 @@ static int finish(shear_job *job, int code) {
   if (write_files(job->sys, o, job->last.rigid, seconds_now() + o->wall_time, &cut_short)) code = failure_code();
   if (json && write_json(job, strain, code, json)) code = EXIT_OUTPUT;
   if (!o->quiet && !(json && !strcmp(json, "-"))) print_end(job, strain);
-  return fflush(stdout) ? EXIT_OUTPUT : code;
+  return end_stdout(code);
 }
 
 /* The packing, and where a job that is continued has come to. */

@@ -16,6 +16,10 @@ FILE *open_stream(const char *path, const char *mode); /* fopen */
 int open_in_place(const char *path);                   /* a descriptor to write to a pipe or a device */
 void ignore_lost_reader(int yes); /* of a pipe: then a write to it fails, and no signal ends the program */
 
+/* Closed ones of the three standard descriptors lead nowhere from now on: no file that is opened becomes one of them,
+ * and what is printed there fails. */
+void keep_standard_descriptors(void);
+
 /* A stream that collects a text. *text, which the caller frees, and *size are there when close_text has returned 0. */
 FILE *open_text(char **text, size_t *size);
 int close_text(FILE *file, char **text, size_t *size);

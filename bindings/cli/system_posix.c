@@ -56,6 +56,12 @@ FILE *open_stream(const char *path, const char *mode) { return fopen(path, mode)
 int open_in_place(const char *path) { return open(path, O_WRONLY); }
 void ignore_lost_reader(int yes) { signal(SIGPIPE, yes ? SIG_IGN : SIG_DFL); }
 
+void keep_standard_descriptors(void) {
+  int fd;
+  for (fd = STDIN_FILENO; fd <= STDERR_FILENO; ++fd)
+    if (fcntl(fd, F_GETFD) < 0) (void)!open("/dev/null", fd == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+}
+
 FILE *open_text(char **text, size_t *size) {
   *text = NULL;
   return open_memstream(text, size);

@@ -73,6 +73,7 @@ FILE *open_stream(const char *path, const char *mode) {
 }
 
 void ignore_lost_reader(int yes) { (void)yes; } /* the system has no such signal */
+void keep_standard_descriptors(void) {}
 
 int open_in_place(const char *path) {
   wchar_t *const name = wide(path);

@@ -71,6 +71,7 @@ int jam_pack(int argc, char **argv, const jam_pack_host *host) {
   options o;
   int code;
   program = host ? host->name : "jam-pack";
+  keep_standard_descriptors();
   forget_messages();
   forget_state();
   code = parse_options(argc, argv, host, &o) - 1;

@@ -92,5 +92,5 @@ int write_all(jam_system *sys, const options *o, double deadline, outcome *resul
     result->code = EXIT_EARLY;
   if (o->report && write_report(o, result, o->report)) result->code = EXIT_OUTPUT;
   if (!o->quiet && !(o->report && !strcmp(o->report, "-"))) print_summary(o, result);
-  return fflush(stdout) ? EXIT_OUTPUT : result->code;
+  return end_stdout(result->code);
 }

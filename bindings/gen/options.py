@@ -127,7 +127,7 @@ TABLE = {
                "change the radii too, in place of the crunch: sum, to the largest sum of radii; moments:Q,.. to the largest factor of "
                "the radii while their power sums of up to four exponents keep their ratios; with --strain the cell deforms too",
                without=(*NO_CRUNCH, "method", "lp", "duality-gap", "page-steps", "prove", "proof", "strict-proof",
-                        "container", "model", "non-additivity")),
+                        "model", "non-additivity")),
         Option("no-crunch", "switch", "", "stop after molecular dynamics"),
     ),
     "Shear": (

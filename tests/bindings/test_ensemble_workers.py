@@ -82,6 +82,17 @@ class Command(unittest.TestCase):
         command = [sys.executable, "-m", "jam", "ensemble", *arguments]
         return subprocess.run(command, capture_output=True, text=True)
 
+    def test_what_cannot_be_printed_is_told(self):
+        """Of both command lines, whether Python writes each line by itself or not."""
+        for words in ("--version", "ensemble --help"):
+            for buffered in ("", "1"):
+                command = f"{sys.executable} -m jam {words} > /dev/full"
+                done = subprocess.run(["sh", "-c", command], capture_output=True, text=True, env={**os.environ, "PYTHONUNBUFFERED": buffered})
+                self.assertEqual(done.returncode, 4, command)
+                self.assertRegex(done.stderr, "^.*: cannot write standard output.*\n$")
+        closed = subprocess.run(["sh", "-c", f"{sys.executable} -m jam --version >&-"], capture_output=True, text=True)
+        self.assertEqual((closed.returncode, "Traceback" in closed.stderr), (4, False), closed.stderr)
+
     def test_run_status_export_and_exit_codes(self):
         with tempfile.TemporaryDirectory() as folder:
             protocol, e = Path(folder, "p.json"), str(Path(folder, "e"))

@@ -2,6 +2,7 @@
 """jam_pack_stops.py PROGRAM: what jam-pack says and leaves out when it is stopped, and what it refuses before the work."""
 import json
 import pathlib
+import re
 import signal
 import subprocess
 import sys
@@ -111,6 +112,39 @@ class Stops(unittest.TestCase):
                 said = f"jam-pack: stopped early: --wall-time came before the end of {part}, at packing fraction [0-9.]+{end}\n"
                 self.assertRegex(done.stderr, f"^{said}$")
             self.assertEqual(run("--resume", state, "--no-md", "--no-crunch", "--quiet").returncode, 0)
+
+    def test_what_cannot_be_printed_is_told(self):
+        """Of each verb, into a full device and a closed descriptor, also where each line is written by itself."""
+        packing = self.dir / "p.xyz"
+        run("--n", 20, "--no-md", "--no-crunch", "--quiet", "--output", packing)
+        for words in ("--help", "--version", "info p.xyz", "check p.xyz", "export p.xyz q.xyz", "--n 8 --no-md --no-crunch"):
+            for before in ("", "stdbuf -o0 "):
+                for place in (">/dev/full", ">&-"):
+                    command = f"{before}{program} {words} {place}"
+                    done = subprocess.run(["sh", "-c", command], cwd=self.dir, capture_output=True, text=True, timeout=60, check=False)
+                    self.assertEqual(done.returncode, 4, command)
+                    self.assertIn("jam-pack: cannot write standard output", done.stderr, command)
+
+    def test_no_file_takes_the_place_of_a_closed_descriptor(self):
+        """The log would be the first file that is opened, and have messages and summary in it."""
+        for closed in (">&-", "2>&-", ">&- 2>&-", "<&- >&- 2>&-"):
+            command = f"{program} --n 500 --growth 1e-1:1e3 --no-crunch --log l.txt --checkpoint /dev/full --checkpoint-every 0.05 {closed}"
+            subprocess.run(["sh", "-c", command], cwd=self.dir, timeout=60, check=False)
+            lines = (self.dir / "l.txt").read_text().splitlines()
+            self.assertEqual([line for line in lines if not re.match(r" *[0-9.]+ (info|warning) ", line)], [], closed)
+
+    def test_ctrl_c_while_a_page_gets_its_network_is_an_early_end(self):
+        packing = self.dir / "p.xyz"
+        run("--n", 3000, "--growth", "1:20", "--no-crunch", "--quiet", "--output", packing)
+        for tenths in range(1, 60):
+            done = subprocess.run(
+                ["timeout", "--preserve-status", "-s", "INT", str(0.05 * tenths), program, "page", packing, self.dir / "p.html"],
+                capture_output=True, text=True, timeout=60, check=False,
+            )  # fmt: skip
+            if "no contact network: Ctrl-C" in done.stderr:
+                self.assertEqual(done.returncode, 1)
+                return
+        self.fail("no signal came between the file and the page")
 
 
 if __name__ == "__main__":

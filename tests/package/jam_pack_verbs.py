@@ -90,6 +90,12 @@ class Verbs(unittest.TestCase):
             self.assertEqual(report["protocol"], [{"stage": "radii", "kind": "sum", "strain": strain}])
             self.assertAlmostEqual(report["radii_value"], radius, 14)
             self.assertEqual(report["strictly_jammed"], True if strain == "free" else None)
+        round_wall = ("--n", "10", "--seed", "11", "--container", "ball", "--no-md", "--radii", "sum", "--report", "-", "--quiet")
+        report = json.loads(run(*round_wall).stdout)
+        self.assertTrue(report["jammed"])
+        self.assertAlmostEqual(report["radii_value"], 1.785565228300895, 12)  # of jam_maximise_radii, from this start
+        told = run("--n", 10, "--cell", "1,1,1.2", "--container", "cone", "--walls", "z", "--no-md", "--radii", "sum")
+        self.assertEqual((told.returncode, "no formulae for a cone" in told.stderr), (3, True), told.stderr)
         for wrong in ("bla", "moments:", "moments:1,2,3,4,5"):
             done = run(*given, "--radii", wrong)
             self.assertEqual((done.returncode, f"--radii is '{wrong}'" in done.stderr), (2, True))

@@ -9,6 +9,7 @@ from . import raw
 from ._api.calls import freeze
 from ._api.generated import OPTIONS, Container
 from ._api.shown import only
+from ._formats.replacing import replacing
 from .errors import JamError
 from .system import System
 
@@ -71,7 +72,8 @@ def main(arguments: list[str] | None = None) -> int:
             return False
         return True
 
-    sys.stdout.flush()  # C writes to the same place by a buffer of its own
+    if sys.stdout:  # None where the descriptor is closed
+        sys.stdout.flush()  # C writes to the same place by a buffer of its own
     return raw.pack([os.fsencode(word) for word in words], _read, check, finish, progress)
 
 
@@ -91,4 +93,5 @@ def _draw(system: System, path: str) -> None:
     except JamError:
         crunched = False
     figure = plot.summary(system) if crunched else plot.packing(system).figure
-    figure.savefig(path, dpi=150)
+    with replacing(path) as part:
+        figure.savefig(part, format=os.path.splitext(path)[1][1:].lower(), dpi=150)

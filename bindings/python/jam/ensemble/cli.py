@@ -117,7 +117,21 @@ def _refuse(o: argparse.Namespace, code: int, text: str) -> int:
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Returns the exit status."""
+    """Returns the exit status. What cannot be printed is an output that cannot be written."""
+    try:
+        try:
+            return _answer(arguments)
+        finally:
+            if sys.stdout:  # None where the descriptor is closed
+                sys.stdout.flush()
+    except OSError as error:
+        print(f"jam: cannot write standard output: {error.strerror}", file=sys.stderr)
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # the interpreter flushes it once more at its end
+        return OUTPUT
+
+
+def _answer(arguments: list[str] | None) -> int:
+    """Exit status of a command line. The only OSError that leaves it is that of print."""
     p = parser()
     o = p.parse(arguments)
     if o.verb == "run" and (o.executor == "dask") != (o.scheduler is not None):
@@ -125,9 +139,8 @@ def main(arguments: list[str] | None = None) -> int:
     try:
         if o.verb == "export":
             made = _ensemble(o).export(o.target, o.shard)
-            print(f"{len(made)} files in {o.target}")
-            return DONE
-        status = _run(o) if o.verb == "run" else _ensemble(o).status(o.seeds)
+        else:
+            status = _run(o) if o.verb == "run" else _ensemble(o).status(o.seeds)
     except StoreError as error:
         return _refuse(o, OUTPUT, str(error))
     except BrokenExecutor as error:
@@ -136,6 +149,9 @@ def main(arguments: list[str] | None = None) -> int:
         return _refuse(o, PARTIAL, "interrupted; what was finished is kept: run again to continue")
     except (ValueError, OSError, ImportError) as error:
         return _refuse(o, REFUSED, str(error))
+    if o.verb == "export":
+        print(f"{len(made)} files in {o.target}")
+        return DONE
     code = PARTIAL if status.failed or status.missing or status.damaged else DONE
     if o.verb == "status" and o.json:
         shown = ("asked", "done", "jammed", "failed", "missing", "damaged", "odd", "builds")

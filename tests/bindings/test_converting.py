@@ -1,5 +1,6 @@
 """A packing as objects of other packages has the numbers of the packing."""
 import importlib.util
+import tempfile
 import unittest
 
 import numpy as np
@@ -86,3 +87,23 @@ class Converting(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "give diameters="):
             jam.System.from_ase(atoms)
         self.assertEqual(jam.System.from_ase(atoms, radii=0.005).diameters[0], 0.01)
+
+    @needs("ase")
+    def test_ase_keeps_non_additivity_and_names_the_dimension_of_walls(self):
+        mixture = jam.System.random(n=20, dim=3, seed=1, non_additivity=0.2, diameters=[1.0] * 10 + [1.4] * 10)
+        again = jam.System.from_ase(mixture.to_ase())
+        self.assertEqual(again.info.non_additivity, 0.2)
+        self.assertEqual(jam.System.from_ase(mixture.to_ase(), non_additivity=0.2).info.non_additivity, 0.2)
+        with self.assertRaisesRegex(ValueError, "non_additivity= is 0.1, that of info is 0.2"):
+            jam.System.from_ase(mixture.to_ase(), non_additivity=0.1)
+        with self.assertRaisesRegex(ValueError, "dim=2 reads"):
+            jam.System.from_ase(jam.System.random(n=8, dim=2, walls="x").to_ase())
+
+    @needs("gsd")
+    def test_gsd_refuses_what_it_has_no_place_for(self):
+        mixture = jam.System.random(n=20, dim=3, seed=1, non_additivity=0.2, diameters=[1.0] * 10 + [1.4] * 10)
+        with tempfile.TemporaryDirectory() as folder:
+            for made, text in ((mixture, "non_additivity = 0.2"), (jam.System.random(n=8, walls="x"), "walls")):
+                for write in (made.write, lambda path, made=made: jam.files.write_gsd(made, path)):
+                    with self.assertRaisesRegex(jam.errors.UnsupportedError, f"GSD cannot store {text}: write extended XYZ"):
+                        write(f"{folder}/a.gsd")

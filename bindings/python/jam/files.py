@@ -13,7 +13,7 @@ from . import raw
 from ._api.arrays import Array
 from ._api.calls import not_cancelled
 from ._api.results import Modes
-from ._api.given import refuse_walls
+from ._api.given import refuse_unstored
 from ._api.shown import only
 from ._formats import ase, gsd
 from ._formats.replacing import replacing
@@ -142,7 +142,7 @@ def write_structure_csv(system: System, path: str | os.PathLike[str]) -> None:
 def write_gsd(system: System, path: str | os.PathLike[str]) -> None:
     """Writes one frame: float32 for every reader of GSD, and the doubles in chunks log/jam, which `read_gsd` prefers."""
     system = system.copy()  # of one moment
-    refuse_walls(system, "written as GSD")
+    refuse_unstored(system, "GSD")
     gsd.write(path, system.positions, system.diameters, system.cell)
 
 

@@ -229,7 +229,7 @@ class System(Verbs, Writing, PoreSpace, Copies, Converting):
             As of `from_arrays`.
         """
         notes: list[str] = []
-        named = {key: options.pop(key, None) for key in ("walls", "container")}
+        named = {key: options.pop(key, None) for key in ase.NAMED}
         given = ase.of_atoms(atoms, diameters, radii=radii, dim=dim, notes=notes, where="atoms", named=named)
         return cls._noted(dict(given, **options), notes)
 

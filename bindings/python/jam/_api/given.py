@@ -77,10 +77,12 @@ def closed_axes(info: Any) -> list[bool]:
     return [wall or info.container != Container.BRICK and (info.container, c) != (Container.CYLINDER, 2) for c, wall in enumerate(walls_of(info))]
 
 
-def refuse_walls(system: Any, done: str) -> None:
-    """For what does not know walls, in the words of the library."""
+def refuse_unstored(system: Any, name: str) -> None:
+    """For a format without walls and non-additive diameters, in the words of the library."""
     if len(system.walls().axis):
-        raise UnsupportedError(f"a scene with walls cannot be {done} yet")
+        raise UnsupportedError(f"{name} cannot store walls: write extended XYZ, LAMMPS data or a checkpoint")
+    if system.info.non_additivity != 0:
+        raise UnsupportedError(f"{name} cannot store non_additivity = {system.info.non_additivity:g}: write extended XYZ or a checkpoint")
 
 
 def layout_of(options: dict[str, Any]) -> str:

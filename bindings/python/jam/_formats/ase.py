@@ -12,6 +12,9 @@ from .._api.given import closed_axes, enclosure_of, sizes_of
 from .frames import bad, box_of, from_corner, in_range, notes_of, plane, refuse_cell, say_outside, say_unread
 from .replacing import open_regular
 
+# What info may hold, as to_ase writes it; else the caller names it.
+NAMED = ("walls", "container", "non_additivity")
+
 # What other programs call the sizes of spheres, as factors to the diameter.
 _SIZES = {"radius": 2.0, "radii": 2.0, "diameter": 1.0, "diameters": 1.0}
 
@@ -39,7 +42,7 @@ def arguments(
     at = in_range(name, frame, len(frames))
     atoms = frames[at]
     notes = notes_of(frame, len(frames))
-    named = {key: options.pop(key, None) for key in ("walls", "container")}
+    named = {key: options.pop(key, None) for key in NAMED}
     given = of_atoms(atoms, diameters, radii=radii, dim=dim, notes=notes, where=name, named=named)
     if given["diameters"].size > 1 and not (diameters is None and radii is None):
         _refuse_sorted(name, kind, at, np.asarray(atoms.positions))
@@ -50,9 +53,10 @@ def of_atoms(
     atoms: Any, diameters: Any, *, radii: Any, dim: int, notes: list[str], where: str, named: dict[str, Any]
 ) -> dict[str, Any]:
     """What System.from_arrays takes for an ase.Atoms. where: what an error calls it; notes get what was not read. named:
-    walls and container that the caller names, for atoms that do not."""
+    of NAMED what the caller names, for atoms that do not."""
     if len(atoms) == 0:
         raise bad(where, "the atoms have no sphere")
+    delta = _delta_in(where, atoms, named.pop("non_additivity"))
     walls = _walls_in(where, atoms, dim, {key: value for key, value in named.items() if value is not None})
     if not walls and not all(atoms.pbc[:dim]):
         hint = "; dim=2 reads a packing of disks" if dim == 3 and all(atoms.pbc[:2]) else ""
@@ -68,7 +72,7 @@ def of_atoms(
     else:
         sizes = sizes_of(diameters, radii, len(atoms))
     say_unread(notes, "columns", (k for k in atoms.arrays if k not in read))
-    say_unread(notes, "keys", (key for key in atoms.info if key not in walls))
+    say_unread(notes, "keys", (key for key in atoms.info if key not in walls and key not in delta))
     if atoms.constraints:
         notes.append("constraints of the file were not read")
     cell = np.asarray(atoms.cell)
@@ -76,7 +80,16 @@ def of_atoms(
     cell = cell[:dim, :dim]
     x = from_corner(x, np.asarray(atoms.get_celldisp()).reshape(-1)[:dim], notes)
     say_outside(notes, x, cell)
-    return dict(positions=x, diameters=sizes, **box_of(cell), **walls, dim=dim)
+    return dict(positions=x, diameters=sizes, **box_of(cell), **walls, **delta, dim=dim)
+
+
+def _delta_in(path: str, atoms: Any, named: Any) -> dict[str, Any]:
+    """non_additivity= of info or of the caller; {} where neither has it."""
+    found = atoms.info.get("non_additivity")
+    if found is not None and named is not None and float(found) != float(named):
+        raise bad(path, f"non_additivity= is {named}, that of info is {found}: leave it out")
+    value = named if found is None else float(found)
+    return {} if value is None else {"non_additivity": value}
 
 
 def _walls_in(path: str, atoms: Any, dim: int, named: dict[str, Any]) -> dict[str, Any]:
@@ -85,6 +98,8 @@ def _walls_in(path: str, atoms: Any, dim: int, named: dict[str, Any]) -> dict[st
     if "container" in atoms.info and "walls" in atoms.info:
         where = "info"
         given = {"container": str(atoms.info["container"]), "walls": [bool(w) for w in np.atleast_1d(atoms.info["walls"])]}
+        if (dim, len(given["walls"])) == (3, 2):
+            raise bad(path, "info names walls of two axes: dim=2 reads a packing of disks")
     if not given:
         return {}
     kind, flat = enclosure_of(given.get("container"), given.get("walls"), dim)

@@ -94,6 +94,8 @@ class Converting(State, Network):
         atoms = Atoms([symbol] * self.n, positions=x, cell=cell, pbc=[k < self.dim and not closed[k] for k in range(3)])
         if any(closed[: self.dim]):
             atoms.info.update(container=container_word(still.info), walls=walls_of(still.info))
+        if still.info.non_additivity != 0:
+            atoms.info["non_additivity"] = still.info.non_additivity
         atoms.set_array("radius", 0.5 * still.diameters)
         return atoms
 

@@ -17,15 +17,18 @@ static void add_md(outcome *result, const jam_md_report *md) {
   result->seconds_md += md->seconds;
 }
 
-/* With --checkpoint a stage runs in slices: they cost nothing, and a killed job goes on from the last one. */
-static double slice(const options *o, double deadline) {
-  const double left = deadline - seconds_now() > 1e-3 ? deadline - seconds_now() : 1e-3;
-  return o->checkpoint && left > o->checkpoint_every ? o->checkpoint_every : left;
+/* With --checkpoint a stage runs in slices, and a killed job goes on from the last one. A slice lasts ten times as long
+ * as its checkpoint took to write, at least: shorter ones might end before the first collision. */
+static double slice(const options *o, double deadline, double writing) {
+  const double left = fmax(deadline - seconds_now(), 1e-3);
+  return o->checkpoint ? fmin(left, fmax(o->checkpoint_every, fmax(10 * writing, 1e-3))) : left;
 }
 
 static int goes_on(const jam_system *sys, const options *o, double deadline, jam_status status,
-                   const jam_md_report *md) {
+                   const jam_md_report *md, double *writing) {
+  const double begun = seconds_now();
   if (status >= 0) write_checkpoint(sys, o);
+  *writing = seconds_now() - begun;
   return status == JAM_LIMIT && md->stop_reason == JAM_STOP_WALL_TIME && deadline - seconds_now() > 1e-3 &&
          !stop_if_asked(NULL, NULL);
 }
@@ -33,16 +36,17 @@ static int goes_on(const jam_system *sys, const options *o, double deadline, jam
 static jam_status run_nve(jam_system *sys, const options *o, int32_t resume, double deadline, outcome *result) {
   jam_run_options run;
   jam_md_report md;
+  double writing = 0;
   jam_status status = jam_run_options_init(&run, sizeof run);
   md.struct_size = sizeof md;
   run.collisions_per_particle = o->nve > 0 ? o->nve : run.collisions_per_particle;
   run.resume = resume;
   do {
-    run.wall_time = slice(o, deadline);
+    run.wall_time = slice(o, deadline, writing);
     status = jam_run(sys, &run, &md);
     if (status >= 0) add_md(result, &md);
     run.resume = 1;
-  } while (goes_on(sys, o, deadline, status, &md));
+  } while (goes_on(sys, o, deadline, status, &md, &writing));
   return status;
 }
 
@@ -50,6 +54,7 @@ static jam_status run_nve(jam_system *sys, const options *o, int32_t resume, dou
 static jam_status run_stage(jam_system *sys, const options *o, const stage *s, double deadline, outcome *result) {
   jam_compress_options compress;
   jam_md_report md;
+  double writing = 0;
   jam_status status = jam_compress_options_init(&compress, sizeof compress);
   md.struct_size = sizeof md;
   compress.resume = !s;
@@ -59,11 +64,11 @@ static jam_status run_stage(jam_system *sys, const options *o, const stage *s, d
     if (o->given.density > 0) compress.packing_fraction = o->given.density;
   }
   do {
-    compress.wall_time = slice(o, deadline);
+    compress.wall_time = slice(o, deadline, writing);
     status = jam_compress(sys, &compress, &md);
     if (status >= 0) add_md(result, &md);
     compress.resume = 1;
-  } while (goes_on(sys, o, deadline, status, &md));
+  } while (goes_on(sys, o, deadline, status, &md, &writing));
   return status;
 }
 

@@ -104,7 +104,7 @@ TABLE = {
     ),
     "Checkpoints": (
         Option("checkpoint", "output", "FILE", "state of the dynamics or of the crunch, every minute and where they stop early", gzip=True),
-        Option("checkpoint-every", "positive", "SECONDS", "between checkpoints (60)", 60.0, needs=("checkpoint",)),
+        Option("checkpoint-every", "positive", "SECONDS", "between checkpoints (60); of dynamics at least ten times what writing one takes", 60.0, needs=("checkpoint",)),
         Option("resume", "input", "FILE",
                "continue from a checkpoint. Dynamics: to the same bits, the stage that was interrupted, then the stages "
                "of higher pressure. A crunch: from the packing of its last step"),

@@ -463,6 +463,11 @@ class JamPack(unittest.TestCase):
         report = self.report("--n", 1024, "--no-md", "--wall-time", 0.5, status=1)
         self.assertEqual(report["stop_reason"], "wall_time")
 
+    def test_checkpoints_without_a_pause_between_do_not_stop_dynamics(self):
+        kept, rare = self.dir / "state.bin", self.report("--n", "8", "--quiet")
+        often = self.report("--n", "8", "--quiet", "--checkpoint", kept, "--checkpoint-every", "1e-9")
+        self.assertEqual(often["packing_fraction"], rare["packing_fraction"])
+
     def test_a_killed_crunch_goes_on(self):
         """Killed at random moments: the checkpoint is whole each time, and what follows it ends jammed."""
         kept, job = self.dir / "state.bin", ["--n", "500", "--growth", "1e-2:500", "--quiet"]

@@ -24,8 +24,8 @@ static double slice(const options *o, double deadline, double writing) {
   return o->checkpoint ? fmin(left, fmax(o->checkpoint_every, fmax(10 * writing, 1e-3))) : left;
 }
 
-static int goes_on(const jam_system *sys, const options *o, double deadline, jam_status status,
-                   const jam_md_report *md, double *writing) {
+static int goes_on(const jam_system *sys, const options *o, double deadline, jam_status status, const jam_md_report *md,
+                   double *writing) {
   const double begun = seconds_now();
   if (status >= 0) write_checkpoint(sys, o);
   *writing = seconds_now() - begun;

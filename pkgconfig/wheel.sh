@@ -5,7 +5,7 @@
 set -eu
 cd "$(dirname "$0")/.."
 . tests/debian.sh
-need_packages build-essential cmake ninja-build pkg-config swig zlib1g-dev libeigen3-dev libspectra-dev
+need_packages build-essential cmake ninja-build pkg-config swig python3-dev zlib1g-dev libeigen3-dev libspectra-dev
 mkdir -p "$1"
 folder=$1
 shift

@@ -30,9 +30,9 @@ begin() {
   git -C "$source" archive HEAD | tar -xf - -C "$root/libjam"
   [ -z "${JAM_BARE_TOOLCHAIN:-}" ] || cp "$JAM_BARE_TOOLCHAIN" "$root/srv/toolchain.cmake"
 }
-# inside COMMAND: in that system, in the folder of the source.
+# inside COMMAND: in that system, in the folder of the source. Programs find their libraries by /proc.
 inside() {
-  chroot "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/srv DEBIAN_FRONTEND=noninteractive \
+  unshare -m sh -c 'mount -t proc proc "$1/proc" && exec chroot "$@"' - "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/srv DEBIAN_FRONTEND=noninteractive \
     ${JAM_BARE_TOOLCHAIN:+CMAKE_TOOLCHAIN_FILE=/srv/toolchain.cmake} sh -euc "cd /libjam; $1" \
     >>"$root.log" 2>&1 || { tail -30 "$root.log"; echo "failed in $root: $1"; exit 1; }
 }
@@ -87,8 +87,8 @@ PYTHON
       begin octave
       # shellcheck disable=SC2046,SC2086
       install $packages $(more Octave)
-      inside "cmake -S . -B build -DJAM_BUILD_OCTAVE=ON && cmake --build build -j2
-        cd /srv && octave --no-gui --path /libjam/build/octave /libjam/examples/octave/first.m"
+      inside "cmake -S . -B build -DJAM_BUILD_OCTAVE=ON && cmake --build build -j2 && cd /srv &&
+        octave --no-gui --path /libjam/build/octave /libjam/examples/octave/first.m"
       passed octave "built with -DJAM_BUILD_OCTAVE=ON; the first example ran"
       ;;
     *) echo "there is no line $line"; exit 2 ;;

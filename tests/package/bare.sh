@@ -32,7 +32,8 @@ begin() {
 }
 # inside COMMAND: in that system, in the folder of the source. Programs find their libraries by /proc.
 inside() {
-  unshare -m sh -c 'mount -t proc proc "$1/proc" && exec chroot "$@"' - "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/srv DEBIAN_FRONTEND=noninteractive \
+  unshare -m sh -c 'mount -t proc proc "$1/proc" && exec chroot "$@"' - \
+    "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/srv DEBIAN_FRONTEND=noninteractive \
     ${JAM_BARE_TOOLCHAIN:+CMAKE_TOOLCHAIN_FILE=/srv/toolchain.cmake} sh -euc "cd /libjam; $1" \
     >>"$root.log" 2>&1 || { tail -30 "$root.log"; echo "failed in $root: $1"; exit 1; }
 }

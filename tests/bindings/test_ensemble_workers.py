@@ -83,8 +83,8 @@ class Command(unittest.TestCase):
         return subprocess.run(command, capture_output=True, text=True)
 
     def test_what_cannot_be_printed_is_told(self):
-        """Of both command lines, whether Python writes each line by itself or not."""
-        for words in ("--version", "ensemble --help"):
+        """Of all command lines, whether Python writes each line by itself or not."""
+        for words in ("--version", "ensemble --help", "search --help"):
             for buffered in ("", "1"):
                 command = f"{sys.executable} -m jam {words} > /dev/full"
                 done = subprocess.run(["sh", "-c", command], capture_output=True, text=True, env={**os.environ, "PYTHONUNBUFFERED": buffered})

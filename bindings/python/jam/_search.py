@@ -6,7 +6,7 @@ import os
 from pathlib import Path
 from typing import Any
 
-from ._api.command import DONE, OUTPUT, PARTIAL, REFUSED, Parser, json_answer, refuse
+from ._api.command import DONE, OUTPUT, PARTIAL, REFUSED, Parser, json_answer, printed, refuse
 from .ensemble.pool import WorkerDied
 from .errors import JamError
 from .radii import Best, Search, best_of, prove
@@ -74,6 +74,10 @@ def _show(found: Search, rows: list[dict[str, Any]]) -> None:
 
 def main(arguments: list[str] | None = None) -> int:
     """Returns the exit status."""
+    return printed(lambda: _answer(arguments))
+
+
+def _answer(arguments: list[str] | None) -> int:
     p = parser()
     o = p.parse(arguments)
     if o.starts is None and o.seconds is None and o.until is None:

@@ -3,8 +3,9 @@ from __future__ import annotations
 
 import argparse
 import json
+import os
 import sys
-from typing import Any, NoReturn
+from typing import Any, Callable, NoReturn
 
 DONE, PARTIAL, USAGE, REFUSED, OUTPUT = range(5)  # exit status, as python3 -m jam
 
@@ -43,3 +44,17 @@ def refuse(code: int, text: str, as_json: bool) -> int:
     if as_json:
         print(json_answer(code, text))
     return code
+
+
+def printed(answer: Callable[[], int]) -> int:
+    """The exit status of `answer`, of which print alone raises OSError: what cannot be printed is an output that cannot be written."""
+    try:
+        try:
+            return answer()
+        finally:
+            if sys.stdout:  # None where the descriptor is closed
+                sys.stdout.flush()
+    except OSError as error:
+        print(f"jam: cannot write standard output: {error.strerror}", file=sys.stderr)
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # the interpreter flushes it once more at its end
+        return OUTPUT

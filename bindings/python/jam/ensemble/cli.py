@@ -9,7 +9,7 @@ from concurrent.futures import BrokenExecutor
 from contextlib import ExitStack
 from typing import Any
 
-from .._api.command import DONE, OUTPUT, PARTIAL, REFUSED, Parser, json_answer, refuse
+from .._api.command import DONE, OUTPUT, PARTIAL, REFUSED, Parser, json_answer, printed, refuse
 from ..errors import StoreError
 from .ensemble import Ensemble
 from .protocol import ProtocolError
@@ -117,17 +117,8 @@ def _refuse(o: argparse.Namespace, code: int, text: str) -> int:
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Returns the exit status. What cannot be printed is an output that cannot be written."""
-    try:
-        try:
-            return _answer(arguments)
-        finally:
-            if sys.stdout:  # None where the descriptor is closed
-                sys.stdout.flush()
-    except OSError as error:
-        print(f"jam: cannot write standard output: {error.strerror}", file=sys.stderr)
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # the interpreter flushes it once more at its end
-        return OUTPUT
+    """Returns the exit status."""
+    return printed(lambda: _answer(arguments))
 
 
 def _answer(arguments: list[str] | None) -> int:

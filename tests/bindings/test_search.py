@@ -40,8 +40,9 @@ class Search(unittest.TestCase):
         self.assertIn("proved", done.stdout)
         packing = jam.System.read(self.dir / best["file"])
         self.assertAlmostEqual(packing.diameters.sum() / 2, float(v), delta=1e-14)
-        code, out, err = self.run_words(words.format(3))
+        code, out, err = self.run_words(words.format(3).replace("--prove 30 ", ""))
         self.assertEqual(json.loads(out)["starts"], 3)
+        self.assertEqual(list(self.dir.glob("disks/*.jamproof")), [])  # none stays beside a packing that it may not prove
 
     def test_wrong_lines_and_scenes_are_refused(self):
         for words, status, text in (

@@ -9,7 +9,7 @@ from typing import Any
 from ._api.command import DONE, OUTPUT, PARTIAL, REFUSED, Parser, json_answer, printed, refuse
 from .ensemble.pool import WorkerDied
 from .errors import JamError
-from .radii import Best, Search, best_of, prove
+from .radii import SAME, Best, Search, best_of, prove
 from .system import System
 
 SCENE = ("walls", "container", "box")
@@ -49,13 +49,15 @@ def _write(o: argparse.Namespace, best: Best, rank: int, scene: dict[str, Any]) 
     where: dict[str, Any] = {"box": 1.0, **scene}
     packing = System.from_arrays(best.positions, radii=best.radii, **where)
     bounds = {"radius_min": o.radius_min, **({} if o.radius_max is None else {"radius_max": o.radius_max})}
-    packing.maximise_radii(room=CLOSER, **bounds)
+    again = packing.maximise_radii(room=CLOSER, **bounds)
     name = os.path.join(o.folder, f"best-{rank}")
     packing.write(name + ".xyz")
     row: dict[str, Any] = {"rank": rank, "value": repr(best.value), "start": best.start, "file": name + ".xyz"}
-    if o.prove is not None:
-        proof = Path(name + ".jamproof")
-        proof.unlink(missing_ok=True)  # of an earlier best
+    proof = Path(name + ".jamproof")
+    proof.unlink(missing_ok=True)  # of another packing, which was best before
+    if not again.maximum or abs(again.value / best.value - 1) > SAME:
+        row["not_proved"] = f"its maximum was not found again: the file has the sum {again.value!r}"
+    elif o.prove is not None:
         try:
             proved = prove(packing, o.prove, path=proof)
             row |= {"value": str(proved.value), "value_radius": float(proved.value_radius), "proof": str(proof)}

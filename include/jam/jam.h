@@ -92,7 +92,7 @@
  * - radii of pair searches    at most 1000 mean diameters
  * - growth rate               above 0, at most 1000
  * - wall_time, in seconds     above 0, of the call that takes it; infinity, the default: no limit
- * - velocities                root of sum m v^2 / (d n) at most 1e6. Light spheres among heavy ones may be faster
+ * - velocities                root of sum m v^2 / (d n) 0 or 1e-9 .. 1e6. Light spheres among heavy ones may be faster
  */
 #ifndef JAM_JAM_H
 #define JAM_JAM_H
@@ -744,7 +744,7 @@ typedef struct jam_isoconf_options {
   int64_t first_run, runs; /* number of the first run, >= 0, default 0; how many runs, >= 1, default 100 */
   int64_t block;           /* runs per block, >= 1, default 20; sums are kept for each block */
   double density_ratio;    /* packing fraction of the runs over that of the packing, in (0, 1], default 1 */
-  double temperature;      /* of the velocities, > 0, default 1 */
+  double temperature;      /* of the velocities, 1e-18 .. 1e12, default 1 */
   double wave_number;      /* q of F_s, 1 / mean diameter, > 0, default 7 */
   double overlap_length;   /* spheres that moved less count in the overlap, mean diameters, > 0, default 0.3 */
   double memory_limit;     /* bytes, default 2e9; a larger estimate gives JAM_E_MEMORY before any run */

@@ -49,11 +49,16 @@ void check_velocities(const Packing &p, const std::vector<double> &velocity, jam
   const std::vector<double> mass = sphere_masses(p);
   const size_t d = static_cast<size_t>(p.dim);
   double sum = 0.0;
-  for (size_t k = 0; k < velocity.size(); ++k) sum += (mass.empty() ? 1.0 : mass[k / d]) * velocity[k] * velocity[k];
+  bool at_rest = true;
+  for (size_t k = 0; k < velocity.size(); ++k) {
+    sum += (mass.empty() ? 1.0 : mass[k / d]) * velocity[k] * velocity[k];
+    at_rest = at_rest && velocity[k] == 0.0;
+  }
   const double thermal = std::sqrt(sum / static_cast<double>(velocity.size()));
-  if (!(thermal <= limits::velocity_max * (1.0 + drift)))
-    fail(code, "velocities: the root of sum m v^2 / (d n) is %g, at most %g is supported", thermal,
-         limits::velocity_max);
+  if (!(thermal <= limits::velocity_max * (1.0 + drift) &&
+        (at_rest || thermal >= limits::velocity_min * (1.0 - drift))))
+    fail(code, "velocities: the root of sum m v^2 / (d n) is %g, from %g to %g is supported, or no motion at all",
+         thermal, limits::velocity_min, limits::velocity_max);
 }
 
 }  // namespace jam::inside

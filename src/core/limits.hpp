@@ -19,9 +19,11 @@ constexpr double mk_zeta_max = 1e15;               // strength of shifts, or inf
 constexpr double radius_max = 1e3;                 // radii of pair searches, mean diameters
 constexpr double images_max = 1e6;       // of one pair in Monte Carlo: a checkpoint's cell may be far from reduced
 constexpr double growth_rate_max = 1e3;  // of molecular dynamics, dimensionless
-constexpr double velocity_max = 1e6;     // root of sum m v^2 / (d n): no dynamics at constant energy passes it
-constexpr double wave_max = 1e6;         // component of a wave vector: whole turns are taken off without loss
-constexpr double rounding = 1e-9;        // a limit that the library's own steps may exceed, relative
+// Root of sum m v^2 / (d n), unless all spheres rest: no dynamics at constant energy passes the largest. Below 1e-12
+// paths no longer scale with the velocities, below 1e-21 spheres overlap.
+constexpr double velocity_min = 1e-9, velocity_max = 1e6;
+constexpr double wave_max = 1e6;   // component of a wave vector: whole turns are taken off without loss
+constexpr double rounding = 1e-9;  // a limit that the library's own steps may exceed, relative
 constexpr double duality_gap_min = 1e-12, duality_gap_max = 1e-2;  // at which a crunch may end
 constexpr int threads_max = 64;                                    // of one call
 constexpr int keep_steps_max = 1000;                               // states of a crunch that are kept

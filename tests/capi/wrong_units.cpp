@@ -55,6 +55,40 @@ CASE(radii_of_boxes) {
   jam_destroy(sys);
 }
 
+// Velocities slower by a power of two give the same path bit for bit; what times would not resolve is refused.
+CASE(slow_velocities) {
+  std::vector<double> ends[2];
+  for (int k = 0; k < 2; ++k) {
+    DEFAULTS(create, o);
+    DEFAULTS(run, r);
+    o.dim = 2, o.n = 32, o.packing_fraction = 0.5;
+    jam_system *sys = nullptr;
+    assert_int_equal(jam_create(&o, nullptr, &sys), JAM_OK);
+    r.collisions_per_particle = 20.0;
+    assert_int_equal(jam_run(sys, &r, nullptr), JAM_OK);
+    const double *view = nullptr;
+    size_t len = 0;
+    jam_view(sys, JAM_VIEW_VELOCITIES, &view, &len);
+    std::vector<double> v(view, view + len);
+    for (double &c : v) c = std::ldexp(c, -29 * k);
+    assert_int_equal(jam_set_velocities(sys, v.data(), len), JAM_OK);
+    assert_int_equal(jam_run(sys, &r, nullptr), JAM_OK);
+    jam_view(sys, JAM_VIEW_POSITIONS, &view, &len);
+    ends[k].assign(view, view + len);
+    v.assign(len, 0.0);
+    v[14] = 1e-300;
+    SAYS(jam_set_velocities(sys, v.data(), len), JAM_E_ARGUMENT, "from 1e-09");
+    v[14] = 0.0;  // all at rest
+    assert_int_equal(jam_set_velocities(sys, v.data(), len), JAM_OK);
+    DEFAULTS(isoconf, runs);
+    const double instant = 1.0;
+    runs.temperature = 1e-40;
+    SAYS(jam_isoconf(sys, &runs, nullptr, &instant, 1, nullptr, 0, nullptr), JAM_E_ARGUMENT, "temperature");
+    jam_destroy(sys);
+  }
+  assert_memory_equal(ends[0].data(), ends[1].data(), ends[0].size() * sizeof(double));
+}
+
 CASE(fractions_in_any_box) {
   const std::vector<double> unit = many_points(40);
   std::vector<double> expected(40);

@@ -3,6 +3,7 @@
 
 #include "core/checks.hpp"
 #include "core/error.hpp"
+#include "core/limits.hpp"
 #include "core/math.hpp"
 #include "dynamics/isoconfigurational/isoconfigurational.hpp"
 
@@ -38,7 +39,8 @@ void check_isoconf_options(const jam_isoconf_options &o) {
   check_at_least(o.block, 1, "block");
   if (!(o.density_ratio > 0.0 && o.density_ratio <= 1.0))
     fail(JAM_E_ARGUMENT, "density_ratio is %g, it must be in (0, 1]", o.density_ratio);
-  check_positive_finite(o.temperature, "temperature");
+  check_range("temperature", o.temperature, limits::velocity_min * limits::velocity_min,
+              limits::velocity_max * limits::velocity_max);
   check_positive_finite(o.wave_number, "wave_number");
   check_positive_finite(o.overlap_length, "overlap_length");
   check_positive(o.memory_limit, "memory_limit");

@@ -1,8 +1,8 @@
 #!/bin/sh
 # bare.sh FOLDER [LINE...]: lines of README's table "Install" in a bare Debian 12, which debootstrap makes as
 # FOLDER/bare; each line has a copy of it, with the source and nothing else. Lines: browser, python, debian, cmake,
-# octave; npm and Windows are tried by pkgconfig/release.sh. Commands and packages are those of README. For root, with
-# a network.
+# octave; npm and Windows are tried by pkgconfig/release.sh. Commands are those of README, packages those of the pages
+# that it links. For root, with a network.
 # JAM_BARE_TOOLCHAIN: a file with settings for CMake, such as JAM_DIMENSIONS, to try the commands alone.
 set -eu
 source=$(cd "$(dirname "$0")/../.." && pwd)
@@ -12,10 +12,10 @@ shift
 lines=${*:-browser python debian cmake octave}
 [ "$(id -u)" = 0 ] || { echo "only root can make a bare Debian"; exit 77; }
 
-# of README: the packages behind a row's command, the commands
-packages=$(sed -n 's/^`\(build-essential [^`]*\)`.*/\1/p' "$source/README.md")
+packages=$(sed -n 's/^`\(build-essential [^`]*\)`.*/\1/p' "$source/bindings/docs/tutorial_packager.md")
+octave=$(sed -n 's/.*packages `\(octave [^`]*\)`.*/\1/p' "$source/bindings/docs/octave.md")
+if [ -z "$packages" ] || [ -z "$octave" ]; then echo "a page names no packages"; exit 1; fi
 row() { sed -n "s/^| $1[^|]*| \`\([^\`]*\)\`.*/\1/p" "$source/README.md"; }
-more() { sed -n "s/^| $1[^|]*|[^|]*| \`\([^\`]*\)\`.*/\1/p" "$source/README.md"; }
 
 # begin LINE: a copy of the bare system with the source, as $root.
 begin() {
@@ -86,8 +86,8 @@ PYTHON
       ;;
     octave)
       begin octave
-      # shellcheck disable=SC2046,SC2086
-      install $packages $(more Octave)
+      # shellcheck disable=SC2086
+      install $packages $octave
       inside "cmake -S . -B build -DJAM_BUILD_OCTAVE=ON && cmake --build build -j2 && cd /srv &&
         octave --no-gui --path /libjam/build/octave /libjam/examples/octave/first.m"
       passed octave "built with -DJAM_BUILD_OCTAVE=ON; the first example ran"

@@ -63,9 +63,11 @@ part() { echo "== $1, after $(($(date +%s) - begun)) s"; }
 if wants release; then
 part "release build"
 # For /usr, as the Debian packages are made of it; nothing is installed there. -U: its folders follow the prefix.
+# By joined sources, as the quickstart: half the time, and the same objects. A build without options, clang and
+# openblas compile each source alone.
 # shellcheck disable=SC2086
 cmake -S . -B build -G Ninja -U JAM_PYTHON_DIR -DCMAKE_INSTALL_PREFIX=/usr -DCMAKE_BUILD_TYPE=Release \
-  -DJAM_BUILD_STATIC=ON -DJAM_WERROR=ON $bindings >/dev/null
+  -DCMAKE_UNITY_BUILD=ON -DJAM_BUILD_STATIC=ON -DJAM_WERROR=ON $bindings >/dev/null
 cmake --build build -j "$jobs"
 part "its tests"
 ctest --test-dir build -j "$at_once" --output-on-failure --no-tests=error || status=1

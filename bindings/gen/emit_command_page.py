@@ -24,7 +24,7 @@ def emit(_api):
         "python3 -m jam " + EXAMPLE,
         "```",
         "",
-        "Both commands run the same code. Options of Python alone are marked; it also reads and writes `.gsd` files.",
+        "Both commands run the same code. Options marked (Python) are of `python3 -m jam` alone, which also reads and writes `.gsd` files.",
         "",
         "## Verbs",
         "",
@@ -57,26 +57,26 @@ def emit(_api):
         if "status" not in note:
             out += [*wrapped(_marked(note), 120), ""]
     out += [
-        "With `--input` or FILE the verdict of a crunch is that of its end state. `check` tests the packing of a file as it is.",
+        "With `--input` or FILE the verdict of a crunch is that of the packing at the end. `check` moves no spheres of the file.",
         "",
-        "| exit status | pack, compress, crunch | check | info, export, page |",
+        "| exit status | pack, compress, crunch, shear | check | info, export, page |",
         "|---|---|---|---|",
         *("| " + " | ".join(row) + " |" for row in EXITS),
         "",
         *wrapped(
-            "`ensemble` runs `python3 -m jam ensemble`. 0: all packings are there. 1: some failed or are missing. 2: wrong "
+            "`ensemble` runs `python3 -m jam ensemble`, with exit status 0: all packings are there. 1: some failed or are missing. 2: wrong "
             "command line. 3: protocol or folder refused, or Python has no module `jam`. 4: the folder cannot be written. `search` runs "
-            "`python3 -m jam search`, with the same statuses; 1: no maximum was found, or a proof failed."
+            "`python3 -m jam search`, with the same statuses except 1: no maximum was found, or a proof failed."
         ),
         "",
         *wrapped(
             "With `--json` standard output is one JSON object and nothing else, also after a failure; messages go to standard "
-            "error. The objects of these verbs have `file`, `status` (the exit status), `text` (the messages; of `check` the "
+            "error. The objects of the verbs in the table have `file`, `status` (the exit status), `text` (the messages; of `check` the "
             "verdict), `n`, `dim` and `packing_fraction` of the packing reached (`null` if the failure came before any packing) "
-            "and `version`. The results of the verb follow them. `ensemble status --json` has `status` and `text` too. `notes` "
+            "and `version`, and then the results of the verb. `ensemble status --json` has `status` and `text` too. The member `notes` "
             "gives the reason if the table of contacts is empty, is not the only one possible, or is not that of a jammed packing."
         ),
         "",
     ]
-    out += ["Completion for bash and zsh is installed with the program, and `man jam-pack` shows these lines.", ""]
+    out += ["Completion for bash and zsh is installed with the program, and `man jam-pack` shows all options.", ""]
     return "\n".join(out)

@@ -17,11 +17,14 @@ static void add_md(outcome *result, const jam_md_report *md) {
   result->seconds_md += md->seconds;
 }
 
-/* With --checkpoint a stage runs in slices, and a killed job goes on from the last one. A slice lasts ten times as long
- * as its checkpoint took to write, at least: shorter ones might end before the first collision. */
+/* Time of a slice over that of writing its checkpoint, at least: so most time goes to the dynamics, and no slice ends
+ * before the first collision. */
+static const double slice_per_writing = 10;
+
+/* With --checkpoint a stage runs in slices, and a killed job goes on from the last one. */
 static double slice(const options *o, double deadline, double writing) {
-  const double left = fmax(deadline - seconds_now(), 1e-3);
-  return o->checkpoint ? fmin(left, fmax(o->checkpoint_every, fmax(10 * writing, 1e-3))) : left;
+  const double left = seconds_until(deadline), least = fmax(slice_per_writing * writing, LEAST_TIME);
+  return o->checkpoint ? fmin(left, fmax(o->checkpoint_every, least)) : left;
 }
 
 static int goes_on(const jam_system *sys, const options *o, double deadline, jam_status status, const jam_md_report *md,
@@ -29,7 +32,7 @@ static int goes_on(const jam_system *sys, const options *o, double deadline, jam
   const double begun = seconds_now();
   if (status >= 0) write_checkpoint(sys, o);
   *writing = seconds_now() - begun;
-  return status == JAM_LIMIT && md->stop_reason == JAM_STOP_WALL_TIME && deadline - seconds_now() > 1e-3 &&
+  return status == JAM_LIMIT && md->stop_reason == JAM_STOP_WALL_TIME && seconds_until(deadline) > LEAST_TIME &&
          !stop_if_asked(NULL, NULL);
 }
 
@@ -145,7 +148,6 @@ static jam_status work(jam_system *sys, const options *o, terminal *t, outcome *
   char name[64] = "NVE";
   jam_status status = JAM_OK;
   int k, stages_left = o->given.stage_count;
-#define LEFT (deadline - seconds_now() > 1e-3 ? deadline - seconds_now() : 1e-3)
   t->stage = name;
   result->fell_short = lies_above(sys, o->given.density);
   if (result->fell_short) return JAM_OK;
@@ -170,8 +172,7 @@ static jam_status work(jam_system *sys, const options *o, terminal *t, outcome *
   if (o->no_crunch || ends_job(status)) return status;
   if (result->has_md && !is_host_format(o, o->output)) keep(sys, o->output);
   strcpy(name, o->radii ? "radii" : "crunch");
-  return (o->radii ? run_radii : run_crunch)(sys, o, LEFT, result);
-#undef LEFT
+  return (o->radii ? run_radii : run_crunch)(sys, o, seconds_until(deadline), result);
 }
 
 /* Whole spheres of one size, or of a few, miss the density asked for by up to half a sphere: it is theirs that they

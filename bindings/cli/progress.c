@@ -16,6 +16,8 @@ double seconds_now(void) {
   return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
+double seconds_until(double deadline) { return fmax(deadline - seconds_now(), LEAST_TIME); }
+
 void write_checkpoint(const jam_system *sys, const options *o) {
   if (o->checkpoint && jam_write_checkpoint(sys, o->checkpoint) < 0) complain("%s", jam_last_error());
 }

@@ -170,7 +170,7 @@ static jam_status work(shear_job *job, terminal *t) {
       job->begun = NULL;
       if (jam_copy(job->sys, &job->begun) < 0) return JAM_E_MEMORY;
     }
-    job->options.wall_time = job->deadline - seconds_now() > 1e-3 ? job->deadline - seconds_now() : 1e-3;
+    job->options.wall_time = seconds_until(job->deadline);
     job->reached = job->at;
     status = turn == 0 ? JAM_OK
                        : jam_shear(job->sys, &job->options, &turn, 1, job->path.mode, job->path.mode_count, &job->last);

@@ -34,6 +34,8 @@ void give_signals_back(void);
 
 /* The words of the command line in UTF-8: those of main, or in their place new ones. */
 void take_words(int *argc, char ***argv);
+/* Runs a line of the shell; 0 where it ended well. Ctrl-C that ends the line ends this program too. */
+int run_shell(const char *line);
 /* Runs a program in place of this one. Returns only where it could not be run. */
 void become(char **words);
 

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 #include "jam-pack.h"
 #include "system.h"
@@ -129,5 +130,11 @@ void give_signals_back(void) {
 }
 
 void take_words(int *argc, char ***argv) { (void)argc, (void)argv; }
+
+int run_shell(const char *line) {
+  const int status = system(line);
+  if (WIFSIGNALED(status) ? WTERMSIG(status) == SIGINT : WEXITSTATUS(status) == 128 + SIGINT) raise(SIGINT);
+  return status;
+}
 
 void become(char **words) { execvp(words[0], words); }

@@ -1,6 +1,7 @@
 """The worker processes of ensembles, and the command line."""
 import json
 import os
+import signal
 import subprocess
 import sys
 import tempfile
@@ -83,15 +84,49 @@ class Command(unittest.TestCase):
         return subprocess.run(command, capture_output=True, text=True)
 
     def test_what_cannot_be_printed_is_told(self):
-        """Of all command lines, whether Python writes each line by itself or not."""
-        for words in ("--version", "ensemble --help", "search --help"):
-            for buffered in ("", "1"):
-                command = f"{sys.executable} -m jam {words} > /dev/full"
-                done = subprocess.run(["sh", "-c", command], capture_output=True, text=True, env={**os.environ, "PYTHONUNBUFFERED": buffered})
-                self.assertEqual(done.returncode, 4, command)
-                self.assertRegex(done.stderr, "^.*: cannot write standard output.*\n$")
-        closed = subprocess.run(["sh", "-c", f"{sys.executable} -m jam --version >&-"], capture_output=True, text=True)
-        self.assertEqual((closed.returncode, "Traceback" in closed.stderr), (4, False), closed.stderr)
+        """Of all command lines, into a full device and a closed descriptor, whether Python writes each line by itself or not."""
+        with tempfile.TemporaryDirectory() as folder:
+            make = self.run_jam("run", folder + "/e", "--n", "8", "--dim", "2", "--seeds", "1", "--quiet")
+            self.assertEqual((make.returncode, make.stdout, make.stderr), (0, "", ""))
+            start = "1\nLattice=\"1 0 0 0 1 0 0 0 1\" Properties=pos:R:3:radius:R:1\n0.5 0.5 0.5 0.2\n"
+            Path(folder, "p.xyz").write_text(start)
+            for words in ("--version", "info p.xyz", "check p.xyz", "--n 8 --no-md --no-crunch", "ensemble --help", "ensemble status e",
+                          "ensemble status e --json", "ensemble run e --seeds 1", "ensemble export e s", "search --help",
+                          "search d --n 1 --walls xy --starts 1 --workers 1"):
+                for place in ("> /dev/full", ">&-") if "help" in words else (">&-",):
+                    for buffered in ("", "1") if "help" in words else ("",):
+                        command, more = f"{sys.executable} -m jam {words} {place}", {**os.environ, "PYTHONUNBUFFERED": buffered}
+                        done = subprocess.run(["sh", "-c", command], capture_output=True, text=True, cwd=folder, env=more)
+                        self.assertEqual(done.returncode, 4, f"{command}: {done.stderr}")
+                        self.assertRegex(done.stderr, "^(.*\n)*.*: cannot write standard output.*\n$", command)
+                        self.assertNotIn("Traceback", done.stderr, command)
+
+    def test_closed_descriptors_take_no_file_and_no_message(self):
+        """Without standard error, print writes its messages to standard output; a worker had none to begin with."""
+        with tempfile.TemporaryDirectory() as folder:
+            words = f"{sys.executable} -m jam ensemble run {{}} --n 8 --dim 2 --seeds 1 --workers 1 "
+            for k, closed in enumerate(("2>&-", "<&- 2>&-", "<&- >&- 2>&-")):
+                done = subprocess.run(["sh", "-c", words.format(f"{folder}/{k}") + closed], capture_output=True, text=True)
+                self.assertEqual((done.returncode, done.stderr), (4 if ">&- 2" in closed else 0, ""), closed)
+                self.assertEqual([x.seed for x in Ensemble(f"{folder}/{k}")], [1], closed)
+            refused = subprocess.run(["sh", "-c", words.format("/sys/jam") + "2>&-"], capture_output=True, text=True)
+            self.assertEqual((refused.returncode, refused.stdout), (4, ""))
+
+    def test_ctrl_c_while_the_program_imports_is_one_line(self):
+        """Of python3 -m jam and of jam-pack; a program that imports the package has its own Ctrl-C."""
+        signal.signal(signal.SIGINT, signal.default_int_handler)  # a background job starts with it ignored
+        with tempfile.TemporaryDirectory() as folder:
+            Path(folder, "numpy").mkdir()
+            Path(folder, "numpy/__init__.py").write_text("import os, time\nos.kill(os.getpid(), 2)\ntime.sleep(60)\n")
+            environment = {**os.environ, "PYTHONPATH": f"{folder}:{os.environ.get('PYTHONPATH', '')}"}
+            programs = [f"{sys.executable} -m jam info x", f"{sys.executable} -m jam ensemble status e"]
+            if os.environ.get("JAM_PACK"):
+                programs.append(f"PATH={os.path.dirname(sys.executable)}:$PATH {os.environ['JAM_PACK']} ensemble status e")
+            for program in programs:
+                done = subprocess.run(["sh", "-c", program + "; echo $?"], capture_output=True, text=True, env=environment, timeout=60)
+                self.assertEqual((done.stdout, done.stderr), ("130\n", "python3 -m jam: interrupted\n"), program)
+            done = subprocess.run([sys.executable, "-c", "import jam"], capture_output=True, text=True, env=environment, timeout=60)
+            self.assertRegex(done.stderr, "(?s)^Traceback.*KeyboardInterrupt\n$")
 
     def test_run_status_export_and_exit_codes(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -59,6 +59,10 @@ class Showing(unittest.TestCase):
             call()
             return stream.getvalue(), Bar.made
 
+    def test_nothing_without_standard_error(self):
+        with unittest.mock.patch("sys.stderr", None):
+            self.assertTrue(work().crunch(progress=True).jammed)
+
     def test_bar_where_tqdm_is(self):
         for notebook, terminal in ((False, True), (True, False)):
             text, bars = self.shown(

@@ -3,7 +3,7 @@ import ast
 
 # A module imports only from layers to the left of its own; within a folder no module leads back to itself.
 ORDER = (
-    "raw _built_for _api errors _formats _system system files store ensemble advice statistics _tails scaling "
+    "raw _built_for _interrupted _api errors _formats _system system files store ensemble advice statistics _tails scaling "
     "near_jamming digits _symmetry _sum_proof radii _search plot cli __main__ __init__"
 ).split()
 # Third-party modules besides numpy: the modules that import them, where a layer below must work without. Those in a

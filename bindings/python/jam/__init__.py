@@ -15,7 +15,9 @@ import typing
 from typing import Any
 
 from ._built_for import refuse_another_python
+from ._interrupted import end_in_one_line
 
+end_in_one_line()
 refuse_another_python()
 
 from . import errors as errors, raw as raw

@@ -2,6 +2,8 @@
 import sys
 
 if __name__ == "__main__":  # workers of mpi4py.futures import this file under another name
+    from ._interrupted import end, raise_again
+
     verb, words = sys.argv[1:2], sys.argv[2:]
     if verb == ["ensemble"]:
         from .ensemble.cli import main
@@ -11,4 +13,10 @@ if __name__ == "__main__":  # workers of mpi4py.futures import this file under a
         from .cli import main
 
         words = sys.argv[1:]
-    sys.exit(main(words))
+    if main.__module__ != "jam.cli":  # C takes the signal there
+        raise_again()
+    try:
+        code = main(words)
+    except KeyboardInterrupt:
+        end()
+    sys.exit(code)

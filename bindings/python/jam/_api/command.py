@@ -46,14 +46,32 @@ def refuse(code: int, text: str, as_json: bool) -> int:
     return code
 
 
+def _nowhere(flags: int) -> int:
+    """The least descriptor that is free, in workers too."""
+    descriptor = os.open(os.devnull, flags)
+    os.set_inheritable(descriptor, True)
+    return descriptor
+
+
+def _keep_standard_streams() -> None:
+    """Those that are closed lead nowhere from now on: no file that is opened becomes one of them, and what is printed fails.
+    Messages vanish; print would write them to standard output in place of a sys.stderr that is None."""
+    if sys.stdin is None:
+        sys.stdin = open(_nowhere(os.O_RDWR))
+    if sys.stdout is None:
+        sys.stdout = open(_nowhere(os.O_RDONLY), "w")
+    if sys.stderr is None:
+        sys.stderr = open(_nowhere(os.O_RDWR), "w")
+
+
 def printed(answer: Callable[[], int]) -> int:
     """The exit status of `answer`, of which print alone raises OSError: what cannot be printed is an output that cannot be written."""
+    _keep_standard_streams()
     try:
         try:
             return answer()
         finally:
-            if sys.stdout:  # None where the descriptor is closed
-                sys.stdout.flush()
+            sys.stdout.flush()
     except OSError as error:
         print(f"jam: cannot write standard output: {error.strerror}", file=sys.stderr)
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # the interpreter flushes it once more at its end

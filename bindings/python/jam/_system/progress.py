@@ -43,7 +43,7 @@ class Line:
     def __init__(self) -> None:
         self._bar: Any = None
         self._last = ""
-        self._on = sys.stderr.isatty() or _in_notebook()
+        self._on = sys.stderr is not None and sys.stderr.isatty() or _in_notebook()
         if self._on:
             try:
                 from tqdm.auto import tqdm

@@ -371,6 +371,29 @@ static int32_t jam_pack_progress(const jam_progress *progress, void *user) {
   return jam_on_progress(progress, ((jam_callables *)user)->progress);
 }
 %}
+// ---- what jam-pack prints and reads has a decimal point, whatever locale the host has set
+%{
+#include <locale.h>
+#ifdef __APPLE__
+#include <xlocale.h>
+#endif
+static locale_t jam_point(void) {
+  static locale_t own = (locale_t)0;
+  if (!own) own = newlocale(LC_ALL_MASK, "C", (locale_t)0);
+  return uselocale(own);
+}
+%}
+%define WITH_POINT(CALL)
+%exception CALL {
+  const locale_t host = jam_point();
+  $action
+  uselocale(host);
+}
+%enddef
+WITH_POINT(pack)
+WITH_POINT(jam_pack_modes)
+WITH_POINT(jam_pack_gaps)
+WITH_POINT(jam_pack_structure)
 %inline %{
 /* Runs a command line, whose first word is the name of the program, and returns the exit status. */
 int pack(int argc, char **argv, PyObject *read, PyObject *check, PyObject *finish, PyObject *progress) {

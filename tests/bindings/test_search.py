@@ -40,15 +40,63 @@ class Search(unittest.TestCase):
         self.assertIn("proved", done.stdout)
         packing = jam.System.read(self.dir / best["file"])
         self.assertAlmostEqual(packing.diameters.sum() / 2, float(v), delta=1e-14)
+        code, out, err = self.run_words(words.format(2).replace("--prove 30 ", ""))
+        self.assertTrue((self.dir / best["proof"]).exists())  # of the packing beside it, which is the same
+        for name in ("best-1.xyz", "best-2.xyz"):  # no proof stays beside a packing that it does not prove
+            (self.dir / "disks" / name).write_text("")
         code, out, err = self.run_words(words.format(3).replace("--prove 30 ", ""))
         self.assertEqual(json.loads(out)["starts"], 3)
-        self.assertEqual(list(self.dir.glob("disks/*.jamproof")), [])  # none stays beside a packing that it may not prove
+        self.assertEqual(list(self.dir.glob("disks/*.jamproof")), [])
+
+    def test_no_file_is_of_another_rank_after_fewer_were_asked_for(self):
+        words = "disks --n 9 --walls xy --workers 1 --json "
+        many = json.loads(self.run_words(words + "--starts 3 --keep 5")[1])["best"]
+        self.assertGreater(len(many), 1)
+        fewer = json.loads(self.run_words(words + "--starts 4 --keep 1")[1])["best"]
+        self.assertLessEqual({row["value"] for row in many}, {row["value"] for row in fewer})
+        kept = json.loads((self.dir / "disks/search.json").read_text())["best"]
+        self.assertEqual(sorted(p.name for p in self.dir.glob("disks/best*")), [f"best-{k}.xyz" for k in range(1, len(kept) + 1)])
+        for rank, (value, *_) in enumerate(kept, 1):
+            self.assertAlmostEqual(jam.System.read(self.dir / f"disks/best-{rank}.xyz").diameters.sum() / 2, value, 12)
+
+    def test_files_of_another_search_are_not_written_over(self):
+        (self.dir / "d").mkdir()
+        mine = self.dir / "d/best-1.xyz"
+        mine.write_text("mine")
+        code, _, err = self.run_words("d --n 2 --walls xy --starts 1 --workers 1")
+        self.assertEqual((code, mine.read_text()), (REFUSED, "mine"))
+        self.assertIn("move it away", err)
+
+    def test_a_cell_that_deforms(self):
+        """Disks in the triangular lattice: n equal ones of the packing fraction pi / sqrt(12), in the area 1."""
+        for n in (1, 2):
+            code, out, err = self.run_words(f"d{n} --n {n} --strain free --starts 2 --workers 1 --keep 1 --json")
+            self.assertEqual((code, err), (0, ""))
+            best = json.loads(out)["best"][0]
+            self.assertAlmostEqual(float(best["value"]), (n / 12**0.5) ** 0.5, 12)
+            packing = jam.System.read(self.dir / best["file"])
+            self.assertAlmostEqual(np.linalg.det(packing.cell), 1.0, 12)
+            self.assertAlmostEqual(packing.diameters.sum() / 2, float(best["value"]), 14)
+            code, out, err = self.run_words(f"d{n} --n {n} --strain free --starts 3 --workers 1 --keep 1 --json")
+            self.assertEqual((code, json.loads(out)["starts"]), (0, 3), err)
+            self.assertIn("another search", self.run_words(f"d{n} --n {n} --starts 2")[2])
+
+    def test_a_search_that_kept_no_cells_goes_on(self):
+        words = "d --n 3 --box 2 --starts 1 --workers 1 --json"
+        first, record = self.run_words(words), self.dir / "d/search.json"
+        kept = json.loads(record.read_text())
+        self.assertEqual([x.pop() for x in kept["best"]], [[[2.0, 0.0], [0.0, 2.0]]])
+        record.write_text(json.dumps(kept))
+        self.assertEqual(*(json.loads(out)["best"] for _, out, _ in (first, self.run_words(words))))
 
     def test_wrong_lines_and_scenes_are_refused(self):
         for words, status, text in (
             ("d --n 5", USAGE, "the search has no end"),
             ("d --n 5 --starts 1 --starts 2", USAGE, "is given twice"),
             ("d --n 5 --starts 1 --prove 3", USAGE, "--prove 3: it must be 20 or more"),
+            ("d --n 5 --starts 1 --prove 30 --strain free", USAGE, "--prove contradicts --strain"),
+            ("d --n 5 --starts 1 --strain other", USAGE, "--strain"),
+            ("d --n 5 --starts 1 --walls xy --strain free", REFUSED, "walls"),
             ("d --n 5 --starts 1 --walls w", REFUSED, "walls"),
             ("d --n 5 --starts 1 --radius-min 0.4 --walls xy", REFUSED, "radius_min"),
             ("file --n 5 --starts 1 --walls xy", OUTPUT, "file"),

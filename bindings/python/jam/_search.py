@@ -6,14 +6,16 @@ import os
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from ._api.command import DONE, OUTPUT, PARTIAL, REFUSED, Parser, json_answer, printed, refuse
+from .digits import FEWEST_DIGITS
 from .ensemble.pool import WorkerDied
 from .errors import JamError
 from .radii import SAME, Best, Search, best_of, prove
 from .system import System
 
 SCENE = ("walls", "container", "box")
-FEWEST_DIGITS = 20
 CLOSER = 1e-9  # room of maximise_radii that finds the contacts of a best packing again
 
 
@@ -33,28 +35,39 @@ def parser() -> Parser:
     p.add_argument("--box", type=float, help="edge of the cell (1)")
     p.add_argument("--radius-min", type=float, default=0.0, metavar="R", help="bound of all radii (0)")
     p.add_argument("--radius-max", type=float, metavar="R", help="bound of all radii (none)")
+    p.add_argument("--strain", choices=("none", "edges", "tilts", "free"), default="none", help="the cell deforms too, at fixed volume (none)")
     p.add_argument("--starts", type=int, metavar="K", help="how many starts in all, with those that DIR has")
     p.add_argument("--seconds", type=float, metavar="S", help="no start begins later")
     p.add_argument("--until", type=float, metavar="V", help="ends when a sum is at least V")
     p.add_argument("--seed", type=int, default=1, help="start k of a seed always ends at the same packing (1)")
-    p.add_argument("--keep", type=int, default=10, metavar="K", help="packings of different sums to keep (10)")
+    p.add_argument("--keep", type=int, default=10, metavar="K", help="packings of different sums to keep, no fewer than DIR has (10)")
     p.add_argument("--workers", type=int, metavar="W", help="processes (all cores)")
     p.add_argument("--prove", type=int, metavar="DIGITS", help="prove each of them to so many digits: best-1.jamproof, ...")
     p.add_argument("--json", action="store_true", help="the table as one JSON object")
     return p
 
 
+def _is_in(packing: System, path: str) -> bool:
+    """Whether a file of an earlier run has this packing."""
+    try:
+        old = System.read(path)
+    except (JamError, OSError):
+        return False
+    return np.array_equal(old.positions, packing.positions) and np.array_equal(old.diameters, packing.diameters)
+
+
 def _write(o: argparse.Namespace, best: Best, rank: int, scene: dict[str, Any]) -> dict[str, Any]:
     """The row of one packing; its files are written."""
-    where: dict[str, Any] = {"box": 1.0, **scene}
+    where: dict[str, Any] = {**scene, "box": None, "cell": best.cell}
     packing = System.from_arrays(best.positions, radii=best.radii, **where)
     bounds = {"radius_min": o.radius_min, **({} if o.radius_max is None else {"radius_max": o.radius_max})}
-    again = packing.maximise_radii(room=CLOSER, **bounds)
+    again = packing.maximise_radii(room=CLOSER, strain=o.strain, **bounds)
     name = os.path.join(o.folder, f"best-{rank}")
-    packing.write(name + ".xyz")
     row: dict[str, Any] = {"rank": rank, "value": repr(best.value), "start": best.start, "file": name + ".xyz"}
     proof = Path(name + ".jamproof")
-    proof.unlink(missing_ok=True)  # of another packing, which was best before
+    if not _is_in(packing, name + ".xyz"):
+        proof.unlink(missing_ok=True)  # of another packing, which was best before
+    packing.write(name + ".xyz")
     if not again.maximum or abs(again.value / best.value - 1) > SAME:
         row["not_proved"] = f"its maximum was not found again: the file has the sum {again.value!r}"
     elif o.prove is not None:
@@ -86,8 +99,13 @@ def _answer(arguments: list[str] | None) -> int:
         p.error("give --starts, --seconds or --until: the search has no end without them")
     if o.prove is not None and o.prove < FEWEST_DIGITS:
         p.error(f"--prove {o.prove}: it must be {FEWEST_DIGITS} or more")
+    if o.prove is not None and o.strain != "none":
+        p.error("--prove contradicts --strain: only maxima of fixed cells have a proof")
+    old = next(Path(o.folder).glob("best-*.xyz"), None)
+    if old and not Path(o.folder, "search.json").exists():
+        return refuse(REFUSED, f"{old} is of a search whose search.json is not there: move it away, or take another folder", o.json)
     scene = {name: getattr(o, name) for name in SCENE if getattr(o, name) is not None}
-    given = {name: getattr(o, name) for name in ("starts", "seconds", "until", "workers", "folder", "seed", "keep", "radius_min", "radius_max")}
+    given = {name: getattr(o, name) for name in ("starts", "seconds", "until", "workers", "folder", "seed", "keep", "radius_min", "radius_max", "strain")}
     try:
         found = best_of(o.n, o.dim, **given, **scene)
         rows = [_write(o, best, rank, scene) for rank, best in enumerate(found.best, 1)]

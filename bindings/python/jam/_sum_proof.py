@@ -19,7 +19,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ._api.arrays import Array
-from .digits import GUARD, SLACK, STEPS, _bounds, _decimal, _doubles, _images, _integers
+from .digits import SLACK, STEPS, _bits, _bounds, _decimal, _doubles, _images, _integers
 from ._formats.replacing import replacing
 from ._symmetry import Fold, square_fold
 from .errors import StateError
@@ -196,9 +196,7 @@ def _exact(value: Fraction) -> Decimal:
 
 def prove_sum(system: System, digits: int, weights: Any, path: Any) -> Proved:
     """See jam.radii.prove."""
-    if digits < 20:
-        raise ValueError(f"digits is {digits}; doubles have nearly 16, so 20 and more are computed here")
-    bits = int(digits * math.log2(10)) + GUARD
+    bits = _bits(digits)
     n, d = system.n, system.dim
     w = [Fraction(1)] * n if weights is None else [Fraction(float(v)) for v in weights]
     rows = _Rows(system, bits, w)

@@ -25,6 +25,7 @@ __dir__ = only(__all__)
 
 GUARD = 64  # bits behind the last digit that is asked for
 SLACK = 16  # of these may stay wrong when the steps end
+FEWEST_DIGITS = 20
 ULP = 2.0**-53
 STEPS = 40  # without a gain of digits a step fails long before
 
@@ -39,6 +40,13 @@ class Refined(NamedTuple):
     forces: Array  #: (contacts,) of Decimal, mean 1
     forces_radius: Decimal
     steps: int  #: of Newton's method
+
+
+def _bits(digits: int) -> int:
+    """Behind the point, for so many digits."""
+    if digits < FEWEST_DIGITS:
+        raise ValueError(f"digits is {digits}; doubles have nearly 16, so {FEWEST_DIGITS} and more are computed here")
+    return int(digits * math.log2(10)) + GUARD
 
 
 def _integers(values: Any, bits: int) -> Array:
@@ -220,9 +228,7 @@ def refine(system: System, digits: int = 1000) -> Refined:
     >>> abs(float(found.packing_fraction) - report.packing_fraction) < 1e-13, found.packing_fraction_radius < 1e-60
     (True, True)
     """
-    if digits < 20:
-        raise ValueError(f"digits is {digits}; doubles have nearly 16, so 20 and more are computed here")
-    bits = int(digits * math.log2(10)) + GUARD
+    bits = _bits(digits)
     e = _Equations(system, bits)
     try:
         inverse = np.linalg.inv(e.derivative())

@@ -15,6 +15,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ._api.arrays import Array
+from ._api.given import closed_axes, walls_of
 from ._api.shown import only
 from ._formats.replacing import replacing
 from .ensemble.pool import LocalPool
@@ -29,7 +30,6 @@ MOVES = 60  # without a gain that end a start
 NEAR = 1e-5  # room of maximise_radii after a move
 SMALLEST, LARGEST = -4.0, -1.0  # powers of ten of displacements, over the mean distance of spheres
 HOLES = 64  # random points of which the one with most room is taken
-ROUND_AXES = {"brick": 0, "cylinder": 2, "ball": 3}
 SAME = 1e-12  # of two sums, relative: one packing
 
 
@@ -40,6 +40,7 @@ class Best(NamedTuple):
     start: int  #: number of the start that led to it
     positions: Array  #: (n, d)
     radii: Array  #: (n,)
+    cell: Array  #: (d, d), which strain= deforms
 
 
 class Search(NamedTuple):
@@ -54,10 +55,6 @@ class Search(NamedTuple):
     def value(self) -> float:
         """The largest sum."""
         return self.best[0].value
-
-
-def _packing(x: Array, radii: Array, scene: dict[str, Any]) -> System:
-    return System.from_arrays(x, radii=radii, overlap="shrink", **scene)
 
 
 def _separations(x: Array, point: Array, cell: Array, closed: Array) -> Array:
@@ -105,34 +102,27 @@ def _start(number: int, seed: int, n: int, dim: int, weights: Any, options: dict
     packing = System.random(n=n, dim=dim, seed=int(rng.integers(1 << 40)), **scene)
     report, failed = packing.maximise_radii(weights, **options), 0
     value, maxima = (report.value, 1) if report.maximum else (0.0, 0)
-    given = {"cell" if "cell" in scene else "box": scene.get("cell", scene.get("box", 1.0))}
-    given.update({k: v for k, v in scene.items() if k not in ("cell", "box")})
-    turning = min(dim, ROUND_AXES[scene.get("container") or "brick"])
-    closed = np.array([c < turning or c in _axes(scene, dim) for c in range(dim)])
+    given = {k: v for k, v in scene.items() if k not in ("cell", "box")}
+    closed = np.array(closed_axes(packing.info))
+    turning = int(closed.sum()) - sum(walls_of(packing.info))  # flat walls close no axis of a round one
     while failed < MOVES:
         failed += 1
         try:
-            other = _packing(*_moved(packing, closed, turning, rng), given)
+            x, radii = _moved(packing, closed, turning, rng)
+            other = System.from_arrays(x, radii=radii, overlap="shrink", cell=packing.cell, **given)
             report = other.maximise_radii(weights, room=NEAR, **options)
         except JamError:  # no room after this move
             continue
         maxima += report.maximum
         if report.maximum and report.value > value * (1 + SAME):
             packing, value, failed = other, report.value, 0
-    return Best(value, number, packing.positions.copy(), packing.diameters / 2), maxima
-
-
-def _axes(scene: dict[str, Any], dim: int) -> set[int]:
-    walls = scene.get("walls")
-    if walls is None:
-        return set()
-    return {"xyz".index(c) for c in walls} if isinstance(walls, str) else {c for c in range(dim) if walls[c]}
+    return Best(value, number, packing.positions.copy(), packing.diameters / 2, packing.cell.copy()), maxima
 
 
 class _State:
     """A search that a folder may keep."""
 
-    def __init__(self, asked: dict[str, Any], keep: int, folder: Path | None):
+    def __init__(self, asked: dict[str, Any], keep: int, folder: Path | None, cell: Array):
         self.asked, self.keep, self.file = asked, keep, folder / "search.json" if folder else None
         self.best: list[Best] = []
         self.done: set[int] = set()
@@ -141,7 +131,9 @@ class _State:
             try:
                 kept = json.loads(self.file.read_text())
                 other = kept["asked"] != json.loads(json.dumps(asked))
-                self.best = [Best(v, k, np.array(x), np.array(r)) for v, k, x, r in kept["best"]]
+                # records of searches that kept the cell may be without it
+                self.best = [Best(v, k, *map(np.array, (*arrays, cell)[:3])) for v, k, *arrays in kept["best"]]
+                self.keep = max(keep, len(self.best))
                 self.done, self.maxima, self.before = set(kept["done"]), int(kept["maxima"]), float(kept["seconds"])
             except (ValueError, KeyError, TypeError, UnicodeDecodeError) as error:
                 raise ValueError(f"{self.file} is damaged ({error!r}): remove it to begin the search again, or take another folder") from error
@@ -164,7 +156,7 @@ class _State:
                 self.best[twin] = b
         self.best = self.best[: self.keep]
         if self.file:
-            best = [(b.value, b.start, b.positions.tolist(), b.radii.tolist()) for b in self.best]
+            best = [(b.value, b.start, *(x.tolist() for x in b[2:])) for b in self.best]
             kept = {"asked": self.asked, "done": sorted(self.done), "maxima": self.maxima, "seconds": self.before + seconds, "best": best}
             with replacing(self.file) as file:
                 file.write(json.dumps(kept).encode())
@@ -184,6 +176,7 @@ def best_of(
     weights: Any = None,
     radius_min: float = 0.0,
     radius_max: float | None = None,
+    strain: str = "none",
     **scene: Any,
 ) -> Search:
     """Searches the largest sum of radii of n spheres from many random starts.
@@ -205,8 +198,8 @@ def best_of(
     seed : int
         Start k of this seed always ends at the same packing.
     keep : int
-        How many packings of different sums are kept.
-    weights, radius_min, radius_max
+        How many packings of different sums are kept, no fewer than the folder has.
+    weights, radius_min, radius_max, strain
         As of `System.maximise_radii`.
     **scene
         box or cell, walls and container, as of `System.random`.
@@ -228,10 +221,12 @@ def best_of(
     if keep < 1:
         raise ValueError(f"keep is {keep}, it must be 1 or more")
     given = None if weights is None else [float(w) for w in weights]
-    options = {"radius_min": radius_min, **({} if radius_max is None else {"radius_max": radius_max})}
+    more = (("radius_max", radius_max), ("strain", strain))
+    options: dict[str, Any] = {"radius_min": radius_min, **{k: v for k, v in more if v not in (None, "none")}}
     asked = dict(n=n, dim=dim, seed=seed, weights=given, scene={k: np.asarray(v).tolist() for k, v in scene.items()}, **options)
-    state, begun = _State(asked, keep, Path(folder) if folder is not None else None), time.monotonic()
-    System.random(n=n, dim=dim, **scene).maximise_radii(given, max_steps=1, **options)  # refuses what every start would
+    begun, first = time.monotonic(), System.random(n=n, dim=dim, **scene)
+    state = _State(asked, keep, Path(folder) if folder is not None else None, first.cell.copy())
+    first.maximise_radii(given, max_steps=1, **options)  # refuses what every start would
     number = 0
     with LocalPool(workers) as pool:
         running: set[Future[tuple[Best, int]]] = set()

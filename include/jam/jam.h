@@ -1025,11 +1025,11 @@ typedef struct jam_radii_report {
 JAM_API jam_status jam_radii_options_init(jam_radii_options *o, size_t size);
 /* Moves spheres and changes radii to a local maximum of sum w_i R_i, w_i = 1 if weights is NULL; jam_crunch keeps the
  * ratios of radii. With moments: to a maximum of lambda, where sum R_i^q = lambda^q M_q for each q, M_q at the start;
- * forces on sphere i add up to sum_q lambda_q q R_i^(q - 1), and radius_min is at least 1e-3 of the smallest radius. A
- * stopped call leaves a valid packing. No pair overlaps, in two doubles. At a maximum the handle keeps the network,
- * with forces of mean 1, and the verdict of jam_rigidity. Status: JAM_LIMIT, JAM_NOT_CONVERGED with the last valid
- * state: if a sphere gets as wide as its wall or contacts are not found. @shape weights (n) @errors OVERLAP,
- * UNSUPPORTED */
+ * forces on sphere i add up to sum_q lambda_q q R_i^(q - 1), and radius_min is at least 1e-3 of the smallest and 2e-4
+ * of the largest radius. A stopped call leaves a valid packing. No pair overlaps, in two doubles. At a maximum the
+ * handle keeps the network, with forces of mean 1, and the verdict of jam_rigidity. Status: JAM_LIMIT,
+ * JAM_NOT_CONVERGED with the last valid state: if a sphere gets as wide as its wall or contacts are not found.
+ * @shape weights (n) @errors OVERLAP, UNSUPPORTED */
 JAM_API jam_status jam_maximise_radii(jam_system *sys, const jam_radii_options *o, const double *weights,
                                       size_t weights_len, jam_radii_report *report);
 

@@ -33,7 +33,7 @@ inline std::vector<double> lapack_array(size_t count) {
 // has it (JAM_LAPACK): its bits depend on the processor.
 bool dense_eigen(int n, std::vector<double> &a, std::vector<double> &lambda, bool vectors,
                  const std::function<bool(double)> &stop);
-// The same by own loops: for eigenvalues that decide something. With all vectors it takes five times as long.
+// The same by own loops: for eigenvalues that decide something. With all vectors it takes longer than LAPACK.
 bool dense_eigen_builtin(int n, std::vector<double> &a, std::vector<double> &lambda, bool vectors,
                          const std::function<bool(double)> &stop);
 // modes_dense.cpp: eigenvalues and vectors of the whole Hessian; JAM_CANCELLED when stopped.

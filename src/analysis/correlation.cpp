@@ -6,6 +6,7 @@
 #include "analysis/tuning.hpp"
 #include "core/call_scope.hpp"
 #include "core/error.hpp"
+#include "core/limits.hpp"
 #include "core/math.hpp"
 #include "core/pair_visit.hpp"
 #include "core/shells.hpp"
@@ -18,8 +19,8 @@ std::vector<double> pair_correlation(const Packing &p, const int32_t *kind, size
   const double unit = diameter_mean(p);
   if (kind_len != 0 && kind_len != p.n())
     fail(JAM_E_ARGUMENT, "kind has %zu numbers, it must have 0 or n = %zu", kind_len, p.n());
-  if (!(r_max > 0.0 && r_max * unit <= 4.0 * p.cell.side()))
-    fail(JAM_E_ARGUMENT, "r_max is %g mean diameters, it must be in (0, 4 boxes]", r_max);
+  if (!(r_max >= limits::distance_min && r_max * unit <= 4.0 * p.cell.side()))
+    fail(JAM_E_ARGUMENT, "r_max is %g mean diameters, it must be from %g to 4 boxes", r_max, limits::distance_min);
   if (bins < 1 || bins > 100000000) fail(JAM_E_ARGUMENT, "bins is %zu, it must be in 1..1e8", bins);
   auto is = [&](int32_t i, int32_t which) { return which < 0 || kind_len == 0 || kind[i] == which; };
   std::vector<char> of(p.n()), with(p.n());

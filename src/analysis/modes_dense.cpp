@@ -34,11 +34,12 @@ void select_modes(const RigidityMatrix &g, const jam_modes_options &o, Modes &m)
   std::vector<size_t> keep;
   // Translations may be mixed with other zero modes: take them out of the vectors and drop what is left of least
   // length.
-  const double tiny = 1e-9 * std::max(1.0, m.lambda.empty() ? 0.0 : std::fabs(m.lambda.back()));
+  const double tiny =  // in the unit of the stiffness, which after jam_relax is any
+      m.lambda.empty() ? 0.0 : 1e-9 * std::max(std::fabs(m.lambda.front()), std::fabs(m.lambda.back()));
   Eigen::Map<Eigen::MatrixXd> v(m.vector.data(), static_cast<Eigen::Index>(n), static_cast<Eigen::Index>(n));
   std::vector<size_t> zero;
   for (size_t k = 0; k < n; ++k)
-    if (std::fabs(m.lambda[k]) < tiny) zero.push_back(k);
+    if (std::fabs(m.lambda[k]) <= tiny) zero.push_back(k);
   Eigen::MatrixXd z(n, zero.size());
   Eigen::Index rank = 0;
   const Eigen::Index room = std::max<Eigen::Index>(0, static_cast<Eigen::Index>(zero.size()) - g.symmetries());
@@ -53,7 +54,7 @@ void select_modes(const RigidityMatrix &g, const jam_modes_options &o, Modes &m)
   }
   for (Eigen::Index k = 0; k < rank; ++k) v.col(static_cast<Eigen::Index>(zero[k])) = z.col(k);
   for (size_t k = 0, seen = 0; k < n; ++k)
-    if (std::fabs(m.lambda[k]) >= tiny || static_cast<Eigen::Index>(seen++) < rank) keep.push_back(k);
+    if (std::fabs(m.lambda[k]) > tiny || static_cast<Eigen::Index>(seen++) < rank) keep.push_back(k);
   const double target = o.frequency * o.frequency;
   const size_t want = std::min<size_t>(keep.size(), static_cast<size_t>(o.count));
   if (o.which == JAM_MODES_HIGHEST) keep.erase(keep.begin(), keep.end() - static_cast<std::ptrdiff_t>(want));

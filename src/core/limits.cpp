@@ -11,6 +11,12 @@ void check_range(const char *name, double value, double low, double high) {
   if (!(value >= low && value <= high)) fail(JAM_E_ARGUMENT, "%s is %g, supported are %g..%g", name, value, low, high);
 }
 
+void check_energy(const char *name, double value, double energy) {
+  if (!(energy >= limits::energy_min && energy <= limits::energy_max))
+    fail(JAM_E_ARGUMENT, "%s is %g: in this unit two spheres at one place have the energy %g, supported are %g..%g",
+         name, value, energy, limits::energy_min, limits::energy_max);
+}
+
 void check_dim(int64_t dim) {
   if (dim < 2 || dim > JAM_MAX_DIM)
     fail(JAM_E_DIMENSION, "dim is %lld, supported are 2..%d", static_cast<long long>(dim), JAM_MAX_DIM);

@@ -22,8 +22,18 @@ constexpr double growth_rate_max = 1e3;  // of molecular dynamics, dimensionless
 // Root of sum m v^2 / (d n), unless all spheres rest: no dynamics at constant energy passes the largest. Below 1e-12
 // paths no longer scale with the velocities, below 1e-21 spheres overlap.
 constexpr double velocity_min = 1e-9, velocity_max = 1e6;
-constexpr double wave_max = 1e6;   // component of a wave vector: whole turns are taken off without loss
-constexpr double rounding = 1e-9;  // a limit that the library's own steps may exceed, relative
+constexpr double wave_max = 1e6;  // component of a wave vector: whole turns are taken off without loss
+// Of two soft spheres at one place; temperatures and pressures: squares of energies and forces are doubles.
+constexpr double energy_min = 1e-100, energy_max = 1e100;
+constexpr double exponent_max = 1e3;  // of the energy in Monte Carlo
+// Of an energy that is minimised. Squares of forces are doubles, also where overlaps are this part of a diameter.
+constexpr double minimised_exponent_max = 12.0, weak_overlap = 1e-12, weak_force = 1e-150;
+constexpr double move_min = 0x1p-54;                 // Monte Carlo step over the box side: places have 64 bits
+constexpr double size_min = 1e-39, size_max = 1e36;  // diameters without a cell: their eighth powers are doubles
+constexpr double size_power_max = 600.0;             // logarithm of what s^exponent changes by between two sizes
+constexpr double stiffness_min = 1e-60, stiffness_max = 1e60;  // of contacts, as powers of their forces
+constexpr double distance_min = 1e-15;  // ends of histograms, in diameters: coordinates resolve no less
+constexpr double rounding = 1e-9;       // a limit that the library's own steps may exceed, relative
 constexpr double duality_gap_min = 1e-12, duality_gap_max = 1e-2;  // at which a crunch may end
 constexpr int threads_max = 64;                                    // of one call
 constexpr int keep_steps_max = 1000;                               // states of a crunch that are kept
@@ -33,6 +43,8 @@ constexpr int64_t kept_coordinates = 1 << 24;  // in all kept states: 64 MiB, an
 
 // Throws JAM_E_ARGUMENT "NAME is VALUE, supported are LOW..HIGH" unless low <= value <= high; NaN is refused.
 void check_range(const char *name, double value, double low, double high);
+// The energy of two soft spheres at one place; `name` and `value`: what to change.
+void check_energy(const char *name, double value, double energy);
 // Throws JAM_E_DIMENSION or JAM_E_ARGUMENT.
 void check_dim(int64_t dim);
 void check_n(int64_t n);

@@ -218,6 +218,8 @@ void check_field(const Law &law, const Field &field, const Options &o) {
   if (!given && law.can_cut && edge) return;
   const bool fine = std::isfinite(value) && (!field.needed_above_zero || value > 0.0);
   if (!given && !fine) fail(JAM_E_ARGUMENT, "the law %s needs %s", law.name, field.name);
+  if (fine && (edge || &field == &mean || &field == &scale))
+    check_range(field.name, value, limits::size_min, limits::size_max);
   if (!fine)
     fail(std::isfinite(value) ? JAM_E_ARGUMENT : JAM_E_NONFINITE, "%s is %g, it must be %sfinite", field.name, value,
          field.needed_above_zero ? "positive and " : "");
@@ -266,11 +268,16 @@ std::unique_ptr<SizeDistribution> size_distribution(const Options &o, const doub
   if (law.takes_curve != (curve_len > 0))
     fail(JAM_E_ARGUMENT, law.takes_curve ? "the law %s needs a curve" : "the law %s has no curve", law.name);
   if (curve_len % 2) fail(JAM_E_ARGUMENT, "curve has %zu numbers: a curve has rows of two", curve_len);
+  if (o.law == JAM_SIZES_POWER &&
+      !((std::fabs(o.exponent) + JAM_MAX_DIM + 1.0) * math::log(o.high / o.low) <= limits::size_power_max))
+    fail(JAM_E_ARGUMENT, "exponent is %g: between low %g and high %g the density changes by more than exp(%g)",
+         o.exponent, o.low, o.high, limits::size_power_max);
   const size_t rows = curve_len / 2;
   for (size_t k = 0; k < rows; ++k) {
     if (!std::isfinite(curve[2 * k]) || !std::isfinite(curve[2 * k + 1]))
       fail(JAM_E_NONFINITE, "curve row %zu is (%g, %g)", k, curve[2 * k], curve[2 * k + 1]);
     if (!(curve[2 * k] > 0.0)) refuse_row(k, curve, "a size must be above 0");
+    check_range("a size of the curve", curve[2 * k], limits::size_min, limits::size_max);
     if (!(curve[2 * k + 1] >= 0.0)) refuse_row(k, curve, "a share must not be negative");
   }
   const int32_t share = o.share == JAM_SHARE_USUAL ? law.usual : o.share;

@@ -119,6 +119,9 @@ jam_size_report size_report(int dim, const std::vector<double> &diameters) {
     if (!(diameters[k] > 0.0) || !std::isfinite(diameters[k]))
       fail(std::isfinite(diameters[k]) ? JAM_E_ARGUMENT : JAM_E_NONFINITE,
            "diameters[%zu] is %g, it must be positive and finite", k, diameters[k]);
+  const auto [least, most] = std::minmax_element(diameters.begin(), diameters.end());
+  check_range("the least diameter", *least, limits::size_min, limits::size_max);
+  check_range("the largest diameter", *most, limits::size_min, limits::size_max);
   std::vector<double> s = diameters;
   std::sort(s.begin(), s.end());
   jam_size_report r{};

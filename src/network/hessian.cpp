@@ -5,6 +5,7 @@
 #include <numeric>
 #include "core/checks.hpp"
 #include "core/error.hpp"
+#include "core/limits.hpp"
 #include "core/math.hpp"
 
 namespace jam::inside {
@@ -58,6 +59,10 @@ ContactWeights contact_weights(const RigidityMatrix &g, double sigma_mean, const
       if (!(g.force[k] > 0.0) && exponent < 0.0)
         fail(JAM_E_STATE, "contact %zu has force %g: its stiffness f^%g is not finite", k, g.force[k], exponent);
       w.stiffness[k] = math::pow(std::max(g.force[k], 0.0), exponent);
+      if (o.stiffness == JAM_STIFFNESS_POWER && g.force[k] > 0.0 &&
+          !(w.stiffness[k] >= limits::stiffness_min && w.stiffness[k] <= limits::stiffness_max))
+        fail(JAM_E_ARGUMENT, "alpha is %.17g: contact %zu of force %g has the stiffness %g, supported are %g..%g",
+             o.alpha, k, g.force[k], w.stiffness[k], limits::stiffness_min, limits::stiffness_max);
     }
   if (o.prestress > 0.0) {
     w.transverse.resize(g.contacts());

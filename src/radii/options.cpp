@@ -85,6 +85,15 @@ void check_radii(const Packing &p, const jam_radii_options &o, const double *wei
   if (!(o.radius_max > o.radius_min))
     fail(JAM_E_ARGUMENT, "radius_max is %g and radius_min %g: radii have no room between them", o.radius_max,
          o.radius_min);
+  double longest = 0.0;
+  for (int c = 0; c < p.dim; ++c) longest = std::max(longest, p.cell.edge(c));
+  if (!(2.0 * o.radius_min <= longest))
+    fail(JAM_E_ARGUMENT, "radius_min is %g, no sphere of it has room in a cell whose longest edge is %g", o.radius_min,
+         longest);
+  if (!(2.0 * o.radius_max >= limits::diameter_min * longest))
+    fail(JAM_E_ARGUMENT,
+         "radius_max is %g, diameters of at least %g of the longest edge of the cell (%g) are supported", o.radius_max,
+         limits::diameter_min, longest);
   if (weights_len && weights_len != p.n())
     fail(JAM_E_ARGUMENT, "weights_len is %zu, it must be 0 or n = %zu", weights_len, p.n());
   for (size_t i = 0; i < weights_len; ++i)

@@ -6,6 +6,8 @@
 #include "core/call_scope.hpp"
 #include "core/checks.hpp"
 #include "core/error.hpp"
+#include "core/math.hpp"
+#include "core/pair_rule.hpp"
 #include "core/rng.hpp"
 #include "soft/decompression.hpp"
 #include "soft/soft_hessian.hpp"
@@ -33,8 +35,8 @@ void check_relax_options(const jam_relax_options &o) {
   check_enum(o.minimiser, JAM_MINIMISER_NEWTON, JAM_MINIMISER_LBFGS, "minimiser", "jam_minimiser");
   check_enum(o.scale, JAM_SOFT_RELATIVE, JAM_SOFT_BARE, "scale", "jam_soft_scale");
   check_enum(o.precision, JAM_SOFT_REFERENCE, JAM_SOFT_DOUBLE, "precision", "jam_soft_precision");
-  if (!(o.alpha > 1.0) || !std::isfinite(o.alpha))
-    fail(JAM_E_ARGUMENT, "alpha is %g, it must be finite and above 1", o.alpha);
+  if (!(o.alpha > 1.0) || !(o.alpha <= limits::minimised_exponent_max))
+    fail(JAM_E_ARGUMENT, "alpha is %g, it must be above 1 and at most %g", o.alpha, limits::minimised_exponent_max);
   check_positive(o.force_tolerance, "force_tolerance");
   check_at_least(o.max_evaluations, 1, "max_evaluations");
   check_positive(o.wall_time, "wall_time");
@@ -44,9 +46,16 @@ void check_relax_options(const jam_relax_options &o) {
   if (!(o.pressure >= 0.0) || !std::isfinite(o.pressure) || volume != (o.pressure > 0.0))
     fail(JAM_E_ARGUMENT, "pressure is %g, with strain %d it must be %s", o.pressure, o.strain,
          volume ? "positive and finite" : "0: the volume is fixed");
+  if (volume) check_range("pressure", o.pressure, limits::energy_min, limits::energy_max);
 }
 
 SoftState first_state(const Packing &p, const PairEnergy &energy, int32_t precision) {
+  const double sigma = contact_distance_max(p), full = energy.value(energy.relative() ? 1.0 : sigma);
+  check_energy("alpha", energy.alpha(), full);
+  const double weak = full / sigma * math::pow(limits::weak_overlap, energy.alpha() - 1.0);
+  if (!(weak >= limits::weak_force))
+    fail(JAM_E_ARGUMENT, "alpha is %g: in this unit forces are %g where spheres overlap by %g, from %g on is supported",
+         energy.alpha(), weak, limits::weak_overlap, limits::weak_force);
   const CancellableScope scope;
   return SoftState(p, energy, precision);
 }

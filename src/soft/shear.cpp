@@ -53,6 +53,7 @@ class Shear {
   ShearResult run(const Packing &start) {
     effort_.packing_fraction = packing_fraction(start);
     out_.last = minimum_(start, true);
+    refuse_wider_than_periods(out_.last.at.packing, JAM_E_OVERLAP);  // a cell that a load presses
     bool ended = !out_.last.found;
     if (ended) {
       fail_with(out_.last);

@@ -45,7 +45,7 @@ void check_shear_options(const jam_shear_options &o, const ShearPath &path) {
   }
   check_relax_options(r);
   check_positive(o.step, "step");
-  check_positive(o.resolution, "resolution");
+  check_range("resolution", o.resolution, ShearTuning::least_resolution, std::numeric_limits<double>::infinity());
   if (!std::isfinite(o.step)) fail(JAM_E_ARGUMENT, "step is infinite, it must be finite");
   check_at_least(o.max_steps, 1, "max_steps");
   check_enum(o.until, JAM_UNTIL_STRAIN, JAM_UNTIL_UNJAMMED, "until", "jam_shear_until");

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/limits.hpp"
 #include "core/math.hpp"
 
 namespace jam::inside {
@@ -72,6 +73,7 @@ void hold_stress(FreeCell &cell, int32_t strain, const double *stress) {
     if (!(stress[a * (d + 1)] > 0.0))
       fail(JAM_E_ARGUMENT, "stress[%zu] is %g, it must be above 0: spheres that repel hold no tension", a * (d + 1),
            stress[a * (d + 1)]);
+    check_range("stress", stress[a * (d + 1)], limits::energy_min, limits::energy_max);
   }
   if (cell.volume) cell.pressure = sum / count;
   cell.beyond.assign(block, 0.0);

@@ -114,6 +114,7 @@ struct ShearTuning {
   static constexpr double energy_digits = 1e-13;  // of the enthalpy: smaller differences are rounding
   // A step is an event where shearing back leaves more than this part of its displacement.
   static constexpr double irreversible = 0.1;
+  static constexpr double least_resolution = 1e-15;  // below it bisection finds no double in between, without end
   static constexpr double series_ends = 1e-19;       // last term of exp(strain)
   static constexpr double rounding_of_turns = 1e-9;  // a rest of a step that is smaller is none
 };

@@ -28,6 +28,21 @@ jam_status create(const std::vector<double> &x, double diameter, int32_t overlap
   return create_from(&o, x.data(), x.size(), &diameter, 1, out);
 }
 
+jam_system *soft_disks(double box, double packing_fraction) {
+  DEFAULTS(create, o);
+  o.dim = 2, o.n = 40, o.box = box, o.packing_fraction = packing_fraction, o.overlap = JAM_OVERLAP_ALLOW;
+  jam_system *sys = nullptr;
+  assert_int_equal(jam_create(&o, nullptr, &sys), JAM_OK);
+  return sys;
+}
+
+std::vector<double> view_of(const jam_system *sys, int32_t array) {
+  const double *view = nullptr;
+  size_t len = 0;
+  assert_int_equal(jam_view(sys, array, &view, &len), JAM_OK);
+  return std::vector<double>(view, view + len);
+}
+
 CASE(diameters_of_the_box) {
   const std::vector<double> x = many_points(20000);
   for (const double diameter : {0.3, 0.99}) {
@@ -87,6 +102,140 @@ CASE(slow_velocities) {
     jam_destroy(sys);
   }
   assert_memory_equal(ends[0].data(), ends[1].data(), ends[0].size() * sizeof(double));
+}
+
+// Random numbers, lists and decisions of Monte Carlo do not depend on the unit of energy.
+CASE(energies_in_any_unit) {
+  std::vector<double> ends[3];
+  double energy[3];
+  for (int k = 0; k < 3; ++k) {
+    const double unit = std::ldexp(1.0, 300 * (k - 1));
+    jam_system *sys = soft_disks(1.0, 0.9);
+    DEFAULTS(monte_carlo, o);
+    SIZED(jam_monte_carlo_report, report);
+    o.alpha = 2.5, o.energy_scale = 1024.0 * unit, o.temperature = unit, o.sweeps = 50;
+    assert_int_equal(jam_monte_carlo(sys, &o, &report), JAM_OK);
+    energy[k] = report.energy / unit;
+    ends[k] = view_of(sys, JAM_VIEW_POSITIONS);
+    o.temperature = 1e-310;
+    SAYS(jam_monte_carlo(sys, &o, nullptr), JAM_E_ARGUMENT, "temperature");
+    o.temperature = 1e-60, o.energy_scale = 1e60;
+    SAYS(jam_monte_carlo(sys, &o, nullptr), JAM_E_ARGUMENT, "temperature");
+    o.temperature = 1.0, o.energy_scale = 1e300;
+    SAYS(jam_monte_carlo(sys, &o, nullptr), JAM_E_ARGUMENT, "energy_scale");
+    o.energy_scale = 1.0, o.alpha = 300.0;  // 0.17^300
+    SAYS(jam_monte_carlo(sys, &o, nullptr), JAM_E_ARGUMENT, "energy_scale");
+    o.alpha = 1e300;
+    SAYS(jam_monte_carlo(sys, &o, nullptr), JAM_E_ARGUMENT, "alpha");
+    o.alpha = 2.0, o.step = 1e-20;
+    SAYS(jam_monte_carlo(sys, &o, nullptr), JAM_E_ARGUMENT, "step");
+    jam_destroy(sys);
+  }
+  assert_true(energy[0] == energy[1] && energy[2] == energy[1]);
+  assert_true(ends[0] == ends[1] && ends[2] == ends[1]);
+}
+
+// The stiffness of soft spheres has a unit, so that no number stands for zero.
+CASE(soft_modes_in_any_box) {
+  std::vector<double> lambda[3];
+  for (int k = 0; k < 3; ++k) {
+    const double box = std::ldexp(1.0, 60 * (k - 1));
+    jam_system *sys = soft_disks(box, 1.0);
+    assert_int_equal(jam_relax(sys, nullptr, nullptr), JAM_OK);
+    DEFAULTS(hessian, h);
+    DEFAULTS(modes, o);
+    h.stiffness = JAM_STIFFNESS_SOFT, h.prestress = 1.0;
+    double table[20];
+    size_t rows = 0;
+    assert_int_equal(jam_modes(sys, &h, &o, 2, table, 20, nullptr, 0, &rows), JAM_OK);
+    for (size_t m = 0; m < rows; ++m) lambda[k].push_back(table[2 * m] * box * box);
+    jam_destroy(sys);
+  }
+  assert_true(lambda[1][0] > 1e-6);  // no translation
+  for (const auto &other : lambda)
+    for (size_t m = 0; m < lambda[1].size(); ++m) assert_true(std::fabs(other[m] - lambda[1][m]) < 1e-12);
+}
+
+CASE(soft_numbers) {
+  jam_system *sys = soft_disks(1.0, 1.0);
+  DEFAULTS(relax, o);
+  o.alpha = 20.0;  // squares of forces would underflow, and forces balance, where overlaps are 1e-9
+  SAYS(jam_relax(sys, &o, nullptr), JAM_E_ARGUMENT, "alpha");
+  o.alpha = 2.0, o.strain = JAM_STRAIN_VOLUME, o.pressure = 1e300;
+  SAYS(jam_relax(sys, &o, nullptr), JAM_E_ARGUMENT, "pressure");
+  const double turn = 1e-3, loads[] = {0, 1, 0, 0, 1e300, 0, 0, 1e300};
+  DEFAULTS(shear, s);
+  s.strain = JAM_STRAIN_ALL;
+  SAYS(jam_shear(sys, &s, &turn, 1, loads, 8, nullptr), JAM_E_ARGUMENT, "stress");
+  s.strain = JAM_STRAIN_NONE, s.resolution = 1e-300;  // bisection had no end
+  SAYS(jam_shear(sys, &s, &turn, 1, nullptr, 0, nullptr), JAM_E_ARGUMENT, "resolution");
+  jam_destroy(sys);
+  sys = soft_disks(0x1p-98, 1.0);
+  o = jam_relax_options{};
+  jam_relax_options_init(&o, sizeof o);
+  o.scale = JAM_SOFT_ABSOLUTE, o.alpha = 6.0;
+  SAYS(jam_relax(sys, &o, nullptr), JAM_E_ARGUMENT, "alpha");
+  jam_destroy(sys);
+}
+
+CASE(sizes_in_any_unit) {
+  std::vector<double> sizes[3];
+  for (int k = 0; k < 3; ++k) {
+    const double unit = std::ldexp(1.0, 100 * (k - 1));
+    DEFAULTS(diameters, o);
+    o.law = JAM_SIZES_SIEVE, o.n = 20;
+    const double curve[] = {unit, 0.0, 2 * unit, 0.5, 3 * unit, 1.0};
+    sizes[k].resize(20);
+    size_t needed = 0;
+    assert_int_equal(jam_diameters(&o, curve, 6, sizes[k].data(), 20, &needed), JAM_OK);
+    for (double &s : sizes[k]) s /= unit;
+  }
+  for (size_t i = 0; i < 20; ++i)
+    assert_true(std::fabs(sizes[0][i] - sizes[1][i]) < 1e-13 && std::fabs(sizes[2][i] - sizes[1][i]) < 1e-13);
+  DEFAULTS(diameters, o);
+  const double curve[] = {1e-200, 0.0, 2e-200, 0.5, 3e-200, 1.0}, wide[] = {1e160, 2e160};
+  size_t needed = 0;
+  double out[20];
+  o.law = JAM_SIZES_SIEVE, o.n = 20;
+  SAYS(jam_diameters(&o, curve, 6, out, 20, &needed), JAM_E_ARGUMENT, "curve");
+  o.law = JAM_SIZES_POWER, o.low = 1.0, o.high = 2.0, o.exponent = 1e4;
+  SAYS(jam_diameters(&o, nullptr, 0, out, 20, &needed), JAM_E_ARGUMENT, "exponent");
+  o.exponent = 2.0, o.low = 1e-60;
+  SAYS(jam_diameters(&o, nullptr, 0, out, 20, &needed), JAM_E_ARGUMENT, "low");
+  SIZED(jam_size_report, report);
+  SAYS(jam_get_size_report(3, wide, 2, &report), JAM_E_ARGUMENT, "diameter");
+}
+
+CASE(numbers_beyond_doubles) {
+  DEFAULTS(create, o);
+  o.dim = 2, o.n = 32, o.packing_fraction = 0.5;
+  jam_system *sys = nullptr;
+  assert_int_equal(jam_create(&o, nullptr, &sys), JAM_OK);
+  DEFAULTS(radii, radii);
+  radii.radius_min = 1e300;  // once a search for pairs without an end
+  SAYS(jam_maximise_radii(sys, &radii, nullptr, 0, nullptr), JAM_E_ARGUMENT, "radius_min");
+  radii.radius_min = 0.0, radii.radius_max = 1e-300;
+  SAYS(jam_maximise_radii(sys, &radii, nullptr, 0, nullptr), JAM_E_ARGUMENT, "radius_max");
+  const double instant = 1.0;
+  DEFAULTS(isoconf, runs);
+  runs.wave_number = 1e17;
+  SAYS(jam_isoconf(sys, &runs, nullptr, &instant, 1, nullptr, 0, nullptr), JAM_E_ARGUMENT, "wave_number");
+  runs.wave_number = 7.0, runs.density_ratio = 1e-20;
+  SAYS(jam_isoconf(sys, &runs, nullptr, &instant, 1, nullptr, 0, nullptr), JAM_E_ARGUMENT, "density_ratio");
+  DEFAULTS(observe, observe);
+  observe.gap_bins = 10, observe.gap_min = 1e-320;
+  SAYS(jam_observe(sys, &observe), JAM_E_ARGUMENT, "gap_min");
+  DEFAULTS(correlation, correlation);
+  correlation.r_max = 1e-320;
+  double bins[200];
+  size_t needed = 0;
+  SAYS(jam_pair_correlation(sys, &correlation, nullptr, 0, bins, 200, &needed), JAM_E_ARGUMENT, "r_max");
+  assert_int_equal(jam_crunch(sys, nullptr, nullptr), JAM_OK);
+  DEFAULTS(hessian, h);
+  h.stiffness = JAM_STIFFNESS_POWER, h.alpha = 1.0 + 1e-8;
+  SIZED(jam_moduli_report, moduli);
+  SAYS(jam_moduli(sys, &h, &moduli), JAM_E_ARGUMENT, "alpha");
+  jam_destroy(sys);
 }
 
 CASE(fractions_in_any_box) {

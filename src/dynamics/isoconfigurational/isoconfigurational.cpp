@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "core/error.hpp"
+#include "core/limits.hpp"
 #include "core/math.hpp"
 #include "core/rng.hpp"
 #include "dynamics/tuning.hpp"
@@ -64,6 +65,11 @@ void Isoconfigurational::take_diameters() {
   if (plan_.options.density_ratio != 1.0) {
     const double factor = math::pow(plan_.options.density_ratio, 1.0 / plan_.start.dim);
     for (double &s : plan_.start.diameter) s *= factor;
+    try {
+      check_diameters(plan_.start.diameter, plan_.start.cell);
+    } catch (const Error &e) {
+      fail(e.code(), "density_ratio is %g: %s", plan_.options.density_ratio, e.what());
+    }
   }
   plan_.length = diameter_mean(plan_.start) / plan_.start.cell.side();
   plan_.fraction = packing_fraction(plan_.start);

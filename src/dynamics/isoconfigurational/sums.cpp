@@ -41,7 +41,8 @@ void check_isoconf_options(const jam_isoconf_options &o) {
     fail(JAM_E_ARGUMENT, "density_ratio is %g, it must be in (0, 1]", o.density_ratio);
   check_range("temperature", o.temperature, limits::velocity_min * limits::velocity_min,
               limits::velocity_max * limits::velocity_max);
-  check_positive_finite(o.wave_number, "wave_number");
+  check_positive(o.wave_number, "wave_number");
+  check_range("wave_number", o.wave_number, 0.0, limits::wave_max);
   check_positive_finite(o.overlap_length, "overlap_length");
   check_positive(o.memory_limit, "memory_limit");
   check_positive(o.wall_time, "wall_time");

@@ -45,11 +45,12 @@ jam_monte_carlo_options default_monte_carlo_options() {
 }
 
 void check_monte_carlo_options(const jam_monte_carlo_options &o) {
-  if (o.alpha != 0.0 && !(o.alpha > 1.0 && std::isfinite(o.alpha)))
-    fail(JAM_E_ARGUMENT, "alpha is %g, it must be 0 (hard spheres) or more than 1", o.alpha);
+  if (o.alpha != 0.0 && !(o.alpha > 1.0 && o.alpha <= limits::exponent_max))
+    fail(JAM_E_ARGUMENT, "alpha is %g, it must be 0 (hard spheres), or more than 1 and at most %g", o.alpha,
+         limits::exponent_max);
   check_enum(o.energy_unit, JAM_ENERGY_LENGTH, JAM_ENERGY_RELATIVE, "energy_unit", "jam_energy_unit");
-  check_positive_finite(o.energy_scale, "energy_scale");
-  check_positive_finite(o.temperature, "temperature");
+  check_range("energy_scale", o.energy_scale, limits::energy_min, limits::energy_max);
+  check_range("temperature", o.temperature, limits::energy_min, limits::energy_max);
   if (!(o.step >= 0.0) || std::isinf(o.step)) fail(JAM_E_ARGUMENT, "step is %g, it must be 0 or positive", o.step);
   if (!(o.acceptance > 0.0 && o.acceptance < 1.0))
     fail(JAM_E_ARGUMENT, "acceptance is %g, it must be in (0, 1)", o.acceptance);
@@ -61,11 +62,25 @@ void check_monte_carlo_options(const jam_monte_carlo_options &o) {
   check_positive(o.wall_time, "wall_time");
 }
 
+// Where the energy is still larger than the temperature by more, those of the accepted overlaps underflow.
+static void check_energies(const Packing &p, const jam_monte_carlo_options &o) {
+  const double overlap = o.energy_unit == JAM_ENERGY_RELATIVE ? 1.0 : contact_distance_max(p);
+  const double energy = o.energy_scale * math::pow(overlap, o.alpha);
+  check_energy("energy_scale", o.energy_scale, energy);
+  if (!(energy <= limits::energy_max * o.temperature))
+    fail(JAM_E_ARGUMENT, "temperature is %g: two spheres at one place have the energy %g, at most %g times as much",
+         o.temperature, energy, limits::energy_max);
+}
+
 void check_monte_carlo(const Packing &p, const jam_monte_carlo_options &o) {
   if (p.model != JAM_MODEL_EUCLID) fail(JAM_E_UNSUPPORTED, "Monte Carlo has no quenched shifts (JAM_MODEL_MK)");
   const double largest = largest_monte_carlo_step(p);
   if (o.step > largest)
     fail(JAM_E_ARGUMENT, "step is %g mean diameters; in this cell the largest is %g", o.step, largest);
+  const double least = limits::move_min * p.cell.side() / diameter_mean(p);
+  if (o.step > 0.0 && o.step < least)
+    fail(JAM_E_ARGUMENT, "step is %g mean diameters; places in this cell resolve steps from %g on", o.step, least);
+  if (o.alpha != 0.0) check_energies(p, o);
   if (o.alpha == 0.0 && p.overlap_allowed) refuse_overlaps(p, overlap_of_rounding);
 }
 

@@ -79,17 +79,17 @@
  *   Files are written under another name and then renamed. Pointers, lengths and callbacks are trusted.
  *
  * Limits, checked wherever a value enters (options, arrays, files, checkpoints):
- * - dimension                 2 .. JAM_MAX_DIM
- * - spheres n                 1 .. 2^31 - 1
+ * - dimension; spheres n      2 .. JAM_MAX_DIM; 1 .. 2^31 - 1
  * - box                       1e-30 .. 1e30
  * - cell: distance of faces   at least 1e-3 box, after reduction
  * - diameter                  at least 1e-9 of the longest cell edge (of a cube the box), which coordinates resolve to
  *                             1e-16; at most the shortest cell vector
  * - largest / least diameter  1 .. 1e4
- * - non_additivity            above -1, at most 1
- * - mk_zeta                   0 .. 1e15, or infinity
+ * - diameters without a cell  1e-39 .. 1e36
+ * - non_additivity; mk_zeta   above -1, at most 1; 0 .. 1e15, or infinity
  * - packing fraction          above 0; a random start: below saturation, 0.38 in d = 3
- * - radii of pair searches    at most 1000 mean diameters
+ * - radii of pair searches    at most 1000 mean diameters; ends of histograms at least 1e-15
+ * - energy, k_B T, P, stress  1e-100 .. 1e100, also the energy of two soft spheres at one place
  * - growth rate               above 0, at most 1000
  * - wall_time, in seconds     above 0, of the call that takes it; infinity, the default: no limit
  * - velocities                root of sum m v^2 / (d n) 0 or 1e-9 .. 1e6. Light spheres among heavy ones may be faster
@@ -408,7 +408,7 @@ typedef struct jam_diameters_options {
   int64_t n, seed;         /* number of spheres, default 0: by packing_fraction; of RANDOM, default 1 */
   double mean, deviation;  /* diameter, > 0, default 1; its standard deviation, > 0, default NaN */
   double low, high;        /* smallest diameter, default 0; largest diameter, default infinity: not given */
-  double exponent;         /* default NaN */
+  double exponent;         /* default NaN; POWER: (|exponent| + 9) ln(high / low) at most 600 */
   double scale, shape;     /* > 0, default 1; > 0, default NaN */
   double cell_volume;      /* default 0. Spheres of more volume are refused */
   double packing_fraction; /* in cell_volume, in place of n; default 0. Above the estimate of jamming: refused */
@@ -700,9 +700,9 @@ typedef struct jam_monte_carlo_options {
   int32_t resume;      /* @bool continue the stopped run; only limits are taken from here; default 0 */
   int32_t energy_unit; /* @enum jam_energy_unit, default LENGTH */
   int32_t reserved;
-  double alpha, energy_scale; /* 0 (default): hard, > 1: overlap x costs energy_scale x^alpha; > 0, default 1 */
-  double temperature;         /* of soft spheres, k_B T > 0, default 1 */
-  double step;                /* half side of the cube of trial displacements, mean diameters; 0, the default: tuned */
+  double alpha, energy_scale; /* 0 (default): hard; above 1, <= 1000: overlap x costs energy_scale x^alpha; default 1 */
+  double temperature;         /* of soft spheres, k_B T, default 1 */
+  double step;                /* half side of the cube of trials, mean diameters, >= 2^-54 box; 0, the default: tuned */
   double acceptance;          /* that a tuned step aims at, in (0, 1), default 0.45 */
   double swap_share;          /* share of trials that exchange two diameters, in [0, 1), default 0 */
   int64_t sweeps;             /* since the run began, >= 1, default 1000 */
@@ -745,7 +745,7 @@ typedef struct jam_isoconf_options {
   int64_t block;           /* runs per block, >= 1, default 20; sums are kept for each block */
   double density_ratio;    /* packing fraction of the runs over that of the packing, in (0, 1], default 1 */
   double temperature;      /* of the velocities, 1e-18 .. 1e12, default 1 */
-  double wave_number;      /* q of F_s, 1 / mean diameter, > 0, default 7 */
+  double wave_number;      /* q of F_s, 1 / mean diameter, > 0, at most 1e6, default 7 */
   double overlap_length;   /* spheres that moved less count in the overlap, mean diameters, > 0, default 0.3 */
   double memory_limit;     /* bytes, default 2e9; a larger estimate gives JAM_E_MEMORY before any run */
   double wall_time;        /* seconds of this call */
@@ -993,7 +993,7 @@ JAM_API jam_status jam_crunch_step(const jam_system *sys, double *displacement, 
 typedef struct jam_radii_options {
   uint32_t struct_size;
   int32_t threads;               /* 1 .. 64, default 1; 2 to 64 give the same bits, 1 may give others */
-  double radius_min, radius_max; /* bounds of each radius, 0 <= radius_min < radius_max, default 0; infinity */
+  double radius_min, radius_max; /* default 0; infinity. radius_min is below radius_max and half the longest edge */
   double room; /* share of each radius that is taken off first, in (0, 1), default 0.1; small: stays near the start */
   int64_t max_steps; /* of Newton's method, >= 1, default 100000 */
   double wall_time;  /* limit of the call */
@@ -1063,7 +1063,7 @@ typedef struct jam_relax_options {
   int32_t minimiser;       /* @enum jam_minimiser, default NEWTON */
   int32_t scale;           /* @enum jam_soft_scale, default RELATIVE */
   int32_t precision;       /* @enum jam_soft_precision, default REFERENCE */
-  double alpha;            /* exponent of the energy, > 1, default 2 */
+  double alpha;            /* exponent of the energy, above 1, at most 12, default 2 */
   double force_tolerance;  /* on max |F_i| of stable spheres over the mean contact force, > 0, default 1e-12 */
   int64_t max_evaluations; /* of the forces, >= 1, default 1e6 */
   double wall_time;        /* limit of the call */
@@ -1098,7 +1098,7 @@ JAM_API jam_status jam_relax_options_init(jam_relax_options *o, size_t size);
  * stiffnesses for jam_contacts, jam_forces, jam_hessian (JAM_STIFFNESS_SOFT) and the like. Positions are rounded to
  * doubles at the end; the network has further digits. Status: JAM_NOT_JAMMED: energy 0, no overlaps. JAM_PRECISION:
  * converged, but overlaps are below the rounding of the positions. JAM_NOT_CONVERGED. Example: examples/c/soft.c
- * @errors STATE (made without JAM_OVERLAP_ALLOW) */
+ * @errors STATE (made without JAM_OVERLAP_ALLOW), OVERLAP (wider than the cell) */
 JAM_API jam_status jam_relax(jam_system *sys, const jam_relax_options *o, jam_relax_report *report);
 
 /* Options of jam_decompress. The target reached first ends the decompression. With crunch, a copy is crunched from just
@@ -1110,7 +1110,7 @@ typedef struct jam_decompress_options {
   int32_t minimiser;         /* @enum jam_minimiser, default NEWTON */
   int32_t scale;             /* @enum jam_soft_scale, default RELATIVE */
   int32_t precision;         /* @enum jam_soft_precision, default REFERENCE */
-  double alpha;              /* exponent of the energy, > 1, default 2 */
+  double alpha;              /* exponent of the energy, above 1, at most 12, default 2 */
   double force_tolerance;    /* as in jam_relax_options, default 1e-12 */
   double energy_factor;      /* of U per step, in (0, 1), default 0.01; closer to 1 after a failed step */
   double pressure, distance; /* targets, as in jam_relax_report, >= 0, default 0: none */
@@ -1181,12 +1181,12 @@ typedef struct jam_shear_options {
   int32_t minimiser;       /* @enum jam_minimiser, default NEWTON */
   int32_t scale;           /* @enum jam_soft_scale, default RELATIVE */
   int32_t precision;       /* @enum jam_soft_precision, default REFERENCE */
-  double alpha;            /* exponent of the energy, > 1, default 2 */
+  double alpha;            /* exponent of the energy, above 1, at most 12, default 2 */
   double force_tolerance;  /* on max |F_i| of stable spheres over the mean contact force, > 0, default 1e-12 */
   int64_t max_evaluations; /* of the forces, for one minimum, >= 1, default 1e6 */
   double wall_time;        /* limit of the call */
   double step;             /* strain between two minima, > 0, default 1e-3 */
-  double resolution;       /* uncertainty of the strain of an event, > 0, default 1e-6 */
+  double resolution;       /* uncertainty of the strain of an event, >= 1e-15, default 1e-6 */
   int64_t max_steps;       /* minima, >= 1, default 1e6 */
   int32_t until;           /* @enum jam_shear_until, default STRAIN */
   int32_t strain;          /* @enum jam_free_strain, what else of the cell may change, default NONE */
@@ -1240,7 +1240,7 @@ JAM_API jam_status jam_shear_options_init(jam_shear_options *o, size_t size);
  * it. A call that begins where another ended continues to the same bits, if the steps are the same. Status: JAM_OK: the
  * last strain or `until` was reached. JAM_LIMIT, JAM_NOT_CONVERGED: no minimum was found, or a strain diverged
  * under the stress; the last minimum is kept. JAM_NOT_JAMMED: hard spheres did not jam.
- * @shape turns (turns), mode (d or 2 d, d) @errors UNSUPPORTED (walls, Mari-Kurchan), SOLVER, TOO_FEW */
+ * @shape turns (turns), mode (d or 2 d, d) @errors UNSUPPORTED (walls, Mari-Kurchan), SOLVER, TOO_FEW, OVERLAP */
 JAM_API jam_status jam_shear(jam_system *sys, const jam_shear_options *o, const double *turns, size_t turns_len,
                              const double *mode, size_t mode_len, jam_shear_report *report);
 /* Rows of the last shear. @shape table (rows, jam_shear_column) @errors STATE */
@@ -1288,7 +1288,7 @@ typedef enum jam_stiffness {
 typedef struct jam_hessian_options {
   uint32_t struct_size;
   int32_t stiffness; /* @enum jam_stiffness, default HARMONIC */
-  double alpha;      /* POWER: > 1, default 2 */
+  double alpha;      /* POWER: > 1, default 2; stiffnesses 1e-60 .. 1e60 */
   double prestress;  /* overlap (HARD: gap) at the mean force over mean diameter, below 1, default 0; SOFT: a share */
 } jam_hessian_options;
 /* Which modes. */
@@ -1545,7 +1545,7 @@ typedef enum jam_proof_cause {
   JAM_CAUSE_SADDLE = 7    /* least force over the mean, and largest relative gap: contacts do not close together */
 } jam_proof_cause;
 /* What jam_prove found. Bounds are rounded outward; NaN where they do not apply. The exact diameters are sqrt(Gamma)
- * ratio_i times the power of two at or below V^(1/d). Without given ratios, equal spheres have ratio 1. */
+ * ratio_i times the power of two at or below V^(1/d). Ratios are 1 or those given, times 2^k: ratio_0 is in [1, 2). */
 typedef struct jam_proof_report {
   uint32_t struct_size;
   int32_t theorem; /* @enum jam_theorem */

@@ -700,7 +700,7 @@ typedef struct jam_monte_carlo_options {
   int32_t resume;      /* @bool continue the stopped run; only limits are taken from here; default 0 */
   int32_t energy_unit; /* @enum jam_energy_unit, default LENGTH */
   int32_t reserved;
-  double alpha, energy_scale; /* 0 (default): hard; above 1, <= 1000: overlap x costs energy_scale x^alpha; default 1 */
+  double alpha, energy_scale; /* 0 (default): hard, above 1, <= 1000: overlap x costs energy_scale x^alpha; default 1 */
   double temperature;         /* of soft spheres, k_B T, default 1 */
   double step;                /* half side of the cube of trials, mean diameters, >= 2^-54 box; 0, the default: tuned */
   double acceptance;          /* that a tuned step aims at, in (0, 1), default 0.45 */

@@ -590,4 +590,11 @@ if __name__ == "__main__":
     if len(words) not in (1, 2) or words[0].startswith("-") or at < len(sys.argv) - 1 and not other:
         print(__doc__)
         sys.exit(2)
-    sys.exit(main(words[0], *words[1:], **({"xyz": other[0]} if other else {})))
+    try:
+        code = main(words[0], *words[1:], **({"xyz": other[0]} if other else {}))
+        if sys.stdout:  # None where the descriptor is closed
+            sys.stdout.flush()
+    except OSError as error:  # of print: a traceback would end with 1, as if the proof had failed
+        print(f"standard output: cannot be written: {error}", file=sys.stderr)
+        sys.stdout, code = None, 2
+    sys.exit(code)

@@ -19,7 +19,7 @@ from test_proof_bounds import fcc, made
 
 FILES = sorted(CHECKER.parent.glob("*.py"))
 LENGTHS = {
-    "jamproof.py": 446, "jamproof_implied.py": 70, "jamproof_symmetric.py": 95, "jamproof_trapped.py": 104, "jamproof_xyz.py": 50,
+    "jamproof.py": 453, "jamproof_implied.py": 70, "jamproof_symmetric.py": 95, "jamproof_trapped.py": 104, "jamproof_xyz.py": 50,
 }  # fmt: skip
 
 
@@ -100,6 +100,13 @@ class Program(InFolder):
         self.assertIn(run(CHECKER, other).returncode, (1, 2))
         self.assertEqual(run(CHECKER, self.folder / "none").returncode, 2)
         self.assertEqual(run(CHECKER, self.write(self.text.replace("sphere 1", "sphere 0", 1))).returncode, 1)
+
+    def test_a_full_output_is_no_failed_proof(self):
+        words = [sys.executable, "-I", "-S", "-B", str(CHECKER), str(self.write(self.text))]
+        with open("/dev/full", "w") as full:
+            done = subprocess.run(words, stdout=full, stderr=subprocess.PIPE, text=True, check=False)
+        self.assertEqual(done.returncode, 2)
+        self.assertRegex(done.stderr, r"\Astandard output: cannot be written.*\n\Z")
 
     def test_alone_it_proves_what_libjam_writes_and_names_the_file_that_others_need(self):
         alone = shutil.copy(CHECKER, self.folder)

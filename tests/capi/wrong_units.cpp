@@ -167,6 +167,8 @@ CASE(soft_numbers) {
   DEFAULTS(shear, s);
   s.strain = JAM_STRAIN_ALL;
   SAYS(jam_shear(sys, &s, &turn, 1, loads, 8, nullptr), JAM_E_ARGUMENT, "stress");
+  const double heavy[] = {0, 1, 0, 0, 1e5, 0, 0, 1e5};  // the cell got narrower than a sphere
+  SAYS(jam_shear(sys, &s, &turn, 1, heavy, 8, nullptr), JAM_E_OVERLAP, "shortest period");
   s.strain = JAM_STRAIN_NONE, s.resolution = 1e-300;  // bisection had no end
   SAYS(jam_shear(sys, &s, &turn, 1, nullptr, 0, nullptr), JAM_E_ARGUMENT, "resolution");
   jam_destroy(sys);

@@ -116,7 +116,7 @@ class InBrowser:
         self.lab.page.errors.clear()
 
     def test_a_file_is_dropped(self):
-        for path in (PROOFS / "d3-n64.xyz", PROOFS / "d3-n64-equal-01.jamproof"):
+        for path in (PROOFS / "d3-n64.xyz", PROOFS / "d3-n64-mixed-01.jamproof"):
             self.lab.page.drop(path)
             self.lab.until("!document.getElementById('work').hidden || document.getElementById('status').textContent !== ''")
             self.lab.until("document.getElementById('work').hidden")

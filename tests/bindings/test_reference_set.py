@@ -67,7 +67,7 @@ class ReferenceSet(unittest.TestCase):
                 self.assertLess(abs(phi(scene) / Fraction(10) ** 60 - Fraction(row["phi_J"])), Fraction(1, 10**25))
 
     def test_the_script_proves_the_table_of_the_page(self):
-        # Same seed, same packing: phi_J has all digits of the table, in d = 4 and 5 too, whose files the folder has not.
+        # Same seed, same packing: phi_J has all digits of the table, also of those whose files the folder has not.
         sys.path.insert(0, str(FOLDER.parent))
         self.addCleanup(sys.path.remove, str(FOLDER.parent))
         import reference_set

@@ -66,10 +66,6 @@ run guide.jl
 for example in "$root"/examples/julia/*.jl; do
   echo "== $(basename "$example")"
   case $example in
-  */crunch_file.jl)
-    run -e 'using Jam; s = System(n = 100, dim = 2, diameters = repeat([1.4, 1.0], 50))
-            compress!(s; growth_rate = 0.1, pressure = 100); write("dense.xyz", s)'
-    run "$example" dense.xyz crunched.xyz dense.svg ;;
   */calippso.jl)
     printf '1.17 0.05 false\n1.04 0.03 false\n' >theirs.txt
     run "$example" start.dat theirs.txt 0.5 ;;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
+#include <numeric>
 #include <stdexcept>
 #include "jam/jam.hpp"
 #include "test.h"
@@ -89,6 +90,9 @@ CASE(test_crunch_and_forces) {
   const auto normals = s.contact_vectors();
   const auto force = s.forces();
   assert_int_equal(pairs.size(), 2 * force.size());
+  const auto coordination = s.coordination();
+  assert_int_equal(coordination.size(), 60);
+  assert_int_equal(std::accumulate(coordination.begin(), coordination.end(), 0), pairs.size());
   std::vector<double> net(120, 0.0);
   double mean = 0;
   for (std::size_t k = 0; k < force.size(); ++k) {

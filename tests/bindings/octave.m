@@ -66,6 +66,9 @@ assert(size(vectors), [3, numel(p.hessian_map()), 2]);
 for k = 1:3
   assert(abs(sum(vectors(k, :)(:) .^ 2) - 1) < 1e-9);  % normalised, whichever way the axes are turned
 end
+[row, column, value] = p.hessian();  % compressed rows, from 1
+assert(row([1, end]), [1; numel(value) + 1]);
+assert([min(column), max(column)], [1, numel(row) - 1]);
 check = p.check("prove", true);
 assert(! isempty(check.text));
 assert(ischar(jam.version()) && ischar(p.notes()) && jam.abi_version() == 1);

@@ -13,7 +13,7 @@ from pathlib import Path
 ROOT = Path(sys.argv.pop(1)).resolve()
 STORE = "--store" in sys.argv and not sys.argv.remove("--store")
 FOLDER = ROOT / "examples" / "notebooks"
-TASKS = {"first_packing", "check_a_file", "forces_and_modes", "sieve_to_porosity", "ensemble"}
+TASKS = {"first_packing", "ensemble"}
 LARGEST = 250_000  # bytes of a notebook with its outputs
 # Warnings are errors in what the user runs. The kernel's own start is not.
 STRICT = "import warnings; warnings.simplefilter('error')"

@@ -12,7 +12,7 @@ def _marked(text):
     return re.sub(r"(?<![`\w-])--[a-z][\w-]*", r"`\g<0>`", text).replace("|", "\\|")
 
 
-def emit(_api):
+def emit():
     out = [
         f"<!-- {MADE} -->",
         "# The command line",

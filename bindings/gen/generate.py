@@ -1,9 +1,10 @@
 """Writes what is generated from include/jam/jam.h and the table of options.
 
-usage: generate.py [--check] [--out FOLDER] [--header FILE] [--swig PROGRAM]
-    (nothing)     the files of COMMITTED, which a build without SWIG needs
-    --check       only says which of these differ
-    --out FOLDER  the files of BUILT, which each build makes for itself, below FOLDER
+usage: generate.py [--check] [--out FOLDER] [--options FOLDER] [--header FILE] [--swig PROGRAM]
+    (nothing)         the page of the guide on the options
+    --check           only says whether it differs
+    --out FOLDER      the files of BUILT, which each build makes for itself, below FOLDER
+    --options FOLDER  of these those of OPTIONS, which need no SWIG
 """
 import argparse
 import sys
@@ -26,13 +27,14 @@ from annotations import HeaderError
 from model import read_header
 
 ROOT = Path(__file__).resolve().parents[2]
-COMMITTED = {
-    "bindings/cli/options_table.h": emit_options.emit_c,
-    "bindings/cli/completion/jam-pack.bash": emit_options.emit_bash,
-    "bindings/cli/completion/_jam-pack": emit_options.emit_zsh,
-    "bindings/docs/command_line.md": emit_command_page.emit,
+PAGE = ROOT / "bindings/docs/command_line.md"
+OPTIONS = {
+    "cli/options_table.h": emit_options.emit_c,
+    "cli/jam-pack.bash": emit_options.emit_bash,
+    "cli/_jam-pack": emit_options.emit_zsh,
 }
 BUILT = {
+    **OPTIONS,
     "julia/raw.jl": emit_julia.emit,
     "julia/tables.jl": emit_julia_calls.emit_tables,
     "julia/methods.jl": emit_julia_calls.emit_methods,
@@ -59,26 +61,28 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--check", action="store_true")
     parser.add_argument("--out", type=Path)
+    parser.add_argument("--options", type=Path)
     parser.add_argument("--header", default=ROOT / "include/jam/jam.h")
     parser.add_argument("--swig", default="swig")
     args = parser.parse_args()
+    if args.options:
+        for name, emit in OPTIONS.items():
+            write(args.options / name, emit(None))
+        return
+    if not args.out:
+        text = emit_command_page.emit()
+        if PAGE.read_text() != text:
+            if args.check:
+                sys.exit(f"{PAGE} is not what the generator makes: run sh bindings/gen/regenerate.sh")
+            PAGE.write_text(text)
+        return
     try:
         api = read_header(args.header, args.swig)
         languages.check(api)
     except HeaderError as error:
         sys.exit(f"{args.header}: {error}")
-    if args.out:
-        for name, emit in BUILT.items():
-            write(args.out / name, emit(api))
-        return
-    texts = {ROOT / name: emit(api) for name, emit in COMMITTED.items()}
-    stale = [path for path, text in texts.items() if not path.exists() or path.read_text() != text]
-    for path in stale:
-        print(("is not what the generator makes: " if args.check else "written: ") + str(path.relative_to(ROOT)))
-        if not args.check:
-            write(path, texts[path])
-    if args.check and stale:
-        sys.exit("run: sh bindings/gen/regenerate.sh")
+    for name, emit in BUILT.items():
+        write(args.out / name, emit(api))
 
 
 if __name__ == "__main__":

@@ -13,6 +13,7 @@ import jam
 
 PACK = os.environ.get("JAM_PACK")
 ROOT = Path(__file__).resolve().parents[2]
+COMPLETION = Path(PACK or ".").parent / "bindings/cli/options/cli"
 
 
 def names(text):
@@ -29,14 +30,14 @@ class Options(unittest.TestCase):
         self.assertIn("--method", mine)
         manual = gzip.decompress((Path(PACK).parent / "bindings/cli/jam-pack.1.gz").read_bytes()).decode()
         self.assertEqual(names(manual.replace("\\-", "-")), mine)
-        self.assertEqual(names((ROOT / "bindings/cli/completion/_jam-pack").read_text()), mine)
-        self.assertEqual(names((ROOT / "bindings/cli/completion/jam-pack.bash").read_text()), mine)
+        self.assertEqual(names((COMPLETION / "_jam-pack").read_text()), mine)
+        self.assertEqual(names((COMPLETION / "jam-pack.bash").read_text()), mine)
         page = (ROOT / "bindings/docs/command_line.md").read_text()
         self.assertEqual({"--" + n for n in re.findall(r"^- `--([\w-]+)", page, re.M)}, mine | {"--plot"})
 
     def complete(self, *words):
         script = (
-            f". {ROOT}/bindings/cli/completion/jam-pack.bash; COMP_WORDS=(jam-pack {' '.join(words)}); "
+            f". {COMPLETION}/jam-pack.bash; COMP_WORDS=(jam-pack {' '.join(words)}); "
             f'COMP_CWORD={len(words)}; _jam_pack; echo "${{COMPREPLY[@]}}"'
         )
         return subprocess.run(["bash", "-c", script], capture_output=True, text=True, check=True).stdout.split()

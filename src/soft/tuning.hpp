@@ -109,7 +109,7 @@ struct DecompressTuning {
 struct ShearTuning {
   // A step is halved where its energy departs from the work of the mean stress by more than this part of V |changes of
   // stress and strain|. A contact that opens or closes departs by 1/8 of its share of the modulus, a curve by 1/12.
-  // tests/bench/shear.py: events that steps of several sizes find.
+  // tests/bench/results/shear.json: events that steps of several sizes find.
   static constexpr double suspicious = 0.2;
   static constexpr double energy_digits = 1e-13;  // of the enthalpy: smaller differences are rounding
   // A step is an event where shearing back leaves more than this part of its displacement.

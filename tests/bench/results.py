@@ -82,50 +82,6 @@ def verdicts(raw):
     return ["scene", "verdicts", "yes", "no", "undecided", "wrong, of those known", "no with a flex", "time of both kinds and flexes (ms)"], rows
 
 
-def verdict_numbers(raw):
-    """verdicts.py --numbers CHECKOUT"""
-    rows = []
-    for r in raw[1:]:
-        changed = ", ".join(f"{count} {what}" for what, count in r["changed"].items()) or "none"
-        rows.append([f"`{r['number']}`", r["factor"], changed.lower(), r["geometry"], r["undecided"], r["wrong"], r["no without a flex"], r["seconds"] / raw[0]["seconds"]])
-    return ["number", "times", "verdicts changed", "networks from geometry changed", f"undecided, of {raw[0]['verdicts']}", "wrong", "no without a flex", "ratio of times"], rows
-
-
-def with_error(value, error):
-    return {"value": value, "error": error}
-
-
-def ensemble(*raws):
-    """ensemble.py --seeds 1,60; ... 61,120; ... 121,220 and 221,320 with --protocols"""
-    import ensemble as bench
-
-    found = bench.together(list(raws))
-    rows = []
-    for name, m in found["means"].items():
-        part = lambda *names: sum(m[f"{n} (s)"] for n in names)
-        rows.append(
-            [name, len(found["runs"][name]), m["collisions"][0] / 1e6, m["factorisations"][0], part("growth"), part("crunch"), part("start", "image", "file")]
-            + [part("analysis", "check"), part(*bench.PARTS), with_error(m["phi_J"][0], m["phi_J"][1])]
-            + ["" if name == "default" else f"{m['phi_J'][2]:.1e} ± {m['phi_J'][3]:.1e}"]
-        )
-    columns = ["stages", "packings", "million collisions", "factorisations", "growth (s)", "crunch (s)", "store (s)", "analyse and check (s)"]
-    return columns + ["a packing (s)", "phi_J", "phi_J minus that of the default"], rows
-
-
-def ensemble_statistics(*raws):
-    """ensemble.py --seeds 1,60; ... 61,120; ... 121,220 and 221,320 with --protocols"""
-    import ensemble as bench
-
-    found = bench.together(list(raws))
-    means = found["means"]
-    others = ("second stage to 1e4", "second stage to 3000", "first stage alone")
-    rows = []
-    for key in found["quantities"]:
-        difference = [f"{means[o][key][2]:.2g} ± {means[o][key][3]:.1g}" for o in others]
-        rows.append([key, with_error(*means["default"][key][:2]), *difference])
-    return ["mean of", "default", *(f"{o} minus the default" for o in others)], rows
-
-
 def advise(raw):
     """advise.py 512"""
     rows = []
@@ -183,22 +139,6 @@ def decompressions(runs):
         worse = sum(a["phi"] < b["phi"] - 1e-9 for a, b in zip(of, (r for r in runs if r["off"] == "decompressions")))
         rows.append([DECOMPRESSIONS[off], len(of), sum(r["jammed"] for r in of), worse, statistics.median(seconds), statistics.mean(seconds), max(seconds)])
     return ["relative decreases of diameters", "packings", "jammed", "of lower density than with none", "median (s)", "mean (s)", "longest (s)"], rows
-
-
-def products(raw):
-    """products.py OUT.json PICTURE.png FOLDER 2 512,1024,2048 OpenBLAS=... builtin=... reference=..."""
-    first = raw[0]["build"]
-    cost = {(r["n"], r["seed"], r["build"]): r["seconds"] / r["factorisations"] for r in raw}
-    rows = []
-    for n in dict.fromkeys(r["n"] for r in raw):
-        for build in dict.fromkeys(r["build"] for r in raw):
-            some = [r for r in raw if (r["n"], r["build"]) == (n, build)]
-            ratio = [cost[n, r["seed"], build] / cost[n, r["seed"], first] for r in some]
-            rows.append(
-                [n, build, whole([r["factorisations"] for r in some]), spread([r["seconds"] for r in some]), spread(ratio)]
-                + [max(r["residual"] for r in some), f"{sum(r['jammed'] for r in some)} of {len(some)}"]
-            )
-    return ["N", "products", "factorisations", "crunch (s)", "a factorisation, over " + first, "largest force residual", "jammed"], rows
 
 
 def wasm(raw):

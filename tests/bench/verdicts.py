@@ -1,11 +1,8 @@
 #!/usr/bin/env python3
-"""Verdicts of jam_rigidity, both kinds, flexes and contacts from geometry of a fixed set: share undecided, wrong ones, time; and
-what each number that steers them is worth.
+"""Verdicts of jam_rigidity, both kinds, flexes and contacts from geometry of a fixed set: share undecided, wrong ones, time.
 
-usage: verdicts.py                      with PYTHONPATH set to the built module; JSON to stdout
-       verdicts.py --numbers CHECKOUT   a checkout with a configured build/, for scratch: it is built so that an environment
-                                        variable multiplies one of NUMBERS, and runs with ten times and a tenth of each, or FACTORS
-       verdicts.py --draw RAW.json PICTURE   of the first
+usage: verdicts.py                           with PYTHONPATH set to the built module; JSON to stdout
+       verdicts.py --draw RAW.json PICTURE   of that
 Wrong: a yes or no of crystals that differs from that of their lattice without noise, as long as this is below the gap of a contact,
 or of packings as a crunch left them, each by the linear program of HiGHS and the singular values of tests/bindings/jamming_oracle.py; a
 yes of shrunk ones. Of tubes and fluids no other verdict is known.
@@ -13,9 +10,6 @@ yes of shrunk ones. Of tubes and fluids no other verdict is known.
 import collections
 import itertools
 import json
-import os
-import re
-import subprocess
 import sys
 import time
 from pathlib import Path
@@ -25,8 +19,6 @@ import numpy as np
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "bindings"))
 from jamming_oracle import judge  # noqa: E402
 
-NUMBERS = "widest_contact resolutions least_across shorter_flex least_relative strained dependent_forces"
-FACTORS = {"shorter_flex": (5.0, 0.1)}  # of others 10 and 0.1; at 1 the search has no end
 ROOT3 = np.sqrt(3.0)
 
 
@@ -119,71 +111,6 @@ def measure():
     return rows
 
 
-def summary(rows):
-    asked = [(v, w) for r in rows for v, w in zip(r["verdict"], r["wanted"])]
-    return {
-        "verdicts": len(asked),
-        "undecided": sum(v == "UNDECIDED" for v, _ in asked),
-        "wrong": sum(w is not None and {v, w} == {"YES", "NO"} for v, w in asked),
-        "no without a flex": sum(not f for r in rows for f in r["flex"]),
-        "seconds": sum(r["seconds"] for r in rows),
-    }
-
-
-STEERED = """#ifndef JAM_STEERED
-#define JAM_STEERED
-#include <cstdlib>
-#include <cstring>
-namespace jam::inside {
-inline double steered(const char *name) {
-  const char *set = std::getenv("JAM_STEERED");
-  const std::size_t n = std::strlen(name);
-  return set && std::strncmp(set, name, n) == 0 && set[n] == '=' ? std::atof(set + n + 1) : 1.0;
-}
-}  // namespace jam::inside
-#endif
-"""
-
-
-def steered(text):
-    """The source with each of NUMBERS times what the environment says."""
-    for name in NUMBERS.split():
-        if f" {name}" not in text:
-            continue  # it stands in the other file
-        found = re.search(rf"\b{name}(?:\[\])? = (\{{[^}}]*\}}|[0-9.e+-]+)", text)
-        value = re.sub(r"[0-9][0-9.e+-]*", rf'\g<0> * steered("{name}")', found[1])
-        text = text[: found.start(1)] + value + text[found.end(1) :]
-        begin = text.rindex("static ", 0, found.start())
-        text = text[:begin] + re.sub("^static constexpr", "static inline const", text[begin:])
-    return text.replace("#pragma once\n", "#pragma once\n" + STEERED, 1)
-
-
-def run(build, name, factor):
-    env = {**os.environ, "PYTHONPATH": str(build / "python"), "OPENBLAS_NUM_THREADS": "1", "JAM_STEERED": f"{name}={factor}"}
-    return json.loads(subprocess.run([sys.executable, __file__], env=env, capture_output=True, text=True, check=True).stdout)
-
-
-def numbers(checkout):
-    sources, build = [checkout / f"src/{layer}/tuning.hpp" for layer in ("network", "verdict")], checkout / "build"
-    kept = [source.read_text(encoding="utf-8") for source in sources]
-    rows, before = [], None
-    try:
-        for source, text in zip(sources, kept):
-            source.write_text(steered(text), encoding="utf-8")
-        subprocess.run(["ninja", "-C", build, "-j2"], check=True, stdout=subprocess.DEVNULL)
-    finally:
-        for source, text in zip(sources, kept):
-            source.write_text(text, encoding="utf-8")
-    for name, factor in [("", 1.0), *((name, f) for name in NUMBERS.split() for f in FACTORS.get(name, (10.0, 0.1)))]:
-        now = run(build, name, factor)
-        before = before or now
-        differ = [f"{a['scene']}: {x} to {y}" for a, b in zip(before, now) for x, y in zip(a["verdict"], b["verdict"]) if x != y]
-        geometry = sum(a.get("geometry") != b.get("geometry") for a, b in zip(before, now))
-        rows.append({"number": name, "factor": factor, "changed": collections.Counter(differ), "geometry": geometry, **summary(now)})
-        print(json.dumps(rows[-1]), file=sys.stderr, flush=True)
-    return rows
-
-
 def draw(rows, picture):
     """The share that is left open against the noise, and against the time of a verdict."""
     import matplotlib.pyplot as plt
@@ -209,4 +136,4 @@ if __name__ == "__main__":
     if "--draw" in sys.argv:
         draw(json.loads(Path(sys.argv[2]).read_text(encoding="utf-8")), sys.argv[3])
     else:
-        print(json.dumps(numbers(Path(sys.argv[2]).resolve()) if "--numbers" in sys.argv else measure()))
+        print(json.dumps(measure()))

@@ -9,7 +9,7 @@ are kept. Small: N = 128 and 256, 3000 particles each. Large: N = 256 to 4096, 2
 """
 import matplotlib.pyplot as plt
 import numpy as np
-from common import GAMMA, THETA_E, THETA_L, Results, arguments, kept, mean_error
+from common import GAMMA, THETA_E, THETA_L, Results, arguments, mean_error, seeded
 from finite_size import protocol
 
 import jam
@@ -54,8 +54,7 @@ class Side:
     """Samples of one side and one N: one array a packing."""
 
     def __init__(self, o, side, n, count):
-        made = [kept(o, f"{side}_n{n}", f"seed{s}", lambda: jammed(side, n, s)) for s in range(1, count + 1)]
-        self.all = [m for m in made if m is not None]
+        self.all = seeded(o, f"{side}_n{n}", "", count, lambda s: jammed(side, n, s))
         self.good = [m for m in self.all if m["good"]]
         local = [m["local"].astype(bool) for m in self.good]
         self.extended = [np.sort(m["forces"][~k]) for m, k in zip(self.good, local)]
@@ -64,7 +63,7 @@ class Side:
         self.z = [m["z"][m["z"] > 0] for m in self.good]
 
 
-def samples(o, r, sides, sizes, particles):
+def samples(o, sides, sizes, particles):
     """{(side, n): Side} of those with four good packings and more."""
     found = {}
     if len(particles) not in (1, len(sizes)):
@@ -74,7 +73,6 @@ def samples(o, r, sides, sizes, particles):
             one = Side(o, side, n, max(4, round(count / n)))
             if len(one.good) >= 4:
                 found[side, n] = one
-                r.made(f"{SIDES[side]}, N = {n}, {len(one.all)} packings", len(one.good))
     return found
 
 
@@ -158,7 +156,6 @@ def rows(r, found, sizes):
     for (side, n), s in found.items():
         phi = mean_error([m["phi"] for m in s.good])
         r.add("4.3", f"phi_J {SIDES[side]}, N = {n}", "none", *phi)
-        r.add("4.3", f"share of packings kept {SIDES[side]}, N = {n}", "none", len(s.good) / len(s.all))
         if side == "above":
             same = np.mean([m["same"] == 1 for m in s.good])
             r.add("4.3", f"share whose crunch finds the same contacts, N = {n}", "> 0.95", same)
@@ -169,33 +166,21 @@ def rows(r, found, sizes):
         return
     for name, (ranges, law) in RANGES.items():
         both = np.array([[slope(getattr(found[side, n], name), *span) for span in ranges] for side in ("below", "above")])
-        for (values, errors), side in zip(both.transpose(0, 2, 1), ("below", "above")):
-            error = np.hypot(errors.mean(), values.std())
-            r.add(LABEL[name], f"exponent of {name}, mean of three ranges, {SIDES[side]}, N = {n}", law, values.mean(), error)
+        values, errors = both[1].T
+        text = f"exponent of {name}, mean of three ranges, from above, N = {n}"
+        r.add(LABEL[name], text, law, values.mean(), np.hypot(errors.mean(), values.std()))
         off, error = both[1, :, 0] - both[0, :, 0], np.hypot(both[1, :, 1], both[0, :, 1])
         text = f"exponent of {name}: from above less from below, N = {n}"
         r.add(LABEL[name], text, 0.0, off.mean(), np.hypot(error.mean(), off.std()))
     theta = THETA_E / (1 + THETA_E)
     for side in ("below", "above"):
-        for m in sizes:
-            if (side, m) not in found:
-                continue
-            s = found[side, m]
-            top = 1.0 * m ** -U["extended"]
-            level = np.array([np.mean(v < top) / top * m**theta for v in s.extended])
-            r.add("4.4", f"N^(theta_e/(1+theta_e)) c / f at scaled f = 1, {SIDES[side]}, N = {m}", "one level", *mean_error(level))
-            top = m ** -U["gaps"]
-            level = np.array([np.mean(v < top) / top * m ** (-GAMMA * U["gaps"]) for v in s.gaps])
-            r.add("4.7", f"N^(-gamma/(1-gamma)) c / h at scaled h = 1, {SIDES[side]}, N = {m}", "one level", *mean_error(level))
-        curves = {m: found[side, m].extended for m in sizes if (side, m) in found}
-        if len(curves) > 1:
-            for offset in (0.0, OFFSET):
-                made = []
-                for m, values in curves.items():
-                    c = scaling.cdf_grid(values, np.geomspace(0.3, 10, 25) * m ** -U["extended"])
-                    made.append((m, c._replace(c=c.c - offset / m)))
-                quality = scaling.quality(made, *scaling.tail_scaling([THETA_E]))
-                r.add("4.5", f"S of c - {offset:g} / N of extended forces, scaled, {SIDES[side]}", "about 1", quality)
+        s = found[side, n]
+        top = n ** -U["extended"]
+        level = np.array([np.mean(v < top) / top * n**theta for v in s.extended])
+        r.add("4.4", f"N^(theta_e/(1+theta_e)) c / f at scaled f = 1, {SIDES[side]}, N = {n}", "one level", *mean_error(level))
+        top = n ** -U["gaps"]
+        level = np.array([np.mean(v < top) / top * n ** (-GAMMA * U["gaps"]) for v in s.gaps])
+        r.add("4.7", f"N^(-gamma/(1-gamma)) c / h at scaled h = 1, {SIDES[side]}, N = {n}", "one level", *mean_error(level))
 
 
 def main():
@@ -205,7 +190,7 @@ def main():
     o = p.parse_args()
     sizes = o.sizes or ([256, 512, 1024, 2048, 4096] if o.large else [128, 256])
     r = Results(o, "both_sides")
-    found = samples(o, r, ("below", "above"), sizes, o.particles or [2e5 if o.large else 3e3])
+    found = samples(o, ("below", "above"), sizes, o.particles or [2e5 if o.large else 3e3])
     rows(r, found, sizes)
     r.picture(powers(found, sizes), "both_sides_powers")
     r.write(figures(found, sizes))

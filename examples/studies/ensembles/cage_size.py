@@ -11,7 +11,7 @@ Small: N = 256, two packings, windows to 3000. Large: N = 1024, six packings, wi
 """
 import matplotlib.pyplot as plt
 import numpy as np
-from common import Results, arguments, kept, mean_error
+from common import Results, mean_error, options, seeded
 from landscape import KAPPA_MF, grown
 
 INSTANTS = 40
@@ -37,29 +37,17 @@ def windows(n, seed, pressure, lengths):
 
 
 def main():
-    p = arguments(__doc__.splitlines()[0])
-    p.add_argument("--n", type=int, help="spheres (small 256, large 1024)")
-    p.add_argument("--seeds", type=int, help="packings (small 2, large 6)")
-    o = p.parse_args()
-    n, seeds = o.n or (1024 if o.large else 256), o.seeds or (6 if o.large else 2)
+    o = options(__doc__.splitlines()[0], n=(256, 1024), seeds=(2, 6))
+    n, seeds = o.n, o.seeds
     lengths = 10.0 ** np.arange(0, 2.6 if o.large else 1.1, 1.0) * 300
     lengths = np.append(lengths, 1e5) if o.large else lengths
     pressures = (1e3, 1e4, 1e5, 1e6)
     r = Results(o, "cage_size")
     made = []
     for pressure in pressures:
-        runs = [
-            kept(
-                o,
-                f"cage_size_n{n}_to{lengths[-1]:.0e}",
-                f"{pressure:.0e}_seed{s}",
-                lambda: windows(n, s, pressure, lengths),
-            )
-            for s in range(1, seeds + 1)
-        ]
-        if None in runs:
+        runs = seeded(o, f"cage_size_n{n}_to{lengths[-1]:.0e}", f"{pressure:.0e}_", seeds, lambda s: windows(n, s, pressure, lengths))
+        if len(runs) < seeds:
             return
-        r.made(f"N = {n}, p = {pressure:.0e}, windows to {lengths[-1]:g} collisions a sphere", seeds)
         made.append(runs)
     x = np.log([[run["pressure"] for run in runs] for runs in made])
     y = np.log([[run["size"] for run in runs] for runs in made])

@@ -14,7 +14,7 @@ from itertools import combinations
 
 import matplotlib.pyplot as plt
 import numpy as np
-from common import Results, arguments, kept, mean_error
+from common import Results, arguments, mean_error, seeded
 
 import jam
 
@@ -83,11 +83,10 @@ def main():
         lines = []
         for k, pressure in enumerate(PRESSURES):
             name, last = f"clone_overlaps_n{n}", n == sizes[-1]
-            made = [kept(o, name, f"p{pressure:g}_seed{s}", lambda: clones(n, s, pressure, count)) for s in range(1, glasses + 1)]
+            made = seeded(o, name, f"p{pressure:g}_", glasses, lambda s: clones(n, s, pressure, count))
             found = [squares(m["r"]) for m in made if m is not None]
             if len(found) < 3:
                 continue
-            r.made(f"N = {n}, p = {pressure:g}, {count} clones of each glass, to {INSTANTS[-1]:g} collisions a sphere", len(found))
             between, moved, line = rows(r, n, pressure, found)
             lines.append(line)
             if last:

@@ -47,7 +47,6 @@ def main():
     o = arguments(__doc__.splitlines()[0]).parse_args()
     trials = 50 if o.large else 6
     r = Results(o, "collapse_range")
-    r.made(f"synthetic, N = {', '.join(map(str, SIZES))}, {PARTICLES:g} spheres each", trials)
     for text, bend in LAWS.items():
         every = [draw(np.random.default_rng(700 + t), bend) for t in range(trials)]
         pool = np.sort(np.concatenate(every[0][SIZES[0]]))
@@ -57,7 +56,6 @@ def main():
             found = [collapse(samples, end) for samples in every]
             value, error = mean_error([f[0] for f in found])
             r.add("4.12", f"{text}: exponent by collapse to scaled f = {end:g}", ("true", THETA_E), value, error)
-            r.add("4.12", f"{text}: scatter of a trial, to scaled f = {end:g}", "none", error * trials**0.5)
             for offset, q in zip((0.0, OFFSET), np.mean([f[1] for f in found], axis=0)):
                 r.add("4.13", f"{text}: S of c - {offset:g} / N to scaled f = {end:g}", "about 1", q)
     r.write()

@@ -31,6 +31,17 @@ def arguments(text: str) -> argparse.ArgumentParser:
     return p
 
 
+def options(text: str, **numbers: tuple[int, int]) -> argparse.Namespace:
+    """The arguments of a study. numbers: its own whole numbers, each with the small and the large default: n=(256, 1024)."""
+    p = arguments(text)
+    for name, (small, large) in numbers.items():
+        p.add_argument(f"--{name}", type=int, help=f"small {small}, large {large}")
+    o = p.parse_args()
+    for name, defaults in numbers.items():
+        setattr(o, name, getattr(o, name) or defaults[o.large])
+    return o
+
+
 def ensemble(o: argparse.Namespace, protocol: dict, seeds: int) -> jam.ensemble.Ensemble:
     """The ensemble of a protocol, made where it is not there yet."""
     made = jam.ensemble.Ensemble(o.folder, protocol)
@@ -55,6 +66,12 @@ def kept(o: argparse.Namespace, study: str, key: str, make: Callable[[], dict]) 
         print(f"{study}: {key}", flush=True)
     with np.load(path) as there:
         return dict(there)
+
+
+def seeded(o: argparse.Namespace, study: str, key: str, seeds: int, make: Callable[[int], dict]) -> list[dict]:
+    """kept() of make(1), make(2) ... make(seeds), under KEYseed1 and so on; without those that are not there."""
+    made = (kept(o, study, f"{key}seed{s}", lambda: make(s)) for s in range(1, seeds + 1))
+    return [m for m in made if m is not None]
 
 
 def command(words: list[str]) -> str:
@@ -82,20 +99,10 @@ def shown(path: str, rows: list[list]) -> list[list]:
 
 
 class Results:
-    """Rows (figure, quantity, published, ours, error, sigma between) of one study, and what made them."""
+    """Rows (figure, quantity, published, ours, error, sigma between) of one study."""
 
     def __init__(self, o: argparse.Namespace, name: str) -> None:
         self.out, self.name, self.rows = o.out, name, []
-        self.sets: list[dict] = []
-
-    def used(self, e: jam.ensemble.Ensemble, packings: int) -> None:
-        self.sets.append(
-            {"protocol": jam.ensemble.minimal(e.protocol), "packings": packings, "version": jam.__version__}
-        )
-
-    def made(self, protocol: str, packings: int) -> None:
-        """What was used where the runs are no ensemble."""
-        self.sets.append({"protocol": protocol, "packings": packings, "version": jam.__version__})
 
     def add(
         self, figure: str, quantity: str, published: float | str | tuple[str, float], ours: float, error: float = np.nan
@@ -119,7 +126,7 @@ class Results:
         self.out.mkdir(parents=True, exist_ok=True)
         path = f"{self.out}/results.json#{self.name}"
         rows = shown(path, self.rows) if self.out == HERE else self.rows
-        figures.save(path, command(sys.argv), figures.STORED, rows, sets=self.sets)
+        figures.save(path, command(sys.argv), figures.STORED, rows)
         if figure is not None:
             self.picture(figure, dpi=80)
 

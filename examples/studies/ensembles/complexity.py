@@ -12,17 +12,11 @@ import time
 
 import matplotlib.pyplot as plt
 import numpy as np
-from common import G_OF_KAPPA, Results, arguments, kept
+from common import G_OF_KAPPA, Results, arguments, seeded
 
 import jam
 
-PUBLISHED = {  # power of N: (kappa fixed, kappa_N, error)
-    "LPs": (0.59, 0.58, 0.02),
-    "seconds": (2.75, 2.75, 0.08),
-    "seconds of the first LP": (2.22, 2.22, 0.05),
-    "seconds of the last LP": (2.30, 2.30, 0.07),
-    "seconds of one LP": (2.27, 2.27, 0.07),
-}
+PUBLISHED = {"LPs": (0.59, 0.02), "seconds": (2.75, 0.08), "seconds of one LP": (2.27, 0.07)}  # power of N at fixed kappa, error
 
 
 def crunched(packing, **options):
@@ -80,46 +74,25 @@ def main():
         found = {}
         for n in sizes:
             rate = kappa * (max(sizes) / n) ** (1 / 3) if scaled else kappa
-            make = [
-                kept(o, "complexity", f"n{n}_kappa{rate:.3g}_seed{s}", lambda: one(n, s, rate))
-                for s in range(1, seeds + 1)
-            ]
-            good = [m for m in make if m is not None and m["lp"][-1] and m["path"][-1]]
+            make = seeded(o, "complexity", f"n{n}_kappa{rate:.3g}_", seeds, lambda s: one(n, s, rate))
+            good = [m for m in make if m["lp"][-1] and m["path"][-1]]
             if len(good) >= 2:
                 found[n] = good
-                r.made(f"N = {n}, kappa = {rate:.3g} to p = 1e7, crunch by LPs and by the default", len(good))
         if len(found) < 3:
             continue
         n = np.array(sorted(found), float)
         column = lambda way, k: [np.array([m[way][k] for m in found[m_n]]) for m_n in sorted(found)]  # noqa: E731
-        wanted = {
-            "LPs": column("lp", 0),
-            "factorisations": column("lp", 1),
-            "seconds": column("lp", 2),
-            "seconds of the first LP": column("lp", 3),
-            "seconds of the last LP": column("lp", 4),
-            "seconds of one LP": column("lp", 5),
-        }
-        for text, values in wanted.items():
-            value, error = power(n, values)
-            known = PUBLISHED.get(text)
-            published = known[scaled] if known else "none"
-            both = np.hypot(error, known[2]) if known else error
-            r.add("7", f"power of N of {text}, {name}, N = {sizes[0]} to {sizes[-1]}", published, value, both)
-        for text, k in (("factorisations", 1), ("seconds", 2)):
-            value, error = power(n, column("path", k))
-            r.add("7", f"power of N of {text} of the default crunch, {name}", "none", value, error)
-        ratio = [np.mean(a / b) for a, b in zip(wanted["seconds of the first LP"], wanted["seconds of the last LP"])]
-        r.add(
-            "7",
-            f"seconds of the first LP over the last, {name}, mean over N",
-            1.5,
-            np.mean(ratio),
-            np.std(ratio, ddof=1),
-        )
-        r.add("7", f"LPs at N = {sizes[-1]}, {name}", "none", wanted["LPs"][-1].mean())
+        lps, seconds = column("lp", 0), column("lp", 2)
+        if not scaled:
+            for text, k in (("LPs", 0), ("factorisations", 1), ("seconds", 2), ("seconds of one LP", 5)):
+                value, error = power(n, column("lp", k))
+                published, of_it = PUBLISHED.get(text, ("none", 0.0))
+                r.add("7", f"power of N of {text}, {name}, N = {sizes[0]} to {sizes[-1]}", published, value, np.hypot(error, of_it))
+            ratio = [np.mean(a / b) for a, b in zip(column("lp", 3), column("lp", 4))]
+            text = f"seconds of the first LP over the last, {name}, mean over N"
+            r.add("7", text, 1.5, np.mean(ratio), np.std(ratio, ddof=1))
         style = "s--" if scaled else "o-"
-        for axis, values in zip(axes, (wanted["LPs"], column("lp", 1), column("lp", 2), wanted["seconds of one LP"])):
+        for axis, values in zip(axes, (lps, column("lp", 1), seconds, column("lp", 5))):
             axis.loglog(n, [v.mean() for v in values], style, label=f"LPs, {name}")
         for axis, k in ((axes[1], 1), (axes[2], 2)):
             axis.loglog(n, [v.mean() for v in column("path", k)], style, label=f"default, {name}")

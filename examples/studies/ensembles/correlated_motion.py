@@ -10,7 +10,7 @@ Small: N = 256, 100 runs. Large: N = 1024, 1000 runs, 5 packings.
 """
 import matplotlib.pyplot as plt
 import numpy as np
-from common import Results, arguments, kept, mean_error
+from common import Results, arguments, mean_error, seeded
 
 import jam
 from jam import near_jamming as nj
@@ -47,10 +47,8 @@ def one(n, seed, runs):
 def main():
     o = arguments(__doc__.splitlines()[0]).parse_args()
     n, runs, seeds = (1024, 1000, 5) if o.large else (256, 100, 2)
-    made = [kept(o, f"correlated_motion_n{n}", f"seed{s}", lambda: one(n, s, runs)) for s in range(1, seeds + 1)]
-    made = [m for m in made if m is not None]
+    made = seeded(o, f"correlated_motion_n{n}", "", seeds, lambda s: one(n, s, runs))
     r, (figure, axes) = Results(o, "correlated_motion"), plt.subplots(1, 3, figsize=(15, 4.2))
-    r.made(f"N = {n}, phi/phi_J = {RATIO}, {runs} runs of each packing", len(made))
     chi, g4, ranks = (np.array([m[key] for m in made]) for key in ("chi", "g4", "ranks"))
     peak = chi.mean(axis=0).argmax()
     r.add("chi_4", f"largest chi_4, after {INSTANTS[peak]:g} collisions per sphere", "a peak", *mean_error(chi[:, peak]))

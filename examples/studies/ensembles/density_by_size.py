@@ -8,7 +8,7 @@ N = 64 to 256. Large: 80 to 8 of N = 256 to 2048, five minutes.
 """
 import matplotlib.pyplot as plt
 import numpy as np
-from common import G_OF_KAPPA, Results, arguments, kept, mean_error
+from common import G_OF_KAPPA, Results, arguments, mean_error, seeded
 
 import jam
 
@@ -29,10 +29,9 @@ def main():
     sizes, means = LARGE if o.large else SMALL, []
     r, (figure, axis) = Results(o, "density_by_size"), plt.subplots(figsize=(6, 4.2))
     for n, count in sizes.items():
-        made = [kept(o, "density_by_size", f"n{n}_seed{s}", lambda: jammed(n, s)) for s in range(1, count + 1)]
+        made = seeded(o, "density_by_size", f"n{n}_", count, lambda s: jammed(n, s))
         phi = [float(m["phi_j"]) for m in made if m is not None and m["good"]]
         means.append(mean_error(phi))
-        r.made(f"N = {n}, kappa = 5e-3 to p = 500, then {KAPPA:g} to p = 1e7, crunch", len(phi))
         r.add("2.8", f"phi_J, N = {n}, kappa = {KAPPA:g}", "rises with N", *means[-1])
     lg, (phi, error) = np.log10(list(sizes)), np.array(means).T
     (slope, _), cov = np.polyfit(lg, phi, 1, w=1 / error, cov="unscaled")

@@ -33,16 +33,15 @@ class Disks:
     """Forces by class, gaps and coordination of the isostatic packings of one size: one array a packing."""
 
     def __init__(self, e):
-        self.extended, self.localised, self.forces, self.gaps, self.z, self.order, rows = [], [], [], [], [], [], []
-        self.table = e.table()
+        self.extended, self.localised, self.forces, self.gaps, self.z, rows = [], [], [], [], [], []
         for entry in e:
             if not entry.row["jammed"] or entry.row["excess_contacts"]:
                 continue
-            f, pairs, z, gaps, order = entry.read("forces", "pairs", "coordination", "gaps", "bond_order")
+            f, pairs, z, gaps = entry.read("forces", "pairs", "coordination", "gaps")
             local = (z[pairs] == 3).any(axis=1)
             self.extended.append(np.sort(f[~local])), self.localised.append(np.sort(f[local]))
             self.forces.append(np.sort(f)), self.gaps.append(np.sort(gaps[gaps > 0]))
-            self.z.append(z[z > 0]), self.order.append(np.mean(order)), rows.append(entry.row)
+            self.z.append(z[z > 0]), rows.append(entry.row)
         self.rows = np.array(rows)
 
 
@@ -58,7 +57,6 @@ def main():
         size = Disks(e)
         if len(size.rows) >= 4:
             sizes[n] = size
-            r.used(e, len(size.rows))
     figure, axes = plt.subplots(2, 2, figsize=(11, 8))
     for n, s in sizes.items():
         for row, name, a, x in (
@@ -78,18 +76,9 @@ def main():
         axes[row, 0].set(xlabel=text, ylabel="cdf"), axes[row, 1].set(xlabel=scaled, ylabel="N cdf")
         axes[row, 0].legend(fontsize=8), axes[row, 1].legend(fontsize=8)
     n, s = max(sizes.items())
-    r.add("10", f"disks without a verdict, N = {n}, of {len(s.table)}", "none", np.sum(s.table["jammed"] == 0))
-    r.add(
-        "10",
-        f"disks with excess contacts, N = {n}",
-        "0",
-        np.sum((s.table["jammed"] != 0) & (s.table["excess_contacts"] != 0)),
-    )
     r.add("10", f"disks: phi_J, N = {n}", "none", *mean_error(s.rows["packing_fraction"]))
-    r.add("10", f"disks: share of rattlers, N = {n}", "none", *mean_error(s.rows["rattlers"] / n))
     ideal = np.mean(4.0 - 2.0 / s.rows["stable"])
     r.add("10", f"disks: mean z, N = {n}: 2d + 2(1-d)/N'", ("exact", round(float(ideal), 6)), np.concatenate(s.z).mean())
-    r.add("10", f"disks: psi_6, N = {n}", "none", *mean_error(s.order))
     for name, text, known in (
         ("extended", "extended forces", THETA_E),
         ("localised", "localised forces", THETA_L),
@@ -103,17 +92,9 @@ def main():
             continue
         text = f"disks: exponent of {text}, N = {n}, averaged over ranges"
         r.add("10", text, known, found.value, found.error)
-    ends = (1e-3, 1e-2, 3e-2, 1e-1, 3e-1)
-    below = {h: np.array([np.mean(f < h) for f in s.localised]) for h in ends}
-    for low, high in zip(ends, ends[1:]):
-        few, many = below[low], below[high]
-        power = np.log(many.mean() / few.mean()) / np.log(high / low) - 1
-        error = mean_error(many / many.mean() - few / few.mean())[1] / np.log(high / low)
-        text = f"disks: exponent of localised forces by two counts, f = {low:g} to {high:g}, N = {n}"
-        r.add("10", text, THETA_L, power, error)
     if len(sizes) > 1:
         for name, a, low, high in (("extended", THETA_E, 0.3, 10), ("gaps", -GAMMA, 0.1, 100)):
-            found, at = collapse_tail(sizes, name, a, low, high)
+            found = collapse_tail(sizes, name, a, low, high)
             r.add(
                 "10",
                 f"disks: exponent of {name} by collapse (S = {found.quality:.2f})",
@@ -121,12 +102,6 @@ def main():
                 found.value[0],
                 found.error[0],
             )
-            r.add("10", f"disks: S of the collapse of {name} with the exponent of d = 3", "about 1", at[0])
-            u, v = scaling.tail_scaling([a])
-            grid = np.geomspace(1e-3, 0.1, 25) if name == "extended" else np.geomspace(1e-5, 1e-3, 25)
-            raw = [(m, scaling.cdf_grid(getattr(t, name), grid)) for m, t in sizes.items()]
-            published = "about 1: no size effect" if name == "extended" else ">> 1: size effect"
-            r.add("10", f"disks: S of {name} without scaling", published, scaling.quality(raw, 0.0, 0.0))
     r.write(figure)
 
 

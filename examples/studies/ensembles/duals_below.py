@@ -7,7 +7,7 @@ Growth stops at p, a crunch by full LPs begins; the duals of its first LP, with 
 contacts in common, largest distance of the two cumulative distributions, and the share of small values. Small: N = 256, 4 seeds. Large: 1024, 10.
 """
 import numpy as np
-from common import Results, arguments, kept, mean_error
+from common import Results, arguments, mean_error, seeded
 
 import jam
 
@@ -37,11 +37,9 @@ def main():
     x = np.geomspace(1e-3, 10, 60)
     share = lambda values: np.searchsorted(np.sort(values), x) / len(values)  # noqa: E731
     for pressure in PRESSURES:
-        made = [kept(o, f"duals_below_n{n}", f"p{pressure:g}_seed{s}", lambda: one(n, s, pressure)) for s in range(1, seeds + 1)]
-        good = [m for m in made if m is not None and m["good"]]
+        good = [m for m in seeded(o, f"duals_below_n{n}", f"p{pressure:g}_", seeds, lambda s: one(n, s, pressure)) if m["good"]]
         if len(good) < 2:
             continue
-        r.made(f"N = {n}, growth to p = {pressure:g}, crunch by full LPs", len(good))
         key = lambda pairs: set(map(tuple, np.sort(pairs, axis=1).tolist()))  # noqa: E731
         common = [len(key(m["pairs"]) & key(m["contacts"])) / len(m["contacts"]) for m in good]
         r.add("duals", f"share of the final contacts with a dual in the first LP, p = {pressure:g}", "rises to 1", *mean_error(common))

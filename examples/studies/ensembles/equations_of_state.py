@@ -10,7 +10,7 @@ Small: N = 256, two seeds. Large: N = 1024, five seeds, slower rates. Each run i
 """
 import matplotlib.pyplot as plt
 import numpy as np
-from common import Results, arguments, kept, mean_error
+from common import Results, arguments, mean_error, seeded
 
 import jam
 
@@ -63,14 +63,9 @@ def spheres(o, r, axes, n, seeds):
     rates = (1.0, 1e-1, 1e-2, 1e-3, 1e-4) if o.large else (1.0, 1e-1, 1e-2, 1e-3)
     cs = np.vectorize(liquid)
     for rate in rates:
-        make = [
-            kept(o, f"eos_n{n}", f"rate{rate:g}_seed{s}", lambda: grown(n, s, [(rate, 1e4)]))
-            for s in range(1, seeds + 1)
-        ]
-        runs = [m for m in make if m is not None]
+        runs = seeded(o, f"eos_n{n}", f"rate{rate:g}_", seeds, lambda s: grown(n, s, [(rate, 1e4)]))
         if not runs:
             continue
-        r.made(f"spheres, N = {n}, G = {rate:g} from 0.2 to p = 1e4, crunch", len(runs))
         for k, run in enumerate(runs):
             colour = f"C{rates.index(rate)}"
             axes[0].semilogy(
@@ -81,10 +76,6 @@ def spheres(o, r, axes, n, seeds):
         left = [leaves(run, cs) for run in runs]
         known = "fast: at once" if rate == rates[0] else "none"
         r.add("8", f"G = {rate:g}: phi where p leaves Carnahan-Starling by 10 %", known, np.mean(left), spread(left))
-        if rate <= 1e-2:
-            fluid = [(run["phi"] > 0.3) & (run["phi"] < 0.5) for run in runs]
-            off = [np.mean(run["p"][use] / cs(run["phi"][use])) for run, use in zip(runs, fluid)]
-            r.add("8", f"G = {rate:g}: mean of p / p_CS, phi = 0.3 to 0.5", ("Carnahan-Starling", 1.0), np.mean(off), spread(off))
         r.add(
             "8",
             f"G = {rate:g}: crystal score at the end",
@@ -107,24 +98,21 @@ def spread(values):
 
 def two_stages(o, r, axis, n, seeds):
     rates = [(1.732e-2, 500.0), (1.04e-3, 1e9)]
-    make = [kept(o, f"eos_n{n}", f"two_stages_seed{s}", lambda: grown(n, s, rates)) for s in range(1, seeds + 1)]
-    runs = [m for m in make if m is not None and np.isfinite(m["phi_j"]) and m["score"] < 1.5]
+    make = seeded(o, f"eos_n{n}", "two_stages_", seeds, lambda s: grown(n, s, rates))
+    runs = [m for m in make if np.isfinite(m["phi_j"]) and m["score"] < 1.5]
     if not runs:
         return
-    r.made(f"spheres, N = {n}, G = 1.732e-2 to p = 500, 1.04e-3 to 1e9, crunch", len(runs))
-    ratio, d = [], []
-    for k, run in enumerate(runs):
+    ratio = []
+    for run in runs:
         x = 1 - run["phi"] / run["phi_j"]
         axis.loglog(x[x > 0], 1 / run["p"][x > 0], ".-", ms=3, lw=0.6)
         use = (run["p"] > 1e4) & (run["p"] < 1e6)
         ratio.append(np.mean(run["p"][use] * x[use]) / 3)
-        d.append(jam.glass_fit(run["phi"][run["p"] > 1e5], run["p"][run["p"] > 1e5]).dimension / 3)
     x = np.geomspace(1e-9, 0.5, 2)
     axis.loglog(x, x / 3, "k--", lw=1, label="1/p = (1 - phi/phi_J) / d")
     axis.set(xlabel="1 - phi / phi_J, phi_J of the crunch", ylabel="1 / p", title="two stages")
     axis.legend(fontsize=7)
     r.add("8", "two stages: p (1 - phi/phi_J) / d, p = 1e4 to 1e6", "1 to 1.07", np.mean(ratio), spread(ratio))
-    r.add("8", "two stages: d of the glass fit over 3", "1 to 1.07", np.mean(d), spread(d))
 
 
 def exact(phi, n):
@@ -136,11 +124,8 @@ def mari_kurchan(o, r, axis, n, seeds):
     densities = (0.3, 0.6, 0.9, 1.2, 1.5, 1.776, 2.1, 2.5)
     means = []
     for k, phi in enumerate(densities):
-        make = [  # other seeds at each density, so that rows are independent
-            kept(o, f"eos_mk_n{n}", f"planted{phi:g}_seed{s}", lambda: planted(n, s, phi, 200))
-            for s in range(100 * k + 1, 100 * k + 21)
-        ]
-        p = np.array([float(m["p"]) for m in make if m is not None])
+        runs = seeded(o, f"eos_mk_n{n}", f"planted{phi:g}_", 20, lambda s: planted(n, 100 * k + s, phi, 200))  # other seeds at each density
+        p = np.array([float(m["p"]) for m in runs])
         if len(p) < 2:
             continue
         mean, error = mean_error(p)
@@ -150,35 +135,18 @@ def mari_kurchan(o, r, axis, n, seeds):
     if means:
         x, y, e = np.array(means).T
         axis.errorbar(x, 1 / y, e / y**2, fmt="ko", ms=4, label="planted, no growth")
-        r.made(f"Mari-Kurchan, N = {n}, 200 collisions a sphere at {len(means)} densities, no growth", 20 * len(means))
     line = np.linspace(0.2, 2.8, 100)
     axis.semilogy(line, 1 / (1 + 4 * line), "k--", lw=1, label="1 + 4 phi")
     rates = (1e-1, 1e-2, 1e-3, 3.46e-4) if o.large else (1e-1, 1e-2, 1e-3)
     for start, text in ((0.3, "from 0.3"), (2.5, "planted at 2.5")):
         for k, rate in enumerate(rates):
-            make = [
-                kept(
-                    o,
-                    f"eos_mk_n{n}",
-                    f"from{start:g}_rate{rate:g}_seed{s}",
-                    lambda: grown(n, s, [(rate, 1e4)], model="mk", packing_fraction=start),
-                )
-                for s in range(1, seeds + 1)
-            ]
-            runs = [m for m in make if m is not None]
+            how = dict(model="mk", packing_fraction=start)
+            runs = seeded(o, f"eos_mk_n{n}", f"from{start:g}_rate{rate:g}_", seeds, lambda s: grown(n, s, [(rate, 1e4)], **how))
             if not runs:
                 continue
-            r.made(f"Mari-Kurchan, N = {n}, G = {rate:g} from {start:g} to p = 1e4, crunch", len(runs))
             for run in runs:
                 label = f"{text}, G = {rate:g}" if run is runs[0] else None
                 axis.semilogy(run["phi"], 1 / run["p"], "-" if start < 1 else "-.", lw=1, color=f"C{k}", label=label)
-            left = [leaves(run, lambda x: 1 + 4 * x) for run in runs]
-            published = "below 1.776 at 3.5e-4" if start < 1 else "stays to 2.5 and beyond"
-            r.add(
-                "8", f"Mari-Kurchan {text}, G = {rate:g}: leaves the liquid at", published, np.mean(left), spread(left)
-            )
-            ends = [float(run["phi_j"]) for run in runs]
-            r.add("8", f"Mari-Kurchan {text}, G = {rate:g}: phi_J", ">= 3.1 planted", np.nanmean(ends), spread(ends))
     axis.axvline(PHI_D, color="0.7", lw=1)
     axis.set(xlabel="phi", ylabel="1 / p", ylim=(1e-4, 1), title="Mari-Kurchan; vertical line: phi_d = 1.776")
     axis.legend(fontsize=6)

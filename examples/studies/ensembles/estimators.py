@@ -14,7 +14,6 @@ from finite_size import CROSSOVER
 
 from jam import scaling
 
-NAMES = ("extended", "localised", "gaps")
 WIDEST = 0.01  # gaps to here are compared with the crossover: beyond, pairs are those of a liquid
 SPANS = {"extended": (3e-3, 3), "localised": (1e-3, 3), "gaps": (1e-5, 1)}
 
@@ -148,7 +147,7 @@ def main():
     o = p.parse_args()
     sizes = o.sizes or ([256, 512, 1024, 2048] if o.large else [128, 256])
     r = Results(o, "estimators")
-    found = samples(o, r, ("below", "mk"), sizes, o.particles or [1e5 if o.large else 3e3])
+    found = samples(o, ("below", "mk"), sizes, o.particles or [1e5 if o.large else 3e3])
     bucklers(r, found, sizes)
     bends(r, found)
     crossover(r, found, sizes)

@@ -10,7 +10,7 @@ self-stress are left out; each network of spheres is proved. Small: N = 64, 128.
 """
 import matplotlib.pyplot as plt
 import numpy as np
-from common import GAMMA, THETA_E, Results, arguments, kept, mean_error
+from common import GAMMA, THETA_E, Results, arguments, mean_error, seeded
 from finite_size import MAX_ORDER, protocol
 
 import jam
@@ -41,8 +41,7 @@ def grown(model, n, seed):
 
 def networks(o, model, n, count):
     """Good networks of seeds 1 to count, and how many were made."""
-    made = [kept(o, "final_network", f"{model}_n{n}_seed{s}", lambda: grown(model, n, s)) for s in range(1, count + 1)]
-    there = [m for m in made if m is not None]
+    there = seeded(o, "final_network", f"{model}_n{n}_", count, lambda s: grown(model, n, s))
     return [m for m in there if m["good"]], len(there)
 
 
@@ -95,7 +94,6 @@ def main():
         found = {n: networks(o, model, n, count) for n, count in zip(sizes, seeds)}
         found = {n: (good, there) for n, (good, there) in found.items() if len(good) > 3}
         for n, (good, there) in found.items():
-            r.made(f"{text}, N = {n}, {there} packings", len(good))
             if model == "euclid":
                 r.add("p_th", f"share of networks proved, {text}, N = {n}", "all", np.mean([bool(m["proved"]) for m in good]))
         there = list(found)

@@ -62,22 +62,11 @@ class Size:
             self.z.append(z[z > 0])
             rows.append(entry.row)
         self.rows = np.array(rows)
-        self.per_sphere = {k: np.mean([len(s) for s in getattr(self, k)]) for k in ("extended", "gaps")} if rows else {}
-
-
-def counts(samples, x, n):
-    """(mean number of values below x) / N and its error: the cumulative distribution times values per sphere."""
-    rows = np.array([np.searchsorted(s, x, "right") / n for s in samples])
-    return rows.mean(axis=0), rows.std(axis=0, ddof=1) / np.sqrt(len(rows))
 
 
 def collapse_tail(sizes, name, exponent, low, high, points=30):
     grid = lambda n: np.geomspace(low, high, points) * n ** (-1 / (1 + exponent))  # noqa: E731
-    samples = {n: getattr(s, name) for n, s in sizes.items()}
-    found = scaling.collapse(samples, grid, [exponent], resamples=20)
-    curves = [(n, scaling.cdf_grid(s, grid(n))) for n, s in samples.items()]
-    at = [scaling.quality(curves, *scaling.tail_scaling([exponent + d])) for d in (0.0, -0.03, 0.03)]
-    return found, at
+    return scaling.collapse({n: getattr(s, name) for n, s in sizes.items()}, grid, [exponent], resamples=20)
 
 
 def figures(axes, sizes, model):
@@ -144,18 +133,12 @@ def table(r, sizes, model, top):
         except ValueError as error:
             print(f"{name}: {error}")
             continue
-        label = figure + label
         text = f"exponent of {name}, N = {largest}, averaged over ranges"
-        r.add(label, text, a, found.value, found.error)
-        if name == "gaps":
-            cut = scaling.fit_power(values, found.high, found.low)
-            r.add(label, f"gaps, one law on {found.low:.1e} ... {found.high:.2g}", a, cut.value, cut.error)
-            whole = scaling.fit_power(values, found.high)
-            r.add(label, f"gaps, one law below {found.high:.2g}, no truncation", a, whole.value, whole.error)
+        r.add(figure + label, text, a, found.value, found.error)
     for name, a, low, high, label in (("extended", THETA_E, 0.3, 10, ".2"), ("gaps", -GAMMA, 0.1, top, ".5")):
         if len(sizes) < 2:
             continue
-        found, at = collapse_tail(sizes, name, a, low, high)
+        found = collapse_tail(sizes, name, a, low, high)
         r.add(
             figure + label,
             f"exponent of {name} by collapse (S = {found.quality:.2f})",
@@ -163,41 +146,6 @@ def table(r, sizes, model, top):
             found.value[0],
             found.error[0],
         )
-        r.add(figure + label, f"S of the collapse of {name} with the published exponent", "about 1", at[0])
-        r.add(
-            figure + label,
-            f"S with the exponent of {name} off by 0.03 (the lower of two)",
-            "visibly worse",
-            min(at[1:]),
-        )
-    for name, a, label in (("extended", THETA_E, ".2"), ("gaps", -GAMMA, ".5")):  # the estimator that fails
-        scaled = {n: mean_error([x[0] * n ** (1 / (1 + a)) for x in getattr(size, name)]) for n, size in sizes.items()}
-        first, last = scaled[min(scaled)], scaled[max(scaled)]
-        if len(scaled) == 1:
-            continue
-        r.add(
-            "6.4",
-            f"N^(1/(1+a)) <x_min> of {name}: largest N over smallest",
-            "thesis: not 1; one scaling function: 1",
-            last[0] / first[0],
-            last[0] / first[0] * np.hypot(last[1] / last[0], first[1] / first[0]),
-        )
-    gap_crossover(r, figure + ".4", s, largest, GAPS_END[model])
-
-
-def gap_crossover(r, figure, s, n, end):
-    """N c(h) against h N^(1/(1-gamma)), c per packing: [(a h)^q + (b h^(1-gamma))^q]^(1/q); errors over packings."""
-    x = np.geomspace(0.03, min(300, end * n ** (1 / (1 - GAMMA))), 40)
-    normal = np.mean([len(g) for g in s.gaps]) / n
-
-    def fit(samples):
-        c, error = counts(samples, x * n ** (-1 / (1 - GAMMA)), n)
-        return scaling.fit_crossover(x, n * c / normal, n * np.maximum(error, 1e-3 * c + 1e-12) / normal, -GAMMA)[0]
-
-    found = scaling.bootstrap(s.gaps, fit, 40)
-    low, high = np.percentile(found.resampled, (16, 84), axis=0)  # a resample with a straight line has no crossover
-    for name, p, v, e in zip("abq", CROSSOVER, found.value, 0.5 * (high - low)):
-        r.add(figure, f"crossover of gaps at N = {n}: {name}", ("Mari-Kurchan, N = 4096", p), v, e)
 
 
 def main():
@@ -214,7 +162,6 @@ def main():
         size = Size(e, o.model)
         if len(size.rows) >= 4:
             sizes[n] = size
-            r.used(e, len(size.rows))
     if not sizes:
         sys.exit("fewer than 4 packings of every size")
     figure, axes = plt.subplots(2, 3, figsize=(13, 7.5))

@@ -9,7 +9,7 @@ and b is phi_J sqrt((da/a)^2 + (db/b)^2). Small: N = 128, kappa = 1e-3, 3 seeds.
 """
 import matplotlib.pyplot as plt
 import numpy as np
-from common import G_OF_KAPPA, Results, arguments, kept, mean_error
+from common import G_OF_KAPPA, Results, arguments, mean_error, seeded
 
 import jam
 
@@ -81,10 +81,8 @@ def main():
     seeds = o.seeds or ([20, 10] if o.large else [3] * len(kappas))
     r, (figure, axis) = Results(o, "fit_error"), plt.subplots(figsize=(7, 4.6))
     for k, (kappa, count) in enumerate(zip(kappas, seeds)):
-        made = [kept(o, f"fit_error_n{n}", f"kappa{kappa:g}_seed{s}", lambda: growth(n, s, kappa)) for s in range(1, count + 1)]
-        good = [m for m in made if m is not None and m["good"]]
+        good = [m for m in seeded(o, f"fit_error_n{n}", f"kappa{kappa:g}_", count, lambda s: growth(n, s, kappa)) if m["good"]]
         if len(good) > 1:
-            r.made(f"N = {n}, kappa = 5e-3 to p = 500, then {kappa:g} to p = 1e9, crunch", len(good))
             rows(r, axis, k, n, kappa, good)
     axis.set(xticks=range(len(kappas)), xticklabels=[f"{kappa:g}" for kappa in kappas], xlabel="kappa; one point a packing", ylabel="|phi_J of the fit - phi_J of the crunch|")
     axis.legend(fontsize=8)

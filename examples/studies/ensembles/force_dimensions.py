@@ -7,7 +7,7 @@ Published for all forces together: 0.19 (d = 2), 0.25 (d = 3), 0.30 (d = 4). Fit
 choice of range and correction. Disks have diameters 1 and 1.4 in equal numbers. Small: N = 1024, 8 packings. Large: N = 2048, 40.
 """
 import numpy as np
-from common import Results, arguments, kept
+from common import Results, options, seeded
 
 import jam
 from jam.scaling import tail_exponent
@@ -26,20 +26,16 @@ def forces(dim, n, seed):
 
 
 def main():
-    p = arguments(__doc__.splitlines()[0])
-    p.add_argument("--seeds", type=int, help="packings (small 8, large 40)")
-    o = p.parse_args()
-    n, seeds = 2048 if o.large else 1024, o.seeds or (40 if o.large else 8)
+    o = options(__doc__.splitlines()[0], seeds=(8, 40))
+    n, seeds = 2048 if o.large else 1024, o.seeds
     r = Results(o, "force_dimensions")
     for dim, law in PUBLISHED.items():
-        made = [kept(o, f"force_dimensions_{dim}d_n{n}", f"seed{s}", lambda: forces(dim, n, s)) for s in range(1, seeds + 1)]
+        made = seeded(o, f"force_dimensions_{dim}d_n{n}", "", seeds, lambda s: forces(dim, n, s))
         values = [m["forces"] for m in made if m is not None and len(m["forces"])]
         if len(values) < 4:
             continue
-        r.made(f"d = {dim}, N = {n}, G = 1e-2 to p = 500, 3e-3 to 1e7, crunch", len(values))
         fit = tail_exponent(values, n)
         r.add("1, 3", f"d = {dim}: exponent of all forces, averaged over ranges", law, fit.value, fit.error)
-        r.add("1, 3", f"d = {dim}: the part of this error from the choice of range and correction", "none", fit.spread)
     r.write()
 
 

@@ -10,7 +10,7 @@ import time
 
 import matplotlib.pyplot as plt
 import numpy as np
-from common import G_OF_KAPPA, Results, arguments, kept, mean_error
+from common import G_OF_KAPPA, Results, arguments, mean_error, seeded
 from path_to_jamming import MAX_ORDER, STEP_BINS, numbers, one, overlap
 
 import jam
@@ -23,8 +23,7 @@ R_MAX, BINS = 4.0, 402  # no edge of a bin at contact
 
 def runs(o, n, kappa, seeds, pressures):
     study = f"growth_panels_n{n}"
-    make = [kept(o, study, f"kappa{kappa:g}_seed{s}", lambda: one(n, s, kappa, pressures)) for s in range(1, seeds + 1)]
-    there = [m for m in make if m is not None]
+    there = seeded(o, study, f"kappa{kappa:g}_", seeds, lambda s: one(n, s, kappa, pressures))
     return [m for m in there if m["score"] < MAX_ORDER and numbers([m], "jammed", pressures).all()], len(there)
 
 
@@ -48,18 +47,11 @@ def against_pressure(r, every, pressures):
             axis.errorbar(pressures, y, e, **style)
         where = f"N = {n}, kappa = {kappa:g}"
         low, high = pressures[0], pressures[-1]
-        r.add("2.8", f"phi_J from p_target = {high:.0e}, {where}", "rises as kappa falls", *mean_error(phi[-1]))
         r.add("2.8", f"|phi_J - reference|, p_target = {low:.0e}, {where}", "falls with p", off[0])
-        r.add("2.8", f"|phi_J - reference|, p_target = {pressures[-2]:.0e}, {where}", "falls with p", off[-2])
-        for t in (1e3, 1e5):
-            lower = numbers(made, "phi", [t])[0] < numbers(made, "phi", [1e7])[0] - 1e-12
-            r.add("2.12", f"share of packings whose phi_J from {t:.0e} is below that from 1e7, {where}", "most", lower.mean())
         r.add("2.9", f"contacts of the reference, p_target = {low:.0e}, {where}", "rises to 1", *mean_error(shared[0]))
-        r.add("2.9", f"contacts of the reference, p_target = {pressures[-2]:.0e}, {where}", "rises to 1", *mean_error(shared[-2]))
         r.add("2.15", f"seconds of growth to p_target = {high:.0e}, {where}", "grow with 1/kappa and N", *mean_error(growth[-1]))
         r.add("2.15", f"seconds of the LPs from p_target = {low:.0e}, {where}", "fall with p", *mean_error(crunch[0]))
         r.add("2.15", f"seconds of the LPs from p_target = {high:.0e}, {where}", "fall with p", *mean_error(crunch[-1]))
-        r.add("2.16", f"LPs from p_target = {low:.0e}, {where}", "fall with p", *mean_error(lps[0]))
         r.add("2.16", f"LPs from p_target = {high:.0e}, {where}", "about 3 to 10, least 3", *mean_error(lps[-1]))
     for axis, text in zip(axes.flat, texts):
         axis.set(xscale="log", xlabel="p where growth stops", ylabel=text)
@@ -88,8 +80,7 @@ def side_by_side(o, r, sizes, seeds):
     figure, axis = plt.subplots(figsize=(5.6, 4.2))
     rows = []
     for n in sizes:
-        made = [kept(o, "growth_panels_together", f"n{n}_seed{s}", lambda: together(n, s)) for s in range(1, seeds + 1)]
-        made = [m for m in made if m is not None]
+        made = seeded(o, "growth_panels_together", f"n{n}_", seeds, lambda s: together(n, s))
         if made:
             rows.append((n, np.mean([m["alone"] for m in made]), np.mean([m["together"] for m in made])))
             ratio = mean_error([m["together"] / m["alone"] for m in made])
@@ -116,13 +107,8 @@ def steps(r, every, pressures):
     for (n, kappa), made in every.items():
         counts = sum(m[f"each_{at:.0e}"][0] for m in made)
         axes[2].step(middles, counts / counts.sum() / 0.25, where="mid", lw=1, label=f"N = {n}, kappa = {kappa:g}")
-        peak = middles[np.argmax(counts)]
-        r.add("2.13", f"most likely lg |s_i| of the first LP, p = {at:.0e}, N = {n}, kappa = {kappa:g}", "in the picture", peak)
         counts = sum(m[f"each_{at:.0e}"][-1] for m in made)
         axes[4].step(middles, counts / counts.sum() / 0.25, where="mid", lw=1, label=f"N = {n}, kappa = {kappa:g}")
-        for prefix, how in (("", "LPs solved in full"), ("stopped_", "LPs stopped at 1e-9, no polish")):
-            nulls = [np.mean([m[f"{prefix}nulls_{t:.0e}"][-1] for t in pressures if t >= 1e7]) for m in made]
-            r.add("2.13", f"share of s_i = 0 in the last LP, p from 1e7, {how}, N = {n}, kappa = {kappa:g}", "more at larger kappa", *mean_error(nulls))
     axes[2].set(title=f"first LP from p = {at:.0e}")
     axes[4].set(title=f"last LP from p = {at:.0e}")
     each = max((m[f"each_{at:.0e}"] for m in every[first_key]), key=len)
@@ -157,14 +143,12 @@ def correlations(o, r, every, pressures, count):
     for k, ((n, kappa), made) in enumerate(every.items()):
         g = np.mean([m[f"g_{pressures[-1]:.0e}"] for m in made], axis=0)
         axes[1].plot(x, g + 0.5 * k, lw=1, label=f"N = {n}, kappa = {kappa:g}")
-    made = [kept(o, "growth_panels_ordered", f"n108_seed{s}", lambda: ordered(108, s)) for s in range(1, count + 1)]
-    found = [m for m in made if m is not None and m["score"] > MAX_ORDER]
+    found = [m for m in seeded(o, "growth_panels_ordered", "n108_", count, lambda s: ordered(108, s)) if m["score"] > MAX_ORDER]
     for m in found:
         axes[2].plot(jam.System.distances(R_MAX, BINS), m["g"], lw=0.4, color="0.6")
     if found:
         axes[2].plot(jam.System.distances(R_MAX, BINS), np.mean([m["g"] for m in found], axis=0), lw=1.5, label=f"mean of {len(found)}")
         phi = [m["phi"] for m in found]
-        r.made("N = 108, G = 1e-3 from 0.2 to p = 1e4, crystal score above 1.5", len(found))
         r.add("2.10", "least phi_J of partly ordered packings, N = 108", "0.65", min(phi))
         r.add("2.10", "largest phi_J of partly ordered packings, N = 108", "0.675", max(phi))
     for axis, title in zip(axes, (f"N = {key[0]}, kappa = {key[1]:g}", "last p", "packings that ordered in part")):
@@ -187,7 +171,6 @@ def main():
         print(f"N = {n}, kappa = {kappa:g}: {len(good)} of {there} are isostatic and without order")
         if len(good) > 1:
             every[n, kappa] = good
-            r.made(f"N = {n}, kappa = 5e-3 to p = 500, then {kappa:g} (G = {kappa * G_OF_KAPPA:.3g}), crunches by LPs", len(good))
     if every:
         against_pressure(r, every, pressures)
         steps(r, every, pressures)

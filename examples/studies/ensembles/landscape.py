@@ -17,7 +17,7 @@ from itertools import combinations
 
 import matplotlib.pyplot as plt
 import numpy as np
-from common import Results, arguments, kept, mean_error
+from common import Results, mean_error, options, seeded
 
 import jam
 
@@ -52,7 +52,7 @@ def walk(n, seed, pressure, longest):
         first = jammed(packing)
         begin, unit = packing.positions.copy(), packing.diameters.mean()
         use = ~first.rattlers
-        state, cage, phi = [], [], [first.report.packing_fraction]
+        state, cage = [], []
         for step in np.diff(np.geomspace(0.5, longest, INSTANTS), prepend=0.0):
             packing.run(step)
             moved = packing.positions - begin
@@ -60,8 +60,7 @@ def walk(n, seed, pressure, longest):
             moved = moved - moved.mean(axis=0)
             there = jammed(packing)
             msd = np.mean(np.sum(moved**2, axis=1)) / unit**2
-            state.append((msd, *(between(first, there) if there else (np.nan, np.nan))))
-            phi.append(there.report.packing_fraction if there else np.nan)
+            state.append((msd, between(first, there)[0] if there else np.nan))
             cage.append(moved)
         late = np.array(cage[-4:])  # mean square around the mean of late instants, and its bias taken out
         size = np.mean(np.sum((late - late.mean(axis=0)) ** 2, axis=2)) / unit**2 * 4 / 3
@@ -70,7 +69,6 @@ def walk(n, seed, pressure, longest):
         lp = lp - lp.mean(axis=0)
         return {
             "walk": state,
-            "phi": phi,
             "cage": size,
             "pressure": packing.run(20).pressure,
             "lp": np.mean(np.sum(lp**2, axis=1)) / unit**2,
@@ -130,51 +128,22 @@ def independent(d):
     return made
 
 
-def walks(o, r, axes, n, seeds, pressures, longest):
+def walks(o, axes, n, seeds, pressures, longest):
     cages, lps = [], []
     for k, pressure in enumerate(pressures):
-        make = [
-            kept(o, f"landscape_n{n}", f"walk{pressure:.0e}_seed{s}", lambda: walk(n, s, pressure, longest))
-            for s in range(1, seeds + 1)
-        ]
-        made = [m for m in make if m is not None]
+        made = seeded(o, f"landscape_n{n}", f"walk{pressure:.0e}_", seeds, lambda s: walk(n, s, pressure, longest))
         if not made:
             continue
-        r.made(f"N = {n}, p_target = {pressure:.0e}, {INSTANTS} snapshots to {longest} collisions a sphere", len(made))
-        steps = np.array([m["walk"] for m in made])
         for m in made:
             axes[0].loglog(m["walk"][:, 0], np.maximum(m["walk"][:, 1], 1e-17), "o-", ms=3, lw=0.7, color=f"C{k}")
         axes[0].plot([], [], "o-", ms=3, color=f"C{k}", label=f"p = {pressure:.0e}")
-        share = np.nanmean(steps[:, -1, 1] / steps[:, -1, 0])
-        r.add("7", f"landscape, p = {pressure:.0e}: jammed distance over MSD, last snapshot", "none", share)
-        r.add(
-            "7",
-            f"landscape, p = {pressure:.0e}: contacts of the first state in the last",
-            "none",
-            np.nanmean(steps[:, -1, 2]),
-        )
-        phi = np.array([m["phi"] for m in made])
-        r.add(
-            "7",
-            f"landscape, p = {pressure:.0e}: spread of phi_J of snapshots",
-            "none",
-            np.nanmean(np.nanstd(phi, axis=1)),
-        )
         cages.append([np.log(m["cage"]) for m in made]), lps.append([np.log(m["lp"]) for m in made])
     axes[0].loglog([1e-12, 1e-2], [1e-12, 1e-2], "k--", lw=1, label="equal")
     axes[0].set(xlabel="MSD between snapshots", ylabel="distance of the jammed states")
     axes[0].legend(fontsize=7)
     if len(cages) < 3:
         return
-    x = np.log(np.array(pressures[: len(cages)]))
     for values, text in ((np.array(cages), "cage"), (np.array(lps), "MSD_LP")):
-        for low, high in ((0, 3), (len(x) - 3, len(x))):  # many jammed states, one jammed state
-            powers = [np.polyfit(x[low:high], v, 1)[0] for v in values[low:high].T]
-            error = mean_error(powers)[1] if len(powers) > 1 else np.nan
-            span = f"p = {pressures[low]:.0e} to {pressures[high - 1]:.0e}"
-            r.add(
-                "7", f"power of p in {text}, {span}", -KAPPA_MF if low == 0 else "-2: one state", np.mean(powers), error
-            )
         y = np.exp(values.mean(axis=1))
         axes[1].loglog(pressures[: len(y)], y, "o-", label=text)
     for power, style in ((-KAPPA_MF, "k--"), (-1.0, "k:"), (-2.0, "k-.")):
@@ -186,14 +155,10 @@ def walks(o, r, axes, n, seeds, pressures, longest):
 
 def trees(o, r, axis, n, seeds, pressures, longest):
     for pressure in pressures:
-        make = [
-            kept(o, f"landscape_n{n}", f"clones{pressure:.0e}_seed{s}", lambda: clones(n, s, pressure, longest))
-            for s in range(1, 2 * seeds + 1)
-        ]
-        found = [m["d"] for m in make if m is not None and len(m["d"]) > 3]
+        make = seeded(o, f"landscape_n{n}", f"clones{pressure:.0e}_", 2 * seeds, lambda s: clones(n, s, pressure, longest))
+        found = [m["d"] for m in make if len(m["d"]) > 3]
         if not found:
             continue
-        r.made(f"N = {n}, {CLONES} clones at p = {pressure:.0e}, {longest} collisions a sphere", len(found))
         value = [ultrametric(d, d < SAME) for d in found]
         blind = [ultrametric(independent(d), d < SAME) for d in found]
         known = [(v, w) for v, w in zip(value, blind) if np.isfinite(v) and np.isfinite(w)]  # not where few states are found
@@ -203,9 +168,6 @@ def trees(o, r, axis, n, seeds, pressures, longest):
             text = f"the same, independent displacements of these lengths, p = {pressure:.0e}"
             r.add("7", text, "none", *mean_error([w for _, w in known]))
         upper = np.concatenate([d[np.triu_indices(len(d), 1)] for d in found])
-        r.add(
-            "7", f"clones, p = {pressure:.0e}: share of pairs in the same jammed state", "none", np.mean(upper < SAME)
-        )
         axis.hist(
             np.log10(np.maximum(upper, 1e-17)), np.arange(-17, 0, 0.5), histtype="step", label=f"p = {pressure:.0e}"
         )
@@ -215,14 +177,9 @@ def trees(o, r, axis, n, seeds, pressures, longest):
 
 def memories(o, r, axes, n, seeds, collisions):
     shrinks = np.geomspace(1e-6, 0.3, 12)
-    make = [
-        kept(o, f"landscape_n{n}", f"memory_seed{s}", lambda: memory(n, s, shrinks, collisions))
-        for s in range(1, seeds + 1)
-    ]
-    found = [m["memory"] for m in make if m is not None]
+    found = [m["memory"] for m in seeded(o, f"landscape_n{n}", "memory_", seeds, lambda s: memory(n, s, shrinks, collisions))]
     if not found:
         return
-    r.made(f"N = {n}, decompression by 1e-6 to 0.3, {collisions} collisions a sphere", len(found))
     mean = np.nanmean(found, axis=0)
     for k in (0, 3, 6, 9, 11):
         text = f"memory: contacts that come back from phi = (1 - {shrinks[k]:.0e}) phi_J"
@@ -234,16 +191,12 @@ def memories(o, r, axes, n, seeds, collisions):
 
 
 def main():
-    p = arguments(__doc__.splitlines()[0])
-    p.add_argument("--n", type=int, help="spheres (small 128, large 1024)")
-    p.add_argument("--seeds", type=int, help="packings (small 2, large 10)")
-    o = p.parse_args()
-    n, seeds, longest = (1024, 10, 3000.0) if o.large else (128, 2, 300.0)
-    n, seeds = o.n or n, o.seeds or seeds
+    o = options(__doc__.splitlines()[0], n=(128, 1024), seeds=(2, 10))
+    n, seeds, longest = o.n, o.seeds, 3000.0 if o.large else 300.0
     pressures = 10.0 ** np.arange(2, 9 if o.large else 7)
     r = Results(o, "landscape")
     figure, axes = plt.subplots(1, 4, figsize=(18, 4.5))
-    walks(o, r, axes, n, seeds, pressures, longest)
+    walks(o, axes, n, seeds, pressures, longest)
     trees(o, r, axes[2], n, seeds, pressures[:4], longest)
     memories(o, r, axes[3], n, seeds, longest)
     r.write(figure)

@@ -12,7 +12,7 @@ N = 500, 60 snapshots of each of three runs. Large: N = 4000, 100 of ten.
 """
 import matplotlib.pyplot as plt
 import numpy as np
-from common import Results, arguments, kept
+from common import Results, arguments, seeded
 
 import jam
 
@@ -64,7 +64,7 @@ def multiplicity(q, dim):
 
 
 def limit(q, s, relative):
-    """a of 1/S = a + b q^2 + ... up to each end, averaged by AIC, its error and the part of the choice.
+    """a of 1/S = a + b q^2 + ... up to each end, averaged by AIC, and its error, which contains the choice.
 
     The error of S is `relative` times the fitted S, by iteration: with the measured S lengths that are low by chance would weigh less.
     """
@@ -85,7 +85,7 @@ def limit(q, s, relative):
     weight /= weight.sum()
     mean = weight @ a
     choice = np.sqrt(weight @ (a - mean) ** 2)
-    return mean, np.hypot(np.sqrt(weight @ variance), choice), choice
+    return mean, np.hypot(np.sqrt(weight @ variance), choice)
 
 
 def main():
@@ -95,21 +95,18 @@ def main():
     figure, axes = plt.subplots(1, 3, figsize=(15, 4.4))
     for k, (dim, phi) in enumerate(STATES):
         name = f"liquid_structure_n{n}"
-        made = [kept(o, name, f"d{dim}_phi{phi}_seed{s}", lambda: liquid(dim, phi, n, s, snapshots)) for s in range(1, runs + 1)]
-        made = [m for m in made if m is not None]
+        made = seeded(o, name, f"d{dim}_phi{phi}_", runs, lambda s: liquid(dim, phi, n, s, snapshots))
         if len(made) < 2:
             continue
-        r.made(f"d = {dim}, phi = {phi}, N = {n}, {snapshots} snapshots of a run", len(made))
         q, every = made[0]["q"], np.array([m["s"] for m in made])
         s = every.mean(axis=0)
         m = multiplicity(q, dim)
         noise = np.mean(m * every.var(axis=0, ddof=1) / s**2)  # of one wave vector in one run
-        a, a_error, choice = limit(q, s, np.sqrt(noise / (m * len(made))))
+        a, a_error = limit(q, s, np.sqrt(noise / (m * len(made))))
         inverse = 1 / s
         law = inverse_compressibility(dim, phi)
         which = {3: "Carnahan-Starling", 2: "Henderson"}[dim]
         r.add("1", f"d = {dim}, phi = {phi}: 1/S(0) = d (phi p)/d phi", (which, round(law, 4)), a, a_error)
-        r.add("1", f"d = {dim}, phi = {phi}: the part of this error from range and correction", "none", choice)
         label = f"d = {dim}, phi = {phi}"
         axes[0].plot(q, s, ".-", ms=2, lw=0.7, color=f"C{k}", label=label)
         axes[1].plot(q, 1 - inverse, ".", ms=3, color=f"C{k}", label=label)

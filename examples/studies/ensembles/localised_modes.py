@@ -11,7 +11,7 @@ near-crystals are FCC lattices of 108 spheres whose diameters spread by 1 %, gro
 """
 import matplotlib.pyplot as plt
 import numpy as np
-from common import THETA_E, THETA_L, Results, arguments, kept, mean_error
+from common import THETA_E, THETA_L, Results, arguments, mean_error, seeded
 from final_network import MODELS, SEEDS, SIZES, network, networks
 from near_crystals import protocol
 from thermodynamics import fcc
@@ -43,11 +43,8 @@ def exponent(r, label, values, n, known):
 def look(r, axes, k, text, n, made):
     where = f"{text}, N = {n}"
     local = [(m["flags"] & LOCALISED) != 0 for m in made]
-    share = lambda use: mean_error([np.mean(m["sigma"][u] < 1) for m, u in zip(made, use) if u.any()])  # noqa: E731
-    r.add("modes", f"share of contacts with Sigma < 1, {where}", "stable: 0", *share([np.ones(len(u), bool) for u in local]))
-    r.add("modes", f"the same, localised contacts, {where}", "stable: 0", *share(local))
-    least = [m["sigma"][u].min() for m, u in zip(made, local) if u.any()]
-    r.add("modes", f"median of the least Sigma of localised contacts, {where}", "stable: > 1", np.median(least))
+    share = mean_error([np.mean(m["sigma"][u] < 1) for m, u in zip(made, local) if u.any()])
+    r.add("modes", f"share of localised contacts with Sigma < 1, {where}", "stable: 0", *share)
     b = [np.sort(m["b"][u]) for m, u in zip(made, local)]
     low, high = RANGE * n**-0.5
     law = scaling.fit_power(b, high, low)
@@ -69,15 +66,12 @@ def main():
     k = 0
     for model, text in MODELS.items():
         for n in sizes:
-            good, there = networks(o, model, n, SEEDS[SIZES.index(n)] if o.large else 8)
+            good, _ = networks(o, model, n, SEEDS[SIZES.index(n)] if o.large else 8)
             if len(good) > 3:
-                r.made(f"{text}, N = {n}, {there} packings", len(good))
                 look(r, axes, k, text, n, good)
                 k += 1
-    made = [kept(o, "localised_modes", f"crystal_seed{s}", lambda: near_crystal(s)) for s in range(1, (100 if o.large else 8) + 1)]
-    good = [m for m in made if m is not None and m["good"]]
+    good = [m for m in seeded(o, "localised_modes", "crystal_", 100 if o.large else 8, lambda s: near_crystal(s)) if m["good"]]
     if len(good) > 3:
-        r.made(f"near-crystals, N = 108, {len(made)} packings", len(good))
         look(r, axes, k, "near-crystals", 108, good)
     axes[0].set(xlabel="b sqrt N of localised modes", ylabel="share below")
     axes[1].set(xlabel="Sigma of localised contacts; below 1: not stable", ylabel="share below")

@@ -12,7 +12,7 @@ Small: N = 256, 3 packings, 12 draws each. Large: N = 1024, 5 packings, 24 draws
 """
 import matplotlib.pyplot as plt
 import numpy as np
-from common import Results, arguments, kept
+from common import Results, options, seeded
 from finite_size import protocol
 from scipy.sparse import csc_matrix
 from scipy.sparse.linalg import splu
@@ -73,15 +73,10 @@ class Network:
 
 
 def main():
-    p = arguments(__doc__.splitlines()[0])
-    p.add_argument("--n", type=int, help="spheres (small 256, large 1024)")
-    p.add_argument("--seeds", type=int, help="packings (small 3, large 5)")
-    o = p.parse_args()
-    n, seeds, draws = o.n or (1024 if o.large else 256), o.seeds or (5 if o.large else 3), 24 if o.large else 12
+    o = options(__doc__.splitlines()[0], n=(256, 1024), seeds=(3, 5))
+    n, seeds, draws = o.n, o.seeds, 24 if o.large else 12
     r = Results(o, "lp_noise")
-    made = [kept(o, f"lp_noise_n{n}", f"seed{s}", lambda: packed(n, s)) for s in range(1, seeds + 1)]
-    made = [m for m in made if m is not None and m["good"]]
-    r.made(f"N = {n}, G = 1e-2 to p = 500, 3e-3 to 1e5, crunch; {draws} draws of each", len(made))
+    made = [m for m in seeded(o, f"lp_noise_n{n}", "", seeds, lambda s: packed(n, s)) if m["good"]]
     networks, rng = [Network(m) for m in made], np.random.default_rng(1)
     figure, axes = plt.subplots(1, 2, figsize=(11, 4.4))
     plateaus = []

@@ -12,7 +12,7 @@ N = 100, 4 seeds. Large: N = 256, 20.
 """
 import matplotlib.pyplot as plt
 import numpy as np
-from common import G_OF_KAPPA, Results, arguments, kept, mean_error
+from common import G_OF_KAPPA, Results, mean_error, options, seeded
 from scipy.optimize import linprog
 from scipy.sparse import coo_matrix
 
@@ -100,15 +100,14 @@ def growth(n, seed):
 
 
 def shared(m, method, p):
-    """Contacts of the method's own reference, and of the library's, that are there: shares."""
-    sets = [set(map(tuple, np.sort(m[f"pairs_{a}_{q:.0e}"], axis=1).tolist()))
-            for a, q in ((method, p), (method, PRESSURES[-1]), ("library", PRESSURES[-1]))]  # fmt: skip
-    return [len(sets[0] & other) / len(other) for other in sets[1:]]
+    """Share of the contacts of the method's own reference that are there."""
+    here, last = (set(map(tuple, np.sort(m[f"pairs_{method}_{q:.0e}"], axis=1).tolist())) for q in (p, PRESSURES[-1]))
+    return len(here & last) / len(last)
 
 
-def final(m, method, which):
+def final(m, method):
     """Least pressure from which on all contacts of the reference are found; the last pressure where there is none below."""
-    same = [shared(m, method, p)[which] == 1.0 for p in PRESSURES]
+    same = [shared(m, method, p) == 1.0 for p in PRESSURES]
     first = len(same)
     while first > 0 and same[first - 1]:
         first -= 1
@@ -116,15 +115,10 @@ def final(m, method, which):
 
 
 def main():
-    p = arguments(__doc__.splitlines()[0])
-    p.add_argument("--n", type=int, help="spheres (small 100, large 256)")
-    p.add_argument("--seeds", type=int, help="seeds (small 4, large 20)")
-    o = p.parse_args()
-    n, seeds = o.n or (256 if o.large else 100), o.seeds or (20 if o.large else 4)
+    o = options(__doc__.splitlines()[0], n=(100, 256), seeds=(4, 20))
+    n, seeds = o.n, o.seeds
     r = Results(o, "lp_tolerance")
-    made = [kept(o, f"lp_tolerance_n{n}_kappa{KAPPA:g}", f"seed{s}", lambda: growth(n, s)) for s in range(1, seeds + 1)]
-    made = [m for m in made if m is not None and m["good"]]
-    r.made(f"N = {n}, kappa = 5e-3 to p = 500, {KAPPA:g} to {PRESSURES[-1]:.0e}", len(made))
+    made = [m for m in seeded(o, f"lp_tolerance_n{n}_kappa{KAPPA:g}", "", seeds, lambda s: growth(n, s)) if m["good"]]
     if not made:
         raise SystemExit(f"no packing of N = {n} has one state of self-stress and no order")
     lg = lambda values: mean_error(np.log10(values))  # noqa: E731
@@ -132,16 +126,15 @@ def main():
     r.add("2.9", "lg of max 1 / (f s_plus), predicted pressure of final contacts", "none", *lg([m[f"settled_{PRESSURES[-1]:.0e}"] for m in made]))
     for k, method in enumerate(["library"] + [f"{t:g}" for t in TOLERANCES]):
         text = "library" if method == "library" else f"LPs with tolerance {method}"
-        for which, name in ((0, "its own reference"), (1, "the library's reference")):
-            if method != "library" or which == 0:
-                r.add("2.9", f"{text}: lg of the least p_target with the contacts of {name}", "kappa = 3e-5: > 11", *lg([final(m, method, which) for m in made]))
+        row = f"{text}: lg of the least p_target with the contacts of its own reference"
+        r.add("2.9", row, "kappa = 3e-5: > 11", *lg([final(m, method) for m in made]))
         lps = np.array([[m[f"lps_{method}_{q:.0e}"] for q in PRESSURES] for m in made], float)
         r.add("2.16", f"{text}: LPs from p_target = 1e7 and more", "about 3, never below", *mean_error(lps[:, PRESSURES >= 1e7].mean(axis=1)))
         msd = np.array([[m[f"msd_{method}_{q:.0e}"] for q in PRESSURES] for m in made])
         late = PRESSURES >= 1e5
         power = [np.polyfit(np.log(PRESSURES[late]), np.log(row[late]), 1)[0] for row in msd]
         r.add("2.14", f"{text}: power of p in MSD_LP above 1e5", "0: plateau", *mean_error(power))
-        share = np.mean([[shared(m, method, q)[0] for q in PRESSURES] for m in made], axis=0)
+        share = np.mean([[shared(m, method, q) for q in PRESSURES] for m in made], axis=0)
         for axis, y in zip(axes, (share, lps.mean(axis=0), np.exp(np.log(msd).mean(axis=0)))):
             axis.plot(PRESSURES, y, "osd^"[k], ls="-", ms=4, mfc="none", label=text)
     axes[0].set(xscale="log", xlabel="p_target", ylabel=f"contacts shared with the packing from {PRESSURES[-1]:.0e}")

@@ -7,7 +7,7 @@ Spheres grow from 0.3 and from the planted liquid at 2.5 to p = 1e6. Small: N = 
 """
 import matplotlib.pyplot as plt
 import numpy as np
-from common import Results, arguments, kept, mean_error
+from common import Results, arguments, mean_error, seeded
 
 import jam
 
@@ -30,8 +30,8 @@ def glasses(o, r, n, seeds):
     line = np.linspace(0.3, 3.2, 100)
     axis.semilogy(line, 1 / (1 + 4 * line), "k--", lw=1, label="1 + 4 phi")
     for k, (start, text) in enumerate(((0.3, "not planted, from 0.3"), (2.5, "planted at 2.5"))):
-        make = [kept(o, f"mk_glass_n{n}", f"from{start:g}_seed{s}", lambda: mari_kurchan(n, s, start)) for s in range(1, seeds + 1)]
-        made = [m for m in make if m is not None and m["jammed"]]
+        make = seeded(o, f"mk_glass_n{n}", f"from{start:g}_", seeds, lambda s: mari_kurchan(n, s, start))
+        made = [m for m in make if m["jammed"]]
         if len(made) < 2:
             continue
         fits = [jam.glass_fit(m["phi"][m["p"] > 1e3], m["p"][m["p"] > 1e3]) for m in made]
@@ -40,7 +40,6 @@ def glasses(o, r, n, seeds):
             axis.semilogy(m["phi"], 1 / m["p"], ".-", ms=3, lw=0.7, color=f"C{k}", label=text if first else None)
             x = np.linspace(0.75 * fit.jammed_fraction, fit.jammed_fraction * (1 - 1e-5), 60)
             axis.semilogy(x, (1 - x / fit.jammed_fraction) / fit.dimension, ":", color=f"C{k}", label="fit, d free" if first else None)
-        r.made(f"Mari-Kurchan, N = {n}, {text}, G = 3e-3 to p = 1e6", len(made))
         r.add("2.6", f"d of the fit of the glass branch, {text}", "free", *mean_error([f.dimension for f in fits]))
         r.add("2.6", f"phi_J of the fit minus that of the crunch, {text}", "0", *mean_error([f.jammed_fraction - m["phi_j"] for f, m in zip(fits, made)]))
         r.add("2.6", f"phi_J, {text}", ">= 3.1 planted", *mean_error([m["phi_j"] for m in made]))

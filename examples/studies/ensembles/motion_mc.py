@@ -20,7 +20,7 @@ import near_jamming_common as near  # noqa: E402
 MIDDLE = 1  # of the three temperatures: the one that the scatter panels show
 
 
-def energies(r, every, n):
+def energies(r, every):
     figure, axis = plt.subplots(figsize=(6, 4.4))
     for (alpha, t), runs in every.items():
         style = {1.5: ":", 2.0: "-", 2.5: "--"}[alpha]
@@ -41,11 +41,10 @@ def scatters(r, structure, every, radius):
     r.picture(figure, "motion_mc_vectors")
     for (title, _, _), value in zip(columns, k):
         r.add("3.12", f"K[C, <dr>], {title}", "grows with alpha", value)
-    figure, k, bare = near.variances(structure, columns, radius)
+    figure, k, _ = near.variances(structure, columns, radius)
     r.picture(figure, "motion_mc_variance")
-    for (title, _, _), value, without in zip(columns, k, bare):
+    for (title, _, _), value in zip(columns, k):
         r.add("3.13", f"K[|C|, Var], {title}", "about 0", value)
-        r.add("3.13", f"the same without rattlers, {title}", "about 0", without)
     figure, k = near.mobility(structure, columns, radius)
     r.picture(figure, "motion_mc_mobility")
     for (title, runs, _), values in zip(columns, k):
@@ -104,13 +103,11 @@ def main():
     for alpha, temperatures in near.TEMPERATURES.items():
         for t in temperatures:
             every[alpha, t] = near.mc_runs(packing, o.folder, "1q", alpha, t, count)
-    r.made(f"N = {o.n} by sequential LPs, seed 1, nine pairs (alpha, T), {near.LAST_SWEEP} sweeps", count)
-    energies(r, every, packing.n)
+    energies(r, every)
     scatters(r, structure, every, radius)
     decays(r, structure, every, radius)
     found = nj.prediction(every[2.0, 1e-4], structure)
     r.add("3.15", "area under the ROC curve, sign of <dr_c> by C_c, alpha = 2, T = 1e-4, last sweep", "> 0.5", found.c_area[-1])
-    r.add("3.15", "the same, top tenth of <|dr|^2> by S", "> 0.5", found.s_area[-1])
     r.write()
 
 

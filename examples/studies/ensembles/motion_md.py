@@ -63,8 +63,6 @@ def displacements(r, structure, runs, radius):
     draws = np.random.default_rng(1).integers(len(kept), size=(20, len(kept)))
     slopes = [nj.median_over_mean(kept[d]) for d in draws]
     r.add("3.6", "median over mean of |dr|^2, tau = 20", 0.75, nj.median_over_mean(kept), np.std(slopes, ddof=1))
-    off = np.abs(median - mean) / kept.std(axis=0)
-    r.add("3.6", "|median - mean| of dr_c over its deviation, mean over spheres", "small", off.mean())
 
 
 def spread(r, structure, runs, radius):
@@ -98,10 +96,8 @@ def scatters(r, name, structure, md, radius):
     figure, k = near.mobility(structure, rows, radius)
     r.picture(figure, f"motion_md_mobility{name}")
     for (title, _, _), values in zip(rows, k):
-        best = ("sum f", "sum f.f", "S")[int(np.argmax(np.abs(values)))]
         for text, value in zip(("sum f", "sum f.f", "S"), values):
             r.add("3.22" if name else "3.10", f"K[{text}, <|dr|^2>], {title}{of_second(name)}", "largest |K| for S", value)
-        print("best:", best)
     if name:
         return
     figure, k, bare = near.variances(structure, columns, radius)
@@ -109,16 +105,6 @@ def scatters(r, name, structure, md, radius):
     for tau, value, without in zip(SHOWN, k, bare):
         r.add("3.9", f"K[|C|, Var], {RATIO}, tau = {tau}", "about 0", value)
         r.add("3.9", f"the same without rattlers, tau = {tau}", "about 0", without)
-
-
-def late(r, structure, md, radius):
-    """S against the force sum at late times, which the thesis does not show."""
-    for ratio, runs in md.items():
-        k = nj.correlations(runs, structure)
-        e = nj.correlation_errors(runs, structure, 20)
-        for name, text in (("s", "S"), ("force_sum", "sum f")):
-            label = f"K[{text}, <|dr|^2>], {ratio}, tau = 100"
-            r.add("3.10", label, "none", k[name][at(100)], e[name][at(100)])
 
 
 def decays(r, structure, md, long_ones, radius):
@@ -133,11 +119,8 @@ def decays(r, structure, md, long_ones, radius):
         axes[row, 0].set(xlabel="MSD / R_J^2", ylabel=text)
         axes[row, 1].set(xlabel=f"MSD / R_J^2 / (1 - phi/phi_J)^{known:g}, published", ylabel=text)
         axes[row, 0].legend(fontsize=8)
-        for between, span in (((0.6, 0.8), "K = 0.6 to 0.8"), (None, "all K")):
-            e = nj.collapse_exponent(
-                [md[q] for q in ratios], structure, [1 - q for q in ratios], kind, 20, between
-            )
-            r.add("3.16", f"exponent for {kind.upper()}, 0.98 to 0.999, {span}", known, e.value, e.error)
+        e = nj.collapse_exponent([md[q] for q in ratios], structure, [1 - q for q in ratios], kind, 20)
+        r.add("3.16", f"exponent for {kind.upper()}, 0.98 to 0.999, all K", known, e.value, e.error)
     r.picture(figure, "motion_md_decay")
     figure, axes = plt.subplots(1, 2, figsize=(10, 4.2))
     for ratio, runs in md.items():
@@ -179,17 +162,13 @@ def main():
         structure, radius = nj.predictors(packing), 0.5 * packing.diameters.mean()
         runs = min(count, 500) if name else count  # the second packing: 500, as published
         md = {q: near.md_runs(packing, o.folder, f"{seed}q", q, runs) for q in ratios}
-        r.made(f"N = {o.n} by sequential LPs, seed {seed}, phi/phi_J = {', '.join(map(str, ratios))}", runs)
         r.add("3.1", f"phi_J of seed {seed}", "0.635", packing.packing_fraction)
-        r.add("3.1", f"share of rattlers of seed {seed}", "0.013 to 0.014", structure.rattlers.mean())
         scatters(r, name, structure, md, radius)
         if name:
             break
         displacements(r, structure, md[RATIO], radius)
         spread(r, structure, md[RATIO], radius)
-        late(r, structure, {q: md[q] for q in (0.99, RATIO, 0.999)}, radius)
         long_ones = {q: near.long_md_runs(packing, o.folder, f"{seed}q", q, long_count) for q in near.LONG_RATIOS}
-        r.made(f"the same, to tau = 1e4, phi/phi_J = {', '.join(map(str, near.LONG_RATIOS))}", long_count)
         decays(r, structure, md, long_ones, radius)
         figure, axes = plt.subplots(1, 2, figsize=(10, 4.2))
         near.ranking(axes, structure, md[0.99], radius, "phi/phi_J = 0.99")

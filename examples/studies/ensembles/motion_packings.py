@@ -44,9 +44,6 @@ def main():
     packings, count = (20, 1000) if o.large else (8, 100)
     r = Results(o, "motion_packings")
     k = np.array([correlations(o, seed, count) for seed in range(1, packings + 1)])  # (packing, kind of run, predictor)
-    made = f"N = 1024 by sequential LPs, seeds 1 to {packings}"
-    r.made(f"{made}, dynamics", packings * MD_RUNS * len(RATIOS))
-    r.made(f"{made}, alpha = 2, {near.LAST_SWEEP} sweeps", packings * count)
     where = [("3.10", f"phi/phi_J = {ratio}, tau = {tau}") for ratio in RATIOS for tau in TAUS] + [("3.14", "alpha = 2")]
     names = list(near.SCALARS)
     for row, (figure, state) in enumerate(where):

@@ -8,7 +8,7 @@ Small: 10 packings of N = 128. Large: 20 of N = 1024.
 """
 import matplotlib.pyplot as plt
 import numpy as np
-from common import Results, arguments, kept, mean_error
+from common import Results, mean_error, options, seeded
 
 import jam
 
@@ -116,15 +116,10 @@ def figure_of_packing(r, m):
 
 
 def main():
-    p = arguments(__doc__.splitlines()[0])
-    p.add_argument("--n", type=int, help="spheres (small 128, large 1024)")
-    p.add_argument("--count", type=int, help="packings (small 10, large 20)")
-    o = p.parse_args()
-    n, count = o.n or (1024 if o.large else 128), o.count or (20 if o.large else 10)
+    o = options(__doc__.splitlines()[0], n=(128, 1024), count=(10, 20))
+    n, count = o.n, o.count
     r = Results(o, "network_products")
-    make = [kept(o, f"network_products_n{n}", f"seed{s}", lambda: products(n, s)) for s in range(1, count + 1)]
-    made = [m for m in make if m is not None and m["good"]]
-    r.made(f"N = {n}, sequential LPs from random spheres", len(made))
+    made = [m for m in seeded(o, f"network_products_n{n}", "", count, lambda s: products(n, s)) if m["good"]]
     for name, text, known in (("phi", "phi_J", 0.635), ("rattlers", "share of rattlers", 0.013)):
         mean, error = mean_error([float(m[name]) for m in made])
         single = error * (len(made) + 1) ** 0.5  # of the mean less one packing, which is what the thesis has

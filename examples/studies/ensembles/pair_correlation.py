@@ -60,21 +60,17 @@ def main():
                 found.append(system.pair_correlation(bins * BIN, bins))
         if len(found) < 3:
             continue
-        result.used(e, len(found))
         least = min(map(len, found))
         g = np.array([x[:least] for x in found])
         r = (np.arange(least) + 0.5) * BIN
         axes[0].plot(r, g.mean(axis=0) + shift, lw=1, label=f"N = {n}")
         rows(result, "6.5.1", f"N = {n}", r, g)
-    for kappa, pressures, made in kept_paths(o)[1]:
+    for kappa, pressures, made in kept_paths(o):
         r = (np.arange(400) + 0.5) * BIN
         for shift, target in enumerate(pressures):
             g = np.array([m[f"g_{target:.0e}"] for m in made])
             use = slice(0, int(0.45 * 10 ** (1 / 3) * g.shape[1]))
             axes[1].plot(r[use], g.mean(axis=0)[use] + 0.7 * shift, lw=1, label=f"p = {target:.0e}")
-        result.made(
-            f"path_to_jamming.py, kappa = {kappa:g}, p_target = {pressures[0]:.0e} ... {pressures[-1]:.0e}", len(made)
-        )
         rows(result, "7", f"crunch from p_target = {pressures[-1]:.0e}, kappa = {kappa:g}", r, g)
         break  # one rate in the figure
     for axis, title in zip(axes, ("all sizes, shifted by 1", "crunches from each p_target, shifted by 0.7")):

@@ -10,7 +10,7 @@ kind. Large: N = 1024, 20.
 """
 import matplotlib.pyplot as plt
 import numpy as np
-from common import Results, arguments, kept, mean_error
+from common import Results, mean_error, options, seeded
 
 import jam
 
@@ -56,19 +56,14 @@ def motion(kind, n, seed):
 
 
 def main():
-    p = arguments(__doc__.splitlines()[0])
-    p.add_argument("--n", type=int, help="spheres (small 256, large 1024)")
-    p.add_argument("--seeds", type=int, help="packings of each kind (small 6, large 20)")
-    o = p.parse_args()
-    n, seeds = o.n or (1024 if o.large else 256), o.seeds or (20 if o.large else 6)
+    o = options(__doc__.splitlines()[0], n=(256, 1024), seeds=(6, 20))
+    n, seeds = o.n, o.seeds
     r = Results(o, "quench_stability")
     figure, axes = plt.subplots(1, 2, figsize=(11, 4.6))
     for kind, style in zip(KINDS, ("o-", "s--")):
-        made = [kept(o, f"quench_stability_n{n}", f"{kind}_seed{s}", lambda: motion(kind, n, s)) for s in range(1, seeds + 1)]
-        made = [m for m in made if m is not None and m["msd"].size]
+        made = [m for m in seeded(o, f"quench_stability_n{n}", f"{kind}_", seeds, lambda s: motion(kind, n, s)) if m["msd"].size]
         if len(made) < 2:
             continue
-        r.made(f"N = {n}, {KINDS[kind]}, to {INSTANTS[-1]:g} collisions of a sphere at phi/phi_J = {RATIOS}", len(made))
         msd, found = np.array([m["msd"] for m in made]), np.array([m["found"] for m in made])
         for k, ratio in enumerate(RATIOS):
             slope = np.log(msd[:, k, -1] / msd[:, k, -2]) / np.log(INSTANTS[-1] / INSTANTS[-2])

@@ -163,7 +163,6 @@ def main():
     for axis, draw in zip(axes.flat, (constraints, one_lp, collision)):
         draw(r, axis)
     states(r, axes.flat[3], o.spheres)
-    r.made(f"5 disks; 2 growing disks; one packing of {o.spheres} spheres", 1)
     r.picture(figure)
     figure, axis = plt.subplots(figsize=(9, 9))
     disks(r, axis, o.disks)

@@ -10,7 +10,7 @@ The error of its power contains the packings, the level, the range of x and a co
 """
 import matplotlib.pyplot as plt
 import numpy as np
-from common import Results, arguments, kept, mean_error
+from common import Results, mean_error, options, seeded
 
 import jam
 
@@ -106,15 +106,10 @@ def draw(made, axes):
 
 
 def main():
-    p = arguments(__doc__.splitlines()[0])
-    p.add_argument("--n", type=int, help="spheres (small 256, large 1024)")
-    p.add_argument("--seeds", type=int, help="packings (small 6, large 20)")
-    o = p.parse_args()
-    n, seeds, smallest = o.n or (1024 if o.large else 256), o.seeds or (20 if o.large else 6), 1e-6
+    o = options(__doc__.splitlines()[0], n=(256, 1024), seeds=(6, 20))
+    n, seeds, smallest = o.n, o.seeds, 1e-6
     r = Results(o, "soft_spectrum")
-    made = [kept(o, f"soft_spectrum_n{n}", f"seed{s}", lambda: spectra(n, s, smallest)) for s in range(1, seeds + 1)]
-    made = [m for m in made if m is not None and len(m["x"]) > 8]
-    r.made(f"N = {n}, alpha = 2, decompression from 0.72 to distances 3e-2 to {smallest:g}", len(made))
+    made = [m for m in seeded(o, f"soft_spectrum_n{n}", "", seeds, lambda s: spectra(n, s, smallest)) if len(m["x"]) > 8]
     for text, _ in KINDS:
         found = powers(made, text)
         if not found:

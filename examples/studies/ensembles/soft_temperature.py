@@ -13,7 +13,7 @@ from math import gamma
 
 import matplotlib.pyplot as plt
 import numpy as np
-from common import Results, arguments, kept, mean_error
+from common import Results, arguments, mean_error, seeded
 
 import jam
 
@@ -25,14 +25,13 @@ RANGES = ((3.0, 300.0), (10.0, 300.0), (3.0, 100.0))  # of |x|, for powers
 
 
 def pressures(n, seed, sweeps):
-    """Mean p for each alpha, temperature and x, and its change between the third and the last quarter of a run."""
+    """Mean p for each alpha, temperature and x, over the second half of a run."""
     with jam.System.random(n=n, seed=seed) as packing:
         packing.compress([(1e-2, 500.0), (3e-3, 1e7)])
         if not packing.crunch().jammed:
-            return {"p": np.zeros(0), "drift": np.zeros(0)}
+            return {"p": np.zeros(0)}
         instants = sweeps // 2 + np.arange(1, 41) * (sweeps // 80)  # the first half is left out
         p = np.full((len(ALPHAS), len(OVERLAPS), len(X)), np.nan)
-        drift = p.copy()
         for a, alpha in enumerate(ALPHAS):
             for t, overlap in enumerate(OVERLAPS):
                 how = {"alpha": alpha, "temperature": overlap**alpha, "energy_unit": "relative"}
@@ -43,9 +42,8 @@ def pressures(n, seed, sweeps):
                         soft.monte_carlo(sweeps=1, **{**how, "temperature": 1e-3 * how["temperature"]})
                         soft.scale_diameters((1 + x * overlap) ** (1 / 3))
                         runs = soft.isoconf(instants, monte_carlo=how, runs=1, block=1)
-                        found = runs.series["pressure"][0]
-                    p[a, t, k], drift[a, t, k] = found.mean(), np.log(found[20:].mean() / found[:20].mean())
-        return {"p": p, "drift": drift}
+                        p[a, t, k] = runs.series["pressure"][0].mean()
+        return {"p": p}
 
 
 def power(p, side, low, high, shift):
@@ -55,7 +53,7 @@ def power(p, side, low, high, shift):
 
 
 def laws(r, alpha, scaled):
-    """Rows of one alpha: both powers, the amplitude of hard spheres, two temperatures on one curve."""
+    """Rows of one alpha: both powers, two temperatures on one curve."""
     shell = 3 * gamma(1 + 1 / alpha)
     for side, law, shift, text in (
         (-1, -1.0, 0.0, "power of |x| in P, below jamming"),
@@ -65,8 +63,6 @@ def laws(r, alpha, scaled):
         found = [mean_error(power(scaled[:, t], side, *span, shift)) for t in range(len(OVERLAPS)) for span in RANGES]
         value, error = np.array(found).T
         r.add("1", f"alpha = {alpha:g}: {text}", law, value.mean(), np.hypot(error.mean(), value.std()))
-    amplitude = scaled[:, -1, 0] * (-X[0] + shell) / 3.0
-    r.add("1", f"alpha = {alpha:g}: P (|x| + 3 Gamma(1 + 1/alpha)) / 3 at x = {X[0]:g}, least T", 1.0, *mean_error(amplitude))
     off = np.log(scaled[:, 0] / scaled[:, -1])[:, np.abs(X) <= 10]  # the same packings at two temperatures
     text = f"alpha = {alpha:g}: mean ln of P at T^(1/alpha) = {OVERLAPS[0]:g} over that at {OVERLAPS[-1]:g}, |x| <= 10"
     r.add("1", text, 0.0, *mean_error(off.mean(axis=1)))
@@ -92,19 +88,14 @@ def main():
     n, seeds, sweeps = (1024, 20, 10000) if o.large else (128, 4, 3000)
     r = Results(o, "soft_temperature")
     name = f"soft_temperature_n{n}_{sweeps}"
-    made = [kept(o, name, f"seed{s}", lambda: pressures(n, s, sweeps)) for s in range(1, seeds + 1)]
-    made = [m for m in made if m is not None and m["p"].size]
-    every, drift = np.array([m["p"] for m in made]), np.array([m["drift"] for m in made])
-    r.made(f"N = {n}, {sweeps} sweeps for each of {np.isfinite(every[0]).sum()} points", len(made))
+    made = [m for m in seeded(o, name, "", seeds, lambda s: pressures(n, s, sweeps)) if m["p"].size]
+    every = np.array([m["p"] for m in made])
     figure, axes = plt.subplots(1, 3, figsize=(15, 4.6), sharey=True)
     for a, (alpha, axis) in enumerate(zip(ALPHAS, axes)):
         scaled = every[:, a] * np.array(OVERLAPS)[:, None]  # packing, temperature, x
         laws(r, alpha, scaled)
         draw(axis, alpha, scaled)
     axes[0].set(ylabel="P = p T^(1/alpha)")
-    for side, text in ((X < 0, "below"), (X > 0, "above")):
-        change = np.nanmean(drift[..., side], axis=(1, 2, 3))
-        r.add("1", f"mean change of ln p in the last quarter of a run, {text} jamming", 0.0, *mean_error(change))
     r.write(figure)
 
 

@@ -9,7 +9,7 @@ along slow growth, so s = d ln(1 - phi / phi_J) + a constant where p = d / (1 - 
 """
 import matplotlib.pyplot as plt
 import numpy as np
-from common import Results, arguments, kept, mean_error
+from common import Results, arguments, kept, mean_error, seeded
 from scipy.optimize import fsolve
 
 import jam
@@ -65,7 +65,6 @@ def coexistence(o, r, axis, cells, collisions):
         return
     n = 4 * cells**3
     p, error = np.array([mean_error(m["p"]) for m in made]).T * n / (n - 1)  # total momentum 0: 3 (N - 1) freedoms
-    r.made(f"FCC, N = {n}, {collisions:g} collisions a sphere, 5 blocks", len(fractions))
     for x, value, e in zip(fractions, p, error):
         r.add("crystal", f"p of the crystal, phi = {x:g}", ("Hall", round(hall(x), 4)), value, e)
     cubed = 6 / np.pi  # P sigma^3 = 6 phi p / pi
@@ -92,7 +91,7 @@ def path(n, seed):
 
 
 def entropy(o, r, axis, n, seeds):
-    made = [m for m in (kept(o, "thermodynamics", f"path_n{n}_seed{s}", lambda: path(n, s)) for s in range(1, seeds + 1)) if m is not None]
+    made = seeded(o, "thermodynamics", f"path_n{n}_", seeds, lambda s: path(n, s))
     slopes = []
     for m in made:
         x = np.log(1 - m["phi"] / m["phi_j"])
@@ -102,7 +101,6 @@ def entropy(o, r, axis, n, seeds):
         slopes.append(np.polyfit(x, s, 1)[0])
         axis.plot(x, s, lw=1)
     if len(slopes) > 1:
-        r.made(f"N = {n}, G = 1e-2 to p = 500, 1e-3 to 1e6, crunch", len(made))
         r.add("entropy", f"slope of the entropy a sphere against ln(1 - phi / phi_J), N = {n}, p = 600 to 1e6", 3, *mean_error(slopes))
         axis.set(xlabel="ln(1 - phi / phi_J)", ylabel="s less s at p = 600")
 

@@ -48,6 +48,8 @@ def check_vtk(vtk, folder, want):
     assert (spheres.GetNumberOfPoints(), spheres.GetNumberOfVerts(), lines.GetNumberOfLines()) == (n, n, 2 * m)
     assert (vtk_to_numpy(spheres.GetPoints().GetData())[:, :2] == want["x"]).all()
     assert (vtk_to_numpy(spheres.GetPointData().GetArray("diameter")) == want["sigma"]).all()
+    assert (vtk_to_numpy(spheres.GetPointData().GetArray("contacts")) == want["z"]).all()
+    assert ((vtk_to_numpy(spheres.GetPointData().GetArray("kind")) == 0) == (want["z"] == 0)).all()
     assert (vtk_to_numpy(lines.GetCellData().GetArray("force")) == np.tile(want["forces"], 2)).all()
     glyph = vtk.vtkGlyph3D()  # the filter that users are told to use
     glyph.SetInputData(spheres)
@@ -66,9 +68,7 @@ def check_ase(folder, want):
     radius = atoms.arrays["radius"]
     assert (atoms.positions[:, :2] == want["x"]).all() and (2 * radius == want["sigma"]).all()
     assert list(atoms.pbc) == [True, True, False] and (atoms.arrays["contacts"] == want["z"]).all()
-    distance = atoms.get_all_distances(
-        mic=True
-    )  # with the box that the file names: each sphere has the contacts listed
+    distance = atoms.get_all_distances(mic=True)  # with the box that the file names: each sphere has the contacts listed
     near = np.abs(distance / np.add.outer(radius, radius) - 1) < 1e-9
     stable = want["z"] > 0
     assert (near[stable][:, stable].sum(1) == want["z"][stable]).all()
@@ -136,14 +136,8 @@ def check_lammps(program, folder, want):
         assert len(rows) > s.n
         i, j = rows[:, 1].astype(int) - 1, rows[:, 2].astype(int) - 1
         step = np.linalg.solve(np.array(s.cell).T, (s.positions[i] - s.positions[j]).T).T
-        distance = [
-            min(
-                np.linalg.norm((f - np.round(f) + m) @ s.cell)
-                for m in np.ndindex(*[3] * s.dim)
-                for m in [np.array(m) - 1]
-            )
-            for f in step
-        ]
+        around = np.array(list(np.ndindex(*[3] * s.dim))) - 1
+        distance = np.linalg.norm((step - np.round(step))[:, None] @ s.cell + around @ s.cell, axis=2).min(1)
         assert np.allclose(rows[:, 3], distance, rtol=1e-12)
 
 

@@ -1,40 +1,17 @@
 #!/usr/bin/env python3
 """jam_pack_stops.py PROGRAM: what jam-pack says and leaves out when it is stopped, and what it refuses before the work."""
 import json
-import pathlib
+import os
 import re
 import signal
 import subprocess
-import sys
-import tempfile
 import time
 import unittest
 
-program = sys.argv.pop(1)
+from jam_pack_case import InFolder, program, run
 
 
-def run(*args, seconds=120):
-    return subprocess.run([program, *map(str, args)], capture_output=True, text=True, timeout=seconds, check=False)
-
-
-class Stops(unittest.TestCase):
-    def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.dir = pathlib.Path(self.folder.name)
-
-    def tearDown(self):
-        self.folder.cleanup()
-
-    def report(self, *args):
-        done = run(*args, "--report", "-")
-        self.assertEqual(done.returncode, 0, f"{args}: {done.stderr}")
-        return json.loads(done.stdout)
-
-    def refuse(self, status, text, *args):
-        done = run(*args, seconds=20)
-        self.assertEqual(done.returncode, status, f"{args}: {done.stderr}")
-        self.assertIn(text, done.stderr, str(args))
-
+class Stops(InFolder):
     def test_wall_time_bounds_the_spectrum(self):
         packing = self.dir / "p.xyz"
         self.report("--n", 1000, "--growth", "1e-1:1e4", "--output", packing)
@@ -124,6 +101,19 @@ class Stops(unittest.TestCase):
                     done = subprocess.run(["sh", "-c", command], cwd=self.dir, capture_output=True, text=True, timeout=60, check=False)
                     self.assertEqual(done.returncode, 4, command)
                     self.assertIn("jam-pack: cannot write standard output", done.stderr, command)
+
+    @unittest.skipUnless(hasattr(os, "mkfifo"), "no pipes with names")
+    def test_a_pipe_that_loses_its_reader_is_an_error(self):
+        """More than a pipe holds: 60000 bins. No signal ends the program."""
+        packing, pipe = self.dir / "p.xyz", self.dir / "pipe"
+        run("--n", 20, "--no-md", "--no-crunch", "--quiet", "--output", packing)
+        os.mkfifo(pipe)
+        words = [program, *f"export {packing} --profile {pipe} --profile-bins 60000 --quiet".split()]
+        with subprocess.Popen(words, stderr=subprocess.PIPE, text=True) as process:
+            with open(pipe, "rb") as reader:
+                reader.read(1)
+            err = process.communicate(timeout=60)[1]
+        self.assertEqual((process.returncode, "Broken pipe" in err), (4, True), err)
 
     def test_no_file_takes_the_place_of_a_closed_descriptor(self):
         """The log would be the first file that is opened, and have messages and summary in it."""

@@ -2,18 +2,12 @@
 """jam_pack_verbs.py PROGRAM: the verbs of jam-pack, the options that each takes, and their JSON."""
 import json
 import os
-import pathlib
 import re
 import subprocess
 import sys
-import tempfile
 import unittest
 
-program = sys.argv.pop(1)
-
-
-def run(*args):
-    return subprocess.run([program, *map(str, args)], capture_output=True, text=True, timeout=120, check=False)
+from jam_pack_case import InFolder, program, run
 
 
 def users():
@@ -26,14 +20,7 @@ def users():
     return [{}, other] if reached else [{}]
 
 
-class Verbs(unittest.TestCase):
-    def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.dir = pathlib.Path(self.folder.name)
-
-    def tearDown(self):
-        self.folder.cleanup()
-
+class Verbs(InFolder):
     def test_growth_of_given_sizes_and_stress_of_walls_are_told(self):
         """Grains in the unit of the cell grow with the crunch; the report has their factor and the stress of each wall."""
         made = ("--n", "60", "--sizes", "lognormal:deviation=0.3", "--cell", "10,10,15", "--walls", "xyz", "--growth", "1e-2:500")
@@ -51,13 +38,12 @@ class Verbs(unittest.TestCase):
         self.assertEqual((open_cell["walls"], open_cell["diameter_mean_given"]), ([], None))
 
     def test_packings_between_walls_are_proved(self):
-        for scene, word in (("--walls z", "walls 2"), ("--container cylinder", "round 2"), ("--container cylinder --walls z", "round 2")):
-            given = ("pack", "--n", "30", "--seed", "4", "--quiet", *scene.split(), "--output", self.dir / "a.xyz")
-            told = run(*given, "--prove", "--proof", self.dir / "a.jamproof", "--report", "-")
-            self.assertRegex(json.loads(told.stdout)["proof"], "^(proved, radius|trapped within) ", told.stderr)
-            self.assertIn(word, (self.dir / "a.jamproof").read_text().splitlines())
-            refused = run(*given, "--strict-proof", self.dir / "b.jamproof")
-            self.assertIn("contradicts --strict-proof: walls do not strain", refused.stderr)
+        given = ("pack", "--n", "30", "--seed", "4", "--quiet", "--walls", "z", "--output", self.dir / "a.xyz")
+        told = run(*given, "--prove", "--proof", self.dir / "a.jamproof", "--report", "-")
+        self.assertRegex(json.loads(told.stdout)["proof"], "^(proved, radius|trapped within) ", told.stderr)
+        self.assertIn("walls 2", (self.dir / "a.jamproof").read_text().splitlines())
+        refused = run(*given, "--strict-proof", self.dir / "b.jamproof")
+        self.assertIn("contradicts --strict-proof: walls do not strain", refused.stderr)
 
     def test_axes_without_walls_deform(self):
         given = ("pack", "--n", "12", "--seed", "3", "--quiet", "--strain", "free", "--report", "-", "--output", self.dir / "a.xyz")
@@ -85,30 +71,29 @@ class Verbs(unittest.TestCase):
                 ratio = sum(r**q for r in radii[1]) / sum(r**q for r in radii[0])
                 self.assertAlmostEqual(ratio / report["radii_value"] ** q, 1, 12)
         one = ("pack", "--n", "1", "--dim", "2", "--no-md", "--quiet", "--radii", "sum", "--report", "-", "--output", self.dir / "one.xyz")
-        for strain, radius in (("none", 0.5), ("free", 12**-0.25)):
-            report = json.loads(run(*one, "--strain", strain).stdout)
-            self.assertEqual(report["protocol"], [{"stage": "radii", "kind": "sum", "strain": strain}])
-            self.assertAlmostEqual(report["radii_value"], radius, 14)
-            self.assertEqual(report["strictly_jammed"], True if strain == "free" else None)
-        round_wall = ("--n", "10", "--seed", "11", "--container", "ball", "--no-md", "--radii", "sum", "--report", "-", "--quiet")
-        report = json.loads(run(*round_wall).stdout)
-        self.assertTrue(report["jammed"])
-        self.assertAlmostEqual(report["radii_value"], 1.785565228300895, 12)  # of jam_maximise_radii, from this start
+        report = json.loads(run(*one, "--strain", "free").stdout)
+        self.assertEqual(report["protocol"], [{"stage": "radii", "kind": "sum", "strain": "free"}])
+        self.assertAlmostEqual(report["radii_value"], 12**-0.25, 14)
+        self.assertEqual(report["strictly_jammed"], True)
         told = run("--n", 10, "--cell", "1,1,1.2", "--container", "cone", "--walls", "z", "--no-md", "--radii", "sum")
         self.assertEqual((told.returncode, "no formulae for a cone" in told.stderr), (3, True), told.stderr)
         for wrong in ("bla", "moments:", "moments:1,2,3,4,5"):
             done = run(*given, "--radii", wrong)
             self.assertEqual((done.returncode, f"--radii is '{wrong}'" in done.stderr), (2, True))
-        self.refuse("--radii has no effect beside --prove", "pack", "--radii", "sum", "--prove")
+
+    def overlapping(self, packing):
+        """The disks of a file 1.03 times as large, as a table, and the options that read it."""
+        path = self.dir / "overlapping.txt"
+        spheres = [line.split()[1:] for line in packing.read_text().splitlines()[2:]]
+        path.write_text("".join(f"{x} {y} {float(radius) * 1.03:.17g}\n" for x, y, _, radius, *_ in spheres))
+        return path, "--columns", "x,y,radius", "--cell", "1,1"
 
     def test_shear_goes_on_to_the_same_bits(self):
-        """A run that ends at its first event, and goes on from the state before it, against one that does not end."""
+        """A run that ends at its first event, and goes on from the state before it, against one that does not end. The physics
+        is that of tests/bindings/test_shear.py."""
         start, state, rows = self.dir / "start.xyz", self.dir / "state.jam", self.dir / "rows.csv"
         run("--n", 40, "--dim", 2, "--diameters-ratio", 1.4, "--seed", 2, "--quiet", "--output", start)
-        overlapping = self.dir / "overlapping.txt"
-        spheres = [line.split()[1:] for line in start.read_text().splitlines()[2:]]
-        overlapping.write_text("".join(f"{x} {y} {float(radius) * 1.03:.17g}\n" for x, y, _, radius, *_ in spheres))
-        soft = (overlapping, "--columns", "x,y,radius", "--cell", "1,1", "--alpha", 2)
+        soft = (*self.overlapping(start), "--alpha", 2)
         for begin, to in (soft, ("0.06", "-0.01")), ((start,), ("0.004",)):
             alpha = begin[5:]
             path = ("--to", ",".join(to), "--step", 1e-3 if alpha else 2e-4)
@@ -117,8 +102,6 @@ class Verbs(unittest.TestCase):
             told = json.loads(whole.stdout)
             self.assertEqual(told["stop_reason"], "strain")
             self.assertAlmostEqual(told["strain"], float(to[-1]), 12)
-            self.assertAlmostEqual(sum(told["stress_tensor"][:: 3]) / 2, told["pressure"], delta=1e-10 * told["pressure"])
-            self.assertAlmostEqual(told["stress_tensor"][1], -told["stress"], delta=1e-12 * told["pressure"])
             first = run("shear", *begin, *path, "--until", "event", "--rows", rows, "--checkpoint", state, "--checkpoint-every", 1e-9)
             self.assertEqual(first.returncode, 0, first.stderr)
             self.assertIn("(event)" if told["events"] else "(strain)", first.stdout)
@@ -157,16 +140,11 @@ class Verbs(unittest.TestCase):
 
     def test_shear_along_a_mode_at_a_stress(self):
         """The cell follows until the stress is as asked; a shear that is continued needs the same mode and stress."""
-        start, state = self.dir / "start.txt", self.dir / "state.jam"
-        made = self.dir / "made.xyz"
+        made, state = self.dir / "made.xyz", self.dir / "state.jam"
         run("--n", 40, "--dim", 2, "--diameters-ratio", 1.4, "--seed", 2, "--quiet", "--output", made)
-        spheres = [line.split()[1:] for line in made.read_text().splitlines()[2:]]
-        start.write_text("".join(f"{x} {y} {float(radius) * 1.03:.17g}\n" for x, y, _, radius, *_ in spheres))
-        soft = ("shear", start, "--columns", "x,y,radius", "--cell", "1,1", "--alpha", 2)
+        soft = ("shear", *self.overlapping(made), "--alpha", 2)
         pure = json.loads(run(*soft, "--to", 2e-3, "--mode", "0.5,0,0,-0.5", "--json").stdout)
         xx, _, _, yy = pure["stress_tensor"]
-        self.assertAlmostEqual(pure["stress"], (yy - xx) / 2, delta=1e-10 * pure["pressure"])
-        self.assertAlmostEqual(pure["packing_fraction"], json.loads(run("info", *soft[1:6], "--json").stdout)["packing_fraction"], 12)
         free = ("--to", 2e-3, "--step", 2e-4, "--stress", f"xx={xx:.17g},yy={yy:.17g}")
         told = json.loads(run(*soft, *free, "--json", "--output", self.dir / "whole.xyz").stdout)
         for k, wanted in ((0, xx), (3, yy)):
@@ -305,8 +283,7 @@ class Verbs(unittest.TestCase):
             (3, "No such file", "info", self.dir / "none.xyz"),
             (4, "cannot write", "export", bad, self.dir / "no" / "such.xyz"),
         ):
-            done = run(*args)
-            self.check_refusal(done, status, text, args)
+            self.refuse(status, text, *args)
         for verb in ("pack", "compress", "crunch", "check", "info", "export", "page"):
             done = run(verb, "--help")
             self.assertEqual(done.returncode, 0)
@@ -322,40 +299,24 @@ class Verbs(unittest.TestCase):
         out = {"crunch": ("--output", third), "compress": ("--output", third), "export": ("--output", third), "page": ("--page", third)}
         for verb in ("compress", "crunch", "check", "info", "export", "page"):
             for words in ((first, "--input", second), ("--input", first, second), ("--input", first, "--input", second)):
-                self.refuse(f"two files for --input, '{first}' and '{second}'", verb, *words, *out.get(verb, ()))
-        self.refuse("--resume and --input both give a start", "crunch", first, "--resume", second)
+                self.refuse(2, f"two files for --input, '{first}' and '{second}'", verb, *words, *out.get(verb, ()))
+        self.refuse(2, "--resume and --input both give a start", "crunch", first, "--resume", second)
         one, two = self.dir / "a", self.dir / "b"
         for verb, option in (("crunch", "--output"), ("export", "--output"), ("page", "--page")):
-            self.refuse(f"two files for {option}, '{one}' and '{two}'", verb, first, one, option, two)
-            self.refuse(f"two files for {option}, '{one}' and '{two}'", verb, option, one, first, two)
-        self.refuse(f"two files for --report, '{one}' and '{two}'", "crunch", first, "--report", one, f"--report={two}")
-        self.refuse(f"two files for --vtk, '{one}' and '{two}'", "export", first, "--vtk", one, "--vtk", two)
+            self.refuse(2, f"two files for {option}, '{one}' and '{two}'", verb, first, one, option, two)
+            self.refuse(2, f"two files for {option}, '{one}' and '{two}'", verb, option, one, first, two)
         self.assertEqual(sorted(p.name for p in self.dir.iterdir()), ["f.xyz", "j.xyz"])
-
-    def refuse(self, text, *args):
-        done = subprocess.run([program, *map(str, args)], capture_output=True, text=True, timeout=60, check=False, cwd=self.dir)
-        self.check_refusal(done, 2, text, args)
-
-    def check_refusal(self, done, status, text, args):
-        self.assertEqual(done.returncode, status, f"{args}: {done.stderr}")
-        self.assertIn(text, done.stderr, str(args))
-        if "--json" in args:
-            said = json.loads(done.stdout)
-            self.assertEqual(said["status"], status)
-            self.assertIn(text, said["text"])
-        else:
-            self.assertEqual(done.stdout, "", str(args))
 
     def test_standard_output_takes_one_text(self):
         start = self.dir / "f.xyz"
         start.write_text('1\nLattice="1 0 0 0 1 0 0 0 1" Properties=pos:R:3:radius:R:1\n0.5 0.5 0.5 0.2\n')
         for words in (("export", start, "-"), ("export", start, "-", "--json"), ("crunch", start, "-"), ("compress", "--output", "-")):
-            self.refuse("--output -: it cannot go to standard output", *words)
-        self.refuse("--page -: it cannot go to standard output", "page", start, "-")
-        self.refuse("--gaps -: it cannot go to standard output", "export", start, "--gaps", "-")
-        self.refuse("--contacts - contradicts --json", "export", start, "--contacts", "-", "--json")
-        self.refuse("--log - contradicts --json", "crunch", start, "--log", "-", "--json")
-        self.refuse("--report - contradicts --contacts", "crunch", start, "--contacts", "-", "--report", "-")
+            self.refuse(2, "--output -: it cannot go to standard output", *words)
+        self.refuse(2, "--page -: it cannot go to standard output", "page", start, "-")
+        self.refuse(2, "--gaps -: it cannot go to standard output", "export", start, "--gaps", "-")
+        self.refuse(2, "--contacts - contradicts --json", "export", start, "--contacts", "-", "--json")
+        self.refuse(2, "--log - contradicts --json", "crunch", start, "--log", "-", "--json")
+        self.refuse(2, "--report - contradicts --contacts", "crunch", start, "--contacts", "-", "--report", "-")
         self.assertEqual([p.name for p in self.dir.iterdir()], ["f.xyz"])
 
     def test_verbs_of_the_module_without_it(self):

@@ -1,5 +1,5 @@
 """Checks the Julia raw layer as text: every ccall names an exported symbol with the types of the header, and every
-struct has the size and offsets that a compiled C program prints. (tests/bindings/julia_parse.js parses the grammar.)
+struct has the size and offsets that a compiled C program prints.
 
 The types are read from the header here by a small parser of its own, not by the generator that wrote the file.
 """

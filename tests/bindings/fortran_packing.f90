@@ -46,8 +46,6 @@ contains
   subroutine network()
     type(packing) :: disks
     type(jam_crunch_report) :: report
-    type(jam_rigidity_report) :: rigid
-    type(jam_info) :: now
     type(jam_modes_options) :: which
     real(c_double), allocatable :: force(:), normal(:, :), gap(:), x(:, :), sigma(:)
     real(c_double), allocatable :: lambda(:), vector(:, :, :), value(:), table(:, :)
@@ -57,8 +55,6 @@ contains
     call disks%random(n=60, dim=2, seed=3, diameters=[(1.0_c_double + 0.4_c_double*mod(k, 2), k=1, 60)])
     report = disks%crunch()
     call expect(disks%status == JAM_OK .and. report%jammed == 1 .and. disks%why() == '', 'crunch')
-    now = disks%info()
-    call expect(now%n == 60 .and. now%dim == 2, 'info')
     force = disks%forces()
     normal = disks%contact_vectors()
     pair = disks%contacts()
@@ -102,10 +98,6 @@ contains
       hu(k) = dot_product(value(row(k):row(k + 1) - 1), u(column(row(k):row(k + 1) - 1)))
     end do
     call expect(maxval(abs(hu(:m) - lambda(1)*u(:m))) < 1e-8_c_double, 'an eigenvector')
-    call disks%floppy_modes(table=table)
-    call expect(all(shape(table) == [6, size(force)]), 'a table')
-    rigid = disks%rigidity(JAM_RIGIDITY_COLLECTIVE)
-    call expect(rigid%jammed == JAM_VERDICT_YES, 'rigidity')
     call disks%floppy_modes([size(force)], vector=vector)
     call expect(all(shape(vector) == [2, size(spheres), 1]), 'of the last contact')
     table = disks%crunch_history()
@@ -147,7 +139,6 @@ contains
     type(packing) :: soft
     type(jam_create_options) :: create
     type(jam_relax_report) :: minimum
-    type(jam_decompress_report) :: down
     integer :: k
     call jam_defaults(create)
     create%overlap = JAM_OVERLAP_ALLOW
@@ -155,8 +146,6 @@ contains
                      diameters=[(1.0_c_double + 0.4_c_double*mod(k, 2), k=1, 60)])
     minimum = soft%relax()
     call expect(minimum%converged == 1 .and. minimum%force_residual < 1e-12_c_double, 'an energy minimum')
-    down = soft%decompress()
-    call expect(down%same_network == 1, 'down to the packing of a crunch')
   end subroutine soft_spheres
 
   subroutine mistakes()

@@ -1,5 +1,5 @@
 #!/bin/sh
-# Consumers of an installed tree in C, C++, Fortran and Python, without the build tree.
+# Consumers of an installed tree in Fortran, Python and CMake, without the build tree; tests/package has those by pkg-config.
 # usage: installed.sh BUILD_FOLDER SOURCE_FOLDER PYTHON_FOLDER_BELOW_PREFIX LIBRARY_FOLDER_BELOW_PREFIX
 set -eu
 build=$1 source=$2 python_dir=$3 lib_dir=$4
@@ -9,11 +9,6 @@ cmake --install "$build" --prefix "$work/p" >"$work/log"
 cd "$work"
 export PKG_CONFIG_PATH="$work/p/$lib_dir/pkgconfig"
 link="-L$work/p/$lib_dir -Wl,-rpath,$work/p/$lib_dir"
-flags=$(pkg-config --cflags --libs jam)
-# shellcheck disable=SC2086
-cc -std=c99 "$source/examples/c/first.c" -o c_first $flags $link -lm && ./c_first >c.out
-# shellcheck disable=SC2086
-c++ -std=c++17 "$source/examples/cpp/first.cpp" -o cpp_first $flags $link -pthread && ./cpp_first >cpp.out
 # shellcheck disable=SC2086
 gfortran "$source/examples/fortran/first.f90" -o f_first $(pkg-config --cflags --libs jam-fortran) $link
 ./f_first >f.out
@@ -51,4 +46,4 @@ target_link_libraries(fortran jam::fortran)
 EOF
 cmake -S . -B b -DCMAKE_PREFIX_PATH="$work/p" >log && cmake --build b >>log
 ./b/cpp >/dev/null && ./b/fortran >/dev/null
-echo "C, C++, Fortran (module and source), Python and CMake consumers run"
+echo "Fortran (module and source), Python and CMake consumers run"

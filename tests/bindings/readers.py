@@ -163,8 +163,6 @@ def check_ase_both_ways(folder):
 
 def check_mdanalysis(mda, folder):
     """MDAnalysis keeps positions in single precision, and the cell as lengths and angles."""
-    import jam
-
     s = tilted(3)
     s.save(folder / "m.h5")
     s.write(folder / "m.data")

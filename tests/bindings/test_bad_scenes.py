@@ -1,6 +1,6 @@
 """Scenes that cannot be made: each is refused before any work, by a sentence that names its fault, from Python and from the program.
 
-Both pass the scene to the C library, whose statuses tests/capi/walls.c and tests/capi/sizes.c test.
+Both pass the scene to the C library: tests/capi/walls.c and tests/capi/sizes.c try all faults, this test one of each way in.
 """
 import os
 import subprocess
@@ -10,35 +10,19 @@ import numpy as np
 from packings import InFolder
 
 PACK = os.environ["JAM_PACK"]
-TILTED = [[1, 0, 0], [0.3, 1, 0], [0, 0, 1]]
 # System.random, jam-pack or None, the fault in the words of both or of each
 SCENES = (
     ({"walls": "w"}, "--walls w", ("name axes of 'xyz'", "--walls is 'w'")),
-    ({"walls": "z", "dim": 2}, "--walls z --dim 2", ("name axes of 'xy'", "walls is 4")),
     ({"container": "torus"}, "--container torus", ("'brick', 'cylinder', 'ball'", "brick cylinder ball")),
-    ({"container": "cylinder", "dim": 2}, "--container cylinder --dim 2", "a cylinder needs dim 3"),
-    ({"container": "ball", "walls": "x"}, "--container ball --walls x", "a ball has no flat walls"),
     ({"container": "ball", "cell": [1, 1, 2]}, "--container ball --cell 1,1,2", "x has 1, z has 2"),
-    ({"walls": "x", "cell": TILTED}, "--walls x --cell 1,0,0,0.3,1,0,0,0,1", "walls on axis x"),
     ({"walls": "z", "cell": [1, 1, 0]}, "--walls z --cell 1,1,0", "determinant 0"),
     ({"walls": "z", "cell": [1, 1, 0.2], "packing_fraction": 0.5}, None, "does not fit between walls 0.2 apart"),  # the program grows as far as it goes
     ({"porosity": 0}, "--porosity 0", ("above 0 and below 1", "--porosity is '0'")),
-    ({"porosity": 1}, "--porosity 1", "above 0 and below 1"),
-    ({"porosity": 1.2}, "--porosity 1.2", "above 0 and below 1"),
-    ({"porosity": -0.2}, "--porosity -0.2", ("above 0 and below 1", "--porosity is '-0.2'")),
-    ({"container": "ball", "porosity": 1}, "--container ball --porosity 1", "above 0 and below 1"),
 )
 # jam.sizes, the text of --sizes or the rows of a curve in a file, the fault
 LAWS = (
-    (("sieve", {"curve": [(1, 0), (0.5, 1)]}), "1,0\n0.5,1", "the sieve curve falls"),
     (("sieve", {"curve": [(1, 0), (2, 0.5), (3, 0.4), (4, 1)]}), "1,0\n2,0.5\n3,0.4\n4,1", "row 2 .*the sieve curve falls"),
-    (("sieve", {"curve": [(1, 0.2), (2, 1)]}), "1,0.2\n2,1", "must begin at 0"),
-    (("sieve", {"curve": [(1, 0), (2, 0.7)]}), "1,0\n2,0.7", "must end at 1"),
     (("list", {"curve": [(1, 0), (2, 0)]}), "list:1=0,2=0", "a share must be above 0"),
-    (("list", {"curve": [(1, 0.5), (2, -0.5)]}), "list:1=0.5,2=-0.5", "a share must not be negative"),
-    (("list", {"curve": [(1, 0.5), (1e5, 0.5)]}), "list:1=0.5,1e5=0.5", "ratios up to 10000"),
-    (("list", {"curve": [(1, 0.5), (-1, 0.5)]}), "list:1=0.5,-1=0.5", "a size must be above 0"),
-    (("uniform", {"low": 2, "high": 1}), "uniform:low=2,high=1", "low must be below high"),
     (("lognormal", {"deviation": -1}), "lognormal:deviation=-1", "deviation is -1"),
 )
 
@@ -72,16 +56,6 @@ class BadScenes(InFolder):
                     text = f"sieve:{self.folder}/curve.csv"
                 self.refused_by_the_program(["--sizes", text], words)
 
-    def test_sizes_too_large_for_their_cell(self):
-        with self.assertRaisesRegex(jam.errors.UnplaceableError, "these sizes jam near"):
-            jam.sizes("equal", porosity=0.2, cell=(1, 1, 1), mean=0.1)
-        done = subprocess.run(
-            [PACK, *"--sizes equal:mean=0.1 --porosity 0.2 --cell 1,1,1 --output".split(), str(self.folder / "out.xyz")],
-            capture_output=True, text=True, timeout=60, check=False,
-        )  # fmt: skip
-        self.assertNotEqual(done.returncode, 0)
-        self.assertIn("these sizes jam near", done.stderr)
-
     def test_calls_without_formulae_for_a_cone_name_themselves(self):
         s = jam.System.random(n=8, packing_fraction=0.1, container="cone", walls="z", seed=1)
         for call in (s.prove, lambda: s.crunch(prove=True), lambda: s.check(prove=True)):
@@ -91,7 +65,7 @@ class BadScenes(InFolder):
             s.maximise_radii()
 
     def test_free_cells_are_refused_by_name_where_walls_close_too_many_axes(self):
-        for scene, arguments, open_axes in (({"walls": "yz"}, "--walls yz", 1), ({"container": "ball"}, "--container ball", 0)):
+        for scene, open_axes in (({"walls": "yz"}, 1), ({"container": "ball"}, 0)):
             s = jam.System.random(n=20, packing_fraction=0.1, **scene)
             for call in (lambda: s.crunch(strain="free"), lambda: s.strain(0.01 * np.eye(3)), lambda: s.call("set_cell", s.cell)):
                 with self.assertRaisesRegex(jam.errors.UnsupportedError, "walls"):
@@ -99,4 +73,3 @@ class BadScenes(InFolder):
             soft = jam.System.random(n=20, packing_fraction=0.5, overlap="allow", **scene)
             with self.assertRaisesRegex(jam.errors.UnsupportedError, f"ax[ie]s without walls, this scene has {open_axes}"):
                 soft.relax(strain="free" if open_axes else "all", **({} if open_axes else {"pressure": 1e-3}))
-            self.refused_by_the_program(arguments.split() + ["--strain", "free"], "--strain")

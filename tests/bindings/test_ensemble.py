@@ -44,28 +44,21 @@ class Campaigns(InFolder):
         self.assertEqual(sum(map(len, forces)), int(table.contacts.sum()))
 
     def test_jamming_by_shear(self):
-        """Soft and hard packings, from one start: what is jammed by shear at 0.83 decompresses to no higher density."""
+        """Spheres that touch nothing are sheared until they jam; a run goes on, and gives the bits of one system."""
         shear = {"verb": "shear", "to": 0.5, "step": 5e-3, "until": "jammed", "resolution": 1e-4, "max_evaluations": 30000}
         start = dict(n=64, dim=2, packing_fraction=0.83, overlap="allow", diameters={"law": "bidisperse"}, crunch=None)
-        soft = Ensemble(self.folder, dict(start, stages=[{"verb": "relax"}, shear], analysis={"shear_history": {}, "stress": {}}))
-        hard = Ensemble(self.folder.with_name("hard"), dict(start, stages=[{"verb": "relax"}, shear, {"verb": "decompress"}], analysis={}))
-        for e in (soft, hard):
-            e.run([1], progress=False, workers=1)
-            Ensemble(e.files.path).run([1, 2, 3], progress=False, workers=1)
-            for entry in e:
-                same_bits(entry.system(), jam.ensemble.make(e.protocol, entry.seed)[0])
+        e = Ensemble(self.folder, dict(start, stages=[{"verb": "relax"}, shear], analysis={"shear_history": {}, "stress": {}}))
+        e.run([1], progress=False, workers=1)
+        Ensemble(e.files.path).run([1, 2, 3], progress=False, workers=1)
         sheared = 0
-        for above, jammed in zip(soft, hard):
-            rows = above.analysis("shear_history")
+        for entry in e:
+            same_bits(entry.system(), jam.ensemble.make(e.protocol, entry.seed)[0])
+            rows = entry.analysis("shear_history")
             self.assertGreater(rows["pressure"][-1], 0)  # contacts carry force, and before they did not
             self.assertTrue((rows["pressure"][:-1] == 0).all())
             sheared += len(rows["strain"]) > 1
-            cell = above.system().cell
+            cell = entry.system().cell
             self.assertAlmostEqual(cell[1, 0] / cell[1, 1], rows["strain"][-1], 12)
-            self.assertAlmostEqual(above.packing_fraction, 0.83, 12)
-            self.assertTrue(jammed.row["jammed"])
-            self.assertLess(jammed.packing_fraction, 0.83)
-            np.testing.assert_array_equal(jammed.system().cell, cell)
         self.assertGreater(sheared, 0)
 
     def test_the_index_is_never_trusted(self):

@@ -1,36 +1,12 @@
 """What a Python user sees: documented signatures, types, names, tables and pictures that do not depend on the clock."""
 import inspect
 import re
-import shutil
-import subprocess
-import tempfile
 import threading
 import unittest
-from pathlib import Path
 
 import numpy as np
 
 import jam
-
-USER = '''
-import jam
-
-packing = jam.System.random(n=64, dim=2, seed=1, diameters=[1.0] * 32 + [1.4] * 32)
-grown: jam.MdReport = packing.compress(growth_rate=1e-2)
-report = packing.crunch(step_tolerance=1e-9)
-phi: float = report.packing_fraction
-jammed: bool = report.jammed
-why: jam.StopReason = report.stop_reason
-early: bool = report.status > jam.StatusCode.OK
-place: int = packing.n * packing.dim
-packing.page("x.html", values={"height": packing.positions[:, 1]})
-edges = packing.density_of_states(points=20).edge.max()
-try:
-    print(packing.rigidity("strict").jammed is jam.Verdict.YES, packing.contacts.table())
-except jam.errors.StateError as error:
-    print(error)
-'''
-
 
 def disks(seed=1):
     return jam.System.random(n=64, dim=2, seed=seed, diameters=[1.0] * 32 + [1.4] * 32)
@@ -89,12 +65,6 @@ class Facade(unittest.TestCase):
             with self.assertRaisesRegex(ValueError, f"{open_.name} is neither .*compare with Verdict.YES"):
                 bool(open_)
 
-    def test_names_of_the_package(self):
-        for name in dir(jam):
-            self.assertNotIn(name, ("Any", "annotations", "dataclass", "IntEnum", "Array", "NamedTuple", "Callable"))
-        self.assertIn("System", dir(jam))
-        self.assertIn("load", dir(jam))
-
     def test_other_words_of_the_field_name_ours(self):
         s = jam.System.random(n=10, dim=2)
         for word, ours in (("phi", "packing_fraction"), ("N", "n"), ("gr", "pair_correlation"), ("bonds", "contacts")):
@@ -107,24 +77,6 @@ class Facade(unittest.TestCase):
             s.compress(rate=1e-2)
         with self.assertRaisesRegex(TypeError, "jam.sizes"):
             jam.System.random(n=10, polydispersity=0.1)
-
-    def test_pandas_takes_the_contacts(self):
-        try:
-            import pandas
-        except ImportError:
-            self.skipTest("pandas is not installed")
-        s = disks()
-        s.crunch()
-        table = pandas.DataFrame(s.contacts.table())
-        self.assertEqual(list(table), ["i", "j", "n1", "n2", "gap", "force"])
-        self.assertEqual(len(table), len(s.forces))
-
-    def test_short_text(self):
-        s = disks()
-        s.crunch()
-        for value in (s.density_of_states(points=30), s.gaps(1.0, True), s.contacts, s.modes(5), s):
-            self.assertLess(len(repr(value)), 250)
-            self.assertNotIn("[", repr(value))
 
     def test_the_trace_does_not_depend_on_the_clock(self):
         curves = []
@@ -156,26 +108,3 @@ class Facade(unittest.TestCase):
             call.join()
         for s in systems[1:]:
             np.testing.assert_array_equal(s.positions, systems[0].positions)
-
-    @unittest.skipUnless(shutil.which("mypy"), "mypy is not installed")
-    def test_mypy_strict_takes_a_program(self):
-        package = Path(jam.__file__).parent
-        with tempfile.TemporaryDirectory() as folder:
-            site = Path(folder, "site")
-            shutil.copytree(package, site / "jam", ignore=shutil.ignore_patterns("__pycache__", "*.so", "raw.py"))
-            config = "[mypy]\nstrict = True\n[mypy-jam.*]\nfollow_imports = silent\n"
-            Path(folder, "mypy.ini").write_text(config)
-
-            def check(text):
-                Path(folder, "user.py").write_text(text)
-                return subprocess.run(
-                    ["mypy", "--config-file", "mypy.ini", "user.py"],
-                    cwd=folder,
-                    env={"MYPYPATH": str(site), "PATH": "/usr/bin:/bin"},
-                    capture_output=True,
-                    text=True,
-                )
-
-            self.assertIn("Success", (said := check(USER)).stdout, said)
-            self.assertIn('"int"', check(USER + "wrong: int = report.stop_reason.name\n").stdout)
-            self.assertIn("has no attribute", check(USER + "packing.crush()\n").stdout)

@@ -4,7 +4,6 @@ import json
 import os
 import re
 import subprocess
-import sys
 import tempfile
 import unittest
 from pathlib import Path
@@ -83,30 +82,13 @@ class Options(unittest.TestCase):
 
     def test_log(self):
         with tempfile.TemporaryDirectory() as folder:
-            for program in ([PACK], [sys.executable, "-m", "jam"]):
-                log = Path(folder, "log")
-                subprocess.run([*program, "--n", "64", "--no-md", "--quiet", "--log", log], check=True, timeout=120)
-                lines = log.read_text().splitlines()
-                self.assertTrue(all(re.match(r" *\d+\.\d{3} (info|warning) \S", line) for line in lines), lines)
-                self.assertTrue(any("LP 1: gain" in line for line in lines))
-                log.unlink()
+            log = Path(folder, "log")
+            self.pack("--n", "64", "--no-md", "--quiet", "--log", str(log))
+            lines = log.read_text().splitlines()
+        self.assertTrue(all(re.match(r" *\d+\.\d{3} (info|warning) \S", line) for line in lines), lines)
+        self.assertTrue(any("LP 1: gain" in line for line in lines))
 
     def test_a_line_now_and_then_in_a_pipe(self):
         said = self.pack(*"--n 4000 --growth 1e-5:1e9 --no-crunch --wall-time 13".split())
         self.assertRegex(said.stderr, r"^4000 spheres in d = 3\ngrowth 1e-05  p [\d.]+  phi 0\.\d+ .* 1\d\.\d s  \d+ %, .* s left \(.*\)\n")
         self.assertNotIn("\r", said.stderr)
-
-    def test_notes_of_a_file(self):
-        with tempfile.TemporaryDirectory() as folder:
-            file = Path(folder, "a.xyz")
-            file.write_text('1\nLattice="1 0 0 0 1 0 0 0 1" Properties=pos:R:3:radius:R:1:mass:R:1\n.1 .2 1.3 .1 7\n' * 2)
-            notes = jam.System.read(file).notes.splitlines()
-            self.assertEqual(len(notes), 3)
-            self.assertIn("the last of 2 frames was read; frame=0 to 1 read others", notes)
-            for program in ([PACK], [sys.executable, "-m", "jam"]):
-                report = subprocess.run(
-                    [*program, "--input", file, "--no-crunch", "--report", "-"], capture_output=True, check=True
-                ).stdout
-                self.assertEqual(json.loads(report)["notes"], notes)
-                first = [*program, "--input", file, "--frame", "0", "--no-crunch", "--report", "-"]
-                self.assertEqual(len(json.loads(subprocess.run(first, capture_output=True).stdout)["notes"]), 2)

@@ -60,21 +60,13 @@ class Gsd(Folder):
         return np.where(np.arange(n) % 2, 0.9, 0.6)
 
     def test_diameters_by_type(self):
-        f = self.frame()
-        f.particles.type_shapes = [{"type": "Sphere", "diameter": 0.6}, {"type": "Sphere", "diameter": 0.9}]
-        self.write(f)
-        s = jam.System.read(self.path)
-        np.testing.assert_array_equal(s.diameters, self.want())
-        right = np.pi / 6 * (0.6**3 + 0.9**3) * 32 / 8**3
-        self.assertAlmostEqual(s.packing_fraction, right, 14)
-
-    def test_disks_by_type(self):
-        f = self.frame(2)
-        f.particles.type_shapes = [{"type": "Disk", "diameter": 0.6}, {"type": "Disk", "diameter": 0.9}]
-        self.write(f)
-        s = jam.System.read(self.path)
-        self.assertEqual((s.dim, s.n), (2, 16))
-        np.testing.assert_array_equal(s.diameters, self.want(16))
+        for dim, shape, measure in ((3, "Sphere", np.pi / 6), (2, "Disk", np.pi / 4)):
+            f = self.frame(dim)
+            f.particles.type_shapes = [{"type": shape, "diameter": 0.6}, {"type": shape, "diameter": 0.9}]
+            self.write(f)
+            s = jam.System.read(self.path)
+            np.testing.assert_array_equal(s.diameters, self.want(4**dim))
+            self.assertAlmostEqual(s.packing_fraction, measure * (0.6**dim + 0.9**dim) * 4**dim / 2 / 8**dim, 14)
 
     def test_radii_of_the_state(self):
         f = self.frame()
@@ -93,11 +85,18 @@ class Gsd(Folder):
         self.refused(["sphere 1", "type_shapes", "give diameters="], jam.System.read, self.path)
         np.testing.assert_array_equal(jam.System.read(self.path, diameters=0.6).diameters, 0.6)
 
-    def test_shapes_that_are_no_spheres(self):
-        f = self.frame()
-        f.particles.type_shapes = [{"type": "Ellipsoid", "a": 0.6, "b": 0.3, "c": 0.3}] * 2
-        self.write(f)
-        self.refused(["Ellipsoid", "give diameters="], jam.System.read, self.path)
+    def test_frames_that_are_refused(self):
+        ellipsoids, unit, empty = (self.frame() for _ in range(3))
+        ellipsoids.particles.type_shapes = [{"type": "Ellipsoid", "a": 0.6, "b": 0.3, "c": 0.3}] * 2
+        unit.particles.diameter = np.full(64, 0.5)
+        unit.configuration.box = [1, 1, 1, 0, 0, 0]  # the default of the schema, which GSD leaves out
+        empty.particles.N, empty.particles.position, empty.particles.typeid = 0, np.zeros((0, 3)), np.zeros(0)
+        for f, words in ((ellipsoids, ["Ellipsoid", "give diameters="]), (unit, ["configuration/box"]), (empty, ["no sphere"])):
+            self.write(f)
+            self.refused(words, jam.System.read, self.path)
+        with open(self.path, "w") as file:
+            file.write("no gsd\n" * 100)
+        self.refused(["f.gsd", "GSD"], jam.System.read, self.path)
 
     def test_without_diameters(self):
         self.write(self.frame())
@@ -115,7 +114,9 @@ class Gsd(Folder):
         self.refused(["spheres 0 and 3", "0.4", "plane"], jam.System.read, self.path)
         f.particles.position[:, 2] = 0.4
         self.write(f)
-        self.assertEqual(jam.System.read(self.path).dim, 2)
+        disks = jam.System.read(self.path)
+        self.assertEqual(disks.dim, 2)
+        self.assertIn("the third coordinate, 0.4 of every disk, was omitted", disks.notes)
 
     def test_frames(self):
         frames = [self.frame() for _ in range(3)]
@@ -193,13 +194,6 @@ class Gsd(Folder):
         self.assertIn("particles/diameter, particles/image, particles/type_shapes, particles/typeid", notes)
         self.assertNotIn("frames", notes)
 
-    def test_notes_of_disks(self):
-        f = self.frame(2)
-        f.particles.diameter = np.full(16, 0.5)
-        f.particles.position[:, 2] = 0.25
-        self.write(f)
-        self.assertIn("the third coordinate, 0.25 of every disk, was omitted", jam.System.read(self.path).notes)
-
     def test_notes_are_of_what_is_new(self):
         """A file of libjam comes back to the bit; copies, pickles and files keep the notes of others."""
         s = jam.System.random(n=64, seed=3, packing_fraction=0.1)
@@ -232,24 +226,6 @@ class Gsd(Folder):
         np.testing.assert_array_equal(jam.System.read(again).positions, jam.System.read(out).positions)
         checked = subprocess.run([sys.executable, "-m", "jam", "check", again], capture_output=True, text=True)
         self.assertEqual((checked.returncode, checked.stderr), (1, ""), checked.stdout)
-
-    def test_no_gsd(self):
-        with open(self.path, "w") as file:
-            file.write("no gsd\n" * 100)
-        self.refused(["f.gsd", "GSD"], jam.System.read, self.path)
-        f = self.frame()
-        f.particles.N = 0
-        f.particles.position = np.zeros((0, 3))
-        f.particles.typeid = np.zeros(0)
-        self.write(f)
-        self.refused(["no sphere"], jam.System.read, self.path)
-
-    def test_box_that_the_file_does_not_hold(self):
-        f = self.frame()
-        f.particles.diameter = np.full(64, 0.5)
-        f.configuration.box = [1, 1, 1, 0, 0, 0]  # the default of the schema, which GSD leaves out
-        self.write(f)
-        self.refused(["configuration/box"], jam.System.read, self.path)
 
 
 @unittest.skipUnless(available("ase"), "python3-ase is not installed")

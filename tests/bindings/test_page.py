@@ -295,14 +295,6 @@ class Page(PageTest):
         })""")
         self.assertAlmostEqual(*ratios, delta=0.01)
 
-    def test_no_slider_without_steps(self):
-        self.show(self.disks)
-        self.assertIsNone(self.page.run("document.querySelector('input.steps')"))
-        self.assertTrue(self.page.run("document.getElementById('step').parentElement.hidden"))
-        self.page.run("canvas.focus()")
-        self.page.key(",")
-        self.assertTrue(self.page.run("atEnd()"))
-
     def test_slider_follows_a_free_cell(self):
         s = jam.System.random(n=40, dim=2, seed=2, diameters=[1.0] * 20 + [1.4] * 20, packing_fraction=0.6)
         s.crunch(strain="free", keep_steps=50)

@@ -130,10 +130,7 @@ class Additions(PageTest):
     def test_forces_of_walls_end_at_the_walls(self):
         for options in (
             dict(n=60, dim=2, container="ball"),
-            dict(n=60, dim=2, walls="xy"),
-            dict(n=60, container="cylinder", cell=[1, 1, 2]),
             dict(n=60, container="cylinder", cell=[1, 1, 2], walls="z"),
-            dict(n=60, container="ball"),
             dict(n=60, walls="xyz"),
             dict(n=48, dim=4, walls=(True, False, False, True)),
         ):

@@ -74,14 +74,6 @@ class Showing(unittest.TestCase):
             self.assertRegex(bar.texts[-1], r"^(crunch|polish) .*phi 0\.\d+ .*step \d+")
             self.assertTrue(all(0 <= n <= bar.total for n in bar.seen))
 
-    def test_bar_follows_the_fraction_of_dynamics(self):
-        _, bars = self.shown(
-            lambda: jam.System.random(n=500, seed=1).run(1500, progress=True), tqdm=True, notebook=True, terminal=False
-        )
-        self.assertEqual(bars[0].seen, sorted(bars[0].seen))
-        self.assertGreater(bars[0].seen[-1], bars[0].seen[0])
-        self.assertRegex(bars[0].texts[-1], r"^run .*collisions")
-
     def test_bar_follows_growth_and_crunch(self):
         def call():
             s = jam.System.random(n=800, seed=1)

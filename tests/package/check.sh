@@ -22,19 +22,6 @@ pkgconfig)
   grep -qx -- "-- pkg-config: PKG_CONFIG_PATH=$libdir/pkgconfig" "$scratch/install.log" ||
     die "the install does not print the folder of jam.pc"
   if grep '^Libs' "$libdir/pkgconfig/jam.pc" | grep ' /'; then die "jam.pc names a library by its path"; fi
-  ${CC:-cc} -std=c99 -pedantic -Wall -Wextra -Werror "$here/consumer/consumer.c" -o "$scratch/consumer_pc" \
-    $(pkg-config --cflags --libs jam)
-  LD_LIBRARY_PATH=$libdir "$scratch/consumer_pc"
-  ;;
-static)
-  # A folder with libjam.a alone comes first, so -ljam means the static library; what it needs itself is told by jam.pc.
-  export PKG_CONFIG_PATH="$libdir/pkgconfig"
-  rm -rf "$scratch/static" && mkdir "$scratch/static" && cp "$libdir/libjam.a" "$scratch/static"
-  # shellcheck disable=SC2046
-  ${CC:-cc} -std=c99 "$here/consumer/consumer.c" -o "$scratch/consumer_static" -L"$scratch/static" \
-    $(pkg-config --cflags --libs --static jam)
-  if ldd "$scratch/consumer_static" | grep -q libjam; then die "the program needs the shared library"; fi
-  "$scratch/consumer_static"
   ;;
 cmake)
   rm -rf "$scratch/consumer_cmake"

@@ -142,7 +142,8 @@ contains
     end do
     right = transpose(turned)
     made = c_null_ptr
-    call expect(jam_create(three, turned, size_one, out=made) == JAM_E_ARGUMENT .and. .not. c_associated(made), 'x(n, 3)')
+    call expect(jam_create(three, turned, size_one, out=made) == JAM_E_ARGUMENT, 'x(n, 3) is refused')
+    call expect(.not. c_associated(made), 'and nothing is made')
     call expect(index(jam_message(), 'transpose') > 0, 'the way out')
     call expect(jam_create(positions=turned(1:9, :), diameters=size_one, out=made) == JAM_E_ARGUMENT, 'default dim')
     cell = 0

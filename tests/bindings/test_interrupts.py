@@ -38,8 +38,6 @@ class Interrupts(unittest.TestCase):
         s = self.quenched
         for call in (
             lambda: setattr(s, "positions", 1.0 - self.positions),
-            lambda: s.scale_diameters(1.0 + 1e-9),
-            lambda: setattr(s, "cell", [[1, 0, 0], [0.25, 1, 0], [0, 0.25, 1]]),
             lambda: s.strain([[0, 0.01, 0], [0, 0, 0], [0, 0, 0]]),
         ):
             self.check_interrupted(call)
@@ -60,7 +58,6 @@ class Interrupts(unittest.TestCase):
         s = jam.System.random(n=N, seed=1)
         for call in (
             lambda: s.bond_order(64, 3.0),
-            lambda: s.call("pair_correlation", r_max=9.0, bins=100),
             lambda: s.estimate_crunch(neighbour_radius=4.0),
         ):
             self.check_interrupted(call)

@@ -12,22 +12,6 @@ from jam_pack_case import InFolder, program, run
 
 
 class Stops(InFolder):
-    def test_wall_time_bounds_the_spectrum(self):
-        packing = self.dir / "p.xyz"
-        self.report("--n", 1000, "--growth", "1e-1:1e4", "--output", packing)
-        table, times = self.dir / "s.csv", []
-        for words in ((), ("--spectrum", table, "--modes", 0)):
-            began = time.monotonic()
-            self.report("--input", packing, "--no-md", *words)
-            times.append(time.monotonic() - began)
-        table.unlink()
-        limit = times[0] + 0.2 * (times[1] - times[0])
-        done = run("--input", packing, "--spectrum", table, "--modes", 0, "--wall-time", limit, "--quiet")
-        if done.returncode:  # else the machine was slower before
-            self.assertEqual(done.returncode, 1, done.stderr)
-            self.assertRegex(done.stderr, "--wall-time came before|wall_time came before")
-            self.assertFalse(table.exists())
-
     def test_contacts_that_are_not_known_are_not_written(self):
         files = [self.dir / name for name in ("c.csv", "s.csv", "g.csv", "m.csv")]
         tables = [x for pair in zip(("--contacts", "--structure", "--gaps", "--spectrum"), files) for x in pair]

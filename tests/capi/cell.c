@@ -9,89 +9,6 @@ static jam_create_options options(int32_t dim, int64_t n) {
   return o;
 }
 
-static double dot(const double *a, const double *b, int d) {
-  double sum = 0.0;
-  for (int c = 0; c < d; ++c) sum += a[c] * b[c];
-  return sum;
-}
-
-CASE(lower_triangle) {
-  const double cell[9] = {5.0, 0.4, 0.1, 0.3, 1.1, 0.2, 0.2, 9.3, 2.0};
-  double taken[9], rotation[9], given[9];
-  int64_t transform[9];
-  size_t needed = 0, rows = 0;
-  jam_create_options o = options(3, 1);
-  const double x[3] = {0.7, -0.4, 0.9}, sigma = 0.1;
-  const double *at = NULL;
-  jam_system *sys = created_from(&o, x, 3, &sigma, 1);
-  assert_int_equal(jam_set_cell(sys, cell, 9, transform, 9, rotation, 9, &rows), JAM_OK);
-  assert_int_equal(rows, 3);
-  assert_int_equal(jam_get_cell(sys, NULL, 0, &needed), JAM_OK);
-  assert_int_equal(needed, 9);
-  assert_int_equal(jam_get_cell(sys, taken, 8, &needed), JAM_E_BUFFER);
-  assert_int_equal(jam_get_cell(sys, taken, 9, NULL), JAM_OK);
-  for (int r = 0; r < 3; ++r) {
-    assert_true(taken[4 * r] > 0.0);
-    for (int c = r + 1; c < 3; ++c) assert_true(taken[3 * r + c] == 0.0);
-    for (int c = 0; c < 3; ++c) assert_int_equal(transform[3 * r + c], r == c);
-    for (int c = 0; c < 3; ++c) {
-      assert_true(fabs(dot(rotation + 3 * r, rotation + 3 * c, 3) - (r == c)) < 1e-14);
-      given[3 * r + c] = 0.0; /* T cell, which the rotation takes to the new rows */
-      for (int k = 0; k < 3; ++k) given[3 * r + c] += (double)transform[3 * r + k] * cell[3 * k + c];
-    }
-    for (int c = 0; c < 3; ++c) assert_true(fabs(dot(rotation + 3 * c, given + 3 * r, 3) - taken[3 * r + c]) < 1e-13);
-  }
-  assert_int_equal(jam_view(sys, JAM_VIEW_POSITIONS, &at, &needed), JAM_OK);
-  assert_true(at[0] >= 0.0 && at[0] < taken[0] && at[1] < taken[4] && at[2] < taken[8]);
-  /* a lower triangle comes back to the last bit, and nothing rotates */
-  assert_int_equal(jam_set_cell(sys, taken, 9, transform, 9, rotation, 9, NULL), JAM_OK);
-  assert_int_equal(jam_get_cell(sys, given, 9, NULL), JAM_OK);
-  assert_memory_equal(given, taken, sizeof taken);
-  for (int k = 0; k < 9; ++k) assert_true(transform[k] == (k % 4 == 0) && rotation[k] == (k % 4 == 0));
-  jam_destroy(sys);
-}
-
-/* A triangular lattice of side^2 disks without those of `holes`, by vectors with or without a large tilt. */
-static jam_system *hexagonal(int side, int holes, double tilt) {
-  const double h = sqrt(0.75), sigma = 1.0;
-  double x[2 * 64];
-  const double cell[4] = {side, 0.0, 0.5 * side + tilt * side, h * side};
-  size_t n = 0;
-  jam_system *sys = NULL;
-  for (int k = holes; k < side * side; ++k, ++n) {
-    x[2 * n] = k % side + 0.5 * (k / side);
-    x[2 * n + 1] = h * (k / side);
-  }
-  jam_create_options o = options(2, (int64_t)n);
-  assert_int_equal(create_in_cell(&o, cell, 4, x, 2 * n, &sigma, 1, &sys), JAM_OK);
-  return sys;
-}
-
-static jam_rigidity_report rigidity(jam_system *sys, int32_t kind) {
-  SIZED(jam_rigidity_report, r);
-  assert_true(jam_rigidity(sys, kind, &r) >= 0);
-  return r;
-}
-
-/* Donev, Torquato, Stillinger, Connelly, J. Comput. Phys. 197, 139 (2004): a vacancy leaves the triangular lattice
- * strictly jammed, two in a row do not. Flexes counted by an independent program. */
-CASE(triangular_lattices) {
-  const struct { int holes, jammed, flexes; } cases[] = {{0, 1, 0}, {1, 1, 0}, {2, 0, 2}, {3, 0, 6}};
-  for (size_t k = 0; k < sizeof cases / sizeof *cases; ++k)
-    for (int tilt = 0; tilt <= 5; tilt += 5) {
-      jam_system *sys = hexagonal(8, cases[k].holes, tilt);
-      const jam_info info = info_of(sys);
-      assert_true(fabs(info.packing_fraction - (64 - cases[k].holes) / 64.0 * M_PI / sqrt(12.0)) < 1e-14);
-      assert_true(jam_contacts_from_geometry(sys, NULL, NULL) >= 0);
-      for (int32_t kind = JAM_RIGIDITY_COLLECTIVE; kind <= JAM_RIGIDITY_STRICT; ++kind) {
-        const jam_rigidity_report r = rigidity(sys, kind);
-        assert_int_equal(r.jammed, cases[k].jammed ? JAM_VERDICT_YES : JAM_VERDICT_NO);
-        assert_int_equal(r.flexes, cases[k].flexes);
-      }
-      jam_destroy(sys);
-    }
-}
-
 /* A random start in one basis, crunched in two: the same jammed packing. */
 CASE(crunch_does_not_depend_on_the_basis) {
   for (int32_t dim = 2; dim <= 3; ++dim) {
@@ -122,30 +39,6 @@ CASE(crunch_does_not_depend_on_the_basis) {
     assert_int_equal(contacts[0], contacts[1]);
     jam_destroy(sys);
   }
-}
-
-/* A shear and its reverse give the energy back, through a cell whose tilt exceeds half an edge. */
-CASE(shear_and_back) {
-  jam_create_options o = options(2, 40);
-  const double shear[3][4] = {{0.0, 0.8, 0.0, 0.0}, {0.0, -0.8, 0.0, 0.0}, {0.0}};
-  double energy[3], cell[4];
-  o.overlap = JAM_OVERLAP_ALLOW, o.packing_fraction = 0.9;
-  jam_system *sys = created(&o);
-  for (int k = 0; k < 3; ++k) {
-    jam_relax_report r = {.struct_size = sizeof r};
-    DEFAULTS(relax, ro);
-    ro.max_evaluations = 1;
-    jam_system *copy = copy_of(sys);
-    assert_true(jam_relax(copy, &ro, &r) >= 0);
-    energy[k] = r.energy;
-    jam_destroy(copy);
-    assert_int_equal(jam_strain(sys, shear[k], 4), JAM_OK);
-  }
-  assert_true(fabs(energy[2] - energy[0]) < 1e-12 * energy[0]);
-  assert_true(fabs(energy[1] - energy[0]) > 1e-3 * energy[0]);
-  assert_int_equal(jam_get_cell(sys, cell, 4, NULL), JAM_OK);
-  assert_true(fabs(cell[0] * cell[3] - 1.0) < 1e-14); /* a shear keeps the volume */
-  jam_destroy(sys);
 }
 
 /* r -> (1 + strain) r by numbers: a point and the cell vectors. */

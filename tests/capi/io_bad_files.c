@@ -76,19 +76,8 @@ CASE(bad_xyz_files_are_refused) {
   expect_refused("1\n" LATTICE "Properties=pos:R:3:radius:R:1\n0 0 0 0.1 7\n", JAM_E_FORMAT, "line 3: 5 columns");
   expect_refused("1\n" LATTICE "Properties=pos:R:3:radius:R:1\n0 0 0 -0.1\n", JAM_E_ARGUMENT, "the radius is -0.1");
   expect_refused("1\n" LATTICE "Properties=pos:R:3:radius:R:1\n0 nan 0 0.1\n", JAM_E_NONFINITE, "line 3");
-}
-
-/* A box that is open in some direction is refused; words for true are read, and in d = 2 the third one is ignored. */
-CASE(open_boundaries_refused) {
-  jam_system *sys = NULL;
-  const char *good = "1\n" LATTICE "Properties=pos:R:3:radius:R:1 pbc=\"True T 1\"\n0 0 0 0.1\n";
   expect_refused("1\n" LATTICE "Properties=pos:R:3:radius:R:1 pbc=\"F T T\"\n0 0 0 0.1\n", JAM_E_UNSUPPORTED,
                  "line 2: pbc='F T T'");
-  expect_refused("1\n" LATTICE "Properties=pos:R:3:radius:R:1 pbc=\"T T F\"\n0 0 0 0.1\n", JAM_E_UNSUPPORTED,
-                 "periodic in every direction");
-  put_bytes(in_scratch("good.dat"), good, strlen(good));
-  assert_int_equal(jam_read(in_scratch("good.dat"), NULL, NULL, NULL, &sys), JAM_OK);
-  jam_destroy(sys);
 }
 
 /* Names of other programs' formats are refused with the list of ours, unless the format is named; nothing is written.
@@ -177,49 +166,6 @@ CASE(missing_files_are_refused) {
   put_bytes(in_scratch("ok.dat"), "2\n1\n0.1\n0.5 0.5\n", 16);
   assert_int_equal(jam_read(in_scratch("ok.dat"), &o, NULL, NULL, &sys), JAM_E_ARGUMENT);
   assert_null(sys);
-}
-
-CASE(overlap_policy) {
-  const char text[] = "2\n2\n0.4\n0.1 0.5\n0.4 0.5\n", huge[] = "2\n2\n1e6\n0.1 0.5\n0.4 0.5\n";
-  jam_create_options o;
-  jam_system *sys = NULL;
-  jam_info info;
-  info.struct_size = sizeof info;
-  put_bytes(in_scratch("o.dat"), text, strlen(text));
-  jam_create_options_init(&o, sizeof o);
-  assert_int_equal(jam_read(in_scratch("o.dat"), &o, NULL, NULL, &sys), JAM_E_OVERLAP);
-  o.overlap = JAM_OVERLAP_SHRINK;
-  assert_int_equal(jam_read(in_scratch("o.dat"), &o, NULL, NULL, &sys), JAM_OK);
-  jam_get_info(sys, &info);
-  assert_true(info.diameter_mean > 0.3 - 1e-12 && info.diameter_mean < 0.3 + 1e-12);
-  jam_destroy(sys);
-  put_bytes(in_scratch("o.dat"), huge, strlen(huge)); /* far too large for the box: only on demand */
-  SAYS(jam_read(in_scratch("o.dat"), &o, NULL, NULL, &sys), JAM_E_OVERLAP, "by 3e-07, less than shrink_min 0.001");
-  o.shrink_min = 0.0;
-  assert_int_equal(jam_read(in_scratch("o.dat"), &o, NULL, NULL, &sys), JAM_OK);
-  jam_get_info(sys, &info);
-  assert_true(info.diameter_mean > 0.3 - 1e-12 && info.diameter_mean < 0.3 + 1e-12);
-  jam_destroy(sys);
-}
-
-CASE(shared_file) {
-  jam_system *sys = NULL, *back = NULL;
-  jam_info info;
-  const char *path = JAM_TEST_SHARED "/ls-n1024-d3.dat";
-  if (access(path, R_OK)) {
-    print_message("%s is not there: skipped\n", path);
-    skip();
-  }
-  info.struct_size = sizeof info;
-  if (jam_read(path, NULL, NULL, NULL, &sys) != JAM_OK) fail_msg("%s", jam_last_error());
-  jam_get_info(sys, &info);
-  assert_int_equal(info.n, 1024);
-  assert_true(info.packing_fraction > 0.6439 && info.packing_fraction < 0.6440);
-  assert_int_equal(jam_write(sys, in_scratch("shared.xyz"), JAM_FORMAT_AUTO), JAM_OK);
-  assert_int_equal(jam_read(in_scratch("shared.xyz"), NULL, NULL, NULL, &back), JAM_OK);
-  assert_same_bits(sys, back);
-  jam_destroy(sys);
-  jam_destroy(back);
 }
 
 FIXTURE(make_scratch, remove_scratch)

@@ -29,7 +29,7 @@ CASE(odd_plain_text) {
   same_three(read_text("3\n3\n0.2\n0.1 0.2 0.3\n0.6 0.7 0.8\n0.35 0.9 0.15"));   /* no last newline */
   same_three(read_text("3\n3\n0.2\n0.1 0.2 0.30\n0.6 0.7 0.8\n0.35 0.9 0.15 ")); /* a blank there */
   same_three(read_text("3\r3\r0.2\r0.1 0.2 0.3\r0.6 0.7 0.8\r0.35 0.9 0.15\r"));
-  same_three(read_text("3\r\n3\r\n0.2\r\n0.1 0.2 0.3\r\n0.6 0.7 0.8\r\n0.35 0.9 0.15\r\n"));
+  same_three(read_text("3 \r\n3\r\n0.2\t\r\n+0.1 0.2 0.3 \r\n\r\n0.6  0.7\t0.8\r\n0.35 0.9 0.15\r\n\r\n"));
   same_three(read_text(
       "# mine\n3 # dimension\n\n3\n0.2 # diameter\n#x\n0.1 0.2 0.3\n0.6 0.7 0.8 # b\n0.35 0.9 0.15\n# end\n"));
   same_three(read_text("3\n3\n0.2\n0.1,0.2,0.3\n0.6, 0.7,0.8\n0.35 , 0.9,\t0.15\n"));
@@ -99,6 +99,8 @@ CASE(odd_xyz) {
       read_text("3\nLattice={1 0 0 0 1 0 0 0 1} Properties=type:I:1:pos:R:3:radius:R:1 pbc=\"TRUE True t\"\n" R));
   same_three(read_text("3\n" BOX "Properties=type:I:1:pos:R:3:Radius:R:1\n" R));
   same_three(read_text("3\n" BOX "Properties=pos:R:3:Diameter:R:1\n0.1 0.2 0.3 0.2\n.6 .7 .8 .2\n0.35 0.9 0.15 .2\n"));
+  same_three(read_text("3\nanimation=no pbc=\"T T T\" Properties=species:S:1:radius:R:1:pos:R:3:move:I:2 step " BOX
+                       "\nA 0.1 .1 .2 .3 0 0\nB .1 .6 .7 .8 0 0\nB .1 .35 .9 .15 0 0\n"));
   sys = read_text("1\nLattice=\"9 0 0 0 9 0 0 0 9\" Properties=pos:I:3:radius:I:1\n1 2 3 1\n");
   assert_string_equal(jam_notes(sys), "");
   jam_destroy(sys);
@@ -264,6 +266,9 @@ CASE(absurd_factors_are_refused) {
   expect_refused_as(near, NULL, &o, JAM_E_OVERLAP, "less than shrink_min 0.001; leave one of two duplicates out");
   expect_refused_as(faces, NULL, &o, JAM_E_OVERLAP, "spheres 0 and 1 have the same centre: no shrinking helps");
   expect_refused(faces, JAM_E_OVERLAP, "they have the same centre");
+  o.overlap = JAM_OVERLAP_ALLOW;
+  jam_destroy(read_as(near, NULL, &o));
+  o.overlap = JAM_OVERLAP_SHRINK;
   o.shrink_min = 1e-8;
   jam_destroy(read_as(near, NULL, &o));
   o.shrink_min = 2.0;

@@ -3,16 +3,6 @@
 #include "io_helpers.h"
 #include "start.h"
 
-static jam_system *in_cell(int32_t dim, const double *cell) {
-  jam_system *sys = NULL;
-  DEFAULTS(create, o);
-  o.dim = dim;
-  o.n = 40;
-  o.packing_fraction = 0.1;
-  assert_int_equal(create_in_cell(&o, cell, (size_t)(dim * dim), NULL, 0, NULL, 0, &sys), JAM_OK);
-  return sys;
-}
-
 static void same_after(jam_system *sys, const char *name) {
   jam_system *back = NULL;
   const char *path = in_scratch(name);
@@ -20,26 +10,6 @@ static void same_after(jam_system *sys, const char *name) {
   if (jam_read(path, NULL, NULL, NULL, &back) != JAM_OK) fail_msg("%s", jam_last_error());
   assert_same_bits(sys, back);
   jam_destroy(back);
-}
-
-CASE(lammps_data_keeps_the_bits) {
-  const double flat[4] = {1.0, 0.0, 0.4, 1.1}, solid[9] = {1.0, 0.0, 0.0, 0.3, 1.1, 0.0, -0.2, 0.45, 0.9};
-  int32_t dim;
-  for (dim = 2; dim <= 3; ++dim) {
-    jam_system *cube = some_packing(dim, 60, 1.4, 7.3), *tilted = in_cell(dim, dim == 2 ? flat : solid), *back = NULL;
-    double before[9], after[9];
-    const size_t count = (size_t)(dim * dim);
-    same_after(cube, "a.data");
-    same_after(cube, "a.lmp.gz");
-    same_after(tilted, "b.data");
-    assert_int_equal(jam_read(in_scratch("b.data"), NULL, NULL, NULL, &back), JAM_OK);
-    jam_get_cell(tilted, before, count, NULL);
-    jam_get_cell(back, after, count, NULL);
-    assert_memory_equal(before, after, count * sizeof *before);
-    jam_destroy(back);
-    jam_destroy(cube);
-    jam_destroy(tilted);
-  }
 }
 
 CASE(compressed_files_keep_the_bits) {

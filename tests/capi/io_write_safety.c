@@ -55,15 +55,6 @@ CASE(a_full_disk_leaves_the_old_file) {
   jam_destroy(sys);
 }
 
-CASE(special_files_are_written_in_place) {
-  jam_system *sys = some_packing(3, 5, 1.0, 1.0);
-  struct stat there;
-  assert_int_equal(jam_write(sys, "/dev/null", 0), JAM_OK);
-  assert_int_equal(stat("/dev/null", &there), 0);
-  assert_true(S_ISCHR(there.st_mode));
-  jam_destroy(sys);
-}
-
 CASE(links_and_permissions_are_kept) {
   jam_system *sys = some_packing(3, 5, 1.0, 1.0), *back = NULL;
   const char *real = in_scratch("real.dat"), *link = in_scratch("link.dat"), *dangling = in_scratch("dangling.dat");

@@ -122,35 +122,6 @@ CASE(a_sphere_fills_the_cell) {
   }
 }
 
-/* Spheres that coordinates cannot resolve are refused, in every call that makes or changes a system. */
-CASE(a_rod_too_long_for_its_spheres_is_refused) {
-  const double heights[] = {1.1e-3, 1e-2, 5e-2};
-  size_t k;
-  for (k = 0; k < 3; ++k) {
-    double cell[64] = {0};
-    int c;
-    jam_system *sys = NULL;
-    DEFAULTS(create, o);
-    for (c = 0; c < 8; ++c) cell[c * 9] = c == 7 ? pow(heights[k], -7.0) : heights[k];
-    o.dim = 8, o.n = 10, o.packing_fraction = 10.0 * volume_of_sphere(8, 0.7 * heights[k]);
-    SAYS(create_in_cell(&o, cell, 64, NULL, 0, NULL, 0, &sys), JAM_E_ARGUMENT, "longest edge");
-  }
-}
-
-/* The default start lies below saturation in every dimension. */
-CASE(default_starts_in_every_dimension) {
-  int d;
-  for (d = 2; d <= 8; ++d) {
-    const double expected = 0.2 * pow(0.5, d > 3 ? d - 3 : 0);
-    DEFAULTS(create, o);
-    o.dim = d, o.n = 300;
-    jam_system *sys = created(&o);
-    const jam_info i = info_of(sys);
-    assert_true(fabs(i.packing_fraction / expected - 1.0) < 1e-12);
-    jam_destroy(sys);
-  }
-}
-
 /* A gas whose cell is 2e4 diameters wide: spheres that meet from across the cell touch to eps (L / sigma)^2 of a
  * contact distance. The next call must not take that for an error, nor a file of it. */
 CASE(a_very_dilute_gas_runs_on) {

@@ -155,26 +155,6 @@ CASE(a_tuning_of_runs_is_resumed) {
   jam_destroy(whole), jam_destroy(sys);
 }
 
-/* The whole protocol of NULL: what its first stage made is kept. */
-CASE(isoconfigurational_runs_resume) {
-  const double instants[] = {2.0, 5.0};
-  jam_system *sys = dense(3, 1000);
-  SIZED(jam_isoconf_report, r);
-  DEFAULTS(isoconf, o);
-  DEFAULTS(monte_carlo, mc);
-  o.runs = 2, o.wall_time = 1e-9;
-  assert_int_equal(jam_isoconf(sys, &o, &mc, instants, 2, NULL, 0, &r), JAM_LIMIT);
-  assert_int_equal(r.stop_reason, JAM_STOP_WALL_TIME);
-  o.resume = 1;
-  assert_int_equal(jam_isoconf(sys, &o, &mc, instants, 2, NULL, 0, &r), JAM_LIMIT);
-  sys = move(sys, FILE_);
-  o.wall_time = INFINITY;
-  assert_int_equal(jam_isoconf(sys, &o, &mc, instants, 2, NULL, 0, &r), JAM_OK);
-  assert_int_equal(r.runs, 2);
-  assert_true(r.step > 0.0);
-  jam_destroy(sys);
-}
-
 /* A call that has not begun leaves the results of a crunch: nothing has moved. */
 CASE(results_stay_until_something_moves) {
   size_t pairs = 0;

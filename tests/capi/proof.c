@@ -87,32 +87,6 @@ CASE(a_packing_of_two_sizes_is_proved) {
   jam_destroy(copy);
 }
 
-/* Bounds are rounded outward on the assumption of rounding to nearest, which the library sets: whatever the host's
-   mode, every number of the report is the same, and the mode is as before. */
-CASE(the_rounding_mode_of_the_host_changes_nothing) {
-  static const int modes[] = {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO};
-  jam_system *sys = jammed();
-  jam_proof_report nearest = {.struct_size = sizeof nearest};
-  double high[2 * n], low[2 * n], again[2 * n], rest[2 * n];
-  size_t k;
-  assert_int_equal(jam_prove(sys, JAM_RIGIDITY_COLLECTIVE, sizes, n, &nearest), JAM_OK);
-  assert_int_equal(jam_refined_positions(sys, sizes, n, high, 2 * n, low, 2 * n, NULL), JAM_OK);
-  for (k = 0; k < sizeof modes / sizeof *modes; ++k) {
-    jam_proof_report r = {.struct_size = sizeof r};
-    jam_status status;
-    assert_int_equal(fesetround(modes[k]), 0);
-    status = jam_prove(sys, JAM_RIGIDITY_COLLECTIVE, sizes, n, &r);
-    assert_int_equal(fegetround(), modes[k]);
-    assert_int_equal(jam_refined_positions(sys, sizes, n, again, 2 * n, rest, 2 * n, NULL), JAM_OK);
-    fesetround(FE_TONEAREST);
-    assert_int_equal(status, JAM_OK);
-    assert_memory_equal(&r, &nearest, sizeof r);
-    assert_memory_equal(again, high, sizeof high);
-    assert_memory_equal(rest, low, sizeof low);
-  }
-  jam_destroy(sys);
-}
-
 /* Crunch and check take the option, and their reports agree with jam_prove. */
 CASE(crunch_and_check_prove_when_asked) {
   jam_system *sys = jammed();

@@ -24,23 +24,6 @@ static jam_system *square(int side) {
   return created_from(&o, x, 2 * (size_t)(side * side), &sigma, 1);
 }
 
-/* Fluids near jamming: no pair touches, and the network from geometry is not taken for a jammed one. */
-CASE(fluids) {
-  for (int64_t seed = 1; seed <= 10; ++seed) {
-    jam_system *sys = grown(3, 64, seed, 500.0);
-    jam_rigidity_report r = rigidity_test(sys, JAM_RIGIDITY_COLLECTIVE, JAM_NOT_JAMMED);
-    jam_crunch_report report;
-    assert_int_equal(r.stationary, JAM_VERDICT_NO);
-    assert_int_equal(r.contacts, 0);
-    assert_true(jam_contacts_from_geometry(sys, NULL, NULL) != JAM_OK);
-    report.struct_size = sizeof report;
-    assert_int_equal(jam_get_crunch_report(sys, &report), JAM_OK);
-    assert_int_equal(report.jammed, 0);
-    rigidity_test(sys, JAM_RIGIDITY_COLLECTIVE, JAM_NOT_JAMMED); /* nor with that network at hand */
-    jam_destroy(sys);
-  }
-}
-
 CASE(crunched) {
   jam_system *sys = grown(3, 64, 3, 500.0);
   jam_crunch_report report;

@@ -28,9 +28,7 @@ static int32_t keep(const jam_progress *p, void *user) {
 }
 
 static jam_system *start(double cell) {
-  DEFAULTS(create, o);
-  o.n = 100, o.packing_fraction = 0.3, o.seed = 5;
-  jam_system *sys = created(&o);
+  jam_system *sys = random_spheres(3, 100, 0.3, 5);
   if (cell != 0.0) {
     const double strain[9] = {0, cell, 0, 0, 0, 0, 0, 0, 0};
     assert_int_equal(jam_scale_diameters(sys, 0.9), JAM_OK);
@@ -88,14 +86,11 @@ static int32_t stop(const jam_progress *p, void *user) {
 
 /* The handle itself, its copies and its checkpoints know of a crunch that was stopped, until spheres change. */
 CASE(a_stopped_crunch_is_known) {
-  jam_system *sys = start(0.0), *copy = NULL, *again = NULL;
+  jam_system *sys = start(0.0), *copy, *again;
   assert_int_equal(jam_set_progress(sys, stop, NULL), JAM_OK);
   in_steps(sys, 1, JAM_CANCELLED);
   assert_int_equal(info_of(sys).paused, JAM_PHASE_CRUNCH);
-  assert_int_equal(jam_copy(sys, &copy), JAM_OK);
-  assert_int_equal(jam_write_checkpoint(sys, path), JAM_OK);
-  assert_int_equal(jam_read_checkpoint(path, NULL, NULL, &again), JAM_OK);
-  remove(path);
+  copy = copy_of(sys), again = from_checkpoint(sys);
   assert_int_equal(info_of(copy).paused, JAM_PHASE_CRUNCH);
   assert_int_equal(info_of(again).paused, JAM_PHASE_CRUNCH);
   assert_int_equal(jam_scale_diameters(sys, 0.99), JAM_OK);
@@ -128,17 +123,14 @@ static int32_t stop_on_path(const jam_progress *p, void *user) {
 /* A path that was stopped goes on where it was: no LP comes first, and the duality gap is that of the stop, for which
  * mu stands. An LP would close it, a new path would begin at the first mu. By LPs alone it begins with one. */
 CASE(a_path_goes_on) {
-  jam_system *sys = start(0.0), *again = NULL, *by_lps = NULL;
+  jam_system *sys = start(0.0), *again, *by_lps;
   lps last = {0, 0};
   double gap;
   assert_int_equal(jam_set_progress(sys, stop_on_path, &last), JAM_OK);
   in_steps(sys, 1, JAM_CANCELLED);
   assert_true(history(sys, JAM_HISTORY_PHASE, 1) == JAM_STEP_PATH);
   gap = history(sys, JAM_HISTORY_DUALITY_GAP, 1);
-  assert_int_equal(jam_write_checkpoint(sys, path), JAM_OK);
-  assert_int_equal(jam_read_checkpoint(path, NULL, NULL, &again), JAM_OK);
-  assert_int_equal(jam_read_checkpoint(path, NULL, NULL, &by_lps), JAM_OK);
-  remove(path);
+  again = from_checkpoint(sys), by_lps = copy_of(again);
   assert_true(in_steps(again, 0, JAM_OK).jammed);
   assert_true(history(again, JAM_HISTORY_PHASE, 0) == JAM_STEP_PATH);
   assert_true(fabs(history(again, JAM_HISTORY_DUALITY_GAP, 0) / gap - 1.0) < 0.5); /* forces are those of the centre */

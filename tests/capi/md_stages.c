@@ -1,16 +1,9 @@
 /* The protocol of jam_compress: limits and targets keep it, a growth rate makes one stage, resumed calls end it. */
 #include <math.h>
-#include <stdio.h>
 
-#include "systems.h"
+#include "steps.h"
 
-static jam_system *start_with(int64_t n) {
-  DEFAULTS(create, o);
-  o.n = n, o.seed = 2;
-  return created(&o);
-}
-
-static jam_system *start(void) { return start_with(60); }
+static jam_system *start(void) { return random_spheres(3, 60, 0.0, 2); }
 
 static jam_md_report grow(jam_system *sys, const jam_compress_options *o, jam_status expected) {
   SIZED(jam_md_report, r);
@@ -81,54 +74,24 @@ CASE(a_rate_makes_one_stage) {
   jam_destroy(one);
 }
 
-static int32_t stop_at_times(const jam_progress *p, void *user) {
-  (void)p;
-  return ++*(int *)user % 3 == 0;
-}
-
-/* However often it is stopped, also between two stages and across checkpoints, it ends as if it had not been. 500
- * spheres, so that growth takes much longer than the 0.05 s between two callbacks. */
+/* Slices of wall time, which is that of the call, not of each stage: however often it is stopped, also between two stages
+ * and across checkpoints, it ends as if it had not been. */
 CASE(a_stopped_protocol_goes_on) {
-  jam_system *whole = start_with(500), *cut = start_with(500), *again = NULL;
-  jam_compress_options o = defaults();
-  int asked = 0, calls = 0;
-  jam_status status;
-  jam_info info;
-  grow(whole, NULL, JAM_OK);
-  for (;;) {
-    assert_int_equal(jam_set_progress(cut, stop_at_times, &asked), JAM_OK);
-    status = jam_compress(cut, &o, NULL);
-    info.struct_size = sizeof info;
-    assert_int_equal(jam_get_info(cut, &info), JAM_OK);
-    if (status == JAM_OK) break;
-    assert_int_equal(status, JAM_CANCELLED);
-    assert_int_equal(info.paused, JAM_PHASE_COMPRESS);
-    assert_int_equal(jam_write_checkpoint(cut, "md_stages.bin"), JAM_OK);
-    assert_int_equal(jam_read_checkpoint("md_stages.bin", NULL, NULL, &again), JAM_OK);
-    jam_destroy(cut);
-    cut = again;
-    o.resume = 1;
-    ++calls;
-  }
-  remove("md_stages.bin");
-  assert_true(calls > 0);
-  same_view(whole, cut, JAM_VIEW_POSITIONS);
-  jam_destroy(cut);
-  jam_destroy(whole);
-}
-
-/* Slices of wall time: the limit is that of the call, not of each stage. */
-CASE(wall_time_cuts_the_protocol) {
   jam_system *whole = start(), *cut = start();
   jam_compress_options o = defaults();
+  int calls = 0;
   jam_status status;
   grow(whole, NULL, JAM_OK);
   o.wall_time = 0.01;
   while ((status = jam_compress(cut, &o, NULL)) == JAM_LIMIT) {
-    const jam_info info = info_of(cut);
-    o.resume = info.paused != 0;
+    jam_system *const again = from_checkpoint(cut);
+    jam_destroy(cut);
+    cut = again;
+    o.resume = info_of(cut).paused != 0;
+    ++calls;
   }
   assert_int_equal(status, JAM_OK);
+  assert_true(calls > 0);
   same_view(whole, cut, JAM_VIEW_POSITIONS);
   jam_destroy(cut);
   jam_destroy(whole);

@@ -1,34 +1,15 @@
 /* A call that is stopped before its dynamics have begun can be resumed, to the bits of a call that was not stopped. */
 #include <math.h>
-#include <stdio.h>
 #include "steps.h"
-
-static const char *path = "md_unbegun_checkpoint.bin";
-
-static jam_system *dense(int32_t dim, int64_t n) {
-  DEFAULTS(create, o);
-  o.dim = dim, o.n = n, o.seed = 5;
-  return created(&o);
-}
 
 /* How a stopped call is continued: on the handle, on a copy, from a checkpoint. */
 enum { HERE, COPY, FILE_, WAYS };
 static jam_system *move(jam_system *sys, int way) {
-  jam_system *next = NULL;
+  jam_system *next;
   if (way == HERE) return sys;
-  if (way == COPY) assert_int_equal(jam_copy(sys, &next), JAM_OK);
-  if (way == FILE_) {
-    assert_int_equal(jam_write_checkpoint(sys, path), JAM_OK);
-    assert_int_equal(jam_read_checkpoint(path, NULL, NULL, &next), JAM_OK);
-    remove(path);
-  }
+  next = way == COPY ? copy_of(sys) : from_checkpoint(sys);
   jam_destroy(sys);
   return next;
-}
-
-static int32_t paused(const jam_system *sys) {
-  const jam_info i = info_of(sys);
-  return i.paused;
 }
 
 /* Stops a call with this verb twice before it has begun, then lets it end. */
@@ -58,11 +39,11 @@ CASE(a_call_that_has_not_begun_is_resumed) {
   size_t v;
   int way, cut;
   for (v = 0; v < 3; ++v) {
-    jam_system *whole = dense(3, 2000);
+    jam_system *whole = random_spheres(3, 2000, 0.0, 5);
     assert_int_equal(md(whole, verbs[v], 0, INFINITY, NULL), JAM_OK);
     for (way = 0; way < WAYS; ++way)
       for (cut = 0; cut < 2; ++cut) { /* by wall_time, by a cancel that came before */
-        jam_system *sys = dense(3, 2000);
+        jam_system *sys = random_spheres(3, 2000, 0.0, 5);
         const int32_t why = cut ? JAM_STOP_CANCELLED : JAM_STOP_WALL_TIME;
         int32_t reason = 0;
         int k;
@@ -71,9 +52,9 @@ CASE(a_call_that_has_not_begun_is_resumed) {
           assert_int_equal(md(sys, verbs[v], k, cut ? INFINITY : 1e-9, &reason), cut ? JAM_CANCELLED : JAM_LIMIT);
           assert_int_equal(reason, why);
           assert_true(strlen(jam_last_error()) > 0);
-          assert_int_equal(paused(sys), verbs[v]);
+          assert_int_equal(info_of(sys).paused, verbs[v]);
           sys = move(sys, way);
-          assert_int_equal(paused(sys), verbs[v]);
+          assert_int_equal(info_of(sys).paused, verbs[v]);
         }
         assert_int_equal(md(sys, verbs[v], 1, INFINITY, NULL), JAM_OK);
         same(sys, whole);
@@ -86,7 +67,7 @@ CASE(a_call_that_has_not_begun_is_resumed) {
 /* Each call makes one sweep of the tuning at least: calls without any time come to the bits of one that has all of it.
  */
 CASE(a_tuning_is_resumed) {
-  jam_system *whole = dense(3, 200), *sys = dense(3, 200);
+  jam_system *whole = random_spheres(3, 200, 0.0, 5), *sys = random_spheres(3, 200, 0.0, 5);
   int calls = 0;
   assert_int_equal(md(whole, JAM_PHASE_MONTE_CARLO, 0, INFINITY, NULL), JAM_OK);
   SIZED(jam_monte_carlo_report, r);
@@ -106,7 +87,7 @@ CASE(a_tuning_is_resumed) {
 
 /* A run that continues has its own options: another one is refused by its name, and the run waits on. */
 CASE(a_resumed_run_keeps_its_options) {
-  jam_system *sys = dense(3, 50);
+  jam_system *sys = random_spheres(3, 50, 0.0, 5);
   int k;
   SIZED(jam_monte_carlo_report, r);
   DEFAULTS(monte_carlo, o);
@@ -122,7 +103,7 @@ CASE(a_resumed_run_keeps_its_options) {
     if (k == 3) o.run = 7;
     if (k == 4) o.first_sweep = 3;
     SAYS(jam_monte_carlo(sys, &o, &r), JAM_E_ARGUMENT, names[k]);
-    assert_int_equal(paused(sys), JAM_PHASE_MONTE_CARLO);
+    assert_int_equal(info_of(sys).paused, JAM_PHASE_MONTE_CARLO);
   }
   jam_monte_carlo_options_init(&o, sizeof o);
   o.resume = 1, o.sweeps = 20, o.step = 0.1;
@@ -134,7 +115,7 @@ CASE(a_resumed_run_keeps_its_options) {
 CASE(a_tuning_of_runs_is_resumed) {
   jam_isoconf_report r[2];
   const double instants[] = {2.0, 5.0};
-  jam_system *whole = dense(3, 200), *sys = dense(3, 200);
+  jam_system *whole = random_spheres(3, 200, 0.0, 5), *sys = random_spheres(3, 200, 0.0, 5);
   jam_status status;
   int calls = 0;
   r[0].struct_size = r[1].struct_size = sizeof r[0];
@@ -158,7 +139,7 @@ CASE(a_tuning_of_runs_is_resumed) {
 /* A call that has not begun leaves the results of a crunch: nothing has moved. */
 CASE(results_stay_until_something_moves) {
   size_t pairs = 0;
-  jam_system *sys = dense(2, 30);
+  jam_system *sys = random_spheres(2, 30, 0.0, 5);
   SIZED(jam_crunch_report, r);
   assert_true(jam_crunch(sys, NULL, &r) >= 0);
   assert_int_equal(md(sys, JAM_PHASE_RUN, 0, 1e-9, NULL), JAM_LIMIT);

@@ -1,12 +1,9 @@
 /* Results belong to the packing: copies and checkpoints hold them whole, and whatever moves a sphere clears them whole.
  */
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 
-#include "systems.h"
-
-static const char *path = "results.bin";
+#include "io_helpers.h"
+#include "steps.h"
 
 static jam_system *start(int32_t dim, int64_t n, double fraction, int32_t overlap) {
   DEFAULTS(create, o);
@@ -46,21 +43,11 @@ static jam_status minima(const jam_system *s, double *out, size_t len, size_t *n
   return jam_decompress_history(s, JAM_SOFT_COLUMNS, out, len, needed);
 }
 
-static long size_of(const char *name) {
-  FILE *f = fopen(name, "rb");
-  long size;
-  assert_non_null(f);
-  fseek(f, 0, SEEK_END);
-  size = ftell(f);
-  fclose(f);
-  return size;
-}
-
 static void same_results(const jam_system *a, const jam_system *b, int crunched) {
-  jam_crunch_report r, s;
-  jam_comparison_report c;
-  memset(&r, 0, sizeof r), memset(&s, 0, sizeof s), memset(&c, 0, sizeof c);
-  r.struct_size = s.struct_size = sizeof r, c.struct_size = sizeof c;
+  size_t size[2];
+  SIZED(jam_crunch_report, r);
+  SIZED(jam_crunch_report, s);
+  SIZED(jam_comparison_report, c);
   assert_int_equal(jam_get_crunch_report(a, &r), JAM_OK);
   assert_int_equal(jam_get_crunch_report(b, &s), JAM_OK);
   assert_memory_equal(&r, &s, sizeof r);
@@ -70,25 +57,20 @@ static void same_results(const jam_system *a, const jam_system *b, int crunched)
   assert_int_equal(jam_compare(a, b, &c, NULL, 0, NULL), JAM_OK);
   assert_int_equal(c.common_contacts, c.contacts_a);
   assert_int_equal(c.common_contacts, c.contacts_b);
-  /* Files, where the network and the steps of the crunch show too. */
-  assert_int_equal(jam_write_page(a, "results_a.html", "", 0, "", NULL, 0), JAM_OK);
-  assert_int_equal(jam_write_page(b, "results_b.html", "", 0, "", NULL, 0), JAM_OK);
-  assert_int_equal(size_of("results_a.html"), size_of("results_b.html"));
-  assert_int_equal(jam_write_contacts(b, "results_a.csv", JAM_CONTACTS_AUTO), JAM_OK);
-  remove("results_a.html"), remove("results_b.html"), remove("results_a.csv");
+  for (int k = 0; k < 2; ++k) { /* a page, where the network and the steps of the crunch show too */
+    assert_int_equal(jam_write_page(k ? b : a, in_scratch("page"), "", 0, "", NULL, 0), JAM_OK);
+    free(get_bytes(in_scratch("page"), &size[k]));
+  }
+  assert_int_equal(size[0], size[1]);
 }
 
 /* A copy and a checkpoint of sys have its results. */
 static void kept(jam_system *sys, int crunched) {
-  jam_system *copy = NULL, *again = NULL;
-  assert_int_equal(jam_copy(sys, &copy), JAM_OK);
-  assert_int_equal(jam_write_checkpoint(sys, path), JAM_OK);
-  if (jam_read_checkpoint(path, NULL, NULL, &again) != JAM_OK) fail_msg("%s", jam_last_error());
+  jam_system *copy = copy_of(sys), *again = from_checkpoint(sys);
   same_results(sys, copy, crunched);
   same_results(sys, again, crunched);
   jam_destroy(again);
   jam_destroy(copy);
-  remove(path);
 }
 
 CASE(a_crunch_is_kept) {
@@ -113,15 +95,14 @@ CASE(a_crunch_is_kept) {
 }
 
 CASE(networks_of_other_calls_are_kept) {
-  jam_system *sys = start(2, 50, 0.9, JAM_OVERLAP_ALLOW), *again = NULL;
+  jam_system *sys = start(2, 50, 0.9, JAM_OVERLAP_ALLOW), *again;
   assert_true(jam_relax(sys, NULL, NULL) >= 0);
   kept(sys, 0); /* with stiffnesses */
   DEFAULTS(decompress, o);
   o.crunch = 0;
   assert_true(jam_decompress(sys, &o, NULL) >= 0);
   kept(sys, 0);
-  assert_int_equal(jam_write_checkpoint(sys, path), JAM_OK);
-  assert_int_equal(jam_read_checkpoint(path, NULL, NULL, &again), JAM_OK);
+  again = from_checkpoint(sys);
   same_array(minima, sys, again);
   jam_destroy(again);
   jam_destroy(sys);
@@ -199,41 +180,32 @@ CASE(every_move_clears_all) {
   jam_destroy(jammed);
 }
 
-static double pressure_of(const jam_system *sys) {
-  const jam_info info = info_of(sys);
-  return info.pressure;
-}
-
 /* A pressure that dynamics has measured is one of its own packing. */
 CASE(pressures_are_of_this_packing) {
-  jam_system *grown = start(2, 50, 0.4, JAM_OVERLAP_REFUSE), *again = NULL;
+  jam_system *grown = start(2, 50, 0.4, JAM_OVERLAP_REFUSE), *again;
   const double *v;
   size_t len;
   int move;
-  assert_true(isnan(pressure_of(grown)));
-  DEFAULTS(run, run);
-  run.collisions_per_particle = 20;
-  assert_int_equal(jam_run(grown, &run, NULL), JAM_OK);
-  assert_true(pressure_of(grown) > 1.0);
-  assert_int_equal(jam_write_checkpoint(grown, path), JAM_OK);
-  assert_int_equal(jam_read_checkpoint(path, NULL, NULL, &again), JAM_OK);
-  assert_true(pressure_of(again) == pressure_of(grown));
+  assert_true(isnan(info_of(grown).pressure));
+  run(grown, 20);
+  assert_true(info_of(grown).pressure > 1.0);
+  again = from_checkpoint(grown);
+  assert_true(info_of(again).pressure == info_of(grown).pressure);
   DEFAULTS(monte_carlo, mc);
   mc.sweeps = 2;
   for (move = 0; move < 4; ++move) {
     jam_system *sys = copy_of(grown);
-    assert_true(pressure_of(sys) == pressure_of(grown));
+    assert_true(info_of(sys).pressure == info_of(grown).pressure);
     assert_int_equal(jam_view(sys, JAM_VIEW_POSITIONS, &v, &len), JAM_OK);
     if (move == 0) assert_true(crunch(sys, JAM_STRAIN_NONE, 0, 0.0, 0) >= 0);
     if (move == 1) assert_int_equal(jam_monte_carlo(sys, &mc, NULL), JAM_OK);
     if (move == 2) assert_int_equal(jam_scale_diameters(sys, 0.9), JAM_OK);
     if (move == 3) assert_int_equal(jam_set_positions(sys, v, len), JAM_OK);
-    assert_true(isnan(pressure_of(sys)));
+    assert_true(isnan(info_of(sys).pressure));
     jam_destroy(sys);
   }
   jam_destroy(again);
   jam_destroy(grown);
-  remove(path);
 }
 
 /* The history of a decompression goes with the packing that it led to. */
@@ -288,7 +260,7 @@ CASE(observed_data_are_copied) {
 /* What reading assumed is known of a copy and of a checkpoint, too. */
 CASE(notes_are_kept) {
   const double x[4] = {0.5, 0.5, 0.5000001, 0.5}, sigma = 2e-7;
-  jam_system *sys = NULL, *copy = NULL, *again = NULL;
+  jam_system *sys = NULL, *copy, *again;
   DEFAULTS(create, o);
   o.dim = 2, o.n = 2, o.overlap = JAM_OVERLAP_SHRINK;
   assert_int_equal(create_from(&o, x, 4, &sigma, 1, &sys), JAM_OK);
@@ -299,29 +271,12 @@ CASE(notes_are_kept) {
   assert_int_equal(jam_add_note(sys, ""), JAM_E_ARGUMENT);
   assert_int_equal(jam_add_note(sys, "two\nlines"), JAM_E_ARGUMENT);
   assert_int_equal(jam_add_note(sys, NULL), JAM_E_NULL);
-  assert_int_equal(jam_copy(sys, &copy), JAM_OK);
-  assert_int_equal(jam_write_checkpoint(sys, path), JAM_OK);
-  assert_int_equal(jam_read_checkpoint(path, NULL, NULL, &again), JAM_OK);
+  copy = copy_of(sys), again = from_checkpoint(sys);
   assert_string_equal(jam_notes(copy), jam_notes(sys));
   assert_string_equal(jam_notes(again), jam_notes(sys));
   jam_destroy(again);
   jam_destroy(copy);
   jam_destroy(sys);
-  remove(path);
 }
 
-/* Monte Carlo from a checkpoint draws the numbers that the handle itself would draw. */
-CASE(streams_go_on_after_a_checkpoint) {
-  jam_system *sys = start(3, 60, 0.3, JAM_OVERLAP_REFUSE), *again = NULL;
-  DEFAULTS(monte_carlo, mc);
-  mc.sweeps = 20, mc.step = 0.1;
-  assert_int_equal(jam_monte_carlo(sys, &mc, NULL), JAM_OK);
-  assert_int_equal(jam_write_checkpoint(sys, path), JAM_OK);
-  assert_int_equal(jam_read_checkpoint(path, NULL, NULL, &again), JAM_OK);
-  assert_int_equal(jam_monte_carlo(sys, &mc, NULL), JAM_OK);
-  assert_int_equal(jam_monte_carlo(again, &mc, NULL), JAM_OK);
-  same_view(sys, again, JAM_VIEW_POSITIONS);
-  jam_destroy(again);
-  jam_destroy(sys);
-  remove(path);
-}
+FIXTURE(make_scratch, remove_scratch)

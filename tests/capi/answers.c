@@ -1,7 +1,5 @@
 /* A status that is not JAM_OK comes with a sentence: in jam_last_error, and in the log. */
-#include <stdio.h>
-
-#include "systems.h"
+#include "steps.h"
 
 static char logged[600];
 
@@ -26,22 +24,11 @@ static jam_system *start(int64_t n, double fraction, int32_t overlap) {
   return sys;
 }
 
-/* The square lattice: forces balance, several states of self-stress, and it can shear. */
+/* Its forces balance by several states of self-stress, and it can shear. */
 static jam_system *square(void) {
-  double x[72];
-  const double sigma = 1.0 / 6.0;
-  int k;
-  for (k = 0; k < 36; ++k) x[2 * k] = (k % 6) / 6.0, x[2 * k + 1] = (k / 6) / 6.0;
-  DEFAULTS(create, o);
-  o.dim = 2, o.n = 36;
-  jam_system *sys = created_from(&o, x, 72, &sigma, 1);
+  jam_system *sys = square_lattice(6);
   assert_int_equal(jam_set_log(sys, keep_line, JAM_LOG_WARNING, NULL), JAM_OK);
   return sys;
-}
-
-static int32_t stop(const jam_progress *p, void *user) {
-  (void)p, (void)user;
-  return 1;
 }
 
 CASE(stopped_calls_say_what_stopped_them) {
@@ -52,7 +39,7 @@ CASE(stopped_calls_say_what_stopped_them) {
   DEFAULTS(crunch, crunch);
   crunch.max_lps = 1, crunch.method = JAM_CRUNCH_SEQUENTIAL_LP;
   said(jam_crunch(sys, &crunch, NULL), JAM_LIMIT, "max_lps");
-  jam_set_progress(sys, stop, NULL);
+  jam_set_progress(sys, stop_at_once, NULL);
   said(jam_crunch(sys, NULL, NULL), JAM_CANCELLED, "callback");
   said(jam_compress(sys, NULL, NULL), JAM_CANCELLED, "callback");
   DEFAULTS(monte_carlo, mc);

@@ -104,17 +104,3 @@ CASE(a_jammed_packing_stays_jammed) {
   assert_true(r.jammed && r.stop_reason == JAM_STOP_CONVERGED && r.force_residual < 1e-13);
   jam_destroy(sys);
 }
-
-CASE(bad_values_are_refused) {
-  const double bad[] = {-1e-8, 1e-13, 0.1, NAN, INFINITY};
-  jam_system *sys = grown(2, 1);
-  size_t k;
-  for (k = 0; k < sizeof bad / sizeof *bad; ++k) crunch_to(sys, bad[k], JAM_E_ARGUMENT);
-  DEFAULTS(crunch, o);
-  o.duality_gap = 1e-6, o.method = JAM_CRUNCH_SEQUENTIAL_LP;
-  assert_int_equal(jam_crunch(sys, &o, NULL), JAM_E_ARGUMENT);
-  o.method = JAM_CRUNCH_BARRIER_PATH, o.strain = JAM_STRAIN_FREE;
-  assert_int_equal(jam_crunch(sys, &o, NULL), JAM_E_ARGUMENT);
-  assert_int_equal(strcmp(jam_stop_string(JAM_STOP_DUALITY_GAP), "duality_gap"), 0);
-  jam_destroy(sys);
-}

@@ -6,16 +6,10 @@
 #include <math.h>
 #include <time.h>
 
-#include "systems.h"
+#include "steps.h"
 #include "verdicts.h"
 
-static jam_system *start_with(int dim, int n, uint64_t seed) {
-  DEFAULTS(create, o);
-  o.dim = dim, o.n = n, o.seed = seed;
-  if (n > 2) o.packing_fraction = 0.3;
-  return created(&o);
-}
-static jam_system *start(int n) { return start_with(3, n, 5); }
+static jam_system *start(int n) { return random_spheres(3, n, 0.3, 5); }
 
 typedef struct ambush {
   jam_system *sys;
@@ -225,7 +219,7 @@ CASE(a_limit_leaves_no_older_verdict) {
     for (int lps = 2; lps <= 20; lps += 3) {
       for (int method = JAM_CRUNCH_BARRIER_PATH; method <= JAM_CRUNCH_SEQUENTIAL_LP; ++method) {
         SIZED(jam_crunch_report, r);
-        jam_system *sys = start_with(2, 2, (uint64_t)seed);
+        jam_system *sys = random_spheres(2, 2, 0.0, seed);
         DEFAULTS(crunch, o);
         o.strain = JAM_STRAIN_FREE, o.max_lps = lps, o.method = method;
         assert_true(jam_crunch(sys, &o, &r) >= 0);

@@ -117,6 +117,9 @@ void life(Work &w, Seen &seen, int dim, int model) {
       return jam_modes(copy, nullptr, nullptr, JAM_MODE_COLUMNS, table.data(), room, nullptr, 0, &needed);
     });
     w.call("jam_rigidity", [&] { return jam_rigidity(copy, JAM_RIGIDITY_STRICT, nullptr); });
+    SIZED(jam_proof_report, proof);
+    w.call("jam_prove", [&] { return jam_prove(copy, JAM_RIGIDITY_COLLECTIVE, nullptr, 0, &proof); });
+    w.numbers.insert(w.numbers.end(), {proof.radius, proof.least_force, proof.fraction_error});
     jam_destroy(copy);
   }
   DEFAULTS(isoconf, runs);

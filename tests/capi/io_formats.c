@@ -100,8 +100,6 @@ CASE(page_shows_the_steps_that_the_crunch_kept) {
   int states;
   DEFAULTS(crunch, o);
   assert_int_equal(jam_copy(sys, &plain), JAM_OK);
-  for (o.keep_steps = -1; o.keep_steps <= 1001; o.keep_steps += 1002)
-    assert_int_equal(jam_crunch(sys, &o, NULL), JAM_E_ARGUMENT);
   o.keep_steps = 3;
   assert_true(jam_crunch(sys, &o, NULL) >= 0);
   states = states_on_the_page(sys);

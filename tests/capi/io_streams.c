@@ -4,6 +4,7 @@
 #include <sys/time.h>
 #include <sys/wait.h>
 #include "io_helpers.h"
+#include "steps.h"
 
 static void ignore_signal(int number) { (void)number; }
 
@@ -52,11 +53,6 @@ CASE(signals_do_not_end_a_read) {
     waitpid(child, NULL, 0);
   }
   jam_destroy(sys);
-}
-
-static int32_t stop_at_once(const jam_progress *p, void *user) {
-  (void)p, (void)user;
-  return 1;
 }
 
 /* Nobody writes: the limit of time and the callback end the call. */

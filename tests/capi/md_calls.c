@@ -1,72 +1,24 @@
-/* jam_run and jam_compress: arguments, statuses, edge cases, cancelling. */
+/* jam_run and jam_compress: statuses, exact ends, starts at contact. */
 #include <math.h>
 
-#include "systems.h"
-
-static jam_system *make(int64_t n, int32_t dim, double fraction) {
-  DEFAULTS(create, o);
-  o.n = n;
-  o.dim = dim;
-  o.packing_fraction = fraction;
-  return created(&o);
-}
+#include "steps.h"
 
 static jam_md_report empty_report(void) {
   SIZED(jam_md_report, r);
   return r;
 }
 
-static double fraction_of(const jam_system *sys) {
-  const jam_info info = info_of(sys);
-  return info.packing_fraction;
-}
-
-CASE(refuses_bad_arguments) {
-  jam_system *sys = make(20, 3, 0.2);
-  jam_run_options r;
-  jam_compress_options c;
-  jam_md_report report = empty_report();
-  const double bad[] = {0.0, -1.0, NAN};
-  int k;
-  assert_int_equal(jam_run_options_init(NULL, sizeof r), JAM_E_NULL);
-  assert_int_equal(jam_run_options_init(&r, 2), JAM_E_STRUCT_SIZE);
-  assert_int_equal(jam_compress_options_init(NULL, sizeof c), JAM_E_NULL);
-  assert_int_equal(jam_compress_options_init(&c, sizeof c + 520), JAM_E_STRUCT_SIZE);
-  report.struct_size = 0;
-  assert_int_equal(jam_run(sys, NULL, &report), JAM_E_STRUCT_SIZE);
-  assert_int_equal(jam_compress(sys, NULL, &report), JAM_E_STRUCT_SIZE);
-#define REFUSED(verb, o, member, value)                              \
-  assert_int_equal(jam_##verb##_options_init(&o, sizeof o), JAM_OK); \
-  o.member = value;                                                  \
-  SAYS(jam_##verb(sys, &o, NULL), JAM_E_ARGUMENT, #member)
-  for (k = 0; k < 3; ++k) {
-    REFUSED(run, r, collisions_per_particle, bad[k]);
-    REFUSED(run, r, wall_time, bad[k]);
-    REFUSED(compress, c, growth_rate, bad[k] == 0.0 ? -1e-300 : bad[k]); /* 0 is the protocol */
-    REFUSED(compress, c, pressure, bad[k]);
-    REFUSED(compress, c, packing_fraction, bad[k]);
-  }
-  jam_compress_options_init(&c, sizeof c);
-  c.growth_rate = INFINITY;
-  assert_int_equal(jam_compress(sys, &c, NULL), JAM_E_ARGUMENT);
-  jam_run_options_init(&r, sizeof r);
-  r.struct_size = 4000;
-  assert_int_equal(jam_run(sys, &r, NULL), JAM_E_STRUCT_SIZE);
-  assert_true(fabs(fraction_of(sys) - 0.2) < 1e-12);
-  jam_destroy(sys);
-}
-
 CASE(without_collisions_runs_end_at_once) {
-  jam_system *sys = make(1, 3, 0.1);
+  jam_system *sys = random_spheres(3, 1, 0.1, 1);
   jam_md_report report = empty_report();
   double zero[60] = {0.0};
   assert_int_equal(jam_run(sys, NULL, &report), JAM_NOT_CONVERGED);
   assert_int_equal(report.stop_reason, JAM_STOP_STALLED);
   /* Growing ends when the sphere touches its own images. */
   assert_int_equal(jam_compress(sys, NULL, &report), JAM_NOT_CONVERGED);
-  assert_true(fabs(fraction_of(sys) - 3.14159265358979 / 6.0) < 1e-9);
+  assert_true(fabs(info_of(sys).packing_fraction - 3.14159265358979 / 6.0) < 1e-9);
   jam_destroy(sys);
-  sys = make(20, 3, 0.2);
+  sys = random_spheres(3, 20, 0.2, 1);
   assert_int_equal(jam_set_velocities(sys, zero, 60), JAM_OK);
   assert_int_equal(jam_run(sys, NULL, &report), JAM_NOT_CONVERGED);
   assert_int_equal(report.stop_reason, JAM_STOP_STALLED);
@@ -76,14 +28,14 @@ CASE(without_collisions_runs_end_at_once) {
 }
 
 CASE(exact_packing_fraction) {
-  jam_system *sys = make(100, 3, 0.2);
+  jam_system *sys = random_spheres(3, 100, 0.2, 1);
   jam_md_report report = empty_report();
   DEFAULTS(compress, c);
   c.packing_fraction = 0.45;
   c.pressure = 1e12;
   assert_int_equal(jam_compress(sys, &c, &report), JAM_OK);
   assert_int_equal(report.stop_reason, JAM_STOP_PACKING_FRACTION);
-  assert_true(fabs(fraction_of(sys) - 0.45) < 1e-13);
+  assert_true(fabs(info_of(sys).packing_fraction - 0.45) < 1e-13);
   assert_true(fabs(report.packing_fraction - 0.45) < 1e-13);
   /* Growth leads to no target below the present one, and says so; the present one is there already. */
   assert_int_equal(jam_compress(sys, &c, &report), JAM_OK);
@@ -92,12 +44,12 @@ CASE(exact_packing_fraction) {
   SAYS(jam_compress(sys, &c, &report), JAM_NOT_CONVERGED, "above the 0.3 that is wanted");
   assert_int_equal(report.stop_reason, JAM_STOP_PACKING_FRACTION);
   assert_int_equal(report.collisions, 0);
-  assert_true(fabs(fraction_of(sys) - 0.45) < 1e-13);
+  assert_true(fabs(info_of(sys).packing_fraction - 0.45) < 1e-13);
   jam_destroy(sys);
 }
 
 CASE(exact_collisions) {
-  jam_system *sys = make(50, 3, 0.3);
+  jam_system *sys = random_spheres(3, 50, 0.3, 1);
   jam_md_report report = empty_report();
   DEFAULTS(run, r);
   r.collisions_per_particle = 10.0;
@@ -162,15 +114,12 @@ CASE(starts_at_contact) {
 
 /* Positions in a box of another side are the same packing, scaled. */
 CASE(box_only_scales) {
-  jam_system *a = make(60, 3, 0.3), *b = NULL;
-  const double *x, *d, *y, *e;
-  double scaled[180], diameter;
+  jam_system *a = random_spheres(3, 60, 0.3, 1), *b = NULL;
+  const double *const x = view_of(a, JAM_VIEW_POSITIONS), *const d = view_of(a, JAM_VIEW_DIAMETERS);
+  double scaled[180], diameter = 8.0 * d[0];
   jam_md_report ra = empty_report(), rb = empty_report();
   int k;
-  x = view_of(a, JAM_VIEW_POSITIONS);
   for (k = 0; k < 180; ++k) scaled[k] = 8.0 * x[k];
-  d = view_of(a, JAM_VIEW_DIAMETERS);
-  diameter = 8.0 * d[0];
   DEFAULTS(create, o);
   o.n = 60;
   o.box = 8.0;
@@ -178,10 +127,8 @@ CASE(box_only_scales) {
   assert_int_equal(jam_compress(a, NULL, &ra), JAM_OK);
   assert_int_equal(jam_compress(b, NULL, &rb), JAM_OK);
   assert_true(ra.pressure == rb.pressure && ra.collisions == rb.collisions && ra.time == rb.time);
-  y = view_of(b, JAM_VIEW_POSITIONS);
-  for (k = 0; k < 180; ++k) assert_true(y[k] == 8.0 * x[k]);
-  e = view_of(b, JAM_VIEW_DIAMETERS);
-  assert_true(e[0] == 8.0 * d[0]);
+  for (k = 0; k < 180; ++k) assert_true(view_of(b, JAM_VIEW_POSITIONS)[k] == 8.0 * x[k]);
+  assert_true(view_of(b, JAM_VIEW_DIAMETERS)[0] == 8.0 * d[0]);
   jam_destroy(a);
   jam_destroy(b);
 }

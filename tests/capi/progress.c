@@ -1,6 +1,6 @@
 /* The progress of long calls: a fraction that never falls, and the time left where it is known. */
 #include <math.h>
-#include "systems.h"
+#include "steps.h"
 
 typedef struct seen {
   int reports, known, times;
@@ -26,9 +26,7 @@ static int32_t look(const jam_progress *p, void *user) {
 }
 
 static jam_system *random_start(int32_t dim, int64_t n, seen *s) {
-  DEFAULTS(create, o);
-  o.dim = dim, o.n = n, o.seed = 2;
-  jam_system *sys = created(&o);
+  jam_system *sys = random_spheres(dim, n, 0.0, 2);
   memset(s, 0, sizeof *s);
   assert_int_equal(jam_set_progress(sys, look, s), JAM_OK);
   return sys;

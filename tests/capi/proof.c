@@ -1,5 +1,4 @@
 /* Calls of proofs: arguments, statuses, texts, and what a proof of two sizes of disks says. */
-#include <fenv.h>
 #include <math.h>
 #include <stdio.h>
 
@@ -21,7 +20,7 @@ static jam_system *jammed(void) {
 
 CASE(bad_arguments_are_refused) {
   static const char file[] = "no_stable.jamproof";
-  jam_proof_report r = {.struct_size = sizeof r}, wrong = {.struct_size = 3};
+  jam_proof_report r = {.struct_size = sizeof r};
   double low[2 * n], ratio[n];
   size_t needed = 0;
   DEFAULTS(create, o);
@@ -36,7 +35,6 @@ CASE(bad_arguments_are_refused) {
   assert_null(fopen(file, "r"));
   jam_destroy(sys);
   sys = jammed();
-  assert_int_equal(jam_prove(sys, JAM_RIGIDITY_COLLECTIVE, NULL, 0, &wrong), JAM_E_STRUCT_SIZE);
   memcpy(ratio, sizes, sizeof ratio);
   assert_int_equal(jam_prove(sys, JAM_RIGIDITY_COLLECTIVE, ratio, n - 1, &r), JAM_E_ARGUMENT);
   assert_int_equal(jam_prove(sys, JAM_RIGIDITY_COLLECTIVE, NULL, n, &r), JAM_E_NULL);
@@ -97,8 +95,6 @@ CASE(crunch_and_check_prove_when_asked) {
   assert_int_equal(crunched.theorem, JAM_THEOREM_NONE);
   assert_true(isinf(crunched.proof_radius));
   DEFAULTS(crunch, crunch);
-  crunch.prove = 2;
-  assert_int_equal(jam_crunch(sys, &crunch, NULL), JAM_E_ARGUMENT);
   crunch.prove = 1;
   assert_int_equal(jam_crunch(sys, &crunch, &crunched), JAM_OK);
   assert_int_equal(jam_prove(sys, JAM_RIGIDITY_COLLECTIVE, NULL, 0, &proof), JAM_OK);

@@ -33,7 +33,6 @@ static void analyse(jam_system *sys, int dim) {
   static int32_t whole[100000];
   size_t needed;
   SIZED(jam_moduli_report, moduli);
-  jam_dos_options dos;
   check(jam_rigidity(sys, JAM_RIGIDITY_STRICT, NULL), "jam_rigidity", dim);
   check(jam_modes(sys, NULL, NULL, JAM_MODE_COLUMNS, out, 100000, NULL, 0, &needed), "jam_modes", dim);
   check(jam_moduli(sys, NULL, &moduli), "jam_moduli", dim);
@@ -41,7 +40,6 @@ static void analyse(jam_system *sys, int dim) {
   check(jam_floppy_modes(sys, NULL, 0, JAM_FLOPPY_COLUMNS, NULL, 0, NULL, 0, &needed), "jam_floppy_modes", dim);
   check(jam_stress_states(sys, out, 100000, NULL, 0, NULL, &needed), "jam_stress_states", dim);
   check(jam_contacts(sys, whole, 100000, &needed), "jam_contacts", dim);
-  check(jam_dos_options_init(&dos, sizeof dos), "jam_dos_options_init", dim);
   if (dim == 3) check(jam_local_fraction(sys, out, 100000, &needed), "jam_local_fraction", dim);
   if (dim <= 3) {
     check(jam_bond_order(sys, 6, 1.5, out, 100000, &needed), "jam_bond_order", dim);
@@ -49,17 +47,15 @@ static void analyse(jam_system *sys, int dim) {
   }
 }
 static void solve_by_clp(jam_system *sys, int dim) {
-  jam_crunch_options o;
-  check(jam_crunch_options_init(&o, sizeof o), "jam_crunch_options_init", dim);
+  DEFAULTS(crunch, o);
   o.lp_solver = JAM_LP_CLP, o.method = JAM_CRUNCH_SEQUENTIAL_LP, o.max_lps = 3;
   check(jam_scale_diameters(sys, 0.9), "jam_scale_diameters", dim);
   check(jam_crunch(sys, &o, NULL), "jam_crunch by Clp", dim);
 }
 static void relax(int dim) {
   static const double fraction[] = {0, 0, 1.0, 0.8, 0.5, 0.3, 0.2, 0.1, 0.05};
-  jam_create_options o;
   jam_system *sys = NULL;
-  check(jam_create_options_init(&o, sizeof o), "jam_create_options_init", dim);
+  DEFAULTS(create, o);
   o.dim = dim, o.n = 40, o.packing_fraction = fraction[dim], o.overlap = JAM_OVERLAP_ALLOW;
   check(jam_create(&o, NULL, &sys), "jam_create", dim);
   check(jam_decompress(sys, NULL, NULL), "jam_decompress", dim);
@@ -69,25 +65,20 @@ static void live(int dim) {
   /* in d = 8 a box of more than two diameters: Monte Carlo looks at 6561 images of each pair in a narrower one */
   static const double fraction[] = {0, 0, 0.3, 0.2, 0.1, 0.04, 0.02, 0.01, 0.002};
   const double instant = 1.0;
-  jam_create_options o;
-  jam_compress_options grow;
-  jam_crunch_options crunch;
-  jam_isoconf_options runs;
-  jam_monte_carlo_options mc;
   jam_system *sys = NULL;
-  check(jam_create_options_init(&o, sizeof o), "jam_create_options_init", dim);
+  DEFAULTS(create, o);
   o.dim = dim, o.n = dim <= 3 ? 100 : 50, o.seed = 3, o.packing_fraction = fraction[dim];
   check(jam_create(&o, NULL, &sys), "jam_create", dim);
-  check(jam_monte_carlo_options_init(&mc, sizeof mc), "jam_monte_carlo_options_init", dim);
+  DEFAULTS(monte_carlo, mc);
   mc.sweeps = 5;
   check(jam_monte_carlo(sys, &mc, NULL), "jam_monte_carlo", dim);
-  check(jam_isoconf_options_init(&runs, sizeof runs), "jam_isoconf_options_init", dim);
+  DEFAULTS(isoconf, runs);
   runs.runs = 2;
   check(jam_isoconf(sys, &runs, NULL, &instant, 1, NULL, 0, NULL), "jam_isoconf", dim);
-  check(jam_compress_options_init(&grow, sizeof grow), "jam_compress_options_init", dim);
+  DEFAULTS(compress, grow);
   grow.growth_rate = 0.3, grow.pressure = 1e3;
   check(jam_compress(sys, &grow, NULL), "jam_compress", dim);
-  check(jam_crunch_options_init(&crunch, sizeof crunch), "jam_crunch_options_init", dim);
+  DEFAULTS(crunch, crunch);
   crunch.threads = 2, crunch.keep_steps = 10;
   check(jam_crunch(sys, &crunch, NULL), "jam_crunch", dim);
   write_and_read(sys, dim);

@@ -51,46 +51,6 @@ CASE(hard_verbs_refuse_overlaps) {
   jam_destroy(sys);
 }
 
-CASE(options_are_checked) {
-  jam_system *sys = soft_start(30, 0.7, 1);
-  jam_relax_options r;
-  jam_decompress_options d;
-#define REFUSED_DOWN(member, value)                                      \
-  do {                                                                   \
-    assert_int_equal(jam_decompress_options_init(&d, sizeof d), JAM_OK); \
-    d.member = value;                                                    \
-    SAYS(jam_decompress(sys, &d, NULL), JAM_E_ARGUMENT, #member);        \
-  } while (0)
-#define REFUSED(member, value)                                      \
-  do {                                                              \
-    assert_int_equal(jam_relax_options_init(&r, sizeof r), JAM_OK); \
-    r.member = value;                                               \
-    SAYS(jam_relax(sys, &r, NULL), JAM_E_ARGUMENT, #member);        \
-    REFUSED_DOWN(member, value);                                    \
-  } while (0)
-  REFUSED(alpha, 1.0);
-  REFUSED(alpha, NAN);
-  REFUSED(alpha, INFINITY);
-  REFUSED(minimiser, 3);
-  REFUSED(scale, -1);
-  REFUSED(precision, 2);
-  REFUSED(force_tolerance, 0.0);
-  REFUSED(max_evaluations, 0);
-  REFUSED(wall_time, -1.0);
-  REFUSED_DOWN(energy_factor, 1.0);
-  REFUSED_DOWN(energy_factor, 0.0);
-  REFUSED_DOWN(pressure, -1.0);
-  REFUSED_DOWN(distance, NAN);
-  REFUSED_DOWN(isostatic, 2);
-  REFUSED_DOWN(crunch, -1);
-  REFUSED_DOWN(max_steps, 0);
-  REFUSED_DOWN(reserved, 1);
-  assert_int_equal(jam_relax_options_init(&r, sizeof r + 1), JAM_E_STRUCT_SIZE);
-  size_t needed;
-  assert_int_equal(jam_decompress_history(sys, JAM_SOFT_COLUMNS, NULL, 0, &needed), JAM_E_STATE);
-  jam_destroy(sys);
-}
-
 /* Energy after a strain x times e, relaxed. */
 static double strained_energy(const jam_system *sys, const double *e, double x) {
   double strain[9];

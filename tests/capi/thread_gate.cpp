@@ -10,33 +10,19 @@
 #include <thread>
 #include <vector>
 
-#include "test.h"
+#include "steps.h"
 
 namespace {
 
-jam_system *start(int64_t n, double fraction) {
-  DEFAULTS(create, o);
-  o.n = n, o.packing_fraction = fraction;
-  jam_system *sys = nullptr;
-  assert_int_equal(jam_create(&o, nullptr, &sys), JAM_OK);
-  return sys;
-}
-
 std::string file_name() { return "thread_gate." + std::to_string(getpid()) + ".jam"; }
-
-jam_status info_of(const jam_system *sys) {
-  jam_info info;
-  std::memset(&info, 0, sizeof info);
-  info.struct_size = sizeof info;
-  return jam_get_info(sys, &info);
-}
 
 // Every const call that other threads were seen to crash with, and some more.
 std::vector<jam_status> const_calls(jam_system *sys, const char *path) {
   const double *view = nullptr;
   size_t len = 0, needed = 0;
   jam_system *copy = nullptr;
-  std::vector<jam_status> out{info_of(sys),
+  SIZED(jam_info, info);
+  std::vector<jam_status> out{jam_get_info(sys, &info),
                               jam_view(sys, JAM_VIEW_POSITIONS, &view, &len),
                               jam_view(sys, JAM_VIEW_DIAMETERS, &view, &len),
                               jam_copy(sys, &copy),
@@ -63,7 +49,7 @@ int32_t on_progress(const jam_progress *, void *user) {
 }
 
 CASE(only_the_callback_reads_during_a_verb) {
-  jam_system *sys = start(100, 0.2);
+  jam_system *sys = random_spheres(3, 100, 0.2, 1);
   std::vector<jam_status> seen;
   Visit visit{sys, file_name(), nullptr, 0};
   const std::string good = visit.path + ".good";

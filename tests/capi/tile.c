@@ -2,16 +2,14 @@
  * and modes at a wave vector before memory is taken. */
 #include <math.h>
 
-#include "systems.h"
+#include "steps.h"
 #include "walls.h"
 
 enum { N = 20, MOST = 8192 };
 static double left[MOST], right[MOST];
 
 static jam_system *crunched(int dim, int64_t seed) {
-  DEFAULTS(create, o);
-  o.dim = dim, o.n = N, o.seed = seed;
-  jam_system *sys = created(&o);
+  jam_system *sys = random_spheres(dim, N, 0.0, seed);
   assert_true(jam_crunch(sys, NULL, NULL) >= 0);
   return sys;
 }

@@ -1,10 +1,7 @@
 /* Walls and containers: what is made, what is refused, and that files and checkpoints keep them. */
-#define _XOPEN_SOURCE 700 /* mkstemp */
 #include "walls.h"
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <unistd.h>
+#include "io_helpers.h"
 #include "steps.h"
 
 static double distance(const walled *s, int w, const double *x) {
@@ -114,9 +111,6 @@ static jam_status start_with(int32_t dim, const double *cell, int32_t container,
 
 CASE(bad_containers_are_named) {
   const double tilted[] = {1, 0, 0, 0.3, 1, 0, 0, 0, 1}, brick[] = {2, 0, 0, 0, 1, 0, 0, 0, 3};
-  assert_int_equal(start_with(3, NULL, 3, 0, 0, 0.0), JAM_E_ARGUMENT);
-  assert_int_equal(start_with(3, NULL, 0, 8, 0, 0.0), JAM_E_ARGUMENT);
-  assert_int_equal(start_with(3, NULL, 0, -1, 0, 0.0), JAM_E_ARGUMENT);
   assert_int_equal(start_with(2, NULL, JAM_CONTAINER_CYLINDER, 0, 0, 0.0), JAM_E_DIMENSION);
   assert_int_equal(start_with(3, NULL, JAM_CONTAINER_CYLINDER, 1, 0, 0.0), JAM_E_ARGUMENT);
   assert_int_equal(start_with(3, NULL, JAM_CONTAINER_BALL, 4, 0, 0.0), JAM_E_ARGUMENT);
@@ -136,10 +130,8 @@ CASE(bad_containers_are_named) {
 }
 
 CASE(files_keep_the_container) {
-  char path[] = "/tmp/jam-walls-XXXXXX";
-  const int file = mkstemp(path), formats[] = {JAM_FORMAT_XYZ, JAM_FORMAT_LAMMPS};
-  assert_true(file >= 0);
-  close(file);
+  const char *const path = in_scratch("walls");
+  const int formats[] = {JAM_FORMAT_XYZ, JAM_FORMAT_LAMMPS};
   for (int k = 0; k < WALLED; ++k) {
     jam_system *sys = NULL, *back = NULL;
     jam_info a = {.struct_size = sizeof a}, b = a;
@@ -156,43 +148,22 @@ CASE(files_keep_the_container) {
     assert_int_equal(jam_write(sys, path, JAM_FORMAT_VTP), JAM_OK);
     jam_destroy(sys);
   }
-  unlink(path);
 }
 
 /* What pbc, container and walls say of an axis must agree. */
 CASE(contradicting_files_are_refused) {
-  const struct {
-    const char *pbc, *walls;
-    jam_status status;
-  } files[] = {{"T T F", "F F T", JAM_OK},
-               {"T T T", "F F T", JAM_E_FORMAT},
-               {"F F F", "F F T", JAM_E_UNSUPPORTED},
-               {"T T F", "a b c", JAM_E_FORMAT}};
-  for (size_t k = 0; k < sizeof files / sizeof *files; ++k) {
-    char path[] = "/tmp/jam-walls-XXXXXX", text[400];
-    jam_system *sys = NULL;
-    const int file = mkstemp(path);
-    assert_true(file >= 0);
-    snprintf(text, sizeof text,
-             "1\nLattice=\"1 0 0 0 1 0 0 0 1\" Properties=pos:R:3:radius:R:1 pbc=\"%s\" container=brick "
-             "walls=\"%s\"\n0.5 0.5 0.5 0.1\n",
-             files[k].pbc, files[k].walls);
-    assert_true(write(file, text, strlen(text)) == (ssize_t)strlen(text));
-    close(file);
-    const jam_status status = jam_read(path, NULL, NULL, NULL, &sys);
-    if (status != files[k].status) fail_msg("file %zu: %d, %s", k, (int)status, jam_last_error());
-    if (status == JAM_E_FORMAT && k == 1) assert_non_null(strstr(jam_last_error(), "container= and walls="));
-    jam_destroy(sys);
-    unlink(path);
-  }
+#define FILE_OF(pbc, walls)                                                   \
+  "1\nLattice=\"1 0 0 0 1 0 0 0 1\" Properties=pos:R:3:radius:R:1 pbc=\"" pbc \
+  "\" container=brick "                                                       \
+  "walls=\"" walls "\"\n0.5 0.5 0.5 0.1\n"
+  jam_destroy(read_text(FILE_OF("T T F", "F F T")));
+  expect_refused(FILE_OF("T T T", "F F T"), JAM_E_FORMAT, "container= and walls=");
+  expect_refused(FILE_OF("F F F", "F F T"), JAM_E_UNSUPPORTED, "pbc='F F F'");
+  expect_refused(FILE_OF("T T F", "a b c"), JAM_E_FORMAT, "a b c");
 }
 
 /* A stopped run goes on from a checkpoint to the bits of one that never stopped. */
 CASE(checkpoints_go_on_to_the_same_bits) {
-  char path[] = "/tmp/jam-walls-XXXXXX";
-  const int file = mkstemp(path);
-  assert_true(file >= 0);
-  close(file);
   for (int k = 0; k < WALLED; ++k) {
     jam_system *whole = NULL, *part = NULL, *back = NULL;
     jam_compress_options o;
@@ -203,8 +174,7 @@ CASE(checkpoints_go_on_to_the_same_bits) {
     assert_int_equal(jam_compress(whole, &o, NULL), JAM_OK);
     o.collisions_per_particle = 20;
     assert_int_equal(jam_compress(part, &o, NULL), JAM_LIMIT);
-    assert_int_equal(jam_write_checkpoint(part, path), JAM_OK);
-    assert_int_equal(jam_read_checkpoint(path, NULL, NULL, &back), JAM_OK);
+    back = from_checkpoint(part);
     jam_compress_options_init(&o, sizeof o);
     o.growth_rate = 1e-2, o.pressure = 50.0, o.resume = 1;
     assert_int_equal(jam_compress(back, &o, NULL), JAM_OK);
@@ -213,7 +183,6 @@ CASE(checkpoints_go_on_to_the_same_bits) {
       assert_true(of_wall(whole, w, JAM_WALL_PRESSURE) == of_wall(back, w, JAM_WALL_PRESSURE));
     jam_destroy(whole), jam_destroy(part), jam_destroy(back);
   }
-  unlink(path);
 }
 
 /* Every call that would give an answer for a cell without walls refuses. */
@@ -308,3 +277,5 @@ CASE(narrow_scenes_start_lower) {
       }
   assert_true(lower > 10);
 }
+
+FIXTURE(make_scratch, remove_scratch)

@@ -150,8 +150,8 @@ static int32_t make_once(const jam_progress *p, void *user) {
   return 0;
 }
 
-/* A checkpoint that the callback writes, while the call goes on, leads to the same end: also while the spheres grow, where
- * the callback comes at the end of a window of the pressure too. */
+/* A checkpoint that the callback writes, while the call goes on, leads to the same end: also while the spheres grow,
+ * where the callback comes at the end of a window of the pressure too. */
 CASE(checkpoints_of_the_callback_go_on) {
   for (int growth = 0; growth < 2; ++growth) {
     jam_system *sys = make(JAM_MODEL_EUCLID, 3, 500, 0.3);

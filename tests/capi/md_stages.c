@@ -74,8 +74,8 @@ CASE(a_rate_makes_one_stage) {
   jam_destroy(one);
 }
 
-/* Slices of wall time, which is that of the call, not of each stage: however often it is stopped, also between two stages
- * and across checkpoints, it ends as if it had not been. */
+/* Slices of wall time, which is that of the call, not of each stage: however often it is stopped, also between two
+ * stages and across checkpoints, it ends as if it had not been. */
 CASE(a_stopped_protocol_goes_on) {
   jam_system *whole = start(), *cut = start();
   jam_compress_options o = defaults();

@@ -1,6 +1,6 @@
 /* All calls of the table tests/calls.def on one handle from several threads, while others set its callbacks: each ends
- * in a status, none as an internal error or with a bad file, and a callback that jam_set_log has replaced is not called again. Meant for
- * ThreadSanitizer too. */
+ * in a status, none as an internal error or with a bad file, and a callback that jam_set_log has replaced is not called
+ * again. Meant for ThreadSanitizer too. */
 #include <pthread.h>
 
 #include "calls.h"

@@ -1,9 +1,9 @@
-// Out of memory at any allocation of any call: JAM_E_MEMORY with a valid state, no leak, and a handle that works. Calls
-// come from tests/calls.def; the cases beside them take other options.
+// Out of memory at any allocation of any call: JAM_E_MEMORY with a valid state, no leak, no file left behind, and a
+// handle that works. Calls come from tests/calls.def; the cases beside them take other options.
 extern "C" {
+#include <glob.h>
 #include <jam/jam.h>
 #include <string.h>
-#include <glob.h>
 #include <unistd.h>
 
 #include "calls.h"

@@ -1,5 +1,6 @@
 /* What tests/calls.def uses. A fuzz target defines before it includes this: CALL_INPUT, the type of `in`; NUMBER,
- * COUNT, and DAMAGED(options, size), which take from `in`; SECONDS, a limit of time; CALL_PROGRESS. */
+ * COUNT, DAMAGED(options, size) and CHOICE(member, how many there are), which take from `in`; SECONDS, a limit of time;
+ * CALL_PROGRESS. */
 #ifndef JAM_TESTS_CALLS_H
 #define JAM_TESTS_CALLS_H
 
@@ -15,6 +16,7 @@
 #define NUMBER(usual) (usual)
 #define COUNT(usual) (usual)
 #define DAMAGED(options, size) ((void)in, (void)(options))
+#define CHOICE(member, choices) (void)0
 #define SECONDS INFINITY
 #define CALL_PROGRESS NULL
 #endif
@@ -99,13 +101,13 @@ OPTIONS(run, o->collisions_per_particle = 5.0, BOUND(wall_time, SECONDS))
 OPTIONS(compress, (o->growth_rate = 0.1, o->pressure = 30.0), BOUND(wall_time, SECONDS))
 OPTIONS(observe, (o->collisions = 1, o->gap_bins = o->r_bins = 8, o->sample_every = 1.0), (void)o)
 OPTIONS(isoconf, (o->runs = 3, o->block = 2), (BOUND(wall_time, SECONDS), BOUND(memory_limit, 1e8)))
-OPTIONS(crunch, (void)o, BOUND(wall_time, SECONDS))
+OPTIONS(crunch, (void)o, (CHOICE(strain, 4), BOUND(wall_time, SECONDS)))
 OPTIONS(radii, o->max_steps = 50, (BOUND(max_steps, 200), BOUND(wall_time, SECONDS)))
-OPTIONS(relax, o->force_tolerance = 1e-6, BOUND(wall_time, SECONDS))
+OPTIONS(relax, o->force_tolerance = 1e-6, (CHOICE(minimiser, 3), BOUND(wall_time, SECONDS)))
 OPTIONS(shear, (o->force_tolerance = 1e-8, o->max_steps = 2), (BOUND(max_steps, 20), BOUND(wall_time, SECONDS)))
 OPTIONS(decompress, (o->energy_factor = 1e-3, o->force_tolerance = 1e-8), BOUND(wall_time, SECONDS))
-OPTIONS(hessian, (void)o, (void)o)
-OPTIONS(modes, o->count = 4, BOUND(memory_limit, 1e8))
+OPTIONS(hessian, (void)o, CHOICE(stiffness, 4))
+OPTIONS(modes, o->count = 4, (CHOICE(which, 4), BOUND(memory_limit, 1e8)))
 OPTIONS(geometry, (void)o, (void)o)
 OPTIONS(check, (void)o, BOUND(wall_time, SECONDS))
 OPTIONS(correlation, (o->r_max = 2.0, o->bins = 20), BOUND(bins, (int64_t)CALL_ROOM))

@@ -118,6 +118,7 @@ class Given(unittest.TestCase):
             self.refused([name, "(6,)", "cellpar_to_cell", "HOOMD"], make, X, 0.2, **{name: six})
             self.refused([name, "(2,)"], make, X, 0.2, **{name: [1, 1]})
         self.refused(["box", "cell="], make, X, 0.2, box=np.eye(3))
+        self.refused(["box", "(0,)"], make, np.zeros((2, 0)), 0.2, box=[])
         self.refused(["cell", "box="], make, X, 0.2, cell=2.0)
         self.refused(["cell", "third direction"], make, X[:, :2], 0.2, cell=np.eye(3))
         self.refused(["determinant", "exchange two"], make, X, 0.2, cell=[[0, 1, 0], [1, 0, 0], [0, 0, 1]])

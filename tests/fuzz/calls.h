@@ -2,7 +2,7 @@
 #ifndef JAM_FUZZ_CALLS_H
 #define JAM_FUZZ_CALLS_H
 #include <time.h>
-#include "calls_bundles.h"
+#include "input.h"
 
 static inline double now(void) {
   struct timespec t;
@@ -24,21 +24,52 @@ static inline int32_t other_count(input *in, int32_t usual) {
   if (how < 64) return usual;
   return how < 224 ? how % 32 - 1 : (int32_t)1 << how % 31;
 }
+/* Half of the bytes leave what there is. */
+static inline void choose(input *in, int32_t *member, int choices) {
+  const int how = byte(in);
+  if (how < 128) *member = how % choices;
+}
 #define CALL_INPUT input
 #define NUMBER(usual) other_number(in, usual)
 #define COUNT(usual) other_count(in, usual)
+#define CHOICE(member, choices) choose(in, &o->member, choices)
 #define DAMAGED(options, size) damage(in, options, size)
 #define SECONDS 0.02
 #define CALL_PROGRESS stop_soon
 #include "../calls.h"
 #include "../start.h"
 
-/* Several calls in an order that makes sense. */
-typedef void (*fuzz_call)(input *in, jam_system *sys);
-static const fuzz_call bundles[] = {
-    call_run,      call_compress,   call_crunch,   call_monte_carlo, call_isoconfigurational,
-    call_relax,    call_decompress, call_observe,  call_cell,        call_network,
-    call_rigidity, call_modes,      call_spectrum, call_compared,
+/* Any cell or strain, not near the one that the table of calls sets. */
+static inline jam_status call_cell(input *in, jam_system *sys) {
+  double a[64];
+  const int dim = 2 + byte(in) % 7, strain = byte(in) % 2;
+  int k;
+  for (k = 0; k < 64; ++k) a[k] = byte(in) % 32 == 0 ? number(in) : (byte(in) - 128) / 256.0;
+  if (strain) {
+    for (k = 0; k < 64; ++k) a[k] *= 0.05;
+    return jam_strain(sys, a, (size_t)(dim * dim));
+  }
+  for (k = 0; k < dim; ++k) a[k * (dim + 1)] = 1.0 + byte(in) / 64.0;
+  return jam_set_cell(sys, a, (size_t)(dim * dim), NULL, 0, NULL, 0, NULL);
+}
+
+/* Calls in an order that makes sense. The corpus names them by their place: new ones come last. */
+typedef jam_status (*fuzz_call)(input *in, jam_system *sys);
+static const fuzz_call sequences[][6] = {
+    {call_jam_run},
+    {call_jam_compress},
+    {call_jam_crunch},
+    {call_jam_monte_carlo},
+    {call_jam_isoconf, call_jam_get_isoconf_report, call_jam_isoconf_series, call_jam_isoconf_kept},
+    {call_jam_relax},
+    {call_jam_decompress},
+    {call_jam_observe, call_jam_run, call_jam_observed_series, call_jam_observed_pairs, call_jam_observed_gaps},
+    {call_cell},
+    {call_jam_contacts_from_geometry, call_jam_contacts, call_jam_forces, call_jam_stress_states},
+    {call_jam_rigidity, call_jam_flex, call_jam_check_packing, call_jam_prove, call_jam_refined_positions},
+    {call_jam_modes, call_jam_hessian, call_jam_moduli},
+    {call_jam_density_of_states},
+    {call_jam_copy, call_jam_compare},
 };
 
 static inline jam_system *create(input *in) {
@@ -84,10 +115,12 @@ static inline void limit(jam_system *sys) {
 
 static inline void any_call(input *in, jam_system *sys) {
   begun = now();
-  if (byte(in) % 2)
-    bundles[(size_t)byte(in) % (sizeof bundles / sizeof *bundles)](in, sys);
-  else
+  if (byte(in) % 2) {
+    const fuzz_call *const call = sequences[(size_t)byte(in) % (sizeof sequences / sizeof *sequences)];
+    for (int k = 0; k < 6 && call[k]; ++k) check_status(call[k](in, sys));
+  } else {
     check_status(every_call[(size_t)byte(in) % CALLS].call(in, sys));
+  }
   remove(call_file());
 }
 #endif

@@ -8,6 +8,7 @@ import copy
 import os
 import pickle
 import random
+import re
 import socket
 import stat
 import sys
@@ -37,6 +38,8 @@ class Odd:
         return self.answer
 
     def __getitem__(self, at):
+        if at > 3:  # or it has no end
+            raise IndexError
         return self.answer
 
     def __array__(self, dtype=None):
@@ -46,17 +49,8 @@ class Odd:
 def scalar(dice):
     return dice.choice(
         [
-            0,
-            1,
-            2,
-            3,
-            -1,
-            8,
-            9,
-            2**31,
-            2**63,
-            -(2**63),
-            2**64,
+            dice.randrange(-1, 10),
+            dice.choice([1, -1]) * 2 ** dice.choice([31, 63, 64]),
             10**400,
             0.5,
             0.1,
@@ -150,30 +144,10 @@ def path(dice, folder):
     )
 
 
-def some_options(dice):
-    names = [
-        "dim",
-        "n",
-        "seed",
-        "box",
-        "packing_fraction",
-        "overlap",
-        "model",
-        "mk_zeta",
-        "masses",
-        "wall_time",
-        "growth_rate",
-        "pressure",
-        "max_lps",
-        "lp_solver",
-        "alpha",
-        "minimiser",
-        "sweeps",
-        "unknown",
-        "reserved",
-        "struct_size",
-        "memory_limit",
-    ]
+def some_options(dice, struct):
+    """Up to three members of an option struct, `struct_size` and `reserved` among them, or a name that is none."""
+    setters = [name.split("_options_")[1] for name in dir(jam._raw) if re.fullmatch(rf"jam_{struct}_options_\w+_set", name)]
+    names = [name.removesuffix("_set") for name in setters] + ["unknown"]
     return {name: scalar(dice) for name in dice.sample(names, dice.randrange(4))}
 
 
@@ -186,9 +160,9 @@ def one(dice, folder, system):
     """One odd call; returns a system to go on with, or None."""
     kind = dice.randrange(14)
     if kind == 0:
-        return jam.System.from_arrays(array(dice), array(dice) if dice.random() < 0.3 else 0.01, **some_options(dice))
+        return jam.System.from_arrays(array(dice), array(dice) if dice.random() < 0.3 else 0.01, **some_options(dice, "create"))
     if kind == 1:
-        options = some_options(dice)
+        options = some_options(dice, "create")
         options.update(n=dice.choice([5, 5.0, "5", 5.5, -5, None]), wall_time=0.2)
         return jam.System.random(**options)
     if kind == 2:
@@ -207,7 +181,7 @@ def one(dice, folder, system):
         system.save(path(dice, folder))
     elif kind == 9:
         verb = dice.choice([system.run, system.compress, system.crunch, system.relax, system.decompress])
-        options = some_options(dice)
+        options = some_options(dice, verb.__name__)
         options["wall_time"] = 0.05
         verb(**options)
     elif kind == 10:

@@ -22,7 +22,7 @@ def cell_of(box: Any, cell: Any, dim: int) -> tuple[float | None, Array | None]:
         return float(x[0]), None
     if x.shape == (dim, dim) and name == "cell":
         return None, x
-    if x.shape == (dim,):  # the sides of a brick
+    if dim and x.shape == (dim,):  # the sides of a brick
         return (float(x[0]), None) if (x == x[0]).all() else (None, np.diag(x))
     wanted = f"one side or {dim} sides" if name == "box" else f"{dim} vectors, shape ({dim}, {dim}), or {dim} sides"
     hint = ""

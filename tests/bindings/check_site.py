@@ -118,8 +118,6 @@ def main():
             found = results(window, question)
             if not set(found[:FIRST]) & set(wanted):
                 wrong.append(f"a search for {question!r} finds {found[:FIRST]}")
-            elif "--show" in sys.argv:
-                print(question, found[:FIRST])
         wrong += unreadable(window)
         window.close()
     for line in wrong:

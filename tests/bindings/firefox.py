@@ -112,10 +112,6 @@ class Firefox:
               document.body.dispatchEvent(new DragEvent(kind, {{ dataTransfer, bubbles: true, cancelable: true }}));
         }})(Uint8Array.from(atob('{data}'), (c) => c.charCodeAt(0)))""")
 
-    def picture(self, path):
-        with open(path, "wb") as file:
-            file.write(base64.b64decode(self.ask("WebDriver:TakeScreenshot", full=False)["value"]))
-
     def close(self):
         try:
             self.ask("Marionette:Quit", flags=["eForceQuit"])

@@ -35,6 +35,16 @@ def packing(n=64, dim=3, seed=1, **more):
     return s
 
 
+def disks(seed=1):
+    return jam.System.random(n=64, dim=2, seed=seed, diameters=[1.0] * 32 + [1.4] * 32)
+
+
+def crunched_disks():
+    s = disks()
+    s.crunch()
+    return s
+
+
 def state(s):
     return np.array(s.positions), np.array(s.diameters), np.array(s.cell)
 

@@ -6,22 +6,17 @@ import unittest
 import numpy as np
 
 import jam
+from packings import crunched_disks
 
 
 def needs(name):
     return unittest.skipUnless(importlib.util.find_spec(name), f"python3-{name} is not installed")
 
 
-def disks():
-    packing = jam.System.random(n=64, dim=2, seed=1, diameters=[1.0] * 32 + [1.4] * 32)
-    packing.crunch()
-    return packing
-
-
 class Converting(unittest.TestCase):
     @needs("pandas")
     def test_frames_have_the_numbers_and_words(self):
-        packing = disks()
+        packing = crunched_disks()
         spheres, contacts, steps = (packing.to_pandas(what) for what in ("spheres", "contacts", "history"))
         np.testing.assert_array_equal(spheres[["x", "y"]], packing.positions)
         np.testing.assert_array_equal(spheres["diameter"], packing.diameters)
@@ -48,14 +43,14 @@ class Converting(unittest.TestCase):
 
     @needs("pandas")
     def test_a_frame_is_a_copy(self):
-        packing = disks()
+        packing = crunched_disks()
         before = packing.positions.copy()
         packing.to_pandas()["x"][:] = 0.0
         np.testing.assert_array_equal(packing.positions, before)
 
     @needs("networkx")
     def test_the_graph_balances(self):
-        packing = disks()
+        packing = crunched_disks()
         graph = packing.to_networkx()
         self.assertEqual(graph.number_of_edges(), packing.report.contacts)
         net = np.zeros((64, 2))
@@ -82,7 +77,7 @@ class Converting(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "three dimensions"):
             jam.System.random(n=8, dim=4).to_ase()
         with self.assertRaisesRegex(ValueError, "dim=2 reads"):
-            jam.System.from_ase(disks().to_ase())
+            jam.System.from_ase(crunched_disks().to_ase())
         atoms.arrays.pop("radius")
         with self.assertRaisesRegex(ValueError, "give diameters="):
             jam.System.from_ase(atoms)

@@ -6,26 +6,13 @@ from pathlib import Path
 import numpy as np
 
 import jam
-from jam.ensemble import Ensemble, ProtocolError
+from jam.ensemble import Ensemble
 from jam.ensemble.making import begin
 from jam.ensemble.protocol import complete
 from packings import SMALL, InFolder
 
 
 class Protocols(unittest.TestCase):
-    """What cannot be made is refused with its name, before any packing is."""
-
-    def test_wrong_entries_are_named(self):
-        for given, text in (
-            (dict(diameters={"law": "bidisperse", "rato": 1.3}), "bidisperse has no rato; it takes ratio and share"),
-            (dict(diameters={"law": "bidisperse", "ratio": "a"}), "a ratio > 0"),
-            (dict(diameters={"law": "lognormal", "ratio": 1.3}), "no law has ratio; there are .*deviation"),
-            (dict(analysis={"gap": {}}), "near to it: gaps"),
-            (dict(packing_fraction=0.95), "no packing of seeds 1, 2, 3 can begin"),
-        ):
-            with self.assertRaisesRegex(ProtocolError, text):
-                complete({**SMALL, **given})
-
     def test_sizes_on_a_lattice_are_at_other_sites_for_each_seed(self):
         for law in ({"law": "bidisperse"}, {"law": "lognormal", "draw": "quantiles"}):
             start = complete(dict(n=32, dim=3, lattice="fcc", packing_fraction=0.3, diameters=law))

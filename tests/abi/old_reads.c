@@ -91,6 +91,7 @@ static jam_system *made(int dim, int64_t n, double fraction, int32_t walls, int3
   o.dim = dim, o.n = n, o.packing_fraction = fraction, o.walls = walls, o.overlap = overlap, o.seed = 5;
   LATER(o, jam_create(&o, &start, &sys));
   CHECK(jam_create(&o, &start, &sys) == JAM_OK);
+  CHECK(jam_create_options_init(&o, 1u << 20) == JAM_E_STRUCT_SIZE);
   return sys;
 }
 
@@ -188,12 +189,27 @@ static void soft(void) {
   jam_destroy(sys);
 }
 
+/* What a callback is given. A shorter or longer struct than the library's is read as far as both know it. */
+struct seen {
+  int calls, wrong;
+  double fraction;
+};
+static int32_t look(const jam_progress *p, void *user) {
+  struct seen *s = (struct seen *)user;
+  ++s->calls;
+  s->wrong += (p->phase != JAM_PHASE_CRUNCH && p->phase != JAM_PHASE_POLISH) || !(p->fraction >= s->fraction) ||
+              !(p->packing_fraction > 0.05 && p->packing_fraction < 0.9) || p->seconds < 0.0 || p->factorisations < 0;
+  s->fraction = p->fraction;
+  return 0;
+}
+
 static void network(void) {
   jam_system *sys = made(2, 30, 0.3, 0, JAM_OVERLAP_REFUSE);
   const int32_t two[2] = {2, 1};
   const double wave[2] = {0.5, 0.0};
   size_t rows = 0, m;
   double omega;
+  struct seen s = {0, 0, 0.0};
   REPORT(jam_estimate_report, estimate);
   REPORT(jam_crunch_report, crunch);
   REPORT(jam_geometry_report, geometry);
@@ -210,7 +226,11 @@ static void network(void) {
   CHECK(jam_estimate_crunch(sys, &o, &estimate.is) == JAM_OK && INTACT(jam_estimate_report, estimate) &&
         estimate.is.pairs > 0);
   LATER(o, jam_crunch(sys, &o, NULL));
+  CHECK(jam_set_progress(sys, look, &s) == JAM_OK);
   CHECK(jam_crunch(sys, &o, &crunch.is) == JAM_OK && INTACT(jam_crunch_report, crunch) && crunch.is.jammed == 1);
+  CHECK(jam_set_progress(sys, NULL, NULL) == JAM_OK && s.calls > 0 && s.wrong == 0);
+  CHECK(crunch.is.stop_reason == JAM_STOP_CONVERGED && crunch.is.strictly_jammed == JAM_VERDICT_UNTESTED);
+  CHECK(!strcmp(jam_stop_string(JAM_STOP_CONVERGED), "converged"));
   CHECK(crunch.is.stable + crunch.is.rattlers == 30 && crunch.is.contacts == 2 * (crunch.is.stable - 1) + 1);
   READ(JAM_HISTORY_COLUMNS, rows, jam_crunch_history(sys, TABLE, &needed));
   CHECK(rows > 0 && NEAR(AT(rows - 1, JAM_HISTORY_COLUMNS, JAM_HISTORY_PHI), crunch.is.packing_fraction));
@@ -250,6 +270,7 @@ static void network(void) {
 }
 
 int main(void) {
+  CHECK(jam_abi_version() == JAM_ABI);
   fluid();
   runs();
   soft();

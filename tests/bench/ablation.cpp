@@ -165,14 +165,6 @@ const Mechanism mechanisms[] = {
     {"dropped contacts", [](Tuning &t, jam_crunch_options &) { t.max_excess = 0; }},
     {"narrow LPs but the first", [](Tuning &t, jam_crunch_options &) { t.max_narrow_lps = 1; }},
     {"decompressions", [](Tuning &t, jam_crunch_options &) { t.decompression.fill(0.0); }},
-    {"decompressions after 1", [](Tuning &t, jam_crunch_options &) { t.decompression[1] = 0.0; }},
-    {"decompressions after 2", [](Tuning &t, jam_crunch_options &) { t.decompression[2] = 0.0; }},
-    {"decompressions after 3", [](Tuning &t, jam_crunch_options &) { t.decompression[3] = 0.0; }},
-    {"decompressions after 4", [](Tuning &t, jam_crunch_options &) { t.decompression[4] = 0.0; }},
-    {"decompression by 1e-3",
-     [](Tuning &t, jam_crunch_options &) {
-       t.decompression = {1e-4, 1e-2, 3e-2, 0.1, 0.0};
-     }},
 };
 
 void run(const Start &start, const Mechanism &mechanism) {

@@ -118,29 +118,6 @@ def ablation(*raws):
     return ["off"] + sets, rows
 
 
-# By what diameters decrease where this is off, by growing numbers.
-DECOMPRESSIONS = {
-    "decompressions": "none",
-    "decompressions after 1": "1e-4",
-    "decompressions after 2": "1e-4, 1e-3",
-    "decompressions after 3": "1e-4, 1e-3, 1e-2",
-    "decompressions after 4": "1e-4, 1e-3, 1e-2, 0.03",
-    "decompression by 1e-3": "1e-4, 1e-2, 0.03, 0.1",
-    "none": "1e-4, 1e-3, 1e-2, 0.03, 0.1",
-}
-
-
-def decompressions(runs):
-    """ablation "off=MECHANISM" ... disks1000"""
-    rows = []
-    for off in (off for off in DECOMPRESSIONS if any(r["off"] == off for r in runs)):
-        of = [r for r in runs if r["off"] == off]
-        seconds = [r["seconds"] for r in of]
-        worse = sum(a["phi"] < b["phi"] - 1e-9 for a, b in zip(of, (r for r in runs if r["off"] == "decompressions")))
-        rows.append([DECOMPRESSIONS[off], len(of), sum(r["jammed"] for r in of), worse, statistics.median(seconds), statistics.mean(seconds), max(seconds)])
-    return ["relative decreases of diameters", "packings", "jammed", "of lower density than with none", "median (s)", "mean (s)", "longest (s)"], rows
-
-
 def wasm(raw):
     """JAM_BITS_SET=portable wasm.py BUILD-WASM BUILD --sizes 256,1024 --rounds 2"""
     rows = [["bytes of jam.wasm; gzipped", raw["bytes"], raw["gzipped"], raw["bytes"] / raw["gzipped"]]]

@@ -22,16 +22,14 @@ PUBLISHED = {"seconds": 2.75, "lps": 0.59, "factorisations": None}
 
 
 def grown(n, seed, stages):
-    """n spheres in d = 3 after stages of (growth rate, pressure), and the seconds that took."""
+    """n spheres in d = 3 after stages of (growth rate, pressure)."""
     system = jam.System.random(n, 3, seed)
-    began = time.process_time()
     system.compress(stages)
-    return system, time.process_time() - began
+    return system
 
 
-def run(start, md, n, seed, method, args):
+def run(start, n, seed, method, args):
     s = start.copy()
-    estimate = s.estimate_crunch(method=method, threads=args.threads)
     clock = time.process_time if args.threads == 1 else time.perf_counter
     began = clock()
     r = s.crunch(method=method, threads=args.threads)
@@ -43,21 +41,10 @@ def run(start, md, n, seed, method, args):
         threads=args.threads,
         growth=args.growth,
         pressure=args.pressure,
-        md_seconds=md,
         seconds=seconds,
-        wall_seconds=r.seconds,
-        seconds_factor=r.seconds_factor,
         factorisations=r.factorisations,
         lps=r.lp_solves,
         jammed=r.jammed,
-        excess=r.excess_contacts,
-        phi=r.packing_fraction,
-        force_residual=r.force_residual,
-        max_overlap=r.max_overlap,
-        estimated_bytes=estimate.bytes,
-        estimated_seconds=estimate.seconds,
-        used=r.method.name.lower(),
-        stop_reason=r.stop_reason.name.lower(),
     )
 
 
@@ -144,7 +131,7 @@ def main():
         methods = [m for m in args.methods.split(",") if m not in made]
         start = grown(n, seed, [(1e-2, 500.0), (args.growth, args.pressure)]) if methods else None
         for method in methods:
-            rows.append(run(*start, n, seed, method, args))
+            rows.append(run(start, n, seed, method, args))
             print(json.dumps(rows[-1]), flush=True)
             json.dump(rows, open(args.out, "w"), indent=0)
     if args.picture and rows:

@@ -127,7 +127,7 @@ def count_of_columns(e):
 
 def columns_of(f, api):
     """Of a function that fills a `table`: the enum of its columns."""
-    return next(e for e in api.enums if e.name == f.shapes["table"][-1]) if "table" in f.shapes else None
+    return api.enum(f.shapes["table"][-1]) if "table" in f.shapes else None
 
 
 def last_extent(f, a, api):

@@ -1,7 +1,7 @@
 """The Fortran module `jam`: parameters, interoperable types, interfaces to every C function, four small helpers."""
 from annotations import last_extent
 from fortran_text import HEAD, TAIL
-from model import TYPES, options_init
+from model import TYPES
 
 # Calls whose second form, from Fortran's own arrays, stands in TAIL.
 BY_HAND = {"jam_create": "create_from_arrays"}
@@ -179,7 +179,7 @@ def _result(t):
 
 
 def emit(api):
-    inits = options_init(api)
+    inits = api.inits
     out = [HEAD]
     for name, value in api.constants:
         out.append(f"  integer(c_int32_t), parameter :: {name} = {value}")

@@ -88,10 +88,9 @@ def _result_type(a):
 
 
 def _procedure(f, name, api):
-    args = f.args[1:]
+    args = f.given
     dummies = [a for a in args if a.role in ("scalar", "string", "array_in", "struct_in", "handle")]
-    count = next((a for a in args if a.role == "scalar_out" and a.name in ("needed", "rows")), None)
-    outputs = [a for a in args if a.role in ("array_out", "struct_out") or (a.role == "scalar_out" and a is not count)]
+    count, outputs = f.counter, f.outputs
     fills = [a for a in outputs if a.role == "array_out"]
     one = outputs[0] if len(outputs) == 1 else None
     rank = {a.name: 2 if a.name == "table" else len(f.shapes[a.name]) for a in fills}
@@ -154,9 +153,8 @@ def _procedure(f, name, api):
 
 
 def calls(api):
-    for f in api.functions:
-        roles = {a.role for a in f.args}
-        if f.args and f.args[0].role == "handle" and f.result.base == "jam_status" and f.name not in BY_HAND and not roles & {"callback", "new_handle", "view"}:
+    for f in api.calls:
+        if f.on_system and f.name not in BY_HAND:
             short = f.name.removeprefix("jam_")
             yield f, NAMES.get(short, short)
 

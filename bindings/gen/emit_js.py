@@ -4,10 +4,8 @@ import re
 from pathlib import Path
 
 from annotations import HeaderError, columns_of
-from emit_methods import PLAIN
-from emit_python import is_free
-from juliadoc import word_of
-from model import TYPES, item_names, options_init
+from juliadoc import DROPPED, word_of
+from model import TYPES, item_names
 
 MADE = "// Made by bindings/gen/emit_js.py from include/jam/jam.h, in each build.\n"
 TYPES_BY_HAND = Path(__file__).parents[1] / "js/types.d.ts.in"
@@ -37,32 +35,18 @@ def _layout(struct):
     for m in struct.members:
         size = WIDTHS.get(m.type, TYPES[m.type][0])
         at += -at % size
-        if m.name in _members(struct):
+        if m in struct.shown:
             rows.append([js_name(m.name), at, m.type, m.enum or ("bool" if m.bool else "")])
         at += size
     return at + -at % max(WIDTHS.get(m.type, TYPES[m.type][0]) for m in struct.members), rows
 
 
-def on_system(f):
-    return bool(f.args) and f.args[0].role == "handle" and f.result.base == "jam_status"
-
-
 def calls(api):
     """The functions that are called by the header's conventions alone."""
-    inits = options_init(api)
-    for f in api.functions:
-        if f.result.base != "jam_status" or f.name in inits.values():
-            continue
-        if {"callback", "new_handle", "view"} & {a.role for a in f.args}:
-            continue
+    for f in api.calls:
         if any(a.role == "array_out" and a.type.base not in TYPES for a in f.args):
             raise HeaderError(f"{f.name}: arrays of structs have no rule in JavaScript yet")
-        if on_system(f) or is_free(f, inits):
-            yield f
-
-
-def _members(struct):
-    return [m.name for m in struct.members if not m.name.startswith(("struct_size", "reserved"))]
+    return api.calls
 
 
 def nested(f, api):
@@ -70,7 +54,7 @@ def nested(f, api):
     seen, keys = set(), {}
     for a in f.args:
         if a.role == "struct_in":
-            names = set(_members(api.struct(a.type.base)))
+            names = {m.name for m in api.struct(a.type.base).shown}
             if names & seen:
                 keys[a.name] = js_name(a.type.base.removesuffix("_options"))
             seen |= names
@@ -79,15 +63,6 @@ def nested(f, api):
 
 def is_file(a):
     return a.role == "string" and a.name == "path"
-
-
-def outputs(f):
-    """Arguments that a call gives back."""
-    return [a for a in f.args if a.role in ("array_out", "struct_out") or (a.role == "scalar_out" and a.name not in ("needed", "rows"))]
-
-
-def plain(f):
-    return [a for a in (f.args[1:] if on_system(f) else f.args) if a.role in PLAIN]
 
 
 def _kind(f, a):
@@ -107,11 +82,9 @@ def emit(api):
     """api.mjs"""
     rows = {}
     for f in calls(api):
-        given = f.args[1:] if on_system(f) else f.args
         table = columns_of(f, api)
         rows[call_name(f)] = {
-            "c": f.name, "system": on_system(f), "fixed": not on_system(f) or f.args[0].type.const,
-            "args": [_argument(f, a, api) for a in given],
+            "c": f.name, "system": f.on_system, "fixed": not f.changes, "args": [_argument(f, a, api) for a in f.given],
             **({"columns": [js_name(n.lower()) for n in item_names(table)]} if table else {}),
         }
     out = [MADE]
@@ -125,7 +98,7 @@ def emit(api):
     layouts = {s.name: _layout(s) for s in api.structs}
     table("STRUCTS", "Bytes of each struct, and of each member its name, place, type and what its numbers mean.",
           [(s, {"size": size, "members": members}) for s, (size, members) in layouts.items()])
-    table("DEFAULTS", "What fills option structs.", options_init(api).items())
+    table("DEFAULTS", "What fills option structs.", api.inits.items())
     table("CALLS", "Arguments in C's order: name, role, type, extents, what its numbers mean.", rows.items())
     return "\n".join(out) + "\n"
 
@@ -139,8 +112,8 @@ def _text(doc, api):
     """C's comment with JavaScript's names."""
     functions = {f.name: call_name(f) for f in api.functions}
     structs = {s.name: class_name(s.name) for s in api.structs}
-    words = {c: word_of(n) for e in api.enums for n, (c, _, _) in zip(item_names(e), e.items)}
-    text = re.sub(r"[,;.]? ?\*(?:rows|needed) = (?:their number )?\w+(?:\^\d)?(?: \w+)?(?=[:;.,])", "", " ".join(doc.split()))
+    words = {c: word_of(n) for c, n in api.words.items()}
+    text = re.sub(DROPPED, "", " ".join(doc.split()))
     text = re.sub(r"\bJAM_E_(\w+)", lambda m: f"a JamError '{m.group(1).lower()}'", text)
     text = re.sub(r"\bJAM_[A-Z_0-9]+\b", lambda m: f"'{words[m.group()]}'" if m.group() in words else m.group(), text)
     text = re.sub(r"\bjam_\w+", lambda m: functions.get(m.group()) or structs.get(m.group()) or js_name(m.group()), text)
@@ -176,7 +149,7 @@ def optional_from(args, f):
 
 
 def _result(f, api):
-    given, table = outputs(f), columns_of(f, api)
+    given, table = f.outputs, columns_of(f, api)
     fields = [("bytes", "Uint8Array")] if any(is_file(a) for a in f.args) else []
     if table:
         fields += [(js_name(n.lower()), "Float64Array") for n in item_names(table)]
@@ -187,20 +160,20 @@ def _result(f, api):
 
 
 def _method(f, api):
-    args, apart = plain(f), nested(f, api)
+    args, apart = f.plain, nested(f, api)
     structs = [a for a in f.args if a.role == "struct_in"]
     at = optional_from(args, f)
     head = [f"{js_name(a.name)}{'?' if k >= at else ''}: {_input(f, a)}" for k, a in enumerate(args)]
-    if structs or on_system(f):
+    if structs or f.on_system:
         kinds = [f"{{ {apart[a.name]}?: {class_name(a.type.base)} }}" if a.name in apart else class_name(a.type.base) for a in structs]
-        head.append("options?: " + " & ".join(kinds + ["Progressing"] * on_system(f)))
+        head.append("options?: " + " & ".join(kinds + ["Progressing"] * f.on_system))
     shapes = [f"{js_name(a)}: shape ({', '.join(e)}), flat." for a, e in f.shapes.items() if a != "table"]
-    return _doc([_text(f.prose, api), *shapes], "  ") + [f"  {call_name(f)}({', '.join(head)}): {_result(f, api).replace('this', 'this' if on_system(f) else 'void')};"]
+    return _doc([_text(f.prose, api), *shapes], "  ") + [f"  {call_name(f)}({', '.join(head)}): {_result(f, api).replace('this', 'this' if f.on_system else 'void')};"]
 
 
 def emit_types(api):
     """index.d.ts, which begins with what is written by hand."""
-    inits, out = options_init(api), [TYPES_BY_HAND.read_text(), MADE]
+    inits, out = api.inits, [TYPES_BY_HAND.read_text(), MADE]
     for e in api.enums:
         out += _doc([_text(e.doc, api), *(f"- '{word_of(n)}': {_text(d, api)}" for n, (_, _, d) in zip(item_names(e), e.items))])
         out.append(f"export type {class_name(e.name)} = " + " | ".join(f"'{word_of(n)}'" for n in item_names(e)) + ";")
@@ -209,8 +182,8 @@ def emit_types(api):
             continue
         given = s.name in inits
         out += _doc([_text(s.doc, api)]) + [f"export interface {class_name(s.name)}{'' if given else ' extends Report'} {{"]
-        for m in s.members:
-            if m.name.startswith(("struct_size", "reserved")) or (m.name == "status" and not given):
+        for m in s.shown:
+            if m.name == "status" and not given:
                 continue
             out += _doc([_text(m.doc, api)], "  ")
             big = " | bigint" if m.type == "int64_t" and given else ""
@@ -219,7 +192,7 @@ def emit_types(api):
     for head, wanted in (("Methods", True), ("FreeCalls", False)):
         out.append(f"export interface {head} {{")
         for f in calls(api):
-            if on_system(f) is wanted and f.name != "jam_write_checkpoint":  # checkpoint()
+            if f.on_system is wanted and f.name != "jam_write_checkpoint":  # checkpoint()
                 out += _method(f, api)
         out.append("}")
     return "\n".join(out) + "\n"

@@ -3,17 +3,13 @@ from annotations import HeaderError, columns_of
 from emit_js import nested
 from emit_julia_calls import is_index
 from juliadoc import word_of
-from model import TYPES, item_names, options_init
+from model import TYPES, item_names
 
 # In jam.i and call.hpp: packings as such, progress, texts of errors and reports.
 BY_HAND = {"jam_destroy", "jam_view", "jam_set_progress", "jam_set_log", "jam_set_error", "jam_last_error", "jam_check_text",
            "jam_proof_text", "jam_status_string", "jam_stop_string"}
 KINDS = {"double": "d", "int32_t": "i", "uint32_t": "u", "int64_t": "l", "uint64_t": "L"}
 START = {"positions": ("n", "d"), "diameters": ("n",), "cell": ("d", "d")}  # arrays of jam_start
-
-
-def on_system(f):
-    return bool(f.args) and f.args[0].role == "handle"
 
 
 def octave_name(f):
@@ -32,7 +28,7 @@ def _words(api):
     for s in api.structs:
         if not s.has_pointers:
             rows = [f'{{"{m.name}", \'{"w" if m.enum else "b" if m.bool else KINDS[m.type]}\', offsetof({s.name}, {m.name}), '
-                    f'{"words_" + m.enum if m.enum else "nullptr"}}}' for m in s.members if not m.name.startswith(("struct_size", "reserved"))]
+                    f'{"words_" + m.enum if m.enum else "nullptr"}}}' for m in s.shown]
             yield f"static const Member members_{s.name}[] = {{{', '.join(rows)}, {{nullptr, 0, 0, nullptr}}}};"
     yield "const Word *const status_words = words_jam_status_code;\nconst Member *const progress_members = members_jam_progress;"
 
@@ -41,13 +37,11 @@ class Call:
     """Lines of the function of one call: what it declares, what it passes to C and what it gives back."""
 
     def __init__(self, f, api):
-        self.f, self.api, self.inits, self.nested = f, api, options_init(api), nested(f, api)
-        self.lines, self.passed, self.given, self.fills = [], ["sys"] if on_system(f) else [], [], []
+        self.f, self.api, self.inits, self.nested = f, api, api.inits, nested(f, api)
+        self.lines, self.passed, self.given, self.fills = [], ["sys"] if f.on_system else [], [], []
         self.place, self.more = 0, []
-        self.args = f.args[1:] if on_system(f) else f.args
-        self.plain = [a for a in self.args if a.role in ("scalar", "string", "handle", "array_in")]
-        self.changes = on_system(f) and not f.args[0].type.const
-        for a in self.args:
+        self.plain, self.changes = f.plain, f.changes
+        for a in f.given:
             getattr(self, "_" + a.role)(a)
 
     def _next(self):
@@ -157,8 +151,8 @@ class Call:
                 f"{_list(self.more + ['progress'] * bool(takes))});")
         call = f"[&] {{ return {f.name}({', '.join(self.passed)}); }}"
         changes = str(self.changes).lower()
-        counter = next((a.name for a in f.args if a.role == "scalar_out" and a.name in ("needed", "rows")), None)
-        if self.fills and counter:
+        if self.fills and f.counter:
+            counter = f.counter.name
             run = f"g.fill({changes}, {call}, {counter}, {str(counter == 'rows').lower()}, {{{', '.join('&' + n for n in self.fills)}}});"
         else:
             run = f"g.run({changes}, {call});"
@@ -170,7 +164,7 @@ class Call:
 
 def calls(api):
     """Of each function its Call, or None where it gives a text or a number as it is."""
-    inits = options_init(api).values()
+    inits = api.inits.values()
     return [(f, Call(f, api) if f.result.base == "jam_status" else None)
             for f in api.functions if f.name not in BY_HAND and f.name not in inits]
 
@@ -184,10 +178,10 @@ def emit(api):
     for f, call in made:
         name = octave_name(f)
         if not call:
-            given = "" if not on_system(f) else "$self"
+            given = "" if not f.on_system else "$self"
             body = f"{{ return octave_value_list(octave_value({f.name}({given}))); }}"
-            (methods if on_system(f) else free).append(f"octave_value_list {name}() {body}")
-        elif on_system(f):
+            (methods if f.on_system else free).append(f"octave_value_list {name}() {body}")
+        elif f.on_system:
             methods.append(f"octave_value_list {name}(const octave_value_list &varargs = octave_value_list(), ...) {{ return jam_octave::call_{name}($self, varargs); }}")
         else:
             free.append(f"octave_value_list {name}(const octave_value_list &varargs = octave_value_list(), ...) {{ return jam_octave::call_{name}(nullptr, varargs); }}")

@@ -1,5 +1,5 @@
 """What SWIG's Python module needs beside the header: typemaps applied to every array argument, constructors, docstrings."""
-from model import TYPES, options_init
+from model import TYPES
 
 
 def _quote(text):
@@ -7,7 +7,7 @@ def _quote(text):
 
 
 def emit(api):
-    inits = options_init(api)
+    inits = api.inits
     applied = {}
     for f in api.functions:
         for a in f.args:

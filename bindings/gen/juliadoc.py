@@ -49,8 +49,7 @@ def member_text(m, api):
     """What a member is, its enum's items as words."""
     if not m.enum:
         return cleaned(m.doc.replace("1: ", "", 1) if m.bool else m.doc, api)
-    e = next(e for e in api.enums if e.name == m.enum)
-    items = "|".join(sorted(item_names(e), key=len, reverse=True))
+    items = "|".join(sorted(item_names(api.enum(m.enum)), key=len, reverse=True))
     text = re.sub(r"^jam_\w+,? ?", "", m.doc)
     return cleaned(re.sub(rf"\b(?<!JAM_)({items})\b", lambda k: f"`:{word_of(k.group())}`", text), api)
 
@@ -64,7 +63,7 @@ def struct(s, api):
     """The docstring of a struct: C's comment, and its members with the words that they take."""
     first, *notes = s.doc.split("\n- ")
     lines = wrapped(cleaned(first, api))
-    for rows in (notes, [m for m in s.members if not m.name.startswith(("struct_size", "reserved"))]):
+    for rows in (notes, s.shown):
         lines += [""] * bool(rows)
         for row in rows:
             lines += wrapped(cleaned(row, api) if isinstance(row, str) else member_row(row, api), "- ")
@@ -73,8 +72,7 @@ def struct(s, api):
 
 def spoken(text, api):
     """Names of C as Julia has them."""
-    items = {c: n for e in api.enums for n, (c, _, _) in zip(item_names(e), e.items)}
-    functions = {f.name for f in api.functions}
+    items, functions = api.words, {f.name for f in api.functions}
     text = re.sub(r"\bJAM_E_(\w+)", lambda m: f"an error `:{m.group(1).lower()}`", text)
     text = re.sub(r"\bJAM_[A-Z_0-9]+\b", lambda m: f"`:{word_of(items[m.group()])}`" if m.group() in items else m.group(), text)
     text = re.sub(r"\bjam_\w+", lambda m: f"`{julia_name(m.group())}`" if m.group() in functions else m.group(), text)
@@ -91,8 +89,7 @@ def wrapped(text, indent=""):
 
 
 def choices(enum, api):
-    e = next(e for e in api.enums if e.name == enum)
-    return ", ".join(f"`:{word_of(n)}`" for n in item_names(e))
+    return ", ".join(f"`:{word_of(n)}`" for n in item_names(api.enum(enum)))
 
 
 def docstring(signature, f, members, indices, api):

@@ -6,8 +6,6 @@ import emit_julia_calls
 import emit_methods
 import emit_octave
 from annotations import HeaderError
-from emit_python import is_free
-from model import options_init
 
 # Texts, and what makes, frees, shows and watches a packing: each language has its own ways.
 OWN = frozenset("""jam_version jam_commit jam_abi_version jam_blas_kernel jam_status_string jam_stop_string jam_last_error jam_set_error
@@ -17,8 +15,7 @@ OWN = frozenset("""jam_version jam_commit jam_abi_version jam_blas_kernel jam_st
 
 def _languages(api):
     """{language: (names of the calls that are generated, of those by hand)}"""
-    inits = options_init(api)
-    free = {f.name for f in api.functions if is_free(f, inits)}  # in Fortran those of the module jam serve
+    free = {f.name for f in api.calls if not f.on_system}  # in Fortran those of the module jam serve
     return {
         "Python": ({c.f.name for c in emit_methods.calls(api)}, OWN | emit_methods.SKIP),
         "Julia": ({f.name for f in emit_julia_calls.calls(api)}, OWN | emit_julia_calls.BY_HAND),
@@ -29,7 +26,7 @@ def _languages(api):
 
 
 def check(api):
-    known = {f.name for f in api.functions} - set(options_init(api).values())
+    known = {f.name for f in api.functions} - set(api.inits.values())
     for language, (made, by_hand) in _languages(api).items():
         for wrong, why in ((known - made - by_hand, "no rule makes it, and no list says that it is written by hand"),
                            (made & by_hand, "it is generated, and listed as written by hand"),

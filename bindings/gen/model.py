@@ -62,6 +62,49 @@ class Function:
     optional: list = field(default_factory=list)  # last arguments that may be left out, then 0
     errors: list = field(default_factory=list)  # (name without JAM_E_, why)
 
+    @property
+    def roles(self):
+        return {a.role for a in self.args}
+
+    @property
+    def on_system(self):
+        return bool(self.args) and self.args[0].role == "handle"
+
+    @property
+    def changes(self):
+        """Whether the system may be another one afterwards."""
+        return self.on_system and not self.args[0].type.const
+
+    @property
+    def given(self):
+        """The arguments beside the system."""
+        return self.args[1:] if self.on_system else self.args
+
+    @property
+    def plain(self):
+        """What a caller gives in the order of C; members of option structs are keywords."""
+        return [a for a in self.given if a.role in ("scalar", "string", "array_in", "handle")]
+
+    @property
+    def counter(self):
+        """What says how much the arrays that are filled hold."""
+        return next((a for a in self.args if a.role == "scalar_out" and a.name in ("needed", "rows")), None)
+
+    @property
+    def outputs(self):
+        results = ("array_out", "struct_out", "scalar_out")
+        return [a for a in self.args if a.role in results and a.name not in ("needed", "rows")]
+
+    @property
+    def reports(self):
+        """A call that works on a system and gives something back may take long; a setter gives nothing."""
+        return self.changes and bool(self.roles & {"array_out", "struct_out"})
+
+    def may_be_left_out(self, a):
+        """An array that stands behind all that a call on a system needs."""
+        behind = self.plain[self.plain.index(a) :]
+        return self.on_system and all(b.role == "array_in" for b in behind)
+
 
 @dataclass
 class Member:
@@ -84,6 +127,11 @@ class Struct:
     def has_pointers(self):
         """Each language fills such a struct by hand, from arrays of its own."""
         return any(m.type in ("pointer", "callback") for m in self.members)
+
+    @property
+    def shown(self):
+        """The members that a user sets or reads."""
+        return [m for m in self.members if not m.name.startswith(("struct_size", "reserved"))]
 
 
 @dataclass
@@ -111,6 +159,31 @@ class Api:
 
     def struct(self, name):
         return next((s for s in self.structs if s.name == name), None)
+
+    def enum(self, name):
+        return next((e for e in self.enums if e.name == name), None)
+
+    @property
+    def words(self):
+        """{item of an enum: its name without what all of them have in common}"""
+        return {c: n for e in self.enums for n, (c, _, _) in zip(item_names(e), e.items)}
+
+    @property
+    def inits(self):
+        """{struct: init function} of the option structs."""
+        functions = {f.name for f in self.functions}
+        return {s.name: s.name + "_init" for s in self.structs if s.name + "_init" in functions}
+
+    @property
+    def calls(self):
+        """Functions with a status that follow the header's conventions alone: on a system, or formulas that need none."""
+        apart = {"callback", "new_handle", "view"}
+        inits = self.inits.values()
+        return [f for f in self.functions if f.result.base == "jam_status" and f.name not in inits and not f.roles & apart]
+
+    def members(self, f):
+        """Members of all option structs of a call: its keywords."""
+        return [m for a in f.args if a.role == "struct_in" for m in self.struct(a.type.base).shown]
 
 
 def parse_type(text):
@@ -207,13 +280,8 @@ def read_header(header, swig="swig"):
             api.constants.append((name, int(a["value"])))
         elif node.tag == "enum":
             items = [_attributes(i) for i in node.findall("enumitem")]
-            api.enums.append(
-                Enum(
-                    name,
-                    [(i["name"], int(i["enumvalue"]), docs.get((name, i["name"]), "")) for i in items],
-                    docs.get(name, ""),
-                )
-            )
+            rows = [(i["name"], int(i["enumvalue"]), docs.get((name, i["name"]), "")) for i in items]
+            api.enums.append(Enum(name, rows, docs.get(name, "")))
         elif node.tag == "class" and name.startswith("jam_"):
             members = []
             for m in node.iter("cdecl"):
@@ -223,9 +291,8 @@ def read_header(header, swig="swig"):
                 kind = "pointer" if b.get("decl") == "p." else b["type"]
                 kind = "callback" if kind in [c.name for c in api.callbacks] else kind
                 if kind not in TYPES or b.get("decl") not in ("", None, "p."):
-                    raise HeaderError(
-                        f"{name}.{b['name']}: members are flat and of fixed width, not {b.get('decl')}{b['type']}"
-                    )
+                    what = f"{b.get('decl')}{b['type']}"
+                    raise HeaderError(f"{name}.{b['name']}: members are flat and of fixed width, not {what}")
                 tags = annotations.of_member(f"{name}.{b['name']}", docs.get((name, b["name"]), ""))
                 members.append(Member(b["name"], kind, 0, *tags))
             struct = Struct(name, members, doc=docs.get(name, ""))
@@ -233,13 +300,6 @@ def read_header(header, swig="swig"):
             api.structs.append(struct)
         elif node.tag == "cdecl" and a.get("kind") == "typedef" and a.get("decl", "").startswith("p.f("):
             api.callbacks.append(Callback(name, parse_type(a["type"]), list(_parms(node)), docs.get(name, "")))
-        elif (
-            node.tag == "cdecl"
-            and a.get("kind") == "typedef"
-            and a.get("decl") == ""
-            and parse_type(a["type"]).base.startswith("p.f(")
-        ):
-            raise HeaderError(f"callback typedef {name} not understood")
         elif node.tag == "cdecl" and a.get("kind") == "function" and name.startswith("jam_"):
             stars = a["decl"].rsplit(").", 1)[1].count("p.")
             result = parse_type("p." * stars + a["type"])
@@ -250,14 +310,8 @@ def read_header(header, swig="swig"):
     for f in api.functions:
         classify(f.args, callbacks, structs, {s.name for s in api.structs if s.has_pointers})
     annotations.check(api)
-    lower = [
-        n.lower()
-        for n in [c[0] for c in api.constants]
-        + [i[0] for e in api.enums for i in e.items]
-        + [s.name for s in api.structs]
-        + [f.name for f in api.functions]
-        + [c.name for c in api.callbacks]
-    ]
+    names = [n for n, _ in api.constants] + [n for e in api.enums for n, _, _ in e.items]
+    lower = [n.lower() for n in names + [x.name for x in api.structs + api.functions + api.callbacks]]
     if twice := {n for n in lower if lower.count(n) > 1}:
         raise HeaderError(f"names that Fortran cannot distinguish: {sorted(twice)}")
     return api
@@ -270,8 +324,3 @@ def item_names(e):
     while not all(n.startswith(prefix) for n in names):
         prefix = prefix[: prefix.rstrip("_").rindex("_") + 1]
     return [n[len(prefix) :] for n in names]
-
-
-def options_init(api):
-    """{struct: init function} for the option structs."""
-    return {s.name: s.name + "_init" for s in api.structs if any(f.name == s.name + "_init" for f in api.functions)}

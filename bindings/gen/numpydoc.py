@@ -3,12 +3,8 @@ import re
 import textwrap
 
 from emit_python import camel
+from juliadoc import DROPPED
 from model import item_names
-
-# Of an array or a number that the caller asks for, Python fills in lengths itself.
-DROPPED = (
-    r"[,;.]? ?\*(?:rows|needed) = (?:their number )?\w+(?:\^\d)?(?: \w+)?(?=[:;.,])",
-)
 
 
 def errors(f):
@@ -23,28 +19,20 @@ def errors(f):
 
 def spoken(text, api):
     """Names of C as Python has them."""
-    enums = {e.name: camel(e.name) for e in api.enums}
-    items = {f"JAM_{c.removeprefix('JAM_')}": n for e in api.enums for n, (c, _, _) in zip(item_names(e), e.items)}
+    words, functions = api.words, {f.name for f in api.functions}
     text = re.sub(r"\bJAM_E_(\w+)", lambda m: camel(m.group(1).lower()) + "Error", text)
-    statuses = {f"JAM_{c.removeprefix('JAM_')}" for e in api.enums if e.name == "jam_status" for c, _, _ in e.items}
-    text = re.sub(r"\bJAM_[A-Z_]+\b", lambda m: "StatusCode." + m.group()[4:] if m.group() in statuses else m.group(), text)
-    text = re.sub(r"\bJAM_[A-Z_]+\b", lambda m: repr(items[m.group()].lower()) if m.group() in items else m.group(), text)
-    functions = {f.name for f in api.functions}
+    text = re.sub(r"\bJAM_[A-Z_]+\b", lambda m: repr(words[m.group()].lower()) if m.group() in words else m.group(), text)
 
     def named(m):
         word = m.group()
-        if word in enums:
-            return enums[word]
-        return word.removeprefix("jam_") + ("()" if word in functions else "")
+        return camel(word) if api.enum(word) else word.removeprefix("jam_") + "()" * (word in functions)
 
     text = re.sub(r"\bjam_\w+", named, text)
     return re.sub(r"\*(?=[a-z])", "", text).replace("NULL", "None")
 
 
 def cleaned(doc, api):
-    text = " ".join(doc.split())
-    for pattern in DROPPED:
-        text = re.sub(pattern, "", text)
+    text = re.sub(DROPPED, "", " ".join(doc.split()))
     return re.sub(r"\s+([.,;:])", r"\1", " ".join(spoken(text, api).split()))
 
 

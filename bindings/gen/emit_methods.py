@@ -42,6 +42,16 @@ SKIP = {"jam_destroy", "jam_copy", "jam_set_progress", "jam_set_log", "jam_set_p
         "jam_prove", "jam_write_proof", "jam_floppy_modes", "jam_diameters", "jam_parse_diameters", "jam_get_size_report"}  # written by hand
 
 
+# What a call takes where an argument is left out that C wants.
+DEFAULTS = {"jam_gaps": {"h_max": 1.0, "stable_only": True}, "jam_rigidity": {"kind": "collective"}, "jam_flex": {"kind": "collective"}}
+
+
+def default(f, a):
+    """The value of an argument that is left out, or none where it cannot be."""
+    own = DEFAULTS.get(f.name, {})
+    return [own[a.name]] if a.name in own else [0] if a.name in f.optional else [None] if f.may_be_left_out(a) else []
+
+
 def _hint(f, arg):
     if arg.role in ("array_in", "handle"):
         return "Any"
@@ -84,8 +94,7 @@ class Call:
 
     def text(self, indent):
         f, verb = self.f, self.f.reports
-        absent = {a.name: " = 0" if a.name in f.optional else " = None" if f.may_be_left_out(a) else "" for a in self.plain}
-        head = ["self"] + [f"{a.name}: {_hint(f, a)}{absent[a.name]}" for a in self.plain]
+        head = ["self"] + [f"{a.name}: {_hint(f, a)}" + "".join(f" = {v!r}" for v in default(f, a)) for a in self.plain]
         more = [f"{m.name}: {'int | str' if m.enum else member_type(m)} | None = None" for m in self.members]
         passed = [a.name for a in self.plain] + [f"{m.name}={m.name}" for m in self.members] + (["progress=progress"] if verb else [])
         more += ["progress: Progressing = None"] if verb else []

@@ -24,7 +24,7 @@ import emit_python
 import emit_swig
 import languages
 from annotations import HeaderError
-from model import read_header
+from header import read_header
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGE = ROOT / "bindings/docs/command_line.md"

@@ -12,7 +12,7 @@ sys.path.insert(0, str(ROOT / "bindings/gen"))
 import annotations  # noqa: E402
 import generate  # noqa: E402
 import languages  # noqa: E402
-from model import read_header  # noqa: E402
+from header import read_header  # noqa: E402
 
 HEADING = re.compile(r"^(\w+ : .*|Parameters|Returns|Raises|\w+Error(, \w+Error)*)$")
 

@@ -1,12 +1,5 @@
 # The periodic cell. Its vectors are the columns of a d-by-d matrix: the rows of C.
 
-"""
-    cell(s)
-
-Cell vectors in normal form, the columns of an upper-triangular d-by-d matrix.
-"""
-cell(s::System) = call(s, :jam_get_cell, ())
-
 function check_square(s::System, x, name)
     d = Int(info(s).dim)
     x isa AbstractVector && length(x) == d && name == "cell" && return Cdouble[i == j ? x[i] : 0 for i in 1:d, j in 1:d]

@@ -63,13 +63,7 @@ struct Observed
 end
 Base.propertynames(::Observed, private::Bool = false) = (:series, :stress, :spheres, :pairs, :gaps, :correlation)
 function Base.getproperty(o::Observed, name::Symbol)
-    s = getfield(o, :system)
-    name === :series && return observed_series(s)
-    name === :stress && return observed_stress(s)
-    name === :spheres && return observed_spheres(s)
-    name === :pairs && return observed_pairs(s)
-    name === :gaps && return observed_gaps(s)
-    name === :correlation && return observed_correlation(s)
+    name in propertynames(o) && return getfield(Jam, Symbol(:observed_, name))(getfield(o, :system))
     throw(ArgumentError("nothing observed is named $name" * suggestion(string(name), string.(propertynames(o)))))
 end
 Base.show(io::IO, o::Observed) = print(io, "Observed(", join(propertynames(o), ", "), ")")

@@ -19,10 +19,6 @@ function word(enum::Symbol, value::Integer)
     return Int(value)
 end
 
-# Names of Julia's functions that end in !, by the words of C.
-const CHANGING = "run|compress|crunch|maximise_radii|relax|shear|decompress|monte_carlo|contacts_from_geometry|observe|stop_observing|add_note|strain|" *
-                 "set_positions|set_velocities|set_cell|scale_diameters|set_memory_limit"
-
 "The library's text as Julia says it: its functions and words, and spheres, contacts and components that count from 1."
 function in_julia(text::AbstractString)
     one_more(m) = replace(m, r"\d+" => k -> string(parse(Int, k) + 1))

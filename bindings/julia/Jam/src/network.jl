@@ -1,11 +1,5 @@
 # The jammed network: contacts, forces, stiffness, modes.
 
-"2-by-contacts matrix of sphere indices, from 1."
-contacts(s::System) = call(s, :jam_contacts, ())
-"Contact forces, mean 1; times `report(s).force_scale` they are lambda r of the LP."
-forces(s::System) = call(s, :jam_forces, ())
-"Contacts of each sphere, 0 for rattlers."
-coordination(s::System) = call(s, :jam_coordination, ())
 "Which spheres are rattlers: no contact with a force touches them."
 rattlers(s::System) = coordination(s) .== 0
 "Which spheres are bucklers, with exactly d + 1 contacts."
@@ -51,13 +45,6 @@ function axes_of(x)
     names = size(x, 1) <= 3 ? (:x, :y, :z)[1:size(x, 1)] : Tuple(Symbol("x", k) for k in 1:size(x, 1))
     return NamedTuple{names}(Tuple(x[k, :] for k in 1:size(x, 1)))
 end
-
-"All pairs with gaps below `h_max`, of stable spheres: `gaps(s, h_max, stable_only)`."
-gaps(s::System, h_max = 1.0) = gaps(s, h_max, true)
-"The test of collective jamming: `rigidity(s, :collective)`."
-rigidity(s::System; progress = nothing) = rigidity(s, :collective; progress = progress)
-"A motion of all spheres in the fixed cell: `flex(s, :collective)`."
-flex(s::System; progress = nothing) = flex(s, :collective; progress = progress)
 
 """
     hessian(s; stiffness, alpha, prestress)

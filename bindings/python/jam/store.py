@@ -8,32 +8,16 @@ from typing import Any
 import numpy as np
 
 from ._api.shown import only
-from ._formats import write_packing
 from ._formats.content import damaged, refusing
 from ._formats.provenance import provenance
-from ._formats.replacing import require_ending
 from ._formats.sealed import read_packing
 from ._formats.shard import write_shard
+from ._formats.write_packing import image, save
 from .errors import JamError, StoreError
 from .system import System, restore
 
 __all__ = ["StoreError", "image", "load", "provenance", "save", "write_shard"]
 __dir__ = only(__all__)
-
-
-def image(system: System, *, refined: bool = False, **more: Any) -> bytes:
-    """The bytes of a packing's file. More: `analysis`, `protocol`, `protocol_id` and `times` of write_packing.image.
-
-    refined: centres as sums of two doubles too, see System.refined_positions.
-    """
-    state, still = system._checkpointed()
-    return write_packing.image(state, still, refined=still.refined_positions() if refined else None, **more)
-
-
-def save(system: System, path: str | os.PathLike[str], **more: Any) -> None:
-    """Writes one packing with all its results; jam.load reads it. The path ends in .h5 or .hdf5. For `more` see image()."""
-    require_ending(path, (".h5", ".hdf5"), "a packing with its results is stored as HDF5")
-    write_packing.write_file(path, image(system, **more))
 
 
 def load(

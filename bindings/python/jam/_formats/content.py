@@ -37,18 +37,21 @@ def refusing(path: Any) -> Iterator[None]:
 
 
 def plain_value(value: Any) -> Any:
-    """An attribute as JSON holds it."""
+    """Attributes as JSON holds them."""
     value = value.tolist() if hasattr(value, "tolist") else value
+    if isinstance(value, dict):
+        return {key: plain_value(v) for key, v in value.items()}
     if isinstance(value, list):
         return [plain_value(v) for v in value]
     return value.decode() if isinstance(value, bytes) else value
 
 
 class Packing(NamedTuple):
-    """One packing: its arrays, and the attributes of its groups, by their path in the file."""
+    """One packing: its arrays, the attributes of its groups, and texts beside the arrays, by their path in the file."""
 
     arrays: dict[str, Array]
     attributes: dict[str, dict[str, Any]]
+    texts: dict[str, dict[str, str]] = {}
 
     @property
     def jam(self) -> dict[str, Any]:

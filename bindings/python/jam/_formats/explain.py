@@ -71,10 +71,6 @@ def report_text(report: Any) -> dict[str, str]:
     return _report(report.__class__)[1]
 
 
-def put_report(group: Any, name: str, report: Any) -> None:
-    group.create_dataset(name, data=report_value(report)).attrs.update(report_text(report))
-
-
 @functools.lru_cache(maxsize=None)
 def _history_text() -> dict[str, str]:
     columns = "; ".join(f"{m.name.lower()}: {text}" for m, text in _members(HistoryColumn))
@@ -91,7 +87,3 @@ def explanation(path: str) -> dict[str, str]:
     if meaning:
         found["description"] = meaning
     return found | (_history_text() if path == "jam/history" else {})
-
-
-def explain(node: Any, path: str) -> None:
-    node.attrs.update(explanation(path))

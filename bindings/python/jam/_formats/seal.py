@@ -15,16 +15,17 @@ import hashlib
 import json
 import math
 import re
-from typing import IO, Any, Callable, Collection, Mapping, Sequence
+from typing import IO, Any, Collection, Iterable, Sequence
 
 import numpy as np
 
-from .content import plain_value
+from .content import Packing, plain_value
 
 try:
     import h5py
 except ImportError as error:  # pragma: no cover
     raise ImportError("packings are stored by h5py: install python3-h5py") from error
+from .explain import explanation
 
 USER_BLOCK = 512
 INDEX = "seal"
@@ -32,6 +33,8 @@ BEGIN = b"jam packing file"
 _MOST_ARRAYS, _DEEPEST = 4096, 12  # of a packing: bounds what a crafted index can ask for
 _KIND = re.compile(r"[<>|][biufcS][0-9]{1,9}")
 _CHUNK = 1 << 20
+#: Arrays with a second name, as H5MD has them.
+SAME = {f"particles/spheres/box/edges/{k}": f"particles/spheres/position/{k}" for k in ("step", "time")}
 
 
 def head_of(length: int, index: Sequence[Any], whole: str) -> bytes:
@@ -81,34 +84,6 @@ def digest_of_rest(file: IO[bytes]) -> str:
     return found.hexdigest()
 
 
-def entry(node: Any, value: Any) -> list[Any]:
-    """Place, shape, type and digest of a dataset (as h5py.h5d has it) of this value."""
-    kind = value.dtype
-    text: Any = kind.str if kind.names is None else [[k, kind[k].str] for k in kind.names]
-    return [int(node.get_offset()) if value.nbytes else USER_BLOCK, list(value.shape), text, digest(value.tobytes())]
-
-
-def _entry(path: str, node: Any) -> list[Any]:
-    kind, plan = node.dtype, node.id.get_create_plist()
-    if kind.hasobject or plan.get_layout() != h5py.h5d.CONTIGUOUS:
-        raise TypeError(f"{path}: only arrays of numbers and text of fixed length are stored, not {kind}")
-    return entry(node.id, np.asarray(node[()]))
-
-
-def _index_of(group: Any) -> dict[str, Any]:
-    found: dict[str, Any] = {"data": {}, "attributes": {}}
-
-    def add(path: str, node: Any) -> None:
-        if isinstance(node, h5py.Dataset):
-            found["data"][path] = _entry(path, node)
-        elif len(node.attrs):
-            found["attributes"][path] = {k: plain_value(v) for k, v in node.attrs.items()}
-
-    group.visititems(add)
-    check_names(found["data"])
-    return found
-
-
 def _put(group: Any, index: dict[str, Any]) -> list[Any]:
     """Writes an index; returns its place, size and digest."""
     text = json.dumps(index).encode()
@@ -116,21 +91,86 @@ def _put(group: Any, index: dict[str, Any]) -> list[Any]:
     return [int(node.id.get_offset()), len(text), digest(text)]
 
 
-def seal(file: IO[bytes], fill: Callable[[Any], Mapping[str, Any]]) -> None:
+def seal(file: IO[bytes], content: Packing | Iterable[tuple[str, Packing]], **attributes: Any) -> None:
     """Writes a sealed file.
 
     Parameters
     ----------
     file : io.BytesIO, or a file open to be written and read
         Takes the bytes.
-    fill : callable
-        Writes the content into an h5py.File: contiguous arrays, text of fixed length. Of a shard it returns the index of
-        each group by its name; of one packing none.
+    content : Packing, or pairs of a name and a Packing
+        One packing, or many, a group each.
+    **attributes
+        Of the file as a whole.
     """
+    writer, parts = _Writer(), {}
     with h5py.File(file, "w", userblock_size=USER_BLOCK, libver="earliest") as inside:  # every HDF5 reads it
-        packings = fill(inside)
-        parts = {name: _put(inside[name], index) for name, index in packings.items()}
-        place = _put(inside, {"packings": parts} if packings else _index_of(inside))
+        inside.attrs.update(attributes)
+        index: dict[str, Any] = {"data": {}, "attributes": {}}
+        if isinstance(content, Packing):
+            index = writer.write(content, inside["/"].id)
+        else:
+            for name, packing in content:
+                group = inside.create_group(name)
+                parts[name] = _put(group, writer.write(packing, group.id))
+        place = _put(inside, {"packings": parts} if parts else index)
     length, whole = file.seek(0, 2), digest_of_rest(file)
     file.seek(0)
     file.write(head_of(length, place, whole))
+
+
+class _Writer:
+    """Writes packings by the low calls of h5py: the high ones take ten times as long as libhdf5 for small arrays."""
+
+    def __init__(self) -> None:
+        self.types: dict[Any, Any] = {}
+
+    def write(self, packing: Packing, target: Any) -> dict[str, Any]:
+        """A packing into a group; returns its index: of each array place, shape, type and digest."""
+        check_names(packing.arrays)
+        groups = {"": target}
+        for path, attributes in packing.attributes.items():
+            node = self.group(groups, path)
+            for key, value in attributes.items():
+                self.attribute(node, key, value)
+        data = {}
+        for path, value in packing.arrays.items():
+            if value.dtype.hasobject:
+                raise TypeError(f"{path}: only arrays of numbers and text of fixed length are stored, not {value.dtype}")
+            inner, _, name = path.rpartition("/")
+            kind = self.type_of(value.dtype)
+            space = h5py.h5s.create_simple(value.shape) if value.shape else h5py.h5s.create(h5py.h5s.SCALAR)
+            node = h5py.h5d.create(self.group(groups, inner), name.encode(), kind, space)
+            if value.size:
+                node.write(h5py.h5s.ALL, h5py.h5s.ALL, np.ascontiguousarray(value), kind)
+            for key, words in (packing.texts.get(path) or explanation(path)).items():
+                self.attribute(node, key, words)
+            text = value.dtype.str if value.dtype.names is None else [[k, value.dtype[k].str] for k in value.dtype.names]
+            place = int(node.get_offset()) if value.nbytes else USER_BLOCK
+            data[path] = [place, list(value.shape), text, digest(value.tobytes())]
+        for path, same in SAME.items():
+            if path in data:
+                above, _, name = same.rpartition("/")
+                self.group(groups, above).links.create_hard(name.encode(), target, path.encode())
+        return {"data": data, "attributes": plain_value(packing.attributes)}
+
+    def group(self, groups: dict[str, Any], path: str) -> Any:
+        path = "" if path == "." else path
+        if path not in groups:
+            above, _, name = path.rpartition("/")
+            groups[path] = h5py.h5g.create(self.group(groups, above), name.encode())
+        return groups[path]
+
+    def type_of(self, kind: Any) -> Any:
+        key = kind if kind.metadata is None else (kind, str(kind.metadata))
+        if key not in self.types:
+            self.types[key] = h5py.h5t.py_create(kind, logical=True)
+        return self.types[key]
+
+    def attribute(self, node: Any, name: str, value: Any) -> None:
+        kind = h5py.string_dtype() if isinstance(value, str) else None
+        array = np.asarray(value, dtype=kind)
+        if array.dtype.kind == "U":  # several texts
+            array = array.astype(h5py.string_dtype())
+        space = h5py.h5s.create_simple(array.shape) if array.shape else h5py.h5s.create(h5py.h5s.SCALAR)
+        h5py.h5a.create(node, name.encode(), self.type_of(array.dtype), space).write(array)

@@ -3,18 +3,15 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
-from typing import Any, Mapping
-
-import h5py
-import numpy as np
+from typing import Iterator, Mapping
 
 from .._api.generated import CrunchReport
 from ..errors import StoreError
 from .content import Packing
-from .explain import explanation, report_text, report_value
+from .explain import report_text, report_value
 from .records import unpack
 from .replacing import replacing
-from .seal import check_names, entry, seal
+from .seal import seal
 from .sealed import read_packing
 
 
@@ -25,9 +22,7 @@ def write_shard(path: str | os.PathLike[str], protocol: str, packings: Mapping[s
     """
     left_out: list[str] = []
 
-    def fill(shard: Any) -> dict[str, Any]:
-        shard.attrs["protocol"] = protocol
-        made, copier = {}, _Copier()
+    def found() -> Iterator[tuple[str, Packing]]:
         for name, place in packings.items():
             try:
                 source, inner = place if isinstance(place, tuple) else (place, None)
@@ -35,66 +30,17 @@ def write_shard(path: str | os.PathLike[str], protocol: str, packings: Mapping[s
             except StoreError as error:
                 left_out.append(str(error.strerror))
                 continue
-            made[name] = copier.copy(packing, shard.create_group(name))
-        return made
+            if "jam/report" in packing.arrays:  # with the words of its enums
+                report = unpack(packing.arrays["jam/report"], CrunchReport)
+                packing.arrays["jam/report"] = report_value(report)
+                packing = packing._replace(texts={"jam/report": report_text(report)})
+            yield name, packing
 
     try:
         with replacing(path, "w+b") as file:
-            seal(file, fill)
+            seal(file, found(), protocol=protocol)
     except StoreError:
         raise
     except OSError as error:
         raise StoreError(error.errno or 5, f"{path} cannot be written: {error}") from error
     return left_out
-
-
-class _Copier:
-    """Copies packings by the low calls of h5py: the high ones take ten times as long as libhdf5 for small arrays."""
-
-    def __init__(self) -> None:
-        self.types: dict[Any, Any] = {}
-
-    def copy(self, packing: Packing, target: Any) -> dict[str, Any]:
-        """A packing into a group of another file; returns its index."""
-        check_names(packing.arrays)
-        groups = {"": target.id}
-        for path, attributes in packing.attributes.items():
-            node = self.group(groups, path)
-            for key, value in attributes.items():
-                self.attribute(node, key, value)
-        data = {}
-        for path, value in packing.arrays.items():
-            text = explanation(path)
-            if path == "jam/report":
-                report = unpack(value, CrunchReport)
-                value, text = report_value(report), report_text(report)
-            inner, _, name = path.rpartition("/")
-            space = h5py.h5s.create_simple(value.shape) if value.shape else h5py.h5s.create(h5py.h5s.SCALAR)
-            node = h5py.h5d.create(self.group(groups, inner), name.encode(), self.type_of(value.dtype), space)
-            if value.size:
-                node.write(h5py.h5s.ALL, h5py.h5s.ALL, np.ascontiguousarray(value))
-            for key, words in text.items():
-                self.attribute(node, key, words)
-            data[path] = entry(node, value)
-        return {"data": data, "attributes": packing.attributes}
-
-    def group(self, groups: dict[str, Any], path: str) -> Any:
-        path = "" if path == "." else path
-        if path not in groups:
-            above, _, name = path.rpartition("/")
-            groups[path] = h5py.h5g.create(self.group(groups, above), name.encode())
-        return groups[path]
-
-    def type_of(self, kind: Any) -> Any:
-        key = kind if kind.metadata is None else (kind, str(kind.metadata))
-        if key not in self.types:
-            self.types[key] = h5py.h5t.py_create(kind, logical=True)
-        return self.types[key]
-
-    def attribute(self, node: Any, name: str, value: Any) -> None:
-        kind = h5py.string_dtype() if isinstance(value, str) else None
-        array = np.asarray(value, dtype=kind)
-        if array.dtype.kind == "U":  # several texts
-            array = array.astype(h5py.string_dtype())
-        space = h5py.h5s.create_simple(array.shape) if array.shape else h5py.h5s.create(h5py.h5s.SCALAR)
-        h5py.h5a.create(node, name.encode(), self.type_of(array.dtype), space).write(array)

@@ -35,10 +35,10 @@ import numpy as np
 from .. import raw
 from .._api.given import closed_axes, container_word, walls_of
 from ..errors import StateError, StoreError
-from .content import CONTACTS, SCHEMA
-from .explain import explain, put_report
+from .content import CONTACTS, SCHEMA, Packing
+from .explain import report_text, report_value
 from .provenance import provenance
-from .replacing import MENDED, replacing
+from .replacing import MENDED, replacing, require_ending
 from .seal import seal
 
 
@@ -48,37 +48,33 @@ def _text(value: str) -> Any:
     return np.array(data, h5py.string_dtype("utf-8", max(1, len(data))))
 
 
-def put(group: Any, name: str, value: Any) -> None:
+def _put(packing: Packing, path: str, value: Any) -> None:
     """Any result of a call: a number, text, an array, a report, a named tuple of them."""
     if hasattr(value, "_asdict"):
-        inner = group.create_group(name)
         for key, part in value._asdict().items():
-            put(inner, key, part)
+            _put(packing, f"{path}/{key}", part)
     elif is_dataclass(value):
-        put_report(group, name, value)
+        packing.arrays[path], packing.texts[path] = report_value(value), report_text(value)
     elif value is not None:
-        node = group.create_dataset(name, data=_text(value) if isinstance(value, str) else value)
-        explain(node, node.name.lstrip("/"))
+        packing.arrays[path] = _text(value) if isinstance(value, str) else np.asarray(value)
 
 
-def _h5md(file: Any, packing: Any, closed: list[bool]) -> None:
-    dim = packing.dim
-    head = file.create_group("h5md")
-    head.attrs["version"] = np.array([1, 1], np.int32)
-    head.create_group("author").attrs["name"] = "unknown"
-    creator = head.create_group("creator")
-    creator.attrs["name"], creator.attrs["version"] = "jam", raw.jam_version()
-    spheres = file.create_group("particles/spheres")
-    box = spheres.create_group("box")
-    box.attrs["dimension"] = np.int32(dim)
-    box.attrs["boundary"] = ["none" if shut else "periodic" for shut in closed]
-    put(spheres, "position/value", packing.positions[None])
-    position = spheres["position"]
-    position.create_dataset("step", data=np.zeros(1, np.int64))
-    position.create_dataset("time", data=np.zeros(1))
-    put(box, "edges/value", packing.cell[None])
-    edges = box["edges"]
-    edges["step"], edges["time"] = position["step"], position["time"]
+def _h5md(made: Packing, system: Any, closed: list[bool]) -> None:
+    spheres = "particles/spheres"
+    made.attributes.update({
+        "h5md": {"version": np.array([1, 1], np.int32)},
+        "h5md/author": {"name": "unknown"},
+        "h5md/creator": {"name": "jam", "version": raw.jam_version()},
+        f"{spheres}/box": {
+            "dimension": np.int32(system.dim), "boundary": ["none" if shut else "periodic" for shut in closed],
+        },
+    })
+    made.arrays.update({
+        f"{spheres}/position/value": system.positions[None],
+        f"{spheres}/box/edges/value": system.cell[None],
+        f"{spheres}/box/edges/step": np.zeros(1, np.int64),
+        f"{spheres}/box/edges/time": np.zeros(1),
+    })
 
 
 def _known(ask: Callable[[], Any]) -> Any:
@@ -90,63 +86,61 @@ def _known(ask: Callable[[], Any]) -> Any:
 
 
 def image(
-    state: bytes,
-    packing: Any,
+    system: Any,
     *,
+    refined: bool = False,
     analysis: Mapping[str, Any] | None = None,
     protocol: str | None = None,
     protocol_id: str = "",
     times: Mapping[str, float] | None = None,
-    refined: Any = None,
 ) -> bytes:
     """The bytes of a packing's file.
 
     Parameters
     ----------
-    state : bytes
-        A checkpoint.
-    packing : System
-        Made from it, so that the arrays are those of jam/state to the last bit: System._checkpointed.
+    system : System
+        The arrays of the file are those of its checkpoint to the last bit.
+    refined : bool
+        Centres as sums of two doubles too, see System.refined_positions.
     analysis : mapping, optional
         Results by name: numbers, arrays, reports, named tuples of them.
     protocol, protocol_id : str, optional
         The protocol as JSON and its name.
     times : mapping, optional
         Seconds by name, beside the moment of writing.
-    refined : named tuple, optional
-        Centres as sums of two doubles: what System.refined_positions returns.
     """
-
-    def fill(file: Any) -> dict[str, Any]:
-        info, contacts, report = packing.info, _known(lambda: packing.contacts), _known(lambda: packing.report)
-        closed = closed_axes(info)
-        _h5md(file, packing, closed)
-        put(file["particles/spheres"], "refined", refined)
-        group = file.create_group("jam")
-        group.attrs.update({"schema": SCHEMA, "seed": info.seed, "protocol": protocol_id, **provenance()})
-        group.attrs["written"] = time.time()
-        group.attrs.update(times or {})
-        if any(closed):
-            group.attrs.update({"container": container_word(info), "walls": np.array(walls_of(info))})
-        put(group, "state", np.frombuffer(state, np.uint8))
-        put(group, "diameters", packing.diameters)
-        if report is not None or contacts is not None:
-            put(group, "report", report)
-            put(group, "history", _known(lambda: packing.history))
-        if contacts is not None:
-            put(group, "coordination", packing.coordination)
-            for name in CONTACTS:
-                put(group, "contacts/" + name, getattr(contacts, name))
-        put(group, "calls", json.dumps(packing.calls))
-        put(group, "protocol", protocol)
-        results = group.create_group("analysis")
-        for name, value in (analysis or {}).items():
-            put(results, name, value)
-        return {}
-
+    state, packing = system._checkpointed()
+    info, contacts, report = packing.info, _known(lambda: packing.contacts), _known(lambda: packing.report)
+    closed, made = closed_axes(info), Packing({}, {}, {})
+    _h5md(made, packing, closed)
+    about = {"schema": SCHEMA, "seed": info.seed, "protocol": protocol_id, **provenance(), "written": time.time()}
+    walls = {"container": container_word(info), "walls": np.array(walls_of(info))} if any(closed) else {}
+    made.attributes.update({"jam": {**about, **(times or {}), **walls}, "jam/analysis": {}})
+    known = report is not None or contacts is not None
+    parts = {
+        "particles/spheres/refined": packing.refined_positions() if refined else None,
+        "jam/state": np.frombuffer(state, np.uint8),
+        "jam/diameters": packing.diameters,
+        "jam/report": report,
+        "jam/history": _known(lambda: packing.history) if known else None,
+        "jam/calls": json.dumps(packing.calls),
+        "jam/protocol": protocol,
+        **{"jam/analysis/" + name: value for name, value in (analysis or {}).items()},
+    }
+    if contacts is not None:
+        parts["jam/coordination"] = packing.coordination
+        parts.update({"jam/contacts/" + name: getattr(contacts, name) for name in CONTACTS})
+    for path, value in parts.items():
+        _put(made, path, value)
     memory = io.BytesIO()
-    seal(memory, fill)
+    seal(memory, made)
     return memory.getvalue()
+
+
+def save(system: Any, path: str | os.PathLike[str], **more: Any) -> None:
+    """Writes one packing with all its results; jam.load reads it. The path ends in .h5 or .hdf5. For `more` see image()."""
+    require_ending(path, (".h5", ".hdf5"), "save writes HDF5; write() writes other formats")
+    write_file(path, image(system, **more))
 
 
 def write_file(path: str | os.PathLike[str], data: bytes, parts: str | os.PathLike[str] | None = None) -> None:

@@ -151,30 +151,6 @@ class Network(Analysis):
         values, participation = np.ascontiguousarray(table[:m].T)
         return Modes(values, vectors[:m], participation, spheres, self.status)
 
-    def gaps(self, h_max: float = 1.0, stable_only: bool = True) -> GapsResult:
-        """Gaps h of pairs (every image) and walls below h_max, over the contact distance, without contacts, ascending.
-
-        Parameters
-        ----------
-        h_max : float
-        stable_only : bool
-            False: rattlers count too, and no contact network is needed.
-
-        Returns
-        -------
-        gap : array, shape (gaps,)
-        pair : array, shape (gaps, 2)
-
-        Examples
-        --------
-        >>> import jam
-        >>> disks = jam.System.random(n=64, dim=2, seed=1, diameters=[1.0] * 32 + [1.4] * 32)
-        >>> report = disks.crunch()
-        >>> disks.gaps(0.1).gap.min() > 1e-8
-        True
-        """
-        return self.call("gaps", h_max, stable_only)
-
     def pair_correlation(
         self, r_max: float = 4.0, bins: int = 200, *, kind: Any = None, a: int = -1, b: int = -1
     ) -> Correlation:
@@ -236,21 +212,6 @@ class Network(Analysis):
             same((filled, self.report.contacts), (m, contacts))
         return StressStatesResult(force, basis, residual)
 
-    def rigidity(self, kind: int | str = "collective", *, progress: Any = None) -> RigidityReport:
-        """Tests whether the packing is jammed, with a proof of the answer.
-
-        Parameters
-        ----------
-        kind : {'collective', 'strict'}
-            'strict': also when the cell changes its shape.
-
-        Returns
-        -------
-        RigidityReport
-            report.jammed is a Verdict.
-        """
-        return self.call("rigidity", kind, progress=progress)
-
     def check(
         self, *, crunch: bool = True, prove: bool = False, wall_time: float | None = None, progress: Any = None
     ) -> CheckReport:
@@ -289,21 +250,6 @@ class Network(Analysis):
             self._note(status, found)
         object.__setattr__(found, "text", raw.jam_check_text(made))
         return found
-
-    def refined_positions(self, ratio: Any = None) -> RefinedPositionsResult:
-        """Centres of the jammed packing as sums of two doubles, high + low: about 31 digits. Rattlers stay.
-
-        Parameters
-        ----------
-        ratio : array_like, shape (n,), optional
-            Exact ratios of the diameters, in any unit. Default: the diameters as they are.
-
-        Returns
-        -------
-        high, low : arrays, shape (n, d)
-            In the unit of the box.
-        """
-        return self.call("refined_positions", ratio)
 
     def flex(self, kind: int | str = "collective", *, progress: Any = None) -> FlexResult:
         """A motion that keeps or opens all contacts, for a packing that is not jammed.

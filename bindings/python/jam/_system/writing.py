@@ -15,7 +15,7 @@ from .._api.given import refuse_unstored
 from .._api.options import as_enum
 from .._api.results import Modes
 from .._formats import gsd
-from .._formats.replacing import MENDED, require_ending
+from .._formats.replacing import MENDED
 from ..errors import JamError, StoreError
 from .network import Network
 from .passing_file import passing_file
@@ -142,11 +142,9 @@ class Writing(State, Network):
         A progress callable may save: the file holds the last step of the call that runs, as write_checkpoint does, without
         results. Its last call then has the status "running". A second thread gets BusyError meanwhile.
         """
-        require_ending(path, (".h5", ".hdf5"), "save writes HDF5; write() writes other formats")
-        from .._formats.write_packing import image, write_file
+        from .._formats.write_packing import save
 
-        state, still = self._checkpointed()
-        write_file(path, image(state, still, refined=still.refined_positions() if refined else None))
+        save(self, path, refined=refined)
 
     def _state(self) -> bytes:
         """The bytes of a checkpoint, which holds all: velocities, shifts, results."""

@@ -256,54 +256,46 @@ contains
   end subroutine extents
 
   ! A copy of what a view shows; nothing after a failure.
-  function copy_view(status, view, length) result(x)
-    integer(c_int32_t), intent(in) :: status
-    type(c_ptr), intent(in) :: view
-    integer(c_size_t), intent(in) :: length
+  function copy_view(self, which) result(x)
+    class(jam_handle), intent(inout) :: self
+    integer(c_int32_t), intent(in) :: which
     real(c_double), allocatable :: x(:)
     real(c_double), pointer :: shown(:)
+    type(c_ptr) :: view
+    integer(c_size_t) :: length
+    integer(c_int32_t) :: status
+    status = jam_view(self%sys, which, view, length)
     allocate (x(merge(length, 0_c_size_t, status >= 0)))
-    if (size(x) == 0) return
-    call c_f_pointer(view, shown, [length])
-    x(:) = shown
+    if (size(x) > 0) then
+      call c_f_pointer(view, shown, [length])
+      x(:) = shown
+    end if
+    call self%done(status)
   end function copy_view
 
   ! Copy of the positions x(d, n) in [0, box).
   function positions(self) result(x)
     class(jam_handle), intent(inout) :: self
     real(c_double), allocatable :: x(:, :)
-    type(c_ptr) :: view
-    integer(c_size_t) :: length, d, n
-    integer(c_int32_t) :: status
+    integer(c_size_t) :: d, n
     call self%extents(d, n)
-    status = jam_view(self%sys, JAM_VIEW_POSITIONS, view, length)
-    x = reshape(copy_view(status, view, length), [d, n])
-    call self%done(status)
+    x = reshape(copy_view(self, JAM_VIEW_POSITIONS), [d, n])
   end function positions
 
   ! Copy of the velocities v(d, n), kT/m = 1.
   function velocities(self) result(v)
     class(jam_handle), intent(inout) :: self
     real(c_double), allocatable :: v(:, :)
-    type(c_ptr) :: view
-    integer(c_size_t) :: length, d, n
-    integer(c_int32_t) :: status
+    integer(c_size_t) :: d, n
     call self%extents(d, n)
-    status = jam_view(self%sys, JAM_VIEW_VELOCITIES, view, length)
-    v = reshape(copy_view(status, view, length), [d, n])
-    call self%done(status)
+    v = reshape(copy_view(self, JAM_VIEW_VELOCITIES), [d, n])
   end function velocities
 
   ! Copy of the n diameters.
   function diameters(self) result(sigma)
     class(jam_handle), intent(inout) :: self
     real(c_double), allocatable :: sigma(:)
-    type(c_ptr) :: view
-    integer(c_size_t) :: length
-    integer(c_int32_t) :: status
-    status = jam_view(self%sys, JAM_VIEW_DIAMETERS, view, length)
-    sigma = copy_view(status, view, length)
-    call self%done(status)
+    sigma = copy_view(self, JAM_VIEW_DIAMETERS)
   end function diameters
 
   ! Writes the packing with 17 digits; without format the ending of the name gives it.

@@ -35,9 +35,7 @@ def _comment(text, indent):
 
 
 def _callback_arg(a):
-    if a.type.base == "void":
-        return f"type(c_ptr), value :: {a.name}"
-    if a.type.base == "char":
+    if a.type.base in ("void", "char"):
         return f"type(c_ptr), value :: {a.name}"
     if a.type.stars:
         base = TYPES[a.type.base][2] if a.type.base in TYPES else f"type({a.type.base})"
@@ -49,8 +47,7 @@ def _callback_arg(a):
 def _wrap(args, indent):
     """Arguments in lines short enough for the standard."""
     lines, line = [], ""
-    for k, a in enumerate(args):
-        piece = a + (", " if k + 1 < len(args) else "")
+    for piece in [a + ", " for a in args[:-1]] + args[-1:]:
         if len(line) + len(piece) > 80:
             lines.append(line)
             line = ""
@@ -197,14 +194,13 @@ def emit(api):
                 out += _comment(m.doc, "    ")
             out.append(f"    {TYPES[m.type][2]} :: {m.name} = {value}")
         out.append(f"  end type {s.name}")
-    if inits:
-        out += [
-            "",
-            "  ! call jam_defaults(o) fills any option type with the defaults of the library.",
-            "  interface jam_defaults",
-            f"    module procedure {_wrap(['default_' + n[4:] for n in inits], '    ')}",
-            "  end interface jam_defaults",
-        ]
+    out += [
+        "",
+        "  ! call jam_defaults(o) fills any option type with the defaults of the library.",
+        "  interface jam_defaults",
+        f"    module procedure {_wrap(['default_' + n[4:] for n in inits], '    ')}",
+        "  end interface jam_defaults",
+    ]
     out += ["", "  abstract interface"]
     for c in api.callbacks:
         out += _comment(c.doc, "    ") + _procedure(c.name, _result(c.result), c.args, _callback_arg, "bind(c)", "    ")

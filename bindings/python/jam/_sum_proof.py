@@ -19,7 +19,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ._api.arrays import Array
-from .digits import SLACK, STEPS, _bits, _bounds, _decimal, _doubles, _images, _integers
+from .digits import _bits, _bounds, _decimal, _images, _integers, _inverse, _number, _proved_radius, _solved
 from ._formats.replacing import replacing
 from ._symmetry import Fold, square_fold
 from .errors import StateError
@@ -36,10 +36,6 @@ class Proved(NamedTuple):
     radius: Decimal  #: of each of these numbers
     least_force: float  #: proved lower bound of the forces on the equations, > 0
     steps: int  #: of Newton's method
-
-
-def _number(value: Any, bits: int) -> float:
-    return math.ldexp(int(value) >> (bits - 80), -80)
 
 
 class _Rows:
@@ -124,13 +120,10 @@ class _Rows:
             found[k, at + d] = found[k, to + d] = -2 * _number(self.u[i][d] + self.u[j][d], self.bits)
         return found
 
-    def move(self, step: Array, power: int) -> None:
-        """u less step times 2^power."""
-        shift = self.bits + power - 60
-        whole = [int(v) for v in np.round(step * 2.0**60)]
-        whole = [v << shift if shift >= 0 else v >> -shift for v in whole]
+    def move(self, step: Array) -> None:
+        """u less a step."""
         flat = self.u.ravel()
-        flat[self.fold.unknowns] -= np.array(whole, dtype=object)
+        flat[self.fold.unknowns] -= step
         self.u = flat.reshape(self.n, self.d + 1)
         self.keep_symmetry()
 
@@ -202,25 +195,11 @@ def prove_sum(system: System, digits: int, weights: Any, path: Any) -> Proved:
     rows = _Rows(system, bits, w)
     rows.keep_symmetry()
     whole, kept, fold = rows.fold.matrix(), rows.fold.rows, rows.fold
-    try:
-        inverse = np.linalg.inv(rows.derivative()[kept] @ whole)
-    except np.linalg.LinAlgError:
-        raise StateError("prove: the contacts depend on each other") from None
-    for step in range(STEPS + bits // 8):
-        wrong, power = _doubles(rows.residuals(), bits)
-        if power <= SLACK - bits:
-            break
-        rows.move(inverse @ wrong, power)
-    else:
-        raise StateError("prove: Newton's steps gain no digits; contacts nearly depend on each other")
+    inverse = _inverse("prove", rows.derivative()[kept] @ whole)
+    step = _solved("prove: Newton's steps", rows.residuals, rows.move, inverse, bits)
     derivative = rows.derivative()
-    delta, alpha = _bounds(derivative[kept] @ whole, inverse)
     last = max(abs(int(v)) for v in rows.residuals()) + 1  # rounded down
-    eta, beta = Fraction(alpha) * Fraction(last, 1 << bits), 4 * (d + 1) * Fraction(alpha)
-    r = 2 * eta
-    share = Fraction(delta) + 2 * beta * r
-    if not (Fraction(delta) * r + beta * r * r <= eta and share < 1):
-        raise StateError(f"prove: nothing is proved, since |1 - A J| is only known to be at most {delta:.2g}")
+    r, share = _proved_radius("prove", derivative[kept] @ whole, inverse, last, d + 1, bits)
     if len(kept) < len(derivative):  # that the equations have full rank
         left = np.linalg.pinv(derivative)
         rest, large = _bounds(derivative, left)

@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 from decimal import Decimal, localcontext
 from fractions import Fraction
-from typing import Any, NamedTuple
+from typing import Any, Callable, NamedTuple
 
 import numpy as np
 
@@ -59,6 +59,18 @@ def _doubles(values: Array, bits: int) -> tuple[Array, int]:
     """Integers over 2^bits as doubles times 2^power, with the largest near 1."""
     power = max((int(abs(v)).bit_length() for v in values), default=0)
     return np.array([math.ldexp(int(v) >> max(power - 64, 0), max(power - 64, 0) - power) for v in values]), power - bits
+
+
+def _number(value: Any, bits: int) -> float:
+    """One of them, rounded once."""
+    return math.ldexp(int(value) >> (bits - 80), -80)
+
+
+def _fixed(step: Array, power: int, bits: int) -> Array:
+    """Doubles times 2^power, as integers over 2^bits."""
+    shift = bits + power - 60
+    whole = [int(v) for v in np.round(step * 2.0**60)]
+    return np.array([v << shift if shift >= 0 else v >> -shift for v in whole], dtype=object)
 
 
 def _pi(bits: int) -> int:
@@ -123,23 +135,20 @@ class _Equations:
     def derivative(self) -> Array:
         """J in doubles, each entry rounded once."""
         m, d = len(self.pairs), self.d
-        r = np.array([[math.ldexp(int(v) >> (self.bits - 80), -80) for v in row] for row in self.separations()])
+        r = np.array([[_number(v, self.bits) for v in row] for row in self.separations()])
         found = np.zeros((m, self.unknowns))
         for column, sign in ((0, 2.0), (1, -2.0)):
             at = self.index[self.pairs[:, column]]
             rows = np.flatnonzero(at >= 0)
             for k in range(d):
                 found[rows, d * at[rows] + k] += sign * r[rows, k]
-        found[:, -1] = [-math.ldexp(int(v) >> (self.bits - 80), -80) for v in self.square]
+        found[:, -1] = [-_number(v, self.bits) for v in self.square]
         return found
 
-    def move(self, step: Array, power: int) -> None:
-        """x and G less step times 2^power."""
-        shift = self.bits + power - 60
-        whole = [int(v) for v in np.round(step * 2.0**60)]
-        whole = [v << shift if shift >= 0 else v >> -shift for v in whole]
-        self.x[self.stable[1:]] -= np.array(whole[:-1], dtype=object).reshape(-1, self.d)
-        self.gamma -= whole[-1]
+    def move(self, step: Array) -> None:
+        """x and G less a step."""
+        self.x[self.stable[1:]] -= step[:-1].reshape(-1, self.d)
+        self.gamma -= step[-1]
 
     def imbalance(self, forces: Array) -> Array:
         """J^T f + e_G, which is 0 where forces balance and sum f sigma^2 = 1."""
@@ -164,26 +173,38 @@ def _decimal(value: int, bits: int) -> Decimal:
     return Decimal(value) / (1 << bits)
 
 
-def _solved(equations: _Equations, inverse: Array, goal: int) -> int:
-    """Newton's steps until F has only its last bits; their number."""
-    for step in range(STEPS + goal // 8):
-        wrong, power = _doubles(equations.residuals(), equations.bits)
-        if power <= -goal:
+def _inverse(name: str, derivative: Array) -> Array:
+    try:
+        return np.linalg.inv(derivative)
+    except np.linalg.LinAlgError:
+        raise StateError(f"{name}: the contacts depend on each other") from None
+
+
+def _solved(name: str, wrong: Callable[[], Array], move: Callable[[Array], Any], inverse: Array, bits: int) -> int:
+    """Newton's steps until what is wrong has only its last bits; their number."""
+    for step in range(STEPS + bits // 8):
+        left, power = _doubles(wrong(), bits)
+        if power <= SLACK - bits:
             return step
-        equations.move(inverse @ wrong, power)
-    raise StateError("digits: Newton's steps gain no digits; contacts nearly depend on each other")
+        move(_fixed(inverse @ left, power, bits))
+    raise StateError(f"{name} gain no digits; contacts nearly depend on each other")
 
 
-def _balanced(equations: _Equations, inverse: Array, goal: int) -> Array:
-    forces, bits = np.array([0] * len(inverse), dtype=object), equations.bits
-    for _ in range(STEPS + goal // 8):
-        wrong, power = _doubles(equations.imbalance(forces), bits)
-        if power <= -goal:
-            return forces
-        shift = bits + power - 60
-        whole = [int(v) for v in np.round((inverse.T @ wrong) * 2.0**60)]
-        forces = forces - np.array([v << shift if shift >= 0 else v >> -shift for v in whole], dtype=object)
-    raise StateError("digits: the forces gain no digits; contacts nearly depend on each other")
+def _proved_radius(name: str, derivative: Array, inverse: Array, last: int, d: int, bits: int) -> tuple[Fraction, Fraction]:
+    """r of theorem A where |F| is at most last over 2^bits, and delta + 2 beta r; refuses where it does not hold."""
+    delta, alpha = _bounds(derivative, inverse)
+    eta, beta = Fraction(alpha) * Fraction(last, 1 << bits), 4 * d * Fraction(alpha)
+    r = 2 * eta
+    share = Fraction(delta) + 2 * beta * r
+    if not (Fraction(delta) * r + beta * r * r <= eta and share < 1):
+        raise StateError(f"{name}: nothing is proved, since |1 - A J| is only known to be at most {delta:.2g}")
+    return r, share
+
+
+def _balanced(equations: _Equations, inverse: Array) -> Array:
+    forces = np.array([0] * len(inverse), dtype=object)
+    _solved("digits: the forces", lambda: equations.imbalance(forces), forces.__isub__, inverse.T, equations.bits)
+    return forces
 
 
 def _fraction(equations: _Equations) -> int:
@@ -230,19 +251,11 @@ def refine(system: System, digits: int = 1000) -> Refined:
     """
     bits = _bits(digits)
     e = _Equations(system, bits)
-    try:
-        inverse = np.linalg.inv(e.derivative())
-    except np.linalg.LinAlgError:
-        raise StateError("digits: the contacts depend on each other") from None
-    steps = _solved(e, inverse, bits - SLACK)
-    delta, alpha = _bounds(e.derivative(), inverse)
+    inverse = _inverse("digits", e.derivative())
+    steps = _solved("digits: Newton's steps", e.residuals, e.move, inverse, bits)
     last = max(abs(int(v)) for v in e.residuals()) + e.d + 4  # with the rounding of its sums
-    eta, beta = Fraction(alpha) * Fraction(last, 1 << bits), 4 * e.d * Fraction(alpha)
-    r = 2 * eta
-    share = Fraction(delta) + 2 * beta * r
-    if not (Fraction(delta) * r + beta * r * r <= eta and share < 1):
-        raise StateError(f"digits: nothing is proved, since |1 - A J| is only known to be at most {delta:.2g}")
-    forces = _balanced(e, inverse, bits - SLACK)
+    r, share = _proved_radius("digits", e.derivative(), inverse, last, e.d, bits)
+    forces = _balanced(e, inverse)
     wrong = sum(abs(int(v)) for v in e.imbalance(forces)) + (len(forces) + 1) * (e.d + 2)
     near = Fraction(wrong, 1 << bits) + 8 * e.d * r * Fraction(sum(abs(int(f)) for f in forces), 1 << bits)
     near *= Fraction(float(abs(inverse).max())) / (1 - share)

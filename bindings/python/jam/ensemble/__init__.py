@@ -10,13 +10,12 @@
 
 from .._api.shown import only
 from ..errors import StoreError
-from .ensemble import Ensemble
+from .ensemble import Ensemble, protocols, table
 from .entry import Entry
 from .pool import LocalPool, WorkerDied
 from .making import begin, make
 from .protocol import ProtocolError, complete, identity, minimal, packing_name, to_json
 from .status import DamagedWarning, Status
-from .tables import protocols, table
 
 __all__ = [
     "DamagedWarning",

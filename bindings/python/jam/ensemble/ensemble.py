@@ -15,17 +15,25 @@ from typing import Any, Iterable, Iterator, Mapping
 
 import numpy as np
 
+from .._api.arrays import Array
 from .._formats.replacing import remove_abandoned
 from .._formats.shard import write_shard
 from ..errors import StoreError
 from .campaign import campaign, lasts, progress_bar
 from .entry import Entry
-from .folder import Content, Folder
+from .folder import Content, Folder, Place
 from .pool import LocalPool
 from .protocol import ProtocolError, complete, identity, packing_name, to_json, whole_seed
-from .row import builds_of
+from .rows import as_table, builds_of
 from .status import Status, warn
-from .tables import as_table, readable
+
+
+def readable(files: Folder, protocol: str | None = None) -> tuple[Array, list[Place]]:
+    """Packings that count, of a protocol or of all, and where each lies; a warning names the files that are left out."""
+    rows, places, damaged, doubles, _ = files.content()
+    warn([*damaged.values(), *doubles.values()])
+    mine = [k for k, name in enumerate(rows["protocol"].tolist()) if protocol in (None, name.decode())]
+    return rows[mine], [places[k] for k in mine]
 
 
 class Ensemble:
@@ -223,3 +231,13 @@ class Ensemble:
             warn(write_shard(path, to_json(self.protocol), dict(zip(names, places[k : k + per_shard]))))
             made.append(path)
         return made
+
+
+def protocols(folder: str | os.PathLike[str]) -> dict[str, dict[str, Any]]:
+    """The protocols of a folder, a dict by name; Ensemble(folder, name) opens one."""
+    return {name: read() for name, read in Folder(folder).protocols().items()}
+
+
+def table(folder: str | os.PathLike[str], pandas: bool = False) -> Any:
+    """Reports of all packings of a folder, of every protocol: the table of Ensemble, whose column `protocol` names it."""
+    return as_table(readable(Folder(folder))[0], pandas)

@@ -9,7 +9,7 @@ from .._formats.content import Packing
 from .._formats.sealed import read_packing
 from ..system import System
 from .folder import Place
-from .row import FIELDS
+from .rows import FIELDS
 
 
 class Entry:

@@ -5,7 +5,7 @@
     packings/ab/<name>.json      a failure: status and text
     *.h5                         shards of many packings, as Ensemble.export writes
     parts/                       unfinished files
-    index.bin                    rows of packings: see index.py
+    index.bin                    rows of packings: see rows.py
 
 A packing is known by what stands in its file: protocol, seed and algorithm. Its name, which follows from them, only says
 where to look first. Where several files hold the packing of one seed, one counts and the others are named. So is a file that
@@ -35,9 +35,8 @@ from .._formats.replacing import remove_abandoned
 from .._formats.sealed import names_in, read_packing
 from .._formats.write_packing import write_file
 from ..errors import StoreError
-from . import index
 from .protocol import identity, packing_name
-from .row import ROW, row_of
+from .rows import ROW, key_of, read_index, row_of, write_index
 from .status import DamagedWarning
 
 LOOKED_UP = 2  # rows of the index, each time it is used
@@ -151,7 +150,7 @@ class Folder:
 
     def content(self, names: Iterable[str] | None = None) -> Content:
         """The packings that are there: all, or those of some names and of shards."""
-        return self._content(names, index.read(self.index) if names is None else {})
+        return self._content(names, read_index(self.index) if names is None else {})
 
     def _content(self, names: Iterable[str] | None, known: dict[bytes, bytes]) -> Content:
         """known: rows of the index. Where some that are looked up in their files differ, all are taken from the files."""
@@ -161,7 +160,7 @@ class Folder:
         damaged: dict[Path, str] = {}
         for place in self._places(names, damaged):
             with suppress(FileNotFoundError):  # there is none of this name, or somebody removed it meanwhile
-                key = index.key_of(*place)
+                key = key_of(*place)
                 try:
                     rows.append(known.get(key) or self.row(place).tobytes())
                     keys.append(key)
@@ -181,7 +180,7 @@ class Folder:
                 return self._content(names, {})
         there = dict(zip(keys, rows))
         if names is None and there != known:
-            index.write(self.index, there)
+            write_index(self.index, there)
         return self._counted(np.frombuffer(b"".join(rows), ROW), places, damaged)
 
     def _is_home(self, name: str, place: Place) -> bool:

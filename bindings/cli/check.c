@@ -71,8 +71,7 @@ static int write_json(jam_system *sys, const options *o, int code, const jam_che
   put_number(f, "proof_radius", o->prove || o->proof || o->strict_proof ? r->proof_radius : NAN);
   put_notes(f, jam_notes(sys), "");
   put_stress(f, stress, stress_of(sys, r, stress, sizeof stress / sizeof *stress));
-  fprintf(f, "  \"version\": \"%s\"\n}\n", jam_version());
-  return close_output(&out);
+  return end_json(&out);
 }
 
 /* The proof, then the text or the JSON; returns the exit code. */

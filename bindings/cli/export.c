@@ -28,28 +28,18 @@ static void find_network(const options *o, jam_system *sys, network *found, int 
   complain("%s%s", found->known ? "warning: " : "no contact network: ", jam_last_error());
 }
 
-struct list {
-  FILE *file;
-  int first;
-};
 static int put_path(const char *path, void *with) {
-  struct list *list = with;
-  if (is_omitted(path)) return 0;
-  if (!list->first) fputs(", ", list->file);
-  list->first = 0;
-  put_text(list->file, path);
+  if (!is_omitted(path)) put_item(with, path);
   return 0;
 }
 
 /* What the packing is, and which files were written. */
 static int write_json(const options *o, const jam_system *sys, int code, const network *found) {
-  struct list list = {NULL, 1};
-  jam_info info;
+  const jam_info info = info_of(sys);
+  text_list list = {NULL, 0};
   output out;
   if (open_output(&out, "-")) return -1;
   list.file = out.file;
-  info.struct_size = sizeof info;
-  jam_get_info(sys, &info);
   begin_json(out.file, o->input, code, messages());
   put_count(out.file, "n", info.n, 1);
   put_count(out.file, "dim", info.dim, 1);
@@ -61,8 +51,7 @@ static int write_json(const options *o, const jam_system *sys, int code, const n
   each_output(o, put_path, &list);
   fputs("],\n", out.file);
   put_notes(out.file, jam_notes(sys), found->doubt);
-  fprintf(out.file, "  \"version\": \"%s\"\n}\n", jam_version());
-  return close_output(&out);
+  return end_json(&out);
 }
 
 static int print_path(const char *path, void *with) {

@@ -140,10 +140,8 @@ int settle_formats(const options *o) {
 }
 
 int check_formats(const options *o, const jam_system *sys) {
-  jam_info info;
+  const jam_info info = info_of(sys);
   format row;
-  info.struct_size = sizeof info;
-  jam_get_info(sys, &info);
   if (info.n == 1 && o->given.verb <= VERB_CRUNCH && !o->no_crunch && !o->radii && o->strain == JAM_STRAIN_NONE) {
     if (info.walls || info.container)
       complain(

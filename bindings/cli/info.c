@@ -104,8 +104,7 @@ static int write_json(const options *o, const content *c, const char *notes) {
   put_number(f, "non_additivity", c->info.non_additivity);
   put_number(f, "nearest_gap", c->nearest_gap);
   put_notes(f, notes, "");
-  fprintf(f, "  \"version\": \"%s\"\n}\n", jam_version());
-  return close_output(&out);
+  return end_json(&out);
 }
 
 /* "  walls     a cylinder, flat walls at both ends of z" */

@@ -164,6 +164,13 @@ void put_stress(FILE *f, const double *stress, size_t numbers); /* stress_tensor
 void begin_json(FILE *f, const char *file, int code, const char *text);
 void put_text(FILE *f, const char *text);                     /* the value alone */
 void put_notes(FILE *f, const char *notes, const char *more); /* the lines of jam_notes, and one more or "" */
+/* Texts of a list, with commas between them. */
+typedef struct text_list {
+  FILE *file;
+  int count;
+} text_list;
+void put_item(text_list *list, const char *text);
+jam_info info_of(const jam_system *sys); /* zeros where there is no packing */
 /* Ends the work on a packing, whose size a JSON of a later failure gives. Returns code. */
 int leave(jam_system *sys, int code);
 /* The JSON of a job that wrote none: exit code, messages, and the packing of `leave`. 0, or -1 after a message. */
@@ -185,7 +192,8 @@ typedef struct output {
 int check_writable(const char *path, void *unused); /* before hours of work */
 int open_output(output *out, const char *path);
 int close_output(output *out);
-int end_stdout(int code); /* what printf has collected; code, or after a message EXIT_OUTPUT */
+int end_stdout(int code);  /* what printf has collected; code, or after a message EXIT_OUTPUT */
+int end_json(output *out); /* the version, and the end of the object */
 int put_bytes(int descriptor, const char *text, size_t size); /* all of them, also after signals */
 
 /* verbs.c: Ctrl-C and SIGTERM cancel the calls on a system, also where they came before; NULL: on none. */

@@ -83,20 +83,18 @@ void each_note(const char *notes, void (*f)(const char *line, int warns, void *w
   }
 }
 
-struct note_list {
-  FILE *file;
-  int first;
-};
+void put_item(text_list *list, const char *text) {
+  if (list->count++) fputs(", ", list->file);
+  put_text(list->file, text);
+}
+
 static void put_note(const char *line, int warns, void *with) {
-  struct note_list *list = with;
   (void)warns;
-  if (!list->first) fputs(", ", list->file);
-  list->first = 0;
-  put_text(list->file, line);
+  put_item(with, line);
 }
 
 void put_notes(FILE *f, const char *notes, const char *more) {
-  struct note_list list = {f, 1};
+  text_list list = {f, 0};
   fputs("  \"notes\": [", f);
   each_note(notes, put_note, &list);
   if (*more) put_note(more, 1, &list);
@@ -126,11 +124,21 @@ void forget_state(void) {
   memset(&state, 0, sizeof state);
 }
 
+jam_info info_of(const jam_system *sys) {
+  jam_info info = {.struct_size = sizeof info};
+  if (sys) jam_get_info(sys, &info);
+  return info;
+}
+
 int leave(jam_system *sys, int code) {
-  state.struct_size = sizeof state;
-  if (!sys || jam_get_info(sys, &state) < 0) state.n = 0;
+  state = info_of(sys);
   jam_destroy(sys);
   return code;
+}
+
+int end_json(output *out) {
+  fprintf(out->file, "  \"version\": \"%s\"\n}\n", jam_version());
+  return close_output(out);
 }
 
 int write_failure(const char *file, int code) {
@@ -140,6 +148,5 @@ int write_failure(const char *file, int code) {
   put_count(out.file, "n", state.n, state.n > 0);
   put_count(out.file, "dim", state.dim, state.n > 0);
   put_number(out.file, "packing_fraction", state.n > 0 ? state.packing_fraction : NAN);
-  fprintf(out.file, "  \"version\": \"%s\"\n}\n", jam_version());
-  return close_output(&out);
+  return end_json(&out);
 }

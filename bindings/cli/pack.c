@@ -79,9 +79,7 @@ static jam_status run_stage(jam_system *sys, const options *o, const stage *s, d
  */
 static jam_status finish_paused(jam_system *sys, const options *o, terminal *t, double deadline, outcome *result,
                                 int *stages_left) {
-  jam_info info;
-  info.struct_size = sizeof info;
-  jam_get_info(sys, &info);
+  const jam_info info = info_of(sys);
   if (info.paused == JAM_PHASE_CRUNCH) *stages_left = 0;
   t->stage = "resumed stage";
   result->pressure = info.pressure;
@@ -134,9 +132,7 @@ static int ends_job(jam_status status) {
 
 /* Growth leads to no density below that of the start. */
 static int lies_above(const jam_system *sys, double density) {
-  jam_info info;
-  info.struct_size = sizeof info;
-  jam_get_info(sys, &info);
+  const jam_info info = info_of(sys);
   if (!(density > 0) || info.packing_fraction <= density * (1 + 1e-12)) return 0;
   complain("warning: the packing fraction is %.6g, above the %.6g to grow to: nothing was done", info.packing_fraction,
            density);
@@ -178,11 +174,10 @@ static jam_status work(jam_system *sys, const options *o, terminal *t, outcome *
 /* Whole spheres of one size, or of a few, miss the density asked for by up to half a sphere: it is theirs that they
  * grow to. With --least-distance it is that of their shells. */
 static void take_density_of_sizes(options *o, jam_system *sys, double mean) {
-  jam_info info = {.struct_size = sizeof info};
+  const jam_info info = info_of(sys);
   char line[200];
   double density;
   if (!(o->given.density > 0) || !o->given.sizes || o->given.n || o->resume || !(mean > 0)) return;
-  jam_get_info(sys, &info);
   density = info.packing_fraction * pow(mean / info.diameter_mean, info.dim);
   if (fabs(density / o->given.density - 1) < 1e-11) return;
   if (o->least_distance > 0)
@@ -207,7 +202,7 @@ static void copy_note(const char *line, int warns, void *to) {
 
 /* The spheres without the shells that kept them apart. Growth that fell short has left both smaller by one factor. */
 static jam_status leave_shells(const options *o, double mean, double asked, jam_system **sys) {
-  jam_info info = {.struct_size = sizeof info};
+  jam_info info = info_of(*sys);
   jam_create_options create;
   jam_start from = {.struct_size = sizeof from};
   jam_system *bare = NULL;
@@ -216,7 +211,6 @@ static jam_status leave_shells(const options *o, double mean, double asked, jam_
   size_t k, needed;
   char line[160];
   jam_status status = jam_create_options_init(&create, sizeof create);
-  jam_get_info(*sys, &info);
   jam_view(*sys, JAM_VIEW_POSITIONS, &from.positions, &from.positions_len);
   jam_view(*sys, JAM_VIEW_DIAMETERS, &shells, &from.diameters_len);
   jam_get_cell(*sys, cell, sizeof cell / sizeof *cell, &needed);
@@ -231,7 +225,7 @@ static jam_status leave_shells(const options *o, double mean, double asked, jam_
   each_note(jam_notes(*sys), copy_note, bare);
   jam_destroy(*sys);
   *sys = bare;
-  jam_get_info(bare, &info);
+  info = info_of(bare);
   if (fabs(info.packing_fraction / asked - 1) < 1e-11) return status;
   snprintf(line, sizeof line, "without the shells the packing fraction is %.9g, requested was %g",
            info.packing_fraction, asked);

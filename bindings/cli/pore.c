@@ -83,11 +83,9 @@ static int write_profile(const jam_system *sys, const options *o) {
   enum { COLUMNS = JAM_PROFILE_SOLID + 1 };
   const size_t len = (size_t)o->profile_bins * COLUMNS;
   double *const table = room(len);
-  jam_info info;
+  const jam_info info = info_of(sys);
   output out;
   int axis, bad = !table || open_output(&out, o->profile);
-  info.struct_size = sizeof info;
-  jam_get_info(sys, &info);
   if (!bad) {
     const int last = info.container ? info.dim : info.dim - 1;
     fputs("axis,low,high,solid\n", out.file);

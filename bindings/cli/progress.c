@@ -54,8 +54,7 @@ static int32_t show_progress(const jam_progress *p, void *user) {
   t->told = now;
   if (t->is_terminal) fputs("\r\033[K", stderr);
   if (!t->has_counted) { /* hours of work should not begin with the wrong number of spheres */
-    jam_info info = {.struct_size = sizeof info};
-    jam_get_info(t->sys, &info);
+    const jam_info info = info_of(t->sys);
     fprintf(stderr, "%lld spheres in d = %d\n", (long long)info.n, (int)info.dim);
     t->has_counted = 1;
   }

@@ -29,9 +29,7 @@ void print_stop(const jam_system *sys, const options *o, jam_status status, cons
                                             : result->md_stop;
   const int is_kept = o->checkpoint && !result->has_radii && (status == JAM_LIMIT || status == JAM_CANCELLED);
   char why[1024];
-  jam_info info;
-  info.struct_size = sizeof info;
-  jam_get_info(sys, &info);
+  const jam_info info = info_of(sys);
   if (stop_if_asked(NULL, NULL))
     strcpy(why, "interrupted; writing the state reached");
   else if (status == JAM_LIMIT && stop == JAM_STOP_WALL_TIME)

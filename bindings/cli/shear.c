@@ -192,12 +192,11 @@ static int write_json(const shear_job *job, double strain, int code, const char 
   const place *p = &job->reached;
   double stress[JAM_MAX_DIM * JAM_MAX_DIM];
   size_t numbers = 0;
-  jam_info info = {.struct_size = sizeof info};
+  const jam_info info = info_of(job->sys);
   output out;
   FILE *f;
   if (open_output(&out, path)) return -1;
   f = out.file;
-  jam_get_info(job->sys, &info);
   begin_json(f, job->o->input ? job->o->input : job->o->resume, code, messages());
   put_count(f, "n", info.n, 1);
   put_count(f, "dim", info.dim, 1);
@@ -217,8 +216,7 @@ static int write_json(const shear_job *job, double strain, int code, const char 
   put_count(f, "rows", p->rows, 1);
   fprintf(f, "  \"stop_reason\": \"%s\",\n", jam_stop_string(r->stop_reason));
   put_notes(f, jam_notes(job->sys), "");
-  fprintf(f, "  \"version\": \"%s\"\n}\n", jam_version());
-  return close_output(&out);
+  return end_json(&out);
 }
 
 static void print_end(const shear_job *job, double strain) {

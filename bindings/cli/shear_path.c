@@ -47,10 +47,8 @@ static int take_held(const char *given, int dim, jam_shear_options *options, she
 }
 
 int take_path(const options *o, const jam_system *sys, jam_shear_options *options, shear_path *path) {
-  jam_info info = {.struct_size = sizeof info};
-  int k, numbers;
-  jam_get_info(sys, &info);
-  numbers = info.dim * info.dim;
+  const int dim = info_of(sys).dim, numbers = dim * dim;
+  int k;
   path->turn_count = take_numbers(o->to, path->turns, MOST_TURNS);
   if (!path->turn_count) {
     complain("--to is '%s', it must be strains, parted by commas, at most %d", o->to, MOST_TURNS);
@@ -73,5 +71,5 @@ int take_path(const options *o, const jam_system *sys, jam_shear_options *option
     complain("--to, --mode and --stress have more than %d characters", (int)sizeof path->text - 2);
     return -1;
   }
-  return o->stress ? take_held(o->stress, info.dim, options, path) : 0;
+  return o->stress ? take_held(o->stress, dim, options, path) : 0;
 }

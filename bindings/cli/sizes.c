@@ -214,10 +214,9 @@ int make_diameters(const options *o, double **out, int64_t *n) {
 }
 
 double mean_given(const options *o, const jam_system *sys) {
-  jam_info info = {.struct_size = sizeof info};
+  const jam_info info = info_of(sys);
   double *diameters = NULL, sum = 0.0;
   int64_t n = 0, k;
-  jam_get_info(sys, &info);
   if (o->input || o->resume) return info.diameter_mean;
   if (!o->given.sizes && !o->given.diameters_file) return NAN;
   n = info.n;

@@ -12,9 +12,7 @@ static double start_fraction(const options *o) {
 
 /* The options of a killed job are given again: those that the checkpoint holds must be the same. */
 static int check_resumed(const options *o, const jam_system *sys) {
-  jam_info info;
-  info.struct_size = sizeof info;
-  jam_get_info(sys, &info);
+  const jam_info info = info_of(sys);
   if (o->given.n && o->n != info.n)
     complain("--n is %lld, the checkpoint has %lld spheres", (long long)o->n, (long long)info.n);
   else if (is_named(o, "dim") && o->dim != info.dim)

@@ -78,8 +78,7 @@ int write_files(jam_system *sys, const options *o, int known, double deadline, i
 
 int write_all(jam_system *sys, const options *o, double deadline, outcome *result) {
   int bad;
-  result->info.struct_size = sizeof result->info;
-  jam_get_info(sys, &result->info);
+  result->info = info_of(sys);
   result->notes = jam_notes(sys);
   jam_walls(sys, JAM_WALL_COLUMNS, &result->walls[0][0], sizeof result->walls / sizeof(double), &result->wall_numbers);
   if (!result->has_crunch || jam_stress(sys, result->stress, sizeof result->stress / sizeof *result->stress,

@@ -137,18 +137,6 @@ class Stumbles(unittest.TestCase):
             with self.assertRaisesRegex(jam.errors.OverlapError, 'overlap="shrink"'):
                 call()
 
-    def test_endings(self):
-        s = jam.System.random(n=8, dim=2)
-        with tempfile.TemporaryDirectory() as folder:
-            for name in ("q.hoomd", "q.xyz.zip"):
-                with self.assertRaisesRegex(ValueError, r"\.xyz or \.extxyz"):
-                    s.write(Path(folder, name))
-            self.assertEqual(list(Path(folder).iterdir()), [])
-            s.write(Path(folder, "q.hoomd"), "plain")
-            with self.assertRaisesRegex(ValueError, r"\.csv \(a table\), \.dump"):
-                s.crunch()
-                s.write_contacts(Path(folder, "q.json"))
-
     def test_short_representations(self):
         s = jam.System.random(n=64, dim=2, diameters=[1.0] * 32 + [1.4] * 32)
         s.crunch()

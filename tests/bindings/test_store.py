@@ -9,7 +9,6 @@ import signal
 import subprocess
 import sys
 import tempfile
-import threading
 import unittest
 from pathlib import Path
 
@@ -290,26 +289,6 @@ class PlainHdf5(Case):
 
 
 class Parts(InFolder):
-    def test_threads_write_one_name(self):
-        path, disks, errors = self.folder / "a.h5", jam.System.random(n=16, dim=2, seed=1), []
-
-        def write():
-            try:
-                mine = disks.copy()
-                for _ in range(10):
-                    mine.save(path)
-                    jam.load(path)
-            except Exception as error:
-                errors.append(error)
-
-        threads = [threading.Thread(target=write) for _ in range(4)]
-        for thread in threads:
-            thread.start()
-        for thread in threads:
-            thread.join()
-        self.assertEqual(errors, [])
-        self.assertEqual([p.name for p in self.folder.iterdir()], ["a.h5"])
-
     def test_what_a_killed_writer_left_goes_and_nothing_else(self):
         target = self.folder / ("x" * 255)  # the longest name there is
         users = [self.folder / name for name in ("x.part-20240101", ".jam-notes.part", "y.part")]

@@ -63,14 +63,6 @@ class Crunch(unittest.TestCase):
         np.testing.assert_array_equal(np.column_stack([t["n1"], t["n2"]]), c.vectors)
         self.assertLess(overlap(s), 1e-10)
 
-    def test_options_reach_the_library(self):
-        s = jam.System.random(n=60, dim=2, seed=3)
-        self.assertEqual(s.crunch(max_lps=1).status, jam.StatusCode.LIMIT)
-        with self.assertRaises(jam.errors.ArgumentError):
-            s.crunch(max_lps=0)
-        with self.assertRaises(TypeError):
-            s.crunch(max_iters=3)
-
 
 class MolecularDynamics(unittest.TestCase):
     def test_every_step_is_shown(self):

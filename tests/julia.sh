@@ -56,19 +56,20 @@ export JULIA_DEPOT_PATH="$home/depot" JULIA_LOAD_PATH="$build/julia:@stdlib" JAM
 work=$home/work
 rm -rf "$work" && mkdir -p "$work"
 cd "$work"
-run "$build/julia/Jam/test/runtests.jl"
 # the programs of the guide's page
 block() { sed -n "/^## $1/,/^## /p" "$root/bindings/docs/julia.md" | sed -n '/^```julia$/,/^```$/p' | grep -v '^```'; }
 block "From nothing" >guide.jl
-run -e 'using Jam; write("start.dat", System(n = 64, dim = 3, seed = 1, packing_fraction = 0.3); format = :plain)'
 block "CALiPPSO" >>guide.jl
-run guide.jl
-for example in "$root"/examples/julia/*.jl; do
-  echo "== $(basename "$example")"
-  case $example in
-  */calippso.jl)
-    printf '1.17 0.05 false\n1.04 0.03 false\n' >theirs.txt
-    run "$example" start.dat theirs.txt 0.5 ;;
-  *) run "$example" ;;
-  esac
-done
+printf '1.17 0.05 false\n1.04 0.03 false\n' >theirs.txt
+# One process for tests, guide and examples, as most of the time goes into compiling what they share.
+cat >all.jl <<'EOF'
+tests, examples = ARGS
+include(tests)
+write("start.dat", System(n = 64, dim = 3, seed = 1, packing_fraction = 0.3); format = :plain)
+for program in ["guide.jl"; readdir(examples; join = true)]
+    println("== ", basename(program))
+    append!(empty!(ARGS), basename(program) == "calippso.jl" ? ["start.dat", "theirs.txt", "0.5"] : [])
+    Base.include(Module(), abspath(program))
+end
+EOF
+run all.jl "$build/julia/Jam/test/runtests.jl" "$root/examples/julia"

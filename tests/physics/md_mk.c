@@ -1,21 +1,13 @@
 /* The Mari-Kurchan model: exact equation of state, planting, and compression to jamming. */
-#include <jam/jam.h>
 #include <math.h>
 
-#include "test.h"
+#include "steps.h"
 
 static jam_system *planted(int64_t n, int32_t dim, double fraction, double zeta, int64_t seed) {
-  jam_system *sys = NULL;
   DEFAULTS(create, o);
-  o.n = n;
-  o.dim = dim;
-  o.seed = seed;
-  o.packing_fraction = fraction;
-  o.model = JAM_MODEL_MK;
-  o.mk_zeta = zeta;
-  if (jam_create(&o, NULL, &sys) < 0) print_error("%s\n", jam_last_error());
-  assert_non_null(sys);
-  return sys;
+  o.n = n, o.dim = dim, o.seed = seed, o.packing_fraction = fraction;
+  o.model = JAM_MODEL_MK, o.mk_zeta = zeta;
+  return created(&o);
 }
 
 /* p = 1 + 2^d phi / 2 for zeta infinite. Planted starts are in equilibrium, so it holds at once and also beyond the
@@ -38,10 +30,7 @@ CASE(equation_of_state) {
     int64_t seed;
     for (seed = 1; seed <= samples; ++seed) {
       jam_system *sys = planted(256, cases[k].dim, cases[k].fraction, cases[k].zeta, seed);
-      SIZED(jam_md_report, report);
-      DEFAULTS(run, r);
-      r.collisions_per_particle = 100.0;
-      assert_int_equal(jam_run(sys, &r, &report), JAM_OK);
+      const jam_md_report report = run(sys, 100.0);
       assert_true(report.max_overlap < 1e-13 && report.energy_drift < 1e-12);
       sum += report.pressure / samples;
       square += report.pressure * report.pressure / samples;
@@ -72,21 +61,12 @@ CASE(planted_states_jam_isostatically) {
 
 /* zeta = 0 is the Euclidean model, bit for bit as far as the start goes. */
 CASE(no_shift_is_euclidean) {
-  jam_system *a = planted(60, 3, 0.2, 0.0, 4), *b = NULL;
-  const double *x, *y;
-  jam_md_report ra, rb;
-  size_t len;
+  jam_system *a = planted(60, 3, 0.2, 0.0, 4);
   DEFAULTS(create, o);
-  o.n = 60;
-  o.seed = 4;
-  assert_int_equal(jam_create(&o, NULL, &b), JAM_OK);
-  jam_view(a, JAM_VIEW_POSITIONS, &x, &len);
-  jam_view(b, JAM_VIEW_POSITIONS, &y, &len);
-  assert_memory_equal(x, y, len * sizeof(double));
-  ra.struct_size = rb.struct_size = sizeof ra;
-  assert_int_equal(jam_run(a, NULL, &ra), JAM_OK);
-  assert_int_equal(jam_run(b, NULL, &rb), JAM_OK);
-  assert_true(fabs(ra.pressure - rb.pressure) < 0.2);
+  o.n = 60, o.seed = 4;
+  jam_system *b = created(&o);
+  same_view(a, b, JAM_VIEW_POSITIONS);
+  assert_true(fabs(run(a, 100.0).pressure - run(b, 100.0).pressure) < 0.2);
   jam_destroy(a);
   jam_destroy(b);
 }

@@ -1,5 +1,6 @@
-/* Growth laws, the quasi-static mode, limits of time, and masses by volume. */
+/* Growth laws, the quasi-static mode, limits of time, masses by volume, gaps near contact, and forces by collisions. */
 #include <math.h>
+#include <stdlib.h>
 
 #include "steps.h"
 
@@ -147,4 +148,116 @@ CASE(masses_by_volume) {
     jam_destroy(sys);
   }
   assert_true(fabs(pressure[1] / pressure[0] - 1.0) < 0.005 + 3.0 * (error[0] + error[1]) / pressure[0]);
+}
+
+static void compress(jam_system *sys, double growth, double pressure) {
+  DEFAULTS(compress, c);
+  c.growth_rate = growth;
+  c.pressure = pressure;
+  assert_int_equal(jam_compress(sys, &c, NULL), JAM_OK);
+}
+
+/* Rattlers exchange energy with the others so slowly that growth leaves them hotter or colder: one temperature for all
+ * again. */
+static void draw_velocities(jam_system *sys) {
+  double v[3 * 1000], square = 0;
+  const double *old;
+  size_t len, k;
+  uint64_t bits = 88172645463325252u;
+  assert_int_equal(jam_view(sys, JAM_VIEW_VELOCITIES, &old, &len), JAM_OK);
+  assert_true(len <= sizeof v / sizeof v[0]);
+  for (k = 0; k < len; ++k) { /* sums of twelve uniform numbers are normal enough */
+    int draw;
+    for (v[k] = -6, draw = 0; draw < 12; ++draw) {
+      bits ^= bits << 13, bits ^= bits >> 7, bits ^= bits << 17;
+      v[k] += (double)(bits >> 11) * 0x1p-53;
+    }
+    square += v[k] * v[k];
+  }
+  for (k = 0; k < len; ++k) v[k] *= sqrt((double)len / square);
+  assert_int_equal(jam_set_velocities(sys, v, len), JAM_OK);
+}
+
+/* Pairs in contact are flat up to h ~ 1/p: g(sigma) = (p - 1) / (4 phi) for equal spheres. Beyond it falls. */
+CASE(gap_plateau) {
+  const double pressures[] = {1e4, 1e6, 1e8};
+  jam_system *sys = start(256, 0.2, 1.0, 0, 1.0);
+  int k;
+  compress(sys, 1e-2, 500);
+  for (k = 0; k < 3; ++k) {
+    jam_md_report report;
+    double bin[12][4], density[12], height;
+    size_t needed;
+    compress(sys, 3e-3, pressures[k]);
+    draw_velocities(sys);
+    run(sys, 200);
+    DEFAULTS(observe, o);
+    o.gap_bins = 12;
+    o.gap_min = 0.1 / pressures[k];
+    o.gap_max = 1e3 / pressures[k];
+    o.sample_every = 4;
+    assert_int_equal(jam_observe(sys, &o), JAM_OK);
+    report = run(sys, 800);
+    const jam_info info = info_of(sys);
+    height = (report.pressure - 1.0) / (4.0 * info.packing_fraction);
+    assert_int_equal(jam_observed_gaps(sys, JAM_GAP_COLUMNS, bin[0], 12 * 4, &needed), JAM_OK);
+    for (int b = 0; b < 12; ++b) density[b] = bin[b][JAM_GAP_DENSITY];
+    print_message("p %.4g: height %.4g, first bin %.4g(%.2g), h in %.2g..%.2g: %.4g, %.2g..%.2g: %.4g\n",
+                  report.pressure, height, density[0], bin[0][JAM_GAP_ERROR], bin[1][JAM_GAP_LOW], bin[1][JAM_GAP_HIGH],
+                  density[1], bin[11][JAM_GAP_LOW], bin[11][JAM_GAP_HIGH], density[11]);
+    /* A first bin of a tenth of 1/p: about 75 of 800 contacts at a time, 200 samples: noise of one per cent; g falls by
+     * some per cent within it, as the force of a contact closes its gap on the scale of 1/p times the mean force over
+     * its own. */
+    assert_true(density[0] / height > 0.88 && density[0] / height < 1.03);
+    assert_true(density[1] < density[0] * 1.03 && density[11] < 0.02 * density[0]);
+  }
+  jam_destroy(sys);
+}
+
+/* The momentum that pairs exchange is the force network that the linear program finds. */
+CASE(forces_by_collisions) {
+  jam_system *sys = start(108, 0.2, 1.4, 0, 1.0), *jammed = NULL;
+  int32_t *pair, *contact;
+  int64_t *count;
+  double *momentum, *force, time, sum = 0, cross = 0, square = 0, own = 0, deviation, covered = 0, all = 0;
+  size_t pairs, contacts, k, m;
+  compress(sys, 1e-2, 500);
+  compress(sys, 1e-3, 1e8);
+  assert_int_equal(jam_copy(sys, &jammed), JAM_OK);
+  assert_int_equal(jam_crunch(jammed, NULL, NULL), JAM_OK);
+  DEFAULTS(observe, o);
+  o.collisions = 1;
+  o.sample_every = INFINITY;
+  run(sys, 500);
+  assert_int_equal(jam_observe(sys, &o), JAM_OK);
+  run(sys, 20000);
+  jam_observed_pairs(sys, NULL, 0, NULL, 0, NULL, 0, &time, &pairs);
+  jam_forces(jammed, NULL, 0, &contacts);
+  pair = malloc(2 * pairs * sizeof *pair), count = malloc(pairs * sizeof *count),
+  momentum = malloc(pairs * sizeof *momentum);
+  contact = malloc(2 * contacts * sizeof *contact), force = malloc(contacts * sizeof *force);
+  assert_int_equal(jam_observed_pairs(sys, pair, 2 * pairs, count, pairs, momentum, pairs, &time, &pairs), JAM_OK);
+  assert_int_equal(jam_forces(jammed, force, contacts, &contacts), JAM_OK);
+  assert_int_equal(jam_contacts(jammed, contact, 2 * contacts, &m), JAM_OK);
+  for (k = 0; k < pairs; ++k) all += momentum[k];
+  for (k = 0; k < contacts; ++k)
+    for (m = 0; m < pairs; ++m)
+      if (pair[2 * m] == contact[2 * k] && pair[2 * m + 1] == contact[2 * k + 1]) {
+        sum += momentum[m];
+        cross += momentum[m] * force[k];
+        square += force[k] * force[k];
+        own += momentum[m] * momentum[m];
+        covered += 1;
+      }
+  /* sum over contacts of (momentum square / cross - force)^2 */
+  deviation = own * pow(square / cross, 2) - square;
+  deviation = sqrt(deviation / (double)contacts);
+  print_message("%.0f of %d contacts collide, they carry %.4f of the momentum; rms deviation %.4f of the mean force\n",
+                covered, (int)contacts, sum / all, deviation);
+  assert_true(covered == (double)contacts);
+  assert_true(sum / all > 0.99); /* rattlers carry the rest */
+  assert_true(deviation < 0.05);
+  free(pair), free(count), free(momentum), free(contact), free(force);
+  jam_destroy(sys);
+  jam_destroy(jammed);
 }

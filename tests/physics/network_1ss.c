@@ -1,7 +1,6 @@
 /* Packings crunched from a random start have one state of self-stress; all results of the analysis agree: forces from
  * positions alone are the multipliers, floppy modes keep all other contacts closed, moduli follow from forces. */
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 
 #include "columns.h"
@@ -276,20 +275,5 @@ CASE(all_analyses_agree_on_mari_kurchan_networks) {
   forces_from_positions(&w);
   floppy_keeps_contacts(&w, 0); /* shifted pairs: no images to go through */
   spectrum_identities(&w);
-  close_network(&w);
-}
-
-CASE(all_analyses_agree_on_a_foreign_packing) {
-  jam_system *s = NULL;
-  jam_crunch_report report = {.struct_size = sizeof(jam_crunch_report)};
-  struct network w;
-  if (jam_read(JAM_TEST_SHARED "/ls-n1024-d3.dat", NULL, NULL, NULL, &s) != JAM_OK) {
-    printf("shared packing not found: skipped\n");
-    skip();
-  }
-  assert_int_equal(jam_crunch(s, NULL, &report), JAM_OK);
-  w = open_network(s);
-  assert_int_equal(w.contacts, 3010);
-  forces_from_positions(&w);
   close_network(&w);
 }

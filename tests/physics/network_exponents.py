@@ -75,20 +75,6 @@ class OddInput(unittest.TestCase):
         self.assertEqual(one, other)
 
 
-class OneRange(unittest.TestCase):
-    def test_the_error_of_one_range_is_too_small(self):
-        """Gaps with a constant background: ranges that one may choose differ by many errors of fit_power, not of tail_exponent."""
-        law = dict(tail.families())["gaps constant background, flat"]
-        rng = np.random.default_rng(1)
-        samples = [law.draw(rng) for _ in range(90)]
-        one = [scaling.fit_power(samples, high=high, low=low) for high, low in ((0.05, 1e-4), (0.05, 1e-3), (0.1, 1e-4), (0.02, 1e-4))]
-        values = np.array([f.value for f in one])
-        self.assertGreater(np.ptp(values), 3 * min(f.error for f in one))
-        every = scaling.tail_exponent(samples, 1024, "gaps")
-        self.assertLess(abs(every.value - law.a), 3 * every.error)
-        self.assertGreater(every.error, min(f.error for f in one))
-
-
 class Packings(unittest.TestCase):
     def test_published_values(self):
         values = {"extended": [], "localised": [], "gaps": []}

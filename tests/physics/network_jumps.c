@@ -1,4 +1,4 @@
-/* Networks from geometry alone: which jump of the gaps ends the contacts, and how two networks compare. */
+/* Networks from geometry alone: which jump of the gaps ends the contacts. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -114,26 +114,4 @@ CASE(the_null_space_decides_between_two_jumps) {
   assert_true(g.self_stresses == 1 && g.jump < g.second_jump * g.second_jump);
   jam_destroy(s);
   close_network(&w);
-}
-
-CASE(comparison_counts_contacts_and_displacements) {
-  jam_crunch_report report;
-  jam_system *a = crunched(3, 60, 0.3, 0, &report), *b = NULL;
-  jam_comparison_report c = {.struct_size = sizeof(jam_comparison_report)};
-  const double *x;
-  double *y, *u;
-  size_t m, k;
-  assert_int_equal(jam_copy(a, &b), JAM_OK);
-  assert_int_equal(jam_view(a, JAM_VIEW_POSITIONS, &x, &m), JAM_OK);
-  y = malloc(m * sizeof *y), u = malloc(m * sizeof *u);
-  for (k = 0; k < m; ++k) y[k] = x[k] + (k % 3 == 0 ? 0.4 : 0.1); /* a translation changes nothing */
-  assert_int_equal(jam_set_positions(b, y, m), JAM_OK);
-  assert_int_equal(jam_contacts_from_geometry(b, NULL, NULL), JAM_OK);
-  assert_int_equal(jam_compare(a, b, &c, u, m, NULL), JAM_OK);
-  assert_true(c.overlap == 1.0);
-  assert_int_equal(c.common_contacts, report.contacts);
-  assert_int_equal(c.stable_in_both, report.stable);
-  assert_true(c.displacement_max < 1e-13 && c.packing_fraction_change == 0.0);
-  free(y), free(u);
-  jam_destroy(a), jam_destroy(b);
 }

@@ -1,9 +1,6 @@
 /* Non-additive mixtures: unlike spheres touch at (1 + Delta) (sigma_i + sigma_j) / 2. Jammed from random starts by
  * crunch alone in d = 2, 3, certified, and looked at pair by pair with a rule written out here. */
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <unistd.h>
 
 #include "systems.h"
 
@@ -67,46 +64,6 @@ CASE(jams_and_certifies) {
       assert_true(unlike > N / 8); /* the rule of unlike pairs holds the network up */
       jam_destroy(sys);
     }
-}
-
-/* The same positions jam at another density when Delta changes: it is not lost on the way. */
-CASE(delta_changes_the_packing) {
-  double phi[3];
-  int k;
-  for (k = 0; k < 3; ++k) {
-    jam_system *sys = mixture(2, 0.1 * (k - 1), 5);
-    SIZED(jam_crunch_report, r);
-    assert_true(jam_crunch(sys, NULL, &r) >= 0);
-    phi[k] = r.packing_fraction;
-    jam_destroy(sys);
-  }
-  assert_true(phi[0] > phi[1] + 0.01 && phi[1] > phi[2] + 0.01);
-}
-
-/* Files, checkpoints and copies keep Delta; plain text refuses it. */
-CASE(is_kept) {
-  char folder[] = "/tmp/jam-delta-XXXXXX", xyz[64], plain[64], saved[64];
-  jam_system *sys = mixture(2, -0.1, 7), *copy, *read, *restored;
-  int unlike;
-  double gap = worst_gap(sys, -0.1, 0.0, &unlike);
-  assert_non_null(mkdtemp(folder));
-  sprintf(xyz, "%s/a.xyz", folder), sprintf(plain, "%s/a.dat", folder), sprintf(saved, "%s/a.jam", folder);
-  SAYS(jam_write(sys, plain, JAM_FORMAT_AUTO), JAM_E_UNSUPPORTED, "non_additivity = -0.1");
-  assert_int_not_equal(access(plain, F_OK), 0);
-  assert_int_equal(jam_write(sys, xyz, JAM_FORMAT_AUTO), JAM_OK);
-  assert_int_equal(jam_write_checkpoint(sys, saved), JAM_OK);
-  assert_int_equal(jam_copy(sys, &copy), JAM_OK);
-  DEFAULTS(create, o);
-  o.non_additivity = 0.5; /* contradicts the file */
-  assert_int_equal(jam_read(xyz, &o, NULL, NULL, &read), JAM_E_ARGUMENT);
-  o.non_additivity = 0.0;
-  assert_int_equal(jam_read(xyz, &o, NULL, NULL, &read), JAM_OK);
-  assert_int_equal(jam_read_checkpoint(saved, NULL, NULL, &restored), JAM_OK);
-  assert_true(worst_gap(copy, -0.1, 0.0, &unlike) == gap);
-  assert_true(worst_gap(read, -0.1, 0.0, &unlike) == gap);
-  assert_true(worst_gap(restored, -0.1, 0.0, &unlike) == gap);
-  jam_destroy(sys), jam_destroy(copy), jam_destroy(read), jam_destroy(restored);
-  unlink(xyz), unlink(saved), rmdir(folder);
 }
 
 CASE(bad_values_are_refused) {

@@ -58,29 +58,11 @@ double mode_error(const Solved &s) {
   return w;
 }
 
-CASE(triangular_lattice_has_the_bloch_spectrum) {
-  const Solved s = solve(lattice(triangular_basis(), triangular_bonds(), 8), JAM_MODES_ALL, 1);
-  assert_int_equal(s.status, JAM_OK);
-  assert_true(worst(s.modes.lambda, bloch_spectrum(triangular_basis(), triangular_bonds(), 8)) < 1e-10);
-  assert_true(mode_error(s) < 1e-10);
-  double trace = 0.0;
-  for (double l : s.modes.lambda) trace += l;
-  assert_true(std::fabs(trace - 2.0 * 192) < 1e-9);  // every contact adds |n|^2 to each of its two spheres
-}
-
 CASE(more_than_one_panel) {
   // 648 rows: several panels of the reduction, two of the back transformation.
   const Solved s = solve(lattice(triangular_basis(), triangular_bonds(), 18), JAM_MODES_ALL, 1);
   assert_true(worst(s.modes.lambda, bloch_spectrum(triangular_basis(), triangular_bonds(), 18)) < 1e-10);
   assert_true(mode_error(s) < 1e-10);
-}
-
-CASE(fcc_has_the_bloch_spectrum) {
-  const Solved s = solve(lattice(fcc_basis(), fcc_bonds(), 4), JAM_MODES_ALL, 1);
-  assert_true(worst(s.modes.lambda, bloch_spectrum(fcc_basis(), fcc_bonds(), 4)) < 1e-10);
-  int zeros = 0;
-  for (double l : s.modes.lambda) zeros += std::fabs(l) < 1e-10;
-  assert_int_equal(zeros, 3);
 }
 
 CASE(prestressed_fcc_has_the_bloch_spectrum) {
@@ -199,22 +181,6 @@ CASE(finite_differences) {
   }
 }
 
-CASE(curvature_is_quadratic_form) {
-  Case c = lattice(triangular_basis(), triangular_bonds(), 6);
-  Rng rng(3, Stream::analysis_start);
-  for (double &x : c.packing.position) x += 0.05 * rng.normal();
-  const RigidityMatrix g = make_rigidity_matrix(c.packing, c.network);
-  jam_hessian_options o = default_hessian_options();
-  o.prestress = 0.05;
-  const ContactWeights w = contact_weights(g, 1.0, o);
-  std::vector<double> u(g.unknowns()), hu(g.unknowns());
-  for (double &x : u) x = rng.normal();
-  make_hessian(g, w).multiply(u.data(), hu.data());
-  double dot = 0.0;
-  for (size_t k = 0; k < u.size(); ++k) dot += u[k] * hu[k];
-  assert_true(std::fabs(dot - curvature(g, w, u.data())) < 1e-12 * std::fabs(dot) * 10);
-}
-
 CASE(spectra_of_both_products) {
   // S S^T and S^T S have the same eigenvalues but for zeros.
   Case c = lattice(triangular_basis(), triangular_bonds(), 4);
@@ -260,21 +226,6 @@ CASE(two_images_and_self_contact) {
   const Solved s = solve(c, JAM_MODES_ALL, 1);
   assert_true(worst(s.modes.lambda, {0.0, 0.0, 0.0, 4.0}) <
               1e-14);  // both springs act on the relative coordinate: 2 k / (m/2)
-}
-
-CASE(bad_options_are_refused) {
-  const Case c = lattice(triangular_basis(), triangular_bonds(), 4);
-  jam_modes_options o = default_modes_options();
-  o.which = JAM_MODES_ALL;
-  o.memory_limit = 1000.0;
-  const RigidityMatrix g = make_rigidity_matrix(c.packing, c.network);
-  jam_status code = JAM_OK;
-  try {
-    check_modes_options(o, g);
-  } catch (const Error &e) {
-    code = e.code();
-  }
-  assert_int_equal(code, JAM_E_MEMORY);
 }
 
 int32_t stop_at_once(const jam_progress *, void *) { return 1; }

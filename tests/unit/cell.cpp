@@ -174,23 +174,6 @@ CASE(pairs_do_not_depend_on_the_basis) {
   }
 }
 
-// Random sequential addition leaves no overlap, also through a corner of a flat cell.
-CASE(random_start_in_a_tilted_cell) {
-  for (const int n : {1, 4, 40, 300}) {
-    Packing p;
-    const double rows[4] = {1.0, 0.0, 0.45, 0.5};
-    p.dim = 2, p.cell = Cell::from_triangle(2, rows);
-    p.diameter.assign(n, std::sqrt(0.4 * p.cell.volume() / n / unit_sphere_volume(2)));
-    place_at_random(p);
-    assert_true(closest_pair(p).gap >= 0.0);
-    for (int i = 0; i < n; ++i)
-      for (int j = 0; j < i; ++j) {
-        const double dx[2] = {p.position[2 * i] - p.position[2 * j], p.position[2 * i + 1] - p.position[2 * j + 1]};
-        assert_true(images_by_sum(p.cell, dx, p.diameter[0], 4).empty());
-      }
-  }
-}
-
 // Rows mixed by whole multiples of each other are another basis of the same lattice, in every dimension. Reduction
 // gives the rows T times those given, turned by Q; the volume and the shortest vector are those of the lattice.
 CASE(reduction_of_long_vectors) {

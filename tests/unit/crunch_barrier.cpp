@@ -4,8 +4,6 @@
 #include <random>
 #include "test.h"
 
-#include "core/create.hpp"
-#include "crunch/crunch.hpp"
 #include "crunch/path/barrier_path.hpp"
 #include "lp/barrier_problem.hpp"
 #include "lp/interior_point.hpp"
@@ -15,14 +13,6 @@ using namespace jam::inside;
 
 namespace {
 
-Packing start(int n, int dim, double phi, double ratio, int64_t seed) {
-  jam_create_options o = default_create_options();
-  o.n = n, o.dim = dim, o.packing_fraction = phi, o.seed = seed;
-  std::vector<double> sizes(n);
-  for (int k = 0; k < n; ++k) sizes[k] = k % 2 ? 1.0 : ratio;
-  return make_packing(o, nullptr, 0, sizes.data(), sizes.size());
-}
-
 struct Scene {
   Packing p;
   BarrierProblem b;
@@ -31,7 +21,7 @@ struct Scene {
 
 // A packing, its pairs, and a random direction no longer than `length` mean diameters a component; free: strains too.
 void make_scene(Scene &w, int dim, double ratio, double length, int64_t seed, bool free = false) {
-  w.p = start(40, dim, dim == 2 ? 0.5 : dim == 3 ? 0.3 : 0.1, ratio, seed);
+  w.p = start(40, dim, dim == 2 ? 0.5 : dim == 3 ? 0.3 : 0.1, seed, ratio);
   w.b.unit = diameter_mean(w.p), w.b.mu = 1e-3;
   if (free) w.b.strain = strain_basis(dim, true, true);
   w.b.pairs = find_pairs(w.p, 0.5 * w.b.unit, 1.0);
@@ -181,15 +171,13 @@ CASE(saddle_is_left) {
 // What a path that arrived leaves to gain: its duality gap. One LP in full says so.
 void nothing_left(Packing &p, const PathRun &run) {
   jam_crunch_options o = default_crunch_options();
-  Monitor monitor;
-  monitor.begin();
   o.method = JAM_CRUNCH_SEQUENTIAL_LP, o.max_lps = 1;
   assert_true(run.end.reached && run.end.gap <= Tuning().path_end(p) && closest_pair(p).gap > 0.0);
-  assert_true(crunch(p, o, monitor, nullptr, nullptr).report.gain < 2.0 * run.end.gap);
+  assert_true(::jam::inside::run(p, o).report.gain < 2.0 * run.end.gap);
 }
 
 Packing near_start(int n, int dim, int seed) {
-  return near_jamming(start(n, dim, dim == 2 ? 0.5 : 0.3, dim == 2 ? 1.4 : 1.0, seed));
+  return near_jamming(start(n, dim, dim == 2 ? 0.5 : 0.3, seed, dim == 2 ? 1.4 : 1.0));
 }
 
 // Some paths meet saddles on their way and leave them by a warmer barrier, where the duality gap is larger.
@@ -208,43 +196,6 @@ CASE(arrives) {
       nothing_left(p, run);
     }
   assert_true(saddles > 0);
-}
-
-// The same in a free cell, whose volume stays: an LP with strains has nothing to gain. The path of the fixed cell ends
-// less dense.
-CASE(arrives_in_free_cell) {
-  for (const int dim : {2, 3}) {
-    Packing p = near_start(64, dim, 1), fixed = p;
-    assert_true(follow(fixed, patient()).end.reached);
-    BarrierPathControl control = patient();
-    control.strain = strain_basis(dim, true, true);
-    const PathRun run = follow(p, control);
-    assert_true(run.end.reached && run.end.gap <= Tuning().path_end(p) && closest_pair(p).gap > 0.0);
-    assert_true(std::fabs(p.cell.volume() - 1.0) < 1e-12 && !p.cell.cube());
-    assert_true(packing_fraction(p) > packing_fraction(fixed));
-    const double unit = diameter_mean(p);
-    const PairList pairs = find_pairs(p, 0.1 * unit, 1.0);
-    PackingLp lp = make_lp(p, pairs, unit, control.strain);
-    lp.bound = 0.01;
-    NewtonSystem system;
-    const LpSolution answer = InteriorPoint(system).solve(lp, IpmControl(), nullptr);
-    assert_true(answer.solved && check_lp(lp, answer).infeasibility < 1e-9 && answer.g < 2.0 * run.end.gap);
-  }
-}
-
-// Equal disks order: every verdict is settled or named, and no state overlaps.
-CASE(ordering_disks) {
-  int jammed = 0;
-  for (int seed = 1; seed <= 60; ++seed) {
-    Monitor monitor;
-    monitor.begin();
-    const CrunchResult r = crunch(start(64, 2, 0.2, 1.0, seed), default_crunch_options(), monitor, nullptr, nullptr);
-    assert_true(r.report.max_overlap < 1e-12);
-    assert_true(r.report.jammed ? r.status == JAM_OK : r.status == JAM_NOT_CONVERGED || r.status == JAM_NOT_JAMMED);
-    jammed += r.report.jammed;
-  }
-  print_message("%d of 60 starts of 64 disks jammed\n", jammed);
-  assert_true(jammed >= 57);
 }
 
 // Floats serve down to small gaps: the path arrives, and nothing is left to gain. Where they fail at once, doubles take

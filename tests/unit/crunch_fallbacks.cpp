@@ -79,18 +79,6 @@ CASE(clp_takes_over) {
   same_bits(r, run(p, o));
 }
 
-// Clp alone leads every start to a jammed packing: an answer that misses its tolerance by a little is no reason to give
-// up.
-CASE(clp_alone) {
-  jam_crunch_options o = default_crunch_options();
-  o.method = JAM_CRUNCH_SEQUENTIAL_LP, o.lp_solver = JAM_LP_CLP;
-  for (int seed = 1; seed <= 12; ++seed) {
-    const CrunchResult r = run(start(40, 3, 0.3, seed), o);
-    assert_true(r.status == JAM_OK && r.report.jammed && r.report.lp_solver == JAM_LP_CLP &&
-                r.report.max_overlap < 1e-12);
-  }
-}
-
 // Both solvers fail after a few LPs: a status with the state after those, which holds no overlap, and no contacts.
 CASE(nobody_solves) {
   const Packing p = start(40, 3, 0.3, 3);

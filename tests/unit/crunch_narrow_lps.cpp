@@ -103,20 +103,6 @@ CASE(missing_contact) {
   assert_true(back[0] >= 200 && back[1] >= 200);
 }
 
-// Contacts that hold no sphere are no network: polish says that they are too few and changes nothing.
-CASE(no_network) {
-  const CrunchResult r = run(start(40, 3, 0.3, 1), default_crunch_options());
-  assert_true(r.report.jammed);
-  std::vector<char> on(r.contacts.size(), 0);
-  on[0] = 1;
-  ContactNetwork one = subset(r.contacts, on, 3);
-  Packing p = r.packing;
-  const Packing before = p;
-  NewtonSystem system;
-  assert_true(polish(p, one, system, 1, Tuning()) == PolishEnd::too_few);
-  assert_true(p.position == before.position && p.diameter == before.diameter && one.size() == 1);
-}
-
 // Cancelled or out of time before the narrow LPs: it says so, and the packing is valid.
 CASE(interrupted_at_the_vertex) {
   Packing p;
@@ -142,17 +128,6 @@ CASE(interrupted_at_the_vertex) {
     assert_int_equal(r.report.stop_reason, cancel ? JAM_STOP_CANCELLED : JAM_STOP_WALL_TIME);
     assert_true(!r.report.jammed && closest_pair(r.packing).gap > -1e-13);
   }
-}
-
-// An answer of Clp is the same from its own basis.
-CASE(same_from_its_basis) {
-  const Packing near = near_jamming(start(40, 3, 0.3, 2));
-  const PairList list = find_pairs(near, 0.05 * near.diameter[0], 1.0);
-  PackingLp big = make_lp(near, list, near.diameter[0]);
-  big.bound = 1e-2;
-  const LpSolution cold = solve_lp_clp(big), warm = solve_lp_clp(big, clp_tolerance, nullptr, &cold);
-  assert_true(cold.solved && warm.solved && cold.g > 0.0 && std::fabs(warm.g - cold.g) < 1e-12);
-  for (size_t k = 0; k < big.rows(); ++k) assert_true(std::fabs(warm.y[k] - cold.y[k]) < 1e-9);
 }
 
 }  // namespace

@@ -70,18 +70,4 @@ CASE(every_scene) {
   for (const int32_t round : {JAM_CONTAINER_CYLINDER, JAM_CONTAINER_BALL}) valid_in_scene(3, 0.0, round, 0);
 }
 
-// A packing that is decided is never decompressed: all bits are those of a crunch that cannot.
-CASE(decided_ones_keep_their_bits) {
-  CrunchHooks never;
-  never.tuning.decompression.fill(0.0);
-  for (const int dim : {2, 3}) {
-    const Packing p = start(60, dim, dim == 2 ? 0.4 : 0.3, 3);
-    const CrunchResult with = run(p, default_crunch_options()), without = run(p, default_crunch_options(), &never);
-    assert_true(with.report.jammed && without.report.jammed);
-    assert_int_equal(with.report.factorisations, without.report.factorisations);
-    assert_memory_equal(with.packing.position.data(), without.packing.position.data(),
-                        with.packing.position.size() * sizeof(double));
-  }
-}
-
 }  // namespace

@@ -1,6 +1,7 @@
 // Small crunches for the tests of their parts.
 #pragma once
 #include <string>
+#include <vector>
 
 #include "core/create.hpp"
 #include "crunch/crunch.hpp"
@@ -15,10 +16,13 @@ inline void listen(Monitor &monitor, std::string &log, int level = JAM_LOG_WARNI
   monitor.begin();
 }
 
-inline Packing start(int n, int dim, double phi, int64_t seed) {
+// Every other sphere is `ratio` times as wide. cell: its vectors, or NULL for the unit cube.
+inline Packing start(int n, int dim, double phi, int64_t seed, double ratio = 1.0, const double *cell = nullptr) {
   jam_create_options o = default_create_options();
   o.n = n, o.dim = dim, o.packing_fraction = phi, o.seed = seed;
-  return make_packing(o, nullptr, 0, nullptr, 0);
+  std::vector<double> sizes(n);
+  for (int k = 0; k < n; ++k) sizes[k] = k % 2 ? 1.0 : ratio;
+  return make_packing(o, nullptr, 0, sizes.data(), sizes.size(), cell);
 }
 
 inline CrunchResult run(const Packing &p, const jam_crunch_options &o, const CrunchHooks *hooks = nullptr,

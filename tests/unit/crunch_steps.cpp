@@ -2,23 +2,14 @@
 #include <cmath>
 #include "test.h"
 
-#include "core/create.hpp"
 #include "crunch/approach/lp_step.hpp"
-#include "crunch/crunch.hpp"
 #include "crunch/path/barrier_path.hpp"
+#include "crunch_scenes.hpp"
 #include "lp/packing_lp.hpp"
 
 using namespace jam::inside;
 
 namespace {
-
-Packing start(int n, int dim, double phi, double ratio) {
-  jam_create_options o = default_create_options();
-  o.n = n, o.dim = dim, o.packing_fraction = phi, o.seed = 11;
-  std::vector<double> sizes(n);
-  for (int k = 0; k < n; ++k) sizes[k] = k % 2 ? 1.0 : ratio;
-  return make_packing(o, nullptr, 0, sizes.data(), sizes.size());
-}
 
 // Two spheres without a common row run into each other: followed in part only, and by a half at least where that is
 // safe.
@@ -43,22 +34,6 @@ CASE(unlisted_pair) {
   }
 }
 
-// The image of a sphere that goes around the box is a pair like any other.
-CASE(pair_through_the_wall) {
-  Packing p;
-  p.set_cube(2, 1.0);
-  p.position = {0.08, 0.5, 0.93, 0.5};
-  p.diameter = {0.1, 0.1};
-  p.velocity.assign(4, 0.0);
-  PairList pairs = find_pairs(p, 0.01, 1.0);
-  assert_int_equal(pairs.size(), 0);
-  LpSolution x;
-  x.s = {-1.0, 0.0, 1.0, 0.0};
-  const double alpha = take_step(p, pairs, 0.01, x, 0.1);
-  assert_true(alpha > 0.1 && alpha < 0.3 && closest_pair(p).gap > -1e-13);
-  for (const double v : p.position) assert_true(v >= 0.0 && v < 1.0);
-}
-
 struct Case {
   int n, dim;
   double phi, ratio;
@@ -70,7 +45,7 @@ const Case dilute[] = {{60, 2, 0.05, 1.0},  {60, 3, 0.02, 1.0}, {60, 3, 0.2, 1.0
 // step. From a dilute start, where jam_crunch lets LPs go first, it need not get far, but it must stay safe.
 CASE(path_from_low_density) {
   for (const Case &c : dilute) {
-    Packing p = start(c.n, c.dim, c.phi, c.ratio);
+    Packing p = start(c.n, c.dim, c.phi, 11, c.ratio);
     BarrierPathControl control;
     control.tuning.max_path_factorisations = 150;
     int steps = 0;
@@ -93,14 +68,12 @@ CASE(path_from_low_density) {
 // Sequential LPs, stopped after each of its first LPs, which take the longest steps.
 CASE(sequential_lp_from_low_density) {
   for (const Case &c : dilute) {
-    const Packing p = start(c.n, c.dim, c.phi, c.ratio);
+    const Packing p = start(c.n, c.dim, c.phi, 11, c.ratio);
     jam_crunch_options o = default_crunch_options();
     o.method = JAM_CRUNCH_SEQUENTIAL_LP;
     double phi = c.phi;
     for (o.max_lps = 1; o.max_lps <= 6; ++o.max_lps) {
-      Monitor monitor;
-      monitor.begin();
-      const CrunchResult r = crunch(p, o, monitor);
+      const CrunchResult r = run(p, o);
       assert_true(closest_pair(r.packing).gap > -1e-13);
       assert_true(packing_fraction(r.packing) >= phi * (1.0 - 1e-12));
       phi = packing_fraction(r.packing);
@@ -113,16 +86,14 @@ CASE(sequential_lp_from_low_density) {
 
 // A bound far too wide for its neighbour radius: the user's options must not break the promise either.
 CASE(careless_options) {
-  const Packing p = start(60, 3, 0.1, 1.0);
+  const Packing p = start(60, 3, 0.1, 11);
   jam_crunch_options o = default_crunch_options();
   o.method = JAM_CRUNCH_SEQUENTIAL_LP;
   o.neighbour_radius = 1.3, o.step_bound = 3.0;
   bool shortened = false;
   for (o.max_lps = 1; o.max_lps <= 8; ++o.max_lps) {
-    Monitor monitor;
     History history;
-    monitor.begin();
-    const CrunchResult r = crunch(p, o, monitor, &history);
+    const CrunchResult r = run(p, o, nullptr, &history);
     assert_true(closest_pair(r.packing).gap > -1e-13);
     for (const HistoryRow &row : history.rows()) shortened = shortened || row[JAM_HISTORY_PART] < 1.0;
   }

@@ -1,7 +1,5 @@
 // Walls in molecular dynamics against an engine that knows no lists, no integers and no core/container: long double,
 // every pair and every wall at each step, formulae of its own.
-#include <memory>
-
 #include "core/container.hpp"
 #include "core/monitor.hpp"
 #include "core/pairs.hpp"
@@ -170,62 +168,11 @@ CASE(brute_force_makes_the_same_collisions) {
         Packing p = start(s, from.n, from.fraction, 1.5, from.seed), brute = p;
         EngineOptions o;
         o.growth = rate * diameter_mean(p) / p.cell.side();
-        const std::unique_ptr<Engine> engine = make_engine(p, o);
-        const Halt halt = engine->advance(60, begun());
-        assert_true(halt == Halt::window);
-        engine->write_state(p);
         const int at_walls = naive_walls(s, brute, 60, rate);
         assert_in_range(at_walls, 5, 60);
-        const double apart = furthest(p, brute);
-        if (!(apart < 1e-6)) print_message("%s, rate %g, %d spheres: %g apart\n", s.name, rate, from.n, apart);
-        assert_true(apart < 1e-6);
-        for (size_t i = 0; i < p.n(); ++i) assert_true(std::fabs(p.diameter[i] / brute.diameter[i] - 1.0) < 1e-9);
+        agrees(p, brute, o, 60, 1e-6);
         assert_true(closest_wall(p).gap > -1e-14 && closest_pair(p).gap > -1e-13);
       }
-}
-
-// Random walks of the integer form against the distance in doubles: gap, slope and time at contact agree.
-CASE(contact_comes_when_the_distance_is_the_radius) {
-  for (const Scene &s : scenes) {
-    Packing p = start(s, 6, 0.1, 2.0, 3);
-    Rng rng(5, Stream::velocities);
-    const double side = p.cell.side(), scale = 0x1p60;
-    const auto check = [&](auto dimension) {
-      constexpr int D = decltype(dimension)::value;
-      std::array<uint64_t, D> edge;
-      for (int c = 0; c < D; ++c) edge[c] = static_cast<uint64_t>(p.cell.edge(c) / side * scale);
-      for (size_t i = 0; i < p.n(); ++i)
-        for (int w = 0; w < p.container.count(); ++w) {
-          uint64_t x[D];
-          double v[D], there[D], n[D];
-          for (int c = 0; c < D; ++c) {
-            x[c] = static_cast<uint64_t>(p.position[i * D + c] / side * scale);
-            v[c] = rng.normal();
-          }
-          const double radius = 0.5 * p.diameter[i], growth = 0.2;
-          const Approach a =
-              p.container[w].approach<D>(x, v, static_cast<int64_t>(radius / side * scale), growth, edge);
-          // In units of the integers time is the same as in lengths of V^(1/d) with velocities over the scale.
-          const double t = a.time();
-          if (!(t < 1e300)) continue;
-          for (int c = 0; c < D; ++c) there[c] = p.position[i * D + c] + v[c] * t / scale * side;
-          const double grown = radius + growth * t / scale * side;
-          assert_true(std::fabs(p.container[w].distance(there) - grown) < 1e-9 * side);
-          // The normal is the gradient of the distance.
-          p.container[w].normal(&p.position[i * D], n);
-          for (int c = 0; c < D; ++c) {
-            double up[D], down[D];
-            for (int k = 0; k < D; ++k) up[k] = down[k] = p.position[i * D + k];
-            up[c] += 1e-6, down[c] -= 1e-6;
-            assert_true(std::fabs((p.container[w].distance(up) - p.container[w].distance(down)) / 2e-6 - n[c]) < 1e-5);
-          }
-        }
-    };
-    if (s.dim == 2)
-      check(std::integral_constant<int, 2>());
-    else
-      check(std::integral_constant<int, 3>());
-  }
 }
 
 // Volume by counting random points.

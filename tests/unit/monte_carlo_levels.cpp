@@ -72,19 +72,6 @@ CASE(energy_is_the_sum_over_all_pairs) {
     }
 }
 
-CASE(hard_spheres_never_overlap) {
-  for (const Scene &s : scenes)
-    for (const double step : {0.02, 0.4}) {
-      Packing p = start(s, JAM_OVERLAP_REFUSE);
-      const auto mc = make_monte_carlo(p, options(0.0, step), 0);
-      for (int sweep = 0; sweep < 30; ++sweep) mc->sweep(sweep);
-      assert_true(mc->counts.moved > 0);
-      mc->write_state(p);
-      const ClosestPair worst = closest_pair(p);
-      if (!(worst.gap >= -1e-12)) fail_msg("%s: %d %d overlap by %g", s.name, worst.i, worst.j, -worst.gap);
-    }
-}
-
 CASE(gaps_are_those_of_all_pairs) {
   for (int run = 0; run < 2 * static_cast<int>(std::size(scenes)); ++run) {
     const Scene &s = scenes[run / 2];

@@ -1,12 +1,16 @@
 // Event-driven dynamics that looks at every pair and image each time, in long double: the oracle of the engine.
 #pragma once
 #include <cmath>
+#include <memory>
 #include <vector>
 
 #include "core/create.hpp"
 #include "core/monitor.hpp"
 #include "core/pair_rule.hpp"
+#include "core/pairs.hpp"
 #include "core/rng.hpp"
+#include "dynamics/event_driven/engine.hpp"
+#include "dynamics/event_driven/run.hpp"
 
 #include "test.h"
 
@@ -135,6 +139,29 @@ inline double furthest(const Packing &a, const Packing &b) {
     }
   }
   return worst;
+}
+
+// As many collisions of the engine lead p to where the naive ones led.
+inline std::unique_ptr<Engine> agrees(Packing &p, const Packing &expected, const EngineOptions &o, int collisions,
+                                      double tolerance) {
+  auto engine = make_engine(p, o);
+  assert_int_equal(engine->advance(collisions, begun()), Halt::window);
+  engine->write_state(p);
+  const double distance = furthest(p, expected);
+  if (!(distance < tolerance))
+    fail_msg("d %d, n %zu, growth %g, cells %d: %g", p.dim, p.n(), o.growth, static_cast<int>(o.cells), distance);
+  assert_true(std::fabs(diameter_mean(p) / diameter_mean(expected) - 1.0) < 1e-9);
+  return engine;
+}
+
+// All images of all pairs are looked at when the growth is over.
+inline void grows_without_overlap(Packing p, double growth, double pressure) {
+  jam_md_report report{};
+  const jam_status status = run_stage(p, {growth, pressure, never, 1e5, 300.0}, begun(), report);
+  const double gap = closest_pair(p).gap;
+  if (status != JAM_OK || !(gap > -1e-14 && report.max_overlap < 1e-13 && report.pressure >= pressure))
+    fail_msg("d %d, n %zu: status %d, p %g, gap %g, overlap %g", p.dim, p.n(), status, report.pressure, gap,
+             report.max_overlap);
 }
 
 }  // namespace jamtest

@@ -4,34 +4,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "capi/system.hpp"
 #include "core/pair_rule.hpp"
 #include "rigidity_oracle.hpp"
-#include "start.h"
-#include "test.h"
 #include "verdict/verdict.hpp"
 
 using namespace jam::inside;
 using namespace jamtest;
 
 namespace {
-
-struct Sys {
-  jam_system *sys = nullptr;
-  ~Sys() { jam_destroy(sys); }
-};
-
-void make(Sys &s, int dim, int64_t n, int64_t seed) {
-  DEFAULTS(create, o);
-  o.dim = dim, o.n = n, o.seed = seed;
-  std::vector<double> sigma(static_cast<size_t>(n), 1.0);
-  for (size_t k = 0; k < sigma.size() / 2 && dim == 2; ++k) sigma[k] = 1.4;
-  assert_int_equal(create_from(&o, nullptr, 0, sigma.data(), sigma.size(), &s.sys), JAM_OK);
-  DEFAULTS(compress, c);
-  c.growth_rate = 1e-2, c.pressure = 500.0;
-  assert_int_equal(jam_compress(s.sys, &c, nullptr), JAM_OK);
-  assert_int_equal(jam_crunch(s.sys, nullptr, nullptr), JAM_OK);
-}
 
 double nearest_gap(const Packing &p, size_t i) {
   double r[JAM_MAX_DIM], least = 1.0;

@@ -4,12 +4,7 @@
 #include <functional>
 
 #include "analysis_networks.hpp"
-#include "capi/system.hpp"
-#include "core/create.hpp"
-#include "core/rng.hpp"
 #include "rigidity_oracle.hpp"
-#include "start.h"
-#include "test.h"
 #include "verdict/check.hpp"
 #include "verdict/verdict.hpp"
 
@@ -129,24 +124,6 @@ CASE(open_lattices) {
 
 // ---- amorphous packings and what becomes of them
 
-struct Sys {
-  jam_system *sys = nullptr;
-  ~Sys() { jam_destroy(sys); }
-};
-
-// Grown to a pressure; crunched when asked for.
-void make(Sys &s, int dim, int64_t n, int64_t seed, double ratio, bool crunched) {
-  DEFAULTS(create, o);
-  o.dim = dim, o.n = n, o.seed = seed;
-  std::vector<double> sigma(static_cast<size_t>(n), 1.0);
-  for (size_t k = 0; k < sigma.size() / 2; ++k) sigma[k] = ratio;
-  assert_int_equal(create_from(&o, nullptr, 0, sigma.data(), sigma.size(), &s.sys), JAM_OK);
-  DEFAULTS(compress, c);
-  c.growth_rate = 1e-2, c.pressure = 500.0;
-  assert_int_equal(jam_compress(s.sys, &c, nullptr), JAM_OK);
-  if (crunched) assert_int_equal(jam_crunch(s.sys, nullptr, nullptr), JAM_OK);
-}
-
 Verdict answer_of(const Packing &p, Jamming kind = Jamming::collective) {
   return test_packing(p, nullptr, kind).jammed;
 }
@@ -159,7 +136,7 @@ RigidityMatrix list_of(const Packing &p) {
 CASE(amorphous) {
   for (const int dim : {2, 3}) {
     Sys s;
-    make(s, dim, 64, dim, dim == 2 ? 1.4 : 1.0, true);
+    make(s, dim, 64, dim);
     const Packing &p = s.sys->packing;
     const RigidityMatrix g = list_of(p);
     const RigidityResult r = confirmed(g, Jamming::collective);
@@ -189,16 +166,6 @@ CASE(amorphous) {
       assert_int_equal(v.result.flex.size(), v.sphere.size() * static_cast<size_t>(dim));
       assert_true(check_as_it_is(close).report.reason == JAM_CHECK_APART);
     }
-  }
-}
-
-CASE(fluids_are_not_jammed) {
-  for (int64_t seed = 1; seed <= 5; ++seed) {
-    Sys s;
-    make(s, 3, 64, seed, 1.0, false);
-    assert_true(answer_of(s.sys->packing) == Verdict::no);
-    const ContactNetwork none;
-    assert_true(test_packing(s.sys->packing, &none, Jamming::collective).jammed == Verdict::no);
   }
 }
 

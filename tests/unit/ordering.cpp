@@ -1,14 +1,10 @@
-// Nested dissection: every order is a permutation and a function of the graph alone, also beside other threads that
-// draw random numbers and raise signals. On a square grid its fill keeps the bound of the theory.
+// Nested dissection: every order is a permutation and a function of the graph alone. On a square grid its fill keeps
+// the bound of the theory.
 #include "linalg/ordering.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <csignal>
-#include <cstdlib>
 #include <set>
-#include <thread>
 
 #include "core/rng.hpp"
 #include "linalg/minimum_degree.hpp"
@@ -118,35 +114,6 @@ CASE(minimum_degree_of_small_graphs) {
   // A path 0 - 1 - 2 whose ends 3 and 4 belong to the halo, 3 joined with 0 and 5: without the halo 0 would be first.
   const std::vector<int32_t> a{0, 1, 0, 0, 0}, b{1, 2, 3, 4, 5};
   assert_int_equal(minimum_degree(make_graph(6, a.data(), b.data(), 5), 3)[0], 2);
-}
-
-std::atomic<int> caught{0};
-void count(int) { ++caught; }
-
-CASE(host_changes_nothing) {
-  const Graph g = random_graph(2000, 6.0, 9);
-  const std::vector<int32_t> alone = nested_dissection(g);
-  struct sigaction before = {}, mine = {}, after = {};
-  mine.sa_handler = count;
-  mine.sa_flags = SA_RESTART;
-  sigaction(SIGTERM, &mine, &before);
-  std::srand(7);
-  const int first = std::rand();
-  std::srand(7);
-  assert_true(nested_dissection(g) == alone);
-  assert_int_equal(std::rand(), first);  // the host's sequence goes on where it was
-  std::atomic<bool> stop{false};
-  std::thread host([&] {
-    while (!stop) std::rand(), raise(SIGTERM);
-  });
-  std::vector<int32_t> other;
-  std::thread second([&] { other = nested_dissection(g); });
-  for (int run = 0; run < 5; ++run) assert_true(nested_dissection(g) == alone);
-  stop = true;
-  host.join(), second.join();
-  assert_true(other == alone && caught > 0);
-  sigaction(SIGTERM, &before, &after);
-  assert_true(after.sa_handler == count && (after.sa_flags & SA_RESTART) != 0);
 }
 
 }  // namespace

@@ -70,22 +70,6 @@ CASE(levels_equal_brute_force) {
         }
 }
 
-// One sphere a box of side 1: reach 1.01 sees one of each +- pair of nearest images, reach 1.5 the diagonals too.
-CASE(own_images) {
-  Packing p;
-  p.set_cube(3, 1.0);
-  p.position = {0.3, 0.4, 0.5};
-  p.diameter = {0.1};
-  assert_int_equal(find_pairs(p, 1.01, 0.0).size(), 3);
-  assert_int_equal(find_pairs(p, 1.5, 0.0).size(), 9);
-  p.position = {0.25, 0.25, 0.25, 0.75, 0.75, 0.75};  // two spheres of a bcc crystal: eight images of the pair
-  p.diameter = {0.1, 0.1};
-  const PairList pairs = find_pairs(p, 0.87, 0.0);
-  assert_int_equal(pairs.size(), 8);
-  double r[3];
-  for (size_t k = 0; k < 8; ++k) assert_true(std::fabs(pair_vector(p, pairs, k, r) - 0.75) < 1e-15);
-}
-
 CASE(wrapping_keeps_vectors) {
   jam_create_options o = default_create_options();
   o.n = 200, o.packing_fraction = 0.3;
@@ -112,15 +96,6 @@ CASE(values_carried_over) {
   const std::vector<double> out = carry_over(from, {1, 2, 3, 4}, to), wanted = {1, 2, 0, 0, 4, 0};
   assert_true(out == wanted);
   assert_true(carry_over(PairList(), {}, to) == std::vector<double>(6, 0.0));
-}
-
-CASE(closest_pair_by_brute_force) {
-  Packing p;
-  p.set_cube(2, 1.0);
-  p.position = {0.1, 0.1, 0.95, 0.1, 0.5, 0.6};
-  p.diameter = {0.1, 0.1, 0.2};
-  const ClosestPair c = closest_pair(p);
-  assert_true(c.i == 0 && c.j == 1 && std::fabs(c.gap - 0.5) < 1e-14);
 }
 
 // From so many spheres on they are searched along a curve. The list is that of the numbers all the same, and those

@@ -158,55 +158,14 @@ CASE(the_singular_bound_is_below_the_singular_value) {
   }
 }
 
-// A square lattice of disks that touch four others each.
-Lattice square(int side) {
-  Lattice out;
-  Packing &p = out.packing;
-  p.set_cube(2, side);
-  for (int k = 0; k < side * side; ++k) {
-    p.position.push_back(k % side), p.position.push_back(k / side);
-    p.diameter.push_back(1.0);
-  }
-  list_contacts(out);
-  return out;
-}
-
-CASE(equations_of_a_square_lattice_are_exact) {
-  const Lattice l = square(4);
-  ProofScene s = make_proof_scene(l.packing, l.network, {});
-  ProofEquations e = evaluate(s);
-  for (const double f : e.f) assert_true(f == 0.0);
-  // It balances and closes exactly, but rows shear freely: nothing may be proved.
-  const bool refined = refine(s, e);
-  const Proof proof = refined ? prove(s, e) : Proof();
-  assert_false(proof.exact || proof.trapped);
-}
-
-CASE(crystals_are_trapped_and_not_called_isostatic) {
-  for (const auto &gone : {std::vector<int>{}, std::vector<int>{9}}) {
-    const Lattice l = triangular(6, 6, gone);
-    Refined r(l);
-    const Proof proof = prove(r.s, r.e);
-    assert_true(proof.trapped && !proof.exact);
-    assert_int_equal(static_cast<int>(proof.cause), static_cast<int>(ProofCause::excess));
-    // sqrt(3) / 2 in the cell is rounded to 1e-16, so the contacts close to about that.
-    assert_true(proof.inner < 1e-10 && proof.outer > 1e-5);
-  }
-}
-
-CASE(a_force_with_the_wrong_sign_proves_nothing) {
-  Refined r(triangular(6, 6));
-  r.s.force[5] = -r.s.force[5];
-  const Proof proof = prove(r.s, r.e);
+CASE(wrong_forces_prove_nothing) {
+  Refined pulls(triangular(6, 6)), unbalanced(triangular(6, 6));
+  pulls.s.force[5] = -pulls.s.force[5];
+  const Proof proof = prove(pulls.s, pulls.e);
   assert_false(proof.exact || proof.trapped);
   assert_int_equal(static_cast<int>(proof.cause), static_cast<int>(ProofCause::force));
-}
-
-// An unbalanced force is positive but no state of self-stress.
-CASE(forces_that_do_not_balance_prove_nothing) {
-  Refined r(triangular(6, 6));
-  r.s.force[5] *= 2.0;
-  assert_false(prove(r.s, r.e).trapped);
+  unbalanced.s.force[5] *= 2.0;  // positive, but no state of self-stress
+  assert_false(prove(unbalanced.s, unbalanced.e).trapped);
 }
 
 CASE(an_overlap_proves_nothing) {
@@ -225,18 +184,6 @@ void check_closed(const ProofScene &s) {
   const ProofEquations e = evaluate(s);
   for (size_t c = 0; c < s.contacts(); ++c) assert_true(std::fabs(e.f[c]) < 1e-26 && s.force[c] > 0.0);
   for (const NearPair &pair : near_pairs(s)) assert_true(pair.opening > -1e-26);
-}
-
-// One disk is too small by 1e-14, so that its six contacts cannot close with all others: too little for doubles to say.
-CASE(contacts_that_stay_open_leave_the_list) {
-  for (const int k : {0, 14}) {
-    Lattice l = triangular(6, 6);
-    l.packing.diameter[k] -= 1e-14;
-    ProofScene s = make_proof_scene(l.packing, l.network, {});
-    assert_true(finish_exchange(s, close_together(s)) != Settled::unchanged);
-    check_closed(s);
-    assert_true(s.contacts() < l.network.size());
-  }
 }
 
 // Linear programs and exchanges of contacts find the same Gamma, whether a disk is too small by 1e-14 or too large by

@@ -7,9 +7,30 @@
 #include <set>
 #include <vector>
 
+#include "capi/system.hpp"
 #include "network/rigidity_matrix.hpp"
+#include "start.h"
+#include "test.h"
 
 namespace jamtest {
+
+struct Sys {
+  jam_system *sys = nullptr;
+  ~Sys() { jam_destroy(sys); }
+};
+
+// Grown to a pressure, and crunched. Disks are of two sizes.
+inline void make(Sys &s, int dim, int64_t n, int64_t seed) {
+  DEFAULTS(create, o);
+  o.dim = dim, o.n = n, o.seed = seed;
+  std::vector<double> sigma(static_cast<size_t>(n), 1.0);
+  for (size_t k = 0; k < sigma.size() / 2 && dim == 2; ++k) sigma[k] = 1.4;
+  assert_int_equal(create_from(&o, nullptr, 0, sigma.data(), sigma.size(), &s.sys), JAM_OK);
+  DEFAULTS(compress, c);
+  c.growth_rate = 1e-2, c.pressure = 500.0;
+  assert_int_equal(jam_compress(s.sys, &c, nullptr), JAM_OK);
+  assert_int_equal(jam_crunch(s.sys, nullptr, nullptr), JAM_OK);
+}
 
 struct Oracle {
   std::vector<char> carrying;  // contacts with force in some non-negative state

@@ -63,56 +63,6 @@ CASE(forces_are_slopes) {
     }
 }
 
-// Slope of the energy with a strain of all that a component (a, b) of the stress tensor is, over V.
-double stress(const Packing &p, int a, int b) {
-  const int d = p.dim;
-  double side[2];
-  const double h = 1e-6;
-  for (int s = 0; s < 2; ++s) {
-    std::vector<double> e(static_cast<size_t>(d) * d, 0.0), force;
-    e[a * d + b] = s == 0 ? h : -h;
-    Packing q = p;
-    strain_affinely(q, e.data());
-    side[s] = SoftState(q, PairEnergy(2.0, JAM_SOFT_RELATIVE), JAM_SOFT_REFERENCE).evaluate(force).energy;
-  }
-  return -(side[0] - side[1]) / (2.0 * h * p.cell.volume());
-}
-
-// From a minimum that is shaken and sheared a little every method leads back to it. Its stress is P, or at fixed volume
-// isotropic.
-CASE(one_minimum) {
-  for (int dim = 2; dim <= 3; ++dim)
-    for (const int32_t strain : {JAM_STRAIN_FREE, JAM_STRAIN_ALL, JAM_STRAIN_VOLUME}) {
-      const double pressure = strain >= JAM_STRAIN_VOLUME ? 0.02 : 0.0;
-      const SoftResult start =
-          relaxed(random_packing(dim, 60, dim == 2 ? 0.92 : 0.72, 2), options(JAM_MINIMISER_NEWTON, strain, pressure));
-      assert_int_equal(start.status, JAM_OK);
-      assert_true(start.report.force_residual < 1e-12 && start.report.stress_residual < 1e-12);
-      const double p = start.report.pressure;
-      if (pressure > 0.0) assert_true(std::fabs(p / pressure - 1.0) < 1e-11);
-      if (pressure == 0.0) assert_true(std::fabs(start.packing.cell.volume() - 1.0) < 1e-13);
-      assert_true(strain == JAM_STRAIN_VOLUME || start.packing.cell.row(1)[0] != 0.0);
-      for (int a = 0; a < dim && strain != JAM_STRAIN_VOLUME; ++a)
-        for (int b = 0; b < dim; ++b)
-          assert_true(std::fabs(stress(start.packing, a, b) - (a == b ? p : 0.0)) < 1e-4 * p);  // a contact may open
-      Packing shaken = start.packing;
-      Rng rng(9, Stream::velocities);
-      std::vector<double> e(static_cast<size_t>(dim) * dim, 0.0);
-      for (int c = 0; c < dim; ++c) e[c * (dim + 1)] = pressure > 0.0 ? 3e-6 : 0.0;
-      if (strain != JAM_STRAIN_VOLUME) e[1] = 1e-5;
-      for (double &x : shaken.position) x += 1e-6 * (rng.uniform() - 0.5);
-      strain_affinely(shaken, e.data());
-      for (int32_t m = JAM_MINIMISER_NEWTON; m <= JAM_MINIMISER_LBFGS; ++m) {
-        const SoftResult end = relaxed(shaken, options(m, strain, pressure));
-        assert_int_equal(end.status, JAM_OK);
-        assert_true(end.report.stress_residual < 1e-12);
-        assert_true(std::fabs(end.report.energy / start.report.energy - 1.0) < 1e-10);
-        assert_true(std::fabs(end.report.packing_fraction / start.report.packing_fraction - 1.0) < 1e-11);
-        assert_int_equal(end.report.contacts, start.report.contacts);
-      }
-    }
-}
-
 // One sphere a cell from a distorted face-centred cubic one, two disks from a distorted rectangle: the close-packed
 // lattices, with P = -dU / dV = z h / (2 sigma dV / dr).
 CASE(lattices_are_exact) {
@@ -201,6 +151,7 @@ CASE(cut_short) {
       o.max_evaluations = whole.report.evaluations * part / 8;
       const SoftResult cut = relaxed(start, o);
       assert_int_equal(cut.status, JAM_LIMIT);
+      assert_int_equal(cut.report.stop_reason, JAM_STOP_EVALUATIONS);
       assert_true(cut.report.converged == 0 && cut.packing.cell.volume() > 0.5);
       for (const double x : cut.packing.position) assert_true(std::isfinite(x) && x >= 0.0);
       freed += !cut.packing.cell.cube();
@@ -211,18 +162,10 @@ CASE(cut_short) {
     }
     assert_true(freed > 0);
   }
-  // Wherever the time ends, the state is one to go on from.
-  for (const double seconds : {1e-9, 1e-4, 3e-4, 1e-3, 3e-3}) {
-    jam_relax_options o = options(JAM_MINIMISER_FIRE, JAM_STRAIN_ALL, 0.02);
-    o.wall_time = seconds;
-    const SoftResult cut = relaxed(start, o);
-    assert_true(cut.status == JAM_LIMIT || (cut.status == JAM_OK && seconds > 1e-9));
-    assert_int_equal(cut.report.converged, cut.status == JAM_OK);
-    assert_int_equal(cut.report.stop_reason, cut.status == JAM_OK ? JAM_STOP_CONVERGED : JAM_STOP_WALL_TIME);
-    const SoftResult end = relaxed(cut.packing, options(JAM_MINIMISER_NEWTON, JAM_STRAIN_ALL, 0.02));
-    assert_int_equal(end.status, JAM_OK);
-    assert_true(std::fabs(end.report.pressure / 0.02 - 1.0) < 1e-11);
-  }
+  jam_relax_options o = options(JAM_MINIMISER_FIRE, JAM_STRAIN_ALL, 0.02);
+  o.wall_time = 1e-9;
+  const SoftResult at_once = relaxed(start, o);
+  assert_true(at_once.status == JAM_LIMIT && at_once.report.stop_reason == JAM_STOP_WALL_TIME);
   Monitor monitor;
   monitor.begin();
   monitor.cancel();

@@ -112,54 +112,6 @@ CASE(balance_at_tiny_overlaps) {
   assert_true(exact.report.force_residual < 1e-12);
 }
 
-// Stiffnesses and pre-stress of the network are those of the energy: the Hessian times a displacement is the change of
-// the forces.
-CASE(network_has_the_hessian) {
-  const SoftResult at = relaxed(random_packing(3, 60, 0.8, 1), JAM_MINIMISER_NEWTON, 2.5);
-  assert_int_equal(at.report.rattlers, 0);
-  const double step = 1e-7;
-  SoftState state(at.packing, PairEnergy(2.5, JAM_SOFT_RELATIVE), JAM_SOFT_REFERENCE);
-  std::vector<double> f0, f1, y(180, 0.0), u(180);
-  state.evaluate(f0);
-  Rng rng(3, Stream::velocities);
-  for (double &x : u) x = rng.uniform() - 0.5;
-  for (size_t k = 0; k < at.contacts.size(); ++k) {
-    const size_t i = at.contacts.pairs.i[k], j = at.contacts.pairs.j[k];
-    const double *n = &at.contacts.vector[3 * k], t = at.contacts.prestress[k];
-    double along = 0.0;
-    for (int c = 0; c < 3; ++c) along += n[c] * (u[3 * i + c] - u[3 * j + c]);
-    for (int c = 0; c < 3; ++c) {
-      const double x = (at.contacts.stiffness[k] + t) * along * n[c] - t * (u[3 * i + c] - u[3 * j + c]);
-      y[3 * i + c] += x, y[3 * j + c] -= x;
-    }
-  }
-  for (size_t k = 0; k < 180; ++k) state.displacement()[k] += step * u[k];
-  state.evaluate(f1);
-  double worst = 0.0, size = 0.0;
-  for (size_t k = 0; k < 180; ++k) {
-    worst = std::max(worst, std::fabs((f0[k] - f1[k]) / step - y[k]));
-    size = std::max(size, std::fabs(y[k]));
-  }
-  assert_true(worst < 1e-4 * size);
-}
-
-// No overlaps left: energy 0, said so. One sphere, and spheres of which none is held.
-CASE(unjammed) {
-  for (int32_t m = JAM_MINIMISER_NEWTON; m <= JAM_MINIMISER_LBFGS; ++m) {
-    const SoftResult end = relaxed(random_packing(3, 60, 0.4, 5), m);
-    assert_int_equal(end.status, JAM_NOT_JAMMED);
-    assert_int_equal(end.report.stop_reason, JAM_STOP_UNJAMMED);
-    assert_true(end.report.energy == 0.0 && end.report.converged == 1 && end.report.rattlers == 60);
-    assert_true(end.contacts.size() == 0 && end.report.force_residual == 0.0 && end.report.pressure == 0.0);
-    Packing one = random_packing(3, 1, 0.1, 1);
-    assert_int_equal(relaxed(one, m).status, JAM_NOT_JAMMED);
-    Packing two = random_packing(3, 2, 0.05, 1);
-    two.position = {0.5, 0.5, 0.5, 0.51, 0.5, 0.5};
-    const SoftResult pair = relaxed(two, m);
-    assert_int_equal(pair.status, JAM_NOT_JAMMED);
-  }
-}
-
 // A rattler against its cage goes to where its nearest neighbours are farther.
 CASE(rattlers_are_centred) {
   Packing p;  // a small sphere inside a cube of eight large ones that overlap along the edges
@@ -182,34 +134,6 @@ CASE(rattlers_are_centred) {
     least = std::min(least, std::sqrt(r2) - 0.405);
   }
   assert_true(least > 0.02);  // sqrt(3)/4 - 0.405 = 0.028 in the middle; -0.017 before
-}
-
-// A step of the tolerance below what rounding leaves is told, not awaited.
-CASE(limits_are_told) {
-  Monitor monitor;
-  monitor.begin();
-  jam_relax_options o = default_relax_options();
-  o.max_evaluations = 5;
-  const SoftResult few = relax(random_packing(3, 60, 0.75, 1), o, monitor);
-  assert_int_equal(few.status, JAM_LIMIT);
-  assert_int_equal(few.report.stop_reason, JAM_STOP_EVALUATIONS);
-  assert_true(few.report.converged == 0 && few.report.force_residual > 1e-12);
-  monitor.cancel();
-  o.max_evaluations = 1000000;
-  const SoftResult cut = relax(random_packing(3, 60, 0.75, 1), o, monitor);
-  assert_int_equal(cut.status, JAM_CANCELLED);
-}
-
-// A decompression that goes on from its first minimum: a step that failed at the first limit may take more.
-CASE(failed_steps_set_the_scale) {
-  jam_decompress_options o = default_decompress_options();
-  o.isostatic = o.crunch = 0, o.distance = 1e-2;
-  const DecompressionResult near = decompressed(random_packing(3, 256, 0.70, 1), o);
-  assert_int_equal(near.status, JAM_OK);
-  o.distance = 1e-4, o.max_evaluations = 10000;
-  const DecompressionResult end = decompressed(near.soft.packing, o);
-  assert_int_equal(end.status, JAM_OK);
-  assert_true(end.soft.report.distance <= 1e-4 && end.soft.report.force_residual < 1e-12);
 }
 
 }  // namespace

@@ -92,26 +92,6 @@ CASE(the_basis_does_not_matter) {
   }
 }
 
-// The face-centred cubic crystal in its primitive cell and in the cubic one: the same Bragg peaks, S = N.
-CASE(bragg_peaks) {
-  const double h = std::sqrt(0.75);
-  Packing one = points(3, 1, {1, 0, 0, 0.5, h, 0, 0.5, h / 3.0, std::sqrt(2.0 / 3.0)}), four;
-  four.set_cube(3, std::sqrt(2.0));
-  const double half = 0.5 * std::sqrt(2.0);
-  four.position = {0, 0, 0, half, half, 0, half, 0, half, 0, half, half};
-  one.diameter.assign(1, 1.0), four.diameter.assign(4, 1.0);
-  const StructureFactor primitive = structure_factor(one, 20.0), cubic = structure_factor(four, 20.0);
-  size_t peaks = 0;
-  for (size_t k = 0; k < cubic.q.size(); ++k) {
-    if (cubic.s[k] < 1e-20) continue;  // extinct: indices of mixed parity
-    assert_true(peaks < primitive.q.size());
-    assert_true(std::fabs(primitive.q[peaks] - cubic.q[k]) < 1e-12 * cubic.q[k]);
-    assert_true(std::fabs(primitive.s[peaks++] - 1.0) < 1e-12);
-  }
-  assert_int_equal(peaks, primitive.q.size());
-  assert_true(std::fabs(primitive.q[0] - 2.0 * M_PI * std::sqrt(1.5)) < 1e-12);  // (111) of a lattice constant sqrt 2
-}
-
 // In the cube the sums have one order: by the first component, then the second; recurrences as in a product of phases.
 CASE(bits_in_the_cube) {
   const double side = 1.7;

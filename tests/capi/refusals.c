@@ -126,6 +126,7 @@ CASE(making) {
   REFUSED(create, n, 0, -5, 2147483648.0);
   REFUSED_WITH(SPHERES, create, box, 0, INFINITY);
   REFUSED_WITH(SPHERES, create, packing_fraction, -0.1, NAN);
+  REFUSED_WITH(SPHERES, create, non_additivity, -1, -3, 1.5, NAN, INFINITY);
   REFUSED_WITH(SPHERES, create, overlap, 7);
   REFUSED_WITH(SPHERES, create, model, 5);
   REFUSED_WITH((SPHERES, o.model = JAM_MODEL_MK), create, mk_zeta, -1.0, 1.1e15, NAN);
@@ -143,6 +144,9 @@ CASE(dynamics) {
   REFUSED(run, resume, 2);
   REFUSED(compress, growth_rate, -1e-300, -1, NAN, INFINITY); /* 0 is the protocol */
   REFUSED(compress, growth_rate_end, 1e-3);
+  REFUSED_WITH(o.growth_rate = 1e-2, compress, growth_rate_end, 2e-2);
+  REFUSED_WITH((o.growth_rate = 1e-2, o.pressure = INFINITY), compress, growth_rate_end, 1e-3);
+  REFUSED(compress, growth_law, 7);
   REFUSED(compress, pressure, 0, -1, NAN);
   REFUSED(compress, packing_fraction, 0, -1, NAN);
   REFUSED(observe, collisions, 2);
@@ -170,8 +174,17 @@ CASE(monte_carlo) {
   REFUSED_WITH((o.alpha = 2.5, o.energy_scale = 1e60), monte_carlo, temperature, 1e-60);
   REFUSED_WITH(o.alpha = 2.5, monte_carlo, energy_scale, 1e300);
   REFUSED_WITH(o.alpha = 300.0, monte_carlo, energy_scale, 1.0); /* 0.17^300 */
-  REFUSED(monte_carlo, alpha, 1e300);
-  REFUSED_WITH(o.alpha = 2.0, monte_carlo, step, 1e-20);
+  REFUSED(monte_carlo, alpha, 1e300, 1, -2);
+#define SOFTLY (o.alpha = 2.0, o.step = 0.01)
+  REFUSED_WITH(SOFTLY, monte_carlo, step, 1e-20, -1, 3);
+  REFUSED_WITH(SOFTLY, monte_carlo, temperature, 0, -1);
+  REFUSED_WITH(SOFTLY, monte_carlo, energy_scale, 0);
+  REFUSED_WITH(SOFTLY, monte_carlo, energy_unit, 2);
+  REFUSED_WITH(SOFTLY, monte_carlo, acceptance, 1);
+  REFUSED_WITH(SOFTLY, monte_carlo, swap_share, 1);
+  REFUSED_WITH(SOFTLY, monte_carlo, sweeps, 0);
+  REFUSED_WITH(SOFTLY, monte_carlo, run, -1);
+  REFUSED_WITH(SOFTLY, monte_carlo, wall_time, 0);
 }
 
 CASE(jamming) {
@@ -181,6 +194,8 @@ CASE(jamming) {
   REFUSED(crunch, keep_steps, -1, 1001);
   REFUSED(crunch, steps, 2);
   REFUSED(crunch, max_lps, 0, -1);
+  REFUSED(crunch, lp_solver, 9);
+  REFUSED(crunch, gain_tolerance, NAN);
   REFUSED(crunch, prove, 2);
   REFUSED(radii, moments, -1, 5);
   REFUSED_WITH(o.moments = 2, radii, exponent_2, 1.0);
@@ -203,7 +218,11 @@ CASE(soft_spheres) {
   SOFT(force_tolerance, 0);
   SOFT(max_evaluations, 0);
   SOFT(wall_time, -1);
-  REFUSED_WITH(o.strain = JAM_STRAIN_VOLUME, relax, pressure, 1e300);
+  REFUSED_WITH(o.strain = JAM_STRAIN_VOLUME, relax, pressure, 1e300, 0, -0.1, NAN);
+  REFUSED_WITH(o.strain = JAM_STRAIN_FREE, relax, pressure, 0.1);
+  REFUSED(relax, pressure, 0.1);
+  REFUSED(relax, strain, 8);
+  REFUSED_WITH(o.strain = JAM_STRAIN_TILTS, relax, components, 1); /* an edge */
   REFUSED(decompress, energy_factor, 0, 1);
   REFUSED(decompress, pressure, -1);
   REFUSED(decompress, distance, NAN);

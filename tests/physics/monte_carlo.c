@@ -252,31 +252,6 @@ CASE(runs_from_one_state_have_streams_of_their_own) {
   jam_destroy(sys);
 }
 
-CASE(bad_input_is_named) {
-  const double sigma[2] = {0.3, 0.3};
-  jam_system *sys = disks(2, sigma);
-  jam_monte_carlo_options o;
-#define REFUSED(member, value, code) \
-  o = options(2.0, 0.01, 10);        \
-  o.member = value;                  \
-  assert_int_equal(jam_monte_carlo(sys, &o, NULL), code)
-  REFUSED(temperature, 0.0, JAM_E_ARGUMENT);
-  REFUSED(temperature, -1.0, JAM_E_ARGUMENT);
-  REFUSED(alpha, 1.0, JAM_E_ARGUMENT);
-  REFUSED(alpha, -2.0, JAM_E_ARGUMENT);
-  REFUSED(energy_scale, 0.0, JAM_E_ARGUMENT);
-  REFUSED(energy_unit, 2, JAM_E_ARGUMENT);
-  REFUSED(step, -1.0, JAM_E_ARGUMENT);
-  REFUSED(step, 3.0, JAM_E_ARGUMENT);
-  REFUSED(acceptance, 1.0, JAM_E_ARGUMENT);
-  REFUSED(swap_share, 1.0, JAM_E_ARGUMENT);
-  REFUSED(sweeps, 0, JAM_E_ARGUMENT);
-  REFUSED(run, -1, JAM_E_ARGUMENT);
-  REFUSED(wall_time, 0.0, JAM_E_ARGUMENT);
-  REFUSED(resume, 1, JAM_E_STATE);
-  jam_destroy(sys);
-}
-
 CASE(hard_spheres_in_contact_cannot_move) {
   jam_monte_carlo_options o = options(0.0, 1.0, 10);
   DEFAULTS(create, c);
